@@ -1,0 +1,111 @@
+# crankloop_add_scene(NAME SCENE_HEADER ENGINE_FILE [TICK_US 100] [REAL float|double] [SCENE Type])
+#
+# Makes the static library NAME: one engine for real time, its tables as constant data and its tick compiled with the house flags.
+# A program links NAME and includes "NAME.hpp", where namespace NAME has Engine, Input, Output, State.
+#
+#   SCENE_HEADER  a header with the scene, a struct derived from crankloop::Scene
+#   ENGINE_FILE   the engine, as the command-line program reads it
+#   TICK_US       microseconds from one step to the next; default 100
+#   REAL          the arithmetic of the tick; default float
+#   SCENE         the scene's type; default the header's name in CamelCase: my_scene.hpp has MyScene
+#
+# The tables are made by the command-line program, on the machine that builds. Where that program cannot be built along (when
+# cross-compiling), set CRANKLOOP_PROGRAM to one that was installed, of this version, or have it on the PATH.
+
+include("${CMAKE_CURRENT_LIST_DIR}/CrankloopHouseFlags.cmake")
+
+function(crankloop_add_scene name scene_header engine_file)
+  cmake_parse_arguments(PARSE_ARGV 3 arg "" "TICK_US;REAL;SCENE" "")
+  if(arg_UNPARSED_ARGUMENTS OR arg_KEYWORDS_MISSING_VALUES)
+    message(FATAL_ERROR "crankloop_add_scene(${name}): not understood: ${arg_UNPARSED_ARGUMENTS} ${arg_KEYWORDS_MISSING_VALUES}")
+  endif()
+  if(NOT name MATCHES "^[A-Za-z][A-Za-z0-9_]*$")
+    message(FATAL_ERROR "crankloop_add_scene(${name}): the name becomes a C++ namespace, so it must be an identifier")
+  endif()
+  if(NOT DEFINED arg_TICK_US)
+    set(arg_TICK_US 100)
+  endif()
+  if(NOT DEFINED arg_REAL)
+    set(arg_REAL float)
+  elseif(NOT arg_REAL MATCHES "^(float|double)$")
+    message(FATAL_ERROR "crankloop_add_scene(${name}): REAL is float or double, not '${arg_REAL}'")
+  endif()
+  if(NOT DEFINED arg_SCENE)
+    crankloop_camel_case(arg_SCENE "${scene_header}")
+  endif()
+  cmake_path(ABSOLUTE_PATH scene_header NORMALIZE)
+  cmake_path(ABSOLUTE_PATH engine_file NORMALIZE)
+  foreach(file IN ITEMS "${scene_header}" "${engine_file}")
+    if(NOT EXISTS "${file}")
+      message(FATAL_ERROR "crankloop_add_scene(${name}): there is no ${file}")
+    endif()
+  endforeach()
+
+  set(dir "${CMAKE_CURRENT_BINARY_DIR}/crankloop_scenes/${name}")
+  set(tables "${dir}/${name}_tables.hpp")
+  crankloop_program(program)
+  crankloop_tables_of_engine_file(pressure_tables "${engine_file}")
+  add_custom_command(
+    OUTPUT "${tables}"
+    COMMAND "${CMAKE_COMMAND}" "-Dprogram=${program}" "-Dengine_file=${engine_file}" "-Dtick_us=${arg_TICK_US}"
+            "-Dreal=${arg_REAL}" "-Doutput=${tables}" -P "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/CrankloopWriteTables.cmake"
+    DEPENDS "${program}" "${engine_file}" ${pressure_tables}
+    COMMENT "Tables of ${name}"
+    VERBATIM)
+
+  set(SCENE_NAME "${name}")
+  set(SCENE_HEADER "${scene_header}")
+  set(SCENE_TYPE "${arg_SCENE}")
+  set(SCENE_REAL "${arg_REAL}")
+  set(SCENE_TICK_US "${arg_TICK_US}")
+  configure_file("${CMAKE_CURRENT_FUNCTION_LIST_DIR}/scene.hpp.in" "${dir}/${name}.hpp" @ONLY)
+  configure_file("${CMAKE_CURRENT_FUNCTION_LIST_DIR}/scene.cpp.in" "${dir}/${name}.cpp" @ONLY)
+  add_library(${name} STATIC "${dir}/${name}.cpp" "${dir}/${name}.hpp" "${tables}")
+  target_include_directories(${name} PUBLIC "${dir}")
+  target_link_libraries(${name} PUBLIC crankloop::crankloop)
+  crankloop_house_flags(${name})
+endfunction()
+
+# path/to/my_scene.hpp -> MyScene
+function(crankloop_camel_case result header)
+  cmake_path(GET header STEM LAST_ONLY stem)
+  string(REGEX MATCHALL "[A-Za-z0-9]+" words "${stem}")
+  set(type "")
+  foreach(word IN LISTS words)
+    string(SUBSTRING "${word}" 0 1 first)
+    string(SUBSTRING "${word}" 1 -1 rest)
+    string(TOUPPER "${first}" first)
+    string(APPEND type "${first}${rest}")
+  endforeach()
+  set(${result} "${type}" PARENT_SCOPE)
+endfunction()
+
+# The program that makes the tables: named by the user, built along or installed with the library, or found on the PATH.
+function(crankloop_program result)
+  if(NOT CRANKLOOP_PROGRAM AND TARGET crankloop::program AND NOT CMAKE_CROSSCOMPILING)
+    set(${result} "$<TARGET_FILE:crankloop::program>" PARENT_SCOPE)
+    return()
+  endif()
+  find_program(CRANKLOOP_PROGRAM crankloop DOC "The crankloop program of the machine that builds, of the library's version")
+  if(NOT CRANKLOOP_PROGRAM)
+    message(FATAL_ERROR "crankloop_add_scene: no program to make the tables with; set CRANKLOOP_PROGRAM to an installed crankloop")
+  endif()
+  set(${result} "${CRANKLOOP_PROGRAM}" PARENT_SCOPE)
+endfunction()
+
+# The files that an engine file names by "file = ...": the tables depend on them too. Read anew whenever the engine file changes.
+function(crankloop_tables_of_engine_file result engine_file)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${engine_file}")
+  file(STRINGS "${engine_file}" lines REGEX "^[ \t]*file[ \t]*=")
+  cmake_path(GET engine_file PARENT_PATH dir)
+  set(files "")
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE "^[^=]*=[ \t]*([^#]*)(#.*)?$" "\\1" file "${line}")
+    string(STRIP "${file}" file)
+    cmake_path(ABSOLUTE_PATH file BASE_DIRECTORY "${dir}" NORMALIZE)
+    if(EXISTS "${file}")  # the program says best what is wrong with a missing one
+      list(APPEND files "${file}")
+    endif()
+  endforeach()
+  set(${result} "${files}" PARENT_SCOPE)
+endfunction()

@@ -1,0 +1,39 @@
+# The flags that crankloop's promises rest on. They are private to the targets they are put on: a user's own code keeps its flags.
+#
+#   crankloop_numerics(TARGET)       same bits everywhere: every target of crankloop's own, tests and program included
+#   crankloop_house_flags(TARGET)    the above, and small code without exceptions: the library and every scene
+#   crankloop_warnings(TARGET)       what crankloop's own builds (CRANKLOOP_DEVELOPER) treat as errors; nothing for anyone else
+
+if(NOT CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+  message(FATAL_ERROR "crankloop: needs GCC or Clang, whose flags keep a*b+c in two roundings; this is ${CMAKE_CXX_COMPILER_ID}")
+endif()
+
+function(crankloop_numerics target)
+  set_target_properties(${target} PROPERTIES
+    CXX_STANDARD 17
+    CXX_STANDARD_REQUIRED ON
+    CXX_EXTENSIONS OFF
+    INTERPROCEDURAL_OPTIMIZATION OFF)  # link-time optimisation inlines this code into code that contracts
+  target_compile_options(${target} PRIVATE
+    -fno-lto              # also where the user's CMAKE_CXX_FLAGS say -flto
+    -ffp-contract=off     # a*b+c keeps both its roundings: otherwise every processor with fused multiply-add differs
+    -fno-unsafe-math-optimizations -fno-associative-math -fno-reciprocal-math -fsigned-zeros  # as written, not as rearranged
+    -fno-math-errno)      # sqrt is one instruction and not a call that may set errno
+endfunction()
+
+function(crankloop_house_flags target)
+  crankloop_numerics(${target})
+  target_compile_options(${target} PRIVATE
+    -fno-exceptions
+    -fno-rtti
+    -fno-threadsafe-statics
+    -ffunction-sections   # what a firmware image does not use,
+    -fdata-sections)      # its linker can leave out
+endfunction()
+
+function(crankloop_warnings target)
+  if(CRANKLOOP_DEVELOPER)
+    target_compile_options(${target} PRIVATE
+      -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wdouble-promotion -Wshadow -Werror)
+  endif()
+endfunction()

@@ -1,0 +1,36 @@
+// The geometry of one crank mechanism: bore, crank, rod, offset.
+//
+// What belongs here: lengths that a drawing gives. What does not: motion (tabulate/mechanism.hpp) and masses (define/masses.hpp).
+#pragma once
+
+#include <crankloop/status.hpp>
+
+namespace crankloop {
+
+/// Slider-crank of one cylinder; all cylinders of an engine are alike.
+///
+///              |  head                  a: crank angle, 0 when the throw is parallel to the cylinder axis toward the head
+///         _____|_____                   b: rod angle from the cylinder axis
+///        |  piston   |                  x: displacement from top dead centre, positive toward the crankshaft
+///        |_____o_____|
+///             /|                        pin offset e > 0: the cylinder axis lies on the side to which
+///        rod / |                        the crank pin moves after a = 0
+///           / b|
+///          o   |          sin b = (r sin a - e) / l
+///           \ a|
+///        r   \ |
+///             \|
+struct Crank {
+  double bore_m = 0;             ///< > 0, at most 2
+  double crank_radius_m = 0;     ///< r, half the nominal stroke; > 0, at most 2
+  double rod_length_m = 0;       ///< l > r + |e|, at most 10
+  double pin_offset_m = 0;       ///< e
+  double compression_ratio = 2;  ///< (V_c + V_d) / V_c; > 1, at most 100. Only pressure sources that know the volume use it
+
+  [[nodiscard]] constexpr double rod_ratio() const noexcept { return crank_radius_m / rod_length_m; }  ///< lambda = r / l
+};
+
+/// Field names "crank.*". Refuses a mechanism that cannot turn.
+Status validate(const Crank& crank) noexcept;
+
+}  // namespace crankloop

@@ -1,0 +1,37 @@
+// The moving masses of one crank mechanism.
+//
+// What belongs here: masses as the equations use them, and the ways to get there from a weighed or a drawn rod.
+// What does not: forces (tick/cylinder_forces.hpp), first-design estimates (tabulate/first_design.hpp).
+#pragma once
+
+#include <crankloop/define/crank.hpp>
+#include <crankloop/status.hpp>
+
+namespace crankloop {
+
+/// A rod as a rigid body: docs/model.md "Masses".
+struct RigidRod {
+  double mass_kg = 0;
+  double com_to_crank_m = 0;  ///< l_crank: centre of mass to crank pin, 0 to l
+  double inertia_kg_m2 = 0;   ///< J_rod about the centre of mass; 0 is a physical value (a point mass)
+};
+
+/// Masses per cylinder, the rod already lumped on its two ends.
+struct Masses {
+  double piston_kg = 0;                     ///< piston, rings, pin
+  double rod_small_end_kg = 0;              ///< m_rod_pin, moves with the piston
+  double rod_big_end_kg = 0;                ///< m_rod_crank, turns with the crank pin
+  double rod_inertia_correction_kg_m2 = 0;  ///< dI = J_rod - m_rod l_pin l_crank; 0 = two-mass rod; may be negative
+  double crank_pin_equivalent_kg = 0;       ///< m_k, pin and webs reduced to the crank radius; acts in the centrifugal force only
+  double crank_inertia_kg_m2 = 0;           ///< whole crankshaft with flywheel, without rods
+
+  [[nodiscard]] constexpr double reciprocating_kg() const noexcept { return piston_kg + rod_small_end_kg; }  ///< m_j
+};
+
+/// Lumps a rigid rod on its ends: same mass, centre of mass and, by the correction dI, the same kinetic energy.
+void lump_rod(const RigidRod& rod, const Crank& crank, Masses& masses) noexcept;
+
+/// Field names "masses.*". Every mass >= 0 and m_j > 0.
+Status validate(const Masses& masses) noexcept;
+
+}  // namespace crankloop

@@ -1,0 +1,56 @@
+// Where the cylinder pressure comes from when it is not an input of every tick.
+//
+// What belongs here: diagrams as given. What does not: pressure over crank angle as used (tabulate/indicator_diagram.hpp).
+#pragma once
+
+#include <cstdint>
+
+#include <crankloop/define/crank.hpp>
+#include <crankloop/status.hpp>
+
+namespace crankloop {
+
+enum class PressureSource : std::uint8_t {
+  none,          ///< p = p0 at all times: no gas force
+  angle_table,   ///< rows (crank_deg, pressure_Pa), one 720 deg period
+  volume_table,  ///< rows (volume_m3, pressure_Pa), the loop in the order of time from firing top dead centre
+  wiebe,         ///< synthesised: docs/model.md "Synthesised diagram"
+};
+
+/// One row of a diagram: crank angle in degrees or volume in m^3, and absolute pressure.
+struct DiagramPoint {
+  double at;
+  double pressure_Pa;
+};
+
+/// Synthesised four-stroke diagram. Angles in degrees of the cylinder's own crank angle, firing at 0.
+struct WiebeDiagram {
+  double intake_Pa = 98e3;                   ///< plenum, from gas-exchange top dead centre to bottom dead centre
+  double exhaust_Pa = 105e3;                 ///< back pressure
+  double start_of_combustion_deg = -6;       ///< -90 to 90
+  double combustion_duration_deg = 60;       ///< 1 to 150; must end before the exhaust valve opens
+  double wiebe_m = 0.9;                      ///< form exponent, 0 to 10
+  double compression_exponent = 1.35;        ///< n1, 1 to 2
+  double expansion_exponent = 1.28;          ///< n2, 1 to 2, but not 1
+  double exhaust_valve_opens_deg = 135;      ///< before bottom dead centre
+  bool heat_given = false;                   ///< true: heat_J is used; false: heat is scaled to net_mep_Pa
+  double net_mep_Pa = 0;                     ///< indicated mean effective pressure over 720 deg at load ratio 1
+  double heat_J = 0;                         ///< heat released per cycle and cylinder at load ratio 1
+};
+
+/// Pressure at load ratio q is p_motored(a) + q (p_full(a) - p_motored(a)).
+///
+/// Wiebe: heat scales with q, which is exactly this line, because the pressure equation is linear in the heat.
+/// Tables: the given diagram is q = 1; the motored one retraces the compression on the way down (docs/model.md "Load ratio").
+struct Pressure {
+  PressureSource source = PressureSource::none;
+  double crankcase_Pa = 100e3;           ///< p0, on the piston's other side
+  WiebeDiagram wiebe{};
+  const DiagramPoint* points = nullptr;  ///< rows of a table source; the caller keeps them alive while tabulating
+  int point_count = 0;
+};
+
+/// Field names "pressure.*". Row errors carry the row in `index`.
+Status validate(const Pressure& pressure, const Crank& crank) noexcept;
+
+}  // namespace crankloop

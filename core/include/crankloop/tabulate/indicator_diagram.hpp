@@ -1,0 +1,66 @@
+// Cylinder pressure over the 720 deg of a cycle, whatever the diagram was given as.
+//
+// What belongs here: p(a) at set-up time, exact to its definition. What does not: the tick's tables of it (tabulate/tabulate.hpp).
+#pragma once
+
+#include <crankloop/define/crank.hpp>
+#include <crankloop/define/pressure.hpp>
+#include <crankloop/status.hpp>
+
+namespace crankloop {
+
+/// p(a) = motored(a) + load ratio * heat(a), absolute pressures in Pa, a the cylinder's own crank angle in degrees,
+/// |a| < 1e9.
+///
+/// Between given points the curve is a monotone cubic (Fritsch-Butland slopes): no value outside those of the two points around it.
+/// Holds a pointer to the definition's points. Construction O(points), evaluation O(log points); not for two threads at once.
+class IndicatorDiagram {
+ public:
+  /// Refuses what validate() refuses, volumes that are no four-stroke loop ("pressure.file" with the row), an exhaust opening at or after
+  /// bottom dead centre, and a mean effective pressure that no positive heat reaches ("pressure.net_mep").
+  Status init(const Crank& crank, const Pressure& pressure) noexcept;
+
+  [[nodiscard]] double motored_Pa(double crank_deg) const noexcept;
+  [[nodiscard]] double heat_Pa(double crank_deg) const noexcept;  ///< what full load adds
+  [[nodiscard]] double full_Pa(double crank_deg) const noexcept;
+
+  /// Heat per cycle and cylinder of a synthesised diagram, as given or as found from the mean effective pressure; else 0.
+  [[nodiscard]] double heat_J() const noexcept { return heat_J_; }
+
+ private:
+  static constexpr int kBurnPanels = 256;
+  struct Row {
+    double at_deg;
+    double pressure_Pa;
+  };
+
+  Status init_angles() noexcept;
+  Status init_volumes() noexcept;
+  Status init_wiebe() noexcept;
+  [[nodiscard]] Row row(int i) const noexcept;
+  [[nodiscard]] int row_before(double cycle_deg) const noexcept;
+  [[nodiscard]] double table_Pa(double cycle_deg) const noexcept;
+  [[nodiscard]] double table_motored_Pa(double cycle_deg) const noexcept;
+  [[nodiscard]] double volume_m3(double crank_deg) const noexcept;
+  [[nodiscard]] double burn_integral(double since_start_deg) const noexcept;
+  [[nodiscard]] double wiebe_motored_Pa(double cycle_deg) const noexcept;
+  [[nodiscard]] double wiebe_heat_Pa(double cycle_deg) const noexcept;
+  [[nodiscard]] double from_top_deg(double crank_deg) const noexcept;
+
+  Crank crank_{};
+  Pressure pressure_{};
+  double tdc_deg_ = 0;
+  double bdc_deg_ = 180;
+  double clearance_m3_ = 0;
+  double area_m2_ = 0;
+  int rows_ = 0;                ///< without a closing row
+  int stroke_start_[5] = {};    ///< volume table: first row of each stroke, and rows_
+  double exhaust_Pa_ = 0;       ///< table: mean over the second half of the exhaust stroke
+  double heat_J_ = 0;
+  double burnt_[kBurnPanels + 1] = {};  ///< Wiebe: integral of V^(n2 - 1) dx_b up to each panel
+  // The four rows around the last interval asked for, so that a sweep does not turn the same volumes into angles again and again.
+  mutable int cached_row_ = -1;
+  mutable Row cached_[4] = {};
+};
+
+}  // namespace crankloop

@@ -1,0 +1,62 @@
+// Exact motion of the crank mechanism and what follows from it, at set-up time, in double.
+//
+// What belongs here: kinematics of one cylinder. What does not: per-degree tables (tabulate/tabulate.hpp) and forces.
+// Angles in radians, derivatives by the crank angle, so speed enters nowhere: multiply by w and w^2.
+#pragma once
+
+#include <crankloop/define/crank.hpp>
+#include <crankloop/tick/cylinder_forces.hpp>
+
+namespace crankloop {
+
+/// The pose at crank angle a, exact to rounding: docs/model.md "Kinematics". The crank must be valid.
+[[nodiscard]] Pose<double> exact_pose(const Crank& crank, double crank_rad) noexcept;
+
+/// The textbook second-order approximations for e = 0 (the offset is ignored), offered beside the exact ones, never instead.
+/// Displacement, slope, acceleration, rod angle, its slope and curvature are the published series; tilt and radial follow from the rod angle's.
+[[nodiscard]] Pose<double> second_order_pose(const Crank& crank, double crank_rad) noexcept;
+
+/// Crank angle at which the piston is at displacement x: on the way down in [tdc, bdc], on the way up in [bdc, tdc + 2 pi].
+/// x outside the stroke answers the dead centre that is nearer.
+[[nodiscard]] double crank_angle_at(const Crank& crank, double displacement_m, bool downward) noexcept;
+
+/// True dead centres and stroke. Without offset: 0, pi, 2 r.
+struct DeadCentres {
+  double tdc_rad;
+  double bdc_rad;
+  double stroke_m;
+};
+[[nodiscard]] DeadCentres dead_centres(const Crank& crank) noexcept;
+
+/// Mean piston speed S n / 30 = stroke w / pi, with the true stroke.
+[[nodiscard]] double mean_piston_speed_m_s(const Crank& crank, double speed_rad_s) noexcept;
+
+[[nodiscard]] double bore_area_m2(const Crank& crank) noexcept;
+[[nodiscard]] double swept_volume_m3(const Crank& crank) noexcept;      ///< area times true stroke, one cylinder
+[[nodiscard]] double clearance_volume_m3(const Crank& crank) noexcept;  ///< V_c
+
+/// A largest or smallest value and where it stands in [0, 2 pi).
+struct Extreme {
+  double at_rad;
+  double value;
+};
+struct Extremes {
+  Extreme largest;
+  Extreme smallest;
+};
+
+/// A quantity of the pose, e.g. &Pose<double>::slope_m.
+using PoseMember = double Pose<double>::*;
+using PoseFunction = Pose<double> (*)(const Crank&, double crank_rad) noexcept;
+
+/// Largest and smallest value of a quantity over a turn; value to rounding. Angle to 1e-7 rad where the curve
+/// bends at its extreme; flatter ones (acceleration at lambda = 0.264 is flat to fourth order) are known less. 440 evaluations.
+[[nodiscard]] Extremes extremes(const Crank& crank, PoseMember quantity, PoseFunction pose = exact_pose) noexcept;
+
+/// Fourier coefficients of x / r for e = 0, to O(lambda^7): x = r (a0 + a1 cos a + a2 cos 2a + a4 cos 4a + a6 cos 6a).
+struct DisplacementSeries {
+  double a0, a1, a2, a4, a6;
+};
+[[nodiscard]] DisplacementSeries displacement_series(double rod_ratio) noexcept;
+
+}  // namespace crankloop

@@ -1,0 +1,176 @@
+// From a definition and a tick length to the tables that the tick reads.
+//
+// What belongs here: the call and the memory it fills. What does not: the sections' meaning (tick/tables.hpp).
+#pragma once
+
+#include <cstddef>
+
+#include <crankloop/define/engine_definition.hpp>
+#include <crankloop/status.hpp>
+#include <crankloop/tick/tables.hpp>
+
+namespace crankloop {
+
+/// How the engine will be stepped.
+struct TickOptions {
+  double tick_s = 100e-6;  ///< 1e-6 to 2e-3
+};
+
+/// Most segments of a gas grid: 20 in every degree.
+inline constexpr std::size_t kMostGasSegments = 20 * kDegreesPerCycle;
+
+/// Where to build each section; null = leave it out. The gas sections have room for `gas_capacity` segments each.
+template <class Real>
+struct TableTargets {
+  Drive<Real>* drive = nullptr;
+  Body<Real>* body = nullptr;
+  IntegratedCurve<Real>* stroke = nullptr;
+  Curve<Real>* acceleration = nullptr;
+  Curve<Real>* rod_tilt = nullptr;
+  Curve<Real>* radial = nullptr;
+  IntegratedCurve<Real>* rod_angle = nullptr;
+  Curve<Real>* rod_curvature = nullptr;
+  IntegratedCurve<Real>* inertia_torque = nullptr;
+  Bearings<Real>* bearings = nullptr;
+  Balance<Real>* balance = nullptr;
+  GasGrid* gas_grid = nullptr;
+  int gas_capacity = 0;  ///< at least 720 where there is a gas_grid
+  Segment<Real>* pressure_full = nullptr;
+  Segment<Real>* pressure_motored = nullptr;
+  Segment<Real>* pressure_heat = nullptr;
+  GasTorque<Real>* gas_torque_full = nullptr;
+  GasTorque<Real>* gas_torque_motored = nullptr;
+  GasTorque<Real>* gas_torque_heat = nullptr;
+  IntegratedSegment<Real>* gas_full = nullptr;  ///< segments of gas_torque_full, and so on
+  IntegratedSegment<Real>* gas_motored = nullptr;
+  IntegratedSegment<Real>* gas_heat = nullptr;
+};
+
+/// What tabulate found.
+struct TableReport {
+  int gas_segments = 0;           ///< segments of the gas grid
+  double pressure_error_Pa = 0;   ///< largest error of the pressure curves against the diagram, at 10 points per segment
+};
+
+/// Fills the targets. Validates the definition first; nothing is written when it refuses.
+///
+/// Accuracy: docs/model.md "Tables". The gas grid divides a degree into 1, 2, 5, 10 or 20 segments, the fewest that keep the pressure
+/// within 1e-5 of its peak; where the capacity does not suffice the bound is doubled until it does, and the report tells.
+/// Float and double; O(segments), some 50 ms on a desktop.
+template <class Real>
+Status tabulate(const EngineDefinition& engine, const TickOptions& options, const TableTargets<Real>& targets,
+                TableReport* report = nullptr) noexcept;
+
+namespace part {
+// One holder per group of sections: a base of TableStorage when the scene needs it.
+template <class Real> struct BodyStore { Body<Real> body; };
+template <class Real> struct StrokeStore { IntegratedCurve<Real> stroke; };
+template <class Real> struct AccelerationStore { Curve<Real> acceleration; };
+template <class Real> struct RodTiltStore { Curve<Real> rod_tilt; Curve<Real> radial; };
+template <class Real> struct RodAngleStore { IntegratedCurve<Real> rod_angle; };
+template <class Real> struct RodCurvatureStore { Curve<Real> rod_curvature; };
+template <class Real> struct InertiaTorqueStore { IntegratedCurve<Real> inertia_torque; };
+template <class Real> struct BearingsStore { Bearings<Real> bearings; };
+template <class Real> struct BalanceStore { Balance<Real> balance; };
+struct GasGridStore { GasGrid gas_grid; };
+template <class Real, std::size_t N> struct PressureStore { Segment<Real> pressure_full[N]; };
+template <class Real, std::size_t N> struct PressureByLoadStore { Segment<Real> pressure_motored[N]; Segment<Real> pressure_heat[N]; };
+template <class Real, std::size_t N> struct GasTorqueStore { GasTorque<Real> gas_torque_full; IntegratedSegment<Real> gas_full[N]; };
+template <class Real, std::size_t N> struct GasTorqueByLoadStore {
+  GasTorque<Real> gas_torque_motored;
+  GasTorque<Real> gas_torque_heat;
+  IntegratedSegment<Real> gas_motored[N];
+  IntegratedSegment<Real> gas_heat[N];
+};
+}  // namespace part
+
+/// Tables in RAM: the sections that a scene needs, and no others. Large (tens of kB to 1 MB): static or on the heap, not on a stack.
+///
+///     static crankloop::TableStorage<float, MyScene> storage;
+///     if (!storage.build(definition, {100e-6}).ok()) ...
+///     engine.init(storage.tables());
+///
+/// Not copyable: engines point into it.
+template <class Real, class S, std::size_t GasSegments = 4096>
+class TableStorage : If<Needs<S>::body, part::BodyStore<Real>>,
+                     If<Needs<S>::stroke, part::StrokeStore<Real>>,
+                     If<Needs<S>::acceleration, part::AccelerationStore<Real>>,
+                     If<Needs<S>::rod_tilt, part::RodTiltStore<Real>>,
+                     If<Needs<S>::rod_angle, part::RodAngleStore<Real>>,
+                     If<Needs<S>::rod_curvature, part::RodCurvatureStore<Real>>,
+                     If<Needs<S>::inertia_torque, part::InertiaTorqueStore<Real>>,
+                     If<S::bearing_loads, part::BearingsStore<Real>>,
+                     If<S::free_forces, part::BalanceStore<Real>>,
+                     If<Needs<S>::gas_grid, part::GasGridStore>,
+                     If<Needs<S>::gas_pressure && !Needs<S>::load, part::PressureStore<Real, GasSegments>>,
+                     If<Needs<S>::gas_pressure && Needs<S>::load, part::PressureByLoadStore<Real, GasSegments>>,
+                     If<Needs<S>::gas_torque && !Needs<S>::load, part::GasTorqueStore<Real, GasSegments>>,
+                     If<Needs<S>::gas_torque && Needs<S>::load, part::GasTorqueByLoadStore<Real, GasSegments>> {
+  static_assert(GasSegments >= std::size_t{kDegreesPerCycle} && GasSegments <= kMostGasSegments, "720 to 14400 gas segments");
+
+ public:
+  TableStorage() = default;
+  TableStorage(const TableStorage&) = delete;
+  TableStorage& operator=(const TableStorage&) = delete;
+
+  /// Tabulates; after a refusal the old tables are gone and tables() is refused by init.
+  Status build(const EngineDefinition& engine, const TickOptions& options, TableReport* report = nullptr) noexcept {
+    using N = Needs<S>;
+    tables_ = {};
+    TableTargets<Real> t;
+    t.drive = &drive_;
+    if constexpr (N::body) t.body = &this->body;
+    if constexpr (N::stroke) t.stroke = &this->stroke;
+    if constexpr (N::acceleration) t.acceleration = &this->acceleration;
+    if constexpr (N::rod_tilt) t.rod_tilt = &this->rod_tilt, t.radial = &this->radial;
+    if constexpr (N::rod_angle) t.rod_angle = &this->rod_angle;
+    if constexpr (N::rod_curvature) t.rod_curvature = &this->rod_curvature;
+    if constexpr (N::inertia_torque) t.inertia_torque = &this->inertia_torque;
+    if constexpr (S::bearing_loads) t.bearings = &this->bearings;
+    if constexpr (S::free_forces) t.balance = &this->balance;
+    if constexpr (N::gas_grid) t.gas_grid = &this->gas_grid, t.gas_capacity = static_cast<int>(GasSegments);
+    if constexpr (N::gas_pressure && !N::load) t.pressure_full = this->pressure_full;
+    if constexpr (N::gas_pressure && N::load) t.pressure_motored = this->pressure_motored, t.pressure_heat = this->pressure_heat;
+    if constexpr (N::gas_torque && !N::load) t.gas_torque_full = &this->gas_torque_full, t.gas_full = this->gas_full;
+    if constexpr (N::gas_torque && N::load) {
+      t.gas_torque_motored = &this->gas_torque_motored;
+      t.gas_torque_heat = &this->gas_torque_heat;
+      t.gas_motored = this->gas_motored;
+      t.gas_heat = this->gas_heat;
+    }
+    if (const Status refused = tabulate(engine, options, t, report); !refused.ok()) return refused;
+    tables_ = Tables<Real, S>(sections_of(t));
+    return {};
+  }
+
+  [[nodiscard]] const Tables<Real, S>& tables() const noexcept { return tables_; }
+
+ private:
+  [[nodiscard]] static Sections<Real> sections_of(const TableTargets<Real>& t) noexcept {
+    Sections<Real> s;
+    s.drive = t.drive;
+    s.body = t.body;
+    s.stroke = t.stroke;
+    s.acceleration = t.acceleration;
+    s.rod_tilt = t.rod_tilt;
+    s.radial = t.radial;
+    s.rod_angle = t.rod_angle;
+    s.rod_curvature = t.rod_curvature;
+    s.inertia_torque = t.inertia_torque;
+    s.bearings = t.bearings;
+    s.balance = t.balance;
+    s.gas_grid = t.gas_grid;
+    s.pressure_full = t.pressure_full;
+    s.pressure_motored = t.pressure_motored;
+    s.pressure_heat = t.pressure_heat;
+    s.gas_torque_full = t.gas_torque_full;
+    s.gas_torque_motored = t.gas_torque_motored;
+    s.gas_torque_heat = t.gas_torque_heat;
+    return s;
+  }
+
+  Drive<Real> drive_{};
+  Tables<Real, S> tables_{};
+};
+
+}  // namespace crankloop

@@ -1,0 +1,407 @@
+// The implementation of Engine: include it in the one translation unit that instantiates a scene, nowhere else.
+//
+// What belongs here: the order of one tick. What does not: the force algebra (cylinder_forces.hpp), how tables are read (curve.hpp).
+//
+//     input -> checked -> phase -> look-ups per mechanism -> pressure, torque, forces per cylinder -> totals -> output
+#pragma once
+
+#include <crankloop/tick/cylinder_forces.hpp>
+#include <crankloop/tick/engine.hpp>
+
+namespace crankloop {
+
+namespace detail {
+
+/// lowest <= x <= highest; false for NaN. Comparisons only: no conversion happens before the range is known.
+template <class Real>
+[[nodiscard]] constexpr bool within(Real x, Real lowest, Real highest) noexcept {
+  return x >= lowest && x <= highest;
+}
+
+/// x if it is good, else the last good one and its fault bit.
+template <class Real>
+[[nodiscard]] constexpr Real checked(Real x, Real lowest, Real highest, Real& last_good, Fault fault, std::uint32_t& faults) noexcept {
+  if (within(x, lowest, highest)) {
+    last_good = x;
+  } else {
+    faults |= fault;
+  }
+  return last_good;
+}
+
+template <class S>
+[[nodiscard]] constexpr std::uint32_t count(std::uint32_t in_tables) noexcept {
+  return S::cylinders.exact ? S::cylinders.capacity : in_tables;
+}
+
+/// Where a mechanism stands: its cell in the 720 deg of its own cycle.
+template <class Real>
+struct Angle {
+  Cell cell;
+  Real u;  ///< fraction of the degree
+
+  /// The degree within the crank turn, 0 to 359.
+  [[nodiscard]] constexpr std::uint32_t turn_degree() const noexcept {
+    return cell.degree >= std::uint32_t{kDegreesPerTurn} ? cell.degree - std::uint32_t{kDegreesPerTurn} : cell.degree;
+  }
+  /// The cell of a cylinder that fires `turns` (0 or 1) crank turns after the mechanism's phase.
+  [[nodiscard]] constexpr Cell delayed(std::uint32_t turns) const noexcept {
+    const std::uint32_t degree = cell.degree + turns * std::uint32_t{kDegreesPerTurn};
+    return {degree >= std::uint32_t{kDegreesPerCycle} ? degree - std::uint32_t{kDegreesPerCycle} : degree, cell.into};
+  }
+};
+
+template <class Real>
+[[nodiscard]] constexpr Angle<Real> angle_of(std::uint64_t phase, std::uint64_t firing_phase) noexcept {
+  const Cell cell = Phase{phase - firing_phase}.cell<Real>();
+  return {cell, fraction<Real>(cell.into)};
+}
+
+template <class Real>
+[[nodiscard]] constexpr Integral<Real> integral_at(const IntegratedSegment<Real>& s, Real u, Real mean) noexcept {
+  return {s.base, integral(s.slope, u, mean)};
+}
+
+template <class Real>
+[[nodiscard]] constexpr Real total(const Integral<Real>& sum, Real quantum) noexcept {
+  return signed_value<Real>(sum.base) * quantum + sum.part;
+}
+
+/// One tick's work in progress: what is read once per mechanism and added up over cylinders.
+template <class Real, class S>
+struct Step {
+  using N = Needs<S>;
+
+  const Tables<Real, S>& tables;
+  State<Real, S>& state;
+  Output<Real, S>& out;
+  Pose<Real> pose[N::mechanisms ? S::cylinders.capacity : 1];
+  Angle<Real> angle[N::mechanisms ? S::cylinders.capacity : 1];
+
+  Real torque_Nm{};          ///< at the tick
+  Real inertia_per_w2{};     ///< torque of masses per w^2, all cylinders
+  Integral<Real> inertia{};  ///< its integral
+  Integral<Real> gas[2]{};
+  Integral<Real> stroke[N::input_pressure ? S::cylinders.capacity : 1]{};
+
+  Step(const Tables<Real, S>& t, State<Real, S>& s, Output<Real, S>& o) noexcept : tables{t}, state{s}, out{o} {}  // pose, angle: filled as needed
+
+  /// Look-ups that cylinders at the same crank angle share.
+  void read_mechanisms() noexcept {
+    const Drive<Real>& drive = *tables.drive;
+    const std::uint32_t mechanisms = drive.mechanisms;
+    for (std::uint32_t m = 0; m < mechanisms; ++m) {
+      const Angle<Real> at = angle_of<Real>(state.phase.units(), drive.firing_phase[m]);
+      const std::uint32_t degree = at.turn_degree();
+      Pose<Real>& p = pose[m];
+      angle[m] = at;
+      if constexpr (N::stroke) {
+        const IntegratedSegment<Real>& s = tables.stroke->at[degree];
+        p.slope_m = value(s.slope, at.u);
+        const Integral<Real> x = integral_at(s, at.u, Real{0});
+        p.displacement_m = total(x, tables.stroke->quantum);
+        if constexpr (N::input_pressure) stroke[m] = x;
+      }
+      if constexpr (N::acceleration) p.acceleration_m = value(tables.acceleration->at[degree], at.u);
+      if constexpr (N::rod_tilt) {
+        p.rod_tilt = value(tables.rod_tilt->at[degree], at.u);
+        p.radial = value(tables.radial->at[degree], at.u);
+      }
+      if constexpr (N::rod_angle) {
+        const IntegratedSegment<Real>& s = tables.rod_angle->at[degree];
+        p.rod_slope = value(s.slope, at.u);
+        p.rod_angle_rad = total(integral_at(s, at.u, Real{0}), tables.rod_angle->quantum);
+      }
+      if constexpr (N::rod_curvature) p.rod_curvature = value(tables.rod_curvature->at[degree], at.u);
+      if constexpr (N::inertia_torque) {
+        const IntegratedSegment<Real>& s = tables.inertia_torque->at[degree];
+        const Real sharing = drive.cylinders_on_mechanism[m];
+        inertia_per_w2 += sharing * value(s.slope, at.u);
+        if constexpr (S::mean_torque) {
+          const Integral<Real> one = integral_at(s, at.u, Real{0});
+          inertia.base += static_cast<IntegralBase<Real>>(static_cast<IntegralBase<Real>>(sharing) * one.base);
+          inertia.part += sharing * one.part;
+        }
+      }
+    }
+  }
+
+  /// Gas torque of a cylinder by its curve; adds its work to gas[which].
+  [[nodiscard]] Real gas_torque(const GasTorque<Real>& curve, std::uint32_t segment, Real u, int which) noexcept {
+    const IntegratedSegment<Real>& s = curve.at[segment];
+    if constexpr (S::mean_torque) gas[which] += integral_at(s, u, curve.mean_Nm);
+    return value(s.slope, u);
+  }
+
+  [[nodiscard]] Real pressure_Pa(std::uint32_t k, std::uint32_t segment, Real u) noexcept {
+    if constexpr (N::input_pressure) {
+      return state.pressure_Pa[k];
+    } else if constexpr (N::gas_pressure && N::load) {
+      return value(tables.pressure_motored[segment], u) + state.load_ratio * value(tables.pressure_heat[segment], u);
+    } else if constexpr (N::gas_pressure) {
+      return value(tables.pressure_full[segment], u);
+    } else {
+      (void)k, (void)segment, (void)u;
+      return tables.body->crankcase_Pa;
+    }
+  }
+
+  void do_cylinders() noexcept {
+    const Drive<Real>& drive = *tables.drive;
+    const std::uint32_t cylinders = count<S>(drive.cylinders);
+    const Real speed = state.speed_rad_s;
+    for (std::uint32_t k = 0; k < cylinders; ++k) {
+      const std::uint32_t m = drive.mechanism_of[k];
+      const Pose<Real>& p = pose[m];
+      [[maybe_unused]] const Real u = angle[m].u;
+      [[maybe_unused]] std::uint32_t segment = 0;
+      if constexpr (N::gas_grid) segment = tables.gas_grid->segment(angle[m].delayed(drive.turn_of[k]));
+
+      if constexpr (S::kinematics) {
+        out.displacement_m[k] = p.displacement_m;
+        out.velocity_m_s[k] = p.slope_m * speed;
+        out.acceleration_m_s2[k] = p.acceleration_m * (speed * speed);
+      }
+      if constexpr (S::rod_motion) {
+        out.rod_angle_rad[k] = p.rod_angle_rad;
+        out.rod_speed_rad_s[k] = p.rod_slope * speed;
+        out.rod_acceleration_rad_s2[k] = p.rod_curvature * (speed * speed);
+      }
+      [[maybe_unused]] Real gas_Nm{};
+      if constexpr (N::gas_torque && N::load) {
+        gas_Nm = gas_torque(*tables.gas_torque_motored, segment, u, 0);
+        gas_Nm += state.load_ratio * gas_torque(*tables.gas_torque_heat, segment, u, 1);
+      } else if constexpr (N::gas_torque) {
+        gas_Nm = gas_torque(*tables.gas_torque_full, segment, u, 0);
+      } else if constexpr (N::any_torque && N::input_pressure) {
+        gas_Nm = (state.pressure_Pa[k] - tables.body->crankcase_Pa) * tables.body->bore_area_m2 * p.slope_m;
+      }
+      if constexpr (S::forces) {
+        out.cylinder[k] = cylinder_forces<S::rod_inertia>(*tables.body, p, pressure_Pa(k, segment, u), speed);
+        torque_Nm += out.cylinder[k].torque_Nm;
+      } else {
+        torque_Nm += gas_Nm;
+      }
+    }
+    if constexpr (N::torque_curves && !S::forces) torque_Nm += speed * speed * inertia_per_w2;
+    if constexpr (S::torque) out.torque_Nm = torque_Nm;
+  }
+
+  /// Work done since the last tick over the angle turned. At a crawl the difference drowns in rounding: there the mean of the
+  /// torques at both ends is the better average (docs/decisions/0005-mean-torque.md).
+  void average_torque(Phase turned, const Real* mean_pressure_Pa) noexcept {
+    if constexpr (S::mean_torque) {
+      const Drive<Real>& drive = *tables.drive;
+      constexpr auto kCrawl = static_cast<std::uint64_t>(sizeof(Real) == 4 ? (~std::uint64_t{0} / 11520) : (~std::uint64_t{0} / 720 >> 20));
+      const bool crawling = turned.units() + kCrawl <= 2 * kCrawl;  // |turned| <= kCrawl, wrapping
+      const Real cylinders = static_cast<Real>(static_cast<std::int32_t>(count<S>(drive.cylinders)));
+      if (crawling) {
+        out.mean_torque_Nm = (state.torque_Nm + torque_Nm) / 2;
+      } else {
+        constexpr Real kRadPerCycle = static_cast<Real>(0x1.921fb54442d18p+3);
+        const Real per_rad = Real{1} / (turned.signed_cycles<Real>() * kRadPerCycle);
+        const Real w2 = state.speed_rad_s * state.speed_rad_s;
+        Real work_J = w2 * difference(state.inertia, inertia, tables.inertia_torque->quantum);
+        Real mean_Nm{};
+        if constexpr (N::gas_torque && N::load) {
+          const GasTorque<Real>& motored = *tables.gas_torque_motored;
+          const GasTorque<Real>& heat = *tables.gas_torque_heat;
+          work_J += difference(state.gas[0], gas[0], motored.quantum);
+          work_J += state.load_ratio * difference(state.gas[1], gas[1], heat.quantum);
+          mean_Nm = cylinders * (motored.mean_Nm + state.load_ratio * heat.mean_Nm);
+        } else if constexpr (N::gas_torque) {
+          work_J += difference(state.gas[0], gas[0], tables.gas_torque_full->quantum);
+          mean_Nm = cylinders * tables.gas_torque_full->mean_Nm;
+        } else if constexpr (N::input_pressure) {
+          for (std::uint32_t k = 0; k < count<S>(drive.cylinders); ++k) {
+            const std::uint32_t m = drive.mechanism_of[k];
+            work_J += (mean_pressure_Pa[k] - tables.body->crankcase_Pa) * tables.body->bore_area_m2 *
+                      difference(state.stroke[m], stroke[m], tables.stroke->quantum);
+          }
+        }
+        out.mean_torque_Nm = work_J * per_rad + mean_Nm;
+      }
+      (void)mean_pressure_Pa;
+    }
+  }
+
+  void remember_work() noexcept {
+    if constexpr (S::mean_torque) {
+      state.inertia = inertia;
+      state.torque_Nm = torque_Nm;
+      if constexpr (N::gas_torque) {
+        state.gas[0] = gas[0];
+        if constexpr (N::load) state.gas[1] = gas[1];
+      }
+      if constexpr (N::input_pressure) {
+        for (std::uint32_t m = 0; m < tables.drive->mechanisms; ++m) state.stroke[m] = stroke[m];
+      }
+    }
+  }
+
+  void load_bearings() noexcept {
+    if constexpr (S::bearing_loads) {
+      const Bearings<Real>& b = *tables.bearings;
+      const Real w2 = state.speed_rad_s * state.speed_rad_s;
+      for (std::uint32_t i = 0; i < b.pins; ++i) out.pin_radial_N[i] = out.pin_tangential_N[i] = Real{0};
+      for (std::uint32_t k = 0; k < count<S>(tables.drive->cylinders); ++k) {
+        out.pin_radial_N[b.pin_of[k]] += out.cylinder[k].radial_force_N;
+        out.pin_tangential_N[b.pin_of[k]] += out.cylinder[k].tangential_force_N;
+      }
+      for (std::uint32_t j = 0; j <= b.pins; ++j) out.journal_along_N[j] = out.journal_across_N[j] = Real{0};
+      for (std::uint32_t i = 0; i < b.pins; ++i) {
+        const Real tangential = out.pin_tangential_N[i];
+        const Real throw_outward = b.throw_kg_m[i] * w2 - out.pin_radial_N[i];
+        out.pin_radial_N[i] -= b.rods_kg_m[i] * w2;
+        out.pin_load_N[i] = magnitude(out.pin_radial_N[i], tangential);
+        // Each throw is simply supported between its two journals: half to either, turned from the throw's frame into that of pin 0.
+        const Real half_along = (throw_outward * b.throw_cos[i] - tangential * b.throw_sin[i]) / 2;
+        const Real half_across = (throw_outward * b.throw_sin[i] + tangential * b.throw_cos[i]) / 2;
+        out.journal_along_N[i] += half_along;
+        out.journal_across_N[i] += half_across;
+        out.journal_along_N[i + 1] += half_along;
+        out.journal_across_N[i + 1] += half_across;
+      }
+      for (std::uint32_t j = 0; j <= b.pins; ++j) out.journal_load_N[j] = magnitude(out.journal_along_N[j], out.journal_across_N[j]);
+    }
+  }
+
+  void balance_engine() noexcept {
+    if constexpr (S::free_forces) {
+      const Balance<Real>& b = *tables.balance;
+      const Real w2 = state.speed_rad_s * state.speed_rad_s;
+      const Angle<Real> a = angle_of<Real>(state.phase.units(), 0);
+      const std::uint32_t degree = a.turn_degree();
+      const std::uint32_t quarter_back = degree >= 90 ? degree - 90 : degree + 270;
+      const Real cosine = value(b.cosine.at[degree], a.u);
+      const Real sine = value(b.cosine.at[quarter_back], a.u);
+      out.first = turned(b.first, cosine * w2, sine * w2);
+      out.rotating = turned(b.rotating, cosine * w2, sine * w2);
+      out.second = turned(b.second, (2 * cosine * cosine - 1) * w2, 2 * sine * cosine * w2);
+    }
+  }
+
+  [[nodiscard]] static Real magnitude(Real x, Real y) noexcept { return square_root(x * x + y * y); }
+
+  [[nodiscard]] static FreeForce<Real> turned(const Turning<Real>& t, Real cosine, Real sine) noexcept {
+    return {t.up_cos * cosine + t.up_sin * sine, t.lateral_cos * cosine + t.lateral_sin * sine,
+            t.pitch_cos * cosine + t.pitch_sin * sine, t.yaw_cos * cosine + t.yaw_sin * sine};
+  }
+};
+
+/// True when every section the scene reads is there.
+template <class Real, class S>
+[[nodiscard]] constexpr bool complete(const Tables<Real, S>& t) noexcept {
+  using N = Needs<S>;
+  bool all = t.drive != nullptr;
+  if constexpr (N::body) all = all && t.body != nullptr;
+  if constexpr (N::stroke) all = all && t.stroke != nullptr;
+  if constexpr (N::acceleration) all = all && t.acceleration != nullptr;
+  if constexpr (N::rod_tilt) all = all && t.rod_tilt != nullptr && t.radial != nullptr;
+  if constexpr (N::rod_angle) all = all && t.rod_angle != nullptr;
+  if constexpr (N::rod_curvature) all = all && t.rod_curvature != nullptr;
+  if constexpr (N::inertia_torque) all = all && t.inertia_torque != nullptr;
+  if constexpr (N::gas_grid) all = all && t.gas_grid != nullptr;
+  if constexpr (N::gas_pressure && !N::load) all = all && t.pressure_full != nullptr;
+  if constexpr (N::gas_pressure && N::load) all = all && t.pressure_motored != nullptr && t.pressure_heat != nullptr;
+  if constexpr (N::gas_torque && !N::load) all = all && t.gas_torque_full != nullptr;
+  if constexpr (N::gas_torque && N::load) all = all && t.gas_torque_motored != nullptr && t.gas_torque_heat != nullptr;
+  if constexpr (S::bearing_loads) all = all && t.bearings != nullptr;
+  if constexpr (S::free_forces) all = all && t.balance != nullptr;
+  return all;
+}
+
+}  // namespace detail
+
+template <class Real, class S>
+Status Engine<Real, S>::init(const Tables& tables, Phase start) noexcept {
+  tables_ = nullptr;
+  state_ = State{};
+  output_ = Output{};
+  if (build_contracts<Real>()) return {Reason::contracting_build, -1, "build"};
+  if (!detail::complete<Real, S>(tables)) return {Reason::missing_table, -1, "tables"};
+  const Drive<Real>& drive = *tables.drive;
+  const std::uint32_t capacity = S::cylinders.capacity;
+  if (drive.cylinders < 1 || drive.cylinders > capacity || (S::cylinders.exact && drive.cylinders != capacity)) {
+    return {Reason::out_of_range, -1, "tables.cylinders"};
+  }
+  if constexpr (Needs<S>::body && !S::rod_inertia) {
+    if (tables.body->rod_inertia_correction_kg_m2 != Real{0}) return {Reason::inconsistent, -1, "scene.rod_inertia"};
+  }
+  tables_ = &tables;
+  state_.fingerprint = drive.fingerprint;
+  state_.phase = start;
+  if constexpr (Needs<S>::input_pressure) {
+    for (Real& pressure : state_.pressure_Pa) pressure = tables.body->crankcase_Pa;
+  }
+  if constexpr (S::mean_torque) {  // the first tick's work counts from here
+    detail::Step<Real, S> step(tables, state_, output_);
+    step.read_mechanisms();
+    step.do_cylinders();
+    step.remember_work();
+    output_ = Output{};
+  }
+  return {};
+}
+
+template <class Real, class S>
+const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input) noexcept {
+  if (tables_ == nullptr) {
+    output_.faults = kFaultNotReady;
+    return output_;
+  }
+  const Tables& tables = *tables_;
+  const Drive<Real>& drive = *tables.drive;
+  std::uint32_t faults = 0;
+
+  Phase turned;
+  if constexpr (S::crank == CrankGiven::speed) {
+    const Real limit = drive.speed_limit_rad_s;
+    const Real speed = detail::checked(input.speed_rad_s, -limit, limit, state_.speed_rad_s, kFaultSpeed, faults);
+    turned = Phase::from_cycles(speed * drive.cycles_per_tick_per_rad_s);
+    state_.phase += turned;
+  } else {
+    turned = input.crank - state_.phase;
+    const Real speed = turned.template signed_cycles<Real>() * drive.rad_s_per_cycle_per_tick;
+    if (detail::within(speed, -drive.speed_limit_rad_s, drive.speed_limit_rad_s)) {
+      state_.speed_rad_s = speed;
+    } else if (state_.ticks != 0) {
+      faults |= kFaultPhaseJump;
+    }
+    state_.phase = input.crank;
+  }
+  ++state_.ticks;
+  if constexpr (Needs<S>::load) {
+    (void)detail::checked(input.load_ratio, Real{0}, Real{2}, state_.load_ratio, kFaultLoadRatio, faults);
+  }
+  [[maybe_unused]] Real mean_pressure_Pa[Needs<S>::input_pressure ? S::cylinders.capacity : 1];
+  if constexpr (Needs<S>::input_pressure) {
+    for (std::uint32_t k = 0; k < detail::count<S>(drive.cylinders); ++k) {
+      const Real before = state_.pressure_Pa[k];
+      const Real now = detail::checked(input.pressure_Pa[k], Real{0}, static_cast<Real>(1e8), state_.pressure_Pa[k], kFaultPressure, faults);
+      mean_pressure_Pa[k] = (before + now) / 2;
+    }
+  }
+
+  detail::Step<Real, S> step(tables, state_, output_);
+  if constexpr (Needs<S>::mechanisms) {
+    step.read_mechanisms();
+    step.do_cylinders();
+    step.average_torque(turned, mean_pressure_Pa);
+    step.remember_work();
+    step.load_bearings();
+  }
+  step.balance_engine();
+  output_.faults = faults;
+  return output_;
+}
+
+template <class Real, class S>
+Status Engine<Real, S>::restore(const State& state) noexcept {
+  if (tables_ == nullptr) return {Reason::missing_table, -1, "tables"};
+  if (state.fingerprint != state_.fingerprint) return {Reason::other_tables, -1, "state.fingerprint"};
+  state_ = state;
+  return {};
+}
+
+}  // namespace crankloop

@@ -1,0 +1,17 @@
+// Fault bits of a step: what was wrong with the input, and what the engine did about it.
+#pragma once
+
+#include <cstdint>
+
+namespace crankloop {
+
+/// Or-ed into Output::faults for the tick in which it happened; 0 = all well. The output is defined and finite whatever the bits.
+enum Fault : std::uint32_t {
+  kFaultNotReady = 1u << 0,       ///< no tables, or init refused them: outputs are zero
+  kFaultSpeed = 1u << 1,          ///< speed not finite or beyond the limit: the last good one was used
+  kFaultLoadRatio = 1u << 2,      ///< load ratio not finite or outside 0 to 2: the last good one was used
+  kFaultPressure = 1u << 3,       ///< a pressure not finite or outside 0 to 1e8 Pa: that cylinder's last good one was used
+  kFaultPhaseJump = 1u << 4,      ///< the measured phase jumped further than the speed limit allows: mean torque is the tick's own
+};
+
+}  // namespace crankloop

@@ -1,0 +1,152 @@
+// What goes into a step and what comes out: only what the scene asked for; asking for more does not compile.
+//
+// What belongs here: input, output groups, state. What does not: how they come about (tick/engine_step.hpp).
+#pragma once
+
+#include <cstdint>
+
+#include <crankloop/tick/curve.hpp>
+#include <crankloop/tick/scene.hpp>
+
+namespace crankloop {
+
+// ---- input -----------------------------------------------------------------------------------------------------------------
+
+template <class Real>
+struct SpeedInput {
+  Real speed_rad_s = 0;  ///< crank speed; negative = backwards
+};
+struct PhaseInput {
+  Phase crank{};  ///< absolute: 0 = cylinder 1's firing top dead centre
+};
+template <class Real>
+struct LoadInput {
+  Real load_ratio = 1;  ///< 0 = motored, 1 = the diagram as given; 0 to 2
+};
+template <class Real, class S>
+struct PressureInput {
+  Real pressure_Pa[S::cylinders.capacity] = {};  ///< absolute, at the end of this tick; 0 to 1e8
+};
+
+template <class Real, class S>
+struct Input : std::conditional_t<S::crank == CrankGiven::speed, SpeedInput<Real>, PhaseInput>,
+               If<Needs<S>::load, LoadInput<Real>>,
+               If<Needs<S>::input_pressure, PressureInput<Real, S>> {};
+
+// ---- output ----------------------------------------------------------------------------------------------------------------
+
+/// Motion of each piston, positive toward the crankshaft, counted from top dead centre.
+template <class Real, class S>
+struct Kinematics {
+  Real displacement_m[S::cylinders.capacity];
+  Real velocity_m_s[S::cylinders.capacity];
+  Real acceleration_m_s2[S::cylinders.capacity];
+};
+
+/// Motion of each rod about its piston pin.
+template <class Real, class S>
+struct RodMotion {
+  Real rod_angle_rad[S::cylinders.capacity];
+  Real rod_speed_rad_s[S::cylinders.capacity];
+  Real rod_acceleration_rad_s2[S::cylinders.capacity];
+};
+
+template <class Real>
+struct Torque {
+  Real torque_Nm;  ///< on the crankshaft, all cylinders, at the end of the tick
+};
+template <class Real>
+struct MeanTorque {
+  Real mean_torque_Nm;  ///< averaged over the angle turned in the tick: the work done divided by it
+};
+
+/// Forces of one cylinder: docs/model.md "Forces".
+template <class Real>
+struct CylinderForces {
+  Real pressure_Pa;          ///< absolute
+  Real gas_force_N;          ///< P_g, positive toward the crankshaft
+  Real inertia_force_N;      ///< P_j, reciprocating masses
+  Real total_force_N;        ///< P = P_g + P_j
+  Real side_force_N;         ///< N, on the cylinder wall
+  Real rod_force_N;          ///< S, along the rod
+  Real radial_force_N;       ///< K, at the crank pin, positive toward the crank centre
+  Real tangential_force_N;   ///< T, at the crank pin, positive with the rotation
+  Real torque_Nm;            ///< M = T r
+  Real tilting_moment_Nm;    ///< on the engine block about the crank axis
+};
+template <class Real, class S>
+struct Forces {
+  CylinderForces<Real> cylinder[S::cylinders.capacity];
+};
+
+/// Loads of crank pins and main journals in the frame that turns with the crankshaft.
+template <class Real, class S>
+struct BearingLoads {
+  Real pin_radial_N[S::cylinders.capacity];          ///< toward the crank centre
+  Real pin_tangential_N[S::cylinders.capacity];      ///< with the rotation
+  Real pin_load_N[S::cylinders.capacity];            ///< magnitude
+  Real journal_along_N[S::cylinders.capacity + 1];   ///< along the throw of pin 0, outward
+  Real journal_across_N[S::cylinders.capacity + 1];  ///< a quarter turn further in the sense of rotation
+  Real journal_load_N[S::cylinders.capacity + 1];
+};
+
+/// One free force and its moment about the middle of the crankshaft. Up is bank angle 0, lateral a quarter turn on in the sense of rotation.
+template <class Real>
+struct FreeForce {
+  Real up_N;
+  Real lateral_N;
+  Real pitch_Nm;  ///< sum of position times force up
+  Real yaw_Nm;    ///< sum of position times force lateral
+};
+template <class Real>
+struct FreeForces {
+  FreeForce<Real> first;     ///< of the reciprocating masses, first order
+  FreeForce<Real> second;    ///< of the reciprocating masses, second order
+  FreeForce<Real> rotating;  ///< centrifugal
+};
+
+template <class Real, class S>
+struct Output : If<S::kinematics, Kinematics<Real, S>>,
+                If<S::rod_motion, RodMotion<Real, S>>,
+                If<S::torque, Torque<Real>>,
+                If<S::mean_torque, MeanTorque<Real>>,
+                If<S::forces, Forces<Real, S>>,
+                If<S::bearing_loads, BearingLoads<Real, S>>,
+                If<S::free_forces, FreeForces<Real>> {
+  std::uint32_t faults;  ///< Fault bits of this tick
+};
+
+// ---- state -----------------------------------------------------------------------------------------------------------------
+
+/// What mean torque remembers of the tick before: work done so far and the torque then, for each part that may be scaled by itself.
+template <class Real, class S>
+struct WorkState {
+  static constexpr bool by_load = Needs<S>::load;
+  static constexpr bool by_input = Needs<S>::input_pressure;
+  Integral<Real> inertia;                                                  ///< per w^2, sum over cylinders
+  Integral<Real> gas[by_load ? 2 : 1];                                     ///< full, or motored and heat; sum over cylinders
+  Integral<Real> stroke[by_input ? S::cylinders.capacity : 1];             ///< per mechanism
+  Real torque_Nm;
+  Real spare;                                                              ///< keeps the size a multiple of eight: no padding
+};
+
+/// Everything a run needs to go on: no pointer, no padding. Copying it is a snapshot.
+template <class Real>
+struct StateCore {
+  std::uint64_t fingerprint = 0;  ///< of the tables it belongs to
+  Phase phase{};
+  std::uint64_t ticks = 0;
+  Real speed_rad_s = 0;  ///< last good
+  Real load_ratio = 1;   ///< last good
+};
+template <class Real, class S>
+struct LastPressure {
+  Real pressure_Pa[(S::cylinders.capacity + 1) / 2 * 2];  ///< last good, per cylinder
+};
+
+template <class Real, class S>
+struct State : StateCore<Real>,
+               If<Needs<S>::input_pressure, LastPressure<Real, S>>,
+               If<S::mean_torque, WorkState<Real, S>> {};
+
+}  // namespace crankloop

@@ -1,0 +1,95 @@
+// The scene: what one use of the model needs. What it does not ask for costs no code, no RAM, no flash and no time.
+//
+// What belongs here: the questions a scene answers and what follows from the answers. What does not: the data (tables, output).
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include <crankloop/limits.hpp>
+
+namespace crankloop {
+
+/// How many cylinders: exactly that many (loops unroll), or up to a capacity with the count taken from the tables.
+struct Count {
+  std::uint32_t capacity;
+  bool exact;
+};
+template <std::uint32_t N>
+inline constexpr Count exactly{N, true};
+template <std::uint32_t N>
+inline constexpr Count up_to{N, false};
+
+enum class CrankGiven : std::uint8_t {
+  speed,  ///< Input::speed_rad_s; the engine counts the angle
+  phase,  ///< Input::crank, an absolute angle that the controller measured; the engine works out the speed
+};
+
+enum class PressureGiven : std::uint8_t {
+  none,      ///< crankcase pressure on both sides: inertia only
+  by_table,  ///< from the definition's diagram
+  by_input,  ///< Input::pressure_Pa, each tick
+};
+
+/// Derive from this and redefine what you need; the defaults ask for nothing.
+///
+///     struct MyScene : crankloop::Scene {
+///       static constexpr auto cylinders = crankloop::exactly<4>;
+///       static constexpr auto pressure = crankloop::PressureGiven::by_table;
+///       static constexpr bool mean_torque = true;
+///     };
+struct Scene {
+  static constexpr Count cylinders = exactly<1>;
+  static constexpr CrankGiven crank = CrankGiven::speed;
+  static constexpr PressureGiven pressure = PressureGiven::none;
+  static constexpr bool load_ratio = false;     ///< Input::load_ratio scales the heat of a pressure table; else full load
+  static constexpr bool rod_inertia = false;    ///< take the rod's inertia correction dI into account; a definition with dI != 0 demands it
+  static constexpr bool kinematics = false;     ///< displacement, velocity, acceleration of each piston
+  static constexpr bool rod_motion = false;     ///< angle, speed, acceleration of each rod
+  static constexpr bool torque = false;         ///< engine torque at the tick
+  static constexpr bool mean_torque = false;    ///< engine torque averaged over the tick
+  static constexpr bool forces = false;         ///< all forces of each cylinder
+  static constexpr bool bearing_loads = false;  ///< crank pins and main journals; needs forces
+  static constexpr bool free_forces = false;    ///< free forces and moments of first and second order
+};
+
+/// What a scene's answers imply.
+template <class S>
+struct Needs {
+  static constexpr bool table_pressure = S::pressure == PressureGiven::by_table;
+  static constexpr bool input_pressure = S::pressure == PressureGiven::by_input;
+  static constexpr bool any_torque = S::torque || S::mean_torque;
+  /// With forces asked for, the torque at the tick is their sum; without, it is read from torque curves.
+  static constexpr bool torque_curves = S::mean_torque || (S::torque && !S::forces);
+
+  static constexpr bool body = S::forces || (any_torque && input_pressure);
+  static constexpr bool stroke = S::kinematics || S::forces || (any_torque && input_pressure);
+  static constexpr bool acceleration = S::kinematics || S::forces;
+  static constexpr bool rod_tilt = S::forces;
+  static constexpr bool rod_angle = S::rod_motion;
+  static constexpr bool rod_curvature = S::rod_motion || (S::forces && S::rod_inertia);
+  static constexpr bool inertia_torque = torque_curves;
+  static constexpr bool gas_torque = torque_curves && table_pressure;
+  static constexpr bool gas_pressure = S::forces && table_pressure;
+  static constexpr bool gas_grid = gas_torque || gas_pressure;
+  static constexpr bool load = S::load_ratio && table_pressure;
+  static constexpr bool mechanisms = stroke || acceleration || rod_angle || rod_curvature || inertia_torque || gas_grid;
+};
+
+/// The rules every scene keeps, each with its sentence.
+template <class S>
+struct CheckedScene {
+  static_assert(S::cylinders.capacity >= 1, "a scene has at least one cylinder");
+  static_assert(S::cylinders.capacity <= kMaxCylinders, "a scene has at most 16 cylinders");
+  static_assert(!S::bearing_loads || S::forces, "bearing_loads are made from forces: ask for forces too");
+  static_assert(!S::load_ratio || S::pressure == PressureGiven::by_table, "load_ratio scales a pressure table: set pressure = by_table");
+  static constexpr bool value = true;
+};
+
+/// A group that a scene left out: a distinct empty base, so that it takes no room.
+template <class Group>
+struct Without {};
+template <bool Has, class Group>
+using If = std::conditional_t<Has, Group, Without<Group>>;
+
+}  // namespace crankloop

@@ -1,0 +1,161 @@
+// What the tick reads: plain data, made by tabulate in RAM or printed by the program as constexpr arrays for flash.
+//
+// What belongs here: the sections and the view of them that a scene takes. What does not: how they are filled (tabulate/).
+// One object per section, so that what a scene does not reference is not linked.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <crankloop/limits.hpp>
+#include <crankloop/tick/curve.hpp>
+#include <crankloop/tick/scene.hpp>
+
+namespace crankloop {
+
+/// Time and cylinder arrangement; every scene has it.
+template <class Real>
+struct Drive {
+  std::uint64_t fingerprint;  ///< of all sections: a state belongs to its tables
+  Real tick_s;
+  Real cycles_per_tick_per_rad_s;  ///< tick / (4 pi): speed to phase increment
+  Real rad_s_per_cycle_per_tick;   ///< 4 pi / tick
+  Real speed_limit_rad_s;          ///< beyond it an input is refused; at most one revolution per tick
+  std::uint32_t cylinders;
+  std::uint32_t mechanisms;                         ///< cylinders with different crank angles; the others share their look-ups
+  std::uint64_t firing_phase[kMaxCylinders];        ///< per mechanism: phase units at which its own crank angle is 0
+  std::uint8_t mechanism_of[kMaxCylinders];         ///< per cylinder
+  std::uint8_t turn_of[kMaxCylinders];              ///< per cylinder: 0, or 1 when it fires a crank turn after its mechanism's phase
+  Real cylinders_on_mechanism[kMaxCylinders];       ///< how many share it
+};
+
+/// Lengths and masses of one cylinder as the force equations use them. All cylinders are alike.
+template <class Real>
+struct Body {
+  Real crank_radius_m;
+  Real per_crank_radius;   ///< 1 / r
+  Real per_rod_length;     ///< 1 / l
+  Real pin_offset_m;       ///< e
+  Real height_at_tdc_m;    ///< h + x = sqrt((r + l)^2 - e^2): piston pin above the crank centre at top dead centre
+  Real bore_area_m2;
+  Real crankcase_Pa;
+  Real reciprocating_kg;               ///< m_j
+  Real rod_inertia_correction_kg_m2;   ///< dI
+};
+
+/// Crank pins and the main journals between them, numbered along the shaft; journals = pins + 1.
+template <class Real>
+struct Bearings {
+  std::uint32_t pins;
+  std::uint8_t pin_of[kMaxCylinders];        ///< per cylinder
+  Real rods_kg_m[kMaxCylinders];             ///< per pin: m_rod_crank r, times the rods on it
+  Real throw_kg_m[kMaxCylinders];            ///< per pin: m_r r
+  Real throw_cos[kMaxCylinders];             ///< per pin: direction of its throw, from that of pin 0 in the sense of rotation
+  Real throw_sin[kMaxCylinders];
+};
+
+/// One vector that turns with the engine: value = (cos, sin) amplitudes of cos(order A), sin(order A), per w^2.
+template <class Real>
+struct Turning {
+  Real up_cos, up_sin, lateral_cos, lateral_sin;              ///< kg m
+  Real pitch_cos, pitch_sin, yaw_cos, yaw_sin;                ///< kg m^2
+};
+
+/// Free forces and moments of the whole engine about the middle of its crankshaft.
+template <class Real>
+struct Balance {
+  Turning<Real> first;     ///< reciprocating, first order
+  Turning<Real> second;    ///< reciprocating, second order
+  Turning<Real> rotating;  ///< centrifugal, first order
+  Curve<Real> cosine;      ///< cos of the crank angle
+};
+
+/// Gas torque of one cylinder over the cycle, on a GasGrid; its integral is the work less that of the mean torque, so it repeats.
+template <class Real>
+struct GasTorque {
+  const IntegratedSegment<Real>* at;
+  Real quantum;
+  Real mean_Nm;
+};
+
+/// All sections by address; null where there is none. constexpr in flash, so only what a Tables takes from it is linked.
+template <class Real>
+struct Sections {
+  const Drive<Real>* drive = nullptr;
+  const Body<Real>* body = nullptr;
+  const IntegratedCurve<Real>* stroke = nullptr;         ///< slope dx/da in m/rad, integral x in m
+  const Curve<Real>* acceleration = nullptr;             ///< d2x/da2, m/rad^2
+  const Curve<Real>* rod_tilt = nullptr;                 ///< tan b
+  const Curve<Real>* radial = nullptr;                   ///< cos(a + b) / cos b
+  const IntegratedCurve<Real>* rod_angle = nullptr;      ///< slope db/da, integral b in rad
+  const Curve<Real>* rod_curvature = nullptr;            ///< d2b/da2
+  const IntegratedCurve<Real>* inertia_torque = nullptr; ///< torque of masses per w^2 in kg m^2, one cylinder
+  const GasGrid* gas_grid = nullptr;
+  // At load ratio q: motored + q heat. A scene without load ratio takes their sum, `full`.
+  const Segment<Real>* pressure_full = nullptr;          ///< Pa, on gas_grid
+  const Segment<Real>* pressure_motored = nullptr;
+  const Segment<Real>* pressure_heat = nullptr;
+  const GasTorque<Real>* gas_torque_full = nullptr;
+  const GasTorque<Real>* gas_torque_motored = nullptr;
+  const GasTorque<Real>* gas_torque_heat = nullptr;
+  const Bearings<Real>* bearings = nullptr;
+  const Balance<Real>* balance = nullptr;
+};
+
+namespace part {
+// One holder per section: a base of Tables when the scene needs it.
+template <class Real> struct BodyRef { const Body<Real>* body = nullptr; };
+template <class Real> struct StrokeRef { const IntegratedCurve<Real>* stroke = nullptr; };
+template <class Real> struct AccelerationRef { const Curve<Real>* acceleration = nullptr; };
+template <class Real> struct RodTiltRef { const Curve<Real>* rod_tilt = nullptr; const Curve<Real>* radial = nullptr; };
+template <class Real> struct RodAngleRef { const IntegratedCurve<Real>* rod_angle = nullptr; };
+template <class Real> struct RodCurvatureRef { const Curve<Real>* rod_curvature = nullptr; };
+template <class Real> struct InertiaTorqueRef { const IntegratedCurve<Real>* inertia_torque = nullptr; };
+struct GasGridRef { const GasGrid* gas_grid = nullptr; };
+template <class Real> struct PressureRef { const Segment<Real>* pressure_full = nullptr; };
+template <class Real> struct PressureByLoadRef { const Segment<Real>* pressure_motored = nullptr; const Segment<Real>* pressure_heat = nullptr; };
+template <class Real> struct GasTorqueRef { const GasTorque<Real>* gas_torque_full = nullptr; };
+template <class Real> struct GasTorqueByLoadRef { const GasTorque<Real>* gas_torque_motored = nullptr; const GasTorque<Real>* gas_torque_heat = nullptr; };
+template <class Real> struct BearingsRef { const Bearings<Real>* bearings = nullptr; };
+template <class Real> struct BalanceRef { const Balance<Real>* balance = nullptr; };
+}  // namespace part
+
+/// The sections a scene reads, and no others.
+template <class Real, class S>
+struct Tables : If<Needs<S>::body, part::BodyRef<Real>>,
+                If<Needs<S>::stroke, part::StrokeRef<Real>>,
+                If<Needs<S>::acceleration, part::AccelerationRef<Real>>,
+                If<Needs<S>::rod_tilt, part::RodTiltRef<Real>>,
+                If<Needs<S>::rod_angle, part::RodAngleRef<Real>>,
+                If<Needs<S>::rod_curvature, part::RodCurvatureRef<Real>>,
+                If<Needs<S>::inertia_torque, part::InertiaTorqueRef<Real>>,
+                If<Needs<S>::gas_grid, part::GasGridRef>,
+                If<Needs<S>::gas_pressure && !Needs<S>::load, part::PressureRef<Real>>,
+                If<Needs<S>::gas_pressure && Needs<S>::load, part::PressureByLoadRef<Real>>,
+                If<Needs<S>::gas_torque && !Needs<S>::load, part::GasTorqueRef<Real>>,
+                If<Needs<S>::gas_torque && Needs<S>::load, part::GasTorqueByLoadRef<Real>>,
+                If<S::bearing_loads, part::BearingsRef<Real>>,
+                If<S::free_forces, part::BalanceRef<Real>> {
+  const Drive<Real>* drive = nullptr;
+
+  constexpr Tables() = default;
+  constexpr explicit Tables(const Sections<Real>& s) noexcept : drive{s.drive} {
+    using N = Needs<S>;
+    if constexpr (N::body) this->body = s.body;
+    if constexpr (N::stroke) this->stroke = s.stroke;
+    if constexpr (N::acceleration) this->acceleration = s.acceleration;
+    if constexpr (N::rod_tilt) this->rod_tilt = s.rod_tilt, this->radial = s.radial;
+    if constexpr (N::rod_angle) this->rod_angle = s.rod_angle;
+    if constexpr (N::rod_curvature) this->rod_curvature = s.rod_curvature;
+    if constexpr (N::inertia_torque) this->inertia_torque = s.inertia_torque;
+    if constexpr (N::gas_grid) this->gas_grid = s.gas_grid;
+    if constexpr (N::gas_pressure && !N::load) this->pressure_full = s.pressure_full;
+    if constexpr (N::gas_pressure && N::load) this->pressure_motored = s.pressure_motored, this->pressure_heat = s.pressure_heat;
+    if constexpr (N::gas_torque && !N::load) this->gas_torque_full = s.gas_torque_full;
+    if constexpr (N::gas_torque && N::load) this->gas_torque_motored = s.gas_torque_motored, this->gas_torque_heat = s.gas_torque_heat;
+    if constexpr (S::bearing_loads) this->bearings = s.bearings;
+    if constexpr (S::free_forces) this->balance = s.balance;
+  }
+};
+
+}  // namespace crankloop

@@ -1,0 +1,259 @@
+// The rules that a definition keeps; field names as in the engine file.
+#include <crankloop/define/engine_definition.hpp>
+
+#include <cstddef>
+
+namespace crankloop {
+namespace {
+
+constexpr double kLargest = 1.7976931348623157e308;
+
+[[nodiscard]] bool finite(double x) noexcept { return x >= -kLargest && x <= kLargest; }
+
+/// The first rule that `x` breaks, or ok.
+[[nodiscard]] Status positive(double x, const char* field, double most) noexcept {
+  if (!finite(x)) return {Reason::not_finite, -1, field};
+  if (x <= 0) return {Reason::not_positive, -1, field};
+  if (x > most) return {Reason::out_of_range, -1, field};
+  return {};
+}
+
+[[nodiscard]] Status between(double x, const char* field, double least, double most, int index = -1) noexcept {
+  if (!finite(x)) return {Reason::not_finite, index, field};
+  if (x < least || x > most) return {Reason::out_of_range, index, field};
+  return {};
+}
+
+[[nodiscard]] Status not_negative(double x, const char* field) noexcept {
+  if (!finite(x)) return {Reason::not_finite, -1, field};
+  if (x < 0) return {Reason::negative, -1, field};
+  return {};
+}
+
+/// The first of several answers that is not ok.
+template <std::size_t N>
+[[nodiscard]] Status first_refusal(const Status (&answers)[N]) noexcept {
+  for (const Status& answer : answers) {
+    if (!answer.ok()) return answer;
+  }
+  return {};
+}
+
+/// Whether two angles in degrees point the same way. Angles beyond 1e6 deg point nowhere.
+[[nodiscard]] bool same_direction(double a_deg, double b_deg) noexcept {
+  constexpr double kSameAngleDeg = 1e-6;
+  const double d = a_deg - b_deg;
+  if (!(d > -1e6 && d < 1e6)) return false;
+  const double turns = d / 360;
+  const double apart = d - 360 * static_cast<double>(static_cast<int>(turns < 0 ? turns - 0.5 : turns + 0.5));
+  return apart <= kSameAngleDeg && apart >= -kSameAngleDeg;
+}
+
+}  // namespace
+
+const char* describe(Reason reason) noexcept {
+  switch (reason) {
+    case Reason::ok: return "ok";
+    case Reason::not_finite: return "must be a finite number";
+    case Reason::not_positive: return "must be greater than zero";
+    case Reason::negative: return "must not be negative";
+    case Reason::out_of_range: return "is out of range";
+    case Reason::rod_too_short: return "must be longer than crank radius plus pin offset, or the crank cannot turn";
+    case Reason::inconsistent: return "contradicts another value";
+    case Reason::not_a_permutation: return "must name every cylinder once";
+    case Reason::too_few_points: return "has too few points";
+    case Reason::too_many_points: return "has too many points";
+    case Reason::not_increasing: return "must rise from row to row";
+    case Reason::not_one_period: return "must span one period of 720 deg";
+    case Reason::not_a_cycle: return "must rise, fall, rise and fall between the dead-centre volumes";
+    case Reason::no_solution: return "cannot be met";
+    case Reason::missing_table: return "is missing";
+    case Reason::other_tables: return "belongs to other tables";
+    case Reason::contracting_build: return "fuses multiply and add: compile the scene with -ffp-contract=off";
+  }
+  return "unknown reason";
+}
+
+Status validate(const Crank& crank) noexcept {
+  const Status answers[] = {
+      positive(crank.bore_m, "crank.bore", 2),
+      positive(crank.crank_radius_m, "crank.stroke", 2),
+      positive(crank.rod_length_m, "crank.rod_length", 10),
+      between(crank.pin_offset_m, "crank.pin_offset", -2, 2),
+      between(crank.compression_ratio, "crank.compression_ratio", 1, 100),
+  };
+  if (const Status refused = first_refusal(answers); !refused.ok()) return refused;
+  if (crank.compression_ratio <= 1) return {Reason::out_of_range, -1, "crank.compression_ratio"};
+  const double offset = crank.pin_offset_m < 0 ? -crank.pin_offset_m : crank.pin_offset_m;
+  if (crank.rod_length_m <= crank.crank_radius_m + offset) return {Reason::rod_too_short, -1, "crank.rod_length"};
+  return {};
+}
+
+void lump_rod(const RigidRod& rod, const Crank& crank, Masses& masses) noexcept {
+  const double l_crank = rod.com_to_crank_m;
+  const double l_pin = crank.rod_length_m - l_crank;
+  masses.rod_small_end_kg = rod.mass_kg * l_crank / crank.rod_length_m;
+  masses.rod_big_end_kg = rod.mass_kg * l_pin / crank.rod_length_m;
+  masses.rod_inertia_correction_kg_m2 = rod.inertia_kg_m2 - rod.mass_kg * l_pin * l_crank;
+}
+
+Status validate(const Masses& masses) noexcept {
+  const Status answers[] = {
+      not_negative(masses.piston_kg, "masses.piston"),
+      not_negative(masses.rod_small_end_kg, "masses.rod_small_end"),
+      not_negative(masses.rod_big_end_kg, "masses.rod_big_end"),
+      between(masses.rod_inertia_correction_kg_m2, "masses.rod_inertia", -1e6, 1e6),
+      not_negative(masses.crank_pin_equivalent_kg, "masses.crank_pin_equivalent"),
+      not_negative(masses.crank_inertia_kg_m2, "masses.crank_inertia"),
+      positive(masses.reciprocating_kg(), "masses.piston", 1e4),
+  };
+  return first_refusal(answers);
+}
+
+Status set_firing_order(const int* order, int cylinders, Layout& layout) noexcept {
+  if (cylinders < 1 || cylinders > kMaxCylinders) return {Reason::out_of_range, -1, "layout.cylinders"};
+  unsigned seen = 0;
+  for (int i = 0; i < cylinders; ++i) {
+    const int cylinder = order[i];
+    if (cylinder < 1 || cylinder > cylinders || (seen >> cylinder & 1u) != 0) {
+      return {Reason::not_a_permutation, i, "layout.firing_order"};
+    }
+    seen |= 1u << cylinder;
+  }
+  // Angle 0 is cylinder 1's firing, wherever the order starts.
+  int first = 0;
+  while (order[first] != 1) ++first;
+  layout.cylinders = cylinders;
+  for (int i = 0; i < cylinders; ++i) {
+    const int place = (i - first + cylinders) % cylinders;
+    layout.firing_deg[static_cast<std::size_t>(order[i] - 1)] = 720.0 * place / cylinders;
+  }
+  return {};
+}
+
+void share_pins_by_position(Layout& layout) noexcept {
+  if (layout.cylinders < 1 || layout.cylinders > kMaxCylinders) return;  // validate() says so
+  const auto n = static_cast<std::size_t>(layout.cylinders);
+  // The pin of a cylinder is named by its first sharer, then pins are numbered by position.
+  std::array<std::size_t, kMaxCylinders> leader{};
+  for (std::size_t k = 0; k < n; ++k) {
+    leader[k] = k;
+    for (std::size_t other = 0; other < k; ++other) {
+      if (layout.position_m[other] == layout.position_m[k] &&
+          same_direction(layout.throw_deg(static_cast<int>(k)), layout.throw_deg(static_cast<int>(other)))) {
+        leader[k] = leader[other];
+        break;
+      }
+    }
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    std::uint8_t before = 0;
+    for (std::size_t other = 0; other < n; ++other) {
+      if (leader[other] != other || leader[k] == other) continue;
+      const double there = layout.position_m[other];
+      const double here = layout.position_m[leader[k]];
+      if (there < here || (there == here && other < leader[k])) ++before;
+    }
+    layout.pin[k] = before;
+  }
+}
+
+Status validate(const Layout& layout) noexcept {
+  if (layout.cylinders < 1 || layout.cylinders > kMaxCylinders) return {Reason::out_of_range, -1, "layout.cylinders"};
+  const auto n = static_cast<std::size_t>(layout.cylinders);
+  std::uint8_t last_pin = 0;
+  unsigned pins_used = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const int index = static_cast<int>(k);
+    const Status answers[] = {
+        between(layout.firing_deg[k], "layout.firing_angles", 0, 720, index),
+        between(layout.bank_deg[k], "layout.bank_angles", -360, 360, index),
+        between(layout.position_m[k], "layout.cylinder_positions", -100, 100, index),
+    };
+    if (const Status refused = first_refusal(answers); !refused.ok()) return refused;
+    if (layout.firing_deg[k] >= 720) return {Reason::out_of_range, index, "layout.firing_angles"};
+    if (layout.pin[k] >= n) return {Reason::out_of_range, index, "layout.shared_pins"};
+    pins_used |= 1u << layout.pin[k];
+    if (layout.pin[k] > last_pin) last_pin = layout.pin[k];
+    for (std::size_t other = 0; other < k; ++other) {
+      if (layout.pin[other] != layout.pin[k]) continue;
+      if (!same_direction(layout.throw_deg(index), layout.throw_deg(static_cast<int>(other)))) {
+        return {Reason::inconsistent, index, "layout.shared_pins"};
+      }
+    }
+  }
+  if (pins_used != (2u << last_pin) - 1u) return {Reason::inconsistent, -1, "layout.shared_pins"};  // a gap in the numbers
+  return {};
+}
+
+namespace {
+
+[[nodiscard]] Status validate_wiebe(const WiebeDiagram& w) noexcept {
+  const Status answers[] = {
+      positive(w.intake_Pa, "pressure.intake", 1e7),
+      positive(w.exhaust_Pa, "pressure.exhaust", 1e7),
+      between(w.start_of_combustion_deg, "pressure.start_of_combustion", -90, 90),
+      between(w.combustion_duration_deg, "pressure.combustion_duration", 1, 150),
+      between(w.wiebe_m, "pressure.wiebe_m", 0, 10),
+      between(w.compression_exponent, "pressure.compression_exponent", 1, 2),
+      between(w.expansion_exponent, "pressure.expansion_exponent", 1.0001, 2),
+      between(w.exhaust_valve_opens_deg, "pressure.exhaust_valve_opens", 30, 179),
+      w.heat_given ? not_negative(w.heat_J, "pressure.heat") : between(w.net_mep_Pa, "pressure.net_mep", -1e7, 1e8),
+  };
+  if (const Status refused = first_refusal(answers); !refused.ok()) return refused;
+  if (w.start_of_combustion_deg + w.combustion_duration_deg > w.exhaust_valve_opens_deg) {
+    return {Reason::inconsistent, -1, "pressure.combustion_duration"};
+  }
+  return {};
+}
+
+constexpr int kLeastAnglePoints = 8;
+constexpr int kLeastVolumePoints = 16;
+constexpr int kMostPoints = 1 << 20;
+
+[[nodiscard]] Status validate_points(const Pressure& pressure, int least) noexcept {
+  if (pressure.points == nullptr || pressure.point_count < least) return {Reason::too_few_points, -1, "pressure.file"};
+  if (pressure.point_count > kMostPoints) return {Reason::too_many_points, -1, "pressure.file"};
+  for (int i = 0; i < pressure.point_count; ++i) {
+    const DiagramPoint& point = pressure.points[i];
+    if (!finite(point.at)) return {Reason::not_finite, i, "pressure.file"};
+    if (const Status refused = between(point.pressure_Pa, "pressure.file", 0, 1e8, i); !refused.ok()) return refused;
+  }
+  return {};
+}
+
+[[nodiscard]] Status validate_angles(const Pressure& pressure) noexcept {
+  if (const Status refused = validate_points(pressure, kLeastAnglePoints); !refused.ok()) return refused;
+  for (int i = 1; i < pressure.point_count; ++i) {
+    if (pressure.points[i].at <= pressure.points[i - 1].at) {
+      return {Reason::not_increasing, i, "pressure.file"};
+    }
+  }
+  // One period, and no hole in it: the rows span at most 720 deg, and what is left to close the circle is no wider than 30 deg.
+  const double span = pressure.points[pressure.point_count - 1].at - pressure.points[0].at;
+  constexpr double kWidestGapDeg = 30;
+  if (span > 720 + 1e-9 || span < 720 - kWidestGapDeg) return {Reason::not_one_period, -1, "pressure.file"};
+  return {};
+}
+
+}  // namespace
+
+Status validate(const Pressure& pressure, const Crank& crank) noexcept {
+  if (const Status refused = positive(pressure.crankcase_Pa, "pressure.crankcase", 1e7); !refused.ok()) return refused;
+  switch (pressure.source) {
+    case PressureSource::none: return {};
+    case PressureSource::wiebe: return validate_wiebe(pressure.wiebe);
+    case PressureSource::angle_table: return validate_angles(pressure);
+    case PressureSource::volume_table: break;
+  }
+  (void)crank;  // the volumes are checked against the dead centres where they are turned into angles: tabulate/indicator_diagram.hpp
+  return validate_points(pressure, kLeastVolumePoints);
+}
+
+Status validate(const EngineDefinition& engine) noexcept {
+  const Status answers[] = {validate(engine.crank), validate(engine.masses), validate(engine.layout),
+                            validate(engine.pressure, engine.crank)};
+  return first_refusal(answers);
+}
+
+}  // namespace crankloop

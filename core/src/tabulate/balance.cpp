@@ -1,0 +1,117 @@
+// Free forces, pins and journals of a whole engine: docs/model.md "Balance".
+#include <cstddef>
+
+#include <crankloop/tabulate/elementary.hpp>
+#include <crankloop/tabulate/summary.hpp>
+
+namespace crankloop {
+namespace {
+
+constexpr double kRadPerDeg = elementary::kPi / 180;
+
+/// cos and sin of an angle in degrees, exact at multiples of 90: balanced engines balance to the last bit.
+struct Direction {
+  double cosine;
+  double sine;
+};
+[[nodiscard]] Direction direction(double deg) noexcept {
+  while (deg >= 360) deg -= 360;
+  while (deg < 0) deg += 360;
+  if (deg == 0) return {1, 0};
+  if (deg == 90) return {0, 1};
+  if (deg == 180) return {-1, 0};
+  if (deg == 270) return {0, -1};
+  return {elementary::cos(deg * kRadPerDeg), elementary::sin(deg * kRadPerDeg)};
+}
+
+/// Middle of the crankshaft: half way between its first and last throw.
+[[nodiscard]] double middle_m(const Layout& layout) noexcept {
+  double least = layout.position_m[0];
+  double most = layout.position_m[0];
+  for (std::size_t k = 1; k < static_cast<std::size_t>(layout.cylinders); ++k) {
+    if (layout.position_m[k] < least) least = layout.position_m[k];
+    if (layout.position_m[k] > most) most = layout.position_m[k];
+  }
+  return (least + most) / 2;
+}
+
+/// Adds a force (up, lateral) = axis * (along_cos cos + along_sin sin) at a place along the shaft.
+void add(Turning<double>& t, double arm_m, double up_cos, double up_sin, double lateral_cos, double lateral_sin) noexcept {
+  t.up_cos += up_cos;
+  t.up_sin += up_sin;
+  t.lateral_cos += lateral_cos;
+  t.lateral_sin += lateral_sin;
+  t.pitch_cos += arm_m * up_cos;
+  t.pitch_sin += arm_m * up_sin;
+  t.yaw_cos += arm_m * lateral_cos;
+  t.yaw_sin += arm_m * lateral_sin;
+}
+
+/// Half the major axis of the ellipse (ac cos + as sin, bc cos + bs sin): the vector is a forward and a backward circle.
+[[nodiscard]] double peak(double ac, double as, double bc, double bs) noexcept {
+  const double forward = square_root((ac + bs) * (ac + bs) + (as - bc) * (as - bc)) / 2;
+  const double backward = square_root((ac - bs) * (ac - bs) + (as + bc) * (as + bc)) / 2;
+  return forward + backward;
+}
+
+}  // namespace
+
+Bearings<double> bearings_of(const EngineDefinition& engine) noexcept {
+  const Layout& layout = engine.layout;
+  const double r = engine.crank.crank_radius_m;
+  Bearings<double> b{};
+  double rods[kMaxCylinders] = {};
+  double throw_deg[kMaxCylinders] = {};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
+    const std::size_t pin = layout.pin[k];
+    b.pin_of[k] = layout.pin[k];
+    rods[pin] += 1;
+    throw_deg[pin] = layout.throw_deg(static_cast<int>(k));
+    if (pin + 1 > b.pins) b.pins = static_cast<std::uint32_t>(pin + 1);
+  }
+  for (std::size_t i = 0; i < b.pins; ++i) {
+    const Direction d = direction(throw_deg[i] - throw_deg[0]);
+    b.rods_kg_m[i] = rods[i] * engine.masses.rod_big_end_kg * r;
+    b.throw_kg_m[i] = (engine.masses.crank_pin_equivalent_kg + rods[i] * engine.masses.rod_big_end_kg) * r;
+    b.throw_cos[i] = d.cosine;
+    b.throw_sin[i] = d.sine;
+  }
+  return b;
+}
+
+Balance<double> balance_of(const EngineDefinition& engine) noexcept {
+  const Layout& layout = engine.layout;
+  const double r = engine.crank.crank_radius_m;
+  const double lambda = engine.crank.rod_ratio();
+  const double offset_ratio = engine.crank.pin_offset_m / engine.crank.rod_length_m;
+  const double reciprocating = engine.masses.reciprocating_kg() * r;
+  const double middle = middle_m(layout);
+  Balance<double> b{};
+  double rods_on[kMaxCylinders] = {};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) rods_on[layout.pin[k]] += 1;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
+    const double arm = layout.position_m[k] - middle;
+    const Direction axis = direction(layout.bank_deg[k]);
+    const Direction f = direction(layout.firing_deg[k]);
+    const Direction f2 = direction(2 * layout.firing_deg[k]);
+    // -P_jI = m_j r w^2 (cos a + e/l sin a) with a = A - firing, along the cylinder axis away from the crankshaft.
+    const double first_cos = reciprocating * (f.cosine - offset_ratio * f.sine);
+    const double first_sin = reciprocating * (f.sine + offset_ratio * f.cosine);
+    add(b.first, arm, axis.cosine * first_cos, axis.cosine * first_sin, axis.sine * first_cos, axis.sine * first_sin);
+    // -P_jII = m_j r w^2 lambda cos 2a
+    const double second = reciprocating * lambda;
+    add(b.second, arm, axis.cosine * second * f2.cosine, axis.cosine * second * f2.sine, axis.sine * second * f2.cosine,
+        axis.sine * second * f2.sine);
+    // Centrifugal, along the throw at A + bank - firing: the big end in the cylinder's own plane, and its part of the pin.
+    const Direction throw_at = direction(layout.throw_deg(static_cast<int>(k)));
+    const double kg_m = (engine.masses.rod_big_end_kg + engine.masses.crank_pin_equivalent_kg / rods_on[layout.pin[k]]) * r;
+    add(b.rotating, arm, kg_m * throw_at.cosine, -kg_m * throw_at.sine, kg_m * throw_at.sine, kg_m * throw_at.cosine);
+  }
+  return b;
+}
+
+double peak_force_kg_m(const Turning<double>& t) noexcept { return peak(t.up_cos, t.up_sin, t.lateral_cos, t.lateral_sin); }
+
+double peak_moment_kg_m2(const Turning<double>& t) noexcept { return peak(t.pitch_cos, t.pitch_sin, t.yaw_cos, t.yaw_sin); }
+
+}  // namespace crankloop

@@ -1,0 +1,122 @@
+// From a function of the crank angle to the segments of a curve.
+//
+// What belongs here: interpolation, rounding, integer bases. What does not: which function (tabulate.cpp, gas_curves.cpp).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <crankloop/tick/curve.hpp>
+
+namespace crankloop::detail {
+
+inline constexpr double kRadPerDegree = 0x1.1df46a2529d39p-6;
+inline constexpr double kRadPerCycle = 0x1.921fb54442d18p+3;
+
+/// Coefficients of a polynomial of degree N - 1 in u.
+template <std::size_t N>
+struct Polynomial {
+  double c[N] = {};
+};
+
+/// The polynomial through N points (Newton's divided differences, multiplied out).
+template <std::size_t N>
+[[nodiscard]] Polynomial<N> through(const double (&u)[N], const double (&y)[N]) noexcept {
+  double divided[N];
+  for (std::size_t i = 0; i < N; ++i) divided[i] = y[i];
+  for (std::size_t order = 1; order < N; ++order) {
+    for (std::size_t i = N - 1; i >= order; --i) divided[i] = (divided[i] - divided[i - 1]) / (u[i] - u[i - order]);
+  }
+  Polynomial<N> p;
+  for (std::size_t i = N; i-- > 0;) {  // p = p * (u - u_i) + divided_i
+    for (std::size_t j = N - 1; j > 0; --j) p.c[j] = p.c[j - 1] - u[i] * p.c[j];
+    p.c[0] = divided[i] - u[i] * p.c[0];
+  }
+  return p;
+}
+
+/// Where a segment is interpolated, as parts of its half width from its middle.
+///
+/// Cubic: Chebyshev's nodes; the error is the same at both ends, so neighbours meet. Quadratic: Chebyshev's +-0.866 would leave an error
+/// of opposite sign at the ends, and twice the error as a step from degree to degree; +-0.922 makes the inner error a fifth larger and
+/// the step less than half (docs/decisions/0003-curves.md).
+template <class Real>
+struct Nodes;
+template <>
+struct Nodes<float> {
+  static constexpr double at[3] = {-0.922, 0, 0.922};
+};
+template <>
+struct Nodes<double> {
+  static constexpr double at[4] = {-0.92387953251128674, -0.38268343236508978, 0.38268343236508978, 0.92387953251128674};
+};
+
+template <class Real>
+inline constexpr std::size_t kCoefficients = kCurveDegree<Real> + 1;
+
+template <class Real>
+[[nodiscard]] Segment<Real> rounded(const Polynomial<kCoefficients<Real>>& p) noexcept {
+  Segment<Real> s;
+  for (std::size_t i = 0; i < kCoefficients<Real>; ++i) s.c[i] = static_cast<Real>(p.c[i]);
+  return s;
+}
+
+/// Fits f(u) on [from, to], parts of a degree.
+template <class Real, class Function>
+[[nodiscard]] Polynomial<kCoefficients<Real>> fitted(double from, double to, const Function& f) noexcept {
+  double u[kCoefficients<Real>];
+  double y[kCoefficients<Real>];
+  for (std::size_t i = 0; i < kCoefficients<Real>; ++i) {
+    u[i] = (from + to) / 2 + (to - from) / 2 * Nodes<Real>::at[i];
+    y[i] = f(u[i]);
+  }
+  return through(u, y);
+}
+
+/// Fills a curve from f(angle in rad) over a turn.
+template <class Real, class Function>
+void fill(Curve<Real>& curve, const Function& f) noexcept {
+  for (int degree = 0; degree < kDegreesPerTurn; ++degree) {
+    curve.at[degree] = rounded<Real>(fitted<Real>(0, 1, [&](double u) { return f((degree + u) * kRadPerDegree); }));
+  }
+}
+
+/// The unit in which float counts integrals up to `range`, so that a sum of `copies` stays within a signed 32-bit count: a power of two,
+/// so that multiplying by it is exact. double keeps the integral itself.
+template <class Real>
+[[nodiscard]] double quantum_for(double range, int copies) noexcept {
+  if (sizeof(Real) > 4) return 1;
+  double quantum = 1.0 / 1073741824.0;
+  while (quantum * 1073741824.0 < range * copies) quantum *= 2;
+  while (quantum * 536870912.0 > range * copies && quantum > 1e-30) quantum /= 2;
+  return quantum;
+}
+
+template <class Real>
+[[nodiscard]] IntegralBase<Real> base_of(double integral, double quantum) noexcept {
+  if constexpr (sizeof(Real) == 4) {
+    const double units = integral / quantum;
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(units < 0 ? units - 0.5 : units + 0.5));
+  } else {
+    return integral;
+  }
+}
+
+/// Fills a curve and its integral from f(angle) and its known antiderivative F(angle).
+template <class Real, class Function, class Antiderivative>
+void fill(IntegratedCurve<Real>& curve, int copies, const Function& f, const Antiderivative& F) noexcept {
+  double largest = 0;
+  for (int degree = 0; degree < kDegreesPerTurn; ++degree) {
+    const double size = F(degree * kRadPerDegree);
+    if (size > largest) largest = size;
+    if (-size > largest) largest = -size;
+  }
+  const double quantum = quantum_for<Real>(largest * 1.01, copies);
+  curve.quantum = static_cast<Real>(quantum);
+  for (int degree = 0; degree < kDegreesPerTurn; ++degree) {
+    curve.at[degree].base = base_of<Real>(F(degree * kRadPerDegree), quantum);
+    curve.at[degree].slope = rounded<Real>(fitted<Real>(0, 1, [&](double u) { return f((degree + u) * kRadPerDegree); }));
+  }
+}
+
+}  // namespace crankloop::detail

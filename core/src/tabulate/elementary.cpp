@@ -1,0 +1,336 @@
+// How the elementary functions are made.
+//
+// Speed does not count here (set-up time); sameness and brevity do. So there are only five series: sine and cosine,
+// atan, exp, and atanh for log. Each is a plain Taylor polynomial, whose coefficients are visibly right and whose
+// first dropped term is stated. What rounding would take away where it shows in the result is carried in a second
+// double: hence little over 0.5 ulp.
+//
+// Every operation is + - * / or sqrt, which IEEE 754 rounds in one way only (to nearest), as long as the compiler
+// neither fuses (-ffp-contract=off, a house flag) nor reorders nor widens them (build_check.hpp).
+#include <crankloop/tabulate/elementary.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include <crankloop/build_check.hpp>
+
+namespace crankloop::elementary {
+namespace {
+
+static_assert(std::numeric_limits<double>::is_iec559 && sizeof(double) == sizeof(std::uint64_t),
+              "needs IEEE 754 binary64");
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();  // this one always: the hardware's own differ in sign
+
+// ---- Bits -----------------------------------------------------------------------------------------------------------
+
+std::uint64_t bits_of(double x) {
+  std::uint64_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  return bits;
+}
+
+double from_bits(std::uint64_t bits) {
+  double x;
+  std::memcpy(&x, &bits, sizeof x);
+  return x;
+}
+
+constexpr std::uint64_t kSignBit = std::uint64_t{1} << 63;
+
+bool is_nan(double x) { return x != x; }
+bool is_negative(double x) { return (bits_of(x) & kSignBit) != 0; }  // true for -0 too
+double magnitude(double x) { return from_bits(bits_of(x) & ~kSignBit); }
+double flip_sign_if(bool flip, double x) { return flip ? -x : x; }
+
+/// 2^exponent, -1022 <= exponent <= 1023.
+double power_of_two(int exponent) { return from_bits(static_cast<std::uint64_t>(exponent + 1023) << 52); }
+
+// ---- A number in two doubles ----------------------------------------------------------------------------------------
+
+/// The unevaluated sum hi + lo, where hi is that sum rounded to double. Operations on pairs are right to about
+/// 2^-102.
+struct Pair {
+  double hi;
+  double lo;
+};
+
+/// a + b exactly, for |a| >= |b| or a == 0 (Dekker).
+Pair quick_sum(double a, double b) {
+  const double s = a + b;
+  return {s, b - (s - a)};
+}
+
+/// a + b exactly (Knuth).
+Pair sum(double a, double b) {
+  const double s = a + b;
+  const double b_in_s = s - a;
+  return {s, (a - (s - b_in_s)) + (b - b_in_s)};
+}
+
+/// a b exactly, from halves of 26 bits (Dekker, Veltkamp): for |a|, |b| < 2^990 and the last bit of a b above
+/// 2^-1074.
+Pair product(double a, double b) {
+  constexpr double kSplitter = 134217729.0;  // 2^27 + 1
+  const double a_high = kSplitter * a - (kSplitter * a - a);
+  const double b_high = kSplitter * b - (kSplitter * b - b);
+  const double a_low = a - a_high;
+  const double b_low = b - b_high;
+  const double p = a * b;
+  return {p, ((a_high * b_high - p) + a_high * b_low + a_low * b_high) + a_low * b_low};
+}
+
+Pair add(Pair a, Pair b) {
+  const Pair high = sum(a.hi, b.hi);
+  const Pair low = sum(a.lo, b.lo);
+  const Pair s = quick_sum(high.hi, high.lo + low.hi);
+  return quick_sum(s.hi, s.lo + low.lo);
+}
+
+Pair subtract(Pair a, Pair b) { return add(a, {-b.hi, -b.lo}); }
+
+Pair multiply(Pair a, Pair b) {
+  const Pair p = product(a.hi, b.hi);
+  return quick_sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
+}
+
+Pair divide(Pair a, Pair b) {
+  const double q = a.hi / b.hi;
+  const Pair p = product(q, b.hi);
+  const double rest = ((a.hi - p.hi) - p.lo) + (a.lo - q * b.lo);
+  return quick_sum(q, rest / b.hi);
+}
+
+Pair square_root(Pair a) {
+  if (!(a.hi > 0.0)) return {0.0, 0.0};
+  const double root = std::sqrt(a.hi);
+  const Pair square = product(root, root);
+  return quick_sum(root, (((a.hi - square.hi) - square.lo) + a.lo) / (root + root));
+}
+
+/// c[0] + c[1] x + c[2] x^2 + ...
+template <std::size_t N>
+double polynomial(const double (&c)[N], double x) {
+  double value = c[N - 1];
+  for (std::size_t i = N - 1; i-- > 0;) value = value * x + c[i];
+  return value;
+}
+
+// ---- Sine and cosine ------------------------------------------------------------------------------------------------
+
+constexpr Pair kHalfPi{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
+constexpr double kHalfPiRest = -0x1.f1976b7ed8fbcp-110;  // pi/2 - kHalfPi; what it leaves is below 2^-163
+constexpr double kTwoOverPi = 0x1.45f306dc9c883p-1;
+
+struct Reduced {
+  Pair angle;    ///< within pi/4 + 2^-20
+  int quadrant;  ///< of which only the last two bits matter
+};
+
+/// x = quarter_turns pi/2 + angle, x >= 0.
+///
+/// No double up to 2^31 is nearer than 2^-60.5 to a multiple of pi/2 (all were tried: one beside 29 pi/2 is nearest).
+/// pi/2 to 163 bits, in three doubles, leaves the angle wrong by less than 2^-129, so even there by 2^-68 of itself.
+Reduced reduce(double x) {
+  if (x > kLargestAngle_rad) return {{0.0, 0.0}, 0};
+  const auto quarter_turns = static_cast<std::int64_t>(x * kTwoOverPi + 0.5);
+  const auto n = static_cast<double>(quarter_turns);
+  const Pair first = product(n, kHalfPi.hi);
+  const Pair second = product(n, kHalfPi.lo);
+  const Pair a = sum(x - first.hi, -first.lo);  // x - first.hi is exact: the two are close (Sterbenz)
+  const Pair b = sum(a.hi, -second.hi);
+  return {sum(b.hi, ((a.lo + b.lo) - second.lo) - n * kHalfPiRest), static_cast<int>(quarter_turns & 3)};
+}
+
+/// Taylor to r^17; the first dropped term, r^19/19!, is below 2^-62 of the sine. r - r^3/6 is carried in full.
+Pair sine_series(Pair r) {
+  static constexpr double kTerms[] = {
+      1.0 / 120.0,        -1.0 / 5040.0,          1.0 / 362880.0,         -1.0 / 39916800.0,
+      1.0 / 6227020800.0, -1.0 / 1307674368000.0, 1.0 / 355687428096000.0};
+  constexpr Pair kMinusSixth{-0x1.5555555555555p-3, -0x1.5555555555555p-57};
+  const Pair square = multiply(r, r);
+  const Pair head = add(r, multiply(kMinusSixth, multiply(square, r)));
+  const double tail = square.hi * square.hi * r.hi * polynomial(kTerms, square.hi);
+  return quick_sum(head.hi, head.lo + tail);
+}
+
+/// Taylor to r^18; the first dropped term, r^20/20!, is below 2^-67 of the cosine. 1 - r^2/2 is carried in full.
+Pair cosine_series(Pair r) {
+  static constexpr double kTerms[] = {
+      1.0 / 24.0,        -1.0 / 720.0,         1.0 / 40320.0,          -1.0 / 3628800.0,
+      1.0 / 479001600.0, -1.0 / 87178291200.0, 1.0 / 20922789888000.0, -1.0 / 6402373705728000.0};
+  const Pair square = multiply(r, r);
+  const Pair head = add({1.0, 0.0}, {-0.5 * square.hi, -0.5 * square.lo});
+  const double tail = square.hi * square.hi * polynomial(kTerms, square.hi);
+  return quick_sum(head.hi, head.lo + tail);
+}
+
+double sine_at(Reduced r) {
+  const double value = ((r.quadrant & 1) != 0 ? cosine_series(r.angle) : sine_series(r.angle)).hi;
+  return flip_sign_if((r.quadrant & 2) != 0, value);
+}
+
+// ---- Arc functions: all are the direction of a point (x, y) ---------------------------------------------------------
+
+/// atan(n/d) for 0 <= n <= d, d > 0.
+Pair first_octant(Pair n, Pair d) {
+  const double ratio = n.hi / d.hi;
+  if (ratio < 0x1p-30) return {ratio, 0.0};  // atan(t) = t (1 - t^2/3 + ...): 2^-61 off
+  const double scale = d.hi > 0x1p+500 ? 0x1p-600 : d.hi < 0x1p-500 ? 0x1p+600 : 1.0;  // keeps products in range
+  n = {n.hi * scale, n.lo * scale};
+  d = {d.hi * scale, d.lo * scale};
+
+  // atan(n/d) = atan(c) + atan(t), t = (n - c d)/(d + c n), with c the nearest quarter, so that |t| <= 1/8.
+  static constexpr Pair kAtanOfQuarters[] = {{0.0, 0.0},
+                                             {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},
+                                             {0x1.dac670561bb4fp-2, 0x1.a2b7f222f65e2p-56},
+                                             {0x1.4978fa3269ee1p-1, 0x1.2419a87f2a458p-56},
+                                             {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}};
+  const int quarters = static_cast<int>(4.0 * ratio + 0.5);
+  const Pair c{0.25 * quarters, 0.0};
+  const Pair t = divide(subtract(n, multiply(c, d)), add(d, multiply(c, n)));
+
+  // Taylor to t^19; the first dropped term, t^21/21, is below 2^-64 of t.
+  static constexpr double kTerms[] = {-1.0 / 3.0, 1.0 / 5.0,   -1.0 / 7.0, 1.0 / 9.0,  -1.0 / 11.0,
+                                      1.0 / 13.0, -1.0 / 15.0, 1.0 / 17.0, -1.0 / 19.0};
+  const double square = t.hi * t.hi;
+  return add(kAtanOfQuarters[quarters], quick_sum(t.hi, t.lo + t.hi * square * polynomial(kTerms, square)));
+}
+
+/// Angle of the point (x, y), or of (-x, y) if mirrored, from the x axis: 0 to pi. x, y >= 0, not both 0.
+double direction(Pair y, Pair x, bool mirrored) {
+  if (y.hi <= x.hi) {
+    const Pair angle = first_octant(y, x);
+    return mirrored ? subtract({2.0 * kHalfPi.hi, 2.0 * kHalfPi.lo}, angle).hi : angle.hi;
+  }
+  const Pair angle = first_octant(x, y);
+  return (mirrored ? add(kHalfPi, angle) : subtract(kHalfPi, angle)).hi;
+}
+
+/// The other short side of a right triangle whose longest is 1, 0 <= x <= 1: sqrt((1 - x)(1 + x)), true near 1 too.
+Pair other_leg(double x) { return square_root(multiply(sum(1.0, -x), sum(1.0, x))); }
+
+// ---- Exponential and logarithm --------------------------------------------------------------------------------------
+
+constexpr double kLn2Hi = 0x1.62e42fefa3800p-1;   // the first 42 bits of ln 2: times an exponent of 11 bits is exact
+constexpr double kLn2Lo = 0x1.ef35793c76730p-45;  // the rest, to 2^-98
+constexpr double kOneOverLn2 = 0x1.71547652b82fep+0;
+
+/// e^(x.hi + x.lo) for any x.hi but NaN.
+double exponential(Pair x) {
+  if (x.hi > 710.0) return kInfinity;
+  if (x.hi < -746.0) return 0.0;
+  const int k = static_cast<int>(x.hi * kOneOverLn2 + (x.hi < 0.0 ? -0.5 : 0.5));
+  // |r| <= ln 2 / 2; the first difference is exact, its two numbers being close (Sterbenz).
+  const Pair r = sum(x.hi - k * kLn2Hi, x.lo - k * kLn2Lo);
+
+  // Taylor to r^14; the first dropped term, r^15/15!, is below 2^-62 of the result. 1 + r + r^2/2 is carried in full.
+  static constexpr double kTerms[] = {1.0 / 6.0,        1.0 / 24.0,        1.0 / 120.0,        1.0 / 720.0,
+                                      1.0 / 5040.0,     1.0 / 40320.0,     1.0 / 362880.0,     1.0 / 3628800.0,
+                                      1.0 / 39916800.0, 1.0 / 479001600.0, 1.0 / 6227020800.0, 1.0 / 87178291200.0};
+  const Pair square = multiply(r, r);
+  const Pair head = add({1.0, 0.0}, add(r, {0.5 * square.hi, 0.5 * square.lo}));
+  const double tail = r.hi * square.hi * polynomial(kTerms, r.hi);
+  // 2^k in two halves: 2^1024 is no double, and 2^-1074 would lose the bits that the product still has.
+  return quick_sum(head.hi, head.lo + tail).hi * power_of_two(k / 2) * power_of_two(k - k / 2);
+}
+
+/// ln x for finite x > 0, to 2^-63 of its value.
+Pair logarithm(double x) {
+  int exponent = 0;
+  if (x < 0x1p-1022) {  // subnormal: its exponent bits say nothing
+    x *= 0x1p+54;
+    exponent = -54;
+  }
+  exponent += static_cast<int>(bits_of(x) >> 52) - 1023;
+  double m = from_bits((bits_of(x) & 0x000f'ffff'ffff'ffffu) | bits_of(1.0));
+  if (m > 0x1.6a09e667f3bcdp+0) {  // sqrt 2
+    m *= 0.5;
+    ++exponent;
+  }
+
+  // ln m = 2 atanh(s) = 2 s + 2/3 s^3 + ..., s = (m - 1)/(m + 1), |s| < 0.1716. Taylor to s^25; the first dropped
+  // term, 2/27 s^27, is below 2^-70 of the first. Two terms are carried in full, since pow multiplies the error by up
+  // to 745.
+  static constexpr double kTerms[] = {2.0 / 5.0,  2.0 / 7.0,  2.0 / 9.0,  2.0 / 11.0, 2.0 / 13.0, 2.0 / 15.0,
+                                      2.0 / 17.0, 2.0 / 19.0, 2.0 / 21.0, 2.0 / 23.0, 2.0 / 25.0};
+  constexpr Pair kTwoThirds{0x1.5555555555555p-1, 0x1.5555555555555p-55};
+  const Pair s = divide({m - 1.0, 0.0}, sum(m, 1.0));
+  const Pair square = multiply(s, s);
+  const double tail = square.hi * square.hi * s.hi * polynomial(kTerms, square.hi);
+  const Pair head = add({2.0 * s.hi, 2.0 * s.lo}, multiply(kTwoThirds, multiply(square, s)));
+  return add({exponent * kLn2Hi, exponent * kLn2Lo}, quick_sum(head.hi, head.lo + tail));
+}
+
+}  // namespace
+
+// ---- The functions: special values and signs first, then the parts above --------------------------------------------
+
+double sin(double angle_rad) noexcept {
+  const double size = magnitude(angle_rad);
+  return size < kInfinity ? flip_sign_if(is_negative(angle_rad), sine_at(reduce(size))) : kNaN;
+}
+
+double cos(double angle_rad) noexcept {
+  const double size = magnitude(angle_rad);
+  if (!(size < kInfinity)) return kNaN;
+  const Reduced r = reduce(size);
+  return sine_at({r.angle, r.quadrant + 1});
+}
+
+double tan(double angle_rad) noexcept {
+  const double size = magnitude(angle_rad);
+  if (!(size < kInfinity)) return kNaN;
+  const Reduced r = reduce(size);
+  const bool odd = (r.quadrant & 1) != 0;  // tan(a + pi/2) = -cos a / sin a; no double is an odd multiple of pi/2
+  const double value = odd ? -divide(cosine_series(r.angle), sine_series(r.angle)).hi
+                           : divide(sine_series(r.angle), cosine_series(r.angle)).hi;
+  return flip_sign_if(is_negative(angle_rad), value);
+}
+
+double asin(double sine) noexcept {
+  const double y = magnitude(sine);
+  if (!(y <= 1.0)) return kNaN;
+  return flip_sign_if(is_negative(sine), direction({y, 0.0}, other_leg(y), false));
+}
+
+double acos(double cosine) noexcept {
+  const double x = magnitude(cosine);
+  if (!(x <= 1.0)) return kNaN;
+  return direction(other_leg(x), {x, 0.0}, is_negative(cosine));
+}
+
+double atan(double slope) noexcept { return elementary::atan2(slope, 1.0); }
+
+double atan2(double y, double x) noexcept {
+  if (is_nan(y) || is_nan(x)) return kNaN;
+  double rise = magnitude(y);
+  double run = magnitude(x);
+  if (rise == kInfinity && run == kInfinity) rise = run = 1.0;  // the diagonal
+  if (rise == 0.0 && run == 0.0) run = 1.0;                     // on the x axis, on the side of x's sign
+  return flip_sign_if(is_negative(y), direction({rise, 0.0}, {run, 0.0}, is_negative(x)));
+}
+
+double exp(double x) noexcept { return is_nan(x) ? kNaN : exponential({x, 0.0}); }
+
+double log(double x) noexcept {
+  if (x == 0.0) return -kInfinity;
+  if (!(x > 0.0)) return kNaN;
+  return x == kInfinity ? x : logarithm(x).hi;
+}
+
+double pow(double x, double y) noexcept {
+  if (y == 0.0 || x == 1.0) return 1.0;
+  if (is_nan(y) || !(x >= 0.0)) return kNaN;
+  if (x == 0.0 || x == kInfinity) return (x == 0.0) == (y > 0.0) ? 0.0 : kInfinity;
+  // |ln x| > 2^-54 here, so the largest y that does not yet give 0 or infinity is below 2^64.
+  const double bounded = magnitude(y) < 0x1p+64 ? y : flip_sign_if(y < 0.0, 0x1p+64);
+  const Pair ln_x = logarithm(x);
+  return exponential(add(product(bounded, ln_x.hi), {bounded * ln_x.lo, 0.0}));
+}
+
+}  // namespace crankloop::elementary

@@ -1,0 +1,39 @@
+// One number that stands for a definition and a tick length.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+#include <crankloop/define/engine_definition.hpp>
+#include <crankloop/tabulate/tabulate.hpp>
+
+namespace crankloop::detail {
+
+/// FNV-1a over 64-bit words, most significant byte first, so that byte order does not matter.
+class Fingerprint {
+ public:
+  void add(std::uint64_t word) noexcept {
+    for (int shift = 56; shift >= 0; shift -= 8) {
+      hash_ ^= (word >> shift) & 0xFFu;
+      hash_ *= 0x100000001B3u;
+    }
+  }
+  void add(double number) noexcept {
+    std::uint64_t bits;
+    std::memcpy(&bits, &number, sizeof bits);
+    add(bits);
+  }
+  void add(int number) noexcept { add(static_cast<std::uint64_t>(static_cast<std::int64_t>(number))); }
+
+  [[nodiscard]] std::uint64_t value() const noexcept { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0xCBF29CE484222325u;
+};
+
+inline constexpr int kTableFormat = 1;  ///< counts up whenever the same definition gives other tables
+
+/// Same definition, tick, scalar and table format: same fingerprint, whichever sections are built and wherever.
+[[nodiscard]] std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& options, int scalar_bytes) noexcept;
+
+}  // namespace crankloop::detail

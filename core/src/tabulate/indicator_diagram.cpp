@@ -1,0 +1,289 @@
+#include <crankloop/tabulate/indicator_diagram.hpp>
+
+#include <cstdint>
+
+#include <crankloop/tabulate/elementary.hpp>
+#include <crankloop/tabulate/mechanism.hpp>
+
+#include "monotone_cubic.hpp"
+#include "quadrature.hpp"
+
+namespace crankloop {
+
+using elementary::kPi;
+
+namespace {
+
+constexpr double kDegPerRad = 180 / kPi;
+constexpr double kRadPerDeg = kPi / 180;
+constexpr double kWiebeEfficiency = 6.908;  // a_w: 1 - exp(-6.908) = 99.9 % burnt at the end
+constexpr double kBlowDown = 5;             // e-foldings of the blow-down from exhaust opening to bottom dead centre
+constexpr double kGasExchangeRampDeg = 1;   // exhaust to intake pressure after gas-exchange top dead centre
+constexpr double kMotoredExhaustRampDeg = 10;
+
+/// An angle reduced to [0, 720); 0 for one beyond 1e9 deg or that is no number.
+[[nodiscard]] double into_cycle(double deg) noexcept {
+  if (!(deg > -1e9 && deg < 1e9)) return 0;
+  const double rest = deg - 720 * static_cast<double>(static_cast<std::int64_t>(deg / 720));
+  const double positive = rest < 0 ? rest + 720 : rest;
+  return positive >= 720 ? 0 : positive;  // -1e-20 + 720 rounds to 720
+}
+
+/// Wiebe's burnt fraction at s = (a - a0)/da in [0, 1], and its derivative by s.
+[[nodiscard]] double burn_rate(double s, double m) noexcept {
+  if (s <= 0) return m > 0 ? 0 : kWiebeEfficiency;
+  const double s_m = elementary::pow(s, m);
+  return kWiebeEfficiency * (m + 1) * s_m * elementary::exp(-kWiebeEfficiency * s_m * s);
+}
+
+}  // namespace
+
+Status IndicatorDiagram::init(const Crank& crank, const Pressure& pressure) noexcept {
+  *this = IndicatorDiagram{};
+  if (const Status refused = validate(crank); !refused.ok()) return refused;
+  if (const Status refused = validate(pressure, crank); !refused.ok()) return refused;
+  crank_ = crank;
+  pressure_ = pressure;
+  const DeadCentres centres = dead_centres(crank);
+  tdc_deg_ = centres.tdc_rad * kDegPerRad;
+  bdc_deg_ = centres.bdc_rad * kDegPerRad;
+  clearance_m3_ = clearance_volume_m3(crank);
+  area_m2_ = bore_area_m2(crank);
+  switch (pressure.source) {
+    case PressureSource::none: return {};
+    case PressureSource::wiebe: return init_wiebe();
+    case PressureSource::angle_table: return init_angles();
+    case PressureSource::volume_table: return init_volumes();
+  }
+  return {};
+}
+
+double IndicatorDiagram::volume_m3(double crank_deg) const noexcept {
+  return clearance_m3_ + area_m2_ * exact_pose(crank_, crank_deg * kRadPerDeg).displacement_m;
+}
+
+/// Degrees since firing top dead centre, 0 to 720.
+double IndicatorDiagram::from_top_deg(double crank_deg) const noexcept { return into_cycle(crank_deg - tdc_deg_); }
+
+double IndicatorDiagram::motored_Pa(double crank_deg) const noexcept {
+  switch (pressure_.source) {
+    case PressureSource::none: break;
+    case PressureSource::wiebe: return wiebe_motored_Pa(crank_deg);
+    case PressureSource::angle_table:
+    case PressureSource::volume_table: return table_motored_Pa(crank_deg);
+  }
+  return pressure_.crankcase_Pa;
+}
+
+double IndicatorDiagram::heat_Pa(double crank_deg) const noexcept {
+  switch (pressure_.source) {
+    case PressureSource::none: break;
+    case PressureSource::wiebe: return wiebe_heat_Pa(crank_deg);
+    case PressureSource::angle_table:
+    case PressureSource::volume_table: return table_Pa(crank_deg) - table_motored_Pa(crank_deg);
+  }
+  return 0;
+}
+
+double IndicatorDiagram::full_Pa(double crank_deg) const noexcept {
+  switch (pressure_.source) {
+    case PressureSource::none:
+    case PressureSource::wiebe: break;
+    case PressureSource::angle_table:
+    case PressureSource::volume_table: return table_Pa(crank_deg);
+  }
+  return motored_Pa(crank_deg) + heat_Pa(crank_deg);
+}
+
+// ---- tables ----------------------------------------------------------------------------------------------------------------
+
+Status IndicatorDiagram::init_angles() noexcept {
+  rows_ = pressure_.point_count;
+  if (pressure_.points[rows_ - 1].at - pressure_.points[0].at > 720 - 1e-9) --rows_;  // a closing row repeats the first
+  exhaust_Pa_ = detail::integrate(tdc_deg_ + 270, tdc_deg_ + 360, 90, [this](double deg) { return table_Pa(deg); }) / 90;
+  return {};
+}
+
+Status IndicatorDiagram::init_volumes() noexcept {
+  const auto refused = [](Reason reason, int row) { return Status{reason, row, "pressure.file"}; };
+  const double swept = swept_volume_m3(crank_);
+  const double volume_tolerance = 0.02 * swept;
+  rows_ = pressure_.point_count;
+  const DiagramPoint* points = pressure_.points;
+  if (points[rows_ - 1].at == points[0].at) --rows_;  // a closing row
+  int stroke = 0;
+  for (int i = 0; i < rows_; ++i) {
+    if (points[i].at < clearance_m3_ - volume_tolerance || points[i].at > clearance_m3_ + swept + volume_tolerance) {
+      return refused(Reason::out_of_range, i);
+    }
+    if (i == 0) continue;
+    if (points[i].at == points[i - 1].at) return refused(Reason::not_a_cycle, i);
+    const bool rising = points[i].at > points[i - 1].at;
+    if (rising == (stroke % 2 == 0)) continue;
+    // The volume turns round: that must be at a dead centre.
+    const double turn = clearance_m3_ + (stroke % 2 == 0 ? swept : 0);
+    const double off = points[i - 1].at - turn;
+    if (++stroke > 3 || off > volume_tolerance || off < -volume_tolerance) return refused(Reason::not_a_cycle, i);
+    stroke_start_[stroke] = i;
+  }
+  const double first_off = points[0].at - clearance_m3_;
+  if (stroke != 3 || first_off > volume_tolerance) return refused(Reason::not_a_cycle, 0);
+  stroke_start_[4] = rows_;
+  for (int i = 1; i < rows_; ++i) {
+    if (row(i).at_deg <= row(i - 1).at_deg) return refused(Reason::not_a_cycle, i);
+  }
+  if (row(rows_ - 1).at_deg >= row(0).at_deg + 720) return refused(Reason::not_a_cycle, rows_ - 1);
+  exhaust_Pa_ = detail::integrate(tdc_deg_ + 270, tdc_deg_ + 360, 90, [this](double deg) { return table_Pa(deg); }) / 90;
+  return {};
+}
+
+/// Row i with its angle; rows go round: row(-1) is the last one, a cycle earlier.
+IndicatorDiagram::Row IndicatorDiagram::row(int i) const noexcept {
+  double turn_deg = 0;
+  if (i < 0) i += rows_, turn_deg = -720;
+  if (i >= rows_) i -= rows_, turn_deg = 720;
+  const DiagramPoint& point = pressure_.points[i];
+  if (pressure_.source == PressureSource::angle_table) return {point.at + turn_deg, point.pressure_Pa};
+  int stroke = 0;
+  while (stroke < 3 && i >= stroke_start_[stroke + 1]) ++stroke;
+  const double displacement_m = (point.at - clearance_m3_) / area_m2_;
+  const double angle = crank_angle_at(crank_, displacement_m, stroke % 2 == 0) * kDegPerRad;
+  return {angle + (stroke >= 2 ? 360 : 0) + turn_deg, point.pressure_Pa};
+}
+
+/// The last row at or before an angle that lies in [first row, first row + 720).
+int IndicatorDiagram::row_before(double at_deg) const noexcept {
+  int low = 0;
+  int high = rows_;
+  while (high - low > 1) {
+    const int middle = (low + high) / 2;
+    if (row(middle).at_deg <= at_deg) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  return low;
+}
+
+double IndicatorDiagram::table_Pa(double crank_deg) const noexcept {
+  const double first_deg = row(0).at_deg;
+  const double at_deg = first_deg + into_cycle(crank_deg - first_deg);
+  const bool cached = cached_row_ >= 0 && cached_[1].at_deg <= at_deg && at_deg < cached_[2].at_deg;
+  if (!cached) {
+    cached_row_ = row_before(at_deg);
+    for (int i = 0; i < 4; ++i) cached_[i] = row(cached_row_ - 1 + i);
+  }
+  const auto point = [this](int i) { return detail::Point{cached_[i].at_deg, cached_[i].pressure_Pa}; };
+  return detail::monotone_cubic(point(0), point(1), point(2), point(3), at_deg);
+}
+
+/// Without combustion the expansion retraces the compression, volume for volume, and the exhaust stroke has no blow-down.
+double IndicatorDiagram::table_motored_Pa(double crank_deg) const noexcept {
+  const double since_top = from_top_deg(crank_deg);
+  const double expansion_deg = bdc_deg_ - tdc_deg_;
+  const auto compression_Pa = [this](double deg) {
+    const double x = exact_pose(crank_, deg * kRadPerDeg).displacement_m;
+    return table_Pa(crank_angle_at(crank_, x, false) * kDegPerRad + 360);
+  };
+  if (since_top < expansion_deg) return compression_Pa(crank_deg);
+  const double pressure = table_Pa(crank_deg);
+  if (since_top >= 360) return pressure;
+  const double exhaust = pressure < exhaust_Pa_ ? pressure : exhaust_Pa_;
+  const double ramp = (since_top - expansion_deg) / kMotoredExhaustRampDeg;
+  if (ramp >= 1) return exhaust;
+  const double at_bottom = compression_Pa(bdc_deg_);
+  return at_bottom + ramp * (exhaust - at_bottom);
+}
+
+// ---- synthesised -----------------------------------------------------------------------------------------------------------
+
+Status IndicatorDiagram::init_wiebe() noexcept {
+  const WiebeDiagram& w = pressure_.wiebe;
+  if (w.exhaust_valve_opens_deg >= bdc_deg_) return {Reason::inconsistent, -1, "pressure.exhaust_valve_opens"};
+  // dp = ((n2 - 1)/V) dQ - n2 p dV/V has the solution p V^n2 = const + (n2 - 1) * integral of V^(n2 - 1) dQ.
+  burnt_[0] = 0;
+  for (int i = 0; i < kBurnPanels; ++i) {
+    const double from = w.combustion_duration_deg * i / kBurnPanels;
+    burnt_[i + 1] = burnt_[i];  // burn_integral reads it for the panel's start
+    burnt_[i + 1] = burn_integral(from) + detail::gauss5(from, w.combustion_duration_deg * (i + 1) / kBurnPanels, [&](double since) {
+      const double s = since / w.combustion_duration_deg;
+      return burn_rate(s, w.wiebe_m) * elementary::pow(volume_m3(w.start_of_combustion_deg + since), w.expansion_exponent - 1);
+    }) / w.combustion_duration_deg;
+  }
+  heat_J_ = 1;
+  if (w.heat_given) {
+    heat_J_ = w.heat_J;
+    return {};
+  }
+  // The loop integral is linear in the heat: two of them tell what heat gives the mean effective pressure.
+  const auto loop_J = [this](bool heat) {
+    return detail::integrate(0, 720, 7200, [&](double deg) {
+      const double p = heat ? wiebe_heat_Pa(deg) : wiebe_motored_Pa(deg);
+      return p * area_m2_ * exact_pose(crank_, deg * kRadPerDeg).slope_m * kRadPerDeg;
+    });
+  };
+  heat_J_ = (w.net_mep_Pa * swept_volume_m3(crank_) - loop_J(false)) / loop_J(true);
+  if (!(heat_J_ >= 0)) return {Reason::no_solution, -1, "pressure.net_mep"};
+  return {};
+}
+
+/// Integral of V^(n2 - 1) dx_b from the start of combustion.
+double IndicatorDiagram::burn_integral(double since_start_deg) const noexcept {
+  const WiebeDiagram& w = pressure_.wiebe;
+  if (since_start_deg <= 0) return 0;
+  if (since_start_deg >= w.combustion_duration_deg) return burnt_[kBurnPanels];
+  const double in_panels = since_start_deg / w.combustion_duration_deg * kBurnPanels;
+  const int panel = static_cast<int>(in_panels);
+  const double from = w.combustion_duration_deg * panel / kBurnPanels;
+  return burnt_[panel] + detail::gauss5(from, since_start_deg, [&](double since) {
+    const double s = since / w.combustion_duration_deg;
+    return burn_rate(s, w.wiebe_m) * elementary::pow(volume_m3(w.start_of_combustion_deg + since), w.expansion_exponent - 1);
+  }) / w.combustion_duration_deg;
+}
+
+namespace {
+
+/// The blow-down's course: 1 at exhaust opening, 0 at bottom dead centre.
+[[nodiscard]] double blow_down(double from_opening_ratio) noexcept {
+  const double rest = elementary::exp(-kBlowDown);
+  return (elementary::exp(-kBlowDown * from_opening_ratio) - rest) / (1 - rest);
+}
+
+}  // namespace
+
+double IndicatorDiagram::wiebe_motored_Pa(double crank_deg) const noexcept {
+  const WiebeDiagram& w = pressure_.wiebe;
+  const double since_top = from_top_deg(crank_deg);
+  const double deg = since_top + tdc_deg_;                  // tdc to tdc + 720
+  const double closed_deg = deg >= bdc_deg_ + 360 ? deg - 720 : deg;  // compression and expansion without a break at 720
+  const double opens_deg = w.exhaust_valve_opens_deg;
+  if (closed_deg < opens_deg) {
+    const double start_m3 = volume_m3(bdc_deg_);
+    const double volume = volume_m3(closed_deg);
+    if (closed_deg <= w.start_of_combustion_deg) return w.intake_Pa * elementary::pow(start_m3 / volume, w.compression_exponent);
+    const double burn_m3 = volume_m3(w.start_of_combustion_deg);
+    return w.intake_Pa * elementary::pow(start_m3 / burn_m3, w.compression_exponent) * elementary::pow(burn_m3 / volume, w.expansion_exponent);
+  }
+  if (deg < bdc_deg_) {
+    const double at_opening = wiebe_motored_Pa(opens_deg - 1e-9);
+    return w.exhaust_Pa + (at_opening - w.exhaust_Pa) * blow_down((deg - opens_deg) / (bdc_deg_ - opens_deg));
+  }
+  if (since_top < 360) return w.exhaust_Pa;
+  const double ramp = (since_top - 360) / kGasExchangeRampDeg;
+  return ramp < 1 ? w.exhaust_Pa + ramp * (w.intake_Pa - w.exhaust_Pa) : w.intake_Pa;
+}
+
+double IndicatorDiagram::wiebe_heat_Pa(double crank_deg) const noexcept {
+  const WiebeDiagram& w = pressure_.wiebe;
+  const double deg = from_top_deg(crank_deg) + tdc_deg_;
+  const double closed_deg = deg >= bdc_deg_ + 360 ? deg - 720 : deg;
+  if (closed_deg <= w.start_of_combustion_deg || closed_deg >= bdc_deg_) return 0;
+  const double opens_deg = w.exhaust_valve_opens_deg;
+  const double at_deg = closed_deg < opens_deg ? closed_deg : opens_deg;
+  const double burnt = burn_integral(at_deg - w.start_of_combustion_deg);
+  const double p = heat_J_ * (w.expansion_exponent - 1) * burnt * elementary::pow(volume_m3(at_deg), -w.expansion_exponent);
+  return closed_deg < opens_deg ? p : p * blow_down((closed_deg - opens_deg) / (bdc_deg_ - opens_deg));
+}
+
+}  // namespace crankloop

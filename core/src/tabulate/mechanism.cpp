@@ -1,0 +1,149 @@
+#include <crankloop/tabulate/mechanism.hpp>
+
+#include <crankloop/tabulate/elementary.hpp>
+
+namespace crankloop {
+
+using elementary::kPi;
+
+Pose<double> exact_pose(const Crank& crank, double crank_rad) noexcept {
+  const double r = crank.crank_radius_m;
+  const double l = crank.rod_length_m;
+  const double e = crank.pin_offset_m;
+  const double lambda = r / l;
+  const double sin_a = elementary::sin(crank_rad);
+  const double cos_a = elementary::cos(crank_rad);
+  const double sin_b = lambda * sin_a - e / l;
+  const double cos_b = square_root((1 - sin_b) * (1 + sin_b));
+  const double tan_b = sin_b / cos_b;
+  const double rod_slope = lambda * cos_a / cos_b;
+
+  Pose<double> pose;
+  pose.displacement_m = square_root((r + l - e) * (r + l + e)) - r * cos_a - l * cos_b;
+  pose.slope_m = r * (sin_a + cos_a * tan_b);                                        // sin(a + b) / cos b
+  pose.radial = cos_a - sin_a * tan_b;                                               // cos(a + b) / cos b
+  pose.acceleration_m = r * (pose.radial + rod_slope * cos_a / (cos_b * cos_b));
+  pose.rod_angle_rad = elementary::asin(sin_b);
+  pose.rod_slope = rod_slope;
+  pose.rod_curvature = -lambda * sin_a / cos_b + tan_b * rod_slope * rod_slope;
+  pose.rod_tilt = tan_b;
+  return pose;
+}
+
+Pose<double> second_order_pose(const Crank& crank, double crank_rad) noexcept {
+  const double r = crank.crank_radius_m;
+  const double lambda = crank.rod_ratio();
+  const double sin_a = elementary::sin(crank_rad);
+  const double cos_a = elementary::cos(crank_rad);
+  const double sin_2a = elementary::sin(2 * crank_rad);
+  const double cos_2a = elementary::cos(2 * crank_rad);
+  const double q = lambda * lambda * sin_a * sin_a;
+
+  Pose<double> pose;
+  pose.displacement_m = r * ((1 - cos_a) + lambda / 4 * (1 - cos_2a));
+  pose.slope_m = r * (sin_a + lambda / 2 * sin_2a);
+  pose.acceleration_m = r * (cos_a + lambda * cos_2a);
+  pose.rod_angle_rad = lambda * sin_a * (1 + q / 6);
+  pose.rod_slope = lambda * cos_a * (1 + q / 2);
+  pose.rod_curvature = -lambda * sin_a * (1 - lambda * lambda + 1.5 * q);
+  pose.rod_tilt = elementary::tan(pose.rod_angle_rad);
+  pose.radial = cos_a - sin_a * pose.rod_tilt;
+  return pose;
+}
+
+double crank_angle_at(const Crank& crank, double displacement_m, bool downward) noexcept {
+  // Triangle crank centre - crank pin - piston pin: the side from the centre to the piston pin is known, so is every angle.
+  const double r = crank.crank_radius_m;
+  const double l = crank.rod_length_m;
+  const double e = crank.pin_offset_m;
+  const double highest = square_root((l + r - e) * (l + r + e));
+  const double lowest = square_root((l - r - e) * (l - r + e));
+  double height = highest - displacement_m;
+  if (height > highest) height = highest;
+  if (height < lowest) height = lowest;
+  const double side = square_root(height * height + e * e);
+  double cosine = (r * r + side * side - l * l) / (2 * r * side);
+  if (cosine > 1) cosine = 1;
+  if (cosine < -1) cosine = -1;
+  const double between = elementary::acos(cosine);
+  const double leaning = elementary::atan2(e, height);
+  return downward ? leaning + between : leaning - between + 2 * kPi;
+}
+
+DeadCentres dead_centres(const Crank& crank) noexcept {
+  const double r = crank.crank_radius_m;
+  const double l = crank.rod_length_m;
+  const double e = crank.pin_offset_m;
+  return {elementary::asin(e / (l + r)), kPi + elementary::asin(e / (l - r)),
+          square_root((l + r - e) * (l + r + e)) - square_root((l - r - e) * (l - r + e))};
+}
+
+double mean_piston_speed_m_s(const Crank& crank, double speed_rad_s) noexcept {
+  return dead_centres(crank).stroke_m * speed_rad_s / kPi;
+}
+
+double bore_area_m2(const Crank& crank) noexcept { return kPi / 4 * crank.bore_m * crank.bore_m; }
+
+double swept_volume_m3(const Crank& crank) noexcept { return bore_area_m2(crank) * dead_centres(crank).stroke_m; }
+
+double clearance_volume_m3(const Crank& crank) noexcept { return swept_volume_m3(crank) / (crank.compression_ratio - 1); }
+
+namespace {
+
+/// Golden-section search for the largest sign * quantity between two angles that bracket it.
+[[nodiscard]] Extreme refine(const Crank& crank, PoseMember quantity, PoseFunction pose, double sign, double low, double high) noexcept {
+  constexpr double kGolden = 0.6180339887498949;
+  double left = high - kGolden * (high - low);
+  double right = low + kGolden * (high - low);
+  double at_left = sign * pose(crank, left).*quantity;
+  double at_right = sign * pose(crank, right).*quantity;
+  for (int i = 0; i < 40; ++i) {  // 2 deg times 0.618^40 = 1.5e-10 rad
+    if (at_left > at_right) {
+      high = right;
+      right = left;
+      at_right = at_left;
+      left = high - kGolden * (high - low);
+      at_left = sign * pose(crank, left).*quantity;
+    } else {
+      low = left;
+      left = right;
+      at_left = at_right;
+      right = low + kGolden * (high - low);
+      at_right = sign * pose(crank, right).*quantity;
+    }
+  }
+  const double at = (low + high) / 2;
+  return {at, pose(crank, at).*quantity};
+}
+
+}  // namespace
+
+Extremes extremes(const Crank& crank, PoseMember quantity, PoseFunction pose) noexcept {
+  constexpr double kStep = kPi / 180;
+  Extreme largest{0, pose(crank, 0).*quantity};
+  Extreme smallest = largest;
+  for (int degree = 1; degree < 360; ++degree) {
+    const double at = degree * kStep;
+    const double value = pose(crank, at).*quantity;
+    if (value > largest.value) largest = {at, value};
+    if (value < smallest.value) smallest = {at, value};
+  }
+  const auto sharpen = [&](const Extreme& coarse, double sign) {
+    Extreme fine = refine(crank, quantity, pose, sign, coarse.at_rad - kStep, coarse.at_rad + kStep);
+    // A smooth extreme is flat: the search finds its angle to the square root of rounding only, so a whole degree that is as good wins.
+    if (sign * fine.value <= sign * coarse.value) fine = coarse;
+    if (fine.at_rad < 0) fine.at_rad += 2 * kPi;
+    if (fine.at_rad >= 2 * kPi) fine.at_rad -= 2 * kPi;
+    return fine;
+  };
+  return {sharpen(largest, 1), sharpen(smallest, -1)};
+}
+
+DisplacementSeries displacement_series(double rod_ratio) noexcept {
+  const double l1 = rod_ratio;
+  const double l3 = l1 * l1 * l1;
+  const double l5 = l3 * l1 * l1;
+  return {1 + l1 / 4 + 3 * l3 / 64 + 5 * l5 / 256, -1, -(l1 / 4 + l3 / 16 + 15 * l5 / 512), l3 / 64 + 3 * l5 / 256, -l5 / 512};
+}
+
+}  // namespace crankloop

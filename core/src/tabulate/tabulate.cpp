@@ -1,0 +1,158 @@
+#include <crankloop/tabulate/tabulate.hpp>
+
+#include <cstddef>
+
+#include <crankloop/tabulate/elementary.hpp>
+#include <crankloop/tabulate/indicator_diagram.hpp>
+#include <crankloop/tabulate/mechanism.hpp>
+#include <crankloop/tabulate/summary.hpp>
+
+#include "curve_fit.hpp"
+#include "fingerprint.hpp"
+#include "gas_curves.hpp"
+
+namespace crankloop {
+
+using detail::kRadPerCycle;
+
+namespace {
+
+constexpr double kFastest_rad_s = 10472;  // 100 000 rpm
+constexpr double kSameAngleDeg = 1e-9;
+
+/// An angle in degrees, in [0, 720), as phase units, to the last bit of its division by 720.
+[[nodiscard]] std::uint64_t phase_units(double deg) noexcept {
+  constexpr double kTwoTo32 = 4294967296.0;
+  const double words = deg / 720 * kTwoTo32;
+  const auto high = static_cast<std::uint32_t>(words);
+  const auto low = static_cast<std::uint32_t>((words - high) * kTwoTo32);
+  return (std::uint64_t{high} << 32) | low;
+}
+
+template <class Real>
+void fill_drive(const EngineDefinition& engine, const TickOptions& options, Drive<Real>& drive) noexcept {
+  drive = {};
+  drive.fingerprint = detail::fingerprint_of(engine, options, static_cast<int>(sizeof(Real)));
+  drive.tick_s = static_cast<Real>(options.tick_s);
+  drive.cycles_per_tick_per_rad_s = static_cast<Real>(options.tick_s / kRadPerCycle);
+  drive.rad_s_per_cycle_per_tick = static_cast<Real>(kRadPerCycle / options.tick_s);
+  // At most one revolution per tick, less a hair, so that rounding cannot take the phase increment to half a cycle.
+  const double one_turn_rad_s = 0.4999 * kRadPerCycle / options.tick_s;
+  drive.speed_limit_rad_s = static_cast<Real>(one_turn_rad_s < kFastest_rad_s ? one_turn_rad_s : kFastest_rad_s);
+  const Layout& layout = engine.layout;
+  drive.cylinders = static_cast<std::uint32_t>(layout.cylinders);
+  double mechanism_deg[kMaxCylinders] = {};
+  for (std::size_t k = 0; k < drive.cylinders; ++k) {
+    const double firing = layout.firing_deg[k];
+    std::uint32_t m = 0;
+    std::uint8_t turn = 0;
+    for (; m < drive.mechanisms; ++m) {
+      const double apart = firing - mechanism_deg[m];
+      const auto near = [&](double deg) { return apart > deg - kSameAngleDeg && apart < deg + kSameAngleDeg; };
+      turn = near(360) || near(-360) ? 1 : 0;
+      if (turn == 1 || near(0)) break;
+    }
+    if (m == drive.mechanisms) {
+      mechanism_deg[m] = firing;
+      drive.firing_phase[m] = phase_units(firing);
+      ++drive.mechanisms;
+    }
+    drive.mechanism_of[k] = static_cast<std::uint8_t>(m);
+    drive.turn_of[k] = turn;
+    drive.cylinders_on_mechanism[m] += Real{1};
+  }
+}
+
+template <class Real>
+[[nodiscard]] Body<Real> rounded(const Body<double>& b) noexcept {
+  const auto to_real = [](double x) { return static_cast<Real>(x); };
+  return {to_real(b.crank_radius_m),  to_real(b.per_crank_radius),  to_real(b.per_rod_length),
+          to_real(b.pin_offset_m),    to_real(b.height_at_tdc_m),   to_real(b.bore_area_m2),
+          to_real(b.crankcase_Pa),    to_real(b.reciprocating_kg),  to_real(b.rod_inertia_correction_kg_m2)};
+}
+
+template <class Real>
+[[nodiscard]] Turning<Real> rounded(const Turning<double>& t) noexcept {
+  const auto to_real = [](double x) { return static_cast<Real>(x); };
+  return {to_real(t.up_cos),    to_real(t.up_sin),    to_real(t.lateral_cos), to_real(t.lateral_sin),
+          to_real(t.pitch_cos), to_real(t.pitch_sin), to_real(t.yaw_cos),     to_real(t.yaw_sin)};
+}
+
+template <class Real>
+[[nodiscard]] Bearings<Real> rounded(const Bearings<double>& b) noexcept {
+  Bearings<Real> r{};
+  r.pins = b.pins;
+  for (std::size_t i = 0; i < std::size_t{kMaxCylinders}; ++i) {
+    r.pin_of[i] = b.pin_of[i];
+    r.rods_kg_m[i] = static_cast<Real>(b.rods_kg_m[i]);
+    r.throw_kg_m[i] = static_cast<Real>(b.throw_kg_m[i]);
+    r.throw_cos[i] = static_cast<Real>(b.throw_cos[i]);
+    r.throw_sin[i] = static_cast<Real>(b.throw_sin[i]);
+  }
+  return r;
+}
+
+template <class Real>
+void fill_mechanism(const EngineDefinition& engine, const TableTargets<Real>& t) noexcept {
+  const Crank& crank = engine.crank;
+  const auto quantity = [&crank](PoseMember member) {
+    return [&crank, member](double angle) { return exact_pose(crank, angle).*member; };
+  };
+  const auto slope = quantity(&Pose<double>::slope_m);
+  const auto displacement = quantity(&Pose<double>::displacement_m);
+  if (t.stroke != nullptr) detail::fill(*t.stroke, 1, slope, displacement);
+  if (t.acceleration != nullptr) detail::fill(*t.acceleration, quantity(&Pose<double>::acceleration_m));
+  if (t.rod_tilt != nullptr) detail::fill(*t.rod_tilt, quantity(&Pose<double>::rod_tilt));
+  if (t.radial != nullptr) detail::fill(*t.radial, quantity(&Pose<double>::radial));
+  if (t.rod_angle != nullptr) {
+    detail::fill(*t.rod_angle, 1, quantity(&Pose<double>::rod_slope), quantity(&Pose<double>::rod_angle_rad));
+  }
+  if (t.rod_curvature != nullptr) detail::fill(*t.rod_curvature, quantity(&Pose<double>::rod_curvature));
+  if (t.inertia_torque != nullptr) {
+    // Kinetic energy of piston and rod beyond the big end is 1/2 w^2 (m_j x'^2 + dI b'^2); the torque takes it from the crank.
+    const double m = engine.masses.reciprocating_kg();
+    const double inertia = engine.masses.rod_inertia_correction_kg_m2;
+    const auto torque = [&](double angle) {
+      const Pose<double> p = exact_pose(crank, angle);
+      return -(m * p.slope_m * p.acceleration_m + inertia * p.rod_slope * p.rod_curvature);
+    };
+    const auto energy_given = [&](double angle) {
+      const Pose<double> p = exact_pose(crank, angle);
+      return -(m * p.slope_m * p.slope_m + inertia * p.rod_slope * p.rod_slope) / 2;
+    };
+    detail::fill(*t.inertia_torque, engine.layout.cylinders, torque, energy_given);
+  }
+}
+
+}  // namespace
+
+template <class Real>
+Status tabulate(const EngineDefinition& engine, const TickOptions& options, const TableTargets<Real>& targets,
+                TableReport* report) noexcept {
+  if (!(options.tick_s >= 1e-6 && options.tick_s <= 2e-3)) return {Reason::out_of_range, -1, "tick.tick"};
+  if (targets.gas_grid != nullptr && targets.gas_capacity < kDegreesPerCycle) return {Reason::out_of_range, -1, "targets.gas_capacity"};
+  if (const Status refused = validate(engine); !refused.ok()) return refused;
+  IndicatorDiagram diagram;
+  if (const Status refused = diagram.init(engine.crank, engine.pressure); !refused.ok()) return refused;
+
+  TableReport found;
+  if (targets.drive != nullptr) fill_drive(engine, options, *targets.drive);
+  if (targets.body != nullptr) *targets.body = rounded<Real>(body_of(engine));
+  if (targets.bearings != nullptr) *targets.bearings = rounded<Real>(bearings_of(engine));
+  if (targets.balance != nullptr) {
+    const Balance<double> balance = balance_of(engine);
+    targets.balance->first = rounded<Real>(balance.first);
+    targets.balance->second = rounded<Real>(balance.second);
+    targets.balance->rotating = rounded<Real>(balance.rotating);
+    detail::fill(targets.balance->cosine, elementary::cos);
+  }
+  fill_mechanism(engine, targets);
+  detail::fill_gas(engine, diagram, targets, found);
+  if (report != nullptr) *report = found;
+  return {};
+}
+
+template Status tabulate(const EngineDefinition&, const TickOptions&, const TableTargets<float>&, TableReport*) noexcept;
+template Status tabulate(const EngineDefinition&, const TickOptions&, const TableTargets<double>&, TableReport*) noexcept;
+
+}  // namespace crankloop

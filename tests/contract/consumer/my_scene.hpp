@@ -1,0 +1,10 @@
+// A scene as a user writes one.
+#pragma once
+
+#include <crankloop/tick/scene.hpp>
+
+struct MyScene : crankloop::Scene {
+  static constexpr auto cylinders = crankloop::exactly<4>;
+  static constexpr auto pressure = crankloop::PressureGiven::by_table;
+  static constexpr bool mean_torque = true;
+};

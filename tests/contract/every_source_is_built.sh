@@ -1,0 +1,17 @@
+#!/bin/sh
+# every_source_is_built.sh CHECKOUT
+# Every .cpp of the library, the program and the tests stands in its CMakeLists.txt: a test that nobody lists would pass for ever.
+set -eu
+cd "$1"
+
+bad=0
+# sources_listed FOLDER LISTS BASE: every source in FOLDER is in LISTS, by its path below BASE.
+sources_listed() {
+  for source in $(find "$1" -name '*.cpp' | sort); do
+    grep -qE "(^|[ (/])${source#"$3"/}( |\)|\$)" "$2" || { echo "$source is not in $2" && bad=$((bad + 1)); }
+  done
+}
+sources_listed core/src core/CMakeLists.txt core
+sources_listed tools/crankloop tools/CMakeLists.txt tools
+for kind in unit property golden; do sources_listed "tests/$kind" tests/CMakeLists.txt "tests/$kind"; done
+[ "$bad" -eq 0 ]

@@ -1,0 +1,34 @@
+#!/bin/sh
+# fast_math_is_refused.sh COMPILER CORE_DIR
+# Under flags that give up IEEE arithmetic, a user's source that includes the library is refused with an error that says so, and the
+# library itself cannot be built; under ordinary flags both are accepted.
+set -eu
+compiler=$1 core=$2
+
+# Prints what the compiler says; answers whether it accepts.
+accepts() { "$compiler" -std=c++17 -fsyntax-only -I "$core/include" -I "$core/src" "$@" 2>&1; }
+includes() { echo '#include <crankloop/crankloop.hpp>' | accepts "$@" -x c++ -; }
+fail() {
+  echo "$*"
+  exit 1
+}
+
+for flags in -O0 -O3 -march=native; do
+  includes "$flags" || fail "a user's source is refused under $flags"
+done
+for flags in -ffast-math -Ofast -ffinite-math-only; do
+  said=$(includes "$flags") && fail "a user's source is not refused under $flags"
+  case $said in
+    *"needs IEEE arithmetic"*) ;;
+    *) fail "refused under $flags, but for another reason: $said" ;;
+  esac
+done
+
+refused=0
+find "$core/src" -name '*.cpp' >sources.list
+while read -r source; do
+  accepts "$source" || fail "$source is refused under ordinary flags"
+  accepts -ffast-math "$source" >/dev/null || refused=$((refused + 1))
+done <sources.list
+[ "$refused" -gt 0 ] || fail "the library can be built under -ffast-math"
+echo "$refused of $(wc -l <sources.list) sources refuse -ffast-math"

@@ -1,0 +1,14 @@
+#include "scenes.hpp"
+
+#include <crankloop/tick/engine_step.hpp>
+
+namespace crankloop {
+
+template class Engine<float, Everything>;
+template class Engine<double, Everything>;
+template class Engine<float, TorqueOnly>;
+template class Engine<double, TorqueOnly>;
+template class Engine<float, MeasuredPhaseAndPressure>;
+template class Engine<double, MeasuredPhaseAndPressure>;
+
+}  // namespace crankloop

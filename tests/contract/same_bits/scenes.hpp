@@ -1,0 +1,34 @@
+// Scenes that between them run every line of the tick.
+#pragma once
+
+#include <crankloop/tick/scene.hpp>
+
+struct Everything : crankloop::Scene {
+  static constexpr auto cylinders = crankloop::up_to<16>;
+  static constexpr auto pressure = crankloop::PressureGiven::by_table;
+  static constexpr bool load_ratio = true;
+  static constexpr bool rod_inertia = true;
+  static constexpr bool kinematics = true;
+  static constexpr bool rod_motion = true;
+  static constexpr bool torque = true;
+  static constexpr bool mean_torque = true;
+  static constexpr bool forces = true;
+  static constexpr bool bearing_loads = true;
+  static constexpr bool free_forces = true;
+};
+
+struct TorqueOnly : crankloop::Scene {
+  static constexpr auto cylinders = crankloop::up_to<16>;
+  static constexpr auto pressure = crankloop::PressureGiven::by_table;
+  static constexpr bool torque = true;
+  static constexpr bool mean_torque = true;
+};
+
+struct MeasuredPhaseAndPressure : crankloop::Scene {
+  static constexpr auto cylinders = crankloop::up_to<16>;
+  static constexpr auto crank = crankloop::CrankGiven::phase;
+  static constexpr auto pressure = crankloop::PressureGiven::by_input;
+  static constexpr bool rod_inertia = true;
+  static constexpr bool mean_torque = true;
+  static constexpr bool forces = true;
+};

@@ -1,0 +1,429 @@
+// What an engine file means once it is read. What is wrong with a file is told by tests/contract/bad_input_test.cpp.
+#include "crankloop/engine_file.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <string>
+#include <utility>
+
+namespace crankloop::program {
+namespace {
+
+constexpr const char* kSample = CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495.ini";
+
+std::string contents(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const auto place = text.find(what);
+  EXPECT_NE(place, std::string::npos) << what;
+  return place == std::string::npos ? text : text.replace(place, what.size(), by);
+}
+
+class EngineFileTest : public testing::Test {
+ protected:
+  EngineFileTest() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~EngineFileTest() override { std::filesystem::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ + "/" + name, std::ios::binary) << text;
+    return folder_ + "/" + name;
+  }
+  EngineFile read(const std::string& text) const { return read_engine_file(write("engine.ini", text), {}); }
+  std::string refusal(const std::string& text) const {
+    try {
+      static_cast<void>(read(text));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  std::string folder_;
+};
+
+constexpr const char* kOneCylinder =
+    "[engine]\nname = single\nrated_rpm = 3000\n"
+    "[crank]\nbore_mm = 95\nstroke_mm = 115\nrod_length_mm = 210\ncompression_ratio = 19\n";
+
+void expect_same(const EngineDefinition& a, const EngineDefinition& b) {
+  EXPECT_EQ(a.crank.bore_m, b.crank.bore_m);
+  EXPECT_EQ(a.crank.crank_radius_m, b.crank.crank_radius_m);
+  EXPECT_EQ(a.crank.rod_length_m, b.crank.rod_length_m);
+  EXPECT_EQ(a.crank.pin_offset_m, b.crank.pin_offset_m);
+  EXPECT_EQ(a.crank.compression_ratio, b.crank.compression_ratio);
+  EXPECT_EQ(a.masses.piston_kg, b.masses.piston_kg);
+  EXPECT_EQ(a.masses.rod_small_end_kg, b.masses.rod_small_end_kg);
+  EXPECT_EQ(a.masses.rod_big_end_kg, b.masses.rod_big_end_kg);
+  EXPECT_EQ(a.masses.rod_inertia_correction_kg_m2, b.masses.rod_inertia_correction_kg_m2);
+  EXPECT_EQ(a.masses.crank_pin_equivalent_kg, b.masses.crank_pin_equivalent_kg);
+  EXPECT_EQ(a.masses.crank_inertia_kg_m2, b.masses.crank_inertia_kg_m2);
+  EXPECT_EQ(a.layout.cylinders, b.layout.cylinders);
+  EXPECT_EQ(a.layout.firing_deg, b.layout.firing_deg);
+  EXPECT_EQ(a.layout.bank_deg, b.layout.bank_deg);
+  EXPECT_EQ(a.layout.position_m, b.layout.position_m);
+  EXPECT_EQ(a.layout.pin, b.layout.pin);
+  EXPECT_EQ(a.pressure.source, b.pressure.source);
+  EXPECT_EQ(a.pressure.crankcase_Pa, b.pressure.crankcase_Pa);
+  EXPECT_EQ(a.pressure.wiebe.intake_Pa, b.pressure.wiebe.intake_Pa);
+  EXPECT_EQ(a.pressure.wiebe.exhaust_Pa, b.pressure.wiebe.exhaust_Pa);
+  EXPECT_EQ(a.pressure.wiebe.start_of_combustion_deg, b.pressure.wiebe.start_of_combustion_deg);
+  EXPECT_EQ(a.pressure.wiebe.combustion_duration_deg, b.pressure.wiebe.combustion_duration_deg);
+  EXPECT_EQ(a.pressure.wiebe.wiebe_m, b.pressure.wiebe.wiebe_m);
+  EXPECT_EQ(a.pressure.wiebe.compression_exponent, b.pressure.wiebe.compression_exponent);
+  EXPECT_EQ(a.pressure.wiebe.expansion_exponent, b.pressure.wiebe.expansion_exponent);
+  EXPECT_EQ(a.pressure.wiebe.exhaust_valve_opens_deg, b.pressure.wiebe.exhaust_valve_opens_deg);
+  EXPECT_EQ(a.pressure.wiebe.heat_given, b.pressure.wiebe.heat_given);
+  EXPECT_EQ(a.pressure.wiebe.net_mep_Pa, b.pressure.wiebe.net_mep_Pa);
+  EXPECT_EQ(a.pressure.wiebe.heat_J, b.pressure.wiebe.heat_J);
+  ASSERT_EQ(a.pressure.point_count, b.pressure.point_count);
+  for (int i = 0; i < a.pressure.point_count; ++i) {
+    EXPECT_EQ(a.pressure.points[i].at, b.pressure.points[i].at);
+    EXPECT_EQ(a.pressure.points[i].pressure_Pa, b.pressure.points[i].pressure_Pa);
+  }
+}
+
+TEST_F(EngineFileTest, TheSampleDieselIsTheOneOfTheDesignSheet) {
+  const EngineFile engine = read_engine_file(kSample, {"engine", "crank", "masses", "layout", "pressure"});
+  EXPECT_EQ(engine.name(), "495 diesel");
+  EXPECT_EQ(engine.rated_rpm(), 2000);
+  const EngineDefinition& diesel = engine.definition();
+  EXPECT_TRUE(validate(diesel).ok());
+  EXPECT_EQ(diesel.crank.bore_m, 0.095);  // the double nearest to 0.095, not 95 times a rounded 0.001
+  EXPECT_EQ(diesel.crank.crank_radius_m, 0.0575);
+  EXPECT_NEAR(diesel.crank.rod_ratio(), 0.2738, 1e-16);
+  EXPECT_EQ(diesel.crank.compression_ratio, 19);
+  EXPECT_EQ(diesel.masses.reciprocating_kg(), 0.810 + 0.505);
+  EXPECT_EQ(diesel.masses.rod_big_end_kg, 1.382);
+  EXPECT_EQ(diesel.layout.cylinders, 4);
+  EXPECT_EQ(diesel.layout.firing_deg[1], 540);  // 1-3-4-2
+  EXPECT_EQ(diesel.layout.firing_deg[2], 180);
+  EXPECT_EQ(diesel.layout.firing_deg[3], 360);
+  EXPECT_EQ(diesel.layout.position_m[3], 0.36);
+  // 8.8 kW of brake power per cylinder at 2000 rpm and a mechanical efficiency of 0.80, from 0.8151 L.
+  const double displacement_m3 = 3.14159265358979 / 4 * 0.095 * 0.095 * 0.115;
+  EXPECT_NEAR(diesel.pressure.wiebe.net_mep_Pa * displacement_m3 * 2000 / 120 * 0.80, 8800, 5);
+}
+
+TEST_F(EngineFileTest, BlanksCommentsAndLineEndsChangeNothing) {
+  const std::string plain = contents(kSample);
+  const EngineFile expected = read(plain);
+  std::string windows = "\xEF\xBB\xBF";
+  for (const char c : plain) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  std::string airy;
+  std::istringstream lines(plain);
+  for (std::string line; std::getline(lines, line);) airy += "\t " + line + " \t\t# \xC3\xBC\n\n";
+  const std::string without_final_newline = plain.substr(0, plain.find_last_not_of('\n') + 1);
+  for (const std::string& text : {windows, airy, without_final_newline}) {
+    const EngineFile engine = read(text);
+    expect_same(engine.definition(), expected.definition());
+    EXPECT_EQ(show(engine), show(expected));
+  }
+}
+
+TEST_F(EngineFileTest, ANameMayHoldAHashThatFollowsNoBlank) {
+  EXPECT_EQ(read(replaced(kOneCylinder, "single", "rig#2 \xE2\x84\x96 7 # the old one")).name(),
+            "rig#2 \xE2\x84\x96 7");
+}
+
+TEST_F(EngineFileTest, WithoutLayoutAndPressureItIsOneCylinderWithoutGas) {
+  const EngineFile engine = read(kOneCylinder);
+  EXPECT_EQ(engine.definition().layout.cylinders, 1);
+  EXPECT_EQ(engine.definition().pressure.source, PressureSource::none);
+  EXPECT_EQ(engine.definition().pressure.crankcase_Pa, 100e3);
+  EXPECT_EQ(engine.definition().crank.rod_length_m, 0.210);
+  EXPECT_FALSE(engine.has("masses"));
+}
+
+TEST_F(EngineFileTest, AWholeRodIsLumpedOnItsEnds) {
+  const std::string rod =
+      "[masses]\npiston_g = 810\ncrank_inertia_kg_m2 = 0.5\nrod_g = 1887\nrod_com_to_crank_mm = 56.2\n";
+  const Masses two_mass = read(kOneCylinder + rod).definition().masses;
+  EXPECT_NEAR(two_mass.rod_small_end_kg + two_mass.rod_big_end_kg, 1.887, 1e-15);
+  EXPECT_NEAR(two_mass.rod_small_end_kg * 0.210, 1.887 * 0.0562, 1e-16);  // same centre of mass
+  EXPECT_EQ(two_mass.rod_inertia_correction_kg_m2, 0);                    // no inertia given: two-mass rod
+  const Masses weighed = read(kOneCylinder + rod + "rod_inertia_kg_mm2 = 0\n").definition().masses;
+  EXPECT_NEAR(weighed.rod_inertia_correction_kg_m2, -1.887 * 0.0562 * (0.210 - 0.0562), 1e-15);  // 0 is a value
+}
+
+TEST_F(EngineFileTest, CylindersStandABoreAndAFifthApartWhereNothingIsSaid) {
+  const EngineFile engine = read(std::string(kOneCylinder) + "[layout]\ncylinders = 3\nfiring_order = 1-2-3\n");
+  EXPECT_EQ(engine.section("layout").number("cylinder_spacing_mm"), 114);
+  EXPECT_EQ(engine.definition().layout.position_m[2], 0.228);
+  EXPECT_EQ(engine.definition().layout.pin[2], 2);
+}
+
+TEST_F(EngineFileTest, ACrossPlaneV8HasFourPinsWithTwoRodsEach) {
+  const std::string v8 = std::string(kOneCylinder) +
+                         "[layout]\ncylinders = 8\nfiring_order = 1-8-4-3-6-5-7-2\n"
+                         "bank_angles_deg = 45,-45,45,-45,45,-45,45,-45\ncylinder_spacing_mm = 100\n";
+  const EngineFile paired = read(v8 + "shared_pins = 1-2,3-4,5-6,7-8\n");
+  const Layout& layout = paired.definition().layout;
+  for (std::size_t k = 0; k < 8; ++k) {
+    EXPECT_EQ(layout.pin[k], k / 2);
+    EXPECT_EQ(layout.position_m[k], static_cast<double>(k / 2) / 10);  // spacing counts pins
+  }
+  EXPECT_EQ(paired.section("layout").numbers("crank_throws_deg"),
+            (std::vector<double>{45, 45, 135, 135, 315, 315, 225, 225}));
+  // The same engine by its positions: pins follow from equal position and throw.
+  const EngineFile placed =
+      read(replaced(v8, "cylinder_spacing_mm = 100", "cylinder_positions_mm = 0,0,100,100,200,200,300,300"));
+  expect_same(placed.definition(), paired.definition());
+  EXPECT_EQ(format_value(*placed.section("layout").find("shared_pins")), "1-2,3-4,5-6,7-8");
+}
+
+TEST_F(EngineFileTest, PinsAreNumberedAlongTheShaftWhateverTheCylindersAreCalled) {
+  const std::string reversed = std::string(kOneCylinder) +
+                               "[layout]\ncylinders = 4\nfiring_angles_deg = 0,90,270,360\n"
+                               "bank_angles_deg = 45,135,-45,45\n";
+  const std::string by_groups = reversed + "cylinder_positions_mm = 300,200,101,299\nshared_pins = 1-4\n";
+  const Layout layout = read(by_groups).definition().layout;
+  EXPECT_EQ(layout.pin[2], 0);
+  EXPECT_EQ(layout.pin[1], 1);
+  EXPECT_EQ(layout.pin[0], 2);
+  EXPECT_EQ(layout.pin[3], 2);
+  // A boxer's opposed cylinders stand at one place but on opposite throws, so they share no pin.
+  const EngineFile boxer = read(std::string(kOneCylinder) +
+                                "[layout]\ncylinders = 2\nfiring_angles_deg = 0,360\nbank_angles_deg = 90,-90\n"
+                                "cylinder_positions_mm = 0,0\n");
+  EXPECT_EQ(boxer.definition().layout.pin[1], 1);
+  EXPECT_FALSE(boxer.section("layout").has("shared_pins"));
+}
+
+TEST_F(EngineFileTest, ThrowsMayBeGivenAsACheckWithFewDigits) {
+  const std::string three = std::string(kOneCylinder) + "[layout]\ncylinders = 7\nfiring_order = 1-3-5-7-2-4-6\n";
+  const EngineFile free = read(three);
+  std::vector<std::string> rounded;
+  for (const double angle_deg : free.section("layout").numbers("crank_throws_deg")) {
+    rounded.push_back(shortest(static_cast<double>(static_cast<int>(angle_deg * 100)) / 100 + 30));
+  }
+  std::string list;
+  for (const std::string& angle : rounded) list += (list.empty() ? "" : ",") + angle;
+  expect_same(read(three + "crank_throws_deg = " + list + "\n").definition(), free.definition());
+  EXPECT_NE(refusal(three + "crank_throws_deg = 0,0,0,0,0,0,0\n"), "");
+}
+
+std::string angle_table() {
+  std::string table = "# measured\ncrank_deg, pressure_kPa\r\n\n";
+  for (int angle = -360; angle < 360; angle += 2)
+    table += std::to_string(angle) + " , " + std::to_string(100 + angle % 7) + "\n";
+  return table;
+}
+
+TEST_F(EngineFileTest, ADiagramLiesBesideItsEngineFileAndOutlivesAMove) {
+  write("pressure#1.csv", angle_table());
+  EngineFile engine =
+      read(std::string(kOneCylinder) + "[pressure]\nsource = angle_table\nfile = pressure#1.csv # rig\n");
+  const EngineFile moved = std::move(engine);
+  const Pressure& pressure = moved.definition().pressure;
+  ASSERT_EQ(pressure.point_count, 360);
+  EXPECT_EQ(pressure.points[0].at, -360);
+  EXPECT_EQ(pressure.points[359].pressure_Pa, (100 + 358 % 7) * 1e3);
+  // What is shown finds the diagram from any other folder.
+  const std::string elsewhere = folder_ + "/elsewhere";
+  std::filesystem::create_directory(elsewhere);
+  const std::string shown = show(moved);
+  const EngineFile again = read_engine_file(write("elsewhere/complete.ini", shown), {});
+  expect_same(again.definition(), moved.definition());
+  EXPECT_EQ(show(again), shown);
+}
+
+TEST_F(EngineFileTest, ADiagramOverVolumeIsInCubicMetres) {
+  std::string table = "volume_cm3,pressure_kPa\n";
+  for (int i = 0; i < 40; ++i) table += "815.5,250\n";
+  write("loop.csv", table);
+  const EngineFile engine = read(std::string(kOneCylinder) + "[pressure]\nsource = volume_table\nfile = loop.csv\n");
+  EXPECT_EQ(engine.definition().pressure.points[7].at, 815.5e-6);
+  EXPECT_EQ(engine.definition().pressure.points[7].pressure_Pa, 250e3);
+}
+
+TEST_F(EngineFileTest, AnotherSourceLeavesItsRivalsKeysUnusedButChecked) {
+  const std::string motored = replaced(contents(kSample), "source = wiebe", "source = none");
+  const EngineFile engine = read(motored);
+  EXPECT_EQ(engine.definition().pressure.source, PressureSource::none);
+  EXPECT_FALSE(engine.section("pressure").has("intake_kPa"));
+  EXPECT_NE(show(engine).find("intake_kPa = 98"), std::string::npos);  // kept for the day it is used again
+  EXPECT_NE(refusal(replaced(motored, "intake_kPa = 98", "intake_kPa = -98")), "");
+}
+
+TEST_F(EngineFileTest, WhatTheLibraryRefusesIsToldAtTheLineOfTheKey) {
+  const EngineFile engine = read(kOneCylinder);
+  const std::string path = folder_ + "/engine.ini";
+  EXPECT_EQ(engine.explain({Reason::not_positive, -1, "crank.bore"}).what(),
+            path + ":5: bore_mm: 95 must be greater than zero");
+  // A key that stands at its default has no line of its own: the section's header is to blame.
+  EXPECT_EQ(engine.explain({Reason::no_solution, -1, "crank.pin_offset"}).what(),
+            path + ":4: pin_offset_mm: 0 cannot be met");
+}
+
+TEST_F(EngineFileTest, ValveTrainSectionsAreReadCheckedAndShown) {
+  const std::string train =
+      "[cam intake]\nsource = polynomial\nmax_lift_mm = 6.301099\nhalf_angle_deg = 74\nexponents = 2,10,18,26\n"
+      "full_lift_at_crank_deg = 470\n"
+      "[rocker intake]\npivot_to_pad_mm = 39.61\npivot_to_cam_mm = 30.28\nbase_circle_mm = 12.5\npad_radius_mm = 30\n"
+      "pivot_to_screw_mm = 33.28\nscrew_ball_mm = 10\nstem_above_pivot_mm = 1.65\nclearance_mm = 0.05\n"
+      "cam_turns = toward_pivot\n"
+      "[rocker exhaust-2]\nratio = 1\nbase_circle_mm = 15\nclearance_mm = 0.1\n"
+      "[valve intake]\nper_cylinder = 1\nvalve_g = 33\nspring_g = 60\nrocker_inertia_kg_mm2 = 8.12\nspring_N_per_mm = "
+      "40\n"
+      "spring_preload_N = 205.8\ntrain_N_per_mm = 11765\ntrain_damping_ratio = 0.10\nguide_damping_ratio = 0.003\n"
+      "seat_N_per_mm = 100000\nseat_damping_ratio = 0.10\n";
+  const EngineFile engine = read(train);  // a valve train alone: no [engine], no [crank]
+  EXPECT_EQ(engine.section("cam intake").number("phase_rate_deg_per_s"), 0);
+  EXPECT_EQ(engine.section("valve intake").si("train_N_per_mm"), 11765e3);
+  EXPECT_EQ(engine.section("valve intake").si("head_area_mm2"), 0);
+  EXPECT_EQ(engine.section("rocker intake").text("cam_turns"), "toward_pivot");
+  EXPECT_FALSE(engine.has("crank"));
+  const std::string shown = show(engine);
+  EXPECT_EQ(show(read(shown)), shown);
+  EXPECT_NE(refusal(train + "ratio = 1\n"), "");
+  EXPECT_NE(refusal(replaced(train, "ratio = 1\n", "ratio = 1\ncam_turns = toward_pivot\n")), "");
+  EXPECT_NE(refusal(replaced(train, "2,10,18,26", "2,18,10,26")), "");
+}
+
+TEST(EngineFileKeys, EveryKeySaysItsUnitAndHasAPossibleDefault) {
+  for (const SectionKind& kind : section_kinds()) {
+    for (const Key* key : keys_of(kind.name)) {
+      SCOPED_TRACE(key->name);
+      EXPECT_EQ(find_key(kind.name, key->name), key) << "named twice";
+      const std::string name = key->name;
+      const std::string unit = key->unit.name;
+      if (!unit.empty()) {
+        EXPECT_EQ(name.substr(name.size() - unit.size() - 1), "_" + unit);
+      }
+      EXPECT_TRUE(key->unit.times == 1 || key->unit.over == 1);
+      EXPECT_NE(*key->meaning, '\0');
+      if (key->presence == Presence::with_default) {
+        EXPECT_EQ(format_value(parse_value(*key, key->fallback, "table", 1)), key->fallback);
+      }
+      EXPECT_NE(describe_all_keys().find("\n  " + name + " "), std::string::npos);
+    }
+  }
+}
+
+TEST(EngineFileKeys, WhatIsWrittenReadsBackBitForBit) {
+  const std::uint64_t seed = 495;
+  std::mt19937_64 random(seed);
+  SCOPED_TRACE(seed);
+  Key key = *find_key("crank", "bore_mm");
+  key.range = Range{};
+  for (int i = 0; i < 100'000; ++i) {
+    const std::uint64_t bits = random();
+    double number = 0;
+    static_assert(sizeof number == sizeof bits);
+    std::memcpy(&number, &bits, sizeof number);
+    if (!std::isnormal(number)) continue;
+    Value value;
+    value.key = &key;
+    value.numbers = {number};
+    ASSERT_EQ(parse_value(key, format_value(value), "table", 1).numbers[0], number) << format_value(value);
+  }
+}
+
+/// Hostile files: whatever the bytes, the answer is a definition or an InputError; and a file that is accepted is also shown and
+/// read again without change.
+class HostileEngineFile : public EngineFileTest {
+ protected:
+  void expect_total(const std::string& text) {
+    try {
+      const EngineFile engine = read(text);
+      const std::string shown = show(engine);
+      const EngineFile again = read(shown);
+      EXPECT_EQ(show(again), shown) << text;
+      expect_same(again.definition(), engine.definition());
+      ++accepted_;
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+      EXPECT_EQ(message.find(folder_), 0u) << message;
+      EXPECT_LT(message.size(), folder_.size() + 600) << message;
+    }
+  }
+  int accepted_ = 0;
+};
+
+std::string rich_engine() {
+  return "[engine]\nname = rich\nrated_rpm = 2e3\n[crank]\nbore_mm = 95\nstroke_mm = 115\nrod_length_mm = 210\n"
+         "pin_offset_mm = -1.5\ncompression_ratio = 19\n[masses]\npiston_g = 810\nrod_g = 1887\nrod_com_to_crank_mm = "
+         "56\n"
+         "crank_inertia_kg_m2 = 0.5\n[layout]\ncylinders = 4\nfiring_angles_deg = 0,90,270,360\n"
+         "bank_angles_deg = 45,135,-45,45\ncylinder_positions_mm = 0,100,200,1\nshared_pins = 1-4\n"
+         "crank_throws_deg = 45,45,45,45\n[pressure]\nsource = angle_table\nfile = p.csv\n"
+         "[cam intake]\nsource = polynomial\nmax_lift_mm = 6.3\nhalf_angle_deg = 74\nexponents = 2,10,18,26\n"
+         "full_lift_at_crank_deg = 470\n[rocker intake]\nratio = 1\nbase_circle_mm = 15\nclearance_mm = 0.1\n";
+}
+
+TEST_F(HostileEngineFile, CutOffAtAnyByteItIsReadOrRefused) {
+  write("p.csv", angle_table());
+  for (const std::string& text : {contents(kSample), rich_engine()}) {
+    for (std::size_t length = 0; length <= text.size(); ++length) expect_total(text.substr(0, length));
+  }
+  EXPECT_GT(accepted_, 0);
+}
+
+/// One to three small accidents: a byte changed, added or lost, or a piece copied to where it does not belong.
+std::string mutated(std::string text, std::mt19937_64& random) {
+  const std::string interesting = std::string("0123456789-+.,eE=[]# \t\n\r_abm/\xC3\xBC\x7F") + '\0';
+  for (int edits = 1 + static_cast<int>(random() % 3); edits > 0 && !text.empty(); --edits) {
+    const std::size_t place = random() % text.size();
+    const char c = interesting[random() % interesting.size()];
+    switch (random() % 4) {
+      case 0:
+        text[place] = c;
+        break;
+      case 1:
+        text.insert(place, 1, c);
+        break;
+      case 2:
+        text.erase(place, 1 + random() % 4);
+        break;
+      default:
+        text.insert(place, text.substr(random() % text.size(), 1 + random() % 40));
+        break;
+    }
+  }
+  return text;
+}
+
+TEST_F(HostileEngineFile, MutatedAtRandomItIsReadOrRefused) {
+  const std::uint64_t seed = std::random_device{}();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  write("p.csv", angle_table());
+  for (int round = 0; round < 2000 && !HasFailure(); ++round) {
+    expect_total(mutated(contents(kSample), random));
+    expect_total(mutated(rich_engine(), random));
+  }
+  EXPECT_GT(accepted_, 100);  // the mutations are not all refused for one and the same reason
+}
+
+TEST_F(HostileEngineFile, ItsDiagramMutatedAtRandomIsReadOrRefused) {
+  const std::uint64_t seed = std::random_device{}();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  for (int round = 0; round < 1000 && !HasFailure(); ++round) {
+    write("p.csv", mutated(angle_table(), random));
+    expect_total(rich_engine());
+  }
+  EXPECT_GT(accepted_, 100);
+}
+
+}  // namespace
+}  // namespace crankloop::program

@@ -1,0 +1,47 @@
+// The subcommands. To add one: write NAME.cpp that defines its Command, declare that below, and add it to kCommands in
+// main.cpp:
+//
+//     constexpr Option kOptions[] = {number("--rpm", "N", above(0).up_to(100000), "engine speed in rpm")};
+//     int run_forces(const Arguments& arguments) { ... return kSuccess; }
+//     const Command kForces{"forces", "forces of one cylinder over the cycle", "FILE --rpm N [...]",
+//                           "crankloop forces diesel_495.ini --rpm 2000 --csv forces.csv", 1, kOptions, run_forces};
+#pragma once
+
+#include <cstddef>
+
+#include "arguments.hpp"
+
+namespace crankloop::program {
+
+/// A command's options, from an array or none.
+struct Options {
+  const Option* first = nullptr;
+  std::size_t count = 0;
+
+  constexpr Options() noexcept = default;
+  template <std::size_t N>
+  constexpr Options(const Option (&options)[N]) noexcept
+      : first{options}, count{N} {}  // NOLINT: an array is what it is
+
+  [[nodiscard]] constexpr const Option* begin() const noexcept { return first; }
+  [[nodiscard]] constexpr const Option* end() const noexcept { return first + count; }
+};
+
+struct Command {
+  const char* name;
+  const char* summary;  ///< one line, shown in the list of commands
+  const char* usage;    ///< what follows the name: "FILE --rpm N [--csv F]"
+  const char* example;  ///< a whole line that works from the folder of the sample engines
+  std::size_t files;    ///< how many file names it takes
+  Options options;
+  int (*run)(const Arguments&);  ///< returns an ExitStatus; throws the types of error.hpp
+};
+
+extern const Command kBalance;
+extern const Command kForces;
+extern const Command kKinematics;
+extern const Command kMasses;
+extern const Command kTables;
+extern const Command kShow;
+
+}  // namespace crankloop::program

@@ -1,0 +1,71 @@
+// One engine from its file: read, checked, complete.
+//
+//     const EngineFile engine = read_engine_file(arguments.file(), {"engine", "crank", "masses"});
+//     const Status status = tabulate(engine.definition(), ...);
+//     if (!status.ok()) throw engine.explain(status);
+//
+// What belongs here: what commands ask of an engine file. What does not: its keys (engine_file_keys.cpp).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <crankloop/define/engine_definition.hpp>
+
+#include "engine_file_values.hpp"
+#include "error.hpp"
+
+namespace crankloop::program {
+
+inline constexpr std::size_t kMostEngineFileBytes = std::size_t{1} << 20;
+
+class EngineFile {
+ public:
+  EngineFile(EngineFile&&) = default;
+  EngineFile& operator=(EngineFile&&) = default;
+  EngineFile(const EngineFile&) = delete;  // definition() points to the diagram's rows, which live here
+  EngineFile& operator=(const EngineFile&) = delete;
+
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  [[nodiscard]] const std::string& name() const { return section("engine").text("name"); }
+  [[nodiscard]] double rated_rpm() const { return section("engine").number("rated_rpm"); }
+
+  /// Valid, with [layout] and [pressure] at their defaults where the file has none. Masses are zero unless
+  /// has("masses"), all is zero unless has("crank"). Pressure rows live as long as this object, also when it is moved.
+  [[nodiscard]] const EngineDefinition& definition() const noexcept { return definition_; }
+
+  /// Titles are written as in the brackets: "masses", "cam intake".
+  [[nodiscard]] bool has(const std::string& title) const noexcept { return find(title) != nullptr; }
+  [[nodiscard]] const SectionValues& section(const std::string& title) const;
+
+  /// All that is known, in the order of `show`: the file's sections, and those that are all default.
+  [[nodiscard]] const std::vector<SectionValues>& sections() const noexcept { return sections_; }
+
+  /// The message for what core refused, at the line of the key that is to blame.
+  [[nodiscard]] InputError explain(const Status& status) const;
+
+ private:
+  friend EngineFile read_engine_file(const std::string&, const std::vector<std::string>&);
+
+  explicit EngineFile(const std::string& path) : path_{path} {}
+  [[nodiscard]] const SectionValues* find(const std::string& title) const noexcept;
+  [[nodiscard]] SectionValues* find(const std::string& title) noexcept;
+  void build_definition();
+  void read_diagram(const SectionValues& pressure);
+
+  std::string path_;
+  std::vector<SectionValues> sections_;
+  EngineDefinition definition_;
+  std::vector<DiagramPoint> points_;
+  std::vector<int> point_lines_;
+  std::string points_path_;
+};
+
+/// The file that would say all of this with nothing left to defaults. Reading it gives the same definition, and showing that
+/// the same text.
+[[nodiscard]] std::string show(const EngineFile& engine);
+
+/// Reads and validates everything in the file, and demands the sections that the command needs; throws InputError.
+[[nodiscard]] EngineFile read_engine_file(const std::string& path, const std::vector<std::string>& needed_sections);
+
+}  // namespace crankloop::program

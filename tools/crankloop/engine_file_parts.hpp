@@ -1,0 +1,51 @@
+// From a section's values to the parts of an EngineDefinition; used by engine_file.cpp only.
+//
+// What belongs here: rules that need more than one key, but no other file. What does not: single keys
+// (engine_file_section.cpp).
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <crankloop/define/engine_definition.hpp>
+
+#include "engine_file_values.hpp"
+
+namespace crankloop::program {
+
+[[nodiscard]] Crank build_crank(const SectionValues& values);
+
+[[nodiscard]] Masses build_masses(const SectionValues& values, const Crank& crank, const std::string& path);
+
+/// Fills in, in `values` too, the spacing, bank angles, throws and shared pins that the file leaves out.
+[[nodiscard]] Layout build_layout(SectionValues& values, double bore_mm, const std::string& path);
+
+/// All but the rows of a table source.
+[[nodiscard]] Pressure build_pressure(const SectionValues& values);
+
+/// Rules of [cam NAME] that need more than one key; core has no definition of a cam yet.
+void check_cam(const SectionValues& values, const std::string& path);
+
+/// The part of build_layout() that stands in engine_file_pins.cpp: positions along the crankshaft, and pins. Needs
+/// firing and bank angles.
+void place_cylinders(SectionValues& values, double bore_mm, const std::string& path, Layout& layout);
+
+/// Throws "KEY: MESSAGE" at the key's line.
+[[noreturn]] void refuse(const SectionValues& values, std::string_view key, const std::string& message,
+                         const std::string& path);
+
+/// A list with as many entries as there are cylinders.
+[[nodiscard]] const std::vector<double>& one_per_cylinder(const SectionValues& values, std::string_view key,
+                                                          const std::string& path);
+
+/// "1 cylinder", "4 cylinders".
+[[nodiscard]] std::string cylinders_text(int count);
+
+/// An angle in degrees, 0 to below 360.
+[[nodiscard]] double full_turn(double angle_deg);
+
+/// Between two directions, 0 to 180 deg.
+[[nodiscard]] double apart_deg(double a_deg, double b_deg);
+
+}  // namespace crankloop::program

@@ -1,0 +1,59 @@
+// The values of one section: typed, in range, with defaults filled in, each with the line it came from.
+//
+// What belongs here: what can be said of one section alone. What does not: what sections demand of one another
+// (engine_file_parts.hpp).
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine_file_keys.hpp"
+#include "ini_text.hpp"
+
+namespace crankloop::program {
+
+struct Value {
+  const Key* key = nullptr;
+  int line = 0;                          ///< 0: a default or derived
+  bool used = true;                      ///< false: belongs to a form or source that is not chosen
+  std::string text;                      ///< choice, text, path
+  std::vector<double> numbers;           ///< number, whole_number (one each), numbers
+  std::vector<std::vector<int>> groups;  ///< firing_order (one group), pin_groups; cylinders counted from 1
+};
+
+/// Reads what stands behind `key =`; throws InputError at path:line.
+[[nodiscard]] Value parse_value(const Key& key, std::string_view text, const std::string& path, int line);
+
+/// As it would stand in the file; parse_value() of it gives the same value back, bit for bit.
+[[nodiscard]] std::string format_value(const Value& value);
+
+struct SectionValues {
+  std::string kind;
+  std::string name;
+  int line = 0;               ///< of its header; 0: the section is not in the file, all is default
+  std::vector<Value> values;  ///< in the order of the key table
+
+  [[nodiscard]] std::string title() const { return name.empty() ? "[" + kind + "]" : "[" + kind + " " + name + "]"; }
+
+  [[nodiscard]] const Value* find(std::string_view key) const;  ///< nullptr: not given and no default, or not used
+  [[nodiscard]] bool has(std::string_view key) const { return find(key) != nullptr; }
+  [[nodiscard]] const std::string& text(std::string_view key) const { return at(key).text; }
+  [[nodiscard]] double number(std::string_view key) const { return at(key).numbers.at(0); }  ///< in the file's unit
+  [[nodiscard]] double si(std::string_view key) const;  ///< in SI; angles stay in degrees
+  [[nodiscard]] const std::vector<double>& numbers(std::string_view key) const { return at(key).numbers; }
+
+  /// Line to blame for a key: its own if it is in the file, otherwise the section's.
+  [[nodiscard]] int line_of(std::string_view key) const;
+
+  /// Fills in what follows from other keys, for `show`; keeps the table's order.
+  void derive(std::string_view key, Value value);
+
+ private:
+  [[nodiscard]] const Value& at(
+      std::string_view key) const;  ///< throws std::logic_error: asking for what may be absent is a defect
+};
+
+[[nodiscard]] SectionValues resolve_section(const IniSection& section, const std::string& path);
+
+}  // namespace crankloop::program

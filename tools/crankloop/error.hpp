@@ -1,0 +1,44 @@
+// The ways in which a command ends early, one exception type each.
+//
+// What belongs here: carrying one line to the user and the exit status behind it. What does not: wording (it stands
+// where the error is found).
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace crankloop::program {
+
+enum ExitStatus : int {
+  kSuccess = 0,
+  kFailure = 1,   ///< the program's or the machine's fault: full disk, closed pipe, a defect
+  kBadInput = 2,  ///< the user's: an option, an engine file, a table
+};
+
+/// Bad input. The message is one line, "FILE:LINE: what is wrong, what is allowed".
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(const std::string& message) : std::runtime_error(message) {}
+  InputError(const std::string& path, int line, const std::string& message)
+      : std::runtime_error(path + ":" + std::to_string(line) + ": " + message) {}
+};
+
+/// A bad command line; main() adds the command's usage line.
+class UsageError : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// Output that could not be written.
+class OutputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Whoever read our output has gone (`| head`): nothing is left to say, and nobody to say it to.
+class ReaderGone : public OutputError {
+ public:
+  ReaderGone() : OutputError("standard output was closed by its reader") {}
+};
+
+}  // namespace crankloop::program

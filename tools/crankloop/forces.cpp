@@ -1,0 +1,135 @@
+// `crankloop forces FILE --rpm N`: forces and moments of one cylinder over its cycle.
+#include <string>
+#include <vector>
+
+#include <crankloop/tabulate/summary.hpp>
+
+#include "commands.hpp"
+#include "csv.hpp"
+#include "engine_file.hpp"
+#include "tick_probe.hpp"
+
+namespace crankloop::program {
+namespace {
+
+constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
+
+/// Everything of one row but the angle.
+struct Row {
+  CylinderForces<double> forces;
+  InertiaOrders orders;
+  double crank_pin_load_N;
+  double engine_torque_Nm;
+};
+
+/// How forces are shown: in N, or per piston area in MPa.
+struct Scale {
+  double forces;
+  const char* suffix;
+};
+
+template <class Real>
+void write_row(CsvWriter& csv, double deg, const Row& row, Scale scale) {
+  const auto real = [](double value) { return static_cast<Real>(value); };
+  const auto force = [&](double newtons) { return static_cast<Real>(newtons * scale.forces); };
+  const CylinderForces<double>& f = row.forces;
+  csv.row(deg, real(f.pressure_Pa / 1000), force(f.gas_force_N), force(f.inertia_force_N), force(row.orders.first_N),
+          force(row.orders.second_N), force(f.total_force_N), force(f.side_force_N), force(f.rod_force_N), force(f.radial_force_N),
+          force(f.tangential_force_N), real(f.torque_Nm), real(f.tilting_moment_Nm), force(row.crank_pin_load_N),
+          real(row.engine_torque_Nm));
+}
+
+std::vector<std::string> header(Scale scale) {
+  std::vector<std::string> names{"crank_deg", "pressure_kPa"};
+  for (const char* force : {"gas_force", "inertia_force", "inertia_first", "inertia_second", "total_force", "side_force", "rod_force",
+                            "radial_force", "tangential_force"}) {
+    names.push_back(std::string(force) + scale.suffix);
+  }
+  names.insert(names.end(), {"torque_Nm", "tilting_moment_Nm", std::string("crank_pin_load") + scale.suffix, "engine_torque_Nm"});
+  return names;
+}
+
+/// Cylinder k's own angle on the engine's circle, 0 to 720.
+double engine_angle(const EngineDefinition& definition, int cylinder, double own_deg) {
+  const double deg = own_deg + definition.layout.firing_deg[static_cast<std::size_t>(cylinder)];
+  return deg >= 720 ? deg - 720 : deg;
+}
+
+template <class Real>
+CylinderForces<double> widened(const CylinderForces<Real>& f) {
+  return {f.pressure_Pa,    f.gas_force_N,        f.inertia_force_N, f.total_force_N,     f.side_force_N, f.rod_force_N,
+          f.radial_force_N, f.tangential_force_N, f.torque_Nm,       f.tilting_moment_Nm};
+}
+
+template <class Real>
+Row by_table(TickProbe<Real>& probe, const EngineDefinition& definition, int cylinder, double deg, double speed) {
+  const auto k = static_cast<std::size_t>(cylinder);
+  const auto& out = probe.at(engine_angle(definition, cylinder, deg), speed);
+  return {widened(out.cylinder[k]), inertia_orders(definition, deg * kRadPerDeg, speed), out.pin_load_N[definition.layout.pin[k]],
+          out.torque_Nm};
+}
+
+Row by_formula(const ExactEngine& engine, int cylinder, double deg, double speed) {
+  const double at = engine_angle(engine.definition(), cylinder, deg);
+  const PinLoad pin = engine.pin_load(cylinder, at, speed);
+  return {engine.forces(cylinder, at, speed), inertia_orders(engine.definition(), deg * kRadPerDeg, speed),
+          square_root(pin.radial_N * pin.radial_N + pin.tangential_N * pin.tangential_N), engine.torque_Nm(at, speed)};
+}
+
+template <class Real>
+void write(CsvWriter& csv, const EngineFile& engine, const Arguments& arguments, int cylinder, Scale scale) {
+  const double speed = arguments.number("--rpm") * kRadPerSPerRpm;
+  const double step_deg = arguments.number("--step-deg");
+  if (arguments.text("--method") == "table") {
+    TickProbe<Real> probe(engine.definition());
+    for_each_angle(step_deg, 720, [&](double deg) {
+      write_row<Real>(csv, deg, by_table(probe, engine.definition(), cylinder, deg, speed), scale);
+    });
+    return;
+  }
+  ExactEngine exact;
+  if (const Status refused = exact.init(engine.definition()); !refused.ok()) throw engine.explain(refused);
+  for_each_angle(step_deg, 720, [&](double deg) { write_row<Real>(csv, deg, by_formula(exact, cylinder, deg, speed), scale); });
+}
+
+int run_forces(const Arguments& arguments) {
+  const EngineFile engine = read_engine_file(arguments.file(), {"engine", "crank", "masses"});
+  const EngineDefinition& definition = engine.definition();
+  const int cylinder = arguments.whole_number("--cylinder") - 1;
+  if (cylinder >= definition.layout.cylinders) {
+    throw InputError(engine.path() + ": the engine has " + std::to_string(definition.layout.cylinders) + " cylinders, --cylinder " +
+                     std::to_string(cylinder + 1) + " is none of them");
+  }
+  const Scale scale = arguments.has("--per-area") ? Scale{1e-6 / bore_area_m2(definition.crank), "_MPa"} : Scale{1, "_N"};
+  Output out(arguments.text_or_empty("--csv"));
+  CsvWriter csv(out, header(scale));
+  if (arguments.text("--real") == "float") {
+    write<float>(csv, engine, arguments, cylinder, scale);
+  } else {
+    write<double>(csv, engine, arguments, cylinder, scale);
+  }
+  out.finish();
+  return kSuccess;
+}
+
+constexpr Option kOptions[] = {
+    number("--rpm", "N", from(-100000).up_to(100000), "engine speed in rpm"),
+    whole_number("--cylinder", "K", from(1).up_to(16), "cylinder; crank_deg is its own crank angle", "1"),
+    number("--step-deg", "D", from(0.001).up_to(720), "crank degrees between rows", "1"),
+    choice("--method", "table|exact", "as the tick computes it, or exactly", "table"),
+    choice("--real", "float|double", "arithmetic of the tick, and digits of the result", "double"),
+    flag("--per-area", "forces per piston area, in MPa"),
+    text("--csv", "F", "file for the table; else standard output"),
+};
+
+}  // namespace
+
+const Command kForces{"forces",
+                      "forces and moments of one cylinder over its cycle",
+                      "FILE --rpm N [--cylinder K] [--step-deg D] [--method M] [--real R] [--per-area] [--csv F]",
+                      "crankloop forces diesel_495.ini --rpm 2000 --cylinder 1 --csv forces.csv",
+                      1,
+                      kOptions,
+                      run_forces};
+
+}  // namespace crankloop::program

@@ -1,0 +1,143 @@
+// The command-line program: finds the subcommand, gives help, turns exceptions into a line and an exit status.
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "engine_file_keys.hpp"
+#include "error.hpp"
+#include "output.hpp"
+#include "words.hpp"
+
+#ifndef CRANKLOOP_VERSION
+#define CRANKLOOP_VERSION "0.0.0"
+#endif
+
+namespace crankloop::program {
+namespace {
+
+constexpr const Command* kCommands[] = {&kShow, &kMasses, &kKinematics, &kForces, &kBalance, &kTables};
+
+constexpr std::size_t kNameColumn = 24;
+
+std::string in_column(std::string name) {
+  name.resize(std::max(kNameColumn, name.size() + 2), ' ');
+  return "  " + name;
+}
+
+std::string usage_of(const Command& command) {
+  return "usage: crankloop " + std::string(command.name) + " " + command.usage + "\n";
+}
+
+std::string help_of(const Command& command) {
+  std::string text = "crankloop " + std::string(command.name) + ": " + command.summary + "\n\n" + usage_of(command);
+  if (command.options.count > 0) text += "\n";
+  for (const Option& option : command.options) {
+    text += in_column(std::string(option.name) + (option.value == nullptr ? "" : std::string(" ") + option.value)) +
+            option.meaning;
+    if (const std::string allowed = describe(option.range, ""); !allowed.empty()) text += "; " + allowed;
+    if (option.fallback != nullptr) text += std::string("; default ") + option.fallback;
+    text += "\n";
+  }
+  text += "\nexample: " + std::string(command.example) + "\n";
+  return text;
+}
+
+std::string help() {
+  std::string text =
+      "crankloop: an engine's mechanics at a fixed time step\n\nusage: crankloop COMMAND [FILE] [--option "
+      "value]...\n\n";
+  for (const Command* command : kCommands) text += in_column(command->name) + command->summary + "\n";
+  text += in_column("help COMMAND") + "usage, options and an example of a command\n";
+  text += in_column("help engine-file") + "sections, keys, units and ranges of an engine file\n";
+  text += in_column("--version") + "prints the version\n";
+  text += "\nexample: " + std::string(kCommands[0]->example) + "\n";
+  text +=
+      "\nBad input ends with one line on stderr, FILE:LINE: what is wrong, and exit status 2, before anything is "
+      "written.\n";
+  return text;
+}
+
+std::string engine_file_help() {
+  return "An engine file is plain text: [section] headers, key = value lines, # comments. Units stand in the keys.\n"
+         "Angles are crank degrees, 0 at cylinder 1's firing TDC. At most 1 MiB; ASCII or UTF-8.\n\n" +
+         describe_all_keys();
+}
+
+const Command& find_command(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Command* command : kCommands) {
+    if (name == command->name) return *command;
+    names.emplace_back(command->name);
+  }
+  const std::string guess = suggestion(name, names);
+  throw InputError("crankloop: unknown command " + quoted(name) +
+                   (guess.empty() ? "; commands: " + join(names) : guess));
+}
+
+int print(const std::string& text) {
+  Output out = Output::standard();
+  out.write(text);
+  out.finish();
+  return kSuccess;
+}
+
+int run_help(const std::vector<std::string>& words) {
+  if (words.size() < 2) return print(help());
+  if (words[1] == "engine-file") return print(engine_file_help());
+  return print(help_of(find_command(words[1])));
+}
+
+int run(const std::vector<std::string>& words) {
+  if (words.empty()) throw InputError("crankloop: a command is missing; `crankloop --help` lists them");
+  if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") return run_help(words);
+  if (words[0] == "--version") return print("crankloop " CRANKLOOP_VERSION "\n");
+  const Command& command = find_command(words[0]);
+  const std::vector<std::string> rest(words.begin() + 1, words.end());
+  for (const std::string& word : rest) {
+    if (word == "--") break;
+    if (word == "--help" || word == "-h") return print(help_of(command));
+  }
+  try {
+    return command.run(Arguments(command, rest));
+  } catch (const UsageError& error) {
+    throw InputError("crankloop " + std::string(command.name) + ": " + error.what() + "\n" + usage_of(command));
+  }
+}
+
+/// With stdin, stdout or stderr closed, the next file opened would take their place, and be written as if it were them.
+void occupy_closed_standard_files() {
+  int file = ::open("/dev/null", O_RDONLY);
+  while (file >= 0 && file <= STDERR_FILENO) file = ::open("/dev/null", O_RDONLY);
+  if (file >= 0) ::close(file);
+}
+
+void complain(const std::string& message) {
+  const bool ends = !message.empty() && message.back() == '\n';
+  std::fprintf(stderr, "%s%s", message.c_str(), ends ? "" : "\n");
+}
+
+}  // namespace
+}  // namespace crankloop::program
+
+int main(int count, char** words) {
+  using namespace crankloop::program;
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe becomes an error of write(), and unfinished files are removed
+  occupy_closed_standard_files();
+  try {
+    return run(std::vector<std::string>(words + (count > 0 ? 1 : 0), words + count));
+  } catch (const InputError& error) {
+    complain(error.what());
+    return kBadInput;
+  } catch (const ReaderGone&) {
+    return kFailure;
+  } catch (const std::exception& error) {
+    complain(std::string("crankloop: ") + error.what());
+    return kFailure;
+  }
+}

@@ -1,0 +1,94 @@
+#include "number.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+#include "words.hpp"
+
+namespace crankloop::program {
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+bool starts_like_infinity_or_nan(std::string_view unsigned_text) {
+  std::string lower;
+  for (const char c : unsigned_text.substr(0, 3))
+    lower += (c >= 'A' && c <= 'Z') ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower == "inf" || lower == "nan";
+}
+
+std::string why_not_a_number(std::string_view text, std::string_view rest) {
+  if (text.empty()) return "the value is missing";
+  const std::string what = quoted(text) + " is not a number";
+  if (rest.empty() || rest.size() == text.size()) return what;
+  if (rest[0] == ',') return what + " (the decimal sign is a point)";
+  if (rest[0] == 'x' || rest[0] == 'X') return what + " (hexadecimal is not accepted)";
+  return what + " (" + quoted(rest) + " follows it; write the number alone, without a unit)";
+}
+
+/// The %g form; no "-0".
+template <class Real>
+std::string rounded(Real value, int digits) {
+  if (value == 0) value = 0;
+  std::array<char, 64> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, digits);
+  return {text.data(), end.ptr};
+}
+
+}  // namespace
+
+std::string describe(const Range& range, std::string_view unit) {
+  const bool has_least = std::isfinite(range.least);
+  const bool has_most = std::isfinite(range.most);
+  const std::string least = (range.without_least ? "above " : has_most ? "" : "at least ") + shortest(range.least);
+  const std::string joint = !has_least || range.without_least ? (range.without_most ? "below " : "at most ")
+                                                              : (range.without_most ? "to below " : "to ");
+  std::string words;
+  if (has_least) words += least;
+  if (has_most) words += (!has_least ? "" : range.without_least ? ", " : " ") + joint + shortest(range.most);
+  if (!words.empty() && !unit.empty()) words.append(" ").append(unit);
+  return words;
+}
+
+ParsedNumber parse_number(std::string_view text) {
+  const bool has_sign = !text.empty() && (text[0] == '+' || text[0] == '-');
+  const std::string_view digits = has_sign ? text.substr(1) : text;
+  if (starts_like_infinity_or_nan(digits)) return {0, quoted(text) + " is not a finite number"};
+  if (digits.empty() || !(is_digit(digits[0]) || digits[0] == '.')) return {0, why_not_a_number(text, text)};
+
+  // from_chars, unlike strtod, knows no locale; it does not take a plus sign, so it gets the digits alone.
+  double value = 0;
+  const auto [rest, error] =
+      std::from_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general);
+  const std::string_view left(rest, static_cast<std::size_t>(digits.data() + digits.size() - rest));
+  if (error == std::errc::invalid_argument || !left.empty()) return {0, why_not_a_number(text, left)};
+  if (error == std::errc::result_out_of_range || !std::isfinite(value)) {
+    return {0, quoted(text) + " is too large or too small for a number (about 1e-308 to 1e308)"};
+  }
+  return {text[0] == '-' ? -value : value, ""};
+}
+
+ParsedNumber parse_number(std::string_view text, const Range& range, std::string_view unit) {
+  ParsedNumber number = parse_number(text);
+  if (number.ok() && !range.contains(number.value)) {
+    number.problem = shortest(number.value) + " is out of range; allowed: " + describe(range, unit);
+  }
+  return number;
+}
+
+std::string shortest(double value) {
+  const double size = std::abs(value);
+  const bool reads_best_plain = value == 0 || (size >= 1e-4 && size < 1e9);  // 100000, not 1e+05
+  if (value == 0) value = 0;
+  std::array<char, 64> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                 reads_best_plain ? std::chars_format::fixed : std::chars_format::scientific);
+  return {text.data(), end.ptr};
+}
+
+std::string significant(double value) { return rounded(value, 12); }
+std::string significant(float value) { return rounded(value, 9); }
+
+}  // namespace crankloop::program

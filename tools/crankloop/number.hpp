@@ -1,0 +1,62 @@
+// Numbers as text: one strict reader and three writers for files, options and CSV alike, whatever the machine's locale.
+//
+// What belongs here: digits and ranges. What does not: which key or option a number belongs to.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+
+namespace crankloop::program {
+
+/// What a number may be. Built as it reads: above(0).up_to(2000), from(0).below(720).
+struct Range {
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+  bool without_least = false;
+  bool without_most = false;
+
+  [[nodiscard]] constexpr Range up_to(double limit) const noexcept { return {least, limit, without_least, false}; }
+  [[nodiscard]] constexpr Range below(double limit) const noexcept { return {least, limit, without_least, true}; }
+  [[nodiscard]] constexpr bool contains(double value) const noexcept {
+    return (without_least ? value > least : value >= least) && (without_most ? value < most : value <= most);
+  }
+};
+
+[[nodiscard]] constexpr Range above(double limit) noexcept {
+  Range range;
+  range.least = limit;
+  range.without_least = true;
+  return range;
+}
+[[nodiscard]] constexpr Range from(double limit) noexcept {
+  Range range;
+  range.least = limit;
+  return range;
+}
+
+/// "above 0, at most 2000 mm", "0 to 100", "0 to below 720 deg"; empty for a range without limits.
+[[nodiscard]] std::string describe(const Range& range, std::string_view unit);
+
+/// A number or the reason why the text is none, e.g. "'9,5' is not a number (the decimal sign is a point)".
+struct ParsedNumber {
+  double value = 0;
+  std::string problem;  ///< empty: value is a finite number
+
+  [[nodiscard]] bool ok() const noexcept { return problem.empty(); }
+};
+
+/// Decimal notation only: [+-]digits[.digits][e[+-]digits]. No blanks, hex, inf or nan.
+[[nodiscard]] ParsedNumber parse_number(std::string_view text);
+
+/// Adds the range's refusal: "-95 is out of range: above 0, at most 2000 mm".
+[[nodiscard]] ParsedNumber parse_number(std::string_view text, const Range& range, std::string_view unit);
+
+/// The fewest digits that read back as the same double. Negative zero is written as 0, here and below.
+[[nodiscard]] std::string shortest(double value);
+
+/// 12 significant digits for double and 9 for float: what CSV files hold.
+[[nodiscard]] std::string significant(double value);
+[[nodiscard]] std::string significant(float value);
+
+}  // namespace crankloop::program

@@ -1,0 +1,46 @@
+// Where results go: standard output, or a file that appears complete or not at all.
+//
+// What belongs here: bytes and their errors. What does not: their format (csv.hpp).
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace crankloop::program {
+
+/// Buffered output. A file is written beside its place under another name and renamed by finish(), so that an error on
+/// the way leaves the old file, or none, but never half of one. What is no file (/dev/null, a pipe) is written to
+/// directly.
+///
+/// Every failure throws OutputError; what was not finished is discarded.
+class Output {
+ public:
+  /// "" and "-" are standard output.
+  explicit Output(const std::string& path);
+  static Output standard() { return Output(""); }
+
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+  Output(Output&& other) noexcept;
+  Output& operator=(Output&&) = delete;
+  ~Output();
+
+  void write(std::string_view text);
+  void finish();  ///< nothing may be written after it
+
+ private:
+  void flush();
+  [[noreturn]] void fail(const char* what);
+
+  std::string path_;       ///< empty: standard output
+  std::string temporary_;  ///< empty: written directly
+  int file_ = -1;
+  std::string buffer_;
+};
+
+/// One line of a summary: "mean_torque = 210.4 Nm". Write dimensionless values with unit "".
+void write_summary(Output& out, std::string_view name, double value, std::string_view unit);
+void write_summary(Output& out, std::string_view name, float value, std::string_view unit);
+void write_summary(Output& out, std::string_view name, std::string_view text);
+
+}  // namespace crankloop::program

@@ -1,0 +1,69 @@
+// A report as one self-contained HTML file: key figures, then sections of text, tables and plots.
+//
+// What belongs here: the order and look of a page. What does not: drawing (plot.hpp), engines, files.
+//
+// The page needs no script and no network (its content security policy forbids both), follows the reader's light or dark
+// theme, has one column on a phone and two on a desk, and prints light. It is well-formed XML too, which makes it testable.
+#pragma once
+
+#include "plot.hpp"
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace crankloop::report {
+
+struct Paragraph {
+  std::string text{};
+  bool note = false;  ///< set apart: an assumption or a warning that must not be overlooked
+};
+
+struct List {
+  std::vector<std::string> items{};
+};
+
+struct Column {
+  std::string title{};
+  std::string unit{};
+  bool numeric = true;  ///< right-aligned
+};
+
+/// The first cell of a row is the row's heading. Short rows are filled with empty cells, surplus cells ignored.
+struct Table {
+  std::string caption{};
+  std::vector<Column> columns{};
+  std::vector<std::vector<std::string>> rows{};
+  bool folded = false;  ///< behind its caption until the reader opens it; printed open
+};
+
+/// Neighbouring plots share a row where there is room, and so do neighbouring tables of up to four columns.
+using Block = std::variant<Paragraph, List, Table, Plot>;
+
+struct Section {
+  std::string id{};
+  std::string title{};
+  std::vector<Block> blocks{};
+};
+
+/// A key figure at the head of the page.
+struct Fact {
+  std::string name{};
+  std::string value{};
+  std::string unit{};
+  std::string note{};
+};
+
+struct Page {
+  std::string title{};
+  std::string subtitle{};
+  std::vector<Fact> facts{};
+  std::vector<Section> sections{};
+  std::string footer{};
+  std::string language = "en";
+};
+
+/// The whole file. All text is escaped; ids are made valid and unique.
+[[nodiscard]] std::string to_html(const Page& page);
+
+}  // namespace crankloop::report

@@ -1,0 +1,251 @@
+// `crankloop tables FILE --tick-us T`: the tables as a C++ header of constexpr data, one object per section.
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <crankloop/tabulate/tabulate.hpp>
+
+#include "commands.hpp"
+#include "engine_file.hpp"
+#include "error.hpp"
+#include "output.hpp"
+
+namespace crankloop::program {
+namespace {
+
+/// All sections, on the heap.
+template <class Real>
+struct AllSections {
+  Drive<Real> drive{};
+  Body<Real> body{};
+  IntegratedCurve<Real> stroke{}, rod_angle{}, inertia_torque{};
+  Curve<Real> acceleration{}, rod_tilt{}, radial{}, rod_curvature{};
+  Bearings<Real> bearings{};
+  Balance<Real> balance{};
+  GasGrid gas_grid{};
+  std::vector<Segment<Real>> pressure_full, pressure_motored, pressure_heat;
+  GasTorque<Real> gas_torque_full{}, gas_torque_motored{}, gas_torque_heat{};
+  std::vector<IntegratedSegment<Real>> gas_full, gas_motored, gas_heat;
+
+  AllSections()
+      : pressure_full(kMostGasSegments), pressure_motored(kMostGasSegments), pressure_heat(kMostGasSegments), gas_full(kMostGasSegments),
+        gas_motored(kMostGasSegments), gas_heat(kMostGasSegments) {}
+
+  TableTargets<Real> targets() {
+    TableTargets<Real> t;
+    t.drive = &drive, t.body = &body, t.stroke = &stroke, t.acceleration = &acceleration, t.rod_tilt = &rod_tilt, t.radial = &radial;
+    t.rod_angle = &rod_angle, t.rod_curvature = &rod_curvature, t.inertia_torque = &inertia_torque, t.bearings = &bearings;
+    t.balance = &balance, t.gas_grid = &gas_grid, t.gas_capacity = static_cast<int>(kMostGasSegments);
+    t.pressure_full = pressure_full.data(), t.pressure_motored = pressure_motored.data(), t.pressure_heat = pressure_heat.data();
+    t.gas_torque_full = &gas_torque_full, t.gas_torque_motored = &gas_torque_motored, t.gas_torque_heat = &gas_torque_heat;
+    t.gas_full = gas_full.data(), t.gas_motored = gas_motored.data(), t.gas_heat = gas_heat.data();
+    return t;
+  }
+};
+
+/// Prints initialisers. Floating-point numbers are hexadecimal, so that the compiler reads back the same bits.
+class Printer {
+ public:
+  explicit Printer(Output& out) : out_{out} {}
+
+  void text(const std::string& s) { out_.write(s); }
+
+  void number(float x) { hex(static_cast<double>(x), "F"); }
+  void number(double x) { hex(x, ""); }
+  void number(std::uint64_t x) { integer(x, "ULL"); }
+  void number(std::uint32_t x) { integer(x, "U"); }
+  void number(std::uint16_t x) { integer(x, ""); }
+  void number(std::uint8_t x) { integer(x, ""); }
+
+  template <class... Numbers>
+  void list(const Numbers&... numbers) {
+    bool first = true;
+    text("{");
+    ((text(first ? "" : ", "), first = false, print(numbers)), ...);
+    text("}");
+  }
+
+  template <class Real>
+  void print(const Segment<Real>& s) { array(s.c); }
+  template <class Real>
+  void print(const IntegratedSegment<Real>& s) { list(s.base, s.slope); }
+  template <class Real>
+  void print(const Turning<Real>& t) {
+    list(t.up_cos, t.up_sin, t.lateral_cos, t.lateral_sin, t.pitch_cos, t.pitch_sin, t.yaw_cos, t.yaw_sin);
+  }
+  template <class Real>
+  void print(const Curve<Real>& c) { braced([&] { rows(c.at, kDegreesPerTurn); }); }
+  template <class Item, std::size_t N>
+  void print(const Item (&items)[N]) { array(items); }
+  template <class Number>
+  void print(const Number& x) { number(x); }
+
+  /// One object per line.
+  template <class Item>
+  void rows(const Item* items, std::size_t count) {
+    text("{\n");
+    for (std::size_t i = 0; i < count; ++i) {
+      text("  ");
+      print(items[i]);
+      text(",\n");
+    }
+    text("}");
+  }
+
+  template <class Inside>
+  void braced(const Inside& inside) {
+    text("{");
+    inside();
+    text("}");
+  }
+
+ private:
+  template <class Item, std::size_t N>
+  void array(const Item (&items)[N]) {
+    text("{");
+    for (std::size_t i = 0; i < N; ++i) {
+      if (i > 0) text(", ");
+      print(items[i]);
+    }
+    text("}");
+  }
+  void hex(double x, const char* suffix) {
+    char digits[40];
+    std::snprintf(digits, sizeof digits, "%a%s", x, suffix);
+    text(digits);
+  }
+  void integer(std::uint64_t x, const char* suffix) { text(std::to_string(x) + suffix); }
+
+  Output& out_;
+};
+
+/// `constexpr TYPE name = ...;` around what print_value prints.
+template <class PrintValue>
+void section(Printer& p, const std::string& type, const std::string& name, const PrintValue& print_value) {
+  p.text("\nconstexpr " + type + " " + name + " = ");
+  print_value();
+  p.text(";\n");
+}
+
+template <class Real>
+void print_sections(Printer& p, const AllSections<Real>& s, const std::string& real, std::size_t gas_segments) {
+  const std::string of_real = "<" + real + ">";
+  const auto type = [&](const char* name) { return "crankloop::" + std::string(name) + of_real; };
+  const Drive<Real>& d = s.drive;
+  section(p, type("Drive"), "drive", [&] {
+    p.list(d.fingerprint, d.tick_s, d.cycles_per_tick_per_rad_s, d.rad_s_per_cycle_per_tick, d.speed_limit_rad_s, d.cylinders, d.mechanisms,
+           d.firing_phase, d.mechanism_of, d.turn_of, d.cylinders_on_mechanism);
+  });
+  const Body<Real>& b = s.body;
+  section(p, type("Body"), "body", [&] {
+    p.list(b.crank_radius_m, b.per_crank_radius, b.per_rod_length, b.pin_offset_m, b.height_at_tdc_m, b.bore_area_m2, b.crankcase_Pa,
+           b.reciprocating_kg, b.rod_inertia_correction_kg_m2);
+  });
+  const auto integrated = [&](const char* name, const IntegratedCurve<Real>& curve) {
+    section(p, type("IntegratedCurve"), name, [&] {
+      p.braced([&] {
+        p.number(curve.quantum);
+        p.text(", ");
+        p.rows(curve.at, kDegreesPerTurn);
+      });
+    });
+  };
+  const auto plain = [&](const char* name, const Curve<Real>& curve) { section(p, type("Curve"), name, [&] { p.print(curve); }); };
+  integrated("stroke", s.stroke);
+  plain("acceleration", s.acceleration);
+  plain("rod_tilt", s.rod_tilt);
+  plain("radial", s.radial);
+  integrated("rod_angle", s.rod_angle);
+  plain("rod_curvature", s.rod_curvature);
+  integrated("inertia_torque", s.inertia_torque);
+  const Bearings<Real>& g = s.bearings;
+  section(p, type("Bearings"), "bearings", [&] { p.list(g.pins, g.pin_of, g.rods_kg_m, g.throw_kg_m, g.throw_cos, g.throw_sin); });
+  section(p, type("Balance"), "balance", [&] { p.list(s.balance.first, s.balance.second, s.balance.rotating, s.balance.cosine); });
+  section(p, "crankloop::GasGrid", "gas_grid", [&] { p.braced([&] { p.print(s.gas_grid.first); }); });
+  const auto pressure = [&](const char* name, const std::vector<Segment<Real>>& segments) {
+    section(p, type("Segment"), std::string(name) + "[]", [&] { p.rows(segments.data(), gas_segments); });
+  };
+  pressure("pressure_full", s.pressure_full);
+  pressure("pressure_motored", s.pressure_motored);
+  pressure("pressure_heat", s.pressure_heat);
+  const auto torque = [&](const std::string& name, const GasTorque<Real>& curve, const std::vector<IntegratedSegment<Real>>& segments) {
+    section(p, type("IntegratedSegment"), name + "_segments[]", [&] { p.rows(segments.data(), gas_segments); });
+    section(p, type("GasTorque"), name, [&] {
+      p.text("{" + name + "_segments, ");
+      p.number(curve.quantum);
+      p.text(", ");
+      p.number(curve.mean_Nm);
+      p.text("}");
+    });
+  };
+  torque("gas_torque_full", s.gas_torque_full, s.gas_full);
+  torque("gas_torque_motored", s.gas_torque_motored, s.gas_motored);
+  torque("gas_torque_heat", s.gas_torque_heat, s.gas_heat);
+
+  p.text("\nconstexpr crankloop::Sections" + of_real + " sections = [] {\n  crankloop::Sections" + of_real + " s;\n");
+  for (const char* name : {"drive", "body", "stroke", "acceleration", "rod_tilt", "radial", "rod_angle", "rod_curvature", "inertia_torque",
+                           "bearings", "balance", "gas_grid", "gas_torque_full", "gas_torque_motored", "gas_torque_heat"}) {
+    p.text(std::string("  s.") + name + " = &" + name + ";\n");
+  }
+  for (const char* name : {"pressure_full", "pressure_motored", "pressure_heat"}) {
+    p.text(std::string("  s.") + name + " = " + name + ";\n");
+  }
+  p.text("  return s;\n}();\n");
+}
+
+template <class Real>
+void print_header(Output& out, const EngineFile& engine, const Arguments& arguments) {
+  const std::string& real = arguments.text("--real");
+  const auto sections = std::make_unique<AllSections<Real>>();
+  TableReport report;
+  const Status status = tabulate(engine.definition(), {arguments.number("--tick-us") * 1e-6}, sections->targets(), &report);
+  if (!status.ok()) throw engine.explain(status);
+  const std::string& name_space = arguments.text("--namespace");
+  Printer p(out);
+  p.text("// Tables of the engine \"" + engine.name() + "\" for a tick of " + shortest(arguments.number("--tick-us")) + " us, " + real +
+         ".\n// Made by `crankloop tables`; do not edit. Each section is an object of its own: what a scene does not read is not linked.\n"
+         "#pragma once\n\n#include <crankloop/tick/tables.hpp>\n\nnamespace " + name_space + " {\n");
+  print_sections(p, *sections, real, static_cast<std::size_t>(report.gas_segments));
+  p.text("\n}  // namespace " + name_space + "\n");
+}
+
+bool is_identifier(const std::string& s) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  for (const char c : s) {
+    if (!letter(c) && !(c >= '0' && c <= '9')) return false;
+  }
+  return !s.empty() && letter(s[0]);
+}
+
+int run_tables(const Arguments& arguments) {
+  if (!is_identifier(arguments.text("--namespace"))) throw UsageError("--namespace must be a C++ identifier");
+  const EngineFile engine = read_engine_file(arguments.file(), {"engine", "crank", "masses"});
+  Output out(arguments.text_or_empty("--output"));
+  if (arguments.text("--real") == "float") {
+    print_header<float>(out, engine, arguments);
+  } else {
+    print_header<double>(out, engine, arguments);
+  }
+  out.finish();
+  return kSuccess;
+}
+
+constexpr Option kOptions[] = {
+    number("--tick-us", "T", from(1).up_to(2000), "tick length in microseconds"),
+    choice("--real", "float|double", "arithmetic of the tick", "float"),
+    {"--namespace", Option::Kind::text, "NAME", "C++ namespace of the tables", "crankloop_tables"},
+    text("--output", "F", "file for the header; else standard output"),
+};
+
+}  // namespace
+
+const Command kTables{"tables",
+                      "the tables as a C++ header, for firmware",
+                      "FILE --tick-us T [--real R] [--namespace NAME] [--output F]",
+                      "crankloop tables diesel_495.ini --tick-us 100 --real float > diesel_495_tables.hpp",
+                      1,
+                      kOptions,
+                      run_tables};
+
+}  // namespace crankloop::program

@@ -1,0 +1,30 @@
+// A text file as lines, or one clear refusal: too large, binary, unreadable.
+//
+// What belongs here: bytes and line ends. What does not: what the lines mean (ini_text.hpp, table_file.hpp).
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace crankloop::program {
+
+/// The bytes of a file, or why there are none.
+struct FileBytes {
+  std::string bytes;
+  std::string problem;  ///< "cannot be read: No such file or directory"; empty when all is well
+
+  [[nodiscard]] bool ok() const noexcept { return problem.empty(); }
+};
+
+/// `most_bytes` is a whole number of MiB. A file that is larger is a problem, an empty one is not. Endless ones
+/// (/dev/zero) are left as soon as they are too large.
+[[nodiscard]] FileBytes read_file(const std::string& path, std::size_t most_bytes);
+
+/// Lines without their ends. LF and CRLF end a line, the last line needs no end, a UTF-8 byte order mark is skipped.
+///
+/// Throws InputError, "not a text file", at the first line with a control character other than tab, or with bytes that
+/// are not UTF-8: so no message and no report can carry control codes from a file to a terminal or a browser.
+[[nodiscard]] std::vector<std::string> split_lines(const std::string& bytes, const std::string& path);
+
+}  // namespace crankloop::program

@@ -1,0 +1,94 @@
+#include "words.hpp"
+
+#include <algorithm>
+
+namespace crankloop::program {
+namespace {
+
+constexpr std::size_t kLongestQuote = 40;
+constexpr std::size_t kLongestGuess = 64;  // bounds the quadratic work of edit_distance() on hostile files
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return result;
+}
+
+/// Insertions, removals, changes and swaps of neighbours that turn one word into the other (optimal string alignment).
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::vector<std::size_t>> steps(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) {
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+      if (i == 0 || j == 0) {
+        steps[i][j] = i + j;
+        continue;
+      }
+      const std::size_t change = a[i - 1] == b[j - 1] ? 0 : 1;
+      steps[i][j] = std::min({steps[i - 1][j] + 1, steps[i][j - 1] + 1, steps[i - 1][j - 1] + change});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        steps[i][j] = std::min(steps[i][j], steps[i - 2][j - 2] + 1);
+      }
+    }
+  }
+  return steps[a.size()][b.size()];
+}
+
+/// "bore" of "bore_mm": the unit is what people forget.
+bool is_leading_part(std::string_view given, std::string_view known) {
+  return given.size() >= 3 && known.size() > given.size() && known.compare(0, given.size(), given) == 0 &&
+         known[given.size()] == '_';
+}
+
+}  // namespace
+
+std::string_view trim(std::string_view text) noexcept {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t start = 0;;) {
+    const auto end = text.find(separator, start);
+    parts.push_back(trim(text.substr(start, end - start)));
+    if (end == std::string_view::npos) return parts;
+    start = end + 1;
+  }
+}
+
+std::string quoted(std::string_view text) {
+  if (text.size() <= kLongestQuote) return "'" + std::string(text) + "'";
+  std::size_t end = kLongestQuote;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0u) == 0x80u) --end;  // not inside a UTF-8 character
+  return "'" + std::string(text.substr(0, end)) + "...'";
+}
+
+std::string join(const std::vector<std::string>& words, const char* separator) {
+  std::string text;
+  for (const std::string& word : words) {
+    if (!text.empty()) text += separator;
+    text += word;
+  }
+  return text;
+}
+
+std::string suggestion(std::string_view given, const std::vector<std::string>& known) {
+  if (given.empty() || given.size() > kLongestGuess) return "";
+  const std::string word = lower(given);
+  const std::string* best = nullptr;
+  std::size_t best_distance = std::min<std::size_t>(2, given.size() / 3) + 1;
+  for (const std::string& candidate : known) {
+    const std::string other = lower(candidate);
+    const std::size_t distance = is_leading_part(word, other) ? 1 : edit_distance(word, other);
+    if (distance < best_distance) {
+      best = &candidate;
+      best_distance = distance;
+    }
+  }
+  return best == nullptr ? "" : "; did you mean " + *best + "?";
+}
+
+}  // namespace crankloop::program
