@@ -47,8 +47,7 @@ function(crankloop_add_scene name scene_header engine_file)
   crankloop_tables_of_engine_file(pressure_tables "${engine_file}")
   add_custom_command(
     OUTPUT "${tables}"
-    COMMAND "${CMAKE_COMMAND}" "-Dprogram=${program}" "-Dengine_file=${engine_file}" "-Dtick_us=${arg_TICK_US}"
-            "-Dreal=${arg_REAL}" "-Doutput=${tables}" -P "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/CrankloopWriteTables.cmake"
+    COMMAND "${program}" tables "${engine_file}" --tick-us "${arg_TICK_US}" --real "${arg_REAL}" --output "${tables}"
     DEPENDS "${program}" "${engine_file}" ${pressure_tables}
     COMMENT "Tables of ${name}"
     VERBATIM)

@@ -17,7 +17,7 @@ namespace {
 constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
 constexpr double kSpeed_rad_s = 210;
 
-// Half a unit of the last printed digit. Some figures are exact ties, e.g. x = 55.285 at 80 deg within rounding: hence the 1e-9.
+// Half a unit of the last printed digit. v at 90 and 270 deg is an exact tie, 12.075 printed as 12.08: hence the 1e-9.
 constexpr double kHalfOfLastDigit = 0.005 + 1e-9;
 
 struct Row {
@@ -88,7 +88,7 @@ TEST(Diesel495Table, TellsTheApproximationFromTheExactMotionAndTheRoundedRodRati
     true_rod_fits += fits(second_order_pose(true_rod, a).acceleration_m);
   }
   EXPECT_LE(exact_acceleration_fits, 3);  // 0, 180 and 360 deg, where both agree
-  EXPECT_LE(true_rod_fits, 0);
+  EXPECT_LE(true_rod_fits, 4);            // where cos 2a is small, and lambda hardly enters: 50, 130, 230 and 310 deg
 }
 
 }  // namespace

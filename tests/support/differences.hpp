@@ -7,8 +7,8 @@ namespace crankloop::support {
 inline constexpr double kStep = 1.0 / 1024;
 
 /// First derivative, five points: exact for polynomials of degree 4, off by h^4/30 times the fifth derivative.
-template <class Function>
-[[nodiscard]] double slope_of(const Function& f, double at, double h = kStep) {
+template <class Function, class Real>
+[[nodiscard]] Real slope_of(const Function& f, Real at, Real h = static_cast<Real>(kStep)) {
   return (8 * (f(at + h) - f(at - h)) - (f(at + 2 * h) - f(at - 2 * h))) / (12 * h);
 }
 

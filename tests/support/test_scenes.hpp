@@ -46,11 +46,14 @@ struct Asking : Scene {
   static constexpr bool free_forces = (Groups & kFreeForces) != 0;
 };
 
+/// Room for the finest gas grid of all: 20 segments in every degree.
+inline constexpr int kFinestGrid = static_cast<int>(kMostGasSegments);
+
 /// Every section of an engine's tables, on the heap.
 template <class Real>
 class FullTables {
  public:
-  Status build(const EngineDefinition& engine, double tick_s, int gas_capacity = kMostGasSegments) {
+  Status build(const EngineDefinition& engine, double tick_s, int gas_capacity = kFinestGrid) {
     const auto room = static_cast<std::size_t>(gas_capacity);
     for (auto* segments : {&pressure_full_, &pressure_motored_, &pressure_heat_}) segments->assign(room, {});
     for (auto* segments : {&gas_full_, &gas_motored_, &gas_heat_}) segments->assign(room, {});
@@ -142,6 +145,20 @@ struct Running {
   Tables<Real, S> tables;
   Engine<Real, S> engine;
 };
+
+/// An input that says only where the crank is, or how fast it turns.
+template <class Engine>
+[[nodiscard]] typename Engine::Input at_phase(Phase crank) {
+  typename Engine::Input in;
+  in.crank = crank;
+  return in;
+}
+template <class Engine>
+[[nodiscard]] typename Engine::Input at_speed(double speed_rad_s) {
+  typename Engine::Input in;
+  in.speed_rad_s = static_cast<decltype(in.speed_rad_s)>(speed_rad_s);
+  return in;
+}
 
 /// The phase of an engine angle in degrees of the cycle, to the last bit of long double.
 [[nodiscard]] inline Phase phase_at_deg(long double deg) {

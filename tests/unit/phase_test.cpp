@@ -163,8 +163,8 @@ TYPED_TEST(PhaseOf, LastUnitOfTheCycleLiesInItsLastDegreeAndBelowItsEnd) {
   using Real = TypeParam;
   const Cell cell = Phase{kLastUnit}.template cell<Real>();
   EXPECT_EQ(cell.degree, 719u);
-  EXPECT_LT(fraction<Real>(cell.into), Real{1});
-  EXPECT_GT(fraction<Real>(cell.into), Real{0.9999F});
+  EXPECT_LT(fraction<Real>(cell), Real{1});
+  EXPECT_GT(fraction<Real>(cell), Real{0.9999F});
 }
 
 TYPED_TEST(PhaseOf, EveryDegreeBeginsWhereItShouldAndTheUnitBeforeIsStillTheLastOfTheDegreeBefore) {
@@ -179,9 +179,9 @@ TYPED_TEST(PhaseOf, EveryDegreeBeginsWhereItShouldAndTheUnitBeforeIsStillTheLast
     ASSERT_EQ(at.degree, degree);
     ASSERT_EQ(after.degree, degree);
     ASSERT_EQ(before.degree, (degree + 719) % 720);
-    ASSERT_LT(fraction<Real>(at.into), Real{720.0F / 4294967296.0F});
-    ASSERT_GT(fraction<Real>(before.into), Real{0.9999F});
-    ASSERT_LT(fraction<Real>(before.into), Real{1});
+    ASSERT_LT(fraction<Real>(at), Real{720.0F / 4294967296.0F});
+    ASSERT_GT(fraction<Real>(before), Real{0.9999F});
+    ASSERT_LT(fraction<Real>(before), Real{1});
   }
 }
 

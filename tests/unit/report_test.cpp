@@ -520,6 +520,17 @@ TEST(ReportPlot, LeavesOutWhatALogarithmCannotShow) {
   EXPECT_GT(line[0].y, line[1].y);
 }
 
+TEST(ReportPlot, CutsOffWhatLiesOutsideAGivenRange) {
+  Plot plot = plot_of({pressure_trace()});
+  plot.x.range = Range{-10, 30};  // around combustion
+  const std::string svg = to_svg(plot);
+  const Markup markup = read(svg);
+  const std::string id = markup.all("clipPath").at(0).attributes.at("id");
+  EXPECT_EQ(markup.all("g").at(0).attributes.at("clip-path"), "url(#" + id + ")");
+  const std::vector<Point> line = points_of(markup.of_class("curve").at(0).attributes.at("d"));
+  EXPECT_GT(line.back().x, 520.0);  // 720 deg lies off the drawing, in its true direction
+}
+
 TEST(ReportPlot, ClosesALoopAndTintsItsInside) {
   Series loop{"", {1, 2, 2, 1}, {1, 1, 2, 2}, {}};
   loop.style.closed = loop.style.filled = true;

@@ -209,7 +209,7 @@ TYPED_TEST(TickKinematics, TablesReadByHandHoldThePromiseForEveryCurve) {
       const Phase phase{random.bits()};
       const Cell cell = phase.cell<Real>();
       const std::uint32_t degree = cell.degree % 360;
-      const Real u = fraction<Real>(cell.into);
+      const Real u = fraction<Real>(cell);
       const OraclePose want = oracle_pose(crank, static_cast<long double>(phase.units()) * (4 * kPi_ld / 18446744073709551616.0L));
       const auto read = [&](const auto& curve) { return static_cast<long double>(value(curve.at[degree], u)); };
       const auto read_slope = [&](const auto& curve) { return static_cast<long double>(value(curve.at[degree].slope, u)); };

@@ -1,6 +1,8 @@
 #include "arguments.hpp"
 
 #include <cmath>
+#include <filesystem>
+#include <limits>
 
 #include "commands.hpp"
 #include "error.hpp"
@@ -22,7 +24,15 @@ const Option& known_option(const Command& command, std::string_view name) {
   for (const Option& option : command.options) names.emplace_back(option.name);
   const std::string guess = suggestion(name, names);
   const std::string all = names.empty() ? "; this command has none" : "; options: " + join(names);
-  throw UsageError("unknown option " + quoted(name) + (guess.empty() ? all : guess));
+  throw UsageError("unknown option " + in_quotes(name) + (guess.empty() ? all : guess));
+}
+
+/// Whether writing to one would write over the other. Devices may be named as often as one likes.
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  if (std::filesystem::exists(a, error) && !std::filesystem::is_regular_file(a, error)) return false;
+  return std::filesystem::equivalent(a, b, error) ||
+         std::filesystem::weakly_canonical(a, error) == std::filesystem::weakly_canonical(b, error);
 }
 
 }  // namespace
@@ -59,7 +69,23 @@ Arguments::Arguments(const Command& command, const std::vector<std::string>& wor
     if (option.fallback != nullptr && !has(option.name)) set(option, option.fallback, false);
   }
   if (files_.size() < command.files) throw UsageError("a file name is missing");
-  if (files_.size() > command.files) throw UsageError("unexpected argument " + quoted(files_[command.files]));
+  if (files_.size() > command.files) throw UsageError("unexpected argument " + in_quotes(files_[command.files]));
+  refuse_overwriting();
+}
+
+void Arguments::refuse_overwriting() const {
+  for (const auto& [name, given] : given_) {
+    if (given.option->kind != Option::Kind::text) continue;
+    for (const std::string& file : files_) {
+      if (is_same_file(given.text, file)) throw UsageError(name + " would overwrite the input file " + file);
+    }
+    for (const auto& [other_name, other] : given_) {
+      const bool both_named = other.option->kind == Option::Kind::text && name < other_name;
+      if (both_named && is_same_file(given.text, other.text)) {
+        throw UsageError(name + " and " + other_name + " name the same file");
+      }
+    }
+  }
 }
 
 void Arguments::set(const Option& option, std::string_view value, bool by_user) {
@@ -75,7 +101,7 @@ void Arguments::set(const Option& option, std::string_view value, bool by_user) 
       const bool is_int =
           parsed.value == std::floor(parsed.value) && std::abs(parsed.value) <= std::numeric_limits<int>::max();
       if (option.kind == Option::Kind::whole_number && !is_int)
-        throw UsageError(prefix + quoted(value) + " is not a whole number");
+        throw UsageError(prefix + in_quotes(value) + " is not a whole number");
       given.number = parsed.value;
       break;
     }
@@ -87,7 +113,7 @@ void Arguments::set(const Option& option, std::string_view value, bool by_user) 
         known = known || one == value;
       }
       if (!known)
-        throw UsageError(prefix + quoted(value) + " is not one of " + join(choices) + suggestion(value, choices));
+        throw UsageError(prefix + in_quotes(value) + " is not one of " + join(choices) + suggestion(value, choices));
       break;
     }
     case Option::Kind::text:

@@ -49,8 +49,8 @@ struct Option {
 /// What the user asked for, as `--name value`, `--name=value`, `--flag`, and files in between; `--` ends the options.
 class Arguments {
  public:
-  /// Throws UsageError for an option that is unknown, doubled, without its value, with a value out of its range, and
-  /// for files that are missing or too many.
+  /// Throws UsageError for an option that is unknown, doubled, without its value, with a value out of its range, for
+  /// files that are missing or too many, and for an output that would overwrite an input or another output.
   Arguments(const Command& command, const std::vector<std::string>& words);
 
   [[nodiscard]] const std::string& file(std::size_t index = 0) const { return files_.at(index); }
@@ -75,6 +75,7 @@ class Arguments {
     bool by_user = false;
   };
   void set(const Option& option, std::string_view value, bool by_user);
+  void refuse_overwriting() const;
   [[nodiscard]] const Given& get(std::string_view option) const;
 
   std::vector<std::string> files_;

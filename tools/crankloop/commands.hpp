@@ -41,6 +41,7 @@ extern const Command kBalance;
 extern const Command kForces;
 extern const Command kKinematics;
 extern const Command kMasses;
+extern const Command kRun;
 extern const Command kTables;
 extern const Command kShow;
 

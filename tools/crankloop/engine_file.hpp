@@ -7,6 +7,7 @@
 // What belongs here: what commands ask of an engine file. What does not: its keys (engine_file_keys.cpp).
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 

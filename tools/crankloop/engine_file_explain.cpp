@@ -19,18 +19,18 @@ bool is_named(const Key& key, std::string_view field) {
 }
 
 std::string rod_too_short(const SectionValues& crank, const Crank& built) {
-  const std::string least = shortest(crank.number("stroke_mm") / 2 + std::abs(crank.number("pin_offset_mm"))) + " mm";
+  const std::string least = brief(crank.number("stroke_mm") / 2 + std::abs(crank.number("pin_offset_mm"))) + " mm";
   const std::string rule =
       "; it must be longer than stroke_mm / 2 + |pin_offset_mm| = " + least + ", or the crank cannot turn";
   if (!crank.has("rod_ratio"))
     return "rod_length_mm: " + shortest(crank.number("rod_length_mm")) + " is too short" + rule;
-  return "rod_ratio: " + shortest(crank.number("rod_ratio")) + " makes the rod " + shortest(built.rod_length_m * 1e3) +
+  return "rod_ratio: " + shortest(crank.number("rod_ratio")) + " makes the rod " + brief(built.rod_length_m * 1e3) +
          " mm long" + rule;
 }
 
 std::string combustion_too_long(const SectionValues& pressure) {
   const double end_deg = pressure.number("start_of_combustion_deg") + pressure.number("combustion_duration_deg");
-  return "combustion_duration_deg: combustion would end at " + shortest(end_deg) +
+  return "combustion_duration_deg: combustion would end at " + brief(end_deg) +
          " deg; it must end before exhaust_valve_opens_deg = " + shortest(pressure.number("exhaust_valve_opens_deg"));
 }
 
@@ -50,7 +50,7 @@ InputError EngineFile::explain(const Status& status) const {
     if (status.reason == Reason::too_few_points)
       message = std::to_string(points_.size()) + " rows are too few for a diagram";
     if (status.reason == Reason::not_one_period && !points_.empty()) {
-      message = "the angles run from " + shortest(points_.front().at) + " to " + shortest(points_.back().at) +
+      message = "the angles run from " + brief(points_.front().at) + " to " + brief(points_.back().at) +
                 " deg; they must span one period of 720 deg (a closing row at its end may be left out)";
     }
     return InputError(points_path_, line, message);

@@ -73,8 +73,8 @@ void check_throws(SectionValues& values, const std::string& path, const Layout& 
     const double needed_deg = full_turn(layout.throw_deg(k) - layout.throw_deg(0));
     if (apart_deg(here_deg, needed_deg) <= kThrowToleranceDeg) continue;
     refuse(values, "crank_throws_deg",
-           "cylinder " + std::to_string(k + 1) + "'s throw is given " + shortest(here_deg) +
-               " deg from cylinder 1's; bank and firing angles put it at " + shortest(needed_deg) +
+           "cylinder " + std::to_string(k + 1) + "'s throw is given " + brief(here_deg) +
+               " deg from cylinder 1's; bank and firing angles put it at " + brief(needed_deg) +
                " deg (bank - firing, within " + shortest(kThrowToleranceDeg) + ")",
            path);
   }

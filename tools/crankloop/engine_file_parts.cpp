@@ -29,7 +29,7 @@ Masses build_masses(const SectionValues& values, const Crank& crank, const std::
       throw InputError(path, values.line_of("rod_com_to_crank_mm"),
                        "rod_com_to_crank_mm: " + shortest(values.number("rod_com_to_crank_mm")) +
                            " is out of range; the centre of mass lies between the pins, at most " +
-                           shortest(crank.rod_length_m * 1e3) + " mm from the crank pin");
+                           brief(crank.rod_length_m * 1e3) + " mm from the crank pin");
     }
     if (values.has("rod_inertia_kg_mm2")) rod.inertia_kg_m2 = values.si("rod_inertia_kg_mm2");
     lump_rod(rod, crank, masses);

@@ -36,7 +36,7 @@ Groups given_groups(const SectionValues& values, const std::string& path, const 
       const double first_deg = layout.throw_deg(group[0] - 1);
       if (apart_deg(first_deg, throw_deg) > kSamePinDeg) {
         wrong("cylinders " + first + " and " + name + " cannot share a pin; their throws (bank - firing) point to " +
-              shortest(full_turn(first_deg)) + " and " + shortest(full_turn(throw_deg)) + " deg, and must be equal");
+              brief(full_turn(first_deg)) + " and " + brief(full_turn(throw_deg)) + " deg, and must be equal");
       }
     }
   }
@@ -83,19 +83,24 @@ void number_pins(const SectionValues& values, const std::vector<std::size_t>& le
     std::size_t leader;
     double begin_m;
     double end_m;
+    double middle_m;  ///< of its rods: what "along the shaft" means in core
   };
   std::vector<Pin> pins;
   for (std::size_t k = 0; k < leader.size(); ++k) {
     if (leader[k] != k) continue;
-    Pin pin{k, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    Pin pin{k, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), 0};
+    int rods = 0;
     for (std::size_t other = 0; other < leader.size(); ++other) {
       if (leader[other] != k) continue;
       pin.begin_m = std::min(pin.begin_m, layout.position_m[other]);
       pin.end_m = std::max(pin.end_m, layout.position_m[other]);
+      pin.middle_m += layout.position_m[other];
+      ++rods;
     }
+    pin.middle_m /= rods;
     pins.push_back(pin);
   }
-  std::stable_sort(pins.begin(), pins.end(), [](const Pin& a, const Pin& b) { return a.begin_m < b.begin_m; });
+  std::stable_sort(pins.begin(), pins.end(), [](const Pin& a, const Pin& b) { return a.middle_m < b.middle_m; });
   for (std::size_t k = 0; k < leader.size(); ++k) {
     for (std::size_t i = 0; i < pins.size(); ++i) {
       if (pins[i].leader == leader[k]) layout.pin[k] = static_cast<std::uint8_t>(i);

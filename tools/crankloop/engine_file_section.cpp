@@ -1,6 +1,7 @@
 // resolve_section(): from what stands under a header to the section's complete values.
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "engine_file_values.hpp"
 #include "error.hpp"
@@ -17,7 +18,7 @@ const Key& known_key(const IniSection& section, const IniEntry& entry, const std
   if (const std::vector<std::string> homes = sections_with_key(entry.key); !homes.empty())
     help = "; it belongs to " + join(homes, " or ");
   if (help.empty()) help = "; keys: " + join(names);
-  throw InputError(path, entry.line, "unknown key " + quoted(entry.key) + " in " + section.title() + help);
+  throw InputError(path, entry.line, "unknown key " + in_quotes(entry.key) + " in " + section.title() + help);
 }
 
 SectionValues read_given(const IniSection& section, const std::string& path) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <crankloop/define/layout.hpp>
 
@@ -29,7 +30,7 @@ std::vector<int> cylinder_numbers(const Key& key, std::string_view text, const s
     const bool in_range = number.ok() && number.value >= 1 && number.value <= kMaxCylinders;
     if (!in_range || number.value != std::floor(number.value) || cylinders.size() >= kLongestList) {
       throw InputError(path, line,
-                       std::string(key.name) + ": " + quoted(text) + " does not consist of cylinder numbers (1 to " +
+                       std::string(key.name) + ": " + in_quotes(text) + " does not consist of cylinder numbers (1 to " +
                            std::to_string(kMaxCylinders) + "); write it " + key.allowed());
     }
     cylinders.push_back(static_cast<int>(number.value));
@@ -43,7 +44,7 @@ std::string choice_of(const Key& key, std::string_view text, const std::string& 
   if (std::find(choices.begin(), choices.end(), text) == choices.end()) {
     throw InputError(
         path, line,
-        std::string(key.name) + ": " + quoted(text) + " is not one of " + join(choices) + suggestion(text, choices));
+        std::string(key.name) + ": " + in_quotes(text) + " is not one of " + join(choices) + suggestion(text, choices));
   }
   return std::string(text);
 }
@@ -73,7 +74,7 @@ Value parse_value(const Key& key, std::string_view text, const std::string& path
       if (key.kind == Kind::whole_number && value.numbers[0] != std::floor(value.numbers[0])) {
         throw InputError(
             path, line,
-            std::string(key.name) + ": " + quoted(text) + " is not a whole number; allowed: " + key.allowed());
+            std::string(key.name) + ": " + in_quotes(text) + " is not a whole number; allowed: " + key.allowed());
       }
       break;
     case Kind::numbers:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include "error.hpp"
 #include "words.hpp"
@@ -28,7 +29,7 @@ IniSection parse_header(std::string_view text, const std::string& path, int line
   // Inside brackets a # has no other meaning than a comment, with or without a blank before it.
   text = trim(text.substr(0, text.find('#')));
   if (text.back() != ']')
-    throw InputError(path, line, "section " + quoted(text) + " has no closing bracket; write [section]");
+    throw InputError(path, line, "section " + in_quotes(text) + " has no closing bracket; write [section]");
   const std::string_view inside = trim(text.substr(1, text.size() - 2));
   const auto blank = inside.find_first_of(" \t");
   IniSection section{std::string(inside.substr(0, blank)), "", line, {}};
@@ -37,7 +38,7 @@ IniSection parse_header(std::string_view text, const std::string& path, int line
       section.name.empty() || (is_word(section.name) && section.name.size() <= kLongestSectionName);
   if (!is_word(section.kind) || !name_is_fine) {
     throw InputError(path, line,
-                     quoted(text) +
+                     in_quotes(text) +
                          " is not a section; write [section] or [section NAME], NAME of letters, digits, _ and -, " +
                          "at most " + std::to_string(kLongestSectionName));
   }
@@ -47,11 +48,12 @@ IniSection parse_header(std::string_view text, const std::string& path, int line
 IniEntry parse_entry(std::string_view text, const std::string& path, int line) {
   const auto equals = text.find('=');
   if (equals == std::string_view::npos) {
-    throw InputError(path, line, quoted(text) + " is neither 'key = value' nor '[section]' nor a comment ('# ...')");
+    throw InputError(path, line, in_quotes(text) + " is neither 'key = value' nor '[section]' nor a comment ('# ...')");
   }
   const std::string_view key = trim(text.substr(0, equals));
   if (key.empty()) throw InputError(path, line, "no key stands before '='; write 'key = value'");
-  if (!is_word(key)) throw InputError(path, line, quoted(key) + " is not a key; keys consist of letters, digits and _");
+  if (!is_word(key))
+    throw InputError(path, line, in_quotes(key) + " is not a key; keys consist of letters, digits and _");
   return {std::string(key), std::string(trim(text.substr(equals + 1))), line};
 }
 

@@ -2,6 +2,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -21,13 +22,17 @@
 namespace crankloop::program {
 namespace {
 
-constexpr const Command* kCommands[] = {&kShow, &kMasses, &kKinematics, &kForces, &kBalance, &kTables};
+constexpr const Command* kCommands[] = {&kShow, &kMasses, &kKinematics, &kForces, &kBalance, &kRun, &kTables};
 
-constexpr std::size_t kNameColumn = 24;
+constexpr std::size_t kNameColumn = 18;
 
-std::string in_column(std::string name) {
-  name.resize(std::max(kNameColumn, name.size() + 2), ' ');
+std::string in_column(std::string name, std::size_t width = kNameColumn) {
+  name.resize(std::max(width, name.size() + 2), ' ');
   return "  " + name;
+}
+
+std::string with_value(const Option& option) {
+  return option.value == nullptr ? option.name : std::string(option.name) + " " + option.value;
 }
 
 std::string usage_of(const Command& command) {
@@ -37,9 +42,10 @@ std::string usage_of(const Command& command) {
 std::string help_of(const Command& command) {
   std::string text = "crankloop " + std::string(command.name) + ": " + command.summary + "\n\n" + usage_of(command);
   if (command.options.count > 0) text += "\n";
+  std::size_t width = 0;
+  for (const Option& option : command.options) width = std::max(width, with_value(option).size() + 2);
   for (const Option& option : command.options) {
-    text += in_column(std::string(option.name) + (option.value == nullptr ? "" : std::string(" ") + option.value)) +
-            option.meaning;
+    text += in_column(with_value(option), width) + option.meaning;
     if (const std::string allowed = describe(option.range, ""); !allowed.empty()) text += "; " + allowed;
     if (option.fallback != nullptr) text += std::string("; default ") + option.fallback;
     text += "\n";
@@ -76,7 +82,7 @@ const Command& find_command(const std::string& name) {
     names.emplace_back(command->name);
   }
   const std::string guess = suggestion(name, names);
-  throw InputError("crankloop: unknown command " + quoted(name) +
+  throw InputError("crankloop: unknown command " + in_quotes(name) +
                    (guess.empty() ? "; commands: " + join(names) : guess));
 }
 

@@ -21,11 +21,11 @@ bool starts_like_infinity_or_nan(std::string_view unsigned_text) {
 
 std::string why_not_a_number(std::string_view text, std::string_view rest) {
   if (text.empty()) return "the value is missing";
-  const std::string what = quoted(text) + " is not a number";
+  const std::string what = in_quotes(text) + " is not a number";
   if (rest.empty() || rest.size() == text.size()) return what;
   if (rest[0] == ',') return what + " (the decimal sign is a point)";
   if (rest[0] == 'x' || rest[0] == 'X') return what + " (hexadecimal is not accepted)";
-  return what + " (" + quoted(rest) + " follows it; write the number alone, without a unit)";
+  return what + " (" + in_quotes(trim(rest)) + " follows it; write the number alone, without a unit)";
 }
 
 /// The %g form; no "-0".
@@ -55,7 +55,7 @@ std::string describe(const Range& range, std::string_view unit) {
 ParsedNumber parse_number(std::string_view text) {
   const bool has_sign = !text.empty() && (text[0] == '+' || text[0] == '-');
   const std::string_view digits = has_sign ? text.substr(1) : text;
-  if (starts_like_infinity_or_nan(digits)) return {0, quoted(text) + " is not a finite number"};
+  if (starts_like_infinity_or_nan(digits)) return {0, in_quotes(text) + " is not a finite number"};
   if (digits.empty() || !(is_digit(digits[0]) || digits[0] == '.')) return {0, why_not_a_number(text, text)};
 
   // from_chars, unlike strtod, knows no locale; it does not take a plus sign, so it gets the digits alone.
@@ -65,9 +65,9 @@ ParsedNumber parse_number(std::string_view text) {
   const std::string_view left(rest, static_cast<std::size_t>(digits.data() + digits.size() - rest));
   if (error == std::errc::invalid_argument || !left.empty()) return {0, why_not_a_number(text, left)};
   if (error == std::errc::result_out_of_range || !std::isfinite(value)) {
-    return {0, quoted(text) + " is too large or too small for a number (about 1e-308 to 1e308)"};
+    return {0, in_quotes(text) + " is too large or too small for a number (about 1e-308 to 1e308)"};
   }
-  return {text[0] == '-' ? -value : value, ""};
+  return {text[0] == '-' && value != 0 ? -value : value, ""};
 }
 
 ParsedNumber parse_number(std::string_view text, const Range& range, std::string_view unit) {
@@ -88,6 +88,7 @@ std::string shortest(double value) {
   return {text.data(), end.ptr};
 }
 
+std::string brief(double value) { return rounded(value, 6); }
 std::string significant(double value) { return rounded(value, 12); }
 std::string significant(float value) { return rounded(value, 9); }
 

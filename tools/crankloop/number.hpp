@@ -46,7 +46,7 @@ struct ParsedNumber {
   [[nodiscard]] bool ok() const noexcept { return problem.empty(); }
 };
 
-/// Decimal notation only: [+-]digits[.digits][e[+-]digits]. No blanks, hex, inf or nan.
+/// Decimal notation only: [+-]digits[.digits][e[+-]digits]. No blanks, hex, inf or nan. "-0" is 0.
 [[nodiscard]] ParsedNumber parse_number(std::string_view text);
 
 /// Adds the range's refusal: "-95 is out of range: above 0, at most 2000 mm".
@@ -54,6 +54,9 @@ struct ParsedNumber {
 
 /// The fewest digits that read back as the same double. Negative zero is written as 0, here and below.
 [[nodiscard]] std::string shortest(double value);
+
+/// 6 significant digits: for messages that tell a computed number.
+[[nodiscard]] std::string brief(double value);
 
 /// 12 significant digits for double and 9 for float: what CSV files hold.
 [[nodiscard]] std::string significant(double value);

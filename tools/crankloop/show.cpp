@@ -1,4 +1,5 @@
 // `crankloop show FILE`: the complete definition as an engine file.
+#include <algorithm>
 #include <filesystem>
 
 #include "commands.hpp"

@@ -14,7 +14,7 @@ void check_header(std::string_view line, const TableFormat& format, const std::s
   if (names.size() == 2 && names[0] == format.first && names[1] == format.second) return;
   throw InputError(
       path, number,
-      "the header row is " + quoted(trim(line)) + "; it must be '" + format.first + "," + format.second + "'");
+      "the header row is " + in_quotes(trim(line)) + "; it must be '" + format.first + "," + format.second + "'");
 }
 
 double column(std::string_view text, const char* name, const Range& range, const std::string& path, int line) {
@@ -45,7 +45,7 @@ std::vector<TableRow> read_table(const std::string& path, const TableFormat& for
     const std::vector<std::string_view> cells = split(text, ',');
     if (cells.size() != 2) {
       throw InputError(path, line,
-                       quoted(text) + " has " + std::to_string(cells.size()) +
+                       in_quotes(text) + " has " + std::to_string(cells.size()) +
                            (cells.size() == 1 ? " column" : " columns") + "; a row is '" + format.first + "," +
                            format.second + "', with a point as decimal sign");
     }

@@ -37,8 +37,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 /// "bore" of "bore_mm": the unit is what people forget.
 bool is_leading_part(std::string_view given, std::string_view known) {
-  return given.size() >= 3 && known.size() > given.size() && known.compare(0, given.size(), given) == 0 &&
-         known[given.size()] == '_';
+  return given.size() >= 3 && known.size() > given.size() && known.compare(0, given.size(), given) == 0;
 }
 
 }  // namespace
@@ -59,7 +58,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   if (text.size() <= kLongestQuote) return "'" + std::string(text) + "'";
   std::size_t end = kLongestQuote;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0u) == 0x80u) --end;  // not inside a UTF-8 character

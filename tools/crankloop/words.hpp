@@ -14,14 +14,14 @@ namespace crankloop::program {
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
 
 /// In single quotes, cut after 40 bytes, so that no message runs away with a line of the file.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string in_quotes(std::string_view text);
 
 /// "a, b, c".
 [[nodiscard]] std::string join(const std::vector<std::string>& words, const char* separator = ", ");
 
 /// "; did you mean bore_mm?" if one of the known words is close to the given one, otherwise "".
 ///
-/// Close: equal but for case, or the last words left out (bore for bore_mm), or at most a third of its letters, and 2
+/// Close: equal but for case, or the end left out (bore for bore_mm), or at most a third of its letters, and 2
 /// at most, inserted, removed, changed or swapped.
 [[nodiscard]] std::string suggestion(std::string_view given, const std::vector<std::string>& known);
 

@@ -7,7 +7,8 @@
 #error "crankloop needs IEEE arithmetic: compile without -ffast-math and -ffinite-math-only (docs/contract.md)"
 #endif
 
-#if defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ != 0
+// 0: as declared; 16: the same for float and double (AArch64 with half precision).
+#if defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ != 0 && __FLT_EVAL_METHOD__ != 16
 #error "crankloop needs float and double arithmetic in their own precision: on 32-bit x86 add -msse2 -mfpmath=sse"
 #endif
 

@@ -7,6 +7,7 @@ namespace crankloop {
 namespace {
 
 constexpr double kLargest = 1.7976931348623157e308;
+constexpr double kHeaviest_kg = 1e4;
 
 [[nodiscard]] bool finite(double x) noexcept { return x >= -kLargest && x <= kLargest; }
 
@@ -24,9 +25,10 @@ constexpr double kLargest = 1.7976931348623157e308;
   return {};
 }
 
-[[nodiscard]] Status not_negative(double x, const char* field) noexcept {
+[[nodiscard]] Status not_negative(double x, const char* field, double most) noexcept {
   if (!finite(x)) return {Reason::not_finite, -1, field};
   if (x < 0) return {Reason::negative, -1, field};
+  if (x > most) return {Reason::out_of_range, -1, field};
   return {};
 }
 
@@ -99,13 +101,13 @@ void lump_rod(const RigidRod& rod, const Crank& crank, Masses& masses) noexcept 
 
 Status validate(const Masses& masses) noexcept {
   const Status answers[] = {
-      not_negative(masses.piston_kg, "masses.piston"),
-      not_negative(masses.rod_small_end_kg, "masses.rod_small_end"),
-      not_negative(masses.rod_big_end_kg, "masses.rod_big_end"),
+      not_negative(masses.piston_kg, "masses.piston", kHeaviest_kg),
+      not_negative(masses.rod_small_end_kg, "masses.rod_small_end", kHeaviest_kg),
+      not_negative(masses.rod_big_end_kg, "masses.rod_big_end", kHeaviest_kg),
       between(masses.rod_inertia_correction_kg_m2, "masses.rod_inertia", -1e6, 1e6),
-      not_negative(masses.crank_pin_equivalent_kg, "masses.crank_pin_equivalent"),
-      not_negative(masses.crank_inertia_kg_m2, "masses.crank_inertia"),
-      positive(masses.reciprocating_kg(), "masses.piston", 1e4),
+      not_negative(masses.crank_pin_equivalent_kg, "masses.crank_pin_equivalent", kHeaviest_kg),
+      not_negative(masses.crank_inertia_kg_m2, "masses.crank_inertia", 1e6),
+      positive(masses.reciprocating_kg(), "masses.piston", 2 * kHeaviest_kg),
   };
   return first_refusal(answers);
 }
@@ -158,6 +160,20 @@ void share_pins_by_position(Layout& layout) noexcept {
   }
 }
 
+namespace {
+
+/// Middle of the rods on a pin, which has at least one.
+[[nodiscard]] double pin_position_m(const Layout& layout, std::size_t pin) noexcept {
+  double sum = 0;
+  int rods = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
+    if (layout.pin[k] == pin) sum += layout.position_m[k], ++rods;
+  }
+  return sum / rods;
+}
+
+}  // namespace
+
 Status validate(const Layout& layout) noexcept {
   if (layout.cylinders < 1 || layout.cylinders > kMaxCylinders) return {Reason::out_of_range, -1, "layout.cylinders"};
   const auto n = static_cast<std::size_t>(layout.cylinders);
@@ -183,6 +199,9 @@ Status validate(const Layout& layout) noexcept {
     }
   }
   if (pins_used != (2u << last_pin) - 1u) return {Reason::inconsistent, -1, "layout.shared_pins"};  // a gap in the numbers
+  for (std::size_t pin = 1; pin <= last_pin; ++pin) {
+    if (pin_position_m(layout, pin) < pin_position_m(layout, pin - 1)) return {Reason::inconsistent, -1, "layout.shared_pins"};
+  }
   return {};
 }
 
@@ -198,7 +217,7 @@ namespace {
       between(w.compression_exponent, "pressure.compression_exponent", 1, 2),
       between(w.expansion_exponent, "pressure.expansion_exponent", 1.0001, 2),
       between(w.exhaust_valve_opens_deg, "pressure.exhaust_valve_opens", 30, 179),
-      w.heat_given ? not_negative(w.heat_J, "pressure.heat") : between(w.net_mep_Pa, "pressure.net_mep", -1e7, 1e8),
+      w.heat_given ? not_negative(w.heat_J, "pressure.heat", 1e9) : between(w.net_mep_Pa, "pressure.net_mep", -1e7, 1e8),
   };
   if (const Status refused = first_refusal(answers); !refused.ok()) return refused;
   if (w.start_of_combustion_deg + w.combustion_duration_deg > w.exhaust_valve_opens_deg) {
@@ -229,9 +248,9 @@ constexpr int kMostPoints = 1 << 20;
       return {Reason::not_increasing, i, "pressure.file"};
     }
   }
-  // One period, and no hole in it: the rows span at most 720 deg, and what is left to close the circle is no wider than 30 deg.
+  // One period, and no hole in it: the rows span at most 720 deg, and what is left to close the circle is no wider than 60 deg.
   const double span = pressure.points[pressure.point_count - 1].at - pressure.points[0].at;
-  constexpr double kWidestGapDeg = 30;
+  constexpr double kWidestGapDeg = 60;
   if (span > 720 + 1e-9 || span < 720 - kWidestGapDeg) return {Reason::not_one_period, -1, "pressure.file"};
   return {};
 }
@@ -253,7 +272,13 @@ Status validate(const Pressure& pressure, const Crank& crank) noexcept {
 Status validate(const EngineDefinition& engine) noexcept {
   const Status answers[] = {validate(engine.crank), validate(engine.masses), validate(engine.layout),
                             validate(engine.pressure, engine.crank)};
-  return first_refusal(answers);
+  if (const Status refused = first_refusal(answers); !refused.ok()) return refused;
+  // No rod has a negative moment of inertia: J_rod = dI + m_rod l_pin l_crank.
+  const Masses& m = engine.masses;
+  const double rod_kg = m.rod_small_end_kg + m.rod_big_end_kg;
+  const double ends_kg_m2 = rod_kg > 0 ? m.rod_small_end_kg * m.rod_big_end_kg / rod_kg * engine.crank.rod_length_m * engine.crank.rod_length_m : 0;
+  if (m.rod_inertia_correction_kg_m2 < -ends_kg_m2 * (1 + 1e-9)) return {Reason::negative, -1, "masses.rod_inertia"};
+  return {};
 }
 
 }  // namespace crankloop

@@ -5,11 +5,13 @@
 
 namespace crankloop::detail {
 
-std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& options, int scalar_bytes) noexcept {
+std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& options, const TableReport& report,
+                                           int scalar_bytes) noexcept {
   Fingerprint f;
   f.add(kTableFormat);
   f.add(scalar_bytes);
   f.add(options.tick_s);
+  f.add(report.tolerance_doublings);
 
   const Crank& c = engine.crank;
   for (const double x : {c.bore_m, c.crank_radius_m, c.rod_length_m, c.pin_offset_m, c.compression_ratio}) f.add(x);

@@ -34,6 +34,7 @@ class Fingerprint {
 inline constexpr int kTableFormat = 1;  ///< counts up whenever the same definition gives other tables
 
 /// Same definition, tick, scalar and table format: same fingerprint, whichever sections are built and wherever.
-[[nodiscard]] std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& options, int scalar_bytes) noexcept;
+[[nodiscard]] std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& options, const TableReport& report,
+                                           int scalar_bytes) noexcept;
 
 }  // namespace crankloop::detail

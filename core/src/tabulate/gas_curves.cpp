@@ -12,7 +12,7 @@ namespace {
 constexpr int kDivisions[] = {1, 2, 5, 10, 20};  // of a degree; 0.1 deg data has its points on the borders of 10 and 20
 constexpr int kSamplesPerSegment = 10;
 constexpr double kPressureTolerance = 1e-5;      // of the peak pressure
-constexpr int kCoarsestTolerance = 16;           // doublings of the tolerance at most: 1e-5 * 2^16 = 0.66, then one segment a degree
+constexpr int kMostDoublings = 20;               // of the tolerance: beyond the peak pressure, so one segment a degree
 
 [[nodiscard]] double size(double x) noexcept { return x < 0 ? -x : x; }
 
@@ -99,8 +99,9 @@ void choose_grid(const IndicatorDiagram& diagram, GasGrid& grid, int capacity, T
     if (p > peak_Pa) peak_Pa = p;
   }
   double tolerance_Pa = kPressureTolerance * peak_Pa;
-  for (int doubling = 0;; ++doubling) {
+  for (int doublings = 0; doublings <= kMostDoublings; ++doublings) {
     report = {};
+    report.tolerance_doublings = doublings;
     for (int degree = 0; degree < kDegreesPerCycle; ++degree) {
       const Division division = divide<Real>(diagram, degree, tolerance_Pa);
       grid.first[degree] = static_cast<std::uint16_t>(report.gas_segments);
@@ -110,7 +111,6 @@ void choose_grid(const IndicatorDiagram& diagram, GasGrid& grid, int capacity, T
     grid.first[kDegreesPerCycle] = static_cast<std::uint16_t>(report.gas_segments);
     if (report.gas_segments <= capacity) return;
     tolerance_Pa *= 2;
-    if (doubling == kCoarsestTolerance) tolerance_Pa = 2 * peak_Pa;
   }
 }
 
@@ -147,23 +147,21 @@ void fill_torque(const EngineDefinition& engine, const IndicatorDiagram& diagram
   });
   const double mean = cycle_J / kRadPerCycle;
   // Work less that of the mean torque repeats from cycle to cycle. First its range, then the counts.
+  // The tick adds a segment's integral from the whole degree's start, where a steep segment's polynomial may be far away: the base is
+  // what is missing to it.
+  const auto for_each_base = [&](const auto& visit) {
+    double done_J = 0;
+    for_each_segment(grid, [&](int index, int degree, double from, double to) {
+      const Segment<Real>& slope = segments[index].slope;
+      const double less_mean_J = done_J - mean * kRadPerDegree * (degree + from);
+      visit(index, less_mean_J - (work_J(slope, from) - mean * kRadPerDegree * from));
+      done_J += work_J(slope, to) - work_J(slope, from);
+    });
+  };
   double largest = 1e-30;
-  double done_J = 0;
-  const auto less_mean_J = [&](int degree, double u) { return done_J - mean * kRadPerDegree * (degree + u); };
-  for_each_segment(grid, [&](int index, int degree, double from, double to) {
-    done_J += work_J(segments[index].slope, to) - work_J(segments[index].slope, from);
-    const double now = size(less_mean_J(degree, to));
-    if (now > largest) largest = now;
-  });
+  for_each_base([&](int, double base_J) { largest = size(base_J) > largest ? size(base_J) : largest; });
   const double quantum = quantum_for<Real>(largest * 1.05, copies);
-  done_J = 0;
-  for_each_segment(grid, [&](int index, int degree, double from, double to) {
-    const Segment<Real>& slope = segments[index].slope;
-    // The tick adds the integral from the whole degree's start: the base is what is missing to it.
-    const double to_here_J = work_J(slope, from) - mean * kRadPerDegree * from;
-    segments[index].base = base_of<Real>(less_mean_J(degree, from) - to_here_J, quantum);
-    done_J += work_J(slope, to) - work_J(slope, from);
-  });
+  for_each_base([&](int index, double base_J) { segments[index].base = base_of<Real>(base_J, quantum); });
   torque.at = segments;
   torque.quantum = static_cast<Real>(quantum);
   torque.mean_Nm = static_cast<Real>(mean);

@@ -204,12 +204,7 @@ Status IndicatorDiagram::init_wiebe() noexcept {
   // dp = ((n2 - 1)/V) dQ - n2 p dV/V has the solution p V^n2 = const + (n2 - 1) * integral of V^(n2 - 1) dQ.
   burnt_[0] = 0;
   for (int i = 0; i < kBurnPanels; ++i) {
-    const double from = w.combustion_duration_deg * i / kBurnPanels;
-    burnt_[i + 1] = burnt_[i];  // burn_integral reads it for the panel's start
-    burnt_[i + 1] = burn_integral(from) + detail::gauss5(from, w.combustion_duration_deg * (i + 1) / kBurnPanels, [&](double since) {
-      const double s = since / w.combustion_duration_deg;
-      return burn_rate(s, w.wiebe_m) * elementary::pow(volume_m3(w.start_of_combustion_deg + since), w.expansion_exponent - 1);
-    }) / w.combustion_duration_deg;
+    burnt_[i + 1] = burnt_[i] + burn_panel(static_cast<double>(i) / kBurnPanels, static_cast<double>(i + 1) / kBurnPanels);
   }
   heat_J_ = 1;
   if (w.heat_given) {
@@ -228,18 +223,23 @@ Status IndicatorDiagram::init_wiebe() noexcept {
   return {};
 }
 
-/// Integral of V^(n2 - 1) dx_b from the start of combustion.
+/// Integral of V^(n2 - 1) dx_b from the start of combustion. Panels are equal in the cube root u of its part s: s^m ds is smooth in u for any m.
 double IndicatorDiagram::burn_integral(double since_start_deg) const noexcept {
+  const double part = since_start_deg / pressure_.wiebe.combustion_duration_deg;
+  if (part <= 0) return 0;
+  if (part >= 1) return burnt_[kBurnPanels];
+  const double u = elementary::pow(part, 1.0 / 3);
+  const int panel = static_cast<int>(u * kBurnPanels);
+  return burnt_[panel] + burn_panel(static_cast<double>(panel) / kBurnPanels, u);
+}
+
+double IndicatorDiagram::burn_panel(double from_u, double to_u) const noexcept {
   const WiebeDiagram& w = pressure_.wiebe;
-  if (since_start_deg <= 0) return 0;
-  if (since_start_deg >= w.combustion_duration_deg) return burnt_[kBurnPanels];
-  const double in_panels = since_start_deg / w.combustion_duration_deg * kBurnPanels;
-  const int panel = static_cast<int>(in_panels);
-  const double from = w.combustion_duration_deg * panel / kBurnPanels;
-  return burnt_[panel] + detail::gauss5(from, since_start_deg, [&](double since) {
-    const double s = since / w.combustion_duration_deg;
-    return burn_rate(s, w.wiebe_m) * elementary::pow(volume_m3(w.start_of_combustion_deg + since), w.expansion_exponent - 1);
-  }) / w.combustion_duration_deg;
+  return detail::gauss5(from_u, to_u, [&](double u) {
+    const double s = u * u * u;
+    const double volume = volume_m3(w.start_of_combustion_deg + s * w.combustion_duration_deg);
+    return 3 * u * u * burn_rate(s, w.wiebe_m) * elementary::pow(volume, w.expansion_exponent - 1);
+  });
 }
 
 namespace {

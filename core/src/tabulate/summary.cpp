@@ -10,6 +10,7 @@ using elementary::kPi;
 
 namespace {
 constexpr double kRadPerDeg = kPi / 180;
+constexpr double kNoMean = 1e-9;  // of the torque's range: below it the mean is rounding
 }
 
 Body<double> body_of(const EngineDefinition& engine) noexcept {
@@ -116,7 +117,8 @@ CycleSummary summarise(const ExactEngine& engine, double speed_rad_s, double loa
     s.harmonics[h] = {(h + 1) / 2.0, c, si, square_root(c * c + si * si)};
   }
   const double range = s.largest_torque_Nm - s.smallest_torque_Nm;
-  s.fluctuation_ratio = s.mean_torque_Nm != 0 ? range / s.mean_torque_Nm : 0;
+  const bool has_mean = s.mean_torque_Nm > kNoMean * range || s.mean_torque_Nm < -kNoMean * range;
+  s.fluctuation_ratio = has_mean ? range / s.mean_torque_Nm : 0;
   return s;
 }
 

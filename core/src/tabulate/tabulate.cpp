@@ -32,7 +32,6 @@ constexpr double kSameAngleDeg = 1e-9;
 template <class Real>
 void fill_drive(const EngineDefinition& engine, const TickOptions& options, Drive<Real>& drive) noexcept {
   drive = {};
-  drive.fingerprint = detail::fingerprint_of(engine, options, static_cast<int>(sizeof(Real)));
   drive.tick_s = static_cast<Real>(options.tick_s);
   drive.cycles_per_tick_per_rad_s = static_cast<Real>(options.tick_s / kRadPerCycle);
   drive.rad_s_per_cycle_per_tick = static_cast<Real>(kRadPerCycle / options.tick_s);
@@ -92,6 +91,19 @@ template <class Real>
   return r;
 }
 
+/// The gas sections belong together.
+template <class Real>
+[[nodiscard]] Status validate(const TableTargets<Real>& t) noexcept {
+  const bool pressure = t.pressure_full != nullptr || t.pressure_motored != nullptr || t.pressure_heat != nullptr;
+  const bool torque = t.gas_torque_full != nullptr || t.gas_torque_motored != nullptr || t.gas_torque_heat != nullptr;
+  if ((pressure || torque) && t.gas_grid == nullptr) return {Reason::missing_table, -1, "targets.gas_grid"};
+  if (t.gas_grid != nullptr && t.gas_capacity < kDegreesPerCycle) return {Reason::out_of_range, -1, "targets.gas_capacity"};
+  if ((t.gas_torque_full != nullptr) != (t.gas_full != nullptr)) return {Reason::missing_table, -1, "targets.gas_full"};
+  if ((t.gas_torque_motored != nullptr) != (t.gas_motored != nullptr)) return {Reason::missing_table, -1, "targets.gas_motored"};
+  if ((t.gas_torque_heat != nullptr) != (t.gas_heat != nullptr)) return {Reason::missing_table, -1, "targets.gas_heat"};
+  return {};
+}
+
 template <class Real>
 void fill_mechanism(const EngineDefinition& engine, const TableTargets<Real>& t) noexcept {
   const Crank& crank = engine.crank;
@@ -130,13 +142,12 @@ template <class Real>
 Status tabulate(const EngineDefinition& engine, const TickOptions& options, const TableTargets<Real>& targets,
                 TableReport* report) noexcept {
   if (!(options.tick_s >= 1e-6 && options.tick_s <= 2e-3)) return {Reason::out_of_range, -1, "tick.tick"};
-  if (targets.gas_grid != nullptr && targets.gas_capacity < kDegreesPerCycle) return {Reason::out_of_range, -1, "targets.gas_capacity"};
+  if (const Status refused = validate(targets); !refused.ok()) return refused;
   if (const Status refused = validate(engine); !refused.ok()) return refused;
   IndicatorDiagram diagram;
   if (const Status refused = diagram.init(engine.crank, engine.pressure); !refused.ok()) return refused;
 
   TableReport found;
-  if (targets.drive != nullptr) fill_drive(engine, options, *targets.drive);
   if (targets.body != nullptr) *targets.body = rounded<Real>(body_of(engine));
   if (targets.bearings != nullptr) *targets.bearings = rounded<Real>(bearings_of(engine));
   if (targets.balance != nullptr) {
@@ -148,6 +159,10 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
   }
   fill_mechanism(engine, targets);
   detail::fill_gas(engine, diagram, targets, found);
+  if (targets.drive != nullptr) {
+    fill_drive(engine, options, *targets.drive);
+    targets.drive->fingerprint = detail::fingerprint_of(engine, options, found, static_cast<int>(sizeof(Real)));
+  }
   if (report != nullptr) *report = found;
   return {};
 }

@@ -17,12 +17,16 @@ html { -webkit-text-size-adjust: 100%; text-size-adjust: 100%; }
 body {
   margin: 0 auto; padding: 3.5rem clamp(0.9rem, 4vw, 3rem) 4rem; max-width: 76rem;
   background: var(--paper); color: var(--ink);
-  font: 1rem/1.55 system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", "Noto Sans", "Liberation Sans", Arial, sans-serif;
+  font: 1rem/1.55 system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue",
+    "Noto Sans", "Liberation Sans", Arial, sans-serif;
   font-variant-numeric: tabular-nums; overflow-wrap: break-word;
 }
 h1, h2, h3 { line-height: 1.2; font-weight: 600; text-wrap: balance; }
 h1 { margin: 0; font-size: clamp(1.75rem, 1.3rem + 2vw, 2.6rem); letter-spacing: -0.015em; }
-h2 { margin: 0 0 1.25rem; padding-top: 1.1rem; border-top: 1px solid var(--rule); font-size: 1.45rem; letter-spacing: -0.01em; }
+h2 {
+  margin: 0 0 1.25rem; padding-top: 1.1rem; border-top: 1px solid var(--rule); font-size: 1.45rem;
+  letter-spacing: -0.01em;
+}
 h3 { margin: 0 0 0.75rem; font-size: 1.02rem; }
 p, ul { margin: 0 0 1.1rem; max-width: 42rem; }
 ul { padding-left: 1.2rem; }
@@ -30,10 +34,16 @@ li { margin-bottom: 0.3rem; }
 a { color: var(--accent); text-decoration-thickness: 1px; text-underline-offset: 0.2em; }
 a:focus-visible, summary:focus-visible, .scroll:focus-visible { outline: 2px solid var(--accent); outline-offset: 3px; }
 .subtitle { margin: 0.6rem 0 0; color: var(--muted); font-size: 1.1rem; }
-nav ul { display: flex; flex-wrap: wrap; gap: 0.1rem 1.5rem; margin: 1.6rem 0 0; padding: 0; max-width: none; list-style: none; }
+nav ul {
+  display: flex; flex-wrap: wrap; gap: 0.1rem 1.5rem; margin: 1.6rem 0 0; padding: 0;
+  max-width: none; list-style: none;
+}
 nav li { margin: 0; }
 nav a { display: inline-block; padding: 0.25rem 0; }
-.facts { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 9.4rem), 1fr)); gap: 1.6rem 1.5rem; margin: 2.4rem 0 0; }
+.facts {
+  display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 9.4rem), 1fr));
+  gap: 1.6rem 1.5rem; margin: 2.4rem 0 0;
+}
 .facts div { padding-top: 0.7rem; border-top: 2px solid var(--ink); }
 .facts dt { color: var(--muted); font-size: 0.9rem; line-height: 1.35; }
 .facts dd { margin: 0; }
@@ -42,20 +52,26 @@ nav a { display: inline-block; padding: 0.25rem 0; }
 .facts .remark { color: var(--muted); font-size: 0.85rem; line-height: 1.35; }
 section { margin-top: 3.6rem; }
 .note { padding: 0.1rem 0 0.1rem 1rem; border-left: 3px solid var(--accent); }
-.grid { display: grid; grid-template-columns: minmax(0, 1fr); gap: 2.8rem clamp(1.8rem, 4vw, 3rem); margin: 0 0 2.4rem; }
-p + .grid, ul + .grid { margin-top: 2rem; }
-@media (min-width: 48rem) { .grid { grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); } }
-.grid > * { min-width: 0; }
+.row {
+  display: grid; grid-template-columns: minmax(0, 1fr); gap: 2.8rem clamp(1.8rem, 4vw, 3rem);
+  margin: 0 0 2.4rem;
+}
+p + .row, ul + .row { margin-top: 2rem; }
+@media (min-width: 48rem) { .row { grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); } }
+.row > * { min-width: 0; }
 figure { margin: 0; }
 figcaption { margin-top: 0.6rem; color: var(--muted); font-size: 0.9rem; line-height: 1.45; }
 .table { margin: 0 0 2.4rem; }
-.grid .table { margin: 0; }
+.row .table { margin: 0; }
 .scroll { overflow-x: auto; }
 .scroll tr > :first-child { position: sticky; left: 0; background: var(--paper); }
 table { border-collapse: collapse; font-size: 0.92rem; line-height: 1.35; }
-.grid table { width: 100%; }
+.row table { width: 100%; }
 caption { padding-bottom: 0.6rem; font-weight: 600; font-size: 1.02rem; text-align: left; }
-th, td { padding: 0.38rem 0.9rem 0.38rem 0; text-align: left; vertical-align: baseline; border-bottom: 1px solid var(--rule); }
+th, td {
+  padding: 0.38rem 0.9rem 0.38rem 0; text-align: left; vertical-align: baseline;
+  border-bottom: 1px solid var(--rule);
+}
 th:last-child, td:last-child { padding-right: 0; }
 thead th { color: var(--muted); font-weight: 500; vertical-align: bottom; border-bottom-color: var(--axis); }
 tbody th { font-weight: 400; }
@@ -64,7 +80,10 @@ td.number, tbody th.number { white-space: nowrap; }
 thead .unit { display: block; font-weight: 400; }
 summary { padding: 0.4rem 0; cursor: pointer; font-weight: 600; }
 details caption { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); padding: 0; }
-footer { margin-top: 4rem; padding-top: 1.1rem; border-top: 1px solid var(--rule); color: var(--muted); font-size: 0.9rem; }
+footer {
+  margin-top: 4rem; padding-top: 1.1rem; border-top: 1px solid var(--rule); color: var(--muted);
+  font-size: 0.9rem;
+}
 @media (max-width: 30rem) {
   body { padding-top: 2rem; }
   section { margin-top: 2.8rem; }
@@ -77,10 +96,10 @@ footer { margin-top: 4rem; padding-top: 1.1rem; border-top: 1px solid var(--rule
   body { padding: 0; max-width: none; font-size: 10pt; }
   nav { display: none; }
   section { margin-top: 2rem; }
-  .grid { grid-template-columns: 1fr 1fr; gap: 1.6rem 1.8rem; }
+  .row { grid-template-columns: 1fr 1fr; gap: 1.6rem 1.8rem; }
   .scroll { overflow: visible; }
   table { font-size: 8.5pt; }
-  figure, tr, .facts, .grid .table { break-inside: avoid; }
+  figure, tr, .facts, .row .table { break-inside: avoid; }
   h2, h3, caption { break-after: avoid; }
   details::details-content { content-visibility: visible; height: auto; }
   .plot * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
@@ -119,7 +138,8 @@ class Document {
   }
 
  private:
-  /// Letters, digits and dashes, beginning with a letter, and not yet used on this page, nor with a suffix of plot.hpp's.
+  /// Letters, digits and dashes, beginning with a letter, and not yet used on this page, nor with a suffix of
+  /// plot.hpp's.
   std::string unique_id(const std::string& wish) {
     std::string id;
     for (const char c : wish) {
@@ -181,7 +201,7 @@ class Document {
     for (const Block& block : section.blocks) {
       const int kind = row_kind(block);
       if (row != kind && row != 0) out_ += "</div>\n";
-      if (row != kind && kind != 0) out_ += "<div class=\"grid\">\n";
+      if (row != kind && kind != 0) out_ += "<div class=\"row\">\n";
       row = kind;
       std::visit([this](const auto& content) { write(content); }, block);
     }

@@ -63,7 +63,8 @@ std::string power_of_ten(int exponent) {
   return text;
 }
 
-/// Width in user units at kTypeSize, by the widest of the usual system fonts (DejaVu Sans); others are up to a fifth narrower.
+/// Width in user units at kTypeSize, by the widest of the usual system fonts (DejaVu Sans); others are up to a fifth
+/// narrower.
 double text_width(std::string_view text) {
   double em = 0;
   for (const char c : text) {
@@ -432,6 +433,8 @@ class Drawing {
     y_ = make_scale(axis, range, kYIntervals + 2);  // ticks only inside: ask for more
   }
 
+  static double legend_width(const Series& series) { return kSwatch + text_width(series.name) + 16; }
+
   void make_legend() {
     // One row if it fits; else equal columns, as few as need no further row.
     std::vector<std::size_t> named;
@@ -439,7 +442,7 @@ class Drawing {
     double pitch = 0;
     for (std::size_t i = 0; i < plot_.series.size(); ++i) {
       if (plot_.series[i].name.empty()) continue;
-      const double width = kSwatch + text_width(plot_.series[i].name) + 16;
+      const double width = legend_width(plot_.series[i]);
       named.push_back(i);
       row += width;
       pitch = std::max(pitch, width);
@@ -453,7 +456,7 @@ class Drawing {
     for (std::size_t i = 0; i < named.size(); ++i) {
       if (i > 0 && i % columns == 0) at = {0, at.y + kLegendRow};
       legend_.push_back({at, named[i]});
-      at.x += one_row ? kSwatch + text_width(plot_.series[named[i]].name) + 16 : pitch;
+      at.x += one_row ? legend_width(plot_.series[named[i]]) : pitch;
     }
     frame_.top = at.y + 18;
   }
@@ -593,32 +596,47 @@ class Drawing {
     }
   }
 
+  /// Points along a curve at which its name may stand: every 12 units, or 150 of them if it is longer than that.
+  static Polyline places_along(const Curve& curve) {
+    double length = 0;
+    for (const Polyline& line : curve.lines) {
+      for (std::size_t k = 1; k < line.size(); ++k)
+        length += std::hypot(line[k].x - line[k - 1].x, line[k].y - line[k - 1].y);
+    }
+    const double step = std::max(12.0, length / 150);
+    Polyline places;
+    double walked = 0;  // since the last place
+    for (const Polyline& line : curve.lines) {
+      for (std::size_t k = 1; k < line.size(); ++k) {
+        const Point a = line[k - 1];
+        const Point b = line[k];
+        const double segment = std::hypot(b.x - a.x, b.y - a.y);
+        for (double at = step - walked; at < segment; at += step) {
+          places.push_back({a.x + at / segment * (b.x - a.x), a.y + at / segment * (b.y - a.y)});
+        }
+        walked = std::fmod(walked + segment, step);
+      }
+    }
+    return places;
+  }
+
   /// Puts every series' name where it touches no curve and is clearly nearest to its own; false if one finds no place.
   bool place_names() {
     for (std::size_t i = 0; i < curves_.size(); ++i) {
-      if (curves_[i].name.empty()) continue;
+      const Curve& curve = curves_[i];
+      if (curve.name.empty()) continue;
       Label best;
       double highest = 0;
-      for (const Polyline& line : curves_[i].lines) {
-        for (std::size_t k = 1; k < line.size(); ++k) {
-          const double length = std::hypot(line[k].x - line[k - 1].x, line[k].y - line[k - 1].y);
-          const int pieces = 1 + static_cast<int>(std::min(length, 2 * kWidth) / 12);
-          for (int piece = 0; piece < pieces; ++piece) {
-            const double part = static_cast<double>(piece) / pieces;
-            const Point at{line[k - 1].x + part * (line[k].x - line[k - 1].x),
-                           line[k - 1].y + part * (line[k].y - line[k - 1].y)};
-            const Label candidates[] = {{{at.x, at.y - 8}, Anchor::middle, curves_[i].name, curves_[i].colour},
-                                        {{at.x, at.y + 20}, Anchor::middle, curves_[i].name, curves_[i].colour},
-                                        {{at.x + 9, at.y + 5}, Anchor::start, curves_[i].name, curves_[i].colour},
-                                        {{at.x - 9, at.y + 5}, Anchor::end, curves_[i].name, curves_[i].colour}};
-            for (const Label& candidate : candidates) {
-              const double score = clarity(candidate, i);
-              if (score > highest) {
-                highest = score;
-                best = candidate;
-              }
-            }
-          }
+      for (const Point& place : places_along(curve)) {
+        const Label candidates[] = {{{place.x, place.y - 8}, Anchor::middle, curve.name, curve.colour},
+                                    {{place.x, place.y + 20}, Anchor::middle, curve.name, curve.colour},
+                                    {{place.x + 9, place.y + 5}, Anchor::start, curve.name, curve.colour},
+                                    {{place.x - 9, place.y + 5}, Anchor::end, curve.name, curve.colour}};
+        for (const Label& candidate : candidates) {
+          const double score = clarity(candidate, i);
+          if (score <= highest) continue;
+          highest = score;
+          best = candidate;
         }
       }
       if (highest <= 0) return false;
@@ -628,7 +646,8 @@ class Drawing {
     return true;
   }
 
-  /// How much nearer a name is to its own curve than to any other, in user units, at most 40; <= 0 where it must not stand.
+  /// How much nearer a name is to its own curve than to any other, in user units, at most 40; <= 0 where it must not
+  /// stand.
   double clarity(const Label& label, std::size_t own) const {
     const Box box = box_of(label);
     if (outside_frame(box) > 0) return 0;
@@ -948,7 +967,8 @@ std::string escape(std::string_view text) {
       }
       continue;
     }
-    // A UTF-8 sequence, by the table of RFC 3629: the second byte's bounds refuse overlong forms, surrogates, > U+10FFFF.
+    // A UTF-8 sequence, by the table of RFC 3629: the second byte's bounds refuse overlong forms, surrogates, >
+    // U+10FFFF.
     const std::size_t length = byte >= 0xC2U && byte <= 0xDFU   ? 2
                                : (byte & 0xF0U) == 0xE0U        ? 3
                                : byte >= 0xF0U && byte <= 0xF4U ? 4
@@ -1023,13 +1043,15 @@ std::string_view plot_style() {
   return R"css(:root {
   --paper: #fdfdfb; --ink: #1c2126; --muted: #555d66; --rule: #d9dcdf;
   --grid: #e3e6e7; --axis: #7b838b; --zero: #59616a; --band: #f1f3f2; --accent: #00589b;
-  --series-1: #00589b; --series-2: #b8480a; --series-3: #007a5c; --series-4: #b0407f; --series-5: #4a3c00; --series-6: #4f5a68;
+  --series-1: #00589b; --series-2: #b8480a; --series-3: #007a5c;
+  --series-4: #b0407f; --series-5: #4a3c00; --series-6: #4f5a68;
 }
 @media screen and (prefers-color-scheme: dark) {
   :root {
     --paper: #14181b; --ink: #e4e7e9; --muted: #a5adb5; --rule: #353c42;
     --grid: #282e33; --axis: #7d868e; --zero: #99a2aa; --band: #1c2125; --accent: #5aabf0;
-    --series-1: #4a9de8; --series-2: #f08040; --series-3: #5fdcb8; --series-4: #d77fc4; --series-5: #f5e58a; --series-6: #98a0a8;
+    --series-1: #4a9de8; --series-2: #f08040; --series-3: #5fdcb8;
+    --series-4: #d77fc4; --series-5: #f5e58a; --series-6: #98a0a8;
   }
 }
 .figure { container-type: inline-size; }
@@ -1038,7 +1060,10 @@ std::string_view plot_style() {
 .plot .axis-title { fill: var(--ink); }
 .plot .band-name { font-size: 0.88em; }
 .plot .legend { fill: var(--ink); }
-.plot .name { fill: var(--c); stroke: var(--paper); stroke-width: 4px; stroke-linejoin: round; paint-order: stroke; font-weight: 600; }
+.plot .name {
+  fill: var(--c); stroke: var(--paper); stroke-width: 4px; stroke-linejoin: round;
+  paint-order: stroke; font-weight: 600;
+}
 .plot path { fill: none; stroke-width: 1px; vector-effect: non-scaling-stroke; }
 .plot .grid { stroke: var(--grid); }
 .plot .fine { stroke-opacity: 0.55; }
@@ -1052,7 +1077,11 @@ std::string_view plot_style() {
 .plot .bar { fill: var(--c); }
 .c1 { --c: var(--series-1); } .c2 { --c: var(--series-2); } .c3 { --c: var(--series-3); }
 .c4 { --c: var(--series-4); } .c5 { --c: var(--series-5); } .c6 { --c: var(--series-6); }
-@container (max-width: 380px) { .plot { font-size: 17px; } .plot .curve { stroke-width: 1.75px; } .plot .dot { stroke-width: 6px; } }
+@container (max-width: 380px) {
+  .plot { font-size: 17px; }
+  .plot .curve { stroke-width: 1.75px; }
+  .plot .dot { stroke-width: 6px; }
+}
 @container (min-width: 450px) { .plot { font-size: 14px; } }
 @container (min-width: 540px) { .plot { font-size: 13px; } }
 @container (min-width: 640px) { .plot { font-size: 11px; } }

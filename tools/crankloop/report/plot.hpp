@@ -1,12 +1,13 @@
 // A plot as inline SVG: curves, loops, steps, bars over labelled axes, from plain numbers.
 //
 // What belongs here: scales and ticks, thinning of curves, placing of labels, and the colours of both themes, because a
-// colour that is legible on paper is not on a dark screen. What does not: engines (the caller names every quantity and its
-// unit), pages (page.hpp), files.
+// colour that is legible on paper is not on a dark screen. What does not: engines (the caller names every quantity and
+// its unit), pages (page.hpp), files.
 //
-// A drawing is 520 user units wide and scales with its column, 330 px on a phone and about 550 px on a desk. plot_style()
-// therefore sets the type between 17 units (11 px on that phone) and 13 (14 px); margins and label places are computed for
-// the largest. Every number is printed by std::to_chars: the locale does not matter, and equal input gives equal bytes.
+// A drawing is 520 user units wide and scales with its column, 330 px on a phone and about 550 px on a desk.
+// plot_style() therefore sets the type between 17 units (11 px on that phone) and 13 (14 px); margins and label places
+// are computed for the largest. Every number is printed by std::to_chars: the locale does not matter, and equal input
+// gives equal bytes.
 #pragma once
 
 #include <cstddef>
@@ -78,14 +79,15 @@ struct Plot {
   std::vector<Marker> markers{};
 };
 
-/// The <svg> element, with <title> and a <desc> that says each series' range. Two or more named series are labelled beside
-/// their curves where every name finds a free place nearer to its own curve than to others, else in a legend.
+/// The <svg> element, with <title> and a <desc> that says each series' range. Two or more named series are labelled
+/// beside their curves where every name finds a free place nearer to its own curve than to others, else in a legend.
 [[nodiscard]] std::string to_svg(const Plot& plot);
 
 /// CSS of the drawings and the colour variables of the light and dark theme; once per page.
 [[nodiscard]] std::string_view plot_style();
 
-/// Markers "78.3 bar at 8 deg" on the largest and the smallest y of a series (one if they are equal, none if it is empty).
+/// Markers "78.3 bar at 8 deg" on the largest and the smallest y of a series (one if they are equal, none if it is
+/// empty).
 [[nodiscard]] std::vector<Marker> mark_extremes(const Plot& plot, std::size_t series, int significant_digits = 3);
 
 // ---- Parts, each of use and tested by itself ----
@@ -102,8 +104,8 @@ struct Scale {
   int exponent = 0;           ///< labels show value / 10^exponent, and the axis title says so
 };
 
-/// A scale over `data` with about `intervals` steps. Ends on ticks unless axis.range says otherwise. Any data will do: an
-/// empty or constant range is widened, a tick_step that would give over 60 ticks is ignored.
+/// A scale over `data` with about `intervals` steps. Ends on ticks unless axis.range says otherwise. Any data will do:
+/// an empty or constant range is widened, a tick_step that would give over 60 ticks is ignored.
 [[nodiscard]] Scale make_scale(const Axis& axis, Range data, int intervals);
 
 struct Point {
@@ -111,9 +113,9 @@ struct Point {
   double y = 0;
 };
 
-/// A polyline with fewer points. The first and last point and the extremes of x and y stay, in order and unchanged; every
-/// dropped point lies within 2 * tolerance of what is drawn. At most 4 points per `tolerance` of x remain for each time the
-/// line passes there, however many there were. O(n log n) for curves, O(n^2) at worst.
+/// A polyline with fewer points. The first and last point and the extremes of x and y stay, in order and unchanged;
+/// every dropped point lies within 2 * tolerance of what is drawn. At most 4 points per `tolerance` of x remain for
+/// each time the line passes there, however many there were. O(n log n) for curves, O(n^2) at worst.
 ///
 /// First, of neighbours in one column of width `tolerance`, only the first, lowest, highest and last stay; then the
 /// Douglas-Peucker algorithm drops what lies within `tolerance` of the chord.
@@ -122,8 +124,8 @@ struct Point {
 /// Text for element content and quoted attributes. Control characters and bytes that are not UTF-8 become U+FFFD.
 [[nodiscard]] std::string escape(std::string_view text);
 
-/// A number for reading: true minus sign, thin spaces from 10 000 on, powers of ten outside 1e-4 to 1e9, a dash if not finite.
-/// Integer digits are never rounded away.
+/// A number for reading: true minus sign, thin spaces from 10 000 on, powers of ten outside 1e-4 to 1e9, a dash if not
+/// finite. Integer digits are never rounded away.
 [[nodiscard]] std::string format_number(double value, int significant_digits);
 
 /// The same with so many decimals, whatever the size: for a column of a table, whose decimal points then stand in line.

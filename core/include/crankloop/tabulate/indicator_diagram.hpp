@@ -16,7 +16,7 @@ namespace crankloop {
 /// Holds a pointer to the definition's points. Construction O(points), evaluation O(log points); not for two threads at once.
 class IndicatorDiagram {
  public:
-  /// Refuses what validate() refuses, volumes that are no four-stroke loop ("pressure.file" with the row), an exhaust opening at or after
+  /// Refuses what validate() refuses, volumes that are no four-stroke loop or repeat from row to row ("pressure.file" with the row), an exhaust opening at or after
   /// bottom dead centre, and a mean effective pressure that no positive heat reaches ("pressure.net_mep").
   Status init(const Crank& crank, const Pressure& pressure) noexcept;
 
@@ -43,6 +43,7 @@ class IndicatorDiagram {
   [[nodiscard]] double table_motored_Pa(double cycle_deg) const noexcept;
   [[nodiscard]] double volume_m3(double crank_deg) const noexcept;
   [[nodiscard]] double burn_integral(double since_start_deg) const noexcept;
+  [[nodiscard]] double burn_panel(double from_u, double to_u) const noexcept;
   [[nodiscard]] double wiebe_motored_Pa(double cycle_deg) const noexcept;
   [[nodiscard]] double wiebe_heat_Pa(double cycle_deg) const noexcept;
   [[nodiscard]] double from_top_deg(double crank_deg) const noexcept;
@@ -57,7 +58,7 @@ class IndicatorDiagram {
   int stroke_start_[5] = {};    ///< volume table: first row of each stroke, and rows_
   double exhaust_Pa_ = 0;       ///< table: mean over the second half of the exhaust stroke
   double heat_J_ = 0;
-  double burnt_[kBurnPanels + 1] = {};  ///< Wiebe: integral of V^(n2 - 1) dx_b up to each panel
+  double burnt_[kBurnPanels + 1] = {};  ///< Wiebe: integral of V^(n2 - 1) dx_b up to each panel of the cube root of the burn's part
   // The four rows around the last interval asked for, so that a sweep does not turn the same volumes into angles again and again.
   mutable int cached_row_ = -1;
   mutable Row cached_[4] = {};

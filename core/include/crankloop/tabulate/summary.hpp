@@ -73,7 +73,7 @@ struct CycleSummary {
   Harmonic harmonics[kHarmonics];
 };
 
-/// 7200 torques of every cylinder: some 10 ms on a desktop. Speed in rad/s, load ratio as in Input.
+/// 7200 torques of every cylinder: some 100 ms on a desktop. Speed in rad/s, load ratio as in Input.
 [[nodiscard]] CycleSummary summarise(const ExactEngine& engine, double speed_rad_s, double load_ratio = 1) noexcept;
 
 /// Free forces and moments about the middle of the crankshaft, without the cosine curve: docs/model.md "Balance".

@@ -19,7 +19,8 @@ struct TickOptions {
 /// Most segments of a gas grid: 20 in every degree.
 inline constexpr std::size_t kMostGasSegments = 20 * kDegreesPerCycle;
 
-/// Where to build each section; null = leave it out. The gas sections have room for `gas_capacity` segments each.
+/// Where to build each section; null = leave it out. The gas sections go with a gas_grid and have room for `gas_capacity` segments each;
+/// a gas torque goes with its segments.
 template <class Real>
 struct TableTargets {
   Drive<Real>* drive = nullptr;
@@ -49,14 +50,15 @@ struct TableTargets {
 /// What tabulate found.
 struct TableReport {
   int gas_segments = 0;           ///< segments of the gas grid
-  double pressure_error_Pa = 0;   ///< largest error of the pressure curves against the diagram, at 10 points per segment
+  int tolerance_doublings = 0;    ///< how often the pressure's tolerance was doubled to fit the capacity
+  double pressure_error_Pa = 0;   ///< largest error of full, motored and heat pressure against the diagram, at 10 points per segment
 };
 
 /// Fills the targets. Validates the definition first; nothing is written when it refuses.
 ///
 /// Accuracy: docs/model.md "Tables". The gas grid divides a degree into 1, 2, 5, 10 or 20 segments, the fewest that keep the pressure
-/// within 1e-5 of its peak; where the capacity does not suffice the bound is doubled until it does, and the report tells.
-/// Float and double; O(segments), some 50 ms on a desktop.
+/// within 1e-5 of its peak, or 20; where the capacity does not suffice the bound is doubled until it does. The report tells what is left.
+/// Float and double; O(segments), some 100 ms on a desktop.
 template <class Real>
 Status tabulate(const EngineDefinition& engine, const TickOptions& options, const TableTargets<Real>& targets,
                 TableReport* report = nullptr) noexcept;
@@ -113,7 +115,8 @@ class TableStorage : If<Needs<S>::body, part::BodyStore<Real>>,
   TableStorage(const TableStorage&) = delete;
   TableStorage& operator=(const TableStorage&) = delete;
 
-  /// Tabulates; after a refusal the old tables are gone and tables() is refused by init.
+  /// Tabulates; after a refusal the old tables are gone and tables() is refused by init. No engine may run on them meanwhile, and every
+  /// engine that did must be initialised anew.
   Status build(const EngineDefinition& engine, const TickOptions& options, TableReport* report = nullptr) noexcept {
     using N = Needs<S>;
     tables_ = {};

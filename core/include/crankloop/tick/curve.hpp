@@ -15,9 +15,6 @@ namespace crankloop {
 template <class Real>
 inline constexpr int kCurveDegree = sizeof(Real) == 4 ? 2 : 3;
 
-inline constexpr int kDegreesPerTurn = 360;
-inline constexpr int kDegreesPerCycle = 720;
-
 /// value = c[0] + u (c[1] + u (c[2] + ...)), u = fraction of the whole degree, also where a degree is divided into several segments.
 template <class Real>
 struct Segment {

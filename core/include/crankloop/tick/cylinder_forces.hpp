@@ -4,13 +4,10 @@
 #pragma once
 
 #include <crankloop/tick/io.hpp>
+#include <crankloop/tick/square_root.hpp>
 #include <crankloop/tick/tables.hpp>
 
 namespace crankloop {
-
-/// sqrt as the one instruction it is (IEEE: correctly rounded, so the same bits everywhere).
-[[nodiscard]] inline float square_root(float x) noexcept { return __builtin_sqrtf(x); }
-[[nodiscard]] inline double square_root(double x) noexcept { return __builtin_sqrt(x); }
 
 /// What geometry says of a mechanism at a crank angle a; derivatives are by a.
 template <class Real>

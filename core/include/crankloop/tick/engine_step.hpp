@@ -47,14 +47,14 @@ struct Angle {
   /// The cell of a cylinder that fires `turns` (0 or 1) crank turns after the mechanism's phase.
   [[nodiscard]] constexpr Cell delayed(std::uint32_t turns) const noexcept {
     const std::uint32_t degree = cell.degree + turns * std::uint32_t{kDegreesPerTurn};
-    return {degree >= std::uint32_t{kDegreesPerCycle} ? degree - std::uint32_t{kDegreesPerCycle} : degree, cell.into};
+    return {degree >= std::uint32_t{kDegreesPerCycle} ? degree - std::uint32_t{kDegreesPerCycle} : degree, cell.into, cell.rest};
   }
 };
 
 template <class Real>
 [[nodiscard]] constexpr Angle<Real> angle_of(std::uint64_t phase, std::uint64_t firing_phase) noexcept {
   const Cell cell = Phase{phase - firing_phase}.cell<Real>();
-  return {cell, fraction<Real>(cell.into)};
+  return {cell, fraction<Real>(cell)};
 }
 
 template <class Real>
@@ -189,13 +189,16 @@ struct Step {
 
   /// Work done since the last tick over the angle turned. At a crawl the difference drowns in rounding: there the mean of the
   /// torques at both ends is the better average (docs/decisions/0005-mean-torque.md).
-  void average_torque(Phase turned, const Real* mean_pressure_Pa) noexcept {
+  /// After a jump of a measured phase there is no tick to average over.
+  void average_torque(Phase turned, bool jumped, const Real* mean_pressure_Pa) noexcept {
     if constexpr (S::mean_torque) {
       const Drive<Real>& drive = *tables.drive;
-      constexpr auto kCrawl = static_cast<std::uint64_t>(sizeof(Real) == 4 ? (~std::uint64_t{0} / 11520) : (~std::uint64_t{0} / 720 >> 20));
+      constexpr std::uint64_t kCrawl = ~std::uint64_t{0} / kDegreesPerCycle >> (sizeof(Real) == 4 ? 4 : 20);
       const bool crawling = turned.units() + kCrawl <= 2 * kCrawl;  // |turned| <= kCrawl, wrapping
       const Real cylinders = static_cast<Real>(static_cast<std::int32_t>(count<S>(drive.cylinders)));
-      if (crawling) {
+      if (jumped) {
+        out.mean_torque_Nm = torque_Nm;
+      } else if (crawling) {
         out.mean_torque_Nm = (state.torque_Nm + torque_Nm) / 2;
       } else {
         constexpr Real kRadPerCycle = static_cast<Real>(0x1.921fb54442d18p+3);
@@ -355,6 +358,7 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
   std::uint32_t faults = 0;
 
   Phase turned;
+  bool jumped = false;
   if constexpr (S::crank == CrankGiven::speed) {
     const Real limit = drive.speed_limit_rad_s;
     const Real speed = detail::checked(input.speed_rad_s, -limit, limit, state_.speed_rad_s, kFaultSpeed, faults);
@@ -363,11 +367,11 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
   } else {
     turned = input.crank - state_.phase;
     const Real speed = turned.template signed_cycles<Real>() * drive.rad_s_per_cycle_per_tick;
-    if (detail::within(speed, -drive.speed_limit_rad_s, drive.speed_limit_rad_s)) {
-      state_.speed_rad_s = speed;
-    } else if (state_.ticks != 0) {
-      faults |= kFaultPhaseJump;
-    }
+    // The first measured angle says nothing of the speed, nor does one that no crankshaft could have reached.
+    const bool possible = detail::within(speed, -drive.speed_limit_rad_s, drive.speed_limit_rad_s);
+    jumped = !possible || state_.ticks == 0;
+    if (!jumped) state_.speed_rad_s = speed;
+    if (!possible && state_.ticks != 0) faults |= kFaultPhaseJump;
     state_.phase = input.crank;
   }
   ++state_.ticks;
@@ -387,7 +391,7 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
   if constexpr (Needs<S>::mechanisms) {
     step.read_mechanisms();
     step.do_cylinders();
-    step.average_torque(turned, mean_pressure_Pa);
+    step.average_torque(turned, jumped, mean_pressure_Pa);
     step.remember_work();
     step.load_bearings();
   }

@@ -11,7 +11,8 @@ enum Fault : std::uint32_t {
   kFaultSpeed = 1u << 1,          ///< speed not finite or beyond the limit: the last good one was used
   kFaultLoadRatio = 1u << 2,      ///< load ratio not finite or outside 0 to 2: the last good one was used
   kFaultPressure = 1u << 3,       ///< a pressure not finite or outside 0 to 1e8 Pa: that cylinder's last good one was used
-  kFaultPhaseJump = 1u << 4,      ///< the measured phase jumped further than the speed limit allows: mean torque is the tick's own
+  kFaultPhaseJump = 1u << 4,      ///< the measured phase jumped further than the speed limit allows: the speed is the last good one, the mean
+                                ///< torque that at the tick
 };
 
 }  // namespace crankloop

@@ -8,19 +8,43 @@
 
 namespace crankloop {
 
-/// Position in a per-degree table: `degree` 0 to 719, and how far into that degree in units of 2^-32 deg.
+/// Position in a per-degree table: `degree` 0 to 719, and how far into it: `into` in units of 2^-32 deg, `rest` in units of 2^-64 deg.
 struct Cell {
   std::uint32_t degree;
   std::uint32_t into;
+  std::uint32_t rest;  ///< only double has bits for it; 0 in float
 };
 
-/// Part of a segment as a number, 0 <= result < 1.
+/// The part of the degree as a number, 0 <= result < 1.
 ///
-/// 2^32 - 1 times 2^-32 rounds up to 1 in float: the bits that float cannot hold are dropped first.
+/// 2^32 - 1 times 2^-32 rounds up to 1 in float: the bits that the type cannot hold are dropped first. By way of signed 32-bit integers,
+/// whose conversion every FPU has.
 template <class Real>
-[[nodiscard]] constexpr Real fraction(std::uint32_t into) noexcept {
-  constexpr unsigned kept = sizeof(Real) == 4 ? 24 : 31;  // 31: fits a signed integer, whose conversion every FPU has
-  return static_cast<Real>(static_cast<std::int32_t>(into >> (32 - kept))) * (Real{1} / static_cast<Real>(std::int32_t{1} << (kept - 1)) / 2);
+[[nodiscard]] constexpr Real fraction(Cell cell) noexcept {
+  if constexpr (sizeof(Real) == 4) {
+    return static_cast<Real>(static_cast<std::int32_t>(cell.into >> 8)) * static_cast<Real>(0x1p-24);
+  } else {
+    const auto high = static_cast<std::int32_t>(cell.into >> 1);                                    // 31 bits
+    const auto low = static_cast<std::int32_t>((cell.into & 1u) << 21 | cell.rest >> 11);           // the next 22
+    return static_cast<Real>(high) * static_cast<Real>(0x1p-31) + static_cast<Real>(low) * static_cast<Real>(0x1p-53);
+  }
+}
+
+inline constexpr int kDegreesPerTurn = 360;
+inline constexpr int kDegreesPerCycle = 720;
+
+/// The cell of `units` (2^64 = the whole circle) among `degrees` equal parts of it.
+template <class Real>
+[[nodiscard]] constexpr Cell cell_of(std::uint64_t units, int degrees) noexcept {
+  const auto parts = static_cast<std::uint64_t>(degrees);
+  const std::uint64_t high = (units >> 32) * parts;
+  if constexpr (sizeof(Real) == 4) {
+    return {static_cast<std::uint32_t>(high >> 32), static_cast<std::uint32_t>(high), 0};
+  } else {
+    const std::uint64_t low = (units & 0xFFFF'FFFFu) * parts;
+    const std::uint64_t sum = high + (low >> 32);
+    return {static_cast<std::uint32_t>(sum >> 32), static_cast<std::uint32_t>(sum), static_cast<std::uint32_t>(low)};
+  }
 }
 
 /// An angle that wraps by itself: 2^64 units are one four-stroke cycle (4 pi rad of crank).
@@ -56,12 +80,10 @@ class Phase {
   /// The phase's degree among the 720 of a cycle: one multiply, no branch. double adds what the low word contributes; to float it is nothing.
   ///
   ///     phase         |   top word   |   low word   |
-  ///     times 720  =  |    degree    |     into     |
+  ///     times 720  =  |    degree    |     into     |     rest     |
   template <class Real>
   [[nodiscard]] constexpr Cell cell() const noexcept {
-    std::uint64_t product = (units_ >> 32) * std::uint64_t{720};
-    if constexpr (sizeof(Real) > 4) product += ((units_ & 0xFFFF'FFFFu) * std::uint64_t{720}) >> 32;
-    return {static_cast<std::uint32_t>(product >> 32), static_cast<std::uint32_t>(product)};
+    return cell_of<Real>(units_, kDegreesPerCycle);
   }
 
   /// Cycles as a signed number in [-0.5, 0.5]: the short way round.

@@ -1,0 +1,90 @@
+// One valve train: cam, rocker, valve with its spring and seat. All cylinders have the same trains.
+//
+// What belongs here: what a drawing and a scale give. What does not: lift over the cam angle (tabulate/valve_lift.hpp) and motion (tick/).
+#pragma once
+
+#include <cstdint>
+
+#include <crankloop/limits.hpp>
+#include <crankloop/status.hpp>
+
+namespace crankloop {
+
+enum class CamSource : std::uint8_t { polynomial, table };
+
+/// One row of a measured cam: angle of the flat follower in cam degrees, 0 at full lift, and its lift.
+struct CamPoint {
+  double cam_deg;
+  double lift_m;
+};
+
+inline constexpr int kMostCamExponents = 8;
+inline constexpr int kMostCamPoints = 2000;
+
+/// The cam as the lift of a flat follower.
+struct Cam {
+  CamSource source = CamSource::polynomial;
+  // polynomial: y = max_lift (1 + sum C_i u^p_i), u = |phi| / half_angle; the C_i follow from y = y' = ... = 0 at u = 1
+  double max_lift_m = 0;                      ///< > 0, at most 0.1
+  double half_angle_deg = 0;                  ///< cam degrees, 10 to 180
+  int exponent_count = 0;                     ///< 2 to 8
+  double exponents[kMostCamExponents] = {};   ///< rising, first >= 2, at most 100
+  // table
+  const CamPoint* points = nullptr;  ///< rising angles within one turn; the caller keeps them alive while tabulating
+  int point_count = 0;               ///< 8 to 2000
+  double smoothing_m = 0;            ///< largest residual allowed in smoothing, >= 0
+  // place in the cycle
+  double full_lift_deg = 0;          ///< engine crank angle of full theoretical lift in the cylinder's own cycle, 0 to below 720
+  double phase_rate_deg_s = 0;       ///< how fast a cam phaser may move, crank degrees per second; 0 = fixed cam
+};
+
+enum class RockerKind : std::uint8_t {
+  circular_pad,  ///< cam - rocker with a circular pad - adjusting screw - valve: docs/model.md "Rocker"
+  ratio,         ///< direct or constant-ratio train: lift = ratio * y
+};
+enum class CamTurns : std::uint8_t { toward_pivot, away_from_pivot };
+
+struct Rocker {
+  RockerKind kind = RockerKind::circular_pad;
+  double base_circle_m = 0;           ///< r_0, radius
+  double clearance_m = 0;             ///< lash at the base circle, >= 0
+  double ratio = 1;                   ///< kind ratio: valve lift per follower lift
+  // circular pad
+  double pivot_to_pad_m = 0;          ///< l_a
+  double pivot_to_cam_m = 0;          ///< l_c
+  double pad_radius_m = 0;            ///< r_s
+  double pivot_to_screw_m = 0;        ///< l_b
+  double screw_ball_m = 0;            ///< rho, radius
+  double stem_above_pivot_m = 0;      ///< z
+  CamTurns cam_turns = CamTurns::toward_pivot;
+};
+
+/// The moving parts of one valve as a single mass.
+struct Valve {
+  int per_cylinder = 1;               ///< alike and computed once
+  double valve_kg = 0;                ///< with retainer and collets
+  double spring_kg = 0;               ///< a third of it moves
+  double rocker_inertia_kg_m2 = 0;    ///< about its pivot
+  double spring_N_m = 0;              ///< k_s
+  double spring_preload_N = 0;        ///< P_s0
+  double train_N_m = 0;               ///< k
+  double train_damping_ratio = 0;     ///< b = 2 zeta sqrt(k M)
+  double guide_damping_ratio = 0;     ///< c = 2 zeta sqrt(k M)
+  double seat_N_m = 0;                ///< k_z
+  double seat_damping_ratio = 0;      ///< b_z = 2 zeta sqrt(k_z M)
+  double head_area_m2 = 0;            ///< cylinder pressure on it closes the valve; 0 = none
+};
+
+struct ValveTrain {
+  Cam cam;
+  Rocker rocker;
+  Valve valve;
+};
+
+/// Field names "cam.*", "rocker.*", "valve.*", as in the engine file without unit. Ranges as the comments state; that the geometry
+/// closes over the whole cam is checked where the lift is worked out.
+Status validate(const Cam& cam) noexcept;
+Status validate(const Rocker& rocker) noexcept;
+Status validate(const Valve& valve) noexcept;
+
+}  // namespace crankloop

@@ -1,0 +1,49 @@
+// Theoretical valve lift over the cam angle: one quintic per cam degree of the lobe, a constant outside.
+//
+// What belongs here: how the lift is stored and read. What does not: how it is made (tabulate/), what the valve does with it (valve.hpp).
+#pragma once
+
+#include <cstdint>
+
+#include <crankloop/tick/curve.hpp>
+
+namespace crankloop {
+
+/// Unclipped train lift and its derivatives by the cam angle in degrees; negative lift = lash open.
+template <class Real>
+struct Lift {
+  Real lift_m;
+  Real per_deg_m;
+  Real per_deg2_m;
+};
+
+/// Y(u) = c[0] + u (c[1] + ...), u = fraction of the cam degree. Through lift, slope and curvature at both ends, so all three are continuous.
+template <class Real>
+struct LiftSegment {
+  Real c[6];
+};
+
+/// The first segment begins exactly where the lobe opens, so a kink of the higher derivatives can only lie inside the last one.
+template <class Real>
+struct LiftCurve {
+  const LiftSegment<Real>* at;
+  const Segment<Real>* rocker_ratio;  ///< cam force per valve force, same cells
+  std::uint64_t opens;                ///< phase units (2^64 = 360 cam deg) from the cylinder's angle 0 to the start of the lobe
+  std::uint32_t segments;             ///< cam degrees of the lobe
+  Real outside_m;                     ///< lift outside the lobe: minus the clearance
+
+  /// Where a cam stands: `degree` of its turn, counted from the start of the lobe.
+  [[nodiscard]] static constexpr Cell cell(std::uint64_t since_opening) noexcept { return cell_of<Real>(since_opening, 360); }
+
+  [[nodiscard]] constexpr Lift<Real> read(Cell cell) const noexcept {
+    if (cell.degree >= segments) return {outside_m, Real{0}, Real{0}};
+    const Real u = fraction<Real>(cell);
+    const Real(&c)[6] = at[cell.degree].c;
+    const Real value = c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * (c[4] + u * c[5]))));
+    const Real slope = c[1] + u * (2 * c[2] + u * (3 * c[3] + u * (4 * c[4] + u * (5 * c[5]))));
+    const Real curvature = 2 * c[2] + u * (6 * c[3] + u * (12 * c[4] + u * (20 * c[5])));
+    return {value, slope, curvature};
+  }
+};
+
+}  // namespace crankloop

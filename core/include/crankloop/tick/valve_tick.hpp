@@ -1,0 +1,221 @@
+// One valve over one tick: whole steps where no contact changes, fine steps where one may, the change itself located.
+//
+// What belongs here: the order of a valve's tick. What does not: the physics of a step (valve.hpp), which valves an engine has
+// (engine_step.hpp).
+//
+//     tick  |-----------------|-----------------|      `steps` whole steps, one cam look-up and one matrix each;
+//                              |--|--|--|--|--|        where a gap may close or a force may end: `fine_per_step` fine ones;
+//                                    |-x--|            where one does: a power series up to x, the new regime from there
+#pragma once
+
+#include <cstdint>
+
+#include <crankloop/tick/valve_series.hpp>
+
+namespace crankloop {
+
+/// All that one valve train's motion reads.
+template <class Real>
+struct ValveMotion {
+  ValveBody<Real> body;
+  std::uint32_t steps;          ///< whole steps per tick
+  std::uint32_t fine_per_step;
+  Real per_steps;               ///< 1 / steps
+  Real per_fine;                ///< 1 / fine_per_step
+  Real step_s;                  ///< tick / steps
+  Real fine_s;
+  Real widest_step_deg;         ///< cam degrees beyond which the lift over a whole step is no quintic any more
+  Real rest_m;                  ///< nearer than this to its rest, and slower than rest_m_s, a closed valve sleeps
+  Real rest_m_s;
+  StepMatrix<Real> whole[4];    ///< per regime
+  StepMatrix<Real> fine[4];
+};
+
+/// A valve between two ticks. Asleep = closed and exactly at rest.
+template <class Real>
+struct ValveCondition {
+  ValveState<Real> state{};
+  std::uint32_t regime = kSeatOn;
+  std::uint32_t asleep = 1;
+};
+
+/// How a cam moves during a tick.
+template <class Real>
+struct CamTurn {
+  std::uint64_t from;    ///< phase units since the lobe opened, 2^64 = 360 cam deg, at the tick's start
+  std::uint64_t to;      ///< at its end
+  Real turned_deg;       ///< cam degrees between them, with sign
+};
+
+/// Contact changes that may still be located in this tick, over all valves. What exceeds it is taken at the end of its fine step.
+struct EventBudget {
+  std::uint32_t left;
+  bool exceeded;
+};
+
+/// The start of a tick's part `i` of `n`.
+template <class Real>
+[[nodiscard]] constexpr std::uint64_t part_way(std::uint64_t from, std::uint64_t to, Real turned_deg, std::uint32_t i, std::uint32_t n,
+                                               Real per_n) noexcept {
+  if (i == n) return to;
+  const Real part = static_cast<Real>(static_cast<std::int32_t>(i)) * per_n;
+  return from + Phase::from_cycles(turned_deg * part * static_cast<Real>(1.0 / 360)).units();
+}
+
+namespace detail {
+
+/// The least of four numbers is above `bound`.
+template <class Real>
+[[nodiscard]] constexpr bool all_above(const Real (&x)[4], Real bound) noexcept {
+  return x[0] > bound && x[1] > bound && x[2] > bound && x[3] > bound;
+}
+template <class Real>
+[[nodiscard]] constexpr bool all_below(const Real (&x)[4], Real bound) noexcept {
+  return x[0] < bound && x[1] < bound && x[2] < bound && x[3] < bound;
+}
+
+/// Bezier ordinates of the cubic through two values and slopes (slopes times the step): the curve lies between the least and the largest.
+template <class Real>
+constexpr void bezier(Real from, Real slope_from, Real to, Real slope_to, Real (&ordinates)[4]) noexcept {
+  constexpr Real kThird = static_cast<Real>(1.0 / 3);
+  ordinates[0] = from;
+  ordinates[1] = from + slope_from * kThird;
+  ordinates[2] = to - slope_to * kThird;
+  ordinates[3] = to;
+}
+
+/// True when no contact can change in a whole step from a to b, as far as the cubics through its ends tell, with a margin: gaps keep their
+/// side, the train's force keeps its sign. With the seat on, the seat's own vibration is faster than a whole step and nothing can be told.
+template <class Real>
+[[nodiscard]] constexpr bool far_from_change(const ValveBody<Real>& body, std::uint32_t regime, ValveState<Real> a, ValveState<Real> b,
+                                             const LiftStep<Real>& lift, Real step_s) noexcept {
+  constexpr Real kMargin_m = static_cast<Real>(2e-6);
+  if ((regime & kSeatOn) != 0) return false;
+  Real y[4];
+  bezier(a.lift_m, a.velocity_m_s * step_s, b.lift_m, b.velocity_m_s * step_s, y);
+  if (!all_above(y, body.seat_sink_m + kMargin_m)) return false;
+  const Real gap_a = lift.at[0] - a.lift_m;
+  const Real gap_b = lift.at[1] - b.lift_m;
+  const Real closing_a = lift.at[2] - a.velocity_m_s * step_s;
+  const Real closing_b = lift.at[3] - b.velocity_m_s * step_s;
+  Real gap[4];
+  bezier(gap_a, closing_a, gap_b, closing_b, gap);
+  if ((regime & kTrainOn) == 0) return all_below(gap, -kMargin_m);
+  if (!all_above(gap, kMargin_m)) return false;
+  // Force / k = gap + (b / k) gap'; the slope of the cubic is a quadratic, written as a cubic's ordinates too.
+  const Real lag = body.train_Ns_m / (body.train_N_m * step_s);
+  const Real middle = 3 * (gap_b - gap_a) - closing_a - closing_b;
+  constexpr Real kThird = static_cast<Real>(1.0 / 3);
+  const Real slope[4] = {closing_a, (closing_a + 2 * middle) * kThird, (2 * middle + closing_b) * kThird, closing_b};
+  const Real force[4] = {gap[0] + lag * slope[0], gap[1] + lag * slope[1], gap[2] + lag * slope[2], gap[3] + lag * slope[3]};
+  return all_above(force, kMargin_m);
+}
+
+}  // namespace detail
+
+/// Advances one valve by a tick. O(steps * fine_per_step + events): bounded by the tables and the budget.
+template <class Real>
+class ValveTick {
+ public:
+  constexpr ValveTick(const ValveMotion<Real>& motion, const LiftCurve<Real>& curve, Real gas_N, EventBudget& budget) noexcept
+      : motion_{motion}, curve_{curve}, gas_N_{gas_N}, budget_{budget} {}
+
+  /// The lift where the last advance() ended.
+  [[nodiscard]] constexpr const Lift<Real>& lift() const noexcept { return lift_; }
+
+  constexpr void advance(ValveCondition<Real>& valve, const CamTurn<Real>& cam) noexcept {
+    const Cell start = LiftCurve<Real>::cell(cam.from);
+    const Cell end = LiftCurve<Real>::cell(cam.to);
+    const bool lobe_touched = start.degree < curve_.segments || end.degree < curve_.segments;
+    lift_ = curve_.read(end);
+    if (valve.asleep != 0 && !lobe_touched) return;
+    if (valve.asleep != 0) {  // wake where the gas holds the valve on its seat
+      valve.state = {-gas_N_ / (motion_.body.seat_N_m + motion_.body.spring_N_m), Real{0}};
+      valve.asleep = 0;
+    }
+    const Real step_deg = cam.turned_deg * motion_.per_steps;
+    Lift<Real> from = curve_.read(start);
+    for (std::uint32_t i = 0; i < motion_.steps; ++i) {
+      const std::uint64_t at = part_way(cam.from, cam.to, cam.turned_deg, i, motion_.steps, motion_.per_steps);
+      const std::uint64_t next = part_way(cam.from, cam.to, cam.turned_deg, i + 1, motion_.steps, motion_.per_steps);
+      const Lift<Real> to = curve_.read(LiftCurve<Real>::cell(next));
+      if (!whole_step(valve, lift_step(from, to, step_deg), step_deg)) fine_steps(valve, at, next, from, step_deg);
+      from = to;
+    }
+    fall_asleep(valve, lobe_touched);
+  }
+
+ private:
+  /// Takes a whole step if no contact can change in it.
+  constexpr bool whole_step(ValveCondition<Real>& valve, const LiftStep<Real>& lift, Real step_deg) noexcept {
+    if (step_deg > motion_.widest_step_deg || step_deg < -motion_.widest_step_deg || (valve.regime & kSeatOn) != 0) return false;
+    const ValveState<Real> after = stepped(motion_.whole[valve.regime], valve.state, lift, constant_force_N(motion_.body, valve.regime, gas_N_),
+                                           (valve.regime & kTrainOn) != 0);
+    if (!detail::far_from_change(motion_.body, valve.regime, valve.state, after, lift, motion_.step_s)) return false;
+    valve.state = after;
+    return true;
+  }
+
+  constexpr void fine_steps(ValveCondition<Real>& valve, std::uint64_t at, std::uint64_t end, Lift<Real> from, Real step_deg) noexcept {
+    const Real fine_deg = step_deg * motion_.per_fine;
+    for (std::uint32_t i = 1; i <= motion_.fine_per_step; ++i) {
+      const Lift<Real> to = curve_.read(LiftCurve<Real>::cell(part_way(at, end, step_deg, i, motion_.fine_per_step, motion_.per_fine)));
+      const LiftStep<Real> lift = lift_step(from, to, fine_deg);
+      const ValveState<Real> after = stepped(motion_.fine[valve.regime], valve.state, lift, constant_force_N(motion_.body, valve.regime, gas_N_),
+                                             (valve.regime & kTrainOn) != 0);
+      const std::uint32_t asked = contacts(motion_.body, after, to.lift_m, lift.at[3] / motion_.fine_s).regime();
+      if (asked == valve.regime) {
+        valve.state = after;
+      } else {
+        change_contacts(valve, lift, after, asked);
+      }
+      from = to;
+    }
+  }
+
+  /// The step in which a contact changes: by the series up to the change, on in the new regime, until the step's end.
+  constexpr void change_contacts(ValveCondition<Real>& valve, const LiftStep<Real>& lift, ValveState<Real> unlocated,
+                                 std::uint32_t asked) noexcept {
+    if (budget_.left == 0) {
+      budget_.exceeded = true;
+      valve.state = unlocated;
+      valve.regime = asked;
+      return;
+    }
+    StepSeries<Real> series(motion_.body, lift, motion_.fine_s);
+    Real at = 0;
+    for (;;) {
+      series.expand(at, valve.state, valve.regime, gas_N_);
+      std::uint32_t changed = 0;
+      at = series.first_change(valve.regime, changed);
+      valve.state = series.state(at);
+      if (changed == 0) return;
+      valve.regime ^= changed;
+      if (--budget_.left == 0) {  // the rest of this step in the regime that has just begun
+        series.expand(at, valve.state, valve.regime, gas_N_);
+        valve.state = series.state(Real{1});
+        return;
+      }
+    }
+  }
+
+  /// A closed valve that has come to rest is put exactly at rest: it costs nothing, and no denormal numbers.
+  constexpr void fall_asleep(ValveCondition<Real>& valve, bool lobe_touched) noexcept {
+    if (lobe_touched || valve.regime != kSeatOn) return;
+    const Real off_m = valve.state.lift_m + gas_N_ / (motion_.body.seat_N_m + motion_.body.spring_N_m);
+    const Real speed_m_s = valve.state.velocity_m_s;
+    const bool in_place = off_m < motion_.rest_m && off_m > -motion_.rest_m;
+    const bool at_rest = in_place && speed_m_s < motion_.rest_m_s && speed_m_s > -motion_.rest_m_s;
+    if (!at_rest) return;
+    valve.state = {Real{0}, Real{0}};
+    valve.asleep = 1;
+  }
+
+  const ValveMotion<Real>& motion_;
+  const LiftCurve<Real>& curve_;
+  Real gas_N_;
+  EventBudget& budget_;
+  Lift<Real> lift_{};
+};
+
+}  // namespace crankloop

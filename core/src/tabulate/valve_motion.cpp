@@ -1,0 +1,203 @@
+#include <crankloop/tabulate/valve_motion.hpp>
+
+#include <crankloop/tick/square_root.hpp>
+
+namespace crankloop {
+namespace {
+
+/// Fastest rate of a regime: its frequency, or beyond critical damping the faster of its two decay rates.
+[[nodiscard]] double rate_per_s(double stiffness_N_m, double damping_Ns_m, double mass_kg) noexcept {
+  const double frequency = square_root(stiffness_N_m / mass_kg);
+  const double ratio = damping_Ns_m / (2 * mass_kg * frequency);
+  return ratio <= 1 ? frequency : frequency * (ratio + square_root(ratio * ratio - 1));
+}
+
+[[nodiscard]] double fastest_rate_per_s(const ValveBody<double>& b) noexcept {
+  const double both = rate_per_s(b.spring_N_m + b.train_N_m + b.seat_N_m, b.guide_Ns_m + b.train_Ns_m + b.seat_Ns_m, b.mass_kg);
+  const double seat = rate_per_s(b.spring_N_m + b.seat_N_m, b.guide_Ns_m + b.seat_Ns_m, b.mass_kg);
+  return both > seat ? both : seat;
+}
+
+[[nodiscard]] double open_rate_per_s(const ValveBody<double>& b) noexcept {
+  return rate_per_s(b.spring_N_m + b.train_N_m, b.guide_Ns_m + b.train_Ns_m, b.mass_kg);
+}
+
+/// Rate times fine step for an accuracy class: 0.3 gives 0.1 um (docs/decisions/0008-valve-steps.md); the methods are of fourth order.
+[[nodiscard]] double fine_step_rate(double accuracy_m) noexcept {
+  const double rate = 0.3 * square_root(square_root(accuracy_m / 0.1e-6));
+  return rate < 0.9 ? rate : 0.9;
+}
+
+/// Rate of the open valve times whole step: beyond it the cubic between its ends says too little about the motion between.
+constexpr double kWholeStepRate = 1.5;
+/// Cam degrees over which the lift is a quintic to 0.1 um.
+constexpr double kWidestStepDeg = 4;
+
+/// 1, 2, 3 ... parts so that each is at most `longest`.
+[[nodiscard]] int parts(double whole, double longest) noexcept {
+  const double ratio = whole / longest;
+  if (!(ratio < 1e6)) return 1000000;
+  const int floor = static_cast<int>(ratio);
+  return ratio > floor ? floor + 1 : (floor < 1 ? 1 : floor);
+}
+
+struct Steps {
+  int whole;
+  int fine_per_whole;
+};
+[[nodiscard]] Steps steps_for(const ValveBody<double>& body, double tick_s, const ValveStepping& stepping) noexcept {
+  const int whole = parts(tick_s, kWholeStepRate / open_rate_per_s(body));
+  return {whole, parts(tick_s / whole, fine_step_rate(stepping.accuracy_m) / fastest_rate_per_s(body))};
+}
+
+/// The matrix of a linear step: its columns are what the step makes of unit vectors.
+template <class Propagate>
+[[nodiscard]] StepMatrix<double> matrix_of(const Propagate& propagate) noexcept {
+  StepMatrix<double> m{};
+  const ValveState<double> by_y = propagate({1, 0}, LiftStep<double>{}, 0.0);
+  const ValveState<double> by_v = propagate({0, 1}, LiftStep<double>{}, 0.0);
+  const ValveState<double> by_force = propagate({0, 0}, LiftStep<double>{}, 1.0);
+  m.y.y = by_y.lift_m, m.v.y = by_y.velocity_m_s;
+  m.y.v = by_v.lift_m, m.v.v = by_v.velocity_m_s;
+  m.y.force = by_force.lift_m, m.v.force = by_force.velocity_m_s;
+  for (int i = 0; i < 6; ++i) {
+    LiftStep<double> unit{};
+    unit.at[i] = 1;
+    const ValveState<double> by_lift = propagate({0, 0}, unit, 0.0);
+    m.y.lift[i] = by_lift.lift_m;
+    m.v.lift[i] = by_lift.velocity_m_s;
+  }
+  return m;
+}
+
+/// The exact solution to rounding, by Runge-Kutta steps so short that their error is below it: (0.3 / 64)^4 / 120 of a step.
+constexpr int kExactDivisions = 64;
+
+[[nodiscard]] StepMatrix<float> rounded(const StepMatrix<double>& m) noexcept {
+  const auto row = [](const StepMatrix<double>::Row& r) {
+    StepMatrix<float>::Row f{};
+    f.y = static_cast<float>(r.y);
+    f.v = static_cast<float>(r.v);
+    f.force = static_cast<float>(r.force);
+    for (int i = 0; i < 6; ++i) f.lift[i] = static_cast<float>(r.lift[i]);
+    return f;
+  };
+  return {row(m.y), row(m.v)};
+}
+
+}  // namespace
+
+ValveBody<double> valve_body(const Valve& valve, double lever_m) noexcept {
+  ValveBody<double> b{};
+  b.rocker_mass_kg = valve.rocker_inertia_kg_m2 / (lever_m * lever_m);
+  b.mass_kg = valve.valve_kg + valve.spring_kg / 3 + b.rocker_mass_kg;
+  b.train_N_m = valve.train_N_m;
+  b.seat_N_m = valve.seat_N_m;
+  b.spring_N_m = valve.spring_N_m;
+  b.train_Ns_m = 2 * valve.train_damping_ratio * square_root(b.train_N_m * b.mass_kg);
+  b.guide_Ns_m = 2 * valve.guide_damping_ratio * square_root(b.train_N_m * b.mass_kg);
+  b.seat_Ns_m = 2 * valve.seat_damping_ratio * square_root(b.seat_N_m * b.mass_kg);
+  b.preload_N = valve.spring_preload_N;
+  b.seat_sink_m = valve.spring_preload_N / valve.seat_N_m;
+  b.head_area_m2 = valve.head_area_m2;
+  return b;
+}
+
+double open_frequency_rad_s(const ValveBody<double>& body) noexcept {
+  return square_root((body.train_N_m + body.spring_N_m) / body.mass_kg);
+}
+
+double seated_frequency_rad_s(const ValveBody<double>& body) noexcept {
+  return square_root((body.train_N_m + body.seat_N_m + body.spring_N_m) / body.mass_kg);
+}
+
+double longest_tick_s(const ValveBody<double>& body, const ValveStepping& stepping) noexcept {
+  double shortest = 0;
+  double longest = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (shortest + longest) / 2;
+    const Steps steps = steps_for(body, middle, stepping);
+    (steps.whole <= kMostFineSteps && steps.whole * steps.fine_per_whole <= kMostFineSteps ? shortest : longest) = middle;
+  }
+  return shortest;
+}
+
+ValveState<double> runge_kutta(const ValveBody<double>& body, std::uint32_t regime, double d_s, int n, ValveState<double> state,
+                               const LiftStep<double>& lift, double force_N) noexcept {
+  const bool train = (regime & kTrainOn) != 0;
+  const bool seat = (regime & kSeatOn) != 0;
+  const LiftQuintic<double> quintic(lift);
+  const auto acceleration = [&](double part, double y, double v) {
+    double force = force_N - body.spring_N_m * y - body.guide_Ns_m * v;
+    if (train) force += body.train_N_m * (quintic.value(part) - y) + body.train_Ns_m * (quintic.slope(part) / d_s - v);
+    if (seat) force -= body.seat_N_m * y + body.seat_Ns_m * v;
+    return force / body.mass_kg;
+  };
+  const double d = d_s / n;
+  double y = state.lift_m;
+  double v = state.velocity_m_s;
+  for (int i = 0; i < n; ++i) {
+    const double start = static_cast<double>(i) / n;
+    const double middle = (i + 0.5) / n;
+    const double end = (i + 1.0) / n;
+    const double k1 = acceleration(start, y, v);
+    const double k2 = acceleration(middle, y + d / 2 * v, v + d / 2 * k1);
+    const double k3 = acceleration(middle, y + d / 2 * v + d * d / 4 * k1, v + d / 2 * k2);
+    const double k4 = acceleration(end, y + d * v + d * d / 2 * k2, v + d * k3);
+    y += d * v + d * d / 6 * (k1 + k2 + k3);
+    v += d / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+  }
+  return {y, v};
+}
+
+Status motion_of(const ValveBody<double>& body, double tick_s, const ValveStepping& stepping, ValveMotion<double>& motion) noexcept {
+  if (!(stepping.accuracy_m >= 0.01e-6 && stepping.accuracy_m <= 10e-6)) return {Reason::out_of_range, -1, "tick.accuracy"};
+  const Steps steps = steps_for(body, tick_s, stepping);
+  if (steps.whole > kMostFineSteps || steps.whole * steps.fine_per_whole > kMostFineSteps) return {Reason::out_of_range, -1, "tick.tick"};
+  motion = {};
+  motion.body = body;
+  motion.steps = static_cast<std::uint32_t>(steps.whole);
+  motion.fine_per_step = static_cast<std::uint32_t>(steps.fine_per_whole);
+  motion.per_steps = 1.0 / steps.whole;
+  motion.per_fine = 1.0 / steps.fine_per_whole;
+  motion.step_s = tick_s / steps.whole;
+  motion.fine_s = motion.step_s / steps.fine_per_whole;
+  motion.widest_step_deg = kWidestStepDeg;
+  motion.rest_m = 1e-9;
+  motion.rest_m_s = motion.rest_m * seated_frequency_rad_s(body);
+  const int divisions = stepping.integrator == Integrator::exponential ? kExactDivisions : 1;
+  for (std::uint32_t regime = 0; regime < 4; ++regime) {
+    const auto over = [&](double d_s, int n) {
+      return matrix_of([&](ValveState<double> state, const LiftStep<double>& lift, double force_N) {
+        return runge_kutta(body, regime, d_s, n, state, lift, force_N);
+      });
+    };
+    motion.fine[regime] = over(motion.fine_s, divisions);
+    motion.whole[regime] = over(motion.step_s, steps.fine_per_whole * divisions);
+  }
+  return {};
+}
+
+ValveMotion<float> rounded(const ValveMotion<double>& m) noexcept {
+  const auto real = [](double x) { return static_cast<float>(x); };
+  const ValveBody<double>& b = m.body;
+  ValveMotion<float> f{};
+  f.body = {real(b.mass_kg),    real(b.train_N_m),  real(b.train_Ns_m), real(b.seat_N_m),     real(b.seat_Ns_m),     real(b.spring_N_m),
+            real(b.guide_Ns_m), real(b.preload_N),  real(b.seat_sink_m), real(b.head_area_m2), real(b.rocker_mass_kg)};
+  f.steps = m.steps;
+  f.fine_per_step = m.fine_per_step;
+  f.per_steps = real(m.per_steps);
+  f.per_fine = real(m.per_fine);
+  f.step_s = real(m.step_s);
+  f.fine_s = real(m.fine_s);
+  f.widest_step_deg = real(m.widest_step_deg);
+  f.rest_m = real(m.rest_m);
+  f.rest_m_s = real(m.rest_m_s);
+  for (int regime = 0; regime < 4; ++regime) {
+    f.whole[regime] = rounded(m.whole[regime]);
+    f.fine[regime] = rounded(m.fine[regime]);
+  }
+  return f;
+}
+
+}  // namespace crankloop

@@ -1,0 +1,533 @@
+// What the program answers to bad input: one line that names file and line, exit status 2, and nothing else written.
+//
+// The program runs as its users run it, as a process of its own.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+constexpr int kFailure = 1;
+constexpr int kBadInput = 2;
+constexpr const char* kSample = CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495.ini";
+
+std::string contents(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+struct Answer {
+  int status = -1;
+  std::string out;
+  std::string error;
+};
+
+/// An engine file as lines that are told apart by their key.
+class Engine {
+ public:
+  explicit Engine(const std::string& text) : lines_{lines_of(text)} {}
+
+  std::size_t line_of(const std::string& start) const {
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      if (lines_[i].compare(0, start.size(), start) == 0) return i + 1;
+    }
+    ADD_FAILURE() << "no line starts with " << start;
+    return 1;
+  }
+  Engine with(const std::string& key, const std::string& value) const { return changed(key, key + " = " + value); }
+  Engine without(const std::string& key) const { return changed(key, ""); }
+  Engine changed(const std::string& start, const std::string& line) const {
+    Engine other = *this;
+    other.lines_[line_of(start) - 1] = line;
+    return Engine(other.text());  // the new text may be several lines, or none that counts
+  }
+  Engine plus(const std::string& line) const {
+    Engine other = *this;
+    other.lines_.push_back(line);
+    return other;
+  }
+  std::size_t size() const { return lines_.size(); }
+  std::string text() const {
+    std::string text;
+    for (const std::string& line : lines_) text += line + "\n";
+    return text;
+  }
+
+ private:
+  std::vector<std::string> lines_;
+};
+
+class BadInput : public testing::Test {
+ protected:
+  BadInput() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+    path_ = folder_ + "/engine.ini";
+  }
+  ~BadInput() override { std::filesystem::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ + "/" + name, std::ios::binary) << text;
+  }
+
+  /// `out` is where standard output goes; "" closes it.
+  Answer run(const std::vector<std::string>& words, const std::string& out) const {
+    const std::string error = folder_ + "/stderr";
+    std::vector<std::string> all = words;
+    all.insert(all.begin(), CRANKLOOP_PROGRAM);
+    std::vector<char*> arguments;
+    for (std::string& word : all) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    if (out.empty()) {
+      posix_spawn_file_actions_addclose(&files, STDOUT_FILENO);
+    } else {
+      posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    }
+    posix_spawn_file_actions_addopen(&files, STDERR_FILENO, error.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    pid_t child = 0;
+    Answer answer;
+    if (posix_spawn(&child, CRANKLOOP_PROGRAM, &files, nullptr, arguments.data(), environ) == 0) {
+      int status = 0;
+      waitpid(child, &status, 0);
+      if (WIFEXITED(status)) answer.status = WEXITSTATUS(status);
+    }
+    posix_spawn_file_actions_destroy(&files);
+    answer.error = contents(error);
+    return answer;
+  }
+
+  Answer run(const std::vector<std::string>& words) const {
+    Answer answer = run(words, folder_ + "/stdout");
+    answer.out = contents(folder_ + "/stdout");
+    return answer;
+  }
+
+  /// One line "PLACE: ... FRAGMENT ...", exit status 2, nothing on standard output.
+  void expect_refusal(const Answer& answer, const std::string& place, const std::vector<std::string>& fragments) const {
+    EXPECT_EQ(answer.status, kBadInput) << answer.error;
+    EXPECT_EQ(answer.out, "");
+    EXPECT_EQ(answer.error.compare(0, place.size() + 2, place + ": "), 0)
+        << answer.error << "  should start with " << place;
+    EXPECT_EQ(std::count(answer.error.begin(), answer.error.end(), '\n'), 1) << answer.error;
+    for (const std::string& fragment : fragments) {
+      EXPECT_NE(answer.error.find(fragment), std::string::npos) << answer.error << "  should say: " << fragment;
+    }
+  }
+
+  void expect_refused(const Engine& engine, std::size_t line, const std::vector<std::string>& fragments) const {
+    write("engine.ini", engine.text());
+    expect_refusal(run({"show", path_}), path_ + ":" + std::to_string(line), fragments);
+  }
+  void expect_refused(const Engine& engine, const std::string& start, const std::vector<std::string>& fragments) const {
+    expect_refused(engine, engine.line_of(start), fragments);
+  }
+  void expect_accepted(const Engine& engine) const {
+    write("engine.ini", engine.text());
+    const Answer answer = run({"show", path_});
+    EXPECT_EQ(answer.status, 0) << answer.error;
+    EXPECT_EQ(answer.error, "");
+  }
+
+  const Engine sample_{contents(kSample)};
+  std::string folder_;
+  std::string path_;
+};
+
+struct NumberKey {
+  const char* section;
+  const char* name;
+  bool may_be_absent;
+  bool may_be_negative;
+};
+
+constexpr NumberKey kNumberKeys[] = {
+    {"[engine]", "rated_rpm", false, false},
+    {"[crank]", "bore_mm", false, false},
+    {"[crank]", "stroke_mm", false, false},
+    {"[crank]", "rod_length_mm", false, false},
+    {"[crank]", "rod_ratio", true, false},
+    {"[crank]", "pin_offset_mm", true, true},
+    {"[crank]", "compression_ratio", false, false},
+    {"[masses]", "piston_g", false, false},
+    {"[masses]", "rod_small_end_g", false, false},
+    {"[masses]", "rod_big_end_g", false, false},
+    {"[masses]", "crank_pin_equivalent_g", true, false},
+    {"[masses]", "crank_inertia_kg_m2", false, false},
+    {"[layout]", "cylinder_spacing_mm", true, false},
+    {"[pressure]", "crankcase_kPa", true, false},
+    {"[pressure]", "intake_kPa", false, false},
+    {"[pressure]", "exhaust_kPa", false, false},
+    {"[pressure]", "start_of_combustion_deg", false, true},
+    {"[pressure]", "combustion_duration_deg", false, false},
+    {"[pressure]", "wiebe_m", false, false},
+    {"[pressure]", "compression_exponent", false, false},
+    {"[pressure]", "expansion_exponent", false, false},
+    {"[pressure]", "exhaust_valve_opens_deg", false, false},
+    {"[pressure]", "net_mep_kPa", false, false},
+};
+
+TEST_F(BadInput, EveryKeyIsMissedWhereItHasNoDefault) {
+  for (const NumberKey& key : kNumberKeys) {
+    SCOPED_TRACE(key.name);
+    if (key.may_be_absent) {
+      expect_accepted(sample_.without(key.name));
+    } else {
+      expect_refused(sample_.without(key.name), key.section, {key.name});  // told at the section's header
+    }
+  }
+  expect_refused(sample_.without("name"), "[engine]", {"lacks name"});
+  expect_refused(sample_.without("source"), "[pressure]",
+                 {"lacks source", "wiebe | angle_table | volume_table | none"});
+}
+
+TEST_F(BadInput, EveryKeyIsRefusedWhenItIsDoubled) {
+  for (const NumberKey& key : kNumberKeys) {
+    SCOPED_TRACE(key.name);
+    const std::size_t line = sample_.line_of(key.name);
+    const std::string once = lines_of(sample_.text())[line - 1];
+    expect_refused(sample_.changed(key.name, once + "\n" + once), line + 1,
+                   {key.name, "given twice", "line " + std::to_string(line)});
+  }
+}
+
+TEST_F(BadInput, EveryNumberMustBeAPlainFiniteNumber) {
+  const std::pair<const char*, const char*> kNoNumbers[] = {
+      {"", "has no value"},           {"abc", "not a number"},         {"12 mm", "'mm' follows"},
+      {"12mm", "'mm' follows"},       {"9,5", "decimal sign"},         {"0x1p4", "hexadecimal"},
+      {"1e", "not a number"},         {"--1", "not a number"},         {"1 2", "not a number"},
+      {"inf", "not a finite number"}, {"-INF", "not a finite number"}, {"Infinity", "not a finite number"},
+      {"nan", "not a finite number"}, {"NaN", "not a finite number"},  {"1e999", "too large or too small"},
+      {"-1e999", "too large"},        {"1e-999", "or too small"},      {"1e30", "out of range; allowed: "},
+  };
+  for (const NumberKey& key : kNumberKeys) {
+    for (const auto& [text, complaint] : kNoNumbers) {
+      SCOPED_TRACE(std::string(key.name) + " = " + text);
+      expect_refused(sample_.with(key.name, text), key.name, {key.name, complaint});
+    }
+    if (!key.may_be_negative)
+      expect_refused(sample_.with(key.name, "-1"), key.name, {key.name, "-1 is out of range; allowed: "});
+  }
+}
+
+TEST_F(BadInput, ZeroIsRefusedWhereItMeansNothing) {
+  for (const char* key : {"rated_rpm", "bore_mm", "stroke_mm", "rod_length_mm", "rod_ratio", "compression_ratio",
+                          "cylinder_spacing_mm", "crankcase_kPa", "intake_kPa", "combustion_duration_deg"}) {
+    SCOPED_TRACE(key);
+    expect_refused(sample_.with(key, "0"), key, {key, "0 is out of range; allowed: "});
+  }
+  expect_refused(sample_.with("piston_g", "0").with("rod_small_end_g", "0"), "piston_g", {"weigh nothing"});
+}
+
+TEST_F(BadInput, ARodThatCannotTurnIsRefusedWithTheLengthItNeeds) {
+  const Engine drawn = sample_.without("rod_ratio");
+  expect_refused(drawn.with("rod_length_mm", "57.5"), "rod_length_mm", {"57.5 is too short", "57.5 mm"});
+  expect_refused(drawn.with("rod_length_mm", "67").with("pin_offset_mm", "-10"), "rod_length_mm",
+                 {"67 is too short", "67.5 mm"});
+  expect_accepted(drawn.with("rod_length_mm", "67.6").with("pin_offset_mm", "-10"));
+  expect_refused(sample_.with("rod_ratio", "0.9").with("pin_offset_mm", "10"), "rod_ratio", {"makes the rod 63.88"});
+}
+
+TEST_F(BadInput, AFiringOrderNamesEveryCylinderOnce) {
+  expect_refused(sample_.with("firing_order", "1-3-4-4"), "firing_order", {"cylinder 4 fires twice", "1 to 4"});
+  expect_refused(sample_.with("firing_order", "1-3-4"), "firing_order", {"cylinder 2 does not fire"});
+  expect_refused(sample_.with("firing_order", "1-3-4-5"), "firing_order", {"cylinder 5 does not exist"});
+  expect_refused(sample_.with("firing_order", "1-3-4-2-1"), "firing_order", {"cylinder 1 fires twice"});
+  for (const char* nonsense : {"1,3,4,2", "1-3-x-2", "1--3-4-2", "0-1-2-3", "1-3-4-2-", "1.5-2-3-4", "1-17-3-2"}) {
+    expect_refused(sample_.with("firing_order", nonsense), "firing_order", {nonsense, "like 1-3-4-2"});
+  }
+  expect_refused(sample_.without("firing_order"), "cylinders",
+                 {"lacks firing_order", "firing_angles_deg", "4 cylinders"});
+  expect_refused(sample_.changed("bank_angles_deg", "firing_angles_deg = 0,540,180,360"), "firing_angles_deg",
+                 {"firing_angles_deg and firing_order", "exclude each other"});
+}
+
+TEST_F(BadInput, ListsHaveOneEntryPerCylinder) {
+  expect_refused(sample_.with("bank_angles_deg", "0,0,0"), "bank_angles_deg", {"3 entries for 4 cylinders"});
+  expect_refused(sample_.with("bank_angles_deg", "0"), "bank_angles_deg", {"1 entry for 4 cylinders"});
+  expect_refused(sample_.with("bank_angles_deg", "0,0,,0"), "bank_angles_deg", {"entry 3", "missing"});
+  expect_refused(sample_.with("bank_angles_deg", "0,0,nan,0"), "bank_angles_deg", {"entry 3", "not a finite number"});
+  expect_refused(sample_.changed("firing_order", "firing_angles_deg = 0,540,180,720"), "firing_angles_deg",
+                 {"entry 4", "0 to below 720 deg"});
+  expect_refused(sample_.with("cylinders", "17"), "cylinders", {"1 to 16"});
+  expect_refused(sample_.with("cylinders", "2.5"), "cylinders", {"not a whole number"});
+  expect_refused(sample_.with("cylinders", "5"), "bank_angles_deg", {"4 entries for 5 cylinders"});
+}
+
+TEST_F(BadInput, ThrowsAndSharedPinsMustFollowFromFiring) {
+  const Engine with_throws = sample_.changed("cylinder_spacing_mm", "crank_throws_deg = 0,180,90,0");
+  expect_refused(with_throws, "crank_throws_deg", {"cylinder 3", "given 90 deg", "at 180 deg"});
+  const auto sharing = [this](const char* pins) {
+    return sample_.changed("cylinder_spacing_mm", std::string("shared_pins = ") + pins);
+  };
+  expect_refused(sharing("1-2"), "shared_pins", {"cylinders 1 and 2 cannot share a pin", "0 and 180 deg"});
+  expect_refused(sharing("1-4,2-1"), "shared_pins", {"cylinder 1 is named twice"});
+  expect_refused(sharing("1-5"), "shared_pins", {"cylinder 5 does not exist"});
+  expect_refused(sharing("3"), "shared_pins", {"cylinder 3 stands alone"});
+  expect_refused(sharing("2-3").plus("[layout]"), sample_.size() + 1, {"[layout] is given twice"});
+  expect_accepted(sharing("1-4,2-3"));
+  expect_refused(sharing("1-4\ncylinder_positions_mm = 0,100,200,300"), "shared_pins", {"cylinder 2 stands between"});
+  expect_refused(sample_.changed("bank_angles_deg", "cylinder_positions_mm = 0,100,200,300"), "cylinder_spacing_mm",
+                 {"exclude each other"});
+}
+
+TEST_F(BadInput, ARodIsGivenByItsEndsOrAsAWholeButNotBothOrNeither) {
+  const Engine no_rod = sample_.without("rod_small_end_g").without("rod_big_end_g");
+  expect_refused(no_rod, "[masses]", {"either rod_small_end_g and rod_big_end_g, or rod_g and rod_com_to_crank_mm"});
+  expect_refused(sample_.changed("rod_big_end_g", "rod_g = 1887"), "rod_g",
+                 {"rod_g and rod_small_end_g", "exclude each other"});
+  const auto whole = [&no_rod](const std::string& keys) {
+    return no_rod.changed("piston_g", "piston_g = 810\n" + keys);
+  };
+  expect_refused(whole("rod_g = 1887"), "[masses]", {"lacks rod_com_to_crank_mm"});
+  expect_refused(whole("rod_inertia_kg_mm2 = 9000"), "[masses]", {"lacks rod_g"});
+  expect_refused(whole("rod_g = 1887\nrod_com_to_crank_mm = 250"), "rod_com_to_crank_mm",
+                 {"250 is out of range", "between the pins"});
+  expect_accepted(whole("rod_g = 1887\nrod_com_to_crank_mm = 56"));
+}
+
+TEST_F(BadInput, HeatIsGivenAsItselfOrByWhatItMustReach) {
+  expect_refused(sample_.changed("crankcase_kPa", "heat_J = 2000"), "net_mep_kPa",
+                 {"net_mep_kPa and heat_J", "exclude each other"});
+  expect_refused(sample_.without("net_mep_kPa"), "[pressure]", {"either net_mep_kPa, or heat_J"});
+  expect_accepted(sample_.changed("net_mep_kPa", "heat_J = 2000"));
+  expect_refused(sample_.with("combustion_duration_deg", "150"), "combustion_duration_deg",
+                 {"end at 144 deg", "exhaust_valve_opens_deg = 135"});
+  expect_refused(sample_.with("source", "weibe"), "source", {"'weibe' is not one of", "did you mean wiebe?"});
+}
+
+TEST_F(BadInput, MisspeltNamesAreToldWithTheNameThatWasMeant) {
+  expect_refused(sample_.changed("bore_mm", "bore_cm = 9.5"), "bore_cm",
+                 {"unknown key 'bore_cm' in [crank]", "did you mean bore_mm?"});
+  expect_refused(sample_.changed("bore_mm", "Bore_mm = 95"), "Bore_mm", {"did you mean bore_mm?"});
+  expect_refused(sample_.changed("bore_mm", "stroke = 95"), "stroke = ", {"did you mean stroke_mm?"});
+  expect_refused(sample_.changed("bore_mm", "piston_g = 95"), sample_.line_of("bore_mm"), {"belongs to [masses]"});
+  expect_refused(sample_.changed("bore_mm", "colour = 95"), "colour", {"keys: bore_mm, stroke_mm"});
+  expect_refused(sample_.changed("[masses]", "[mass]"), "[mass]", {"unknown section [mass]", "did you mean masses?"});
+  expect_refused(sample_.changed("[masses]", "[flywheel]"), "[flywheel]", {"sections: engine, crank"});
+  expect_refused(sample_.plus("[cam]"), "[cam]", {"[cam] needs a name", "[cam intake]"});
+  expect_refused(sample_.changed("[crank]", "[crank 1]"), "[crank 1]", {"takes no name"});
+  expect_refused(sample_.plus("[crank]"), sample_.size() + 1,
+                 {"[crank] is given twice", "line " + std::to_string(sample_.line_of("[crank]"))});
+}
+
+TEST_F(BadInput, LinesThatAreNoLinesAreTold) {
+  expect_refused(sample_.changed("[engine]", ""), "name", {"stands before the first section"});
+  expect_refused(sample_.changed("bore_mm", "bore_mm 95"), "bore_mm", {"neither 'key = value' nor '[section]'"});
+  expect_refused(sample_.changed("bore_mm", "= 95"), "= 95", {"no key stands before '='"});
+  expect_refused(sample_.changed("bore_mm", "b\xC3\xBCre = 95"), "b\xC3\xBC", {"is not a key"});
+  expect_refused(sample_.changed("[crank]", "[crank"), "[crank", {"no closing bracket"});
+  expect_refused(sample_.changed("[crank]", "[]"), "[]", {"is not a section"});
+  expect_refused(sample_.with("name", ""), "name", {"name has no value"});
+}
+
+TEST_F(BadInput, AFileThatIsNoEngineFileIsRefusedAsAWhole) {
+  expect_refusal(run({"show", folder_ + "/nowhere.ini"}), folder_ + "/nowhere.ini", {"cannot be read", "No such file"});
+  expect_refusal(run({"show", folder_}), folder_, {"is a directory"});
+  const auto refused = [this](const std::string& text, const std::string& place,
+                              const std::vector<std::string>& fragments) {
+    write("engine.ini", text);
+    expect_refusal(run({"show", path_}), path_ + place, fragments);
+  };
+  refused("", ":1", {"the file is empty"});
+  refused("# only\n\n# comments\n", ":3", {"the file is empty"});
+  refused(std::string("[engine]\nname = a\0b\n", 20), ":2", {"not a text file", "0x00"});
+  refused("[engine]\nname = \x1b[31mred\n", ":2", {"not a text file", "0x1B"});
+  refused("[engine]\nname = caf\xE9\n", ":2", {"not a text file", "0xE9"});
+  refused("[engine]\rname = old Mac\r", ":1", {"not a text file", "0x0D"});
+  refused(std::string("\xFF\xFE[\0e\0", 6), ":1", {"not a text file", "UTF-16"});
+  const std::string padding(1 << 20, '#');
+  refused(sample_.text() + padding, "", {"too large", "1 MiB"});
+  write("engine.ini", sample_.text() + padding.substr(sample_.text().size()));  // 1 MiB exactly
+  EXPECT_EQ(run({"show", path_}).status, 0);
+}
+
+TEST_F(BadInput, ASectionThatACommandNeedsIsMissedAtTheEndOfTheFile) {
+  const Engine no_crank("[engine]\nname = none\nrated_rpm = 1000");
+  write("engine.ini", no_crank.text());
+  expect_refusal(run({"kinematics", path_, "--rpm", "2000"}), path_ + ":3", {"section [crank] is missing"});
+  expect_refused(no_crank.plus("[layout]"), 4, {"[layout] needs a [crank] section"});
+}
+
+class BadDiagram : public BadInput {
+ protected:
+  void expect_diagram_refused(const std::string& table, const std::string& place,
+                              const std::vector<std::string>& fragments,
+                              const std::string& source = "angle_table") const {
+    write("p.csv", table);
+    write("engine.ini", sample_.changed("source", "source = " + source + "\nfile = p.csv").text());
+    expect_refusal(run({"show", path_}), folder_ + "/p.csv" + place, fragments);
+  }
+  /// Rows from -360 deg on, 1 deg apart.
+  static std::string table(int rows, const std::string& last_rows = "") {
+    std::string text = "crank_deg,pressure_kPa\n";
+    for (int i = 0; i < rows; ++i) text += std::to_string(i - 360) + ",100\n";
+    return text + last_rows;
+  }
+};
+
+TEST_F(BadDiagram, IsMissedWhereItIsNamed) {
+  const Engine named = sample_.changed("source", "source = angle_table\nfile = nowhere.csv");
+  expect_refused(named, "file = ", {"nowhere.csv cannot be read", "No such file"});
+  expect_refused(sample_.with("source", "angle_table"), "[pressure]", {"lacks file"});
+  std::filesystem::create_directory(folder_ + "/nowhere.csv");
+  expect_refused(named, "file = ", {"is a directory"});
+  std::filesystem::remove(folder_ + "/nowhere.csv");
+  write("nowhere.csv", "crank_deg,pressure_kPa\n" + std::string(std::size_t{8} << 20, '\n'));
+  expect_refused(named, "file = ", {"too large", "8 MiB"});
+}
+
+TEST_F(BadDiagram, NeedsItsHeaderAndTwoColumnsOfNumbers) {
+  expect_diagram_refused("", ":1", {"the file is empty", "'crank_deg,pressure_kPa'"});
+  expect_diagram_refused("crank_deg,pressure_kPa\n", ":1", {"no rows"});
+  expect_diagram_refused("-360,100\n", ":1", {"header row is '-360,100'", "must be 'crank_deg,pressure_kPa'"});
+  expect_diagram_refused("crank_deg;pressure_kPa\n", ":1", {"must be 'crank_deg,pressure_kPa'"});
+  expect_diagram_refused("volume_cm3,pressure_kPa\n1,1\n", ":1", {"must be 'crank_deg,pressure_kPa'"});
+  expect_diagram_refused(table(720), ":1", {"must be 'volume_cm3,pressure_kPa'"}, "volume_table");
+  expect_diagram_refused(table(10, "1,2,3\n"), ":12", {"3 columns"});
+  expect_diagram_refused(table(10, "17\n"), ":12", {"1 column"});
+  expect_diagram_refused(table(10, "17,abc\n"), ":12", {"pressure_kPa: 'abc' is not a number"});
+  expect_diagram_refused(table(10, "17,nan\n"), ":12", {"pressure_kPa: 'nan' is not a finite number"});
+  expect_diagram_refused(table(10, "inf,100\n"), ":12", {"crank_deg: 'inf' is not a finite number"});
+  expect_diagram_refused(table(10, "17,-1\n"), ":12", {"-1 is out of range"});
+  expect_diagram_refused(table(10, std::string("17,\0\n", 5)), ":12", {"not a text file"});
+}
+
+TEST_F(BadDiagram, RisesThroughOnePeriod) {
+  expect_diagram_refused(table(720, "359,100\n"), ":722", {"359 follows 359", "must rise"});
+  expect_diagram_refused(table(720, "12.5,100\n"), ":722", {"12.5 follows 359", "must rise"});
+  expect_diagram_refused(table(722), ":723", {"from -360 to 361 deg", "one period of 720 deg"});
+  expect_diagram_refused(table(360), ":361", {"from -360 to -1 deg", "one period of 720 deg"});
+  expect_diagram_refused(table(3), ":4", {"3 rows are too few"});
+  for (const int rows : {720, 721}) {  // the closing row may stand there or not
+    write("p.csv", table(rows));
+    expect_accepted(sample_.changed("source", "source = angle_table\nfile = p.csv"));
+  }
+}
+
+TEST_F(BadInput, ShowIsAnEngineFileThatShowsTheSame) {
+  const Answer first = run({"show", kSample});
+  EXPECT_EQ(first.status, 0);
+  write("engine.ini", first.out);
+  EXPECT_EQ(run({"show", path_}).out, first.out);
+}
+
+/// Everything wrong with a command line is told with the command's usage.
+class BadCommandLine : public BadInput {
+ protected:
+  void expect_usage(const std::vector<std::string>& words, const std::vector<std::string>& fragments) const {
+    const Answer answer = run(words);
+    EXPECT_EQ(answer.status, kBadInput) << answer.error;
+    EXPECT_EQ(answer.out, "");
+    for (const std::string& fragment : fragments) {
+      EXPECT_NE(answer.error.find(fragment), std::string::npos) << answer.error << "  should say: " << fragment;
+    }
+  }
+};
+
+TEST_F(BadCommandLine, IsToldWithTheUsageOfItsCommand) {
+  expect_usage({}, {"a command is missing"});
+  expect_usage({"shw"}, {"unknown command 'shw'", "did you mean show?"});
+  expect_usage({"help", "kinematic"}, {"did you mean kinematics?"});
+  expect_usage({"show"}, {"a file name is missing", "usage: crankloop show FILE"});
+  expect_usage({"show", kSample, "another"}, {"unexpected argument 'another'"});
+  expect_usage({"show", kSample, "--rpm", "3"}, {"unknown option '--rpm'"});
+  const std::string usage = "usage: crankloop kinematics FILE";
+  const auto kinematics = [&](std::vector<std::string> words, const std::string& complaint) {
+    words.insert(words.begin(), {"kinematics", kSample});
+    expect_usage(words, {complaint, usage});
+  };
+  kinematics({}, "--rpm or --speed-rad-s");
+  kinematics({"--rpm"}, "--rpm needs a value");
+  kinematics({"--rpm", "--step-deg"}, "--rpm needs a value");
+  kinematics({"--rpm="}, "--rpm: the value is missing");
+  kinematics({"--rpm", "2000", "--rpm=2000"}, "--rpm is given twice");
+  kinematics({"--rpm", "2000", "--speed-rad-s", "210"}, "exclude each other");
+  kinematics({"--rpm", "2000rpm"}, "'rpm' follows it");
+  kinematics({"--rpm", "nan"}, "not a finite number");
+  kinematics({"--rpm", "1e9"}, "out of range");
+  kinematics({"--rmp", "2000"}, "did you mean --rpm?");
+  kinematics({"--rpm", "2000", "--method", "tabel"}, "did you mean table?");
+  kinematics({"--rpm", "2000", "--csv", kSample}, "--csv would overwrite the input file");
+}
+
+TEST_F(BadCommandLine, HelpIsNoMistake) {
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"--help"}, {"help"}, {"help", "show"}, {"show", "--help"}, {"help", "engine-file"}, {"--version"}}) {
+    const Answer answer = run(words);
+    EXPECT_EQ(answer.status, 0);
+    EXPECT_EQ(answer.error, "");
+    EXPECT_NE(answer.out, "");
+  }
+}
+
+/// Output that cannot be written is a failure of the machine, not of the input, and leaves no half file behind.
+class Output : public BadInput {
+ protected:
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+      names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+};
+
+TEST_F(Output, IsNotTouchedByBadInput) {
+  write("old.csv", "precious\n");
+  write("engine.ini", sample_.with("bore_mm", "-1").text());
+  EXPECT_EQ(run({"kinematics", path_, "--rpm", "2000", "--csv", folder_ + "/new.csv"}).status, kBadInput);
+  EXPECT_EQ(run({"kinematics", path_, "--rpm", "2000", "--csv", folder_ + "/old.csv"}).status, kBadInput);
+  EXPECT_EQ(files(), (std::vector<std::string>{"engine.ini", "old.csv", "stderr", "stdout"}));
+  EXPECT_EQ(contents(folder_ + "/old.csv"), "precious\n");
+}
+
+TEST_F(Output, AppearsWhole) {
+  const Answer answer = run({"kinematics", kSample, "--rpm", "2000"});
+  EXPECT_EQ(answer.status, 0);
+  EXPECT_EQ(run({"kinematics", kSample, "--rpm", "2000", "--csv", folder_ + "/k.csv"}).out, "");
+  EXPECT_EQ(contents(folder_ + "/k.csv"), answer.out);
+  EXPECT_EQ(files(), (std::vector<std::string>{"k.csv", "stderr", "stdout"}));
+}
+
+TEST_F(Output, ThatCannotBeWrittenIsAFailure) {
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"show", kSample}, {"--help"}, {"kinematics", kSample, "--rpm", "2000"}}) {
+    const Answer closed = run(words, "");
+    EXPECT_EQ(closed.status, kFailure);
+    EXPECT_NE(closed.error.find("standard output cannot be written"), std::string::npos) << closed.error;
+    const Answer full = run(words, "/dev/full");
+    EXPECT_EQ(full.status, kFailure);
+    EXPECT_NE(full.error.find("No space left"), std::string::npos) << full.error;
+  }
+  const Answer nowhere = run({"kinematics", kSample, "--rpm", "2000", "--csv", folder_ + "/no/such/folder.csv"});
+  EXPECT_EQ(nowhere.status, kFailure);
+  EXPECT_NE(nowhere.error.find("folder.csv cannot be created: No such file or directory"), std::string::npos)
+      << nowhere.error;
+  EXPECT_EQ(run({"kinematics", kSample, "--rpm", "2000", "--csv", folder_}).status, kFailure);
+  EXPECT_EQ(run({"kinematics", kSample, "--rpm", "2000", "--csv", "/dev/full"}).status, kFailure);
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));  // not replaced by a file
+}
+
+}  // namespace

@@ -1,0 +1,109 @@
+#!/bin/sh
+# The figures of the README, of CHANGELOG.md and of docs/decisions, measured on this machine.
+#
+#   figures.sh BUILD_DIR errors         largest errors against exact equations: the same everywhere
+#   figures.sh BUILD_DIR scenes         flash, RAM, stack, instructions and time of each scene
+#   figures.sh BUILD_DIR decisions      what docs/decisions/0002 to 0006 state
+#   figures.sh BUILD_DIR check README   whether the README states the errors and the RAM that are measured now
+#   figures.sh BUILD_DIR                errors and scenes
+#
+# Builds into BUILD_DIR; CXX names another compiler than c++. Instructions need valgrind, stack needs GCC: else a dash.
+set -eu
+here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
+engine=$here/../../../tools/engines/diesel_495.ini
+build_dir=$1
+what=${2:-}
+jobs=$(nproc 2>/dev/null || echo 1)
+
+mkdir -p "$build_dir"
+if ! { cmake -S "$here" -B "$build_dir" -DCMAKE_BUILD_TYPE=Release && cmake --build "$build_dir" --parallel "$jobs"; } >"$build_dir/build.log" 2>&1; then
+  tail -n 40 "$build_dir/build.log" >&2
+  exit 1
+fi
+cd "$build_dir"
+
+# ---- scenes -----------------------------------------------------------------------------------------------------------------
+
+# section_bytes NAME PATTERN: bytes of the engine's sections whose names match.
+section_bytes() { size -A "lib$1.a" | awk -v pattern="$2" '$1 ~ pattern { sum += $2 } END { print sum + 0 }'; }
+
+# Of step and of what it calls besides itself, at most.
+stack_bytes() {
+  find CMakeFiles -path "*/$1.dir/*.su" -exec cat {} + | awk -F '\t' '/::step\(|detail::Step</ { sum += $2 } END { print (sum > 0 ? sum : "-") }'
+}
+
+instructions() { valgrind --tool=callgrind --callgrind-out-file=/dev/null "./ticks_$1" "$2" 2>&1 | awk '/Collected :/ { print $4 }'; }
+
+# What 20 000 steps take more than 10 000: start-up and end are in both.
+instructions_per_tick() {
+  command -v valgrind >/dev/null 2>&1 || { echo - && return; }
+  echo $((($(instructions "$1" 20000) - $(instructions "$1" 10000) + 5000) / 10000))
+}
+
+scene_row() {
+  ram_and_time=$("./ticks_$2")
+  echo "| $1 | $(section_bytes "$2" '^\\.text') | $(section_bytes "$2" '^\\.(rodata|data\\.rel\\.ro)') | ${ram_and_time% *} | $(stack_bytes "$2") |" \
+    "$(instructions_per_tick "$2") | ${ram_and_time#* } |"
+}
+
+scenes() {
+  echo "| scene, four cylinders of the 495 diesel | code, bytes | tables, bytes | RAM, bytes | stack, bytes | instructions | ns |"
+  echo "| --- | --- | --- | --- | --- | --- | --- |"
+  for real in float double; do
+    scene_row "mean torque, $real" "MeanTorque_$real"
+    scene_row "torque and mean torque, any load, $real" "TorqueByLoad_$real"
+    scene_row "piston motion, $real" "Motion_$real"
+    scene_row "mean torque from measured phase and pressures, $real" "TorqueSensor_$real"
+    scene_row "motion, forces, torque, $real" "ForcesAndTorque_$real"
+    scene_row "everything, $real" "Everything_$real"
+    scene_row "everything, up to 16 cylinders, $real" "EverythingUpTo16_$real"
+  done
+  echo
+  echo "$(uname -m), $(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo | head -n 1), $(sed -n 's/^CMAKE_CXX_COMPILER:[^=]*=//p' CMakeCache.txt | head -n 1)" \
+    "$("$(sed -n 's/^CMAKE_CXX_COMPILER:[^=]*=//p' CMakeCache.txt | head -n 1)" -dumpfullversion -dumpversion), -O3, load $(cut -d ' ' -f 1 /proc/loadavg)"
+}
+
+# ---- decisions --------------------------------------------------------------------------------------------------------------
+
+decisions() {
+  for decision in phase curves pressure; do
+    echo "==== $decision"
+    "./decision_$decision"
+  done
+  echo "==== mean torque"
+  ./decision_mean_torque "$engine"
+  echo "==== elementary functions"
+  ./decision_elementary
+  echo "---- the C library without fused multiply-add (glibc on x86-64)"
+  GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2,-AVX512F ./decision_elementary
+}
+
+# ---- check ------------------------------------------------------------------------------------------------------------------
+
+# Every measured row of errors stands in the README, and so does the RAM of every scene that it names.
+check() {
+  bad=0
+  ./errors "$engine" >errors.txt
+  while read -r row; do
+    grep -qxF "$row" "$1" || { echo "not in $1: $row" && bad=$((bad + 1)); }
+  done <errors.txt
+  for engine_name in MeanTorque_float TorqueByLoad_float Motion_float TorqueSensor_float ForcesAndTorque_float Everything_float; do
+    ram=$("./ticks_$engine_name" | cut -d ' ' -f 1)
+    awk -F '|' -v ram="$ram" '{ gsub(/ /, "", $5) } $5 == ram { found = 1 } END { exit !found }' "$1" ||
+      { echo "no scene of $1 has the $ram bytes of RAM of $engine_name" && bad=$((bad + 1)); }
+  done
+  [ "$bad" -eq 0 ]
+}
+
+case $what in
+  errors) ./errors "$engine" ;;
+  scenes) scenes ;;
+  decisions) decisions ;;
+  check) check "$3" ;;
+  '')
+    ./errors "$engine"
+    echo
+    scenes
+    ;;
+  *) sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
+esac

@@ -1,0 +1,27 @@
+// What a refusal must say: its reason, its field, its row or cylinder.
+#pragma once
+
+#include <crankloop/status.hpp>
+
+#include <gtest/gtest.h>
+
+#include <ostream>
+#include <string>
+
+namespace crankloop {
+
+/// How GoogleTest shows an answer.
+inline void PrintTo(const Status& status, std::ostream* out) {
+  *out << (status.ok() ? "no field" : status.field) << "[" << status.index << "] " << describe(status.reason);
+}
+
+namespace support {
+
+inline testing::AssertionResult refuses(const Status& status, Reason reason, const std::string& field, int index = -1) {
+  if (status.reason == reason && field == status.field && status.index == index) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "got " << testing::PrintToString(status) << ", want " << field << "[" << index << "] "
+                                     << describe(reason);
+}
+
+}  // namespace support
+}  // namespace crankloop

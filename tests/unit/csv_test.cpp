@@ -1,0 +1,147 @@
+// How results look on paper, and what becomes of them when something goes wrong on the way.
+#include "crankloop/csv.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "crankloop/error.hpp"
+#include "crankloop/number.hpp"
+#include "crankloop/words.hpp"
+
+namespace crankloop::program {
+namespace {
+
+class CsvFile : public testing::Test {
+ protected:
+  CsvFile() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+    path_ = folder_ + "/table.csv";
+  }
+  ~CsvFile() override { std::filesystem::remove_all(folder_); }
+
+  static std::string contents(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  long files() const {
+    return std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator());
+  }
+
+  std::string folder_;
+  std::string path_;
+};
+
+TEST_F(CsvFile, HoldsTwelveDigitsOfDoubleAndNineOfFloat) {
+  Output out(path_);
+  CsvWriter csv(out, {"name", "double", "float", "count"});
+  csv.row("third", 1.0 / 3.0, 1.0F / 3.0F, 3);
+  csv.row("rest", -0.0, -0.0F, -1);
+  csv.row("size", 1.5e-12, 2535.75F, 100000);
+  out.finish();
+  EXPECT_EQ(contents(path_),
+            "name,double,float,count\n"
+            "third,0.333333333333,0.333333343,3\n"
+            "rest,0,0,-1\n"
+            "size,1.5e-12,2535.75,100000\n");
+}
+
+TEST_F(CsvFile, IsNotThereUntilItIsFinished) {
+  {
+    Output out(path_);
+    CsvWriter csv(out, {"x"});
+    for (int i = 0; i < 100'000; ++i) csv.row(i);  // far beyond the buffer
+    EXPECT_FALSE(std::filesystem::exists(path_));
+  }
+  EXPECT_EQ(files(), 0);  // given up: no trace
+  Output out(path_);
+  CsvWriter csv(out, {"x"});
+  for (int i = 0; i < 100'000; ++i) csv.row(i);
+  out.finish();
+  EXPECT_EQ(files(), 1);
+  EXPECT_EQ(contents(path_).size(), 2u + 10 * 2 + 90 * 3 + 900 * 4 + 9000 * 5 + 90'000 * 6);
+}
+
+TEST_F(CsvFile, TakesThePlaceAndThePermissionsOfItsPredecessor) {
+  std::ofstream(path_) << "old";
+  std::filesystem::permissions(path_, std::filesystem::perms(0640));
+  std::filesystem::create_symlink("table.csv", folder_ + "/link.csv");
+  Output out(folder_ + "/link.csv");
+  out.write("new");
+  EXPECT_EQ(contents(path_), "old");
+  out.finish();
+  EXPECT_EQ(contents(path_), "new");
+  EXPECT_EQ(std::filesystem::status(path_).permissions(), std::filesystem::perms(0640));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder_ + "/link.csv"));
+}
+
+TEST_F(CsvFile, RowsThatDoNotFitTheHeaderAreADefect) {
+  Output out(path_);
+  CsvWriter csv(out, {"x", "y"});
+  EXPECT_THROW(csv.row(1.0), std::logic_error);
+  EXPECT_THROW(CsvWriter(out, {"a,b"}), std::logic_error);
+}
+
+TEST_F(CsvFile, ASummaryLineNamesItsUnit) {
+  Output out(path_);
+  write_summary(out, "mean_torque", 210.125, "Nm");
+  write_summary(out, "lambda", 0.1F, "");
+  write_summary(out, "engine", "495 diesel");
+  out.finish();
+  EXPECT_EQ(contents(path_), "mean_torque = 210.125 Nm\nlambda = 0.100000001\nengine = 495 diesel\n");
+}
+
+TEST(Numbers, AreReadTheSameWhereverTheyAreWritten) {
+  EXPECT_EQ(parse_number("95").value, 95);
+  EXPECT_EQ(parse_number("+.5e1").value, 5);
+  EXPECT_EQ(parse_number("-6.").value, -6);
+  EXPECT_FALSE(std::signbit(parse_number("-0").value));
+  EXPECT_EQ(parse_number("1.7976931348623157e308").value, std::numeric_limits<double>::max());
+  for (const char* text :
+       {"", "+", "-", ".", "e5", "+-1", " 1", "1 ", "1_000", "0x10", "1,5", "1d3", "inf", "nan", "1e309"}) {
+    EXPECT_FALSE(parse_number(text).ok()) << text;
+  }
+}
+
+TEST(Numbers, TellTheirRangeInWords) {
+  EXPECT_EQ(describe(above(0).up_to(2000), "mm"), "above 0, at most 2000 mm");
+  EXPECT_EQ(describe(from(0).below(720), "deg"), "0 to below 720 deg");
+  EXPECT_EQ(describe(from(-90).up_to(90), ""), "-90 to 90");
+  EXPECT_EQ(describe(from(0), "g"), "at least 0 g");
+  EXPECT_EQ(describe(Range{}, "g"), "");
+  EXPECT_EQ(parse_number("0", above(0).up_to(100000), "rpm").problem,
+            "0 is out of range; allowed: above 0, at most 100000 rpm");
+  EXPECT_FALSE(parse_number("720", from(0).below(720), "deg").ok());
+}
+
+TEST(Words, AGuessIsMadeOnlyWhereItIsLikely) {
+  const std::vector<std::string> keys{"bore_mm", "stroke_mm", "rod_length_mm"};
+  EXPECT_EQ(suggestion("Bore_MM", keys), "; did you mean bore_mm?");
+  EXPECT_EQ(suggestion("bore", keys), "; did you mean bore_mm?");
+  EXPECT_EQ(suggestion("storke_mm", keys), "; did you mean stroke_mm?");
+  EXPECT_EQ(suggestion("rod_lenght_mm", keys), "; did you mean rod_length_mm?");
+  EXPECT_EQ(suggestion("colour", keys), "");
+  EXPECT_EQ(suggestion("x", keys), "");
+  EXPECT_EQ(suggestion(std::string(100'000, 'b'), keys), "");
+}
+
+TEST(Words, AQuoteIsShortAndNeverCutsACharacter) {
+  EXPECT_EQ(in_quotes("95 mm"), "'95 mm'");
+  std::string long_text(39, 'a');
+  for (int i = 0; i < 10; ++i) long_text += "\xC3\xBC";
+  EXPECT_EQ(in_quotes(long_text), "'" + std::string(39, 'a') + "...'");
+}
+
+}  // namespace
+}  // namespace crankloop::program

@@ -1,0 +1,574 @@
+// Definitions: what is accepted, what is refused and why, and how a drawn rod becomes the masses of the equations.
+#include <crankloop/define/engine_definition.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/engines.hpp"
+#include "support/status.hpp"
+
+namespace crankloop {
+namespace {
+
+using support::Random;
+using support::refuses;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+
+/// A number that a field must not take, and what it is refused for.
+struct Bad {
+  double value;
+  Reason reason;
+};
+
+// ---- crank -----------------------------------------------------------------------------------------------------------------
+
+TEST(CrankDefinition, OfThe495IsAccepted) { EXPECT_TRUE(validate(support::diesel_495_crank()).ok()); }
+
+TEST(CrankDefinition, OfAnyMechanismThatCanTurnIsAccepted) {
+  Random random;
+  for (int draw = 0; draw < 1'000; ++draw) {
+    EXPECT_TRUE(validate(support::random_crank(random)).ok()) << random.trace(draw);
+  }
+}
+
+TEST(CrankDefinition, RefusesEveryLengthThatIsNoLengthByItsName) {
+  const struct {
+    double Crank::*member;
+    const char* field;
+    double most;
+  } fields[] = {{&Crank::bore_m, "crank.bore", 2},
+                {&Crank::crank_radius_m, "crank.stroke", 2},
+                {&Crank::rod_length_m, "crank.rod_length", 10}};
+  for (const auto& field : fields) {
+    for (const Bad& bad : {Bad{0, Reason::not_positive}, Bad{-0.0, Reason::not_positive}, Bad{-0.1, Reason::not_positive},
+                           Bad{kNaN, Reason::not_finite}, Bad{kInfinity, Reason::not_finite}, Bad{-kInfinity, Reason::not_finite},
+                           Bad{std::nextafter(field.most, 100), Reason::out_of_range}}) {
+      Crank crank = support::diesel_495_crank();
+      crank.*field.member = bad.value;
+      EXPECT_TRUE(refuses(validate(crank), bad.reason, field.field)) << bad.value;
+    }
+  }
+}
+
+TEST(CrankDefinition, RefusesAnOffsetThatIsNoNumber) {
+  for (const double bad : {kNaN, kInfinity, -kInfinity}) {
+    Crank crank = support::diesel_495_crank();
+    crank.pin_offset_m = bad;
+    EXPECT_TRUE(refuses(validate(crank), Reason::not_finite, "crank.pin_offset"));
+  }
+  Crank crank = support::diesel_495_crank();
+  crank.pin_offset_m = 2.1;
+  EXPECT_TRUE(refuses(validate(crank), Reason::out_of_range, "crank.pin_offset"));
+}
+
+TEST(CrankDefinition, RefusesARodThatTheCrankCannotCarryRound) {
+  // Without offset the rod must be longer than the crank; the offset, to either side, comes on top.
+  for (const double offset : {0.0, 0.010, -0.010}) {
+    Crank crank = support::diesel_495_crank();
+    crank.pin_offset_m = offset;
+    crank.rod_length_m = crank.crank_radius_m + std::fabs(offset);
+    EXPECT_TRUE(refuses(validate(crank), Reason::rod_too_short, "crank.rod_length")) << offset;
+    crank.rod_length_m *= 1 - 1e-9;
+    EXPECT_TRUE(refuses(validate(crank), Reason::rod_too_short, "crank.rod_length")) << offset;
+    crank.rod_length_m *= 1 + 2e-9;
+    EXPECT_TRUE(validate(crank).ok()) << offset;
+  }
+}
+
+TEST(CrankDefinition, RefusesACompressionRatioThatLeavesNoCylinder) {
+  for (const Bad& bad : {Bad{1, Reason::out_of_range}, Bad{0.5, Reason::out_of_range}, Bad{-19, Reason::out_of_range},
+                         Bad{100.5, Reason::out_of_range}, Bad{kNaN, Reason::not_finite}, Bad{kInfinity, Reason::not_finite}}) {
+    Crank crank = support::diesel_495_crank();
+    crank.compression_ratio = bad.value;
+    EXPECT_TRUE(refuses(validate(crank), bad.reason, "crank.compression_ratio")) << bad.value;
+  }
+}
+
+TEST(CrankDefinition, RodRatioIsCrankRadiusPerRodLength) {
+  EXPECT_NEAR(support::diesel_495_crank().rod_ratio(), 0.2738, 0.00005);  // [495]
+}
+
+// ---- masses ----------------------------------------------------------------------------------------------------------------
+
+Masses diesel_495_masses() {
+  Masses masses;
+  masses.piston_kg = 0.810;
+  masses.rod_small_end_kg = 0.505;
+  masses.rod_big_end_kg = 1.382;
+  return masses;
+}
+
+TEST(MassesDefinition, OfThe495AreAccepted) {
+  EXPECT_TRUE(validate(diesel_495_masses()).ok());
+  EXPECT_NEAR(diesel_495_masses().reciprocating_kg(), 1.315, 2 * kEps);
+}
+
+TEST(MassesDefinition, RefusesEveryMassThatIsNoMassByItsName) {
+  const struct {
+    double Masses::*member;
+    const char* field;
+  } fields[] = {{&Masses::piston_kg, "masses.piston"},
+                {&Masses::rod_small_end_kg, "masses.rod_small_end"},
+                {&Masses::rod_big_end_kg, "masses.rod_big_end"},
+                {&Masses::crank_pin_equivalent_kg, "masses.crank_pin_equivalent"},
+                {&Masses::crank_inertia_kg_m2, "masses.crank_inertia"}};
+  for (const auto& field : fields) {
+    for (const Bad& bad : {Bad{-1e-9, Reason::negative}, Bad{kNaN, Reason::not_finite}, Bad{kInfinity, Reason::not_finite},
+                           Bad{-kInfinity, Reason::not_finite}}) {
+      Masses masses = diesel_495_masses();
+      masses.*field.member = bad.value;
+      EXPECT_TRUE(refuses(validate(masses), bad.reason, field.field)) << bad.value;
+    }
+  }
+}
+
+TEST(MassesDefinition, AllowsARodWhoseInertiaIsLessThanThatOfTwoMasses) {
+  Masses masses = diesel_495_masses();
+  masses.rod_inertia_correction_kg_m2 = -0.001;
+  EXPECT_TRUE(validate(masses).ok());
+  masses.rod_inertia_correction_kg_m2 = kNaN;
+  EXPECT_TRUE(refuses(validate(masses), Reason::not_finite, "masses.rod_inertia"));
+}
+
+TEST(MassesDefinition, RefusesAnEngineInWhichNothingReciprocates) {
+  Masses masses = diesel_495_masses();
+  masses.piston_kg = 0;
+  EXPECT_TRUE(validate(masses).ok()) << "a weightless piston on a rod with a small end still has mass";
+  masses.rod_small_end_kg = 0;
+  EXPECT_TRUE(refuses(validate(masses), Reason::not_positive, "masses.piston"));
+}
+
+TEST(LumpedRod, OfThe495HasTheWeighedEndsThatItsCentreOfMassGives) {
+  // 505 g and 1382 g weighed: the centre of mass lies 505/1887 of the length from the crank pin [495].
+  const Crank crank = support::diesel_495_crank();
+  RigidRod rod;
+  rod.mass_kg = 1.887;
+  rod.com_to_crank_m = crank.rod_length_m * 505 / 1887;
+  Masses masses;
+  lump_rod(rod, crank, masses);
+  EXPECT_NEAR(masses.rod_small_end_kg, 0.505, 4 * kEps);
+  EXPECT_NEAR(masses.rod_big_end_kg, 1.382, 4 * kEps);
+  EXPECT_NEAR(rod.com_to_crank_m / crank.rod_length_m, 0.268, 0.0005);
+}
+
+TEST(LumpedRod, OfAUniformBarTurnsLessEasilyThanTwoHalvesAtItsEnds) {
+  // Two half masses at the ends have m l^2/4, the bar m l^2/12: dI = -m l^2/6.
+  const Crank crank = support::diesel_495_crank();
+  const double l = crank.rod_length_m;
+  const RigidRod bar{1.2, l / 2, 1.2 * l * l / 12};
+  Masses masses;
+  lump_rod(bar, crank, masses);
+  EXPECT_NEAR(masses.rod_small_end_kg, 0.6, 2 * kEps);
+  EXPECT_NEAR(masses.rod_big_end_kg, 0.6, 2 * kEps);
+  EXPECT_NEAR(masses.rod_inertia_correction_kg_m2, -1.2 * l * l / 6, 4 * kEps * 1.2 * l * l);
+}
+
+TEST(LumpedRod, OfTwoPointMassesNeedsNoCorrection) {
+  const Crank crank = support::diesel_495_crank();
+  const double l = crank.rod_length_m;
+  // 0.505 kg at the piston pin and 1.382 kg at the crank pin, as a rigid body: moments about the common centre of mass.
+  const double com = l * 0.505 / 1.887;
+  const RigidRod rod{1.887, com, 1.382 * com * com + 0.505 * (l - com) * (l - com)};
+  Masses masses;
+  lump_rod(rod, crank, masses);
+  EXPECT_NEAR(masses.rod_inertia_correction_kg_m2, 0, 8 * kEps * 1.887 * l * l);
+}
+
+TEST(LumpedRod, LeavesTheOtherMassesAlone) {
+  Masses masses = diesel_495_masses();
+  masses.crank_pin_equivalent_kg = 2;
+  masses.crank_inertia_kg_m2 = 0.5;
+  lump_rod(RigidRod{1, 0.05, 0.01}, support::diesel_495_crank(), masses);
+  EXPECT_EQ(masses.piston_kg, 0.810);
+  EXPECT_EQ(masses.crank_pin_equivalent_kg, 2);
+  EXPECT_EQ(masses.crank_inertia_kg_m2, 0.5);
+}
+
+// ---- layout ----------------------------------------------------------------------------------------------------------------
+
+Layout inline_four() {
+  Layout layout;
+  const int order[] = {1, 3, 4, 2};
+  EXPECT_TRUE(set_firing_order(order, 4, layout).ok());
+  for (std::size_t k = 0; k < 4; ++k) layout.position_m[k] = 0.12 * static_cast<double>(k);
+  return layout;
+}
+
+TEST(FiringOrder, OfAnInlineFourSpreadsTheFiringsEvenlyOverTheCycle) {
+  const Layout layout = inline_four();
+  EXPECT_EQ(layout.cylinders, 4);
+  const double want[] = {0, 540, 180, 360};  // 1-3-4-2
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(layout.firing_deg[k], want[k]) << "cylinder " << k + 1;
+  EXPECT_TRUE(validate(layout).ok());
+}
+
+TEST(FiringOrder, MayBeginWithAnyCylinderAndAngleZeroIsStillTheFirst) {
+  const int orders[][4] = {{1, 3, 4, 2}, {3, 4, 2, 1}, {4, 2, 1, 3}, {2, 1, 3, 4}};
+  for (const auto& order : orders) {
+    Layout layout;
+    ASSERT_TRUE(set_firing_order(order, 4, layout).ok());
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(layout.firing_deg[k], inline_four().firing_deg[k]);
+  }
+}
+
+TEST(FiringOrder, OfAnyEngineLeavesEqualIntervalsBetweenNeighboursInTheOrder) {
+  Random random;
+  for (int cylinders = 1; cylinders <= kMaxCylinders; ++cylinders) {
+    std::vector<int> order;
+    for (int k = 1; k <= cylinders; ++k) order.push_back(k);
+    for (std::size_t i = order.size() - 1; i > 0; --i) {
+      std::swap(order[i], order[static_cast<std::size_t>(random.whole(0, static_cast<int>(i)))]);
+    }
+    Layout layout;
+    ASSERT_TRUE(set_firing_order(order.data(), cylinders, layout).ok());
+    EXPECT_EQ(layout.firing_deg[0], 0);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const double here = layout.firing_deg[static_cast<std::size_t>(order[i] - 1)];
+      const double next = layout.firing_deg[static_cast<std::size_t>(order[(i + 1) % order.size()] - 1)];
+      EXPECT_NEAR(std::fmod(next - here + 1440, 720), cylinders == 1 ? 0 : 720.0 / cylinders, 1440 * kEps) << random.trace(cylinders);
+    }
+    EXPECT_TRUE(validate(layout).ok());
+  }
+}
+
+TEST(FiringOrder, ThatIsNoPermutationIsRefusedAtTheEntryThatBreaksIt) {
+  Layout layout = inline_four();
+  const int twice[] = {1, 3, 3, 2};
+  EXPECT_TRUE(refuses(set_firing_order(twice, 4, layout), Reason::not_a_permutation, "layout.firing_order", 2));
+  const int beyond[] = {1, 3, 4, 5};
+  EXPECT_TRUE(refuses(set_firing_order(beyond, 4, layout), Reason::not_a_permutation, "layout.firing_order", 3));
+  const int zero[] = {0, 3, 4, 2};
+  EXPECT_TRUE(refuses(set_firing_order(zero, 4, layout), Reason::not_a_permutation, "layout.firing_order", 0));
+  const int negative[] = {1, -2147483647 - 1, 4, 2};
+  EXPECT_TRUE(refuses(set_firing_order(negative, 4, layout), Reason::not_a_permutation, "layout.firing_order", 1));
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(layout.firing_deg[k], inline_four().firing_deg[k]) << "a refusal changes nothing";
+}
+
+TEST(FiringOrder, IsForOneToSixteenCylinders) {
+  int order[20] = {};
+  for (int i = 0; i < 20; ++i) order[i] = i + 1;
+  Layout layout;
+  EXPECT_TRUE(refuses(set_firing_order(order, 0, layout), Reason::out_of_range, "layout.cylinders"));
+  EXPECT_TRUE(refuses(set_firing_order(order, -1, layout), Reason::out_of_range, "layout.cylinders"));
+  EXPECT_TRUE(refuses(set_firing_order(order, 17, layout), Reason::out_of_range, "layout.cylinders"));
+  EXPECT_TRUE(set_firing_order(order, 16, layout).ok());
+}
+
+TEST(LayoutDefinition, RefusesACountThatIsNoEngine) {
+  for (const int bad : {0, -1, 17, 1'000'000}) {
+    Layout layout = inline_four();
+    layout.cylinders = bad;
+    EXPECT_TRUE(refuses(validate(layout), Reason::out_of_range, "layout.cylinders")) << bad;
+  }
+}
+
+TEST(LayoutDefinition, RefusesAnAngleOrPlaceThatIsNoneAndNamesTheCylinder) {
+  const struct {
+    std::array<double, kMaxCylinders> Layout::*member;
+    const char* field;
+    double too_low, too_high;
+  } fields[] = {{&Layout::firing_deg, "layout.firing_angles", -1e-9, 720},
+                {&Layout::bank_deg, "layout.bank_angles", -360.5, 360.5},
+                {&Layout::position_m, "layout.cylinder_positions", -100.5, 100.5}};
+  for (const auto& field : fields) {
+    for (const Bad& bad : {Bad{kNaN, Reason::not_finite}, Bad{kInfinity, Reason::not_finite}, Bad{-kInfinity, Reason::not_finite},
+                           Bad{field.too_low, Reason::out_of_range}, Bad{field.too_high, Reason::out_of_range}}) {
+      Layout layout = inline_four();
+      (layout.*field.member)[2] = bad.value;
+      EXPECT_TRUE(refuses(validate(layout), bad.reason, field.field, 2)) << bad.value;
+    }
+  }
+}
+
+TEST(LayoutDefinition, ReadsNothingBeyondItsCylinders) {
+  Layout layout = inline_four();
+  layout.firing_deg[4] = kNaN;
+  layout.position_m[15] = kInfinity;
+  layout.pin[7] = 200;
+  EXPECT_TRUE(validate(layout).ok());
+}
+
+TEST(LayoutDefinition, RefusesCylindersThatShareAPinTheirThrowsDoNotAllow) {
+  Layout layout = inline_four();
+  layout.pin = {0, 1, 1, 2};  // 2 and 3 fire 360 deg apart: their throws point the same way
+  EXPECT_TRUE(validate(layout).ok());
+  layout.pin = {0, 0, 1, 2};  // 1 and 2 are half a turn apart
+  EXPECT_TRUE(refuses(validate(layout), Reason::inconsistent, "layout.shared_pins", 1));
+}
+
+TEST(LayoutDefinition, RefusesPinNumbersWithAGapOrBeyondTheCylinders) {
+  Layout layout = inline_four();
+  layout.pin = {0, 2, 2, 3};
+  EXPECT_TRUE(refuses(validate(layout), Reason::inconsistent, "layout.shared_pins"));
+  layout.pin = {1, 2, 2, 3};
+  EXPECT_TRUE(refuses(validate(layout), Reason::inconsistent, "layout.shared_pins"));
+  layout.pin = {0, 1, 4, 2};
+  EXPECT_TRUE(refuses(validate(layout), Reason::out_of_range, "layout.shared_pins", 2));
+}
+
+TEST(LayoutDefinition, ThrowPointsWhereBankAndFiringAngleSay) {
+  Layout layout;
+  layout.cylinders = 2;
+  layout.bank_deg = {-45, 45};
+  layout.firing_deg = {0, 90};
+  EXPECT_EQ(layout.throw_deg(0), -45);
+  EXPECT_EQ(layout.throw_deg(1), -45);
+}
+
+TEST(SharedPins, ByPositionJoinTheRodsOfAVEngineAndLeaveAnInlineEngineAlone) {
+  Layout four = inline_four();
+  share_pins_by_position(four);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(four.pin[k], k);
+
+  // A cross-plane V8, left bank 1 to 4, right bank 5 to 8: cylinders 1 and 5, 2 and 6 ... on one pin. Throws at -45, 45, 225, 135 deg.
+  Layout v8;
+  v8.cylinders = 8;
+  v8.bank_deg = {-45, -45, -45, -45, 45, 45, 45, 45};
+  v8.position_m = {0, 0.1, 0.2, 0.3, 0, 0.1, 0.2, 0.3};
+  const double throws[] = {-45, 45, 225, 135};
+  for (std::size_t k = 0; k < 8; ++k) v8.firing_deg[k] = std::fmod(v8.bank_deg[k] - throws[k % 4] + 720, 720);
+  share_pins_by_position(v8);
+  for (std::size_t k = 0; k < 8; ++k) EXPECT_EQ(v8.pin[k], k % 4) << "cylinder " << k + 1;
+  EXPECT_TRUE(validate(v8).ok());
+}
+
+TEST(SharedPins, ByPositionAreNumberedAlongTheShaftWhateverTheOrderOfTheCylinders) {
+  Layout layout;
+  layout.cylinders = 3;
+  layout.position_m = {0.2, 0.0, 0.1};
+  layout.firing_deg = {0, 240, 480};
+  share_pins_by_position(layout);
+  EXPECT_EQ(layout.pin[0], 2);
+  EXPECT_EQ(layout.pin[1], 0);
+  EXPECT_EQ(layout.pin[2], 1);
+}
+
+TEST(SharedPins, ByPositionStaySplitWhereTheThrowsDiffer) {
+  // A boxer twin: both rods at nearly one place but throws half a turn apart. And a 90 deg V6 of even firing: split pins 30 deg apart.
+  Layout boxer;
+  boxer.cylinders = 2;
+  boxer.bank_deg = {-90, 90};
+  boxer.firing_deg = {0, 360};
+  share_pins_by_position(boxer);
+  EXPECT_NE(boxer.pin[0], boxer.pin[1]);
+  EXPECT_TRUE(validate(boxer).ok());
+  Layout split;
+  split.cylinders = 2;
+  split.bank_deg = {-45, 45};
+  split.firing_deg = {0, 120};
+  share_pins_by_position(split);
+  EXPECT_NE(split.pin[0], split.pin[1]);
+}
+
+TEST(SharedPins, AreFoundThoughTheThrowsDifferByWholeTurns) {
+  Layout layout;
+  layout.cylinders = 2;
+  layout.bank_deg = {-45, 45};
+  layout.firing_deg = {0, 450};  // throws at -45 and -405 deg: the same direction
+  share_pins_by_position(layout);
+  EXPECT_EQ(layout.pin[0], layout.pin[1]);
+  EXPECT_TRUE(validate(layout).ok());
+}
+
+// ---- pressure --------------------------------------------------------------------------------------------------------------
+
+Pressure wiebe_pressure() {
+  Pressure pressure;
+  pressure.source = PressureSource::wiebe;
+  pressure.wiebe.net_mep_Pa = 809.7e3;
+  return pressure;
+}
+
+TEST(PressureDefinition, CrankcasePressureIsAskedForWhateverTheSource) {
+  for (const PressureSource source : {PressureSource::none, PressureSource::wiebe, PressureSource::angle_table, PressureSource::volume_table}) {
+    for (const Bad& bad : {Bad{0, Reason::not_positive}, Bad{-1, Reason::not_positive}, Bad{kNaN, Reason::not_finite},
+                           Bad{kInfinity, Reason::not_finite}, Bad{2e7, Reason::out_of_range}}) {
+      Pressure pressure = wiebe_pressure();
+      pressure.source = source;
+      pressure.crankcase_Pa = bad.value;
+      EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), bad.reason, "pressure.crankcase"));
+    }
+  }
+}
+
+TEST(PressureDefinition, RefusesEveryWiebeFigureOutsideItsRangeByItsName) {
+  const struct {
+    double WiebeDiagram::*member;
+    const char* field;
+    double bad;
+    Reason reason;
+  } cases[] = {
+      {&WiebeDiagram::intake_Pa, "pressure.intake", 0, Reason::not_positive},
+      {&WiebeDiagram::intake_Pa, "pressure.intake", kNaN, Reason::not_finite},
+      {&WiebeDiagram::exhaust_Pa, "pressure.exhaust", -1, Reason::not_positive},
+      {&WiebeDiagram::exhaust_Pa, "pressure.exhaust", 2e7, Reason::out_of_range},
+      {&WiebeDiagram::start_of_combustion_deg, "pressure.start_of_combustion", -91, Reason::out_of_range},
+      {&WiebeDiagram::start_of_combustion_deg, "pressure.start_of_combustion", 91, Reason::out_of_range},
+      {&WiebeDiagram::combustion_duration_deg, "pressure.combustion_duration", 0.5, Reason::out_of_range},
+      {&WiebeDiagram::combustion_duration_deg, "pressure.combustion_duration", 151, Reason::out_of_range},
+      {&WiebeDiagram::wiebe_m, "pressure.wiebe_m", -0.1, Reason::out_of_range},
+      {&WiebeDiagram::wiebe_m, "pressure.wiebe_m", 10.1, Reason::out_of_range},
+      {&WiebeDiagram::compression_exponent, "pressure.compression_exponent", 0.9, Reason::out_of_range},
+      {&WiebeDiagram::compression_exponent, "pressure.compression_exponent", 2.1, Reason::out_of_range},
+      {&WiebeDiagram::expansion_exponent, "pressure.expansion_exponent", 1, Reason::out_of_range},
+      {&WiebeDiagram::expansion_exponent, "pressure.expansion_exponent", kInfinity, Reason::not_finite},
+      {&WiebeDiagram::exhaust_valve_opens_deg, "pressure.exhaust_valve_opens", 180, Reason::out_of_range},
+      {&WiebeDiagram::exhaust_valve_opens_deg, "pressure.exhaust_valve_opens", 29, Reason::out_of_range},
+      {&WiebeDiagram::net_mep_Pa, "pressure.net_mep", kNaN, Reason::not_finite},
+      {&WiebeDiagram::net_mep_Pa, "pressure.net_mep", 2e8, Reason::out_of_range},
+  };
+  for (const auto& one : cases) {
+    Pressure pressure = wiebe_pressure();
+    pressure.wiebe.*one.member = one.bad;
+    EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), one.reason, one.field)) << one.bad;
+  }
+  Pressure pressure = wiebe_pressure();
+  EXPECT_TRUE(validate(pressure, support::diesel_495_crank()).ok());
+  pressure.wiebe.heat_given = true;
+  pressure.wiebe.heat_J = -1;
+  EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::negative, "pressure.heat"));
+  pressure.wiebe.heat_J = kNaN;
+  EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::not_finite, "pressure.heat"));
+}
+
+TEST(PressureDefinition, RefusesCombustionThatOutlastsTheClosedExhaustValve) {
+  Pressure pressure = wiebe_pressure();
+  pressure.wiebe.start_of_combustion_deg = 0;
+  pressure.wiebe.exhaust_valve_opens_deg = 120;
+  pressure.wiebe.combustion_duration_deg = 120;
+  EXPECT_TRUE(validate(pressure, support::diesel_495_crank()).ok());
+  pressure.wiebe.combustion_duration_deg = 120.001;
+  EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::inconsistent, "pressure.combustion_duration"));
+}
+
+TEST(PressureDefinition, RefusesAnExhaustValveThatOpensAfterTheBottomDeadCentreOfAnOffsetEngine) {
+  // With the pin offset to the other side bottom dead centre comes before 180 deg: 170.6 deg here. "Before bottom dead centre" is meant.
+  Crank crank = support::diesel_495_crank();
+  crank.rod_length_m = crank.crank_radius_m / 0.45;
+  crank.pin_offset_m = -0.2 * crank.crank_radius_m;
+  Pressure pressure = wiebe_pressure();
+  pressure.wiebe.exhaust_valve_opens_deg = 170;
+  EXPECT_TRUE(validate(pressure, crank).ok());
+  pressure.wiebe.exhaust_valve_opens_deg = 175;
+  EXPECT_TRUE(refuses(validate(pressure, crank), Reason::inconsistent, "pressure.exhaust_valve_opens"));
+}
+
+/// An angle table with a point every 10 deg.
+std::vector<DiagramPoint> flat_table() {
+  std::vector<DiagramPoint> points;
+  for (int i = 0; i < 72; ++i) points.push_back({10.0 * i, 1e5});
+  return points;
+}
+
+Status validate_table(const std::vector<DiagramPoint>& points, PressureSource source = PressureSource::angle_table) {
+  Pressure pressure;
+  pressure.source = source;
+  pressure.points = points.data();
+  pressure.point_count = static_cast<int>(points.size());
+  return validate(pressure, support::diesel_495_crank());
+}
+
+TEST(PressureDefinition, AcceptsATableOfOnePeriodWithAndWithoutItsClosingRowFromAnyStart) {
+  for (const double start : {0.0, -360.0, -180.5, 1080.0}) {
+    std::vector<DiagramPoint> points = flat_table();
+    for (DiagramPoint& point : points) point.at += start;
+    EXPECT_TRUE(validate_table(points).ok()) << start;
+    points.push_back({start + 720, 1e5});
+    EXPECT_TRUE(validate_table(points).ok()) << start;
+  }
+}
+
+TEST(PressureDefinition, RefusesTablesThatAreNotOnePeriod) {
+  std::vector<DiagramPoint> too_long = flat_table();
+  too_long.push_back({720.1, 1e5});
+  EXPECT_TRUE(refuses(validate_table(too_long), Reason::not_one_period, "pressure.file"));
+  std::vector<DiagramPoint> one_turn = flat_table();
+  one_turn.resize(37);
+  EXPECT_TRUE(refuses(validate_table(one_turn), Reason::not_one_period, "pressure.file"));
+}
+
+TEST(PressureDefinition, RefusesRowsThatDoNotRiseAndNamesTheRow) {
+  std::vector<DiagramPoint> points = flat_table();
+  points[40].at = points[39].at;
+  EXPECT_TRUE(refuses(validate_table(points), Reason::not_increasing, "pressure.file", 40));
+  points[40].at = points[39].at - 5;
+  EXPECT_TRUE(refuses(validate_table(points), Reason::not_increasing, "pressure.file", 40));
+}
+
+TEST(PressureDefinition, RefusesRowsThatAreNoNumbersOrNoPressuresAndNamesTheRow) {
+  for (const PressureSource source : {PressureSource::angle_table, PressureSource::volume_table}) {
+    for (const double bad : {kNaN, kInfinity, -kInfinity}) {
+      std::vector<DiagramPoint> points = flat_table();
+      points[17].at = bad;
+      EXPECT_TRUE(refuses(validate_table(points, source), Reason::not_finite, "pressure.file", 17));
+      points = flat_table();
+      points[71].pressure_Pa = bad;
+      EXPECT_TRUE(refuses(validate_table(points, source), Reason::not_finite, "pressure.file", 71));
+    }
+    std::vector<DiagramPoint> points = flat_table();
+    points[5].pressure_Pa = -1;
+    EXPECT_TRUE(refuses(validate_table(points, source), Reason::out_of_range, "pressure.file", 5));
+    points[5].pressure_Pa = 1.1e8;
+    EXPECT_TRUE(refuses(validate_table(points, source), Reason::out_of_range, "pressure.file", 5));
+  }
+}
+
+TEST(PressureDefinition, RefusesTablesThatAreMissingOrTooShortOrTooLong) {
+  for (const PressureSource source : {PressureSource::angle_table, PressureSource::volume_table}) {
+    EXPECT_TRUE(refuses(validate_table({}, source), Reason::too_few_points, "pressure.file"));
+    std::vector<DiagramPoint> few = flat_table();
+    few.resize(7);
+    EXPECT_TRUE(refuses(validate_table(few, source), Reason::too_few_points, "pressure.file"));
+    Pressure pressure;
+    pressure.source = source;
+    pressure.point_count = 100;  // and no rows
+    EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::too_few_points, "pressure.file"));
+    pressure.points = few.data();
+    pressure.point_count = -5;
+    EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::too_few_points, "pressure.file"));
+    pressure.point_count = (1 << 20) + 1;  // refused by its count, no row is read
+    EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::too_many_points, "pressure.file"));
+  }
+}
+
+// ---- the whole -------------------------------------------------------------------------------------------------------------
+
+TEST(EngineDefinition, IsRefusedForItsFirstBadPart) {
+  EngineDefinition engine;
+  engine.crank = support::diesel_495_crank();
+  engine.masses = diesel_495_masses();
+  engine.layout = inline_four();
+  engine.pressure = wiebe_pressure();
+  EXPECT_TRUE(validate(engine).ok());
+  engine.pressure.crankcase_Pa = -1;
+  EXPECT_TRUE(refuses(validate(engine), Reason::not_positive, "pressure.crankcase"));
+  engine.layout.cylinders = 0;
+  EXPECT_TRUE(refuses(validate(engine), Reason::out_of_range, "layout.cylinders"));
+  engine.masses.piston_kg = -1;
+  EXPECT_TRUE(refuses(validate(engine), Reason::negative, "masses.piston"));
+  engine.crank.bore_m = 0;
+  EXPECT_TRUE(refuses(validate(engine), Reason::not_positive, "crank.bore"));
+}
+
+TEST(Reasons, EachHaveTheirOwnWords) {
+  std::vector<std::string> phrases;
+  for (int i = 0; i <= static_cast<int>(Reason::contracting_build); ++i) {
+    const std::string phrase = describe(static_cast<Reason>(i));
+    EXPECT_FALSE(phrase.empty());
+    for (const std::string& earlier : phrases) EXPECT_NE(phrase, earlier);
+    phrases.push_back(phrase);
+  }
+}
+
+}  // namespace
+}  // namespace crankloop

@@ -1,0 +1,745 @@
+// Cylinder pressure over the cycle: tables give back what they were made of, the synthesised diagram obeys its equations.
+#include <crankloop/tabulate/indicator_diagram.hpp>
+#include <crankloop/tabulate/mechanism.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "support/diagrams.hpp"
+#include "support/differences.hpp"
+#include "support/engines.hpp"
+#include "support/random.hpp"
+#include "support/status.hpp"
+#include "support/vector_geometry.hpp"
+
+namespace crankloop {
+namespace {
+
+using support::kDegree;
+using support::kEps;
+using support::Random;
+using support::refuses;
+using support::smooth_pressure_Pa;
+using support::Wide;
+
+constexpr double kPi = 3.14159265358979323846;
+
+// An angle of up to 1440 deg goes through two additions before it is looked up.
+constexpr double kAngleRounding_deg = 4 * kEps * 1440;
+
+/// Steepest slope and curvature of smooth_pressure_Pa per degree: 60e5 exp(30 (cos u - 1)), u = deg/2, rises by at most
+/// 60e5 sqrt(30/e) per rad of u and bends by at most 60e5 * 30 per rad^2.
+const double kSteepest_Pa_deg = 60e5 * std::sqrt(30 / std::exp(1.0)) * kDegree / 2;
+constexpr double kMostBent_Pa_deg2 = 60e5 * 30 * (kDegree / 2) * (kDegree / 2);
+
+IndicatorDiagram diagram_of(const Crank& crank, const Pressure& pressure) {
+  IndicatorDiagram diagram;
+  const Status status = diagram.init(crank, pressure);
+  EXPECT_TRUE(status.ok()) << testing::PrintToString(status);
+  return diagram;
+}
+
+using Rows = std::vector<DiagramPoint>;
+
+/// The rows must outlive the diagram: not for temporaries.
+IndicatorDiagram diagram_of_rows(const Rows& rows, PressureSource source, const Crank& crank = support::diesel_495_crank()) {
+  return diagram_of(crank, support::table_pressure(source, rows));
+}
+IndicatorDiagram diagram_of_rows(Rows&&, PressureSource, const Crank& = support::diesel_495_crank()) = delete;
+
+Crank crank_with_offset(double offset_ratio) {
+  Crank crank = support::diesel_495_crank();
+  crank.pin_offset_m = offset_ratio * crank.crank_radius_m;
+  return crank;
+}
+
+TEST(NoDiagram, IsCrankcasePressureAtAllTimes) {
+  Pressure pressure;
+  pressure.crankcase_Pa = 97e3;
+  const IndicatorDiagram diagram = diagram_of(support::diesel_495_crank(), pressure);
+  for (const double deg : {-1000.0, 0.0, 359.9, 720.0, 1e6}) {
+    EXPECT_EQ(diagram.full_Pa(deg), 97e3);
+    EXPECT_EQ(diagram.motored_Pa(deg), 97e3);
+    EXPECT_EQ(diagram.heat_Pa(deg), 0);
+  }
+}
+
+// ---- angle tables ----------------------------------------------------------------------------------------------------------
+
+/// A rough table: uneven rows, pressures without any law. Some start before 0, some have a closing row.
+Rows rough_rows(Random& random) {
+  Rows rows;
+  const double start = random.between(-720, 720);
+  for (double at = start; at < start + 715; at += random.between(0.05, 20)) rows.push_back({at, random.between(0, 100e5)});
+  if (random.coin()) rows.push_back({start + 720, rows.front().pressure_Pa});
+  return rows;
+}
+
+TEST(AngleTable, GivesEveryGivenPointBackInEveryCycle) {
+  Random random;
+  for (int draw = 0; draw < 50; ++draw) {
+    SCOPED_TRACE(random.trace(draw));
+    const Rows rows = rough_rows(random);
+    const IndicatorDiagram diagram = diagram_of_rows(rows, PressureSource::angle_table);
+    for (const DiagramPoint& row : rows) {
+      for (const int cycle : {-2, -1, 0, 1}) {
+        // The steepest that such a table gets: 100 bar in 0.05 deg, times 3 at most inside a monotone cubic (Fritsch-Butland slopes).
+        const double tolerance = 3 * 100e5 / 0.05 * kAngleRounding_deg;
+        EXPECT_NEAR(diagram.full_Pa(row.at + 720 * cycle), row.pressure_Pa, tolerance) << row.at;
+      }
+      EXPECT_EQ(diagram_of_rows(rows, PressureSource::angle_table).full_Pa(rows.front().at), rows.front().pressure_Pa);
+    }
+    if (HasFailure()) return;
+  }
+}
+
+TEST(AngleTable, StaysBetweenNeighbouringPointsEverywhereAcrossTheSeamToo) {
+  Random random;
+  for (int draw = 0; draw < 50; ++draw) {
+    SCOPED_TRACE(random.trace(draw));
+    const Rows given = rough_rows(random);
+    const IndicatorDiagram diagram = diagram_of_rows(given, PressureSource::angle_table);
+    Rows rows = given;
+    if (rows.back().at < rows.front().at + 720) rows.push_back({rows.front().at + 720, rows.front().pressure_Pa});
+    for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
+      const double low = std::min(rows[i].pressure_Pa, rows[i + 1].pressure_Pa);
+      const double high = std::max(rows[i].pressure_Pa, rows[i + 1].pressure_Pa);
+      double before = rows[i].pressure_Pa;
+      for (int step = 1; step < 20; ++step) {
+        const double p = diagram.full_Pa(rows[i].at + (rows[i + 1].at - rows[i].at) * step / 20);
+        const double rounding = 16 * kEps * 100e5;
+        EXPECT_GE(p, low - rounding);
+        EXPECT_LE(p, high + rounding);
+        // and runs from one to the other without turning round
+        if (rows[i + 1].pressure_Pa > rows[i].pressure_Pa) {
+          EXPECT_GE(p, before - rounding);
+        } else {
+          EXPECT_LE(p, before + rounding);
+        }
+        before = p;
+      }
+    }
+    if (HasFailure()) return;
+  }
+}
+
+TEST(AngleTable, HasNoStepAndNoCornerAtAnyPoint) {
+  Random random;
+  for (int draw = 0; draw < 20; ++draw) {
+    SCOPED_TRACE(random.trace(draw));
+    const Rows rows = rough_rows(random);
+    const IndicatorDiagram diagram = diagram_of_rows(rows, PressureSource::angle_table);
+    for (const DiagramPoint& row : rows) {
+      // One-sided slopes over d: a cubic's slope changes by at most d/2 times its bend, which is at most 12 rises/width^2 (widths >= 0.05).
+      const double d = 1e-5;
+      const double left = (diagram.full_Pa(row.at) - diagram.full_Pa(row.at - d)) / d;
+      const double right = (diagram.full_Pa(row.at + d) - diagram.full_Pa(row.at)) / d;
+      const double bend = 12 * 100e5 / (0.05 * 0.05);
+      const double angle_rounding = 2 * kAngleRounding_deg / d * 3 * 100e5 / 0.05;
+      EXPECT_NEAR(left, right, d * bend + angle_rounding) << row.at;
+    }
+    if (HasFailure()) return;
+  }
+}
+
+TEST(AngleTable, OfASmoothCurveIsThatCurveToTheSquareOfItsSpacing) {
+  // Beside a peak a monotone cubic forces the slope of a point to zero or near it: off by at most h^2/4 of the bend.
+  for (const int per_degree : {1, 2, 10}) {
+    const Rows rows = support::angle_rows(smooth_pressure_Pa, per_degree, -180);
+    const IndicatorDiagram diagram = diagram_of_rows(rows, PressureSource::angle_table);
+    const double h = 1.0 / per_degree;
+    for (double deg = -360; deg < 720; deg += 0.0371) {
+      EXPECT_NEAR(diagram.full_Pa(deg), smooth_pressure_Pa(deg), h * h / 4 * kMostBent_Pa_deg2) << deg;
+    }
+  }
+}
+
+TEST(AngleTable, OfASteepDieselTraceGivenEveryTenthOfADegreeIsWithin005Bar) {
+  // A rise of 11.6 bar/deg: 25 bar of premixed burning as tanh, on top of the smooth cycle.
+  const auto trace = [](double deg) {
+    const double into = deg - 720 * std::floor((deg + 360) / 720);
+    return smooth_pressure_Pa(deg) + 12.5e5 * (std::tanh((into + 4) / 1.24) + 1) * std::exp(-into * into / 800);
+  };
+  double steepest = 0;
+  for (double deg = -20; deg < 20; deg += 0.01) steepest = std::max(steepest, (trace(deg + 0.005) - trace(deg - 0.005)) / 0.01);
+  EXPECT_NEAR(steepest, 11.6e5, 0.1e5) << "the trace is as steep as the one that was measured";
+  const Rows rows = support::angle_rows(trace, 10);
+  const IndicatorDiagram diagram = diagram_of_rows(rows, PressureSource::angle_table);
+  for (double deg = -40; deg < 60; deg += 0.0013) EXPECT_NEAR(diagram.full_Pa(deg), trace(deg), 0.05e5) << deg;
+}
+
+/// The crank angle on the way up (360 to 720 deg) at which the piston is as high as at `deg` on the way down: bisection on the geometry.
+double same_height_going_up(const Crank& crank, double deg, double bottom_deg, double top_deg) {
+  const Wide want = support::piston_height(crank, static_cast<Wide>(deg) * support::kWidePi / 180);
+  double low = bottom_deg + 360;
+  double high = top_deg + 720;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2;
+    (support::piston_height(crank, static_cast<Wide>(middle) * support::kWidePi / 180) < want ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+TEST(AngleTable, MotoredRetracesTheCompressionVolumeForVolume) {
+  for (const double offset_ratio : {-0.2, 0.0, 0.2}) {
+    const Crank crank = crank_with_offset(offset_ratio);
+    const Rows rows = support::angle_rows(smooth_pressure_Pa, 10);
+    const IndicatorDiagram diagram = diagram_of_rows(rows, PressureSource::angle_table, crank);
+    const DeadCentres centres = dead_centres(crank);
+    const double top = centres.tdc_rad / kDegree;
+    const double bottom = centres.bdc_rad / kDegree;
+    for (double deg = top + 0.01; deg < bottom; deg += 0.97) {
+      const double up = same_height_going_up(crank, deg, bottom, top);
+      // Near the dead centres the angle hangs on the root of the height's rounding, 1e-16 -> 1e-7 rad.
+      EXPECT_NEAR(diagram.motored_Pa(deg), diagram.full_Pa(up), kSteepest_Pa_deg * 1e-7 / kDegree) << deg << ", offset " << offset_ratio;
+    }
+  }
+}
+
+TEST(AngleTable, MotoredHasNoHeatInCompressionAndIntakeAndNoBlowDown) {
+  const Crank crank = crank_with_offset(0.1);
+  // An exhaust stroke with a blow-down and a level that the motored engine keeps.
+  const auto trace = [](double deg) {
+    const double into = deg - 720 * std::floor(deg / 720);
+    return into > 180 && into < 360 ? 1.1e5 + 4e5 * std::exp(-(into - 180) / 12) : smooth_pressure_Pa(deg);
+  };
+  const Rows rows = support::angle_rows(trace, 2);
+  const IndicatorDiagram diagram = diagram_of_rows(rows, PressureSource::angle_table, crank);
+  const double top = dead_centres(crank).tdc_rad / kDegree;
+  const double bottom = dead_centres(crank).bdc_rad / kDegree;
+  for (double deg = top + 360.001; deg < top + 720; deg += 0.7) EXPECT_EQ(diagram.heat_Pa(deg), 0) << deg;
+  for (double deg = bottom + 10; deg < top + 360; deg += 0.7) {
+    EXPECT_LT(diagram.motored_Pa(deg), 1.12e5) << deg;
+    EXPECT_GE(diagram.heat_Pa(deg), 0) << deg;
+  }
+}
+
+/// Largest jump between neighbours of a fine sweep, less what the steepest slope explains; and where.
+void expect_no_step(const IndicatorDiagram& diagram, double steepest_Pa_deg, const std::string& what) {
+  constexpr double kStep_deg = 0.01;
+  for (const auto curve : {&IndicatorDiagram::full_Pa, &IndicatorDiagram::motored_Pa, &IndicatorDiagram::heat_Pa}) {
+    double before = (diagram.*curve)(-0.5);
+    for (int i = 1; i <= 72'100; ++i) {
+      const double deg = -0.5 + kStep_deg * i;
+      const double p = (diagram.*curve)(deg);
+      EXPECT_NEAR(p, before, steepest_Pa_deg * kStep_deg) << "at " << deg << ", " << what;
+      if (testing::Test::HasFailure()) return;
+      before = p;
+    }
+  }
+}
+
+TEST(AngleTable, HasNoStepAtDeadCentresMotoredOrFired) {
+  const Rows rows = support::angle_rows(smooth_pressure_Pa, 2);
+  for (const double offset_ratio : {-0.2, 0.0, 0.2}) {
+    const IndicatorDiagram diagram = diagram_of_rows(rows, PressureSource::angle_table, crank_with_offset(offset_ratio));
+    // The heat may change as fast as both of its parts; the motored ramp after bottom dead centre takes 10 deg for less than 1 bar.
+    expect_no_step(diagram, 2.2 * kSteepest_Pa_deg, "offset " + std::to_string(offset_ratio));
+  }
+}
+
+TEST(Diagram, FullIsMotoredPlusHeatAndRepeatsEvery720Degrees) {
+  const Crank crank = crank_with_offset(0.1);
+  const Rows rows = support::angle_rows(smooth_pressure_Pa, 2);
+  Pressure wiebe;
+  wiebe.source = PressureSource::wiebe;
+  wiebe.wiebe.net_mep_Pa = 8e5;
+  for (const Pressure& pressure : {support::table_pressure(PressureSource::angle_table, rows), wiebe}) {
+    const IndicatorDiagram diagram = diagram_of(crank, pressure);
+    for (double deg = 0; deg < 720; deg += 1.3) {
+      const double p = diagram.full_Pa(deg);
+      EXPECT_NEAR(diagram.motored_Pa(deg) + diagram.heat_Pa(deg), p, 2 * kEps * p) << deg;
+      // 1e6 cycles on, the angle itself has lost nine digits.
+      EXPECT_NEAR(diagram.full_Pa(deg + 720), p, 100e5 * kAngleRounding_deg) << deg;
+      EXPECT_NEAR(diagram.full_Pa(deg - 7200), p, 10 * 100e5 * kAngleRounding_deg) << deg;
+      EXPECT_NEAR(diagram.full_Pa(deg + 720e6), p, 100e5 * kEps * 720e6) << deg;
+    }
+  }
+}
+
+TEST(Diagram, AnswersAFinitePressureForAnyAngleAtAll) {
+  const Rows rows = support::angle_rows(smooth_pressure_Pa, 1);
+  const IndicatorDiagram diagram = diagram_of_rows(rows, PressureSource::angle_table);
+  for (const double deg : {1e9, -1e9, 1e18, -1e300, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_GE(diagram.full_Pa(deg), 0.5e5) << deg;
+    EXPECT_LE(diagram.full_Pa(deg), 70e5) << deg;
+  }
+}
+
+// ---- volume tables ---------------------------------------------------------------------------------------------------------
+
+/// The p-V loop of p(a), in the order of time from firing top dead centre; rows[i] belongs to angles[i]. Without a row at a dead centre
+/// the row before it must be the nearer one: where the volume turns round is all that the file tells.
+struct VolumeLoop {
+  std::vector<double> angles_deg;
+  Rows rows;
+};
+template <class Function>
+VolumeLoop volume_loop(const Crank& crank, const Function& f, double step_deg, bool with_dead_centres) {
+  VolumeLoop loop;
+  const double top = dead_centres(crank).tdc_rad / kDegree;
+  const double bottom = dead_centres(crank).bdc_rad / kDegree;
+  const double turns[] = {top, bottom, top + 360, bottom + 360, top + 720};
+  const auto add = [&](double deg) {
+    loop.angles_deg.push_back(deg);
+    loop.rows.push_back({support::volume_m3(crank, deg), f(deg)});
+  };
+  for (int stroke = 0; stroke < 4; ++stroke) {
+    if (with_dead_centres) add(turns[stroke]);
+    for (double deg = turns[stroke] + step_deg; deg < turns[stroke + 1] - step_deg / 2; deg += step_deg) add(deg);
+    if (!with_dead_centres) add(turns[stroke + 1] - step_deg / 4);
+  }
+  return loop;
+}
+
+TEST(VolumeTable, MadeFromAKnownPressureOverTheAngleGivesItBack) {
+  for (const double offset_ratio : {-0.2, 0.0, 0.2}) {
+    for (const bool with_dead_centres : {true, false}) {
+      SCOPED_TRACE("offset " + std::to_string(offset_ratio) + (with_dead_centres ? ", dead centres given" : ""));
+      const Crank crank = crank_with_offset(offset_ratio);
+      const VolumeLoop loop = volume_loop(crank, smooth_pressure_Pa, 0.5, with_dead_centres);
+      const IndicatorDiagram diagram = diagram_of_rows(loop.rows, PressureSource::volume_table, crank);
+      const double x_rounding = 8 * kEps * (crank.crank_radius_m + crank.rod_length_m);
+      for (std::size_t i = 0; i < loop.rows.size(); ++i) {
+        // An angle read from a volume is off by dx/(dx/da), at a dead centre by sqrt(2 dx/x'').
+        const Pose<double> pose = exact_pose(crank, loop.angles_deg[i] * kDegree);
+        const double angle_deg = std::min(x_rounding / std::fabs(pose.slope_m), std::sqrt(4 * x_rounding / crank.crank_radius_m)) / kDegree;
+        EXPECT_NEAR(diagram.full_Pa(loop.angles_deg[i]), loop.rows[i].pressure_Pa, 2 * kSteepest_Pa_deg * (angle_deg + kAngleRounding_deg))
+            << loop.angles_deg[i];
+      }
+      // Between the points: as an angle table, with the wider gap across a dead centre that was not given.
+      const double h = with_dead_centres ? 0.5 : 0.75;
+      for (double deg = 0; deg < 720; deg += 0.0937) {
+        EXPECT_NEAR(diagram.full_Pa(deg), smooth_pressure_Pa(deg), h * h / 4 * kMostBent_Pa_deg2 * 1.1) << deg;
+      }
+    }
+  }
+}
+
+TEST(VolumeTable, EnclosesTheAreaOfItsPolygon) {
+  const Crank crank = crank_with_offset(0.1);
+  const VolumeLoop loop = volume_loop(crank, smooth_pressure_Pa, 0.5, true);
+  const IndicatorDiagram diagram = diagram_of_rows(loop.rows, PressureSource::volume_table, crank);
+  Wide polygon = 0;
+  for (std::size_t i = 0; i < loop.rows.size(); ++i) {
+    const DiagramPoint& here = loop.rows[i];
+    const DiagramPoint& next = loop.rows[(i + 1) % loop.rows.size()];
+    polygon += static_cast<Wide>((here.pressure_Pa + next.pressure_Pa) / 2) * static_cast<Wide>(next.at - here.at);
+  }
+  Wide loop_integral = 0;
+  constexpr int kSteps = 72'000;
+  for (int i = 0; i < kSteps; ++i) {
+    const double a = 720.0 * i / kSteps;
+    const double b = 720.0 * (i + 1) / kSteps;
+    loop_integral += static_cast<Wide>(diagram.full_Pa((a + b) / 2)) * static_cast<Wide>(support::volume_m3(crank, b) - support::volume_m3(crank, a));
+  }
+  // The polygon's own error: h^2/6 integral of p' V'', h = 0.5 deg, both humps rising and falling: 4 * 60 bar * V_d/2 at most.
+  const double h = 0.5 * kDegree;
+  EXPECT_NEAR(static_cast<double>(loop_integral), static_cast<double>(polygon), h * h / 6 * 4 * 60e5 * support::swept_m3(crank) / 2);
+}
+
+TEST(VolumeTable, MayHaveAClosingRow) {
+  const Crank crank = support::diesel_495_crank();
+  VolumeLoop loop = volume_loop(crank, smooth_pressure_Pa, 2, true);
+  const IndicatorDiagram open = diagram_of_rows(loop.rows, PressureSource::volume_table, crank);
+  Rows closed_rows = loop.rows;
+  closed_rows.push_back(loop.rows.front());
+  const IndicatorDiagram closed = diagram_of_rows(closed_rows, PressureSource::volume_table, crank);
+  for (double deg = 0; deg < 720; deg += 3.7) EXPECT_EQ(closed.full_Pa(deg), open.full_Pa(deg)) << deg;
+}
+
+TEST(VolumeTable, StaysBetweenNeighbouringPoints) {
+  Random random;
+  const Crank crank = crank_with_offset(0.15);
+  VolumeLoop loop = volume_loop(crank, [&](double) { return random.between(0, 50e5); }, 4, true);
+  const IndicatorDiagram diagram = diagram_of_rows(loop.rows, PressureSource::volume_table, crank);
+  for (std::size_t i = 0; i + 1 < loop.rows.size(); ++i) {
+    const double low = std::min(loop.rows[i].pressure_Pa, loop.rows[i + 1].pressure_Pa);
+    const double high = std::max(loop.rows[i].pressure_Pa, loop.rows[i + 1].pressure_Pa);
+    // At 1 % from a dead centre the angle's own uncertainty (2e-8 rad) is 1e-6 of the interval.
+    for (int step = 1; step < 100; ++step) {
+      const double p = diagram.full_Pa(loop.angles_deg[i] + (loop.angles_deg[i + 1] - loop.angles_deg[i]) * step / 100);
+      EXPECT_GE(p, low - 1e-5 * 50e5) << random.trace(0) << ", row " << i;
+      EXPECT_LE(p, high + 1e-5 * 50e5) << random.trace(0) << ", row " << i;
+    }
+  }
+}
+
+TEST(VolumeTable, RefusesVolumesThatTheCylinderDoesNotHave) {
+  const Crank crank = support::diesel_495_crank();
+  for (const std::size_t row : {std::size_t{0}, std::size_t{40}, std::size_t{200}}) {
+    for (const double bad : {0.0, 1.0}) {  // no cylinder is empty, none holds a cubic metre
+      VolumeLoop loop = volume_loop(crank, smooth_pressure_Pa, 2, true);
+      loop.rows[row].at = bad;
+      IndicatorDiagram diagram;
+      EXPECT_TRUE(refuses(diagram.init(crank, support::table_pressure(PressureSource::volume_table, loop.rows)), Reason::out_of_range,
+                          "pressure.file", static_cast<int>(row)));
+    }
+  }
+}
+
+TEST(VolumeTable, RefusesLoopsThatAreNoFourStrokes) {
+  const Crank crank = support::diesel_495_crank();
+  const VolumeLoop loop = volume_loop(crank, smooth_pressure_Pa, 2, true);  // 90 rows in every stroke
+  const auto answer = [&](const Rows& rows) {
+    IndicatorDiagram diagram;
+    return diagram.init(crank, support::table_pressure(PressureSource::volume_table, rows));
+  };
+  ASSERT_EQ(loop.rows.size(), 360u);
+  const auto part = [&](int from, int to) { return Rows(loop.rows.begin() + from, loop.rows.begin() + to); };
+  EXPECT_EQ(answer(part(0, 180)).reason, Reason::not_a_cycle) << "a two-stroke loop";
+  EXPECT_EQ(answer(part(0, 270)).reason, Reason::not_a_cycle) << "three strokes";
+  EXPECT_EQ(answer(part(90, 360)).reason, Reason::not_a_cycle) << "begins at bottom dead centre";
+
+  Rows rotated = part(45, 360);
+  const Rows head = part(0, 45);
+  rotated.insert(rotated.end(), head.begin(), head.end());
+  EXPECT_EQ(answer(rotated).reason, Reason::not_a_cycle) << "begins in mid-stroke";
+
+  Rows shaking = loop.rows;
+  std::swap(shaking[30], shaking[31]);
+  EXPECT_TRUE(refuses(answer(shaking), Reason::not_a_cycle, "pressure.file", 31)) << "turns back in mid-stroke";
+
+  Rows standing = loop.rows;
+  standing[30].at = standing[29].at;
+  EXPECT_TRUE(refuses(answer(standing), Reason::not_a_cycle, "pressure.file", 30)) << "stands still";
+
+  Rows short_stroke = part(0, 60);  // turns at 120 deg, then from there back up
+  for (int i = 120; i < 360; ++i) short_stroke.push_back(loop.rows[static_cast<std::size_t>(i)]);
+  EXPECT_EQ(answer(short_stroke).reason, Reason::not_a_cycle) << "turns before bottom dead centre";
+}
+
+// ---- synthesised -----------------------------------------------------------------------------------------------------------
+
+/// The 495's diagram as spec and sample engine have it.
+WiebeDiagram wiebe_495() {
+  WiebeDiagram w;
+  w.net_mep_Pa = 809.7e3;
+  return w;
+}
+
+Pressure wiebe_pressure(const WiebeDiagram& w) {
+  Pressure pressure;
+  pressure.source = PressureSource::wiebe;
+  pressure.wiebe = w;
+  return pressure;
+}
+
+struct Synthesised {
+  Crank crank;
+  WiebeDiagram wiebe;
+  double top_deg, bottom_deg;
+};
+
+/// Any mechanism, any plausible combustion: heat given, so that every draw has an answer.
+Synthesised random_synthesised(Random& random) {
+  Synthesised s{};
+  s.crank = support::random_crank(random);
+  s.top_deg = dead_centres(s.crank).tdc_rad / kDegree;
+  s.bottom_deg = dead_centres(s.crank).bdc_rad / kDegree;
+  WiebeDiagram& w = s.wiebe;
+  w.intake_Pa = random.between(30e3, 250e3);
+  w.exhaust_Pa = random.between(90e3, 200e3);
+  w.start_of_combustion_deg = random.between(-40, 20);
+  w.combustion_duration_deg = random.between(10, 75);
+  w.wiebe_m = random.between(0, 4);
+  w.compression_exponent = random.between(1.1, 1.5);
+  w.expansion_exponent = random.between(1.1, 1.5);
+  w.exhaust_valve_opens_deg = random.between(100, s.bottom_deg - 8);
+  w.heat_given = true;
+  w.heat_J = random.between(0.2, 2) * support::swept_m3(s.crank) * 1e6;
+  return s;
+}
+
+/// Share of the heat released, and nothing else: 1 - exp(-6.908 s^(m + 1)) [spec section 8].
+double burnt_share(const WiebeDiagram& w, double deg) {
+  const double s = (deg - w.start_of_combustion_deg) / w.combustion_duration_deg;
+  if (s <= 0) return 0;
+  return 1 - std::exp(-6.908 * std::pow(std::min(s, 1.0), w.wiebe_m + 1));
+}
+
+TEST(SynthesisedDiagram, IsIntakePressureInIntakeAndExhaustPressureInExhaust) {
+  for (const double offset_ratio : {-0.2, 0.0, 0.2}) {
+    const Crank crank = crank_with_offset(offset_ratio);
+    const IndicatorDiagram diagram = diagram_of(crank, wiebe_pressure(wiebe_495()));
+    const double top = dead_centres(crank).tdc_rad / kDegree;
+    const double bottom = dead_centres(crank).bdc_rad / kDegree;
+    for (double deg = bottom + 1e-6; deg < top + 360; deg += 0.9) EXPECT_EQ(diagram.full_Pa(deg), 105e3) << deg;
+    for (double deg = top + 362; deg < bottom + 360; deg += 0.9) EXPECT_EQ(diagram.full_Pa(deg), 98e3) << deg;
+  }
+}
+
+TEST(SynthesisedDiagram, CompressesAndExpandsByItsPolytropicExponents) {
+  Random random;
+  for (int draw = 0; draw < 100; ++draw) {
+    SCOPED_TRACE(random.trace(draw));
+    const Synthesised s = random_synthesised(random);
+    const WiebeDiagram& w = s.wiebe;
+    const IndicatorDiagram diagram = diagram_of(s.crank, wiebe_pressure(w));
+    const auto exponent = [&](double from_deg, double to_deg, double (IndicatorDiagram::*curve)(double) const noexcept) {
+      return -std::log((diagram.*curve)(to_deg) / (diagram.*curve)(from_deg)) /
+             std::log(support::volume_m3(s.crank, to_deg) / support::volume_m3(s.crank, from_deg));
+    };
+    // The pressures' rounding, some 20 eps, over the logarithm of a volume ratio of at least 1.1.
+    const double tolerance = 20 * kEps / std::log(1.1);
+    const double compression_end = std::min(w.start_of_combustion_deg, s.top_deg - 8) + 720;
+    EXPECT_NEAR(exponent(s.bottom_deg + 400, compression_end, &IndicatorDiagram::full_Pa), w.compression_exponent, tolerance);
+    EXPECT_NEAR(diagram.full_Pa(s.bottom_deg + 360), w.intake_Pa, 20 * kEps * w.intake_Pa) << "compression begins at intake pressure";
+    const double burnt_deg = w.start_of_combustion_deg + w.combustion_duration_deg;
+    const double late = std::max(burnt_deg, 30.0);
+    if (w.exhaust_valve_opens_deg > late + 15) {
+      const double opens = w.exhaust_valve_opens_deg - 0.01;
+      EXPECT_NEAR(exponent(late, opens, &IndicatorDiagram::full_Pa), w.expansion_exponent, tolerance);
+      EXPECT_NEAR(exponent(late, opens, &IndicatorDiagram::motored_Pa), w.expansion_exponent, tolerance);
+      EXPECT_NEAR(exponent(late, opens, &IndicatorDiagram::heat_Pa), w.expansion_exponent, tolerance);
+    }
+    if (HasFailure()) return;
+  }
+}
+
+TEST(SynthesisedDiagram, ObeysTheFirstLawDuringCombustionAtEveryAngle) {
+  // dp/da = (n2 - 1)/V dQ/da - n2 p/V dV/da [spec section 8], every derivative by five-point differences of 0.05 deg.
+  Random random;
+  for (int draw = 0; draw < 60; ++draw) {
+    SCOPED_TRACE(random.trace(draw));
+    const Synthesised s = random_synthesised(random);
+    const WiebeDiagram& w = s.wiebe;
+    const IndicatorDiagram diagram = diagram_of(s.crank, wiebe_pressure(w));
+    const double h = 0.05;
+    double largest = 0;
+    double worst = 0;
+    // From 10 % on: at the start dQ/da goes like s^m, whose fifth derivative is without bound.
+    for (double share = 0.1; share < 0.99; share += 0.01) {
+      const double deg = w.start_of_combustion_deg + share * w.combustion_duration_deg;
+      const double dp = support::slope_of([&](double at) { return diagram.full_Pa(at); }, deg, h);
+      const double dQ = support::slope_of([&](double at) { return w.heat_J * burnt_share(w, at); }, deg, h);
+      const double dV = support::slope_of([&](double at) { return support::volume_m3(s.crank, at); }, deg, h);
+      const double V = support::volume_m3(s.crank, deg);
+      const double want = (w.expansion_exponent - 1) / V * dQ - w.expansion_exponent * diagram.full_Pa(deg) / V * dV;
+      largest = std::max({largest, std::fabs(want), std::fabs((w.expansion_exponent - 1) / V * dQ)});
+      worst = std::max(worst, std::fabs(dp - want));
+    }
+    // h^4/30 f^(5): in s = (a - a0)/da, h/da <= 0.005, and from s = 0.1 the fifth derivative of exp(-6.9 s^(m+1)) (m <= 4) stays below 7e4 times its
+    // slope; 0.005^4/30 * 7e4 = 1.5e-6. Rounding: 1.5 * 10 eps p/h against a slope of at least p/100 deg, 1e-11.
+    EXPECT_LE(worst, 2e-6 * largest);
+    if (HasFailure()) return;
+  }
+}
+
+TEST(SynthesisedDiagram, IsTheSolutionThatRungeKuttaFindsFromTheFirstLaw) {
+  Random random;
+  for (int draw = 0; draw < 20; ++draw) {
+    SCOPED_TRACE(random.trace(draw));
+    Synthesised s = random_synthesised(random);
+    if (draw % 4 == 0) s.wiebe.wiebe_m = 0.9;
+    const WiebeDiagram& w = s.wiebe;
+    const IndicatorDiagram diagram = diagram_of(s.crank, wiebe_pressure(w));
+    // In u with s = u^2, so that the heat's rate at the start, like s^m ds = 2 u^(2m+1) du, does not jump for any m >= 0.
+    const auto rate = [&](double u, double p) {
+      const double deg = w.start_of_combustion_deg + w.combustion_duration_deg * u * u;
+      const double deg_per_u = 2 * u * w.combustion_duration_deg;
+      const support::Motion m = support::motion_at(s.crank, static_cast<Wide>(deg) * support::kWidePi / 180, 1);
+      const double area = kPi / 4 * s.crank.bore_m * s.crank.bore_m;
+      const double dV = -static_cast<double>(m.piston_pin_velocity.up) * area * kDegree * deg_per_u;
+      const double V = support::volume_m3(s.crank, deg);
+      const double k = w.wiebe_m + 1;
+      const double dQ = w.heat_J * 6.908 * 2 * k * (u > 0 ? std::pow(u, 2 * k - 1) : 0) * std::exp(-6.908 * std::pow(u, 2 * k));
+      return (w.expansion_exponent - 1) / V * dQ - w.expansion_exponent * p / V * dV;
+    };
+    constexpr int kSteps = 4'000;
+    double p = w.intake_Pa * std::pow(support::volume_m3(s.crank, s.bottom_deg) / support::volume_m3(s.crank, w.start_of_combustion_deg), w.compression_exponent);
+    double peak = p;
+    for (int i = 0; i < kSteps; ++i) {
+      const double h = 1.0 / kSteps;
+      const double u = i * h;
+      const double k1 = rate(u, p);
+      const double k2 = rate(u + h / 2, p + h / 2 * k1);
+      const double k3 = rate(u + h / 2, p + h / 2 * k2);
+      const double k4 = rate(u + h, p + h * k3);
+      p += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+      peak = std::max(peak, p);
+      if ((i + 1) % 250 == 0) {
+        const double deg = w.start_of_combustion_deg + w.combustion_duration_deg * (u + h) * (u + h);
+        // Runge-Kutta's own error: steps of 1/4000, smooth but at u = 0 where u^(2m+1) leaves one of order h^2 in the first step: 1e-7 of the
+        // first step's heat, 1e-7 of all. The library's quadrature: five points in each of 256 panels, the first one with s^m too.
+        EXPECT_NEAR(diagram.full_Pa(deg), p, 2e-7 * peak) << deg;
+      }
+    }
+    if (HasFailure()) return;
+  }
+}
+
+TEST(SynthesisedDiagram, IsLinearInItsHeatAndLoadScalesTheHeat) {
+  Random random;
+  for (int draw = 0; draw < 20; ++draw) {
+    SCOPED_TRACE(random.trace(draw));
+    const Synthesised s = random_synthesised(random);
+    const IndicatorDiagram full = diagram_of(s.crank, wiebe_pressure(s.wiebe));
+    for (const double load : {0.0, 0.25, 2.0}) {
+      WiebeDiagram part = s.wiebe;
+      part.heat_J *= load;
+      const IndicatorDiagram scaled = diagram_of(s.crank, wiebe_pressure(part));
+      for (double deg = 0; deg < 720; deg += 2.3) {
+        EXPECT_EQ(scaled.motored_Pa(deg), full.motored_Pa(deg)) << "heat does not touch the motored cycle";
+        EXPECT_NEAR(scaled.heat_Pa(deg), load * full.heat_Pa(deg), 4 * kEps * load * full.heat_Pa(deg)) << deg;
+      }
+    }
+  }
+}
+
+TEST(SynthesisedDiagram, WithoutHeatIsCompressionAndExpansionThroughOnePoint) {
+  // At the start of combustion both polytropes meet; with equal exponents the expansion retraces the compression volume for volume.
+  WiebeDiagram w = wiebe_495();
+  w.compression_exponent = w.expansion_exponent = 1.32;
+  for (const double offset_ratio : {-0.2, 0.0, 0.2}) {
+    const Crank crank = crank_with_offset(offset_ratio);
+    const IndicatorDiagram diagram = diagram_of(crank, wiebe_pressure(w));
+    const double top = dead_centres(crank).tdc_rad / kDegree;
+    const double bottom = dead_centres(crank).bdc_rad / kDegree;
+    for (double deg = top + 1; deg < 134; deg += 1.1) {
+      const double up = same_height_going_up(crank, deg, bottom, top);
+      const double p = diagram.motored_Pa(deg);
+      EXPECT_NEAR(p, diagram.full_Pa(std::min(up, 720 + w.start_of_combustion_deg)) *
+                         std::pow(support::volume_m3(crank, std::min(up, 720 + w.start_of_combustion_deg)) / support::volume_m3(crank, deg), 1.32),
+                  1e-9 * p)  // the bisection's angle near top dead centre: 1e-8 of p's slope
+          << deg;
+    }
+  }
+}
+
+TEST(SynthesisedDiagram, HasNoStepAnywhereWhereverItsEventsLie) {
+  Random random;
+  for (int draw = 0; draw < 12; ++draw) {
+    SCOPED_TRACE(random.trace(draw));
+    Synthesised s = random_synthesised(random);
+    s.wiebe.wiebe_m += 0.2;
+    s.wiebe.wiebe_m = std::min(s.wiebe.wiebe_m, 3.0);
+    s.wiebe.combustion_duration_deg = std::max(s.wiebe.combustion_duration_deg, 30.0);
+    const WiebeDiagram& w = s.wiebe;
+    const IndicatorDiagram diagram = diagram_of(s.crank, wiebe_pressure(w));
+    double peak = 0;
+    for (double deg = -90; deg < 180; deg += 0.1) peak = std::max(peak, diagram.full_Pa(deg));
+    // Heat rises by at most 6.9 (m + 1)/da; compression by n V'/V; the ramp after gas exchange takes its one degree for |intake - exhaust|.
+    double shrinks = 0;
+    for (double deg = -90; deg < 180; deg += 0.1) {
+      shrinks = std::max(shrinks, std::fabs(support::volume_m3(s.crank, deg + 0.1) / support::volume_m3(s.crank, deg) - 1) / 0.1);
+    }
+    const double heat_rate = 6.908 * 4 / w.combustion_duration_deg * w.heat_J * (w.expansion_exponent - 1) / support::volume_m3(s.crank, s.top_deg);
+    const double blow_down = 5.04 / (s.bottom_deg - w.exhaust_valve_opens_deg) * diagram.full_Pa(w.exhaust_valve_opens_deg);
+    expect_no_step(diagram, 1.1 * std::max({heat_rate + 2 * shrinks * peak, blow_down, std::fabs(w.intake_Pa - w.exhaust_Pa)}), "random diagram");
+    if (HasFailure()) return;
+  }
+}
+
+TEST(SynthesisedDiagram, HasNoJumpAtItsEvents) {
+  // A billionth of a degree to either side: what is left is the slope's share and rounding.
+  Random random;
+  for (int draw = 0; draw < 200; ++draw) {
+    SCOPED_TRACE(random.trace(draw));
+    const Synthesised s = random_synthesised(random);
+    const WiebeDiagram& w = s.wiebe;
+    const IndicatorDiagram diagram = diagram_of(s.crank, wiebe_pressure(w));
+    for (const double event : {w.start_of_combustion_deg, w.start_of_combustion_deg + w.combustion_duration_deg, w.exhaust_valve_opens_deg, s.top_deg,
+                               s.bottom_deg, s.top_deg + 360, s.top_deg + 361, s.bottom_deg + 360, s.top_deg + 720}) {
+      for (const auto curve : {&IndicatorDiagram::full_Pa, &IndicatorDiagram::motored_Pa, &IndicatorDiagram::heat_Pa}) {
+        const double before = (diagram.*curve)(event - 1e-9);
+        const double after = (diagram.*curve)(event + 1e-9);
+        // Nothing in a draw is steeper than 100 bar/deg but a start of combustion with m near 0, like s^m: (1e-9/10)^(m + 1) of the heat's 100 bar.
+        EXPECT_NEAR(before, after, 3e-9 * 1000e5) << "at " << event;
+      }
+    }
+    if (HasFailure()) return;
+  }
+}
+
+TEST(SynthesisedDiagram, BlowsDownExponentiallyFromValveOpeningToExhaustPressureAtTheBottom) {
+  const Crank crank = crank_with_offset(0.1);
+  const IndicatorDiagram diagram = diagram_of(crank, wiebe_pressure(wiebe_495()));
+  const double bottom = dead_centres(crank).bdc_rad / kDegree;
+  EXPECT_NEAR(diagram.full_Pa(bottom - 1e-9), 105e3, 1);
+  // Equal steps of an exponential: their falls form a geometric series.
+  const double step = (bottom - 135) / 10;
+  double fall_before = diagram.full_Pa(135) - diagram.full_Pa(135 + step);
+  const double ratio = (diagram.full_Pa(135 + step) - diagram.full_Pa(135 + 2 * step)) / fall_before;
+  EXPECT_GT(fall_before, 0);
+  EXPECT_LT(ratio, 1);
+  for (int i = 1; i < 9; ++i) {
+    const double fall = diagram.full_Pa(135 + i * step) - diagram.full_Pa(135 + (i + 1) * step);
+    EXPECT_NEAR(fall / fall_before, ratio, 1e-8) << i;
+    fall_before = fall;
+  }
+}
+
+TEST(SynthesisedDiagram, ScalesItsHeatToTheMeanEffectivePressureAskedForInAnyEngine) {
+  Random random;
+  for (int draw = 0; draw < 20; ++draw) {
+    SCOPED_TRACE(random.trace(draw));
+    Synthesised s = random_synthesised(random);
+    s.wiebe.heat_given = false;
+    s.wiebe.net_mep_Pa = random.between(2e5, 20e5);
+    IndicatorDiagram diagram;
+    const Status status = diagram.init(s.crank, wiebe_pressure(s.wiebe));
+    if (!status.ok()) {  // a highly charged engine may give more than that without any heat
+      EXPECT_TRUE(refuses(status, Reason::no_solution, "pressure.net_mep"));
+      EXPECT_GT(s.wiebe.intake_Pa, s.wiebe.exhaust_Pa);
+      continue;
+    }
+    EXPECT_GT(diagram.heat_J(), 0);
+    constexpr int kSteps = 36'000;
+    Wide work = 0;
+    for (int i = 0; i < kSteps; ++i) {
+      const double a = 720.0 * i / kSteps;
+      const double b = 720.0 * (i + 1) / kSteps;
+      work += static_cast<Wide>(diagram.full_Pa((a + b) / 2)) * static_cast<Wide>(support::volume_m3(s.crank, b) - support::volume_m3(s.crank, a));
+    }
+    // Midpoint pressures, h = 0.02 deg: h^2/12 of p' V'' and corners of p, some 1e-8 of 200 bar V_d, where random events fall between steps.
+    EXPECT_NEAR(static_cast<double>(work) / support::swept_m3(s.crank), s.wiebe.net_mep_Pa, 2e-8 * 200e5);
+  }
+}
+
+TEST(SynthesisedDiagram, ReportsTheHeatItWasGiven) {
+  WiebeDiagram w = wiebe_495();
+  w.heat_given = true;
+  w.heat_J = 1234.5;
+  EXPECT_EQ(diagram_of(support::diesel_495_crank(), wiebe_pressure(w)).heat_J(), 1234.5);
+}
+
+TEST(SynthesisedDiagram, HeatFoundForTheMeanEffectivePressureGivesItBack) {
+  WiebeDiagram w = wiebe_495();
+  const IndicatorDiagram found = diagram_of(support::diesel_495_crank(), wiebe_pressure(w));
+  w.heat_given = true;
+  w.heat_J = found.heat_J();
+  const IndicatorDiagram given = diagram_of(support::diesel_495_crank(), wiebe_pressure(w));
+  for (double deg = 0; deg < 720; deg += 0.7) EXPECT_NEAR(given.full_Pa(deg), found.full_Pa(deg), 4 * kEps * 100e5) << deg;
+  // Plausible, too: no more work than the ideal cycle with all heat at top dead centre, 1 - 19^(1 - 1.28) = 56 %, and not much less.
+  const double efficiency = w.net_mep_Pa * support::swept_m3(support::diesel_495_crank()) / found.heat_J();
+  EXPECT_LT(efficiency, 1 - std::pow(19, 1 - w.expansion_exponent));
+  EXPECT_GT(efficiency, 0.45);
+}
+
+TEST(SynthesisedDiagram, RefusesAMeanEffectivePressureThatTakesNegativeHeat) {
+  WiebeDiagram w = wiebe_495();
+  w.net_mep_Pa = -5e5;
+  IndicatorDiagram diagram;
+  EXPECT_TRUE(refuses(diagram.init(support::diesel_495_crank(), wiebe_pressure(w)), Reason::no_solution, "pressure.net_mep"));
+}
+
+TEST(SynthesisedDiagram, RefusesWhatItsDefinitionRefuses) {
+  IndicatorDiagram diagram;
+  Crank crank = support::diesel_495_crank();
+  crank.bore_m = -1;
+  EXPECT_TRUE(refuses(diagram.init(crank, wiebe_pressure(wiebe_495())), Reason::not_positive, "crank.bore"));
+  WiebeDiagram w = wiebe_495();
+  w.expansion_exponent = 1;
+  EXPECT_TRUE(refuses(diagram.init(support::diesel_495_crank(), wiebe_pressure(w)), Reason::out_of_range, "pressure.expansion_exponent"));
+  EXPECT_TRUE(diagram.init(support::diesel_495_crank(), wiebe_pressure(wiebe_495())).ok()) << "a refusal leaves nothing behind";
+  EXPECT_NEAR(diagram.full_Pa(400), 98e3, 1);
+}
+
+}  // namespace
+}  // namespace crankloop

@@ -1,0 +1,185 @@
+// Sections of the engine report: bearings, free forces and moments.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "engine_report_parts.hpp"
+
+namespace crankloop::program {
+namespace {
+
+using report::Axis;
+using report::Paragraph;
+using report::Plot;
+using report::Section;
+
+constexpr double kKilo = 1e-3;
+constexpr std::size_t kMostCurves = 6;  // colours there are
+
+Axis force_axis(const std::string& title) {
+  Axis axis;
+  axis.title = title;
+  axis.unit = "kN";
+  return axis;
+}
+
+double mean_of(const std::vector<double>& values) {  // without the last, which is the first of the next cycle
+  return std::accumulate(values.begin(), values.end() - 1, 0.0) / static_cast<double>(values.size() - 1);
+}
+
+std::size_t most_loaded(const std::vector<std::vector<double>>& loads) {
+  std::size_t most = 0;
+  for (std::size_t i = 1; i < loads.size(); ++i) {
+    if (span_of(loads[i]).high > span_of(loads[most]).high) most = i;
+  }
+  return most;
+}
+
+Plot polar(const std::string& title, const std::string& x, const std::string& y, const std::vector<double>& along,
+           const std::vector<double>& across, const Trace& trace) {
+  Plot plot;
+  plot.title = title;
+  plot.x = force_axis(x);
+  plot.y = force_axis(y);
+  report::Series loop;
+  loop.x = scaled(along, kKilo);
+  loop.y = scaled(across, kKilo);
+  loop.style.closed = true;
+  std::size_t peak = 0;
+  for (std::size_t i = 0; i < along.size(); ++i) {
+    if (std::hypot(along[i], across[i]) > std::hypot(along[peak], across[peak])) peak = i;
+  }
+  report::Series centre{"", {0}, {0}, {}};
+  centre.style.draw = report::Draw::points;
+  centre.style.colour = 6;
+  plot.markers.push_back({loop.x[peak], loop.y[peak],
+                          number_text(std::hypot(along[peak], across[peak]) * kKilo, 3) + " kN at " +
+                              number_text(trace.crank_deg[peak], 3) + " deg",
+                          0});
+  plot.series = {std::move(loop), std::move(centre)};
+  use_equal_scales(plot);
+  return plot;
+}
+
+std::string numbered(const char* what, std::size_t index) { return std::string(what) + " " + std::to_string(index + 1); }
+
+/// Which cylinders' rods a crank pin carries: "1" or "1, 2".
+std::string rods_on(const Layout& layout, std::size_t pin) {
+  std::string text;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
+    if (layout.pin[k] == pin) text += (text.empty() ? "" : ", ") + std::to_string(k + 1);
+  }
+  return text;
+}
+
+void add_load_row(report::Table& table, const Trace& trace, const std::string& name, const std::vector<double>& load) {
+  const std::size_t at = index_of_largest(load);
+  table.rows.push_back(
+      {name, report::format_fixed(load[at], 0), report::format_fixed(trace.crank_deg[at], 2), report::format_fixed(mean_of(load), 0)});
+}
+
+}  // namespace
+
+report::Section bearing_section(const ReportInput& input) {
+  const Trace& trace = input.trace;
+  const Layout& layout = input.exact.definition().layout;
+  Section section{"bearings", "Crank pin and main journals", {}};
+  section.blocks.push_back(
+      Paragraph{"Loads turn with the crankshaft: their loops show where pin and journal wear. The pin carries the rod force and the rod "
+                "big end's centrifugal force; journals carry the throws beside them, each taken as simply supported between its two."});
+
+  const std::size_t first_pin = layout.pin[0];
+  Plot loop = polar("Crank pin load of cylinder 1, polar", "Radial, toward the crank centre", "Tangential, with the rotation",
+                    trace[Quantity::pin_radial], trace[Quantity::pin_tangential], trace);
+  loop.caption = "The load as a vector; one unit is equally long on both axes. Dot: no load.";
+  section.blocks.push_back(std::move(loop));
+  Plot pin = with_extremes(plot_over_angle(input, "Crank pin load of cylinder 1", force_axis("Load"),
+                                           {over_angle(trace, "", trace.pin_load_N[first_pin], kKilo)}));
+  const std::string rods = rods_on(layout, first_pin);
+  if (rods.find(',') != std::string::npos) pin.caption = "The pin is shared by the rods of cylinders " + rods + ".";
+  section.blocks.push_back(std::move(pin));
+
+  const std::size_t journal = most_loaded(trace.journal_load_N);
+  Plot journal_loop = polar("Main " + numbered("journal", journal) + ", the most loaded, polar", "Along the throw of the first pin, outward",
+                            "Across it, with the rotation", trace.journal_along_N[journal], trace.journal_across_N[journal], trace);
+  section.blocks.push_back(std::move(journal_loop));
+  std::vector<std::size_t> order(trace.journal_load_N.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return span_of(trace.journal_load_N[a]).high > span_of(trace.journal_load_N[b]).high;
+  });
+  const bool all = order.size() <= kMostCurves;
+  if (!all) order.resize(kMostCurves);
+  std::sort(order.begin(), order.end());
+  std::vector<report::Series> curves;
+  for (const std::size_t j : order) curves.push_back(over_angle(trace, numbered("journal", j), trace.journal_load_N[j], kKilo));
+  Plot journals = plot_over_angle(input, "Main journal loads", force_axis("Load"), std::move(curves));
+  if (has_gas(input) && layout.cylinders > 1) journals.bands = firings(layout);
+  journals.caption = all ? "Numbered along the crankshaft." : "The six most loaded, numbered along the crankshaft.";
+  section.blocks.push_back(std::move(journals));
+
+  const std::vector<report::Column> columns{{"", "", false}, {"Largest load", "N"}, {"at", "deg"}, {"Mean load", "N"}};
+  report::Table pins{"Crank pins", columns, {}, false};
+  for (std::size_t i = 0; i < trace.pin_load_N.size(); ++i) {
+    add_load_row(pins, trace, numbered("Pin", i) + " (cylinder " + rods_on(layout, i) + ")", trace.pin_load_N[i]);
+  }
+  section.blocks.push_back(std::move(pins));
+  report::Table mains{"Main journals", columns, {}, false};
+  for (std::size_t j = 0; j < trace.journal_load_N.size(); ++j) add_load_row(mains, trace, numbered("Journal", j), trace.journal_load_N[j]);
+  section.blocks.push_back(std::move(mains));
+
+  std::vector<AngleColumn> table{{"Pin radial", "N", &trace[Quantity::pin_radial]},
+                                 {"Pin tangential", "N", &trace[Quantity::pin_tangential]},
+                                 {"Pin load", "N", &trace.pin_load_N[first_pin]}};
+  for (std::size_t j = 0; j < trace.journal_load_N.size(); ++j) table.push_back({numbered("Journal", j), "N", &trace.journal_load_N[j]});
+  section.blocks.push_back(table_over_angle(trace, "Table: loads of the first crank pin and of the main journals", table));
+  return section;
+}
+
+report::Section balance_section(const ReportInput& input) {
+  const Trace& trace = input.trace;
+  const Balance<double> balance = balance_of(input.exact.definition());
+  const double w2 = input.operation.speed_rad_s() * input.operation.speed_rad_s();
+  const double unit_N = input.exact.definition().masses.reciprocating_kg() * input.exact.definition().crank.crank_radius_m * w2;
+  Section section{"balance", "Free forces and moments", {}};
+  section.blocks.push_back(
+      Paragraph{"What the moving masses do to the mounts; gas forces close inside the engine. Moments are about the middle of the "
+                "crankshaft. Counterweights are not part of the definition, so rotating masses are not balanced here."});
+  report::Table table{"Largest over a turn", {{"", "", false}, {"Force", "N"}, {"Relative", "%"}, {"Moment", "Nm"}}, {}, false};
+  const auto row = [&](const char* name, const Turning<double>& t) {
+    const double force = peak_force_kg_m(t) * w2;
+    table.rows.push_back({name, report::format_fixed(force, 1), report::format_fixed(100 * force / unit_N, 1),
+                          report::format_fixed(peak_moment_kg_m2(t) * w2, 1)});
+  };
+  row("First order", balance.first);
+  row("Second order", balance.second);
+  row("Rotating", balance.rotating);
+  section.blocks.push_back(std::move(table));
+  section.blocks.push_back(Paragraph{"Relative to the first order of one cylinder: reciprocating mass times r \u03C9\u00B2, " +
+                                     number_text(unit_N, 5) + " N."});
+
+  std::vector<report::Series> curves;
+  const double noise_N = 1e-5 * unit_N;  // rounding of float, of a force that balances
+  const auto add = [&](const char* name, const std::vector<double>& values) {
+    const Span span = span_of(values);
+    if (std::max(-span.low, span.high) > noise_N) curves.push_back(over_angle(trace, name, values, kKilo));
+  };
+  add("first order, up", trace.first_up_N);
+  add("first order, lateral", trace.first_lateral_N);
+  add("second order, up", trace.second_up_N);
+  add("second order, lateral", trace.second_lateral_N);
+  add("rotating, up", trace.rotating_up_N);
+  add("rotating, lateral", trace.rotating_lateral_N);
+  if (curves.empty()) {
+    section.blocks.push_back(Paragraph{"No free force of these orders: the engine is balanced."});
+    return section;
+  }
+  const std::string title = curves.size() > 1 ? "Free forces" : "Free force, " + curves[0].name;
+  Plot plot = plot_over_angle(input, title, force_axis("Force"), std::move(curves));
+  plot.bands.clear();
+  plot.caption = "Up is bank angle 0, lateral a quarter turn on in the sense of rotation. Orders that balance are not drawn.";
+  section.blocks.push_back(std::move(plot));
+  return section;
+}
+
+}  // namespace crankloop::program

@@ -1,0 +1,264 @@
+// `crankloop run FILE`: the fixed-step loop over some cycles, its figures, its ticks as CSV, its report.
+#include <unistd.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <crankloop/tabulate/mechanism.hpp>
+#include <crankloop/tabulate/summary.hpp>
+
+#include "commands.hpp"
+#include "csv.hpp"
+#include "engine_file.hpp"
+#include "engine_report.hpp"
+#include "port/linux/stopwatch.hpp"
+#include "run_accuracy.hpp"
+#include "run_loop.hpp"
+#include "run_trace.hpp"
+
+namespace crankloop::program {
+namespace {
+
+/// A percentage on a terminal's stderr once a second has passed; erased at the end.
+class Progress {
+ public:
+  explicit Progress(double ticks) : ticks_{ticks}, on_{::isatty(STDERR_FILENO) != 0} {}
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  ~Progress() {
+    if (shown_) std::fprintf(stderr, "\r\033[K");
+  }
+
+  void tick() {
+    if (!on_ || ++done_ % kTicksPerLook != 0) return;
+    const std::int64_t now_ns = stopwatch_.elapsed_ns();
+    if (now_ns < next_ns_) return;
+    next_ns_ = now_ns + kPeriod_ns;
+    shown_ = true;
+    std::fprintf(stderr, "\rrunning: %.0f %%", 100 * static_cast<double>(done_) / ticks_);
+  }
+
+ private:
+  static constexpr std::uint64_t kTicksPerLook = 4096;
+  static constexpr std::int64_t kPeriod_ns = 200'000'000;
+
+  double ticks_;
+  bool on_;
+  bool shown_ = false;
+  std::uint64_t done_ = 0;
+  std::int64_t next_ns_ = 1'000'000'000;
+  port::Stopwatch stopwatch_;
+};
+
+/// Six significant digits: enough to read, and none of float's noise. CSV has all there are.
+std::string six_digits(double value) {
+  char buffer[40];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value == 0 ? 0 : value, std::chars_format::general, 6);
+  return std::string(buffer, end.ptr);
+}
+
+/// Lines "name = value unit", and remarks after '#'.
+class Summary {
+ public:
+  void remark(const std::string& text) { text_ += "# " + text + "\n"; }
+  void line(const std::string& name, double value, const std::string& unit = "", const std::string& remark = "") {
+    text_ += name + " = " + six_digits(value) + (unit.empty() ? "" : " " + unit) + (remark.empty() ? "" : "  # " + remark) + "\n";
+  }
+  void peak(const std::string& name, Peak peak, double per_si, const std::string& unit) {
+    line(name, peak.value * per_si, unit);
+    line(name + "_at", std::round(peak.at_deg * 1e3) / 1e3, "deg");
+  }
+  void peaks(const std::string& name, const Peaks& peaks, double per_si, const std::string& unit) {
+    peak("largest_" + name, peaks.largest, per_si, unit);
+    peak("smallest_" + name, peaks.smallest, per_si, unit);
+  }
+  [[nodiscard]] const std::string& text() const noexcept { return text_; }
+
+ private:
+  std::string text_;
+};
+
+std::vector<std::string> csv_header(int cylinders) {
+  std::vector<std::string> header{"time_s", "crank_deg", "speed_rpm", "torque_Nm", "mean_torque_Nm"};
+  for (int k = 1; k <= cylinders; ++k) {
+    for (std::size_t i = 0; i < kCsvQuantities; ++i) {
+      header.push_back("c" + std::to_string(k) + "_" + kQuantityKinds[i].name + "_" + kQuantityKinds[i].suffix);
+    }
+  }
+  return header;
+}
+
+template <class Real>
+void write_row(CsvWriter& csv, const Layout& layout, const Operation& operation, std::uint64_t tick, double crank_deg,
+               const WholeOutput<Real>& out) {
+  csv.cell(static_cast<double>(tick) * operation.tick_s);
+  csv.cell(crank_deg);
+  csv.cell(operation.speed_rpm);
+  csv.cell(out.torque_Nm);
+  csv.cell(out.mean_torque_Nm);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
+    for (std::size_t i = 0; i < kCsvQuantities; ++i) {
+      csv.cell(value_of(out, kQuantityKinds[i].quantity, place_of(layout, k)) * static_cast<Real>(kQuantityKinds[i].per_si));
+    }
+  }
+  csv.end_row();
+}
+
+/// What the user asked for.
+struct Request {
+  Operation operation;
+  int cycles;
+  std::string real;
+  std::string csv_path;     ///< empty: none
+  std::string report_path;  ///< empty: none
+};
+
+struct Engines {
+  const EngineFile& file;
+  const ExactEngine& exact;
+  const CycleSummary& summary;
+
+  [[nodiscard]] bool has_gas() const noexcept { return exact.definition().pressure.source != PressureSource::none; }
+};
+
+std::string summary_text(const Engines& engine, const Request& request, const RunFigures& f, double wall_time_per_tick_ns) {
+  const EngineDefinition& definition = engine.exact.definition();
+  const double speed = request.operation.speed_rad_s();
+  Summary s;
+  s.remark(engine.file.name() + ", fixed-step loop in " + request.real + (engine.has_gas() ? "" : ", no pressure source: inertia only"));
+  s.remark("angles: torque and journals from cylinder 1's firing TDC, all else from that of the cylinder itself");
+  s.remark("largest and smallest are over the ticks, every " + six_digits(f.deg_per_tick) + " deg");
+  s.line("speed", request.operation.speed_rpm, "rpm");
+  if (engine.has_gas()) s.line("load_ratio", request.operation.load_ratio);
+  s.line("tick", request.operation.tick_s * 1e6, "us");
+  s.line("ticks_per_cycle", 720 / f.deg_per_tick);
+  s.line("cycles", f.cycles);
+  s.line("ticks", static_cast<double>(f.ticks), "", "after " + std::to_string(f.settling_ticks) + " to settle");
+  s.line("mean_torque", f.mean_torque_Nm, "Nm");
+  if (engine.has_gas()) {
+    s.line("power", f.power_W / 1e3, "kW", "indicated: friction is not subtracted");
+    s.line("net_mep", f.net_mep_Pa / 1e3, "kPa");
+    s.line("net_mep_exact", engine.summary.net_mep_Pa / 1e3, "kPa", "loop integral of p dV");
+    s.line("gross_mep_exact", engine.summary.gross_mep_Pa / 1e3, "kPa", "over the closed 360 deg");
+  }
+  s.peaks("torque", f.torque, 1, "Nm");
+  for (const Quantity quantity : {Quantity::pressure, Quantity::gas_force}) {
+    const QuantityKind& kind = kQuantityKinds[index_of(quantity)];
+    if (engine.has_gas()) s.peak(std::string("largest_") + kind.name, f.of[index_of(quantity)].largest, kind.per_si, kind.unit);
+  }
+  for (const Quantity quantity : {Quantity::inertia_force, Quantity::total_force, Quantity::side_force, Quantity::rod_force,
+                                  Quantity::tangential_force, Quantity::radial_force}) {
+    const QuantityKind& kind = kQuantityKinds[index_of(quantity)];
+    s.peaks(kind.name, f.of[index_of(quantity)], kind.per_si, kind.unit);
+  }
+  s.peak("largest_crank_pin_load", f.of[index_of(Quantity::crank_pin_load)].largest, 1, "N");
+  s.peak("largest_main_journal_load", f.journal_load.largest, 1, "N");
+  s.peaks("velocity", f.of[index_of(Quantity::velocity)], 1, "m/s");
+  s.peaks("acceleration", f.of[index_of(Quantity::acceleration)], 1, "m/s^2");
+  s.line("mean_piston_speed", mean_piston_speed_m_s(definition.crank, speed), "m/s");
+  s.line("stroke", dead_centres(definition.crank).stroke_m * 1e3, "mm", "true one, with the pin offset");
+  s.line("swept_volume", swept_volume_m3(definition.crank) * 1e6, "cm^3", "one cylinder");
+  s.line("table_gas_segments", f.tables.gas_segments);
+  s.line("table_pressure_error", f.tables.pressure_error_Pa, "Pa");
+  s.line("faulty_ticks", static_cast<double>(f.faulty_ticks));
+  s.line("wall_time_per_tick", wall_time_per_tick_ns, "ns",
+         "this machine: median of " + std::to_string(FixedStepLoop<float>::kBatches) + " batches of " +
+             std::to_string(FixedStepLoop<float>::kBatchTicks) + " steps, nothing recorded");
+  return s.text();
+}
+
+std::string command_line(const Arguments& arguments, const Request& request) {
+  std::string text = "crankloop run " + arguments.file() + " --rpm " + shortest(request.operation.speed_rpm) + " --tick-us " +
+                     shortest(arguments.number("--tick-us")) + " --cycles " + std::to_string(request.cycles) + " --real " + request.real +
+                     " --load-ratio " + shortest(request.operation.load_ratio);
+  return text;
+}
+
+template <class Real>
+int run(const Engines& engine, const Request& request, const Arguments& arguments) {
+  const EngineDefinition& definition = engine.exact.definition();
+  const Operation& operation = request.operation;
+  Progress progress((request.cycles + 1) * 720 / (operation.speed_rad_s() * kDegPerRad * operation.tick_s));
+  FixedStepLoop<Real> loop(definition, operation, 0, [&progress] { progress.tick(); });
+
+  std::optional<Output> csv_file;
+  std::optional<CsvWriter> csv;
+  std::optional<Output> report_file;
+  if (!request.csv_path.empty()) csv_file.emplace(request.csv_path);
+  if (!request.report_path.empty()) report_file.emplace(request.report_path);
+  if (csv_file) csv.emplace(*csv_file, csv_header(definition.layout.cylinders));
+
+  const CloseUpWindow window = close_up_window(engine.summary.largest_torque_deg, loop.deg_per_tick());
+  std::vector<CloseUpTick> close_up;
+  const OnTick<Real> on_tick = [&](std::uint64_t tick, double crank_deg, const WholeOutput<Real>& out) {
+    if (csv) write_row(*csv, definition.layout, operation, tick, crank_deg, out);
+    if (static_cast<double>(tick) <= loop.ticks_per_cycle() && window.contains(crank_deg)) {
+      close_up.push_back({crank_deg, static_cast<double>(out.torque_Nm), static_cast<double>(out.mean_torque_Nm)});
+    }
+    progress.tick();
+  };
+  const RunFigures figures = run_cycles<Real>(loop, definition, operation, request.cycles, on_tick);
+  const double wall_time_per_tick_ns = loop.wall_time_per_tick_ns();
+
+  if (report_file) {
+    const Trace trace = record_trace<Real>(definition, operation);
+    const Accuracy accuracy = measure_accuracy<Real>(engine.exact, operation);
+    const ReportInput input{engine.file, engine.exact, engine.summary, operation,    figures, trace, accuracy, close_up,
+                            request.real, command_line(arguments, request), wall_time_per_tick_ns};
+    report_file->write(report::to_html(engine_report(input)));
+  }
+  if (csv_file) csv_file->finish();
+  if (report_file) report_file->finish();
+  const std::string summary = summary_text(engine, request, figures, wall_time_per_tick_ns);
+  if (request.csv_path == "-" || request.report_path == "-") {
+    std::fputs(summary.c_str(), stderr);
+  } else {
+    Output out = Output::standard();
+    out.write(summary);
+    out.finish();
+  }
+  return kSuccess;
+}
+
+int run_run(const Arguments& arguments) {
+  const EngineFile file = read_engine_file(arguments.file(), {"engine", "crank", "masses"});
+  const EngineDefinition& definition = file.definition();
+  if (arguments.has("--load-ratio") && definition.pressure.source == PressureSource::none) {
+    throw InputError(file.path() + ": there is no pressure source, so --load-ratio has nothing to scale");
+  }
+  const Operation operation{arguments.has("--rpm") ? arguments.number("--rpm") : file.rated_rpm(), arguments.number("--tick-us") / 1e6,
+                            arguments.number("--load-ratio")};
+  const Request request{operation, arguments.whole_number("--cycles"), arguments.text("--real"),
+                        arguments.text_or_empty("--csv"), arguments.text_or_empty("--report")};
+  ExactEngine exact;
+  if (const Status refused = exact.init(definition); !refused.ok()) throw file.explain(refused);
+  const CycleSummary summary = summarise(exact, operation.speed_rad_s(), operation.load_ratio);
+  const Engines engine{file, exact, summary};
+  return request.real == "float" ? run<float>(engine, request, arguments) : run<double>(engine, request, arguments);
+}
+
+constexpr Option kOptions[] = {
+    number("--rpm", "N", above(0).up_to(100000), "engine speed in rpm; default the file's rated_rpm"),
+    number("--tick-us", "T", from(1).up_to(2000), "length of a tick in us", "100"),
+    whole_number("--cycles", "N", from(1).up_to(1000000), "cycles of 720 deg to record, after one to settle", "2"),
+    choice("--real", "float|double", "arithmetic of the tick, and digits of the CSV", "float"),
+    number("--load-ratio", "Q", from(0).up_to(2), "0 = motored, 1 = the pressure diagram as it is", "1"),
+    text("--csv", "F", "file for a row per tick; - is standard output, the summary then goes to stderr"),
+    text("--report", "F.html", "file for the report, which any browser shows"),
+};
+
+}  // namespace
+
+const Command kRun{"run",
+                   "the fixed-step loop: torque, power, peak forces, time per tick; CSV and report",
+                   "FILE [--rpm N] [--tick-us T] [--cycles N] [--real R] [--load-ratio Q] [--csv F] [--report F.html]",
+                   "crankloop run diesel_495.ini --rpm 2000 --csv run.csv --report report.html",
+                   1,
+                   kOptions,
+                   run_run};
+
+}  // namespace crankloop::program

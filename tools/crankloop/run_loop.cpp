@@ -1,0 +1,133 @@
+#include "run_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <crankloop/tabulate/mechanism.hpp>
+#include <crankloop/tabulate/summary.hpp>
+
+#include "error.hpp"
+#include "number.hpp"
+#include "port/linux/stopwatch.hpp"
+
+namespace crankloop::program {
+namespace {
+
+constexpr double kDegPerUnit = 720.0 / 18446744073709551616.0;  // 2^64 units are a cycle
+constexpr double kRadPerCycle = 4 * 3.14159265358979323846;
+
+/// Of a tick: less than this beyond the last cycle is rounding of the phase increment, and no reason for another tick.
+constexpr double kHairOfATick = 1e-3;
+
+std::string digits(double value) { return significant(static_cast<float>(value)); }
+
+/// Definition and tick are valid and the tables have room, so that a refusal here is a defect of the program.
+void require(const Status& status) {
+  if (!status.ok()) throw std::logic_error(std::string(status.field) + " " + describe(status.reason));
+}
+
+Phase phase_at(double engine_deg) { return Phase::from_cycles(engine_deg / 720); }
+
+void require_ticks(double ticks, const Operation& operation) {
+  if (ticks <= kMostTicks) return;
+  throw UsageError("the run would take " + digits(ticks) + " ticks of " + digits(operation.tick_s * 1e6) + " us, at most " +
+                   digits(kMostTicks) + " are allowed: take a longer --tick-us, fewer --cycles or a higher --rpm");
+}
+
+}  // namespace
+
+template <class Real>
+FixedStepLoop<Real>::FixedStepLoop(const EngineDefinition& definition, const Operation& operation, double start_deg,
+                                   const std::function<void()>& after_tick) {
+  require(tables_->build(definition, {operation.tick_s}, &report_));
+  const Drive<Real>& drive = *tables_->tables().drive;
+  input_.speed_rad_s = static_cast<Real>(operation.speed_rad_s());
+  input_.load_ratio = static_cast<Real>(operation.load_ratio);
+  if (!(input_.speed_rad_s <= drive.speed_limit_rad_s)) {
+    const double limit_rpm = std::floor(static_cast<double>(drive.speed_limit_rad_s) / operation.speed_rad_s() * operation.speed_rpm);
+    throw UsageError(digits(operation.speed_rpm) + " rpm is too fast for a tick of " + digits(operation.tick_s * 1e6) +
+                     " us: at most one revolution per tick, here " + digits(limit_rpm) + " rpm");
+  }
+  require_ticks(720 / (operation.speed_rad_s() * kDegPerRad * operation.tick_s), operation);
+
+  // At constant speed all ticks turn the crank equally far: one tells how far.
+  require(engine_.init(tables_->tables()));
+  engine_.step(input_);
+  turned_ = engine_.state().phase;
+  deg_per_tick_ = static_cast<double>(turned_.units()) * kDegPerUnit;
+  settling_ticks_ = static_cast<std::uint64_t>(std::ceil(ticks_per_cycle()));
+  const Phase settling{settling_ticks_ * turned_.units()};
+  require(engine_.init(tables_->tables(), phase_at(start_deg) - settling));
+  for (std::uint64_t i = 0; i < settling_ticks_; ++i) {
+    engine_.step(input_);
+    if (after_tick) after_tick();
+  }
+}
+
+template <class Real>
+double FixedStepLoop<Real>::crank_deg() const noexcept {
+  const double deg = static_cast<double>(engine_.state().phase.units()) * kDegPerUnit;
+  return deg < 720 ? deg : 0;  // the last 2^10 units round up to 720
+}
+
+template <class Real>
+double FixedStepLoop<Real>::wall_time_per_tick_ns() noexcept {
+  std::array<double, kBatches> batch{};
+  for (double& per_tick_ns : batch) {
+    const port::Stopwatch stopwatch;
+    for (int i = 0; i < kBatchTicks; ++i) engine_.step(input_);
+    per_tick_ns = static_cast<double>(stopwatch.elapsed_ns()) / kBatchTicks;
+  }
+  std::nth_element(batch.begin(), batch.begin() + kBatches / 2, batch.end());
+  return batch[kBatches / 2];
+}
+
+template <class Real>
+RunFigures run_cycles(FixedStepLoop<Real>& loop, const EngineDefinition& definition, const Operation& operation, int cycles,
+                      const OnTick<Real>& on_tick) {
+  const Layout& layout = definition.layout;
+  const auto cylinders = static_cast<std::size_t>(layout.cylinders);
+  const std::uint32_t journals = bearings_of(definition).pins + 1;
+  const double span = cycles * loop.ticks_per_cycle();
+  require_ticks(span, operation);
+
+  RunFigures f;
+  f.cycles = cycles;
+  f.ticks = static_cast<std::uint64_t>(std::max(1.0, std::ceil(span - kHairOfATick)));
+  f.settling_ticks = loop.settling_ticks();
+  f.deg_per_tick = loop.deg_per_tick();
+  f.tables = loop.tables();
+  const double last_part = span - static_cast<double>(f.ticks - 1);
+  double torque_sum_Nm = 0;
+  for (std::uint64_t tick = 1; tick <= f.ticks; ++tick) {
+    const WholeOutput<Real>& out = loop.step();
+    const double engine_deg = loop.crank_deg();
+    torque_sum_Nm += static_cast<double>(out.mean_torque_Nm) * (tick == f.ticks ? last_part : 1);
+    f.torque.take(static_cast<double>(out.torque_Nm), engine_deg);
+    for (std::size_t k = 0; k < cylinders; ++k) {
+      const double from_firing_deg = engine_deg - layout.firing_deg[k];
+      const double own_deg = from_firing_deg < 0 ? from_firing_deg + 720 : from_firing_deg;
+      const CylinderPlace place = place_of(layout, k);
+      for (const QuantityKind& kind : kQuantityKinds) {
+        f.of[index_of(kind.quantity)].take(static_cast<double>(value_of(out, kind.quantity, place)), own_deg);
+      }
+    }
+    for (std::size_t j = 0; j < journals; ++j) f.journal_load.take(static_cast<double>(out.journal_load_N[j]), engine_deg);
+    f.faulty_ticks += out.faults != 0 ? 1 : 0;
+    f.faults |= out.faults;
+    if (on_tick) on_tick(tick, engine_deg, out);
+  }
+  f.mean_torque_Nm = torque_sum_Nm / span;
+  f.power_W = f.mean_torque_Nm * operation.speed_rad_s();
+  f.net_mep_Pa = f.mean_torque_Nm * kRadPerCycle / (layout.cylinders * swept_volume_m3(definition.crank));
+  return f;
+}
+
+template class FixedStepLoop<float>;
+template class FixedStepLoop<double>;
+template RunFigures run_cycles(FixedStepLoop<float>&, const EngineDefinition&, const Operation&, int, const OnTick<float>&);
+template RunFigures run_cycles(FixedStepLoop<double>&, const EngineDefinition&, const Operation&, int, const OnTick<double>&);
+
+}  // namespace crankloop::program
