@@ -9,7 +9,8 @@
 
 namespace crankloop::port {
 
-/// Nanoseconds since a fixed moment. CLOCK_MONOTONIC: never goes back when the time of day is set. A reading costs some 20 ns.
+/// Nanoseconds since a fixed moment. CLOCK_MONOTONIC: never goes back when the time of day is set. A reading costs some
+/// 20 ns.
 [[nodiscard]] inline std::int64_t now_ns() noexcept {
   timespec time{};
   ::clock_gettime(CLOCK_MONOTONIC, &time);

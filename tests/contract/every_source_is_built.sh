@@ -5,13 +5,13 @@ set -eu
 cd "$1"
 
 bad=0
-# sources_listed FOLDER LISTS BASE: every source in FOLDER is in LISTS, by its path below BASE.
+# sources_listed FOLDER LISTS BASE PATTERN: every such source in FOLDER is in LISTS, by its path below BASE.
 sources_listed() {
-  for source in $(find "$1" -name '*.cpp' | sort); do
+  for source in $(find "$1" -name "$4" | sort); do
     grep -qE "(^|[ (/])${source#"$3"/}( |\)|\$)" "$2" || { echo "$source is not in $2" && bad=$((bad + 1)); }
   done
 }
-sources_listed core/src core/CMakeLists.txt core
-sources_listed tools/crankloop tools/CMakeLists.txt tools
-for kind in unit property golden; do sources_listed "tests/$kind" tests/CMakeLists.txt "tests/$kind"; done
+sources_listed core/src core/CMakeLists.txt core '*.cpp'
+sources_listed tools/crankloop tools/CMakeLists.txt tools '*.cpp'
+for kind in unit property golden contract; do sources_listed "tests/$kind" tests/CMakeLists.txt "tests/$kind" '*_test.cpp'; done
 [ "$bad" -eq 0 ]

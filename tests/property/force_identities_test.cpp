@@ -244,8 +244,9 @@ TEST(CycleWork, OfTheGasForceIsTheLoopOfThePressureVolumeDiagramAndTheMeanEffect
     SCOPED_TRACE(random.trace(draw));
     EngineDefinition definition = diesel_495();
     if (draw > 0) {
-      definition.crank = support::random_crank(random);
-      definition.masses = support::random_engine(random).definition.masses;
+      const support::RandomEngine made = support::random_engine(random);
+      definition.crank = made.definition.crank;
+      definition.masses = made.definition.masses;
     }
     const ExactEngine engine = ready(definition);
     const double swept = support::swept_m3(definition.crank);

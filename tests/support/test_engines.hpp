@@ -35,13 +35,13 @@ inline EngineDefinition with_cylinders(EngineDefinition engine, const std::vecto
 /// The four-cylinder 495: firing order 1-3-4-2.
 inline EngineDefinition diesel_495() { return with_cylinders(single_495(), {0, 540, 180, 360}); }
 
-/// A 90 deg V4 that fires unevenly, with pairs of rods on shared pins, a pin offset and two cylinders that fire together.
+/// A 90 deg V4 that fires unevenly: two rods on a shared pin, two cylinders that fire together, a pin offset.
 inline EngineDefinition uneven_v4() {
   EngineDefinition engine = with_cylinders(single_495(), {0, 90, 450, 0});
   engine.crank.pin_offset_m = 0.004;
   engine.layout.bank_deg = {0, 90, 90, 0};
-  engine.layout.position_m = {0, 0.02, 0.16, 0.14};
-  engine.layout.pin = {0, 0, 1, 2};
+  engine.layout.position_m = {0, 0.02, 0.14, 0.16};
+  engine.layout.pin = {0, 0, 1, 2};  // throws all point the same way
   return engine;
 }
 

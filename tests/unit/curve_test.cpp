@@ -138,12 +138,12 @@ TEST(GasGrid, EveryDivisionOfADegreeBeginsOnTimeAndItsLastUnitIsStillInside) {
   grid.first[720] = static_cast<std::uint16_t>(next);
   for (std::uint32_t degree = 0; degree < 720; ++degree) {
     const std::uint64_t n = divisions[degree % 5];
-    EXPECT_EQ(grid.segment({degree, 0}), grid.first[degree]);
-    EXPECT_EQ(grid.segment({degree, 0xFFFF'FFFFu}), grid.first[degree] + n - 1u);
+    EXPECT_EQ(grid.segment({degree, 0, 0}), grid.first[degree]);
+    EXPECT_EQ(grid.segment({degree, 0xFFFF'FFFFu, 0}), grid.first[degree] + n - 1u);
     for (std::uint64_t i = 1; i < n; ++i) {
       const std::uint64_t first = ((i << 32) + n - 1) / n;  // the first unit not before i/n of the degree
-      EXPECT_EQ(grid.segment({degree, static_cast<std::uint32_t>(first)}), grid.first[degree] + i);
-      EXPECT_EQ(grid.segment({degree, static_cast<std::uint32_t>(first - 1)}), grid.first[degree] + i - 1);
+      EXPECT_EQ(grid.segment({degree, static_cast<std::uint32_t>(first), 0}), grid.first[degree] + i);
+      EXPECT_EQ(grid.segment({degree, static_cast<std::uint32_t>(first - 1), 0}), grid.first[degree] + i - 1);
     }
   }
 }
@@ -151,8 +151,8 @@ TEST(GasGrid, EveryDivisionOfADegreeBeginsOnTimeAndItsLastUnitIsStillInside) {
 TEST(GasGrid, TheFinestGridOfAllStillCounts) {
   static GasGrid grid;  // 14400 segments, 20 in every degree
   for (std::uint32_t degree = 0; degree <= 720; ++degree) grid.first[degree] = static_cast<std::uint16_t>(20 * degree);
-  EXPECT_EQ(grid.segment({719, 0xFFFF'FFFFu}), 14'399u);
-  EXPECT_EQ(grid.segment({0, 0}), 0u);
+  EXPECT_EQ(grid.segment({719, 0xFFFF'FFFFu, 0}), 14'399u);
+  EXPECT_EQ(grid.segment({0, 0, 0}), 0u);
 }
 
 }  // namespace

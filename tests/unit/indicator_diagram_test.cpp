@@ -729,6 +729,19 @@ TEST(SynthesisedDiagram, RefusesAMeanEffectivePressureThatTakesNegativeHeat) {
   EXPECT_TRUE(refuses(diagram.init(support::diesel_495_crank(), wiebe_pressure(w)), Reason::no_solution, "pressure.net_mep"));
 }
 
+TEST(SynthesisedDiagram, RefusesAnExhaustValveThatOpensAfterTheBottomDeadCentreOfAnOffsetEngine) {
+  // With the pin offset to the other side bottom dead centre comes before 180 deg: at 170.6 deg here.
+  Crank crank = support::diesel_495_crank();
+  crank.rod_length_m = crank.crank_radius_m / 0.45;
+  crank.pin_offset_m = -0.2 * crank.crank_radius_m;
+  WiebeDiagram w = wiebe_495();
+  w.exhaust_valve_opens_deg = 170.5;
+  IndicatorDiagram diagram;
+  EXPECT_TRUE(diagram.init(crank, wiebe_pressure(w)).ok());
+  w.exhaust_valve_opens_deg = 175;
+  EXPECT_TRUE(refuses(diagram.init(crank, wiebe_pressure(w)), Reason::inconsistent, "pressure.exhaust_valve_opens"));
+}
+
 TEST(SynthesisedDiagram, RefusesWhatItsDefinitionRefuses) {
   IndicatorDiagram diagram;
   Crank crank = support::diesel_495_crank();

@@ -197,28 +197,44 @@ TYPED_TEST(PhaseOf, AnyPhaseFindsItsPlaceToTheLastDigitTheScalarCanUse) {
     if (got.degree < 719) {
       ASSERT_LT(units & kept, first_unit_of_part(got.degree + 1, 720)) << random.trace(draw);
     }
-    // The border lies up to one unit before the first unit, which is 720 * 2^-32 units of `into`.
-    const auto since_border = static_cast<long double>((units & kept) - units_of_part(got.degree, 720));
-    ASSERT_LE(std::fabs(since_border * (720.0L / 4294967296.0L) - static_cast<long double>(got.into)), 1.0L) << random.trace(draw);
+    // `into` and `rest` are the way from the border in 2^-64 deg: 720 of them to a unit, and the border lies up to one unit before the first.
+    const auto since_border = static_cast<long double>((units & kept) - units_of_part(got.degree, 720)) * 720;
+    const auto way = static_cast<long double>((std::uint64_t{got.into} << 32) + got.rest);
+    ASSERT_LE(std::fabs(since_border - way), 720.0L) << random.trace(draw);
+    if (sizeof(Real) == 4) {
+      ASSERT_EQ(got.rest, 0u);
+    }
   }
+}
+
+TYPED_TEST(PhaseOf, AWholeCircleMayBeDividedOtherwise) {
+  using Real = TypeParam;
+  // A camshaft's turn is 2^64 units too, in 360 deg of its own.
+  EXPECT_EQ(cell_of<Real>(0, 360).degree, 0u);
+  EXPECT_EQ(cell_of<Real>(kHalfCycle, 360).degree, 180u);
+  EXPECT_EQ(cell_of<Real>(kHalfCycle - 1, 360).degree, 179u);
+  EXPECT_EQ(cell_of<Real>(kLastUnit, 360).degree, 359u);
+  EXPECT_LT(fraction<Real>(cell_of<Real>(kLastUnit, 360)), Real{1});
+  EXPECT_EQ(fraction<Real>(cell_of<Real>(std::uint64_t{1} << 61, 4)), Real{0.5});
 }
 
 TYPED_TEST(PhaseOf, FractionRisesFromZeroAndStaysBelowOne) {
   using Real = TypeParam;
-  EXPECT_EQ(fraction<Real>(0), Real{0});
-  EXPECT_EQ(fraction<Real>(0x8000'0000u), Real{0.5});
-  EXPECT_EQ(fraction<Real>(0x4000'0000u), Real{0.25});
-  EXPECT_LT(fraction<Real>(0xFFFF'FFFFu), Real{1});
-  // What is dropped is at most the digits that do not fit: 2^-24 of a degree in float, 2^-31 in double.
-  const double dropped = sizeof(Real) == 4 ? 0x1p-24 : 0x1p-31;
+  EXPECT_EQ(fraction<Real>({0, 0, 0}), Real{0});
+  EXPECT_EQ(fraction<Real>({719, 0x8000'0000u, 0}), Real{0.5});
+  EXPECT_EQ(fraction<Real>({0, 0x4000'0000u, 0}), Real{0.25});
+  EXPECT_LT(fraction<Real>({0, 0xFFFF'FFFFu, 0xFFFF'FFFFu}), Real{1});
+  // What is dropped is at most the digits that do not fit: 2^-24 of a degree in float, 2^-53 in double.
+  const long double dropped = sizeof(Real) == 4 ? 0x1p-24L : 0x1p-53L;
   Random random;
   Real last{0};
-  for (std::uint64_t into = 0; into <= 0xFFFF'FFFFu; into += static_cast<std::uint64_t>(random.whole(1, 20'000))) {
-    const Real got = fraction<Real>(static_cast<std::uint32_t>(into));
-    const double exact = static_cast<double>(into) * 0x1p-32;
-    ASSERT_GE(got, last);
-    ASSERT_LE(static_cast<double>(got), exact);
-    ASSERT_LT(exact - static_cast<double>(got), dropped);
+  std::uint64_t way = 0;
+  for (int draw = 0; way < kLastUnit - (kLastUnit >> 14); way += random.bits() >> 14, ++draw) {  // 2^-15 of a degree at a time
+    const Real got = fraction<Real>({0, static_cast<std::uint32_t>(way >> 32), static_cast<std::uint32_t>(way)});
+    const long double exact = static_cast<long double>(way) * 0x1p-64L;
+    ASSERT_GE(got, last) << random.trace(draw);
+    ASSERT_LE(static_cast<long double>(got), exact) << random.trace(draw);
+    ASSERT_LT(exact - static_cast<long double>(got), dropped) << random.trace(draw);
     last = got;
   }
 }

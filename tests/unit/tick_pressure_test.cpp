@@ -74,8 +74,10 @@ void visit_pressures(const FullTables<Real>& tables, const Visit& visit) {
 /// Indicated work over a cycle from the mean torque of 720 ticks, per area like work_per_area.
 template <class Real, class S>
 double tick_work_per_area(const FullTables<Real>& tables, int ticks) {
-  Running<Real, S> run(tables, phase_at_deg(123.4L));
+  Running<Real, S> run(tables);
   typename Engine<Real, S>::Input in;
+  in.crank = phase_at_deg(123.4L);
+  run.engine.step(in);  // the first measured angle has no tick behind it
   long double work_J = 0;
   for (int i = 1; i <= ticks; ++i) {
     const Phase before = run.engine.state().phase;

@@ -94,10 +94,10 @@ void number_pins(const SectionValues& values, const std::vector<std::size_t>& le
       if (leader[other] != k) continue;
       pin.begin_m = std::min(pin.begin_m, layout.position_m[other]);
       pin.end_m = std::max(pin.end_m, layout.position_m[other]);
-      pin.middle_m += layout.position_m[other];
+      pin.middle_m += layout.position_m[other] - layout.position_m[k];  // exact where all stand at one place
       ++rods;
     }
-    pin.middle_m /= rods;
+    pin.middle_m = layout.position_m[k] + pin.middle_m / rods;
     pins.push_back(pin);
   }
   std::stable_sort(pins.begin(), pins.end(), [](const Pin& a, const Pin& b) { return a.middle_m < b.middle_m; });

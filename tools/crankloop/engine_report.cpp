@@ -13,35 +13,40 @@ namespace {
 constexpr double kCloseUpTicks = 40;
 constexpr double kCloseUpFromDegPerTick = 0.1;
 
-report::Fact peak_fact(const std::string& name, const Trace& trace, const std::vector<double>& values, double factor, const std::string& unit) {
+report::Fact peak_fact(const std::string& name, const Trace& trace, const std::vector<double>& values, double factor,
+                       const std::string& unit) {
   const std::size_t at = index_of_largest(values);
-  return {name, number_text(values[at] * factor), unit, "at " + number_text(trace.crank_deg[at]) + " deg"};
+  return {name, report::format_number(values[at] * factor, 4), unit, "at " + angle_text(trace.crank_deg[at])};
 }
 
 /// The largest magnitude, whatever its sign.
-report::Fact magnitude_fact(const std::string& name, const Trace& trace, const std::vector<double>& values, double factor,
-                            const std::string& unit) {
+report::Fact magnitude_fact(const std::string& name, const Trace& trace, const std::vector<double>& values,
+                            double factor, const std::string& unit) {
   const Span span = span_of(values);
   const std::size_t at = -span.low > span.high ? index_of_smallest(values) : index_of_largest(values);
-  return {name, number_text(values[at] * factor), unit, "at " + number_text(trace.crank_deg[at]) + " deg"};
+  return {name, report::format_number(values[at] * factor, 4), unit, "at " + angle_text(trace.crank_deg[at])};
 }
 
 std::vector<report::Fact> facts(const ReportInput& input) {
   const Trace& trace = input.trace;
   std::vector<report::Fact> list;
   if (has_gas(input)) {
-    list.push_back({"Mean torque", number_text(input.figures.mean_torque_Nm), "Nm", "all cylinders, indicated"});
-    list.push_back({"Power", number_text(input.figures.power_W / 1e3), "kW", "indicated"});
-    list.push_back({"Net IMEP", number_text(input.figures.net_mep_Pa / 1e3), "kPa",
-                    "gross " + number_text(input.summary.gross_mep_Pa / 1e3) + " kPa"});
+    list.push_back(
+        {"Mean torque", report::format_number(input.figures.mean_torque_Nm, 4), "Nm", "all cylinders, indicated"});
+    list.push_back({"Power", report::format_number(input.figures.power_W / 1e3, 4), "kW", "indicated"});
+    list.push_back({"Net IMEP", report::format_number(input.figures.net_mep_Pa / 1e3, 4), "kPa",
+                    "gross " + report::format_number(input.summary.gross_mep_Pa / 1e3, 4) + " kPa"});
   }
   list.push_back(peak_fact("Largest torque", trace, trace.torque_Nm, 1, "Nm"));
   if (has_gas(input)) list.push_back(peak_fact("Peak pressure", trace, trace[Quantity::pressure], 1e-5, "bar"));
   list.push_back(magnitude_fact("Largest side force", trace, trace[Quantity::side_force], 1e-3, "kN"));
   list.push_back(magnitude_fact("Largest rod force", trace, trace[Quantity::rod_force], 1e-3, "kN"));
   list.push_back(peak_fact("Largest crank pin load", trace, trace[Quantity::crank_pin_load], 1e-3, "kN"));
-  list.push_back({"Mean piston speed", number_text(mean_piston_speed_m_s(input.exact.definition().crank, input.operation.speed_rad_s())),
-                  "m/s", "largest " + number_text(span_of(trace[Quantity::velocity]).high) + " m/s"});
+  const Span velocity = span_of(trace[Quantity::velocity]);
+  list.push_back(
+      {"Mean piston speed",
+       report::format_number(mean_piston_speed_m_s(input.exact.definition().crank, input.operation.speed_rad_s()), 4),
+       "m/s", "largest " + report::format_number(std::max(velocity.high, -velocity.low), 4) + " m/s"});
   list.push_back({"Time per tick", number_text(input.wall_time_per_tick_ns, 3), "ns",
                   "of " + number_text(input.operation.tick_s * 1e6) + " \u00B5s, " + input.real + ", on this machine"});
   return list;
@@ -57,9 +62,10 @@ std::string subtitle(const ReportInput& input) {
   } else {
     text += input.operation.load_ratio == 1 ? ", full load" : ", load ratio " + number_text(input.operation.load_ratio);
   }
-  text += ". " + std::to_string(d.layout.cylinders) + (d.layout.cylinders == 1 ? " cylinder" : " cylinders") + ", bore " +
-          number_text(d.crank.bore_m * 1e3) + " mm, stroke " + number_text(dead_centres(d.crank).stroke_m * 1e3) + " mm, " +
-          number_text(swept_volume_m3(d.crank) * d.layout.cylinders * 1e3) + " L.";
+  text += ". " + std::to_string(d.layout.cylinders) + (d.layout.cylinders == 1 ? " cylinder" : " cylinders") +
+          ", bore " + number_text(d.crank.bore_m * 1e3) + " mm, stroke " +
+          number_text(dead_centres(d.crank).stroke_m * 1e3) + " mm, " +
+          number_text(swept_volume_m3(d.crank) * d.layout.cylinders * 1e3) + "\u00A0L.";
   return text;
 }
 
@@ -89,8 +95,10 @@ report::Page engine_report(const ReportInput& input) {
 
   // What must not be overlooked stands before the first curve.
   std::vector<report::Block>& first = page.sections.front().blocks;
-  first.insert(first.begin(), report::Paragraph{"Crank angles count from the firing top dead centre of cylinder 1 (0) over a four-stroke cycle "
-                                                "of 720 deg; displacement, velocity and axial forces are positive toward the crankshaft."});
+  first.insert(
+      first.begin(),
+      report::Paragraph{"Crank angles count from the firing top dead centre of cylinder 1 (0) over a four-stroke cycle "
+                        "of 720 deg; displacement, velocity and axial forces are positive toward the crankshaft."});
   first.insert(first.begin(), report::Paragraph{pressure_remark(input), true});
   page.footer = "Made by crankloop from " + input.file.path() + ".";
   return page;

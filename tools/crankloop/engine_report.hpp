@@ -1,7 +1,7 @@
 // The report of `crankloop run`: definition and results of one engine as a page.
 //
-// What belongs here: what stands on the page and in which order. What does not: how it is drawn (report/), how it is computed
-// (run_loop.hpp, run_trace.hpp, run_accuracy.hpp).
+// What belongs here: what stands on the page and in which order. What does not: how it is drawn (report/), how it is
+// computed (run_loop.hpp, run_trace.hpp, run_accuracy.hpp).
 #pragma once
 
 #include <string>
@@ -24,7 +24,8 @@ struct CloseUpTick {
   double mean_torque_Nm;
 };
 
-/// The angles that the close-up shows: 40 ticks around the largest torque; empty where ticks are too close to be told apart.
+/// The angles that the close-up shows: 40 ticks around the largest torque; empty where ticks are too close to be told
+/// apart.
 struct CloseUpWindow {
   double from_deg = 0;
   double to_deg = 0;
@@ -42,8 +43,8 @@ struct ReportInput {
   const Trace& trace;
   const Accuracy& accuracy;
   const std::vector<CloseUpTick>& close_up;
-  std::string real;                ///< "float" or "double"
-  std::string command_line;        ///< with every option filled in
+  std::string real;          ///< "float" or "double"
+  std::string command_line;  ///< with every option filled in
   double wall_time_per_tick_ns = 0;
 };
 

@@ -54,12 +54,14 @@ std::string remarks_in(const std::vector<std::string>& lines, int header_line) {
 
 // ---- Definition ----
 
+/// Lines as they would stand in a complete file: they wrap on a phone, and can be copied.
 Table section_table(const SectionValues& values, const std::vector<std::string>& lines) {
-  Table table{values.title(), {{"Key", "", false}, {"Value", "", false}, {"Unit", "", false}, {"Meaning", "", false}, {"Remark in the file", "", false}}, {}, false};
+  Table table{values.title(), {{"Key and value", "", false}, {"Meaning, and the file's remark", "", false}}, {}, false};
   for (const Value& value : values.values) {
     if (!value.used) continue;
-    const std::string remark = value.line == 0 ? "(not in the file: default or derived)" : remark_on(lines, value.line);
-    table.rows.push_back({value.key->name, format_value(value), pretty_unit(value.key->unit.name), value.key->meaning, remark});
+    const std::string remark = value.line == 0 ? "not in the file: default or derived" : remark_on(lines, value.line);
+    table.rows.push_back({value.key->name + (" = " + format_value(value)),
+                          value.key->meaning + (remark.empty() ? "" : " (" + remark + ")")});
   }
   return table;
 }
@@ -84,31 +86,39 @@ Table derived_table(const ReportInput& input) {
   row("Reciprocating mass m_j", d.masses.reciprocating_kg() * 1e3, "g");
   row("Rotating mass of one rod", d.masses.rod_big_end_kg * 1e3, "g");
   row("Rod's inertia correction dI", d.masses.rod_inertia_correction_kg_m2 * 1e6, "kg mm\u00B2");
-  if (input.exact.diagram().heat_J() > 0) row("Heat per cycle and cylinder at full load", input.exact.diagram().heat_J(), "J");
+  if (input.exact.diagram().heat_J() > 0)
+    row("Heat per cycle and cylinder at full load", input.exact.diagram().heat_J(), "J");
   return table;
 }
 
 List assumptions(const ReportInput& input) {
   const EngineDefinition& d = input.exact.definition();
   List list;
-  list.items.push_back("Crank speed is constant over the cycle. A real crankshaft speeds up and slows down with the torque, and its inertia ("
-                       + number_text(d.masses.crank_inertia_kg_m2) + " kg m\u00B2) decides how much; no figure here depends on it.");
-  list.items.push_back("Parts are rigid and without clearance; nothing rubs. Power and mean effective pressure are indicated ones.");
+  list.items.push_back(
+      "Crank speed is constant over the cycle. A real crankshaft speeds up and slows down with the torque, and its "
+      "inertia (" +
+      number_text(d.masses.crank_inertia_kg_m2) + " kg m\u00B2) decides how much; no figure here depends on it.");
+  list.items.push_back(
+      "Parts are rigid and without clearance; nothing rubs. Power and mean effective pressure are indicated ones.");
   list.items.push_back(d.masses.rod_inertia_correction_kg_m2 == 0
                            ? "The rod is two masses at its ends, without inertia correction (dI = 0)."
-                           : "The rod is a rigid body: two masses at its ends and the inertia correction dI, whose couple is in every force.");
+                           : "The rod is a rigid body: two masses at its ends and the inertia correction dI, whose "
+                             "couple is in every force.");
   list.items.push_back("All cylinders are alike, and have the same pressure at the same crank angle of their own.");
-  if (has_gas(input)) list.items.push_back("Below the piston stands the constant crankcase pressure of " +
-                                           number_text(d.pressure.crankcase_Pa * kKilo) + " kPa.");
+  if (has_gas(input))
+    list.items.push_back("Below the piston stands the constant crankcase pressure of " +
+                         number_text(d.pressure.crankcase_Pa * kKilo) + " kPa.");
   if (input.file.section("crank").has("rod_ratio")) {
     const SectionValues& crank = input.file.section("crank");
-    list.items.push_back("rod_ratio = " + shortest(crank.number("rod_ratio")) + " is used for \u03BB, not stroke / 2 / rod_length_mm = " +
-                         number_text(crank.number("stroke_mm") / 2 / crank.number("rod_length_mm"), 6) + ": the rod is taken as " +
-                         number_text(d.crank.rod_length_m * 1e3, 7) + " mm long.");
+    list.items.push_back("rod_ratio = " + shortest(crank.number("rod_ratio")) +
+                         " is used for \u03BB, not stroke / 2 / rod_length_mm = " +
+                         number_text(crank.number("stroke_mm") / 2 / crank.number("rod_length_mm"), 6) +
+                         ": the rod is taken as " + number_text(d.crank.rod_length_m * 1e3, 7) + " mm long.");
   }
   if (d.crank.pin_offset_m != 0) {
-    list.items.push_back("With the pin offset, angle 0 (throw parallel to the cylinder axis) is not top dead centre: that is at " +
-                         number_text(dead_centres(d.crank).tdc_rad * kDegPerRad) + " deg.");
+    list.items.push_back(
+        "With the pin offset, angle 0 (throw parallel to the cylinder axis) is not top dead centre: that is at " +
+        number_text(dead_centres(d.crank).tdc_rad * kDegPerRad) + " deg.");
   }
   return list;
 }
@@ -127,18 +137,26 @@ std::string percent_of_tick(const ReportInput& input) {
 
 Table deviation_table(const ReportInput& input) {
   Table table{"Fixed-step loop against exact equations: largest differences",
-              {{"Quantity", "", false}, {"Unit", "", false}, {"Difference", ""}, {"at", "deg"}, {"Peak value", ""}, {"Difference / peak", ""}},
+              {{"Quantity", "", false},
+               {"Unit", "", false},
+               {"Difference", ""},
+               {"at", "deg"},
+               {"Peak value", ""},
+               {"Difference / peak", ""}},
               {},
               false};
   const auto row = [&](const std::string& name, const char* unit, const Deviation& d, double per_si) {
-    table.rows.push_back({name, pretty_unit(unit), report::format_number(d.largest * per_si, 2), report::format_fixed(d.at_deg, 1),
-                          report::format_number(d.peak * per_si, 4), report::format_number(d.ratio(), 2)});
+    table.rows.push_back({name, pretty_unit(unit), report::format_number(d.largest * per_si, 2),
+                          report::format_fixed(d.at_deg, 1), report::format_number(d.peak * per_si, 4),
+                          report::format_number(d.ratio(), 2)});
   };
   row("Torque of the engine", "Nm", input.accuracy.torque, 1);
   for (const QuantityKind& kind : kQuantityKinds) {
-    if (kind.quantity == Quantity::pin_radial || kind.quantity == Quantity::pin_tangential) continue;  // in the pin load
+    if (kind.quantity == Quantity::pin_radial || kind.quantity == Quantity::pin_tangential)
+      continue;  // in the pin load
     if (!has_gas(input) && (kind.quantity == Quantity::pressure || kind.quantity == Quantity::gas_force)) continue;
-    row(kind.quantity == Quantity::torque ? "Torque of one cylinder" : pretty(kind.name), kind.unit, input.accuracy.of[index_of(kind.quantity)], kind.per_si);
+    row(kind.quantity == Quantity::torque ? "Torque of one cylinder" : pretty(kind.name), kind.unit,
+        input.accuracy.of[index_of(kind.quantity)], kind.per_si);
   }
   return table;
 }
@@ -152,20 +170,27 @@ std::string pressure_remark(const ReportInput& input) {
                                : " Load ratio " + number_text(input.operation.load_ratio) +
                                      ": that share of what combustion adds to the motored pressure.";
   const auto from_file = [&](const char* over) {
-    return "The cylinder pressure is the table " + input.file.section("pressure").text("file") + ", given over the " + over + "." + load;
+    return "The cylinder pressure is the table " + input.file.section("pressure").text("file") + ", given over the " +
+           over + "." + load;
   };
   switch (p.source) {
-    case PressureSource::none: return "There is no pressure source: gas forces are zero, and all forces and torques are those of the masses alone.";
-    case PressureSource::angle_table: return from_file("crank angle");
-    case PressureSource::volume_table: return from_file("cylinder volume");
-    case PressureSource::wiebe: break;
+    case PressureSource::none:
+      return "There is no pressure source: gas forces are zero, and all forces and torques are those of the masses "
+             "alone.";
+    case PressureSource::angle_table:
+      return from_file("crank angle");
+    case PressureSource::volume_table:
+      return from_file("cylinder volume");
+    case PressureSource::wiebe:
+      break;
   }
   const WiebeDiagram& w = p.wiebe;
   const std::string heat = w.heat_given ? "a heat of " + number_text(w.heat_J, 5) + " J per cycle and cylinder"
                                         : "a net IMEP of " + number_text(w.net_mep_Pa * kKilo, 6) + " kPa";
-  return "The cylinder pressure is not measured: it is synthesised with " + heat + ", by a Wiebe heat release of form exponent " +
-         number_text(w.wiebe_m) + " over " + number_text(w.combustion_duration_deg) + " deg from " +
-         number_text(w.start_of_combustion_deg) + " deg, between polytropes of exponents " + number_text(w.compression_exponent) + " and " +
+  return "The cylinder pressure is not measured: it is synthesised with " + heat +
+         ", by a Wiebe heat release of form exponent " + number_text(w.wiebe_m) + " over " +
+         number_text(w.combustion_duration_deg) + " deg from " + number_text(w.start_of_combustion_deg) +
+         " deg, between polytropes of exponents " + number_text(w.compression_exponent) + " and " +
          number_text(w.expansion_exponent) + "." + load;
 }
 
@@ -174,28 +199,34 @@ report::Section accuracy_section(const ReportInput& input) {
   Section section{"made", "How these figures were made", {}};
   section.blocks.push_back(Paragraph{"Command: " + input.command_line});
   List list;
-  list.items.push_back("Mean torque, power and IMEP come from the fixed-step loop that firmware would run: " + input.real + ", tick " +
-                       number_text(input.operation.tick_s * 1e6) + " \u00B5s (" + number_text(f.deg_per_tick) + " deg), " +
-                       std::to_string(f.ticks) + " ticks recorded over " + std::to_string(f.cycles) + (f.cycles == 1 ? " cycle" : " cycles") +
-                       " after " + std::to_string(f.settling_ticks) + " to settle. " +
-                       (f.faulty_ticks == 0 ? "No tick raised a fault." : std::to_string(f.faulty_ticks) + " ticks raised a fault."));
-  list.items.push_back("Curves, their extremes and the tables come from the same loop at a tick of " + number_text(input.trace.tick_s * 1e6) +
-                       " \u00B5s, so that every " + number_text(input.trace.spacing_deg) + " deg of a cycle are there to be drawn.");
+  list.items.push_back(
+      "Mean torque, power and IMEP come from the fixed-step loop that firmware would run: " + input.real + ", tick " +
+      number_text(input.operation.tick_s * 1e6) + " \u00B5s (" + number_text(f.deg_per_tick) + " deg), " +
+      std::to_string(f.ticks) + " ticks recorded over " + std::to_string(f.cycles) +
+      (f.cycles == 1 ? " cycle" : " cycles") + " after " + std::to_string(f.settling_ticks) + " to settle. " +
+      (f.faulty_ticks == 0 ? "No tick raised a fault." : std::to_string(f.faulty_ticks) + " ticks raised a fault."));
+  list.items.push_back("Curves, their extremes and the tables come from the same loop at a tick of " +
+                       number_text(input.trace.tick_s * 1e6) + " \u00B5s, so that every " +
+                       number_text(input.trace.spacing_deg) + " deg of a cycle are there to be drawn.");
   list.items.push_back("Where a cycle is no whole number of ticks, the last tick counts by its part inside the cycle.");
   if (has_gas(input)) {
     list.items.push_back("Net IMEP: " + number_text(f.net_mep_Pa * kKilo, 7) + " kPa from the loop's torque, " +
                          number_text(input.summary.net_mep_Pa * kKilo, 7) + " kPa from the loop integral of p dV.");
-    list.items.push_back("The pressure table has " + std::to_string(f.tables.gas_segments) + " segments and is within " +
-                         number_text(f.tables.pressure_error_Pa * kKilo, 2) + " kPa of the diagram.");
+    list.items.push_back("The pressure table has " + std::to_string(f.tables.gas_segments) +
+                         " segments and is within " + number_text(f.tables.pressure_error_Pa * kKilo, 2) +
+                         " kPa of the diagram.");
   }
-  list.items.push_back("A tick takes " + number_text(input.wall_time_per_tick_ns, 3) + " ns on the machine that made this page (" +
-                       percent_of_tick(input) + " of the tick), with every output of every cylinder.");
-  list.items.push_back("Harmonics, free forces' largest values and the exact figures to compare with are computed in double from the "
-                       "equations, without tables.");
+  list.items.push_back("A tick takes " + number_text(input.wall_time_per_tick_ns, 3) +
+                       " ns on the machine that made this page (" + percent_of_tick(input) +
+                       " of the tick), with every output of every cylinder.");
+  list.items.push_back(
+      "Harmonics, free forces' largest values and the exact figures to compare with are computed in double from the "
+      "equations, without tables.");
   section.blocks.push_back(std::move(list));
   section.blocks.push_back(deviation_table(input));
-  section.blocks.push_back(Paragraph{"Over " + std::to_string(input.accuracy.angles) +
-                                     " angles of a cycle and all cylinders. Peak value: largest magnitude of the exact quantity."});
+  section.blocks.push_back(
+      Paragraph{"Over " + std::to_string(input.accuracy.angles) +
+                " angles of a cycle and all cylinders. Peak value: largest magnitude of the exact quantity."});
   return section;
 }
 
@@ -207,8 +238,8 @@ report::Section definition_section(const ReportInput& input) {
   if (!about.empty()) section.blocks.push_back(Paragraph{"The engine file says: " + about});
   for (const SectionValues& values : input.file.sections()) {
     const std::string remarks = values.line > 0 ? remarks_in(lines, values.line) : "";
-    section.blocks.push_back(section_table(values, lines));
     if (!remarks.empty()) section.blocks.push_back(Paragraph{values.title() + ": " + remarks});
+    section.blocks.push_back(section_table(values, lines));
   }
   section.blocks.push_back(derived_table(input));
   return section;

@@ -16,15 +16,25 @@ using report::Section;
 constexpr double kKilo = 1e-3;
 constexpr std::size_t kMostCurves = 6;  // colours there are
 
-Axis force_axis(const std::string& title) {
-  Axis axis;
-  axis.title = title;
-  axis.unit = "kN";
-  return axis;
-}
+Axis force_axis(const std::string& title) { return axis_of(title, "kN"); }
+Axis moment_axis() { return axis_of("Moment", "Nm"); }
 
 double mean_of(const std::vector<double>& values) {  // without the last, which is the first of the next cycle
   return std::accumulate(values.begin(), values.end() - 1, 0.0) / static_cast<double>(values.size() - 1);
+}
+
+constexpr double kNoise = 1e-5;  // of one cylinder's first order: what rounding leaves of forces that balance
+
+/// From the first cylinder to the last, at least 1 m so that a single cylinder has a moment to compare rounding with.
+double length_of(const Layout& layout) {
+  const auto [low, high] = std::minmax_element(layout.position_m.begin(), layout.position_m.begin() + layout.cylinders);
+  return std::max(*high - *low, 1.0);
+}
+
+void add_if_any(std::vector<report::Series>& curves, const Trace& trace, const std::string& name,
+                const std::vector<double>& values, double factor, double noise) {
+  const Span span = span_of(values);
+  if (std::max(-span.low, span.high) > noise) curves.push_back(over_angle(trace, name, values, factor));
 }
 
 std::size_t most_loaded(const std::vector<std::vector<double>>& loads) {
@@ -45,23 +55,23 @@ Plot polar(const std::string& title, const std::string& x, const std::string& y,
   loop.x = scaled(along, kKilo);
   loop.y = scaled(across, kKilo);
   loop.style.closed = true;
-  std::size_t peak = 0;
-  for (std::size_t i = 0; i < along.size(); ++i) {
-    if (std::hypot(along[i], across[i]) > std::hypot(along[peak], across[peak])) peak = i;
-  }
+  std::vector<double> load(along.size());
+  for (std::size_t i = 0; i < load.size(); ++i) load[i] = std::hypot(along[i], across[i]);
+  const std::size_t peak = index_of_largest(load);
   report::Series centre{"", {0}, {0}, {}};
   centre.style.draw = report::Draw::points;
   centre.style.colour = 6;
   plot.markers.push_back({loop.x[peak], loop.y[peak],
-                          number_text(std::hypot(along[peak], across[peak]) * kKilo, 3) + " kN at " +
-                              number_text(trace.crank_deg[peak], 3) + " deg",
+                          report::format_number(load[peak] * kKilo, 3) + " kN at " + angle_text(trace.crank_deg[peak]),
                           0});
   plot.series = {std::move(loop), std::move(centre)};
   use_equal_scales(plot);
   return plot;
 }
 
-std::string numbered(const char* what, std::size_t index) { return std::string(what) + " " + std::to_string(index + 1); }
+std::string numbered(const char* what, std::size_t index) {
+  return std::string(what) + " " + std::to_string(index + 1);
+}
 
 /// Which cylinders' rods a crank pin carries: "1" or "1, 2".
 std::string rods_on(const Layout& layout, std::size_t pin) {
@@ -74,8 +84,8 @@ std::string rods_on(const Layout& layout, std::size_t pin) {
 
 void add_load_row(report::Table& table, const Trace& trace, const std::string& name, const std::vector<double>& load) {
   const std::size_t at = index_of_largest(load);
-  table.rows.push_back(
-      {name, report::format_fixed(load[at], 0), report::format_fixed(trace.crank_deg[at], 2), report::format_fixed(mean_of(load), 0)});
+  table.rows.push_back({name, report::format_fixed(load[at], 0), report::format_fixed(trace.crank_deg[at], 2),
+                        report::format_fixed(mean_of(load), 0)});
 }
 
 }  // namespace
@@ -85,12 +95,15 @@ report::Section bearing_section(const ReportInput& input) {
   const Layout& layout = input.exact.definition().layout;
   Section section{"bearings", "Crank pin and main journals", {}};
   section.blocks.push_back(
-      Paragraph{"Loads turn with the crankshaft: their loops show where pin and journal wear. The pin carries the rod force and the rod "
-                "big end's centrifugal force; journals carry the throws beside them, each taken as simply supported between its two."});
+      Paragraph{"Loads turn with the crankshaft: their loops show where pin and journal wear. The pin carries the rod "
+                "force and the rod "
+                "big end's centrifugal force; journals carry the throws beside them, each taken as simply supported "
+                "between its two."});
 
   const std::size_t first_pin = layout.pin[0];
-  Plot loop = polar("Crank pin load of cylinder 1, polar", "Radial, toward the crank centre", "Tangential, with the rotation",
-                    trace[Quantity::pin_radial], trace[Quantity::pin_tangential], trace);
+  Plot loop =
+      polar("Crank pin load of cylinder 1, polar", "Radial, toward the crank centre", "Tangential, with the rotation",
+            trace[Quantity::pin_radial], trace[Quantity::pin_tangential], trace);
   loop.caption = "The load as a vector; one unit is equally long on both axes. Dot: no load.";
   section.blocks.push_back(std::move(loop));
   Plot pin = with_extremes(plot_over_angle(input, "Crank pin load of cylinder 1", force_axis("Load"),
@@ -100,8 +113,9 @@ report::Section bearing_section(const ReportInput& input) {
   section.blocks.push_back(std::move(pin));
 
   const std::size_t journal = most_loaded(trace.journal_load_N);
-  Plot journal_loop = polar("Main " + numbered("journal", journal) + ", the most loaded, polar", "Along the throw of the first pin, outward",
-                            "Across it, with the rotation", trace.journal_along_N[journal], trace.journal_across_N[journal], trace);
+  Plot journal_loop = polar("Main " + numbered("journal", journal) + ", the most loaded, polar",
+                            "Along the throw of the first pin, outward", "Across it, with the rotation",
+                            trace.journal_along_N[journal], trace.journal_across_N[journal], trace);
   section.blocks.push_back(std::move(journal_loop));
   std::vector<std::size_t> order(trace.journal_load_N.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -112,7 +126,8 @@ report::Section bearing_section(const ReportInput& input) {
   if (!all) order.resize(kMostCurves);
   std::sort(order.begin(), order.end());
   std::vector<report::Series> curves;
-  for (const std::size_t j : order) curves.push_back(over_angle(trace, numbered("journal", j), trace.journal_load_N[j], kKilo));
+  for (const std::size_t j : order)
+    curves.push_back(over_angle(trace, numbered("journal", j), trace.journal_load_N[j], kKilo));
   Plot journals = plot_over_angle(input, "Main journal loads", force_axis("Load"), std::move(curves));
   if (has_gas(input) && layout.cylinders > 1) journals.bands = firings(layout);
   journals.caption = all ? "Numbered along the crankshaft." : "The six most loaded, numbered along the crankshaft.";
@@ -125,14 +140,17 @@ report::Section bearing_section(const ReportInput& input) {
   }
   section.blocks.push_back(std::move(pins));
   report::Table mains{"Main journals", columns, {}, false};
-  for (std::size_t j = 0; j < trace.journal_load_N.size(); ++j) add_load_row(mains, trace, numbered("Journal", j), trace.journal_load_N[j]);
+  for (std::size_t j = 0; j < trace.journal_load_N.size(); ++j)
+    add_load_row(mains, trace, numbered("Journal", j), trace.journal_load_N[j]);
   section.blocks.push_back(std::move(mains));
 
   std::vector<AngleColumn> table{{"Pin radial", "N", &trace[Quantity::pin_radial]},
                                  {"Pin tangential", "N", &trace[Quantity::pin_tangential]},
                                  {"Pin load", "N", &trace.pin_load_N[first_pin]}};
-  for (std::size_t j = 0; j < trace.journal_load_N.size(); ++j) table.push_back({numbered("Journal", j), "N", &trace.journal_load_N[j]});
-  section.blocks.push_back(table_over_angle(trace, "Table: loads of the first crank pin and of the main journals", table));
+  for (std::size_t j = 0; j < trace.journal_load_N.size(); ++j)
+    table.push_back({numbered("Journal", j), "N", &trace.journal_load_N[j]});
+  section.blocks.push_back(
+      table_over_angle(trace, "Table: loads of the first crank pin and of the main journals", table));
   return section;
 }
 
@@ -140,12 +158,15 @@ report::Section balance_section(const ReportInput& input) {
   const Trace& trace = input.trace;
   const Balance<double> balance = balance_of(input.exact.definition());
   const double w2 = input.operation.speed_rad_s() * input.operation.speed_rad_s();
-  const double unit_N = input.exact.definition().masses.reciprocating_kg() * input.exact.definition().crank.crank_radius_m * w2;
+  const double unit_N =
+      input.exact.definition().masses.reciprocating_kg() * input.exact.definition().crank.crank_radius_m * w2;
   Section section{"balance", "Free forces and moments", {}};
-  section.blocks.push_back(
-      Paragraph{"What the moving masses do to the mounts; gas forces close inside the engine. Moments are about the middle of the "
-                "crankshaft. Counterweights are not part of the definition, so rotating masses are not balanced here."});
-  report::Table table{"Largest over a turn", {{"", "", false}, {"Force", "N"}, {"Relative", "%"}, {"Moment", "Nm"}}, {}, false};
+  section.blocks.push_back(Paragraph{
+      "What the moving masses do to the mounts; gas forces close inside the engine. Moments are about the middle of "
+      "the "
+      "crankshaft. Counterweights are not part of the definition, so rotating masses are not balanced here."});
+  report::Table table{
+      "Largest over a turn", {{"", "", false}, {"Force", "N"}, {"Relative", "%"}, {"Moment", "Nm"}}, {}, false};
   const auto row = [&](const char* name, const Turning<double>& t) {
     const double force = peak_force_kg_m(t) * w2;
     table.rows.push_back({name, report::format_fixed(force, 1), report::format_fixed(100 * force / unit_N, 1),
@@ -155,30 +176,45 @@ report::Section balance_section(const ReportInput& input) {
   row("Second order", balance.second);
   row("Rotating", balance.rotating);
   section.blocks.push_back(std::move(table));
-  section.blocks.push_back(Paragraph{"Relative to the first order of one cylinder: reciprocating mass times r \u03C9\u00B2, " +
-                                     number_text(unit_N, 5) + " N."});
+  section.blocks.push_back(
+      Paragraph{"Relative to the first order of one cylinder: reciprocating mass times r \u03C9\u00B2, " +
+                number_text(unit_N, 5) + " N."});
 
-  std::vector<report::Series> curves;
-  const double noise_N = 1e-5 * unit_N;  // rounding of float, of a force that balances
-  const auto add = [&](const char* name, const std::vector<double>& values) {
-    const Span span = span_of(values);
-    if (std::max(-span.low, span.high) > noise_N) curves.push_back(over_angle(trace, name, values, kKilo));
+  const double noise_N = kNoise * unit_N;
+  const double noise_Nm = noise_N * length_of(input.exact.definition().layout);
+  std::vector<report::Series> forces;
+  std::vector<report::Series> moments;
+  const auto add = [&](const std::string& order, const FreeForceTrace& of) {
+    add_if_any(forces, trace, order + ", up", of.up_N, kKilo, noise_N);
+    add_if_any(forces, trace, order + ", lateral", of.lateral_N, kKilo, noise_N);
+    add_if_any(moments, trace, order + ", pitch", of.pitch_Nm, 1, noise_Nm);
+    add_if_any(moments, trace, order + ", yaw", of.yaw_Nm, 1, noise_Nm);
   };
-  add("first order, up", trace.first_up_N);
-  add("first order, lateral", trace.first_lateral_N);
-  add("second order, up", trace.second_up_N);
-  add("second order, lateral", trace.second_lateral_N);
-  add("rotating, up", trace.rotating_up_N);
-  add("rotating, lateral", trace.rotating_lateral_N);
-  if (curves.empty()) {
-    section.blocks.push_back(Paragraph{"No free force of these orders: the engine is balanced."});
-    return section;
-  }
-  const std::string title = curves.size() > 1 ? "Free forces" : "Free force, " + curves[0].name;
-  Plot plot = plot_over_angle(input, title, force_axis("Force"), std::move(curves));
-  plot.bands.clear();
-  plot.caption = "Up is bank angle 0, lateral a quarter turn on in the sense of rotation. Orders that balance are not drawn.";
-  section.blocks.push_back(std::move(plot));
+  add("first order", trace.first);
+  add("second order", trace.second);
+  add("rotating", trace.rotating);
+  section.blocks.push_back(Paragraph{forces.empty() && moments.empty() ? "All of these balance."
+                                     : forces.empty()  ? "The forces of these orders balance, the moments do not."
+                                     : moments.empty() ? "The moments of these orders balance."
+                                                       : "Forces and moments that balance are not drawn."});
+  const auto plot = [&](const std::string& title, const Axis& axis, std::vector<report::Series> curves,
+                        const std::string& caption) {
+    if (curves.empty()) return;
+    const std::string of_one = curves.size() > 1 ? "" : ", " + curves[0].name;
+    Plot drawn = plot_over_angle(input, title + of_one, axis, std::move(curves));
+    drawn.bands.clear();
+    drawn.caption = caption;
+    section.blocks.push_back(std::move(drawn));
+  };
+  plot("Free forces", force_axis("Force"), std::move(forces),
+       "Up is bank angle 0, lateral a quarter turn on in the sense of rotation.");
+  plot("Free moments", moment_axis(), std::move(moments), "Pitch is of the forces up, yaw of the lateral ones.");
+  Plot tilting = with_extremes(plot_over_angle(input, "Moment on the engine block about the crank axis", moment_axis(),
+                                               {over_angle(trace, "", trace.tilting_moment_Nm, 1)}));
+  tilting.bands.clear();
+  tilting.caption =
+      "Tilting moment of all cylinders, positive in the sense of rotation: what the mounts hold against the torque.";
+  section.blocks.push_back(std::move(tilting));
   return section;
 }
 

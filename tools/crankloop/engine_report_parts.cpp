@@ -13,25 +13,49 @@ namespace {
 constexpr double kRowDeg = 10;
 constexpr int kTableDigits = 5;
 
-// Width over height of the frame that plot.hpp leaves to curves without legend and bands, by a hair's breadth: depends on labels.
+// Width over height of the frame that plot.hpp leaves to curves without legend and bands, by a hair's breadth: depends
+// on labels.
 constexpr double kFrameRatio = 1.7;
 
-constexpr double kEqualPeaks = 1e-5;  // of a curve's span: float's rounding and the table's error, much less than a visible difference
+constexpr double kEqualPeaks =
+    1e-5;  // of a curve's span: float's rounding and the table's error, much less than a visible difference
 
 report::Marker marker_at(const report::Plot& plot, std::size_t series, std::size_t i) {
   const double value = plot.series[series].y[i];
   const Span span = span_of(plot.series[series].y);
   const bool is_rounding = std::abs(value) < kEqualPeaks * (span.high - span.low);
   return {plot.series[series].x[i], value,
-          number_text(is_rounding ? 0 : value, 3) + " " + plot.y.unit + " at " + number_text(plot.series[series].x[i]) + " deg", series};
+          (is_rounding ? "0" : report::format_number(value, 3)) + " " + plot.y.unit + " at " +
+              angle_text(plot.series[series].x[i]),
+          series};
+}
+
+/// Part of a curve between two crank angles, across the end of the cycle if need be.
+report::Series piece(const Trace& trace, const std::string& name, const std::vector<double>& x,
+                     const std::vector<double>& y, double from_deg, double to_deg) {
+  report::Series series;
+  series.name = name;
+  const auto count = static_cast<long>(trace.crank_deg.size()) - 1;  // the last point is the first of the next cycle
+  const auto at = [&](double deg) { return std::lround(deg / trace.spacing_deg); };
+  for (long i = at(from_deg); i <= at(to_deg); ++i) {
+    const auto k = static_cast<std::size_t>((i % count + count) % count);
+    series.x.push_back(x[k]);
+    series.y.push_back(y[k]);
+  }
+  return series;
 }
 
 }  // namespace
 
-report::Axis crank_axis() {
+report::Axis axis_of(const std::string& title, const std::string& unit) {
   report::Axis axis;
-  axis.title = "Crank angle from cylinder 1's firing TDC";
-  axis.unit = "deg";
+  axis.title = title;
+  axis.unit = unit;
+  return axis;
+}
+
+report::Axis crank_axis() {
+  report::Axis axis = axis_of("Crank angle from cylinder 1's firing TDC", "deg");
   axis.tick_step = 90;
   axis.range = report::Range{0, 720};
   return axis;
@@ -68,7 +92,8 @@ std::vector<double> scaled(const std::vector<double>& values, double factor) {
   return result;
 }
 
-report::Series over_angle(const Trace& trace, const std::string& name, const std::vector<double>& values, double factor) {
+report::Series over_angle(const Trace& trace, const std::string& name, const std::vector<double>& values,
+                          double factor) {
   report::Series series;
   series.name = name;
   series.x = trace.crank_deg;
@@ -85,6 +110,18 @@ report::Plot plot_over_angle(const ReportInput& input, const std::string& title,
   plot.series = std::move(curves);
   if (has_gas(input)) plot.bands = strokes(input.exact.definition().crank);
   return plot;
+}
+
+std::vector<report::Series> loop_by_strokes(const ReportInput& input, const std::vector<double>& x,
+                                            const std::vector<double>& y) {
+  const DeadCentres centres = dead_centres(input.exact.definition().crank);
+  const double tdc = centres.tdc_rad * kDegPerRad;
+  const double bdc = centres.bdc_rad * kDegPerRad;
+  if (!has_gas(input))
+    return {piece(input.trace, "down", x, y, tdc, bdc), piece(input.trace, "up", x, y, bdc, tdc + 360)};
+  return {piece(input.trace, "power", x, y, tdc, bdc), piece(input.trace, "exhaust", x, y, bdc, tdc + 360),
+          piece(input.trace, "intake", x, y, tdc + 360, bdc + 360),
+          piece(input.trace, "compression", x, y, bdc + 360, tdc + 720)};
 }
 
 report::Plot with_extremes(report::Plot plot) {
@@ -137,6 +174,11 @@ report::Table table_over_angle(const Trace& trace, const std::string& caption, c
   return table;
 }
 
+report::Marker loop_marker(const Trace& trace, const std::vector<double>& x, const std::vector<double>& y,
+                           std::size_t i, const std::string& unit, std::size_t series) {
+  return {x[i], y[i], report::format_number(y[i], 3) + " " + unit + " at " + angle_text(trace.crank_deg[i]), series};
+}
+
 void use_equal_scales(report::Plot& plot) {
   report::Range x{0, 0};  // the origin belongs to a polar diagram
   report::Range y{0, 0};
@@ -160,7 +202,8 @@ void use_equal_scales(report::Plot& plot) {
 
 std::string pretty_unit(std::string unit) {
   const auto replace = [&unit](const std::string& what, const std::string& by) {
-    for (std::size_t at = unit.find(what); at != std::string::npos; at = unit.find(what)) unit.replace(at, what.size(), by);
+    for (std::size_t at = unit.find(what); at != std::string::npos; at = unit.find(what))
+      unit.replace(at, what.size(), by);
   };
   replace("_per_", "/");
   replace("_", " ");
@@ -172,11 +215,14 @@ std::string pretty_unit(std::string unit) {
 
 std::string number_text(double value, int significant_digits) {
   std::string text = report::format_number(value, significant_digits);
-  if (text.find('.') == std::string::npos || text.find("\u00B7") != std::string::npos) return text;  // a power of ten follows
+  if (text.find('.') == std::string::npos || text.find("\u00B7") != std::string::npos)
+    return text;  // a power of ten follows
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
   return text;
 }
+
+std::string angle_text(double deg) { return number_text(deg, 5) + " deg"; }
 
 int decimals_for(double largest, int digits) {
   if (!(largest > 0)) return 0;

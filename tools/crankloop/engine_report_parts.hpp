@@ -30,6 +30,8 @@ namespace crankloop::program {
 /// What every report says of its pressure: synthesised, from which table, or none.
 [[nodiscard]] std::string pressure_remark(const ReportInput& input);
 
+[[nodiscard]] report::Axis axis_of(const std::string& title, const std::string& unit);
+
 /// 0 to 720 deg, 0 = firing top dead centre of cylinder 1: the convention stands at the axis.
 [[nodiscard]] report::Axis crank_axis();
 
@@ -43,13 +45,23 @@ namespace crankloop::program {
 [[nodiscard]] std::vector<double> scaled(const std::vector<double>& values, double factor);
 
 /// A curve over the crank angle.
-[[nodiscard]] report::Series over_angle(const Trace& trace, const std::string& name, const std::vector<double>& values, double factor);
+[[nodiscard]] report::Series over_angle(const Trace& trace, const std::string& name, const std::vector<double>& values,
+                                        double factor);
 
 /// A plot over the crank angle with the strokes behind its curves.
 [[nodiscard]] report::Plot plot_over_angle(const ReportInput& input, const std::string& title, const report::Axis& y,
                                            std::vector<report::Series> curves);
 
-/// Where a curve is largest. Of peaks that are equal but for rounding, the first: in a four-cylinder torque all four are.
+/// A loop over the piston's displacement or the cylinder's volume, in a colour for each stroke.
+[[nodiscard]] std::vector<report::Series> loop_by_strokes(const ReportInput& input, const std::vector<double>& x,
+                                                          const std::vector<double>& y);
+
+/// "69.6 bar at 9.5 deg" on the point of a loop that belongs to entry i of the trace.
+[[nodiscard]] report::Marker loop_marker(const Trace& trace, const std::vector<double>& x, const std::vector<double>& y,
+                                         std::size_t i, const std::string& unit, std::size_t series);
+
+/// Where a curve is largest. Of peaks that are equal but for rounding, the first: in a four-cylinder torque all four
+/// are.
 [[nodiscard]] std::size_t index_of_largest(const std::vector<double>& values);
 [[nodiscard]] std::size_t index_of_smallest(const std::vector<double>& values);
 
@@ -69,8 +81,8 @@ struct AngleColumn {
 };
 
 /// A folded table, one row each 10 deg up to last_deg; five digits of each column's largest magnitude.
-[[nodiscard]] report::Table table_over_angle(const Trace& trace, const std::string& caption, const std::vector<AngleColumn>& columns,
-                                             double last_deg = 720);
+[[nodiscard]] report::Table table_over_angle(const Trace& trace, const std::string& caption,
+                                             const std::vector<AngleColumn>& columns, double last_deg = 720);
 
 /// Sets both axes' ranges so that the data fill the drawing and a unit is equally long on either: for polar diagrams.
 void use_equal_scales(report::Plot& plot);
@@ -80,6 +92,9 @@ void use_equal_scales(report::Plot& plot);
 
 /// "1.25" without needless zeros.
 [[nodiscard]] std::string number_text(double value, int significant_digits = 4);
+
+/// "704.25 deg".
+[[nodiscard]] std::string angle_text(double deg);
 
 /// Decimals that give `digits` significant digits to a value of this size; 0 to 6.
 [[nodiscard]] int decimals_for(double largest, int digits);

@@ -66,7 +66,11 @@ class Summary {
  public:
   void remark(const std::string& text) { text_ += "# " + text + "\n"; }
   void line(const std::string& name, double value, const std::string& unit = "", const std::string& remark = "") {
-    text_ += name + " = " + six_digits(value) + (unit.empty() ? "" : " " + unit) + (remark.empty() ? "" : "  # " + remark) + "\n";
+    text_ += name + " = " + six_digits(value) + (unit.empty() ? "" : " " + unit) +
+             (remark.empty() ? "" : "  # " + remark) + "\n";
+  }
+  void count(const std::string& name, std::uint64_t value, const std::string& remark = "") {
+    text_ += name + " = " + std::to_string(value) + (remark.empty() ? "" : "  # " + remark) + "\n";
   }
   void peak(const std::string& name, Peak peak, double per_si, const std::string& unit) {
     line(name, peak.value * per_si, unit);
@@ -102,7 +106,8 @@ void write_row(CsvWriter& csv, const Layout& layout, const Operation& operation,
   csv.cell(out.mean_torque_Nm);
   for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
     for (std::size_t i = 0; i < kCsvQuantities; ++i) {
-      csv.cell(value_of(out, kQuantityKinds[i].quantity, place_of(layout, k)) * static_cast<Real>(kQuantityKinds[i].per_si));
+      csv.cell(value_of(out, kQuantityKinds[i].quantity, place_of(layout, k)) *
+               static_cast<Real>(kQuantityKinds[i].per_si));
     }
   }
   csv.end_row();
@@ -125,19 +130,21 @@ struct Engines {
   [[nodiscard]] bool has_gas() const noexcept { return exact.definition().pressure.source != PressureSource::none; }
 };
 
-std::string summary_text(const Engines& engine, const Request& request, const RunFigures& f, double wall_time_per_tick_ns) {
+std::string summary_text(const Engines& engine, const Request& request, const RunFigures& f,
+                         double wall_time_per_tick_ns) {
   const EngineDefinition& definition = engine.exact.definition();
   const double speed = request.operation.speed_rad_s();
   Summary s;
-  s.remark(engine.file.name() + ", fixed-step loop in " + request.real + (engine.has_gas() ? "" : ", no pressure source: inertia only"));
+  s.remark(engine.file.name() + ", fixed-step loop in " + request.real +
+           (engine.has_gas() ? "" : ", no pressure source: inertia only"));
   s.remark("angles: torque and journals from cylinder 1's firing TDC, all else from that of the cylinder itself");
   s.remark("largest and smallest are over the ticks, every " + six_digits(f.deg_per_tick) + " deg");
   s.line("speed", request.operation.speed_rpm, "rpm");
   if (engine.has_gas()) s.line("load_ratio", request.operation.load_ratio);
   s.line("tick", request.operation.tick_s * 1e6, "us");
-  s.line("ticks_per_cycle", 720 / f.deg_per_tick);
+  s.line("deg_per_tick", f.deg_per_tick, "deg");
   s.line("cycles", f.cycles);
-  s.line("ticks", static_cast<double>(f.ticks), "", "after " + std::to_string(f.settling_ticks) + " to settle");
+  s.count("ticks", f.ticks, "after " + std::to_string(f.settling_ticks) + " to settle");
   s.line("mean_torque", f.mean_torque_Nm, "Nm");
   if (engine.has_gas()) {
     s.line("power", f.power_W / 1e3, "kW", "indicated: friction is not subtracted");
@@ -148,10 +155,11 @@ std::string summary_text(const Engines& engine, const Request& request, const Ru
   s.peaks("torque", f.torque, 1, "Nm");
   for (const Quantity quantity : {Quantity::pressure, Quantity::gas_force}) {
     const QuantityKind& kind = kQuantityKinds[index_of(quantity)];
-    if (engine.has_gas()) s.peak(std::string("largest_") + kind.name, f.of[index_of(quantity)].largest, kind.per_si, kind.unit);
+    if (engine.has_gas())
+      s.peak(std::string("largest_") + kind.name, f.of[index_of(quantity)].largest, kind.per_si, kind.unit);
   }
-  for (const Quantity quantity : {Quantity::inertia_force, Quantity::total_force, Quantity::side_force, Quantity::rod_force,
-                                  Quantity::tangential_force, Quantity::radial_force}) {
+  for (const Quantity quantity : {Quantity::inertia_force, Quantity::total_force, Quantity::side_force,
+                                  Quantity::rod_force, Quantity::tangential_force, Quantity::radial_force}) {
     const QuantityKind& kind = kQuantityKinds[index_of(quantity)];
     s.peaks(kind.name, f.of[index_of(quantity)], kind.per_si, kind.unit);
   }
@@ -164,7 +172,7 @@ std::string summary_text(const Engines& engine, const Request& request, const Ru
   s.line("swept_volume", swept_volume_m3(definition.crank) * 1e6, "cm^3", "one cylinder");
   s.line("table_gas_segments", f.tables.gas_segments);
   s.line("table_pressure_error", f.tables.pressure_error_Pa, "Pa");
-  s.line("faulty_ticks", static_cast<double>(f.faulty_ticks));
+  s.count("faulty_ticks", f.faulty_ticks);
   s.line("wall_time_per_tick", wall_time_per_tick_ns, "ns",
          "this machine: median of " + std::to_string(FixedStepLoop<float>::kBatches) + " batches of " +
              std::to_string(FixedStepLoop<float>::kBatchTicks) + " steps, nothing recorded");
@@ -172,9 +180,10 @@ std::string summary_text(const Engines& engine, const Request& request, const Ru
 }
 
 std::string command_line(const Arguments& arguments, const Request& request) {
-  std::string text = "crankloop run " + arguments.file() + " --rpm " + shortest(request.operation.speed_rpm) + " --tick-us " +
-                     shortest(arguments.number("--tick-us")) + " --cycles " + std::to_string(request.cycles) + " --real " + request.real +
-                     " --load-ratio " + shortest(request.operation.load_ratio);
+  std::string text = "crankloop run " + arguments.file() + " --rpm " + shortest(request.operation.speed_rpm) +
+                     " --tick-us " + shortest(arguments.number("--tick-us")) + " --cycles " +
+                     std::to_string(request.cycles) + " --real " + request.real + " --load-ratio " +
+                     shortest(request.operation.load_ratio);
   return text;
 }
 
@@ -207,8 +216,17 @@ int run(const Engines& engine, const Request& request, const Arguments& argument
   if (report_file) {
     const Trace trace = record_trace<Real>(definition, operation);
     const Accuracy accuracy = measure_accuracy<Real>(engine.exact, operation);
-    const ReportInput input{engine.file, engine.exact, engine.summary, operation,    figures, trace, accuracy, close_up,
-                            request.real, command_line(arguments, request), wall_time_per_tick_ns};
+    const ReportInput input{engine.file,
+                            engine.exact,
+                            engine.summary,
+                            operation,
+                            figures,
+                            trace,
+                            accuracy,
+                            close_up,
+                            request.real,
+                            command_line(arguments, request),
+                            wall_time_per_tick_ns};
     report_file->write(report::to_html(engine_report(input)));
   }
   if (csv_file) csv_file->finish();
@@ -230,8 +248,8 @@ int run_run(const Arguments& arguments) {
   if (arguments.has("--load-ratio") && definition.pressure.source == PressureSource::none) {
     throw InputError(file.path() + ": there is no pressure source, so --load-ratio has nothing to scale");
   }
-  const Operation operation{arguments.has("--rpm") ? arguments.number("--rpm") : file.rated_rpm(), arguments.number("--tick-us") / 1e6,
-                            arguments.number("--load-ratio")};
+  const Operation operation{arguments.has("--rpm") ? arguments.number("--rpm") : file.rated_rpm(),
+                            arguments.number("--tick-us") / 1e6, arguments.number("--load-ratio")};
   const Request request{operation, arguments.whole_number("--cycles"), arguments.text("--real"),
                         arguments.text_or_empty("--csv"), arguments.text_or_empty("--report")};
   ExactEngine exact;

@@ -74,7 +74,8 @@ Accuracy measure_accuracy(const ExactEngine& engine, const Operation& operation)
       const CylinderPlace place = place_of(layout, k);
       for (const QuantityKind& kind : kQuantityKinds) {
         accuracy.of[index_of(kind.quantity)].take(static_cast<double>(value_of(out, kind.quantity, place)),
-                                                  value_of(exact, kind.quantity, place), own_angle(layout, k, engine_deg));
+                                                  value_of(exact, kind.quantity, place),
+                                                  own_angle(layout, k, engine_deg));
       }
     }
     accuracy.torque.take(static_cast<double>(out.torque_Nm), exact.torque_Nm, engine_deg);

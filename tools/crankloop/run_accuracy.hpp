@@ -1,6 +1,7 @@
 // How far the fixed-step loop is from the exact engine: measured for the engine, speed and arithmetic at hand.
 //
-// What belongs here: the comparison. What does not: accuracy that holds for every engine (docs/model.md "Tables", the tests).
+// What belongs here: the comparison. What does not: accuracy that holds for every engine (docs/model.md "Tables", the
+// tests).
 #pragma once
 
 #include <array>
@@ -28,12 +29,13 @@ struct Accuracy {
   Deviation torque;
 };
 
-/// What a step's output should be at an engine angle: kinematics, rod motion, forces, torque and crank pins of every cylinder.
-/// Journals, free forces and mean torque are left zero.
-[[nodiscard]] WholeOutput<double> exact_output(const ExactEngine& engine, double engine_deg, double speed_rad_s, double load_ratio);
+/// What a step's output should be at an engine angle: kinematics, rod motion, forces, torque and crank pins of every
+/// cylinder. Journals, free forces and mean torque are left zero.
+[[nodiscard]] WholeOutput<double> exact_output(const ExactEngine& engine, double engine_deg, double speed_rad_s,
+                                               double load_ratio);
 
-/// Runs the loop for one cycle, about 0.09 deg apart at angles that fall evenly on all parts of a degree, so that neither the best nor
-/// the worst places of the tables are favoured.
+/// Runs the loop for one cycle, about 0.09 deg apart at angles that fall evenly on all parts of a degree, so that
+/// neither the best nor the worst places of the tables are favoured.
 template <class Real>
 Accuracy measure_accuracy(const ExactEngine& engine, const Operation& operation);
 

@@ -32,8 +32,9 @@ Phase phase_at(double engine_deg) { return Phase::from_cycles(engine_deg / 720);
 
 void require_ticks(double ticks, const Operation& operation) {
   if (ticks <= kMostTicks) return;
-  throw UsageError("the run would take " + digits(ticks) + " ticks of " + digits(operation.tick_s * 1e6) + " us, at most " +
-                   digits(kMostTicks) + " are allowed: take a longer --tick-us, fewer --cycles or a higher --rpm");
+  throw UsageError("the run would take " + digits(ticks) + " ticks of " + digits(operation.tick_s * 1e6) +
+                   " us, at most " + digits(kMostTicks) +
+                   " are allowed: take a longer --tick-us, fewer --cycles or a higher --rpm");
 }
 
 }  // namespace
@@ -46,7 +47,8 @@ FixedStepLoop<Real>::FixedStepLoop(const EngineDefinition& definition, const Ope
   input_.speed_rad_s = static_cast<Real>(operation.speed_rad_s());
   input_.load_ratio = static_cast<Real>(operation.load_ratio);
   if (!(input_.speed_rad_s <= drive.speed_limit_rad_s)) {
-    const double limit_rpm = std::floor(static_cast<double>(drive.speed_limit_rad_s) / operation.speed_rad_s() * operation.speed_rpm);
+    const double limit_rpm =
+        std::floor(static_cast<double>(drive.speed_limit_rad_s) / operation.speed_rad_s() * operation.speed_rpm);
     throw UsageError(digits(operation.speed_rpm) + " rpm is too fast for a tick of " + digits(operation.tick_s * 1e6) +
                      " us: at most one revolution per tick, here " + digits(limit_rpm) + " rpm");
   }
@@ -55,10 +57,10 @@ FixedStepLoop<Real>::FixedStepLoop(const EngineDefinition& definition, const Ope
   // At constant speed all ticks turn the crank equally far: one tells how far.
   require(engine_.init(tables_->tables()));
   engine_.step(input_);
-  turned_ = engine_.state().phase;
-  deg_per_tick_ = static_cast<double>(turned_.units()) * kDegPerUnit;
-  settling_ticks_ = static_cast<std::uint64_t>(std::ceil(ticks_per_cycle()));
-  const Phase settling{settling_ticks_ * turned_.units()};
+  const Phase turned = engine_.state().phase;
+  deg_per_tick_ = static_cast<double>(turned.units()) * kDegPerUnit;
+  settling_ticks_ = static_cast<std::uint64_t>(std::ceil(ticks_per_cycle() - kHairOfATick));
+  const Phase settling{settling_ticks_ * turned.units()};
   require(engine_.init(tables_->tables(), phase_at(start_deg) - settling));
   for (std::uint64_t i = 0; i < settling_ticks_; ++i) {
     engine_.step(input_);
@@ -85,8 +87,8 @@ double FixedStepLoop<Real>::wall_time_per_tick_ns() noexcept {
 }
 
 template <class Real>
-RunFigures run_cycles(FixedStepLoop<Real>& loop, const EngineDefinition& definition, const Operation& operation, int cycles,
-                      const OnTick<Real>& on_tick) {
+RunFigures run_cycles(FixedStepLoop<Real>& loop, const EngineDefinition& definition, const Operation& operation,
+                      int cycles, const OnTick<Real>& on_tick) {
   const Layout& layout = definition.layout;
   const auto cylinders = static_cast<std::size_t>(layout.cylinders);
   const std::uint32_t journals = bearings_of(definition).pins + 1;
@@ -114,7 +116,8 @@ RunFigures run_cycles(FixedStepLoop<Real>& loop, const EngineDefinition& definit
         f.of[index_of(kind.quantity)].take(static_cast<double>(value_of(out, kind.quantity, place)), own_deg);
       }
     }
-    for (std::size_t j = 0; j < journals; ++j) f.journal_load.take(static_cast<double>(out.journal_load_N[j]), engine_deg);
+    for (std::size_t j = 0; j < journals; ++j)
+      f.journal_load.take(static_cast<double>(out.journal_load_N[j]), engine_deg);
     f.faulty_ticks += out.faults != 0 ? 1 : 0;
     f.faults |= out.faults;
     if (on_tick) on_tick(tick, engine_deg, out);
@@ -127,7 +130,9 @@ RunFigures run_cycles(FixedStepLoop<Real>& loop, const EngineDefinition& definit
 
 template class FixedStepLoop<float>;
 template class FixedStepLoop<double>;
-template RunFigures run_cycles(FixedStepLoop<float>&, const EngineDefinition&, const Operation&, int, const OnTick<float>&);
-template RunFigures run_cycles(FixedStepLoop<double>&, const EngineDefinition&, const Operation&, int, const OnTick<double>&);
+template RunFigures run_cycles(FixedStepLoop<float>&, const EngineDefinition&, const Operation&, int,
+                               const OnTick<float>&);
+template RunFigures run_cycles(FixedStepLoop<double>&, const EngineDefinition&, const Operation&, int,
+                               const OnTick<double>&);
 
 }  // namespace crankloop::program

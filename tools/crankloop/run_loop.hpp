@@ -25,18 +25,19 @@ struct Operation {
   [[nodiscard]] double speed_rad_s() const noexcept { return speed_rpm * 3.14159265358979323846 / 30; }
 };
 
-/// Most ticks of a run: a minute or so for four cylinders.
+/// Most ticks of a run: some minutes for four cylinders.
 inline constexpr double kMostTicks = 1e9;
 
-/// Engine, tables and input. After construction one cycle has been run, which lets any state settle, and the engine stands at
-/// `start_deg`: whatever the tick, a recorded run begins there.
+/// Engine, tables and input. After construction one cycle has been run, which lets any state settle, and the engine
+/// stands at `start_deg`: whatever the tick, a recorded run begins there.
 template <class Real>
 class FixedStepLoop {
  public:
   using Engine = crankloop::Engine<Real, scenes::Whole>;
 
-  /// The definition is valid and has masses. Throws UsageError for a speed beyond one revolution per tick, and for a tick so short
-  /// that a cycle takes more than kMostTicks. `after_tick` is called after each tick of the settling cycle.
+  /// The definition is valid and has masses. Throws UsageError for a speed beyond one revolution per tick, and for a
+  /// tick so short that a cycle takes more than kMostTicks. `after_tick` is called after each tick of the settling
+  /// cycle.
   FixedStepLoop(const EngineDefinition& definition, const Operation& operation, double start_deg = 0,
                 const std::function<void()>& after_tick = {});
 
@@ -62,7 +63,6 @@ class FixedStepLoop {
   TableReport report_;
   Engine engine_;
   typename Engine::Input input_;
-  Phase turned_;
   double deg_per_tick_ = 0;
   std::uint64_t settling_ticks_ = 0;
 };
@@ -87,17 +87,17 @@ struct Peaks {
 /// What the loop met in the recorded cycles. SI.
 struct RunFigures {
   int cycles = 0;
-  std::uint64_t ticks = 0;           ///< recorded: as many as it takes to cover the cycles
+  std::uint64_t ticks = 0;  ///< recorded: as many as it takes to cover the cycles
   std::uint64_t settling_ticks = 0;
   double deg_per_tick = 0;
-  double mean_torque_Nm = 0;         ///< work over the cycles divided by their angle
-  double power_W = 0;                ///< indicated
+  double mean_torque_Nm = 0;  ///< work over the cycles divided by their angle
+  double power_W = 0;         ///< indicated
   double net_mep_Pa = 0;
-  Peaks torque;                      ///< at the tick; where: engine angle
-  std::array<Peaks, kQuantities> of; ///< over all cylinders; where: the cylinder's own crank angle
-  Peaks journal_load;                ///< over all main journals; where: engine angle
+  Peaks torque;                       ///< at the tick; where: engine angle
+  std::array<Peaks, kQuantities> of;  ///< over all cylinders; where: the cylinder's own crank angle
+  Peaks journal_load;                 ///< over all main journals; where: engine angle
   std::uint64_t faulty_ticks = 0;
-  std::uint32_t faults = 0;          ///< all fault bits that occurred
+  std::uint32_t faults = 0;  ///< all fault bits that occurred
   TableReport tables;
 };
 
@@ -107,11 +107,11 @@ using OnTick = std::function<void(std::uint64_t tick, double crank_deg, const Wh
 
 /// Runs `cycles` cycles from where the loop stands and gathers the figures.
 ///
-/// A cycle is in general no whole number of ticks. The last tick then reaches beyond the last cycle; for the mean torque it counts
-/// by its part inside, as if its work were spread evenly over it. Peaks are those of the ticks: what lies between two is not seen.
-/// Throws UsageError where the run would take more than kMostTicks.
+/// A cycle is in general no whole number of ticks. The last tick then reaches beyond the last cycle; for the mean
+/// torque it counts by its part inside, as if its work were spread evenly over it. Peaks are those of the ticks: what
+/// lies between two is not seen. Throws UsageError where the run would take more than kMostTicks.
 template <class Real>
-RunFigures run_cycles(FixedStepLoop<Real>& loop, const EngineDefinition& definition, const Operation& operation, int cycles,
-                      const OnTick<Real>& on_tick = {});
+RunFigures run_cycles(FixedStepLoop<Real>& loop, const EngineDefinition& definition, const Operation& operation,
+                      int cycles, const OnTick<Real>& on_tick = {});
 
 }  // namespace crankloop::program

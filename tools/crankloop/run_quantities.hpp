@@ -89,25 +89,44 @@ template <class Real>
 [[nodiscard]] Real value_of(const WholeOutput<Real>& out, Quantity quantity, CylinderPlace place) noexcept {
   const CylinderForces<Real>& forces = out.cylinder[place.cylinder];
   switch (quantity) {
-    case Quantity::pressure: return forces.pressure_Pa;
-    case Quantity::displacement: return out.displacement_m[place.cylinder];
-    case Quantity::velocity: return out.velocity_m_s[place.cylinder];
-    case Quantity::acceleration: return out.acceleration_m_s2[place.cylinder];
-    case Quantity::gas_force: return forces.gas_force_N;
-    case Quantity::inertia_force: return forces.inertia_force_N;
-    case Quantity::total_force: return forces.total_force_N;
-    case Quantity::side_force: return forces.side_force_N;
-    case Quantity::rod_force: return forces.rod_force_N;
-    case Quantity::radial_force: return forces.radial_force_N;
-    case Quantity::tangential_force: return forces.tangential_force_N;
-    case Quantity::torque: return forces.torque_Nm;
-    case Quantity::tilting_moment: return forces.tilting_moment_Nm;
-    case Quantity::crank_pin_load: return out.pin_load_N[place.pin];
-    case Quantity::rod_angle: return out.rod_angle_rad[place.cylinder];
-    case Quantity::rod_speed: return out.rod_speed_rad_s[place.cylinder];
-    case Quantity::rod_acceleration: return out.rod_acceleration_rad_s2[place.cylinder];
-    case Quantity::pin_radial: return out.pin_radial_N[place.pin];
-    case Quantity::pin_tangential: return out.pin_tangential_N[place.pin];
+    case Quantity::pressure:
+      return forces.pressure_Pa;
+    case Quantity::displacement:
+      return out.displacement_m[place.cylinder];
+    case Quantity::velocity:
+      return out.velocity_m_s[place.cylinder];
+    case Quantity::acceleration:
+      return out.acceleration_m_s2[place.cylinder];
+    case Quantity::gas_force:
+      return forces.gas_force_N;
+    case Quantity::inertia_force:
+      return forces.inertia_force_N;
+    case Quantity::total_force:
+      return forces.total_force_N;
+    case Quantity::side_force:
+      return forces.side_force_N;
+    case Quantity::rod_force:
+      return forces.rod_force_N;
+    case Quantity::radial_force:
+      return forces.radial_force_N;
+    case Quantity::tangential_force:
+      return forces.tangential_force_N;
+    case Quantity::torque:
+      return forces.torque_Nm;
+    case Quantity::tilting_moment:
+      return forces.tilting_moment_Nm;
+    case Quantity::crank_pin_load:
+      return out.pin_load_N[place.pin];
+    case Quantity::rod_angle:
+      return out.rod_angle_rad[place.cylinder];
+    case Quantity::rod_speed:
+      return out.rod_speed_rad_s[place.cylinder];
+    case Quantity::rod_acceleration:
+      return out.rod_acceleration_rad_s2[place.cylinder];
+    case Quantity::pin_radial:
+      return out.pin_radial_N[place.pin];
+    case Quantity::pin_tangential:
+      return out.pin_tangential_N[place.pin];
   }
   return Real{0};
 }

@@ -33,25 +33,33 @@ void append(std::vector<std::vector<double>>& to, const Real* values) {
 }
 
 template <class Real>
+void append(FreeForceTrace& to, const FreeForce<Real>& force) {
+  append(to.up_N, static_cast<double>(force.up_N));
+  append(to.lateral_N, static_cast<double>(force.lateral_N));
+  append(to.pitch_Nm, static_cast<double>(force.pitch_Nm));
+  append(to.yaw_Nm, static_cast<double>(force.yaw_Nm));
+}
+
+template <class Real>
 void append(Trace& trace, double crank_deg, const WholeOutput<Real>& out, CylinderPlace first) {
   trace.crank_deg.push_back(crank_deg);
   for (const QuantityKind& kind : kQuantityKinds) {
     append(trace.of[index_of(kind.quantity)], static_cast<double>(value_of(out, kind.quantity, first)));
   }
+  double tilting_moment_Nm = 0;
   for (std::size_t k = 0; k < trace.cylinder_torque_Nm.size(); ++k) {
     append(trace.cylinder_torque_Nm[k], static_cast<double>(out.cylinder[k].torque_Nm));
+    tilting_moment_Nm += static_cast<double>(out.cylinder[k].tilting_moment_Nm);
   }
+  append(trace.tilting_moment_Nm, tilting_moment_Nm);
   append(trace.torque_Nm, static_cast<double>(out.torque_Nm));
   append(trace.pin_load_N, out.pin_load_N);
   append(trace.journal_along_N, out.journal_along_N);
   append(trace.journal_across_N, out.journal_across_N);
   append(trace.journal_load_N, out.journal_load_N);
-  append(trace.first_up_N, static_cast<double>(out.first.up_N));
-  append(trace.first_lateral_N, static_cast<double>(out.first.lateral_N));
-  append(trace.second_up_N, static_cast<double>(out.second.up_N));
-  append(trace.second_lateral_N, static_cast<double>(out.second.lateral_N));
-  append(trace.rotating_up_N, static_cast<double>(out.rotating.up_N));
-  append(trace.rotating_lateral_N, static_cast<double>(out.rotating.lateral_N));
+  append(trace.first, out.first);
+  append(trace.second, out.second);
+  append(trace.rotating, out.rotating);
 }
 
 }  // namespace

@@ -14,28 +14,35 @@
 
 namespace crankloop::program {
 
-/// One cycle, all in SI, every vector of one length: entry i stands at crank_deg[i] = i * spacing_deg of cylinder 1's own crank angle
-/// (0 = its firing top dead centre), the last at 720.
+struct FreeForceTrace {
+  std::vector<double> up_N, lateral_N, pitch_Nm, yaw_Nm;
+};
+
+/// One cycle, all in SI, every vector of one length: entry i stands at crank_deg[i] = i * spacing_deg of cylinder 1's
+/// own crank angle (0 = its firing top dead centre), the last at 720.
 struct Trace {
   double spacing_deg = 0;
   double tick_s = 0;  ///< of the loop that recorded it
   std::vector<double> crank_deg;
-  std::array<std::vector<double>, kQuantities> of;       ///< cylinder 1 and its crank pin
-  std::vector<std::vector<double>> cylinder_torque_Nm;   ///< per cylinder
+  std::array<std::vector<double>, kQuantities> of;      ///< cylinder 1 and its crank pin
+  std::vector<std::vector<double>> cylinder_torque_Nm;  ///< per cylinder
   std::vector<double> torque_Nm;
-  std::vector<std::vector<double>> pin_load_N;           ///< per crank pin
-  std::vector<std::vector<double>> journal_along_N;      ///< per main journal, in the frame that turns with the crank
+  std::vector<double> tilting_moment_Nm;             ///< all cylinders
+  std::vector<std::vector<double>> pin_load_N;       ///< per crank pin
+  std::vector<std::vector<double>> journal_along_N;  ///< per main journal, in the frame that turns with the crank
   std::vector<std::vector<double>> journal_across_N;
   std::vector<std::vector<double>> journal_load_N;
-  std::vector<double> first_up_N, first_lateral_N;       ///< free forces
-  std::vector<double> second_up_N, second_lateral_N;
-  std::vector<double> rotating_up_N, rotating_lateral_N;
+  FreeForceTrace first;  ///< free forces and moments of the whole engine
+  FreeForceTrace second;
+  FreeForceTrace rotating;
 
-  [[nodiscard]] const std::vector<double>& operator[](Quantity quantity) const noexcept { return of[index_of(quantity)]; }
+  [[nodiscard]] const std::vector<double>& operator[](Quantity quantity) const noexcept {
+    return of[index_of(quantity)];
+  }
 };
 
-/// Runs the loop at the operation's speed and load, at a tick of its own: 0.25 deg apart, or wider where that would take ticks below
-/// 1 us, or every n-th of ticks of 2 ms at most.
+/// Runs the loop at the operation's speed and load, at a tick of its own: 0.25 deg apart, or wider where that would
+/// take ticks below 1 us, or every n-th of ticks of 2 ms at most.
 template <class Real>
 Trace record_trace(const EngineDefinition& definition, const Operation& operation);
 

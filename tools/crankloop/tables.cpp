@@ -134,8 +134,8 @@ void print_sections(Printer& p, const AllSections<Real>& s, const std::string& r
   const auto type = [&](const char* name) { return "crankloop::" + std::string(name) + of_real; };
   const Drive<Real>& d = s.drive;
   section(p, type("Drive"), "drive", [&] {
-    p.list(d.fingerprint, d.tick_s, d.cycles_per_tick_per_rad_s, d.rad_s_per_cycle_per_tick, d.speed_limit_rad_s, d.cylinders, d.mechanisms,
-           d.firing_phase, d.mechanism_of, d.turn_of, d.cylinders_on_mechanism);
+    p.list(d.fingerprint, d.tick_s, d.per_tick_s, d.cycles_per_tick_per_rad_s, d.rad_s_per_cycle_per_tick, d.speed_limit_rad_s, d.cylinders, d.mechanisms,
+           d.firing_phase, d.mechanism_of, d.turn_of, d.cylinders_on_mechanism, d.trains);
   });
   const Body<Real>& b = s.body;
   section(p, type("Body"), "body", [&] {

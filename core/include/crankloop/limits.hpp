@@ -4,5 +4,6 @@
 namespace crankloop {
 
 inline constexpr int kMaxCylinders = 16;
+inline constexpr int kMaxTrains = 4;  ///< valve trains of a cylinder: intake, exhaust, and two more
 
 }  // namespace crankloop

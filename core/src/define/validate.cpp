@@ -3,43 +3,19 @@
 
 #include <cstddef>
 
+#include "rules.hpp"
+
 namespace crankloop {
+
+using detail::between;
+using detail::finite;
+using detail::first_refusal;
+using detail::not_negative;
+using detail::positive;
+
 namespace {
 
-constexpr double kLargest = 1.7976931348623157e308;
 constexpr double kHeaviest_kg = 1e4;
-
-[[nodiscard]] bool finite(double x) noexcept { return x >= -kLargest && x <= kLargest; }
-
-/// The first rule that `x` breaks, or ok.
-[[nodiscard]] Status positive(double x, const char* field, double most) noexcept {
-  if (!finite(x)) return {Reason::not_finite, -1, field};
-  if (x <= 0) return {Reason::not_positive, -1, field};
-  if (x > most) return {Reason::out_of_range, -1, field};
-  return {};
-}
-
-[[nodiscard]] Status between(double x, const char* field, double least, double most, int index = -1) noexcept {
-  if (!finite(x)) return {Reason::not_finite, index, field};
-  if (x < least || x > most) return {Reason::out_of_range, index, field};
-  return {};
-}
-
-[[nodiscard]] Status not_negative(double x, const char* field, double most) noexcept {
-  if (!finite(x)) return {Reason::not_finite, -1, field};
-  if (x < 0) return {Reason::negative, -1, field};
-  if (x > most) return {Reason::out_of_range, -1, field};
-  return {};
-}
-
-/// The first of several answers that is not ok.
-template <std::size_t N>
-[[nodiscard]] Status first_refusal(const Status (&answers)[N]) noexcept {
-  for (const Status& answer : answers) {
-    if (!answer.ok()) return answer;
-  }
-  return {};
-}
 
 /// Whether two angles in degrees point the same way. Angles beyond 1e6 deg point nowhere.
 [[nodiscard]] bool same_direction(double a_deg, double b_deg) noexcept {
@@ -162,14 +138,18 @@ void share_pins_by_position(Layout& layout) noexcept {
 
 namespace {
 
-/// Middle of the rods on a pin, which has at least one.
+/// Middle of the rods on a pin, which has at least one: the first one's place and the mean distance from it, exact for equal places.
 [[nodiscard]] double pin_position_m(const Layout& layout, std::size_t pin) noexcept {
-  double sum = 0;
+  double first = 0;
+  double beyond = 0;
   int rods = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
-    if (layout.pin[k] == pin) sum += layout.position_m[k], ++rods;
+    if (layout.pin[k] != pin) continue;
+    if (rods == 0) first = layout.position_m[k];
+    beyond += layout.position_m[k] - first;
+    ++rods;
   }
-  return sum / rods;
+  return first + beyond / rods;
 }
 
 }  // namespace
@@ -217,7 +197,7 @@ namespace {
       between(w.compression_exponent, "pressure.compression_exponent", 1, 2),
       between(w.expansion_exponent, "pressure.expansion_exponent", 1.0001, 2),
       between(w.exhaust_valve_opens_deg, "pressure.exhaust_valve_opens", 30, 179),
-      w.heat_given ? not_negative(w.heat_J, "pressure.heat", 1e9) : between(w.net_mep_Pa, "pressure.net_mep", -1e7, 1e8),
+      w.heat_given ? not_negative(w.heat_J, "pressure.heat", 1e9) : between(w.net_mep_Pa, "pressure.net_mep", 0, 1e8),
   };
   if (const Status refused = first_refusal(answers); !refused.ok()) return refused;
   if (w.start_of_combustion_deg + w.combustion_duration_deg > w.exhaust_valve_opens_deg) {
@@ -272,6 +252,7 @@ Status validate(const Pressure& pressure, const Crank& crank) noexcept {
 Status validate(const EngineDefinition& engine) noexcept {
   const Status answers[] = {validate(engine.crank), validate(engine.masses), validate(engine.layout),
                             validate(engine.pressure, engine.crank)};
+  if (engine.train_count < 0 || engine.train_count > kMaxTrains) return {Reason::out_of_range, -1, "trains"};
   if (const Status refused = first_refusal(answers); !refused.ok()) return refused;
   // No rod has a negative moment of inertia: J_rod = dI + m_rod l_pin l_crank.
   const Masses& m = engine.masses;

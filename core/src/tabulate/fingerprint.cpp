@@ -5,6 +5,38 @@
 
 namespace crankloop::detail {
 
+namespace {
+
+void add(Fingerprint& f, const ValveTrain& train) noexcept {
+  const Cam& c = train.cam;
+  f.add(static_cast<int>(c.source));
+  for (const double x : {c.full_lift_deg, c.phase_rate_deg_s}) f.add(x);
+  if (c.source == CamSource::polynomial) {
+    f.add(c.max_lift_m);
+    f.add(c.half_angle_deg);
+    f.add(c.exponent_count);
+    for (int i = 0; i < c.exponent_count; ++i) f.add(c.exponents[i]);
+  } else {
+    f.add(c.smoothing_m);
+    f.add(c.point_count);
+    for (int i = 0; i < c.point_count; ++i) f.add(c.points[i].cam_deg), f.add(c.points[i].lift_m);
+  }
+  const Rocker& r = train.rocker;
+  f.add(static_cast<int>(r.kind));
+  f.add(static_cast<int>(r.cam_turns));
+  for (const double x : {r.base_circle_m, r.clearance_m, r.ratio, r.pivot_to_pad_m, r.pivot_to_cam_m, r.pad_radius_m, r.pivot_to_screw_m,
+                         r.screw_ball_m, r.stem_above_pivot_m}) {
+    f.add(x);
+  }
+  const Valve& v = train.valve;
+  for (const double x : {v.valve_kg, v.spring_kg, v.rocker_inertia_kg_m2, v.spring_N_m, v.spring_preload_N, v.train_N_m,
+                         v.train_damping_ratio, v.guide_damping_ratio, v.seat_N_m, v.seat_damping_ratio, v.head_area_m2}) {
+    f.add(x);
+  }
+}
+
+}  // namespace
+
 std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& options, const TableReport& report,
                                            int scalar_bytes) noexcept {
   Fingerprint f;
@@ -40,6 +72,11 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
   } else {
     f.add(p.point_count);
     for (int i = 0; i < p.point_count; ++i) f.add(p.points[i].at), f.add(p.points[i].pressure_Pa);
+  }
+  if (engine.train_count > 0) {
+    f.add(static_cast<int>(options.valves.integrator));
+    f.add(options.valves.accuracy_m);
+    for (int t = 0; t < engine.train_count; ++t) add(f, engine.trains[t]);
   }
   return f.value();
 }

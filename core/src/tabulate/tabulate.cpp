@@ -10,6 +10,8 @@
 #include "curve_fit.hpp"
 #include "fingerprint.hpp"
 #include "gas_curves.hpp"
+#include "phase_units.hpp"
+#include "valve_curves.hpp"
 
 namespace crankloop {
 
@@ -20,19 +22,12 @@ namespace {
 constexpr double kFastest_rad_s = 10472;  // 100 000 rpm
 constexpr double kSameAngleDeg = 1e-9;
 
-/// An angle in degrees, in [0, 720), as phase units, to the last bit of its division by 720.
-[[nodiscard]] std::uint64_t phase_units(double deg) noexcept {
-  constexpr double kTwoTo32 = 4294967296.0;
-  const double words = deg / 720 * kTwoTo32;
-  const auto high = static_cast<std::uint32_t>(words);
-  const auto low = static_cast<std::uint32_t>((words - high) * kTwoTo32);
-  return (std::uint64_t{high} << 32) | low;
-}
-
 template <class Real>
 void fill_drive(const EngineDefinition& engine, const TickOptions& options, Drive<Real>& drive) noexcept {
   drive = {};
   drive.tick_s = static_cast<Real>(options.tick_s);
+  drive.per_tick_s = static_cast<Real>(1 / options.tick_s);
+  drive.trains = static_cast<std::uint32_t>(engine.train_count);
   drive.cycles_per_tick_per_rad_s = static_cast<Real>(options.tick_s / kRadPerCycle);
   drive.rad_s_per_cycle_per_tick = static_cast<Real>(kRadPerCycle / options.tick_s);
   // At most one revolution per tick, less a hair, so that rounding cannot take the phase increment to half a cycle.
@@ -53,7 +48,7 @@ void fill_drive(const EngineDefinition& engine, const TickOptions& options, Driv
     }
     if (m == drive.mechanisms) {
       mechanism_deg[m] = firing;
-      drive.firing_phase[m] = phase_units(firing);
+      drive.firing_phase[m] = detail::phase_units(firing);
       ++drive.mechanisms;
     }
     drive.mechanism_of[k] = static_cast<std::uint8_t>(m);
@@ -100,6 +95,8 @@ template <class Real>
   if (t.gas_grid != nullptr && t.gas_capacity < kDegreesPerCycle) return {Reason::out_of_range, -1, "targets.gas_capacity"};
   if ((t.gas_torque_full != nullptr) != (t.gas_full != nullptr)) return {Reason::missing_table, -1, "targets.gas_full"};
   if ((t.gas_torque_motored != nullptr) != (t.gas_motored != nullptr)) return {Reason::missing_table, -1, "targets.gas_motored"};
+  const bool all_of_lift = t.lift_segments != nullptr && t.rocker_ratios != nullptr;
+  if (t.lift_curves != nullptr && !all_of_lift) return {Reason::missing_table, -1, "targets.lift_segments"};
   if ((t.gas_torque_heat != nullptr) != (t.gas_heat != nullptr)) return {Reason::missing_table, -1, "targets.gas_heat"};
   return {};
 }
@@ -146,6 +143,8 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
   if (const Status refused = validate(engine); !refused.ok()) return refused;
   IndicatorDiagram diagram;
   if (const Status refused = diagram.init(engine.crank, engine.pressure); !refused.ok()) return refused;
+
+  if (const Status refused = detail::fill_valves(engine, options, targets); !refused.ok()) return refused;
 
   TableReport found;
   if (targets.body != nullptr) *targets.body = rounded<Real>(body_of(engine));

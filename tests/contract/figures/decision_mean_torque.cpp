@@ -60,7 +60,7 @@ class GasWork {
   };
   [[nodiscard]] At at(Phase phase) const {
     const Cell cell = phase.cell<Real>();
-    return {segments_[grid_.segment(cell)], fraction<Real>(cell.into)};
+    return {segments_[grid_.segment(cell)], fraction<Real>(cell)};
   }
   [[nodiscard]] double per_angle(Real work_J, Phase turned) const {
     const Real angle_rad = turned.signed_cycles<Real>() * static_cast<Real>(0x1.921fb54442d18p+3);

@@ -66,7 +66,7 @@ void compare(const char* trace, const std::vector<DiagramPoint>& rows) {
     const double worst = largest_error_bar(diagram, [&](double deg) {
       const auto degree = static_cast<std::uint32_t>(deg);
       const double u = deg - degree;
-      const std::uint32_t segment = grid.segment({degree, static_cast<std::uint32_t>(u * 4294967296.0)});
+      const std::uint32_t segment = grid.segment({degree, static_cast<std::uint32_t>(u * 4294967296.0), 0});
       return static_cast<double>(value(segments[segment], static_cast<float>(u)));
     });
     std::printf("| crankloop, room for %d | %d | %zu | %.2g |\n", capacity, report.gas_segments,

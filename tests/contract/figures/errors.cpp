@@ -25,7 +25,10 @@ constexpr double kDegPerUnit = 720.0 / 18446744073709551616.0;
 
 [[nodiscard]] double deg_of(Phase phase) { return static_cast<double>(phase.units()) * kDegPerUnit; }
 
-void keep_larger(double& largest, double candidate) { largest = std::max(largest, std::fabs(candidate)); }
+/// A candidate that is no number is kept: it must not pass for a small one.
+void keep_larger(double& largest, double candidate) {
+  if (!(std::fabs(candidate) <= largest)) largest = std::fabs(candidate);
+}
 
 [[nodiscard]] bool said(const Status& status) {
   if (!status.ok()) std::fprintf(stderr, "%s %s\n", status.field, describe(status.reason));
@@ -55,8 +58,10 @@ class MotionTable {
 
   void compare_at(Phase here, MotionErrors& errors) {
     typename Engine<Real, scenes::MeasuredMotion>::Input in;
+    if (!said(engine_.init(tables_->tables()))) std::exit(1);
+    in.crank = here - Phase{std::uint64_t{1} << 54};
+    engine_.step(in);  // the first angle says nothing of the speed
     in.crank = here;
-    if (!said(engine_.init(tables_->tables(), here - Phase{std::uint64_t{1} << 54}))) std::exit(1);
     const auto& out = engine_.step(in);
     const double w = static_cast<double>(engine_.state().speed_rad_s);
     const double r = crank_.crank_radius_m;

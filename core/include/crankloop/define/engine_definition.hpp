@@ -5,6 +5,7 @@
 #include <crankloop/define/layout.hpp>
 #include <crankloop/define/masses.hpp>
 #include <crankloop/define/pressure.hpp>
+#include <crankloop/define/valve_train.hpp>
 
 namespace crankloop {
 
@@ -13,9 +14,12 @@ struct EngineDefinition {
   Masses masses;
   Layout layout;
   Pressure pressure;
+  int train_count = 0;  ///< 0 to kMaxTrains
+  ValveTrain trains[kMaxTrains];
 };
 
-/// Validates every part and what they demand of one another, in the order above; the first refusal is returned.
+/// Validates every part and what they demand of one another, in the order above; the first refusal is returned. Valve trains are
+/// validated where their lift and motion are worked out (tabulate).
 Status validate(const EngineDefinition& engine) noexcept;
 
 }  // namespace crankloop

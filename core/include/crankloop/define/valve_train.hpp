@@ -28,11 +28,11 @@ struct Cam {
   double max_lift_m = 0;                      ///< > 0, at most 0.1
   double half_angle_deg = 0;                  ///< cam degrees, 10 to 180
   int exponent_count = 0;                     ///< 2 to 8
-  double exponents[kMostCamExponents] = {};   ///< rising, first >= 2, at most 100
+  double exponents[kMostCamExponents] = {};   ///< 2 to 100, rising by at least 0.1
   // table
-  const CamPoint* points = nullptr;  ///< rising angles within one turn; the caller keeps them alive while tabulating
+  const CamPoint* points = nullptr;  ///< rising angles, -360 to 360 and within one turn; the caller keeps them alive while tabulating
   int point_count = 0;               ///< 8 to 2000
-  double smoothing_m = 0;            ///< largest residual allowed in smoothing, >= 0
+  double smoothing_m = 0;            ///< largest residual allowed in smoothing, > 0, at most 1e-3
   // place in the cycle
   double full_lift_deg = 0;          ///< engine crank angle of full theoretical lift in the cylinder's own cycle, 0 to below 720
   double phase_rate_deg_s = 0;       ///< how fast a cam phaser may move, crank degrees per second; 0 = fixed cam
@@ -53,7 +53,7 @@ struct Rocker {
   double pivot_to_pad_m = 0;          ///< l_a
   double pivot_to_cam_m = 0;          ///< l_c
   double pad_radius_m = 0;            ///< r_s
-  double pivot_to_screw_m = 0;        ///< l_b
+  double pivot_to_screw_m = 0;        ///< l_b; kind ratio: 0, or the rocker's lever on the valve where it has an inertia
   double screw_ball_m = 0;            ///< rho, radius
   double stem_above_pivot_m = 0;      ///< z
   CamTurns cam_turns = CamTurns::toward_pivot;
@@ -64,7 +64,7 @@ struct Valve {
   int per_cylinder = 1;               ///< alike and computed once
   double valve_kg = 0;                ///< with retainer and collets
   double spring_kg = 0;               ///< a third of it moves
-  double rocker_inertia_kg_m2 = 0;    ///< about its pivot
+  double rocker_inertia_kg_m2 = 0;    ///< about its pivot; 0 for kind ratio without a lever
   double spring_N_m = 0;              ///< k_s
   double spring_preload_N = 0;        ///< P_s0
   double train_N_m = 0;               ///< k
@@ -86,5 +86,6 @@ struct ValveTrain {
 Status validate(const Cam& cam) noexcept;
 Status validate(const Rocker& rocker) noexcept;
 Status validate(const Valve& valve) noexcept;
+Status validate(const ValveTrain& train) noexcept;
 
 }  // namespace crankloop

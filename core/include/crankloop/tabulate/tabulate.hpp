@@ -7,20 +7,22 @@
 
 #include <crankloop/define/engine_definition.hpp>
 #include <crankloop/status.hpp>
+#include <crankloop/tabulate/valve_motion.hpp>
 #include <crankloop/tick/tables.hpp>
 
 namespace crankloop {
 
 /// How the engine will be stepped.
 struct TickOptions {
-  double tick_s = 100e-6;  ///< 1e-6 to 2e-3
+  double tick_s = 100e-6;    ///< 1e-6 to 2e-3
+  ValveStepping valves{};    ///< integrator and accuracy of elastic valves
 };
 
 /// Most segments of a gas grid: 20 in every degree.
 inline constexpr std::size_t kMostGasSegments = 20 * kDegreesPerCycle;
 
 /// Where to build each section; null = leave it out. The gas sections go with a gas_grid and have room for `gas_capacity` segments each;
-/// a gas torque goes with its segments.
+/// a gas torque goes with its segments, lift curves with theirs and their rocker ratios.
 template <class Real>
 struct TableTargets {
   Drive<Real>* drive = nullptr;
@@ -42,6 +44,10 @@ struct TableTargets {
   GasTorque<Real>* gas_torque_full = nullptr;
   GasTorque<Real>* gas_torque_motored = nullptr;
   GasTorque<Real>* gas_torque_heat = nullptr;
+  LiftCurve<Real>* lift_curves = nullptr;          ///< one per train of the definition
+  LiftSegment<Real>* lift_segments = nullptr;      ///< kDegreesPerTurn per train
+  Segment<Real>* rocker_ratios = nullptr;          ///< likewise
+  ValveMotion<Real>* valve_motions = nullptr;      ///< one per train
   IntegratedSegment<Real>* gas_full = nullptr;  ///< segments of gas_torque_full, and so on
   IntegratedSegment<Real>* gas_motored = nullptr;
   IntegratedSegment<Real>* gas_heat = nullptr;
@@ -84,6 +90,12 @@ template <class Real, std::size_t N> struct GasTorqueByLoadStore {
   IntegratedSegment<Real> gas_motored[N];
   IntegratedSegment<Real> gas_heat[N];
 };
+template <class Real, std::size_t Trains> struct LiftStore {
+  LiftCurve<Real> lift_curves[Trains];
+  LiftSegment<Real> lift_segments[Trains * kDegreesPerTurn];
+  Segment<Real> rocker_ratios[Trains * kDegreesPerTurn];
+};
+template <class Real, std::size_t Trains> struct ValveMotionStore { ValveMotion<Real> valve_motions[Trains]; };
 }  // namespace part
 
 /// Tables in RAM: the sections that a scene needs, and no others. Large (tens of kB to 1 MB): static or on the heap, not on a stack.
@@ -107,7 +119,9 @@ class TableStorage : If<Needs<S>::body, part::BodyStore<Real>>,
                      If<Needs<S>::gas_pressure && !Needs<S>::load, part::PressureStore<Real, GasSegments>>,
                      If<Needs<S>::gas_pressure && Needs<S>::load, part::PressureByLoadStore<Real, GasSegments>>,
                      If<Needs<S>::gas_torque && !Needs<S>::load, part::GasTorqueStore<Real, GasSegments>>,
-                     If<Needs<S>::gas_torque && Needs<S>::load, part::GasTorqueByLoadStore<Real, GasSegments>> {
+                     If<Needs<S>::gas_torque && Needs<S>::load, part::GasTorqueByLoadStore<Real, GasSegments>>,
+                     If<Needs<S>::any_valves, part::LiftStore<Real, S::trains.capacity>>,
+                     If<Needs<S>::elastic_valves, part::ValveMotionStore<Real, S::trains.capacity>> {
   static_assert(GasSegments >= std::size_t{kDegreesPerCycle} && GasSegments <= kMostGasSegments, "720 to 14400 gas segments");
 
  public:
@@ -141,6 +155,13 @@ class TableStorage : If<Needs<S>::body, part::BodyStore<Real>>,
       t.gas_motored = this->gas_motored;
       t.gas_heat = this->gas_heat;
     }
+    if constexpr (N::any_valves) {
+      if (engine.train_count > static_cast<int>(S::trains.capacity)) return {Reason::out_of_range, -1, "scene.trains"};
+      t.lift_curves = this->lift_curves;
+      t.lift_segments = this->lift_segments;
+      t.rocker_ratios = this->rocker_ratios;
+    }
+    if constexpr (N::elastic_valves) t.valve_motions = this->valve_motions;
     if (const Status refused = tabulate(engine, options, t, report); !refused.ok()) return refused;
     tables_ = Tables<Real, S>(sections_of(t));
     return {};
@@ -169,6 +190,8 @@ class TableStorage : If<Needs<S>::body, part::BodyStore<Real>>,
     s.gas_torque_full = t.gas_torque_full;
     s.gas_torque_motored = t.gas_torque_motored;
     s.gas_torque_heat = t.gas_torque_heat;
+    s.lift_curves = t.lift_curves;
+    s.valve_motions = t.valve_motions;
     return s;
   }
 

@@ -5,34 +5,14 @@
 //     input -> checked -> phase -> look-ups per mechanism -> pressure, torque, forces per cylinder -> totals -> output
 #pragma once
 
+#include <crankloop/tick/checked.hpp>
 #include <crankloop/tick/cylinder_forces.hpp>
 #include <crankloop/tick/engine.hpp>
+#include <crankloop/tick/valves_step.hpp>
 
 namespace crankloop {
 
 namespace detail {
-
-/// lowest <= x <= highest; false for NaN. Comparisons only: no conversion happens before the range is known.
-template <class Real>
-[[nodiscard]] constexpr bool within(Real x, Real lowest, Real highest) noexcept {
-  return x >= lowest && x <= highest;
-}
-
-/// x if it is good, else the last good one and its fault bit.
-template <class Real>
-[[nodiscard]] constexpr Real checked(Real x, Real lowest, Real highest, Real& last_good, Fault fault, std::uint32_t& faults) noexcept {
-  if (within(x, lowest, highest)) {
-    last_good = x;
-  } else {
-    faults |= fault;
-  }
-  return last_good;
-}
-
-template <class S>
-[[nodiscard]] constexpr std::uint32_t count(std::uint32_t in_tables) noexcept {
-  return S::cylinders.exact ? S::cylinders.capacity : in_tables;
-}
 
 /// Where a mechanism stands: its cell in the 720 deg of its own cycle.
 template <class Real>
@@ -83,6 +63,7 @@ struct Step {
   Integral<Real> inertia{};  ///< its integral
   Integral<Real> gas[2]{};
   Integral<Real> stroke[N::input_pressure ? S::cylinders.capacity : 1]{};
+  Real pressure[S::valve_gas ? S::cylinders.capacity : 1];  ///< Pa, per cylinder, for the valve heads
 
   Step(const Tables<Real, S>& t, State<Real, S>& s, Output<Real, S>& o) noexcept : tables{t}, state{s}, out{o} {}  // pose, angle: filled as needed
 
@@ -176,6 +157,7 @@ struct Step {
       } else if constexpr (N::any_torque && N::input_pressure) {
         gas_Nm = (state.pressure_Pa[k] - tables.body->crankcase_Pa) * tables.body->bore_area_m2 * p.slope_m;
       }
+      if constexpr (S::valve_gas) pressure[k] = pressure_Pa(k, segment, u);
       if constexpr (S::forces) {
         out.cylinder[k] = cylinder_forces<S::rod_inertia>(*tables.body, p, pressure_Pa(k, segment, u), speed);
         torque_Nm += out.cylinder[k].torque_Nm;
@@ -311,6 +293,8 @@ template <class Real, class S>
   if constexpr (N::gas_torque && N::load) all = all && t.gas_torque_motored != nullptr && t.gas_torque_heat != nullptr;
   if constexpr (S::bearing_loads) all = all && t.bearings != nullptr;
   if constexpr (S::free_forces) all = all && t.balance != nullptr;
+  if constexpr (N::any_valves) all = all && t.lift_curves != nullptr;
+  if constexpr (N::elastic_valves) all = all && t.valve_motions != nullptr;
   return all;
 }
 
@@ -330,6 +314,16 @@ Status Engine<Real, S>::init(const Tables& tables, Phase start) noexcept {
   }
   if constexpr (Needs<S>::body && !S::rod_inertia) {
     if (tables.body->rod_inertia_correction_kg_m2 != Real{0}) return {Reason::inconsistent, -1, "scene.rod_inertia"};
+  }
+  if constexpr (Needs<S>::any_valves) {
+    if (drive.trains > S::trains.capacity || (S::trains.exact && drive.trains != S::trains.capacity)) {
+      return {Reason::out_of_range, -1, "tables.trains"};
+    }
+  }
+  if constexpr (Needs<S>::elastic_valves && !S::valve_gas) {
+    for (std::uint32_t t = 0; t < drive.trains; ++t) {
+      if (tables.valve_motions[t].body.head_area_m2 != Real{0}) return {Reason::inconsistent, static_cast<std::int32_t>(t), "scene.valve_gas"};
+    }
   }
   tables_ = &tables;
   state_.fingerprint = drive.fingerprint;
@@ -357,6 +351,7 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
   const Drive<Real>& drive = *tables.drive;
   std::uint32_t faults = 0;
 
+  [[maybe_unused]] const Phase phase_before = state_.phase;
   Phase turned;
   bool jumped = false;
   if constexpr (S::crank == CrankGiven::speed) {
@@ -396,6 +391,9 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
     step.load_bearings();
   }
   step.balance_engine();
+  if constexpr (Needs<S>::any_valves) {
+    faults |= detail::ValvesStep<Real, S>{tables, state_, output_, phase_before, jumped, step.pressure}.run(input);
+  }
   output_.faults = faults;
   return output_;
 }

@@ -13,6 +13,8 @@ enum Fault : std::uint32_t {
   kFaultPressure = 1u << 3,       ///< a pressure not finite or outside 0 to 1e8 Pa: that cylinder's last good one was used
   kFaultPhaseJump = 1u << 4,      ///< the measured phase jumped further than the speed limit allows: the speed is the last good one, the mean
                                 ///< torque that at the tick
+  kFaultCamPhase = 1u << 5,       ///< a cam phase target not finite or outside -180 to 180 deg: the last good one was used
+  kFaultEventBudget = 1u << 6,    ///< more contact changes in a tick than are located: the rest is taken at the end of a fine step
 };
 
 }  // namespace crankloop

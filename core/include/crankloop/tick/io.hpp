@@ -7,6 +7,7 @@
 
 #include <crankloop/tick/curve.hpp>
 #include <crankloop/tick/scene.hpp>
+#include <crankloop/tick/valve_results.hpp>
 
 namespace crankloop {
 
@@ -29,9 +30,15 @@ struct PressureInput {
 };
 
 template <class Real, class S>
+struct CamPhaseInput {
+  Real cam_phase_deg[S::trains.capacity] = {};  ///< target, crank degrees later than defined; -180 to 180; moved at the train's limited rate
+};
+
+template <class Real, class S>
 struct Input : std::conditional_t<S::crank == CrankGiven::speed, SpeedInput<Real>, PhaseInput>,
                If<Needs<S>::load, LoadInput<Real>>,
-               If<Needs<S>::input_pressure, PressureInput<Real, S>> {};
+               If<Needs<S>::input_pressure, PressureInput<Real, S>>,
+               If<S::cam_phasing, CamPhaseInput<Real, S>> {};
 
 // ---- output ----------------------------------------------------------------------------------------------------------------
 
@@ -105,6 +112,35 @@ struct FreeForces {
   FreeForce<Real> rotating;  ///< centrifugal
 };
 
+/// Motion of one valve (of all that are alike in a cylinder and train).
+template <class Real>
+struct ValveMotionOutput {
+  Real theoretical_lift_m;   ///< of the cam, not below 0
+  Real lift_m;               ///< from the closed, preloaded valve
+  Real velocity_m_s;
+  Real acceleration_m_s2;
+};
+/// [train][cylinder]
+template <class Real, class S>
+struct Valves {
+  ValveMotionOutput<Real> valve[S::trains.capacity][S::cylinders.capacity];
+};
+
+/// Forces of one elastic valve.
+template <class Real>
+struct ValveForcesOutput {
+  Real train_N;      ///< between train and valve, pushing
+  Real seat_N;
+  Real tip_N;        ///< at the stem: the train's less the rocker's inertia; negative = the single mass would pull
+  Real cam_N;        ///< between cam and pad: rocker ratio times the train's
+  Real gap_m;        ///< train lift less valve lift; negative = lash or separation
+  std::uint32_t regime;  ///< 0 free, 1 train, 2 seat, 3 both
+};
+template <class Real, class S>
+struct ValveForces {
+  ValveForcesOutput<Real> valve_forces[S::trains.capacity][S::cylinders.capacity];
+};
+
 template <class Real, class S>
 struct Output : If<S::kinematics, Kinematics<Real, S>>,
                 If<S::rod_motion, RodMotion<Real, S>>,
@@ -112,7 +148,10 @@ struct Output : If<S::kinematics, Kinematics<Real, S>>,
                 If<S::mean_torque, MeanTorque<Real>>,
                 If<S::forces, Forces<Real, S>>,
                 If<S::bearing_loads, BearingLoads<Real, S>>,
-                If<S::free_forces, FreeForces<Real>> {
+                If<S::free_forces, FreeForces<Real>>,
+                If<Needs<S>::any_valves, Valves<Real, S>>,
+                If<S::valve_forces, ValveForces<Real, S>>,
+                If<S::valve_results, ValveResults<Real, S>> {
   std::uint32_t faults;  ///< Fault bits of this tick
 };
 
@@ -145,8 +184,21 @@ struct LastPressure {
 };
 
 template <class Real, class S>
+struct ValvesState {
+  ValveCondition<Real> valve[S::trains.capacity][S::cylinders.capacity];
+};
+template <class Real, class S>
+struct CamPhaseState {
+  std::uint64_t cam_phase[S::trains.capacity] = {};                 ///< phase units later than defined
+  Real cam_phase_target_deg[(S::trains.capacity + 1) / 2 * 2] = {};  ///< last good
+};
+
+template <class Real, class S>
 struct State : StateCore<Real>,
                If<Needs<S>::input_pressure, LastPressure<Real, S>>,
-               If<S::mean_torque, WorkState<Real, S>> {};
+               If<S::mean_torque, WorkState<Real, S>>,
+               If<Needs<S>::elastic_valves, ValvesState<Real, S>>,
+               If<S::cam_phasing, CamPhaseState<Real, S>>,
+               If<S::valve_results, ValveRecords<Real, S>> {};
 
 }  // namespace crankloop

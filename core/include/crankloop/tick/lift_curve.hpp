@@ -29,6 +29,7 @@ struct LiftCurve {
   const LiftSegment<Real>* at;
   const Segment<Real>* rocker_ratio;  ///< cam force per valve force, same cells
   std::uint64_t opens;                ///< phase units (2^64 = 360 cam deg) from the cylinder's angle 0 to the start of the lobe
+  std::uint64_t most_phase_per_tick;  ///< how far a phaser moves the cam in a tick, phase units; 0 = fixed cam
   std::uint32_t segments;             ///< cam degrees of the lobe
   Real outside_m;                     ///< lift outside the lobe: minus the clearance
 

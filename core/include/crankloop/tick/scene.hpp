@@ -31,6 +31,12 @@ enum class PressureGiven : std::uint8_t {
   by_input,  ///< Input::pressure_Pa, each tick
 };
 
+enum class ValveModel : std::uint8_t {
+  none,
+  following,  ///< lift = the cam's: no dynamics
+  elastic,    ///< a mass between train and seat, advanced in time: float and bounce
+};
+
 /// Derive from this and redefine what you need; the defaults ask for nothing.
 ///
 ///     struct MyScene : crankloop::Scene {
@@ -51,18 +57,27 @@ struct Scene {
   static constexpr bool forces = false;         ///< all forces of each cylinder
   static constexpr bool bearing_loads = false;  ///< crank pins and main journals; needs forces
   static constexpr bool free_forces = false;    ///< free forces and moments of first and second order
+  static constexpr ValveModel valves = ValveModel::none;
+  static constexpr Count trains = exactly<1>;   ///< valve trains per cylinder, where there are valves
+  static constexpr bool valve_forces = false;   ///< forces at train, seat, stem tip and cam; elastic valves
+  static constexpr bool valve_results = false;  ///< per-cycle results: float, bounce, seating speed; elastic valves
+  static constexpr bool valve_gas = false;      ///< cylinder pressure on the valve heads; a train with a head area demands it
+  static constexpr bool cam_phasing = false;    ///< Input::cam_phase_deg moves the cams
 };
 
 /// What a scene's answers imply.
 template <class S>
 struct Needs {
   static constexpr bool table_pressure = S::pressure == PressureGiven::by_table;
-  static constexpr bool input_pressure = S::pressure == PressureGiven::by_input;
   static constexpr bool any_torque = S::torque || S::mean_torque;
+  static constexpr bool any_valves = S::valves != ValveModel::none;
+  static constexpr bool elastic_valves = S::valves == ValveModel::elastic;
+  static constexpr bool cylinder_pressure = S::forces || (elastic_valves && S::valve_gas);
+  static constexpr bool input_pressure = S::pressure == PressureGiven::by_input && (any_torque || cylinder_pressure);
   /// With forces asked for, the torque at the tick is their sum; without, it is read from torque curves.
   static constexpr bool torque_curves = S::mean_torque || (S::torque && !S::forces);
 
-  static constexpr bool body = S::forces || (any_torque && input_pressure);
+  static constexpr bool body = S::forces || (any_torque && input_pressure) || cylinder_pressure;
   static constexpr bool stroke = S::kinematics || S::forces || (any_torque && input_pressure);
   static constexpr bool acceleration = S::kinematics || S::forces;
   static constexpr bool rod_tilt = S::forces;
@@ -70,10 +85,11 @@ struct Needs {
   static constexpr bool rod_curvature = S::rod_motion || (S::forces && S::rod_inertia);
   static constexpr bool inertia_torque = torque_curves;
   static constexpr bool gas_torque = torque_curves && table_pressure;
-  static constexpr bool gas_pressure = S::forces && table_pressure;
+  static constexpr bool gas_pressure = cylinder_pressure && table_pressure;
   static constexpr bool gas_grid = gas_torque || gas_pressure;
   static constexpr bool load = S::load_ratio && table_pressure;
   static constexpr bool mechanisms = stroke || acceleration || rod_angle || rod_curvature || inertia_torque || gas_grid;
+  static constexpr std::uint32_t valve_count = any_valves ? S::trains.capacity * S::cylinders.capacity : 0;
 };
 
 /// The rules every scene keeps, each with its sentence.
@@ -83,6 +99,11 @@ struct CheckedScene {
   static_assert(S::cylinders.capacity <= kMaxCylinders, "a scene has at most 16 cylinders");
   static_assert(!S::bearing_loads || S::forces, "bearing_loads are made from forces: ask for forces too");
   static_assert(!S::load_ratio || S::pressure == PressureGiven::by_table, "load_ratio scales a pressure table: set pressure = by_table");
+  static_assert(S::valves == ValveModel::none || (S::trains.capacity >= 1 && S::trains.capacity <= kMaxTrains), "a cylinder has 1 to 4 valve trains");
+  static_assert(S::valves == ValveModel::elastic || (!S::valve_forces && !S::valve_results && !S::valve_gas),
+                "valve forces, results and gas force need elastic valves");
+  static_assert(S::valves != ValveModel::none || !S::cam_phasing, "cam_phasing needs valves");
+  static_assert(!S::valve_gas || S::pressure != PressureGiven::none, "valve_gas needs a pressure");
   static constexpr bool value = true;
 };
 

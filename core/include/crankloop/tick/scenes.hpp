@@ -21,6 +21,12 @@ struct Whole : Scene {
   static constexpr bool forces = true;
   static constexpr bool bearing_loads = true;
   static constexpr bool free_forces = true;
+  static constexpr ValveModel valves = ValveModel::elastic;
+  static constexpr Count trains = up_to<kMaxTrains>;
+  static constexpr bool valve_forces = true;
+  static constexpr bool valve_results = true;
+  static constexpr bool valve_gas = true;
+  static constexpr bool cam_phasing = true;
 };
 
 /// Where the pistons are, at an angle that the caller measured.

@@ -10,6 +10,7 @@
 #include <crankloop/limits.hpp>
 #include <crankloop/tick/curve.hpp>
 #include <crankloop/tick/scene.hpp>
+#include <crankloop/tick/valve_tick.hpp>
 
 namespace crankloop {
 
@@ -18,6 +19,7 @@ template <class Real>
 struct Drive {
   std::uint64_t fingerprint;  ///< of all sections: a state belongs to its tables
   Real tick_s;
+  Real per_tick_s;                 ///< 1 / tick
   Real cycles_per_tick_per_rad_s;  ///< tick / (4 pi): speed to phase increment
   Real rad_s_per_cycle_per_tick;   ///< 4 pi / tick
   Real speed_limit_rad_s;          ///< beyond it an input is refused; at most one revolution per tick
@@ -27,6 +29,7 @@ struct Drive {
   std::uint8_t mechanism_of[kMaxCylinders];         ///< per cylinder
   std::uint8_t turn_of[kMaxCylinders];              ///< per cylinder: 0, or 1 when it fires a crank turn after its mechanism's phase
   Real cylinders_on_mechanism[kMaxCylinders];       ///< how many share it
+  std::uint32_t trains;                             ///< valve trains of each cylinder
 };
 
 /// Lengths and masses of one cylinder as the force equations use them. All cylinders are alike.
@@ -100,6 +103,8 @@ struct Sections {
   const GasTorque<Real>* gas_torque_heat = nullptr;
   const Bearings<Real>* bearings = nullptr;
   const Balance<Real>* balance = nullptr;
+  const LiftCurve<Real>* lift_curves = nullptr;      ///< per train
+  const ValveMotion<Real>* valve_motions = nullptr;  ///< per train
 };
 
 namespace part {
@@ -118,6 +123,8 @@ template <class Real> struct GasTorqueRef { const GasTorque<Real>* gas_torque_fu
 template <class Real> struct GasTorqueByLoadRef { const GasTorque<Real>* gas_torque_motored = nullptr; const GasTorque<Real>* gas_torque_heat = nullptr; };
 template <class Real> struct BearingsRef { const Bearings<Real>* bearings = nullptr; };
 template <class Real> struct BalanceRef { const Balance<Real>* balance = nullptr; };
+template <class Real> struct LiftRef { const LiftCurve<Real>* lift_curves = nullptr; };
+template <class Real> struct ValveMotionRef { const ValveMotion<Real>* valve_motions = nullptr; };
 }  // namespace part
 
 /// The sections a scene reads, and no others.
@@ -135,7 +142,9 @@ struct Tables : If<Needs<S>::body, part::BodyRef<Real>>,
                 If<Needs<S>::gas_torque && !Needs<S>::load, part::GasTorqueRef<Real>>,
                 If<Needs<S>::gas_torque && Needs<S>::load, part::GasTorqueByLoadRef<Real>>,
                 If<S::bearing_loads, part::BearingsRef<Real>>,
-                If<S::free_forces, part::BalanceRef<Real>> {
+                If<S::free_forces, part::BalanceRef<Real>>,
+                If<Needs<S>::any_valves, part::LiftRef<Real>>,
+                If<Needs<S>::elastic_valves, part::ValveMotionRef<Real>> {
   const Drive<Real>* drive = nullptr;
 
   constexpr Tables() = default;
@@ -155,6 +164,8 @@ struct Tables : If<Needs<S>::body, part::BodyRef<Real>>,
     if constexpr (N::gas_torque && N::load) this->gas_torque_motored = s.gas_torque_motored, this->gas_torque_heat = s.gas_torque_heat;
     if constexpr (S::bearing_loads) this->bearings = s.bearings;
     if constexpr (S::free_forces) this->balance = s.balance;
+    if constexpr (N::any_valves) this->lift_curves = s.lift_curves;
+    if constexpr (N::elastic_valves) this->valve_motions = s.valve_motions;
   }
 };
 

@@ -56,6 +56,14 @@ struct ValveState {
   Real velocity_m_s;
 };
 
+/// A valve between two ticks. Asleep = closed and exactly at rest.
+template <class Real>
+struct ValveCondition {
+  ValveState<Real> state{};
+  std::uint32_t regime = kSeatOn;
+  std::uint32_t asleep = 1;
+};
+
 /// Lift at both ends of a step of length d, derivatives by time multiplied by d and d^2.
 template <class Real>
 struct LiftStep {
@@ -67,6 +75,13 @@ template <class Real>
   const Real q = cam_deg_per_step;
   return {{from.lift_m, to.lift_m, q * from.per_deg_m, q * to.per_deg_m, q * q * from.per_deg2_m, q * q * to.per_deg2_m}};
 }
+
+/// Train lift and its speed at one moment.
+template <class Real>
+struct LiftNow {
+  Real lift_m;
+  Real speed_m_s;
+};
 
 /// The lift within a step as the quintic through both ends; `part` of the step, 0 to 1. Slopes are by the part: d times those by time.
 template <class Real>
@@ -143,6 +158,25 @@ template <class Real>
   const Real sink = b.seat_sink_m - s.lift_m;
   return {gap, b.train_N_m * gap + b.train_Ns_m * (lift_speed_m_s - s.velocity_m_s), sink,
           b.seat_N_m * sink - b.seat_Ns_m * s.velocity_m_s};
+}
+
+/// The train's force in a regime: zero unless it is on.
+template <class Real>
+[[nodiscard]] constexpr Real train_force_N(std::uint32_t regime, const Contacts<Real>& c) noexcept {
+  return (regime & kTrainOn) != 0 && c.train_N > 0 ? c.train_N : Real{0};
+}
+template <class Real>
+[[nodiscard]] constexpr Real seat_force_N(std::uint32_t regime, const Contacts<Real>& c) noexcept {
+  return (regime & kSeatOn) != 0 && c.seat_N > 0 ? c.seat_N : Real{0};
+}
+
+/// y'' from the forces.
+template <class Real>
+[[nodiscard]] constexpr Real acceleration(const ValveBody<Real>& b, std::uint32_t regime, ValveState<Real> s, Real lift_m, Real lift_speed_m_s,
+                                          Real gas_N) noexcept {
+  const Contacts<Real> c = contacts(b, s, lift_m, lift_speed_m_s);
+  return (train_force_N(regime, c) + seat_force_N(regime, c) - b.spring_N_m * s.lift_m - b.preload_N - b.guide_Ns_m * s.velocity_m_s - gas_N) /
+         b.mass_kg;
 }
 
 }  // namespace crankloop

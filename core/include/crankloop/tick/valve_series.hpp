@@ -43,6 +43,10 @@ class StepSeries {
     }
   }
 
+  [[nodiscard]] constexpr LiftNow<Real> lift(Real at) const noexcept {
+    return {lift_.value(at - at_), lift_.slope(at - at_) / step_s_};
+  }
+
   [[nodiscard]] constexpr ValveState<Real> state(Real at) const noexcept {
     const Real x = at - at_;
     Real y = motion_[kOrder];

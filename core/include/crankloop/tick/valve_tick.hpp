@@ -9,7 +9,9 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
+#include <crankloop/tick/valve_results.hpp>
 #include <crankloop/tick/valve_series.hpp>
 
 namespace crankloop {
@@ -29,14 +31,6 @@ struct ValveMotion {
   Real rest_m_s;
   StepMatrix<Real> whole[4];    ///< per regime
   StepMatrix<Real> fine[4];
-};
-
-/// A valve between two ticks. Asleep = closed and exactly at rest.
-template <class Real>
-struct ValveCondition {
-  ValveState<Real> state{};
-  std::uint32_t regime = kSeatOn;
-  std::uint32_t asleep = 1;
 };
 
 /// How a cam moves during a tick.
@@ -113,95 +107,136 @@ template <class Real>
 
 }  // namespace detail
 
-/// Advances one valve by a tick. O(steps * fine_per_step + events): bounded by the tables and the budget.
-template <class Real>
+/// Advances one valve by a tick and keeps its record. O(steps * fine_per_step + events): bounded by the tables and the budget.
+template <class Real, class Record>
 class ValveTick {
  public:
-  constexpr ValveTick(const ValveMotion<Real>& motion, const LiftCurve<Real>& curve, Real gas_N, EventBudget& budget) noexcept
-      : motion_{motion}, curve_{curve}, gas_N_{gas_N}, budget_{budget} {}
+  constexpr ValveTick(const ValveMotion<Real>& motion, const LiftCurve<Real>& curve, Real gas_N, EventBudget& budget, Record& record) noexcept
+      : motion_{motion}, curve_{curve}, gas_N_{gas_N}, budget_{budget}, record_{record} {}
 
   /// The lift where the last advance() ended.
   [[nodiscard]] constexpr const Lift<Real>& lift() const noexcept { return lift_; }
 
   constexpr void advance(ValveCondition<Real>& valve, const CamTurn<Real>& cam) noexcept {
     const Cell start = LiftCurve<Real>::cell(cam.from);
-    const Cell end = LiftCurve<Real>::cell(cam.to);
-    const bool lobe_touched = start.degree < curve_.segments || end.degree < curve_.segments;
-    lift_ = curve_.read(end);
-    if (valve.asleep != 0 && !lobe_touched) return;
+    const Lift<Real> lift_at_start = curve_.read(start);
+    lift_ = curve_.read(LiftCurve<Real>::cell(cam.to));
+    const Real turned_deg = cam.turned_deg < 0 ? -cam.turned_deg : cam.turned_deg;
+    const bool lash_stays_open =
+        lift_at_start.lift_m < -kLeastLash_m && lift_.lift_m < -kLeastLash_m && turned_deg < kLobeNotSkipped_deg;
+    if (valve.asleep != 0 && lash_stays_open) return;
     if (valve.asleep != 0) {  // wake where the gas holds the valve on its seat
       valve.state = {-gas_N_ / (motion_.body.seat_N_m + motion_.body.spring_N_m), Real{0}};
       valve.asleep = 0;
     }
     const Real step_deg = cam.turned_deg * motion_.per_steps;
-    Lift<Real> from = curve_.read(start);
-    for (std::uint32_t i = 0; i < motion_.steps; ++i) {
-      const std::uint64_t at = part_way(cam.from, cam.to, cam.turned_deg, i, motion_.steps, motion_.per_steps);
-      const std::uint64_t next = part_way(cam.from, cam.to, cam.turned_deg, i + 1, motion_.steps, motion_.per_steps);
-      const Lift<Real> to = curve_.read(LiftCurve<Real>::cell(next));
-      if (!whole_step(valve, lift_step(from, to, step_deg), step_deg)) fine_steps(valve, at, next, from, step_deg);
+    Place from{cam.from, lift_at_start, degrees(start)};
+    for (std::uint32_t i = 1; i <= motion_.steps; ++i) {
+      const std::uint64_t next = part_way(cam.from, cam.to, cam.turned_deg, i, motion_.steps, motion_.per_steps);
+      const Place to{next, curve_.read(LiftCurve<Real>::cell(next)), from.deg + step_deg};
+      if (!whole_step(valve, from, to, step_deg)) fine_steps(valve, from, next, step_deg);
       from = to;
     }
-    fall_asleep(valve, lobe_touched);
+    fall_asleep(valve, lash_stays_open);
   }
 
  private:
+  static constexpr Real kLeastLash_m = static_cast<Real>(1e-6);     ///< with more of it at both ends of a tick a closed valve is left alone,
+  static constexpr Real kLobeNotSkipped_deg = static_cast<Real>(30);  ///< unless the tick is so long that a lobe might fit into it
+
+  /// The cam at a step's end.
+  struct Place {
+    std::uint64_t phase;
+    Lift<Real> lift;
+    Real deg;  ///< since the start of the lobe
+  };
+
+  /// Cam degrees since the start of the lobe; negative in the half of the base circle before it.
+  [[nodiscard]] constexpr Real degrees(Cell cell) const noexcept {
+    const auto degree = static_cast<std::int32_t>(cell.degree);
+    const bool before = 2 * degree > static_cast<std::int32_t>(curve_.segments) + kDegreesPerTurn;
+    return static_cast<Real>(before ? degree - kDegreesPerTurn : degree) + fraction<Real>(cell);
+  }
+
+  [[nodiscard]] constexpr Real force_N(std::uint32_t regime) const noexcept { return constant_force_N(motion_.body, regime, gas_N_); }
+
   /// Takes a whole step if no contact can change in it.
-  constexpr bool whole_step(ValveCondition<Real>& valve, const LiftStep<Real>& lift, Real step_deg) noexcept {
+  constexpr bool whole_step(ValveCondition<Real>& valve, const Place& from, const Place& to, Real step_deg) noexcept {
     if (step_deg > motion_.widest_step_deg || step_deg < -motion_.widest_step_deg || (valve.regime & kSeatOn) != 0) return false;
-    const ValveState<Real> after = stepped(motion_.whole[valve.regime], valve.state, lift, constant_force_N(motion_.body, valve.regime, gas_N_),
-                                           (valve.regime & kTrainOn) != 0);
+    const LiftStep<Real> lift = lift_step(from.lift, to.lift, step_deg);
+    const ValveState<Real> after = stepped(motion_.whole[valve.regime], valve.state, lift, force_N(valve.regime), (valve.regime & kTrainOn) != 0);
     if (!detail::far_from_change(motion_.body, valve.regime, valve.state, after, lift, motion_.step_s)) return false;
+    note(valve.state, after, lift, valve.regime, from.deg, to.deg, motion_.step_s);
     valve.state = after;
     return true;
   }
 
-  constexpr void fine_steps(ValveCondition<Real>& valve, std::uint64_t at, std::uint64_t end, Lift<Real> from, Real step_deg) noexcept {
+  constexpr void fine_steps(ValveCondition<Real>& valve, Place from, std::uint64_t end, Real step_deg) noexcept {
+    const std::uint64_t begin = from.phase;
     const Real fine_deg = step_deg * motion_.per_fine;
     for (std::uint32_t i = 1; i <= motion_.fine_per_step; ++i) {
-      const Lift<Real> to = curve_.read(LiftCurve<Real>::cell(part_way(at, end, step_deg, i, motion_.fine_per_step, motion_.per_fine)));
-      const LiftStep<Real> lift = lift_step(from, to, fine_deg);
-      const ValveState<Real> after = stepped(motion_.fine[valve.regime], valve.state, lift, constant_force_N(motion_.body, valve.regime, gas_N_),
-                                             (valve.regime & kTrainOn) != 0);
-      const std::uint32_t asked = contacts(motion_.body, after, to.lift_m, lift.at[3] / motion_.fine_s).regime();
+      const std::uint64_t next = part_way(begin, end, step_deg, i, motion_.fine_per_step, motion_.per_fine);
+      const Place to{next, curve_.read(LiftCurve<Real>::cell(next)), from.deg + fine_deg};
+      const LiftStep<Real> lift = lift_step(from.lift, to.lift, fine_deg);
+      const ValveState<Real> after = stepped(motion_.fine[valve.regime], valve.state, lift, force_N(valve.regime), (valve.regime & kTrainOn) != 0);
+      const std::uint32_t asked = contacts(motion_.body, after, to.lift.lift_m, lift.at[3] / motion_.fine_s).regime();
       if (asked == valve.regime) {
+        note(valve.state, after, lift, valve.regime, from.deg, to.deg, motion_.fine_s);
         valve.state = after;
+      } else if (budget_.left == 0) {
+        budget_.exceeded = true;
+        note(valve.state, after, lift, valve.regime, from.deg, to.deg, motion_.fine_s);
+        record_.change(valve.regime, asked, after.velocity_m_s, to.deg);
+        valve = {after, asked, 0};
       } else {
-        change_contacts(valve, lift, after, asked);
+        change_contacts(valve, lift, from.deg, fine_deg);
       }
       from = to;
     }
   }
 
   /// The step in which a contact changes: by the series up to the change, on in the new regime, until the step's end.
-  constexpr void change_contacts(ValveCondition<Real>& valve, const LiftStep<Real>& lift, ValveState<Real> unlocated,
-                                 std::uint32_t asked) noexcept {
-    if (budget_.left == 0) {
-      budget_.exceeded = true;
-      valve.state = unlocated;
-      valve.regime = asked;
-      return;
-    }
+  constexpr void change_contacts(ValveCondition<Real>& valve, const LiftStep<Real>& lift, Real from_deg, Real fine_deg) noexcept {
     StepSeries<Real> series(motion_.body, lift, motion_.fine_s);
-    Real at = 0;
-    for (;;) {
+    for (Real at = 0; at < 1;) {
       series.expand(at, valve.state, valve.regime, gas_N_);
       std::uint32_t changed = 0;
-      at = series.first_change(valve.regime, changed);
-      valve.state = series.state(at);
+      const Real next = budget_.left > 0 ? series.first_change(valve.regime, changed) : Real{1};
+      const ValveState<Real> after = series.state(next);
+      note_part(series, valve, after, at, next, from_deg, fine_deg);
+      valve.state = after;
+      at = next;
       if (changed == 0) return;
+      --budget_.left;
+      record_.change(valve.regime, valve.regime ^ changed, after.velocity_m_s, from_deg + next * fine_deg);
       valve.regime ^= changed;
-      if (--budget_.left == 0) {  // the rest of this step in the regime that has just begun
-        series.expand(at, valve.state, valve.regime, gas_N_);
-        valve.state = series.state(Real{1});
-        return;
-      }
     }
   }
 
+  constexpr void note(ValveState<Real> before, ValveState<Real> after, const LiftStep<Real>& lift, std::uint32_t regime, Real from_deg, Real to_deg,
+                      Real step_s) noexcept {
+    if constexpr (std::is_same_v<Record, NoRecord<Real>>) return;
+    const Real per_s = 1 / step_s;
+    const Real speed = lift.at[3] * per_s;
+    record_.step({before, after, lift.at[0], lift.at[1], lift.at[2] * per_s, speed,
+                  acceleration(motion_.body, regime, after, lift.at[1], speed, gas_N_), from_deg, to_deg, step_s, regime},
+                 motion_.body.seat_sink_m);
+  }
+
+  constexpr void note_part(const StepSeries<Real>& series, const ValveCondition<Real>& valve, ValveState<Real> after, Real at, Real next,
+                           Real from_deg, Real fine_deg) noexcept {
+    if constexpr (std::is_same_v<Record, NoRecord<Real>>) return;
+    const LiftNow<Real> begin = series.lift(at);
+    const LiftNow<Real> end = series.lift(next);
+    record_.step({valve.state, after, begin.lift_m, end.lift_m, begin.speed_m_s, end.speed_m_s,
+                  acceleration(motion_.body, valve.regime, after, end.lift_m, end.speed_m_s, gas_N_), from_deg + at * fine_deg,
+                  from_deg + next * fine_deg, (next - at) * motion_.fine_s, valve.regime},
+                 motion_.body.seat_sink_m);
+  }
+
   /// A closed valve that has come to rest is put exactly at rest: it costs nothing, and no denormal numbers.
-  constexpr void fall_asleep(ValveCondition<Real>& valve, bool lobe_touched) noexcept {
-    if (lobe_touched || valve.regime != kSeatOn) return;
+  constexpr void fall_asleep(ValveCondition<Real>& valve, bool lash_stays_open) noexcept {
+    if (!lash_stays_open || valve.regime != kSeatOn) return;
     const Real off_m = valve.state.lift_m + gas_N_ / (motion_.body.seat_N_m + motion_.body.spring_N_m);
     const Real speed_m_s = valve.state.velocity_m_s;
     const bool in_place = off_m < motion_.rest_m && off_m > -motion_.rest_m;
@@ -215,6 +250,7 @@ class ValveTick {
   const LiftCurve<Real>& curve_;
   Real gas_N_;
   EventBudget& budget_;
+  Record& record_;
   Lift<Real> lift_{};
 };
 

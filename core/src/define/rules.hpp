@@ -1,0 +1,43 @@
+// The rules that single numbers of a definition keep.
+#pragma once
+
+#include <cstddef>
+
+#include <crankloop/status.hpp>
+
+namespace crankloop::detail {
+
+inline constexpr double kLargest = 1.7976931348623157e308;
+
+[[nodiscard]] inline bool finite(double x) noexcept { return x >= -kLargest && x <= kLargest; }
+
+[[nodiscard]] inline Status positive(double x, const char* field, double most) noexcept {
+  if (!finite(x)) return {Reason::not_finite, -1, field};
+  if (x <= 0) return {Reason::not_positive, -1, field};
+  if (x > most) return {Reason::out_of_range, -1, field};
+  return {};
+}
+
+[[nodiscard]] inline Status between(double x, const char* field, double least, double most, int index = -1) noexcept {
+  if (!finite(x)) return {Reason::not_finite, index, field};
+  if (x < least || x > most) return {Reason::out_of_range, index, field};
+  return {};
+}
+
+[[nodiscard]] inline Status not_negative(double x, const char* field, double most) noexcept {
+  if (!finite(x)) return {Reason::not_finite, -1, field};
+  if (x < 0) return {Reason::negative, -1, field};
+  if (x > most) return {Reason::out_of_range, -1, field};
+  return {};
+}
+
+/// The first of several answers that is not ok.
+template <std::size_t N>
+[[nodiscard]] Status first_refusal(const Status (&answers)[N]) noexcept {
+  for (const Status& answer : answers) {
+    if (!answer.ok()) return answer;
+  }
+  return {};
+}
+
+}  // namespace crankloop::detail

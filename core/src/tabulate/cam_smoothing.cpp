@@ -1,0 +1,207 @@
+// Smoothing by a penalised spline (Eilers and Marx, Statistical Science 11 (1996) 89; Reinsch, Numerische Mathematik 10 (1967) 177):
+// weights c >= 0 that minimise
+//
+//     sum over rows (y(row) - lift)^2  +  stiffness * sum (third differences of c)^2
+//
+// with the largest stiffness that keeps every row within the residual allowed. Third differences stand for the jerk: what is made small is
+// what rounding and noise blow up. (Fourth differences left two to three times the error of y'' at the feet of the lobe.)
+//
+//     weights       0 0 0 c c c c c c c c c c 0 0 0     The spline begins and ends with whole basis functions, so four derivatives
+//     lift          ______....--''''--....________      are zero there; c >= 0 keeps the lift from swinging below the base circle.
+#include "cam_smoothing.hpp"
+
+#include <crankloop/tabulate/elementary.hpp>
+#include <crankloop/tick/square_root.hpp>
+
+#include "quintic_basis.hpp"
+
+namespace crankloop::detail {
+
+namespace {
+
+constexpr double kRadPerDeg = elementary::kPi / 180;
+constexpr int kMost = LobeSpline::kMostWeights;
+constexpr int kFewestSegments = 160;         // about one a degree: also a coarse table is smoothed, not interpolated
+constexpr int kMostSegments = kMost + kBasis - 1;
+constexpr double kMarginDeg = 10;            // base circle to either side of the rows that rise, in which the lobe may begin
+constexpr double kWidestLobeDeg = 350;
+constexpr double kLeastStiffness = 1e-6;
+constexpr double kMostStiffness = 1e9;
+
+class Smoothing {
+ public:
+  Smoothing(const Cam& cam, LobeSpline& lobe) noexcept : cam_{cam}, lobe_{lobe} {}
+
+  Status place() noexcept;
+  void gather() noexcept;
+  [[nodiscard]] bool keeps_to_rows(double stiffness) noexcept;
+  [[nodiscard]] double residual_m() const noexcept;
+
+ private:
+  [[nodiscard]] double knots(int row) const noexcept { return (cam_.points[row].cam_deg * kRadPerDeg - lobe_.first_rad) / lobe_.knot_rad; }
+  void solve(double stiffness) noexcept;
+  [[nodiscard]] bool trim() noexcept;
+
+  const Cam& cam_;
+  LobeSpline& lobe_;
+  int weights_ = 0;
+  double rows_[kMost][kBasis];    ///< normal equations: row i holds columns i to i + 5
+  double right_[kMost];
+  double factor_[kMost][kBasis];  ///< Cholesky factor, transposed
+};
+
+/// Where the lobe may lie, and its knots.
+Status Smoothing::place() noexcept {
+  const CamPoint* row = cam_.points;
+  const int last = cam_.point_count - 1;
+  int peak = 0;
+  for (int i = 1; i <= last; ++i) {
+    if (row[i].lift_m > row[peak].lift_m) peak = i;
+  }
+  int left = peak;
+  while (left > 0 && row[left].lift_m > cam_.smoothing_m) --left;
+  int right = peak;
+  while (right < last && row[right].lift_m > cam_.smoothing_m) ++right;
+  if (left == right || row[left].lift_m > cam_.smoothing_m) return {Reason::inconsistent, left, "cam.file"};
+  if (row[right].lift_m > cam_.smoothing_m) return {Reason::inconsistent, right, "cam.file"};
+
+  double from = row[left].cam_deg - kMarginDeg;
+  double to = row[right].cam_deg + kMarginDeg;
+  int segments = 0;
+  for (int i = 0; i <= last; ++i) {
+    if (row[i].cam_deg >= from && row[i].cam_deg <= to) ++segments;
+  }
+  if (segments < kFewestSegments) segments = kFewestSegments;
+  if (segments > kMostSegments) segments = kMostSegments;
+  // Where the table ends, the base circle goes on: three more segments let the lobe begin there as softly as elsewhere.
+  const double beyond = 3 * (row[right].cam_deg - row[left].cam_deg) / (segments - 6);
+  if (from < row[0].cam_deg - beyond) from = row[0].cam_deg - beyond;
+  if (to > row[last].cam_deg + beyond) to = row[last].cam_deg + beyond;
+  if (to - from > kWidestLobeDeg) return {Reason::out_of_range, -1, "cam.file"};
+  weights_ = segments - (kBasis - 1);
+  lobe_.first_rad = from * kRadPerDeg;
+  lobe_.knot_rad = (to - from) * kRadPerDeg / segments;
+  return {};
+}
+
+/// The rows' share of the normal equations.
+void Smoothing::gather() noexcept {
+  for (int i = 0; i < kMost; ++i) {
+    right_[i] = 0;
+    for (int k = 0; k < kBasis; ++k) rows_[i][k] = 0;
+  }
+  for (int row = 0; row < cam_.point_count; ++row) {
+    const double at = knots(row);
+    if (!(at >= 0 && at < weights_ + kBasis - 1)) continue;
+    const int segment = static_cast<int>(at);
+    const QuinticBasis basis = quintic_basis(at - segment);
+    for (int j = 0; j < kBasis; ++j) {
+      const int i = segment - (kBasis - 1) + j;
+      if (i < 0 || i >= weights_) continue;
+      right_[i] += basis.value[j] * cam_.points[row].lift_m;
+      for (int k = 0; j + k < kBasis && i + k < weights_; ++k) rows_[i][k] += basis.value[j] * basis.value[j + k];
+    }
+  }
+}
+
+/// The lobe's weights by Cholesky's method; O(weights). The matrix is positive definite because the differences reach across both ends.
+void Smoothing::solve(double stiffness) noexcept {
+  constexpr double kThirdDifferences[kBasis] = {20, -15, 6, -1, 0, 0};  // D'D of D = (1, -3, 3, -1)
+  double* c = lobe_.c_m;
+  const auto reach = [&](int i) { return i - (kBasis - 1) > lobe_.begin ? i - (kBasis - 1) : lobe_.begin; };
+  for (int i = 0; i < kMost; ++i) c[i] = 0;
+  for (int i = lobe_.begin; i < lobe_.end; ++i) {
+    for (int k = 0; k < kBasis && i + k < lobe_.end; ++k) {
+      double sum = rows_[i][k] + stiffness * kThirdDifferences[k];
+      for (int m = reach(i + k); m < i; ++m) sum -= factor_[m][i - m] * factor_[m][i + k - m];
+      factor_[i][k] = k == 0 ? square_root(sum) : sum / factor_[i][0];
+    }
+    double sum = right_[i];
+    for (int m = reach(i); m < i; ++m) sum -= factor_[m][i - m] * c[m];
+    c[i] = sum / factor_[i][0];
+  }
+  for (int i = lobe_.end - 1; i >= lobe_.begin; --i) {
+    double sum = c[i];
+    for (int k = 1; k < kBasis && i + k < lobe_.end; ++k) sum -= factor_[i][k] * c[i + k];
+    c[i] = sum / factor_[i][0];
+  }
+}
+
+/// Takes the outermost weight that is not above 0 out of the lobe on either side of the peak, with those outside it. True if there was one.
+/// One at a time, because the next ones often recover.
+bool Smoothing::trim() noexcept {
+  int peak = lobe_.begin;
+  for (int i = lobe_.begin; i < lobe_.end; ++i) {
+    if (lobe_.c_m[i] > lobe_.c_m[peak]) peak = i;
+  }
+  int begin = lobe_.begin;
+  while (begin < peak && lobe_.c_m[begin] > 0) ++begin;
+  int end = lobe_.end;
+  while (end - 1 > peak && lobe_.c_m[end - 1] > 0) --end;
+  if (begin < peak) lobe_.begin = begin + 1;
+  if (end - 1 > peak) lobe_.end = end - 1;
+  return begin < peak || end - 1 > peak;
+}
+
+bool Smoothing::keeps_to_rows(double stiffness) noexcept {
+  lobe_.begin = 0;
+  lobe_.end = weights_;
+  do {
+    solve(stiffness);
+  } while (trim());
+  return residual_m() <= cam_.smoothing_m;
+}
+
+double Smoothing::residual_m() const noexcept {
+  double largest = 0;
+  for (int row = 0; row < cam_.point_count; ++row) {
+    const double off = cam_.points[row].lift_m - lobe_.at(cam_.points[row].cam_deg * kRadPerDeg).lift_m;
+    if (off > largest) largest = off;
+    if (-off > largest) largest = -off;
+  }
+  return largest;
+}
+
+}  // namespace
+
+Status smooth_cam(const Cam& cam, LobeSpline& lobe, double& residual_m) noexcept {
+  Smoothing smoothing{cam, lobe};
+  if (const Status refused = smoothing.place(); !refused.ok()) return refused;
+  smoothing.gather();
+  // From above, because a loose spline follows the noise and a lobe that was trimmed to it may miss rows that a stiffer one keeps.
+  double low = kMostStiffness;
+  double high = low;
+  while (!smoothing.keeps_to_rows(low)) {
+    if (low < kLeastStiffness) return {Reason::no_solution, -1, "cam.smoothing"};
+    high = low;
+    low /= 4;
+  }
+  while (high > low * 1.02) {
+    const double middle = square_root(low * high);
+    (smoothing.keeps_to_rows(middle) ? low : high) = middle;
+  }
+  if (!smoothing.keeps_to_rows(low)) return {Reason::no_solution, -1, "cam.smoothing"};
+  residual_m = smoothing.residual_m();
+  return {};
+}
+
+double peak_of(const LobeSpline& lobe) noexcept {
+  double low = lobe.opens_rad();
+  double largest = 0;
+  for (int knot = lobe.begin; knot < lobe.end + kBasis; ++knot) {
+    const double phi = lobe.first_rad + knot * lobe.knot_rad;
+    const double lift = lobe.at(phi).lift_m;
+    if (lift > largest) {
+      largest = lift;
+      low = phi - lobe.knot_rad;
+    }
+  }
+  double high = low + 2 * lobe.knot_rad;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2;
+    (lobe.at(middle).per_rad_m > 0 ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+}  // namespace crankloop::detail

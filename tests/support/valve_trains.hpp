@@ -1,0 +1,67 @@
+// Valve trains that tests share.
+#pragma once
+
+#include <crankloop/define/valve_train.hpp>
+
+#include <initializer_list>
+
+#include "support/random.hpp"
+
+namespace crankloop::support {
+
+inline Cam polynomial_cam(double max_lift_m, double half_angle_deg, std::initializer_list<double> exponents) {
+  Cam cam;
+  cam.max_lift_m = max_lift_m;
+  cam.half_angle_deg = half_angle_deg;
+  for (const double p : exponents) cam.exponents[cam.exponent_count++] = p;
+  return cam;
+}
+
+/// The 125 cm^3 overhead-cam engine of [Li 2017]: tools/engines/ohc_125.ini.
+inline Cam ohc_125_cam() { return polynomial_cam(6.301099e-3, 74, {2, 10, 18, 26}); }
+
+inline Rocker ohc_125_rocker(CamTurns turns = CamTurns::toward_pivot) {
+  Rocker rocker;
+  rocker.base_circle_m = 12.5e-3;
+  rocker.clearance_m = 0.05e-3;
+  rocker.pivot_to_pad_m = 39.61e-3;
+  rocker.pivot_to_cam_m = 30.28e-3;
+  rocker.pad_radius_m = 30e-3;
+  rocker.pivot_to_screw_m = 33.28e-3;
+  rocker.screw_ball_m = 10e-3;
+  rocker.stem_above_pivot_m = 1.65e-3;
+  rocker.cam_turns = turns;
+  return rocker;
+}
+
+inline Rocker direct_rocker(double base_circle_m, double clearance_m, double ratio = 1) {
+  Rocker rocker;
+  rocker.kind = RockerKind::ratio;
+  rocker.base_circle_m = base_circle_m;
+  rocker.clearance_m = clearance_m;
+  rocker.ratio = ratio;
+  return rocker;
+}
+
+/// Cams and rockers of cars and motorcycles; not every one of them can turn.
+inline Cam random_cam(Random& random) {
+  const double first = random.between(2, 2.5);
+  const double second = first + random.between(3, 9);
+  const double third = second + random.between(3, 9);
+  return polynomial_cam(random.between(3e-3, 9e-3), random.between(55, 85), {first, second, third, third + random.between(3, 9)});
+}
+
+inline Rocker random_rocker(Random& random) {
+  Rocker rocker = ohc_125_rocker(random.coin() ? CamTurns::toward_pivot : CamTurns::away_from_pivot);
+  rocker.base_circle_m = random.between(14e-3, 18e-3);
+  rocker.clearance_m = random.between(0, 0.3e-3);
+  rocker.pad_radius_m = random.between(8e-3, 40e-3);
+  rocker.pivot_to_pad_m = random.between(35e-3, 50e-3);
+  rocker.pivot_to_cam_m = random.between(28e-3, 45e-3);
+  rocker.pivot_to_screw_m = random.between(28e-3, 45e-3);
+  rocker.screw_ball_m = random.between(3e-3, 10e-3);
+  rocker.stem_above_pivot_m = random.between(-8e-3, 5e-3);
+  return rocker;
+}
+
+}  // namespace crankloop::support

@@ -1,0 +1,513 @@
+// `crankloop run`: a fixed-step run against the exact engine, its CSV, its curves, its report.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <crankloop/tabulate/elementary.hpp>
+#include <crankloop/tabulate/mechanism.hpp>
+#include <crankloop/tabulate/summary.hpp>
+
+#include "crankloop/commands.hpp"
+#include "crankloop/error.hpp"
+#include "crankloop/run_accuracy.hpp"
+#include "crankloop/run_loop.hpp"
+#include "crankloop/run_trace.hpp"
+#include "support/test_engines.hpp"
+
+namespace crankloop::program {
+namespace {
+
+constexpr const char* kSample = CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495.ini";
+
+// ---- The loop against the exact engine ----
+
+struct Case {
+  const char* name;
+  EngineDefinition engine;
+  Operation operation;
+  int cycles;
+};
+
+/// Three cylinders with a pin offset and a rod that is no two masses: no term is zero.
+EngineDefinition uneven_three() {
+  EngineDefinition engine = tick_test::with_cylinders(tick_test::single_495(), {0, 480, 240});
+  engine.crank.pin_offset_m = 0.006;
+  return engine;
+}
+
+/// Operation{rpm, tick in s, load ratio}: whole and broken numbers of ticks per cycle, the extremes of tick and speed.
+std::vector<Case> cases() {
+  return {
+      {"495, 600 ticks a cycle", tick_test::diesel_495(), {2000, 100e-6, 1}, 2},
+      {"495, 571.43 ticks a cycle", tick_test::diesel_495(), {2100, 100e-6, 1}, 3},
+      {"495, half load", tick_test::diesel_495(), {2000, 100e-6, 0.5}, 1},
+      {"495, motored, a tick of 2 ms", tick_test::diesel_495(), {1234.5, 2e-3, 0}, 5},
+      {"495, 6 ticks a cycle", tick_test::diesel_495(), {10000, 2e-3, 1}, 4},
+      {"495, a crawl", tick_test::diesel_495(), {1, 2e-3, 1}, 1},
+      {"three with offset, 300 ticks a cycle", uneven_three(), {4000, 100e-6, 1}, 2},
+      {"three with offset, 10 us", uneven_three(), {6000, 10e-6, 1}, 2},
+      {"three with offset, 4.3 ticks a cycle", uneven_three(), {9300, 3e-3 / 2, 1.5}, 50},
+      {"inertia only", tick_test::without_gas(uneven_three()), {5000, 100e-6, 1}, 2},
+  };
+}
+
+template <class Real>
+double eps() {
+  return static_cast<double>(std::numeric_limits<Real>::epsilon());
+}
+
+/// Largest value of the cycle, by the exact engine each degree.
+template <class Value>
+double peak_of(const Value& value) {
+  double peak = 0;
+  for (int deg = 0; deg < 720; ++deg) peak = std::max(peak, std::abs(value(static_cast<double>(deg))));
+  return peak;
+}
+
+/// What tables and rounding may do to a run's forces. Kinematics are promised to 4e-7 of their scale in float and 2e-9 in double; the
+/// pressure to what tabulate reports, and a small factor because it looks at 10 points of a segment only.
+struct Tolerances {
+  double force_N;
+  double torque_Nm;
+
+  template <class Real>
+  static Tolerances of(const ExactEngine& exact, const Operation& operation, const TableReport& tables) {
+    const EngineDefinition& d = exact.definition();
+    const double speed = operation.speed_rad_s();
+    const double per_scale = sizeof(Real) == 4 ? 4e-7 : 2e-9;
+    const double gas = peak_of([&](double deg) { return exact.forces(0, deg, speed, operation.load_ratio).gas_force_N; });
+    const double inertia = peak_of([&](double deg) { return exact.forces(0, deg, speed).inertia_force_N; });
+    constexpr double kTerms = 6;  // products and sums behind a force, each with its own look-up or rounding
+    const double load = std::max(1.0, operation.load_ratio);
+    const double force = 1.5 * load * tables.pressure_error_Pa * bore_area_m2(d.crank) + kTerms * per_scale * (gas + inertia) +
+                         kTerms * eps<Real>() * exact.diagram().full_Pa(0) * bore_area_m2(d.crank);
+    // |dx/da| <= r (1 + lambda)
+    return {force, d.layout.cylinders * force * d.crank.crank_radius_m * (1 + d.crank.rod_ratio())};
+  }
+};
+
+template <class Real>
+class RunIn : public testing::Test {};
+using Reals = testing::Types<float, double>;
+TYPED_TEST_SUITE(RunIn, Reals);
+
+TYPED_TEST(RunIn, EveryTickIsTheExactEngineWithinTheErrorOfItsTables) {
+  using Real = TypeParam;
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.name);
+    ExactEngine exact;
+    ASSERT_TRUE(exact.init(c.engine).ok());
+    FixedStepLoop<Real> loop(c.engine, c.operation);
+    const auto tolerances = Tolerances::of<Real>(exact, c.operation, loop.tables());
+    double worst_Nm = 0;
+    double worst_side_N = 0;
+    const OnTick<Real> compare = [&](std::uint64_t, double deg, const WholeOutput<Real>& out) {
+      const double speed = c.operation.speed_rad_s();
+      const double torque = exact.torque_Nm(deg, speed, c.operation.load_ratio);
+      const double side = exact.forces(0, deg, speed, c.operation.load_ratio).side_force_N;
+      worst_Nm = std::max(worst_Nm, std::abs(static_cast<double>(out.torque_Nm) - torque));
+      worst_side_N = std::max(worst_side_N, std::abs(static_cast<double>(out.cylinder[0].side_force_N) - side));
+    };
+    const RunFigures figures = run_cycles<Real>(loop, c.engine, c.operation, c.cycles, compare);
+    EXPECT_LE(worst_Nm, tolerances.torque_Nm);
+    EXPECT_LE(worst_side_N, tolerances.force_N);
+    EXPECT_EQ(figures.faulty_ticks, 0u);
+    EXPECT_EQ(figures.faults, 0u);
+  }
+}
+
+TYPED_TEST(RunIn, MeanTorquePowerAndImepAreThoseOfTheExactCycle) {
+  using Real = TypeParam;
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.name);
+    ExactEngine exact;
+    ASSERT_TRUE(exact.init(c.engine).ok());
+    const double speed = c.operation.speed_rad_s();
+    const CycleSummary summary = summarise(exact, speed, c.operation.load_ratio);
+    FixedStepLoop<Real> loop(c.engine, c.operation);
+    const RunFigures figures = run_cycles<Real>(loop, c.engine, c.operation, c.cycles);
+
+    // Work: the pressure's error over at most four strokes of each cylinder, and the rounding of differences of work.
+    const double swept_m3 = swept_volume_m3(c.engine.crank) * c.engine.layout.cylinders;
+    const double torque_range = summary.largest_torque_Nm - summary.smallest_torque_Nm;
+    const double load = std::max(1.0, c.operation.load_ratio);
+    const double cycle_rad = 4 * elementary::kPi;
+    const double tables_Nm = 1.5 * load * loop.tables().pressure_error_Pa * 4 * swept_m3 / cycle_rad;
+    const double rounding_Nm = 64 * eps<Real>() * torque_range;
+    // The last tick counts by its part p inside the cycle: wrong by at most p (1 - p) times the torque's range over its angle.
+    const double ticks = c.cycles * loop.ticks_per_cycle();
+    const double part = ticks - std::floor(ticks);
+    const double last_tick_Nm = part * (1 - part) * torque_range / ticks;
+    const double tolerance_Nm = tables_Nm + rounding_Nm + last_tick_Nm;
+
+    EXPECT_NEAR(figures.mean_torque_Nm, summary.mean_torque_Nm, tolerance_Nm);
+    EXPECT_NEAR(figures.power_W, summary.power_W, tolerance_Nm * speed);
+    EXPECT_NEAR(figures.net_mep_Pa, summary.net_mep_Pa, tolerance_Nm * cycle_rad / swept_m3);
+  }
+}
+
+TYPED_TEST(RunIn, AnImepGivenInTheFileIsMetToOneTenThousandth) {
+  const EngineDefinition engine = tick_test::diesel_495();  // 809.7 kPa
+  const Operation operation{2000, 100e-6, 1};
+  FixedStepLoop<TypeParam> loop(engine, operation);
+  EXPECT_NEAR(run_cycles<TypeParam>(loop, engine, operation, 2).net_mep_Pa, 809.7e3, 1e-4 * 809.7e3);
+}
+
+TYPED_TEST(RunIn, PeaksAreTheExtremesOfAllTicksAndCylinders) {
+  using Real = TypeParam;
+  const EngineDefinition engine = uneven_three();
+  const Operation operation{3700, 100e-6, 1};
+  FixedStepLoop<Real> loop(engine, operation);
+  std::vector<double> side;
+  std::vector<double> own_deg;
+  std::vector<double> torque;
+  const RunFigures figures =
+      run_cycles<Real>(loop, engine, operation, 3, [&](std::uint64_t, double deg, const WholeOutput<Real>& out) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          side.push_back(static_cast<double>(out.cylinder[k].side_force_N));
+          own_deg.push_back(std::fmod(deg - engine.layout.firing_deg[k] + 720, 720));
+        }
+        torque.push_back(static_cast<double>(out.torque_Nm));
+      });
+  const Peaks& peaks = figures.of[index_of(Quantity::side_force)];
+  const auto most = static_cast<std::size_t>(std::max_element(side.begin(), side.end()) - side.begin());
+  const auto least = static_cast<std::size_t>(std::min_element(side.begin(), side.end()) - side.begin());
+  EXPECT_EQ(peaks.largest.value, side[most]);
+  EXPECT_EQ(peaks.largest.at_deg, own_deg[most]);
+  EXPECT_EQ(peaks.smallest.value, side[least]);
+  EXPECT_EQ(peaks.smallest.at_deg, own_deg[least]);
+  EXPECT_EQ(figures.torque.largest.value, *std::max_element(torque.begin(), torque.end()));
+  EXPECT_EQ(figures.torque.smallest.value, *std::min_element(torque.begin(), torque.end()));
+}
+
+TYPED_TEST(RunIn, ARunBeginsAtFiringTdcAndCoversItsCyclesWhateverTheTick) {
+  using Real = TypeParam;
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.name);
+    FixedStepLoop<Real> loop(c.engine, c.operation);
+    const double deg_per_tick = c.operation.speed_rpm * 6 * c.operation.tick_s;
+    EXPECT_NEAR(loop.deg_per_tick(), deg_per_tick, 4 * eps<Real>() * deg_per_tick);
+    double turned_deg = 0;
+    double last_deg = 0;
+    std::uint64_t last_tick = 0;
+    const RunFigures figures =
+        run_cycles<Real>(loop, c.engine, c.operation, c.cycles, [&](std::uint64_t tick, double deg, const WholeOutput<Real>&) {
+          EXPECT_EQ(tick, last_tick + 1);
+          turned_deg += deg >= last_deg ? deg - last_deg : deg - last_deg + 720;
+          last_deg = deg;
+          last_tick = tick;
+          if (tick == 1) {
+            EXPECT_NEAR(deg, loop.deg_per_tick(), 1e-9);
+          }
+        });
+    EXPECT_EQ(figures.ticks, last_tick);
+    EXPECT_GE(turned_deg, c.cycles * 720 - 1.001e-3 * deg_per_tick - 1e-6);
+    EXPECT_LT(turned_deg, c.cycles * 720 + deg_per_tick);
+  }
+}
+
+TYPED_TEST(RunIn, RefusesASpeedBeyondOneRevolutionPerTickInsteadOfStandingStill) {
+  const EngineDefinition engine = tick_test::diesel_495();
+  EXPECT_THROW((FixedStepLoop<TypeParam>(engine, {40000, 2e-3, 1})), UsageError);
+  EXPECT_NO_THROW((FixedStepLoop<TypeParam>(engine, {29000, 2e-3, 1})));
+}
+
+TYPED_TEST(RunIn, RefusesARunThatWouldNotEnd) {
+  const EngineDefinition engine = tick_test::diesel_495();
+  EXPECT_THROW((FixedStepLoop<TypeParam>(engine, {0.001, 10e-6, 1})), UsageError);
+  const Operation operation{2000, 100e-6, 1};
+  FixedStepLoop<TypeParam> loop(engine, operation);
+  EXPECT_THROW(run_cycles<TypeParam>(loop, engine, operation, 10'000'000), UsageError);
+}
+
+TYPED_TEST(RunIn, MeasuresWhatATickCosts) {
+  FixedStepLoop<TypeParam> loop(tick_test::diesel_495(), {2000, 100e-6, 1});
+  const double per_tick_ns = loop.wall_time_per_tick_ns();
+  EXPECT_GT(per_tick_ns, 1);    // less is no clock
+  EXPECT_LT(per_tick_ns, 1e5);  // sanitizers and a busy machine included
+}
+
+// ---- Accuracy and curves for the report ----
+
+TYPED_TEST(RunIn, MeasuredAccuracyIsWithinTheTolerances) {
+  using Real = TypeParam;
+  ExactEngine exact;
+  ASSERT_TRUE(exact.init(uneven_three()).ok());
+  const Operation operation{4000, 100e-6, 1};
+  const FixedStepLoop<Real> loop(exact.definition(), operation);
+  const auto tolerances = Tolerances::of<Real>(exact, operation, loop.tables());
+  const Accuracy accuracy = measure_accuracy<Real>(exact, operation);
+  EXPECT_LE(accuracy.torque.largest, tolerances.torque_Nm);
+  for (const Quantity q : {Quantity::gas_force, Quantity::inertia_force, Quantity::side_force, Quantity::rod_force,
+                           Quantity::radial_force, Quantity::tangential_force, Quantity::crank_pin_load}) {
+    EXPECT_LE(accuracy.of[index_of(q)].largest, tolerances.force_N) << kQuantityKinds[index_of(q)].name;
+    EXPECT_GT(accuracy.of[index_of(q)].peak, 1000) << kQuantityKinds[index_of(q)].name;
+  }
+}
+
+TEST(Accuracy, FindsADifferenceWhereItIs) {
+  Deviation deviation;
+  deviation.take(1.0, 1.0, 10);
+  deviation.take(-5.0, -5.5, 20);
+  deviation.take(2.0, 2.25, 30);
+  EXPECT_EQ(deviation.largest, 0.5);
+  EXPECT_EQ(deviation.at_deg, 20);
+  EXPECT_EQ(deviation.peak, 5.5);
+  EXPECT_EQ(deviation.ratio(), 0.5 / 5.5);
+}
+
+TYPED_TEST(RunIn, ATraceIsOneCycleFromCylinderOnesFiring) {
+  using Real = TypeParam;
+  EngineDefinition engine = uneven_three();
+  engine.layout.firing_deg = {500, 260, 20};  // cylinder 1 fires at 500: the trace still begins there
+  ExactEngine exact;
+  ASSERT_TRUE(exact.init(engine).ok());
+  const Operation operation{4000, 100e-6, 1};
+  const FixedStepLoop<Real> loop(engine, operation);
+  const auto tolerances = Tolerances::of<Real>(exact, operation, loop.tables());
+  const Trace trace = record_trace<Real>(engine, operation);
+  ASSERT_EQ(trace.crank_deg.size(), 2881u);
+  EXPECT_EQ(trace.crank_deg.front(), 0);
+  EXPECT_EQ(trace.crank_deg.back(), 720);
+  EXPECT_NEAR(trace.tick_s, 0.25 / (6 * 4000), 1e-15);
+  const double drift_deg = 720 * eps<Real>();  // of the angle: every increment is rounded the same way
+  for (std::size_t i = 0; i < trace.crank_deg.size(); i += 40) {
+    const double engine_deg = trace.crank_deg[i] + 500;
+    const double here = exact.torque_Nm(engine_deg, operation.speed_rad_s());
+    const double slope = std::abs(exact.torque_Nm(engine_deg + 0.5, operation.speed_rad_s()) -
+                                  exact.torque_Nm(engine_deg - 0.5, operation.speed_rad_s()));
+    EXPECT_NEAR(trace.torque_Nm[i], here, tolerances.torque_Nm + 2 * drift_deg * slope) << trace.crank_deg[i];
+  }
+}
+
+TYPED_TEST(RunIn, ATraceIsCoarserWhereItsTicksWouldBeTooShortAndSkipsTicksAtACrawl) {
+  const Trace fastest = record_trace<TypeParam>(tick_test::single_495(), {100000, 100e-6, 1});
+  EXPECT_EQ(fastest.spacing_deg, 1);  // 0.6 deg is the least at 1 us
+  EXPECT_EQ(fastest.crank_deg.size(), 721u);
+  const Trace slowest = record_trace<TypeParam>(tick_test::single_495(), {1, 100e-6, 1});
+  EXPECT_EQ(slowest.spacing_deg, 0.25);
+  EXPECT_LE(slowest.tick_s, 2e-3);
+  EXPECT_EQ(slowest.crank_deg.size(), 2881u);
+}
+
+// ---- The command ----
+
+std::string contents(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::vector<std::string> split_at(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+  return parts;
+}
+
+/// Digits of a number's mantissa, without leading and trailing zeros: "-0.00120e-5" has two.
+std::size_t significant_digits(const std::string& number) {
+  std::string digits;
+  for (const char c : number.substr(0, number.find('e'))) {
+    if (c >= '0' && c <= '9') digits += c;
+  }
+  digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size()));
+  while (!digits.empty() && digits.back() == '0') digits.pop_back();
+  return digits.size();
+}
+
+class RunCommand : public testing::Test {
+ protected:
+  RunCommand() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~RunCommand() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  [[nodiscard]] std::string engine_without_pressure() const {
+    std::string text = contents(kSample);
+    text.resize(text.find("[pressure]"));
+    std::ofstream(path("bare.ini")) << text;
+    return path("bare.ini");
+  }
+
+  /// Runs in this process and returns what it printed.
+  static std::string run(const std::vector<std::string>& words) {
+    testing::internal::CaptureStdout();
+    const int status = kRun.run(Arguments(kRun, words));
+    const std::string printed = testing::internal::GetCapturedStdout();
+    EXPECT_EQ(status, kSuccess);
+    return printed;
+  }
+  /// Value and unit of a line "name = value unit"; NaN where there is none.
+  static std::pair<double, std::string> line(const std::string& summary, const std::string& name) {
+    for (const std::string& text : split_at(summary, '\n')) {
+      if (text.rfind(name + " = ", 0) != 0) continue;
+      std::istringstream stream(text.substr(name.size() + 3));
+      std::pair<double, std::string> found;
+      stream >> found.first >> found.second;
+      return found;
+    }
+    return {std::numeric_limits<double>::quiet_NaN(), ""};
+  }
+  /// Exit status of the program itself.
+  [[nodiscard]] int status_of(const std::string& options) const {
+    const std::string command =
+        std::string("'") + CRANKLOOP_PROGRAM + "' run " + options + " >'" + path("out") + "' 2>'" + path("err") + "'";
+    return WEXITSTATUS(std::system(command.c_str()));
+  }
+
+  std::string folder_;
+};
+
+TEST_F(RunCommand, PrintsThe495AtItsRatedSpeed) {
+  const std::string summary = run({kSample});
+  EXPECT_EQ(line(summary, "speed"), std::make_pair(2000.0, std::string("rpm")));
+  EXPECT_EQ(line(summary, "tick"), std::make_pair(100.0, std::string("us")));
+  // 809.7 kPa over four cylinders of pi/4 95^2 115 mm^3, once in two turns.
+  const double work_J = 809.7e3 * 4 * elementary::kPi / 4 * 0.095 * 0.095 * 0.115;
+  EXPECT_NEAR(line(summary, "mean_torque").first, work_J / (4 * elementary::kPi), 0.02);
+  EXPECT_NEAR(line(summary, "power").first, work_J * 2000 / 120 / 1000, 0.005);
+  EXPECT_EQ(line(summary, "power").second, "kW");
+  EXPECT_NEAR(line(summary, "net_mep").first, 809.7, 0.08);
+  EXPECT_NEAR(line(summary, "net_mep_exact").first, 809.7, 1e-3);
+  EXPECT_NEAR(line(summary, "mean_piston_speed").first, 7.67, 0.005);  // the sheet's
+  EXPECT_EQ(line(summary, "swept_volume").second, "cm^3");
+  EXPECT_NEAR(line(summary, "swept_volume").first, 815.1, 0.05);
+  EXPECT_EQ(line(summary, "faulty_ticks").first, 0);
+  EXPECT_EQ(line(summary, "ticks").first, 1200);
+  for (const char* name :
+       {"largest_torque", "smallest_torque", "largest_pressure", "largest_gas_force", "largest_inertia_force",
+        "smallest_inertia_force", "largest_side_force", "smallest_side_force", "largest_rod_force", "largest_radial_force",
+        "smallest_radial_force", "largest_tangential_force", "smallest_tangential_force", "largest_crank_pin_load",
+        "largest_main_journal_load"}) {
+    EXPECT_FALSE(std::isnan(line(summary, name).first)) << name;
+    EXPECT_FALSE(std::isnan(line(summary, std::string(name) + "_at").first)) << name;
+  }
+}
+
+TEST_F(RunCommand, SaysThatAnEngineWithoutPressureHasInertiaOnly) {
+  const std::string summary = run({engine_without_pressure(), "--report", path("report.html")});
+  EXPECT_NE(summary.find("inertia only"), std::string::npos);
+  EXPECT_TRUE(std::isnan(line(summary, "power").first));
+  EXPECT_TRUE(std::isnan(line(summary, "largest_pressure").first));
+  EXPECT_NEAR(line(summary, "mean_torque").first, 0, 1e-3);
+  const std::string page = contents(path("report.html"));
+  EXPECT_NE(page.find("There is no pressure source"), std::string::npos);
+  EXPECT_EQ(page.find("IMEP"), std::string::npos);
+  EXPECT_EQ(page.find("NaN"), std::string::npos);
+}
+
+TEST_F(RunCommand, CsvHasAHeaderAndARowForEachTickOfTheRecordedCycles) {
+  run({kSample, "--cycles", "3", "--rpm", "2100", "--csv", path("run.csv")});
+  const std::vector<std::string> rows = split_at(contents(path("run.csv")), '\n');
+  std::string header = "time_s,crank_deg,speed_rpm,torque_Nm,mean_torque_Nm";
+  for (const char* c : {"c1", "c2", "c3", "c4"}) {
+    for (const char* quantity :
+         {"pressure_kPa", "displacement_mm", "velocity_m_s", "acceleration_m_s2", "gas_force_N", "inertia_force_N",
+          "total_force_N", "side_force_N", "rod_force_N", "radial_force_N", "tangential_force_N", "torque_Nm",
+          "tilting_moment_Nm", "crank_pin_load_N"}) {
+      header += std::string(",") + c + "_" + quantity;
+    }
+  }
+  ASSERT_FALSE(rows.empty());
+  EXPECT_EQ(rows[0], header);
+  EXPECT_EQ(rows.size() - 1, 1715u);  // 3 * 720 deg at 1.26 deg a tick: 1714.3
+  const std::vector<std::string> second = split_at(rows[2], ',');
+  ASSERT_EQ(second.size(), 5u + 4 * 14);
+  EXPECT_EQ(second[0], "0.0002");
+  EXPECT_NEAR(std::stod(second[1]), 2.52, 1e-5);
+  EXPECT_EQ(second[2], "2100");
+  double cylinders_Nm = 0;
+  for (const std::size_t k : {0u, 1u, 2u, 3u}) cylinders_Nm += std::stod(second[5 + 14 * k + 11]);
+  EXPECT_NEAR(std::stod(second[3]), cylinders_Nm, 1e-3);
+}
+
+TEST_F(RunCommand, CsvHasNineDigitsInFloatAndTwelveInDouble) {
+  for (const auto& [real, most] : {std::pair<const char*, std::size_t>{"float", 9}, {"double", 12}}) {
+    run({kSample, "--real", real, "--cycles", "1", "--csv", path("run.csv")});
+    std::size_t longest = 0;
+    for (const std::string& row : split_at(contents(path("run.csv")), '\n')) {
+      const std::vector<std::string> cells = split_at(row, ',');
+      if (cells[0] == "time_s") continue;
+      for (std::size_t i = 3; i < cells.size(); ++i) longest = std::max(longest, significant_digits(cells[i]));
+    }
+    EXPECT_EQ(longest, most) << real;
+  }
+}
+
+TEST_F(RunCommand, TheSameInputGivesTheSameCsv) {
+  run({kSample, "--csv", path("one.csv")});
+  run({kSample, "--csv", path("two.csv")});
+  EXPECT_EQ(contents(path("one.csv")), contents(path("two.csv")));
+  EXPECT_GT(contents(path("one.csv")).size(), 100'000u);
+}
+
+TEST_F(RunCommand, CsvOnStandardOutputLeavesTheSummaryToStandardError) {
+  EXPECT_EQ(status_of(std::string("'") + kSample + "' --cycles 1 --csv -"), kSuccess);
+  EXPECT_EQ(contents(path("out")).rfind("time_s,", 0), 0u);
+  EXPECT_EQ(contents(path("out")).find("mean_torque ="), std::string::npos);
+  EXPECT_NE(contents(path("err")).find("mean_torque ="), std::string::npos);
+  EXPECT_EQ(contents(path("err")).find("running"), std::string::npos);  // progress is for terminals
+}
+
+TEST_F(RunCommand, ReportShowsEveryCurveThatTheDesignSheetAsksFor) {
+  run({kSample, "--report", path("report.html")});
+  const std::string page = contents(path("report.html"));
+  for (const char* title :
+       {"Piston displacement", "Piston velocity", "Piston acceleration", "Gas force, reciprocating inertia force and their sum",
+        "Rod force", "Tangential force at the crank pin", "Radial force at the crank pin", "Side force on the cylinder wall",
+        "Side force over the piston displacement", "Torque of one cylinder", "Engine torque, all cylinders",
+        "Pressure over the volume", "Torque harmonics", "Forces per piston area"}) {
+    EXPECT_NE(page.find(title), std::string::npos) << title;
+  }
+  EXPECT_NE(page.find("The cylinder pressure is not measured: it is synthesised with a net IMEP of 809.7 kPa"), std::string::npos);
+  EXPECT_NE(page.find("0.2738"), std::string::npos);
+  EXPECT_NE(page.find("assumed: not in the sheet; the usual one"), std::string::npos);  // the firing order's remark
+  EXPECT_EQ(page.find("http"), page.find("http-equiv"));                                // and the SVG namespace below
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+  EXPECT_EQ(page.find("nan"), std::string::npos);
+}
+
+TEST_F(RunCommand, WorksFromACrawlToTenThousandRpmAndFrom10UsTo2Ms) {
+  for (const char* real : {"float", "double"}) {
+    for (const auto& [rpm, tick_us] : {std::pair<const char*, const char*>{"10000", "10"}, {"10000", "2000"}, {"1", "2000"}}) {
+      const std::string summary =
+          run({kSample, "--rpm", rpm, "--tick-us", tick_us, "--cycles", "1", "--real", real, "--report", path("report.html")});
+      EXPECT_NEAR(line(summary, "net_mep").first, 809.7, 0.08) << rpm << " rpm, " << tick_us << " us, " << real;
+      EXPECT_EQ(line(summary, "faulty_ticks").first, 0);
+      EXPECT_EQ(contents(path("report.html")).find("NaN"), std::string::npos);
+    }
+  }
+}
+
+TEST_F(RunCommand, BadOptionsEndWithStatus2AndLeaveNoFile) {
+  const std::string files = std::string("'") + kSample + "' --csv '" + path("run.csv") + "' --report '" + path("report.html") + "'";
+  for (const char* bad : {"--rpm 0", "--rpm -5", "--rpm nan", "--tick-us 0.5", "--tick-us 2001", "--cycles 0", "--cycles 1.5",
+                          "--real half", "--load-ratio 2.1", "--rpm 40000 --tick-us 2000", "--rpm 0.001 --tick-us 1", "--speed 5",
+                          "--csv x --csv y"}) {
+    EXPECT_EQ(status_of(files + " " + bad), kBadInput) << bad;
+    EXPECT_EQ(contents(path("out")), "") << bad;
+    EXPECT_NE(contents(path("err")), "") << bad;
+    EXPECT_FALSE(std::filesystem::exists(path("run.csv"))) << bad;
+    EXPECT_FALSE(std::filesystem::exists(path("report.html"))) << bad;
+  }
+  EXPECT_EQ(status_of("'" + engine_without_pressure() + "' --load-ratio 0.5"), kBadInput);
+  EXPECT_EQ(status_of("'" + path("nowhere.ini") + "'"), kBadInput);
+}
+
+}  // namespace
+}  // namespace crankloop::program

@@ -1,0 +1,88 @@
+// Section of the engine report: cylinder pressure and work.
+#include <algorithm>
+
+#include <crankloop/tabulate/mechanism.hpp>
+
+#include "engine_report_parts.hpp"
+
+namespace crankloop::program {
+namespace {
+
+using report::Paragraph;
+using report::Plot;
+using report::Section;
+
+constexpr double kBar = 1e-5;
+constexpr double kKilo = 1e-3;
+
+std::vector<double> volume_cm3(const ReportInput& input) {
+  const Crank& crank = input.exact.definition().crank;
+  std::vector<double> volume = scaled(input.trace[Quantity::displacement], bore_area_m2(crank) * 1e6);
+  for (double& v : volume) v += clearance_volume_m3(crank) * 1e6;
+  return volume;
+}
+
+/// A little room around data on a logarithmic axis, so that no tick stands in the corner.
+report::Range widened(Span span) { return {0.88 * span.low, 1.13 * span.high}; }
+
+/// Twice the largest pressure of the second half of the exhaust stroke and of the intake stroke.
+double exchange_top(const ReportInput& input, const std::vector<double>& pressure_bar) {
+  double most = 0;
+  for (std::size_t i = 0; i < pressure_bar.size(); ++i) {
+    if (input.trace.crank_deg[i] > 270 && input.trace.crank_deg[i] < 540) most = std::max(most, pressure_bar[i]);
+  }
+  return 2 * most;
+}
+
+}  // namespace
+
+report::Section pressure_section(const ReportInput& input) {
+  const Trace& trace = input.trace;
+  const std::vector<double> volume = volume_cm3(input);
+  const std::vector<double> pressure = scaled(trace[Quantity::pressure], kBar);
+  const std::size_t peak = index_of_largest(pressure);
+
+  Section section{"pressure", "Cylinder pressure and work", {}};
+  section.blocks.push_back(Paragraph{pressure_remark(input), true});
+  Plot over_crank =
+      plot_over_angle(input, "Pressure over the crank angle", axis_of("Cylinder pressure, absolute", "bar"),
+                      {over_angle(trace, "", trace[Quantity::pressure], kBar)});
+  over_crank.markers = {largest_marker(over_crank, 0)};
+  section.blocks.push_back(std::move(over_crank));
+
+  Plot loop;
+  loop.title = "Pressure over the volume";
+  loop.x = axis_of("Cylinder volume", "cm\u00B3");
+  loop.x.include_zero = true;
+  loop.y = axis_of("Cylinder pressure, absolute", "bar");
+  loop.y.include_zero = true;
+  loop.series = loop_by_strokes(input, volume, pressure);
+  loop.markers = {loop_marker(trace, volume, pressure, peak, "bar", 0)};
+  loop.caption = "Its area is the indicated work: net IMEP " + number_text(input.summary.net_mep_Pa * kKilo) +
+                 " kPa, gross (over the " + "closed 360 deg) " + number_text(input.summary.gross_mep_Pa * kKilo) +
+                 " kPa.";
+  Plot log_loop = loop;
+  Plot exchange = loop;
+  section.blocks.push_back(std::move(loop));
+  log_loop.title = "The same, both axes logarithmic";
+  log_loop.x.logarithmic = log_loop.y.logarithmic = true;
+  log_loop.x.range = widened(span_of(volume));
+  log_loop.y.range = widened(span_of(pressure));
+  log_loop.markers.clear();
+  log_loop.caption = "Polytropic compression and expansion are straight lines here.";
+  section.blocks.push_back(std::move(log_loop));
+  exchange.title = "Gas exchange";
+  exchange.markers.clear();
+  exchange.y.range = report::Range{0, exchange_top(input, pressure)};
+  exchange.caption = "The lower end of the loop: exhaust and intake enclose net less gross IMEP, " +
+                     report::format_number((input.summary.net_mep_Pa - input.summary.gross_mep_Pa) * kKilo, 3) +
+                     " kPa.";
+  section.blocks.push_back(std::move(exchange));
+  const std::vector<double> volume_m3 = scaled(volume, 1e-6);
+  section.blocks.push_back(table_over_angle(
+      trace, "Table: pressure and volume of one cylinder",
+      {{"Pressure", "bar", &trace[Quantity::pressure], kBar}, {"Volume", "cm\u00B3", &volume_m3, 1e6}}));
+  return section;
+}
+
+}  // namespace crankloop::program
