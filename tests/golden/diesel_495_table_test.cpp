@@ -1,7 +1,7 @@
 // The published kinematics of the 495 diesel: every row of its design sheet's table.
 //
-// diesel_495_kinematics.csv is that table, [495] table 2-1. The sheet computed x and b exactly, v and j by the second-order
-// approximations, with lambda = 0.2738 (not 57.5/210) and w = 210 rad/s.
+// diesel_495_kinematics.csv is that table, [495] table 2-1. The sheet computed x and b exactly, v and j by the
+// second-order approximations, with lambda = 0.2738 (not 57.5/210) and w = 210 rad/s.
 #include <crankloop/tabulate/mechanism.hpp>
 
 #include <gtest/gtest.h>

@@ -1,8 +1,9 @@
-// Free forces and moments of whole engines, and what their pins and journals carry: against sums over every moving part.
+// Free forces and moments of whole engines, and what their pins and journals carry: against sums over every moving
+// part.
 //
-// The other way is a crankcase full of parts: each piston with the vector acceleration that geometry gives it, each big end and
-// crank pin turning, each rod with Newton's and Euler's equations, put where they are along the shaft, and added up.
-// Up is bank angle 0, lateral a quarter turn on in the sense of rotation, as in tick/io.hpp.
+// The other way is a crankcase full of parts: each piston with the vector acceleration that geometry gives it, each big
+// end and crank pin turning, each rod with Newton's and Euler's equations, put where they are along the shaft, and
+// added up. Up is bank angle 0, lateral a quarter turn on in the sense of rotation, as in tick/io.hpp.
 #include <crankloop/tabulate/summary.hpp>
 #include <crankloop/tabulate/tabulate.hpp>
 #include <crankloop/tick/scenes.hpp>
@@ -28,18 +29,19 @@ using support::kEps;
 using support::kWidePi;
 using support::Random;
 using support::Vec;
+using support::wide;
 using support::Wide;
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr Wide kRadPerDeg = kWidePi / 180;
 
-// ---- engines ---------------------------------------------------------------------------------------------------------------
+// ---- engines --------------------------------------------------------------------------------------------------------
 
 struct Place {
-  double throw_deg;     ///< direction of the pin when cylinder 1 fires, from the vertical
+  double throw_deg;  ///< direction of the pin when cylinder 1 fires, from the vertical
   double bank_deg;
   double position_m;
-  bool second_turn;     ///< fires one crank turn later than the throw alone says
+  bool second_turn;  ///< fires one crank turn later than the throw alone says
   std::uint8_t pin;
 };
 
@@ -78,7 +80,8 @@ EngineDefinition v_engine(const std::vector<double>& throws_deg, double bank_deg
   std::vector<Place> places;
   for (std::size_t k = 0; k < throws_deg.size(); ++k) {
     for (const double side : {-1.0, 1.0}) {
-      places.push_back({throws_deg[k], side * bank_deg, kSpacing_m * static_cast<double>(k) + (side > 0 ? stagger_m : 0), false,
+      places.push_back({throws_deg[k], side * bank_deg,
+                        kSpacing_m * static_cast<double>(k) + (side > 0 ? stagger_m : 0), false,
                         static_cast<std::uint8_t>(k)});
     }
   }
@@ -88,16 +91,21 @@ EngineDefinition v_engine(const std::vector<double>& throws_deg, double bank_deg
 EngineDefinition cross_plane_v8() { return v_engine({-45, 45, 225, 135}, 45); }
 EngineDefinition boxer_four() {
   // Banks alternate along the shaft, throws 0, 180, 180, 0: opposite pistons move against each other.
-  return engine_with({{90, 90, 0, false, 0}, {270, -90, kSpacing_m, false, 1}, {270, 90, 2 * kSpacing_m, false, 2}, {90, -90, 3 * kSpacing_m, false, 3}});
+  return engine_with({{90, 90, 0, false, 0},
+                      {270, -90, kSpacing_m, false, 1},
+                      {270, 90, 2 * kSpacing_m, false, 2},
+                      {90, -90, 3 * kSpacing_m, false, 3}});
 }
 
-double reciprocating_kg_m(const EngineDefinition& e) { return (e.masses.piston_kg + e.masses.rod_small_end_kg) * e.crank.crank_radius_m; }
+double reciprocating_kg_m(const EngineDefinition& e) {
+  return (e.masses.piston_kg + e.masses.rod_small_end_kg) * e.crank.crank_radius_m;
+}
 double rotating_kg_m(const EngineDefinition& e, int rods) {
   return (e.masses.crank_pin_equivalent_kg + rods * e.masses.rod_big_end_kg) * e.crank.crank_radius_m;
 }
 
-/// Every force is a sum over at most 16 cylinders of a product of some five factors, each with an error of half a unit or so, and of
-/// the angles' rounding from degrees (2 units of at most 4 pi).
+/// Every force is a sum over at most 16 cylinders of a product of some five factors, each with an error of half a unit
+/// or so, and of the angles' rounding from degrees (2 units of at most 4 pi).
 double rounding_kg_m(const EngineDefinition& e) {
   return 32 * kEps * e.layout.cylinders * (reciprocating_kg_m(e) + rotating_kg_m(e, 1));
 }
@@ -109,7 +117,7 @@ double arm_m(const EngineDefinition& e) {
   return arm;
 }
 
-// ---- the sum over parts ----------------------------------------------------------------------------------------------------
+// ---- the sum over parts ---------------------------------------------------------------------------------------------
 
 /// A force in the engine's frame and its moment about the middle of the crankshaft.
 struct Load {
@@ -133,18 +141,19 @@ Vec turned(Vec v, Wide deg) {
 Wide middle_of_shaft(const Layout& layout) {
   const auto end = layout.position_m.begin() + layout.cylinders;
   const auto [front, back] = std::minmax_element(layout.position_m.begin(), end);
-  return (static_cast<Wide>(*front) + static_cast<Wide>(*back)) / 2;
+  return (wide(*front) + wide(*back)) / 2;
 }
 
-Wide own_deg(const Layout& layout, std::size_t k, Wide engine_deg) { return engine_deg - static_cast<Wide>(layout.firing_deg[k]); }
+Wide own_deg(const Layout& layout, std::size_t k, Wide engine_deg) { return engine_deg - wide(layout.firing_deg[k]); }
 
 /// What all pistons and small ends push into the block at 1 rad/s: minus mass times acceleration, exact motion.
 Load exact_reciprocating(const EngineDefinition& e, Wide engine_deg) {
   Load sum;
   for (std::size_t k = 0; k < static_cast<std::size_t>(e.layout.cylinders); ++k) {
     const support::Motion m = support::motion_at(e.crank, own_deg(e.layout, k, engine_deg) * kRadPerDeg, 1);
-    const Wide mass = static_cast<Wide>(e.masses.piston_kg) + static_cast<Wide>(e.masses.rod_small_end_kg);
-    sum.add(turned((-mass) * m.piston_pin_acceleration, e.layout.bank_deg[k]), static_cast<Wide>(e.layout.position_m[k]) - middle_of_shaft(e.layout));
+    const Wide mass = wide(e.masses.piston_kg) + wide(e.masses.rod_small_end_kg);
+    sum.add(turned((-mass) * m.piston_pin_acceleration, wide(e.layout.bank_deg[k])),
+            wide(e.layout.position_m[k]) - middle_of_shaft(e.layout));
   }
   return sum;
 }
@@ -152,13 +161,13 @@ Load exact_reciprocating(const EngineDefinition& e, Wide engine_deg) {
 /// The same by the two published orders: force along the axis toward the head, cos a + (e/l) sin a and lambda cos 2a.
 Load published_order(const EngineDefinition& e, Wide engine_deg, int order) {
   Load sum;
-  const Wide lambda = static_cast<Wide>(e.crank.crank_radius_m) / static_cast<Wide>(e.crank.rod_length_m);
-  const Wide offset = static_cast<Wide>(e.crank.pin_offset_m) / static_cast<Wide>(e.crank.rod_length_m);
+  const Wide lambda = wide(e.crank.crank_radius_m) / wide(e.crank.rod_length_m);
+  const Wide offset = wide(e.crank.pin_offset_m) / wide(e.crank.rod_length_m);
   for (std::size_t k = 0; k < static_cast<std::size_t>(e.layout.cylinders); ++k) {
     const Wide a = own_deg(e.layout, k, engine_deg) * kRadPerDeg;
     const Wide shape = order == 1 ? std::cos(a) + offset * std::sin(a) : lambda * std::cos(2 * a);
-    const Vec toward_head{0, static_cast<Wide>(reciprocating_kg_m(e)) * shape};
-    sum.add(turned(toward_head, e.layout.bank_deg[k]), static_cast<Wide>(e.layout.position_m[k]) - middle_of_shaft(e.layout));
+    const Vec toward_head{0, wide(reciprocating_kg_m(e)) * shape};
+    sum.add(turned(toward_head, wide(e.layout.bank_deg[k])), wide(e.layout.position_m[k]) - middle_of_shaft(e.layout));
   }
   return sum;
 }
@@ -166,21 +175,22 @@ Load published_order(const EngineDefinition& e, Wide engine_deg, int order) {
 /// Big ends where their cylinders are, each pin with its webs in the middle of its rods.
 Load rotating(const EngineDefinition& e, Wide engine_deg) {
   Load sum;
-  const Wide r = e.crank.crank_radius_m;
+  const Wide r = wide(e.crank.crank_radius_m);
   for (std::size_t k = 0; k < static_cast<std::size_t>(e.layout.cylinders); ++k) {
-    const Wide throw_deg = static_cast<Wide>(e.layout.bank_deg[k]) + own_deg(e.layout, k, engine_deg);
+    const Wide throw_deg = wide(e.layout.bank_deg[k]) + own_deg(e.layout, k, engine_deg);
     const Vec outward = turned({0, r}, throw_deg);
-    sum.add(static_cast<Wide>(e.masses.rod_big_end_kg) * outward, static_cast<Wide>(e.layout.position_m[k]) - middle_of_shaft(e.layout));
+    sum.add(wide(e.masses.rod_big_end_kg) * outward, wide(e.layout.position_m[k]) - middle_of_shaft(e.layout));
     Wide place = 0;
     int rods = 0;
     bool first_on_pin = true;
     for (std::size_t other = 0; other < static_cast<std::size_t>(e.layout.cylinders); ++other) {
       if (e.layout.pin[other] != e.layout.pin[k]) continue;
       if (other < k) first_on_pin = false;
-      place += static_cast<Wide>(e.layout.position_m[other]);
+      place += wide(e.layout.position_m[other]);
       ++rods;
     }
-    if (first_on_pin) sum.add(static_cast<Wide>(e.masses.crank_pin_equivalent_kg) * outward, place / rods - middle_of_shaft(e.layout));
+    if (first_on_pin)
+      sum.add(wide(e.masses.crank_pin_equivalent_kg) * outward, place / rods - middle_of_shaft(e.layout));
   }
   return sum;
 }
@@ -188,7 +198,9 @@ Load rotating(const EngineDefinition& e, Wide engine_deg) {
 Load of_turning(const Turning<double>& t, int order, Wide engine_deg) {
   const Wide c = std::cos(order * engine_deg * kRadPerDeg);
   const Wide s = std::sin(order * engine_deg * kRadPerDeg);
-  return {t.up_cos * c + t.up_sin * s, t.lateral_cos * c + t.lateral_sin * s, t.pitch_cos * c + t.pitch_sin * s, t.yaw_cos * c + t.yaw_sin * s};
+  const auto at = [&](double cosine, double sine) { return wide(cosine) * c + wide(sine) * s; };
+  return {at(t.up_cos, t.up_sin), at(t.lateral_cos, t.lateral_sin), at(t.pitch_cos, t.pitch_sin),
+          at(t.yaw_cos, t.yaw_sin)};
 }
 
 void expect_same(const Load& got, const Load& want, double force_tolerance, double arm) {
@@ -284,21 +296,24 @@ TEST(Balance, IsTheFirstAndSecondFourierTermOfTheExactForcesToTheOrdersLeftOut) 
     const Balance<double> b = balance_of(e);
     const double lambda = e.crank.rod_ratio();
     const double offset = std::fabs(e.crank.pin_offset_m) / e.crank.rod_length_m;
-    // cos b = 1 - s^2/2 - s^4/8 - ... with s = lambda sin a - e/l. The published orders stop at s^2. Of s^4/8 the first order has offset (3/8
-    // lambda^2 + 1/2 offset^2) of r, the second lambda (lambda^2/4 + 3/2 offset^2); s^6 and beyond add at most half as much again for lambda <= 0.45.
+    // cos b = 1 - s^2/2 - s^4/8 - ... with s = lambda sin a - e/l. The published orders stop at s^2. Of s^4/8 the first
+    // order has offset (3/8 lambda^2 + 1/2 offset^2) of r, the second lambda (lambda^2/4 + 3/2 offset^2); s^6 and
+    // beyond add at most half as much again for lambda <= 0.45.
     const double size = e.layout.cylinders * reciprocating_kg_m(e);
     const double first = 1.5 * offset * (3.0 / 8 * lambda * lambda + offset * offset / 2) * size + rounding_kg_m(e);
     const double second = 1.5 * lambda * (lambda * lambda / 4 + 1.5 * offset * offset) * size + rounding_kg_m(e);
     const auto term = [&](Wide Load::*part, int order) {
-      return support::fourier_term([&](double t) { return static_cast<double>(exact_reciprocating(e, t / kRadPerDeg).*part); }, order, 64);
+      return support::fourier_term(
+          [&](double t) { return static_cast<double>(exact_reciprocating(e, wide(t) / kRadPerDeg).*part); }, order, 64);
     };
     const struct {
       Wide Load::*part;
       double first_cos, first_sin, second_cos, second_sin, arm;
-    } parts[] = {{&Load::up, b.first.up_cos, b.first.up_sin, b.second.up_cos, b.second.up_sin, 1},
-                 {&Load::lateral, b.first.lateral_cos, b.first.lateral_sin, b.second.lateral_cos, b.second.lateral_sin, 1},
-                 {&Load::pitch, b.first.pitch_cos, b.first.pitch_sin, b.second.pitch_cos, b.second.pitch_sin, arm_m(e)},
-                 {&Load::yaw, b.first.yaw_cos, b.first.yaw_sin, b.second.yaw_cos, b.second.yaw_sin, arm_m(e)}};
+    } parts[] = {
+        {&Load::up, b.first.up_cos, b.first.up_sin, b.second.up_cos, b.second.up_sin, 1},
+        {&Load::lateral, b.first.lateral_cos, b.first.lateral_sin, b.second.lateral_cos, b.second.lateral_sin, 1},
+        {&Load::pitch, b.first.pitch_cos, b.first.pitch_sin, b.second.pitch_cos, b.second.pitch_sin, arm_m(e)},
+        {&Load::yaw, b.first.yaw_cos, b.first.yaw_sin, b.second.yaw_cos, b.second.yaw_sin, arm_m(e)}};
     for (const auto& part : parts) {
       EXPECT_NEAR(part.first_cos, term(part.part, 1).cosine, first * part.arm);
       EXPECT_NEAR(part.first_sin, term(part.part, 1).sine, first * part.arm);
@@ -308,7 +323,7 @@ TEST(Balance, IsTheFirstAndSecondFourierTermOfTheExactForcesToTheOrdersLeftOut) 
   }
 }
 
-// ---- what every engine builder knows ---------------------------------------------------------------------------------------
+// ---- what every engine builder knows --------------------------------------------------------------------------------
 
 /// Longest force and moment of each kind over a turn, in kg m and kg m^2.
 struct Peaks {
@@ -365,7 +380,8 @@ TEST(Balance, OfAnInlineSixIsPerfect) {
   const Peaks p{e};
   const double tolerance = rounding_kg_m(e);
   for (const double force : {p.first, p.second, p.rotating}) EXPECT_NEAR(force, 0, tolerance);
-  for (const double moment : {p.first_moment, p.second_moment, p.rotating_moment}) EXPECT_NEAR(moment, 0, tolerance * arm_m(e));
+  for (const double moment : {p.first_moment, p.second_moment, p.rotating_moment})
+    EXPECT_NEAR(moment, 0, tolerance * arm_m(e));
 }
 
 TEST(Balance, OfAnInlineThreeRocksButDoesNotShake) {
@@ -375,7 +391,8 @@ TEST(Balance, OfAnInlineThreeRocksButDoesNotShake) {
   const double tolerance = rounding_kg_m(e);
   for (const double force : {p.first, p.second, p.rotating}) EXPECT_NEAR(force, 0, tolerance);
   EXPECT_NEAR(p.first_moment, std::sqrt(3) * reciprocating_kg_m(e) * kSpacing_m, tolerance * arm_m(e));
-  EXPECT_NEAR(p.second_moment, std::sqrt(3) * e.crank.rod_ratio() * reciprocating_kg_m(e) * kSpacing_m, tolerance * arm_m(e));
+  EXPECT_NEAR(p.second_moment, std::sqrt(3) * e.crank.rod_ratio() * reciprocating_kg_m(e) * kSpacing_m,
+              tolerance * arm_m(e));
   EXPECT_NEAR(p.rotating_moment, std::sqrt(3) * rotating_kg_m(e, 1) * kSpacing_m, tolerance * arm_m(e));
 }
 
@@ -384,9 +401,10 @@ TEST(Balance, OfA90DegreeVTwinIsAFirstOrderForceThatTurnsWithTheCrankAndALateral
   const Balance<double> b = balance_of(e);
   const double tolerance = rounding_kg_m(e);
   for (int deg = 0; deg < 360; deg += 15) {
-    // A counterweight of m_j opposite the pin would cancel it: constant size, always along the throw (-45 deg when cylinder 1 fires).
+    // A counterweight of m_j opposite the pin would cancel it: constant size, always along the throw (-45 deg when
+    // cylinder 1 fires).
     const Load first = of_turning(b.first, 1, deg);
-    const Vec along = turned({0, static_cast<Wide>(reciprocating_kg_m(e))}, -45 + deg);
+    const Vec along = turned({0, wide(reciprocating_kg_m(e))}, -45 + deg);
     EXPECT_NEAR(static_cast<double>(first.up - along.up), 0, tolerance);
     EXPECT_NEAR(static_cast<double>(first.lateral - along.lateral), 0, tolerance);
   }
@@ -397,8 +415,8 @@ TEST(Balance, OfA90DegreeVTwinIsAFirstOrderForceThatTurnsWithTheCrankAndALateral
 }
 
 TEST(Balance, OfACrossPlaneV8LeavesOnlyAMomentThatTurnsWithTheCrank) {
-  // Throws at 0, 90, 270, 180 deg and -1.5, -0.5, 0.5, 1.5 spacings: 3 spacings one way, 1 across: sqrt 10. Every pair on a pin pushes along
-  // its throw with m_j (as the V-twin does), so counterweights can take all of it.
+  // Throws at 0, 90, 270, 180 deg and -1.5, -0.5, 0.5, 1.5 spacings: 3 spacings one way, 1 across: sqrt 10. Every pair
+  // on a pin pushes along its throw with m_j (as the V-twin does), so counterweights can take all of it.
   const EngineDefinition e = cross_plane_v8();
   const Peaks p{e};
   const double tolerance = rounding_kg_m(e);
@@ -411,14 +429,18 @@ TEST(Balance, OfACrossPlaneV8LeavesOnlyAMomentThatTurnsWithTheCrank) {
   const Balance<double> b = balance_of(e);
   for (int deg = 0; deg < 360; deg += 15) {
     const Load first = of_turning(b.first, 1, deg);
-    EXPECT_NEAR(static_cast<double>(std::hypot(first.pitch, first.yaw)), p.first_moment, tolerance * arm_m(e)) << "constant size";
+    EXPECT_NEAR(static_cast<double>(std::hypot(first.pitch, first.yaw)), p.first_moment, tolerance * arm_m(e))
+        << "constant size";
     const Load turning = of_turning(b.rotating, 1, deg);
-    EXPECT_NEAR(static_cast<double>(first.pitch * turning.yaw - first.yaw * turning.pitch), 0, tolerance * arm_m(e) * p.rotating_moment) << "one direction";
+    EXPECT_NEAR(static_cast<double>(first.pitch * turning.yaw - first.yaw * turning.pitch), 0,
+                tolerance * arm_m(e) * p.rotating_moment)
+        << "one direction";
   }
 }
 
 TEST(Balance, OfABoxerFourLeavesOnlyTheSecondOrderMomentOfItsStaggeredBanks) {
-  // Opposed pistons cancel but for the spacing between them; in first order the two pairs' couples oppose each other, in second order they add.
+  // Opposed pistons cancel but for the spacing between them; in first order the two pairs' couples oppose each other,
+  // in second order they add.
   const EngineDefinition e = boxer_four();
   const Peaks p{e};
   const double tolerance = rounding_kg_m(e);
@@ -436,9 +458,11 @@ TEST(Balance, OfAnOddFireV6DoesNotShakeButRocks) {
   const Peaks p{e};
   const double tolerance = rounding_kg_m(e);
   for (const double force : {p.first, p.second, p.rotating}) EXPECT_NEAR(force, 0, tolerance);
-  // Each pair is a V-twin: first order m_j along the throw, so the inline three's sqrt 3 as a turning couple; second order sqrt 2 lambda m_j across.
+  // Each pair is a V-twin: first order m_j along the throw, so the inline three's sqrt 3 as a turning couple; second
+  // order sqrt 2 lambda m_j across.
   EXPECT_NEAR(p.first_moment, std::sqrt(3) * reciprocating_kg_m(e) * kSpacing_m, tolerance * arm_m(e));
-  EXPECT_NEAR(p.second_moment, std::sqrt(6) * e.crank.rod_ratio() * reciprocating_kg_m(e) * kSpacing_m, tolerance * arm_m(e));
+  EXPECT_NEAR(p.second_moment, std::sqrt(6) * e.crank.rod_ratio() * reciprocating_kg_m(e) * kSpacing_m,
+              tolerance * arm_m(e));
   EXPECT_NEAR(p.rotating_moment, std::sqrt(3) * rotating_kg_m(e, 2) * kSpacing_m, tolerance * arm_m(e));
 }
 
@@ -447,7 +471,8 @@ TEST(Balance, OfASixtyDegreeV12IsThatOfTwoInlineSixes) {
   const Peaks p{e};
   const double tolerance = rounding_kg_m(e);
   for (const double force : {p.first, p.second, p.rotating}) EXPECT_NEAR(force, 0, tolerance);
-  for (const double moment : {p.first_moment, p.second_moment, p.rotating_moment}) EXPECT_NEAR(moment, 0, tolerance * arm_m(e));
+  for (const double moment : {p.first_moment, p.second_moment, p.rotating_moment})
+    EXPECT_NEAR(moment, 0, tolerance * arm_m(e));
 }
 
 TEST(Balance, DoesNotDependOnWhereTheShaftIsMeasuredFrom) {
@@ -464,7 +489,8 @@ TEST(Peak, IsTheLongestTheTurningVectorGetsAtAnyAngle) {
   for (int draw = 0; draw < 100; ++draw) {
     SCOPED_TRACE(random.trace(draw));
     Turning<double> t{};
-    for (double* amplitude : {&t.up_cos, &t.up_sin, &t.lateral_cos, &t.lateral_sin, &t.pitch_cos, &t.pitch_sin, &t.yaw_cos, &t.yaw_sin}) {
+    for (double* amplitude :
+         {&t.up_cos, &t.up_sin, &t.lateral_cos, &t.lateral_sin, &t.pitch_cos, &t.pitch_sin, &t.yaw_cos, &t.yaw_sin}) {
       *amplitude = random.between(-1, 1);
     }
     double force = 0;
@@ -483,7 +509,7 @@ TEST(Peak, IsTheLongestTheTurningVectorGetsAtAnyAngle) {
   }
 }
 
-// ---- pins and journals -----------------------------------------------------------------------------------------------------
+// ---- pins and journals ----------------------------------------------------------------------------------------------
 
 /// Pressure, the same for sum and library: none but the crankcase's, or the synthesised diagram's at full load.
 struct Loaded {
@@ -506,11 +532,12 @@ std::unique_ptr<Loaded> random_loaded_engine(Random& random) {
   return loaded;
 }
 
-/// Force of every rod on its pin in the engine's frame, by Newton and Euler, added up for each pin; and of the turning pin itself.
+/// Force of every rod on its pin in the engine's frame, by Newton and Euler, added up for each pin; and of the turning
+/// pin itself.
 struct PinForces {
-  std::vector<Vec> on_pin;      ///< of the rods
-  std::vector<Vec> on_shaft;    ///< of rods and the throw's own unbalance: what the journals hold
-  std::vector<Vec> outward;     ///< unit vector of the throw
+  std::vector<Vec> on_pin;    ///< of the rods
+  std::vector<Vec> on_shaft;  ///< of rods and the throw's own unbalance: what the journals hold
+  std::vector<Vec> outward;   ///< unit vector of the throw
 };
 
 PinForces pin_forces(const Loaded& loaded, Wide engine_deg, Wide speed) {
@@ -525,25 +552,30 @@ PinForces pin_forces(const Loaded& loaded, Wide engine_deg, Wide speed) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(e.layout.cylinders); ++k) {
     const Wide deg = own_deg(e.layout, k, engine_deg);
     const support::Motion m = support::motion_at(e.crank, deg * kRadPerDeg, speed);
-    const Wide area = kWidePi / 4 * static_cast<Wide>(e.crank.bore_m) * static_cast<Wide>(e.crank.bore_m);
-    const Wide gas = (static_cast<Wide>(loaded.exact.diagram().full_Pa(static_cast<double>(deg))) - static_cast<Wide>(e.pressure.crankcase_Pa)) * area;
+    const Wide area = kWidePi / 4 * wide(e.crank.bore_m) * wide(e.crank.bore_m);
+    const Wide gas =
+        (wide(loaded.exact.diagram().full_Pa(static_cast<double>(deg))) - wide(e.pressure.crankcase_Pa)) * area;
     const std::size_t pin = e.layout.pin[k];
-    f.on_pin[pin] = f.on_pin[pin] + turned(support::newton_euler(bare, loaded.rod, m, gas).rod_on_crank_pin, e.layout.bank_deg[k]);
-    f.outward[pin] = turned((1 / support::length(m.crank_pin)) * m.crank_pin, e.layout.bank_deg[k]);
+    f.on_pin[pin] = f.on_pin[pin] + turned(support::newton_euler(bare, loaded.rod, m, gas).rod_on_crank_pin,
+                                           wide(e.layout.bank_deg[k]));
+    f.outward[pin] = turned((1 / support::length(m.crank_pin)) * m.crank_pin, wide(e.layout.bank_deg[k]));
   }
-  const Wide pin_kg_m = static_cast<Wide>(e.masses.crank_pin_equivalent_kg) * static_cast<Wide>(e.crank.crank_radius_m);
-  for (std::size_t pin = 0; pin < pins; ++pin) f.on_shaft[pin] = f.on_pin[pin] + (pin_kg_m * speed * speed) * f.outward[pin];
+  const Wide pin_kg_m = wide(e.masses.crank_pin_equivalent_kg) * wide(e.crank.crank_radius_m);
+  for (std::size_t pin = 0; pin < pins; ++pin)
+    f.on_shaft[pin] = f.on_pin[pin] + (pin_kg_m * speed * speed) * f.outward[pin];
   return f;
 }
 
 /// Size of the forces in an engine, for tolerances.
 double force_size(const EngineDefinition& e, double speed) {
   const double area = kPi / 4 * e.crank.bore_m * e.crank.bore_m;
-  const double masses = e.masses.piston_kg + e.masses.rod_small_end_kg + e.masses.rod_big_end_kg + e.masses.crank_pin_equivalent_kg;
+  const double masses =
+      e.masses.piston_kg + e.masses.rod_small_end_kg + e.masses.rod_big_end_kg + e.masses.crank_pin_equivalent_kg;
   return 200e5 * area + 2 * masses * e.crank.crank_radius_m * speed * speed;
 }
 
-// Exact functions: angles pass through degrees, where 2 eps of 720 deg on a pressure that rises 20 bar/deg is 6e-12 of the peak.
+// Exact functions: angles pass through degrees, where 2 eps of 720 deg on a pressure that rises 20 bar/deg is 6e-12 of
+// the peak.
 constexpr double kExactShare = 1e-11;
 
 TEST(Pins, CarryTheVectorSumOfTheirRods) {
@@ -555,12 +587,14 @@ TEST(Pins, CarryTheVectorSumOfTheirRods) {
     const double tolerance = kExactShare * force_size(loaded->engine, speed);
     for (int i = 0; i < 20; ++i) {
       const double deg = random.between(0, 720);
-      const PinForces want = pin_forces(*loaded, deg, speed);
+      const PinForces want = pin_forces(*loaded, wide(deg), wide(speed));
       for (int k = 0; k < loaded->engine.layout.cylinders; ++k) {
         const std::size_t pin = loaded->engine.layout.pin[static_cast<std::size_t>(k)];
         const PinLoad got = loaded->exact.pin_load(k, deg, speed);
         EXPECT_NEAR(got.radial_N, static_cast<double>(-support::dot(want.on_pin[pin], want.outward[pin])), tolerance);
-        EXPECT_NEAR(got.tangential_N, static_cast<double>(support::dot(want.on_pin[pin], support::quarter_turn(want.outward[pin]))), tolerance);
+        EXPECT_NEAR(got.tangential_N,
+                    static_cast<double>(support::dot(want.on_pin[pin], support::quarter_turn(want.outward[pin]))),
+                    tolerance);
       }
     }
     if (HasFailure()) return;
@@ -581,11 +615,13 @@ TEST(Bearings, KnowEveryPinsThrowAndMasses) {
       const std::size_t pin = e.layout.pin[k];
       EXPECT_EQ(b.pin_of[k], pin);
       const auto rods = std::count(e.layout.pin.begin(), e.layout.pin.begin() + e.layout.cylinders, e.layout.pin[k]);
-      EXPECT_NEAR(b.rods_kg_m[pin], static_cast<double>(rods) * e.masses.rod_big_end_kg * e.crank.crank_radius_m, rounding_kg_m(e));
+      EXPECT_NEAR(b.rods_kg_m[pin], static_cast<double>(rods) * e.masses.rod_big_end_kg * e.crank.crank_radius_m,
+                  rounding_kg_m(e));
       EXPECT_NEAR(b.throw_kg_m[pin], rotating_kg_m(e, static_cast<int>(rods)), rounding_kg_m(e));
       // Direction of the throw in the frame of pin 0's, by turning vectors.
-      const Vec own = turned({0, 1}, static_cast<Wide>(e.layout.bank_deg[k]) - static_cast<Wide>(e.layout.firing_deg[k]));
-      const Vec zero = turned({0, 1}, static_cast<Wide>(e.layout.bank_deg[first_on_zero]) - static_cast<Wide>(e.layout.firing_deg[first_on_zero]));
+      const Vec own = turned({0, 1}, wide(e.layout.bank_deg[k]) - wide(e.layout.firing_deg[k]));
+      const Vec zero =
+          turned({0, 1}, wide(e.layout.bank_deg[first_on_zero]) - wide(e.layout.firing_deg[first_on_zero]));
       EXPECT_NEAR(b.throw_cos[pin], static_cast<double>(support::dot(own, zero)), 64 * kEps);
       EXPECT_NEAR(b.throw_sin[pin], static_cast<double>(support::dot(own, support::quarter_turn(zero))), 64 * kEps);
     }
@@ -613,13 +649,16 @@ TEST(Tick, ReportsTheLoadsOfPinsAndJournalsAndTheFreeForcesOfItsParts) {
       const auto& out = engine->step(in);
       ASSERT_EQ(out.faults, 0u);
       const Wide deg = static_cast<Wide>(engine->state().phase.units()) * (720 / 18446744073709551616.0L);
-      const PinForces want = pin_forces(*loaded, deg, speed);
+      const PinForces want = pin_forces(*loaded, deg, wide(speed));
       const std::size_t pins = want.on_pin.size();
       const Vec along = want.outward[0];
       const Vec across = support::quarter_turn(along);
       for (std::size_t pin = 0; pin < pins; ++pin) {
-        EXPECT_NEAR(out.pin_radial_N[pin], static_cast<double>(-support::dot(want.on_pin[pin], want.outward[pin])), tolerance);
-        EXPECT_NEAR(out.pin_tangential_N[pin], static_cast<double>(support::dot(want.on_pin[pin], support::quarter_turn(want.outward[pin]))), tolerance);
+        EXPECT_NEAR(out.pin_radial_N[pin], static_cast<double>(-support::dot(want.on_pin[pin], want.outward[pin])),
+                    tolerance);
+        EXPECT_NEAR(out.pin_tangential_N[pin],
+                    static_cast<double>(support::dot(want.on_pin[pin], support::quarter_turn(want.outward[pin]))),
+                    tolerance);
         EXPECT_NEAR(out.pin_load_N[pin], static_cast<double>(support::length(want.on_pin[pin])), 2 * tolerance);
       }
       for (std::size_t journal = 0; journal <= pins; ++journal) {
@@ -631,10 +670,15 @@ TEST(Tick, ReportsTheLoadsOfPinsAndJournalsAndTheFreeForcesOfItsParts) {
         EXPECT_NEAR(out.journal_across_N[journal], static_cast<double>(support::dot(load, across)), tolerance);
         EXPECT_NEAR(out.journal_load_N[journal], static_cast<double>(support::length(load)), 2 * tolerance);
       }
-      const double w2 = speed * speed;
-      const double free_tolerance = 1e-8 * w2 * e.layout.cylinders * (reciprocating_kg_m(e) + rotating_kg_m(e, 1));
-      const auto reported = [&](const FreeForce<double>& f) { return Load{f.up_N, f.lateral_N, f.pitch_Nm, f.yaw_Nm}; };
-      const auto scaled = [&](Load load) { return Load{load.up * w2, load.lateral * w2, load.pitch * w2, load.yaw * w2}; };
+      const Wide w2 = wide(speed) * wide(speed);
+      const double free_tolerance =
+          1e-8 * speed * speed * e.layout.cylinders * (reciprocating_kg_m(e) + rotating_kg_m(e, 1));
+      const auto reported = [&](const FreeForce<double>& f) {
+        return Load{wide(f.up_N), wide(f.lateral_N), wide(f.pitch_Nm), wide(f.yaw_Nm)};
+      };
+      const auto scaled = [&](Load load) {
+        return Load{load.up * w2, load.lateral * w2, load.pitch * w2, load.yaw * w2};
+      };
       expect_same(reported(out.first), scaled(published_order(e, deg, 1)), free_tolerance, arm_m(e));
       expect_same(reported(out.second), scaled(published_order(e, deg, 2)), free_tolerance, arm_m(e));
       expect_same(reported(out.rotating), scaled(rotating(e, deg)), free_tolerance, arm_m(e));

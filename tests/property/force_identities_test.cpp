@@ -2,11 +2,13 @@
 //
 // With P = P_g + P_j, the rod's couple dM = dI d2b/dt2 and h the piston pin's height over the crank centre:
 //
-//     M = T r = P dx/da - dM db/da            work: what the piston and the rod's turning give, the crank gets
-//     M = N h + P e + dM                      moments about the crank centre of all that moves: the wall gives N h, the gas force
-//                                             P_g e; the momentum m_j v of the piston at arm e takes m_j j e, the turning rod dM
+//     M = T r = P dx/da - dM db/da     work: what the piston and the rod's turning give, the crank gets
+//     M = N h + P e + dM               moments about the crank centre of all that moves (below)
 //     M_tilt = -(N h + P_g e) = -(M - P_j e - dM)
-//     K^2 + T^2 = N^2 + P^2                   one force in the rod, seen from either end
+//     K^2 + T^2 = N^2 + P^2            one force in the rod, seen from either end
+//
+// The second one: the wall gives N h and the gas P_g e; the piston's momentum m_j v, at arm e, takes m_j j e = -P_j e,
+// the turning rod -dM (it turns against the crank); what is left, the crank delivers.
 #include <crankloop/tabulate/summary.hpp>
 
 #include <gtest/gtest.h>
@@ -26,6 +28,7 @@ namespace {
 
 using support::kEps;
 using support::Random;
+using support::wide;
 using support::Wide;
 
 constexpr double kPi = 3.14159265358979323846;
@@ -82,7 +85,8 @@ TEST(Forces, OfGasAndMassesAreWhatTheyAreCalled) {
     EXPECT_EQ(m.forces.pressure_Pa, m.pressure_Pa);
     EXPECT_NEAR(m.forces.gas_force_N, (m.pressure_Pa - m.engine.pressure.crankcase_Pa) * area, m.rounding_N());
     const double mass = m.engine.masses.piston_kg + m.engine.masses.rod_small_end_kg;
-    EXPECT_NEAR(m.forces.inertia_force_N, -mass * m.pose.acceleration_m * m.speed_rad_s * m.speed_rad_s, m.rounding_N());
+    EXPECT_NEAR(m.forces.inertia_force_N, -mass * m.pose.acceleration_m * m.speed_rad_s * m.speed_rad_s,
+                m.rounding_N());
     EXPECT_NEAR(m.forces.total_force_N, m.forces.gas_force_N + m.forces.inertia_force_N, m.rounding_N());
   });
 }
@@ -91,7 +95,8 @@ TEST(Forces, TorqueIsTheWorkOfPistonAndTurningRodPerAngle) {
   at_random_moments([](const Moment& m) {
     const double r = m.engine.crank.crank_radius_m;
     EXPECT_NEAR(m.forces.torque_Nm, m.forces.tangential_force_N * r, m.rounding_N() * r);
-    EXPECT_NEAR(m.forces.torque_Nm, m.forces.total_force_N * m.pose.slope_m - m.couple_Nm * m.pose.rod_slope, m.rounding_N() * r);
+    EXPECT_NEAR(m.forces.torque_Nm, m.forces.total_force_N * m.pose.slope_m - m.couple_Nm * m.pose.rod_slope,
+                m.rounding_N() * r);
   });
 }
 
@@ -101,7 +106,8 @@ TEST(Forces, TorqueIsTheMomentOfSideForceOffsetForceAndTurningRod) {
     const double h = crank.crank_radius_m * m.cos_a + crank.rod_length_m * m.cos_b;
     const double want = m.forces.side_force_N * h + m.forces.total_force_N * crank.pin_offset_m + m.couple_Nm;
     // The side force's rounding has the long arm h.
-    EXPECT_NEAR(m.forces.torque_Nm, want, m.rounding_N() * (crank.crank_radius_m + crank.rod_length_m) * crank.rod_ratio() * 2);
+    EXPECT_NEAR(m.forces.torque_Nm, want,
+                m.rounding_N() * (crank.crank_radius_m + crank.rod_length_m) * crank.rod_ratio() * 2);
   });
 }
 
@@ -110,8 +116,10 @@ TEST(Forces, TiltingMomentIsTheTorqueLessWhatTheMassesKeep) {
     const Crank& crank = m.engine.crank;
     const double h = crank.crank_radius_m * m.cos_a + crank.rod_length_m * m.cos_b;
     const double tolerance = m.rounding_N() * (crank.crank_radius_m + crank.rod_length_m) * crank.rod_ratio() * 2;
-    EXPECT_NEAR(m.forces.tilting_moment_Nm, -(m.forces.side_force_N * h + m.forces.gas_force_N * crank.pin_offset_m), tolerance);
-    EXPECT_NEAR(m.forces.tilting_moment_Nm, -(m.forces.torque_Nm - m.forces.inertia_force_N * crank.pin_offset_m - m.couple_Nm), tolerance);
+    EXPECT_NEAR(m.forces.tilting_moment_Nm, -(m.forces.side_force_N * h + m.forces.gas_force_N * crank.pin_offset_m),
+                tolerance);
+    EXPECT_NEAR(m.forces.tilting_moment_Nm,
+                -(m.forces.torque_Nm - m.forces.inertia_force_N * crank.pin_offset_m - m.couple_Nm), tolerance);
   });
 }
 
@@ -121,7 +129,8 @@ TEST(Forces, WithoutOffsetAndCoupleTheBlockTiltsByTheTorqueReversed) {
     Moment m = random_moment(random);
     m.engine.crank.pin_offset_m = 0;
     m.engine.masses.rod_inertia_correction_kg_m2 = 0;
-    const auto f = cylinder_forces<true>(body_of(m.engine), exact_pose(m.engine.crank, m.crank_rad), m.pressure_Pa, m.speed_rad_s);
+    const auto f =
+        cylinder_forces<true>(body_of(m.engine), exact_pose(m.engine.crank, m.crank_rad), m.pressure_Pa, m.speed_rad_s);
     const double tolerance = m.rounding_N() * (m.engine.crank.crank_radius_m + m.engine.crank.rod_length_m);
     EXPECT_NEAR(f.tilting_moment_Nm, -f.torque_Nm, tolerance) << random.trace(draw);
   }
@@ -144,8 +153,10 @@ TEST(Forces, FollowTheirFormulasInAnglesOfCrankAndRod) {
     const double couple_per_arm = m.couple_Nm / (m.engine.crank.rod_length_m * m.cos_b);
     EXPECT_NEAR(m.forces.side_force_N, p * std::tan(b) - couple_per_arm, m.rounding_N());
     EXPECT_NEAR(m.forces.rod_force_N, p / std::cos(b), m.rounding_N());
-    EXPECT_NEAR(m.forces.radial_force_N, p * std::cos(m.crank_rad + b) / std::cos(b) + couple_per_arm * m.sin_a, m.rounding_N() + 4 * kEps * m.force_size * m.crank_rad);
-    EXPECT_NEAR(m.forces.tangential_force_N, p * std::sin(m.crank_rad + b) / std::cos(b) - couple_per_arm * m.cos_a, m.rounding_N() + 4 * kEps * m.force_size * m.crank_rad);
+    EXPECT_NEAR(m.forces.radial_force_N, p * std::cos(m.crank_rad + b) / std::cos(b) + couple_per_arm * m.sin_a,
+                m.rounding_N() + 4 * kEps * m.force_size * m.crank_rad);
+    EXPECT_NEAR(m.forces.tangential_force_N, p * std::sin(m.crank_rad + b) / std::cos(b) - couple_per_arm * m.cos_a,
+                m.rounding_N() + 4 * kEps * m.force_size * m.crank_rad);
   });
 }
 
@@ -168,8 +179,9 @@ TEST(Forces, InFloatAreTheDoubleOnesToFloatsRounding) {
   at_random_moments([](const Moment& m) {
     const Body<double> d = body_of(m.engine);
     const auto f = [](double x) { return static_cast<float>(x); };
-    const Body<float> body{f(d.crank_radius_m), f(d.per_crank_radius), f(d.per_rod_length),   f(d.pin_offset_m),    f(d.height_at_tdc_m),
-                           f(d.bore_area_m2),   f(d.crankcase_Pa),     f(d.reciprocating_kg), f(d.rod_inertia_correction_kg_m2)};
+    const Body<float> body{f(d.crank_radius_m), f(d.per_crank_radius), f(d.per_rod_length),
+                           f(d.pin_offset_m),   f(d.height_at_tdc_m),  f(d.bore_area_m2),
+                           f(d.crankcase_Pa),   f(d.reciprocating_kg), f(d.rod_inertia_correction_kg_m2)};
     const Pose<double>& p = m.pose;
     const Pose<float> pose{f(p.displacement_m), f(p.slope_m),       f(p.acceleration_m), f(p.rod_angle_rad),
                            f(p.rod_slope),      f(p.rod_curvature), f(p.rod_tilt),       f(p.radial)};
@@ -182,7 +194,8 @@ TEST(Forces, InFloatAreTheDoubleOnesToFloatsRounding) {
     EXPECT_NEAR(static_cast<double>(got.radial_force_N), m.forces.radial_force_N, tolerance);
     EXPECT_NEAR(static_cast<double>(got.tangential_force_N), m.forces.tangential_force_N, tolerance);
     EXPECT_NEAR(static_cast<double>(got.torque_Nm), m.forces.torque_Nm, tolerance * crank.crank_radius_m);
-    EXPECT_NEAR(static_cast<double>(got.tilting_moment_Nm), m.forces.tilting_moment_Nm, tolerance * (crank.crank_radius_m + crank.rod_length_m));
+    EXPECT_NEAR(static_cast<double>(got.tilting_moment_Nm), m.forces.tilting_moment_Nm,
+                tolerance * (crank.crank_radius_m + crank.rod_length_m));
   });
 }
 
@@ -194,7 +207,7 @@ TEST(Forces, DoNotDependOnTheDirectionOfRotation) {
   });
 }
 
-// ---- over a cycle ----------------------------------------------------------------------------------------------------------
+// ---- over a cycle ---------------------------------------------------------------------------------------------------
 
 EngineDefinition diesel_495() {
   EngineDefinition engine;
@@ -215,10 +228,13 @@ ExactEngine ready(const EngineDefinition& definition) {
   return engine;
 }
 
-/// Sum over the loop of mean pressure times volume difference, the p-V diagram's area by trapezoids, with volumes by vector geometry.
+/// Sum over the loop of mean pressure times volume difference, the p-V diagram's area by trapezoids, with volumes by
+/// vector geometry.
 double loop_work_J(const ExactEngine& engine, double load_ratio, double from_deg, double to_deg, int steps) {
   const Crank& crank = engine.definition().crank;
-  const auto pressure = [&](double deg) { return engine.diagram().motored_Pa(deg) + load_ratio * engine.diagram().heat_Pa(deg); };
+  const auto pressure = [&](double deg) {
+    return engine.diagram().motored_Pa(deg) + load_ratio * engine.diagram().heat_Pa(deg);
+  };
   Wide sum = 0;
   double p0 = pressure(from_deg);
   double v0 = support::volume_m3(crank, from_deg);
@@ -226,15 +242,15 @@ double loop_work_J(const ExactEngine& engine, double load_ratio, double from_deg
     const double deg = from_deg + (to_deg - from_deg) * i / steps;
     const double p1 = pressure(deg);
     const double v1 = support::volume_m3(crank, deg);
-    sum += static_cast<Wide>((p0 + p1) / 2) * static_cast<Wide>(v1 - v0);
+    sum += wide((p0 + p1) / 2) * wide(v1 - v0);
     p0 = p1;
     v0 = v1;
   }
   return static_cast<double>(sum);
 }
 
-// Trapezoids of h = 0.02 deg in the p-V plane miss h^2/6 of the integral of p' V'': at most that times the 150 bar that p rises and V'' < V_d,
-// 2e-8 p_max V_d. Corners of p (start of combustion, valves) are of the same order.
+// Trapezoids of h = 0.02 deg in the p-V plane miss h^2/6 of the integral of p' V'': at most that times the 150 bar that
+// p rises and V'' < V_d, 2e-8 p_max V_d. Corners of p (start of combustion, valves) are of the same order.
 constexpr int kLoopSteps = 36'000;
 constexpr double kLoopShare = 1e-7;
 
@@ -259,15 +275,18 @@ TEST(CycleWork, OfTheGasForceIsTheLoopOfThePressureVolumeDiagramAndTheMeanEffect
         EXPECT_NEAR(loop / swept, 809.7e3, tolerance / swept);
       }
       const double bottom_deg = dead_centres(definition.crank).bdc_rad / kRadPerDeg;
-      EXPECT_NEAR(summary.gross_mep_Pa * swept, loop_work_J(engine, load, bottom_deg - 360, bottom_deg, kLoopSteps / 2), tolerance);
-      EXPECT_NEAR(summary.mean_torque_Nm, definition.layout.cylinders * loop / (4 * kPi), definition.layout.cylinders * tolerance / (4 * kPi));
+      EXPECT_NEAR(summary.gross_mep_Pa * swept, loop_work_J(engine, load, bottom_deg - 360, bottom_deg, kLoopSteps / 2),
+                  tolerance);
+      EXPECT_NEAR(summary.mean_torque_Nm, definition.layout.cylinders * loop / (4 * kPi),
+                  definition.layout.cylinders * tolerance / (4 * kPi));
       EXPECT_NEAR(summary.power_W, summary.mean_torque_Nm * 210, 4 * kEps * std::fabs(summary.power_W));
     }
   }
 }
 
 TEST(CycleWork, OfTheTorqueCurveIsThatOfTheGasAloneBecauseMassesGiveBackWhatTheyTake) {
-  // Mean of the torque at equal angles, inertia at full speed included: spectrally exact for the masses; for the gas, whose slope jumps, as above.
+  // Mean of the torque at equal angles, inertia at full speed included: spectrally exact for the masses; for the gas,
+  // whose slope jumps, as above.
   Random random;
   for (int draw = 0; draw < 4; ++draw) {
     SCOPED_TRACE(random.trace(draw));
@@ -280,9 +299,10 @@ TEST(CycleWork, OfTheTorqueCurveIsThatOfTheGasAloneBecauseMassesGiveBackWhatThey
     const ExactEngine engine = ready(definition);
     const double speed = 600;
     Wide sum = 0;
-    for (int i = 0; i < kLoopSteps; ++i) sum += engine.forces(2, 720.0 * i / kLoopSteps, speed).torque_Nm;
+    for (int i = 0; i < kLoopSteps; ++i) sum += wide(engine.forces(2, 720.0 * i / kLoopSteps, speed).torque_Nm);
     const double swept = support::swept_m3(definition.crank);
-    const double inertia_size = definition.masses.reciprocating_kg() * definition.crank.crank_radius_m * definition.crank.crank_radius_m * speed * speed;
+    const double inertia_size = definition.masses.reciprocating_kg() * definition.crank.crank_radius_m *
+                                definition.crank.crank_radius_m * speed * speed;
     EXPECT_NEAR(static_cast<double>(sum) / kLoopSteps, 809.7e3 * swept / (4 * kPi),
                 kLoopShare * 150e5 * swept / (4 * kPi) + 16 * kEps * inertia_size);
   }
@@ -304,7 +324,8 @@ TEST(EngineTorque, IsTheSumOfCylindersEachAtItsOwnAngle) {
   for (double deg = 0; deg < 720; deg += 7.3) {
     double sum = 0;
     for (const double firing : {0.0, 540.0, 180.0, 360.0}) sum += single.torque_Nm(deg - firing, 210);
-    EXPECT_NEAR(engine.torque_Nm(deg, 210), sum, 1e-9 * 500);  // 1e-9: the angle's rounding, 1e-13 deg, times the pressure's slope
+    EXPECT_NEAR(engine.torque_Nm(deg, 210), sum,
+                1e-9 * 500);  // 1e-9: the angle's rounding, 1e-13 deg, times the pressure's slope
     EXPECT_NEAR(engine.forces(1, deg, 210).torque_Nm, single.torque_Nm(deg - 540, 210), 1e-9 * 500);
   }
 }
@@ -320,10 +341,11 @@ TEST(EngineTorque, LiesBetweenItsReportedExtremesAndReachesThem) {
     EXPECT_LE(torque, summary.largest_torque_Nm + rounding);
     EXPECT_GE(torque, summary.smallest_torque_Nm - rounding);
   }
-  EXPECT_NEAR(summary.fluctuation_ratio, (summary.largest_torque_Nm - summary.smallest_torque_Nm) / summary.mean_torque_Nm, 1e-12);
+  EXPECT_NEAR(summary.fluctuation_ratio,
+              (summary.largest_torque_Nm - summary.smallest_torque_Nm) / summary.mean_torque_Nm, 1e-12);
 }
 
-// ---- harmonics -------------------------------------------------------------------------------------------------------------
+// ---- harmonics ------------------------------------------------------------------------------------------------------
 
 /// A random engine with an arbitrary pressure of period 720 deg that is a smooth formula, tabulated every 0.1 deg.
 struct SmoothEngine {
@@ -342,12 +364,13 @@ double independent_torque_Nm(const EngineDefinition& engine, double engine_deg, 
   double sum = 0;
   for (int k = 0; k < engine.layout.cylinders; ++k) {
     const double deg = engine_deg - engine.layout.firing_deg[static_cast<std::size_t>(k)];
-    const support::Motion m = support::motion_at(engine.crank, static_cast<Wide>(deg) * support::kWidePi / 180, 1);
+    const support::Motion m = support::motion_at(engine.crank, wide(deg) * support::kWidePi / 180, 1);
     const double area = kPi / 4 * engine.crank.bore_m * engine.crank.bore_m;
     const double gas = (support::smooth_pressure_Pa(deg) - engine.pressure.crankcase_Pa) * area;
     const double down = -static_cast<double>(m.piston_pin_velocity.up);
     const double inertia = engine.masses.reciprocating_kg() * static_cast<double>(m.piston_pin_acceleration.up) * w * w;
-    const double couple = engine.masses.rod_inertia_correction_kg_m2 * static_cast<double>(m.rod_turn_rad_s2 * m.rod_turn_rad_s) * w * w;
+    const double couple =
+        engine.masses.rod_inertia_correction_kg_m2 * static_cast<double>(m.rod_turn_rad_s2 * m.rod_turn_rad_s) * w * w;
     sum += (gas + inertia) * down - couple;
   }
   return sum;
@@ -361,8 +384,9 @@ TEST(TorqueHarmonics, AreTheFourierCoefficientsOfTheTorque) {
     const double w = random.between(50, 400);
     const ExactEngine engine = ready(smooth.definition);
     const CycleSummary summary = summarise(engine, w);
-    // A monotone cubic through points h = 0.1 deg apart is off by h^2/8 of p'' where p has a peak (slope zero is forced on a point beside
-    // it) and by h^3 or less elsewhere: below 60e5 * 30/4 rad^-2 * h^2/8 = 18 Pa at the peak, times area and about r, for one degree or two.
+    // A monotone cubic through points h = 0.1 deg apart is off by h^2/8 of p'' where p has a peak (slope zero is forced
+    // on a point beside it) and by h^3 or less elsewhere: below 60e5 * 30/4 rad^-2 * h^2/8 = 18 Pa at the peak, times
+    // area and about r, for one degree or two.
     const double area = kPi / 4 * smooth.definition.crank.bore_m * smooth.definition.crank.bore_m;
     const double tolerance = 18 * area * 1.2 * smooth.definition.crank.crank_radius_m;
     const auto torque = [&](double t) { return independent_torque_Nm(smooth.definition, 2 * t / kRadPerDeg, w); };
@@ -404,8 +428,9 @@ TEST(TorqueHarmonics, AddedUpGiveTheTorqueToWhatTheyLeaveOut) {
       largest_torque = std::max(largest_torque, std::fabs(want));
       largest_miss = std::max(largest_miss, std::fabs(sum - want));
     }
-    EXPECT_LE(largest_miss, left_out * (1 + 1e-6) + 1e-6 * largest_torque);  // 1e-6: orders above 75, and the table's corners
-    EXPECT_LT(largest_miss, 0.05 * largest_torque);                          // and what is left out is little
+    EXPECT_LE(largest_miss,
+              left_out * (1 + 1e-6) + 1e-6 * largest_torque);  // 1e-6: orders above 75, and the table's corners
+    EXPECT_LT(largest_miss, 0.05 * largest_torque);            // and what is left out is little
   }
 }
 
@@ -423,18 +448,21 @@ TEST(TorqueHarmonics, OfMassesAloneAreAllThereIs) {
   for (int i = 0; i < 3600; ++i) {
     double sum = 0;
     for (const Harmonic& h : summary.harmonics) {
-      sum += h.cosine_Nm * std::cos(h.order * 0.1 * i * kRadPerDeg) + h.sine_Nm * std::sin(h.order * 0.1 * i * kRadPerDeg);
+      sum +=
+          h.cosine_Nm * std::cos(h.order * 0.1 * i * kRadPerDeg) + h.sine_Nm * std::sin(h.order * 0.1 * i * kRadPerDeg);
     }
     EXPECT_NEAR(sum, engine.torque_Nm(0.1 * i, w), 1e-8 * size);
   }
-  // Half orders belong to the 720 deg cycle of the gas: masses have none, nor any cosine (torque is odd about the dead centre).
+  // Half orders belong to the 720 deg cycle of the gas: masses have none, nor any cosine (torque is odd about the dead
+  // centre).
   for (const Harmonic& h : summary.harmonics) {
     EXPECT_NEAR(h.cosine_Nm, 0, 1e-12 * size);
     if (h.order != std::floor(h.order)) {
       EXPECT_NEAR(h.amplitude_Nm, 0, 1e-12 * size);
     }
   }
-  // Known in closed form [Li 2006] to the second power of lambda: m_j r^2 w^2 (lambda/4 sin a - 1/2 sin 2a - 3/4 lambda sin 3a ...).
+  // Known in closed form [Li 2006] to the second power of lambda: m_j r^2 w^2 (lambda/4 sin a - 1/2 sin 2a - 3/4 lambda
+  // sin 3a ...).
   const double lambda = definition.crank.rod_ratio();
   const double left_out = lambda * lambda * lambda;
   EXPECT_NEAR(summary.harmonics[1].sine_Nm / size, lambda / 4, left_out);

@@ -1,5 +1,5 @@
-// Torque averaged over a tick is the work done in it divided by the angle turned, whatever the tick, the speed and the direction: so over a
-// cycle it adds up to the cycle's work, where torque sampled at the tick would alias.
+// Torque averaged over a tick is the work done in it divided by the angle turned, whatever the tick, the speed and the
+// direction: so over a cycle it adds up to the cycle's work, where torque sampled at the tick would alias.
 //
 // Oracle: support/work_oracle.hpp, quadrature of p dV and kinetic energy, by the phases the engine itself went through.
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ namespace {
 using namespace tick_test;
 using support::Random;
 
-constexpr double kRpm = static_cast<double>(kPi_ld) / 30;  // in rad/s
+constexpr double kRpm = kPi / 30;  // in rad/s
 
 using MeanByTable = Asking<kTorque | kMeanTorque>;
 using MeanByLoad = Asking<kTorque | kMeanTorque, PressureGiven::by_table, true>;
@@ -30,12 +30,13 @@ using MeanByPhase = Asking<kTorque | kMeanTorque, PressureGiven::by_table, false
 using MeanWithForces = Asking<kForces | kTorque | kMeanTorque>;
 using MeanByInput = Asking<kTorque | kMeanTorque, PressureGiven::by_input>;
 
-/// Below this angle a tick's mean torque is the mean of both ends' torques instead: a difference of work would drown in rounding.
+/// Below this angle a tick's mean torque is the mean of both ends' torques instead: a difference of work would drown in
+/// rounding.
 template <class Real>
-constexpr double kCrawl_rad = (sizeof(Real) == 4 ? 1.0 / 16 : 1.0 / 1048576) * static_cast<double>(kPi_ld) / 180;
+constexpr double kCrawl_rad = (sizeof(Real) == 4 ? 1.0 / 16 : 1.0 / 1048576) * kPi / 180;
 
-/// What the tables of gas work may be off by anywhere: the pressure's stated 1e-5 of its peak on a full lever, over the half radian that the
-/// burning lasts; per cylinder.
+/// What the tables of gas work may be off by anywhere: the pressure's stated 1e-5 of its peak on a full lever, over the
+/// half radian that the burning lasts; per cylinder.
 double table_error_J(const WorkOracle& oracle) { return 0.5 * 1e-5 * oracle.gas_torque_scale_Nm(); }
 
 template <class Real>
@@ -59,15 +60,17 @@ void step_and_book(Engine<Real, S>& engine, const typename Engine<Real, S>::Inpu
   ledger.torque_size_Nm_rad += std::fabs(mean * angle);
 }
 
-/// Roundings of a tick's mean torque: difference, quantum, quotient, sum; a handful of units in the last place of what goes in. What goes in
-/// is work up to a degree's, also of cylinders whose works cancel, so it is booked at the scale of the torques and not of their sum.
+/// Roundings of a tick's mean torque: difference, quantum, quotient, sum; a handful of units in the last place of what
+/// goes in. What goes in is work up to a degree's, also of cylinders whose works cancel, so it is booked at the scale
+/// of the torques and not of their sum.
 template <class Real>
 double rounding_J(const Ledger& ledger, double torque_scale_Nm) {
   const double handful = 8 * static_cast<double>(std::numeric_limits<Real>::epsilon());
-  return handful * (static_cast<double>(ledger.torque_size_Nm_rad) + torque_scale_Nm * std::fabs(static_cast<double>(ledger.turned_rad)));
+  return handful * (static_cast<double>(ledger.torque_size_Nm_rad) +
+                    torque_scale_Nm * std::fabs(static_cast<double>(ledger.turned_rad)));
 }
 
-// ---- whole cycles ----------------------------------------------------------------------------------------------------------
+// ---- whole cycles ---------------------------------------------------------------------------------------------------
 
 TYPED_TEST(MeanTorque, OverAMeasuredCycleOfAnyNumberOfTicksAddsUpToTheTablesOwnWork) {
   using Real = TypeParam;
@@ -94,15 +97,19 @@ TYPED_TEST(MeanTorque, OverAMeasuredCycleOfAnyNumberOfTicksAddsUpToTheTablesOwnW
       }
       const long double direction = backwards ? -1 : 1;
       EXPECT_NEAR(static_cast<double>(ledger.turned_rad), static_cast<double>(direction * 4 * kPi_ld), 1e-12);
-      const double speed = 4 * static_cast<double>(kPi_ld) / ticks / 500e-6;
-      const double scale = 4 * static_cast<double>(gas.mean_Nm) + 4 * 0.0045 * speed * speed;  // m_j r^2 = 4.3e-3 kg m^2
-      // Torques at the ends of crawling ticks are those of a trapezoid: its error over a cycle comes from the diagram's few kinks.
-      const bool crawls = 4 * static_cast<double>(kPi_ld) / ticks <= kCrawl_rad<Real>;
+      const double speed = 4 * kPi / ticks / 500e-6;
+      const double scale =
+          4 * static_cast<double>(gas.mean_Nm) + 4 * 0.0045 * speed * speed;  // m_j r^2 = 4.3e-3 kg m^2
+      // Torques at the ends of crawling ticks are those of a trapezoid: its error over a cycle comes from the diagram's
+      // few kinks.
+      const bool crawls = 4 * kPi / ticks <= kCrawl_rad<Real>;
       const double trapezoid_J = crawls ? 1e-7 * static_cast<double>(cycle_J) : 0;
-      EXPECT_NEAR(static_cast<double>(ledger.work_J), static_cast<double>(direction * cycle_J), rounding_J<Real>(ledger, scale) + trapezoid_J)
+      EXPECT_NEAR(static_cast<double>(ledger.work_J), static_cast<double>(direction * cycle_J),
+                  rounding_J<Real>(ledger, scale) + trapezoid_J)
           << random.trace(ticks) << (backwards ? " backwards" : "");
       if (sizeof(Real) == 8 && !crawls) {
-        EXPECT_NEAR(static_cast<double>(ledger.work_J / (direction * cycle_J)), 1, 1e-12 * std::max(1.0, scale / static_cast<double>(gas.mean_Nm)))
+        EXPECT_NEAR(static_cast<double>(ledger.work_J / (direction * cycle_J)), 1,
+                    1e-12 * std::max(1.0, scale / static_cast<double>(gas.mean_Nm)))
             << ticks << " ticks";
       }
     }
@@ -118,23 +125,26 @@ TYPED_TEST(MeanTorque, TheTablesWorkIsTheDiagramsLoopIntegral) {
   const WorkOracle motored(engine, 0);
   ASSERT_TRUE(full.ready());
   const Sections<Real>& s = tables.sections();
-  const auto table_J = [](const GasTorque<Real>& gas) { return static_cast<double>(static_cast<long double>(gas.mean_Nm) * 4 * kPi_ld); };
+  const auto table_J = [](const GasTorque<Real>& gas) {
+    return static_cast<double>(static_cast<long double>(gas.mean_Nm) * 4 * kPi_ld);
+  };
   // The 1e-4 is for measured traces; a synthesised one leaves 1e-6.
   EXPECT_NEAR(table_J(*s.gas_torque_full), full.cycle_J(), 1e-6 * full.cycle_J());
   EXPECT_NEAR(table_J(*s.gas_torque_motored), motored.cycle_J(), 1e-6 * full.cycle_J());
   EXPECT_NEAR(table_J(*s.gas_torque_heat), full.cycle_J() - motored.cycle_J(), 1e-6 * full.cycle_J());
-  std::printf("[ measured ] %s: cycle work of the tables against the loop integral %.2g\n", sizeof(Real) == 4 ? "float" : "double",
-              table_J(*s.gas_torque_full) / full.cycle_J() - 1);
+  std::printf("[ measured ] %s: cycle work of the tables against the loop integral %.2g\n",
+              sizeof(Real) == 4 ? "float" : "double", table_J(*s.gas_torque_full) / full.cycle_J() - 1);
 }
 
-// ---- any tick, any speed ---------------------------------------------------------------------------------------------------
+// ---- any tick, any speed --------------------------------------------------------------------------------------------
 
-/// A run at constant speed, from anywhere: the sum of its ticks' work against the work between its first and last angle.
+/// A run at constant speed, from anywhere: the sum of its ticks' work against the work between its first and last
+/// angle.
 template <class Real, class S>
-void expect_work_between_angles(const FullTables<Real>& tables, const WorkOracle& oracle, double speed_rad_s, double load_ratio, double tick_s,
-                                Random& random, const char* what) {
+void expect_work_between_angles(const FullTables<Real>& tables, const WorkOracle& oracle, double speed_rad_s,
+                                double load_ratio, double tick_s, Random& random, const char* what) {
   const double per_tick_rad = std::fabs(speed_rad_s) * tick_s;
-  const double cycle_rad = 4 * static_cast<double>(kPi_ld);
+  const double cycle_rad = 4 * kPi;
   // A cycle and a bit where that is affordable, else what 2000 ticks turn.
   const int ticks = static_cast<int>(std::min(2000.0, std::ceil(1.3 * cycle_rad / per_tick_rad)));
   Running<Real, S> run(tables, Phase{random.bits()});
@@ -155,22 +165,25 @@ void expect_work_between_angles(const FullTables<Real>& tables, const WorkOracle
   const long double end_deg = deg_of(end);
   const long double cycles = std::round((ledger.turned_rad * 180 / kPi_ld - (end_deg - start_deg)) / 720);
   const auto cylinders = static_cast<double>(tables.drive().cylinders);
-  const long double want = cycles * cylinders * oracle.cycle_J() + oracle.gas_J(end_deg) - oracle.gas_J(start_deg) +
+  const long double want = cycles * wide(cylinders * oracle.cycle_J()) + oracle.gas_J(end_deg) -
+                           oracle.gas_J(start_deg) +
                            w * w * (oracle.masses_kg_m2(end_deg) - oracle.masses_kg_m2(start_deg));
 
   const double inertia_scale = oracle.inertia_torque_scale_kg_m2() * speed_rad_s * speed_rad_s;
   const double scale = cylinders * (oracle.gas_torque_scale_Nm() + 2 * inertia_scale);
-  // Crawling ticks: trapezoids. Torque curves bend by up to (1/5 rad)^-2 of their scale in the burning, and kink at the diagram's corners.
+  // Crawling ticks: trapezoids. Torque curves bend by up to (1/5 rad)^-2 of their scale in the burning, and kink at the
+  // diagram's corners.
   const bool crawls = per_tick_rad <= kCrawl_rad<Real>;
   const double turned = std::fabs(static_cast<double>(ledger.turned_rad));
   const double trapezoid_J = crawls ? scale * per_tick_rad * per_tick_rad * (25.0 / 12 * std::min(turned, 1.0) + 2) : 0;
   const double count_J = sizeof(Real) == 4 ? scale * 4e-9 : 0;  // both ends' integer counts, 2^-30 of the range each
   const double inertia_table_J = cylinders * inertia_scale * (sizeof(Real) == 4 ? 2e-7 : 1e-9);
-  const double fit_J = std::min(1.0, 20 * turned) * cylinders * (std::fabs(static_cast<double>(cycles)) + 2) * table_error_J(oracle) * (1 + load_ratio);
+  const double fit_J = std::min(1.0, 20 * turned) * cylinders * (std::fabs(static_cast<double>(cycles)) + 2) *
+                       table_error_J(oracle) * (1 + load_ratio);
   EXPECT_NEAR(static_cast<double>(ledger.work_J), static_cast<double>(want),
               rounding_J<Real>(ledger, scale) + trapezoid_J + count_J + inertia_table_J + fit_J)
-      << what << ", " << random.trace(0) << ", tick " << tick_s << " s, " << speed_rad_s / kRpm << " rpm, start " << start.units() << ", " << ticks
-      << " ticks, load " << load_ratio;
+      << what << ", " << random.trace(0) << ", tick " << tick_s << " s, " << speed_rad_s / kRpm << " rpm, start "
+      << start.units() << ", " << ticks << " ticks, load " << load_ratio;
 }
 
 TYPED_TEST(MeanTorque, OfAnyTickAtAnySpeedEitherWayIsWorkOverAngle) {
@@ -180,7 +193,8 @@ TYPED_TEST(MeanTorque, OfAnyTickAtAnySpeedEitherWayIsWorkOverAngle) {
     const char* name;
     EngineDefinition engine;
   };
-  for (const Case& c : {Case{"495", diesel_495()}, Case{"uneven V4 with offset", uneven_v4()}, Case{"one cylinder", single_495()}}) {
+  for (const Case& c :
+       {Case{"495", diesel_495()}, Case{"uneven V4 with offset", uneven_v4()}, Case{"one cylinder", single_495()}}) {
     const WorkOracle full(c.engine, 1);
     const WorkOracle light(c.engine, 0.35);
     const WorkOracle boosted(c.engine, 1.9);
@@ -208,13 +222,13 @@ TYPED_TEST(MeanTorque, AtTheSpeedLimitTheSignStillFollowsTheRotation) {
   ASSERT_TRUE(tables.build(engine, 2e-3).ok());
   Random random;
   const auto limit = static_cast<double>(tables.drive().speed_limit_rad_s);
-  EXPECT_GT(limit * 2e-3, 0.999 * 2 * static_cast<double>(kPi_ld));
+  EXPECT_GT(limit * 2e-3, 0.999 * 2 * kPi);
   for (const double speed : {limit, -limit, 0.999 * limit, -0.5 * limit}) {
     expect_work_between_angles<Real, MeanByTable>(tables, oracle, speed, 1, 2e-3, random, "495 at its limit");
   }
 }
 
-// ---- one tick against many small ones --------------------------------------------------------------------------------------
+// ---- one tick against many small ones -------------------------------------------------------------------------------
 
 TYPED_TEST(MeanTorque, OfAMillisecondIsTheAverageOfTheTorqueAtAThousandMicroseconds) {
   using Real = TypeParam;
@@ -244,20 +258,23 @@ TYPED_TEST(MeanTorque, OfAMillisecondIsTheAverageOfTheTorqueAtAThousandMicroseco
       sum += i < 1000 ? torque : torque / 2;
     }
     const double scale = 4 * (oracle.gas_torque_scale_Nm() + 2 * oracle.inertia_torque_scale_kg_m2() * speed * speed);
-    // The trapezoid: (angle / 1000)^2 / 12 times a curvature of (1/5 rad)^-2. Rounding: work to 1e-8 of the scale over the angle; float's thousand
-    // small angles also end up to 1e-7 of their sum elsewhere.
+    // The trapezoid: (angle / 1000)^2 / 12 times a curvature of (1/5 rad)^-2. Rounding: work to 1e-8 of the scale over
+    // the angle; float's thousand small angles also end up to 1e-7 of their sum elsewhere.
     const double angle = std::fabs(speed) * 1e-3;
     const double tolerance = scale * (angle * angle * 1e-6 * 25 / 12 + angle * 1e-6 / 2 +
                                       (sizeof(Real) == 4 ? 3e-7 + 1e-8 / angle : 1e-11 + 1e-12 / angle));
-    EXPECT_NEAR(mean, sum / 1000, tolerance) << random.trace(draw) << ", " << speed / kRpm << " rpm from " << static_cast<double>(deg_of(from)) << " deg";
+    EXPECT_NEAR(mean, sum / 1000, tolerance)
+        << random.trace(draw) << ", " << speed / kRpm << " rpm from " << static_cast<double>(deg_of(from)) << " deg";
     worst = std::max(worst, std::fabs(mean - sum / 1000) / scale);
   }
-  std::printf("[ measured ] %s: mean torque of 1 ms against 1000 torques, of the torque scale %.2g\n", sizeof(Real) == 4 ? "float" : "double", worst);
+  std::printf("[ measured ] %s: mean torque of 1 ms against 1000 torques, of the torque scale %.2g\n",
+              sizeof(Real) == 4 ? "float" : "double", worst);
 }
 
 TYPED_TEST(MeanTorque, OfASmallTickDoesNotDrownInRoundingOnEitherSideOfTheCrawl) {
   using Real = TypeParam;
-  // Whatever angle a tick turns, its mean torque lies between the torques at both ends but for their curvature and rounding.
+  // Whatever angle a tick turns, its mean torque lies between the torques at both ends but for their curvature and
+  // rounding.
   const EngineDefinition engine = single_495();
   const WorkOracle oracle(engine, 1);
   const double scale = oracle.gas_torque_scale_Nm();
@@ -285,13 +302,16 @@ TYPED_TEST(MeanTorque, OfASmallTickDoesNotDrownInRoundingOnEitherSideOfTheCrawl)
     const double curvature = angle * angle * 25 / 12;
     if (error - curvature > worst) worst = error - curvature, worst_at_rad = angle, worst_draw = draw;
   }
-  // float: 6e-8 of a degree's work (0.0175 rad) over the smallest angle that is not a crawl (0.0011 rad), a few times. double: 1e-16 of it over 2e-8 rad.
-  EXPECT_LE(worst, sizeof(Real) == 4 ? 5e-6 : 1e-9) << random.trace(worst_draw) << ", " << worst_at_rad << " rad a tick";
-  std::printf("[ measured ] %s: mean torque of a small tick against its ends, of the torque scale %.2g (at %.2g rad a tick)\n",
-              sizeof(Real) == 4 ? "float" : "double", worst, worst_at_rad);
+  // float: 6e-8 of a degree's work (0.0175 rad) over the smallest angle that is not a crawl (0.0011 rad), a few times.
+  // double: 1e-16 of it over 2e-8 rad.
+  EXPECT_LE(worst, sizeof(Real) == 4 ? 5e-6 : 1e-9)
+      << random.trace(worst_draw) << ", " << worst_at_rad << " rad a tick";
+  std::printf(
+      "[ measured ] %s: mean torque of a small tick against its ends, of the torque scale %.2g (at %.2g rad a tick)\n",
+      sizeof(Real) == 4 ? "float" : "double", worst, worst_at_rad);
 }
 
-// ---- pressure from outside -------------------------------------------------------------------------------------------------
+// ---- pressure from outside ------------------------------------------------------------------------------------------
 
 TYPED_TEST(MeanTorque, OfAConstantPressureFromOutsideDoesNoWorkOverACycle) {
   using Real = TypeParam;
@@ -305,18 +325,19 @@ TYPED_TEST(MeanTorque, OfAConstantPressureFromOutsideDoesNoWorkOverACycle) {
       Running<Real, MeanByInput> run(tables, Phase{random.bits()});
       const int ticks = tick_s < 1e-4 ? 3600 : 360;
       // Exactly a cycle in `ticks` ticks, to rounding of the speed.
-      const double speed = sign * 4 * static_cast<double>(kPi_ld) / ticks / tick_s;
+      const double speed = sign * 4 * kPi / ticks / tick_s;
       typename Engine<Real, MeanByInput>::Input in;
       in.speed_rad_s = static_cast<Real>(speed);
       for (int k = 0; k < 4; ++k) in.pressure_Pa[k] = static_cast<Real>(2e5 + 13e5 * k);
       run.engine.step(in);  // its trapezoid begins at the crankcase pressure
       Ledger ledger;
       for (int tick = 0; tick < ticks; ++tick) step_and_book<Real, MeanByInput>(run.engine, in, ledger);
-      const double area = static_cast<double>(kPi_ld) / 4 * 0.095 * 0.095;
+      const double area = kPi / 4 * 0.095 * 0.095;
       const double scale = 4 * (41e5 * area * 0.0575 + 2 * 0.0045 * speed * speed);
       // What is left: rounding, and the little angle by which the cycle is not whole, of the torque there.
-      const double not_whole = std::fabs(std::fabs(static_cast<double>(ledger.turned_rad)) - 4 * static_cast<double>(kPi_ld));
-      EXPECT_NEAR(static_cast<double>(ledger.work_J), 0, rounding_J<Real>(ledger, scale) + not_whole * scale * 1.5 + scale * 1e-9)
+      const double not_whole = std::fabs(std::fabs(static_cast<double>(ledger.turned_rad)) - 4 * kPi);
+      EXPECT_NEAR(static_cast<double>(ledger.work_J), 0,
+                  rounding_J<Real>(ledger, scale) + not_whole * scale * 1.5 + scale * 1e-9)
           << "tick " << tick_s << ", direction " << sign;
     }
   }
@@ -336,7 +357,7 @@ TYPED_TEST(MeanTorque, OfAPressureFromOutsideIsATrapezoidOfPressureTimesVolume) 
   long double last_Pa[4] = {100e3L, 100e3L, 100e3L, 100e3L};  // the engine starts at crankcase pressure
   long double last_deg = deg_of(run.engine.state().phase);
   const auto displacement_m = [&](long double engine_deg, std::size_t k) {
-    return oracle_pose(engine.crank, (engine_deg - engine.layout.firing_deg[k]) * kPi_ld / 180).displacement_m;
+    return oracle_pose(engine.crank, (engine_deg - wide(engine.layout.firing_deg[k])) * kPi_ld / 180).displacement_m;
   };
   for (int draw = 0; draw < 2000; ++draw) {
     const double speed = (random.coin() ? 1 : -1) * random.between(200, 8000) * kRpm;
@@ -356,15 +377,17 @@ TYPED_TEST(MeanTorque, OfAPressureFromOutsideIsATrapezoidOfPressureTimesVolume) 
     last_deg = deg;
     const double scale = 4 * (1e7 * static_cast<double>(area) * 0.0575 + 2 * 0.0045 * speed * speed);
     const double size = std::fabs(static_cast<double>(angle));
-    // Work from a difference of tabulated displacements: theirs is 1e-8 r (float: counts of 2^-30) or 1e-11 r, over the angle.
+    // Work from a difference of tabulated displacements: theirs is 1e-8 r (float: counts of 2^-30) or 1e-11 r, over the
+    // angle.
     const double tolerance = scale * (sizeof(Real) == 4 ? 4e-7 + 3e-9 / size : 2e-9 + 2e-11 / size);
     if (size > kCrawl_rad<Real>) {
-      ASSERT_NEAR(mean, static_cast<double>(work / angle), tolerance) << random.trace(draw) << ", " << speed / kRpm << " rpm";
+      ASSERT_NEAR(mean, static_cast<double>(work / angle), tolerance)
+          << random.trace(draw) << ", " << speed / kRpm << " rpm";
     }
   }
 }
 
-// ---- many cylinders at once ------------------------------------------------------------------------------------------------
+// ---- many cylinders at once -----------------------------------------------------------------------------------------
 
 TYPED_TEST(MeanTorque, OfSixteenCylindersThatFireTogetherDoesNotOverflowItsCounts) {
   using Real = TypeParam;
@@ -380,7 +403,8 @@ TYPED_TEST(MeanTorque, OfSixteenCylindersThatFireTogetherDoesNotOverflowItsCount
     // Half a revolution a tick: from the least to the most work in one difference.
     for (const double rpm : {15'000.0, 14'000.0, 7'000.0, 3'333.0}) {
       expect_work_between_angles<Real, MeanByTable>(tables, oracle, rpm * kRpm, 1, 2e-3, random, "sixteen at once");
-      expect_work_between_angles<Real, MeanByTable>(tables, oracle, -rpm * kRpm, 1, 2e-3, random, "sixteen at once, backwards");
+      expect_work_between_angles<Real, MeanByTable>(tables, oracle, -rpm * kRpm, 1, 2e-3, random,
+                                                    "sixteen at once, backwards");
     }
   }
 }

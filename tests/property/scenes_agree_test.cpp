@@ -1,8 +1,9 @@
-// A scene that leaves outputs out gives the same bits in what it keeps: for every subset of the output groups, for engines of 1 to 8 cylinders,
-// even and uneven firing, exact and up-to counts, pressures from tables, with load, from outside or none.
+// A scene that leaves outputs out gives the same bits in what it keeps: for every subset of the output groups, for
+// engines of 1 to 8 cylinders, even and uneven firing, exact and up-to counts, pressures from tables, with load, from
+// outside or none.
 //
-// One rule has a reason of its own: with forces asked for, the torque at the tick is their sum, without them it is read from curves. So scenes
-// with forces are compared among themselves, and scenes without.
+// One rule has a reason of its own: with forces asked for, the torque at the tick is their sum, without them it is read
+// from curves. So scenes with forces are compared among themselves, and scenes without.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -39,7 +40,8 @@ std::vector<Named> engines() {
           {"six that fire at odd angles", with_cylinders(one, {3.7, 719.99, 360.3, 0.3, 363.7, 100})}};
 }
 
-/// An engine's life in a test: it speeds up and slows down, crawls, stands, turns back; load and pressures vary; some inputs are bad.
+/// An engine's life in a test: it speeds up and slows down, crawls, stands, turns back; load and pressures vary; some
+/// inputs are bad.
 template <class Real, class S>
 typename Engine<Real, S>::Input input_at(int tick) {
   typename Engine<Real, S>::Input in;
@@ -52,7 +54,8 @@ typename Engine<Real, S>::Input input_at(int tick) {
     if (tick % 83 == 82) in.load_ratio = static_cast<Real>(-5);
   }
   if constexpr (Needs<S>::input_pressure) {
-    for (std::uint32_t k = 0; k < S::cylinders.capacity; ++k) in.pressure_Pa[k] = static_cast<Real>(1e5 + 3e4 * ((tick + 31 * static_cast<int>(k)) % 89));
+    for (std::uint32_t k = 0; k < S::cylinders.capacity; ++k)
+      in.pressure_Pa[k] = static_cast<Real>(1e5 + 3e4 * ((tick + 31 * static_cast<int>(k)) % 89));
     if (tick % 91 == 90) in.pressure_Pa[0] = static_cast<Real>(-1);
   }
   return in;
@@ -77,32 +80,33 @@ std::vector<Tick<Real>> life_of(const FullTables<Real>& tables) {
 }
 
 constexpr unsigned kWithoutForces = kAllGroups & ~(unsigned{kForces} | unsigned{kBearingLoads});
-/// Bearing loads are made from forces; pressures from outside are of use to torque and forces only.
-constexpr bool allowed(unsigned groups, PressureGiven source) {
-  const bool uses_pressure = (groups & (unsigned{kTorque} | unsigned{kMeanTorque} | unsigned{kForces})) != 0;
-  return ((groups & kBearingLoads) == 0 || (groups & kForces) != 0) && (source != PressureGiven::by_input || uses_pressure);
-}
+/// Bearing loads are made from forces.
+constexpr bool allowed(unsigned groups) { return (groups & kBearingLoads) == 0 || (groups & kForces) != 0; }
 
 /// A bad load ratio is no fault of a scene in which nothing depends on it, nor is a bad pressure.
 template <class S>
-constexpr std::uint32_t kFaultsOf = std::uint32_t{kFaultSpeed} | (Needs<S>::load ? kFaultLoadRatio : 0u) | (Needs<S>::input_pressure ? kFaultPressure : 0u);
+constexpr std::uint32_t kFaultsOf = std::uint32_t{kFaultSpeed} | (Needs<S>::load ? kFaultLoadRatio : 0u) |
+                                    (Needs<S>::input_pressure ? kFaultPressure : 0u);
 
 /// Runs the scene that asks for `Groups` against the numbers of the same groups from the scene that asks for all.
 template <unsigned Groups, PressureGiven Source, bool ByLoad, class Real>
 void expect_subset_to_agree(const FullTables<Real>& tables, const std::string& name) {
-  if constexpr (allowed(Groups, Source)) {
+  if constexpr (allowed(Groups)) {
     using Subset = Asking<Groups, Source, ByLoad>;
     using Whole = Asking<((Groups & kForces) != 0 ? unsigned{kAllGroups} : kWithoutForces), Source, ByLoad>;
     const auto want = life_of<Groups, Real, Whole>(tables);
     const auto got = life_of<kAllGroups, Real, Subset>(tables);
     for (std::size_t tick = 0; tick < want.size(); ++tick) {
-      ASSERT_TRUE(same_bits(got[tick].numbers, want[tick].numbers)) << name << ", groups " << Groups << ", tick " << tick;
-      ASSERT_EQ(got[tick].faults, want[tick].faults & kFaultsOf<Subset>) << name << ", groups " << Groups << ", tick " << tick;
+      ASSERT_TRUE(same_bits(got[tick].numbers, want[tick].numbers))
+          << name << ", groups " << Groups << ", tick " << tick;
+      ASSERT_EQ(got[tick].faults, want[tick].faults & kFaultsOf<Subset>)
+          << name << ", groups " << Groups << ", tick " << tick;
     }
   }
 }
 template <PressureGiven Source, bool ByLoad, class Real, unsigned... Groups>
-void expect_subsets_to_agree(const FullTables<Real>& tables, const std::string& name, std::integer_sequence<unsigned, Groups...>) {
+void expect_subsets_to_agree(const FullTables<Real>& tables, const std::string& name,
+                             std::integer_sequence<unsigned, Groups...>) {
   (expect_subset_to_agree<Groups, Source, ByLoad>(tables, name), ...);
 }
 
@@ -114,15 +118,17 @@ TEST(ScenesAgreeInFloat, EverySubsetOfTheOutputGroupsWithPressureFromTables) {
   for (const Named& n : engines()) {
     FullTables<float> tables;
     ASSERT_TRUE(tables.build(n.engine, kTick_s, 1500).ok()) << n.name;
-    expect_subsets_to_agree<PressureGiven::by_table, false>(tables, n.name, std::make_integer_sequence<unsigned, kAllGroups + 1>{});
+    expect_subsets_to_agree<PressureGiven::by_table, false>(tables, n.name,
+                                                            std::make_integer_sequence<unsigned, kAllGroups + 1>{});
   }
 }
 
-/// What scalar and pressure change is torque and forces: each of them alone, in pairs, and with the rest. (All subsets of all would be the same code
-/// compiled five hundred times.)
+/// What scalar and pressure change is torque and forces: each of them alone, in pairs, and with the rest. (All subsets
+/// of all would be the same code compiled five hundred times.)
 using TorqueAndForces =
-    std::integer_sequence<unsigned, kTorque, kMeanTorque, kForces, kForces | kTorque, kForces | kMeanTorque, kForces | kBearingLoads,
-                          kKinematics | kMeanTorque, kAllGroups & ~kMeanTorque, kAllGroups & ~kTorque, kFreeForces | kRodMotion>;
+    std::integer_sequence<unsigned, kTorque, kMeanTorque, kForces, kForces | kTorque, kForces | kMeanTorque,
+                          kForces | kBearingLoads, kKinematics | kMeanTorque, kAllGroups & ~kMeanTorque,
+                          kAllGroups & ~kTorque, kFreeForces | kRodMotion>;
 
 TYPED_TEST(ScenesAgree, TheSubsetsOfTorqueAndForcesWithAnyPressure) {
   using Real = TypeParam;
@@ -162,10 +168,12 @@ void expect_exact_count_to_agree(const std::vector<double>& firing_deg) {
     }
   };
   constexpr auto kSpeed = CrankGiven::speed;
-  compare(life_of<kAllGroups, Real, Asking<kAllGroups, PressureGiven::by_table, false, kSpeed, N>>(tables), life_of<kAllGroups, Real, Asking<kAllGroups>>(tables));
+  compare(life_of<kAllGroups, Real, Asking<kAllGroups, PressureGiven::by_table, false, kSpeed, N>>(tables),
+          life_of<kAllGroups, Real, Asking<kAllGroups>>(tables));
   compare(life_of<kAllGroups, Real, Asking<kTorque | kMeanTorque, PressureGiven::by_table, true, kSpeed, N>>(tables),
           life_of<kAllGroups, Real, Asking<kTorque | kMeanTorque, PressureGiven::by_table, true>>(tables));
-  compare(life_of<kAllGroups, Real, Asking<kTorque | kMeanTorque | kForces, PressureGiven::by_input, false, kSpeed, N>>(tables),
+  compare(life_of<kAllGroups, Real, Asking<kTorque | kMeanTorque | kForces, PressureGiven::by_input, false, kSpeed, N>>(
+              tables),
           life_of<kAllGroups, Real, Asking<kTorque | kMeanTorque | kForces, PressureGiven::by_input>>(tables));
 }
 

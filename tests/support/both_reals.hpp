@@ -14,6 +14,12 @@ struct RealName {
     return sizeof(Real) == 4 ? "Float" : "Double";
   }
 };
+/// To long double, said aloud.
+template <class Real>
+[[nodiscard]] constexpr long double wide(Real x) {
+  return static_cast<long double>(x);
+}
+
 using BothReals = ::testing::Types<float, double>;
 
 }  // namespace crankloop::tick_test

@@ -1,6 +1,7 @@
 // Cylinder pressures made of formulas, and the tables that a measurement of them would give.
 //
-// What belongs here: p(a) known in closed form, sampled over angle or volume. What does not: the library's own diagrams.
+// What belongs here: p(a) known in closed form, sampled over angle or volume. What does not: the library's own
+// diagrams.
 #pragma once
 
 #include <crankloop/define/engine_definition.hpp>
@@ -16,18 +17,19 @@ inline constexpr double kDegree = 3.14159265358979323846 / 180;
 
 /// Volume of a cylinder at its own crank angle, by vector geometry and the definition of the compression ratio.
 inline double volume_m3(const Crank& crank, double crank_deg) {
-  const Wide area = kWidePi / 4 * static_cast<Wide>(crank.bore_m) * static_cast<Wide>(crank.bore_m);
+  const Wide area = kWidePi / 4 * wide(crank.bore_m) * wide(crank.bore_m);
   const Wide swept = area * (greatest_height(crank) - least_height(crank));
-  const Wide clearance = swept / (static_cast<Wide>(crank.compression_ratio) - 1);
-  const Wide a = static_cast<Wide>(crank_deg) * kWidePi / 180;
+  const Wide clearance = swept / (wide(crank.compression_ratio) - 1);
+  const Wide a = wide(crank_deg) * kWidePi / 180;
   return static_cast<double>(clearance + area * (greatest_height(crank) - piston_height(crank, a)));
 }
 inline double swept_m3(const Crank& crank) {
-  const Wide area = kWidePi / 4 * static_cast<Wide>(crank.bore_m) * static_cast<Wide>(crank.bore_m);
+  const Wide area = kWidePi / 4 * wide(crank.bore_m) * wide(crank.bore_m);
   return static_cast<double>(area * (greatest_height(crank) - least_height(crank)));
 }
 
-/// A smooth four-stroke-like pressure: a sharp hump after firing, a shallow one at gas exchange; infinitely differentiable, period 720 deg.
+/// A smooth four-stroke-like pressure: a sharp hump after firing, a shallow one at gas exchange; infinitely
+/// differentiable, period 720 deg.
 inline double smooth_pressure_Pa(double crank_deg) {
   const double t = crank_deg * kDegree / 2;  // one period = 2 pi
   return 1e5 + 60e5 * std::exp(30 * (std::cos(t - 0.1) - 1)) + 0.2e5 * std::exp(4 * (std::cos(t - 2.2) - 1));

@@ -12,8 +12,9 @@ template <class Function, class Real>
   return (8 * (f(at + h) - f(at - h)) - (f(at + 2 * h) - f(at - 2 * h))) / (12 * h);
 }
 
-/// What slope_of may be off by for a function analytic in the strip |Im a| <= 1 and bounded by `bound` there, whose values carry
-/// `noise`: Cauchy's estimate of the fifth derivative is 5! bound, and the weights of the four values sum to 18/12.
+/// What slope_of may be off by for a function analytic in the strip |Im a| <= 1 and bounded by `bound` there, whose
+/// values carry `noise`: Cauchy's estimate of the fifth derivative is 5! bound, and the weights of the four values sum
+/// to 18/12.
 [[nodiscard]] constexpr double slope_tolerance(double bound, double noise, double h = kStep) {
   return h * h * h * h / 30 * 120 * bound + 1.5 * noise / h;
 }

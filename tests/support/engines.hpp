@@ -17,7 +17,8 @@ inline Crank diesel_495_crank() {
   return crank;
 }
 
-/// A crank mechanism of the range the library promises its accuracy for: lambda 0.15 to 0.45, offset up to 0.2 r to either side.
+/// A crank mechanism of the range the library promises its accuracy for: lambda 0.15 to 0.45, offset up to 0.2 r to
+/// either side.
 inline Crank random_crank(Random& random) {
   Crank crank;
   crank.crank_radius_m = random.between(0.02, 0.2);

@@ -10,8 +10,8 @@ struct FourierTerm {
   double sine;
 };
 
-/// Coefficients of cos(order t) and sin(order t) of f over one period 2 pi, from `samples` equal steps; order 0 gives the mean.
-/// The trapezoidal rule: for a smooth periodic function exact but for orders above samples - order.
+/// Coefficients of cos(order t) and sin(order t) of f over one period 2 pi, from `samples` equal steps; order 0 gives
+/// the mean. The trapezoidal rule: for a smooth periodic function exact but for orders above samples - order.
 template <class Function>
 [[nodiscard]] FourierTerm fourier_term(const Function& f, int order, int samples) {
   long double cosine = 0;

@@ -27,13 +27,14 @@ struct JointForces {
 /// At constant crank speed, in the cylinder's own frame. The crank's own unbalance is m_k at the pin's radius.
 inline JointForces newton_euler(const EngineDefinition& engine, const RigidRod& rod, const Motion& m, Wide gas_force) {
   enum Unknown : std::size_t { bl, bu, cl, cu, pl, pu, wall, wall_moment, load };
-  const Wide crank_kg = engine.masses.crank_pin_equivalent_kg;
-  const Wide piston_kg = engine.masses.piston_kg;
-  const Wide rod_kg = rod.mass_kg;
-  const Wide along = static_cast<Wide>(rod.com_to_crank_m) / static_cast<Wide>(engine.crank.rod_length_m);
+  const Wide crank_kg = wide(engine.masses.crank_pin_equivalent_kg);
+  const Wide piston_kg = wide(engine.masses.piston_kg);
+  const Wide rod_kg = wide(rod.mass_kg);
+  const Wide along = wide(rod.com_to_crank_m) / wide(engine.crank.rod_length_m);
   // Points of a rigid body on one line: the centre of mass moves as the mean of both ends, weighted by its distance.
   const Vec com = m.crank_pin + along * (m.piston_pin - m.crank_pin);
-  const Vec com_acceleration = m.crank_pin_acceleration + along * (m.piston_pin_acceleration - m.crank_pin_acceleration);
+  const Vec com_acceleration =
+      m.crank_pin_acceleration + along * (m.piston_pin_acceleration - m.crank_pin_acceleration);
 
   LinearSystem<9> s;
   std::size_t row = 0;
@@ -51,7 +52,7 @@ inline JointForces newton_euler(const EngineDefinition& engine, const RigidRod& 
   equation({{cl, -1}, {pl, -1}}, rod_kg * com_acceleration.lateral);
   equation({{cu, -1}, {pu, -1}}, rod_kg * com_acceleration.up);
   equation({{cl, -to_crank.up}, {cu, to_crank.lateral}, {pl, -to_piston.up}, {pu, to_piston.lateral}},
-           static_cast<Wide>(rod.inertia_kg_m2) * m.rod_turn_rad_s2);
+           wide(rod.inertia_kg_m2) * m.rod_turn_rad_s2);
   // piston: forces, and moments about its pin
   equation({{pl, 1}, {wall, 1}}, piston_kg * m.piston_pin_acceleration.lateral);
   equation({{pu, 1}}, piston_kg * m.piston_pin_acceleration.up + gas_force);

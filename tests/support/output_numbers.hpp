@@ -43,8 +43,8 @@ template <unsigned Wanted, class Real, class S>
   if constexpr (S::forces && (Wanted & kForces) != 0) {
     for (std::size_t k = 0; k < use.cylinders; ++k) {
       const CylinderForces<Real>& f = out.cylinder[k];
-      for (const Real x : {f.pressure_Pa, f.gas_force_N, f.inertia_force_N, f.total_force_N, f.side_force_N, f.rod_force_N, f.radial_force_N,
-                           f.tangential_force_N, f.torque_Nm, f.tilting_moment_Nm}) {
+      for (const Real x : {f.pressure_Pa, f.gas_force_N, f.inertia_force_N, f.total_force_N, f.side_force_N,
+                           f.rod_force_N, f.radial_force_N, f.tangential_force_N, f.torque_Nm, f.tilting_moment_Nm}) {
         all.push_back(x);
       }
     }

@@ -15,7 +15,8 @@ inline std::uint64_t test_seed() {
   return given != nullptr ? std::strtoull(given, nullptr, 0) : 0x2718'2818'2845'9045u;
 }
 
-/// Numbers by splitmix64 (Steele, Lea, Flood: Fast splittable pseudorandom number generators, 2014); doubles by exact scaling.
+/// Numbers by splitmix64 (Steele, Lea, Flood: Fast splittable pseudorandom number generators, 2014); doubles by exact
+/// scaling.
 class Random {
  public:
   explicit Random(std::uint64_t seed = test_seed()) : seed_{seed}, state_{seed} {}
@@ -30,9 +31,7 @@ class Random {
   double between(double low, double high) {
     return low + (high - low) * (static_cast<double>(bits() >> 11) * (1.0 / 9007199254740992.0));
   }
-  int whole(int low, int high) {
-    return low + static_cast<int>(bits() % static_cast<std::uint64_t>(high - low + 1));
-  }
+  int whole(int low, int high) { return low + static_cast<int>(bits() % static_cast<std::uint64_t>(high - low + 1)); }
   bool coin() { return (bits() >> 63) != 0; }
 
   /// For SCOPED_TRACE: which draw of which seed failed.

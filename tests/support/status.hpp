@@ -19,8 +19,8 @@ namespace support {
 
 inline testing::AssertionResult refuses(const Status& status, Reason reason, const std::string& field, int index = -1) {
   if (status.reason == reason && field == status.field && status.index == index) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "got " << testing::PrintToString(status) << ", want " << field << "[" << index << "] "
-                                     << describe(reason);
+  return testing::AssertionFailure() << "got " << testing::PrintToString(status) << ", want " << field << "[" << index
+                                     << "] " << describe(reason);
 }
 
 }  // namespace support

@@ -1,6 +1,7 @@
 // Engines that the tests of the tick run: the 495 diesel, and others made hostile on purpose.
 //
-// What belongs here: definitions by struct, as a user's set-up code writes them. What does not: scenes (test_scenes.hpp), expectations.
+// What belongs here: definitions by struct, as a user's set-up code writes them. What does not: scenes
+// (test_scenes.hpp), expectations.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,8 @@
 
 namespace crankloop::tick_test {
 
-/// One cylinder of the 495 diesel with a pin offset and a rod inertia that its design sheet does not have: so that every term counts.
+/// One cylinder of the 495 diesel with a pin offset and a rod inertia that its design sheet does not have: so that
+/// every term counts.
 inline EngineDefinition single_495() {
   EngineDefinition engine;
   engine.crank = {0.095, 0.0575, 0.210, 0.0, 19.0};

@@ -1,6 +1,7 @@
 // Scenes by what they ask for, and tables that hold every section, so that one build serves any scene.
 //
-// What belongs here: what the tests of the tick share to run an engine. What does not: definitions (test_engines.hpp), expectations.
+// What belongs here: what the tests of the tick share to run an engine. What does not: definitions (test_engines.hpp),
+// expectations.
 #pragma once
 
 #include <cstddef>
@@ -29,8 +30,8 @@ enum Group : unsigned {
 };
 
 /// A scene that asks for the groups in `Groups`; up to 16 cylinders unless `Exactly` says how many.
-template <unsigned Groups, PressureGiven Source = PressureGiven::by_table, bool ByLoad = false, CrankGiven Given = CrankGiven::speed,
-          std::uint32_t Exactly = 0>
+template <unsigned Groups, PressureGiven Source = PressureGiven::by_table, bool ByLoad = false,
+          CrankGiven Given = CrankGiven::speed, std::uint32_t Exactly = 0>
 struct Asking : Scene {
   static constexpr Count cylinders = Exactly != 0 ? Count{Exactly, true} : Count{kMaxCylinders, false};
   static constexpr CrankGiven crank = Given;

@@ -1,7 +1,8 @@
-// The work that gas and masses do on the crankshaft between two angles, worked out apart from the tick: pressure times dV by fine
-// quadrature of the diagram, and the change of kinetic energy.
+// The work that gas and masses do on the crankshaft between two angles, worked out apart from the tick: pressure times
+// dV by fine quadrature of the diagram, and the change of kinetic energy.
 //
-// What belongs here: work of a whole engine at constant speed. What does not: how a diagram is made (it is taken as given).
+// What belongs here: work of a whole engine at constant speed. What does not: how a diagram is made (it is taken as
+// given).
 #pragma once
 
 #include <cmath>
@@ -34,7 +35,7 @@ class WorkOracle {
   [[nodiscard]] long double gas_J(long double engine_deg) const {
     long double sum = 0;
     for (std::size_t k = 0; k < cylinders(); ++k) {
-      const long double firing = engine_.layout.firing_deg[k];
+      const auto firing = static_cast<long double>(engine_.layout.firing_deg[k]);
       sum += one_J(engine_deg - firing) - one_J(-firing);
     }
     return sum;
@@ -44,7 +45,7 @@ class WorkOracle {
   [[nodiscard]] long double masses_kg_m2(long double engine_deg) const {
     long double sum = 0;
     for (std::size_t k = 0; k < cylinders(); ++k) {
-      const long double firing = engine_.layout.firing_deg[k];
+      const auto firing = static_cast<long double>(engine_.layout.firing_deg[k]);
       sum += energy_kg_m2(-firing) - energy_kg_m2(engine_deg - firing);
     }
     return sum;
@@ -65,18 +66,22 @@ class WorkOracle {
   [[nodiscard]] static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   [[nodiscard]] std::size_t cylinders() const { return static_cast<std::size_t>(engine_.layout.cylinders); }
   [[nodiscard]] long double area_m2() const {
-    const long double bore = engine_.crank.bore_m;
+    const auto bore = static_cast<long double>(engine_.crank.bore_m);
     return kPi_ld / 4 * bore * bore;
   }
-  [[nodiscard]] double pressure_Pa(double own_deg) const { return diagram_.motored_Pa(own_deg) + load_ratio_ * diagram_.heat_Pa(own_deg); }
+  [[nodiscard]] double pressure_Pa(double own_deg) const {
+    return diagram_.motored_Pa(own_deg) + load_ratio_ * diagram_.heat_Pa(own_deg);
+  }
 
-  /// Work of a cylinder over the first `part` of a panel: three Gauss points, where the pressure is smooth over 0.05 deg.
+  /// Work of a cylinder over the first `part` of a panel: three Gauss points, where the pressure is smooth over 0.05
+  /// deg.
   [[nodiscard]] long double panel_J(int i, long double part) const {
     const long double width = part * (720.0L / kPanels);
     const long double middle = i * (720.0L / kPanels) + width / 2;
     const long double apart = width / 2 * std::sqrt(0.6L);
     const auto torque = [&](long double deg) {
-      const long double over_Pa = static_cast<long double>(pressure_Pa(static_cast<double>(deg))) - engine_.pressure.crankcase_Pa;
+      const auto over_Pa =
+          static_cast<long double>(pressure_Pa(static_cast<double>(deg)) - engine_.pressure.crankcase_Pa);
       return over_Pa * area_m2() * oracle_pose(engine_.crank, deg * (kPi_ld / 180)).slope_m;
     };
     return width * (kPi_ld / 180) * (5 * torque(middle - apart) + 8 * torque(middle) + 5 * torque(middle + apart)) / 18;
@@ -91,8 +96,8 @@ class WorkOracle {
   }
   [[nodiscard]] long double energy_kg_m2(long double own_deg) const {
     const OraclePose p = oracle_pose(engine_.crank, own_deg * (kPi_ld / 180));
-    const long double m = engine_.masses.reciprocating_kg();
-    const long double inertia = engine_.masses.rod_inertia_correction_kg_m2;
+    const auto m = static_cast<long double>(engine_.masses.reciprocating_kg());
+    const auto inertia = static_cast<long double>(engine_.masses.rod_inertia_correction_kg_m2);
     return (m * p.slope_m * p.slope_m + inertia * p.rod_slope * p.rod_slope) / 2;
   }
 

@@ -18,6 +18,7 @@ namespace {
 using support::Random;
 using tick_test::BothReals;
 using tick_test::RealName;
+using tick_test::wide;
 
 constexpr int kDraws = 100'000;
 constexpr long double kRadPerDegree = 3.141592653589793238462643383279502884L / 180;
@@ -62,12 +63,13 @@ TYPED_TEST_SUITE(CurveOf, BothReals, RealName);
 TYPED_TEST(CurveOf, ValueIsThePolynomialToRounding) {
   using Real = TypeParam;
   // Horner's rule rounds twice per degree, relative to terms no larger than the sum of sizes.
-  const long double roundings = 2 * kCurveDegree<Real> * static_cast<long double>(std::numeric_limits<Real>::epsilon()) / 2 * 1.01L;
+  const long double roundings =
+      2 * kCurveDegree<Real> * static_cast<long double>(std::numeric_limits<Real>::epsilon()) / 2 * 1.01L;
   Random random;
   for (int draw = 0; draw < kDraws; ++draw) {
     const auto s = random_segment<Real>(random);
     const auto u = static_cast<Real>(random.between(0, 0.999));
-    ASSERT_LE(std::fabs(static_cast<long double>(value(s, u)) - exact_value(s, u)), roundings * size(s)) << random.trace(draw);
+    ASSERT_LE(std::fabs(wide(value(s, u)) - exact_value(s, wide(u))), roundings * size(s)) << random.trace(draw);
   }
 }
 
@@ -83,14 +85,15 @@ TYPED_TEST(CurveOf, BeginsWithItsFirstCoefficientExactlyAndNothingIntegrated) {
 
 TYPED_TEST(CurveOf, IntegralIsThatOfThePolynomialLessItsMeanInRadians) {
   using Real = TypeParam;
-  const long double roundings = (2 * kCurveDegree<Real> + 6) * static_cast<long double>(std::numeric_limits<Real>::epsilon()) / 2;
+  const long double roundings =
+      (2 * kCurveDegree<Real> + 6) * static_cast<long double>(std::numeric_limits<Real>::epsilon()) / 2;
   Random random;
   for (int draw = 0; draw < kDraws; ++draw) {
     const auto s = random_segment<Real>(random);
     const auto u = static_cast<Real>(random.between(0, 0.999));
     const auto mean = static_cast<Real>(random.between(-10, 10));
-    const long double scale = kRadPerDegree * u * (size(s) + std::fabs(static_cast<long double>(mean)));
-    ASSERT_LE(std::fabs(static_cast<long double>(integral(s, u, mean)) - exact_integral(s, u, mean)), roundings * scale)
+    const long double scale = kRadPerDegree * wide(u) * (size(s) + std::fabs(wide(mean)));
+    ASSERT_LE(std::fabs(wide(integral(s, u, mean)) - exact_integral(s, wide(u), wide(mean))), roundings * scale)
         << random.trace(draw);
   }
 }
@@ -106,10 +109,10 @@ TYPED_TEST(CurveOf, DifferenceOfIntegralsKeepsATinyWorkBetweenTwoLargeOnes) {
       return joules;
     }
   };
-  const Integral<Real> from{base(-1000), Real{0.25F}};
-  const Integral<Real> to{base(-1000 + 0x1p-20), Real{0.5F}};
-  EXPECT_EQ(difference(from, to, quantum), static_cast<Real>(0x1p-20) + Real{0.25F});
-  EXPECT_EQ(difference(to, from, quantum), -(static_cast<Real>(0x1p-20) + Real{0.25F}));
+  const Integral<Real> from{base(-1000), static_cast<Real>(0.25)};
+  const Integral<Real> to{base(-1000 + 0x1p-20), static_cast<Real>(0.5)};
+  EXPECT_EQ(difference(from, to, quantum), static_cast<Real>(0x1p-20) + static_cast<Real>(0.25));
+  EXPECT_EQ(difference(to, from, quantum), -(static_cast<Real>(0x1p-20) + static_cast<Real>(0.25)));
   EXPECT_EQ(difference(from, from, quantum), Real{0});
 }
 
@@ -125,7 +128,7 @@ TEST(IntegralInFloat, CountsMayWrapWhenManyCylindersAddUp) {
   EXPECT_EQ(difference(after, before, 1.0F), 112.0F);
 }
 
-// ---- the grid --------------------------------------------------------------------------------------------------------------
+// ---- the grid -------------------------------------------------------------------------------------------------------
 
 TEST(GasGrid, EveryDivisionOfADegreeBeginsOnTimeAndItsLastUnitIsStillInside) {
   static GasGrid grid;

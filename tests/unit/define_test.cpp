@@ -30,7 +30,7 @@ struct Bad {
   Reason reason;
 };
 
-// ---- crank -----------------------------------------------------------------------------------------------------------------
+// ---- crank ----------------------------------------------------------------------------------------------------------
 
 TEST(CrankDefinition, OfThe495IsAccepted) { EXPECT_TRUE(validate(support::diesel_495_crank()).ok()); }
 
@@ -50,9 +50,10 @@ TEST(CrankDefinition, RefusesEveryLengthThatIsNoLengthByItsName) {
                 {&Crank::crank_radius_m, "crank.stroke", 2},
                 {&Crank::rod_length_m, "crank.rod_length", 10}};
   for (const auto& field : fields) {
-    for (const Bad& bad : {Bad{0, Reason::not_positive}, Bad{-0.0, Reason::not_positive}, Bad{-0.1, Reason::not_positive},
-                           Bad{kNaN, Reason::not_finite}, Bad{kInfinity, Reason::not_finite}, Bad{-kInfinity, Reason::not_finite},
-                           Bad{std::nextafter(field.most, 100), Reason::out_of_range}}) {
+    for (const Bad& bad :
+         {Bad{0, Reason::not_positive}, Bad{-0.0, Reason::not_positive}, Bad{-0.1, Reason::not_positive},
+          Bad{kNaN, Reason::not_finite}, Bad{kInfinity, Reason::not_finite}, Bad{-kInfinity, Reason::not_finite},
+          Bad{std::nextafter(field.most, 100), Reason::out_of_range}}) {
       Crank crank = support::diesel_495_crank();
       crank.*field.member = bad.value;
       EXPECT_TRUE(refuses(validate(crank), bad.reason, field.field)) << bad.value;
@@ -86,8 +87,9 @@ TEST(CrankDefinition, RefusesARodThatTheCrankCannotCarryRound) {
 }
 
 TEST(CrankDefinition, RefusesACompressionRatioThatLeavesNoCylinder) {
-  for (const Bad& bad : {Bad{1, Reason::out_of_range}, Bad{0.5, Reason::out_of_range}, Bad{-19, Reason::out_of_range},
-                         Bad{100.5, Reason::out_of_range}, Bad{kNaN, Reason::not_finite}, Bad{kInfinity, Reason::not_finite}}) {
+  for (const Bad& bad :
+       {Bad{1, Reason::out_of_range}, Bad{0.5, Reason::out_of_range}, Bad{-19, Reason::out_of_range},
+        Bad{100.5, Reason::out_of_range}, Bad{kNaN, Reason::not_finite}, Bad{kInfinity, Reason::not_finite}}) {
     Crank crank = support::diesel_495_crank();
     crank.compression_ratio = bad.value;
     EXPECT_TRUE(refuses(validate(crank), bad.reason, "crank.compression_ratio")) << bad.value;
@@ -98,7 +100,7 @@ TEST(CrankDefinition, RodRatioIsCrankRadiusPerRodLength) {
   EXPECT_NEAR(support::diesel_495_crank().rod_ratio(), 0.2738, 0.00005);  // [495]
 }
 
-// ---- masses ----------------------------------------------------------------------------------------------------------------
+// ---- masses ---------------------------------------------------------------------------------------------------------
 
 Masses diesel_495_masses() {
   Masses masses;
@@ -123,8 +125,9 @@ TEST(MassesDefinition, RefusesEveryMassThatIsNoMassByItsName) {
                 {&Masses::crank_pin_equivalent_kg, "masses.crank_pin_equivalent"},
                 {&Masses::crank_inertia_kg_m2, "masses.crank_inertia"}};
   for (const auto& field : fields) {
-    for (const Bad& bad : {Bad{-1e-9, Reason::negative}, Bad{kNaN, Reason::not_finite}, Bad{kInfinity, Reason::not_finite},
-                           Bad{-kInfinity, Reason::not_finite}, Bad{1e300, Reason::out_of_range}}) {
+    for (const Bad& bad :
+         {Bad{-1e-9, Reason::negative}, Bad{kNaN, Reason::not_finite}, Bad{kInfinity, Reason::not_finite},
+          Bad{-kInfinity, Reason::not_finite}, Bad{1e300, Reason::out_of_range}}) {
       Masses masses = diesel_495_masses();
       masses.*field.member = bad.value;
       EXPECT_TRUE(refuses(validate(masses), bad.reason, field.field)) << bad.value;
@@ -207,7 +210,7 @@ TEST(LumpedRod, LeavesTheOtherMassesAlone) {
   EXPECT_EQ(masses.crank_inertia_kg_m2, 0.5);
 }
 
-// ---- layout ----------------------------------------------------------------------------------------------------------------
+// ---- layout ---------------------------------------------------------------------------------------------------------
 
 Layout inline_four() {
   Layout layout;
@@ -248,7 +251,8 @@ TEST(FiringOrder, OfAnyEngineLeavesEqualIntervalsBetweenNeighboursInTheOrder) {
     for (std::size_t i = 0; i < order.size(); ++i) {
       const double here = layout.firing_deg[static_cast<std::size_t>(order[i] - 1)];
       const double next = layout.firing_deg[static_cast<std::size_t>(order[(i + 1) % order.size()] - 1)];
-      EXPECT_NEAR(std::fmod(next - here + 1440, 720), cylinders == 1 ? 0 : 720.0 / cylinders, 1440 * kEps) << random.trace(cylinders);
+      EXPECT_NEAR(std::fmod(next - here + 1440, 720), cylinders == 1 ? 0 : 720.0 / cylinders, 1440 * kEps)
+          << random.trace(cylinders);
     }
     EXPECT_TRUE(validate(layout).ok());
   }
@@ -264,7 +268,8 @@ TEST(FiringOrder, ThatIsNoPermutationIsRefusedAtTheEntryThatBreaksIt) {
   EXPECT_TRUE(refuses(set_firing_order(zero, 4, layout), Reason::not_a_permutation, "layout.firing_order", 0));
   const int negative[] = {1, -2147483647 - 1, 4, 2};
   EXPECT_TRUE(refuses(set_firing_order(negative, 4, layout), Reason::not_a_permutation, "layout.firing_order", 1));
-  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(layout.firing_deg[k], inline_four().firing_deg[k]) << "a refusal changes nothing";
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_EQ(layout.firing_deg[k], inline_four().firing_deg[k]) << "a refusal changes nothing";
 }
 
 TEST(FiringOrder, IsForOneToSixteenCylinders) {
@@ -294,8 +299,9 @@ TEST(LayoutDefinition, RefusesAnAngleOrPlaceThatIsNoneAndNamesTheCylinder) {
                 {&Layout::bank_deg, "layout.bank_angles", -360.5, 360.5},
                 {&Layout::position_m, "layout.cylinder_positions", -100.5, 100.5}};
   for (const auto& field : fields) {
-    for (const Bad& bad : {Bad{kNaN, Reason::not_finite}, Bad{kInfinity, Reason::not_finite}, Bad{-kInfinity, Reason::not_finite},
-                           Bad{field.too_low, Reason::out_of_range}, Bad{field.too_high, Reason::out_of_range}}) {
+    for (const Bad& bad :
+         {Bad{kNaN, Reason::not_finite}, Bad{kInfinity, Reason::not_finite}, Bad{-kInfinity, Reason::not_finite},
+          Bad{field.too_low, Reason::out_of_range}, Bad{field.too_high, Reason::out_of_range}}) {
       Layout layout = inline_four();
       (layout.*field.member)[2] = bad.value;
       EXPECT_TRUE(refuses(validate(layout), bad.reason, field.field, 2)) << bad.value;
@@ -351,7 +357,8 @@ TEST(SharedPins, ByPositionJoinTheRodsOfAVEngineAndLeaveAnInlineEngineAlone) {
   share_pins_by_position(four);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(four.pin[k], k);
 
-  // A cross-plane V8, left bank 1 to 4, right bank 5 to 8: cylinders 1 and 5, 2 and 6 ... on one pin. Throws at -45, 45, 225, 135 deg.
+  // A cross-plane V8, left bank 1 to 4, right bank 5 to 8: cylinders 1 and 5, 2 and 6 ... on one pin. Throws at -45,
+  // 45, 225, 135 deg.
   Layout v8;
   v8.cylinders = 8;
   v8.bank_deg = {-45, -45, -45, -45, 45, 45, 45, 45};
@@ -375,7 +382,8 @@ TEST(SharedPins, ByPositionAreNumberedAlongTheShaftWhateverTheOrderOfTheCylinder
 }
 
 TEST(SharedPins, ByPositionStaySplitWhereTheThrowsDiffer) {
-  // A boxer twin: both rods at nearly one place but throws half a turn apart. And a 90 deg V6 of even firing: split pins 30 deg apart.
+  // A boxer twin: both rods at nearly one place but throws half a turn apart. And a 90 deg V6 of even firing: split
+  // pins 30 deg apart.
   Layout boxer;
   boxer.cylinders = 2;
   boxer.bank_deg = {-90, 90};
@@ -401,7 +409,7 @@ TEST(SharedPins, AreFoundThoughTheThrowsDifferByWholeTurns) {
   EXPECT_TRUE(validate(layout).ok());
 }
 
-// ---- pressure --------------------------------------------------------------------------------------------------------------
+// ---- pressure -------------------------------------------------------------------------------------------------------
 
 Pressure wiebe_pressure() {
   Pressure pressure;
@@ -411,7 +419,8 @@ Pressure wiebe_pressure() {
 }
 
 TEST(PressureDefinition, CrankcasePressureIsAskedForWhateverTheSource) {
-  for (const PressureSource source : {PressureSource::none, PressureSource::wiebe, PressureSource::angle_table, PressureSource::volume_table}) {
+  for (const PressureSource source :
+       {PressureSource::none, PressureSource::wiebe, PressureSource::angle_table, PressureSource::volume_table}) {
     for (const Bad& bad : {Bad{0, Reason::not_positive}, Bad{-1, Reason::not_positive}, Bad{kNaN, Reason::not_finite},
                            Bad{kInfinity, Reason::not_finite}, Bad{2e7, Reason::out_of_range}}) {
       Pressure pressure = wiebe_pressure();
@@ -471,7 +480,8 @@ TEST(PressureDefinition, RefusesCombustionThatOutlastsTheClosedExhaustValve) {
   pressure.wiebe.combustion_duration_deg = 120;
   EXPECT_TRUE(validate(pressure, support::diesel_495_crank()).ok());
   pressure.wiebe.combustion_duration_deg = 120.001;
-  EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::inconsistent, "pressure.combustion_duration"));
+  EXPECT_TRUE(
+      refuses(validate(pressure, support::diesel_495_crank()), Reason::inconsistent, "pressure.combustion_duration"));
 }
 
 /// An angle table with a point every 10 deg.
@@ -552,7 +562,7 @@ TEST(PressureDefinition, RefusesTablesThatAreMissingOrTooShortOrTooLong) {
   }
 }
 
-// ---- the whole -------------------------------------------------------------------------------------------------------------
+// ---- the whole ------------------------------------------------------------------------------------------------------
 
 TEST(EngineDefinition, IsRefusedForItsFirstBadPart) {
   EngineDefinition engine;

@@ -1,4 +1,5 @@
-// The engine as its user meets it: what init refuses, what bad input does, snapshots, neighbours, sizes; and its forces against exact ones.
+// The engine as its user meets it: what init refuses, what bad input does, snapshots, neighbours, sizes; and its forces
+// against exact ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +28,6 @@ namespace {
 using namespace tick_test;
 using support::Random;
 
-constexpr double kRpm = static_cast<double>(kPi_ld) / 30;
 constexpr double kTick_s = 100e-6;
 constexpr PressureGiven kByTable = PressureGiven::by_table;
 constexpr PressureGiven kByInput = PressureGiven::by_input;
@@ -58,13 +58,13 @@ constexpr Real kNaN = std::numeric_limits<Real>::quiet_NaN();
 template <class Real>
 constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
 
-// ---- before init, and what init refuses --------------------------------------------------------------------------------------
+// ---- before init, and what init refuses -----------------------------------------------------------------------------
 
 TYPED_TEST(EngineOf, DefaultConstructedAnswersZerosAndNotReadyHoweverOftenItIsStepped) {
   using Real = TypeParam;
   static Engine<Real, EverythingByInput> engine;  // constant-initialised
   auto in = at_speed<Engine<Real, EverythingByInput>>(200);
-  for (Real& pressure : in.pressure_Pa) pressure = Real{5e6F};
+  for (Real& pressure : in.pressure_Pa) pressure = static_cast<Real>(5e6);
   for (int tick = 0; tick < 3; ++tick) {
     const auto& out = engine.step(in);
     EXPECT_EQ(out.faults, kFaultNotReady);
@@ -156,7 +156,8 @@ TYPED_TEST(EngineOf, ASceneOfFreeForcesAloneStartsAndSteps) {
   Running<Real, Asking<kFreeForces | kTorque, PressureGiven::none>> accompanied(tables);
   for (int tick = 0; tick < 100; ++tick) {
     const auto& out = alone.engine.step(at_speed<Engine<Real, Asking<kFreeForces, PressureGiven::none>>>(300));
-    const auto& other = accompanied.engine.step(at_speed<Engine<Real, Asking<kFreeForces | kTorque, PressureGiven::none>>>(300));
+    const auto& other =
+        accompanied.engine.step(at_speed<Engine<Real, Asking<kFreeForces | kTorque, PressureGiven::none>>>(300));
     ASSERT_TRUE(same_bits(numbers<kFreeForces>(out, in_use(tables)), numbers<kFreeForces>(other, in_use(tables))));
   }
 }
@@ -223,15 +224,25 @@ TYPED_TEST(EngineOf, InitRefusesToLeaveOutARodInertiaThatTheEngineHas) {
   EXPECT_TRUE(engine.init(without).ok());
 }
 
-// ---- bad input ---------------------------------------------------------------------------------------------------------------
+// ---- bad input ------------------------------------------------------------------------------------------------------
 
 TYPED_TEST(EngineOf, AnyBadSpeedOrLoadIsReplacedByTheLastGoodOneAndFlaggedForThatTickOnly) {
   using Real = TypeParam;
   const Real limit = this->diesel().drive().speed_limit_rad_s;
-  const Real bad_speeds[] = {kNaN<Real>, -kNaN<Real>, kInfinity<Real>, -kInfinity<Real>, std::numeric_limits<Real>::max(),
-                             std::numeric_limits<Real>::lowest(), std::nextafter(limit, kInfinity<Real>), -std::nextafter(limit, kInfinity<Real>)};
-  const Real bad_loads[] = {kNaN<Real>, kInfinity<Real>, -kInfinity<Real>, std::nextafter(Real{2}, Real{3}),
-                            -std::numeric_limits<Real>::denorm_min(), Real{-1}};
+  const Real bad_speeds[] = {kNaN<Real>,
+                             -kNaN<Real>,
+                             kInfinity<Real>,
+                             -kInfinity<Real>,
+                             std::numeric_limits<Real>::max(),
+                             std::numeric_limits<Real>::lowest(),
+                             std::nextafter(limit, kInfinity<Real>),
+                             -std::nextafter(limit, kInfinity<Real>)};
+  const Real bad_loads[] = {kNaN<Real>,
+                            kInfinity<Real>,
+                            -kInfinity<Real>,
+                            std::nextafter(Real{2}, Real{3}),
+                            -std::numeric_limits<Real>::denorm_min(),
+                            Real{-1}};
   for (int which = 0; which < 2; ++which) {
     const bool speed_is_bad = which == 0;
     for (const Real bad : speed_is_bad ? std::vector<Real>(std::begin(bad_speeds), std::end(bad_speeds))
@@ -240,7 +251,7 @@ TYPED_TEST(EngineOf, AnyBadSpeedOrLoadIsReplacedByTheLastGoodOneAndFlaggedForTha
       Running<Real, Everything> sound(this->diesel(), phase_at_deg(11));
       typename Engine<Real, Everything>::Input in;
       in.speed_rad_s = Real{210};
-      in.load_ratio = Real{0.625F};
+      in.load_ratio = static_cast<Real>(0.625);
       for (int tick = 0; tick < 8; ++tick) {
         auto given = in;
         const bool now = tick >= 3 && tick < 5;
@@ -248,7 +259,8 @@ TYPED_TEST(EngineOf, AnyBadSpeedOrLoadIsReplacedByTheLastGoodOneAndFlaggedForTha
         if (now && !speed_is_bad) given.load_ratio = bad;
         const auto& out = hurt.engine.step(given);
         const auto& want = sound.engine.step(in);
-        ASSERT_EQ(out.faults, now ? (speed_is_bad ? kFaultSpeed : kFaultLoadRatio) : 0u) << "input " << bad << ", tick " << tick;
+        ASSERT_EQ(out.faults, now ? (speed_is_bad ? kFaultSpeed : kFaultLoadRatio) : 0u)
+            << "input " << bad << ", tick " << tick;
         ASSERT_TRUE(same_bits(all_numbers<Real>(out), all_numbers<Real>(want))) << "input " << bad << ", tick " << tick;
       }
     }
@@ -286,25 +298,32 @@ TYPED_TEST(EngineOf, TheSpeedLimitItselfIsGoodInBothDirectionsAndTurnsTheCrankIt
 
 TYPED_TEST(EngineOf, ABadPressureFallsBackForItsOwnCylinderOnly) {
   using Real = TypeParam;
-  const Real bad_pressures[] = {kNaN<Real>, kInfinity<Real>, -kInfinity<Real>, Real{-1}, -std::numeric_limits<Real>::denorm_min(),
-                                std::nextafter(Real{1e8F}, kInfinity<Real>), std::numeric_limits<Real>::max()};
+  const Real bad_pressures[] = {kNaN<Real>,
+                                kInfinity<Real>,
+                                -kInfinity<Real>,
+                                Real{-1},
+                                -std::numeric_limits<Real>::denorm_min(),
+                                std::nextafter(static_cast<Real>(1e8), kInfinity<Real>),
+                                std::numeric_limits<Real>::max()};
   for (const Real bad : bad_pressures) {
     for (std::size_t cylinder = 0; cylinder < 4; ++cylinder) {
       Running<Real, EverythingByInput> hurt(this->diesel());
       Running<Real, EverythingByInput> sound(this->diesel());
       auto in = at_speed<Engine<Real, EverythingByInput>>(150);
       for (int tick = 0; tick < 6; ++tick) {
-        for (std::size_t k = 0; k < 4; ++k) in.pressure_Pa[k] = Real{1e5F} * static_cast<Real>(1 + k);
+        for (std::size_t k = 0; k < 4; ++k) in.pressure_Pa[k] = static_cast<Real>(1e5) * static_cast<Real>(1 + k);
         auto given = in;
         // The others go on changing; the hurt one's last good pressure is what it was.
         for (std::size_t k = 0; k < 4; ++k) {
-          if (k != cylinder) given.pressure_Pa[k] = in.pressure_Pa[k] = in.pressure_Pa[k] + Real{1000} * static_cast<Real>(tick);
+          if (k != cylinder)
+            given.pressure_Pa[k] = in.pressure_Pa[k] = in.pressure_Pa[k] + Real{1000} * static_cast<Real>(tick);
         }
         if (tick == 3) given.pressure_Pa[cylinder] = bad;
         const auto& out = hurt.engine.step(given);
         const auto& want = sound.engine.step(in);
         ASSERT_EQ(out.faults, tick == 3 ? kFaultPressure : 0u) << bad << " in cylinder " << cylinder;
-        ASSERT_TRUE(same_bits(all_numbers<Real>(out), all_numbers<Real>(want))) << bad << " in cylinder " << cylinder << ", tick " << tick;
+        ASSERT_TRUE(same_bits(all_numbers<Real>(out), all_numbers<Real>(want)))
+            << bad << " in cylinder " << cylinder << ", tick " << tick;
       }
     }
   }
@@ -325,7 +344,8 @@ TYPED_TEST(EngineOf, TheLimitsOfLoadAndPressureAreGoodAndSoIsMinusZero) {
   typename Engine<Real, Everything>::Input in;
   for (const Real load : {Real{0}, -Real{0}, Real{2}, std::numeric_limits<Real>::denorm_min()}) {
     in.load_ratio = load;
-    for (const Real speed : {Real{0}, -Real{0}, std::numeric_limits<Real>::denorm_min(), -std::numeric_limits<Real>::min()}) {
+    for (const Real speed :
+         {Real{0}, -Real{0}, std::numeric_limits<Real>::denorm_min(), -std::numeric_limits<Real>::min()}) {
       in.speed_rad_s = speed;
       EXPECT_EQ(by_load.engine.step(in).faults, 0u);
       EXPECT_EQ(by_load.engine.state().phase.units(), 0u) << "speed " << speed;
@@ -334,7 +354,7 @@ TYPED_TEST(EngineOf, TheLimitsOfLoadAndPressureAreGoodAndSoIsMinusZero) {
   }
   Running<Real, EverythingByInput> by_input(this->diesel());
   typename Engine<Real, EverythingByInput>::Input pressures;
-  for (const Real pressure : {Real{0}, -Real{0}, Real{1e8F}}) {
+  for (const Real pressure : {Real{0}, -Real{0}, static_cast<Real>(1e8)}) {
     for (Real& p : pressures.pressure_Pa) p = pressure;
     EXPECT_EQ(by_input.engine.step(pressures).faults, 0u);
   }
@@ -344,9 +364,12 @@ template <class Real>
 Real any_bits(Random& random) {
   // A third ordinary numbers, a third of any size, a third any bits: NaNs, infinities and subnormal numbers among them.
   switch (random.whole(0, 2)) {
-    case 0: return static_cast<Real>(random.between(-1000, 1000));
-    case 1: return static_cast<Real>(std::ldexp(random.between(-1, 1), random.whole(-120, 120)));
-    default: break;
+    case 0:
+      return static_cast<Real>(random.between(-1000, 1000));
+    case 1:
+      return static_cast<Real>(std::ldexp(random.between(-1, 1), random.whole(-120, 120)));
+    default:
+      break;
   }
   using Bits = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
   const auto bits = static_cast<Bits>(random.bits());
@@ -368,7 +391,8 @@ TYPED_TEST(EngineOf, WhateverBitsComeInTheOutputIsFiniteAndOnlyKnownFaultsAreRai
     in.speed_rad_s = any_bits<Real>(random);
     in.load_ratio = any_bits<Real>(random);
     const auto& out = by_speed.engine.step(in);
-    ASSERT_TRUE(all_finite(all_numbers<Real>(out))) << random.trace(draw) << ", speed " << in.speed_rad_s << ", load " << in.load_ratio;
+    ASSERT_TRUE(all_finite(all_numbers<Real>(out)))
+        << random.trace(draw) << ", speed " << in.speed_rad_s << ", load " << in.load_ratio;
     ASSERT_EQ(out.faults & ~(std::uint32_t{kFaultSpeed} | std::uint32_t{kFaultLoadRatio}), 0u);
 
     typename Engine<Real, EverythingByInput>::Input pressures;
@@ -401,7 +425,7 @@ TYPED_TEST(EngineOf, TheLargestEngineThatADefinitionAllowsStaysFiniteAtItsSpeedL
     ASSERT_TRUE(status.ok()) << status.field << " " << describe(status.reason);
     Running<Real, EverythingByInput> run(tables);
     typename Engine<Real, EverythingByInput>::Input in;
-    for (Real& p : in.pressure_Pa) p = Real{1e8F};
+    for (Real& p : in.pressure_Pa) p = static_cast<Real>(1e8);
     for (int tick = 0; tick < 2000; ++tick) {
       in.speed_rad_s = (tick % 3 == 0 ? Real{-1} : Real{1}) * tables.drive().speed_limit_rad_s;
       ASSERT_EQ(run.engine.step(in).faults, 0u);
@@ -410,7 +434,7 @@ TYPED_TEST(EngineOf, TheLargestEngineThatADefinitionAllowsStaysFiniteAtItsSpeedL
   }
 }
 
-// ---- rotation ----------------------------------------------------------------------------------------------------------------
+// ---- rotation -------------------------------------------------------------------------------------------------------
 
 TYPED_TEST(EngineOf, TurningBackwardsRetracesTheSamePositionsPressuresAndForces) {
   using Real = TypeParam;
@@ -463,14 +487,14 @@ TYPED_TEST(EngineOf, AtAConstantSpeedTheCrankIsWhereSpeedTimesTimeSays) {
   constexpr int kTicks = 1'000'000;  // 100 s, 3333 revolutions
   for (int tick = 0; tick < kTicks; ++tick) run.engine.step(in);
   // The increment is rounded once, in Real: 1e6 ticks later the angle is off by that rounding and by nothing else.
-  const double turned_cycles = static_cast<double>(in.speed_rad_s) * kTick_s * kTicks / (4 * static_cast<double>(kPi_ld));
+  const double turned_cycles = static_cast<double>(in.speed_rad_s) * kTick_s * kTicks / (4 * kPi);
   const double expected = turned_cycles - std::floor(turned_cycles);
   double off = std::fabs(static_cast<double>(run.engine.state().phase.units()) * 0x1p-64 - expected);
   off = std::min(off, 1 - off);
   EXPECT_LE(off, turned_cycles * 2 * static_cast<double>(std::numeric_limits<Real>::epsilon()));
 }
 
-// ---- a measured angle --------------------------------------------------------------------------------------------------------
+// ---- a measured angle -----------------------------------------------------------------------------------------------
 
 TYPED_TEST(EngineOf, GivenAPhaseWorksOutTheSpeedFromTheIncrementAlsoAcross720AndBackwards) {
   using Real = TypeParam;
@@ -484,7 +508,7 @@ TYPED_TEST(EngineOf, GivenAPhaseWorksOutTheSpeedFromTheIncrementAlsoAcross720And
       const auto& out = run.engine.step(at_phase<InputOf>(phase_at_deg(at - 720 * std::floor(at / 720))));
       ASSERT_EQ(out.faults, 0u) << step_deg << ", tick " << tick;
       if (tick == 0) continue;  // a first angle says nothing of the speed
-      const double want = step_deg * static_cast<double>(kPi_ld) / 180 / kTick_s;
+      const double want = step_deg * kPi / 180 / kTick_s;
       ASSERT_NEAR(static_cast<double>(run.engine.state().speed_rad_s), want,
                   std::fabs(want) * (4 * static_cast<double>(std::numeric_limits<Real>::epsilon()) + 1e-12) + 1e-9)
           << step_deg << ", tick " << tick;
@@ -510,7 +534,9 @@ TYPED_TEST(EngineOf, GivenAPhaseAnswersTheSameAsGivenTheSpeedThatLeadsThere) {
     }
     if (tick == 0) continue;  // a first angle says nothing of the speed
     const auto torque = static_cast<double>(a.torque_Nm);
-    ASSERT_NEAR(static_cast<double>(b.torque_Nm), torque, 4000 * 8 * static_cast<double>(std::numeric_limits<Real>::epsilon())) << tick;
+    ASSERT_NEAR(static_cast<double>(b.torque_Nm), torque,
+                4000 * 8 * static_cast<double>(std::numeric_limits<Real>::epsilon()))
+        << tick;
     ASSERT_NEAR(static_cast<double>(b.mean_torque_Nm), static_cast<double>(a.mean_torque_Nm),
                 4000 * 32 * static_cast<double>(std::numeric_limits<Real>::epsilon()))
         << tick;
@@ -547,11 +573,11 @@ TYPED_TEST(EngineOf, TheFirstMeasuredPhaseIsNoFaultAndNoSpeedWhereverItIs) {
     EXPECT_EQ(run.engine.state().speed_rad_s, Real{0});
     EXPECT_EQ(out.mean_torque_Nm, out.torque_Nm);
     EXPECT_EQ(run.engine.step(at_phase<E>(phase_at_deg(first_deg + 1))).faults, 0u);
-    EXPECT_NEAR(static_cast<double>(run.engine.state().speed_rad_s), static_cast<double>(kPi_ld) / 180 / kTick_s, 1e-3);
+    EXPECT_NEAR(static_cast<double>(run.engine.state().speed_rad_s), kPi / 180 / kTick_s, 1e-3);
   }
 }
 
-// ---- snapshots, neighbours -----------------------------------------------------------------------------------------------------
+// ---- snapshots, neighbours ------------------------------------------------------------------------------------------
 
 template <class Real, class S>
 typename Engine<Real, S>::Input drive_of(int tick) {
@@ -610,9 +636,11 @@ TYPED_TEST(EngineOf, RefusesASnapshotOfOtherTablesAndKeepsItsOwnState) {
     double tick_s;
     int gas_capacity;
   };
-  for (const Case& c : {Case{"a heavier piston", heavier, kTick_s, kFinestGrid}, Case{"another firing order", other_order, kTick_s, kFinestGrid},
-                        Case{"more heat", more_heat, kTick_s, kFinestGrid}, Case{"another tick", diesel_495(), 99e-6, kFinestGrid},
-                        Case{"a coarser gas grid", diesel_495(), kTick_s, 720}}) {
+  for (const Case& c :
+       {Case{"a heavier piston", heavier, kTick_s, kFinestGrid},
+        Case{"another firing order", other_order, kTick_s, kFinestGrid},
+        Case{"more heat", more_heat, kTick_s, kFinestGrid}, Case{"another tick", diesel_495(), 99e-6, kFinestGrid},
+        Case{"a coarser gas grid", diesel_495(), kTick_s, 720}}) {
     FullTables<Real> tables;
     ASSERT_TRUE(tables.build(c.engine, c.tick_s, c.gas_capacity).ok());
     Running<Real, Everything> other(tables, phase_at_deg(100));
@@ -672,12 +700,12 @@ TYPED_TEST(EngineOf, CylindersAtTheSameCrankAngleShareTheirLookUps) {
     return tables.drive().mechanisms;
   };
   EXPECT_EQ(mechanisms({0}), 1u);
-  EXPECT_EQ(mechanisms({0, 360}), 1u);                                    // a parallel twin
+  EXPECT_EQ(mechanisms({0, 360}), 1u);  // a parallel twin
   EXPECT_EQ(mechanisms({360, 0}), 1u);
-  EXPECT_EQ(mechanisms({0, 240, 480}), 3u);                               // a three
-  EXPECT_EQ(mechanisms({0, 480, 240, 600, 120, 360}), 3u);                // an inline six
-  EXPECT_EQ(mechanisms({0, 90, 270, 180, 630, 540, 450, 360}), 4u);       // a cross-plane V8
-  EXPECT_EQ(mechanisms({0, 144, 288, 432, 576}), 5u);                     // a five
+  EXPECT_EQ(mechanisms({0, 240, 480}), 3u);                          // a three
+  EXPECT_EQ(mechanisms({0, 480, 240, 600, 120, 360}), 3u);           // an inline six
+  EXPECT_EQ(mechanisms({0, 90, 270, 180, 630, 540, 450, 360}), 4u);  // a cross-plane V8
+  EXPECT_EQ(mechanisms({0, 144, 288, 432, 576}), 5u);                // a five
   EXPECT_EQ(mechanisms(std::vector<double>(16, 15.5)), 1u);
   EXPECT_EQ(mechanisms({719.9999999999, 0}), 2u);
 }
@@ -694,7 +722,8 @@ void expect_cylinders_as_if_alone(const EngineDefinition& engine) {
   Running<Real, Everything> all(together);
   std::vector<std::unique_ptr<Running<Real, Everything>>> single;
   for (std::size_t k = 0; k < drive.cylinders; ++k) {
-    const Phase firing{drive.firing_phase[drive.mechanism_of[k]] + (drive.turn_of[k] != 0 ? std::uint64_t{1} << 63 : 0)};
+    const Phase firing{drive.firing_phase[drive.mechanism_of[k]] +
+                       (drive.turn_of[k] != 0 ? std::uint64_t{1} << 63 : 0)};
     const long double off = turned_rad(phase_at_deg(static_cast<long double>(engine.layout.firing_deg[k])), firing);
     ASSERT_LE(std::fabs(off), 2e-11L) << "cylinder " << k << " fires elsewhere";
     single.push_back(std::make_unique<Running<Real, Everything>>(alone, Phase{} - firing));
@@ -716,15 +745,18 @@ void expect_cylinders_as_if_alone(const EngineDefinition& engine) {
       ASSERT_EQ(out.rod_acceleration_rad_s2[k], own.rod_acceleration_rad_s2[0]);
       const auto forces = numbers<kForces>(own, one_in_use);
       std::vector<Real> in_company = numbers<kForces>(out, InUse{drive.cylinders, 0});
-      ASSERT_EQ(std::memcmp(in_company.data() + 10 * k, forces.data(), 10 * sizeof(Real)), 0) << "cylinder " << k << ", tick " << tick;
+      ASSERT_EQ(std::memcmp(in_company.data() + 10 * k, forces.data(), 10 * sizeof(Real)), 0)
+          << "cylinder " << k << ", tick " << tick;
       torque += static_cast<long double>(own.torque_Nm);
       mean += static_cast<long double>(own.mean_torque_Nm);
       size += std::fabs(static_cast<long double>(own.torque_Nm));
     }
     const double rounding = static_cast<double>(size) * 8 * static_cast<double>(std::numeric_limits<Real>::epsilon());
     ASSERT_NEAR(static_cast<double>(out.torque_Nm), static_cast<double>(torque), rounding) << tick;
-    // The first tick's mean is a trapezoid where it crawls; later it is a difference of work, right to 1e-6 or 1e-10 of the torques.
-    ASSERT_NEAR(static_cast<double>(out.mean_torque_Nm), static_cast<double>(mean), static_cast<double>(size) * (sizeof(Real) == 4 ? 3e-6 : 1e-10) + 0.003)
+    // The first tick's mean is a trapezoid where it crawls; later it is a difference of work, right to 1e-6 or 1e-10 of
+    // the torques.
+    ASSERT_NEAR(static_cast<double>(out.mean_torque_Nm), static_cast<double>(mean),
+                static_cast<double>(size) * (sizeof(Real) == 4 ? 3e-6 : 1e-10) + 0.003)
         << tick;
   }
 }
@@ -755,9 +787,10 @@ TYPED_TEST(EngineOf, TablesBuiltForASceneAloneAnswerTheSameBitsAsAllSections) {
   EXPECT_EQ(engine.step({}).faults, kFaultNotReady);
 }
 
-// ---- forces against exact ones -------------------------------------------------------------------------------------------------
+// ---- forces against exact ones --------------------------------------------------------------------------------------
 
-/// The tick's forces against ExactEngine at the same angle and speed. `gas_error_Pa` is what the tables' pressure may be off by.
+/// The tick's forces against ExactEngine at the same angle and speed. `gas_error_Pa` is what the tables' pressure may
+/// be off by.
 template <class Real>
 void expect_exact_forces(const EngineDefinition& engine, double gas_error_Pa, const char* what) {
   using S = Asking<kForces | kTorque>;
@@ -767,7 +800,7 @@ void expect_exact_forces(const EngineDefinition& engine, double gas_error_Pa, co
   ASSERT_TRUE(tables.build(engine, kTick_s).ok());
   Random random;
   const Crank& crank = engine.crank;
-  const double area = static_cast<double>(kPi_ld) / 4 * crank.bore_m * crank.bore_m;
+  const double area = kPi / 4 * crank.bore_m * crank.bore_m;
   const double r = crank.crank_radius_m;
   // Kinematics to 4e-7 or 2e-9 (tick_kinematics_test), and a few roundings of each product.
   const double relative = sizeof(Real) == 4 ? 1.2e-6 : 4e-9;
@@ -788,8 +821,9 @@ void expect_exact_forces(const EngineDefinition& engine, double gas_error_Pa, co
       const double gas = std::max(want.pressure_Pa, 1e5) * area;
       const double tolerance = gas_error_Pa * area + relative * (gas + inertia + couple);
       const auto near = [&](Real value, double exact_value, double allowed, const char* name) {
-        ASSERT_NEAR(static_cast<double>(value), exact_value, allowed) << what << ", " << name << " of cylinder " << k << " at " << deg << " deg, " << w
-                                                                      << " rad/s, " << random.trace(draw);
+        ASSERT_NEAR(static_cast<double>(value), exact_value, allowed)
+            << what << ", " << name << " of cylinder " << k << " at " << deg << " deg, " << w << " rad/s, "
+            << random.trace(draw);
       };
       near(got.pressure_Pa, want.pressure_Pa, gas_error_Pa + relative * std::max(want.pressure_Pa, 1e5), "pressure");
       near(got.gas_force_N, want.gas_force_N, gas_error_Pa * area + relative * gas, "gas force");
@@ -805,7 +839,8 @@ void expect_exact_forces(const EngineDefinition& engine, double gas_error_Pa, co
       torque_tolerance += 1.2 * tolerance * r;
     }
     ASSERT_NEAR(static_cast<double>(out.torque_Nm), torque, torque_tolerance) << what << " at " << deg << " deg";
-    ASSERT_NEAR(static_cast<double>(out.torque_Nm), exact.torque_Nm(deg, w), torque_tolerance) << what << " at " << deg << " deg";
+    ASSERT_NEAR(static_cast<double>(out.torque_Nm), exact.torque_Nm(deg, w), torque_tolerance)
+        << what << " at " << deg << " deg";
   }
 }
 
@@ -829,7 +864,7 @@ TYPED_TEST(EngineOf, TorqueReadFromCurvesIsTheSumOfTheForcesTorques) {
     ASSERT_TRUE(tables.build(engine, kTick_s).ok());
     Running<Real, Asking<kTorque, kByTable, true>> by_curve(tables);
     Running<Real, Asking<kTorque | kForces, kByTable, true>> by_forces(tables);
-    const double area = static_cast<double>(kPi_ld) / 4 * 0.095 * 0.095;
+    const double area = kPi / 4 * 0.095 * 0.095;
     for (int tick = 0; tick < 3000; ++tick) {
       const auto in = drive_of<Real, Asking<kTorque, kByTable, true>>(tick);
       typename Engine<Real, Asking<kTorque | kForces, kByTable, true>>::Input same;
@@ -837,24 +872,29 @@ TYPED_TEST(EngineOf, TorqueReadFromCurvesIsTheSumOfTheForcesTorques) {
       same.load_ratio = in.load_ratio;
       const auto curve = static_cast<double>(by_curve.engine.step(in).torque_Nm);
       const auto forces = static_cast<double>(by_forces.engine.step(same).torque_Nm);
-      // Two fits of the same: pressure to 1e-5 of its peak each (motored and heat), inertia to 3e-6 of m r^2 w^2 (tick_kinematics_test).
+      // Two fits of the same: pressure to 1e-5 of its peak each (motored and heat), inertia to 3e-6 of m r^2 w^2
+      // (tick_kinematics_test).
       const auto w = static_cast<double>(in.speed_rad_s);
-      const double tolerance = 4 * 0.0575 * (3e-5 * 70e5 * area) + 4 * (sizeof(Real) == 4 ? 3e-6 : 1e-8) * 1.32 * 0.0575 * 0.0575 * w * w;
+      const double tolerance =
+          4 * 0.0575 * (3e-5 * 70e5 * area) + 4 * (sizeof(Real) == 4 ? 3e-6 : 1e-8) * 1.32 * 0.0575 * 0.0575 * w * w;
       ASSERT_NEAR(curve, forces, tolerance) << tick;
     }
   }
 }
 
-// ---- sizes and promises of the types ---------------------------------------------------------------------------------------------
+// ---- sizes and promises of the types --------------------------------------------------------------------------------
 
-template <class Real, class S>
-constexpr bool kKeepsItsPromises =
-    std::is_trivially_copyable_v<typename Engine<Real, S>::State> && std::is_trivially_copyable_v<Engine<Real, S>> &&
-    std::is_standard_layout_v<CylinderForces<Real>> && noexcept(std::declval<Engine<Real, S>&>().step({})) &&
-    noexcept(std::declval<Engine<Real, S>&>().init(std::declval<const Tables<Real, S>&>(), Phase{})) &&
-    noexcept(std::declval<Engine<Real, S>&>().restore(std::declval<const typename Engine<Real, S>::State&>())) &&
-    noexcept(std::declval<Engine<Real, S>&>().state()) && noexcept(std::declval<Engine<Real, S>&>().output()) &&
-    std::is_nothrow_default_constructible_v<Engine<Real, S>> && std::is_nothrow_copy_assignable_v<typename Engine<Real, S>::State>;
+template <class Real, class S, class E = Engine<Real, S>>
+constexpr bool kKeepsItsPromises = std::is_trivially_copyable_v<typename E::State>&& std::is_trivially_copyable_v<E>&&
+    std::is_nothrow_default_constructible_v<E>&& noexcept(std::declval<E&>().step({})) && noexcept(
+        std::declval<E&>().init(
+            std::declval<const Tables<Real, S>&>(),
+            Phase{})) && noexcept(std::declval<E&>()
+                                      .restore(std::declval<
+                                               const typename E::
+                                                   State&>())) && noexcept(std::declval<E&>()
+                                                                               .state()) && noexcept(std::declval<E&>()
+                                                                                                         .output());
 
 static_assert(kKeepsItsPromises<float, Everything> && kKeepsItsPromises<double, Everything>);
 static_assert(kKeepsItsPromises<float, EverythingByInput> && kKeepsItsPromises<double, EverythingByPhase>);

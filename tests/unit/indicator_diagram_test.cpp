@@ -1,4 +1,5 @@
-// Cylinder pressure over the cycle: tables give back what they were made of, the synthesised diagram obeys its equations.
+// Cylinder pressure over the cycle: tables give back what they were made of, the synthesised diagram obeys its
+// equations.
 #include <crankloop/tabulate/indicator_diagram.hpp>
 #include <crankloop/tabulate/mechanism.hpp>
 
@@ -25,6 +26,7 @@ using support::kEps;
 using support::Random;
 using support::refuses;
 using support::smooth_pressure_Pa;
+using support::wide;
 using support::Wide;
 
 constexpr double kPi = 3.14159265358979323846;
@@ -47,7 +49,8 @@ IndicatorDiagram diagram_of(const Crank& crank, const Pressure& pressure) {
 using Rows = std::vector<DiagramPoint>;
 
 /// The rows must outlive the diagram: not for temporaries.
-IndicatorDiagram diagram_of_rows(const Rows& rows, PressureSource source, const Crank& crank = support::diesel_495_crank()) {
+IndicatorDiagram diagram_of_rows(const Rows& rows, PressureSource source,
+                                 const Crank& crank = support::diesel_495_crank()) {
   return diagram_of(crank, support::table_pressure(source, rows));
 }
 IndicatorDiagram diagram_of_rows(Rows&&, PressureSource, const Crank& = support::diesel_495_crank()) = delete;
@@ -69,13 +72,14 @@ TEST(NoDiagram, IsCrankcasePressureAtAllTimes) {
   }
 }
 
-// ---- angle tables ----------------------------------------------------------------------------------------------------------
+// ---- angle tables ---------------------------------------------------------------------------------------------------
 
 /// A rough table: uneven rows, pressures without any law. Some start before 0, some have a closing row.
 Rows rough_rows(Random& random) {
   Rows rows;
   const double start = random.between(-720, 720);
-  for (double at = start; at < start + 715; at += random.between(0.05, 20)) rows.push_back({at, random.between(0, 100e5)});
+  for (double at = start; at < start + 715; at += random.between(0.05, 20))
+    rows.push_back({at, random.between(0, 100e5)});
   if (random.coin()) rows.push_back({start + 720, rows.front().pressure_Pa});
   return rows;
 }
@@ -88,7 +92,8 @@ TEST(AngleTable, GivesEveryGivenPointBackInEveryCycle) {
     const IndicatorDiagram diagram = diagram_of_rows(rows, PressureSource::angle_table);
     for (const DiagramPoint& row : rows) {
       for (const int cycle : {-2, -1, 0, 1}) {
-        // The steepest that such a table gets: 100 bar in 0.05 deg, times 3 at most inside a monotone cubic (Fritsch-Butland slopes).
+        // The steepest that such a table gets: 100 bar in 0.05 deg, times 3 at most inside a monotone cubic
+        // (Fritsch-Butland slopes).
         const double tolerance = 3 * 100e5 / 0.05 * kAngleRounding_deg;
         EXPECT_NEAR(diagram.full_Pa(row.at + 720 * cycle), row.pressure_Pa, tolerance) << row.at;
       }
@@ -135,7 +140,8 @@ TEST(AngleTable, HasNoStepAndNoCornerAtAnyPoint) {
     const Rows rows = rough_rows(random);
     const IndicatorDiagram diagram = diagram_of_rows(rows, PressureSource::angle_table);
     for (const DiagramPoint& row : rows) {
-      // One-sided slopes over d: a cubic's slope changes by at most d/2 times its bend, which is at most 12 rises/width^2 (widths >= 0.05).
+      // One-sided slopes over d: a cubic's slope changes by at most d/2 times its bend, which is at most 12
+      // rises/width^2 (widths >= 0.05).
       const double d = 1e-5;
       const double left = (diagram.full_Pa(row.at) - diagram.full_Pa(row.at - d)) / d;
       const double right = (diagram.full_Pa(row.at + d) - diagram.full_Pa(row.at)) / d;
@@ -166,21 +172,23 @@ TEST(AngleTable, OfASteepDieselTraceGivenEveryTenthOfADegreeIsWithin005Bar) {
     return smooth_pressure_Pa(deg) + 12.5e5 * (std::tanh((into + 4) / 1.24) + 1) * std::exp(-into * into / 800);
   };
   double steepest = 0;
-  for (double deg = -20; deg < 20; deg += 0.01) steepest = std::max(steepest, (trace(deg + 0.005) - trace(deg - 0.005)) / 0.01);
+  for (double deg = -20; deg < 20; deg += 0.01)
+    steepest = std::max(steepest, (trace(deg + 0.005) - trace(deg - 0.005)) / 0.01);
   EXPECT_NEAR(steepest, 11.6e5, 0.1e5) << "the trace is as steep as the one that was measured";
   const Rows rows = support::angle_rows(trace, 10);
   const IndicatorDiagram diagram = diagram_of_rows(rows, PressureSource::angle_table);
   for (double deg = -40; deg < 60; deg += 0.0013) EXPECT_NEAR(diagram.full_Pa(deg), trace(deg), 0.05e5) << deg;
 }
 
-/// The crank angle on the way up (360 to 720 deg) at which the piston is as high as at `deg` on the way down: bisection on the geometry.
+/// The crank angle on the way up (360 to 720 deg) at which the piston is as high as at `deg` on the way down: bisection
+/// on the geometry.
 double same_height_going_up(const Crank& crank, double deg, double bottom_deg, double top_deg) {
-  const Wide want = support::piston_height(crank, static_cast<Wide>(deg) * support::kWidePi / 180);
+  const Wide want = support::piston_height(crank, wide(deg) * support::kWidePi / 180);
   double low = bottom_deg + 360;
   double high = top_deg + 720;
   for (int i = 0; i < 60; ++i) {
     const double middle = (low + high) / 2;
-    (support::piston_height(crank, static_cast<Wide>(middle) * support::kWidePi / 180) < want ? low : high) = middle;
+    (support::piston_height(crank, wide(middle) * support::kWidePi / 180) < want ? low : high) = middle;
   }
   return (low + high) / 2;
 }
@@ -196,7 +204,8 @@ TEST(AngleTable, MotoredRetracesTheCompressionVolumeForVolume) {
     for (double deg = top + 0.01; deg < bottom; deg += 0.97) {
       const double up = same_height_going_up(crank, deg, bottom, top);
       // Near the dead centres the angle hangs on the root of the height's rounding, 1e-16 -> 1e-7 rad.
-      EXPECT_NEAR(diagram.motored_Pa(deg), diagram.full_Pa(up), kSteepest_Pa_deg * 1e-7 / kDegree) << deg << ", offset " << offset_ratio;
+      EXPECT_NEAR(diagram.motored_Pa(deg), diagram.full_Pa(up), kSteepest_Pa_deg * 1e-7 / kDegree)
+          << deg << ", offset " << offset_ratio;
     }
   }
 }
@@ -237,8 +246,10 @@ void expect_no_step(const IndicatorDiagram& diagram, double steepest_Pa_deg, con
 TEST(AngleTable, HasNoStepAtDeadCentresMotoredOrFired) {
   const Rows rows = support::angle_rows(smooth_pressure_Pa, 2);
   for (const double offset_ratio : {-0.2, 0.0, 0.2}) {
-    const IndicatorDiagram diagram = diagram_of_rows(rows, PressureSource::angle_table, crank_with_offset(offset_ratio));
-    // The heat may change as fast as both of its parts; the motored ramp after bottom dead centre takes 10 deg for less than 1 bar.
+    const IndicatorDiagram diagram =
+        diagram_of_rows(rows, PressureSource::angle_table, crank_with_offset(offset_ratio));
+    // The heat may change as fast as both of its parts; the motored ramp after bottom dead centre takes 10 deg for less
+    // than 1 bar.
     expect_no_step(diagram, 2.2 * kSteepest_Pa_deg, "offset " + std::to_string(offset_ratio));
   }
 }
@@ -265,16 +276,17 @@ TEST(Diagram, FullIsMotoredPlusHeatAndRepeatsEvery720Degrees) {
 TEST(Diagram, AnswersAFinitePressureForAnyAngleAtAll) {
   const Rows rows = support::angle_rows(smooth_pressure_Pa, 1);
   const IndicatorDiagram diagram = diagram_of_rows(rows, PressureSource::angle_table);
-  for (const double deg : {1e9, -1e9, 1e18, -1e300, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double deg :
+       {1e9, -1e9, 1e18, -1e300, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_GE(diagram.full_Pa(deg), 0.5e5) << deg;
     EXPECT_LE(diagram.full_Pa(deg), 70e5) << deg;
   }
 }
 
-// ---- volume tables ---------------------------------------------------------------------------------------------------------
+// ---- volume tables --------------------------------------------------------------------------------------------------
 
-/// The p-V loop of p(a), in the order of time from firing top dead centre; rows[i] belongs to angles[i]. Without a row at a dead centre
-/// the row before it must be the nearer one: where the volume turns round is all that the file tells.
+/// The p-V loop of p(a), in the order of time from firing top dead centre; rows[i] belongs to angles[i]. Without a row
+/// at a dead centre the row before it must be the nearer one: where the volume turns round is all that the file tells.
 struct VolumeLoop {
   std::vector<double> angles_deg;
   Rows rows;
@@ -306,10 +318,12 @@ TEST(VolumeTable, MadeFromAKnownPressureOverTheAngleGivesItBack) {
       const IndicatorDiagram diagram = diagram_of_rows(loop.rows, PressureSource::volume_table, crank);
       const double x_rounding = 8 * kEps * (crank.crank_radius_m + crank.rod_length_m);
       for (std::size_t i = 0; i < loop.rows.size(); ++i) {
-        // An angle read from a volume is off by dx/(dx/da), at a dead centre by sqrt(2 dx/x'').
+        // An angle read from a volume is off by dx/(dx/da), at a dead centre by sqrt(2 dx/x''), x'' about r.
         const Pose<double> pose = exact_pose(crank, loop.angles_deg[i] * kDegree);
-        const double angle_deg = std::min(x_rounding / std::fabs(pose.slope_m), std::sqrt(4 * x_rounding / crank.crank_radius_m)) / kDegree;
-        EXPECT_NEAR(diagram.full_Pa(loop.angles_deg[i]), loop.rows[i].pressure_Pa, 2 * kSteepest_Pa_deg * (angle_deg + kAngleRounding_deg))
+        const double least_slope = std::sqrt(x_rounding * crank.crank_radius_m) / 2;
+        const double angle_deg = x_rounding / std::max(std::fabs(pose.slope_m), least_slope) / kDegree;
+        EXPECT_NEAR(diagram.full_Pa(loop.angles_deg[i]), loop.rows[i].pressure_Pa,
+                    2 * kSteepest_Pa_deg * (angle_deg + kAngleRounding_deg))
             << loop.angles_deg[i];
       }
       // Between the points: as an angle table, with the wider gap across a dead centre that was not given.
@@ -329,18 +343,21 @@ TEST(VolumeTable, EnclosesTheAreaOfItsPolygon) {
   for (std::size_t i = 0; i < loop.rows.size(); ++i) {
     const DiagramPoint& here = loop.rows[i];
     const DiagramPoint& next = loop.rows[(i + 1) % loop.rows.size()];
-    polygon += static_cast<Wide>((here.pressure_Pa + next.pressure_Pa) / 2) * static_cast<Wide>(next.at - here.at);
+    polygon += wide((here.pressure_Pa + next.pressure_Pa) / 2) * wide(next.at - here.at);
   }
   Wide loop_integral = 0;
   constexpr int kSteps = 72'000;
   for (int i = 0; i < kSteps; ++i) {
     const double a = 720.0 * i / kSteps;
     const double b = 720.0 * (i + 1) / kSteps;
-    loop_integral += static_cast<Wide>(diagram.full_Pa((a + b) / 2)) * static_cast<Wide>(support::volume_m3(crank, b) - support::volume_m3(crank, a));
+    loop_integral +=
+        wide(diagram.full_Pa((a + b) / 2)) * wide(support::volume_m3(crank, b) - support::volume_m3(crank, a));
   }
-  // The polygon's own error: h^2/6 integral of p' V'', h = 0.5 deg, both humps rising and falling: 4 * 60 bar * V_d/2 at most.
+  // The polygon's own error: h^2/6 integral of p' V'', h = 0.5 deg, both humps rising and falling: 4 * 60 bar * V_d/2
+  // at most.
   const double h = 0.5 * kDegree;
-  EXPECT_NEAR(static_cast<double>(loop_integral), static_cast<double>(polygon), h * h / 6 * 4 * 60e5 * support::swept_m3(crank) / 2);
+  EXPECT_NEAR(static_cast<double>(loop_integral), static_cast<double>(polygon),
+              h * h / 6 * 4 * 60e5 * support::swept_m3(crank) / 2);
 }
 
 TEST(VolumeTable, MayHaveAClosingRow) {
@@ -356,7 +373,8 @@ TEST(VolumeTable, MayHaveAClosingRow) {
 TEST(VolumeTable, StaysBetweenNeighbouringPoints) {
   Random random;
   const Crank crank = crank_with_offset(0.15);
-  VolumeLoop loop = volume_loop(crank, [&](double) { return random.between(0, 50e5); }, 4, true);
+  VolumeLoop loop = volume_loop(
+      crank, [&](double) { return random.between(0, 50e5); }, 4, true);
   const IndicatorDiagram diagram = diagram_of_rows(loop.rows, PressureSource::volume_table, crank);
   for (std::size_t i = 0; i + 1 < loop.rows.size(); ++i) {
     const double low = std::min(loop.rows[i].pressure_Pa, loop.rows[i + 1].pressure_Pa);
@@ -377,8 +395,8 @@ TEST(VolumeTable, RefusesVolumesThatTheCylinderDoesNotHave) {
       VolumeLoop loop = volume_loop(crank, smooth_pressure_Pa, 2, true);
       loop.rows[row].at = bad;
       IndicatorDiagram diagram;
-      EXPECT_TRUE(refuses(diagram.init(crank, support::table_pressure(PressureSource::volume_table, loop.rows)), Reason::out_of_range,
-                          "pressure.file", static_cast<int>(row)));
+      EXPECT_TRUE(refuses(diagram.init(crank, support::table_pressure(PressureSource::volume_table, loop.rows)),
+                          Reason::out_of_range, "pressure.file", static_cast<int>(row)));
     }
   }
 }
@@ -414,7 +432,7 @@ TEST(VolumeTable, RefusesLoopsThatAreNoFourStrokes) {
   EXPECT_EQ(answer(short_stroke).reason, Reason::not_a_cycle) << "turns before bottom dead centre";
 }
 
-// ---- synthesised -----------------------------------------------------------------------------------------------------------
+// ---- synthesised ----------------------------------------------------------------------------------------------------
 
 /// The 495's diagram as spec and sample engine have it.
 WiebeDiagram wiebe_495() {
@@ -481,15 +499,18 @@ TEST(SynthesisedDiagram, CompressesAndExpandsByItsPolytropicExponents) {
     const Synthesised s = random_synthesised(random);
     const WiebeDiagram& w = s.wiebe;
     const IndicatorDiagram diagram = diagram_of(s.crank, wiebe_pressure(w));
-    const auto exponent = [&](double from_deg, double to_deg, double (IndicatorDiagram::*curve)(double) const noexcept) {
+    const auto exponent = [&](double from_deg, double to_deg,
+                              double (IndicatorDiagram::*curve)(double) const noexcept) {
       return -std::log((diagram.*curve)(to_deg) / (diagram.*curve)(from_deg)) /
              std::log(support::volume_m3(s.crank, to_deg) / support::volume_m3(s.crank, from_deg));
     };
     // The pressures' rounding, some 20 eps, over the logarithm of a volume ratio of at least 1.1.
     const double tolerance = 20 * kEps / std::log(1.1);
     const double compression_end = std::min(w.start_of_combustion_deg, s.top_deg - 8) + 720;
-    EXPECT_NEAR(exponent(s.bottom_deg + 400, compression_end, &IndicatorDiagram::full_Pa), w.compression_exponent, tolerance);
-    EXPECT_NEAR(diagram.full_Pa(s.bottom_deg + 360), w.intake_Pa, 20 * kEps * w.intake_Pa) << "compression begins at intake pressure";
+    EXPECT_NEAR(exponent(s.bottom_deg + 400, compression_end, &IndicatorDiagram::full_Pa), w.compression_exponent,
+                tolerance);
+    EXPECT_NEAR(diagram.full_Pa(s.bottom_deg + 360), w.intake_Pa, 20 * kEps * w.intake_Pa)
+        << "compression begins at intake pressure";
     const double burnt_deg = w.start_of_combustion_deg + w.combustion_duration_deg;
     const double late = std::max(burnt_deg, 30.0);
     if (w.exhaust_valve_opens_deg > late + 15) {
@@ -524,8 +545,9 @@ TEST(SynthesisedDiagram, ObeysTheFirstLawDuringCombustionAtEveryAngle) {
       largest = std::max({largest, std::fabs(want), std::fabs((w.expansion_exponent - 1) / V * dQ)});
       worst = std::max(worst, std::fabs(dp - want));
     }
-    // h^4/30 f^(5): in s = (a - a0)/da, h/da <= 0.005, and from s = 0.1 the fifth derivative of exp(-6.9 s^(m+1)) (m <= 4) stays below 7e4 times its
-    // slope; 0.005^4/30 * 7e4 = 1.5e-6. Rounding: 1.5 * 10 eps p/h against a slope of at least p/100 deg, 1e-11.
+    // h^4/30 f^(5): in s = (a - a0)/da, h/da <= 0.005, and from s = 0.1 the fifth derivative of exp(-6.9 s^(m+1)) (m <=
+    // 4) stays below 7e4 times its slope; 0.005^4/30 * 7e4 = 1.5e-6. Rounding: 1.5 * 10 eps p/h against a slope of at
+    // least p/100 deg, 1e-11.
     EXPECT_LE(worst, 2e-6 * largest);
     if (HasFailure()) return;
   }
@@ -539,20 +561,24 @@ TEST(SynthesisedDiagram, IsTheSolutionThatRungeKuttaFindsFromTheFirstLaw) {
     if (draw % 4 == 0) s.wiebe.wiebe_m = 0.9;
     const WiebeDiagram& w = s.wiebe;
     const IndicatorDiagram diagram = diagram_of(s.crank, wiebe_pressure(w));
-    // In u with s = u^2, so that the heat's rate at the start, like s^m ds = 2 u^(2m+1) du, does not jump for any m >= 0.
+    // In u with s = u^2, so that the heat's rate at the start, like s^m ds = 2 u^(2m+1) du, does not jump for any m >=
+    // 0.
     const auto rate = [&](double u, double p) {
       const double deg = w.start_of_combustion_deg + w.combustion_duration_deg * u * u;
       const double deg_per_u = 2 * u * w.combustion_duration_deg;
-      const support::Motion m = support::motion_at(s.crank, static_cast<Wide>(deg) * support::kWidePi / 180, 1);
+      const support::Motion m = support::motion_at(s.crank, wide(deg) * support::kWidePi / 180, 1);
       const double area = kPi / 4 * s.crank.bore_m * s.crank.bore_m;
       const double dV = -static_cast<double>(m.piston_pin_velocity.up) * area * kDegree * deg_per_u;
       const double V = support::volume_m3(s.crank, deg);
       const double k = w.wiebe_m + 1;
-      const double dQ = w.heat_J * 6.908 * 2 * k * (u > 0 ? std::pow(u, 2 * k - 1) : 0) * std::exp(-6.908 * std::pow(u, 2 * k));
+      const double dQ =
+          w.heat_J * 6.908 * 2 * k * (u > 0 ? std::pow(u, 2 * k - 1) : 0) * std::exp(-6.908 * std::pow(u, 2 * k));
       return (w.expansion_exponent - 1) / V * dQ - w.expansion_exponent * p / V * dV;
     };
     constexpr int kSteps = 4'000;
-    double p = w.intake_Pa * std::pow(support::volume_m3(s.crank, s.bottom_deg) / support::volume_m3(s.crank, w.start_of_combustion_deg), w.compression_exponent);
+    double p = w.intake_Pa * std::pow(support::volume_m3(s.crank, s.bottom_deg) /
+                                          support::volume_m3(s.crank, w.start_of_combustion_deg),
+                                      w.compression_exponent);
     double peak = p;
     for (int i = 0; i < kSteps; ++i) {
       const double h = 1.0 / kSteps;
@@ -565,8 +591,9 @@ TEST(SynthesisedDiagram, IsTheSolutionThatRungeKuttaFindsFromTheFirstLaw) {
       peak = std::max(peak, p);
       if ((i + 1) % 250 == 0) {
         const double deg = w.start_of_combustion_deg + w.combustion_duration_deg * (u + h) * (u + h);
-        // Runge-Kutta's own error: steps of 1/4000, smooth but at u = 0 where u^(2m+1) leaves one of order h^2 in the first step: 1e-7 of the
-        // first step's heat, 1e-7 of all. The library's quadrature: five points in each of 256 panels, the first one with s^m too.
+        // Runge-Kutta's own error: steps of 1/4000, smooth but at u = 0 where u^(2m+1) leaves one of order h^2 in the
+        // first step: 1e-7 of the first step's heat, 1e-7 of all. The library's quadrature: five points in each of 256
+        // panels, the first one with s^m too.
         EXPECT_NEAR(diagram.full_Pa(deg), p, 2e-7 * peak) << deg;
       }
     }
@@ -593,7 +620,8 @@ TEST(SynthesisedDiagram, IsLinearInItsHeatAndLoadScalesTheHeat) {
 }
 
 TEST(SynthesisedDiagram, WithoutHeatIsCompressionAndExpansionThroughOnePoint) {
-  // At the start of combustion both polytropes meet; with equal exponents the expansion retraces the compression volume for volume.
+  // At the start of combustion both polytropes meet; with equal exponents the expansion retraces the compression volume
+  // for volume.
   WiebeDiagram w = wiebe_495();
   w.compression_exponent = w.expansion_exponent = 1.32;
   for (const double offset_ratio : {-0.2, 0.0, 0.2}) {
@@ -604,8 +632,11 @@ TEST(SynthesisedDiagram, WithoutHeatIsCompressionAndExpansionThroughOnePoint) {
     for (double deg = top + 1; deg < 134; deg += 1.1) {
       const double up = same_height_going_up(crank, deg, bottom, top);
       const double p = diagram.motored_Pa(deg);
-      EXPECT_NEAR(p, diagram.full_Pa(std::min(up, 720 + w.start_of_combustion_deg)) *
-                         std::pow(support::volume_m3(crank, std::min(up, 720 + w.start_of_combustion_deg)) / support::volume_m3(crank, deg), 1.32),
+      EXPECT_NEAR(p,
+                  diagram.full_Pa(std::min(up, 720 + w.start_of_combustion_deg)) *
+                      std::pow(support::volume_m3(crank, std::min(up, 720 + w.start_of_combustion_deg)) /
+                                   support::volume_m3(crank, deg),
+                               1.32),
                   1e-9 * p)  // the bisection's angle near top dead centre: 1e-8 of p's slope
           << deg;
     }
@@ -624,14 +655,20 @@ TEST(SynthesisedDiagram, HasNoStepAnywhereWhereverItsEventsLie) {
     const IndicatorDiagram diagram = diagram_of(s.crank, wiebe_pressure(w));
     double peak = 0;
     for (double deg = -90; deg < 180; deg += 0.1) peak = std::max(peak, diagram.full_Pa(deg));
-    // Heat rises by at most 6.9 (m + 1)/da; compression by n V'/V; the ramp after gas exchange takes its one degree for |intake - exhaust|.
+    // Heat rises by at most 6.9 (m + 1)/da; compression by n V'/V; the ramp after gas exchange takes its one degree for
+    // |intake - exhaust|.
     double shrinks = 0;
     for (double deg = -90; deg < 180; deg += 0.1) {
-      shrinks = std::max(shrinks, std::fabs(support::volume_m3(s.crank, deg + 0.1) / support::volume_m3(s.crank, deg) - 1) / 0.1);
+      shrinks = std::max(
+          shrinks, std::fabs(support::volume_m3(s.crank, deg + 0.1) / support::volume_m3(s.crank, deg) - 1) / 0.1);
     }
-    const double heat_rate = 6.908 * 4 / w.combustion_duration_deg * w.heat_J * (w.expansion_exponent - 1) / support::volume_m3(s.crank, s.top_deg);
-    const double blow_down = 5.04 / (s.bottom_deg - w.exhaust_valve_opens_deg) * diagram.full_Pa(w.exhaust_valve_opens_deg);
-    expect_no_step(diagram, 1.1 * std::max({heat_rate + 2 * shrinks * peak, blow_down, std::fabs(w.intake_Pa - w.exhaust_Pa)}), "random diagram");
+    const double heat_rate = 6.908 * 4 / w.combustion_duration_deg * w.heat_J * (w.expansion_exponent - 1) /
+                             support::volume_m3(s.crank, s.top_deg);
+    const double blow_down =
+        5.04 / (s.bottom_deg - w.exhaust_valve_opens_deg) * diagram.full_Pa(w.exhaust_valve_opens_deg);
+    expect_no_step(diagram,
+                   1.1 * std::max({heat_rate + 2 * shrinks * peak, blow_down, std::fabs(w.intake_Pa - w.exhaust_Pa)}),
+                   "random diagram");
     if (HasFailure()) return;
   }
 }
@@ -644,12 +681,14 @@ TEST(SynthesisedDiagram, HasNoJumpAtItsEvents) {
     const Synthesised s = random_synthesised(random);
     const WiebeDiagram& w = s.wiebe;
     const IndicatorDiagram diagram = diagram_of(s.crank, wiebe_pressure(w));
-    for (const double event : {w.start_of_combustion_deg, w.start_of_combustion_deg + w.combustion_duration_deg, w.exhaust_valve_opens_deg, s.top_deg,
-                               s.bottom_deg, s.top_deg + 360, s.top_deg + 361, s.bottom_deg + 360, s.top_deg + 720}) {
+    for (const double event :
+         {w.start_of_combustion_deg, w.start_of_combustion_deg + w.combustion_duration_deg, w.exhaust_valve_opens_deg,
+          s.top_deg, s.bottom_deg, s.top_deg + 360, s.top_deg + 361, s.bottom_deg + 360, s.top_deg + 720}) {
       for (const auto curve : {&IndicatorDiagram::full_Pa, &IndicatorDiagram::motored_Pa, &IndicatorDiagram::heat_Pa}) {
         const double before = (diagram.*curve)(event - 1e-9);
         const double after = (diagram.*curve)(event + 1e-9);
-        // Nothing in a draw is steeper than 100 bar/deg but a start of combustion with m near 0, like s^m: (1e-9/10)^(m + 1) of the heat's 100 bar.
+        // Nothing in a draw is steeper than 100 bar/deg but a start of combustion with m near 0, like s^m: (1e-9/10)^(m
+        // + 1) of the heat's 100 bar.
         EXPECT_NEAR(before, after, 3e-9 * 1000e5) << "at " << event;
       }
     }
@@ -695,9 +734,11 @@ TEST(SynthesisedDiagram, ScalesItsHeatToTheMeanEffectivePressureAskedForInAnyEng
     for (int i = 0; i < kSteps; ++i) {
       const double a = 720.0 * i / kSteps;
       const double b = 720.0 * (i + 1) / kSteps;
-      work += static_cast<Wide>(diagram.full_Pa((a + b) / 2)) * static_cast<Wide>(support::volume_m3(s.crank, b) - support::volume_m3(s.crank, a));
+      work +=
+          wide(diagram.full_Pa((a + b) / 2)) * wide(support::volume_m3(s.crank, b) - support::volume_m3(s.crank, a));
     }
-    // Midpoint pressures, h = 0.02 deg: h^2/12 of p' V'' and corners of p, some 1e-8 of 200 bar V_d, where random events fall between steps.
+    // Midpoint pressures, h = 0.02 deg: h^2/12 of p' V'' and corners of p, some 1e-8 of 200 bar V_d, where random
+    // events fall between steps.
     EXPECT_NEAR(static_cast<double>(work) / support::swept_m3(s.crank), s.wiebe.net_mep_Pa, 2e-8 * 200e5);
   }
 }
@@ -715,18 +756,24 @@ TEST(SynthesisedDiagram, HeatFoundForTheMeanEffectivePressureGivesItBack) {
   w.heat_given = true;
   w.heat_J = found.heat_J();
   const IndicatorDiagram given = diagram_of(support::diesel_495_crank(), wiebe_pressure(w));
-  for (double deg = 0; deg < 720; deg += 0.7) EXPECT_NEAR(given.full_Pa(deg), found.full_Pa(deg), 4 * kEps * 100e5) << deg;
-  // Plausible, too: no more work than the ideal cycle with all heat at top dead centre, 1 - 19^(1 - 1.28) = 56 %, and not much less.
+  for (double deg = 0; deg < 720; deg += 0.7)
+    EXPECT_NEAR(given.full_Pa(deg), found.full_Pa(deg), 4 * kEps * 100e5) << deg;
+  // Plausible, too: no more work than the ideal cycle with all heat at top dead centre, 1 - 19^(1 - 1.28) = 56 %, and
+  // not much less.
   const double efficiency = w.net_mep_Pa * support::swept_m3(support::diesel_495_crank()) / found.heat_J();
   EXPECT_LT(efficiency, 1 - std::pow(19, 1 - w.expansion_exponent));
   EXPECT_GT(efficiency, 0.45);
 }
 
 TEST(SynthesisedDiagram, RefusesAMeanEffectivePressureThatTakesNegativeHeat) {
+  // Boosted to 2.5 bar against 1 bar at the exhaust, the gas exchange alone gives some 1.5 bar of mean pressure: less cannot be had by heat.
   WiebeDiagram w = wiebe_495();
-  w.net_mep_Pa = -5e5;
+  w.intake_Pa = 250e3;
+  w.exhaust_Pa = 100e3;
+  w.net_mep_Pa = 1e4;
   IndicatorDiagram diagram;
-  EXPECT_TRUE(refuses(diagram.init(support::diesel_495_crank(), wiebe_pressure(w)), Reason::no_solution, "pressure.net_mep"));
+  EXPECT_TRUE(
+      refuses(diagram.init(support::diesel_495_crank(), wiebe_pressure(w)), Reason::no_solution, "pressure.net_mep"));
 }
 
 TEST(SynthesisedDiagram, RefusesAnExhaustValveThatOpensAfterTheBottomDeadCentreOfAnOffsetEngine) {
@@ -749,8 +796,10 @@ TEST(SynthesisedDiagram, RefusesWhatItsDefinitionRefuses) {
   EXPECT_TRUE(refuses(diagram.init(crank, wiebe_pressure(wiebe_495())), Reason::not_positive, "crank.bore"));
   WiebeDiagram w = wiebe_495();
   w.expansion_exponent = 1;
-  EXPECT_TRUE(refuses(diagram.init(support::diesel_495_crank(), wiebe_pressure(w)), Reason::out_of_range, "pressure.expansion_exponent"));
-  EXPECT_TRUE(diagram.init(support::diesel_495_crank(), wiebe_pressure(wiebe_495())).ok()) << "a refusal leaves nothing behind";
+  EXPECT_TRUE(refuses(diagram.init(support::diesel_495_crank(), wiebe_pressure(w)), Reason::out_of_range,
+                      "pressure.expansion_exponent"));
+  EXPECT_TRUE(diagram.init(support::diesel_495_crank(), wiebe_pressure(wiebe_495())).ok())
+      << "a refusal leaves nothing behind";
   EXPECT_NEAR(diagram.full_Pa(400), 98e3, 1);
 }
 

@@ -1,4 +1,5 @@
-// The crank mechanism's motion: against vector geometry, against differences, and every figure that the sources publish.
+// The crank mechanism's motion: against vector geometry, against differences, and every figure that the sources
+// publish.
 //
 // Sources as in docs/model.md: [Li 2006] the published facts, [495] the diesel's sheet.
 #include <crankloop/tabulate/mechanism.hpp>
@@ -19,6 +20,7 @@ namespace {
 using support::kEps;
 using support::kWidePi;
 using support::Random;
+using support::wide;
 using support::Wide;
 
 constexpr double kPi = 3.14159265358979323846;
@@ -40,8 +42,9 @@ Crank unit_crank(double lambda, double offset_ratio = 0) {
   return crank;
 }
 
-/// Rounding of a pose: each quantity is about eight operations, off by half a unit each, on terms of the stated size. Every division by
-/// cos b also passes on the relative error of cos b, which is tan^2 b times that of sin b: hence the powers of 1/cos b.
+/// Rounding of a pose: each quantity is about eight operations, off by half a unit each, on terms of the stated size.
+/// Every division by cos b also passes on the relative error of cos b, which is tan^2 b times that of sin b: hence the
+/// powers of 1/cos b.
 struct PoseRounding {
   double displacement, slope, acceleration, rod_angle, rod_slope, rod_curvature, rod_tilt, radial;
 
@@ -64,11 +67,11 @@ struct PoseRounding {
 
 void expect_pose_of_vector_geometry(const Crank& crank, double a) {
   const Pose<double> pose = exact_pose(crank, a);
-  const support::Motion m = support::motion_at(crank, a, 1);
+  const support::Motion m = support::motion_at(crank, wide(a), 1);
   const support::Vec rod = m.crank_pin - m.piston_pin;
   const PoseRounding tolerance{crank, static_cast<double>(-rod.up / support::length(rod))};
   const auto near = [](double got, Wide want, double within, const char* what) {
-    EXPECT_NEAR(static_cast<double>(static_cast<Wide>(got) - want), 0, within) << what << ": " << got;
+    EXPECT_NEAR(static_cast<double>(wide(got) - want), 0, within) << what << ": " << got;
   };
   near(pose.displacement_m, support::greatest_height(crank) - m.piston_pin.up, tolerance.displacement, "displacement");
   near(pose.slope_m, -m.piston_pin_velocity.up, tolerance.slope, "velocity");
@@ -142,9 +145,11 @@ TEST(ExactPose, EachDerivativeIsTheDifferenceOfTheOneBefore) {
       return support::slope_of([&](double at) { return exact_pose(crank, at).*quantity; }, a);
     };
     const auto tolerance = [](double strip_bound, double value_noise) {
-      return support::slope_tolerance(strip_bound, 2 * value_noise);  // twice: the noise is stated at a, not at a +- 2 h
+      return support::slope_tolerance(strip_bound,
+                                      2 * value_noise);  // twice: the noise is stated at a, not at a +- 2 h
     };
-    EXPECT_NEAR(pose.slope_m, slope_of(&Pose<double>::displacement_m), tolerance(bound.displacement, noise.displacement));
+    EXPECT_NEAR(pose.slope_m, slope_of(&Pose<double>::displacement_m),
+                tolerance(bound.displacement, noise.displacement));
     EXPECT_NEAR(pose.acceleration_m, slope_of(&Pose<double>::slope_m), tolerance(bound.slope, noise.slope));
     EXPECT_NEAR(pose.rod_slope, slope_of(&Pose<double>::rod_angle_rad), tolerance(bound.rod_angle, noise.rod_angle));
     EXPECT_NEAR(pose.rod_curvature, slope_of(&Pose<double>::rod_slope), tolerance(bound.rod_slope, noise.rod_slope));
@@ -170,7 +175,7 @@ TEST(ExactPose, MirroringTheOffsetMirrorsTheMotion) {
   }
 }
 
-// ---- dead centres, stroke, mean speed, angle from displacement -------------------------------------------------------------
+// ---- dead centres, stroke, mean speed, angle from displacement ------------------------------------------------------
 
 TEST(DeadCentres, AreThePublishedOnesOfTheExampleWithTenMillimetresOfOffset) {
   Crank crank = support::diesel_495_crank();
@@ -226,8 +231,8 @@ TEST(MeanPistonSpeed, IsStrokeTimesRpmPerThirtyAndTwoPerPiOfTheCrankPinSpeed) {
   const double w = rpm * 2 * kPi / 60;
   const double mean = mean_piston_speed_m_s(crank, w);
   EXPECT_NEAR(mean, 0.115 * rpm / 30, 8 * kEps * mean);
-  EXPECT_NEAR(mean, 7.67, 0.005);                                                    // [495]
-  EXPECT_NEAR(mean / (crank.crank_radius_m * w), 0.6366, kHalfOfFourthDecimal);      // [Li 2006]
+  EXPECT_NEAR(mean, 7.67, 0.005);                                                // [495]
+  EXPECT_NEAR(mean / (crank.crank_radius_m * w), 0.6366, kHalfOfFourthDecimal);  // [Li 2006]
 }
 
 TEST(MeanPistonSpeed, IsTheTimeMeanOfTheSpeedOfAnyMechanism) {
@@ -235,14 +240,15 @@ TEST(MeanPistonSpeed, IsTheTimeMeanOfTheSpeedOfAnyMechanism) {
   for (int draw = 0; draw < 20; ++draw) {
     SCOPED_TRACE(random.trace(draw));
     const Crank crank = support::random_crank(random);
-    // The midpoint rule over each stroke by itself, where the speed keeps its sign: off by at most h^2/24 turn max|v''|,
-    // and |v''| <= 2 bound on the strip (Cauchy).
+    // The midpoint rule over each stroke by itself, where the speed keeps its sign: off by at most h^2/24 turn
+    // max|v''|, and |v''| <= 2 bound on the strip (Cauchy).
     const DeadCentres centres = dead_centres(crank);
     constexpr int kSteps = 20'000;
     Wide travelled = 0;
     const auto stroke = [&](double from, double to) {
       const double h = (to - from) / kSteps;
-      for (int i = 0; i < kSteps; ++i) travelled += std::fabs(exact_pose(crank, from + (i + 0.5) * h).slope_m) * h;
+      for (int i = 0; i < kSteps; ++i)
+        travelled += wide(std::fabs(exact_pose(crank, from + (i + 0.5) * h).slope_m) * h);
     };
     stroke(centres.tdc_rad, centres.bdc_rad);
     stroke(centres.bdc_rad, centres.tdc_rad + 2 * kPi);
@@ -261,8 +267,8 @@ TEST(CrankAngleAt, PutsThePistonWhereItWasAskedForOnBothStrokes) {
     const double x = centres.stroke_m * random.between(0, 1);
     const double down = crank_angle_at(crank, x, true);
     const double up = crank_angle_at(crank, x, false);
-    // At a dead centre the angle hangs on the square root of the displacement; the displacement it leads back to does not. The
-    // triangle's cosine is off by some units, and da dx/da = d(cos) r side / l.
+    // At a dead centre the angle hangs on the square root of the displacement; the displacement it leads back to does
+    // not. The triangle's cosine is off by some units, and da dx/da = d(cos) r side / l.
     const double tolerance = 2 * PoseRounding{crank, 0.8}.displacement;
     EXPECT_NEAR(exact_pose(crank, down).displacement_m, x, tolerance);
     EXPECT_NEAR(exact_pose(crank, up).displacement_m, x, tolerance);
@@ -291,7 +297,7 @@ TEST(CrankAngleAt, AnswersTheNearerDeadCentreBeyondTheStroke) {
 
 TEST(Volumes, FollowFromBoreTrueStrokeAndCompressionRatio) {
   Crank crank = support::diesel_495_crank();
-  EXPECT_NEAR(bore_area_m2(crank) * 1e4, 70.88, 0.005);          // [495], its print is damaged
+  EXPECT_NEAR(bore_area_m2(crank) * 1e4, 70.88, 0.005);  // [495], its print is damaged
   EXPECT_NEAR(swept_volume_m3(crank) * 1000, 0.8151, kHalfOfFourthDecimal);
   crank.pin_offset_m = 0.010;
   const double area = kPi * 0.0475 * 0.0475;
@@ -301,9 +307,10 @@ TEST(Volumes, FollowFromBoreTrueStrokeAndCompressionRatio) {
   EXPECT_NEAR((swept_volume_m3(crank) + clearance_volume_m3(crank)) / clearance_volume_m3(crank), 19, 16 * kEps * 19);
 }
 
-// ---- the published facts of the second-order approximations ----------------------------------------------------------------
+// ---- the published facts of the second-order approximations ---------------------------------------------------------
 
-constexpr int kFine = 36'000;  // samples of a turn when a bound is looked for: 0.01 deg, so a flat maximum is missed by < 1e-7
+constexpr int kFine =
+    36'000;  // samples of a turn when a bound is looked for: 0.01 deg, so a flat maximum is missed by < 1e-7
 
 TEST(SecondOrder, VelocityAtLambda032IsOffByAtMost00057OfTheCrankPinSpeed) {
   const Crank crank = unit_crank(0.32);
@@ -332,7 +339,9 @@ TEST(SecondOrder, VelocityAtLambda032IsExactAtTheQuarterTurns) {
 
 TEST(SecondOrder, AccelerationAtLambda032IsExactAtTheDeadCentresAndNearFourOtherAngles) {
   const Crank crank = unit_crank(0.32);
-  const auto error = [&](double a) { return second_order_pose(crank, a).acceleration_m - exact_pose(crank, a).acceleration_m; };
+  const auto error = [&](double a) {
+    return second_order_pose(crank, a).acceleration_m - exact_pose(crank, a).acceleration_m;
+  };
   const double tolerance = 2 * PoseRounding{crank, 0.9}.acceleration;
   EXPECT_NEAR(error(0), 0, tolerance);
   EXPECT_NEAR(error(kPi), 0, tolerance);
@@ -356,10 +365,12 @@ TEST(SecondOrder, AccelerationAtLambda032IsWorstAtTheQuarterTurnsAndLowThereBy00
     EXPECT_NEAR(low_by, 0.0178, kHalfOfFourthDecimal);
     EXPECT_NEAR(low_by / std::fabs(exact), 0.053, kHalfOfThirdDecimal);
   }
-  const double at_quarter = std::fabs(second_order_pose(crank, kPi / 2).acceleration_m - exact_pose(crank, kPi / 2).acceleration_m);
+  const double at_quarter =
+      std::fabs(second_order_pose(crank, kPi / 2).acceleration_m - exact_pose(crank, kPi / 2).acceleration_m);
   for (int i = 0; i < kFine; ++i) {
     const double a = 2 * kPi * i / kFine;
-    EXPECT_LE(std::fabs(second_order_pose(crank, a).acceleration_m - exact_pose(crank, a).acceleration_m), at_quarter * (1 + 1e-12));
+    EXPECT_LE(std::fabs(second_order_pose(crank, a).acceleration_m - exact_pose(crank, a).acceleration_m),
+              at_quarter * (1 + 1e-12));
   }
 }
 
@@ -389,7 +400,8 @@ TEST(SecondOrder, AccelerationHasItsThreePublishedExtremes) {
     } else {
       const double published = std::acos(-1 / (4 * lambda));
       const double folded = std::min(j.smallest.at_rad, 2 * kPi - j.smallest.at_rad);  // there are two, mirrored
-      // A flat minimum: an angle off by d changes the value by j'' d^2/2, hidden below rounding when d < sqrt(2 eps/j'').
+      // A flat minimum: an angle off by d changes the value by j'' d^2/2, hidden below rounding when d < sqrt(2
+      // eps/j'').
       const double curvature = (16 * lambda * lambda - 1) / (4 * lambda);
       EXPECT_NEAR(folded, published, std::max(1e-7, 4 * std::sqrt(2 * kEps / curvature))) << lambda;
       EXPECT_NEAR(j.smallest.value, -(lambda + 1 / (8 * lambda)), 4 * kEps) << lambda;
@@ -398,15 +410,15 @@ TEST(SecondOrder, AccelerationHasItsThreePublishedExtremes) {
 }
 
 TEST(ExactAcceleration, HasInnerMinimaOnlyAboveTheThreshold026376) {
-  // The fourth derivative of x at 180 deg is r (1 - 4 lambda + 3 lambda^3) = r (1 - lambda)(1 - 3 lambda - 3 lambda^2), from the series
-  // of cos b about it; its root is (sqrt 21 - 3)/6.
+  // The fourth derivative of x at 180 deg is r (1 - 4 lambda + 3 lambda^3) = r (1 - lambda)(1 - 3 lambda - 3 lambda^2),
+  // from the series of cos b about it; its root is (sqrt 21 - 3)/6.
   const double threshold = (std::sqrt(21.0) - 3) / 6;
   EXPECT_NEAR(threshold, 0.26376, kHalfOfFifthDecimal);
   const auto smallest_off_bottom_deg = [](double lambda) {
     return std::fabs(extremes(unit_crank(lambda), &Pose<double>::acceleration_m).smallest.at_rad / kDeg - 180);
   };
-  // At the threshold the minimum is flat to the fourth power: between 180 deg and a there is a^4/24 j'''' to find, so rounding hides (24
-  // eps)^(1/4) = 0.02 deg. The published five digits are tested from both sides.
+  // At the threshold the minimum is flat to the fourth power: between 180 deg and a there is a^4/24 j'''' to find, so
+  // rounding hides (24 eps)^(1/4) = 0.02 deg. The published five digits are tested from both sides.
   EXPECT_LT(smallest_off_bottom_deg(0.26375), 0.1);
   EXPECT_GT(smallest_off_bottom_deg(0.26377), 0.2);
   EXPECT_LT(smallest_off_bottom_deg(0.20), 1e-5);
@@ -454,7 +466,8 @@ TEST(RodMotion, WithoutOffsetHasThePublishedClosedFormOfItsAcceleration) {
       const Pose<double> pose = exact_pose(crank, a);
       const double cos_b = std::cos(pose.rod_angle_rad);
       const double published = -lambda * (1 - lambda * lambda) * std::sin(a) / (cos_b * cos_b * cos_b);
-      EXPECT_NEAR(pose.rod_curvature, published, 2 * PoseRounding(crank, cos_b).rod_curvature) << lambda << " at " << degree;
+      EXPECT_NEAR(pose.rod_curvature, published, 2 * PoseRounding(crank, cos_b).rod_curvature)
+          << lambda << " at " << degree;
     }
   }
 }
@@ -471,7 +484,8 @@ double largest_error(double lambda, double Pose<double>::*quantity) {
 }
 
 TEST(SecondOrder, EveryQuantityLosesOnlyTheOrderOfLambdaThatItsSeriesLeavesOut) {
-  // Halving lambda divides the error by 2^order; the next term, two orders up, makes that 1 + O(lambda^2): at lambda 0.1 within 5 %.
+  // Halving lambda divides the error by 2^order; the next term, two orders up, makes that 1 + O(lambda^2): at lambda
+  // 0.1 within 5 %.
   const auto order_of = [](double Pose<double>::*quantity) {
     return std::log2(largest_error(0.1, quantity) / largest_error(0.05, quantity));
   };
@@ -484,14 +498,15 @@ TEST(SecondOrder, EveryQuantityLosesOnlyTheOrderOfLambdaThatItsSeriesLeavesOut) 
   EXPECT_NEAR(order_of(&Pose<double>::rod_curvature), 5, kWithin);
 }
 
-// ---- Fourier form ----------------------------------------------------------------------------------------------------------
+// ---- Fourier form ---------------------------------------------------------------------------------------------------
 
 TEST(DisplacementSeries, IsTheFourierSeriesOfTheExactDisplacementToTheSeventhPowerOfLambda) {
   for (const double lambda : {0.05, 0.1, 0.15, 0.2738, 0.32, 0.45}) {
     const Crank crank = unit_crank(lambda);
     const auto x = [&](double a) { return exact_pose(crank, a).displacement_m; };
-    // sqrt(1 - u) = 1 - sum c_k u^k with falling c_k, c_4 = 5/128; u = lambda^2 sin^2 a. The series leaves out k >= 4, in all at most
-    // c_4 lambda^7/(1 - lambda^2) times the largest Fourier coefficient that sin^8 a and higher even powers have: 56/128, of cos 2a.
+    // sqrt(1 - u) = 1 - sum c_k u^k with falling c_k, c_4 = 5/128; u = lambda^2 sin^2 a. The series leaves out k >= 4,
+    // in all at most c_4 lambda^7/(1 - lambda^2) times the largest Fourier coefficient that sin^8 a and higher even
+    // powers have: 56/128, of cos 2a.
     const double left_out = 5.0 / 128 * std::pow(lambda, 7) / (1 - lambda * lambda) * 56 / 128;
     const double rounding = 4 * kEps / lambda;
     const double tolerance = left_out + rounding;
@@ -502,8 +517,10 @@ TEST(DisplacementSeries, IsTheFourierSeriesOfTheExactDisplacementToTheSeventhPow
     EXPECT_NEAR(series.a2, support::fourier_term(x, 2, kSamples).cosine, tolerance) << lambda;
     EXPECT_NEAR(series.a4, support::fourier_term(x, 4, kSamples).cosine, tolerance) << lambda;
     EXPECT_NEAR(series.a6, support::fourier_term(x, 6, kSamples).cosine, tolerance) << lambda;
-    for (const int absent : {3, 5, 7}) EXPECT_NEAR(support::fourier_term(x, absent, kSamples).cosine, 0, rounding) << absent;
-    for (int order = 1; order < 8; ++order) EXPECT_NEAR(support::fourier_term(x, order, kSamples).sine, 0, rounding) << order;
+    for (const int absent : {3, 5, 7})
+      EXPECT_NEAR(support::fourier_term(x, absent, kSamples).cosine, 0, rounding) << absent;
+    for (int order = 1; order < 8; ++order)
+      EXPECT_NEAR(support::fourier_term(x, order, kSamples).sine, 0, rounding) << order;
   }
 }
 
@@ -516,7 +533,7 @@ TEST(DisplacementSeries, IsZeroAtTopDeadCentreAndTheStrokeAtTheBottomUpToWhatItL
   }
 }
 
-// ---- extremes --------------------------------------------------------------------------------------------------------------
+// ---- extremes -------------------------------------------------------------------------------------------------------
 
 TEST(Extremes, AreNotPassedByAnyAngleOfAnyMechanism) {
   Random random;
@@ -527,9 +544,10 @@ TEST(Extremes, AreNotPassedByAnyAngleOfAnyMechanism) {
     const struct {
       double Pose<double>::*quantity;
       double rounding;
-    } all[] = {{&Pose<double>::displacement_m, rounding.displacement}, {&Pose<double>::slope_m, rounding.slope},
-               {&Pose<double>::acceleration_m, rounding.acceleration}, {&Pose<double>::rod_angle_rad, rounding.rod_angle},
-               {&Pose<double>::rod_slope, rounding.rod_slope},         {&Pose<double>::rod_curvature, rounding.rod_curvature}};
+    } all[] = {
+        {&Pose<double>::displacement_m, rounding.displacement}, {&Pose<double>::slope_m, rounding.slope},
+        {&Pose<double>::acceleration_m, rounding.acceleration}, {&Pose<double>::rod_angle_rad, rounding.rod_angle},
+        {&Pose<double>::rod_slope, rounding.rod_slope},         {&Pose<double>::rod_curvature, rounding.rod_curvature}};
     for (const auto& one : all) {
       const Extremes found = extremes(crank, one.quantity);
       for (const Extreme& extreme : {found.largest, found.smallest}) {

@@ -1,4 +1,5 @@
-// The crank phase: counted without drift, turned to numbers and to places in a per-degree table without ever being off by one.
+// The crank phase: counted without drift, turned to numbers and to places in a per-degree table without ever being off
+// by one.
 //
 // Oracle: integer arithmetic on 2^64 units, and the binary digits of the numbers that go in.
 #include <crankloop/tick/phase.hpp>
@@ -23,9 +24,10 @@ constexpr std::uint64_t kHalfCycle = std::uint64_t{1} << 63;
 constexpr std::uint64_t kLastUnit = ~std::uint64_t{0};
 constexpr int kDraws = 1'000'000;
 
-/// floor(2^64 k / n): the unit in which part k of n parts of a cycle begins, or the one before it where it begins between two.
+/// floor(2^64 k / n): the unit in which part k of n parts of a cycle begins, or the one before it where it begins
+/// between two.
 std::uint64_t units_of_part(std::uint64_t k, std::uint64_t n) {
-  const std::uint64_t quotient = kLastUnit / n;       // 2^64 = quotient n + rest
+  const std::uint64_t quotient = kLastUnit / n;  // 2^64 = quotient n + rest
   const std::uint64_t rest = kLastUnit % n + 1;
   return k * quotient + k * rest / n;
 }
@@ -53,7 +55,7 @@ constexpr std::uint64_t kUnitsCutOff = 3;
 template <class Real>
 const Real kLeastExact = std::ldexp(Real{1}, std::numeric_limits<Real>::digits - 1 - 62);
 
-// ---- counting --------------------------------------------------------------------------------------------------------------
+// ---- counting -------------------------------------------------------------------------------------------------------
 
 TEST(Phase, ReturnsToTdcAfterAThousandCyclesOfTicksThatDivideNothingEvenly) {
   const Phase step{kLastUnit / 36'007 + 1};  // rounded up: gains 36007 * at most 1 unit a cycle
@@ -79,7 +81,7 @@ TEST(Phase, WrapsAtBothEndsOfTheCycle) {
   EXPECT_EQ((Phase{kHalfCycle} + Phase{kHalfCycle}).units(), 0u);
 }
 
-// ---- from and to numbers ---------------------------------------------------------------------------------------------------
+// ---- from and to numbers --------------------------------------------------------------------------------------------
 
 template <class Real>
 class PhaseOf : public ::testing::Test {};
@@ -139,12 +141,22 @@ TYPED_TEST(PhaseOf, SignedCyclesUndoesFromCycles) {
 
 TYPED_TEST(PhaseOf, SignedCyclesOfAnyPhaseIsRightToRounding) {
   using Real = TypeParam;
-  // The phase's two words are rounded, and so is their sum: three roundings, the first two in units of 2^-32 cycle when they cancel.
-  const double relative = 2.0 * static_cast<double>(std::numeric_limits<Real>::epsilon());
-  const double absolute = 0x1p-32 * static_cast<double>(std::numeric_limits<Real>::epsilon()) + 0x1p-63;
+  // The phase's two words are rounded, and so is their sum: three roundings, the first two in units of 2^-32 cycle when
+  // they cancel.
+  const long double relative = 2 * static_cast<long double>(std::numeric_limits<Real>::epsilon());
+  const long double absolute = 0x1p-32L * static_cast<long double>(std::numeric_limits<Real>::epsilon()) + 0x1p-63L;
   Random random;
-  const std::uint64_t corners[] = {0, 1, 2, kLastUnit, kLastUnit - 1, kHalfCycle, kHalfCycle - 1, kHalfCycle + 1, std::uint64_t{1} << 32,
-                                   (std::uint64_t{1} << 32) - 1, 0 - (std::uint64_t{1} << 32)};
+  const std::uint64_t corners[] = {0,
+                                   1,
+                                   2,
+                                   kLastUnit,
+                                   kLastUnit - 1,
+                                   kHalfCycle,
+                                   kHalfCycle - 1,
+                                   kHalfCycle + 1,
+                                   std::uint64_t{1} << 32,
+                                   (std::uint64_t{1} << 32) - 1,
+                                   0 - (std::uint64_t{1} << 32)};
   const int corner_count = static_cast<int>(sizeof corners / sizeof corners[0]);
   for (int draw = 0; draw < kDraws; ++draw) {
     const std::uint64_t units = draw < corner_count ? corners[draw] : random.bits() >> random.whole(0, 63);
@@ -157,19 +169,20 @@ TYPED_TEST(PhaseOf, SignedCyclesOfAnyPhaseIsRightToRounding) {
   }
 }
 
-// ---- places in a per-degree table ------------------------------------------------------------------------------------------
+// ---- places in a per-degree table -----------------------------------------------------------------------------------
 
 TYPED_TEST(PhaseOf, LastUnitOfTheCycleLiesInItsLastDegreeAndBelowItsEnd) {
   using Real = TypeParam;
   const Cell cell = Phase{kLastUnit}.template cell<Real>();
   EXPECT_EQ(cell.degree, 719u);
   EXPECT_LT(fraction<Real>(cell), Real{1});
-  EXPECT_GT(fraction<Real>(cell), Real{0.9999F});
+  EXPECT_GT(fraction<Real>(cell), static_cast<Real>(0.9999));
 }
 
 TYPED_TEST(PhaseOf, EveryDegreeBeginsWhereItShouldAndTheUnitBeforeIsStillTheLastOfTheDegreeBefore) {
   using Real = TypeParam;
-  // float reads the top word only: a border counts from the next 2^32 units on, which is at most 1.7e-7 deg late and never early.
+  // float reads the top word only: a border counts from the next 2^32 units on, which is at most 1.7e-7 deg late and
+  // never early.
   const std::uint64_t late = sizeof(Real) == 4 ? 0xFFFF'FFFFu : 0;
   for (std::uint32_t degree = 0; degree < 720; ++degree) {
     const std::uint64_t first = (first_unit_of_part(degree, 720) + late) & ~late;
@@ -179,8 +192,8 @@ TYPED_TEST(PhaseOf, EveryDegreeBeginsWhereItShouldAndTheUnitBeforeIsStillTheLast
     ASSERT_EQ(at.degree, degree);
     ASSERT_EQ(after.degree, degree);
     ASSERT_EQ(before.degree, (degree + 719) % 720);
-    ASSERT_LT(fraction<Real>(at), Real{720.0F / 4294967296.0F});
-    ASSERT_GT(fraction<Real>(before), Real{0.9999F});
+    ASSERT_LT(fraction<Real>(at), static_cast<Real>(720 * 0x1p-32));
+    ASSERT_GT(fraction<Real>(before), static_cast<Real>(0.9999));
     ASSERT_LT(fraction<Real>(before), Real{1});
   }
 }
@@ -197,7 +210,8 @@ TYPED_TEST(PhaseOf, AnyPhaseFindsItsPlaceToTheLastDigitTheScalarCanUse) {
     if (got.degree < 719) {
       ASSERT_LT(units & kept, first_unit_of_part(got.degree + 1, 720)) << random.trace(draw);
     }
-    // `into` and `rest` are the way from the border in 2^-64 deg: 720 of them to a unit, and the border lies up to one unit before the first.
+    // `into` and `rest` are the way from the border in 2^-64 deg: 720 of them to a unit, and the border lies up to one
+    // unit before the first.
     const auto since_border = static_cast<long double>((units & kept) - units_of_part(got.degree, 720)) * 720;
     const auto way = static_cast<long double>((std::uint64_t{got.into} << 32) + got.rest);
     ASSERT_LE(std::fabs(since_border - way), 720.0L) << random.trace(draw);
@@ -229,7 +243,8 @@ TYPED_TEST(PhaseOf, FractionRisesFromZeroAndStaysBelowOne) {
   Random random;
   Real last{0};
   std::uint64_t way = 0;
-  for (int draw = 0; way < kLastUnit - (kLastUnit >> 14); way += random.bits() >> 14, ++draw) {  // 2^-15 of a degree at a time
+  for (int draw = 0; way < kLastUnit - (kLastUnit >> 14);
+       way += random.bits() >> 14, ++draw) {  // 2^-15 of a degree at a time
     const Real got = fraction<Real>({0, static_cast<std::uint32_t>(way >> 32), static_cast<std::uint32_t>(way)});
     const long double exact = static_cast<long double>(way) * 0x1p-64L;
     ASSERT_GE(got, last) << random.trace(draw);

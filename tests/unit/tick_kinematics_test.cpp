@@ -1,5 +1,5 @@
-// Kinematics in the tick against the exact mechanism: at a million random phases and on both sides of every segment border, through the
-// engine as a user runs it and through the tables themselves.
+// Kinematics in the tick against the exact mechanism: at a million random phases and on both sides of every segment
+// border, through the engine as a user runs it and through the tables themselves.
 //
 // Oracle: support/tick_oracle.hpp, long double and the C library.
 #include <gtest/gtest.h>
@@ -31,8 +31,8 @@ constexpr double kTick_s = 100e-6;
 using ByPhase = Asking<kKinematics | kRodMotion, PressureGiven::none, false, CrankGiven::phase, 1>;
 using BySpeed = Asking<kKinematics | kRodMotion, PressureGiven::none, false, CrankGiven::speed, 1>;
 
-/// Corners and middle of the promised range, lambda 0.15 to 0.45 and offset up to 0.2 r to either side, with radii that are no round numbers:
-/// where r stands between two powers of two decides what float's rounding is worth.
+/// Corners and middle of the promised range, lambda 0.15 to 0.45 and offset up to 0.2 r to either side, with radii that
+/// are no round numbers: where r stands between two powers of two decides what float's rounding is worth.
 std::vector<Crank> mechanisms(Random& random) {
   std::vector<Crank> cranks;
   for (const double lambda : {0.15, 0.21, 0.2738, 0.32, 0.45}) {
@@ -58,15 +58,22 @@ void keep_largest(Six& worst, const Six& now) {
   worst.rod_speed = std::max(worst.rod_speed, now.rod_speed);
   worst.rod_acceleration = std::max(worst.rod_acceleration, now.rod_acceleration);
 }
+double apart(double a, double b) { return std::fabs(a - b); }
 double apart(long double a, long double b) { return static_cast<double>(std::fabs(a - b)); }
 Six apart(const Six& p, const Six& q) {
-  return {apart(p.x, q.x),         apart(p.v, q.v),                 apart(p.a, q.a),
-          apart(p.angle, q.angle), apart(p.rod_speed, q.rod_speed), apart(p.rod_acceleration, q.rod_acceleration)};
+  return {apart(p.x, q.x),
+          apart(p.v, q.v),
+          apart(p.a, q.a),
+          apart(p.angle, q.angle),
+          apart(p.rod_speed, q.rod_speed),
+          apart(p.rod_acceleration, q.rod_acceleration)};
 }
 template <class Real>
 void print(const char* what, const Six& s) {
-  std::printf("[ measured ] %s, %s: x %.3g r, v %.3g r w, a %.3g r w^2; rod angle %.3g rad, speed %.3g w, acceleration %.3g w^2\n",
-              sizeof(Real) == 4 ? "float" : "double", what, s.x, s.v, s.a, s.angle, s.rod_speed, s.rod_acceleration);
+  std::printf(
+      "[ measured ] %s, %s: x %.3g r, v %.3g r w, a %.3g r w^2; rod angle %.3g rad, speed %.3g w, acceleration %.3g "
+      "w^2\n",
+      sizeof(Real) == 4 ? "float" : "double", what, s.x, s.v, s.a, s.angle, s.rod_speed, s.rod_acceleration);
 }
 
 /// What an engine answered, freed of its size and speed.
@@ -76,15 +83,21 @@ Six answer(const Engine& engine, const Crank& crank) {
   const auto number = [](auto real) { return static_cast<double>(real); };
   const double r = crank.crank_radius_m;
   const double w = number(engine.state().speed_rad_s);
-  return {number(out.displacement_m[0]) / r,     number(out.velocity_m_s[0]) / (r * w),    number(out.acceleration_m_s2[0]) / (r * w * w),
-          number(out.rod_angle_rad[0]),          number(out.rod_speed_rad_s[0]) / w,       number(out.rod_acceleration_rad_s2[0]) / (w * w)};
+  return {number(out.displacement_m[0]) / r,
+          number(out.velocity_m_s[0]) / (r * w),
+          number(out.acceleration_m_s2[0]) / (r * w * w),
+          number(out.rod_angle_rad[0]),
+          number(out.rod_speed_rad_s[0]) / w,
+          number(out.rod_acceleration_rad_s2[0]) / (w * w)};
 }
 
 Six oracle(const Crank& crank, Phase phase) {
-  const OraclePose p = oracle_pose(crank, static_cast<long double>(phase.units()) * (4 * kPi_ld / 18446744073709551616.0L));
+  const OraclePose p =
+      oracle_pose(crank, static_cast<long double>(phase.units()) * (4 * kPi_ld / 18446744073709551616.0L));
   const double r = crank.crank_radius_m;
-  return {static_cast<double>(p.displacement_m) / r, static_cast<double>(p.slope_m) / r,   static_cast<double>(p.acceleration_m) / r,
-          static_cast<double>(p.rod_angle_rad),      static_cast<double>(p.rod_slope),     static_cast<double>(p.rod_curvature)};
+  return {static_cast<double>(p.displacement_m) / r, static_cast<double>(p.slope_m) / r,
+          static_cast<double>(p.acceleration_m) / r, static_cast<double>(p.rod_angle_rad),
+          static_cast<double>(p.rod_slope),          static_cast<double>(p.rod_curvature)};
 }
 
 template <class Real>
@@ -94,7 +107,8 @@ EngineDefinition engine_with(const Crank& crank) {
   return engine;
 }
 
-/// Measures the angle before and at `phase`: the second answer has a known speed. The step before is 0.03 to 28 deg, either way.
+/// Measures the angle before and at `phase`: the second answer has a known speed. The step before is 0.03 to 28 deg,
+/// either way.
 template <class Engine>
 void arrive(Engine& engine, Phase phase, Random& random) {
   const double before = random.between(0.00004, 0.04);
@@ -124,8 +138,8 @@ TYPED_TEST(TickKinematics, AtAMillionRandomPhasesOfTwentyMechanismsAreExactToThe
       arrive(run.engine, phase, random);
       const Six error = apart(answer(run.engine, crank), oracle(crank, phase));
       ASSERT_LE(error.largest(), kTolerance<Real>)
-          << random.trace(draw) << ", lambda " << crank.rod_ratio() << ", e/r " << crank.pin_offset_m / crank.crank_radius_m << " at "
-          << static_cast<double>(deg_of(phase)) << " deg";
+          << random.trace(draw) << ", lambda " << crank.rod_ratio() << ", e/r "
+          << crank.pin_offset_m / crank.crank_radius_m << " at " << static_cast<double>(deg_of(phase)) << " deg";
       keep_largest(worst, error);
     }
   }
@@ -159,7 +173,8 @@ TYPED_TEST(TickKinematics, OnBothSidesOfEveryBorderAreExactAndWithoutAStep) {
             << crank.pin_offset_m / crank.crank_radius_m << ", unit " << k << " of degree " << degree;
         keep_largest(worst, error);
         if (k > -1) {
-          ASSERT_LE(apart(now, last).largest(), kTolerance<Real>) << "a step at degree " << degree << ", lambda " << crank.rod_ratio();
+          ASSERT_LE(apart(now, last).largest(), kTolerance<Real>)
+              << "a step at degree " << degree << ", lambda " << crank.rod_ratio();
           keep_largest(step, apart(now, last));
         }
         last = now;
@@ -187,7 +202,8 @@ TYPED_TEST(TickKinematics, GoAroundWithoutAStepAt360And720InSmallTicksEitherWay)
         const Six now = answer(run.engine, crank);
         // In a tick of 3e-6 rad nothing moves by more than 3e-6 times the largest slope, jerk 1 + 4 lambda.
         const double moves = 3e-6 * (1 + 4 * crank.rod_ratio()) * 1.5;
-        ASSERT_LE(apart(now, last).largest(), moves + kTolerance<Real>) << "tick " << tick << " around " << static_cast<double>(border_deg);
+        ASSERT_LE(apart(now, last).largest(), moves + kTolerance<Real>)
+            << "tick " << tick << " around " << static_cast<double>(border_deg);
         last = now;
       }
     }
@@ -198,36 +214,42 @@ TYPED_TEST(TickKinematics, TablesReadByHandHoldThePromiseForEveryCurve) {
   using Real = TypeParam;
   Random random;
   FullTables<Real> tables;
-  double displacement = 0, slope = 0, acceleration = 0, tilt = 0, radial = 0, angle = 0, rod_slope = 0, curvature = 0, inertia = 0;
+  double displacement = 0, slope = 0, acceleration = 0, tilt = 0, radial = 0, angle = 0, rod_slope = 0, curvature = 0,
+         inertia = 0;
   for (const Crank& crank : mechanisms(random)) {
     const EngineDefinition engine = engine_with<Real>(crank);
     ASSERT_TRUE(tables.build(engine, kTick_s).ok());
     const Sections<Real>& s = tables.sections();
-    const long double r = crank.crank_radius_m;
-    const long double mass_r2 = engine.masses.reciprocating_kg() * crank.crank_radius_m * crank.crank_radius_m;
+    const double r = crank.crank_radius_m;
+    const double mass_r2 = engine.masses.reciprocating_kg() * crank.crank_radius_m * crank.crank_radius_m;
     for (int i = 0; i < 20'000; ++i) {
       const Phase phase{random.bits()};
       const Cell cell = phase.cell<Real>();
       const std::uint32_t degree = cell.degree % 360;
       const Real u = fraction<Real>(cell);
-      const OraclePose want = oracle_pose(crank, static_cast<long double>(phase.units()) * (4 * kPi_ld / 18446744073709551616.0L));
+      const OraclePose want =
+          oracle_pose(crank, static_cast<long double>(phase.units()) * (4 * kPi_ld / 18446744073709551616.0L));
       const auto read = [&](const auto& curve) { return static_cast<long double>(value(curve.at[degree], u)); };
-      const auto read_slope = [&](const auto& curve) { return static_cast<long double>(value(curve.at[degree].slope, u)); };
+      const auto read_slope = [&](const auto& curve) {
+        return static_cast<long double>(value(curve.at[degree].slope, u));
+      };
       const auto read_integral = [&](const auto& curve) {
-        return static_cast<long double>(signed_value<Real>(curve.at[degree].base)) * static_cast<long double>(curve.quantum) +
+        return static_cast<long double>(signed_value<Real>(curve.at[degree].base)) *
+                   static_cast<long double>(curve.quantum) +
                static_cast<long double>(integral(curve.at[degree].slope, u, Real{0}));
       };
-      displacement = std::max(displacement, apart(read_integral(*s.stroke), want.displacement_m) / static_cast<double>(r));
-      slope = std::max(slope, apart(read_slope(*s.stroke), want.slope_m) / static_cast<double>(r));
-      acceleration = std::max(acceleration, apart(read(*s.acceleration), want.acceleration_m) / static_cast<double>(r));
+      displacement = std::max(displacement, apart(read_integral(*s.stroke), want.displacement_m) / r);
+      slope = std::max(slope, apart(read_slope(*s.stroke), want.slope_m) / r);
+      acceleration = std::max(acceleration, apart(read(*s.acceleration), want.acceleration_m) / r);
       tilt = std::max(tilt, apart(read(*s.rod_tilt), want.rod_tilt));
       radial = std::max(radial, apart(read(*s.radial), want.radial));
       angle = std::max(angle, apart(read_integral(*s.rod_angle), want.rod_angle_rad));
       rod_slope = std::max(rod_slope, apart(read_slope(*s.rod_angle), want.rod_slope));
       curvature = std::max(curvature, apart(read(*s.rod_curvature), want.rod_curvature));
-      const long double torque = -(engine.masses.reciprocating_kg() * want.slope_m * want.acceleration_m +
-                                   engine.masses.rod_inertia_correction_kg_m2 * want.rod_slope * want.rod_curvature);
-      inertia = std::max(inertia, apart(read_slope(*s.inertia_torque), torque) / static_cast<double>(mass_r2));
+      const long double torque =
+          -(wide(engine.masses.reciprocating_kg()) * want.slope_m * want.acceleration_m +
+            wide(engine.masses.rod_inertia_correction_kg_m2) * want.rod_slope * want.rod_curvature);
+      inertia = std::max(inertia, apart(read_slope(*s.inertia_torque), torque) / mass_r2);
     }
   }
   const double tolerance = kTolerance<Real>;
@@ -239,12 +261,16 @@ TYPED_TEST(TickKinematics, TablesReadByHandHoldThePromiseForEveryCurve) {
   EXPECT_LE(angle, tolerance) << random.trace(0);
   EXPECT_LE(rod_slope, tolerance) << random.trace(0);
   EXPECT_LE(curvature, tolerance) << random.trace(0);
-  // Piston speed times acceleration has harmonics up to the third where each has two: steeper, so its fit errs (3/2)^(degree + 1) as much.
+  // Piston speed times acceleration has harmonics up to the third where each has two: steeper, so its fit errs
+  // (3/2)^(degree + 1) as much.
   const double product = sizeof(Real) == 4 ? 3.4 : 5.1;
   EXPECT_LE(inertia, product * tolerance) << random.trace(0);
-  std::printf("[ measured ] %s, tables: x %.3g r, dx/da %.3g r, d2x/da2 %.3g r, tan b %.3g, radial %.3g, b %.3g, db/da %.3g, d2b/da2 %.3g, "
-              "inertia torque %.3g m r^2\n",
-              sizeof(Real) == 4 ? "float" : "double", displacement, slope, acceleration, tilt, radial, angle, rod_slope, curvature, inertia);
+  std::printf(
+      "[ measured ] %s, tables: x %.3g r, dx/da %.3g r, d2x/da2 %.3g r, tan b %.3g, radial %.3g, b %.3g, db/da %.3g, "
+      "d2b/da2 %.3g, "
+      "inertia torque %.3g m r^2\n",
+      sizeof(Real) == 4 ? "float" : "double", displacement, slope, acceleration, tilt, radial, angle, rod_slope,
+      curvature, inertia);
 }
 
 TYPED_TEST(TickKinematics, DisplacementNeverLeavesTheStroke) {
@@ -258,10 +284,10 @@ TYPED_TEST(TickKinematics, DisplacementNeverLeavesTheStroke) {
     const double l = crank.rod_length_m;
     const double e = crank.pin_offset_m;
     const double stroke = std::sqrt((l + r) * (l + r) - e * e) - std::sqrt((l - r) * (l - r) - e * e);
-    for (const double centre : {std::asin(e / (l + r)), static_cast<double>(kPi_ld) + std::asin(e / (l - r))}) {
+    for (const double centre : {std::asin(e / (l + r)), kPi + std::asin(e / (l - r))}) {
       for (int i = -200; i <= 200; ++i) {
         typename Engine<Real, ByPhase>::Input in;
-        in.crank = phase_at_deg(centre * 180 / static_cast<double>(kPi_ld) + i * 0.001L);
+        in.crank = phase_at_deg(wide(centre * 180 / kPi + i * 0.001));
         const double x = static_cast<double>(run.engine.step(in).displacement_m[0]);
         ASSERT_GE(x, -kTolerance<Real> * r);
         ASSERT_LE(x, stroke + kTolerance<Real> * r);

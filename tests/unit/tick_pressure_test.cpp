@@ -1,7 +1,8 @@
-// Measured pressure in the tick: a diesel's trace given at 0.1 deg, coarse and uneven tables, steps. Right to 0.05 bar, no overshoot between
-// given points, and the indicated work of the ticks right to 1e-4.
+// Measured pressure in the tick: a diesel's trace given at 0.1 deg, coarse and uneven tables, steps. Right to 0.05 bar,
+// no overshoot between given points, and the indicated work of the ticks right to 1e-4.
 //
-// Two references, apart from the library: the smooth function the rows were read off, and the straight line between given rows.
+// Two references, apart from the library: the smooth function the rows were read off, and the straight line between
+// given rows.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,14 +47,15 @@ double work_per_area(const Function& pressure_Pa) {
   const Crank crank = single_495().crank;
   const auto integrand = [&](int i) {
     const double deg = i * 0.01;
-    return pressure_Pa(deg) * static_cast<double>(oracle_pose(crank, deg * kPi_ld / 180).slope_m);
+    return pressure_Pa(deg) * static_cast<double>(oracle_pose_at_deg(crank, deg).slope_m);
   };
   double sum = 0;
   for (int i = 0; i < 36'000; ++i) sum += integrand(2 * i) + 4 * integrand(2 * i + 1) + integrand(2 * i + 2);
-  return sum * 0.02 / 6 * static_cast<double>(kPi_ld) / 180;
+  return sum * 0.02 / 6 * kPi / 180;
 }
 
-/// The tick's pressure all around the cycle, at angles that are on no grid, and at every 0.05 deg with a unit to either side.
+/// The tick's pressure all around the cycle, at angles that are on no grid, and at every 0.05 deg with a unit to either
+/// side.
 template <class Real, class S, class Visit>
 void visit_pressures(const FullTables<Real>& tables, const Visit& visit) {
   Running<Real, S> run(tables);
@@ -65,7 +67,8 @@ void visit_pressures(const FullTables<Real>& tables, const Visit& visit) {
   };
   for (int i = 0; i < 62'207; ++i) at(phase_at_deg(720.0L * i / 62'207));
   for (int i = 0; i < 14'400; ++i) {
-    for (const std::uint64_t off : {~std::uint64_t{0} << 32, ~std::uint64_t{0}, std::uint64_t{0}, std::uint64_t{1} << 32}) {
+    for (const std::uint64_t off :
+         {~std::uint64_t{0} << 32, ~std::uint64_t{0}, std::uint64_t{0}, std::uint64_t{1} << 32}) {
       at(phase_at_deg(i / 20.0L) + Phase{off});
     }
   }
@@ -91,7 +94,7 @@ template <class Real>
 class TickPressure : public ::testing::Test {};
 TYPED_TEST_SUITE(TickPressure, BothReals, RealName);
 
-// ---- a measured trace ------------------------------------------------------------------------------------------------------
+// ---- a measured trace -----------------------------------------------------------------------------------------------
 
 struct Trace {
   const char* name;
@@ -108,7 +111,8 @@ constexpr Trace kTraces[] = {
 TEST(MeasuredTrace, OfTheseTestsRisesAtElevenPointSixBarPerDegree) {
   const SmoothTrace trace;
   double steepest = 0;
-  for (double deg = -30; deg < 30; deg += 0.01) steepest = std::max(steepest, (trace(deg + 0.005) - trace(deg - 0.005)) / 0.01);
+  for (double deg = -30; deg < 30; deg += 0.01)
+    steepest = std::max(steepest, (trace(deg + 0.005) - trace(deg - 0.005)) / 0.01);
   EXPECT_NEAR(steepest, 11.6 * kBar, 0.1 * kBar);
 }
 
@@ -134,9 +138,11 @@ TYPED_TEST(TickPressure, OfATraceGivenAtATenthOfADegreeIsWithinATwentiethOfABarE
       });
       EXPECT_LE(from_smooth, kPromise_Pa + trace.noise_Pa) << trace.name << ", room for " << capacity;
       EXPECT_LE(from_linear, kPromise_Pa) << trace.name << ", room for " << capacity;
-      // No overshoot but for the tables' stated error, which is at most 1e-5 of the peak where there is room, and rounding of a float's pressure.
+      // No overshoot but for the tables' stated error, which is at most 1e-5 of the peak where there is room, and
+      // rounding of a float's pressure.
       const double rounding_Pa = sizeof(Real) == 4 ? 4 * 6e-8 * 90 * kBar : 1e-6;
-      EXPECT_LE(overshoot, 1.1 * tables.report().pressure_error_Pa + rounding_Pa) << trace.name << ", room for " << capacity;
+      EXPECT_LE(overshoot, 1.1 * tables.report().pressure_error_Pa + rounding_Pa)
+          << trace.name << ", room for " << capacity;
       if (trace.noise_Pa <= 0 || capacity == kFinestGrid) {
         EXPECT_LE(overshoot, 1.1e-5 * 90 * kBar + rounding_Pa) << trace.name;
       }
@@ -145,9 +151,11 @@ TYPED_TEST(TickPressure, OfATraceGivenAtATenthOfADegreeIsWithinATwentiethOfABarE
       }
       const double got = tick_work_per_area<Real, Pressures>(tables, 720);
       EXPECT_NEAR(got / want, 1, kImepPromise) << trace.name << ", room for " << capacity;
-      std::printf("[ measured ] %s, %s, room for %d: %d segments, from smooth %.2g bar, from straight lines %.2g bar, overshoot %.2g bar, IMEP %.2g\n",
-                  sizeof(Real) == 4 ? "float" : "double", trace.name, capacity, tables.report().gas_segments, from_smooth / kBar, from_linear / kBar,
-                  overshoot / kBar, got / want - 1);
+      std::printf(
+          "[ measured ] %s, %s, room for %d: %d segments, from smooth %.2g bar, from straight lines %.2g bar, "
+          "overshoot %.2g bar, IMEP %.2g\n",
+          sizeof(Real) == 4 ? "float" : "double", trace.name, capacity, tables.report().gas_segments,
+          from_smooth / kBar, from_linear / kBar, overshoot / kBar, got / want - 1);
     }
   }
 }
@@ -165,9 +173,11 @@ TYPED_TEST(TickPressure, TheReportedErrorIsTheErrorThereIs) {
     ASSERT_TRUE(tables.build(engine, 100e-6, capacity).ok());
     EXPECT_LE(tables.report().gas_segments, capacity);
     double worst = 0;
-    visit_pressures<Real, Pressures>(tables, [&](double deg, double pressure) { worst = std::max(worst, std::fabs(pressure - diagram.full_Pa(deg))); });
-    // Ten points in a segment find a polynomial's largest error to a few hundredths where the segment is 0.1 deg or less; a whole degree of the
-    // trace holds ten rows, and a maximum between two of ten points may be a third larger.
+    visit_pressures<Real, Pressures>(tables, [&](double deg, double pressure) {
+      worst = std::max(worst, std::fabs(pressure - diagram.full_Pa(deg)));
+    });
+    // Ten points in a segment find a polynomial's largest error to a few hundredths where the segment is 0.1 deg or
+    // less; a whole degree of the trace holds ten rows, and a maximum between two of ten points may be a third larger.
     const double missed = capacity == kFinestGrid ? 1.1 : 1.35;
     EXPECT_LE(worst, missed * tables.report().pressure_error_Pa + 4 * 6e-8 * 90 * kBar) << "room for " << capacity;
     // It speaks for the motored and the heat's pressure too, which are rougher.
@@ -189,7 +199,8 @@ TYPED_TEST(TickPressure, AtFullLoadOfASceneWithLoadIsTheSameTrace) {
       from_linear = std::max(from_linear, std::fabs(pressure - rows_around.linear_Pa(deg)));
     });
     EXPECT_LE(from_linear, kPromise_Pa) << "room for " << capacity;
-    EXPECT_NEAR((tick_work_per_area<Real, PressuresByLoad>(tables, 720)) / work_per_area(smooth), 1, kImepPromise) << "room for " << capacity;
+    EXPECT_NEAR((tick_work_per_area<Real, PressuresByLoad>(tables, 720)) / work_per_area(smooth), 1, kImepPromise)
+        << "room for " << capacity;
   }
 }
 
@@ -204,13 +215,15 @@ TYPED_TEST(TickPressure, OfRowsThatBeginAnywhereAndCloseTheirPeriodIsTheSame) {
     FullTables<Real> tables;
     ASSERT_TRUE(tables.build(engine_with(rows), 100e-6).ok());
     double worst = 0;
-    visit_pressures<Real, Pressures>(tables, [&](double deg, double pressure) { worst = std::max(worst, std::fabs(pressure - smooth(deg))); });
+    visit_pressures<Real, Pressures>(
+        tables, [&](double deg, double pressure) { worst = std::max(worst, std::fabs(pressure - smooth(deg))); });
     EXPECT_LE(worst, kPromise_Pa) << "first row at " << angles.front();
-    EXPECT_NEAR((tick_work_per_area<Real, Pressures>(tables, 720)) / work_per_area(smooth), 1, kImepPromise) << "first row at " << angles.front();
+    EXPECT_NEAR((tick_work_per_area<Real, Pressures>(tables, 720)) / work_per_area(smooth), 1, kImepPromise)
+        << "first row at " << angles.front();
   }
 }
 
-// ---- other tables ----------------------------------------------------------------------------------------------------------
+// ---- other tables ---------------------------------------------------------------------------------------------------
 
 /// Every value between the two rows around it, but for `allowed_Pa`; every row met to the same.
 template <class Real>
@@ -225,11 +238,13 @@ void expect_between_rows(const std::vector<DiagramPoint>& rows, double allowed_P
     const double over = std::max(pressure - around.highest_Pa(), around.lowest_Pa() - pressure);
     if (over > overshoot) overshoot = over, where = deg;
   });
-  EXPECT_LE(overshoot, allowed_Pa) << what << ", at " << where << " deg; stated error " << tables.report().pressure_error_Pa << " Pa";
+  EXPECT_LE(overshoot, allowed_Pa) << what << ", at " << where << " deg; stated error "
+                                   << tables.report().pressure_error_Pa << " Pa";
   Running<Real, Pressures> run(tables);
   typename Engine<Real, Pressures>::Input in;
   for (const DiagramPoint& row : rows) {
-    in.crank = phase_at_deg(static_cast<long double>(row.at) - 720 * std::floor(static_cast<long double>(row.at) / 720));
+    in.crank =
+        phase_at_deg(static_cast<long double>(row.at) - 720 * std::floor(static_cast<long double>(row.at) / 720));
     const auto pressure = static_cast<double>(run.engine.step(in).cylinder[0].pressure_Pa);
     ASSERT_NEAR(pressure, row.pressure_Pa, allowed_Pa) << what << ", row at " << row.at;
   }
@@ -242,7 +257,8 @@ TYPED_TEST(TickPressure, OfACoarseTableStaysBetweenItsRows) {
   using Real = TypeParam;
   const SmoothTrace smooth;
   expect_between_rows<Real>(rows_of(smooth, evenly_deg(720)), stated_error_Pa(90 * kBar), "1 deg");
-  expect_between_rows<Real>(rows_of(smooth, evenly_deg(360, 0.5)), stated_error_Pa(90 * kBar), "2 deg, beside the degrees");
+  expect_between_rows<Real>(rows_of(smooth, evenly_deg(360, 0.5)), stated_error_Pa(90 * kBar),
+                            "2 deg, beside the degrees");
   std::vector<double> twenty;  // 38 deg apart, the last one closes the period
   for (int i = 0; i < 20; ++i) twenty.push_back(720.0 * i / 19);
   expect_between_rows<Real>(rows_of(smooth, twenty), stated_error_Pa(90 * kBar), "20 rows");
@@ -256,7 +272,9 @@ TYPED_TEST(TickPressure, OfUnevenRowsOnNoGridStaysBetweenThem) {
   Random random;
   for (int draw = 0; draw < 3; ++draw) {
     std::vector<double> angles;
-    for (double at = random.between(-400, -300); angles.empty() || at < angles.front() + 719; at += random.between(0.3, 3)) angles.push_back(at);
+    for (double at = random.between(-400, -300); angles.empty() || at < angles.front() + 719;
+         at += random.between(0.3, 3))
+      angles.push_back(at);
     expect_between_rows<Real>(rows_of(smooth, angles), 2 * stated_error_Pa(90 * kBar), random.trace(draw));
   }
 }
@@ -269,7 +287,8 @@ TYPED_TEST(TickPressure, OfRandomRowsOnTheGridStaysBetweenThem) {
   // A cubic over 0.1 or 1 deg, as 20 parabolas in a degree: what the grid can do is its limit, and the table says so.
   for (const int n : {720, 7200}) {
     const std::vector<DiagramPoint> rows = rows_of(anything, evenly_deg(n));
-    expect_between_rows<Real>(rows, n == 720 ? 2e-4 * 100 * kBar : 0.02 * 100 * kBar, std::to_string(n) + " random rows, " + random.trace(n));
+    expect_between_rows<Real>(rows, n == 720 ? 2e-4 * 100 * kBar : 0.02 * 100 * kBar,
+                              std::to_string(n) + " random rows, " + random.trace(n));
   }
 }
 
@@ -307,11 +326,13 @@ TYPED_TEST(TickPressure, AStepNarrowerThanTheGridStaysWithinItsRange) {
   }
 }
 
-// ---- torque and work of steep pressures ------------------------------------------------------------------------------------
+// ---- torque and work of steep pressures -----------------------------------------------------------------------------
 
-/// Ticks of a quarter degree from `from_deg` on: each one's mean torque is the average of the torque at 200 places inside it.
+/// Ticks of a quarter degree from `from_deg` on: each one's mean torque is the average of the torque at 200 places
+/// inside it.
 template <class Real>
-void expect_mean_torque_within_ticks(const std::vector<DiagramPoint>& rows, long double from_deg, int ticks, double peak_Pa) {
+void expect_mean_torque_within_ticks(const std::vector<DiagramPoint>& rows, long double from_deg, int ticks,
+                                     double peak_Pa) {
   FullTables<Real> tables;
   ASSERT_TRUE(tables.build(engine_with(rows), 100e-6).ok());
   using BySpeed = Asking<kTorque | kMeanTorque, PressureGiven::by_table, false, CrankGiven::speed, 1>;
@@ -320,7 +341,7 @@ void expect_mean_torque_within_ticks(const std::vector<DiagramPoint>& rows, long
   Running<Real, ByPhase> probe(tables, phase_at_deg(from_deg));
   typename Engine<Real, BySpeed>::Input in;
   in.speed_rad_s = Real{43};  // 0.25 deg a tick; the masses' torque is below 10 Nm
-  const double scale = peak_Pa * static_cast<double>(kPi_ld) / 4 * 0.095 * 0.095 * 0.0575;
+  const double scale = peak_Pa * kPi / 4 * 0.095 * 0.095 * 0.0575;
   run.engine.step(in);
   for (int tick = 0; tick < ticks; ++tick) {
     const Phase from = run.engine.state().phase;
@@ -333,13 +354,15 @@ void expect_mean_torque_within_ticks(const std::vector<DiagramPoint>& rows, long
       sum += static_cast<double>(probe.engine.step(at).torque_Nm);
     }
     // 200 places see a parabola of 0.05 deg at 40: the sum is right to 1e-3 of its range.
-    ASSERT_NEAR(mean, sum / 200, 0.002 * scale) << "from " << static_cast<double>(deg_of(from)) << " deg, tick " << tick;
+    ASSERT_NEAR(mean, sum / 200, 0.002 * scale)
+        << "from " << static_cast<double>(deg_of(from)) << " deg, tick " << tick;
   }
 }
 
 TYPED_TEST(TickPressure, WorkIsCountedWithoutOverflowHoweverSteepTheTorque) {
   using Real = TypeParam;
-  // Late in a degree a steep parabola's continuation to the degree's start may be far larger than the cycle's work, which float counts in 32 bits.
+  // Late in a degree a steep parabola's continuation to the degree's start may be far larger than the cycle's work,
+  // which float counts in 32 bits.
   const auto step = [](double deg) { return deg < 75.85 || deg > 140 ? 1 * kBar : 500 * kBar; };
   expect_mean_torque_within_ticks<Real>(rows_of(step, evenly_deg(7200)), 70, 320, 500 * kBar);
   const auto spike = [](double deg) { return std::fabs(deg - 75.9) > 0.01 ? 1 * kBar : 500 * kBar; };
@@ -360,12 +383,15 @@ TYPED_TEST(TickPressure, TorqueFollowsASteepStep) {
   ASSERT_TRUE(tables.build(engine, 100e-6).ok());
   using ByPhase = Asking<kTorque, PressureGiven::by_table, false, CrankGiven::phase, 1>;
   Running<Real, ByPhase> run(tables, phase_at_deg(75));
-  const double area = static_cast<double>(kPi_ld) / 4 * 0.095 * 0.095;
+  const double area = kPi / 4 * 0.095 * 0.095;
   for (int i = 0; i < 2000; ++i) {
     const double deg = 75 + i * 0.001;
-    const double torque = static_cast<double>(run.engine.step(at_phase<Engine<Real, ByPhase>>(phase_at_deg(static_cast<long double>(deg)))).torque_Nm);
-    // p0 is 1 bar; the torque's parabola may miss the cubic between two rows by 0.012 of the step, as the pressure's does, and overshoot as much.
-    const double want = (diagram.full_Pa(deg) - 1 * kBar) * area * static_cast<double>(oracle_pose(engine.crank, deg * kPi_ld / 180).slope_m);
+    const double torque = static_cast<double>(
+        run.engine.step(at_phase<Engine<Real, ByPhase>>(phase_at_deg(static_cast<long double>(deg)))).torque_Nm);
+    // p0 is 1 bar; the torque's parabola may miss the cubic between two rows by 0.012 of the step, as the pressure's
+    // does, and overshoot as much.
+    const double want =
+        (diagram.full_Pa(deg) - 1 * kBar) * area * static_cast<double>(oracle_pose_at_deg(engine.crank, deg).slope_m);
     ASSERT_NEAR(torque, want, 0.013 * 499 * kBar * area * 0.0575) << "at " << deg << " deg";
   }
 }
@@ -387,8 +413,8 @@ TYPED_TEST(TickPressure, OfASynthesisedDiagramFollowsItWithinTheStatedError) {
   });
   // The exhaust valve opens with a kink, and combustion begins with one: on a border where they are whole degrees.
   EXPECT_LE(worst, 1.2e-5 * peak) << "at " << where << " deg";
-  std::printf("[ measured ] %s: synthesised diagram, %d segments, from the diagram %.2g bar of %.3g\n", sizeof(Real) == 4 ? "float" : "double",
-              tables.report().gas_segments, worst / kBar, peak / kBar);
+  std::printf("[ measured ] %s: synthesised diagram, %d segments, from the diagram %.2g bar of %.3g\n",
+              sizeof(Real) == 4 ? "float" : "double", tables.report().gas_segments, worst / kBar, peak / kBar);
 }
 
 }  // namespace

@@ -112,7 +112,8 @@ TEST_P(RockerOfThe125, HasRatiosFrom102To165) {
 }
 
 TEST_P(RockerOfThe125, HasDerivativesThatAgreeWithDifferences) {
-  // Five points h apart are off by h^4 / 30 times the fifth derivative, some 1e5 m, and by 1.5 / h times rounding (5e-18 m): 1e-14 m and 2e-13 m.
+  // Five points h apart are off by h^4 / 30 times the fifth derivative, by 5e-16 m and 7e-13 m here, and by 1.5 / h times rounding (a few 1e-18
+  // m): 2e-13 m.
   constexpr double h = 1.0 / 32768;
   const double peak_slope_m = 0.0144;
   const double peak_curvature_m = 0.0384;
@@ -263,19 +264,22 @@ TEST(ValveLiftRefusal, OfATriangleThatDoesNotReachTheBaseCircleNamesAnAngleThere
 }
 
 TEST(ValveLiftRefusal, OfATrainThatJamsNamesWhereTheNormalMeetsThePivot) {
-  // A small pad far out on a steep flank: J' = J -+ gamma leaves 0 to 180 deg.
+  // A pivot close to the cam: on the steep flank the contact's normal leans past it, and J' = J - gamma falls below 0.
   ValveLift lift;
   Rocker rocker = ohc_125_rocker(CamTurns::away_from_pivot);
-  rocker.pad_radius_m = 2e-3;
-  rocker.base_circle_m = 8e-3;
-  rocker.pivot_to_cam_m = 46e-3;
-  rocker.pivot_to_pad_m = 37e-3;
+  rocker.base_circle_m = 16.5e-3;
+  rocker.pad_radius_m = 12e-3;
+  rocker.pivot_to_pad_m = 42.4e-3;
+  rocker.pivot_to_cam_m = 14.3e-3;
   EXPECT_TRUE(refuses(lift.init(ohc_125_cam(), rocker), Reason::inconsistent, "rocker.pivot_to_cam"));
-  const double phi = lift.failed_at_deg() * kRad;
-  const double height = 10e-3 + printed_lift_m(phi);
-  const double R = std::hypot(height, printed_slope_m(phi));
-  const double J = std::acos((37e-3 * 37e-3 + R * R - 46e-3 * 46e-3) / (2 * 37e-3 * R));
-  EXPECT_LE(std::sin(J - std::atan(printed_slope_m(phi) / height)), 0);
+  const auto pressure_angle = [&](double phi) {
+    const double height = 28.5e-3 + printed_lift_m(phi);
+    const double R = std::hypot(height, printed_slope_m(phi));
+    return std::acos((42.4e-3 * 42.4e-3 + R * R - 14.3e-3 * 14.3e-3) / (2 * 42.4e-3 * R)) - std::atan(printed_slope_m(phi) / height);
+  };
+  const double worst = lift.failed_at_deg() * kRad;
+  EXPECT_LT(pressure_angle(worst), 0);
+  for (double phi = -1.29; phi < 1.29; phi += 0.001) EXPECT_GE(pressure_angle(phi), pressure_angle(worst) - 1e-9) << phi;
 }
 
 TEST(ValveLiftRefusal, OfAScrewThatCannotReachTheStemNamesIt) {
@@ -289,9 +293,7 @@ TEST(ValveLiftRefusal, OfAScrewThatCannotReachTheStemNamesIt) {
 TEST(ValveLiftRefusal, OfAScrewThatSwingsPastTheVerticalNamesFullLift) {
   ValveLift lift;
   Rocker rocker = ohc_125_rocker();
-  rocker.stem_above_pivot_m = -42e-3;  // psi_0 = -74 deg, and the rocker swings by 14
-  rocker.pivot_to_screw_m = 33.28e-3;
-  rocker.stem_above_pivot_m = -42.6e-3;
+  rocker.stem_above_pivot_m = -42.6e-3;  // psi_0 = -78 deg, and the rocker swings by 14
   EXPECT_TRUE(refuses(lift.init(ohc_125_cam(), rocker), Reason::inconsistent, "rocker.pivot_to_screw"));
   EXPECT_NEAR(lift.failed_at_deg(), 0, 0.01);
 }
@@ -306,11 +308,10 @@ TEST(ValveLiftRefusal, OfWhatIsNoDefinitionIsThatOfTheDefinition) {
   EXPECT_TRUE(refuses(lift.init(cam, ohc_125_rocker()), Reason::out_of_range, "cam.half_angle"));
 }
 
-TEST(ValveLiftRefusal, NeverHappensToATrainWhoseContactTurnsTheCamForward) {
-  // Whatever is accepted has a rising phi_r: the lift rises to full lift and falls again, without a step, and the ratio is above 0.
+TEST(RockerLift, OfAnyTrainThatIsAcceptedRisesAndFallsOnceWithoutAStep) {
   Random random;
   int accepted = 0;
-  for (int draw = 0; draw < 300; ++draw) {
+  for (int draw = 0; draw < 100; ++draw) {
     ValveLift lift;
     const Cam cam = support::random_cam(random);
     const Rocker rocker = support::random_rocker(random);
@@ -318,20 +319,17 @@ TEST(ValveLiftRefusal, NeverHappensToATrainWhoseContactTurnsTheCamForward) {
     ++accepted;
     const double width = lift.closes_rad() - lift.opens_rad();
     double before = -rocker.clearance_m;
-    double slope = 0;
     for (int i = 1; i < 400; ++i) {
       const double rad = lift.opens_rad() + width * i / 400;
       const LiftPose pose = lift.at(rad);
       const double rise = pose.lift_m - before;
-      // Trapezoid of the slopes at both ends; a steep flank's third derivative leaves some per cent of a step.
-      EXPECT_NEAR(rise, (slope + pose.per_rad_m) / 2 * width / 400, 0.02 * lift.largest_lift_m()) << random.trace(draw);
-      EXPECT_GE(rad < 0 ? rise : -rise, rad < 0 && rad + width / 400 > 0 ? -1e-9 : -1e-5 * width) << random.trace(draw);
+      EXPECT_LT(std::fabs(rise), 0.05 * lift.largest_lift_m()) << random.trace(draw);  // a 400th of the lobe
+      EXPECT_GE(pose.per_rad_m * (rad < 0 ? 1 : -1), -1e-17) << random.trace(draw) << ", " << rad << " rad";
       EXPECT_GT(pose.rocker_ratio, 0) << random.trace(draw);
       before = pose.lift_m;
-      slope = pose.per_rad_m;
     }
   }
-  EXPECT_GT(accepted, 30);
+  EXPECT_GT(accepted, 20);
 }
 
 }  // namespace

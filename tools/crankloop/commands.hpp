@@ -40,9 +40,12 @@ struct Command {
 extern const Command kBalance;
 extern const Command kForces;
 extern const Command kKinematics;
+extern const Command kLift;
 extern const Command kMasses;
+extern const Command kRedline;
 extern const Command kRun;
 extern const Command kTables;
 extern const Command kShow;
+extern const Command kValve;
 
 }  // namespace crankloop::program

@@ -85,11 +85,11 @@ EngineFile read_engine_file(const std::string& path, const std::vector<std::stri
 
 void EngineFile::build_definition() {
   for (const SectionValues& section : sections_) {
-    if (section.kind == "cam") check_cam(section, path_);
     const bool needs_crank = section.kind == "masses" || section.kind == "layout" || section.kind == "pressure";
     if (needs_crank && !has("crank"))
       throw InputError(path_, section.line, section.title() + " needs a [crank] section beside it");
   }
+  build_trains();
   if (!has("crank")) return;
 
   const auto accept = [this](const Status& status) {

@@ -20,6 +20,20 @@ namespace crankloop::program {
 
 inline constexpr std::size_t kMostEngineFileBytes = std::size_t{1} << 20;
 
+/// A valve train of the file: what it has of [cam NAME], [rocker NAME] and [valve NAME].
+struct TrainOfFile {
+  std::string name;
+  ValveTrain definition;  ///< parts that the file lacks are all zero
+  bool has_cam = false;
+  bool has_rocker = false;
+  bool has_valve = false;
+  std::vector<CamPoint> points;  ///< definition.cam points here
+  std::vector<int> point_lines;
+  std::string points_path;
+
+  [[nodiscard]] bool complete() const noexcept { return has_cam && has_rocker && has_valve; }
+};
+
 class EngineFile {
  public:
   EngineFile(EngineFile&&) = default;
@@ -35,6 +49,13 @@ class EngineFile {
   /// has("masses"), all is zero unless has("crank"). Pressure rows live as long as this object, also when it is moved.
   [[nodiscard]] const EngineDefinition& definition() const noexcept { return definition_; }
 
+  /// Every NAME of a [cam], [rocker] or [valve], in the order of the file, each part valid. The complete ones are definition().trains, in the
+  /// same order.
+  [[nodiscard]] const std::vector<TrainOfFile>& trains() const noexcept { return trains_; }
+
+  /// One of them; a name that the file does not have is the user's error.
+  [[nodiscard]] const TrainOfFile& train(const std::string& name) const;
+
   /// Titles are written as in the brackets: "masses", "cam intake".
   [[nodiscard]] bool has(const std::string& title) const noexcept { return find(title) != nullptr; }
   [[nodiscard]] const SectionValues& section(const std::string& title) const;
@@ -45,6 +66,9 @@ class EngineFile {
   /// The message for what core refused, at the line of the key that is to blame.
   [[nodiscard]] InputError explain(const Status& status) const;
 
+  /// Likewise for what was refused about a valve train; `cam_deg`: where on the cam, for what ValveLift finds.
+  [[nodiscard]] InputError explain(const Status& status, const TrainOfFile& train, double cam_deg = 0) const;
+
  private:
   friend EngineFile read_engine_file(const std::string&, const std::vector<std::string>&);
 
@@ -53,6 +77,9 @@ class EngineFile {
   [[nodiscard]] SectionValues* find(const std::string& title) noexcept;
   void build_definition();
   void read_diagram(const SectionValues& pressure);
+  void build_trains();
+  void read_cam(const SectionValues& cam, TrainOfFile& train);
+  [[nodiscard]] const TrainOfFile* train_to_blame(const Status& status) const;
 
   std::string path_;
   std::vector<SectionValues> sections_;
@@ -60,6 +87,7 @@ class EngineFile {
   std::vector<DiagramPoint> points_;
   std::vector<int> point_lines_;
   std::string points_path_;
+  std::vector<TrainOfFile> trains_;
 };
 
 /// The file that would say all of this with nothing left to defaults. Reading it gives the same definition, and showing that

@@ -3,20 +3,11 @@
 #include <string_view>
 
 #include "engine_file.hpp"
+#include "engine_file_parts.hpp"
 #include "words.hpp"
 
 namespace crankloop::program {
 namespace {
-
-/// "rod_length" for rod_length_mm: fields of a Status are named as keys without their unit.
-bool is_named(const Key& key, std::string_view field) {
-  std::string_view name = key.name;
-  const std::string_view unit = key.unit.name;
-  if (!unit.empty() && name.size() > unit.size() && name.substr(name.size() - unit.size()) == unit) {
-    name.remove_suffix(unit.size() + 1);
-  }
-  return name == field;
-}
 
 std::string rod_too_short(const SectionValues& crank, const Crank& built) {
   const std::string least = brief(crank.number("stroke_mm") / 2 + std::abs(crank.number("pin_offset_mm"))) + " mm";
@@ -36,8 +27,18 @@ std::string combustion_too_long(const SectionValues& pressure) {
 
 }  // namespace
 
+bool is_named(const Key& key, std::string_view field) {
+  std::string_view name = key.name;
+  const std::string_view unit = key.unit.name;
+  if (!unit.empty() && name.size() > unit.size() && name.substr(name.size() - unit.size()) == unit) {
+    name.remove_suffix(unit.size() + 1);
+  }
+  return name == field;
+}
+
 InputError EngineFile::explain(const Status& status) const {
   const std::vector<std::string_view> field = split(status.field, '.');
+  if (const TrainOfFile* train = train_to_blame(status)) return explain({status.reason, -1, status.field}, *train);
   const SectionValues* home = find(std::string(field[0]));
   if (home == nullptr || field.size() != 2)
     return InputError(path_ + ": " + status.field + " " + describe(status.reason));

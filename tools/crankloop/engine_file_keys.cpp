@@ -91,8 +91,8 @@ constexpr Key kKeys[] = {
 
     {"cam", "source", Kind::choice, kNoUnit, kAny, "polynomial|table", required, "", "", "", "what the lift comes from"},
     {"cam", "max_lift_mm", Kind::number, kMm, above(0).up_to(100), "", required, "", kPolynomial, "", "largest lift of the flat follower"},
-    {"cam", "half_angle_deg", Kind::number, kDeg, above(0).up_to(180), "", required, "", kPolynomial, "", "from the lobe's begin to full lift, cam angle"},
-    {"cam", "exponents", Kind::numbers, kNoUnit, from(2).up_to(200), "", required, "", kPolynomial, "", "rising; coefficients from y = y' = ... = 0 at the lobe's end"},
+    {"cam", "half_angle_deg", Kind::number, kDeg, from(10).up_to(180), "", required, "", kPolynomial, "", "from the lobe's begin to full lift, cam angle"},
+    {"cam", "exponents", Kind::numbers, kNoUnit, from(2).up_to(100), "", required, "", kPolynomial, "", "rising; coefficients from y = y' = ... = 0 at the lobe's end"},
     {"cam", "full_lift_at_crank_deg", Kind::number, kDeg, from(-720).up_to(720), "", required, "", "", "", "engine angle of full theoretical lift in cylinder 1's cycle"},
     {"cam", "phase_rate_deg_per_s", Kind::number, kDegPerS, from(0).up_to(100000), "", defaults, "0", "", "", "cam phaser's rate limit in crank degrees; 0: fixed cam"},
     {"cam", "file", Kind::path, kNoUnit, kAny, "", required, "", kCamTable, "", "CSV with header cam_deg,lift_mm; relative to the engine file"},

@@ -72,20 +72,4 @@ Pressure build_pressure(const SectionValues& values) {
   return pressure;
 }
 
-void check_cam(const SectionValues& values, const std::string& path) {
-  const Value* exponents = values.find("exponents");
-  if (exponents == nullptr) return;
-  const std::vector<double>& list = exponents->numbers;
-  if (list.size() < 2 || list.size() > 8) {
-    throw InputError(path, exponents->line,
-                     "exponents: " + std::to_string(list.size()) + " given; allowed: 2 to 8 of them, rising");
-  }
-  for (std::size_t i = 1; i < list.size(); ++i) {
-    if (list[i] <= list[i - 1]) {
-      throw InputError(path, exponents->line,
-                       "exponents: " + shortest(list[i]) + " follows " + shortest(list[i - 1]) + "; they must rise");
-    }
-  }
-}
-
 }  // namespace crankloop::program

@@ -24,8 +24,10 @@ namespace crankloop::program {
 /// All but the rows of a table source.
 [[nodiscard]] Pressure build_pressure(const SectionValues& values);
 
-/// Rules of [cam NAME] that need more than one key; core has no definition of a cam yet.
-void check_cam(const SectionValues& values, const std::string& path);
+/// All but the rows of a table.
+[[nodiscard]] Cam build_cam(const SectionValues& values, const std::string& path);
+[[nodiscard]] Rocker build_rocker(const SectionValues& values);
+[[nodiscard]] Valve build_valve(const SectionValues& values);
 
 /// The part of build_layout() that stands in engine_file_pins.cpp: positions along the crankshaft, and pins. Needs
 /// firing and bank angles.
@@ -38,6 +40,9 @@ void place_cylinders(SectionValues& values, double bore_mm, const std::string& p
 /// A list with as many entries as there are cylinders.
 [[nodiscard]] const std::vector<double>& one_per_cylinder(const SectionValues& values, std::string_view key,
                                                           const std::string& path);
+
+/// Whether a Status's field means this key: fields are named as keys without their unit, "rod_length" for rod_length_mm.
+[[nodiscard]] bool is_named(const Key& key, std::string_view field);
 
 /// "1 cylinder", "4 cylinders".
 [[nodiscard]] std::string cylinders_text(int count);

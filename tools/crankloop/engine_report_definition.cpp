@@ -200,7 +200,8 @@ report::Section accuracy_section(const ReportInput& input) {
   section.blocks.push_back(Paragraph{"Command: " + input.command_line});
   List list;
   list.items.push_back(
-      "Mean torque, power and IMEP come from the fixed-step loop that firmware would run: " + input.real + ", tick " +
+      (has_gas(input) ? std::string("Mean torque, power and IMEP come") : std::string("The close-up of torque comes")) +
+      " from the fixed-step loop that firmware would run: " + input.real + ", tick " +
       number_text(input.operation.tick_s * 1e6) + " \u00B5s (" + number_text(f.deg_per_tick) + " deg), " +
       std::to_string(f.ticks) + " ticks recorded over " + std::to_string(f.cycles) +
       (f.cycles == 1 ? " cycle" : " cycles") + " after " + std::to_string(f.settling_ticks) + " to settle. " +
@@ -208,7 +209,8 @@ report::Section accuracy_section(const ReportInput& input) {
   list.items.push_back("Curves, their extremes and the tables come from the same loop at a tick of " +
                        number_text(input.trace.tick_s * 1e6) + " \u00B5s, so that every " +
                        number_text(input.trace.spacing_deg) + " deg of a cycle are there to be drawn.");
-  list.items.push_back("Where a cycle is no whole number of ticks, the last tick counts by its part inside the cycle.");
+  list.items.push_back(
+      "Where a cycle is no whole number of ticks, the last one counts by the work of its part inside the cycle.");
   if (has_gas(input)) {
     list.items.push_back("Net IMEP: " + number_text(f.net_mep_Pa * kKilo, 7) + " kPa from the loop's torque, " +
                          number_text(input.summary.net_mep_Pa * kKilo, 7) + " kPa from the loop integral of p dV.");

@@ -88,6 +88,11 @@ std::string shortest(double value) {
   return {text.data(), end.ptr};
 }
 
+double millionths(double value) {
+  const std::string digits = shortest(value);
+  return digits.find('e') == std::string::npos ? parse_number(digits + "e-6").value : value / 1e6;
+}
+
 std::string brief(double value) { return rounded(value, 6); }
 std::string significant(double value) { return rounded(value, 12); }
 std::string significant(float value) { return rounded(value, 9); }

@@ -37,6 +37,14 @@ void require_ticks(double ticks, const Operation& operation) {
                    " are allowed: take a longer --tick-us, fewer --cycles or a higher --rpm");
 }
 
+/// Integral over the first part (0 to 1) of a tick, of the parabola that has the tick's torque at both ends and its
+/// mean.
+double part_of_tick(double start_Nm, double end_Nm, double mean_Nm, double part) {
+  const double bulge_Nm = 6 * (mean_Nm - (start_Nm + end_Nm) / 2);  // torque = line + bulge u (1 - u)
+  const double squared = part * part;
+  return start_Nm * (part - squared / 2) + end_Nm * squared / 2 + bulge_Nm * (squared / 2 - squared * part / 3);
+}
+
 }  // namespace
 
 template <class Real>
@@ -103,11 +111,16 @@ RunFigures run_cycles(FixedStepLoop<Real>& loop, const EngineDefinition& definit
   f.tables = loop.tables();
   const double last_part = span - static_cast<double>(f.ticks - 1);
   double torque_sum_Nm = 0;
+  auto torque_before_Nm = static_cast<double>(loop.output().torque_Nm);
   for (std::uint64_t tick = 1; tick <= f.ticks; ++tick) {
     const WholeOutput<Real>& out = loop.step();
     const double engine_deg = loop.crank_deg();
-    torque_sum_Nm += static_cast<double>(out.mean_torque_Nm) * (tick == f.ticks ? last_part : 1);
-    f.torque.take(static_cast<double>(out.torque_Nm), engine_deg);
+    const auto torque_Nm = static_cast<double>(out.torque_Nm);
+    const auto mean_torque_Nm = static_cast<double>(out.mean_torque_Nm);
+    torque_sum_Nm +=
+        tick < f.ticks ? mean_torque_Nm : part_of_tick(torque_before_Nm, torque_Nm, mean_torque_Nm, last_part);
+    torque_before_Nm = torque_Nm;
+    f.torque.take(torque_Nm, engine_deg);
     for (std::size_t k = 0; k < cylinders; ++k) {
       const double from_firing_deg = engine_deg - layout.firing_deg[k];
       const double own_deg = from_firing_deg < 0 ? from_firing_deg + 720 : from_firing_deg;

@@ -107,9 +107,9 @@ using OnTick = std::function<void(std::uint64_t tick, double crank_deg, const Wh
 
 /// Runs `cycles` cycles from where the loop stands and gathers the figures.
 ///
-/// A cycle is in general no whole number of ticks. The last tick then reaches beyond the last cycle; for the mean
-/// torque it counts by its part inside, as if its work were spread evenly over it. Peaks are those of the ticks: what
-/// lies between two is not seen. Throws UsageError where the run would take more than kMostTicks.
+/// A cycle is in general no whole number of ticks. The last tick then reaches beyond the last cycle; the work of its
+/// part inside is that of the parabola through the torques at both its ends with its mean torque. Peaks are those of
+/// the ticks: what lies between two is not seen. Throws UsageError where the run would take more than kMostTicks.
 template <class Real>
 RunFigures run_cycles(FixedStepLoop<Real>& loop, const EngineDefinition& definition, const Operation& operation,
                       int cycles, const OnTick<Real>& on_tick = {});

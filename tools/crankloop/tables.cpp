@@ -10,6 +10,7 @@
 #include "engine_file.hpp"
 #include "error.hpp"
 #include "output.hpp"
+#include "valve_tick_limit.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -27,10 +28,15 @@ struct AllSections {
   std::vector<Segment<Real>> pressure_full, pressure_motored, pressure_heat;
   GasTorque<Real> gas_torque_full{}, gas_torque_motored{}, gas_torque_heat{};
   std::vector<IntegratedSegment<Real>> gas_full, gas_motored, gas_heat;
+  LiftCurve<Real> lift_curves[kMaxTrains] = {};
+  std::vector<LiftSegment<Real>> lift_segments;
+  std::vector<Segment<Real>> rocker_ratios;
+  ValveMotion<Real> valve_motions[kMaxTrains] = {};
 
   AllSections()
       : pressure_full(kMostGasSegments), pressure_motored(kMostGasSegments), pressure_heat(kMostGasSegments), gas_full(kMostGasSegments),
-        gas_motored(kMostGasSegments), gas_heat(kMostGasSegments) {}
+        gas_motored(kMostGasSegments), gas_heat(kMostGasSegments), lift_segments(kMaxTrains * kDegreesPerTurn),
+        rocker_ratios(kMaxTrains * kDegreesPerTurn) {}
 
   TableTargets<Real> targets() {
     TableTargets<Real> t;
@@ -40,6 +46,8 @@ struct AllSections {
     t.pressure_full = pressure_full.data(), t.pressure_motored = pressure_motored.data(), t.pressure_heat = pressure_heat.data();
     t.gas_torque_full = &gas_torque_full, t.gas_torque_motored = &gas_torque_motored, t.gas_torque_heat = &gas_torque_heat;
     t.gas_full = gas_full.data(), t.gas_motored = gas_motored.data(), t.gas_heat = gas_heat.data();
+    t.lift_curves = lift_curves, t.lift_segments = lift_segments.data(), t.rocker_ratios = rocker_ratios.data();
+    t.valve_motions = valve_motions;
     return t;
   }
 };
@@ -73,6 +81,32 @@ class Printer {
   template <class Real>
   void print(const Turning<Real>& t) {
     list(t.up_cos, t.up_sin, t.lateral_cos, t.lateral_sin, t.pitch_cos, t.pitch_sin, t.yaw_cos, t.yaw_sin);
+  }
+  template <class Real>
+  void print(const LiftSegment<Real>& s) { array(s.c); }
+  // By structured binding, so that a member that is added cannot be forgotten here: it does not compile.
+  template <class Real>
+  void print(const ValveBody<Real>& body) {
+    const auto& [mass, train, train_damping, seat, seat_damping, spring, guide, preload, sink, head_area, rocker] = body;
+    list(mass, train, train_damping, seat, seat_damping, spring, guide, preload, sink, head_area, rocker);
+  }
+  template <class Real>
+  void print(const StepMatrix<Real>& m) {
+    const auto row = [this](const typename StepMatrix<Real>::Row& r) {
+      const auto& [y, v, force, lift] = r;
+      list(y, v, force, lift);
+    };
+    braced([&] {
+      row(m.y);
+      text(", ");
+      row(m.v);
+    });
+  }
+  template <class Real>
+  void print(const ValveMotion<Real>& m) {
+    const auto& [body, steps, fine_per_step, per_steps, per_fine, step, fine, widest, rest, rest_speed, quiet, per_seat_rate, whole_matrix,
+                 fine_matrix] = m;
+    list(body, steps, fine_per_step, per_steps, per_fine, step, fine, widest, rest, rest_speed, quiet, per_seat_rate, whole_matrix, fine_matrix);
   }
   template <class Real>
   void print(const Curve<Real>& c) { braced([&] { rows(c.at, kDegreesPerTurn); }); }
@@ -126,6 +160,48 @@ void section(Printer& p, const std::string& type, const std::string& name, const
   p.text("\nconstexpr " + type + " " + name + " = ");
   print_value();
   p.text(";\n");
+}
+
+/// Lift and motion of the valve trains. Segments of all trains stand in one object, one train after the other, without the room that
+/// tabulate leaves between them.
+template <class Real>
+void print_trains(Printer& p, const AllSections<Real>& s, const std::string& of_real) {
+  const auto segments = [&](const std::string& type, const char* name, const auto& all) {
+    section(p, type + of_real, std::string(name) + "[]", [&] {
+      p.text("{\n");
+      for (std::uint32_t t = 0; t < s.drive.trains; ++t) {
+        for (std::uint32_t i = 0; i < s.lift_curves[t].segments; ++i) {
+          p.text("  ");
+          p.print(all[t * std::size_t{kDegreesPerTurn} + i]);
+          p.text(",\n");
+        }
+      }
+      p.text("}");
+    });
+  };
+  segments("crankloop::LiftSegment", "lift_segments", s.lift_segments);
+  segments("crankloop::Segment", "rocker_ratios", s.rocker_ratios);
+  section(p, "crankloop::LiftCurve" + of_real, "lift_curves[]", [&] {
+    p.text("{\n");
+    std::uint32_t first = 0;
+    for (std::uint32_t t = 0; t < s.drive.trains; ++t) {
+      const auto& [at, rocker_ratio, opens, most_phase_per_tick, count, outside] = s.lift_curves[t];
+      p.text("  {lift_segments + " + std::to_string(first) + ", rocker_ratios + " + std::to_string(first) + ", ");
+      p.number(opens);
+      p.text(", ");
+      p.number(most_phase_per_tick);
+      p.text(", ");
+      p.number(count);
+      p.text(", ");
+      p.number(outside);
+      p.text("},\n");
+      first += count;
+      static_cast<void>(at);
+      static_cast<void>(rocker_ratio);
+    }
+    p.text("}");
+  });
+  section(p, "crankloop::ValveMotion" + of_real, "valve_motions[]", [&] { p.rows(s.valve_motions, s.drive.trains); });
 }
 
 template <class Real>
@@ -182,6 +258,7 @@ void print_sections(Printer& p, const AllSections<Real>& s, const std::string& r
   torque("gas_torque_full", s.gas_torque_full, s.gas_full);
   torque("gas_torque_motored", s.gas_torque_motored, s.gas_motored);
   torque("gas_torque_heat", s.gas_torque_heat, s.gas_heat);
+  if (d.trains > 0) print_trains(p, s, of_real);
 
   p.text("\nconstexpr crankloop::Sections" + of_real + " sections = [] {\n  crankloop::Sections" + of_real + " s;\n");
   for (const char* name : {"drive", "body", "stroke", "acceleration", "rod_tilt", "radial", "rod_angle", "rod_curvature", "inertia_torque",
@@ -191,6 +268,7 @@ void print_sections(Printer& p, const AllSections<Real>& s, const std::string& r
   for (const char* name : {"pressure_full", "pressure_motored", "pressure_heat"}) {
     p.text(std::string("  s.") + name + " = " + name + ";\n");
   }
+  if (d.trains > 0) p.text("  s.lift_curves = lift_curves;\n  s.valve_motions = valve_motions;\n");
   p.text("  return s;\n}();\n");
 }
 
@@ -199,11 +277,16 @@ void print_header(Output& out, const EngineFile& engine, const Arguments& argume
   const std::string& real = arguments.text("--real");
   const auto sections = std::make_unique<AllSections<Real>>();
   TableReport report;
-  const Status status = tabulate(engine.definition(), {arguments.number("--tick-us") * 1e-6}, sections->targets(), &report);
-  if (!status.ok()) throw engine.explain(status);
+  const TickOptions options{millionths(arguments.number("--tick-us")),
+                            {arguments.text("--integrator") == "exponential" ? Integrator::exponential : Integrator::rk4,
+                             millionths(arguments.number("--accuracy-um"))}};
+  const Status status = tabulate(engine.definition(), options, sections->targets(), &report);
+  if (!status.ok()) throw explain_tabulate(engine, status, options.tick_s, options.valves);
   const std::string& name_space = arguments.text("--namespace");
   Printer p(out);
+  const bool has_valves = engine.definition().train_count > 0;
   p.text("// Tables of the engine \"" + engine.name() + "\" for a tick of " + shortest(arguments.number("--tick-us")) + " us, " + real +
+         (has_valves ? "; valves: " + arguments.text("--integrator") + ", " + shortest(arguments.number("--accuracy-um")) + " um" : "") +
          ".\n// Made by `crankloop tables`; do not edit. Each section is an object of its own: what a scene does not read is not linked.\n"
          "#pragma once\n\n#include <crankloop/tick/tables.hpp>\n\nnamespace " + name_space + " {\n");
   print_sections(p, *sections, real, static_cast<std::size_t>(report.gas_segments));
@@ -234,6 +317,8 @@ int run_tables(const Arguments& arguments) {
 constexpr Option kOptions[] = {
     number("--tick-us", "T", from(1).up_to(2000), "tick length in microseconds"),
     choice("--real", "float|double", "arithmetic of the tick", "float"),
+    choice("--integrator", "rk4|exponential", "of elastic valves", "rk4"),
+    number("--accuracy-um", "A", from(0.01).up_to(10), "class of valve lift error: sets the sub-steps", "0.1"),
     {"--namespace", Option::Kind::text, "NAME", "C++ namespace of the tables", "crankloop_tables"},
     text("--output", "F", "file for the header; else standard output"),
 };
@@ -242,7 +327,7 @@ constexpr Option kOptions[] = {
 
 const Command kTables{"tables",
                       "the tables as a C++ header, for firmware",
-                      "FILE --tick-us T [--real R] [--namespace NAME] [--output F]",
+                      "FILE --tick-us T [--real R] [--integrator I] [--accuracy-um A] [--namespace NAME] [--output F]",
                       "crankloop tables diesel_495.ini --tick-us 100 --real float > diesel_495_tables.hpp",
                       1,
                       kOptions,

@@ -83,7 +83,7 @@ Status validate(const Valve& valve) noexcept {
       positive(valve.valve_kg, "valve.valve", 100),
       not_negative(valve.spring_kg, "valve.spring", 100),
       not_negative(valve.rocker_inertia_kg_m2, "valve.rocker_inertia", 100),
-      not_negative(valve.spring_N_m, "valve.spring_N_per_mm", 1e9),
+      not_negative(valve.spring_N_m, "valve.spring_rate", 1e9),
       positive(valve.spring_preload_N, "valve.spring_preload", 1e6),
       positive(valve.train_N_m, "valve.train", 1e12),
       not_negative(valve.train_damping_ratio, "valve.train_damping_ratio", 10),

@@ -25,7 +25,7 @@ constexpr int kFewestSegments = 160;         // about one a degree: also a coars
 constexpr int kMostSegments = kMost + kBasis - 1;
 constexpr double kMarginDeg = 10;            // base circle to either side of the rows that rise, in which the lobe may begin
 constexpr double kWidestLobeDeg = 350;
-constexpr double kLeastStiffness = 1e-6;
+constexpr double kLeastStiffness = 0.1;      // per row in a segment: halves a wave of four segments, so no spike follows a single row
 constexpr double kMostStiffness = 1e9;
 
 class Smoothing {
@@ -36,6 +36,7 @@ class Smoothing {
   void gather() noexcept;
   [[nodiscard]] bool keeps_to_rows(double stiffness) noexcept;
   [[nodiscard]] double residual_m() const noexcept;
+  [[nodiscard]] double least_stiffness() const noexcept { return least_stiffness_; }
 
  private:
   [[nodiscard]] double knots(int row) const noexcept { return (cam_.points[row].cam_deg * kRadPerDeg - lobe_.first_rad) / lobe_.knot_rad; }
@@ -45,6 +46,7 @@ class Smoothing {
   const Cam& cam_;
   LobeSpline& lobe_;
   int weights_ = 0;
+  double least_stiffness_ = 0;
   double rows_[kMost][kBasis];    ///< normal equations: row i holds columns i to i + 5
   double right_[kMost];
   double factor_[kMost][kBasis];  ///< Cholesky factor, transposed
@@ -67,10 +69,11 @@ Status Smoothing::place() noexcept {
 
   double from = row[left].cam_deg - kMarginDeg;
   double to = row[right].cam_deg + kMarginDeg;
-  int segments = 0;
+  int rows = 0;
   for (int i = 0; i <= last; ++i) {
-    if (row[i].cam_deg >= from && row[i].cam_deg <= to) ++segments;
+    if (row[i].cam_deg >= from && row[i].cam_deg <= to) ++rows;
   }
+  int segments = rows;
   if (segments < kFewestSegments) segments = kFewestSegments;
   if (segments > kMostSegments) segments = kMostSegments;
   // Where the table ends, the base circle goes on: three more segments let the lobe begin there as softly as elsewhere.
@@ -79,6 +82,7 @@ Status Smoothing::place() noexcept {
   if (to > row[last].cam_deg + beyond) to = row[last].cam_deg + beyond;
   if (to - from > kWidestLobeDeg) return {Reason::out_of_range, -1, "cam.file"};
   weights_ = segments - (kBasis - 1);
+  least_stiffness_ = kLeastStiffness * rows / segments;
   lobe_.first_rad = from * kRadPerDeg;
   lobe_.knot_rad = (to - from) * kRadPerDeg / segments;
   return {};
@@ -172,7 +176,7 @@ Status smooth_cam(const Cam& cam, LobeSpline& lobe, double& residual_m) noexcept
   double low = kMostStiffness;
   double high = low;
   while (!smoothing.keeps_to_rows(low)) {
-    if (low < kLeastStiffness) return {Reason::no_solution, -1, "cam.smoothing"};
+    if (low < smoothing.least_stiffness()) return {Reason::no_solution, -1, "cam.smoothing"};
     high = low;
     low /= 4;
   }

@@ -16,7 +16,7 @@ using elementary::kPi;
 namespace {
 
 constexpr double kDegPerRad = 180 / kPi;
-constexpr int kScan = 1440;  // steps over the lobe; at most a quarter of a degree
+constexpr int kScan = 720;  // steps over the lobe; at most half a degree
 
 /// An angle reduced to [0, 2 pi); no number and one beyond 1e15 turns answer 0.
 [[nodiscard]] double into_turn(double rad) noexcept {
@@ -73,7 +73,7 @@ bool ValveLift::stays_positive(const Quantity& quantity, double& smallest) noexc
       where = i;
     }
   }
-  for (double apart = 0.5; apart > 1e-6; apart /= 2) {  // down to 2.5e-7 deg
+  for (double apart = 0.5; apart > 1e-6; apart /= 2) {  // down to 5e-7 deg
     const double places[] = {where - apart, where + apart};
     for (const double place : places) {
       const double value = place >= 0 && place <= kScan ? value_at(place) : smallest;

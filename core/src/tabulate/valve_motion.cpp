@@ -165,6 +165,11 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
   motion.widest_step_deg = kWidestStepDeg;
   motion.rest_m = 1e-9;
   motion.rest_m_s = motion.rest_m * seated_frequency_rad_s(body);
+  // A vibration of amplitude A on the seat presses with at least k_z (delta_0 - A) - b_z A w > 0 while A (1 + 2 zeta) < delta_0.
+  const double seat_rate = square_root((body.seat_N_m + body.spring_N_m) / body.mass_kg);
+  const double twice_ratio = body.seat_Ns_m / square_root(body.seat_N_m * body.mass_kg);
+  motion.per_seat_rate_s = 1 / seat_rate;
+  motion.quiet_m = 0.8 * body.seat_sink_m / (1 + twice_ratio);
   const int divisions = stepping.integrator == Integrator::exponential ? kExactDivisions : 1;
   for (std::uint32_t regime = 0; regime < 4; ++regime) {
     const auto over = [&](double d_s, int n) {
@@ -193,6 +198,8 @@ ValveMotion<float> rounded(const ValveMotion<double>& m) noexcept {
   f.widest_step_deg = real(m.widest_step_deg);
   f.rest_m = real(m.rest_m);
   f.rest_m_s = real(m.rest_m_s);
+  f.quiet_m = real(m.quiet_m);
+  f.per_seat_rate_s = real(m.per_seat_rate_s);
   for (int regime = 0; regime < 4; ++regime) {
     f.whole[regime] = rounded(m.whole[regime]);
     f.fine[regime] = rounded(m.fine[regime]);

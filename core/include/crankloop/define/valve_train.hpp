@@ -81,7 +81,8 @@ struct ValveTrain {
   Valve valve;
 };
 
-/// Field names "cam.*", "rocker.*", "valve.*", as in the engine file without unit. Ranges as the comments state; that the geometry
+/// Field names "cam.*", "rocker.*", "valve.*", as in the engine file without unit (valve.spring_rate is its
+/// spring_N_per_mm); `index` is the row or the exponent. Ranges as the comments state; that the geometry
 /// closes over the whole cam is checked where the lift is worked out.
 Status validate(const Cam& cam) noexcept;
 Status validate(const Rocker& rocker) noexcept;

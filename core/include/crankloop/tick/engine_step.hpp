@@ -79,9 +79,11 @@ struct Step {
       if constexpr (N::stroke) {
         const IntegratedSegment<Real>& s = tables.stroke->at[degree];
         p.slope_m = value(s.slope, at.u);
-        const Integral<Real> x = integral_at(s, at.u, Real{0});
-        p.displacement_m = total(x, tables.stroke->quantum);
-        if constexpr (N::input_pressure) stroke[m] = x;
+        if constexpr (N::displacement) {
+          const Integral<Real> x = integral_at(s, at.u, Real{0});
+          p.displacement_m = total(x, tables.stroke->quantum);
+          if constexpr (S::mean_torque && N::input_pressure) stroke[m] = x;
+        }
       }
       if constexpr (N::acceleration) p.acceleration_m = value(tables.acceleration->at[degree], at.u);
       if constexpr (N::rod_tilt) {

@@ -79,6 +79,7 @@ struct Needs {
 
   static constexpr bool body = S::forces || (any_torque && input_pressure) || cylinder_pressure;
   static constexpr bool stroke = S::kinematics || S::forces || (any_torque && input_pressure);
+  static constexpr bool displacement = S::kinematics || S::forces || (S::mean_torque && input_pressure);
   static constexpr bool acceleration = S::kinematics || S::forces;
   static constexpr bool rod_tilt = S::forces;
   static constexpr bool rod_angle = S::rod_motion;

@@ -29,6 +29,8 @@ struct ValveMotion {
   Real widest_step_deg;         ///< cam degrees beyond which the lift over a whole step is no quintic any more
   Real rest_m;                  ///< nearer than this to its rest, and slower than rest_m_s, a closed valve sleeps
   Real rest_m_s;
+  Real quiet_m;                 ///< |y| + |v| / seat rate below this cannot lift a valve off its seat
+  Real per_seat_rate_s;         ///< 1 / frequency on the seat alone
   StepMatrix<Real> whole[4];    ///< per regime
   StepMatrix<Real> fine[4];
 };
@@ -58,6 +60,11 @@ template <class Real>
 
 namespace detail {
 
+template <class Real>
+[[nodiscard]] constexpr Real magnitude(Real x) noexcept {
+  return x < 0 ? -x : x;
+}
+
 /// The least of four numbers is above `bound`.
 template <class Real>
 [[nodiscard]] constexpr bool all_above(const Real (&x)[4], Real bound) noexcept {
@@ -79,12 +86,12 @@ constexpr void bezier(Real from, Real slope_from, Real to, Real slope_to, Real (
 }
 
 /// True when no contact can change in a whole step from a to b, as far as the cubics through its ends tell, with a margin: gaps keep their
-/// side, the train's force keeps its sign. With the seat on, the seat's own vibration is faster than a whole step and nothing can be told.
+/// side, the train's force keeps its sign. The seat must be off: its own
+/// vibration is faster than a whole step, and nothing could be told.
 template <class Real>
 [[nodiscard]] constexpr bool far_from_change(const ValveBody<Real>& body, std::uint32_t regime, ValveState<Real> a, ValveState<Real> b,
                                              const LiftStep<Real>& lift, Real step_s) noexcept {
   constexpr Real kMargin_m = static_cast<Real>(2e-6);
-  if ((regime & kSeatOn) != 0) return false;
   Real y[4];
   bezier(a.lift_m, a.velocity_m_s * step_s, b.lift_m, b.velocity_m_s * step_s, y);
   if (!all_above(y, body.seat_sink_m + kMargin_m)) return false;
@@ -121,9 +128,7 @@ class ValveTick {
     const Cell start = LiftCurve<Real>::cell(cam.from);
     const Lift<Real> lift_at_start = curve_.read(start);
     lift_ = curve_.read(LiftCurve<Real>::cell(cam.to));
-    const Real turned_deg = cam.turned_deg < 0 ? -cam.turned_deg : cam.turned_deg;
-    const bool lash_stays_open =
-        lift_at_start.lift_m < -kLeastLash_m && lift_.lift_m < -kLeastLash_m && turned_deg < kLobeNotSkipped_deg;
+    const bool lash_stays_open = lash_open(lift_at_start, lift_) && detail::magnitude(cam.turned_deg) < kLobeNotSkipped_deg;
     if (valve.asleep != 0 && lash_stays_open) return;
     if (valve.asleep != 0) {  // wake where the gas holds the valve on its seat
       valve.state = {-gas_N_ / (motion_.body.seat_N_m + motion_.body.spring_N_m), Real{0}};
@@ -160,12 +165,24 @@ class ValveTick {
 
   [[nodiscard]] constexpr Real force_N(std::uint32_t regime) const noexcept { return constant_force_N(motion_.body, regime, gas_N_); }
 
+  [[nodiscard]] static constexpr bool lash_open(const Lift<Real>& from, const Lift<Real>& to) noexcept {
+    return from.lift_m < -kLeastLash_m && to.lift_m < -kLeastLash_m;
+  }
+
+  /// A valve that only trembles on its seat, with the lash open: its vibration dies away and cannot reach a contact.
+  [[nodiscard]] constexpr bool quiet(const ValveCondition<Real>& valve, const Place& from, const Place& to) const noexcept {
+    if (valve.regime != kSeatOn || !lash_open(from.lift, to.lift)) return false;
+    return detail::magnitude(valve.state.lift_m) + detail::magnitude(valve.state.velocity_m_s) * motion_.per_seat_rate_s < motion_.quiet_m;
+  }
+
   /// Takes a whole step if no contact can change in it.
   constexpr bool whole_step(ValveCondition<Real>& valve, const Place& from, const Place& to, Real step_deg) noexcept {
-    if (step_deg > motion_.widest_step_deg || step_deg < -motion_.widest_step_deg || (valve.regime & kSeatOn) != 0) return false;
+    if (detail::magnitude(step_deg) > motion_.widest_step_deg) return false;
+    const bool on_seat = (valve.regime & kSeatOn) != 0;
+    if (on_seat && !quiet(valve, from, to)) return false;
     const LiftStep<Real> lift = lift_step(from.lift, to.lift, step_deg);
     const ValveState<Real> after = stepped(motion_.whole[valve.regime], valve.state, lift, force_N(valve.regime), (valve.regime & kTrainOn) != 0);
-    if (!detail::far_from_change(motion_.body, valve.regime, valve.state, after, lift, motion_.step_s)) return false;
+    if (!on_seat && !detail::far_from_change(motion_.body, valve.regime, valve.state, after, lift, motion_.step_s)) return false;
     note(valve.state, after, lift, valve.regime, from.deg, to.deg, motion_.step_s);
     valve.state = after;
     return true;
@@ -239,9 +256,7 @@ class ValveTick {
     if (!lash_stays_open || valve.regime != kSeatOn) return;
     const Real off_m = valve.state.lift_m + gas_N_ / (motion_.body.seat_N_m + motion_.body.spring_N_m);
     const Real speed_m_s = valve.state.velocity_m_s;
-    const bool in_place = off_m < motion_.rest_m && off_m > -motion_.rest_m;
-    const bool at_rest = in_place && speed_m_s < motion_.rest_m_s && speed_m_s > -motion_.rest_m_s;
-    if (!at_rest) return;
+    if (detail::magnitude(off_m) >= motion_.rest_m || detail::magnitude(speed_m_s) >= motion_.rest_m_s) return;
     valve.state = {Real{0}, Real{0}};
     valve.asleep = 1;
   }

@@ -1,0 +1,183 @@
+// Elastic valves under test: the train of the 125 cm^3 engine, and an engine of one cylinder that runs it tick by tick.
+//
+// What belongs here: definitions, and a rig that runs them. What does not: what to expect (support/valve_reference.hpp).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include <crankloop/tabulate/tabulate.hpp>
+#include <crankloop/tick/engine_step.hpp>
+
+#include "support/test_engines.hpp"
+#include "support/test_scenes.hpp"
+#include "support/valve_reference.hpp"
+#include "support/valve_trains.hpp"
+
+namespace crankloop::valve_test {
+
+inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr double kRadPerDeg = kPi / 180;
+
+/// The valve of the 125 cm^3 engine [Li 2017], with what its print leaves open as docs/model.md assumes it.
+inline Valve ohc_125_valve() {
+  Valve valve;
+  valve.valve_kg = 0.033;
+  valve.spring_kg = 0.06;
+  valve.rocker_inertia_kg_m2 = 8.12e-6;
+  valve.spring_N_m = 40e3;
+  valve.spring_preload_N = 205.8;
+  valve.train_N_m = 1000 / 0.085e-3;
+  valve.train_damping_ratio = 0.10;
+  valve.guide_damping_ratio = 0.003;
+  valve.seat_N_m = 1e8;
+  valve.seat_damping_ratio = 0.10;
+  return valve;
+}
+
+/// Its whole train; full lift at 450 deg of the crank, half way through the intake stroke.
+inline ValveTrain ohc_125_train() {
+  ValveTrain train;
+  train.cam = support::ohc_125_cam();
+  train.cam.full_lift_deg = 450;
+  train.rocker = support::ohc_125_rocker();
+  train.valve = ohc_125_valve();
+  return train;
+}
+
+/// One cylinder with this train; its crank mechanism does not matter.
+inline EngineDefinition engine_with(const ValveTrain& train) {
+  EngineDefinition engine = tick_test::without_gas(tick_test::single_495());
+  engine.masses.rod_inertia_correction_kg_m2 = 0;
+  engine.train_count = 1;
+  engine.trains[0] = train;
+  return engine;
+}
+
+/// One valve, all that can be told of it.
+struct OneValve : Scene {
+  static constexpr ValveModel valves = ValveModel::elastic;
+  static constexpr bool valve_forces = true;
+  static constexpr bool valve_results = true;
+};
+struct OneValveWithPhaser : OneValve {
+  static constexpr bool cam_phasing = true;
+};
+struct OneValveOnMeasuredCrank : OneValve {
+  static constexpr CrankGiven crank = CrankGiven::phase;
+};
+struct OneValveWithGas : OneValve {
+  static constexpr PressureGiven pressure = PressureGiven::by_input;
+  static constexpr bool valve_gas = true;
+};
+
+inline double rad_s_of_rpm(double rpm) { return rpm * kPi / 30; }
+
+/// Cam angle of train 0 of cylinder 1 at an engine phase, from full lift, -180 to 180 deg.
+inline double cam_deg_at(Phase engine, double full_lift_deg, std::uint64_t cam_phase = 0) {
+  const auto of_cam = static_cast<std::int64_t>((engine - tick_test::phase_at_deg(full_lift_deg)).units() - cam_phase);
+  return static_cast<double>(static_cast<long double>(of_cam) * (360.0L / 18446744073709551616.0L));
+}
+
+/// An engine with one valve, its tables, its tick.
+template <class Real, class S = OneValve>
+class Rig {
+ public:
+  explicit Rig(const ValveTrain& train, const TickOptions& options, double start_deg = 0)
+      : Rig(engine_with(train), options, start_deg) {}
+
+  Rig(const EngineDefinition& definition, const TickOptions& options, double start_deg = 0)
+      : definition_{definition}, tick_s_{options.tick_s}, tables_{std::make_unique<TableStorage<Real, S>>()} {
+    status_ = tables_->build(definition_, options);
+    if (status_.ok()) status_ = engine_.init(tables_->tables(), tick_test::phase_at_deg(start_deg));
+    EXPECT_TRUE(status_.ok()) << status_.field << ": " << describe(status_.reason);
+  }
+
+  const auto& step(double speed_rad_s) {
+    typename Engine<Real, S>::Input in;
+    in.speed_rad_s = static_cast<Real>(speed_rad_s);
+    return engine_.step(in);
+  }
+
+  [[nodiscard]] Engine<Real, S>& engine() { return engine_; }
+  [[nodiscard]] const ValveMotion<Real>& motion() const { return tables_->tables().valve_motions[0]; }
+  [[nodiscard]] const LiftCurve<Real>& curve() const { return tables_->tables().lift_curves[0]; }
+  [[nodiscard]] const ValveCondition<Real>& valve() const { return engine_.state().valve[0][0]; }
+  [[nodiscard]] bool asleep() const { return valve().asleep != 0; }
+  [[nodiscard]] double tick_s() const { return tick_s_; }
+  [[nodiscard]] const ValveTrain& train() const { return definition_.trains[0]; }
+
+  /// Where the cam stands now, cam degrees from full lift, -180 to 180.
+  [[nodiscard]] double cam_deg() const {
+    std::uint64_t moved = 0;
+    if constexpr (S::cam_phasing) moved = engine_.state().cam_phase[0];
+    return cam_deg_at(engine_.state().phase, train().cam.full_lift_deg, moved);
+  }
+
+  /// Ticks of a whole cam turn at this speed, rounded up.
+  [[nodiscard]] int ticks_per_cycle(double speed_rad_s) const {
+    return static_cast<int>(4 * kPi / (speed_rad_s < 0 ? -speed_rad_s : speed_rad_s) / tick_s_) + 1;
+  }
+
+ private:
+  EngineDefinition definition_;
+  double tick_s_;
+  std::unique_ptr<TableStorage<Real, S>> tables_;
+  Engine<Real, S> engine_;
+  Status status_;
+};
+
+[[nodiscard]] inline ValveLift lift_of(const ValveTrain& train) {
+  ValveLift lift;
+  const Status status = lift.init(train.cam, train.rocker);
+  EXPECT_TRUE(status.ok()) << status.field << ": " << describe(status.reason);
+  return lift;
+}
+
+/// A rig and its reference, tick by tick, from the same start at rest.
+template <class Real, class S = OneValve>
+class SideBySide {
+ public:
+  SideBySide(const ValveTrain& train, const TickOptions& options, double start_deg = 0, double finer = 1)
+      : rig{train, options, start_deg},
+        lift{lift_of(train)},
+        reference{SingleMass(train.valve, train.rocker, lift.largest_lift_m()), TurnedCam(lift), finer},
+        cam_deg_{rig.cam_deg()} {}
+  SideBySide(const SideBySide&) = delete;
+  SideBySide& operator=(const SideBySide&) = delete;
+
+  /// Both advance by a tick; answers |lift - the reference's| in m.
+  double step(double speed_rad_s) {
+    rig.step(speed_rad_s);
+    return follow();
+  }
+
+  /// The reference catches up with the rig, whose cam turned evenly over the last tick.
+  double follow() {
+    double turned = rig.cam_deg() - cam_deg_;
+    turned -= 360 * std::floor(turned / 360 + 0.5);
+    reference.advance(rig.tick_s(), cam_deg_, cam_deg_ + turned);
+    cam_deg_ = rig.cam_deg();
+    return std::fabs(static_cast<double>(rig.engine().output().valve[0][0].lift_m) - reference.y);
+  }
+
+  /// The largest difference over this many ticks at constant speed.
+  double worst_over(int ticks, double speed_rad_s) {
+    double worst = 0;
+    for (int i = 0; i < ticks; ++i) worst = std::max(worst, step(speed_rad_s));
+    return worst;
+  }
+
+  Rig<Real, S> rig;
+  ValveLift lift;
+  Reference reference;
+
+ private:
+  double cam_deg_;
+};
+
+}  // namespace crankloop::valve_test

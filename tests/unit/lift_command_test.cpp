@@ -1,0 +1,238 @@
+// `crankloop lift` and the valve trains of an engine file: the 125's table, measured cams, and what is said about trains that cannot work.
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <crankloop/tabulate/valve_lift.hpp>
+
+#include "crankloop/commands.hpp"
+#include "crankloop/engine_file.hpp"
+#include "crankloop/error.hpp"
+#include "support/valve_trains.hpp"
+
+namespace crankloop::program {
+namespace {
+
+constexpr const char* kOhc125 = CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini";
+constexpr double kRad = 3.14159265358979323846 / 180;
+
+std::string contents(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// `text` with the line that starts with `start` replaced.
+std::string with_line(const std::string& text, const std::string& start, const std::string& line) {
+  std::istringstream lines(text);
+  std::string changed;
+  bool found = false;
+  for (std::string one; std::getline(lines, one);) {
+    const bool here = one.compare(0, start.size(), start) == 0;
+    found = found || here;
+    changed += (here ? line : one) + "\n";
+  }
+  EXPECT_TRUE(found) << start;
+  return changed;
+}
+
+class LiftCommand : public testing::Test {
+ protected:
+  LiftCommand() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-lift-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~LiftCommand() override { std::filesystem::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ + "/" + name, std::ios::binary) << text;
+    return folder_ + "/" + name;
+  }
+
+  /// The table's rows, and what is printed beside it in `summary_`.
+  std::vector<std::vector<double>> rows(const std::string& file, const std::vector<std::string>& options = {}) {
+    const std::string csv = folder_ + "/lift.csv";
+    std::vector<std::string> words = {file, "--train", "intake", "--csv", csv};
+    words.insert(words.end(), options.begin(), options.end());
+    testing::internal::CaptureStdout();
+    const int status = kLift.run(Arguments(kLift, words));
+    summary_ = testing::internal::GetCapturedStdout();
+    EXPECT_EQ(status, kSuccess);
+    std::ifstream table(csv);
+    std::string line;
+    std::getline(table, line);
+    EXPECT_EQ(line, "cam_deg,rocker_angle_deg,lift_mm,lift_mm_per_rad,lift_mm_per_rad2,rocker_ratio");
+    std::vector<std::vector<double>> rows;
+    while (std::getline(table, line)) {
+      std::istringstream cells(line);
+      rows.emplace_back();
+      for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(std::stod(cell));
+      EXPECT_EQ(rows.back().size(), 6u) << line;
+    }
+    return rows;
+  }
+
+  std::string refusal(const std::string& file, const std::string& train = "intake") const {
+    try {
+      static_cast<void>(kLift.run(Arguments(kLift, {file, "--train", train, "--csv", folder_ + "/none.csv"})));
+    } catch (const InputError& error) {
+      EXPECT_FALSE(std::filesystem::exists(folder_ + "/none.csv"));
+      return error.what();
+    }
+    return "";
+  }
+
+  /// The 125 with its cam measured to whole micrometres every degree.
+  std::string measured_125(const std::string& csv, double smoothing_um) const {
+    std::string text = with_line(contents(kOhc125), "source = polynomial", "source = table");
+    text = with_line(text, "max_lift_mm", "file = " + csv);
+    text = with_line(text, "half_angle_deg", "smoothing_um = " + std::to_string(smoothing_um));
+    return with_line(text, "exponents", "");
+  }
+  static std::string cam_rows(int from_deg, int to_deg) {
+    CamProfile cam;
+    EXPECT_TRUE(cam.init(support::ohc_125_cam()).ok());
+    std::string rows = "cam_deg,lift_mm\n";
+    for (int deg = from_deg; deg <= to_deg; ++deg) {
+      rows += std::to_string(deg) + "," + std::to_string(std::round(cam.at(deg * kRad).lift_m * 1e6) / 1e3) + "\n";
+    }
+    return rows;
+  }
+
+  std::string folder_;
+  std::string summary_;
+};
+
+TEST_F(LiftCommand, TabulatesTheTrainOfThe125OverATurnOfItsCam) {
+  const auto table = rows(kOhc125);
+  ValveLift lift;
+  ASSERT_TRUE(lift.init(support::ohc_125_cam(), support::ohc_125_rocker()).ok());
+  ASSERT_EQ(table.size(), 361u);
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const std::vector<double>& row = table[i];
+    EXPECT_EQ(row[0], static_cast<double>(i) - 180);
+    const LiftPose pose = lift.at(row[0] * kRad);
+    // 12 digits are printed; the file's millimetres are the definition's to one rounding.
+    EXPECT_NEAR(row[1], pose.rocker_rad / kRad, 1e-9);
+    EXPECT_NEAR(row[2], pose.lift_m > 0 ? pose.lift_m * 1e3 : 0, 1e-11);
+    EXPECT_NEAR(row[3], pose.per_rad_m * 1e3, 1e-10);
+    EXPECT_NEAR(row[4], pose.per_rad2_m * 1e3, 1e-9);
+    EXPECT_NEAR(row[5], pose.rocker_ratio, 1e-11);
+  }
+  EXPECT_NEAR(table[180][2], 7.815, 0.0005);
+  EXPECT_NE(summary_.find("max_theoretical_lift = 7.815"), std::string::npos) << summary_;
+  EXPECT_NE(summary_.find("smallest_cam_radius = 5.869"), std::string::npos) << summary_;
+  EXPECT_EQ(summary_.find("smoothing"), std::string::npos) << summary_;
+}
+
+TEST_F(LiftCommand, EndsAt180DegWhateverTheStep) {
+  const auto table = rows(kOhc125, {"--step-deg", "7"});
+  EXPECT_EQ(table.front()[0], -180);
+  EXPECT_EQ(table.back()[0], 180);
+  EXPECT_EQ(table.size(), 360u / 7 + 2);
+}
+
+TEST_F(LiftCommand, SmoothsAMeasuredCamAndTellsWhatItLeft) {
+  write("cam.csv", cam_rows(-180, 180));
+  const auto exact = rows(kOhc125);
+  const auto smooth = rows(write("measured.ini", measured_125("cam.csv", 1)));
+  ASSERT_EQ(smooth.size(), exact.size());
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    EXPECT_NEAR(smooth[i][2], exact[i][2], 1.65 * 1.5e-3 + 1e-3) << exact[i][0];  // the cam's 1.5 um by the ratio, and a little turn
+    EXPECT_NEAR(smooth[i][4], exact[i][4], 3) << exact[i][0];                     // of 45 mm/rad^2
+  }
+  EXPECT_NE(summary_.find("smoothing_residual = "), std::string::npos) << summary_;
+}
+
+TEST_F(LiftCommand, NamesTheTrainThatIsNotThere) {
+  EXPECT_NE(refusal(kOhc125, "intak").find("did you mean intake?"), std::string::npos) << refusal(kOhc125, "intak");
+  const std::string none = write("none.ini", "[engine]\nname = bare\nrated_rpm = 1000\n");
+  EXPECT_EQ(refusal(none), none + ": no valve train is called 'intake'; the file has none");
+  const std::string cam_alone =
+      write("cam_alone.ini",
+            "[cam intake]\nsource = polynomial\nmax_lift_mm = 6\nhalf_angle_deg = 74\nexponents = 2,10\nfull_lift_at_crank_deg = 470\n");
+  EXPECT_EQ(refusal(cam_alone), cam_alone + ": section [rocker intake] is missing; this command needs it");
+}
+
+TEST_F(LiftCommand, NamesTheLineAndTheAngleWhereTheGeometryCannotWork) {
+  const struct {
+    const char* start;
+    const char* line;
+    const char* says;
+  } cases[] = {
+      {"base_circle_mm", "base_circle_mm = 6.5", "base_circle_mm: the cam is undercut at 32.9"},
+      {"pivot_to_pad_mm", "pivot_to_pad_mm = 18", "pivot_to_pad_mm: pivot, pad and cam form no triangle at 0 deg"},
+      {"pivot_to_screw_mm", "pivot_to_screw_mm = 11.69", "pivot_to_screw_mm: the screw would stand more than 90 deg off the pivot's level at -74 deg"},
+      {"stem_above_pivot_mm", "stem_above_pivot_mm = -42.6", "pivot_to_screw_mm: the screw would stand more than 90 deg off the pivot's level at 0 deg"},
+      {"exponents", "exponents = 2,10,10.05,26", "exponents: 2,10,10.05,26 must rise by at least 0.1"},
+      {"half_angle_deg", "half_angle_deg = 7", "half_angle_deg: 7 is out of range; allowed: 10 to 180 deg"},
+  };
+  for (const auto& one : cases) {
+    const std::string file = write("bad.ini", with_line(contents(kOhc125), one.start, one.line));
+    const std::string message = refusal(file);
+    EXPECT_NE(message.find(one.says), std::string::npos) << message;
+    EXPECT_EQ(message.compare(0, file.size() + 1, file + ":"), 0) << message;
+  }
+}
+
+TEST_F(LiftCommand, NamesTheRowOfAMeasuredCamThatIsWrong) {
+  const std::string csv = folder_ + "/cam.csv";
+  const std::string engine = write("measured.ini", measured_125("cam.csv", 1));
+  write("cam.csv", cam_rows(-60, 180));
+  EXPECT_EQ(refusal(engine).compare(0, csv.size() + 3, csv + ":2:"), 0) << refusal(engine);
+  write("cam.csv", cam_rows(-180, 180) + "180,0\n");
+  EXPECT_EQ(refusal(engine), csv + ":363: cam_deg: 180 follows 180; angles must rise from row to row");
+  write("cam.csv", "cam_deg,lift_mm\n-74,0\n0,6.3\n74,0\n");
+  EXPECT_EQ(refusal(engine), csv + ":4: 3 rows are too few for a cam");
+  write("cam.csv", with_line(cam_rows(-180, 180), "-30,", "-30,5.2"));
+  EXPECT_NE(refusal(engine).find("smoothing_um: 1"), std::string::npos) << refusal(engine);
+  std::string long_table = "cam_deg,lift_mm\n";
+  for (int i = 0; i <= 2000; ++i) long_table += std::to_string(i * 0.1) + ",0\n";
+  write("cam.csv", long_table);
+  EXPECT_EQ(refusal(engine), csv + ":2002: 2001 rows; at most 2000 are allowed");
+}
+
+TEST_F(LiftCommand, AllowsNoRockerInertiaToATrainOfConstantRatio) {
+  const std::string train =
+      "[cam a]\nsource = polynomial\nmax_lift_mm = 6\nhalf_angle_deg = 74\nexponents = 2,10,18\nfull_lift_at_crank_deg = -250\n"
+      "[rocker a]\nratio = 1.4\nbase_circle_mm = 18\nclearance_mm = 0.2\n"
+      "[valve a]\nper_cylinder = 2\nvalve_g = 90\nspring_g = 60\nrocker_inertia_kg_mm2 = 0\nspring_N_per_mm = 40\nspring_preload_N = 200\n"
+      "train_N_per_mm = 5000\ntrain_damping_ratio = 0.1\nguide_damping_ratio = 0.003\nseat_N_per_mm = 100000\nseat_damping_ratio = 0.1\n";
+  const EngineFile engine = read_engine_file(write("direct.ini", train), {});
+  ASSERT_EQ(engine.definition().train_count, 1);
+  const ValveTrain& read = engine.definition().trains[0];
+  EXPECT_EQ(read.rocker.kind, RockerKind::ratio);
+  EXPECT_EQ(read.rocker.ratio, 1.4);
+  EXPECT_EQ(read.cam.full_lift_deg, 470);  // -250 in the cycle from 0 to 720
+  EXPECT_EQ(read.cam.exponent_count, 3);
+  EXPECT_EQ(read.valve.per_cylinder, 2);
+  EXPECT_EQ(read.valve.train_N_m, 5e6);
+  const std::string heavy = write("heavy.ini", with_line(train, "rocker_inertia_kg_mm2", "rocker_inertia_kg_mm2 = 8"));
+  EXPECT_EQ(refusal(heavy, "a").compare(0, heavy.size() + 27, heavy + ":15: rocker_inertia_kg_mm2:"), 0) << refusal(heavy, "a");
+}
+
+TEST_F(LiftCommand, AllowsFourTrains) {
+  const std::string sample = contents(kOhc125);
+  std::string text = sample;
+  for (const char* name : {"exhaust", "third", "fourth", "fifth"}) {
+    std::string more = sample.substr(sample.find("[cam intake]"));
+    for (std::size_t at = more.find(" intake]"); at != std::string::npos; at = more.find(" intake]")) more.replace(at, 8, " " + std::string(name) + "]");
+    if (std::string(name) == "fifth") {
+      const std::string four = write("four.ini", text);
+      EXPECT_EQ(read_engine_file(four, {}).definition().train_count, kMaxTrains);
+    }
+    text += more;
+  }
+  EXPECT_NE(refusal(write("five.ini", text)).find("one valve train too many; allowed: 4"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace crankloop::program

@@ -1,0 +1,420 @@
+// `crankloop valve` and `redline`: the loop of one train, its CSV and summary, and the search for the onset of float and bounce.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <crankloop/tabulate/indicator_diagram.hpp>
+
+#include "crankloop/commands.hpp"
+#include "crankloop/error.hpp"
+#include "crankloop/redline_search.hpp"
+#include "crankloop/valve_loop.hpp"
+#include "support/both_reals.hpp"
+
+namespace crankloop::program {
+namespace {
+
+constexpr const char* kOhc125 = CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini";
+constexpr const char* kDiesel = CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495.ini";
+constexpr double kTick_s = 20e-6;
+constexpr double kAccuracy_m = 0.1e-6;  // what the sub-steps are asked for by default
+constexpr ValveMethod kRk4{};
+constexpr ValveMethod kExponential{{Integrator::exponential, kAccuracy_m}, false};
+constexpr ValveMethod kTextbook{{}, true};
+
+/// A whole run's last cycle.
+template <class Real>
+struct LastCycle {
+  std::vector<ValveTickOutput<Real>> ticks;
+  ValveCycle<Real> results;
+};
+
+template <class Real>
+LastCycle<Real> run(const LoneValve& valve, double rpm, const ValveMethod& method = kRk4, double tick_s = kTick_s, int cycles = 4) {
+  ValveLoop<Real> loop(valve, tick_s, method);
+  LastCycle<Real> last;
+  last.results = run_cycles<Real>(loop, valve, rpm, cycles, [&](const ValveTickOutput<Real>& out) { last.ticks.push_back(out); });
+  EXPECT_EQ(loop.faults(), 0u);
+  return last;
+}
+
+template <class Real>
+class ValveLoopIn : public testing::Test {};
+TYPED_TEST_SUITE(ValveLoopIn, tick_test::BothReals, tick_test::RealName);
+
+TYPED_TEST(ValveLoopIn, At7000RpmThe125LiftsItsValveAsPublished) {
+  const EngineFile file = read_engine_file(kOhc125, {});
+  const LoneValve valve(file, "intake");
+  EXPECT_NEAR(valve.lift().largest_lift_m(), 7.815e-3, 0.0005e-3);
+  for (const ValveMethod& method : {kRk4, kExponential, kTextbook}) {
+    const ValveCycle<TypeParam> cycle = run<TypeParam>(valve, 7000, method).results;
+    EXPECT_NEAR(static_cast<double>(cycle.largest_lift_m), 7.785e-3, 0.001e-3);
+    EXPECT_NEAR(static_cast<double>(cycle.seating_speed_m_s), 0.65, 0.01);
+    EXPECT_NEAR(static_cast<double>(cycle.bounce_height_m), 0.018e-3, 0.0005e-3);
+    EXPECT_EQ(cycle.separations, 0u);
+    EXPECT_EQ(cycle.bounces, 3u);
+    EXPECT_EQ(cycle.off_seat_at_end, 0u);
+  }
+}
+
+TYPED_TEST(ValveLoopIn, ForcesOfEveryTickAddUpToMassTimesAcceleration) {
+  using Real = TypeParam;
+  const EngineFile file = read_engine_file(kOhc125, {});
+  const LoneValve valve(file, "intake");
+  const Valve& v = valve.valve();
+  const double lever_m = valve.lift().lever_m();
+  const double mass_kg = v.valve_kg + v.spring_kg / 3 + v.rocker_inertia_kg_m2 / (lever_m * lever_m);
+  const double guide_Ns_m = 2 * v.guide_damping_ratio * std::sqrt(v.train_N_m * mass_kg);
+  const double eps = static_cast<double>(std::numeric_limits<Real>::epsilon());
+  for (const ValveMethod& method : {kRk4, kTextbook}) {
+    for (const auto& out : run<Real>(valve, 9000, method).ticks) {
+      const auto lift_m = static_cast<double>(out.motion.lift_m);
+      const double forces_N = static_cast<double>(out.forces.train_N) + static_cast<double>(out.forces.seat_N) - v.spring_N_m * lift_m -
+                              v.spring_preload_N - guide_Ns_m * static_cast<double>(out.motion.velocity_m_s);
+      const double scale_N = 1e4;  // no force here is larger
+      EXPECT_NEAR(mass_kg * static_cast<double>(out.motion.acceleration_m_s2), forces_N, 8 * eps * scale_N) << out.cam_deg;
+      const bool train_on = (out.forces.regime & kTrainOn) != 0;
+      EXPECT_EQ(train_on, out.forces.train_N > 0) << out.cam_deg;
+      EXPECT_EQ((out.forces.regime & kSeatOn) != 0, out.forces.seat_N > 0) << out.cam_deg;
+      const double ratio = valve.lift().at(out.cam_deg * 3.14159265358979323846 / 180).rocker_ratio;
+      EXPECT_NEAR(static_cast<double>(out.forces.cam_N), ratio * static_cast<double>(out.forces.train_N), 1e-6 * scale_N) << out.cam_deg;
+    }
+  }
+}
+
+TYPED_TEST(ValveLoopIn, TheLastCycleGoesOnceRoundWithFullLiftInItsMiddle) {
+  using Real = TypeParam;
+  const EngineFile file = read_engine_file(kDiesel, {});
+  const LoneValve valve(file, "exhaust");
+  for (const double rpm : {2000.0, -2000.0, 1777.0, 6000.0}) {
+    SCOPED_TRACE(rpm);
+    const double sense = rpm < 0 ? -1 : 1;
+    const LastCycle<Real> last = run<Real>(valve, rpm, kRk4, 50e-6);
+    const double deg_per_tick = std::abs(rpm) * 3 * 50e-6;
+    EXPECT_EQ(last.ticks.front().cam_deg, -180 * sense);
+    EXPECT_LE(last.ticks.back().cam_deg * sense, 180 + 1e-3);
+    EXPECT_GT(last.ticks.back().cam_deg * sense, 180 - deg_per_tick - 1e-3);
+    for (const auto& out : last.ticks) {
+      const double theory_m = std::max(0.0, valve.lift().at(out.cam_deg * 3.14159265358979323846 / 180).lift_m);
+      EXPECT_NEAR(static_cast<double>(out.motion.theoretical_lift_m), theory_m, 0.02e-6) << out.cam_deg;
+    }
+  }
+}
+
+TYPED_TEST(ValveLoopIn, BackwardsASymmetricTrainDoesTheSameMirrored) {
+  using Real = TypeParam;
+  const EngineFile file = read_engine_file(kDiesel, {});
+  const LoneValve valve(file, "intake");
+  const LastCycle<Real> forwards = run<Real>(valve, 2400);
+  const LastCycle<Real> backwards = run<Real>(valve, -2400);
+  ASSERT_EQ(forwards.ticks.size(), backwards.ticks.size());
+  for (std::size_t i = 0; i < forwards.ticks.size(); ++i) {
+    EXPECT_NEAR(forwards.ticks[i].cam_deg, -backwards.ticks[i].cam_deg, 1e-9);
+    EXPECT_NEAR(static_cast<double>(forwards.ticks[i].motion.lift_m), static_cast<double>(backwards.ticks[i].motion.lift_m), 2 * kAccuracy_m);
+  }
+  EXPECT_EQ(forwards.results.bounces, backwards.results.bounces);
+  EXPECT_NEAR(static_cast<double>(forwards.results.opening_delay_deg), static_cast<double>(backwards.results.opening_delay_deg), 1e-3);
+}
+
+TYPED_TEST(ValveLoopIn, WhatAValveDoesDoesNotDependOnTheTick) {
+  using Real = TypeParam;
+  const EngineFile file = read_engine_file(kOhc125, {});
+  const LoneValve valve(file, "intake");
+  const ValveCycle<Real> fine = run<Real>(valve, 7000, kExponential, 5e-6).results;
+  for (const double tick_s : {20e-6, 100e-6, 500e-6, 2e-3}) {
+    SCOPED_TRACE(tick_s);
+    const ValveCycle<Real> cycle = run<Real>(valve, 7000, kRk4, tick_s).results;
+    EXPECT_NEAR(static_cast<double>(cycle.largest_lift_m), static_cast<double>(fine.largest_lift_m), 2 * kAccuracy_m);
+    EXPECT_NEAR(static_cast<double>(cycle.bounce_height_m), static_cast<double>(fine.bounce_height_m), 2 * kAccuracy_m);
+    EXPECT_NEAR(static_cast<double>(cycle.seating_speed_m_s), static_cast<double>(fine.seating_speed_m_s), 1e-4);
+    EXPECT_EQ(cycle.bounces, fine.bounces);
+    EXPECT_EQ(cycle.contact_changes, fine.contact_changes);
+  }
+}
+
+TEST(Textbook, ComesToTheSameWithShortSteps) {
+  const EngineFile file = read_engine_file(kOhc125, {});
+  const LoneValve valve(file, "intake");
+  const ValveCycle<double> reference = run<double>(valve, 7000, kExponential, 1e-6).results;
+  const auto off_m = [&](double tick_s) {
+    return std::abs(run<double>(valve, 7000, kTextbook, tick_s).results.bounce_height_m - reference.bounce_height_m);
+  };
+  // A bounce follows from contact changes, which the textbook finds late by up to a step: first order.
+  EXPECT_LT(off_m(1e-6), 0.1e-6);
+  EXPECT_GT(off_m(6e-6), 2 * off_m(1e-6));
+}
+
+TYPED_TEST(ValveLoopIn, CyclesAtModerateSpeedAgreeAndTellsWhenTheyDoNot) {
+  const EngineFile file = read_engine_file(kOhc125, {});
+  const LoneValve valve(file, "intake");
+  EXPECT_LT(largest_change_of_lift_m<TypeParam>(valve, 7000, kTick_s, kRk4, 4), 0.01e-6);
+  EXPECT_GT(largest_change_of_lift_m<TypeParam>(valve, 20000, kTick_s, kRk4, 4), 100e-6);  // the valve floats into the next lobe
+}
+
+TYPED_TEST(ValveLoopIn, TheGasHoldsAValveWithAHeadAreaOnItsSeat) {
+  using Real = TypeParam;
+  const EngineFile file = read_engine_file(kOhc125, {});
+  const LoneValve plain(file, "intake");
+  Valve with_head = plain.valve();
+  with_head.head_area_m2 = 500e-6;
+  LoneValve valve = plain.with(with_head);
+  // In cylinder 1's cycle the cam stands 180 deg off its full lift 360 crank degrees from it.
+  IndicatorDiagram diagram;
+  ASSERT_TRUE(diagram.init(file.definition().crank, file.definition().pressure).ok());
+  for (const ValveMethod& method : {kRk4, kTextbook}) {
+    const LastCycle<Real> last = run<Real>(valve, 3000, method);
+    for (const auto& out : last.ticks) {
+      if (std::abs(out.cam_deg) < 120) continue;
+      double crank_deg = valve.definition().trains[0].cam.full_lift_deg + 2 * out.cam_deg;
+      if (crank_deg < 0) crank_deg += 720;
+      if (crank_deg >= 720) crank_deg -= 720;
+      const double gas_N = (diagram.full_Pa(crank_deg) - file.definition().pressure.crankcase_Pa) * with_head.head_area_m2;
+      // Pressed onto the stiff seat the valve follows the gas at once, but for the seat's own vibration.
+      EXPECT_NEAR(static_cast<double>(out.forces.seat_N), with_head.spring_preload_N + gas_N, 0.02 * with_head.spring_preload_N + 0.01 * gas_N)
+          << out.cam_deg;
+    }
+  }
+}
+
+// ---- redline ----
+
+TEST(SpeedRange, HasRoundStepsAndAtMostSixty) {
+  EXPECT_EQ(speed_range(500, 15000).step_rpm, 250);
+  EXPECT_EQ(speed_range(8500, 8560).step_rpm, 1);
+  EXPECT_EQ(speed_range(8500, 8561).step_rpm, 2);
+  for (const int to : {2, 100, 7777, 100000}) EXPECT_LE((to - 1 + speed_range(1, to).step_rpm - 1) / speed_range(1, to).step_rpm, 60);
+}
+
+TEST(Redline, AnOnsetIsTheFirstWholeSpeedThatHasIt) {
+  const EngineFile file = read_engine_file(kOhc125, {});
+  const LoneValve valve(file, "intake");
+  const Sweep sweep = sweep_speeds(valve, speed_range(2000, 11000), 1, {});
+  ASSERT_TRUE(sweep.separation.found && sweep.bounce.found);
+  EXPECT_FALSE(sweep.separation.at_the_start);
+  EXPECT_EQ(run<double>(valve, sweep.separation.speed_rpm).results.separations, 1u);
+  EXPECT_EQ(run<double>(valve, sweep.separation.speed_rpm - 1).results.separations, 0u);
+  EXPECT_EQ(run<double>(valve, sweep.bounce.speed_rpm).results.bounces, 1u);
+  EXPECT_EQ(run<double>(valve, sweep.bounce.speed_rpm - 1).results.bounces, 0u);
+}
+
+TEST(Redline, AnOnsetOutsideTheRangeIsToldAsSuch) {
+  const EngineFile file = read_engine_file(kOhc125, {});
+  const LoneValve valve(file, "intake");
+  const Sweep sweep = sweep_speeds(valve, speed_range(7000, 7100), 1, {});
+  EXPECT_FALSE(sweep.separation.found);
+  EXPECT_TRUE(sweep.bounce.found && sweep.bounce.at_the_start);
+  EXPECT_EQ(sweep.bounce.speed_rpm, 7000);
+}
+
+/// The published tendencies: docs/model.md "Valve".
+TEST(Redline, FloatsLaterWithAStifferSpringAndWithLessMass) {
+  const EngineFile file = read_engine_file(kOhc125, {});
+  const LoneValve valve(file, "intake");
+  const auto onset_rpm = [&](const char* option, double factor) {
+    return sweep_speeds(valve.with(varied(valve.valve(), option, factor)), speed_range(4000, 14000), factor, {}).separation.speed_rpm;
+  };
+  for (const char* option : {"spring", "preload"}) {
+    EXPECT_LT(onset_rpm(option, 0.5), onset_rpm(option, 1)) << option;
+    EXPECT_LT(onset_rpm(option, 1), onset_rpm(option, 2)) << option;
+  }
+  EXPECT_GT(onset_rpm("mass", 0.5), onset_rpm("mass", 1));
+  EXPECT_GT(onset_rpm("mass", 1), onset_rpm("mass", 2));
+}
+
+TEST(Redline, VariesWhatItSaysAndNothingElse) {
+  const EngineFile file = read_engine_file(kOhc125, {});
+  const Valve v = LoneValve(file, "intake").valve();
+  const Valve mass = varied(v, "mass", 2);
+  EXPECT_EQ(mass.valve_kg, 2 * v.valve_kg);
+  EXPECT_EQ(mass.spring_kg, 2 * v.spring_kg);
+  EXPECT_EQ(mass.rocker_inertia_kg_m2, 2 * v.rocker_inertia_kg_m2);
+  EXPECT_EQ(mass.train_N_m, v.train_N_m);
+  EXPECT_EQ(varied(v, "train", 3).train_N_m, 3 * v.train_N_m);
+  EXPECT_EQ(varied(v, "train", 3).spring_N_m, v.spring_N_m);
+  EXPECT_EQ(varied(v, "spring", 3).spring_N_m, 3 * v.spring_N_m);
+  EXPECT_EQ(varied(v, "spring", 3).spring_preload_N, v.spring_preload_N);
+  EXPECT_EQ(varied(v, "preload", 3).spring_preload_N, 3 * v.spring_preload_N);
+  const Valve damped = varied(v, "damping", 0.5);
+  EXPECT_EQ(damped.train_damping_ratio, v.train_damping_ratio / 2);
+  EXPECT_EQ(damped.guide_damping_ratio, v.guide_damping_ratio / 2);
+  EXPECT_EQ(damped.seat_damping_ratio, v.seat_damping_ratio / 2);
+}
+
+// ---- the commands ----
+
+std::string contents(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::vector<std::string> split_at(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+  return parts;
+}
+
+class ValveCommands : public testing::Test {
+ protected:
+  ValveCommands() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~ValveCommands() override { std::filesystem::remove_all(folder_); }
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_ + "/" + name; }
+
+  static std::string run(const Command& command, const std::vector<std::string>& words) {
+    testing::internal::CaptureStdout();
+    const int status = command.run(Arguments(command, words));
+    const std::string printed = testing::internal::GetCapturedStdout();
+    EXPECT_EQ(status, kSuccess);
+    return printed;
+  }
+  /// What the command refuses, or "" if it does not.
+  static std::string refusal(const Command& command, const std::vector<std::string>& words) {
+    try {
+      run(command, words);
+    } catch (const InputError& error) {
+      testing::internal::GetCapturedStdout();
+      return error.what();
+    }
+    return "";
+  }
+  /// Lines "name = value unit": value and unit by name.
+  static std::map<std::string, std::pair<std::string, std::string>> lines(const std::string& summary) {
+    std::map<std::string, std::pair<std::string, std::string>> found;
+    for (const std::string& text : split_at(summary, '\n')) {
+      std::istringstream stream(text);
+      std::string name;
+      std::string equals;
+      std::pair<std::string, std::string> value;
+      stream >> name >> equals >> value.first >> value.second;
+      if (equals == "=") found[name] = value;
+    }
+    return found;
+  }
+
+  std::string folder_;
+};
+
+TEST_F(ValveCommands, TheSummaryNamesEverythingWithItsUnit) {
+  const auto found = lines(run(kValve, {kOhc125, "--train", "intake", "--rpm", "7000"}));
+  const std::map<std::string, std::string> units{
+      {"max_theoretical_lift_mm", "mm"}, {"max_lift_mm", "mm"},       {"opening_delay_deg", "deg"},     {"separations", "#"},
+      {"separation_max_gap_mm", "mm"},   {"separation_start_deg", "deg"}, {"separation_duration_deg", "deg"}, {"seating_speed_m_s", "m/s"},
+      {"bounces", "#"},                  {"bounce_height_mm", "mm"},  {"natural_frequency_Hz", "Hz"},   {"seat_frequency_Hz", "Hz"},
+      {"sub_steps", "#"},                {"events", "#"},             {"periodic", "#"}};
+  for (const auto& [name, unit] : units) {
+    ASSERT_TRUE(found.count(name)) << name;
+    EXPECT_EQ(found.at(name).second, unit) << name;
+  }
+  EXPECT_EQ(found.at("max_lift_mm").first.substr(0, 6), "7.7850");
+  EXPECT_EQ(found.at("periodic").first, "yes");
+  // sqrt(k / M) by hand: 11765 + 40 N/mm on 33 + 20 g and the rocker's share.
+  EXPECT_NEAR(std::stod(found.at("natural_frequency_Hz").first), 2216, 1);
+}
+
+TEST_F(ValveCommands, TheCsvHasARowForEveryTickOfACycle) {
+  run(kValve, {kOhc125, "--train", "intake", "--rpm", "6000", "--tick-us", "50", "--csv", path("v.csv")});
+  const std::vector<std::string> rows = split_at(contents(path("v.csv")), '\n');
+  ASSERT_EQ(rows[0],
+            "cam_deg,theoretical_lift_mm,rocker_ratio,lift_mm,velocity_m_s,acceleration_m_s2,train_force_N,seat_force_N,cam_force_N,gap_mm,regime");
+  ASSERT_EQ(rows.size(), 1u + 400 + 1);  // 20 ms, both ends shown
+  const auto cells = [&](std::size_t row) {
+    std::vector<double> values;
+    for (const std::string& cell : split_at(rows[row], ',')) values.push_back(std::stod(cell));
+    return values;
+  };
+  EXPECT_EQ(cells(1)[0], -180);
+  EXPECT_NEAR(cells(201)[0], 0, 1e-6);
+  EXPECT_NEAR(cells(201)[1], 7.815, 1e-4);
+  EXPECT_NEAR(cells(401)[0], 180, 1e-6);
+  for (std::size_t row = 1; row < rows.size(); ++row) {
+    const std::vector<double> c = cells(row);
+    ASSERT_EQ(c.size(), 11u);
+    if (c[1] > 0) {
+      EXPECT_NEAR(c[9], c[1] - c[3], 1e-9) << rows[row];  // gap = Y - y
+    }
+    EXPECT_NEAR(c[8], c[6] * c[2], 1e-3 + 1e-6 * c[8]) << rows[row];
+  }
+}
+
+TEST_F(ValveCommands, ATickTooLongIsRefusedWithTheLongestThatIsAccepted) {
+  const std::string message = refusal(kValve, {kOhc125, "--train", "intake", "--rpm", "7000", "--tick-us", "2000", "--accuracy-um", "0.01"});
+  const std::string words = "the longest tick possible is ";
+  ASSERT_NE(message.find(words), std::string::npos) << message;
+  EXPECT_EQ(message.rfind(std::string(kOhc125) + ": ", 0), 0u) << message;
+  const std::string longest = split_at(message.substr(message.find(words) + words.size()), ' ')[0];
+  EXPECT_EQ(refusal(kValve, {kOhc125, "--train", "intake", "--rpm", "7000", "--tick-us", longest, "--accuracy-um", "0.01"}), "");
+  const std::string longer = std::to_string(std::stod(longest) * 1.05);
+  EXPECT_NE(refusal(kValve, {kOhc125, "--train", "intake", "--rpm", "7000", "--tick-us", longer, "--accuracy-um", "0.01"}), "");
+  EXPECT_EQ(refusal(kTables, {kOhc125, "--tick-us", "2000", "--accuracy-um", "0.01"}), message);
+}
+
+TEST_F(ValveCommands, NothingIsWrittenWhereSomethingIsRefused) {
+  const std::vector<std::vector<std::string>> refused{
+      {"--train", "intaek", "--rpm", "7000"},
+      {"--train", "intake", "--rpm", "0"},
+      {"--train", "intake", "--rpm", "40000", "--tick-us", "1900"},
+      {"--train", "intake", "--rpm", "0.001"},
+      {"--train", "intake", "--rpm", "7000", "--tick-us", "2000", "--accuracy-um", "0.01"},
+  };
+  for (std::vector<std::string> words : refused) {
+    words.insert(words.begin(), kOhc125);
+    words.insert(words.end(), {"--csv", path("v.csv")});
+    EXPECT_NE(refusal(kValve, words), "");
+    EXPECT_TRUE(std::filesystem::is_empty(folder_)) << words[2] << " " << words[4];
+  }
+}
+
+TEST_F(ValveCommands, ATrainNeedsNothingOfItsEngine) {
+  std::string text = contents(kOhc125);
+  std::ofstream(path("train.ini")) << text.substr(text.find("[cam intake]"));
+  const auto alone = lines(run(kValve, {path("train.ini"), "--train", "intake", "--rpm", "9500"}));
+  const auto whole = lines(run(kValve, {kOhc125, "--train", "intake", "--rpm", "9500"}));
+  EXPECT_EQ(alone, whole);
+}
+
+TEST_F(ValveCommands, ATrainThatLacksAPartIsTold) {
+  std::string text = contents(kOhc125);
+  std::ofstream(path("train.ini")) << text.substr(0, text.find("[valve intake]"));
+  EXPECT_NE(refusal(kValve, {path("train.ini"), "--train", "intake", "--rpm", "7000"}).find("[valve intake] is missing"), std::string::npos);
+  EXPECT_NE(refusal(kRedline, {path("train.ini"), "--train", "intake"}).find("[valve intake] is missing"), std::string::npos);
+}
+
+TEST_F(ValveCommands, ARedlineTellsBothOnsetsAndWritesItsTableAndPage) {
+  const auto found = lines(run(kRedline, {kOhc125, "--train", "intake", "--from", "8000", "--to", "9500", "--vary", "spring", "--csv",
+                                          path("r.csv"), "--report", path("r.html")}));
+  EXPECT_EQ(found.at("separation_onset_rpm").second, "rpm");
+  EXPECT_NEAR(std::stod(found.at("separation_onset_rpm").first), 8500, 300);  // spec of the train: floats only from about 8500
+  const std::vector<std::string> rows = split_at(contents(path("r.csv")), '\n');
+  EXPECT_EQ(rows[0].substr(0, 17), "factor,speed_rpm,");
+  EXPECT_EQ(rows.size(), 1u + 7 * 61);
+  const std::string page = contents(path("r.html"));
+  EXPECT_NE(page.find("<svg"), std::string::npos);
+  EXPECT_NE(page.find("spring_N_per_mm"), std::string::npos);
+}
+
+TEST_F(ValveCommands, ARedlineRefusesWhatMakesNoSense) {
+  EXPECT_NE(refusal(kRedline, {kOhc125, "--train", "intake", "--from", "5000", "--to", "5000"}), "");
+  std::string text = contents(kOhc125);
+  const std::string key = "spring_N_per_mm = 40 ";
+  text.replace(text.find(key), key.size(), "spring_N_per_mm = 0 ");
+  std::ofstream(path("train.ini")) << text;
+  EXPECT_NE(refusal(kRedline, {path("train.ini"), "--train", "intake", "--vary", "spring"}).find("nothing to vary"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace crankloop::program

@@ -1,0 +1,85 @@
+// `crankloop lift FILE --train NAME`: cam, rocker and theoretical valve lift over a turn of the cam, without forces or elasticity.
+#include <algorithm>
+#include <memory>
+
+#include <crankloop/tabulate/valve_lift.hpp>
+
+#include "commands.hpp"
+#include "csv.hpp"
+#include "engine_file.hpp"
+#include "tick_probe.hpp"
+
+namespace crankloop::program {
+namespace {
+
+constexpr double kDegPerRad = 180 / 3.14159265358979323846;
+
+void write_lift(CsvWriter& csv, const ValveLift& lift, double step_deg) {
+  for_each_angle(step_deg, 360, [&](double since_first_row) {
+    const double cam_deg = since_first_row - 180;
+    const LiftPose pose = lift.at(cam_deg / kDegPerRad);
+    // The valve waits while the lash is open; the train, whose derivatives these are, does not: its speed there is that of the impact.
+    csv.row(cam_deg, pose.rocker_rad * kDegPerRad, std::max(pose.lift_m, 0.0) * 1e3, pose.per_rad_m * 1e3, pose.per_rad2_m * 1e3,
+            pose.rocker_ratio);
+  });
+}
+
+void summarise(Output& out, const ValveLift& lift, CamSource source) {
+  double least_ratio = lift.at(0).rocker_ratio;
+  double most_ratio = least_ratio;
+  for (int tenth = -1800; tenth < 1800; ++tenth) {
+    const double ratio = lift.at(tenth * 0.1 / kDegPerRad).rocker_ratio;
+    least_ratio = std::min(least_ratio, ratio);
+    most_ratio = std::max(most_ratio, ratio);
+  }
+  write_summary(out, "max_theoretical_lift", lift.largest_lift_m() * 1e3, "mm");
+  write_summary(out, "lobe_begin", lift.opens_rad() * kDegPerRad, "deg");
+  write_summary(out, "lobe_end", lift.closes_rad() * kDegPerRad, "deg");
+  write_summary(out, "rocker_ratio_least", least_ratio, "");
+  write_summary(out, "rocker_ratio_most", most_ratio, "");
+  write_summary(out, "smallest_cam_radius", lift.smallest_radius_m() * 1e3, "mm");
+  if (source != CamSource::table) return;
+  write_summary(out, "smoothing_residual", lift.cam().residual_m() * 1e6, "um");
+  write_summary(out, "table_peak", lift.cam().peak_deg(), "deg");
+}
+
+int run_lift(const Arguments& arguments) {
+  const std::string& name = arguments.text("--train");
+  const EngineFile engine = read_engine_file(arguments.file(), {});
+  const TrainOfFile& train = engine.train(name);
+  for (const std::string& title : {"cam " + name, "rocker " + name}) {
+    if (!engine.has(title)) throw InputError(engine.path() + ": section [" + title + "] is missing; this command needs it");
+  }
+  const auto lift = std::make_unique<ValveLift>();
+  if (const Status refused = lift->init(train.definition.cam, train.definition.rocker); !refused.ok()) {
+    throw engine.explain(refused, train, lift->failed_at_deg());
+  }
+  Output out(arguments.text_or_empty("--csv"));
+  CsvWriter csv(out, {"cam_deg", "rocker_angle_deg", "lift_mm", "lift_mm_per_rad", "lift_mm_per_rad2", "rocker_ratio"});
+  write_lift(csv, *lift, arguments.number("--step-deg"));
+  out.finish();
+  if (arguments.has("--csv")) {
+    Output summary = Output::standard();
+    summarise(summary, *lift, train.definition.cam.source);
+    summary.finish();
+  }
+  return kSuccess;
+}
+
+constexpr Option kOptions[] = {
+    text("--train", "NAME", "valve train: the NAME of its [cam NAME] and [rocker NAME]"),
+    number("--step-deg", "D", from(0.001).up_to(360), "cam degrees between rows", "1"),
+    text("--csv", "F", "file for the table, and a summary on standard output; else the table there"),
+};
+
+}  // namespace
+
+const Command kLift{"lift",
+                    "cam, rocker and theoretical valve lift over a turn of the cam",
+                    "FILE --train NAME [--step-deg D] [--csv F]",
+                    "crankloop lift ohc_125.ini --train intake --csv lift.csv",
+                    1,
+                    kOptions,
+                    run_lift};
+
+}  // namespace crankloop::program
