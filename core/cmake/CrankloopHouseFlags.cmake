@@ -18,7 +18,9 @@ function(crankloop_numerics target)
     -fno-lto              # also where the user's CMAKE_CXX_FLAGS say -flto
     -ffp-contract=off     # a*b+c keeps both its roundings: otherwise every processor with fused multiply-add differs
     -fno-unsafe-math-optimizations -fno-associative-math -fno-reciprocal-math -fsigned-zeros  # as written, not as rearranged
-    -fno-math-errno)      # sqrt is one instruction and not a call that may set errno
+    -fno-math-errno       # sqrt is one instruction and not a call that may set errno
+    # GCC 12's vectoriser of straight-line code makes fused multiply-adds of a pair of sums whatever -ffp-contract says.
+    $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
 endfunction()
 
 function(crankloop_house_flags target)

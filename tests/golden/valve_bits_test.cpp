@@ -119,8 +119,9 @@ std::uint64_t hash_of_tables(const Tables<Real, TwoValves>& tables) {
     }
     const ValveMotion<Real>& m = tables.valve_motions[t];
     const ValveBody<Real>& b = m.body;
-    for (const Real x : {b.mass_kg, b.train_N_m, b.train_Ns_m, b.seat_N_m, b.seat_Ns_m, b.spring_N_m, b.guide_Ns_m, b.preload_N, b.seat_sink_m,
-                         b.head_area_m2, b.rocker_mass_kg, m.per_steps, m.per_fine, m.step_s, m.fine_s, m.rest_m, m.rest_m_s}) {
+    for (const Real x : {b.mass_kg, b.train_N_m, b.train_Ns_m, b.seat_N_m, b.seat_Ns_m, b.spring_N_m, b.guide_Ns_m,
+                         b.preload_N, b.seat_sink_m, b.head_area_m2, b.rocker_mass_kg, m.per_steps, m.per_fine,
+                         m.step_s, m.fine_s, m.rest_m, m.rest_m_s}) {
       fnv.add(x);
     }
     fnv.add(m.steps);
@@ -144,17 +145,20 @@ std::uint64_t hash_of_run(const Tables<Real, TwoValves>& tables) {
   for (int tick = 0; tick < 6000; ++tick) {
     typename Engine<Real, TwoValves>::Input in;
     const int up = tick < 2816 ? tick : 5632 - tick;
-    in.speed_rad_s = static_cast<Real>(up) * Real{0.5F};
+    in.speed_rad_s = static_cast<Real>(up) * static_cast<Real>(0.5);
     in.cam_phase_deg[0] = tick / 1000 % 2 == 0 ? Real{0} : Real{-20};
     const auto& out = engine->step(in);
     for (int t = 0; t < 2; ++t) {
       const ValveMotionOutput<Real>& v = out.valve[t][0];
       const ValveForcesOutput<Real>& f = out.valve_forces[t][0];
-      for (const Real x : {v.theoretical_lift_m, v.lift_m, v.velocity_m_s, v.acceleration_m_s2, f.train_N, f.seat_N, f.tip_N, f.cam_N, f.gap_m}) fnv.add(x);
+      for (const Real x : {v.theoretical_lift_m, v.lift_m, v.velocity_m_s, v.acceleration_m_s2, f.train_N, f.seat_N,
+                           f.tip_N, f.cam_N, f.gap_m})
+        fnv.add(x);
       fnv.add(f.regime);
       const ValveCycle<Real>& c = out.valve_cycle[t][0];
-      for (const Real x : {c.largest_lift_m, c.largest_speed_m_s, c.largest_acceleration_m_s2, c.opening_delay_deg, c.separation_gap_m,
-                           c.separation_start_deg, c.separation_duration_deg, c.seating_speed_m_s, c.bounce_height_m}) {
+      for (const Real x :
+           {c.largest_lift_m, c.largest_speed_m_s, c.largest_acceleration_m_s2, c.opening_delay_deg, c.separation_gap_m,
+            c.separation_start_deg, c.separation_duration_deg, c.seating_speed_m_s, c.bounce_height_m}) {
         fnv.add(x);
       }
       for (const std::uint32_t x : {c.separations, c.bounces, c.contact_changes, c.off_seat_at_end}) fnv.add(x);
@@ -199,7 +203,8 @@ TYPED_TEST(ValveBits, OfASnapshotGoOnWithTheSameBits) {
       ASSERT_TRUE(other->restore(one->state()).ok());
     } else if (tick > 37) {
       other->step(in);
-      ASSERT_EQ(std::memcmp(one->output().valve, other->output().valve, sizeof one->output().valve), 0) << "tick " << tick;
+      ASSERT_EQ(std::memcmp(one->output().valve, other->output().valve, sizeof one->output().valve), 0)
+          << "tick " << tick;
       ASSERT_EQ(std::memcmp(&one->state(), &other->state(), sizeof one->state()), 0) << "tick " << tick;
     }
   }

@@ -81,7 +81,8 @@ void expect_same(const Told& told, const Tolerance& within) {
   EXPECT_NEAR(ours.separation_gap_m, truth.separation_gap_m, within.lift_m);
   EXPECT_NEAR(ours.bounce_height_m, truth.bounce_height_m, within.lift_m);
   if (truth.separations > 0) {
-    EXPECT_NEAR(wrapped(ours.separation_start_deg - (truth.separation_start_deg - told.opens_deg)), 0, within.angle_deg);
+    EXPECT_NEAR(wrapped(ours.separation_start_deg - (truth.separation_start_deg - told.opens_deg)), 0,
+                within.angle_deg);
     EXPECT_NEAR(ours.separation_duration_deg, truth.separation_duration_deg, 2 * within.angle_deg);
   }
 }
@@ -89,12 +90,15 @@ void expect_same(const Told& told, const Tolerance& within) {
 void print(double rpm, double tick_us, const Told& told) {
   const ValveCycle<double>& a = told.by_library;
   const ReferenceCycle& b = told.by_reference;
-  std::printf("[ figures  ] %6.0f rpm, %4.0f us: delay %.4f (reference %.4f) deg, float %u (%d) to %.3f (%.3f) um for %.3f (%.3f) deg from %.3f (%.3f), "
-              "seating at %.5f (%.5f) m/s, bounces %u (%d) to %.3f (%.3f) um, speed %.3f (%.3f), acceleration %.0f (%.0f)\n",
-              rpm, tick_us, a.opening_delay_deg, b.opening_delay_deg, a.separations, b.separations, a.separation_gap_m / kUm, b.separation_gap_m / kUm,
-              a.separation_duration_deg, b.separation_duration_deg, a.separation_start_deg, b.separation_start_deg - told.opens_deg,
-              a.seating_speed_m_s, b.seating_speed_m_s, a.bounces, b.bounces, a.bounce_height_m / kUm, b.bounce_height_m / kUm, a.largest_speed_m_s,
-              b.largest_speed_m_s, a.largest_acceleration_m_s2, b.largest_acceleration_m_s2);
+  std::printf(
+      "[ figures  ] %6.0f rpm, %4.0f us: delay %.4f (reference %.4f) deg, float %u (%d) to %.3f (%.3f) um for %.3f "
+      "(%.3f) deg from %.3f (%.3f), "
+      "seating at %.5f (%.5f) m/s, bounces %u (%d) to %.3f (%.3f) um, speed %.3f (%.3f), acceleration %.0f (%.0f)\n",
+      rpm, tick_us, a.opening_delay_deg, b.opening_delay_deg, a.separations, b.separations, a.separation_gap_m / kUm,
+      b.separation_gap_m / kUm, a.separation_duration_deg, b.separation_duration_deg, a.separation_start_deg,
+      b.separation_start_deg - told.opens_deg, a.seating_speed_m_s, b.seating_speed_m_s, a.bounces, b.bounces,
+      a.bounce_height_m / kUm, b.bounce_height_m / kUm, a.largest_speed_m_s, b.largest_speed_m_s,
+      a.largest_acceleration_m_s2, b.largest_acceleration_m_s2);
 }
 
 // 1 um of lift at 12000 rpm is 0.003 deg where the valve moves at 8 m/s and 0.03 deg near the ends of a gap, 1e-4 of the seating speed.
@@ -146,7 +150,8 @@ TEST(ValveRecord, ReportsAValveThatIsStillInTheAirAtTheEndOfItsCycle) {
   train.valve.spring_N_m = 4e3;
   const ValveLift lift = lift_of(train);
   const double opens_deg = lift.opens_rad() / kRadPerDeg;
-  const double middle = (lift.closes_rad() / kRadPerDeg - opens_deg) / 2 + 180;  // of the base circle, from the start of the lobe
+  const double middle =
+      (lift.closes_rad() / kRadPerDeg - opens_deg) / 2 + 180;  // of the base circle, from the start of the lobe
   Rig<double> rig(train, {20e-6, {}}, 100);
   const double speed = rad_s_of_rpm(6000);
   int told = 0;
@@ -154,8 +159,8 @@ TEST(ValveRecord, ReportsAValveThatIsStillInTheAirAtTheEndOfItsCycle) {
     const ValveCycle<double> c = rig.step(speed).valve_cycle[0][0];
     if (c.largest_lift_m == 0 || told != 0) continue;
     ++told;
-    std::printf("[ figures  ] float from %.2f for %.2f deg, gap %.2f mm; the cycle ends at %.2f\n", c.separation_start_deg, c.separation_duration_deg,
-                c.separation_gap_m * 1e3, middle);
+    std::printf("[ figures  ] float from %.2f for %.2f deg, gap %.2f mm; the cycle ends at %.2f\n",
+                c.separation_start_deg, c.separation_duration_deg, c.separation_gap_m * 1e3, middle);
     EXPECT_EQ(c.off_seat_at_end, 1u);
     EXPECT_GE(c.separations, 1u);
     // Float that goes on when the cycle ends is told up to there, and no further.

@@ -77,9 +77,12 @@ struct OneValveWithGas : OneValve {
 
 inline double rad_s_of_rpm(double rpm) { return rpm * kPi / 30; }
 
+/// The engine phase of an angle in degrees.
+inline Phase phase_at(double deg) { return tick_test::phase_at_deg(static_cast<long double>(deg)); }
+
 /// Cam angle of train 0 of cylinder 1 at an engine phase, from full lift, -180 to 180 deg.
 inline double cam_deg_at(Phase engine, double full_lift_deg, std::uint64_t cam_phase = 0) {
-  const auto of_cam = static_cast<std::int64_t>((engine - tick_test::phase_at_deg(full_lift_deg)).units() - cam_phase);
+  const auto of_cam = static_cast<std::int64_t>((engine - phase_at(full_lift_deg)).units() - cam_phase);
   return static_cast<double>(static_cast<long double>(of_cam) * (360.0L / 18446744073709551616.0L));
 }
 
@@ -93,7 +96,7 @@ class Rig {
   Rig(const EngineDefinition& definition, const TickOptions& options, double start_deg = 0)
       : definition_{definition}, tick_s_{options.tick_s}, tables_{std::make_unique<TableStorage<Real, S>>()} {
     status_ = tables_->build(definition_, options);
-    if (status_.ok()) status_ = engine_.init(tables_->tables(), tick_test::phase_at_deg(start_deg));
+    if (status_.ok()) status_ = engine_.init(tables_->tables(), phase_at(start_deg));
     EXPECT_TRUE(status_.ok()) << status_.field << ": " << describe(status_.reason);
   }
 

@@ -92,7 +92,8 @@ struct TurnedCam {
           return Pose{pose.lift_m, pose.per_rad_m * kDeg};
         }},
         edges_deg{lift.opens_rad() / kDeg, lift.closes_rad() / kDeg} {}
-  TurnedCam(std::function<Pose(double)> lift, std::vector<double> edges) : at{std::move(lift)}, edges_deg{std::move(edges)} {}
+  TurnedCam(std::function<Pose(double)> lift, std::vector<double> edges)
+      : at{std::move(lift)}, edges_deg{std::move(edges)} {}
 
   static constexpr double kDeg = 3.14159265358979323846 / 180;
 };
@@ -121,7 +122,8 @@ class Reference {
   double gas_N = 0;
   std::uint32_t regime = 2;
   int changes = 0;
-  double train_Ns = 0, seat_Ns = 0, spring_Ns = 0;  ///< impulses since the start, of the train, the seat, and of all else
+  double train_Ns = 0, seat_Ns = 0,
+         spring_Ns = 0;  ///< impulses since the start, of the train, the seat, and of all else
   bool keep_moments = false;
   std::vector<Moment> moments;
 
@@ -184,7 +186,8 @@ class Reference {
     const double w[kStages] = {w_outer, w_inner, 128.0 / 225, w_inner, w_outer};
     for (int i = 0; i < kStages; ++i) c_[i] = (1 + x[i]) / 2, weight_[i] = w[i] / 2;
     for (int i = 0; i < kStages; ++i) {
-      for (int j = 0; j < kStages; ++j) {  // integral of the Lagrange polynomial j from 0 to c_i: the rule itself is exact for it
+      for (int j = 0; j < kStages;
+           ++j) {  // integral of the Lagrange polynomial j from 0 to c_i: the rule itself is exact for it
         double sum = 0;
         for (int q = 0; q < kStages; ++q) {
           double lagrange = 1;
@@ -233,7 +236,9 @@ class Reference {
     for (int i = 0; i < kStages; ++i) {
       s.y += h * weight_[i] * s.stage_v[i];
       s.v += h * weight_[i] * slope[i];
-      const double train = (regime & 1) != 0 ? mass_.k * (s.stage_cam[i].Y - s.stage_y[i]) + mass_.b * (s.stage_cam[i].Yd - s.stage_v[i]) : 0;
+      const double train =
+          (regime & 1) != 0 ? mass_.k * (s.stage_cam[i].Y - s.stage_y[i]) + mass_.b * (s.stage_cam[i].Yd - s.stage_v[i])
+                            : 0;
       const double seat = (regime & 2) != 0 ? mass_.k_z * (mass_.delta - s.stage_y[i]) - mass_.b_z * s.stage_v[i] : 0;
       s.train_Ns += h * weight_[i] * train;
       s.seat_Ns += h * weight_[i] * seat;
@@ -253,7 +258,8 @@ class Reference {
     t_ += h;
     if (keep_moments) {
       const CamAt at = cam(from_deg + per_s * h, per_s);
-      moments.push_back({t_, from_deg + per_s * h, y, v, acceleration(at, y, v, regime), acceleration(at, y, v, regime_of(at, y, v)), at.Y, at.Yd, regime});
+      moments.push_back({t_, from_deg + per_s * h, y, v, acceleration(at, y, v, regime),
+                         acceleration(at, y, v, regime_of(at, y, v)), at.Y, at.Yd, regime});
     }
   }
 
@@ -411,7 +417,8 @@ struct Cubic {
 }
 
 /// Four-stage Runge-Kutta as every textbook has it [Li 2017, 4.9-4.13]: contacts tested at each stage, the cam looked up at each.
-inline void textbook_step(const SingleMass& m, const std::function<CamAt(double part)>& cam, double d, double& y, double& v) {
+inline void textbook_step(const SingleMass& m, const std::function<CamAt(double part)>& cam, double d, double& y,
+                          double& v) {
   const auto f = [&](double part, double y_m, double v_m_s) {
     const CamAt at = cam(part);
     const Acting forces = acting(m, y_m, v_m_s, at.Y, at.Yd);

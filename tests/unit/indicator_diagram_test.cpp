@@ -153,6 +153,28 @@ TEST(AngleTable, HasNoStepAndNoCornerAtAnyPoint) {
   }
 }
 
+TEST(AngleTable, HasTheSlopesOfFritschAndButlandAtUnevenlySpacedPoints) {
+  // G = S1 S2/(alpha S2 + (1 - alpha) S1), alpha = (1 + h2/(h1 + h2))/3, S the secants and h the widths to the left and
+  // right of a point [Fritsch and Butland 1984, formula of Brodlie]; zero where the secants differ in sign.
+  Random random;
+  const Rows rows = rough_rows(random);
+  const IndicatorDiagram diagram = diagram_of_rows(rows, PressureSource::angle_table);
+  for (std::size_t i = 1; i + 2 < rows.size(); ++i) {
+    const double h1 = rows[i].at - rows[i - 1].at;
+    const double h2 = rows[i + 1].at - rows[i].at;
+    const double s1 = (rows[i].pressure_Pa - rows[i - 1].pressure_Pa) / h1;
+    const double s2 = (rows[i + 1].pressure_Pa - rows[i].pressure_Pa) / h2;
+    const double alpha = (1 + h2 / (h1 + h2)) / 3;
+    const double want = s1 * s2 > 0 ? s1 * s2 / (alpha * s2 + (1 - alpha) * s1) : 0;
+    // One-sided difference over d: off by d/2 of the cubic's bend, at most 12 rises/width^2, and by the angles'
+    // rounding.
+    const double d = 1e-4 * h2;
+    const double got = (diagram.full_Pa(rows[i].at + d) - diagram.full_Pa(rows[i].at)) / d;
+    EXPECT_NEAR(got, want, std::fabs(s2) * (12 * d / h2 / 2 + 6 * kAngleRounding_deg / d))
+        << random.trace(0) << ", row " << i;
+  }
+}
+
 TEST(AngleTable, OfASmoothCurveIsThatCurveToTheSquareOfItsSpacing) {
   // Beside a peak a monotone cubic forces the slope of a point to zero or near it: off by at most h^2/4 of the bend.
   for (const int per_degree : {1, 2, 10}) {
@@ -766,7 +788,8 @@ TEST(SynthesisedDiagram, HeatFoundForTheMeanEffectivePressureGivesItBack) {
 }
 
 TEST(SynthesisedDiagram, RefusesAMeanEffectivePressureThatTakesNegativeHeat) {
-  // Boosted to 2.5 bar against 1 bar at the exhaust, the gas exchange alone gives some 1.5 bar of mean pressure: less cannot be had by heat.
+  // Boosted to 2.5 bar against 1 bar at the exhaust, the gas exchange alone gives some 1.5 bar of mean pressure: less
+  // cannot be had by heat.
   WiebeDiagram w = wiebe_495();
   w.intake_Pa = 250e3;
   w.exhaust_Pa = 100e3;

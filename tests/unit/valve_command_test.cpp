@@ -32,6 +32,34 @@ constexpr ValveMethod kRk4{};
 constexpr ValveMethod kExponential{{Integrator::exponential, kAccuracy_m}, false};
 constexpr ValveMethod kTextbook{{}, true};
 
+std::string contents(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// An engine file with one line of another changed.
+class ChangedFile {
+ public:
+  ChangedFile(const char* from, const std::string& key, const std::string& line) {
+    std::string text = contents(from);
+    const std::size_t at = text.find("\n" + key + " = ");
+    EXPECT_NE(at, std::string::npos) << key;
+    text.replace(at + 1, text.find('\n', at + 1) - at - 1, line);
+    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+    std::ofstream(path()) << text;
+  }
+  ChangedFile(const ChangedFile&) = delete;
+  ChangedFile& operator=(const ChangedFile&) = delete;
+  ~ChangedFile() { std::filesystem::remove_all(folder_); }
+  [[nodiscard]] std::string path() const { return folder_ + "/engine.ini"; }
+
+ private:
+  std::string folder_;
+};
+
 /// A whole run's last cycle.
 template <class Real>
 struct LastCycle {
@@ -163,12 +191,10 @@ TYPED_TEST(ValveLoopIn, CyclesAtModerateSpeedAgreeAndTellsWhenTheyDoNot) {
 
 TYPED_TEST(ValveLoopIn, TheGasHoldsAValveWithAHeadAreaOnItsSeat) {
   using Real = TypeParam;
-  const EngineFile file = read_engine_file(kOhc125, {});
-  const LoneValve plain(file, "intake");
-  Valve with_head = plain.valve();
-  with_head.head_area_m2 = 500e-6;
-  LoneValve valve = plain.with(with_head);
-  // In cylinder 1's cycle the cam stands 180 deg off its full lift 360 crank degrees from it.
+  const ChangedFile changed(kOhc125, "head_area_mm2", "head_area_mm2 = 500");
+  const EngineFile file = read_engine_file(changed.path(), {});
+  const LoneValve valve(file, "intake");
+  const Valve& v = valve.valve();
   IndicatorDiagram diagram;
   ASSERT_TRUE(diagram.init(file.definition().crank, file.definition().pressure).ok());
   for (const ValveMethod& method : {kRk4, kTextbook}) {
@@ -178,9 +204,9 @@ TYPED_TEST(ValveLoopIn, TheGasHoldsAValveWithAHeadAreaOnItsSeat) {
       double crank_deg = valve.definition().trains[0].cam.full_lift_deg + 2 * out.cam_deg;
       if (crank_deg < 0) crank_deg += 720;
       if (crank_deg >= 720) crank_deg -= 720;
-      const double gas_N = (diagram.full_Pa(crank_deg) - file.definition().pressure.crankcase_Pa) * with_head.head_area_m2;
+      const double gas_N = (diagram.full_Pa(crank_deg) - file.definition().pressure.crankcase_Pa) * v.head_area_m2;
       // Pressed onto the stiff seat the valve follows the gas at once, but for the seat's own vibration.
-      EXPECT_NEAR(static_cast<double>(out.forces.seat_N), with_head.spring_preload_N + gas_N, 0.02 * with_head.spring_preload_N + 0.01 * gas_N)
+      EXPECT_NEAR(static_cast<double>(out.forces.seat_N), v.spring_preload_N + gas_N, 0.02 * v.spring_preload_N + 0.01 * gas_N)
           << out.cam_deg;
     }
   }
@@ -251,13 +277,6 @@ TEST(Redline, VariesWhatItSaysAndNothingElse) {
 }
 
 // ---- the commands ----
-
-std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 std::vector<std::string> split_at(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -409,11 +428,8 @@ TEST_F(ValveCommands, ARedlineTellsBothOnsetsAndWritesItsTableAndPage) {
 
 TEST_F(ValveCommands, ARedlineRefusesWhatMakesNoSense) {
   EXPECT_NE(refusal(kRedline, {kOhc125, "--train", "intake", "--from", "5000", "--to", "5000"}), "");
-  std::string text = contents(kOhc125);
-  const std::string key = "spring_N_per_mm = 40 ";
-  text.replace(text.find(key), key.size(), "spring_N_per_mm = 0 ");
-  std::ofstream(path("train.ini")) << text;
-  EXPECT_NE(refusal(kRedline, {path("train.ini"), "--train", "intake", "--vary", "spring"}).find("nothing to vary"), std::string::npos);
+  const ChangedFile changed(kOhc125, "spring_N_per_mm", "spring_N_per_mm = 0");
+  EXPECT_NE(refusal(kRedline, {changed.path(), "--train", "intake", "--vary", "spring"}).find("nothing to vary"), std::string::npos);
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ ValveBody<double> body_of(const ValveTrain& train) {
 }
 
 /// A motion whose fine step is the tick itself: nothing is divided, so that one matrix is one Runge-Kutta step.
-ValveMotion<double> motion_in_one_step(const ValveBody<double>& body, double step_s, Integrator integrator = Integrator::rk4) {
+ValveMotion<double> motion_in_one_step(const ValveBody<double>& body, double step_s,
+                                       Integrator integrator = Integrator::rk4) {
   ValveMotion<double> motion{};
   const Status status = motion_of(body, step_s, {integrator, 10e-6}, motion);
   EXPECT_TRUE(status.ok()) << status.field;
@@ -47,7 +48,8 @@ struct ThreePoints {
 };
 
 /// The textbook's four stages in one regime [Li 2017, 4.9-4.13].
-ValveState<double> textbook(const ValveBody<double>& b, std::uint32_t regime, double d, ValveState<double> s, const ThreePoints& lift, double gas_N) {
+ValveState<double> textbook(const ValveBody<double>& b, std::uint32_t regime, double d, ValveState<double> s,
+                            const ThreePoints& lift, double gas_N) {
   const auto f = [&](int i, double y, double v) {
     double force = -b.spring_N_m * y - b.preload_N - b.guide_Ns_m * v - gas_N;
     if ((regime & kTrainOn) != 0) force += b.train_N_m * (lift.value[i] - y) + b.train_Ns_m * (lift.slope[i] / d - v);
@@ -120,7 +122,8 @@ TEST(ValveStep, DiffersFromTheTextbookWithTrueMidStepLiftsByLessThanTheLiftTable
         const ValveState<double> by_matrix = stepped(motion.fine[kTrainOn], before, step, -body.preload_N, true);
         worst = std::max(worst, std::fabs(by_matrix.lift_m - textbook(body, kTrainOn, d, before, truly, 0).lift_m));
       }
-      std::printf("[ figures  ] against textbook with true mid-step lifts, %5.0f rpm, %2.0f us: %.1e um per step\n", rpm, d * 1e6, worst * 1e6);
+      std::printf("[ figures  ] against textbook with true mid-step lifts, %5.0f rpm, %2.0f us: %.1e um per step\n",
+                  rpm, d * 1e6, worst * 1e6);
       EXPECT_LT(worst, 0.005e-6);
     }
   }
@@ -134,27 +137,28 @@ TEST(ValveStep, ByTheExponentialIsTheExactSolutionForTheQuinticLift) {
   const ValveMotion<double> motion = motion_in_one_step(body, d, Integrator::exponential);
   // Power series of the solution of M y'' + C y' + K y = F + k Y + b Y' with Y a quintic, in long double, term by term until nothing is added.
   using Long = long double;
+  const auto wide = [](double x) { return static_cast<Long>(x); };
   for (std::uint32_t regime = 0; regime < 4; ++regime) {
     for (double deg = -60; deg < 60; deg += 7.7) {
       const LiftStep<double> step = lift_step_at(lift, deg, 0.7);
       const LiftQuintic<double> quintic(step);
-      const Long h = d;
-      const Long M = body.mass_kg;
+      const Long h = wide(d);
+      const Long M = wide(body.mass_kg);
       const bool on_train = (regime & kTrainOn) != 0;
       const bool on_seat = (regime & kSeatOn) != 0;
-      const Long K = Long{body.spring_N_m} + (on_train ? body.train_N_m : 0) + (on_seat ? body.seat_N_m : 0);
-      const Long C = Long{body.guide_Ns_m} + (on_train ? body.train_Ns_m : 0) + (on_seat ? body.seat_Ns_m : 0);
+      const Long K = wide(body.spring_N_m + (on_train ? body.train_N_m : 0) + (on_seat ? body.seat_N_m : 0));
+      const Long C = wide(body.guide_Ns_m + (on_train ? body.train_Ns_m : 0) + (on_seat ? body.seat_Ns_m : 0));
       const double force_N = constant_force_N(body, regime, 12.0);
       Long term[60];
       const double start_m = on_seat ? 3e-6 : step.at[0] - 20e-6;
-      term[0] = start_m;
-      term[1] = Long{0.9} * h;
+      term[0] = wide(start_m);
+      term[1] = wide(0.9) * h;
       Long y = term[0] + term[1];
       Long v = term[1];
       for (int n = 0; n < 58; ++n) {
-        Long drive = n == 0 ? Long{force_N} : 0;
-        if (on_train && n < 6) drive += Long{body.train_N_m} * quintic.coefficient(n);
-        if (on_train && n < 5) drive += Long{body.train_Ns_m} / h * (n + 1) * quintic.coefficient(n + 1);
+        Long drive = n == 0 ? wide(force_N) : 0;
+        if (on_train && n < 6) drive += wide(body.train_N_m) * wide(quintic.coefficient(n));
+        if (on_train && n < 5) drive += wide(body.train_Ns_m) / h * (n + 1) * wide(quintic.coefficient(n + 1));
         term[n + 2] = (drive * h * h - K * h * h * term[n] - C * h * (n + 1) * term[n + 1]) / (M * (n + 1) * (n + 2));
         y += term[n + 2];
         v += (n + 2) * term[n + 2];
@@ -162,10 +166,13 @@ TEST(ValveStep, ByTheExponentialIsTheExactSolutionForTheQuinticLift) {
       const ValveState<double> after = stepped(motion.fine[regime], {start_m, 0.9}, step, force_N, on_train);
       // Fourth-order steps of d / 64: w d / 64 <= 0.0134, so 0.0134^4 / 120 w d = 2.3e-10 of what swings, twice that for its damping.
       const double w = std::sqrt(static_cast<double>(K / M));
-      const double driven_m = std::fabs(force_N + (on_train ? body.train_N_m * step.at[0] : 0)) / static_cast<double>(K);
+      const double driven_m =
+          std::fabs(force_N + (on_train ? body.train_N_m * step.at[0] : 0)) / static_cast<double>(K);
       const double swing_m = std::fabs(start_m - driven_m) + (0.9 + (on_train ? std::fabs(step.at[2] / d) : 0)) / w;
-      EXPECT_NEAR(after.lift_m, static_cast<double>(y), 5e-10 * swing_m) << "regime " << regime << ", " << deg << " deg";
-      EXPECT_NEAR(after.velocity_m_s, static_cast<double>(v / h), 5e-10 * swing_m * w) << "regime " << regime << ", " << deg << " deg";
+      EXPECT_NEAR(after.lift_m, static_cast<double>(y), 5e-10 * swing_m)
+          << "regime " << regime << ", " << deg << " deg";
+      EXPECT_NEAR(after.velocity_m_s, static_cast<double>(v / h), 5e-10 * swing_m * w)
+          << "regime " << regime << ", " << deg << " deg";
     }
   }
 }
@@ -194,13 +201,15 @@ TEST(ValveBody, OfTheOneTwentyFiveHasTheMassThatItsDescriptionImplies) {
 /// Time of n whole swings of an undamped valve that touches the train, the seat or both all the time, counted on the matrix's own steps.
 double swing_s(const ValveMotion<double>& motion, std::uint32_t regime, int swings) {
   const ValveBody<double>& b = motion.body;
-  const double stiffness = b.spring_N_m + ((regime & kTrainOn) != 0 ? b.train_N_m : 0) + ((regime & kSeatOn) != 0 ? b.seat_N_m : 0);
+  const double stiffness =
+      b.spring_N_m + ((regime & kTrainOn) != 0 ? b.train_N_m : 0) + ((regime & kSeatOn) != 0 ? b.seat_N_m : 0);
   const double rest_m = constant_force_N(b, regime, 0.0) / stiffness;
   ValveState<double> s{rest_m - 1e-6, 0};
   int upward = 0;
   double first = 0;
   for (int i = 1;; ++i) {
-    const ValveState<double> next = stepped(motion.fine[regime], s, LiftStep<double>{}, constant_force_N(b, regime, 0.0), (regime & kTrainOn) != 0);
+    const ValveState<double> next =
+        stepped(motion.fine[regime], s, LiftStep<double>{}, constant_force_N(b, regime, 0.0), (regime & kTrainOn) != 0);
     if (s.lift_m < rest_m && next.lift_m >= rest_m) {
       const double at = i - (next.lift_m - rest_m) / (next.lift_m - s.lift_m);  // near the crossing a sine is straight
       if (upward == 0) first = at;
@@ -215,20 +224,26 @@ TEST(ValveBody, SwingsAtItsNaturalFrequencies) {
   train.valve.train_damping_ratio = train.valve.guide_damping_ratio = train.valve.seat_damping_ratio = 0;
   const ValveBody<double> body = body_of(train);
   const ValveMotion<double> motion = motion_in_one_step(body, 1e-6, Integrator::exponential);
-  EXPECT_NEAR(swing_s(motion, kTrainOn, 1000), 2 * kPi / open_frequency_rad_s(body), 1e-9 * swing_s(motion, kTrainOn, 10));
-  EXPECT_NEAR(swing_s(motion, kTrainOn | kSeatOn, 1000), 2 * kPi / seated_frequency_rad_s(body), 1e-8 * swing_s(motion, 3, 10));
+  EXPECT_NEAR(swing_s(motion, kTrainOn, 1000), 2 * kPi / open_frequency_rad_s(body),
+              1e-9 * swing_s(motion, kTrainOn, 10));
+  EXPECT_NEAR(swing_s(motion, kTrainOn | kSeatOn, 1000), 2 * kPi / seated_frequency_rad_s(body),
+              1e-8 * swing_s(motion, 3, 10));
   EXPECT_NEAR(open_frequency_rad_s(body) / (2 * kPi), 2216, 1);     // Hz: 11.805 kN/mm on 60.87 g
   EXPECT_NEAR(seated_frequency_rad_s(body) / (2 * kPi), 6820, 10);  // Hz: 111.8 kN/mm
 }
 
 TEST(Contacts, HoldOnlyWhileBothTheGapAndTheForceArePositive) {
   ValveBody<double> b{};
-  b.train_N_m = 1e7, b.train_Ns_m = 100, b.seat_N_m = 1e8, b.seat_Ns_m = 500, b.preload_N = 200, b.seat_sink_m = 2e-6, b.mass_kg = 0.06;
-  const auto regime = [&](double y, double v, double Y, double Yd) { return contacts(b, ValveState<double>{y, v}, Y, Yd).regime(); };
+  b.train_N_m = 1e7, b.train_Ns_m = 100, b.seat_N_m = 1e8, b.seat_Ns_m = 500, b.preload_N = 200, b.seat_sink_m = 2e-6,
+  b.mass_kg = 0.06;
+  const auto regime = [&](double y, double v, double Y, double Yd) {
+    return contacts(b, ValveState<double>{y, v}, Y, Yd).regime();
+  };
   EXPECT_EQ(regime(0, 0, -50e-6, 0), kSeatOn) << "closed, lash open";
   EXPECT_EQ(regime(0, 0, 1e-6, 0), kSeatOn | kTrainOn) << "the train presses";
   EXPECT_EQ(regime(3e-3, 0, 3.01e-3, 0), kTrainOn) << "lifted";
-  EXPECT_EQ(regime(3e-3, 2, 3.01e-3, 0), 0u) << "pressed by 10 um, 100 N, but leaving at 2 m/s: the damper would have to pull";
+  EXPECT_EQ(regime(3e-3, 2, 3.01e-3, 0), 0u)
+      << "pressed by 10 um, 100 N, but leaving at 2 m/s: the damper would have to pull";
   EXPECT_EQ(regime(3.01e-3, -2, 3e-3, 0), 0u) << "the damper would push, but there is a gap";
   EXPECT_EQ(regime(1e-6, 1, -50e-6, 0), 0u) << "in the seat but leaving faster than it springs back: no adhesion";
   EXPECT_EQ(regime(3e-6, -1, -50e-6, 0), 0u) << "coming down, not there yet";
@@ -239,7 +254,9 @@ TEST(ValveStepping, RefusesWhatItCannotStepAndNamesTheLongestTick) {
   const ValveBody<double> body = body_of(ohc_125_train());
   ValveMotion<double> motion{};
   for (const double accuracy_m : {0.009e-6, 11e-6, 0.0, -1e-6, std::nan(""), HUGE_VAL}) {
-    EXPECT_TRUE(refuses(motion_of(body, 100e-6, {Integrator::rk4, accuracy_m}, motion), Reason::out_of_range, "tick.accuracy")) << accuracy_m;
+    EXPECT_TRUE(
+        refuses(motion_of(body, 100e-6, {Integrator::rk4, accuracy_m}, motion), Reason::out_of_range, "tick.accuracy"))
+        << accuracy_m;
   }
   Random random;
   for (int draw = 0; draw < 200; ++draw) {
@@ -281,17 +298,20 @@ ValveMotion<Real> in_real(const ValveMotion<double>& motion) {
 
 /// Energy of a valve that swings about its rest in a regime, lift constant.
 double energy_J(const ValveBody<double>& b, std::uint32_t regime, double rest_m, double y, double v) {
-  const double stiffness = b.spring_N_m + ((regime & kTrainOn) != 0 ? b.train_N_m : 0) + ((regime & kSeatOn) != 0 ? b.seat_N_m : 0);
+  const double stiffness =
+      b.spring_N_m + ((regime & kTrainOn) != 0 ? b.train_N_m : 0) + ((regime & kSeatOn) != 0 ? b.seat_N_m : 0);
   return b.mass_kg * v * v / 2 + stiffness * (y - rest_m) * (y - rest_m) / 2;
 }
 
 /// Largest growth of energy, relative to the first, over many steps.
 template <class Real>
-double energy_growth(const ValveBody<double>& body, std::uint32_t regime, double step_s, Integrator integrator, long steps) {
+double energy_growth(const ValveBody<double>& body, std::uint32_t regime, double step_s, Integrator integrator,
+                     long steps) {
   const ValveMotion<double> motion = motion_in_one_step(body, step_s, integrator);
   const StepMatrix<Real> matrix = in_real<Real>(motion).fine[regime];
   const bool on_train = (regime & kTrainOn) != 0;
-  const double stiffness = body.spring_N_m + (on_train ? body.train_N_m : 0) + ((regime & kSeatOn) != 0 ? body.seat_N_m : 0);
+  const double stiffness =
+      body.spring_N_m + (on_train ? body.train_N_m : 0) + ((regime & kSeatOn) != 0 ? body.seat_N_m : 0);
   LiftStep<Real> lift{};
   lift.at[0] = lift.at[1] = on_train ? static_cast<Real>(5e-3) : Real{0};
   const double force_N = constant_force_N(body, regime, 0.0);
@@ -301,7 +321,9 @@ double energy_growth(const ValveBody<double>& body, std::uint32_t regime, double
   double largest = 0;
   for (long i = 0; i < steps; ++i) {
     s = stepped(matrix, s, lift, static_cast<Real>(force_N), on_train);
-    if (i % 997 == 0) largest = std::max(largest, energy_J(body, regime, rest_m, static_cast<double>(s.lift_m), static_cast<double>(s.velocity_m_s)));
+    if (i % 997 == 0)
+      largest = std::max(
+          largest, energy_J(body, regime, rest_m, static_cast<double>(s.lift_m), static_cast<double>(s.velocity_m_s)));
   }
   return largest / first - 1;
 }
@@ -320,8 +342,9 @@ TYPED_TEST(ValveEnergy, OfAnUndampedValveDoesNotGrow) {
     for (const std::uint32_t regime : {0u, kTrainOn}) {
       for (const double step_s : {3e-6, 7e-6}) {
         const double growth = energy_growth<Real>(body, regime, step_s, integrator, energy_steps());
-        std::printf("[ figures  ] %s, %s, regime %u, %.0f us: energy grows by %+.1e\n", sizeof(Real) == 4 ? "float" : "double",
-                    integrator == Integrator::rk4 ? "rk4" : "exponential", regime, step_s * 1e6, growth);
+        std::printf("[ figures  ] %s, %s, regime %u, %.0f us: energy grows by %+.1e\n",
+                    sizeof(Real) == 4 ? "float" : "double", integrator == Integrator::rk4 ? "rk4" : "exponential",
+                    regime, step_s * 1e6, growth);
         EXPECT_LE(growth, bound) << "regime " << regime << ", " << step_s << " s";
       }
     }
@@ -355,8 +378,8 @@ template <class Real, std::uint32_t Cylinders, std::uint32_t Trains, bool Phasin
 constexpr std::size_t bytes_of_parts() {
   constexpr std::size_t real = sizeof(Real);
   constexpr std::size_t valves = std::size_t{Cylinders} * Trains;
-  std::size_t bytes = 8 + 8 + 8 + 2 * real;             // fingerprint, phase, ticks; speed and load ratio
-  bytes += valves * (2 * real + 2 * 4);                 // lift, velocity; regime, asleep
+  std::size_t bytes = 8 + 8 + 8 + 2 * real;  // fingerprint, phase, ticks; speed and load ratio
+  bytes += valves * (2 * real + 2 * 4);      // lift, velocity; regime, asleep
   if (Phasing) bytes += Trains * 8 + (Trains + 1) / 2 * 2 * real;
   if (Results) bytes += valves * ((9 + 5) * real + (4 + 4) * 4);  // cycle and record: numbers, counts
   return bytes;

@@ -1,5 +1,7 @@
 #include <crankloop/tabulate/valve_motion.hpp>
 
+#include <cstring>
+
 #include <crankloop/tick/square_root.hpp>
 
 namespace crankloop {
@@ -50,15 +52,17 @@ struct Steps {
   return {whole, parts(tick_s / whole, fine_step_rate(stepping.accuracy_m) / fastest_rate_per_s(body))};
 }
 
-/// The matrix of a linear step: its columns are what the step makes of unit vectors.
+/// The matrix of a linear step: its columns are what the step adds to unit vectors. The diagonal is lowered by a rounding, so that no
+/// error of the last bit makes an undamped valve's energy grow.
 template <class Propagate>
 [[nodiscard]] StepMatrix<double> matrix_of(const Propagate& propagate) noexcept {
   StepMatrix<double> m{};
   const ValveState<double> by_y = propagate({1, 0}, LiftStep<double>{}, 0.0);
   const ValveState<double> by_v = propagate({0, 1}, LiftStep<double>{}, 0.0);
   const ValveState<double> by_force = propagate({0, 0}, LiftStep<double>{}, 1.0);
-  m.y.y = by_y.lift_m, m.v.y = by_y.velocity_m_s;
-  m.y.v = by_v.lift_m, m.v.v = by_v.velocity_m_s;
+  constexpr double kRounding = 0x1p-52;
+  m.y.y = by_y.lift_m - 1 - kRounding, m.v.y = by_y.velocity_m_s;
+  m.y.v = by_v.lift_m, m.v.v = by_v.velocity_m_s - 1 - kRounding;
   m.y.force = by_force.lift_m, m.v.force = by_force.velocity_m_s;
   for (int i = 0; i < 6; ++i) {
     LiftStep<double> unit{};
@@ -73,16 +77,35 @@ template <class Propagate>
 /// The exact solution to rounding, by Runge-Kutta steps so short that their error is below it: (0.3 / 64)^4 / 120 of a step.
 constexpr int kExactDivisions = 64;
 
+/// The largest float that is not above x.
+[[nodiscard]] float rounded_down(double x) noexcept {
+  const float nearest = static_cast<float>(x);
+  if (static_cast<double>(nearest) <= x) return nearest;
+  std::uint32_t bits;
+  std::memcpy(&bits, &nearest, sizeof bits);
+  bits = nearest > 0 ? bits - 1 : bits + 1;  // the neighbour toward minus infinity; x = 0 is itself a float
+  float below;
+  std::memcpy(&below, &bits, sizeof below);
+  return below;
+}
+
+/// The float next to x toward zero.
+[[nodiscard]] float rounded_in(double x) noexcept { return x < 0 ? -rounded_down(-x) : rounded_down(x); }
+
+/// Determinant (1 + yy)(1 + vv) - yv vy, with yv > 0 > vy: rounded so that it does not grow, and with it no undamped valve's energy.
 [[nodiscard]] StepMatrix<float> rounded(const StepMatrix<double>& m) noexcept {
-  const auto row = [](const StepMatrix<double>::Row& r) {
+  const auto drives = [](const StepMatrix<double>::Row& r) {
     StepMatrix<float>::Row f{};
-    f.y = static_cast<float>(r.y);
-    f.v = static_cast<float>(r.v);
     f.force = static_cast<float>(r.force);
     for (int i = 0; i < 6; ++i) f.lift[i] = static_cast<float>(r.lift[i]);
     return f;
   };
-  return {row(m.y), row(m.v)};
+  StepMatrix<float> f{drives(m.y), drives(m.v)};
+  f.y.y = rounded_down(m.y.y);
+  f.y.v = rounded_in(m.y.v);
+  f.v.y = rounded_in(m.v.y);
+  f.v.v = rounded_down(m.v.v);
+  return f;
 }
 
 }  // namespace
@@ -112,14 +135,9 @@ double seated_frequency_rad_s(const ValveBody<double>& body) noexcept {
 }
 
 double longest_tick_s(const ValveBody<double>& body, const ValveStepping& stepping) noexcept {
-  double shortest = 0;
-  double longest = 1;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = (shortest + longest) / 2;
-    const Steps steps = steps_for(body, middle, stepping);
-    (steps.whole <= kMostFineSteps && steps.whole * steps.fine_per_whole <= kMostFineSteps ? shortest : longest) = middle;
-  }
-  return shortest;
+  // whole * fine <= tick / fine step + tick / whole step + 1: a bound that rises with the tick, unlike the product itself.
+  const double per_s = fastest_rate_per_s(body) / fine_step_rate(stepping.accuracy_m) + open_rate_per_s(body) / kWholeStepRate;
+  return (kMostFineSteps - 1) / per_s;
 }
 
 ValveState<double> runge_kutta(const ValveBody<double>& body, std::uint32_t regime, double d_s, int n, ValveState<double> state,
@@ -152,8 +170,8 @@ ValveState<double> runge_kutta(const ValveBody<double>& body, std::uint32_t regi
 
 Status motion_of(const ValveBody<double>& body, double tick_s, const ValveStepping& stepping, ValveMotion<double>& motion) noexcept {
   if (!(stepping.accuracy_m >= 0.01e-6 && stepping.accuracy_m <= 10e-6)) return {Reason::out_of_range, -1, "tick.accuracy"};
+  if (!(tick_s > 0 && tick_s <= longest_tick_s(body, stepping))) return {Reason::out_of_range, -1, "tick.tick"};
   const Steps steps = steps_for(body, tick_s, stepping);
-  if (steps.whole > kMostFineSteps || steps.whole * steps.fine_per_whole > kMostFineSteps) return {Reason::out_of_range, -1, "tick.tick"};
   motion = {};
   motion.body = body;
   motion.steps = static_cast<std::uint32_t>(steps.whole);

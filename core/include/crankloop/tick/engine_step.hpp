@@ -340,6 +340,7 @@ Status Engine<Real, S>::init(const Tables& tables, Phase start) noexcept {
     step.remember_work();
     output_ = Output{};
   }
+  if constexpr (Needs<S>::elastic_valves) detail::ValvesStep<Real, S>{tables, state_, output_, start, false, nullptr}.settle();
   return {};
 }
 

@@ -38,7 +38,8 @@ struct ValveBody {
   Real rocker_mass_kg;     ///< I_rocker / l_v^2
 };
 
-/// (y, v) after a step = this times what drives it. Lift terms are Y0, Y1, then d Y' and d^2 Y'' at both ends, d the step.
+/// What a step adds to (y, v) = this times what drives it: increments, because in float a matrix near one would lose the stiffness of a
+/// short step to rounding. Lift terms are Y0, Y1, then d Y' and d^2 Y'' at both ends, d the step.
 template <class Real>
 struct StepMatrix {
   struct Row {
@@ -128,15 +129,15 @@ template <class Real>
 template <class Real>
 [[nodiscard]] constexpr ValveState<Real> stepped(const StepMatrix<Real>& m, ValveState<Real> s, const LiftStep<Real>& lift, Real force_N,
                                                  bool train_on) noexcept {
-  Real y = m.y.y * s.lift_m + m.y.v * s.velocity_m_s + m.y.force * force_N;
-  Real v = m.v.y * s.lift_m + m.v.v * s.velocity_m_s + m.v.force * force_N;
+  Real more_y = m.y.y * s.lift_m + m.y.v * s.velocity_m_s + m.y.force * force_N;
+  Real more_v = m.v.y * s.lift_m + m.v.v * s.velocity_m_s + m.v.force * force_N;
   if (train_on) {
     for (int i = 0; i < 6; ++i) {
-      y += m.y.lift[i] * lift.at[i];
-      v += m.v.lift[i] * lift.at[i];
+      more_y += m.y.lift[i] * lift.at[i];
+      more_v += m.v.lift[i] * lift.at[i];
     }
   }
-  return {y, v};
+  return {s.lift_m + more_y, s.velocity_m_s + more_v};
 }
 
 /// The smaller of gap and force term of each contact: it acts while that is positive.

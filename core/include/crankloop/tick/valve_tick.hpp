@@ -127,9 +127,12 @@ class ValveTick {
   constexpr void advance(ValveCondition<Real>& valve, const CamTurn<Real>& cam) noexcept {
     const Cell start = LiftCurve<Real>::cell(cam.from);
     const Lift<Real> lift_at_start = curve_.read(start);
-    lift_ = curve_.read(LiftCurve<Real>::cell(cam.to));
-    const bool lash_stays_open = lash_open(lift_at_start, lift_) && detail::magnitude(cam.turned_deg) < kLobeNotSkipped_deg;
-    if (valve.asleep != 0 && lash_stays_open) return;
+    const Cell end = LiftCurve<Real>::cell(cam.to);
+    lift_ = curve_.read(end);
+    // Off the lobe nothing comes: with a clearance the train does not touch, without one it touches and does not move.
+    const bool off_lobe = start.degree >= curve_.segments && end.degree >= curve_.segments;
+    const bool cam_is_away = (off_lobe || lash_open(lift_at_start, lift_)) && detail::magnitude(cam.turned_deg) < kLobeNotSkipped_deg;
+    if (valve.asleep != 0 && cam_is_away) return;
     if (valve.asleep != 0) {  // wake where the gas holds the valve on its seat
       valve.state = {-gas_N_ / (motion_.body.seat_N_m + motion_.body.spring_N_m), Real{0}};
       valve.asleep = 0;
@@ -142,7 +145,7 @@ class ValveTick {
       if (!whole_step(valve, from, to, step_deg)) fine_steps(valve, from, next, step_deg);
       from = to;
     }
-    fall_asleep(valve, lash_stays_open);
+    fall_asleep(valve, cam_is_away);
   }
 
  private:
@@ -227,6 +230,7 @@ class ValveTick {
       --budget_.left;
       record_.change(valve.regime, valve.regime ^ changed, after.velocity_m_s, from_deg + next * fine_deg);
       valve.regime ^= changed;
+      note_part(series, valve, after, next, next, from_deg, fine_deg);  // the force of a damper begins with a jump
     }
   }
 
@@ -252,8 +256,8 @@ class ValveTick {
   }
 
   /// A closed valve that has come to rest is put exactly at rest: it costs nothing, and no denormal numbers.
-  constexpr void fall_asleep(ValveCondition<Real>& valve, bool lash_stays_open) noexcept {
-    if (!lash_stays_open || valve.regime != kSeatOn) return;
+  constexpr void fall_asleep(ValveCondition<Real>& valve, bool cam_is_away) noexcept {
+    if (!cam_is_away || valve.regime != kSeatOn) return;
     const Real off_m = valve.state.lift_m + gas_N_ / (motion_.body.seat_N_m + motion_.body.spring_N_m);
     const Real speed_m_s = valve.state.velocity_m_s;
     if (detail::magnitude(off_m) >= motion_.rest_m || detail::magnitude(speed_m_s) >= motion_.rest_m_s) return;

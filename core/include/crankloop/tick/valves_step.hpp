@@ -24,6 +24,19 @@ struct ValvesStep {
   bool jumped;                 ///< a measured phase jumped: valves start anew where the cam stands
   const Real* pressure_Pa;     ///< per cylinder, where the scene has valve_gas
 
+  /// Puts every valve where its cam stands, at rest: the start, before the first tick.
+  void settle() noexcept {
+    if constexpr (N::elastic_valves) {
+      for (std::uint32_t t = 0; t < trains(); ++t) {
+        const LiftCurve<Real>& curve = tables.lift_curves[t];
+        for (std::uint32_t k = 0; k < count<S>(tables.drive->cylinders); ++k) {
+          const std::uint64_t at = state.phase.units() - zero_phase(t, k);
+          state.valve[t][k] = in_equilibrium(tables.valve_motions[t].body, curve.read(LiftCurve<Real>::cell(at)).lift_m, Real{0});
+        }
+      }
+    }
+  }
+
   /// Moves the cams toward their targets, then every valve.
   [[nodiscard]] std::uint32_t run(const Input<Real, S>& input) noexcept {
     std::uint32_t faults = 0;
@@ -40,6 +53,12 @@ struct ValvesStep {
 
  private:
   [[nodiscard]] std::uint32_t trains() const noexcept { return S::trains.exact ? S::trains.capacity : tables.drive->trains; }
+
+  /// Engine phase at which the lobe of a cylinder's train opens.
+  [[nodiscard]] std::uint64_t zero_phase(std::uint32_t t, std::uint32_t k) const noexcept {
+    const Drive<Real>& drive = *tables.drive;
+    return drive.firing_phase[drive.mechanism_of[k]] + (std::uint64_t{drive.turn_of[k]} << 63) + tables.lift_curves[t].opens;
+  }
 
   [[nodiscard]] std::uint64_t cam_phase(std::uint32_t t) const noexcept {
     if constexpr (S::cam_phasing) {
@@ -63,7 +82,7 @@ struct ValvesStep {
   void run_valve(std::uint32_t t, std::uint32_t k, std::uint64_t phase_before, std::uint64_t phase_after, EventBudget& budget) noexcept {
     const Drive<Real>& drive = *tables.drive;
     const LiftCurve<Real>& curve = tables.lift_curves[t];
-    const std::uint64_t zero = drive.firing_phase[drive.mechanism_of[k]] + (std::uint64_t{drive.turn_of[k]} << 63) + curve.opens;
+    const std::uint64_t zero = zero_phase(t, k);
     CamTurn<Real> cam;
     cam.from = before.units() - zero - phase_before;
     cam.to = state.phase.units() - zero - phase_after;
@@ -95,7 +114,7 @@ struct ValvesStep {
     if constexpr (S::valve_results) {
       ValveRecord<Real>& record = state.record[t][k];
       lift = advance(motion, curve, gas_N, budget, record, valve, turn);
-      if (passes_base_circle(curve, turn)) out.valve_cycle[t][k] = record.finish(Real{kDegreesPerTurn}, valve.regime);
+      if (passes_base_circle(curve, turn)) out.valve_cycle[t][k] = record.finish(cycle_end_deg(curve, turn), valve.regime);
     } else {
       NoRecord<Real> none;
       lift = advance(motion, curve, gas_N, budget, none, valve, turn);
@@ -117,7 +136,7 @@ struct ValvesStep {
     if (open_m > b.seat_sink_m) return {{open_m, Real{0}}, kTrainOn, 0};
     const Real pushed_m = (b.train_N_m * lift_m - gas_N) / (b.train_N_m + b.seat_N_m + b.spring_N_m);
     if (lift_m > pushed_m) return {{pushed_m, Real{0}}, kTrainOn | kSeatOn, 0};
-    return {{-gas_N / (b.seat_N_m + b.spring_N_m), Real{0}}, kSeatOn, 0};
+    return {};
   }
 
   /// Whether the cam passes the middle of its base circle in this tick: there a cycle ends.
@@ -128,6 +147,12 @@ struct ValvesStep {
     const auto to = static_cast<std::int64_t>(cam.to - middle);
     constexpr std::int64_t kNear = std::int64_t{1} << 62;  // crossing zero there, not half a turn away
     return (from < 0) != (to < 0) && to < kNear && to > -kNear;
+  }
+
+  /// The middle of the base circle in cam degrees since the start of the lobe: after it, or before it when turning backwards.
+  [[nodiscard]] static Real cycle_end_deg(const LiftCurve<Real>& curve, const CamTurn<Real>& cam) noexcept {
+    const auto lobe_deg = static_cast<Real>(static_cast<std::int32_t>(curve.segments));
+    return (cam.turned_deg < 0 ? lobe_deg - Real{kDegreesPerTurn} : lobe_deg + Real{kDegreesPerTurn}) / 2;
   }
 
   void show(std::uint32_t t, std::uint32_t k, const ValveCondition<Real>& valve, const Lift<Real>& lift, Real cam_deg_s, Real gas_N) noexcept {
@@ -152,10 +177,8 @@ struct ValvesStep {
 
   /// Read where the train touches; outside the lobe there is no force to multiply.
   [[nodiscard]] Real rocker_ratio(std::uint32_t t, std::uint32_t k) const noexcept {
-    const Drive<Real>& drive = *tables.drive;
     const LiftCurve<Real>& curve = tables.lift_curves[t];
-    const std::uint64_t zero = drive.firing_phase[drive.mechanism_of[k]] + (std::uint64_t{drive.turn_of[k]} << 63) + curve.opens;
-    const Cell cell = LiftCurve<Real>::cell(state.phase.units() - zero - cam_phase(t));
+    const Cell cell = LiftCurve<Real>::cell(state.phase.units() - zero_phase(t, k) - cam_phase(t));
     return cell.degree < curve.segments ? value(curve.rocker_ratio[cell.degree], fraction<Real>(cell)) : Real{0};
   }
 };
