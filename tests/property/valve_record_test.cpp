@@ -1,4 +1,5 @@
-// What a cycle is reported to have been - opening, float, seating, bounce - against the reference's own trajectory, judged by other code.
+// What a cycle is reported to have been - opening, float, seating, bounce - against the reference's own trajectory,
+// judged by other code.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -72,7 +73,8 @@ void expect_same(const Told& told, const Tolerance& within) {
   EXPECT_NEAR(ours.largest_lift_m, truth.largest_lift_m, within.lift_m);
   EXPECT_NEAR(ours.opening_delay_deg, truth.opening_delay_deg, within.angle_deg);
   EXPECT_NEAR(ours.seating_speed_m_s, truth.seating_speed_m_s, within.speed_m_s);
-  // Largest speed and acceleration are those at the ends of steps: between them a contact's swing goes on by up to (w d)^2 / 8 of itself.
+  // Largest speed and acceleration are those at the ends of steps: between them a contact's swing goes on by up to (w
+  // d)^2 / 8 of itself.
   EXPECT_NEAR(ours.largest_speed_m_s, truth.largest_speed_m_s, 0.02 * truth.largest_speed_m_s);
   EXPECT_NEAR(ours.largest_acceleration_m_s2, truth.largest_acceleration_m_s2, 0.1 * truth.largest_acceleration_m_s2);
   if (truth.nearest_to_threshold_m < within.lift_m) return;  // the errors of both may decide whether it counts
@@ -101,7 +103,8 @@ void print(double rpm, double tick_us, const Told& told) {
       a.largest_acceleration_m_s2, b.largest_acceleration_m_s2);
 }
 
-// 1 um of lift at 12000 rpm is 0.003 deg where the valve moves at 8 m/s and 0.03 deg near the ends of a gap, 1e-4 of the seating speed.
+// 1 um of lift at 12000 rpm is 0.003 deg where the valve moves at 8 m/s and 0.03 deg near the ends of a gap, 1e-4 of
+// the seating speed.
 constexpr Tolerance kClose{1 * kUm, 0.03, 0.003};
 
 TEST(ValveRecord, TellsWhatTheReferenceSaw) {

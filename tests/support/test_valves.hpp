@@ -1,6 +1,7 @@
 // Elastic valves under test: the train of the 125 cm^3 engine, and an engine of one cylinder that runs it tick by tick.
 //
-// What belongs here: definitions, and a rig that runs them. What does not: what to expect (support/valve_reference.hpp).
+// What belongs here: definitions, and a rig that runs them. What does not: what to expect
+// (support/valve_reference.hpp).
 #pragma once
 
 #include <algorithm>

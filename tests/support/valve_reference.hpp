@@ -1,7 +1,9 @@
-// A valve's true motion, by other means than the library's: implicit Gauss collocation of order ten on the exact cam, contact changes bisected
-// to rounding, steps so short that the method's error is below rounding. Written from docs/model.md, without the library's step code.
+// A valve's true motion, by other means than the library's: implicit Gauss collocation of order ten on the exact cam,
+// contact changes bisected to rounding, steps so short that the method's error is below rounding. Written from
+// docs/model.md, without the library's step code.
 //
-// What belongs here: the reference, its record of a cycle, the textbook method to compare with. What does not: the valves it is run on.
+// What belongs here: the reference, its record of a cycle, the textbook method to compare with. What does not: the
+// valves it is run on.
 #pragma once
 
 #include <algorithm>
@@ -170,7 +172,8 @@ class Reference {
   }
 
  private:
-  /// Closed, still to 1e-20 m, and the lash open all the while (by its ends: callers advance by less than the base circle).
+  /// Closed, still to 1e-20 m, and the lash open all the while (by its ends: callers advance by less than the base
+  /// circle).
   [[nodiscard]] bool rests(double from_deg, double to_deg) const {
     if (keep_moments || gas_N != 0 || regime != 2 || std::fabs(y) > 1e-20 || std::fabs(v) > 1e-16) return false;
     return std::fabs(to_deg - from_deg) < 10 && cam_.at(from_deg).lift_m < -1e-8 && cam_.at(to_deg).lift_m < -1e-8;
@@ -297,7 +300,8 @@ class Reference {
   double c_[kStages], weight_[kStages], a_[kStages][kStages];
 };
 
-/// What a cycle was, by the rules of docs/model.md "Separation and bounce", from the reference's moments: all of one cycle, from rest.
+/// What a cycle was, by the rules of docs/model.md "Separation and bounce", from the reference's moments: all of one
+/// cycle, from rest.
 struct ReferenceCycle {
   double largest_lift_m = 0, largest_speed_m_s = 0, largest_acceleration_m_s2 = 0;
   double opening_delay_deg = 0;
@@ -416,7 +420,8 @@ struct Cubic {
   return cycle;
 }
 
-/// Four-stage Runge-Kutta as every textbook has it [Li 2017, 4.9-4.13]: contacts tested at each stage, the cam looked up at each.
+/// Four-stage Runge-Kutta as every textbook has it [Li 2017, 4.9-4.13]: contacts tested at each stage, the cam looked
+/// up at each.
 inline void textbook_step(const SingleMass& m, const std::function<CamAt(double part)>& cam, double d, double& y,
                           double& v) {
   const auto f = [&](double part, double y_m, double v_m_s) {

@@ -174,12 +174,13 @@ TEST(Textbook, ComesToTheSameWithShortSteps) {
   const EngineFile file = read_engine_file(kOhc125, {});
   const LoneValve valve(file, "intake");
   const ValveCycle<double> reference = run<double>(valve, 7000, kExponential, 1e-6).results;
-  const auto off_m = [&](double tick_s) {
-    return std::abs(run<double>(valve, 7000, kTextbook, tick_s).results.bounce_height_m - reference.bounce_height_m);
-  };
-  // A bounce follows from contact changes, which the textbook finds late by up to a step: first order.
-  EXPECT_LT(off_m(1e-6), 0.1e-6);
-  EXPECT_GT(off_m(6e-6), 2 * off_m(1e-6));
+  const auto textbook = [&](double tick_s) { return run<double>(valve, 7000, kTextbook, tick_s).results; };
+  const auto off_m_s = [&](const ValveCycle<double>& cycle) { return std::abs(cycle.seating_speed_m_s - reference.seating_speed_m_s); };
+  EXPECT_NEAR(textbook(1e-6).bounce_height_m, reference.bounce_height_m, 0.3e-6);
+  EXPECT_NEAR(textbook(1e-6).largest_lift_m, reference.largest_lift_m, 0.001e-6);  // between contact changes it is of fourth order
+  // Contact changes it finds late, by up to a step in which the seat brakes already: the seating speed is off by up to 10 %.
+  EXPECT_GT(off_m_s(textbook(6e-6)), 5 * off_m_s(textbook(1e-6)));
+  EXPECT_LT(off_m_s(textbook(6e-6)), 0.1 * reference.seating_speed_m_s);
 }
 
 TYPED_TEST(ValveLoopIn, CyclesAtModerateSpeedAgreeAndTellsWhenTheyDoNot) {
@@ -205,8 +206,8 @@ TYPED_TEST(ValveLoopIn, TheGasHoldsAValveWithAHeadAreaOnItsSeat) {
       if (crank_deg < 0) crank_deg += 720;
       if (crank_deg >= 720) crank_deg -= 720;
       const double gas_N = (diagram.full_Pa(crank_deg) - file.definition().pressure.crankcase_Pa) * v.head_area_m2;
-      // Pressed onto the stiff seat the valve follows the gas at once, but for the seat's own vibration.
-      EXPECT_NEAR(static_cast<double>(out.forces.seat_N), v.spring_preload_N + gas_N, 0.02 * v.spring_preload_N + 0.01 * gas_N)
+      // Pressed onto the stiff seat the valve follows the gas at once, but for the seat's own vibration, which each tick's step of it excites.
+      EXPECT_NEAR(static_cast<double>(out.forces.seat_N), v.spring_preload_N + gas_N, 0.05 * (v.spring_preload_N + gas_N))
           << out.cam_deg;
     }
   }

@@ -1,4 +1,5 @@
-// A valve's step: its matrix against the textbook and against the exact solution, contacts, frequencies, energy, step lengths, size of the state.
+// A valve's step: its matrix against the textbook and against the exact solution, contacts, frequencies, energy, step
+// lengths, size of the state.
 #include <crankloop/tabulate/valve_motion.hpp>
 
 #include <gtest/gtest.h>
@@ -135,7 +136,8 @@ TEST(ValveStep, ByTheExponentialIsTheExactSolutionForTheQuinticLift) {
   const ValveBody<double> body = body_of(train);
   const double d = 20e-6;
   const ValveMotion<double> motion = motion_in_one_step(body, d, Integrator::exponential);
-  // Power series of the solution of M y'' + C y' + K y = F + k Y + b Y' with Y a quintic, in long double, term by term until nothing is added.
+  // Power series of the solution of M y'' + C y' + K y = F + k Y + b Y' with Y a quintic, in long double, term by term
+  // until nothing is added.
   using Long = long double;
   const auto wide = [](double x) { return static_cast<Long>(x); };
   for (std::uint32_t regime = 0; regime < 4; ++regime) {
@@ -164,7 +166,8 @@ TEST(ValveStep, ByTheExponentialIsTheExactSolutionForTheQuinticLift) {
         v += (n + 2) * term[n + 2];
       }
       const ValveState<double> after = stepped(motion.fine[regime], {start_m, 0.9}, step, force_N, on_train);
-      // Fourth-order steps of d / 64: w d / 64 <= 0.0134, so 0.0134^4 / 120 w d = 2.3e-10 of what swings, twice that for its damping.
+      // Fourth-order steps of d / 64: w d / 64 <= 0.0134, so 0.0134^4 / 120 w d = 2.3e-10 of what swings, twice that
+      // for its damping.
       const double w = std::sqrt(static_cast<double>(K / M));
       const double driven_m =
           std::fabs(force_N + (on_train ? body.train_N_m * step.at[0] : 0)) / static_cast<double>(K);
@@ -194,11 +197,13 @@ TEST(ValveBody, IsThePrintedFormulasOfItsDefinition) {
 }
 
 TEST(ValveBody, OfTheOneTwentyFiveHasTheMassThatItsDescriptionImplies) {
-  // 33 g, a third of 60 g, and 8.12 kg mm^2 on the mean lever of a ball that travels from 20.6 deg above the pivot to 7.1 deg above it.
+  // 33 g, a third of 60 g, and 8.12 kg mm^2 on the mean lever of a ball that travels from 20.6 deg above the pivot to
+  // 7.1 deg above it.
   EXPECT_NEAR(body_of(ohc_125_train()).mass_kg, 0.033 + 0.020 + 0.00787, 2e-5);
 }
 
-/// Time of n whole swings of an undamped valve that touches the train, the seat or both all the time, counted on the matrix's own steps.
+/// Time of n whole swings of an undamped valve that touches the train, the seat or both all the time, counted on the
+/// matrix's own steps.
 double swing_s(const ValveMotion<double>& motion, std::uint32_t regime, int swings) {
   const ValveBody<double>& b = motion.body;
   const double stiffness =
@@ -282,7 +287,8 @@ TEST(ValveStepping, RefusesWhatItCannotStepAndNamesTheLongestTick) {
   }
 }
 
-// ---- energy ----------------------------------------------------------------------------------------------------------------
+// ---- energy
+// ----------------------------------------------------------------------------------------------------------------
 
 /// 10^7 steps, or 10^8 when long tests are asked for.
 long energy_steps() { return std::getenv("CRANKLOOP_LONG_TESTS") != nullptr ? 100'000'000 : 10'000'000; }
@@ -362,7 +368,8 @@ TYPED_TEST(ValveEnergy, OfADampedValveNeverGrowsBeyondRounding) {
   }
 }
 
-// ---- the state -------------------------------------------------------------------------------------------------------------
+// ---- the state
+// -------------------------------------------------------------------------------------------------------------
 
 template <std::uint32_t Cylinders, std::uint32_t Trains, bool Phasing, bool Results>
 struct Sized : Scene {

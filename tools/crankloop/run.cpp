@@ -1,6 +1,4 @@
 // `crankloop run FILE`: the fixed-step loop over some cycles, its figures, its ticks as CSV, its report.
-#include <unistd.h>
-
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -15,44 +13,15 @@
 #include "csv.hpp"
 #include "engine_file.hpp"
 #include "engine_report.hpp"
-#include "port/linux/stopwatch.hpp"
+#include "progress.hpp"
 #include "run_accuracy.hpp"
 #include "run_loop.hpp"
 #include "run_trace.hpp"
+#include "run_valves.hpp"
+#include "valve_tick_limit.hpp"
 
 namespace crankloop::program {
 namespace {
-
-/// A percentage on a terminal's stderr once a second has passed; erased at the end.
-class Progress {
- public:
-  explicit Progress(double ticks) : ticks_{ticks}, on_{::isatty(STDERR_FILENO) != 0} {}
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-  ~Progress() {
-    if (shown_) std::fprintf(stderr, "\r\033[K");
-  }
-
-  void tick() {
-    if (!on_ || ++done_ % kTicksPerLook != 0) return;
-    const std::int64_t now_ns = stopwatch_.elapsed_ns();
-    if (now_ns < next_ns_) return;
-    next_ns_ = now_ns + kPeriod_ns;
-    shown_ = true;
-    std::fprintf(stderr, "\rrunning: %.0f %%", 100 * static_cast<double>(done_) / ticks_);
-  }
-
- private:
-  static constexpr std::uint64_t kTicksPerLook = 4096;
-  static constexpr std::int64_t kPeriod_ns = 200'000'000;
-
-  double ticks_;
-  bool on_;
-  bool shown_ = false;
-  std::uint64_t done_ = 0;
-  std::int64_t next_ns_ = 1'000'000'000;
-  port::Stopwatch stopwatch_;
-};
 
 /// Six significant digits: enough to read, and none of float's noise. CSV has all there are.
 std::string six_digits(double value) {
@@ -86,19 +55,27 @@ class Summary {
   std::string text_;
 };
 
-std::vector<std::string> csv_header(int cylinders) {
+std::vector<std::string> csv_header(int cylinders, const std::vector<std::string>& trains) {
   std::vector<std::string> header{"time_s", "crank_deg", "speed_rpm", "torque_Nm", "mean_torque_Nm"};
   for (int k = 1; k <= cylinders; ++k) {
     for (std::size_t i = 0; i < kCsvQuantities; ++i) {
       header.push_back("c" + std::to_string(k) + "_" + kQuantityKinds[i].name + "_" + kQuantityKinds[i].suffix);
     }
   }
+  for (int k = 1; k <= cylinders; ++k) {
+    for (const std::string& train : trains) {
+      const std::string valve = "c" + std::to_string(k) + "_" + train + "_";
+      for (const ValveQuantityKind& kind : kValveQuantityKinds) header.push_back(valve + kind.name + "_" + kind.suffix);
+      header.push_back(valve + "regime");
+    }
+  }
   return header;
 }
 
 template <class Real>
-void write_row(CsvWriter& csv, const Layout& layout, const Operation& operation, std::uint64_t tick, double crank_deg,
+void write_row(CsvWriter& csv, const EngineDefinition& definition, const Operation& operation, std::uint64_t tick, double crank_deg,
                const WholeOutput<Real>& out) {
+  const Layout& layout = definition.layout;
   csv.cell(static_cast<double>(tick) * operation.tick_s);
   csv.cell(crank_deg);
   csv.cell(operation.speed_rpm);
@@ -108,6 +85,14 @@ void write_row(CsvWriter& csv, const Layout& layout, const Operation& operation,
     for (std::size_t i = 0; i < kCsvQuantities; ++i) {
       csv.cell(value_of(out, kQuantityKinds[i].quantity, place_of(layout, k)) *
                static_cast<Real>(kQuantityKinds[i].per_si));
+    }
+  }
+  for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
+    for (std::size_t t = 0; t < static_cast<std::size_t>(definition.train_count); ++t) {
+      for (const ValveQuantityKind& kind : kValveQuantityKinds) {
+        csv.cell(value_of(out, kind.quantity, t, k) * static_cast<Real>(kind.per_si));
+      }
+      csv.cell(static_cast<int>(out.valve_forces[t][k].regime));
     }
   }
   csv.end_row();
@@ -129,6 +114,25 @@ struct Engines {
 
   [[nodiscard]] bool has_gas() const noexcept { return exact.definition().pressure.source != PressureSource::none; }
 };
+
+/// The worst of a train's valves in their last whole cycle, and peaks over the ticks.
+void add_valves(Summary& s, const std::string& train, const ValveFigures& f) {
+  const ValveCycle<double>& cycle = f.last_cycle;
+  const auto peak = [&](ValveQuantity quantity) {
+    const ValveQuantityKind& kind = kValveQuantityKinds[index_of(quantity)];
+    s.peak("largest_" + train + "_" + kind.name, f.of[index_of(quantity)].largest, kind.per_si, kind.unit);
+  };
+  s.line(train + "_max_lift", cycle.largest_lift_m * 1e3, "mm");
+  s.line(train + "_opening_delay", cycle.opening_delay_deg, "deg", "of cam angle, at 0.1 mm of lift");
+  s.count(train + "_separations", cycle.separations);
+  s.line(train + "_separation_max_gap", cycle.separation_gap_m * 1e3, "mm");
+  s.line(train + "_seating_speed", cycle.seating_speed_m_s, "m/s");
+  s.count(train + "_bounces", cycle.bounces);
+  s.line(train + "_bounce_height", cycle.bounce_height_m * 1e3, "mm");
+  peak(ValveQuantity::train_force);
+  peak(ValveQuantity::seat_force);
+  peak(ValveQuantity::cam_force);
+}
 
 std::string summary_text(const Engines& engine, const Request& request, const RunFigures& f,
                          double wall_time_per_tick_ns) {
@@ -170,6 +174,8 @@ std::string summary_text(const Engines& engine, const Request& request, const Ru
   s.line("mean_piston_speed", mean_piston_speed_m_s(definition.crank, speed), "m/s");
   s.line("stroke", dead_centres(definition.crank).stroke_m * 1e3, "mm", "true one, with the pin offset");
   s.line("swept_volume", swept_volume_m3(definition.crank) * 1e6, "cm^3", "one cylinder");
+  const std::vector<std::string> trains = names_of_trains(engine.file);
+  for (std::size_t t = 0; t < f.valves.size(); ++t) add_valves(s, trains[t], f.valves[t]);
   s.line("table_gas_segments", f.tables.gas_segments);
   s.line("table_pressure_error", f.tables.pressure_error_Pa, "Pa");
   s.count("faulty_ticks", f.faulty_ticks);
@@ -191,24 +197,24 @@ template <class Real>
 int run(const Engines& engine, const Request& request, const Arguments& arguments) {
   const EngineDefinition& definition = engine.exact.definition();
   const Operation& operation = request.operation;
-  Progress progress((request.cycles + 1) * 720 / (operation.speed_rad_s() * kDegPerRad * operation.tick_s));
-  FixedStepLoop<Real> loop(definition, operation, 0, [&progress] { progress.tick(); });
+  Progress progress("running", (request.cycles + 1) * 720 / (operation.speed_rad_s() * kDegPerRad * operation.tick_s));
+  FixedStepLoop<Real> loop(definition, operation, 0, [&progress] { progress.step(); });
 
   std::optional<Output> csv_file;
   std::optional<CsvWriter> csv;
   std::optional<Output> report_file;
   if (!request.csv_path.empty()) csv_file.emplace(request.csv_path);
   if (!request.report_path.empty()) report_file.emplace(request.report_path);
-  if (csv_file) csv.emplace(*csv_file, csv_header(definition.layout.cylinders));
+  if (csv_file) csv.emplace(*csv_file, csv_header(definition.layout.cylinders, names_of_trains(engine.file)));
 
   const CloseUpWindow window = close_up_window(engine.summary.largest_torque_deg, loop.deg_per_tick());
   std::vector<CloseUpTick> close_up;
   const OnTick<Real> on_tick = [&](std::uint64_t tick, double crank_deg, const WholeOutput<Real>& out) {
-    if (csv) write_row(*csv, definition.layout, operation, tick, crank_deg, out);
+    if (csv) write_row(*csv, definition, operation, tick, crank_deg, out);
     if (static_cast<double>(tick) <= loop.ticks_per_cycle() && window.contains(crank_deg)) {
       close_up.push_back({crank_deg, static_cast<double>(out.torque_Nm), static_cast<double>(out.mean_torque_Nm)});
     }
-    progress.tick();
+    progress.step();
   };
   const RunFigures figures = run_cycles<Real>(loop, definition, operation, request.cycles, on_tick);
   const double wall_time_per_tick_ns = loop.wall_time_per_tick_ns();
@@ -249,9 +255,10 @@ int run_run(const Arguments& arguments) {
     throw InputError(file.path() + ": there is no pressure source, so --load-ratio has nothing to scale");
   }
   const Operation operation{arguments.has("--rpm") ? arguments.number("--rpm") : file.rated_rpm(),
-                            arguments.number("--tick-us") / 1e6, arguments.number("--load-ratio")};
+                            millionths(arguments.number("--tick-us")), arguments.number("--load-ratio")};
   const Request request{operation, arguments.whole_number("--cycles"), arguments.text("--real"),
                         arguments.text_or_empty("--csv"), arguments.text_or_empty("--report")};
+  require_trains(file, operation.tick_s);
   ExactEngine exact;
   if (const Status refused = exact.init(definition); !refused.ok()) throw file.explain(refused);
   const CycleSummary summary = summarise(exact, operation.speed_rad_s(), operation.load_ratio);

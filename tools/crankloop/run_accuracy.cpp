@@ -6,12 +6,13 @@
 #include <crankloop/tabulate/mechanism.hpp>
 #include <crankloop/tick/cylinder_forces.hpp>
 
+#include "valve_tick_limit.hpp"
+
 namespace crankloop::program {
 namespace {
 
 constexpr int kAngles = 7919;  // a prime: no two angles of a cycle lie at the same part of a degree
 constexpr double kShortestTick_s = 1e-6;
-constexpr double kLongestTick_s = 2e-3;
 
 double own_angle(const Layout& layout, std::size_t cylinder, double engine_deg) {
   const double deg = engine_deg - layout.firing_deg[cylinder];
@@ -59,7 +60,7 @@ Accuracy measure_accuracy(const ExactEngine& engine, const Operation& operation)
   const Layout& layout = definition.layout;
   Operation paced = operation;
   const double apart_s = 120 / operation.speed_rpm / kAngles;
-  const double ticks = std::ceil(apart_s / kLongestTick_s);
+  const double ticks = std::ceil(apart_s / longest_tick_of(definition));
   paced.tick_s = std::max(apart_s / ticks, kShortestTick_s);
   FixedStepLoop<Real> loop(definition, paced);
 

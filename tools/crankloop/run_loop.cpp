@@ -109,6 +109,7 @@ RunFigures run_cycles(FixedStepLoop<Real>& loop, const EngineDefinition& definit
   f.settling_ticks = loop.settling_ticks();
   f.deg_per_tick = loop.deg_per_tick();
   f.tables = loop.tables();
+  f.valves.resize(static_cast<std::size_t>(definition.train_count));
   const double last_part = span - static_cast<double>(f.ticks - 1);
   double torque_sum_Nm = 0;
   auto torque_before_Nm = static_cast<double>(loop.output().torque_Nm);
@@ -128,12 +129,23 @@ RunFigures run_cycles(FixedStepLoop<Real>& loop, const EngineDefinition& definit
       for (const QuantityKind& kind : kQuantityKinds) {
         f.of[index_of(kind.quantity)].take(static_cast<double>(value_of(out, kind.quantity, place)), own_deg);
       }
+      for (std::size_t t = 0; t < f.valves.size(); ++t) {
+        for (const ValveQuantityKind& kind : kValveQuantityKinds) {
+          const auto value = static_cast<double>(value_of(out, kind.quantity, t, k));
+          f.valves[t].of[index_of(kind.quantity)].take(value, own_deg);
+        }
+      }
     }
     for (std::size_t j = 0; j < journals; ++j)
       f.journal_load.take(static_cast<double>(out.journal_load_N[j]), engine_deg);
     f.faulty_ticks += out.faults != 0 ? 1 : 0;
     f.faults |= out.faults;
     if (on_tick) on_tick(tick, engine_deg, out);
+  }
+  for (std::size_t t = 0; t < f.valves.size(); ++t) {
+    for (std::size_t k = 0; k < cylinders; ++k) {
+      f.valves[t].last_cycle = worse_of(f.valves[t].last_cycle, in_double(loop.output().valve_cycle[t][k]));
+    }
   }
   f.mean_torque_Nm = torque_sum_Nm / span;
   f.power_W = f.mean_torque_Nm * operation.speed_rad_s();

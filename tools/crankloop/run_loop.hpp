@@ -8,11 +8,13 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include <crankloop/crankloop.hpp>
 #include <crankloop/tick/scenes.hpp>
 
 #include "run_quantities.hpp"
+#include "run_valves.hpp"
 
 namespace crankloop::program {
 
@@ -35,7 +37,7 @@ class FixedStepLoop {
  public:
   using Engine = crankloop::Engine<Real, scenes::Whole>;
 
-  /// The definition is valid and has masses. Throws UsageError for a speed beyond one revolution per tick, and for a
+  /// The definition is valid and has masses, and the tick suits its valve trains. Throws UsageError for a speed beyond one revolution per tick, and for a
   /// tick so short that a cycle takes more than kMostTicks. `after_tick` is called after each tick of the settling
   /// cycle.
   FixedStepLoop(const EngineDefinition& definition, const Operation& operation, double start_deg = 0,
@@ -84,6 +86,12 @@ struct Peaks {
   }
 };
 
+/// Of one valve train, over all cylinders.
+struct ValveFigures {
+  std::array<Peaks, kValveQuantities> of;  ///< where: the cylinder's own crank angle
+  ValveCycle<double> last_cycle{};         ///< the worst of the cylinders' last whole cycles
+};
+
 /// What the loop met in the recorded cycles. SI.
 struct RunFigures {
   int cycles = 0;
@@ -96,6 +104,7 @@ struct RunFigures {
   Peaks torque;                       ///< at the tick; where: engine angle
   std::array<Peaks, kQuantities> of;  ///< over all cylinders; where: the cylinder's own crank angle
   Peaks journal_load;                 ///< over all main journals; where: engine angle
+  std::vector<ValveFigures> valves;   ///< per valve train
   std::uint64_t faulty_ticks = 0;
   std::uint32_t faults = 0;  ///< all fault bits that occurred
   TableReport tables;

@@ -4,12 +4,13 @@
 
 #include <crankloop/tabulate/summary.hpp>
 
+#include "valve_tick_limit.hpp"
+
 namespace crankloop::program {
 namespace {
 
 constexpr double kSpacingDeg = 0.25;
-constexpr double kShortestTick_s = 1e-6;  // what tabulate takes
-constexpr double kLongestTick_s = 2e-3;
+constexpr double kShortestTick_s = 1e-6;
 
 /// A tick of which a whole number makes a spacing that divides 10 deg.
 struct Pace {
@@ -17,11 +18,11 @@ struct Pace {
   int ticks;
   double tick_s;
 };
-Pace pace_at(double speed_rpm) {
+Pace pace_at(double speed_rpm, double longest_tick_s) {
   const double s_per_deg = 1 / (6 * speed_rpm);
   double spacing_deg = kSpacingDeg;
   while (spacing_deg * s_per_deg < kShortestTick_s) spacing_deg *= 2;
-  const double ticks = std::ceil(spacing_deg * s_per_deg / kLongestTick_s);
+  const double ticks = std::ceil(spacing_deg * s_per_deg / longest_tick_s);
   return {spacing_deg, static_cast<int>(ticks), spacing_deg * s_per_deg / ticks};
 }
 
@@ -60,13 +61,19 @@ void append(Trace& trace, double crank_deg, const WholeOutput<Real>& out, Cylind
   append(trace.first, out.first);
   append(trace.second, out.second);
   append(trace.rotating, out.rotating);
+  for (std::size_t t = 0; t < trace.valves.size(); ++t) {
+    for (const ValveQuantityKind& kind : kValveQuantityKinds) {
+      append(trace.valves[t].of[index_of(kind.quantity)], static_cast<double>(value_of(out, kind.quantity, t, 0)));
+    }
+    trace.valves[t].regime.push_back(out.valve_forces[t][0].regime);
+  }
 }
 
 }  // namespace
 
 template <class Real>
 Trace record_trace(const EngineDefinition& definition, const Operation& operation) {
-  const Pace pace = pace_at(operation.speed_rpm);
+  const Pace pace = pace_at(operation.speed_rpm, longest_tick_of(definition));
   Operation paced = operation;
   paced.tick_s = pace.tick_s;
   FixedStepLoop<Real> loop(definition, paced, definition.layout.firing_deg[0]);
@@ -80,12 +87,19 @@ Trace record_trace(const EngineDefinition& definition, const Operation& operatio
   trace.journal_along_N.resize(pins + 1);
   trace.journal_across_N.resize(pins + 1);
   trace.journal_load_N.resize(pins + 1);
+  trace.valves.resize(static_cast<std::size_t>(definition.train_count));
   const CylinderPlace first = place_of(definition.layout, 0);
   const int count = static_cast<int>(std::lround(720 / pace.spacing_deg));
   append(trace, 0, loop.output(), first);
   for (int i = 1; i <= count; ++i) {
     for (int tick = 0; tick < pace.ticks; ++tick) loop.step();
     append(trace, i * pace.spacing_deg, loop.output(), first);
+  }
+  if (!trace.valves.empty()) {  // a lobe's results are there once its cam has passed the base circle: within another cycle
+    for (int i = 0; i < count * pace.ticks; ++i) loop.step();
+  }
+  for (std::size_t t = 0; t < trace.valves.size(); ++t) {
+    trace.valves[t].cycle = in_double(loop.output().valve_cycle[t][0]);
   }
   return trace;
 }

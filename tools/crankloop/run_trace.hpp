@@ -11,11 +11,23 @@
 
 #include "run_loop.hpp"
 #include "run_quantities.hpp"
+#include "run_valves.hpp"
 
 namespace crankloop::program {
 
 struct FreeForceTrace {
   std::vector<double> up_N, lateral_N, pitch_Nm, yaw_Nm;
+};
+
+/// One valve of cylinder 1.
+struct ValveTrace {
+  std::array<std::vector<double>, kValveQuantities> of;
+  std::vector<std::uint32_t> regime;  ///< 0 free, 1 train, 2 seat, 3 both
+  ValveCycle<double> cycle{};         ///< results of the lobe in the trace
+
+  [[nodiscard]] const std::vector<double>& operator[](ValveQuantity quantity) const noexcept {
+    return of[index_of(quantity)];
+  }
 };
 
 /// One cycle, all in SI, every vector of one length: entry i stands at crank_deg[i] = i * spacing_deg of cylinder 1's
@@ -35,6 +47,7 @@ struct Trace {
   FreeForceTrace first;  ///< free forces and moments of the whole engine
   FreeForceTrace second;
   FreeForceTrace rotating;
+  std::vector<ValveTrace> valves;  ///< per valve train
 
   [[nodiscard]] const std::vector<double>& operator[](Quantity quantity) const noexcept {
     return of[index_of(quantity)];
@@ -42,7 +55,7 @@ struct Trace {
 };
 
 /// Runs the loop at the operation's speed and load, at a tick of its own: 0.25 deg apart, or wider where that would
-/// take ticks below 1 us, or every n-th of ticks of 2 ms at most.
+/// take ticks below 1 us, or every n-th of ticks of 2 ms at most, less where a valve train demands it.
 template <class Real>
 Trace record_trace(const EngineDefinition& definition, const Operation& operation);
 

@@ -17,7 +17,9 @@ template <class Real>
 class TickProbe {
  public:
   explicit TickProbe(const EngineDefinition& definition) : tables_{std::make_unique<TableStorage<Real, scenes::Whole>>()} {
-    const Status status = tables_->build(definition, {kTick_s});
+    EngineDefinition without_valves = definition;  // which need time to move, not an angle
+    without_valves.train_count = 0;
+    const Status status = tables_->build(without_valves, {kTick_s});
     if (!status.ok()) throw InputError(std::string(status.field) + " " + describe(status.reason));
   }
 

@@ -18,4 +18,10 @@ namespace crankloop::program {
 [[nodiscard]] InputError explain_tabulate(const EngineFile& file, const Status& refused, double tick_s,
                                           const ValveStepping& stepping = {});
 
+/// Throws what explain_tabulate() says where a train of the file does not go with a tick, or its geometry does not close.
+void require_trains(const EngineFile& file, double tick_s, const ValveStepping& stepping = {});
+
+/// Longest tick that every train of a definition allows, at most 2 ms.
+[[nodiscard]] double longest_tick_of(const EngineDefinition& definition);
+
 }  // namespace crankloop::program

@@ -75,7 +75,7 @@ struct CylinderForces {
   Real inertia_force_N;      ///< P_j, reciprocating masses
   Real total_force_N;        ///< P = P_g + P_j
   Real side_force_N;         ///< N, on the cylinder wall
-  Real rod_force_N;          ///< S, along the rod
+  Real rod_force_N;          ///< S = P / cos b, along the rod; a rod's couple has no part in it
   Real radial_force_N;       ///< K, at the crank pin, positive toward the crank centre
   Real tangential_force_N;   ///< T, at the crank pin, positive with the rotation
   Real torque_Nm;            ///< M = T r

@@ -131,7 +131,8 @@ class ValveTick {
     lift_ = curve_.read(end);
     // Off the lobe nothing comes: with a clearance the train does not touch, without one it touches and does not move.
     const bool off_lobe = start.degree >= curve_.segments && end.degree >= curve_.segments;
-    const bool cam_is_away = (off_lobe || lash_open(lift_at_start, lift_)) && detail::magnitude(cam.turned_deg) < kLobeNotSkipped_deg;
+    const bool cam_is_away =
+        (off_lobe || lash_open(lift_at_start, lift_)) && detail::magnitude(cam.turned_deg) < kLobeNotSkipped_deg && held_by_spring();
     if (valve.asleep != 0 && cam_is_away) return;
     if (valve.asleep != 0) {  // wake where the gas holds the valve on its seat
       valve.state = {-gas_N_ / (motion_.body.seat_N_m + motion_.body.spring_N_m), Real{0}};
@@ -168,13 +169,16 @@ class ValveTick {
 
   [[nodiscard]] constexpr Real force_N(std::uint32_t regime) const noexcept { return constant_force_N(motion_.body, regime, gas_N_); }
 
+  /// Suction on the head leaves the spring enough to hold the valve on its seat.
+  [[nodiscard]] constexpr bool held_by_spring() const noexcept { return gas_N_ > -motion_.body.preload_N / 2; }
+
   [[nodiscard]] static constexpr bool lash_open(const Lift<Real>& from, const Lift<Real>& to) noexcept {
     return from.lift_m < -kLeastLash_m && to.lift_m < -kLeastLash_m;
   }
 
   /// A valve that only trembles on its seat, with the lash open: its vibration dies away and cannot reach a contact.
   [[nodiscard]] constexpr bool quiet(const ValveCondition<Real>& valve, const Place& from, const Place& to) const noexcept {
-    if (valve.regime != kSeatOn || !lash_open(from.lift, to.lift)) return false;
+    if (valve.regime != kSeatOn || !lash_open(from.lift, to.lift) || !held_by_spring()) return false;
     return detail::magnitude(valve.state.lift_m) + detail::magnitude(valve.state.velocity_m_s) * motion_.per_seat_rate_s < motion_.quiet_m;
   }
 
