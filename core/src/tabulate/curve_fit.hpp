@@ -39,7 +39,7 @@ template <std::size_t N>
 ///
 /// Cubic: Chebyshev's nodes; the error is the same at both ends, so neighbours meet. Quadratic: Chebyshev's +-0.866 would leave an error
 /// of opposite sign at the ends, and twice the error as a step from degree to degree; +-0.922 makes the inner error a fifth larger and
-/// the step less than half (docs/decisions/0003-curves.md).
+/// the step three fifths of that (docs/decisions/0003-curves.md).
 template <class Real>
 struct Nodes;
 template <>

@@ -24,7 +24,7 @@ namespace {
   return rate_per_s(b.spring_N_m + b.train_N_m, b.guide_Ns_m + b.train_Ns_m, b.mass_kg);
 }
 
-/// Rate times fine step for an accuracy class: 0.3 gives 0.1 um (docs/decisions/0008-valve-steps.md); the methods are of fourth order.
+/// Rate times fine step for an accuracy class: 0.3 gives 0.1 um (docs/decisions/0007-valve-steps.md); the methods are of fourth order.
 [[nodiscard]] double fine_step_rate(double accuracy_m) noexcept {
   const double rate = 0.3 * square_root(square_root(accuracy_m / 0.1e-6));
   return rate < 0.9 ? rate : 0.9;
