@@ -246,6 +246,7 @@ TEST_F(BadInput, ARodThatCannotTurnIsRefusedWithTheLengthItNeeds) {
   expect_refused(drawn.with("rod_length_mm", "67").with("pin_offset_mm", "-10"), "rod_length_mm",
                  {"67 is too short", "67.5 mm"});
   expect_accepted(drawn.with("rod_length_mm", "67.6").with("pin_offset_mm", "-10"));
+  expect_refused(sample_.with("rod_length_mm", "50"), "rod_length_mm", {"50 is too short"});  // though rod_ratio replaces it
   expect_refused(sample_.with("rod_ratio", "0.9").with("pin_offset_mm", "10"), "rod_ratio", {"makes the rod 63.88"});
 }
 
@@ -470,6 +471,49 @@ TEST_F(BadCommandLine, IsToldWithTheUsageOfItsCommand) {
   kinematics({"--rmp", "2000"}, "did you mean --rpm?");
   kinematics({"--rpm", "2000", "--method", "tabel"}, "did you mean table?");
   kinematics({"--rpm", "2000", "--csv", kSample}, "--csv would overwrite the input file");
+}
+
+TEST_F(BadCommandLine, OfValvesIsToldWithTheUsageOfItsCommand) {
+  const auto valve = [&](std::vector<std::string> words, const std::string& complaint) {
+    words.insert(words.begin(), {"valve", kSample});
+    expect_usage(words, {complaint, "usage: crankloop valve FILE"});
+  };
+  valve({"--rpm", "2000"}, "--train is missing");
+  valve({"--train", "intake"}, "--rpm is missing");
+  valve({"--train", "intake", "--rpm", "0"}, "would never turn");
+  valve({"--train", "intake", "--rpm", "200000"}, "out of range");
+  valve({"--train", "intake", "--rpm", "2000", "--accuracy-um", "0"}, "out of range");
+  valve({"--train", "intake", "--rpm", "2000", "--integrator", "rk5"}, "did you mean rk4?");
+  valve({"--train", "intake", "--rpm", "2000", "--cycles", "0"}, "out of range");
+  valve({"--train", "intake", "--rpm", "40000", "--tick-us", "2000"}, "at most one revolution per tick");
+  valve({"--train", "intake", "--rpm", "0.0001"}, "ticks of 20 us");
+  const auto redline = [&](std::vector<std::string> words, const std::string& complaint) {
+    words.insert(words.begin(), {"redline", kSample, "--train", "intake"});
+    expect_usage(words, {complaint, "usage: crankloop redline FILE"});
+  };
+  redline({"--from", "3000", "--to", "2000"}, "--from must be less than --to");
+  redline({"--from", "1500.5"}, "not a whole number");
+  redline({"--vary", "springs"}, "did you mean spring?");
+}
+
+TEST_F(BadInput, OfAValveTrainIsToldWhereItStands) {
+  write("engine.ini", sample_.text());
+  expect_refusal(run({"valve", path_, "--train", "inlet", "--rpm", "2000"}), path_, {"no valve train is called 'inlet'"});
+  expect_refusal(run({"redline", path_, "--train", "exhausts"}), path_, {"did you mean exhaust?"});
+  // A seat of 1e9 N/mm under half a kilogram swings at 7 kHz: too fast for 512 steps in 2 ms.
+  const Engine stiff = sample_.with("seat_N_per_mm", "1000000000");
+  write("engine.ini", stiff.text());
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"valve", path_, "--train", "intake", "--rpm", "2000", "--tick-us", "2000"}, {"run", path_, "--tick-us", "2000"}, {"tables", path_, "--tick-us", "2000"}}) {
+    expect_refusal(run(words), path_, {"valve train intake", "the longest tick possible is"});
+  }
+  // A cam that would need a hollow flank is refused with the angle, by whichever command meets it.
+  const Engine undercut = sample_.with("base_circle_mm", "2");
+  write("engine.ini", undercut.text());
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"valve", path_, "--train", "intake", "--rpm", "2000"}, {"redline", path_, "--train", "intake"}, {"run", path_}, {"tables", path_, "--tick-us", "100"}}) {
+    expect_refusal(run(words), path_ + ":" + std::to_string(undercut.line_of("base_circle_mm")), {"undercut at", "deg"});
+  }
 }
 
 TEST_F(BadCommandLine, HelpIsNoMistake) {

@@ -440,11 +440,19 @@ TEST_F(RunCommand, CsvHasAHeaderAndARowForEachTickOfTheRecordedCycles) {
       header += std::string(",") + c + "_" + quantity;
     }
   }
+  for (const char* c : {"c1", "c2", "c3", "c4"}) {
+    for (const char* train : {"intake", "exhaust"}) {
+      for (const char* quantity : {"theoretical_lift_mm", "lift_mm", "velocity_m_s", "acceleration_m_s2", "train_force_N",
+                                   "seat_force_N", "cam_force_N", "gap_mm", "regime"}) {
+        header += std::string(",") + c + "_" + train + "_" + quantity;
+      }
+    }
+  }
   ASSERT_FALSE(rows.empty());
   EXPECT_EQ(rows[0], header);
   EXPECT_EQ(rows.size() - 1, 1715u);  // 3 * 720 deg at 1.26 deg a tick: 1714.3
   const std::vector<std::string> second = split_at(rows[2], ',');
-  ASSERT_EQ(second.size(), 5u + 4 * 14);
+  ASSERT_EQ(second.size(), 5u + 4 * 14 + 4 * 2 * 9);
   EXPECT_EQ(second[0], "0.0002");
   EXPECT_NEAR(std::stod(second[1]), 2.52, 1e-5);
   EXPECT_EQ(second[2], "2100");

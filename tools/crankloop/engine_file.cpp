@@ -95,7 +95,7 @@ void EngineFile::build_definition() {
   const auto accept = [this](const Status& status) {
     if (!status.ok()) throw explain(status);
   };
-  definition_.crank = build_crank(section("crank"));
+  definition_.crank = build_crank(section("crank"), path_);
   accept(validate(definition_.crank));
   if (const SectionValues* masses = find("masses")) {
     definition_.masses = build_masses(*masses, definition_.crank, path_);

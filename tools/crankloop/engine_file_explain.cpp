@@ -9,14 +9,11 @@
 namespace crankloop::program {
 namespace {
 
+/// rod_length_mm itself was long enough (build_crank): rod_ratio made the rod too short.
 std::string rod_too_short(const SectionValues& crank, const Crank& built) {
-  const std::string least = brief(crank.number("stroke_mm") / 2 + std::abs(crank.number("pin_offset_mm"))) + " mm";
-  const std::string rule =
-      "; it must be longer than stroke_mm / 2 + |pin_offset_mm| = " + least + ", or the crank cannot turn";
-  if (!crank.has("rod_ratio"))
-    return "rod_length_mm: " + shortest(crank.number("rod_length_mm")) + " is too short" + rule;
   return "rod_ratio: " + shortest(crank.number("rod_ratio")) + " makes the rod " + brief(built.rod_length_m * 1e3) +
-         " mm long" + rule;
+         " mm long; it must be longer than stroke_mm / 2 + |pin_offset_mm| = " +
+         brief(crank.number("stroke_mm") / 2 + std::abs(crank.number("pin_offset_mm"))) + " mm, or the crank cannot turn";
 }
 
 std::string combustion_too_long(const SectionValues& pressure) {
@@ -57,7 +54,7 @@ InputError EngineFile::explain(const Status& status) const {
     return InputError(points_path_, line, message);
   }
   if (status.reason == Reason::rod_too_short) {
-    return InputError(path_, home->line_of(home->has("rod_ratio") ? "rod_ratio" : "rod_length_mm"),
+    return InputError(path_, home->line_of("rod_ratio"),
                       rod_too_short(*home, definition_.crank));
   }
   if (status.reason == Reason::inconsistent && field[1] == "combustion_duration") {

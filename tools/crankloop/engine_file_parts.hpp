@@ -14,7 +14,8 @@
 
 namespace crankloop::program {
 
-[[nodiscard]] Crank build_crank(const SectionValues& values);
+/// Throws InputError for a rod_length_mm with which the crank cannot turn, even if rod_ratio replaces it.
+[[nodiscard]] Crank build_crank(const SectionValues& values, const std::string& path);
 
 [[nodiscard]] Masses build_masses(const SectionValues& values, const Crank& crank, const std::string& path);
 
