@@ -57,16 +57,18 @@ double engine_angle(const EngineDefinition& definition, int cylinder, double own
 
 template <class Real>
 CylinderForces<double> widened(const CylinderForces<Real>& f) {
-  return {f.pressure_Pa,    f.gas_force_N,        f.inertia_force_N, f.total_force_N,     f.side_force_N, f.rod_force_N,
-          f.radial_force_N, f.tangential_force_N, f.torque_Nm,       f.tilting_moment_Nm};
+  const auto wide = [](Real value) { return static_cast<double>(value); };
+  return {wide(f.pressure_Pa),        wide(f.gas_force_N),  wide(f.inertia_force_N), wide(f.total_force_N),
+          wide(f.side_force_N),       wide(f.rod_force_N),  wide(f.radial_force_N),  wide(f.tangential_force_N),
+          wide(f.torque_Nm),          wide(f.tilting_moment_Nm)};
 }
 
 template <class Real>
 Row by_table(TickProbe<Real>& probe, const EngineDefinition& definition, int cylinder, double deg, double speed) {
   const auto k = static_cast<std::size_t>(cylinder);
   const auto& out = probe.at(engine_angle(definition, cylinder, deg), speed);
-  return {widened(out.cylinder[k]), inertia_orders(definition, deg * kRadPerDeg, speed), out.pin_load_N[definition.layout.pin[k]],
-          out.torque_Nm};
+  return {widened(out.cylinder[k]), inertia_orders(definition, deg * kRadPerDeg, speed),
+          static_cast<double>(out.pin_load_N[definition.layout.pin[k]]), static_cast<double>(out.torque_Nm)};
 }
 
 Row by_formula(const ExactEngine& engine, int cylinder, double deg, double speed) {

@@ -32,8 +32,9 @@ void write_by_table(CsvWriter& csv, const Crank& crank, double step_deg, double 
   TickProbe<Real> probe(mechanism_alone(crank));
   for_each_angle(step_deg, 360, [&](double deg) {
     const auto& out = probe.at(deg, speed);
-    write_row<Real>(csv, deg, out.rod_angle_rad[0], out.displacement_m[0], out.velocity_m_s[0], out.acceleration_m_s2[0],
-                    out.rod_speed_rad_s[0], out.rod_acceleration_rad_s2[0]);
+    const auto wide = [](Real value) { return static_cast<double>(value); };
+    write_row<Real>(csv, deg, wide(out.rod_angle_rad[0]), wide(out.displacement_m[0]), wide(out.velocity_m_s[0]),
+                    wide(out.acceleration_m_s2[0]), wide(out.rod_speed_rad_s[0]), wide(out.rod_acceleration_rad_s2[0]));
   });
 }
 
