@@ -246,7 +246,8 @@ TEST_F(BadInput, ARodThatCannotTurnIsRefusedWithTheLengthItNeeds) {
   expect_refused(drawn.with("rod_length_mm", "67").with("pin_offset_mm", "-10"), "rod_length_mm",
                  {"67 is too short", "67.5 mm"});
   expect_accepted(drawn.with("rod_length_mm", "67.6").with("pin_offset_mm", "-10"));
-  expect_refused(sample_.with("rod_length_mm", "50"), "rod_length_mm", {"50 is too short"});  // though rod_ratio replaces it
+  expect_refused(sample_.with("rod_length_mm", "50"), "rod_length_mm",
+                 {"50 is too short"});  // though rod_ratio replaces it
   expect_refused(sample_.with("rod_ratio", "0.9").with("pin_offset_mm", "10"), "rod_ratio", {"makes the rod 63.88"});
 }
 
@@ -498,21 +499,28 @@ TEST_F(BadCommandLine, OfValvesIsToldWithTheUsageOfItsCommand) {
 
 TEST_F(BadInput, OfAValveTrainIsToldWhereItStands) {
   write("engine.ini", sample_.text());
-  expect_refusal(run({"valve", path_, "--train", "inlet", "--rpm", "2000"}), path_, {"no valve train is called 'inlet'"});
+  expect_refusal(run({"valve", path_, "--train", "inlet", "--rpm", "2000"}), path_,
+                 {"no valve train is called 'inlet'"});
   expect_refusal(run({"redline", path_, "--train", "exhausts"}), path_, {"did you mean exhaust?"});
   // A seat of 1e9 N/mm under half a kilogram swings at 7 kHz: too fast for 512 steps in 2 ms.
   const Engine stiff = sample_.with("seat_N_per_mm", "1000000000");
   write("engine.ini", stiff.text());
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
-           {"valve", path_, "--train", "intake", "--rpm", "2000", "--tick-us", "2000"}, {"run", path_, "--tick-us", "2000"}, {"tables", path_, "--tick-us", "2000"}}) {
+           {"valve", path_, "--train", "intake", "--rpm", "2000", "--tick-us", "2000"},
+           {"run", path_, "--tick-us", "2000"},
+           {"tables", path_, "--tick-us", "2000"}}) {
     expect_refusal(run(words), path_, {"valve train intake", "the longest tick possible is"});
   }
   // A cam that would need a hollow flank is refused with the angle, by whichever command meets it.
   const Engine undercut = sample_.with("base_circle_mm", "2");
   write("engine.ini", undercut.text());
-  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
-           {"valve", path_, "--train", "intake", "--rpm", "2000"}, {"redline", path_, "--train", "intake"}, {"run", path_}, {"tables", path_, "--tick-us", "100"}}) {
-    expect_refusal(run(words), path_ + ":" + std::to_string(undercut.line_of("base_circle_mm")), {"undercut at", "deg"});
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"valve", path_, "--train", "intake", "--rpm", "2000"},
+                                             {"redline", path_, "--train", "intake"},
+                                             {"run", path_},
+                                             {"tables", path_, "--tick-us", "100"}}) {
+    expect_refusal(run(words), path_ + ":" + std::to_string(undercut.line_of("base_circle_mm")),
+                   {"undercut at", "deg"});
   }
 }
 

@@ -1,4 +1,5 @@
-// `crankloop valve` and `redline`: the loop of one train, its CSV and summary, and the search for the onset of float and bounce.
+// `crankloop valve` and `redline`: the loop of one train, its CSV and summary, and the search for the onset of float
+// and bounce.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -18,6 +19,8 @@
 #include "crankloop/commands.hpp"
 #include "crankloop/error.hpp"
 #include "crankloop/redline_search.hpp"
+#include "crankloop/run_loop.hpp"
+#include "crankloop/run_trace.hpp"
 #include "crankloop/valve_loop.hpp"
 #include "support/both_reals.hpp"
 
@@ -68,10 +71,12 @@ struct LastCycle {
 };
 
 template <class Real>
-LastCycle<Real> run(const LoneValve& valve, double rpm, const ValveMethod& method = kRk4, double tick_s = kTick_s, int cycles = 4) {
+LastCycle<Real> run(const LoneValve& valve, double rpm, const ValveMethod& method = kRk4, double tick_s = kTick_s,
+                    int cycles = 4) {
   ValveLoop<Real> loop(valve, tick_s, method);
   LastCycle<Real> last;
-  last.results = run_cycles<Real>(loop, valve, rpm, cycles, [&](const ValveTickOutput<Real>& out) { last.ticks.push_back(out); });
+  last.results =
+      run_cycles<Real>(loop, valve, rpm, cycles, [&](const ValveTickOutput<Real>& out) { last.ticks.push_back(out); });
   EXPECT_EQ(loop.faults(), 0u);
   return last;
 }
@@ -107,15 +112,19 @@ TYPED_TEST(ValveLoopIn, ForcesOfEveryTickAddUpToMassTimesAcceleration) {
   for (const ValveMethod& method : {kRk4, kTextbook}) {
     for (const auto& out : run<Real>(valve, 9000, method).ticks) {
       const auto lift_m = static_cast<double>(out.motion.lift_m);
-      const double forces_N = static_cast<double>(out.forces.train_N) + static_cast<double>(out.forces.seat_N) - v.spring_N_m * lift_m -
-                              v.spring_preload_N - guide_Ns_m * static_cast<double>(out.motion.velocity_m_s);
+      const double forces_N = static_cast<double>(out.forces.train_N) + static_cast<double>(out.forces.seat_N) -
+                              v.spring_N_m * lift_m - v.spring_preload_N -
+                              guide_Ns_m * static_cast<double>(out.motion.velocity_m_s);
       const double scale_N = 1e4;  // no force here is larger
-      EXPECT_NEAR(mass_kg * static_cast<double>(out.motion.acceleration_m_s2), forces_N, 8 * eps * scale_N) << out.cam_deg;
+      EXPECT_NEAR(mass_kg * static_cast<double>(out.motion.acceleration_m_s2), forces_N, 8 * eps * scale_N)
+          << out.cam_deg;
       const bool train_on = (out.forces.regime & kTrainOn) != 0;
       EXPECT_EQ(train_on, out.forces.train_N > 0) << out.cam_deg;
       EXPECT_EQ((out.forces.regime & kSeatOn) != 0, out.forces.seat_N > 0) << out.cam_deg;
       const double ratio = valve.lift().at(out.cam_deg * 3.14159265358979323846 / 180).rocker_ratio;
-      EXPECT_NEAR(static_cast<double>(out.forces.cam_N), ratio * static_cast<double>(out.forces.train_N), 1e-6 * scale_N) << out.cam_deg;
+      EXPECT_NEAR(static_cast<double>(out.forces.cam_N), ratio * static_cast<double>(out.forces.train_N),
+                  1e-6 * scale_N)
+          << out.cam_deg;
     }
   }
 }
@@ -148,10 +157,12 @@ TYPED_TEST(ValveLoopIn, BackwardsASymmetricTrainDoesTheSameMirrored) {
   ASSERT_EQ(forwards.ticks.size(), backwards.ticks.size());
   for (std::size_t i = 0; i < forwards.ticks.size(); ++i) {
     EXPECT_NEAR(forwards.ticks[i].cam_deg, -backwards.ticks[i].cam_deg, 1e-9);
-    EXPECT_NEAR(static_cast<double>(forwards.ticks[i].motion.lift_m), static_cast<double>(backwards.ticks[i].motion.lift_m), 2 * kAccuracy_m);
+    EXPECT_NEAR(static_cast<double>(forwards.ticks[i].motion.lift_m),
+                static_cast<double>(backwards.ticks[i].motion.lift_m), 2 * kAccuracy_m);
   }
   EXPECT_EQ(forwards.results.bounces, backwards.results.bounces);
-  EXPECT_NEAR(static_cast<double>(forwards.results.opening_delay_deg), static_cast<double>(backwards.results.opening_delay_deg), 1e-3);
+  EXPECT_NEAR(static_cast<double>(forwards.results.opening_delay_deg),
+              static_cast<double>(backwards.results.opening_delay_deg), 1e-3);
 }
 
 TYPED_TEST(ValveLoopIn, WhatAValveDoesDoesNotDependOnTheTick) {
@@ -175,10 +186,14 @@ TEST(Textbook, ComesToTheSameWithShortSteps) {
   const LoneValve valve(file, "intake");
   const ValveCycle<double> reference = run<double>(valve, 7000, kExponential, 1e-6).results;
   const auto textbook = [&](double tick_s) { return run<double>(valve, 7000, kTextbook, tick_s).results; };
-  const auto off_m_s = [&](const ValveCycle<double>& cycle) { return std::abs(cycle.seating_speed_m_s - reference.seating_speed_m_s); };
+  const auto off_m_s = [&](const ValveCycle<double>& cycle) {
+    return std::abs(cycle.seating_speed_m_s - reference.seating_speed_m_s);
+  };
   EXPECT_NEAR(textbook(1e-6).bounce_height_m, reference.bounce_height_m, 0.3e-6);
-  EXPECT_NEAR(textbook(1e-6).largest_lift_m, reference.largest_lift_m, 0.001e-6);  // between contact changes it is of fourth order
-  // Contact changes it finds late, by up to a step in which the seat brakes already: the seating speed is off by up to 10 %.
+  EXPECT_NEAR(textbook(1e-6).largest_lift_m, reference.largest_lift_m,
+              0.001e-6);  // between contact changes it is of fourth order
+  // Contact changes it finds late, by up to a step in which the seat brakes already: the seating speed is off by up to
+  // 10 %.
   EXPECT_GT(off_m_s(textbook(6e-6)), 5 * off_m_s(textbook(1e-6)));
   EXPECT_LT(off_m_s(textbook(6e-6)), 0.1 * reference.seating_speed_m_s);
 }
@@ -187,7 +202,8 @@ TYPED_TEST(ValveLoopIn, CyclesAtModerateSpeedAgreeAndTellsWhenTheyDoNot) {
   const EngineFile file = read_engine_file(kOhc125, {});
   const LoneValve valve(file, "intake");
   EXPECT_LT(largest_change_of_lift_m<TypeParam>(valve, 7000, kTick_s, kRk4, 4), 0.01e-6);
-  EXPECT_GT(largest_change_of_lift_m<TypeParam>(valve, 20000, kTick_s, kRk4, 4), 100e-6);  // the valve floats into the next lobe
+  EXPECT_GT(largest_change_of_lift_m<TypeParam>(valve, 20000, kTick_s, kRk4, 4),
+            100e-6);  // the valve floats into the next lobe
 }
 
 TYPED_TEST(ValveLoopIn, TheGasHoldsAValveWithAHeadAreaOnItsSeat) {
@@ -206,10 +222,73 @@ TYPED_TEST(ValveLoopIn, TheGasHoldsAValveWithAHeadAreaOnItsSeat) {
       if (crank_deg < 0) crank_deg += 720;
       if (crank_deg >= 720) crank_deg -= 720;
       const double gas_N = (diagram.full_Pa(crank_deg) - file.definition().pressure.crankcase_Pa) * v.head_area_m2;
-      // Pressed onto the stiff seat the valve follows the gas at once, but for the seat's own vibration, which each tick's step of it excites.
-      EXPECT_NEAR(static_cast<double>(out.forces.seat_N), v.spring_preload_N + gas_N, 0.05 * (v.spring_preload_N + gas_N))
+      // Pressed onto the stiff seat the valve follows the gas at once, but for the seat's own vibration, which each
+      // tick's step of it excites.
+      EXPECT_NEAR(static_cast<double>(out.forces.seat_N), v.spring_preload_N + gas_N,
+                  0.05 * (v.spring_preload_N + gas_N))
           << out.cam_deg;
     }
+  }
+}
+
+// ---- the valves of a whole engine ----
+
+TYPED_TEST(ValveLoopIn, InAWholeEngineEveryCylinderHasTheSameValves) {
+  using Real = TypeParam;
+  const EngineFile file = read_engine_file(kDiesel, {});
+  const EngineDefinition& definition = file.definition();
+  const Operation operation{2400, 50e-6, 1};  // no whole number of ticks lies between two firings
+  FixedStepLoop<Real> loop(definition, operation);
+  const RunFigures figures = run_cycles<Real>(loop, definition, operation, 2);
+  ASSERT_EQ(figures.valves.size(), 2u);
+  EXPECT_EQ(names_of_trains(file), (std::vector<std::string>{"intake", "exhaust"}));
+  for (std::size_t t = 0; t < 2; ++t) {
+    const LoneValve valve(file, names_of_trains(file)[t]);
+    const ValveCycle<Real> alone = run<Real>(valve, operation.speed_rpm, kRk4, operation.tick_s).results;
+    const ValveCycle<double>& together = figures.valves[t].last_cycle;
+    const auto expect_same = [](double a, Real b, double within) { EXPECT_NEAR(a, static_cast<double>(b), within); };
+    expect_same(together.largest_lift_m, alone.largest_lift_m, 2 * kAccuracy_m);
+    expect_same(together.bounce_height_m, alone.bounce_height_m, 2 * kAccuracy_m);
+    expect_same(together.separation_gap_m, alone.separation_gap_m, 2 * kAccuracy_m);
+    expect_same(together.seating_speed_m_s, alone.seating_speed_m_s, 1e-3);
+    EXPECT_EQ(together.bounces, alone.bounces);
+    EXPECT_EQ(together.separations, alone.separations);
+    // The full lift of every cylinder stands at its own angle; a tick is 0.72 deg.
+    const Peak& lift = figures.valves[t].of[index_of(ValveQuantity::theoretical_lift)].largest;
+    EXPECT_NEAR(lift.at_deg, definition.trains[t].cam.full_lift_deg, 0.4);
+    EXPECT_NEAR(lift.value, valve.lift().largest_lift_m(), 0.3e-6);
+  }
+}
+
+TYPED_TEST(ValveLoopIn, ATraceHoldsTheValvesOfCylinderOneAndTheResultsOfItsLobe) {
+  using Real = TypeParam;
+  const EngineFile file = read_engine_file(kOhc125, {});
+  const Operation operation{7000, 100e-6, 1};
+  const Trace trace = record_trace<Real>(file.definition(), operation);
+  ASSERT_EQ(trace.valves.size(), 1u);
+  const ValveTrace& valve = trace.valves[0];
+  ASSERT_EQ(valve.regime.size(), trace.crank_deg.size());
+  for (const std::vector<double>& values : valve.of) ASSERT_EQ(values.size(), trace.crank_deg.size());
+  const std::vector<double>& theory = valve[ValveQuantity::theoretical_lift];
+  const auto top = static_cast<std::size_t>(std::max_element(theory.begin(), theory.end()) - theory.begin());
+  EXPECT_EQ(trace.crank_deg[top], file.definition().trains[0].cam.full_lift_deg);
+  EXPECT_EQ(valve.cycle.bounces, 3u);
+  EXPECT_NEAR(valve.cycle.largest_lift_m, 7.785e-3, 0.001e-3);
+}
+
+TEST(Cycles, AreComparedResultByResult) {
+  ValveCycle<double> a{};
+  ValveCycle<double> b{};
+  a.largest_lift_m = 2, b.largest_lift_m = 1;
+  a.bounces = 1, b.bounces = 3;
+  a.separation_gap_m = 1, a.separation_start_deg = 10, a.separation_duration_deg = 2;
+  b.separation_gap_m = 2, b.separation_start_deg = 5, b.separation_duration_deg = 1;
+  for (const ValveCycle<double>& worse : {worse_of(a, b), worse_of(b, a)}) {
+    EXPECT_EQ(worse.largest_lift_m, 2);
+    EXPECT_EQ(worse.bounces, 3u);
+    EXPECT_EQ(worse.separation_gap_m, 2);
+    EXPECT_EQ(worse.separation_start_deg, 5);  // of the larger separation, not the larger angle
+    EXPECT_EQ(worse.separation_duration_deg, 1);
   }
 }
 
@@ -219,7 +298,8 @@ TEST(SpeedRange, HasRoundStepsAndAtMostSixty) {
   EXPECT_EQ(speed_range(500, 15000).step_rpm, 250);
   EXPECT_EQ(speed_range(8500, 8560).step_rpm, 1);
   EXPECT_EQ(speed_range(8500, 8561).step_rpm, 2);
-  for (const int to : {2, 100, 7777, 100000}) EXPECT_LE((to - 1 + speed_range(1, to).step_rpm - 1) / speed_range(1, to).step_rpm, 60);
+  for (const int to : {2, 100, 7777, 100000})
+    EXPECT_LE((to - 1 + speed_range(1, to).step_rpm - 1) / speed_range(1, to).step_rpm, 60);
 }
 
 TEST(Redline, AnOnsetIsTheFirstWholeSpeedThatHasIt) {
@@ -248,7 +328,8 @@ TEST(Redline, FloatsLaterWithAStifferSpringAndWithLessMass) {
   const EngineFile file = read_engine_file(kOhc125, {});
   const LoneValve valve(file, "intake");
   const auto onset_rpm = [&](const char* option, double factor) {
-    return sweep_speeds(valve.with(varied(valve.valve(), option, factor)), speed_range(4000, 14000), factor, {}).separation.speed_rpm;
+    return sweep_speeds(valve.with(varied(valve.valve(), option, factor)), speed_range(4000, 14000), factor, {})
+        .separation.speed_rpm;
   };
   for (const char* option : {"spring", "preload"}) {
     EXPECT_LT(onset_rpm(option, 0.5), onset_rpm(option, 1)) << option;
@@ -331,11 +412,21 @@ class ValveCommands : public testing::Test {
 
 TEST_F(ValveCommands, TheSummaryNamesEverythingWithItsUnit) {
   const auto found = lines(run(kValve, {kOhc125, "--train", "intake", "--rpm", "7000"}));
-  const std::map<std::string, std::string> units{
-      {"max_theoretical_lift_mm", "mm"}, {"max_lift_mm", "mm"},       {"opening_delay_deg", "deg"},     {"separations", "#"},
-      {"separation_max_gap_mm", "mm"},   {"separation_start_deg", "deg"}, {"separation_duration_deg", "deg"}, {"seating_speed_m_s", "m/s"},
-      {"bounces", "#"},                  {"bounce_height_mm", "mm"},  {"natural_frequency_Hz", "Hz"},   {"seat_frequency_Hz", "Hz"},
-      {"sub_steps", "#"},                {"events", "#"},             {"periodic", "#"}};
+  const std::map<std::string, std::string> units{{"max_theoretical_lift_mm", "mm"},
+                                                 {"max_lift_mm", "mm"},
+                                                 {"opening_delay_deg", "deg"},
+                                                 {"separations", "#"},
+                                                 {"separation_max_gap_mm", "mm"},
+                                                 {"separation_start_deg", "deg"},
+                                                 {"separation_duration_deg", "deg"},
+                                                 {"seating_speed_m_s", "m/s"},
+                                                 {"bounces", "#"},
+                                                 {"bounce_height_mm", "mm"},
+                                                 {"natural_frequency_Hz", "Hz"},
+                                                 {"seat_frequency_Hz", "Hz"},
+                                                 {"sub_steps", "#"},
+                                                 {"events", "#"},
+                                                 {"periodic", "#"}};
   for (const auto& [name, unit] : units) {
     ASSERT_TRUE(found.count(name)) << name;
     EXPECT_EQ(found.at(name).second, unit) << name;
@@ -350,7 +441,8 @@ TEST_F(ValveCommands, TheCsvHasARowForEveryTickOfACycle) {
   run(kValve, {kOhc125, "--train", "intake", "--rpm", "6000", "--tick-us", "50", "--csv", path("v.csv")});
   const std::vector<std::string> rows = split_at(contents(path("v.csv")), '\n');
   ASSERT_EQ(rows[0],
-            "cam_deg,theoretical_lift_mm,rocker_ratio,lift_mm,velocity_m_s,acceleration_m_s2,train_force_N,seat_force_N,cam_force_N,gap_mm,regime");
+            "cam_deg,theoretical_lift_mm,rocker_ratio,lift_mm,velocity_m_s,acceleration_m_s2,train_force_N,seat_force_"
+            "N,cam_force_N,gap_mm,regime");
   ASSERT_EQ(rows.size(), 1u + 400 + 1);  // 20 ms, both ends shown
   const auto cells = [&](std::size_t row) {
     std::vector<double> values;
@@ -371,15 +463,33 @@ TEST_F(ValveCommands, TheCsvHasARowForEveryTickOfACycle) {
   }
 }
 
+TEST_F(ValveCommands, ARunShowsTheValvesInSummaryAndReport) {
+  const auto found = lines(run(kRun, {kOhc125, "--rpm", "12000", "--tick-us", "20", "--report", path("run.html")}));
+  EXPECT_EQ(found.at("intake_max_lift").second, "mm");
+  EXPECT_EQ(found.at("intake_separations").first, "1");
+  EXPECT_GT(std::stod(found.at("intake_separation_max_gap").first), 1);
+  EXPECT_GT(std::stod(found.at("intake_bounce_height").first), 2);
+  const std::string page = contents(path("run.html"));
+  for (const char* words : {"Valve train", "intake, theory", "At this speed the valve leaves its train: intake.",
+                            "separation", "bounce", "Seating of the intake valve"}) {
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  }
+}
+
 TEST_F(ValveCommands, ATickTooLongIsRefusedWithTheLongestThatIsAccepted) {
-  const std::string message = refusal(kValve, {kOhc125, "--train", "intake", "--rpm", "7000", "--tick-us", "2000", "--accuracy-um", "0.01"});
+  const std::string message =
+      refusal(kValve, {kOhc125, "--train", "intake", "--rpm", "7000", "--tick-us", "2000", "--accuracy-um", "0.01"});
   const std::string words = "the longest tick possible is ";
   ASSERT_NE(message.find(words), std::string::npos) << message;
   EXPECT_EQ(message.rfind(std::string(kOhc125) + ": ", 0), 0u) << message;
   const std::string longest = split_at(message.substr(message.find(words) + words.size()), ' ')[0];
-  EXPECT_EQ(refusal(kValve, {kOhc125, "--train", "intake", "--rpm", "7000", "--tick-us", longest, "--accuracy-um", "0.01"}), "");
+  EXPECT_EQ(
+      refusal(kValve, {kOhc125, "--train", "intake", "--rpm", "7000", "--tick-us", longest, "--accuracy-um", "0.01"}),
+      "");
   const std::string longer = std::to_string(std::stod(longest) * 1.05);
-  EXPECT_NE(refusal(kValve, {kOhc125, "--train", "intake", "--rpm", "7000", "--tick-us", longer, "--accuracy-um", "0.01"}), "");
+  EXPECT_NE(
+      refusal(kValve, {kOhc125, "--train", "intake", "--rpm", "7000", "--tick-us", longer, "--accuracy-um", "0.01"}),
+      "");
   EXPECT_EQ(refusal(kTables, {kOhc125, "--tick-us", "2000", "--accuracy-um", "0.01"}), message);
 }
 
@@ -410,15 +520,19 @@ TEST_F(ValveCommands, ATrainNeedsNothingOfItsEngine) {
 TEST_F(ValveCommands, ATrainThatLacksAPartIsTold) {
   std::string text = contents(kOhc125);
   std::ofstream(path("train.ini")) << text.substr(0, text.find("[valve intake]"));
-  EXPECT_NE(refusal(kValve, {path("train.ini"), "--train", "intake", "--rpm", "7000"}).find("[valve intake] is missing"), std::string::npos);
-  EXPECT_NE(refusal(kRedline, {path("train.ini"), "--train", "intake"}).find("[valve intake] is missing"), std::string::npos);
+  EXPECT_NE(
+      refusal(kValve, {path("train.ini"), "--train", "intake", "--rpm", "7000"}).find("[valve intake] is missing"),
+      std::string::npos);
+  EXPECT_NE(refusal(kRedline, {path("train.ini"), "--train", "intake"}).find("[valve intake] is missing"),
+            std::string::npos);
 }
 
 TEST_F(ValveCommands, ARedlineTellsBothOnsetsAndWritesItsTableAndPage) {
-  const auto found = lines(run(kRedline, {kOhc125, "--train", "intake", "--from", "8000", "--to", "9500", "--vary", "spring", "--csv",
-                                          path("r.csv"), "--report", path("r.html")}));
+  const auto found = lines(run(kRedline, {kOhc125, "--train", "intake", "--from", "8000", "--to", "9500", "--vary",
+                                          "spring", "--csv", path("r.csv"), "--report", path("r.html")}));
   EXPECT_EQ(found.at("separation_onset_rpm").second, "rpm");
-  EXPECT_NEAR(std::stod(found.at("separation_onset_rpm").first), 8500, 300);  // spec of the train: floats only from about 8500
+  EXPECT_NEAR(std::stod(found.at("separation_onset_rpm").first), 8500,
+              300);  // spec of the train: floats only from about 8500
   const std::vector<std::string> rows = split_at(contents(path("r.csv")), '\n');
   EXPECT_EQ(rows[0].substr(0, 17), "factor,speed_rpm,");
   EXPECT_EQ(rows.size(), 1u + 7 * 61);
@@ -430,7 +544,8 @@ TEST_F(ValveCommands, ARedlineTellsBothOnsetsAndWritesItsTableAndPage) {
 TEST_F(ValveCommands, ARedlineRefusesWhatMakesNoSense) {
   EXPECT_NE(refusal(kRedline, {kOhc125, "--train", "intake", "--from", "5000", "--to", "5000"}), "");
   const ChangedFile changed(kOhc125, "spring_N_per_mm", "spring_N_per_mm = 0");
-  EXPECT_NE(refusal(kRedline, {changed.path(), "--train", "intake", "--vary", "spring"}).find("nothing to vary"), std::string::npos);
+  EXPECT_NE(refusal(kRedline, {changed.path(), "--train", "intake", "--vary", "spring"}).find("nothing to vary"),
+            std::string::npos);
 }
 
 }  // namespace

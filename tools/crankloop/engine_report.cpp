@@ -90,6 +90,7 @@ report::Page engine_report(const ReportInput& input) {
   page.sections.push_back(force_per_area_section(input));
   page.sections.push_back(bearing_section(input));
   page.sections.push_back(balance_section(input));
+  if (!input.trace.valves.empty()) page.sections.push_back(valve_section(input));
   page.sections.push_back(accuracy_section(input));
   page.sections.push_back(definition_section(input));
 

@@ -99,7 +99,7 @@ List assumptions(const ReportInput& input) {
       "inertia (" +
       number_text(d.masses.crank_inertia_kg_m2) + " kg m\u00B2) decides how much; no figure here depends on it.");
   list.items.push_back(
-      "Parts are rigid and without clearance; nothing rubs. Power and mean effective pressure are indicated ones.");
+      "Piston, rod and crankshaft are rigid and without clearance; nothing rubs. Power and mean effective pressure are indicated ones.");
   list.items.push_back(d.masses.rod_inertia_correction_kg_m2 == 0
                            ? "The rod is two masses at its ends, without inertia correction (dI = 0)."
                            : "The rod is a rigid body: two masses at its ends and the inertia correction dI, whose "

@@ -20,6 +20,7 @@ namespace crankloop::program {
 [[nodiscard]] report::Section force_per_area_section(const ReportInput& input);
 [[nodiscard]] report::Section bearing_section(const ReportInput& input);
 [[nodiscard]] report::Section balance_section(const ReportInput& input);
+[[nodiscard]] report::Section valve_section(const ReportInput& input);  ///< where there are valve trains
 [[nodiscard]] report::Section accuracy_section(const ReportInput& input);
 [[nodiscard]] report::Section definition_section(const ReportInput& input);
 

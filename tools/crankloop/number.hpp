@@ -55,8 +55,8 @@ struct ParsedNumber {
 /// The fewest digits that read back as the same double. Negative zero is written as 0, here and below.
 [[nodiscard]] std::string shortest(double value);
 
-/// A number of micrometres or microseconds in SI, as its decimals say: 0.1 gives the double that C++ code writes as 0.1e-6, where 0.1 / 1e6
-/// and 0.1 * 1e-6 may be the one beside it. From 1e-4 to 1e9; outside rounded twice.
+/// A number of micrometres or microseconds in SI, as its decimals say: 0.1 gives the double that C++ code writes as
+/// 0.1e-6, where 0.1 / 1e6 and 0.1 * 1e-6 may be the one beside it. From 1e-4 to 1e9; outside rounded twice.
 [[nodiscard]] double millionths(double value);
 
 /// 6 significant digits: for messages that tell a computed number.

@@ -1,7 +1,7 @@
 // A line on a terminal that tells how far a long command is.
 //
-// What belongs here: when and where it is shown: on stderr if that is a terminal, once a second has passed, erased at the end.
-// What does not: what the command does.
+// What belongs here: when and where it is shown: on stderr if that is a terminal, once a second has passed, erased at
+// the end. What does not: what the command does.
 #pragma once
 
 #include <unistd.h>

@@ -1,4 +1,5 @@
-// `crankloop redline FILE --train NAME`: up to which speed a valve keeps to its cam and to its seat, and what moves that speed.
+// `crankloop redline FILE --train NAME`: up to which speed a valve keeps to its cam and to its seat, and what moves
+// that speed.
 #include "redline.hpp"
 
 #include <algorithm>
@@ -104,10 +105,12 @@ std::string summary(const Redline& redline) {
   const Sweep& given = redline.as_given();
   const ValveBody<double> body = redline.valve.body();
   constexpr double kPerTurn = 1 / (2 * 3.14159265358979323846);
-  std::string text = "# valve train " + redline.valve.train().name + ", " + std::to_string(redline.range.from_rpm) + " to " +
-                     std::to_string(redline.range.to_rpm) + " rpm of the engine every " + std::to_string(redline.range.step_rpm) +
-                     "; double, rk4, tick " + brief(given.tick_s * 1e6) + " us, cycle " + std::to_string(kRedlineCycles) + " from rest\n" +
-                     "# onset: the lowest speed with a separation, or a bounce, of at least 1 um; to 1 rpm, from the first speed of the sweep that has any\n";
+  std::string text = "# valve train " + redline.valve.train().name + ", " + std::to_string(redline.range.from_rpm) +
+                     " to " + std::to_string(redline.range.to_rpm) + " rpm of the engine every " +
+                     std::to_string(redline.range.step_rpm) + "; double, rk4, tick " + brief(given.tick_s * 1e6) +
+                     " us, cycle " + std::to_string(kRedlineCycles) + " from rest\n" +
+                     "# onset: the lowest speed with a separation, or a bounce, of at least 1 um; to 1 rpm, from the "
+                     "first speed of the sweep that has any\n";
   text += onset_line("separation_onset_rpm", given.separation, redline.range);
   text += onset_line("bounce_onset_rpm", given.bounce, redline.range);
   text += "natural_frequency_Hz = " + brief(open_frequency_rad_s(body) * kPerTurn) + " Hz  # open, on the train\n";
@@ -140,8 +143,8 @@ double speeds_of(const SpeedRange& range) {
 LoneValve varied_valve(const LoneValve& valve, const Influence& influence, double factor) {
   const Valve other = varied(valve.valve(), influence.option, factor);
   if (validate(other).ok()) return valve.with(other);
-  throw InputError(valve.file().path() + ": " + brief(factor) + " times " + influence.keys + " of [valve " + valve.train().name +
-                   "] is out of range");
+  throw InputError(valve.file().path() + ": " + brief(factor) + " times " + influence.keys + " of [valve " +
+                   valve.train().name + "] is out of range");
 }
 
 const Influence* influence_of(const Arguments& arguments) {
@@ -154,9 +157,12 @@ const Influence* influence_of(const Arguments& arguments) {
 
 void refuse_nothing_to_vary(const LoneValve& valve, const std::string& option) {
   const Valve& v = valve.valve();
-  const bool nothing = (option == "spring" && v.spring_N_m == 0) ||
-                       (option == "damping" && v.train_damping_ratio == 0 && v.guide_damping_ratio == 0 && v.seat_damping_ratio == 0);
-  if (nothing) throw InputError(valve.file().path() + ": [valve " + valve.train().name + "]: --vary " + option + " has nothing to vary: it is 0");
+  const bool nothing =
+      (option == "spring" && v.spring_N_m == 0) ||
+      (option == "damping" && v.train_damping_ratio == 0 && v.guide_damping_ratio == 0 && v.seat_damping_ratio == 0);
+  if (nothing)
+    throw InputError(valve.file().path() + ": [valve " + valve.train().name + "]: --vary " + option +
+                     " has nothing to vary: it is 0");
 }
 
 int run_redline(const Arguments& arguments) {
@@ -166,8 +172,8 @@ int run_redline(const Arguments& arguments) {
   const EngineFile file = read_engine_file(arguments.file(), {});
   const LoneValve valve(file, name);
   Redline redline{valve, range, influence_of(arguments), {}, ""};
-  redline.command_line = "crankloop redline " + arguments.file() + " --train " + name + " --from " + std::to_string(range.from_rpm) + " --to " +
-                         std::to_string(range.to_rpm);
+  redline.command_line = "crankloop redline " + arguments.file() + " --train " + name + " --from " +
+                         std::to_string(range.from_rpm) + " --to " + std::to_string(range.to_rpm);
   {
     const std::size_t sweeps = redline.influence != nullptr ? std::size(kInfluenceFactors) : 1;
     Progress progress("searching", static_cast<double>(sweeps) * speeds_of(range));
@@ -178,7 +184,8 @@ int run_redline(const Arguments& arguments) {
       redline.command_line += std::string(" --vary ") + redline.influence->option;
       refuse_nothing_to_vary(valve, redline.influence->option);
       for (const double factor : kInfluenceFactors) {
-        redline.sweeps.push_back(sweep_speeds(varied_valve(valve, *redline.influence, factor), range, factor, after_speed));
+        redline.sweeps.push_back(
+            sweep_speeds(varied_valve(valve, *redline.influence, factor), range, factor, after_speed));
       }
     }
   }
@@ -203,7 +210,8 @@ constexpr Option kOptions[] = {
     text("--train", "NAME", "valve train: the NAME of its [cam NAME], [rocker NAME] and [valve NAME]"),
     whole_number("--from", "N", from(1).up_to(100000), "lowest engine speed in rpm", "500"),
     whole_number("--to", "N", from(1).up_to(100000), "highest engine speed in rpm", "15000"),
-    choice("--vary", "train|mass|spring|preload|damping", "sweeps again with this times 0.5, 0.7, 0.85, 1, 1.2, 1.5, 2"),
+    choice("--vary", "train|mass|spring|preload|damping",
+           "sweeps again with this times 0.5, 0.7, 0.85, 1, 1.2, 1.5, 2"),
     text("--csv", "F", "file for a row per factor and speed; - is standard output, the rest then goes to stderr"),
     text("--report", "F.html", "file for the plots, which any browser shows"),
 };

@@ -60,12 +60,14 @@ double cam_kN(const SpeedResult& r) { return r.cam_N * 1e-3; }
 
 void mark(Plot& plot, const Onset& onset, const char* label) {
   if (onset.found && !onset.at_the_start) {
-    plot.markers.push_back({static_cast<double>(onset.speed_rpm), 0, std::string(label) + " " + std::to_string(onset.speed_rpm) + " rpm", 0});
+    plot.markers.push_back({static_cast<double>(onset.speed_rpm), 0,
+                            std::string(label) + " " + std::to_string(onset.speed_rpm) + " rpm", 0});
   }
 }
 
 Section speed_section(const Redline& redline) {
-  Section section{"speed", redline.influence != nullptr ? std::string(redline.influence->title) + " and speed" : "Over speed", {}};
+  Section section{
+      "speed", redline.influence != nullptr ? std::string(redline.influence->title) + " and speed" : "Over speed", {}};
   if (redline.influence != nullptr) {
     section.blocks.push_back(Paragraph{"Each curve is the train with " + std::string(redline.influence->keys) +
                                        " times the factor beside it; \u00D7 1 is the train as its file gives it."});
@@ -80,9 +82,11 @@ Section speed_section(const Redline& redline) {
   bounce.caption = "Lift-offs after the valve has first met its seat.";
   section.blocks.push_back(std::move(gap));
   section.blocks.push_back(std::move(bounce));
-  section.blocks.push_back(plot_of(redline, "Seating", axis("Speed at the first contact with the seat", "m/s"), seating_m_s));
+  section.blocks.push_back(
+      plot_of(redline, "Seating", axis("Speed at the first contact with the seat", "m/s"), seating_m_s));
   section.blocks.push_back(plot_of(redline, "Largest force between cam and follower", axis("Force", "kN"), cam_kN));
-  section.blocks.push_back(plot_of(redline, "Largest acceleration", axis("Acceleration", "km/s\u00B2"), acceleration_km_s2));
+  section.blocks.push_back(
+      plot_of(redline, "Largest acceleration", axis("Acceleration", "km/s\u00B2"), acceleration_km_s2));
   Plot lift = plot_of(redline, "Largest lift", axis("Lift", "mm"), lift_mm);
   lift.y.include_zero = false;
   section.blocks.push_back(std::move(lift));
@@ -111,7 +115,8 @@ Section onset_section(const Redline& redline) {
   if (!plot.series.empty()) section.blocks.push_back(std::move(plot));
   report::Table table{"", {{"Factor", ""}, {"Separation from", ""}, {"Bounce from", ""}}, {}, false};
   for (const Sweep& sweep : redline.sweeps) {
-    table.rows.push_back({brief(sweep.factor), text_of(sweep.separation, redline.range), text_of(sweep.bounce, redline.range)});
+    table.rows.push_back(
+        {brief(sweep.factor), text_of(sweep.separation, redline.range), text_of(sweep.bounce, redline.range)});
   }
   section.blocks.push_back(std::move(table));
   return section;
@@ -121,11 +126,14 @@ Section method_section(const Redline& redline) {
   Section section{"method", "How this was found", {}};
   section.blocks.push_back(Paragraph{"Command: " + redline.command_line});
   report::List list;
-  list.items.push_back("Each speed is run in double for " + std::to_string(kRedlineCycles) + " cycles from rest, in ticks of " +
-                       brief(redline.as_given().tick_s * 1e6) + " \u00B5s (rk4); the last cycle counts.");
-  list.items.push_back("The sweep goes in steps of " + std::to_string(redline.range.step_rpm) +
-                       " rpm. An onset is narrowed down to 1 rpm between the first speed that has a separation, or a bounce, of at least "
-                       "1 \u00B5m, and the speed before it. What comes and goes between two speeds of the sweep is not seen.");
+  list.items.push_back("Each speed is run in double for " + std::to_string(kRedlineCycles) +
+                       " cycles from rest, in ticks of " + brief(redline.as_given().tick_s * 1e6) +
+                       " \u00B5s (rk4); the last cycle counts.");
+  list.items.push_back(
+      "The sweep goes in steps of " + std::to_string(redline.range.step_rpm) +
+      " rpm. An onset is narrowed down to 1 rpm between the first speed that has a separation, or a bounce, of at "
+      "least "
+      "1 \u00B5m, and the speed before it. What comes and goes between two speeds of the sweep is not seen.");
   list.items.push_back("The single-mass model opens its contact only at the cam, and knows no surge of the spring.");
   if (redline.influence != nullptr) list.items.push_back("Damping ratios are held while mass or stiffness are varied.");
   section.blocks.push_back(std::move(list));
@@ -142,13 +150,18 @@ report::Page redline_page(const Redline& redline) {
     return report::Fact{name, std::to_string(one.speed_rpm), "rpm", one.at_the_start ? "or below" : note};
   };
   report::Page page;
-  page.title = "Valve train " + redline.valve.train().name + (redline.influence != nullptr ? ": " + std::string(redline.influence->title) : "");
-  page.subtitle = "Separation and bounce from " + std::to_string(redline.range.from_rpm) + " to " + std::to_string(redline.range.to_rpm) +
-                  " rpm of the engine, from " + redline.valve.file().path() + ".";
-  page.facts = {onset("Separation from", given.separation, "float"), onset("Bounce from", given.bounce, "after seating"),
-                {"Natural frequency", report::format_number(open_frequency_rad_s(body) * kPerTurn, 4), "Hz", "open, on the train"},
-                {"Seated", report::format_number(seated_frequency_rad_s(body) * kPerTurn, 4), "Hz", "on train and seat"},
-                {"Largest theoretical lift", report::format_number(redline.valve.lift().largest_lift_m() * 1e3, 5), "mm", ""}};
+  page.title = "Valve train " + redline.valve.train().name +
+               (redline.influence != nullptr ? ": " + std::string(redline.influence->title) : "");
+  page.subtitle = "Separation and bounce from " + std::to_string(redline.range.from_rpm) + " to " +
+                  std::to_string(redline.range.to_rpm) + " rpm of the engine, from " + redline.valve.file().path() +
+                  ".";
+  page.facts = {
+      onset("Separation from", given.separation, "float"),
+      onset("Bounce from", given.bounce, "after seating"),
+      {"Natural frequency", report::format_number(open_frequency_rad_s(body) * kPerTurn, 4), "Hz",
+       "open, on the train"},
+      {"Seated", report::format_number(seated_frequency_rad_s(body) * kPerTurn, 4), "Hz", "on train and seat"},
+      {"Largest theoretical lift", report::format_number(redline.valve.lift().largest_lift_m() * 1e3, 5), "mm", ""}};
   if (redline.influence != nullptr) page.sections.push_back(onset_section(redline));
   page.sections.push_back(speed_section(redline));
   page.sections.push_back(method_section(redline));

@@ -64,8 +64,10 @@ Sweep sweep_speeds(const LoneValve& valve, const SpeedRange& range, double facto
   };
   for (int rpm = range.from_rpm; rpm < range.to_rpm; rpm += range.step_rpm) sweep.at.push_back(run(rpm));
   sweep.at.push_back(run(range.to_rpm));
-  sweep.separation = onset_of(sweep.at, [](const SpeedResult& r) { return r.cycle.separations > 0; }, run);
-  sweep.bounce = onset_of(sweep.at, [](const SpeedResult& r) { return r.cycle.bounces > 0; }, run);
+  sweep.separation = onset_of(
+      sweep.at, [](const SpeedResult& r) { return r.cycle.separations > 0; }, run);
+  sweep.bounce = onset_of(
+      sweep.at, [](const SpeedResult& r) { return r.cycle.bounces > 0; }, run);
   return sweep;
 }
 

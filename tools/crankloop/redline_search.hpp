@@ -46,9 +46,9 @@ struct Sweep {
   Onset bounce;
 };
 
-/// Sweeps the range and narrows both onsets down: between the first speed of the sweep that has any separation (or bounce) of at least 1 um
-/// and the one before. What comes and goes between two speeds of the sweep is not seen. `after_speed` is called after each speed that was
-/// run.
+/// Sweeps the range and narrows both onsets down: between the first speed of the sweep that has any separation (or
+/// bounce) of at least 1 um and the one before. What comes and goes between two speeds of the sweep is not seen.
+/// `after_speed` is called after each speed that was run.
 [[nodiscard]] Sweep sweep_speeds(const LoneValve& valve, const SpeedRange& range, double factor,
                                  const std::function<void()>& after_speed);
 

@@ -73,8 +73,8 @@ std::vector<std::string> csv_header(int cylinders, const std::vector<std::string
 }
 
 template <class Real>
-void write_row(CsvWriter& csv, const EngineDefinition& definition, const Operation& operation, std::uint64_t tick, double crank_deg,
-               const WholeOutput<Real>& out) {
+void write_row(CsvWriter& csv, const EngineDefinition& definition, const Operation& operation, std::uint64_t tick,
+               double crank_deg, const WholeOutput<Real>& out) {
   const Layout& layout = definition.layout;
   csv.cell(static_cast<double>(tick) * operation.tick_s);
   csv.cell(crank_deg);

@@ -37,9 +37,9 @@ class FixedStepLoop {
  public:
   using Engine = crankloop::Engine<Real, scenes::Whole>;
 
-  /// The definition is valid and has masses, and the tick suits its valve trains. Throws UsageError for a speed beyond one revolution per tick, and for a
-  /// tick so short that a cycle takes more than kMostTicks. `after_tick` is called after each tick of the settling
-  /// cycle.
+  /// The definition is valid and has masses, and the tick suits its valve trains. Throws UsageError for a speed beyond
+  /// one revolution per tick, and for a tick so short that a cycle takes more than kMostTicks. `after_tick` is called
+  /// after each tick of the settling cycle.
   FixedStepLoop(const EngineDefinition& definition, const Operation& operation, double start_deg = 0,
                 const std::function<void()>& after_tick = {});
 

@@ -95,7 +95,8 @@ Trace record_trace(const EngineDefinition& definition, const Operation& operatio
     for (int tick = 0; tick < pace.ticks; ++tick) loop.step();
     append(trace, i * pace.spacing_deg, loop.output(), first);
   }
-  if (!trace.valves.empty()) {  // a lobe's results are there once its cam has passed the base circle: within another cycle
+  if (!trace.valves
+           .empty()) {  // a lobe's results are there once its cam has passed the base circle: within another cycle
     for (int i = 0; i < count * pace.ticks; ++i) loop.step();
   }
   for (std::size_t t = 0; t < trace.valves.size(); ++t) {

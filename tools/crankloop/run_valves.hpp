@@ -1,6 +1,7 @@
 // The quantities of one valve that `run` shows, and what a run of some cycles found of a valve train.
 //
-// What belongs here: the list, once, for CSV columns, peaks and plots; results over all cylinders. What does not: what is done with them.
+// What belongs here: the list, once, for CSV columns, peaks and plots; results over all cylinders. What does not: what
+// is done with them.
 #pragma once
 
 #include <array>
@@ -29,7 +30,9 @@ enum class ValveQuantity : std::uint8_t {
 };
 inline constexpr std::size_t kValveQuantities = 8;
 
-[[nodiscard]] constexpr std::size_t index_of(ValveQuantity quantity) noexcept { return static_cast<std::size_t>(quantity); }
+[[nodiscard]] constexpr std::size_t index_of(ValveQuantity quantity) noexcept {
+  return static_cast<std::size_t>(quantity);
+}
 
 /// How a quantity is written: value in SI times `per_si`, in a unit that stands in CSV names as `suffix`.
 struct ValveQuantityKind {
@@ -52,7 +55,8 @@ inline constexpr ValveQuantityKind kValveQuantityKinds[kValveQuantities] = {
 
 /// In SI.
 template <class Real>
-[[nodiscard]] Real value_of(const WholeOutput<Real>& out, ValveQuantity quantity, std::size_t train, std::size_t cylinder) noexcept {
+[[nodiscard]] Real value_of(const WholeOutput<Real>& out, ValveQuantity quantity, std::size_t train,
+                            std::size_t cylinder) noexcept {
   const ValveMotionOutput<Real>& motion = out.valve[train][cylinder];
   const ValveForcesOutput<Real>& forces = out.valve_forces[train][cylinder];
   switch (quantity) {
@@ -80,9 +84,18 @@ template <class Real>
 template <class Real>
 [[nodiscard]] ValveCycle<double> in_double(const ValveCycle<Real>& c) noexcept {
   const auto wide = [](Real x) { return static_cast<double>(x); };
-  return {wide(c.largest_lift_m),   wide(c.largest_speed_m_s),       wide(c.largest_acceleration_m_s2), wide(c.opening_delay_deg),
-          wide(c.separation_gap_m), wide(c.separation_start_deg),    wide(c.separation_duration_deg),   wide(c.seating_speed_m_s),
-          wide(c.bounce_height_m),  c.separations,                   c.bounces,                         c.contact_changes,
+  return {wide(c.largest_lift_m),
+          wide(c.largest_speed_m_s),
+          wide(c.largest_acceleration_m_s2),
+          wide(c.opening_delay_deg),
+          wide(c.separation_gap_m),
+          wide(c.separation_start_deg),
+          wide(c.separation_duration_deg),
+          wide(c.seating_speed_m_s),
+          wide(c.bounce_height_m),
+          c.separations,
+          c.bounces,
+          c.contact_changes,
           c.off_seat_at_end};
 }
 

@@ -1,8 +1,8 @@
 // The valve's motion as textbooks and [Li 2017, 4.9-4.13] compute it: the reference that the tick is compared with.
 //
-// What belongs here: classical four-stage Runge-Kutta with the cam looked up in every stage and contact tested there. What does not:
-// the tick (crankloop/tick/valve_tick.hpp), which locates contact changes. This one finds them where a step happens to end, so its
-// order falls from 4 to about 1 as soon as there are any.
+// What belongs here: classical four-stage Runge-Kutta with the cam looked up in every stage and contact tested there.
+// What does not: the tick (crankloop/tick/valve_tick.hpp), which locates contact changes. This one finds them where a
+// step happens to end, so its order falls from 4 to about 1 as soon as there are any.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,16 @@
 
 namespace crankloop::program {
 
-/// Advances one valve by a tick in steps * fine_per_step equal steps: as many as the tick's finest, so that both can be compared.
+/// Advances one valve by a tick in steps * fine_per_step equal steps: as many as the tick's finest, so that both can be
+/// compared.
 template <class Real>
 class TextbookValve {
  public:
-  TextbookValve(const ValveMotion<Real>& motion, const LiftCurve<Real>& curve) noexcept : motion_{motion}, curve_{curve} {}
+  TextbookValve(const ValveMotion<Real>& motion, const LiftCurve<Real>& curve) noexcept
+      : motion_{motion}, curve_{curve} {}
 
-  void advance(ValveCondition<Real>& valve, const CamTurn<Real>& cam, Real gas_N, ValveRecord<Real>& record) const noexcept {
+  void advance(ValveCondition<Real>& valve, const CamTurn<Real>& cam, Real gas_N,
+               ValveRecord<Real>& record) const noexcept {
     const std::uint32_t count = motion_.steps * motion_.fine_per_step;
     const Real per_count = motion_.per_steps * motion_.per_fine;
     const Real step_deg = cam.turned_deg * per_count;
@@ -68,8 +71,8 @@ class TextbookValve {
     return acceleration(motion_.body, regime_of(s, lift), s, lift.lift_m, lift.speed_m_s, gas_N);
   }
 
-  [[nodiscard]] ValveState<Real> stepped(ValveState<Real> s, LiftNow<Real> start, LiftNow<Real> middle, LiftNow<Real> end,
-                                         Real gas_N) const noexcept {
+  [[nodiscard]] ValveState<Real> stepped(ValveState<Real> s, LiftNow<Real> start, LiftNow<Real> middle,
+                                         LiftNow<Real> end, Real gas_N) const noexcept {
     const Real d = motion_.fine_s;
     const Real y = s.lift_m;
     const Real v = s.velocity_m_s;

@@ -1,4 +1,5 @@
-// `crankloop valve FILE --train NAME --rpm N`: one elastic valve at constant speed, tick by tick, and what it does in a cycle.
+// `crankloop valve FILE --train NAME --rpm N`: one elastic valve at constant speed, tick by tick, and what it does in a
+// cycle.
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -22,7 +23,8 @@ class Lines {
   void remark(const std::string& text) { text_ += "# " + text + "\n"; }
   template <class Real>
   void line(const char* name, Real value, const char* unit, const std::string& remark = "") {
-    text_ += std::string(name) + " = " + significant(value) + " " + unit + (remark.empty() ? "" : "  # " + remark) + "\n";
+    text_ +=
+        std::string(name) + " = " + significant(value) + " " + unit + (remark.empty() ? "" : "  # " + remark) + "\n";
   }
   void count(const char* name, std::uint32_t value, const std::string& remark = "") {
     text_ += std::string(name) + " = " + std::to_string(value) + (remark.empty() ? "" : "  # " + remark) + "\n";
@@ -58,7 +60,8 @@ void write_row(CsvWriter& csv, const LoneValve& valve, const ValveTickOutput<Rea
 
 std::string gas_remark(const LoneValve& valve) {
   if (!(valve.valve().head_area_m2 > 0)) return "no gas force: head_area_mm2 is 0";
-  if (valve.definition().pressure.source == PressureSource::none) return "no gas force: the file has no [pressure] source";
+  if (valve.definition().pressure.source == PressureSource::none)
+    return "no gas force: the file has no [pressure] source";
   return "with the gas force on the head, full load";
 }
 
@@ -80,8 +83,9 @@ std::string summary(const LoneValve& valve, const Request& request, const ValveL
   s.line("opening_delay_deg", cycle.opening_delay_deg, "deg", "of cam angle, at 0.1 mm of lift");
   s.count("separations", cycle.separations, "of at least 1 um");
   s.line("separation_max_gap_mm", cycle.separation_gap_m * real(1e3), "mm");
-  s.line("separation_start_deg", separated ? real(valve.cam_deg(static_cast<double>(cycle.separation_start_deg))) : Real{0},
-         "deg", separated ? "cam angle, of the largest" : "none");
+  s.line("separation_start_deg",
+         separated ? real(valve.cam_deg(static_cast<double>(cycle.separation_start_deg))) : Real{0}, "deg",
+         separated ? "cam angle, of the largest" : "none");
   s.line("separation_duration_deg", cycle.separation_duration_deg, "deg");
   s.line("seating_speed_m_s", cycle.seating_speed_m_s, "m/s");
   s.count("bounces", cycle.bounces, "of at least 1 um");
@@ -90,9 +94,12 @@ std::string summary(const LoneValve& valve, const Request& request, const ValveL
   s.line("natural_frequency_Hz", real(open_frequency_rad_s(body) / kRadPerTurn), "Hz", "open, on the train");
   s.line("seat_frequency_Hz", real(seated_frequency_rad_s(body) / kRadPerTurn), "Hz", "on train and seat");
   s.count("sub_steps", loop.motion().steps * loop.motion().fine_per_step,
-          request.method.textbook ? "in each tick" : "in a tick, near contact changes; " + std::to_string(loop.motion().steps) + " elsewhere");
+          request.method.textbook
+              ? "in each tick"
+              : "in a tick, near contact changes; " + std::to_string(loop.motion().steps) + " elsewhere");
   s.count("events", cycle.contact_changes, "contact changes in the cycle");
-  if ((loop.faults() & kFaultEventBudget) != 0) s.remark("some ticks had more contact changes than are located: take a shorter --tick-us");
+  if ((loop.faults() & kFaultEventBudget) != 0)
+    s.remark("some ticks had more contact changes than are located: take a shorter --tick-us");
   s.line("cycle_difference_um", real(change_m * 1e6), "um", "of lift, largest between two consecutive cycles");
   s.word("periodic", change_m <= kPeriodicWithin_m ? "yes" : "no", "yes: they agree within 1 um");
   return s.text();
@@ -106,15 +113,18 @@ int run(const LoneValve& valve, const Request& request) {
   std::optional<Output> file;
   std::optional<CsvWriter> csv;
   const OnValveTick<Real> on_tick = [&](const ValveTickOutput<Real>& out) {
-    if (!file && !request.csv_path.empty()) {  // the loop is known to run now, so nothing is written that would have to go
+    if (!file &&
+        !request.csv_path.empty()) {  // the loop is known to run now, so nothing is written that would have to go
       file.emplace(request.csv_path);
-      csv.emplace(*file, std::vector<std::string>{"cam_deg", "theoretical_lift_mm", "rocker_ratio", "lift_mm", "velocity_m_s", "acceleration_m_s2",
-                                                  "train_force_N", "seat_force_N", "cam_force_N", "gap_mm", "regime"});
+      csv.emplace(*file, std::vector<std::string>{"cam_deg", "theoretical_lift_mm", "rocker_ratio", "lift_mm",
+                                                  "velocity_m_s", "acceleration_m_s2", "train_force_N", "seat_force_N",
+                                                  "cam_force_N", "gap_mm", "regime"});
     }
     if (csv) write_row(*csv, valve, out);
   };
   const ValveCycle<Real> cycle = run_cycles<Real>(loop, valve, request.speed_rpm, request.cycles, on_tick, after_tick);
-  const double change_m = largest_change_of_lift_m<Real>(valve, request.speed_rpm, request.tick_s, request.method, request.cycles, after_tick);
+  const double change_m = largest_change_of_lift_m<Real>(valve, request.speed_rpm, request.tick_s, request.method,
+                                                         request.cycles, after_tick);
   if (file) file->finish();
   const std::string text = summary(valve, request, loop, cycle, change_m);
   if (request.csv_path == "-") {
@@ -131,8 +141,13 @@ int run_valve(const Arguments& arguments) {
   const std::string& integrator = arguments.text("--integrator");
   const ValveStepping stepping{integrator == "exponential" ? Integrator::exponential : Integrator::rk4,
                                millionths(arguments.number("--accuracy-um"))};
-  const Request request{arguments.number("--rpm"), millionths(arguments.number("--tick-us")), arguments.whole_number("--cycles"), integrator,
-                        {stepping, integrator == "textbook"}, arguments.text("--real"), arguments.text_or_empty("--csv")};
+  const Request request{arguments.number("--rpm"),
+                        millionths(arguments.number("--tick-us")),
+                        arguments.whole_number("--cycles"),
+                        integrator,
+                        {stepping, integrator == "textbook"},
+                        arguments.text("--real"),
+                        arguments.text_or_empty("--csv")};
   if (request.speed_rpm == 0) throw UsageError("--rpm 0: the cam would never turn");
   const std::string& name = arguments.text("--train");
   const EngineFile file = read_engine_file(arguments.file(), {});
@@ -145,20 +160,23 @@ constexpr Option kOptions[] = {
     number("--rpm", "N", from(-100000).up_to(100000), "engine speed in rpm; negative = backwards"),
     number("--tick-us", "T", from(1).up_to(2000), "length of a tick in us", "20"),
     whole_number("--cycles", "N", from(1).up_to(1000000), "cycles to run from rest; the last is shown", "4"),
-    choice("--integrator", "rk4|exponential|textbook", "of the tick; textbook: four stages, contact changes not located", "rk4"),
+    choice("--integrator", "rk4|exponential|textbook",
+           "of the tick; textbook: four stages, contact changes not located", "rk4"),
     number("--accuracy-um", "A", from(0.01).up_to(10), "class of lift error: sets the sub-steps", "0.1"),
     choice("--real", "float|double", "arithmetic of the tick, and digits of the result", "double"),
-    text("--csv", "F", "file for a row per tick of the last cycle; - is standard output, the summary then goes to stderr"),
+    text("--csv", "F",
+         "file for a row per tick of the last cycle; - is standard output, the summary then goes to stderr"),
 };
 
 }  // namespace
 
-const Command kValve{"valve",
-                     "one elastic valve at constant speed: lift, forces, float and bounce",
-                     "FILE --train NAME --rpm N [--tick-us T] [--cycles N] [--integrator I] [--accuracy-um A] [--real R] [--csv F]",
-                     "crankloop valve ohc_125.ini --train intake --rpm 7000 --csv valve.csv",
-                     1,
-                     kOptions,
-                     run_valve};
+const Command kValve{
+    "valve",
+    "one elastic valve at constant speed: lift, forces, float and bounce",
+    "FILE --train NAME --rpm N [--tick-us T] [--cycles N] [--integrator I] [--accuracy-um A] [--real R] [--csv F]",
+    "crankloop valve ohc_125.ini --train intake --rpm 7000 --csv valve.csv",
+    1,
+    kOptions,
+    run_valve};
 
 }  // namespace crankloop::program

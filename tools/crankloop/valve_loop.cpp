@@ -29,7 +29,9 @@ Crank any_crank() {
   return crank;
 }
 
-std::uint64_t whole_ticks(double ticks) { return static_cast<std::uint64_t>(std::max(1.0, std::ceil(ticks - kHairOfATick))); }
+std::uint64_t whole_ticks(double ticks) {
+  return static_cast<std::uint64_t>(std::max(1.0, std::ceil(ticks - kHairOfATick)));
+}
 
 /// The definition is valid, so that a refusal here is a defect of the program.
 void require(const Status& status) {
@@ -50,7 +52,8 @@ double middle_of_base_circle_deg(const LiftCurve<Real>& curve) {
 
 template <class Real>
 bool passes_base_circle(const LiftCurve<Real>& curve, const CamTurn<Real>& cam) {
-  const std::uint64_t middle = (std::uint64_t{curve.segments} + kDegreesPerTurn) * (~std::uint64_t{0} / (2 * kDegreesPerTurn));
+  const std::uint64_t middle =
+      (std::uint64_t{curve.segments} + kDegreesPerTurn) * (~std::uint64_t{0} / (2 * kDegreesPerTurn));
   const auto from = static_cast<std::int64_t>(cam.from - middle);
   const auto to = static_cast<std::int64_t>(cam.to - middle);
   constexpr std::int64_t kNear = std::int64_t{1} << 62;
@@ -94,7 +97,9 @@ ValveBody<double> LoneValve::body() const noexcept {
   return valve_body(valve(), lift_->lever_m() > 0 ? lift_->lever_m() : 1);
 }
 
-double LoneValve::cam_deg(double since_opening_deg) const noexcept { return since_opening_deg + lift_->opens_rad() * kDegPerRad; }
+double LoneValve::cam_deg(double since_opening_deg) const noexcept {
+  return since_opening_deg + lift_->opens_rad() * kDegPerRad;
+}
 
 // ---- the loop ------------------------------------------------------------------------------------------------------
 
@@ -136,8 +141,9 @@ void ValveLoop<Real>::start(double speed_rpm, double cam_deg, std::uint64_t tick
   input_.speed_rad_s = static_cast<Real>(speed_rpm * 3.14159265358979323846 / 30);
   if (!(std::abs(input_.speed_rad_s) <= drive.speed_limit_rad_s)) {
     const double limit_rpm = std::floor(static_cast<double>(drive.speed_limit_rad_s) * 30 / 3.14159265358979323846);
-    throw UsageError(brief(speed_rpm) + " rpm is too fast for a tick of " + brief(static_cast<double>(drive.tick_s) * 1e6) +
-                     " us: at most one revolution per tick, here " + brief(limit_rpm) + " rpm");
+    throw UsageError(brief(speed_rpm) + " rpm is too fast for a tick of " +
+                     brief(static_cast<double>(drive.tick_s) * 1e6) + " us: at most one revolution per tick, here " +
+                     brief(limit_rpm) + " rpm");
   }
   const Phase full_lift = Phase::from_cycles(full_lift_deg_ / kDegreesPerCycle);
   const Phase there = full_lift + Phase::from_cycles(cam_deg / kDegreesPerTurn);
@@ -193,7 +199,8 @@ ValveTickOutput<Real> ValveLoop<Real>::output() const noexcept {
   out.forces.train_N = train_force_N(valve.regime, c);
   out.forces.seat_N = seat_force_N(valve.regime, c);
   out.forces.tip_N = out.forces.train_N - body.rocker_mass_kg * out.motion.acceleration_m_s2;
-  const Real ratio = cell.degree < curve().segments ? value(curve().rocker_ratio[cell.degree], fraction<Real>(cell)) : Real{0};
+  const Real ratio =
+      cell.degree < curve().segments ? value(curve().rocker_ratio[cell.degree], fraction<Real>(cell)) : Real{0};
   out.forces.cam_N = out.forces.train_N * ratio;
   out.forces.gap_m = c.gap_m;
   out.forces.regime = valve.regime;

@@ -1,6 +1,7 @@
 // One valve train alone at constant speed: what `valve` shows and `redline` searches.
 //
-// What belongs here: the train out of its file, and the loop over whole cycles. What does not: output (valve.cpp, redline.cpp).
+// What belongs here: the train out of its file, and the loop over whole cycles. What does not: output (valve.cpp,
+// redline.cpp).
 #pragma once
 
 #include <cstdint>
@@ -26,8 +27,8 @@ struct OneValve : Scene {
   static constexpr bool valve_gas = true;
 };
 
-/// Cylinder 1 of an engine file with one of its trains. A train needs neither [engine] nor [crank]; without a pressure source, or without
-/// an area of the head, no gas acts on the valve. The file must outlive it.
+/// Cylinder 1 of an engine file with one of its trains. A train needs neither [engine] nor [crank]; without a pressure
+/// source, or without an area of the head, no gas acts on the valve. The file must outlive it.
 class LoneValve {
  public:
   /// Refuses an unknown train, one that lacks a part, and what ValveLift refuses.
@@ -74,8 +75,8 @@ class ValveLoop {
   /// Throws InputError where a tick would need too many sub-steps; the message names the longest tick possible.
   ValveLoop(const LoneValve& valve, double tick_s, const ValveMethod& method);
 
-  /// Stops the valve on its seat, and puts the cam where `ticks` ticks at this speed take it to `cam_deg`. Throws UsageError for a speed
-  /// beyond one revolution per tick.
+  /// Stops the valve on its seat, and puts the cam where `ticks` ticks at this speed take it to `cam_deg`. Throws
+  /// UsageError for a speed beyond one revolution per tick.
   void start(double speed_rpm, double cam_deg, std::uint64_t ticks);
 
   void step() noexcept;
@@ -125,17 +126,18 @@ class ValveLoop {
 template <class Real>
 using OnValveTick = std::function<void(const ValveTickOutput<Real>&)>;
 
-/// Runs `cycles` cycles from rest. The last goes from -180 to 180 deg of cam angle (backwards from 180 to -180) and is shown tick by tick,
-/// its first at the very start; its results are returned. Throws UsageError where that would take more than kMostTicks.
+/// Runs `cycles` cycles from rest. The last goes from -180 to 180 deg of cam angle (backwards from 180 to -180) and is
+/// shown tick by tick, its first at the very start; its results are returned. Throws UsageError where that would take
+/// more than kMostTicks.
 template <class Real>
 ValveCycle<Real> run_cycles(ValveLoop<Real>& loop, const LoneValve& valve, double speed_rpm, int cycles,
                             const OnValveTick<Real>& on_tick, const std::function<void()>& after_tick = {});
 
-/// Largest difference of lift between the last of `cycles` cycles (2 at least) and the one before, at equal cam angles: with a tick of which
-/// a whole number makes a cycle, the one next below.
+/// Largest difference of lift between the last of `cycles` cycles (2 at least) and the one before, at equal cam angles:
+/// with a tick of which a whole number makes a cycle, the one next below.
 template <class Real>
-double largest_change_of_lift_m(const LoneValve& valve, double speed_rpm, double tick_s, const ValveMethod& method, int cycles,
-                                const std::function<void()>& after_tick = {});
+double largest_change_of_lift_m(const LoneValve& valve, double speed_rpm, double tick_s, const ValveMethod& method,
+                                int cycles, const std::function<void()>& after_tick = {});
 
 /// Ticks of one cycle, a broken number.
 [[nodiscard]] double ticks_per_cycle(double speed_rpm, double tick_s) noexcept;

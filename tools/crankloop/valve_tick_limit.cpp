@@ -25,10 +25,12 @@ InputError tick_too_long(const EngineFile& file, const TrainOfFile& train, const
   if (const Status refused = lift->init(train.definition.cam, train.definition.rocker); !refused.ok()) {
     return file.explain(refused, train, lift->failed_at_deg());
   }
-  const double longest_us = std::floor(longest_tick_s(body_of(valve, *lift), stepping) * 1e7) / 10;  // down, so that it is accepted
+  const double longest_us =
+      std::floor(longest_tick_s(body_of(valve, *lift), stepping) * 1e7) / 10;  // down, so that it is accepted
   return InputError(file.path() + ": a tick of " + brief(tick_s * 1e6) + " us would take more than " +
                     std::to_string(kMostFineSteps) + " steps of the valve train " + train.name + " at an accuracy of " +
-                    brief(stepping.accuracy_m * 1e6) + " um; the longest tick possible is " + brief(longest_us) + " us");
+                    brief(stepping.accuracy_m * 1e6) + " um; the longest tick possible is " + brief(longest_us) +
+                    " us");
 }
 
 void require_trains(const EngineFile& file, double tick_s, const ValveStepping& stepping) {

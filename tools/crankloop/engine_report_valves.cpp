@@ -1,0 +1,273 @@
+// Section of the engine report: the valve trains of cylinder 1, theory and what the elastic train makes of it.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include <crankloop/tabulate/valve_lift.hpp>
+#include <crankloop/tabulate/valve_motion.hpp>
+
+#include "engine_report_parts.hpp"
+
+namespace crankloop::program {
+namespace {
+
+using report::Axis;
+using report::Paragraph;
+using report::Plot;
+using report::Section;
+using report::Series;
+
+constexpr double kMilli = 1e3;
+constexpr double kMicro = 1e6;
+constexpr double kKilo = 1e-3;
+constexpr double kHighBounce_m = 0.5e-3;  // takes longer than those that an engine is run with
+
+/// What the report says of one train of cylinder 1.
+struct Train {
+  std::string name;
+  const ValveTrace& trace;
+  std::size_t full_lift;  ///< entry of the trace with the largest theoretical lift
+  double lobe_begin_deg;  ///< crank angle at which the lobe begins, in [0, 720)
+  double largest_theory_m;
+  double open_Hz;
+  double seated_Hz;
+};
+
+/// The crank angle, on cylinder 1's axis, of what the tick counts in cam degrees from the start of the lobe.
+double crank_deg(const Train& train, double since_opening_deg) {
+  const double deg = std::fmod(train.lobe_begin_deg + 2 * since_opening_deg, 720);
+  return deg < 0 ? deg + 720 : deg;
+}
+
+std::vector<Train> trains_of(const ReportInput& input) {
+  const EngineDefinition& definition = input.exact.definition();
+  const std::vector<std::string> names = names_of_trains(input.file);
+  constexpr double kPerTurn = 1 / (2 * 3.14159265358979323846);
+  std::vector<Train> trains;
+  const auto lift = std::make_unique<ValveLift>();
+  for (std::size_t t = 0; t < input.trace.valves.size(); ++t) {
+    const ValveTrain& train = definition.trains[t];
+    if (!lift->init(train.cam, train.rocker).ok()) continue;  // the loop has accepted it
+    const ValveBody<double> body = valve_body(train.valve, lift->lever_m() > 0 ? lift->lever_m() : 1);
+    const ValveTrace& trace = input.trace.valves[t];
+    trains.push_back({names[t], trace, index_of_largest(trace[ValveQuantity::theoretical_lift]),
+                      train.cam.full_lift_deg + 2 * lift->opens_rad() * kDegPerRad, lift->largest_lift_m(),
+                      open_frequency_rad_s(body) * kPerTurn, seated_frequency_rad_s(body) * kPerTurn});
+  }
+  return trains;
+}
+
+/// Entries of a cycle in the order of a lobe: from the base circle before full lift to that behind it.
+std::vector<std::size_t> entries_of_lobe(const Train& train) {
+  const std::size_t count = train.trace.regime.size() - 1;  // the last entry is the first of the next cycle
+  std::vector<std::size_t> entries(count);
+  for (std::size_t i = 0; i < count; ++i) entries[i] = (train.full_lift + count / 2 + i) % count;
+  return entries;
+}
+
+/// Where the valve first meets its seat behind full lift, as a place in entries_of_lobe(); their count if it does not.
+std::size_t seating_place(const Train& train, const std::vector<std::size_t>& entries) {
+  std::size_t i = entries.size() / 2;
+  while (i < entries.size() && (train.trace.regime[entries[i]] & kSeatOn) == 0) ++i;
+  return i;
+}
+
+Series curve(const ReportInput& input, const Train& train, ValveQuantity quantity, double factor,
+             const std::string& name, int colour) {
+  Series series = over_angle(input.trace, name, train.trace[quantity], factor);
+  series.style.colour = colour;
+  return series;
+}
+
+Plot lift_plot(const ReportInput& input, const std::vector<Train>& trains) {
+  std::vector<Series> curves;
+  for (std::size_t t = 0; t < trains.size(); ++t) {
+    const int colour = static_cast<int>(t) + 1;
+    curves.push_back(curve(input, trains[t], ValveQuantity::lift, kMilli, trains[t].name, colour));
+    curves.push_back(
+        curve(input, trains[t], ValveQuantity::theoretical_lift, kMilli, trains[t].name + ", theory", colour));
+    curves.back().style.dashed = true;
+  }
+  Plot plot = plot_over_angle(input, "Valve lift", axis_of("Lift", "mm"), std::move(curves));
+  for (std::size_t t = 0; t < trains.size(); ++t) plot.markers.push_back(largest_marker(plot, 2 * t));
+  plot.caption = "Dashed: what cam and rocker alone would give. The valve stays below it by what the train yields.";
+  return plot;
+}
+
+Plot one_each(const ReportInput& input, const std::vector<Train>& trains, const std::string& title, const Axis& axis,
+              ValveQuantity quantity, double factor) {
+  std::vector<Series> curves;
+  for (std::size_t t = 0; t < trains.size(); ++t) {
+    curves.push_back(curve(input, trains[t], quantity, factor, trains[t].name, static_cast<int>(t) + 1));
+  }
+  if (curves.size() == 1) curves[0].name.clear();
+  return plot_over_angle(input, title, axis, std::move(curves));
+}
+
+Plot force_plot(const ReportInput& input, const Train& train) {
+  Plot plot = plot_over_angle(input, "Forces of the " + train.name + " valve", axis_of("Force", "kN"),
+                              {curve(input, train, ValveQuantity::cam_force, kKilo, "cam", 0),
+                               curve(input, train, ValveQuantity::train_force, kKilo, "train", 0),
+                               curve(input, train, ValveQuantity::seat_force, kKilo, "seat", 0)});
+  plot.markers = {largest_marker(plot, 0), largest_marker(plot, 2)};
+  plot.caption =
+      "Cam: between cam and follower, the train's times the rocker ratio. Train: on the valve. Seat: the closed valve "
+      "carries its spring.";
+  return plot;
+}
+
+/// How far the train is compressed, or the valve has flown off it.
+Plot gap_plot(const ReportInput& input, const Train& train) {
+  Plot plot =
+      plot_over_angle(input, "Between train and valve, " + train.name, axis_of("Train lift less valve lift", "\u00B5m"),
+                      {curve(input, train, ValveQuantity::gap, kMicro, "", 0)});
+  plot.caption =
+      "Above zero the train is compressed and carries force; below zero there is a gap: the clearance while the valve "
+      "is closed.";
+  const ValveCycle<double>& cycle = train.trace.cycle;
+  if (cycle.separations == 0) return plot;
+  const double begin_deg = crank_deg(train, cycle.separation_start_deg);
+  std::size_t widest = 0;
+  double gap = 0;
+  for (std::size_t i = 0; i < train.trace.regime.size(); ++i) {
+    const double since_deg = std::fmod(input.trace.crank_deg[i] - begin_deg + 720, 720);
+    const double here = train.trace[ValveQuantity::gap][i];
+    if (since_deg < 2 * cycle.separation_duration_deg && here < gap) gap = here, widest = i;
+  }
+  if (gap < 0) {
+    plot.markers.push_back({input.trace.crank_deg[widest], gap * kMicro,
+                            "separation " + number_text(cycle.separation_gap_m * kMicro, 3) + " \u00B5m", 0});
+  }
+  return plot;
+}
+
+/// From shortly before the valve seats until it has come to rest.
+Plot seating_plot(const ReportInput& input, const Train& train) {
+  constexpr double kBefore_deg = 3;
+  const double behind_deg = train.trace.cycle.bounce_height_m < kHighBounce_m ? 45 : 180;
+  const std::vector<std::size_t> entries = entries_of_lobe(train);
+  const std::size_t seated = seating_place(train, entries);
+  const auto places = [&](double deg) { return static_cast<std::size_t>(deg / input.trace.spacing_deg); };
+  const std::size_t from = seated > places(kBefore_deg) ? seated - places(kBefore_deg) : 0;
+  const std::size_t to = std::min(entries.size(), seated + places(behind_deg));
+  Series actual{"valve", {}, {}, {}};
+  Series theory{"theory", {}, {}, {}};
+  theory.style.dashed = true;
+  std::size_t top = 0;
+  double deg = from < to ? input.trace.crank_deg[entries[from]] : 0;
+  for (std::size_t i = from; i < to; ++i, deg += input.trace.spacing_deg) {
+    actual.x.push_back(deg);
+    actual.y.push_back(train.trace[ValveQuantity::lift][entries[i]] * kMicro);
+    theory.x.push_back(deg);
+    theory.y.push_back(train.trace[ValveQuantity::theoretical_lift][entries[i]] * kMicro);
+    const bool in_the_air = i > seated && (train.trace.regime[entries[i]] & kSeatOn) == 0;
+    if (in_the_air && (top == 0 || actual.y.back() > actual.y[top])) top = actual.y.size() - 1;
+  }
+  Plot plot;
+  plot.title = "Seating of the " + train.name + " valve";
+  plot.x = axis_of("Crank angle from cylinder 1's firing TDC", "deg");
+  plot.y = axis_of("Lift", "\u00B5m");
+  plot.caption = "Zero is the closed valve under its spring. Below, the seat yields to the impact.";
+  if (top > 0 && train.trace.cycle.bounces > 0) {
+    plot.markers.push_back({actual.x[top], actual.y[top],
+                            "bounce " + number_text(train.trace.cycle.bounce_height_m * kMicro, 3) + " \u00B5m", 0});
+  }
+  plot.series = {std::move(actual), std::move(theory)};
+  return plot;
+}
+
+report::Table results_table(const std::vector<Train>& trains) {
+  report::Table table{"Results of the cycle", {{"", "", false}, {"Unit", "", false}}, {}, false};
+  for (const Train& train : trains) table.columns.push_back({train.name, ""});
+  const auto row = [&](const char* name, const char* unit, const auto& value) {
+    std::vector<std::string> cells{name, unit};
+    for (const Train& train : trains) cells.push_back(value(train, train.trace.cycle));
+    table.rows.push_back(std::move(cells));
+  };
+  using Cycle = ValveCycle<double>;
+  const auto largest = [](const Train& train, ValveQuantity quantity) {
+    return number_text(span_of(train.trace[quantity]).high, 4);
+  };
+  row("Largest theoretical lift", "mm",
+      [](const Train& t, const Cycle&) { return number_text(t.largest_theory_m * kMilli, 5); });
+  row("Largest lift", "mm", [](const Train&, const Cycle& c) { return number_text(c.largest_lift_m * kMilli, 5); });
+  row("Largest speed", "m/s", [](const Train&, const Cycle& c) { return number_text(c.largest_speed_m_s, 4); });
+  row("Largest acceleration", "m/s\u00B2",
+      [](const Train&, const Cycle& c) { return number_text(c.largest_acceleration_m_s2, 4); });
+  row("Opening delay at 0.1 mm, cam angle", "deg",
+      [](const Train&, const Cycle& c) { return number_text(c.opening_delay_deg, 3); });
+  row("Separations", "", [](const Train&, const Cycle& c) { return std::to_string(c.separations); });
+  row("Largest gap", "\u00B5m",
+      [](const Train&, const Cycle& c) { return number_text(c.separation_gap_m * kMicro, 3); });
+  row("its begin, crank angle", "deg", [](const Train& t, const Cycle& c) {
+    return c.separations > 0 ? report::format_fixed(crank_deg(t, c.separation_start_deg), 1) : std::string("\u2013");
+  });
+  row("its duration, crank angle", "deg", [](const Train&, const Cycle& c) {
+    return c.separations > 0 ? report::format_fixed(2 * c.separation_duration_deg, 1) : std::string("\u2013");
+  });
+  row("Seating speed", "m/s", [](const Train&, const Cycle& c) { return number_text(c.seating_speed_m_s, 3); });
+  row("Bounces", "", [](const Train&, const Cycle& c) { return std::to_string(c.bounces); });
+  row("Largest bounce", "\u00B5m",
+      [](const Train&, const Cycle& c) { return number_text(c.bounce_height_m * kMicro, 3); });
+  row("Largest force between cam and follower", "N",
+      [&](const Train& t, const Cycle&) { return largest(t, ValveQuantity::cam_force); });
+  row("Largest force of the train", "N",
+      [&](const Train& t, const Cycle&) { return largest(t, ValveQuantity::train_force); });
+  row("Largest force of the seat", "N",
+      [&](const Train& t, const Cycle&) { return largest(t, ValveQuantity::seat_force); });
+  row("Natural frequency, open", "Hz", [](const Train& t, const Cycle&) { return number_text(t.open_Hz, 4); });
+  row("Natural frequency, on the seat", "Hz", [](const Train& t, const Cycle&) { return number_text(t.seated_Hz, 4); });
+  return table;
+}
+
+report::Table table_of_train(const ReportInput& input, const Train& train) {
+  const auto column = [&](const char* title, const char* unit, ValveQuantity quantity, double factor) {
+    return AngleColumn{title, unit, &train.trace[quantity], factor};
+  };
+  return table_over_angle(
+      input.trace, "Table: " + train.name + " valve",
+      {column("Theoretical lift", "mm", ValveQuantity::theoretical_lift, kMilli),
+       column("Lift", "mm", ValveQuantity::lift, kMilli), column("Velocity", "m/s", ValveQuantity::velocity, 1),
+       column("Acceleration", "m/s\u00B2", ValveQuantity::acceleration, 1),
+       column("Train force", "N", ValveQuantity::train_force, 1),
+       column("Seat force", "N", ValveQuantity::seat_force, 1), column("Cam force", "N", ValveQuantity::cam_force, 1)});
+}
+
+std::string verdict(const std::vector<Train>& trains) {
+  std::string floating;
+  for (const Train& train : trains) {
+    if (train.trace.cycle.separations > 0) floating += (floating.empty() ? "" : ", ") + train.name;
+  }
+  return floating.empty() ? "At this speed every valve keeps to its cam."
+                          : "At this speed the valve leaves its train: " + floating + ".";
+}
+
+}  // namespace
+
+report::Section valve_section(const ReportInput& input) {
+  const std::vector<Train> trains = trains_of(input);
+  Section section{"valves", "Valve train", {}};
+  section.blocks.push_back(
+      Paragraph{"The valves of cylinder 1. Each is one elastic mass between train and seat, stepped in time; it may "
+                "leave its train (separation, float) "
+                "and lift off its seat again (bounce). Either counts from 1 \u00B5m. The single mass knows no surge of "
+                "the spring. " +
+                verdict(trains)});
+  section.blocks.push_back(lift_plot(input, trains));
+  section.blocks.push_back(
+      with_extremes(one_each(input, trains, "Valve velocity", axis_of("Velocity", "m/s"), ValveQuantity::velocity, 1)));
+  section.blocks.push_back(one_each(input, trains, "Valve acceleration", axis_of("Acceleration", "km/s\u00B2"),
+                                    ValveQuantity::acceleration, kKilo));
+  for (const Train& train : trains) section.blocks.push_back(force_plot(input, train));
+  for (const Train& train : trains) section.blocks.push_back(gap_plot(input, train));
+  for (const Train& train : trains) {
+    if (seating_place(train, entries_of_lobe(train)) < train.trace.regime.size() - 1)
+      section.blocks.push_back(seating_plot(input, train));
+  }
+  section.blocks.push_back(results_table(trains));
+  for (const Train& train : trains) section.blocks.push_back(table_of_train(input, train));
+  return section;
+}
+
+}  // namespace crankloop::program
