@@ -139,6 +139,7 @@ class Reference {
     }
     std::vector<double> ends{1};
     for (const double edge : cam_.edges_deg) {
+      if (to_deg == from_deg) break;  // a cam that stands passes no edge
       for (double turn = std::floor((std::min(from_deg, to_deg) - edge) / 360) * 360; turn < 720; turn += 360) {
         const double part = (edge + turn - from_deg) / (to_deg - from_deg);
         if (part > 0 && part < 1) ends.push_back(part);
