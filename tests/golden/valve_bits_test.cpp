@@ -35,8 +35,9 @@ class Fnv {
   }
   template <class Real>
   void add(const typename StepMatrix<Real>::Row& row) {
-    for (const Real x : {row.y, row.v, row.force}) add(x);
+    for (const Real x : {row.y, row.v, row.rest, row.gas, row.gap}) add(x);
     for (const Real x : row.lift) add(x);
+    for (const Real x : row.wide) add(x);
   }
   [[nodiscard]] std::uint64_t value() const { return hash_; }
 
@@ -102,8 +103,8 @@ struct Hashes {
   std::uint64_t tables[2];  ///< by integrator
   std::uint64_t run[2];
 };
-constexpr Hashes kFloat{{0x81BE33933A941B57, 0x315C3FF16E9BEA5F}, {0xF323DA79ECB5FEBA, 0x6C7378CBAA7D9491}};
-constexpr Hashes kDouble{{0xC7EADBC87DCF01D0, 0xBACE550E876490D4}, {0x1014BEDDB8039BE0, 0x49D21518B3AA8E12}};
+constexpr Hashes kFloat{{0x589E6676C644EEB7, 0x9F506F495E157F39}, {0x6985536FFE05C485, 0xD81C4D7E7D67F57C}};
+constexpr Hashes kDouble{{0x3378FD7FDEB49F69, 0x8A9D8A92F84FFA6E}, {0x1BD5B77E9EEDB2ED, 0x2E410F59CD854306}};
 template <class Real>
 constexpr Hashes kCommitted = sizeof(Real) == 4 ? kFloat : kDouble;
 
@@ -112,9 +113,11 @@ std::uint64_t hash_of_tables(const Tables<Real, TwoValves>& tables) {
   Fnv fnv;
   for (int t = 0; t < 2; ++t) {
     const LiftCurve<Real>& curve = tables.lift_curves[t];
-    fnv.add(curve.opens);
+    fnv.add(curve.opens[0]);
     fnv.add(curve.most_phase_per_tick);
     fnv.add(curve.segments);
+    fnv.add(curve.touch_from);
+    fnv.add(curve.touch_degrees);
     fnv.add(curve.outside_m);
     for (std::uint32_t i = 0; i < curve.segments; ++i) {
       for (const Real x : curve.at[i].c) fnv.add(x);
@@ -124,7 +127,7 @@ std::uint64_t hash_of_tables(const Tables<Real, TwoValves>& tables) {
     const ValveBody<Real>& b = m.body;
     for (const Real x : {b.mass_kg, b.train_N_m, b.train_Ns_m, b.seat_N_m, b.seat_Ns_m, b.spring_N_m, b.guide_Ns_m,
                          b.preload_N, b.seat_sink_m, b.head_area_m2, b.rocker_mass_kg, m.per_steps, m.per_fine,
-                         m.step_s, m.fine_s, m.rest_m, m.rest_m_s}) {
+                         m.step_s, m.fine_s, m.short_step_deg, m.force_lag, m.rest_m, m.rest_m_s}) {
       fnv.add(x);
     }
     fnv.add(m.steps);
