@@ -16,6 +16,7 @@
 
 #include "crankloop/report/page.hpp"
 #include "crankloop/report/plot.hpp"
+#include "crankloop/report/thinning.hpp"
 
 namespace crankloop::report {
 namespace {
