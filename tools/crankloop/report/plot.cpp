@@ -330,9 +330,10 @@ bool is_bar(const Series& series) { return series.style.draw == Draw::bar; }
 
 class Drawing {
  public:
-  explicit Drawing(const Plot& plot) : plot_{plot} {}
+  /// Fixed: of its own size in user units, instead of its column's width.
+  Drawing(const Plot& plot, bool fixed) : plot_{plot}, fixed_{fixed} {}
 
-  std::string svg() {
+  Drawn draw() {
     make_scales();
     const auto named =
         std::count_if(plot_.series.begin(), plot_.series.end(), [](const Series& s) { return !s.name.empty(); });
@@ -345,7 +346,7 @@ class Drawing {
       place_markers();
     }
     write();
-    return std::move(out_);
+    return {std::move(out_), kWidth, height_};
   }
 
  private:
@@ -725,8 +726,12 @@ class Drawing {
   void write() {
     const std::string id = escape(plot_.id);
     const bool clipped = plot_.x.range || plot_.y.range;
+    // Some browsers take the size of an inner drawing from its attributes, some let the style sheet override them.
+    const std::string size = "width=\"" + coordinate(kWidth) + "\" height=\"" + coordinate(height_) +
+                             "\" style=\"width:" + coordinate(kWidth) + "px;height:" + coordinate(height_) + "px\" ";
     out_ = "<svg class=\"plot\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + coordinate(kWidth) + ' ' +
-           coordinate(height_) + "\" role=\"img\" aria-labelledby=\"" + id + "-title " + id + "-desc\">\n";
+           coordinate(height_) + "\" " + (fixed_ ? size : "") + "role=\"img\" aria-labelledby=\"" + id + "-title " +
+           id + "-desc\">\n";
     out_ += "<title id=\"" + id + "-title\">" + escape(plot_.title) + "</title>\n";
     out_ += "<desc id=\"" + id + "-desc\">" + escape(description()) + "</desc>\n";
     if (clipped) {
@@ -834,6 +839,7 @@ class Drawing {
   };
 
   const Plot& plot_;
+  const bool fixed_;
   Scale x_{};
   Scale y_{};
   Scale y_of_data_{};  // before room for labels
@@ -1037,7 +1043,9 @@ std::vector<Marker> mark_extremes(const Plot& plot, std::size_t series, int sign
   return markers;
 }
 
-std::string to_svg(const Plot& plot) { return Drawing{plot}.svg(); }
+std::string to_svg(const Plot& plot) { return Drawing(plot, false).draw().svg; }
+
+Drawn draw(const Plot& plot) { return Drawing(plot, true).draw(); }
 
 std::string_view plot_style() {
   return R"css(:root {
