@@ -48,9 +48,10 @@ struct Curve {
 
 class Drawing {
  public:
-  explicit Drawing(const Plot& plot) : plot_{plot} {}
+  /// Fixed: of its own size in user units, instead of its column's width.
+  Drawing(const Plot& plot, bool fixed) : plot_{plot}, fixed_{fixed} {}
 
-  std::string svg();
+  Drawn draw();
 
  private:
   // drawing_layout.cpp
@@ -88,6 +89,7 @@ class Drawing {
   };
 
   const Plot& plot_;
+  const bool fixed_;
   Scale x_{};
   Scale y_{};
   Scale y_of_data_{};  // before room for labels

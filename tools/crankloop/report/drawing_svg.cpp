@@ -58,8 +58,12 @@ std::string Drawing::description() const {
 void Drawing::write() {
   const std::string id = escape(plot_.id);
   const bool clipped = plot_.x.range || plot_.y.range;
+  // Some browsers take the size of an inner drawing from its attributes, some let the style sheet override them.
+  const std::string size = "width=\"" + coordinate(kWidth) + "\" height=\"" + coordinate(height_) + "\" style=\"width:" +
+                           coordinate(kWidth) + "px;height:" + coordinate(height_) + "px\" ";
   out_ = "<svg class=\"plot\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + coordinate(kWidth) + ' ' +
-         coordinate(height_) + "\" role=\"img\" aria-labelledby=\"" + id + "-title " + id + "-desc\">\n";
+         coordinate(height_) + "\" " + (fixed_ ? size : "") + "role=\"img\" aria-labelledby=\"" + id + "-title " + id +
+         "-desc\">\n";
   out_ += "<title id=\"" + id + "-title\">" + escape(plot_.title) + "</title>\n";
   out_ += "<desc id=\"" + id + "-desc\">" + escape(description()) + "</desc>\n";
   if (clipped) {

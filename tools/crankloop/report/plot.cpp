@@ -8,7 +8,7 @@
 
 namespace crankloop::report {
 
-std::string Drawing::svg() {
+Drawn Drawing::draw() {
   make_scales();
   const auto named =
       std::count_if(plot_.series.begin(), plot_.series.end(), [](const Series& s) { return !s.name.empty(); });
@@ -21,7 +21,7 @@ std::string Drawing::svg() {
     place_markers();
   }
   write();
-  return std::move(out_);
+  return {std::move(out_), kWidth, height_};
 }
 
 std::vector<Marker> mark_extremes(const Plot& plot, std::size_t series, int significant_digits) {
@@ -54,6 +54,8 @@ std::vector<Marker> mark_extremes(const Plot& plot, std::size_t series, int sign
   return markers;
 }
 
-std::string to_svg(const Plot& plot) { return Drawing{plot}.svg(); }
+std::string to_svg(const Plot& plot) { return Drawing(plot, false).draw().svg; }
+
+Drawn draw(const Plot& plot) { return Drawing(plot, true).draw(); }
 
 }  // namespace crankloop::report

@@ -71,6 +71,14 @@ struct Plot {
 /// beside their curves where every name finds a free place nearer to its own curve than to others, else in a legend.
 [[nodiscard]] std::string to_svg(const Plot& plot);
 
+/// A drawing of fixed size, for one that encloses it: sheet.hpp.
+struct Drawn {
+  std::string svg{};
+  double width = 0;
+  double height = 0;
+};
+[[nodiscard]] Drawn draw(const Plot& plot);
+
 /// CSS of the drawings and the colour variables of the light and dark theme; once per page.
 [[nodiscard]] std::string_view plot_style();
 
