@@ -48,6 +48,10 @@ const char* describe(Reason reason) noexcept {
     case Reason::missing_table: return "is missing";
     case Reason::other_tables: return "belongs to other tables";
     case Reason::contracting_build: return "fuses multiply and add: compile the scene with -ffp-contract=off";
+    case Reason::wrong_size: return "has the wrong size";
+    case Reason::damaged: return "is damaged";
+    case Reason::other_version: return "is of another version";
+    case Reason::other_scene: return "belongs to another scene or scalar";
   }
   return "unknown reason";
 }
