@@ -82,7 +82,7 @@ void drive(Random& random, typename Engine<Real, S>::Input& in) {
     in.speed_rad_s = static_cast<Real>(random.between(-200, 1400));
     if (bad) in.speed_rad_s = std::numeric_limits<Real>::quiet_NaN();
   } else {
-    in.crank += Phase{static_cast<std::uint64_t>(random.between(-1e16, 1.5e17))};
+    in.crank += Phase{static_cast<std::uint64_t>(static_cast<std::int64_t>(random.between(-1e16, 1.5e17)))};
     if (bad) in.crank = Phase{random.bits()};
   }
   if constexpr (Needs<S>::load) in.load_ratio = static_cast<Real>(random.between(-0.1, 2.1));

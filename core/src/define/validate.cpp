@@ -52,6 +52,10 @@ const char* describe(Reason reason) noexcept {
     case Reason::damaged: return "is damaged";
     case Reason::other_version: return "is of another version";
     case Reason::other_scene: return "belongs to another scene or scalar";
+    case Reason::null_pointer: return "is null";
+    case Reason::misaligned: return "is not aligned";
+    case Reason::not_created: return "was not created";
+    case Reason::already_created: return "was created already";
   }
   return "unknown reason";
 }
