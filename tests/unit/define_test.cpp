@@ -583,7 +583,7 @@ TEST(EngineDefinition, IsRefusedForItsFirstBadPart) {
 
 TEST(Reasons, EachHaveTheirOwnWords) {
   std::vector<std::string> phrases;
-  for (int i = 0; i <= static_cast<int>(Reason::contracting_build); ++i) {
+  for (int i = 0; i <= static_cast<int>(Reason::already_created); ++i) {
     const std::string phrase = describe(static_cast<Reason>(i));
     EXPECT_FALSE(phrase.empty());
     for (const std::string& earlier : phrases) EXPECT_NE(phrase, earlier);

@@ -8,4 +8,5 @@
 #include <crankloop/status.hpp>
 #include <crankloop/tabulate/tabulate.hpp>
 #include <crankloop/tick/engine.hpp>
+#include <crankloop/tick/saved_state.hpp>
 #include <crankloop/tick/scenes.hpp>

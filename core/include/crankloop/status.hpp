@@ -26,6 +26,15 @@ enum class Reason : std::uint8_t {
   missing_table,      ///< the scene needs a table that is not there
   other_tables,       ///< a state belongs to other tables
   contracting_build,  ///< the build fuses a*b+c and so could not keep its bits
+  wrong_size,         ///< fewer or more bytes than it must have
+  damaged,            ///< bytes that are no saved state, or not as they were written
+  other_version,      ///< written by a version of the library that saves states in another form
+  other_scene,        ///< a state of another scene or scalar
+  // of the C interface
+  null_pointer,       ///< an argument that must be there is not
+  misaligned,         ///< memory at an address that its object cannot have
+  not_created,        ///< memory that holds no object
+  already_created,    ///< memory that holds one
 };
 
 /// The answer of init, tabulate and validate. Trivially copyable; `field` points to a string literal.

@@ -48,6 +48,14 @@ const char* describe(Reason reason) noexcept {
     case Reason::missing_table: return "is missing";
     case Reason::other_tables: return "belongs to other tables";
     case Reason::contracting_build: return "fuses multiply and add: compile the scene with -ffp-contract=off";
+    case Reason::wrong_size: return "has the wrong size";
+    case Reason::damaged: return "is damaged";
+    case Reason::other_version: return "is of another version";
+    case Reason::other_scene: return "belongs to another scene or scalar";
+    case Reason::null_pointer: return "is null";
+    case Reason::misaligned: return "is not aligned";
+    case Reason::not_created: return "was not created";
+    case Reason::already_created: return "was created already";
   }
   return "unknown reason";
 }

@@ -39,8 +39,10 @@ class Engine {
 
   [[nodiscard]] const Output& output() const noexcept { return output_; }
   [[nodiscard]] const State& state() const noexcept { return state_; }
+  [[nodiscard]] const Tables* tables() const noexcept { return tables_; }  ///< null: not ready
 
   /// Goes on from a snapshot, with the same bits. Refuses a state of other tables. The output is that of the last step until the next.
+  /// For a state that was written to bytes: tick/saved_state.hpp.
   Status restore(const State& state) noexcept;
 
  private:

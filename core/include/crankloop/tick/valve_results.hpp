@@ -40,9 +40,17 @@ struct ObservedStep {
   std::uint32_t regime;                           ///< throughout the step
 };
 
+namespace detail {
+template <class Real, class S>
+struct StateFields;
+}
+
 /// The cycle in progress.
 template <class Real>
 class ValveRecord {
+  template <class, class>
+  friend struct detail::StateFields;  // to save it: tick/state_fields.hpp
+
  public:
   static constexpr Real kLeastSeparation_m = static_cast<Real>(1e-6);
   static constexpr Real kOpened_m = static_cast<Real>(0.1e-3);

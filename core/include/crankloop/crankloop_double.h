@@ -1,0 +1,184 @@
+/* Tables and engine in double: included by crankloop.h, which has what they are made of.
+ *
+ * crankloop_float.h is this file with double, _d_ and _D_ replaced (tests/contract/c_headers_agree.sh): edit that one.
+ */
+#ifndef CRANKLOOP_CRANKLOOP_DOUBLE_H
+#define CRANKLOOP_CRANKLOOP_DOUBLE_H
+
+#include <crankloop/crankloop.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- tables: made once, read by any number of engines --------------------------------------------------------------------------- */
+
+/* Must be zero before it is created, as static objects are. Large: not for a stack. Must not be moved or copied. */
+typedef struct crankloop_d_tables {
+  uint64_t opaque[CRANKLOOP_D_TABLES_WORDS];
+} crankloop_d_tables;
+
+/* Some 100 ms on a desktop, and up to 60 kB of stack. Refuses a bad definition and says which field. */
+CRANKLOOP_API crankloop_status crankloop_d_tables_create(crankloop_d_tables *tables, size_t tables_size,
+                                                         const crankloop_definition *definition, size_t definition_size,
+                                                         const crankloop_options *options, size_t options_size);
+
+/* Makes the memory free for another create. Engines on these tables then answer CRANKLOOP_FAULT_NOT_READY, and also on new tables that are
+   created there, until they are reset; the memory itself must stay. */
+CRANKLOOP_API crankloop_status crankloop_d_tables_discard(crankloop_d_tables *tables);
+
+/* ---- engine --------------------------------------------------------------------------------------------------------------------- */
+
+/* Must be zero before it is created. May be copied: the copy goes on by itself. */
+typedef struct crankloop_d_engine {
+  uint64_t opaque[CRANKLOOP_D_ENGINE_WORDS];
+} crankloop_d_engine;
+
+/* At rest at a phase: 2^64 = one cycle of 720 deg, 0 = cylinder 1's firing top dead centre. The tables must outlive the engine. */
+CRANKLOOP_API crankloop_status crankloop_d_engine_create(crankloop_d_engine *engine, size_t engine_size, const crankloop_d_tables *tables,
+                                                         uint64_t start_phase);
+CRANKLOOP_API crankloop_status crankloop_d_engine_discard(crankloop_d_engine *engine);
+
+/* As newly created, on the same tables. */
+CRANKLOOP_API crankloop_status crankloop_d_engine_reset(crankloop_d_engine *engine, uint64_t start_phase);
+
+typedef struct crankloop_d_input {
+  double speed_rad_s;                            /* negative = backwards */
+  double load_ratio;                             /* 0 = motored, 1 = the diagram as given; 0 to 2; default 1 */
+  double cam_phase_deg[CRANKLOOP_MOST_TRAINS];   /* target, crank degrees later than defined; default 0 */
+} crankloop_d_input;
+
+CRANKLOOP_API crankloop_status crankloop_d_input_defaults(crankloop_d_input *input, size_t size);
+
+/* Advances by one tick and answers its fault bits, 0 = all well. Whatever bits come in, outputs are defined and finite. Bounded work.
+   CRANKLOOP_FAULT_NOT_READY: no engine, no tables or no input; nothing was done. */
+CRANKLOOP_API uint32_t crankloop_d_step(crankloop_d_engine *engine, const crankloop_d_input *input, size_t input_size);
+
+CRANKLOOP_API uint64_t crankloop_d_phase(const crankloop_d_engine *engine); /* where the crank is; 0 without an engine */
+
+/* ---- what the last step gave, group by group; only the first `cylinders` (trains, pins) of an array are in use -------------------- */
+
+typedef struct crankloop_d_torque {
+  double torque_Nm;      /* at the end of the tick */
+  double mean_torque_Nm; /* averaged over the angle turned in the tick */
+} crankloop_d_torque;
+CRANKLOOP_API crankloop_status crankloop_d_read_torque(const crankloop_d_engine *engine, crankloop_d_torque *out, size_t size);
+
+typedef struct crankloop_d_kinematics { /* of each piston, positive toward the crankshaft, from top dead centre */
+  double displacement_m[CRANKLOOP_MOST_CYLINDERS];
+  double velocity_m_s[CRANKLOOP_MOST_CYLINDERS];
+  double acceleration_m_s2[CRANKLOOP_MOST_CYLINDERS];
+} crankloop_d_kinematics;
+CRANKLOOP_API crankloop_status crankloop_d_read_kinematics(const crankloop_d_engine *engine, crankloop_d_kinematics *out, size_t size);
+
+typedef struct crankloop_d_rod_motion {
+  double rod_angle_rad[CRANKLOOP_MOST_CYLINDERS];
+  double rod_speed_rad_s[CRANKLOOP_MOST_CYLINDERS];
+  double rod_acceleration_rad_s2[CRANKLOOP_MOST_CYLINDERS];
+} crankloop_d_rod_motion;
+CRANKLOOP_API crankloop_status crankloop_d_read_rod_motion(const crankloop_d_engine *engine, crankloop_d_rod_motion *out, size_t size);
+
+typedef struct crankloop_d_cylinder_forces {
+  double pressure_Pa; /* absolute */
+  double gas_force_N;
+  double inertia_force_N;
+  double total_force_N;
+  double side_force_N;       /* on the cylinder wall */
+  double rod_force_N;        /* along the rod */
+  double radial_force_N;     /* at the crank pin, positive toward the crank centre */
+  double tangential_force_N; /* at the crank pin, positive with the rotation */
+  double torque_Nm;
+  double tilting_moment_Nm;
+} crankloop_d_cylinder_forces;
+typedef struct crankloop_d_forces {
+  crankloop_d_cylinder_forces cylinder[CRANKLOOP_MOST_CYLINDERS];
+} crankloop_d_forces;
+CRANKLOOP_API crankloop_status crankloop_d_read_forces(const crankloop_d_engine *engine, crankloop_d_forces *out, size_t size);
+
+typedef struct crankloop_d_bearing_loads {
+  double pin_radial_N[CRANKLOOP_MOST_CYLINDERS];
+  double pin_tangential_N[CRANKLOOP_MOST_CYLINDERS];
+  double pin_load_N[CRANKLOOP_MOST_CYLINDERS];
+  double journal_along_N[CRANKLOOP_MOST_CYLINDERS + 1];
+  double journal_across_N[CRANKLOOP_MOST_CYLINDERS + 1];
+  double journal_load_N[CRANKLOOP_MOST_CYLINDERS + 1];
+} crankloop_d_bearing_loads;
+CRANKLOOP_API crankloop_status crankloop_d_read_bearing_loads(const crankloop_d_engine *engine, crankloop_d_bearing_loads *out, size_t size);
+
+typedef struct crankloop_d_free_force {
+  double up_N;
+  double lateral_N;
+  double pitch_Nm;
+  double yaw_Nm;
+} crankloop_d_free_force;
+typedef struct crankloop_d_free_forces {
+  crankloop_d_free_force first;
+  crankloop_d_free_force second;
+  crankloop_d_free_force rotating;
+} crankloop_d_free_forces;
+CRANKLOOP_API crankloop_status crankloop_d_read_free_forces(const crankloop_d_engine *engine, crankloop_d_free_forces *out, size_t size);
+
+typedef struct crankloop_d_valve_motion {
+  double theoretical_lift_m;
+  double lift_m;
+  double velocity_m_s;
+  double acceleration_m_s2;
+} crankloop_d_valve_motion;
+typedef struct crankloop_d_valves {
+  crankloop_d_valve_motion valve[CRANKLOOP_MOST_TRAINS][CRANKLOOP_MOST_CYLINDERS];
+} crankloop_d_valves;
+CRANKLOOP_API crankloop_status crankloop_d_read_valves(const crankloop_d_engine *engine, crankloop_d_valves *out, size_t size);
+
+typedef struct crankloop_d_valve_force {
+  double train_N;
+  double seat_N;
+  double tip_N;
+  double cam_N;
+  double gap_m;
+  uint32_t regime; /* 0 free, 1 train, 2 seat, 3 both */
+} crankloop_d_valve_force;
+typedef struct crankloop_d_valve_forces {
+  crankloop_d_valve_force valve_forces[CRANKLOOP_MOST_TRAINS][CRANKLOOP_MOST_CYLINDERS];
+} crankloop_d_valve_forces;
+CRANKLOOP_API crankloop_status crankloop_d_read_valve_forces(const crankloop_d_engine *engine, crankloop_d_valve_forces *out, size_t size);
+
+typedef struct crankloop_d_valve_cycle { /* angles are cam degrees since the start of the lobe */
+  double largest_lift_m;
+  double largest_speed_m_s;
+  double largest_acceleration_m_s2;
+  double opening_delay_deg;
+  double separation_gap_m;
+  double separation_start_deg;
+  double separation_duration_deg;
+  double seating_speed_m_s;
+  double bounce_height_m;
+  uint32_t separations;
+  uint32_t bounces;
+  uint32_t contact_changes;
+  uint32_t off_seat_at_end;
+} crankloop_d_valve_cycle;
+typedef struct crankloop_d_valve_results { /* of the last whole cycle */
+  crankloop_d_valve_cycle valve_cycle[CRANKLOOP_MOST_TRAINS][CRANKLOOP_MOST_CYLINDERS];
+} crankloop_d_valve_results;
+CRANKLOOP_API crankloop_status crankloop_d_read_valve_results(const crankloop_d_engine *engine, crankloop_d_valve_results *out, size_t size);
+
+/* ---- state: snapshots within a run of the program, bytes for longer -------------------------------------------------------------- */
+
+typedef struct crankloop_d_snapshot {
+  uint64_t opaque[CRANKLOOP_D_SNAPSHOT_WORDS];
+} crankloop_d_snapshot;
+
+/* Restored, an engine goes on with the same bits. A snapshot of other tables is refused. */
+CRANKLOOP_API crankloop_status crankloop_d_take(const crankloop_d_engine *engine, crankloop_d_snapshot *snapshot, size_t size);
+CRANKLOOP_API crankloop_status crankloop_d_restore(crankloop_d_engine *engine, const crankloop_d_snapshot *snapshot, size_t size);
+
+/* CRANKLOOP_D_SAVED_BYTES that any machine can read. Loading refuses all that is not exactly what was saved (docs/contract.md "Snapshots and
+   versions") and changes nothing then. */
+CRANKLOOP_API crankloop_status crankloop_d_save(const crankloop_d_engine *engine, unsigned char *bytes, size_t size);
+CRANKLOOP_API crankloop_status crankloop_d_load(crankloop_d_engine *engine, const unsigned char *bytes, size_t size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,112 @@
+// Every field of an output by its name, so that tests can print, hash or check them all.
+//
+// What belongs here: the walk over the groups that a scene has. What does not: what is done with a field.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <crankloop/tick/io.hpp>
+
+namespace crankloop::support {
+
+/// How much of an output's arrays is in use.
+struct Used {
+  std::size_t cylinders;
+  std::size_t pins;
+  std::size_t trains;
+};
+
+/// Calls f(name, index, value) for every number in use, value a Real or a uint32_t; cylinder, pin or journal counted from 0 is the index, of
+/// valves 16 * train + cylinder.
+template <class Real, class S, class F>
+void each_output(const Output<Real, S>& out, const Used& used, const F& f) {
+  const auto row = [&f](const char* name, const Real* first, std::size_t n) {
+    for (std::size_t i = 0; i < n; ++i) f(name, i, first[i]);
+  };
+  if constexpr (S::torque) f("torque_Nm", std::size_t{0}, out.torque_Nm);
+  if constexpr (S::mean_torque) f("mean_torque_Nm", std::size_t{0}, out.mean_torque_Nm);
+  if constexpr (S::kinematics) {
+    row("displacement_m", out.displacement_m, used.cylinders);
+    row("velocity_m_s", out.velocity_m_s, used.cylinders);
+    row("acceleration_m_s2", out.acceleration_m_s2, used.cylinders);
+  }
+  if constexpr (S::rod_motion) {
+    row("rod_angle_rad", out.rod_angle_rad, used.cylinders);
+    row("rod_speed_rad_s", out.rod_speed_rad_s, used.cylinders);
+    row("rod_acceleration_rad_s2", out.rod_acceleration_rad_s2, used.cylinders);
+  }
+  if constexpr (S::forces) {
+    for (std::size_t k = 0; k < used.cylinders; ++k) {
+      const CylinderForces<Real>& c = out.cylinder[k];
+      f("pressure_Pa", k, c.pressure_Pa);
+      f("gas_force_N", k, c.gas_force_N);
+      f("inertia_force_N", k, c.inertia_force_N);
+      f("total_force_N", k, c.total_force_N);
+      f("side_force_N", k, c.side_force_N);
+      f("rod_force_N", k, c.rod_force_N);
+      f("radial_force_N", k, c.radial_force_N);
+      f("tangential_force_N", k, c.tangential_force_N);
+      f("cylinder_torque_Nm", k, c.torque_Nm);
+      f("tilting_moment_Nm", k, c.tilting_moment_Nm);
+    }
+  }
+  if constexpr (S::bearing_loads) {
+    row("pin_radial_N", out.pin_radial_N, used.pins);
+    row("pin_tangential_N", out.pin_tangential_N, used.pins);
+    row("pin_load_N", out.pin_load_N, used.pins);
+    row("journal_along_N", out.journal_along_N, used.pins + 1);
+    row("journal_across_N", out.journal_across_N, used.pins + 1);
+    row("journal_load_N", out.journal_load_N, used.pins + 1);
+  }
+  if constexpr (S::free_forces) {
+    std::size_t i = 0;
+    for (const FreeForce<Real>* force : {&out.first, &out.second, &out.rotating}) {
+      f("free_up_N", i, force->up_N);
+      f("free_lateral_N", i, force->lateral_N);
+      f("free_pitch_Nm", i, force->pitch_Nm);
+      f("free_yaw_Nm", i, force->yaw_Nm);
+      ++i;
+    }
+  }
+  if constexpr (Needs<S>::any_valves) {
+    for (std::size_t t = 0; t < used.trains; ++t) {
+      for (std::size_t k = 0; k < used.cylinders; ++k) {
+        const std::size_t i = 16 * t + k;
+        const ValveMotionOutput<Real>& v = out.valve[t][k];
+        f("theoretical_lift_m", i, v.theoretical_lift_m);
+        f("lift_m", i, v.lift_m);
+        f("valve_velocity_m_s", i, v.velocity_m_s);
+        f("valve_acceleration_m_s2", i, v.acceleration_m_s2);
+        if constexpr (S::valve_forces) {
+          const ValveForcesOutput<Real>& force = out.valve_forces[t][k];
+          f("train_N", i, force.train_N);
+          f("seat_N", i, force.seat_N);
+          f("tip_N", i, force.tip_N);
+          f("cam_N", i, force.cam_N);
+          f("gap_m", i, force.gap_m);
+          f("regime", i, force.regime);
+        }
+        if constexpr (S::valve_results) {
+          const ValveCycle<Real>& c = out.valve_cycle[t][k];
+          f("cycle_largest_lift_m", i, c.largest_lift_m);
+          f("cycle_largest_speed_m_s", i, c.largest_speed_m_s);
+          f("cycle_largest_acceleration_m_s2", i, c.largest_acceleration_m_s2);
+          f("cycle_opening_delay_deg", i, c.opening_delay_deg);
+          f("cycle_separation_gap_m", i, c.separation_gap_m);
+          f("cycle_separation_start_deg", i, c.separation_start_deg);
+          f("cycle_separation_duration_deg", i, c.separation_duration_deg);
+          f("cycle_seating_speed_m_s", i, c.seating_speed_m_s);
+          f("cycle_bounce_height_m", i, c.bounce_height_m);
+          f("cycle_separations", i, c.separations);
+          f("cycle_bounces", i, c.bounces);
+          f("cycle_contact_changes", i, c.contact_changes);
+          f("cycle_off_seat_at_end", i, c.off_seat_at_end);
+        }
+      }
+    }
+  }
+  f("faults", std::size_t{0}, out.faults);
+}
+
+}  // namespace crankloop::support
