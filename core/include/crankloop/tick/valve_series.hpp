@@ -11,18 +11,23 @@
 
 namespace crankloop {
 
-/// A polynomial in the part of a step, value and slope (by the part) at once.
+/// A polynomial in the part of a step.
 template <class Real, int Order>
 struct StepPolynomial {
   Real c[static_cast<std::size_t>(Order) + 1];
 
-  constexpr void at(Real x, Real& value, Real& slope) const noexcept {
-    slope = c[Order];
-    value = c[Order - 1] + x * c[Order];
-    for (int i = Order - 2; i >= 0; --i) {
-      slope = value + x * slope;
-      value = c[i] + x * value;
+  /// Value, slope and half the curvature at once, by the part.
+  struct At {
+    Real value, slope, half_curvature;
+  };
+  [[nodiscard]] constexpr At at(Real x) const noexcept {
+    At a{c[Order], Real{0}, Real{0}};
+    for (int i = Order - 1; i >= 0; --i) {
+      a.half_curvature = a.slope + x * a.half_curvature;
+      a.slope = a.value + x * a.slope;
+      a.value = c[i] + x * a.value;
     }
+    return a;
   }
 };
 
@@ -31,8 +36,8 @@ struct StepPolynomial {
 template <class Real>
 class StepSeries {
  public:
-  /// w d is at most 0.3 in the 0.1 um class: 0.3^8 / 8! is below float's rounding, 0.3^10 / 10! of a micrometre is nothing to double.
-  static constexpr int kOrder = sizeof(Real) == 4 ? 7 : 9;
+  /// w d is at most 0.3 in the 0.1 um class: 0.3^7 / 7! = 4e-8 is float's rounding, 0.3^10 / 10! = 2e-12 of a step's motion is nothing.
+  static constexpr int kOrder = sizeof(Real) == 4 ? 6 : 9;
 
   constexpr StepSeries(const ValveBody<Real>& body, const LiftWithin<Real>& lift, Real step_s) noexcept
       : body_{body}, step_s_{step_s}, per_step_s_{Real{1} / step_s}, lift_{lift} {}
@@ -68,61 +73,54 @@ class StepSeries {
   }
 
   [[nodiscard]] constexpr ValveState<Real> state(Real at) const noexcept {
-    Real y{};
-    Real slope{};
-    motion_.at(at - at_, y, slope);
-    return {y, slope * per_step_s_};
+    const auto y = motion_.at(at - at_);
+    return {y.value, y.slope * per_step_s_};
   }
 
-  /// The first place after the expansion at which `regime` ends, at most 1. `changes` tells which contact changes there; 0: none does.
+  /// Where `regime` ends between the expansion and 1, if it has ended by then. `changes` tells which contact changes there; 0: none does.
   [[nodiscard]] constexpr Real first_change(std::uint32_t regime, std::uint32_t& changes) const noexcept {
     changes = 0;
-    Real from = at_;
-    for (const Real to : {at_ + (1 - at_) * static_cast<Real>(0.5), Real{1}}) {
-      Real first = to;
-      for (std::uint32_t contact = kTrainOn; contact <= kSeatOn; contact += contact) {
-        const Real value = switching(contact, to);
-        if ((value > 0) == ((regime & contact) != 0)) continue;
-        const Real at = crossing(contact, from, to, value);
-        if (changes == 0 || at < first) first = at, changes = contact;
-      }
-      if (changes != 0) return first;
-      from = to;
+    Real first = 1;
+    for (std::uint32_t contact = kTrainOn; contact <= kSeatOn; contact += contact) {
+      const Switching at_end = switching(contact, 1);
+      if ((at_end.force_N > 0) == ((regime & contact) != 0)) continue;
+      const Real at = crossing(contact, at_, 1, at_end.force_N);
+      if (changes == 0 || at < first) first = at, changes = contact;
     }
-    return 1;
+    return first;
   }
 
  private:
-  /// The switching function of a contact, in N: the smaller of its gap's force and its whole force. It acts while that is positive.
-  [[nodiscard]] constexpr Real switching(std::uint32_t contact, Real at) const noexcept {
-    Real value{};
-    Real slope{};
-    if (contact == kTrainOn) {
-      gap_.at(at - at_, value, slope);
-      const Real damper_N = body_.train_Ns_m * (slope * per_step_s_);
-      return body_.train_N_m * value + (damper_N < 0 ? damper_N : Real{0});
-    }
-    motion_.at(at - at_, value, slope);
-    const Real damper_N = -body_.seat_Ns_m * (slope * per_step_s_);
-    return body_.seat_N_m * (body_.seat_sink_m - value) + (damper_N < 0 ? damper_N : Real{0});
+  /// The switching function of a contact: the smaller of its gap's force and its whole force. It acts while that is positive.
+  struct Switching {
+    Real force_N;
+    Real slope_N;  ///< by the part of the step
+  };
+  [[nodiscard]] constexpr Switching switching(std::uint32_t contact, Real at) const noexcept {
+    const bool train = contact == kTrainOn;
+    const auto gap = train ? gap_.at(at - at_) : motion_.at(at - at_);
+    const Real spring_N_m = train ? body_.train_N_m : -body_.seat_N_m;
+    const Real damper_N = (train ? body_.train_Ns_m : -body_.seat_Ns_m) * per_step_s_;
+    const Real pressed_N = damper_N * gap.slope;
+    Switching s{spring_N_m * gap.value - (train ? Real{0} : spring_N_m * body_.seat_sink_m), spring_N_m * gap.slope};
+    if (pressed_N < 0) s.force_N += pressed_N, s.slope_N += 2 * damper_N * gap.half_curvature;
+    return s;
   }
 
-  /// Root of a switching function between two places of different sign (regula falsi, Illinois rule): the end on the far side.
+  /// Root of a switching function between two places of different sign: Newton's method from the secant's root, kept between them.
   [[nodiscard]] constexpr Real crossing(std::uint32_t contact, Real from, Real to, Real at_to) const noexcept {
-    constexpr int kSteps = sizeof(Real) == 4 ? 6 : 10;
-    Real at_from = switching(contact, from);
+    constexpr int kSteps = sizeof(Real) == 4 ? 3 : 4;
     const bool rising = at_to > 0;
+    const Real at_from = switching(contact, from).force_N;
     if ((at_from > 0) == rising) return from;  // it changed by rounding, where it stands
+    Real at = to - at_to * (to - from) / (at_to - at_from);
     for (int i = 0; i < kSteps; ++i) {
-      const Real at = to - at_to * (to - from) / (at_to - at_from);
-      const Real value = switching(contact, at);
-      if ((value > 0) == rising) {
-        to = at, at_to = value, at_from = at_from / 2;
-      } else {
-        from = at, at_from = value, at_to = at_to / 2;
-      }
+      const Switching s = switching(contact, at);
+      ((s.force_N > 0) == rising ? to : from) = at;
+      const Real next = at - s.force_N / s.slope_N;
+      at = next >= from && next <= to ? next : (from + to) / 2;
     }
-    return to;
+    return at;
   }
 
   const ValveBody<Real>& body_;
