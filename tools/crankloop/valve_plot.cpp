@@ -42,7 +42,7 @@ struct Shown {
   const ValveCycle<double>& cycle;
   std::vector<Contact> contacts{};
   std::size_t seated = 0;  ///< first tick on the seat behind the lobe; ticks.size(): none
-  std::size_t rested = 0;  ///< first tick behind it after which the valve stays closed
+  std::size_t rested = 0;  ///< first tick behind that one from which the valve stays closed
 };
 
 /// Without any contact the valve is separated until it has met its seat, and bounces after that and before it opens: the
@@ -65,7 +65,7 @@ Shown shown(const ValveCycleTrace& trace) {
                                    : Contact::bouncing);
   }
   s.rested = s.ticks.size();
-  while (s.rested > s.seated && s.contacts[s.rested - 1] == Contact::closed) --s.rested;
+  while (s.rested > s.seated + 1 && s.contacts[s.rested - 1] == Contact::closed) --s.rested;
   return s;
 }
 
