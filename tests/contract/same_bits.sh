@@ -17,8 +17,10 @@ build_and_run() {
     "$out/$1/same_bits" "$engines"/*.ini >"$out/$1.txt" || return 1
   for engine in "$engines"/*.ini; do
     for real in float double; do
-      "$out/$1/crankloop/bin/crankloop" tables "$engine" --tick-us 100 --real $real >"$out/$1.tables" &&
-        cksum <"$out/$1.tables" >>"$out/$1.txt" || return 1
+      for integrator in rk4 exponential; do
+        "$out/$1/crankloop/bin/crankloop" tables "$engine" --tick-us 100 --real $real --integrator $integrator >"$out/$1.tables" &&
+          cksum <"$out/$1.tables" >>"$out/$1.txt" || return 1
+      done
     done
   done
 }

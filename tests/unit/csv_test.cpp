@@ -136,6 +136,15 @@ TEST(Words, AGuessIsMadeOnlyWhereItIsLikely) {
   EXPECT_EQ(suggestion(std::string(100'000, 'b'), keys), "");
 }
 
+TEST(Words, UnitsOfKeysAreReadAsEngineersWriteThem) {
+  EXPECT_EQ(unit_in_words("mm"), "mm");
+  EXPECT_EQ(unit_in_words("mm2"), "mm^2");
+  EXPECT_EQ(unit_in_words("kg_m2"), "kg m^2");
+  EXPECT_EQ(unit_in_words("N_per_mm"), "N/mm");
+  EXPECT_EQ(unit_in_words("deg_per_s"), "deg/s");
+  EXPECT_EQ(unit_in_words(""), "");
+}
+
 TEST(Words, AQuoteIsShortAndNeverCutsACharacter) {
   EXPECT_EQ(in_quotes("95 mm"), "'95 mm'");
   std::string long_text(39, 'a');

@@ -147,11 +147,11 @@ std::string Key::allowed() const {
     case Kind::pin_groups:
       return "like 1-2,3-4";
     case Kind::numbers:
-      return "list; each " + describe(range, unit.name);
+      return "list; each " + describe(range, unit_in_words(unit.name));
     case Kind::whole_number:
-      return "whole number; " + describe(range, unit.name);
+      return "whole number; " + describe(range, unit_in_words(unit.name));
     case Kind::number:
-      return describe(range, unit.name);
+      return describe(range, unit_in_words(unit.name));
     case Kind::text:
     case Kind::path:
       break;

@@ -17,7 +17,7 @@ constexpr std::size_t kLongestList = 64;  // no key needs more; keeps a hostile 
 
 double number_in_range(const Key& key, std::string_view text, const std::string& path, int line,
                        const std::string& where) {
-  const ParsedNumber number = parse_number(text, key.range, key.unit.name);
+  const ParsedNumber number = parse_number(text, key.range, unit_in_words(key.unit.name));
   if (!number.ok()) throw InputError(path, line, std::string(key.name) + ": " + where + number.problem);
   return number.value;
 }

@@ -210,8 +210,9 @@ constexpr Option kOptions[] = {
     text("--train", "NAME", "valve train: the NAME of its [cam NAME], [rocker NAME] and [valve NAME]"),
     whole_number("--from", "N", from(1).up_to(100000), "lowest engine speed in rpm", "500"),
     whole_number("--to", "N", from(1).up_to(100000), "highest engine speed in rpm", "15000"),
-    choice("--vary", "train|mass|spring|preload|damping",
-           "sweeps again with this times 0.5, 0.7, 0.85, 1, 1.2, 1.5, 2"),
+    choice(
+        "--vary", "train|mass|spring|preload|damping",
+        "sweeps again with this times 0.5, 0.7, 0.85, 1, 1.2, 1.5, 2; mass: all that moves, damping: all three ratios"),
     text("--csv", "F", "file for a row per factor and speed; - is standard output, the rest then goes to stderr"),
     text("--report", "F.html", "file for the plots, which any browser shows"),
 };

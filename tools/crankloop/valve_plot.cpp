@@ -42,7 +42,7 @@ struct Shown {
   const ValveCycle<double>& cycle;
   std::vector<Contact> contacts{};
   std::size_t seated = 0;  ///< first tick on the seat behind the lobe; ticks.size(): none
-  std::size_t rested = 0;  ///< first tick behind it after which the valve stays closed
+  std::size_t rested = 0;  ///< first tick behind that one from which the valve stays closed
 };
 
 /// Without any contact the valve is separated until it has met its seat, and bounces after that and before it opens: the
@@ -65,7 +65,7 @@ Shown shown(const ValveCycleTrace& trace) {
                                    : Contact::bouncing);
   }
   s.rested = s.ticks.size();
-  while (s.rested > s.seated && s.contacts[s.rested - 1] == Contact::closed) --s.rested;
+  while (s.rested > s.seated + 1 && s.contacts[s.rested - 1] == Contact::closed) --s.rested;
   return s;
 }
 
@@ -231,13 +231,17 @@ std::string count(std::uint32_t number, const char* one) {
                        : std::to_string(number) + " " + one + "s";
 }
 
-std::string results(const ValveCycle<double>& c) {
-  std::string text = "Largest lift " + number_text(c.largest_lift_m * kMilli, 5) + " mm, opening delay " +
-                     number_text(c.opening_delay_deg, 4) + " cam deg, " + count(c.separations, "separation");
+std::string motion_in_words(const ValveCycle<double>& c) {
+  return "Largest lift " + number_text(c.largest_lift_m * kMilli, 5) + " mm, opening delay " +
+         number_text(c.opening_delay_deg, 4) + " cam deg, seating at " + number_text(c.seating_speed_m_s, 3) + " m/s";
+}
+
+std::string flight_in_words(const ValveCycle<double>& c) {
+  std::string text = c.separations == 0 ? "No separation" : count(c.separations, "separation");
   if (c.separations > 0) text += " of up to " + micrometres(c.separation_gap_m);
-  text += ", seating at " + number_text(c.seating_speed_m_s, 3) + " m/s, " + count(c.bounces, "bounce");
+  text += ", " + count(c.bounces, "bounce");
   if (c.bounces > 0) text += " of up to " + micrometres(c.bounce_height_m);
-  return text;
+  return text + (c.off_seat_at_end != 0 ? "; still off its seat in the middle of the base circle" : "");
 }
 
 }  // namespace
@@ -247,8 +251,7 @@ report::Sheet valve_sheet(const ValveCycleTrace& trace, const std::string& title
   const Part part = moving_part(s);
   report::Sheet sheet;
   sheet.title = title;
-  sheet.remarks = {remark, results(s.cycle)};
-  if (s.cycle.off_seat_at_end != 0) sheet.remarks.emplace_back("Still off its seat in the middle of the base circle");
+  sheet.remarks = {remark, motion_in_words(s.cycle), flight_in_words(s.cycle)};
   sheet.plots = {lift_plot(s, part), force_plot(s, part), gap_plot(s, part)};
   if (s.seated < s.ticks.size()) sheet.plots.push_back(seating_plot(s));
   return sheet;

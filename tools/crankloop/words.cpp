@@ -74,6 +74,14 @@ std::string join(const std::vector<std::string>& words, const char* separator) {
   return text;
 }
 
+std::string unit_in_words(std::string_view unit) {
+  std::string text(unit);
+  if (const std::size_t per = text.find("_per_"); per != std::string::npos) text.replace(per, 5, "/");
+  std::replace(text.begin(), text.end(), '_', ' ');
+  if (!text.empty() && text.back() == '2') text.insert(text.size() - 1, "^");
+  return text;
+}
+
 std::string suggestion(std::string_view given, const std::vector<std::string>& known) {
   if (given.empty() || given.size() > kLongestGuess) return "";
   const std::string word = lower(given);

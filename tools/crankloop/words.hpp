@@ -19,6 +19,9 @@ namespace crankloop::program {
 /// "a, b, c".
 [[nodiscard]] std::string join(const std::vector<std::string>& words, const char* separator = ", ");
 
+/// A unit as a key spells it, for reading: "kg mm^2" for "kg_mm2", "N/mm" for "N_per_mm".
+[[nodiscard]] std::string unit_in_words(std::string_view unit);
+
 /// "; did you mean bore_mm?" if one of the known words is close to the given one, otherwise "".
 ///
 /// Close: equal but for case, or the end left out (bore for bore_mm), or at most a third of its letters, and 2

@@ -1,11 +1,16 @@
-// Runs the 495 diesel for some cycles and looks whether it turns: the figures themselves are tested elsewhere.
+// Runs the 495 diesel, and the valve of the 125 stepped in three ways, for some cycles, and looks whether they turn: the figures
+// themselves are tested elsewhere.
+#include <cmath>
 #include <cstdio>
 
+#include "as_usual.hpp"
+#include "exactly.hpp"
+#include "finely.hpp"
 #include "my_engine.hpp"
 
 static my_engine::Engine engine;
 
-int main() {
+static bool turns() {
   my_engine::Input in;
   in.speed_rad_s = 209.44F;
   float sum_Nm = 0;
@@ -18,5 +23,36 @@ int main() {
   }
   const float mean_Nm = sum_Nm / kTicks;
   std::printf("mean torque %.1f Nm, faults %u\n", static_cast<double>(mean_Nm), static_cast<unsigned>(faults));
-  return faults == 0 && mean_Nm > 200 && mean_Nm < 220 ? 0 : 1;  // 4 cylinders, 0.8151 L, 809.7 kPa over 4 pi: 210 Nm
+  return faults == 0 && mean_Nm > 200 && mean_Nm < 220;  // 4 cylinders, 0.8151 L, 809.7 kPa over 4 pi: 210 Nm
 }
+
+struct Seating {
+  double largest_lift_m;
+  double speed_m_s;
+};
+
+template <class Engine>
+static Seating seating(Engine& valve) {
+  typename Engine::Input in;
+  in.speed_rad_s = 733.04;  // 7000 rpm
+  for (int tick = 0; tick < 2000; ++tick) valve.step(in);  // six cycles of 17 ms
+  const auto& cycle = valve.output().valve_cycle[0][0];
+  std::printf("lift %.6f mm, seating at %.6f m/s\n", cycle.largest_lift_m * 1e3, cycle.seating_speed_m_s);
+  return {cycle.largest_lift_m, cycle.seating_speed_m_s};
+}
+
+static as_usual::Engine usual_valve;
+static exactly::Engine exact_valve;
+static finely::Engine fine_valve;
+
+/// Each way gives the valve's lift, 7.785 mm, within 0.2 um, and none the bits of another: the options have arrived.
+static bool steps_in_three_ways() {
+  const Seating ways[] = {seating(usual_valve), seating(exact_valve), seating(fine_valve)};
+  for (const Seating& way : ways) {
+    if (std::fabs(way.largest_lift_m - 7.785e-3) > 0.5e-6) return false;  // a printed digit
+    if (std::fabs(way.largest_lift_m - ways[0].largest_lift_m) > 0.2e-6) return false;
+  }
+  return ways[0].speed_m_s != ways[1].speed_m_s && ways[0].speed_m_s != ways[2].speed_m_s && ways[1].speed_m_s != ways[2].speed_m_s;
+}
+
+int main() { return turns() && steps_in_three_ways() ? 0 : 1; }

@@ -16,6 +16,10 @@
 #include "flash_double.hpp"
 #include "flash_float.hpp"
 #include "scenes.hpp"
+#include "valves_exponential_double.hpp"
+#include "valves_exponential_float.hpp"
+#include "valves_rk4_double.hpp"
+#include "valves_rk4_float.hpp"
 
 namespace {
 
@@ -63,9 +67,34 @@ void drive(Input& in, Driver& driver, int tick) {
     if (tick % 97 == 0) in.crank += Phase{driver.next()};
   }
   if constexpr (std::is_base_of_v<LoadInput<Real>, Input>) in.load_ratio = (1 + x) / 2;
+  if constexpr (std::is_base_of_v<CamPhaseInput<Real, ElasticValves>, Input>) {
+    for (Real& phase : in.cam_phase_deg) phase = tick / 500 % 2 == 0 ? Real{0} : 20 * x;
+  }
   if constexpr (!std::is_base_of_v<SpeedInput<Real>, Input>) {
     for (Real& pressure : in.pressure_Pa) pressure = static_cast<Real>(4e6) * (1 + x);
   }
+}
+
+/// Up to the faults, that is without the padding behind them.
+template <class Output>
+void add_output(Hash& hash, const Output& out) {
+  const auto* end = reinterpret_cast<const unsigned char*>(&out.faults + 1);
+  hash.add(&out, static_cast<std::size_t>(end - reinterpret_cast<const unsigned char*>(&out)));
+}
+
+/// There is padding behind each valve's regime too.
+template <class Real>
+void add_output(Hash& hash, const Output<Real, ElasticValves>& out) {
+  hash.add(&out.valve, sizeof out.valve);
+  for (const auto& train : out.valve_forces) {
+    for (const ValveForcesOutput<Real>& f : train) {
+      for (const Real x : {f.train_N, f.seat_N, f.tip_N, f.cam_N, f.gap_m}) hash.add(&x, sizeof x);
+      hash.add(&f.regime, sizeof f.regime);
+    }
+  }
+  static_assert(sizeof(ValveCycle<Real>) == 9 * sizeof(Real) + 4 * sizeof(std::uint32_t), "no padding");
+  hash.add(&out.valve_cycle, sizeof out.valve_cycle);
+  hash.add(&out.faults, sizeof out.faults);
 }
 
 template <class Real, class Engine>
@@ -75,10 +104,7 @@ unsigned long long run(Engine& engine) {
   typename Engine::Input in;
   for (int tick = 0; tick < kTicks; ++tick) {
     drive<Real>(in, driver, tick);
-    const auto& out = engine.step(in);
-    // Up to the faults, that is without the padding behind them.
-    const auto* end = reinterpret_cast<const unsigned char*>(&out.faults + 1);
-    hash.add(&out, static_cast<std::size_t>(end - reinterpret_cast<const unsigned char*>(&out)));
+    add_output(hash, engine.step(in));
   }
   hash.add(&engine.state(), sizeof engine.state());
   return hash.sum();
@@ -90,10 +116,11 @@ void print(const std::string& file, const char* scene, const char* tables, std::
 
 /// With tables built here. Throws where they are refused.
 template <class Real, class Scene>
-unsigned long long run_from_ram(const std::string& file, const char* scene, const EngineDefinition& definition) {
+unsigned long long run_from_ram(const std::string& file, const char* scene, const EngineDefinition& definition,
+                                const TickOptions& options = {100e-6}) {
   const auto storage = std::make_unique<TableStorage<Real, Scene, kMostGasSegments>>();
   Engine<Real, Scene> engine;
-  if (!storage->build(definition, {100e-6}).ok() || !engine.init(storage->tables()).ok()) {
+  if (!storage->build(definition, options).ok() || !engine.init(storage->tables()).ok()) {
     throw std::runtime_error(file + ": refused for " + scene);
   }
   const unsigned long long hash = run<Real>(engine);
@@ -107,12 +134,35 @@ bool run_scenes(const std::string& file, const EngineDefinition& definition) {
   const unsigned long long everything = run_from_ram<Real, Everything>(file, "Everything", definition);
   run_from_ram<Real, TorqueOnly>(file, "TorqueOnly", definition);
   run_from_ram<Real, MeasuredPhaseAndPressure>(file, "MeasuredPhaseAndPressure", definition);
+  run_from_ram<Real, ElasticValves>(file, "ElasticValves rk4", definition, {100e-6, {Integrator::rk4}});
+  run_from_ram<Real, ElasticValves>(file, "ElasticValves exponential", definition, {100e-6, {Integrator::exponential}});
   if (file != "diesel_495.ini") return true;
 
   FlashEngine in_flash;
   const unsigned long long from_flash = run<Real>(in_flash);
   print(file, "Everything", "flash", sizeof(Real), from_flash);
   return from_flash == everything;
+}
+
+/// Elastic valves with tables in flash and in RAM.
+template <class Real, class FlashEngine>
+bool same_from_flash(const char* scene, const EngineDefinition& definition, Integrator integrator) {
+  const std::string file = "diesel_495_phased.ini";
+  const unsigned long long from_ram = run_from_ram<Real, ElasticValves>(file, scene, definition, {100e-6, {integrator}});
+  FlashEngine in_flash;
+  const unsigned long long from_flash = run<Real>(in_flash);
+  print(file, scene, "flash", sizeof(Real), from_flash);
+  return from_flash == from_ram;
+}
+
+bool valves_are_same_from_flash() {
+  const auto engine = program::read_engine_file(CRANKLOOP_VALVE_ENGINE, {"crank", "masses"});
+  const EngineDefinition& d = engine.definition();
+  bool same = same_from_flash<float, valves_rk4_float::Engine>("ElasticValves rk4", d, Integrator::rk4);
+  same &= same_from_flash<double, valves_rk4_double::Engine>("ElasticValves rk4", d, Integrator::rk4);
+  same &= same_from_flash<float, valves_exponential_float::Engine>("ElasticValves exponential", d, Integrator::exponential);
+  same &= same_from_flash<double, valves_exponential_double::Engine>("ElasticValves exponential", d, Integrator::exponential);
+  return same;
 }
 
 }  // namespace
@@ -126,6 +176,7 @@ int main(int count, char** files) try {
     flash_is_ram &= run_scenes<float, flash_float::Engine>(file, engine.definition());
     flash_is_ram &= run_scenes<double, flash_double::Engine>(file, engine.definition());
   }
+  flash_is_ram &= valves_are_same_from_flash();
   if (!flash_is_ram) std::fprintf(stderr, "tables in flash answer other bits than those in RAM\n");
   return flash_is_ram ? 0 : 1;
 } catch (const std::exception& error) {

@@ -10,5 +10,7 @@ template class Engine<float, TorqueOnly>;
 template class Engine<double, TorqueOnly>;
 template class Engine<float, MeasuredPhaseAndPressure>;
 template class Engine<double, MeasuredPhaseAndPressure>;
+template class Engine<float, ElasticValves>;
+template class Engine<double, ElasticValves>;
 
 }  // namespace crankloop

@@ -32,3 +32,16 @@ struct MeasuredPhaseAndPressure : crankloop::Scene {
   static constexpr bool mean_torque = true;
   static constexpr bool forces = true;
 };
+
+/// Valves that float and bounce, move with a phaser, and feel the gas on their heads.
+struct ElasticValves : crankloop::Scene {
+  static constexpr auto cylinders = crankloop::up_to<16>;
+  static constexpr auto pressure = crankloop::PressureGiven::by_table;
+  static constexpr bool load_ratio = true;
+  static constexpr auto valves = crankloop::ValveModel::elastic;
+  static constexpr auto trains = crankloop::up_to<crankloop::kMaxTrains>;
+  static constexpr bool valve_forces = true;
+  static constexpr bool valve_results = true;
+  static constexpr bool valve_gas = true;
+  static constexpr bool cam_phasing = true;
+};

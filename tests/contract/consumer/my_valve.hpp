@@ -1,0 +1,9 @@
+// A scene of one elastic valve.
+#pragma once
+
+#include <crankloop/tick/scene.hpp>
+
+struct MyValve : crankloop::Scene {
+  static constexpr auto valves = crankloop::ValveModel::elastic;
+  static constexpr bool valve_results = true;
+};
