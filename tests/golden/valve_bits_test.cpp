@@ -36,8 +36,9 @@ class Fnv {
   }
   template <class Real>
   void add(const typename StepMatrix<Real>::Row& row) {
-    for (const Real x : {row.y, row.v, row.force}) add(x);
+    for (const Real x : {row.y, row.v, row.rest, row.gas, row.gap}) add(x);
     for (const Real x : row.lift) add(x);
+    for (const Real x : row.wide) add(x);
   }
   [[nodiscard]] std::uint64_t value() const { return hash_; }
 
@@ -104,9 +105,11 @@ std::uint64_t hash_of_tables(const Tables<Real, TwoValves>& tables) {
   Fnv fnv;
   for (int t = 0; t < 2; ++t) {
     const LiftCurve<Real>& curve = tables.lift_curves[t];
-    fnv.add(curve.opens);
+    fnv.add(curve.opens[0]);
     fnv.add(curve.most_phase_per_tick);
     fnv.add(curve.segments);
+    fnv.add(curve.touch_from);
+    fnv.add(curve.touch_degrees);
     fnv.add(curve.outside_m);
     for (std::uint32_t i = 0; i < curve.segments; ++i) {
       for (const Real x : curve.at[i].c) fnv.add(x);
@@ -116,7 +119,7 @@ std::uint64_t hash_of_tables(const Tables<Real, TwoValves>& tables) {
     const ValveBody<Real>& b = m.body;
     for (const Real x : {b.mass_kg, b.train_N_m, b.train_Ns_m, b.seat_N_m, b.seat_Ns_m, b.spring_N_m, b.guide_Ns_m,
                          b.preload_N, b.seat_sink_m, b.head_area_m2, b.rocker_mass_kg, m.per_steps, m.per_fine,
-                         m.step_s, m.fine_s, m.rest_m, m.rest_m_s}) {
+                         m.step_s, m.fine_s, m.short_step_deg, m.force_lag, m.rest_m, m.rest_m_s}) {
       fnv.add(x);
     }
     fnv.add(m.steps);

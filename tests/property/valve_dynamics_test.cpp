@@ -214,9 +214,9 @@ TEST(OrderOfConvergence, IsFourWithoutContactChanges) {
     ValveMotion<double> motion{};
     EXPECT_TRUE(motion_of(body, step_s, {integrator, 10 * kUm}, motion).ok());
     EXPECT_EQ(motion.steps * motion.fine_per_step, 1u);
-    const std::uint64_t opens = phase_at(train.cam.full_lift_deg).units() - rig.curve().opens;
+    const std::uint64_t opens = phase_at(train.cam.full_lift_deg).units() - rig.curve().opens[0];
     const auto cam_at = [&](double deg) { return opens + phase_at(2 * deg).units(); };
-    ValveCondition<double> valve{{7.78e-3, 0}, kTrainOn, 0};
+    ValveCondition<double> valve{{7.78e-3, 0}, rig.curve().read(LiftCurve<double>::cell(cam_at(0))), kTrainOn, 0};
     EventBudget budget{0, false};
     NoRecord<double> none;
     const int n = static_cast<int>(std::lround(span_s / step_s));
@@ -225,8 +225,9 @@ TEST(OrderOfConvergence, IsFourWithoutContactChanges) {
     for (int i = 0; i < n; ++i) {
       const double from = deg_per_s * step_s * i;
       const double to = deg_per_s * step_s * (i + 1);
-      ValveTick<double, NoRecord<double>>(motion, rig.curve(), 0, budget, none)
-          .advance(valve, {cam_at(from), cam_at(to), to - from});
+      const CamTurn<double> cam{static_cast<std::int64_t>(cam_at(to) - cam_at(from)), to - from};
+      ValveTick<double>(motion, rig.curve(), cam, budget)
+          .advance(valve, cam_at(to), LiftCurve<double>::cell(cam_at(to)), NoGasForce<double>{}, none);
       if (i % per == per - 1) all.push_back(valve.state.lift_m);
     }
     EXPECT_FALSE(budget.exceeded) << "a contact changed";

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -23,6 +24,7 @@
 #include "crankloop/run_trace.hpp"
 #include "crankloop/valve_loop.hpp"
 #include "support/both_reals.hpp"
+#include "support/markup.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -463,6 +465,116 @@ TEST_F(ValveCommands, TheCsvHasARowForEveryTickOfACycle) {
   }
 }
 
+TEST_F(ValveCommands, APlotIsAPictureOfItsOwnInBothThemes) {
+  run(kValve, {kOhc125, "--train", "intake", "--rpm", "7000", "--tick-us", "5", "--plot", path("v.svg")});
+  const std::string svg = contents(path("v.svg"));
+  const support::Markup markup = support::read(svg);
+  ASSERT_EQ(markup.fault, "");
+  EXPECT_EQ(markup.elements[0].name, "svg");
+  EXPECT_EQ(markup.elements[0].attributes.at("xmlns"), "http://www.w3.org/2000/svg");
+  EXPECT_EQ(markup.of_class("plot").size(), 4u);
+  ASSERT_EQ(markup.of_class("sheet-title").size(), 1u);
+  EXPECT_EQ(markup.of_class("sheet-title")[0].text, "Valve train intake at 7000 rpm of the engine");
+  EXPECT_NE(svg.find("@media screen and (prefers-color-scheme: dark)"), std::string::npos);
+  for (const char* outside : {"href", "src=", "@import", "url(h", "<script"})
+    EXPECT_EQ(svg.find(outside), std::string::npos) << outside;
+  std::set<std::string> ids;
+  for (const support::Element& element : markup.elements) {
+    const auto id = element.attributes.find("id");
+    if (id == element.attributes.end()) continue;
+    EXPECT_TRUE(ids.insert(id->second).second) << id->second;
+  }
+}
+
+/// The description of the one plot whose title this is.
+std::string description_of(const support::Markup& markup, const std::string& title) {
+  const std::vector<support::Element> titles = markup.all("title");
+  const std::vector<support::Element> descriptions = markup.all("desc");  // one per plot; the sheet has a title only
+  for (std::size_t i = 0; i < descriptions.size(); ++i) {
+    if (titles.at(i + 1).text == title) return descriptions[i].text;
+  }
+  return "";
+}
+
+/// "from a to b" behind "name: " in a description; -1e9 where the name is missing.
+std::pair<double, double> span_in(std::string description, const std::string& name) {
+  const auto replace_all = [&](const std::string& from, const std::string& to) {
+    for (std::size_t at; (at = description.find(from)) != std::string::npos;) description.replace(at, from.size(), to);
+  };
+  replace_all("\u2212", "-");
+  replace_all("\u202F", "");
+  replace_all("\u2009", "");
+  const std::size_t at = description.find(" " + name + ": from ");
+  if (at == std::string::npos) return {-1e9, -1e9};
+  std::istringstream stream(description.substr(at + name.size() + 8));
+  std::pair<double, double> span;
+  std::string to;
+  stream >> span.first >> to >> span.second;
+  EXPECT_EQ(to, "to") << description;
+  return span;
+}
+
+TEST_F(ValveCommands, APlotTellsSeparationFromBounceFromCompression) {
+  constexpr double kDigits = 0.005;  // descriptions have three digits
+  const auto picture = [&](const char* rpm, std::map<std::string, std::pair<std::string, std::string>>& found) {
+    found = lines(run(kValve, {kOhc125, "--train", "intake", "--rpm", rpm, "--tick-us", "2", "--plot", path("v.svg")}));
+    return support::read(contents(path("v.svg")));
+  };
+  const auto um = [](const std::pair<std::string, std::string>& mm) { return 1e3 * std::stod(mm.first); };
+  std::map<std::string, std::pair<std::string, std::string>> found;
+
+  const support::Markup at_7000 = picture("7000", found);
+  const std::string gap_at_7000 = description_of(at_7000, "Train lift less valve lift");
+  EXPECT_EQ(gap_at_7000.find("separation"), std::string::npos) << gap_at_7000;
+  EXPECT_GT(span_in(gap_at_7000, "on the train").second, 50);  // compressed by its force, 0.7 kN on 11765 N/mm
+  EXPECT_LT(span_in(gap_at_7000, "on the train").second, 70);
+  const double contact_um = 205.8 / 100e6 * 1e6;  // delta_0, from where bounces count
+  EXPECT_NEAR(span_in(description_of(at_7000, "Seating, closer"), "bounce").second,
+              um(found.at("bounce_height_mm")) + contact_um, kDigits * 20 + 0.1);
+
+  const support::Markup at_12000 = picture("12000", found);
+  const double widest_um = um(found.at("separation_max_gap_mm"));
+  EXPECT_GT(widest_um, 1000);
+  EXPECT_NEAR(span_in(description_of(at_12000, "Train lift less valve lift"), "separation").first, -widest_um,
+              kDigits * widest_um);
+  EXPECT_GT(span_in(description_of(at_12000, "Forces on the valve"), "seat").second, 10);  // it lands at 7.8 m/s
+}
+
+TEST_F(ValveCommands, APlotOfAValveThatNeverSeatsOrNeverOpensIsStillOne) {
+  const auto plots = [&](const std::string& file, const char* rpm) {
+    run(kValve,
+        {file, "--train", "intake", "--rpm", rpm, "--tick-us", "50", "--real", "float", "--plot", path("v.svg")});
+    const support::Markup markup = support::read(contents(path("v.svg")));
+    EXPECT_EQ(markup.fault, "");
+    return markup.of_class("plot").size();
+  };
+  const ChangedFile wide(kOhc125, "clearance_mm", "clearance_mm = 9");  // more than the cam lifts
+  EXPECT_EQ(plots(wide.path(), "7000"), 3u);
+  EXPECT_EQ(plots(kOhc125, "-7000"), 4u);
+  const ChangedFile soft(kOhc125, "spring_preload_N", "spring_preload_N = 0.1");
+  EXPECT_GE(plots(soft.path(), "20000"), 3u);
+}
+
+TEST_F(ValveCommands, APlotThatCannotBeWrittenLeavesNothingBehind) {
+  const std::vector<std::string> words{kOhc125, "--train", "intake", "--rpm", "7000"};
+  const auto refused = [&](std::vector<std::string> outputs) {
+    outputs.insert(outputs.begin(), words.begin(), words.end());
+    EXPECT_THROW(kValve.run(Arguments(kValve, outputs)), OutputError);
+  };
+  refused({"--csv", path("v.csv"), "--plot", path("nowhere/v.svg")});
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+  refused({"--csv", path("nowhere/v.csv"), "--plot", path("v.svg")});
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+  std::ofstream(path("v.svg")) << "old";
+  refused({"--csv", path("nowhere/v.csv"), "--plot", path("v.svg")});
+  EXPECT_EQ(contents(path("v.svg")), "old");
+  EXPECT_NE(refusal(kValve, {kOhc125, "--train", "intake", "--rpm", "0.2", "--tick-us", "100", "--cycles", "1",
+                             "--plot", path("v.svg")})
+                .find("can be drawn"),
+            std::string::npos);
+  EXPECT_EQ(contents(path("v.svg")), "old");
+}
+
 TEST_F(ValveCommands, ARunShowsTheValvesInSummaryAndReport) {
   const auto found = lines(run(kRun, {kOhc125, "--rpm", "12000", "--tick-us", "20", "--report", path("run.html")}));
   EXPECT_EQ(found.at("intake_max_lift").second, "mm");
@@ -503,7 +615,7 @@ TEST_F(ValveCommands, NothingIsWrittenWhereSomethingIsRefused) {
   };
   for (std::vector<std::string> words : refused) {
     words.insert(words.begin(), kOhc125);
-    words.insert(words.end(), {"--csv", path("v.csv")});
+    words.insert(words.end(), {"--csv", path("v.csv"), "--plot", path("v.svg")});
     EXPECT_NE(refusal(kValve, words), "");
     EXPECT_TRUE(std::filesystem::is_empty(folder_)) << words[2] << " " << words[4];
   }

@@ -36,16 +36,15 @@ ValveMotion<double> motion_in_one_step(const ValveBody<double>& body, double ste
   return motion;
 }
 
-/// The train's lift at 0, 1/2 and 1 of a step, and d times its speed, by the quintic Hermite formulas of any handbook.
+/// The train's lift at 0, 1/2 and 1 of a step, and d times its speed: the middle by the cubic Hermite formulas of any handbook, or given.
 struct ThreePoints {
   double value[3], slope[3];
-  explicit ThreePoints(const LiftStep<double>& l) {
-    const double(&x)[6] = l.at;
-    value[0] = x[0], value[2] = x[1];
-    slope[0] = x[2], slope[2] = x[3];
-    value[1] = (x[0] + x[1]) / 2 + 5.0 / 32 * (x[2] - x[3]) + (x[4] + x[5]) / 64;
-    slope[1] = 15.0 / 8 * (x[1] - x[0]) - 7.0 / 16 * (x[2] + x[3]) + (x[5] - x[4]) / 32;
+  explicit ThreePoints(const LiftStep<double>& l) : ThreePoints(l, {}) {
+    value[1] = (l.from_m + l.to_m) / 2 + (l.from_slope_m - l.to_slope_m) / 8;
+    slope[1] = 1.5 * (l.to_m - l.from_m) - (l.from_slope_m + l.to_slope_m) / 4;
   }
+  ThreePoints(const LiftStep<double>& l, const LiftMiddle<double>& middle)
+      : value{l.from_m, middle.at_m, l.to_m}, slope{l.from_slope_m, middle.slope_m, l.to_slope_m} {}
 };
 
 /// The textbook's four stages in one regime [Li 2017, 4.9-4.13].
@@ -67,11 +66,26 @@ ValveState<double> textbook(const ValveBody<double>& b, std::uint32_t regime, do
 }
 
 LiftStep<double> lift_step_at(const ValveLift& lift, double deg, double turned_deg) {
-  const auto at = [&](double cam_deg) {
-    const LiftPose pose = lift.at(cam_deg * kRadPerDeg);
-    return Lift<double>{pose.lift_m, pose.per_rad_m * kRadPerDeg, pose.per_rad2_m * kRadPerDeg * kRadPerDeg};
-  };
-  return crankloop::lift_step(at(deg), at(deg + turned_deg), turned_deg);
+  const LiftPose from = lift.at(deg * kRadPerDeg);
+  const LiftPose to = lift.at((deg + turned_deg) * kRadPerDeg);
+  return {from.lift_m, to.lift_m, from.per_rad_m * turned_deg * kRadPerDeg, to.per_rad_m * turned_deg * kRadPerDeg};
+}
+
+LiftMiddle<double> lift_middle_at(const ValveLift& lift, double deg, double turned_deg) {
+  const LiftPose middle = lift.at((deg + turned_deg / 2) * kRadPerDeg);
+  return {middle.lift_m, middle.per_rad_m * turned_deg * kRadPerDeg};
+}
+
+/// A step in any regime: the train's lift drives it where the train is on.
+ValveState<double> step_of(const StepMatrix<double>& m, std::uint32_t regime, ValveState<double> s, const LiftStep<double>& lift,
+                           double gas_N) {
+  const GasForce<double> gas{gas_N};
+  return (regime & kTrainOn) != 0 ? stepped(m, s, gas, lift) : stepped(m, s, gas);
+}
+
+/// Force that does not depend on the motion: a preloaded seat carries the spring's preload.
+double constant_force_N(const ValveBody<double>& body, std::uint32_t regime, double gas_N) {
+  return (regime & kSeatOn) != 0 ? -gas_N : -body.preload_N - gas_N;
 }
 
 TEST(ValveStep, IsTheTextbooksFourStagesMultipliedOutInEveryRegime) {
@@ -85,17 +99,22 @@ TEST(ValveStep, IsTheTextbooksFourStagesMultipliedOutInEveryRegime) {
     for (int draw = 0; draw < 4'000; ++draw) {
       const std::uint32_t regime = static_cast<std::uint32_t>(random.whole(0, 3));
       const double deg = random.between(-60, 60);
-      const LiftStep<double> step = lift_step_at(lift, deg, random.between(-0.5, 0.5));
+      const double turned = random.between(-0.5, 0.5);
+      const LiftStep<double> step = lift_step_at(lift, deg, turned);
       // Near where such a regime lives: about the lift, or about the seat.
-      const double y = ((regime & kSeatOn) != 0 ? 0 : step.at[0]) + random.between(-50e-6, 50e-6);
+      const double y = ((regime & kSeatOn) != 0 ? 0 : step.from_m) + random.between(-50e-6, 50e-6);
       const ValveState<double> before{y, random.between(-8, 8)};
       const double gas_N = random.between(-50, 400);
+      const bool wide = (regime & kTrainOn) != 0 && random.coin();
+      const LiftMiddle<double> middle = lift_middle_at(lift, deg, turned);
+      const StepMatrix<double>& matrix = motion.fine[regime];
       const ValveState<double> by_matrix =
-          stepped(motion.fine[regime], before, step, constant_force_N(body, regime, gas_N), (regime & kTrainOn) != 0);
-      const ValveState<double> by_stages = textbook(body, regime, d, before, ThreePoints(step), gas_N);
+          wide ? stepped(matrix, before, GasForce<double>{gas_N}, step, middle) : step_of(matrix, regime, before, step, gas_N);
+      const ValveState<double> by_stages =
+          textbook(body, regime, d, before, wide ? ThreePoints(step, middle) : ThreePoints(step), gas_N);
       // Relative to what is added up: a state, what drives it, and what a step makes of them.
       const double w = std::sqrt((body.train_N_m + body.seat_N_m) / body.mass_kg);
-      const double size = std::fabs(y) + std::fabs(step.at[0]) + std::fabs(before.velocity_m_s) / w;
+      const double size = std::fabs(y) + std::fabs(step.from_m) + std::fabs(before.velocity_m_s) / w;
       worst = std::max(worst, std::fabs(by_matrix.lift_m - by_stages.lift_m) / size);
       worst = std::max(worst, std::fabs(by_matrix.velocity_m_s - by_stages.velocity_m_s) / (size * w));
     }
@@ -119,8 +138,8 @@ TEST(ValveStep, DiffersFromTheTextbookWithTrueMidStepLiftsByLessThanTheLiftTable
         const LiftPose middle = lift.at((deg + turned / 2) * kRadPerDeg);
         truly.value[1] = middle.lift_m;
         truly.slope[1] = middle.per_rad_m * kRadPerDeg * turned;
-        const ValveState<double> before{step.at[0] - 30e-6, step.at[2] / d};
-        const ValveState<double> by_matrix = stepped(motion.fine[kTrainOn], before, step, -body.preload_N, true);
+        const ValveState<double> before{step.from_m - 30e-6, step.from_slope_m / d};
+        const ValveState<double> by_matrix = step_of(motion.fine[kTrainOn], kTrainOn, before, step, 0);
         worst = std::max(worst, std::fabs(by_matrix.lift_m - textbook(body, kTrainOn, d, before, truly, 0).lift_m));
       }
       std::printf("[ figures  ] against textbook with true mid-step lifts, %5.0f rpm, %2.0f us: %.1e um per step\n",
@@ -130,20 +149,22 @@ TEST(ValveStep, DiffersFromTheTextbookWithTrueMidStepLiftsByLessThanTheLiftTable
   }
 }
 
-TEST(ValveStep, ByTheExponentialIsTheExactSolutionForTheQuinticLift) {
+TEST(ValveStep, ByTheExponentialIsTheExactSolutionForThePolynomialLift) {
   const ValveTrain train = ohc_125_train();
   const ValveLift lift = lift_of(train);
   const ValveBody<double> body = body_of(train);
   const double d = 20e-6;
   const ValveMotion<double> motion = motion_in_one_step(body, d, Integrator::exponential);
-  // Power series of the solution of M y'' + C y' + K y = F + k Y + b Y' with Y a quintic, in long double, term by term
+  // Power series of the solution of M y'' + C y' + K y = F + k Y + b Y' with Y a polynomial, in long double, term by term
   // until nothing is added.
   using Long = long double;
   const auto wide = [](double x) { return static_cast<Long>(x); };
   for (std::uint32_t regime = 0; regime < 4; ++regime) {
     for (double deg = -60; deg < 60; deg += 7.7) {
       const LiftStep<double> step = lift_step_at(lift, deg, 0.7);
-      const LiftQuintic<double> quintic(step);
+      const LiftMiddle<double> middle = lift_middle_at(lift, deg, 0.7);
+      const bool by_middle = (regime & kTrainOn) != 0 && static_cast<int>(deg * 10) % 2 == 0;
+      const LiftWithin<double> within = by_middle ? LiftWithin<double>(step, middle) : LiftWithin<double>(step);
       const Long h = wide(d);
       const Long M = wide(body.mass_kg);
       const bool on_train = (regime & kTrainOn) != 0;
@@ -152,26 +173,29 @@ TEST(ValveStep, ByTheExponentialIsTheExactSolutionForTheQuinticLift) {
       const Long C = wide(body.guide_Ns_m + (on_train ? body.train_Ns_m : 0) + (on_seat ? body.seat_Ns_m : 0));
       const double force_N = constant_force_N(body, regime, 12.0);
       Long term[60];
-      const double start_m = on_seat ? 3e-6 : step.at[0] - 20e-6;
+      const double start_m = on_seat ? 3e-6 : step.from_m - 20e-6;
       term[0] = wide(start_m);
       term[1] = wide(0.9) * h;
       Long y = term[0] + term[1];
       Long v = term[1];
       for (int n = 0; n < 58; ++n) {
         Long drive = n == 0 ? wide(force_N) : 0;
-        if (on_train && n < 6) drive += wide(body.train_N_m) * wide(quintic.coefficient(n));
-        if (on_train && n < 5) drive += wide(body.train_Ns_m) / h * (n + 1) * wide(quintic.coefficient(n + 1));
+        if (on_train && n < 6) drive += wide(body.train_N_m) * wide(within.coefficient(n));
+        if (on_train && n < 5) drive += wide(body.train_Ns_m) / h * (n + 1) * wide(within.coefficient(n + 1));
         term[n + 2] = (drive * h * h - K * h * h * term[n] - C * h * (n + 1) * term[n + 1]) / (M * (n + 1) * (n + 2));
         y += term[n + 2];
         v += (n + 2) * term[n + 2];
       }
-      const ValveState<double> after = stepped(motion.fine[regime], {start_m, 0.9}, step, force_N, on_train);
+      const ValveState<double> before{start_m, 0.9};
+      const StepMatrix<double>& matrix = motion.fine[regime];
+      const ValveState<double> after =
+          by_middle ? stepped(matrix, before, GasForce<double>{12.0}, step, middle) : step_of(matrix, regime, before, step, 12.0);
       // Fourth-order steps of d / 64: w d / 64 <= 0.0134, so 0.0134^4 / 120 w d = 2.3e-10 of what swings, twice that
       // for its damping.
       const double w = std::sqrt(static_cast<double>(K / M));
       const double driven_m =
-          std::fabs(force_N + (on_train ? body.train_N_m * step.at[0] : 0)) / static_cast<double>(K);
-      const double swing_m = std::fabs(start_m - driven_m) + (0.9 + (on_train ? std::fabs(step.at[2] / d) : 0)) / w;
+          std::fabs(force_N + (on_train ? body.train_N_m * step.from_m : 0)) / static_cast<double>(K);
+      const double swing_m = std::fabs(start_m - driven_m) + (0.9 + (on_train ? std::fabs(step.from_slope_m / d) : 0)) / w;
       EXPECT_NEAR(after.lift_m, static_cast<double>(y), 5e-10 * swing_m)
           << "regime " << regime << ", " << deg << " deg";
       EXPECT_NEAR(after.velocity_m_s, static_cast<double>(v / h), 5e-10 * swing_m * w)
@@ -214,7 +238,7 @@ double swing_s(const ValveMotion<double>& motion, std::uint32_t regime, int swin
   double first = 0;
   for (int i = 1;; ++i) {
     const ValveState<double> next =
-        stepped(motion.fine[regime], s, LiftStep<double>{}, constant_force_N(b, regime, 0.0), (regime & kTrainOn) != 0);
+        step_of(motion.fine[regime], regime, s, LiftStep<double>{}, 0.0);
     if (s.lift_m < rest_m && next.lift_m >= rest_m) {
       const double at = i - (next.lift_m - rest_m) / (next.lift_m - s.lift_m);  // near the crossing a sine is straight
       if (upward == 0) first = at;
@@ -318,15 +342,15 @@ double energy_growth(const ValveBody<double>& body, std::uint32_t regime, double
   const bool on_train = (regime & kTrainOn) != 0;
   const double stiffness =
       body.spring_N_m + (on_train ? body.train_N_m : 0) + ((regime & kSeatOn) != 0 ? body.seat_N_m : 0);
-  LiftStep<Real> lift{};
-  lift.at[0] = lift.at[1] = on_train ? static_cast<Real>(5e-3) : Real{0};
+  const Real level_m = on_train ? static_cast<Real>(5e-3) : Real{0};
+  const LiftStep<Real> lift{level_m, level_m, Real{0}, Real{0}};
   const double force_N = constant_force_N(body, regime, 0.0);
-  const double rest_m = (force_N + (on_train ? body.train_N_m * static_cast<double>(lift.at[0]) : 0)) / stiffness;
+  const double rest_m = (force_N + (on_train ? body.train_N_m * static_cast<double>(level_m) : 0)) / stiffness;
   ValveState<Real> s{static_cast<Real>(rest_m + 1e-3), Real{0}};
   const double first = energy_J(body, regime, rest_m, static_cast<double>(s.lift_m), 0);
   double largest = 0;
   for (long i = 0; i < steps; ++i) {
-    s = stepped(matrix, s, lift, static_cast<Real>(force_N), on_train);
+    s = on_train ? stepped(matrix, s, NoGasForce<Real>{}, lift) : stepped(matrix, s, NoGasForce<Real>{});
     if (i % 997 == 0)
       largest = std::max(
           largest, energy_J(body, regime, rest_m, static_cast<double>(s.lift_m), static_cast<double>(s.velocity_m_s)));
@@ -386,7 +410,7 @@ constexpr std::size_t bytes_of_parts() {
   constexpr std::size_t real = sizeof(Real);
   constexpr std::size_t valves = std::size_t{Cylinders} * Trains;
   std::size_t bytes = 8 + 8 + 8 + 2 * real;  // fingerprint, phase, ticks; speed and load ratio
-  bytes += valves * (2 * real + 2 * 4);      // lift, velocity; regime, asleep
+  bytes += valves * (4 * real + 2 * 4);      // lift, velocity; the train's lift and slope; regime, asleep
   if (Phasing) bytes += Trains * 8 + (Trains + 1) / 2 * 2 * real;
   if (Results) bytes += valves * ((9 + 5) * real + (4 + 4) * 4);  // cycle and record: numbers, counts
   return bytes;

@@ -87,14 +87,14 @@ class Printer {
   // By structured binding, so that a member that is added cannot be forgotten here: it does not compile.
   template <class Real>
   void print(const ValveBody<Real>& body) {
-    const auto& [mass, train, train_damping, seat, seat_damping, spring, guide, preload, sink, head_area, rocker] = body;
-    list(mass, train, train_damping, seat, seat_damping, spring, guide, preload, sink, head_area, rocker);
+    const auto& [mass, train, train_damping, seat, seat_damping, spring, guide, preload, sink, head_area, rocker, per_mass] = body;
+    list(mass, train, train_damping, seat, seat_damping, spring, guide, preload, sink, head_area, rocker, per_mass);
   }
   template <class Real>
   void print(const StepMatrix<Real>& m) {
     const auto row = [this](const typename StepMatrix<Real>::Row& r) {
-      const auto& [y, v, force, lift] = r;
-      list(y, v, force, lift);
+      const auto& [y, v, rest, gas, gap, lift, wide] = r;
+      list(y, v, rest, gas, gap, lift, wide);
     };
     braced([&] {
       row(m.y);
@@ -104,9 +104,10 @@ class Printer {
   }
   template <class Real>
   void print(const ValveMotion<Real>& m) {
-    const auto& [body, steps, fine_per_step, per_steps, per_fine, step, fine, widest, rest, rest_speed, quiet, per_seat_rate, whole_matrix,
-                 fine_matrix] = m;
-    list(body, steps, fine_per_step, per_steps, per_fine, step, fine, widest, rest, rest_speed, quiet, per_seat_rate, whole_matrix, fine_matrix);
+    const auto& [body, steps, fine_per_step, per_steps_32, per_fine_32, per_steps, per_fine, step, fine, per_step, per_fine_s, short_step, widest, lag,
+                 rest, rest_speed, quiet, per_seat_rate, per_seat, whole_matrix, fine_matrix] = m;
+    list(body, steps, fine_per_step, per_steps_32, per_fine_32, per_steps, per_fine, step, fine, per_step, per_fine_s, short_step, widest, lag, rest,
+         rest_speed, quiet, per_seat_rate, per_seat, whole_matrix, fine_matrix);
   }
   template <class Real>
   void print(const Curve<Real>& c) { braced([&] { rows(c.at, kDegreesPerTurn); }); }
@@ -185,13 +186,15 @@ void print_trains(Printer& p, const AllSections<Real>& s, const std::string& of_
     p.text("{\n");
     std::uint32_t first = 0;
     for (std::uint32_t t = 0; t < s.drive.trains; ++t) {
-      const auto& [at, rocker_ratio, opens, most_phase_per_tick, count, outside] = s.lift_curves[t];
+      const auto& [at, rocker_ratio, opens, most_phase_per_tick, count, touch_from, touch_degrees, outside] = s.lift_curves[t];
       p.text("  {lift_segments + " + std::to_string(first) + ", rocker_ratios + " + std::to_string(first) + ", ");
-      p.number(opens);
+      p.print(opens);
       p.text(", ");
       p.number(most_phase_per_tick);
-      p.text(", ");
-      p.number(count);
+      for (const std::uint32_t number : {count, touch_from, touch_degrees}) {
+        p.text(", ");
+        p.number(number);
+      }
       p.text(", ");
       p.number(outside);
       p.text("},\n");

@@ -11,6 +11,18 @@
 
 namespace crankloop::program {
 
+/// Phase units since the lobe opened at both ends of a tick.
+struct CamSpan {
+  std::uint64_t from;
+  std::uint64_t to;
+
+  /// Cam degrees between them, with sign.
+  template <class Real>
+  [[nodiscard]] Real turned_deg() const noexcept {
+    return Phase{to - from}.template signed_cycles<Real>() * Real{kDegreesPerTurn};
+  }
+};
+
 /// Advances one valve by a tick in steps * fine_per_step equal steps: as many as the tick's finest, so that both can be
 /// compared.
 template <class Real>
@@ -19,14 +31,16 @@ class TextbookValve {
   TextbookValve(const ValveMotion<Real>& motion, const LiftCurve<Real>& curve) noexcept
       : motion_{motion}, curve_{curve} {}
 
-  void advance(ValveCondition<Real>& valve, const CamTurn<Real>& cam, Real gas_N,
+  void advance(ValveCondition<Real>& valve, const CamSpan& cam, Real gas_N,
                ValveRecord<Real>& record) const noexcept {
     const std::uint32_t count = motion_.steps * motion_.fine_per_step;
     const Real per_count = motion_.per_steps * motion_.per_fine;
-    const Real step_deg = cam.turned_deg * per_count;
+    const Real step_deg = cam.turned_deg<Real>() * per_count;
     const Real deg_per_s = step_deg / motion_.fine_s;
+    const std::int64_t half_step = static_cast<std::int64_t>(cam.to - cam.from) / (2 * std::int64_t{count});
     const auto place = [&](std::uint32_t half_steps) {
-      return part_way(cam.from, cam.to, cam.turned_deg, half_steps, 2 * count, per_count / 2);
+      if (half_steps == 2 * count) return cam.to;
+      return cam.from + static_cast<std::uint64_t>(half_step * std::int64_t{half_steps});
     };
     Real from_deg = degrees(cam.from);
     valve.asleep = 0;

@@ -2,6 +2,7 @@
 // cycle.
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 
 #include "commands.hpp"
@@ -9,6 +10,7 @@
 #include "engine_file.hpp"
 #include "progress.hpp"
 #include "valve_loop.hpp"
+#include "valve_plot.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -16,6 +18,7 @@ namespace {
 constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
 constexpr double kRadPerTurn = 2 * 3.14159265358979323846;
 constexpr double kPeriodicWithin_m = 1e-6;
+constexpr double kMostTicksDrawn = 2e6;  // of 100 bytes
 
 /// Lines "name = value unit", and remarks behind '#'. Names carry the unit too: they are those of the CSV columns.
 class Lines {
@@ -45,7 +48,8 @@ struct Request {
   std::string integrator;
   ValveMethod method;
   std::string real;
-  std::string csv_path;  ///< empty: none
+  std::string csv_path;  ///< empty: none, as below
+  std::string plot_path;
 };
 
 template <class Real>
@@ -56,6 +60,15 @@ void write_row(CsvWriter& csv, const LoneValve& valve, const ValveTickOutput<Rea
   csv.row(out.cam_deg, m.theoretical_lift_m * real(1e3), real(valve.lift().at(out.cam_deg * kRadPerDeg).rocker_ratio),
           m.lift_m * real(1e3), m.velocity_m_s, m.acceleration_m_s2, f.train_N, f.seat_N, f.cam_N, f.gap_m * real(1e3),
           static_cast<int>(f.regime));
+}
+
+std::string title(const LoneValve& valve, const Request& request) {
+  return valve.train().name + " at " + brief(request.speed_rpm) + " rpm of the engine";
+}
+
+std::string circumstances(const Request& request) {
+  return "tick " + brief(request.tick_s * 1e6) + " us, " + request.integrator + ", " + request.real + ", cycle " +
+         std::to_string(request.cycles);
 }
 
 std::string gas_remark(const LoneValve& valve) {
@@ -72,9 +85,7 @@ std::string summary(const LoneValve& valve, const Request& request, const ValveL
   const ValveBody<double> body = valve.body();
   const bool separated = cycle.separations > 0;
   Lines s;
-  s.remark("valve train " + valve.train().name + " at " + brief(request.speed_rpm) + " rpm of the engine, tick " +
-           brief(request.tick_s * 1e6) + " us, " + request.integrator + ", " + request.real + ", cycle " +
-           std::to_string(request.cycles));
+  s.remark("valve train " + title(valve, request) + ", " + circumstances(request));
   s.remark("cam angle: 0 at full theoretical lift; " + gas_remark(valve));
   s.line("max_theoretical_lift_mm", real(valve.lift().largest_lift_m() * 1e3), "mm");
   s.line("max_lift_mm", cycle.largest_lift_m * real(1e3), "mm");
@@ -108,26 +119,45 @@ std::string summary(const LoneValve& valve, const Request& request, const ValveL
 template <class Real>
 int run(const LoneValve& valve, const Request& request) {
   ValveLoop<Real> loop(valve, request.tick_s, request.method);
-  Progress progress("running", (2.0 * request.cycles + 2) * ticks_per_cycle(request.speed_rpm, request.tick_s));
+  const double ticks = ticks_per_cycle(request.speed_rpm, request.tick_s);
+  if (!request.plot_path.empty() && ticks > kMostTicksDrawn) {
+    throw UsageError("--plot: a cycle of " + brief(ticks) + " ticks, at most " + brief(kMostTicksDrawn) +
+                     " can be drawn: take a longer --tick-us");
+  }
+  Progress progress("running", (2.0 * request.cycles + 2) * ticks);
   const auto after_tick = [&progress] { progress.step(); };
   std::optional<Output> file;
+  std::optional<Output> plot;
   std::optional<CsvWriter> csv;
+  ValveCycleTrace trace;
+  bool begun = false;
   const OnValveTick<Real> on_tick = [&](const ValveTickOutput<Real>& out) {
-    if (!file &&
-        !request.csv_path.empty()) {  // the loop is known to run now, so nothing is written that would have to go
-      file.emplace(request.csv_path);
-      csv.emplace(*file, std::vector<std::string>{"cam_deg", "theoretical_lift_mm", "rocker_ratio", "lift_mm",
-                                                  "velocity_m_s", "acceleration_m_s2", "train_force_N", "seat_force_N",
-                                                  "cam_force_N", "gap_mm", "regime"});
+    if (!begun) {  // the loop is known to run now, so nothing is written that would have to go
+      begun = true;
+      if (!request.plot_path.empty()) plot.emplace(request.plot_path);
+      if (!request.csv_path.empty()) {
+        file.emplace(request.csv_path);
+        csv.emplace(*file, std::vector<std::string>{"cam_deg", "theoretical_lift_mm", "rocker_ratio", "lift_mm",
+                                                    "velocity_m_s", "acceleration_m_s2", "train_force_N",
+                                                    "seat_force_N", "cam_force_N", "gap_mm", "regime"});
+      }
     }
     if (csv) write_row(*csv, valve, out);
+    if (plot) trace.ticks.push_back(in_double(out));
   };
   const ValveCycle<Real> cycle = run_cycles<Real>(loop, valve, request.speed_rpm, request.cycles, on_tick, after_tick);
   const double change_m = largest_change_of_lift_m<Real>(valve, request.speed_rpm, request.tick_s, request.method,
                                                          request.cycles, after_tick);
+  if (plot) {
+    trace.cycle = in_double(cycle);
+    const std::string remark = std::filesystem::path(valve.file().path()).filename().string() + ", " +
+                               circumstances(request) + "; " + gas_remark(valve);
+    plot->write(report::to_svg_file(valve_sheet(trace, "Valve train " + title(valve, request), remark)));
+  }
   if (file) file->finish();
+  if (plot) plot->finish();
   const std::string text = summary(valve, request, loop, cycle, change_m);
-  if (request.csv_path == "-") {
+  if (request.csv_path == "-" || request.plot_path == "-") {
     std::fputs(text.c_str(), stderr);
   } else {
     Output out = Output::standard();
@@ -147,7 +177,8 @@ int run_valve(const Arguments& arguments) {
                         integrator,
                         {stepping, integrator == "textbook"},
                         arguments.text("--real"),
-                        arguments.text_or_empty("--csv")};
+                        arguments.text_or_empty("--csv"),
+                        arguments.text_or_empty("--plot")};
   if (request.speed_rpm == 0) throw UsageError("--rpm 0: the cam would never turn");
   const std::string& name = arguments.text("--train");
   const EngineFile file = read_engine_file(arguments.file(), {});
@@ -166,6 +197,8 @@ constexpr Option kOptions[] = {
     choice("--real", "float|double", "arithmetic of the tick, and digits of the result", "double"),
     text("--csv", "F",
          "file for a row per tick of the last cycle; - is standard output, the summary then goes to stderr"),
+    text("--plot", "F.svg",
+         "file for a picture of the last cycle, which any browser shows: lift, gap, forces, seating"),
 };
 
 }  // namespace
@@ -173,8 +206,9 @@ constexpr Option kOptions[] = {
 const Command kValve{
     "valve",
     "one elastic valve at constant speed: lift, forces, float and bounce",
-    "FILE --train NAME --rpm N [--tick-us T] [--cycles N] [--integrator I] [--accuracy-um A] [--real R] [--csv F]",
-    "crankloop valve ohc_125.ini --train intake --rpm 7000 --csv valve.csv",
+    "FILE --train NAME --rpm N [--tick-us T] [--cycles N] [--integrator I] [--accuracy-um A] [--real R] [--csv F] "
+    "[--plot F.svg]",
+    "crankloop valve ohc_125.ini --train intake --rpm 7000 --csv valve.csv --plot valve.svg",
     1,
     kOptions,
     run_valve};

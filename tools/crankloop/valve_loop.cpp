@@ -51,7 +51,7 @@ double middle_of_base_circle_deg(const LiftCurve<Real>& curve) {
 }
 
 template <class Real>
-bool passes_base_circle(const LiftCurve<Real>& curve, const CamTurn<Real>& cam) {
+bool passes_base_circle(const LiftCurve<Real>& curve, const CamSpan& cam) {
   const std::uint64_t middle =
       (std::uint64_t{curve.segments} + kDegreesPerTurn) * (~std::uint64_t{0} / (2 * kDegreesPerTurn));
   const auto from = static_cast<std::int64_t>(cam.from - middle);
@@ -166,11 +166,8 @@ void ValveLoop<Real>::step() noexcept {
 /// The engine has gone on and counts the angle; its valve is not looked at.
 template <class Real>
 void ValveLoop<Real>::textbook_step(Phase before, Phase after) noexcept {
-  CamTurn<Real> cam;
-  cam.from = since_opening(before);
-  cam.to = since_opening(after);
-  cam.turned_deg = Phase{cam.to - cam.from}.template signed_cycles<Real>() * Real{kDegreesPerTurn};
-  textbook_.cam_deg_s = cam.turned_deg * tables().drive->per_tick_s;
+  const CamSpan cam{since_opening(before), since_opening(after)};
+  textbook_.cam_deg_s = cam.turned_deg<Real>() * tables().drive->per_tick_s;
   textbook_.gas_N = Real{0};
   if (diagram_) {
     const double engine_deg = static_cast<double>(after.units()) * (kDegreesPerCycle / 18446744073709551616.0);

@@ -104,7 +104,7 @@ class ValveLoop {
 
   [[nodiscard]] const Tables<Real, OneValve>& tables() const noexcept { return storage_->tables(); }
   [[nodiscard]] Phase turned(double speed_rpm) const noexcept;
-  [[nodiscard]] std::uint64_t since_opening(Phase phase) const noexcept { return phase.units() - curve().opens; }
+  [[nodiscard]] std::uint64_t since_opening(Phase phase) const noexcept { return phase.units() - curve().opens[0]; }
   void textbook_step(Phase before, Phase after) noexcept;
 
   double full_lift_deg_;

@@ -242,7 +242,9 @@ crankloop_status crankloop_options_defaults(crankloop_options* options, std::siz
 
 crankloop_status crankloop_set_firing_order(crankloop_definition* definition, std::size_t size, const std::int32_t* order, std::int32_t cylinders) {
   if (order == nullptr) return c::refusal(Reason::null_pointer, "order");
-  return c::change_layout(definition, size, [&](Layout& layout) { return set_firing_order(order, cylinders, layout); });
+  int numbers[kMaxCylinders] = {};  // where int32_t is not int
+  for (int k = 0; k < cylinders && k < kMaxCylinders; ++k) numbers[k] = static_cast<int>(order[k]);
+  return c::change_layout(definition, size, [&](Layout& layout) { return set_firing_order(numbers, static_cast<int>(cylinders), layout); });
 }
 crankloop_status crankloop_share_pins_by_position(crankloop_definition* definition, std::size_t size) {
   return c::change_layout(definition, size, [](Layout& layout) { return share_pins_by_position(layout), Status{}; });

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include <crankloop/tabulate/valve_lift.hpp>
+#include <crankloop/tick/square_root.hpp>
 
 #include "curve_fit.hpp"
 #include "phase_units.hpp"
@@ -31,16 +32,68 @@ struct Knot {
   return begun < kDegreesPerTurn ? begun : kDegreesPerTurn;
 }
 
+/// One degree of the lift, Y(u) = c[0] + u (c[1] + ...): through lift, slope and curvature at its ends.
+struct DegreeQuintic {
+  double c[6];
+
+  DegreeQuintic(const ValveLift& lift, int degree) noexcept {
+    const Knot a = knot(lift, lift.opens_rad() + degree * kRadPerDegree);
+    const Knot b = knot(lift, lift.opens_rad() + (degree + 1) * kRadPerDegree);
+    const double rise = b.lift_m - a.lift_m - a.per_deg_m - a.per_deg2_m / 2;
+    const double slope = b.per_deg_m - a.per_deg_m - a.per_deg2_m;
+    const double curvature = b.per_deg2_m - a.per_deg2_m;
+    c[0] = a.lift_m;
+    c[1] = a.per_deg_m;
+    c[2] = a.per_deg2_m / 2;
+    c[3] = 10 * rise - 4 * slope + curvature / 2;
+    c[4] = -15 * rise + 7 * slope - curvature;
+    c[5] = 6 * rise - 3 * slope + curvature / 2;
+  }
+
+  [[nodiscard]] double value(double u) const noexcept { return c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * (c[4] + u * c[5])))); }
+  [[nodiscard]] double fourth_derivative(double u) const noexcept { return 24 * c[4] + 120 * c[5] * u; }
+};
+
+/// Cam degrees over which a cubic through the ends of a step misses the lift by at most a tenth of the accuracy: h^4 / 384 times its
+/// largest fourth derivative.
+[[nodiscard]] double short_step_deg(const ValveLift& lift, double accuracy_m, double widest_deg) noexcept {
+  double largest = 0;
+  for (int i = 0; i < lobe_degrees(lift); ++i) {
+    const DegreeQuintic quintic(lift, i);
+    for (const double u : {0.0, 1.0}) {
+      const double derivative = quintic.fourth_derivative(u);
+      if (derivative > largest) largest = derivative;
+      if (-derivative > largest) largest = -derivative;
+    }
+  }
+  const double allowed = 384 * accuracy_m / 10;
+  const double widest2 = widest_deg * widest_deg;
+  return largest * widest2 * widest2 > allowed ? square_root(square_root(allowed / largest)) : widest_deg;
+}
+
+/// Whether the lift comes near enough in a degree to touch a closed valve. With a clearance of less than kLeastLash it always is.
+[[nodiscard]] bool touches(const DegreeQuintic& quintic) noexcept {
+  constexpr int kLooks = 16;  // the cam is smooth: what it rises between two looks is far below the degrees to spare
+  for (int look = 0; look <= kLooks; ++look) {
+    if (quintic.value(static_cast<double>(look) / kLooks) > -kLeastLash) return true;
+  }
+  return false;
+}
+
 template <class Real>
-void fill_lift(const Cam& cam, const Rocker& rocker, const ValveLift& lift, double tick_s, LiftCurve<Real>& curve, LiftSegment<Real>* segments,
-               Segment<Real>* ratios) noexcept {
+void fill_lift(const Cam& cam, const Rocker& rocker, const Layout& layout, const ValveLift& lift, double tick_s, LiftCurve<Real>& curve,
+               LiftSegment<Real>* segments, Segment<Real>* ratios) noexcept {
   const int degrees = lobe_degrees(lift);
   const auto angle = [&](double degree) { return lift.opens_rad() + degree * kRadPerDegree; };
+  int first = degrees;
+  int last = 0;
   for (int i = 0; i < degrees; ++i) {
-    const Knot from = knot(lift, angle(i));
-    const Knot to = knot(lift, angle(i + 1));
-    const LiftQuintic<double> quintic(LiftStep<double>{{from.lift_m, to.lift_m, from.per_deg_m, to.per_deg_m, from.per_deg2_m, to.per_deg2_m}});
-    for (int j = 0; j < 6; ++j) segments[i].c[j] = static_cast<Real>(quintic.coefficient(j));
+    const DegreeQuintic quintic(lift, i);
+    for (int j = 0; j < 6; ++j) segments[i].c[j] = static_cast<Real>(quintic.c[j]);
+    if (touches(quintic)) {
+      if (first == degrees) first = i;
+      last = i;
+    }
     ratios[i] = rounded<Real>(fitted<Real>(0, 1, [&](double u) { return lift.at(angle(i + u)).rocker_ratio; }));
   }
   curve.at = segments;
@@ -49,7 +102,14 @@ void fill_lift(const Cam& cam, const Rocker& rocker, const ValveLift& lift, doub
   double opens_deg = cam.full_lift_deg + 2 * lift.opens_rad() / kRadPerDegree;
   while (opens_deg < 0) opens_deg += kDegreesPerCycle;
   while (opens_deg >= kDegreesPerCycle) opens_deg -= kDegreesPerCycle;
-  curve.opens = phase_units(opens_deg);
+  for (int k = 0; k < kMaxCylinders; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    curve.opens[i] = k < layout.cylinders ? phase_units(layout.firing_deg[i]) + phase_units(opens_deg) : 0;
+  }
+  first = first > 0 ? first - 1 : 0;  // a degree to spare at either end
+  last = last + 1 < degrees ? last + 1 : degrees - 1;
+  curve.touch_from = static_cast<std::uint32_t>(first);
+  curve.touch_degrees = static_cast<std::uint32_t>(last >= first ? last - first + 1 : 0);
   const double most_deg = cam.phase_rate_deg_s * tick_s;
   curve.most_phase_per_tick = most_deg < kDegreesPerTurn ? phase_units(most_deg) : phase_units(kDegreesPerTurn);
   curve.segments = static_cast<std::uint32_t>(degrees);
@@ -76,6 +136,7 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
     if (const Status refused = motion_of(valve_body(train.valve, lever), options.tick_s, options.valves, motions[t]); !refused.ok()) {
       return of_train(refused, t);
     }
+    motions[t].short_step_deg = short_step_deg(lift, options.valves.accuracy_m, motions[t].widest_step_deg);
   }
   for (int t = 0; t < engine.train_count; ++t) {
     const ValveTrain& train = engine.trains[t];
@@ -83,7 +144,7 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
       ValveLift lift;
       static_cast<void>(lift.init(train.cam, train.rocker));  // it was accepted above
       const std::ptrdiff_t first = t * kDegreesPerTurn;
-      fill_lift(train.cam, train.rocker, lift, options.tick_s, targets.lift_curves[t], targets.lift_segments + first,
+      fill_lift(train.cam, train.rocker, engine.layout, lift, options.tick_s, targets.lift_curves[t], targets.lift_segments + first,
                 targets.rocker_ratios + first);
     }
     if (targets.valve_motions != nullptr) {

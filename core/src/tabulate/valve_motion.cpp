@@ -32,7 +32,7 @@ namespace {
 
 /// Rate of the open valve times whole step: beyond it the cubic between its ends says too little about the motion between.
 constexpr double kWholeStepRate = 1.5;
-/// Cam degrees over which the lift is a quintic to 0.1 um.
+/// Cam degrees over which the lift is the quintic through a step's ends and middle, to 0.1 um.
 constexpr double kWidestStepDeg = 4;
 
 /// 1, 2, 3 ... parts so that each is at most `longest`.
@@ -42,6 +42,9 @@ constexpr double kWidestStepDeg = 4;
   const int floor = static_cast<int>(ratio);
   return ratio > floor ? floor + 1 : (floor < 1 ? 1 : floor);
 }
+
+/// 2^32 / n for part_of(); a whole has no parts.
+[[nodiscard]] std::uint32_t per_n_32(int n) noexcept { return n == 1 ? 0 : static_cast<std::uint32_t>(0x1p32 / n + 0.5); }
 
 struct Steps {
   int whole;
@@ -53,23 +56,34 @@ struct Steps {
 }
 
 /// The matrix of a linear step: its columns are what the step adds to unit vectors. The diagonal is lowered by a rounding, so that no
-/// error of the last bit makes an undamped valve's energy grow.
+/// error of the last bit makes an undamped valve's energy grow. propagate(state, lift, N of force) gives the state after.
 template <class Propagate>
-[[nodiscard]] StepMatrix<double> matrix_of(const Propagate& propagate) noexcept {
+[[nodiscard]] StepMatrix<double> matrix_of(const Propagate& propagate, double rest_N) noexcept {
+  const LiftWithin<double> level(LiftStep<double>{});
   StepMatrix<double> m{};
-  const ValveState<double> by_y = propagate({1, 0}, LiftStep<double>{}, 0.0);
-  const ValveState<double> by_v = propagate({0, 1}, LiftStep<double>{}, 0.0);
-  const ValveState<double> by_force = propagate({0, 0}, LiftStep<double>{}, 1.0);
+  const ValveState<double> by_y = propagate({1, 0}, level, 0.0);
+  const ValveState<double> by_v = propagate({0, 1}, level, 0.0);
+  const ValveState<double> by_force = propagate({0, 0}, level, 1.0);
   constexpr double kRounding = 0x1p-52;
   m.y.y = by_y.lift_m - 1 - kRounding, m.v.y = by_y.velocity_m_s;
   m.y.v = by_v.lift_m, m.v.v = by_v.velocity_m_s - 1 - kRounding;
-  m.y.force = by_force.lift_m, m.v.force = by_force.velocity_m_s;
-  for (int i = 0; i < 6; ++i) {
-    LiftStep<double> unit{};
-    unit.at[i] = 1;
-    const ValveState<double> by_lift = propagate({0, 0}, unit, 0.0);
+  m.y.rest = rest_N * by_force.lift_m, m.v.rest = rest_N * by_force.velocity_m_s;
+  m.y.gas = by_force.lift_m, m.v.gas = by_force.velocity_m_s;
+  // A level lift, then the polynomials that begin at 0, one for each of their numbers.
+  const ValveState<double> by_level = propagate({0, 0}, LiftWithin<double>(LiftStep<double>{1, 1, 0, 0}), 0.0);
+  m.y.gap = by_level.lift_m, m.v.gap = by_level.velocity_m_s;
+  m.y.y += m.y.gap, m.v.y += m.v.gap;  // lift = gap + y
+  const auto one = [](int i, int j) { return i == j ? 1.0 : 0.0; };
+  for (int i = 0; i < 3; ++i) {
+    const ValveState<double> by_lift = propagate({0, 0}, LiftWithin<double>(LiftStep<double>{0, one(i, 0), one(i, 1), one(i, 2)}), 0.0);
     m.y.lift[i] = by_lift.lift_m;
     m.v.lift[i] = by_lift.velocity_m_s;
+  }
+  for (int i = 0; i < 5; ++i) {
+    const LiftWithin<double> lift(LiftStep<double>{0, one(i, 0), one(i, 1), one(i, 2)}, {one(i, 3), one(i, 4)});
+    const ValveState<double> by_lift = propagate({0, 0}, lift, 0.0);
+    m.y.wide[i] = by_lift.lift_m;
+    m.v.wide[i] = by_lift.velocity_m_s;
   }
   return m;
 }
@@ -89,21 +103,28 @@ constexpr int kExactDivisions = 64;
   return below;
 }
 
-/// The float next to x toward zero.
-[[nodiscard]] float rounded_in(double x) noexcept { return x < 0 ? -rounded_down(-x) : rounded_down(x); }
+[[nodiscard]] float rounded_up(double x) noexcept { return -rounded_down(-x); }
 
-/// Determinant (1 + yy)(1 + vv) - yv vy, with yv > 0 > vy: rounded so that it does not grow, and with it no undamped valve's energy.
+/// The float next to x toward zero.
+[[nodiscard]] float rounded_in(double x) noexcept { return x < 0 ? rounded_up(x) : rounded_down(x); }
+
+/// What a step makes of y is y.y - y.gap, and v.y - v.gap of its speed. Determinant (1 + yy)(1 + vv) - yv vy, with yv > 0 > vy: rounded so
+/// that it does not grow, and with it no undamped valve's energy.
 [[nodiscard]] StepMatrix<float> rounded(const StepMatrix<double>& m) noexcept {
   const auto drives = [](const StepMatrix<double>::Row& r) {
     StepMatrix<float>::Row f{};
-    f.force = static_cast<float>(r.force);
-    for (int i = 0; i < 6; ++i) f.lift[i] = static_cast<float>(r.lift[i]);
+    f.rest = static_cast<float>(r.rest);
+    f.gas = static_cast<float>(r.gas);
+    for (int i = 0; i < 3; ++i) f.lift[i] = static_cast<float>(r.lift[i]);
+    for (int i = 0; i < 5; ++i) f.wide[i] = static_cast<float>(r.wide[i]);
     return f;
   };
   StepMatrix<float> f{drives(m.y), drives(m.v)};
   f.y.y = rounded_down(m.y.y);
+  f.y.gap = rounded_up(m.y.gap);
   f.y.v = rounded_in(m.y.v);
-  f.v.y = rounded_in(m.v.y);
+  f.v.y = rounded_up(m.v.y);
+  f.v.gap = rounded_down(m.v.gap);
   f.v.v = rounded_down(m.v.v);
   return f;
 }
@@ -123,6 +144,7 @@ ValveBody<double> valve_body(const Valve& valve, double lever_m) noexcept {
   b.preload_N = valve.spring_preload_N;
   b.seat_sink_m = valve.spring_preload_N / valve.seat_N_m;
   b.head_area_m2 = valve.head_area_m2;
+  b.per_mass = 1 / b.mass_kg;
   return b;
 }
 
@@ -141,13 +163,12 @@ double longest_tick_s(const ValveBody<double>& body, const ValveStepping& steppi
 }
 
 ValveState<double> runge_kutta(const ValveBody<double>& body, std::uint32_t regime, double d_s, int n, ValveState<double> state,
-                               const LiftStep<double>& lift, double force_N) noexcept {
+                               const LiftWithin<double>& lift, double force_N) noexcept {
   const bool train = (regime & kTrainOn) != 0;
   const bool seat = (regime & kSeatOn) != 0;
-  const LiftQuintic<double> quintic(lift);
   const auto acceleration = [&](double part, double y, double v) {
     double force = force_N - body.spring_N_m * y - body.guide_Ns_m * v;
-    if (train) force += body.train_N_m * (quintic.value(part) - y) + body.train_Ns_m * (quintic.slope(part) / d_s - v);
+    if (train) force += body.train_N_m * (lift.value(part) - y) + body.train_Ns_m * (lift.slope(part) / d_s - v);
     if (seat) force -= body.seat_N_m * y + body.seat_Ns_m * v;
     return force / body.mass_kg;
   };
@@ -176,24 +197,32 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
   motion.body = body;
   motion.steps = static_cast<std::uint32_t>(steps.whole);
   motion.fine_per_step = static_cast<std::uint32_t>(steps.fine_per_whole);
+  motion.per_steps_32 = per_n_32(steps.whole);
+  motion.per_fine_32 = per_n_32(steps.fine_per_whole);
   motion.per_steps = 1.0 / steps.whole;
   motion.per_fine = 1.0 / steps.fine_per_whole;
   motion.step_s = tick_s / steps.whole;
   motion.fine_s = motion.step_s / steps.fine_per_whole;
+  motion.per_step_s = 1 / motion.step_s;
+  motion.per_fine_s = 1 / motion.fine_s;
+  motion.short_step_deg = kWidestStepDeg;
   motion.widest_step_deg = kWidestStepDeg;
+  motion.force_lag = body.train_Ns_m / (body.train_N_m * motion.step_s);
   motion.rest_m = 1e-9;
   motion.rest_m_s = motion.rest_m * seated_frequency_rad_s(body);
   // A vibration of amplitude A on the seat presses with at least k_z (delta_0 - A) - b_z A w > 0 while A (1 + 2 zeta) < delta_0.
   const double seat_rate = square_root((body.seat_N_m + body.spring_N_m) / body.mass_kg);
   const double twice_ratio = body.seat_Ns_m / square_root(body.seat_N_m * body.mass_kg);
   motion.per_seat_rate_s = 1 / seat_rate;
+  motion.per_seat_N_m = 1 / (body.seat_N_m + body.spring_N_m);
   motion.quiet_m = 0.8 * body.seat_sink_m / (1 + twice_ratio);
   const int divisions = stepping.integrator == Integrator::exponential ? kExactDivisions : 1;
   for (std::uint32_t regime = 0; regime < 4; ++regime) {
     const auto over = [&](double d_s, int n) {
-      return matrix_of([&](ValveState<double> state, const LiftStep<double>& lift, double force_N) {
+      const auto propagate = [&](ValveState<double> state, const LiftWithin<double>& lift, double force_N) {
         return runge_kutta(body, regime, d_s, n, state, lift, force_N);
-      });
+      };
+      return matrix_of(propagate, (regime & kSeatOn) != 0 ? 0 : -body.preload_N);  // a preloaded seat carries the preload
     };
     motion.fine[regime] = over(motion.fine_s, divisions);
     motion.whole[regime] = over(motion.step_s, steps.fine_per_whole * divisions);
@@ -206,18 +235,26 @@ ValveMotion<float> rounded(const ValveMotion<double>& m) noexcept {
   const ValveBody<double>& b = m.body;
   ValveMotion<float> f{};
   f.body = {real(b.mass_kg),    real(b.train_N_m),  real(b.train_Ns_m), real(b.seat_N_m),     real(b.seat_Ns_m),     real(b.spring_N_m),
-            real(b.guide_Ns_m), real(b.preload_N),  real(b.seat_sink_m), real(b.head_area_m2), real(b.rocker_mass_kg)};
+            real(b.guide_Ns_m), real(b.preload_N),  real(b.seat_sink_m), real(b.head_area_m2), real(b.rocker_mass_kg),
+            real(b.per_mass)};
   f.steps = m.steps;
   f.fine_per_step = m.fine_per_step;
+  f.per_steps_32 = m.per_steps_32;
+  f.per_fine_32 = m.per_fine_32;
   f.per_steps = real(m.per_steps);
   f.per_fine = real(m.per_fine);
   f.step_s = real(m.step_s);
   f.fine_s = real(m.fine_s);
+  f.per_step_s = real(m.per_step_s);
+  f.per_fine_s = real(m.per_fine_s);
+  f.short_step_deg = real(m.short_step_deg);
   f.widest_step_deg = real(m.widest_step_deg);
+  f.force_lag = real(m.force_lag);
   f.rest_m = real(m.rest_m);
   f.rest_m_s = real(m.rest_m_s);
   f.quiet_m = real(m.quiet_m);
   f.per_seat_rate_s = real(m.per_seat_rate_s);
+  f.per_seat_N_m = real(m.per_seat_N_m);
   for (int regime = 0; regime < 4; ++regime) {
     f.whole[regime] = rounded(m.whole[regime]);
     f.fine[regime] = rounded(m.fine[regime]);

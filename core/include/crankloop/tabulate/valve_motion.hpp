@@ -14,7 +14,7 @@ namespace crankloop {
 /// How a step is taken. Both have the same form, so the tick is the same code.
 enum class Integrator : std::uint8_t {
   rk4,          ///< classical Runge-Kutta of fourth order, its four stages multiplied out
-  exponential,  ///< the exact solution for the quintic lift between both ends
+  exponential,  ///< the exact solution for the polynomial that the lift is over a step
 };
 
 /// How finely a valve is stepped.
@@ -43,9 +43,9 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
 /// The same in the tick's own scalar.
 [[nodiscard]] ValveMotion<float> rounded(const ValveMotion<double>& motion) noexcept;
 
-/// Classical RK4 on (y, v) in one regime, n equal steps over d seconds, with the lift's quintic for mid-step values [Li 2017, 4.9-4.13].
-/// `lift` as in LiftStep, `force_N` the constant force. What the matrices are made of, and what tests compare them with.
+/// Classical RK4 on (y, v) in one regime, n equal steps over d seconds, with the lift's polynomial for mid-step values [Li 2017, 4.9-4.13].
+/// `force_N` is the constant force. What the matrices are made of, and what tests compare them with.
 [[nodiscard]] ValveState<double> runge_kutta(const ValveBody<double>& body, std::uint32_t regime, double d_s, int n, ValveState<double> state,
-                                             const LiftStep<double>& lift, double force_N) noexcept;
+                                             const LiftWithin<double>& lift, double force_N) noexcept;
 
 }  // namespace crankloop

@@ -5,17 +5,20 @@
 
 #include <cstdint>
 
+#include <crankloop/limits.hpp>
 #include <crankloop/tick/curve.hpp>
 
 namespace crankloop {
 
-/// Unclipped train lift and its derivatives by the cam angle in degrees; negative lift = lash open.
+/// Unclipped train lift and its slope by the cam angle in degrees; negative lift = lash open.
 template <class Real>
 struct Lift {
   Real lift_m;
   Real per_deg_m;
-  Real per_deg2_m;
 };
+
+/// Lash that keeps a closed valve from being touched whatever it does on its seat, in m.
+inline constexpr double kLeastLash = 1e-6;
 
 /// Y(u) = c[0] + u (c[1] + ...), u = fraction of the cam degree. Through lift, slope and curvature at both ends, so all three are continuous.
 template <class Real>
@@ -28,23 +31,40 @@ template <class Real>
 struct LiftCurve {
   const LiftSegment<Real>* at;
   const Segment<Real>* rocker_ratio;  ///< cam force per valve force, same cells
-  std::uint64_t opens;                ///< phase units (2^64 = 360 cam deg) from the cylinder's angle 0 to the start of the lobe
+  std::uint64_t opens[kMaxCylinders]; ///< per cylinder: engine phase at which its lobe starts; 2^64 = 360 cam deg
   std::uint64_t most_phase_per_tick;  ///< how far a phaser moves the cam in a tick, phase units; 0 = fixed cam
   std::uint32_t segments;             ///< cam degrees of the lobe
+  std::uint32_t touch_from;           ///< first degree of it in which the train may touch a closed valve,
+  std::uint32_t touch_degrees;        ///< and how many from there
   Real outside_m;                     ///< lift outside the lobe: minus the clearance
 
   /// Where a cam stands: `degree` of its turn, counted from the start of the lobe.
   [[nodiscard]] static constexpr Cell cell(std::uint64_t since_opening) noexcept { return cell_of<Real>(since_opening, 360); }
 
   [[nodiscard]] constexpr Lift<Real> read(Cell cell) const noexcept {
-    if (cell.degree >= segments) return {outside_m, Real{0}, Real{0}};
+    if (cell.degree >= segments) return {outside_m, Real{0}};
     const Real u = fraction<Real>(cell);
     const Real(&c)[6] = at[cell.degree].c;
-    const Real value = c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * (c[4] + u * c[5]))));
-    const Real slope = c[1] + u * (2 * c[2] + u * (3 * c[3] + u * (4 * c[4] + u * (5 * c[5]))));
-    const Real curvature = 2 * c[2] + u * (6 * c[3] + u * (12 * c[4] + u * (20 * c[5])));
-    return {value, slope, curvature};
+    // Horner's scheme for value and slope at once.
+    Real slope = c[5];
+    Real value = c[4] + u * c[5];
+    for (int i = 3; i >= 0; --i) {
+      slope = value + u * slope;
+      value = c[i] + u * value;
+    }
+    return {value, slope};
   }
+
+  /// Second derivative by the cam angle, m per squared degree.
+  [[nodiscard]] constexpr Real curvature(Cell cell) const noexcept {
+    if (cell.degree >= segments) return Real{0};
+    const Real u = fraction<Real>(cell);
+    const Real(&c)[6] = at[cell.degree].c;
+    return 2 * c[2] + u * (6 * c[3] + u * (12 * c[4] + u * (20 * c[5])));
+  }
+
+  /// False where the lobe is not, or leaves kLeastLash open: a closed valve is not touched there.
+  [[nodiscard]] constexpr bool may_touch(Cell cell) const noexcept { return cell.degree - touch_from < touch_degrees; }
 };
 
 }  // namespace crankloop

@@ -33,11 +33,19 @@ template <class Real>
 inline constexpr int kDegreesPerTurn = 360;
 inline constexpr int kDegreesPerCycle = 720;
 
+/// x, as a number that the compiler does not know: by one multiplication, where for a known 360 GCC's 32-bit targets shift and add 64-bit
+/// numbers thirteen times.
+[[nodiscard]] inline std::uint32_t unknown(std::uint32_t x) noexcept {
+  asm("" : "+r"(x));
+  return x;
+}
+
 /// The cell of `units` (2^64 = the whole circle) among `degrees` equal parts of it.
 template <class Real>
-[[nodiscard]] constexpr Cell cell_of(std::uint64_t units, int degrees) noexcept {
-  const auto parts = static_cast<std::uint64_t>(degrees);
-  const std::uint64_t high = (units >> 32) * parts;
+[[nodiscard]] constexpr Cell cell_of(std::uint64_t units, std::uint32_t degrees) noexcept {
+  std::uint64_t parts = degrees;
+  if (!__builtin_is_constant_evaluated()) parts = unknown(degrees);
+  const std::uint64_t high = std::uint64_t{static_cast<std::uint32_t>(units >> 32)} * parts;
   if constexpr (sizeof(Real) == 4) {
     return {static_cast<std::uint32_t>(high >> 32), static_cast<std::uint32_t>(high), 0};
   } else {

@@ -45,7 +45,7 @@ template <class S>
   crc.add(static_cast<std::uint32_t>(S::pressure));
   crc.add(static_cast<std::uint32_t>(S::valves));
   for (const bool answer : {S::load_ratio, S::rod_inertia, S::torque, S::mean_torque, S::forces, S::valve_results, S::valve_gas, S::cam_phasing}) {
-    crc.add(answer ? 1u : 0u);
+    crc.add(std::uint32_t{answer});
   }
   return crc.value();
 }

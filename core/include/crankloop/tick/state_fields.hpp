@@ -83,6 +83,8 @@ struct StateFields {
   static constexpr void condition(ACondition& valve, Visitor& v) noexcept {
     v.number(valve.state.lift_m, -kMostLift_m, kMostLift_m);
     v.number(valve.state.velocity_m_s, -kMostSpeed_m_s, kMostSpeed_m_s);
+    v.number(valve.train.lift_m, -kMostLift_m, kMostLift_m);
+    v.number(valve.train.per_deg_m, -kMostLift_m, kMostLift_m);
     v.word(valve.regime, kTrainOn | kSeatOn);
     v.word(valve.asleep, 1u);
   }

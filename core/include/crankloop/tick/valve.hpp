@@ -22,7 +22,7 @@ namespace crankloop {
 inline constexpr std::uint32_t kTrainOn = 1;
 inline constexpr std::uint32_t kSeatOn = 2;
 
-/// The valve's constants, per unit mass where they multiply in the equation of motion.
+/// The valve's constants.
 template <class Real>
 struct ValveBody {
   Real mass_kg;            ///< M
@@ -36,16 +36,36 @@ struct ValveBody {
   Real seat_sink_m;        ///< delta_0 = P_s0 / k_z
   Real head_area_m2;
   Real rocker_mass_kg;     ///< I_rocker / l_v^2
+  Real per_mass;           ///< 1 / M
+};
+
+/// Train lift that drives a step, at both ends; slopes by the part of the step, 0 to 1: d Y', d the step.
+template <class Real>
+struct LiftStep {
+  Real from_m, to_m;
+  Real from_slope_m, to_slope_m;
+};
+
+/// The same in the middle of a step too long for a cubic between its ends.
+template <class Real>
+struct LiftMiddle {
+  Real at_m;
+  Real slope_m;
 };
 
 /// What a step adds to (y, v) = this times what drives it: increments, because in float a matrix near one would lose the stiffness of a
-/// short step to rounding. Lift terms are Y0, Y1, then d Y' and d^2 Y'' at both ends, d the step.
+/// short step to rounding; and by the gap and the lift's rise instead of the lift, because a lift times the train's stiffness is a large
+/// number that the valve's own nearly cancels. A short step takes the lift as the cubic through its ends, a wide one as the quintic through
+/// its ends and middle.
 template <class Real>
 struct StepMatrix {
   struct Row {
     Real y, v;        ///< of the state before
-    Real force;       ///< of the constant force in N
-    Real lift[6];     ///< of Y0, Y1, d Y0', d Y1', d^2 Y0'', d^2 Y1''; read in regimes with the train on
+    Real rest;        ///< of the spring's preload, where the seat does not carry it
+    Real gas;         ///< of each N of gas force
+    Real gap;         ///< train on, as all below: of the gap before
+    Real lift[3];     ///< short step: of the rise from its start to its end, and of the slopes there
+    Real wide[5];     ///< wide step: of those three, the rise to its middle and the slope there
   };
   Row y;
   Row v;
@@ -57,25 +77,14 @@ struct ValveState {
   Real velocity_m_s;
 };
 
-/// A valve between two ticks. Asleep = closed and exactly at rest.
+/// A valve between two ticks, and the train's lift there. Asleep = closed and exactly at rest; the lift then is not kept.
 template <class Real>
 struct ValveCondition {
   ValveState<Real> state{};
+  Lift<Real> train{};
   std::uint32_t regime = kSeatOn;
   std::uint32_t asleep = 1;
 };
-
-/// Lift at both ends of a step of length d, derivatives by time multiplied by d and d^2.
-template <class Real>
-struct LiftStep {
-  Real at[6];
-};
-
-template <class Real>
-[[nodiscard]] constexpr LiftStep<Real> lift_step(const Lift<Real>& from, const Lift<Real>& to, Real cam_deg_per_step) noexcept {
-  const Real q = cam_deg_per_step;
-  return {{from.lift_m, to.lift_m, q * from.per_deg_m, q * to.per_deg_m, q * q * from.per_deg2_m, q * q * to.per_deg2_m}};
-}
 
 /// Train lift and its speed at one moment.
 template <class Real>
@@ -84,21 +93,31 @@ struct LiftNow {
   Real speed_m_s;
 };
 
-/// The lift within a step as the quintic through both ends; `part` of the step, 0 to 1. Slopes are by the part: d times those by time.
+/// The lift within a step as a polynomial; `part` of the step, 0 to 1. Slopes are by the part.
 template <class Real>
-class LiftQuintic {
+class LiftWithin {
  public:
-  constexpr explicit LiftQuintic(const LiftStep<Real>& lift) noexcept {
-    const Real(&l)[6] = lift.at;
-    const Real rise = l[1] - l[0] - l[2] - l[4] / 2;
-    const Real slope = l[3] - l[2] - l[4];
-    const Real curvature = l[5] - l[4];
-    c_[0] = l[0];
-    c_[1] = l[2];
-    c_[2] = l[4] / 2;
-    c_[3] = 10 * rise - 4 * slope + curvature / 2;
-    c_[4] = -15 * rise + 7 * slope - curvature;
-    c_[5] = 6 * rise - 3 * slope + curvature / 2;
+  static constexpr int kDegree = 5;
+
+  /// The cubic through both ends.
+  constexpr explicit LiftWithin(const LiftStep<Real>& l) noexcept {
+    const Real rise = l.to_m - l.from_m;
+    c_[0] = l.from_m;
+    c_[1] = l.from_slope_m;
+    c_[2] = 3 * rise - 2 * l.from_slope_m - l.to_slope_m;
+    c_[3] = l.from_slope_m + l.to_slope_m - 2 * rise;
+  }
+
+  /// The quintic through ends and middle: the cubic, and what it misses in the middle on x^2 (1 - x)^2.
+  constexpr LiftWithin(const LiftStep<Real>& l, const LiftMiddle<Real>& middle) noexcept : LiftWithin(l) {
+    constexpr Real kHalf = static_cast<Real>(0.5);
+    const Real missing = 16 * (middle.at_m - value(kHalf));
+    const Real slope_missing = 16 * (middle.slope_m - slope(kHalf));
+    const Real constant = missing - slope_missing / 2;
+    c_[2] += constant;
+    c_[3] += slope_missing - 2 * constant;
+    c_[4] = constant - 2 * slope_missing;
+    c_[5] = slope_missing;
   }
 
   [[nodiscard]] constexpr Real value(Real part) const noexcept {
@@ -111,33 +130,71 @@ class LiftQuintic {
 
   /// Moves the origin by x (repeated synthetic division).
   constexpr void shift(Real x) noexcept {
-    for (int i = 0; i < 5; ++i) {
-      for (int j = 4; j >= i; --j) c_[j] += x * c_[j + 1];
+    for (int i = 0; i < kDegree; ++i) {
+      for (int j = kDegree - 1; j >= i; --j) c_[j] += x * c_[j + 1];
     }
   }
 
  private:
-  Real c_[6] = {};
+  Real c_[kDegree + 1] = {};
 };
 
-/// Force that does not depend on the motion: the spring's preload where the seat does not carry it, and the gas.
+/// |x|: one instruction, of any compiler that the house flags know.
+[[nodiscard]] constexpr float magnitude(float x) noexcept { return __builtin_fabsf(x); }
+[[nodiscard]] constexpr double magnitude(double x) noexcept { return __builtin_fabs(x); }
+
+/// Gas force on the head, toward the seat.
 template <class Real>
-[[nodiscard]] constexpr Real constant_force_N(const ValveBody<Real>& body, std::uint32_t regime, Real gas_N) noexcept {
-  return (regime & kSeatOn) != 0 ? -gas_N : -body.preload_N - gas_N;
+struct GasForce {
+  Real gas_N;
+
+  [[nodiscard]] constexpr Real force_N() const noexcept { return gas_N; }
+  /// What a step adds whatever the motion: of the spring's preload, and of the gas.
+  [[nodiscard]] constexpr Real drive(const typename StepMatrix<Real>::Row& row) const noexcept { return row.rest - row.gas * gas_N; }
+  /// Suction leaves the spring enough to hold the valve on its seat.
+  [[nodiscard]] constexpr bool leaves_closed(const ValveBody<Real>& body) const noexcept { return gas_N > -body.preload_N / 2; }
+};
+
+/// Of a scene without it.
+template <class Real>
+struct NoGasForce {
+  [[nodiscard]] static constexpr Real force_N() noexcept { return Real{0}; }
+  [[nodiscard]] static constexpr Real drive(const typename StepMatrix<Real>::Row& row) noexcept { return row.rest; }
+  [[nodiscard]] static constexpr bool leaves_closed(const ValveBody<Real>&) noexcept { return true; }
+};
+
+/// A step without lift: the train off.
+template <class Real, class Gas>
+[[nodiscard]] constexpr ValveState<Real> stepped(const StepMatrix<Real>& m, ValveState<Real> s, const Gas& gas) noexcept {
+  return {s.lift_m + (gas.drive(m.y) + m.y.y * s.lift_m + m.y.v * s.velocity_m_s),
+          s.velocity_m_s + (gas.drive(m.v) + m.v.y * s.lift_m + m.v.v * s.velocity_m_s)};
 }
 
-template <class Real>
-[[nodiscard]] constexpr ValveState<Real> stepped(const StepMatrix<Real>& m, ValveState<Real> s, const LiftStep<Real>& lift, Real force_N,
-                                                 bool train_on) noexcept {
-  Real more_y = m.y.y * s.lift_m + m.y.v * s.velocity_m_s + m.y.force * force_N;
-  Real more_v = m.v.y * s.lift_m + m.v.v * s.velocity_m_s + m.v.force * force_N;
-  if (train_on) {
-    for (int i = 0; i < 6; ++i) {
-      more_y += m.y.lift[i] * lift.at[i];
-      more_v += m.v.lift[i] * lift.at[i];
-    }
-  }
-  return {s.lift_m + more_y, s.velocity_m_s + more_v};
+/// A step that the train drives.
+template <class Real, class Gas>
+[[nodiscard]] constexpr ValveState<Real> stepped(const StepMatrix<Real>& m, ValveState<Real> s, const Gas& gas,
+                                                 const LiftStep<Real>& l) noexcept {
+  const Real gap = l.from_m - s.lift_m;
+  const Real rise = l.to_m - l.from_m;
+  const auto more = [&](const typename StepMatrix<Real>::Row& r) {
+    return gas.drive(r) + r.y * s.lift_m + r.v * s.velocity_m_s + r.gap * gap + r.lift[0] * rise + r.lift[1] * l.from_slope_m +
+           r.lift[2] * l.to_slope_m;
+  };
+  return {s.lift_m + more(m.y), s.velocity_m_s + more(m.v)};
+}
+
+/// A wide step that the train drives.
+template <class Real, class Gas>
+[[nodiscard]] constexpr ValveState<Real> stepped(const StepMatrix<Real>& m, ValveState<Real> s, const Gas& gas, const LiftStep<Real>& l,
+                                                 const LiftMiddle<Real>& middle) noexcept {
+  const Real gap = l.from_m - s.lift_m;
+  const Real rise = l.to_m - l.from_m;
+  const Real middle_rise = middle.at_m - l.from_m;
+  const auto more = [&](const typename StepMatrix<Real>::Row& r) {
+    return gas.drive(r) + r.y * s.lift_m + r.v * s.velocity_m_s + r.gap * gap + r.wide[0] * rise + r.wide[1] * l.from_slope_m +
+           r.wide[2] * l.to_slope_m + r.wide[3] * middle_rise + r.wide[4] * middle.slope_m;
+  };
+  return {s.lift_m + more(m.y), s.velocity_m_s + more(m.v)};
 }
 
 /// The smaller of gap and force term of each contact: it acts while that is positive.
@@ -175,9 +232,11 @@ template <class Real>
 template <class Real>
 [[nodiscard]] constexpr Real acceleration(const ValveBody<Real>& b, std::uint32_t regime, ValveState<Real> s, Real lift_m, Real lift_speed_m_s,
                                           Real gas_N) noexcept {
+  Real force_N = -b.spring_N_m * s.lift_m - b.preload_N - b.guide_Ns_m * s.velocity_m_s - gas_N;
   const Contacts<Real> c = contacts(b, s, lift_m, lift_speed_m_s);
-  return (train_force_N(regime, c) + seat_force_N(regime, c) - b.spring_N_m * s.lift_m - b.preload_N - b.guide_Ns_m * s.velocity_m_s - gas_N) /
-         b.mass_kg;
+  if ((regime & kTrainOn) != 0) force_N += train_force_N(regime, c);
+  if ((regime & kSeatOn) != 0) force_N += seat_force_N(regime, c);
+  return force_N * b.per_mass;
 }
 
 }  // namespace crankloop

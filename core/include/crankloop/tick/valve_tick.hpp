@@ -22,25 +22,31 @@ struct ValveMotion {
   ValveBody<Real> body;
   std::uint32_t steps;          ///< whole steps per tick
   std::uint32_t fine_per_step;
+  std::uint32_t per_steps_32;   ///< 2^32 / steps; unused for 1
+  std::uint32_t per_fine_32;    ///< 2^32 / fine_per_step; unused for 1
   Real per_steps;               ///< 1 / steps
   Real per_fine;                ///< 1 / fine_per_step
   Real step_s;                  ///< tick / steps
   Real fine_s;
-  Real widest_step_deg;         ///< cam degrees beyond which the lift over a whole step is no quintic any more
+  Real per_step_s;
+  Real per_fine_s;
+  Real short_step_deg;          ///< cam degrees up to which the lift over a step is a cubic,
+  Real widest_step_deg;         ///< and, over a whole step, the quintic through its middle
+  Real force_lag;               ///< b / (k step): the train's force is k (gap + force_lag step gap')
   Real rest_m;                  ///< nearer than this to its rest, and slower than rest_m_s, a closed valve sleeps
   Real rest_m_s;
   Real quiet_m;                 ///< |y| + |v| / seat rate below this cannot lift a valve off its seat
   Real per_seat_rate_s;         ///< 1 / frequency on the seat alone
+  Real per_seat_N_m;            ///< 1 / (k_z + k_s): what the gas presses a closed valve into its seat
   StepMatrix<Real> whole[4];    ///< per regime
   StepMatrix<Real> fine[4];
 };
 
-/// How a cam moves during a tick.
+/// How a train's cams move during a tick, the same for all cylinders.
 template <class Real>
 struct CamTurn {
-  std::uint64_t from;    ///< phase units since the lobe opened, 2^64 = 360 cam deg, at the tick's start
-  std::uint64_t to;      ///< at its end
-  Real turned_deg;       ///< cam degrees between them, with sign
+  std::int64_t turned;   ///< phase units, 2^64 = 360 cam deg
+  Real turned_deg;       ///< cam degrees, with sign
 };
 
 /// Contact changes that may still be located in this tick, over all valves. What exceeds it is taken at the end of its fine step.
@@ -49,232 +55,303 @@ struct EventBudget {
   bool exceeded;
 };
 
-/// The start of a tick's part `i` of `n`.
-template <class Real>
-[[nodiscard]] constexpr std::uint64_t part_way(std::uint64_t from, std::uint64_t to, Real turned_deg, std::uint32_t i, std::uint32_t n,
-                                               Real per_n) noexcept {
-  if (i == n) return to;
-  const Real part = static_cast<Real>(static_cast<std::int32_t>(i)) * per_n;
-  return from + Phase::from_cycles(turned_deg * part * static_cast<Real>(1.0 / 360)).units();
+/// One of n equal parts of a phase difference; per_n_32 = 2^32 / n, rounded. By 32-bit multiplications.
+[[nodiscard]] constexpr std::uint64_t part_of(std::int64_t units, std::uint32_t per_n_32) noexcept {
+  const auto bits = static_cast<std::uint64_t>(units);
+  const std::int64_t high = static_cast<std::int32_t>(static_cast<std::uint32_t>(bits >> 32));
+  const std::uint64_t low = (bits & 0xFFFF'FFFFu) * per_n_32 >> 32;
+  return static_cast<std::uint64_t>(high * static_cast<std::int64_t>(std::uint64_t{per_n_32})) + low;
 }
 
 namespace detail {
 
+/// What a whole step's ends say of the motion between them, as far as cubics do.
 template <class Real>
-[[nodiscard]] constexpr Real magnitude(Real x) noexcept {
-  return x < 0 ? -x : x;
+struct Between {
+  Real y[2], y_slope[2];      ///< the valve; slopes by the part of the step
+  Real gap[2], gap_slope[2];  ///< Y - y
+
+  constexpr Between(ValveState<Real> a, ValveState<Real> b, const LiftStep<Real>& lift, Real step_s) noexcept
+      : y{a.lift_m, b.lift_m},
+        y_slope{a.velocity_m_s * step_s, b.velocity_m_s * step_s},
+        gap{lift.from_m - y[0], lift.to_m - y[1]},
+        gap_slope{lift.from_slope_m - y_slope[0], lift.to_slope_m - y_slope[1]} {}
+};
+
+/// A cubic between two values stays within a third of this sum of their range: its inner Bezier ordinates are that far from its ends.
+template <class Real>
+[[nodiscard]] constexpr Real slopes(const Real (&slope)[2]) noexcept {
+  return magnitude(slope[0]) + magnitude(slope[1]);
+}
+template <class Real>
+inline constexpr Real kThird = static_cast<Real>(1.0 / 3);
+
+template <class Real>
+[[nodiscard]] constexpr bool above(const Real (&x)[2], Real bound) noexcept {
+  return x[0] > bound && x[1] > bound;
 }
 
-/// The least of four numbers is above `bound`.
+/// The train's force over k, gap + lag gap', stays above `bound`, by the Bezier ordinates of its cubic.
 template <class Real>
-[[nodiscard]] constexpr bool all_above(const Real (&x)[4], Real bound) noexcept {
-  return x[0] > bound && x[1] > bound && x[2] > bound && x[3] > bound;
-}
-template <class Real>
-[[nodiscard]] constexpr bool all_below(const Real (&x)[4], Real bound) noexcept {
-  return x[0] < bound && x[1] < bound && x[2] < bound && x[3] < bound;
-}
-
-/// Bezier ordinates of the cubic through two values and slopes (slopes times the step): the curve lies between the least and the largest.
-template <class Real>
-constexpr void bezier(Real from, Real slope_from, Real to, Real slope_to, Real (&ordinates)[4]) noexcept {
-  constexpr Real kThird = static_cast<Real>(1.0 / 3);
-  ordinates[0] = from;
-  ordinates[1] = from + slope_from * kThird;
-  ordinates[2] = to - slope_to * kThird;
-  ordinates[3] = to;
+[[nodiscard]] constexpr bool pushes(const Between<Real>& m, Real lag, Real bound) noexcept {
+  const Real(&g)[2] = m.gap;
+  const Real(&s)[2] = m.gap_slope;
+  const Real middle = 3 * (g[1] - g[0]) - s[0] - s[1];
+  return g[0] + lag * s[0] > bound && g[1] + lag * s[1] > bound &&
+         g[0] + s[0] * kThird<Real> + lag * ((s[0] + 2 * middle) * kThird<Real>) > bound &&
+         g[1] - s[1] * kThird<Real> + lag * ((2 * middle + s[1]) * kThird<Real>) > bound;
 }
 
-/// True when no contact can change in a whole step from a to b, as far as the cubics through its ends tell, with a margin: gaps keep their
-/// side, the train's force keeps its sign. The seat must be off: its own
-/// vibration is faster than a whole step, and nothing could be told.
+/// True when no contact can change in a whole step with the seat off, as far as the cubics through its ends tell, with a margin: gaps keep
+/// their side, the train's force its sign. (On the seat nothing could be told: its own vibration is faster than a whole step.)
 template <class Real>
-[[nodiscard]] constexpr bool far_from_change(const ValveBody<Real>& body, std::uint32_t regime, ValveState<Real> a, ValveState<Real> b,
-                                             const LiftStep<Real>& lift, Real step_s) noexcept {
+[[nodiscard]] constexpr bool far_from_change(const ValveMotion<Real>& motion, std::uint32_t regime, const Between<Real>& m) noexcept {
   constexpr Real kMargin_m = static_cast<Real>(2e-6);
-  Real y[4];
-  bezier(a.lift_m, a.velocity_m_s * step_s, b.lift_m, b.velocity_m_s * step_s, y);
-  if (!all_above(y, body.seat_sink_m + kMargin_m)) return false;
-  const Real gap_a = lift.at[0] - a.lift_m;
-  const Real gap_b = lift.at[1] - b.lift_m;
-  const Real closing_a = lift.at[2] - a.velocity_m_s * step_s;
-  const Real closing_b = lift.at[3] - b.velocity_m_s * step_s;
-  Real gap[4];
-  bezier(gap_a, closing_a, gap_b, closing_b, gap);
-  if ((regime & kTrainOn) == 0) return all_below(gap, -kMargin_m);
-  if (!all_above(gap, kMargin_m)) return false;
-  // Force / k = gap + (b / k) gap'; the slope of the cubic is a quadratic, written as a cubic's ordinates too.
-  const Real lag = body.train_Ns_m / (body.train_N_m * step_s);
-  const Real middle = 3 * (gap_b - gap_a) - closing_a - closing_b;
-  constexpr Real kThird = static_cast<Real>(1.0 / 3);
-  const Real slope[4] = {closing_a, (closing_a + 2 * middle) * kThird, (2 * middle + closing_b) * kThird, closing_b};
-  const Real force[4] = {gap[0] + lag * slope[0], gap[1] + lag * slope[1], gap[2] + lag * slope[2], gap[3] + lag * slope[3]};
-  return all_above(force, kMargin_m);
+  if (!above(m.y, motion.body.seat_sink_m + kMargin_m + slopes(m.y_slope) * kThird<Real>)) return false;
+  const Real gap_slopes = slopes(m.gap_slope);
+  const Real bound = kMargin_m + gap_slopes * kThird<Real>;
+  if ((regime & kTrainOn) == 0) return m.gap[0] < -bound && m.gap[1] < -bound;
+  // No ordinate of the gap's slope is larger than this.
+  const Real steepest = gap_slopes + 2 * magnitude(m.gap[1] - m.gap[0]);
+  if (above(m.gap, bound + motion.force_lag * steepest)) return true;  // by far: most steps
+  return above(m.gap, bound) && pushes(m, motion.force_lag, kMargin_m);
 }
 
 }  // namespace detail
 
-/// Advances one valve by a tick and keeps its record. O(steps * fine_per_step + events): bounded by the tables and the budget.
-template <class Real, class Record>
+/// One tick of the valves of a train: made once per tick, advance() for each of them. Each costs O(steps * fine_per_step + events): bounded
+/// by the tables and the budget.
+template <class Real>
 class ValveTick {
  public:
-  constexpr ValveTick(const ValveMotion<Real>& motion, const LiftCurve<Real>& curve, Real gas_N, EventBudget& budget, Record& record) noexcept
-      : motion_{motion}, curve_{curve}, gas_N_{gas_N}, budget_{budget}, record_{record} {}
+  constexpr ValveTick(const ValveMotion<Real>& motion, const LiftCurve<Real>& curve, const CamTurn<Real>& cam, EventBudget& budget) noexcept
+      : motion_{motion},
+        curve_{curve},
+        cam_{cam},
+        step_deg_{cam.turned_deg * motion.per_steps},
+        leaps_{curve.touch_degrees != 0 &&
+               magnitude(cam.turned_deg) >= static_cast<Real>(static_cast<std::int32_t>(curve.touch_degrees))},
+        width_{width_of(motion, step_deg_)},
+        budget_{budget} {}
 
-  /// The lift where the last advance() ended.
-  [[nodiscard]] constexpr const Lift<Real>& lift() const noexcept { return lift_; }
+  /// Whether a sleeping valve sleeps on through a tick that ends here.
+  template <class Gas>
+  [[nodiscard]] constexpr bool sleeps_on(const ValveCondition<Real>& valve, Cell end, const Gas& gas) const noexcept {
+    return valve.asleep != 0 && rests_at(end, gas);
+  }
 
-  constexpr void advance(ValveCondition<Real>& valve, const CamTurn<Real>& cam) noexcept {
-    const Cell start = LiftCurve<Real>::cell(cam.from);
-    const Lift<Real> lift_at_start = curve_.read(start);
-    const Cell end = LiftCurve<Real>::cell(cam.to);
-    lift_ = curve_.read(end);
-    // Off the lobe nothing comes: with a clearance the train does not touch, without one it touches and does not move.
-    const bool off_lobe = start.degree >= curve_.segments && end.degree >= curve_.segments;
-    const bool cam_is_away =
-        (off_lobe || lash_open(lift_at_start, lift_)) && detail::magnitude(cam.turned_deg) < kLobeNotSkipped_deg && held_by_spring();
-    if (valve.asleep != 0 && cam_is_away) return;
-    if (valve.asleep != 0) {  // wake where the gas holds the valve on its seat
-      valve.state = {-gas_N_ / (motion_.body.seat_N_m + motion_.body.spring_N_m), Real{0}};
-      valve.asleep = 0;
+  /// Advances a valve to the phase `to`, in cell `end`, and keeps its record.
+  template <class Gas, class Record>
+  void advance(ValveCondition<Real>& valve, std::uint64_t to, Cell end, const Gas& gas, Record& record) const noexcept {
+    const std::uint64_t from = to - static_cast<std::uint64_t>(cam_.turned);
+    if (valve.asleep != 0) wake(valve, from, gas);
+    std::uint64_t at = from;
+    if (motion_.steps > 1) {
+      const std::uint64_t step = part_of(cam_.turned, motion_.per_steps_32);
+      for (std::uint32_t i = 1; i < motion_.steps; ++i, at += step) step_to(valve, at, at + step, LiftCurve<Real>::cell(at + step), gas, record);
     }
-    const Real step_deg = cam.turned_deg * motion_.per_steps;
-    Place from{cam.from, lift_at_start, degrees(start)};
-    for (std::uint32_t i = 1; i <= motion_.steps; ++i) {
-      const std::uint64_t next = part_way(cam.from, cam.to, cam.turned_deg, i, motion_.steps, motion_.per_steps);
-      const Place to{next, curve_.read(LiftCurve<Real>::cell(next)), from.deg + step_deg};
-      if (!whole_step(valve, from, to, step_deg)) fine_steps(valve, from, next, step_deg);
-      from = to;
-    }
-    fall_asleep(valve, cam_is_away);
+    step_to(valve, at, to, end, gas, record);
+    fall_asleep(valve, end, gas);
   }
 
  private:
-  static constexpr Real kLeastLash_m = static_cast<Real>(1e-6);     ///< with more of it at both ends of a tick a closed valve is left alone,
-  static constexpr Real kLobeNotSkipped_deg = static_cast<Real>(30);  ///< unless the tick is so long that a lobe might fit into it
+  static constexpr Real kLeastLash_m = static_cast<Real>(kLeastLash);  ///< with more of it a closed valve is left alone
 
-  /// The cam at a step's end.
-  struct Place {
-    std::uint64_t phase;
-    Lift<Real> lift;
-    Real deg;  ///< since the start of the lobe
+  /// Where a step begins, its length in cam degrees and in seconds.
+  struct Span {
+    std::uint64_t from;
+    Real deg;
+    Real s;
+    Real per_s;
   };
 
+  enum class Width : std::uint32_t { cubic, through_middle, too_wide };
+  [[nodiscard]] static constexpr Width width_of(const ValveMotion<Real>& motion, Real step_deg) noexcept {
+    const Real deg = magnitude(step_deg);
+    if (deg <= motion.short_step_deg) return Width::cubic;
+    return deg <= motion.widest_step_deg ? Width::through_middle : Width::too_wide;
+  }
+
+  /// The train cannot touch a closed valve there, nor could it have on the way.
+  template <class Gas>
+  [[nodiscard]] constexpr bool rests_at(Cell end, const Gas& gas) const noexcept {
+    return !curve_.may_touch(end) && !leaps_ && gas.leaves_closed(motion_.body);
+  }
+
+  /// Wakes a valve where the gas holds it on its seat.
+  template <class Gas>
+  constexpr void wake(ValveCondition<Real>& valve, std::uint64_t from, const Gas& gas) const noexcept {
+    valve.state = {-gas.force_N() * motion_.per_seat_N_m, Real{0}};
+    valve.train = curve_.read(LiftCurve<Real>::cell(from));
+    valve.asleep = 0;
+  }
+
+  /// A valve that only trembles on its seat, with the lash open: its vibration dies away and cannot reach a contact.
+  template <class Gas>
+  [[nodiscard]] constexpr bool quiet(const ValveCondition<Real>& valve, const Lift<Real>& to, const Gas& gas) const noexcept {
+    return valve.regime == kSeatOn && valve.train.lift_m < -kLeastLash_m && to.lift_m < -kLeastLash_m && gas.leaves_closed(motion_.body) &&
+           magnitude(valve.state.lift_m) + magnitude(valve.state.velocity_m_s) * motion_.per_seat_rate_s < motion_.quiet_m;
+  }
+
+  [[nodiscard]] constexpr LiftStep<Real> between(const Lift<Real>& from, const Lift<Real>& to, Real deg) const noexcept {
+    return {from.lift_m, to.lift_m, deg * from.per_deg_m, deg * to.per_deg_m};
+  }
+
+  [[nodiscard]] constexpr LiftMiddle<Real> middle(std::uint64_t from, std::uint64_t to, Real deg) const noexcept {
+    const std::uint64_t half = static_cast<std::uint64_t>(static_cast<std::int64_t>(to - from) / 2);
+    const Lift<Real> lift = curve_.read(LiftCurve<Real>::cell(from + half));
+    return {lift.lift_m, deg * lift.per_deg_m};
+  }
+
+  template <class Gas, class Record>
+  void step_to(ValveCondition<Real>& valve, std::uint64_t from, std::uint64_t to, Cell end, const Gas& gas, Record& record) const noexcept {
+    const Lift<Real> lift = curve_.read(end);
+    if (!whole_step(valve, from, to, lift, gas, record)) fine_steps(valve, from, to, gas, record);
+    valve.train = lift;
+  }
+
+  /// Takes a whole step if no contact can change in it.
+  template <class Gas, class Record>
+  constexpr bool whole_step(ValveCondition<Real>& valve, std::uint64_t from, std::uint64_t to, const Lift<Real>& lift, const Gas& gas,
+                            Record& record) const noexcept {
+    if (width_ == Width::too_wide) return false;
+    const std::uint32_t regime = valve.regime;
+    const StepMatrix<Real>& matrix = motion_.whole[regime];
+    const LiftStep<Real> step = between(valve.train, lift, step_deg_);
+    ValveState<Real> after;
+    if ((regime & kSeatOn) != 0) {
+      if (!quiet(valve, lift, gas)) return false;
+      after = stepped(matrix, valve.state, gas);
+    } else {
+      if ((regime & kTrainOn) == 0) {
+        after = stepped(matrix, valve.state, gas);
+      } else if (width_ == Width::cubic) {
+        after = stepped(matrix, valve.state, gas, step);
+      } else {
+        after = stepped(matrix, valve.state, gas, step, middle(from, to, step_deg_));
+      }
+      if (!detail::far_from_change(motion_, regime, {valve.state, after, step, motion_.step_s})) return false;
+    }
+    note(record, valve.state, after, step, regime, gas, Span{from, step_deg_, motion_.step_s, motion_.per_step_s});
+    valve.state = after;
+    return true;
+  }
+
+  template <class Gas, class Record>
+  [[gnu::noinline]] void fine_steps(ValveCondition<Real>& valve, std::uint64_t from, std::uint64_t to, const Gas& gas,
+                                    Record& record) const noexcept {
+    const std::uint32_t count = motion_.fine_per_step;
+    const std::uint64_t part = count == 1 ? 0 : part_of(static_cast<std::int64_t>(to - from), motion_.per_fine_32);
+    const Real fine_deg = step_deg_ * motion_.per_fine;
+    const bool wide = magnitude(fine_deg) > motion_.short_step_deg;
+    std::uint64_t at = from;
+    for (std::uint32_t i = 1; i <= count; ++i) {
+      const std::uint64_t next = i == count ? to : at + part;
+      const Lift<Real> lift = curve_.read(LiftCurve<Real>::cell(next));
+      const LiftStep<Real> step = between(valve.train, lift, fine_deg);
+      const LiftMiddle<Real> mid = wide ? middle(at, next, fine_deg) : LiftMiddle<Real>{};
+      const StepMatrix<Real>& matrix = motion_.fine[valve.regime];
+      const ValveState<Real> after = (valve.regime & kTrainOn) == 0 ? stepped(matrix, valve.state, gas)
+                                     : wide                         ? stepped(matrix, valve.state, gas, step, mid)
+                                                                    : stepped(matrix, valve.state, gas, step);
+      const std::uint32_t asked = contacts(motion_.body, after, lift.lift_m, step.to_slope_m * motion_.per_fine_s).regime();
+      const Span span{at, fine_deg, motion_.fine_s, motion_.per_fine_s};
+      if (asked == valve.regime) {
+        note(record, valve.state, after, step, valve.regime, gas, span);
+        valve.state = after;
+      } else if (budget_.left == 0) {
+        budget_.exceeded = true;
+        note(record, valve.state, after, step, valve.regime, gas, span);
+        if constexpr (!kUnrecorded<Record>) record.change(valve.regime, asked, after.velocity_m_s, degrees(at) + fine_deg);
+        valve.state = after;
+        valve.regime = asked;
+      } else {
+        change_contacts(valve, wide ? LiftWithin<Real>(step, mid) : LiftWithin<Real>(step), gas, record, span);
+      }
+      valve.train = lift;
+      at = next;
+    }
+  }
+
+  /// The step in which a contact changes: by the series up to the change, on in the new regime, until the step's end.
+  template <class Gas, class Record>
+  [[gnu::noinline]] void change_contacts(ValveCondition<Real>& valve, const LiftWithin<Real>& lift, const Gas& gas, Record& record,
+                                         const Span& span) const noexcept {
+    StepSeries<Real> series(motion_.body, lift, motion_.fine_s);
+    for (Real at = 0; at < 1;) {
+      series.expand(at, valve.state, valve.regime, gas.force_N());
+      std::uint32_t changed = 0;
+      const Real next = budget_.left > 0 ? series.first_change(valve.regime, changed) : Real{1};
+      const ValveState<Real> after = series.state(next);
+      note_part(record, series, valve, after, at, next, gas, span);
+      valve.state = after;
+      at = next;
+      if (changed == 0) return;
+      --budget_.left;
+      if constexpr (!kUnrecorded<Record>) {
+        record.change(valve.regime, valve.regime ^ changed, after.velocity_m_s, degrees(span.from) + next * span.deg);
+      }
+      valve.regime ^= changed;
+      note_part(record, series, valve, after, next, next, gas, span);  // the force of a damper begins with a jump
+    }
+  }
+
+  template <class Record>
+  static constexpr bool kUnrecorded = std::is_same_v<Record, NoRecord<Real>>;
+
   /// Cam degrees since the start of the lobe; negative in the half of the base circle before it.
-  [[nodiscard]] constexpr Real degrees(Cell cell) const noexcept {
+  [[nodiscard]] constexpr Real degrees(std::uint64_t phase) const noexcept {
+    const Cell cell = LiftCurve<Real>::cell(phase);
     const auto degree = static_cast<std::int32_t>(cell.degree);
     const bool before = 2 * degree > static_cast<std::int32_t>(curve_.segments) + kDegreesPerTurn;
     return static_cast<Real>(before ? degree - kDegreesPerTurn : degree) + fraction<Real>(cell);
   }
 
-  [[nodiscard]] constexpr Real force_N(std::uint32_t regime) const noexcept { return constant_force_N(motion_.body, regime, gas_N_); }
-
-  /// Suction on the head leaves the spring enough to hold the valve on its seat.
-  [[nodiscard]] constexpr bool held_by_spring() const noexcept { return gas_N_ > -motion_.body.preload_N / 2; }
-
-  [[nodiscard]] static constexpr bool lash_open(const Lift<Real>& from, const Lift<Real>& to) noexcept {
-    return from.lift_m < -kLeastLash_m && to.lift_m < -kLeastLash_m;
-  }
-
-  /// A valve that only trembles on its seat, with the lash open: its vibration dies away and cannot reach a contact.
-  [[nodiscard]] constexpr bool quiet(const ValveCondition<Real>& valve, const Place& from, const Place& to) const noexcept {
-    if (valve.regime != kSeatOn || !lash_open(from.lift, to.lift) || !held_by_spring()) return false;
-    return detail::magnitude(valve.state.lift_m) + detail::magnitude(valve.state.velocity_m_s) * motion_.per_seat_rate_s < motion_.quiet_m;
-  }
-
-  /// Takes a whole step if no contact can change in it.
-  constexpr bool whole_step(ValveCondition<Real>& valve, const Place& from, const Place& to, Real step_deg) noexcept {
-    if (detail::magnitude(step_deg) > motion_.widest_step_deg) return false;
-    const bool on_seat = (valve.regime & kSeatOn) != 0;
-    if (on_seat && !quiet(valve, from, to)) return false;
-    const LiftStep<Real> lift = lift_step(from.lift, to.lift, step_deg);
-    const ValveState<Real> after = stepped(motion_.whole[valve.regime], valve.state, lift, force_N(valve.regime), (valve.regime & kTrainOn) != 0);
-    if (!on_seat && !detail::far_from_change(motion_.body, valve.regime, valve.state, after, lift, motion_.step_s)) return false;
-    note(valve.state, after, lift, valve.regime, from.deg, to.deg, motion_.step_s);
-    valve.state = after;
-    return true;
-  }
-
-  constexpr void fine_steps(ValveCondition<Real>& valve, Place from, std::uint64_t end, Real step_deg) noexcept {
-    const std::uint64_t begin = from.phase;
-    const Real fine_deg = step_deg * motion_.per_fine;
-    for (std::uint32_t i = 1; i <= motion_.fine_per_step; ++i) {
-      const std::uint64_t next = part_way(begin, end, step_deg, i, motion_.fine_per_step, motion_.per_fine);
-      const Place to{next, curve_.read(LiftCurve<Real>::cell(next)), from.deg + fine_deg};
-      const LiftStep<Real> lift = lift_step(from.lift, to.lift, fine_deg);
-      const ValveState<Real> after = stepped(motion_.fine[valve.regime], valve.state, lift, force_N(valve.regime), (valve.regime & kTrainOn) != 0);
-      const std::uint32_t asked = contacts(motion_.body, after, to.lift.lift_m, lift.at[3] / motion_.fine_s).regime();
-      if (asked == valve.regime) {
-        note(valve.state, after, lift, valve.regime, from.deg, to.deg, motion_.fine_s);
-        valve.state = after;
-      } else if (budget_.left == 0) {
-        budget_.exceeded = true;
-        note(valve.state, after, lift, valve.regime, from.deg, to.deg, motion_.fine_s);
-        record_.change(valve.regime, asked, after.velocity_m_s, to.deg);
-        valve = {after, asked, 0};
-      } else {
-        change_contacts(valve, lift, from.deg, fine_deg);
-      }
-      from = to;
+  template <class Gas, class Record>
+  constexpr void note(Record& record, ValveState<Real> before, ValveState<Real> after, const LiftStep<Real>& step, std::uint32_t regime,
+                      const Gas& gas, const Span& span) const noexcept {
+    if constexpr (!kUnrecorded<Record>) {
+      const Real from_deg = degrees(span.from);
+      const Real speed = step.to_slope_m * span.per_s;
+      record.step({before, after, step.from_m, step.to_m, step.from_slope_m * span.per_s, speed,
+                   acceleration(motion_.body, regime, after, step.to_m, speed, gas.force_N()), from_deg, from_deg + span.deg, span.s, regime},
+                  motion_.body.seat_sink_m);
     }
   }
 
-  /// The step in which a contact changes: by the series up to the change, on in the new regime, until the step's end.
-  constexpr void change_contacts(ValveCondition<Real>& valve, const LiftStep<Real>& lift, Real from_deg, Real fine_deg) noexcept {
-    StepSeries<Real> series(motion_.body, lift, motion_.fine_s);
-    for (Real at = 0; at < 1;) {
-      series.expand(at, valve.state, valve.regime, gas_N_);
-      std::uint32_t changed = 0;
-      const Real next = budget_.left > 0 ? series.first_change(valve.regime, changed) : Real{1};
-      const ValveState<Real> after = series.state(next);
-      note_part(series, valve, after, at, next, from_deg, fine_deg);
-      valve.state = after;
-      at = next;
-      if (changed == 0) return;
-      --budget_.left;
-      record_.change(valve.regime, valve.regime ^ changed, after.velocity_m_s, from_deg + next * fine_deg);
-      valve.regime ^= changed;
-      note_part(series, valve, after, next, next, from_deg, fine_deg);  // the force of a damper begins with a jump
+  template <class Gas, class Record>
+  constexpr void note_part(Record& record, const StepSeries<Real>& series, const ValveCondition<Real>& valve, ValveState<Real> after, Real at,
+                           Real next, const Gas& gas, const Span& span) const noexcept {
+    if constexpr (!kUnrecorded<Record>) {
+      const LiftNow<Real> begin = series.lift(at);
+      const LiftNow<Real> end = series.lift(next);
+      const Real from_deg = degrees(span.from);
+      record.step({valve.state, after, begin.lift_m, end.lift_m, begin.speed_m_s, end.speed_m_s,
+                   acceleration(motion_.body, valve.regime, after, end.lift_m, end.speed_m_s, gas.force_N()), from_deg + at * span.deg,
+                   from_deg + next * span.deg, (next - at) * span.s, valve.regime},
+                  motion_.body.seat_sink_m);
     }
-  }
-
-  constexpr void note(ValveState<Real> before, ValveState<Real> after, const LiftStep<Real>& lift, std::uint32_t regime, Real from_deg, Real to_deg,
-                      Real step_s) noexcept {
-    if constexpr (std::is_same_v<Record, NoRecord<Real>>) return;
-    const Real per_s = 1 / step_s;
-    const Real speed = lift.at[3] * per_s;
-    record_.step({before, after, lift.at[0], lift.at[1], lift.at[2] * per_s, speed,
-                  acceleration(motion_.body, regime, after, lift.at[1], speed, gas_N_), from_deg, to_deg, step_s, regime},
-                 motion_.body.seat_sink_m);
-  }
-
-  constexpr void note_part(const StepSeries<Real>& series, const ValveCondition<Real>& valve, ValveState<Real> after, Real at, Real next,
-                           Real from_deg, Real fine_deg) noexcept {
-    if constexpr (std::is_same_v<Record, NoRecord<Real>>) return;
-    const LiftNow<Real> begin = series.lift(at);
-    const LiftNow<Real> end = series.lift(next);
-    record_.step({valve.state, after, begin.lift_m, end.lift_m, begin.speed_m_s, end.speed_m_s,
-                  acceleration(motion_.body, valve.regime, after, end.lift_m, end.speed_m_s, gas_N_), from_deg + at * fine_deg,
-                  from_deg + next * fine_deg, (next - at) * motion_.fine_s, valve.regime},
-                 motion_.body.seat_sink_m);
   }
 
   /// A closed valve that has come to rest is put exactly at rest: it costs nothing, and no denormal numbers.
-  constexpr void fall_asleep(ValveCondition<Real>& valve, bool cam_is_away) noexcept {
-    if (!cam_is_away || valve.regime != kSeatOn) return;
-    const Real off_m = valve.state.lift_m + gas_N_ / (motion_.body.seat_N_m + motion_.body.spring_N_m);
+  template <class Gas>
+  constexpr void fall_asleep(ValveCondition<Real>& valve, Cell end, const Gas& gas) const noexcept {
+    if (valve.regime != kSeatOn || !rests_at(end, gas)) return;
+    const Real off_m = valve.state.lift_m + gas.force_N() * motion_.per_seat_N_m;
     const Real speed_m_s = valve.state.velocity_m_s;
-    if (detail::magnitude(off_m) >= motion_.rest_m || detail::magnitude(speed_m_s) >= motion_.rest_m_s) return;
+    if (magnitude(off_m) >= motion_.rest_m || magnitude(speed_m_s) >= motion_.rest_m_s) return;
     valve.state = {Real{0}, Real{0}};
+    valve.train = {};
     valve.asleep = 1;
   }
 
   const ValveMotion<Real>& motion_;
   const LiftCurve<Real>& curve_;
-  Real gas_N_;
+  CamTurn<Real> cam_;
+  Real step_deg_;
+  bool leaps_;
+  Width width_;
   EventBudget& budget_;
-  Record& record_;
-  Lift<Real> lift_{};
 };
 
 }  // namespace crankloop

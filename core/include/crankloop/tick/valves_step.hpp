@@ -28,11 +28,7 @@ struct ValvesStep {
   void settle() noexcept {
     if constexpr (N::elastic_valves) {
       for (std::uint32_t t = 0; t < trains(); ++t) {
-        const LiftCurve<Real>& curve = tables.lift_curves[t];
-        for (std::uint32_t k = 0; k < count<S>(tables.drive->cylinders); ++k) {
-          const std::uint64_t at = state.phase.units() - zero_phase(t, k);
-          state.valve[t][k] = in_equilibrium(tables.valve_motions[t].body, curve.read(LiftCurve<Real>::cell(at)).lift_m, Real{0});
-        }
+        for (std::uint32_t k = 0; k < cylinders(); ++k) settle(t, k, lobe_phase(t, k, 0), Real{0});
       }
     }
   }
@@ -45,7 +41,14 @@ struct ValvesStep {
       const std::uint64_t phase_before = cam_phase(t);
       if constexpr (S::cam_phasing) move_cam(t, input.cam_phase_deg[t], faults);
       const std::uint64_t phase_after = cam_phase(t);
-      for (std::uint32_t k = 0; k < count<S>(tables.drive->cylinders); ++k) run_valve(t, k, phase_before, phase_after, budget);
+      const Phase turned{jumped ? 0 : (state.phase - before).units() - (phase_after - phase_before)};
+      const CamTurn<Real> cam{static_cast<std::int64_t>(turned.units()), turned.template signed_cycles<Real>() * Real{kDegreesPerTurn}};
+      if constexpr (N::elastic_valves) {
+        const ValveTick<Real> tick(tables.valve_motions[t], tables.lift_curves[t], cam, budget);
+        for (std::uint32_t k = 0; k < cylinders(); ++k) run_elastic(t, k, lobe_phase(t, k, phase_after), cam, tick);
+      } else {
+        for (std::uint32_t k = 0; k < cylinders(); ++k) follow(t, k, lobe_phase(t, k, phase_after), cam);
+      }
     }
     (void)input;
     return budget.exceeded ? faults | kFaultEventBudget : faults;
@@ -54,10 +57,11 @@ struct ValvesStep {
  private:
   [[nodiscard]] std::uint32_t trains() const noexcept { return S::trains.exact ? S::trains.capacity : tables.drive->trains; }
 
-  /// Engine phase at which the lobe of a cylinder's train opens.
-  [[nodiscard]] std::uint64_t zero_phase(std::uint32_t t, std::uint32_t k) const noexcept {
-    const Drive<Real>& drive = *tables.drive;
-    return drive.firing_phase[drive.mechanism_of[k]] + (std::uint64_t{drive.turn_of[k]} << 63) + tables.lift_curves[t].opens;
+  [[nodiscard]] std::uint32_t cylinders() const noexcept { return count<S>(tables.drive->cylinders); }
+
+  /// Phase units since the lobe of a cylinder's train started.
+  [[nodiscard]] std::uint64_t lobe_phase(std::uint32_t t, std::uint32_t k, std::uint64_t cam_phase) const noexcept {
+    return state.phase.units() - cam_phase - tables.lift_curves[t].opens[k];
   }
 
   [[nodiscard]] std::uint64_t cam_phase(std::uint32_t t) const noexcept {
@@ -79,72 +83,66 @@ struct ValvesStep {
     state.cam_phase[t] += static_cast<std::uint64_t>(move);
   }
 
-  void run_valve(std::uint32_t t, std::uint32_t k, std::uint64_t phase_before, std::uint64_t phase_after, EventBudget& budget) noexcept {
-    const Drive<Real>& drive = *tables.drive;
+  /// A valve whose lift is its cam's.
+  void follow(std::uint32_t t, std::uint32_t k, std::uint64_t at, const CamTurn<Real>& cam) noexcept {
     const LiftCurve<Real>& curve = tables.lift_curves[t];
-    const std::uint64_t zero = zero_phase(t, k);
-    CamTurn<Real> cam;
-    cam.from = before.units() - zero - phase_before;
-    cam.to = state.phase.units() - zero - phase_after;
-    cam.turned_deg = Phase{cam.to - cam.from}.template signed_cycles<Real>() * Real{kDegreesPerTurn};
-    if constexpr (N::elastic_valves) {
-      run_elastic(t, k, cam, budget);
-    } else {
-      const Lift<Real> lift = curve.read(LiftCurve<Real>::cell(cam.to));
-      ValveMotionOutput<Real>& valve = out.valve[t][k];
-      const Real speed_deg_s = cam.turned_deg * drive.per_tick_s;
-      const bool open = lift.lift_m > 0;
-      valve.theoretical_lift_m = open ? lift.lift_m : Real{0};
-      valve.lift_m = valve.theoretical_lift_m;
-      valve.velocity_m_s = open ? lift.per_deg_m * speed_deg_s : Real{0};
-      valve.acceleration_m_s2 = open ? lift.per_deg2_m * (speed_deg_s * speed_deg_s) : Real{0};
-    }
+    const Cell cell = LiftCurve<Real>::cell(at);
+    const Lift<Real> lift = curve.read(cell);
+    const Real speed_deg_s = cam.turned_deg * tables.drive->per_tick_s;
+    const bool open = lift.lift_m > 0;
+    ValveMotionOutput<Real>& valve = out.valve[t][k];
+    valve.theoretical_lift_m = open ? lift.lift_m : Real{0};
+    valve.lift_m = valve.theoretical_lift_m;
+    valve.velocity_m_s = open ? lift.per_deg_m * speed_deg_s : Real{0};
+    valve.acceleration_m_s2 = open ? curve.curvature(cell) * (speed_deg_s * speed_deg_s) : Real{0};
   }
 
-  void run_elastic(std::uint32_t t, std::uint32_t k, const CamTurn<Real>& cam, EventBudget& budget) noexcept {
-    const ValveMotion<Real>& motion = tables.valve_motions[t];
-    const LiftCurve<Real>& curve = tables.lift_curves[t];
+  void run_elastic(std::uint32_t t, std::uint32_t k, std::uint64_t at, const CamTurn<Real>& cam, const ValveTick<Real>& tick) noexcept {
     ValveCondition<Real>& valve = state.valve[t][k];
-    Real gas_N{};
-    if constexpr (S::valve_gas) gas_N = (pressure_Pa[k] - tables.body->crankcase_Pa) * motion.body.head_area_m2;
-    const Real per_tick_s = tables.drive->per_tick_s;
-    if (jumped) valve = in_equilibrium(motion.body, curve.read(LiftCurve<Real>::cell(cam.to)).lift_m, gas_N);
-    const CamTurn<Real> turn = jumped ? CamTurn<Real>{cam.to, cam.to, Real{0}} : cam;
-    Lift<Real> lift;
+    const Cell end = LiftCurve<Real>::cell(at);
+    const auto gas = gas_on(t, k);
+    if (jumped) settle(t, k, at, gas.force_N());
     if constexpr (S::valve_results) {
       ValveRecord<Real>& record = state.record[t][k];
-      lift = advance(motion, curve, gas_N, budget, record, valve, turn);
-      if (passes_base_circle(curve, turn)) out.valve_cycle[t][k] = record.finish(cycle_end_deg(curve, turn), valve.regime);
-    } else {
+      if (!tick.sleeps_on(valve, end, gas)) tick.advance(valve, at, end, gas, record);
+      const LiftCurve<Real>& curve = tables.lift_curves[t];
+      if (passes_base_circle(curve, at, cam)) out.valve_cycle[t][k] = record.finish(cycle_end_deg(curve, cam), valve.regime);
+    } else if (!tick.sleeps_on(valve, end, gas)) {
       NoRecord<Real> none;
-      lift = advance(motion, curve, gas_N, budget, none, valve, turn);
+      tick.advance(valve, at, end, gas, none);
     }
-    show(t, k, valve, lift, turn.turned_deg * per_tick_s, gas_N);
+    show(t, k, valve, end, cam.turned_deg * tables.drive->per_tick_s, gas.force_N());
   }
 
-  template <class Record>
-  [[nodiscard]] static Lift<Real> advance(const ValveMotion<Real>& motion, const LiftCurve<Real>& curve, Real gas_N, EventBudget& budget,
-                                          Record& record, ValveCondition<Real>& valve, const CamTurn<Real>& cam) noexcept {
-    ValveTick<Real, Record> tick(motion, curve, gas_N, budget, record);
-    tick.advance(valve, cam);
-    return tick.lift();
+  [[nodiscard]] auto gas_on(std::uint32_t t, std::uint32_t k) const noexcept {
+    if constexpr (S::valve_gas) {
+      return GasForce<Real>{(pressure_Pa[k] - tables.body->crankcase_Pa) * tables.valve_motions[t].body.head_area_m2};
+    } else {
+      (void)t, (void)k;
+      return NoGasForce<Real>{};
+    }
   }
 
-  /// A valve at rest where the cam stands: what a phase jump leaves.
-  [[nodiscard]] static ValveCondition<Real> in_equilibrium(const ValveBody<Real>& b, Real lift_m, Real gas_N) noexcept {
-    const Real open_m = (b.train_N_m * lift_m - b.preload_N - gas_N) / (b.train_N_m + b.spring_N_m);
-    if (open_m > b.seat_sink_m) return {{open_m, Real{0}}, kTrainOn, 0};
-    const Real pushed_m = (b.train_N_m * lift_m - gas_N) / (b.train_N_m + b.seat_N_m + b.spring_N_m);
-    if (lift_m > pushed_m) return {{pushed_m, Real{0}}, kTrainOn | kSeatOn, 0};
+  /// A valve at rest where its cam stands.
+  void settle(std::uint32_t t, std::uint32_t k, std::uint64_t at, Real gas_N) noexcept {
+    const Lift<Real> lift = tables.lift_curves[t].read(LiftCurve<Real>::cell(at));
+    state.valve[t][k] = in_equilibrium(tables.valve_motions[t].body, lift, gas_N);
+  }
+
+  [[nodiscard]] static ValveCondition<Real> in_equilibrium(const ValveBody<Real>& b, const Lift<Real>& lift, Real gas_N) noexcept {
+    const Real open_m = (b.train_N_m * lift.lift_m - b.preload_N - gas_N) / (b.train_N_m + b.spring_N_m);
+    if (open_m > b.seat_sink_m) return {{open_m, Real{0}}, lift, kTrainOn, 0};
+    const Real pushed_m = (b.train_N_m * lift.lift_m - gas_N) / (b.train_N_m + b.seat_N_m + b.spring_N_m);
+    if (lift.lift_m > pushed_m) return {{pushed_m, Real{0}}, lift, kTrainOn | kSeatOn, 0};
     return {};
   }
 
   /// Whether the cam passes the middle of its base circle in this tick: there a cycle ends.
-  [[nodiscard]] static bool passes_base_circle(const LiftCurve<Real>& curve, const CamTurn<Real>& cam) noexcept {
+  [[nodiscard]] static bool passes_base_circle(const LiftCurve<Real>& curve, std::uint64_t at, const CamTurn<Real>& cam) noexcept {
     const std::uint64_t half_degrees = std::uint64_t{curve.segments} + kDegreesPerTurn;
     const std::uint64_t middle = half_degrees * (~std::uint64_t{0} / (2 * kDegreesPerTurn));
-    const auto from = static_cast<std::int64_t>(cam.from - middle);
-    const auto to = static_cast<std::int64_t>(cam.to - middle);
+    const auto from = static_cast<std::int64_t>(at - static_cast<std::uint64_t>(cam.turned) - middle);
+    const auto to = static_cast<std::int64_t>(at - middle);
     constexpr std::int64_t kNear = std::int64_t{1} << 62;  // crossing zero there, not half a turn away
     return (from < 0) != (to < 0) && to < kNear && to > -kNear;
   }
@@ -155,30 +153,37 @@ struct ValvesStep {
     return (cam.turned_deg < 0 ? lobe_deg - Real{kDegreesPerTurn} : lobe_deg + Real{kDegreesPerTurn}) / 2;
   }
 
-  void show(std::uint32_t t, std::uint32_t k, const ValveCondition<Real>& valve, const Lift<Real>& lift, Real cam_deg_s, Real gas_N) noexcept {
-    const ValveBody<Real>& body = tables.valve_motions[t].body;
-    const Real lift_speed = lift.per_deg_m * cam_deg_s;
+  void show(std::uint32_t t, std::uint32_t k, const ValveCondition<Real>& valve, Cell cell, Real cam_deg_s, Real gas_N) noexcept {
     ValveMotionOutput<Real>& shown = out.valve[t][k];
+    const ValveBody<Real>& body = tables.valve_motions[t].body;
+    if (valve.asleep != 0) {  // where it sleeps the lift is negative
+      shown = {};
+      if constexpr (S::valve_forces) {
+        out.valve_forces[t][k] = {Real{0}, body.preload_N + gas_N, Real{0}, Real{0}, tables.lift_curves[t].read(cell).lift_m, kSeatOn};
+      }
+      return;
+    }
+    const Lift<Real>& lift = valve.train;
+    const Real lift_speed = lift.per_deg_m * cam_deg_s;
     shown.theoretical_lift_m = lift.lift_m > 0 ? lift.lift_m : Real{0};
     shown.lift_m = valve.state.lift_m;
     shown.velocity_m_s = valve.state.velocity_m_s;
-    shown.acceleration_m_s2 = valve.asleep != 0 ? Real{0} : acceleration(body, valve.regime, valve.state, lift.lift_m, lift_speed, gas_N);
+    shown.acceleration_m_s2 = acceleration(body, valve.regime, valve.state, lift.lift_m, lift_speed, gas_N);
     if constexpr (S::valve_forces) {
       const Contacts<Real> c = contacts(body, valve.state, lift.lift_m, lift_speed);
       ValveForcesOutput<Real>& force = out.valve_forces[t][k];
       force.train_N = train_force_N(valve.regime, c);
-      force.seat_N = valve.asleep != 0 ? body.preload_N + gas_N : seat_force_N(valve.regime, c);
+      force.seat_N = seat_force_N(valve.regime, c);
       force.tip_N = force.train_N - body.rocker_mass_kg * shown.acceleration_m_s2;
-      force.cam_N = force.train_N * rocker_ratio(t, k);
+      force.cam_N = force.train_N * rocker_ratio(t, cell);
       force.gap_m = c.gap_m;
       force.regime = valve.regime;
     }
   }
 
   /// Read where the train touches; outside the lobe there is no force to multiply.
-  [[nodiscard]] Real rocker_ratio(std::uint32_t t, std::uint32_t k) const noexcept {
+  [[nodiscard]] Real rocker_ratio(std::uint32_t t, Cell cell) const noexcept {
     const LiftCurve<Real>& curve = tables.lift_curves[t];
-    const Cell cell = LiftCurve<Real>::cell(state.phase.units() - zero_phase(t, k) - cam_phase(t));
     return cell.degree < curve.segments ? value(curve.rocker_ratio[cell.degree], fraction<Real>(cell)) : Real{0};
   }
 };

@@ -1,0 +1,155 @@
+// Where a drawing's labels stand: markers' beside their dots, names beside their curves.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "drawing.hpp"
+
+namespace crankloop::report {
+
+Box box_of(const Label& label) {
+  const double width = 1.1 * text_width(label.text);  // semi-bold
+  const double left = label.at.x - (label.anchor == Anchor::start    ? 0
+                                    : label.anchor == Anchor::middle ? width / 2
+                                                                     : width);
+  return {left, label.at.y - 0.76 * kTypeSize, left + width, label.at.y + 0.24 * kTypeSize};
+}
+
+namespace {
+
+/// Points along a curve at which its name may stand: every 12 units, or 150 of them if it is longer than that.
+Polyline places_along(const Curve& curve) {
+  double length = 0;
+  for (const Polyline& line : curve.lines) {
+    for (std::size_t k = 1; k < line.size(); ++k)
+      length += std::hypot(line[k].x - line[k - 1].x, line[k].y - line[k - 1].y);
+  }
+  const double step = std::max(12.0, length / 150);
+  Polyline places;
+  double walked = 0;  // since the last place
+  for (const Polyline& line : curve.lines) {
+    for (std::size_t k = 1; k < line.size(); ++k) {
+      const Point a = line[k - 1];
+      const Point b = line[k];
+      const double segment = std::hypot(b.x - a.x, b.y - a.y);
+      for (double at = step - walked; at < segment; at += step) {
+        places.push_back({a.x + at / segment * (b.x - a.x), a.y + at / segment * (b.y - a.y)});
+      }
+      walked = std::fmod(walked + segment, step);
+    }
+  }
+  return places;
+}
+
+}  // namespace
+
+/// Length of curves and overlap with other labels under a box, as a penalty in user units.
+double Drawing::hidden_by(const Box& box) const {
+  double penalty = 0;
+  for (const Curve& curve : curves_) {
+    for (const Polyline& line : curve.lines) {
+      for (std::size_t i = 1; i < line.size(); ++i) penalty += length_inside(box, line[i - 1], line[i]);
+    }
+    for (const Box& bar : curve.bars) penalty += overlap_area(box, bar) / 10;
+  }
+  for (const Box& other : taken_) penalty += overlap_area(box, other);
+  return penalty;
+}
+
+double Drawing::outside_frame(const Box& box) const {
+  return std::max(0.0, frame_.left + 3 - box.left) + std::max(0.0, box.right - (kWidth - 2)) +
+         std::max(0.0, frame_.top + 1 - box.top) + std::max(0.0, box.bottom - frame_.bottom + 2);
+}
+
+/// Every marker gets its label at the best of eight places around it, good or not.
+void Drawing::place_markers() {
+  for (const Marker& marker : plot_.markers) {
+    if (!visible(marker)) continue;
+    const Point dot{to_x_(marker.x), to_y_(marker.y)};
+    taken_.push_back({dot.x - 5, dot.y - 5, dot.x + 5, dot.y + 5});
+  }
+  for (const Marker& marker : plot_.markers) {
+    if (!visible(marker) || marker.label.empty()) continue;
+    const Point dot{to_x_(marker.x), to_y_(marker.y)};
+    Label best;
+    double least = std::numeric_limits<double>::infinity();
+    const bool high = dot.y < (frame_.top + frame_.bottom) / 2;
+    const double above = -10;
+    const double below = 10 + 0.76 * kTypeSize;
+    const double beside = 0.26 * kTypeSize;
+    double order = 0;
+    for (const double dy : {high ? above : below, beside, high ? below : above}) {
+      for (const int side : {0, 1, -1}) {
+        if (side == 0 && dy == beside) continue;
+        const Anchor anchor = side == 0 ? Anchor::middle : side > 0 ? Anchor::start : Anchor::end;
+        const Label label{
+            {dot.x + side * (dy == beside ? 10 : 6), dot.y + dy}, anchor, marker.label, colour_of(marker.series)};
+        const Box box = box_of(label);
+        const double penalty = hidden_by(grown(box, 3)) + 20 * outside_frame(box) + order++;
+        if (penalty < least) {
+          least = penalty;
+          best = label;
+        }
+      }
+    }
+    taken_.push_back(box_of(best));
+    labels_.push_back(best);
+  }
+}
+
+/// Puts every series' name where it touches no curve and is clearly nearest to its own; false if one finds no place.
+bool Drawing::place_names() {
+  for (std::size_t i = 0; i < curves_.size(); ++i) {
+    const Curve& curve = curves_[i];
+    if (curve.name.empty()) continue;
+    Label best;
+    double highest = 0;
+    for (const Point& place : places_along(curve)) {
+      const Label candidates[] = {{{place.x, place.y - 8}, Anchor::middle, curve.name, curve.colour},
+                                  {{place.x, place.y + 20}, Anchor::middle, curve.name, curve.colour},
+                                  {{place.x + 9, place.y + 5}, Anchor::start, curve.name, curve.colour},
+                                  {{place.x - 9, place.y + 5}, Anchor::end, curve.name, curve.colour}};
+      for (const Label& candidate : candidates) {
+        const double score = clarity(candidate, i);
+        if (score <= highest) continue;
+        highest = score;
+        best = candidate;
+      }
+    }
+    if (highest <= 0) return false;
+    taken_.push_back(box_of(best));
+    labels_.push_back(best);
+  }
+  return true;
+}
+
+/// How much nearer a name is to its own curve than to any other, in user units, at most 40; <= 0 where it must not
+/// stand.
+double Drawing::clarity(const Label& label, std::size_t own) const {
+  const Box box = box_of(label);
+  if (outside_frame(box) > 0) return 0;
+  for (const Box& other : taken_) {
+    if (overlap_area(grown(box, 4), other) > 0) return 0;
+  }
+  double own_distance = 40;
+  double other_distance = 40;
+  for (std::size_t i = 0; i < curves_.size(); ++i) {
+    double& nearest = i == own ? own_distance : other_distance;
+    for (const Polyline& line : curves_[i].lines) {
+      for (std::size_t k = 1; k < line.size(); ++k) {
+        const Box bounds{std::min(line[k - 1].x, line[k].x), std::min(line[k - 1].y, line[k].y),
+                         std::max(line[k - 1].x, line[k].x), std::max(line[k - 1].y, line[k].y)};
+        if (overlap_area(grown(box, nearest), grown(bounds, 0.01)) > 0)
+          nearest = std::min(nearest, distance(box, line[k - 1], line[k]));
+        if (nearest < 2) return 0;
+      }
+    }
+    for (const Point& point : curves_[i].points) nearest = std::min(nearest, distance(box, point, point));
+    if (nearest < 2) return 0;
+  }
+  const double zero = plot_.y.logarithmic ? -1 : to_y_(0);
+  const double crossed_zero = zero > box.top && zero < box.bottom ? 8 : 0;
+  return other_distance - own_distance - 4 - crossed_zero;
+}
+
+}  // namespace crankloop::report

@@ -1,0 +1,55 @@
+// The look of every drawing, and the colours of both themes.
+#include "plot.hpp"
+
+namespace crankloop::report {
+
+std::string_view plot_style() {
+  return R"css(:root {
+  --paper: #fdfdfb; --ink: #1c2126; --muted: #555d66; --rule: #d9dcdf;
+  --grid: #e3e6e7; --axis: #7b838b; --zero: #59616a; --band: #f1f3f2; --accent: #00589b;
+  --series-1: #00589b; --series-2: #b8480a; --series-3: #007a5c;
+  --series-4: #b0407f; --series-5: #4a3c00; --series-6: #4f5a68;
+}
+@media screen and (prefers-color-scheme: dark) {
+  :root {
+    --paper: #14181b; --ink: #e4e7e9; --muted: #a5adb5; --rule: #353c42;
+    --grid: #282e33; --axis: #7d868e; --zero: #99a2aa; --band: #1c2125; --accent: #5aabf0;
+    --series-1: #4a9de8; --series-2: #f08040; --series-3: #5fdcb8;
+    --series-4: #d77fc4; --series-5: #f5e58a; --series-6: #98a0a8;
+  }
+}
+.figure { container-type: inline-size; }
+.plot { display: block; width: 100%; height: auto; font-size: 16px; font-variant-numeric: tabular-nums; }
+.plot text { fill: var(--muted); }
+.plot .axis-title { fill: var(--ink); }
+.plot .band-name { font-size: 0.88em; }
+.plot .legend { fill: var(--ink); }
+.plot .name {
+  fill: var(--c); stroke: var(--paper); stroke-width: 4px; stroke-linejoin: round;
+  paint-order: stroke; font-weight: 600;
+}
+.plot path { fill: none; stroke-width: 1px; vector-effect: non-scaling-stroke; }
+.plot .grid { stroke: var(--grid); }
+.plot .fine { stroke-opacity: 0.55; }
+.plot .axis { stroke: var(--axis); }
+.plot .zero { stroke: var(--zero); stroke-width: 1.25px; }
+.plot .band { fill: var(--band); }
+.plot .curve { stroke: var(--c); stroke-width: 2px; stroke-linejoin: round; stroke-linecap: round; }
+.plot .dashed { stroke-dasharray: 6 5; }
+.plot .area { fill: var(--c); fill-opacity: 0.12; }
+.plot .dot { stroke: var(--c); stroke-width: 7px; stroke-linecap: round; }
+.plot .bar { fill: var(--c); }
+.c1 { --c: var(--series-1); } .c2 { --c: var(--series-2); } .c3 { --c: var(--series-3); }
+.c4 { --c: var(--series-4); } .c5 { --c: var(--series-5); } .c6 { --c: var(--series-6); }
+@container (max-width: 380px) {
+  .plot { font-size: 17px; }
+  .plot .curve { stroke-width: 1.75px; }
+  .plot .dot { stroke-width: 6px; }
+}
+@container (min-width: 450px) { .plot { font-size: 14px; } }
+@container (min-width: 540px) { .plot { font-size: 13px; } }
+@container (min-width: 640px) { .plot { font-size: 11px; } }
+)css";
+}
+
+}  // namespace crankloop::report
