@@ -1,5 +1,5 @@
 # crankloop_add_scene(NAME SCENE_HEADER ENGINE_FILE [TICK_US 100] [REAL float|double] [SCENE Type]
-#                     [INTEGRATOR rk4|exponential] [ACCURACY_UM 0.1])
+#                     [INTEGRATOR rk4|exponential] [ACCURACY_UM 0.1] [WITH_C])
 #
 # Makes the static library NAME: one engine for real time, its tables as constant data and its tick compiled with the house flags.
 # A program links NAME and includes "NAME.hpp", where namespace NAME has Engine, Input, Output, State.
@@ -11,6 +11,7 @@
 #   SCENE         the scene's type; default the header's name in CamelCase: my_scene.hpp has MyScene
 #   INTEGRATOR    of elastic valves: Runge-Kutta of fourth order, or the exact exponential of each contact regime; default rk4
 #   ACCURACY_UM   class of the valves' lift error in micrometres, 0.01 to 10: it sets the fine steps near contact changes; default 0.1
+#   WITH_C        also "NAME.h" for C99: NAME_engine, NAME_init(), NAME_step(), NAME_get_...() for what the scene has
 #
 # The tables are made by the command-line program, on the machine that builds. Where that program cannot be built along (when
 # cross-compiling), set CRANKLOOP_PROGRAM to one that was installed, of this version, or have it on the PATH.
@@ -18,7 +19,7 @@
 include("${CMAKE_CURRENT_LIST_DIR}/CrankloopHouseFlags.cmake")
 
 function(crankloop_add_scene name scene_header engine_file)
-  cmake_parse_arguments(PARSE_ARGV 3 arg "" "TICK_US;REAL;SCENE;INTEGRATOR;ACCURACY_UM" "")
+  cmake_parse_arguments(PARSE_ARGV 3 arg "WITH_C" "TICK_US;REAL;SCENE;INTEGRATOR;ACCURACY_UM" "")
   if(arg_UNPARSED_ARGUMENTS OR arg_KEYWORDS_MISSING_VALUES)
     message(FATAL_ERROR "crankloop_add_scene(${name}): not understood: ${arg_UNPARSED_ARGUMENTS} ${arg_KEYWORDS_MISSING_VALUES}")
   endif()
@@ -75,6 +76,31 @@ function(crankloop_add_scene name scene_header engine_file)
   target_include_directories(${name} PUBLIC "${dir}")
   target_link_libraries(${name} PUBLIC crankloop::crankloop)
   crankloop_house_flags(${name})
+  if(arg_WITH_C)
+    crankloop_add_c_glue("${name}" "${dir}")
+  endif()
+endfunction()
+
+# NAME.h and NAME_c.cpp. Only the compiler knows what a scene has and how large its engine is: it says so in an object file that is read, not
+# run, so that cross-compiling is no different.
+function(crankloop_add_c_glue name dir)
+  configure_file("${CMAKE_CURRENT_FUNCTION_LIST_DIR}/scene_facts.cpp.in" "${dir}/${name}_facts.cpp" @ONLY)
+  add_library(${name}_facts OBJECT "${dir}/${name}_facts.cpp")
+  target_include_directories(${name}_facts PRIVATE "${dir}")
+  target_link_libraries(${name}_facts PRIVATE crankloop::crankloop)
+  crankloop_house_flags(${name}_facts)
+  set(templates "")
+  foreach(file IN ITEMS scene_c.cmake scene_c.h.in scene_c.cpp.in)
+    list(APPEND templates "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/${file}")
+  endforeach()
+  add_custom_command(
+    OUTPUT "${dir}/${name}.h" "${dir}/${name}_c.cpp"
+    COMMAND "${CMAKE_COMMAND}" -D "FACTS=$<TARGET_OBJECTS:${name}_facts>" -D "NAME=${name}" -D "SCENE_TYPE=${SCENE_TYPE}"
+      -D "REAL=${SCENE_REAL}" -D "TICK_US=${SCENE_TICK_US}" -D "DIR=${dir}" -P "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/scene_c.cmake"
+    DEPENDS ${name}_facts "$<TARGET_OBJECTS:${name}_facts>" ${templates}
+    COMMENT "C interface of ${name}"
+    VERBATIM)
+  target_sources(${name} PRIVATE "${dir}/${name}_c.cpp" "${dir}/${name}.h")
 endfunction()
 
 # path/to/my_scene.hpp -> MyScene

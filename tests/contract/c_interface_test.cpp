@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <crankloop/crankloop.hpp>
@@ -187,6 +189,21 @@ template <class To, class From>
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
+/// Of valve forces what lies before the padding: in double four bytes stand behind `regime`, and nobody promises what they are.
+template <class To, class From>
+[[nodiscard]] bool same_valve_forces(const To& a, const From& b) {
+  static_assert(sizeof a.valve_forces == sizeof b.valve_forces);
+  bool same = true;
+  for (int t = 0; t < kMaxTrains; ++t) {
+    for (int k = 0; k < kMaxCylinders; ++k) {
+      const auto& one = a.valve_forces[t][k];
+      const auto& other = b.valve_forces[t][k];
+      same = same && std::memcmp(&one, &other, offsetof(std::decay_t<decltype(one)>, regime)) == 0 && one.regime == other.regime;
+    }
+  }
+  return same;
+}
+
 TYPED_TEST(CInterface, GivesEveryGroupAsTheCppEngineDoes) {
   using Api = TypeParam;
   using Real = typename Api::Real;
@@ -236,7 +253,7 @@ TYPED_TEST(CInterface, GivesEveryGroupAsTheCppEngineDoes) {
     ASSERT_TRUE(same_bytes(bearing_loads, static_cast<const BearingLoads<Real, Whole>&>(out))) << tick;
     ASSERT_TRUE(same_bytes(free_forces, static_cast<const FreeForces<Real>&>(out))) << tick;
     ASSERT_TRUE(same_bytes(valves, static_cast<const Valves<Real, Whole>&>(out))) << tick;
-    ASSERT_TRUE(same_bytes(valve_forces, static_cast<const ValveForces<Real, Whole>&>(out))) << tick;
+    ASSERT_TRUE(same_valve_forces(valve_forces, out)) << tick;
     ASSERT_TRUE(same_bytes(valve_results, static_cast<const ValveResults<Real, Whole>&>(out))) << tick;
     // By name, in case both sides have the same bytes in another order.
     ASSERT_EQ(kinematics.acceleration_m_s2[3], out.acceleration_m_s2[3]);

@@ -1,0 +1,37 @@
+// Scenes of a product: everything, little, and measured inputs.
+#pragma once
+
+#include <crankloop/tick/scene.hpp>
+
+struct AllOfIt : crankloop::Scene {
+  static constexpr auto cylinders = crankloop::exactly<4>;
+  static constexpr auto pressure = crankloop::PressureGiven::by_table;
+  static constexpr bool load_ratio = true;
+  static constexpr bool rod_inertia = true;
+  static constexpr bool kinematics = true;
+  static constexpr bool rod_motion = true;
+  static constexpr bool torque = true;
+  static constexpr bool mean_torque = true;
+  static constexpr bool forces = true;
+  static constexpr bool bearing_loads = true;
+  static constexpr bool free_forces = true;
+  static constexpr auto valves = crankloop::ValveModel::elastic;
+  static constexpr auto trains = crankloop::exactly<2>;
+  static constexpr bool valve_forces = true;
+  static constexpr bool valve_results = true;
+  static constexpr bool valve_gas = true;
+  static constexpr bool cam_phasing = true;
+};
+
+struct TorqueOnly : crankloop::Scene {
+  static constexpr auto cylinders = crankloop::exactly<4>;
+  static constexpr auto pressure = crankloop::PressureGiven::by_table;
+  static constexpr bool torque = true;
+};
+
+struct Sensor : crankloop::Scene {
+  static constexpr auto cylinders = crankloop::up_to<6>;
+  static constexpr auto crank = crankloop::CrankGiven::phase;
+  static constexpr auto pressure = crankloop::PressureGiven::by_input;
+  static constexpr bool mean_torque = true;
+};
