@@ -12,9 +12,12 @@
 #include <crankloop/crankloop.hpp>
 
 #include "contract/scenes/scenes.hpp"
+#include "support/test_scenes.hpp"
 
 namespace crankloop {
 namespace {
+
+using namespace tick_test;
 
 // ---- nothing throws ----------------------------------------------------------------------------------------------------------------------
 
@@ -75,6 +78,52 @@ static_assert(sizeof(Output<float, Nothing>) == sizeof(std::uint32_t));
 static_assert(sizeof(Input<float, Nothing>) == sizeof(float));
 static_assert(sizeof(State<float, Nothing>) == sizeof(StateCore<float>));
 static_assert(sizeof(Tables<float, Nothing>) == sizeof(void*));
+
+/// Bytes that the members of a state need: fingerprint, phase, ticks, speed, load; pressures; work.
+template <class Real, class S>
+constexpr std::size_t state_bytes() {
+  using N = Needs<S>;
+  std::size_t bytes = 24 + 2 * sizeof(Real);
+  const std::size_t even = (S::cylinders.capacity + 1) / 2 * 2;
+  if (N::input_pressure) bytes += even * sizeof(Real);
+  if (S::mean_torque) {
+    const std::size_t integrals = 1 + (N::load ? 2 : 1) + (N::input_pressure ? S::cylinders.capacity : 1);
+    bytes += (integrals * 2 + 2) * sizeof(Real);
+  }
+  return bytes;
+}
+
+template <class Real, std::uint32_t N>
+constexpr bool kStatesWithoutPadding =
+    sizeof(State<Real, Asking<kTorque, PressureGiven::by_table, false, CrankGiven::speed, N>>) ==
+        state_bytes<Real, Asking<kTorque, PressureGiven::by_table, false, CrankGiven::speed, N>>() &&
+    sizeof(State<Real, Asking<kAllGroups, PressureGiven::by_table, true, CrankGiven::speed, N>>) ==
+        state_bytes<Real, Asking<kAllGroups, PressureGiven::by_table, true, CrankGiven::speed, N>>() &&
+    sizeof(State<Real, Asking<kMeanTorque, PressureGiven::by_input, false, CrankGiven::phase, N>>) ==
+        state_bytes<Real, Asking<kMeanTorque, PressureGiven::by_input, false, CrankGiven::phase, N>>() &&
+    sizeof(State<Real, Asking<kForces, PressureGiven::by_input, false, CrankGiven::speed, N>>) ==
+        state_bytes<Real, Asking<kForces, PressureGiven::by_input, false, CrankGiven::speed, N>>() &&
+    sizeof(State<Real, Asking<kFreeForces, PressureGiven::none, false, CrankGiven::speed, N>>) ==
+        state_bytes<Real, Asking<kFreeForces, PressureGiven::none, false, CrankGiven::speed, N>>();
+static_assert(kStatesWithoutPadding<float, 1> && kStatesWithoutPadding<double, 1>);
+static_assert(kStatesWithoutPadding<float, 3> && kStatesWithoutPadding<double, 3>);
+static_assert(kStatesWithoutPadding<float, 4> && kStatesWithoutPadding<double, 4>);
+static_assert(kStatesWithoutPadding<float, 15> && kStatesWithoutPadding<double, 15>);
+static_assert(kStatesWithoutPadding<float, 16> && kStatesWithoutPadding<double, 16>);
+
+TEST(EngineSize, OfAFourCylinderTorqueEngineInFloatFitsIn128Bytes) {
+  using TorqueAlone = Asking<kTorque, PressureGiven::by_table, false, CrankGiven::speed, 4>;
+  using TorqueBothWays = Asking<kTorque | kMeanTorque, PressureGiven::by_table, false, CrankGiven::speed, 4>;
+  EXPECT_LE(sizeof(Engine<float, TorqueAlone>), 128u);
+  EXPECT_LE(sizeof(Engine<float, TorqueBothWays>), 128u);
+  // What a scene leaves out takes no room: tables, state, a torque and the faults.
+  EXPECT_EQ(sizeof(Output<float, TorqueAlone>), 8u);
+  EXPECT_EQ(sizeof(Output<float, TorqueBothWays>), 12u);
+  EXPECT_EQ(sizeof(Engine<float, TorqueAlone>), sizeof(void*) + sizeof(State<float, TorqueAlone>) + 8u);
+  EXPECT_EQ(sizeof(Input<float, TorqueBothWays>), 4u);
+  EXPECT_EQ(sizeof(Output<float, Asking<0, PressureGiven::none>>), 4u);
+}
+
 
 // ---- padding -----------------------------------------------------------------------------------------------------------------------------
 
