@@ -17,7 +17,11 @@ function(crankloop_numerics target)
   target_compile_options(${target} PRIVATE
     -fno-lto              # also where the user's CMAKE_CXX_FLAGS say -flto
     -ffp-contract=off     # a*b+c keeps both its roundings: otherwise every processor with fused multiply-add differs
-    -fno-unsafe-math-optimizations -fno-associative-math -fno-reciprocal-math -fsigned-zeros  # as written, not as rearranged
+    -fno-associative-math -fno-reciprocal-math -fsigned-zeros  # as written, not as rearranged
+    # As written also in GCC's other respects. To Clang the same words mean that operations may trap: then it folds no constant, and
+    # computes at run time, in double, what a float scene writes as a double constant.
+    $<$<CXX_COMPILER_ID:GNU>:-fno-unsafe-math-optimizations>
+    $<$<NOT:$<CXX_COMPILER_ID:GNU>>:-fno-approx-func>
     -fno-math-errno       # sqrt is one instruction and not a call that may set errno
     # GCC 12's vectoriser of straight-line code makes fused multiply-adds of a pair of sums whatever -ffp-contract says.
     $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)

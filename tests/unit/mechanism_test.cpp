@@ -265,8 +265,8 @@ TEST(CrankAngleAt, PutsThePistonWhereItWasAskedForOnBothStrokes) {
     const Crank crank = support::random_crank(random);
     const DeadCentres centres = dead_centres(crank);
     const double x = centres.stroke_m * random.between(0, 1);
-    const double down = crank_angle_at(crank, x, true);
-    const double up = crank_angle_at(crank, x, false);
+    const double down = crank_angle_rad(crank, x, true);
+    const double up = crank_angle_rad(crank, x, false);
     // At a dead centre the angle hangs on the square root of the displacement; the displacement it leads back to does
     // not. The triangle's cosine is off by some units, and da dx/da = d(cos) r side / l.
     const double tolerance = 2 * PoseRounding{crank, 0.8}.displacement;
@@ -288,10 +288,10 @@ TEST(CrankAngleAt, AnswersTheNearerDeadCentreBeyondTheStroke) {
     crank.pin_offset_m = offset;
     const DeadCentres centres = dead_centres(crank);
     const double rounding = 1e-7;  // sqrt of the triangle's rounding
-    EXPECT_NEAR(crank_angle_at(crank, -0.001, true), centres.tdc_rad, rounding) << offset;
-    EXPECT_NEAR(crank_angle_at(crank, -0.001, false), centres.tdc_rad + 2 * kPi, rounding) << offset;
-    EXPECT_NEAR(crank_angle_at(crank, centres.stroke_m + 0.001, true), centres.bdc_rad, rounding) << offset;
-    EXPECT_NEAR(crank_angle_at(crank, centres.stroke_m + 0.001, false), centres.bdc_rad, rounding) << offset;
+    EXPECT_NEAR(crank_angle_rad(crank, -0.001, true), centres.tdc_rad, rounding) << offset;
+    EXPECT_NEAR(crank_angle_rad(crank, -0.001, false), centres.tdc_rad + 2 * kPi, rounding) << offset;
+    EXPECT_NEAR(crank_angle_rad(crank, centres.stroke_m + 0.001, true), centres.bdc_rad, rounding) << offset;
+    EXPECT_NEAR(crank_angle_rad(crank, centres.stroke_m + 0.001, false), centres.bdc_rad, rounding) << offset;
   }
 }
 

@@ -147,7 +147,7 @@ IndicatorDiagram::Row IndicatorDiagram::row(int i) const noexcept {
   int stroke = 0;
   while (stroke < 3 && i >= stroke_start_[stroke + 1]) ++stroke;
   const double displacement_m = (point.at - clearance_m3_) / area_m2_;
-  const double angle = crank_angle_at(crank_, displacement_m, stroke % 2 == 0) * kDegPerRad;
+  const double angle = crank_angle_rad(crank_, displacement_m, stroke % 2 == 0) * kDegPerRad;
   return {angle + (stroke >= 2 ? 360 : 0) + turn_deg, point.pressure_Pa};
 }
 
@@ -184,7 +184,7 @@ double IndicatorDiagram::table_motored_Pa(double crank_deg) const noexcept {
   const double expansion_deg = bdc_deg_ - tdc_deg_;
   const auto compression_Pa = [this](double deg) {
     const double x = exact_pose(crank_, deg * kRadPerDeg).displacement_m;
-    return table_Pa(crank_angle_at(crank_, x, false) * kDegPerRad + 360);
+    return table_Pa(crank_angle_rad(crank_, x, false) * kDegPerRad + 360);
   };
   if (since_top < expansion_deg) return compression_Pa(crank_deg);
   const double pressure = table_Pa(crank_deg);

@@ -51,7 +51,7 @@ Pose<double> second_order_pose(const Crank& crank, double crank_rad) noexcept {
   return pose;
 }
 
-double crank_angle_at(const Crank& crank, double displacement_m, bool downward) noexcept {
+double crank_angle_rad(const Crank& crank, double displacement_m, bool downward) noexcept {
   // Triangle crank centre - crank pin - piston pin: the side from the centre to the piston pin is known, so is every angle.
   const double r = crank.crank_radius_m;
   const double l = crank.rod_length_m;

@@ -3,8 +3,9 @@
 #
 #   figures.sh BUILD_DIR errors         largest errors against exact equations: the same everywhere
 #   figures.sh BUILD_DIR scenes         flash, RAM, stack, instructions and time of each scene
+#   figures.sh BUILD_DIR performance FILE  rewrites the part of docs/performance.md between the marks of this machine
 #   figures.sh BUILD_DIR decisions      what docs/decisions/0002 to 0006 state
-#   figures.sh BUILD_DIR check README   whether the README states the errors and the RAM that are measured now
+#   figures.sh BUILD_DIR check README PERFORMANCE  whether they state the errors and the RAM that are measured now
 #   figures.sh BUILD_DIR                errors and scenes
 #
 # Builds into BUILD_DIR; CXX names another compiler than c++. Instructions need valgrind, stack needs GCC: else a dash.
@@ -13,6 +14,8 @@ here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
 engine=$here/../../../tools/engines/diesel_495.ini
 build_dir=$1
 what=${2:-}
+here_now=$(pwd)
+absolute() { case $1 in /*) echo "$1" ;; *) echo "$here_now/$1" ;; esac; }
 jobs=$(nproc 2>/dev/null || echo 1)
 
 mkdir -p "$build_dir"
@@ -27,9 +30,10 @@ cd "$build_dir"
 # section_bytes NAME PATTERN: bytes of the engine's sections whose names match.
 section_bytes() { size -A "lib$1.a" | awk -v pattern="$2" '$1 ~ pattern { sum += $2 } END { print sum + 0 }'; }
 
-# Of step and of what it calls besides itself, at most.
+# Of step and of all that it calls, as if each called the next: at most.
 stack_bytes() {
-  find CMakeFiles -path "*/$1.dir/*.su" -exec cat {} + | awk -F '\t' '/::step\(|detail::Step</ { sum += $2 } END { print (sum > 0 ? sum : "-") }'
+  find . -path "*/$1.dir/*.su" -exec cat {} + |
+    awk -F '\t' '!/::(init|restore|output|state|settle)\(|::Engine\(/ { sum += $2 } END { print (sum > 0 ? sum : "-") }'
 }
 
 instructions() { valgrind --tool=callgrind --callgrind-out-file=/dev/null "./ticks_$1" "$2" 2>&1 | awk '/Collected :/ { print $4 }'; }
@@ -47,21 +51,64 @@ scene_row() {
     "$(instructions_per_tick "$2") | ${ram_and_time#* } |"
 }
 
-scenes() {
+scene_header() {
   echo "| scene, four cylinders of the 495 diesel | code, bytes | tables, bytes | RAM, bytes | stack, bytes | instructions | ns |"
   echo "| --- | --- | --- | --- | --- | --- | --- |"
+}
+
+# What the figures are of.
+measured_on() {
+  compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[^=]*=//p' CMakeCache.txt | head -n 1)
+  echo "$(uname -m), $(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo | head -n 1), $(basename "$compiler") $("$compiler" -dumpfullversion -dumpversion), -O3"
+}
+
+scenes() {
+  scene_header
   for real in float double; do
-    scene_row "mean torque, $real" "MeanTorque_$real"
+    scene_row "mean torque, $real" "TorqueOnly_$real"
     scene_row "torque and mean torque, any load, $real" "TorqueByLoad_$real"
-    scene_row "piston motion, $real" "Motion_$real"
+    scene_row "piston motion, $real" "PistonMotion_$real"
     scene_row "mean torque from measured phase and pressures, $real" "TorqueSensor_$real"
     scene_row "motion, forces, torque, $real" "ForcesAndTorque_$real"
     scene_row "everything, $real" "Everything_$real"
     scene_row "everything, up to 16 cylinders, $real" "EverythingUpTo16_$real"
   done
   echo
-  echo "$(uname -m), $(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo | head -n 1), $(sed -n 's/^CMAKE_CXX_COMPILER:[^=]*=//p' CMakeCache.txt | head -n 1)" \
-    "$("$(sed -n 's/^CMAKE_CXX_COMPILER:[^=]*=//p' CMakeCache.txt | head -n 1)" -dumpfullversion -dumpversion), -O3, load $(cut -d ' ' -f 1 /proc/loadavg)"
+  echo "$(measured_on), load $(cut -d ' ' -f 1 /proc/loadavg)"
+}
+
+# ---- docs/performance.md ----------------------------------------------------------------------------------------------------
+
+example_rows() {  # example_rows REAL
+  scene_row "kinematics only" "PistonMotion_$1"
+  scene_row "torque only" "TorqueOnly_$1"
+  scene_row "forces and torque" "ForcesAndTorque_$1"
+  scene_row "valve kinematics, 8 valves" "ValveLift_$1"
+  scene_row "valve dynamics, 8 valves" "ValveDynamics_$1"
+  scene_row "the whole engine" "WholeEngine_$1"
+}
+
+# Rewrites FILE's lines between "<!-- host begin" and "<!-- host end"; other machines' parts stay as they are.
+performance() {
+  {
+    echo
+    echo "Float:"
+    echo
+    scene_header
+    example_rows float
+    echo
+    echo "Double:"
+    echo
+    scene_header
+    example_rows double
+    echo
+    echo "Measured on: $(measured_on)."
+    echo
+  } >performance.txt
+  awk '/^<!-- host begin/ { print; while ((getline line < "performance.txt") > 0) print line; inside = 1 }
+       /^<!-- host end/ { inside = 0; found = 1 }
+       !inside { print }
+       END { exit !found }' "$1" >performance.md && cp performance.md "$1"
 }
 
 # ---- decisions --------------------------------------------------------------------------------------------------------------
@@ -81,17 +128,27 @@ decisions() {
 
 # ---- check ------------------------------------------------------------------------------------------------------------------
 
-# Every measured row of errors stands in the README, and so does the RAM of every scene that it names.
+# states_ram FILE ENGINE...: a row of FILE has each engine's RAM in its fourth column.
+states_ram() {
+  stating=$1
+  shift
+  for engine_name in "$@"; do
+    ram=$("./ticks_$engine_name" | cut -d ' ' -f 1)
+    awk -F '|' -v ram="$ram" '{ gsub(/ /, "", $5) } $5 == ram { found = 1 } END { exit !found }' "$stating" ||
+      { echo "no scene of $stating has the $ram bytes of RAM of $engine_name" && bad=$((bad + 1)); }
+  done
+}
+
+# Every measured row of errors stands in the README, and so does the RAM of every scene that it and docs/performance.md name.
 check() {
   bad=0
   ./errors "$engine" >errors.txt
   while read -r row; do
     grep -qxF "$row" "$1" || { echo "not in $1: $row" && bad=$((bad + 1)); }
   done <errors.txt
-  for engine_name in MeanTorque_float TorqueByLoad_float Motion_float TorqueSensor_float ForcesAndTorque_float Everything_float; do
-    ram=$("./ticks_$engine_name" | cut -d ' ' -f 1)
-    awk -F '|' -v ram="$ram" '{ gsub(/ /, "", $5) } $5 == ram { found = 1 } END { exit !found }' "$1" ||
-      { echo "no scene of $1 has the $ram bytes of RAM of $engine_name" && bad=$((bad + 1)); }
+  states_ram "$1" TorqueOnly_float TorqueByLoad_float PistonMotion_float TorqueSensor_float ForcesAndTorque_float Everything_float
+  for real in float double; do
+    states_ram "$2" "PistonMotion_$real" "TorqueOnly_$real" "ForcesAndTorque_$real" "ValveLift_$real" "ValveDynamics_$real" "WholeEngine_$real"
   done
   [ "$bad" -eq 0 ]
 }
@@ -100,7 +157,8 @@ case $what in
   errors) ./errors "$engine" ;;
   scenes) scenes ;;
   decisions) decisions ;;
-  check) check "$3" ;;
+  performance) performance "$(absolute "$3")" ;;
+  check) check "$(absolute "$3")" "$(absolute "$4")" ;;
   '')
     ./errors "$engine"
     echo

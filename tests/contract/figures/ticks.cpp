@@ -12,8 +12,8 @@ namespace the_engine = FIGURES_ENGINE;
 
 namespace {
 
-constexpr int kBatches = 201;
-constexpr long kTicksPerBatch = 5000;
+constexpr int kBatches = 1001;
+constexpr long kTicksPerBatch = 600;  // a cycle at 2000 rpm: whole, because valves take more at work; short, so that most are not interrupted
 
 the_engine::Engine engine;
 the_engine::Input input;

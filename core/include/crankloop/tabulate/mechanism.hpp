@@ -18,7 +18,7 @@ namespace crankloop {
 
 /// Crank angle at which the piston is at displacement x: on the way down in [tdc, bdc], on the way up in [bdc, tdc + 2 pi].
 /// x outside the stroke answers the dead centre that is nearer.
-[[nodiscard]] double crank_angle_at(const Crank& crank, double displacement_m, bool downward) noexcept;
+[[nodiscard]] double crank_angle_rad(const Crank& crank, double displacement_m, bool downward) noexcept;
 
 /// True dead centres and stroke. Without offset: 0, pi, 2 r.
 struct DeadCentres {
