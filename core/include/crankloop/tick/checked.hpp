@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 
 #include <crankloop/tick/faults.hpp>
 #include <crankloop/tick/scene.hpp>
@@ -14,10 +15,36 @@ template <class Real>
   return x >= lowest && x <= highest;
 }
 
+/// The bits of a number: as integers, numbers without sign order as their values do, with infinity and NaN beyond all finite ones. One
+/// integer comparison is then a whole range check, where two of floats take their status to and fro.
+[[nodiscard]] inline std::uint32_t bits_of(float x) noexcept {
+  std::uint32_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  return bits;
+}
+[[nodiscard]] inline std::uint64_t bits_of(double x) noexcept {
+  std::uint64_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  return bits;
+}
+
+/// -most <= x <= most, as within(); `most` positive and finite.
+template <class Real>
+[[nodiscard]] inline bool within_magnitude(Real x, Real most) noexcept {
+  const auto bits = bits_of(x);
+  return (bits & (static_cast<decltype(bits)>(~decltype(bits){0}) >> 1)) <= bits_of(most);
+}
+
+/// 0 <= x <= most, as within(); `most` positive and finite.
+template <class Real>
+[[nodiscard]] inline bool within_positive(Real x, Real most) noexcept {
+  return bits_of(x) <= bits_of(most) || x == Real{0};  // a zero may have a sign
+}
+
 /// x if it is good, else the last good one and its fault bit.
 template <class Real>
-[[nodiscard]] constexpr Real checked(Real x, Real lowest, Real highest, Real& last_good, Fault fault, std::uint32_t& faults) noexcept {
-  if (within(x, lowest, highest)) {
+[[nodiscard]] constexpr Real checked(Real x, bool good, Real& last_good, Fault fault, std::uint32_t& faults) noexcept {
+  if (good) {
     last_good = x;
   } else {
     faults |= fault;

@@ -359,7 +359,7 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
   bool jumped = false;
   if constexpr (S::crank == CrankGiven::speed) {
     const Real limit = drive.speed_limit_rad_s;
-    const Real speed = detail::checked(input.speed_rad_s, -limit, limit, state_.speed_rad_s, kFaultSpeed, faults);
+    const Real speed = detail::checked(input.speed_rad_s, detail::within_magnitude(input.speed_rad_s, limit), state_.speed_rad_s, kFaultSpeed, faults);
     turned = Phase::from_cycles(speed * drive.cycles_per_tick_per_rad_s);
     state_.phase += turned;
   } else {
@@ -374,13 +374,14 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
   }
   ++state_.ticks;
   if constexpr (Needs<S>::load) {
-    (void)detail::checked(input.load_ratio, Real{0}, Real{2}, state_.load_ratio, kFaultLoadRatio, faults);
+    (void)detail::checked(input.load_ratio, detail::within_positive(input.load_ratio, Real{2}), state_.load_ratio, kFaultLoadRatio, faults);
   }
   [[maybe_unused]] Real mean_pressure_Pa[Needs<S>::input_pressure ? S::cylinders.capacity : 1];
   if constexpr (Needs<S>::input_pressure) {
     for (std::uint32_t k = 0; k < detail::count<S>(drive.cylinders); ++k) {
       const Real before = state_.pressure_Pa[k];
-      const Real now = detail::checked(input.pressure_Pa[k], Real{0}, static_cast<Real>(1e8), state_.pressure_Pa[k], kFaultPressure, faults);
+      const bool good = detail::within_positive(input.pressure_Pa[k], static_cast<Real>(1e8));
+      const Real now = detail::checked(input.pressure_Pa[k], good, state_.pressure_Pa[k], kFaultPressure, faults);
       mean_pressure_Pa[k] = (before + now) / 2;
     }
   }

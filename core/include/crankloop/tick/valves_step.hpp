@@ -74,7 +74,7 @@ struct ValvesStep {
   }
 
   void move_cam(std::uint32_t t, Real target_deg, std::uint32_t& faults) noexcept {
-    const Real target = checked(target_deg, Real{-180}, Real{180}, state.cam_phase_target_deg[t], kFaultCamPhase, faults);
+    const Real target = checked(target_deg, within_magnitude(target_deg, Real{180}), state.cam_phase_target_deg[t], kFaultCamPhase, faults);
     const auto wanted = static_cast<std::int64_t>(Phase::from_cycles(target * static_cast<Real>(1.0 / kDegreesPerCycle)).units());
     const auto most = static_cast<std::int64_t>(tables.lift_curves[t].most_phase_per_tick);
     std::int64_t move = wanted - static_cast<std::int64_t>(state.cam_phase[t]);
