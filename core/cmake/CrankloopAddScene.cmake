@@ -1,4 +1,5 @@
-# crankloop_add_scene(NAME SCENE_HEADER ENGINE_FILE [TICK_US 100] [REAL float|double] [SCENE Type])
+# crankloop_add_scene(NAME SCENE_HEADER ENGINE_FILE [TICK_US 100] [REAL float|double] [SCENE Type]
+#                     [INTEGRATOR rk4|exponential])
 #
 # Makes the static library NAME: one engine for real time, its tables as constant data and its tick compiled with the house flags.
 # A program links NAME and includes "NAME.hpp", where namespace NAME has Engine, Input, Output, State.
@@ -8,6 +9,7 @@
 #   TICK_US       microseconds from one step to the next; default 100
 #   REAL          the arithmetic of the tick; default float
 #   SCENE         the scene's type; default the header's name in CamelCase: my_scene.hpp has MyScene
+#   INTEGRATOR    of elastic valves; default rk4
 #
 # The tables are made by the command-line program, on the machine that builds. Where that program cannot be built along (when
 # cross-compiling), set CRANKLOOP_PROGRAM to one that was installed, of this version, or have it on the PATH.
@@ -15,7 +17,7 @@
 include("${CMAKE_CURRENT_LIST_DIR}/CrankloopHouseFlags.cmake")
 
 function(crankloop_add_scene name scene_header engine_file)
-  cmake_parse_arguments(PARSE_ARGV 3 arg "" "TICK_US;REAL;SCENE" "")
+  cmake_parse_arguments(PARSE_ARGV 3 arg "" "TICK_US;REAL;SCENE;INTEGRATOR" "")
   if(arg_UNPARSED_ARGUMENTS OR arg_KEYWORDS_MISSING_VALUES)
     message(FATAL_ERROR "crankloop_add_scene(${name}): not understood: ${arg_UNPARSED_ARGUMENTS} ${arg_KEYWORDS_MISSING_VALUES}")
   endif()
@@ -29,6 +31,11 @@ function(crankloop_add_scene name scene_header engine_file)
     set(arg_REAL float)
   elseif(NOT arg_REAL MATCHES "^(float|double)$")
     message(FATAL_ERROR "crankloop_add_scene(${name}): REAL is float or double, not '${arg_REAL}'")
+  endif()
+  if(NOT DEFINED arg_INTEGRATOR)
+    set(arg_INTEGRATOR rk4)
+  elseif(NOT arg_INTEGRATOR MATCHES "^(rk4|exponential)$")
+    message(FATAL_ERROR "crankloop_add_scene(${name}): INTEGRATOR is rk4 or exponential, not '${arg_INTEGRATOR}'")
   endif()
   if(NOT DEFINED arg_SCENE)
     crankloop_camel_case(arg_SCENE "${scene_header}")
@@ -47,7 +54,8 @@ function(crankloop_add_scene name scene_header engine_file)
   crankloop_tables_of_engine_file(pressure_tables "${engine_file}")
   add_custom_command(
     OUTPUT "${tables}"
-    COMMAND "${program}" tables "${engine_file}" --tick-us "${arg_TICK_US}" --real "${arg_REAL}" --output "${tables}"
+    COMMAND "${program}" tables "${engine_file}" --tick-us "${arg_TICK_US}" --real "${arg_REAL}" --integrator "${arg_INTEGRATOR}"
+      --output "${tables}"
     DEPENDS "${program}" "${engine_file}" ${pressure_tables}
     COMMENT "Tables of ${name}"
     VERBATIM)
@@ -62,6 +70,9 @@ function(crankloop_add_scene name scene_header engine_file)
   add_library(${name} STATIC "${dir}/${name}.cpp" "${dir}/${name}.hpp" "${tables}")
   target_include_directories(${name} PUBLIC "${dir}")
   target_link_libraries(${name} PUBLIC crankloop::crankloop)
+  if(TARGET crankloop_host_program)  # a cross build of crankloop itself: port/common/host_program.cmake
+    add_dependencies(${name} crankloop_host_program)
+  endif()
   crankloop_house_flags(${name})
 endfunction()
 
