@@ -31,6 +31,7 @@ row() {
     $1 == "painted_stack" { painted = $2 }
     $1 == "faults" { print scene " sets fault bits: " $2 > "/dev/stderr"; bad = 1 }
     END {
+      if (painted + 0 > stack + 0) { print scene ": painting finds more stack than the call graph" > "/dev/stderr"; bad = 1 }
       if (bad || !("redline" in worst) || painted == "") exit 1
       print "| " scene " | " tick + 0 " | " mean["idle"] " / " worst["idle"] " | " mean["rated"] " / " worst["rated"] " | " mean["redline"] " / " \
         worst["redline"] " | " code " | " tables " | " ram " | " stack " | " painted " |"
