@@ -4,3 +4,4 @@ crankloop_bare_metal(cortex_r5f arm-none-eabi "-mcpu=cortex-r5 -marm -mfpu=vfpv3
 # An instruction takes 2^0 ns of the emulated time, and the cycle counter counts nanoseconds.
 set(CMAKE_CROSSCOMPILING_EMULATOR
   ${CMAKE_CURRENT_LIST_DIR}/run.sh qemu-system-arm -M none -cpu cortex-r5f -m 16M ${crankloop_qemu_arguments} -icount shift=0,sleep=off)
+set(CRANKLOOP_PORT_TITLE "Cortex-R5F" CACHE STRING "The processor, for people")

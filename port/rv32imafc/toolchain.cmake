@@ -9,3 +9,5 @@ endif()
 # An instruction takes 2^0 ns of the emulated time.
 set(CMAKE_CROSSCOMPILING_EMULATOR
   qemu-system-riscv32 -M virt -bios none ${crankloop_qemu_arguments} -icount shift=0,sleep=off -kernel)
+set(CRANKLOOP_PORT_SOFT_DOUBLE ON CACHE BOOL "Double arithmetic is software: slow")
+set(CRANKLOOP_PORT_TITLE "RV32IMAFC" CACHE STRING "The processor, for people")
