@@ -267,7 +267,7 @@ TYPED_TEST(CInterface, GivesEveryGroupAsTheCppEngineDoes) {
 }
 
 TEST(CProgram, InC99PrintsTheTorqueOfTheCppEngineBitForBit) {
-  std::FILE* program = popen(CRANKLOOP_C_PROGRAM, "r");
+  std::FILE* program = popen("'" CRANKLOOP_C_PROGRAM "'", "r");
   ASSERT_NE(program, nullptr);
   auto float_tables = std::make_unique<TableStorage<float, Whole>>();
   auto double_tables = std::make_unique<TableStorage<double, Whole>>();

@@ -1,0 +1,5 @@
+# Cortex-M4F: single-precision floating-point unit. Images run on QEMU's mps2-an386.
+include("${CMAKE_CURRENT_LIST_DIR}/../cortex_m/toolchain.cmake")
+crankloop_cortex_m(cortex_m4f "-mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard" mps2-an386)
+set(CRANKLOOP_PORT_SOFT_DOUBLE ON CACHE BOOL "Double arithmetic is software: slow")
+set(CRANKLOOP_PORT_TITLE "Cortex-M4F" CACHE STRING "The processor, for people")

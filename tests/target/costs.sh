@@ -1,0 +1,107 @@
+#!/bin/sh
+# costs.sh CONF print   what every scene costs on a target, by running its images of costs.cpp in the emulator
+# costs.sh CONF write   the same, into the target's part of docs/performance.md
+# costs.sh CONF check   fails when a figure has grown by more than 2 % over docs/performance.md, provided that the compiler and the emulator
+#                       are those recorded there; else tells the differences. Last line: "N passed, M failed"
+#
+# CONF is costs.conf in the build's tests/target. A figure that grew for a good reason is renewed by
+# `cmake --build --preset PRESET --target write_costs` and committed.
+set -eu
+here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
+# shellcheck disable=SC1090  # made by CMake
+. "$1"
+: "${target:?}" "${title:?}" "${compiler:?}" "${size:?}" "${emulator:?}" "${build_type:?}" "${images:?}" "${engines:?}" "${performance:?}"
+what=$2
+begin="<!-- costs of $target, written by tests/target/costs.sh; do not edit -->"
+end="<!-- end of costs of $target -->"
+
+# section_bytes ENGINE PATTERN: bytes of the library's sections whose names match.
+section_bytes() { "$size" -A "$images/lib$1.a" | awk -v pattern="$2" '$1 ~ pattern { sum += $2 } END { print sum + 0 }'; }
+
+row() {
+  log=$images/costs_$1.txt
+  # shellcheck disable=SC2086  # a command with its arguments
+  $emulator "$images/costs_$1" </dev/null >"$log" 2>&1 || { cat "$log" >&2 && return 1; }
+  stack=$(find "$images" -path "*/$1.dir/*.ci" -exec awk -v root='::step[(]' -f "$here/worst_stack.awk" {} +) || return 1
+  awk -v scene="${1%_*}" -v tick="${1##*_}" -v code="$(section_bytes "$1" '^\\.text')" \
+    -v tables="$(section_bytes "$1" '^\\.(s?rodata|data\\.rel\\.ro)')" -v stack="$stack" '
+    { sub(/\r$/, "") }
+    $1 == "instructions" { mean[$2] = $3; worst[$2] = $4 }
+    $1 == "ram" { ram = $2 }
+    $1 == "painted_stack" { painted = $2 }
+    $1 == "faults" { print scene " sets fault bits: " $2 > "/dev/stderr"; bad = 1 }
+    END {
+      if (painted + 0 > stack + 0) { print scene ": painting finds more stack than the call graph" > "/dev/stderr"; bad = 1 }
+      if (bad || !("redline" in worst) || painted == "") exit 1
+      print "| " scene " | " tick + 0 " | " mean["idle"] " / " worst["idle"] " | " mean["rated"] " / " worst["rated"] " | " mean["redline"] " / " \
+        worst["redline"] " | " code " | " tables " | " ram " | " stack " | " painted " |"
+    }' "$log"
+}
+
+# The compiler and the emulator that the figures hold for.
+versions() {
+  for word in $emulator; do
+    case $word in *qemu-*) qemu=$word ;; esac
+  done
+  printf '%s %s %s; %s\n' "$(basename "$compiler")" "$("$compiler" -dumpfullversion)" "$build_type" "$("$qemu" --version | head -n 1)"
+}
+
+print_costs() {
+  echo "$begin"
+  echo "### $title"
+  echo
+  echo "$(versions)."
+  echo
+  echo "| scene | tick, us | idle, mean / worst | rated, mean / worst | redline, mean / worst | code | tables | RAM | stack, bound | stack, painted |"
+  echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
+  for engine in $engines; do row "$engine"; done
+  echo "$end"
+}
+
+measured=$images/costs.md
+print_costs >"$measured"
+
+case $what in
+  print) cat "$measured" ;;
+  write)
+    grep -qxF "$begin" "$performance" || printf '\n%s\n%s\n' "$begin" "$end" >>"$performance"
+    awk -v begin="$begin" -v end="$end" -v measured="$measured" '
+      $0 == begin { while ((getline line < measured) > 0) print line; skip = 1 }
+      !skip { print }
+      $0 == end { skip = 0 }' "$performance" >"$performance.new"
+    mv "$performance.new" "$performance"
+    ;;
+  check)
+    awk -v begin="$begin" -v end="$end" -v versions="$(versions)." '
+      # Rows by scene and tick; the figures of both files in the same order.
+      FNR == 1 { ++file }
+      $0 == begin { inside = 1 }
+      $0 == end { inside = 0 }
+      inside && file == 1 && $0 == versions { same_versions = 1 }
+      inside && /^\| [A-Z]/ {
+        split($0, cell, " *[|] *")
+        key = cell[2] ", " cell[3] " us"
+        line = $0
+        sub(/^\| [^|]*\|[^|]*\|/, "", line)
+        gsub(/[|\/]/, " ", line)
+        if (file == 1) committed[key] = line
+        else {
+          n = split(line, now, " ")
+          if (!(key in committed)) { print key ": not in the committed table"; ++failed; next }
+          split(committed[key], before, " ")
+          grown = ""
+          for (i = 1; i <= n; ++i) if (now[i] > before[i] * 1.02) grown = grown " " before[i] " -> " now[i]
+          if (grown == "") { ++passed; next }
+          print key ":" grown
+          if (same_versions) ++failed
+          else ++passed
+        }
+      }
+      END {
+        if (!same_versions) print "other versions than those recorded: differences are told, not counted"
+        print passed + 0 " passed, " failed + 0 " failed"
+        exit failed > 0 || passed == 0
+      }' "$performance" "$measured"
+    ;;
+  *) sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
+esac

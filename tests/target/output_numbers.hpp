@@ -1,0 +1,96 @@
+// Every number of an output, one after the other, without the padding between them: to hash it and to see whether it is finite.
+//
+// What belongs here: the members of each output group. Groups are bound member by member, so one that is added cannot be forgotten here.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <crankloop/tick/io.hpp>
+
+namespace target_check {
+
+template <class Sink, class Real, std::size_t N>
+void each(Sink& sink, const Real (&row)[N]) {
+  for (const Real& x : row) each(sink, x);
+}
+template <class Sink>
+void each(Sink& sink, const float& x) {
+  sink.add(x);
+}
+template <class Sink>
+void each(Sink& sink, const double& x) {
+  sink.add(x);
+}
+template <class Sink>
+void each(Sink& sink, const std::uint32_t& x) {
+  sink.add(x);
+}
+template <class Sink, class Real>
+void each(Sink& sink, const crankloop::CylinderForces<Real>& forces) {
+  const auto& [pressure, gas, inertia, total, side, rod, radial, tangential, torque, tilting] = forces;
+  for (const Real x : {pressure, gas, inertia, total, side, rod, radial, tangential, torque, tilting}) sink.add(x);
+}
+template <class Sink, class Real>
+void each(Sink& sink, const crankloop::FreeForce<Real>& force) {
+  const auto& [up, lateral, pitch, yaw] = force;
+  for (const Real x : {up, lateral, pitch, yaw}) sink.add(x);
+}
+template <class Sink, class Real>
+void each(Sink& sink, const crankloop::ValveMotionOutput<Real>& motion) {
+  const auto& [theory, lift, velocity, acceleration] = motion;
+  for (const Real x : {theory, lift, velocity, acceleration}) sink.add(x);
+}
+template <class Sink, class Real>
+void each(Sink& sink, const crankloop::ValveForcesOutput<Real>& forces) {
+  const auto& [train, seat, tip, cam, gap, regime] = forces;
+  for (const Real x : {train, seat, tip, cam, gap}) sink.add(x);
+  sink.add(regime);
+}
+template <class Sink, class Real>
+void each(Sink& sink, const crankloop::ValveCycle<Real>& cycle) {
+  const auto& [lift, speed, acceleration, delay, gap, start, duration, seating, bounce, separations, bounces, changes, off_seat] = cycle;
+  for (const Real x : {lift, speed, acceleration, delay, gap, start, duration, seating, bounce}) sink.add(x);
+  for (const std::uint32_t x : {separations, bounces, changes, off_seat}) sink.add(x);
+}
+
+/// sink.add(x) for each number of the output, the fault bits last.
+template <class Sink, class Real, class S>
+void each_number(Sink& sink, const crankloop::Output<Real, S>& out) {
+  if constexpr (S::kinematics) {
+    const auto& [displacement, velocity, acceleration] = static_cast<const crankloop::Kinematics<Real, S>&>(out);
+    each(sink, displacement), each(sink, velocity), each(sink, acceleration);
+  }
+  if constexpr (S::rod_motion) {
+    const auto& [angle, speed, acceleration] = static_cast<const crankloop::RodMotion<Real, S>&>(out);
+    each(sink, angle), each(sink, speed), each(sink, acceleration);
+  }
+  if constexpr (S::torque) each(sink, out.torque_Nm);
+  if constexpr (S::mean_torque) each(sink, out.mean_torque_Nm);
+  if constexpr (S::forces) {
+    for (const auto& forces : out.cylinder) each(sink, forces);
+  }
+  if constexpr (S::bearing_loads) {
+    const auto& [radial, tangential, load, along, across, journal] = static_cast<const crankloop::BearingLoads<Real, S>&>(out);
+    each(sink, radial), each(sink, tangential), each(sink, load), each(sink, along), each(sink, across), each(sink, journal);
+  }
+  if constexpr (S::free_forces) each(sink, out.first), each(sink, out.second), each(sink, out.rotating);
+  if constexpr (crankloop::Needs<S>::any_valves) {
+    for (const auto& train : out.valve) {
+      for (const auto& valve : train) each(sink, valve);
+    }
+  }
+  if constexpr (S::valve_forces) {
+    for (const auto& train : out.valve_forces) {
+      for (const auto& forces : train) each(sink, forces);
+    }
+  }
+  if constexpr (S::valve_results) {
+    for (const auto& train : out.valve_cycle) {
+      for (const auto& cycle : train) each(sink, cycle);
+    }
+  }
+  sink.add(out.faults);
+}
+
+}  // namespace target_check

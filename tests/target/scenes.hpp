@@ -1,0 +1,77 @@
+// The scenes whose results and costs are watched on every target, from the least to all.
+//
+// What belongs here: one scene per typical use, for four cylinders with an intake and an exhaust valve each.
+#pragma once
+
+#include <crankloop/tick/scene.hpp>
+
+namespace target_scenes {
+
+/// Torque at the tick from pressures that the caller measures.
+struct TorqueOfPressures : crankloop::Scene {
+  static constexpr auto cylinders = crankloop::exactly<4>;
+  static constexpr auto pressure = crankloop::PressureGiven::by_input;
+  static constexpr bool torque = true;
+};
+
+/// Torque at the tick from the engine file's pressures.
+struct TorqueOfTables : crankloop::Scene {
+  static constexpr auto cylinders = crankloop::exactly<4>;
+  static constexpr auto pressure = crankloop::PressureGiven::by_table;
+  static constexpr bool torque = true;
+};
+
+/// Torque averaged over the tick: README.md's loop.
+struct MeanTorque : crankloop::Scene {
+  static constexpr auto cylinders = crankloop::exactly<4>;
+  static constexpr auto pressure = crankloop::PressureGiven::by_table;
+  static constexpr bool mean_torque = true;
+};
+
+/// A torque sensor: measured angle and pressures in, the last tick's torque out.
+struct TorqueSensor : crankloop::Scene {
+  static constexpr auto cylinders = crankloop::exactly<4>;
+  static constexpr auto crank = crankloop::CrankGiven::phase;
+  static constexpr auto pressure = crankloop::PressureGiven::by_input;
+  static constexpr bool mean_torque = true;
+};
+
+/// Motion, every force and the torque of each cylinder.
+struct Forces : crankloop::Scene {
+  static constexpr auto cylinders = crankloop::exactly<4>;
+  static constexpr auto pressure = crankloop::PressureGiven::by_table;
+  static constexpr bool kinematics = true;
+  static constexpr bool forces = true;
+  static constexpr bool torque = true;
+  static constexpr bool mean_torque = true;
+};
+
+/// Eight valves that do as their cams say.
+struct FollowingValves : TorqueOfTables {
+  static constexpr auto valves = crankloop::ValveModel::following;
+  static constexpr auto trains = crankloop::exactly<2>;
+};
+
+/// Eight valves with inertia, float and bounce.
+struct ElasticValves : TorqueOfTables {
+  static constexpr auto valves = crankloop::ValveModel::elastic;
+  static constexpr auto trains = crankloop::exactly<2>;
+};
+
+/// All there is, for up to four cylinders with up to two trains.
+struct Everything : Forces {
+  static constexpr auto cylinders = crankloop::up_to<4>;
+  static constexpr bool load_ratio = true;
+  static constexpr bool rod_inertia = true;
+  static constexpr bool rod_motion = true;
+  static constexpr bool bearing_loads = true;
+  static constexpr bool free_forces = true;
+  static constexpr auto valves = crankloop::ValveModel::elastic;
+  static constexpr auto trains = crankloop::up_to<2>;
+  static constexpr bool valve_forces = true;
+  static constexpr bool valve_results = true;
+  static constexpr bool valve_gas = true;
+  static constexpr bool cam_phasing = true;
+};
+
+}  // namespace target_scenes
