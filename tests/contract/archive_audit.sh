@@ -12,7 +12,8 @@ if [ "$1" = --float ]; then real=float && shift; fi
 # The last two are of compilers that are set up to ask for them: position-independent code, and Ubuntu's stack guard.
 allowed_undefined='memcpy memset memmove _GLOBAL_OFFSET_TABLE_ __stack_chk_fail'
 fused='^(v?fn?m(add|sub)(add|sub)?(132|213|231)?[ps][sdh]|fn?m(add|sub)|fml[as])$'
-in_double='^(v?(add|sub|mul|div|sqrt|min|max|cmp[a-z]*|u?comi|round|rndscale|hadd|hsub|addsub|fn?m[a-z]+[0-9]*)[sp]d|v?cvt[a-z0-9]*[sp]d[a-z0-9]*|f[a-z]+[0-9]*)$'
+in_double="^(v?(add|sub|mul|div|sqrt|min|max|cmp[a-z]*|u?comi|round|rndscale|hadd|hsub|addsub|fn?m[a-z]+[0-9]*)[sp]d"
+in_double="$in_double|v?cvt[a-z0-9]*[sp]d[a-z0-9]*|f[a-z]+[0-9]*)\$"  # the last: x87, in extended precision
 
 bad=0
 complain() {  # complain WHAT LIST: if the list is not empty

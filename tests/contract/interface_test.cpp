@@ -28,10 +28,12 @@ constexpr bool nothing_throws() {
   E* engine = nullptr;
   const typename E::Tables* tables = nullptr;
   using Storage = TableStorage<Real, S>;
-  return noexcept(engine->init(*tables)) && noexcept(engine->init(*tables, Phase{})) && noexcept(engine->step(std::declval<const typename E::Input&>())) &&
+  return noexcept(engine->init(*tables)) && noexcept(engine->init(*tables, Phase{})) &&
+         noexcept(engine->step(std::declval<const typename E::Input&>())) &&
          noexcept(constant->output()) && noexcept(constant->state()) && noexcept(engine->restore(constant->state())) &&
          noexcept(std::declval<Storage&>().build(std::declval<const EngineDefinition&>(), std::declval<const TickOptions&>())) &&
-         noexcept(std::declval<const Storage&>().tables()) && std::is_nothrow_default_constructible_v<E> && std::is_nothrow_copy_constructible_v<E> &&
+         noexcept(std::declval<const Storage&>().tables()) && std::is_nothrow_default_constructible_v<E> &&
+         std::is_nothrow_copy_constructible_v<E> &&
          std::is_nothrow_copy_assignable_v<E> && std::is_nothrow_destructible_v<E>;
 }
 static_assert(noexcept(validate(std::declval<const EngineDefinition&>())));
@@ -40,8 +42,10 @@ static_assert(noexcept(validate(std::declval<const EngineDefinition&>())));
 template <class Real, class S>
 constexpr bool is_plain_data() {
   using E = Engine<Real, S>;
-  return std::is_trivially_copyable_v<E> && std::is_trivially_copyable_v<typename E::State> && std::is_trivially_copyable_v<typename E::Input> &&
-         std::is_trivially_copyable_v<typename E::Output> && std::is_trivially_copyable_v<typename E::Tables> && std::is_trivially_destructible_v<E> &&
+  return std::is_trivially_copyable_v<E> && std::is_trivially_copyable_v<typename E::State> &&
+         std::is_trivially_copyable_v<typename E::Input> &&
+         std::is_trivially_copyable_v<typename E::Output> && std::is_trivially_copyable_v<typename E::Tables> &&
+         std::is_trivially_destructible_v<E> &&
          !std::is_polymorphic_v<E>;
 }
 static_assert(std::is_trivially_copyable_v<EngineDefinition> && std::is_trivially_copyable_v<Status> && std::is_trivially_copyable_v<Phase>);
