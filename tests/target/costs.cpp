@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "hostile.hpp"
 #include "port/common/machine.hpp"
 #include "port/common/text.hpp"
 
@@ -79,6 +80,20 @@ void measure(const Speed& speed) noexcept {
   if (faults != 0) port::Line() << "faults " << faults;
 }
 
+/// The worst of many ticks whose inputs are meant to hurt.
+void measure_hostile() noexcept {
+  constexpr int kTicks = 5000;
+  target_check::Random random(495);
+  const std::uint32_t counting = cost_of_counting();
+  std::uint32_t worst = 0;
+  for (int i = 0; i < kTicks; ++i) {
+    target_check::hurt<Real, under_test::Scene>(input, random);
+    const std::uint32_t cost = cost_of_step() - counting;
+    if (cost > worst) worst = cost;
+  }
+  port::Line() << "hostile " << worst;
+}
+
 constexpr std::uint32_t kPaint = 0xA5C3965Au;
 constexpr std::ptrdiff_t kPaintedWords = 2048;
 
@@ -106,6 +121,7 @@ std::uint32_t painted_stack() noexcept {
 
 int main() {
   for (const Speed& speed : kSpeeds) measure(speed);
+  measure_hostile();
   port::Line() << "ram " << static_cast<std::uint32_t>(sizeof engine);
   port::Line() << "painted_stack " << painted_stack();
   port::finish(0);

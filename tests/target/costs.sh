@@ -27,14 +27,15 @@ row() {
     -v tables="$(section_bytes "$1" '^\\.(s?rodata|data\\.rel\\.ro)')" -v stack="$stack" '
     { sub(/\r$/, "") }
     $1 == "instructions" { mean[$2] = $3; worst[$2] = $4 }
+    $1 == "hostile" { hostile = $2 }
     $1 == "ram" { ram = $2 }
     $1 == "painted_stack" { painted = $2 }
     $1 == "faults" { print scene " sets fault bits: " $2 > "/dev/stderr"; bad = 1 }
     END {
       if (painted + 0 > stack + 0) { print scene ": painting finds more stack than the call graph" > "/dev/stderr"; bad = 1 }
-      if (bad || !("redline" in worst) || painted == "") exit 1
+      if (bad || !("redline" in worst) || hostile == "" || painted == "") exit 1
       print "| " scene " | " tick + 0 " | " mean["idle"] " / " worst["idle"] " | " mean["rated"] " / " worst["rated"] " | " mean["redline"] " / " \
-        worst["redline"] " | " code " | " tables " | " ram " | " stack " | " painted " |"
+        worst["redline"] " | " hostile " | " code " | " tables " | " ram " | " stack " | " painted " |"
     }' "$log"
 }
 
@@ -52,8 +53,8 @@ print_costs() {
   echo
   echo "$(versions)."
   echo
-  echo "| scene | tick, us | idle, mean / worst | rated, mean / worst | redline, mean / worst | code | tables | RAM | stack, bound | stack, painted |"
-  echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
+  echo "| scene | tick, us | idle, mean / worst | rated, mean / worst | redline, mean / worst | hostile | code | tables | RAM | stack, bound | stack, painted |"
+  echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
   for engine in $engines; do row "$engine"; done
   echo "$end"
 }
