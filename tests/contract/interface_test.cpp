@@ -64,7 +64,7 @@ static_assert(keeps_its_promises<PistonMotion>() && keeps_its_promises<TorqueOnl
 // The promises of README.md and docs/performance.md, on a machine with pointers of eight bytes.
 static_assert(sizeof(Engine<float, TorqueOnly>) <= 128);
 static_assert(sizeof(Engine<float, ValveDynamics>) <= 1024);
-static_assert(sizeof(Engine<float, WholeEngine>) <= 2096);  // 2048 is wanted: the eight records' two spare words are 64 of them
+static_assert(sizeof(Engine<float, WholeEngine>) <= 2048);
 
 /// An engine is the address of its tables, its state and its output, and nothing else.
 template <class Real, class S>

@@ -412,7 +412,7 @@ constexpr std::size_t bytes_of_parts() {
   std::size_t bytes = 8 + 8 + 8 + 2 * real;  // fingerprint, phase, ticks; speed and load ratio
   bytes += valves * (4 * real + 2 * 4);      // lift, velocity; the train's lift and slope; regime, asleep
   if (Phasing) bytes += Trains * 8 + (Trains + 1) / 2 * 2 * real;
-  if (Results) bytes += valves * ((9 + 5) * real + (4 + 4) * 4);  // cycle and record: numbers, counts
+  if (Results) bytes += valves * ((9 + 3) * real + (4 + 2) * 4);  // cycle and record: numbers, counts
   return bytes;
 }
 

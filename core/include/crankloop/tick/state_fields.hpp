@@ -97,12 +97,9 @@ struct StateFields {
       v.number(*x, -kMostNoted, kMostNoted);
     }
     for (auto* count : {&c.separations, &c.bounces, &c.contact_changes, &c.off_seat_at_end}) v.word(*count, kAny);
-    for (auto* x : {&r.theory_opened_deg_, &r.gap_m_, &r.separated_at_deg_, &r.hop_m_}) v.number(*x, -kMostNoted, kMostNoted);
-    v.spare(r.spare_);
+    for (auto* x : {&r.theory_opened_deg_, &r.separated_at_deg_, &r.excursion_m_}) v.number(*x, -kMostNoted, kMostNoted);
     v.word(r.stage_, 2u);
-    v.word(r.separated_, 1u);
-    v.word(r.theory_opened_, 1u);
-    v.spare(r.spare_word_);
+    v.word(r.flags_, 3u);
   }
 };
 

@@ -62,11 +62,11 @@ class ValveRecord {
     raise(cycle_.largest_acceleration_m_s2, magnitude(s.acceleration_m_s2));
     note_opening(s);
     if (stage_ == Stage::seated && (s.regime & kSeatOn) == 0) {
-      if (lift - seat_contact_m > hop_m_) hop_m_ = lift - seat_contact_m;
+      raise(excursion_m_, lift - seat_contact_m);
     }
     if (stage_ == Stage::open && s.regime == 0) {
-      if (separated_ == 0) separated_ = 1, gap_m_ = 0, separated_at_deg_ = s.from_deg;
-      raise(gap_m_, peak(s.from.lift_m - s.theory_from_m, s.from.velocity_m_s - s.theory_speed_from_m_s, s.to.lift_m - s.theory_to_m,
+      if (!is(kSeparated)) flags_ |= kSeparated, excursion_m_ = 0, separated_at_deg_ = s.from_deg;
+      raise(excursion_m_, peak(s.from.lift_m - s.theory_from_m, s.from.velocity_m_s - s.theory_speed_from_m_s, s.to.lift_m - s.theory_to_m,
                          s.to.velocity_m_s - s.theory_speed_to_m_s, s.step_s));
     }
   }
@@ -74,12 +74,12 @@ class ValveRecord {
   /// The regime changed at `at_deg`.
   constexpr void change(std::uint32_t before, std::uint32_t after, Real velocity_m_s, Real at_deg) noexcept {
     ++cycle_.contact_changes;
-    if (separated_ != 0 && after != 0) end_separation(at_deg);
+    if (is(kSeparated) && after != 0) end_separation(at_deg);
     const bool landed = (after & ~before & kSeatOn) != 0;
     if (landed && stage_ == Stage::open) {
       stage_ = Stage::seated;
       cycle_.seating_speed_m_s = -velocity_m_s;
-      hop_m_ = 0;
+      excursion_m_ = 0;
     } else if (landed && stage_ == Stage::seated) {
       end_hop();
     }
@@ -87,7 +87,7 @@ class ValveRecord {
 
   /// Ends the cycle and begins the next. A valve still in the air is reported as it is.
   [[nodiscard]] constexpr ValveCycle<Real> finish(Real at_deg, std::uint32_t regime) noexcept {
-    if (separated_ != 0) end_separation(at_deg);
+    if (is(kSeparated)) end_separation(at_deg);
     if (stage_ == Stage::seated) end_hop();
     cycle_.off_seat_at_end = (regime & kSeatOn) != 0 ? 0 : 1;
     const ValveCycle<Real> done = cycle_;
@@ -98,7 +98,10 @@ class ValveRecord {
  private:
   enum class Stage : std::uint32_t { closed, open, seated };  // open from 0.1 mm of lift, seated from the first contact after it
 
-  [[nodiscard]] static constexpr Real magnitude(Real x) noexcept { return x < 0 ? -x : x; }
+  static constexpr std::uint32_t kTheoryOpened = 1;  // the cam has passed 0.1 mm
+  static constexpr std::uint32_t kSeparated = 2;
+  [[nodiscard]] constexpr bool is(std::uint32_t flag) const noexcept { return (flags_ & flag) != 0; }
+
   static constexpr void raise(Real& largest, Real x) noexcept {
     if (x > largest) largest = x;
   }
@@ -135,10 +138,10 @@ class ValveRecord {
   constexpr void note_opening(const ObservedStep<Real>& s) noexcept {
     if (stage_ != Stage::closed) return;
     if (s.theory_from_m < kOpened_m && s.theory_to_m >= kOpened_m) {
-      theory_opened_ = 1;
+      flags_ |= kTheoryOpened;
       theory_opened_deg_ = reached_deg(s.theory_from_m, s.theory_speed_from_m_s, s.theory_to_m, s.theory_speed_to_m_s, s);
     }
-    if (theory_opened_ == 0 || s.to.lift_m < kOpened_m) return;
+    if (!is(kTheoryOpened) || s.to.lift_m < kOpened_m) return;
     stage_ = Stage::open;
     if (s.from.lift_m >= kOpened_m) return;  // it was open before its cam was: no delay to tell
     cycle_.opening_delay_deg =
@@ -146,33 +149,29 @@ class ValveRecord {
   }
 
   constexpr void end_separation(Real at_deg) noexcept {
-    separated_ = 0;
-    if (gap_m_ < kLeastSeparation_m) return;
+    flags_ &= ~kSeparated;
+    if (excursion_m_ < kLeastSeparation_m) return;
     ++cycle_.separations;
-    if (gap_m_ <= cycle_.separation_gap_m) return;
-    cycle_.separation_gap_m = gap_m_;
+    if (excursion_m_ <= cycle_.separation_gap_m) return;
+    cycle_.separation_gap_m = excursion_m_;
     cycle_.separation_start_deg = separated_at_deg_;
     cycle_.separation_duration_deg = magnitude(at_deg - separated_at_deg_);
   }
 
   constexpr void end_hop() noexcept {
-    if (hop_m_ >= kLeastSeparation_m) {
+    if (excursion_m_ >= kLeastSeparation_m) {
       ++cycle_.bounces;
-      raise(cycle_.bounce_height_m, hop_m_);
+      raise(cycle_.bounce_height_m, excursion_m_);
     }
-    hop_m_ = 0;
+    excursion_m_ = 0;
   }
 
   ValveCycle<Real> cycle_{};
   Real theory_opened_deg_ = 0;
-  Real gap_m_ = 0;
   Real separated_at_deg_ = 0;
-  Real hop_m_ = 0;
-  Real spare_ = 0;  ///< an even number of words: no padding behind it
+  Real excursion_m_ = 0;  ///< largest so far: gap of the separation, or lift of the hop
   Stage stage_ = Stage::closed;
-  std::uint32_t separated_ = 0;
-  std::uint32_t theory_opened_ = 0;
-  std::uint32_t spare_word_ = 0;
+  std::uint32_t flags_ = 0;
 };
 
 /// A record that takes no notes: scenes without results.
