@@ -416,7 +416,7 @@ TYPED_TEST(SavedState, ForgedInAnyFieldIsRefusedOrStepsOnWithinBounds) {
       const int words = static_cast<int>((good.size() - 28) / 4);
       const std::size_t at = 24 + 4 * static_cast<std::size_t>(random.whole(0, random.coin() && words > 100 ? 100 : words - 1));
       const Real numbers[] = {static_cast<Real>(1e6), std::numeric_limits<Real>::max(), static_cast<Real>(-999.5), std::numeric_limits<Real>::denorm_min()};
-      const std::uint64_t bits_of_number = detail::bits_of(numbers[random.whole(0, 3)]);
+      const std::uint64_t bits_of_number = detail::word_of(numbers[random.whole(0, 3)]);
       const std::uint64_t word = random.coin() ? random.bits() : random.coin() ? bits_of_number : static_cast<std::uint64_t>(random.whole(0, 4));
       for (std::size_t i = 0; i < sizeof(Real) && at + i + 4 < bytes.size(); ++i) bytes[at + i] = static_cast<unsigned char>(word >> (8 * i));
     }

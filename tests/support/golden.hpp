@@ -28,7 +28,7 @@ class Fnv {
  public:
   template <class T>
   void add(const T& x) {
-    const std::uint64_t bits = detail::bits_of(x);
+    const std::uint64_t bits = detail::word_of(x);
     for (std::size_t i = 0; i < sizeof x; ++i) {
       hash_ ^= (bits >> (8 * i)) & 0xFFu;
       hash_ *= 0x100000001B3u;

@@ -41,7 +41,7 @@ class Crc32 {
 }
 
 template <class T>
-[[nodiscard]] std::uint64_t bits_of(const T& x) noexcept {
+[[nodiscard]] std::uint64_t word_of(const T& x) noexcept {
   if constexpr (sizeof(T) == 8) {
     std::uint64_t bits;
     std::memcpy(&bits, &x, sizeof bits);
@@ -69,7 +69,7 @@ class StateWriter {
 
   template <class T>
   void put(const T& x, std::size_t bytes = sizeof(T)) noexcept {
-    const std::uint64_t bits = bits_of(x);
+    const std::uint64_t bits = word_of(x);
     for (std::size_t i = 0; i < bytes; ++i) *at_++ = static_cast<unsigned char>(bits >> (8 * i));
   }
 
