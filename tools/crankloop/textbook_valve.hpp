@@ -7,7 +7,9 @@
 
 #include <cstdint>
 
-#include <crankloop/tick/valve_tick.hpp>
+#include <crankloop/tick/lift_curve.hpp>
+#include <crankloop/tick/valve_results.hpp>
+#include <crankloop/tick/valve_tables.hpp>
 
 namespace crankloop::program {
 

@@ -7,7 +7,7 @@
 
 #include <crankloop/define/valve_train.hpp>
 #include <crankloop/status.hpp>
-#include <crankloop/tick/valve_tick.hpp>
+#include <crankloop/tick/valve_tables.hpp>
 
 namespace crankloop {
 

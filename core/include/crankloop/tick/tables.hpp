@@ -9,8 +9,9 @@
 
 #include <crankloop/limits.hpp>
 #include <crankloop/tick/curve.hpp>
+#include <crankloop/tick/lift_curve.hpp>
 #include <crankloop/tick/scene.hpp>
-#include <crankloop/tick/valve_tick.hpp>
+#include <crankloop/tick/valve_tables.hpp>
 
 namespace crankloop {
 

@@ -11,36 +11,12 @@
 #include <cstdint>
 #include <type_traits>
 
+#include <crankloop/tick/valve_between.hpp>
 #include <crankloop/tick/valve_results.hpp>
 #include <crankloop/tick/valve_series.hpp>
+#include <crankloop/tick/valve_tables.hpp>
 
 namespace crankloop {
-
-/// All that one valve train's motion reads.
-template <class Real>
-struct ValveMotion {
-  ValveBody<Real> body;
-  std::uint32_t steps;          ///< whole steps per tick
-  std::uint32_t fine_per_step;
-  std::uint32_t per_steps_32;   ///< 2^32 / steps; unused for 1
-  std::uint32_t per_fine_32;    ///< 2^32 / fine_per_step; unused for 1
-  Real per_steps;               ///< 1 / steps
-  Real per_fine;                ///< 1 / fine_per_step
-  Real step_s;                  ///< tick / steps
-  Real fine_s;
-  Real per_step_s;
-  Real per_fine_s;
-  Real short_step_deg;          ///< cam degrees up to which the lift over a step is a cubic,
-  Real widest_step_deg;         ///< and, over a whole step, the quintic through its middle
-  Real force_lag;               ///< b / (k step): the train's force is k (gap + force_lag step gap')
-  Real rest_m;                  ///< nearer than this to its rest, and slower than rest_m_s, a closed valve sleeps
-  Real rest_m_s;
-  Real quiet_m;                 ///< |y| + |v| / seat rate below this cannot lift a valve off its seat
-  Real per_seat_rate_s;         ///< 1 / frequency on the seat alone
-  Real per_seat_N_m;            ///< 1 / (k_z + k_s): what the gas presses a closed valve into its seat
-  StepMatrix<Real> whole[4];    ///< per regime
-  StepMatrix<Real> fine[4];
-};
 
 /// How a train's cams move during a tick, the same for all cylinders.
 template <class Real>
@@ -62,62 +38,6 @@ struct EventBudget {
   const std::uint64_t low = (bits & 0xFFFF'FFFFu) * per_n_32 >> 32;
   return static_cast<std::uint64_t>(high * static_cast<std::int64_t>(std::uint64_t{per_n_32})) + low;
 }
-
-namespace detail {
-
-/// What a whole step's ends say of the motion between them, as far as cubics do.
-template <class Real>
-struct Between {
-  Real y[2], y_slope[2];      ///< the valve; slopes by the part of the step
-  Real gap[2], gap_slope[2];  ///< Y - y
-
-  constexpr Between(ValveState<Real> a, ValveState<Real> b, const LiftStep<Real>& lift, Real step_s) noexcept
-      : y{a.lift_m, b.lift_m},
-        y_slope{a.velocity_m_s * step_s, b.velocity_m_s * step_s},
-        gap{lift.from_m - y[0], lift.to_m - y[1]},
-        gap_slope{lift.from_slope_m - y_slope[0], lift.to_slope_m - y_slope[1]} {}
-};
-
-/// A cubic between two values stays within a third of this sum of their range: its inner Bezier ordinates are that far from its ends.
-template <class Real>
-[[nodiscard]] constexpr Real slopes(const Real (&slope)[2]) noexcept {
-  return magnitude(slope[0]) + magnitude(slope[1]);
-}
-template <class Real>
-inline constexpr Real kThird = static_cast<Real>(1.0 / 3);
-
-template <class Real>
-[[nodiscard]] constexpr bool above(const Real (&x)[2], Real bound) noexcept {
-  return x[0] > bound && x[1] > bound;
-}
-
-/// The train's force over k, gap + lag gap', stays above `bound`, by the Bezier ordinates of its cubic.
-template <class Real>
-[[nodiscard]] constexpr bool pushes(const Between<Real>& m, Real lag, Real bound) noexcept {
-  const Real(&g)[2] = m.gap;
-  const Real(&s)[2] = m.gap_slope;
-  const Real middle = 3 * (g[1] - g[0]) - s[0] - s[1];
-  return g[0] + lag * s[0] > bound && g[1] + lag * s[1] > bound &&
-         g[0] + s[0] * kThird<Real> + lag * ((s[0] + 2 * middle) * kThird<Real>) > bound &&
-         g[1] - s[1] * kThird<Real> + lag * ((2 * middle + s[1]) * kThird<Real>) > bound;
-}
-
-/// True when no contact can change in a whole step with the seat off, as far as the cubics through its ends tell, with a margin: gaps keep
-/// their side, the train's force its sign. (On the seat nothing could be told: its own vibration is faster than a whole step.)
-template <class Real>
-[[nodiscard]] constexpr bool far_from_change(const ValveMotion<Real>& motion, std::uint32_t regime, const Between<Real>& m) noexcept {
-  constexpr Real kMargin_m = static_cast<Real>(2e-6);
-  if (!above(m.y, motion.body.seat_sink_m + kMargin_m + slopes(m.y_slope) * kThird<Real>)) return false;
-  const Real gap_slopes = slopes(m.gap_slope);
-  const Real bound = kMargin_m + gap_slopes * kThird<Real>;
-  if ((regime & kTrainOn) == 0) return m.gap[0] < -bound && m.gap[1] < -bound;
-  // No ordinate of the gap's slope is larger than this.
-  const Real steepest = gap_slopes + 2 * magnitude(m.gap[1] - m.gap[0]);
-  if (above(m.gap, bound + motion.force_lag * steepest)) return true;  // by far: most steps
-  return above(m.gap, bound) && pushes(m, motion.force_lag, kMargin_m);
-}
-
-}  // namespace detail
 
 /// One tick of the valves of a train: made once per tick, advance() for each of them. Each costs O(steps * fine_per_step + events): bounded
 /// by the tables and the budget.

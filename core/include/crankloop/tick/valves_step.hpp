@@ -7,6 +7,7 @@
 #include <crankloop/tick/faults.hpp>
 #include <crankloop/tick/io.hpp>
 #include <crankloop/tick/tables.hpp>
+#include <crankloop/tick/valve_tick.hpp>
 
 namespace crankloop::detail {
 
