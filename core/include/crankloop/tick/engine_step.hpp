@@ -55,7 +55,7 @@ struct Step {
   const Tables<Real, S>& tables;
   State<Real, S>& state;
   Output<Real, S>& out;
-  Pose<Real> pose[N::mechanisms ? S::cylinders.capacity : 1];
+  Pose<Real> pose[N::pose ? S::cylinders.capacity : 1];
   Angle<Real> angle[N::mechanisms ? S::cylinders.capacity : 1];
 
   Real torque_Nm{};          ///< at the tick
@@ -63,8 +63,6 @@ struct Step {
   Integral<Real> inertia{};  ///< its integral
   Integral<Real> gas[2]{};
   Integral<Real> stroke[N::input_pressure ? S::cylinders.capacity : 1]{};
-  Real pressure[S::valve_gas ? S::cylinders.capacity : 1];  ///< Pa, per cylinder, for the valve heads
-
   Step(const Tables<Real, S>& t, State<Real, S>& s, Output<Real, S>& o) noexcept : tables{t}, state{s}, out{o} {}  // pose, angle: filled as needed
 
   /// Look-ups that cylinders at the same crank angle share.
@@ -74,7 +72,7 @@ struct Step {
     for (std::uint32_t m = 0; m < mechanisms; ++m) {
       const Angle<Real> at = angle_of<Real>(state.phase.units(), drive.firing_phase[m]);
       const std::uint32_t degree = at.turn_degree();
-      Pose<Real>& p = pose[m];
+      [[maybe_unused]] Pose<Real>& p = pose[N::pose ? m : 0];
       angle[m] = at;
       if constexpr (N::stroke) {
         const IntegratedSegment<Real>& s = tables.stroke->at[degree];
@@ -129,13 +127,14 @@ struct Step {
     }
   }
 
-  void do_cylinders() noexcept {
+  /// Fills head_pressure_Pa, per cylinder, where the scene has gas on its valves' heads.
+  void do_cylinders([[maybe_unused]] Real* head_pressure_Pa) noexcept {
     const Drive<Real>& drive = *tables.drive;
     const std::uint32_t cylinders = count<S>(drive.cylinders);
     const Real speed = state.speed_rad_s;
     for (std::uint32_t k = 0; k < cylinders; ++k) {
       const std::uint32_t m = drive.mechanism_of[k];
-      const Pose<Real>& p = pose[m];
+      [[maybe_unused]] const Pose<Real>& p = pose[N::pose ? m : 0];
       [[maybe_unused]] const Real u = angle[m].u;
       [[maybe_unused]] std::uint32_t segment = 0;
       if constexpr (N::gas_grid) segment = tables.gas_grid->segment(angle[m].delayed(drive.turn_of[k]));
@@ -159,7 +158,7 @@ struct Step {
       } else if constexpr (N::any_torque && N::input_pressure) {
         gas_Nm = (state.pressure_Pa[k] - tables.body->crankcase_Pa) * tables.body->bore_area_m2 * p.slope_m;
       }
-      if constexpr (S::valve_gas) pressure[k] = pressure_Pa(k, segment, u);
+      if constexpr (S::valve_gas) head_pressure_Pa[k] = pressure_Pa(k, segment, u);
       if constexpr (S::forces) {
         out.cylinder[k] = cylinder_forces<S::rod_inertia>(*tables.body, p, pressure_Pa(k, segment, u), speed);
         torque_Nm += out.cylinder[k].torque_Nm;
@@ -276,6 +275,35 @@ struct Step {
   }
 };
 
+/// What a tick's crank part takes and gives besides tables, state and output.
+template <class Real>
+struct CrankTurn {
+  Phase turned;
+  bool jumped;
+  const Real* mean_pressure_Pa;  ///< per cylinder, where pressures are given
+  Real* head_pressure_Pa;        ///< per cylinder, for the valves
+};
+
+template <class Real, class S>
+inline void run_mechanisms(const Tables<Real, S>& tables, State<Real, S>& state, Output<Real, S>& out, const CrankTurn<Real>& crank) noexcept {
+  Step<Real, S> step(tables, state, out);
+  if constexpr (Needs<S>::mechanisms) {
+    step.read_mechanisms();
+    step.do_cylinders(crank.head_pressure_Pa);
+    step.average_torque(crank.turned, crank.jumped, crank.mean_pressure_Pa);
+    step.remember_work();
+    step.load_bearings();
+  }
+  step.balance_engine();
+}
+
+/// The same as a call of its own: its stack is free again when the valves need theirs.
+template <class Real, class S>
+[[gnu::noinline]] void run_mechanisms_apart(const Tables<Real, S>& tables, State<Real, S>& state, Output<Real, S>& out,
+                                            const CrankTurn<Real>& crank) noexcept {
+  run_mechanisms(tables, state, out, crank);
+}
+
 /// True when every section the scene reads is there.
 template <class Real, class S>
 [[nodiscard]] constexpr bool complete(const Tables<Real, S>& t) noexcept {
@@ -336,7 +364,8 @@ Status Engine<Real, S>::init(const Tables& tables, Phase start) noexcept {
   if constexpr (S::mean_torque) {  // the first tick's work counts from here
     detail::Step<Real, S> step(tables, state_, output_);
     step.read_mechanisms();
-    step.do_cylinders();
+    Real unused[S::cylinders.capacity];
+    step.do_cylinders(unused);
     step.remember_work();
     output_ = Output{};
   }
@@ -386,17 +415,15 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
     }
   }
 
-  detail::Step<Real, S> step(tables, state_, output_);
-  if constexpr (Needs<S>::mechanisms) {
-    step.read_mechanisms();
-    step.do_cylinders();
-    step.average_torque(turned, jumped, mean_pressure_Pa);
-    step.remember_work();
-    step.load_bearings();
+  [[maybe_unused]] Real head_pressure_Pa[S::valve_gas ? S::cylinders.capacity : 1];
+  const detail::CrankTurn<Real> crank{turned, jumped, mean_pressure_Pa, head_pressure_Pa};
+  if constexpr (Needs<S>::elastic_valves) {
+    detail::run_mechanisms_apart(tables, state_, output_, crank);
+  } else {
+    detail::run_mechanisms(tables, state_, output_, crank);
   }
-  step.balance_engine();
   if constexpr (Needs<S>::any_valves) {
-    faults |= detail::ValvesStep<Real, S>{tables, state_, output_, phase_before, jumped, step.pressure}.run(input);
+    faults |= detail::ValvesStep<Real, S>{tables, state_, output_, phase_before, jumped, head_pressure_Pa}.run(input);
   }
   output_.faults = faults;
   return output_;

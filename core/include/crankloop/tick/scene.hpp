@@ -84,6 +84,7 @@ struct Needs {
   static constexpr bool rod_tilt = S::forces;
   static constexpr bool rod_angle = S::rod_motion;
   static constexpr bool rod_curvature = S::rod_motion || (S::forces && S::rod_inertia);
+  static constexpr bool pose = stroke || acceleration || rod_tilt || rod_angle || rod_curvature;
   static constexpr bool inertia_torque = torque_curves;
   static constexpr bool gas_torque = torque_curves && table_pressure;
   static constexpr bool gas_pressure = cylinder_pressure && table_pressure;

@@ -157,6 +157,7 @@ class ValveTick {
     return true;
   }
 
+  /// Where a contact may change. Few ticks come here: its registers and its stack are not the others'.
   template <class Gas, class Record>
   [[gnu::noinline]] void fine_steps(ValveCondition<Real>& valve, std::uint64_t from, std::uint64_t to, const Gas& gas,
                                     Record& record) const noexcept {
@@ -195,7 +196,7 @@ class ValveTick {
 
   /// The step in which a contact changes: by the series up to the change, on in the new regime, until the step's end.
   template <class Gas, class Record>
-  [[gnu::noinline]] void change_contacts(ValveCondition<Real>& valve, const LiftWithin<Real>& lift, const Gas& gas, Record& record,
+  void change_contacts(ValveCondition<Real>& valve, const LiftWithin<Real>& lift, const Gas& gas, Record& record,
                                          const Span& span) const noexcept {
     StepSeries<Real> series(motion_.body, lift, motion_.fine_s);
     for (Real at = 0; at < 1;) {
