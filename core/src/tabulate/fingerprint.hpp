@@ -33,7 +33,7 @@ class Fingerprint {
 
 inline constexpr int kTableFormat = 2;  ///< counts up whenever the same definition gives other tables
 
-/// Same definition, tick, scalar and table format: same fingerprint, whichever sections are built and wherever.
+/// Same definition, tick, stepping of the valves, scalar, accuracy of the gas grid and table format: same fingerprint, whichever sections are built and wherever.
 [[nodiscard]] std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& options, const TableReport& report,
                                            int scalar_bytes) noexcept;
 

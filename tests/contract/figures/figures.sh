@@ -146,7 +146,8 @@ check() {
   while read -r row; do
     grep -qxF "$row" "$1" || { echo "not in $1: $row" && bad=$((bad + 1)); }
   done <errors.txt
-  states_ram "$1" TorqueOnly_float TorqueByLoad_float PistonMotion_float TorqueSensor_float ForcesAndTorque_float Everything_float
+  states_ram "$1" TorqueOnly_float TorqueByLoad_float PistonMotion_float TorqueSensor_float ForcesAndTorque_float Everything_float \
+    ValveLift_float ValveDynamics_float WholeEngine_float
   for real in float double; do
     states_ram "$2" "PistonMotion_$real" "TorqueOnly_$real" "ForcesAndTorque_$real" "ValveLift_$real" "ValveDynamics_$real" "WholeEngine_$real"
   done

@@ -1,6 +1,6 @@
 // How cylinders stand around and along the crankshaft, and when they fire.
 //
-// What belongs here: angles and positions. What does not: what follows from them at a speed (tabulate/balance.hpp).
+// What belongs here: angles and positions. What does not: what follows from them at a speed (tabulate/summary.hpp).
 #pragma once
 
 #include <array>

@@ -31,8 +31,8 @@ struct WiebeDiagram {
   double combustion_duration_deg = 60;       ///< 1 to 150; must end before the exhaust valve opens
   double wiebe_m = 0.9;                      ///< form exponent, 0 to 10
   double compression_exponent = 1.35;        ///< n1, 1 to 2
-  double expansion_exponent = 1.28;          ///< n2, 1 to 2, but not 1
-  double exhaust_valve_opens_deg = 135;      ///< before bottom dead centre
+  double expansion_exponent = 1.28;          ///< n2, 1.0001 to 2
+  double exhaust_valve_opens_deg = 135;      ///< 30 to 179
   bool heat_given = false;                   ///< true: heat_J is used; false: heat is scaled to net_mep_Pa
   double net_mep_Pa = 0;                     ///< indicated mean effective pressure over 720 deg at load ratio 1
   double heat_J = 0;                         ///< heat released per cycle and cylinder at load ratio 1

@@ -35,7 +35,7 @@ struct Cam {
   double smoothing_m = 0;            ///< largest residual allowed in smoothing, > 0, at most 1e-3
   // place in the cycle
   double full_lift_deg = 0;          ///< engine crank angle of full theoretical lift in the cylinder's own cycle, 0 to below 720
-  double phase_rate_deg_s = 0;       ///< how fast a cam phaser may move, crank degrees per second; 0 = fixed cam
+  double phase_rate_deg_s = 0;       ///< how fast a cam phaser may move, crank degrees per second; 0 = fixed cam; 0 to 1e5
 };
 
 enum class RockerKind : std::uint8_t {
@@ -46,33 +46,33 @@ enum class CamTurns : std::uint8_t { toward_pivot, away_from_pivot };
 
 struct Rocker {
   RockerKind kind = RockerKind::circular_pad;
-  double base_circle_m = 0;           ///< r_0, radius
-  double clearance_m = 0;             ///< lash at the base circle, >= 0
-  double ratio = 1;                   ///< kind ratio: valve lift per follower lift
+  double base_circle_m = 0;           ///< r_0, radius; > 0, at most 1
+  double clearance_m = 0;             ///< lash at the base circle; 0 to 0.01
+  double ratio = 1;                   ///< kind ratio: valve lift per follower lift; > 0, at most 10
   // circular pad
-  double pivot_to_pad_m = 0;          ///< l_a
-  double pivot_to_cam_m = 0;          ///< l_c
-  double pad_radius_m = 0;            ///< r_s
-  double pivot_to_screw_m = 0;        ///< l_b; kind ratio: 0, or the rocker's lever on the valve where it has an inertia
-  double screw_ball_m = 0;            ///< rho, radius
-  double stem_above_pivot_m = 0;      ///< z
+  double pivot_to_pad_m = 0;          ///< l_a; > 0, at most 1
+  double pivot_to_cam_m = 0;          ///< l_c; > 0, at most 1
+  double pad_radius_m = 0;            ///< r_s; > 0, at most 10
+  double pivot_to_screw_m = 0;        ///< l_b; kind ratio: 0, or the rocker's lever on the valve where it has an inertia; > 0, at most 1
+  double screw_ball_m = 0;            ///< rho, radius; 0 to 1
+  double stem_above_pivot_m = 0;      ///< z; -1 to 1
   CamTurns cam_turns = CamTurns::toward_pivot;
 };
 
 /// The moving parts of one valve as a single mass.
 struct Valve {
-  int per_cylinder = 1;               ///< alike and computed once
-  double valve_kg = 0;                ///< with retainer and collets
-  double spring_kg = 0;               ///< a third of it moves
-  double rocker_inertia_kg_m2 = 0;    ///< about its pivot; 0 for kind ratio without a lever
-  double spring_N_m = 0;              ///< k_s
-  double spring_preload_N = 0;        ///< P_s0
-  double train_N_m = 0;               ///< k
-  double train_damping_ratio = 0;     ///< b = 2 zeta sqrt(k M)
-  double guide_damping_ratio = 0;     ///< c = 2 zeta sqrt(k M)
-  double seat_N_m = 0;                ///< k_z
-  double seat_damping_ratio = 0;      ///< b_z = 2 zeta sqrt(k_z M)
-  double head_area_m2 = 0;            ///< cylinder pressure on it closes the valve; 0 = none
+  int per_cylinder = 1;               ///< alike and computed once; 1 to 8
+  double valve_kg = 0;                ///< with retainer and collets; > 0, at most 100
+  double spring_kg = 0;               ///< a third of it moves; 0 to 100
+  double rocker_inertia_kg_m2 = 0;    ///< about its pivot; 0 for kind ratio without a lever; 0 to 100
+  double spring_N_m = 0;              ///< k_s; 0 to 1e9
+  double spring_preload_N = 0;        ///< P_s0; > 0, at most 1e6
+  double train_N_m = 0;               ///< k; > 0, at most 1e12
+  double train_damping_ratio = 0;     ///< b = 2 zeta sqrt(k M); 0 to 10
+  double guide_damping_ratio = 0;     ///< c = 2 zeta sqrt(k M); 0 to 10
+  double seat_N_m = 0;                ///< k_z; > 0, at most 1e12
+  double seat_damping_ratio = 0;      ///< b_z = 2 zeta sqrt(k_z M); 0 to 10
+  double head_area_m2 = 0;            ///< cylinder pressure on it closes the valve; 0 = none; 0 to 1
 };
 
 struct ValveTrain {

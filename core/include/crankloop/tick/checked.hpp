@@ -15,8 +15,8 @@ template <class Real>
   return x >= lowest && x <= highest;
 }
 
-/// The bits of a number: as integers, numbers without sign order as their values do, with infinity and NaN beyond all finite ones. One
-/// integer comparison is then a whole range check, where two of floats take their status to and fro.
+/// The bits of a number: as integers, non-negative numbers order as their values do, with infinity and NaN beyond all finite ones. One
+/// integer comparison is then a whole range check, where two of floats each move the FPU's status to the processor.
 [[nodiscard]] inline std::uint32_t bits_of(float x) noexcept {
   std::uint32_t bits;
   std::memcpy(&bits, &x, sizeof bits);

@@ -29,12 +29,13 @@ class Engine {
 
   constexpr Engine() noexcept = default;
 
-  /// Starts at rest at the given phase. The tables must outlive the engine. Refuses tables that lack a section or have more
-  /// cylinders than the scene, a rod inertia that the scene leaves out, and a build that contracts. O(cylinders).
+  /// Starts at rest at the given phase. The tables must outlive the engine. Refuses tables that lack a section or have more cylinders or
+  /// trains than the scene, a rod inertia or gas on valve heads that the scene leaves out, and a build that contracts. O(cylinders trains).
   Status init(const Tables& tables, Phase start = Phase{}) noexcept;
   Status init(const Tables&& tables, Phase start = Phase{}) = delete;
 
-  /// Advances by one tick. Total: any input bits give a defined, finite output and fault bits. O(cylinders), no loop depends on data.
+  /// Advances by one tick. Total: any input bits give a defined, finite output and fault bits. O(cylinders), with elastic valves
+  /// O(cylinders trains fine steps): bounded by the tables (docs/contract.md "Complexity and memory").
   const Output& step(const Input& input) noexcept;
 
   [[nodiscard]] const Output& output() const noexcept { return output_; }

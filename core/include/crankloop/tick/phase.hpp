@@ -8,7 +8,7 @@
 
 namespace crankloop {
 
-/// Position in a per-degree table: `degree` 0 to 719, and how far into it: `into` in units of 2^-32 deg, `rest` in units of 2^-64 deg.
+/// Position in a per-degree table: `degree` 0 to 719 (of a cam 0 to 359), and how far into it: `into` in units of 2^-32 deg, `rest` in units of 2^-64 deg.
 struct Cell {
   std::uint32_t degree;
   std::uint32_t into;
@@ -33,8 +33,8 @@ template <class Real>
 inline constexpr int kDegreesPerTurn = 360;
 inline constexpr int kDegreesPerCycle = 720;
 
-/// x, as a number that the compiler does not know: by one multiplication, where for a known 360 GCC's 32-bit targets shift and add 64-bit
-/// numbers thirteen times.
+/// x as a number that the compiler does not know, so that multiplying by it is one multiplication: for a known 360 GCC's 32-bit targets
+/// shift and add 64-bit numbers thirteen times.
 [[nodiscard]] inline std::uint32_t unknown(std::uint32_t x) noexcept {
   asm("" : "+r"(x));
   return x;

@@ -27,7 +27,7 @@
 
 namespace crankloop {
 
-/// Counts up whenever the fields or their form change.
+/// Counts up whenever a release changes the fields or their form.
 inline constexpr std::uint32_t kSavedStateForm = 1;
 
 namespace detail {

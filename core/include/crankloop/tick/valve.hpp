@@ -8,7 +8,8 @@
 //            k, b                     sink s = delta_0 - y: F_seat = k_z s - b_z y'    likewise
 //             |
 //           [ M ]  y                  Each of the four regimes (train on or off, seat on or off) is linear: a whole step is one constant
-//           /   \                     matrix on (y, v), the lift at both ends of the step and a constant force.
+//           /   \                     matrix on (y, v), the gap, the lift's rise and its slopes at both ends of the
+//                                   step (a wide step: in its middle too), and a constant force.
 //     spring     seat k_z, b_z
 #pragma once
 

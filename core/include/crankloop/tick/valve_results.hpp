@@ -133,8 +133,8 @@ class ValveRecord {
     return s.from_deg + (s.to_deg - s.from_deg) * high;
   }
 
-  /// The valve opens when it passes 0.1 mm after the cam has, or while the cam is on its way there: what a valve does before that it still
-  /// does from the cycle before.
+  /// The valve opens where it stands at 0.1 mm or above once the cam has passed that. One that was up before its cam has no delay to tell:
+  /// it is still in the air from the cycle before.
   constexpr void note_opening(const ObservedStep<Real>& s) noexcept {
     if (stage_ != Stage::closed) return;
     if (s.theory_from_m < kOpened_m && s.theory_to_m >= kOpened_m) {

@@ -31,7 +31,7 @@ struct StepPolynomial {
   }
 };
 
-/// The motion inside one step as a power series: exact to (w d)^n / n!, d the step, w the regime's frequency, n the order. It costs more
+/// The motion inside one step as a power series: exact to (w d)^n / n!, d the step, w the regime's frequency, n one more than the order. It costs more
 /// than a matrix and serves any part of a step, so contact changes are located on it.
 template <class Real>
 class StepSeries {
@@ -117,8 +117,12 @@ class StepSeries {
     for (int i = 0; i < kSteps; ++i) {
       const Switching s = switching(contact, at);
       ((s.force_N > 0) == rising ? to : from) = at;
-      const Real next = at - s.force_N / s.slope_N;
-      at = next >= from && next <= to ? next : (from + to) / 2;
+      Real next = (from + to) / 2;
+      if (s.slope_N != Real{0}) {
+        const Real newton = at - s.force_N / s.slope_N;
+        if (newton >= from && newton <= to) next = newton;
+      }
+      at = next;
     }
     return at;
   }

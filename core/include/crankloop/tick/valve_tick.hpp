@@ -1,9 +1,9 @@
 // One valve over one tick: whole steps where no contact changes, fine steps where one may, the change itself located.
 //
 // What belongs here: the order of a valve's tick. What does not: the physics of a step (valve.hpp), which valves an engine has
-// (engine_step.hpp).
+// (valves_step.hpp).
 //
-//     tick  |-----------------|-----------------|      `steps` whole steps, one cam look-up and one matrix each;
+//     tick  |-----------------|-----------------|      `steps` whole steps, one matrix and one cam look-up each (wide: two);
 //                              |--|--|--|--|--|        where a gap may close or a force may end: `fine_per_step` fine ones;
 //                                    |-x--|            where one does: a power series up to x, the new regime from there
 #pragma once
@@ -157,7 +157,7 @@ class ValveTick {
     return true;
   }
 
-  /// Where a contact may change. Few ticks come here: its registers and its stack are not the others'.
+  /// Where a contact may change. A call of its own, so that its registers and its stack are not the whole steps'.
   template <class Gas, class Record>
   [[gnu::noinline]] void fine_steps(ValveCondition<Real>& valve, std::uint64_t from, std::uint64_t to, const Gas& gas,
                                     Record& record) const noexcept {
@@ -207,7 +207,10 @@ class ValveTick {
       note_part(record, series, valve, after, at, next, gas, span);
       valve.state = after;
       at = next;
-      if (changed == 0) return;
+      if (changed == 0) {
+        if (budget_.left == 0) take_unlocated(valve, series, record, span);
+        return;
+      }
       --budget_.left;
       if constexpr (!kUnrecorded<Record>) {
         record.change(valve.regime, valve.regime ^ changed, after.velocity_m_s, degrees(span.from) + next * span.deg);
@@ -215,6 +218,17 @@ class ValveTick {
       valve.regime ^= changed;
       note_part(record, series, valve, after, next, next, gas, span);  // the force of a damper begins with a jump
     }
+  }
+
+  /// At the end of a step whose changes the budget no longer covered: the regime that the contacts ask for there.
+  template <class Record>
+  void take_unlocated(ValveCondition<Real>& valve, const StepSeries<Real>& series, Record& record, const Span& span) const noexcept {
+    const LiftNow<Real> lift = series.lift(1);
+    const std::uint32_t asked = contacts(motion_.body, valve.state, lift.lift_m, lift.speed_m_s).regime();
+    if (asked == valve.regime) return;
+    budget_.exceeded = true;
+    if constexpr (!kUnrecorded<Record>) record.change(valve.regime, asked, valve.state.velocity_m_s, degrees(span.from) + span.deg);
+    valve.regime = asked;
   }
 
   template <class Record>
