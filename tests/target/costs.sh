@@ -20,8 +20,7 @@ section_bytes() { "$size" -A "$images/lib$1.a" | awk -v pattern="$2" '$1 ~ patte
 
 row() {
   log=$images/costs_$1.txt
-  # shellcheck disable=SC2086  # a command with its arguments
-  $emulator "$images/costs_$1" </dev/null >"$log" 2>&1 || { cat "$log" >&2 && return 1; }
+  eval "$emulator \"\$images/costs_\$1\"" </dev/null >"$log" 2>&1 || { cat "$log" >&2 && return 1; }  # a command with its arguments, each quoted
   stack=$(find "$images" -path "*/$1.dir/*.ci" -exec awk -v root='::step[(]' -f "$here/worst_stack.awk" {} +) || return 1
   awk -v scene="${1%_*}" -v tick="${1##*_}" -v code="$(section_bytes "$1" '^\\.text')" \
     -v tables="$(section_bytes "$1" '^\\.(s?rodata|data\\.rel\\.ro)')" -v stack="$stack" '
@@ -41,7 +40,8 @@ row() {
 
 # The compiler and the emulator that the figures hold for.
 versions() {
-  for word in $emulator; do
+  eval "set -- $emulator"
+  for word in "$@"; do
     case $word in *qemu-*) qemu=$word ;; esac
   done
   printf '%s %s %s; %s\n' "$(basename "$compiler")" "$("$compiler" -dumpfullversion)" "$build_type" "$("$qemu" --version | head -n 1)"

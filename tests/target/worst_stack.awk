@@ -23,7 +23,11 @@ BEGIN {
     if (name[symbol] ~ root) roots[symbol] = 1
   }
 }
-/^edge:/ { calls[quoted($0, "sourcename: ")] = calls[quoted($0, "sourcename: ")] " " quoted($0, "targetname: ") }
+# Names begin with the file's path, which may have blanks: SUBSEP is in none.
+/^edge:/ {
+  caller = quoted($0, "sourcename: ")
+  calls[caller] = (caller in calls ? calls[caller] SUBSEP : "") quoted($0, "targetname: ")
+}
 
 END {
   worst = -1
@@ -58,7 +62,7 @@ function depth(symbol,   callees, n, i, deep, most) {
   if (symbol in varies) return refuse("stack of varying size: " name[symbol])
   on_path[symbol] = 1
   most = 0
-  n = split(calls[symbol], callees, " ")
+  n = symbol in calls ? split(calls[symbol], callees, SUBSEP) : 0
   for (i = 1; i <= n; ++i) {
     deep = depth(callees[i])
     if (deep > most) most = deep
