@@ -26,7 +26,8 @@ BEGIN {
 # Names begin with the file's path, which may have blanks: SUBSEP is in none.
 /^edge:/ {
   caller = quoted($0, "sourcename: ")
-  calls[caller] = (caller in calls ? calls[caller] SUBSEP : "") quoted($0, "targetname: ")
+  if (caller in calls) calls[caller] = calls[caller] SUBSEP quoted($0, "targetname: ")
+  else calls[caller] = quoted($0, "targetname: ")
 }
 
 END {
