@@ -44,7 +44,7 @@ class TextbookValve {
       if (half_steps == 2 * count) return cam.to;
       return cam.from + static_cast<std::uint64_t>(half_step * std::int64_t{half_steps});
     };
-    Real from_deg = degrees(cam.from);
+    Real from_deg = curve_.degrees(cam.from);
     valve.asleep = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
       const LiftNow<Real> start = lift_at(place(2 * i), deg_per_s);
@@ -64,14 +64,6 @@ class TextbookValve {
   }
 
  private:
-  /// Cam degrees since the start of the lobe, negative in the half of the base circle before it: as the tick counts.
-  [[nodiscard]] Real degrees(std::uint64_t since_opening) const noexcept {
-    const Cell cell = LiftCurve<Real>::cell(since_opening);
-    const auto degree = static_cast<int>(cell.degree);
-    const bool before = 2 * degree > static_cast<int>(curve_.segments) + kDegreesPerTurn;
-    return static_cast<Real>(before ? degree - kDegreesPerTurn : degree) + fraction<Real>(cell);
-  }
-
   [[nodiscard]] LiftNow<Real> lift_at(std::uint64_t since_opening, Real deg_per_s) const noexcept {
     const Lift<Real> lift = curve_.read(LiftCurve<Real>::cell(since_opening));
     return {lift.lift_m, lift.per_deg_m * deg_per_s};

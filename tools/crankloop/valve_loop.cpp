@@ -50,16 +50,6 @@ double middle_of_base_circle_deg(const LiftCurve<Real>& curve) {
   return (static_cast<double>(curve.segments) + kDegreesPerTurn) / 2;
 }
 
-template <class Real>
-bool passes_base_circle(const LiftCurve<Real>& curve, const CamSpan& cam) {
-  const std::uint64_t middle =
-      (std::uint64_t{curve.segments} + kDegreesPerTurn) * (~std::uint64_t{0} / (2 * kDegreesPerTurn));
-  const auto from = static_cast<std::int64_t>(cam.from - middle);
-  const auto to = static_cast<std::int64_t>(cam.to - middle);
-  constexpr std::int64_t kNear = std::int64_t{1} << 62;
-  return (from < 0) != (to < 0) && to < kNear && to > -kNear;
-}
-
 }  // namespace
 
 double ticks_per_cycle(double speed_rpm, double tick_s) noexcept { return 120 / (std::abs(speed_rpm) * tick_s); }
@@ -174,7 +164,7 @@ void ValveLoop<Real>::textbook_step(Phase before, Phase after) noexcept {
     textbook_.gas_N = static_cast<Real>((diagram_->full_Pa(engine_deg) - crankcase_Pa_) * head_area_m2_);
   }
   TextbookValve<Real>(motion(), curve()).advance(textbook_.valve, cam, textbook_.gas_N, textbook_.record);
-  if (passes_base_circle(curve(), cam)) {
+  if (curve().passes_base_circle(cam.from, cam.to)) {
     textbook_.cycle = textbook_.record.finish(Real{kDegreesPerTurn}, textbook_.valve.regime);
   }
 }

@@ -63,6 +63,24 @@ struct LiftCurve {
     return 2 * c[2] + u * (6 * c[3] + u * (12 * c[4] + u * (20 * c[5])));
   }
 
+  /// Cam degrees since the start of the lobe; negative in the half of the base circle before it.
+  [[nodiscard]] constexpr Real degrees(std::uint64_t since_opening) const noexcept {
+    const Cell place = cell(since_opening);
+    const auto degree = static_cast<std::int32_t>(place.degree);
+    const bool before = 2 * degree > static_cast<std::int32_t>(segments) + kDegreesPerTurn;
+    return static_cast<Real>(before ? degree - kDegreesPerTurn : degree) + fraction<Real>(place);
+  }
+
+  /// Whether the cam passes the middle of its base circle from one phase to the other: there a cycle ends.
+  [[nodiscard]] constexpr bool passes_base_circle(std::uint64_t from, std::uint64_t to) const noexcept {
+    const std::uint64_t half_degrees = std::uint64_t{segments} + kDegreesPerTurn;
+    const std::uint64_t middle = half_degrees * (~std::uint64_t{0} / (2 * kDegreesPerTurn));
+    const auto before = static_cast<std::int64_t>(from - middle);
+    const auto after = static_cast<std::int64_t>(to - middle);
+    constexpr std::int64_t kNear = std::int64_t{1} << 62;  // crossing zero there, not half a turn away
+    return (before < 0) != (after < 0) && after < kNear && after > -kNear;
+  }
+
   /// False where the lobe is not, or leaves kLeastLash open: a closed valve is not touched there.
   [[nodiscard]] constexpr bool may_touch(Cell cell) const noexcept { return cell.degree - touch_from < touch_degrees; }
 };

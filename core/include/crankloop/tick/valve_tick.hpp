@@ -183,7 +183,7 @@ class ValveTick {
       } else if (budget_.left == 0) {
         budget_.exceeded = true;
         note(record, valve.state, after, step, valve.regime, gas, span);
-        if constexpr (!kUnrecorded<Record>) record.change(valve.regime, asked, after.velocity_m_s, degrees(at) + fine_deg);
+        if constexpr (!kUnrecorded<Record>) record.change(valve.regime, asked, after.velocity_m_s, curve_.degrees(at) + fine_deg);
         valve.state = after;
         valve.regime = asked;
       } else {
@@ -213,7 +213,7 @@ class ValveTick {
       }
       --budget_.left;
       if constexpr (!kUnrecorded<Record>) {
-        record.change(valve.regime, valve.regime ^ changed, after.velocity_m_s, degrees(span.from) + next * span.deg);
+        record.change(valve.regime, valve.regime ^ changed, after.velocity_m_s, curve_.degrees(span.from) + next * span.deg);
       }
       valve.regime ^= changed;
       note_part(record, series, valve, after, next, next, gas, span);  // the force of a damper begins with a jump
@@ -227,26 +227,18 @@ class ValveTick {
     const std::uint32_t asked = contacts(motion_.body, valve.state, lift.lift_m, lift.speed_m_s).regime();
     if (asked == valve.regime) return;
     budget_.exceeded = true;
-    if constexpr (!kUnrecorded<Record>) record.change(valve.regime, asked, valve.state.velocity_m_s, degrees(span.from) + span.deg);
+    if constexpr (!kUnrecorded<Record>) record.change(valve.regime, asked, valve.state.velocity_m_s, curve_.degrees(span.from) + span.deg);
     valve.regime = asked;
   }
 
   template <class Record>
   static constexpr bool kUnrecorded = std::is_same_v<Record, NoRecord<Real>>;
 
-  /// Cam degrees since the start of the lobe; negative in the half of the base circle before it.
-  [[nodiscard]] constexpr Real degrees(std::uint64_t phase) const noexcept {
-    const Cell cell = LiftCurve<Real>::cell(phase);
-    const auto degree = static_cast<std::int32_t>(cell.degree);
-    const bool before = 2 * degree > static_cast<std::int32_t>(curve_.segments) + kDegreesPerTurn;
-    return static_cast<Real>(before ? degree - kDegreesPerTurn : degree) + fraction<Real>(cell);
-  }
-
   template <class Gas, class Record>
   constexpr void note(Record& record, ValveState<Real> before, ValveState<Real> after, const LiftStep<Real>& step, std::uint32_t regime,
                       const Gas& gas, const Span& span) const noexcept {
     if constexpr (!kUnrecorded<Record>) {
-      const Real from_deg = degrees(span.from);
+      const Real from_deg = curve_.degrees(span.from);
       const Real speed = step.to_slope_m * span.per_s;
       record.step({before, after, step.from_m, step.to_m, step.from_slope_m * span.per_s, speed,
                    acceleration(motion_.body, regime, after, step.to_m, speed, gas.force_N()), from_deg, from_deg + span.deg, span.s, regime},
@@ -260,7 +252,7 @@ class ValveTick {
     if constexpr (!kUnrecorded<Record>) {
       const LiftNow<Real> begin = series.lift(at);
       const LiftNow<Real> end = series.lift(next);
-      const Real from_deg = degrees(span.from);
+      const Real from_deg = curve_.degrees(span.from);
       record.step({valve.state, after, begin.lift_m, end.lift_m, begin.speed_m_s, end.speed_m_s,
                    acceleration(motion_.body, valve.regime, after, end.lift_m, end.speed_m_s, gas.force_N()), from_deg + at * span.deg,
                    from_deg + next * span.deg, (next - at) * span.s, valve.regime},

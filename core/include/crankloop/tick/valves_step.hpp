@@ -107,7 +107,7 @@ struct ValvesStep {
       ValveRecord<Real>& record = state.record[t][k];
       if (!tick.sleeps_on(valve, end, gas)) tick.advance(valve, at, end, gas, record);
       const LiftCurve<Real>& curve = tables.lift_curves[t];
-      if (passes_base_circle(curve, at, cam)) out.valve_cycle[t][k] = record.finish(cycle_end_deg(curve, cam), valve.regime);
+      if (curve.passes_base_circle(at - static_cast<std::uint64_t>(cam.turned), at)) out.valve_cycle[t][k] = record.finish(cycle_end_deg(curve, cam), valve.regime);
     } else if (!tick.sleeps_on(valve, end, gas)) {
       NoRecord<Real> none;
       tick.advance(valve, at, end, gas, none);
@@ -136,16 +136,6 @@ struct ValvesStep {
     const Real pushed_m = (b.train_N_m * lift.lift_m - gas_N) / (b.train_N_m + b.seat_N_m + b.spring_N_m);
     if (lift.lift_m > pushed_m) return {{pushed_m, Real{0}}, lift, kTrainOn | kSeatOn, 0};
     return {};
-  }
-
-  /// Whether the cam passes the middle of its base circle in this tick: there a cycle ends.
-  [[nodiscard]] static bool passes_base_circle(const LiftCurve<Real>& curve, std::uint64_t at, const CamTurn<Real>& cam) noexcept {
-    const std::uint64_t half_degrees = std::uint64_t{curve.segments} + kDegreesPerTurn;
-    const std::uint64_t middle = half_degrees * (~std::uint64_t{0} / (2 * kDegreesPerTurn));
-    const auto from = static_cast<std::int64_t>(at - static_cast<std::uint64_t>(cam.turned) - middle);
-    const auto to = static_cast<std::int64_t>(at - middle);
-    constexpr std::int64_t kNear = std::int64_t{1} << 62;  // crossing zero there, not half a turn away
-    return (from < 0) != (to < 0) && to < kNear && to > -kNear;
   }
 
   /// The middle of the base circle in cam degrees since the start of the lobe: after it, or before it when turning backwards.
