@@ -91,7 +91,6 @@ std::uint64_t hash_of(const Sections<Real>& s) {
   fnv.add(d.firing_phase);
   fnv.add(d.mechanism_of);
   fnv.add(d.turn_of);
-  fnv.add(d.cylinders_on_mechanism);
   const Body<Real>& b = *s.body;
   for (const Real x : {b.crank_radius_m, b.per_crank_radius, b.per_rod_length, b.pin_offset_m, b.height_at_tdc_m,
                        b.bore_area_m2, b.crankcase_Pa, b.reciprocating_kg, b.rod_inertia_correction_kg_m2}) {
@@ -109,10 +108,12 @@ std::uint64_t hash_of(const Sections<Real>& s) {
   for (const Segment<Real>* pressures : {s.pressure_full, s.pressure_motored, s.pressure_heat}) {
     for (std::size_t i = 0; i < segments; ++i) fnv.add(pressures[i]);
   }
+  fnv.add(s.torque_grid->first);
+  const std::size_t torque_segments = s.torque_grid->first[kDegreesPerCycle];
   for (const GasTorque<Real>* torque : {s.gas_torque_full, s.gas_torque_motored, s.gas_torque_heat}) {
     fnv.add(torque->quantum);
     fnv.add(torque->mean_Nm);
-    for (std::size_t i = 0; i < segments; ++i) fnv.add(torque->at[i]);
+    for (std::size_t i = 0; i < torque_segments; ++i) fnv.add(torque->at[i]);
   }
   const Bearings<Real>& bearings = *s.bearings;
   fnv.add(bearings.pins);

@@ -110,6 +110,7 @@ std::uint64_t hash_of_tables(const Tables<Real, TwoValves>& tables) {
     fnv.add(curve.segments);
     fnv.add(curve.touch_from);
     fnv.add(curve.touch_degrees);
+    fnv.add(curve.leap_deg);
     fnv.add(curve.outside_m);
     for (std::uint32_t i = 0; i < curve.segments; ++i) {
       for (const Real x : curve.at[i].c) fnv.add(x);
@@ -118,16 +119,15 @@ std::uint64_t hash_of_tables(const Tables<Real, TwoValves>& tables) {
     const ValveMotion<Real>& m = tables.valve_motions[t];
     const ValveBody<Real>& b = m.body;
     for (const Real x : {b.mass_kg, b.train_N_m, b.train_Ns_m, b.seat_N_m, b.seat_Ns_m, b.spring_N_m, b.guide_Ns_m,
-                         b.preload_N, b.seat_sink_m, b.head_area_m2, b.rocker_mass_kg, m.per_steps, m.per_fine,
-                         m.step_s, m.fine_s, m.short_step_deg, m.force_lag, m.rest_m, m.rest_m_s}) {
+                         b.preload_N, b.seat_sink_m, b.head_area_m2, b.rocker_mass_kg, m.short_step_deg, m.clear_m, m.rest_m, m.rest_m_s}) {
       fnv.add(x);
     }
-    fnv.add(m.steps);
-    fnv.add(m.fine_per_step);
-    for (int regime = 0; regime < 4; ++regime) {
-      for (const StepMatrix<Real>* matrix : {&m.whole[regime], &m.fine[regime]}) {
-        fnv.template add<Real>(matrix->y);
-        fnv.template add<Real>(matrix->v);
+    for (const StepLevel<Real>* level : {&m.whole, &m.fine}) {
+      fnv.add(level->parts);
+      for (const Real x : {level->per_parts, level->step_s, level->force_lag}) fnv.add(x);
+      for (const StepMatrix<Real>& matrix : level->matrix) {
+        fnv.template add<Real>(matrix.y);
+        fnv.template add<Real>(matrix.v);
       }
     }
   }

@@ -77,7 +77,7 @@ TYPED_TEST(MeanTorque, OverAMeasuredCycleOfAnyNumberOfTicksAddsUpToTheTablesOwnW
   FullTables<Real> tables;
   ASSERT_TRUE(tables.build(diesel_495(), 500e-6).ok());
   const GasTorque<Real>& gas = *tables.sections().gas_torque_full;
-  const long double cycle_J = 4 * static_cast<long double>(gas.mean_Nm) * 4 * kPi_ld;
+  const long double cycle_J = static_cast<long double>(gas.mean_Nm) * 4 * kPi_ld;  // of all cylinders
   Random random;
   for (const int ticks : {5, 7, 36, 100, 359, 720, 1440, 3'601, 14'400, 100'003}) {
     for (const bool backwards : {false, true}) {
@@ -99,7 +99,7 @@ TYPED_TEST(MeanTorque, OverAMeasuredCycleOfAnyNumberOfTicksAddsUpToTheTablesOwnW
       EXPECT_NEAR(static_cast<double>(ledger.turned_rad), static_cast<double>(direction * 4 * kPi_ld), 1e-12);
       const double speed = 4 * kPi / ticks / 500e-6;
       const double scale =
-          4 * static_cast<double>(gas.mean_Nm) + 4 * 0.0045 * speed * speed;  // m_j r^2 = 4.3e-3 kg m^2
+          static_cast<double>(gas.mean_Nm) + 4 * 0.0045 * speed * speed;  // m_j r^2 = 4.3e-3 kg m^2
       // Torques at the ends of crawling ticks are those of a trapezoid: its error over a cycle comes from the diagram's
       // few kinks.
       const bool crawls = 4 * kPi / ticks <= kCrawl_rad<Real>;
@@ -126,7 +126,7 @@ TYPED_TEST(MeanTorque, TheTablesWorkIsTheDiagramsLoopIntegral) {
   ASSERT_TRUE(full.ready());
   const Sections<Real>& s = tables.sections();
   const auto table_J = [](const GasTorque<Real>& gas) {
-    return static_cast<double>(static_cast<long double>(gas.mean_Nm) * 4 * kPi_ld);
+    return static_cast<double>(static_cast<long double>(gas.mean_Nm) * 4 * kPi_ld) / 4;  // of one cylinder
   };
   // The 1e-4 is for measured traces; a synthesised one leaves 1e-6.
   EXPECT_NEAR(table_J(*s.gas_torque_full), full.cycle_J(), 1e-6 * full.cycle_J());

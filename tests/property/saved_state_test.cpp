@@ -380,7 +380,7 @@ TYPED_TEST(SavedState, IsRefusedWhereANumberLiesOutsideWhatAStepCanCompute) {
     bad.valve[0][0].regime = 4;
     EXPECT_TRUE(refuses(loaded(rig, bad), Reason::out_of_range, "state.valve"));
     bad = good;
-    bad.valve[0][0].asleep = 2;
+    bad.valve[0][0].sleep = 3;
     EXPECT_TRUE(refuses(loaded(rig, bad), Reason::out_of_range, "state.valve"));
     bad = good;
     bad.valve[0][0].state.velocity_m_s = std::numeric_limits<Real>::infinity();

@@ -166,7 +166,7 @@ TEST(ValveTicks, FromOneMicrosecondToTwoMillisecondsGiveTheSameLift) {
 /// A rig's lifts every 20 us of a cycle; the tick is one Runge-Kutta step.
 std::vector<double> lifts(double rpm, double tick_s, Integrator integrator, double start_deg) {
   Rig<double> rig(ohc_125_train(), {tick_s, {integrator, 10 * kUm}}, start_deg);
-  EXPECT_EQ(rig.motion().steps * rig.motion().fine_per_step, 1u);
+  EXPECT_EQ(rig.motion().whole.parts * rig.motion().fine.parts, 1u);
   const double speed = rad_s_of_rpm(rpm);
   const int per = static_cast<int>(std::lround(20e-6 / tick_s));
   std::vector<double> all;
@@ -213,7 +213,7 @@ TEST(OrderOfConvergence, IsFourWithoutContactChanges) {
   const auto run = [&](double step_s, Integrator integrator) {
     ValveMotion<double> motion{};
     EXPECT_TRUE(motion_of(body, step_s, {integrator, 10 * kUm}, motion).ok());
-    EXPECT_EQ(motion.steps * motion.fine_per_step, 1u);
+    EXPECT_EQ(motion.whole.parts * motion.fine.parts, 1u);
     const std::uint64_t opens = phase_at(train.cam.full_lift_deg).units() - rig.curve().opens[0];
     const auto cam_at = [&](double deg) { return opens + phase_at(2 * deg).units(); };
     ValveCondition<double> valve{{7.78e-3, 0}, rig.curve().read(LiftCurve<double>::cell(cam_at(0))), kTrainOn, 0};
@@ -225,9 +225,8 @@ TEST(OrderOfConvergence, IsFourWithoutContactChanges) {
     for (int i = 0; i < n; ++i) {
       const double from = deg_per_s * step_s * i;
       const double to = deg_per_s * step_s * (i + 1);
-      const CamTurn<double> cam{static_cast<std::int64_t>(cam_at(to) - cam_at(from)), to - from};
-      ValveTick<double>(motion, rig.curve(), cam, budget)
-          .advance(valve, cam_at(to), LiftCurve<double>::cell(cam_at(to)), NoGasForce<double>{}, none);
+      const CamTurn<double> cam{static_cast<std::int64_t>(cam_at(to) - cam_at(from)), to - from, (to - from) / step_s};
+      ValveTick<double>(motion, rig.curve(), cam, budget).run(valve, cam_at(to), NoGasForce<double>{}, none);
       if (i % per == per - 1) all.push_back(valve.state.lift_m);
     }
     EXPECT_FALSE(budget.exceeded) << "a contact changed";

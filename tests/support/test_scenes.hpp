@@ -71,6 +71,7 @@ class FullTables {
     t.bearings = &s_->bearings;
     t.balance = &s_->balance;
     t.gas_grid = &s_->gas_grid;
+    t.torque_grid = &s_->torque_grid;
     t.gas_capacity = gas_capacity;
     t.pressure_full = pressure_full_.data();
     t.pressure_motored = pressure_motored_.data();
@@ -92,6 +93,7 @@ class FullTables {
     sections_.rod_curvature = t.rod_curvature;
     sections_.inertia_torque = t.inertia_torque;
     sections_.gas_grid = t.gas_grid;
+    sections_.torque_grid = t.torque_grid;
     sections_.pressure_full = t.pressure_full;
     sections_.pressure_motored = t.pressure_motored;
     sections_.pressure_heat = t.pressure_heat;
@@ -121,6 +123,7 @@ class FullTables {
     Bearings<Real> bearings;
     Balance<Real> balance;
     GasGrid gas_grid;
+    GasGrid torque_grid;
     GasTorque<Real> gas_torque_full;
     GasTorque<Real> gas_torque_motored;
     GasTorque<Real> gas_torque_heat;

@@ -111,7 +111,7 @@ class Rig {
   [[nodiscard]] const ValveMotion<Real>& motion() const { return tables_->tables().valve_motions[0]; }
   [[nodiscard]] const LiftCurve<Real>& curve() const { return tables_->tables().lift_curves[0]; }
   [[nodiscard]] const ValveCondition<Real>& valve() const { return engine_.state().valve[0][0]; }
-  [[nodiscard]] bool asleep() const { return valve().asleep != 0; }
+  [[nodiscard]] bool asleep() const { return valve().sleep == kAsleep; }
   [[nodiscard]] double tick_s() const { return tick_s_; }
   [[nodiscard]] const ValveTrain& train() const { return definition_.trains[0]; }
 

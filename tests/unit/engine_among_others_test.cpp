@@ -185,9 +185,10 @@ void expect_cylinders_as_if_alone(const EngineDefinition& engine) {
     const double rounding = static_cast<double>(size) * 8 * static_cast<double>(std::numeric_limits<Real>::epsilon());
     ASSERT_NEAR(static_cast<double>(out.torque_Nm), static_cast<double>(torque), rounding) << tick;
     // The first tick's mean is a trapezoid where it crawls; later it is a difference of work, right to 1e-6 or 1e-10 of
-    // the torques.
+    // the torques. The engine's torque curve is fitted by itself, within 1e-5 of 5 kNm as each cylinder's is: the bound
+    // holds for the middle of a degree and for the diagram's worst, most are far within.
     ASSERT_NEAR(static_cast<double>(out.mean_torque_Nm), static_cast<double>(mean),
-                static_cast<double>(size) * (sizeof(Real) == 4 ? 3e-6 : 1e-10) + 0.003)
+                static_cast<double>(size) * (sizeof(Real) == 4 ? 3e-6 : 1e-10) + 0.02)
         << tick;
   }
 }

@@ -246,10 +246,16 @@ TYPED_TEST(TickKinematics, TablesReadByHandHoldThePromiseForEveryCurve) {
       angle = std::max(angle, apart(read_integral(*s.rod_angle), want.rod_angle_rad));
       rod_slope = std::max(rod_slope, apart(read_slope(*s.rod_angle), want.rod_slope));
       curvature = std::max(curvature, apart(read(*s.rod_curvature), want.rod_curvature));
-      const long double torque =
-          -(wide(engine.masses.reciprocating_kg()) * want.slope_m * want.acceleration_m +
-            wide(engine.masses.rod_inertia_correction_kg_m2) * want.rod_slope * want.rod_curvature);
-      inertia = std::max(inertia, apart(read_slope(*s.inertia_torque), torque) / mass_r2);
+      long double torque = 0;
+      const auto cylinders = static_cast<std::size_t>(engine.layout.cylinders);
+      for (std::size_t k = 0; k < cylinders; ++k) {
+        const long double firing = wide(engine.layout.firing_deg[k]) * kPi_ld / 180;
+        const OraclePose p =
+            oracle_pose(crank, static_cast<long double>(phase.units()) * (4 * kPi_ld / 18446744073709551616.0L) - firing);
+        torque -= wide(engine.masses.reciprocating_kg()) * p.slope_m * p.acceleration_m +
+                  wide(engine.masses.rod_inertia_correction_kg_m2) * p.rod_slope * p.rod_curvature;
+      }
+      inertia = std::max(inertia, apart(read_slope(*s.inertia_torque), torque) / (mass_r2 * static_cast<double>(cylinders)));
     }
   }
   const double tolerance = kTolerance<Real>;

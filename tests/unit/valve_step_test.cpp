@@ -32,7 +32,7 @@ ValveMotion<double> motion_in_one_step(const ValveBody<double>& body, double ste
   ValveMotion<double> motion{};
   const Status status = motion_of(body, step_s, {integrator, 10e-6}, motion);
   EXPECT_TRUE(status.ok()) << status.field;
-  EXPECT_EQ(motion.steps * motion.fine_per_step, 1u) << "choose a shorter step";
+  EXPECT_EQ(motion.whole.parts * motion.fine.parts, 1u) << "choose a shorter step";
   return motion;
 }
 
@@ -107,7 +107,7 @@ TEST(ValveStep, IsTheTextbooksFourStagesMultipliedOutInEveryRegime) {
       const double gas_N = random.between(-50, 400);
       const bool wide = (regime & kTrainOn) != 0 && random.coin();
       const LiftMiddle<double> middle = lift_middle_at(lift, deg, turned);
-      const StepMatrix<double>& matrix = motion.fine[regime];
+      const StepMatrix<double>& matrix = motion.fine.matrix[regime];
       const ValveState<double> by_matrix =
           wide ? stepped(matrix, before, GasForce<double>{gas_N}, step, middle) : step_of(matrix, regime, before, step, gas_N);
       const ValveState<double> by_stages =
@@ -139,7 +139,7 @@ TEST(ValveStep, DiffersFromTheTextbookWithTrueMidStepLiftsByLessThanTheLiftTable
         truly.value[1] = middle.lift_m;
         truly.slope[1] = middle.per_rad_m * kRadPerDeg * turned;
         const ValveState<double> before{step.from_m - 30e-6, step.from_slope_m / d};
-        const ValveState<double> by_matrix = step_of(motion.fine[kTrainOn], kTrainOn, before, step, 0);
+        const ValveState<double> by_matrix = step_of(motion.fine.matrix[kTrainOn], kTrainOn, before, step, 0);
         worst = std::max(worst, std::fabs(by_matrix.lift_m - textbook(body, kTrainOn, d, before, truly, 0).lift_m));
       }
       std::printf("[ figures  ] against textbook with true mid-step lifts, %5.0f rpm, %2.0f us: %.1e um per step\n",
@@ -187,7 +187,7 @@ TEST(ValveStep, ByTheExponentialIsTheExactSolutionForThePolynomialLift) {
         v += (n + 2) * term[n + 2];
       }
       const ValveState<double> before{start_m, 0.9};
-      const StepMatrix<double>& matrix = motion.fine[regime];
+      const StepMatrix<double>& matrix = motion.fine.matrix[regime];
       const ValveState<double> after =
           by_middle ? stepped(matrix, before, GasForce<double>{12.0}, step, middle) : step_of(matrix, regime, before, step, 12.0);
       // Fourth-order steps of d / 64: w d / 64 <= 0.0134, so 0.0134^4 / 120 w d = 2.3e-10 of what swings, twice that
@@ -238,11 +238,11 @@ double swing_s(const ValveMotion<double>& motion, std::uint32_t regime, int swin
   double first = 0;
   for (int i = 1;; ++i) {
     const ValveState<double> next =
-        step_of(motion.fine[regime], regime, s, LiftStep<double>{}, 0.0);
+        step_of(motion.fine.matrix[regime], regime, s, LiftStep<double>{}, 0.0);
     if (s.lift_m < rest_m && next.lift_m >= rest_m) {
       const double at = i - (next.lift_m - rest_m) / (next.lift_m - s.lift_m);  // near the crossing a sine is straight
       if (upward == 0) first = at;
-      if (upward++ == swings) return (at - first) * motion.fine_s / swings;
+      if (upward++ == swings) return (at - first) * motion.fine.step_s / swings;
     }
     s = next;
   }
@@ -298,7 +298,7 @@ TEST(ValveStepping, RefusesWhatItCannotStepAndNamesTheLongestTick) {
     const ValveStepping stepping{Integrator::rk4, 0.01e-6 * std::pow(10, random.between(0, 3))};
     const double longest = longest_tick_s(b, stepping);
     EXPECT_TRUE(motion_of(b, longest * 0.999999, stepping, motion).ok());
-    EXPECT_LE(motion.steps * motion.fine_per_step, static_cast<std::uint32_t>(kMostFineSteps));
+    EXPECT_LE(motion.whole.parts * motion.fine.parts, static_cast<std::uint32_t>(kMostFineSteps));
     if (longest < 0.9) {
       EXPECT_TRUE(refuses(motion_of(b, longest * 1.000001, stepping, motion), Reason::out_of_range, "tick.tick"));
       EXPECT_TRUE(refuses(motion_of(b, longest * 4, stepping, motion), Reason::out_of_range, "tick.tick"));
@@ -306,7 +306,7 @@ TEST(ValveStepping, RefusesWhatItCannotStepAndNamesTheLongestTick) {
     // Monotone: what is accepted at a tick is accepted at every shorter one.
     for (int i = 0; i < 20; ++i) {
       EXPECT_TRUE(motion_of(b, longest * random.between(1e-3, 0.999), stepping, motion).ok());
-      EXPECT_NEAR(motion.steps * motion.fine_per_step * motion.fine_s, motion.step_s * motion.steps, 1e-15);
+      EXPECT_NEAR(motion.whole.parts * motion.fine.parts * motion.fine.step_s, motion.whole.step_s * motion.whole.parts, 1e-15);
     }
   }
 }
@@ -338,7 +338,7 @@ template <class Real>
 double energy_growth(const ValveBody<double>& body, std::uint32_t regime, double step_s, Integrator integrator,
                      long steps) {
   const ValveMotion<double> motion = motion_in_one_step(body, step_s, integrator);
-  const StepMatrix<Real> matrix = in_real<Real>(motion).fine[regime];
+  const StepMatrix<Real> matrix = in_real<Real>(motion).fine.matrix[regime];
   const bool on_train = (regime & kTrainOn) != 0;
   const double stiffness =
       body.spring_N_m + (on_train ? body.train_N_m : 0) + ((regime & kSeatOn) != 0 ? body.seat_N_m : 0);
@@ -410,7 +410,7 @@ constexpr std::size_t bytes_of_parts() {
   constexpr std::size_t real = sizeof(Real);
   constexpr std::size_t valves = std::size_t{Cylinders} * Trains;
   std::size_t bytes = 8 + 8 + 8 + 2 * real;  // fingerprint, phase, ticks; speed and load ratio
-  bytes += valves * (4 * real + 2 * 4);      // lift, velocity; the train's lift and slope; regime, asleep
+  bytes += valves * (4 * real + 2 * 4);      // lift, velocity; the train's lift and slope; regime, sleep
   if (Phasing) bytes += Trains * 8 + (Trains + 1) / 2 * 2 * real;
   if (Results) bytes += valves * ((9 + 3) * real + (4 + 2) * 4);  // cycle and record: numbers, counts
   return bytes;

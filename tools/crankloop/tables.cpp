@@ -24,7 +24,7 @@ struct AllSections {
   Curve<Real> acceleration{}, rod_tilt{}, radial{}, rod_curvature{};
   Bearings<Real> bearings{};
   Balance<Real> balance{};
-  GasGrid gas_grid{};
+  GasGrid gas_grid{}, torque_grid{};
   std::vector<Segment<Real>> pressure_full, pressure_motored, pressure_heat;
   GasTorque<Real> gas_torque_full{}, gas_torque_motored{}, gas_torque_heat{};
   std::vector<IntegratedSegment<Real>> gas_full, gas_motored, gas_heat;
@@ -42,7 +42,7 @@ struct AllSections {
     TableTargets<Real> t;
     t.drive = &drive, t.body = &body, t.stroke = &stroke, t.acceleration = &acceleration, t.rod_tilt = &rod_tilt, t.radial = &radial;
     t.rod_angle = &rod_angle, t.rod_curvature = &rod_curvature, t.inertia_torque = &inertia_torque, t.bearings = &bearings;
-    t.balance = &balance, t.gas_grid = &gas_grid, t.gas_capacity = static_cast<int>(kMostGasSegments);
+    t.balance = &balance, t.gas_grid = &gas_grid, t.torque_grid = &torque_grid, t.gas_capacity = static_cast<int>(kMostGasSegments);
     t.pressure_full = pressure_full.data(), t.pressure_motored = pressure_motored.data(), t.pressure_heat = pressure_heat.data();
     t.gas_torque_full = &gas_torque_full, t.gas_torque_motored = &gas_torque_motored, t.gas_torque_heat = &gas_torque_heat;
     t.gas_full = gas_full.data(), t.gas_motored = gas_motored.data(), t.gas_heat = gas_heat.data();
@@ -103,11 +103,14 @@ class Printer {
     });
   }
   template <class Real>
+  void print(const StepLevel<Real>& level) {
+    const auto& [parts, per_parts_32, per_parts, step, per_step, lag, matrix] = level;
+    list(parts, per_parts_32, per_parts, step, per_step, lag, matrix);
+  }
+  template <class Real>
   void print(const ValveMotion<Real>& m) {
-    const auto& [body, steps, fine_per_step, per_steps_32, per_fine_32, per_steps, per_fine, step, fine, per_step, per_fine_s, short_step, widest, lag,
-                 rest, rest_speed, quiet, per_seat_rate, per_seat, whole_matrix, fine_matrix] = m;
-    list(body, steps, fine_per_step, per_steps_32, per_fine_32, per_steps, per_fine, step, fine, per_step, per_fine_s, short_step, widest, lag, rest,
-         rest_speed, quiet, per_seat_rate, per_seat, whole_matrix, fine_matrix);
+    const auto& [body, whole, fine, short_step, widest, clear, rest, rest_speed, quiet, per_seat_rate, per_seat] = m;
+    list(body, whole, fine, short_step, widest, clear, rest, rest_speed, quiet, per_seat_rate, per_seat);
   }
   template <class Real>
   void print(const Curve<Real>& c) { braced([&] { rows(c.at, kDegreesPerTurn); }); }
@@ -186,7 +189,7 @@ void print_trains(Printer& p, const AllSections<Real>& s, const std::string& of_
     p.text("{\n");
     std::uint32_t first = 0;
     for (std::uint32_t t = 0; t < s.drive.trains; ++t) {
-      const auto& [at, rocker_ratio, opens, most_phase_per_tick, count, touch_from, touch_degrees, outside] = s.lift_curves[t];
+      const auto& [at, rocker_ratio, opens, most_phase_per_tick, count, touch_from, touch_degrees, leap_deg, outside] = s.lift_curves[t];
       p.text("  {lift_segments + " + std::to_string(first) + ", rocker_ratios + " + std::to_string(first) + ", ");
       p.print(opens);
       p.text(", ");
@@ -195,6 +198,8 @@ void print_trains(Printer& p, const AllSections<Real>& s, const std::string& of_
         p.text(", ");
         p.number(number);
       }
+      p.text(", ");
+      p.number(leap_deg);
       p.text(", ");
       p.number(outside);
       p.text("},\n");
@@ -208,13 +213,13 @@ void print_trains(Printer& p, const AllSections<Real>& s, const std::string& of_
 }
 
 template <class Real>
-void print_sections(Printer& p, const AllSections<Real>& s, const std::string& real, std::size_t gas_segments) {
+void print_sections(Printer& p, const AllSections<Real>& s, const std::string& real, const TableReport& report) {
   const std::string of_real = "<" + real + ">";
   const auto type = [&](const char* name) { return "crankloop::" + std::string(name) + of_real; };
   const Drive<Real>& d = s.drive;
   section(p, type("Drive"), "drive", [&] {
     p.list(d.fingerprint, d.tick_s, d.per_tick_s, d.cycles_per_tick_per_rad_s, d.rad_s_per_cycle_per_tick, d.speed_limit_rad_s, d.cylinders, d.mechanisms,
-           d.firing_phase, d.mechanism_of, d.turn_of, d.cylinders_on_mechanism, d.trains);
+           d.firing_phase, d.mechanism_of, d.turn_of, d.trains);
   });
   const Body<Real>& b = s.body;
   section(p, type("Body"), "body", [&] {
@@ -241,15 +246,17 @@ void print_sections(Printer& p, const AllSections<Real>& s, const std::string& r
   const Bearings<Real>& g = s.bearings;
   section(p, type("Bearings"), "bearings", [&] { p.list(g.pins, g.pin_of, g.rods_kg_m, g.throw_kg_m, g.throw_cos, g.throw_sin); });
   section(p, type("Balance"), "balance", [&] { p.list(s.balance.first, s.balance.second, s.balance.rotating, s.balance.cosine); });
-  section(p, "crankloop::GasGrid", "gas_grid", [&] { p.braced([&] { p.print(s.gas_grid.first); }); });
+  const auto grid = [&](const char* name, const GasGrid& of) { section(p, "crankloop::GasGrid", name, [&] { p.braced([&] { p.print(of.first); }); }); };
+  grid("gas_grid", s.gas_grid);
+  grid("torque_grid", s.torque_grid);
   const auto pressure = [&](const char* name, const std::vector<Segment<Real>>& segments) {
-    section(p, type("Segment"), std::string(name) + "[]", [&] { p.rows(segments.data(), gas_segments); });
+    section(p, type("Segment"), std::string(name) + "[]", [&] { p.rows(segments.data(), static_cast<std::size_t>(report.gas_segments)); });
   };
   pressure("pressure_full", s.pressure_full);
   pressure("pressure_motored", s.pressure_motored);
   pressure("pressure_heat", s.pressure_heat);
   const auto torque = [&](const std::string& name, const GasTorque<Real>& curve, const std::vector<IntegratedSegment<Real>>& segments) {
-    section(p, type("IntegratedSegment"), name + "_segments[]", [&] { p.rows(segments.data(), gas_segments); });
+    section(p, type("IntegratedSegment"), name + "_segments[]", [&] { p.rows(segments.data(), static_cast<std::size_t>(report.torque_segments)); });
     section(p, type("GasTorque"), name, [&] {
       p.text("{" + name + "_segments, ");
       p.number(curve.quantum);
@@ -265,7 +272,7 @@ void print_sections(Printer& p, const AllSections<Real>& s, const std::string& r
 
   p.text("\nconstexpr crankloop::Sections" + of_real + " sections = [] {\n  crankloop::Sections" + of_real + " s;\n");
   for (const char* name : {"drive", "body", "stroke", "acceleration", "rod_tilt", "radial", "rod_angle", "rod_curvature", "inertia_torque",
-                           "bearings", "balance", "gas_grid", "gas_torque_full", "gas_torque_motored", "gas_torque_heat"}) {
+                           "bearings", "balance", "gas_grid", "torque_grid", "gas_torque_full", "gas_torque_motored", "gas_torque_heat"}) {
     p.text(std::string("  s.") + name + " = &" + name + ";\n");
   }
   for (const char* name : {"pressure_full", "pressure_motored", "pressure_heat"}) {
@@ -292,7 +299,7 @@ void print_header(Output& out, const EngineFile& engine, const Arguments& argume
          (has_valves ? "; valves: " + arguments.text("--integrator") + ", " + shortest(arguments.number("--accuracy-um")) + " um" : "") +
          ".\n// Made by `crankloop tables`; do not edit. Each section is an object of its own: what a scene does not read is not linked.\n"
          "#pragma once\n\n#include <crankloop/tick/tables.hpp>\n\nnamespace " + name_space + " {\n");
-  print_sections(p, *sections, real, static_cast<std::size_t>(report.gas_segments));
+  print_sections(p, *sections, real, report);
   p.text("\n}  // namespace " + name_space + "\n");
 }
 

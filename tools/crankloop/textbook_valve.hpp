@@ -25,7 +25,7 @@ struct CamSpan {
   }
 };
 
-/// Advances one valve by a tick in steps * fine_per_step equal steps: as many as the tick's finest, so that both can be
+/// Advances one valve by a tick in equal steps: as many as the tick's finest, so that both can be
 /// compared.
 template <class Real>
 class TextbookValve {
@@ -35,17 +35,17 @@ class TextbookValve {
 
   void advance(ValveCondition<Real>& valve, const CamSpan& cam, Real gas_N,
                ValveRecord<Real>& record) const noexcept {
-    const std::uint32_t count = motion_.steps * motion_.fine_per_step;
-    const Real per_count = motion_.per_steps * motion_.per_fine;
+    const std::uint32_t count = motion_.whole.parts * motion_.fine.parts;
+    const Real per_count = motion_.whole.per_parts * motion_.fine.per_parts;
     const Real step_deg = cam.turned_deg<Real>() * per_count;
-    const Real deg_per_s = step_deg / motion_.fine_s;
+    const Real deg_per_s = step_deg / motion_.fine.step_s;
     const std::int64_t half_step = static_cast<std::int64_t>(cam.to - cam.from) / (2 * std::int64_t{count});
     const auto place = [&](std::uint32_t half_steps) {
       if (half_steps == 2 * count) return cam.to;
       return cam.from + static_cast<std::uint64_t>(half_step * std::int64_t{half_steps});
     };
     Real from_deg = curve_.degrees(cam.from);
-    valve.asleep = 0;
+    valve.sleep = kAwake;
     for (std::uint32_t i = 0; i < count; ++i) {
       const LiftNow<Real> start = lift_at(place(2 * i), deg_per_s);
       const LiftNow<Real> middle = lift_at(place(2 * i + 1), deg_per_s);
@@ -55,7 +55,7 @@ class TextbookValve {
       const std::uint32_t regime = regime_of(valve.state, end);
       record.step({before, valve.state, start.lift_m, end.lift_m, start.speed_m_s, end.speed_m_s,
                    acceleration(motion_.body, regime, valve.state, end.lift_m, end.speed_m_s, gas_N), from_deg,
-                   from_deg + step_deg, motion_.fine_s, valve.regime},
+                   from_deg + step_deg, motion_.fine.step_s, valve.regime},
                   motion_.body.seat_sink_m);
       from_deg += step_deg;
       if (regime != valve.regime) record.change(valve.regime, regime, valve.state.velocity_m_s, from_deg);
@@ -81,7 +81,7 @@ class TextbookValve {
 
   [[nodiscard]] ValveState<Real> stepped(ValveState<Real> s, LiftNow<Real> start, LiftNow<Real> middle,
                                          LiftNow<Real> end, Real gas_N) const noexcept {
-    const Real d = motion_.fine_s;
+    const Real d = motion_.fine.step_s;
     const Real y = s.lift_m;
     const Real v = s.velocity_m_s;
     const Real k1 = f(y, v, start, gas_N);

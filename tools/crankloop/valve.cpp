@@ -104,10 +104,10 @@ std::string summary(const LoneValve& valve, const Request& request, const ValveL
   if (cycle.off_seat_at_end != 0) s.remark("the valve is still off its seat in the middle of the base circle");
   s.line("natural_frequency_Hz", real(open_frequency_rad_s(body) / kRadPerTurn), "Hz", "open, on the train");
   s.line("seat_frequency_Hz", real(seated_frequency_rad_s(body) / kRadPerTurn), "Hz", "on train and seat");
-  s.count("sub_steps", loop.motion().steps * loop.motion().fine_per_step,
+  s.count("sub_steps", loop.motion().whole.parts * loop.motion().fine.parts,
           request.method.textbook
               ? "in each tick"
-              : "in a tick, near contact changes; " + std::to_string(loop.motion().steps) + " elsewhere");
+              : "in a tick, near contact changes; " + std::to_string(loop.motion().whole.parts) + " elsewhere");
   s.count("events", cycle.contact_changes, "contact changes in the cycle");
   if ((loop.faults() & kFaultEventBudget) != 0)
     s.remark("some ticks had more contact changes than are located: take a shorter --tick-us");

@@ -202,7 +202,7 @@ const ValveCycle<Real>& ValveLoop<Real>::last_cycle() const noexcept {
 template <class Real>
 ValveCycle<Real> run_cycles(ValveLoop<Real>& loop, const LoneValve& valve, double speed_rpm, int cycles,
                             const OnValveTick<Real>& on_tick, const std::function<void()>& after_tick) {
-  const double tick_s = static_cast<double>(loop.motion().step_s) * static_cast<double>(loop.motion().steps);
+  const double tick_s = static_cast<double>(loop.motion().whole.step_s) * static_cast<double>(loop.motion().whole.parts);
   require_ticks(cycles * ticks_per_cycle(speed_rpm, tick_s), tick_s);
   const double sense = speed_rpm < 0 ? -1 : 1;
   const double deg_per_tick = std::abs(loop.deg_per_tick(speed_rpm));

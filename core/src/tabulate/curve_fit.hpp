@@ -81,14 +81,13 @@ void fill(Curve<Real>& curve, const Function& f) noexcept {
   }
 }
 
-/// The unit in which float counts integrals up to `range`, so that a sum of `copies` stays within a signed 32-bit count: a power of two,
-/// so that multiplying by it is exact. double keeps the integral itself.
+/// The unit in which float counts integrals up to `range` in a signed 32-bit count: a power of two, so that multiplying by it is exact. double keeps the integral itself.
 template <class Real>
-[[nodiscard]] double quantum_for(double range, int copies) noexcept {
+[[nodiscard]] double quantum_for(double range) noexcept {
   if (sizeof(Real) > 4) return 1;
   double quantum = 1.0 / 1073741824.0;
-  while (quantum * 1073741824.0 < range * copies) quantum *= 2;
-  while (quantum * 536870912.0 > range * copies && quantum > 1e-30) quantum /= 2;
+  while (quantum * 1073741824.0 < range) quantum *= 2;
+  while (quantum * 536870912.0 > range && quantum > 1e-30) quantum /= 2;
   return quantum;
 }
 
@@ -104,14 +103,14 @@ template <class Real>
 
 /// Fills a curve and its integral from f(angle) and its known antiderivative F(angle).
 template <class Real, class Function, class Antiderivative>
-void fill(IntegratedCurve<Real>& curve, int copies, const Function& f, const Antiderivative& F) noexcept {
+void fill(IntegratedCurve<Real>& curve, const Function& f, const Antiderivative& F) noexcept {
   double largest = 0;
   for (int degree = 0; degree < kDegreesPerTurn; ++degree) {
     const double size = F(degree * kRadPerDegree);
     if (size > largest) largest = size;
     if (-size > largest) largest = -size;
   }
-  const double quantum = quantum_for<Real>(largest * 1.01, copies);
+  const double quantum = quantum_for<Real>(largest * 1.01);
   curve.quantum = static_cast<Real>(quantum);
   for (int degree = 0; degree < kDegreesPerTurn; ++degree) {
     curve.at[degree].base = base_of<Real>(F(degree * kRadPerDegree), quantum);

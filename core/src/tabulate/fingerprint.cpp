@@ -44,6 +44,7 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
   f.add(scalar_bytes);
   f.add(options.tick_s);
   f.add(report.tolerance_doublings);
+  f.add(report.torque_doublings);
 
   const Crank& c = engine.crank;
   for (const double x : {c.bore_m, c.crank_radius_m, c.rod_length_m, c.pin_offset_m, c.compression_ratio}) f.add(x);

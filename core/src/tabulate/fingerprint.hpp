@@ -31,7 +31,7 @@ class Fingerprint {
   std::uint64_t hash_ = 0xCBF29CE484222325u;
 };
 
-inline constexpr int kTableFormat = 2;  ///< counts up whenever the same definition gives other tables
+inline constexpr int kTableFormat = 3;  ///< counts up whenever the same definition gives other tables
 
 /// Same definition, tick, stepping of the valves, scalar, accuracy of the gas grid and table format: same fingerprint, whichever sections are built and wherever.
 [[nodiscard]] std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& options, const TableReport& report,

@@ -1,5 +1,6 @@
 #include "gas_curves.hpp"
 
+#include <cstddef>
 #include <initializer_list>
 
 #include <crankloop/tabulate/mechanism.hpp>
@@ -11,13 +12,16 @@ namespace {
 
 constexpr int kDivisions[] = {1, 2, 5, 10, 20};  // of a degree; 0.1 deg data has its points on the borders of 10 and 20
 constexpr int kSamplesPerSegment = 10;
-constexpr double kPressureTolerance = 1e-5;      // of the peak pressure
+constexpr double kTolerance = 1e-5;              // of the peak pressure, and of the torque that it has on the crank radius
 constexpr int kMostDoublings = 20;               // of the tolerance: beyond the peak pressure, so one segment a degree
 
 [[nodiscard]] double size(double x) noexcept { return x < 0 ? -x : x; }
 
-/// One of the curves that share the grid: pressure in Pa over crank degrees.
+/// One of the curves that share a grid.
 enum class Part { full, motored, heat };
+constexpr Part kParts[] = {Part::full, Part::motored, Part::heat};
+
+/// Pressure in Pa over crank degrees.
 [[nodiscard]] double pressure(const IndicatorDiagram& diagram, Part part, double deg) noexcept {
   switch (part) {
     case Part::full: break;
@@ -26,6 +30,33 @@ enum class Part { full, motored, heat };
   }
   return diagram.full_Pa(deg);
 }
+
+/// Gas torque of all cylinders in Nm over engine degrees.
+class EngineTorque {
+ public:
+  EngineTorque(const EngineDefinition& engine, const IndicatorDiagram& diagram) noexcept
+      : engine_{engine}, diagram_{diagram}, area_m2_{bore_area_m2(engine.crank)} {}
+
+  [[nodiscard]] double torque_Nm(Part part, double deg) const noexcept {
+    const double back_Pa = part == Part::heat ? 0 : engine_.pressure.crankcase_Pa;  // the heat comes on top of the motored pressure
+    double sum = 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(engine_.layout.cylinders); ++k) {
+      double own_deg = deg - engine_.layout.firing_deg[k];
+      if (own_deg < 0) own_deg += kDegreesPerCycle;
+      const double slope_m = exact_pose(engine_.crank, own_deg * kRadPerDegree).slope_m;
+      sum += (pressure(diagram_, part, own_deg) - back_Pa) * area_m2_ * slope_m;
+    }
+    return sum;
+  }
+
+  /// Of a pressure on one piston, with the crank radius as its lever.
+  [[nodiscard]] double scale_Nm(double pressure_Pa) const noexcept { return pressure_Pa * area_m2_ * engine_.crank.crank_radius_m; }
+
+ private:
+  const EngineDefinition& engine_;
+  const IndicatorDiagram& diagram_;
+  double area_m2_;
+};
 
 /// Pressure within one segment: through both ends, so that the curve has no steps, with the curvature that meets the middle, limited to what
 /// keeps the segment monotone where the diagram is: no overshoot between given points.
@@ -54,15 +85,23 @@ template <class Real, class Function>
   return p;
 }
 
-/// Largest error of a pressure curve in one degree when it is divided into n segments.
 template <class Real>
-[[nodiscard]] double degree_error_Pa(const IndicatorDiagram& diagram, Part part, int degree, int n) noexcept {
-  const auto f = [&](double u) { return pressure(diagram, part, degree + u); };
+[[nodiscard]] Segment<Real> pressure_segment(const IndicatorDiagram& diagram, Part part, int degree, double from, double to) noexcept {
+  return rounded<Real>(fitted_pressure<Real>(from, to, [&](double u) { return pressure(diagram, part, degree + u); }));
+}
+template <class Real>
+[[nodiscard]] Segment<Real> torque_segment(const EngineTorque& engine, Part part, int degree, double from, double to) noexcept {
+  return rounded<Real>(fitted<Real>(from, to, [&](double u) { return engine.torque_Nm(part, degree + u); }));
+}
+
+/// Largest error of segment_of(from, to) against f(u) in a degree that is divided into n segments.
+template <class Real, class SegmentOf, class Function>
+[[nodiscard]] double degree_error(int n, const SegmentOf& segment_of, const Function& f) noexcept {
   double largest = 0;
   for (int i = 0; i < n; ++i) {
     const double from = static_cast<double>(i) / n;
     const double to = static_cast<double>(i + 1) / n;
-    const Segment<Real> segment = rounded<Real>(fitted_pressure<Real>(from, to, f));
+    const Segment<Real> segment = segment_of(from, to);
     for (int sample = 0; sample <= kSamplesPerSegment; ++sample) {
       const double u = from + (to - from) * sample / kSamplesPerSegment;
       const double error = size(static_cast<double>(value(segment, static_cast<Real>(u))) - f(u));
@@ -72,46 +111,40 @@ template <class Real>
   return largest;
 }
 
-/// How a degree is divided: the fewest segments that keep every pressure within the tolerance, and the largest error then.
-struct Division {
+/// What a grid came to.
+struct Chosen {
   int segments;
-  double error_Pa;
+  int doublings;  ///< of the tolerance
+  double error;   ///< largest
 };
-template <class Real>
-[[nodiscard]] Division divide(const IndicatorDiagram& diagram, int degree, double tolerance_Pa) noexcept {
-  Division division{1, 0};
-  for (const int n : kDivisions) {
-    division = {n, 0};
-    for (const Part part : {Part::full, Part::motored, Part::heat}) {
-      const double error = degree_error_Pa<Real>(diagram, part, degree, n);
-      if (error > division.error_Pa) division.error_Pa = error;
-    }
-    if (division.error_Pa <= tolerance_Pa) break;
-  }
-  return division;
-}
 
-template <class Real>
-void choose_grid(const IndicatorDiagram& diagram, GasGrid& grid, int capacity, TableReport& report) noexcept {
-  double peak_Pa = 0;
-  for (int i = 0; i < 10 * kDegreesPerCycle; ++i) {
-    const double p = diagram.full_Pa(i / 10.0);
-    if (p > peak_Pa) peak_Pa = p;
-  }
-  double tolerance_Pa = kPressureTolerance * peak_Pa;
-  for (int doublings = 0; doublings <= kMostDoublings; ++doublings) {
-    report = {};
-    report.tolerance_doublings = doublings;
+/// Divides each degree into the fewest segments that keep error(part, degree, segments) within the tolerance for every part; the tolerance is
+/// doubled until they all fit.
+template <class Error>
+[[nodiscard]] Chosen choose_grid(GasGrid& grid, int capacity, double tolerance, const Error& error) noexcept {
+  Chosen chosen{};
+  for (int doublings = 0; doublings <= kMostDoublings; ++doublings, tolerance *= 2) {
+    chosen = {0, doublings, 0};
     for (int degree = 0; degree < kDegreesPerCycle; ++degree) {
-      const Division division = divide<Real>(diagram, degree, tolerance_Pa);
-      grid.first[degree] = static_cast<std::uint16_t>(report.gas_segments);
-      report.gas_segments += division.segments;
-      if (division.error_Pa > report.pressure_error_Pa) report.pressure_error_Pa = division.error_Pa;
+      grid.first[degree] = static_cast<std::uint16_t>(chosen.segments);
+      int segments = 0;
+      double worst = 0;
+      for (const int n : kDivisions) {
+        segments = n;
+        worst = 0;
+        for (const Part part : kParts) {
+          const double of_part = error(part, degree, n);
+          if (of_part > worst) worst = of_part;
+        }
+        if (worst <= tolerance) break;
+      }
+      chosen.segments += segments;
+      if (worst > chosen.error) chosen.error = worst;
     }
-    grid.first[kDegreesPerCycle] = static_cast<std::uint16_t>(report.gas_segments);
-    if (report.gas_segments <= capacity) return;
-    tolerance_Pa *= 2;
+    grid.first[kDegreesPerCycle] = static_cast<std::uint16_t>(chosen.segments);
+    if (chosen.segments <= capacity) break;
   }
+  return chosen;
 }
 
 /// Calls visit(segment index, degree, from, to) for every segment of the grid.
@@ -126,10 +159,8 @@ void for_each_segment(const GasGrid& grid, const Visit& visit) noexcept {
 
 /// Fills a gas torque curve and its work; returns nothing, cannot fail.
 template <class Real>
-void fill_torque(const EngineDefinition& engine, const IndicatorDiagram& diagram, const GasGrid& grid, Part part, int copies,
-                 GasTorque<Real>& torque, IntegratedSegment<Real>* segments) noexcept {
-  const double area = bore_area_m2(engine.crank);
-  const double back_Pa = part == Part::heat ? 0 : engine.pressure.crankcase_Pa;  // the heat comes on top of the motored pressure
+void fill_torque(const EngineTorque& engine, const GasGrid& grid, Part part, GasTorque<Real>& torque,
+                 IntegratedSegment<Real>* segments) noexcept {
   // The work of a segment is that of its own rounded polynomial, so that work and torque belong together to rounding.
   const auto work_J = [&](const Segment<Real>& s, double u) {
     double sum = 0;
@@ -139,10 +170,7 @@ void fill_torque(const EngineDefinition& engine, const IndicatorDiagram& diagram
   double cycle_J = 0;
   for_each_segment(grid, [&](int index, int degree, double from, double to) {
     Segment<Real>& slope = segments[index].slope;
-    slope = rounded<Real>(fitted<Real>(from, to, [&](double u) {
-      const double deg = degree + u;
-      return (pressure(diagram, part, deg) - back_Pa) * area * exact_pose(engine.crank, deg * kRadPerDegree).slope_m;
-    }));
+    slope = torque_segment<Real>(engine, part, degree, from, to);
     cycle_J += work_J(slope, to) - work_J(slope, from);
   });
   const double mean = cycle_J / kRadPerCycle;
@@ -160,11 +188,52 @@ void fill_torque(const EngineDefinition& engine, const IndicatorDiagram& diagram
   };
   double largest = 1e-30;
   for_each_base([&](int, double base_J) { largest = size(base_J) > largest ? size(base_J) : largest; });
-  const double quantum = quantum_for<Real>(largest * 1.05, copies);
+  const double quantum = quantum_for<Real>(largest * 1.05);
   for_each_base([&](int index, double base_J) { segments[index].base = base_of<Real>(base_J, quantum); });
   torque.at = segments;
   torque.quantum = static_cast<Real>(quantum);
   torque.mean_Nm = static_cast<Real>(mean);
+}
+
+template <class Real>
+void fill_pressures(const IndicatorDiagram& diagram, double peak_Pa, const TableTargets<Real>& targets, TableReport& report) noexcept {
+  if (targets.gas_grid == nullptr) return;
+  const Chosen chosen = choose_grid(*targets.gas_grid, targets.gas_capacity, kTolerance * peak_Pa, [&](Part part, int degree, int n) {
+    return degree_error<Real>(
+        n, [&](double from, double to) { return pressure_segment<Real>(diagram, part, degree, from, to); },
+        [&](double u) { return pressure(diagram, part, degree + u); });
+  });
+  report.gas_segments = chosen.segments;
+  report.tolerance_doublings = chosen.doublings;
+  report.pressure_error_Pa = chosen.error;
+  const auto fill = [&](Segment<Real>* segments, Part part) {
+    if (segments == nullptr) return;
+    for_each_segment(*targets.gas_grid, [&](int index, int degree, double from, double to) {
+      segments[index] = pressure_segment<Real>(diagram, part, degree, from, to);
+    });
+  };
+  fill(targets.pressure_full, Part::full);
+  fill(targets.pressure_motored, Part::motored);
+  fill(targets.pressure_heat, Part::heat);
+}
+
+template <class Real>
+void fill_torques(const EngineTorque& engine, double peak_Pa, const TableTargets<Real>& targets, TableReport& report) noexcept {
+  if (targets.torque_grid == nullptr) return;
+  const Chosen chosen = choose_grid(*targets.torque_grid, targets.gas_capacity, kTolerance * engine.scale_Nm(peak_Pa), [&](Part part, int degree, int n) {
+    return degree_error<Real>(
+        n, [&](double from, double to) { return torque_segment<Real>(engine, part, degree, from, to); },
+        [&](double u) { return engine.torque_Nm(part, degree + u); });
+  });
+  report.torque_segments = chosen.segments;
+  report.torque_doublings = chosen.doublings;
+  report.torque_error_Nm = chosen.error;
+  const auto fill = [&](GasTorque<Real>* torque, IntegratedSegment<Real>* segments, Part part) {
+    if (torque != nullptr) fill_torque(engine, *targets.torque_grid, part, *torque, segments);
+  };
+  fill(targets.gas_torque_full, targets.gas_full, Part::full);
+  fill(targets.gas_torque_motored, targets.gas_motored, Part::motored);
+  fill(targets.gas_torque_heat, targets.gas_heat, Part::heat);
 }
 
 }  // namespace
@@ -172,27 +241,13 @@ void fill_torque(const EngineDefinition& engine, const IndicatorDiagram& diagram
 template <class Real>
 void fill_gas(const EngineDefinition& engine, const IndicatorDiagram& diagram, const TableTargets<Real>& targets,
               TableReport& report) noexcept {
-  if (targets.gas_grid == nullptr) return;
-  const GasGrid& grid = *targets.gas_grid;
-  choose_grid<Real>(diagram, *targets.gas_grid, targets.gas_capacity, report);
-
-  const auto fill_pressure = [&](Segment<Real>* segments, Part part) {
-    if (segments == nullptr) return;
-    for_each_segment(grid, [&](int index, int degree, double from, double to) {
-      segments[index] = rounded<Real>(fitted_pressure<Real>(from, to, [&](double u) { return pressure(diagram, part, degree + u); }));
-    });
-  };
-  fill_pressure(targets.pressure_full, Part::full);
-  fill_pressure(targets.pressure_motored, Part::motored);
-  fill_pressure(targets.pressure_heat, Part::heat);
-
-  const int copies = engine.layout.cylinders;
-  const auto fill_gas_torque = [&](GasTorque<Real>* torque, IntegratedSegment<Real>* segments, Part part) {
-    if (torque != nullptr) fill_torque(engine, diagram, grid, part, copies, *torque, segments);
-  };
-  fill_gas_torque(targets.gas_torque_full, targets.gas_full, Part::full);
-  fill_gas_torque(targets.gas_torque_motored, targets.gas_motored, Part::motored);
-  fill_gas_torque(targets.gas_torque_heat, targets.gas_heat, Part::heat);
+  double peak_Pa = 0;
+  for (int i = 0; i < 10 * kDegreesPerCycle; ++i) {
+    const double p = diagram.full_Pa(i / 10.0);
+    if (p > peak_Pa) peak_Pa = p;
+  }
+  fill_pressures(diagram, peak_Pa, targets, report);
+  fill_torques(EngineTorque(engine, diagram), peak_Pa, targets, report);
 }
 
 template void fill_gas(const EngineDefinition&, const IndicatorDiagram&, const TableTargets<float>&, TableReport&) noexcept;

@@ -1,4 +1,4 @@
-// Gas pressure and gas torque over the cycle, on a grid that is fine where the pressure is steep.
+// Gas pressure of a cylinder and gas torque of the engine over the cycle, each on a grid that is fine where it is steep.
 #pragma once
 
 #include <crankloop/tabulate/indicator_diagram.hpp>
@@ -6,7 +6,7 @@
 
 namespace crankloop::detail {
 
-/// Chooses the grid and fills every gas target that is there. `diagram` is initialised for `engine`.
+/// Chooses the grids and fills every gas target that is there. `diagram` is initialised for `engine`.
 template <class Real>
 void fill_gas(const EngineDefinition& engine, const IndicatorDiagram& diagram, const TableTargets<Real>& targets,
               TableReport& report) noexcept;

@@ -53,7 +53,6 @@ void fill_drive(const EngineDefinition& engine, const TickOptions& options, Driv
     }
     drive.mechanism_of[k] = static_cast<std::uint8_t>(m);
     drive.turn_of[k] = turn;
-    drive.cylinders_on_mechanism[m] += Real{1};
   }
 }
 
@@ -91,8 +90,9 @@ template <class Real>
 [[nodiscard]] Status validate(const TableTargets<Real>& t) noexcept {
   const bool pressure = t.pressure_full != nullptr || t.pressure_motored != nullptr || t.pressure_heat != nullptr;
   const bool torque = t.gas_torque_full != nullptr || t.gas_torque_motored != nullptr || t.gas_torque_heat != nullptr;
-  if ((pressure || torque) && t.gas_grid == nullptr) return {Reason::missing_table, -1, "targets.gas_grid"};
-  if (t.gas_grid != nullptr && t.gas_capacity < kDegreesPerCycle) return {Reason::out_of_range, -1, "targets.gas_capacity"};
+  if (pressure && t.gas_grid == nullptr) return {Reason::missing_table, -1, "targets.gas_grid"};
+  if (torque && t.torque_grid == nullptr) return {Reason::missing_table, -1, "targets.torque_grid"};
+  if ((t.gas_grid != nullptr || t.torque_grid != nullptr) && t.gas_capacity < kDegreesPerCycle) return {Reason::out_of_range, -1, "targets.gas_capacity"};
   if ((t.gas_torque_full != nullptr) != (t.gas_full != nullptr)) return {Reason::missing_table, -1, "targets.gas_full"};
   if ((t.gas_torque_motored != nullptr) != (t.gas_motored != nullptr)) return {Reason::missing_table, -1, "targets.gas_motored"};
   const bool all_of_lift = t.lift_segments != nullptr && t.rocker_ratios != nullptr;
@@ -109,27 +109,32 @@ void fill_mechanism(const EngineDefinition& engine, const TableTargets<Real>& t)
   };
   const auto slope = quantity(&Pose<double>::slope_m);
   const auto displacement = quantity(&Pose<double>::displacement_m);
-  if (t.stroke != nullptr) detail::fill(*t.stroke, 1, slope, displacement);
+  if (t.stroke != nullptr) detail::fill(*t.stroke, slope, displacement);
   if (t.acceleration != nullptr) detail::fill(*t.acceleration, quantity(&Pose<double>::acceleration_m));
   if (t.rod_tilt != nullptr) detail::fill(*t.rod_tilt, quantity(&Pose<double>::rod_tilt));
   if (t.radial != nullptr) detail::fill(*t.radial, quantity(&Pose<double>::radial));
   if (t.rod_angle != nullptr) {
-    detail::fill(*t.rod_angle, 1, quantity(&Pose<double>::rod_slope), quantity(&Pose<double>::rod_angle_rad));
+    detail::fill(*t.rod_angle, quantity(&Pose<double>::rod_slope), quantity(&Pose<double>::rod_angle_rad));
   }
   if (t.rod_curvature != nullptr) detail::fill(*t.rod_curvature, quantity(&Pose<double>::rod_curvature));
   if (t.inertia_torque != nullptr) {
     // Kinetic energy of piston and rod beyond the big end is 1/2 w^2 (m_j x'^2 + dI b'^2); the torque takes it from the crank.
     const double m = engine.masses.reciprocating_kg();
     const double inertia = engine.masses.rod_inertia_correction_kg_m2;
-    const auto torque = [&](double angle) {
-      const Pose<double> p = exact_pose(crank, angle);
+    const auto of_all = [&](double angle, const auto& of_one) {
+      double sum = 0;
+      for (std::size_t k = 0; k < static_cast<std::size_t>(engine.layout.cylinders); ++k) {
+        sum += of_one(exact_pose(crank, angle - engine.layout.firing_deg[k] * detail::kRadPerDegree));
+      }
+      return sum;
+    };
+    const auto torque = [&](const Pose<double>& p) {
       return -(m * p.slope_m * p.acceleration_m + inertia * p.rod_slope * p.rod_curvature);
     };
-    const auto energy_given = [&](double angle) {
-      const Pose<double> p = exact_pose(crank, angle);
+    const auto energy_given = [&](const Pose<double>& p) {
       return -(m * p.slope_m * p.slope_m + inertia * p.rod_slope * p.rod_slope) / 2;
     };
-    detail::fill(*t.inertia_torque, engine.layout.cylinders, torque, energy_given);
+    detail::fill(*t.inertia_torque, [&](double angle) { return of_all(angle, torque); }, [&](double angle) { return of_all(angle, energy_given); });
   }
 }
 

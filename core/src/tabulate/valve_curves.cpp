@@ -110,6 +110,7 @@ void fill_lift(const Cam& cam, const Rocker& rocker, const Layout& layout, const
   last = last + 1 < degrees ? last + 1 : degrees - 1;
   curve.touch_from = static_cast<std::uint32_t>(first);
   curve.touch_degrees = static_cast<std::uint32_t>(last >= first ? last - first + 1 : 0);
+  curve.leap_deg = static_cast<Real>(curve.touch_degrees > 0 ? static_cast<double>(curve.touch_degrees) : kDegreesPerTurn + 1.0);
   const double most_deg = cam.phase_rate_deg_s * tick_s;
   curve.most_phase_per_tick = most_deg < kDegreesPerTurn ? phase_units(most_deg) : phase_units(kDegreesPerTurn);
   curve.segments = static_cast<std::uint32_t>(degrees);

@@ -32,6 +32,8 @@ namespace {
 
 /// Rate of the open valve times whole step: beyond it the cubic between its ends says too little about the motion between.
 constexpr double kWholeStepRate = 1.5;
+/// A valve so far above the place where its seat begins to act is off it for sure: more than a step's cubic errs.
+constexpr double kClearOfSeat_m = 2e-6;
 /// Cam degrees over which the lift is the quintic through a step's ends and middle, to 0.1 um.
 constexpr double kWidestStepDeg = 4;
 
@@ -129,6 +131,13 @@ constexpr int kExactDivisions = 64;
   return f;
 }
 
+[[nodiscard]] StepLevel<float> rounded(const StepLevel<double>& level) noexcept {
+  const auto real = [](double x) { return static_cast<float>(x); };
+  StepLevel<float> f{level.parts, level.per_parts_32, real(level.per_parts), real(level.step_s), real(level.per_step_s), real(level.force_lag), {}};
+  for (int regime = 0; regime < 4; ++regime) f.matrix[regime] = rounded(level.matrix[regime]);
+  return f;
+}
+
 }  // namespace
 
 ValveBody<double> valve_body(const Valve& valve, double lever_m) noexcept {
@@ -195,19 +204,9 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
   const Steps steps = steps_for(body, tick_s, stepping);
   motion = {};
   motion.body = body;
-  motion.steps = static_cast<std::uint32_t>(steps.whole);
-  motion.fine_per_step = static_cast<std::uint32_t>(steps.fine_per_whole);
-  motion.per_steps_32 = per_n_32(steps.whole);
-  motion.per_fine_32 = per_n_32(steps.fine_per_whole);
-  motion.per_steps = 1.0 / steps.whole;
-  motion.per_fine = 1.0 / steps.fine_per_whole;
-  motion.step_s = tick_s / steps.whole;
-  motion.fine_s = motion.step_s / steps.fine_per_whole;
-  motion.per_step_s = 1 / motion.step_s;
-  motion.per_fine_s = 1 / motion.fine_s;
   motion.short_step_deg = kWidestStepDeg;
   motion.widest_step_deg = kWidestStepDeg;
-  motion.force_lag = body.train_Ns_m / (body.train_N_m * motion.step_s);
+  motion.clear_m = body.seat_sink_m + kClearOfSeat_m;
   motion.rest_m = 1e-9;
   motion.rest_m_s = motion.rest_m * seated_frequency_rad_s(body);
   // A vibration of amplitude A on the seat presses with at least k_z (delta_0 - A) - b_z A w > 0 while A (1 + 2 zeta) < delta_0.
@@ -217,16 +216,22 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
   motion.per_seat_N_m = 1 / (body.seat_N_m + body.spring_N_m);
   motion.quiet_m = 0.8 * body.seat_sink_m / (1 + twice_ratio);
   const int divisions = stepping.integrator == Integrator::exponential ? kExactDivisions : 1;
-  for (std::uint32_t regime = 0; regime < 4; ++regime) {
-    const auto over = [&](double d_s, int n) {
+  const auto fill = [&](StepLevel<double>& level, double above_s, int parts, int fine_steps) {
+    level.parts = static_cast<std::uint32_t>(parts);
+    level.per_parts_32 = per_n_32(parts);
+    level.per_parts = 1.0 / parts;
+    level.step_s = above_s / parts;
+    level.per_step_s = 1 / level.step_s;
+    level.force_lag = body.train_Ns_m / (body.train_N_m * level.step_s);
+    for (std::uint32_t regime = 0; regime < 4; ++regime) {
       const auto propagate = [&](ValveState<double> state, const LiftWithin<double>& lift, double force_N) {
-        return runge_kutta(body, regime, d_s, n, state, lift, force_N);
+        return runge_kutta(body, regime, level.step_s, fine_steps * divisions, state, lift, force_N);
       };
-      return matrix_of(propagate, (regime & kSeatOn) != 0 ? 0 : -body.preload_N);  // a preloaded seat carries the preload
-    };
-    motion.fine[regime] = over(motion.fine_s, divisions);
-    motion.whole[regime] = over(motion.step_s, steps.fine_per_whole * divisions);
-  }
+      level.matrix[regime] = matrix_of(propagate, (regime & kSeatOn) != 0 ? 0 : -body.preload_N);  // a preloaded seat carries the preload
+    }
+  };
+  fill(motion.whole, tick_s, steps.whole, steps.fine_per_whole);
+  fill(motion.fine, motion.whole.step_s, steps.fine_per_whole, 1);
   return {};
 }
 
@@ -237,28 +242,16 @@ ValveMotion<float> rounded(const ValveMotion<double>& m) noexcept {
   f.body = {real(b.mass_kg),    real(b.train_N_m),  real(b.train_Ns_m), real(b.seat_N_m),     real(b.seat_Ns_m),     real(b.spring_N_m),
             real(b.guide_Ns_m), real(b.preload_N),  real(b.seat_sink_m), real(b.head_area_m2), real(b.rocker_mass_kg),
             real(b.per_mass)};
-  f.steps = m.steps;
-  f.fine_per_step = m.fine_per_step;
-  f.per_steps_32 = m.per_steps_32;
-  f.per_fine_32 = m.per_fine_32;
-  f.per_steps = real(m.per_steps);
-  f.per_fine = real(m.per_fine);
-  f.step_s = real(m.step_s);
-  f.fine_s = real(m.fine_s);
-  f.per_step_s = real(m.per_step_s);
-  f.per_fine_s = real(m.per_fine_s);
+  f.whole = rounded(m.whole);
+  f.fine = rounded(m.fine);
   f.short_step_deg = real(m.short_step_deg);
   f.widest_step_deg = real(m.widest_step_deg);
-  f.force_lag = real(m.force_lag);
+  f.clear_m = real(m.clear_m);
   f.rest_m = real(m.rest_m);
   f.rest_m_s = real(m.rest_m_s);
   f.quiet_m = real(m.quiet_m);
   f.per_seat_rate_s = real(m.per_seat_rate_s);
   f.per_seat_N_m = real(m.per_seat_N_m);
-  for (int regime = 0; regime < 4; ++regime) {
-    f.whole[regime] = rounded(m.whole[regime]);
-    f.fine[regime] = rounded(m.fine[regime]);
-  }
   return f;
 }
 

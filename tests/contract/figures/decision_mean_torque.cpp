@@ -29,11 +29,13 @@ class GasWork {
  public:
   explicit GasWork(const EngineDefinition& engine) : segments_(kMostGasSegments) {
     TableTargets<Real> targets;
-    targets.gas_grid = &grid_;
+    targets.torque_grid = &grid_;
     targets.gas_capacity = static_cast<int>(kMostGasSegments);
     targets.gas_torque_full = &curve_;
     targets.gas_full = segments_.data();
-    if (!tabulate(engine, {}, targets).ok()) std::exit(1);
+    EngineDefinition one = engine;  // the tables are those of all cylinders
+    one.layout.cylinders = 1;
+    if (!tabulate(one, {}, targets).ok()) std::exit(1);
   }
 
   [[nodiscard]] Real torque_Nm(Phase phase) const {

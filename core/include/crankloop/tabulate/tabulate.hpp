@@ -18,11 +18,11 @@ struct TickOptions {
   ValveStepping valves{};    ///< integrator and accuracy of elastic valves
 };
 
-/// Most segments of a gas grid: 20 in every degree.
+/// Most segments of a grid: 20 in every degree.
 inline constexpr std::size_t kMostGasSegments = 20 * kDegreesPerCycle;
 
-/// Where to build each section; null = leave it out. The gas sections go with a gas_grid and have room for `gas_capacity` segments each;
-/// a gas torque goes with its segments, lift curves with theirs and their rocker ratios.
+/// Where to build each section; null = leave it out. Pressures go with a gas_grid, gas torques with a torque_grid; each has room for
+/// `gas_capacity` segments. A gas torque goes with its segments, lift curves with theirs and their rocker ratios.
 template <class Real>
 struct TableTargets {
   Drive<Real>* drive = nullptr;
@@ -37,7 +37,8 @@ struct TableTargets {
   Bearings<Real>* bearings = nullptr;
   Balance<Real>* balance = nullptr;
   GasGrid* gas_grid = nullptr;
-  int gas_capacity = 0;  ///< at least 720 where there is a gas_grid
+  GasGrid* torque_grid = nullptr;
+  int gas_capacity = 0;  ///< at least 720 where there is a grid
   Segment<Real>* pressure_full = nullptr;
   Segment<Real>* pressure_motored = nullptr;
   Segment<Real>* pressure_heat = nullptr;
@@ -55,15 +56,18 @@ struct TableTargets {
 
 /// What tabulate found.
 struct TableReport {
-  int gas_segments = 0;           ///< segments of the gas grid
+  int gas_segments = 0;           ///< segments of the pressures' grid
   int tolerance_doublings = 0;    ///< how often the pressure's tolerance was doubled to fit the capacity
   double pressure_error_Pa = 0;   ///< largest error of full, motored and heat pressure against the diagram, at 10 points per segment
+  int torque_segments = 0;        ///< segments of the gas torques' grid
+  int torque_doublings = 0;
+  double torque_error_Nm = 0;     ///< largest error of full, motored and heat torque of all cylinders, likewise
 };
 
 /// Fills the targets. Validates the definition first; nothing is written when it refuses.
 ///
-/// Accuracy: docs/model.md "Tables". The gas grid divides a degree into 1, 2, 5, 10 or 20 segments, the fewest that keep the pressure
-/// within 1e-5 of its peak, or 20; where the capacity does not suffice the bound is doubled until it does. The report tells what is left.
+/// Accuracy: docs/model.md "Tables". A grid divides a degree into 1, 2, 5, 10 or 20 segments, the fewest that keep the pressure
+/// within 1e-5 of its peak (the torque: of the peak pressure on the crank radius), or 20; where the capacity does not suffice the bound is doubled until it does. The report tells what is left.
 /// Float and double; O(segments), some 100 ms on a desktop.
 template <class Real>
 Status tabulate(const EngineDefinition& engine, const TickOptions& options, const TableTargets<Real>& targets,
@@ -81,6 +85,7 @@ template <class Real> struct InertiaTorqueStore { IntegratedCurve<Real> inertia_
 template <class Real> struct BearingsStore { Bearings<Real> bearings; };
 template <class Real> struct BalanceStore { Balance<Real> balance; };
 struct GasGridStore { GasGrid gas_grid; };
+struct TorqueGridStore { GasGrid torque_grid; };
 template <class Real, std::size_t N> struct PressureStore { Segment<Real> pressure_full[N]; };
 template <class Real, std::size_t N> struct PressureByLoadStore { Segment<Real> pressure_motored[N]; Segment<Real> pressure_heat[N]; };
 template <class Real, std::size_t N> struct GasTorqueStore { GasTorque<Real> gas_torque_full; IntegratedSegment<Real> gas_full[N]; };
@@ -115,7 +120,8 @@ class TableStorage : If<Needs<S>::body, part::BodyStore<Real>>,
                      If<Needs<S>::inertia_torque, part::InertiaTorqueStore<Real>>,
                      If<S::bearing_loads, part::BearingsStore<Real>>,
                      If<S::free_forces, part::BalanceStore<Real>>,
-                     If<Needs<S>::gas_grid, part::GasGridStore>,
+                     If<Needs<S>::gas_pressure, part::GasGridStore>,
+                     If<Needs<S>::gas_torque, part::TorqueGridStore>,
                      If<Needs<S>::gas_pressure && !Needs<S>::load, part::PressureStore<Real, GasSegments>>,
                      If<Needs<S>::gas_pressure && Needs<S>::load, part::PressureByLoadStore<Real, GasSegments>>,
                      If<Needs<S>::gas_torque && !Needs<S>::load, part::GasTorqueStore<Real, GasSegments>>,
@@ -145,7 +151,9 @@ class TableStorage : If<Needs<S>::body, part::BodyStore<Real>>,
     if constexpr (N::inertia_torque) t.inertia_torque = &this->inertia_torque;
     if constexpr (S::bearing_loads) t.bearings = &this->bearings;
     if constexpr (S::free_forces) t.balance = &this->balance;
-    if constexpr (N::gas_grid) t.gas_grid = &this->gas_grid, t.gas_capacity = static_cast<int>(GasSegments);
+    if constexpr (N::gas_pressure) t.gas_grid = &this->gas_grid;
+    if constexpr (N::gas_torque) t.torque_grid = &this->torque_grid;
+    t.gas_capacity = static_cast<int>(GasSegments);
     if constexpr (N::gas_pressure && !N::load) t.pressure_full = this->pressure_full;
     if constexpr (N::gas_pressure && N::load) t.pressure_motored = this->pressure_motored, t.pressure_heat = this->pressure_heat;
     if constexpr (N::gas_torque && !N::load) t.gas_torque_full = &this->gas_torque_full, t.gas_full = this->gas_full;
@@ -184,6 +192,7 @@ class TableStorage : If<Needs<S>::body, part::BodyStore<Real>>,
     s.bearings = t.bearings;
     s.balance = t.balance;
     s.gas_grid = t.gas_grid;
+    s.torque_grid = t.torque_grid;
     s.pressure_full = t.pressure_full;
     s.pressure_motored = t.pressure_motored;
     s.pressure_heat = t.pressure_heat;

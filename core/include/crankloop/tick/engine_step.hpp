@@ -2,7 +2,8 @@
 //
 // What belongs here: the order of one tick. What does not: the force algebra (cylinder_forces.hpp), how tables are read (curve.hpp).
 //
-//     input -> checked -> phase -> look-ups per mechanism -> pressure, torque, forces per cylinder -> totals -> output
+//     input -> checked -> phase -> torque tables of the whole engine -> output
+//                              -> look-ups per mechanism -> pressure, torque, forces per cylinder -> totals -> output
 #pragma once
 
 #include <crankloop/tick/checked.hpp>
@@ -59,8 +60,7 @@ struct Step {
   Angle<Real> angle[N::mechanisms ? S::cylinders.capacity : 1];
 
   Real torque_Nm{};          ///< at the tick
-  Real inertia_per_w2{};     ///< torque of masses per w^2, all cylinders
-  Integral<Real> inertia{};  ///< its integral
+  Integral<Real> inertia{};  ///< of the torque of masses per w^2
   Integral<Real> gas[2]{};
   Integral<Real> stroke[N::input_pressure ? S::cylinders.capacity : 1]{};
   Step(const Tables<Real, S>& t, State<Real, S>& s, Output<Real, S>& o) noexcept : tables{t}, state{s}, out{o} {}  // pose, angle: filled as needed
@@ -94,23 +94,34 @@ struct Step {
         p.rod_angle_rad = total(integral_at(s, at.u, Real{0}), tables.rod_angle->quantum);
       }
       if constexpr (N::rod_curvature) p.rod_curvature = value(tables.rod_curvature->at[degree], at.u);
-      if constexpr (N::inertia_torque) {
-        const IntegratedSegment<Real>& s = tables.inertia_torque->at[degree];
-        const Real sharing = drive.cylinders_on_mechanism[m];
-        inertia_per_w2 += sharing * value(s.slope, at.u);
-        if constexpr (S::mean_torque) {
-          const Integral<Real> one = integral_at(s, at.u, Real{0});
-          inertia.base += static_cast<IntegralBase<Real>>(static_cast<IntegralBase<Real>>(sharing) * one.base);
-          inertia.part += sharing * one.part;
-        }
-      }
     }
   }
 
-  /// Gas torque of a cylinder by its curve; adds its work to gas[which].
+  /// Torque of tables: they hold that of all cylinders together. Forces add up to it by themselves.
+  void read_torque() noexcept {
+    [[maybe_unused]] const Angle<Real> at = angle_of<Real>(state.phase.units(), 0);
+    if constexpr (N::inertia_torque) {
+      const IntegratedSegment<Real>& s = tables.inertia_torque->at[at.turn_degree()];
+      if constexpr (!S::forces) torque_Nm = state.speed_rad_s * state.speed_rad_s * value(s.slope, at.u);
+      if constexpr (S::mean_torque) inertia = integral_at(s, at.u, Real{0});
+    }
+    if constexpr (N::gas_torque) {
+      const std::uint32_t segment = tables.torque_grid->segment(at.cell);
+      Real gas_Nm;
+      if constexpr (N::load) {
+        gas_Nm = gas_torque(*tables.gas_torque_motored, segment, at.u, 0);
+        gas_Nm += state.load_ratio * gas_torque(*tables.gas_torque_heat, segment, at.u, 1);
+      } else {
+        gas_Nm = gas_torque(*tables.gas_torque_full, segment, at.u, 0);
+      }
+      if constexpr (!S::forces) torque_Nm += gas_Nm;
+    }
+  }
+
+  /// Gas torque by a curve, with its work in gas[which].
   [[nodiscard]] Real gas_torque(const GasTorque<Real>& curve, std::uint32_t segment, Real u, int which) noexcept {
     const IntegratedSegment<Real>& s = curve.at[segment];
-    if constexpr (S::mean_torque) gas[which] += integral_at(s, u, curve.mean_Nm);
+    if constexpr (S::mean_torque) gas[which] = integral_at(s, u, curve.mean_Nm);
     return value(s.slope, u);
   }
 
@@ -137,7 +148,7 @@ struct Step {
       [[maybe_unused]] const Pose<Real>& p = pose[N::pose ? m : 0];
       [[maybe_unused]] const Real u = angle[m].u;
       [[maybe_unused]] std::uint32_t segment = 0;
-      if constexpr (N::gas_grid) segment = tables.gas_grid->segment(angle[m].delayed(drive.turn_of[k]));
+      if constexpr (N::gas_pressure) segment = tables.gas_grid->segment(angle[m].delayed(drive.turn_of[k]));
 
       if constexpr (S::kinematics) {
         out.displacement_m[k] = p.displacement_m;
@@ -149,24 +160,17 @@ struct Step {
         out.rod_speed_rad_s[k] = p.rod_slope * speed;
         out.rod_acceleration_rad_s2[k] = p.rod_curvature * (speed * speed);
       }
-      [[maybe_unused]] Real gas_Nm{};
-      if constexpr (N::gas_torque && N::load) {
-        gas_Nm = gas_torque(*tables.gas_torque_motored, segment, u, 0);
-        gas_Nm += state.load_ratio * gas_torque(*tables.gas_torque_heat, segment, u, 1);
-      } else if constexpr (N::gas_torque) {
-        gas_Nm = gas_torque(*tables.gas_torque_full, segment, u, 0);
-      } else if constexpr (N::any_torque && N::input_pressure) {
-        gas_Nm = (state.pressure_Pa[k] - tables.body->crankcase_Pa) * tables.body->bore_area_m2 * p.slope_m;
-      }
       if constexpr (S::valve_gas) head_pressure_Pa[k] = pressure_Pa(k, segment, u);
       if constexpr (S::forces) {
         out.cylinder[k] = cylinder_forces<S::rod_inertia>(*tables.body, p, pressure_Pa(k, segment, u), speed);
         torque_Nm += out.cylinder[k].torque_Nm;
-      } else {
-        torque_Nm += gas_Nm;
+      } else if constexpr (N::any_torque && N::input_pressure) {
+        torque_Nm += (state.pressure_Pa[k] - tables.body->crankcase_Pa) * tables.body->bore_area_m2 * p.slope_m;
       }
     }
-    if constexpr (N::torque_curves && !S::forces) torque_Nm += speed * speed * inertia_per_w2;
+  }
+
+  void show_torque() noexcept {
     if constexpr (S::torque) out.torque_Nm = torque_Nm;
   }
 
@@ -175,10 +179,8 @@ struct Step {
   /// After a jump of a measured phase there is no tick to average over.
   void average_torque(Phase turned, bool jumped, const Real* mean_pressure_Pa) noexcept {
     if constexpr (S::mean_torque) {
-      const Drive<Real>& drive = *tables.drive;
       constexpr std::uint64_t kCrawl = ~std::uint64_t{0} / kDegreesPerCycle >> (sizeof(Real) == 4 ? 4 : 20);
       const bool crawling = turned.units() + kCrawl <= 2 * kCrawl;  // |turned| <= kCrawl, wrapping
-      const Real cylinders = static_cast<Real>(static_cast<std::int32_t>(count<S>(drive.cylinders)));
       if (jumped) {
         out.mean_torque_Nm = torque_Nm;
       } else if (crawling) {
@@ -194,11 +196,12 @@ struct Step {
           const GasTorque<Real>& heat = *tables.gas_torque_heat;
           work_J += difference(state.gas[0], gas[0], motored.quantum);
           work_J += state.load_ratio * difference(state.gas[1], gas[1], heat.quantum);
-          mean_Nm = cylinders * (motored.mean_Nm + state.load_ratio * heat.mean_Nm);
+          mean_Nm = motored.mean_Nm + state.load_ratio * heat.mean_Nm;
         } else if constexpr (N::gas_torque) {
           work_J += difference(state.gas[0], gas[0], tables.gas_torque_full->quantum);
-          mean_Nm = cylinders * tables.gas_torque_full->mean_Nm;
+          mean_Nm = tables.gas_torque_full->mean_Nm;
         } else if constexpr (N::input_pressure) {
+          const Drive<Real>& drive = *tables.drive;
           for (std::uint32_t k = 0; k < count<S>(drive.cylinders); ++k) {
             const std::uint32_t m = drive.mechanism_of[k];
             work_J += (mean_pressure_Pa[k] - tables.body->crankcase_Pa) * tables.body->bore_area_m2 *
@@ -287,13 +290,15 @@ struct CrankTurn {
 template <class Real, class S>
 inline void run_mechanisms(const Tables<Real, S>& tables, State<Real, S>& state, Output<Real, S>& out, const CrankTurn<Real>& crank) noexcept {
   Step<Real, S> step(tables, state, out);
+  step.read_torque();
   if constexpr (Needs<S>::mechanisms) {
     step.read_mechanisms();
     step.do_cylinders(crank.head_pressure_Pa);
-    step.average_torque(crank.turned, crank.jumped, crank.mean_pressure_Pa);
-    step.remember_work();
     step.load_bearings();
   }
+  step.show_torque();
+  step.average_torque(crank.turned, crank.jumped, crank.mean_pressure_Pa);
+  step.remember_work();
   step.balance_engine();
 }
 
@@ -316,7 +321,8 @@ template <class Real, class S>
   if constexpr (N::rod_angle) all = all && t.rod_angle != nullptr;
   if constexpr (N::rod_curvature) all = all && t.rod_curvature != nullptr;
   if constexpr (N::inertia_torque) all = all && t.inertia_torque != nullptr;
-  if constexpr (N::gas_grid) all = all && t.gas_grid != nullptr;
+  if constexpr (N::gas_pressure) all = all && t.gas_grid != nullptr;
+  if constexpr (N::gas_torque) all = all && t.torque_grid != nullptr;
   if constexpr (N::gas_pressure && !N::load) all = all && t.pressure_full != nullptr;
   if constexpr (N::gas_pressure && N::load) all = all && t.pressure_motored != nullptr && t.pressure_heat != nullptr;
   if constexpr (N::gas_torque && !N::load) all = all && t.gas_torque_full != nullptr;
@@ -363,9 +369,12 @@ Status Engine<Real, S>::init(const Tables& tables, Phase start) noexcept {
   }
   if constexpr (S::mean_torque) {  // the first tick's work counts from here
     detail::Step<Real, S> step(tables, state_, output_);
-    step.read_mechanisms();
-    Real unused[S::cylinders.capacity];
-    step.do_cylinders(unused);
+    step.read_torque();
+    if constexpr (Needs<S>::mechanisms) {
+      Real unused[S::cylinders.capacity];
+      step.read_mechanisms();
+      step.do_cylinders(unused);
+    }
     step.remember_work();
     output_ = Output{};
   }
@@ -434,6 +443,8 @@ Status Engine<Real, S>::restore(const State& state) noexcept {
   if (tables_ == nullptr) return {Reason::missing_table, -1, "tables"};
   if (state.fingerprint != state_.fingerprint) return {Reason::other_tables, -1, "state.fingerprint"};
   state_ = state;
+  // A sleeping valve's output is zero since it fell asleep; the state may hold others asleep than this engine did.
+  if constexpr (Needs<S>::elastic_valves) static_cast<crankloop::Valves<Real, S>&>(output_) = {};
   return {};
 }
 

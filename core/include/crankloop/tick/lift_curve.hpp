@@ -36,6 +36,7 @@ struct LiftCurve {
   std::uint32_t segments;             ///< cam degrees of the lobe
   std::uint32_t touch_from;           ///< first degree of it in which the train may touch a closed valve,
   std::uint32_t touch_degrees;        ///< and how many from there
+  Real leap_deg;                      ///< a tick that turns the cam so far may pass over all of them; more than any turn where there are none
   Real outside_m;                     ///< lift outside the lobe: minus the clearance
 
   /// Where a cam stands: `degree` of its turn, counted from the start of the lobe.

@@ -88,9 +88,8 @@ struct Needs {
   static constexpr bool inertia_torque = torque_curves;
   static constexpr bool gas_torque = torque_curves && table_pressure;
   static constexpr bool gas_pressure = cylinder_pressure && table_pressure;
-  static constexpr bool gas_grid = gas_torque || gas_pressure;
   static constexpr bool load = S::load_ratio && table_pressure;
-  static constexpr bool mechanisms = stroke || acceleration || rod_angle || rod_curvature || inertia_torque || gas_grid || cylinder_pressure;
+  static constexpr bool mechanisms = stroke || acceleration || rod_angle || rod_curvature || cylinder_pressure;
   static constexpr std::uint32_t valve_count = any_valves ? S::trains.capacity * S::cylinders.capacity : 0;
 };
 

@@ -86,7 +86,7 @@ struct StateFields {
     v.number(valve.train.lift_m, -kMostLift_m, kMostLift_m);
     v.number(valve.train.per_deg_m, -kMostLift_m, kMostLift_m);
     v.word(valve.regime, kTrainOn | kSeatOn);
-    v.word(valve.asleep, 1u);
+    v.word(valve.sleep, kSettling);
   }
 
   template <class ARecord, class Visitor>

@@ -29,7 +29,6 @@ struct Drive {
   std::uint64_t firing_phase[kMaxCylinders];        ///< per mechanism: phase units at which its own crank angle is 0
   std::uint8_t mechanism_of[kMaxCylinders];         ///< per cylinder
   std::uint8_t turn_of[kMaxCylinders];              ///< per cylinder: 0, or 1 when it fires a crank turn after its mechanism's phase
-  Real cylinders_on_mechanism[kMaxCylinders];       ///< how many share it
   std::uint32_t trains;                             ///< valve trains of each cylinder
 };
 
@@ -74,7 +73,7 @@ struct Balance {
   Curve<Real> cosine;      ///< cos of the crank angle
 };
 
-/// Gas torque of one cylinder over the cycle, on a GasGrid; its integral is the work less that of the mean torque, so it repeats.
+/// Gas torque of all cylinders over the cycle, on a GasGrid; its integral is the work less that of the mean torque, so it repeats.
 template <class Real>
 struct GasTorque {
   const IntegratedSegment<Real>* at;
@@ -93,13 +92,14 @@ struct Sections {
   const Curve<Real>* radial = nullptr;                   ///< cos(a + b) / cos b
   const IntegratedCurve<Real>* rod_angle = nullptr;      ///< slope db/da, integral b in rad
   const Curve<Real>* rod_curvature = nullptr;            ///< d2b/da2
-  const IntegratedCurve<Real>* inertia_torque = nullptr; ///< torque of masses per w^2 in kg m^2, one cylinder
-  const GasGrid* gas_grid = nullptr;
+  const IntegratedCurve<Real>* inertia_torque = nullptr; ///< torque of masses per w^2 in kg m^2, all cylinders, over the engine's angle
+  const GasGrid* gas_grid = nullptr;                     ///< of the pressures: a cylinder's own cycle
+  const GasGrid* torque_grid = nullptr;                  ///< of the gas torques: the engine's cycle
   // At load ratio q: motored + q heat. A scene without load ratio takes their sum, `full`.
   const Segment<Real>* pressure_full = nullptr;          ///< Pa, on gas_grid
   const Segment<Real>* pressure_motored = nullptr;
   const Segment<Real>* pressure_heat = nullptr;
-  const GasTorque<Real>* gas_torque_full = nullptr;
+  const GasTorque<Real>* gas_torque_full = nullptr;      ///< on torque_grid
   const GasTorque<Real>* gas_torque_motored = nullptr;
   const GasTorque<Real>* gas_torque_heat = nullptr;
   const Bearings<Real>* bearings = nullptr;
@@ -118,6 +118,7 @@ template <class Real> struct RodAngleRef { const IntegratedCurve<Real>* rod_angl
 template <class Real> struct RodCurvatureRef { const Curve<Real>* rod_curvature = nullptr; };
 template <class Real> struct InertiaTorqueRef { const IntegratedCurve<Real>* inertia_torque = nullptr; };
 struct GasGridRef { const GasGrid* gas_grid = nullptr; };
+struct TorqueGridRef { const GasGrid* torque_grid = nullptr; };
 template <class Real> struct PressureRef { const Segment<Real>* pressure_full = nullptr; };
 template <class Real> struct PressureByLoadRef { const Segment<Real>* pressure_motored = nullptr; const Segment<Real>* pressure_heat = nullptr; };
 template <class Real> struct GasTorqueRef { const GasTorque<Real>* gas_torque_full = nullptr; };
@@ -137,7 +138,8 @@ struct Tables : If<Needs<S>::body, part::BodyRef<Real>>,
                 If<Needs<S>::rod_angle, part::RodAngleRef<Real>>,
                 If<Needs<S>::rod_curvature, part::RodCurvatureRef<Real>>,
                 If<Needs<S>::inertia_torque, part::InertiaTorqueRef<Real>>,
-                If<Needs<S>::gas_grid, part::GasGridRef>,
+                If<Needs<S>::gas_pressure, part::GasGridRef>,
+                If<Needs<S>::gas_torque, part::TorqueGridRef>,
                 If<Needs<S>::gas_pressure && !Needs<S>::load, part::PressureRef<Real>>,
                 If<Needs<S>::gas_pressure && Needs<S>::load, part::PressureByLoadRef<Real>>,
                 If<Needs<S>::gas_torque && !Needs<S>::load, part::GasTorqueRef<Real>>,
@@ -158,7 +160,8 @@ struct Tables : If<Needs<S>::body, part::BodyRef<Real>>,
     if constexpr (N::rod_angle) this->rod_angle = s.rod_angle;
     if constexpr (N::rod_curvature) this->rod_curvature = s.rod_curvature;
     if constexpr (N::inertia_torque) this->inertia_torque = s.inertia_torque;
-    if constexpr (N::gas_grid) this->gas_grid = s.gas_grid;
+    if constexpr (N::gas_pressure) this->gas_grid = s.gas_grid;
+    if constexpr (N::gas_torque) this->torque_grid = s.torque_grid;
     if constexpr (N::gas_pressure && !N::load) this->pressure_full = s.pressure_full;
     if constexpr (N::gas_pressure && N::load) this->pressure_motored = s.pressure_motored, this->pressure_heat = s.pressure_heat;
     if constexpr (N::gas_torque && !N::load) this->gas_torque_full = s.gas_torque_full;

@@ -78,13 +78,19 @@ struct ValveState {
   Real velocity_m_s;
 };
 
-/// A valve between two ticks, and the train's lift there. Asleep = closed and exactly at rest; the lift then is not kept.
+/// Sleep of a closed valve. Asleep: exactly at rest. Settling: on its seat, the lash open, with a vibration that cannot reach a contact and
+/// dies away. Neither reads the lift.
+inline constexpr std::uint32_t kAwake = 0;
+inline constexpr std::uint32_t kAsleep = 1;
+inline constexpr std::uint32_t kSettling = 2;
+
+/// A valve between two ticks, and the train's lift there: kept while it is awake.
 template <class Real>
 struct ValveCondition {
   ValveState<Real> state{};
   Lift<Real> train{};
   std::uint32_t regime = kSeatOn;
-  std::uint32_t asleep = 1;
+  std::uint32_t sleep = kAsleep;
 };
 
 /// Train lift and its speed at one moment.
@@ -210,6 +216,13 @@ struct Contacts {
     return (gap_m > 0 && train_N > 0 ? kTrainOn : 0u) | (sink_m > 0 && seat_N > 0 ? kSeatOn : 0u);
   }
 };
+
+/// The seat's part of Contacts::regime().
+template <class Real>
+[[nodiscard]] constexpr bool seat_acts(const ValveBody<Real>& b, ValveState<Real> s) noexcept {
+  const Real sink = b.seat_sink_m - s.lift_m;
+  return sink > 0 && b.seat_N_m * sink - b.seat_Ns_m * s.velocity_m_s > 0;
+}
 
 template <class Real>
 [[nodiscard]] constexpr Contacts<Real> contacts(const ValveBody<Real>& b, ValveState<Real> s, Real lift_m, Real lift_speed_m_s) noexcept {

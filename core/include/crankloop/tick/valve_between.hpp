@@ -46,19 +46,45 @@ template <class Real>
          g[1] - s[1] * kThird<Real> + lag * ((2 * middle + s[1]) * kThird<Real>) > bound;
 }
 
-/// True when no contact can change in a whole step with the seat off, as far as the cubics through its ends tell, with a margin: gaps keep
-/// their side, the train's force its sign. (On the seat nothing could be told: its own vibration is faster than a whole step.)
+/// Distances and forces over stiffness that count as sure, m.
 template <class Real>
-[[nodiscard]] constexpr bool far_from_change(const ValveMotion<Real>& motion, std::uint32_t regime, const Between<Real>& m) noexcept {
-  constexpr Real kMargin_m = static_cast<Real>(2e-6);
-  if (!above(m.y, motion.body.seat_sink_m + kMargin_m + slopes(m.y_slope) * kThird<Real>)) return false;
+inline constexpr Real kMargin_m = static_cast<Real>(2e-6);
+
+/// The valve stays above its seat.
+template <class Real>
+[[nodiscard]] constexpr bool stays_off_seat(const ValveMotion<Real>& motion, const Between<Real>& m) noexcept {
+  return above(m.y, motion.clear_m + slopes(m.y_slope) * kThird<Real>);
+}
+
+/// True when the train carries the valve all through a step, as far as the cubics through its ends tell, with a margin: it stays above its
+/// seat, its gap and its force positive.
+template <class Real>
+[[nodiscard]] constexpr bool stays_on_train(const ValveMotion<Real>& motion, Real force_lag, const Between<Real>& m) noexcept {
+  if (!stays_off_seat(motion, m)) return false;
   const Real gap_slopes = slopes(m.gap_slope);
-  const Real bound = kMargin_m + gap_slopes * kThird<Real>;
-  if ((regime & kTrainOn) == 0) return m.gap[0] < -bound && m.gap[1] < -bound;
-  // No ordinate of the gap's slope is larger than this.
-  const Real steepest = gap_slopes + 2 * magnitude(m.gap[1] - m.gap[0]);
-  if (above(m.gap, bound + motion.force_lag * steepest)) return true;  // by far: most steps
-  return above(m.gap, bound) && pushes(m, motion.force_lag, kMargin_m);
+  const Real apart = magnitude(m.gap[1] - m.gap[0]);
+  const Real bound = kMargin_m<Real> + gap_slopes * kThird<Real>;
+  const Real lower = (m.gap[0] + m.gap[1] - apart) / 2;
+  // No ordinate of the gap's slope is larger than the bracket. By far: most steps.
+  if (lower > bound + force_lag * (gap_slopes + 2 * apart)) return true;
+  return above(m.gap, bound) && pushes(m, force_lag, kMargin_m<Real>);
+}
+
+/// True when no contact can change in a step with the seat off, likewise. (On the seat nothing could be told: its own vibration is faster than
+/// a whole step.)
+template <class Real>
+[[nodiscard]] constexpr bool far_from_change(const ValveMotion<Real>& motion, Real force_lag, std::uint32_t regime, const Between<Real>& m) noexcept {
+  if ((regime & kTrainOn) != 0) return stays_on_train(motion, force_lag, m);
+  const Real bound = kMargin_m<Real> + slopes(m.gap_slope) * kThird<Real>;
+  return stays_off_seat(motion, m) && m.gap[0] < -bound && m.gap[1] < -bound;
+}
+
+/// y'' at the end of a whole step that the train carried.
+template <class Real>
+[[nodiscard]] constexpr Real carried_acceleration(const ValveMotion<Real>& motion, ValveState<Real> s, const Between<Real>& m, Real gas_N) noexcept {
+  const ValveBody<Real>& b = motion.body;
+  const Real train_N = b.train_N_m * (m.gap[1] + motion.whole.force_lag * m.gap_slope[1]);
+  return (train_N - b.spring_N_m * s.lift_m - b.preload_N - b.guide_Ns_m * s.velocity_m_s - gas_N) * b.per_mass;
 }
 
 }  // namespace crankloop::detail

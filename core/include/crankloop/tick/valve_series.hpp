@@ -39,8 +39,8 @@ class StepSeries {
   /// w d is at most 0.3 in the 0.1 um class: 0.3^7 / 7! = 4e-8 is float's rounding, 0.3^10 / 10! = 2e-12 of a step's motion is nothing.
   static constexpr int kOrder = sizeof(Real) == 4 ? 6 : 9;
 
-  constexpr StepSeries(const ValveBody<Real>& body, const LiftWithin<Real>& lift, Real step_s) noexcept
-      : body_{body}, step_s_{step_s}, per_step_s_{Real{1} / step_s}, lift_{lift} {}
+  constexpr StepSeries(const ValveBody<Real>& body, const LiftWithin<Real>& lift, Real step_s, Real per_step_s) noexcept
+      : body_{body}, step_s_{step_s}, per_step_s_{per_step_s}, lift_{lift} {}
 
   /// Expands the motion about `at` (part of the step, 0 to 1) in a regime.
   constexpr void expand(Real at, ValveState<Real> s, std::uint32_t regime, Real gas_N) noexcept {
@@ -65,7 +65,6 @@ class StepSeries {
       y[n + 2] = (drive - stiffness * y[n] - damping * static_cast<Real>(n + 1) * y[n + 1]) *
                  (Real{1} / static_cast<Real>((n + 1) * (n + 2)));
     }
-    for (int n = 0; n <= kOrder; ++n) gap_.c[n] = (n <= LiftWithin<Real>::kDegree ? lift_.coefficient(n) : Real{0}) - y[n];
   }
 
   [[nodiscard]] constexpr LiftNow<Real> lift(Real at) const noexcept {
@@ -78,13 +77,15 @@ class StepSeries {
   }
 
   /// Where `regime` ends between the expansion and 1, if it has ended by then. `changes` tells which contact changes there; 0: none does.
-  [[nodiscard]] constexpr Real first_change(std::uint32_t regime, std::uint32_t& changes) const noexcept {
+  [[nodiscard]] Real first_change(std::uint32_t regime, std::uint32_t& changes) const noexcept {
     changes = 0;
     Real first = 1;
-    for (std::uint32_t contact = kTrainOn; contact <= kSeatOn; contact += contact) {
-      const Switching at_end = switching(contact, 1);
-      if ((at_end.force_N > 0) == ((regime & contact) != 0)) continue;
-      const Real at = crossing(contact, at_, 1, at_end.force_N);
+    const LiftNow<Real> train = lift(1);
+    std::uint32_t ended = regime ^ contacts(body_, state(1), train.lift_m, train.speed_m_s).regime();
+    while (ended != 0) {  // one after the other: seldom both
+      const std::uint32_t contact = unknown((ended & kTrainOn) != 0 ? kTrainOn : kSeatOn);  // one search in the code, not one for each
+      ended ^= contact;
+      const Real at = crossing(contact, at_, 1, (regime & contact) == 0);
       if (changes == 0 || at < first) first = at, changes = contact;
     }
     return first;
@@ -92,30 +93,46 @@ class StepSeries {
 
  private:
   /// The switching function of a contact: the smaller of its gap's force and its whole force. It acts while that is positive.
-  struct Switching {
-    Real force_N;
-    Real slope_N;  ///< by the part of the step
+  class Switching {
+   public:
+    constexpr Switching(const StepSeries& series, std::uint32_t contact) noexcept {
+      const ValveBody<Real>& b = series.body_;
+      const bool train = contact == kTrainOn;
+      spring_N_m_ = train ? b.train_N_m : b.seat_N_m;
+      damper_Ns_ = (train ? b.train_Ns_m : b.seat_Ns_m) * series.per_step_s_;
+      for (int n = 0; n <= kOrder; ++n) gap_.c[n] = (train && n <= LiftWithin<Real>::kDegree ? series.lift_.coefficient(n) : Real{0}) - series.motion_.c[n];
+      if (!train) gap_.c[0] += b.seat_sink_m;
+    }
+
+    struct At {
+      Real force_N;
+      Real slope_N;  ///< by the part of the step
+    };
+    [[nodiscard]] constexpr At at(Real since_expansion) const noexcept {
+      const auto gap = gap_.at(since_expansion);
+      const Real pressed_N = damper_Ns_ * gap.slope;
+      At s{spring_N_m_ * gap.value, spring_N_m_ * gap.slope};
+      if (pressed_N < 0) s.force_N += pressed_N, s.slope_N += 2 * damper_Ns_ * gap.half_curvature;
+      return s;
+    }
+
+   private:
+    StepPolynomial<Real, kOrder> gap_;
+    Real spring_N_m_;
+    Real damper_Ns_;  ///< by the part of the step
   };
-  [[nodiscard]] constexpr Switching switching(std::uint32_t contact, Real at) const noexcept {
-    const bool train = contact == kTrainOn;
-    const auto gap = train ? gap_.at(at - at_) : motion_.at(at - at_);
-    const Real spring_N_m = train ? body_.train_N_m : -body_.seat_N_m;
-    const Real damper_N = (train ? body_.train_Ns_m : -body_.seat_Ns_m) * per_step_s_;
-    const Real pressed_N = damper_N * gap.slope;
-    Switching s{spring_N_m * gap.value - (train ? Real{0} : spring_N_m * body_.seat_sink_m), spring_N_m * gap.slope};
-    if (pressed_N < 0) s.force_N += pressed_N, s.slope_N += 2 * damper_N * gap.half_curvature;
-    return s;
-  }
 
   /// Root of a switching function between two places of different sign: Newton's method from the secant's root, kept between them.
-  [[nodiscard]] constexpr Real crossing(std::uint32_t contact, Real from, Real to, Real at_to) const noexcept {
+  [[nodiscard]] constexpr Real crossing(std::uint32_t contact, Real from, Real to, bool rising) const noexcept {
     constexpr int kSteps = sizeof(Real) == 4 ? 3 : 4;
-    const bool rising = at_to > 0;
-    const Real at_from = switching(contact, from).force_N;
+    const Switching switching(*this, contact);
+    const Real at_from = switching.at(from - at_).force_N;
     if ((at_from > 0) == rising) return from;  // it changed by rounding, where it stands
+    const Real at_to = switching.at(to - at_).force_N;
+    if ((at_to > 0) != rising) return to;
     Real at = to - at_to * (to - from) / (at_to - at_from);
     for (int i = 0; i < kSteps; ++i) {
-      const Switching s = switching(contact, at);
+      const typename Switching::At s = switching.at(at - at_);
       ((s.force_N > 0) == rising ? to : from) = at;
       Real next = (from + to) / 2;
       if (s.slope_N != Real{0}) {
@@ -133,7 +150,6 @@ class StepSeries {
   Real at_ = 0;
   LiftWithin<Real> lift_;
   StepPolynomial<Real, kOrder> motion_{};
-  StepPolynomial<Real, kOrder> gap_{};
 };
 
 }  // namespace crankloop

@@ -3,14 +3,15 @@
 // What belongs here: the order of a valve's tick. What does not: the physics of a step (valve.hpp), which valves an engine has
 // (valves_step.hpp).
 //
-//     tick  |-----------------|-----------------|      `steps` whole steps, one matrix and one cam look-up each (wide: two);
-//                              |--|--|--|--|--|        where a gap may close or a force may end: `fine_per_step` fine ones;
-//                                    |-x--|            where one does: a power series up to x, the new regime from there
+//     tick  |-----------------------|-----------------------|    whole steps, one matrix and one cam look-up each (wide: two);
+//                                   |-----|-----|-----|-----|    where a gap may close or a force may end: fine ones;
+//                                               |--x--|          where one does: a power series up to x, the new regime from there
 #pragma once
 
 #include <cstdint>
 #include <type_traits>
 
+#include <crankloop/tick/io.hpp>
 #include <crankloop/tick/valve_between.hpp>
 #include <crankloop/tick/valve_results.hpp>
 #include <crankloop/tick/valve_series.hpp>
@@ -23,6 +24,7 @@ template <class Real>
 struct CamTurn {
   std::int64_t turned;   ///< phase units, 2^64 = 360 cam deg
   Real turned_deg;       ///< cam degrees, with sign
+  Real deg_per_s;
 };
 
 /// Contact changes that may still be located in this tick, over all valves. What exceeds it is taken at the end of its fine step.
@@ -39,8 +41,8 @@ struct EventBudget {
   return static_cast<std::uint64_t>(high * static_cast<std::int64_t>(std::uint64_t{per_n_32})) + low;
 }
 
-/// One tick of the valves of a train: made once per tick, advance() for each of them. Each costs O(steps * fine_per_step + events): bounded
-/// by the tables and the budget.
+/// One tick of the valves of a train: made once per tick, used for each of them. A valve costs O(fine steps + events): bounded by the tables
+/// and the budget.
 template <class Real>
 class ValveTick {
  public:
@@ -48,157 +50,117 @@ class ValveTick {
       : motion_{motion},
         curve_{curve},
         cam_{cam},
-        step_deg_{cam.turned_deg * motion.per_steps},
-        leaps_{curve.touch_degrees != 0 &&
-               magnitude(cam.turned_deg) >= static_cast<Real>(static_cast<std::int32_t>(curve.touch_degrees))},
-        width_{width_of(motion, step_deg_)},
+        whole_{stride_of(motion, motion.whole, cam.turned_deg)},
+        leaps_{magnitude(cam.turned_deg) >= curve.leap_deg},
+        one_step_{motion.whole.parts == 1 && whole_.width != Width::too_wide},
         budget_{budget} {}
 
-  /// Whether a sleeping valve sleeps on through a tick that ends here.
-  template <class Gas>
-  [[nodiscard]] constexpr bool sleeps_on(const ValveCondition<Real>& valve, Cell end, const Gas& gas) const noexcept {
-    return valve.asleep != 0 && rests_at(end, gas);
-  }
-
-  /// Advances a valve to the phase `to`, in cell `end`, and keeps its record.
-  template <class Gas, class Record>
-  void advance(ValveCondition<Real>& valve, std::uint64_t to, Cell end, const Gas& gas, Record& record) const noexcept {
-    const std::uint64_t from = to - static_cast<std::uint64_t>(cam_.turned);
-    if (valve.asleep != 0) wake(valve, from, gas);
-    std::uint64_t at = from;
-    if (motion_.steps > 1) {
-      const std::uint64_t step = part_of(cam_.turned, motion_.per_steps_32);
-      for (std::uint32_t i = 1; i < motion_.steps; ++i, at += step) step_to(valve, at, at + step, LiftCurve<Real>::cell(at + step), gas, record);
-    }
-    step_to(valve, at, to, end, gas, record);
-    fall_asleep(valve, end, gas);
-  }
-
- private:
-  static constexpr Real kLeastLash_m = static_cast<Real>(kLeastLash);  ///< with more of it a closed valve is left alone
-
-  /// Where a step begins, its length in cam degrees and in seconds.
-  struct Span {
-    std::uint64_t from;
-    Real deg;
-    Real s;
-    Real per_s;
-  };
-
-  enum class Width : std::uint32_t { cubic, through_middle, too_wide };
-  [[nodiscard]] static constexpr Width width_of(const ValveMotion<Real>& motion, Real step_deg) noexcept {
-    const Real deg = magnitude(step_deg);
-    if (deg <= motion.short_step_deg) return Width::cubic;
-    return deg <= motion.widest_step_deg ? Width::through_middle : Width::too_wide;
-  }
-
-  /// The train cannot touch a closed valve there, nor could it have on the way.
+  /// The train cannot touch a closed valve at the end of this tick, nor could it have on the way.
   template <class Gas>
   [[nodiscard]] constexpr bool rests_at(Cell end, const Gas& gas) const noexcept {
     return !curve_.may_touch(end) && !leaps_ && gas.leaves_closed(motion_.body);
   }
 
-  /// Wakes a valve where the gas holds it on its seat.
+  /// The commonest tick of a valve that moves: one whole step in which the train carries it from beginning to end. False, and nothing done,
+  /// where that is not sure.
   template <class Gas>
-  constexpr void wake(ValveCondition<Real>& valve, std::uint64_t from, const Gas& gas) const noexcept {
-    valve.state = {-gas.force_N() * motion_.per_seat_N_m, Real{0}};
-    valve.train = curve_.read(LiftCurve<Real>::cell(from));
-    valve.asleep = 0;
-  }
-
-  /// A valve that only trembles on its seat, with the lash open: its vibration dies away and cannot reach a contact.
-  template <class Gas>
-  [[nodiscard]] constexpr bool quiet(const ValveCondition<Real>& valve, const Lift<Real>& to, const Gas& gas) const noexcept {
-    return valve.regime == kSeatOn && valve.train.lift_m < -kLeastLash_m && to.lift_m < -kLeastLash_m && gas.leaves_closed(motion_.body) &&
-           magnitude(valve.state.lift_m) + magnitude(valve.state.velocity_m_s) * motion_.per_seat_rate_s < motion_.quiet_m;
-  }
-
-  [[nodiscard]] constexpr LiftStep<Real> between(const Lift<Real>& from, const Lift<Real>& to, Real deg) const noexcept {
-    return {from.lift_m, to.lift_m, deg * from.per_deg_m, deg * to.per_deg_m};
-  }
-
-  [[nodiscard]] constexpr LiftMiddle<Real> middle(std::uint64_t from, std::uint64_t to, Real deg) const noexcept {
-    const std::uint64_t half = static_cast<std::uint64_t>(static_cast<std::int64_t>(to - from) / 2);
-    const Lift<Real> lift = curve_.read(LiftCurve<Real>::cell(from + half));
-    return {lift.lift_m, deg * lift.per_deg_m};
-  }
-
-  template <class Gas, class Record>
-  void step_to(ValveCondition<Real>& valve, std::uint64_t from, std::uint64_t to, Cell end, const Gas& gas, Record& record) const noexcept {
+  [[nodiscard]] constexpr bool carry(ValveCondition<Real>& valve, std::uint64_t to, Cell end, const Gas& gas,
+                                     ValveMotionOutput<Real>& shown) const noexcept {
+    if (valve.regime != kTrainOn || !one_step_) return false;
     const Lift<Real> lift = curve_.read(end);
-    if (!whole_step(valve, from, to, lift, gas, record)) fine_steps(valve, from, to, gas, record);
-    valve.train = lift;
-  }
-
-  /// Takes a whole step if no contact can change in it.
-  template <class Gas, class Record>
-  constexpr bool whole_step(ValveCondition<Real>& valve, std::uint64_t from, std::uint64_t to, const Lift<Real>& lift, const Gas& gas,
-                            Record& record) const noexcept {
-    if (width_ == Width::too_wide) return false;
-    const std::uint32_t regime = valve.regime;
-    const StepMatrix<Real>& matrix = motion_.whole[regime];
-    const LiftStep<Real> step = between(valve.train, lift, step_deg_);
-    ValveState<Real> after;
-    if ((regime & kSeatOn) != 0) {
-      if (!quiet(valve, lift, gas)) return false;
-      after = stepped(matrix, valve.state, gas);
-    } else {
-      if ((regime & kTrainOn) == 0) {
-        after = stepped(matrix, valve.state, gas);
-      } else if (width_ == Width::cubic) {
-        after = stepped(matrix, valve.state, gas, step);
-      } else {
-        after = stepped(matrix, valve.state, gas, step, middle(from, to, step_deg_));
-      }
-      if (!detail::far_from_change(motion_, regime, {valve.state, after, step, motion_.step_s})) return false;
-    }
-    note(record, valve.state, after, step, regime, gas, Span{from, step_deg_, motion_.step_s, motion_.per_step_s});
-    valve.state = after;
+    const LiftStep<Real> step = between(valve.train, lift, whole_.deg);
+    const ValveState<Real> after = carried(valve.state, whole_, step, to - static_cast<std::uint64_t>(cam_.turned), to, gas);
+    const detail::Between<Real> motion{valve.state, after, step, motion_.whole.step_s};
+    if (!detail::stays_on_train(motion_, motion_.whole.force_lag, motion)) return false;
+    const Real acceleration = detail::carried_acceleration(motion_, after, motion, gas.force_N());
+    // Number by number: GCC copies a pair by way of the stack.
+    valve.state.lift_m = shown.lift_m = after.lift_m;
+    valve.state.velocity_m_s = shown.velocity_m_s = after.velocity_m_s;
+    valve.train.lift_m = shown.theoretical_lift_m = lift.lift_m;  // above the valve's
+    valve.train.per_deg_m = lift.per_deg_m;
+    shown.acceleration_m_s2 = acceleration;
     return true;
   }
 
-  /// Where a contact may change. A call of its own, so that its registers and its stack are not the whole steps'.
-  template <class Gas, class Record>
-  [[gnu::noinline]] void fine_steps(ValveCondition<Real>& valve, std::uint64_t from, std::uint64_t to, const Gas& gas,
-                                    Record& record) const noexcept {
-    const std::uint32_t count = motion_.fine_per_step;
-    const std::uint64_t part = count == 1 ? 0 : part_of(static_cast<std::int64_t>(to - from), motion_.per_fine_32);
-    const Real fine_deg = step_deg_ * motion_.per_fine;
-    const bool wide = magnitude(fine_deg) > motion_.short_step_deg;
-    std::uint64_t at = from;
-    for (std::uint32_t i = 1; i <= count; ++i) {
-      const std::uint64_t next = i == count ? to : at + part;
-      const Lift<Real> lift = curve_.read(LiftCurve<Real>::cell(next));
-      const LiftStep<Real> step = between(valve.train, lift, fine_deg);
-      const LiftMiddle<Real> mid = wide ? middle(at, next, fine_deg) : LiftMiddle<Real>{};
-      const StepMatrix<Real>& matrix = motion_.fine[valve.regime];
-      const ValveState<Real> after = (valve.regime & kTrainOn) == 0 ? stepped(matrix, valve.state, gas)
-                                     : wide                         ? stepped(matrix, valve.state, gas, step, mid)
-                                                                    : stepped(matrix, valve.state, gas, step);
-      const std::uint32_t asked = contacts(motion_.body, after, lift.lift_m, step.to_slope_m * motion_.per_fine_s).regime();
-      const Span span{at, fine_deg, motion_.fine_s, motion_.per_fine_s};
-      if (asked == valve.regime) {
-        note(record, valve.state, after, step, valve.regime, gas, span);
-        valve.state = after;
-      } else if (budget_.left == 0) {
-        budget_.exceeded = true;
-        note(record, valve.state, after, step, valve.regime, gas, span);
-        if constexpr (!kUnrecorded<Record>) record.change(valve.regime, asked, after.velocity_m_s, curve_.degrees(at) + fine_deg);
-        valve.state = after;
-        valve.regime = asked;
-      } else {
-        change_contacts(valve, wide ? LiftWithin<Real>(step, mid) : LiftWithin<Real>(step), gas, record, span);
-      }
-      valve.train = lift;
-      at = next;
-    }
+  /// A tick of one whole step of a valve that settles, and goes on settling. False, and nothing done, where it comes to rest.
+  template <class Gas>
+  [[nodiscard]] constexpr bool settle(ValveCondition<Real>& valve, const Gas& gas, ValveMotionOutput<Real>& shown) const noexcept {
+    if (motion_.whole.parts != 1) return false;
+    const ValveState<Real> after = stepped(motion_.whole.matrix[kSeatOn], valve.state, gas);
+    if (at_rest(after, gas)) return false;
+    const ValveBody<Real>& b = motion_.body;
+    const Real force_N = (b.seat_N_m + b.spring_N_m) * after.lift_m + (b.seat_Ns_m + b.guide_Ns_m) * after.velocity_m_s + gas.force_N();
+    valve.state.lift_m = shown.lift_m = after.lift_m;
+    valve.state.velocity_m_s = shown.velocity_m_s = after.velocity_m_s;
+    shown.acceleration_m_s2 = -force_N * b.per_mass;
+    return true;
   }
 
-  /// The step in which a contact changes: by the series up to the change, on in the new regime, until the step's end.
+  /// Any tick of any valve, to the phase `to`; keeps its record.
   template <class Gas, class Record>
-  void change_contacts(ValveCondition<Real>& valve, const LiftWithin<Real>& lift, const Gas& gas, Record& record,
-                                         const Span& span) const noexcept {
-    StepSeries<Real> series(motion_.body, lift, motion_.fine_s);
+  void run(ValveCondition<Real>& valve, std::uint64_t to, const Gas& gas, Record& record) const noexcept {
+    Progress progress;
+    while (!advance(valve, progress, to, gas, record)) change_contacts(valve, progress, to, gas, record);
+  }
+
+  /// The motion at the end of the tick.
+  template <class Gas>
+  constexpr void show(const ValveCondition<Real>& valve, const Gas& gas, ValveMotionOutput<Real>& shown) const noexcept {
+    if (valve.sleep == kAsleep) {
+      shown = {};
+      return;
+    }
+    shown.theoretical_lift_m = valve.train.lift_m > 0 ? valve.train.lift_m : Real{0};
+    shown.lift_m = valve.state.lift_m;
+    shown.velocity_m_s = valve.state.velocity_m_s;
+    shown.acceleration_m_s2 =
+        acceleration(motion_.body, valve.regime, valve.state, valve.train.lift_m, valve.train.per_deg_m * cam_.deg_per_s, gas.force_N());
+  }
+
+ private:
+  static constexpr Real kLeastLash_m = static_cast<Real>(kLeastLash);  ///< with more of it a closed valve is left alone
+
+  /// How far a valve has come in its tick: whole steps, and fine ones of the next.
+  struct Progress {
+    std::uint32_t whole = 0;
+    std::uint32_t fine = 0;
+  };
+
+  /// Goes on with a tick. True when it is done; false when a contact changes in the fine step after `progress`: that one is for
+  /// change_contacts(). Calls of their own and one after the other, for the stack, and for the registers of the commonest ticks.
+  template <class Gas, class Record>
+  [[nodiscard, gnu::noinline]] bool advance(ValveCondition<Real>& valve, Progress& progress, std::uint64_t to, const Gas& gas, Record& record) const noexcept {
+    const Cell end = LiftCurve<Real>::cell(to);
+    if (valve.sleep != kAwake) {
+      if (rests_at(end, gas)) {
+        sleep_on(valve, end, gas);
+        return true;
+      }
+      wake(valve, to - static_cast<std::uint64_t>(cam_.turned), gas);
+    }
+    for (; progress.whole < motion_.whole.parts; ++progress.whole, progress.fine = 0) {
+      const Reach reach = reach_of(progress.whole, to);
+      const Lift<Real> lift = curve_.read(LiftCurve<Real>::cell(reach.to));
+      if (progress.fine > 0 || !sure_step(valve, whole_, reach, lift, gas, record)) {
+        if (kUnrecorded<Record>) bounce(valve, progress.fine, reach, lift, gas);
+        fine_steps(valve, progress.fine, reach, gas, record);
+        if (progress.fine < motion_.fine.parts) return false;
+      }
+      valve.train = lift;
+    }
+    fall_asleep(valve, end, gas);
+    return true;
+  }
+
+  /// The fine step after `progress`, in which a contact changes: by the series up to the change, on in the new regime, until the step's end.
+  template <class Gas, class Record>
+  [[gnu::noinline]] void change_contacts(ValveCondition<Real>& valve, Progress& progress, std::uint64_t to, const Gas& gas, Record& record) const noexcept {
+    const FineStep s = fine_step(valve.train, progress.fine, reach_of(progress.whole, to));
+    const Span& span = s.span;
+    StepSeries<Real> series(motion_.body, s.wide ? LiftWithin<Real>(s.lift, s.middle) : LiftWithin<Real>(s.lift), span.s, span.per_s);
+    valve.train = s.end;
+    ++progress.fine;
+    bool found = false;
     for (Real at = 0; at < 1;) {
       series.expand(at, valve.state, valve.regime, gas.force_N());
       std::uint32_t changed = 0;
@@ -208,9 +170,16 @@ class ValveTick {
       valve.state = after;
       at = next;
       if (changed == 0) {
-        if (budget_.left == 0) take_unlocated(valve, series, record, span);
+        if (budget_.left > 0) {
+          if (!found) --budget_.left;  // a search in vain takes as long as one that finds
+          return;
+        }
+        const LiftNow<Real> end = series.lift(1);
+        const std::uint32_t asked = contacts(motion_.body, after, end.lift_m, end.speed_m_s).regime();
+        if (asked != valve.regime) take_unlocated(valve, asked, record, span);
         return;
       }
+      found = true;
       --budget_.left;
       if constexpr (!kUnrecorded<Record>) {
         record.change(valve.regime, valve.regime ^ changed, after.velocity_m_s, curve_.degrees(span.from) + next * span.deg);
@@ -220,12 +189,180 @@ class ValveTick {
     }
   }
 
-  /// At the end of a step whose changes the budget no longer covered: the regime that the contacts ask for there.
+  /// Where a step begins, its length in cam degrees and in seconds.
+  struct Span {
+    std::uint64_t from;
+    Real deg;
+    Real s;
+    Real per_s;
+  };
+
+  /// How the lift runs over a step: a cubic through its ends, a quintic through its middle too, or neither.
+  enum class Width : std::uint32_t { cubic, through_middle, too_wide };
+
+  /// Steps of a level in this tick.
+  struct Stride {
+    const StepLevel<Real>& level;
+    Real deg;  ///< of the cam
+    Width width;
+  };
+  [[nodiscard]] static constexpr Stride stride_of(const ValveMotion<Real>& motion, const StepLevel<Real>& level, Real turned_deg) noexcept {
+    const Real step_deg = turned_deg * level.per_parts;
+    const Real deg = magnitude(step_deg);
+    if (deg <= motion.short_step_deg) return {level, step_deg, Width::cubic};
+    return {level, step_deg, deg <= motion.widest_step_deg ? Width::through_middle : Width::too_wide};
+  }
+
+  /// The cam's phases at the ends of a whole step.
+  struct Reach {
+    std::uint64_t from, to;
+  };
+
+  /// The ends of a level's steps.
+  struct Parts {
+    std::uint32_t count;
+    std::uint64_t part;
+    constexpr Parts(const StepLevel<Real>& level, const Reach& reach) noexcept
+        : count{level.parts}, part{count == 1 ? 0 : part_of(static_cast<std::int64_t>(reach.to - reach.from), level.per_parts_32)} {}
+    /// The end of the i-th of them, i from 1: the last ends at `to`.
+    [[nodiscard]] constexpr std::uint64_t next(std::uint32_t i, std::uint64_t at, std::uint64_t to) const noexcept {
+      return i == count ? to : at + part;
+    }
+  };
+
+  /// The i-th whole step of a tick that ends at `to`, i from 0.
+  [[nodiscard]] constexpr Reach reach_of(std::uint32_t i, std::uint64_t to) const noexcept {
+    const Reach tick{to - static_cast<std::uint64_t>(cam_.turned), to};
+    const Parts parts(motion_.whole, tick);
+    const std::uint64_t from = tick.from + i * parts.part;
+    return {from, parts.next(i + 1, from, to)};
+  }
+
+  template <class Gas>
+  constexpr void sleep_on(ValveCondition<Real>& valve, Cell end, const Gas& gas) const noexcept {
+    if (valve.sleep == kAsleep) return;
+    for (std::uint32_t i = 0; i < motion_.whole.parts; ++i) valve.state = stepped(motion_.whole.matrix[kSeatOn], valve.state, gas);
+    fall_asleep(valve, end, gas);
+  }
+
+  /// Wakes a closed valve: from sleep, where the gas holds it on its seat.
+  template <class Gas>
+  void wake(ValveCondition<Real>& valve, std::uint64_t from, const Gas& gas) const noexcept {
+    if (valve.sleep == kAsleep) valve.state = {-gas.force_N() * motion_.per_seat_N_m, Real{0}};
+    valve.train = curve_.read(LiftCurve<Real>::cell(from));
+    valve.sleep = kAwake;
+  }
+
+  /// A vibration on the seat that cannot lift the valve off it.
+  [[nodiscard]] constexpr bool trembles(ValveState<Real> s) const noexcept {
+    return magnitude(s.lift_m) + magnitude(s.velocity_m_s) * motion_.per_seat_rate_s < motion_.quiet_m;
+  }
+
+  /// A valve that only trembles on its seat, with the lash open.
+  template <class Gas>
+  [[nodiscard]] constexpr bool quiet(const ValveCondition<Real>& valve, const Lift<Real>& to, const Gas& gas) const noexcept {
+    return valve.regime == kSeatOn && valve.train.lift_m < -kLeastLash_m && to.lift_m < -kLeastLash_m && gas.leaves_closed(motion_.body) &&
+           trembles(valve.state);
+  }
+
+  [[nodiscard]] constexpr LiftStep<Real> between(const Lift<Real>& from, const Lift<Real>& to, Real deg) const noexcept {
+    return {from.lift_m, to.lift_m, deg * from.per_deg_m, deg * to.per_deg_m};
+  }
+
+  [[nodiscard]] LiftMiddle<Real> middle(std::uint64_t from, std::uint64_t to, Real deg) const noexcept {
+    const std::uint64_t half = static_cast<std::uint64_t>(static_cast<std::int64_t>(to - from) / 2);
+    const Lift<Real> lift = curve_.read(LiftCurve<Real>::cell(from + half));
+    return {lift.lift_m, deg * lift.per_deg_m};
+  }
+
+  /// A step that the train drives.
+  template <class Gas>
+  [[nodiscard]] constexpr ValveState<Real> carried(ValveState<Real> state, const Stride& stride, const LiftStep<Real>& step, std::uint64_t from,
+                                                   std::uint64_t to, const Gas& gas) const noexcept {
+    const StepMatrix<Real>& matrix = stride.level.matrix[kTrainOn];
+    return stride.width == Width::cubic ? stepped(matrix, state, gas, step) : stepped(matrix, state, gas, step, middle(from, to, stride.deg));
+  }
+
+  /// Takes a step if no contact can change in it.
+  template <class Gas, class Record>
+  [[nodiscard]] bool sure_step(ValveCondition<Real>& valve, const Stride& stride, const Reach& reach, const Lift<Real>& lift, const Gas& gas,
+                               Record& record) const noexcept {
+    if (stride.width == Width::too_wide) return false;
+    const StepLevel<Real>& level = stride.level;
+    const std::uint32_t regime = valve.regime;
+    const LiftStep<Real> step = between(valve.train, lift, stride.deg);
+    ValveState<Real> after;
+    if ((regime & kSeatOn) != 0) {
+      if (!quiet(valve, lift, gas)) return false;
+      after = stepped(level.matrix[kSeatOn], valve.state, gas);
+    } else {
+      after = regime == 0 ? stepped(level.matrix[0], valve.state, gas) : carried(valve.state, stride, step, reach.from, reach.to, gas);
+      if (!detail::far_from_change(motion_, level.force_lag, regime, {valve.state, after, step, level.step_s})) return false;
+    }
+    note(record, valve.state, after, step, regime, gas, Span{reach.from, stride.deg, level.step_s, level.per_step_s});
+    valve.state = after;
+    return true;
+  }
+
+  /// One of the fine steps from one place to another.
+  struct FineStep {
+    Lift<Real> end;
+    LiftStep<Real> lift;
+    LiftMiddle<Real> middle;
+    bool wide;
+    Span span;
+  };
+  [[nodiscard]] FineStep fine_step(const Lift<Real>& begin, std::uint32_t taken, const Reach& reach) const noexcept {
+    const StepLevel<Real>& level = motion_.fine;
+    const Stride stride = stride_of(motion_, level, whole_.deg);
+    const Parts parts(level, reach);
+    const std::uint64_t at = reach.from + taken * parts.part;
+    const std::uint64_t next = parts.next(taken + 1, at, reach.to);
+    const bool wide = stride.width != Width::cubic;
+    FineStep s{curve_.read(LiftCurve<Real>::cell(next)), {}, {}, wide, {at, stride.deg, level.step_s, level.per_step_s}};
+    s.lift = between(begin, s.end, stride.deg);
+    if (wide) s.middle = middle(at, next, stride.deg);
+    return s;
+  }
+
+  /// Fine steps, from that after `taken`, of a valve above its train, which leaves the lash open at both ends of the whole step: only the seat
+  /// can take or leave it, and no lift is read. Stops before the first that is not so simple.
+  template <class Gas>
+  constexpr void bounce(ValveCondition<Real>& valve, std::uint32_t& taken, const Reach& reach, const Lift<Real>& at_to, const Gas& gas) const noexcept {
+    const Real highest_train_m = valve.train.lift_m > at_to.lift_m ? valve.train.lift_m : at_to.lift_m;
+    if ((valve.regime & kTrainOn) != 0 || valve.state.lift_m <= highest_train_m || leaps_) return;
+    if (curve_.may_touch(LiftCurve<Real>::cell(reach.from)) || curve_.may_touch(LiftCurve<Real>::cell(reach.to))) return;
+    const StepMatrix<Real>& matrix = motion_.fine.matrix[valve.regime];
+    const std::uint32_t before = taken;
+    for (; taken < motion_.fine.parts; ++taken) {
+      const ValveState<Real> after = stepped(matrix, valve.state, gas);
+      if (after.lift_m <= highest_train_m || seat_acts(motion_.body, after) != (valve.regime == kSeatOn)) break;
+      valve.state = after;
+    }
+    if (taken != before && taken < motion_.fine.parts) valve.train = curve_.read(LiftCurve<Real>::cell(reach.from + taken * Parts(motion_.fine, reach).part));
+  }
+
+  /// Fine steps, from that after `taken`, as long as no contact changes; all of them once the budget is spent.
+  template <class Gas, class Record>
+  void fine_steps(ValveCondition<Real>& valve, std::uint32_t& taken, const Reach& reach, const Gas& gas, Record& record) const noexcept {
+    for (; taken < motion_.fine.parts; ++taken) {
+      const FineStep s = fine_step(valve.train, taken, reach);
+      const StepMatrix<Real>& matrix = motion_.fine.matrix[valve.regime];
+      const ValveState<Real> after = (valve.regime & kTrainOn) == 0 ? stepped(matrix, valve.state, gas)
+                                     : s.wide                       ? stepped(matrix, valve.state, gas, s.lift, s.middle)
+                                                                    : stepped(matrix, valve.state, gas, s.lift);
+      const std::uint32_t asked = contacts(motion_.body, after, s.end.lift_m, s.lift.to_slope_m * s.span.per_s).regime();
+      if (asked != valve.regime && budget_.left > 0) return;
+      note(record, valve.state, after, s.lift, valve.regime, gas, s.span);
+      valve.state = after;
+      valve.train = s.end;
+      if (asked != valve.regime) take_unlocated(valve, asked, record, s.span);
+    }
+  }
+
+  /// A change that the budget no longer covers: at the end of its fine step, where the contacts ask for another regime.
   template <class Record>
-  void take_unlocated(ValveCondition<Real>& valve, const StepSeries<Real>& series, Record& record, const Span& span) const noexcept {
-    const LiftNow<Real> lift = series.lift(1);
-    const std::uint32_t asked = contacts(motion_.body, valve.state, lift.lift_m, lift.speed_m_s).regime();
-    if (asked == valve.regime) return;
+  void take_unlocated(ValveCondition<Real>& valve, std::uint32_t asked, Record& record, const Span& span) const noexcept {
     budget_.exceeded = true;
     if constexpr (!kUnrecorded<Record>) record.change(valve.regime, asked, valve.state.velocity_m_s, curve_.degrees(span.from) + span.deg);
     valve.regime = asked;
@@ -260,24 +397,31 @@ class ValveTick {
     }
   }
 
-  /// A closed valve that has come to rest is put exactly at rest: it costs nothing, and no denormal numbers.
+  template <class Gas>
+  [[nodiscard]] constexpr bool at_rest(ValveState<Real> s, const Gas& gas) const noexcept {
+    const Real off_m = s.lift_m + gas.force_N() * motion_.per_seat_N_m;
+    return magnitude(off_m) < motion_.rest_m && magnitude(s.velocity_m_s) < motion_.rest_m_s;
+  }
+
+  /// A closed valve that the train cannot reach settles; once it has come to rest it is put exactly at rest: it costs nothing, and no
+  /// denormal numbers.
   template <class Gas>
   constexpr void fall_asleep(ValveCondition<Real>& valve, Cell end, const Gas& gas) const noexcept {
     if (valve.regime != kSeatOn || !rests_at(end, gas)) return;
-    const Real off_m = valve.state.lift_m + gas.force_N() * motion_.per_seat_N_m;
-    const Real speed_m_s = valve.state.velocity_m_s;
-    if (magnitude(off_m) >= motion_.rest_m || magnitude(speed_m_s) >= motion_.rest_m_s) return;
-    valve.state = {Real{0}, Real{0}};
-    valve.train = {};
-    valve.asleep = 1;
+    if (at_rest(valve.state, gas)) {
+      valve = {};
+    } else if (trembles(valve.state)) {
+      valve.sleep = kSettling;
+      valve.train = {};
+    }
   }
 
   const ValveMotion<Real>& motion_;
   const LiftCurve<Real>& curve_;
-  CamTurn<Real> cam_;
-  Real step_deg_;
+  const CamTurn<Real>& cam_;
+  Stride whole_;
   bool leaps_;
-  Width width_;
+  bool one_step_;
   EventBudget& budget_;
 };
 

@@ -11,7 +11,7 @@
 
 namespace crankloop::detail {
 
-/// Contact changes that are located in a tick, over all valves: it bounds the worst tick.
+/// Contact changes that are located in a tick, over all valves, searches in vain included: it bounds the worst tick.
 inline constexpr std::uint32_t kEventsPerTick = 16;
 
 template <class Real, class S>
@@ -38,15 +38,18 @@ struct ValvesStep {
   [[nodiscard]] std::uint32_t run(const Input<Real, S>& input) noexcept {
     std::uint32_t faults = 0;
     EventBudget budget{kEventsPerTick, false};
+    const Phase turned{jumped ? 0 : (state.phase - before).units()};
+    CamTurn<Real> cam = turn_of(turned);
     for (std::uint32_t t = 0; t < trains(); ++t) {
-      const std::uint64_t phase_before = cam_phase(t);
-      if constexpr (S::cam_phasing) move_cam(t, input.cam_phase_deg[t], faults);
+      if constexpr (S::cam_phasing) {
+        const std::uint64_t phase_before = cam_phase(t);
+        move_cam(t, input.cam_phase_deg[t], faults);
+        cam = turn_of(jumped ? turned : turned - Phase{cam_phase(t) - phase_before});
+      }
       const std::uint64_t phase_after = cam_phase(t);
-      const Phase turned{jumped ? 0 : (state.phase - before).units() - (phase_after - phase_before)};
-      const CamTurn<Real> cam{static_cast<std::int64_t>(turned.units()), turned.template signed_cycles<Real>() * Real{kDegreesPerTurn}};
       if constexpr (N::elastic_valves) {
         const ValveTick<Real> tick(tables.valve_motions[t], tables.lift_curves[t], cam, budget);
-        for (std::uint32_t k = 0; k < cylinders(); ++k) run_elastic(t, k, lobe_phase(t, k, phase_after), cam, tick);
+        run_elastic(t, phase_after, cam, tick);
       } else {
         for (std::uint32_t k = 0; k < cylinders(); ++k) follow(t, k, lobe_phase(t, k, phase_after), cam);
       }
@@ -56,6 +59,11 @@ struct ValvesStep {
   }
 
  private:
+  [[nodiscard]] CamTurn<Real> turn_of(Phase turned) const noexcept {
+    const Real turned_deg = turned.template signed_cycles<Real>() * Real{kDegreesPerTurn};
+    return {static_cast<std::int64_t>(turned.units()), turned_deg, turned_deg * tables.drive->per_tick_s};
+  }
+
   [[nodiscard]] std::uint32_t trains() const noexcept { return S::trains.exact ? S::trains.capacity : tables.drive->trains; }
 
   [[nodiscard]] std::uint32_t cylinders() const noexcept { return count<S>(tables.drive->cylinders); }
@@ -89,7 +97,7 @@ struct ValvesStep {
     const LiftCurve<Real>& curve = tables.lift_curves[t];
     const Cell cell = LiftCurve<Real>::cell(at);
     const Lift<Real> lift = curve.read(cell);
-    const Real speed_deg_s = cam.turned_deg * tables.drive->per_tick_s;
+    const Real speed_deg_s = cam.deg_per_s;
     const bool open = lift.lift_m > 0;
     ValveMotionOutput<Real>& valve = out.valve[t][k];
     valve.theoretical_lift_m = open ? lift.lift_m : Real{0};
@@ -98,21 +106,59 @@ struct ValvesStep {
     valve.acceleration_m_s2 = open ? curve.curvature(cell) * (speed_deg_s * speed_deg_s) : Real{0};
   }
 
-  void run_elastic(std::uint32_t t, std::uint32_t k, std::uint64_t at, const CamTurn<Real>& cam, const ValveTick<Real>& tick) noexcept {
+  /// The valves of a train.
+  void run_elastic(std::uint32_t t, std::uint64_t cam_phase, const CamTurn<Real>& cam, const ValveTick<Real>& tick) noexcept {
+    const std::uint64_t train_phase = state.phase.units() - cam_phase;
+    const std::uint64_t* opens = tables.lift_curves[t].opens;
+    ValveCondition<Real>* valve = state.valve[t];
+    ValveMotionOutput<Real>* shown = out.valve[t];
+    for (std::uint32_t k = 0; k < cylinders(); ++k, ++opens, ++valve, ++shown) {
+      const std::uint64_t at = train_phase - *opens;
+      const auto gas = gas_on(t, k);
+      if (jumped) settle(t, k, at, gas.force_N());
+      if constexpr (S::valve_results || S::valve_forces) {
+        run_watched(t, k, at, cam, tick, gas);
+      } else {
+        if (jumped || !run_easily(*valve, at, gas, tick, *shown)) run_carefully(*valve, at, gas, tick, *shown);
+      }
+    }
+  }
+
+  /// A valve at rest, or carried by its train, or settling on its seat: most of them.
+  template <class Gas>
+  [[nodiscard]] static bool run_easily(ValveCondition<Real>& valve, std::uint64_t at, const Gas& gas, const ValveTick<Real>& tick,
+                                       ValveMotionOutput<Real>& shown) noexcept {
+    const Cell end = LiftCurve<Real>::cell(at);
+    if (valve.sleep == kAwake) return tick.carry(valve, at, end, gas, shown);
+    if (!tick.rests_at(end, gas)) return false;
+    return valve.sleep == kAsleep || tick.settle(valve, gas, shown);  // asleep, its output is zero since it fell asleep
+  }
+
+  /// A call of its own, so that its registers are not those of the easy ones.
+  template <class Gas>
+  [[gnu::noinline]] static void run_carefully(ValveCondition<Real>& valve, std::uint64_t at, const Gas& gas, const ValveTick<Real>& tick,
+                                              ValveMotionOutput<Real>& shown) noexcept {
+    NoRecord<Real> none;
+    tick.run(valve, at, gas, none);
+    tick.show(valve, gas, shown);
+  }
+
+  /// A valve whose forces or record are asked for.
+  template <class Gas>
+  void run_watched(std::uint32_t t, std::uint32_t k, std::uint64_t at, const CamTurn<Real>& cam, const ValveTick<Real>& tick, const Gas& gas) noexcept {
     ValveCondition<Real>& valve = state.valve[t][k];
     const Cell end = LiftCurve<Real>::cell(at);
-    const auto gas = gas_on(t, k);
-    if (jumped) settle(t, k, at, gas.force_N());
     if constexpr (S::valve_results) {
       ValveRecord<Real>& record = state.record[t][k];
-      if (!tick.sleeps_on(valve, end, gas)) tick.advance(valve, at, end, gas, record);
+      tick.run(valve, at, gas, record);
       const LiftCurve<Real>& curve = tables.lift_curves[t];
       if (curve.passes_base_circle(at - static_cast<std::uint64_t>(cam.turned), at)) out.valve_cycle[t][k] = record.finish(cycle_end_deg(curve, cam), valve.regime);
-    } else if (!tick.sleeps_on(valve, end, gas)) {
+    } else {
       NoRecord<Real> none;
-      tick.advance(valve, at, end, gas, none);
+      tick.run(valve, at, gas, none);
     }
-    show(t, k, valve, end, cam.turned_deg * tables.drive->per_tick_s, gas.force_N());
+    tick.show(valve, gas, out.valve[t][k]);
+    if constexpr (S::valve_forces) show_forces(t, k, valve, end, cam.deg_per_s, gas.force_N());
   }
 
   [[nodiscard]] auto gas_on(std::uint32_t t, std::uint32_t k) const noexcept {
@@ -144,32 +190,18 @@ struct ValvesStep {
     return (cam.turned_deg < 0 ? lobe_deg - Real{kDegreesPerTurn} : lobe_deg + Real{kDegreesPerTurn}) / 2;
   }
 
-  void show(std::uint32_t t, std::uint32_t k, const ValveCondition<Real>& valve, Cell cell, Real cam_deg_s, Real gas_N) noexcept {
-    ValveMotionOutput<Real>& shown = out.valve[t][k];
+  void show_forces(std::uint32_t t, std::uint32_t k, const ValveCondition<Real>& valve, Cell cell, Real cam_deg_s, Real gas_N) noexcept {
     const ValveBody<Real>& body = tables.valve_motions[t].body;
-    if (valve.asleep != 0) {  // where it sleeps the lift is negative
-      shown = {};
-      if constexpr (S::valve_forces) {
-        out.valve_forces[t][k] = {Real{0}, body.preload_N + gas_N, Real{0}, Real{0}, tables.lift_curves[t].read(cell).lift_m, kSeatOn};
-      }
-      return;
-    }
-    const Lift<Real>& lift = valve.train;
-    const Real lift_speed = lift.per_deg_m * cam_deg_s;
-    shown.theoretical_lift_m = lift.lift_m > 0 ? lift.lift_m : Real{0};
-    shown.lift_m = valve.state.lift_m;
-    shown.velocity_m_s = valve.state.velocity_m_s;
-    shown.acceleration_m_s2 = acceleration(body, valve.regime, valve.state, lift.lift_m, lift_speed, gas_N);
-    if constexpr (S::valve_forces) {
-      const Contacts<Real> c = contacts(body, valve.state, lift.lift_m, lift_speed);
-      ValveForcesOutput<Real>& force = out.valve_forces[t][k];
-      force.train_N = train_force_N(valve.regime, c);
-      force.seat_N = seat_force_N(valve.regime, c);
-      force.tip_N = force.train_N - body.rocker_mass_kg * shown.acceleration_m_s2;
-      force.cam_N = force.train_N * rocker_ratio(t, cell);
-      force.gap_m = c.gap_m;
-      force.regime = valve.regime;
-    }
+    // A closed valve that sleeps keeps no lift; at rest its spring alone presses it into its seat.
+    const Lift<Real> lift = valve.sleep == kAwake ? valve.train : tables.lift_curves[t].read(cell);
+    const Contacts<Real> c = contacts(body, valve.state, lift.lift_m, lift.per_deg_m * cam_deg_s);
+    ValveForcesOutput<Real>& force = out.valve_forces[t][k];
+    force.train_N = train_force_N(valve.regime, c);
+    force.seat_N = valve.sleep == kAsleep ? body.preload_N + gas_N : seat_force_N(valve.regime, c);
+    force.tip_N = force.train_N - body.rocker_mass_kg * out.valve[t][k].acceleration_m_s2;
+    force.cam_N = force.train_N * rocker_ratio(t, cell);
+    force.gap_m = c.gap_m;
+    force.regime = valve.regime;
   }
 
   /// Read where the train touches; outside the lobe there is no force to multiply.
