@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <type_traits>
 
+#include <crankloop/tick/valves_step.hpp>
+
 #include "hostile.hpp"
 #include "port/common/machine.hpp"
 #include "port/common/text.hpp"
@@ -94,6 +96,30 @@ void measure_hostile() noexcept {
   port::Line() << "hostile " << worst;
 }
 
+/// What bounds the loops of a tick, for worst_tick: counts of the engine, from its tables, and the tick's budget of contact changes.
+template <class Tables>
+void print_limits(const Tables& tables) noexcept {
+  using Needs = crankloop::Needs<under_test::Scene>;
+  port::Line() << "limit cylinders " << tables.drive->cylinders;
+  port::Line() << "limit mechanisms " << tables.drive->mechanisms;
+  port::Line() << "limit trains " << (Needs::any_valves ? tables.drive->trains : 0);
+  std::uint32_t pins = 0;
+  std::uint32_t steps = 1;
+  std::uint32_t fine_steps = 1;
+  if constexpr (under_test::Scene::bearing_loads) pins = tables.bearings->pins;
+  if constexpr (Needs::elastic_valves) {
+    for (std::uint32_t t = 0; t < tables.drive->trains; ++t) {
+      const auto& motion = tables.valve_motions[t];
+      if (motion.steps > steps) steps = motion.steps;
+      if (motion.fine_per_step > fine_steps) fine_steps = motion.fine_per_step;
+    }
+  }
+  port::Line() << "limit pins " << pins;
+  port::Line() << "limit steps " << steps;
+  port::Line() << "limit fine_steps " << fine_steps;
+  port::Line() << "limit changes " << crankloop::detail::kEventsPerTick;
+}
+
 constexpr std::uint32_t kPaint = 0xA5C3965Au;
 constexpr std::ptrdiff_t kPaintedWords = 2048;
 
@@ -122,6 +148,7 @@ std::uint32_t painted_stack() noexcept {
 int main() {
   for (const Speed& speed : kSpeeds) measure(speed);
   measure_hostile();
+  print_limits(*engine.tables());
   port::Line() << "ram " << static_cast<std::uint32_t>(sizeof engine);
   port::Line() << "painted_stack " << painted_stack();
   port::finish(0);
