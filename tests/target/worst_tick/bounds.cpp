@@ -31,6 +31,9 @@ namespace {
   return path == file || (path.size() > file.size() && path.compare(path.size() - file.size() - 1, std::string::npos, "/" + file) == 0);
 }
 
+/// "vdiv" names vdiv.f32 and vdiv.f64 too.
+[[nodiscard]] bool names(const std::string& name, const std::string& mnemonic) { return mnemonic.substr(0, mnemonic.find('.')) == name || mnemonic == name; }
+
 [[nodiscard]] bool says_loop(const std::string& source) {
   return source.find("for (") != std::string::npos || source.find("while (") != std::string::npos || source.find("do {") != std::string::npos;
 }
@@ -157,7 +160,7 @@ std::optional<std::int64_t> Bounds::instructions(const std::string& function) co
 
 std::string Bounds::spends(const Instruction& instruction) const {
   for (const Expense& expense : expenses_) {
-    if (instruction.mnemonic == expense.mnemonic && instruction.operands.find(expense.operands) != std::string::npos &&
+    if (names(expense.mnemonic, instruction.mnemonic) && instruction.operands.find(expense.operands) != std::string::npos &&
         is_of(instruction.place, expense.file) && sources_.line(instruction.place).find(expense.text) != std::string::npos) {
       return expense.spends;
     }
