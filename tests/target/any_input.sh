@@ -1,13 +1,13 @@
 #!/bin/sh
-# any_input.sh CONF ENGINE LOG: the most instructions that a step of an engine takes with its call, whatever its input and its state; "-" on
-# processors whose code worst_tick does not read. From the machine code of the engine's image of costs.cpp, the limits that it has printed
+# any_input.sh CONF IMAGE LOG: the most instructions that a step of an image's engine takes with its call, whatever input and state; "-" on
+# processors whose code worst_tick does not read. From the machine code of the image, the limits of the engine that it has printed
 # into LOG, and loop_bounds.conf. CONF is costs.conf in the build's tests/target.
 set -eu
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
 # shellcheck disable=SC1090  # made by CMake
 . "$1"
-: "${size:?}" "${images:?}"
-image=$images/costs_$2
+: "${size:?}"
+image=$2
 [ -n "${worst_tick:-}" ] || { echo - && exit; }
 
 "${size%size}objdump" -d --no-show-raw-insn "$image" >"$image.listing"

@@ -23,7 +23,7 @@ row() {
   log=$images/costs_$1.txt
   eval "$emulator \"\$images/costs_\$1\"" </dev/null >"$log" 2>&1 || { cat "$log" >&2 && return 1; }  # a command with its arguments, each quoted
   stack=$(find "$images" -path "*/$1.dir/*.ci" -exec awk -v root='::step[(]' -f "$here/worst_stack.awk" {} +) || return 1
-  bound=$("$here/any_input.sh" "$conf" "$1" "$log") || return 1
+  bound=$("$here/any_input.sh" "$conf" "$images/costs_$1" "$log") || return 1
   awk -v scene="${1%_*}" -v tick="${1##*_}" -v code="$(section_bytes "$1" '^\\.text')" \
     -v tables="$(section_bytes "$1" '^\\.(s?rodata|data\\.rel\\.ro)')" -v stack="$stack" -v bound="$bound" '
     { sub(/\r$/, "") }
