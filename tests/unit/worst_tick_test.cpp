@@ -23,14 +23,17 @@ class Lines : public Sources {
 };
 
 /// The bound of the function at `root`. `places` says "ADDRESS LINE" of those instructions whose line matters.
-std::int64_t bound(const std::string& listing, const std::string& places, const std::string& bounds, const Numbers& limits = {}, std::uint32_t root = 0x10) {
+std::int64_t bound(const std::string& listing, const std::string& places, const std::string& bounds,
+                   const Numbers& limits = {}, std::uint32_t root = 0x10) {
   std::istringstream code(listing), bounds_file(bounds), place_list(places);
   std::ostringstream addr2line;
-  for (std::string address, line; place_list >> address >> line;) addr2line << "0x000000" << address << "\n/home/anna/src/engine.hpp:" << line << "\n";
+  for (std::string address, line; place_list >> address >> line;)
+    addr2line << "0x000000" << address << "\n/home/anna/src/engine.hpp:" << line << "\n";
   std::istringstream answered(addr2line.str());
   Program program = read_listing(code);
   read_places(answered, program);
-  Lines sources({"for (int i = 0; i < cylinders; ++i) {", "  if (far(i)) locate(i);", "}", "for (int i = 0; i < cylinders; ++i) once(i);", "while (true)"});
+  Lines sources({"for (int i = 0; i < cylinders; ++i) {", "  if (far(i)) locate(i);", "}",
+                 "for (int i = 0; i < cylinders; ++i) once(i);", "while (true)"});
   const Bounds all(bounds_file, limits, sources);
   return LongestPath(program, all, root).bound();
 }
@@ -120,8 +123,10 @@ TEST(WorstTick, TellsWhichCallOfALineSpends) {
       "      42:\tbx\tlr\n";
   const std::string budget = "budget | place | 1 | .\n";
   const std::string places = "10 2 16 2 1a 4";
-  EXPECT_EQ(bound(listing, places, "code | engine.hpp | locate(i) | bl locate spends place | .\n" + budget), 2 + 1 + 3 + 3 + 1);
-  EXPECT_EQ(bound(listing, places, "code | engine.hpp | locate(i) | bl spends place | .\n" + budget), 2 + 1 + 3 + 1) << "both calls of line 2 spend";
+  EXPECT_EQ(bound(listing, places, "code | engine.hpp | locate(i) | bl locate spends place | .\n" + budget),
+            2 + 1 + 3 + 3 + 1);
+  EXPECT_EQ(bound(listing, places, "code | engine.hpp | locate(i) | bl spends place | .\n" + budget), 2 + 1 + 3 + 1)
+      << "both calls of line 2 spend";
 }
 
 TEST(WorstTick, CountsABodyBelowItsTestOncePerRepeat) {
@@ -167,20 +172,25 @@ TEST(WorstTick, DoesNotTakeAnInnerLoopsTestForTheOuters) {
 }
 
 TEST(WorstTick, RefusesWhatItCannotBound) {
-  EXPECT_EQ(refusal(kLoop, "1a 1"), "/home/anna/src/engine.hpp:1: a loop without a bound: for (int i = 0; i < cylinders; ++i) {");
+  EXPECT_EQ(refusal(kLoop, "1a 1"),
+            "/home/anna/src/engine.hpp:1: a loop without a bound: for (int i = 0; i < cylinders; ++i) {");
   EXPECT_EQ(refusal(kLoop, "1a 2"), "step, loop at 12: no test of a source loop of its own leaves it");
   EXPECT_EQ(refusal(kLoop, "1a 1", "loop | engine.hpp | i < cylinders | 4 spends place | .\n"), "no budget of place");
-  EXPECT_EQ(refusal(kLoop, "1a 1", "loop | engine.hpp | i < cylinders | few | .\n"), "a bound says 'few', which the image does not tell");
+  EXPECT_EQ(refusal(kLoop, "1a 1", "loop | engine.hpp | i < cylinders | few | .\n"),
+            "a bound says 'few', which the image does not tell");
   EXPECT_EQ(refusal(kLoop, "1a 1", "loop | engine.hpp | i < cylinders | 4 | .\nloop | engine.hpp | ++i | 5 | .\n"),
             "/home/anna/src/engine.hpp:1: two bounds speak of this loop");
 }
 
 TEST(WorstTick, RefusesWhatLeadsAnywhere) {
-  const auto with = [](const std::string& instruction) { return refusal("00000010 <step>:\n      10:\t" + instruction + "\n      14:\tbx\tlr\n"); };
+  const auto with = [](const std::string& instruction) {
+    return refusal("00000010 <step>:\n      10:\t" + instruction + "\n      14:\tbx\tlr\n");
+  };
   EXPECT_EQ(with("blx\tr3"), "10: not known where it leads: blx r3");
   EXPECT_EQ(with("bx\tr3"), "10: not known where it leads: bx r3");
   EXPECT_EQ(with("tbb\t[pc, r0]"), "10: not known where it leads: tbb [pc, r0]");
-  EXPECT_EQ(with("ldr.w\tpc, [r3, r2, lsl #2]"), "10: a jump to an address that was computed: ldr pc, [r3, r2, lsl #2]");
+  EXPECT_EQ(with("ldr.w\tpc, [r3, r2, lsl #2]"),
+            "10: a jump to an address that was computed: ldr pc, [r3, r2, lsl #2]");
   EXPECT_EQ(with("mov\tpc, r3"), "10: a jump to an address that was computed: mov pc, r3");
   EXPECT_EQ(with("svc\t0"), "10: not known where it leads: svc 0");
   EXPECT_EQ(with("bl\t80 <gone>"), "a call of 80, where no function begins");
@@ -203,10 +213,13 @@ TEST(WorstTick, CopiesABlockThroughWhichALoopHasASecondWayIn) {
 }
 
 TEST(WorstTick, RefusesToRunIntoData) {
-  EXPECT_EQ(refusal("00000010 <step>:\n      10:\tadds\tr1, #1\n      12:\t.word\t0x3f800000\n      18:\tbx\tlr\n"), "step, 10: runs into what is not an instruction");
+  EXPECT_EQ(refusal("00000010 <step>:\n      10:\tadds\tr1, #1\n      12:\t.word\t0x3f800000\n      18:\tbx\tlr\n"),
+            "step, 10: runs into what is not an instruction");
   EXPECT_EQ(refusal("00000010 <step>:\n      10:\tadds\tr1, #1\n"), "step, 10: runs into what is not an instruction");
   // Not if there is another way: what leads into data is undefined, and the compiler left it out.
-  EXPECT_EQ(refusal("00000010 <step>:\n      10:\tadds\tr1, #1\n      12:\tbeq.n\t18 <step+0x8>\n      14:\t.word\t0x3f800000\n      18:\tbx\tlr\n"), "no refusal, but 3");
+  EXPECT_EQ(refusal("00000010 <step>:\n      10:\tadds\tr1, #1\n      12:\tbeq.n\t18 <step+0x8>\n      "
+                    "14:\t.word\t0x3f800000\n      18:\tbx\tlr\n"),
+            "no refusal, but 3");
 }
 
 }  // namespace

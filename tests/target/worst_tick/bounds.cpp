@@ -28,14 +28,18 @@ namespace {
 
 [[nodiscard]] bool is_of(const Place& place, const std::string& file) {
   const std::string& path = place.file;
-  return path == file || (path.size() > file.size() && path.compare(path.size() - file.size() - 1, std::string::npos, "/" + file) == 0);
+  return path == file ||
+         (path.size() > file.size() && path.compare(path.size() - file.size() - 1, std::string::npos, "/" + file) == 0);
 }
 
 /// "vdiv" names vdiv.f32 and vdiv.f64 too.
-[[nodiscard]] bool names(const std::string& name, const std::string& mnemonic) { return mnemonic.substr(0, mnemonic.find('.')) == name || mnemonic == name; }
+[[nodiscard]] bool names(const std::string& name, const std::string& mnemonic) {
+  return mnemonic.substr(0, mnemonic.find('.')) == name || mnemonic == name;
+}
 
 [[nodiscard]] bool says_loop(const std::string& source) {
-  return source.find("for (") != std::string::npos || source.find("while (") != std::string::npos || source.find("do {") != std::string::npos;
+  return source.find("for (") != std::string::npos || source.find("while (") != std::string::npos ||
+         source.find("do {") != std::string::npos;
 }
 
 }  // namespace
@@ -73,7 +77,8 @@ std::int64_t Bounds::number(const std::string& text, const Numbers& limits) cons
   const auto value = [&](const std::string& word) {
     const auto limit = limits.find(word);
     if (limit != limits.end()) return limit->second;
-    if (word.empty() || word.find_first_not_of("0123456789") != std::string::npos) throw Refusal("a bound says '" + word + "', which the image does not tell");
+    if (word.empty() || word.find_first_not_of("0123456789") != std::string::npos)
+      throw Refusal("a bound says '" + word + "', which the image does not tell");
     return std::int64_t{std::stol(word)};
   };
   std::string word, operation;
@@ -100,10 +105,13 @@ const LoopBound* Bounds::bound_at(const Instruction& branch) const {
   const LoopBound* found = nullptr;
   for (const LoopBound& bound : loops_) {
     if (!is_of(branch.place, bound.file) || source.find(bound.text) == std::string::npos) continue;
-    if (found != nullptr) throw Refusal(branch.place.file + ":" + std::to_string(branch.place.line) + ": two bounds speak of this loop");
+    if (found != nullptr)
+      throw Refusal(branch.place.file + ":" + std::to_string(branch.place.line) + ": two bounds speak of this loop");
     found = &bound;
   }
-  if (found == nullptr) throw Refusal(branch.place.file + ":" + std::to_string(branch.place.line) + ": a loop without a bound: " + trimmed(source));
+  if (found == nullptr)
+    throw Refusal(branch.place.file + ":" + std::to_string(branch.place.line) +
+                  ": a loop without a bound: " + trimmed(source));
   return found;
 }
 
@@ -113,7 +121,8 @@ std::vector<Bounds::Test> Bounds::tests(const Function& function, const Graph& g
   const std::vector<bool>& has = graph.loops[loop].has;
   for (std::size_t b = 0; b < graph.blocks.size(); ++b) {
     bool inner = false;
-    for (std::size_t other = 0; other < loop; ++other) inner = inner || (graph.loops[other].has[b] && has[graph.loops[other].header]);
+    for (std::size_t other = 0; other < loop; ++other)
+      inner = inner || (graph.loops[other].has[b] && has[graph.loops[other].header]);
     if (!has[b] || inner) continue;
     const auto& next = graph.blocks[b].next;
     if (std::all_of(next.begin(), next.end(), [&](std::size_t n) { return has[n]; })) continue;
@@ -137,15 +146,18 @@ Bounds::Repeats Bounds::repeats(const Function& function, const Graph& graph, st
   };
   own.erase(std::remove_if(own.begin(), own.end(), is_inner), own.end());
   const std::size_t header = graph.loops[loop].header;
-  const std::string where = function.name + ", loop at " + hex(function.instructions[graph.blocks[header].begin].address);
+  const std::string where =
+      function.name + ", loop at " + hex(function.instructions[graph.blocks[header].begin].address);
   if (own.empty()) throw Refusal(where + ": no test of a source loop of its own leaves it");
   for (const Test& test : own) {
-    if (test.bound != own[0].bound) throw Refusal(where + ": two source loops' tests leave it: " + own[0].bound->text + "; " + test.bound->text);
+    if (test.bound != own[0].bound)
+      throw Refusal(where + ": two source loops' tests leave it: " + own[0].bound->text + "; " + test.bound->text);
   }
   // With the test at its head a loop's body runs once for each repeat; elsewhere it has run before the first.
   const auto& ways = graph.blocks[header].next;
   const bool alone = std::find(ways.begin(), ways.end(), header) != ways.end();
-  const bool tests_first = !alone && std::any_of(own.begin(), own.end(), [&](const Test& test) { return test.block == header; });
+  const bool tests_first =
+      !alone && std::any_of(own.begin(), own.end(), [&](const Test& test) { return test.block == header; });
   const std::int64_t rounds = own[0].bound->rounds;
   if (tests_first) return {rounds, own[0].bound->spends};
   if (rounds == 0) return {std::nullopt, ""};
@@ -160,8 +172,9 @@ std::optional<std::int64_t> Bounds::instructions(const std::string& function) co
 
 std::string Bounds::spends(const Instruction& instruction) const {
   for (const Expense& expense : expenses_) {
-    if (names(expense.mnemonic, instruction.mnemonic) && instruction.operands.find(expense.operands) != std::string::npos &&
-        is_of(instruction.place, expense.file) && sources_.line(instruction.place).find(expense.text) != std::string::npos) {
+    if (names(expense.mnemonic, instruction.mnemonic) &&
+        instruction.operands.find(expense.operands) != std::string::npos && is_of(instruction.place, expense.file) &&
+        sources_.line(instruction.place).find(expense.text) != std::string::npos) {
       return expense.spends;
     }
   }

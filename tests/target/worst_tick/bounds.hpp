@@ -7,7 +7,8 @@
 //
 //     loop | FILE | TEXT | ROUNDS | why                a loop runs its body at most ROUNDS times
 //     loop | FILE | TEXT | ROUNDS spends NAME | why    likewise, and whenever it begins anew it spends one of a budget
-//     code | FILE | TEXT | INSTRUCTION spends NAME | why   so does that line's instruction: a mnemonic, with or without its type, then perhaps a piece of its operands
+//     code | FILE | TEXT | INSTRUCTION spends NAME | why   so does that line's instruction: a mnemonic, its type left out or not, then
+//                                                      perhaps a piece of its operands
 //     budget | NAME | NUMBER | why                     of one tick
 //     call | FUNCTION | INSTRUCTIONS | why             what a function without source takes, with all that it calls
 #pragma once

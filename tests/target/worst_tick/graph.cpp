@@ -54,7 +54,8 @@ class Builder {
       const Flow& last = flows[block.end - 1];
       block.returns = last.returns;
       if (last.jumps && within(last.target)) block.next.push_back(block_of[index_[last.target]]);
-      if (last.jumps && !within(last.target)) block.callees.push_back(last.target), block.returns = true;  // calls as its last act
+      if (last.jumps && !within(last.target))
+        block.callees.push_back(last.target), block.returns = true;  // calls as its last act
       const bool into_data = block.end == code.size() || code[block.end].follows_data;
       if (last.goes_on) block.next.push_back(into_data ? kNowhere : block_of[block.end]);
       graph_.blocks.push_back(block);
@@ -69,7 +70,9 @@ class Builder {
   /// away what comes after.
   void prune() {
     auto& blocks = graph_.blocks;
-    const auto is_nowhere = [&](std::size_t b) { return b == kNowhere || (blocks[b].next.empty() && !blocks[b].returns); };
+    const auto is_nowhere = [&](std::size_t b) {
+      return b == kNowhere || (blocks[b].next.empty() && !blocks[b].returns);
+    };
     for (bool changed = true; changed;) {
       changed = false;
       for (Block& block : blocks) {

@@ -6,7 +6,9 @@
 namespace worst_tick {
 namespace {
 
-[[nodiscard]] std::uint32_t address_in(const std::string& text) { return static_cast<std::uint32_t>(std::strtoul(text.c_str(), nullptr, 16)); }
+[[nodiscard]] std::uint32_t address_in(const std::string& text) {
+  return static_cast<std::uint32_t>(std::strtoul(text.c_str(), nullptr, 16));
+}
 
 /// "00001774 <name>:"; the name is empty on any other line.
 [[nodiscard]] std::string function_name(const std::string& line) {
@@ -27,7 +29,8 @@ namespace {
   out.operands = tab == std::string::npos ? "" : text.substr(tab + 1);
   if (out.mnemonic[0] == '.') out.mnemonic.clear();
   const std::size_t width = out.mnemonic.rfind('.');
-  if (width != std::string::npos && (out.mnemonic.substr(width) == ".n" || out.mnemonic.substr(width) == ".w")) out.mnemonic.resize(width);
+  if (width != std::string::npos && (out.mnemonic.substr(width) == ".n" || out.mnemonic.substr(width) == ".w"))
+    out.mnemonic.resize(width);
   return true;
 }
 

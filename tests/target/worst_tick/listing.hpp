@@ -27,7 +27,7 @@ struct Instruction {
   std::uint32_t address = 0;
   std::string mnemonic;  ///< lower case, without .n or .w
   std::string operands;
-  Place place;           ///< of the innermost function, where it was inlined
+  Place place;                ///< of the innermost function, where it was inlined
   bool follows_data = false;  ///< rather than the instruction before it
 };
 

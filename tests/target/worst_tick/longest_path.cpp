@@ -11,7 +11,8 @@ constexpr std::size_t kReturn = static_cast<std::size_t>(-1);
 
 }  // namespace
 
-LongestPath::LongestPath(const Program& program, const Bounds& bounds, std::uint32_t root) : program_{program}, bounds_{bounds}, root_{root} {
+LongestPath::LongestPath(const Program& program, const Bounds& bounds, std::uint32_t root)
+    : program_{program}, bounds_{bounds}, root_{root} {
   std::vector<std::uint32_t> callers;
   add(root, callers);
 }
@@ -48,8 +49,9 @@ void LongestPath::add(std::uint32_t address, std::vector<std::uint32_t>& callers
 }
 
 /// Blocks in their order, each after all that lead to it; a loop inside is passed as a whole.
-LongestPath::Ways LongestPath::ways(const Body& body, const std::vector<Path>& blocks, std::size_t start, const std::vector<bool>& within,
-                                    const std::map<std::size_t, Ways>& inner, const Prices& prices) const {
+LongestPath::Ways LongestPath::ways(const Body& body, const std::vector<Path>& blocks, std::size_t start,
+                                    const std::vector<bool>& within, const std::map<std::size_t, Ways>& inner,
+                                    const Prices& prices) const {
   Ways all;
   std::vector<Path> before(blocks.size(), Path::none());
   before[start] = {};

@@ -41,8 +41,9 @@ class LongestPath {
 
   void add(std::uint32_t address, std::vector<std::uint32_t>& callers);
   [[nodiscard]] Path longest(std::uint32_t address, const Prices& prices);
-  [[nodiscard]] Ways ways(const Body& body, const std::vector<Path>& blocks, std::size_t start, const std::vector<bool>& within,
-                          const std::map<std::size_t, Ways>& inner, const Prices& prices) const;
+  [[nodiscard]] Ways ways(const Body& body, const std::vector<Path>& blocks, std::size_t start,
+                          const std::vector<bool>& within, const std::map<std::size_t, Ways>& inner,
+                          const Prices& prices) const;
   [[nodiscard]] std::size_t budget(const std::string& name) const;
 
   const Program& program_;

@@ -57,7 +57,8 @@ class SourceFiles : public Sources {
 }
 
 int run(char** argument) {
-  std::ifstream listing = opened(argument[1]), places = opened(argument[2]), limits = opened(argument[3]), bounds_file = opened(argument[4]);
+  std::ifstream listing = opened(argument[1]), places = opened(argument[2]), limits = opened(argument[3]),
+                bounds_file = opened(argument[4]);
   Program program = read_listing(listing);
   read_places(places, program);
   SourceFiles sources;

@@ -13,7 +13,8 @@ constexpr double kNothing = 1e-7;
 Mixture::Mixture(const std::vector<std::int64_t>& budgets)
     : rows_{budgets.size() + 1}, inverse_(rows_, std::vector<double>(rows_, 0)), shares_(rows_, 1), lengths_(rows_, 0) {
   for (std::size_t row = 0; row < rows_; ++row) inverse_[row][row] = 1;
-  for (std::size_t budget = 0; budget < budgets.size(); ++budget) shares_[budget] = static_cast<double>(budgets[budget]);
+  for (std::size_t budget = 0; budget < budgets.size(); ++budget)
+    shares_[budget] = static_cast<double>(budgets[budget]);
 }
 
 double Mixture::dual(std::size_t row) const {
@@ -36,7 +37,8 @@ void Mixture::enter(const Column& column) {
   }
   std::size_t leaves = rows_;
   for (std::size_t i = 0; i < rows_; ++i) {
-    if (change[i] > kNothing && (leaves == rows_ || shares_[i] * change[leaves] < shares_[leaves] * change[i])) leaves = i;
+    if (change[i] > kNothing && (leaves == rows_ || shares_[i] * change[leaves] < shares_[leaves] * change[i]))
+      leaves = i;
   }
   if (leaves == rows_) return;
   const double share = shares_[leaves] / change[leaves];

@@ -6,7 +6,8 @@
 namespace worst_tick {
 namespace {
 
-const std::set<std::string> kConditions = {"eq", "ne", "cs", "hs", "cc", "lo", "mi", "pl", "vs", "vc", "hi", "ls", "ge", "lt", "gt", "le"};
+const std::set<std::string> kConditions = {"eq", "ne", "cs", "hs", "cc", "lo", "mi", "pl",
+                                           "vs", "vc", "hi", "ls", "ge", "lt", "gt", "le"};
 
 /// Whether `mnemonic` is `name`, alone or with a condition (in an IT block).
 [[nodiscard]] bool is(const std::string& mnemonic, const std::string& name, bool& conditional) {
@@ -32,7 +33,9 @@ const std::set<std::string> kConditions = {"eq", "ne", "cs", "hs", "cc", "lo", "
 [[nodiscard]] bool writes_pc(const Instruction& i) {
   const std::string& m = i.mnemonic;
   if (m.compare(0, 3, "ldm") == 0 || m.compare(0, 3, "pop") == 0) return i.operands.find("pc}") != std::string::npos;
-  if (m.compare(0, 3, "cmp") == 0 || m.compare(0, 3, "cmn") == 0 || m.compare(0, 3, "tst") == 0 || m.compare(0, 3, "str") == 0) return false;
+  if (m.compare(0, 3, "cmp") == 0 || m.compare(0, 3, "cmn") == 0 || m.compare(0, 3, "tst") == 0 ||
+      m.compare(0, 3, "str") == 0)
+    return false;
   return i.operands.compare(0, 2, "pc") == 0 && (i.operands.size() == 2 || i.operands[2] == ',');
 }
 
@@ -53,8 +56,10 @@ Flow flow_of(const Instruction& i) {
   if (is(m, "bl", conditional)) return {true, false, true, false, named_target(i)};
   if (is(m, "bx", conditional) && i.operands == "lr") return {conditional, false, false, true, 0};
   if (writes_pc(i)) {
-    if (!returns_from_stack(i)) throw Refusal(hex(i.address) + ": a jump to an address that was computed: " + m + " " + i.operands);
-    for (const std::string& c : kConditions) conditional = conditional || (m.size() > 4 && m.compare(m.size() - 2, 2, c) == 0);
+    if (!returns_from_stack(i))
+      throw Refusal(hex(i.address) + ": a jump to an address that was computed: " + m + " " + i.operands);
+    for (const std::string& c : kConditions)
+      conditional = conditional || (m.size() > 4 && m.compare(m.size() - 2, 2, c) == 0);
     return {conditional, false, false, true, 0};
   }
   // What else begins with b changes bits; tbb and tbh are jump tables, le, wls and dls loops of Armv8.1-M.

@@ -11,10 +11,10 @@
 namespace worst_tick {
 
 struct Flow {
-  bool goes_on = true;       ///< to the next instruction
-  bool jumps = false;        ///< to `target`
-  bool calls = false;        ///< `target`, and comes back
-  bool returns = false;      ///< to the caller
+  bool goes_on = true;   ///< to the next instruction
+  bool jumps = false;    ///< to `target`
+  bool calls = false;    ///< `target`, and comes back
+  bool returns = false;  ///< to the caller
   std::uint32_t target = 0;
 };
 
