@@ -137,7 +137,7 @@ class ValveRecord {
   /// it is still in the air from the cycle before.
   constexpr void note_opening(const ObservedStep<Real>& s) noexcept {
     if (stage_ != Stage::closed) return;
-    if (s.theory_from_m < kOpened_m && s.theory_to_m >= kOpened_m) {
+    if (!is(kTheoryOpened) && s.theory_from_m < kOpened_m && s.theory_to_m >= kOpened_m) {
       flags_ |= kTheoryOpened;
       theory_opened_deg_ = reached_deg(s.theory_from_m, s.theory_speed_from_m_s, s.theory_to_m, s.theory_speed_to_m_s, s);
     }

@@ -200,6 +200,7 @@ class ValveTick {
                                          const Span& span) const noexcept {
     StepSeries<Real> series(motion_.body, lift, motion_.fine_s);
     for (Real at = 0; at < 1;) {
+      const bool first_search = at == 0;
       series.expand(at, valve.state, valve.regime, gas.force_N());
       std::uint32_t changed = 0;
       const Real next = budget_.left > 0 ? series.first_change(valve.regime, changed) : Real{1};
@@ -208,7 +209,11 @@ class ValveTick {
       valve.state = after;
       at = next;
       if (changed == 0) {
-        if (budget_.left == 0) take_unlocated(valve, series, record, span);
+        if (budget_.left == 0) {
+          take_unlocated(valve, series, record, span);
+        } else if (first_search) {
+          --budget_.left;  // a search that finds nothing takes as long as one that does
+        }
         return;
       }
       --budget_.left;
