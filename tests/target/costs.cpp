@@ -1,24 +1,12 @@
-// What a tick of one engine costs: instructions, RAM, stack. Compiled once for each scene, with COSTS_ENGINE and COSTS_ENGINE_HEADER defined;
-// costs.sh reads what it prints.
+// What a tick of one engine costs: instructions, RAM, stack. Compiled once for each scene; costs.sh reads what it prints.
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
-#include "hostile.hpp"
-#include "port/common/machine.hpp"
-#include "port/common/text.hpp"
-
-#include COSTS_ENGINE_HEADER
+#include "counted_step.hpp"
 
 namespace {
 
-namespace port = crankloop::port;
-namespace under_test = COSTS_ENGINE;
-using under_test::Engine;
-using under_test::Input;
-using under_test::Real;
-
-Engine engine;
 std::uint32_t phase_per_tick_high;  ///< of a measured phase
 
 struct Speed {
@@ -27,8 +15,6 @@ struct Speed {
 };
 constexpr Speed kSpeeds[] = {{"idle", 800}, {"rated", 5000}, {"redline", 6000}};
 constexpr std::uint32_t kCycles = 2;  ///< measured, after as many in which the valves settle
-
-Input input;
 
 // Templates, since a scene's input lacks what the scene does not ask for.
 template <class In>
@@ -48,50 +34,27 @@ void turn_crank(In& in) noexcept {
   if constexpr (std::is_base_of_v<crankloop::PhaseInput, In>) in.crank += crankloop::Phase{std::uint64_t{phase_per_tick_high} << 32};
 }
 
-/// One step by the counter, with the call and without the reading of the counter.
-std::uint32_t cost_of_step() noexcept {
+std::uint32_t cost_of_turn() noexcept {
   turn_crank(input);
-  const std::uint32_t before = port::counter();
-  engine.step(input);
-  return port::instructions_between(before, port::counter());
-}
-
-std::uint32_t cost_of_counting() noexcept {
-  const std::uint32_t before = port::counter();
-  asm volatile("" ::: "memory");
-  return port::instructions_between(before, port::counter());
+  return cost_of_step();
 }
 
 void measure(const Speed& speed) noexcept {
   set_speed(input, speed.rpm);
   const std::uint32_t ticks = kCycles * (120'000'000u / (static_cast<std::uint32_t>(speed.rpm) * COSTS_TICK_US));
-  for (std::uint32_t i = 0; i < ticks; ++i) cost_of_step();
+  for (std::uint32_t i = 0; i < ticks; ++i) cost_of_turn();
   const std::uint32_t counting = cost_of_counting();
   std::uint64_t sum = 0;
   std::uint32_t worst = 0;
   std::uint32_t faults = 0;
   for (std::uint32_t i = 0; i < ticks; ++i) {
-    const std::uint32_t cost = cost_of_step() - counting;
+    const std::uint32_t cost = cost_of_turn() - counting;
     sum += cost;
     if (cost > worst) worst = cost;
     faults |= engine.output().faults;
   }
   port::Line() << "instructions " << speed.name << " " << static_cast<std::uint32_t>((sum + ticks / 2) / ticks) << " " << worst;
   if (faults != 0) port::Line() << "faults " << faults;
-}
-
-/// The worst of many ticks whose inputs are meant to hurt.
-void measure_hostile() noexcept {
-  constexpr int kTicks = 5000;
-  target_check::Random random(495);
-  const std::uint32_t counting = cost_of_counting();
-  std::uint32_t worst = 0;
-  for (int i = 0; i < kTicks; ++i) {
-    target_check::hurt<Real, under_test::Scene>(input, random);
-    const std::uint32_t cost = cost_of_step() - counting;
-    if (cost > worst) worst = cost;
-  }
-  port::Line() << "hostile " << worst;
 }
 
 constexpr std::uint32_t kPaint = 0xA5C3965Au;
@@ -121,7 +84,8 @@ std::uint32_t painted_stack() noexcept {
 
 int main() {
   for (const Speed& speed : kSpeeds) measure(speed);
-  measure_hostile();
+  measure_hostile(5000);
+  print_limits(*engine.tables());
   port::Line() << "ram " << static_cast<std::uint32_t>(sizeof engine);
   port::Line() << "painted_stack " << painted_stack();
   port::finish(0);

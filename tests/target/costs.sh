@@ -8,6 +8,7 @@
 # `cmake --build --preset PRESET --target write_costs` and committed.
 set -eu
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
+conf=$1
 # shellcheck disable=SC1090  # made by CMake
 . "$1"
 : "${target:?}" "${title:?}" "${compiler:?}" "${size:?}" "${emulator:?}" "${build_type:?}" "${images:?}" "${engines:?}" "${performance:?}"
@@ -22,8 +23,9 @@ row() {
   log=$images/costs_$1.txt
   eval "$emulator \"\$images/costs_\$1\"" </dev/null >"$log" 2>&1 || { cat "$log" >&2 && return 1; }  # a command with its arguments, each quoted
   stack=$(find "$images" -path "*/$1.dir/*.ci" -exec awk -v root='::step[(]' -f "$here/worst_stack.awk" {} +) || return 1
+  bound=$("$here/any_input.sh" "$conf" "$images/costs_$1" "$log") || return 1
   awk -v scene="${1%_*}" -v tick="${1##*_}" -v code="$(section_bytes "$1" '^\\.text')" \
-    -v tables="$(section_bytes "$1" '^\\.(s?rodata|data\\.rel\\.ro)')" -v stack="$stack" '
+    -v tables="$(section_bytes "$1" '^\\.(s?rodata|data\\.rel\\.ro)')" -v stack="$stack" -v bound="$bound" '
     { sub(/\r$/, "") }
     $1 == "instructions" { mean[$2] = $3; worst[$2] = $4 }
     $1 == "hostile" { hostile = $2 }
@@ -32,13 +34,17 @@ row() {
     $1 == "faults" { print scene " sets fault bits: " $2 > "/dev/stderr"; bad = 1 }
     END {
       if (painted + 0 > stack + 0) { print scene ": painting finds more stack than the call graph" > "/dev/stderr"; bad = 1 }
+      most = hostile + 0
+      for (speed in worst) if (worst[speed] + 0 > most) most = worst[speed] + 0
+      if (bound != "-" && most > bound + 0) { print scene ": took " most " instructions, more than its bound of " bound > "/dev/stderr"; bad = 1 }
       if (bad || !("redline" in worst) || hostile == "" || painted == "") exit 1
       print "| " scene " | " tick + 0 " | " mean["idle"] " / " worst["idle"] " | " mean["rated"] " / " worst["rated"] " | " mean["redline"] " / " \
-        worst["redline"] " | " hostile " | " code " | " tables " | " ram " | " stack " | " painted " |"
+        worst["redline"] " | " hostile " | " bound " | " code " | " tables " | " ram " | " stack " | " painted " |"
     }' "$log"
 }
 
 # The compiler and the emulator that the figures hold for.
+# shellcheck disable=SC2119,SC2120  # the arguments are those that eval sets
 versions() {
   eval "set -- $emulator"
   for word in "$@"; do
@@ -53,8 +59,8 @@ print_costs() {
   echo
   echo "$(versions)."
   echo
-  echo "| scene | tick, us | idle, mean / worst | rated, mean / worst | redline, mean / worst | hostile | code | tables | RAM | stack, bound | stack, painted |"
-  echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
+  echo "| scene | tick, us | idle, mean / worst | rated, mean / worst | redline, mean / worst | hostile | bound, any input | code | tables | RAM | stack, bound | stack, painted |"
+  echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
   for engine in $engines; do row "$engine"; done
   echo "$end"
 }
@@ -91,7 +97,7 @@ case $what in
           if (!(key in committed)) { print key ": not in the committed table"; ++failed; next }
           split(committed[key], before, " ")
           grown = ""
-          for (i = 1; i <= n; ++i) if (now[i] > before[i] * 1.02) grown = grown " " before[i] " -> " now[i]
+          for (i = 1; i <= n; ++i) if (now[i] != "-" && now[i] > before[i] * 1.02) grown = grown " " before[i] " -> " now[i]
           if (grown == "") { ++passed; next }
           print key ":" grown
           if (same_versions) ++failed

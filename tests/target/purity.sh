@@ -25,7 +25,12 @@ for engine in $engines; do
     awk '$2 > 0 && $1 ~ /^\.(init_array|fini_array|ctors|s?data|s?bss|tdata|tbss|eh_frame|gcc_except_table|ARM\.extab)/ && $1 !~ /^\.data\.rel\.ro/')"
   complain "$engine" 'symbols that a firmware must not have' "$("$nm" -C "$archive" | grep -E ' (typeinfo|vtable|guard variable) ' || true)"
   # Double-precision instructions: Arm's end in .f64, RISC-V's have .d.
-  complain "$engine" 'double arithmetic' "$("$objdump" -d --no-show-raw-insn "$archive" | grep -E '[[:space:]]v[a-z]+\.(f64|f32\.f64|f64\.[a-z0-9]+)[[:space:]]|[[:space:]]f[a-z]+(\.[a-z]+)?\.d[[:space:].]' | head -n 3 || true)"
+  case $engine in
+    *_double_*) ;;
+    *)
+      complain "$engine" 'double arithmetic' "$("$objdump" -d --no-show-raw-insn "$archive" | grep -E '[[:space:]]v[a-z]+\.(f64|f32\.f64|f64\.[a-z0-9]+)[[:space:]]|[[:space:]]f[a-z]+(\.[a-z]+)?\.d[[:space:].]' | head -n 3 || true)"
+      ;;
+  esac
   if [ "$bad" = 0 ]; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
 done
 echo "$passed passed, $failed failed"

@@ -74,4 +74,11 @@ struct Everything : Forces {
   static constexpr bool cam_phasing = true;
 };
 
+/// The same scene for the 125, which has one cylinder and one train: an exact scene takes no other number.
+template <class S>
+struct OfTheSingle : S {
+  static constexpr auto cylinders = S::cylinders.exact ? crankloop::exactly<1> : S::cylinders;
+  static constexpr auto trains = S::trains.exact ? crankloop::exactly<1> : S::trains;
+};
+
 }  // namespace target_scenes

@@ -1,0 +1,79 @@
+// One engine, and what its steps cost by the emulator's counter: for images that measure. Needs COSTS_ENGINE and COSTS_ENGINE_HEADER defined.
+//
+// What belongs here: the engine under test, counting one step, hostile input, what bounds its loops. What does not: operating speeds and
+// stack (costs.cpp).
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include <crankloop/tick/valves_step.hpp>
+
+#include "hostile.hpp"
+#include "port/common/machine.hpp"
+#include "port/common/text.hpp"
+
+#include COSTS_ENGINE_HEADER
+
+namespace {
+
+namespace port = crankloop::port;
+namespace under_test = COSTS_ENGINE;
+using under_test::Engine;
+using under_test::Input;
+using under_test::Real;
+
+Engine engine;
+Input input;
+
+/// One step by the counter, with the call and without the reading of the counter.
+std::uint32_t cost_of_step() noexcept {
+  const std::uint32_t before = port::counter();
+  engine.step(input);
+  return port::instructions_between(before, port::counter());
+}
+
+std::uint32_t cost_of_counting() noexcept {
+  const std::uint32_t before = port::counter();
+  asm volatile("" ::: "memory");
+  return port::instructions_between(before, port::counter());
+}
+
+/// The worst of many ticks whose inputs are meant to hurt.
+void measure_hostile(std::uint32_t ticks) noexcept {
+  target_check::Random random(495);
+  const std::uint32_t counting = cost_of_counting();
+  std::uint32_t worst = 0;
+  for (std::uint32_t i = 0; i < ticks; ++i) {
+    target_check::hurt<Real, under_test::Scene>(input, random);
+    const std::uint32_t cost = cost_of_step() - counting;
+    if (cost > worst) worst = cost;
+  }
+  port::Line() << "hostile " << worst;
+}
+
+/// What bounds the loops of a tick, for worst_tick: counts of the engine, from its tables, and the tick's budget of contact changes.
+template <class Tables>
+void print_limits(const Tables& tables) noexcept {
+  using Needs = crankloop::Needs<under_test::Scene>;
+  port::Line() << "limit cylinders " << tables.drive->cylinders;
+  port::Line() << "limit mechanisms " << tables.drive->mechanisms;
+  port::Line() << "limit trains " << (Needs::any_valves ? tables.drive->trains : 0);
+  std::uint32_t pins = 0;
+  std::uint32_t steps = 1;
+  std::uint32_t fine_steps = 1;
+  if constexpr (under_test::Scene::bearing_loads) pins = tables.bearings->pins;
+  if constexpr (Needs::elastic_valves) {
+    for (std::uint32_t t = 0; t < tables.drive->trains; ++t) {
+      const auto& motion = tables.valve_motions[t];
+      if (motion.steps > steps) steps = motion.steps;
+      if (motion.fine_per_step > fine_steps) fine_steps = motion.fine_per_step;
+    }
+  }
+  port::Line() << "limit pins " << pins;
+  port::Line() << "limit steps " << steps;
+  port::Line() << "limit fine_steps " << fine_steps;
+  port::Line() << "limit changes " << crankloop::detail::kEventsPerTick;
+}
+
+}  // namespace

@@ -1,0 +1,56 @@
+// The longest path through a function and all that it calls, in instructions.
+//
+// What belongs here: the search. What does not: structure (graph.hpp), how often loops run (bounds.hpp).
+//
+// Budgets of a whole tick are kept by prices: whoever spends one of a budget pays its price, and the tick is credited with the whole
+// budget's worth. For any prices that are not negative this is a bound (weak duality: a path within its budgets pays no more than the
+// credit); mixture.hpp finds those that make it low.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bounds.hpp"
+#include "graph.hpp"
+#include "listing.hpp"
+#include "path.hpp"
+
+namespace worst_tick {
+
+class LongestPath {
+ public:
+  /// Refuses recursion, calls of what is not in the program, and what graph_of() and Bounds refuse.
+  LongestPath(const Program& program, const Bounds& bounds, std::uint32_t root);
+
+  /// The most instructions from the root's first to its return, both counted.
+  [[nodiscard]] std::int64_t bound();
+
+ private:
+  struct Body {
+    Graph graph;
+    std::vector<Path> blocks;              ///< without what they call
+    std::vector<Bounds::Repeats> repeats;  ///< per loop
+  };
+  /// Longest ways through a loop, or a whole function, from its first block.
+  struct Ways {
+    std::map<std::size_t, Path> out;  ///< per block outside, or kReturn
+    Path again = Path::none();        ///< back to the first block
+  };
+
+  void add(std::uint32_t address, std::vector<std::uint32_t>& callers);
+  [[nodiscard]] Path longest(std::uint32_t address, const Prices& prices);
+  [[nodiscard]] Ways ways(const Body& body, const std::vector<Path>& blocks, std::size_t start,
+                          const std::vector<bool>& within, const std::map<std::size_t, Ways>& inner,
+                          const Prices& prices) const;
+  [[nodiscard]] std::size_t budget(const std::string& name) const;
+
+  const Program& program_;
+  const Bounds& bounds_;
+  std::uint32_t root_;
+  std::map<std::uint32_t, Body> bodies_;
+  std::map<std::uint32_t, Path> known_;  ///< at the prices asked for
+};
+
+}  // namespace worst_tick

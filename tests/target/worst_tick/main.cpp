@@ -1,0 +1,90 @@
+// worst_tick LISTING PLACES LIMITS BOUNDS ROOT: the most instructions that the functions whose names match ROOT take, with all that they call,
+// whatever their input. It reads machine code, so it holds for this image only, but for every path through it.
+//
+//   LISTING   objdump -d --no-show-raw-insn of the image
+//   PLACES    addr2line -a of the listing's addresses
+//   LIMITS    what the image tells of its tables: lines "limit NAME NUMBER"
+//   BOUNDS    how often loops run: bounds.hpp
+//
+// What a bound rests on besides the machine code: the bounds file; the line table, where it names the branch that leaves a loop, and the
+// instructions that spend; and that the compiler neither computes in float where the source does not (it may not: -ftrapping-math) nor
+// shares such an instruction between two lines. A loop's test is one comparison, and no loop's body is empty. Whatever else the tool
+// does not know it refuses, with the place; exit status 1.
+#include <fstream>
+#include <iostream>
+#include <regex>
+#include <sstream>
+
+#include "bounds.hpp"
+#include "listing.hpp"
+#include "longest_path.hpp"
+
+namespace worst_tick {
+namespace {
+
+class SourceFiles : public Sources {
+ public:
+  std::string line(const Place& place) override {
+    if (place.line <= 0) return "";
+    const auto [found, is_new] = files_.try_emplace(place.file);
+    if (is_new) {
+      std::ifstream in(place.file);
+      for (std::string line; std::getline(in, line);) found->second.push_back(line);
+    }
+    const auto index = static_cast<std::size_t>(place.line) - 1;
+    return index < found->second.size() ? found->second[index] : "";
+  }
+
+ private:
+  std::map<std::string, std::vector<std::string>> files_;
+};
+
+[[nodiscard]] std::ifstream opened(const char* path) {
+  std::ifstream in(path);
+  if (!in) throw Refusal(std::string("cannot read ") + path);
+  return in;
+}
+
+[[nodiscard]] Numbers limits_in(std::istream& in) {
+  Numbers limits;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::string word, name;
+    std::int64_t number = 0;
+    if (words >> word >> name >> number && word == "limit") limits[name] = number;
+  }
+  return limits;
+}
+
+int run(char** argument) {
+  std::ifstream listing = opened(argument[1]), places = opened(argument[2]), limits = opened(argument[3]),
+                bounds_file = opened(argument[4]);
+  Program program = read_listing(listing);
+  read_places(places, program);
+  SourceFiles sources;
+  const Bounds bounds(bounds_file, limits_in(limits), sources);
+  const std::regex root(argument[5]);
+  std::int64_t worst = 0;
+  for (const auto& [address, function] : program) {
+    if (std::regex_search(function.name, root)) worst = std::max(worst, LongestPath(program, bounds, address).bound());
+  }
+  if (worst == 0) throw Refusal(std::string("no function matches ") + argument[5]);
+  std::cout << worst << '\n';
+  return 0;
+}
+
+}  // namespace
+}  // namespace worst_tick
+
+int main(int count, char** argument) {
+  if (count != 6) {
+    std::cerr << "worst_tick LISTING PLACES LIMITS BOUNDS ROOT\n";
+    return 2;
+  }
+  try {
+    return worst_tick::run(argument);
+  } catch (const worst_tick::Refusal& refusal) {
+    std::cerr << "worst_tick: " << refusal.what() << '\n';
+    return 1;
+  }
+}
