@@ -410,7 +410,7 @@ class ValveTick {
     if (valve.regime != kSeatOn || !rests_at(end, gas)) return;
     if (at_rest(valve.state, gas)) {
       valve = {};
-    } else if (trembles(valve.state)) {
+    } else if (curve_.outside_m < -kLeastLash_m && trembles(valve.state)) {
       valve.sleep = kSettling;
       valve.train = {};
     }
