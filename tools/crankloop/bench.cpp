@@ -1,0 +1,60 @@
+// `crankloop bench`: run time against error, all contestants in one process.
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "bench/groups.hpp"
+#include "bench/machine.hpp"
+#include "commands.hpp"
+#include "error.hpp"
+#include "output.hpp"
+
+namespace crankloop::program {
+namespace {
+
+using bench::Row;
+
+std::vector<Row> measure(const bench::Effort& effort) {
+  std::vector<Row> rows;
+  for (const auto group : {bench::kinematics_rows}) {
+    for (Row& row : group(effort)) rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+int run_bench(const Arguments& arguments) {
+  const std::vector<Row> rows = measure(arguments.has("--quick") ? bench::kQuick : bench::kFull);
+  if (arguments.has("--csv")) bench::write_csv(arguments.text("--csv"), rows);
+  if (arguments.has("--json")) {
+    Output json(arguments.text("--json"));
+    json.write(bench::to_json(rows));
+    json.finish();
+  }
+  const std::string text = "# " + bench::describe_machine() + "\n" + bench::to_text(rows);
+  if (arguments.text_or_empty("--csv") == "-" || arguments.text_or_empty("--json") == "-") {
+    std::fputs(text.c_str(), stderr);
+  } else {
+    Output out = Output::standard();
+    out.write(text);
+    out.finish();
+  }
+  return kSuccess;
+}
+
+constexpr Option kOptions[] = {
+    text("--json", "F", "file for an array of objects, one per contestant and setting; - is standard output, the rest then goes to stderr"),
+    text("--csv", "F", "the same as a table"),
+    flag("--quick", "some seconds instead of some minutes; the figures scatter more"),
+};
+
+}  // namespace
+
+const Command kBench{"bench",
+                     "run time against error: kinematics, valves, whole ticks; the library against plain code",
+                     "[--json F] [--csv F] [--quick]",
+                     "crankloop bench --quick --json bench.json",
+                     0,
+                     kOptions,
+                     run_bench};
+
+}  // namespace crankloop::program

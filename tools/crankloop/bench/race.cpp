@@ -1,0 +1,60 @@
+#include "race.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "port/linux/stopwatch.hpp"
+
+namespace crankloop::program::bench {
+
+double quantile(std::vector<double>& sample, double part) {
+  std::sort(sample.begin(), sample.end());
+  const double place = part * static_cast<double>(sample.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, sample.size() - 1);
+  return sample[below] + (place - static_cast<double>(below)) * (sample[above] - sample[below]);
+}
+
+Timing timing_of(std::vector<double>& sample) {
+  return {quantile(sample, 0.5), quantile(sample, 0.75) - quantile(sample, 0.25)};
+}
+
+double clock_cost_ns() {
+  std::vector<double> readings(2001);
+  for (double& reading : readings) {
+    const std::int64_t begin = port::now_ns();
+    reading = static_cast<double>(port::now_ns() - begin);
+  }
+  return quantile(readings, 0.5);
+}
+
+std::vector<Timing> race(const std::vector<Contestant>& contestants, const Effort& effort) {
+  const double clock_ns = clock_cost_ns();
+  const auto turn_ns = [&](const Contestant& one, int batches) {
+    const std::int64_t begin = port::now_ns();
+    for (int i = 0; i < batches; ++i) one.batch();
+    return std::max(0.0, static_cast<double>(port::now_ns() - begin) - clock_ns);
+  };
+
+  // The warm-up: caches, and how many batches fill a turn.
+  std::vector<int> batches;
+  for (const Contestant& one : contestants) {
+    turn_ns(one, 1);
+    batches.push_back(static_cast<int>(std::clamp(std::ceil(effort.round_ns / std::max(1.0, turn_ns(one, 1))), 1.0, 1e6)));
+  }
+
+  const std::size_t count = contestants.size();
+  std::vector<std::vector<double>> samples(count);
+  for (int round = 0; round < effort.rounds; ++round) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t which = (i + static_cast<std::size_t>(round)) % count;
+      samples[which].push_back(turn_ns(contestants[which], batches[which]) / (batches[which] * contestants[which].operations));
+    }
+  }
+  std::vector<Timing> timings;
+  for (std::vector<double>& sample : samples) timings.push_back(timing_of(sample));
+  return timings;
+}
+
+}  // namespace crankloop::program::bench

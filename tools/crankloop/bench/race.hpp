@@ -1,0 +1,47 @@
+// Timing contestants against one another: in one process, in turns, so that whatever slows the machine slows all of them.
+//
+// What belongs here: rounds, medians, the clock's own cost. What does not: what is timed.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace crankloop::program::bench {
+
+/// Makes the compiler believe that the value is read: neither it nor what led to it can be left out.
+template <class T>
+inline void keep(const T& value) noexcept {
+  asm volatile("" : : "m"(value) : "memory");
+}
+
+/// Something to be timed. A batch is a whole number of what repeats itself (a cycle of the engine), so that batches cost alike.
+struct Contestant {
+  std::function<void()> batch;
+  double operations;  ///< of one batch: the time is divided by them
+};
+
+struct Effort {
+  int rounds;        ///< after one to warm up
+  double round_ns;   ///< a contestant's turn lasts at least that long: as many batches as it takes
+};
+inline constexpr Effort kQuick{9, 40e3};
+inline constexpr Effort kFull{61, 400e3};
+
+/// Of one operation.
+struct Timing {
+  double median_ns;
+  double spread_ns;  ///< between the quartiles
+};
+
+/// Every contestant has its turn in every round, in another order each time.
+[[nodiscard]] std::vector<Timing> race(const std::vector<Contestant>& contestants, const Effort& effort);
+
+/// What a pair of clock readings costs, by the median of many.
+[[nodiscard]] double clock_cost_ns();
+
+/// Of a sample, which must not be empty: it is put in order.
+[[nodiscard]] double quantile(std::vector<double>& sample, double part);
+[[nodiscard]] Timing timing_of(std::vector<double>& sample);
+
+}  // namespace crankloop::program::bench
