@@ -16,7 +16,7 @@ using bench::Row;
 
 std::vector<Row> measure(const bench::Effort& effort) {
   std::vector<Row> rows;
-  for (const auto group : {bench::kinematics_rows}) {
+  for (const auto group : {bench::kinematics_rows, bench::valve_rows}) {
     for (Row& row : group(effort)) rows.push_back(std::move(row));
   }
   return rows;
