@@ -16,9 +16,10 @@ using bench::Row;
 
 std::vector<Row> measure(const bench::Effort& effort) {
   std::vector<Row> rows;
-  for (const auto group : {bench::kinematics_rows, bench::valve_rows}) {
+  for (const auto group : {bench::kinematics_rows, bench::valve_rows, bench::tick_rows, bench::growth_rows, bench::skip_rows}) {
     for (Row& row : group(effort)) rows.push_back(std::move(row));
   }
+  for (Row& row : bench::ratio_rows(rows)) rows.push_back(std::move(row));
   return rows;
 }
 

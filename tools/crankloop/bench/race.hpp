@@ -44,4 +44,7 @@ struct Timing {
 [[nodiscard]] double quantile(std::vector<double>& sample, double part);
 [[nodiscard]] Timing timing_of(std::vector<double>& sample);
 
+/// The mean of a sample's middle half: as hardy as the median, and finer than a clock that ticks every 10 ns.
+[[nodiscard]] double middle_mean(std::vector<double>& sample);
+
 }  // namespace crankloop::program::bench

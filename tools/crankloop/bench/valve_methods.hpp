@@ -43,6 +43,10 @@ class LibraryValve {
   }
   void step() noexcept { keep(engine_.step(input_).valve[0][0]); }
 
+  /// Goes on from where it was.
+  [[nodiscard]] typename Engine<Real, S>::State snapshot() const noexcept { return engine_.state(); }
+  void restore(const typename Engine<Real, S>::State& state) noexcept { (void)engine_.restore(state); }
+
   [[nodiscard]] Phase phase() const noexcept { return engine_.state().phase; }
   [[nodiscard]] double lift_m() const noexcept {
     const auto& valve = engine_.output().valve[0][0];
@@ -133,20 +137,24 @@ class PlainLoop {
   PlainCam<Real> cam_now_{};
 };
 
-/// Runge-Kutta as textbooks have it; the step before has looked up where this one starts.
+/// Runge-Kutta as textbooks have it; the step before has done the first stage of this one.
 template <class Real, class Cam>
 class TextbookValveLoop : public PlainLoop<Real, Cam> {
  public:
   explicit TextbookValveLoop(const ValveRun& run)
       : PlainLoop<Real, Cam>{run}, h_{static_cast<Real>(run.step_s)}, real_body_{this->body_.template rounded<Real>()}, per_mass_{1 / real_body_.mass_kg} {}
 
+  void start(Phase phase) noexcept {
+    PlainLoop<Real, Cam>::start(phase);
+    k1_ = plain_acceleration(real_body_, per_mass_, Real{0}, Real{0}, this->cam_now_);
+  }
   void step() noexcept {
     const PlainCam<Real> middle = this->cam_.at(this->phase_.units() + this->increment_ / 2, this->deg_per_s_);
     this->phase_ += Phase{this->increment_};
     const PlainCam<Real> end = this->cam_.at(this->phase_.units(), this->deg_per_s_);
     const auto f = [this](Real y, Real v, PlainCam<Real> cam) { return plain_acceleration(real_body_, per_mass_, y, v, cam); };
-    this->state_ = textbook_step(f, h_, this->state_, this->cam_now_, middle, end);
-    this->cam_now_ = end;
+    this->state_ = textbook_step(f, h_, this->state_, k1_, middle, end);
+    k1_ = f(this->state_.lift_m, this->state_.velocity_m_s, end);
     keep(this->state_);
   }
 
@@ -154,6 +162,7 @@ class TextbookValveLoop : public PlainLoop<Real, Cam> {
   Real h_;
   PlainBody<Real> real_body_;
   Real per_mass_;
+  Real k1_ = 0;  ///< of the next step
 };
 
 /// One matrix per regime, the regime as it is at the step's start.
