@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bench/groups.hpp"
+#include "bench/kernels.hpp"
 #include "bench/machine.hpp"
 #include "commands.hpp"
 #include "error.hpp"
@@ -19,12 +20,23 @@ std::vector<Row> measure(const bench::Effort& effort) {
   for (const auto group : {bench::kinematics_rows, bench::valve_rows, bench::tick_rows, bench::growth_rows, bench::skip_rows}) {
     for (Row& row : group(effort)) rows.push_back(std::move(row));
   }
+  if (effort.rounds == 0) return rows;  // ratios are of times
   for (Row& row : bench::ratio_rows(rows)) rows.push_back(std::move(row));
   return rows;
 }
 
+bench::Effort effort_of(const Arguments& arguments) {
+  if (arguments.has("--errors")) return bench::kErrorsOnly;
+  return arguments.has("--quick") ? bench::kQuick : bench::kFull;
+}
+
 int run_bench(const Arguments& arguments) {
-  const std::vector<Row> rows = measure(arguments.has("--quick") ? bench::kQuick : bench::kFull);
+  if (arguments.has("--kernel")) {
+    bench::run_kernel(arguments.text("--kernel"), arguments.whole_number("--ticks"));
+    return kSuccess;
+  }
+  const bench::Effort effort = effort_of(arguments);
+  const std::vector<Row> rows = measure(effort);
   if (arguments.has("--csv")) bench::write_csv(arguments.text("--csv"), rows);
   if (arguments.has("--json")) {
     Output json(arguments.text("--json"));
@@ -45,14 +57,17 @@ int run_bench(const Arguments& arguments) {
 constexpr Option kOptions[] = {
     text("--json", "F", "file for an array of objects, one per contestant and setting; - is standard output, the rest then goes to stderr"),
     text("--csv", "F", "the same as a table"),
-    flag("--quick", "some seconds instead of some minutes; the figures scatter more"),
+    flag("--quick", "half a minute instead of some minutes; the figures scatter more"),
+    flag("--errors", "errors only, nothing is timed: the same figures everywhere"),
+    text("--kernel", "NAME", "only runs one contestant, for an instruction counter; a wrong name lists them"),
+    whole_number("--ticks", "N", from(0).up_to(1000000000), "how many ticks --kernel runs", "1000"),
 };
 
 }  // namespace
 
 const Command kBench{"bench",
                      "run time against error: kinematics, valves, whole ticks; the library against plain code",
-                     "[--json F] [--csv F] [--quick]",
+                     "[--json F] [--csv F] [--quick | --errors] | --kernel NAME [--ticks N]",
                      "crankloop bench --quick --json bench.json",
                      0,
                      kOptions,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 
 #include "port/linux/stopwatch.hpp"
@@ -39,6 +40,8 @@ double clock_cost_ns() {
 }
 
 std::vector<Timing> race(const std::vector<Contestant>& contestants, const Effort& effort) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (effort.rounds == 0) return std::vector<Timing>(contestants.size(), {kNone, kNone});
   const double clock_ns = clock_cost_ns();
   const auto turn_ns = [&](const Contestant& one, int batches) {
     const std::int64_t begin = port::now_ns();

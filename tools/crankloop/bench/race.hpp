@@ -27,6 +27,7 @@ struct Effort {
 };
 inline constexpr Effort kQuick{9, 40e3};
 inline constexpr Effort kFull{61, 400e3};
+inline constexpr Effort kErrorsOnly{0, 0};  ///< times are then no numbers
 
 /// Of one operation.
 struct Timing {

@@ -13,6 +13,9 @@ constexpr double kPrototypeLibm_ns = 422;
 constexpr double kPrototypeLinear_ns = 226;
 constexpr double kPrototypeMargin = 0.15;
 
+/// "No dearer", between two medians of this machine.
+constexpr double kScatter = 0.03;
+
 class Ratios {
  public:
   explicit Ratios(const std::vector<Row>& rows) : rows_{rows} {}
@@ -69,7 +72,7 @@ void add_ticks(Ratios& r) {
   r.at_least("tick, 8 valves: time of linear tables + textbook RK4 to the library's", 3.5, r.row("tick", linear, eight).ns_median / library.ns_median, library);
   r.at_least("tick, 8 valves: time of libm + textbook RK4 to the library's", 8, r.row("tick", libm, eight).ns_median / library.ns_median, library);
   r.at_most("tick: 16 different valves to 8", 1.5, of_sixteen.ns_median / library.ns_median, of_sixteen);
-  r.at_most("tick: 16 valves in identical pairs to 8", 1, pairs.ns_median / library.ns_median, pairs);
+  r.at_most("tick: 16 valves in identical pairs to 8", 1 + kScatter, pairs.ns_median / library.ns_median, pairs);
   const Row& held = r.row("growth", "one valve held by its train", "6000 rpm, 100 us");
   r.at_most("a tick of 100 us to one of 20 us, no contact change near", 1.6,
             held.ns_median / r.row("growth", "one valve held by its train", "6000 rpm, 20 us").ns_median, held);

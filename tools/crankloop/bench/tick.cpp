@@ -56,7 +56,7 @@ class Group {
       row.ns_median = timings[i].median_ns;
       row.ns_spread = timings[i].spread_ns;
       all.push_back(row);
-      if (each_tick) add_profile(cases_[i], effort, all);
+      if (each_tick && effort.rounds > 0) add_profile(cases_[i], effort, all);
     }
   }
 
@@ -154,7 +154,7 @@ void add_main(Group& group) {
 void add_held_valve(double tick_us, std::vector<Row>& rows, std::vector<Contestant>& contestants) {
   constexpr double kArc_deg = 50;
   const ValveRun run{kRated_rpm, tick_us * 1e-6};
-  const TrueLift truth(ohc_125_train(), kRated_rpm);
+  const TrueLift& truth = true_lift_of_ohc_125(kRated_rpm);
   const double full_lift_deg = ohc_125_train().cam.full_lift_deg;
   const auto valve = std::make_shared<LibraryValve<float, LoneElastic>>(run);
   const auto cam_deg = [&] { return cam_deg_from_full_lift(valve->phase().units(), full_lift_deg); };

@@ -11,9 +11,7 @@ std::uint64_t firing_units(const EngineDefinition& definition, int cylinder) {
 }  // namespace
 
 OutputCheck::OutputCheck(const EngineDefinition& definition, double engine_rpm)
-    : definition_{definition}, speed_rad_s_{rad_s_of(engine_rpm)} {
-  if (definition.train_count > 0) truth_ = std::make_unique<TrueLift>(definition.trains[0], engine_rpm);
-}
+    : definition_{definition}, speed_rad_s_{rad_s_of(engine_rpm)}, truth_{true_lift_of_ohc_125(engine_rpm)} {}
 
 void OutputCheck::torque(std::uint64_t phase, double torque_Nm) noexcept {
   const ExactMotion<long double> exact(definition_.crank);
@@ -32,7 +30,7 @@ void OutputCheck::torque(std::uint64_t phase, double torque_Nm) noexcept {
 void OutputCheck::lift(std::uint64_t phase, int cylinder, int train, double lift_m) noexcept {
   const double cam_deg =
       cam_deg_from_full_lift(phase - firing_units(definition_, cylinder), definition_.trains[train].cam.full_lift_deg);
-  lift_error_m_ = std::max(lift_error_m_, std::fabs(lift_m - truth_->lift_m(cam_deg)));
+  lift_error_m_ = std::max(lift_error_m_, std::fabs(lift_m - truth_.lift_m(cam_deg)));
 }
 
 PlainEngineData plain_data(const EngineDefinition& definition, const Operation& operation) {

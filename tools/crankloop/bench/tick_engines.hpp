@@ -46,7 +46,7 @@ class OutputCheck {
  private:
   const EngineDefinition& definition_;
   double speed_rad_s_;
-  std::unique_ptr<TrueLift> truth_;  ///< of all trains: they differ in phase only
+  const TrueLift& truth_;  ///< of all trains: they differ in phase only
   double lift_error_m_ = 0;
   double torque_error_Nm_ = 0;
   double largest_torque_Nm_ = 0;  ///< of a cylinder

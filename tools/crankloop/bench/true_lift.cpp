@@ -1,7 +1,10 @@
 #include "true_lift.hpp"
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
+
+#include "engines.hpp"
 
 namespace crankloop::program::bench {
 namespace {
@@ -45,6 +48,12 @@ double TrueLift::lift_m(double cam_deg) const noexcept {
   const double rise = to.y - from.y;
   const double p = rise - v0 - a0, q = v1 - v0 - 2 * a0, r = a1 - a0;
   return from.y + x * (v0 + x * (a0 + x * ((10 * p - 4 * q + r) + x * ((-15 * p + 7 * q - 2 * r) + x * (6 * p - 3 * q + r)))));
+}
+
+const TrueLift& true_lift_of_ohc_125(double engine_rpm) {
+  static std::map<double, TrueLift> known;
+  const auto at = known.find(engine_rpm);
+  return at != known.end() ? at->second : known.emplace(engine_rpm, TrueLift(ohc_125_train(), engine_rpm)).first->second;
 }
 
 }  // namespace crankloop::program::bench

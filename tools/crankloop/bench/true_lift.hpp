@@ -37,4 +37,7 @@ class TrueLift {
   double deg_per_s_ = 0;
 };
 
+/// That of the 125's intake train (engines.hpp), worked out once for each speed. Trains that differ in phase only have the same.
+[[nodiscard]] const TrueLift& true_lift_of_ohc_125(double engine_rpm);
+
 }  // namespace crankloop::program::bench

@@ -16,7 +16,7 @@ constexpr int kShifts = 6;
 /// A lift that is off by more has nothing to do with the valve's: the method is beyond its stability limit.
 constexpr double kBlownUp_m = 1e-3;
 
-constexpr double kFullLift_deg = 470;
+const double kFullLift_deg = ohc_125_train().cam.full_lift_deg;
 
 template <class Valve>
 double largest_error_um(Valve& valve, const ValveRun& run, const TrueLift& truth) {
@@ -38,7 +38,7 @@ double largest_error_um(Valve& valve, const ValveRun& run, const TrueLift& truth
 
 class Group {
  public:
-  explicit Group(double engine_rpm) : engine_rpm_{engine_rpm}, truth_{ohc_125_train(), engine_rpm} {}
+  explicit Group(double engine_rpm) : engine_rpm_{engine_rpm}, truth_{true_lift_of_ohc_125(engine_rpm)} {}
 
   /// Leaves out what blows up: the rows go to the stability limit.
   template <class Valve>
@@ -101,7 +101,7 @@ class Group {
 
   static constexpr double kUsualAccuracy_um = 0.1;
   double engine_rpm_;
-  TrueLift truth_;
+  const TrueLift& truth_;
   std::vector<Row> rows_;
   std::vector<Contestant> contestants_;
 };
