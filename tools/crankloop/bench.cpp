@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/bench_report.hpp"
 #include "bench/groups.hpp"
 #include "bench/kernels.hpp"
 #include "bench/machine.hpp"
@@ -31,6 +32,9 @@ bench::Effort effort_of(const Arguments& arguments) {
 }
 
 int run_bench(const Arguments& arguments) {
+  if (arguments.has("--errors") && (arguments.has("--quick") || arguments.has("--report"))) {
+    throw UsageError("--errors measures no time: it goes with neither --quick nor --report");
+  }
   if (arguments.has("--kernel")) {
     bench::run_kernel(arguments.text("--kernel"), arguments.whole_number("--ticks"));
     return kSuccess;
@@ -43,8 +47,14 @@ int run_bench(const Arguments& arguments) {
     json.write(bench::to_json(rows));
     json.finish();
   }
+  if (arguments.has("--report")) {
+    Output page(arguments.text("--report"));
+    page.write(report::to_html(bench::bench_page(rows, bench::describe_machine(), arguments.has("--quick") ? "crankloop bench --quick" : "crankloop bench")));
+    page.finish();
+  }
   const std::string text = "# " + bench::describe_machine() + "\n" + bench::to_text(rows);
-  if (arguments.text_or_empty("--csv") == "-" || arguments.text_or_empty("--json") == "-") {
+  const bool text_aside = arguments.text_or_empty("--csv") == "-" || arguments.text_or_empty("--json") == "-" || arguments.text_or_empty("--report") == "-";
+  if (text_aside) {
     std::fputs(text.c_str(), stderr);
   } else {
     Output out = Output::standard();
@@ -57,6 +67,7 @@ int run_bench(const Arguments& arguments) {
 constexpr Option kOptions[] = {
     text("--json", "F", "file for an array of objects, one per contestant and setting; - is standard output, the rest then goes to stderr"),
     text("--csv", "F", "the same as a table"),
+    text("--report", "F.html", "file for the work-precision diagrams, which any browser shows"),
     flag("--quick", "half a minute instead of some minutes; the figures scatter more"),
     flag("--errors", "errors only, nothing is timed: the same figures everywhere"),
     text("--kernel", "NAME", "only runs one contestant, for an instruction counter; a wrong name lists them"),
@@ -67,8 +78,8 @@ constexpr Option kOptions[] = {
 
 const Command kBench{"bench",
                      "run time against error: kinematics, valves, whole ticks; the library against plain code",
-                     "[--json F] [--csv F] [--quick | --errors] | --kernel NAME [--ticks N]",
-                     "crankloop bench --quick --json bench.json",
+                     "[--json F] [--csv F] [--report F.html] [--quick | --errors] | --kernel NAME [--ticks N]",
+                     "crankloop bench --quick --report bench.html",
                      0,
                      kOptions,
                      run_bench};

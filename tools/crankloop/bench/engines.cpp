@@ -23,7 +23,7 @@ Crank diesel_495_crank() {
   Crank crank;
   crank.bore_m = 0.095;
   crank.crank_radius_m = 0.0575;
-  crank.rod_length_m = 0.210;
+  crank.rod_length_m = crank.crank_radius_m / 0.2738;
   crank.compression_ratio = 19;
   return crank;
 }

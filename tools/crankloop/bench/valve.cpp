@@ -13,8 +13,8 @@ namespace {
 
 /// Where ticks fall on the cam changes what a method misses: the error is the worst of so many shifts of the grid.
 constexpr int kShifts = 6;
-/// A lift that is off by more has nothing to do with the valve's: the method is beyond its stability limit.
-constexpr double kBlownUp_m = 1e-3;
+/// A lift that is off by more than a valve is long: the method is beyond its stability limit.
+constexpr double kBlownUp_m = 20e-3;
 
 const double kFullLift_deg = ohc_125_train().cam.full_lift_deg;
 
