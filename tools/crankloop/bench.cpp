@@ -1,6 +1,8 @@
 // `crankloop bench`: run time against error, all contestants in one process.
 #include <cstdio>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/bench_report.hpp"
@@ -31,30 +33,46 @@ bench::Effort effort_of(const Arguments& arguments) {
   return arguments.has("--quick") ? bench::kQuick : bench::kFull;
 }
 
+/// Opened before anything is measured: a place that cannot be written to is told at once, not after a minute.
+class Files {
+ public:
+  explicit Files(const Arguments& arguments)
+      : json_{opened(arguments, "--json")}, csv_{opened(arguments, "--csv")}, report_{opened(arguments, "--report")}, plot_{opened(arguments, "--plot")} {}
+
+  void write(const std::vector<Row>& rows, const std::string& command_line) {
+    const std::string machine = bench::describe_machine();
+    if (json_) json_->write(bench::to_json(rows));
+    if (csv_) bench::write_csv(*csv_, rows);
+    if (report_) report_->write(report::to_html(bench::bench_page(rows, machine, command_line)));
+    if (plot_) plot_->write(report::to_svg_file(bench::bench_sheet(rows, machine)));
+    for (std::optional<Output>* file : {&json_, &csv_, &report_, &plot_}) {
+      if (*file) (*file)->finish();
+    }
+  }
+
+ private:
+  [[nodiscard]] static std::optional<Output> opened(const Arguments& arguments, const char* option) {
+    if (!arguments.has(option)) return std::nullopt;
+    return std::optional<Output>(std::in_place, arguments.text(option));
+  }
+  std::optional<Output> json_, csv_, report_, plot_;
+};
+
 int run_bench(const Arguments& arguments) {
-  if (arguments.has("--errors") && (arguments.has("--quick") || arguments.has("--report"))) {
-    throw UsageError("--errors measures no time: it goes with neither --quick nor --report");
+  if (arguments.has("--errors") && (arguments.has("--quick") || arguments.has("--report") || arguments.has("--plot"))) {
+    throw UsageError("--errors measures no time: it goes with neither --quick, --report nor --plot");
   }
   if (arguments.has("--kernel")) {
     bench::run_kernel(arguments.text("--kernel"), arguments.whole_number("--ticks"));
     return kSuccess;
   }
-  const bench::Effort effort = effort_of(arguments);
-  const std::vector<Row> rows = measure(effort);
-  if (arguments.has("--csv")) bench::write_csv(arguments.text("--csv"), rows);
-  if (arguments.has("--json")) {
-    Output json(arguments.text("--json"));
-    json.write(bench::to_json(rows));
-    json.finish();
-  }
-  if (arguments.has("--report")) {
-    Output page(arguments.text("--report"));
-    page.write(report::to_html(bench::bench_page(rows, bench::describe_machine(), arguments.has("--quick") ? "crankloop bench --quick" : "crankloop bench")));
-    page.finish();
-  }
+  Files files(arguments);
+  const std::vector<Row> rows = measure(effort_of(arguments));
+  files.write(rows, arguments.has("--quick") ? "crankloop bench --quick" : "crankloop bench");
   const std::string text = "# " + bench::describe_machine() + "\n" + bench::to_text(rows);
-  const bool text_aside = arguments.text_or_empty("--csv") == "-" || arguments.text_or_empty("--json") == "-" || arguments.text_or_empty("--report") == "-";
-  if (text_aside) {
+  bool output_taken = false;
+  for (const char* option : {"--json", "--csv", "--report", "--plot"}) output_taken = output_taken || arguments.text_or_empty(option) == "-";
+  if (output_taken) {
     std::fputs(text.c_str(), stderr);
   } else {
     Output out = Output::standard();
@@ -68,6 +86,7 @@ constexpr Option kOptions[] = {
     text("--json", "F", "file for an array of objects, one per contestant and setting; - is standard output, the rest then goes to stderr"),
     text("--csv", "F", "the same as a table"),
     text("--report", "F.html", "file for the work-precision diagrams, which any browser shows"),
+    text("--plot", "F.svg", "file for the diagrams alone, as a picture"),
     flag("--quick", "half a minute instead of some minutes; the figures scatter more"),
     flag("--errors", "errors only, nothing is timed: the same figures everywhere"),
     text("--kernel", "NAME", "only runs one contestant, for an instruction counter; a wrong name lists them"),
@@ -78,7 +97,7 @@ constexpr Option kOptions[] = {
 
 const Command kBench{"bench",
                      "run time against error: kinematics, valves, whole ticks; the library against plain code",
-                     "[--json F] [--csv F] [--report F.html] [--quick | --errors] | --kernel NAME [--ticks N]",
+                     "[--json F] [--csv F] [--report F.html] [--plot F.svg] [--quick | --errors] | --kernel NAME [--ticks N]",
                      "crankloop bench --quick --report bench.html",
                      0,
                      kOptions,

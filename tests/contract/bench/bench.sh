@@ -1,9 +1,10 @@
 #!/bin/sh
-# The benchmark's gate, which no noisy clock moves: instructions and errors of its contestants against the committed ones.
+# What of the benchmark is committed: a gate that no noisy clock moves, of instructions and errors; and what docs/performance.md says of it.
 #
 #   bench.sh BUILD_DIR check   fails when a kernel takes over 2 % more instructions than instructions.txt says, or an error has grown by
 #                              over 2 % from errors.csv
 #   bench.sh BUILD_DIR renew   writes both anew
+#   bench.sh BUILD_DIR performance FILE PICTURE   rewrites the benchmark's part of docs/performance.md, and its diagrams
 #
 # Builds the release program into BUILD_DIR; CXX names another compiler than c++. Instructions are compared only where compiler and processor
 # family are those of instructions.txt; errors everywhere: they are the same on every machine, but for those of the mathematics library.
@@ -88,8 +89,67 @@ check() {
   [ "$bad" -eq 0 ]
 }
 
+# ---- docs/performance.md ----------------------------------------------------------------------------------------------------
+
+# goals CSV: asked and reached.
+goals() {
+  echo "| asked of the library, float | asked | reached | met | its error |"
+  echo "| --- | --- | --- | --- | --- |"
+  awk -F , '$1 == "ratios" { printf "| %s | %s | %.3g | %s | %.2g %s |\n", $2, $10, $11, $12, $8, $9 }' "$1" | tr ';' ','
+}
+
+# rows CSV HEADING AWK_CONDITION: contestant, real, setting, time, error.
+rows() {
+  echo "| $2 | real | setting | ns | error |"
+  echo "| --- | --- | --- | --- | --- |"
+  awk -F , "$3"' { printf "| %s | %s | %s | %.4g | %.2g %s |\n", $2, $3, $4, $6, $8, $9 }' "$1" | tr ';' ','
+}
+
+# distributions CSV: of the groups whose rows come by four: mean, median, 99.9 %, worst.
+distributions() {
+  echo "| whole tick | real | setting | mean, ns | median | 99.9 % | worst | error |"
+  echo "| --- | --- | --- | --- | --- | --- | --- | --- |"
+  awk -F , '$1 == "tick" {
+    n = n % 4 + 1
+    ns[n] = $6
+    if (n == 1) { name = $2; real = $3; setting = $4; error = sprintf("%.2g %s", $8, $9) }
+    if (n == 4) printf "| %s | %s | %s | %.4g | %.3g | %.3g | %.3g | %s |\n", name, real, setting, ns[1], ns[2], ns[3], ns[4], error
+  }' "$1" | tr ';' ','
+}
+
+kernels() {
+  echo "| kernel | instructions per tick |"
+  echo "| --- | --- |"
+  awk '!/^#/ { print "| " $1 " | " $2 " |" }' "$here/instructions.txt"
+}
+
+# Rewrites FILE's lines between "<!-- bench begin" and "<!-- bench end", and the picture.
+# shellcheck disable=SC2016  # fields of awk
+performance() {
+  csv=$build_dir/bench.csv
+  "$crankloop" bench --csv "$csv" --plot "$2" >"$build_dir/bench.txt"
+  {
+    printf '\nMeasured on: %s.\n\n' "$(sed -n '1s/^# //p' "$build_dir/bench.txt")"
+    goals "$csv"
+    echo && rows "$csv" "x, v and a of a piston" '$1 == "kinematics"'
+    echo && rows "$csv" "one valve, a cam cycle" '$1 == "valve" && ($4 ~ /; (1|10|20|100) us$/)'
+    echo && distributions "$csv"
+    echo && rows "$csv" "a longer tick" '$1 == "growth"'
+    echo && rows "$csv" "asked for more and more" '$1 == "skips"'
+    echo && echo "Instructions, counted by callgrind; $(head -n 1 "$here/instructions.txt" | cut -c 3-):"
+    echo && kernels
+    echo
+  } >"$build_dir/performance.txt"
+  awk -v part="$build_dir/performance.txt" '
+    /^<!-- bench begin/ { print; while ((getline line < part) > 0) print line; inside = 1 }
+    /^<!-- bench end/ { inside = 0; found = 1 }
+    !inside { print }
+    END { exit !found }' "$1" >"$build_dir/performance.md" && cp "$build_dir/performance.md" "$1"
+}
+
 case $what in
   check) check ;;
+  performance) performance "$3" "$4" ;;
   renew)
     errors >"$build_dir/errors.csv" && cp "$build_dir/errors.csv" "$here/errors.csv"
     count_all >"$build_dir/instructions.txt" && cp "$build_dir/instructions.txt" "$here/instructions.txt"

@@ -95,18 +95,20 @@ std::string polynomial_line(const Row& row) {
   return row.contestant;
 }
 
+Plot kinematics_plot(const Rows& rows, const char* real) {
+  Plot plot = work_precision(std::string("Piston motion in ") + real, where(rows, [&](const Row& r) { return r.group == "kinematics" && r.real == real; }),
+                             axis("Time", "ns", true), 1, axis("Largest error", "", true), polynomial_line);
+  plot.caption = *real == 'd' ? "libm: by asin, and by sin, cos and sqrt." : "libm: sinf, cosf, sqrtf.";
+  return plot;
+}
+
 Section kinematics_section(const Rows& rows) {
   Section section{"kinematics", "Displacement, velocity, acceleration", {}};
   section.blocks.push_back(Paragraph{
       "One evaluation of all three at a random crank angle. The error is the largest of the three, relative to r, r w and r w\u00B2. A line joins "
       "the settings of a method: widths of the table's segments. Down and left is better; the dashed line is the Pareto front, the settings that "
       "no other beats in both."});
-  for (const char* real : {"float", "double"}) {
-    Plot plot = work_precision(std::string("Piston motion in ") + real, where(rows, [&](const Row& r) { return r.group == "kinematics" && r.real == real; }),
-                               axis("Time", "ns", true), 1, axis("Largest error", "", true), polynomial_line);
-    plot.caption = *real == 'd' ? "libm: by asin, and by sin, cos and sqrt." : "libm: sinf, cosf, sqrtf.";
-    section.blocks.push_back(std::move(plot));
-  }
+  for (const char* real : {"float", "double"}) section.blocks.push_back(kinematics_plot(rows, real));
   return section;
 }
 
@@ -115,24 +117,27 @@ std::string method_line(const Row& row) {
   return row.setting.find("class") == std::string::npos ? row.contestant : std::string();
 }
 
+struct ValveSpeed {
+  double rpm;
+  const char* what;
+};
+constexpr ValveSpeed kValveSpeeds[] = {{kSmooth_rpm, "gentle contacts"}, {kSwitching_rpm, "hard contacts"}, {kBouncing_rpm, "float and bounce"}};
+
+Plot valve_plot(const Rows& rows, const ValveSpeed& speed, const char* real) {
+  const std::string start = brief(speed.rpm) + " rpm, ";
+  return work_precision(brief(speed.rpm) + " rpm, " + speed.what + ", in " + real,
+                        where(rows, [&](const Row& r) { return r.group == "valve" && r.real == real && starts_with(r.setting, start); }),
+                        axis("Time of a cam cycle", "\u00B5s", true), 1e-3, axis("Largest error of lift", "\u00B5m", true), method_line);
+}
+
 Section valve_section(const Rows& rows) {
   Section section{"valve", "One elastic valve", {}};
   section.blocks.push_back(Paragraph{
       "A whole turn of the cam, the look-up of its lift included, against the true motion. The error is the largest of the lift, the worst of six shifts "
-      "of the ticks against the cam. A line joins a method's steps or ticks, from 1 \u00B5s on the right to the last that is stable. The library's finest steps do "
-      "not grow with its tick: its longest are as exact as its shortest."});
-  const struct {
-    double rpm;
-    const char* what;
-  } speeds[] = {{kSmooth_rpm, "gentle contacts"}, {kSwitching_rpm, "hard contacts"}, {kBouncing_rpm, "float and bounce"}};
-  for (const auto& speed : speeds) {
-    for (const char* real : {"float", "double"}) {
-      const std::string start = brief(speed.rpm) + " rpm, ";
-      section.blocks.push_back(work_precision(
-          brief(speed.rpm) + " rpm, " + speed.what + ", " + real,
-          where(rows, [&](const Row& r) { return r.group == "valve" && r.real == real && starts_with(r.setting, start); }),
-          axis("Time of a cam cycle", "\u00B5s", true), 1e-3, axis("Largest error of lift", "\u00B5m", true), method_line));
-    }
+      "of the ticks against the cam. A line joins a method's steps or ticks, from 1 \u00B5s on the right to the last that is stable. The library's finest "
+      "steps do not grow with its tick: its longest are as exact as its shortest."});
+  for (const ValveSpeed& speed : kValveSpeeds) {
+    for (const char* real : {"float", "double"}) section.blocks.push_back(valve_plot(rows, speed, real));
   }
   return section;
 }
@@ -284,6 +289,17 @@ std::vector<Work> pareto_front(std::vector<Work> points) {
     if (front.empty() || point.error < front.back().error) front.push_back(point);
   }
   return front;
+}
+
+report::Sheet bench_sheet(const std::vector<Row>& rows, const std::string& machine) {
+  report::Sheet sheet;
+  sheet.title = "Run time against error";
+  sheet.remarks = {machine};
+  for (const char* real : {"float", "double"}) sheet.plots.push_back(kinematics_plot(rows, real));
+  for (const ValveSpeed& speed : kValveSpeeds) {
+    for (const char* real : {"float", "double"}) sheet.plots.push_back(valve_plot(rows, speed, real));
+  }
+  return sheet;
 }
 
 report::Page bench_page(const std::vector<Row>& rows, const std::string& machine, const std::string& command_line) {

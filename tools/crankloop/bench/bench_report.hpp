@@ -7,11 +7,15 @@
 #include <vector>
 
 #include "../report/page.hpp"
+#include "../report/sheet.hpp"
 #include "row.hpp"
 
 namespace crankloop::program::bench {
 
 [[nodiscard]] report::Page bench_page(const std::vector<Row>& rows, const std::string& machine, const std::string& command_line);
+
+/// The work-precision diagrams alone, as a picture.
+[[nodiscard]] report::Sheet bench_sheet(const std::vector<Row>& rows, const std::string& machine);
 
 /// A point of a work-precision diagram.
 struct Work {

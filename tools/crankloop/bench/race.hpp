@@ -26,7 +26,7 @@ struct Effort {
   double round_ns;   ///< a contestant's turn lasts at least that long: as many batches as it takes
 };
 inline constexpr Effort kQuick{15, 100e3};
-inline constexpr Effort kFull{61, 400e3};
+inline constexpr Effort kFull{101, 400e3};
 inline constexpr Effort kErrorsOnly{0, 0};  ///< times are then no numbers
 
 /// Of one operation.

@@ -38,9 +38,11 @@ std::string short_number(double value) {
   return text;
 }
 
+/// "at least 10"
+std::string asked_text(const Goal& goal) { return (goal.at_least ? "at least " : "at most ") + shortest(goal.asked); }
+
 std::string goal_text(const Goal& goal) {
-  return "reached " + short_number(goal.reached) + ", asked at " + (goal.at_least ? "least " : "most ") + short_number(goal.asked) +
-         (goal.met() ? "" : "  NOT MET");
+  return "reached " + short_number(goal.reached) + ", asked " + asked_text(goal) + (goal.met() ? "" : "  NOT MET");
 }
 
 std::string padded(std::string text, std::size_t width) {
@@ -68,8 +70,7 @@ std::string to_json(const std::vector<Row>& rows) {
             ", \"ns_spread\": " + number_or_null(row.ns_spread) + ", \"error\": " + number_or_null(row.error) +
             ", \"error_unit\": " + quoted(row.error_unit);
     if (row.goal) {
-      text += std::string(", \"asked\": \"") + (row.goal->at_least ? ">= " : "<= ") + shortest(row.goal->asked) +
-              "\", \"reached\": " + number_or_null(row.goal->reached) + ", \"met\": " + (row.goal->met() ? "true" : "false");
+      text += ", \"asked\": " + quoted(asked_text(*row.goal)) + ", \"reached\": " + number_or_null(row.goal->reached) + ", \"met\": " + (row.goal->met() ? "true" : "false");
     }
     text += "}";
     separator = ",\n";
@@ -93,21 +94,19 @@ std::string to_text(const std::vector<Row>& rows) {
   return text;
 }
 
-void write_csv(const std::string& path, const std::vector<Row>& rows) {
+void write_csv(Output& out, const std::vector<Row>& rows) {
   // A CSV cell holds no comma (csv.hpp), our settings do.
   const auto cell = [](std::string text) {
     std::replace(text.begin(), text.end(), ',', ';');
     return text;
   };
-  Output out(path);
-  CsvWriter csv(out, {"group", "contestant", "real", "setting", "per", "ns_median", "ns_spread", "error", "error_unit", "asked", "reached"});
+  CsvWriter csv(out, {"group", "contestant", "real", "setting", "per", "ns_median", "ns_spread", "error", "error_unit", "asked", "reached", "met"});
   for (const Row& row : rows) {
     const auto number = [](double value) { return std::isfinite(value) ? significant(static_cast<float>(value)) : std::string(); };
     csv.row(cell(row.group), cell(row.contestant), row.real, cell(row.setting), row.per, number(row.ns_median), number(row.ns_spread),
-            number(row.error), cell(row.error_unit), row.goal ? number(row.goal->asked) : std::string(),
-            row.goal ? number(row.goal->reached) : std::string());
+            number(row.error), cell(row.error_unit), row.goal ? asked_text(*row.goal) : std::string(),
+            row.goal ? number(row.goal->reached) : std::string(), !row.goal ? "" : row.goal->met() ? "yes" : "no");
   }
-  out.finish();
 }
 
 const Row& find(const std::vector<Row>& rows, const std::string& group, const std::string& contestant, const std::string& real,

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "../output.hpp"
+
 namespace crankloop::program::bench {
 
 /// What was asked of a ratio or a time, and what was reached.
@@ -38,8 +40,8 @@ struct Row {
 /// For people: a table per group, in lines of plain text.
 [[nodiscard]] std::string to_text(const std::vector<Row>& rows);
 
-/// A file with a row for each; see Output for the path.
-void write_csv(const std::string& path, const std::vector<Row>& rows);
+/// A line for each, below a header. Commas within a cell become semicolons. The caller finishes the Output.
+void write_csv(Output& out, const std::vector<Row>& rows);
 
 /// The row of this name, which must be there (std::logic_error).
 [[nodiscard]] const Row& find(const std::vector<Row>& rows, const std::string& group, const std::string& contestant, const std::string& real,
