@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 
@@ -30,11 +31,11 @@ double middle_mean(std::vector<double>& sample) {
   return std::accumulate(first, last, 0.0) / static_cast<double>(last - first);
 }
 
-double clock_cost_ns() {
+double clock_cost_ns(Clock& clock) {
   std::vector<double> readings(2001);
   for (double& reading : readings) {
-    const std::int64_t begin = port::now_ns();
-    reading = static_cast<double>(port::now_ns() - begin);
+    const std::int64_t begin = clock();
+    reading = static_cast<double>(clock() - begin);
   }
   return middle_mean(readings);
 }
@@ -42,11 +43,11 @@ double clock_cost_ns() {
 std::vector<Timing> race(const std::vector<Contestant>& contestants, const Effort& effort) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   if (effort.rounds == 0) return std::vector<Timing>(contestants.size(), {kNone, kNone});
-  const double clock_ns = clock_cost_ns();
+  const double clock_ns = clock_cost_ns(port::thread_ns);
   const auto turn_ns = [&](const Contestant& one, int batches) {
-    const std::int64_t begin = port::now_ns();
+    const std::int64_t begin = port::thread_ns();
     for (int i = 0; i < batches; ++i) one.batch();
-    return std::max(0.0, static_cast<double>(port::now_ns() - begin) - clock_ns);
+    return std::max(0.0, static_cast<double>(port::thread_ns() - begin) - clock_ns);
   };
 
   // The warm-up: caches, and how many batches fill a turn.

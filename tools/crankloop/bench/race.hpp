@@ -3,6 +3,7 @@
 // What belongs here: rounds, medians, the clock's own cost. What does not: what is timed.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -35,11 +36,14 @@ struct Timing {
   double spread_ns;  ///< between the quartiles
 };
 
-/// Every contestant has its turn in every round, in another order each time.
+/// Every contestant has its turn in every round, in another order each time. Timed by what this thread ran, so that being put aside for
+/// another program does not count.
 [[nodiscard]] std::vector<Timing> race(const std::vector<Contestant>& contestants, const Effort& effort);
 
-/// What a pair of clock readings costs, by the median of many.
-[[nodiscard]] double clock_cost_ns();
+using Clock = std::int64_t() noexcept;
+
+/// What a pair of readings of a clock costs, by the middle half of many.
+[[nodiscard]] double clock_cost_ns(Clock& clock);
 
 /// Of a sample, which must not be empty: it is put in order.
 [[nodiscard]] double quantile(std::vector<double>& sample, double part);

@@ -89,7 +89,7 @@ class Group {
 
   /// Every tick of the cycle by the middle half of repeated cycles: what another program does to one of them is not the tick's.
   static void add_profile(const Case& one, const Effort& effort, std::vector<Row>& all) {
-    const double clock_ns = clock_cost_ns();
+    const double clock_ns = clock_cost_ns(port::now_ns);
     const int cycles = effort.rounds;
     std::vector<std::vector<double>> samples(static_cast<std::size_t>(one.ticks));
     for (int cycle = 0; cycle < cycles; ++cycle) {
