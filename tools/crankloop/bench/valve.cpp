@@ -16,18 +16,17 @@ constexpr int kShifts = 6;
 /// A lift that is off by more than a valve is long: the method is beyond its stability limit.
 constexpr double kBlownUp_m = 20e-3;
 
-const double kFullLift_deg = ohc_125_train().cam.full_lift_deg;
-
 template <class Valve>
 double largest_error_um(Valve& valve, const ValveRun& run, const TrueLift& truth) {
   double largest_m = 0;
+  const double full_lift_deg = ohc_125_train().cam.full_lift_deg;
   const double deg_per_step = 360 * run.step_s / run.cycle_s();
   for (int shift = 0; shift < kShifts; ++shift) {
-    valve.start(phase_at_cam_deg(-180 + deg_per_step * (shift + 0.5) / kShifts, kFullLift_deg));
+    valve.start(phase_at_cam_deg(-180 + deg_per_step * (shift + 0.5) / kShifts, full_lift_deg));
     const int steps = run.steps_per_cycle() - 1;
     for (int i = 0; i < steps; ++i) {
       valve.step();
-      const double cam_deg = cam_deg_from_full_lift(valve.phase().units(), kFullLift_deg);
+      const double cam_deg = cam_deg_from_full_lift(valve.phase().units(), full_lift_deg);
       const double error_m = std::fabs(valve.lift_m() - truth.lift_m(cam_deg));
       if (!(error_m <= kBlownUp_m)) return std::numeric_limits<double>::quiet_NaN();
       largest_m = std::max(largest_m, error_m);
