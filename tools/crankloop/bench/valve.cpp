@@ -5,6 +5,7 @@
 
 #include "../number.hpp"
 #include "groups.hpp"
+#include "peers.hpp"
 #include "true_lift.hpp"
 #include "valve_methods.hpp"
 
@@ -42,7 +43,10 @@ class Group {
   /// Leaves out what blows up: the rows go to the stability limit.
   template <class Valve>
   void add(const char* contestant, const char* real, const ValveRun& run, const std::string& setting) {
-    const auto valve = std::make_shared<Valve>(run);
+    add(std::make_shared<Valve>(run), contestant, real, run, setting);
+  }
+  template <class Valve>
+  void add(const std::shared_ptr<Valve>& valve, const std::string& contestant, const char* real, const ValveRun& run, const std::string& setting) {
     Row row;
     row.group = "valve";
     row.contestant = contestant;
@@ -75,6 +79,16 @@ class Group {
     }
     for (const double tick_us : {10.0, 100.0}) {
       add<LibraryValve<Real, LoneFollowing>>("cam-following", real, {engine_rpm_, tick_us * 1e-6}, brief(tick_us) + " us");
+    }
+  }
+
+  /// Other people's solvers, where there are any.
+  void add_peers() {
+    for (const Peer& peer : peers()) {
+      for (const double tick_us : {5.0, 10.0, 20.0}) {
+        const ValveRun run{engine_rpm_, tick_us * 1e-6};
+        add(peer.make(run), peer.contestant, "double", run, brief(tick_us) + " us" + (peer.setting.empty() ? "" : ", " + peer.setting));
+      }
     }
   }
 
@@ -113,6 +127,7 @@ std::vector<Row> valve_rows(const Effort& effort) {
     Group group(engine_rpm);
     group.add_all<float>("float");
     group.add_all<double>("double");
+    group.add_peers();
     group.run(effort, rows);
   }
   return rows;
