@@ -38,6 +38,7 @@ struct Command {
 };
 
 extern const Command kBalance;
+extern const Command kBench;
 extern const Command kForces;
 extern const Command kKinematics;
 extern const Command kLift;

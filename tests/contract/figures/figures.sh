@@ -11,6 +11,8 @@
 # Builds into BUILD_DIR; CXX names another compiler than c++. Instructions need valgrind, stack needs GCC: else a dash.
 set -eu
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
+# shellcheck source-path=SCRIPTDIR source=../instructions.sh
+. "$here/../instructions.sh"
 engine=$here/../../../tools/engines/diesel_495.ini
 build_dir=$1
 what=${2:-}
@@ -36,12 +38,10 @@ stack_bytes() {
     awk -F '\t' '!/::(init|restore|output|state|settle)\(|::Engine\(/ { sum += $2 } END { print (sum > 0 ? sum : "-") }'
 }
 
-instructions() { valgrind --tool=callgrind --callgrind-out-file=/dev/null "./ticks_$1" "$2" 2>&1 | awk '/Collected :/ { print $4 }'; }
-
 # What 20 000 steps take more than 10 000: start-up and end are in both.
 instructions_per_tick() {
   command -v valgrind >/dev/null 2>&1 || { echo - && return; }
-  echo $((($(instructions "$1" 20000) - $(instructions "$1" 10000) + 5000) / 10000))
+  echo $((($(instructions "./ticks_$1" 20000) - $(instructions "./ticks_$1" 10000) + 5000) / 10000))
 }
 
 scene_row() {

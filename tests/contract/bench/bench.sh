@@ -1,0 +1,158 @@
+#!/bin/sh
+# What of the benchmark is committed: a gate that no noisy clock moves, of instructions and errors; and what docs/performance.md says of it.
+#
+#   bench.sh BUILD_DIR check   fails when a kernel takes over 2 % more instructions than instructions.txt says, or an error has grown by
+#                              over 2 % from errors.csv
+#   bench.sh BUILD_DIR renew   writes both anew
+#   bench.sh BUILD_DIR performance FILE PICTURE   rewrites the benchmark's part of docs/performance.md, and its diagrams
+#
+# Builds the release program into BUILD_DIR; CXX names another compiler than c++. Instructions are compared only where compiler and processor
+# family are those of instructions.txt; errors everywhere: they are the same on every machine, but for those of the mathematics library.
+set -eu
+here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
+# shellcheck source-path=SCRIPTDIR source=../instructions.sh
+. "$here/../instructions.sh"
+build_dir=$1
+what=${2:-}
+jobs=$(nproc 2>/dev/null || echo 1)
+cycle_ticks=1000  # a cycle of most kernels; of the others two or four, or a part of one
+growth_percent=2
+
+mkdir -p "$build_dir"
+if ! { cmake -S "$here/../../.." -B "$build_dir" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE="-O3 -DNDEBUG" -DCRANKLOOP_BENCH_PEERS=ON &&
+  cmake --build "$build_dir" --target crankloop_program --parallel "$jobs"; } >"$build_dir/build.log" 2>&1; then
+  tail -n 40 "$build_dir/build.log" >&2
+  exit 1
+fi
+crankloop=$build_dir/bin/crankloop
+
+counted_with() {
+  compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[^=]*=//p' "$build_dir/CMakeCache.txt" | head -n 1)
+  family=$("$compiler" --version | head -n 1 | sed 's/^[^ ]* *//')
+  echo "# $family, $(uname -m), -O3"
+}
+
+# The program itself says which kernels there are.
+kernel_names() { "$crankloop" bench --kernel list 2>&1 | sed -n 's/.*kernels: //p' | tr -d ',' ; }
+
+# Of a tick, to within one: what ten cycles take more than two.
+kernel_instructions() {
+  short=$(instructions "$crankloop" bench --kernel "$1" --ticks $((2 * cycle_ticks)))
+  long=$(instructions "$crankloop" bench --kernel "$1" --ticks $((10 * cycle_ticks)))
+  echo $(((long - short + 4 * cycle_ticks) / (8 * cycle_ticks)))
+}
+
+count_all() {
+  counted_with
+  for kernel in $(kernel_names); do echo "$kernel $(kernel_instructions "$kernel")"; done
+}
+
+# Of what is this project's own: libm's errors are the system's, other solvers theirs.
+errors() { "$crankloop" bench --errors --csv - 2>/dev/null | awk -F , '$2 !~ /^(libm|odeint|GSL)/' | cut -d , -f 1-4,8,9; }
+
+# Tells every kernel that takes more, and every one that is new or gone.
+compare_instructions() {
+  awk -v percent="$growth_percent" '
+    /^#/ { next }
+    NR == FNR { committed[$1] = $2; next }
+    !($1 in committed) { print $1 " is not in instructions.txt"; bad = 1; next }
+    { seen[$1] = 1 }
+    $2 > committed[$1] * (1 + percent / 100) { print $1 " takes " $2 " instructions a tick, " committed[$1] " were committed"; bad = 1 }
+    $2 < committed[$1] * (1 - percent / 100) { print "(" $1 " takes " $2 " instead of " committed[$1] ": bench.sh BUILD_DIR renew keeps it)" }
+    END { for (name in committed) if (!(name in seen)) { print name " is gone"; bad = 1 } exit bad }' "$here/instructions.txt" "$1"
+}
+
+compare_errors() {
+  awk -F , -v percent="$growth_percent" '
+    { name = $1 "," $2 "," $3 "," $4 }
+    NR == FNR { committed[name] = $5; next }
+    !(name in committed) { print name " is not in errors.csv"; bad = 1; next }
+    { seen[name] = 1 }
+    $5 == "" && committed[name] != "" || $5 + 0 > committed[name] * (1 + percent / 100) {
+      if (FNR > 1) { print name " errs by " $5 ", " committed[name] " was committed"; bad = 1 }
+    }
+    END { for (name in committed) if (!(name in seen)) { print name " is gone"; bad = 1 } exit bad }' "$here/errors.csv" "$1"
+}
+
+check() {
+  bad=0
+  errors >"$build_dir/errors.csv"
+  compare_errors "$build_dir/errors.csv" || bad=1
+  if ! command -v valgrind >/dev/null 2>&1; then
+    echo "no valgrind: instructions are not compared"
+  elif [ "$(counted_with)" != "$(head -n 1 "$here/instructions.txt")" ]; then
+    echo "instructions are not compared: $(counted_with | cut -c 3-) here, $(head -n 1 "$here/instructions.txt" | cut -c 3-) in instructions.txt"
+  else
+    count_all >"$build_dir/instructions.txt"
+    compare_instructions "$build_dir/instructions.txt" || bad=1
+  fi
+  [ "$bad" -eq 0 ]
+}
+
+# ---- docs/performance.md ----------------------------------------------------------------------------------------------------
+
+# goals CSV: asked and reached.
+goals() {
+  echo "| asked of the library, float | asked | reached | met | its error |"
+  echo "| --- | --- | --- | --- | --- |"
+  awk -F , '$1 == "ratios" { printf "| %s | %s | %.3g | %s | %.2g %s |\n", $2, $10, $11, $12, $8, $9 }' "$1" | tr ';' ','
+}
+
+# rows CSV HEADING AWK_CONDITION: contestant, real, setting, time, error.
+rows() {
+  echo "| $2 | real | setting | ns | error |"
+  echo "| --- | --- | --- | --- | --- |"
+  awk -F , "$3"' { printf "| %s | %s | %s | %.4g | %.2g %s |\n", $2, $3, $4, $6, $8, $9 }' "$1" | tr ';' ','
+}
+
+# distributions CSV: of the groups whose rows come by four: mean, median, 99.9 %, worst.
+distributions() {
+  echo "| whole tick | real | setting | mean, ns | median | 99.9 % | worst | error |"
+  echo "| --- | --- | --- | --- | --- | --- | --- | --- |"
+  awk -F , '$1 == "tick" {
+    n = n % 4 + 1
+    ns[n] = $6
+    if (n == 1) { name = $2; real = $3; setting = $4; error = sprintf("%.2g %s", $8, $9) }
+    if (n == 4) printf "| %s | %s | %s | %.4g | %.3g | %.3g | %.3g | %s |\n", name, real, setting, ns[1], ns[2], ns[3], ns[4], error
+  }' "$1" | tr ';' ','
+}
+
+kernels() {
+  echo "| kernel | instructions per tick |"
+  echo "| --- | --- |"
+  awk '!/^#/ { print "| " $1 " | " $2 " |" }' "$here/instructions.txt"
+}
+
+# Rewrites FILE's lines between "<!-- bench begin" and "<!-- bench end", and the picture.
+# shellcheck disable=SC2016  # fields of awk
+performance() {
+  csv=$build_dir/bench.csv
+  "$crankloop" bench --csv "$csv" --plot "$2" >"$build_dir/bench.txt"
+  {
+    printf '\nMeasured on: %s.\n\n' "$(sed -n '1s/^# //p' "$build_dir/bench.txt")"
+    goals "$csv"
+    echo && rows "$csv" "x, v and a of a piston" '$1 == "kinematics"'
+    echo && rows "$csv" "one valve, a cam cycle" '$1 == "valve" && ($4 ~ /; (1|10|20|100) us(; tolerance.*)?$/)'
+    echo && distributions "$csv"
+    echo && rows "$csv" "a longer tick" '$1 == "growth"'
+    echo && rows "$csv" "asked for more and more" '$1 == "skips"'
+    echo && echo "Instructions, counted by callgrind; $(head -n 1 "$here/instructions.txt" | cut -c 3-):"
+    echo && kernels
+    echo
+  } >"$build_dir/performance.txt"
+  awk -v part="$build_dir/performance.txt" '
+    /^<!-- bench begin/ { print; while ((getline line < part) > 0) print line; inside = 1 }
+    /^<!-- bench end/ { inside = 0; found = 1 }
+    !inside { print }
+    END { exit !found }' "$1" >"$build_dir/performance.md" && cp "$build_dir/performance.md" "$1"
+}
+
+case $what in
+  check) check ;;
+  performance) performance "$3" "$4" ;;
+  renew)
+    errors >"$build_dir/errors.csv" && cp "$build_dir/errors.csv" "$here/errors.csv"
+    count_all >"$build_dir/instructions.txt" && cp "$build_dir/instructions.txt" "$here/instructions.txt"
+    ;;
+  *) sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
+esac

@@ -1,0 +1,7 @@
+// The benchmark's scenes: any number of cylinders and valves.
+#include <crankloop/tick/engine_step.hpp>
+
+#include "scenes.hpp"
+
+template class crankloop::Engine<float, crankloop::program::bench::AnyMotion>;
+template class crankloop::Engine<float, crankloop::program::bench::AnyElastic>;
