@@ -253,16 +253,17 @@ class ValveTick {
     valve.sleep = kAwake;
   }
 
-  /// A vibration on the seat that cannot lift the valve off it.
-  [[nodiscard]] constexpr bool trembles(ValveState<Real> s) const noexcept {
-    return magnitude(s.lift_m) + magnitude(s.velocity_m_s) * motion_.per_seat_rate_s < motion_.quiet_m;
+  /// A vibration on the seat that can neither lift the valve off it nor swing it up by so much of lash. (On a soft seat that is the nearer.)
+  [[nodiscard]] constexpr bool trembles(ValveState<Real> s, Real lash_m) const noexcept {
+    const Real swing_m = magnitude(s.lift_m) + magnitude(s.velocity_m_s) * motion_.per_seat_rate_s;
+    return swing_m < motion_.quiet_m && swing_m < lash_m;
   }
 
-  /// A valve that only trembles on its seat, with the lash open.
+  /// A valve that only trembles on its seat, by less than the lash that is open: its vibration dies away and reaches no contact.
   template <class Gas>
   [[nodiscard]] constexpr bool quiet(const ValveCondition<Real>& valve, const Lift<Real>& to, const Gas& gas) const noexcept {
-    return valve.regime == kSeatOn && valve.train.lift_m < -kLeastLash_m && to.lift_m < -kLeastLash_m && gas.leaves_closed(motion_.body) &&
-           trembles(valve.state);
+    const Real least_m = -(valve.train.lift_m > to.lift_m ? valve.train.lift_m : to.lift_m);
+    return valve.regime == kSeatOn && least_m > kLeastLash_m && gas.leaves_closed(motion_.body) && trembles(valve.state, least_m);
   }
 
   [[nodiscard]] constexpr LiftStep<Real> between(const Lift<Real>& from, const Lift<Real>& to, Real deg) const noexcept {
@@ -410,7 +411,7 @@ class ValveTick {
     if (valve.regime != kSeatOn || !rests_at(end, gas)) return;
     if (at_rest(valve.state, gas)) {
       valve = {};
-    } else if (curve_.outside_m < -kLeastLash_m && trembles(valve.state)) {
+    } else if (curve_.outside_m < -kLeastLash_m && trembles(valve.state, kLeastLash_m)) {
       valve.sleep = kSettling;
       valve.train = {};
     }
