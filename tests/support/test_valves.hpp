@@ -1,7 +1,7 @@
 // Elastic valves under test: the train of the 125 cm^3 engine, and an engine of one cylinder that runs it tick by tick.
 //
 // What belongs here: definitions, and a rig that runs them. What does not: what to expect
-// (support/valve_reference.hpp).
+// (crankloop/reference/valve_reference.hpp).
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 #include "support/test_engines.hpp"
 #include "support/test_scenes.hpp"
-#include "support/valve_reference.hpp"
+#include "crankloop/reference/valve_reference.hpp"
 #include "support/valve_trains.hpp"
 
 namespace crankloop::valve_test {

@@ -22,7 +22,7 @@
 namespace crankloop::program {
 namespace {
 
-constexpr const Command* kCommands[] = {&kShow, &kMasses, &kKinematics, &kForces, &kBalance, &kLift, &kValve, &kRedline, &kRun, &kTables};
+constexpr const Command* kCommands[] = {&kShow, &kMasses, &kKinematics, &kForces, &kBalance, &kLift, &kValve, &kRedline, &kRun, &kTables, &kStress};
 
 constexpr std::size_t kNameColumn = 18;
 
