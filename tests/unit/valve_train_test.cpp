@@ -72,6 +72,23 @@ TEST(CamDefinition, KeepsEveryRangeThatItsCommentsState) {
                                     {&Cam::phase_rate_deg_s, "cam.phase_rate", 0, true, 100000}});
 }
 
+TEST(ValveTrainDefinition, RefusesNumbersThatNameNoEnumerator) {
+  for (const int number : {2, 3, 255}) {
+    Cam cam = ohc_125_cam();
+    cam.source = static_cast<CamSource>(number);
+    EXPECT_TRUE(refuses(validate(cam), Reason::out_of_range, "cam.source")) << number;
+    Rocker rocker = ohc_125_rocker();
+    rocker.cam_turns = static_cast<CamTurns>(number);
+    EXPECT_TRUE(refuses(validate(rocker), Reason::out_of_range, "rocker.cam_turns")) << number;
+    rocker = ohc_125_rocker();
+    rocker.kind = static_cast<RockerKind>(number);
+    EXPECT_TRUE(refuses(validate(rocker), Reason::out_of_range, "rocker.kind")) << number;
+    rocker.pivot_to_pad_m = kNaN;
+    rocker.ratio = kNaN;
+    EXPECT_TRUE(refuses(validate(rocker), Reason::out_of_range, "rocker.kind")) << "nothing of an unknown kind is looked at";
+  }
+}
+
 TEST(CamDefinition, NeedsTwoToEightRisingExponents) {
   Cam cam = ohc_125_cam();
   cam.exponent_count = 1;
