@@ -163,6 +163,9 @@ TEST(RockerDefinition, OfAConstantRatioNeedsNoGeometry) {
   expect_rules<Rocker>(support::direct_rocker(15e-3, 0.1e-3, 1.4), {{&Rocker::base_circle_m, "rocker.base_circle", kLeastPositive, true, 1},
                                                                     {&Rocker::ratio, "rocker.ratio", kLeastPositive, true, 10},
                                                                     {&Rocker::pivot_to_screw_m, "rocker.pivot_to_screw", 0, true, 1}});
+  Rocker rocker = support::direct_rocker(15e-3, 0.1e-3, 1.4);
+  rocker.pivot_to_screw_m = kLeastPositive / 2;  // no lever, and not none
+  EXPECT_TRUE(refuses(validate(rocker), Reason::out_of_range, "rocker.pivot_to_screw"));
 }
 
 TEST(ValveDefinition, KeepsEveryRangeThatItsCommentsState) {

@@ -35,6 +35,11 @@ inline constexpr double kLeastPositive = 1e-9;
   return {};
 }
 
+/// 0, which leaves something out, or what is greater than zero.
+[[nodiscard]] inline Status none_or_positive(double x, const char* field, double most) noexcept {
+  return x == 0 ? Status{} : positive(x, field, most);
+}
+
 /// The first of several answers that is not ok.
 template <std::size_t N>
 [[nodiscard]] Status first_refusal(const Status (&answers)[N]) noexcept {

@@ -8,6 +8,7 @@ namespace crankloop {
 using detail::between;
 using detail::finite;
 using detail::first_refusal;
+using detail::none_or_positive;
 using detail::not_negative;
 using detail::positive;
 
@@ -78,7 +79,7 @@ Status validate(const Rocker& rocker) noexcept {
   if (const Status refused = first_refusal(both); !refused.ok()) return refused;
   switch (rocker.kind) {
     case RockerKind::ratio: {
-      const Status answers[] = {positive(rocker.ratio, "rocker.ratio", 10), not_negative(rocker.pivot_to_screw_m, "rocker.pivot_to_screw", 1)};
+      const Status answers[] = {positive(rocker.ratio, "rocker.ratio", 10), none_or_positive(rocker.pivot_to_screw_m, "rocker.pivot_to_screw", 1)};
       return first_refusal(answers);
     }
     case RockerKind::circular_pad: return validate_pad(rocker);
