@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "../number.hpp"
+#include "stress_comparison.hpp"
 
 namespace crankloop::program {
 namespace {

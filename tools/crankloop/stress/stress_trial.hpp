@@ -11,12 +11,12 @@
 //              each cycle sqrt(2 E / M) at most twice what the train can have put in: its share at rest, every change of
 //              the cam's speed so far, and twice its largest speed for every contact change.
 //   accurate   for kReferenceCycles, or as far as kReferenceSteps go: at every tick the lift is off by at most
-//              kMagnified times the accuracy asked for, plus the most that kCopies copies of the reference have got off
-//              it since the valve last rested. Each copy is knocked up or down where the cam starts under it and in every
-//              tick in which its contact changes: by the accuracy asked for, with Runge-Kutta times as much as its
+//              kMagnified times this: the accuracy asked for, and the most that kCopies copies of the reference have got
+//              off it since the valve last rested. Each copy is knocked up or down where the cam starts under it and in
+//              every tick in which its contact changes: by the accuracy asked for, with Runge-Kutta times as much as its
 //              vibration is wider than kClassAmplitude_m. In float rounding shakes the copies in every tick. So a motion
 //              that magnifies errors excuses an error, by as much as it magnifies, and nothing else does but an exceeded
-//              event budget.
+//              event budget. (stress_comparison.hpp)
 #pragma once
 
 #include <memory>
@@ -32,13 +32,6 @@ inline constexpr int kStressCycles = 20;
 inline constexpr int kMostTicks = 40'000;
 inline constexpr double kReferenceCycles = 1.5;
 inline constexpr double kReferenceSteps = 2500;
-inline constexpr int kCopies = 4;
-inline constexpr double kMagnified = 3;
-
-/// Amplitude of the vibration for which an accuracy class is made. Fourth-order Runge-Kutta with w d = x is off by x^5/120
-/// of the amplitude in a step, 2 pi x^4/120 in a period, and the class a takes x^4 = 0.3^4 a/0.1 um: together a times the
-/// amplitude over 0.24 mm.
-inline constexpr double kClassAmplitude_m = 0.24e-3;
 
 enum class Verdict { refused, ran, wrongly_refused, diverged, inaccurate };
 
