@@ -106,11 +106,13 @@ class ValveTick {
     valve.asleep = 0;
   }
 
-  /// A valve that only trembles on its seat, with the lash open: its vibration dies away and cannot reach a contact.
+  /// A valve that only trembles on its seat, by less than the lash that is open: its vibration dies away and reaches no contact. (On a soft
+  /// seat it may swing up into it by more than the lash, and meets its train there.)
   template <class Gas>
   [[nodiscard]] constexpr bool quiet(const ValveCondition<Real>& valve, const Lift<Real>& to, const Gas& gas) const noexcept {
+    const Real swing_m = magnitude(valve.state.lift_m) + magnitude(valve.state.velocity_m_s) * motion_.per_seat_rate_s;
     return valve.regime == kSeatOn && valve.train.lift_m < -kLeastLash_m && to.lift_m < -kLeastLash_m && gas.leaves_closed(motion_.body) &&
-           magnitude(valve.state.lift_m) + magnitude(valve.state.velocity_m_s) * motion_.per_seat_rate_s < motion_.quiet_m;
+           swing_m < motion_.quiet_m && swing_m < -valve.train.lift_m && swing_m < -to.lift_m;
   }
 
   [[nodiscard]] constexpr LiftStep<Real> between(const Lift<Real>& from, const Lift<Real>& to, Real deg) const noexcept {
