@@ -3,7 +3,7 @@
 # Which branches of core the host tests take, by clang++ and llvm-cov; what they do not take is listed with its line.
 #
 #   tests/coverage.sh           builds the tests in build/coverage, runs them, reports
-#   tests/coverage.sh --report  reports of the last run
+#   tests/coverage.sh --report  reports of the last run, and of what was built for it
 #
 # A template's branch counts as taken if any of its instantiations takes it. Prints `name = value` lines, then a line
 # FILE:LINE for each branch that is never taken one way; docs/reliability.md says why.
@@ -35,7 +35,7 @@ if [ "${1:-}" != --report ]; then
 fi
 
 objects="$folder/bin/crankloop"
-for program in $programs; do objects="$objects --object $program"; done
+for program in $programs; do [ ! -x "$program" ] || objects="$objects --object $program"; done
 # shellcheck disable=SC2086  # a list of words
 coverage() { llvm-cov "$@" $objects --instr-profile="$profile/all.profdata" --ignore-filename-regex='/(tests|tools|port)/|^/usr/'; }
 
