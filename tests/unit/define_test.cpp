@@ -562,6 +562,14 @@ TEST(PressureDefinition, RefusesTablesThatAreMissingOrTooShortOrTooLong) {
   }
 }
 
+TEST(PressureDefinition, RefusesASourceThatIsNone) {
+  Pressure pressure = wiebe_pressure();
+  for (const int number : {4, 5, 128, 255}) {
+    pressure.source = static_cast<PressureSource>(number);
+    EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::out_of_range, "pressure.source")) << number;
+  }
+}
+
 // ---- the whole ------------------------------------------------------------------------------------------------------
 
 TEST(EngineDefinition, IsRefusedForItsFirstBadPart) {

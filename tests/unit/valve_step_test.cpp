@@ -287,6 +287,11 @@ TEST(ValveStepping, RefusesWhatItCannotStepAndNamesTheLongestTick) {
         refuses(motion_of(body, 100e-6, {Integrator::rk4, accuracy_m}, motion), Reason::out_of_range, "tick.accuracy"))
         << accuracy_m;
   }
+  ValveBody<double> boulder = body;
+  for (const double mass_kg : {1.1e9, HUGE_VAL, std::nan("")}) {
+    boulder.mass_kg = mass_kg;
+    EXPECT_TRUE(refuses(motion_of(boulder, 100e-6, {}, motion), Reason::out_of_range, "valve.rocker_inertia")) << mass_kg;
+  }
   Random random;
   for (int draw = 0; draw < 200; ++draw) {
     SCOPED_TRACE(random.trace(draw));

@@ -18,6 +18,7 @@ using support::ohc_125_rocker;
 using support::refuses;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kLeastPositive = 1e-9;  // docs/contract.md: what "> 0" means, in SI units
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Valve ohc_125_valve() {
@@ -66,10 +67,27 @@ void expect_rules(const Part& good, const std::vector<Rule<Part>>& rules) {
 }
 
 TEST(CamDefinition, KeepsEveryRangeThatItsCommentsState) {
-  expect_rules<Cam>(ohc_125_cam(), {{&Cam::max_lift_m, "cam.max_lift", 0, false, 0.1},
+  expect_rules<Cam>(ohc_125_cam(), {{&Cam::max_lift_m, "cam.max_lift", kLeastPositive, true, 0.1},
                                     {&Cam::half_angle_deg, "cam.half_angle", 10, true, 180},
                                     {&Cam::full_lift_deg, "cam.full_lift_at_crank", 0, true, std::nextafter(720.0, 0)},
                                     {&Cam::phase_rate_deg_s, "cam.phase_rate", 0, true, 100000}});
+}
+
+TEST(ValveTrainDefinition, RefusesNumbersThatNameNoEnumerator) {
+  for (const int number : {2, 3, 255}) {
+    Cam cam = ohc_125_cam();
+    cam.source = static_cast<CamSource>(number);
+    EXPECT_TRUE(refuses(validate(cam), Reason::out_of_range, "cam.source")) << number;
+    Rocker rocker = ohc_125_rocker();
+    rocker.cam_turns = static_cast<CamTurns>(number);
+    EXPECT_TRUE(refuses(validate(rocker), Reason::out_of_range, "rocker.cam_turns")) << number;
+    rocker = ohc_125_rocker();
+    rocker.kind = static_cast<RockerKind>(number);
+    EXPECT_TRUE(refuses(validate(rocker), Reason::out_of_range, "rocker.kind")) << number;
+    rocker.pivot_to_pad_m = kNaN;
+    rocker.ratio = kNaN;
+    EXPECT_TRUE(refuses(validate(rocker), Reason::out_of_range, "rocker.kind")) << "nothing of an unknown kind is looked at";
+  }
 }
 
 TEST(CamDefinition, NeedsTwoToEightRisingExponents) {
@@ -131,32 +149,35 @@ TEST(CamDefinition, OfATableNamesTheRowThatIsWrong) {
 }
 
 TEST(RockerDefinition, KeepsEveryRangeThatItsCommentsState) {
-  expect_rules<Rocker>(ohc_125_rocker(), {{&Rocker::base_circle_m, "rocker.base_circle", 0, false, 1},
+  expect_rules<Rocker>(ohc_125_rocker(), {{&Rocker::base_circle_m, "rocker.base_circle", kLeastPositive, true, 1},
                                           {&Rocker::clearance_m, "rocker.clearance", 0, true, 0.01},
-                                          {&Rocker::pivot_to_pad_m, "rocker.pivot_to_pad", 0, false, 1},
-                                          {&Rocker::pivot_to_cam_m, "rocker.pivot_to_cam", 0, false, 1},
-                                          {&Rocker::pad_radius_m, "rocker.pad_radius", 0, false, 10},
-                                          {&Rocker::pivot_to_screw_m, "rocker.pivot_to_screw", 0, false, 1},
+                                          {&Rocker::pivot_to_pad_m, "rocker.pivot_to_pad", kLeastPositive, true, 1},
+                                          {&Rocker::pivot_to_cam_m, "rocker.pivot_to_cam", kLeastPositive, true, 1},
+                                          {&Rocker::pad_radius_m, "rocker.pad_radius", kLeastPositive, true, 10},
+                                          {&Rocker::pivot_to_screw_m, "rocker.pivot_to_screw", kLeastPositive, true, 1},
                                           {&Rocker::screw_ball_m, "rocker.screw_ball", 0, true, 1},
                                           {&Rocker::stem_above_pivot_m, "rocker.stem_above_pivot", -1, true, 1}});
 }
 
 TEST(RockerDefinition, OfAConstantRatioNeedsNoGeometry) {
-  expect_rules<Rocker>(support::direct_rocker(15e-3, 0.1e-3, 1.4), {{&Rocker::base_circle_m, "rocker.base_circle", 0, false, 1},
-                                                                    {&Rocker::ratio, "rocker.ratio", 0, false, 10},
+  expect_rules<Rocker>(support::direct_rocker(15e-3, 0.1e-3, 1.4), {{&Rocker::base_circle_m, "rocker.base_circle", kLeastPositive, true, 1},
+                                                                    {&Rocker::ratio, "rocker.ratio", kLeastPositive, true, 10},
                                                                     {&Rocker::pivot_to_screw_m, "rocker.pivot_to_screw", 0, true, 1}});
+  Rocker rocker = support::direct_rocker(15e-3, 0.1e-3, 1.4);
+  rocker.pivot_to_screw_m = kLeastPositive / 2;  // no lever, and not none
+  EXPECT_TRUE(refuses(validate(rocker), Reason::out_of_range, "rocker.pivot_to_screw"));
 }
 
 TEST(ValveDefinition, KeepsEveryRangeThatItsCommentsState) {
-  expect_rules<Valve>(ohc_125_valve(), {{&Valve::valve_kg, "valve.valve", 0, false, 100},
+  expect_rules<Valve>(ohc_125_valve(), {{&Valve::valve_kg, "valve.valve", kLeastPositive, true, 100},
                                         {&Valve::spring_kg, "valve.spring", 0, true, 100},
                                         {&Valve::rocker_inertia_kg_m2, "valve.rocker_inertia", 0, true, 100},
                                         {&Valve::spring_N_m, "valve.spring_rate", 0, true, 1e9},
-                                        {&Valve::spring_preload_N, "valve.spring_preload", 0, false, 1e6},
-                                        {&Valve::train_N_m, "valve.train", 0, false, 1e12},
+                                        {&Valve::spring_preload_N, "valve.spring_preload", kLeastPositive, true, 1e6},
+                                        {&Valve::train_N_m, "valve.train", kLeastPositive, true, 1e12},
                                         {&Valve::train_damping_ratio, "valve.train_damping_ratio", 0, true, 10},
                                         {&Valve::guide_damping_ratio, "valve.guide_damping_ratio", 0, true, 10},
-                                        {&Valve::seat_N_m, "valve.seat", 0, false, 1e12},
+                                        {&Valve::seat_N_m, "valve.seat", kLeastPositive, true, 1e12},
                                         {&Valve::seat_damping_ratio, "valve.seat_damping_ratio", 0, true, 10},
                                         {&Valve::head_area_m2, "valve.head_area", 0, true, 1}});
   Valve valve = ohc_125_valve();

@@ -47,6 +47,7 @@ extern const Command kRedline;
 extern const Command kRun;
 extern const Command kTables;
 extern const Command kShow;
+extern const Command kStress;
 extern const Command kValve;
 
 }  // namespace crankloop::program

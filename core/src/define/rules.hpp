@@ -11,10 +11,14 @@ inline constexpr double kLargest = 1.7976931348623157e308;
 
 [[nodiscard]] inline bool finite(double x) noexcept { return x >= -kLargest && x <= kLargest; }
 
+/// Least of what must be greater than zero, in SI units: its reciprocal, and products of several, stay numbers in float too.
+/// A seat of 5e-312 N/m, which no file means, would be pressed in by an infinity.
+inline constexpr double kLeastPositive = 1e-9;
+
 [[nodiscard]] inline Status positive(double x, const char* field, double most) noexcept {
   if (!finite(x)) return {Reason::not_finite, -1, field};
   if (x <= 0) return {Reason::not_positive, -1, field};
-  if (x > most) return {Reason::out_of_range, -1, field};
+  if (x < kLeastPositive || x > most) return {Reason::out_of_range, -1, field};
   return {};
 }
 
@@ -29,6 +33,11 @@ inline constexpr double kLargest = 1.7976931348623157e308;
   if (x < 0) return {Reason::negative, -1, field};
   if (x > most) return {Reason::out_of_range, -1, field};
   return {};
+}
+
+/// 0, which leaves something out, or what is greater than zero.
+[[nodiscard]] inline Status none_or_positive(double x, const char* field, double most) noexcept {
+  return x == 0 ? Status{} : positive(x, field, most);
 }
 
 /// The first of several answers that is not ok.

@@ -251,10 +251,11 @@ Status validate(const Pressure& pressure, const Crank& crank) noexcept {
     case PressureSource::none: return {};
     case PressureSource::wiebe: return validate_wiebe(pressure.wiebe);
     case PressureSource::angle_table: return validate_angles(pressure);
-    case PressureSource::volume_table: break;
+    case PressureSource::volume_table:
+      (void)crank;  // the volumes are checked against the dead centres where they are turned into angles: tabulate/indicator_diagram.hpp
+      return validate_points(pressure, kLeastVolumePoints);
   }
-  (void)crank;  // the volumes are checked against the dead centres where they are turned into angles: tabulate/indicator_diagram.hpp
-  return validate_points(pressure, kLeastVolumePoints);
+  return {Reason::out_of_range, -1, "pressure.source"};  // a number that names no source
 }
 
 Status validate(const EngineDefinition& engine) noexcept {

@@ -8,6 +8,7 @@ namespace crankloop {
 using detail::between;
 using detail::finite;
 using detail::first_refusal;
+using detail::none_or_positive;
 using detail::not_negative;
 using detail::positive;
 
@@ -42,6 +43,23 @@ constexpr int kLeastCamPoints = 8;
   return {};
 }
 
+[[nodiscard]] Status validate_pad(const Rocker& rocker) noexcept {
+  const Status answers[] = {
+      positive(rocker.pivot_to_pad_m, "rocker.pivot_to_pad", 1),
+      positive(rocker.pivot_to_cam_m, "rocker.pivot_to_cam", 1),
+      positive(rocker.pad_radius_m, "rocker.pad_radius", 10),
+      positive(rocker.pivot_to_screw_m, "rocker.pivot_to_screw", 1),
+      not_negative(rocker.screw_ball_m, "rocker.screw_ball", 1),
+      between(rocker.stem_above_pivot_m, "rocker.stem_above_pivot", -1, 1),
+  };
+  if (const Status refused = first_refusal(answers); !refused.ok()) return refused;
+  switch (rocker.cam_turns) {
+    case CamTurns::toward_pivot:
+    case CamTurns::away_from_pivot: return {};
+  }
+  return {Reason::out_of_range, -1, "rocker.cam_turns"};  // a number that names neither
+}
+
 }  // namespace
 
 Status validate(const Cam& cam) noexcept {
@@ -51,9 +69,9 @@ Status validate(const Cam& cam) noexcept {
   if (cam.full_lift_deg == 720) return {Reason::out_of_range, -1, "cam.full_lift_at_crank"};
   switch (cam.source) {
     case CamSource::polynomial: return validate_polynomial(cam);
-    case CamSource::table: break;
+    case CamSource::table: return validate_table(cam);
   }
-  return validate_table(cam);
+  return {Reason::out_of_range, -1, "cam.source"};  // a number that names no source
 }
 
 Status validate(const Rocker& rocker) noexcept {
@@ -61,20 +79,12 @@ Status validate(const Rocker& rocker) noexcept {
   if (const Status refused = first_refusal(both); !refused.ok()) return refused;
   switch (rocker.kind) {
     case RockerKind::ratio: {
-      const Status answers[] = {positive(rocker.ratio, "rocker.ratio", 10), not_negative(rocker.pivot_to_screw_m, "rocker.pivot_to_screw", 1)};
+      const Status answers[] = {positive(rocker.ratio, "rocker.ratio", 10), none_or_positive(rocker.pivot_to_screw_m, "rocker.pivot_to_screw", 1)};
       return first_refusal(answers);
     }
-    case RockerKind::circular_pad: break;
+    case RockerKind::circular_pad: return validate_pad(rocker);
   }
-  const Status answers[] = {
-      positive(rocker.pivot_to_pad_m, "rocker.pivot_to_pad", 1),
-      positive(rocker.pivot_to_cam_m, "rocker.pivot_to_cam", 1),
-      positive(rocker.pad_radius_m, "rocker.pad_radius", 10),
-      positive(rocker.pivot_to_screw_m, "rocker.pivot_to_screw", 1),
-      not_negative(rocker.screw_ball_m, "rocker.screw_ball", 1),
-      between(rocker.stem_above_pivot_m, "rocker.stem_above_pivot", -1, 1),
-  };
-  return first_refusal(answers);
+  return {Reason::out_of_range, -1, "rocker.kind"};  // a number that names no kind
 }
 
 Status validate(const Valve& valve) noexcept {

@@ -37,6 +37,9 @@ constexpr double kClearOfSeat_m = 2e-6;
 /// Cam degrees over which the lift is the quintic through a step's ends and middle, to 0.1 um.
 constexpr double kWidestStepDeg = 4;
 
+/// A rocker's inertia over the square of a lever that hardly is one may be any mass.
+constexpr double kHeaviest_kg = 1e9;
+
 /// 1, 2, 3 ... parts so that each is at most `longest`.
 [[nodiscard]] int parts(double whole, double longest) noexcept {
   const double ratio = whole / longest;
@@ -200,6 +203,7 @@ ValveState<double> runge_kutta(const ValveBody<double>& body, std::uint32_t regi
 
 Status motion_of(const ValveBody<double>& body, double tick_s, const ValveStepping& stepping, ValveMotion<double>& motion) noexcept {
   if (!(stepping.accuracy_m >= 0.01e-6 && stepping.accuracy_m <= 10e-6)) return {Reason::out_of_range, -1, "tick.accuracy"};
+  if (!(body.mass_kg <= kHeaviest_kg)) return {Reason::out_of_range, -1, "valve.rocker_inertia"};
   if (!(tick_s > 0 && tick_s <= longest_tick_s(body, stepping))) return {Reason::out_of_range, -1, "tick.tick"};
   const Steps steps = steps_for(body, tick_s, stepping);
   motion = {};

@@ -1,7 +1,7 @@
 // A valve's true lift over one cycle that begins at rest in the middle of the cam's base circle.
 //
 // What belongs here: the reference's motion, kept so densely that it answers at any angle. What does not: how it is integrated
-// (valve_reference.hpp).
+// (../reference/valve_reference.hpp).
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include <crankloop/define/valve_train.hpp>
 #include <crankloop/tick/phase.hpp>
 
-#include "valve_reference.hpp"
+#include "../reference/valve_reference.hpp"
 
 namespace crankloop::program::bench {
 

@@ -1,6 +1,6 @@
 // A valve's true motion, by other means than the library's: implicit Gauss collocation of order ten on the exact cam,
 // contact changes bisected to rounding, steps so short that the method's error is below rounding. Written from
-// docs/model.md, without the library's step code. Tests and the benchmark measure errors against it.
+// docs/model.md, without the library's step code. Tests, the benchmark and the stress test measure errors against it.
 //
 // What belongs here: the reference. What does not: the valves it is run on, what a cycle amounts to
 // (tests/support/valve_reference.hpp).

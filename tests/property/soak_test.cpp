@@ -1,0 +1,148 @@
+// A long drive: four cylinders, eight elastic valves, up and down through the speeds over and over. Nothing drifts, nothing
+// grows, nothing fades into denormal numbers.
+//
+// CRANKLOOP_LONG_TESTS=1 in the environment: 10^9 ticks instead of some million.
+#include <gtest/gtest.h>
+
+#include <cfloat>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include "support/both_reals.hpp"
+#include "support/four_with_valves.hpp"
+
+namespace crankloop {
+namespace {
+
+using namespace tick_test;
+
+long long ticks_to_soak() { return std::getenv("CRANKLOOP_LONG_TESTS") != nullptr ? 1'000'000'000LL : 1'500'000LL; }
+
+template <class Real>
+class Soak : public ::testing::Test {};
+TYPED_TEST_SUITE(Soak, BothReals, RealName);
+
+/// FNV-1a over words: two of them in a row are equal by chance once in 2^64.
+class Hash {
+ public:
+  template <class T>
+  void add(T x) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, &x, sizeof x);
+    value_ = (value_ ^ word) * 0x100000001B3u;
+    value_ ^= value_ >> 29;
+  }
+  [[nodiscard]] std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xCBF29CE484222325u;
+};
+
+template <class Real>
+bool subnormal(Real x) {
+  return std::fpclassify(x) == FP_SUBNORMAL;
+}
+
+template <class Real, class S>
+bool any_subnormal(const State<Real, S>& state) {
+  bool found = subnormal(state.speed_rad_s) || subnormal(state.torque_Nm);
+  for (const auto& train : state.valve) {
+    for (const auto& valve : train) {
+      for (const Real x : {valve.state.lift_m, valve.state.velocity_m_s, valve.train.lift_m, valve.train.per_deg_m}) {
+        found = found || subnormal(x);
+      }
+    }
+  }
+  return found;
+}
+
+/// Ticks of each engine cycle of a drive from 1000 rpm to 12 000 and back, at 50 us.
+std::vector<std::uint32_t> drive_up_and_down() {
+  std::vector<std::uint32_t> ticks;
+  for (double rpm = 1000; rpm < 12'000; rpm *= 1.17) ticks.push_back(static_cast<std::uint32_t>(120 / rpm / 50e-6));
+  for (std::size_t i = ticks.size(); i-- > 0;) ticks.push_back(ticks[i]);
+  return ticks;
+}
+
+TYPED_TEST(Soak, OnAMeasuredCrankGivesTheSameBitsInEveryDriveUpAndDown) {
+  // Each cycle has a whole number of ticks, so that every drive sees the same angles: what differs between two drives is
+  // drift. The first begins from rest and does not count.
+  using Real = TypeParam;
+  using S = MeasuredFourWithValves;
+  const auto engine = started_four<Real, S>();
+  const std::vector<std::uint32_t> cycles = drive_up_and_down();
+  typename Engine<Real, S>::Input in;
+  std::uint64_t of_second_drive = 0;
+  long long ticks = 0;
+  int drives = 0;
+  int bounces = 0;
+  for (const long long until = ticks_to_soak(); ticks < until; ++drives) {
+    Hash hash;
+    for (const std::uint32_t in_cycle : cycles) {
+      for (std::uint32_t i = 0; i < in_cycle; ++i, ++ticks) {
+        // To the last bit back at 0 at the end of the cycle.
+        in.crank = Phase{i + 1 == in_cycle ? 0 : (i + 1) * (~std::uint64_t{0} / in_cycle)};
+        for (std::uint32_t k = 0; k < 4; ++k) in.pressure_Pa[k] = static_cast<Real>(1e5 + 1e3 * ((i + 100 * k) % 500));
+        const auto& out = engine->step(in);
+        ASSERT_EQ(out.faults & ~std::uint32_t{kFaultEventBudget}, 0u) << "tick " << ticks;
+        ASSERT_EQ(engine->state().phase.units(), in.crank.units());
+        hash.add(out.mean_torque_Nm);
+        for (const auto& train : out.valve) {
+          for (const auto& valve : train) hash.add(valve.lift_m), hash.add(valve.velocity_m_s);
+        }
+        ASSERT_FALSE(any_subnormal(engine->state())) << "tick " << ticks;
+      }
+      for (const auto& train : engine->output().valve_cycle) {
+        for (const auto& cycle : train)
+          hash.add(cycle.largest_lift_m), hash.add(cycle.contact_changes), bounces += cycle.bounces > 0 ? 1 : 0;
+      }
+    }
+    if (drives == 1) of_second_drive = hash.value();
+    if (drives > 1) {
+      ASSERT_EQ(hash.value(), of_second_drive) << "drive " << drives;
+    }
+  }
+  std::printf("[ figures  ] %lld ticks, %d drives of %zu cycles, the same bits in each but the first\n", ticks, drives,
+              cycles.size());
+  EXPECT_GT(drives, 3);
+  EXPECT_GT(bounces, 0) << "or nothing happened";
+  EXPECT_EQ(engine->state().ticks, static_cast<std::uint64_t>(ticks));
+}
+
+TYPED_TEST(Soak, AtGivenSpeedsTurnsToTheLastUnitAsIntegersDo) {
+  // At a constant speed every tick adds the same integer: after n ticks the phase is n times it, modulo 2^64. Up, down,
+  // through standstill and backwards; the angle never leaves that, nor do the valves theirs.
+  using Real = TypeParam;
+  using S = FourWithValves;
+  const auto engine = started_four<Real, S>();
+  const long long ticks = ticks_to_soak();
+  constexpr long long kTicksPerSpeed = 199;  // prime, so that speeds begin at ever other angles
+  typename Engine<Real, S>::Input in;
+  double largest_m = 0;
+  for (long long done = 0, speeds = 0; done < ticks; done += kTicksPerSpeed, ++speeds) {
+    in.speed_rad_s = static_cast<Real>(1000 * std::sin(0.01 * static_cast<double>(speeds)));
+    if (speeds % 311 < 3) in.speed_rad_s = Real{0};  // it stalls, wherever its valves are
+    const std::uint64_t begin = engine->state().phase.units();
+    engine->step(in);
+    const std::uint64_t per_tick = engine->state().phase.units() - begin;
+    for (long long i = 1; i < kTicksPerSpeed; ++i) {
+      const auto& out = engine->step(in);
+      for (const auto& train : out.valve) {
+        for (const auto& valve : train) largest_m = std::max(largest_m, std::fabs(static_cast<double>(valve.lift_m)));
+      }
+      ASSERT_FALSE(any_subnormal(engine->state())) << "tick " << done + i;
+    }
+    ASSERT_EQ(engine->output().faults & ~std::uint32_t{kFaultEventBudget}, 0u);
+    ASSERT_EQ(engine->state().phase.units(), begin + static_cast<std::uint64_t>(kTicksPerSpeed) * per_tick)
+        << "from tick " << done;
+  }
+  std::printf("[ figures  ] %lld ticks at changing speeds: largest lift %.4f mm\n", ticks, largest_m * 1e3);
+  EXPECT_GT(largest_m, 7e-3);
+  EXPECT_LT(largest_m, 9e-3) << "7.815 mm of cam, and what a jump of the speed throws";
+}
+
+}  // namespace
+}  // namespace crankloop

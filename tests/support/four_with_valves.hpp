@@ -1,0 +1,103 @@
+// A four-cylinder diesel with eight elastic valves, all of it told, on a measured crank or at a given speed: the engine
+// that faults are injected into and that is run for long.
+//
+// What belongs here: the engine, and its bits. What does not: what is done to it.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <crankloop/tabulate/tabulate.hpp>
+#include <crankloop/tick/engine_step.hpp>
+
+#include "support/output_fields.hpp"
+#include "support/test_engines.hpp"
+#include "support/test_valves.hpp"
+
+namespace crankloop::tick_test {
+
+/// Given the speed.
+struct FourWithValves : Scene {
+  static constexpr Count cylinders = exactly<4>;
+  static constexpr PressureGiven pressure = PressureGiven::by_table;
+  static constexpr bool load_ratio = true;
+  static constexpr bool rod_inertia = true;
+  static constexpr bool kinematics = true;
+  static constexpr bool torque = true;
+  static constexpr bool mean_torque = true;
+  static constexpr bool forces = true;
+  static constexpr ValveModel valves = ValveModel::elastic;
+  static constexpr Count trains = exactly<2>;
+  static constexpr bool valve_forces = true;
+  static constexpr bool valve_results = true;
+  static constexpr bool cam_phasing = true;
+};
+/// Given the angle, and the pressures.
+struct MeasuredFourWithValves : FourWithValves {
+  static constexpr CrankGiven crank = CrankGiven::phase;
+  static constexpr PressureGiven pressure = PressureGiven::by_input;
+  static constexpr bool load_ratio = false;
+  static constexpr bool valve_gas = true;
+};
+
+inline EngineDefinition four_with_valves() {
+  EngineDefinition engine = diesel_495();
+  engine.train_count = 2;
+  for (int t = 0; t < 2; ++t) {
+    engine.trains[t] = valve_test::ohc_125_train();
+    engine.trains[t].cam.full_lift_deg = t == 0 ? 450 : 250;
+    engine.trains[t].cam.phase_rate_deg_s = 2000;
+  }
+  return engine;
+}
+
+/// Tables of it, built once for each scalar and scene.
+template <class Real, class S>
+const TableStorage<Real, S>& tables_of_four(double tick_s = 50e-6) {
+  static const std::unique_ptr<TableStorage<Real, S>> tables = [tick_s] {
+    auto built = std::make_unique<TableStorage<Real, S>>();
+    const Status status = built->build(four_with_valves(), {tick_s, {}});
+    EXPECT_TRUE(status.ok()) << status.field << ": " << describe(status.reason);
+    return built;
+  }();
+  return *tables;
+}
+
+template <class Real, class S>
+[[nodiscard]] std::unique_ptr<Engine<Real, S>> started_four(Phase start = {}) {
+  auto engine = std::make_unique<Engine<Real, S>>();
+  const Status status = engine->init(tables_of_four<Real, S>().tables(), start);
+  EXPECT_TRUE(status.ok()) << status.field << ": " << describe(status.reason);
+  return engine;
+}
+
+inline constexpr support::Used kAllOfFour{4, 0, 2};
+
+/// Its numbers as bits, without the results of the last whole valve cycle and without the faults.
+template <class Real, class S>
+[[nodiscard]] std::vector<std::uint64_t> bits_now(const Output<Real, S>& out) {
+  std::vector<std::uint64_t> all;
+  support::each_output(out, kAllOfFour, [&all](const char* name, std::size_t, auto x) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, &x, sizeof x);
+    if (std::strncmp(name, "cycle_", 6) != 0 && std::strcmp(name, "faults") != 0) all.push_back(word);
+  });
+  return all;
+}
+
+template <class Real, class S>
+[[nodiscard]] bool is_finite(const Output<Real, S>& out) {
+  bool finite = true;
+  support::each_output(out, kAllOfFour, [&finite](const char*, std::size_t, auto x) {
+    finite = finite && std::isfinite(static_cast<double>(x));
+  });
+  return finite;
+}
+
+}  // namespace crankloop::tick_test

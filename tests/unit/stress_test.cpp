@@ -1,0 +1,118 @@
+// `crankloop stress`: what it draws, and that its rules can be broken.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+
+#include <crankloop/tabulate/valve_lift.hpp>
+
+#include "crankloop/commands.hpp"
+#include "crankloop/stress/stability_map.hpp"
+#include "crankloop/stress/stress_case.hpp"
+#include "crankloop/stress/stress_tally.hpp"
+#include "crankloop/stress/stress_trial.hpp"
+
+namespace crankloop::program {
+namespace {
+
+constexpr std::uint64_t kSeed = 20;
+
+TEST(StressCases, AreAFunctionOfSeedAndNumber) {
+  EXPECT_EQ(StressCase(kSeed, 3).text(), StressCase(kSeed, 3).text());
+  std::set<std::string> different;
+  for (std::uint64_t i = 0; i < 100; ++i) different.insert(StressCase(kSeed, i).text());
+  for (std::uint64_t i = 0; i < 100; ++i) different.insert(StressCase(kSeed + 1, i).text());
+  EXPECT_EQ(different.size(), 200u);
+}
+
+TEST(StressCases, CoverTheirRanges) {
+  double slowest = 1, fastest_rpm = 0, shortest_s = 1, longest_s = 0, softest = 1e12, stiffest = 0;
+  int standing = 0, without_clearance = 0, undamped = 0, in_float = 0, backwards = 0;
+  std::set<CamShape> shapes;
+  constexpr int kDraws = 3000;
+  for (int i = 0; i < kDraws; ++i) {
+    const StressCase one(kSeed, static_cast<std::uint64_t>(i));
+    EXPECT_TRUE(validate(one.train).ok()) << one.text();
+    const double speed_rpm = std::fabs(one.speed_rpm);
+    if (speed_rpm > 0) slowest = std::min(slowest, speed_rpm);
+    fastest_rpm = std::max(fastest_rpm, speed_rpm);
+    shortest_s = std::min(shortest_s, one.options.tick_s);
+    longest_s = std::max(longest_s, one.options.tick_s);
+    softest = std::min(softest, one.train.valve.train_N_m);
+    stiffest = std::max(stiffest, one.train.valve.train_N_m);
+    standing += speed_rpm == 0 ? 1 : 0;
+    without_clearance += one.train.rocker.clearance_m == 0 ? 1 : 0;
+    undamped += one.train.valve.train_damping_ratio == 0 ? 1 : 0;
+    in_float += one.in_float ? 1 : 0;
+    backwards += std::signbit(one.speed_rpm) ? 1 : 0;
+    shapes.insert(one.shape);
+  }
+  EXPECT_LT(slowest, 1e-5);
+  EXPECT_GT(fastest_rpm, 28e3);
+  EXPECT_LT(shortest_s, 1.1e-6);
+  EXPECT_GT(longest_s, 1.9e-3);
+  EXPECT_LT(softest, 1.1e6);
+  EXPECT_GT(stiffest, 0.9e9);
+  EXPECT_GT(standing, kDraws / 100);
+  EXPECT_GT(without_clearance, kDraws / 20);
+  EXPECT_GT(undamped, kDraws / 10);
+  EXPECT_NEAR(in_float, kDraws / 2, kDraws / 10);
+  EXPECT_NEAR(backwards, kDraws / 2, kDraws / 10);
+  EXPECT_EQ(shapes.size(), 3u);
+}
+
+TEST(StressCases, KnowTheirCamsCurvatureAsTheLibraryDoes) {
+  int compared = 0;
+  for (std::uint64_t i = 0; compared < 30; ++i) {
+    const StressCase one(kSeed, i);
+    ValveLift lift;
+    if (one.shape == CamShape::dwell || !lift.init(one.train.cam, one.train.rocker).ok()) continue;
+    ++compared;
+    EXPECT_NEAR(one.smallest_radius_m(), lift.smallest_radius_m(), 0.01 * one.train.rocker.base_circle_m) << one.text();
+  }
+}
+
+TEST(StressTrials, OfEightyCasesFindNothing) {
+  StressTrials trials;
+  StressTally tally;
+  for (int i = 0; i < 80; ++i) {
+    const StressCase one(kSeed, static_cast<std::uint64_t>(i));
+    tally.add(i, one, trials.run(one, i % 10 == 0));
+  }
+  for (const StressFailure& failure : tally.failures)
+    ADD_FAILURE() << failure.number << " " << failure.what << ": " << failure.drawn;
+  EXPECT_GT(tally.ran, 50);
+  EXPECT_GT(tally.refusals(), 2);
+  EXPECT_GT(tally.compared, 3);
+}
+
+TEST(StressTrials, AreInaccurateWhereTheMotionIsAnothers) {
+  // A valve that the reference takes for a heavier one: the error is no rounding, and nothing magnifies it.
+  StressTrials trials;
+  int found = 0;
+  int looked_at = 0;
+  for (std::uint64_t i = 0; looked_at < 5; ++i) {
+    StressCase one(kSeed, i);
+    one.reference_mass_ratio = 1.05;
+    const TrialResult result = trials.run(one, true);
+    if (!result.compared || std::fabs(one.speed_rpm) < 1000) continue;
+    ++looked_at;
+    found += result.verdict == Verdict::inaccurate ? 1 : 0;
+  }
+  EXPECT_GE(found, 3);
+}
+
+TEST(StabilityMap, MeasuresTheTheoreticalLimit) {
+  const std::vector<StabilityPoint> map = stability_map();
+  ASSERT_GE(map.size(), 40u);
+  EXPECT_NEAR(map[0].theory, 2 * std::sqrt(2.0), 1e-6) << "undamped: |R|^2 = 1 - x^6/72 + x^8/576";
+  for (const StabilityPoint& point : map) {
+    EXPECT_NEAR(point.measured / point.theory, 1, 0.01) << point.damping_ratio;
+    EXPECT_LT(point.used_most, 0.4 * point.theory) << point.damping_ratio << ": no step comes near it";
+    EXPECT_GT(point.used_most, 0) << point.damping_ratio;
+  }
+}
+
+}  // namespace
+}  // namespace crankloop::program

@@ -1,0 +1,163 @@
+#include "stress_tally.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "../number.hpp"
+#include "stress_comparison.hpp"
+
+namespace crankloop::program {
+namespace {
+
+using report::Paragraph;
+using report::Plot;
+using report::Section;
+
+report::Axis axis(const char* title) {
+  report::Axis one;
+  one.title = title;
+  one.include_zero = true;
+  return one;
+}
+
+Section stability_section(const std::vector<StabilityPoint>& map) {
+  Section section{"stability", "Stability", {}};
+  section.blocks.push_back(Paragraph{
+      "How long a Runge-Kutta step may be before the motion grows: frequency times step, against the damping ratio. "
+      "Measured by running the library's step 2000 times; theory is where its amplification reaches 1. The library "
+      "itself never takes a step longer than the lowest curve, that of the coarsest accuracy class."});
+  Plot plot;
+  plot.title = "Limit of frequency times step";
+  plot.x = axis("Damping ratio");
+  plot.y = axis("Frequency times step");
+  plot.series.resize(3);
+  plot.series[0].name = "theory";
+  plot.series[1].name = "measured";
+  plot.series[1].style.draw = report::Draw::points;
+  plot.series[2].name = "longest used";
+  Plot ratio;
+  ratio.title = "Measured limit over theory";
+  ratio.x = axis("Damping ratio");
+  ratio.y = axis("Ratio");
+  ratio.y.include_zero = false;
+  ratio.series.resize(1);
+  for (const StabilityPoint& point : map) {
+    const double limits[] = {point.theory, point.measured, point.used_most};
+    for (std::size_t i = 0; i < 3; ++i) {
+      plot.series[i].x.push_back(point.damping_ratio);
+      plot.series[i].y.push_back(limits[i]);
+    }
+    ratio.series[0].x.push_back(point.damping_ratio);
+    ratio.series[0].y.push_back(point.measured / point.theory);
+  }
+  section.blocks.push_back(std::move(plot));
+  section.blocks.push_back(std::move(ratio));
+  return section;
+}
+
+/// Which part of the comparisons stays below which error.
+Section accuracy_section(const StressTally& tally) {
+  Section section{"accuracy", "Accuracy", {}};
+  section.blocks.push_back(Paragraph{
+      "Largest error of the lift of each case that was compared: over the accuracy asked for, and over what the rule "
+      "allows, which is " +
+      brief(kMagnified) +
+      " times the accuracy and as much as copies of the reference, knocked by the accuracy at each " +
+      "contact change, get off their course."});
+  Plot plot;
+  plot.title = "Errors in order";
+  plot.x = axis("Per cent of the comparisons");
+  plot.y = axis("Decimal logarithm of the error's ratio");
+  plot.series.resize(2);
+  plot.series[0].name = "to the accuracy asked for";
+  plot.series[1].name = "to what the rule allows";
+  for (int percent = 1; percent <= 100; ++percent) {
+    const double values[] = {quantile(tally.of_class, percent / 100.0), quantile(tally.of_allowed, percent / 100.0)};
+    for (std::size_t i = 0; i < 2; ++i) {
+      plot.series[i].x.push_back(percent);
+      plot.series[i].y.push_back(std::log10(std::max(1e-6, values[i])));
+    }
+  }
+  section.blocks.push_back(std::move(plot));
+  return section;
+}
+
+Section counts_section(const StressTally& tally) {
+  Section section{"counts", "Counts", {}};
+  report::Table refused{"Refused at set-up", {{"Field and reason", ""}, {"Cases", ""}}, {}, false};
+  for (const auto& [reason, times] : tally.refused) refused.rows.push_back({reason, std::to_string(times)});
+  section.blocks.push_back(std::move(refused));
+  report::Table failures{"Failures", {{"Case", ""}, {"What", "", false}, {"Drawn", "", false}}, {}, false};
+  for (const StressFailure& one : tally.failures)
+    failures.rows.push_back({std::to_string(one.number), one.what, one.drawn});
+  if (!tally.failures.empty()) section.blocks.push_back(std::move(failures));
+  return section;
+}
+
+}  // namespace
+
+void StressTally::add(int number, const StressCase& drawn, const TrialResult& result) {
+  const auto fail = [&](int& counter, const char* what) {
+    ++counter;
+    failures.push_back({number, what + (": " + result.trouble), drawn.text()});
+  };
+  switch (result.verdict) {
+    case Verdict::refused:
+      ++refused[std::string(result.refusal.field) + " " + describe(result.refusal.reason)];
+      return;
+    case Verdict::wrongly_refused:
+      return fail(wrongly_refused, "refused but could run");
+    case Verdict::diverged:
+      fail(diverged, "diverged");
+      break;
+    case Verdict::inaccurate:
+      fail(inaccurate, "inaccurate");
+      break;
+    case Verdict::ran:
+      break;
+  }
+  ++ran;
+  ticks += result.ticks;
+  all_cycles += result.all_cycles ? 1 : 0;
+  over_budget += result.over_budget ? 1 : 0;
+  if (!result.compared) return;
+  ++compared;
+  of_class.push_back(result.of_class);
+  if (!result.over_budget) of_allowed.push_back(result.of_allowed);
+}
+
+int StressTally::refusals() const {
+  int sum = 0;
+  for (const auto& [reason, times] : refused) sum += times;
+  return sum;
+}
+
+double quantile(std::vector<double> values, double part) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const auto at = static_cast<std::size_t>(part * static_cast<double>(values.size() - 1));
+  return values[at];
+}
+
+report::Page stress_page(const StressTally& tally, const std::vector<StabilityPoint>& map,
+                         const std::string& command_line) {
+  report::Page page;
+  page.title = "Stress test of elastic valves";
+  page.subtitle = std::to_string(tally.cases) + " random valve trains and operating points, by " + command_line;
+  const auto fact = [&](const char* name, int value, const std::string& note) {
+    page.facts.push_back({name, std::to_string(value), "", note});
+  };
+  fact("Refused", tally.refusals(), "at set-up, rightly");
+  fact("Ran", tally.ran,
+       std::to_string(tally.all_cycles) + " through " + std::to_string(kStressCycles) + " cycles, the others for " +
+           std::to_string(kMostTicks) + " ticks");
+  fact("Compared", tally.compared, "with the converged reference");
+  fact("Diverged", tally.diverged, "");
+  fact("Inaccurate", tally.inaccurate, "");
+  fact("Refused but could run", tally.wrongly_refused, "");
+  page.sections = {stability_section(map), accuracy_section(tally), counts_section(tally)};
+  page.footer = "Made by " + command_line + ".";
+  return page;
+}
+
+}  // namespace crankloop::program

@@ -1,0 +1,181 @@
+#include "stress_trial.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include <crankloop/tabulate/tabulate.hpp>
+#include <crankloop/tabulate/valve_lift.hpp>
+#include <crankloop/tick/engine_step.hpp>
+
+#include "../number.hpp"
+#include "../reference/valve_reference.hpp"
+#include "stress_comparison.hpp"
+#include "stress_energy.hpp"
+
+namespace crankloop::program {
+namespace {
+
+using valve_reference::SingleMass;
+
+constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
+
+/// One cylinder's one valve, everything that is told of it.
+struct StressedValve : Scene {
+  static constexpr ValveModel valves = ValveModel::elastic;
+  static constexpr bool valve_forces = true;
+  static constexpr bool valve_results = true;
+};
+
+EngineDefinition engine_with(const ValveTrain& train) {
+  EngineDefinition engine;
+  engine.crank.bore_m = 0.05;
+  engine.crank.crank_radius_m = 0.03;
+  engine.crank.rod_length_m = 0.1;
+  engine.masses.piston_kg = 0.1;
+  engine.train_count = 1;
+  engine.trains[0] = train;
+  return engine;
+}
+
+Phase phase_at(double deg) {
+  return Phase{static_cast<std::uint64_t>(static_cast<long double>(deg) / 720 * 18446744073709551616.0L)};
+}
+
+/// Fine steps that a tick needs by docs/decisions/0007: the open valve's rate times a whole step at most 1.5, the fastest
+/// times a fine one at most 0.3 for 0.1 um, of fourth order, and 0.9.
+double fine_steps_needed(const SingleMass& mass, const TickOptions& options) {
+  const double open = std::sqrt((mass.k + mass.k_s) / mass.M);
+  const double zeta = (mass.b + mass.c) / (2 * mass.M * open);
+  const double open_rate = zeta <= 1 ? open : open * (zeta + std::sqrt(zeta * zeta - 1));
+  const double fine_rate = std::min(0.9, 0.3 * std::pow(options.valves.accuracy_m / 0.1e-6, 0.25));
+  const double whole = std::ceil(options.tick_s * open_rate / 1.5);
+  return options.tick_s * mass.fastest() / fine_rate + whole;
+}
+
+/// Whether a refused case could have run, by what this file works out by itself.
+bool could_run(const StressCase& drawn, const Status& refused) {
+  if (refused.field == std::string_view("rocker.base_circle")) {
+    // Smoothing bends a table's contour by some hundredths of the base circle.
+    return drawn.smallest_radius_m() > 0.1 * drawn.train.rocker.base_circle_m;
+  }
+  if (refused.field != std::string_view("tick.tick") || refused.reason != Reason::out_of_range) return true;
+  ValveLift lift;
+  if (!lift.init(drawn.train.cam, drawn.train.rocker).ok()) return true;
+  const SingleMass mass(drawn.train.valve, drawn.train.rocker, lift.largest_lift_m());
+  return fine_steps_needed(mass, drawn.options) < 512 - 1;
+}
+
+template <class Real>
+struct Rig {
+  TableStorage<Real, StressedValve> tables;
+  Engine<Real, StressedValve> engine;
+};
+
+double cam_deg_at(Phase engine, double full_lift_deg) {
+  const auto of_cam = static_cast<std::int64_t>((engine - phase_at(full_lift_deg)).units());
+  return static_cast<double>(static_cast<long double>(of_cam) * (360.0L / 18446744073709551616.0L));
+}
+
+/// How far a comparison goes: whole ticks of the reference's steps.
+int ticks_to_compare(const SingleMass& mass, const TickOptions& options, double cam_rad_s, double ticks_per_cycle) {
+  const double turned_deg = std::fabs(cam_rad_s) * options.tick_s / kRadPerDeg;
+  const double steps_per_tick = std::max({1.0, options.tick_s * mass.fastest() / 0.4, turned_deg / 0.25});
+  return static_cast<int>(
+      std::min(kReferenceCycles * ticks_per_cycle, std::max(1.0, kReferenceSteps / steps_per_tick)));
+}
+
+template <class Real>
+void run_ticks(Rig<Real>& rig, const StressCase& drawn, bool compare, TrialResult& result) {
+  ValveLift lift;
+  static_cast<void>(lift.init(drawn.train.cam, drawn.train.rocker));  // build() took it
+  const SingleMass mass(drawn.train.valve, drawn.train.rocker, lift.largest_lift_m());
+  typename Engine<Real, StressedValve>::Input in;
+  in.speed_rad_s = static_cast<Real>(drawn.speed_rad_s());
+  const double cam_rad_s = static_cast<double>(in.speed_rad_s) / 2;
+  const double ticks_per_cycle = 360 * kRadPerDeg / std::max(1e-30, std::fabs(cam_rad_s)) / drawn.options.tick_s;
+  const double wanted = kStressCycles * ticks_per_cycle;
+  result.all_cycles = wanted < kMostTicks;
+  result.ticks = result.all_cycles ? static_cast<int>(wanted) + 1 : kMostTicks;
+
+  auto& engine = rig.engine;
+  const auto& curve = rig.tables.tables().lift_curves[0];
+  const double full_lift_deg = drawn.train.cam.full_lift_deg;
+  EnergyBound energy(mass, LiftFacts(lift), cam_rad_s);
+  SingleMass of_reference = mass;
+  of_reference.M *= drawn.reference_mass_ratio;
+  Comparison comparison(drawn, of_reference, lift, cam_deg_at(engine.state().phase, full_lift_deg),
+                        static_cast<double>(rig.tables.tables().valve_motions[0].fine_s),
+                        sizeof(Real) == 4 ? 0x1p-24 : 0);
+  const int compared_ticks = compare ? ticks_to_compare(mass, drawn.options, cam_rad_s, ticks_per_cycle) : 0;
+  const auto diverged = [&](int tick, const char* how) {
+    result.verdict = Verdict::diverged;
+    result.trouble = std::string(how) + " in tick " + std::to_string(tick);
+  };
+  for (int tick = 0; tick < result.ticks; ++tick) {
+    const std::uint64_t before = engine.state().phase.units() - curve.opens[0];
+    const auto& out = engine.step(in);
+    const auto& valve = out.valve[0][0];
+    const auto& force = out.valve_forces[0][0];
+    if ((out.faults & ~std::uint32_t{kFaultEventBudget}) != 0)
+      return diverged(tick, "a fault other than the event budget's");
+    result.over_budget = result.over_budget || out.faults != 0;
+    for (const Real x : {valve.lift_m, valve.velocity_m_s, valve.acceleration_m_s2, valve.theoretical_lift_m,
+                         force.train_N, force.seat_N, force.tip_N, force.cam_N, force.gap_m}) {
+      if (!std::isfinite(x)) return diverged(tick, "not finite");
+    }
+    energy.tick(static_cast<double>(valve.lift_m), static_cast<double>(valve.velocity_m_s));
+    if (curve.passes_base_circle(before, engine.state().phase.units() - curve.opens[0]) &&
+        !energy.cycle(out.valve_cycle[0][0].contact_changes)) {
+      return diverged(tick, "more energy than the train can have given");
+    }
+    if (tick < compared_ticks) {
+      comparison.tick(cam_deg_at(engine.state().phase, full_lift_deg), static_cast<double>(valve.lift_m),
+                      engine.state().valve[0][0].asleep != 0);
+    }
+  }
+  constexpr double kMostChangesInACycle = 1000;  // of the cycle that has not ended
+  if (!energy.cycle(kMostChangesInACycle)) return diverged(result.ticks, "more energy than the train can have given");
+  if (compared_ticks == 0) return;
+  result.compared = true;
+  result.of_class = comparison.of_class();
+  result.of_allowed = comparison.of_allowed();
+  if (result.of_allowed > 1 && !result.over_budget) {
+    result.verdict = Verdict::inaccurate;
+    result.trouble = brief(result.of_class) + " times the accuracy asked for, " + brief(result.of_allowed) +
+                     " times what the motion magnifies it to";
+  }
+}
+
+template <class Real>
+TrialResult run_in(Rig<Real>& rig, const StressCase& drawn, bool compare) {
+  TrialResult result;
+  result.refusal = rig.tables.build(engine_with(drawn.train), drawn.options);
+  if (result.refusal.ok()) result.refusal = rig.engine.init(rig.tables.tables(), phase_at(drawn.start_deg));
+  if (result.refusal.ok()) {
+    run_ticks(rig, drawn, compare, result);
+  } else if (could_run(drawn, result.refusal)) {
+    result.verdict = Verdict::wrongly_refused;
+    result.trouble = std::string(result.refusal.field) + " " + describe(result.refusal.reason);
+  } else {
+    result.verdict = Verdict::refused;
+  }
+  return result;
+}
+
+}  // namespace
+
+struct StressTrials::Engines {
+  Rig<float> in_float;
+  Rig<double> in_double;
+};
+
+StressTrials::StressTrials() : engines_{std::make_unique<Engines>()} {}
+StressTrials::~StressTrials() = default;
+
+TrialResult StressTrials::run(const StressCase& drawn, bool compare) {
+  return drawn.in_float ? run_in(engines_->in_float, drawn, compare) : run_in(engines_->in_double, drawn, compare);
+}
+
+}  // namespace crankloop::program
