@@ -53,7 +53,7 @@ std::string padded(std::string text, std::size_t width) {
 std::string line_of(const Row& row, std::size_t names, std::size_t settings) {
   std::string line = "  " + padded(row.contestant, names) + "  " + padded(row.real, 6) + "  " + padded(row.setting, settings) + "  ";
   if (row.goal) return line + goal_text(*row.goal);
-  line += padded(short_number(row.ns_median) + " +- " + short_number(row.ns_spread / 2) + " ns per " + row.per, 40);
+  if (std::isfinite(row.ns_median)) line += padded(short_number(row.ns_median) + " +- " + short_number(row.ns_spread / 2) + " ns per " + row.per, 40);
   if (!row.error_unit.empty()) line += "  error " + short_number(row.error) + " " + row.error_unit;
   return line;
 }
