@@ -127,8 +127,6 @@ The command lists each branch that is not taken, with its line.
 
 ## Known gaps
 
-- A closed valve that stands within a degree of where its train would touch it is not put to sleep while the crank stands still. Its
-  vibration then fades through denormal numbers: some processors are slow at these; nothing else comes of it.
 - Bits that flip in a running state are found only by who looks (docs/contract.md "Bits that flip").
 TEXT
 } >docs/reliability.md

@@ -49,9 +49,11 @@ TYPED_TEST(TableTargetsOf, APartWithoutWhatBelongsToItAreRefusedByItsName) {
   for (const auto& pair : pairs) {
     Targets without_grid;
     without_grid.*pair.torque = &torque;
-    EXPECT_TRUE(refuses(answer(without_grid), Reason::missing_table, "targets.gas_grid"));
+    EXPECT_TRUE(refuses(answer(without_grid), Reason::missing_table, "targets.torque_grid"));
     Targets without_segments = without_grid;
-    without_segments.gas_grid = &grid;
+    without_segments.torque_grid = &grid;
+    without_segments.gas_capacity = 719;
+    EXPECT_TRUE(refuses(answer(without_segments), Reason::out_of_range, "targets.gas_capacity"));
     without_segments.gas_capacity = 720;
     EXPECT_TRUE(refuses(answer(without_segments), Reason::missing_table, pair.field));
     Targets without_torque;

@@ -65,7 +65,7 @@ double longest_used(double damping_ratio) {
   body.seat_Ns_m = 2 * damping_ratio;
   ValveMotion<double> motion{};
   constexpr double kTick_s = 50;
-  return motion_of(body, kTick_s, {Integrator::rk4, 10e-6}, motion).ok() ? motion.fine_s : 0;
+  return motion_of(body, kTick_s, {Integrator::rk4, 10e-6}, motion).ok() ? motion.fine.step_s : 0;
 }
 
 }  // namespace

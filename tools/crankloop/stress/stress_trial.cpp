@@ -106,7 +106,7 @@ void run_ticks(Rig<Real>& rig, const StressCase& drawn, bool compare, TrialResul
   SingleMass of_reference = mass;
   of_reference.M *= drawn.reference_mass_ratio;
   Comparison comparison(drawn, of_reference, lift, cam_deg_at(engine.state().phase, full_lift_deg),
-                        static_cast<double>(rig.tables.tables().valve_motions[0].fine_s),
+                        static_cast<double>(rig.tables.tables().valve_motions[0].fine.step_s),
                         sizeof(Real) == 4 ? 0x1p-24 : 0);
   const int compared_ticks = compare ? ticks_to_compare(mass, drawn.options, cam_rad_s, ticks_per_cycle) : 0;
   const auto diverged = [&](int tick, const char* how) {
@@ -132,7 +132,7 @@ void run_ticks(Rig<Real>& rig, const StressCase& drawn, bool compare, TrialResul
     }
     if (tick < compared_ticks) {
       comparison.tick(cam_deg_at(engine.state().phase, full_lift_deg), static_cast<double>(valve.lift_m),
-                      engine.state().valve[0][0].asleep != 0);
+                      engine.state().valve[0][0].sleep == kAsleep);
     }
   }
   constexpr double kMostChangesInACycle = 1000;  // of the cycle that has not ended

@@ -245,10 +245,16 @@ class ValveTick {
     fall_asleep(valve, end, gas);
   }
 
+  /// A closed valve at rest: where the gas holds it on its seat.
+  template <class Gas>
+  [[nodiscard]] constexpr ValveState<Real> resting(const Gas& gas) const noexcept {
+    return {-gas.force_N() * motion_.per_seat_N_m, Real{0}};
+  }
+
   /// Wakes a closed valve: from sleep, where the gas holds it on its seat.
   template <class Gas>
   void wake(ValveCondition<Real>& valve, std::uint64_t from, const Gas& gas) const noexcept {
-    if (valve.sleep == kAsleep) valve.state = {-gas.force_N() * motion_.per_seat_N_m, Real{0}};
+    if (valve.sleep == kAsleep) valve.state = resting(gas);
     valve.train = curve_.read(LiftCurve<Real>::cell(from));
     valve.sleep = kAwake;
   }
@@ -405,11 +411,14 @@ class ValveTick {
   }
 
   /// A closed valve that the train cannot reach settles; once it has come to rest it is put exactly at rest: it costs nothing, and no
-  /// denormal numbers.
+  /// denormal numbers. Where the train stands near it stays awake, at rest.
   template <class Gas>
   constexpr void fall_asleep(ValveCondition<Real>& valve, Cell end, const Gas& gas) const noexcept {
-    if (valve.regime != kSeatOn || !rests_at(end, gas)) return;
-    if (at_rest(valve.state, gas)) {
+    if (valve.regime != kSeatOn) return;
+    const bool still = at_rest(valve.state, gas);
+    if (!rests_at(end, gas)) {
+      if (still) valve.state = resting(gas);
+    } else if (still) {
       valve = {};
     } else if (curve_.outside_m < -kLeastLash_m && trembles(valve.state, kLeastLash_m)) {
       valve.sleep = kSettling;
