@@ -108,6 +108,24 @@ TEST(WorstTick, SpendsABudgetBySharesOfTwoPaths) {
   EXPECT_EQ(bound(kLoop, "1a 1", bounds), 1 + 7 * 8 + 1);
 }
 
+TEST(WorstTick, SpendsOnTheFirstRoundTooWhereTheBoundSaysEach) {
+  const std::string bounds =
+      "loop | engine.hpp | i < cylinders; ++i) { | 7 each spends round | .\n"
+      "budget | round | 6 | .\n";
+  EXPECT_EQ(bound(kLoop, "1a 1", bounds), 1 + 6 * 8 + 1);
+  EXPECT_EQ(refusal(kLoop, "1a 1", "loop | engine.hpp | i < cylinders | 7 each | .\n"), "a bound says '7 each'");
+}
+
+TEST(WorstTick, KnowsWhatWasInlinedByTheCallsAroundIt) {
+  const std::string bounds =
+      "loop | engine.hpp | i < cylinders; ++i) { | 10 | .\n"
+      "code | engine.hpp | locate(i) | vdiv spends place | .\n"
+      "budget | place | 3 | .\n";
+  // Line 5 called from line 2, and from line 4.
+  EXPECT_EQ(bound(kLoop, "1a 1 20 5 20 2", bounds), 1 + 10 * 5 + 3 * 3 + 1);
+  EXPECT_EQ(bound(kLoop, "1a 1 20 5 20 4", bounds), 1 + 10 * 8 + 1);
+}
+
 TEST(WorstTick, TellsWhichCallOfALineSpends) {
   const std::string listing =
       "00000010 <step>:\n"
