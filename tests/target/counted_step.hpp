@@ -58,7 +58,9 @@ void print_limits(const Tables& tables) noexcept {
   using Needs = crankloop::Needs<under_test::Scene>;
   port::Line() << "limit cylinders " << tables.drive->cylinders;
   port::Line() << "limit mechanisms " << tables.drive->mechanisms;
-  port::Line() << "limit trains " << (Needs::any_valves ? tables.drive->trains : 0);
+  const std::uint32_t trains = Needs::any_valves ? tables.drive->trains : 0;
+  port::Line() << "limit trains " << trains;
+  port::Line() << "limit valves " << trains * tables.drive->cylinders;
   std::uint32_t pins = 0;
   std::uint32_t steps = 1;
   std::uint32_t fine_steps = 1;
@@ -66,8 +68,8 @@ void print_limits(const Tables& tables) noexcept {
   if constexpr (Needs::elastic_valves) {
     for (std::uint32_t t = 0; t < tables.drive->trains; ++t) {
       const auto& motion = tables.valve_motions[t];
-      if (motion.steps > steps) steps = motion.steps;
-      if (motion.fine_per_step > fine_steps) fine_steps = motion.fine_per_step;
+      if (motion.whole.parts > steps) steps = motion.whole.parts;
+      if (motion.fine.parts > fine_steps) fine_steps = motion.fine.parts;
     }
   }
   port::Line() << "limit pins " << pins;

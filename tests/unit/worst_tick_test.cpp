@@ -108,6 +108,24 @@ TEST(WorstTick, SpendsABudgetBySharesOfTwoPaths) {
   EXPECT_EQ(bound(kLoop, "1a 1", bounds), 1 + 7 * 8 + 1);
 }
 
+TEST(WorstTick, SpendsOnTheFirstRoundTooWhereTheBoundSaysEach) {
+  const std::string bounds =
+      "loop | engine.hpp | i < cylinders; ++i) { | 7 each spends round | .\n"
+      "budget | round | 6 | .\n";
+  EXPECT_EQ(bound(kLoop, "1a 1", bounds), 1 + 6 * 8 + 1);
+  EXPECT_EQ(refusal(kLoop, "1a 1", "loop | engine.hpp | i < cylinders | 7 each | .\n"), "a bound says '7 each'");
+}
+
+TEST(WorstTick, KnowsWhatWasInlinedByTheCallsAroundIt) {
+  const std::string bounds =
+      "loop | engine.hpp | i < cylinders; ++i) { | 10 | .\n"
+      "code | engine.hpp | locate(i) | vdiv spends place | .\n"
+      "budget | place | 3 | .\n";
+  // Line 5 called from line 2, and from line 4.
+  EXPECT_EQ(bound(kLoop, "1a 1 20 5 20 2", bounds), 1 + 10 * 5 + 3 * 3 + 1);
+  EXPECT_EQ(bound(kLoop, "1a 1 20 5 20 4", bounds), 1 + 10 * 8 + 1);
+}
+
 TEST(WorstTick, TellsWhichCallOfALineSpends) {
   const std::string listing =
       "00000010 <step>:\n"
@@ -198,7 +216,7 @@ TEST(WorstTick, RefusesWhatLeadsAnywhere) {
   EXPECT_EQ(with("bics\tr0, r1"), "no refusal, but 2");
 }
 
-TEST(WorstTick, CopiesABlockThroughWhichALoopHasASecondWayIn) {
+TEST(WorstTick, CopiesWhatALoopWithTwoWaysInRunsBeforeItsHeader) {
   const std::string listing =
       "00000010 <step>:\n"
       "      10:\tcbz\tr0, 16 <step+0x6>\n"
@@ -208,8 +226,27 @@ TEST(WorstTick, CopiesABlockThroughWhichALoopHasASecondWayIn) {
       "      18:\tcmp\tr2, r3\n"
       "      1a:\tbcc.n\t12 <step+0x2>\n"
       "      1c:\tbx\tlr\n";
-  // The way straight to 16, the loop from its head at 12 four times, and out: 1 + 3 + 4 * 5 + 1.
-  EXPECT_EQ(bound(listing, "1a 1", "loop | engine.hpp | i < cylinders; ++i) { | 4 | .\n"), 1 + 3 + 4 * 5 + 1);
+  // The way to a copy of 12 and 14, then the loop from its header at 16. That has the test: four times round, and out at 14 in the fifth.
+  EXPECT_EQ(bound(listing, "1a 1", "loop | engine.hpp | i < cylinders; ++i) { | 4 | .\n"), 1 + 2 + 4 * 5 + 5 + 1);
+}
+
+TEST(WorstTick, TakesTheBlockWhereTheWaysInMeetForTheHeader) {
+  // Ways in at 14, 18 and 1a, which meet at 1a: the first round begins in a copy of what is before that.
+  const std::string listing =
+      "00000010 <step>:\n"
+      "      10:\tcbz\tr0, 18 <step+0x8>\n"
+      "      12:\tcbz\tr1, 1a <step+0xa>\n"
+      "      14:\tadds\tr1, #1\n"
+      "      16:\tcbz\tr1, 1a <step+0xa>\n"
+      "      18:\tadds\tr2, #1\n"
+      "      1a:\tadds\tr2, #1\n"
+      "      1c:\tcbz\tr4, 20 <step+0x10>\n"
+      "      1e:\tadds\tr2, #1\n"
+      "      20:\tcmp\tr2, r3\n"
+      "      22:\tbcc.n\t14 <step+0x4>\n"
+      "      24:\tbx\tlr\n";
+  // Before it 5, the 5 from the header to the test four times, the 3 back to the header three times, and out.
+  EXPECT_EQ(bound(listing, "22 1", "loop | engine.hpp | i < cylinders; ++i) { | 4 | .\n"), 5 + 4 * 5 + 3 * 3 + 1);
 }
 
 TEST(WorstTick, RefusesToRunIntoData) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <string_view>
 
 namespace worst_tick {
 namespace {
@@ -24,6 +25,12 @@ namespace {
   const std::size_t at = cell.find(word);
   if (at == std::string::npos) return {cell, ""};
   return {trimmed(cell.substr(0, at)), trimmed(cell.substr(at + word.size()))};
+}
+
+constexpr std::string_view kEach = " each";
+
+[[nodiscard]] bool ends_in_each(const std::string& rounds) {
+  return rounds.size() > kEach.size() && rounds.compare(rounds.size() - kEach.size(), kEach.size(), kEach) == 0;
 }
 
 [[nodiscard]] bool is_of(const Place& place, const std::string& file) {
@@ -49,8 +56,10 @@ Bounds::Bounds(std::istream& file, const Numbers& limits, Sources& sources) : so
     if (trimmed(line).empty() || trimmed(line)[0] == '#') continue;
     const std::vector<std::string> cell = cells(line);
     if (cell.size() == 5 && cell[0] == "loop") {
-      const auto [rounds, spends] = split_spends(cell[3]);
-      loops_.push_back({cell[1], cell[2], number(rounds, limits), spends});
+      auto [rounds, spends] = split_spends(cell[3]);
+      const bool each = !spends.empty() && ends_in_each(rounds);
+      if (each) rounds.resize(rounds.size() - kEach.size());
+      loops_.push_back({cell[1], cell[2], number(rounds, limits), spends, each});
     } else if (cell.size() == 5 && cell[0] == "code") {
       const auto [instruction, spends] = split_spends(cell[3]);
       const std::size_t space = std::min(instruction.find(' '), instruction.size());
@@ -71,7 +80,7 @@ Bounds::Bounds(std::istream& file, const Numbers& limits, Sources& sources) : so
   }
 }
 
-/// A number, a limit of the image, or a product, a sum or a difference of two.
+/// A number or a limit of the image, or several with + - * between, worked out from the left.
 std::int64_t Bounds::number(const std::string& text, const Numbers& limits) const {
   std::istringstream in(text);
   const auto value = [&](const std::string& word) {
@@ -84,13 +93,15 @@ std::int64_t Bounds::number(const std::string& text, const Numbers& limits) cons
   std::string word, operation;
   in >> word;
   std::int64_t result = value(word);
-  while (in >> operation >> word) {
+  while (in >> operation) {
+    std::string operand;
+    in >> operand;
     if (operation == "+") {
-      result += value(word);
+      result += value(operand);
     } else if (operation == "-") {
-      result -= value(word);
+      result -= value(operand);
     } else if (operation == "*") {
-      result *= value(word);
+      result *= value(operand);
     } else {
       throw Refusal("a bound says '" + text + "'");
     }
@@ -159,9 +170,9 @@ Bounds::Repeats Bounds::repeats(const Function& function, const Graph& graph, st
   const bool tests_first =
       !alone && std::any_of(own.begin(), own.end(), [&](const Test& test) { return test.block == header; });
   const std::int64_t rounds = own[0].bound->rounds;
-  if (tests_first) return {rounds, own[0].bound->spends};
-  if (rounds == 0) return {std::nullopt, ""};
-  return {rounds - 1, own[0].bound->spends};
+  if (tests_first) return {rounds, own[0].bound->spends, false};
+  if (rounds == 0) return {std::nullopt, "", false};
+  return {rounds - 1, own[0].bound->spends, own[0].bound->first_too};
 }
 
 std::optional<std::int64_t> Bounds::instructions(const std::string& function) const {
@@ -172,9 +183,13 @@ std::optional<std::int64_t> Bounds::instructions(const std::string& function) co
 
 std::string Bounds::spends(const Instruction& instruction) const {
   for (const Expense& expense : expenses_) {
+    const auto stems_from = [&](const Place& place) {
+      return is_of(place, expense.file) && sources_.line(place).find(expense.text) != std::string::npos;
+    };
     if (names(expense.mnemonic, instruction.mnemonic) &&
-        instruction.operands.find(expense.operands) != std::string::npos && is_of(instruction.place, expense.file) &&
-        sources_.line(instruction.place).find(expense.text) != std::string::npos) {
+        instruction.operands.find(expense.operands) != std::string::npos &&
+        (stems_from(instruction.place) ||
+         std::any_of(instruction.calls.begin(), instruction.calls.end(), stems_from))) {
       return expense.spends;
     }
   }

@@ -7,8 +7,9 @@
 //
 //     loop | FILE | TEXT | ROUNDS | why                a loop runs its body at most ROUNDS times
 //     loop | FILE | TEXT | ROUNDS spends NAME | why    likewise, and whenever it begins anew it spends one of a budget
-//     code | FILE | TEXT | INSTRUCTION spends NAME | why   so does that line's instruction: a mnemonic, its type left out or not, then
-//                                                      perhaps a piece of its operands
+//     loop | FILE | TEXT | ROUNDS each spends NAME | why    likewise, its first round too, where it is sure to have one
+//     code | FILE | TEXT | INSTRUCTION spends NAME | why   so does that line's instruction, or what was inlined there: a mnemonic, its type
+//                                                      left out or not, then perhaps a piece of its operands
 //     budget | NAME | NUMBER | why                     of one tick
 //     call | FUNCTION | INSTRUCTIONS | why             what a function without source takes, with all that it calls
 #pragma once
@@ -31,6 +32,7 @@ struct LoopBound {
   std::string file, text;
   std::int64_t rounds;
   std::string spends;  ///< empty: nothing
+  bool first_too;      ///< the first round spends as well
 };
 
 struct Expense {
@@ -53,6 +55,7 @@ class Bounds {
   struct Repeats {
     std::optional<std::int64_t> most;
     std::string spends;
+    bool first_too;  ///< whoever enters it spends one besides
   };
   [[nodiscard]] Repeats repeats(const Function& function, const Graph& graph, std::size_t loop) const;
 

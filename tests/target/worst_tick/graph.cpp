@@ -18,14 +18,11 @@ class Builder {
   [[nodiscard]] Graph build() {
     make_blocks();
     prune();
-    for (int copies = 0;; ++copies) {
-      put_in_order();
-      find_dominators();
-      const auto [from, to] = second_way();
-      if (to == kNowhere) break;
-      if (copies == kMostCopies) throw Refusal(where(to) + ": a loop with two ways in");
-      copy_for(from, to);
-    }
+    put_in_order();
+    Blocks reached(graph_.blocks.size(), false);
+    for (const std::size_t b : graph_.order) reached[b] = true;
+    give_single_ways_in(reached);
+    put_in_order();
     find_loops();
     return std::move(graph_);
   }
@@ -101,41 +98,107 @@ class Builder {
     graph_.order.push_back(block);
   }
 
-  /// An edge back to a block past which there is another way: {from, to}, or kNowhere.
-  [[nodiscard]] std::pair<std::size_t, std::size_t> second_way() const {
-    for (const std::size_t b : graph_.order) {
-      for (const std::size_t next : graph_.blocks[b].next) {
-        if (place_[next] <= place_[b] && !dominates_[b][next]) return {b, next};
-      }
-    }
-    return {kNowhere, kNowhere};
+  using Blocks = std::vector<bool>;  ///< whether each is one of a set
+
+  /// All that `from` leads to within a set, itself included if it is one of it.
+  void reach(std::size_t from, const Blocks& within, Blocks& reached) const {
+    if (!is_in(from, within) || reached[from]) return;
+    reached[from] = true;
+    for (const std::size_t next : graph_.blocks[from].next) reach(next, within, reached);
   }
 
-  /// Gives `from` a copy of `to` of its own: the same paths, and one way less into a loop.
-  void copy_for(std::size_t from, std::size_t to) {
-    const Block copy = graph_.blocks[to];
-    auto& next = graph_.blocks[from].next;
-    std::replace(next.begin(), next.end(), to, graph_.blocks.size());
-    graph_.blocks.push_back(copy);
-  }
-
-  /// dominates_[b][d]: every way to b leads through d.
-  void find_dominators() {
+  /// Blocks of which each leads to each, within a set: loops, and what is not a loop yet.
+  [[nodiscard]] std::vector<Blocks> knots(const Blocks& within) const {
     const std::size_t n = graph_.blocks.size();
-    dominates_.assign(n, std::vector<bool>(n, true));
-    dominates_[0].assign(n, false);
-    dominates_[0][0] = true;
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (const std::size_t b : graph_.order) {
-        for (const std::size_t next : graph_.blocks[b].next) {
-          for (std::size_t d = 0; d < n; ++d) {
-            if (d != next && dominates_[next][d] && !dominates_[b][d]) dominates_[next][d] = false, changed = true;
-          }
-        }
+    std::vector<Blocks> after(n, Blocks(n, false));  // one step or more from each
+    for (std::size_t b = 0; b < n; ++b) {
+      if (!is_in(b, within)) continue;
+      for (const std::size_t next : graph_.blocks[b].next) reach(next, within, after[b]);
+    }
+    std::vector<Blocks> found;
+    Blocks done(n, false);
+    for (std::size_t b = 0; b < n; ++b) {
+      if (done[b] || !after[b][b]) continue;
+      found.emplace_back(n, false);
+      for (std::size_t other = 0; other < n; ++other) {
+        if (after[b][other] && after[other][b]) found.back()[other] = done[other] = true;
       }
     }
+    return found;
   }
+
+  /// Makes every knot a loop: a block of it becomes its header, and what can run before that gets a copy outside, from which the paths are
+  /// the same. Then likewise what is knotted within, without the header. Each is smaller than the one before, so that it ends.
+  void give_single_ways_in(const Blocks& within) {
+    for (const Blocks& knot : knots(within)) {
+      const std::vector<std::size_t> entries = ways_into(knot);
+      const std::size_t header = best_header(knot, entries);
+      const Blocks copies = copy(before(header, knot, entries), knot);
+      Blocks inside = knot;
+      inside[header] = false;
+      give_single_ways_in(inside);
+      give_single_ways_in(copies);
+    }
+  }
+
+  /// Blocks of a knot to which others lead, or at which the function begins.
+  [[nodiscard]] std::vector<std::size_t> ways_into(const Blocks& knot) const {
+    std::set<std::size_t> found;
+    if (knot[0]) found.insert(0);
+    for (std::size_t b = 0; b < graph_.blocks.size(); ++b) {
+      for (const std::size_t next : graph_.blocks[b].next) {
+        if (!is_in(b, knot) && is_in(next, knot)) found.insert(next);
+      }
+    }
+    return {found.begin(), found.end()};
+  }
+
+  /// What of a knot can run before its header.
+  [[nodiscard]] Blocks before(std::size_t header, const Blocks& knot, const std::vector<std::size_t>& entries) const {
+    Blocks rest = knot, found(graph_.blocks.size(), false);
+    rest[header] = false;
+    for (const std::size_t entry : entries) reach(entry, rest, found);
+    return found;
+  }
+
+  /// That with the fewest instructions before it: they count besides the loop's rounds.
+  [[nodiscard]] std::size_t best_header(const Blocks& knot, const std::vector<std::size_t>& entries) const {
+    std::size_t best = kNowhere, fewest = kNowhere;
+    for (std::size_t b = 0; b < knot.size(); ++b) {
+      if (!knot[b]) continue;
+      const Blocks copies = before(b, knot, entries);
+      std::size_t instructions = 0;
+      for (std::size_t c = 0; c < copies.size(); ++c) {
+        if (copies[c]) instructions += graph_.blocks[c].end - graph_.blocks[c].begin;
+      }
+      if (instructions < fewest) fewest = instructions, best = b;
+    }
+    return best;
+  }
+
+  /// Copies blocks of a knot: whoever comes from outside it comes to the copies, and goes on in them. Returns the copies.
+  [[nodiscard]] Blocks copy(const Blocks& originals, const Blocks& knot) {
+    const std::size_t n = graph_.blocks.size();
+    std::map<std::size_t, std::size_t> copy_of;
+    for (std::size_t b = 0; b < n; ++b) {
+      if (is_in(b, originals)) copy_of.emplace(b, n + copy_of.size());
+    }
+    if (n + copy_of.size() > kMostBlocks)
+      throw Refusal(where(copy_of.begin()->first) + ": a loop with too many ways in");
+    for (const auto& [original, unused] : copy_of) graph_.blocks.push_back(Block{graph_.blocks[original]});
+    Blocks copies(graph_.blocks.size(), false);
+    for (std::size_t b = 0; b < graph_.blocks.size(); ++b) {
+      copies[b] = b >= n;
+      if (is_in(b, knot)) continue;
+      for (std::size_t& next : graph_.blocks[b].next) {
+        if (copy_of.count(next) != 0) next = copy_of[next];
+      }
+    }
+    return copies;
+  }
+
+  /// Sets do not grow with the graph.
+  [[nodiscard]] static bool is_in(std::size_t block, const Blocks& set) { return block < set.size() && set[block]; }
 
   void find_loops() {
     std::map<std::size_t, std::vector<bool>> body;  // by header
@@ -170,12 +233,11 @@ class Builder {
   }
 
   static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
-  static constexpr int kMostCopies = 50;
+  static constexpr std::size_t kMostBlocks = 5000;
   const Function& function_;
   Graph graph_;
   std::map<std::uint32_t, std::size_t> index_;
   std::vector<std::size_t> place_;  ///< per block, in the order
-  std::vector<std::vector<bool>> dominates_;
 };
 
 }  // namespace

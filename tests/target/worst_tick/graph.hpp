@@ -31,7 +31,8 @@ struct Graph {
   std::vector<Loop> loops;         ///< inner ones before those around them
 };
 
-/// Refuses unknown branches and flow into data. A block through which a loop has a second way in is copied, so a block may be there twice.
+/// Refuses unknown branches and flow into data. What a loop with several ways in runs before its header is copied, so a block may be there
+/// twice.
 [[nodiscard]] Graph graph_of(const Function& function);
 
 }  // namespace worst_tick

@@ -57,7 +57,7 @@ Program read_listing(std::istream& listing) {
 }
 
 void read_places(std::istream& places, Program& program) {
-  std::map<std::uint32_t, Place> of;
+  std::map<std::uint32_t, std::vector<Place>> of;
   std::string line;
   std::uint32_t address = 0;
   while (std::getline(places, line)) {
@@ -66,10 +66,15 @@ void read_places(std::istream& places, Program& program) {
       continue;
     }
     const std::size_t colon = line.rfind(':');
-    if (colon != std::string::npos) of[address] = {line.substr(0, colon), std::atoi(line.c_str() + colon + 1)};
+    if (colon != std::string::npos) of[address].push_back({line.substr(0, colon), std::atoi(line.c_str() + colon + 1)});
   }
   for (auto& [begin, function] : program) {
-    for (Instruction& instruction : function.instructions) instruction.place = of[instruction.address];
+    for (Instruction& instruction : function.instructions) {
+      std::vector<Place>& all = of[instruction.address];
+      if (all.empty()) continue;
+      instruction.place = all.front();
+      instruction.calls.assign(all.begin() + 1, all.end());
+    }
   }
 }
 

@@ -28,6 +28,7 @@ struct Instruction {
   std::string mnemonic;  ///< lower case, without .n or .w
   std::string operands;
   Place place;                ///< of the innermost function, where it was inlined
+  std::vector<Place> calls;   ///< the calls that were inlined around that, from inside out
   bool follows_data = false;  ///< rather than the instruction before it
 };
 
@@ -42,7 +43,7 @@ using Program = std::map<std::uint32_t, Function>;
 /// Reads what `objdump -d --no-show-raw-insn` writes.
 [[nodiscard]] Program read_listing(std::istream& listing);
 
-/// Adds places from what `addr2line -a` answers for addresses of the program.
+/// Adds places from what `addr2line -a -i` answers for addresses of the program.
 void read_places(std::istream& places, Program& program);
 
 /// An address in hexadecimal, for messages.

@@ -98,6 +98,9 @@ Path LongestPath::longest(std::uint32_t address, const Prices& prices) {
         for (auto& [block, path] : through.out) path = path.then(round, *repeats.most);
       }
     }
+    if (repeats.first_too) {
+      for (auto& [block, path] : through.out) path.spend(budget(repeats.spends));
+    }
     loops[loop.header] = through;
   }
   const std::vector<bool> everywhere(blocks.size(), true);

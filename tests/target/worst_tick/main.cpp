@@ -2,7 +2,7 @@
 // whatever their input. It reads machine code, so it holds for this image only, but for every path through it.
 //
 //   LISTING   objdump -d --no-show-raw-insn of the image
-//   PLACES    addr2line -a of the listing's addresses
+//   PLACES    addr2line -a -i of the listing's addresses
 //   LIMITS    what the image tells of its tables: lines "limit NAME NUMBER"
 //   BOUNDS    how often loops run: bounds.hpp
 //

@@ -341,10 +341,11 @@ class ValveTick {
     if (curve_.may_touch(LiftCurve<Real>::cell(reach.from)) || curve_.may_touch(LiftCurve<Real>::cell(reach.to))) return;
     const StepMatrix<Real>& matrix = motion_.fine.matrix[valve.regime];
     const std::uint32_t before = taken;
-    for (; taken < motion_.fine.parts; ++taken) {
+    while (taken < motion_.fine.parts) {
       const ValveState<Real> after = stepped(matrix, valve.state, gas);
       if (after.lift_m <= highest_train_m || seat_acts(motion_.body, after) != (valve.regime == kSeatOn)) break;
       valve.state = after;
+      ++taken;
     }
     if (taken != before && taken < motion_.fine.parts) valve.train = curve_.read(LiftCurve<Real>::cell(reach.from + taken * Parts(motion_.fine, reach).part));
   }
