@@ -11,7 +11,7 @@
 
 namespace crankloop::detail {
 
-/// Contact changes that are located in a tick, over all valves, searches in vain included: it bounds the worst tick.
+/// Contact changes that are located in a tick, over all valves; a fine step searched in vain takes one too. It bounds the worst tick.
 inline constexpr std::uint32_t kEventsPerTick = 16;
 
 template <class Real, class S>
