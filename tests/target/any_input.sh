@@ -13,7 +13,7 @@ image=$2
 "${size%size}objdump" -d --no-show-raw-insn "$image" >"$image.listing"
 sed -n 's/^ *\([0-9a-f]*\):	.*/\1/p' "$image.listing" | "${size%size}addr2line" -a -i -e "$image" >"$image.places"
 tr -d '\r' <"$3" >"$image.limits"
-bound=$("$worst_tick" "$image.listing" "$image.places" "$image.limits" "$here/loop_bounds.conf" '6EngineI.*4stepE')
+bound=$("$worst_tick" "$image.listing" "$image.places" "$image.limits" "$here/loop_bounds.conf" '6EngineI*4stepE')
 # The call besides, with what stands between the readings of the counter: two addresses, a branch, at times a copy. And one by which the
 # counter may err, since the bound is compared with what it says.
 echo $((bound + 4 + 1))
