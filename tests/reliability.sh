@@ -39,6 +39,7 @@ keep soak check crankloop_property_tests build/check/tests/crankloop_property_te
 keep edges check crankloop_unit_tests build/check/tests/crankloop_unit_tests --gtest_filter='TableEdges*'
 keep fuzz fuzz all env CRANKLOOP_FUZZ_SECONDS="$fuzz_seconds" tools/check fuzz
 for log in build/check-logs/fuzz-*.log; do
+  [ -e "$log" ] || continue
   case $log in *-configure.log | *-build.log) continue ;; esac
   [ -s "$logs/${log##*/}" ] || sed -n 's/^Done /Done /p' "$log" >"$logs/${log##*/}"
 done
