@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "../reference/ohc_125.hpp"
+
 namespace crankloop::program::bench {
 namespace {
 
@@ -30,20 +32,9 @@ Crank diesel_495_crank() {
 
 ValveTrain ohc_125_train() {
   ValveTrain train;
-  train.cam.max_lift_m = 6.301099e-3;
-  train.cam.half_angle_deg = 74;
-  train.cam.exponent_count = 4;
-  const double exponents[] = {2, 10, 18, 26};
-  for (int i = 0; i < 4; ++i) train.cam.exponents[i] = exponents[i];
+  shape_as_ohc_125(train.cam, train.rocker);
   train.cam.full_lift_deg = 470;
-  train.rocker.base_circle_m = 12.5e-3;
   train.rocker.clearance_m = 0.05e-3;
-  train.rocker.pivot_to_pad_m = 39.61e-3;
-  train.rocker.pivot_to_cam_m = 30.28e-3;
-  train.rocker.pad_radius_m = 30e-3;
-  train.rocker.pivot_to_screw_m = 33.28e-3;
-  train.rocker.screw_ball_m = 10e-3;
-  train.rocker.stem_above_pivot_m = 1.65e-3;
   train.valve.valve_kg = 0.033;
   train.valve.spring_kg = 0.06;
   train.valve.rocker_inertia_kg_m2 = 8.12e-6;

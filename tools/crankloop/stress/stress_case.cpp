@@ -4,26 +4,13 @@
 #include <cmath>
 
 #include "../number.hpp"
+#include "../reference/ohc_125.hpp"
 
 namespace crankloop::program {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kRadPerDeg = kPi / 180;
-
-/// The 125 cm^3 overhead-cam engine of tools/engines/ohc_125.ini [Li 2017].
-void take_sample(Cam& cam, Rocker& rocker) {
-  cam.max_lift_m = 6.301099e-3;
-  cam.half_angle_deg = 74;
-  for (const double p : {2, 10, 18, 26}) cam.exponents[cam.exponent_count++] = p;
-  rocker.base_circle_m = 12.5e-3;
-  rocker.pivot_to_pad_m = 39.61e-3;
-  rocker.pivot_to_cam_m = 30.28e-3;
-  rocker.pad_radius_m = 30e-3;
-  rocker.pivot_to_screw_m = 33.28e-3;
-  rocker.screw_ball_m = 10e-3;
-  rocker.stem_above_pivot_m = 1.65e-3;
-}
 
 /// 3-4-5 polynomial from 0 to 1: speed and acceleration begin and end at 0.
 double rise(double u) { return u <= 0 ? 0 : u >= 1 ? 1 : u * u * u * (10 + u * (-15 + 6 * u)); }
@@ -58,7 +45,7 @@ void StressCase::draw_cam(Draws& draw) {
   Rocker& rocker = train.rocker;
   shape = static_cast<CamShape>(draw.bits() % 3);
   if (shape == CamShape::sample) {
-    take_sample(cam, rocker);
+    shape_as_ohc_125(cam, rocker);
     rocker.cam_turns = draw.one_in(2) ? CamTurns::toward_pivot : CamTurns::away_from_pivot;
   } else {
     rocker.kind = RockerKind::ratio;
