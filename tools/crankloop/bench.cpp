@@ -1,5 +1,4 @@
 // `crankloop bench`: run time against error, all contestants in one process.
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
@@ -72,13 +71,7 @@ int run_bench(const Arguments& arguments) {
   const std::string text = "# " + bench::describe_machine() + "\n" + bench::to_text(rows);
   bool output_taken = false;
   for (const char* option : {"--json", "--csv", "--report", "--plot"}) output_taken = output_taken || arguments.text_or_empty(option) == "-";
-  if (output_taken) {
-    std::fputs(text.c_str(), stderr);
-  } else {
-    Output out = Output::standard();
-    out.write(text);
-    out.finish();
-  }
+  tell(text, output_taken);
   return kSuccess;
 }
 

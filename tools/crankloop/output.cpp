@@ -103,6 +103,16 @@ void Output::fail(const char* what) {
   throw OutputError((path_.empty() ? "standard output" : path_) + " " + what + ": " + std::strerror(error));
 }
 
+void tell(const std::string& text, bool output_taken) {
+  if (output_taken) {
+    std::fputs(text.c_str(), stderr);
+    return;
+  }
+  Output out = Output::standard();
+  out.write(text);
+  out.finish();
+}
+
 void write_summary(Output& out, std::string_view name, std::string_view text) {
   out.write(name);
   out.write(" = ");

@@ -196,13 +196,7 @@ int run_redline(const Arguments& arguments) {
   if (csv) csv->finish();
   if (page) page->finish();
   const std::string text = summary(redline);
-  if (arguments.text_or_empty("--csv") == "-" || arguments.text_or_empty("--report") == "-") {
-    std::fputs(text.c_str(), stderr);
-  } else {
-    Output out = Output::standard();
-    out.write(text);
-    out.finish();
-  }
+  tell(text, arguments.text_or_empty("--csv") == "-" || arguments.text_or_empty("--report") == "-");
   return kSuccess;
 }
 

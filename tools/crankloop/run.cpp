@@ -1,7 +1,6 @@
 // `crankloop run FILE`: the fixed-step loop over some cycles, its figures, its ticks as CSV, its report.
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
@@ -238,13 +237,7 @@ int run(const Engines& engine, const Request& request, const Arguments& argument
   if (csv_file) csv_file->finish();
   if (report_file) report_file->finish();
   const std::string summary = summary_text(engine, request, figures, wall_time_per_tick_ns);
-  if (request.csv_path == "-" || request.report_path == "-") {
-    std::fputs(summary.c_str(), stderr);
-  } else {
-    Output out = Output::standard();
-    out.write(summary);
-    out.finish();
-  }
+  tell(summary, request.csv_path == "-" || request.report_path == "-");
   return kSuccess;
 }
 

@@ -1,7 +1,6 @@
 // `crankloop valve FILE --train NAME --rpm N`: one elastic valve at constant speed, tick by tick, and what it does in a
 // cycle.
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 
@@ -157,13 +156,7 @@ int run(const LoneValve& valve, const Request& request) {
   if (file) file->finish();
   if (plot) plot->finish();
   const std::string text = summary(valve, request, loop, cycle, change_m);
-  if (request.csv_path == "-" || request.plot_path == "-") {
-    std::fputs(text.c_str(), stderr);
-  } else {
-    Output out = Output::standard();
-    out.write(text);
-    out.finish();
-  }
+  tell(text, request.csv_path == "-" || request.plot_path == "-");
   return kSuccess;
 }
 
