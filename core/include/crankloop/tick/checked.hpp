@@ -38,7 +38,9 @@ template <class Real>
 /// 0 <= x <= most, as within(); `most` positive and finite.
 template <class Real>
 [[nodiscard]] inline bool within_positive(Real x, Real most) noexcept {
-  return bits_of(x) <= bits_of(most) || x == Real{0};  // a zero may have a sign
+  const auto bits = bits_of(x);
+  constexpr auto kNegativeZero = static_cast<decltype(bits_of(x))>(~(~decltype(bits_of(x)){0} >> 1));
+  return bits <= bits_of(most) || bits == kNegativeZero;
 }
 
 /// x if it is good, else the last good one and its fault bit.

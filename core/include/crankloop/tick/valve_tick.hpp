@@ -287,8 +287,11 @@ class ValveTick {
   [[nodiscard]] constexpr ValveState<Real> carried(ValveState<Real> state, const Stride& stride, const LiftStep<Real>& step, std::uint64_t from,
                                                    std::uint64_t to, const Gas& gas) const noexcept {
     const StepMatrix<Real>& matrix = stride.level.matrix[kTrainOn];
-    return stride.width == Width::cubic ? stepped(matrix, state, gas, step) : stepped(matrix, state, gas, step, middle(from, to, stride.deg));
+    return stride.width == Width::cubic ? stepped(matrix, state, gas, step) : stepped(matrix, state, gas, step, middle_apart(from, to, stride.deg));
   }
+
+  /// A call of its own: wide steps are seldom, and the others need not walk round this code.
+  [[nodiscard, gnu::noinline]] LiftMiddle<Real> middle_apart(std::uint64_t from, std::uint64_t to, Real deg) const noexcept { return middle(from, to, deg); }
 
   /// Takes a step if no contact can change in it.
   template <class Gas, class Record>
