@@ -98,9 +98,18 @@ TEST(StressTrials, AreInaccurateWhereTheMotionIsAnothers) {
     const TrialResult result = trials.run(one, true);
     if (!result.compared || std::fabs(one.speed_rpm) < 1000) continue;
     ++looked_at;
-    found += result.verdict == Verdict::inaccurate ? 1 : 0;
+    found += result.verdict == Verdict::inaccurate && result.judged_again ? 1 : 0;
   }
   EXPECT_GE(found, 3);
+}
+
+TEST(StressTrials, AskMoreCopiesBeforeTheyBlameChaos) {
+  // An undamped seat that the valve bounces on twenty times: of most draws four copies get further off than the engine does.
+  StressTrials trials;
+  const TrialResult result = trials.run(StressCase(2, 9730), true);
+  EXPECT_TRUE(result.judged_again);
+  EXPECT_EQ(result.verdict, Verdict::ran) << result.trouble;
+  EXPECT_GT(result.of_class, 10) << "or the case is another";
 }
 
 TEST(StabilityMap, MeasuresTheTheoreticalLimit) {
