@@ -83,6 +83,7 @@ struct InFloat {
   using Valves = crankloop_f_valves;
   using ValveForces = crankloop_f_valve_forces;
   using ValveResults = crankloop_f_valve_results;
+  using BadInputs = crankloop_f_bad_inputs;
   using Snapshot = crankloop_f_snapshot;
   static constexpr std::size_t kSavedBytes = CRANKLOOP_F_SAVED_BYTES;
   static constexpr auto tables_create = crankloop_f_tables_create;
@@ -102,6 +103,7 @@ struct InFloat {
   static constexpr auto read_valves = crankloop_f_read_valves;
   static constexpr auto read_valve_forces = crankloop_f_read_valve_forces;
   static constexpr auto read_valve_results = crankloop_f_read_valve_results;
+  static constexpr auto read_bad_inputs = crankloop_f_read_bad_inputs;
   static constexpr auto take = crankloop_f_take;
   static constexpr auto restore = crankloop_f_restore;
   static constexpr auto save = crankloop_f_save;
@@ -121,6 +123,7 @@ struct InDouble {
   using Valves = crankloop_d_valves;
   using ValveForces = crankloop_d_valve_forces;
   using ValveResults = crankloop_d_valve_results;
+  using BadInputs = crankloop_d_bad_inputs;
   using Snapshot = crankloop_d_snapshot;
   static constexpr std::size_t kSavedBytes = CRANKLOOP_D_SAVED_BYTES;
   static constexpr auto tables_create = crankloop_d_tables_create;
@@ -140,6 +143,7 @@ struct InDouble {
   static constexpr auto read_valves = crankloop_d_read_valves;
   static constexpr auto read_valve_forces = crankloop_d_read_valve_forces;
   static constexpr auto read_valve_results = crankloop_d_read_valve_results;
+  static constexpr auto read_bad_inputs = crankloop_d_read_bad_inputs;
   static constexpr auto take = crankloop_d_take;
   static constexpr auto restore = crankloop_d_restore;
   static constexpr auto save = crankloop_d_save;
@@ -566,6 +570,30 @@ TYPED_TEST(CInterface, RefusesMisuseWithAStatus) {
 }
 
 // ---- state ------------------------------------------------------------------------------------------------------------------------
+
+TYPED_TEST(CInterface, CountsTicksWithBadInputs) {
+  using Api = TypeParam;
+  const auto tables = this->new_tables(diesel_495());
+  const auto engine = this->new_engine(*tables);
+  typename Api::BadInputs bad{};
+  for (const bool again : {false, true}) {
+    for (const double speed : {300.0, 1e9, 300.0, -1e9}) {
+      const auto in = this->at_speed(speed);
+      Api::step(engine.get(), &in, sizeof in);
+    }
+    auto in = this->at_speed(300);
+    in.load_ratio = 3;
+    Api::step(engine.get(), &in, sizeof in);
+    ASSERT_TRUE(ok(Api::read_bad_inputs(engine.get(), &bad, sizeof bad)));
+    EXPECT_EQ(bad.ticks, 3u);
+    EXPECT_EQ(bad.kinds, std::uint32_t{CRANKLOOP_FAULT_SPEED | CRANKLOOP_FAULT_LOAD_RATIO});
+    if (again) continue;
+    ASSERT_TRUE(ok(Api::engine_reset(engine.get(), 0)));
+    ASSERT_TRUE(ok(Api::read_bad_inputs(engine.get(), &bad, sizeof bad)));
+    EXPECT_EQ(bad.ticks | bad.kinds, 0u);
+  }
+  EXPECT_TRUE(answers(Api::read_bad_inputs(nullptr, &bad, sizeof bad), CRANKLOOP_NULL_POINTER, "engine"));
+}
 
 TYPED_TEST(CInterface, RunsSideBySideAndGoesOnFromSnapshotsAndBytesWithTheSameBits) {
   using Api = TypeParam;

@@ -32,6 +32,7 @@ struct MeasuredWithValves : Scene {
   static constexpr bool valve_results = true;
   static constexpr bool valve_gas = true;
   static constexpr bool cam_phasing = true;
+  static constexpr bool bad_input_count = true;
 };
 template class Engine<float, MeasuredWithValves>;
 template class Engine<double, MeasuredWithValves>;
@@ -302,7 +303,8 @@ TYPED_TEST(SavedState, SaysWhatIsWrongWithBytesOfAnotherKind) {
     return bytes;
   };
   EXPECT_TRUE(refuses(refused(with(0, 'X')), Reason::damaged, "state"));
-  EXPECT_TRUE(refuses(refused(with(4, 2)), Reason::other_version, "state"));
+  EXPECT_TRUE(refuses(refused(with(4, 1)), Reason::other_version, "state"));
+  EXPECT_TRUE(refuses(refused(with(4, 3)), Reason::other_version, "state"));
   EXPECT_TRUE(refuses(refused(with(6, 12 - sizeof(Real))), Reason::other_scene, "state"));
   EXPECT_TRUE(refuses(refused(with(8, static_cast<unsigned char>(good[8] + 1))), Reason::other_scene, "state"));
   EXPECT_TRUE(refuses(refused(with(12, static_cast<unsigned char>(good[12] + 1))), Reason::wrong_size, "state.size"));
@@ -326,7 +328,7 @@ TYPED_TEST(SavedState, IsWrittenLeastSignificantByteFirstAsDocumented) {
     return x;
   };
   EXPECT_EQ(std::string(bytes.begin(), bytes.begin() + 4), "CLST");
-  EXPECT_EQ(read(4, 2), 1u);
+  EXPECT_EQ(read(4, 2), 2u);
   EXPECT_EQ(read(6, 2), sizeof(Real));
   EXPECT_EQ(read(12, 4), bytes.size());
   EXPECT_EQ(read(16, 8), rig.one.state().fingerprint);
@@ -394,6 +396,11 @@ TYPED_TEST(SavedState, IsRefusedWhereANumberLiesOutsideWhatAStepCanCompute) {
     ASSERT_TRUE(rig.one.restore(bad).ok());
     const std::vector<unsigned char> bytes = saved(rig.one);
     EXPECT_TRUE(load_state(bytes.data(), bytes.size(), rig.other).ok());
+  }
+  if constexpr (S::bad_input_count) {
+    bad = good;
+    bad.bad_input_kinds = kFaultEventBudget;  // no input's
+    EXPECT_TRUE(refuses(loaded(rig, bad), Reason::out_of_range, "state.bad_input"));
   }
 }
 

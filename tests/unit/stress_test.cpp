@@ -92,15 +92,24 @@ TEST(StressTrials, AreInaccurateWhereTheMotionIsAnothers) {
   StressTrials trials;
   int found = 0;
   int looked_at = 0;
-  for (std::uint64_t i = 0; looked_at < 5; ++i) {
+  for (std::uint64_t i = 0; looked_at < 3; ++i) {
     StressCase one(kSeed, i);
     one.reference_mass_ratio = 1.05;
     const TrialResult result = trials.run(one, true);
     if (!result.compared || std::fabs(one.speed_rpm) < 1000) continue;
     ++looked_at;
-    found += result.verdict == Verdict::inaccurate ? 1 : 0;
+    found += result.verdict == Verdict::inaccurate && result.judged_again ? 1 : 0;
   }
-  EXPECT_GE(found, 3);
+  EXPECT_GE(found, 2);
+}
+
+TEST(StressTrials, AskMoreCopiesBeforeTheyBlameChaos) {
+  // An undamped seat that the valve bounces on twenty times: of most draws four copies get further off than the engine does.
+  StressTrials trials;
+  const TrialResult result = trials.run(StressCase(2, 9730), true);
+  EXPECT_TRUE(result.judged_again);
+  EXPECT_EQ(result.verdict, Verdict::ran) << result.trouble;
+  EXPECT_GT(result.of_class, 10) << "or the case is another";
 }
 
 TEST(StabilityMap, MeasuresTheTheoreticalLimit) {

@@ -287,6 +287,10 @@ TEST(ValveStepping, RefusesWhatItCannotStepAndNamesTheLongestTick) {
         refuses(motion_of(body, 100e-6, {Integrator::rk4, accuracy_m}, motion), Reason::out_of_range, "tick.accuracy"))
         << accuracy_m;
   }
+  for (const int number : {2, 3, 255}) {
+    const ValveStepping unknown{static_cast<Integrator>(number), 0.1e-6};
+    EXPECT_TRUE(refuses(motion_of(body, 100e-6, unknown, motion), Reason::out_of_range, "tick.integrator")) << number;
+  }
   ValveBody<double> boulder = body;
   for (const double mass_kg : {1.1e9, HUGE_VAL, std::nan("")}) {
     boulder.mass_kg = mass_kg;

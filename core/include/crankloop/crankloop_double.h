@@ -162,6 +162,12 @@ typedef struct crankloop_d_valve_results { /* of the last whole cycle */
 } crankloop_d_valve_results;
 CRANKLOOP_API crankloop_status crankloop_d_read_valve_results(const crankloop_d_engine *engine, crankloop_d_valve_results *out, size_t size);
 
+typedef struct crankloop_d_bad_inputs { /* since the engine was created or reset; of its state, so a restored engine goes on from there */
+  uint32_t ticks; /* with a bad input; stays at its largest value */
+  uint32_t kinds; /* their CRANKLOOP_FAULT bits, or-ed */
+} crankloop_d_bad_inputs;
+CRANKLOOP_API crankloop_status crankloop_d_read_bad_inputs(const crankloop_d_engine *engine, crankloop_d_bad_inputs *out, size_t size);
+
 /* ---- state: snapshots within a run of the program, bytes for longer -------------------------------------------------------------- */
 
 typedef struct crankloop_d_snapshot {

@@ -203,6 +203,9 @@ ValveState<double> runge_kutta(const ValveBody<double>& body, std::uint32_t regi
 
 Status motion_of(const ValveBody<double>& body, double tick_s, const ValveStepping& stepping, ValveMotion<double>& motion) noexcept {
   if (!(stepping.accuracy_m >= 0.01e-6 && stepping.accuracy_m <= 10e-6)) return {Reason::out_of_range, -1, "tick.accuracy"};
+  if (stepping.integrator != Integrator::rk4 && stepping.integrator != Integrator::exponential) {
+    return {Reason::out_of_range, -1, "tick.integrator"};  // a number that names no integrator
+  }
   if (!(body.mass_kg <= kHeaviest_kg)) return {Reason::out_of_range, -1, "valve.rocker_inertia"};
   if (!(tick_s > 0 && tick_s <= longest_tick_s(body, stepping))) return {Reason::out_of_range, -1, "tick.tick"};
   const Steps steps = steps_for(body, tick_s, stepping);

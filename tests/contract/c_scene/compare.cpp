@@ -60,6 +60,12 @@ int main() {
     expect_same("valve results", tick, all_of_it_get_valve_results(&engine), static_cast<const ValveResults<Real, S>&>(out));
     expect("the same phase", all_of_it_phase(&engine) == cpp.state().phase.units());
   }
+  expect("no bad input was counted", all_of_it_bad_input_ticks(&engine) == 0 && all_of_it_bad_input_kinds(&engine) == 0);
+  all_of_it_input bad_in = in;
+  bad_in.load_ratio = -1;
+  for (int tick = 0; tick < 3; ++tick) all_of_it_step(&engine, &bad_in);
+  expect("three bad inputs were counted", all_of_it_bad_input_ticks(&engine) == 3);
+  expect("of one kind", all_of_it_bad_input_kinds(&engine) == CRANKLOOP_FAULT_LOAD_RATIO);
 
   // Snapshot by copy, and bytes.
   unsigned char bytes[all_of_it_SAVED_BYTES];

@@ -21,6 +21,7 @@ struct AllOfIt : crankloop::Scene {
   static constexpr bool valve_results = true;
   static constexpr bool valve_gas = true;
   static constexpr bool cam_phasing = true;
+  static constexpr bool bad_input_count = true;
 };
 
 struct TorqueOnly : crankloop::Scene {

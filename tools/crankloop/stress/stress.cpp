@@ -48,6 +48,7 @@ void write_tally(Output& out, const StressTally& tally, const std::vector<Stabil
   count("ticks", static_cast<double>(tally.ticks));
   count("over_event_budget", tally.over_budget);
   count("compared", tally.compared);
+  count("judged_again", tally.judged_again);
   for (const double part : {0.5, 0.9, 0.99, 1.0}) {
     const std::string percent = std::to_string(static_cast<int>(std::lround(100 * part)));
     count("error_of_class_p" + percent, quantile(tally.of_class, part));
@@ -78,6 +79,7 @@ int run_one(const Arguments& arguments) {
   if (!result.trouble.empty()) write_summary(out, "trouble", result.trouble);
   write_summary(out, "ticks", static_cast<double>(result.ticks), "");
   write_summary(out, "over_event_budget", result.over_budget ? "yes" : "no");
+  write_summary(out, "judged_again", result.judged_again ? "yes" : "no");
   write_summary(out, "error_of_class", result.of_class, "");
   write_summary(out, "error_of_allowed", result.of_allowed, "");
   out.finish();

@@ -18,6 +18,9 @@
 namespace crankloop::program {
 
 inline constexpr int kCopies = 4;
+/// So many where kCopies excuse too little: the engine is then like one more copy that luck has put among the far ones, and in
+/// ten thousand comparisons luck comes up.
+inline constexpr int kMoreCopies = 32;
 inline constexpr double kMagnified = 3;
 
 /// Amplitude of the vibration for which an accuracy class is made. Fourth-order Runge-Kutta with w d = x is off by x^5/120
@@ -30,7 +33,7 @@ class Comparison {
  public:
   /// `fine_s` and `rounding` of the engine's steps; rounding 0 for double.
   Comparison(const StressCase& drawn, const valve_reference::SingleMass& mass, const ValveLift& lift, double cam_deg,
-             double fine_s, double rounding)
+             double fine_s, double rounding, int copies)
       : accuracy_m_{drawn.options.valves.accuracy_m},
         runge_kutta_{drawn.options.valves.integrator == Integrator::rk4},
         tick_s_{drawn.options.tick_s},
@@ -39,7 +42,7 @@ class Comparison {
         cam_deg_{cam_deg},
         draw_{drawn.own_seed} {
     const valve_reference::TurnedCam cam(lift);
-    all_.assign(1 + kCopies, valve_reference::Reference(mass, cam));
+    all_.assign(1 + static_cast<std::size_t>(copies), valve_reference::Reference(mass, cam));
     // At rest where the cam stands, as the engine begins.
     const double Y = lift.at(cam_deg * 3.14159265358979323846 / 180).lift_m;
     const double open_m = (mass.k * Y - mass.P) / (mass.k + mass.k_s);

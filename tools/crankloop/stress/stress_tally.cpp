@@ -63,7 +63,9 @@ Section accuracy_section(const StressTally& tally) {
       "allows, which is " +
       brief(kMagnified) +
       " times the accuracy and as much as copies of the reference, knocked by the accuracy at each " +
-      "contact change, get off their course."});
+      "contact change, get off their course. Where " +
+      std::to_string(kCopies) + " copies excuse too little, " + std::to_string(kMoreCopies) + " judge again: " +
+      std::to_string(tally.judged_again) + " times."});
   Plot plot;
   plot.title = "Errors in order";
   plot.x = axis("Per cent of the comparisons");
@@ -122,6 +124,7 @@ void StressTally::add(int number, const StressCase& drawn, const TrialResult& re
   over_budget += result.over_budget ? 1 : 0;
   if (!result.compared) return;
   ++compared;
+  judged_again += result.judged_again ? 1 : 0;
   of_class.push_back(result.of_class);
   if (!result.over_budget) of_allowed.push_back(result.of_allowed);
 }

@@ -29,6 +29,7 @@ struct StressTally {
   int all_cycles = 0;
   int over_budget = 0;
   int compared = 0;
+  int judged_again = 0;
   int wrongly_refused = 0;
   int diverged = 0;
   int inaccurate = 0;

@@ -16,7 +16,8 @@
 //              every tick in which its contact changes: by the accuracy asked for, with Runge-Kutta times as much as its
 //              vibration is wider than kClassAmplitude_m. In float rounding shakes the copies in every tick. So a motion
 //              that magnifies errors excuses an error, by as much as it magnifies, and nothing else does but an exceeded
-//              event budget. (stress_comparison.hpp)
+//              event budget. What is beyond that is judged again with kMoreCopies before it counts as inaccurate.
+//              (stress_comparison.hpp)
 #pragma once
 
 #include <memory>
@@ -43,6 +44,7 @@ struct TrialResult {
   bool all_cycles = false;   ///< reached kStressCycles
   bool over_budget = false;  ///< more contact changes in a tick than are located
   bool compared = false;
+  bool judged_again = false;  ///< with kMoreCopies
   double of_class = 0;    ///< largest error over the accuracy asked for
   double of_allowed = 0;  ///< largest error over what the rule allows
 };

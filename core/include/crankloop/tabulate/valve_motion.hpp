@@ -37,7 +37,8 @@ inline constexpr int kMostFineSteps = 512;
 [[nodiscard]] double longest_tick_s(const ValveBody<double>& body, const ValveStepping& stepping) noexcept;
 
 /// Steps and matrices for a tick. Refuses a tick that needs more than kMostFineSteps ("tick.tick": see longest_tick_s), an accuracy out of
-/// range ("tick.accuracy"), a mass beyond 1e9 kg, which a lever of nearly nothing makes ("valve.rocker_inertia"). O(steps).
+/// range ("tick.accuracy"), a number that names no integrator ("tick.integrator"), a mass beyond 1e9 kg, which a lever of nearly nothing
+/// makes ("valve.rocker_inertia"). O(steps).
 Status motion_of(const ValveBody<double>& body, double tick_s, const ValveStepping& stepping, ValveMotion<double>& motion) noexcept;
 
 /// The same in the tick's own scalar.

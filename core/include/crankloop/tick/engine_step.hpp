@@ -434,6 +434,12 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
   if constexpr (Needs<S>::any_valves) {
     faults |= detail::ValvesStep<Real, S>{tables, state_, output_, phase_before, jumped, head_pressure_Pa}.run(input);
   }
+  if constexpr (S::bad_input_count) {
+    if (const std::uint32_t bad = faults & kInputFaults; bad != 0) {
+      state_.bad_input_kinds |= bad;
+      if (state_.bad_input_ticks != ~std::uint32_t{0}) ++state_.bad_input_ticks;
+    }
+  }
   output_.faults = faults;
   return output_;
 }

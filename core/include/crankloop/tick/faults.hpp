@@ -17,4 +17,7 @@ enum Fault : std::uint32_t {
   kFaultEventBudget = 1u << 6,    ///< more contact changes in a tick than are located: the rest is taken at the end of a fine step
 };
 
+/// Those that an input causes: the scene's bad_input_count counts ticks with any of them.
+inline constexpr std::uint32_t kInputFaults = kFaultSpeed | kFaultLoadRatio | kFaultPressure | kFaultPhaseJump | kFaultCamPhase;
+
 }  // namespace crankloop

@@ -192,6 +192,11 @@ struct CamPhaseState {
   std::uint64_t cam_phase[S::trains.capacity] = {};                 ///< phase units later than defined
   Real cam_phase_target_deg[(S::trains.capacity + 1) / 2 * 2] = {};  ///< last good
 };
+/// Bad inputs since `init`.
+struct BadInputsState {
+  std::uint32_t bad_input_ticks = 0;  ///< ticks with a bad input; stays at its largest value
+  std::uint32_t bad_input_kinds = 0;  ///< their Fault bits, or-ed
+};
 
 template <class Real, class S>
 struct State : StateCore<Real>,
@@ -199,6 +204,7 @@ struct State : StateCore<Real>,
                If<S::mean_torque, WorkState<Real, S>>,
                If<Needs<S>::elastic_valves, ValvesState<Real, S>>,
                If<S::cam_phasing, CamPhaseState<Real, S>>,
-               If<S::valve_results, ValveRecords<Real, S>> {};
+               If<S::valve_results, ValveRecords<Real, S>>,
+               If<S::bad_input_count, BadInputsState> {};
 
 }  // namespace crankloop

@@ -28,7 +28,7 @@
 namespace crankloop {
 
 /// Counts up whenever a release changes the fields or their form.
-inline constexpr std::uint32_t kSavedStateForm = 1;
+inline constexpr std::uint32_t kSavedStateForm = 2;
 
 namespace detail {
 
@@ -44,7 +44,8 @@ template <class S>
   crc.add(static_cast<std::uint32_t>(S::crank));
   crc.add(static_cast<std::uint32_t>(S::pressure));
   crc.add(static_cast<std::uint32_t>(S::valves));
-  for (const bool answer : {S::load_ratio, S::rod_inertia, S::torque, S::mean_torque, S::forces, S::valve_results, S::valve_gas, S::cam_phasing}) {
+  for (const bool answer : {S::load_ratio, S::rod_inertia, S::torque, S::mean_torque, S::forces, S::valve_results, S::valve_gas, S::cam_phasing,
+                            S::bad_input_count}) {
     crc.add(std::uint32_t{answer});
   }
   return crc.value();

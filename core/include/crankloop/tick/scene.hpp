@@ -63,6 +63,7 @@ struct Scene {
   static constexpr bool valve_results = false;  ///< per-cycle results: float, bounce, seating speed; elastic valves
   static constexpr bool valve_gas = false;      ///< cylinder pressure on the valve heads; a train with a head area demands it
   static constexpr bool cam_phasing = false;    ///< Input::cam_phase_deg moves the cams
+  static constexpr bool bad_input_count = false;  ///< State::bad_input_ticks: how many ticks had a bad input, and of which kinds
 };
 
 /// What a scene's answers imply.

@@ -27,6 +27,7 @@ struct Whole : Scene {
   static constexpr bool valve_results = true;
   static constexpr bool valve_gas = true;
   static constexpr bool cam_phasing = true;
+  static constexpr bool bad_input_count = true;
 };
 
 /// Where the pistons are, at an angle that the caller measured.

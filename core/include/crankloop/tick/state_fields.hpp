@@ -62,6 +62,11 @@ struct StateFields {
         for (auto& one : train) record(one, v);
       }
     }
+    if constexpr (S::bad_input_count) {
+      v.group("state.bad_input");
+      v.word(s.bad_input_ticks, kAny);
+      v.word(s.bad_input_kinds, kInputFaults);
+    }
   }
 
  private:
