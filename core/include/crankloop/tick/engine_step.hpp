@@ -37,9 +37,16 @@ struct CrankTurn : If<Needs<S>::cut, CutOfTick>, If<Needs<S>::crank_dynamics, Mo
   Real* head_pressure_Pa;        ///< per cylinder, for the valves
 };
 
+/// What a crank that is turned by forces needs of the look-ups.
+template <class Real>
+struct TurningTorques {
+  Real gas_parts_Nm[2]{};      ///< torque of gas: all of it, or motored and heat
+  Real inertia_slope_kg_m2{};  ///< torque of masses per w^2
+};
+
 /// One tick's work in progress: what is read once per mechanism and added up over cylinders.
 template <class Real, class S>
-struct Step {
+struct Step : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
   using N = Needs<S>;
 
   const Tables<Real, S>& tables;
@@ -48,8 +55,6 @@ struct Step {
   Pose<Real> pose[N::pose ? S::cylinders.capacity : 1];
   Angle<Real> angle[N::mechanisms ? S::cylinders.capacity : 1];
 
-  Real gas_parts_Nm[2]{};      ///< where forces turn the crank: torque of gas, all of it or motored and heat
-  Real inertia_slope_kg_m2{};  ///< and of masses per w^2
   Real torque_Nm{};          ///< at the tick; where forces turn the crank that of gas alone, until its speed is known
   Integral<Real> inertia{};  ///< of the torque of masses per w^2
   Integral<Real> gas[2]{};
@@ -94,7 +99,7 @@ struct Step {
     if constexpr (N::inertia_torque) {
       const IntegratedSegment<Real>& s = tables.inertia_torque->at[at.turn_degree()];
       if constexpr (N::crank_dynamics) {
-        inertia_slope_kg_m2 = value(s.slope, at.u);
+        this->inertia_slope_kg_m2 = value(s.slope, at.u);
       } else if constexpr (!S::forces) {
         torque_Nm = state.speed_rad_s * state.speed_rad_s * value(s.slope, at.u);
       }
@@ -106,12 +111,12 @@ struct Step {
       if constexpr (N::load) {
         gas_Nm = gas_torque(*tables.gas_torque_motored, segment, at.u, 0);
         Real heat_Nm = gas_torque(*tables.gas_torque_heat, segment, at.u, 1);
-        if constexpr (N::crank_dynamics) gas_parts_Nm[0] = gas_Nm, gas_parts_Nm[1] = heat_Nm;
+        if constexpr (N::crank_dynamics) this->gas_parts_Nm[0] = gas_Nm, this->gas_parts_Nm[1] = heat_Nm;
         if constexpr (N::cut) heat_Nm -= CutHeat<Real, S>(tables, cut_cylinders).torque_Nm(state.phase);
         gas_Nm += state.load_ratio * heat_Nm;
       } else {
         gas_Nm = gas_torque(*tables.gas_torque_full, segment, at.u, 0);
-        if constexpr (N::crank_dynamics) gas_parts_Nm[0] = gas_Nm;
+        if constexpr (N::crank_dynamics) this->gas_parts_Nm[0] = gas_Nm;
       }
       if constexpr (!S::forces || N::crank_dynamics) torque_Nm += gas_Nm;
     }
@@ -130,7 +135,7 @@ struct Step {
     for (std::uint32_t k = 0; k < count<S>(drive.cylinders); ++k) {
       torque_Nm += (state.pressure_Pa[k] - tables.body->crankcase_Pa) * tables.body->bore_area_m2 * pose[drive.mechanism_of[k]].slope_m;
     }
-    gas_parts_Nm[0] = torque_Nm;
+    this->gas_parts_Nm[0] = torque_Nm;
   }
 
   /// J_eff: the integral of the torque of masses per w^2 is minus half of the part that changes.
@@ -142,7 +147,7 @@ struct Step {
   void start_crank() noexcept {
     if constexpr (N::crank_dynamics) {
       state.per_root_inertia = Real{1} / square_root(inertia_kg_m2());
-      state.inertia_slope_kg_m2 = inertia_slope_kg_m2;
+      state.inertia_slope_kg_m2 = this->inertia_slope_kg_m2;
     }
   }
 
@@ -151,8 +156,8 @@ struct Step {
     if constexpr (N::crank_dynamics) {
       if constexpr (N::input_pressure) add_given_pressures();
       CrankStep<Real>& motion = *crank.motion;
-      motion.arrive({gas_work_J(crank), torque_Nm, inertia_kg_m2(), inertia_slope_kg_m2});
-      torque_Nm += inertia_slope_kg_m2 * (state.speed_rad_s * state.speed_rad_s);
+      motion.arrive({gas_work_J(crank), torque_Nm, inertia_kg_m2(), this->inertia_slope_kg_m2});
+      torque_Nm += this->inertia_slope_kg_m2 * (state.speed_rad_s * state.speed_rad_s);
       out.crank = state.phase;
       motion.show(out);
       if constexpr (S::starter) out.starter_Nm = motion.starter_Nm();
@@ -285,7 +290,7 @@ struct Step {
     if constexpr (N::work) {
       state.inertia = inertia;
       state.torque_Nm = torque_Nm;
-      if constexpr (N::crank_dynamics) state.gas_Nm[0] = gas_parts_Nm[0], state.gas_Nm[1] = gas_parts_Nm[1];
+      if constexpr (N::crank_dynamics) state.gas_Nm[0] = this->gas_parts_Nm[0], state.gas_Nm[1] = this->gas_parts_Nm[1];
       if constexpr (N::gas_torque) {
         state.gas[0] = gas[0];
         if constexpr (N::load) state.gas[1] = gas[1];
@@ -515,11 +520,7 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
   }
 
   [[maybe_unused]] Real head_pressure_Pa[S::valve_gas ? S::cylinders.capacity : 1];
-  detail::CrankTurn<Real, S> crank;
-  crank.turned = turned;
-  crank.jumped = jumped;
-  crank.mean_pressure_Pa = mean_pressure_Pa;
-  crank.head_pressure_Pa = head_pressure_Pa;
+  detail::CrankTurn<Real, S> crank{{}, {}, turned, jumped, mean_pressure_Pa, head_pressure_Pa};
   if constexpr (Needs<S>::cut) crank.cut_cylinders = input.cut_cylinders;
   if constexpr (Needs<S>::crank_dynamics) {
     faults |= detail::run_turned_by_forces(tables, state_, output_, crank, input);
