@@ -5,7 +5,9 @@
 //
 // The state is the reduced speed u = w sqrt(J_eff): u^2 / 2 is the kinetic energy, so work changes it without a term in dJ/da, and an energy
 // balance is kept to rounding. A tick is half of the friction, then gas, load and starter over the angle turned, then the other half of the
-// friction: second order, and friction can stop the crank but never turn it back.
+// friction: second order, and friction can stop the crank but never turn it back. The angle is predicted from the speed and its rate; when the
+// tick's other end is known too, a better value is (the cubic through both), and what lacks is turned in the next tick: without friction the
+// method is then of third order, at the price of one number.
 #pragma once
 
 #include <crankloop/tick/io.hpp>
@@ -32,13 +34,14 @@ class CrankStep {
     held_ = holds(push_Nm);
     if (held_) {
       state_.owed_J = Real{0};
+      state_.lag_rad_s = Real{0};
       return Phase{};
     }
     const Real per_root = state_.per_root_inertia;
-    const Real masses_Nm = state_.inertia_slope_kg_m2 * (speed_rad_s_ * speed_rad_s_);
-    const Real acceleration = limited((push_Nm + masses_Nm) * (per_root * per_root), crank_.most_rad_s2);
     ahead_ = state_.reduced_speed + tick_s * (push_Nm * per_root);
-    mean_rad_s_ = held_to_limit(speed_rad_s_ + acceleration * (tick_s / 2));
+    start_ = {speed_rad_s_, acceleration_rad_s2(push_Nm)};
+    predicted_rad_s_ = held_to_limit(start_.speed_rad_s + start_.acceleration_rad_s2 * (tick_s / 2));
+    mean_rad_s_ = limited(predicted_rad_s_ + state_.lag_rad_s, drive_.speed_limit_rad_s);
     return Phase::from_cycles(mean_rad_s_ * drive_.cycles_per_tick_per_rad_s);
   }
 
@@ -61,13 +64,11 @@ class CrankStep {
     gas_Nm_ = at.gas_Nm;
     if (held_) return;
     gain(at.gas_work_J + (starter_Nm(mean_rad_s_) - state_.load_Nm) * turned_rad());
-    speed_rad_s_ = state_.reduced_speed * per_root;
+    const Real reached_rad_s = state_.reduced_speed * per_root;
+    speed_rad_s_ = held_to_limit(reached_rad_s);
+    if (speed_rad_s_ != reached_rad_s) set_reduced(speed_rad_s_ / per_root);
+    state_.lag_rad_s = cubic_rad_s() - predicted_rad_s_;
     slow_down(friction_s_);
-    const Real allowed = held_to_limit(speed_rad_s_);
-    if (allowed != speed_rad_s_) {
-      speed_rad_s_ = allowed;
-      set_reduced(allowed / per_root);
-    }
   }
 
   /// At the end of the tick. `motion` has the phase already.
@@ -80,9 +81,8 @@ class CrankStep {
     } else if (w < 0 || (w == Real{0} && push_Nm < 0)) {
       friction_Nm = -friction_Nm;
     }
-    const Real net_Nm = push_Nm - friction_Nm + state_.inertia_slope_kg_m2 * (w * w);
     motion.speed_rad_s = w;
-    motion.acceleration_rad_s2 = limited(net_Nm * (state_.per_root_inertia * state_.per_root_inertia), crank_.most_rad_s2);
+    motion.acceleration_rad_s2 = acceleration_rad_s2(push_Nm - friction_Nm);
     motion.friction_Nm = friction_Nm;
   }
 
@@ -113,6 +113,17 @@ class CrankStep {
   }
   /// At standstill friction meets any push up to its constant part.
   [[nodiscard]] bool holds(Real push_Nm) const noexcept { return state_.reduced_speed == Real{0} && size(push_Nm) <= crank_.drag_Nm; }
+
+  /// By torques beside that of the masses.
+  [[nodiscard]] Real acceleration_rad_s2(Real push_Nm) const noexcept {
+    const Real net_Nm = push_Nm + state_.inertia_slope_kg_m2 * (speed_rad_s_ * speed_rad_s_);
+    return limited(net_Nm * (state_.per_root_inertia * state_.per_root_inertia), crank_.most_rad_s2);
+  }
+  /// Mean speed of the cubic angle that has speed and acceleration of the tick's both ends, friction apart.
+  [[nodiscard]] Real cubic_rad_s() const noexcept {
+    const Real end_rad_s2 = acceleration_rad_s2(gas_Nm_ + starter_Nm(speed_rad_s_) - state_.load_Nm);
+    return (start_.speed_rad_s + speed_rad_s_) / 2 + drive_.tick_s * static_cast<Real>(1.0 / 12) * (start_.acceleration_rad_s2 - end_rad_s2);
+  }
 
   void set_reduced(Real reduced_speed) noexcept {
     state_.reduced_speed = reduced_speed;
@@ -176,11 +187,13 @@ class CrankStep {
   CrankState<Real>& state_;
   Real& speed_rad_s_;
   Real speed_before_rad_s_;
-  Real mean_rad_s_{};    ///< of the angle turned
-  Real ahead_{};         ///< u at the tick's end by the forces at its start: only its sign counts
-  Real friction_s_{};    ///< time that is left for friction
+  CrankRate<Real> start_{};  ///< after the first half of the friction
+  Real predicted_rad_s_{};   ///< mean speed by the start alone
+  Real mean_rad_s_{};        ///< of the angle turned
+  Real ahead_{};             ///< u at the tick's end by the forces at its start: only its sign counts
+  Real friction_s_{};        ///< time that is left for friction
   Real gas_before_Nm_{};
-  Real gas_Nm_{};        ///< at the end of the tick
+  Real gas_Nm_{};            ///< at the end of the tick
   bool held_ = false;    ///< by friction, at standstill
   bool starter_ = false;
   bool overspeed_ = false;

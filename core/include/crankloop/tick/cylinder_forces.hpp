@@ -24,13 +24,6 @@ struct Pose {
   Real radial;             ///< cos(a + b) / cos b
 };
 
-/// How the crank turns where its speed changes.
-template <class Real>
-struct CrankRate {
-  Real speed_rad_s;
-  Real acceleration_rad_s2;
-};
-
 /// All forces of a cylinder at a speed w, constant or with its rate. With RodInertia the couple dM = dI d2b/dt2 is in every force, as in docs/model.md.
 ///
 /// (radial, slope / r) is the vector (1, tan b) turned by a, so sin a and cos a need no table of their own:

@@ -57,6 +57,13 @@ struct Input : CrankInput<Real, S>,
                If<S::starter, StarterInput>,
                If<Needs<S>::cut, CylinderCutInput> {};
 
+/// How the crank turns where its speed changes.
+template <class Real>
+struct CrankRate {
+  Real speed_rad_s;
+  Real acceleration_rad_s2;
+};
+
 // ---- output ----------------------------------------------------------------------------------------------------------------
 
 /// Motion of each piston, positive toward the crankshaft, counted from top dead centre.
@@ -223,7 +230,9 @@ struct CrankState {
   Real inertia_slope_kg_m2 = 0;   ///< torque of masses per w^2 there
   Real gas_Nm[2] = {};            ///< gas torque there: as in WorkState::gas, of pressures given in [0]
   Real owed_J = 0;                ///< work that a reversal has left over, at most 0
+  Real lag_rad_s = 0;             ///< by how much the last tick should have turned faster
   Real load_Nm = 0;               ///< last good
+  Real crank_spare = 0;           ///< keeps the size a multiple of eight: no padding
 };
 template <class Real, class S>
 struct LastPressure {
@@ -255,7 +264,7 @@ template <class Real, class S>
   static_assert(Needs<S>::crank_dynamics, "where the speed is an input, give it there");
   state.speed_rad_s = speed_rad_s;
   state.reduced_speed = speed_rad_s / state.per_root_inertia;
-  state.reduced_rest = state.owed_J = Real{0};
+  state.reduced_rest = state.owed_J = state.lag_rad_s = Real{0};
   return state;
 }
 

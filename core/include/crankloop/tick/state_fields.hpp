@@ -53,7 +53,9 @@ struct StateFields {
       v.number(s.inertia_slope_kg_m2, -kMostInertia_kg_m2, kMostInertia_kg_m2);
       for (auto& torque : s.gas_Nm) v.number(torque, -kMostWork, kMostWork);
       v.number(s.owed_J, -kMostWork, Real{0});
+      v.number(s.lag_rad_s, -kMostLag_rad_s, kMostLag_rad_s);
       v.number(s.load_Nm, -kMostLoad_Nm, kMostLoad_Nm);
+      v.spare(s.crank_spare);
     }
     if constexpr (N::elastic_valves) {
       v.group("state.valve");
@@ -77,6 +79,7 @@ struct StateFields {
  private:
   static constexpr Real kMostPressure_Pa = static_cast<Real>(1e8);
   static constexpr Real kMostWork = static_cast<Real>(1e15);    ///< J and Nm; the largest engine that can be defined has 1e10
+  static constexpr Real kMostLag_rad_s = static_cast<Real>(1e5);  ///< some speed limits
   static constexpr Real kMostLoad_Nm = static_cast<Real>(crankloop::kMostLoad_Nm);
   static constexpr Real kMostInertia_kg_m2 = static_cast<Real>(1e9);  ///< J_eff of the largest engine that can be defined has 1e8
   static constexpr Real kMostReducedSpeed = static_cast<Real>(1e9);   ///< sqrt(J): that times the speed limit
