@@ -15,6 +15,7 @@ enum Fault : std::uint32_t {
                                 ///< torque that at the tick
   kFaultCamPhase = 1u << 5,       ///< a cam phase target not finite or outside -180 to 180 deg: the last good one was used
   kFaultEventBudget = 1u << 6,    ///< more contact changes in a tick than are located: the rest is taken at the end of a fine step
+  kFaultTriggerEdges = 1u << 8,   ///< more edges of a trigger wheel in a tick than the scene has room for: the first are listed, all are counted
 };
 
 }  // namespace crankloop

@@ -63,6 +63,8 @@ struct Scene {
   static constexpr bool valve_results = false;  ///< per-cycle results: float, bounce, seating speed; elastic valves
   static constexpr bool valve_gas = false;      ///< cylinder pressure on the valve heads; a train with a head area demands it
   static constexpr bool cam_phasing = false;    ///< Input::cam_phase_deg moves the cams
+  static constexpr Count triggers = exactly<0>;  ///< trigger wheels: their signals and the edges in each tick
+  static constexpr std::uint32_t trigger_edges = 8;  ///< of a wheel in a tick that there is room for
 };
 
 /// What a scene's answers imply.
@@ -90,6 +92,9 @@ struct Needs {
   static constexpr bool gas_pressure = cylinder_pressure && table_pressure;
   static constexpr bool load = S::load_ratio && table_pressure;
   static constexpr bool mechanisms = stroke || acceleration || rod_angle || rod_curvature || cylinder_pressure;
+  static constexpr bool any_triggers = S::triggers.capacity > 0;
+  /// The speed may change within a tick; a speed or an angle that is given holds until the next.
+  static constexpr bool bent_path = S::crank != CrankGiven::speed && S::crank != CrankGiven::phase;
   static constexpr std::uint32_t valve_count = any_valves ? S::trains.capacity * S::cylinders.capacity : 0;
 };
 
@@ -105,6 +110,8 @@ struct CheckedScene {
                 "valve forces, results and gas force need elastic valves");
   static_assert(S::valves != ValveModel::none || !S::cam_phasing, "cam_phasing needs valves");
   static_assert(!S::valve_gas || S::pressure != PressureGiven::none, "valve_gas needs a pressure");
+  static_assert(S::triggers.capacity <= kMaxTriggerWheels, "an engine has at most 8 trigger wheels");
+  static_assert(S::trigger_edges >= 1 && S::trigger_edges <= 2 * kMaxTriggerEdges, "trigger_edges is 1 to 1440: two turns of the finest wheel");
   static constexpr bool value = true;
 };
 
