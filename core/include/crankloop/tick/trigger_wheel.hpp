@@ -133,14 +133,23 @@ class TriggerTick {
     pass(back, [&] { return BentPace<Real>{since, Real{0}, magnitude(bend)}; });
   }
 
-  /// Counts the edges of a sweep, lists as many as there is room for, and stands at its end. Most sweeps pass none: one search.
+  /// Most sweeps pass no edge: one search and a comparison.
   template <class PaceOf>
   void pass(const Sweep& sweep, const PaceOf& pace_of) noexcept {
-    const std::uint64_t bottom = sweep.forward ? sweep.from : sweep.to();
     const std::uint64_t top = sweep.forward ? sweep.to() : sweep.from;
     const std::uint32_t last = edge_behind(wheel_, angle(top));
-    if (top - at(last) >= sweep.span) return stand_at(last);  // it lies at the bottom, or below
+    if (top - at(last) < sweep.span) {
+      list(sweep, last, pace_of);
+    } else {  // it lies at the bottom, or below
+      stand_at(last);
+    }
+  }
 
+  /// Counts the edges of a sweep up to its last, lists as many as there is room for, and stands at its end. A call of its own, so that its
+  /// registers are not those of a sweep without edges.
+  template <class PaceOf>
+  [[gnu::noinline]] void list(const Sweep& sweep, std::uint32_t last, const PaceOf& pace_of) noexcept {
+    const std::uint64_t bottom = sweep.forward ? sweep.from : sweep.to();
     const std::uint32_t before_first = edge_behind(wheel_, angle(bottom));
     const std::uint32_t passed = last > before_first ? last - before_first : last + wheel_.edge_count - before_first;
     const auto pace = pace_of();
