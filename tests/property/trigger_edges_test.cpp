@@ -196,12 +196,12 @@ TYPED_TEST(TriggerEdges, AreNeitherLostNorDoubledThroughSpeedsReversalsAndPhaser
       for (std::uint32_t w = 0; w < tables.triggers->count; ++w) {
         const TriggerTrack& track = tables.triggers->wheel[w];
         if (w == static_cast<std::uint32_t>(random.whole(0, 31))) {
-          state.phase = Phase{track.starts + (std::uint64_t{track.edges[static_cast<std::size_t>(random.whole(0, static_cast<int>(track.edge_count) - 1))]} << (32 - track.doublings))};
+          state.phase = Phase{track.starts + (std::uint64_t{track.edges[static_cast<std::size_t>(random.whole(0, static_cast<int>(track.edge_count) - 1))]} << (32 - track.on_crank))};
         }
       }
       for (std::uint32_t w = 0; w < tables.triggers->count; ++w) {
         const TriggerTrack& track = tables.triggers->wheel[w];
-        wheels[w] = {&track, static_cast<Wide>(static_cast<std::uint64_t>((state.phase.units() - track.starts) << track.doublings))};
+        wheels[w] = {&track, static_cast<Wide>(static_cast<std::uint64_t>((state.phase.units() - track.starts) << track.on_crank))};
       }
     }
     const Move move = random_move(random, speed, cam, most);
@@ -215,8 +215,8 @@ TYPED_TEST(TriggerEdges, AreNeitherLostNorDoubledThroughSpeedsReversalsAndPhaser
     for (std::uint32_t w = 0; w < tables.triggers->count; ++w) {
       const TriggerTrack& track = tables.triggers->wheel[w];
       const Wide gone = Wide{move.turned} - (track.train == kNoTrain ? 0 : Wide{move.cam_move});
-      const Wide to = wheels[w].at + gone * (track.doublings != 0 ? 2 : 1);
-      const long double bend_turns = static_cast<long double>(bend) * (track.doublings != 0 ? 2 : 1);
+      const Wide to = wheels[w].at + gone * (track.on_crank != 0 ? 2 : 1);
+      const long double bend_turns = static_cast<long double>(bend) * (track.on_crank != 0 ? 2 : 1);
       ASSERT_NO_FATAL_FAILURE(check_tick(out->trigger[w], wheels[w], to, bend_turns, tick_s, accuracy))
           << random.trace(i) << ", wheel " << w << ", turned " << move.turned << ", bend " << static_cast<double>(bend) << ", cam " << move.cam_move;
       wheels[w].at = to;

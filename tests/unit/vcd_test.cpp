@@ -1,6 +1,8 @@
 // The VCD writer, read back by a reader of its own: whitespace-separated tokens, as IEEE 1364 has them.
 #include "crankloop/vcd.hpp"
 
+#include "crankloop/run_signals.hpp"
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -154,6 +156,33 @@ TEST_F(VcdTest, HasCodesForMoreSignalsThanThereArePrintableCharacters) {
   const Dump dump = read_dump(path_);
   ASSERT_EQ(dump.changes.size(), names.size());
   for (std::size_t i = 0; i < names.size(); ++i) expect_change(dump.changes[i], static_cast<long long>(i), names[i], 1);
+}
+
+TEST_F(VcdTest, OfARunHasTheTeethOfItsWheelsAtTheirTimes) {
+  // 495: 60-2 from 246 deg on, a tooth every 6 deg; half a moon from 540 to 900 deg. At 2000 rpm a degree takes 83.333 us.
+  const EngineFile engine = read_engine_file(CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495.ini", {});
+  write_signals(engine, {2000, 100e-6, 1}, 2, path_);
+  const Dump dump = read_dump(path_);
+  EXPECT_EQ(dump.scope, "495_diesel");
+  EXPECT_EQ(dump.end_ns, 120'000'000) << "two cycles";
+  std::map<std::string, std::vector<long long>> rises_ns, falls_ns;
+  for (const Dump::Change& change : dump.changes) {
+    if (change.time_ns > 0) (change.value != 0 ? rises_ns : falls_ns)[change.name].push_back(change.time_ns);
+  }
+  const auto expect_times = [](const std::vector<long long>& times_ns, const std::vector<double>& degrees) {
+    ASSERT_EQ(times_ns.size(), degrees.size());
+    for (std::size_t i = 0; i < degrees.size(); ++i) EXPECT_NEAR(static_cast<double>(times_ns[i]), degrees[i] / 12e-6, 1.0);
+  };
+  std::vector<double> teeth_deg;
+  for (double turn_deg = 246 - 360; turn_deg < 1440; turn_deg += 360) {
+    for (int tooth = 0; tooth < 58; ++tooth) {
+      if (const double deg = turn_deg + 6 * tooth; deg > 0 && deg <= 1440) teeth_deg.push_back(deg);
+    }
+  }
+  expect_times(rises_ns["crank"], teeth_deg);
+  expect_times(rises_ns["cam"], {540, 1260});
+  expect_times(falls_ns["cam"], {180, 900});
+  expect_change(dump.changes.at(1), 0, "cam", 1);
 }
 
 }  // namespace

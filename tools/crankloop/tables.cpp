@@ -236,13 +236,13 @@ void print_triggers(Printer& p, const TriggerWheels& triggers) {
     p.text("{\n");
     std::uint32_t first = 0;
     for (std::uint32_t w = 0; w < triggers.count; ++w) {
-      const auto& [edges, edge_count, doublings, starts, train, inverted, edges_before] = triggers.wheel[w];
+      const auto& [edges, edge_count, on_crank, starts, train, inverted, edges_before] = triggers.wheel[w];
       p.text("  {trigger_edges + " + std::to_string(first));
       const auto next = [&p](const auto& x) {
         p.text(", ");
         p.print(x);
       };
-      next(edge_count), next(doublings), next(starts), next(train), next(inverted), next(edges_before);
+      next(edge_count), next(on_crank), next(starts), next(train), next(inverted), next(edges_before);
       p.text("},\n");
       first += edge_count;
       static_cast<void>(edges);

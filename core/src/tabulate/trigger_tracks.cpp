@@ -58,7 +58,7 @@ void fill_triggers(const EngineDefinition& engine, const TableTargets<Real>& tar
     track = {};
     track.edges = edges;
     track.edge_count = fill_edges(wheel, edges);
-    track.doublings = wheel.shaft == TriggerShaft::crank ? 1 : 0;
+    track.on_crank = wheel.shaft == TriggerShaft::crank ? 1 : 0;
     track.starts = phase_units(wheel.pattern == TriggerPattern::teeth ? wheel.first_tooth_deg : wheel.edges_deg[0]);
     track.train = wheel.train >= 0 ? static_cast<std::uint32_t>(wheel.train) : kNoTrain;
     track.inverted = wheel.inverted ? 1 : 0;

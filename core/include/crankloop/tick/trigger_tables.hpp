@@ -20,7 +20,7 @@ inline constexpr std::uint32_t kNoTrain = ~std::uint32_t{0};
 struct TriggerTrack {
   const std::uint32_t* edges;  ///< angles on the wheel, rising; the first is 0, and even ones rise
   std::uint32_t edge_count;    ///< even, 2 to kMaxTriggerEdges
-  std::uint32_t doublings;     ///< of an engine phase into turns of the wheel: 1 on the crankshaft, 0 on a cam
+  std::uint32_t on_crank;      ///< 1: a turn of the wheel is 360 deg; 0, on a cam: 720
   std::uint64_t starts;        ///< engine phase at which the wheel stands at its first edge, its phaser at rest
   std::uint32_t train;         ///< whose phaser moves it; kNoTrain
   std::uint32_t inverted;      ///< 1: what rises falls

@@ -65,6 +65,7 @@ struct BentPace {
   Real slope;
   Real bend;
 
+  void prepare(std::uint64_t) noexcept {}
   /// By the root's form that does not cancel; a wheel that turns round or sets off has slope 0 there.
   [[nodiscard]] Real ratio_at(Real distance) const noexcept {
     const Real square = slope * slope + 4 * bend * distance;  // of the speed there
@@ -72,11 +73,12 @@ struct BentPace {
     return speeds > 0 ? since + 2 * distance / speeds : since;
   }
 };
+/// At a constant speed; the division waits until there is an edge.
 template <class Real>
 struct EvenPace {
-  Real per_span;
+  Real per_span{};
 
-  explicit EvenPace(std::uint64_t span) noexcept {
+  void prepare(std::uint64_t span) noexcept {
     const Real whole = ratio_of<Real>(span);
     per_span = whole > 0 ? Real{1} / whole : Real{0};
   }
@@ -96,7 +98,7 @@ class TriggerTick {
 
   /// At a constant speed.
   void turn(const Sweep& sweep) noexcept {
-    pass(sweep, [&] { return EvenPace<Real>(sweep.span); });
+    pass(sweep, EvenPace<Real>{});
   }
 
   /// At a speed that changes evenly. `bend` as in CrankPath, but in turns of this wheel.
@@ -108,7 +110,7 @@ class TriggerTick {
     if (turns_round) {
       turn_round(sweep, slope, bend);
     } else {
-      pass(sweep, [&] { return BentPace<Real>{Real{0}, magnitude(slope), sweep.forward ? bend : -bend}; });
+      pass(sweep, BentPace<Real>{Real{0}, magnitude(slope), sweep.forward ? bend : -bend});
     }
   }
 
@@ -129,17 +131,17 @@ class TriggerTick {
     if (ends_beyond && out < tick.span) out = tick.span;
     const Sweep there{tick.from, out, outward};
     const Sweep back{there.to(), ends_beyond ? out - tick.span : out + tick.span, !outward};
-    pass(there, [&] { return BentPace<Real>{Real{0}, magnitude(slope), -magnitude(bend)}; });
-    pass(back, [&] { return BentPace<Real>{since, Real{0}, magnitude(bend)}; });
+    pass(there, BentPace<Real>{Real{0}, magnitude(slope), -magnitude(bend)});
+    pass(back, BentPace<Real>{since, Real{0}, magnitude(bend)});
   }
 
   /// Most sweeps pass no edge: one search and a comparison.
-  template <class PaceOf>
-  void pass(const Sweep& sweep, const PaceOf& pace_of) noexcept {
+  template <class Pace>
+  void pass(const Sweep& sweep, const Pace& pace) noexcept {
     const std::uint64_t top = sweep.forward ? sweep.to() : sweep.from;
     const std::uint32_t last = edge_behind(wheel_, angle(top));
     if (top - at(last) < sweep.span) {
-      list(sweep, last, pace_of);
+      list(sweep, last, pace);
     } else {  // it lies at the bottom, or below
       stand_at(last);
     }
@@ -147,12 +149,12 @@ class TriggerTick {
 
   /// Counts the edges of a sweep up to its last, lists as many as there is room for, and stands at its end. A call of its own, so that its
   /// registers are not those of a sweep without edges.
-  template <class PaceOf>
-  [[gnu::noinline]] void list(const Sweep& sweep, std::uint32_t last, const PaceOf& pace_of) noexcept {
+  template <class Pace>
+  [[gnu::noinline]] void list(const Sweep& sweep, std::uint32_t last, Pace pace) noexcept {
     const std::uint64_t bottom = sweep.forward ? sweep.from : sweep.to();
     const std::uint32_t before_first = edge_behind(wheel_, angle(bottom));
     const std::uint32_t passed = last > before_first ? last - before_first : last + wheel_.edge_count - before_first;
-    const auto pace = pace_of();
+    pace.prepare(sweep.span);
     const std::uint32_t step = sweep.forward ? 1 : wheel_.edge_count - 1;  // to the next edge, modulo their number
     std::uint32_t edge = sweep.forward ? wrapped(before_first + 1) : last;
     const std::uint32_t room = out_.edge_count < S::trigger_edges ? S::trigger_edges - out_.edge_count : 0;

@@ -44,7 +44,7 @@ struct TriggersStep {
         tick.leap(on_wheel(wheel, path.begin + path.turned, phaser_after(wheel)));
       } else if constexpr (Needs<S>::bent_path) {
         const Sweep sweep = sweep_of(wheel);
-        tick.turn(sweep, wheel.doublings != 0 ? 2 * path.bend_cycles : path.bend_cycles);
+        tick.turn(sweep, wheel.on_crank != 0 ? 2 * path.bend_cycles : path.bend_cycles);
       } else {
         tick.turn(sweep_of(wheel));
       }
@@ -54,9 +54,14 @@ struct TriggersStep {
   }
 
  private:
+  /// Phase units (2^64 = 720 deg) in units of the wheel's turn. A sum: a shift by a variable is a call on some processors.
+  [[nodiscard]] static std::uint64_t in_turns(const TriggerTrack& wheel, std::uint64_t phase) noexcept {
+    return wheel.on_crank != 0 ? phase + phase : phase;
+  }
+
   /// Where a wheel stands, in units of 2^-64 turns since its first edge.
   [[nodiscard]] static std::uint64_t on_wheel(const TriggerTrack& wheel, Phase crank, std::uint64_t phaser) noexcept {
-    return (crank.units() - phaser - wheel.starts) << wheel.doublings;
+    return in_turns(wheel, crank.units() - phaser - wheel.starts);
   }
 
   /// A phaser moves its wheel back, evenly over the tick. Crank and phaser may each go half a cycle, and so more together than a signed
@@ -67,7 +72,7 @@ struct TriggersStep {
     const auto cam = static_cast<std::int64_t>(phaser_after(wheel) - before);
     const bool forward = (crank < 0) == (cam < 0) ? crank >= cam : crank >= 0;
     const std::uint64_t turned = path.turned.units() - static_cast<std::uint64_t>(cam);
-    return {on_wheel(wheel, path.begin, before), (forward ? turned : 0 - turned) << wheel.doublings, forward};
+    return {on_wheel(wheel, path.begin, before), in_turns(wheel, forward ? turned : 0 - turned), forward};
   }
 
   [[nodiscard]] std::uint64_t phaser_before(const TriggerTrack& wheel) const noexcept {
