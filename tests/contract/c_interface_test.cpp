@@ -628,6 +628,7 @@ TEST(CFaults, AreThoseOfCpp) {
   EXPECT_EQ(std::uint32_t{CRANKLOOP_FAULT_EVENT_BUDGET}, std::uint32_t{kFaultEventBudget});
   EXPECT_EQ(std::uint32_t{CRANKLOOP_FAULT_LOAD}, std::uint32_t{kFaultLoad});
   EXPECT_EQ(std::uint32_t{CRANKLOOP_FAULT_OVERSPEED}, std::uint32_t{kFaultOverspeed});
+  EXPECT_EQ(std::uint32_t{CRANKLOOP_FAULT_TRIGGER_EDGES}, std::uint32_t{kFaultTriggerEdges});
 }
 
 }  // namespace

@@ -33,11 +33,14 @@ struct AllSections {
   std::vector<LiftSegment<Real>> lift_segments;
   std::vector<Segment<Real>> rocker_ratios;
   ValveMotion<Real> valve_motions[kMaxTrains] = {};
+  TriggerWheels triggers{};
+  TriggerTrack trigger_tracks[kMaxTriggerWheels] = {};
+  std::vector<std::uint32_t> trigger_edges;
 
   AllSections()
       : pressure_full(kMostGasSegments), pressure_motored(kMostGasSegments), pressure_heat(kMostGasSegments), gas_full(kMostGasSegments),
         gas_motored(kMostGasSegments), gas_heat(kMostGasSegments), cut_heat(kMostGasSegments), lift_segments(kMaxTrains * kDegreesPerTurn),
-        rocker_ratios(kMaxTrains * kDegreesPerTurn) {}
+        rocker_ratios(kMaxTrains * kDegreesPerTurn), trigger_edges(kMaxTriggerWheels * kMaxTriggerEdges) {}
 
   TableTargets<Real> targets() {
     TableTargets<Real> t;
@@ -50,6 +53,7 @@ struct AllSections {
     t.cut_grid = &cut_grid, t.cut_torque = &cut_torque, t.cut_heat = cut_heat.data(), t.crank_dynamics = &crank_dynamics;
     t.lift_curves = lift_curves, t.lift_segments = lift_segments.data(), t.rocker_ratios = rocker_ratios.data();
     t.valve_motions = valve_motions;
+    t.triggers = &triggers, t.trigger_tracks = trigger_tracks, t.trigger_edges = trigger_edges.data();
     return t;
   }
 };
@@ -138,6 +142,15 @@ class Printer {
     text("}");
   }
 
+  /// Numbers, twelve to a line.
+  void lines(const std::uint32_t* numbers, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      text(i % 12 == 0 ? "  " : " ");
+      number(numbers[i]);
+      text(i % 12 == 11 || i + 1 == count ? ",\n" : ",");
+    }
+  }
+
   template <class Inside>
   void braced(const Inside& inside) {
     text("{");
@@ -219,6 +232,33 @@ void print_trains(Printer& p, const AllSections<Real>& s, const std::string& of_
   section(p, "crankloop::ValveMotion" + of_real, "valve_motions[]", [&] { p.rows(s.valve_motions, s.drive.trains); });
 }
 
+/// Trigger wheels. Edges of all wheels stand in one object, one wheel after the other.
+void print_triggers(Printer& p, const TriggerWheels& triggers) {
+  section(p, "std::uint32_t", "trigger_edges[]", [&] {
+    p.text("{\n");
+    for (std::uint32_t w = 0; w < triggers.count; ++w) p.lines(triggers.wheel[w].edges, triggers.wheel[w].edge_count);
+    p.text("}");
+  });
+  section(p, "crankloop::TriggerTrack", "trigger_tracks[]", [&] {
+    p.text("{\n");
+    std::uint32_t first = 0;
+    for (std::uint32_t w = 0; w < triggers.count; ++w) {
+      const auto& [edges, edge_count, on_crank, starts, train, inverted, edges_before] = triggers.wheel[w];
+      p.text("  {trigger_edges + " + std::to_string(first));
+      const auto next = [&p](const auto& x) {
+        p.text(", ");
+        p.print(x);
+      };
+      next(edge_count), next(on_crank), next(starts), next(train), next(inverted), next(edges_before);
+      p.text("},\n");
+      first += edge_count;
+      static_cast<void>(edges);
+    }
+    p.text("}");
+  });
+  section(p, "crankloop::TriggerWheels", "triggers", [&] { p.text("{trigger_tracks, " + std::to_string(triggers.count) + "}"); });
+}
+
 template <class Real>
 void print_sections(Printer& p, const AllSections<Real>& s, const std::string& real, const TableReport& report) {
   const std::string of_real = "<" + real + ">";
@@ -279,6 +319,7 @@ void print_sections(Printer& p, const AllSections<Real>& s, const std::string& r
   torque("cut_torque", s.cut_torque, s.cut_heat, report.cut_segments);
   section(p, type("CrankDynamics"), "crank_dynamics", [&] { p.print(s.crank_dynamics); });
   if (d.trains > 0) print_trains(p, s, of_real);
+  if (s.triggers.count > 0) print_triggers(p, s.triggers);
 
   p.text("\nconstexpr crankloop::Sections" + of_real + " sections = [] {\n  crankloop::Sections" + of_real + " s;\n");
   for (const char* name : {"drive", "body", "stroke", "acceleration", "rod_tilt", "radial", "rod_angle", "rod_curvature", "inertia_torque",
@@ -290,6 +331,7 @@ void print_sections(Printer& p, const AllSections<Real>& s, const std::string& r
     p.text(std::string("  s.") + name + " = " + name + ";\n");
   }
   if (d.trains > 0) p.text("  s.lift_curves = lift_curves;\n  s.valve_motions = valve_motions;\n");
+  if (s.triggers.count > 0) p.text("  s.triggers = &triggers;\n");
   p.text("  return s;\n}();\n");
 }
 

@@ -12,6 +12,7 @@
 #include "fingerprint.hpp"
 #include "gas_curves.hpp"
 #include "phase_units.hpp"
+#include "trigger_tracks.hpp"
 #include "valve_curves.hpp"
 
 namespace crankloop {
@@ -98,6 +99,8 @@ template <class Real>
   const bool all_of_lift = t.lift_segments != nullptr && t.rocker_ratios != nullptr;
   if (t.lift_curves != nullptr && !all_of_lift) return {Reason::missing_table, -1, "targets.lift_segments"};
   if ((t.gas_torque_heat != nullptr) != (t.gas_heat != nullptr)) return {Reason::missing_table, -1, "targets.gas_heat"};
+  if (t.triggers != nullptr && t.trigger_tracks == nullptr) return {Reason::missing_table, -1, "targets.trigger_tracks"};
+  if (t.triggers != nullptr && t.trigger_edges == nullptr) return {Reason::missing_table, -1, "targets.trigger_edges"};
   return {};
 }
 
@@ -164,6 +167,7 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
   }
   fill_mechanism(engine, targets);
   detail::fill_gas(engine, diagram, targets, found);
+  detail::fill_triggers(engine, targets);
   if (targets.drive != nullptr) {
     fill_drive(engine, options, *targets.drive);
     targets.drive->fingerprint = detail::fingerprint_of(engine, options, found, static_cast<int>(sizeof(Real)));

@@ -22,7 +22,7 @@ struct TickOptions {
 inline constexpr std::size_t kMostGasSegments = 20 * kDegreesPerCycle;
 
 /// Where to build each section; null = leave it out. Pressures go with a gas_grid, gas torques with a torque_grid, cut_torque with a cut_grid; each has room for
-/// `gas_capacity` segments. A gas torque goes with its segments, lift curves with theirs and their rocker ratios.
+/// `gas_capacity` segments. A gas torque goes with its segments, lift curves with theirs and their rocker ratios, triggers with tracks and edges.
 template <class Real>
 struct TableTargets {
   Drive<Real>* drive = nullptr;
@@ -56,6 +56,9 @@ struct TableTargets {
   IntegratedSegment<Real>* gas_motored = nullptr;
   IntegratedSegment<Real>* gas_heat = nullptr;
   IntegratedSegment<Real>* cut_heat = nullptr;
+  TriggerWheels* triggers = nullptr;
+  TriggerTrack* trigger_tracks = nullptr;    ///< one per wheel of the definition
+  std::uint32_t* trigger_edges = nullptr;    ///< kMaxTriggerEdges per wheel
 };
 
 /// What tabulate found.
@@ -109,6 +112,11 @@ template <class Real, std::size_t Trains> struct LiftStore {
   Segment<Real> rocker_ratios[Trains * kDegreesPerTurn];
 };
 template <class Real, std::size_t Trains> struct ValveMotionStore { ValveMotion<Real> valve_motions[Trains]; };
+template <std::size_t Wheels> struct TriggerStore {
+  TriggerWheels triggers;
+  TriggerTrack trigger_tracks[Wheels];
+  std::uint32_t trigger_edges[Wheels * kMaxTriggerEdges];
+};
 }  // namespace part
 
 /// Tables in RAM: the sections that a scene needs, and no others. Large (tens of kB to 1 MB): static or on the heap, not on a stack.
@@ -137,7 +145,8 @@ class TableStorage : If<Needs<S>::body, part::BodyStore<Real>>,
                      If<Needs<S>::cut_torque, part::CutTorqueStore<Real, GasSegments>>,
                      If<Needs<S>::crank_dynamics, part::CrankDynamicsStore<Real>>,
                      If<Needs<S>::any_valves, part::LiftStore<Real, S::trains.capacity>>,
-                     If<Needs<S>::elastic_valves, part::ValveMotionStore<Real, S::trains.capacity>> {
+                     If<Needs<S>::elastic_valves, part::ValveMotionStore<Real, S::trains.capacity>>,
+                     If<Needs<S>::any_triggers, part::TriggerStore<S::triggers.capacity>> {
   static_assert(GasSegments >= std::size_t{kDegreesPerCycle} && GasSegments <= kMostGasSegments, "720 to 14400 gas segments");
 
  public:
@@ -182,6 +191,12 @@ class TableStorage : If<Needs<S>::body, part::BodyStore<Real>>,
       t.rocker_ratios = this->rocker_ratios;
     }
     if constexpr (N::elastic_valves) t.valve_motions = this->valve_motions;
+    if constexpr (N::any_triggers) {
+      if (engine.trigger_count > static_cast<int>(S::triggers.capacity)) return {Reason::out_of_range, -1, "scene.triggers"};
+      t.triggers = &this->triggers;
+      t.trigger_tracks = this->trigger_tracks;
+      t.trigger_edges = this->trigger_edges;
+    }
     if (const Status refused = tabulate(engine, options, t, report); !refused.ok()) return refused;
     tables_ = Tables<Real, S>(sections_of(t));
     return {};
@@ -216,6 +231,7 @@ class TableStorage : If<Needs<S>::body, part::BodyStore<Real>>,
     s.crank_dynamics = t.crank_dynamics;
     s.lift_curves = t.lift_curves;
     s.valve_motions = t.valve_motions;
+    s.triggers = t.triggers;
     return s;
   }
 

@@ -12,6 +12,7 @@
 #include <crankloop/tick/cylinder_cut.hpp>
 #include <crankloop/tick/cylinder_forces.hpp>
 #include <crankloop/tick/engine.hpp>
+#include <crankloop/tick/triggers_step.hpp>
 #include <crankloop/tick/valves_step.hpp>
 
 namespace crankloop {
@@ -422,6 +423,7 @@ template <class Real, class S>
   if constexpr (S::free_forces) all = all && t.balance != nullptr;
   if constexpr (N::any_valves) all = all && t.lift_curves != nullptr;
   if constexpr (N::elastic_valves) all = all && t.valve_motions != nullptr;
+  if constexpr (N::any_triggers) all = all && t.triggers != nullptr;
   return all;
 }
 
@@ -453,6 +455,12 @@ Status Engine<Real, S>::init(const Tables& tables, Phase start) noexcept {
   if constexpr (Needs<S>::elastic_valves && !S::valve_gas) {
     for (std::uint32_t t = 0; t < drive.trains; ++t) {
       if (tables.valve_motions[t].body.head_area_m2 != Real{0}) return {Reason::inconsistent, static_cast<std::int32_t>(t), "scene.valve_gas"};
+    }
+  }
+  if constexpr (Needs<S>::any_triggers) {
+    const std::uint32_t wheels = tables.triggers->count;
+    if (wheels > S::triggers.capacity || (S::triggers.exact && wheels != S::triggers.capacity)) {
+      return {Reason::out_of_range, -1, "tables.triggers"};
     }
   }
   tables_ = &tables;
@@ -488,6 +496,7 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
   std::uint32_t faults = 0;
 
   [[maybe_unused]] const Phase phase_before = state_.phase;
+  [[maybe_unused]] const Real speed_before_rad_s = state_.speed_rad_s;
   Phase turned;
   bool jumped = false;
   if constexpr (S::crank == CrankGiven::speed) {
@@ -529,8 +538,15 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
   } else {
     detail::run_mechanisms(tables, state_, output_, crank);
   }
+  [[maybe_unused]] const detail::CamsBefore<S> cams_before(state_);
   if constexpr (Needs<S>::any_valves) {
     faults |= detail::ValvesStep<Real, S>{tables, state_, output_, phase_before, jumped, head_pressure_Pa}.run(input);
+  }
+  if constexpr (Needs<S>::any_triggers) {
+    Real bend_cycles{};
+    if constexpr (Needs<S>::crank_dynamics) bend_cycles = (state_.speed_rad_s - speed_before_rad_s) * drive.cycles_per_tick_per_rad_s / 2;
+    const detail::CrankPath<Real> path{phase_before, crank.turned, jumped, bend_cycles};
+    faults |= detail::TriggersStep<Real, S>{tables, state_, output_, path, cams_before}.run();
   }
   output_.faults = faults;
   return output_;

@@ -17,6 +17,7 @@ enum Fault : std::uint32_t {
   kFaultEventBudget = 1u << 6,    ///< more contact changes in a tick than are located: the rest is taken at the end of a fine step
   kFaultLoad = 1u << 7,           ///< load torque not finite or outside +-1e8 Nm: the last good one was used
   kFaultOverspeed = 1u << 8,      ///< the forces would turn the crank faster than the speed limit: it was held there
+  kFaultTriggerEdges = 1u << 9,   ///< more edges of a trigger wheel in a tick than the scene has room for: the first are listed, all are counted
 };
 
 }  // namespace crankloop

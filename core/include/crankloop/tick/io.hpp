@@ -7,6 +7,7 @@
 
 #include <crankloop/tick/curve.hpp>
 #include <crankloop/tick/scene.hpp>
+#include <crankloop/tick/trigger_output.hpp>
 #include <crankloop/tick/valve_results.hpp>
 
 namespace crankloop {
@@ -194,7 +195,8 @@ struct Output : If<Needs<S>::crank_dynamics, CrankMotion<Real>>,
                 If<S::free_forces, FreeForces<Real>>,
                 If<Needs<S>::any_valves, Valves<Real, S>>,
                 If<S::valve_forces, ValveForces<Real, S>>,
-                If<S::valve_results, ValveResults<Real, S>> {
+                If<S::valve_results, ValveResults<Real, S>>,
+                If<Needs<S>::any_triggers, Triggers<Real, S>> {
   std::uint32_t faults;  ///< Fault bits of this tick
 };
 

@@ -66,6 +66,8 @@ struct Scene {
   static constexpr bool cam_phasing = false;    ///< Input::cam_phase_deg moves the cams
   static constexpr bool starter = false;        ///< Input::starter turns the crank; CrankGiven::load
   static constexpr bool cylinder_cut = false;   ///< Input::cut_cylinders: cylinders that do not fire this tick; needs load_ratio
+  static constexpr Count triggers = exactly<0>;  ///< trigger wheels: their signals and the edges in each tick
+  static constexpr std::uint32_t trigger_edges = 8;  ///< of a wheel in a tick that there is room for
 };
 
 /// What a scene's answers imply.
@@ -97,6 +99,7 @@ struct Needs {
   static constexpr bool cut = S::cylinder_cut && table_pressure;
   static constexpr bool cut_torque = cut && torque_curves;  ///< the engine's gas torque less that of cylinders which do not fire
   static constexpr bool mechanisms = stroke || acceleration || rod_angle || rod_curvature || cylinder_pressure;
+  static constexpr bool any_triggers = S::triggers.capacity > 0;
   static constexpr std::uint32_t valve_count = any_valves ? S::trains.capacity * S::cylinders.capacity : 0;
 };
 
@@ -114,6 +117,8 @@ struct CheckedScene {
                 "valve forces, results and gas force need elastic valves");
   static_assert(S::valves != ValveModel::none || !S::cam_phasing, "cam_phasing needs valves");
   static_assert(!S::valve_gas || S::pressure != PressureGiven::none, "valve_gas needs a pressure");
+  static_assert(S::triggers.capacity <= kMaxTriggerWheels, "an engine has at most 8 trigger wheels");
+  static_assert(S::trigger_edges >= 1 && S::trigger_edges <= 2 * kMaxTriggerEdges, "trigger_edges is 1 to 1440: two turns of the finest wheel");
   static constexpr bool value = true;
 };
 

@@ -11,6 +11,7 @@
 #include <crankloop/tick/curve.hpp>
 #include <crankloop/tick/lift_curve.hpp>
 #include <crankloop/tick/scene.hpp>
+#include <crankloop/tick/trigger_tables.hpp>
 #include <crankloop/tick/valve_tables.hpp>
 
 namespace crankloop {
@@ -126,6 +127,7 @@ struct Sections {
   const Balance<Real>* balance = nullptr;
   const LiftCurve<Real>* lift_curves = nullptr;      ///< per train
   const ValveMotion<Real>* valve_motions = nullptr;  ///< per train
+  const TriggerWheels* triggers = nullptr;
 };
 
 namespace part {
@@ -149,6 +151,7 @@ template <class Real> struct BearingsRef { const Bearings<Real>* bearings = null
 template <class Real> struct BalanceRef { const Balance<Real>* balance = nullptr; };
 template <class Real> struct LiftRef { const LiftCurve<Real>* lift_curves = nullptr; };
 template <class Real> struct ValveMotionRef { const ValveMotion<Real>* valve_motions = nullptr; };
+struct TriggersRef { const TriggerWheels* triggers = nullptr; };
 }  // namespace part
 
 /// The sections a scene reads, and no others.
@@ -171,7 +174,8 @@ struct Tables : If<Needs<S>::body, part::BodyRef<Real>>,
                 If<S::bearing_loads, part::BearingsRef<Real>>,
                 If<S::free_forces, part::BalanceRef<Real>>,
                 If<Needs<S>::any_valves, part::LiftRef<Real>>,
-                If<Needs<S>::elastic_valves, part::ValveMotionRef<Real>> {
+                If<Needs<S>::elastic_valves, part::ValveMotionRef<Real>>,
+                If<Needs<S>::any_triggers, part::TriggersRef> {
   const Drive<Real>* drive = nullptr;
 
   constexpr Tables() = default;
@@ -196,6 +200,7 @@ struct Tables : If<Needs<S>::body, part::BodyRef<Real>>,
     if constexpr (S::free_forces) this->balance = s.balance;
     if constexpr (N::any_valves) this->lift_curves = s.lift_curves;
     if constexpr (N::elastic_valves) this->valve_motions = s.valve_motions;
+    if constexpr (N::any_triggers) this->triggers = s.triggers;
   }
 };
 
