@@ -427,5 +427,63 @@ TEST_F(HostileEngineFile, ItsDiagramMutatedAtRandomIsReadOrRefused) {
   EXPECT_GT(accepted_, 5);
 }
 
+// ---- trigger wheels --------------------------------------------------------------------------------------------------------
+
+/// Teeth and gaps as they stand around a wheel: x a tooth, - none.
+std::string drawing(const TriggerWheel& wheel) {
+  std::string places;
+  for (int i = 0; i < wheel.gap_count; ++i) {
+    places += std::string(static_cast<std::size_t>(wheel.gaps[i].teeth), 'x') + std::string(static_cast<std::size_t>(wheel.gaps[i].missing), '-');
+  }
+  return places + std::string(static_cast<std::size_t>(wheel.places) - places.size(), 'x');
+}
+
+TEST_F(EngineFileTest, ReadsTriggerWheelsByTheNamesOfTheirPatterns) {
+  const auto read_wheel = [this](const std::string& pattern) {
+    return drawing(read(std::string(kOneCylinder) + "[trigger a]\non = crank\npattern = " + pattern + "\n").definition().triggers[0]);
+  };
+  EXPECT_EQ(read_wheel("4"), "xxxx");
+  EXPECT_EQ(read_wheel("12-3"), "xxxxxxxxx---");
+  EXPECT_EQ(read_wheel("60-2"), std::string(58, 'x') + "--");
+  EXPECT_EQ(read_wheel("36-2-2-2"), "xxxxxxxxxxxxx--xxxxxxxxxxxxxxxx--x--");
+  EXPECT_EQ(read_wheel("36-2-2-2-H6"), "xxxxxxxxxxxxxxxxxxx--xxxxxxxxxx--x--");
+  EXPECT_EQ(read_wheel("half-moon"), "x");
+  EXPECT_EQ(read_wheel("3(1)2"), "xxx-xx");
+  for (const char* none : {"0", "60-60", "60-", "-2", "60-2-1", "3(1", "3(0)", "(2)3", "3(1)2(", "1000", "half moon", "3 (1)"}) {
+    const std::string message = refusal(std::string(kOneCylinder) + "[trigger a]\non = crank\npattern = " + none + "\n");
+    EXPECT_NE(message.find(":10: pattern: '" + std::string(none) + "' is no wheel"), std::string::npos) << none << ": " << message;
+  }
+  EXPECT_NE(refusal(std::string(kOneCylinder) + "[trigger a]\non = crank\npattern = 361\n").find("is too fine"), std::string::npos);
+  EXPECT_NE(refusal(std::string(kOneCylinder) + "[trigger a]\non = crank\npattern = 1(1)1(1)1(1)1(1)1(1)1(1)1(1)1(1)1(1)\n").find("is too fine"),
+            std::string::npos);
+}
+
+TEST_F(EngineFileTest, ReadsWhereATriggerWheelStandsAndWhatMovesIt) {
+  const std::string sample = contents(kSample);
+  const EngineFile engine = read(sample + "[trigger exhaust]\non = cam exhaust\nedges_deg = 700,730,800,900\ninverted = yes\n");
+  ASSERT_EQ(engine.definition().trigger_count, 3);
+  const TriggerWheel* wheels = engine.definition().triggers;
+  EXPECT_EQ(wheels[0].shaft, TriggerShaft::crank);
+  EXPECT_EQ(wheels[0].train, -1);
+  EXPECT_EQ(wheels[0].first_tooth_deg, 246);
+  EXPECT_EQ(wheels[0].tooth_ratio, 0.5);
+  EXPECT_FALSE(wheels[0].inverted);
+  EXPECT_EQ(wheels[1].shaft, TriggerShaft::cam);
+  EXPECT_EQ(wheels[1].train, 0);
+  EXPECT_EQ(wheels[1].first_tooth_deg, 540);
+  EXPECT_EQ(wheels[2].train, 1);
+  EXPECT_EQ(wheels[2].pattern, TriggerPattern::edges);
+  ASSERT_EQ(wheels[2].edge_count, 4);
+  EXPECT_EQ(wheels[2].edges_deg[3], 900);
+  EXPECT_TRUE(wheels[2].inverted);
+  ASSERT_EQ(engine.triggers().size(), 3u);
+  EXPECT_EQ(engine.triggers()[2].name, "exhaust");
+
+  EXPECT_NE(refusal(sample + "[trigger a]\non = cam outlet\npattern = 1\n").find("'cam outlet' is not one of crank, cam, cam intake, cam exhaust"),
+            std::string::npos);
+  EXPECT_NE(refusal(sample + "[trigger a]\non = crank\nedges_deg = 10,300,380,390\n").find("edges_deg: entry 3: 380 is out of range"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace crankloop::program

@@ -90,6 +90,7 @@ void EngineFile::build_definition() {
       throw InputError(path_, section.line, section.title() + " needs a [crank] section beside it");
   }
   build_trains();
+  build_triggers();
   if (!has("crank")) return;
 
   const auto accept = [this](const Status& status) {

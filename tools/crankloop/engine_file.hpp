@@ -34,6 +34,12 @@ struct TrainOfFile {
   [[nodiscard]] bool complete() const noexcept { return has_cam && has_rocker && has_valve; }
 };
 
+/// A trigger wheel of the file, beside its definition.
+struct TriggerOfFile {
+  std::string name;
+  std::vector<double> edges_deg;  ///< where it is given by them, its definition points here
+};
+
 class EngineFile {
  public:
   EngineFile(EngineFile&&) = default;
@@ -53,7 +59,10 @@ class EngineFile {
   /// same order.
   [[nodiscard]] const std::vector<TrainOfFile>& trains() const noexcept { return trains_; }
 
-  /// One of them; a name that the file does not have is the user's error.
+  /// The NAME of every [trigger], in the order of definition().triggers.
+  [[nodiscard]] const std::vector<TriggerOfFile>& triggers() const noexcept { return triggers_; }
+
+  /// One of the trains; a name that the file does not have is the user's error.
   [[nodiscard]] const TrainOfFile& train(const std::string& name) const;
 
   /// Titles are written as in the brackets: "masses", "cam intake".
@@ -78,6 +87,8 @@ class EngineFile {
   void build_definition();
   void read_diagram(const SectionValues& pressure);
   void build_trains();
+  void build_triggers();
+  [[nodiscard]] int train_with_phaser(const SectionValues& trigger) const;
   void read_cam(const SectionValues& cam, TrainOfFile& train);
   [[nodiscard]] const TrainOfFile* train_to_blame(const Status& status) const;
 
@@ -88,6 +99,7 @@ class EngineFile {
   std::vector<int> point_lines_;
   std::string points_path_;
   std::vector<TrainOfFile> trains_;
+  std::vector<TriggerOfFile> triggers_;
 };
 
 /// The file that would say all of this with nothing left to defaults. Reading it gives the same definition, and showing that

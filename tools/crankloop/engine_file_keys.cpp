@@ -43,6 +43,7 @@ constexpr SectionKind kSections[] = {
     {"cam", true, "a cam, by the lift of a flat follower"},
     {"rocker", true, "what carries the cam's lift to the valve of the same NAME"},
     {"valve", true, "the valve of the same NAME, for its dynamics"},
+    {"trigger", true, "a trigger wheel: what a crank or cam sensor sees"},
 };
 
 // clang-format off
@@ -121,6 +122,13 @@ constexpr Key kKeys[] = {
     {"valve", "seat_N_per_mm", Kind::number, kNPerMm, above(0).up_to(1e9), "", required, "", "", "", "stiffness of the seat"},
     {"valve", "seat_damping_ratio", Kind::number, kNoUnit, from(0).up_to(10), "", required, "", "", "", "b_z = 2 zeta sqrt(k_z M)"},
     {"valve", "head_area_mm2", Kind::number, kMm2, from(0).up_to(1e6), "", defaults, "0", "", "", "gas force on the valve head; 0: none"},
+
+    {"trigger", "on", Kind::text, kNoUnit, kAny, "", required, "", "", "", "crank, cam, or cam NAME for one that the phaser of [cam NAME] moves"},
+    {"trigger", "pattern", Kind::text, kNoUnit, kAny, "", required, "", "", "edges:teeth", "60 or 60-2 (two missing), 36-2-2-2, 36-2-2-2-H6, half-moon, or teeth and (missing) in turn, like 13(2)16(2)1(2)"},
+    {"trigger", "first_tooth_deg", Kind::number, kDeg, from(-720).up_to(720), "", defaults, "0", "", "edges:teeth", "engine angle at which the first tooth's rising edge is at the sensor; N-M: the tooth after the gap"},
+    {"trigger", "tooth_ratio", Kind::number, kNoUnit, from(0.01).up_to(0.99), "", defaults, "0.5", "", "edges:teeth", "width of a tooth per distance from tooth to tooth"},
+    {"trigger", "edges_deg", Kind::numbers, kDeg, from(0).up_to(1440), "", required, "", "", "edges:list", "instead of a pattern: rise, fall, rise, ... by engine angle, within one turn of the shaft (cam: 720 deg)"},
+    {"trigger", "inverted", Kind::choice, kNoUnit, kAny, "no|yes", defaults, "no", "", "", "whether a tooth pulls the signal down"},
 };
 // clang-format on
 

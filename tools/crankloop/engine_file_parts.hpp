@@ -30,6 +30,9 @@ namespace crankloop::program {
 [[nodiscard]] Rocker build_rocker(const SectionValues& values);
 [[nodiscard]] Valve build_valve(const SectionValues& values);
 
+/// All but the edges of a list and the train whose phaser moves it. Throws InputError for a pattern that names no wheel.
+[[nodiscard]] TriggerWheel build_trigger(const SectionValues& values, const std::string& path);
+
 /// The part of build_layout() that stands in engine_file_pins.cpp: positions along the crankshaft, and pins. Needs
 /// firing and bank angles.
 void place_cylinders(SectionValues& values, double bore_mm, const std::string& path, Layout& layout);
@@ -47,6 +50,9 @@ void place_cylinders(SectionValues& values, double bore_mm, const std::string& p
 
 /// "1 cylinder", "4 cylinders".
 [[nodiscard]] std::string cylinders_text(int count);
+
+/// An angle in degrees, 0 to below 720.
+[[nodiscard]] double into_cycle_deg(double crank_deg);
 
 /// An angle in degrees, 0 to below 360.
 [[nodiscard]] double full_turn(double angle_deg);

@@ -13,11 +13,6 @@ namespace {
 
 constexpr TableFormat kCamTable{"cam_deg", "lift_mm", from(-360).up_to(360), from(-100).up_to(100)};
 
-double into_cycle_deg(double crank_deg) {
-  const double rest = std::fmod(crank_deg, 720);
-  return rest < 0 ? rest + 720 : rest;
-}
-
 TrainOfFile& named(std::vector<TrainOfFile>& trains, const std::string& name) {
   const auto found = std::find_if(trains.begin(), trains.end(), [&name](const TrainOfFile& one) { return one.name == name; });
   if (found != trains.end()) return *found;
@@ -27,6 +22,11 @@ TrainOfFile& named(std::vector<TrainOfFile>& trains, const std::string& name) {
 }
 
 }  // namespace
+
+double into_cycle_deg(double crank_deg) {
+  const double rest = std::fmod(crank_deg, 720);
+  return rest < 0 ? rest + 720 : rest;
+}
 
 Cam build_cam(const SectionValues& values, const std::string& path) {
   Cam cam;

@@ -15,6 +15,7 @@
 #include "progress.hpp"
 #include "run_accuracy.hpp"
 #include "run_loop.hpp"
+#include "run_signals.hpp"
 #include "run_trace.hpp"
 #include "run_valves.hpp"
 #include "valve_tick_limit.hpp"
@@ -104,6 +105,7 @@ struct Request {
   std::string real;
   std::string csv_path;     ///< empty: none
   std::string report_path;  ///< empty: none
+  std::string vcd_path;     ///< empty: none
 };
 
 struct Engines {
@@ -199,6 +201,8 @@ int run(const Engines& engine, const Request& request, const Arguments& argument
   Progress progress("running", (request.cycles + 1) * 720 / (operation.speed_rad_s() * kDegPerRad * operation.tick_s));
   FixedStepLoop<Real> loop(definition, operation, 0, [&progress] { progress.step(); });
 
+  if (!request.vcd_path.empty()) write_signals(engine.file, operation, request.cycles, request.vcd_path);
+
   std::optional<Output> csv_file;
   std::optional<CsvWriter> csv;
   std::optional<Output> report_file;
@@ -237,7 +241,7 @@ int run(const Engines& engine, const Request& request, const Arguments& argument
   if (csv_file) csv_file->finish();
   if (report_file) report_file->finish();
   const std::string summary = summary_text(engine, request, figures, wall_time_per_tick_ns);
-  tell(summary, request.csv_path == "-" || request.report_path == "-");
+  tell(summary, request.csv_path == "-" || request.report_path == "-" || request.vcd_path == "-");
   return kSuccess;
 }
 
@@ -250,7 +254,8 @@ int run_run(const Arguments& arguments) {
   const Operation operation{arguments.has("--rpm") ? arguments.number("--rpm") : file.rated_rpm(),
                             millionths(arguments.number("--tick-us")), arguments.number("--load-ratio")};
   const Request request{operation, arguments.whole_number("--cycles"), arguments.text("--real"),
-                        arguments.text_or_empty("--csv"), arguments.text_or_empty("--report")};
+                        arguments.text_or_empty("--csv"), arguments.text_or_empty("--report"),
+                        arguments.text_or_empty("--vcd")};
   require_trains(file, operation.tick_s);
   ExactEngine exact;
   if (const Status refused = exact.init(definition); !refused.ok()) throw file.explain(refused);
@@ -267,13 +272,14 @@ constexpr Option kOptions[] = {
     number("--load-ratio", "Q", from(0).up_to(2), "0 = motored, 1 = the pressure diagram as it is", "1"),
     text("--csv", "F", "file for a row per tick; - is standard output, the summary then goes to stderr"),
     text("--report", "F.html", "file for the report, which any browser shows"),
+    text("--vcd", "F", "file for the trigger wheels' signals over the same cycles, a value change dump as GTKWave and PulseView open it"),
 };
 
 }  // namespace
 
 const Command kRun{"run",
                    "the fixed-step loop: torque, power, peak forces, time per tick; CSV and report",
-                   "FILE [--rpm N] [--tick-us T] [--cycles N] [--real R] [--load-ratio Q] [--csv F] [--report F.html]",
+                   "FILE [--rpm N] [--tick-us T] [--cycles N] [--real R] [--load-ratio Q] [--csv F] [--report F.html] [--vcd F]",
                    "crankloop run diesel_495.ini --rpm 2000 --csv run.csv --report report.html",
                    1,
                    kOptions,

@@ -260,7 +260,7 @@ Status validate(const Pressure& pressure, const Crank& crank) noexcept {
 
 Status validate(const EngineDefinition& engine) noexcept {
   const Status answers[] = {validate(engine.crank), validate(engine.masses), validate(engine.layout),
-                            validate(engine.pressure, engine.crank)};
+                            validate(engine.pressure, engine.crank), validate(engine.friction), validate(engine.load), validate(engine.starter)};
   if (engine.train_count < 0 || engine.train_count > kMaxTrains) return {Reason::out_of_range, -1, "trains"};
   if (const Status refused = first_refusal(answers); !refused.ok()) return refused;
   // No rod has a negative moment of inertia: J_rod = dI + m_rod l_pin l_crank.
@@ -268,6 +268,13 @@ Status validate(const EngineDefinition& engine) noexcept {
   const double rod_kg = m.rod_small_end_kg + m.rod_big_end_kg;
   const double ends_kg_m2 = rod_kg > 0 ? m.rod_small_end_kg * m.rod_big_end_kg / rod_kg * engine.crank.rod_length_m * engine.crank.rod_length_m : 0;
   if (m.rod_inertia_correction_kg_m2 < -ends_kg_m2 * (1 + 1e-9)) return {Reason::negative, -1, "masses.rod_inertia"};
+
+  if (engine.trigger_count < 0 || engine.trigger_count > kMaxTriggerWheels) return {Reason::out_of_range, -1, "triggers"};
+  for (int i = 0; i < engine.trigger_count; ++i) {
+    const TriggerWheel& wheel = engine.triggers[i];
+    if (const Status refused = validate(wheel); !refused.ok()) return {refused.reason, i, refused.field};
+    if (wheel.train >= engine.train_count) return {Reason::out_of_range, i, "trigger.on"};
+  }
   return {};
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <crankloop/define/crank.hpp>
+#include <crankloop/define/crank_dynamics.hpp>
 #include <crankloop/define/layout.hpp>
 #include <crankloop/define/masses.hpp>
 #include <crankloop/define/pressure.hpp>
+#include <crankloop/define/trigger_wheel.hpp>
 #include <crankloop/define/valve_train.hpp>
 
 namespace crankloop {
@@ -16,10 +18,15 @@ struct EngineDefinition {
   Pressure pressure;
   int train_count = 0;  ///< 0 to kMaxTrains
   ValveTrain trains[kMaxTrains];
+  Friction friction;
+  Load load;
+  Starter starter;
+  int trigger_count = 0;  ///< 0 to kMaxTriggerWheels
+  TriggerWheel triggers[kMaxTriggerWheels];
 };
 
 /// Validates every part and what they demand of one another, in the order above; the first refusal is returned. Valve trains are
-/// validated where their lift and motion are worked out (tabulate).
+/// validated where their lift and motion are worked out (tabulate). About a trigger wheel, `index` is its number.
 Status validate(const EngineDefinition& engine) noexcept;
 
 }  // namespace crankloop

@@ -21,8 +21,8 @@ struct TickOptions {
 /// Most segments of a grid: 20 in every degree.
 inline constexpr std::size_t kMostGasSegments = 20 * kDegreesPerCycle;
 
-/// Where to build each section; null = leave it out. Pressures go with a gas_grid, gas torques with a torque_grid; each has room for
-/// `gas_capacity` segments. A gas torque goes with its segments, lift curves with theirs and their rocker ratios.
+/// Where to build each section; null = leave it out. Pressures go with a gas_grid, gas torques with a torque_grid, cut_torque with a cut_grid; each has room for
+/// `gas_capacity` segments. A gas torque goes with its segments, lift curves with theirs and their rocker ratios, triggers with tracks and edges.
 template <class Real>
 struct TableTargets {
   Drive<Real>* drive = nullptr;
@@ -45,6 +45,9 @@ struct TableTargets {
   GasTorque<Real>* gas_torque_full = nullptr;
   GasTorque<Real>* gas_torque_motored = nullptr;
   GasTorque<Real>* gas_torque_heat = nullptr;
+  GasGrid* cut_grid = nullptr;
+  GasTorque<Real>* cut_torque = nullptr;
+  CrankDynamics<Real>* crank_dynamics = nullptr;
   LiftCurve<Real>* lift_curves = nullptr;          ///< one per train of the definition
   LiftSegment<Real>* lift_segments = nullptr;      ///< kDegreesPerTurn per train
   Segment<Real>* rocker_ratios = nullptr;          ///< likewise
@@ -52,6 +55,10 @@ struct TableTargets {
   IntegratedSegment<Real>* gas_full = nullptr;  ///< segments of gas_torque_full, and so on
   IntegratedSegment<Real>* gas_motored = nullptr;
   IntegratedSegment<Real>* gas_heat = nullptr;
+  IntegratedSegment<Real>* cut_heat = nullptr;
+  TriggerWheels* triggers = nullptr;
+  TriggerTrack* trigger_tracks = nullptr;    ///< one per wheel of the definition
+  std::uint32_t* trigger_edges = nullptr;    ///< kMaxTriggerEdges per wheel
 };
 
 /// What tabulate found.
@@ -62,6 +69,8 @@ struct TableReport {
   int torque_segments = 0;        ///< segments of the gas torques' grid
   int torque_doublings = 0;
   double torque_error_Nm = 0;     ///< largest error of full, motored and heat torque of all cylinders, likewise
+  int cut_segments = 0;           ///< segments of the grid of one cylinder's heat torque
+  int cut_doublings = 0;
 };
 
 /// Fills the targets. Validates the definition first; nothing is written when it refuses.
@@ -95,12 +104,19 @@ template <class Real, std::size_t N> struct GasTorqueByLoadStore {
   IntegratedSegment<Real> gas_motored[N];
   IntegratedSegment<Real> gas_heat[N];
 };
+template <class Real, std::size_t N> struct CutTorqueStore { GasGrid cut_grid; GasTorque<Real> cut_torque; IntegratedSegment<Real> cut_heat[N]; };
+template <class Real> struct CrankDynamicsStore { CrankDynamics<Real> crank_dynamics; };
 template <class Real, std::size_t Trains> struct LiftStore {
   LiftCurve<Real> lift_curves[Trains];
   LiftSegment<Real> lift_segments[Trains * kDegreesPerTurn];
   Segment<Real> rocker_ratios[Trains * kDegreesPerTurn];
 };
 template <class Real, std::size_t Trains> struct ValveMotionStore { ValveMotion<Real> valve_motions[Trains]; };
+template <std::size_t Wheels> struct TriggerStore {
+  TriggerWheels triggers;
+  TriggerTrack trigger_tracks[Wheels];
+  std::uint32_t trigger_edges[Wheels * kMaxTriggerEdges];
+};
 }  // namespace part
 
 /// Tables in RAM: the sections that a scene needs, and no others. Large (tens of kB to 1 MB): static or on the heap, not on a stack.
@@ -126,8 +142,11 @@ class TableStorage : If<Needs<S>::body, part::BodyStore<Real>>,
                      If<Needs<S>::gas_pressure && Needs<S>::load, part::PressureByLoadStore<Real, GasSegments>>,
                      If<Needs<S>::gas_torque && !Needs<S>::load, part::GasTorqueStore<Real, GasSegments>>,
                      If<Needs<S>::gas_torque && Needs<S>::load, part::GasTorqueByLoadStore<Real, GasSegments>>,
+                     If<Needs<S>::cut_torque, part::CutTorqueStore<Real, GasSegments>>,
+                     If<Needs<S>::crank_dynamics, part::CrankDynamicsStore<Real>>,
                      If<Needs<S>::any_valves, part::LiftStore<Real, S::trains.capacity>>,
-                     If<Needs<S>::elastic_valves, part::ValveMotionStore<Real, S::trains.capacity>> {
+                     If<Needs<S>::elastic_valves, part::ValveMotionStore<Real, S::trains.capacity>>,
+                     If<Needs<S>::any_triggers, part::TriggerStore<S::triggers.capacity>> {
   static_assert(GasSegments >= std::size_t{kDegreesPerCycle} && GasSegments <= kMostGasSegments, "720 to 14400 gas segments");
 
  public:
@@ -163,6 +182,8 @@ class TableStorage : If<Needs<S>::body, part::BodyStore<Real>>,
       t.gas_motored = this->gas_motored;
       t.gas_heat = this->gas_heat;
     }
+    if constexpr (N::cut_torque) t.cut_grid = &this->cut_grid, t.cut_torque = &this->cut_torque, t.cut_heat = this->cut_heat;
+    if constexpr (N::crank_dynamics) t.crank_dynamics = &this->crank_dynamics;
     if constexpr (N::any_valves) {
       if (engine.train_count > static_cast<int>(S::trains.capacity)) return {Reason::out_of_range, -1, "scene.trains"};
       t.lift_curves = this->lift_curves;
@@ -170,6 +191,12 @@ class TableStorage : If<Needs<S>::body, part::BodyStore<Real>>,
       t.rocker_ratios = this->rocker_ratios;
     }
     if constexpr (N::elastic_valves) t.valve_motions = this->valve_motions;
+    if constexpr (N::any_triggers) {
+      if (engine.trigger_count > static_cast<int>(S::triggers.capacity)) return {Reason::out_of_range, -1, "scene.triggers"};
+      t.triggers = &this->triggers;
+      t.trigger_tracks = this->trigger_tracks;
+      t.trigger_edges = this->trigger_edges;
+    }
     if (const Status refused = tabulate(engine, options, t, report); !refused.ok()) return refused;
     tables_ = Tables<Real, S>(sections_of(t));
     return {};
@@ -199,8 +226,12 @@ class TableStorage : If<Needs<S>::body, part::BodyStore<Real>>,
     s.gas_torque_full = t.gas_torque_full;
     s.gas_torque_motored = t.gas_torque_motored;
     s.gas_torque_heat = t.gas_torque_heat;
+    s.cut_grid = t.cut_grid;
+    s.cut_torque = t.cut_torque;
+    s.crank_dynamics = t.crank_dynamics;
     s.lift_curves = t.lift_curves;
     s.valve_motions = t.valve_motions;
+    s.triggers = t.triggers;
     return s;
   }
 

@@ -48,6 +48,10 @@ template <class S>
                             S::bad_input_count}) {
     crc.add(std::uint32_t{answer});
   }
+  if (S::starter || S::cylinder_cut) {  // scenes without them keep the code they always had
+    crc.add(std::uint32_t{S::starter});
+    crc.add(std::uint32_t{S::cylinder_cut});
+  }
   return crc.value();
 }
 

@@ -1,0 +1,73 @@
+#include "trigger_tracks.hpp"
+
+#include <cstddef>
+
+#include "phase_units.hpp"
+
+namespace crankloop::detail {
+namespace {
+
+/// A part of a turn, 0 to below 1, to the nearest of 2^32 equal parts. The rules keep edges too far apart for two to become one, or for the
+/// last to become a whole turn.
+[[nodiscard]] std::uint32_t turn_units(double turns) noexcept { return static_cast<std::uint32_t>(turns * 4294967296.0 + 0.5); }
+
+/// Angles of a wheel's edges, the first at 0; answers their number.
+std::uint32_t fill_edges(const TriggerWheel& wheel, std::uint32_t* edges) noexcept {
+  std::uint32_t count = 0;
+  if (wheel.pattern == TriggerPattern::edges) {
+    const double turn_deg = wheel.shaft == TriggerShaft::crank ? 360 : 720;
+    for (int i = 0; i < wheel.edge_count; ++i) edges[count++] = turn_units((wheel.edges_deg[i] - wheel.edges_deg[0]) / turn_deg);
+    return count;
+  }
+  int place = 0;
+  const auto add_teeth = [&](int until) {
+    for (; place < until; ++place) {
+      edges[count++] = turn_units(static_cast<double>(place) / wheel.places);
+      edges[count++] = turn_units((place + wheel.tooth_ratio) / wheel.places);
+    }
+  };
+  for (int i = 0; i < wheel.gap_count; ++i) {
+    add_teeth(place + wheel.gaps[i].teeth);
+    place += wheel.gaps[i].missing;
+  }
+  add_teeth(wheel.places);
+  return count;
+}
+
+void fill_parts(TriggerTrack& track) noexcept {
+  constexpr std::uint32_t kPart = std::uint32_t{1} << 25;
+  static_assert(kTriggerParts * std::uint64_t{kPart} == std::uint64_t{1} << 32);
+  std::uint32_t edge = 0;
+  for (std::uint32_t part = 0; part < std::uint32_t{kTriggerParts}; ++part) {
+    while (edge < track.edge_count && track.edges[edge] < part * kPart) ++edge;
+    track.edges_before[part] = static_cast<std::uint16_t>(edge);
+  }
+  track.edges_before[kTriggerParts] = static_cast<std::uint16_t>(track.edge_count);
+}
+
+}  // namespace
+
+template <class Real>
+void fill_triggers(const EngineDefinition& engine, const TableTargets<Real>& targets) noexcept {
+  if (targets.triggers == nullptr) return;
+  const auto count = static_cast<std::uint32_t>(engine.trigger_count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const TriggerWheel& wheel = engine.triggers[i];
+    std::uint32_t* edges = targets.trigger_edges + i * std::size_t{kMaxTriggerEdges};
+    TriggerTrack& track = targets.trigger_tracks[i];
+    track = {};
+    track.edges = edges;
+    track.edge_count = fill_edges(wheel, edges);
+    track.on_crank = wheel.shaft == TriggerShaft::crank ? 1 : 0;
+    track.starts = phase_units(wheel.pattern == TriggerPattern::teeth ? wheel.first_tooth_deg : wheel.edges_deg[0]);
+    track.train = wheel.train >= 0 ? static_cast<std::uint32_t>(wheel.train) : kNoTrain;
+    track.inverted = wheel.inverted ? 1 : 0;
+    fill_parts(track);
+  }
+  *targets.triggers = {targets.trigger_tracks, count};
+}
+
+template void fill_triggers(const EngineDefinition&, const TableTargets<float>&) noexcept;
+template void fill_triggers(const EngineDefinition&, const TableTargets<double>&) noexcept;
+
+}  // namespace crankloop::detail
