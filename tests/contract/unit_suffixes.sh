@@ -8,7 +8,7 @@ set -eu
 cd "$1/crankloop"
 interface=$(find define tabulate tick/engine.hpp tick/io.hpp tick/tables.hpp tick/valve_results.hpp -name "*.hpp" ! -name elementary.hpp | sort)
 
-units='m|m2|m3|m_s|m_s2|rad|rad_s|rad_s2|deg|deg_s|deg_per_s|rpm|s|kg|kg_m|kg_m2|N|Nm|N_m|Ns_m|J|W|Pa|Hz|ratio'
+units='m|m2|m3|m_s|m_s2|rad|rad_s|rad_s2|deg|deg_s|deg_per_s|rpm|s|kg|kg_m|kg_m2|N|Nm|N_m|Ns_m|Nm_s|Nm_s2|Pa_s|Pa_s2|J|W|Pa|Hz|ratio'
 
 allowed='
 compression_exponent expansion_exponent exponents  # of power laws
