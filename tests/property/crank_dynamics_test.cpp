@@ -66,10 +66,10 @@ TEST(HeavyRod, ConvergesToLagrangesEquationByMoreThanSecondOrder) {
   constexpr double kSpeed_rad_s = 30;
   for (const long double crank_kg_m2 : {0.05L, 1.0L}) {
     const CrankMechanism m = heavy_rod(crank_kg_m2, 20);
-    Lagrange oracle(m, kSpeed_rad_s);
+    Lagrange oracle(m, wide(kSpeed_rad_s));
     Lagrange coarse = oracle;
-    oracle.run(kTime_s, kOracleSteps);
-    coarse.run(kTime_s, kOracleSteps / 2);
+    oracle.run(wide(kTime_s), kOracleSteps);
+    coarse.run(wide(kTime_s), kOracleSteps / 2);
     const auto oracle_rad = static_cast<double>(std::fabs(oracle.angle_rad() - coarse.angle_rad()));
     ASSERT_LT(oracle_rad, 1e-9);
     double last_rad = 0;
@@ -101,10 +101,10 @@ TEST(HeavyRod, LeavingOutItsInertiaCorrectionShowsAndWithItTheErrorIsGone) {
   double error_ratio[2] = {};
   int which = 0;
   for (const EngineDefinition& engine : {right, lumped}) {
-    Lagrange oracle(m, kSpeed_rad_s);
+    Lagrange oracle(m, wide(kSpeed_rad_s));
     Turned<double, Bare> run(engine, kTick_s, kSpeed_rad_s);
     for (int i = 0; i < static_cast<int>(kTime_s / kTick_s); ++i) {
-      oracle.run(kTick_s, 2);
+      oracle.run(wide(kTick_s), 2);
       const long double speed = static_cast<long double>(run.step({}).speed_rad_s);
       error_ratio[which] = std::max(error_ratio[which], static_cast<double>(std::fabs(speed / oracle.speed_rad_s() - 1)));
     }
@@ -172,7 +172,7 @@ void rocks_for_good(double rounding_J) {
   const auto potential_J = [&](long double deg) { return std::floor(deg / 720) * wide(gas.cycle_J()) - gas.gas_J(deg); };
   for (const double tick_s : {100e-6, 1e-3}) {
     Turned<Real, Fired> run(engine, tick_s, kSpeed_rad_s, phase_at_deg(wide(kStart_deg)));
-    const long double begin_J = kinetic_J(engine, wide(kStart_deg), kSpeed_rad_s) + potential_J(wide(kStart_deg));
+    const long double begin_J = kinetic_J(engine, wide(kStart_deg), wide(kSpeed_rad_s)) + potential_J(wide(kStart_deg));
     typename Turned<Real, Fired>::Input in;
     in.load_ratio = 0;
     int reversals = 0;
