@@ -64,7 +64,7 @@ struct Scene {
   static constexpr bool valve_gas = false;      ///< cylinder pressure on the valve heads; a train with a head area demands it
   static constexpr bool cam_phasing = false;    ///< Input::cam_phase_deg moves the cams
   static constexpr Count triggers = exactly<0>;  ///< trigger wheels: their signals and the edges in each tick
-  static constexpr std::uint32_t trigger_edges = 8;  ///< of a wheel in a tick that there is room for
+  static constexpr std::uint32_t trigger_edges = 8;  ///< of a wheel that a tick has room for; more are counted, but not listed
 };
 
 /// What a scene's answers imply.
