@@ -64,7 +64,7 @@ struct Unwrapped {
     long long turn = (n - 1) / per_turn;
     long long edge = (n - 1) % per_turn;
     if (edge < 0) edge += per_turn, --turn;
-    return (Wide{turn} << 64) + (Wide{track->edges[edge]} << 32);
+    return Wide{turn} * (Wide{1} << 64) + (Wide{track->edges[edge]} << 32);
   }
 };
 
