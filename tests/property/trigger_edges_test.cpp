@@ -222,7 +222,7 @@ TYPED_TEST(TriggerEdges, AreNeitherLostNorDoubledThroughSpeedsReversalsAndPhaser
       wheels[w].at = to;
     }
   }
-  std::printf("[ figures  ] %d ticks of %u wheels: %lld edges, %lld passed twice on a way back in the tick; largest error %.2g turns\n", ticks,
+  std::printf("[ figures  ] %d ticks of %u wheels: %lld edges, some of them on the way back in %lld ticks of a wheel; largest error %.2g turns\n", ticks,
               tables.triggers->count, accuracy.edges, accuracy.turned_round, accuracy.largest_turns);
   EXPECT_GT(accuracy.edges, ticks);
   EXPECT_GT(accuracy.turned_round, ticks / 100);
