@@ -34,7 +34,7 @@ int ticks_to_run() { return std::getenv("CRANKLOOP_LONG_TESTS") != nullptr ? 50'
 /// The speed may change within a tick, as where it is integrated.
 struct Bent : Scene {
   static constexpr Count cylinders = exactly<1>;
-  static constexpr CrankGiven crank = static_cast<CrankGiven>(200);  // neither speed nor phase
+  static constexpr CrankGiven crank = CrankGiven::load;
   static constexpr ValveModel valves = ValveModel::following;
   static constexpr Count trains = exactly<1>;
   static constexpr bool cam_phasing = true;

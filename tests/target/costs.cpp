@@ -8,6 +8,7 @@
 namespace {
 
 std::uint32_t phase_per_tick_high;  ///< of a measured phase
+[[maybe_unused]] Real held_rad_s;         ///< of a crank that forces turn, by a brake that meets every change of it
 
 struct Speed {
   const char* name;
@@ -25,6 +26,10 @@ void set_speed(In& in, std::int32_t rpm) noexcept {
   if constexpr (crankloop::Needs<under_test::Scene>::input_pressure) {
     for (Real& pressure : in.pressure_Pa) pressure = static_cast<Real>(3e5);
   }
+  if constexpr (crankloop::Needs<under_test::Scene>::crank_dynamics) {
+    held_rad_s = static_cast<Real>(rpm) * static_cast<Real>(0.10471975511965977);
+    (void)engine.restore(crankloop::turning_at<Real, under_test::Scene>(engine.state(), held_rad_s));
+  }
   // 2^32 per cycle of two turns.
   phase_per_tick_high = static_cast<std::uint32_t>((std::uint64_t{1} << 32) * static_cast<std::uint64_t>(rpm) * COSTS_TICK_US / 120'000'000u);
 }
@@ -32,6 +37,10 @@ void set_speed(In& in, std::int32_t rpm) noexcept {
 template <class In>
 void turn_crank(In& in) noexcept {
   if constexpr (std::is_base_of_v<crankloop::PhaseInput, In>) in.crank += crankloop::Phase{std::uint64_t{phase_per_tick_high} << 32};
+  if constexpr (crankloop::Needs<under_test::Scene>::crank_dynamics) {
+    constexpr Real kBrake_Nm_s = 50;
+    in.load_Nm = kBrake_Nm_s * (engine.output().speed_rad_s - held_rad_s);
+  }
 }
 
 std::uint32_t cost_of_turn() noexcept {

@@ -72,6 +72,10 @@ void print_limits(const Tables& tables) noexcept {
       if (motion.fine.parts > fine_steps) fine_steps = motion.fine.parts;
     }
   }
+  std::uint32_t wheels = 0;
+  if constexpr (Needs::any_triggers) wheels = tables.triggers->count;
+  port::Line() << "limit wheels " << wheels;
+  port::Line() << "limit edges " << under_test::Scene::trigger_edges;
   port::Line() << "limit pins " << pins;
   port::Line() << "limit steps " << steps;
   port::Line() << "limit fine_steps " << fine_steps;

@@ -27,10 +27,14 @@ void golden_input(crankloop::Input<Real, S>& in, int tick, int top_rad_s) noexce
   if (tick >= 1900) speed = real(tick - 1950) / 1024;
   if constexpr (S::crank == crankloop::CrankGiven::speed) {
     in.speed_rad_s = tick % 97 == 50 ? std::numeric_limits<Real>::quiet_NaN() : speed;
+  } else if constexpr (S::crank == crankloop::CrankGiven::load) {
+    in.load_Nm = tick % 97 == 50 ? std::numeric_limits<Real>::quiet_NaN() : real(tick < 1000 ? -256 : 512);  // up, and down through zero
   } else {
     in.crank += crankloop::Phase{static_cast<std::uint64_t>(static_cast<std::int64_t>(up) << 43)};
     if (tick % 397 == 50) in.crank += crankloop::Phase{std::uint64_t{1} << 63};
   }
+  if constexpr (S::starter) in.starter = tick < 300 ? 1 : 0;
+  if constexpr (crankloop::Needs<S>::cut) in.cut_cylinders = tick / 150 % 3 == 2 ? 1 : 0;
   if constexpr (crankloop::Needs<S>::load) in.load_ratio = tick % 89 == 80 ? std::numeric_limits<Real>::infinity() : real(tick / 100 % 7) * Real{0.1875};
   if constexpr (crankloop::Needs<S>::input_pressure) {
     int k = 0;

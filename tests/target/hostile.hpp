@@ -29,9 +29,13 @@ template <class Real, class S>
 void hurt(crankloop::Input<Real, S>& in, Random& random) noexcept {
   if constexpr (S::crank == crankloop::CrankGiven::speed) {
     in.speed_rad_s = hostile<Real>(random, 10'000);
+  } else if constexpr (S::crank == crankloop::CrankGiven::load) {
+    in.load_Nm = hostile<Real>(random, static_cast<Real>(crankloop::kMostLoad_Nm));
   } else {
     in.crank = crankloop::Phase{random.next()};
   }
+  if constexpr (S::starter) in.starter = static_cast<std::uint32_t>(random.next() >> 63);
+  if constexpr (crankloop::Needs<S>::cut) in.cut_cylinders = static_cast<std::uint32_t>(random.next() >> 32);
   if constexpr (crankloop::Needs<S>::load) in.load_ratio = hostile<Real>(random, 2);
   if constexpr (crankloop::Needs<S>::input_pressure) {
     for (Real& pressure : in.pressure_Pa) pressure = hostile<Real>(random, static_cast<Real>(1e8));

@@ -54,9 +54,23 @@ void each(Sink& sink, const crankloop::ValveCycle<Real>& cycle) {
   for (const std::uint32_t x : {separations, bounces, changes, off_seat}) sink.add(x);
 }
 
+/// Edges beyond those listed have no meaning.
+template <class Sink, class Real, class S>
+void each(Sink& sink, const crankloop::TriggerSignal<Real, S>& signal) {
+  const auto& [level, edge_count, edge] = signal;
+  sink.add(level), sink.add(edge_count);
+  for (std::uint32_t i = 0; i < edge_count && i < S::trigger_edges; ++i) sink.add(edge[i].time_s), sink.add(edge[i].level);
+}
+
 /// sink.add(x) for each number of the output, the fault bits last.
 template <class Sink, class Real, class S>
 void each_number(Sink& sink, const crankloop::Output<Real, S>& out) {
+  if constexpr (crankloop::Needs<S>::crank_dynamics) {
+    const auto& [crank, speed, acceleration, friction] = static_cast<const crankloop::CrankMotion<Real>&>(out);
+    sink.add(static_cast<std::uint32_t>(crank.units() >> 32)), sink.add(static_cast<std::uint32_t>(crank.units()));
+    for (const Real x : {speed, acceleration, friction}) sink.add(x);
+  }
+  if constexpr (S::starter) each(sink, out.starter_Nm);
   if constexpr (S::kinematics) {
     const auto& [displacement, velocity, acceleration] = static_cast<const crankloop::Kinematics<Real, S>&>(out);
     each(sink, displacement), each(sink, velocity), each(sink, acceleration);
@@ -89,6 +103,9 @@ void each_number(Sink& sink, const crankloop::Output<Real, S>& out) {
     for (const auto& train : out.valve_cycle) {
       for (const auto& cycle : train) each(sink, cycle);
     }
+  }
+  if constexpr (crankloop::Needs<S>::any_triggers) {
+    for (const auto& signal : out.trigger) each(sink, signal);
   }
   sink.add(out.faults);
 }

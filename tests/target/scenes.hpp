@@ -58,6 +58,15 @@ struct ElasticValves : TorqueOfTables {
   static constexpr auto trains = crankloop::exactly<2>;
 };
 
+/// The engine that a controller is tested against: gas, friction and load turn the crank, and a crank and a cam wheel tell where it is.
+struct ClosedLoop : TorqueOfTables {
+  static constexpr auto crank = crankloop::CrankGiven::load;
+  static constexpr bool load_ratio = true;
+  static constexpr bool starter = true;
+  static constexpr bool cylinder_cut = true;
+  static constexpr auto triggers = crankloop::exactly<2>;
+};
+
 /// All there is, for up to four cylinders with up to two trains.
 struct Everything : Forces {
   static constexpr auto cylinders = crankloop::up_to<4>;

@@ -182,7 +182,7 @@ TEST_F(VcdTest, OfARunHasTheTeethOfItsWheelsAtTheirTimes) {
   expect_times(rises_ns["crank"], teeth_deg);
   expect_times(rises_ns["cam"], {540, 1260});
   expect_times(falls_ns["cam"], {180, 900});
-  expect_change(dump.changes.at(1), 0, "cam", 1);
+  expect_change(dump.changes.at(2), 0, "cam", 1);
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
-// `crankloop run FILE`: the fixed-step loop over some cycles, its figures, its ticks as CSV, its report.
-#include <charconv>
+// `crankloop run FILE`: the fixed-step loop over some cycles, its figures, its ticks as CSV, its report. With --free: free_request.cpp.
 #include <cmath>
 #include <optional>
 #include <string>
@@ -12,48 +11,18 @@
 #include "csv.hpp"
 #include "engine_file.hpp"
 #include "engine_report.hpp"
+#include "free_request.hpp"
 #include "progress.hpp"
 #include "run_accuracy.hpp"
 #include "run_loop.hpp"
 #include "run_signals.hpp"
+#include "run_summary.hpp"
 #include "run_trace.hpp"
 #include "run_valves.hpp"
 #include "valve_tick_limit.hpp"
 
 namespace crankloop::program {
 namespace {
-
-/// Six significant digits: enough to read, and none of float's noise. CSV has all there are.
-std::string six_digits(double value) {
-  char buffer[40];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value == 0 ? 0 : value, std::chars_format::general, 6);
-  return std::string(buffer, end.ptr);
-}
-
-/// Lines "name = value unit", and remarks after '#'.
-class Summary {
- public:
-  void remark(const std::string& text) { text_ += "# " + text + "\n"; }
-  void line(const std::string& name, double value, const std::string& unit = "", const std::string& remark = "") {
-    text_ += name + " = " + six_digits(value) + (unit.empty() ? "" : " " + unit) +
-             (remark.empty() ? "" : "  # " + remark) + "\n";
-  }
-  void count(const std::string& name, std::uint64_t value, const std::string& remark = "") {
-    text_ += name + " = " + std::to_string(value) + (remark.empty() ? "" : "  # " + remark) + "\n";
-  }
-  void peak(const std::string& name, Peak peak, double per_si, const std::string& unit) {
-    line(name, peak.value * per_si, unit);
-    line(name + "_at", std::round(peak.at_deg * 1e3) / 1e3, "deg");
-  }
-  void peaks(const std::string& name, const Peaks& peaks, double per_si, const std::string& unit) {
-    peak("largest_" + name, peaks.largest, per_si, unit);
-    peak("smallest_" + name, peaks.smallest, per_si, unit);
-  }
-  [[nodiscard]] const std::string& text() const noexcept { return text_; }
-
- private:
-  std::string text_;
-};
 
 std::vector<std::string> csv_header(int cylinders, const std::vector<std::string>& trains) {
   std::vector<std::string> header{"time_s", "crank_deg", "speed_rpm", "torque_Nm", "mean_torque_Nm"};
@@ -246,11 +215,13 @@ int run(const Engines& engine, const Request& request, const Arguments& argument
 }
 
 int run_run(const Arguments& arguments) {
+  require_options_that_fit(arguments);
   const EngineFile file = read_engine_file(arguments.file(), {"engine", "crank", "masses"});
   const EngineDefinition& definition = file.definition();
   if (arguments.has("--load-ratio") && definition.pressure.source == PressureSource::none) {
     throw InputError(file.path() + ": there is no pressure source, so --load-ratio has nothing to scale");
   }
+  if (arguments.has("--free")) return run_free_by(arguments, file);
   const Operation operation{arguments.has("--rpm") ? arguments.number("--rpm") : file.rated_rpm(),
                             millionths(arguments.number("--tick-us")), arguments.number("--load-ratio")};
   const Request request{operation, arguments.whole_number("--cycles"), arguments.text("--real"),
@@ -272,14 +243,21 @@ constexpr Option kOptions[] = {
     number("--load-ratio", "Q", from(0).up_to(2), "0 = motored, 1 = the pressure diagram as it is", "1"),
     text("--csv", "F", "file for a row per tick; - is standard output, the summary then goes to stderr"),
     text("--report", "F.html", "file for the report, which any browser shows"),
-    text("--vcd", "F", "file for the trigger wheels' signals over the same cycles, a value change dump as GTKWave and PulseView open it"),
+    text("--vcd", "F", "file for the trigger wheels' signals, a value change dump as GTKWave and PulseView open it"),
+    flag("--free", "the engine turns by its own gas against friction and load, instead of at one speed; for the options below"),
+    number("--from-rpm", "N", from(-100000).up_to(100000), "speed to begin with, backwards if negative", "0"),
+    number("--seconds", "S", above(0).up_to(1e6), "how long", "2"),
+    number("--load-Nm", "L", from(0).up_to(1e7), "a brake of constant torque instead of that of the file's [load], whose inertia stays"),
+    flag("--starter", "the file's [starter] turns the crank too; it free-wheels where the engine is faster"),
+    text("--cut", "K,..", "cylinders that do not fire, like 1,3"),
 };
 
 }  // namespace
 
 const Command kRun{"run",
-                   "the fixed-step loop: torque, power, peak forces, time per tick; CSV and report",
-                   "FILE [--rpm N] [--tick-us T] [--cycles N] [--real R] [--load-ratio Q] [--csv F] [--report F.html] [--vcd F]",
+                   "the fixed-step loop: torque, power, peak forces, time per tick; or an engine that runs free; CSV and report",
+                   "FILE [--rpm N] [--cycles N] [--tick-us T] [--real R] [--load-ratio Q] [--csv F] [--report F.html] [--vcd F]\n"
+                   "       crankloop run FILE --free [--from-rpm N] [--seconds S] [--load-Nm L] [--starter] [--cut K,..] [...]",
                    "crankloop run diesel_495.ini --rpm 2000 --csv run.csv --report report.html",
                    1,
                    kOptions,

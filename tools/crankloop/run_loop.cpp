@@ -8,8 +8,6 @@
 #include <crankloop/tabulate/mechanism.hpp>
 #include <crankloop/tabulate/summary.hpp>
 
-#include "error.hpp"
-#include "number.hpp"
 #include "port/linux/stopwatch.hpp"
 
 namespace crankloop::program {
@@ -20,8 +18,7 @@ constexpr double kRadPerCycle = 4 * 3.14159265358979323846;
 
 /// Of a tick: less than this beyond the last cycle is rounding of the phase increment, and no reason for another tick.
 constexpr double kHairOfATick = 1e-3;
-
-std::string digits(double value) { return significant(static_cast<float>(value)); }
+constexpr const char* kFewerTicks = "fewer --cycles or a higher --rpm";
 
 /// Definition and tick are valid and the tables have room, so that a refusal here is a defect of the program.
 void require(const Status& status) {
@@ -29,13 +26,6 @@ void require(const Status& status) {
 }
 
 Phase phase_at(double engine_deg) { return Phase::from_cycles(engine_deg / 720); }
-
-void require_ticks(double ticks, const Operation& operation) {
-  if (ticks <= kMostTicks) return;
-  throw UsageError("the run would take " + digits(ticks) + " ticks of " + digits(operation.tick_s * 1e6) +
-                   " us, at most " + digits(kMostTicks) +
-                   " are allowed: take a longer --tick-us, fewer --cycles or a higher --rpm");
-}
 
 /// Integral over the first part (0 to 1) of a tick, of the parabola that has the tick's torque at both ends and its
 /// mean.
@@ -54,13 +44,8 @@ FixedStepLoop<Real>::FixedStepLoop(const EngineDefinition& definition, const Ope
   const Drive<Real>& drive = *tables_->tables().drive;
   input_.speed_rad_s = static_cast<Real>(operation.speed_rad_s());
   input_.load_ratio = static_cast<Real>(operation.load_ratio);
-  if (!(input_.speed_rad_s <= drive.speed_limit_rad_s)) {
-    const double limit_rpm =
-        std::floor(static_cast<double>(drive.speed_limit_rad_s) / operation.speed_rad_s() * operation.speed_rpm);
-    throw UsageError(digits(operation.speed_rpm) + " rpm is too fast for a tick of " + digits(operation.tick_s * 1e6) +
-                     " us: at most one revolution per tick, here " + digits(limit_rpm) + " rpm");
-  }
-  require_ticks(720 / (operation.speed_rad_s() * kDegPerRad * operation.tick_s), operation);
+  require_speed(operation.speed_rpm, static_cast<double>(drive.speed_limit_rad_s), operation.tick_s);
+  require_ticks(720 / (operation.speed_rad_s() * kDegPerRad * operation.tick_s), operation.tick_s, kFewerTicks);
 
   // At constant speed all ticks turn the crank equally far: one tells how far.
   require(engine_.init(tables_->tables()));
@@ -101,7 +86,7 @@ RunFigures run_cycles(FixedStepLoop<Real>& loop, const EngineDefinition& definit
   const auto cylinders = static_cast<std::size_t>(layout.cylinders);
   const std::uint32_t journals = bearings_of(definition).pins + 1;
   const double span = cycles * loop.ticks_per_cycle();
-  require_ticks(span, operation);
+  require_ticks(span, operation.tick_s, kFewerTicks);
 
   RunFigures f;
   f.cycles = cycles;

@@ -13,6 +13,7 @@
 #include <crankloop/crankloop.hpp>
 #include <crankloop/tick/scenes.hpp>
 
+#include "run_limits.hpp"
 #include "run_quantities.hpp"
 #include "run_valves.hpp"
 
@@ -26,9 +27,6 @@ struct Operation {
 
   [[nodiscard]] double speed_rad_s() const noexcept { return speed_rpm * 3.14159265358979323846 / 30; }
 };
-
-/// Most ticks of a run: some minutes for four cylinders.
-inline constexpr double kMostTicks = 1e9;
 
 /// Engine, tables and input. After construction one cycle has been run, which lets any state settle, and the engine
 /// stands at `start_deg`: whatever the tick, a recorded run begins there.

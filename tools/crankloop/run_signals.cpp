@@ -2,11 +2,10 @@
 
 #include <cmath>
 #include <memory>
-#include <vector>
 
 #include <crankloop/tick/engine_step.hpp>
 
-#include "vcd.hpp"
+#include "signal_dump.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -26,33 +25,20 @@ struct SignalEngine {
 }  // namespace
 
 void write_signals(const EngineFile& engine_file, const Operation& operation, int cycles, const std::string& path) {
-  const EngineDefinition& definition = engine_file.definition();
-  if (definition.trigger_count == 0) throw InputError(engine_file.path() + ": there is no [trigger NAME], so --vcd has no signal to show");
+  SignalDump dump(engine_file, path, {"speed_rpm"});
   const auto made = std::make_unique<SignalEngine>();
-  Status status = made->storage.build(definition, {operation.tick_s, {}});
+  Status status = made->storage.build(engine_file.definition(), {operation.tick_s, {}});
   if (status.ok()) status = made->engine.init(made->storage.tables());
   if (!status.ok()) throw engine_file.explain(status);
 
-  std::vector<std::string> names;
-  for (const TriggerOfFile& trigger : engine_file.triggers()) names.push_back(trigger.name);
-  VcdFile vcd(Output(path), engine_file.name(), names, {"speed_rpm"});
   Engine<double, Signals>::Input in;
-  in.speed_rad_s = 0;  // a tick at standstill tells the levels to begin with
-  for (std::size_t w = 0; w < names.size(); ++w) vcd.level(w, 0, made->engine.step(in).trigger[w].level != 0);
-  vcd.number(0, 0, operation.speed_rpm);
   in.speed_rad_s = operation.speed_rad_s();
   const auto ticks = static_cast<std::uint64_t>(std::ceil(cycles * 120 / operation.speed_rpm / operation.tick_s));
-  for (std::uint64_t tick = 0; tick < ticks; ++tick) {
-    const double begin_s = static_cast<double>(tick) * operation.tick_s;
-    const auto& out = made->engine.step(in);
-    for (std::size_t w = 0; w < names.size(); ++w) {
-      for (std::uint32_t e = 0; e < out.trigger[w].edge_count; ++e) {
-        vcd.level(w, begin_s + out.trigger[w].edge[e].time_s, out.trigger[w].edge[e].level != 0);
-      }
-    }
-    vcd.write_until(begin_s + operation.tick_s);
+  dump.number(0, 0, operation.speed_rpm);
+  for (std::uint64_t tick = 1; tick <= ticks; ++tick) {
+    dump.tick(static_cast<double>(tick) * operation.tick_s, operation.tick_s, made->engine.step(in));
   }
-  vcd.finish(static_cast<double>(ticks) * operation.tick_s);
+  dump.finish(static_cast<double>(ticks) * operation.tick_s);
 }
 
 }  // namespace crankloop::program

@@ -1,6 +1,6 @@
 // The signals of an engine's trigger wheels at a constant speed, as a file that viewers of logic signals open.
 //
-// What belongs here: wheels, edges and times. What does not: the file's format (vcd.hpp).
+// What belongs here: the run. What does not: how its ticks become a file (signal_dump.hpp).
 #pragma once
 
 #include <string>

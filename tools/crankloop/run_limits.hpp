@@ -1,0 +1,17 @@
+// What no run may ask for: more than a revolution per tick, more ticks than anyone waits for.
+#pragma once
+
+#include <string>
+
+namespace crankloop::program {
+
+/// Most ticks of a run: some minutes for four cylinders.
+inline constexpr double kMostTicks = 1e9;
+
+/// Throws UsageError for more ticks than that; `remedy` says what else would help: "fewer --cycles".
+void require_ticks(double ticks, double tick_s, const std::string& remedy);
+
+/// Throws UsageError for a speed, in either sense, beyond the limit of the tables that were made for this tick.
+void require_speed(double speed_rpm, double limit_rad_s, double tick_s);
+
+}  // namespace crankloop::program
