@@ -626,6 +626,8 @@ TEST(CFaults, AreThoseOfCpp) {
   EXPECT_EQ(std::uint32_t{CRANKLOOP_FAULT_PHASE_JUMP}, std::uint32_t{kFaultPhaseJump});
   EXPECT_EQ(std::uint32_t{CRANKLOOP_FAULT_CAM_PHASE}, std::uint32_t{kFaultCamPhase});
   EXPECT_EQ(std::uint32_t{CRANKLOOP_FAULT_EVENT_BUDGET}, std::uint32_t{kFaultEventBudget});
+  EXPECT_EQ(std::uint32_t{CRANKLOOP_FAULT_LOAD}, std::uint32_t{kFaultLoad});
+  EXPECT_EQ(std::uint32_t{CRANKLOOP_FAULT_OVERSPEED}, std::uint32_t{kFaultOverspeed});
 }
 
 }  // namespace

@@ -5,7 +5,7 @@ using namespace crankloop;
 
 namespace {
 
-constexpr std::uint32_t kKnown = 2 * kFaultEventBudget - 1;
+constexpr std::uint32_t kKnown = 2 * kFaultOverspeed - 1;
 
 template <class Real, class S>
 void step_on(const std::uint8_t* data, std::size_t size) {

@@ -102,7 +102,9 @@ enum {
   CRANKLOOP_FAULT_PRESSURE = 1 << 3,
   CRANKLOOP_FAULT_PHASE_JUMP = 1 << 4,
   CRANKLOOP_FAULT_CAM_PHASE = 1 << 5,
-  CRANKLOOP_FAULT_EVENT_BUDGET = 1 << 6
+  CRANKLOOP_FAULT_EVENT_BUDGET = 1 << 6,
+  CRANKLOOP_FAULT_LOAD = 1 << 7,
+  CRANKLOOP_FAULT_OVERSPEED = 1 << 8
 };
 
 /* ---- definition: what an engine is. Meaning and ranges of each field: crankloop/define/, where they have the same names --------- */

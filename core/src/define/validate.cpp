@@ -260,7 +260,7 @@ Status validate(const Pressure& pressure, const Crank& crank) noexcept {
 
 Status validate(const EngineDefinition& engine) noexcept {
   const Status answers[] = {validate(engine.crank), validate(engine.masses), validate(engine.layout),
-                            validate(engine.pressure, engine.crank)};
+                            validate(engine.pressure, engine.crank), validate(engine.friction), validate(engine.load), validate(engine.starter)};
   if (engine.train_count < 0 || engine.train_count > kMaxTrains) return {Reason::out_of_range, -1, "trains"};
   if (const Status refused = first_refusal(answers); !refused.ok()) return refused;
   // No rod has a negative moment of inertia: J_rod = dI + m_rod l_pin l_crank.

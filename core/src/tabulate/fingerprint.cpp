@@ -79,6 +79,18 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
     f.add(options.valves.accuracy_m);
     for (int t = 0; t < engine.train_count; ++t) add(f, engine.trains[t]);
   }
+  // What came later counts only where there is any of it: engines without have the fingerprint they always had.
+  if (report.cut_doublings > 0) f.add(report.cut_doublings);
+  const Friction& friction = engine.friction;
+  const Load& load = engine.load;
+  const Starter& starter = engine.starter;
+  const double dynamics[] = {friction.constant_Pa, friction.linear_Pa_s, friction.quadratic_Pa_s2, load.constant_Nm,  load.linear_Nm_s,
+                             load.quadratic_Nm_s2, load.inertia_kg_m2,   starter.stall_Nm,         starter.no_load_rad_s};
+  bool any = false;
+  for (const double x : dynamics) any = any || x != 0;
+  if (any) {
+    for (const double x : dynamics) f.add(x);
+  }
   return f.value();
 }
 

@@ -120,8 +120,8 @@ struct Chosen {
 
 /// Divides each degree into the fewest segments that keep error(part, degree, segments) within the tolerance for every part; the tolerance is
 /// doubled until they all fit.
-template <class Error>
-[[nodiscard]] Chosen choose_grid(GasGrid& grid, int capacity, double tolerance, const Error& error) noexcept {
+template <class Parts, class Error>
+[[nodiscard]] Chosen choose_grid(GasGrid& grid, const Parts& parts, int capacity, double tolerance, const Error& error) noexcept {
   Chosen chosen{};
   for (int doublings = 0; doublings <= kMostDoublings; ++doublings, tolerance *= 2) {
     chosen = {0, doublings, 0};
@@ -132,7 +132,7 @@ template <class Error>
       for (const int n : kDivisions) {
         segments = n;
         worst = 0;
-        for (const Part part : kParts) {
+        for (const Part part : parts) {
           const double of_part = error(part, degree, n);
           if (of_part > worst) worst = of_part;
         }
@@ -198,7 +198,7 @@ void fill_torque(const EngineTorque& engine, const GasGrid& grid, Part part, Gas
 template <class Real>
 void fill_pressures(const IndicatorDiagram& diagram, double peak_Pa, const TableTargets<Real>& targets, TableReport& report) noexcept {
   if (targets.gas_grid == nullptr) return;
-  const Chosen chosen = choose_grid(*targets.gas_grid, targets.gas_capacity, kTolerance * peak_Pa, [&](Part part, int degree, int n) {
+  const Chosen chosen = choose_grid(*targets.gas_grid, kParts, targets.gas_capacity, kTolerance * peak_Pa, [&](Part part, int degree, int n) {
     return degree_error<Real>(
         n, [&](double from, double to) { return pressure_segment<Real>(diagram, part, degree, from, to); },
         [&](double u) { return pressure(diagram, part, degree + u); });
@@ -220,7 +220,7 @@ void fill_pressures(const IndicatorDiagram& diagram, double peak_Pa, const Table
 template <class Real>
 void fill_torques(const EngineTorque& engine, double peak_Pa, const TableTargets<Real>& targets, TableReport& report) noexcept {
   if (targets.torque_grid == nullptr) return;
-  const Chosen chosen = choose_grid(*targets.torque_grid, targets.gas_capacity, kTolerance * engine.scale_Nm(peak_Pa), [&](Part part, int degree, int n) {
+  const Chosen chosen = choose_grid(*targets.torque_grid, kParts, targets.gas_capacity, kTolerance * engine.scale_Nm(peak_Pa), [&](Part part, int degree, int n) {
     return degree_error<Real>(
         n, [&](double from, double to) { return torque_segment<Real>(engine, part, degree, from, to); },
         [&](double u) { return engine.torque_Nm(part, degree + u); });
@@ -236,6 +236,26 @@ void fill_torques(const EngineTorque& engine, double peak_Pa, const TableTargets
   fill(targets.gas_torque_heat, targets.gas_heat, Part::heat);
 }
 
+/// What a cylinder that does not fire lacks: the torque of its heat, over its own cycle.
+template <class Real>
+void fill_cut(const EngineDefinition& engine, const IndicatorDiagram& diagram, double peak_Pa, const TableTargets<Real>& targets,
+              TableReport& report) noexcept {
+  if (targets.cut_grid == nullptr) return;
+  EngineDefinition one = engine;
+  one.layout.cylinders = 1;
+  one.layout.firing_deg[0] = 0;
+  const EngineTorque torque(one, diagram);
+  constexpr Part kHeat[] = {Part::heat};
+  const Chosen chosen = choose_grid(*targets.cut_grid, kHeat, targets.gas_capacity, kTolerance * torque.scale_Nm(peak_Pa), [&](Part part, int degree, int n) {
+    return degree_error<Real>(
+        n, [&](double from, double to) { return torque_segment<Real>(torque, part, degree, from, to); },
+        [&](double u) { return torque.torque_Nm(part, degree + u); });
+  });
+  report.cut_segments = chosen.segments;
+  report.cut_doublings = chosen.doublings;
+  if (targets.cut_torque != nullptr) fill_torque(torque, *targets.cut_grid, Part::heat, *targets.cut_torque, targets.cut_heat);
+}
+
 }  // namespace
 
 template <class Real>
@@ -248,6 +268,7 @@ void fill_gas(const EngineDefinition& engine, const IndicatorDiagram& diagram, c
   }
   fill_pressures(diagram, peak_Pa, targets, report);
   fill_torques(EngineTorque(engine, diagram), peak_Pa, targets, report);
+  fill_cut(engine, diagram, peak_Pa, targets, report);
 }
 
 template void fill_gas(const EngineDefinition&, const IndicatorDiagram&, const TableTargets<float>&, TableReport&) noexcept;

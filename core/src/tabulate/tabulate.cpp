@@ -7,6 +7,7 @@
 #include <crankloop/tabulate/mechanism.hpp>
 #include <crankloop/tabulate/summary.hpp>
 
+#include "crank_dynamics.hpp"
 #include "curve_fit.hpp"
 #include "fingerprint.hpp"
 #include "gas_curves.hpp"
@@ -19,7 +20,6 @@ using detail::kRadPerCycle;
 
 namespace {
 
-constexpr double kFastest_rad_s = 10472;  // 100 000 rpm
 constexpr double kSameAngleDeg = 1e-9;
 
 template <class Real>
@@ -30,9 +30,7 @@ void fill_drive(const EngineDefinition& engine, const TickOptions& options, Driv
   drive.trains = static_cast<std::uint32_t>(engine.train_count);
   drive.cycles_per_tick_per_rad_s = static_cast<Real>(options.tick_s / kRadPerCycle);
   drive.rad_s_per_cycle_per_tick = static_cast<Real>(kRadPerCycle / options.tick_s);
-  // At most one revolution per tick, less a hair, so that rounding cannot take the phase increment to half a cycle.
-  const double one_turn_rad_s = 0.4999 * kRadPerCycle / options.tick_s;
-  drive.speed_limit_rad_s = static_cast<Real>(one_turn_rad_s < kFastest_rad_s ? one_turn_rad_s : kFastest_rad_s);
+  drive.speed_limit_rad_s = static_cast<Real>(detail::speed_limit_rad_s(options.tick_s));
   const Layout& layout = engine.layout;
   drive.cylinders = static_cast<std::uint32_t>(layout.cylinders);
   double mechanism_deg[kMaxCylinders] = {};
@@ -92,9 +90,11 @@ template <class Real>
   const bool torque = t.gas_torque_full != nullptr || t.gas_torque_motored != nullptr || t.gas_torque_heat != nullptr;
   if (pressure && t.gas_grid == nullptr) return {Reason::missing_table, -1, "targets.gas_grid"};
   if (torque && t.torque_grid == nullptr) return {Reason::missing_table, -1, "targets.torque_grid"};
-  if ((t.gas_grid != nullptr || t.torque_grid != nullptr) && t.gas_capacity < kDegreesPerCycle) return {Reason::out_of_range, -1, "targets.gas_capacity"};
+  if (t.cut_torque != nullptr && t.cut_grid == nullptr) return {Reason::missing_table, -1, "targets.cut_grid"};
+  if ((t.gas_grid != nullptr || t.torque_grid != nullptr || t.cut_grid != nullptr) && t.gas_capacity < kDegreesPerCycle) return {Reason::out_of_range, -1, "targets.gas_capacity"};
   if ((t.gas_torque_full != nullptr) != (t.gas_full != nullptr)) return {Reason::missing_table, -1, "targets.gas_full"};
   if ((t.gas_torque_motored != nullptr) != (t.gas_motored != nullptr)) return {Reason::missing_table, -1, "targets.gas_motored"};
+  if ((t.cut_torque != nullptr) != (t.cut_heat != nullptr)) return {Reason::missing_table, -1, "targets.cut_heat"};
   const bool all_of_lift = t.lift_segments != nullptr && t.rocker_ratios != nullptr;
   if (t.lift_curves != nullptr && !all_of_lift) return {Reason::missing_table, -1, "targets.lift_segments"};
   if ((t.gas_torque_heat != nullptr) != (t.gas_heat != nullptr)) return {Reason::missing_table, -1, "targets.gas_heat"};
@@ -153,6 +153,7 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
 
   TableReport found;
   if (targets.body != nullptr) *targets.body = rounded<Real>(body_of(engine));
+  if (targets.crank_dynamics != nullptr) *targets.crank_dynamics = detail::crank_dynamics_of<Real>(engine, options);
   if (targets.bearings != nullptr) *targets.bearings = rounded<Real>(bearings_of(engine));
   if (targets.balance != nullptr) {
     const Balance<double> balance = balance_of(engine);

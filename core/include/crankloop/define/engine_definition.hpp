@@ -2,6 +2,7 @@
 #pragma once
 
 #include <crankloop/define/crank.hpp>
+#include <crankloop/define/crank_dynamics.hpp>
 #include <crankloop/define/layout.hpp>
 #include <crankloop/define/masses.hpp>
 #include <crankloop/define/pressure.hpp>
@@ -16,6 +17,9 @@ struct EngineDefinition {
   Pressure pressure;
   int train_count = 0;  ///< 0 to kMaxTrains
   ValveTrain trains[kMaxTrains];
+  Friction friction;
+  Load load;
+  Starter starter;
 };
 
 /// Validates every part and what they demand of one another, in the order above; the first refusal is returned. Valve trains are

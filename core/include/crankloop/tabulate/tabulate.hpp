@@ -21,7 +21,7 @@ struct TickOptions {
 /// Most segments of a grid: 20 in every degree.
 inline constexpr std::size_t kMostGasSegments = 20 * kDegreesPerCycle;
 
-/// Where to build each section; null = leave it out. Pressures go with a gas_grid, gas torques with a torque_grid; each has room for
+/// Where to build each section; null = leave it out. Pressures go with a gas_grid, gas torques with a torque_grid, cut_torque with a cut_grid; each has room for
 /// `gas_capacity` segments. A gas torque goes with its segments, lift curves with theirs and their rocker ratios.
 template <class Real>
 struct TableTargets {
@@ -45,6 +45,9 @@ struct TableTargets {
   GasTorque<Real>* gas_torque_full = nullptr;
   GasTorque<Real>* gas_torque_motored = nullptr;
   GasTorque<Real>* gas_torque_heat = nullptr;
+  GasGrid* cut_grid = nullptr;
+  GasTorque<Real>* cut_torque = nullptr;
+  CrankDynamics<Real>* crank_dynamics = nullptr;
   LiftCurve<Real>* lift_curves = nullptr;          ///< one per train of the definition
   LiftSegment<Real>* lift_segments = nullptr;      ///< kDegreesPerTurn per train
   Segment<Real>* rocker_ratios = nullptr;          ///< likewise
@@ -52,6 +55,7 @@ struct TableTargets {
   IntegratedSegment<Real>* gas_full = nullptr;  ///< segments of gas_torque_full, and so on
   IntegratedSegment<Real>* gas_motored = nullptr;
   IntegratedSegment<Real>* gas_heat = nullptr;
+  IntegratedSegment<Real>* cut_heat = nullptr;
 };
 
 /// What tabulate found.
@@ -62,6 +66,8 @@ struct TableReport {
   int torque_segments = 0;        ///< segments of the gas torques' grid
   int torque_doublings = 0;
   double torque_error_Nm = 0;     ///< largest error of full, motored and heat torque of all cylinders, likewise
+  int cut_segments = 0;           ///< segments of the grid of one cylinder's heat torque
+  int cut_doublings = 0;
 };
 
 /// Fills the targets. Validates the definition first; nothing is written when it refuses.
@@ -95,6 +101,8 @@ template <class Real, std::size_t N> struct GasTorqueByLoadStore {
   IntegratedSegment<Real> gas_motored[N];
   IntegratedSegment<Real> gas_heat[N];
 };
+template <class Real, std::size_t N> struct CutTorqueStore { GasGrid cut_grid; GasTorque<Real> cut_torque; IntegratedSegment<Real> cut_heat[N]; };
+template <class Real> struct CrankDynamicsStore { CrankDynamics<Real> crank_dynamics; };
 template <class Real, std::size_t Trains> struct LiftStore {
   LiftCurve<Real> lift_curves[Trains];
   LiftSegment<Real> lift_segments[Trains * kDegreesPerTurn];
@@ -126,6 +134,8 @@ class TableStorage : If<Needs<S>::body, part::BodyStore<Real>>,
                      If<Needs<S>::gas_pressure && Needs<S>::load, part::PressureByLoadStore<Real, GasSegments>>,
                      If<Needs<S>::gas_torque && !Needs<S>::load, part::GasTorqueStore<Real, GasSegments>>,
                      If<Needs<S>::gas_torque && Needs<S>::load, part::GasTorqueByLoadStore<Real, GasSegments>>,
+                     If<Needs<S>::cut_torque, part::CutTorqueStore<Real, GasSegments>>,
+                     If<Needs<S>::crank_dynamics, part::CrankDynamicsStore<Real>>,
                      If<Needs<S>::any_valves, part::LiftStore<Real, S::trains.capacity>>,
                      If<Needs<S>::elastic_valves, part::ValveMotionStore<Real, S::trains.capacity>> {
   static_assert(GasSegments >= std::size_t{kDegreesPerCycle} && GasSegments <= kMostGasSegments, "720 to 14400 gas segments");
@@ -163,6 +173,8 @@ class TableStorage : If<Needs<S>::body, part::BodyStore<Real>>,
       t.gas_motored = this->gas_motored;
       t.gas_heat = this->gas_heat;
     }
+    if constexpr (N::cut_torque) t.cut_grid = &this->cut_grid, t.cut_torque = &this->cut_torque, t.cut_heat = this->cut_heat;
+    if constexpr (N::crank_dynamics) t.crank_dynamics = &this->crank_dynamics;
     if constexpr (N::any_valves) {
       if (engine.train_count > static_cast<int>(S::trains.capacity)) return {Reason::out_of_range, -1, "scene.trains"};
       t.lift_curves = this->lift_curves;
@@ -199,6 +211,9 @@ class TableStorage : If<Needs<S>::body, part::BodyStore<Real>>,
     s.gas_torque_full = t.gas_torque_full;
     s.gas_torque_motored = t.gas_torque_motored;
     s.gas_torque_heat = t.gas_torque_heat;
+    s.cut_grid = t.cut_grid;
+    s.cut_torque = t.cut_torque;
+    s.crank_dynamics = t.crank_dynamics;
     s.lift_curves = t.lift_curves;
     s.valve_motions = t.valve_motions;
     return s;

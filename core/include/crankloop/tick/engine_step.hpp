@@ -6,7 +6,10 @@
 //                              -> look-ups per mechanism -> pressure, torque, forces per cylinder -> totals -> output
 #pragma once
 
+#include <crankloop/tick/angle.hpp>
 #include <crankloop/tick/checked.hpp>
+#include <crankloop/tick/crank_step.hpp>
+#include <crankloop/tick/cylinder_cut.hpp>
 #include <crankloop/tick/cylinder_forces.hpp>
 #include <crankloop/tick/engine.hpp>
 #include <crankloop/tick/valves_step.hpp>
@@ -15,42 +18,35 @@ namespace crankloop {
 
 namespace detail {
 
-/// Where a mechanism stands: its cell in the 720 deg of its own cycle.
+/// Which cylinders do not fire this tick.
+struct CutOfTick {
+  std::uint32_t cut_cylinders;
+};
+/// The integration of the crank's motion, between its halves.
 template <class Real>
-struct Angle {
-  Cell cell;
-  Real u;  ///< fraction of the degree
-
-  /// The degree within the crank turn, 0 to 359.
-  [[nodiscard]] constexpr std::uint32_t turn_degree() const noexcept {
-    return cell.degree >= std::uint32_t{kDegreesPerTurn} ? cell.degree - std::uint32_t{kDegreesPerTurn} : cell.degree;
-  }
-  /// The cell of a cylinder that fires `turns` (0 or 1) crank turns after the mechanism's phase.
-  [[nodiscard]] constexpr Cell delayed(std::uint32_t turns) const noexcept {
-    const std::uint32_t degree = cell.degree + turns * std::uint32_t{kDegreesPerTurn};
-    return {degree >= std::uint32_t{kDegreesPerCycle} ? degree - std::uint32_t{kDegreesPerCycle} : degree, cell.into, cell.rest};
-  }
+struct MotionOfTick {
+  CrankStep<Real>* motion;
 };
 
-template <class Real>
-[[nodiscard]] constexpr Angle<Real> angle_of(std::uint64_t phase, std::uint64_t firing_phase) noexcept {
-  const Cell cell = Phase{phase - firing_phase}.cell<Real>();
-  return {cell, fraction<Real>(cell)};
-}
+/// What a tick's crank part takes and gives besides tables, state and output.
+template <class Real, class S>
+struct CrankTurn : If<Needs<S>::cut, CutOfTick>, If<Needs<S>::crank_dynamics, MotionOfTick<Real>> {
+  Phase turned;
+  bool jumped;
+  const Real* mean_pressure_Pa;  ///< per cylinder, where pressures are given
+  Real* head_pressure_Pa;        ///< per cylinder, for the valves
+};
 
+/// What a crank that is turned by forces needs of the look-ups.
 template <class Real>
-[[nodiscard]] constexpr Integral<Real> integral_at(const IntegratedSegment<Real>& s, Real u, Real mean) noexcept {
-  return {s.base, integral(s.slope, u, mean)};
-}
-
-template <class Real>
-[[nodiscard]] constexpr Real total(const Integral<Real>& sum, Real quantum) noexcept {
-  return signed_value<Real>(sum.base) * quantum + sum.part;
-}
+struct TurningTorques {
+  Real gas_parts_Nm[2]{};      ///< torque of gas: all of it, or motored and heat
+  Real inertia_slope_kg_m2{};  ///< torque of masses per w^2
+};
 
 /// One tick's work in progress: what is read once per mechanism and added up over cylinders.
 template <class Real, class S>
-struct Step {
+struct Step : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
   using N = Needs<S>;
 
   const Tables<Real, S>& tables;
@@ -59,7 +55,7 @@ struct Step {
   Pose<Real> pose[N::pose ? S::cylinders.capacity : 1];
   Angle<Real> angle[N::mechanisms ? S::cylinders.capacity : 1];
 
-  Real torque_Nm{};          ///< at the tick
+  Real torque_Nm{};          ///< at the tick; where forces turn the crank that of gas alone, until its speed is known
   Integral<Real> inertia{};  ///< of the torque of masses per w^2
   Integral<Real> gas[2]{};
   Integral<Real> stroke[N::input_pressure ? S::cylinders.capacity : 1]{};
@@ -80,7 +76,7 @@ struct Step {
         if constexpr (N::displacement) {
           const Integral<Real> x = integral_at(s, at.u, Real{0});
           p.displacement_m = total(x, tables.stroke->quantum);
-          if constexpr (S::mean_torque && N::input_pressure) stroke[m] = x;
+          if constexpr (N::work && N::input_pressure) stroke[m] = x;
         }
       }
       if constexpr (N::acceleration) p.acceleration_m = value(tables.acceleration->at[degree], at.u);
@@ -98,36 +94,82 @@ struct Step {
   }
 
   /// Torque of tables: they hold that of all cylinders together. Forces add up to it by themselves.
-  void read_torque() noexcept {
+  void read_torque([[maybe_unused]] std::uint32_t cut_cylinders) noexcept {
     [[maybe_unused]] const Angle<Real> at = angle_of<Real>(state.phase.units(), 0);
     if constexpr (N::inertia_torque) {
       const IntegratedSegment<Real>& s = tables.inertia_torque->at[at.turn_degree()];
-      if constexpr (!S::forces) torque_Nm = state.speed_rad_s * state.speed_rad_s * value(s.slope, at.u);
-      if constexpr (S::mean_torque) inertia = integral_at(s, at.u, Real{0});
+      if constexpr (N::crank_dynamics) {
+        this->inertia_slope_kg_m2 = value(s.slope, at.u);
+      } else if constexpr (!S::forces) {
+        torque_Nm = state.speed_rad_s * state.speed_rad_s * value(s.slope, at.u);
+      }
+      if constexpr (N::work) inertia = integral_at(s, at.u, Real{0});
     }
     if constexpr (N::gas_torque) {
       const std::uint32_t segment = tables.torque_grid->segment(at.cell);
       Real gas_Nm;
       if constexpr (N::load) {
         gas_Nm = gas_torque(*tables.gas_torque_motored, segment, at.u, 0);
-        gas_Nm += state.load_ratio * gas_torque(*tables.gas_torque_heat, segment, at.u, 1);
+        Real heat_Nm = gas_torque(*tables.gas_torque_heat, segment, at.u, 1);
+        if constexpr (N::crank_dynamics) this->gas_parts_Nm[0] = gas_Nm, this->gas_parts_Nm[1] = heat_Nm;
+        if constexpr (N::cut) heat_Nm -= CutHeat<Real, S>(tables, cut_cylinders).torque_Nm(state.phase);
+        gas_Nm += state.load_ratio * heat_Nm;
       } else {
         gas_Nm = gas_torque(*tables.gas_torque_full, segment, at.u, 0);
+        if constexpr (N::crank_dynamics) this->gas_parts_Nm[0] = gas_Nm;
       }
-      if constexpr (!S::forces) torque_Nm += gas_Nm;
+      if constexpr (!S::forces || N::crank_dynamics) torque_Nm += gas_Nm;
     }
   }
 
   /// Gas torque by a curve, with its work in gas[which].
   [[nodiscard]] Real gas_torque(const GasTorque<Real>& curve, std::uint32_t segment, Real u, int which) noexcept {
     const IntegratedSegment<Real>& s = curve.at[segment];
-    if constexpr (S::mean_torque) gas[which] = integral_at(s, u, curve.mean_Nm);
+    if constexpr (N::work) gas[which] = integral_at(s, u, curve.mean_Nm);
     return value(s.slope, u);
   }
 
-  [[nodiscard]] Real pressure_Pa(std::uint32_t k, std::uint32_t segment, Real u) noexcept {
+  /// Torque of gas at given pressures: what forces turn the crank with. Other scenes add it up with what they ask of each cylinder.
+  void add_given_pressures() noexcept {
+    const Drive<Real>& drive = *tables.drive;
+    for (std::uint32_t k = 0; k < count<S>(drive.cylinders); ++k) {
+      torque_Nm += (state.pressure_Pa[k] - tables.body->crankcase_Pa) * tables.body->bore_area_m2 * pose[drive.mechanism_of[k]].slope_m;
+    }
+    this->gas_parts_Nm[0] = torque_Nm;
+  }
+
+  /// J_eff: the integral of the torque of masses per w^2 is minus half of the part that changes.
+  [[nodiscard]] Real inertia_kg_m2() const noexcept {
+    return tables.crank_dynamics->turning_kg_m2 - 2 * total(inertia, tables.inertia_torque->quantum);
+  }
+
+  /// At rest, where the engine starts.
+  void start_crank() noexcept {
+    if constexpr (N::crank_dynamics) {
+      state.per_root_inertia = Real{1} / square_root(inertia_kg_m2());
+      state.inertia_slope_kg_m2 = this->inertia_slope_kg_m2;
+    }
+  }
+
+  /// The second half of the crank's motion, and its output.
+  void move_crank([[maybe_unused]] const CrankTurn<Real, S>& crank) noexcept {
+    if constexpr (N::crank_dynamics) {
+      if constexpr (N::input_pressure) add_given_pressures();
+      CrankStep<Real>& motion = *crank.motion;
+      motion.arrive({gas_work_J(crank), torque_Nm, inertia_kg_m2(), this->inertia_slope_kg_m2});
+      torque_Nm += this->inertia_slope_kg_m2 * (state.speed_rad_s * state.speed_rad_s);
+      out.crank = state.phase;
+      motion.show(out);
+      if constexpr (S::starter) out.starter_Nm = motion.starter_Nm();
+    }
+  }
+
+  [[nodiscard]] Real pressure_Pa(std::uint32_t k, std::uint32_t segment, Real u, [[maybe_unused]] std::uint32_t cut_cylinders) noexcept {
     if constexpr (N::input_pressure) {
       return state.pressure_Pa[k];
+    } else if constexpr (N::gas_pressure && N::cut) {
+      const Real motored_Pa = value(tables.pressure_motored[segment], u);
+      return (cut_cylinders >> k & 1u) != 0 ? motored_Pa : motored_Pa + state.load_ratio * value(tables.pressure_heat[segment], u);
     } else if constexpr (N::gas_pressure && N::load) {
       return value(tables.pressure_motored[segment], u) + state.load_ratio * value(tables.pressure_heat[segment], u);
     } else if constexpr (N::gas_pressure) {
@@ -139,7 +181,7 @@ struct Step {
   }
 
   /// Fills head_pressure_Pa, per cylinder, where the scene has gas on its valves' heads.
-  void do_cylinders([[maybe_unused]] Real* head_pressure_Pa) noexcept {
+  void do_cylinders([[maybe_unused]] Real* head_pressure_Pa, std::uint32_t cut_cylinders) noexcept {
     const Drive<Real>& drive = *tables.drive;
     const std::uint32_t cylinders = count<S>(drive.cylinders);
     const Real speed = state.speed_rad_s;
@@ -154,17 +196,22 @@ struct Step {
         out.displacement_m[k] = p.displacement_m;
         out.velocity_m_s[k] = p.slope_m * speed;
         out.acceleration_m_s2[k] = p.acceleration_m * (speed * speed);
+        if constexpr (N::crank_dynamics) out.acceleration_m_s2[k] += p.slope_m * out.acceleration_rad_s2;
       }
       if constexpr (S::rod_motion) {
         out.rod_angle_rad[k] = p.rod_angle_rad;
         out.rod_speed_rad_s[k] = p.rod_slope * speed;
         out.rod_acceleration_rad_s2[k] = p.rod_curvature * (speed * speed);
+        if constexpr (N::crank_dynamics) out.rod_acceleration_rad_s2[k] += p.rod_slope * out.acceleration_rad_s2;
       }
-      if constexpr (S::valve_gas) head_pressure_Pa[k] = pressure_Pa(k, segment, u);
-      if constexpr (S::forces) {
-        out.cylinder[k] = cylinder_forces<S::rod_inertia>(*tables.body, p, pressure_Pa(k, segment, u), speed);
+      if constexpr (S::valve_gas) head_pressure_Pa[k] = pressure_Pa(k, segment, u, cut_cylinders);
+      if constexpr (S::forces && N::crank_dynamics) {
+        const CrankRate<Real> rate{speed, out.acceleration_rad_s2};
+        out.cylinder[k] = cylinder_forces<S::rod_inertia>(*tables.body, p, pressure_Pa(k, segment, u, cut_cylinders), rate);
+      } else if constexpr (S::forces) {
+        out.cylinder[k] = cylinder_forces<S::rod_inertia>(*tables.body, p, pressure_Pa(k, segment, u, cut_cylinders), speed);
         torque_Nm += out.cylinder[k].torque_Nm;
-      } else if constexpr (N::any_torque && N::input_pressure) {
+      } else if constexpr (N::any_torque && N::input_pressure && !N::crank_dynamics) {
         torque_Nm += (state.pressure_Pa[k] - tables.body->crankcase_Pa) * tables.body->bore_area_m2 * p.slope_m;
       }
     }
@@ -174,50 +221,76 @@ struct Step {
     if constexpr (S::torque) out.torque_Nm = torque_Nm;
   }
 
+  /// Whether so little was turned that a difference of work drowns in rounding.
+  [[nodiscard]] static bool crawling(Phase turned) noexcept {
+    constexpr std::uint64_t kCrawl = ~std::uint64_t{0} / kDegreesPerCycle >> (sizeof(Real) == 4 ? 4 : 20);
+    return turned.units() + kCrawl <= 2 * kCrawl;  // |turned| <= kCrawl, wrapping
+  }
+
+  /// Adds the gas's work since the last tick, less that of its mean torque over the cycle, which it answers.
+  [[nodiscard]] Real add_gas_work([[maybe_unused]] const CrankTurn<Real, S>& crank, [[maybe_unused]] Real& work_J) noexcept {
+    if constexpr (N::gas_torque && N::load) {
+      const GasTorque<Real>& motored = *tables.gas_torque_motored;
+      const GasTorque<Real>& heat = *tables.gas_torque_heat;
+      work_J += difference(state.gas[0], gas[0], motored.quantum);
+      Real heat_J = difference(state.gas[1], gas[1], heat.quantum);
+      Real heat_mean_Nm = heat.mean_Nm;
+      if constexpr (N::cut) {
+        const auto lacks = CutHeat<Real, S>(tables, crank.cut_cylinders).work(state.phase - crank.turned, state.phase);
+        heat_J -= lacks.work_J;
+        heat_mean_Nm -= lacks.mean_Nm;
+      }
+      work_J += state.load_ratio * heat_J;
+      return motored.mean_Nm + state.load_ratio * heat_mean_Nm;
+    } else if constexpr (N::gas_torque) {
+      work_J += difference(state.gas[0], gas[0], tables.gas_torque_full->quantum);
+      return tables.gas_torque_full->mean_Nm;
+    } else if constexpr (N::input_pressure) {
+      const Drive<Real>& drive = *tables.drive;
+      for (std::uint32_t k = 0; k < count<S>(drive.cylinders); ++k) {
+        const std::uint32_t m = drive.mechanism_of[k];
+        work_J += (crank.mean_pressure_Pa[k] - tables.body->crankcase_Pa) * tables.body->bore_area_m2 *
+                  difference(state.stroke[m], stroke[m], tables.stroke->quantum);
+      }
+    }
+    return Real{};
+  }
+
+  /// Where forces turn the crank: the gas's work since the last tick.
+  [[nodiscard]] Real gas_work_J(const CrankTurn<Real, S>& crank) noexcept {
+    const Real turned_rad = crank.motion->turned_rad();
+    if (crawling(crank.turned)) return (crank.motion->gas_before_Nm() + torque_Nm) / 2 * turned_rad;
+    Real work_J{};
+    const Real mean_Nm = add_gas_work(crank, work_J);
+    return work_J + mean_Nm * turned_rad;
+  }
+
   /// Work done since the last tick over the angle turned. At a crawl the difference drowns in rounding: there the mean of the
   /// torques at both ends is the better average (docs/decisions/0005-mean-torque.md).
   /// After a jump of a measured phase there is no tick to average over.
-  void average_torque(Phase turned, bool jumped, const Real* mean_pressure_Pa) noexcept {
+  void average_torque(const CrankTurn<Real, S>& crank) noexcept {
     if constexpr (S::mean_torque) {
-      constexpr std::uint64_t kCrawl = ~std::uint64_t{0} / kDegreesPerCycle >> (sizeof(Real) == 4 ? 4 : 20);
-      const bool crawling = turned.units() + kCrawl <= 2 * kCrawl;  // |turned| <= kCrawl, wrapping
-      if (jumped) {
+      if (crank.jumped) {
         out.mean_torque_Nm = torque_Nm;
-      } else if (crawling) {
+      } else if (crawling(crank.turned)) {
         out.mean_torque_Nm = (state.torque_Nm + torque_Nm) / 2;
       } else {
         constexpr Real kRadPerCycle = static_cast<Real>(0x1.921fb54442d18p+3);
-        const Real per_rad = Real{1} / (turned.signed_cycles<Real>() * kRadPerCycle);
-        const Real w2 = state.speed_rad_s * state.speed_rad_s;
+        const Real per_rad = Real{1} / (crank.turned.template signed_cycles<Real>() * kRadPerCycle);
+        Real w2 = state.speed_rad_s * state.speed_rad_s;
+        if constexpr (N::crank_dynamics) w2 = (w2 + crank.motion->speed_before_rad_s() * crank.motion->speed_before_rad_s()) / 2;
         Real work_J = w2 * difference(state.inertia, inertia, tables.inertia_torque->quantum);
-        Real mean_Nm{};
-        if constexpr (N::gas_torque && N::load) {
-          const GasTorque<Real>& motored = *tables.gas_torque_motored;
-          const GasTorque<Real>& heat = *tables.gas_torque_heat;
-          work_J += difference(state.gas[0], gas[0], motored.quantum);
-          work_J += state.load_ratio * difference(state.gas[1], gas[1], heat.quantum);
-          mean_Nm = motored.mean_Nm + state.load_ratio * heat.mean_Nm;
-        } else if constexpr (N::gas_torque) {
-          work_J += difference(state.gas[0], gas[0], tables.gas_torque_full->quantum);
-          mean_Nm = tables.gas_torque_full->mean_Nm;
-        } else if constexpr (N::input_pressure) {
-          const Drive<Real>& drive = *tables.drive;
-          for (std::uint32_t k = 0; k < count<S>(drive.cylinders); ++k) {
-            const std::uint32_t m = drive.mechanism_of[k];
-            work_J += (mean_pressure_Pa[k] - tables.body->crankcase_Pa) * tables.body->bore_area_m2 *
-                      difference(state.stroke[m], stroke[m], tables.stroke->quantum);
-          }
-        }
+        const Real mean_Nm = add_gas_work(crank, work_J);
         out.mean_torque_Nm = work_J * per_rad + mean_Nm;
       }
-      (void)mean_pressure_Pa;
     }
   }
 
   void remember_work() noexcept {
-    if constexpr (S::mean_torque) {
+    if constexpr (N::work) {
       state.inertia = inertia;
       state.torque_Nm = torque_Nm;
+      if constexpr (N::crank_dynamics) state.gas_Nm[0] = this->gas_parts_Nm[0], state.gas_Nm[1] = this->gas_parts_Nm[1];
       if constexpr (N::gas_torque) {
         state.gas[0] = gas[0];
         if constexpr (N::load) state.gas[1] = gas[1];
@@ -278,26 +351,20 @@ struct Step {
   }
 };
 
-/// What a tick's crank part takes and gives besides tables, state and output.
-template <class Real>
-struct CrankTurn {
-  Phase turned;
-  bool jumped;
-  const Real* mean_pressure_Pa;  ///< per cylinder, where pressures are given
-  Real* head_pressure_Pa;        ///< per cylinder, for the valves
-};
-
 template <class Real, class S>
-inline void run_mechanisms(const Tables<Real, S>& tables, State<Real, S>& state, Output<Real, S>& out, const CrankTurn<Real>& crank) noexcept {
+inline void run_mechanisms(const Tables<Real, S>& tables, State<Real, S>& state, Output<Real, S>& out, const CrankTurn<Real, S>& crank) noexcept {
   Step<Real, S> step(tables, state, out);
-  step.read_torque();
+  std::uint32_t cut_cylinders = 0;
+  if constexpr (Needs<S>::cut) cut_cylinders = crank.cut_cylinders;
+  step.read_torque(cut_cylinders);
+  if constexpr (Needs<S>::mechanisms) step.read_mechanisms();
+  step.move_crank(crank);
   if constexpr (Needs<S>::mechanisms) {
-    step.read_mechanisms();
-    step.do_cylinders(crank.head_pressure_Pa);
+    step.do_cylinders(crank.head_pressure_Pa, cut_cylinders);
     step.load_bearings();
   }
   step.show_torque();
-  step.average_torque(crank.turned, crank.jumped, crank.mean_pressure_Pa);
+  step.average_torque(crank);
   step.remember_work();
   step.balance_engine();
 }
@@ -305,8 +372,30 @@ inline void run_mechanisms(const Tables<Real, S>& tables, State<Real, S>& state,
 /// The same as a call of its own: its stack is free again when the valves need theirs.
 template <class Real, class S>
 [[gnu::noinline]] void run_mechanisms_apart(const Tables<Real, S>& tables, State<Real, S>& state, Output<Real, S>& out,
-                                            const CrankTurn<Real>& crank) noexcept {
+                                            const CrankTurn<Real, S>& crank) noexcept {
   run_mechanisms(tables, state, out, crank);
+}
+
+/// Where forces turn the crank: its motion around the look-ups. Answers fault bits. A call of its own for the same reason.
+template <class Real, class S>
+[[gnu::noinline]] std::uint32_t run_turned_by_forces(const Tables<Real, S>& tables, State<Real, S>& state, Output<Real, S>& out,
+                                                     CrankTurn<Real, S>& crank, const Input<Real, S>& input) noexcept {
+  std::uint32_t faults = 0;
+  (void)checked(input.load_Nm, within_magnitude(input.load_Nm, static_cast<Real>(kMostLoad_Nm)), state.load_Nm, kFaultLoad, faults);
+  Real gas_Nm = state.gas_Nm[0];
+  if constexpr (Needs<S>::load) {
+    Real heat_Nm = state.gas_Nm[1];
+    if constexpr (Needs<S>::cut) heat_Nm -= CutHeat<Real, S>(tables, crank.cut_cylinders).torque_Nm(state.phase);
+    gas_Nm += state.load_ratio * heat_Nm;
+  }
+  bool starter = false;
+  if constexpr (S::starter) starter = input.starter != 0;
+  CrankStep<Real> motion(*tables.drive, *tables.crank_dynamics, state, state.speed_rad_s);
+  crank.turned = motion.turn(gas_Nm, starter);
+  crank.motion = &motion;
+  state.phase += crank.turned;
+  run_mechanisms(tables, state, out, crank);
+  return motion.overspeed() ? faults | kFaultOverspeed : faults;
 }
 
 /// True when every section the scene reads is there.
@@ -327,6 +416,8 @@ template <class Real, class S>
   if constexpr (N::gas_pressure && N::load) all = all && t.pressure_motored != nullptr && t.pressure_heat != nullptr;
   if constexpr (N::gas_torque && !N::load) all = all && t.gas_torque_full != nullptr;
   if constexpr (N::gas_torque && N::load) all = all && t.gas_torque_motored != nullptr && t.gas_torque_heat != nullptr;
+  if constexpr (N::cut_torque) all = all && t.cut_grid != nullptr && t.cut_torque != nullptr;
+  if constexpr (N::crank_dynamics) all = all && t.crank_dynamics != nullptr;
   if constexpr (S::bearing_loads) all = all && t.bearings != nullptr;
   if constexpr (S::free_forces) all = all && t.balance != nullptr;
   if constexpr (N::any_valves) all = all && t.lift_curves != nullptr;
@@ -351,6 +442,9 @@ Status Engine<Real, S>::init(const Tables& tables, Phase start) noexcept {
   if constexpr (Needs<S>::body && !S::rod_inertia) {
     if (tables.body->rod_inertia_correction_kg_m2 != Real{0}) return {Reason::inconsistent, -1, "scene.rod_inertia"};
   }
+  if constexpr (Needs<S>::crank_dynamics) {
+    if (!(tables.crank_dynamics->least_kg_m2 >= static_cast<Real>(kLeastInertia_kg_m2))) return {Reason::not_positive, -1, "masses.crank_inertia"};
+  }
   if constexpr (Needs<S>::any_valves) {
     if (drive.trains > S::trains.capacity || (S::trains.exact && drive.trains != S::trains.capacity)) {
       return {Reason::out_of_range, -1, "tables.trains"};
@@ -367,14 +461,15 @@ Status Engine<Real, S>::init(const Tables& tables, Phase start) noexcept {
   if constexpr (Needs<S>::input_pressure) {
     for (Real& pressure : state_.pressure_Pa) pressure = tables.body->crankcase_Pa;
   }
-  if constexpr (S::mean_torque) {  // the first tick's work counts from here
+  if constexpr (Needs<S>::work) {  // the first tick's work counts from here
     detail::Step<Real, S> step(tables, state_, output_);
-    step.read_torque();
+    step.read_torque(0);
     if constexpr (Needs<S>::mechanisms) {
       Real unused[S::cylinders.capacity];
       step.read_mechanisms();
-      step.do_cylinders(unused);
+      step.do_cylinders(unused, 0);
     }
+    step.start_crank();
     step.remember_work();
     output_ = Output{};
   }
@@ -400,7 +495,7 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
     const Real speed = detail::checked(input.speed_rad_s, detail::within_magnitude(input.speed_rad_s, limit), state_.speed_rad_s, kFaultSpeed, faults);
     turned = Phase::from_cycles(speed * drive.cycles_per_tick_per_rad_s);
     state_.phase += turned;
-  } else {
+  } else if constexpr (S::crank == CrankGiven::phase) {
     turned = input.crank - state_.phase;
     const Real speed = turned.template signed_cycles<Real>() * drive.rad_s_per_cycle_per_tick;
     // The first measured angle says nothing of the speed, nor does one that no crankshaft could have reached.
@@ -425,8 +520,11 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
   }
 
   [[maybe_unused]] Real head_pressure_Pa[S::valve_gas ? S::cylinders.capacity : 1];
-  const detail::CrankTurn<Real> crank{turned, jumped, mean_pressure_Pa, head_pressure_Pa};
-  if constexpr (Needs<S>::elastic_valves) {
+  detail::CrankTurn<Real, S> crank{{}, {}, turned, jumped, mean_pressure_Pa, head_pressure_Pa};
+  if constexpr (Needs<S>::cut) crank.cut_cylinders = input.cut_cylinders;
+  if constexpr (Needs<S>::crank_dynamics) {
+    faults |= detail::run_turned_by_forces(tables, state_, output_, crank, input);
+  } else if constexpr (Needs<S>::elastic_valves) {
     detail::run_mechanisms_apart(tables, state_, output_, crank);
   } else {
     detail::run_mechanisms(tables, state_, output_, crank);

@@ -15,6 +15,8 @@ enum Fault : std::uint32_t {
                                 ///< torque that at the tick
   kFaultCamPhase = 1u << 5,       ///< a cam phase target not finite or outside -180 to 180 deg: the last good one was used
   kFaultEventBudget = 1u << 6,    ///< more contact changes in a tick than are located: the rest is taken at the end of a fine step
+  kFaultLoad = 1u << 7,           ///< load torque not finite or outside +-1e8 Nm: the last good one was used
+  kFaultOverspeed = 1u << 8,      ///< the forces would turn the crank faster than the speed limit: it was held there
 };
 
 }  // namespace crankloop

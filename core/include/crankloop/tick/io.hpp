@@ -20,6 +20,17 @@ struct SpeedInput {
 struct PhaseInput {
   Phase crank{};  ///< absolute: 0 = cylinder 1's firing top dead centre
 };
+inline constexpr double kMostLoad_Nm = 1e8;
+template <class Real>
+struct LoadTorqueInput {
+  Real load_Nm = 0;  ///< on the crankshaft this tick, beside the definition's brake: positive against forward rotation; may drive; +-1e8
+};
+struct StarterInput {
+  std::uint32_t starter = 0;  ///< 0 = off; else the starter turns the crank forward this tick
+};
+struct CylinderCutInput {
+  std::uint32_t cut_cylinders = 0;  ///< bit k: cylinder k does not fire this tick, its pressure is the motored one
+};
 template <class Real>
 struct LoadInput {
   Real load_ratio = 1;  ///< 0 = motored, 1 = the diagram as given; 0 to 2
@@ -35,10 +46,23 @@ struct CamPhaseInput {
 };
 
 template <class Real, class S>
-struct Input : std::conditional_t<S::crank == CrankGiven::speed, SpeedInput<Real>, PhaseInput>,
+using CrankInput = std::conditional_t<S::crank == CrankGiven::speed, SpeedInput<Real>,
+                                      std::conditional_t<S::crank == CrankGiven::phase, PhaseInput, LoadTorqueInput<Real>>>;
+
+template <class Real, class S>
+struct Input : CrankInput<Real, S>,
                If<Needs<S>::load, LoadInput<Real>>,
                If<Needs<S>::input_pressure, PressureInput<Real, S>>,
-               If<S::cam_phasing, CamPhaseInput<Real, S>> {};
+               If<S::cam_phasing, CamPhaseInput<Real, S>>,
+               If<S::starter, StarterInput>,
+               If<Needs<S>::cut, CylinderCutInput> {};
+
+/// How the crank turns where its speed changes.
+template <class Real>
+struct CrankRate {
+  Real speed_rad_s;
+  Real acceleration_rad_s2;
+};
 
 // ---- output ----------------------------------------------------------------------------------------------------------------
 
@@ -58,9 +82,26 @@ struct RodMotion {
   Real rod_acceleration_rad_s2[S::cylinders.capacity];
 };
 
+/// How the crank moves where the speed is not given. At the end of the tick, with this tick's inputs:
+///
+///     J_eff acceleration = torque_Nm + starter_Nm - friction_Nm - load_Nm,    torque_Nm as in Torque
+template <class Real>
+struct CrankMotion {
+  Phase crank;                ///< 0 = cylinder 1's firing top dead centre
+  Real speed_rad_s;           ///< negative = backwards
+  Real acceleration_rad_s2;
+  Real friction_Nm;           ///< friction and brake, positive against forward rotation; at standstill what they hold against
+};
+template <class Real>
+struct StarterTorque {
+  Real starter_Nm;
+};
+
+/// At the end of the tick, of gas and masses at the crank speed w then: P dx/da - dM db/da with the masses' parts that go with w^2. Where
+/// forces make the speed, what masses take to be accelerated with the crank is in J_eff, not here, but it is in CylinderForces::torque_Nm.
 template <class Real>
 struct Torque {
-  Real torque_Nm;  ///< on the crankshaft, all cylinders, at the end of the tick
+  Real torque_Nm;  ///< on the crankshaft, all cylinders
 };
 template <class Real>
 struct MeanTorque {
@@ -142,7 +183,9 @@ struct ValveForces {
 };
 
 template <class Real, class S>
-struct Output : If<S::kinematics, Kinematics<Real, S>>,
+struct Output : If<Needs<S>::crank_dynamics, CrankMotion<Real>>,
+                If<S::starter, StarterTorque<Real>>,
+                If<S::kinematics, Kinematics<Real, S>>,
                 If<S::rod_motion, RodMotion<Real, S>>,
                 If<S::torque, Torque<Real>>,
                 If<S::mean_torque, MeanTorque<Real>>,
@@ -157,7 +200,7 @@ struct Output : If<S::kinematics, Kinematics<Real, S>>,
 
 // ---- state -----------------------------------------------------------------------------------------------------------------
 
-/// What mean torque remembers of the tick before: work done so far and the torque then, for each part that may be scaled by itself.
+/// What a tick's work is counted from: of the tick before, the work done so far and the torque then, for each part that may be scaled by itself.
 template <class Real, class S>
 struct WorkState {
   static constexpr bool by_load = Needs<S>::load;
@@ -178,6 +221,19 @@ struct StateCore {
   Real speed_rad_s = 0;  ///< last good
   Real load_ratio = 1;   ///< last good
 };
+/// What a crank that is turned by forces remembers: docs/model.md "Crank dynamics".
+template <class Real>
+struct CrankState {
+  Real reduced_speed = 0;         ///< u = w sqrt(J_eff), a quantity whose square is twice the kinetic energy; sqrt(J)
+  Real reduced_rest = 0;          ///< what rounding left out of it
+  Real per_root_inertia = 1;      ///< 1 / sqrt(J_eff) where the crank stands
+  Real inertia_slope_kg_m2 = 0;   ///< torque of masses per w^2 there
+  Real gas_Nm[2] = {};            ///< gas torque there: as in WorkState::gas, of pressures given in [0]
+  Real owed_J = 0;                ///< work that a reversal has left over, at most 0
+  Real lag_rad_s = 0;             ///< by how much the last tick should have turned faster
+  Real load_Nm = 0;               ///< last good
+  Real crank_spare = 0;           ///< keeps the size a multiple of eight: no padding
+};
 template <class Real, class S>
 struct LastPressure {
   Real pressure_Pa[(S::cylinders.capacity + 1) / 2 * 2];  ///< last good, per cylinder
@@ -196,9 +252,20 @@ struct CamPhaseState {
 template <class Real, class S>
 struct State : StateCore<Real>,
                If<Needs<S>::input_pressure, LastPressure<Real, S>>,
-               If<S::mean_torque, WorkState<Real, S>>,
+               If<Needs<S>::work, WorkState<Real, S>>,
+               If<Needs<S>::crank_dynamics, CrankState<Real>>,
                If<Needs<S>::elastic_valves, ValvesState<Real, S>>,
                If<S::cam_phasing, CamPhaseState<Real, S>>,
                If<S::valve_results, ValveRecords<Real, S>> {};
+
+/// The same state turning at another speed, for Engine::restore: a run that does not start at rest.
+template <class Real, class S>
+[[nodiscard]] constexpr State<Real, S> turning_at(State<Real, S> state, Real speed_rad_s) noexcept {
+  static_assert(Needs<S>::crank_dynamics, "where the speed is an input, give it there");
+  state.speed_rad_s = speed_rad_s;
+  state.reduced_speed = speed_rad_s / state.per_root_inertia;
+  state.reduced_rest = state.owed_J = state.lag_rad_s = Real{0};
+  return state;
+}
 
 }  // namespace crankloop

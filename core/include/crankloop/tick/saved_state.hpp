@@ -47,6 +47,10 @@ template <class S>
   for (const bool answer : {S::load_ratio, S::rod_inertia, S::torque, S::mean_torque, S::forces, S::valve_results, S::valve_gas, S::cam_phasing}) {
     crc.add(std::uint32_t{answer});
   }
+  if (S::starter || S::cylinder_cut) {  // scenes without them keep the code they always had
+    crc.add(std::uint32_t{S::starter});
+    crc.add(std::uint32_t{S::cylinder_cut});
+  }
   return crc.value();
 }
 

@@ -23,6 +23,7 @@ inline constexpr Count up_to{N, false};
 enum class CrankGiven : std::uint8_t {
   speed,  ///< Input::speed_rad_s; the engine counts the angle
   phase,  ///< Input::crank, an absolute angle that the controller measured; the engine works out the speed
+  load,   ///< Input::load_Nm; gas, masses, friction and load make the speed (docs/model.md "Crank dynamics")
 };
 
 enum class PressureGiven : std::uint8_t {
@@ -63,23 +64,27 @@ struct Scene {
   static constexpr bool valve_results = false;  ///< per-cycle results: float, bounce, seating speed; elastic valves
   static constexpr bool valve_gas = false;      ///< cylinder pressure on the valve heads; a train with a head area demands it
   static constexpr bool cam_phasing = false;    ///< Input::cam_phase_deg moves the cams
+  static constexpr bool starter = false;        ///< Input::starter turns the crank; CrankGiven::load
+  static constexpr bool cylinder_cut = false;   ///< Input::cut_cylinders: cylinders that do not fire this tick; needs load_ratio
 };
 
 /// What a scene's answers imply.
 template <class S>
 struct Needs {
   static constexpr bool table_pressure = S::pressure == PressureGiven::by_table;
-  static constexpr bool any_torque = S::torque || S::mean_torque;
+  static constexpr bool crank_dynamics = S::crank == CrankGiven::load;
+  static constexpr bool any_torque = S::torque || S::mean_torque || crank_dynamics;
+  static constexpr bool work = S::mean_torque || crank_dynamics;  ///< of a tick, as a difference of integrals
   static constexpr bool any_valves = S::valves != ValveModel::none;
   static constexpr bool elastic_valves = S::valves == ValveModel::elastic;
   static constexpr bool cylinder_pressure = S::forces || (elastic_valves && S::valve_gas);
   static constexpr bool input_pressure = S::pressure == PressureGiven::by_input && (any_torque || cylinder_pressure);
   /// With forces asked for, the torque at the tick is their sum; without, it is read from torque curves.
-  static constexpr bool torque_curves = S::mean_torque || (S::torque && !S::forces);
+  static constexpr bool torque_curves = work || (S::torque && !S::forces);
 
   static constexpr bool body = S::forces || (any_torque && input_pressure) || cylinder_pressure;
   static constexpr bool stroke = S::kinematics || S::forces || (any_torque && input_pressure);
-  static constexpr bool displacement = S::kinematics || S::forces || (S::mean_torque && input_pressure);
+  static constexpr bool displacement = S::kinematics || S::forces || (work && input_pressure);
   static constexpr bool acceleration = S::kinematics || S::forces;
   static constexpr bool rod_tilt = S::forces;
   static constexpr bool rod_angle = S::rod_motion;
@@ -89,6 +94,8 @@ struct Needs {
   static constexpr bool gas_torque = torque_curves && table_pressure;
   static constexpr bool gas_pressure = cylinder_pressure && table_pressure;
   static constexpr bool load = S::load_ratio && table_pressure;
+  static constexpr bool cut = S::cylinder_cut && table_pressure;
+  static constexpr bool cut_torque = cut && torque_curves;  ///< the engine's gas torque less that of cylinders which do not fire
   static constexpr bool mechanisms = stroke || acceleration || rod_angle || rod_curvature || cylinder_pressure;
   static constexpr std::uint32_t valve_count = any_valves ? S::trains.capacity * S::cylinders.capacity : 0;
 };
@@ -100,6 +107,8 @@ struct CheckedScene {
   static_assert(S::cylinders.capacity <= kMaxCylinders, "a scene has at most 16 cylinders");
   static_assert(!S::bearing_loads || S::forces, "bearing_loads are made from forces: ask for forces too");
   static_assert(!S::load_ratio || S::pressure == PressureGiven::by_table, "load_ratio scales a pressure table: set pressure = by_table");
+  static_assert(!S::cylinder_cut || S::load_ratio, "a cut cylinder has the pressure of load ratio 0: set load_ratio too");
+  static_assert(!S::starter || S::crank == CrankGiven::load, "a starter needs a crank that is turned by forces: set crank = load");
   static_assert(S::valves == ValveModel::none || (S::trains.capacity >= 1 && S::trains.capacity <= kMaxTrains), "a cylinder has 1 to 4 valve trains");
   static_assert(S::valves == ValveModel::elastic || (!S::valve_forces && !S::valve_results && !S::valve_gas),
                 "valve forces, results and gas force need elastic valves");

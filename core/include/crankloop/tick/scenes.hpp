@@ -54,6 +54,19 @@ struct TorqueByPressure : Scene {
   static constexpr bool mean_torque = true;
 };
 
+/// The crank turned by gas, friction, load and starter: the engine in a loop with its controller.
+struct FreeRunning : Scene {
+  static constexpr Count cylinders = up_to<kMaxCylinders>;
+  static constexpr CrankGiven crank = CrankGiven::load;
+  static constexpr PressureGiven pressure = PressureGiven::by_table;
+  static constexpr bool load_ratio = true;
+  static constexpr bool rod_inertia = true;
+  static constexpr bool torque = true;
+  static constexpr bool mean_torque = true;
+  static constexpr bool starter = true;
+  static constexpr bool cylinder_cut = true;
+};
+
 }  // namespace crankloop::scenes
 
 namespace crankloop {
@@ -66,5 +79,7 @@ extern template class Engine<float, scenes::TorqueByTable>;
 extern template class Engine<double, scenes::TorqueByTable>;
 extern template class Engine<float, scenes::TorqueByPressure>;
 extern template class Engine<double, scenes::TorqueByPressure>;
+extern template class Engine<float, scenes::FreeRunning>;
+extern template class Engine<double, scenes::FreeRunning>;
 
 }  // namespace crankloop

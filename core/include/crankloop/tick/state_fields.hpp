@@ -37,13 +37,25 @@ struct StateFields {
       v.group("state.pressure");
       for (auto& pressure : s.pressure_Pa) v.number(pressure, Real{0}, kMostPressure_Pa);
     }
-    if constexpr (S::mean_torque) {
+    if constexpr (N::work) {
       v.group("state.work");
       integral(s.inertia, v);
       for (auto& gas : s.gas) integral(gas, v);
       for (auto& stroke : s.stroke) integral(stroke, v);
       v.number(s.torque_Nm, -kMostWork, kMostWork);
       v.spare(s.spare);
+    }
+    if constexpr (N::crank_dynamics) {
+      v.group("state.crank");
+      v.number(s.reduced_speed, -kMostReducedSpeed, kMostReducedSpeed);
+      v.number(s.reduced_rest, -kMostReducedSpeed, kMostReducedSpeed);
+      v.number(s.per_root_inertia, kLeastPerRoot, kMostPerRoot);
+      v.number(s.inertia_slope_kg_m2, -kMostInertia_kg_m2, kMostInertia_kg_m2);
+      for (auto& torque : s.gas_Nm) v.number(torque, -kMostWork, kMostWork);
+      v.number(s.owed_J, -kMostWork, Real{0});
+      v.number(s.lag_rad_s, -kMostLag_rad_s, kMostLag_rad_s);
+      v.number(s.load_Nm, -kMostLoad_Nm, kMostLoad_Nm);
+      v.spare(s.crank_spare);
     }
     if constexpr (N::elastic_valves) {
       v.group("state.valve");
@@ -67,6 +79,12 @@ struct StateFields {
  private:
   static constexpr Real kMostPressure_Pa = static_cast<Real>(1e8);
   static constexpr Real kMostWork = static_cast<Real>(1e15);    ///< J and Nm; the largest engine that can be defined has 1e10
+  static constexpr Real kMostLag_rad_s = static_cast<Real>(1e5);  ///< some speed limits
+  static constexpr Real kMostLoad_Nm = static_cast<Real>(crankloop::kMostLoad_Nm);
+  static constexpr Real kMostInertia_kg_m2 = static_cast<Real>(1e9);  ///< J_eff of the largest engine that can be defined has 1e8
+  static constexpr Real kMostReducedSpeed = static_cast<Real>(1e9);   ///< sqrt(J): that times the speed limit
+  static constexpr Real kLeastPerRoot = static_cast<Real>(1e-5);      ///< 1/sqrt(kg m^2): of that inertia, and of kLeastInertia_kg_m2
+  static constexpr Real kMostPerRoot = static_cast<Real>(1e5);
   static constexpr Real kMostLift_m = static_cast<Real>(1e6);
   static constexpr Real kMostSpeed_m_s = static_cast<Real>(1e6);
   static constexpr Real kMostNoted = static_cast<Real>(1e18);   ///< of what is only compared, subtracted and shown

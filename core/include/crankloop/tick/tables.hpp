@@ -81,6 +81,23 @@ struct GasTorque {
   Real mean_Nm;
 };
 
+/// What moves the crank besides gas and the pistons' masses, for scenes that integrate its speed w: docs/model.md "Crank dynamics".
+template <class Real>
+struct CrankDynamics {
+  Real turning_kg_m2;         ///< the part of J_eff that does not change with the angle: crankshaft, driven machine, the rods' big ends
+  Real least_kg_m2;           ///< J_eff where it is smallest; 0 where that is less than kLeastInertia_ratio of its largest
+  Real drag_Nm;               ///< friction and brake: constant, per |w| and per w^2
+  Real drag_Nm_s;
+  Real drag_Nm_s2;
+  Real starter_stall_Nm;
+  Real starter_slope_Nm_s;    ///< stall torque / no-load speed
+  Real most_rad_s2;           ///< from one speed limit to the other in a tick: no acceleration is larger
+};
+
+/// Least J_eff that is integrated, and least part of its largest: float keeps the difference of the two that make it.
+inline constexpr double kLeastInertia_kg_m2 = 1e-9;
+inline constexpr double kLeastInertia_ratio = 1e-3;
+
 /// All sections by address; null where there is none. constexpr in flash, so only what a Tables takes from it is linked.
 template <class Real>
 struct Sections {
@@ -102,6 +119,9 @@ struct Sections {
   const GasTorque<Real>* gas_torque_full = nullptr;      ///< on torque_grid
   const GasTorque<Real>* gas_torque_motored = nullptr;
   const GasTorque<Real>* gas_torque_heat = nullptr;
+  const GasGrid* cut_grid = nullptr;                     ///< of the torque that a cut lacks: a cylinder's own cycle
+  const GasTorque<Real>* cut_torque = nullptr;           ///< of the heat in one cylinder, on cut_grid
+  const CrankDynamics<Real>* crank_dynamics = nullptr;
   const Bearings<Real>* bearings = nullptr;
   const Balance<Real>* balance = nullptr;
   const LiftCurve<Real>* lift_curves = nullptr;      ///< per train
@@ -123,6 +143,8 @@ template <class Real> struct PressureRef { const Segment<Real>* pressure_full = 
 template <class Real> struct PressureByLoadRef { const Segment<Real>* pressure_motored = nullptr; const Segment<Real>* pressure_heat = nullptr; };
 template <class Real> struct GasTorqueRef { const GasTorque<Real>* gas_torque_full = nullptr; };
 template <class Real> struct GasTorqueByLoadRef { const GasTorque<Real>* gas_torque_motored = nullptr; const GasTorque<Real>* gas_torque_heat = nullptr; };
+template <class Real> struct CutTorqueRef { const GasGrid* cut_grid = nullptr; const GasTorque<Real>* cut_torque = nullptr; };
+template <class Real> struct CrankDynamicsRef { const CrankDynamics<Real>* crank_dynamics = nullptr; };
 template <class Real> struct BearingsRef { const Bearings<Real>* bearings = nullptr; };
 template <class Real> struct BalanceRef { const Balance<Real>* balance = nullptr; };
 template <class Real> struct LiftRef { const LiftCurve<Real>* lift_curves = nullptr; };
@@ -144,6 +166,8 @@ struct Tables : If<Needs<S>::body, part::BodyRef<Real>>,
                 If<Needs<S>::gas_pressure && Needs<S>::load, part::PressureByLoadRef<Real>>,
                 If<Needs<S>::gas_torque && !Needs<S>::load, part::GasTorqueRef<Real>>,
                 If<Needs<S>::gas_torque && Needs<S>::load, part::GasTorqueByLoadRef<Real>>,
+                If<Needs<S>::cut_torque, part::CutTorqueRef<Real>>,
+                If<Needs<S>::crank_dynamics, part::CrankDynamicsRef<Real>>,
                 If<S::bearing_loads, part::BearingsRef<Real>>,
                 If<S::free_forces, part::BalanceRef<Real>>,
                 If<Needs<S>::any_valves, part::LiftRef<Real>>,
@@ -166,6 +190,8 @@ struct Tables : If<Needs<S>::body, part::BodyRef<Real>>,
     if constexpr (N::gas_pressure && N::load) this->pressure_motored = s.pressure_motored, this->pressure_heat = s.pressure_heat;
     if constexpr (N::gas_torque && !N::load) this->gas_torque_full = s.gas_torque_full;
     if constexpr (N::gas_torque && N::load) this->gas_torque_motored = s.gas_torque_motored, this->gas_torque_heat = s.gas_torque_heat;
+    if constexpr (N::cut_torque) this->cut_grid = s.cut_grid, this->cut_torque = s.cut_torque;
+    if constexpr (N::crank_dynamics) this->crank_dynamics = s.crank_dynamics;
     if constexpr (S::bearing_loads) this->bearings = s.bearings;
     if constexpr (S::free_forces) this->balance = s.balance;
     if constexpr (N::any_valves) this->lift_curves = s.lift_curves;

@@ -1,0 +1,39 @@
+// What acts on the crankshaft besides gas and masses: friction, the driven machine, the starter.
+//
+// What belongs here: what a scene that integrates the speed (CrankGiven::load) needs to know beyond the engine itself. What does not: what
+// changes from tick to tick (Input::load_Nm, Input::starter). Equations: docs/model.md "Crank dynamics". All zero: there is none of it.
+#pragma once
+
+#include <crankloop/status.hpp>
+
+namespace crankloop {
+
+/// Friction of the engine as a mean effective pressure over the crank speed w: constant + linear |w| + quadratic w^2. As a torque it is that
+/// pressure times the swept volume of all cylinders / (4 pi). It opposes the rotation whatever its sense, and holds at standstill.
+struct Friction {
+  double constant_Pa = 0;     ///< 0 to 1e7
+  double linear_Pa_s = 0;     ///< per rad/s; 0 to 1e6
+  double quadratic_Pa_s2 = 0; ///< per (rad/s)^2; 0 to 1e6
+};
+
+/// The driven machine as a passive brake: its torque opposes the rotation like friction does. What may also drive is Input::load_Nm.
+struct Load {
+  double constant_Nm = 0;      ///< 0 to 1e7
+  double linear_Nm_s = 0;      ///< per rad/s; 0 to 1e6
+  double quadratic_Nm_s2 = 0;  ///< per (rad/s)^2; 0 to 1e6
+  double inertia_kg_m2 = 0;    ///< turns with the crankshaft, seen from it; 0 to 1e6
+};
+
+/// A starter, seen from the crankshaft: its torque falls in a straight line from standstill to the no-load speed. Above, it free-wheels; the
+/// crank turning backwards meets the stall torque.
+struct Starter {
+  double stall_Nm = 0;       ///< 0 (no starter) to 1e7
+  double no_load_rad_s = 0;  ///< > 0 where there is a stall torque, at most 1e4
+};
+
+/// Field names "friction.*", "load.*", "starter.*".
+Status validate(const Friction& friction) noexcept;
+Status validate(const Load& load) noexcept;
+Status validate(const Starter& starter) noexcept;
+
+}  // namespace crankloop

@@ -1,0 +1,44 @@
+// Where a mechanism stands in its cycle, and integrals read there.
+#pragma once
+
+#include <cstdint>
+
+#include <crankloop/tick/curve.hpp>
+#include <crankloop/tick/phase.hpp>
+
+namespace crankloop::detail {
+
+/// Where a mechanism stands: its cell in the 720 deg of its own cycle.
+template <class Real>
+struct Angle {
+  Cell cell;
+  Real u;  ///< fraction of the degree
+
+  /// The degree within the crank turn, 0 to 359.
+  [[nodiscard]] constexpr std::uint32_t turn_degree() const noexcept {
+    return cell.degree >= std::uint32_t{kDegreesPerTurn} ? cell.degree - std::uint32_t{kDegreesPerTurn} : cell.degree;
+  }
+  /// The cell of a cylinder that fires `turns` (0 or 1) crank turns after the mechanism's phase.
+  [[nodiscard]] constexpr Cell delayed(std::uint32_t turns) const noexcept {
+    const std::uint32_t degree = cell.degree + turns * std::uint32_t{kDegreesPerTurn};
+    return {degree >= std::uint32_t{kDegreesPerCycle} ? degree - std::uint32_t{kDegreesPerCycle} : degree, cell.into, cell.rest};
+  }
+};
+
+template <class Real>
+[[nodiscard]] constexpr Angle<Real> angle_of(std::uint64_t phase, std::uint64_t firing_phase) noexcept {
+  const Cell cell = Phase{phase - firing_phase}.cell<Real>();
+  return {cell, fraction<Real>(cell)};
+}
+
+template <class Real>
+[[nodiscard]] constexpr Integral<Real> integral_at(const IntegratedSegment<Real>& s, Real u, Real mean) noexcept {
+  return {s.base, integral(s.slope, u, mean)};
+}
+
+template <class Real>
+[[nodiscard]] constexpr Real total(const Integral<Real>& sum, Real quantum) noexcept {
+  return signed_value<Real>(sum.base) * quantum + sum.part;
+}
+
+}  // namespace crankloop::detail

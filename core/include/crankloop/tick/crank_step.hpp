@@ -1,0 +1,202 @@
+// One tick of a crank that is turned by forces: docs/model.md "Crank dynamics".
+//
+// What belongs here: the integration of angle and speed, friction and starter. What does not: gas torque and its work, which come from
+// tables (tick/engine_step.hpp).
+//
+// The state is the reduced speed u = w sqrt(J_eff): u^2 / 2 is the kinetic energy, so work changes it without a term in dJ/da, and an energy
+// balance is kept to rounding. A tick is half of the friction, then gas, load and starter over the angle turned, then the other half of the
+// friction: second order, and friction can stop the crank but never turn it back. The angle is predicted from the speed and its rate; when the
+// tick's other end is known too, a better value is (the cubic through both), and what lacks is turned in the next tick: without friction the
+// method is then of third order, at the price of one number.
+#pragma once
+
+#include <crankloop/tick/io.hpp>
+#include <crankloop/tick/square_root.hpp>
+#include <crankloop/tick/tables.hpp>
+
+namespace crankloop::detail {
+
+template <class Real>
+class CrankStep {
+ public:
+  CrankStep(const Drive<Real>& drive, const CrankDynamics<Real>& crank, CrankState<Real>& state, Real& speed_rad_s) noexcept
+      : drive_{drive}, crank_{crank}, state_{state}, speed_rad_s_{speed_rad_s}, speed_before_rad_s_{speed_rad_s} {}
+
+  /// The first half: answers how far the crank turns. `gas_Nm` as it is before the tick; a scene without starter gives `starter` = false.
+  [[nodiscard]] Phase turn(Real gas_Nm, bool starter) noexcept {
+    gas_before_Nm_ = gas_Nm;
+    starter_ = starter;
+    const Real tick_s = drive_.tick_s;
+    const bool from_rest = state_.reduced_speed == Real{0};
+    friction_s_ = from_rest ? tick_s : tick_s / 2;  // a crank that breaks away has had no friction in the first half
+    if (!from_rest) slow_down(tick_s / 2);
+    const Real push_Nm = gas_Nm + starter_Nm(speed_rad_s_) - state_.load_Nm;
+    held_ = holds(push_Nm);
+    if (held_) {
+      state_.owed_J = Real{0};
+      state_.lag_rad_s = Real{0};
+      return Phase{};
+    }
+    const Real per_root = state_.per_root_inertia;
+    ahead_ = state_.reduced_speed + tick_s * (push_Nm * per_root);
+    start_ = {speed_rad_s_, acceleration_rad_s2(push_Nm)};
+    predicted_rad_s_ = held_to_limit(start_.speed_rad_s + start_.acceleration_rad_s2 * (tick_s / 2));
+    mean_rad_s_ = limited(predicted_rad_s_ + state_.lag_rad_s, drive_.speed_limit_rad_s);
+    return Phase::from_cycles(mean_rad_s_ * drive_.cycles_per_tick_per_rad_s);
+  }
+
+  /// In radians.
+  [[nodiscard]] Real turned_rad() const noexcept { return held_ ? Real{0} : mean_rad_s_ * drive_.tick_s; }
+
+  /// What the tick has come to.
+  struct Arrival {
+    Real gas_work_J;           ///< over the angle turned
+    Real gas_Nm;               ///< at its end, as are the next two
+    Real inertia_kg_m2;        ///< J_eff
+    Real inertia_slope_kg_m2;  ///< torque of masses per w^2
+  };
+
+  /// The second half: speed at the end of the tick.
+  void arrive(const Arrival& at) noexcept {
+    const Real per_root = Real{1} / square_root(at.inertia_kg_m2);
+    state_.per_root_inertia = per_root;
+    state_.inertia_slope_kg_m2 = at.inertia_slope_kg_m2;
+    gas_Nm_ = at.gas_Nm;
+    if (held_) return;
+    gain(at.gas_work_J + (starter_Nm(mean_rad_s_) - state_.load_Nm) * turned_rad());
+    const Real reached_rad_s = state_.reduced_speed * per_root;
+    speed_rad_s_ = held_to_limit(reached_rad_s);
+    if (speed_rad_s_ != reached_rad_s) set_reduced(speed_rad_s_ / per_root);
+    state_.lag_rad_s = cubic_rad_s() - predicted_rad_s_;
+    slow_down(friction_s_);
+  }
+
+  /// At the end of the tick. `motion` has the phase already.
+  void show(CrankMotion<Real>& motion) const noexcept {
+    const Real w = speed_rad_s_;
+    const Real push_Nm = gas_Nm_ + starter_Nm(w) - state_.load_Nm;
+    Real friction_Nm = drag_Nm(size(w));
+    if (holds(push_Nm)) {
+      friction_Nm = push_Nm;
+    } else if (w < 0 || (w == Real{0} && push_Nm < 0)) {
+      friction_Nm = -friction_Nm;
+    }
+    motion.speed_rad_s = w;
+    motion.acceleration_rad_s2 = acceleration_rad_s2(push_Nm - friction_Nm);
+    motion.friction_Nm = friction_Nm;
+  }
+
+  /// It never brakes, and gives no more than its stall torque.
+  [[nodiscard]] Real starter_Nm(Real speed_rad_s) const noexcept {
+    if (!starter_) return Real{0};
+    if (speed_rad_s <= 0) return crank_.starter_stall_Nm;
+    const Real torque_Nm = crank_.starter_stall_Nm - crank_.starter_slope_Nm_s * speed_rad_s;
+    return torque_Nm > 0 ? torque_Nm : Real{0};
+  }
+  [[nodiscard]] Real starter_Nm() const noexcept { return starter_Nm(speed_rad_s_); }
+
+  [[nodiscard]] bool overspeed() const noexcept { return overspeed_; }
+  [[nodiscard]] Real gas_before_Nm() const noexcept { return gas_before_Nm_; }
+  [[nodiscard]] Real speed_before_rad_s() const noexcept { return speed_before_rad_s_; }
+
+ private:
+  [[nodiscard]] static Real size(Real x) noexcept { return x < 0 ? -x : x; }
+  [[nodiscard]] static Real limited(Real x, Real most) noexcept { return x > most ? most : x < -most ? -most : x; }
+  [[nodiscard]] Real held_to_limit(Real speed_rad_s) noexcept {
+    const Real held = limited(speed_rad_s, drive_.speed_limit_rad_s);
+    overspeed_ = overspeed_ || held != speed_rad_s;
+    return held;
+  }
+
+  [[nodiscard]] Real drag_Nm(Real speed_rad_s) const noexcept {
+    return crank_.drag_Nm + speed_rad_s * (crank_.drag_Nm_s + speed_rad_s * crank_.drag_Nm_s2);
+  }
+  /// At standstill friction meets any push up to its constant part.
+  [[nodiscard]] bool holds(Real push_Nm) const noexcept { return state_.reduced_speed == Real{0} && size(push_Nm) <= crank_.drag_Nm; }
+
+  /// By torques beside that of the masses.
+  [[nodiscard]] Real acceleration_rad_s2(Real push_Nm) const noexcept {
+    const Real net_Nm = push_Nm + state_.inertia_slope_kg_m2 * (speed_rad_s_ * speed_rad_s_);
+    return limited(net_Nm * (state_.per_root_inertia * state_.per_root_inertia), crank_.most_rad_s2);
+  }
+  /// Mean speed of the cubic angle that has speed and acceleration of the tick's both ends, friction apart.
+  [[nodiscard]] Real cubic_rad_s() const noexcept {
+    const Real end_rad_s2 = acceleration_rad_s2(gas_Nm_ + starter_Nm(speed_rad_s_) - state_.load_Nm);
+    return (start_.speed_rad_s + speed_rad_s_) / 2 + drive_.tick_s * static_cast<Real>(1.0 / 12) * (start_.acceleration_rad_s2 - end_rad_s2);
+  }
+
+  void set_reduced(Real reduced_speed) noexcept {
+    state_.reduced_speed = reduced_speed;
+    state_.reduced_rest = Real{0};
+  }
+  /// A tick's change may be less than the speed's last bit: what rounding leaves out is kept for the next.
+  void add_reduced(Real change) noexcept {
+    const Real with_rest = change + state_.reduced_rest;
+    const Real sum = state_.reduced_speed + with_rest;
+    state_.reduced_rest = with_rest - (sum - state_.reduced_speed);
+    state_.reduced_speed = sum;
+  }
+
+  /// Friction for a while: du/dt = -drag / sqrt(J), the drag's slope taken half implicitly, so that it is second order and no drag, however
+  /// steep, overshoots.
+  void slow_down(Real time_s) noexcept {
+    const Real speed = size(speed_rad_s_);
+    const Real drag = drag_Nm(speed);
+    if (!(drag > 0)) return;
+    const Real per_root = state_.per_root_inertia;
+    const Real slope_Nm_s = crank_.drag_Nm_s + 2 * crank_.drag_Nm_s2 * speed;
+    const Real impulse = time_s * drag * per_root / (Real{1} + time_s / 2 * slope_Nm_s * (per_root * per_root));
+    if (impulse >= size(state_.reduced_speed)) {
+      set_reduced(Real{0});
+      speed_rad_s_ = Real{0};
+      return;
+    }
+    const Real change = state_.reduced_speed < 0 ? impulse : -impulse;
+    add_reduced(change);
+    speed_rad_s_ += change * per_root;
+  }
+
+  /// Work changes u^2 / 2. Near a reversal the angle, which is good to second order, may be one that the energy does not reach: then the crank
+  /// stands, and the work that is missing is owed to the next tick.
+  void gain(Real work_J) noexcept {
+    const Real twice_J = 2 * (work_J + state_.owed_J);
+    const Real u = state_.reduced_speed;
+    const Real left = u * u + twice_J;
+    state_.owed_J = Real{0};
+    if (!(left > 0)) {
+      state_.owed_J = left / 2;
+      set_reduced(Real{0});
+      return;
+    }
+    const Real size_after = square_root(left);
+    const Real after = ahead_ < 0 ? -size_after : size_after;
+    if (u * ahead_ > 0) {
+      add_reduced(twice_J / (u + after));  // u_after - u, without cancellation
+    } else {
+      turn_back(u, after);
+    }
+  }
+  /// From rest, or through standstill: where friction could hold the crank, that is as far as it goes.
+  void turn_back(Real before, Real after) noexcept {
+    const Real push_Nm = gas_Nm_ + starter_Nm(Real{0}) - state_.load_Nm;
+    set_reduced(before != Real{0} && size(push_Nm) <= crank_.drag_Nm ? Real{0} : after);
+  }
+
+  const Drive<Real>& drive_;
+  const CrankDynamics<Real>& crank_;
+  CrankState<Real>& state_;
+  Real& speed_rad_s_;
+  Real speed_before_rad_s_;
+  CrankRate<Real> start_{};  ///< after the first half of the friction
+  Real predicted_rad_s_{};   ///< mean speed by the start alone
+  Real mean_rad_s_{};        ///< of the angle turned
+  Real ahead_{};             ///< u at the tick's end by the forces at its start: only its sign counts
+  Real friction_s_{};        ///< time that is left for friction
+  Real gas_before_Nm_{};
+  Real gas_Nm_{};            ///< at the end of the tick
+  bool held_ = false;    ///< by friction, at standstill
+  bool starter_ = false;
+  bool overspeed_ = false;
+};
+
+}  // namespace crankloop::detail

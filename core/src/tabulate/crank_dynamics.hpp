@@ -1,0 +1,17 @@
+// What moves the crank besides gas and the pistons' masses, as the tick reads it.
+//
+// What belongs here: the numbers of CrankDynamics from a definition. What does not: curves over the angle (tabulate.cpp, gas_curves.hpp).
+#pragma once
+
+#include <crankloop/tabulate/tabulate.hpp>
+
+namespace crankloop::detail {
+
+/// Beyond it a given speed is refused, and an integrated one held.
+[[nodiscard]] double speed_limit_rad_s(double tick_s) noexcept;
+
+/// `engine` and `options` are valid.
+template <class Real>
+[[nodiscard]] CrankDynamics<Real> crank_dynamics_of(const EngineDefinition& engine, const TickOptions& options) noexcept;
+
+}  // namespace crankloop::detail
