@@ -24,10 +24,11 @@ struct AllSections {
   Curve<Real> acceleration{}, rod_tilt{}, radial{}, rod_curvature{};
   Bearings<Real> bearings{};
   Balance<Real> balance{};
-  GasGrid gas_grid{}, torque_grid{};
+  GasGrid gas_grid{}, torque_grid{}, cut_grid{};
   std::vector<Segment<Real>> pressure_full, pressure_motored, pressure_heat;
-  GasTorque<Real> gas_torque_full{}, gas_torque_motored{}, gas_torque_heat{};
-  std::vector<IntegratedSegment<Real>> gas_full, gas_motored, gas_heat;
+  GasTorque<Real> gas_torque_full{}, gas_torque_motored{}, gas_torque_heat{}, cut_torque{};
+  std::vector<IntegratedSegment<Real>> gas_full, gas_motored, gas_heat, cut_heat;
+  CrankDynamics<Real> crank_dynamics{};
   LiftCurve<Real> lift_curves[kMaxTrains] = {};
   std::vector<LiftSegment<Real>> lift_segments;
   std::vector<Segment<Real>> rocker_ratios;
@@ -35,7 +36,7 @@ struct AllSections {
 
   AllSections()
       : pressure_full(kMostGasSegments), pressure_motored(kMostGasSegments), pressure_heat(kMostGasSegments), gas_full(kMostGasSegments),
-        gas_motored(kMostGasSegments), gas_heat(kMostGasSegments), lift_segments(kMaxTrains * kDegreesPerTurn),
+        gas_motored(kMostGasSegments), gas_heat(kMostGasSegments), cut_heat(kMostGasSegments), lift_segments(kMaxTrains * kDegreesPerTurn),
         rocker_ratios(kMaxTrains * kDegreesPerTurn) {}
 
   TableTargets<Real> targets() {
@@ -46,6 +47,7 @@ struct AllSections {
     t.pressure_full = pressure_full.data(), t.pressure_motored = pressure_motored.data(), t.pressure_heat = pressure_heat.data();
     t.gas_torque_full = &gas_torque_full, t.gas_torque_motored = &gas_torque_motored, t.gas_torque_heat = &gas_torque_heat;
     t.gas_full = gas_full.data(), t.gas_motored = gas_motored.data(), t.gas_heat = gas_heat.data();
+    t.cut_grid = &cut_grid, t.cut_torque = &cut_torque, t.cut_heat = cut_heat.data(), t.crank_dynamics = &crank_dynamics;
     t.lift_curves = lift_curves, t.lift_segments = lift_segments.data(), t.rocker_ratios = rocker_ratios.data();
     t.valve_motions = valve_motions;
     return t;
@@ -111,6 +113,11 @@ class Printer {
   void print(const ValveMotion<Real>& m) {
     const auto& [body, whole, fine, short_step, widest, clear, rest, rest_speed, quiet, per_seat_rate, per_seat] = m;
     list(body, whole, fine, short_step, widest, clear, rest, rest_speed, quiet, per_seat_rate, per_seat);
+  }
+  template <class Real>
+  void print(const CrankDynamics<Real>& c) {
+    const auto& [turning, least, drag, drag_linear, drag_quadratic, stall, slope, most] = c;
+    list(turning, least, drag, drag_linear, drag_quadratic, stall, slope, most);
   }
   template <class Real>
   void print(const Curve<Real>& c) { braced([&] { rows(c.at, kDegreesPerTurn); }); }
@@ -249,14 +256,15 @@ void print_sections(Printer& p, const AllSections<Real>& s, const std::string& r
   const auto grid = [&](const char* name, const GasGrid& of) { section(p, "crankloop::GasGrid", name, [&] { p.braced([&] { p.print(of.first); }); }); };
   grid("gas_grid", s.gas_grid);
   grid("torque_grid", s.torque_grid);
+  grid("cut_grid", s.cut_grid);
   const auto pressure = [&](const char* name, const std::vector<Segment<Real>>& segments) {
     section(p, type("Segment"), std::string(name) + "[]", [&] { p.rows(segments.data(), static_cast<std::size_t>(report.gas_segments)); });
   };
   pressure("pressure_full", s.pressure_full);
   pressure("pressure_motored", s.pressure_motored);
   pressure("pressure_heat", s.pressure_heat);
-  const auto torque = [&](const std::string& name, const GasTorque<Real>& curve, const std::vector<IntegratedSegment<Real>>& segments) {
-    section(p, type("IntegratedSegment"), name + "_segments[]", [&] { p.rows(segments.data(), static_cast<std::size_t>(report.torque_segments)); });
+  const auto torque = [&](const std::string& name, const GasTorque<Real>& curve, const std::vector<IntegratedSegment<Real>>& segments, int count) {
+    section(p, type("IntegratedSegment"), name + "_segments[]", [&] { p.rows(segments.data(), static_cast<std::size_t>(count)); });
     section(p, type("GasTorque"), name, [&] {
       p.text("{" + name + "_segments, ");
       p.number(curve.quantum);
@@ -265,14 +273,17 @@ void print_sections(Printer& p, const AllSections<Real>& s, const std::string& r
       p.text("}");
     });
   };
-  torque("gas_torque_full", s.gas_torque_full, s.gas_full);
-  torque("gas_torque_motored", s.gas_torque_motored, s.gas_motored);
-  torque("gas_torque_heat", s.gas_torque_heat, s.gas_heat);
+  torque("gas_torque_full", s.gas_torque_full, s.gas_full, report.torque_segments);
+  torque("gas_torque_motored", s.gas_torque_motored, s.gas_motored, report.torque_segments);
+  torque("gas_torque_heat", s.gas_torque_heat, s.gas_heat, report.torque_segments);
+  torque("cut_torque", s.cut_torque, s.cut_heat, report.cut_segments);
+  section(p, type("CrankDynamics"), "crank_dynamics", [&] { p.print(s.crank_dynamics); });
   if (d.trains > 0) print_trains(p, s, of_real);
 
   p.text("\nconstexpr crankloop::Sections" + of_real + " sections = [] {\n  crankloop::Sections" + of_real + " s;\n");
   for (const char* name : {"drive", "body", "stroke", "acceleration", "rod_tilt", "radial", "rod_angle", "rod_curvature", "inertia_torque",
-                           "bearings", "balance", "gas_grid", "torque_grid", "gas_torque_full", "gas_torque_motored", "gas_torque_heat"}) {
+                           "bearings", "balance", "gas_grid", "torque_grid", "gas_torque_full", "gas_torque_motored", "gas_torque_heat",
+                           "cut_grid", "cut_torque", "crank_dynamics"}) {
     p.text(std::string("  s.") + name + " = &" + name + ";\n");
   }
   for (const char* name : {"pressure_full", "pressure_motored", "pressure_heat"}) {

@@ -33,7 +33,6 @@ class CrankStep {
     const Real push_Nm = gas_Nm + starter_Nm(speed_rad_s_) - state_.load_Nm;
     held_ = holds(push_Nm);
     if (held_) {
-      state_.owed_J = Real{0};
       state_.lag_rad_s = Real{0};
       return Phase{};
     }
@@ -156,15 +155,12 @@ class CrankStep {
     speed_rad_s_ += change * per_root;
   }
 
-  /// Work changes u^2 / 2. Near a reversal the angle, which is good to second order, may be one that the energy does not reach: then the crank
-  /// stands, and the work that is missing is owed to the next tick.
+  /// Work changes u^2 / 2. Through a reversal too; should the predicted angle be a hair beyond the one that the energy reaches, the crank stands.
   void gain(Real work_J) noexcept {
-    const Real twice_J = 2 * (work_J + state_.owed_J);
+    const Real twice_J = 2 * work_J;
     const Real u = state_.reduced_speed;
     const Real left = u * u + twice_J;
-    state_.owed_J = Real{0};
     if (!(left > 0)) {
-      state_.owed_J = left / 2;
       set_reduced(Real{0});
       return;
     }

@@ -229,10 +229,8 @@ struct CrankState {
   Real per_root_inertia = 1;      ///< 1 / sqrt(J_eff) where the crank stands
   Real inertia_slope_kg_m2 = 0;   ///< torque of masses per w^2 there
   Real gas_Nm[2] = {};            ///< gas torque there: as in WorkState::gas, of pressures given in [0]
-  Real owed_J = 0;                ///< work that a reversal has left over, at most 0
   Real lag_rad_s = 0;             ///< by how much the last tick should have turned faster
   Real load_Nm = 0;               ///< last good
-  Real crank_spare = 0;           ///< keeps the size a multiple of eight: no padding
 };
 template <class Real, class S>
 struct LastPressure {
@@ -264,7 +262,7 @@ template <class Real, class S>
   static_assert(Needs<S>::crank_dynamics, "where the speed is an input, give it there");
   state.speed_rad_s = speed_rad_s;
   state.reduced_speed = speed_rad_s / state.per_root_inertia;
-  state.reduced_rest = state.owed_J = state.lag_rad_s = Real{0};
+  state.reduced_rest = state.lag_rad_s = Real{0};
   return state;
 }
 

@@ -52,10 +52,8 @@ struct StateFields {
       v.number(s.per_root_inertia, kLeastPerRoot, kMostPerRoot);
       v.number(s.inertia_slope_kg_m2, -kMostInertia_kg_m2, kMostInertia_kg_m2);
       for (auto& torque : s.gas_Nm) v.number(torque, -kMostWork, kMostWork);
-      v.number(s.owed_J, -kMostWork, Real{0});
       v.number(s.lag_rad_s, -kMostLag_rad_s, kMostLag_rad_s);
       v.number(s.load_Nm, -kMostLoad_Nm, kMostLoad_Nm);
-      v.spare(s.crank_spare);
     }
     if constexpr (N::elastic_valves) {
       v.group("state.valve");

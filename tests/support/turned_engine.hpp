@@ -1,0 +1,63 @@
+// An engine whose crank is turned by forces, with tables of its own: what the tests of crank dynamics run.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include <crankloop/tabulate/tabulate.hpp>
+
+#include "support/test_scenes.hpp"
+
+namespace crankloop::tick_test {
+
+/// A scene whose crank is turned by forces; with all its groups, unless told otherwise.
+template <PressureGiven Source = PressureGiven::by_table, std::uint32_t Cylinders = 0>
+struct TurnedByForces : Scene {
+  static constexpr Count cylinders = Cylinders != 0 ? Count{Cylinders, true} : Count{kMaxCylinders, false};
+  static constexpr CrankGiven crank = CrankGiven::load;
+  static constexpr PressureGiven pressure = Source;
+  static constexpr bool load_ratio = Source == PressureGiven::by_table;
+  static constexpr bool rod_inertia = true;
+  static constexpr bool kinematics = true;
+  static constexpr bool rod_motion = true;
+  static constexpr bool torque = true;
+  static constexpr bool mean_torque = true;
+  static constexpr bool forces = true;
+  static constexpr bool starter = true;
+  static constexpr bool cylinder_cut = load_ratio;
+};
+
+/// Fails the test when tables or engine are refused.
+template <class Real, class S>
+class Turned {
+ public:
+  using Input = typename Engine<Real, S>::Input;
+
+  explicit Turned(const EngineDefinition& definition, double tick_s = 100e-6, double speed_rad_s = 0, Phase start = Phase{}) {
+    const Status built = storage_->build(definition, {tick_s});
+    EXPECT_TRUE(built.ok()) << built.field << " " << describe(built.reason);
+    const Status ready = engine.init(storage_->tables(), start);
+    EXPECT_TRUE(ready.ok()) << ready.field << " " << describe(ready.reason);
+    if (speed_rad_s != 0) {
+      EXPECT_TRUE(engine.restore(turning_at<Real, S>(engine.state(), static_cast<Real>(speed_rad_s))).ok());
+    }
+  }
+
+  /// Steps, and counts the angle turned.
+  const typename Engine<Real, S>::Output& step(const Input& in) {
+    const Phase before = engine.state().phase;
+    const auto& out = engine.step(in);
+    angle_rad += turned_rad(before, engine.state().phase);
+    return out;
+  }
+
+  Engine<Real, S> engine;
+  long double angle_rad = 0;
+
+ private:
+  std::unique_ptr<TableStorage<Real, S>> storage_ = std::make_unique<TableStorage<Real, S>>();
+};
+
+}  // namespace crankloop::tick_test
