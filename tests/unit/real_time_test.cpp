@@ -1,13 +1,22 @@
-// The histogram of port/linux against sorting, and the periodic loop against the clock.
+// The histogram of port/linux against sorting, the periodic loop against the clock, and what is asked of the operating system.
 #include <gtest/gtest.h>
+#include <pthread.h>
+#include <sched.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdint>
+#include <cstring>
+#include <thread>
 #include <vector>
 
 #include "port/linux/latency.hpp"
 #include "port/linux/periodic.hpp"
+#include "port/linux/real_time.hpp"
+#include "port/linux/stop_signal.hpp"
 #include "port/linux/stopwatch.hpp"
 #include "support/random.hpp"
 
@@ -129,6 +138,61 @@ TEST(Periodic, ATickThatTakesTooLongIsMissedAndTheNextOnesCatchUpWithoutLoss) {
   EXPECT_GE(periodic.tally().missed, 3u);
   EXPECT_GE(periodic.tally().late, 2u);
   EXPECT_GE(periodic.tally().longest_backlog_ns, 5 * kPeriod_ns / 2);
+}
+
+// ---- what is asked of Linux -------------------------------------------------------------------------------------------------
+
+TEST(RealTime, HasThePriorityOrSaysWhyNotAndGivesItBack) {
+  const int before = ::sched_getscheduler(0);
+  {
+    const RealTime real_time({1, -1});
+    EXPECT_EQ(::sched_getscheduler(0) == SCHED_FIFO, real_time.priority_error() == 0) << std::strerror(real_time.priority_error());
+  }
+  EXPECT_EQ(::sched_getscheduler(0), before);
+}
+
+TEST(RealTime, LeavesTheSchedulerAloneUnlessAsked) {
+  const int before = ::sched_getscheduler(0);
+  const RealTime real_time({0, -1});
+  EXPECT_EQ(::sched_getscheduler(0), before);
+  EXPECT_EQ(real_time.priority_error(), 0);
+}
+
+TEST(RealTime, SaysThatAProcessorIsNotThere) {
+  const RealTime real_time({0, 1023});
+  EXPECT_EQ(real_time.cpu_error(), EINVAL);
+}
+
+int signals_before = 0;
+
+TEST(StopSignal, IsReceivedWhileItLivesAndGoesWhereItWentAfterwards) {
+  signals_before = 0;
+  const auto old = std::signal(SIGTERM, [](int) { ++signals_before; });
+  {
+    const StopSignal stop;
+    EXPECT_FALSE(stop.received());
+    std::raise(SIGTERM);
+    EXPECT_TRUE(stop.received());
+  }
+  EXPECT_EQ(signals_before, 0);
+  std::raise(SIGTERM);
+  EXPECT_EQ(signals_before, 1);
+  std::signal(SIGTERM, old);
+  const StopSignal next;
+  EXPECT_FALSE(next.received());
+}
+
+TEST(StopSignal, DoesNotCutATickShort) {
+  const StopSignal stop;
+  Periodic periodic(50 * kPeriod_ns);
+  std::thread other([thread = ::pthread_self()] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    ::pthread_kill(thread, SIGINT);
+  });
+  EXPECT_GE(periodic.begin(), 0) << "asleep until the tick is due";
+  EXPECT_GE(now_ns(), periodic.due_ns());
+  other.join();
+  EXPECT_TRUE(stop.received());
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 // `crankloop live FILE`: the engine against the machine's clock, its crank free, a controller in the loop; and how well the machine kept time.
 #include <sys/utsname.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <memory>

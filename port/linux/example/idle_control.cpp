@@ -12,7 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <optional>
+#include <string>
 #include <thread>
 
 #include "port/linux/shared_block.hpp"
@@ -23,6 +23,7 @@ using crankloop::port::LiveInputs;
 using crankloop::port::LiveOutputs;
 using crankloop::port::LiveState;
 using crankloop::port::SharedBlock;
+using crankloop::port::SharedBlockError;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kRpmPerRad_s = 30 / 3.14159265358979323846;
@@ -95,17 +96,17 @@ class Record {
   double highest_rad_s_ = -1e9;
 };
 
-/// Waits for `live` to be there.
-std::optional<SharedBlock> open_within(const char* path, std::chrono::seconds patience) {
-  const auto deadline = Clock::now() + patience;
-  for (;;) {
+/// Waits for `live` to run. Throws where it does not within the patience.
+SharedBlock wait_for(const std::string& path, std::chrono::seconds patience) {
+  for (const auto deadline = Clock::now() + patience;;) {
+    const bool last_try = Clock::now() > deadline;
     try {
       SharedBlock block = SharedBlock::open(path);
       if (block->state == LiveState::running) return block;
-    } catch (const crankloop::port::SharedBlockError& error) {
-      if (Clock::now() > deadline) std::fprintf(stderr, "idle_control: %s\n", error.what());
+      if (last_try) throw SharedBlockError(path + ": does not run");
+    } catch (const SharedBlockError&) {
+      if (last_try) throw;
     }
-    if (Clock::now() > deadline) return std::nullopt;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
 }
@@ -166,6 +167,10 @@ int main(int count, char** words) {
     std::fprintf(stderr, "usage: idle_control PATH [--target-rpm N] [--seconds S]\n");
     return EXIT_FAILURE;
   }
-  const std::optional<SharedBlock> block = open_within(path, std::chrono::seconds(10));
-  return block ? control(*block, target_rpm / kRpmPerRad_s, seconds) : EXIT_FAILURE;
+  try {
+    return control(wait_for(path, std::chrono::seconds(10)), target_rpm / kRpmPerRad_s, seconds);
+  } catch (const SharedBlockError& error) {
+    std::fprintf(stderr, "idle_control: %s\n", error.what());
+    return EXIT_FAILURE;
+  }
 }
