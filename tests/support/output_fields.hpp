@@ -24,6 +24,12 @@ void each_output(const Output<Real, S>& out, const Used& used, const F& f) {
   const auto row = [&f](const char* name, const Real* first, std::size_t n) {
     for (std::size_t i = 0; i < n; ++i) f(name, i, first[i]);
   };
+  if constexpr (Needs<S>::crank_dynamics) {
+    f("speed_rad_s", std::size_t{0}, out.speed_rad_s);
+    f("crank_acceleration_rad_s2", std::size_t{0}, out.CrankMotion<Real>::acceleration_rad_s2);
+    f("friction_Nm", std::size_t{0}, out.friction_Nm);
+  }
+  if constexpr (S::starter) f("starter_Nm", std::size_t{0}, out.starter_Nm);
   if constexpr (S::torque) f("torque_Nm", std::size_t{0}, out.torque_Nm);
   if constexpr (S::mean_torque) f("mean_torque_Nm", std::size_t{0}, out.mean_torque_Nm);
   if constexpr (S::kinematics) {

@@ -77,6 +77,9 @@ EngineFile read_engine_file(const std::string& path, const std::vector<std::stri
     if (!engine.has("layout")) engine.sections_.push_back(resolve_section({"layout", "", 0, {}}, path));
     if (!engine.has("pressure"))
       engine.sections_.push_back(resolve_section({"pressure", "", 0, {{"source", "none", 0}}}, path));
+    for (const char* optional : {"friction", "load", "starter"}) {
+      if (!engine.has(optional)) engine.sections_.push_back(resolve_section({optional, "", 0, {}}, path));
+    }
   }
   sort_by_kind(engine.sections_);
   engine.build_definition();
@@ -85,7 +88,8 @@ EngineFile read_engine_file(const std::string& path, const std::vector<std::stri
 
 void EngineFile::build_definition() {
   for (const SectionValues& section : sections_) {
-    const bool needs_crank = section.kind == "masses" || section.kind == "layout" || section.kind == "pressure";
+    const bool of_train = section.kind == "cam" || section.kind == "rocker" || section.kind == "valve";
+    const bool needs_crank = !of_train && section.kind != "engine" && section.kind != "crank";
     if (needs_crank && !has("crank"))
       throw InputError(path_, section.line, section.title() + " needs a [crank] section beside it");
   }
@@ -106,6 +110,10 @@ void EngineFile::build_definition() {
   definition_.pressure = build_pressure(section("pressure"));
   if (section("pressure").has("file")) read_diagram(section("pressure"));
   accept(validate(definition_.pressure, definition_.crank));
+  definition_.friction = build_friction(section("friction"));
+  definition_.load = build_load(section("load"));
+  definition_.starter = build_starter(section("starter"));
+  for (const Status& status : {validate(definition_.friction), validate(definition_.load), validate(definition_.starter)}) accept(status);
   if (has("masses")) accept(validate(definition_));  // what the parts demand of one another
 }
 

@@ -23,6 +23,14 @@ constexpr Unit kKPa{"kPa", 1e3, 1};
 constexpr Unit kJ{"J"};
 constexpr Unit kN{"N"};
 constexpr Unit kNPerMm{"N_per_mm", 1e3, 1};
+constexpr Unit kNm{"Nm"};
+
+constexpr double kRadSPer1000Rpm = 104.71975511965977;
+constexpr Unit kRpmAsRadS{"rpm", 1, 1e3 / kRadSPer1000Rpm};  // core takes these speeds in rad/s
+constexpr Unit kKPaPerSpeed{"kPa_per_1000rpm", 1, kRadSPer1000Rpm / 1e3};
+constexpr Unit kKPaPerSpeed2{"kPa_per_1000rpm2", 1, kRadSPer1000Rpm * kRadSPer1000Rpm / 1e3};
+constexpr Unit kNmPerSpeed{"Nm_per_1000rpm", 1, kRadSPer1000Rpm};
+constexpr Unit kNmPerSpeed2{"Nm_per_1000rpm2", 1, kRadSPer1000Rpm * kRadSPer1000Rpm};
 
 constexpr Range kAny{};
 constexpr Presence required = Presence::required;
@@ -40,6 +48,9 @@ constexpr SectionKind kSections[] = {
     {"masses", false, "moving masses of one cylinder, and the crankshaft"},
     {"layout", false, "cylinders around and along the crankshaft; absent: one cylinder"},
     {"pressure", false, "where the cylinder pressure comes from; absent: source = none"},
+    {"friction", false, "mean effective pressure of friction; absent: none"},
+    {"load", false, "the driven machine, a passive brake on the crankshaft; absent: none"},
+    {"starter", false, "as seen from the crankshaft; absent: none"},
     {"cam", true, "a cam, by the lift of a flat follower"},
     {"rocker", true, "what carries the cam's lift to the valve of the same NAME"},
     {"valve", true, "the valve of the same NAME, for its dynamics"},
@@ -88,6 +99,18 @@ constexpr Key kKeys[] = {
     {"pressure", "net_mep_kPa", Kind::number, kKPa, from(0).up_to(100000), "", required, "", kWiebe, "heat:net IMEP", "net IMEP over 720 deg; heat is scaled to meet it"},
     {"pressure", "heat_J", Kind::number, kJ, from(0).up_to(1e9), "", required, "", kWiebe, "heat:heat", "heat per cylinder and cycle, instead of net_mep_kPa"},
     {"pressure", "file", Kind::path, kNoUnit, kAny, "", required, "", kTables, "", "CSV with header crank_deg,pressure_kPa or volume_cm3,pressure_kPa; relative to the engine file"},
+
+    {"friction", "constant_kPa", Kind::number, kKPa, from(0).up_to(10000), "", defaults, "0", "", "", "at any speed; holds at standstill"},
+    {"friction", "linear_kPa_per_1000rpm", Kind::number, kKPaPerSpeed, from(0).up_to(1e5), "", defaults, "0", "", "", "times the speed in 1000 rpm"},
+    {"friction", "quadratic_kPa_per_1000rpm2", Kind::number, kKPaPerSpeed2, from(0).up_to(1e7), "", defaults, "0", "", "", "times its square"},
+
+    {"load", "constant_Nm", Kind::number, kNm, from(0).up_to(1e7), "", defaults, "0", "", "", "at any speed; holds at standstill"},
+    {"load", "linear_Nm_per_1000rpm", Kind::number, kNmPerSpeed, from(0).up_to(1e8), "", defaults, "0", "", "", "times the speed in 1000 rpm"},
+    {"load", "quadratic_Nm_per_1000rpm2", Kind::number, kNmPerSpeed2, from(0).up_to(1e10), "", defaults, "0", "", "", "times its square: fan, propeller, water brake"},
+    {"load", "inertia_kg_m2", Kind::number, kKgM2, from(0).up_to(1e6), "", defaults, "0", "", "", "turns with the crankshaft"},
+
+    {"starter", "stall_Nm", Kind::number, kNm, from(0).up_to(1e7), "", defaults, "0", "", "", "torque at standstill; 0: no starter"},
+    {"starter", "no_load_rpm", Kind::number, kRpmAsRadS, from(0).up_to(95000), "", defaults, "0", "", "", "crank speed at which it gives none; above 0 where there is a starter"},
 
     {"cam", "source", Kind::choice, kNoUnit, kAny, "polynomial|table", required, "", "", "", "what the lift comes from"},
     {"cam", "max_lift_mm", Kind::number, kMm, above(0).up_to(100), "", required, "", kPolynomial, "", "largest lift of the flat follower"},

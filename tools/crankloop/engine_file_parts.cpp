@@ -84,4 +84,14 @@ Pressure build_pressure(const SectionValues& values) {
   return pressure;
 }
 
+Friction build_friction(const SectionValues& values) {
+  return {values.si("constant_kPa"), values.si("linear_kPa_per_1000rpm"), values.si("quadratic_kPa_per_1000rpm2")};
+}
+
+Load build_load(const SectionValues& values) {
+  return {values.si("constant_Nm"), values.si("linear_Nm_per_1000rpm"), values.si("quadratic_Nm_per_1000rpm2"), values.si("inertia_kg_m2")};
+}
+
+Starter build_starter(const SectionValues& values) { return {values.si("stall_Nm"), values.si("no_load_rpm")}; }
+
 }  // namespace crankloop::program

@@ -25,6 +25,10 @@ namespace crankloop::program {
 /// All but the rows of a table source.
 [[nodiscard]] Pressure build_pressure(const SectionValues& values);
 
+[[nodiscard]] Friction build_friction(const SectionValues& values);
+[[nodiscard]] Load build_load(const SectionValues& values);
+[[nodiscard]] Starter build_starter(const SectionValues& values);
+
 /// All but the rows of a table.
 [[nodiscard]] Cam build_cam(const SectionValues& values, const std::string& path);
 [[nodiscard]] Rocker build_rocker(const SectionValues& values);

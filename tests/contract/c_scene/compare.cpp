@@ -9,6 +9,8 @@
 #include "sensor.hpp"
 #include "torque_only.h"
 #include "torque_only.hpp"
+#include "turned.h"
+#include "turned.hpp"
 
 static int bad = 0;
 
@@ -90,6 +92,25 @@ int main() {
     const float mean_torque_Nm = sensor_mean_torque_Nm(&measured);
     expect_same("mean torque of the sensor", tick, &mean_torque_Nm, out.mean_torque_Nm);
   }
+  turned_engine by_forces{};
+  turned_init(&by_forces, 0);
+  turned_turn_at(&by_forces, 30);
+  turned::Engine cpp_by_forces;
+  expect("it takes its own state", cpp_by_forces.restore(turning_at<turned::Real, turned::Scene>(cpp_by_forces.state(), 30)).ok());
+  turned_input turned_in = turned_default_input();
+  turned::Input cpp_turned_in;
+  for (int tick = 0; tick < 2000; ++tick) {
+    turned_in.load_Nm = cpp_turned_in.load_Nm = static_cast<float>(tick % 40);
+    turned_in.starter = cpp_turned_in.starter = tick < 500 ? 1 : 0;
+    turned_in.cut_cylinders = cpp_turned_in.cut_cylinders = tick > 1000 ? 2 : 0;
+    const auto& out = cpp_by_forces.step(cpp_turned_in);
+    expect("the same faults of the turned one", turned_step(&by_forces, &turned_in) == out.faults && out.faults == 0);
+    const turned_crank_motion& motion = *turned_get_crank_motion(&by_forces);
+    expect("the same motion", motion.crank_phase == out.crank.units() && motion.speed_rad_s == out.speed_rad_s &&
+                                  motion.acceleration_rad_s2 == out.acceleration_rad_s2 && motion.friction_Nm == out.friction_Nm);
+    expect("the same torques", turned_torque_Nm(&by_forces) == out.torque_Nm && turned_starter_Nm(&by_forces) == out.starter_Nm);
+  }
+  expect("it runs", turned_get_crank_motion(&by_forces)->speed_rad_s > 60);
   std::printf("%d bad\n", bad);
   return bad == 0 ? 0 : 1;
 }

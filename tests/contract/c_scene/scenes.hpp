@@ -29,6 +29,16 @@ struct TorqueOnly : crankloop::Scene {
   static constexpr bool torque = true;
 };
 
+struct Turned : crankloop::Scene {
+  static constexpr auto cylinders = crankloop::exactly<4>;
+  static constexpr auto crank = crankloop::CrankGiven::load;
+  static constexpr auto pressure = crankloop::PressureGiven::by_table;
+  static constexpr bool load_ratio = true;
+  static constexpr bool torque = true;
+  static constexpr bool starter = true;
+  static constexpr bool cylinder_cut = true;
+};
+
 struct Sensor : crankloop::Scene {
   static constexpr auto cylinders = crankloop::up_to<6>;
   static constexpr auto crank = crankloop::CrankGiven::phase;
