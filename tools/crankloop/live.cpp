@@ -236,7 +236,7 @@ constexpr Option kOptions[] = {
 const Command kLive{"live",
                     "the engine against the clock, with a controller in the loop: latencies, missed deadlines",
                     "FILE [--tick-us T] [--seconds S] [--shared PATH] [--from-rpm N] [--load-ratio Q] [--load-Nm L] [--starter] [...]",
-                    "crankloop live diesel_495.ini --from-rpm 800 --load-ratio 0.1 --tick-us 100 --seconds 5",
+                    "crankloop live diesel_495.ini --from-rpm 800 --load-ratio 0.2 --tick-us 100 --seconds 5",
                     1,
                     kOptions,
                     run_live_command};
