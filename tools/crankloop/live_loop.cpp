@@ -28,9 +28,10 @@ constexpr double kRpmPerRad_s = 30 / 3.14159265358979323846;
 /// A controller's number may be any: what the type cannot hold becomes infinite, which the engine refuses as it does infinity.
 template <class Real>
 Real as(double value) noexcept {
-  if (std::abs(value) > static_cast<double>(std::numeric_limits<Real>::max())) {
-    return std::copysign(std::numeric_limits<Real>::infinity(), static_cast<Real>(std::copysign(1.0, value)));
-  }
+  constexpr auto kMost = static_cast<double>(std::numeric_limits<Real>::max());
+  constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
+  if (value > kMost) return kInfinite;
+  if (value < -kMost) return -kInfinite;
   return static_cast<Real>(value);
 }
 
@@ -46,11 +47,14 @@ class FreeEngine {
   using Engine = crankloop::Engine<Real, scenes::FreeRunning>;
 
   FreeEngine(const EngineFile& file, const LiveRequest& request) {
-    if (const Status refused = tables_->build(file.definition(), {request.tick_s}); !refused.ok()) throw file.explain(refused);
-    if (const Status refused = engine_.init(tables_->tables()); !refused.ok()) throw file.explain(refused);
+    const Status built = tables_->build(file.definition(), {request.tick_s});
+    if (!built.ok()) throw file.explain(built);
+    const Status ready = engine_.init(tables_->tables());
+    if (!ready.ok()) throw file.explain(ready);
     const auto limit_rad_s = static_cast<double>(tables_->tables().drive->speed_limit_rad_s);
     if (std::abs(request.start_rad_s) > limit_rad_s) {
-      throw UsageError("--from-rpm " + brief(request.start_rad_s * kRpmPerRad_s) + " is too fast for this tick: at most one revolution per tick, here " +
+      throw UsageError("--from-rpm " + brief(request.start_rad_s * kRpmPerRad_s) +
+                       " is too fast for this tick: at most one revolution per tick, here " +
                        brief(std::floor(limit_rad_s * kRpmPerRad_s)) + " rpm");
     }
     const Status turning = engine_.restore(turning_at(engine_.state(), static_cast<Real>(request.start_rad_s)));
@@ -101,13 +105,13 @@ struct ThreadCounts {
 
 template <class Real>
 void run_live(const EngineFile& file, const LiveRequest& request, port::LiveBlock& block, LiveFigures& figures) {
+  const port::StopSignal stop;
   FreeEngine<Real> engine(file, request);
   port::WatchedInputs inputs(block.inputs, request.at_start, request.patience_ns);
   LiveOutputs published;
   double speed_sum_rad_s = 0;
   double torque_sum_Nm = 0;
 
-  const port::StopSignal stop;
   const port::RealTime real_time(request.real_time);
   if (real_time.cpu_error() != 0) {
     throw UsageError("--cpu " + std::to_string(request.real_time.cpu) + ": " + std::strerror(real_time.cpu_error()));
