@@ -75,9 +75,9 @@ void write_picture(Output& out, const LatencyHistogram& times) {
     const auto count = static_cast<double>(counts[octave]);
     const auto bar = counts[octave] == 0 ? std::size_t{0} : static_cast<std::size_t>(4 + 8 * std::log10(count));
     std::array<char, 80> row{};
-    std::snprintf(row.data(), row.size(), "#  %10.3f us and more %10llu ", std::ldexp(1e-3, static_cast<int>(octave)),
+    std::snprintf(row.data(), row.size(), "#  %10.3f us and more %10llu", std::ldexp(1e-3, static_cast<int>(octave)),
                   static_cast<unsigned long long>(counts[octave]));
-    out.write(row.data() + std::string(bar, '*') + "\n");
+    out.write(row.data() + (bar == 0 ? "" : " " + std::string(bar, '*')) + "\n");
   }
 }
 
