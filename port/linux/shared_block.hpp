@@ -19,7 +19,7 @@ namespace crankloop::port {
 struct LiveInputs {
   double load_ratio = 0;            ///< 0 = motored, 1 = the pressure diagram as it is
   double load_Nm = 0;               ///< brake torque on the crankshaft, positive against forward rotation
-  std::uint32_t starter = 0;        ///< 1: engaged
+  std::uint32_t starter = 0;        ///< not 0: engaged
   std::uint32_t cut_cylinders = 0;  ///< bit k: cylinder k, counted from 0, does not fire
 };
 
@@ -38,8 +38,8 @@ struct LiveOutputs {
   double crank_deg = 0;                ///< 0 to below 720, from cylinder 1's firing dead centre
   double torque_Nm = 0;                ///< of gas and masses, at the tick's end
   double mean_torque_Nm = 0;           ///< the same, averaged over the tick
-  double friction_Nm = 0;              ///< of friction, averaged over the tick
-  double starter_Nm = 0;               ///< of the starter
+  double friction_Nm = 0;              ///< of friction and brake, at the tick's end
+  double starter_Nm = 0;               ///< of the starter, at the tick's end
   std::uint32_t faults = 0;            ///< the engine's fault bits of the tick, docs/contract.md
   std::uint32_t flags = 0;             ///< LiveFlag
   std::uint32_t inputs_sequence = 0;   ///< of the controller's inputs that were used: the controller's write, answered

@@ -6,10 +6,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -111,6 +114,52 @@ TEST_F(SharedBlockFile, HasItsNumbersWhereTheDocumentSays) {
   for (std::size_t i = 0; i <= 3; ++i) EXPECT_EQ(at<std::uint32_t>(208 + 4 * i), static_cast<std::uint32_t>(i + 10));
   EXPECT_EQ(at<std::uint64_t>(224), 14u);
   EXPECT_EQ(at<std::uint64_t>(232), 15u);
+}
+
+/// The rows "| offset | type | field | ..." of the document's table.
+std::map<std::string, std::size_t> offsets_of_the_document() {
+  std::map<std::string, std::size_t> offsets;
+  std::istringstream document(bytes_of(CRANKLOOP_SOURCE_DIR "/docs/live.md"));
+  for (std::string line; std::getline(document, line);) {
+    std::string bar, field, type;
+    std::size_t offset = 0;
+    std::istringstream row(line);
+    if (row >> bar >> offset >> bar >> type >> bar >> field && (type == "u32" || type == "u64" || type == "f64")) offsets[field] = offset;
+  }
+  return offsets;
+}
+
+TEST(LiveBlock, IsTheTableOfTheDocument) {
+  constexpr std::size_t kInputs = offsetof(LiveBlock, inputs) + 8;
+  constexpr std::size_t kOutputs = offsetof(LiveBlock, outputs) + 8;
+  const std::map<std::string, std::size_t> offsets = {
+      {"magic", offsetof(LiveBlock, magic)},
+      {"version", offsetof(LiveBlock, version)},
+      {"size_bytes", offsetof(LiveBlock, size_bytes)},
+      {"state", offsetof(LiveBlock, state)},
+      {"tick_s", offsetof(LiveBlock, tick_s)},
+      {"cylinders", offsetof(LiveBlock, cylinders)},
+      {"load_ratio", kInputs + offsetof(LiveInputs, load_ratio)},
+      {"load_Nm", kInputs + offsetof(LiveInputs, load_Nm)},
+      {"starter", kInputs + offsetof(LiveInputs, starter)},
+      {"cut_cylinders", kInputs + offsetof(LiveInputs, cut_cylinders)},
+      {"ticks", kOutputs + offsetof(LiveOutputs, ticks)},
+      {"time_s", kOutputs + offsetof(LiveOutputs, time_s)},
+      {"speed_rad_s", kOutputs + offsetof(LiveOutputs, speed_rad_s)},
+      {"acceleration_rad_s2", kOutputs + offsetof(LiveOutputs, acceleration_rad_s2)},
+      {"crank_deg", kOutputs + offsetof(LiveOutputs, crank_deg)},
+      {"torque_Nm", kOutputs + offsetof(LiveOutputs, torque_Nm)},
+      {"mean_torque_Nm", kOutputs + offsetof(LiveOutputs, mean_torque_Nm)},
+      {"friction_Nm", kOutputs + offsetof(LiveOutputs, friction_Nm)},
+      {"starter_Nm", kOutputs + offsetof(LiveOutputs, starter_Nm)},
+      {"faults", kOutputs + offsetof(LiveOutputs, faults)},
+      {"flags", kOutputs + offsetof(LiveOutputs, flags)},
+      {"inputs_sequence", kOutputs + offsetof(LiveOutputs, inputs_sequence)},
+      {"torn_inputs", kOutputs + offsetof(LiveOutputs, torn_inputs)},
+      {"late_ticks", kOutputs + offsetof(LiveOutputs, late_ticks)},
+      {"missed_deadlines", kOutputs + offsetof(LiveOutputs, missed_deadlines)},
+  };
+  EXPECT_EQ(offsets_of_the_document(), offsets);
 }
 
 TEST_F(SharedBlockFile, IsTheSameMemoryOnBothSides) {
