@@ -57,7 +57,7 @@ constexpr bool keeps_its_promises() {
 static_assert(keeps_its_promises<PistonMotion>() && keeps_its_promises<TorqueOnly>() && keeps_its_promises<ForcesAndTorque>() &&
               keeps_its_promises<ValveLift>() && keeps_its_promises<ValveDynamics>() && keeps_its_promises<WholeEngine>() &&
               keeps_its_promises<scenes::Whole>() && keeps_its_promises<scenes::MeasuredMotion>() && keeps_its_promises<scenes::TorqueByTable>() &&
-              keeps_its_promises<scenes::TorqueByPressure>());
+              keeps_its_promises<scenes::TorqueByPressure>() && keeps_its_promises<scenes::FreeRunning>());
 
 // ---- sizes -------------------------------------------------------------------------------------------------------------------------------
 

@@ -72,6 +72,11 @@ void drive(int tick, double rated_rad_s, Input<Real, S>& in) {
   const double speed = speed_rad_s(tick, rated_rad_s);
   if constexpr (S::crank == CrankGiven::speed) {
     in.speed_rad_s = tick == 1100 ? static_cast<Real>(1e9) : static_cast<Real>(speed);
+  } else if constexpr (S::crank == CrankGiven::load) {
+    // Started, run, thrown back through standstill, stopped.
+    in.load_Nm = static_cast<Real>(tick == 1100 ? 1e9 : tick < 1200 ? 0 : tick < 1700 ? 60 : 5);
+    in.starter = tick < 800 ? 1 : 0;
+    in.cut_cylinders = tick < 900 ? 0 : static_cast<std::uint32_t>(tick / 64);
   } else {
     constexpr double kCyclesPerRad = 0.07957747154594767;  // 1 / (4 pi)
     in.crank += Phase::from_cycles(speed * kTick_s * kCyclesPerRad);
@@ -184,6 +189,10 @@ TEST_P(GoldenRun, TorqueByTable) {
 TEST_P(GoldenRun, TorqueByPressure) {
   expect("torque_by_pressure", "float", life_of<float, scenes::TorqueByPressure>);
   expect("torque_by_pressure", "double", life_of<double, scenes::TorqueByPressure>);
+}
+TEST_P(GoldenRun, FreeRunning) {
+  expect("free_running", "float", life_of<float, scenes::FreeRunning>);
+  expect("free_running", "double", life_of<double, scenes::FreeRunning>);
 }
 TEST_P(GoldenRun, ExactForcesAndTorque) {
   expect("exact_forces_and_torque", "float", life_in_exact<float, ForcesAndTorque>);

@@ -51,6 +51,9 @@ EngineDefinition busy_engine() {
   engine.trains[0] = valve_test::ohc_125_train();
   engine.trains[0].cam.phase_rate_deg_s = 300;
   engine.trains[0].valve.head_area_m2 = 6e-4;
+  engine.friction = {60e3, 100, 0.5};
+  engine.load = {1, 0.01, 1e-3, 0.02};
+  engine.starter = {60, 60};
   return engine;
 }
 
@@ -81,6 +84,11 @@ void drive(Random& random, typename Engine<Real, S>::Input& in) {
   if constexpr (S::crank == CrankGiven::speed) {
     in.speed_rad_s = static_cast<Real>(random.between(-200, 1400));
     if (bad) in.speed_rad_s = std::numeric_limits<Real>::quiet_NaN();
+  } else if constexpr (S::crank == CrankGiven::load) {
+    in.load_Nm = static_cast<Real>(random.between(-300, 200));
+    if (bad) in.load_Nm = std::numeric_limits<Real>::infinity();
+    in.starter = random.coin() ? 1 : 0;
+    in.cut_cylinders = static_cast<std::uint32_t>(random.bits());
   } else {
     in.crank += Phase{static_cast<std::uint64_t>(static_cast<std::int64_t>(random.between(-1e16, 1.5e17)))};
     if (bad) in.crank = Phase{random.bits()};
@@ -146,6 +154,7 @@ struct CaseName {
     using S = typename Case::S;
     const char* scene = S::valve_results ? (S::kinematics ? "Whole" : "MeasuredWithValves")
                         : S::rod_motion  ? "MeasuredMotion"
+                        : S::starter     ? "FreeRunning"
                         : S::load_ratio  ? "TorqueByTable"
                                          : "TorqueByPressure";
     return std::string(scene) + (sizeof(typename Case::Real) == 4 ? "Float" : "Double");
@@ -153,7 +162,7 @@ struct CaseName {
 };
 using Cases = ::testing::Types<Of<float, scenes::Whole>, Of<double, scenes::Whole>, Of<float, MeasuredWithValves>, Of<double, MeasuredWithValves>,
                                Of<float, scenes::TorqueByTable>, Of<double, scenes::TorqueByTable>, Of<float, scenes::TorqueByPressure>,
-                               Of<double, scenes::TorqueByPressure>, Of<float, scenes::MeasuredMotion>, Of<double, scenes::MeasuredMotion>>;
+                               Of<double, scenes::TorqueByPressure>, Of<float, scenes::FreeRunning>, Of<double, scenes::FreeRunning>, Of<float, scenes::MeasuredMotion>, Of<double, scenes::MeasuredMotion>>;
 TYPED_TEST_SUITE(SavedState, Cases, CaseName);
 
 TYPED_TEST(SavedState, GoesOnWithTheSameBitsFromAnyTick) {
@@ -374,6 +383,16 @@ TYPED_TEST(SavedState, IsRefusedWhereANumberLiesOutsideWhatAStepCanCompute) {
     bad = good;
     bad.torque_Nm = std::numeric_limits<Real>::max();
     EXPECT_TRUE(refuses(loaded(rig, bad), Reason::out_of_range, "state.work"));
+  }
+  if constexpr (Needs<S>::crank_dynamics) {
+    for (const Real per_root : {Real{0}, static_cast<Real>(-1), static_cast<Real>(1e6)}) {
+      bad = good;
+      bad.per_root_inertia = per_root;
+      EXPECT_TRUE(refuses(loaded(rig, bad), Reason::out_of_range, "state.crank"));
+    }
+    bad = good;
+    bad.reduced_speed = std::numeric_limits<Real>::infinity();
+    EXPECT_TRUE(refuses(loaded(rig, bad), Reason::not_finite, "state.crank"));
   }
   if constexpr (Needs<S>::elastic_valves) {
     bad = good;

@@ -599,5 +599,37 @@ TEST(Reasons, EachHaveTheirOwnWords) {
   }
 }
 
+// ---- what turns and brakes the crankshaft ---------------------------------------------------------------------------
+
+template <class Part>
+void expect_none_or_positive(const char* field, double Part::*member, double most) {
+  for (const Bad& bad : {Bad{-1e-9, Reason::negative}, Bad{kNaN, Reason::not_finite}, Bad{kInfinity, Reason::not_finite},
+                         Bad{std::nextafter(most, kInfinity), Reason::out_of_range}}) {
+    Part part;
+    part.*member = bad.value;
+    EXPECT_TRUE(refuses(validate(part), bad.reason, field)) << bad.value;
+  }
+  for (const double good : {0.0, most}) {
+    Part part;
+    part.*member = good;
+    EXPECT_TRUE(validate(part).ok()) << field << " " << good;
+  }
+}
+
+TEST(CrankshaftDefinition, RefusesFrictionLoadAndStarterOutsideTheirRangesByName) {
+  expect_none_or_positive("friction.constant", &Friction::constant_Pa, 1e7);
+  expect_none_or_positive("friction.linear", &Friction::linear_Pa_s, 1e6);
+  expect_none_or_positive("friction.quadratic", &Friction::quadratic_Pa_s2, 1e6);
+  expect_none_or_positive("load.constant", &Load::constant_Nm, 1e7);
+  expect_none_or_positive("load.linear", &Load::linear_Nm_s, 1e6);
+  expect_none_or_positive("load.quadratic", &Load::quadratic_Nm_s2, 1e6);
+  expect_none_or_positive("load.inertia", &Load::inertia_kg_m2, 1e6);
+  EXPECT_TRUE(refuses(validate(Starter{-1, 10}), Reason::negative, "starter.stall"));
+  EXPECT_TRUE(refuses(validate(Starter{1, 0}), Reason::not_positive, "starter.no_load"));  // a torque that never ends
+  EXPECT_TRUE(refuses(validate(Starter{1, 1.1e4}), Reason::out_of_range, "starter.no_load"));
+  EXPECT_TRUE(validate(Starter{0, 0}).ok());
+  EXPECT_TRUE(validate(Starter{300, 30}).ok());
+}
+
 }  // namespace
 }  // namespace crankloop

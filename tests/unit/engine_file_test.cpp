@@ -273,6 +273,32 @@ TEST_F(EngineFileTest, WhatTheLibraryRefusesIsToldAtTheLineOfTheKey) {
             path + ":4: pin_offset_mm: 0 cannot be met");
 }
 
+TEST_F(EngineFileTest, FrictionLoadAndStarterAreReadInTheirUnitsOrAbsent) {
+  const std::string crank = "[crank]\nbore_mm = 95\nstroke_mm = 115\nrod_length_mm = 210\ncompression_ratio = 19\n";
+  const EngineFile without = read(crank);
+  EXPECT_EQ(without.definition().friction.constant_Pa, 0);
+  EXPECT_EQ(without.definition().load.quadratic_Nm_s2, 0);
+  EXPECT_EQ(without.definition().starter.stall_Nm, 0);
+  EXPECT_EQ(show(read(show(without))), show(without));
+
+  const std::string brakes = crank + "[friction]\nconstant_kPa = 90\nlinear_kPa_per_1000rpm = 26\nquadratic_kPa_per_1000rpm2 = 5\n"
+                                     "[load]\nlinear_Nm_per_1000rpm = 3\nquadratic_Nm_per_1000rpm2 = 42\ninertia_kg_m2 = 0.1\n"
+                                     "[starter]\nstall_Nm = 420\nno_load_rpm = 380\n";
+  const EngineFile engine = read(brakes);
+  const EngineDefinition& d = engine.definition();
+  constexpr double kSpeed_rad_s = 2000 * 3.14159265358979 / 30;  // at 2000 rpm
+  EXPECT_NEAR(d.friction.constant_Pa + kSpeed_rad_s * (d.friction.linear_Pa_s + kSpeed_rad_s * d.friction.quadratic_Pa_s2), 162e3, 1e-6);
+  EXPECT_NEAR(d.load.constant_Nm + kSpeed_rad_s * (d.load.linear_Nm_s + kSpeed_rad_s * d.load.quadratic_Nm_s2), 174, 1e-9);
+  EXPECT_EQ(d.load.inertia_kg_m2, 0.1);
+  EXPECT_EQ(d.starter.stall_Nm, 420);
+  EXPECT_NEAR(d.starter.no_load_rad_s, 380 * 3.14159265358979 / 30, 1e-12);
+  EXPECT_EQ(show(read(show(engine))), show(engine));
+
+  EXPECT_NE(refusal(replaced(brakes, "constant_kPa = 90", "constant_kPa = -90")).find("constant_kPa"), std::string::npos);
+  EXPECT_NE(refusal(replaced(brakes, "no_load_rpm = 380", "")).find("no_load_rpm: 0 must be greater than zero"), std::string::npos);
+  EXPECT_NE(refusal("[friction]\nconstant_kPa = 90\n").find("needs a [crank] section"), std::string::npos);
+}
+
 TEST_F(EngineFileTest, ValveTrainSectionsAreReadCheckedAndShown) {
   const std::string train =
       "[cam intake]\nsource = polynomial\nmax_lift_mm = 6.301099\nhalf_angle_deg = 74\nexponents = 2,10,18,26\n"

@@ -43,15 +43,18 @@ TYPED_TEST(TableTargetsOf, APartWithoutWhatBelongsToItAreRefusedByItsName) {
     GasTorque<Real>* Targets::*torque;
     IntegratedSegment<Real>* Targets::*segments;
     const char* field;
+    GasGrid* Targets::*grid = &Targets::torque_grid;
+    const char* grid_field = "targets.torque_grid";
   } pairs[] = {{&Targets::gas_torque_full, &Targets::gas_full, "targets.gas_full"},
                {&Targets::gas_torque_motored, &Targets::gas_motored, "targets.gas_motored"},
-               {&Targets::gas_torque_heat, &Targets::gas_heat, "targets.gas_heat"}};
+               {&Targets::gas_torque_heat, &Targets::gas_heat, "targets.gas_heat"},
+               {&Targets::cut_torque, &Targets::cut_heat, "targets.cut_heat", &Targets::cut_grid, "targets.cut_grid"}};
   for (const auto& pair : pairs) {
     Targets without_grid;
     without_grid.*pair.torque = &torque;
-    EXPECT_TRUE(refuses(answer(without_grid), Reason::missing_table, "targets.torque_grid"));
+    EXPECT_TRUE(refuses(answer(without_grid), Reason::missing_table, pair.grid_field));
     Targets without_segments = without_grid;
-    without_segments.torque_grid = &grid;
+    without_segments.*pair.grid = &grid;
     without_segments.gas_capacity = 719;
     EXPECT_TRUE(refuses(answer(without_segments), Reason::out_of_range, "targets.gas_capacity"));
     without_segments.gas_capacity = 720;
