@@ -59,24 +59,25 @@ Off error_of(const EngineDefinition& engine, const Lagrange& oracle, const Crank
   const int ticks = static_cast<int>(kTime_s / tick_s + 0.5);
   for (int i = 0; i < ticks; ++i) run.step(in);
   EXPECT_EQ(run.engine.output().faults, 0u);
-  return {static_cast<double>(run.angle_rad - oracle.angle_rad()), static_cast<double>(static_cast<long double>(run.engine.output().speed_rad_s) - oracle.speed_rad_s())};
+  const long double speed_rad_s_now = wide(run.engine.output().speed_rad_s);
+  return {static_cast<double>(run.angle_rad - oracle.angle_rad()), static_cast<double>(speed_rad_s_now - oracle.speed_rad_s())};
 }
 
 TEST(HeavyRod, ConvergesToLagrangesEquationByMoreThanSecondOrder) {
   constexpr double kSpeed_rad_s = 30;
   for (const long double crank_kg_m2 : {0.05L, 1.0L}) {
     const CrankMechanism m = heavy_rod(crank_kg_m2, 20);
-    Lagrange oracle(m, kSpeed_rad_s);
+    Lagrange oracle(m, wide(kSpeed_rad_s));
     Lagrange coarse = oracle;
-    oracle.run(kTime_s, kOracleSteps);
-    coarse.run(kTime_s, kOracleSteps / 2);
+    oracle.run(wide(kTime_s), kOracleSteps);
+    coarse.run(wide(kTime_s), kOracleSteps / 2);
     const auto oracle_rad = static_cast<double>(std::fabs(oracle.angle_rad() - coarse.angle_rad()));
     ASSERT_LT(oracle_rad, 1e-9);
     double last_rad = 0;
     for (const double tick_s : {800e-6, 400e-6, 200e-6, 100e-6, 50e-6}) {
       const Off off = error_of(defined(m), oracle, m, kSpeed_rad_s, tick_s);
-      std::printf("crank %.2Lf kg m2, tick %3.0f us: %9.2e rad, %9.2e rad/s, of %.1Lf rad and %.1Lf rad/s\n", crank_kg_m2, tick_s * 1e6, off.angle_rad,
-                  off.speed_rad_s, oracle.angle_rad(), oracle.speed_rad_s());
+      std::printf("crank %.2Lf kg m2, tick %3.0f us: %9.2e rad, %9.2e rad/s, of %.1Lf rad and %.1Lf rad/s\n", crank_kg_m2, tick_s * 1e6,
+                  off.angle_rad, off.speed_rad_s, oracle.angle_rad(), oracle.speed_rad_s());
       const double here_rad = std::fabs(off.angle_rad);
       // Halving the tick divides a third-order error by eight; at least by four is the second order promised.
       if (last_rad > 1e3 * oracle_rad) {
@@ -101,18 +102,18 @@ TEST(HeavyRod, LeavingOutItsInertiaCorrectionShowsAndWithItTheErrorIsGone) {
   double error_ratio[2] = {};
   int which = 0;
   for (const EngineDefinition& engine : {right, lumped}) {
-    Lagrange oracle(m, kSpeed_rad_s);
+    Lagrange oracle(m, wide(kSpeed_rad_s));
     Turned<double, Bare> run(engine, kTick_s, kSpeed_rad_s);
     for (int i = 0; i < static_cast<int>(kTime_s / kTick_s); ++i) {
-      oracle.run(kTick_s, 2);
+      oracle.run(wide(kTick_s), 2);
       const long double speed = static_cast<long double>(run.step({}).speed_rad_s);
       error_ratio[which] = std::max(error_ratio[which], static_cast<double>(std::fabs(speed / oracle.speed_rad_s() - 1)));
     }
     error_rad[which] = static_cast<double>(std::fabs(run.angle_rad - oracle.angle_rad()));
     ++which;
   }
-  std::printf("rod as two masses: %.2f %% of speed, %.3f rad after %.1f s; with its inertia: %.1e, %.1e rad\n", 100 * error_ratio[1], error_rad[1], kTime_s,
-              error_ratio[0], error_rad[0]);
+  std::printf("rod as two masses: %.2f %% of speed, %.3f rad after %.1f s; with its inertia: %.1e, %.1e rad\n", 100 * error_ratio[1],
+              error_rad[1], kTime_s, error_ratio[0], error_rad[0]);
   EXPECT_NEAR(error_ratio[1], 0.0031, 0.0001);
   EXPECT_NEAR(error_rad[1], 0.0434, 0.001);
   EXPECT_LT(error_ratio[0], 1e-7);
@@ -172,7 +173,7 @@ void rocks_for_good(double rounding_J) {
   const auto potential_J = [&](long double deg) { return std::floor(deg / 720) * wide(gas.cycle_J()) - gas.gas_J(deg); };
   for (const double tick_s : {100e-6, 1e-3}) {
     Turned<Real, Fired> run(engine, tick_s, kSpeed_rad_s, phase_at_deg(wide(kStart_deg)));
-    const long double begin_J = kinetic_J(engine, wide(kStart_deg), kSpeed_rad_s) + potential_J(wide(kStart_deg));
+    const long double begin_J = kinetic_J(engine, wide(kStart_deg), wide(kSpeed_rad_s)) + potential_J(wide(kStart_deg));
     typename Turned<Real, Fired>::Input in;
     in.load_ratio = 0;
     int reversals = 0;
@@ -186,7 +187,8 @@ void rocks_for_good(double rounding_J) {
       const long double deg = deg_of(run.engine.state().phase);
       worst_J = std::max(worst_J, static_cast<double>(std::fabs(kinetic_J(engine, deg, wide(now)) + potential_J(deg) - begin_J)));
     }
-    std::printf("%zu bytes, tick %4.0f us: %d reversals in 20 s, energy within %.1e of %.0Lf J\n", sizeof(Real), tick_s * 1e6, reversals, worst_J, begin_J);
+    std::printf("%zu bytes, tick %4.0f us: %d reversals in 20 s, energy within %.1e of %.0Lf J\n", sizeof(Real), tick_s * 1e6, reversals,
+                worst_J, begin_J);
     EXPECT_GT(reversals, 20);
     EXPECT_LT(worst_J, rounding_J);
   }
@@ -213,7 +215,8 @@ TEST(CrankFriction, CoastDownIsOfSecondOrderToAnExactStop) {
   engine.load = {c, l, q, 0};
   // dw/dt = -(c + l w + q w^2) / J: time over speed in closed form; q w^2 + l w + c has no real root here.
   const double root = std::sqrt(4 * q * c - l * l);
-  const auto time_s = [&](double w) { return 2 * kInertia_kg_m2 / root * (std::atan((2 * q * kStart_rad_s + l) / root) - std::atan((2 * q * w + l) / root)); };
+  const auto angle_of = [&](double w) { return std::atan((2 * q * w + l) / root); };
+  const auto time_s = [&](double w) { return 2 * kInertia_kg_m2 / root * (angle_of(kStart_rad_s) - angle_of(w)); };
   double last_off = 0;
   for (const double tick_s : {2e-3, 1e-3, 500e-6}) {
     Turned<double, Bare> run(engine, tick_s, kStart_rad_s);
@@ -380,7 +383,8 @@ Ripple expect_harmonics(double rpm, std::uint32_t cut) {
   const Ripple found = diesel.run();
   const Ripple expected = diesel.by_harmonics();
   const Ripple thumb = diesel.by_rule_of_thumb(found.mean_rad_s);
-  std::printf("%4.0f rpm, cut %u: irregularity %.5f, by torque harmonics and inertia %.5f\n", rpm, cut, found.irregularity_ratio, expected.irregularity_ratio);
+  std::printf("%4.0f rpm, cut %u: irregularity %.5f, by torque harmonics and inertia %.5f\n", rpm, cut, found.irregularity_ratio,
+              expected.irregularity_ratio);
   std::printf("  order: amplitude of speed in rad/s, by torque harmonics and inertia, by T_k / (J k w)\n");
   const double largest = *std::max_element(found.amplitude_rad_s, found.amplitude_rad_s + 13);
   for (int i = 1; i < 13; ++i) {

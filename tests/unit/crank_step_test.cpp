@@ -142,7 +142,8 @@ TYPED_TEST(CrankStep, ABadLoadIsTheLastGoodOne) {
   typename Turned<Real, Fired>::Input in;
   in.load_Nm = 40;
   good.step(in), bad.step(in);
-  for (const Real load : {std::numeric_limits<Real>::quiet_NaN(), std::numeric_limits<Real>::infinity(), static_cast<Real>(-1.001e8), static_cast<Real>(1.001e8)}) {
+  constexpr Real kBeyond = static_cast<Real>(1.001e8);
+  for (const Real load : {std::numeric_limits<Real>::quiet_NaN(), std::numeric_limits<Real>::infinity(), -kBeyond, kBeyond}) {
     good.step(in);
     auto wrong = in;
     wrong.load_Nm = load;
@@ -207,7 +208,8 @@ TEST(CrankStepGroups, MotionsAreDerivativesOfOneAnotherAndForcesGoWithThem) {
       for (std::size_t k = 0; k < 4; ++k) {
         most = std::max(most, std::fabs((after.velocity_m_s[k] - before.velocity_m_s[k]) / (2 * kTick_s) - now.acceleration_m_s2[k]));
         largest = std::max(largest, std::fabs(now.acceleration_m_s2[k]));
-        most_rod = std::max(most_rod, std::fabs((after.rod_speed_rad_s[k] - before.rod_speed_rad_s[k]) / (2 * kTick_s) - now.rod_acceleration_rad_s2[k]));
+        const double rod_rad_s2 = (after.rod_speed_rad_s[k] - before.rod_speed_rad_s[k]) / (2 * kTick_s);
+        most_rod = std::max(most_rod, std::fabs(rod_rad_s2 - now.rod_acceleration_rad_s2[k]));
         const CylinderForces<double>& f = now.cylinder[k];
         EXPECT_NEAR(f.inertia_force_N, -body.reciprocating_kg * now.acceleration_m_s2[k], 1e-6 + 1e-9 * std::fabs(f.inertia_force_N));
         // Power into the crank is that of the gas less what the masses take.
@@ -215,7 +217,8 @@ TEST(CrankStepGroups, MotionsAreDerivativesOfOneAnotherAndForcesGoWithThem) {
         const double power_W = f.total_force_N * now.velocity_m_s[k] - couple_Nm * now.rod_speed_rad_s[k];
         EXPECT_NEAR(f.torque_Nm * now.speed_rad_s, power_W, 1e-5 * (1 + std::fabs(power_W)));
         const OraclePose p = oracle_pose(engine.crank, (deg_of(now.crank) - wide(engine.layout.firing_deg[k])) * kPi_ld / 180);
-        inertia += static_cast<double>(wide(body.reciprocating_kg) * p.slope_m * p.slope_m + wide(body.rod_inertia_correction_kg_m2) * p.rod_slope * p.rod_slope);
+        inertia += static_cast<double>(wide(body.reciprocating_kg) * p.slope_m * p.slope_m +
+                                       wide(body.rod_inertia_correction_kg_m2) * p.rod_slope * p.rod_slope);
         rods_Nm += f.torque_Nm;
       }
       most_crank = std::max(most_crank, std::fabs((after.speed_rad_s - before.speed_rad_s) / (2 * kTick_s) - now.acceleration_rad_s2));

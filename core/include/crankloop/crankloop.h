@@ -221,6 +221,24 @@ typedef struct crankloop_valve_train {
   crankloop_valve valve;
 } crankloop_valve_train;
 
+typedef struct crankloop_friction {
+  double constant_Pa;
+  double linear_Pa_s;
+  double quadratic_Pa_s2;
+} crankloop_friction;
+
+typedef struct crankloop_load {
+  double constant_Nm;
+  double linear_Nm_s;
+  double quadratic_Nm_s2;
+  double inertia_kg_m2;
+} crankloop_load;
+
+typedef struct crankloop_starter {
+  double stall_Nm;
+  double no_load_rad_s;
+} crankloop_starter;
+
 /* The structs above keep their size; what comes later stands at the end of this one. */
 typedef struct crankloop_definition {
   crankloop_crank crank;
@@ -229,6 +247,9 @@ typedef struct crankloop_definition {
   crankloop_pressure pressure;
   int32_t train_count;
   crankloop_valve_train trains[CRANKLOOP_MOST_TRAINS];
+  crankloop_friction friction; /* this and what follows: for cranks that forces turn, which scenes of crankloop_add_scene may have */
+  crankloop_load load;
+  crankloop_starter starter;
 } crankloop_definition;
 
 /* Fills in every default. Begin with this: a zeroed definition has other values. */

@@ -111,6 +111,18 @@ void each_train(C& c, Cpp& d, Copy& copy) noexcept {
   copy(c.valve.head_area_m2, d.valve.head_area_m2);
 }
 template <class C, class Cpp, class Copy>
+void each_torque(C& c, Cpp& d, Copy& copy) noexcept {
+  copy(c.friction.constant_Pa, d.friction.constant_Pa);
+  copy(c.friction.linear_Pa_s, d.friction.linear_Pa_s);
+  copy(c.friction.quadratic_Pa_s2, d.friction.quadratic_Pa_s2);
+  copy(c.load.constant_Nm, d.load.constant_Nm);
+  copy(c.load.linear_Nm_s, d.load.linear_Nm_s);
+  copy(c.load.quadratic_Nm_s2, d.load.quadratic_Nm_s2);
+  copy(c.load.inertia_kg_m2, d.load.inertia_kg_m2);
+  copy(c.starter.stall_Nm, d.starter.stall_Nm);
+  copy(c.starter.no_load_rad_s, d.starter.no_load_rad_s);
+}
+template <class C, class Cpp, class Copy>
 void each_field(C& c, Cpp& d, Copy& copy) noexcept {
   each_crank(c.crank, d.crank, copy);
   each_mass(c.masses, d.masses, copy);
@@ -118,6 +130,7 @@ void each_field(C& c, Cpp& d, Copy& copy) noexcept {
   each_pressure(c.pressure, d.pressure, copy);
   copy(c.train_count, d.train_count);
   for (int t = 0; t < kMaxTrains; ++t) each_train(c.trains[t], d.trains[t], copy);
+  each_torque(c, d, copy);
 }
 template <class C, class Cpp, class Copy>
 void each_option(C& c, Cpp& d, Copy& copy) noexcept {

@@ -4,6 +4,9 @@
 //
 //     input -> checked -> phase -> torque tables of the whole engine -> output
 //                              -> look-ups per mechanism -> pressure, torque, forces per cylinder -> totals -> output
+//
+// Where forces turn the crank, the phase follows from the speed and the torques of the tick before (tick/crank_step.hpp), and the new speed from
+// the work of this one, between the look-ups and the cylinders.
 #pragma once
 
 #include <crankloop/tick/angle.hpp>
@@ -443,7 +446,8 @@ Status Engine<Real, S>::init(const Tables& tables, Phase start) noexcept {
     if (tables.body->rod_inertia_correction_kg_m2 != Real{0}) return {Reason::inconsistent, -1, "scene.rod_inertia"};
   }
   if constexpr (Needs<S>::crank_dynamics) {
-    if (!(tables.crank_dynamics->least_kg_m2 >= static_cast<Real>(kLeastInertia_kg_m2))) return {Reason::not_positive, -1, "masses.crank_inertia"};
+    const bool enough = tables.crank_dynamics->least_kg_m2 >= static_cast<Real>(kLeastInertia_kg_m2);
+    if (!enough) return {Reason::not_positive, -1, "masses.crank_inertia"};
   }
   if constexpr (Needs<S>::any_valves) {
     if (drive.trains > S::trains.capacity || (S::trains.exact && drive.trains != S::trains.capacity)) {
