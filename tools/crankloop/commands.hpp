@@ -42,6 +42,7 @@ extern const Command kBench;
 extern const Command kForces;
 extern const Command kKinematics;
 extern const Command kLift;
+extern const Command kLive;
 extern const Command kMasses;
 extern const Command kRedline;
 extern const Command kRun;

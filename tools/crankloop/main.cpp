@@ -22,7 +22,8 @@
 namespace crankloop::program {
 namespace {
 
-constexpr const Command* kCommands[] = {&kShow, &kMasses, &kKinematics, &kForces, &kBalance, &kLift, &kValve, &kRedline, &kRun, &kBench, &kStress, &kTables};
+constexpr const Command* kCommands[] = {&kShow,  &kMasses,  &kKinematics, &kForces, &kBalance, &kLift,  &kValve,
+                                          &kRedline, &kRun,  &kLive,       &kBench,  &kStress,  &kTables};
 
 constexpr std::size_t kNameColumn = 18;
 

@@ -1,0 +1,120 @@
+// The block of memory that `crankloop live` shares with a controller: inputs in, outputs out. docs/live.md has the same as a table.
+//
+// What belongs here: the layout, and how a process gets hold of the block. What does not: what the engine makes of it. This header,
+// sequence_lock.hpp and shared_block.cpp need nothing else of crankloop: a controller may copy them.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "sequence_lock.hpp"
+
+namespace crankloop::port {
+
+/// What the controller wants. Written as a whole, each of its periods, also where nothing changed: that is its sign of life.
+/// As it stands here it is the safe one: no fuel, no load, no starter.
+struct LiveInputs {
+  double load_ratio = 0;            ///< 0 = motored, 1 = the pressure diagram as it is
+  double load_Nm = 0;               ///< brake torque on the crankshaft, positive against forward rotation
+  std::uint32_t starter = 0;        ///< not 0: engaged
+  std::uint32_t cut_cylinders = 0;  ///< bit k: cylinder k, counted from 0, does not fire
+};
+
+/// Bits of LiveOutputs::flags.
+enum LiveFlag : std::uint32_t {
+  kControllerSeen = 1u << 0,    ///< inputs of a controller were used, in this tick or an earlier one
+  kControllerSilent = 1u << 1,  ///< none came for too long: the safe inputs are used until one comes
+};
+
+/// What the engine did in the latest tick; numbers are those of its end.
+struct LiveOutputs {
+  std::uint64_t ticks = 0;  ///< done since the start; the model's time is ticks * tick_s
+  double time_s = 0;
+  double speed_rad_s = 0;
+  double acceleration_rad_s2 = 0;
+  double crank_deg = 0;                ///< 0 to below 720, from cylinder 1's firing dead centre
+  double torque_Nm = 0;                ///< of gas and masses, at the tick's end
+  double mean_torque_Nm = 0;           ///< the same, averaged over the tick
+  double friction_Nm = 0;              ///< of friction and brake, at the tick's end
+  double starter_Nm = 0;               ///< of the starter, at the tick's end
+  std::uint32_t faults = 0;            ///< the engine's fault bits of the tick, docs/contract.md
+  std::uint32_t flags = 0;             ///< LiveFlag
+  std::uint32_t inputs_sequence = 0;   ///< of the controller's inputs that were used: the controller's write, answered
+  std::uint32_t torn_inputs = 0;       ///< ticks that found inputs half written and used the last whole ones
+  std::uint64_t late_ticks = 0;        ///< ticks that began a whole tick or more after their time
+  std::uint64_t missed_deadlines = 0;  ///< ticks that were not done when the next one was due
+};
+
+enum class LiveState : std::uint32_t { starting = 0, running = 1, ended = 2 };
+
+/// The block itself, in the byte order and with the floating-point numbers (IEEE 754) of the machine. Words not named are 0.
+struct alignas(64) LiveBlock {
+  std::atomic<std::uint32_t> magic{0};  ///< kLiveMagic, written last: before that nothing in the block is valid
+  std::uint32_t version = 0;
+  std::uint32_t size_bytes = 0;
+  std::atomic<LiveState> state{LiveState::starting};
+  double tick_s = 0;
+  std::uint32_t cylinders = 0;
+  alignas(64) SequenceLocked<LiveInputs> inputs;    ///< written by the controller, one only
+  alignas(64) SequenceLocked<LiveOutputs> outputs;  ///< written by live
+};
+
+inline constexpr std::uint32_t kLiveMagic = 0x4C4B5243;  ///< the bytes "CRKL" where the lowest comes first
+inline constexpr std::uint32_t kLiveVersion = 1;         ///< another layout has another number
+inline constexpr std::size_t kLiveBlockBytes = 256;
+
+static_assert(sizeof(double) == 8 && sizeof(LiveBlock) == kLiveBlockBytes);
+static_assert(offsetof(LiveBlock, version) == 4 && offsetof(LiveBlock, size_bytes) == 8 && offsetof(LiveBlock, state) == 12);
+static_assert(offsetof(LiveBlock, tick_s) == 16 && offsetof(LiveBlock, cylinders) == 24);
+static_assert(offsetof(LiveBlock, inputs) == 64 && offsetof(LiveBlock, outputs) == 128);
+static_assert(sizeof(SequenceLocked<LiveInputs>) == 8 + sizeof(LiveInputs), "the words follow 8 bytes after the sequence number");
+static_assert(offsetof(LiveInputs, load_Nm) == 8 && offsetof(LiveInputs, starter) == 16 && offsetof(LiveInputs, cut_cylinders) == 20);
+static_assert(sizeof(LiveInputs) == 24 && sizeof(LiveOutputs) == 104);
+static_assert(offsetof(LiveOutputs, time_s) == 8 && offsetof(LiveOutputs, speed_rad_s) == 16);
+static_assert(offsetof(LiveOutputs, acceleration_rad_s2) == 24 && offsetof(LiveOutputs, crank_deg) == 32);
+static_assert(offsetof(LiveOutputs, torque_Nm) == 40 && offsetof(LiveOutputs, mean_torque_Nm) == 48);
+static_assert(offsetof(LiveOutputs, friction_Nm) == 56 && offsetof(LiveOutputs, starter_Nm) == 64);
+static_assert(offsetof(LiveOutputs, faults) == 72 && offsetof(LiveOutputs, flags) == 76);
+static_assert(offsetof(LiveOutputs, inputs_sequence) == 80 && offsetof(LiveOutputs, torn_inputs) == 84);
+static_assert(offsetof(LiveOutputs, late_ticks) == 88 && offsetof(LiveOutputs, missed_deadlines) == 96);
+
+/// A block that cannot be had: one line, "PATH: why".
+class SharedBlockError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A block mapped into this process, for as long as the object lives.
+class SharedBlock {
+ public:
+  /// Live's side: a new file, mode 0660 less the umask, removed at the end. A block that a killed run left behind is replaced; any
+  /// other file at that path, and a block that another process runs on, is refused and left alone.
+  [[nodiscard]] static SharedBlock create(const std::string& path, double tick_s, std::uint32_t cylinders);
+
+  /// The controller's side: the block of a running `live`. Refused: no such file, not ready yet, another layout.
+  [[nodiscard]] static SharedBlock open(const std::string& path);
+
+  SharedBlock(SharedBlock&& other) noexcept;
+  SharedBlock& operator=(SharedBlock&&) = delete;
+  SharedBlock(const SharedBlock&) = delete;
+  SharedBlock& operator=(const SharedBlock&) = delete;
+
+  /// The creator says that it has ended, and removes the file.
+  ~SharedBlock();
+
+  [[nodiscard]] LiveBlock& operator*() const noexcept { return *block_; }
+  [[nodiscard]] LiveBlock* operator->() const noexcept { return block_; }
+
+ private:
+  SharedBlock(std::string path, int file, bool creator);
+
+  std::string path_;
+  int file_ = -1;
+  bool creator_;
+  LiveBlock* block_ = nullptr;
+};
+
+}  // namespace crankloop::port

@@ -1,0 +1,267 @@
+// `crankloop live`, run as a user runs it: with the example's controller, with a controller that errs or dies, until a signal, with bad arguments.
+// Times are this machine's, which may be busy: they are looked for, never bounded.
+#include <gtest/gtest.h>
+#include <stdlib.h>  // mkdtemp
+#include <sys/types.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <crankloop/tick/faults.hpp>
+
+#include "port/linux/shared_block.hpp"
+
+namespace crankloop::port {
+namespace {
+
+const std::string kEngine = CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495.ini";
+constexpr std::chrono::seconds kPatience{60};  // for what happens at once on a machine that has time
+
+std::string contents(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// A program that runs beside the test. Ended, if it still runs, with the object.
+class Process {
+ public:
+  Process(const std::vector<std::string>& words, std::string output_path) : output_path_{std::move(output_path)} {
+    std::vector<char*> arguments;
+    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    id_ = ::fork();
+    if (id_ != 0) return;
+    if (std::freopen(output_path_.c_str(), "w", stdout) == nullptr || ::dup2(STDOUT_FILENO, STDERR_FILENO) < 0) ::_exit(126);
+    ::execv(arguments[0], arguments.data());
+    ::_exit(127);
+  }
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+  ~Process() {
+    if (id_ > 0) {
+      signal(SIGKILL);
+      wait();
+    }
+  }
+
+  void signal(int number) const { ::kill(id_, number); }
+
+  /// Its exit status, or minus the signal that ended it.
+  int wait() {
+    int status = 0;
+    EXPECT_EQ(::waitpid(id_, &status, 0), id_);
+    id_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+  [[nodiscard]] std::string output() const { return contents(output_path_); }
+
+ private:
+  std::string output_path_;
+  ::pid_t id_ = -1;
+};
+
+/// The lines "name = value unit".
+std::map<std::string, std::string> values_of(const std::string& text) {
+  std::map<std::string, std::string> values;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    const std::size_t equals = line.find(" = ");
+    if (line[0] != '#' && equals != std::string::npos) values[line.substr(0, equals)] = line.substr(equals + 3);
+  }
+  return values;
+}
+
+bool comes_true(const std::function<bool()>& condition) {
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > deadline) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+class Live : public testing::Test {
+ protected:
+  Live() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~Live() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::string in_folder(const std::string& name) const { return folder_ + "/" + name; }
+  [[nodiscard]] std::string block_path() const { return in_folder("block"); }
+
+  [[nodiscard]] std::vector<std::string> live(const std::vector<std::string>& options) const {
+    std::vector<std::string> words{CRANKLOOP_PROGRAM, "live", kEngine};
+    words.insert(words.end(), options.begin(), options.end());
+    return words;
+  }
+
+  /// The block once the loop runs.
+  [[nodiscard]] std::optional<SharedBlock> open_running() const {
+    std::optional<SharedBlock> block;
+    comes_true([&] {
+      try {
+        if (!block) block.emplace(SharedBlock::open(block_path()));
+      } catch (const SharedBlockError&) {
+        return false;
+      }
+      return (*block)->state == LiveState::running;
+    });
+    return block;
+  }
+
+  std::string folder_;
+};
+
+/// What `live` shows at the moment.
+LiveOutputs outputs_of(const SharedBlock& block) {
+  LiveOutputs out;
+  std::uint32_t sequence = 0;
+  while (!block->outputs.read(out, sequence)) {
+  }
+  return out;
+}
+
+TEST_F(Live, StartsAndIdlesUnderTheExamplesController) {
+  constexpr double kTarget_rpm = 800;
+  // The controller is integral: the mean is off only by what its last disturbance left, the end of the run-up 2 s before.
+  constexpr double kMean_rpm = 0.01 * kTarget_rpm;
+  // Ignition by ignition the speed swings, and the smoothed one a quarter of that; a controller held up by the machine adds to it.
+  constexpr double kPeak_rpm = 0.1 * kTarget_rpm;
+  Process engine(live({"--tick-us", "1000", "--seconds", "30", "--shared", block_path(), "--silent-ms", "5000"}), in_folder("live.txt"));
+  Process controller({CRANKLOOP_IDLE_CONTROL, block_path(), "--target-rpm", "800", "--seconds", "5"}, in_folder("control.txt"));
+  EXPECT_EQ(controller.wait(), 0) << controller.output();
+  engine.signal(SIGINT);
+  EXPECT_EQ(engine.wait(), 0) << engine.output();
+
+  const auto held = values_of(controller.output());
+  EXPECT_NEAR(std::stod(held.at("mean_speed")), kTarget_rpm, kMean_rpm) << controller.output();
+  EXPECT_LE(std::stod(held.at("peak_error")), kPeak_rpm) << controller.output();
+  const auto ran = values_of(engine.output());
+  EXPECT_EQ(ran.at("controller"), "seen");
+  EXPECT_EQ(ran.at("faulty_ticks"), "0");
+}
+
+TEST_F(Live, TellsTimesAndDeadlinesOfEveryTick) {
+  const std::string csv = in_folder("histogram.csv");
+  Process engine(live({"--tick-us", "500", "--seconds", "0.5", "--from-rpm", "900", "--histogram", csv}), in_folder("live.txt"));
+  ASSERT_EQ(engine.wait(), 0) << engine.output();
+  const auto values = values_of(engine.output());
+  for (const char* name : {"machine", "kernel", "scheduler", "memory", "processor", "late_ticks", "missed_deadlines", "longest_backlog",
+                           "model_share_mean", "model_share_max", "final_speed", "mean_torque"}) {
+    EXPECT_EQ(values.count(name), 1u) << name;
+  }
+  EXPECT_EQ(values.at("ticks"), "1000");
+  EXPECT_GE(std::stod(values.at("wall_time")), 0.5);
+  for (const std::string name : {"wakeup_latency", "model_time", "work_time"}) {
+    double before_us = 0;
+    for (const char* quantile : {"_p50", "_p99", "_p99_9", "_p99_99", "_max"}) {
+      const double time_us = std::stod(values.at(name + quantile));
+      EXPECT_GE(time_us, before_us) << name << quantile;
+      before_us = time_us;
+    }
+    EXPECT_GT(before_us, 0) << name;
+  }
+
+  std::istringstream rows(contents(csv));
+  std::string row;
+  ASSERT_TRUE(std::getline(rows, row));
+  EXPECT_EQ(row, "from_us,below_us,wakeup_ticks,model_ticks,work_ticks");
+  std::vector<double> sums(3, 0);
+  while (std::getline(rows, row)) {
+    std::istringstream cells(row);
+    std::string cell;
+    for (int column = 0; std::getline(cells, cell, ','); ++column) {
+      if (column >= 2) sums[static_cast<std::size_t>(column - 2)] += std::stod(cell);
+    }
+  }
+  EXPECT_EQ(sums, std::vector<double>(3, 1000.0));
+}
+
+TEST_F(Live, TurnsOnWithoutFuelWhenItsControllerFallsSilent) {
+  Process engine(live({"--seconds", "600", "--from-rpm", "1000", "--shared", block_path(), "--silent-ms", "50"}), in_folder("live.txt"));
+  const std::optional<SharedBlock> block = open_running();
+  ASSERT_TRUE(block) << engine.output();
+  EXPECT_EQ((*block)->cylinders, 4u);
+  EXPECT_EQ((*block)->tick_s, 1e-3);
+
+  LiveInputs in;
+  in.load_ratio = 0.3;
+  in.load_Nm = 10;
+  (*block)->inputs.write(in);
+  const std::uint32_t written = (*block)->inputs.sequence();
+  EXPECT_TRUE(comes_true([&] { return outputs_of(*block).inputs_sequence == written; }));
+  EXPECT_TRUE(comes_true([&] { return outputs_of(*block).flags == (kControllerSeen | kControllerSilent); }));
+
+  // No load either, which would turn an engine without fuel backwards: it comes to rest and stays.
+  EXPECT_TRUE(comes_true([&] { return std::abs(outputs_of(*block).speed_rad_s) < 1; }));
+  EXPECT_GE(outputs_of(*block).speed_rad_s, -1);
+
+  (*block)->inputs.write(in);
+  EXPECT_TRUE(comes_true([&] {
+    (*block)->inputs.write(in);
+    return outputs_of(*block).flags == kControllerSeen;
+  }));
+  engine.signal(SIGTERM);
+  EXPECT_EQ(engine.wait(), 0);
+  EXPECT_GE(std::stoi(values_of(engine.output()).at("controller_silences")), 1);
+  EXPECT_EQ((*block)->state, LiveState::ended);
+  EXPECT_FALSE(std::filesystem::exists(block_path()));
+}
+
+TEST_F(Live, SaysWhichInputsOfAControllerAreNone) {
+  Process engine(live({"--seconds", "600", "--from-rpm", "1000", "--shared", block_path(), "--silent-ms", "60000"}), in_folder("live.txt"));
+  const std::optional<SharedBlock> block = open_running();
+  ASSERT_TRUE(block) << engine.output();
+  LiveInputs in;
+  in.load_ratio = std::numeric_limits<double>::quiet_NaN();
+  in.load_Nm = 1e300;  // more than a float holds
+  (*block)->inputs.write(in);
+  EXPECT_TRUE(comes_true([&] { return outputs_of(*block).faults == (kFaultLoadRatio | kFaultLoad); }));
+  EXPECT_TRUE(std::isfinite(outputs_of(*block).speed_rad_s));
+  (*block)->inputs.write(LiveInputs{});
+  EXPECT_TRUE(comes_true([&] { return outputs_of(*block).faults == 0; }));
+  engine.signal(SIGINT);
+  EXPECT_EQ(engine.wait(), 0);
+  EXPECT_GT(std::stoi(values_of(engine.output()).at("faulty_ticks")), 0);
+}
+
+TEST_F(Live, RefusesWhatCannotBeRunInOneLineAndAUsage) {
+  std::ofstream(block_path()) << "somebody's notes\n";
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"--tick-us", "3000"}, "crankloop live: --tick-us: 3000 is out of range; allowed: 1 to 2000\n"},
+      {{"--tick-us", "33.33333"}, "crankloop live: --tick-us 33.33333 is no whole number of nanoseconds"},
+      {{"--seconds", "0"}, "crankloop live: --seconds: 0 is out of range; allowed: above 0"},
+      {{"--from-rpm", "61000"}, "crankloop live: --from-rpm 61000 is too fast for this tick"},
+      {{"--cpu", "1023", "--seconds", "0.01"}, "crankloop live: --cpu 1023: Invalid argument"},
+      {{"--shared", block_path()}, block_path() + ": exists and is no block of this version of crankloop"},
+      {{"--shared", folder_ + "/none/block"}, folder_ + "/none/block: cannot be created"},
+  };
+  for (const auto& [options, message] : cases) {
+    Process refused(live(options), in_folder("refused.txt"));
+    EXPECT_EQ(refused.wait(), 2) << message;
+    EXPECT_EQ(refused.output().substr(0, message.size()), message);
+  }
+  EXPECT_EQ(contents(block_path()), "somebody's notes\n");
+}
+
+}  // namespace
+}  // namespace crankloop::port

@@ -1,0 +1,328 @@
+// The block that `crankloop live` shares: its bytes as docs/live.md lists them, who gets it and who is refused, and whose inputs count.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>  // mkdtemp
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <string>
+
+#include "port/linux/shared_block.hpp"
+#include "port/linux/watched_inputs.hpp"
+
+namespace crankloop::port {
+namespace {
+
+constexpr double kTick_s = 1e-3;
+constexpr std::uint32_t kCylinders = 4;
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+class SharedBlockFile : public testing::Test {
+ protected:
+  SharedBlockFile() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~SharedBlockFile() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::string path() const { return folder_ + "/block"; }
+  void put(const std::string& text) const { std::ofstream(path(), std::ios::binary) << text; }
+
+  /// A number of the file at an offset of docs/live.md.
+  template <class Number>
+  [[nodiscard]] Number at(std::size_t offset) const {
+    Number number{};
+    const std::string bytes = bytes_of(path());
+    EXPECT_LE(offset + sizeof number, bytes.size());
+    if (offset + sizeof number <= bytes.size()) std::memcpy(&number, bytes.data() + offset, sizeof number);
+    return number;
+  }
+
+  static std::string refusal_of(SharedBlock (*action)(const std::string&), const std::string& path) {
+    try {
+      static_cast<void>(action(path));
+    } catch (const SharedBlockError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  static SharedBlock create_at(const std::string& path) { return SharedBlock::create(path, kTick_s, kCylinders); }
+
+  std::string folder_;
+};
+
+// ---- layout -----------------------------------------------------------------------------------------------------------------
+
+TEST_F(SharedBlockFile, HasItsNumbersWhereTheDocumentSays) {
+  const SharedBlock block = create_at(path());
+  EXPECT_EQ(bytes_of(path()).size(), 256u);
+  EXPECT_EQ(at<std::uint32_t>(0), 0x4C4B5243u);
+  EXPECT_EQ(at<std::uint32_t>(4), 1u);
+  EXPECT_EQ(at<std::uint32_t>(8), 256u);
+  EXPECT_EQ(at<std::uint32_t>(12), 0u);
+  EXPECT_EQ(at<double>(16), kTick_s);
+  EXPECT_EQ(at<std::uint32_t>(24), kCylinders);
+
+  LiveInputs in;
+  in.load_ratio = 0.25;
+  in.load_Nm = -3;
+  in.starter = 1;
+  in.cut_cylinders = 5;
+  block->inputs.write(in);
+  EXPECT_EQ(at<std::uint32_t>(64), 2u);
+  EXPECT_EQ(at<double>(72), 0.25);
+  EXPECT_EQ(at<double>(80), -3);
+  EXPECT_EQ(at<std::uint32_t>(88), 1u);
+  EXPECT_EQ(at<std::uint32_t>(92), 5u);
+
+  LiveOutputs out;
+  out.ticks = 1;
+  out.time_s = 2;
+  out.speed_rad_s = 3;
+  out.acceleration_rad_s2 = 4;
+  out.crank_deg = 5;
+  out.torque_Nm = 6;
+  out.mean_torque_Nm = 7;
+  out.friction_Nm = 8;
+  out.starter_Nm = 9;
+  out.faults = 10;
+  out.flags = 11;
+  out.inputs_sequence = 12;
+  out.torn_inputs = 13;
+  out.late_ticks = 14;
+  out.missed_deadlines = 15;
+  block->outputs.write(out);
+  EXPECT_EQ(at<std::uint32_t>(128), 2u);
+  EXPECT_EQ(at<std::uint64_t>(136), 1u);
+  for (std::size_t i = 1; i <= 8; ++i) EXPECT_EQ(at<double>(136 + 8 * i), static_cast<double>(i + 1));
+  for (std::size_t i = 0; i <= 3; ++i) EXPECT_EQ(at<std::uint32_t>(208 + 4 * i), static_cast<std::uint32_t>(i + 10));
+  EXPECT_EQ(at<std::uint64_t>(224), 14u);
+  EXPECT_EQ(at<std::uint64_t>(232), 15u);
+}
+
+/// The rows "| offset | type | field | ..." of the document's table.
+std::map<std::string, std::size_t> offsets_of_the_document() {
+  std::map<std::string, std::size_t> offsets;
+  std::istringstream document(bytes_of(CRANKLOOP_SOURCE_DIR "/docs/live.md"));
+  for (std::string line; std::getline(document, line);) {
+    std::string bar, field, type;
+    std::size_t offset = 0;
+    std::istringstream row(line);
+    if (row >> bar >> offset >> bar >> type >> bar >> field && (type == "u32" || type == "u64" || type == "f64")) offsets[field] = offset;
+  }
+  return offsets;
+}
+
+TEST(LiveBlock, IsTheTableOfTheDocument) {
+  constexpr std::size_t kInputs = offsetof(LiveBlock, inputs) + 8;
+  constexpr std::size_t kOutputs = offsetof(LiveBlock, outputs) + 8;
+  const std::map<std::string, std::size_t> offsets = {
+      {"magic", offsetof(LiveBlock, magic)},
+      {"version", offsetof(LiveBlock, version)},
+      {"size_bytes", offsetof(LiveBlock, size_bytes)},
+      {"state", offsetof(LiveBlock, state)},
+      {"tick_s", offsetof(LiveBlock, tick_s)},
+      {"cylinders", offsetof(LiveBlock, cylinders)},
+      {"load_ratio", kInputs + offsetof(LiveInputs, load_ratio)},
+      {"load_Nm", kInputs + offsetof(LiveInputs, load_Nm)},
+      {"starter", kInputs + offsetof(LiveInputs, starter)},
+      {"cut_cylinders", kInputs + offsetof(LiveInputs, cut_cylinders)},
+      {"ticks", kOutputs + offsetof(LiveOutputs, ticks)},
+      {"time_s", kOutputs + offsetof(LiveOutputs, time_s)},
+      {"speed_rad_s", kOutputs + offsetof(LiveOutputs, speed_rad_s)},
+      {"acceleration_rad_s2", kOutputs + offsetof(LiveOutputs, acceleration_rad_s2)},
+      {"crank_deg", kOutputs + offsetof(LiveOutputs, crank_deg)},
+      {"torque_Nm", kOutputs + offsetof(LiveOutputs, torque_Nm)},
+      {"mean_torque_Nm", kOutputs + offsetof(LiveOutputs, mean_torque_Nm)},
+      {"friction_Nm", kOutputs + offsetof(LiveOutputs, friction_Nm)},
+      {"starter_Nm", kOutputs + offsetof(LiveOutputs, starter_Nm)},
+      {"faults", kOutputs + offsetof(LiveOutputs, faults)},
+      {"flags", kOutputs + offsetof(LiveOutputs, flags)},
+      {"inputs_sequence", kOutputs + offsetof(LiveOutputs, inputs_sequence)},
+      {"torn_inputs", kOutputs + offsetof(LiveOutputs, torn_inputs)},
+      {"late_ticks", kOutputs + offsetof(LiveOutputs, late_ticks)},
+      {"missed_deadlines", kOutputs + offsetof(LiveOutputs, missed_deadlines)},
+  };
+  EXPECT_EQ(offsets_of_the_document(), offsets);
+}
+
+TEST_F(SharedBlockFile, IsTheSameMemoryOnBothSides) {
+  const SharedBlock live = create_at(path());
+  const SharedBlock controller = SharedBlock::open(path());
+  EXPECT_EQ(controller->tick_s, kTick_s);
+  EXPECT_EQ(controller->cylinders, kCylinders);
+
+  LiveInputs in;
+  in.load_ratio = 0.5;
+  controller->inputs.write(in);
+  std::uint32_t sequence = 0;
+  ASSERT_TRUE(live->inputs.read(in = LiveInputs{}, sequence));
+  EXPECT_EQ(in.load_ratio, 0.5);
+
+  LiveOutputs out;
+  out.speed_rad_s = 83;
+  live->outputs.write(out);
+  ASSERT_TRUE(controller->outputs.read(out = LiveOutputs{}, sequence));
+  EXPECT_EQ(out.speed_rad_s, 83);
+}
+
+// ---- who gets it ------------------------------------------------------------------------------------------------------------
+
+TEST_F(SharedBlockFile, IsReadAndWrittenByNobodyElseAndRemovedAtTheEnd) {
+  {
+    const SharedBlock live = create_at(path());
+    struct stat found {};
+    ASSERT_EQ(::stat(path().c_str(), &found), 0);
+    EXPECT_EQ(found.st_mode & 0007u, 0u);
+    const SharedBlock controller = SharedBlock::open(path());
+    live->state = LiveState::running;
+    EXPECT_EQ(controller->state, LiveState::running);
+  }
+  EXPECT_FALSE(std::filesystem::exists(path()));
+}
+
+TEST_F(SharedBlockFile, TellsAControllerThatStaysThatItEnded) {
+  auto live = std::make_unique<SharedBlock>(create_at(path()));
+  const SharedBlock controller = SharedBlock::open(path());
+  live.reset();
+  EXPECT_EQ(controller->state, LiveState::ended);
+}
+
+TEST_F(SharedBlockFile, IsRefusedAndLeftAloneWhereAnotherFileStands) {
+  const std::string other_size = "[engine]\n";
+  const std::string other_content(256, 'x');
+  for (const std::string& text : {other_size, other_content}) {
+    put(text);
+    EXPECT_EQ(refusal_of(create_at, path()), path() + ": exists and is no block of this version of crankloop");
+    EXPECT_EQ(bytes_of(path()), text);
+    EXPECT_EQ(refusal_of(SharedBlock::open, path()), path() + ": is no block of this version of crankloop");
+  }
+  EXPECT_EQ(refusal_of(create_at, folder_), folder_ + ": exists and is no block of this version of crankloop");
+  EXPECT_EQ(refusal_of(create_at, folder_ + "/none/block"), folder_ + "/none/block: cannot be created: No such file or directory");
+}
+
+TEST_F(SharedBlockFile, IsRefusedWhereItIsOfAnotherVersion) {
+  std::string bytes;
+  {
+    const SharedBlock live = create_at(path());
+    bytes = bytes_of(path());
+  }
+  bytes[4] = 2;
+  put(bytes);
+  EXPECT_EQ(refusal_of(create_at, path()), path() + ": exists and is no block of this version of crankloop");
+  EXPECT_EQ(refusal_of(SharedBlock::open, path()), path() + ": is no block of this version of crankloop");
+}
+
+TEST_F(SharedBlockFile, IsRefusedWhereAnotherProcessRunsOnIt) {
+  const SharedBlock live = create_at(path());
+  EXPECT_EQ(refusal_of(create_at, path()), path() + ": another process runs on this block");
+  EXPECT_TRUE(std::filesystem::exists(path()));
+}
+
+TEST_F(SharedBlockFile, ReplacesWhatAKilledRunLeftBehind) {
+  const ::pid_t child = ::fork();
+  if (child == 0) {
+    const SharedBlock live = create_at(path());
+    ::_exit(0);  // as if killed: nothing is cleaned up
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(std::filesystem::exists(path()));
+  const SharedBlock of_the_dead = SharedBlock::open(path());
+  {
+    const SharedBlock live = create_at(path());
+    const SharedBlock controller = SharedBlock::open(path());
+    live->state = LiveState::running;
+    EXPECT_EQ(controller->state, LiveState::running);
+    EXPECT_EQ(of_the_dead->state, LiveState::starting) << "a file of its own";
+  }
+  EXPECT_FALSE(std::filesystem::exists(path()));
+}
+
+TEST_F(SharedBlockFile, IsNotOpenedBeforeItIsReady) {
+  put(std::string(256, '\0'));
+  EXPECT_EQ(refusal_of(SharedBlock::open, path()), path() + ": is not ready yet");
+  std::filesystem::remove(path());
+  EXPECT_EQ(refusal_of(SharedBlock::open, path()), path() + ": cannot be opened: No such file or directory");
+}
+
+// ---- whose inputs count -----------------------------------------------------------------------------------------------------
+
+constexpr std::int64_t kPatience_ns = 1000;
+
+LiveInputs with_load(double load_ratio) {
+  LiveInputs in;
+  in.load_ratio = load_ratio;
+  in.load_Nm = 40;
+  in.starter = 1;
+  in.cut_cylinders = 2;
+  return in;
+}
+
+TEST(WatchedInputs, AreThoseGivenAtTheStartUntilAControllerWrites) {
+  SequenceLocked<LiveInputs> area;
+  area.write(with_load(0.9));  // of an earlier run
+  WatchedInputs watched(area, with_load(0.1), kPatience_ns);
+  EXPECT_EQ(watched.at(0).load_ratio, 0.1);
+  EXPECT_EQ(watched.at(1'000'000).load_ratio, 0.1) << "nobody is there who could have fallen silent";
+  EXPECT_EQ(watched.flags(), 0u);
+
+  area.write(with_load(0.2));
+  EXPECT_EQ(watched.at(1'000'001).load_ratio, 0.2);
+  EXPECT_EQ(watched.flags(), kControllerSeen);
+  EXPECT_EQ(watched.sequence(), 4u);
+}
+
+TEST(WatchedInputs, AreTheSafeOnesAfterTheControllerFellSilentAndItsOwnWhenItIsBack) {
+  SequenceLocked<LiveInputs> area;
+  WatchedInputs watched(area, {}, kPatience_ns);
+  area.write(with_load(0.2));
+  EXPECT_EQ(watched.at(5000).load_ratio, 0.2);
+  EXPECT_EQ(watched.at(5000 + kPatience_ns).load_ratio, 0.2);
+
+  const LiveInputs safe = watched.at(5001 + kPatience_ns);
+  EXPECT_EQ(safe.load_ratio, 0);
+  EXPECT_EQ(safe.load_Nm, 0);
+  EXPECT_EQ(safe.starter, 0u);
+  EXPECT_EQ(safe.cut_cylinders, 0u);
+  EXPECT_EQ(watched.flags(), kControllerSeen | kControllerSilent);
+  EXPECT_EQ(watched.at(5002 + kPatience_ns).load_ratio, 0);
+  EXPECT_EQ(watched.silences(), 1u);
+
+  area.write(with_load(0.3));
+  EXPECT_EQ(watched.at(9000).load_ratio, 0.3);
+  EXPECT_EQ(watched.flags(), kControllerSeen);
+}
+
+TEST(WatchedInputs, AreTheLastWholeOnesWhileAWriteIsUnderWayAndThenTheSafeOnes) {
+  SequenceLocked<LiveInputs> area;
+  WatchedInputs watched(area, {}, kPatience_ns);
+  area.write(with_load(0.2));
+  EXPECT_EQ(watched.at(0).load_ratio, 0.2);
+  reinterpret_cast<std::atomic<std::uint32_t>&>(area) = 3;  // the controller dies here
+  EXPECT_EQ(watched.at(1).load_ratio, 0.2);
+  EXPECT_EQ(watched.at(2).load_ratio, 0.2);
+  EXPECT_EQ(watched.torn(), 2u);
+  EXPECT_EQ(watched.flags(), kControllerSeen);
+  EXPECT_EQ(watched.at(1 + kPatience_ns).load_ratio, 0);
+  EXPECT_EQ(watched.flags(), kControllerSeen | kControllerSilent);
+}
+
+}  // namespace
+}  // namespace crankloop::port

@@ -1,0 +1,104 @@
+// `crankloop live FILE`: the engine against the machine's clock, its crank free, a controller in the loop.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "commands.hpp"
+#include "engine_file.hpp"
+#include "error.hpp"
+#include "live_loop.hpp"
+#include "live_summary.hpp"
+#include "number.hpp"
+#include "output.hpp"
+
+namespace crankloop::program {
+namespace {
+
+constexpr double kRadPerRpm_s = 3.14159265358979323846 / 30;
+
+std::uint32_t cylinders_of(const EngineFile& file) { return static_cast<std::uint32_t>(file.definition().layout.cylinders); }
+
+LiveRequest request_of(const Arguments& arguments, const EngineFile& file) {
+  const double tick_us = arguments.number("--tick-us");
+  LiveRequest request;
+  request.tick_ns = std::llround(tick_us * 1e3);
+  request.tick_s = millionths(tick_us);
+  if (std::abs(tick_us * 1e3 - static_cast<double>(request.tick_ns)) > 1e-6) {
+    throw UsageError("--tick-us " + shortest(tick_us) + " is no whole number of nanoseconds, which the clock counts");
+  }
+  request.ticks = static_cast<std::uint64_t>(std::max(1.0, std::round(arguments.number("--seconds") / request.tick_s)));
+  request.start_rad_s = arguments.number("--from-rpm") * kRadPerRpm_s;
+  request.patience_ns = std::llround(arguments.number("--silent-ms") * 1e6);
+  request.at_start.load_ratio = arguments.number("--load-ratio");
+  request.at_start.load_Nm = arguments.number("--load-Nm");
+  request.at_start.starter = arguments.has("--starter") ? 1 : 0;
+  request.real_time.priority = arguments.whole_number("--priority");
+  if (arguments.has("--cpu")) request.real_time.cpu = arguments.whole_number("--cpu");
+
+  const EngineDefinition& definition = file.definition();
+  if (arguments.has("--load-ratio") && definition.pressure.source == PressureSource::none) {
+    throw InputError(file.path() + ": there is no pressure source, so --load-ratio has nothing to scale");
+  }
+  if (arguments.has("--starter") && definition.starter.stall_Nm == 0) {
+    throw InputError(file.path() + ": there is no [starter], so --starter has nothing to engage");
+  }
+  return request;
+}
+
+int run_live_command(const Arguments& arguments) {
+  const EngineFile file = read_engine_file(arguments.file(), {"engine", "crank", "masses"});
+  const LiveRequest request = request_of(arguments, file);
+  const std::string& real = arguments.text("--real");
+  const bool shares = arguments.has("--shared");
+  std::optional<Output> histogram;
+  if (arguments.has("--histogram")) histogram.emplace(arguments.text("--histogram"));
+
+  const auto figures = std::make_unique<LiveFigures>();
+  try {
+    port::LiveBlock alone;
+    std::optional<port::SharedBlock> shared;
+    if (shares) shared.emplace(port::SharedBlock::create(arguments.text("--shared"), request.tick_s, cylinders_of(file)));
+    const auto run = real == "float" ? run_live<float> : run_live<double>;
+    run(file, request, shares ? **shared : alone, *figures);
+  } catch (const port::SharedBlockError& refused) {
+    throw InputError(refused.what());
+  }
+
+  if (histogram) {
+    write_live_histogram(*histogram, *figures);
+    histogram->finish();
+  }
+  Output out = Output::standard();
+  write_live_summary(out, file, request, real, shares, *figures);
+  out.finish();
+  return kSuccess;
+}
+
+constexpr Option kOptions[] = {
+    number("--tick-us", "T", from(1).up_to(2000), "length of a tick in us", "1000"),
+    number("--seconds", "S", above(0).up_to(1000000), "how long; Ctrl-C ends it earlier, with its figures", "10"),
+    text("--shared", "PATH", "block of memory shared with a controller, such as /dev/shm/engine: docs/live.md"),
+    number("--silent-ms", "N", above(0).up_to(100000), "a controller that does not write for N ms is gone: no fuel, no load, no starter", "100"),
+    number("--load-ratio", "Q", from(0).up_to(2), "0 = motored, 1 = the pressure diagram as it is; until a controller says", "0"),
+    number("--load-Nm", "L", from(-1e8).up_to(1e8), "load on the crankshaft in Nm; until a controller says", "0"),
+    flag("--starter", "starter engaged; until a controller says"),
+    number("--from-rpm", "N", from(-100000).up_to(100000), "speed at the start in rpm", "0"),
+    choice("--real", "float|double", "arithmetic of the tick", "float"),
+    whole_number("--cpu", "N", from(0).up_to(1023), "the only processor to run on, counted from 0; without it any"),
+    whole_number("--priority", "P", from(0).up_to(99), "SCHED_FIFO priority, where allowed; 0 leaves the scheduler as it is", "80"),
+    text("--histogram", "F", "CSV file for the histograms of wake-up latency and of times"),
+};
+
+}  // namespace
+
+const Command kLive{"live",
+                    "the engine against the clock, with a controller in the loop: latencies, missed deadlines",
+                    "FILE [--tick-us T] [--seconds S] [--shared PATH] [--from-rpm N] [--load-ratio Q] [--load-Nm L] [--starter] [...]",
+                    "crankloop live diesel_495.ini --from-rpm 800 --load-ratio 0.2 --tick-us 100 --seconds 5",
+                    1,
+                    kOptions,
+                    run_live_command};
+
+}  // namespace crankloop::program
