@@ -13,7 +13,7 @@ CDPATH='' cd -- "$(dirname -- "$0")/.."
 folder=build/coverage
 profile=$folder/profile
 
-programs=
+programs=$folder/bin/crankloop
 targets=
 for kind in unit property golden contract; do
   targets="$targets crankloop_${kind}_tests"
@@ -27,25 +27,39 @@ if [ "${1:-}" != --report ]; then
   rm -rf "$profile"
   mkdir -p "$profile"
   for program in $programs; do
+    # %m tells programs apart: tests also start the program itself, whose counts are its own.
+    LLVM_PROFILE_FILE="$PWD/$profile/of-%m" "$program" --help >/dev/null
+    of=$(cd "$profile" && echo of-*)
+    rm "$profile/$of"
+    echo "${of#of-}" >"$profile/${program##*/}.signature"
     # Not the long ones that do nothing new: 10^7 ticks again and again.
-    LLVM_PROFILE_FILE="$PWD/$profile/%p.profraw" "$program" --gtest_brief=1 \
+    [ "${program##*/}" = crankloop ] || LLVM_PROFILE_FILE="$PWD/$profile/%m-%p.profraw" "$program" --gtest_brief=1 \
       --gtest_filter="-*LastsThroughLongStandstill*:*IsTheSameAfterManyCycles*:Soak*" >"$profile/${program##*/}.log" 2>&1 ||
       echo "# tests failed: $profile/${program##*/}.log"
   done
-  llvm-profdata merge --sparse -o "$profile/all.profdata" "$profile"/*.profraw
+  for program in $programs; do
+    name=${program##*/}
+    llvm-profdata merge --sparse -o "$profile/$name.profdata" "$profile/$(cat "$profile/$name.signature")"-*.profraw
+  done
 fi
 
-objects="$folder/bin/crankloop"
-for program in $programs; do [ ! -x "$program" ] || objects="$objects --object $program"; done
-# shellcheck disable=SC2086  # a list of words
-coverage() { llvm-cov "$@" $objects --instr-profile="$profile/all.profdata" --ignore-filename-regex='/(tests|tools|port)/|^/usr/'; }
+# What llvm-cov shows of each program by itself: scenes of two test programs may have one name, and it would count neither.
+for program in $programs; do
+  llvm-cov show --show-branches=count --show-expansions=false "$program" --instr-profile="$profile/${program##*/}.profdata" \
+    --ignore-filename-regex='^/usr/'
+done >"$profile/shown" 2>"$profile/shown.log"
 
-# The closing line of the table: file, then total, missed, per cent of regions, functions, lines, branches.
-coverage report --show-branch-summary | awk '/^TOTAL/ { printf "lines = %d\nlines_covered = %s\n", $8, $10 }'
-
-# "  |  Branch (52:7): [True: 8, False: 0]" behind the lines of a file.
-coverage show --show-branches=count --show-expansions=false | awk '
+# "    52|   8|code" and behind such lines "  |  Branch (52:7): [True: 8, False: 0]"; the counts of a template's instantiations come one
+# after the other.
+awk '
   /^\/.*:$/ { file = $0; sub(/:$/, "", file); sub(/.*\/core\//, "core/", file) }
+  file !~ /^core\/(include|src)\// { next }
+  match($0, /^ *[0-9]+\| *[0-9.]+[kMGTE]?\|/) {
+    split($0, column, "|")
+    line = file ":" column[1] + 0
+    if (!(line in lines)) { lines[line] = 0; ++all_lines }
+    if (column[2] != 0 && !lines[line]) { lines[line] = 1; ++covered_lines }
+  }
   match($0, /Branch \([0-9]+:[0-9]+\): \[/) {
     if ($0 ~ /Folded/) next
     place = substr($0, RSTART + 8); sub(/\).*/, "", place)
@@ -56,7 +70,10 @@ coverage show --show-branches=count --show-expansions=false | awk '
     if (yes != "0") taken[key " never true"] = 1
     if (no != "0") taken[key " never false"] = 1
   }
-  END { for (branch in seen) print (branch in taken ? "taken " : "not ") branch }' | sort -t: -k1,1 -k2,2n -k3,3n >"$profile/branches"
+  END {
+    printf "lines = %d\nlines_covered = %.2f%%\n", all_lines, 100 * covered_lines / all_lines
+    for (branch in seen) print (branch in taken ? "taken " : "not ") branch | "sort -t: -k1,1 -k2,2n -k3,3n >" branches
+  }' branches="$profile/branches" "$profile/shown"
 
 # An exception is a line "FILE text of the code", its reason in the indented lines below.
 awk -v listed="tests/coverage_exceptions.conf" '

@@ -354,6 +354,10 @@ TEST(CDefinition, KeepsItsLayoutWhereAFiringOrderIsRefusedAndGrowsWithoutHarmToO
   ASSERT_TRUE(ok(crankloop_set_firing_order(&definition, offsetof(crankloop_definition, pressure), order, 2)));
   EXPECT_EQ(definition.layout.cylinders, 2);
   EXPECT_EQ(definition.pressure.crankcase_Pa, -77) << "not written";
+  const std::int32_t three[] = {1, 3, 2};
+  ASSERT_TRUE(ok(crankloop_set_firing_order(&definition, sizeof definition, three, 3)));
+  EXPECT_EQ(definition.layout.cylinders, 3);
+  EXPECT_EQ(definition.pressure.crankcase_Pa, -77) << "as it was";
 }
 
 TEST(CDefinition, NamesTheFirstOfTwoNumbersThatNameNoEnumerator) {

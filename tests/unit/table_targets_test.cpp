@@ -109,6 +109,22 @@ TYPED_TEST(TableTargetsOf, WhatCannotBeTabulatedAreNotFilled) {
   EXPECT_EQ(drive.cylinders, 0u) << "nothing is written by a refusal";
 }
 
+TYPED_TEST(TableTargetsOf, AnEngineWhoseHeatIsGivenHaveAnotherFingerprintForEachHeat) {
+  using Real = TypeParam;
+  const auto fingerprint = [](bool heat_given, double heat_J) {
+    EngineDefinition engine = single_495();
+    engine.pressure.wiebe.heat_given = heat_given;
+    engine.pressure.wiebe.heat_J = heat_J;
+    Drive<Real> drive{};
+    TableTargets<Real> targets;
+    targets.drive = &drive;
+    EXPECT_TRUE(tabulate(engine, {100e-6, {}}, targets).ok());
+    return drive.fingerprint;
+  };
+  EXPECT_NE(fingerprint(true, 900), fingerprint(true, 901));
+  EXPECT_EQ(fingerprint(false, 900), fingerprint(false, 901)) << "not used, so not told apart";
+}
+
 TYPED_TEST(TableTargetsOf, MotionsWithoutLiftsAreFilledAsWithThem) {
   using Real = TypeParam;
   EngineDefinition engine = single_495();
