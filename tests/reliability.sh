@@ -3,17 +3,22 @@
 # Writes docs/reliability.md: what was tried to break crankloop, and what came of it.
 #
 # Runs what has no log in build/reliability yet, so that a run of hours need not be repeated for another: delete a log to renew its
-# figures. --long is for those hours: 100 000 random cases, 10^8 hostile inputs, 10^9 ticks of soak, 6 minutes of each fuzz target.
-# Needs the presets release, check, fuzz and coverage (clang++, llvm-cov), and builds them.
+# figures. --long is for those hours: 100 000 random cases, 10^8 hostile inputs, 10^9 ticks of soak, 6 minutes of each fuzz target, the
+# whole suite under the sanitizers. Needs the presets release, check, fuzz and coverage (clang++, llvm-cov), and builds them; clang++-19 for
+# its numerical sanitizer.
 set -eu
 CDPATH='' cd -- "$(dirname -- "$0")/.."
 logs=build/reliability
 mkdir -p "$logs"
 
+long=false
+seeds='1 2'
 cases=1000
 fuzz_seconds=15
 if [ "${1:-}" = --long ]; then
-  cases=50000
+  long=true
+  seeds='1 2 3 4 5 6 7 8 9 10'
+  cases=10000
   fuzz_seconds=360
   export CRANKLOOP_LONG_TESTS=1
 fi
@@ -30,10 +35,9 @@ keep() {
   mv "$log.part" "$log"
 }
 
-for seed in 1 2; do
-  keep "stress-$seed" release crankloop_program build/release/bin/crankloop stress --seed "$seed" --cases "$cases" &
+for seed in $seeds; do
+  keep "stress-$seed" release crankloop_program build/release/bin/crankloop stress --seed "$seed" --cases "$cases"
 done
-wait
 keep faults check crankloop_property_tests build/check/tests/crankloop_property_tests --gtest_filter='FaultInjection*'
 keep soak check crankloop_property_tests build/check/tests/crankloop_property_tests --gtest_filter='Soak*'
 keep edges check crankloop_unit_tests build/check/tests/crankloop_unit_tests --gtest_filter='TableEdges*'
@@ -44,6 +48,12 @@ for log in build/check-logs/fuzz-*.log; do
   [ -s "$logs/${log##*/}" ] || sed -n 's/^Done /Done /p' "$log" >"$logs/${log##*/}"
 done
 keep coverage coverage crankloop_program tests/coverage.sh
+keep threads thread crankloop_property_tests build/thread/tests/crankloop_property_tests --gtest_filter='Threads*'
+if command -v clang++-19 >/dev/null; then keep numerical release crankloop tests/numerical_sanitizer.sh; fi
+if $long; then
+  keep sanitize sanitize all tools/check sanitize
+  keep thread thread all tools/check thread
+fi
 
 # ---- the page ---------------------------------------------------------------------------------------------------------------
 
@@ -71,24 +81,27 @@ on its energy; every tenth is compared with the converged reference (tools/crank
 `--case N` runs one of them again.
 
 TEXT
-  for seed in 1 2; do command_of "stress-$seed"; done
+  sed -n '1s/.*/    &/p' "$logs"/stress-[0-9]*.log | sort -V
+  echo
   awk -F ' = ' '
-    FNR == 1 { column = ++columns; next }
-    / = / && $1 != "failure" {
+    FNR == 1 { ++runs; next }
+    / = / && $1 != "failure" && $1 != "seed" {
       name = $1; value = $2
       if (name == "refused") { split($0, parts, "# "); name = "refused: " parts[2]; sub(/ .*/, "", value) }
-      if (!(name in known)) { known[name] = 1; order[++count] = name }
-      figure[name, column] = value ~ /\./ ? sprintf("%.3g", value) : value
+      if (!(name in figure)) order[++count] = name
+      if (name !~ /error/) figure[name] += value
+      else if (value + 0 > figure[name] + 0) figure[name] = value
     }
     END {
-      print "| figure | seed 1 | seed 2 |\n| --- | --- | --- |"
-      for (i = 1; i <= count; ++i) print "| " order[i] " | " figure[order[i], 1] " | " figure[order[i], 2] " |"
-    }' "$logs/stress-1.log" "$logs/stress-2.log"
-  grep -h '^failure' "$logs"/stress-[12].log | sed 's/^failure = /- /' || true
+      print "| figure | of " runs " runs |\n| --- | --- |"
+      for (i = 1; i <= count; ++i) printf "| %s | " (order[i] ~ /error/ ? "%.3g" : "%d") " |\n", order[i], figure[order[i]]
+    }' "$logs"/stress-[0-9]*.log
+  grep -h '^failure' "$logs"/stress-[0-9]*.log | sed 's/^failure = /- /' || true
   cat <<'TEXT'
 
-`error_of_class` is the largest error of a case over the accuracy asked for, `error_of_allowed` over what the rule allows; p99 is what 99 of 100
-comparisons stay below. `stability_limit_error` is the largest distance of the measured from the theoretical longest stable step, as a part of
+Counts are of all runs together, errors the largest of any. `error_of_class` is the largest error of a case over the accuracy asked for,
+`error_of_allowed` over what the rule allows; p99 is what 99 of 100 comparisons stay below. `judged_again` is how often copies of the
+reference were too few to judge by and more of them did. `stability_limit_error` is the largest distance of the measured from the theoretical longest stable step, as a part of
 it, at 41 damping ratios from 0 to 2; `--report` draws the map.
 
 ## Faults in a running engine
@@ -111,12 +124,33 @@ TEXT
     sed -n "s/^Done \\([0-9]*\\) runs in \\([0-9]*\\) second(s)\$/- ${name%.log}: \\1 inputs in \\2 s/p" "$log"
   done
   tail -n 1 "$logs/fuzz.log" | sed 's/^/- targets: /'
+  printf '\n## Sanitizers\n\n'
+  cat <<'TEXT'
+`tools/check sanitize` runs the whole suite under the address and undefined-behaviour sanitizers (float-cast-overflow and
+float-divide-by-zero among them), `tools/check thread` under the thread sanitizer; any finding fails a test.
+
+TEXT
+  for log in sanitize thread; do
+    [ ! -s "$logs/$log.log" ] || printf -- '- %s: %s\n' "$(head -n 1 "$logs/$log.log")" "$(tail -n 1 "$logs/$log.log")"
+  done
+  printf -- '- %s: %s\n' "$(head -n 1 "$logs/threads.log")" "$(sed -n 's/^\[  \([A-Z]*\)  \] /\1 /p' "$logs/threads.log" | head -n 1)"
+  if [ -s "$logs/numerical.log" ]; then
+    cat <<'TEXT'
+
+The numerical sanitizer (clang 19) runs the tick in float with a double beside every number, and names each line where the two part by more
+than a thousandth of the number.
+
+TEXT
+    command_of numerical
+    sed 1d "$logs/numerical.log"
+  fi
   printf '\n## Branches of core that the host tests take\n\n'
   command_of coverage
   sed -n 's/^\([a-z_]* = .*\)/- \1/p' "$logs/coverage.log"
   cat <<'TEXT'
 
-The command lists each branch that is not taken, with its line.
+The command lists each branch that is not taken, with its line. tests/coverage_exceptions.conf has the reason of each; a branch
+without a reason, or a reason without a branch, fails the command.
 
 ## What fuzzing and stress found
 

@@ -342,6 +342,38 @@ TEST(CDefinition, HasEveryFieldThatCppHas) {
   }
 }
 
+TEST(CDefinition, KeepsItsLayoutWhereAFiringOrderIsRefusedAndGrowsWithoutHarmToOlderPrograms) {
+  crankloop_definition definition;
+  ASSERT_TRUE(ok(crankloop_definition_defaults(&definition, sizeof definition)));
+  const std::int32_t twice[] = {1, 1};
+  EXPECT_TRUE(answers(crankloop_set_firing_order(&definition, sizeof definition, twice, 2), CRANKLOOP_NOT_A_PERMUTATION, "layout.firing_order"));
+  const std::int32_t too_many[kMaxCylinders + 1] = {1, 2, 3};
+  EXPECT_FALSE(ok(crankloop_set_firing_order(&definition, sizeof definition, too_many, kMaxCylinders + 1)));
+  EXPECT_EQ(definition.layout.cylinders, 1);
+  // A program whose struct ends behind the layout.
+  const std::int32_t order[] = {2, 1};
+  definition.pressure.crankcase_Pa = -77;
+  ASSERT_TRUE(ok(crankloop_set_firing_order(&definition, offsetof(crankloop_definition, pressure), order, 2)));
+  EXPECT_EQ(definition.layout.cylinders, 2);
+  EXPECT_EQ(definition.pressure.crankcase_Pa, -77) << "not written";
+  const std::int32_t three[] = {1, 3, 2};
+  ASSERT_TRUE(ok(crankloop_set_firing_order(&definition, sizeof definition, three, 3)));
+  EXPECT_EQ(definition.layout.cylinders, 3);
+  EXPECT_EQ(definition.pressure.crankcase_Pa, -77) << "as it was";
+}
+
+TEST(CDefinition, NamesTheFirstOfTwoNumbersThatNameNoEnumerator) {
+  crankloop_definition definition;
+  ASSERT_TRUE(ok(crankloop_definition_defaults(&definition, sizeof definition)));
+  definition.pressure.source = 99;
+  definition.trains[0].cam.source = -1;
+  crankloop_options options;
+  ASSERT_TRUE(ok(crankloop_options_defaults(&options, sizeof options)));
+  const auto tables = std::make_unique<crankloop_f_tables>();
+  EXPECT_TRUE(answers(crankloop_f_tables_create(tables.get(), sizeof *tables, &definition, sizeof definition, &options, sizeof options),
+                      CRANKLOOP_OUT_OF_RANGE, "pressure.source"));
+}
+
 TEST(CDefinition, HasTheDefaultsOfCpp) {
   crankloop_definition definition;
   std::memset(&definition, 0xEE, sizeof definition);
@@ -524,6 +556,8 @@ TYPED_TEST(CInterface, RefusesMisuseWithAStatus) {
   EXPECT_TRUE(answers(Api::read_torque(nullptr, &out, sizeof out), CRANKLOOP_NULL_POINTER, "engine"));
   EXPECT_TRUE(answers(Api::input_defaults(nullptr, sizeof in), CRANKLOOP_NULL_POINTER, "out"));
   EXPECT_TRUE(answers(crankloop_set_firing_order(nullptr, 0, nullptr, 4), CRANKLOOP_NULL_POINTER, "order"));
+  const std::int32_t order[] = {1, 3, 4, 2};
+  EXPECT_TRUE(answers(crankloop_set_firing_order(nullptr, 0, order, 4), CRANKLOOP_NULL_POINTER, "definition"));
   EXPECT_EQ(Api::step(nullptr, &in, sizeof in), std::uint32_t{CRANKLOOP_FAULT_NOT_READY});
   EXPECT_EQ(Api::phase(nullptr), 0u);
 
@@ -532,12 +566,20 @@ TYPED_TEST(CInterface, RefusesMisuseWithAStatus) {
   EXPECT_TRUE(answers(Api::tables_discard(tables.get()), CRANKLOOP_NOT_CREATED, "tables"));
   EXPECT_TRUE(answers(Api::engine_reset(engine.get(), 0), CRANKLOOP_NOT_CREATED, "engine"));
   EXPECT_TRUE(answers(Api::take(engine.get(), &snapshot, sizeof snapshot), CRANKLOOP_NOT_CREATED, "engine"));
+  EXPECT_TRUE(answers(Api::restore(engine.get(), &snapshot, sizeof snapshot), CRANKLOOP_NOT_CREATED, "engine"));
+  std::vector<unsigned char> saved(Api::kSavedBytes);
+  EXPECT_TRUE(answers(Api::save(engine.get(), saved.data(), saved.size()), CRANKLOOP_NOT_CREATED, "engine"));
+  EXPECT_TRUE(answers(Api::load(engine.get(), saved.data(), saved.size()), CRANKLOOP_NOT_CREATED, "engine"));
+  EXPECT_TRUE(answers(Api::engine_discard(engine.get()), CRANKLOOP_NOT_CREATED, "engine"));
+  typename Api::Kinematics kinematics;
+  EXPECT_TRUE(answers(Api::read_kinematics(engine.get(), &kinematics, sizeof kinematics), CRANKLOOP_NOT_CREATED, "engine"));
   EXPECT_EQ(Api::step(engine.get(), &in, sizeof in), std::uint32_t{CRANKLOOP_FAULT_NOT_READY});
 
   // Too small, not aligned.
   EXPECT_TRUE(answers(create(tables.get(), 1000), CRANKLOOP_WRONG_SIZE, "tables"));
   auto bytes = std::make_unique<unsigned char[]>(sizeof(typename Api::Tables) + 8);
   EXPECT_TRUE(answers(create(reinterpret_cast<typename Api::Tables*>(bytes.get() + 4), sizeof *tables), CRANKLOOP_MISALIGNED, "tables"));
+  EXPECT_TRUE(answers(Api::tables_discard(reinterpret_cast<typename Api::Tables*>(bytes.get() + 4)), CRANKLOOP_MISALIGNED, "tables"));
   ASSERT_TRUE(ok(create(tables.get(), sizeof *tables)));
   EXPECT_TRUE(answers(Api::engine_create(engine.get(), 100, tables.get(), 0), CRANKLOOP_WRONG_SIZE, "engine"));
 
@@ -552,6 +594,7 @@ TYPED_TEST(CInterface, RefusesMisuseWithAStatus) {
   EXPECT_TRUE(answers(Api::take(engine.get(), nullptr, sizeof snapshot), CRANKLOOP_NULL_POINTER, "snapshot"));
   EXPECT_TRUE(answers(Api::take(engine.get(), &snapshot, 16), CRANKLOOP_WRONG_SIZE, "snapshot"));
   EXPECT_TRUE(answers(Api::restore(engine.get(), &snapshot, 16), CRANKLOOP_WRONG_SIZE, "snapshot"));
+  EXPECT_TRUE(answers(Api::restore(engine.get(), nullptr, sizeof snapshot), CRANKLOOP_NULL_POINTER, "snapshot"));
   EXPECT_TRUE(answers(Api::save(engine.get(), bytes.get(), Api::kSavedBytes - 1), CRANKLOOP_WRONG_SIZE, "state.size"));
   EXPECT_TRUE(answers(Api::load(engine.get(), nullptr, Api::kSavedBytes), CRANKLOOP_WRONG_SIZE, "state.size"));
   std::memset(&snapshot, 0, sizeof snapshot);
@@ -640,6 +683,16 @@ TEST(CStatus, IsToldInWordsCutToTheRoomThereIs) {
     EXPECT_EQ(std::string(text.data()), whole.substr(0, room - 1));
   }
   EXPECT_EQ(crankloop_status_text(status, nullptr, 0), whole.size());
+  EXPECT_EQ(crankloop_status_text(status, nullptr, 1), whole.size()) << "the closing 0 alone, and nowhere to put it";
+  const auto text_of = [](std::int32_t index, const char* field) {
+    char text[80];
+    crankloop_status_text({CRANKLOOP_NEGATIVE, index, field}, text, sizeof text);
+    return std::string(text);
+  };
+  EXPECT_EQ(text_of(-1, "masses.piston"), "masses.piston must not be negative");
+  EXPECT_EQ(text_of(0, "masses.piston"), "masses.piston[0] must not be negative");
+  EXPECT_EQ(text_of(-1, nullptr), "must not be negative");
+  EXPECT_EQ(text_of(-1, ""), "must not be negative");
   EXPECT_STREQ(crankloop_describe(CRANKLOOP_ROD_TOO_SHORT), describe(Reason::rod_too_short));
   EXPECT_STREQ(crankloop_describe(-1), "unknown reason");
   EXPECT_STREQ(crankloop_describe(CRANKLOOP_ALREADY_CREATED + 1), "unknown reason");

@@ -255,6 +255,7 @@ TYPED_TEST(SavedState, IsRefusedAtEveryLengthButItsOwn) {
   bytes.push_back(0);
   EXPECT_TRUE(refuses(refused(bytes), Reason::wrong_size, "state.size"));
   EXPECT_TRUE(refuses(load_state(nullptr, bytes.size(), rig.other), Reason::wrong_size, "state.size"));
+  EXPECT_TRUE(refuses(save_state(rig.one, nullptr, bytes.size()), Reason::wrong_size, "state.size"));
   for (const std::size_t room : {std::size_t{0}, bytes.size() - 2}) {
     EXPECT_TRUE(refuses(save_state(rig.one, bytes.data(), room), Reason::wrong_size, "state.size"));
   }

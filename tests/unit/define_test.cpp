@@ -409,6 +409,23 @@ TEST(SharedPins, AreFoundThoughTheThrowsDifferByWholeTurns) {
   EXPECT_TRUE(validate(layout).ok());
 }
 
+TEST(SharedPins, OfALayoutThatValidateRefusesAreNoneOrStaySplit) {
+  for (const double bank_deg : {1e7, -1e7, std::nan("")}) {  // angles that point nowhere
+    Layout layout;
+    layout.cylinders = 2;
+    layout.bank_deg = {0, bank_deg};
+    share_pins_by_position(layout);
+    EXPECT_NE(layout.pin[0], layout.pin[1]) << bank_deg;
+  }
+  for (const int cylinders : {0, -1, kMaxCylinders + 1}) {
+    Layout layout;
+    layout.cylinders = cylinders;
+    const Layout before = layout;
+    share_pins_by_position(layout);
+    EXPECT_EQ(layout.pin, before.pin) << cylinders;
+  }
+}
+
 // ---- pressure -------------------------------------------------------------------------------------------------------
 
 Pressure wiebe_pressure() {
@@ -597,6 +614,7 @@ TEST(Reasons, EachHaveTheirOwnWords) {
     for (const std::string& earlier : phrases) EXPECT_NE(phrase, earlier);
     phrases.push_back(phrase);
   }
+  EXPECT_STREQ(describe(static_cast<Reason>(255)), "unknown reason");
 }
 
 // ---- what turns and brakes the crankshaft ---------------------------------------------------------------------------

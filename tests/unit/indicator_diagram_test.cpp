@@ -452,6 +452,23 @@ TEST(VolumeTable, RefusesLoopsThatAreNoFourStrokes) {
   Rows short_stroke = part(0, 60);  // turns at 120 deg, then from there back up
   for (int i = 120; i < 360; ++i) short_stroke.push_back(loop.rows[static_cast<std::size_t>(i)]);
   EXPECT_EQ(answer(short_stroke).reason, Reason::not_a_cycle) << "turns before bottom dead centre";
+
+  Rows short_compression = part(0, 150);  // turns at 300 deg, then from there back down
+  for (int i = 210; i < 360; ++i) short_compression.push_back(loop.rows[static_cast<std::size_t>(i)]);
+  EXPECT_EQ(answer(short_compression).reason, Reason::not_a_cycle) << "turns before top dead centre";
+}
+
+TEST(VolumeTable, IsMotoredPlusHeat) {
+  const Crank crank = crank_with_offset(0.1);
+  const VolumeLoop loop = volume_loop(crank, smooth_pressure_Pa, 2, true);
+  const IndicatorDiagram diagram = diagram_of_rows(loop.rows, PressureSource::volume_table, crank);
+  double most_heat_Pa = 0;
+  for (double deg = 0; deg < 720; deg += 1.3) {
+    const double p = diagram.full_Pa(deg);
+    EXPECT_NEAR(diagram.motored_Pa(deg) + diagram.heat_Pa(deg), p, 2 * kEps * p) << deg;
+    most_heat_Pa = std::max(most_heat_Pa, diagram.heat_Pa(deg));
+  }
+  EXPECT_GT(most_heat_Pa, 1e5) << "or nothing was split";
 }
 
 // ---- synthesised ----------------------------------------------------------------------------------------------------

@@ -8,6 +8,7 @@
 #include "support/both_reals.hpp"
 #include "support/status.hpp"
 #include "support/test_engines.hpp"
+#include "support/test_valves.hpp"
 
 namespace crankloop {
 namespace {
@@ -84,6 +85,68 @@ TYPED_TEST(TableTargetsOf, AnEngineOfAnImpossibleNumberOfTrainsAreNotFilled) {
     EXPECT_TRUE(refuses(tabulate(engine, {100e-6, {}}, targets), Reason::out_of_range, "trains")) << trains;
   }
   EXPECT_EQ(drive.cylinders, 0u) << "nothing is written by a refusal";
+}
+
+TYPED_TEST(TableTargetsOf, WhatCannotBeTabulatedAreNotFilled) {
+  using Real = TypeParam;
+  Drive<Real> drive{};
+  ValveMotion<Real> motion{};
+  TableTargets<Real> targets;
+  targets.drive = &drive;
+  targets.valve_motions = &motion;
+  EngineDefinition engine = single_495();
+  for (const double tick_s : {0.999e-6, 2.001e-3, 0.0}) {
+    EXPECT_TRUE(refuses(tabulate(engine, {tick_s, {}}, targets), Reason::out_of_range, "tick.tick")) << tick_s;
+  }
+  engine.pressure.source = PressureSource::wiebe;
+  engine.pressure.wiebe.net_mep_Pa = 0;  // less than compression and gas exchange alone give: no heat is negative
+  engine.pressure.wiebe.exhaust_Pa = 50e3;
+  EXPECT_TRUE(refuses(tabulate(engine, {100e-6, {}}, targets), Reason::no_solution, "pressure.net_mep"));
+  engine = single_495();
+  engine.train_count = 2;
+  engine.trains[0] = engine.trains[1] = valve_test::ohc_125_train();
+  engine.trains[1].valve.valve_kg = -1;
+  const Status refused = tabulate(engine, {100e-6, {}}, targets);
+  EXPECT_EQ(refused.reason, Reason::not_positive);
+  EXPECT_EQ(refused.index, 1) << "the second train's";
+  EXPECT_EQ(drive.cylinders, 0u) << "nothing is written by a refusal";
+}
+
+TYPED_TEST(TableTargetsOf, AnEngineWhoseHeatIsGivenHaveAnotherFingerprintForEachHeat) {
+  using Real = TypeParam;
+  const auto fingerprint = [](bool heat_given, double heat_J) {
+    EngineDefinition engine = single_495();
+    engine.pressure.wiebe.heat_given = heat_given;
+    engine.pressure.wiebe.heat_J = heat_J;
+    Drive<Real> drive{};
+    TableTargets<Real> targets;
+    targets.drive = &drive;
+    EXPECT_TRUE(tabulate(engine, {100e-6, {}}, targets).ok());
+    return drive.fingerprint;
+  };
+  EXPECT_NE(fingerprint(true, 900), fingerprint(true, 901));
+  EXPECT_EQ(fingerprint(false, 900), fingerprint(false, 901)) << "not used, so not told apart";
+}
+
+TYPED_TEST(TableTargetsOf, MotionsWithoutLiftsAreFilledAsWithThem) {
+  using Real = TypeParam;
+  EngineDefinition engine = single_495();
+  engine.train_count = 1;
+  engine.trains[0] = valve_test::ohc_125_train();
+  LiftCurve<Real> lift{};
+  const auto segments = std::make_unique<LiftSegment<Real>[]>(kDegreesPerTurn);
+  const auto ratios = std::make_unique<Segment<Real>[]>(kDegreesPerTurn);
+  ValveMotion<Real> alone{};
+  ValveMotion<Real> with_lift{};
+  TableTargets<Real> targets;
+  targets.valve_motions = &alone;
+  ASSERT_TRUE(tabulate(engine, {100e-6, {}}, targets).ok());
+  targets.valve_motions = &with_lift;
+  targets.lift_curves = &lift, targets.lift_segments = segments.get(), targets.rocker_ratios = ratios.get();
+  ASSERT_TRUE(tabulate(engine, {100e-6, {}}, targets).ok());
+  EXPECT_GT(alone.body.mass_kg, Real{0});
+  EXPECT_EQ(alone.whole.matrix[1].y.y, with_lift.whole.matrix[1].y.y);
+  EXPECT_EQ(alone.short_step_deg, with_lift.short_step_deg);
 }
 
 }  // namespace

@@ -288,6 +288,9 @@ TEST(ValveLiftRefusal, OfAScrewThatCannotReachTheStemNamesIt) {
   rocker.pivot_to_screw_m = 11.69e-3;  // rho + z + clearance = 11.70 mm
   EXPECT_TRUE(refuses(lift.init(ohc_125_cam(), rocker), Reason::inconsistent, "rocker.pivot_to_screw"));
   EXPECT_NEAR(lift.failed_at_deg(), -74, 1e-9);
+  rocker = ohc_125_rocker();
+  rocker.stem_above_pivot_m = -1;  // as far below
+  EXPECT_TRUE(refuses(lift.init(ohc_125_cam(), rocker), Reason::inconsistent, "rocker.pivot_to_screw"));
 }
 
 TEST(ValveLiftRefusal, OfAScrewThatSwingsPastTheVerticalNamesFullLift) {

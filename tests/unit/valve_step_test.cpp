@@ -291,6 +291,9 @@ TEST(ValveStepping, RefusesWhatItCannotStepAndNamesTheLongestTick) {
     const ValveStepping unknown{static_cast<Integrator>(number), 0.1e-6};
     EXPECT_TRUE(refuses(motion_of(body, 100e-6, unknown, motion), Reason::out_of_range, "tick.integrator")) << number;
   }
+  for (const double tick_s : {0.0, -1e-6, std::nan("")}) {
+    EXPECT_TRUE(refuses(motion_of(body, tick_s, {}, motion), Reason::out_of_range, "tick.tick")) << tick_s;
+  }
   ValveBody<double> boulder = body;
   for (const double mass_kg : {1.1e9, HUGE_VAL, std::nan("")}) {
     boulder.mass_kg = mass_kg;

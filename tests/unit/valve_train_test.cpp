@@ -133,6 +133,9 @@ TEST(CamDefinition, OfATableNamesTheRowThatIsWrong) {
   points[9].lift_m = 0.2;
   EXPECT_TRUE(refuses(with(), Reason::out_of_range, "cam.file", 9));
   points = good;
+  points[0].cam_deg = -361;
+  EXPECT_TRUE(refuses(with(), Reason::out_of_range, "cam.file", 0));
+  points = good;
   points.front().cam_deg = -200;
   points.back().cam_deg = 161;
   EXPECT_TRUE(refuses(with(), Reason::out_of_range, "cam.file"));
