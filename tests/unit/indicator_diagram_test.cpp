@@ -456,6 +456,17 @@ TEST(VolumeTable, RefusesLoopsThatAreNoFourStrokes) {
   Rows short_compression = part(0, 150);  // turns at 300 deg, then from there back down
   for (int i = 210; i < 360; ++i) short_compression.push_back(loop.rows[static_cast<std::size_t>(i)]);
   EXPECT_EQ(answer(short_compression).reason, Reason::not_a_cycle) << "turns before top dead centre";
+
+  // Rows just beyond a dead centre stand at its angle: two of them are no rows that rise.
+  Rows beyond_bottom = loop.rows;
+  const double swept_m3 = loop.rows[90].at - loop.rows[0].at;
+  beyond_bottom[89].at = loop.rows[90].at + 0.002 * swept_m3;
+  beyond_bottom[90].at = loop.rows[90].at + 0.004 * swept_m3;
+  EXPECT_EQ(answer(beyond_bottom).reason, Reason::not_a_cycle) << "two rows beyond bottom dead centre";
+  Rows beyond_ends = loop.rows;
+  beyond_ends[0].at -= 0.004 * swept_m3;
+  beyond_ends[359].at = beyond_ends[0].at + 0.002 * swept_m3;
+  EXPECT_EQ(answer(beyond_ends).reason, Reason::not_a_cycle) << "first and last row beyond top dead centre";
 }
 
 TEST(VolumeTable, IsMotoredPlusHeat) {

@@ -128,6 +128,23 @@ TYPED_TEST(TableTargetsOf, AnEngineWhoseHeatIsGivenHaveAnotherFingerprintForEach
   EXPECT_EQ(fingerprint(false, 900), fingerprint(false, 901)) << "not used, so not told apart";
 }
 
+TYPED_TEST(TableTargetsOf, ALobeAllRoundTheCamHaveASegmentForEveryDegree) {
+  using Real = TypeParam;
+  EngineDefinition engine = single_495();
+  engine.train_count = 1;
+  engine.trains[0] = valve_test::ohc_125_train();
+  engine.trains[0].cam.half_angle_deg = 180;
+  engine.trains[0].rocker.kind = RockerKind::ratio;
+  LiftCurve<Real> lift{};
+  const auto segments = std::make_unique<LiftSegment<Real>[]>(kDegreesPerTurn);
+  const auto ratios = std::make_unique<Segment<Real>[]>(kDegreesPerTurn);
+  TableTargets<Real> targets;
+  targets.lift_curves = &lift, targets.lift_segments = segments.get(), targets.rocker_ratios = ratios.get();
+  const Status status = tabulate(engine, {100e-6, {}}, targets);
+  ASSERT_TRUE(status.ok()) << status.field << " " << describe(status.reason);
+  EXPECT_EQ(lift.segments, 360u);
+}
+
 TYPED_TEST(TableTargetsOf, MotionsWithoutLiftsAreFilledAsWithThem) {
   using Real = TypeParam;
   EngineDefinition engine = single_495();
