@@ -56,6 +56,7 @@ constexpr bool keeps_its_promises() {
 }
 static_assert(keeps_its_promises<PistonMotion>() && keeps_its_promises<TorqueOnly>() && keeps_its_promises<ForcesAndTorque>() &&
               keeps_its_promises<ValveLift>() && keeps_its_promises<ValveDynamics>() && keeps_its_promises<WholeEngine>() &&
+              keeps_its_promises<TriggerSignals>() &&
               keeps_its_promises<scenes::Whole>() && keeps_its_promises<scenes::MeasuredMotion>() && keeps_its_promises<scenes::TorqueByTable>() &&
               keeps_its_promises<scenes::TorqueByPressure>() && keeps_its_promises<scenes::FreeRunning>());
 
@@ -224,6 +225,7 @@ TEST(Padding, IsNotInAnyState) {
   expect_state_without_padding<ForcesAndTorque>("forces and torque");
   expect_state_without_padding<ValveLift>("valve lift");
   expect_state_without_padding<ValveDynamics>("valve dynamics");
+  expect_state_without_padding<TriggerSignals>("trigger signals");
   expect_state_without_padding<WholeEngine>("the whole engine");
   expect_state_without_padding<scenes::Whole>("the ready-made whole");
 }

@@ -37,6 +37,7 @@ gas_and_mass='torque_grid gas_torque_full gas_torque_full_segments inertia_torqu
   holds ForcesAndTorque $gas_and_mass gas_grid body stroke acceleration rod_tilt radial pressure_full
   holds ValveLift lift_curves lift_segments rocker_ratios
   holds ValveDynamics lift_curves lift_segments rocker_ratios valve_motions
+  holds TriggerSignals triggers trigger_tracks trigger_edges
 }
 for scene in PistonMotion TorqueOnly ForcesAndTorque; do has_code $scene no '[Vv]alve|[Ll]ift|[Cc]am|[Rr]ocker|Contact'; done
 has_code ValveLift no 'ValveTick|ValveMotion|valve_motion|Elastic|elastic|Contact|Record'
@@ -44,4 +45,7 @@ has_code ValveDynamics no 'pressure|gas_|ValveRecord|rod_|body'
 has_code ValveLift yes 'lift'
 has_code ValveDynamics yes 'ValveTick'
 has_code WholeEngine yes 'ValveRecord'
+for scene in PistonMotion TorqueOnly ForcesAndTorque ValveLift ValveDynamics WholeEngine; do has_code $scene no '[Tt]rigger|Sweep|Pace'; done
+has_code TriggerSignals no '[Vv]alve|[Ll]ift|Bent|[Tt]orque'
+has_code TriggerSignals yes 'TriggerTick'
 [ "$bad" -eq 0 ]

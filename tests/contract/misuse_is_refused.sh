@@ -63,6 +63,9 @@ refuses 'cam_phasing needs valves' "$engine_of" "$following static constexpr boo
 refuses 'valve_gas needs a pressure' "$engine_of" "$elastic $by_input static constexpr bool valve_gas $yes" \
   "$elastic static constexpr bool valve_gas $yes"
 
+refuses 'at most 8 trigger wheels' "$engine_of" 'static constexpr Count triggers = up_to<8>;' 'static constexpr Count triggers = up_to<9>;'
+refuses 'trigger_edges is 1 to 1440' "$engine_of" 'static constexpr std::uint32_t trigger_edges = 1;' 'static constexpr std::uint32_t trigger_edges = 0;'
+
 # ---- what the scene left out ----------------------------------------------------------------------------------------------------------
 
 motion='struct S : Scene { static constexpr bool kinematics = true; };
@@ -70,6 +73,7 @@ float f(Engine<float, S>& engine, Engine<float, S>::Input& in) { @ }'
 refuses "no member named .torque_Nm" "$motion" 'return engine.step(in).velocity_m_s[0];' 'return engine.step(in).torque_Nm;'
 refuses "no member named .cylinder" "$motion" 'return engine.step(in).displacement_m[0];' 'return engine.step(in).cylinder[0].gas_force_N;'
 refuses "no member named .valve" "$motion" 'return engine.step(in).acceleration_m_s2[0];' 'return engine.step(in).valve[0][0].lift_m;'
+refuses "no member named .trigger" "$motion" 'return engine.step(in).acceleration_m_s2[0];' 'return engine.step(in).trigger[0].edge[0].time_s;'
 refuses "no member named .load_ratio" "$motion" 'in.speed_rad_s = 1; return engine.step(in).velocity_m_s[0];' \
   'in.load_ratio = 1; return engine.step(in).velocity_m_s[0];'
 refuses "no member named .crank" "$motion" 'in.speed_rad_s = 1; return engine.step(in).velocity_m_s[0];' \

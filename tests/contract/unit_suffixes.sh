@@ -6,7 +6,7 @@
 # private members, the bodies of functions (lines indented deeper than a member), and elementary.hpp, whose arguments are pure numbers.
 set -eu
 cd "$1/crankloop"
-interface=$(find define tabulate tick/engine.hpp tick/io.hpp tick/tables.hpp tick/valve_results.hpp -name "*.hpp" ! -name elementary.hpp | sort)
+interface=$(find define tabulate tick/engine.hpp tick/io.hpp tick/tables.hpp tick/trigger_output.hpp tick/valve_results.hpp -name "*.hpp" ! -name elementary.hpp | sort)
 
 units='m|m2|m3|m_s|m_s2|rad|rad_s|rad_s2|deg|deg_s|deg_per_s|rpm|s|kg|kg_m|kg_m2|N|Nm|N_m|Ns_m|Nm_s|Nm_s2|Pa_s|Pa_s2|J|W|Pa|Hz|ratio'
 
@@ -18,6 +18,7 @@ ratio                                              # its own unit
 per_crank_radius per_rod_length                    # 1/m
 rad_s_per_cycle_per_tick                           # named by its unit
 up_cos up_sin lateral_cos lateral_sin pitch_cos pitch_sin yaw_cos yaw_sin  # amplitudes per w^2: kg m and kg m^2
+trigger                                            # signals, whose times have their unit
 throw_cos throw_sin quantum # numbers
 reduced_speed reduced_rest per_root_inertia  # sqrt(J) and 1/sqrt(kg m2)
 from to largest x slope_from slope_to spare        # parameters of numbers, in helpers that serve any unit; filling

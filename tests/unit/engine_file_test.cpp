@@ -477,7 +477,7 @@ TEST_F(EngineFileTest, ReadsTriggerWheelsByTheNamesOfTheirPatterns) {
   EXPECT_EQ(read_wheel("3(1)2"), "xxx-xx");
   for (const char* none : {"0", "60-60", "60-", "-2", "60-2-1", "3(1", "3(0)", "(2)3", "3(1)2(", "1000", "half moon", "3 (1)"}) {
     const std::string message = refusal(std::string(kOneCylinder) + "[trigger a]\non = crank\npattern = " + none + "\n");
-    EXPECT_NE(message.find(":10: pattern: '" + std::string(none) + "' is no wheel"), std::string::npos) << none << ": " << message;
+    EXPECT_NE(message.find(":11: pattern: '" + std::string(none) + "' is no wheel"), std::string::npos) << none << ": " << message;
   }
   EXPECT_NE(refusal(std::string(kOneCylinder) + "[trigger a]\non = crank\npattern = 361\n").find("is too fine"), std::string::npos);
   EXPECT_NE(refusal(std::string(kOneCylinder) + "[trigger a]\non = crank\npattern = 1(1)1(1)1(1)1(1)1(1)1(1)1(1)1(1)1(1)\n").find("is too fine"),

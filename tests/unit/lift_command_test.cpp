@@ -223,7 +223,8 @@ TEST_F(LiftCommand, AllowsFourTrains) {
   const std::string sample = contents(kOhc125);
   std::string text = sample;
   for (const char* name : {"exhaust", "third", "fourth", "fifth"}) {
-    std::string more = sample.substr(sample.find("[cam intake]"));
+    const std::size_t cam = sample.find("[cam intake]");
+    std::string more = sample.substr(cam, sample.find("# Trigger wheels") - cam);
     for (std::size_t at = more.find(" intake]"); at != std::string::npos; at = more.find(" intake]")) more.replace(at, 8, " " + std::string(name) + "]");
     if (std::string(name) == "fifth") {
       const std::string four = write("four.ini", text);

@@ -35,6 +35,7 @@ int main() {
   all_of_it::Engine cpp{Phase{77}};
   all_of_it_input in = all_of_it_default_input();
   all_of_it::Input cpp_in;
+  long edges = 0;
   for (int tick = 0; tick < 1500; ++tick) {
     in.speed_rad_s = cpp_in.speed_rad_s = 420 - 0.5 * tick;
     in.load_ratio = cpp_in.load_ratio = tick % 5 * 0.25;
@@ -60,8 +61,21 @@ int main() {
       }
     }
     expect_same("valve results", tick, all_of_it_get_valve_results(&engine), static_cast<const ValveResults<Real, S>&>(out));
+    const all_of_it_triggers& triggers = *all_of_it_get_triggers(&engine);
+    for (int w = 0; w < 2; ++w) {  // likewise
+      const TriggerSignal<Real, S>& signal = out.trigger[w];
+      expect("the same trigger level", triggers.trigger[w].level == signal.level);
+      expect("the same trigger edges", triggers.trigger[w].edge_count == signal.edge_count);
+      for (std::uint32_t e = 0; e < signal.edge_count && e < S::trigger_edges; ++e) {
+        const all_of_it_trigger_edge& edge = triggers.trigger[w].edge[e];
+        expect("the same trigger edge", edge.time_s == signal.edge[e].time_s && edge.level == signal.edge[e].level);
+        ++edges;
+      }
+    }
     expect("the same phase", all_of_it_phase(&engine) == cpp.state().phase.units());
   }
+
+  expect("there were trigger edges", edges > 100);
 
   // Snapshot by copy, and bytes.
   unsigned char bytes[all_of_it_SAVED_BYTES];

@@ -21,6 +21,8 @@ struct AllOfIt : crankloop::Scene {
   static constexpr bool valve_results = true;
   static constexpr bool valve_gas = true;
   static constexpr bool cam_phasing = true;
+  static constexpr auto triggers = crankloop::exactly<2>;
+  static constexpr std::uint32_t trigger_edges = 3;
 };
 
 struct TorqueOnly : crankloop::Scene {

@@ -14,6 +14,8 @@
 #include "PistonMotion_float.hpp"
 #include "TorqueOnly_double.hpp"
 #include "TorqueOnly_float.hpp"
+#include "TriggerSignals_double.hpp"
+#include "TriggerSignals_float.hpp"
 #include "ValveDynamics_double.hpp"
 #include "ValveDynamics_float.hpp"
 #include "ValveLift_double.hpp"
@@ -24,7 +26,8 @@
 using Engines = std::tuple<PistonMotion_float::Engine, PistonMotion_double::Engine, TorqueOnly_float::Engine, TorqueOnly_double::Engine,
                            ForcesAndTorque_float::Engine, ForcesAndTorque_double::Engine, ValveLift_float::Engine,
                            ValveLift_double::Engine, ValveDynamics_float::Engine, ValveDynamics_double::Engine,
-                           WholeEngine_float::Engine, WholeEngine_double::Engine>;
+                           TriggerSignals_float::Engine, TriggerSignals_double::Engine, WholeEngine_float::Engine,
+                           WholeEngine_double::Engine>;
 
 /// Runs up and down between 600 and 2400 rpm, backwards now and then; one input in a thousand is bad.
 template <class Engine>

@@ -1,5 +1,5 @@
-// Six scenes of a four-cylinder engine with two valve trains, from the smallest to the whole: examples of what a scene says, what the
-// contract tests audit, and what docs/performance.md measures.
+// Seven scenes of a four-cylinder engine with two valve trains and two trigger wheels, from the smallest to the whole: examples of what a
+// scene says, what the contract tests audit, and, but for the wheels, what docs/performance.md measures.
 //
 // What belongs here: one scene per kind of use. What does not: variants of them (figures/scenes.hpp), the ready-made ones (tick/scenes.hpp).
 #pragma once
@@ -41,7 +41,14 @@ struct ValveDynamics : ValveLift {
   static constexpr auto valves = crankloop::ValveModel::elastic;
 };
 
-/// The whole engine: all groups there are.
+/// Crank and cam signals: what a controller in the loop decodes.
+struct TriggerSignals : crankloop::Scene {
+  static constexpr auto cylinders = crankloop::exactly<4>;
+  static constexpr auto triggers = crankloop::exactly<2>;
+  static constexpr std::uint32_t trigger_edges = 4;
+};
+
+/// The whole engine: all groups there are but wheels.
 struct WholeEngine : ForcesAndTorque {
   static constexpr bool load_ratio = true;
   static constexpr bool rod_inertia = true;

@@ -67,7 +67,7 @@ struct Scene {
   static constexpr bool starter = false;        ///< Input::starter turns the crank; CrankGiven::load
   static constexpr bool cylinder_cut = false;   ///< Input::cut_cylinders: cylinders that do not fire this tick; needs load_ratio
   static constexpr Count triggers = exactly<0>;  ///< trigger wheels: their signals and the edges in each tick
-  static constexpr std::uint32_t trigger_edges = 8;  ///< of a wheel in a tick that there is room for
+  static constexpr std::uint32_t trigger_edges = 8;  ///< of a wheel that a tick has room for; more are counted, but not listed
 };
 
 /// What a scene's answers imply.

@@ -8,7 +8,7 @@
 
 namespace crankloop::scenes {
 
-/// Everything there is: the program and comparisons use it.
+/// Everything there is but trigger wheels: the program and comparisons use it.
 struct Whole : Scene {
   static constexpr Count cylinders = up_to<kMaxCylinders>;
   static constexpr PressureGiven pressure = PressureGiven::by_table;

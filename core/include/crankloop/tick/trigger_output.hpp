@@ -1,4 +1,6 @@
 // The signals of trigger wheels during a tick.
+//
+// What belongs here: the output group. What does not: how edges are found (trigger_wheel.hpp).
 #pragma once
 
 #include <cstdint>

@@ -40,7 +40,7 @@ namespace crankloop::detail {
   return (~edge & 1u) ^ wheel.inverted;
 }
 
-/// Units (2^64 = 1) as a number; the last two bits are nothing even to double.
+/// Units (2^64 = 1) as a number, without their last two bits.
 template <class Real>
 [[nodiscard]] constexpr Real ratio_of(std::uint64_t units) noexcept {
   constexpr Real two_to_minus_31 = static_cast<Real>(1.0 / 2147483648.0);
@@ -65,7 +65,8 @@ struct BentPace {
   Real slope;
   Real bend;
 
-  void prepare(std::uint64_t) noexcept {}
+  void prepare(std::uint64_t) const noexcept {}
+
   /// By the root's form that does not cancel; a wheel that turns round or sets off has slope 0 there.
   [[nodiscard]] Real ratio_at(Real distance) const noexcept {
     const Real square = slope * slope + 4 * bend * distance;  // of the speed there
@@ -73,7 +74,8 @@ struct BentPace {
     return speeds > 0 ? since + 2 * distance / speeds : since;
   }
 };
-/// At a constant speed; the division waits until there is an edge.
+
+/// The same at a constant speed; the division waits until there is an edge.
 template <class Real>
 struct EvenPace {
   Real per_span{};
@@ -97,9 +99,7 @@ class TriggerTick {
   void leap(std::uint64_t to) noexcept { stand_at(edge_behind(wheel_, angle(to))); }
 
   /// At a constant speed.
-  void turn(const Sweep& sweep) noexcept {
-    pass(sweep, EvenPace<Real>{});
-  }
+  void turn(const Sweep& sweep) noexcept { pass(sweep, EvenPace<Real>{}); }
 
   /// At a speed that changes evenly. `bend` as in CrankPath, but in turns of this wheel.
   void turn(const Sweep& sweep, Real bend) noexcept {
