@@ -25,6 +25,10 @@ crankloop::EngineDefinition ohc_125() noexcept {
   gas.expansion_exponent = 1.27;
   gas.exhaust_valve_opens_deg = 130;
   gas.net_mep_Pa = 950e3;
+  constexpr double kPer1000Rpm = 104.71975511965977;  // rad/s
+  engine.friction = {60e3, 8 / (kPer1000Rpm / 1e3), 1.5 / (kPer1000Rpm * kPer1000Rpm / 1e3)};
+  engine.load.quadratic_Nm_s2 = 0.154 / (kPer1000Rpm * kPer1000Rpm);
+  engine.starter = {35, 700 / (1e3 / kPer1000Rpm)};
   engine.train_count = 1;
   crankloop::Cam& cam = engine.trains[0].cam;
   cam.max_lift_m = 6.301099 / 1e3;

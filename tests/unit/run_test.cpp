@@ -1,6 +1,5 @@
 // `crankloop run`: a fixed-step run against the exact engine, its CSV, its curves, its report.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -24,12 +23,11 @@
 #include "crankloop/run_loop.hpp"
 #include "crankloop/run_trace.hpp"
 #include "support/both_reals.hpp"
+#include "support/run_command.hpp"
 #include "support/test_engines.hpp"
 
 namespace crankloop::program {
 namespace {
-
-constexpr const char* kSample = CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495.ini";
 
 // ---- The loop against the exact engine ----
 
@@ -321,20 +319,6 @@ TYPED_TEST(RunIn, ATraceIsCoarserWhereItsTicksWouldBeTooShortAndSkipsTicksAtACra
 
 // ---- The command ----
 
-std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-std::vector<std::string> split_at(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
-  return parts;
-}
-
 /// Digits of a number's mantissa, without leading and trailing zeros: "-0.00120e-5" has two.
 std::size_t significant_digits(const std::string& number) {
   std::string digits;
@@ -345,51 +329,6 @@ std::size_t significant_digits(const std::string& number) {
   while (!digits.empty() && digits.back() == '0') digits.pop_back();
   return digits.size();
 }
-
-class RunCommand : public testing::Test {
- protected:
-  RunCommand() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~RunCommand() override { std::filesystem::remove_all(folder_); }
-
-  [[nodiscard]] std::string path(const std::string& name) const { return folder_ + "/" + name; }
-  [[nodiscard]] std::string engine_without_pressure() const {
-    std::string text = contents(kSample);
-    text.resize(text.find("[pressure]"));
-    std::ofstream(path("bare.ini")) << text;
-    return path("bare.ini");
-  }
-
-  /// Runs in this process and returns what it printed.
-  static std::string run(const std::vector<std::string>& words) {
-    testing::internal::CaptureStdout();
-    const int status = kRun.run(Arguments(kRun, words));
-    const std::string printed = testing::internal::GetCapturedStdout();
-    EXPECT_EQ(status, kSuccess);
-    return printed;
-  }
-  /// Value and unit of a line "name = value unit"; NaN where there is none.
-  static std::pair<double, std::string> line(const std::string& summary, const std::string& name) {
-    for (const std::string& text : split_at(summary, '\n')) {
-      if (text.rfind(name + " = ", 0) != 0) continue;
-      std::istringstream stream(text.substr(name.size() + 3));
-      std::pair<double, std::string> found;
-      stream >> found.first >> found.second;
-      return found;
-    }
-    return {std::numeric_limits<double>::quiet_NaN(), ""};
-  }
-  /// Exit status of the program itself.
-  [[nodiscard]] int status_of(const std::string& options) const {
-    const std::string command =
-        std::string("'") + CRANKLOOP_PROGRAM + "' run " + options + " >'" + path("out") + "' 2>'" + path("err") + "'";
-    return WEXITSTATUS(std::system(command.c_str()));
-  }
-
-  std::string folder_;
-};
 
 TEST_F(RunCommand, PrintsThe495AtItsRatedSpeed) {
   const std::string summary = run({kSample});

@@ -169,10 +169,12 @@ Section signal_section(const FreeReportInput& input) {
   constexpr std::size_t kManyEdges = 50;
   Section section{"signals", "Trigger signals of the last cycle", {}};
   const FreeCycle& cycle = last_cycle(input);
-  for (std::size_t w = 0; w < input.figures.signals.size(); ++w) {
-    const std::string& name = input.figures.signals[w].name;
-    section.blocks.push_back(signal_plot(name, cycle, w, cycle.samples.front().time_s, cycle.samples.back().time_s));
-    if (cycle.edges[w].size() > kManyEdges) section.blocks.push_back(close_up(name, cycle, w));
+  const std::vector<SignalFigures>& signals = input.figures.signals;
+  for (std::size_t w = 0; w < signals.size(); ++w) {
+    section.blocks.push_back(signal_plot(signals[w].name, cycle, w, cycle.samples.front().time_s, cycle.samples.back().time_s));
+  }
+  for (std::size_t w = 0; w < signals.size(); ++w) {  // beside each other, so that whole cycles can be compared
+    if (cycle.edges[w].size() > kManyEdges) section.blocks.push_back(close_up(signals[w].name, cycle, w));
   }
   return section;
 }

@@ -1,0 +1,85 @@
+// `crankloop run` as tests call it: in this process or as the program itself, with a folder for its files.
+//
+// What belongs here: calling it, and reading the lines that it prints. What does not: expectations.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "crankloop/commands.hpp"
+#include "crankloop/error.hpp"
+
+namespace crankloop::program {
+
+inline constexpr const char* kSample = CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495.ini";
+
+inline std::string contents(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+inline std::vector<std::string> split_at(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+  return parts;
+}
+
+class RunCommand : public testing::Test {
+ protected:
+  RunCommand() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~RunCommand() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  [[nodiscard]] std::string engine_without_pressure() const {
+    std::string text = contents(kSample);
+    text.resize(text.find("[pressure]"));
+    std::ofstream(path("bare.ini")) << text;
+    return path("bare.ini");
+  }
+
+  /// Runs in this process and returns what it printed.
+  static std::string run(const std::vector<std::string>& words) {
+    testing::internal::CaptureStdout();
+    const int status = kRun.run(Arguments(kRun, words));
+    const std::string printed = testing::internal::GetCapturedStdout();
+    EXPECT_EQ(status, kSuccess);
+    return printed;
+  }
+  /// Value and unit of a line "name = value unit"; NaN where there is none.
+  static std::pair<double, std::string> line(const std::string& summary, const std::string& name) {
+    for (const std::string& text : split_at(summary, '\n')) {
+      if (text.rfind(name + " = ", 0) != 0) continue;
+      std::istringstream stream(text.substr(name.size() + 3));
+      std::pair<double, std::string> found;
+      stream >> found.first >> found.second;
+      return found;
+    }
+    return {std::numeric_limits<double>::quiet_NaN(), ""};
+  }
+  /// Exit status of the program itself.
+  [[nodiscard]] int status_of(const std::string& options) const {
+    const std::string command =
+        std::string("'") + CRANKLOOP_PROGRAM + "' run " + options + " >'" + path("out") + "' 2>'" + path("err") + "'";
+    return WEXITSTATUS(std::system(command.c_str()));
+  }
+
+  std::string folder_;
+};
+
+}  // namespace crankloop::program

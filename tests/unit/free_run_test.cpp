@@ -1,0 +1,197 @@
+// `crankloop run --free`: what it prints, its CSV and VCD against each other and against the angle turned, its bad arguments.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "support/run_command.hpp"
+#include "support/vcd_dump.hpp"
+
+namespace crankloop::program {
+namespace {
+
+/// A CSV file by its columns.
+class Columns {
+ public:
+  explicit Columns(const std::string& path) {
+    std::vector<std::string> lines = split_at(contents(path), '\n');
+    names_ = split_at(lines.at(0), ',');
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+      std::vector<std::string> cells = split_at(lines[i], ',');
+      cells.resize(names_.size());  // empty cells at the end
+      rows_.push_back(cells);
+    }
+  }
+  [[nodiscard]] std::size_t rows() const { return rows_.size(); }
+  [[nodiscard]] const std::string& text(std::size_t row, const std::string& name) const {
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (names_[i] == name) return rows_.at(row).at(i);
+    }
+    throw std::out_of_range(name);
+  }
+  [[nodiscard]] double number(std::size_t row, const std::string& name) const { return std::stod(text(row, name)); }
+
+ private:
+  std::vector<std::string> names_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+/// What a signal did: its level to begin with, and when it changed.
+struct Signal {
+  bool first = false;
+  std::vector<double> times_s;
+};
+
+class FreeRunCommand : public RunCommand {
+ protected:
+  /// Checks along the way that each tick's level is that after its edges.
+  static Signal by_csv(const Columns& csv, const std::string& wheel) {
+    Signal signal;
+    for (std::size_t row = 0; row < csv.rows(); ++row) {
+      const std::vector<std::string> times = split_at(csv.text(row, wheel + "_edge_times_s"), ' ');
+      EXPECT_EQ(csv.text(row, wheel + "_edges"), std::to_string(times.size()));
+      for (const std::string& time : times) signal.times_s.push_back(std::stod(time));
+      const bool level = csv.text(row, wheel + "_level") == "1";
+      if (row == 0) signal.first = level != (times.size() % 2 == 1);
+      EXPECT_EQ(level, signal.first != (signal.times_s.size() % 2 == 1)) << row;
+      for (const std::string& time : times) {
+        EXPECT_LE(std::stod(time), csv.number(row, "time_s") + 1e-12);
+        EXPECT_GE(std::stod(time), csv.number(row, "time_s") - kTick_s - 1e-12);
+      }
+    }
+    return signal;
+  }
+
+  static constexpr double kTick_s = 100e-6;
+};
+
+TEST_F(FreeRunCommand, StartsThe495AndSaysWhatBecameOfIt) {
+  for (const char* real : {"float", "double"}) {
+    const std::string summary = run({kSample, "--free", "--starter", "--load-ratio", "0.3", "--seconds", "2", "--real", real});
+    EXPECT_EQ(line(summary, "ticks").first, 20000);
+    EXPECT_EQ(line(summary, "reversals").first, 0);
+    EXPECT_EQ(line(summary, "faulty_ticks").first, 0);
+    EXPECT_GT(line(summary, "speed_at_end").first, 800);
+    EXPECT_EQ(line(summary, "cycle_speed").second, "rpm");
+    EXPECT_GT(line(summary, "work_of_starter").first, 0);
+    // In - out = kept, each figure by its own way; the loop keeps it to rounding, and the figures have six digits.
+    const double left_J = line(summary, "work_of_gas").first + line(summary, "work_of_starter").first - line(summary, "lost_to_friction").first -
+                          line(summary, "taken_by_load").first - line(summary, "change_of_kinetic_energy").first;
+    EXPECT_LT(std::fabs(left_J), 1e-5 * line(summary, "work_of_gas").first);
+    EXPECT_LT(std::fabs(line(summary, "energy_defect").first), 1e-6);
+    // Even order 2 of four cylinders that all fire is the ripple; half orders are what the start has left.
+    EXPECT_GT(line(summary, "speed_order_2").first, 100 * line(summary, "speed_order_0.5").first);
+    // 58 teeth in a turn of the crank, each with two edges; half a moon's in two turns.
+    EXPECT_NEAR(line(summary, "crank_edges").first, line(summary, "turned").first * 116, 8);
+    EXPECT_NEAR(line(summary, "cam_edges").first, line(summary, "turned").first, 1);
+    EXPECT_EQ(line(summary, "crank_edges_lost").first, 0);
+  }
+}
+
+TEST_F(FreeRunCommand, ABrakeOfConstantTorqueTakesThePlaceOfTheFiles) {
+  // At rest the brake holds whatever the gas of a cold cylinder pushes: friction 90 kPa and 1000 Nm.
+  const std::string held = run({kSample, "--free", "--load-Nm", "1000", "--starter", "--seconds", "0.2"});
+  EXPECT_EQ(line(held, "turned").first, 0);
+  const std::string summary = run({kSample, "--free", "--from-rpm", "1500", "--load-Nm", "50", "--load-ratio", "0.5", "--seconds", "1"});
+  EXPECT_EQ(line(summary, "cycle_load").first, 50);
+  EXPECT_NEAR(line(summary, "taken_by_load").first, 50 * line(summary, "turned").first * 2 * 3.14159265358979, 1e-4 * line(summary, "taken_by_load").first);
+}
+
+TEST_F(FreeRunCommand, ACutCylinderShowsInHalfOrderWhicheverItIs) {
+  double amplitude = 0;
+  for (const char* cut : {"1", "4"}) {
+    const std::string summary = run({kSample, "--free", "--from-rpm", "1500", "--cut", cut, "--seconds", "1"});
+    EXPECT_GT(line(summary, "speed_order_0.5").first, line(summary, "speed_order_2").first);
+    if (amplitude != 0) {
+      EXPECT_NEAR(line(summary, "speed_order_0.5").first, amplitude, 0.02 * amplitude);
+    }
+    amplitude = line(summary, "speed_order_0.5").first;
+  }
+  // Two that fire a turn apart leave no half order but order 1.
+  const std::string even = run({kSample, "--free", "--from-rpm", "1500", "--cut", "1,4", "--seconds", "1"});
+  EXPECT_LT(line(even, "speed_order_0.5").first, 0.02 * amplitude);
+  EXPECT_GT(line(even, "speed_order_1").first, amplitude / 2);
+}
+
+TEST_F(FreeRunCommand, VcdAndCsvTellTheSameSignals) {
+  for (const char* from_rpm : {"0", "700", "-90"}) {
+    run({kSample, "--free", "--from-rpm", from_rpm, "--starter", "--load-ratio", "0.3", "--seconds", "0.7", "--csv", path("run.csv"), "--vcd", path("run.vcd")});
+    const Columns csv(path("run.csv"));
+    ASSERT_EQ(csv.rows(), 7000u);
+    const Dump dump = read_dump(path("run.vcd"));
+    EXPECT_EQ(dump.end_ns, 700'000'000);
+    std::map<std::string, std::vector<Dump::Change>> changes;
+    for (const Dump::Change& change : dump.changes) changes[change.name].push_back(change);
+    for (const char* wheel : {"crank", "cam"}) {
+      const Signal signal = by_csv(csv, wheel);
+      const std::vector<Dump::Change>& seen = changes.at(wheel);
+      ASSERT_EQ(seen.size(), signal.times_s.size() + 1) << wheel << " from " << from_rpm;
+      EXPECT_EQ(seen[0].value != 0, signal.first);
+      for (std::size_t i = 0; i < signal.times_s.size(); ++i) {
+        EXPECT_NEAR(static_cast<double>(seen[i + 1].time_ns), signal.times_s[i] * 1e9, 0.51 + 1e-3);  // whole ns; CSV has 12 digits
+      }
+    }
+    const std::vector<Dump::Change>& speed = changes.at("speed_rpm");
+    EXPECT_FLOAT_EQ(static_cast<float>(speed.back().value), static_cast<float>(csv.number(csv.rows() - 1, "speed_rpm")));
+  }
+}
+
+TEST_F(FreeRunCommand, SaysHowManyEdgesItHadNoRoomFor) {
+  // 2 ms at 20 000 rpm are two thirds of a turn: 77 edges of the crank's wheel, and room for 32.
+  const std::string summary = run({kSample, "--free", "--from-rpm", "20000", "--tick-us", "2000", "--seconds", "0.02"});
+  EXPECT_GT(line(summary, "crank_edges_lost").first, 10 * 40);
+  EXPECT_NEAR(line(summary, "crank_edges").first, line(summary, "turned").first * 116, 8);
+  EXPECT_EQ(line(summary, "faulty_ticks").first, 10);
+}
+
+TEST_F(FreeRunCommand, AReportHasThePartsThatThereAre) {
+  run({kSample, "--free", "--starter", "--seconds", "1", "--cut", "3", "--report", path("report.html")});
+  const std::string page = contents(path("report.html"));
+  for (const char* words : {"Over the run", "Over the last cycles", "Harmonics of the speed", "Torque", "where it is still for longest", "Energy over the run", "without cylinder 3"}) {
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  }
+  EXPECT_EQ(page.find("nan"), std::string::npos);
+  run({kSample, "--free", "--seconds", "0.1", "--report", path("rest.html")});  // nothing turns it
+  EXPECT_NE(contents(path("rest.html")).find("No whole cycle of 720 deg"), std::string::npos);
+}
+
+TEST_F(FreeRunCommand, AnEngineWithoutPressureCoastsDown) {
+  const std::string summary = run({engine_without_pressure(), "--free", "--from-rpm", "500", "--seconds", "5"});
+  EXPECT_EQ(line(summary, "work_of_gas").first, 0);
+  EXPECT_EQ(line(summary, "speed_at_end").first, 0);
+  EXPECT_LT(line(summary, "change_of_kinetic_energy").first, 0);
+}
+
+TEST_F(FreeRunCommand, OneOutputMayBeStandardOutput) {
+  const std::string free = std::string("'") + kSample + "' --free --from-rpm 800 --seconds 0.1 ";
+  EXPECT_EQ(status_of(free + "--csv -"), kSuccess);
+  EXPECT_EQ(contents(path("out")).rfind("time_s,", 0), 0u);
+  EXPECT_NE(contents(path("err")).find("speed_at_end ="), std::string::npos);
+  EXPECT_EQ(status_of(free + "--vcd -"), kSuccess);
+  EXPECT_EQ(contents(path("out")).rfind("$version", 0), 0u);
+  EXPECT_EQ(contents(path("out")).find("speed_at_end"), std::string::npos);
+  EXPECT_EQ(status_of(free + "--report -"), kSuccess);
+  EXPECT_EQ(contents(path("out")).rfind("<!DOCTYPE html>", 0), 0u);
+}
+
+TEST_F(FreeRunCommand, BadOptionsEndWithStatus2AndLeaveNoFile) {
+  const std::string files = std::string("'") + kSample + "' --csv '" + path("run.csv") + "' --vcd '" + path("run.vcd") + "' ";
+  for (const char* bad : {"--starter", "--cut 1", "--from-rpm 5", "--seconds 1", "--load-Nm 3", "--free --rpm 2000", "--free --cycles 3", "--free --cut 5", "--free --cut 0",
+                          "--free --cut 1.5", "--free --cut 1,,2", "--free --cut one", "--free --seconds 0", "--free --load-Nm -1", "--free --from-rpm 1e6",
+                          "--free --from-rpm 40000 --tick-us 2000", "--free --seconds 1e6 --tick-us 1"}) {
+    EXPECT_EQ(status_of(files + bad), kBadInput) << bad;
+    EXPECT_EQ(contents(path("out")), "") << bad;
+    EXPECT_NE(contents(path("err")), "") << bad;
+    EXPECT_FALSE(std::filesystem::exists(path("run.csv"))) << bad;
+    EXPECT_FALSE(std::filesystem::exists(path("run.vcd"))) << bad;
+  }
+  const std::string bare = "'" + engine_without_pressure() + "' --free ";
+  EXPECT_EQ(status_of(bare + "--load-ratio 0.5"), kBadInput);
+  EXPECT_EQ(status_of(bare + "--vcd '" + path("run.vcd") + "'"), kBadInput);  // no wheels
+}
+
+}  // namespace
+}  // namespace crankloop::program
