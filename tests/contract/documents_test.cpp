@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "crankloop/valve_loop.hpp"
+#include "crankloop/valve/valve_loop.hpp"
 #include "support/markup.hpp"
 
 namespace crankloop::program {

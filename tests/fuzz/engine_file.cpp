@@ -1,5 +1,5 @@
 // Any bytes as an engine file: it is refused with one line, or shown as a file that shows the same.
-#include "crankloop/engine_file.hpp"
+#include "crankloop/engine_file/engine_file.hpp"
 #include "fuzz.hpp"
 
 using namespace crankloop;

@@ -17,7 +17,7 @@
 #include <crankloop/crankloop.hpp>
 #include <crankloop/tick/engine_step.hpp>
 
-#include "crankloop/engine_file.hpp"
+#include "crankloop/engine_file/engine_file.hpp"
 #include "support/golden.hpp"
 #include "support/output_fields.hpp"
 

@@ -26,7 +26,7 @@
 #include "crankloop/bench/row.hpp"
 #include "crankloop/bench/tick_engines.hpp"
 #include "crankloop/bench/true_lift.hpp"
-#include "crankloop/engine_file.hpp"
+#include "crankloop/engine_file/engine_file.hpp"
 #include "crankloop/error.hpp"
 #include "support/random.hpp"
 

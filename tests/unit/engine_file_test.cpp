@@ -1,5 +1,5 @@
 // What an engine file means once it is read. What is wrong with a file is told by tests/contract/bad_input_test.cpp.
-#include "crankloop/engine_file.hpp"
+#include "crankloop/engine_file/engine_file.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

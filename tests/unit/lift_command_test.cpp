@@ -13,7 +13,7 @@
 #include <crankloop/tabulate/valve_lift.hpp>
 
 #include "crankloop/commands.hpp"
-#include "crankloop/engine_file.hpp"
+#include "crankloop/engine_file/engine_file.hpp"
 #include "crankloop/error.hpp"
 #include "support/valve_trains.hpp"
 

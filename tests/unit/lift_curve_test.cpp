@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "crankloop/engine_file.hpp"
+#include "crankloop/engine_file/engine_file.hpp"
 #include "support/both_reals.hpp"
 #include "support/random.hpp"
 #include "support/test_valves.hpp"

@@ -19,9 +19,9 @@
 
 #include "crankloop/commands.hpp"
 #include "crankloop/error.hpp"
-#include "crankloop/run_accuracy.hpp"
-#include "crankloop/run_loop.hpp"
-#include "crankloop/run_trace.hpp"
+#include "crankloop/run/run_accuracy.hpp"
+#include "crankloop/run/run_loop.hpp"
+#include "crankloop/run/run_trace.hpp"
 #include "support/both_reals.hpp"
 #include "support/run_command.hpp"
 #include "support/test_engines.hpp"

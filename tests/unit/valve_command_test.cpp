@@ -19,10 +19,10 @@
 
 #include "crankloop/commands.hpp"
 #include "crankloop/error.hpp"
-#include "crankloop/redline_search.hpp"
-#include "crankloop/run_loop.hpp"
-#include "crankloop/run_trace.hpp"
-#include "crankloop/valve_loop.hpp"
+#include "crankloop/redline/redline_search.hpp"
+#include "crankloop/run/run_loop.hpp"
+#include "crankloop/run/run_trace.hpp"
+#include "crankloop/valve/valve_loop.hpp"
 #include "support/both_reals.hpp"
 #include "support/markup.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "commands.hpp"
 #include "csv.hpp"
-#include "engine_file.hpp"
+#include "engine_file/engine_file.hpp"
 #include "tick_probe.hpp"
 
 namespace crankloop::program {

@@ -6,10 +6,10 @@
 #include <string>
 
 #include "commands.hpp"
-#include "engine_file.hpp"
+#include "engine_file/engine_file.hpp"
 #include "error.hpp"
-#include "live_loop.hpp"
-#include "live_summary.hpp"
+#include "live/live_loop.hpp"
+#include "live/live_summary.hpp"
 #include "number.hpp"
 #include "output.hpp"
 

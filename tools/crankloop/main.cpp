@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "engine_file_keys.hpp"
+#include "engine_file/engine_file_keys.hpp"
 #include "error.hpp"
 #include "output.hpp"
 #include "words.hpp"

@@ -1,6 +1,6 @@
 // `crankloop redline FILE --train NAME`: up to which speed a valve keeps to its cam and to its seat, and what moves
 // that speed.
-#include "redline.hpp"
+#include "redline/redline.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -9,17 +9,17 @@
 
 #include "commands.hpp"
 #include "csv.hpp"
-#include "engine_file.hpp"
-#include "engine_report.hpp"
-#include "free_request.hpp"
+#include "engine_file/engine_file.hpp"
+#include "engine_report/engine_report.hpp"
+#include "free/free_request.hpp"
 #include "progress.hpp"
-#include "run_accuracy.hpp"
-#include "run_loop.hpp"
-#include "run_signals.hpp"
-#include "run_summary.hpp"
-#include "run_trace.hpp"
-#include "run_valves.hpp"
-#include "valve_tick_limit.hpp"
+#include "run/run_accuracy.hpp"
+#include "run/run_loop.hpp"
+#include "run/run_signals.hpp"
+#include "run/run_summary.hpp"
+#include "run/run_trace.hpp"
+#include "run/run_valves.hpp"
+#include "valve/valve_tick_limit.hpp"
 
 namespace crankloop::program {
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "commands.hpp"
-#include "engine_file.hpp"
+#include "engine_file/engine_file.hpp"
 #include "error.hpp"
 #include "output.hpp"
 #include "words.hpp"

@@ -7,10 +7,10 @@
 #include <crankloop/tabulate/tabulate.hpp>
 
 #include "commands.hpp"
-#include "engine_file.hpp"
+#include "engine_file/engine_file.hpp"
 #include "error.hpp"
 #include "output.hpp"
-#include "valve_tick_limit.hpp"
+#include "valve/valve_tick_limit.hpp"
 
 namespace crankloop::program {
 namespace {

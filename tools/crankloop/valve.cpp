@@ -6,10 +6,10 @@
 
 #include "commands.hpp"
 #include "csv.hpp"
-#include "engine_file.hpp"
+#include "engine_file/engine_file.hpp"
 #include "progress.hpp"
-#include "valve_loop.hpp"
-#include "valve_plot.hpp"
+#include "valve/valve_loop.hpp"
+#include "valve/valve_plot.hpp"
 
 namespace crankloop::program {
 namespace {

@@ -14,7 +14,7 @@
 #include <crankloop/tabulate/summary.hpp>
 #include <crankloop/tabulate/tabulate.hpp>
 
-#include "crankloop/engine_file.hpp"
+#include "crankloop/engine_file/engine_file.hpp"
 #include "tabulate/quadrature.hpp"
 
 namespace {

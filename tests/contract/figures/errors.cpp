@@ -11,7 +11,7 @@
 #include <crankloop/tabulate/mechanism.hpp>
 #include <crankloop/tabulate/summary.hpp>
 
-#include "crankloop/engine_file.hpp"
+#include "crankloop/engine_file/engine_file.hpp"
 #include "support/pressure_traces.hpp"
 #include "support/random.hpp"
 #include "tabulate/quadrature.hpp"

@@ -12,7 +12,7 @@
 #include <crankloop/tabulate/tabulate.hpp>
 #include <crankloop/tick/engine.hpp>
 
-#include "crankloop/engine_file.hpp"
+#include "crankloop/engine_file/engine_file.hpp"
 #include "flash_double.hpp"
 #include "flash_float.hpp"
 #include "scenes.hpp"

@@ -1,0 +1,157 @@
+#include "engine_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "engine_file_parts.hpp"
+#include "../table_file.hpp"
+#include "../text_file.hpp"
+#include "../words.hpp"
+
+namespace crankloop::program {
+namespace {
+
+constexpr TableFormat kAngleTable{"crank_deg", "pressure_kPa", from(-1e6).up_to(1e6), from(0).up_to(1e5)};
+constexpr TableFormat kVolumeTable{"volume_cm3", "pressure_kPa", above(0).up_to(1e9), from(0).up_to(1e5)};
+
+std::string title_of(const SectionValues& section) {
+  return section.name.empty() ? section.kind : section.kind + " " + section.name;
+}
+
+/// Known kinds, named where they must be, none twice.
+void check_headers(const IniText& ini, const std::string& path) {
+  std::map<std::string, int> first_lines;
+  for (const IniSection& section : ini.sections) {
+    const SectionKind* kind = find_section_kind(section.kind);
+    if (kind == nullptr) {
+      std::vector<std::string> names;
+      for (const SectionKind& known : section_kinds()) names.emplace_back(known.name);
+      const std::string guess = suggestion(section.kind, names);
+      throw InputError(
+          path, section.line,
+          "unknown section [" + section.kind + "]" + (guess.empty() ? "; sections: " + join(names) : guess));
+    }
+    if (kind->named && section.name.empty()) {
+      throw InputError(path, section.line,
+                       "[" + section.kind + "] needs a name; write it like [" + section.kind + " intake]");
+    }
+    if (!kind->named && !section.name.empty()) {
+      throw InputError(path, section.line, section.title() + " takes no name; write it [" + section.kind + "]");
+    }
+    const auto [first, is_new] = first_lines.emplace(section.title(), section.line);
+    if (!is_new) {
+      throw InputError(path, section.line,
+                       section.title() + " is given twice (first in line " + std::to_string(first->second) +
+                           "); put all its keys under one header");
+    }
+  }
+}
+
+/// In the order of section_kinds(); sections of one kind stay in the order of the file.
+void sort_by_kind(std::vector<SectionValues>& sections) {
+  const auto place = [](const SectionValues& section) {
+    return find_section_kind(section.kind) - section_kinds().data();
+  };
+  std::stable_sort(sections.begin(), sections.end(),
+                   [&place](const auto& a, const auto& b) { return place(a) < place(b); });
+}
+
+}  // namespace
+
+EngineFile read_engine_file(const std::string& path, const std::vector<std::string>& needed_sections) {
+  const FileBytes file = read_file(path, kMostEngineFileBytes);
+  if (!file.ok()) throw InputError(path + ": " + file.problem);
+  IniText ini = parse_ini(split_lines(file.bytes, path), path);
+  check_headers(ini, path);
+
+  EngineFile engine(path);
+  for (const IniSection& section : ini.sections) engine.sections_.push_back(resolve_section(section, path));
+  for (const std::string& title : needed_sections) {
+    if (!engine.has(title))
+      throw InputError(path, ini.last_line, "section [" + title + "] is missing; this command needs it");
+  }
+  if (engine.has("crank")) {
+    if (!engine.has("layout")) engine.sections_.push_back(resolve_section({"layout", "", 0, {}}, path));
+    if (!engine.has("pressure"))
+      engine.sections_.push_back(resolve_section({"pressure", "", 0, {{"source", "none", 0}}}, path));
+    for (const char* optional : {"friction", "load", "starter"}) {
+      if (!engine.has(optional)) engine.sections_.push_back(resolve_section({optional, "", 0, {}}, path));
+    }
+  }
+  sort_by_kind(engine.sections_);
+  engine.build_definition();
+  return engine;
+}
+
+void EngineFile::build_definition() {
+  for (const SectionValues& section : sections_) {
+    const bool of_train = section.kind == "cam" || section.kind == "rocker" || section.kind == "valve";
+    const bool needs_crank = !of_train && section.kind != "engine" && section.kind != "crank";
+    if (needs_crank && !has("crank"))
+      throw InputError(path_, section.line, section.title() + " needs a [crank] section beside it");
+  }
+  build_trains();
+  build_triggers();
+  if (!has("crank")) return;
+
+  const auto accept = [this](const Status& status) {
+    if (!status.ok()) throw explain(status);
+  };
+  definition_.crank = build_crank(section("crank"), path_);
+  accept(validate(definition_.crank));
+  if (const SectionValues* masses = find("masses")) {
+    definition_.masses = build_masses(*masses, definition_.crank, path_);
+    accept(validate(definition_.masses));
+  }
+  definition_.layout = build_layout(*find("layout"), section("crank").number("bore_mm"), path_);
+  accept(validate(definition_.layout));
+  definition_.pressure = build_pressure(section("pressure"));
+  if (section("pressure").has("file")) read_diagram(section("pressure"));
+  accept(validate(definition_.pressure, definition_.crank));
+  definition_.friction = build_friction(section("friction"));
+  definition_.load = build_load(section("load"));
+  definition_.starter = build_starter(section("starter"));
+  for (const Status& status : {validate(definition_.friction), validate(definition_.load), validate(definition_.starter)}) accept(status);
+  if (has("masses")) accept(validate(definition_));  // what the parts demand of one another
+}
+
+void EngineFile::read_diagram(const SectionValues& pressure) {
+  const bool over_angle = definition_.pressure.source == PressureSource::angle_table;
+  const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
+  points_path_ = (folder / pressure.text("file")).string();
+  for (const TableRow& row :
+       read_table(points_path_, over_angle ? kAngleTable : kVolumeTable, path_, pressure.line_of("file"))) {
+    // Core refuses this too, but a Status counts rows only up to 32767 and knows no values.
+    if (over_angle && !points_.empty() && row.at <= points_.back().at) {
+      throw InputError(points_path_, row.line,
+                       "crank_deg: " + shortest(row.at) + " follows " + shortest(points_.back().at) +
+                           "; angles must rise from row to row");
+    }
+    points_.push_back({over_angle ? row.at : row.at / 1e6, row.value * 1e3});
+    point_lines_.push_back(row.line);
+  }
+  definition_.pressure.points = points_.data();
+  definition_.pressure.point_count = static_cast<int>(points_.size());
+}
+
+const SectionValues* EngineFile::find(const std::string& title) const noexcept {
+  const auto found = std::find_if(sections_.begin(), sections_.end(),
+                                  [&title](const SectionValues& one) { return title_of(one) == title; });
+  return found == sections_.end() ? nullptr : &*found;
+}
+
+SectionValues* EngineFile::find(const std::string& title) noexcept {
+  return const_cast<SectionValues*>(std::as_const(*this).find(title));
+}
+
+const SectionValues& EngineFile::section(const std::string& title) const {
+  const SectionValues* section = find(title);
+  if (section == nullptr)
+    throw std::logic_error("the engine file has no [" + title + "], and the command did not ask for it");
+  return *section;
+}
+
+}  // namespace crankloop::program

@@ -1,0 +1,112 @@
+// One engine from its file: read, checked, complete.
+//
+//     const EngineFile engine = read_engine_file(arguments.file(), {"engine", "crank", "masses"});
+//     const Status status = tabulate(engine.definition(), ...);
+//     if (!status.ok()) throw engine.explain(status);
+//
+// What belongs here: what commands ask of an engine file. What does not: its keys (engine_file_keys.cpp).
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <crankloop/define/engine_definition.hpp>
+
+#include "engine_file_values.hpp"
+#include "../error.hpp"
+
+namespace crankloop::program {
+
+inline constexpr std::size_t kMostEngineFileBytes = std::size_t{1} << 20;
+
+/// A valve train of the file: what it has of [cam NAME], [rocker NAME] and [valve NAME].
+struct TrainOfFile {
+  std::string name;
+  ValveTrain definition;  ///< parts that the file lacks are all zero
+  bool has_cam = false;
+  bool has_rocker = false;
+  bool has_valve = false;
+  std::vector<CamPoint> points;  ///< definition.cam points here
+  std::vector<int> point_lines;
+  std::string points_path;
+
+  [[nodiscard]] bool complete() const noexcept { return has_cam && has_rocker && has_valve; }
+};
+
+/// A trigger wheel of the file, beside its definition.
+struct TriggerOfFile {
+  std::string name;
+  std::vector<double> edges_deg;  ///< where it is given by them, its definition points here
+};
+
+class EngineFile {
+ public:
+  EngineFile(EngineFile&&) = default;
+  EngineFile& operator=(EngineFile&&) = default;
+  EngineFile(const EngineFile&) = delete;  // definition() points to the diagram's rows, which live here
+  EngineFile& operator=(const EngineFile&) = delete;
+
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  [[nodiscard]] const std::string& name() const { return section("engine").text("name"); }
+  [[nodiscard]] double rated_rpm() const { return section("engine").number("rated_rpm"); }
+
+  /// Valid, with [layout] and [pressure] at their defaults where the file has none. Masses are zero unless
+  /// has("masses"), all is zero unless has("crank"). Pressure rows live as long as this object, also when it is moved.
+  [[nodiscard]] const EngineDefinition& definition() const noexcept { return definition_; }
+
+  /// Every NAME of a [cam], [rocker] or [valve], in the order of the file, each part valid. The complete ones are definition().trains, in the
+  /// same order.
+  [[nodiscard]] const std::vector<TrainOfFile>& trains() const noexcept { return trains_; }
+
+  /// The NAME of every [trigger], in the order of definition().triggers.
+  [[nodiscard]] const std::vector<TriggerOfFile>& triggers() const noexcept { return triggers_; }
+
+  /// One of the trains; a name that the file does not have is the user's error.
+  [[nodiscard]] const TrainOfFile& train(const std::string& name) const;
+
+  /// Titles are written as in the brackets: "masses", "cam intake".
+  [[nodiscard]] bool has(const std::string& title) const noexcept { return find(title) != nullptr; }
+  [[nodiscard]] const SectionValues& section(const std::string& title) const;
+
+  /// All that is known, in the order of `show`: the file's sections, and those that are all default.
+  [[nodiscard]] const std::vector<SectionValues>& sections() const noexcept { return sections_; }
+
+  /// The message for what core refused, at the line of the key that is to blame.
+  [[nodiscard]] InputError explain(const Status& status) const;
+
+  /// Likewise for what was refused about a valve train; `cam_deg`: where on the cam, for what ValveLift finds.
+  [[nodiscard]] InputError explain(const Status& status, const TrainOfFile& train, double cam_deg = 0) const;
+
+ private:
+  friend EngineFile read_engine_file(const std::string&, const std::vector<std::string>&);
+
+  explicit EngineFile(const std::string& path) : path_{path} {}
+  [[nodiscard]] const SectionValues* find(const std::string& title) const noexcept;
+  [[nodiscard]] SectionValues* find(const std::string& title) noexcept;
+  void build_definition();
+  void read_diagram(const SectionValues& pressure);
+  void build_trains();
+  void build_triggers();
+  [[nodiscard]] int train_with_phaser(const SectionValues& trigger) const;
+  void read_cam(const SectionValues& cam, TrainOfFile& train);
+  [[nodiscard]] const TrainOfFile* train_to_blame(const Status& status) const;
+
+  std::string path_;
+  std::vector<SectionValues> sections_;
+  EngineDefinition definition_;
+  std::vector<DiagramPoint> points_;
+  std::vector<int> point_lines_;
+  std::string points_path_;
+  std::vector<TrainOfFile> trains_;
+  std::vector<TriggerOfFile> triggers_;
+};
+
+/// The file that would say all of this with nothing left to defaults. Reading it gives the same definition, and showing that
+/// the same text.
+[[nodiscard]] std::string show(const EngineFile& engine);
+
+/// Reads and validates everything in the file, and demands the sections that the command needs; throws InputError.
+[[nodiscard]] EngineFile read_engine_file(const std::string& path, const std::vector<std::string>& needed_sections);
+
+}  // namespace crankloop::program

@@ -1,0 +1,244 @@
+#include "engine_file_keys.hpp"
+
+#include <algorithm>
+
+#include <crankloop/define/layout.hpp>
+
+#include "../words.hpp"
+
+namespace crankloop::program {
+namespace {
+
+constexpr Unit kNoUnit{};
+constexpr Unit kDeg{"deg"};  // angles stay in degrees: core takes them so, because 120 deg has no exact radian
+constexpr Unit kDegPerS{"deg_per_s"};
+constexpr Unit kRpm{"rpm"};
+constexpr Unit kMm{"mm", 1, 1e3};
+constexpr Unit kUm{"um", 1, 1e6};
+constexpr Unit kMm2{"mm2", 1, 1e6};
+constexpr Unit kG{"g", 1, 1e3};
+constexpr Unit kKgM2{"kg_m2"};
+constexpr Unit kKgMm2{"kg_mm2", 1, 1e6};
+constexpr Unit kKPa{"kPa", 1e3, 1};
+constexpr Unit kJ{"J"};
+constexpr Unit kN{"N"};
+constexpr Unit kNPerMm{"N_per_mm", 1e3, 1};
+constexpr Unit kNm{"Nm"};
+
+constexpr double kRadSPer1000Rpm = 104.71975511965977;
+constexpr Unit kRpmAsRadS{"rpm", 1, 1e3 / kRadSPer1000Rpm};  // core takes these speeds in rad/s
+constexpr Unit kKPaPerSpeed{"kPa_per_1000rpm", 1, kRadSPer1000Rpm / 1e3};
+constexpr Unit kKPaPerSpeed2{"kPa_per_1000rpm2", 1, kRadSPer1000Rpm * kRadSPer1000Rpm / 1e3};
+constexpr Unit kNmPerSpeed{"Nm_per_1000rpm", 1, kRadSPer1000Rpm};
+constexpr Unit kNmPerSpeed2{"Nm_per_1000rpm2", 1, kRadSPer1000Rpm * kRadSPer1000Rpm};
+
+constexpr Range kAny{};
+constexpr Presence required = Presence::required;
+constexpr Presence optional = Presence::optional;
+constexpr Presence defaults = Presence::with_default;
+
+constexpr const char* kWiebe = "source=wiebe";
+constexpr const char* kTables = "source=angle_table|volume_table";
+constexpr const char* kPolynomial = "source=polynomial";
+constexpr const char* kCamTable = "source=table";
+
+constexpr SectionKind kSections[] = {
+    {"engine", false, "what it is called and rated"},
+    {"crank", false, "geometry of the crank mechanism; all cylinders are alike"},
+    {"masses", false, "moving masses of one cylinder, and the crankshaft"},
+    {"layout", false, "cylinders around and along the crankshaft; absent: one cylinder"},
+    {"pressure", false, "where the cylinder pressure comes from; absent: source = none"},
+    {"friction", false, "mean effective pressure of friction; absent: none"},
+    {"load", false, "the driven machine, a passive brake on the crankshaft; absent: none"},
+    {"starter", false, "as seen from the crankshaft; absent: none"},
+    {"cam", true, "a cam, by the lift of a flat follower"},
+    {"rocker", true, "what carries the cam's lift to the valve of the same NAME"},
+    {"valve", true, "the valve of the same NAME, for its dynamics"},
+    {"trigger", true, "a trigger wheel: what a crank or cam sensor sees"},
+};
+
+// clang-format off
+constexpr Key kKeys[] = {
+    {"engine", "name", Kind::text, kNoUnit, kAny, "", required, "", "", "", "what reports call the engine; free text"},
+    {"engine", "rated_rpm", Kind::number, kRpm, above(0).up_to(100000), "", required, "", "", "", "rated engine speed"},
+
+    {"crank", "bore_mm", Kind::number, kMm, above(0).up_to(2000), "", required, "", "", "", "bore"},
+    {"crank", "stroke_mm", Kind::number, kMm, above(0).up_to(4000), "", required, "", "", "", "2 r; with a pin offset the true stroke is longer"},
+    {"crank", "rod_length_mm", Kind::number, kMm, above(0).up_to(10000), "", required, "", "", "", "l, pin to pin"},
+    {"crank", "rod_ratio", Kind::number, kNoUnit, above(0).below(1), "", optional, "", "", "", "lambda; sets l = r / lambda where a source rounds it"},
+    {"crank", "pin_offset_mm", Kind::number, kMm, from(-2000).up_to(2000), "", defaults, "0", "", "", "e; above 0: the axis lies on the side to which the pin moves after TDC"},
+    {"crank", "compression_ratio", Kind::number, kNoUnit, above(1).up_to(100), "", required, "", "", "", "(clearance + displacement) / clearance volume"},
+
+    {"masses", "piston_g", Kind::number, kG, from(0).up_to(5e6), "", required, "", "", "", "piston with rings and pin"},
+    {"masses", "rod_small_end_g", Kind::number, kG, from(0).up_to(5e6), "", required, "", "", "rod:two ends", "rod's share that moves with the piston"},
+    {"masses", "rod_big_end_g", Kind::number, kG, from(0).up_to(5e6), "", required, "", "", "rod:two ends", "rod's share that turns with the crank pin"},
+    {"masses", "rod_g", Kind::number, kG, from(0).up_to(5e6), "", required, "", "", "rod:whole rod", "whole rod, instead of its two ends"},
+    {"masses", "rod_com_to_crank_mm", Kind::number, kMm, from(0).up_to(10000), "", required, "", "", "rod:whole rod", "rod's centre of mass from the crank pin"},
+    {"masses", "rod_inertia_kg_mm2", Kind::number, kKgMm2, from(0).up_to(1e11), "", optional, "", "", "rod:whole rod", "about the centre of mass; absent: two-mass rod (0 is a value, not absence)"},
+    {"masses", "crank_pin_equivalent_g", Kind::number, kG, from(0).up_to(5e6), "", defaults, "0", "", "", "m_k, pin and webs reduced to the crank radius"},
+    {"masses", "crank_inertia_kg_m2", Kind::number, kKgM2, from(0).up_to(1e6), "", required, "", "", "", "whole crankshaft with flywheel"},
+
+    {"layout", "cylinders", Kind::whole_number, kNoUnit, from(1).up_to(kMaxCylinders), "", defaults, "1", "", "", "number of cylinders"},
+    {"layout", "firing_order", Kind::firing_order, kNoUnit, kAny, "", optional, "", "", "firing:order", "even firing over 720 deg"},
+    {"layout", "firing_angles_deg", Kind::numbers, kDeg, from(0).below(720), "", optional, "", "", "firing:angles", "engine angle of each cylinder's firing TDC"},
+    {"layout", "bank_angles_deg", Kind::numbers, kDeg, from(-360).up_to(360), "", optional, "", "", "", "cylinder axis from the vertical, in the sense of rotation; absent: all 0"},
+    {"layout", "cylinder_spacing_mm", Kind::number, kMm, above(0).up_to(5000), "", optional, "", "", "place:spacing", "from cylinder to cylinder, from pin to pin where shared_pins is given; absent: 1.2 bore"},
+    {"layout", "cylinder_positions_mm", Kind::numbers, kMm, from(-100000).up_to(100000), "", optional, "", "", "place:positions", "along the crankshaft, per cylinder"},
+    {"layout", "crank_throws_deg", Kind::numbers, kDeg, from(-720).up_to(720), "", optional, "", "", "", "direction of each throw at engine angle 0; must agree with bank - firing angle"},
+    {"layout", "shared_pins", Kind::pin_groups, kNoUnit, kAny, "", optional, "", "", "", "cylinders on one crank pin; absent: those with equal position and throw"},
+
+    {"pressure", "source", Kind::choice, kNoUnit, kAny, "wiebe|angle_table|volume_table|none", required, "", "", "", "what the diagram comes from"},
+    {"pressure", "crankcase_kPa", Kind::number, kKPa, above(0).up_to(10000), "", defaults, "100", "", "", "on the piston's other side"},
+    {"pressure", "intake_kPa", Kind::number, kKPa, above(0).up_to(10000), "", required, "", kWiebe, "", "intake plenum"},
+    {"pressure", "exhaust_kPa", Kind::number, kKPa, above(0).up_to(10000), "", required, "", kWiebe, "", "exhaust back pressure"},
+    {"pressure", "start_of_combustion_deg", Kind::number, kDeg, from(-90).up_to(90), "", required, "", kWiebe, "", "crank angle, firing TDC = 0"},
+    {"pressure", "combustion_duration_deg", Kind::number, kDeg, from(1).up_to(150), "", required, "", kWiebe, "", "must end before the exhaust valve opens"},
+    {"pressure", "wiebe_m", Kind::number, kNoUnit, from(0).up_to(10), "", required, "", kWiebe, "", "form exponent of the heat release"},
+    {"pressure", "compression_exponent", Kind::number, kNoUnit, from(1).up_to(2), "", required, "", kWiebe, "", "n1, polytropic"},
+    {"pressure", "expansion_exponent", Kind::number, kNoUnit, from(1.0001).up_to(2), "", required, "", kWiebe, "", "n2, polytropic"},
+    {"pressure", "exhaust_valve_opens_deg", Kind::number, kDeg, from(30).up_to(179), "", required, "", kWiebe, "", "crank angle, firing TDC = 0"},
+    {"pressure", "net_mep_kPa", Kind::number, kKPa, from(0).up_to(100000), "", required, "", kWiebe, "heat:net IMEP", "net IMEP over 720 deg; heat is scaled to meet it"},
+    {"pressure", "heat_J", Kind::number, kJ, from(0).up_to(1e9), "", required, "", kWiebe, "heat:heat", "heat per cylinder and cycle, instead of net_mep_kPa"},
+    {"pressure", "file", Kind::path, kNoUnit, kAny, "", required, "", kTables, "", "CSV with header crank_deg,pressure_kPa or volume_cm3,pressure_kPa; relative to the engine file"},
+
+    {"friction", "constant_kPa", Kind::number, kKPa, from(0).up_to(10000), "", defaults, "0", "", "", "at any speed; holds at standstill"},
+    {"friction", "linear_kPa_per_1000rpm", Kind::number, kKPaPerSpeed, from(0).up_to(1e5), "", defaults, "0", "", "", "times the speed in 1000 rpm"},
+    {"friction", "quadratic_kPa_per_1000rpm2", Kind::number, kKPaPerSpeed2, from(0).up_to(1e7), "", defaults, "0", "", "", "times its square"},
+
+    {"load", "constant_Nm", Kind::number, kNm, from(0).up_to(1e7), "", defaults, "0", "", "", "at any speed; holds at standstill"},
+    {"load", "linear_Nm_per_1000rpm", Kind::number, kNmPerSpeed, from(0).up_to(1e8), "", defaults, "0", "", "", "times the speed in 1000 rpm"},
+    {"load", "quadratic_Nm_per_1000rpm2", Kind::number, kNmPerSpeed2, from(0).up_to(1e10), "", defaults, "0", "", "", "times its square: fan, propeller, water brake"},
+    {"load", "inertia_kg_m2", Kind::number, kKgM2, from(0).up_to(1e6), "", defaults, "0", "", "", "turns with the crankshaft"},
+
+    {"starter", "stall_Nm", Kind::number, kNm, from(0).up_to(1e7), "", defaults, "0", "", "", "torque at standstill; 0: no starter"},
+    {"starter", "no_load_rpm", Kind::number, kRpmAsRadS, from(0).up_to(95000), "", defaults, "0", "", "", "crank speed at which it gives none; above 0 where there is a starter"},
+
+    {"cam", "source", Kind::choice, kNoUnit, kAny, "polynomial|table", required, "", "", "", "what the lift comes from"},
+    {"cam", "max_lift_mm", Kind::number, kMm, above(0).up_to(100), "", required, "", kPolynomial, "", "largest lift of the flat follower"},
+    {"cam", "half_angle_deg", Kind::number, kDeg, from(10).up_to(180), "", required, "", kPolynomial, "", "from the lobe's begin to full lift, cam angle"},
+    {"cam", "exponents", Kind::numbers, kNoUnit, from(2).up_to(100), "", required, "", kPolynomial, "", "rising; coefficients from y = y' = ... = 0 at the lobe's end"},
+    {"cam", "full_lift_at_crank_deg", Kind::number, kDeg, from(-720).up_to(720), "", required, "", "", "", "engine angle of full theoretical lift in cylinder 1's cycle"},
+    {"cam", "phase_rate_deg_per_s", Kind::number, kDegPerS, from(0).up_to(100000), "", defaults, "0", "", "", "cam phaser's rate limit in crank degrees; 0: fixed cam"},
+    {"cam", "file", Kind::path, kNoUnit, kAny, "", required, "", kCamTable, "", "CSV with header cam_deg,lift_mm; relative to the engine file"},
+    {"cam", "smoothing_um", Kind::number, kUm, above(0).up_to(1000), "", required, "", kCamTable, "", "largest residual that smoothing may leave"},
+
+    {"rocker", "ratio", Kind::number, kNoUnit, above(0).up_to(10), "", required, "", "", "train:constant ratio", "direct (1) or constant-ratio train, instead of the geometry"},
+    {"rocker", "pivot_to_pad_mm", Kind::number, kMm, above(0).up_to(1000), "", required, "", "", "train:geometry", "l_a"},
+    {"rocker", "pivot_to_cam_mm", Kind::number, kMm, above(0).up_to(1000), "", required, "", "", "train:geometry", "l_c"},
+    {"rocker", "base_circle_mm", Kind::number, kMm, above(0).up_to(1000), "", required, "", "", "", "r_0, radius"},
+    {"rocker", "pad_radius_mm", Kind::number, kMm, above(0).up_to(10000), "", required, "", "", "train:geometry", "r_s"},
+    {"rocker", "pivot_to_screw_mm", Kind::number, kMm, above(0).up_to(1000), "", required, "", "", "train:geometry", "l_b"},
+    {"rocker", "screw_ball_mm", Kind::number, kMm, from(0).up_to(1000), "", required, "", "", "train:geometry", "rho, radius"},
+    {"rocker", "stem_above_pivot_mm", Kind::number, kMm, from(-1000).up_to(1000), "", required, "", "", "train:geometry", "z"},
+    {"rocker", "clearance_mm", Kind::number, kMm, from(0).up_to(10), "", required, "", "", "", "at base circle"},
+    {"rocker", "cam_turns", Kind::choice, kNoUnit, kAny, "toward_pivot|away_from_pivot", required, "", "", "train:geometry", "sense of the cam's rotation"},
+
+    {"valve", "per_cylinder", Kind::whole_number, kNoUnit, from(1).up_to(8), "", required, "", "", "", "how many of them a cylinder has"},
+    {"valve", "valve_g", Kind::number, kG, above(0).up_to(1e5), "", required, "", "", "", "valve, retainer, collets"},
+    {"valve", "spring_g", Kind::number, kG, from(0).up_to(1e5), "", required, "", "", "", "spring; a third of it moves"},
+    {"valve", "rocker_inertia_kg_mm2", Kind::number, kKgMm2, from(0).up_to(1e8), "", required, "", "", "", "about the pivot"},
+    {"valve", "spring_N_per_mm", Kind::number, kNPerMm, from(0).up_to(1e6), "", required, "", "", "", "spring rate"},
+    {"valve", "spring_preload_N", Kind::number, kN, above(0).up_to(1e6), "", required, "", "", "", "spring force on the closed valve"},
+    {"valve", "train_N_per_mm", Kind::number, kNPerMm, above(0).up_to(1e9), "", required, "", "", "", "stiffness from rocker to camshaft"},
+    {"valve", "train_damping_ratio", Kind::number, kNoUnit, from(0).up_to(10), "", required, "", "", "", "b = 2 zeta sqrt(k M)"},
+    {"valve", "guide_damping_ratio", Kind::number, kNoUnit, from(0).up_to(10), "", required, "", "", "", "c = 2 zeta sqrt(k M)"},
+    {"valve", "seat_N_per_mm", Kind::number, kNPerMm, above(0).up_to(1e9), "", required, "", "", "", "stiffness of the seat"},
+    {"valve", "seat_damping_ratio", Kind::number, kNoUnit, from(0).up_to(10), "", required, "", "", "", "b_z = 2 zeta sqrt(k_z M)"},
+    {"valve", "head_area_mm2", Kind::number, kMm2, from(0).up_to(1e6), "", defaults, "0", "", "", "gas force on the valve head; 0: none"},
+
+    {"trigger", "on", Kind::text, kNoUnit, kAny, "", required, "", "", "", "crank, cam, or cam NAME for one that the phaser of [cam NAME] moves"},
+    {"trigger", "pattern", Kind::text, kNoUnit, kAny, "", required, "", "", "edges:teeth", "60 or 60-2 (two missing), 36-2-2-2, 36-2-2-2-H6, half-moon, or teeth and (missing) in turn, like 13(2)16(2)1(2)"},
+    {"trigger", "first_tooth_deg", Kind::number, kDeg, from(-720).up_to(720), "", defaults, "0", "", "edges:teeth", "engine angle at which the first tooth's rising edge is at the sensor; N-M: the tooth after the gap"},
+    {"trigger", "tooth_ratio", Kind::number, kNoUnit, from(0.01).up_to(0.99), "", defaults, "0.5", "", "edges:teeth", "width of a tooth per distance from tooth to tooth"},
+    {"trigger", "edges_deg", Kind::numbers, kDeg, from(0).up_to(1440), "", required, "", "", "edges:list", "instead of a pattern: rise, fall, rise, ... by engine angle, within one turn of the shaft (cam: 720 deg)"},
+    {"trigger", "inverted", Kind::choice, kNoUnit, kAny, "no|yes", defaults, "no", "", "", "whether a tooth pulls the signal down"},
+};
+// clang-format on
+
+std::string words_about(const Key& key) {
+  std::string words = key.meaning;
+  if (const std::string allowed = key.allowed(); !allowed.empty()) words += "; " + allowed;
+  if (key.presence == Presence::with_default) words += std::string("; default ") + key.fallback;
+  if (key.presence == Presence::optional) words += "; optional";
+  if (key.only_if[0] != '\0') words += std::string("; only with ") + key.only_if;
+  return words;
+}
+
+}  // namespace
+
+std::string Key::allowed() const {
+  switch (kind) {
+    case Kind::choice: {
+      std::vector<std::string> names;
+      for (const std::string_view one : split(choices, '|')) names.emplace_back(one);
+      return join(names, " | ");
+    }
+    case Kind::firing_order:
+      return "like 1-3-4-2";
+    case Kind::pin_groups:
+      return "like 1-2,3-4";
+    case Kind::numbers:
+      return "list; each " + describe(range, unit_in_words(unit.name));
+    case Kind::whole_number:
+      return "whole number; " + describe(range, unit_in_words(unit.name));
+    case Kind::number:
+      return describe(range, unit_in_words(unit.name));
+    case Kind::text:
+    case Kind::path:
+      break;
+  }
+  return "";
+}
+
+const std::vector<SectionKind>& section_kinds() {
+  static const std::vector<SectionKind> kinds(std::begin(kSections), std::end(kSections));
+  return kinds;
+}
+
+const SectionKind* find_section_kind(const std::string& name) {
+  for (const SectionKind& kind : kSections) {
+    if (kind.name == name) return &kind;
+  }
+  return nullptr;
+}
+
+std::vector<const Key*> keys_of(const std::string& section) {
+  std::vector<const Key*> keys;
+  for (const Key& key : kKeys) {
+    if (key.section == section) keys.push_back(&key);
+  }
+  return keys;
+}
+
+const Key* find_key(const std::string& section, const std::string& name) {
+  for (const Key& key : kKeys) {
+    if (key.section == section && key.name == name) return &key;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> sections_with_key(const std::string& name) {
+  std::vector<std::string> sections;
+  for (const Key& key : kKeys) {
+    if (key.name == name)
+      sections.push_back("[" + std::string(key.section) + (find_section_kind(key.section)->named ? " NAME]" : "]"));
+  }
+  return sections;
+}
+
+std::string describe_all_keys() {
+  constexpr std::size_t kColumn = 26;
+  std::string text;
+  for (const SectionKind& kind : kSections) {
+    text += std::string(text.empty() ? "" : "\n") + "[" + kind.name + (kind.named ? " NAME]" : "]") + "  " +
+            kind.meaning + "\n";
+    for (const Key* key : keys_of(kind.name)) {
+      std::string name = key->name;
+      name.resize(std::max(kColumn, name.size() + 1), ' ');
+      text += "  " + name + words_about(*key) + "\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace crankloop::program

@@ -1,0 +1,72 @@
+// Every key of the engine file: one table that drives reading, checking, `show` and `help engine-file`.
+//
+// What belongs here: what may stand in an engine file. What does not: how it becomes an EngineDefinition
+// (engine_file_parts.hpp).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "../number.hpp"
+
+namespace crankloop::program {
+
+enum class Kind {
+  number,
+  whole_number,
+  numbers,       ///< 0,540,180,360
+  choice,        ///< one of Key::choices
+  text,          ///< free text
+  path,          ///< free text that names a file
+  firing_order,  ///< 1-3-4-2
+  pin_groups,    ///< 1-2,3-4
+};
+
+/// How a value in the file becomes SI: value * times / over. One of the two is 1, so that 95 mm is the double nearest
+/// to 0.095 m.
+struct Unit {
+  const char* name = "";  ///< as it ends the key, "mm"; empty where the key has none
+  double times = 1;
+  double over = 1;
+};
+
+enum class Presence { required, optional, with_default };
+
+/// One key. A row of the table reads: section, key, what it holds, whether it must be there, when it counts, meaning.
+struct Key {
+  const char* section;
+  const char* name;
+  Kind kind;
+  Unit unit;
+  Range range;
+  const char* choices;  ///< "wiebe|angle_table"; only Kind::choice
+  Presence presence;
+  const char* fallback;  ///< as it would stand in the file; only Presence::with_default
+  const char* only_if;   ///< "source=wiebe": with another source the key is checked, but not used; "" always
+  const char* form;      ///< "rod:ends": one of two ways to say the same thing, given exactly one way; "" no other way
+  const char* meaning;
+
+  [[nodiscard]] std::string allowed() const;  ///< "above 0, at most 2000 mm"
+};
+
+/// A kind of section: [crank], or [cam NAME] where named.
+struct SectionKind {
+  const char* name;
+  bool named;
+  const char* meaning;
+};
+
+[[nodiscard]] const std::vector<SectionKind>& section_kinds();
+[[nodiscard]] const SectionKind* find_section_kind(const std::string& name);
+
+/// In the order of `show`. The table is a constant array; the vectors only point into it.
+[[nodiscard]] std::vector<const Key*> keys_of(const std::string& section);
+[[nodiscard]] const Key* find_key(const std::string& section, const std::string& name);
+
+/// Sections that have a key of this name: "bore_mm belongs to [crank]".
+[[nodiscard]] std::vector<std::string> sections_with_key(const std::string& name);
+
+/// The reference that `crankloop help engine-file` prints.
+[[nodiscard]] std::string describe_all_keys();
+
+}  // namespace crankloop::program

@@ -1,0 +1,133 @@
+// resolve_section(): from what stands under a header to the section's complete values.
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "engine_file_values.hpp"
+#include "../error.hpp"
+#include "../words.hpp"
+
+namespace crankloop::program {
+namespace {
+
+const Key& known_key(const IniSection& section, const IniEntry& entry, const std::string& path) {
+  if (const Key* key = find_key(section.kind, entry.key)) return *key;
+  std::vector<std::string> names;
+  for (const Key* key : keys_of(section.kind)) names.emplace_back(key->name);
+  std::string help = suggestion(entry.key, names);
+  if (const std::vector<std::string> homes = sections_with_key(entry.key); !homes.empty())
+    help = "; it belongs to " + join(homes, " or ");
+  if (help.empty()) help = "; keys: " + join(names);
+  throw InputError(path, entry.line, "unknown key " + in_quotes(entry.key) + " in " + section.title() + help);
+}
+
+SectionValues read_given(const IniSection& section, const std::string& path) {
+  SectionValues values{section.kind, section.name, section.line, {}};
+  for (const IniEntry& entry : section.entries) {
+    const Key& key = known_key(section, entry, path);
+    if (values.has(key.name)) {
+      throw InputError(path, entry.line,
+                       std::string(key.name) + " is given twice in " + section.title() + " (first in line " +
+                           std::to_string(values.find(key.name)->line) + "); once is allowed");
+    }
+    values.values.push_back(parse_value(key, entry.value, path, entry.line));
+  }
+  return values;
+}
+
+/// "source=angle_table|volume_table": whether the source is one of them.
+bool counts(const Key& key, const SectionValues& values) {
+  const std::vector<std::string_view> condition = split(key.only_if, '=');
+  if (condition.size() < 2) return true;
+  const Value* deciding = values.find(condition[0]);
+  if (deciding == nullptr) return true;
+  const std::vector<std::string_view> wanted = split(condition[1], '|');
+  return std::find(wanted.begin(), wanted.end(), deciding->text) != wanted.end();
+}
+
+/// The keys of one form, "rod_small_end_g and rod_big_end_g"; only those that must be there.
+std::string required_keys(const std::string& section, std::string_view form) {
+  std::vector<std::string> names;
+  for (const Key* key : keys_of(section)) {
+    if (form == key->form && key->presence != Presence::optional) names.emplace_back(key->name);
+  }
+  if (names.empty()) {
+    for (const Key* key : keys_of(section)) {
+      if (form == key->form) names.emplace_back(key->name);
+    }
+  }
+  return join(names, " and ");
+}
+
+/// What to call a choice between forms, and which of its forms the file uses.
+struct FormInUse {
+  const Value* first_given = nullptr;
+  std::vector<std::string> forms;  ///< all of them, in the order of the table
+  bool needed = false;
+};
+
+/// Refuses a file that says the same thing in two ways, and one that says it in none.
+std::map<std::string, FormInUse> forms_in_use(const SectionValues& values, const std::string& path) {
+  std::map<std::string, FormInUse> choices;
+  for (const Key* key : keys_of(values.kind)) {
+    if (key->form[0] == '\0' || !counts(*key, values)) continue;
+    FormInUse& choice = choices[std::string(split(key->form, ':')[0])];
+    if (choice.forms.empty() || choice.forms.back() != key->form) choice.forms.emplace_back(key->form);
+    choice.needed = choice.needed || key->presence == Presence::required;
+  }
+  for (const Value& value : values.values) {
+    if (value.key->form[0] == '\0' || !value.used) continue;
+    FormInUse& choice = choices[std::string(split(value.key->form, ':')[0])];
+    const Value* first = choice.first_given;
+    if (first != nullptr && first->key->form != std::string_view(value.key->form)) {
+      throw InputError(path, value.line,
+                       std::string(value.key->name) + " and " + first->key->name + " (line " +
+                           std::to_string(first->line) + ") exclude each other; give either " +
+                           required_keys(values.kind, choice.forms[0]) + ", or " +
+                           required_keys(values.kind, choice.forms[1]));
+    }
+    if (first == nullptr) choice.first_given = &value;
+  }
+  for (const auto& [name, choice] : choices) {
+    if (!choice.needed || choice.first_given != nullptr) continue;
+    throw InputError(path, values.line,
+                     values.title() + " needs either " + required_keys(values.kind, choice.forms[0]) + ", or " +
+                         required_keys(values.kind, choice.forms[1]));
+  }
+  return choices;
+}
+
+}  // namespace
+
+SectionValues resolve_section(const IniSection& section, const std::string& path) {
+  SectionValues values = read_given(section, path);
+  for (Value& value : values.values) value.used = counts(*value.key, values);
+  const std::map<std::string, FormInUse> choices = forms_in_use(values, path);
+
+  std::vector<Value> complete;
+  for (const Key* key : keys_of(section.kind)) {
+    const auto given = std::find_if(values.values.begin(), values.values.end(),
+                                    [key](const Value& value) { return value.key == key; });
+    if (given != values.values.end()) {
+      complete.push_back(*given);
+      continue;
+    }
+    if (!counts(*key, values) || key->presence == Presence::optional) continue;
+    if (key->form[0] != '\0') {
+      const Value* in_use = choices.at(std::string(split(key->form, ':')[0])).first_given;
+      if (in_use == nullptr || in_use->key->form != std::string_view(key->form)) continue;
+    }
+    if (key->presence == Presence::with_default) {
+      complete.push_back(parse_value(*key, key->fallback, path, 0));
+      continue;
+    }
+    const std::string allowed = key->allowed();
+    throw InputError(path, section.line,
+                     section.title() + " lacks " + key->name + " (" + key->meaning + (allowed.empty() ? "" : "; ") +
+                         allowed + ")" + (key->only_if[0] == '\0' ? "" : std::string(", needed with ") + key->only_if));
+  }
+  values.values = std::move(complete);
+  return values;
+}
+
+}  // namespace crankloop::program

@@ -1,0 +1,15 @@
+// What `crankloop run --free` is asked for, from its command line.
+#pragma once
+
+#include "../arguments.hpp"
+#include "../engine_file/engine_file.hpp"
+
+namespace crankloop::program {
+
+/// Throws UsageError for options of a free run without --free, and for those of a run at constant speed with it.
+void require_options_that_fit(const Arguments& arguments);
+
+/// The command, where --free is given.
+int run_free_by(const Arguments& arguments, const EngineFile& file);
+
+}  // namespace crankloop::program

@@ -1,0 +1,170 @@
+#include "live_loop.hpp"
+
+#include <sys/resource.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include <crankloop/crankloop.hpp>
+#include <crankloop/tick/scenes.hpp>
+
+#include "../error.hpp"
+#include "../number.hpp"
+#include "port/linux/stop_signal.hpp"
+#include "port/linux/stopwatch.hpp"
+#include "port/linux/watched_inputs.hpp"
+
+namespace crankloop::program {
+namespace {
+
+using port::LiveInputs;
+using port::LiveOutputs;
+
+constexpr double kRpmPerRad_s = 30 / 3.14159265358979323846;
+
+/// A controller's number may be any: what the type cannot hold becomes infinite, which the engine refuses as it does infinity.
+template <class Real>
+Real as(double value) noexcept {
+  constexpr auto kMost = static_cast<double>(std::numeric_limits<Real>::max());
+  constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
+  if (value > kMost) return kInfinite;
+  if (value < -kMost) return -kInfinite;
+  return static_cast<Real>(value);
+}
+
+double crank_deg(Phase phase) noexcept {
+  const double deg = static_cast<double>(phase.units()) * (720.0 / 18446744073709551616.0);  // 2^64 units are a cycle
+  return deg < 720 ? deg : 0;  // the last 2^10 units round up to 720
+}
+
+/// The engine at rest or turning, and its tables.
+template <class Real>
+class FreeEngine {
+ public:
+  using Engine = crankloop::Engine<Real, scenes::FreeRunning>;
+
+  FreeEngine(const EngineFile& file, const LiveRequest& request) {
+    const Status built = tables_->build(file.definition(), {request.tick_s});
+    if (!built.ok()) throw file.explain(built);
+    const Status ready = engine_.init(tables_->tables());
+    if (!ready.ok()) throw file.explain(ready);
+    const auto limit_rad_s = static_cast<double>(tables_->tables().drive->speed_limit_rad_s);
+    if (std::abs(request.start_rad_s) > limit_rad_s) {
+      throw UsageError("--from-rpm " + brief(request.start_rad_s * kRpmPerRad_s) +
+                       " is too fast for this tick: at most one revolution per tick, here " +
+                       brief(std::floor(limit_rad_s * kRpmPerRad_s)) + " rpm");
+    }
+    const Status turning = engine_.restore(turning_at(engine_.state(), static_cast<Real>(request.start_rad_s)));
+    if (!turning.ok()) throw file.explain(turning);
+  }
+
+  void step(const LiveInputs& in) noexcept {
+    typename Engine::Input input;
+    input.load_ratio = as<Real>(in.load_ratio);
+    input.load_Nm = as<Real>(in.load_Nm);
+    input.starter = in.starter;
+    input.cut_cylinders = in.cut_cylinders;
+    engine_.step(input);
+  }
+
+  void tell(LiveOutputs& told) const noexcept {
+    const typename Engine::Output& out = engine_.output();
+    told.speed_rad_s = static_cast<double>(out.speed_rad_s);
+    told.acceleration_rad_s2 = static_cast<double>(out.acceleration_rad_s2);
+    told.crank_deg = crank_deg(out.crank);
+    told.torque_Nm = static_cast<double>(out.torque_Nm);
+    told.mean_torque_Nm = static_cast<double>(out.mean_torque_Nm);
+    told.friction_Nm = static_cast<double>(out.friction_Nm);
+    told.starter_Nm = static_cast<double>(out.starter_Nm);
+    told.faults = out.faults;
+  }
+
+ private:
+  using Tables = TableStorage<Real, scenes::FreeRunning, kMostGasSegments>;  // room for the finest gas grid there is
+
+  std::unique_ptr<Tables> tables_ = std::make_unique<Tables>();
+  Engine engine_;
+};
+
+/// What the kernel counts of this thread.
+struct ThreadCounts {
+  std::int64_t page_faults = 0;
+  std::int64_t preemptions = 0;
+
+  static ThreadCounts now() noexcept {
+    rusage usage{};
+    ::getrusage(RUSAGE_THREAD, &usage);
+    return {usage.ru_minflt + usage.ru_majflt, usage.ru_nivcsw};
+  }
+};
+
+}  // namespace
+
+template <class Real>
+void run_live(const EngineFile& file, const LiveRequest& request, port::LiveBlock& block, LiveFigures& figures) {
+  const port::StopSignal stop;
+  FreeEngine<Real> engine(file, request);
+  port::WatchedInputs inputs(block.inputs, request.at_start, request.patience_ns);
+  LiveOutputs published;
+  double speed_sum_rad_s = 0;
+  double torque_sum_Nm = 0;
+
+  const port::RealTime real_time(request.real_time);
+  if (real_time.cpu_error() != 0) {
+    throw UsageError("--cpu " + std::to_string(request.real_time.cpu) + ": " + std::strerror(real_time.cpu_error()));
+  }
+  figures.memory_error = real_time.memory_error();
+  figures.priority_error = real_time.priority_error();
+
+  block.state.store(port::LiveState::running, std::memory_order_release);
+  port::Periodic periodic(request.tick_ns);
+  const ThreadCounts counts_before = ThreadCounts::now();  // the clock has been read once: its page is there
+  const std::int64_t start_ns = periodic.due_ns();
+  const port::PeriodicTally& tally = periodic.tally();
+  while (tally.ticks < request.ticks && !stop.received()) {
+    figures.begin.add(periodic.begin());
+    const LiveInputs in = inputs.at(periodic.begun_ns());
+    const std::int64_t step_ns = port::now_ns();
+    engine.step(in);
+    figures.model.add(port::now_ns() - step_ns);
+
+    published.ticks = tally.ticks + 1;
+    published.time_s = static_cast<double>(published.ticks) * request.tick_s;
+    engine.tell(published);
+    published.flags = inputs.flags();
+    published.inputs_sequence = inputs.sequence();
+    published.torn_inputs = inputs.torn();
+    published.late_ticks = tally.late;
+    published.missed_deadlines = tally.missed;
+    block.outputs.write(published);
+
+    speed_sum_rad_s += published.speed_rad_s;
+    torque_sum_Nm += published.mean_torque_Nm;
+    figures.faulty_ticks += published.faults != 0 ? 1 : 0;
+    figures.faults |= published.faults;
+    figures.work.add(periodic.done());
+  }
+  const ThreadCounts counts_after = ThreadCounts::now();
+
+  figures.tally = tally;
+  figures.wall_s = static_cast<double>(port::now_ns() - start_ns) * 1e-9;
+  figures.stopped = tally.ticks < request.ticks;
+  figures.page_faults = counts_after.page_faults - counts_before.page_faults;
+  figures.preemptions = counts_after.preemptions - counts_before.preemptions;
+  figures.speed_rad_s = published.speed_rad_s;
+  if (tally.ticks > 0) {
+    figures.mean_speed_rad_s = speed_sum_rad_s / static_cast<double>(tally.ticks);
+    figures.mean_torque_Nm = torque_sum_Nm / static_cast<double>(tally.ticks);
+  }
+  figures.controller_seen = (inputs.flags() & port::kControllerSeen) != 0;
+  figures.controller_silences = inputs.silences();
+  figures.torn_inputs = inputs.torn();
+}
+
+template void run_live<float>(const EngineFile&, const LiveRequest&, port::LiveBlock&, LiveFigures&);
+template void run_live<double>(const EngineFile&, const LiveRequest&, port::LiveBlock&, LiveFigures&);
+
+}  // namespace crankloop::program

@@ -1,0 +1,73 @@
+// Over which speeds a valve keeps to its cam: a sweep, and the speeds at which float and bounce begin.
+//
+// What belongs here: the search and its results. What does not: how they are shown (redline.cpp, redline_report.cpp).
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "../valve/valve_loop.hpp"
+
+namespace crankloop::program {
+
+/// How every speed is run: in double, from rest, the last of kRedlineCycles counts.
+inline constexpr double kRedlineTick_s = 20e-6;
+inline constexpr int kRedlineCycles = 4;
+
+/// A whole number of rpm each; the sweep has at most 61 speeds.
+struct SpeedRange {
+  int from_rpm;
+  int to_rpm;
+  int step_rpm;
+};
+[[nodiscard]] SpeedRange speed_range(int from_rpm, int to_rpm) noexcept;
+
+/// What the valve does in a cycle at one speed; forces are the largest of the ticks.
+struct SpeedResult {
+  int speed_rpm;
+  ValveCycle<double> cycle;
+  double train_N;
+  double cam_N;
+};
+
+/// The lowest speed of the sweep's range at which something happens, to 1 rpm.
+struct Onset {
+  bool found = false;
+  bool at_the_start = false;  ///< it happens at the range's lowest speed already
+  int speed_rpm = 0;
+};
+
+struct Sweep {
+  double factor = 1;  ///< of the quantity that is varied
+  double tick_s = 0;
+  std::vector<SpeedResult> at;
+  Onset separation;
+  Onset bounce;
+};
+
+/// Sweeps the range and narrows both onsets down: between the first speed of the sweep that has any separation (or
+/// bounce) of at least 1 um and the one before. What comes and goes between two speeds of the sweep is not seen.
+/// `after_speed` is called after each speed that was run.
+[[nodiscard]] Sweep sweep_speeds(const LoneValve& valve, const SpeedRange& range, double factor,
+                                 const std::function<void()>& after_speed);
+
+/// What may be varied: its name as an option, and the keys that are multiplied.
+struct Influence {
+  const char* option;
+  const char* title;
+  const char* keys;
+};
+inline constexpr Influence kInfluences[] = {
+    {"train", "Train stiffness", "train_N_per_mm"},
+    {"mass", "Moving mass", "valve_g, spring_g and rocker_inertia_kg_mm2"},
+    {"spring", "Spring rate", "spring_N_per_mm"},
+    {"preload", "Spring preload", "spring_preload_N"},
+    {"damping", "Damping", "train_damping_ratio, guide_damping_ratio and seat_damping_ratio"},
+};
+inline constexpr double kInfluenceFactors[] = {0.5, 0.7, 0.85, 1, 1.2, 1.5, 2};
+
+/// The valve with the quantity multiplied. All else of the definition stays, damping ratios included.
+[[nodiscard]] Valve varied(const Valve& valve, const std::string& option, double factor);
+
+}  // namespace crankloop::program

@@ -1,0 +1,111 @@
+#include "run_trace.hpp"
+
+#include <cmath>
+
+#include <crankloop/tabulate/summary.hpp>
+
+#include "../valve/valve_tick_limit.hpp"
+
+namespace crankloop::program {
+namespace {
+
+constexpr double kSpacingDeg = 0.25;
+constexpr double kShortestTick_s = 1e-6;
+
+/// A tick of which a whole number makes a spacing that divides 10 deg.
+struct Pace {
+  double spacing_deg;
+  int ticks;
+  double tick_s;
+};
+Pace pace_at(double speed_rpm, double longest_tick_s) {
+  const double s_per_deg = 1 / (6 * speed_rpm);
+  double spacing_deg = kSpacingDeg;
+  while (spacing_deg * s_per_deg < kShortestTick_s) spacing_deg *= 2;
+  const double ticks = std::ceil(spacing_deg * s_per_deg / longest_tick_s);
+  return {spacing_deg, static_cast<int>(ticks), spacing_deg * s_per_deg / ticks};
+}
+
+void append(std::vector<double>& to, double value) { to.push_back(value); }
+
+template <class Real>
+void append(std::vector<std::vector<double>>& to, const Real* values) {
+  for (std::size_t i = 0; i < to.size(); ++i) to[i].push_back(static_cast<double>(values[i]));
+}
+
+template <class Real>
+void append(FreeForceTrace& to, const FreeForce<Real>& force) {
+  append(to.up_N, static_cast<double>(force.up_N));
+  append(to.lateral_N, static_cast<double>(force.lateral_N));
+  append(to.pitch_Nm, static_cast<double>(force.pitch_Nm));
+  append(to.yaw_Nm, static_cast<double>(force.yaw_Nm));
+}
+
+template <class Real>
+void append(Trace& trace, double crank_deg, const WholeOutput<Real>& out, CylinderPlace first) {
+  trace.crank_deg.push_back(crank_deg);
+  for (const QuantityKind& kind : kQuantityKinds) {
+    append(trace.of[index_of(kind.quantity)], static_cast<double>(value_of(out, kind.quantity, first)));
+  }
+  double tilting_moment_Nm = 0;
+  for (std::size_t k = 0; k < trace.cylinder_torque_Nm.size(); ++k) {
+    append(trace.cylinder_torque_Nm[k], static_cast<double>(out.cylinder[k].torque_Nm));
+    tilting_moment_Nm += static_cast<double>(out.cylinder[k].tilting_moment_Nm);
+  }
+  append(trace.tilting_moment_Nm, tilting_moment_Nm);
+  append(trace.torque_Nm, static_cast<double>(out.torque_Nm));
+  append(trace.pin_load_N, out.pin_load_N);
+  append(trace.journal_along_N, out.journal_along_N);
+  append(trace.journal_across_N, out.journal_across_N);
+  append(trace.journal_load_N, out.journal_load_N);
+  append(trace.first, out.first);
+  append(trace.second, out.second);
+  append(trace.rotating, out.rotating);
+  for (std::size_t t = 0; t < trace.valves.size(); ++t) {
+    for (const ValveQuantityKind& kind : kValveQuantityKinds) {
+      append(trace.valves[t].of[index_of(kind.quantity)], static_cast<double>(value_of(out, kind.quantity, t, 0)));
+    }
+    trace.valves[t].regime.push_back(out.valve_forces[t][0].regime);
+  }
+}
+
+}  // namespace
+
+template <class Real>
+Trace record_trace(const EngineDefinition& definition, const Operation& operation) {
+  const Pace pace = pace_at(operation.speed_rpm, longest_tick_of(definition));
+  Operation paced = operation;
+  paced.tick_s = pace.tick_s;
+  FixedStepLoop<Real> loop(definition, paced, definition.layout.firing_deg[0]);
+
+  const std::uint32_t pins = bearings_of(definition).pins;
+  Trace trace;
+  trace.spacing_deg = pace.spacing_deg;
+  trace.tick_s = pace.tick_s;
+  trace.cylinder_torque_Nm.resize(static_cast<std::size_t>(definition.layout.cylinders));
+  trace.pin_load_N.resize(pins);
+  trace.journal_along_N.resize(pins + 1);
+  trace.journal_across_N.resize(pins + 1);
+  trace.journal_load_N.resize(pins + 1);
+  trace.valves.resize(static_cast<std::size_t>(definition.train_count));
+  const CylinderPlace first = place_of(definition.layout, 0);
+  const int count = static_cast<int>(std::lround(720 / pace.spacing_deg));
+  append(trace, 0, loop.output(), first);
+  for (int i = 1; i <= count; ++i) {
+    for (int tick = 0; tick < pace.ticks; ++tick) loop.step();
+    append(trace, i * pace.spacing_deg, loop.output(), first);
+  }
+  if (!trace.valves
+           .empty()) {  // a lobe's results are there once its cam has passed the base circle: within another cycle
+    for (int i = 0; i < count * pace.ticks; ++i) loop.step();
+  }
+  for (std::size_t t = 0; t < trace.valves.size(); ++t) {
+    trace.valves[t].cycle = in_double(loop.output().valve_cycle[t][0]);
+  }
+  return trace;
+}
+
+template Trace record_trace<float>(const EngineDefinition&, const Operation&);
+template Trace record_trace<double>(const EngineDefinition&, const Operation&);
+
+}  // namespace crankloop::program

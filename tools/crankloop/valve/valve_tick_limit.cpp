@@ -1,0 +1,77 @@
+#include "valve_tick_limit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <crankloop/tabulate/valve_lift.hpp>
+
+#include "../number.hpp"
+
+namespace crankloop::program {
+namespace {
+
+ValveBody<double> body_of(const Valve& valve, const ValveLift& lift) {
+  return valve_body(valve, lift.lever_m() > 0 ? lift.lever_m() : 1);
+}
+
+}  // namespace
+
+InputError tick_too_long(const EngineFile& file, const TrainOfFile& train, const Valve& valve, double tick_s,
+                         const ValveStepping& stepping) {
+  const auto lift = std::make_unique<ValveLift>();
+  if (const Status refused = lift->init(train.definition.cam, train.definition.rocker); !refused.ok()) {
+    return file.explain(refused, train, lift->failed_at_deg());
+  }
+  const double longest_us =
+      std::floor(longest_tick_s(body_of(valve, *lift), stepping) * 1e7) / 10;  // down, so that it is accepted
+  return InputError(file.path() + ": a tick of " + brief(tick_s * 1e6) + " us would take more than " +
+                    std::to_string(kMostFineSteps) + " steps of the valve train " + train.name + " at an accuracy of " +
+                    brief(stepping.accuracy_m * 1e6) + " um; the longest tick possible is " + brief(longest_us) +
+                    " us");
+}
+
+void require_trains(const EngineFile& file, double tick_s, const ValveStepping& stepping) {
+  for (const TrainOfFile& train : file.trains()) {
+    if (!train.complete()) continue;
+    const auto lift = std::make_unique<ValveLift>();
+    if (const Status refused = lift->init(train.definition.cam, train.definition.rocker); !refused.ok()) {
+      throw file.explain(refused, train, lift->failed_at_deg());
+    }
+    if (tick_s > longest_tick_s(body_of(train.definition.valve, *lift), stepping)) {
+      throw tick_too_long(file, train, train.definition.valve, tick_s, stepping);
+    }
+  }
+}
+
+double longest_tick_of(const EngineDefinition& definition) {
+  double longest_s = 2e-3;
+  const auto lift = std::make_unique<ValveLift>();
+  for (int t = 0; t < definition.train_count; ++t) {
+    const ValveTrain& train = definition.trains[t];
+    if (!lift->init(train.cam, train.rocker).ok()) continue;
+    longest_s = std::min(longest_s, longest_tick_s(body_of(train.valve, *lift), {}));
+  }
+  return longest_s;
+}
+
+InputError explain_tabulate(const EngineFile& file, const Status& refused, double tick_s,
+                            const ValveStepping& stepping) {
+  int number = 0;
+  for (const TrainOfFile& train : file.trains()) {
+    if (!train.complete() || number++ != refused.index) continue;
+    if (refused.field == std::string_view("tick.tick")) {
+      return tick_too_long(file, train, train.definition.valve, tick_s, stepping);
+    }
+    const auto lift = std::make_unique<ValveLift>();
+    const Status of_train = lift->init(train.definition.cam, train.definition.rocker);
+    if (!of_train.ok() && of_train.field == std::string_view(refused.field)) {
+      return file.explain(of_train, train, lift->failed_at_deg());
+    }
+  }
+  return file.explain(refused);
+}
+
+}  // namespace crankloop::program

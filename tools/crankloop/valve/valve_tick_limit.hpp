@@ -1,0 +1,29 @@
+// What a user is told whose tick is too long for a valve train.
+//
+// What belongs here: the message with the longest tick possible. What does not: the rule
+// (crankloop/tabulate/valve_motion.hpp).
+#pragma once
+
+#include <crankloop/tabulate/valve_motion.hpp>
+
+#include "../engine_file/engine_file.hpp"
+
+namespace crankloop::program {
+
+/// The message for a tick that would need too many steps of this train, whose valve may be another than the file's.
+[[nodiscard]] InputError tick_too_long(const EngineFile& file, const TrainOfFile& train, const Valve& valve,
+                                       double tick_s, const ValveStepping& stepping);
+
+/// The message for what tabulate refused of the file's definition: a tick too long for one of its trains, a train's
+/// geometry with the angle, or what else the file can explain.
+[[nodiscard]] InputError explain_tabulate(const EngineFile& file, const Status& refused, double tick_s,
+                                          const ValveStepping& stepping = {});
+
+/// Throws what explain_tabulate() says where a train of the file does not go with a tick, or its geometry does not
+/// close.
+void require_trains(const EngineFile& file, double tick_s, const ValveStepping& stepping = {});
+
+/// Longest tick that every train of a definition allows, at most 2 ms.
+[[nodiscard]] double longest_tick_of(const EngineDefinition& definition);
+
+}  // namespace crankloop::program
