@@ -83,8 +83,10 @@ on its energy; every tenth is compared with the converged reference (tools/crank
 `--case N` runs one of them again.
 
 TEXT
-  sed -n '1s/.*/    &/p' "$logs"/stress-[0-9]*.log | sort -V
-  echo
+  # shellcheck disable=SC2016  # the shell of who repeats it expands it
+  run=$(sed -n 's/ --seed [0-9]*/ --seed $seed/p;q' "$logs/stress-1.log")
+  # shellcheck disable=SC2046  # a list of numbers
+  printf '    for seed in%s; do %s; done\n\n' "$(printf ' %s' $(sed -n 's/^seed = //p' "$logs"/stress-[0-9]*.log | sort -n))" "$run"
   awk -F ' = ' '
     FNR == 1 { ++runs; next }
     / = / && $1 != "failure" && $1 != "seed" {
@@ -96,15 +98,15 @@ TEXT
     }
     END {
       print "| figure | of " runs " runs |\n| --- | --- |"
-      for (i = 1; i <= count; ++i) printf "| %s | " (order[i] ~ /error/ ? "%.3g" : "%d") " |\n", order[i], figure[order[i]]
+      for (i = 1; i <= count; ++i) printf "| %s | " (order[i] ~ /error/ ? "%.3g" : "%.0f") " |\n", order[i], figure[order[i]]
     }' "$logs"/stress-[0-9]*.log
   grep -h '^failure' "$logs"/stress-[0-9]*.log | sed 's/^failure = /- /' || true
   cat <<'TEXT'
 
 Counts are of all runs together, errors the largest of any. `error_of_class` is the largest error of a case over the accuracy asked for,
 `error_of_allowed` over what the rule allows; p99 is what 99 of 100 comparisons stay below. `judged_again` is how often copies of the
-reference were too few to judge by and more of them did. `stability_limit_error` is the largest distance of the measured from the theoretical longest stable step, as a part of
-it, at 41 damping ratios from 0 to 2; `--report` draws the map.
+reference were too few to judge by and more of them did. `stability_limit_error` is the largest distance of the measured from the
+theoretical longest stable step, as a part of it, at 41 damping ratios from 0 to 2; `--report` draws the map.
 
 ## Faults in a running engine
 
@@ -130,7 +132,8 @@ TEXT
   printf '\n## Sanitizers\n\n'
   cat <<'TEXT'
 `tools/check sanitize` runs the whole suite under the address and undefined-behaviour sanitizers (float-cast-overflow and
-float-divide-by-zero among them), `tools/check thread` under the thread sanitizer; any finding fails a test.
+float-divide-by-zero among them), `tools/check thread` under the thread sanitizer; any finding fails a test. What has no line
+here was not run for this page.
 
 TEXT
   for log in sanitize thread; do
