@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <crankloop/tick/faults.hpp>
 #include <crankloop/tick/io.hpp>
 
 namespace crankloop::detail {
