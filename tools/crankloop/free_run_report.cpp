@@ -136,7 +136,8 @@ Section method_section(const FreeReportInput& input) {
   report::List list;
   list.items.push_back("The crank is turned by gas, masses, friction, load and starter in ticks of " +
                        shortest(input.request.operation.tick_s * 1e6) + " \u00B5s, in " + input.request.real + ".");
-  list.items.push_back("Between ticks the angle is the cubic over time that has angle and speed of both; the ripple is read from it each half degree.");
+  list.items.push_back(
+      "Between ticks the angle is the cubic over time that has angle and speed of both; the ripple is read from it each half degree.");
   list.items.push_back("Harmonics are amplitudes of the speed over the crank angle, without what it drifts from the cycle's begin to its end.");
   section.blocks.push_back(std::move(list));
   return section;
