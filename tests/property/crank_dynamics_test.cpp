@@ -8,9 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include <crankloop/tabulate/summary.hpp>
-
 #include "support/lagrange.hpp"
+#include "support/ripple_theory.hpp"
 #include "support/test_engines.hpp"
 #include "support/tick_oracle.hpp"
 #include "support/turned_engine.hpp"
@@ -126,18 +125,6 @@ EngineDefinition fired_heavy_rod() {
   engine.pressure.source = PressureSource::wiebe;
   engine.pressure.wiebe.net_mep_Pa = 800e3;
   return engine;
-}
-
-/// Of all bodies, from the mechanism's geometry.
-long double kinetic_J(const EngineDefinition& engine, long double engine_deg, long double speed_rad_s) {
-  long double inertia = static_cast<long double>(engine.masses.crank_inertia_kg_m2 + engine.load.inertia_kg_m2);
-  for (std::size_t k = 0; k < static_cast<std::size_t>(engine.layout.cylinders); ++k) {
-    const OraclePose p = oracle_pose(engine.crank, (engine_deg - wide(engine.layout.firing_deg[k])) * kPi_ld / 180);
-    const Masses& m = engine.masses;
-    inertia += wide(m.rod_big_end_kg) * wide(engine.crank.crank_radius_m) * wide(engine.crank.crank_radius_m) +
-               wide(m.reciprocating_kg()) * p.slope_m * p.slope_m + wide(m.rod_inertia_correction_kg_m2) * p.rod_slope * p.rod_slope;
-  }
-  return inertia * speed_rad_s * speed_rad_s / 2;
 }
 
 TEST(CrankEnergy, OfAHundredCyclesIsKeptToAMillionth) {
@@ -262,24 +249,12 @@ TEST(CrankFriction, BackwardsItIsTheMirrorImage) {
 
 // ---- a four-cylinder engine, running free -------------------------------------------------------------------------------------
 
-/// What a cycle's speed, sampled over the crank angle, consists of.
-struct Ripple {
-  double mean_rad_s = 0;
-  double irregularity_ratio = 0;         ///< (largest - smallest) / mean
-  double amplitude_rad_s[13] = {};       ///< of order i / 2
-};
-
 /// The 495 with its mean torque as the load: a cycle then ends at the speed it began with.
 class FreeDiesel {
  public:
   static constexpr double kLoadRatio = 0.3;
 
-  FreeDiesel(double rpm, std::uint32_t cut) : speed_rad_s_{rpm * kPi / 30}, cut_{cut} {
-    engine_.masses.crank_inertia_kg_m2 = 0.5;
-    EXPECT_TRUE(exact_.init(engine_).ok());
-    for (int i = 0; i < kSamples; ++i) gas_Nm_.push_back(gas_torque_Nm(720.0 * i / kSamples));
-    for (const double torque : gas_Nm_) mean_Nm_ += torque / kSamples;
-  }
+  FreeDiesel(double rpm, std::uint32_t cut) : speed_rad_s_{rpm * kPi / 30}, cut_{cut}, engine_{diesel()}, theory_{engine_, kLoadRatio, cut} {}
 
   /// One cycle in kSamples equal steps of angle.
   [[nodiscard]] Ripple run() const {
@@ -287,7 +262,7 @@ class FreeDiesel {
     std::vector<double> speeds;
     typename Turned<double, Fired>::Input in;
     in.load_ratio = kLoadRatio;
-    in.load_Nm = mean_Nm_;
+    in.load_Nm = theory_.mean_gas_Nm();
     in.cut_cylinders = cut_;
     double before_rad = 0;
     double before_rad_s = speed_rad_s_;
@@ -305,84 +280,29 @@ class FreeDiesel {
     return ripple_of(speeds);
   }
 
-  /// From the harmonics of the gas torque and the inertia: J_eff(A) w^2 / 2 is at A = 0 what it was, and then grows by the harmonics' integral.
-  [[nodiscard]] Ripple by_harmonics() const {
-    constexpr int kOrders = 240;  // half orders up to 120: the gas torque is smooth beyond
-    double cosine[kOrders] = {}, sine[kOrders] = {};
-    for (int i = 1; i < kOrders; ++i) {
-      for (int s = 0; s < kSamples; ++s) {
-        const double turn = 2 * kPi * i * s / kSamples;
-        cosine[i] += 2.0 / kSamples * gas_Nm_[static_cast<std::size_t>(s)] * std::cos(turn);
-        sine[i] += 2.0 / kSamples * gas_Nm_[static_cast<std::size_t>(s)] * std::sin(turn);
-      }
-    }
-    std::vector<double> speeds;
-    for (int s = 0; s < kSamples; ++s) {
-      double energy_J = static_cast<double>(kinetic_J(engine_, 0, wide(speed_rad_s_)));
-      for (int i = 1; i < kOrders; ++i) {
-        const double turn = 2 * kPi * i * s / kSamples;
-        energy_J += (cosine[i] * std::sin(turn) + sine[i] * (1 - std::cos(turn))) / (i / 2.0);
-      }
-      speeds.push_back(std::sqrt(energy_J / static_cast<double>(kinetic_J(engine_, 720.0L * s / kSamples, 1))));
-    }
-    return ripple_of(speeds);
-  }
+  [[nodiscard]] const RippleTheory& theory() const { return theory_; }
 
-  /// The rule of thumb: T_k / (J k w) of the torque of gas and masses at constant speed w, J the mean inertia.
-  [[nodiscard]] Ripple by_rule_of_thumb(double speed_rad_s) const {
-    std::vector<double> torques;
-    double inertia = 0;
-    for (int s = 0; s < kSamples; ++s) {
-      const double deg = 720.0 * s / kSamples;
-      const double masses_Nm = exact_.torque_Nm(deg, speed_rad_s, 0) - exact_.torque_Nm(deg, 0, 0);
-      torques.push_back(gas_Nm_[static_cast<std::size_t>(s)] + masses_Nm);
-      inertia += 2 * static_cast<double>(kinetic_J(engine_, wide(deg), 1)) / kSamples;
-    }
-    Ripple r = ripple_of(torques);
-    for (int i = 1; i < 13; ++i) r.amplitude_rad_s[i] /= inertia * i / 2.0 * speed_rad_s;
-    return r;
-  }
 
  private:
-  static constexpr int kSamples = 1440;
+  static constexpr int kSamples = RippleTheory::kSamples;
 
-  /// By cylinder: those that are cut are motored.
-  [[nodiscard]] double gas_torque_Nm(double deg) const {
-    double sum = 0;
-    for (int k = 0; k < 4; ++k) sum += exact_.forces(k, deg, 0, (cut_ >> k & 1u) != 0 ? 0 : kLoadRatio).torque_Nm;
-    return sum;
-  }
-  [[nodiscard]] static Ripple ripple_of(const std::vector<double>& over_cycle) {
-    Ripple r;
-    const auto n = static_cast<double>(over_cycle.size());
-    const auto [least, most] = std::minmax_element(over_cycle.begin(), over_cycle.end());
-    for (const double x : over_cycle) r.mean_rad_s += x / n;
-    r.irregularity_ratio = (*most - *least) / r.mean_rad_s;
-    for (int i = 1; i < 13; ++i) {
-      double cosine = 0, sine = 0, at = 0;
-      for (const double x : over_cycle) {
-        cosine += 2 / n * x * std::cos(2 * kPi * i * at / n);
-        sine += 2 / n * x * std::sin(2 * kPi * i * at / n);
-        ++at;
-      }
-      r.amplitude_rad_s[i] = std::hypot(cosine, sine);
-    }
-    return r;
+  [[nodiscard]] static EngineDefinition diesel() {
+    EngineDefinition engine = diesel_495();
+    engine.masses.crank_inertia_kg_m2 = 0.5;
+    return engine;
   }
 
-  EngineDefinition engine_ = diesel_495();
-  ExactEngine exact_;
   double speed_rad_s_;
   std::uint32_t cut_;
-  std::vector<double> gas_Nm_;
-  double mean_Nm_ = 0;
+  EngineDefinition engine_;
+  RippleTheory theory_;
 };
 
 Ripple expect_harmonics(double rpm, std::uint32_t cut) {
   const FreeDiesel diesel(rpm, cut);
   const Ripple found = diesel.run();
-  const Ripple expected = diesel.by_harmonics();
-  const Ripple thumb = diesel.by_rule_of_thumb(found.mean_rad_s);
+  const Ripple expected = diesel.theory().by_harmonics(rpm * kPi / 30);
+  const Ripple thumb = diesel.theory().by_rule_of_thumb(found.mean_rad_s);
   std::printf("%4.0f rpm, cut %u: irregularity %.5f, by torque harmonics and inertia %.5f\n", rpm, cut, found.irregularity_ratio,
               expected.irregularity_ratio);
   std::printf("  order: amplitude of speed in rad/s, by torque harmonics and inertia, by T_k / (J k w)\n");

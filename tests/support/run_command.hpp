@@ -37,6 +37,18 @@ inline std::vector<std::string> split_at(const std::string& text, char separator
   return parts;
 }
 
+/// Value and unit of a line "name = value unit"; NaN where there is none.
+inline std::pair<double, std::string> line(const std::string& summary, const std::string& name) {
+  for (const std::string& text : split_at(summary, '\n')) {
+    if (text.rfind(name + " = ", 0) != 0) continue;
+    std::istringstream stream(text.substr(name.size() + 3));
+    std::pair<double, std::string> found;
+    stream >> found.first >> found.second;
+    return found;
+  }
+  return {std::numeric_limits<double>::quiet_NaN(), ""};
+}
+
 class RunCommand : public testing::Test {
  protected:
   RunCommand() {
@@ -60,17 +72,6 @@ class RunCommand : public testing::Test {
     const std::string printed = testing::internal::GetCapturedStdout();
     EXPECT_EQ(status, kSuccess);
     return printed;
-  }
-  /// Value and unit of a line "name = value unit"; NaN where there is none.
-  static std::pair<double, std::string> line(const std::string& summary, const std::string& name) {
-    for (const std::string& text : split_at(summary, '\n')) {
-      if (text.rfind(name + " = ", 0) != 0) continue;
-      std::istringstream stream(text.substr(name.size() + 3));
-      std::pair<double, std::string> found;
-      stream >> found.first >> found.second;
-      return found;
-    }
-    return {std::numeric_limits<double>::quiet_NaN(), ""};
   }
   /// Exit status of the program itself.
   [[nodiscard]] int status_of(const std::string& options) const {

@@ -113,7 +113,7 @@ void CycleRecorder::take(const FreeState& before, const FreeState& after) {
     }
   };
   if (!(before.speed_rad_s > 0) || !(after.speed_rad_s > 0)) {
-    give_up();
+    recording_ = false;
   } else {
     const auto first = static_cast<std::int64_t>(std::floor(before.angle_deg / kDegPerSample)) + 1;
     const auto last = static_cast<std::int64_t>(std::floor(after.angle_deg / kDegPerSample));

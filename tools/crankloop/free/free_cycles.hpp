@@ -63,9 +63,8 @@ class CycleRecorder {
     bool level;
   };
   void begin(const FreeState& at);
-  void give_up() { recording_ = false; }
 
-  bool recording_ = false;
+  bool recording_ = false;  ///< since a firing top dead centre, and forward ever since
   FreeCycle now_;
   std::vector<bool> level_;
   std::vector<NewEdge> new_edges_;

@@ -33,7 +33,8 @@ EngineDefinition loaded(const EngineFile& file, const Arguments& arguments) {
 std::string command_line(const Arguments& arguments) {
   std::string text = "crankloop run " + arguments.file() + " --free";
   for (const char* number : {"--from-rpm", "--seconds", "--tick-us", "--load-ratio", "--load-Nm"}) {
-    if (number != std::string_view("--load-Nm") || arguments.has(number)) text += std::string(" ") + number + " " + shortest(arguments.number(number));
+    if (number == std::string_view("--load-Nm") && !arguments.has(number)) continue;  // the file's brake
+    text += std::string(" ") + number + " " + shortest(arguments.number(number));
   }
   if (arguments.has("--starter")) text += " --starter";
   if (arguments.has("--cut")) text += " --cut " + arguments.text("--cut");

@@ -61,7 +61,7 @@ void take_signals(const FreeOutput<Real>& out, double tick_s, bool first, CycleR
   for (std::size_t w = 0; w < figures.size(); ++w) {
     const auto& signal = out.trigger[w];
     const std::uint32_t listed = listed_edges(signal);
-    if (first) recorder.begin_at(w, ((signal.level ^ signal.edge_count) & 1u) != 0);
+    if (first) recorder.begin_at(w, level_before(signal));
     for (std::uint32_t e = 0; e < listed; ++e) recorder.edge(w, static_cast<double>(signal.edge[e].time_s) / tick_s, signal.edge[e].level != 0);
     figures[w].edges += signal.edge_count;
     figures[w].lost += signal.edge_count - listed;
@@ -69,7 +69,8 @@ void take_signals(const FreeOutput<Real>& out, double tick_s, bool first, CycleR
 }
 
 template <class Real>
-FreeFigures run_ticks(const EngineFile& file, const EngineDefinition& definition, const FreeRequest& request, TickTable<Real>* table, SignalDump* dump) {
+FreeFigures run_ticks(const EngineFile& file, const EngineDefinition& definition, const FreeRequest& request, TickTable<Real>* table,
+                      SignalDump* dump) {
   const FreeOperation& operation = request.operation;
   ExactEngine exact;
   if (const Status refused = exact.init(definition); !refused.ok()) throw file.explain(refused);

@@ -56,5 +56,6 @@ struct FreeReportInput {
   const FreeFigures& figures;
 };
 [[nodiscard]] report::Page free_run_report(const FreeReportInput& input);
+[[nodiscard]] report::Section trigger_signal_section(const FreeReportInput& input);  ///< where there is a whole cycle
 
 }  // namespace crankloop::program

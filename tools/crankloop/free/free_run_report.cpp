@@ -1,8 +1,9 @@
-// The page of `crankloop run --free`: speed, ripple and its harmonics, torque, trigger signals, the books of energy.
+// The page of `crankloop run --free`: speed, ripple and its harmonics, torque, the books of energy; trigger signals: free_run_report_signals.cpp.
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "../engine_report/engine_report_parts.hpp"
 #include "free_run.hpp"
 #include "../number.hpp"
 
@@ -15,13 +16,6 @@ using report::Plot;
 using report::Section;
 using report::Series;
 
-Axis axis(const char* title, const char* unit) {
-  Axis one;
-  one.title = title;
-  one.unit = unit;
-  return one;
-}
-
 Plot plot(const char* title, const Axis& x, const Axis& y) {
   Plot one;
   one.title = title;
@@ -31,7 +25,7 @@ Plot plot(const char* title, const Axis& x, const Axis& y) {
 }
 
 Axis cycle_axis(double cycles) {
-  Axis one = axis("Crank angle", "deg");
+  Axis one = axis_of("Crank angle", "deg");
   one.tick_step = cycles > 1 ? 360 : 90;
   one.range = report::Range{0, 720 * cycles};
   return one;
@@ -66,7 +60,7 @@ Series level_line(const char* name, double value, bool dashed) {
 
 Section speed_section(const FreeReportInput& input) {
   Section section{"speed", "Speed", {}};
-  Plot whole = plot("Over the run", axis("Time", "s"), axis("Speed", "rpm"));
+  Plot whole = plot("Over the run", axis_of("Time", "s"), axis_of("Speed", "rpm"));
   whole.y.include_zero = true;
   Series series;
   for (const Overview::Part& part : input.figures.speed_rpm.parts()) {
@@ -83,7 +77,7 @@ Section speed_section(const FreeReportInput& input) {
     section.blocks.push_back(Paragraph{"No whole cycle of 720 deg was turned forward without a stop: there is no ripple to show.", true});
     return section;
   }
-  Plot ripple = plot("Over the last cycles", cycle_axis(static_cast<double>(cycles.size())), axis("Speed", "rpm"));
+  Plot ripple = plot("Over the last cycles", cycle_axis(static_cast<double>(cycles.size())), axis_of("Speed", "rpm"));
   ripple.caption = "Each firing stroke speeds the crank up, each compression slows it down. 0, 720 ...: firing top dead centre of cylinder 1.";
   ripple.series.push_back(over_cycles(cycles, 0, rpm));
   section.blocks.push_back(std::move(ripple));
@@ -92,7 +86,7 @@ Section speed_section(const FreeReportInput& input) {
 
 Section harmonic_section(const FreeReportInput& input) {
   Section section{"harmonics", "Ripple and torque of the last cycle", {}};
-  Plot bars = plot("Harmonics of the speed", axis("Order per crank turn", ""), axis("Amplitude", "rad/s"));
+  Plot bars = plot("Harmonics of the speed", axis_of("Order per crank turn", ""), axis_of("Amplitude", "rad/s"));
   bars.x.tick_step = 1;
   Series series;
   series.style.draw = report::Draw::bar;
@@ -106,76 +100,15 @@ Section harmonic_section(const FreeReportInput& input) {
   }
   bars.series.push_back(std::move(series));
   section.blocks.push_back(std::move(bars));
-  Plot torque = plot("Torque", cycle_axis(1), axis("Torque", "Nm"));
+  Plot torque = plot("Torque", cycle_axis(1), axis_of("Torque", "Nm"));
   torque.series.push_back(over_cycles(input.figures.cycles, input.figures.cycles.size() - 1, torque_Nm));
   torque.series.back().name = "gas and masses";
   torque.series.push_back(level_line("its mean", last_cycle(input).mean_torque_Nm(), false));
   torque.series.push_back(level_line("friction and load", input.figures.friction_Nm + input.figures.load_Nm, true));
-  torque.caption = "Friction and load at the cycle's mean speed. What lies between them and the mean torque changes the speed from cycle to cycle.";
+  torque.caption =
+      "Friction and load at the cycle's mean speed. What lies between them and the mean torque changes the speed from cycle to cycle.";
   section.blocks.push_back(std::move(torque));
   section.blocks.push_back(std::move(table));
-  return section;
-}
-
-/// A square wave over a part of the cycle, in ms from its begin.
-Series square_wave(const FreeCycle& cycle, std::size_t wheel, double from_s, double to_s) {
-  const double begin_s = cycle.samples.front().time_s;
-  Series series;
-  series.style.draw = report::Draw::step;
-  bool level = cycle.levels[wheel];
-  const auto point = [&](double time_s) {
-    series.x.push_back((time_s - begin_s) * 1e3);
-    series.y.push_back(level ? 1 : 0);
-  };
-  bool begun = false;
-  for (const FreeCycle::Edge& edge : cycle.edges[wheel]) {
-    if (edge.time_s > to_s) break;
-    if (edge.time_s >= from_s && !begun) {
-      point(from_s);
-      begun = true;
-    }
-    level = edge.level;
-    if (begun) point(edge.time_s);
-  }
-  if (!begun) point(from_s);
-  point(to_s);
-  return series;
-}
-
-Plot signal_plot(const std::string& title, const FreeCycle& cycle, std::size_t wheel, double from_s, double to_s) {
-  const double begin_s = cycle.samples.front().time_s;
-  Plot one = plot(title.c_str(), axis("Time in the cycle", "ms"), axis("Level", ""));
-  one.x.range = report::Range{(from_s - begin_s) * 1e3, (to_s - begin_s) * 1e3};
-  one.y.tick_step = 1;
-  one.y.range = report::Range{-0.25, 1.25};
-  one.series.push_back(square_wave(cycle, wheel, from_s, to_s));
-  return one;
-}
-
-/// Twelve edges on either side of the longest time between two: where the gap of a wheel with many teeth is.
-Plot close_up(const std::string& name, const FreeCycle& cycle, std::size_t wheel) {
-  constexpr std::size_t kAround = 12;
-  const std::vector<FreeCycle::Edge>& edges = cycle.edges[wheel];
-  std::size_t longest = 1;
-  for (std::size_t i = 2; i < edges.size(); ++i) {
-    if (edges[i].time_s - edges[i - 1].time_s > edges[longest].time_s - edges[longest - 1].time_s) longest = i;
-  }
-  const std::size_t first = longest > kAround ? longest - kAround : 0;
-  const std::size_t last = std::min(longest + kAround, edges.size() - 1);
-  return signal_plot(name + ", where it is still for longest", cycle, wheel, edges[first].time_s, edges[last].time_s);
-}
-
-Section signal_section(const FreeReportInput& input) {
-  constexpr std::size_t kManyEdges = 50;
-  Section section{"signals", "Trigger signals of the last cycle", {}};
-  const FreeCycle& cycle = last_cycle(input);
-  const std::vector<SignalFigures>& signals = input.figures.signals;
-  for (std::size_t w = 0; w < signals.size(); ++w) {
-    section.blocks.push_back(signal_plot(signals[w].name, cycle, w, cycle.samples.front().time_s, cycle.samples.back().time_s));
-  }
-  for (std::size_t w = 0; w < signals.size(); ++w) {  // beside each other, so that whole cycles can be compared
-    if (cycle.edges[w].size() > kManyEdges) section.blocks.push_back(close_up(signals[w].name, cycle, w));
-  }
   return section;
 }
 
@@ -190,9 +123,10 @@ Section energy_section(const FreeReportInput& input) {
   table.rows.push_back({"Load", "", number(energy.load_J)});
   table.rows.push_back({"Kept by the moving masses", "", number(energy.kinetic_J)});
   section.blocks.push_back(std::move(table));
-  section.blocks.push_back(Paragraph{"In less out: " + report::format_number(energy.missing_ratio(), 2) +
-                                     " of the largest. The gas's work is that of the exact engine over the angle turned, the masses' energy that of the mechanism's "
-                                     "geometry, the others their power at the ticks: none is what the loop itself counts."});
+  section.blocks.push_back(
+      Paragraph{"In less out: " + report::format_number(energy.missing_ratio(), 2) +
+                " of the largest. The gas's work is that of the exact engine over the angle turned, the masses' energy that of the "
+                "mechanism's geometry, the others their power at the ticks: none is what the loop itself counts."});
   return section;
 }
 
@@ -200,9 +134,10 @@ Section method_section(const FreeReportInput& input) {
   Section section{"method", "How this was found", {}};
   section.blocks.push_back(Paragraph{"Command: " + input.request.command_line});
   report::List list;
-  list.items.push_back("The crank is turned by gas, masses, friction, load and starter in ticks of " + shortest(input.request.operation.tick_s * 1e6) + " \u00B5s, in " +
-                       input.request.real + ".");
-  list.items.push_back("Between ticks the angle is the cubic over time that has angle and speed of both; the ripple is read from it each half degree.");
+  list.items.push_back("The crank is turned by gas, masses, friction, load and starter in ticks of " +
+                       shortest(input.request.operation.tick_s * 1e6) + " \u00B5s, in " + input.request.real + ".");
+  list.items.push_back(
+      "Between ticks the angle is the cubic over time that has angle and speed of both; the ripple is read from it each half degree.");
   list.items.push_back("Harmonics are amplitudes of the speed over the crank angle, without what it drifts from the cycle's begin to its end.");
   section.blocks.push_back(std::move(list));
   return section;
@@ -215,7 +150,8 @@ std::vector<report::Fact> facts(const FreeReportInput& input) {
   list.push_back({"Speed at the end", number(f.end.speed_rpm()), "rpm", "after " + shortest(input.request.operation.seconds) + " s"});
   if (!f.cycles.empty()) {
     const FreeCycle& cycle = last_cycle(input);
-    list.push_back({"Irregularity", number(cycle.irregularity_ratio() * 100), "%", "of the last cycle, mean " + number(cycle.mean_speed_rad_s() * kRpmPerRad_s) + " rpm"});
+    list.push_back({"Irregularity", number(cycle.irregularity_ratio() * 100), "%",
+                    "of the last cycle, mean " + number(cycle.mean_speed_rad_s() * kRpmPerRad_s) + " rpm"});
     list.push_back({"Mean torque", number(cycle.mean_torque_Nm()), "Nm", "of the last cycle, indicated"});
     list.push_back({"Friction", number(f.friction_Nm), "Nm", "load " + number(f.load_Nm) + " Nm"});
   }
@@ -250,7 +186,7 @@ report::Page free_run_report(const FreeReportInput& input) {
   page.sections.push_back(speed_section(input));
   if (!input.figures.cycles.empty()) {
     page.sections.push_back(harmonic_section(input));
-    if (!input.figures.signals.empty()) page.sections.push_back(signal_section(input));
+    if (!input.figures.signals.empty()) page.sections.push_back(trigger_signal_section(input));
   }
   page.sections.push_back(energy_section(input));
   page.sections.push_back(method_section(input));

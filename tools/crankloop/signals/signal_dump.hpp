@@ -26,6 +26,12 @@ template <class Signal>
   return signal.edge_count < kRoom ? signal.edge_count : kRoom;
 }
 
+/// The level as the tick began: each edge turned it over.
+template <class Signal>
+[[nodiscard]] constexpr bool level_before(const Signal& signal) noexcept {
+  return ((signal.level ^ signal.edge_count) & 1u) != 0;
+}
+
 class SignalDump {
  public:
   /// Throws InputError for a file without wheels.
@@ -37,7 +43,7 @@ class SignalDump {
     const double begin_s = end_s - tick_s;
     for (std::size_t w = 0; w < wheels_; ++w) {
       const auto& signal = out.trigger[w];
-      if (!begun_) vcd_.level(w, begin_s, ((signal.level ^ signal.edge_count) & 1u) != 0);  // each edge turns it over
+      if (!begun_) vcd_.level(w, begin_s, level_before(signal));
       for (std::uint32_t e = 0; e < listed_edges(signal); ++e) {
         vcd_.level(w, begin_s + static_cast<double>(signal.edge[e].time_s), signal.edge[e].level != 0);
       }
