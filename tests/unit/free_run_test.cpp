@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "crankloop/engine_file.hpp"
+#include "crankloop/engine_file/engine_file.hpp"
 #include "crankloop/number.hpp"
 #include "support/ripple_theory.hpp"
 #include "support/run_command.hpp"
