@@ -419,7 +419,7 @@ TYPED_TEST(SavedState, IsRefusedWhereANumberLiesOutsideWhatAStepCanCompute) {
   }
   if constexpr (S::bad_input_count) {
     bad = good;
-    bad.bad_input_kinds = kFaultEventBudget;  // no input's
+    bad.bad_input_kinds = kInputFaults + 1;
     EXPECT_TRUE(refuses(loaded(rig, bad), Reason::out_of_range, "state.bad_input"));
   }
 }
