@@ -34,12 +34,18 @@ void set_speed(In& in, std::int32_t rpm) noexcept {
   phase_per_tick_high = static_cast<std::uint32_t>((std::uint64_t{1} << 32) * static_cast<std::uint64_t>(rpm) * COSTS_TICK_US / 120'000'000u);
 }
 
+/// A template, so that a scene without a crank's motion need not have it in its output.
+template <class Out>
+Real speed_of(const Out& out) noexcept {
+  return out.speed_rad_s;
+}
+
 template <class In>
 void turn_crank(In& in) noexcept {
   if constexpr (std::is_base_of_v<crankloop::PhaseInput, In>) in.crank += crankloop::Phase{std::uint64_t{phase_per_tick_high} << 32};
   if constexpr (crankloop::Needs<under_test::Scene>::crank_dynamics) {
     constexpr Real kBrake_Nm_s = 50;
-    in.load_Nm = kBrake_Nm_s * (engine.output().speed_rad_s - held_rad_s);
+    in.load_Nm = kBrake_Nm_s * (speed_of(engine.output()) - held_rad_s);
   }
 }
 

@@ -10,6 +10,8 @@
 // method is then of third order, at the price of one number.
 #pragma once
 
+#include <cstdint>
+
 #include <crankloop/tick/io.hpp>
 #include <crankloop/tick/square_root.hpp>
 #include <crankloop/tick/tables.hpp>
@@ -27,9 +29,12 @@ class CrankStep {
     gas_before_Nm_ = gas_Nm;
     starter_ = starter;
     const Real tick_s = drive_.tick_s;
-    const bool from_rest = state_.reduced_speed == Real{0};
-    friction_s_ = from_rest ? tick_s : tick_s / 2;  // a crank that breaks away has had no friction in the first half
-    if (!from_rest) slow_down(tick_s / 2);
+    before_ = state_.reduced_speed;
+    friction_s_ = tick_s;
+    if (begin_with_friction(push_at_rest_Nm(gas_Nm))) {
+      slow_down(tick_s / 2, Stop::may_pass);
+      friction_s_ = tick_s / 2;
+    }
     const Real push_Nm = gas_Nm + starter_Nm(speed_rad_s_) - state_.load_Nm;
     held_ = holds(push_Nm);
     if (held_) {
@@ -67,7 +72,11 @@ class CrankStep {
     speed_rad_s_ = held_to_limit(reached_rad_s);
     if (speed_rad_s_ != reached_rad_s) set_reduced(speed_rad_s_ / per_root);
     state_.lag_rad_s = cubic_rad_s() - predicted_rad_s_;
-    slow_down(friction_s_);
+    if (turns_round()) {
+      turn_friction_round();
+    } else {
+      slow_down(friction_s_, Stop::stays);
+    }
   }
 
   /// At the end of the tick. `motion` has the phase already.
@@ -136,23 +145,61 @@ class CrankStep {
     state_.reduced_speed = sum;
   }
 
+  /// What pushes a crank that stands.
+  [[nodiscard]] Real push_at_rest_Nm(Real gas_Nm) const noexcept { return gas_Nm + starter_Nm(Real{0}) - state_.load_Nm; }
+  /// False where it would only stop a crank that is breaking away: that has all its friction at the end.
+  [[nodiscard]] bool begin_with_friction(Real push_Nm) const noexcept {
+    if (before_ == Real{0}) return false;
+    const bool breaks_away = before_ > 0 ? push_Nm > crank_.drag_Nm : push_Nm < -crank_.drag_Nm;
+    return !breaks_away || drive_.tick_s / 2 * crank_.drag_Nm * state_.per_root_inertia < size(before_);
+  }
+
+  enum class Stop : std::uint8_t { stays, may_pass };
   /// Friction for a while: du/dt = -drag / sqrt(J), the drag's slope taken half implicitly, so that it is second order and no drag, however
-  /// steep, overshoots.
-  void slow_down(Real time_s) noexcept {
+  /// steep, overshoots. A crank that it stops stays there, or passes through where what pushes it back is more than friction.
+  void slow_down(Real time_s, Stop stop) noexcept {
     const Real speed = size(speed_rad_s_);
     const Real drag = drag_Nm(speed);
     if (!(drag > 0)) return;
     const Real per_root = state_.per_root_inertia;
     const Real slope_Nm_s = crank_.drag_Nm_s + 2 * crank_.drag_Nm_s2 * speed;
     const Real impulse = time_s * drag * per_root / (Real{1} + time_s / 2 * slope_Nm_s * (per_root * per_root));
-    if (impulse >= size(state_.reduced_speed)) {
+    const bool stops = impulse >= size(state_.reduced_speed);
+    if (stops && !(stop == Stop::may_pass && size(push_at_rest_Nm(gas_before_Nm_)) > crank_.drag_Nm)) {
       set_reduced(Real{0});
       speed_rad_s_ = Real{0};
       return;
     }
-    const Real change = state_.reduced_speed < 0 ? impulse : -impulse;
+    push_reduced(state_.reduced_speed < 0 ? impulse : -impulse);
+  }
+  void push_reduced(Real change) noexcept {
     add_reduced(change);
-    speed_rad_s_ += change * per_root;
+    speed_rad_s_ += change * state_.per_root_inertia;
+  }
+
+  /// Whether the crank comes through standstill in this tick: what pushes it back is more than friction, and half a tick of that stops it.
+  [[nodiscard]] bool turns_round() const noexcept {
+    const Real back_Nm = before_ > 0 ? -push_at_rest_Nm(gas_Nm_) : push_at_rest_Nm(gas_Nm_);
+    const Real left = before_ > 0 ? state_.reduced_speed : -state_.reduced_speed;
+    return before_ != Real{0} && back_Nm > crank_.drag_Nm && left <= drive_.tick_s / 2 * crank_.drag_Nm * state_.per_root_inertia;
+  }
+  /// Friction turns round with the crank: it has acted for half of the tick in the old sense, and is due in the new one for as much, less twice
+  /// the time by which the crank stood still after the middle of the tick. Speeds at hand have that friction, but no other, so they tell this
+  /// time too long, by what friction adds to the forces that turn the crank round.
+  void turn_friction_round() noexcept {
+    const Real sense = before_ > 0 ? Real{1} : Real{-1};
+    const Real per_inertia = state_.per_root_inertia * state_.per_root_inertia;
+    const Real by_forces_rad_s = size(start_.speed_rad_s - speed_rad_s_);
+    const Real by_friction_rad_s = drive_.tick_s * crank_.drag_Nm * per_inertia;
+    const Real late_rad_s = sense * (start_.speed_rad_s + speed_rad_s_) / 2;
+    const Real time_s = drive_.tick_s * (static_cast<Real>(0.5) - 2 * late_rad_s / (by_forces_rad_s + by_friction_rad_s));
+    const Real change = sense * (time_s * crank_.drag_Nm * state_.per_root_inertia);
+    if (sense * (state_.reduced_speed + change) < 0) {
+      push_reduced(change);
+    } else {  // by rounding alone
+      set_reduced(Real{0});
+      speed_rad_s_ = Real{0};
+    }
   }
 
   /// Work changes u^2 / 2. Through a reversal too; should the predicted angle be a hair beyond the one that the energy reaches, the crank stands.
@@ -174,7 +221,7 @@ class CrankStep {
   }
   /// From rest, or through standstill: where friction could hold the crank, that is as far as it goes.
   void turn_back(Real before, Real after) noexcept {
-    const Real push_Nm = gas_Nm_ + starter_Nm(Real{0}) - state_.load_Nm;
+    const Real push_Nm = push_at_rest_Nm(gas_Nm_);
     set_reduced(before != Real{0} && size(push_Nm) <= crank_.drag_Nm ? Real{0} : after);
   }
 
@@ -187,6 +234,7 @@ class CrankStep {
   Real predicted_rad_s_{};   ///< mean speed by the start alone
   Real mean_rad_s_{};        ///< of the angle turned
   Real ahead_{};             ///< u at the tick's end by the forces at its start: only its sign counts
+  Real before_{};            ///< u at the tick's begin
   Real friction_s_{};        ///< time that is left for friction
   Real gas_before_Nm_{};
   Real gas_Nm_{};            ///< at the end of the tick
