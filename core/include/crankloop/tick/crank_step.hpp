@@ -181,7 +181,7 @@ class CrankStep {
   [[nodiscard]] bool turns_round() const noexcept {
     const Real back_Nm = before_ > 0 ? -push_at_rest_Nm(gas_Nm_) : push_at_rest_Nm(gas_Nm_);
     const Real left = before_ > 0 ? state_.reduced_speed : -state_.reduced_speed;
-    return before_ != Real{0} && back_Nm > crank_.drag_Nm && left <= drive_.tick_s / 2 * crank_.drag_Nm * state_.per_root_inertia;
+    return before_ != Real{0} && crank_.drag_Nm > 0 && back_Nm > crank_.drag_Nm && left <= drive_.tick_s / 2 * crank_.drag_Nm * state_.per_root_inertia;
   }
   /// Friction turns round with the crank: it has acted for half of the tick in the old sense, and is due in the new one for as much, less twice
   /// the time by which the crank stood still after the middle of the tick. Speeds at hand have that friction, but no other, so they tell this
@@ -191,8 +191,10 @@ class CrankStep {
     const Real per_inertia = state_.per_root_inertia * state_.per_root_inertia;
     const Real by_forces_rad_s = size(start_.speed_rad_s - speed_rad_s_);
     const Real by_friction_rad_s = drive_.tick_s * crank_.drag_Nm * per_inertia;
-    const Real late_rad_s = sense * (start_.speed_rad_s + speed_rad_s_) / 2;
-    const Real time_s = drive_.tick_s * (static_cast<Real>(0.5) - 2 * late_rad_s / (by_forces_rad_s + by_friction_rad_s));
+    const Real twice_late_rad_s = sense * (start_.speed_rad_s + speed_rad_s_);
+    const Real turned_rad_s = by_forces_rad_s + by_friction_rad_s;  // 0 where a friction of next to nothing underflows
+    const Real twice_late = turned_rad_s > 0 ? limited(twice_late_rad_s / turned_rad_s, Real{1}) : Real{0};
+    const Real time_s = drive_.tick_s * (static_cast<Real>(0.5) - twice_late);
     const Real change = sense * (time_s * crank_.drag_Nm * state_.per_root_inertia);
     if (sense * (state_.reduced_speed + change) < 0) {
       push_reduced(change);
