@@ -23,6 +23,10 @@ using namespace tick_test;
 
 constexpr std::uint64_t kDegree = ~std::uint64_t{0} / 720 + 1;  ///< phase units, rounded: 16 of 2^64 are lost over a cycle
 
+struct OneWheel : Scene {
+  static constexpr Count cylinders = exactly<4>;
+  static constexpr Count triggers = exactly<1>;
+};
 /// Wheels at an angle that the test gives.
 struct Measured : Scene {
   static constexpr Count cylinders = exactly<4>;
@@ -135,7 +139,65 @@ TEST(TriggerWheelRules, RefuseAPhaserOnTheCrankOrOfATrainThatIsNotThere) {
   EXPECT_TRUE(refuses(validate(engine), Reason::out_of_range, "triggers"));
 }
 
+TEST(TriggerWheelRules, RefuseNumbersThatNoWheelHas) {
+  TriggerWheel wheel = toothed(TriggerShaft::cam, 4, {}, 0);
+  for (const int gaps : {-1, kMaxToothGaps + 1}) {
+    wheel.gap_count = gaps;
+    EXPECT_TRUE(refuses(validate(wheel), Reason::out_of_range, "trigger.pattern")) << gaps;
+  }
+  wheel.gap_count = 0;
+  for (const int train : {-2, int{kMaxTrains}}) {
+    wheel.train = train;
+    EXPECT_TRUE(refuses(validate(wheel), Reason::out_of_range, "trigger.on")) << train;
+  }
+  wheel.train = -1;
+  wheel.shaft = static_cast<TriggerShaft>(2);
+  EXPECT_TRUE(refuses(validate(wheel), Reason::out_of_range, "trigger.on"));
+  wheel.shaft = TriggerShaft::cam;
+  wheel.pattern = static_cast<TriggerPattern>(2);
+  EXPECT_TRUE(refuses(validate(wheel), Reason::out_of_range, "trigger.pattern"));
+  wheel.pattern = TriggerPattern::edges;
+  const double one_deg = 10;
+  wheel.edges_deg = &one_deg;
+  wheel.edge_count = 1;
+  EXPECT_TRUE(refuses(validate(wheel), Reason::too_few_points, "trigger.edges"));
+  EXPECT_TRUE(refuses(validate(one_wheel(wheel)), Reason::too_few_points, "trigger.edges", 0)) << "of the engine's first wheel";
+  EngineDefinition engine = diesel_495();
+  engine.trigger_count = -1;
+  EXPECT_TRUE(refuses(validate(engine), Reason::out_of_range, "triggers"));
+}
+
 // ---- tables ----------------------------------------------------------------------------------------------------------------
+
+/// Edges given one by one, on the crank and on a cam.
+TEST(TriggerTables, HaveGivenEdgesWhereTheyStand) {
+  for (const auto& [shaft, turn_deg] : {std::pair{TriggerShaft::crank, 360.0}, std::pair{TriggerShaft::cam, 720.0}}) {
+    const double edges_deg[] = {90, 126, 300, 405};
+    TriggerWheel wheel;
+    wheel.shaft = shaft;
+    wheel.pattern = TriggerPattern::edges;
+    wheel.edges_deg = edges_deg;
+    wheel.edge_count = 4;
+    const auto rigged = rig<double, OneWheel>(one_wheel(wheel));
+    const TriggerTrack& track = rigged->storage.tables().triggers->wheel[0];
+    EXPECT_EQ(track.starts, std::uint64_t{1} << 61) << "90 of 720 deg";
+    ASSERT_EQ(track.edge_count, 4u);
+    for (std::size_t e = 0; e < 4; ++e) {
+      EXPECT_NEAR(track.edges[e] * 0x1p-32 * turn_deg, edges_deg[e] - 90, 1e-6) << e;
+    }
+  }
+}
+
+TEST(TriggerTables, AreRefusedWithoutThemOrWithMoreThanTheSceneHasRoomFor) {
+  const auto rigged = rig<double, OneWheel>(one_wheel(toothed(TriggerShaft::crank, 60, {{58, 2}}, 246)));
+  auto tables = rigged->storage.tables();
+  const TriggerWheels two{tables.triggers->wheel, 2};
+  Engine<double, OneWheel> engine;
+  tables.triggers = &two;
+  EXPECT_TRUE(refuses(engine.init(tables), Reason::out_of_range, "tables.triggers"));
+  tables.triggers = nullptr;
+  EXPECT_TRUE(refuses(engine.init(tables), Reason::missing_table, "tables"));
+}
 
 TEST(TriggerTables, HaveTheEdgesOfTheDrawing) {
   const std::vector<DrawnWheel> wheels = drawn_wheels();
