@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include <crankloop/tabulate/summary.hpp>
@@ -483,6 +484,25 @@ TYPED_TEST(CrankStep, AnyInputGivesFiniteOutputsWithinTheSpeedLimit) {
   survives_anything<Real, GivenPressure>(extreme(true), 2e-3, 100'000, "heavy, given pressure", false);
   survives_anything<Real, Fired>(extreme(false), 1e-6, 100'000, "light");
   survives_anything<Real, GivenPressure>(extreme(false), 2e-3, 100'000, "light, given pressure");
+}
+
+TEST(CrankTables, AreRefusedWhereOneThatTheSceneReadsIsMissing) {
+  using S = scenes::FreeRunning;
+  const auto storage = std::make_unique<TableStorage<float, S>>();
+  ASSERT_TRUE(storage->build(free_diesel(), {100e-6}).ok());
+  const auto refused_without = [&](auto take) {
+    auto tables = storage->tables();
+    take(tables);
+    Engine<float, S> engine;
+    const Status status = engine.init(tables);
+    return status.reason == Reason::missing_table;
+  };
+  EXPECT_FALSE(refused_without([](auto&) {}));
+  EXPECT_TRUE(refused_without([](auto& t) { t.crank_dynamics = nullptr; }));
+  EXPECT_TRUE(refused_without([](auto& t) { t.cut_grid = nullptr; }));
+  EXPECT_TRUE(refused_without([](auto& t) { t.cut_torque = nullptr; }));
+  EXPECT_TRUE(refused_without([](auto& t) { t.triggers = nullptr; }));
+  EXPECT_TRUE(refused_without([](auto& t) { t.drive = nullptr; }));
 }
 
 }  // namespace
