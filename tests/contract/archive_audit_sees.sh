@@ -25,6 +25,8 @@ sees() {
 
 house='-fno-exceptions -fno-rtti -fno-threadsafe-statics -ffp-contract=off'
 sees '' "$house" 'namespace crankloop { float f(float a, float b, float c) { return a * b + c; } }'
+# clang keeps a lambda that it does not inline; its name is local to a function of ours
+sees '' "$house" 'namespace crankloop { template <class F> [[gnu::noinline]] int twice(F f) { return f() + f(); } inline int h(int a) { return twice([a]() __attribute__((noinline)) { return a; }); } int g(int a) { return h(a); } }'
 sees '' "$house" '#include <cstring>
 namespace it { struct S { char c[999]; }; void f(S& a, const S& b) { std::memcpy(&a, &b, sizeof a); } }'
 sees 'asks the image for' "$house" '#include <cstdlib>

@@ -19,6 +19,7 @@ class TickProbe {
   explicit TickProbe(const EngineDefinition& definition) : tables_{std::make_unique<TableStorage<Real, scenes::Whole>>()} {
     EngineDefinition without_valves = definition;  // which need time to move, not an angle
     without_valves.train_count = 0;
+    without_valves.trigger_count = 0;  // a wheel may turn with a valve train's cam
     const Status status = tables_->build(without_valves, {kTick_s});
     if (!status.ok()) throw InputError(std::string(status.field) + " " + describe(status.reason));
   }

@@ -1,0 +1,70 @@
+// The example that each command's help shows, on every sample engine: what a new user tries first.
+#include <gtest/gtest.h>
+#include <stdlib.h>  // mkdtemp
+#include <sys/wait.h>
+
+#include <filesystem>
+#include <fstream>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "crankloop/commands.hpp"
+
+namespace crankloop::program {
+
+void PrintTo(const Command* command, std::ostream* out) { *out << command->name; }
+
+namespace {
+
+const std::filesystem::path kEngines = CRANKLOOP_SOURCE_DIR "/tools/engines";
+
+std::vector<std::string> sample_engines() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(kEngines)) {
+    if (entry.path().extension() == ".ini") names.push_back(entry.path().filename());
+  }
+  return names;
+}
+
+/// `crankloop COMMAND one.ini ...` with another engine, by the program under test.
+std::string with_engine(std::string example, const std::string& engine) {
+  for (const std::string& name : sample_engines()) {
+    if (const std::size_t at = example.find(name); at != std::string::npos) {
+      example.replace(at, name.size(), engine);
+      break;
+    }
+  }
+  return std::string("'") + CRANKLOOP_PROGRAM + "'" + example.substr(example.find(' '));
+}
+
+class SampleEngines : public testing::TestWithParam<const Command*> {
+ protected:
+  SampleEngines() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+    std::filesystem::copy(kEngines, folder_, std::filesystem::copy_options::recursive);
+  }
+  ~SampleEngines() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path folder_;
+};
+
+TEST_P(SampleEngines, GoThroughTheExampleOf) {
+  ASSERT_GE(sample_engines().size(), 2U);
+  for (const std::string& engine : sample_engines()) {
+    const std::string command = with_engine(GetParam()->example, engine);
+    const std::string output = (folder_ / "output").string();
+    const int status = std::system(("cd '" + folder_.string() + "' && " + command + " >>'" + output + "' 2>&1").c_str());
+    std::ifstream file(output);
+    EXPECT_EQ(WEXITSTATUS(status), 0) << command << "\n" << file.rdbuf();
+  }
+}
+
+// Those that take an engine and end by themselves; `live` has its own test.
+INSTANTIATE_TEST_SUITE_P(Command, SampleEngines,
+                         testing::Values(&kBalance, &kForces, &kKinematics, &kLift, &kRedline, &kRun, &kShow, &kTables, &kValve),
+                         [](const auto& command) { return std::string(command.param->name); });
+
+}  // namespace
+}  // namespace crankloop::program
