@@ -76,6 +76,14 @@ require_cmake_3_22() {
   esac
 }
 
+# Several builds compile the same sources with the same flags, and the next run most of them again: with ccache each once.
+use_compiler_cache() {
+  has_command ccache || return 0
+  export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
+  CCACHE_BASEDIR=$(pwd) CCACHE_NOHASHDIR=1  # a checkout of another path counts as the same
+  export CCACHE_BASEDIR CCACHE_NOHASHDIR
+}
+
 # ---- one part after the other -----------------------------------------------------------------------------------------------
 
 # run_logged LOG command...: quiet; when the command fails, the end of what it printed goes to stderr.

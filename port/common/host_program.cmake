@@ -5,9 +5,9 @@ set(CRANKLOOP_HOST_TOOLS "${PROJECT_BINARY_DIR}/host-tools" CACHE PATH "Where th
 add_custom_target(crankloop_host_program
   COMMAND ${CMAKE_COMMAND} -E env --unset=CXX --unset=CXXFLAGS --unset=LDFLAGS --unset=CMAKE_TOOLCHAIN_FILE
     ${CMAKE_COMMAND} -S "${PROJECT_SOURCE_DIR}" -B "${CRANKLOOP_HOST_TOOLS}" -DCMAKE_BUILD_TYPE=Release
-  COMMAND ${CMAKE_COMMAND} --build "${CRANKLOOP_HOST_TOOLS}" --target crankloop_program
-  BYPRODUCTS "${CRANKLOOP_HOST_TOOLS}/bin/crankloop"
+  COMMAND ${CMAKE_COMMAND} --build "${CRANKLOOP_HOST_TOOLS}" --target crankloop_table_maker --parallel
+  BYPRODUCTS "${CRANKLOOP_HOST_TOOLS}/bin/crankloop_table_maker"
   COMMENT "The program that makes the tables, for the building machine"
   USES_TERMINAL
   VERBATIM)
-set(CRANKLOOP_PROGRAM "${CRANKLOOP_HOST_TOOLS}/bin/crankloop")
+set(CRANKLOOP_PROGRAM "${CRANKLOOP_HOST_TOOLS}/bin/crankloop_table_maker")

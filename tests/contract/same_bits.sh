@@ -18,7 +18,7 @@ build_and_run() {
   for engine in "$engines"/*.ini; do
     for real in float double; do
       for integrator in rk4 exponential; do
-        "$out/$1/crankloop/bin/crankloop" tables "$engine" --tick-us 100 --real $real --integrator $integrator >"$out/$1.tables" &&
+        "$out/$1/crankloop/bin/crankloop_table_maker" tables "$engine" --tick-us 100 --real $real --integrator $integrator >"$out/$1.tables" &&
           cksum <"$out/$1.tables" >>"$out/$1.txt" || return 1
       done
     done

@@ -1,5 +1,5 @@
-// The subcommands. To add one: write NAME.cpp that defines its Command, declare that below, and add it to kCommands in
-// main.cpp:
+// The subcommands. To add one: write NAME.cpp that defines its Command, declare that below, and add it to the list
+// in all_commands.cpp:
 //
 //     constexpr Option kOptions[] = {number("--rpm", "N", above(0).up_to(100000), "engine speed in rpm")};
 //     int run_forces(const Arguments& arguments) { ... return kSuccess; }
@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "arguments.hpp"
 
@@ -36,6 +37,10 @@ struct Command {
   Options options;
   int (*run)(const Arguments&);  ///< returns an ExitStatus; throws the types of error.hpp
 };
+
+/// Of this program, in the order in which its help lists them; the first gives the example. all_commands.cpp has them all, table_commands.cpp
+/// those of the program that crankloop_add_scene builds to make its tables.
+const std::vector<const Command*>& commands();
 
 extern const Command kBalance;
 extern const Command kBench;

@@ -22,9 +22,6 @@
 namespace crankloop::program {
 namespace {
 
-constexpr const Command* kCommands[] = {&kShow,  &kMasses,  &kKinematics, &kForces, &kBalance, &kLift,  &kValve,
-                                          &kRedline, &kRun,  &kLive,       &kBench,  &kStress,  &kTables};
-
 constexpr std::size_t kNameColumn = 18;
 
 std::string in_column(std::string name, std::size_t width = kNameColumn) {
@@ -59,11 +56,11 @@ std::string help() {
   std::string text =
       "crankloop: an engine's mechanics at a fixed time step\n\nusage: crankloop COMMAND [FILE] [--option "
       "value]...\n\n";
-  for (const Command* command : kCommands) text += in_column(command->name) + command->summary + "\n";
+  for (const Command* command : commands()) text += in_column(command->name) + command->summary + "\n";
   text += in_column("help COMMAND") + "usage, options and an example of a command\n";
   text += in_column("help engine-file") + "sections, keys, units and ranges of an engine file\n";
   text += in_column("--version") + "prints the version\n";
-  text += "\nexample: " + std::string(kCommands[0]->example) + "\n";
+  text += "\nexample: " + std::string(commands().front()->example) + "\n";
   text +=
       "\nBad input ends with one line on stderr, FILE:LINE: what is wrong, and exit status 2, before anything is "
       "written.\n";
@@ -78,7 +75,7 @@ std::string engine_file_help() {
 
 const Command& find_command(const std::string& name) {
   std::vector<std::string> names;
-  for (const Command* command : kCommands) {
+  for (const Command* command : commands()) {
     if (name == command->name) return *command;
     names.emplace_back(command->name);
   }

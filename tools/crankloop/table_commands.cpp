@@ -1,0 +1,10 @@
+#include "commands.hpp"
+
+namespace crankloop::program {
+
+const std::vector<const Command*>& commands() {
+  static const std::vector<const Command*> all = {&kTables};
+  return all;
+}
+
+}  // namespace crankloop::program
