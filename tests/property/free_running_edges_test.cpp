@@ -127,7 +127,7 @@ constexpr double kWithin_rev = 1e-6;
 constexpr double kExactTick_s = 1e-6;  ///< the shortest there is
 
 TEST(FreeRunningEdges, OfAStartIdlingAndABrakedStopAreThoseOfTheExactMotion) {
-  for (const auto& [course, tick_s] : {std::pair<Course, double>{{"start", 0.5, 0, input(0.5, true), true, 0}, 20e-6},
+  for (const auto& [course, tick_s] : {std::pair<Course, double>{{"start", 0.5, 0, input(0.5, true), true, 0}, 100e-6},
                                     {{"idle", 0.5, 84, input(0.3, false), true, 0}, 100e-6},
                                     {{"2000 rpm", 0.3, 210, input(0.6, false), true, 60}, 100e-6},
                                     {{"stop", 0.3, 84, input(0, false), true, 900}, 100e-6}}) {

@@ -11,7 +11,7 @@
 #include "cam_smoothing.hpp"
 
 #include <crankloop/tabulate/elementary.hpp>
-#include <crankloop/tick/square_root.hpp>
+#include <crankloop/tick/one_instruction.hpp>
 
 #include "quintic_basis.hpp"
 

@@ -4,7 +4,7 @@
 #include <type_traits>
 
 #include <crankloop/tabulate/valve_lift.hpp>
-#include <crankloop/tick/square_root.hpp>
+#include <crankloop/tick/one_instruction.hpp>
 
 #include "curve_fit.hpp"
 #include "phase_units.hpp"

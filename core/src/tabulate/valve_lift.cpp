@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include <crankloop/tabulate/elementary.hpp>
-#include <crankloop/tick/square_root.hpp>
+#include <crankloop/tick/one_instruction.hpp>
 
 namespace crankloop {
 

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include <crankloop/tick/square_root.hpp>
+#include <crankloop/tick/one_instruction.hpp>
 
 namespace crankloop {
 namespace {

@@ -1,19 +1,20 @@
 // One tick of a crank that is turned by forces: docs/model.md "Crank dynamics".
 //
-// What belongs here: the integration of angle and speed, friction and starter. What does not: gas torque and its work, which come from
-// tables (tick/mechanisms_step.hpp).
+// What belongs here: the integration of angle and speed, friction. What does not: gas torque and its work, which come from tables
+// (tick/mechanisms_step.hpp), and the starter's torque (tick/starter.hpp).
 //
 // The state is the reduced speed u = w sqrt(J_eff): u^2 / 2 is the kinetic energy, so work changes it without a term in dJ/da, and an energy
 // balance is kept to rounding. A tick is half of the friction, then gas, load and starter over the angle turned, then the other half of the
-// friction: second order, and friction can stop the crank but never turn it back. The angle is predicted from the speed and its rate; when the
-// tick's other end is known too, a better value is (the cubic through both), and what lacks is turned in the next tick: without friction the
-// method is then of third order, at the price of one number.
+// friction: second order, and friction can stop the crank but never turn it back; where it is less than what pushes, a crank that slows down goes
+// through standstill. The angle is predicted from the speed and its rate; when the tick's other end is known too, a better value is (the cubic
+// through both), and what lacks is turned in the next tick: without friction the method is then of third order, at the price of one number.
 #pragma once
 
 #include <cstdint>
 
 #include <crankloop/tick/io.hpp>
-#include <crankloop/tick/square_root.hpp>
+#include <crankloop/tick/one_instruction.hpp>
+#include <crankloop/tick/starter.hpp>
 #include <crankloop/tick/tables.hpp>
 
 namespace crankloop::detail {
@@ -24,10 +25,10 @@ class CrankStep {
   CrankStep(const Drive<Real>& drive, const CrankDynamics<Real>& crank, CrankState<Real>& state, Real& speed_rad_s) noexcept
       : drive_{drive}, crank_{crank}, state_{state}, speed_rad_s_{speed_rad_s}, speed_before_rad_s_{speed_rad_s} {}
 
-  /// The first half: answers how far the crank turns. `gas_Nm` as it is before the tick; a scene without starter gives `starter` = false.
-  [[nodiscard]] Phase turn(Real gas_Nm, bool starter) noexcept {
+  /// The first half: answers how far the crank turns. `gas_Nm` as it is before the tick; a scene without starter says that it is off.
+  [[nodiscard]] Phase turn(Real gas_Nm, bool starter_is_on) noexcept {
     gas_before_Nm_ = gas_Nm;
-    starter_ = starter;
+    if (starter_is_on) starter_ = {crank_.starter_stall_Nm, crank_.starter_slope_Nm_s};
     const Real tick_s = drive_.tick_s;
     before_ = state_.reduced_speed;
     friction_s_ = tick_s;
@@ -35,7 +36,7 @@ class CrankStep {
       slow_down(tick_s / 2, Stop::may_pass);
       friction_s_ = tick_s / 2;
     }
-    const Real push_Nm = gas_Nm + starter_Nm(speed_rad_s_) - state_.load_Nm;
+    const Real push_Nm = gas_Nm + starter_.torque_Nm(speed_rad_s_) - state_.load_Nm;
     held_ = holds(push_Nm);
     if (held_) {
       state_.lag_rad_s = Real{0};
@@ -44,7 +45,9 @@ class CrankStep {
     const Real per_root = state_.per_root_inertia;
     ahead_ = state_.reduced_speed + tick_s * (push_Nm * per_root);
     start_ = {speed_rad_s_, acceleration_rad_s2(push_Nm)};
-    predicted_rad_s_ = held_to_limit(start_.speed_rad_s + start_.acceleration_rad_s2 * (tick_s / 2));
+    const Real gain_rad_s = start_.acceleration_rad_s2 * tick_s;
+    const Real share = starter_.share_of_gain(speed_rad_s_, tick_s, per_root * per_root);
+    predicted_rad_s_ = held_to_limit(start_.speed_rad_s + gain_rad_s / 2 * share);
     mean_rad_s_ = limited(predicted_rad_s_ + state_.lag_rad_s, drive_.speed_limit_rad_s);
     return Phase::from_cycles(mean_rad_s_ * drive_.cycles_per_tick_per_rad_s);
   }
@@ -67,7 +70,8 @@ class CrankStep {
     state_.inertia_slope_kg_m2 = at.inertia_slope_kg_m2;
     gas_Nm_ = at.gas_Nm;
     if (held_) return;
-    gain(at.gas_work_J + (starter_Nm(mean_rad_s_) - state_.load_Nm) * turned_rad());
+    const Real starter_J = starter_.work_J(start_.speed_rad_s, start_.acceleration_rad_s2 * drive_.tick_s, mean_rad_s_, drive_.tick_s);
+    gain(at.gas_work_J + starter_J - state_.load_Nm * turned_rad());
     const Real reached_rad_s = state_.reduced_speed * per_root;
     speed_rad_s_ = held_to_limit(reached_rad_s);
     if (speed_rad_s_ != reached_rad_s) set_reduced(speed_rad_s_ / per_root);
@@ -82,8 +86,8 @@ class CrankStep {
   /// At the end of the tick. `motion` has the phase already.
   void show(CrankMotion<Real>& motion) const noexcept {
     const Real w = speed_rad_s_;
-    const Real push_Nm = gas_Nm_ + starter_Nm(w) - state_.load_Nm;
-    Real friction_Nm = drag_Nm(size(w));
+    const Real push_Nm = gas_Nm_ + starter_.torque_Nm(w) - state_.load_Nm;
+    Real friction_Nm = drag_Nm(magnitude(w));
     if (holds(push_Nm)) {
       friction_Nm = push_Nm;
     } else if (w < 0 || (w == Real{0} && push_Nm < 0)) {
@@ -94,21 +98,13 @@ class CrankStep {
     motion.friction_Nm = friction_Nm;
   }
 
-  /// It never brakes, and gives no more than its stall torque.
-  [[nodiscard]] Real starter_Nm(Real speed_rad_s) const noexcept {
-    if (!starter_) return Real{0};
-    if (speed_rad_s <= 0) return crank_.starter_stall_Nm;
-    const Real torque_Nm = crank_.starter_stall_Nm - crank_.starter_slope_Nm_s * speed_rad_s;
-    return torque_Nm > 0 ? torque_Nm : Real{0};
-  }
-  [[nodiscard]] Real starter_Nm() const noexcept { return starter_Nm(speed_rad_s_); }
+  [[nodiscard]] Real starter_Nm() const noexcept { return starter_.torque_Nm(speed_rad_s_); }
 
   [[nodiscard]] bool overspeed() const noexcept { return overspeed_; }
   [[nodiscard]] Real gas_before_Nm() const noexcept { return gas_before_Nm_; }
   [[nodiscard]] Real speed_before_rad_s() const noexcept { return speed_before_rad_s_; }
 
  private:
-  [[nodiscard]] static Real size(Real x) noexcept { return x < 0 ? -x : x; }
   [[nodiscard]] static Real limited(Real x, Real most) noexcept { return x > most ? most : x < -most ? -most : x; }
   [[nodiscard]] Real held_to_limit(Real speed_rad_s) noexcept {
     const Real held = limited(speed_rad_s, drive_.speed_limit_rad_s);
@@ -120,7 +116,7 @@ class CrankStep {
     return crank_.drag_Nm + speed_rad_s * (crank_.drag_Nm_s + speed_rad_s * crank_.drag_Nm_s2);
   }
   /// At standstill friction meets any push up to its constant part.
-  [[nodiscard]] bool holds(Real push_Nm) const noexcept { return state_.reduced_speed == Real{0} && size(push_Nm) <= crank_.drag_Nm; }
+  [[nodiscard]] bool holds(Real push_Nm) const noexcept { return state_.reduced_speed == Real{0} && magnitude(push_Nm) <= crank_.drag_Nm; }
 
   /// By torques beside that of the masses.
   [[nodiscard]] Real acceleration_rad_s2(Real push_Nm) const noexcept {
@@ -129,7 +125,7 @@ class CrankStep {
   }
   /// Mean speed of the cubic angle that has speed and acceleration of the tick's both ends, friction apart.
   [[nodiscard]] Real cubic_rad_s() const noexcept {
-    const Real end_rad_s2 = acceleration_rad_s2(gas_Nm_ + starter_Nm(speed_rad_s_) - state_.load_Nm);
+    const Real end_rad_s2 = acceleration_rad_s2(gas_Nm_ + starter_.torque_Nm(speed_rad_s_) - state_.load_Nm);
     return (start_.speed_rad_s + speed_rad_s_) / 2 + drive_.tick_s * static_cast<Real>(1.0 / 12) * (start_.acceleration_rad_s2 - end_rad_s2);
   }
 
@@ -146,26 +142,26 @@ class CrankStep {
   }
 
   /// What pushes a crank that stands.
-  [[nodiscard]] Real push_at_rest_Nm(Real gas_Nm) const noexcept { return gas_Nm + starter_Nm(Real{0}) - state_.load_Nm; }
+  [[nodiscard]] Real push_at_rest_Nm(Real gas_Nm) const noexcept { return gas_Nm + starter_.torque_Nm(Real{0}) - state_.load_Nm; }
   /// False where it would only stop a crank that is breaking away: that has all its friction at the end.
   [[nodiscard]] bool begin_with_friction(Real push_Nm) const noexcept {
     if (before_ == Real{0}) return false;
     const bool breaks_away = before_ > 0 ? push_Nm > crank_.drag_Nm : push_Nm < -crank_.drag_Nm;
-    return !breaks_away || drive_.tick_s / 2 * crank_.drag_Nm * state_.per_root_inertia < size(before_);
+    return !breaks_away || drive_.tick_s / 2 * crank_.drag_Nm * state_.per_root_inertia < magnitude(before_);
   }
 
   enum class Stop : std::uint8_t { stays, may_pass };
   /// Friction for a while: du/dt = -drag / sqrt(J), the drag's slope taken half implicitly, so that it is second order and no drag, however
   /// steep, overshoots. A crank that it stops stays there, or passes through where what pushes it back is more than friction.
   void slow_down(Real time_s, Stop stop) noexcept {
-    const Real speed = size(speed_rad_s_);
+    const Real speed = magnitude(speed_rad_s_);
     const Real drag = drag_Nm(speed);
     if (!(drag > 0)) return;
     const Real per_root = state_.per_root_inertia;
     const Real slope_Nm_s = crank_.drag_Nm_s + 2 * crank_.drag_Nm_s2 * speed;
     const Real impulse = time_s * drag * per_root / (Real{1} + time_s / 2 * slope_Nm_s * (per_root * per_root));
-    const bool stops = impulse >= size(state_.reduced_speed);
-    if (stops && !(stop == Stop::may_pass && size(push_at_rest_Nm(gas_before_Nm_)) > crank_.drag_Nm)) {
+    const bool stops = impulse >= magnitude(state_.reduced_speed);
+    if (stops && !(stop == Stop::may_pass && magnitude(push_at_rest_Nm(gas_before_Nm_)) > crank_.drag_Nm)) {
       set_reduced(Real{0});
       speed_rad_s_ = Real{0};
       return;
@@ -189,7 +185,7 @@ class CrankStep {
   void turn_friction_round() noexcept {
     const Real sense = before_ > 0 ? Real{1} : Real{-1};
     const Real per_inertia = state_.per_root_inertia * state_.per_root_inertia;
-    const Real by_forces_rad_s = size(start_.speed_rad_s - speed_rad_s_);
+    const Real by_forces_rad_s = magnitude(start_.speed_rad_s - speed_rad_s_);
     const Real by_friction_rad_s = drive_.tick_s * crank_.drag_Nm * per_inertia;
     const Real twice_late_rad_s = sense * (start_.speed_rad_s + speed_rad_s_);
     const Real turned_rad_s = by_forces_rad_s + by_friction_rad_s;  // 0 where a friction of next to nothing underflows
@@ -213,8 +209,8 @@ class CrankStep {
       set_reduced(Real{0});
       return;
     }
-    const Real size_after = square_root(left);
-    const Real after = ahead_ < 0 ? -size_after : size_after;
+    const Real magnitude_after = square_root(left);
+    const Real after = ahead_ < 0 ? -magnitude_after : magnitude_after;
     if (u * ahead_ > 0) {
       add_reduced(twice_J / (u + after));  // u_after - u, without cancellation
     } else {
@@ -224,7 +220,7 @@ class CrankStep {
   /// From rest, or through standstill: where friction could hold the crank, that is as far as it goes.
   void turn_back(Real before, Real after) noexcept {
     const Real push_Nm = push_at_rest_Nm(gas_Nm_);
-    set_reduced(before != Real{0} && size(push_Nm) <= crank_.drag_Nm ? Real{0} : after);
+    set_reduced(before != Real{0} && magnitude(push_Nm) <= crank_.drag_Nm ? Real{0} : after);
   }
 
   const Drive<Real>& drive_;
@@ -232,6 +228,7 @@ class CrankStep {
   CrankState<Real>& state_;
   Real& speed_rad_s_;
   Real speed_before_rad_s_;
+  Starter<Real> starter_{};
   CrankRate<Real> start_{};  ///< after the first half of the friction
   Real predicted_rad_s_{};   ///< mean speed by the start alone
   Real mean_rad_s_{};        ///< of the angle turned
@@ -241,7 +238,6 @@ class CrankStep {
   Real gas_before_Nm_{};
   Real gas_Nm_{};            ///< at the end of the tick
   bool held_ = false;    ///< by friction, at standstill
-  bool starter_ = false;
   bool overspeed_ = false;
 };
 

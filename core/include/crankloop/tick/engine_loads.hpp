@@ -6,7 +6,7 @@
 #include <crankloop/tick/angle.hpp>
 #include <crankloop/tick/checked.hpp>
 #include <crankloop/tick/io.hpp>
-#include <crankloop/tick/square_root.hpp>
+#include <crankloop/tick/one_instruction.hpp>
 #include <crankloop/tick/tables.hpp>
 
 namespace crankloop::detail {

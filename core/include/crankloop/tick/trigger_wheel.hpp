@@ -12,7 +12,7 @@
 #include <cstdint>
 
 #include <crankloop/tick/crank_path.hpp>
-#include <crankloop/tick/square_root.hpp>
+#include <crankloop/tick/one_instruction.hpp>
 #include <crankloop/tick/trigger_output.hpp>
 #include <crankloop/tick/trigger_tables.hpp>
 
@@ -116,7 +116,6 @@ class TriggerTick {
 
  private:
   [[nodiscard]] static std::uint32_t angle(std::uint64_t at) noexcept { return static_cast<std::uint32_t>(at >> 32); }
-  [[nodiscard]] static Real magnitude(Real x) noexcept { return x < 0 ? -x : x; }
 
   void stand_at(std::uint32_t edge) noexcept { out_.level = level_beyond(wheel_, edge); }
 

@@ -16,6 +16,7 @@
 #include <cstdint>
 
 #include <crankloop/tick/lift_curve.hpp>
+#include <crankloop/tick/one_instruction.hpp>
 
 namespace crankloop {
 
@@ -145,10 +146,6 @@ class LiftWithin {
  private:
   Real c_[kDegree + 1] = {};
 };
-
-/// |x|: one instruction, of any compiler that the house flags know.
-[[nodiscard]] constexpr float magnitude(float x) noexcept { return __builtin_fabsf(x); }
-[[nodiscard]] constexpr double magnitude(double x) noexcept { return __builtin_fabs(x); }
 
 /// Gas force on the head, toward the seat.
 template <class Real>
