@@ -28,7 +28,7 @@ class CrankStep {
   /// The first half: answers how far the crank turns. `gas_Nm` as it is before the tick; a scene without starter says that it is off.
   [[nodiscard]] Phase turn(Real gas_Nm, bool starter_is_on) noexcept {
     gas_before_Nm_ = gas_Nm;
-    if (starter_is_on) starter_ = {crank_.starter_stall_Nm, crank_.starter_slope_Nm_s};
+    starter_ = {crank_.starter_stall_Nm, crank_.starter_slope_Nm_s, starter_is_on};
     const Real tick_s = drive_.tick_s;
     before_ = state_.reduced_speed;
     friction_s_ = tick_s;
