@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "support/temporary_folder.hpp"
+
 namespace {
 
 constexpr int kFailure = 1;
@@ -80,19 +82,16 @@ class Engine {
 class BadInput : public testing::Test {
  protected:
   BadInput() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-    path_ = folder_ + "/engine.ini";
+    path_ = folder_ / "engine.ini";
   }
-  ~BadInput() override { std::filesystem::remove_all(folder_); }
 
   void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ + "/" + name, std::ios::binary) << text;
+    std::ofstream(folder_ / name, std::ios::binary) << text;
   }
 
   /// `out` is where standard output goes; "" closes it.
   Answer run(const std::vector<std::string>& words, const std::string& out) const {
-    const std::string error = folder_ + "/stderr";
+    const std::string error = folder_ / "stderr";
     std::vector<std::string> all = words;
     all.insert(all.begin(), CRANKLOOP_PROGRAM);
     std::vector<char*> arguments;
@@ -119,8 +118,8 @@ class BadInput : public testing::Test {
   }
 
   Answer run(const std::vector<std::string>& words) const {
-    Answer answer = run(words, folder_ + "/stdout");
-    answer.out = contents(folder_ + "/stdout");
+    Answer answer = run(words, folder_ / "stdout");
+    answer.out = contents(folder_ / "stdout");
     return answer;
   }
 
@@ -151,7 +150,7 @@ class BadInput : public testing::Test {
   }
 
   const Engine sample_{contents(kSample)};
-  std::string folder_;
+  crankloop::support::TemporaryFolder folder_;
   std::string path_;
 };
 
@@ -350,8 +349,8 @@ TEST_F(BadInput, LinesThatAreNoLinesAreTold) {
 }
 
 TEST_F(BadInput, AFileThatIsNoEngineFileIsRefusedAsAWhole) {
-  expect_refusal(run({"show", folder_ + "/nowhere.ini"}), folder_ + "/nowhere.ini", {"cannot be read", "No such file"});
-  expect_refusal(run({"show", folder_}), folder_, {"is a directory"});
+  expect_refusal(run({"show", folder_ / "nowhere.ini"}), folder_ / "nowhere.ini", {"cannot be read", "No such file"});
+  expect_refusal(run({"show", folder_.path()}), folder_.path(), {"is a directory"});
   const auto refused = [this](const std::string& text, const std::string& place,
                               const std::vector<std::string>& fragments) {
     write("engine.ini", text);
@@ -384,7 +383,7 @@ class BadDiagram : public BadInput {
                               const std::string& source = "angle_table") const {
     write("p.csv", table);
     write("engine.ini", sample_.changed("source", "source = " + source + "\nfile = p.csv").text());
-    expect_refusal(run({"show", path_}), folder_ + "/p.csv" + place, fragments);
+    expect_refusal(run({"show", path_}), folder_ / "p.csv" + place, fragments);
   }
   /// Rows from -360 deg on, 1 deg apart.
   static std::string table(int rows, const std::string& last_rows = "") {
@@ -398,9 +397,9 @@ TEST_F(BadDiagram, IsMissedWhereItIsNamed) {
   const Engine named = sample_.changed("source", "source = angle_table\nfile = nowhere.csv");
   expect_refused(named, "file = ", {"nowhere.csv cannot be read", "No such file"});
   expect_refused(sample_.with("source", "angle_table"), "[pressure]", {"lacks file"});
-  std::filesystem::create_directory(folder_ + "/nowhere.csv");
+  std::filesystem::create_directory(folder_ / "nowhere.csv");
   expect_refused(named, "file = ", {"is a directory"});
-  std::filesystem::remove(folder_ + "/nowhere.csv");
+  std::filesystem::remove(folder_ / "nowhere.csv");
   write("nowhere.csv", "crank_deg,pressure_kPa\n" + std::string(std::size_t{8} << 20, '\n'));
   expect_refused(named, "file = ", {"too large", "8 MiB"});
 }
@@ -544,7 +543,7 @@ class Output : public BadInput {
  protected:
   std::vector<std::string> files() const {
     std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
       names.push_back(entry.path().filename().string());
     std::sort(names.begin(), names.end());
     return names;
@@ -554,17 +553,17 @@ class Output : public BadInput {
 TEST_F(Output, IsNotTouchedByBadInput) {
   write("old.csv", "precious\n");
   write("engine.ini", sample_.with("bore_mm", "-1").text());
-  EXPECT_EQ(run({"kinematics", path_, "--rpm", "2000", "--csv", folder_ + "/new.csv"}).status, kBadInput);
-  EXPECT_EQ(run({"kinematics", path_, "--rpm", "2000", "--csv", folder_ + "/old.csv"}).status, kBadInput);
+  EXPECT_EQ(run({"kinematics", path_, "--rpm", "2000", "--csv", folder_ / "new.csv"}).status, kBadInput);
+  EXPECT_EQ(run({"kinematics", path_, "--rpm", "2000", "--csv", folder_ / "old.csv"}).status, kBadInput);
   EXPECT_EQ(files(), (std::vector<std::string>{"engine.ini", "old.csv", "stderr", "stdout"}));
-  EXPECT_EQ(contents(folder_ + "/old.csv"), "precious\n");
+  EXPECT_EQ(contents(folder_ / "old.csv"), "precious\n");
 }
 
 TEST_F(Output, AppearsWhole) {
   const Answer answer = run({"kinematics", kSample, "--rpm", "2000"});
   EXPECT_EQ(answer.status, 0);
-  EXPECT_EQ(run({"kinematics", kSample, "--rpm", "2000", "--csv", folder_ + "/k.csv"}).out, "");
-  EXPECT_EQ(contents(folder_ + "/k.csv"), answer.out);
+  EXPECT_EQ(run({"kinematics", kSample, "--rpm", "2000", "--csv", folder_ / "k.csv"}).out, "");
+  EXPECT_EQ(contents(folder_ / "k.csv"), answer.out);
   EXPECT_EQ(files(), (std::vector<std::string>{"k.csv", "stderr", "stdout"}));
 }
 
@@ -578,11 +577,11 @@ TEST_F(Output, ThatCannotBeWrittenIsAFailure) {
     EXPECT_EQ(full.status, kFailure);
     EXPECT_NE(full.error.find("No space left"), std::string::npos) << full.error;
   }
-  const Answer nowhere = run({"kinematics", kSample, "--rpm", "2000", "--csv", folder_ + "/no/such/folder.csv"});
+  const Answer nowhere = run({"kinematics", kSample, "--rpm", "2000", "--csv", folder_ / "no/such/folder.csv"});
   EXPECT_EQ(nowhere.status, kFailure);
   EXPECT_NE(nowhere.error.find("folder.csv cannot be created: No such file or directory"), std::string::npos)
       << nowhere.error;
-  EXPECT_EQ(run({"kinematics", kSample, "--rpm", "2000", "--csv", folder_}).status, kFailure);
+  EXPECT_EQ(run({"kinematics", kSample, "--rpm", "2000", "--csv", folder_.path()}).status, kFailure);
   EXPECT_EQ(run({"kinematics", kSample, "--rpm", "2000", "--csv", "/dev/full"}).status, kFailure);
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));  // not replaced by a file
 }

@@ -1,6 +1,5 @@
 // The documents' figures: every command that docs/separation_and_bounce.md shows is run, and what stands below it compared.
 #include <gtest/gtest.h>
-#include <stdlib.h>  // mkdtemp
 
 #include <algorithm>
 #include <array>
@@ -16,6 +15,7 @@
 
 #include "crankloop/valve/valve_loop.hpp"
 #include "support/markup.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -104,15 +104,12 @@ bool begins(const std::vector<std::string>& shown, const std::vector<std::string
 class SeparationAndBounce : public testing::Test {
  protected:
   SeparationAndBounce() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-    std::filesystem::copy(kSource / "tools/engines/ohc_125.ini", folder_);
+    std::filesystem::copy(kSource / "tools/engines/ohc_125.ini", folder_.path());
   }
-  ~SeparationAndBounce() override { std::filesystem::remove_all(folder_); }
 
   /// What a command of the document prints, run beside the sample engine.
   std::string output_of(const std::string& command) const {
-    const std::string line = "cd '" + folder_.string() + "' && '" CRANKLOOP_PROGRAM "'" + command.substr(9);
+    const std::string line = "cd '" + folder_.path() + "' && '" CRANKLOOP_PROGRAM "'" + command.substr(9);
     std::FILE* pipe = ::popen(line.c_str(), "r");
     if (pipe == nullptr) return "";
     std::string text;
@@ -130,7 +127,7 @@ class SeparationAndBounce : public testing::Test {
     EXPECT_NE(one_line.find(words), std::string::npos) << "docs/separation_and_bounce.md does not say: " << words;
   }
 
-  std::filesystem::path folder_;
+  support::TemporaryFolder folder_;
   std::string document_ = contents(kSource / "docs/separation_and_bounce.md");
 };
 
@@ -176,7 +173,7 @@ TEST_F(SeparationAndBounce, ShowsThePicturesThatItsCommandsDraw) {
 
 /// What the page reads off the picture at 7000 rpm, from the ticks.
 TEST_F(SeparationAndBounce, TellsTheForcesOfTheTrain) {
-  const EngineFile file = read_engine_file((folder_ / "ohc_125.ini").string(), {});
+  const EngineFile file = read_engine_file(folder_ / "ohc_125.ini", {});
   const LoneValve valve(file, "intake");
   ValveLoop<double> loop(valve, 5e-6, {});
   ValveTickOutput<double> lowest{};
@@ -198,7 +195,7 @@ TEST_F(SeparationAndBounce, TellsTheForcesOfTheTrain) {
 /// M abs(Y'') = P_s0 + k_s Y, by hand, for the speed at which a rigid train would float.
 TEST_F(SeparationAndBounce, TellsWhereARigidTrainWouldFloat) {
   constexpr double kPi = 3.14159265358979323846;
-  const EngineFile file = read_engine_file((folder_ / "ohc_125.ini").string(), {});
+  const EngineFile file = read_engine_file(folder_ / "ohc_125.ini", {});
   const LoneValve valve(file, "intake");
   const Valve& v = valve.valve();
   const double lever_m = valve.lift().lever_m();

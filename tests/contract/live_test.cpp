@@ -1,7 +1,6 @@
 // `crankloop live`, run as a user runs it: with the example's controller, with a controller that errs or dies, until a signal, with bad arguments.
 // Times are this machine's, which may be busy: they are looked for, never bounded.
 #include <gtest/gtest.h>
-#include <stdlib.h>  // mkdtemp
 #include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -24,6 +23,7 @@
 #include <crankloop/tick/faults.hpp>
 
 #include "port/linux/shared_block.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace crankloop::port {
 namespace {
@@ -99,13 +99,7 @@ bool comes_true(const std::function<bool()>& condition) {
 
 class Live : public testing::Test {
  protected:
-  Live() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~Live() override { std::filesystem::remove_all(folder_); }
-
-  [[nodiscard]] std::string in_folder(const std::string& name) const { return folder_ + "/" + name; }
+  [[nodiscard]] std::string in_folder(const std::string& name) const { return folder_ / name; }
   [[nodiscard]] std::string block_path() const { return in_folder("block"); }
 
   [[nodiscard]] std::vector<std::string> live(const std::vector<std::string>& options) const {
@@ -128,7 +122,7 @@ class Live : public testing::Test {
     return block;
   }
 
-  std::string folder_;
+  support::TemporaryFolder folder_;
 };
 
 /// What `live` shows at the moment.
@@ -253,7 +247,7 @@ TEST_F(Live, RefusesWhatCannotBeRunInOneLineAndAUsage) {
       {{"--from-rpm", "61000"}, "crankloop live: --from-rpm 61000 is too fast for this tick"},
       {{"--cpu", "1023", "--seconds", "0.01"}, "crankloop live: --cpu 1023: Invalid argument"},
       {{"--shared", block_path()}, block_path() + ": exists and is no block of this version of crankloop"},
-      {{"--shared", folder_ + "/none/block"}, folder_ + "/none/block: cannot be created"},
+      {{"--shared", folder_ / "none/block"}, folder_ / "none/block: cannot be created"},
   };
   for (const auto& [options, message] : cases) {
     Process refused(live(options), in_folder("refused.txt"));

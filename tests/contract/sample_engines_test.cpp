@@ -1,6 +1,5 @@
 // The example that each command's help shows, on every sample engine: what a new user tries first.
 #include <gtest/gtest.h>
-#include <stdlib.h>  // mkdtemp
 #include <sys/wait.h>
 
 #include <filesystem>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "crankloop/commands.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace crankloop::program {
 
@@ -41,21 +41,18 @@ std::string with_engine(std::string example, const std::string& engine) {
 class SampleEngines : public testing::TestWithParam<const Command*> {
  protected:
   SampleEngines() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-    std::filesystem::copy(kEngines, folder_, std::filesystem::copy_options::recursive);
+    std::filesystem::copy(kEngines, folder_.path(), std::filesystem::copy_options::recursive);
   }
-  ~SampleEngines() override { std::filesystem::remove_all(folder_); }
 
-  std::filesystem::path folder_;
+  support::TemporaryFolder folder_;
 };
 
 TEST_P(SampleEngines, GoThroughTheExampleOf) {
   ASSERT_GE(sample_engines().size(), 2U);
   for (const std::string& engine : sample_engines()) {
     const std::string command = with_engine(GetParam()->example, engine);
-    const std::string output = (folder_ / "output").string();
-    const int status = std::system(("cd '" + folder_.string() + "' && " + command + " >>'" + output + "' 2>&1").c_str());
+    const std::string output = folder_ / "output";
+    const int status = std::system(("cd '" + folder_.path() + "' && " + command + " >>'" + output + "' 2>&1").c_str());
     std::ifstream file(output);
     EXPECT_EQ(WEXITSTATUS(status), 0) << command << "\n" << file.rdbuf();
   }

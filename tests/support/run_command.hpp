@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -18,6 +17,7 @@
 
 #include "crankloop/commands.hpp"
 #include "crankloop/error.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace crankloop::program {
 
@@ -51,13 +51,7 @@ inline std::pair<double, std::string> line(const std::string& summary, const std
 
 class RunCommand : public testing::Test {
  protected:
-  RunCommand() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~RunCommand() override { std::filesystem::remove_all(folder_); }
-
-  [[nodiscard]] std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_ / name; }
   [[nodiscard]] std::string engine_without_pressure() const {
     std::string text = contents(kSample);
     text.resize(text.find("[pressure]"));
@@ -80,7 +74,7 @@ class RunCommand : public testing::Test {
     return WEXITSTATUS(std::system(command.c_str()));
   }
 
-  std::string folder_;
+  support::TemporaryFolder folder_;
 };
 
 }  // namespace crankloop::program

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <numeric>
@@ -29,6 +28,7 @@
 #include "crankloop/engine_file/engine_file.hpp"
 #include "crankloop/error.hpp"
 #include "support/random.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace crankloop::program::bench {
 namespace {
@@ -222,17 +222,15 @@ TEST(BenchJson, TheReaderOfThisTestRefusesWhatIsNone) {
 }
 
 TEST(BenchCsv, HasARowForEach) {
-  std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
-  const std::string folder = mkdtemp(pattern.data());
+  const support::TemporaryFolder folder;
   {
-    Output out(folder + "/bench.csv");
+    Output out(folder / "bench.csv");
     write_csv(out, {awkward_rows()[0], awkward_rows()[2]});
     out.finish();
   }
-  std::ifstream file(folder + "/bench.csv");
+  std::ifstream file(folder / "bench.csv");
   std::vector<std::string> lines;
   for (std::string line; std::getline(file, line);) lines.push_back(line);
-  std::filesystem::remove_all(folder);
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines[1], "valve,located RK4,float,12000 rpm; 10 us,cam cycle,123.400002,5.5999999,9.99999972e-10,um,,,");
   EXPECT_EQ(lines[2], "valve,located RK4,float,12000 rpm; 10 us,cam cycle,123.400002,5.5999999,9.99999972e-10,um,at most 8,7.5,yes");

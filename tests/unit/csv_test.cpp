@@ -16,6 +16,7 @@
 #include "crankloop/error.hpp"
 #include "crankloop/number.hpp"
 #include "crankloop/words.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -23,11 +24,8 @@ namespace {
 class CsvFile : public testing::Test {
  protected:
   CsvFile() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-    path_ = folder_ + "/table.csv";
+    path_ = folder_ / "table.csv";
   }
-  ~CsvFile() override { std::filesystem::remove_all(folder_); }
 
   static std::string contents(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
@@ -36,10 +34,10 @@ class CsvFile : public testing::Test {
     return text.str();
   }
   long files() const {
-    return std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator());
+    return std::distance(std::filesystem::directory_iterator(folder_.path()), std::filesystem::directory_iterator());
   }
 
-  std::string folder_;
+  support::TemporaryFolder folder_;
   std::string path_;
 };
 
@@ -76,14 +74,14 @@ TEST_F(CsvFile, IsNotThereUntilItIsFinished) {
 TEST_F(CsvFile, TakesThePlaceAndThePermissionsOfItsPredecessor) {
   std::ofstream(path_) << "old";
   std::filesystem::permissions(path_, std::filesystem::perms(0640));
-  std::filesystem::create_symlink("table.csv", folder_ + "/link.csv");
-  Output out(folder_ + "/link.csv");
+  std::filesystem::create_symlink("table.csv", folder_ / "link.csv");
+  Output out(folder_ / "link.csv");
   out.write("new");
   EXPECT_EQ(contents(path_), "old");
   out.finish();
   EXPECT_EQ(contents(path_), "new");
   EXPECT_EQ(std::filesystem::status(path_).permissions(), std::filesystem::perms(0640));
-  EXPECT_TRUE(std::filesystem::is_symlink(folder_ + "/link.csv"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder_ / "link.csv"));
 }
 
 TEST_F(CsvFile, RowsThatDoNotFitTheHeaderAreADefect) {

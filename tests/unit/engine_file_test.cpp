@@ -16,6 +16,8 @@
 #include <string>
 #include <utility>
 
+#include "support/temporary_folder.hpp"
+
 namespace crankloop::program {
 namespace {
 
@@ -36,15 +38,9 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 
 class EngineFileTest : public testing::Test {
  protected:
-  EngineFileTest() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~EngineFileTest() override { std::filesystem::remove_all(folder_); }
-
   std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ + "/" + name, std::ios::binary) << text;
-    return folder_ + "/" + name;
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return folder_ / name;
   }
   EngineFile read(const std::string& text) const { return read_engine_file(write("engine.ini", text), {}); }
   std::string refusal(const std::string& text) const {
@@ -56,7 +52,7 @@ class EngineFileTest : public testing::Test {
     return "";
   }
 
-  std::string folder_;
+  support::TemporaryFolder folder_;
 };
 
 constexpr const char* kOneCylinder =
@@ -237,7 +233,7 @@ TEST_F(EngineFileTest, ADiagramLiesBesideItsEngineFileAndOutlivesAMove) {
   EXPECT_EQ(pressure.points[0].at, -360);
   EXPECT_EQ(pressure.points[359].pressure_Pa, (100 + 358 % 7) * 1e3);
   // What is shown finds the diagram from any other folder.
-  const std::string elsewhere = folder_ + "/elsewhere";
+  const std::string elsewhere = folder_ / "elsewhere";
   std::filesystem::create_directory(elsewhere);
   const std::string shown = show(moved);
   const EngineFile again = read_engine_file(write("elsewhere/complete.ini", shown), {});
@@ -265,7 +261,7 @@ TEST_F(EngineFileTest, AnotherSourceLeavesItsRivalsKeysUnusedButChecked) {
 
 TEST_F(EngineFileTest, WhatTheLibraryRefusesIsToldAtTheLineOfTheKey) {
   const EngineFile engine = read(kOneCylinder);
-  const std::string path = folder_ + "/engine.ini";
+  const std::string path = folder_ / "engine.ini";
   EXPECT_EQ(engine.explain({Reason::not_positive, -1, "crank.bore"}).what(),
             path + ":5: bore_mm: 95 must be greater than zero");
   // A key that stands at its default has no line of its own: the section's header is to blame.
@@ -380,8 +376,8 @@ class HostileEngineFile : public EngineFileTest {
     } catch (const InputError& error) {
       const std::string message = error.what();
       EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-      EXPECT_EQ(message.find(folder_), 0u) << message;
-      EXPECT_LT(message.size(), folder_.size() + 600) << message;
+      EXPECT_EQ(message.find(folder_.path()), 0u) << message;
+      EXPECT_LT(message.size(), folder_.path().size() + 600) << message;
     }
   }
   int accepted_ = 0;

@@ -15,6 +15,7 @@
 #include "crankloop/commands.hpp"
 #include "crankloop/engine_file/engine_file.hpp"
 #include "crankloop/error.hpp"
+#include "support/temporary_folder.hpp"
 #include "support/valve_trains.hpp"
 
 namespace crankloop::program {
@@ -46,20 +47,14 @@ std::string with_line(const std::string& text, const std::string& start, const s
 
 class LiftCommand : public testing::Test {
  protected:
-  LiftCommand() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-lift-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~LiftCommand() override { std::filesystem::remove_all(folder_); }
-
   std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ + "/" + name, std::ios::binary) << text;
-    return folder_ + "/" + name;
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return folder_ / name;
   }
 
   /// The table's rows, and what is printed beside it in `summary_`.
   std::vector<std::vector<double>> rows(const std::string& file, const std::vector<std::string>& options = {}) {
-    const std::string csv = folder_ + "/lift.csv";
+    const std::string csv = folder_ / "lift.csv";
     std::vector<std::string> words = {file, "--train", "intake", "--csv", csv};
     words.insert(words.end(), options.begin(), options.end());
     testing::internal::CaptureStdout();
@@ -82,9 +77,9 @@ class LiftCommand : public testing::Test {
 
   std::string refusal(const std::string& file, const std::string& train = "intake") const {
     try {
-      static_cast<void>(kLift.run(Arguments(kLift, {file, "--train", train, "--csv", folder_ + "/none.csv"})));
+      static_cast<void>(kLift.run(Arguments(kLift, {file, "--train", train, "--csv", folder_ / "none.csv"})));
     } catch (const InputError& error) {
-      EXPECT_FALSE(std::filesystem::exists(folder_ + "/none.csv"));
+      EXPECT_FALSE(std::filesystem::exists(folder_ / "none.csv"));
       return error.what();
     }
     return "";
@@ -107,7 +102,7 @@ class LiftCommand : public testing::Test {
     return rows;
   }
 
-  std::string folder_;
+  support::TemporaryFolder folder_;
   std::string summary_;
 };
 
@@ -184,7 +179,7 @@ TEST_F(LiftCommand, NamesTheLineAndTheAngleWhereTheGeometryCannotWork) {
 }
 
 TEST_F(LiftCommand, NamesTheRowOfAMeasuredCamThatIsWrong) {
-  const std::string csv = folder_ + "/cam.csv";
+  const std::string csv = folder_ / "cam.csv";
   const std::string engine = write("measured.ini", measured_125("cam.csv", 1));
   write("cam.csv", cam_rows(-60, 180));
   EXPECT_EQ(refusal(engine).compare(0, csv.size() + 3, csv + ":2:"), 0) << refusal(engine);

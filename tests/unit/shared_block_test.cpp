@@ -1,7 +1,6 @@
 // The block that `crankloop live` shares: its bytes as docs/live.md lists them, who gets it and who is refused, and whose inputs count.
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>  // mkdtemp
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,6 +18,7 @@
 
 #include "port/linux/shared_block.hpp"
 #include "port/linux/watched_inputs.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace crankloop::port {
 namespace {
@@ -35,13 +35,7 @@ std::string bytes_of(const std::string& path) {
 
 class SharedBlockFile : public testing::Test {
  protected:
-  SharedBlockFile() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~SharedBlockFile() override { std::filesystem::remove_all(folder_); }
-
-  [[nodiscard]] std::string path() const { return folder_ + "/block"; }
+  [[nodiscard]] std::string path() const { return folder_ / "block"; }
   void put(const std::string& text) const { std::ofstream(path(), std::ios::binary) << text; }
 
   /// A number of the file at an offset of docs/live.md.
@@ -64,7 +58,7 @@ class SharedBlockFile : public testing::Test {
   }
   static SharedBlock create_at(const std::string& path) { return SharedBlock::create(path, kTick_s, kCylinders); }
 
-  std::string folder_;
+  support::TemporaryFolder folder_;
 };
 
 // ---- layout -----------------------------------------------------------------------------------------------------------------
@@ -213,8 +207,8 @@ TEST_F(SharedBlockFile, IsRefusedAndLeftAloneWhereAnotherFileStands) {
     EXPECT_EQ(bytes_of(path()), text);
     EXPECT_EQ(refusal_of(SharedBlock::open, path()), path() + ": is no block of this version of crankloop");
   }
-  EXPECT_EQ(refusal_of(create_at, folder_), folder_ + ": exists and is no block of this version of crankloop");
-  EXPECT_EQ(refusal_of(create_at, folder_ + "/none/block"), folder_ + "/none/block: cannot be created: No such file or directory");
+  EXPECT_EQ(refusal_of(create_at, folder_.path()), folder_.path() + ": exists and is no block of this version of crankloop");
+  EXPECT_EQ(refusal_of(create_at, folder_ / "none/block"), folder_ / "none/block: cannot be created: No such file or directory");
 }
 
 TEST_F(SharedBlockFile, IsRefusedWhereItIsOfAnotherVersion) {

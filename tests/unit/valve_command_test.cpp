@@ -25,6 +25,7 @@
 #include "crankloop/valve/valve_loop.hpp"
 #include "support/both_reals.hpp"
 #include "support/markup.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -52,17 +53,12 @@ class ChangedFile {
     const std::size_t at = text.find("\n" + key + " = ");
     EXPECT_NE(at, std::string::npos) << key;
     text.replace(at + 1, text.find('\n', at + 1) - at - 1, line);
-    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
     std::ofstream(path()) << text;
   }
-  ChangedFile(const ChangedFile&) = delete;
-  ChangedFile& operator=(const ChangedFile&) = delete;
-  ~ChangedFile() { std::filesystem::remove_all(folder_); }
-  [[nodiscard]] std::string path() const { return folder_ + "/engine.ini"; }
+  [[nodiscard]] std::string path() const { return folder_ / "engine.ini"; }
 
  private:
-  std::string folder_;
+  support::TemporaryFolder folder_;
 };
 
 /// A whole run's last cycle.
@@ -371,12 +367,7 @@ std::vector<std::string> split_at(const std::string& text, char separator) {
 
 class ValveCommands : public testing::Test {
  protected:
-  ValveCommands() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~ValveCommands() override { std::filesystem::remove_all(folder_); }
-  [[nodiscard]] std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_ / name; }
 
   static std::string run(const Command& command, const std::vector<std::string>& words) {
     testing::internal::CaptureStdout();
@@ -409,7 +400,7 @@ class ValveCommands : public testing::Test {
     return found;
   }
 
-  std::string folder_;
+  support::TemporaryFolder folder_;
 };
 
 TEST_F(ValveCommands, TheSummaryNamesEverythingWithItsUnit) {
@@ -562,9 +553,9 @@ TEST_F(ValveCommands, APlotThatCannotBeWrittenLeavesNothingBehind) {
     EXPECT_THROW(kValve.run(Arguments(kValve, outputs)), OutputError);
   };
   refused({"--csv", path("v.csv"), "--plot", path("nowhere/v.svg")});
-  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
   refused({"--csv", path("nowhere/v.csv"), "--plot", path("v.svg")});
-  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
   std::ofstream(path("v.svg")) << "old";
   refused({"--csv", path("nowhere/v.csv"), "--plot", path("v.svg")});
   EXPECT_EQ(contents(path("v.svg")), "old");
@@ -617,7 +608,7 @@ TEST_F(ValveCommands, NothingIsWrittenWhereSomethingIsRefused) {
     words.insert(words.begin(), kOhc125);
     words.insert(words.end(), {"--csv", path("v.csv"), "--plot", path("v.svg")});
     EXPECT_NE(refusal(kValve, words), "");
-    EXPECT_TRUE(std::filesystem::is_empty(folder_)) << words[2] << " " << words[4];
+    EXPECT_TRUE(std::filesystem::is_empty(folder_.path())) << words[2] << " " << words[4];
   }
 }
 

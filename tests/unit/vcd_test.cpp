@@ -8,12 +8,12 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "support/temporary_folder.hpp"
 #include "support/vcd_dump.hpp"
 
 namespace crankloop::program {
@@ -22,13 +22,10 @@ namespace {
 class VcdTest : public testing::Test {
  protected:
   VcdTest() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "crankloop-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-    path_ = folder_ + "/signals.vcd";
+    path_ = folder_ / "signals.vcd";
   }
-  ~VcdTest() override { std::filesystem::remove_all(folder_); }
 
-  std::string folder_;
+  support::TemporaryFolder folder_;
   std::string path_;
 };
 
