@@ -73,7 +73,7 @@ TEST(HeavyRod, ConvergesToLagrangesEquationByMoreThanSecondOrder) {
     const auto oracle_rad = static_cast<double>(std::fabs(oracle.angle_rad() - coarse.angle_rad()));
     ASSERT_LT(oracle_rad, 1e-9);
     double last_rad = 0;
-    for (const double tick_s : {1600e-6, 800e-6, 400e-6, 200e-6}) {
+    for (const double tick_s : {800e-6, 400e-6, 200e-6, 100e-6, 50e-6}) {
       const Off off = error_of(defined(m), oracle, m, kSpeed_rad_s, tick_s);
       std::printf("crank %.2Lf kg m2, tick %3.0f us: %9.2e rad, %9.2e rad/s, of %.1Lf rad and %.1Lf rad/s\n", crank_kg_m2, tick_s * 1e6,
                   off.angle_rad, off.speed_rad_s, oracle.angle_rad(), oracle.speed_rad_s());
