@@ -5,6 +5,7 @@
 
 #include <initializer_list>
 
+#include "crankloop/reference/ohc_125.hpp"
 #include "support/random.hpp"
 
 namespace crankloop::support {
@@ -18,18 +19,18 @@ inline Cam polynomial_cam(double max_lift_m, double half_angle_deg, std::initial
 }
 
 /// The 125 cm^3 overhead-cam engine of [Li 2017]: tools/engines/ohc_125.ini.
-inline Cam ohc_125_cam() { return polynomial_cam(6.301099e-3, 74, {2, 10, 18, 26}); }
+inline Cam ohc_125_cam() {
+  Cam cam;
+  Rocker rocker;
+  program::shape_as_ohc_125(cam, rocker);
+  return cam;
+}
 
 inline Rocker ohc_125_rocker(CamTurns turns = CamTurns::toward_pivot) {
+  Cam cam;
   Rocker rocker;
-  rocker.base_circle_m = 12.5e-3;
+  program::shape_as_ohc_125(cam, rocker);
   rocker.clearance_m = 0.05e-3;
-  rocker.pivot_to_pad_m = 39.61e-3;
-  rocker.pivot_to_cam_m = 30.28e-3;
-  rocker.pad_radius_m = 30e-3;
-  rocker.pivot_to_screw_m = 33.28e-3;
-  rocker.screw_ball_m = 10e-3;
-  rocker.stem_above_pivot_m = 1.65e-3;
   rocker.cam_turns = turns;
   return rocker;
 }
