@@ -9,5 +9,5 @@ CDPATH='' cd -- "$(dirname -- "$0")/../.."
 cmake --preset check
 cmake --build --preset check --target crankloop_golden_tests --parallel 2
 rm -rf tests/golden/runs  # and with it runs that are no more
-CRANKLOOP_RENEW_GOLDEN=$1 build/check/tests/crankloop_golden_tests --gtest_brief=1
+build/check/tests/crankloop_golden_tests --gtest_brief=1 --renew "$1"
 git --no-pager diff --stat -- tests/golden CHANGELOG.md

@@ -1,6 +1,6 @@
 // Committed texts that a run must give again, to the last bit, and how they are renewed on purpose.
 //
-//     CRANKLOOP_RENEW_GOLDEN="why" build/check/tests/crankloop_golden_tests      (tests/golden/renew.sh builds first)
+//     build/check/tests/crankloop_golden_tests --renew "why"      (tests/golden/renew.sh builds first)
 //
 // writes them all anew and adds a line with the reason and their checksum to CHANGELOG.md, which a test demands.
 //
@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -47,10 +46,10 @@ inline std::string hex(std::uint64_t x) {
   return text;
 }
 
-/// The reason for renewing, or null: compare.
-inline const char* renewal() {
-  const char* why = std::getenv("CRANKLOOP_RENEW_GOLDEN");
-  return why != nullptr && *why != '\0' ? why : nullptr;
+/// The reason for renewing, or null: compare. Set by golden/main.cpp alone.
+inline const char*& renewal() {
+  static const char* why = nullptr;
+  return why;
 }
 
 inline std::string contents_of(const std::filesystem::path& path) {

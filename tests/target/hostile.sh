@@ -16,7 +16,7 @@ for engine in "$@"; do
   worst=$(tr -d '\r' <"$log" | sed -n 's/^hostile //p')
   bound=$("$here/any_input.sh" "$conf" "$image" "$log")
   echo "$engine: worst tick $worst instructions, bound $bound"
-  if [ "$worst" -gt 0 ] && [ "$worst" -le "$bound" ]; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
+  if [ "${worst:-0}" -gt 0 ] && [ "$worst" -le "$bound" ]; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
 done
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]

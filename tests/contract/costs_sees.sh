@@ -1,0 +1,70 @@
+#!/bin/sh
+# costs_sees.sh CHECKOUT: tests/target/costs.sh finds what it is for, on a target made of scripts: two scenes, a compiler that only knows its
+# version, an emulator that prints what images of costs.cpp would.
+set -eu
+costs=$1/tests/target/costs.sh
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+mkdir "$folder/Forces_20us.dir" "$folder/Torque_20us.dir"
+
+script() { cat >"$folder/$1" && chmod +x "$folder/$1"; }
+script g++ <<'END'
+#!/bin/sh
+echo 12.2.1
+END
+script size <<'END'
+#!/bin/sh
+printf '.text.step 1000 0\n.rodata.tables 2000 0\n'
+END
+script qemu-none <<'END'
+#!/bin/sh
+[ "$1" != --version ] || { echo 'QEMU emulator version 7' && exit; }
+case $1 in *Forces*) step=300 ;; *) step=100 ;; esac
+printf 'instructions idle %d %d\n' $step $((step + 1))
+printf 'instructions rated %d %d\n' $step $((step + 1))
+printf 'instructions redline %d %d\n' $step $((step + 1))
+printf 'hostile %d\nram 64\npainted_stack 32\n' $((step + 2))
+END
+for engine in Forces Torque; do
+  printf '%s\n' 'node: { title: "step" label: "Engine::step(Input)\nfile\n40 bytes (static)" }' >"$folder/${engine}_20us.dir/step.ci"
+done
+cat >"$folder/costs.conf" <<END
+target=none title='No target' compiler='$folder/g++' size='$folder/size' emulator='"$folder/qemu-none"' build_type=-O3 images='$folder'
+engines='Torque_20us Forces_20us' worst_tick= performance='$folder/performance.md'
+END
+
+bad=0
+# sees STATUS TEXT: costs.sh check ends with that and says so.
+sees() {
+  if said=$(sh "$costs" "$folder/costs.conf" check 2>&1); then status=0; else status=$?; fi
+  case $status:$said in "$1":*"$2"*) return ;; esac
+  bad=$((bad + 1))
+  printf 'expected status %s and "%s", but costs.sh ended with %s and said:\n%s\n' "$1" "$2" "$status" "$said"
+}
+echo '# Costs' >"$folder/performance.md"
+sh "$costs" "$folder/costs.conf" write
+committed=$(cat "$folder/performance.md")
+
+# committed_with SED STATUS TEXT: the committed table changed so.
+committed_with() {
+  printf '%s\n' "$committed" | sed "$1" >"$folder/performance.md"
+  sees "$2" "$3"
+}
+committed_with '' 0 '2 passed, 0 failed'
+committed_with 's/^| Torque | 20 | 100 /| Torque | 20 | 97 /' 1 'Torque, 20 us: 97 -> 100'
+committed_with 's/^| Torque | 20 | 100 /| Torque | 20 | 99 /' 0 '2 passed, 0 failed'
+committed_with '/^| Forces/d' 1 'Forces, 20 us: not in the committed table'
+committed_with 's/^\(| Forces | \)20\(.*\)/&\n\1100\2/' 1 'Forces, 100 us: committed, but measured no more'
+committed_with '/^| Torque/s/ - / 105 /' 1 'Torque, 20 us: 105 -> none'
+# Another compiler: figures are not compared, rows are.
+committed_with 's/12\.2\.1/11.0/' 77 '2 rows not compared'
+committed_with 's/12\.2\.1/11.0/; s/^| Torque | 20 | 100 /| Torque | 20 | 50 /' 77 'Torque, 20 us: 50 -> 100'
+committed_with 's/version 7/version 6/' 77 '2 rows not compared'
+committed_with 's/12\.2\.1/11.0/; s/^\(| Forces | \)20\(.*\)/&\n\1100\2/' 1 'Forces, 100 us: committed, but measured no more'
+committed_with '/^<!-- costs/,/^<!-- end/d' 1 'not in the committed table'
+
+# An emulator that runs nothing.
+printf '%s\n' "$committed" >"$folder/performance.md"
+sed -i '3,$d' "$folder/qemu-none"
+sees 1 ''
+[ "$bad" -eq 0 ]
