@@ -424,6 +424,62 @@ TYPED_TEST(SavedState, IsRefusedWhereANumberLiesOutsideWhatAStepCanCompute) {
   }
 }
 
+/// A steady crank, whoever gives it.
+template <class Real, class S>
+void turn_steadily(typename Engine<Real, S>::Input& in) {
+  if constexpr (S::crank == CrankGiven::speed) in.speed_rad_s = Real{300};
+  if constexpr (S::crank == CrankGiven::phase) in.crank += Phase::from_cycles(0.0024);  // of 100 us
+  if constexpr (S::crank == CrankGiven::load) in.starter = 1;
+  if constexpr (Needs<S>::input_pressure) {
+    for (Real& pressure : in.pressure_Pa) pressure = Real{100'000};
+  }
+}
+
+/// One engine saw its valves rest, the other stopped with them open: what it showed last must not show through what it is restored to.
+TYPED_TEST(SavedState, GoesOnWithTheSameBitsInAnEngineWhoseValvesStoodOpen) {
+  using Real = typename TypeParam::Real;
+  using S = typename TypeParam::S;
+  Rig<Real, S> rig;
+  typename Engine<Real, S>::Input in;
+  if constexpr (Needs<S>::elastic_valves) {
+    typename Engine<Real, S>::Input other_in;
+    const auto open = [&] { return rig.other.output().valve[0][0].lift_m > Real{0.005F}; };
+    for (int i = 0; i < 2000 && !open(); ++i) turn_steadily<Real, S>(other_in), rig.other.step(other_in);
+    ASSERT_TRUE(open());
+  } else {
+    run_some(rig.other, 100);
+  }
+  const Engine<Real, S> stopped = rig.other;
+  for (int at = 0; at < 840; ++at) {  // two cycles
+    turn_steadily<Real, S>(in);
+    if (at % 12 == 0) {
+      rig.other = stopped;
+      ASSERT_TRUE(rig.other.restore(rig.one.state()).ok());
+      ASSERT_EQ(bits(rig.one.step(in)), bits(rig.other.step(in))) << "tick " << at;
+    } else {
+      rig.one.step(in);
+    }
+  }
+}
+
+TYPED_TEST(SavedState, OfAnEngineAtItsFastestEitherWayRoundIsTaken) {
+  using Real = typename TypeParam::Real;
+  using S = typename TypeParam::S;
+  Rig<Real, S> rig(busy_engine<S>(), 10e-6);
+  const Real fastest = rig.storage->tables().drive->speed_limit_rad_s;
+  EXPECT_NEAR(static_cast<double>(fastest), 10472, 1) << "100 000 rpm";
+  for (const Real speed : {fastest, -fastest}) {
+    State<Real, S> state = rig.one.state();
+    state.speed_rad_s = speed;
+    ASSERT_TRUE(rig.one.restore(state).ok());
+    const std::vector<unsigned char> bytes = saved(rig.one);
+    EXPECT_TRUE(load_state(bytes.data(), bytes.size(), rig.other).ok()) << speed;
+    EXPECT_EQ(rig.other.state().speed_rad_s, speed);
+    state.speed_rad_s = speed * static_cast<Real>(1.0001);
+    EXPECT_TRUE(refuses(loaded(rig, state), Reason::out_of_range, "state.drive")) << speed;
+  }
+}
+
 /// Whoever forges bytes with a right checksum may get wrong numbers, but no infinite ones, and no step out of bounds (the sanitizers look).
 TYPED_TEST(SavedState, ForgedInAnyFieldIsRefusedOrStepsOnWithinBounds) {
   using Real = typename TypeParam::Real;

@@ -535,6 +535,21 @@ TEST(PressureDefinition, RefusesTablesThatAreNotOnePeriod) {
   EXPECT_TRUE(refuses(validate_table(one_turn), Reason::not_one_period, "pressure.file"));
 }
 
+TEST(PressureDefinition, AcceptsAGapThatClosesTheCircleUpToSixtyDegreesWide) {
+  // 720 deg less the gap: the last row, alone beyond 650 deg, makes the gap.
+  for (const double start : {0.0, -360.0}) {
+    const auto with_gap = [&](double gap_deg) {
+      std::vector<DiagramPoint> points;
+      for (double at = 0; at < 650; at += 10) points.push_back({start + at, 1e5});
+      points.push_back({start + 720 - gap_deg, 1e5});
+      return validate_table(points);
+    };
+    EXPECT_TRUE(with_gap(59.9).ok()) << start;
+    EXPECT_TRUE(with_gap(60).ok()) << start;
+    EXPECT_TRUE(refuses(with_gap(60.1), Reason::not_one_period, "pressure.file")) << start;
+  }
+}
+
 TEST(PressureDefinition, RefusesRowsThatDoNotRiseAndNamesTheRow) {
   std::vector<DiagramPoint> points = flat_table();
   points[40].at = points[39].at;

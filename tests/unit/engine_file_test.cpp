@@ -15,7 +15,10 @@
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "crankloop/error.hpp"
+#include "crankloop/text_file.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace crankloop::program {
@@ -134,6 +137,45 @@ TEST_F(EngineFileTest, BlanksCommentsAndLineEndsChangeNothing) {
   }
 }
 
+/// The bits of a character in so many bytes: UTF-8 (RFC 3629) where they are the fewest that hold them, else an overlong form.
+std::string in_utf8_form(std::uint32_t code, int bytes) {
+  if (bytes == 1) return std::string(1, static_cast<char>(code));
+  std::string text;
+  for (int i = 1; i < bytes; ++i, code >>= 6) text.insert(text.begin(), static_cast<char>(0x80u | (code & 0x3Fu)));
+  text.insert(text.begin(), static_cast<char>((0xF00u >> bytes & 0xFFu) | code));
+  return text;
+}
+
+TEST(TextFile, HoldsEveryCharacterOfUnicodeInItsShortestFormAndNothingElse) {
+  const auto is_text = [](const std::string& bytes) {
+    try {
+      static_cast<void>(split_lines("a" + bytes + "z", "file"));
+      return true;
+    } catch (const InputError&) {
+      return false;
+    }
+  };
+  for (int bytes = 1; bytes <= 4; ++bytes) {
+    const std::uint32_t forms = bytes == 1 ? 0x80u : 1u << (5 * bytes + 1);  // 11, 16, 21 bits
+    for (std::uint32_t code = 0; code < forms; code += bytes < 4 || code < 0x11000u || (code >= 0x10FF00u && code < 0x111000u) ? 1 : 0x100u) {
+      const int fewest = code < 0x80u ? 1 : code < 0x800u ? 2 : code < 0x10000u ? 3 : 4;
+      const bool control = (code < 0x20u && code != '\t' && code != '\n') || (code >= 0x7Fu && code < 0xA0u);
+      const bool surrogate = code >= 0xD800u && code < 0xE000u;
+      const bool text = bytes == fewest && !control && !surrogate && code <= 0x10FFFFu;
+      ASSERT_EQ(is_text(in_utf8_form(code, bytes)), text) << std::hex << "U+" << code << " in " << bytes << " bytes";
+    }
+  }
+  for (unsigned first = 0x80; first <= 0xFF; ++first) {
+    const std::string alone(1, static_cast<char>(first));
+    EXPECT_FALSE(is_text(alone)) << first;
+    if (first >= 0xF8) {
+      EXPECT_FALSE(is_text(alone + "\x88\x80\x80\x80")) << first;
+    }
+  }
+  EXPECT_FALSE(is_text("\xE2\x82")) << "cut off";
+  EXPECT_FALSE(is_text("\xF0\x9F\x98")) << "cut off";
+}
+
 TEST_F(EngineFileTest, ANameMayHoldAHashThatFollowsNoBlank) {
   EXPECT_EQ(read(replaced(kOneCylinder, "single", "rig#2 \xE2\x84\x96 7 # the old one")).name(),
             "rig#2 \xE2\x84\x96 7");
@@ -203,6 +245,17 @@ TEST_F(EngineFileTest, PinsAreNumberedAlongTheShaftWhateverTheCylindersAreCalled
   EXPECT_FALSE(boxer.section("layout").has("shared_pins"));
 }
 
+TEST_F(EngineFileTest, PinsThatMeetAreNumberedByTheMiddleOfTheirRods) {
+  // A four with two pins of two rods: cylinders 1 and 3 stand at one place, where the pins meet, and each pin goes on to the other side.
+  const std::string four = std::string(kOneCylinder) + "[layout]\ncylinders = 4\nfiring_angles_deg = 0,0,180,180\nshared_pins = 1-2,3-4\n";
+  const auto pins = [&](const char* positions_mm) {
+    const Layout layout = read(four + "cylinder_positions_mm = " + positions_mm + "\n").definition().layout;
+    return std::vector<int>(layout.pin.begin(), layout.pin.begin() + 4);
+  };
+  EXPECT_EQ(pins("100,140,100,60"), (std::vector<int>{1, 1, 0, 0}));
+  EXPECT_EQ(pins("100,60,100,140"), (std::vector<int>{0, 0, 1, 1}));
+}
+
 TEST_F(EngineFileTest, ThrowsMayBeGivenAsACheckWithFewDigits) {
   const std::string three = std::string(kOneCylinder) + "[layout]\ncylinders = 7\nfiring_order = 1-3-5-7-2-4-6\n";
   const EngineFile free = read(three);
@@ -214,6 +267,10 @@ TEST_F(EngineFileTest, ThrowsMayBeGivenAsACheckWithFewDigits) {
   for (const std::string& angle : rounded) list += (list.empty() ? "" : ",") + angle;
   expect_same(read(three + "crank_throws_deg = " + list + "\n").definition(), free.definition());
   EXPECT_NE(refusal(three + "crank_throws_deg = 0,0,0,0,0,0,0\n"), "");
+  // Two digits behind the point are enough, one is not.
+  const std::string two = std::string(kOneCylinder) + "[layout]\ncylinders = 2\nfiring_angles_deg = 0,600\ncrank_throws_deg = 0,";
+  for (const char* good : {"120", "120.009", "119.991", "-240.009"}) EXPECT_EQ(refusal(two + good + "\n"), "") << good;
+  for (const char* bad : {"120.011", "119.989", "120.1", "-240.1"}) EXPECT_NE(refusal(two + bad + "\n"), "") << bad;
 }
 
 std::string angle_table() {

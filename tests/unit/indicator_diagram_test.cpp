@@ -469,6 +469,36 @@ TEST(VolumeTable, RefusesLoopsThatAreNoFourStrokes) {
   EXPECT_EQ(answer(beyond_ends).reason, Reason::not_a_cycle) << "first and last row beyond top dead centre";
 }
 
+TEST(VolumeTable, MayTurnTwoHundredthsOfTheSweptVolumeFromADeadCentreAndNoMore) {
+  // A measured loop whose volumes are a little off: a row at a dead centre stands 1.9 or 2.1 % of the swept volume from it. Inside the stroke
+  // its neighbours, which would be beyond it, are left out; outside no second row is.
+  const Crank crank = support::diesel_495_crank();
+  const VolumeLoop loop = volume_loop(crank, smooth_pressure_Pa, 2, true);
+  const double top_m3 = loop.rows[0].at;
+  const double swept_m3 = loop.rows[90].at - top_m3;
+  const auto answer_with = [&](std::size_t turn, double into_stroke) {
+    const double sign = turn % 180 == 90 ? -1 : 1;
+    const double at_m3 = loop.rows[turn].at + sign * into_stroke * swept_m3;
+    Rows rows;
+    for (std::size_t i = 0; i < loop.rows.size(); ++i) {
+      if (i == turn) {
+        rows.push_back({at_m3, loop.rows[i].pressure_Pa});
+      } else if (sign * (loop.rows[i].at - at_m3) > 0 || std::min((i + 360 - turn) % 360, (turn + 360 - i) % 360) > 90) {
+        rows.push_back(loop.rows[i]);
+      }
+    }
+    IndicatorDiagram diagram;
+    return diagram.init(crank, support::table_pressure(PressureSource::volume_table, rows)).reason;
+  };
+  for (const std::size_t turn : {std::size_t{0}, std::size_t{90}, std::size_t{180}, std::size_t{270}}) {
+    SCOPED_TRACE("turns at row " + std::to_string(turn));
+    EXPECT_EQ(answer_with(turn, 0.019), Reason::ok);
+    EXPECT_EQ(answer_with(turn, 0.021), Reason::not_a_cycle);
+    EXPECT_EQ(answer_with(turn, -0.019), Reason::ok);
+    EXPECT_EQ(answer_with(turn, -0.021), Reason::out_of_range);
+  }
+}
+
 TEST(VolumeTable, IsMotoredPlusHeat) {
   const Crank crank = crank_with_offset(0.1);
   const VolumeLoop loop = volume_loop(crank, smooth_pressure_Pa, 2, true);

@@ -145,6 +145,31 @@ TYPED_TEST(TableTargetsOf, ALobeAllRoundTheCamHaveASegmentForEveryDegree) {
   EXPECT_EQ(lift.segments, 360u);
 }
 
+TYPED_TEST(TableTargetsOf, AGridThatExactlyFitsAreFilledAsWithRoomToSpare) {
+  using Real = TypeParam;
+  GasGrid grid{};
+  const auto filled = [&grid](int capacity) {
+    TableTargets<Real> targets;
+    targets.gas_grid = &grid;
+    targets.gas_capacity = capacity;
+    TableReport report{};
+    EXPECT_TRUE(tabulate(single_495(), {100e-6, {}}, targets, &report).ok()) << capacity;
+    return report;
+  };
+  const TableReport spare = filled(kMostGasSegments);
+  ASSERT_EQ(spare.tolerance_doublings, 0);
+  ASSERT_GT(spare.gas_segments, 720) << "steeper than a segment a degree can follow";
+  const TableReport fits = filled(spare.gas_segments);
+  EXPECT_EQ(fits.tolerance_doublings, 0);
+  EXPECT_EQ(fits.gas_segments, spare.gas_segments);
+  EXPECT_EQ(fits.pressure_error_Pa, spare.pressure_error_Pa);
+  EXPECT_EQ(grid.first[kDegreesPerCycle], spare.gas_segments);
+  const TableReport short_of_one = filled(spare.gas_segments - 1);
+  EXPECT_GT(short_of_one.tolerance_doublings, 0);
+  EXPECT_LT(short_of_one.gas_segments, spare.gas_segments);
+  EXPECT_GT(short_of_one.pressure_error_Pa, spare.pressure_error_Pa);
+}
+
 TYPED_TEST(TableTargetsOf, MotionsWithoutLiftsAreFilledAsWithThem) {
   using Real = TypeParam;
   EngineDefinition engine = single_495();
