@@ -37,6 +37,15 @@ struct MeasuredWithValves : Scene {
 template class Engine<float, MeasuredWithValves>;
 template class Engine<double, MeasuredWithValves>;
 
+/// A valve and nothing besides: where it rests, its output is left as it is.
+struct OneValve : Scene {
+  static constexpr Count cylinders = exactly<1>;
+  static constexpr Count trains = exactly<1>;
+  static constexpr ValveModel valves = ValveModel::elastic;
+};
+template class Engine<float, OneValve>;
+template class Engine<double, OneValve>;
+
 namespace {
 
 using support::Random;
@@ -51,7 +60,7 @@ EngineDefinition busy_engine() {
   engine.train_count = 1;
   engine.trains[0] = valve_test::ohc_125_train();
   engine.trains[0].cam.phase_rate_deg_s = 300;
-  engine.trains[0].valve.head_area_m2 = 6e-4;
+  if (S::valve_gas) engine.trains[0].valve.head_area_m2 = 6e-4;
   engine.friction = {60e3, 100, 0.5};
   engine.load = {1, 0.01, 1e-3, 0.02};
   engine.starter = {60, 60};
@@ -155,13 +164,14 @@ struct CaseName {
     using S = typename Case::S;
     const char* scene = S::valve_results ? (S::kinematics ? "Whole" : "MeasuredWithValves")
                         : S::rod_motion  ? "MeasuredMotion"
+                        : S::valves == ValveModel::elastic ? "OneValve"
                         : S::starter     ? "FreeRunning"
                         : S::load_ratio  ? "TorqueByTable"
                                          : "TorqueByPressure";
     return std::string(scene) + (sizeof(typename Case::Real) == 4 ? "Float" : "Double");
   }
 };
-using Cases = ::testing::Types<Of<float, scenes::Whole>, Of<double, scenes::Whole>, Of<float, MeasuredWithValves>, Of<double, MeasuredWithValves>,
+using Cases = ::testing::Types<Of<float, scenes::Whole>, Of<double, scenes::Whole>, Of<float, MeasuredWithValves>, Of<double, MeasuredWithValves>, Of<float, OneValve>, Of<double, OneValve>,
                                Of<float, scenes::TorqueByTable>, Of<double, scenes::TorqueByTable>, Of<float, scenes::TorqueByPressure>,
                                Of<double, scenes::TorqueByPressure>, Of<float, scenes::FreeRunning>, Of<double, scenes::FreeRunning>, Of<float, scenes::MeasuredMotion>, Of<double, scenes::MeasuredMotion>>;
 TYPED_TEST_SUITE(SavedState, Cases, CaseName);
