@@ -81,7 +81,14 @@ use_compiler_cache() {
   has_command ccache || return 0
   export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
   CCACHE_BASEDIR=$(pwd) CCACHE_NOHASHDIR=1  # a checkout of another path counts as the same
-  export CCACHE_BASEDIR CCACHE_NOHASHDIR
+  CCACHE_SLOPPINESS=pch_defines,time_macros  # else it leaves out what includes a precompiled header
+  export CCACHE_BASEDIR CCACHE_NOHASHDIR CCACHE_SLOPPINESS
+}
+
+# Ninja calls the compiler from the top of the build folder wherever a source lies: then builds of other projects find in the compiler cache what
+# this one's left there. A build folder that exists keeps its generator.
+use_ninja() {
+  if has_command ninja; then export CMAKE_GENERATOR=Ninja; fi
 }
 
 # ---- one part after the other -----------------------------------------------------------------------------------------------

@@ -57,10 +57,13 @@ function(crankloop_add_scene name scene_header engine_file)
   set(tables "${dir}/${name}_tables.hpp")
   crankloop_program(program)
   crankloop_tables_of_engine_file(pressure_tables "${engine_file}")
+  # A program that is newer makes the tables again; only where they differ is what they are compiled into compiled again.
   add_custom_command(
-    OUTPUT "${tables}"
+    OUTPUT "${tables}.made"
+    BYPRODUCTS "${tables}"
     COMMAND "${program}" tables "${engine_file}" --tick-us "${arg_TICK_US}" --real "${arg_REAL}"
-      --integrator "${arg_INTEGRATOR}" --accuracy-um "${arg_ACCURACY_UM}" --output "${tables}"
+      --integrator "${arg_INTEGRATOR}" --accuracy-um "${arg_ACCURACY_UM}" --output "${tables}.made"
+    COMMAND "${CMAKE_COMMAND}" -E copy_if_different "${tables}.made" "${tables}"
     DEPENDS "${program}" "${engine_file}" ${pressure_tables}
     COMMENT "Tables of ${name}"
     VERBATIM)
@@ -72,7 +75,7 @@ function(crankloop_add_scene name scene_header engine_file)
   set(SCENE_TICK_US "${arg_TICK_US}")
   configure_file("${CMAKE_CURRENT_FUNCTION_LIST_DIR}/scene.hpp.in" "${dir}/${name}.hpp" @ONLY)
   configure_file("${CMAKE_CURRENT_FUNCTION_LIST_DIR}/scene.cpp.in" "${dir}/${name}.cpp" @ONLY)
-  add_library(${name} STATIC "${dir}/${name}.cpp" "${dir}/${name}.hpp" "${tables}")
+  add_library(${name} STATIC "${dir}/${name}.cpp" "${dir}/${name}.hpp" "${tables}.made")
   target_include_directories(${name} PUBLIC "${dir}")
   target_link_libraries(${name} PUBLIC crankloop::crankloop)
   if(TARGET crankloop_host_program)  # a cross build of crankloop itself: port/common/host_program.cmake

@@ -19,7 +19,7 @@ cycle_ticks=1000  # a cycle of most kernels; of the others two or four, or a par
 growth_percent=2
 
 mkdir -p "$build_dir"
-if ! { cmake -S "$here/../../.." -B "$build_dir" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE="-O3 -DNDEBUG" -DCRANKLOOP_BENCH_PEERS=ON &&
+if ! { cmake -S "$here/../../.." -B "$build_dir" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE="-O3 -DNDEBUG" -DCRANKLOOP_DEVELOPER=ON &&
   cmake --build "$build_dir" --target crankloop_program --parallel "$jobs"; } >"$build_dir/build.log" 2>&1; then
   tail -n 40 "$build_dir/build.log" >&2
   exit 1
