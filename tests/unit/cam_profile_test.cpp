@@ -283,6 +283,20 @@ TEST_F(SmoothedCam, CountsFromItsOwnPeakWhereverTheTableBegins) {
   EXPECT_NEAR(smooth.at(-0.5).lift_m, truth.at(-0.5).lift_m, 1.5e-6 + 0.05 * kRad * 9e-3);
 }
 
+TEST_F(SmoothedCam, IsTheSameHoweverFarItsRowsGoOnAlongTheBaseCircle) {
+  constexpr double kSmoothing_m = 1e-6;
+  double rises_deg = -80;
+  while (truth.at((rises_deg + 1) * kRad).lift_m <= kSmoothing_m) ++rises_deg;  // the last row that may be base circle
+  const CamProfile whole = profile_of(Measured(truth, -180, 180, 1).cam(kSmoothing_m));
+  EXPECT_GT(whole.opens_rad(), (rises_deg - 10) * kRad - 1e-12) << "ten degrees of base circle are enough to begin in";
+  for (const double beyond_deg : {11.0, 12.0, 15.0, 40.0}) {
+    const CamProfile smooth = profile_of(Measured(truth, rises_deg - beyond_deg, beyond_deg - rises_deg, 1).cam(kSmoothing_m));
+    EXPECT_EQ(smooth.opens_rad(), whole.opens_rad()) << beyond_deg;
+    EXPECT_EQ(smooth.closes_rad(), whole.closes_rad()) << beyond_deg;
+    for (double phi = -1.4; phi < 1.4; phi += 0.01) EXPECT_EQ(smooth.at(phi).lift_m, whole.at(phi).lift_m) << beyond_deg << ", " << phi;
+  }
+}
+
 TEST_F(SmoothedCam, OfFineAndOfCoarseRowsIsTheSameCam) {
   for (const double step_deg : {0.2, 0.5, 2.0, 5.0}) {
     const Measured table = Measured(truth, -180, 179.9, step_deg).rounded_to(1e-6);

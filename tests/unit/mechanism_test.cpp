@@ -496,6 +496,8 @@ TEST(SecondOrder, EveryQuantityLosesOnlyTheOrderOfLambdaThatItsSeriesLeavesOut) 
   EXPECT_NEAR(order_of(&Pose<double>::rod_angle_rad), 5, kWithin);
   EXPECT_NEAR(order_of(&Pose<double>::rod_slope), 5, kWithin);
   EXPECT_NEAR(order_of(&Pose<double>::rod_curvature), 5, kWithin);
+  EXPECT_NEAR(order_of(&Pose<double>::rod_tilt), 5, kWithin);
+  EXPECT_NEAR(order_of(&Pose<double>::radial), 5, kWithin);
 }
 
 // ---- Fourier form ---------------------------------------------------------------------------------------------------

@@ -3,7 +3,9 @@
 
 #include <memory>
 
+#include <crankloop/tabulate/elementary.hpp>
 #include <crankloop/tabulate/tabulate.hpp>
+#include <crankloop/tabulate/valve_lift.hpp>
 
 #include "support/both_reals.hpp"
 #include "support/status.hpp"
@@ -143,6 +145,36 @@ TYPED_TEST(TableTargetsOf, ALobeAllRoundTheCamHaveASegmentForEveryDegree) {
   const Status status = tabulate(engine, {100e-6, {}}, targets);
   ASSERT_TRUE(status.ok()) << status.field << " " << describe(status.reason);
   EXPECT_EQ(lift.segments, 360u);
+}
+
+TYPED_TEST(TableTargetsOf, ALobeNameTheDegreesThatReachAClosedValveAndOneToEitherSide) {
+  using Real = TypeParam;
+  EngineDefinition engine = single_495();
+  engine.train_count = 1;
+  engine.trains[0] = valve_test::ohc_125_train();
+  for (const double clearance_m : {20e-6, 100e-6, 300e-6}) {
+    engine.trains[0].rocker.clearance_m = clearance_m;
+    LiftCurve<Real> curve{};
+    const auto segments = std::make_unique<LiftSegment<Real>[]>(kDegreesPerTurn);
+    const auto ratios = std::make_unique<Segment<Real>[]>(kDegreesPerTurn);
+    TableTargets<Real> targets;
+    targets.lift_curves = &curve, targets.lift_segments = segments.get(), targets.rocker_ratios = ratios.get();
+    ASSERT_TRUE(tabulate(engine, {100e-6, {}}, targets).ok());
+    ValveLift lift;
+    ASSERT_TRUE(lift.init(engine.trains[0].cam, engine.trains[0].rocker).ok());
+    int first = -1;
+    int last = -1;
+    for (int i = 0; i < static_cast<int>(curve.segments) * 100; ++i) {
+      const double reach_m = lift.at(lift.opens_rad() + i / 100.0 * (elementary::kPi / 180)).lift_m;
+      if (reach_m <= -kLeastLash) continue;
+      if (first < 0) first = i / 100;
+      last = i / 100;
+    }
+    ASSERT_GT(first, 0);
+    ASSERT_LT(last + 1, static_cast<int>(curve.segments));
+    EXPECT_EQ(curve.touch_from, static_cast<std::uint32_t>(first - 1)) << clearance_m;
+    EXPECT_EQ(curve.touch_degrees, static_cast<std::uint32_t>(last - first + 3)) << clearance_m;
+  }
 }
 
 TYPED_TEST(TableTargetsOf, AGridThatExactlyFitsAreFilledAsWithRoomToSpare) {
