@@ -184,7 +184,7 @@ constexpr NumberKey kNumberKeys[] = {
     {"[pressure]", "compression_exponent", false, false},
     {"[pressure]", "expansion_exponent", false, false},
     {"[pressure]", "exhaust_valve_opens_deg", false, false},
-    {"[pressure]", "net_mep_kPa", false, false},
+    {"[pressure]", "net_mep_kPa", false, true},
 };
 
 TEST_F(BadInput, EveryKeyIsMissedWhereItHasNoDefault) {
@@ -233,6 +233,16 @@ TEST_F(BadInput, EveryNumberMustBeAPlainFiniteNumber) {
     if (!key.may_be_negative)
       expect_refused(sample_.with(key.name, "-1"), key.name, {key.name, "-1 is out of range; allowed: "});
   }
+}
+
+TEST_F(BadInput, AMotoredExpansionThatGivesWorkIsRefused) {
+  const auto with_exponent = [this](const char* exponent) {
+    return sample_.changed("exhaust_valve_opens_deg", std::string("exhaust_valve_opens_deg = 135\nmotored_expansion_exponent = ") + exponent);
+  };
+  for (const char* good : {"0", "1.35", "1.5"}) expect_accepted(with_exponent(good));
+  expect_refused(with_exponent("1.34"), sample_.line_of("exhaust_valve_opens_deg") + 1,
+                 {"motored_expansion_exponent: 1.34 would give work", "at least compression_exponent = 1.35"});
+  expect_refused(with_exponent("3.1"), sample_.line_of("exhaust_valve_opens_deg") + 1, {"3.1 is out of range; allowed: "});
 }
 
 TEST_F(BadInput, ZeroIsRefusedWhereItMeansNothing) {

@@ -38,7 +38,7 @@ inline Vec quarter_turn(Vec a) { return {a.up, -a.lateral}; }
 /// Moment about the origin of a force at a point, positive in the sense of rotation.
 inline Wide moment(Vec at, Vec force) { return at.up * force.lateral - at.lateral * force.up; }
 
-/// Where everything is and how it moves, at constant crank speed. The rod's turning is positive in the crank's sense of
+/// Where everything is and how it moves. The rod's turning is positive in the crank's sense of
 /// rotation.
 struct Motion {
   Vec crank_pin, crank_pin_velocity, crank_pin_acceleration;
@@ -70,13 +70,13 @@ inline Wide least_height(const Crank& crank) {
 }
 
 /// Velocities and accelerations from the rod as a rigid body whose upper end cannot leave the cylinder axis.
-inline Motion motion_at(const Crank& crank, Wide crank_rad, Wide speed_rad_s) {
+inline Motion motion_at(const Crank& crank, Wide crank_rad, Wide speed_rad_s, Wide acceleration_rad_s2 = 0) {
   Motion m{};
   const Wide r = wide(crank.crank_radius_m);
   const Wide w = speed_rad_s;
   m.crank_pin = {r * std::sin(crank_rad), r * std::cos(crank_rad)};
   m.crank_pin_velocity = w * quarter_turn(m.crank_pin);
-  m.crank_pin_acceleration = (-w * w) * m.crank_pin;
+  m.crank_pin_acceleration = (-w * w) * m.crank_pin + acceleration_rad_s2 * quarter_turn(m.crank_pin);
   m.piston_pin = {wide(crank.pin_offset_m), piston_height(crank, crank_rad)};
 
   const Vec rod = m.piston_pin - m.crank_pin;

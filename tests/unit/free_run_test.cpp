@@ -115,7 +115,7 @@ TEST_F(FreeRunCommand, StartsThe495AndSaysWhatBecameOfIt) {
     EXPECT_EQ(line(summary, "ticks").first, 20000);
     EXPECT_EQ(line(summary, "reversals").first, 0);
     EXPECT_EQ(line(summary, "faulty_ticks").first, 0);
-    EXPECT_GT(line(summary, "speed_at_end").first, 800);
+    EXPECT_GT(line(summary, "speed_at_end").first, 700);  // beyond what the starter turns
     EXPECT_EQ(line(summary, "cycle_speed").second, "rpm");
     EXPECT_GT(line(summary, "work_of_starter").first, 0);
     // In - out = kept, each figure by its own way; the loop keeps it to rounding, and the figures have six digits.

@@ -251,6 +251,7 @@ typedef struct crankloop_definition {
   crankloop_friction friction; /* this and what follows: for cranks that forces turn, which scenes of crankloop_add_scene may have */
   crankloop_load load;
   crankloop_starter starter;
+  double motored_expansion_exponent; /* of pressure.wiebe; 0: its compression_exponent + 0.03 */
 } crankloop_definition;
 
 /* Fills in every default. Begin with this: a zeroed definition has other values. */

@@ -131,6 +131,7 @@ void each_field(C& c, Cpp& d, Copy& copy) noexcept {
   copy(c.train_count, d.train_count);
   for (int t = 0; t < kMaxTrains; ++t) each_train(c.trains[t], d.trains[t], copy);
   each_torque(c, d, copy);
+  copy(c.motored_expansion_exponent, d.pressure.wiebe.motored_expansion_exponent);
 }
 template <class C, class Cpp, class Copy>
 void each_option(C& c, Cpp& d, Copy& copy) noexcept {

@@ -204,13 +204,15 @@ namespace {
       between(w.wiebe_m, "pressure.wiebe_m", 0, 10),
       between(w.compression_exponent, "pressure.compression_exponent", 1, 2),
       between(w.expansion_exponent, "pressure.expansion_exponent", 1.0001, 2),
+      between(w.motored_expansion_exponent, "pressure.motored_expansion_exponent", 0, 3),
       between(w.exhaust_valve_opens_deg, "pressure.exhaust_valve_opens", 30, 179),
-      w.heat_given ? not_negative(w.heat_J, "pressure.heat", 1e9) : between(w.net_mep_Pa, "pressure.net_mep", 0, 1e8),
+      w.heat_given ? not_negative(w.heat_J, "pressure.heat", 1e9) : between(w.net_mep_Pa, "pressure.net_mep", -1e7, 1e8),
   };
   if (const Status refused = first_refusal(answers); !refused.ok()) return refused;
   if (w.start_of_combustion_deg + w.combustion_duration_deg > w.exhaust_valve_opens_deg) {
     return {Reason::inconsistent, -1, "pressure.combustion_duration"};
   }
+  if (w.motored_exponent() < w.compression_exponent) return {Reason::inconsistent, -1, "pressure.motored_expansion_exponent"};  // work from nothing
   return {};
 }
 

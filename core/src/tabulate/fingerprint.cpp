@@ -65,7 +65,7 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
   if (p.source == PressureSource::wiebe) {
     const WiebeDiagram& w = p.wiebe;
     for (const double x : {w.intake_Pa, w.exhaust_Pa, w.start_of_combustion_deg, w.combustion_duration_deg, w.wiebe_m,
-                           w.compression_exponent, w.expansion_exponent, w.exhaust_valve_opens_deg,
+                           w.compression_exponent, w.expansion_exponent, w.motored_exponent(), w.exhaust_valve_opens_deg,
                            w.heat_given ? w.heat_J : w.net_mep_Pa}) {
       f.add(x);
     }

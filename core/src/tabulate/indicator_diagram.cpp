@@ -29,6 +29,8 @@ constexpr double kMotoredExhaustRampDeg = 10;
   return positive >= 720 ? 0 : positive;  // -1e-20 + 720 rounds to 720
 }
 
+[[nodiscard]] double at_least(double least, double x) noexcept { return x < least ? least : x; }
+
 /// Wiebe's burnt fraction at s = (a - a0)/da in [0, 1], and its derivative by s.
 [[nodiscard]] double burn_rate(double s, double m) noexcept {
   if (s <= 0) return m > 0 ? 0 : kWiebeEfficiency;
@@ -62,45 +64,39 @@ double IndicatorDiagram::volume_m3(double crank_deg) const noexcept {
   return clearance_m3_ + area_m2_ * exact_pose(crank_, crank_deg * kRadPerDeg).displacement_m;
 }
 
+double IndicatorDiagram::slope_m(double crank_deg) const noexcept { return exact_pose(crank_, crank_deg * kRadPerDeg).slope_m; }
+
 /// Degrees since firing top dead centre, 0 to 720.
 double IndicatorDiagram::from_top_deg(double crank_deg) const noexcept { return into_cycle(crank_deg - tdc_deg_); }
 
 double IndicatorDiagram::motored_Pa(double crank_deg) const noexcept {
   switch (pressure_.source) {
     case PressureSource::none: break;
-    case PressureSource::wiebe: return wiebe_motored_Pa(crank_deg);
+    case PressureSource::wiebe: return unfired_Pa(motored_, crank_deg);
     case PressureSource::angle_table:
     case PressureSource::volume_table: return table_motored_Pa(crank_deg);
   }
   return pressure_.crankcase_Pa;
 }
 
-double IndicatorDiagram::heat_Pa(double crank_deg) const noexcept {
-  switch (pressure_.source) {
-    case PressureSource::none: break;
-    case PressureSource::wiebe: return wiebe_heat_Pa(crank_deg);
-    case PressureSource::angle_table:
-    case PressureSource::volume_table: return table_Pa(crank_deg) - table_motored_Pa(crank_deg);
-  }
-  return 0;
-}
-
 double IndicatorDiagram::full_Pa(double crank_deg) const noexcept {
   switch (pressure_.source) {
-    case PressureSource::none:
-    case PressureSource::wiebe: break;
+    case PressureSource::none: break;
+    case PressureSource::wiebe: return wiebe_full_Pa(crank_deg);
     case PressureSource::angle_table:
     case PressureSource::volume_table: return table_Pa(crank_deg);
   }
-  return motored_Pa(crank_deg) + heat_Pa(crank_deg);
+  return pressure_.crankcase_Pa;
 }
+
+double IndicatorDiagram::heat_Pa(double crank_deg) const noexcept { return full_Pa(crank_deg) - motored_Pa(crank_deg); }
 
 // ---- tables ----------------------------------------------------------------------------------------------------------------
 
 Status IndicatorDiagram::init_angles() noexcept {
   rows_ = pressure_.point_count;
   if (pressure_.points[rows_ - 1].at - pressure_.points[0].at > 720 - 1e-9) --rows_;  // a closing row repeats the first
-  exhaust_Pa_ = detail::integrate(tdc_deg_ + 270, tdc_deg_ + 360, 90, [this](double deg) { return table_Pa(deg); }) / 90;
+  find_gas_exchange();
   return {};
 }
 
@@ -133,8 +129,14 @@ Status IndicatorDiagram::init_volumes() noexcept {
     if (row(i).at_deg <= row(i - 1).at_deg) return refused(Reason::not_a_cycle, i);
   }
   if (row(rows_ - 1).at_deg >= row(0).at_deg + 720) return refused(Reason::not_a_cycle, rows_ - 1);
-  exhaust_Pa_ = detail::integrate(tdc_deg_ + 270, tdc_deg_ + 360, 90, [this](double deg) { return table_Pa(deg); }) / 90;
+  find_gas_exchange();
   return {};
+}
+
+void IndicatorDiagram::find_gas_exchange() noexcept {
+  exhaust_Pa_ = detail::integrate(tdc_deg_ + 270, tdc_deg_ + 360, 90, [this](double deg) { return table_Pa(deg); }) / 90;
+  const double stroke_m = detail::integrate(tdc_deg_ + 360, bdc_deg_ + 360, 180, [this](double deg) { return slope_m(deg); });
+  intake_Pa_ = detail::integrate(tdc_deg_ + 360, bdc_deg_ + 360, 180, [this](double deg) { return table_Pa(deg) * slope_m(deg); }) / stroke_m;
 }
 
 /// Row i with its angle; rows go round: row(-1) is the last one, a cycle earlier.
@@ -178,21 +180,24 @@ double IndicatorDiagram::table_Pa(double crank_deg) const noexcept {
   return detail::monotone_cubic(point(0), point(1), point(2), point(3), at_deg);
 }
 
-/// Without combustion the expansion retraces the compression, volume for volume, and the exhaust stroke has no blow-down.
+/// Without combustion the expansion retraces the compression, volume for volume, less the loss, and the exhaust stroke has no blow-down.
 double IndicatorDiagram::table_motored_Pa(double crank_deg) const noexcept {
   const double since_top = from_top_deg(crank_deg);
   const double expansion_deg = bdc_deg_ - tdc_deg_;
-  const auto compression_Pa = [this](double deg) {
+  const auto expansion_Pa = [this](double deg) {
     const double x = exact_pose(crank_, deg * kRadPerDeg).displacement_m;
-    return table_Pa(crank_angle_rad(crank_, x, false) * kDegPerRad + 360);
+    const double loss = elementary::pow(1 + area_m2_ * x / clearance_m3_, -kMotoredLoss);
+    return loss * table_Pa(crank_angle_rad(crank_, x, false) * kDegPerRad + 360);
   };
-  if (since_top < expansion_deg) return compression_Pa(crank_deg);
+  if (since_top < expansion_deg) return expansion_Pa(crank_deg);
   const double pressure = table_Pa(crank_deg);
   if (since_top >= 360) return pressure;
-  const double exhaust = pressure < exhaust_Pa_ ? pressure : exhaust_Pa_;
+  const double exhaust = at_least(intake_Pa_, pressure < exhaust_Pa_ ? pressure : exhaust_Pa_);
+  const double left = (360 - since_top) / kGasExchangeRampDeg;
+  if (left < 1) return pressure + left * (exhaust - pressure);
   const double ramp = (since_top - expansion_deg) / kMotoredExhaustRampDeg;
   if (ramp >= 1) return exhaust;
-  const double at_bottom = compression_Pa(bdc_deg_);
+  const double at_bottom = expansion_Pa(bdc_deg_);
   return at_bottom + ramp * (exhaust - at_bottom);
 }
 
@@ -206,21 +211,42 @@ Status IndicatorDiagram::init_wiebe() noexcept {
   for (int i = 0; i < kBurnPanels; ++i) {
     burnt_[i + 1] = burnt_[i] + burn_panel(static_cast<double>(i) / kBurnPanels, static_cast<double>(i + 1) / kBurnPanels);
   }
-  heat_J_ = 1;
+  bottom_m3_ = volume_m3(bdc_deg_);
+  polytropes_ = unfired(w.start_of_combustion_deg, w.expansion_exponent, w.exhaust_Pa);
+  motored_ = unfired(tdc_deg_, w.motored_exponent(), at_least(w.intake_Pa, w.exhaust_Pa));
   if (w.heat_given) {
     heat_J_ = w.heat_J;
+    fired_ = heat_J_ > 0 ? 1 : 0;
     return {};
   }
   // The loop integral is linear in the heat: two of them tell what heat gives the mean effective pressure.
-  const auto loop_J = [this](bool heat) {
-    return detail::integrate(0, 720, 7200, [&](double deg) {
-      const double p = heat ? wiebe_heat_Pa(deg) : wiebe_motored_Pa(deg);
-      return p * area_m2_ * exact_pose(crank_, deg * kRadPerDeg).slope_m * kRadPerDeg;
-    });
+  const auto loop_J = [this](const auto& pressure_Pa) {
+    return detail::integrate(0, 720, 7200, [&](double deg) { return pressure_Pa(deg) * area_m2_ * slope_m(deg) * kRadPerDeg; });
   };
-  heat_J_ = (w.net_mep_Pa * swept_volume_m3(crank_) - loop_J(false)) / loop_J(true);
-  if (!(heat_J_ >= 0)) return {Reason::no_solution, -1, "pressure.net_mep"};
+  const double asked_J = w.net_mep_Pa * swept_volume_m3(crank_);
+  const double polytropes_J = loop_J([this](double deg) { return unfired_Pa(polytropes_, deg); });
+  heat_J_ = 1;
+  heat_J_ = (asked_J - polytropes_J) / loop_J([this](double deg) { return released_Pa(deg); });
+  fired_ = 1;
+  if (heat_J_ >= 0) return {};
+  // The polytropes alone do more: what is asked for lies between them and the motored diagram.
+  const double motored_J = loop_J([this](double deg) { return unfired_Pa(motored_, deg); });
+  heat_J_ = 0;
+  fired_ = (asked_J - motored_J) / (polytropes_J - motored_J);
+  if (!(fired_ >= 0 && fired_ <= 1)) return {Reason::no_solution, -1, "pressure.net_mep"};
   return {};
+}
+
+IndicatorDiagram::Unfired IndicatorDiagram::unfired(double from_deg, double exponent, double exhaust_Pa) const noexcept {
+  const WiebeDiagram& w = pressure_.wiebe;
+  Unfired u{from_deg, volume_m3(from_deg), 0, exponent, exhaust_Pa, 0};
+  u.from_Pa = w.intake_Pa * elementary::pow(bottom_m3_ / u.from_m3, w.compression_exponent);
+  u.opens_Pa = u.expanded_Pa(volume_m3(w.exhaust_valve_opens_deg - 1e-9));
+  return u;
+}
+
+double IndicatorDiagram::Unfired::expanded_Pa(double volume_m3) const noexcept {
+  return from_Pa * elementary::pow(from_m3 / volume_m3, exponent);
 }
 
 /// Integral of V^(n2 - 1) dx_b from the start of combustion. Panels are equal in the cube root u of its part s: s^m ds is smooth in u for any m.
@@ -252,29 +278,26 @@ namespace {
 
 }  // namespace
 
-double IndicatorDiagram::wiebe_motored_Pa(double crank_deg) const noexcept {
+double IndicatorDiagram::unfired_Pa(const Unfired& unfired, double crank_deg) const noexcept {
   const WiebeDiagram& w = pressure_.wiebe;
   const double since_top = from_top_deg(crank_deg);
   const double deg = since_top + tdc_deg_;                  // tdc to tdc + 720
   const double closed_deg = deg >= bdc_deg_ + 360 ? deg - 720 : deg;  // compression and expansion without a break at 720
   const double opens_deg = w.exhaust_valve_opens_deg;
   if (closed_deg < opens_deg) {
-    const double start_m3 = volume_m3(bdc_deg_);
     const double volume = volume_m3(closed_deg);
-    if (closed_deg <= w.start_of_combustion_deg) return w.intake_Pa * elementary::pow(start_m3 / volume, w.compression_exponent);
-    const double burn_m3 = volume_m3(w.start_of_combustion_deg);
-    return w.intake_Pa * elementary::pow(start_m3 / burn_m3, w.compression_exponent) * elementary::pow(burn_m3 / volume, w.expansion_exponent);
+    if (closed_deg > unfired.from_deg) return unfired.expanded_Pa(volume);
+    return w.intake_Pa * elementary::pow(bottom_m3_ / volume, w.compression_exponent);
   }
   if (deg < bdc_deg_) {
-    const double at_opening = wiebe_motored_Pa(opens_deg - 1e-9);
-    return w.exhaust_Pa + (at_opening - w.exhaust_Pa) * blow_down((deg - opens_deg) / (bdc_deg_ - opens_deg));
+    return unfired.exhaust_Pa + (unfired.opens_Pa - unfired.exhaust_Pa) * blow_down((deg - opens_deg) / (bdc_deg_ - opens_deg));
   }
-  if (since_top < 360) return w.exhaust_Pa;
+  if (since_top < 360) return unfired.exhaust_Pa;
   const double ramp = (since_top - 360) / kGasExchangeRampDeg;
-  return ramp < 1 ? w.exhaust_Pa + ramp * (w.intake_Pa - w.exhaust_Pa) : w.intake_Pa;
+  return ramp < 1 ? unfired.exhaust_Pa + ramp * (w.intake_Pa - unfired.exhaust_Pa) : w.intake_Pa;
 }
 
-double IndicatorDiagram::wiebe_heat_Pa(double crank_deg) const noexcept {
+double IndicatorDiagram::released_Pa(double crank_deg) const noexcept {
   const WiebeDiagram& w = pressure_.wiebe;
   const double deg = from_top_deg(crank_deg) + tdc_deg_;
   const double closed_deg = deg >= bdc_deg_ + 360 ? deg - 720 : deg;
@@ -284,6 +307,14 @@ double IndicatorDiagram::wiebe_heat_Pa(double crank_deg) const noexcept {
   const double burnt = burn_integral(at_deg - w.start_of_combustion_deg);
   const double p = heat_J_ * (w.expansion_exponent - 1) * burnt * elementary::pow(volume_m3(at_deg), -w.expansion_exponent);
   return closed_deg < opens_deg ? p : p * blow_down((closed_deg - opens_deg) / (bdc_deg_ - opens_deg));
+}
+
+double IndicatorDiagram::wiebe_full_Pa(double crank_deg) const noexcept {
+  if (fired_ < 1) {
+    const double motored = unfired_Pa(motored_, crank_deg);
+    return motored + fired_ * (unfired_Pa(polytropes_, crank_deg) - motored);
+  }
+  return unfired_Pa(polytropes_, crank_deg) + released_Pa(crank_deg);
 }
 
 }  // namespace crankloop

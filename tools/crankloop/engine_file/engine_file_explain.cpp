@@ -22,6 +22,12 @@ std::string combustion_too_long(const SectionValues& pressure) {
          " deg; it must end before exhaust_valve_opens_deg = " + shortest(pressure.number("exhaust_valve_opens_deg"));
 }
 
+std::string motored_gives_work(const SectionValues& pressure) {
+  return "motored_expansion_exponent: " + shortest(pressure.number("motored_expansion_exponent")) +
+         " would give work without combustion; it must be at least compression_exponent = " + shortest(pressure.number("compression_exponent")) +
+         ", or 0 for that + 0.03";
+}
+
 }  // namespace
 
 bool is_named(const Key& key, std::string_view field) {
@@ -59,6 +65,9 @@ InputError EngineFile::explain(const Status& status) const {
   }
   if (status.reason == Reason::inconsistent && field[1] == "combustion_duration") {
     return InputError(path_, home->line_of("combustion_duration_deg"), combustion_too_long(*home));
+  }
+  if (status.reason == Reason::inconsistent && field[1] == "motored_expansion_exponent") {
+    return InputError(path_, home->line_of("motored_expansion_exponent"), motored_gives_work(*home));
   }
 
   for (const Key* key : keys_of(home->kind)) {

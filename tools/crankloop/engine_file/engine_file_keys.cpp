@@ -96,9 +96,10 @@ constexpr Key kKeys[] = {
     {"pressure", "wiebe_m", Kind::number, kNoUnit, from(0).up_to(10), "", required, "", kWiebe, "", "form exponent of the heat release"},
     {"pressure", "compression_exponent", Kind::number, kNoUnit, from(1).up_to(2), "", required, "", kWiebe, "", "n1, polytropic"},
     {"pressure", "expansion_exponent", Kind::number, kNoUnit, from(1.0001).up_to(2), "", required, "", kWiebe, "", "n2, polytropic"},
+    {"pressure", "motored_expansion_exponent", Kind::number, kNoUnit, from(0).up_to(3), "", defaults, "0", kWiebe, "", "of a cylinder that does not fire, at least n1; 0: n1 + 0.03"},
     {"pressure", "exhaust_valve_opens_deg", Kind::number, kDeg, from(30).up_to(179), "", required, "", kWiebe, "", "crank angle, firing TDC = 0"},
-    {"pressure", "net_mep_kPa", Kind::number, kKPa, from(0).up_to(100000), "", required, "", kWiebe, "heat:net IMEP", "net IMEP over 720 deg; heat is scaled to meet it"},
-    {"pressure", "heat_J", Kind::number, kJ, from(0).up_to(1e9), "", required, "", kWiebe, "heat:heat", "heat per cylinder and cycle, instead of net_mep_kPa"},
+    {"pressure", "net_mep_kPa", Kind::number, kKPa, from(-10000).up_to(100000), "", required, "", kWiebe, "heat:net IMEP", "net IMEP over 720 deg, at least the motored one; heat is scaled to meet it"},
+    {"pressure", "heat_J", Kind::number, kJ, from(0).up_to(1e9), "", required, "", kWiebe, "heat:heat", "heat per cylinder and cycle, instead of net_mep_kPa; 0: motored"},
     {"pressure", "file", Kind::path, kNoUnit, kAny, "", required, "", kTables, "", "CSV with header crank_deg,pressure_kPa or volume_cm3,pressure_kPa; relative to the engine file"},
 
     {"friction", "constant_kPa", Kind::number, kKPa, from(0).up_to(10000), "", defaults, "0", "", "", "at any speed; holds at standstill"},

@@ -74,6 +74,7 @@ Pressure build_pressure(const SectionValues& values) {
   pressure.wiebe.wiebe_m = values.si("wiebe_m");
   pressure.wiebe.compression_exponent = values.si("compression_exponent");
   pressure.wiebe.expansion_exponent = values.si("expansion_exponent");
+  pressure.wiebe.motored_expansion_exponent = values.si("motored_expansion_exponent");
   pressure.wiebe.exhaust_valve_opens_deg = values.si("exhaust_valve_opens_deg");
   pressure.wiebe.heat_given = values.has("heat_J");
   if (pressure.wiebe.heat_given) {

@@ -191,7 +191,7 @@ std::string pressure_remark(const ReportInput& input) {
          ", by a Wiebe heat release of form exponent " + number_text(w.wiebe_m) + " over " +
          number_text(w.combustion_duration_deg) + " deg from " + number_text(w.start_of_combustion_deg) +
          " deg, between polytropes of exponents " + number_text(w.compression_exponent) + " and " +
-         number_text(w.expansion_exponent) + "." + load;
+         number_text(w.expansion_exponent) + "; without combustion it would expand by " + number_text(w.motored_exponent()) + "." + load;
 }
 
 report::Section accuracy_section(const ReportInput& input) {

@@ -63,14 +63,19 @@ double GasWork::until_J(double angle_deg) const {
   return sum_J;
 }
 
+double GasWork::backwards_Nm() const {
+  const double cycle_J = until_J(720) - until_J(0);
+  return cycle_J < 0 ? -2 * cycle_J / (4 * kPi) : 0;
+}
+
 EnergyBooks::EnergyBooks(const ExactEngine& exact, const FreeOperation& operation, const FreeState& begin)
-    : engine_{exact.definition()}, gas_{exact, operation}, begin_{begin} {}
+    : engine_{exact.definition()}, gas_{exact, operation}, backwards_Nm_{gas_.backwards_Nm()}, begin_{begin} {}
 
 double EnergyBooks::friction_Nm(double speed_rad_s) const noexcept {
   const Friction& f = engine_.friction;
   const double w = std::fabs(speed_rad_s);
   const double pressure_Pa = f.constant_Pa + w * (f.linear_Pa_s + w * f.quadratic_Pa_s2);
-  return pressure_Pa * swept_volume_m3(engine_.crank) * engine_.layout.cylinders / (4 * kPi);
+  return pressure_Pa * swept_volume_m3(engine_.crank) * engine_.layout.cylinders / (4 * kPi) + (speed_rad_s < 0 ? backwards_Nm_ : 0);
 }
 
 double EnergyBooks::load_Nm(double speed_rad_s) const noexcept {

@@ -31,6 +31,8 @@ class GasWork {
   GasWork(const ExactEngine& exact, const FreeOperation& operation);
 
   [[nodiscard]] double between_J(double from_deg, double to_deg) const { return until_J(to_deg) - until_J(from_deg); }
+  /// What the crank loses beside it when it turns backwards, where the gas's cycle would give it work: docs/model.md "Crank dynamics".
+  [[nodiscard]] double backwards_Nm() const;
 
  private:
   /// One cylinder's work since its firing top dead centre, its cycle in equal parts.
@@ -58,7 +60,7 @@ class EnergyBooks {
 
   [[nodiscard]] EnergyBalance balance(const FreeState& end) const;
 
-  [[nodiscard]] double friction_Nm(double speed_rad_s) const noexcept;  ///< the engine's own, against the rotation
+  [[nodiscard]] double friction_Nm(double speed_rad_s) const noexcept;  ///< the engine's own, against the rotation; backwards also the gas's
   [[nodiscard]] double load_Nm(double speed_rad_s) const noexcept;      ///< the brake's
   [[nodiscard]] double inertia_kg_m2(double angle_deg) const noexcept;  ///< J_eff
 
@@ -67,6 +69,7 @@ class EnergyBooks {
 
   const EngineDefinition& engine_;
   GasWork gas_;
+  double backwards_Nm_;
   FreeState begin_;
   double starter_J_ = 0;
   double friction_J_ = 0;

@@ -23,6 +23,9 @@ struct DiagramPoint {
   double pressure_Pa;
 };
 
+/// A cylinder that does not fire loses heat and gas: its expansion lies below its compression by (volume / clearance volume) to the minus this.
+inline constexpr double kMotoredLoss = 0.03;
+
 /// Synthesised four-stroke diagram. Angles in degrees of the cylinder's own crank angle, firing at 0.
 struct WiebeDiagram {
   double intake_Pa = 98e3;                   ///< plenum, from gas-exchange top dead centre to bottom dead centre
@@ -32,16 +35,20 @@ struct WiebeDiagram {
   double wiebe_m = 0.9;                      ///< form exponent, 0 to 10
   double compression_exponent = 1.35;        ///< n1, 1 to 2
   double expansion_exponent = 1.28;          ///< n2, 1.0001 to 2
+  double motored_expansion_exponent = 0;     ///< of a cylinder that does not fire: at least n1, at most 3; 0 = n1 + kMotoredLoss
   double exhaust_valve_opens_deg = 135;      ///< 30 to 179
   bool heat_given = false;                   ///< true: heat_J is used; false: heat is scaled to net_mep_Pa
-  double net_mep_Pa = 0;                     ///< indicated mean effective pressure over 720 deg at load ratio 1
-  double heat_J = 0;                         ///< heat released per cycle and cylinder at load ratio 1
+  double net_mep_Pa = 0;                     ///< indicated mean effective pressure over 720 deg at load ratio 1; from the motored one on
+  double heat_J = 0;                         ///< heat released per cycle and cylinder at load ratio 1; 0 = motored
+
+  [[nodiscard]] constexpr double motored_exponent() const noexcept {
+    return motored_expansion_exponent > 0 ? motored_expansion_exponent : compression_exponent + kMotoredLoss;
+  }
 };
 
 /// Pressure at load ratio q is p_motored(a) + q (p_full(a) - p_motored(a)).
 ///
-/// Wiebe: heat scales with q, which is exactly this line, because the pressure equation is linear in the heat.
-/// Tables: the given diagram is q = 1; the motored one retraces the compression on the way down (docs/model.md "Load ratio").
+/// The motored diagram is that of a cylinder without combustion, and does no work: docs/model.md "Load ratio".
 struct Pressure {
   PressureSource source = PressureSource::none;
   double crankcase_Pa = 100e3;           ///< p0, on the piston's other side

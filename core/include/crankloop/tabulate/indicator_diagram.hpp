@@ -17,14 +17,15 @@ namespace crankloop {
 class IndicatorDiagram {
  public:
   /// Refuses what validate() refuses, volumes that are no four-stroke loop or repeat from row to row ("pressure.file" with the row), an exhaust opening at or after
-  /// bottom dead centre, and a mean effective pressure that no positive heat reaches ("pressure.net_mep").
+  /// bottom dead centre, and a mean effective pressure below the motored one ("pressure.net_mep").
   Status init(const Crank& crank, const Pressure& pressure) noexcept;
 
   [[nodiscard]] double motored_Pa(double crank_deg) const noexcept;
   [[nodiscard]] double heat_Pa(double crank_deg) const noexcept;  ///< what full load adds
   [[nodiscard]] double full_Pa(double crank_deg) const noexcept;
 
-  /// Heat per cycle and cylinder of a synthesised diagram, as given or as found from the mean effective pressure; else 0.
+  /// Heat per cycle and cylinder of a synthesised diagram, as given or as found from the mean effective pressure; else 0, as where that is less
+  /// than the polytropes alone do.
   [[nodiscard]] double heat_J() const noexcept { return heat_J_; }
 
  private:
@@ -33,19 +34,33 @@ class IndicatorDiagram {
     double at_deg;
     double pressure_Pa;
   };
+  /// A synthesised cycle without heat: expansion by `exponent` from one angle on, until then compression by the definition's.
+  struct Unfired {
+    double from_deg;
+    double from_m3;
+    double from_Pa;
+    double exponent;
+    double exhaust_Pa;
+    double opens_Pa;  ///< where the exhaust valve opens
+    [[nodiscard]] double expanded_Pa(double volume_m3) const noexcept;
+  };
 
   Status init_angles() noexcept;
   Status init_volumes() noexcept;
   Status init_wiebe() noexcept;
+  void find_gas_exchange() noexcept;
   [[nodiscard]] Row row(int i) const noexcept;
   [[nodiscard]] int row_before(double cycle_deg) const noexcept;
   [[nodiscard]] double table_Pa(double cycle_deg) const noexcept;
   [[nodiscard]] double table_motored_Pa(double cycle_deg) const noexcept;
   [[nodiscard]] double volume_m3(double crank_deg) const noexcept;
+  [[nodiscard]] double slope_m(double crank_deg) const noexcept;
   [[nodiscard]] double burn_integral(double since_start_deg) const noexcept;
   [[nodiscard]] double burn_panel(double from_u, double to_u) const noexcept;
-  [[nodiscard]] double wiebe_motored_Pa(double cycle_deg) const noexcept;
-  [[nodiscard]] double wiebe_heat_Pa(double cycle_deg) const noexcept;
+  [[nodiscard]] Unfired unfired(double from_deg, double exponent, double exhaust_Pa) const noexcept;
+  [[nodiscard]] double unfired_Pa(const Unfired& unfired, double cycle_deg) const noexcept;
+  [[nodiscard]] double released_Pa(double cycle_deg) const noexcept;  ///< what the heat adds to the polytropes
+  [[nodiscard]] double wiebe_full_Pa(double cycle_deg) const noexcept;
   [[nodiscard]] double from_top_deg(double crank_deg) const noexcept;
 
   Crank crank_{};
@@ -57,6 +72,11 @@ class IndicatorDiagram {
   int rows_ = 0;                ///< without a closing row
   int stroke_start_[5] = {};    ///< volume table: first row of each stroke, and rows_
   double exhaust_Pa_ = 0;       ///< table: mean over the second half of the exhaust stroke
+  double intake_Pa_ = 0;        ///< table: mean over the volume of the intake stroke
+  double bottom_m3_ = 0;        ///< Wiebe: volume at bottom dead centre
+  Unfired polytropes_{};        ///< Wiebe: the diagram as given, without its heat
+  Unfired motored_{};           ///< Wiebe
+  double fired_ = 0;            ///< Wiebe: share of the way from motored to polytropes; 1 where there is heat
   double heat_J_ = 0;
   double burnt_[kBurnPanels + 1] = {};  ///< Wiebe: integral of V^(n2 - 1) dx_b up to each panel of the cube root of the burn's part
   // The four rows around the last interval asked for, so that a sweep does not turn the same volumes into angles again and again.

@@ -22,8 +22,10 @@ namespace crankloop::detail {
 template <class Real>
 class CrankStep {
  public:
-  CrankStep(const Drive<Real>& drive, const CrankDynamics<Real>& crank, CrankState<Real>& state, Real& speed_rad_s) noexcept
-      : drive_{drive}, crank_{crank}, state_{state}, speed_rad_s_{speed_rad_s}, speed_before_rad_s_{speed_rad_s} {}
+  /// `gas_mean_Nm` over a cycle: where that takes work, the same cycle passed backwards would give it.
+  CrankStep(const Drive<Real>& drive, const CrankDynamics<Real>& crank, CrankState<Real>& state, Real& speed_rad_s, Real gas_mean_Nm) noexcept
+      : drive_{drive}, crank_{crank}, state_{state}, speed_rad_s_{speed_rad_s}, speed_before_rad_s_{speed_rad_s},
+        stiction_Nm_{crank.drag_Nm, gas_mean_Nm < 0 ? crank.drag_Nm - 2 * gas_mean_Nm : crank.drag_Nm} {}
 
   /// The first half: answers how far the crank turns. `gas_Nm` as it is before the tick; a scene without starter says that it is off.
   [[nodiscard]] Phase turn(Real gas_Nm, bool starter_is_on) noexcept {
@@ -87,10 +89,11 @@ class CrankStep {
   void show(CrankMotion<Real>& motion) const noexcept {
     const Real w = speed_rad_s_;
     const Real push_Nm = gas_Nm_ + starter_.torque_Nm(w) - state_.load_Nm;
-    Real friction_Nm = drag_Nm(magnitude(w));
+    const Sense sense = w < 0 || (w == Real{0} && push_Nm < 0) ? kBackward : kForward;
+    Real friction_Nm = drag_Nm(sense, magnitude(w));
     if (holds(push_Nm)) {
       friction_Nm = push_Nm;
-    } else if (w < 0 || (w == Real{0} && push_Nm < 0)) {
+    } else if (sense == kBackward) {
       friction_Nm = -friction_Nm;
     }
     motion.speed_rad_s = w;
@@ -105,6 +108,10 @@ class CrankStep {
   [[nodiscard]] Real speed_before_rad_s() const noexcept { return speed_before_rad_s_; }
 
  private:
+  enum Sense : std::uint8_t { kForward, kBackward };
+  [[nodiscard]] static Sense sense_of(Real motion) noexcept { return motion < 0 ? kBackward : kForward; }
+  [[nodiscard]] static Sense other(Sense sense) noexcept { return sense == kForward ? kBackward : kForward; }
+
   [[nodiscard]] static Real limited(Real x, Real most) noexcept { return x > most ? most : x < -most ? -most : x; }
   [[nodiscard]] Real held_to_limit(Real speed_rad_s) noexcept {
     const Real held = limited(speed_rad_s, drive_.speed_limit_rad_s);
@@ -112,11 +119,13 @@ class CrankStep {
     return held;
   }
 
-  [[nodiscard]] Real drag_Nm(Real speed_rad_s) const noexcept {
-    return crank_.drag_Nm + speed_rad_s * (crank_.drag_Nm_s + speed_rad_s * crank_.drag_Nm_s2);
+  /// At a speed without its sign.
+  [[nodiscard]] Real drag_Nm(Sense sense, Real speed_rad_s) const noexcept {
+    return stiction_Nm_[sense] + speed_rad_s * (crank_.drag_Nm_s + speed_rad_s * crank_.drag_Nm_s2);
   }
   /// At standstill friction meets any push up to its constant part.
-  [[nodiscard]] bool holds(Real push_Nm) const noexcept { return state_.reduced_speed == Real{0} && magnitude(push_Nm) <= crank_.drag_Nm; }
+  [[nodiscard]] bool meets(Real push_Nm) const noexcept { return magnitude(push_Nm) <= stiction_Nm_[sense_of(push_Nm)]; }
+  [[nodiscard]] bool holds(Real push_Nm) const noexcept { return state_.reduced_speed == Real{0} && meets(push_Nm); }
 
   /// By torques beside that of the masses.
   [[nodiscard]] Real acceleration_rad_s2(Real push_Nm) const noexcept {
@@ -146,8 +155,9 @@ class CrankStep {
   /// False where it would only stop a crank that is breaking away: that has all its friction at the end.
   [[nodiscard]] bool begin_with_friction(Real push_Nm) const noexcept {
     if (before_ == Real{0}) return false;
-    const bool breaks_away = before_ > 0 ? push_Nm > crank_.drag_Nm : push_Nm < -crank_.drag_Nm;
-    return !breaks_away || drive_.tick_s / 2 * crank_.drag_Nm * state_.per_root_inertia < magnitude(before_);
+    const Real drag_Nm = stiction_Nm_[sense_of(before_)];
+    const bool breaks_away = before_ > 0 ? push_Nm > drag_Nm : push_Nm < -drag_Nm;
+    return !breaks_away || drive_.tick_s / 2 * drag_Nm * state_.per_root_inertia < magnitude(before_);
   }
 
   enum class Stop : std::uint8_t { stays, may_pass };
@@ -155,13 +165,13 @@ class CrankStep {
   /// steep, overshoots. A crank that it stops stays there, or passes through where what pushes it back is more than friction.
   void slow_down(Real time_s, Stop stop) noexcept {
     const Real speed = magnitude(speed_rad_s_);
-    const Real drag = drag_Nm(speed);
+    const Real drag = drag_Nm(sense_of(speed_rad_s_), speed);
     if (!(drag > 0)) return;
     const Real per_root = state_.per_root_inertia;
     const Real slope_Nm_s = crank_.drag_Nm_s + 2 * crank_.drag_Nm_s2 * speed;
     const Real impulse = time_s * drag * per_root / (Real{1} + time_s / 2 * slope_Nm_s * (per_root * per_root));
     const bool stops = impulse >= magnitude(state_.reduced_speed);
-    if (stops && !(stop == Stop::may_pass && magnitude(push_at_rest_Nm(gas_before_Nm_)) > crank_.drag_Nm)) {
+    if (stops && !(stop == Stop::may_pass && !meets(push_at_rest_Nm(gas_before_Nm_)))) {
       set_reduced(Real{0});
       speed_rad_s_ = Real{0};
       return;
@@ -177,7 +187,9 @@ class CrankStep {
   [[nodiscard]] bool turns_round() const noexcept {
     const Real back_Nm = before_ > 0 ? -push_at_rest_Nm(gas_Nm_) : push_at_rest_Nm(gas_Nm_);
     const Real left = before_ > 0 ? state_.reduced_speed : -state_.reduced_speed;
-    return before_ != Real{0} && crank_.drag_Nm > 0 && back_Nm > crank_.drag_Nm && left <= drive_.tick_s / 2 * crank_.drag_Nm * state_.per_root_inertia;
+    const Sense then = sense_of(before_);
+    return before_ != Real{0} && stiction_Nm_[kBackward] > 0 && back_Nm > stiction_Nm_[other(then)] &&
+           left <= drive_.tick_s / 2 * stiction_Nm_[then] * state_.per_root_inertia;
   }
   /// Friction turns round with the crank: it has acted for half of the tick in the old sense, and is due in the new one for as much, less twice
   /// the time by which the crank stood still after the middle of the tick. Speeds at hand have that friction, but no other, so they tell this
@@ -186,12 +198,15 @@ class CrankStep {
     const Real sense = before_ > 0 ? Real{1} : Real{-1};
     const Real per_inertia = state_.per_root_inertia * state_.per_root_inertia;
     const Real by_forces_rad_s = magnitude(start_.speed_rad_s - speed_rad_s_);
-    const Real by_friction_rad_s = drive_.tick_s * crank_.drag_Nm * per_inertia;
+    const Real then_Nm = stiction_Nm_[sense_of(before_)];
+    const Real more_Nm = stiction_Nm_[other(sense_of(before_))] - then_Nm;
+    const Real by_friction_rad_s = drive_.tick_s * then_Nm * per_inertia;
     const Real twice_late_rad_s = sense * (start_.speed_rad_s + speed_rad_s_);
     const Real turned_rad_s = by_forces_rad_s + by_friction_rad_s;  // 0 where a friction of next to nothing underflows
     const Real twice_late = turned_rad_s > 0 ? limited(twice_late_rad_s / turned_rad_s, Real{1}) : Real{0};
     const Real time_s = drive_.tick_s * (static_cast<Real>(0.5) - twice_late);
-    const Real change = sense * (time_s * crank_.drag_Nm * state_.per_root_inertia);
+    const Real impulse_Nms = time_s * then_Nm + more_Nm * (drive_.tick_s / 2) * (Real{1} - twice_late);
+    const Real change = sense * (impulse_Nms * state_.per_root_inertia);
     if (sense * (state_.reduced_speed + change) < 0) {
       push_reduced(change);
     } else {  // by rounding alone
@@ -220,7 +235,7 @@ class CrankStep {
   /// From rest, or through standstill: where friction could hold the crank, that is as far as it goes.
   void turn_back(Real before, Real after) noexcept {
     const Real push_Nm = push_at_rest_Nm(gas_Nm_);
-    set_reduced(before != Real{0} && magnitude(push_Nm) <= crank_.drag_Nm ? Real{0} : after);
+    set_reduced(before != Real{0} && meets(push_Nm) ? Real{0} : after);
   }
 
   const Drive<Real>& drive_;
@@ -228,6 +243,7 @@ class CrankStep {
   CrankState<Real>& state_;
   Real& speed_rad_s_;
   Real speed_before_rad_s_;
+  Real stiction_Nm_[2];      ///< constant part of friction and brake, by Sense: backwards also what the gas's loop would give, twice
   Starter<Real> starter_{};
   CrankRate<Real> start_{};  ///< after the first half of the friction
   Real predicted_rad_s_{};   ///< mean speed by the start alone

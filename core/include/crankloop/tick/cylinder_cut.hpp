@@ -43,6 +43,13 @@ class CutHeat {
     return sum;
   }
 
+  /// Likewise, over a cycle.
+  [[nodiscard]] Real mean_Nm() const noexcept {
+    Real sum{};
+    for_each([&](std::uint32_t) { sum += tables_.cut_torque->mean_Nm; });
+    return sum;
+  }
+
  private:
   template <class Visit>
   void for_each(const Visit& visit) const noexcept {

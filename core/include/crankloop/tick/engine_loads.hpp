@@ -33,10 +33,14 @@ void load_bearings([[maybe_unused]] const Tables<Real, S>& tables, [[maybe_unuse
     }
     for (std::uint32_t j = 0; j <= b.pins; ++j) out.journal_along_N[j] = out.journal_across_N[j] = Real{0};
     for (std::uint32_t i = 0; i < b.pins; ++i) {
-      const Real tangential = out.pin_tangential_N[i];
       const Real throw_outward = b.throw_kg_m[i] * w2 - out.pin_radial_N[i];
+      Real tangential = out.pin_tangential_N[i];
       out.pin_radial_N[i] -= b.rods_kg_m[i] * w2;
-      out.pin_load_N[i] = length(out.pin_radial_N[i], tangential);
+      if constexpr (Needs<S>::crank_dynamics) {  // what turns with the pin is accelerated by it
+        tangential -= b.throw_kg_m[i] * out.acceleration_rad_s2;
+        out.pin_tangential_N[i] -= b.rods_kg_m[i] * out.acceleration_rad_s2;
+      }
+      out.pin_load_N[i] = length(out.pin_radial_N[i], out.pin_tangential_N[i]);
       // Each throw is simply supported between its two journals: half to either, turned from the throw's frame into that of pin 0.
       const Real half_along = (throw_outward * b.throw_cos[i] - tangential * b.throw_sin[i]) / 2;
       const Real half_across = (throw_outward * b.throw_sin[i] + tangential * b.throw_cos[i]) / 2;

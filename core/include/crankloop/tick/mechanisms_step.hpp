@@ -327,6 +327,20 @@ template <class Real, class S>
   run_mechanisms(tables, state, out, crank);
 }
 
+/// Where forces turn the crank: mean torque of the gas over a cycle as it is at the tick; 0 of given pressures, which are no cycle.
+template <class Real, class S>
+[[nodiscard]] Real mean_gas_Nm([[maybe_unused]] const Tables<Real, S>& tables, [[maybe_unused]] Real load_ratio, [[maybe_unused]] std::uint32_t cut_cylinders) noexcept {
+  if constexpr (Needs<S>::gas_torque && Needs<S>::load) {
+    Real heat_Nm = tables.gas_torque_heat->mean_Nm;
+    if constexpr (Needs<S>::cut) heat_Nm -= CutHeat<Real, S>(tables, cut_cylinders).mean_Nm();
+    return tables.gas_torque_motored->mean_Nm + load_ratio * heat_Nm;
+  } else if constexpr (Needs<S>::gas_torque) {
+    return tables.gas_torque_full->mean_Nm;
+  } else {
+    return Real{};
+  }
+}
+
 /// Where forces turn the crank: its motion around the look-ups. Answers fault bits. A call of its own for the same reason.
 template <class Real, class S>
 [[gnu::noinline]] std::uint32_t run_turned_by_forces(const Tables<Real, S>& tables, State<Real, S>& state, Output<Real, S>& out,
@@ -334,14 +348,16 @@ template <class Real, class S>
   std::uint32_t faults = 0;
   (void)checked(input.load_Nm, within_magnitude(input.load_Nm, static_cast<Real>(kMostLoad_Nm)), state.load_Nm, kFaultLoad, faults);
   Real gas_Nm = state.gas_Nm[0];
+  std::uint32_t cut_cylinders = 0;
+  if constexpr (Needs<S>::cut) cut_cylinders = crank.cut_cylinders;
   if constexpr (Needs<S>::load) {
     Real heat_Nm = state.gas_Nm[1];
-    if constexpr (Needs<S>::cut) heat_Nm -= CutHeat<Real, S>(tables, crank.cut_cylinders).torque_Nm(state.phase);
+    if constexpr (Needs<S>::cut) heat_Nm -= CutHeat<Real, S>(tables, cut_cylinders).torque_Nm(state.phase);
     gas_Nm += state.load_ratio * heat_Nm;
   }
   bool starter = false;
   if constexpr (S::starter) starter = input.starter != 0;
-  CrankStep<Real> motion(*tables.drive, *tables.crank_dynamics, state, state.speed_rad_s);
+  CrankStep<Real> motion(*tables.drive, *tables.crank_dynamics, state, state.speed_rad_s, mean_gas_Nm(tables, state.load_ratio, cut_cylinders));
   crank.turned = motion.turn(gas_Nm, starter);
   crank.motion = &motion;
   state.phase += crank.turned;
