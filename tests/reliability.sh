@@ -4,7 +4,7 @@
 #
 # Runs what has no log in build/reliability yet, so that a run of hours need not be repeated for another: delete a log to renew its
 # figures. --long is for those hours: 100 000 random cases, 10^8 hostile inputs, 10^9 ticks of soak, 6 minutes of each fuzz target, the
-# whole suite under the sanitizers. Needs the presets release, check, fuzz and coverage (clang++, llvm-cov), and builds them; clang++-19 for
+# whole suite under the sanitizers. Needs the presets release, check, sanitize and coverage (clang++, llvm-cov), and builds them; clang++-19 for
 # its numerical sanitizer. --page runs nothing: the page from the logs there are.
 set -eu
 CDPATH='' cd -- "$(dirname -- "$0")/.."
@@ -42,7 +42,7 @@ if [ "${1:-}" != --page ]; then
   keep faults check crankloop_property_tests build/check/tests/crankloop_property_tests --gtest_filter='FaultInjection*'
   keep soak check crankloop_property_tests build/check/tests/crankloop_property_tests --gtest_filter='Soak*'
   keep edges check crankloop_unit_tests build/check/tests/crankloop_unit_tests --gtest_filter='TableEdges*'
-  keep fuzz fuzz all env CRANKLOOP_FUZZ_SECONDS="$fuzz_seconds" tools/check fuzz
+  keep fuzz sanitize fuzz_targets env CRANKLOOP_FUZZ_SECONDS="$fuzz_seconds" tools/check fuzz
   for log in build/check-logs/fuzz-*.log; do
     [ -e "$log" ] || continue
     case $log in *-configure.log | *-build.log) continue ;; esac
@@ -52,8 +52,7 @@ if [ "${1:-}" != --page ]; then
   keep threads thread crankloop_property_tests build/thread/tests/crankloop_property_tests --gtest_filter='Threads*'
   if command -v clang++-19 >/dev/null; then keep numerical release crankloop tests/numerical_sanitizer.sh; fi
   if $long; then
-    keep sanitize sanitize all tools/check sanitize
-    keep thread thread all tools/check thread
+    keep long check crankloop_program tools/check --long
   fi
 fi
 
@@ -74,6 +73,22 @@ figures() {
 
 What was tried to break crankloop, and what came of it. This page is written by tests/reliability.sh from the logs of the commands it names;
 docs/contract.md says what is promised.
+
+## What runs when
+
+`tools/check --all`, which every change has to pass, runs each proof once, where it costs least; `tools/check --long` runs what proves least for its time,
+before a release and after a change of core. `tools/check --list` names the parts.
+
+| proof | every change, `--all` | `--long` |
+| --- | --- | --- |
+| host tests | all, g++ -O2, test sources -O1 (`host`, `slow`) | under the thread sanitizer (`thread`) |
+| address and undefined-behaviour sanitizers, clang++ -O1 | tests of under a second (`sanitize`); fuzz targets, 15 s each (`fuzz`) | the rest (`sanitize_slow`) |
+| clang++ -O2 | golden, contract, self-check (`clang`) | unit and property tests (`clang_rest`) |
+| same bits | ten builds by two compilers (`same_bits`) | |
+| 64-bit Arm Linux, emulated | golden, contract, self-check (`aarch64`) | unit tests (`aarch64_rest`) |
+| Cortex-M4F, M7, M33, R5F, RV32IMAFC, emulated | self-check, costs, bounds, 50 000 hostile ticks | 10^6 hostile ticks on a Cortex-M4F (`hostile`) |
+| figures of README and docs, benchmark's instructions and errors, demonstration | `figures`, `bench`, `demo` | |
+| the tests themselves | | a sample of single-point changes of core (`mutants`) |
 
 ## Random valve trains
 
@@ -116,7 +131,7 @@ TEXT
   command_of faults
   figures faults
   printf '\n## Soak\n\nUp and down through the speeds again and again: the same bits in each drive, and no denormal number in any state.\n'
-  printf 'tools/check runs 10^7 ticks; with CRANKLOOP_LONG_TESTS=1 in the environment it is 10^9.\n\n'
+  printf 'tools/check slow runs 10^7 ticks; with CRANKLOOP_LONG_TESTS=1 in the environment it is 10^9.\n\n'
   command_of soak
   figures soak
   printf '\n## Edges of tables\n\n'
@@ -131,14 +146,14 @@ TEXT
   tail -n 1 "$logs/fuzz.log" | sed 's/^/- targets: /'
   printf '\n## Sanitizers\n\n'
   cat <<'TEXT'
-`tools/check sanitize` runs the whole suite under the address and undefined-behaviour sanitizers (float-cast-overflow and
-float-divide-by-zero among them), `tools/check thread` under the thread sanitizer; any finding fails a test. What has no line
-here was not run for this page.
+Address and undefined behaviour (float-cast-overflow and float-divide-by-zero among it), and threads; any finding fails a test. What has
+no line here was not run for this page.
 
 TEXT
-  for log in sanitize thread; do
-    [ ! -s "$logs/$log.log" ] || printf -- '- %s: %s\n' "$(head -n 1 "$logs/$log.log")" "$(tail -n 1 "$logs/$log.log")"
-  done
+  if [ -s "$logs/long.log" ]; then
+    printf '`tools/check --long` on %s:\n\n' "$(date -r "$logs/long.log" +%Y-%m-%d)"
+    awk '/^-- / { title = substr($0, 4) } /^   [0-9]+ passed/ { sub(/^ */, ""); sub(/;.*/, ""); print "- " title ": " $0 }' "$logs/long.log"
+  fi
   printf -- '- %s: %s\n' "$(head -n 1 "$logs/threads.log")" "$(sed -n 's/^\[  \([A-Z]*\)  \] /\1 /p' "$logs/threads.log" | head -n 1)"
   if [ -s "$logs/numerical.log" ]; then
     cat <<'TEXT'
