@@ -341,6 +341,16 @@ TEST_F(BadInput, ARodIsGivenByItsEndsOrAsAWholeButNotBothOrNeither) {
   expect_accepted(whole("rod_g = 1887\nrod_com_to_crank_mm = 56"));
 }
 
+TEST_F(BadInput, AThrowIsGivenReducedOrByPinAndWebsButNotBothOrInPart) {
+  const auto with = [this](const std::string& keys) { return sample_.changed("crank_pin_equivalent_g", keys); };
+  expect_accepted(with("crank_pin_g = 900\ncrank_web_g = 1400\ncrank_web_radius_mm = 21"));
+  expect_refused(with("crank_pin_equivalent_g = 900\ncrank_pin_g = 900"), "crank_pin_g",
+                 {"crank_pin_g and crank_pin_equivalent_g", "exclude each other", "crank_pin_g and crank_web_g and crank_web_radius_mm"});
+  expect_refused(with("crank_pin_g = 900\ncrank_web_radius_mm = 21"), "[masses]", {"lacks crank_web_g"});
+  expect_refused(with("crank_web_g = 1400"), "[masses]", {"lacks crank_pin_g"});
+  expect_refused(with("crank_pin_g = 900\ncrank_web_g = -1\ncrank_web_radius_mm = 21"), "crank_web_g", {"-1 is out of range; allowed: "});
+}
+
 TEST_F(BadInput, HeatIsGivenAsItselfOrByWhatItMustReach) {
   expect_refused(sample_.changed("crankcase_kPa", "heat_J = 2000"), "net_mep_kPa",
                  {"net_mep_kPa and heat_J", "exclude each other"});

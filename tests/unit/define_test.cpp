@@ -206,6 +206,20 @@ TEST(LumpedRod, OfTwoPointMassesNeedsNoCorrection) {
   EXPECT_NEAR(masses.rod_inertia_correction_kg_m2, 0, 8 * kEps * 1.887 * l * l);
 }
 
+TEST(CrankThrow, PullsOutwardAsItsPinAndBothWebsDo) {
+  const Crank crank = support::diesel_495_crank();
+  constexpr double kSpeed_rad_s = 210;
+  const auto centrifugal_N = [&](double kg, double radius_m) { return kg * radius_m * kSpeed_rad_s * kSpeed_rad_s; };
+  for (const CrankThrow& drawn : {CrankThrow{0.9, 1.4, 0.021}, CrankThrow{0.9, 1.4, 0}, CrankThrow{0, 1.4, 0.07}}) {
+    Masses masses = diesel_495_masses();
+    reduce_throw(drawn, crank, masses);
+    const double of_parts_N = centrifugal_N(drawn.pin_kg, crank.crank_radius_m) + centrifugal_N(drawn.web_kg, drawn.web_com_m) +
+                              centrifugal_N(drawn.web_kg, drawn.web_com_m);
+    EXPECT_NEAR(centrifugal_N(masses.crank_pin_equivalent_kg, crank.crank_radius_m), of_parts_N, 8 * kEps * of_parts_N);
+    EXPECT_EQ(masses.reciprocating_kg(), diesel_495_masses().reciprocating_kg());
+  }
+}
+
 TEST(LumpedRod, LeavesTheOtherMassesAlone) {
   Masses masses = diesel_495_masses();
   masses.crank_pin_equivalent_kg = 2;

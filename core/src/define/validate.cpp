@@ -83,6 +83,10 @@ void lump_rod(const RigidRod& rod, const Crank& crank, Masses& masses) noexcept 
   masses.rod_inertia_correction_kg_m2 = rod.inertia_kg_m2 - rod.mass_kg * l_pin * l_crank;
 }
 
+void reduce_throw(const CrankThrow& crank_throw, const Crank& crank, Masses& masses) noexcept {
+  masses.crank_pin_equivalent_kg = crank_throw.pin_kg + 2 * crank_throw.web_kg * crank_throw.web_com_m / crank.crank_radius_m;
+}
+
 Status validate(const Masses& masses) noexcept {
   const Status answers[] = {
       not_negative(masses.piston_kg, "masses.piston", kHeaviest_kg),

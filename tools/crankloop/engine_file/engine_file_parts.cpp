@@ -32,7 +32,11 @@ Crank build_crank(const SectionValues& values, const std::string& path) {
 Masses build_masses(const SectionValues& values, const Crank& crank, const std::string& path) {
   Masses masses;
   masses.piston_kg = values.si("piston_g");
-  masses.crank_pin_equivalent_kg = values.si("crank_pin_equivalent_g");
+  if (values.has("crank_pin_g")) {
+    reduce_throw({values.si("crank_pin_g"), values.si("crank_web_g"), values.si("crank_web_radius_mm")}, crank, masses);
+  } else {
+    masses.crank_pin_equivalent_kg = values.si("crank_pin_equivalent_g");
+  }
   masses.crank_inertia_kg_m2 = values.si("crank_inertia_kg_m2");
   if (values.has("rod_g")) {
     RigidRod rod;
