@@ -88,10 +88,14 @@ class SharedBlockError : public std::runtime_error {
 };
 
 /// A block mapped into this process, for as long as the object lives.
+///
+/// Anybody who may write to the file may truncate it, and whoever touches the page then gets SIGBUS. Such a block becomes memory of this process
+/// alone, all zero: its magic is gone, which tells both sides that they have lost it. The signal's handler stays for the life of the process; a
+/// SIGBUS from elsewhere ends the process as ever.
 class SharedBlock {
  public:
-  /// Live's side: a new file, mode 0660 less the umask, removed at the end. A block that a killed run left behind is replaced; any
-  /// other file at that path, and a block that another process runs on, is refused and left alone.
+  /// Live's side: a new file, mode 0660 less the umask, removed at the end. A block that a killed run left behind is replaced, whole or
+  /// half made; any other file at that path, and a block that another process runs on, is refused and left alone.
   [[nodiscard]] static SharedBlock create(const std::string& path, double tick_s, std::uint32_t cylinders);
 
   /// The controller's side: the block of a running `live`. Refused: no such file, not ready yet, another layout.

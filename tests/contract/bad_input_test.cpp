@@ -3,16 +3,20 @@
 // The program runs as its users run it, as a process of its own.
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <spawn.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -36,6 +40,19 @@ std::vector<std::string> lines_of(const std::string& text) {
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
   return lines;
+}
+
+constexpr std::chrono::seconds kPatience{60};  // for what takes a moment on a machine that has time
+
+/// Exit status of a process, or minus the signal that ended it. One that hangs is ended.
+int status_of(pid_t child) {
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  int status = 0;
+  while (waitpid(child, &status, WNOHANG) == 0) {
+    if (std::chrono::steady_clock::now() > deadline) kill(child, SIGKILL);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
 struct Answer {
@@ -89,8 +106,8 @@ class BadInput : public testing::Test {
     std::ofstream(folder_ / name, std::ios::binary) << text;
   }
 
-  /// `out` is where standard output goes; "" closes it.
-  Answer run(const std::vector<std::string>& words, const std::string& out) const {
+  /// The program as a process. `out` is where standard output goes; "" closes it.
+  pid_t start(const std::vector<std::string>& words, const std::string& out) const {
     const std::string error = folder_ / "stderr";
     std::vector<std::string> all = words;
     all.insert(all.begin(), CRANKLOOP_PROGRAM);
@@ -106,14 +123,15 @@ class BadInput : public testing::Test {
     }
     posix_spawn_file_actions_addopen(&files, STDERR_FILENO, error.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     pid_t child = 0;
-    Answer answer;
-    if (posix_spawn(&child, CRANKLOOP_PROGRAM, &files, nullptr, arguments.data(), environ) == 0) {
-      int status = 0;
-      waitpid(child, &status, 0);
-      if (WIFEXITED(status)) answer.status = WEXITSTATUS(status);
-    }
+    EXPECT_EQ(posix_spawn(&child, CRANKLOOP_PROGRAM, &files, nullptr, arguments.data(), environ), 0);
     posix_spawn_file_actions_destroy(&files);
-    answer.error = contents(error);
+    return child;
+  }
+
+  Answer run(const std::vector<std::string>& words, const std::string& out) const {
+    Answer answer;
+    answer.status = status_of(start(words, out));
+    answer.error = contents(folder_ / "stderr");
     return answer;
   }
 
@@ -323,6 +341,16 @@ TEST_F(BadInput, ARodIsGivenByItsEndsOrAsAWholeButNotBothOrNeither) {
   expect_accepted(whole("rod_g = 1887\nrod_com_to_crank_mm = 56"));
 }
 
+TEST_F(BadInput, AThrowIsGivenReducedOrByPinAndWebsButNotBothOrInPart) {
+  const auto with = [this](const std::string& keys) { return sample_.changed("crank_pin_equivalent_g", keys); };
+  expect_accepted(with("crank_pin_g = 900\ncrank_web_g = 1400\ncrank_web_radius_mm = 21"));
+  expect_refused(with("crank_pin_equivalent_g = 900\ncrank_pin_g = 900"), "crank_pin_g",
+                 {"crank_pin_g and crank_pin_equivalent_g", "exclude each other", "crank_pin_g and crank_web_g and crank_web_radius_mm"});
+  expect_refused(with("crank_pin_g = 900\ncrank_web_radius_mm = 21"), "[masses]", {"lacks crank_web_g"});
+  expect_refused(with("crank_web_g = 1400"), "[masses]", {"lacks crank_pin_g"});
+  expect_refused(with("crank_pin_g = 900\ncrank_web_g = -1\ncrank_web_radius_mm = 21"), "crank_web_g", {"-1 is out of range; allowed: "});
+}
+
 TEST_F(BadInput, HeatIsGivenAsItselfOrByWhatItMustReach) {
   expect_refused(sample_.changed("crankcase_kPa", "heat_J = 2000"), "net_mep_kPa",
                  {"net_mep_kPa and heat_J", "exclude each other"});
@@ -379,6 +407,27 @@ TEST_F(BadInput, AFileThatIsNoEngineFileIsRefusedAsAWhole) {
   EXPECT_EQ(run({"show", path_}).status, 0);
 }
 
+/// Some never end, some wait for another process, some do something when they are read: nothing but a regular file is read.
+TEST_F(BadInput, AFileThatIsNoRegularOneIsNotRead) {
+  ASSERT_EQ(mkfifo((folder_ / "fifo").c_str(), 0600), 0);
+  std::filesystem::create_symlink(folder_ / "fifo", folder_ / "link");
+  for (const std::string& path : {folder_ / "fifo", folder_ / "link", std::string("/dev/zero"), std::string("/dev/null"), std::string("/dev/tty")}) {
+    const Answer answer = run({"show", path});
+    EXPECT_EQ(answer.status, kBadInput) << path;
+    if (path != "/dev/tty") expect_refusal(answer, path, {"is no regular file"});  // which may not even open
+  }
+  for (const std::string source : {"angle_table", "volume_table"}) {
+    for (const std::string table : {"fifo", "link", "/dev/zero"}) {
+      expect_refused(sample_.changed("source", "source = " + source + "\nfile = " + table), "file = ", {table + " is no regular file"});
+    }
+  }
+  const Engine ohc(contents(CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini"));
+  write("engine.ini", ohc.changed("source = polynomial", "source = table\nfile = fifo\nsmoothing_um = 10").without("max_lift_mm").without("half_angle_deg").without("exponents").text());
+  const Answer answer = run({"lift", path_, "--train", "intake"});
+  EXPECT_EQ(answer.status, kBadInput);
+  EXPECT_NE(answer.error.find("fifo is no regular file"), std::string::npos) << answer.error;
+}
+
 TEST_F(BadInput, ASectionThatACommandNeedsIsMissedAtTheEndOfTheFile) {
   const Engine no_crank("[engine]\nname = none\nrated_rpm = 1000");
   write("engine.ini", no_crank.text());
@@ -414,18 +463,31 @@ TEST_F(BadDiagram, IsMissedWhereItIsNamed) {
   expect_refused(named, "file = ", {"too large", "8 MiB"});
 }
 
+/// The path stands in an engine file, which may come from anybody, and leads to whatever its reader may read.
+TEST_F(BadDiagram, IsNotShownWhereItIsNone) {
+  const std::string secret = "root:$6$salt$hash:19000:0:99999:7:::";
+  for (const std::string& text : {secret + "\n", "crank_deg,pressure_kPa\n" + secret + "\n", "crank_deg,pressure_kPa\n1," + secret + "\n",
+                                  "crank_deg,pressure_kPa\n" + secret + ",1\n", "crank_deg,pressure_kPa\n1,12" + secret + "\n"}) {
+    write("p.csv", text);
+    write("engine.ini", sample_.changed("source", "source = angle_table\nfile = p.csv").text());
+    const Answer answer = run({"show", path_});
+    expect_refusal(answer, folder_ / "p.csv:" + std::to_string(std::count(text.begin(), text.end(), '\n')), {});
+    for (const char* part : {"root", "salt", "hash", "19000"}) EXPECT_EQ(answer.error.find(part), std::string::npos) << answer.error;
+  }
+}
+
 TEST_F(BadDiagram, NeedsItsHeaderAndTwoColumnsOfNumbers) {
   expect_diagram_refused("", ":1", {"the file is empty", "'crank_deg,pressure_kPa'"});
   expect_diagram_refused("crank_deg,pressure_kPa\n", ":1", {"no rows"});
-  expect_diagram_refused("-360,100\n", ":1", {"header row is '-360,100'", "must be 'crank_deg,pressure_kPa'"});
+  expect_diagram_refused("-360,100\n", ":1", {"the header row must be 'crank_deg,pressure_kPa'"});
   expect_diagram_refused("crank_deg;pressure_kPa\n", ":1", {"must be 'crank_deg,pressure_kPa'"});
   expect_diagram_refused("volume_cm3,pressure_kPa\n1,1\n", ":1", {"must be 'crank_deg,pressure_kPa'"});
   expect_diagram_refused(table(720), ":1", {"must be 'volume_cm3,pressure_kPa'"}, "volume_table");
   expect_diagram_refused(table(10, "1,2,3\n"), ":12", {"3 columns"});
   expect_diagram_refused(table(10, "17\n"), ":12", {"1 column"});
-  expect_diagram_refused(table(10, "17,abc\n"), ":12", {"pressure_kPa: 'abc' is not a number"});
-  expect_diagram_refused(table(10, "17,nan\n"), ":12", {"pressure_kPa: 'nan' is not a finite number"});
-  expect_diagram_refused(table(10, "inf,100\n"), ":12", {"crank_deg: 'inf' is not a finite number"});
+  expect_diagram_refused(table(10, "17,abc\n"), ":12", {"pressure_kPa: not a finite number"});
+  expect_diagram_refused(table(10, "17,nan\n"), ":12", {"pressure_kPa: not a finite number"});
+  expect_diagram_refused(table(10, "inf,100\n"), ":12", {"crank_deg: not a finite number"});
   expect_diagram_refused(table(10, "17,-1\n"), ":12", {"-1 is out of range"});
   expect_diagram_refused(table(10, std::string("17,\0\n", 5)), ":12", {"not a text file"});
 }
@@ -486,6 +548,15 @@ TEST_F(BadCommandLine, IsToldWithTheUsageOfItsCommand) {
   kinematics({"--rmp", "2000"}, "did you mean --rpm?");
   kinematics({"--rpm", "2000", "--method", "tabel"}, "did you mean table?");
   kinematics({"--rpm", "2000", "--csv", kSample}, "--csv would overwrite the input file");
+}
+
+TEST_F(BadCommandLine, CarriesNoControlCodesToTheTerminal) {
+  const std::vector<std::vector<std::string>> cases = {{"\x1b[31mrun"}, {"show", "\x1b]0;title\x07"}, {"show", kSample, "--\x1b[2J"}, {"show", "two\nlines.ini"}};
+  for (const std::vector<std::string>& words : cases) {
+    const Answer answer = run(words);
+    EXPECT_EQ(answer.status, kBadInput);
+    EXPECT_EQ(answer.error, "crankloop: word " + std::to_string(words.size()) + " of the command line has a control character\n");
+  }
 }
 
 TEST_F(BadCommandLine, OfValvesIsToldWithTheUsageOfItsCommand) {
@@ -551,6 +622,21 @@ TEST_F(BadCommandLine, HelpIsNoMistake) {
 /// Output that cannot be written is a failure of the machine, not of the input, and leaves no half file behind.
 class Output : public BadInput {
  protected:
+  /// A run that is long in writing r.csv, once it has begun to.
+  pid_t start_long_run() const {
+    const pid_t child = start({"run", kSample, "--cycles", "1000000", "--csv", folder_ / "r.csv"}, folder_ / "stdout");
+    const auto deadline = std::chrono::steady_clock::now() + kPatience;
+    while (unfinished().empty() && std::chrono::steady_clock::now() < deadline) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_EQ(unfinished().size(), 1u);
+    return child;
+  }
+  std::vector<std::string> unfinished() const {
+    std::vector<std::string> found;
+    for (const std::string& name : files()) {
+      if (name.find(".unfinished-") != std::string::npos) found.push_back(name);
+    }
+    return found;
+  }
   std::vector<std::string> files() const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
@@ -575,6 +661,46 @@ TEST_F(Output, AppearsWhole) {
   EXPECT_EQ(run({"kinematics", kSample, "--rpm", "2000", "--csv", folder_ / "k.csv"}).out, "");
   EXPECT_EQ(contents(folder_ / "k.csv"), answer.out);
   EXPECT_EQ(files(), (std::vector<std::string>{"k.csv", "stderr", "stdout"}));
+}
+
+TEST_F(Output, OfAProgramThatASignalEndsIsTakenAway) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}) {
+    write("r.csv", "precious\n");
+    const pid_t child = start_long_run();
+    kill(child, number);
+    EXPECT_EQ(status_of(child), -number) << "whoever waits for it sees by what it ended";
+    EXPECT_EQ(unfinished(), std::vector<std::string>{}) << number;
+    EXPECT_EQ(contents(folder_ / "r.csv"), "precious\n");
+  }
+}
+
+TEST_F(Output, BeyondTheLargestFileAllowedIsAFailureThatLeavesNothing) {
+  const std::string command = "ulimit -f 100; exec '" CRANKLOOP_PROGRAM "' run '" + std::string(kSample) + "' --cycles 1000 --csv '" + (folder_ / "r.csv") +
+                              "' 2>'" + (folder_ / "stderr") + "'";
+  const int status = std::system(command.c_str());
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == kFailure) << status;
+  EXPECT_NE(contents(folder_ / "stderr").find("r.csv cannot be written: File too large"), std::string::npos) << contents(folder_ / "stderr");
+  EXPECT_EQ(files(), std::vector<std::string>{"stderr"});
+}
+
+TEST_F(Output, LeftByAKilledRunIsTakenAwayByTheNextAndThatOfARunningOneIsNot) {
+  const pid_t killed = start_long_run();
+  kill(killed, SIGKILL);  // which no program can see coming
+  EXPECT_EQ(status_of(killed), -SIGKILL);
+  ASSERT_EQ(unfinished().size(), 1u);
+  const std::string of_another = "r.csv.unfinished-1-x";  // not a name that the program gives
+  write(of_another, "somebody's\n");
+  EXPECT_EQ(run({"kinematics", kSample, "--rpm", "2000", "--csv", folder_ / "other.csv"}).status, 0);
+  EXPECT_EQ(unfinished().size(), 2u) << "another output's";
+  EXPECT_EQ(run({"kinematics", kSample, "--rpm", "2000", "--csv", folder_ / "r.csv"}).status, 0);
+  EXPECT_EQ(unfinished(), std::vector<std::string>{of_another});
+  std::filesystem::remove(folder_ / of_another);
+
+  const pid_t running = start_long_run();
+  EXPECT_EQ(run({"kinematics", kSample, "--rpm", "2000", "--csv", folder_ / "r.csv"}).status, 0);
+  EXPECT_EQ(unfinished().size(), 1u);
+  kill(running, SIGTERM);
+  EXPECT_EQ(status_of(running), -SIGTERM);
 }
 
 TEST_F(Output, ThatCannotBeWrittenIsAFailure) {

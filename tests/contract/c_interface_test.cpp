@@ -415,6 +415,18 @@ TYPED_TEST(CInterface, RefusesABadDefinitionWithTheFieldToBlame) {
     EXPECT_TRUE(answers(create(bad), CRANKLOOP_OUT_OF_RANGE, "pressure.source")) << source;
   }
   bad = good;
+  std::vector<crankloop_diagram_point> far;
+  for (int deg = 0; deg < 720; deg += 10) far.push_back({1e12 + deg, 1e5});
+  bad.pressure.source = CRANKLOOP_PRESSURE_ANGLE_TABLE;
+  bad.pressure.points = far.data();
+  bad.pressure.point_count = static_cast<std::int32_t>(far.size());
+  EXPECT_TRUE(answers(create(bad), CRANKLOOP_OUT_OF_RANGE, "pressure.file"));
+  bad = good;
+  bad.pressure.source = CRANKLOOP_PRESSURE_WIEBE;
+  bad.pressure.wiebe.heat_given = 1;
+  bad.pressure.wiebe.heat_J = 1e9;
+  EXPECT_TRUE(answers(create(bad), CRANKLOOP_PRESSURE_TOO_HIGH, "pressure.heat"));
+  bad = good;
   bad.trains[1].rocker.kind = 2;
   EXPECT_TRUE(answers(create(bad), CRANKLOOP_OUT_OF_RANGE, "rocker.kind"));
   options.valve_integrator = 2;
@@ -422,6 +434,18 @@ TYPED_TEST(CInterface, RefusesABadDefinitionWithTheFieldToBlame) {
   ASSERT_TRUE(ok(crankloop_options_defaults(&options, sizeof options)));
   // After all that, the same memory is good for good tables.
   EXPECT_TRUE(ok(create(good)));
+}
+
+TYPED_TEST(CInterface, ReadsNoRowsThatNoSourceUses) {
+  using Api = TypeParam;
+  crankloop_definition definition = c::as_c(diesel_495());
+  definition.pressure.source = CRANKLOOP_PRESSURE_NONE;
+  definition.pressure.point_count = 8;  // and no rows
+  definition.trains[0].cam.point_count = 8;
+  auto tables = std::make_unique<typename Api::Tables>();
+  crankloop_options options;
+  ASSERT_TRUE(ok(crankloop_options_defaults(&options, sizeof options)));
+  EXPECT_TRUE(ok(Api::tables_create(tables.get(), sizeof *tables, &definition, sizeof definition, &options, sizeof options)));
 }
 
 TYPED_TEST(CInterface, ReadsRowsOfADiagramAndOfACam) {
@@ -596,7 +620,7 @@ TYPED_TEST(CInterface, RefusesMisuseWithAStatus) {
   EXPECT_TRUE(answers(Api::restore(engine.get(), &snapshot, 16), CRANKLOOP_WRONG_SIZE, "snapshot"));
   EXPECT_TRUE(answers(Api::restore(engine.get(), nullptr, sizeof snapshot), CRANKLOOP_NULL_POINTER, "snapshot"));
   EXPECT_TRUE(answers(Api::save(engine.get(), bytes.get(), Api::kSavedBytes - 1), CRANKLOOP_WRONG_SIZE, "state.size"));
-  EXPECT_TRUE(answers(Api::load(engine.get(), nullptr, Api::kSavedBytes), CRANKLOOP_WRONG_SIZE, "state.size"));
+  EXPECT_TRUE(answers(Api::load(engine.get(), nullptr, Api::kSavedBytes), CRANKLOOP_NULL_POINTER, "bytes"));
   std::memset(&snapshot, 0, sizeof snapshot);
   EXPECT_TRUE(answers(Api::restore(engine.get(), &snapshot, sizeof snapshot), CRANKLOOP_OTHER_TABLES, "state.fingerprint"));
 
@@ -612,6 +636,79 @@ TYPED_TEST(CInterface, RefusesMisuseWithAStatus) {
   EXPECT_EQ(Api::step(engine.get(), &in, sizeof in), 0u);
   ASSERT_TRUE(ok(Api::engine_discard(engine.get())));
   EXPECT_EQ(Api::step(engine.get(), &in, sizeof in), std::uint32_t{CRANKLOOP_FAULT_NOT_READY});
+}
+
+/// Every call with each of its pointers null in turn, whatever room it is said to have.
+TYPED_TEST(CInterface, WritesNothingThroughANullPointer) {
+  using Api = TypeParam;
+  constexpr std::size_t kRoom = 1 << 20;
+  const auto tables = this->new_tables(diesel_495());
+  const auto engine = this->new_engine(*tables);
+  const auto in = this->at_speed(100);
+  ASSERT_EQ(Api::step(engine.get(), &in, sizeof in), 0u);
+  const auto is_null = [](const crankloop_status& status) { return status.reason == CRANKLOOP_NULL_POINTER; };
+  EXPECT_TRUE(is_null(crankloop_definition_defaults(nullptr, kRoom)));
+  EXPECT_TRUE(is_null(crankloop_options_defaults(nullptr, kRoom)));
+  EXPECT_TRUE(is_null(crankloop_set_firing_order(nullptr, kRoom, nullptr, 4)));
+  EXPECT_TRUE(is_null(crankloop_share_pins_by_position(nullptr, kRoom)));
+  crankloop_definition definition;
+  ASSERT_TRUE(ok(crankloop_definition_defaults(&definition, sizeof definition)));
+  EXPECT_TRUE(is_null(crankloop_set_firing_order(&definition, sizeof definition, nullptr, 4)));
+
+  crankloop_options options;
+  ASSERT_TRUE(ok(crankloop_options_defaults(&options, sizeof options)));
+  auto free_tables = std::make_unique<typename Api::Tables>();
+  auto free_engine = std::make_unique<typename Api::Engine>();
+  EXPECT_TRUE(is_null(Api::tables_create(nullptr, kRoom, &definition, sizeof definition, &options, sizeof options)));
+  EXPECT_TRUE(is_null(Api::tables_create(free_tables.get(), sizeof *free_tables, nullptr, kRoom, &options, sizeof options)));
+  EXPECT_TRUE(is_null(Api::tables_create(free_tables.get(), sizeof *free_tables, &definition, sizeof definition, nullptr, kRoom)));
+  EXPECT_TRUE(is_null(Api::tables_discard(nullptr)));
+  EXPECT_TRUE(is_null(Api::engine_create(nullptr, kRoom, tables.get(), 0)));
+  EXPECT_TRUE(is_null(Api::engine_create(free_engine.get(), sizeof *free_engine, nullptr, 0)));
+  EXPECT_TRUE(is_null(Api::engine_discard(nullptr)));
+  EXPECT_TRUE(is_null(Api::engine_reset(nullptr, 0)));
+  EXPECT_TRUE(is_null(Api::input_defaults(nullptr, kRoom)));
+  EXPECT_EQ(Api::step(nullptr, &in, sizeof in), std::uint32_t{CRANKLOOP_FAULT_NOT_READY});
+  EXPECT_EQ(Api::step(engine.get(), nullptr, kRoom), std::uint32_t{CRANKLOOP_FAULT_NOT_READY});
+  EXPECT_EQ(Api::phase(nullptr), 0u);
+
+  const auto reads = [&](auto read, auto* none) {
+    std::remove_pointer_t<decltype(none)> out;
+    EXPECT_TRUE(is_null(read(nullptr, &out, sizeof out)));
+    EXPECT_TRUE(is_null(read(engine.get(), none, kRoom)));
+  };
+  reads(Api::read_torque, static_cast<typename Api::Torque*>(nullptr));
+  reads(Api::read_kinematics, static_cast<typename Api::Kinematics*>(nullptr));
+  reads(Api::read_rod_motion, static_cast<typename Api::RodMotion*>(nullptr));
+  reads(Api::read_forces, static_cast<typename Api::Forces*>(nullptr));
+  reads(Api::read_bearing_loads, static_cast<typename Api::BearingLoads*>(nullptr));
+  reads(Api::read_free_forces, static_cast<typename Api::FreeForces*>(nullptr));
+  reads(Api::read_valves, static_cast<typename Api::Valves*>(nullptr));
+  reads(Api::read_valve_forces, static_cast<typename Api::ValveForces*>(nullptr));
+  reads(Api::read_valve_results, static_cast<typename Api::ValveResults*>(nullptr));
+  reads(Api::read_bad_inputs, static_cast<typename Api::BadInputs*>(nullptr));
+
+  typename Api::Snapshot snapshot;
+  std::vector<unsigned char> bytes(Api::kSavedBytes);
+  EXPECT_TRUE(is_null(Api::take(nullptr, &snapshot, sizeof snapshot)));
+  EXPECT_TRUE(is_null(Api::take(engine.get(), nullptr, kRoom)));
+  EXPECT_TRUE(is_null(Api::restore(nullptr, &snapshot, sizeof snapshot)));
+  EXPECT_TRUE(is_null(Api::restore(engine.get(), nullptr, kRoom)));
+  EXPECT_TRUE(is_null(Api::save(nullptr, bytes.data(), bytes.size())));
+  EXPECT_TRUE(is_null(Api::save(engine.get(), nullptr, kRoom)));
+  EXPECT_TRUE(is_null(Api::load(nullptr, bytes.data(), bytes.size())));
+  EXPECT_TRUE(is_null(Api::load(engine.get(), nullptr, Api::kSavedBytes)));
+  EXPECT_EQ(Api::step(engine.get(), &in, sizeof in), 0u) << "and the engine goes on";
+}
+
+TYPED_TEST(CInterface, RefusesASnapshotThatIsNotAligned) {
+  using Api = TypeParam;
+  const auto tables = this->new_tables(diesel_495());
+  const auto engine = this->new_engine(*tables);
+  auto bytes = std::make_unique<unsigned char[]>(sizeof(typename Api::Snapshot) + 8);
+  auto* askew = reinterpret_cast<typename Api::Snapshot*>(bytes.get() + 4);
+  EXPECT_TRUE(answers(Api::take(engine.get(), askew, sizeof *askew), CRANKLOOP_MISALIGNED, "snapshot"));
+  EXPECT_TRUE(answers(Api::restore(engine.get(), askew, sizeof *askew), CRANKLOOP_MISALIGNED, "snapshot"));
 }
 
 // ---- state ------------------------------------------------------------------------------------------------------------------------
@@ -683,7 +780,9 @@ TEST(CStatus, IsToldInWordsCutToTheRoomThereIs) {
     EXPECT_EQ(std::string(text.data()), whole.substr(0, room - 1));
   }
   EXPECT_EQ(crankloop_status_text(status, nullptr, 0), whole.size());
-  EXPECT_EQ(crankloop_status_text(status, nullptr, 1), whole.size()) << "the closing 0 alone, and nowhere to put it";
+  for (const std::size_t room : {std::size_t{1}, std::size_t{80}, SIZE_MAX}) {
+    EXPECT_EQ(crankloop_status_text(status, nullptr, room), whole.size()) << "nowhere to put it, whatever the room";
+  }
   const auto text_of = [](std::int32_t index, const char* field) {
     char text[80];
     crankloop_status_text({CRANKLOOP_NEGATIVE, index, field}, text, sizeof text);

@@ -238,6 +238,45 @@ TEST_F(Live, SaysWhichInputsOfAControllerAreNone) {
   EXPECT_GT(std::stoi(values_of(engine.output()).at("faulty_ticks")), 0);
 }
 
+TEST_F(Live, EndsWithItsFiguresAndALineWhenItsBlockIsTakenAway) {
+  const auto truncate = [&] { std::filesystem::resize_file(block_path(), 0); };  // its pages are gone: who touches them gets SIGBUS
+  const auto overwrite = [&] { std::ofstream(block_path()) << std::string(kLiveBlockBytes, '\0'); };  // as `cp` would: truncated, then as large again
+  for (const std::function<void()>& take_away : {std::function<void()>(truncate), std::function<void()>(overwrite)}) {
+    Process engine(live({"--seconds", "600", "--from-rpm", "1000", "--shared", block_path()}), in_folder("live.txt"));
+    {
+      const std::optional<SharedBlock> block = open_running();
+      ASSERT_TRUE(block) << engine.output();
+    }
+    take_away();
+    EXPECT_EQ(engine.wait(), 1);
+    const auto values = values_of(engine.output());
+    EXPECT_EQ(values.count("ticks"), 1u) << engine.output();
+    EXPECT_NE(engine.output().find("crankloop: " + block_path() + ": was truncated or overwritten after "), std::string::npos) << engine.output();
+    EXPECT_FALSE(std::filesystem::exists(block_path()));
+  }
+}
+
+TEST_F(Live, EndsWithItsFiguresWhenItsTerminalIsClosed) {
+  Process engine(live({"--seconds", "600", "--from-rpm", "1000", "--shared", block_path()}), in_folder("live.txt"));
+  ASSERT_TRUE(open_running()) << engine.output();
+  engine.signal(SIGHUP);
+  EXPECT_EQ(engine.wait(), 0);
+  EXPECT_EQ(values_of(engine.output()).count("ticks"), 1u) << engine.output();
+  EXPECT_FALSE(std::filesystem::exists(block_path()));
+}
+
+TEST_F(Live, StartsAgainAfterAnyDeathOnTheSameBlock) {
+  std::ofstream(block_path()).close();  // one that died before its block had a size
+  for (int i = 0; i < 2; ++i) {
+    Process engine(live({"--seconds", "600", "--from-rpm", "1000", "--shared", block_path()}), in_folder("live.txt"));
+    ASSERT_TRUE(open_running()) << engine.output();
+    engine.signal(SIGKILL);
+    EXPECT_EQ(engine.wait(), -SIGKILL);
+  }
+  Process engine(live({"--seconds", "0.01", "--from-rpm", "1000", "--shared", block_path()}), in_folder("live.txt"));
+  EXPECT_EQ(engine.wait(), 0) << engine.output();
+}
+
 TEST_F(Live, RefusesWhatCannotBeRunInOneLineAndAUsage) {
   std::ofstream(block_path()) << "somebody's notes\n";
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {

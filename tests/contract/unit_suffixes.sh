@@ -11,7 +11,7 @@ interface=$(find define tabulate tick/engine.hpp tick/io.hpp tick/tables.hpp tic
 units='m|m2|m3|m_s|m_s2|rad|rad_s|rad_s2|deg|deg_s|deg_per_s|rpm|s|kg|kg_m|kg_m2|N|Nm|N_m|Ns_m|Nm_s|Nm_s2|Pa_s|Pa_s2|J|W|Pa|Hz|ratio'
 
 allowed='
-compression_exponent expansion_exponent exponents  # of power laws
+compression_exponent expansion_exponent motored_expansion_exponent motored_exponent kMotoredLoss exponents  # of power laws
 coefficients a0 a1 a2 a4 a6 order                  # of polynomials and Fourier series; coefficients of what they multiply
 at value least most                                # degree or m^3, Pa or m: as the row, the quantity or the range says
 ratio                                              # its own unit
@@ -21,6 +21,7 @@ up_cos up_sin lateral_cos lateral_sin pitch_cos pitch_sin yaw_cos yaw_sin  # amp
 trigger                                            # signals, whose times have their unit
 throw_cos throw_sin quantum # numbers
 reduced_speed reduced_rest per_root_inertia  # sqrt(J) and 1/sqrt(kg m2)
+amplitude cosine sine wave_of                      # of a wave of any unit
 from to largest x slope_from slope_to spare        # parameters of numbers, in helpers that serve any unit; filling
 peak magnitude Pose PoseMember PoseFunction tables state turning_at # functions and types that serve any unit
 '

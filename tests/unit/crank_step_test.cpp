@@ -513,6 +513,32 @@ TYPED_TEST(CrankStep, AnyInputGivesFiniteOutputsWithinTheSpeedLimit) {
   survives_anything<Real, GivenPressure>(extreme(false), 2e-3, 100'000, "light, given pressure");
 }
 
+TYPED_TEST(CrankStep, TurnsTheShortestRodThatIsAcceptedWithFiniteNumbersThroughEveryDegree) {
+  using Real = TypeParam;
+  for (const double offset_m : {0.0, 0.010, -0.010}) {
+    EngineDefinition engine = without_gas(free_diesel());
+    engine.crank.pin_offset_m = offset_m;
+    engine.masses.rod_inertia_correction_kg_m2 = 0;  // a rod so short cannot have less than two masses have
+    const auto storage = std::make_unique<TableStorage<Real, NoGas>>();
+    engine.crank.rod_length_m = std::nextafter(engine.crank.crank_radius_m + std::fabs(offset_m), 1);
+    EXPECT_EQ(storage->build(engine, {100e-6}).reason, Reason::rod_too_short) << offset_m;
+    engine.crank.rod_length_m = std::nextafter(engine.crank.least_rod_length_m(), 1);
+    ASSERT_TRUE(storage->build(engine, {100e-6}).ok());
+    for (int degree = 0; degree < 360; ++degree) {
+      Engine<Real, NoGas> free;
+      ASSERT_TRUE(free.init(storage->tables(), phase_at_deg(degree)).ok());
+      typename Engine<Real, NoGas>::Input in;
+      in.starter = 1;
+      for (int i = 0; i < 100; ++i) {
+        const auto& out = free.step(in);
+        ASSERT_TRUE(std::isfinite(out.speed_rad_s) && std::isfinite(out.torque_Nm) && std::isfinite(out.mean_torque_Nm)) << degree << " " << i;
+        for (const Real acceleration : out.acceleration_m_s2) ASSERT_TRUE(std::isfinite(acceleration)) << degree << " " << i;
+      }
+      ASSERT_GT(free.output().speed_rad_s, Real{0}) << degree;
+    }
+  }
+}
+
 TEST(CrankTables, AreRefusedWhereOneThatTheSceneReadsIsMissing) {
   using S = scenes::FreeRunning;
   const auto storage = std::make_unique<TableStorage<float, S>>();

@@ -81,7 +81,13 @@ TEST(CrankDefinition, RefusesARodThatTheCrankCannotCarryRound) {
     EXPECT_TRUE(refuses(validate(crank), Reason::rod_too_short, "crank.rod_length")) << offset;
     crank.rod_length_m *= 1 - 1e-9;
     EXPECT_TRUE(refuses(validate(crank), Reason::rod_too_short, "crank.rod_length")) << offset;
-    crank.rod_length_m *= 1 + 2e-9;
+    // Nor with a rod that is longer by less than a billionth: the tangent of its angle would be anything.
+    const double touching_m = crank.crank_radius_m + std::fabs(offset);
+    for (const double rod_m : {std::nextafter(touching_m, 1), touching_m * (1 + 0.99e-9)}) {
+      crank.rod_length_m = rod_m;
+      EXPECT_TRUE(refuses(validate(crank), Reason::rod_too_short, "crank.rod_length")) << offset;
+    }
+    crank.rod_length_m = touching_m * (1 + 1.01e-9);
     EXPECT_TRUE(validate(crank).ok()) << offset;
   }
 }
@@ -198,6 +204,20 @@ TEST(LumpedRod, OfTwoPointMassesNeedsNoCorrection) {
   Masses masses;
   lump_rod(rod, crank, masses);
   EXPECT_NEAR(masses.rod_inertia_correction_kg_m2, 0, 8 * kEps * 1.887 * l * l);
+}
+
+TEST(CrankThrow, PullsOutwardAsItsPinAndBothWebsDo) {
+  const Crank crank = support::diesel_495_crank();
+  constexpr double kSpeed_rad_s = 210;
+  const auto centrifugal_N = [&](double kg, double radius_m) { return kg * radius_m * kSpeed_rad_s * kSpeed_rad_s; };
+  for (const CrankThrow& drawn : {CrankThrow{0.9, 1.4, 0.021}, CrankThrow{0.9, 1.4, 0}, CrankThrow{0, 1.4, 0.07}}) {
+    Masses masses = diesel_495_masses();
+    reduce_throw(drawn, crank, masses);
+    const double of_parts_N = centrifugal_N(drawn.pin_kg, crank.crank_radius_m) + centrifugal_N(drawn.web_kg, drawn.web_com_m) +
+                              centrifugal_N(drawn.web_kg, drawn.web_com_m);
+    EXPECT_NEAR(centrifugal_N(masses.crank_pin_equivalent_kg, crank.crank_radius_m), of_parts_N, 8 * kEps * of_parts_N);
+    EXPECT_EQ(masses.reciprocating_kg(), diesel_495_masses().reciprocating_kg());
+  }
 }
 
 TEST(LumpedRod, LeavesTheOtherMassesAlone) {
@@ -550,6 +570,20 @@ TEST(PressureDefinition, AcceptsAGapThatClosesTheCircleUpToSixtyDegreesWide) {
     EXPECT_TRUE(with_gap(59.9).ok()) << start;
     EXPECT_TRUE(with_gap(60).ok()) << start;
     EXPECT_TRUE(refuses(with_gap(60.1), Reason::not_one_period, "pressure.file")) << start;
+  }
+}
+
+TEST(PressureDefinition, RefusesAnAngleTableSoFarFromZeroThatADoubleHardlyTellsItsAnglesApart) {
+  for (const double start : {1e6 - 700, 1e9, 4e12, -1e6 - 1, -1e9}) {
+    std::vector<DiagramPoint> points = flat_table();
+    for (DiagramPoint& point : points) point.at += start;
+    const int row = start == 1e6 - 700 ? 71 : 0;  // from 999 300 deg on, the last row is the one beyond 1e6
+    EXPECT_TRUE(refuses(validate_table(points), Reason::out_of_range, "pressure.file", row)) << start;
+  }
+  for (const double start : {1e6 - 710, -1e6}) {
+    std::vector<DiagramPoint> points = flat_table();
+    for (DiagramPoint& point : points) point.at += start;
+    EXPECT_TRUE(validate_table(points).ok()) << start;
   }
 }
 

@@ -88,6 +88,7 @@ void expect_same(const EngineDefinition& a, const EngineDefinition& b) {
   EXPECT_EQ(a.pressure.wiebe.wiebe_m, b.pressure.wiebe.wiebe_m);
   EXPECT_EQ(a.pressure.wiebe.compression_exponent, b.pressure.wiebe.compression_exponent);
   EXPECT_EQ(a.pressure.wiebe.expansion_exponent, b.pressure.wiebe.expansion_exponent);
+  EXPECT_EQ(a.pressure.wiebe.motored_expansion_exponent, b.pressure.wiebe.motored_expansion_exponent);
   EXPECT_EQ(a.pressure.wiebe.exhaust_valve_opens_deg, b.pressure.wiebe.exhaust_valve_opens_deg);
   EXPECT_EQ(a.pressure.wiebe.heat_given, b.pressure.wiebe.heat_given);
   EXPECT_EQ(a.pressure.wiebe.net_mep_Pa, b.pressure.wiebe.net_mep_Pa);
@@ -199,6 +200,18 @@ TEST_F(EngineFileTest, AWholeRodIsLumpedOnItsEnds) {
   EXPECT_EQ(two_mass.rod_inertia_correction_kg_m2, 0);                    // no inertia given: two-mass rod
   const Masses weighed = read(kOneCylinder + rod + "rod_inertia_kg_mm2 = 0\n").definition().masses;
   EXPECT_NEAR(weighed.rod_inertia_correction_kg_m2, -1.887 * 0.0562 * (0.210 - 0.0562), 1e-15);  // 0 is a value
+}
+
+TEST_F(EngineFileTest, PinAndWebsAreReducedToTheCrankRadius) {
+  const std::string masses = std::string(kOneCylinder) +
+                             "[masses]\npiston_g = 810\nrod_small_end_g = 505\nrod_big_end_g = 1382\ncrank_inertia_kg_m2 = 0.5\n";
+  const EngineFile drawn = read(masses + "crank_pin_g = 900\ncrank_web_g = 1400\ncrank_web_radius_mm = 21\n");
+  EXPECT_NEAR(drawn.definition().masses.crank_pin_equivalent_kg * 0.0575, 0.9 * 0.0575 + 2 * 1.4 * 0.021, 1e-16);
+  EXPECT_EQ(show(read(show(drawn))), show(drawn));
+  EXPECT_EQ(show(drawn).find("crank_pin_equivalent_g"), std::string::npos);
+  const EngineFile silent = read(masses);
+  EXPECT_EQ(silent.definition().masses.crank_pin_equivalent_kg, 0);
+  EXPECT_NE(show(silent).find("crank_pin_equivalent_g = 0"), std::string::npos) << "a default is shown";
 }
 
 TEST_F(EngineFileTest, CylindersStandABoreAndAFifthApartWhereNothingIsSaid) {

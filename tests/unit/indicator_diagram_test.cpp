@@ -977,6 +977,54 @@ TEST(SynthesisedDiagram, RefusesAnExhaustValveThatOpensAfterTheBottomDeadCentreO
   EXPECT_TRUE(refuses(diagram.init(crank, wiebe_pressure(w)), Reason::inconsistent, "pressure.exhaust_valve_opens"));
 }
 
+TEST(SynthesisedDiagram, RefusesHeatAndCompressionThatWouldMakeMoreThanAThousandBar) {
+  const Crank crank = support::diesel_495_crank();
+  WiebeDiagram w = wiebe_495();
+  w.heat_given = true;
+  IndicatorDiagram diagram;
+  // Pressure is linear in the heat: two diagrams tell how much of it adds 1000 bar where the second kJ adds most.
+  IndicatorDiagram twice;
+  w.heat_J = 1000;
+  ASSERT_TRUE(diagram.init(crank, wiebe_pressure(w)).ok());
+  w.heat_J = 2000;
+  ASSERT_TRUE(twice.init(crank, wiebe_pressure(w)).ok());
+  double added_Pa = 0;
+  for (double deg = 0; deg < 90; deg += 0.1) added_Pa = std::max(added_Pa, twice.full_Pa(deg) - diagram.full_Pa(deg));
+  w.heat_J = 1000 * 1e8 / added_Pa;
+  EXPECT_TRUE(refuses(diagram.init(crank, wiebe_pressure(w)), Reason::pressure_too_high, "pressure.heat"));
+  w.heat_J *= 0.9;
+  ASSERT_TRUE(diagram.init(crank, wiebe_pressure(w)).ok());
+  EXPECT_GT(diagram.peak_Pa(), 0.9e8);
+  EXPECT_LT(diagram.peak_Pa(), 1e8);
+
+  Crank pin_hole = crank;
+  pin_hole.bore_m = 1e-9;
+  w.heat_J = 1e9;
+  EXPECT_TRUE(refuses(diagram.init(pin_hole, wiebe_pressure(w)), Reason::pressure_too_high, "pressure.heat"));
+
+  w = wiebe_495();
+  w.net_mep_Pa = 1e8;  // a mean pressure of 1000 bar has a larger peak
+  EXPECT_TRUE(refuses(diagram.init(crank, wiebe_pressure(w)), Reason::pressure_too_high, "pressure.net_mep"));
+
+  w = wiebe_495();
+  w.intake_Pa = 1e7;  // 100 bar, compressed 19 times by the power of 1.35: 5000 bar without any heat
+  w.heat_given = true;
+  w.heat_J = 0;
+  EXPECT_TRUE(refuses(diagram.init(crank, wiebe_pressure(w)), Reason::pressure_too_high, "pressure.intake"));
+}
+
+TEST(Diagram, OfAnySourceKnowsItsPeak) {
+  const Crank crank = support::diesel_495_crank();
+  const Rows rows = support::angle_rows(smooth_pressure_Pa, 10);
+  Pressure none;
+  for (const Pressure& pressure : {none, wiebe_pressure(wiebe_495()), support::table_pressure(PressureSource::angle_table, rows)}) {
+    const IndicatorDiagram diagram = diagram_of(crank, pressure);
+    double peak_Pa = 0;
+    for (int i = 0; i < 7200; ++i) peak_Pa = std::max(peak_Pa, diagram.full_Pa(i / 10.0));
+    EXPECT_EQ(diagram.peak_Pa(), peak_Pa);
+  }
+}
+
 TEST(SynthesisedDiagram, RefusesWhatItsDefinitionRefuses) {
   IndicatorDiagram diagram;
   Crank crank = support::diesel_495_crank();

@@ -339,6 +339,9 @@ TEST_F(RunCommand, PrintsThe495AtItsRatedSpeed) {
   EXPECT_NEAR(line(summary, "mean_torque").first, work_J / (4 * elementary::kPi), 0.02);
   EXPECT_NEAR(line(summary, "power").first, work_J * 2000 / 120 / 1000, 0.005);
   EXPECT_EQ(line(summary, "power").second, "kW");
+  EXPECT_NEAR(line(summary, "brake_power").first, 4 * 8.8, 0.02);  // the sheet's 8.8 kW a cylinder
+  EXPECT_NEAR(line(summary, "brake_torque").first * 2000 * elementary::kPi / 30, line(summary, "brake_power").first * 1000, 1);
+  EXPECT_NEAR(line(summary, "mechanical_efficiency").first, 0.80, 0.001);
   EXPECT_NEAR(line(summary, "net_mep").first, 809.7, 0.08);
   EXPECT_NEAR(line(summary, "net_mep_exact").first, 809.7, 1e-3);
   EXPECT_NEAR(line(summary, "mean_piston_speed").first, 7.67, 0.005);  // the sheet's

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -15,6 +16,7 @@
 #include <memory>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "port/linux/shared_block.hpp"
 #include "port/linux/watched_inputs.hpp"
@@ -247,6 +249,76 @@ TEST_F(SharedBlockFile, ReplacesWhatAKilledRunLeftBehind) {
     EXPECT_EQ(of_the_dead->state, LiveState::starting) << "a file of its own";
   }
   EXPECT_FALSE(std::filesystem::exists(path()));
+}
+
+TEST_F(SharedBlockFile, ReplacesABlockThatItsMakerDiedOver) {
+  std::string whole;
+  {
+    const SharedBlock live = create_at(path());
+    whole = bytes_of(path());
+  }
+  std::string without_magic = whole;  // which is written last
+  without_magic.replace(0, 4, 4, '\0');
+  for (const std::string& text : {std::string(), std::string(256, '\0'), without_magic, without_magic.substr(0, 16), whole.substr(0, 100)}) {
+    put(text);
+    const SharedBlock live = create_at(path());
+    EXPECT_EQ(bytes_of(path()), whole) << text.size();
+  }
+}
+
+TEST_F(SharedBlockFile, IsOneOwnersWhoeverStartsAtTheSameTime) {
+  constexpr int kStarters = 16;
+  for (int round = 0; round < 20; ++round) {
+    if (round % 2 == 0) put("");  // what a killed one left behind is in the way of all
+    int go[2], said[2];
+    ASSERT_EQ(::pipe(go), 0);
+    ASSERT_EQ(::pipe(said), 0);
+    std::vector<::pid_t> children;
+    for (int i = 0; i < kStarters; ++i) {
+      children.push_back(::fork());
+      if (children.back() != 0) continue;
+      ::close(go[1]);
+      char none = 0;
+      static_cast<void>(!::read(go[0], &none, 1));  // until the pipe is closed
+      char answer = 'r';
+      try {
+        const SharedBlock live = create_at(path());
+        struct stat mine {};
+        answer = ::stat(path().c_str(), &mine) == 0 ? 'o' : '?';
+        static_cast<void>(!::write(said[1], &answer, 1));
+        ::pause();  // owns it until it is killed
+      } catch (const SharedBlockError&) {
+        static_cast<void>(!::write(said[1], &answer, 1));
+      }
+      ::_exit(0);
+    }
+    ::close(go[0]);
+    ::close(go[1]);
+    std::map<char, int> answers;
+    for (int i = 0; i < kStarters; ++i) {
+      char answer = 0;
+      ASSERT_EQ(::read(said[0], &answer, 1), 1);
+      ++answers[answer];
+    }
+    for (const ::pid_t child : children) {
+      ::kill(child, SIGKILL);
+      ::waitpid(child, nullptr, 0);
+    }
+    ::close(said[0]);
+    ::close(said[1]);
+    EXPECT_EQ(answers['o'], 1) << round;
+    EXPECT_EQ(answers['r'], kStarters - 1) << round;
+  }
+}
+
+TEST_F(SharedBlockFile, ThatIsTruncatedUnderItsOwnersLosesItsMagicAndNobodysLife) {
+  const SharedBlock live = create_at(path());
+  const SharedBlock controller = SharedBlock::open(path());
+  ASSERT_EQ(::truncate(path().c_str(), 0), 0);
+  controller->inputs.write(LiveInputs{});  // would be SIGBUS
+  live->outputs.write(LiveOutputs{});
+  EXPECT_EQ(controller->magic, 0u);
+  EXPECT_EQ(live->magic, 0u);
 }
 
 TEST_F(SharedBlockFile, IsNotOpenedBeforeItIsReady) {

@@ -7,45 +7,90 @@
 #include "commands.hpp"
 #include "csv.hpp"
 #include "engine_file/engine_file.hpp"
+#include "free_orders.hpp"
+#include "load_ratio.hpp"
 #include "tick_probe.hpp"
 
 namespace crankloop::program {
 namespace {
 
-double length(double x, double y) { return square_root(x * x + y * y); }
-
-void write_turning(CsvWriter& csv, const std::string& name, const Turning<double>& t, double w2) {
-  csv.row("free_force_" + name + "_N", peak_force_kg_m(t) * w2);
-  csv.row("free_force_" + name + "_up_N", length(t.up_cos, t.up_sin) * w2);
-  csv.row("free_force_" + name + "_lateral_N", length(t.lateral_cos, t.lateral_sin) * w2);
-  csv.row("free_moment_" + name + "_Nm", peak_moment_kg_m2(t) * w2);
-  csv.row("free_moment_" + name + "_pitch_Nm", length(t.pitch_cos, t.pitch_sin) * w2);
-  csv.row("free_moment_" + name + "_yaw_Nm", length(t.yaw_cos, t.yaw_sin) * w2);
+/// A component's amplitude and phase; no phase of what balances.
+void write_wave(CsvWriter& csv, const std::string& name, const char* unit, double cosine, double sine, double noise) {
+  const Wave wave = wave_of(cosine, sine);
+  csv.row(name + "_" + unit, wave.amplitude);
+  csv.row(name + "_phase_deg", wave.amplitude > noise ? wave.phase_deg : 0);
 }
 
-/// Largest loads of every crank pin and main journal over the cycle.
-void write_bearings(CsvWriter& csv, const EngineDefinition& definition, double speed) {
+/// Amplitudes over a turn at speed w.
+class TurningWriter {
+ public:
+  TurningWriter(CsvWriter& csv, const EngineDefinition& definition, double speed_rad_s)
+      : csv_{csv}, w2_{speed_rad_s * speed_rad_s},
+        noise_N_{1e-9 * definition.masses.reciprocating_kg() * definition.crank.crank_radius_m * w2_} {}
+
+  void write(const std::string& name, const Turning<double>& t) {
+    csv_.row("free_force_" + name + "_N", peak_force_kg_m(t) * w2_);
+    component("free_force_" + name + "_up", "N", t.up_cos, t.up_sin);
+    component("free_force_" + name + "_lateral", "N", t.lateral_cos, t.lateral_sin);
+    csv_.row("free_moment_" + name + "_Nm", peak_moment_kg_m2(t) * w2_);
+    component("free_moment_" + name + "_pitch", "Nm", t.pitch_cos, t.pitch_sin);
+    component("free_moment_" + name + "_yaw", "Nm", t.yaw_cos, t.yaw_sin);
+  }
+
+ private:
+  void component(const std::string& name, const char* unit, double cosine, double sine) {
+    write_wave(csv_, name, unit, cosine * w2_, sine * w2_, noise_N_);
+  }
+
+  CsvWriter& csv_;
+  double w2_;
+  double noise_N_;
+};
+
+struct Range {
+  double least = 0;
+  double most = 0;
+  void take(double value) { least = std::min(least, value), most = std::max(most, value); }
+};
+
+/// Largest loads of every crank pin and main journal over the cycle; the journals' also by direction in the block.
+void write_bearings(CsvWriter& csv, const EngineDefinition& definition, double speed, double load_ratio) {
   TickProbe<double> probe(definition);
-  double pins[kMaxCylinders] = {};
-  double journals[kMaxCylinders + 1] = {};
+  Range pins[kMaxCylinders];
+  Range journals[kMaxCylinders + 1];
+  Range up[kMaxCylinders + 1];
+  Range lateral[kMaxCylinders + 1];
   const std::uint32_t count = bearings_of(definition).pins;
   for_each_angle(0.5, 720, [&](double deg) {
-    const auto& out = probe.at(deg, speed);
-    for (std::uint32_t i = 0; i < count; ++i) pins[i] = std::max(pins[i], out.pin_load_N[i]);
-    for (std::uint32_t j = 0; j <= count; ++j) journals[j] = std::max(journals[j], out.journal_load_N[j]);
+    const auto& out = probe.at(deg, speed, load_ratio);
+    for (std::uint32_t i = 0; i < count; ++i) pins[i].take(out.pin_load_N[i]);
+    for (std::uint32_t j = 0; j <= count; ++j) {
+      journals[j].take(out.journal_load_N[j]);
+      const BlockLoad load = in_block(definition, deg, out.journal_along_N[j], out.journal_across_N[j]);
+      up[j].take(load.up_N);
+      lateral[j].take(load.lateral_N);
+    }
   });
-  for (std::uint32_t i = 0; i < count; ++i) csv.row("crank_pin_" + std::to_string(i + 1) + "_largest_load_N", pins[i]);
-  for (std::uint32_t j = 0; j <= count; ++j) csv.row("main_journal_" + std::to_string(j + 1) + "_largest_load_N", journals[j]);
+  for (std::uint32_t i = 0; i < count; ++i) csv.row("crank_pin_" + std::to_string(i + 1) + "_largest_load_N", pins[i].most);
+  for (std::uint32_t j = 0; j <= count; ++j) {
+    const std::string journal = "main_journal_" + std::to_string(j + 1) + "_";
+    csv.row(journal + "largest_load_N", journals[j].most);
+    csv.row(journal + "largest_up_N", up[j].most);
+    csv.row(journal + "largest_down_N", -up[j].least);
+    csv.row(journal + "largest_lateral_N", lateral[j].most);
+    csv.row(journal + "smallest_lateral_N", lateral[j].least);
+  }
 }
 
 int run_balance(const Arguments& arguments) {
   const EngineFile engine = read_engine_file(arguments.file(), {"engine", "crank", "masses"});
   const EngineDefinition& definition = engine.definition();
   const double speed = arguments.number("--rpm") * kRadPerSPerRpm;
+  require_heat_to_scale(arguments, engine);
   ExactEngine exact;
   if (const Status refused = exact.init(definition); !refused.ok()) throw engine.explain(refused);
-  const CycleSummary cycle = summarise(exact, speed);
-  const Balance<double> balance = balance_of(definition);
+  const double load_ratio = arguments.number("--load-ratio");
+  const CycleSummary cycle = summarise(exact, speed, load_ratio);
 
   Output out(arguments.text_or_empty("--csv"));
   CsvWriter csv(out, {"name", "value"});
@@ -55,23 +100,33 @@ int run_balance(const Arguments& arguments) {
   csv.row("net_mep_kPa", cycle.net_mep_Pa / 1000);
   csv.row("gross_mep_kPa", cycle.gross_mep_Pa / 1000);
   csv.row("power_kW", cycle.power_W / 1000);
+  if (definition.friction.any()) {
+    csv.row("friction_mep_kPa", cycle.brake.friction_mep_Pa / 1000);
+    csv.row("brake_torque_Nm", cycle.brake.torque_Nm);
+    csv.row("brake_power_kW", cycle.brake.power_W / 1000);
+    csv.row("mechanical_efficiency_ratio", cycle.brake.efficiency_ratio);
+  }
   csv.row("mean_torque_Nm", cycle.mean_torque_Nm);
   csv.row("largest_torque_Nm", cycle.largest_torque_Nm);
   csv.row("largest_torque_deg", cycle.largest_torque_deg);
   csv.row("smallest_torque_Nm", cycle.smallest_torque_Nm);
   csv.row("smallest_torque_deg", cycle.smallest_torque_deg);
   csv.row("torque_fluctuation_ratio", cycle.fluctuation_ratio);
-  for (const Harmonic& h : cycle.harmonics) csv.row("torque_order_" + shortest(h.order) + "_Nm", h.amplitude_Nm);
-  write_turning(csv, "first", balance.first, speed * speed);
-  write_turning(csv, "second", balance.second, speed * speed);
-  write_turning(csv, "rotating", balance.rotating, speed * speed);
-  write_bearings(csv, definition, speed);
+  for (const Harmonic& h : cycle.harmonics) {
+    const double noise_Nm = 1e-9 * (cycle.largest_torque_Nm - cycle.smallest_torque_Nm);
+    write_wave(csv, "torque_order_" + shortest(h.order), "Nm", h.cosine_Nm, h.sine_Nm, noise_Nm);
+  }
+  TurningWriter turning(csv, definition, speed);
+  for (const FreeOrder& order : free_orders(definition.crank)) turning.write(order.name, reciprocating_order(definition, order.order));
+  turning.write("rotating", balance_of(definition).rotating);
+  write_bearings(csv, definition, speed, load_ratio);
   out.finish();
   return kSuccess;
 }
 
 constexpr Option kOptions[] = {
     number("--rpm", "N", from(-100000).up_to(100000), "engine speed in rpm"),
+    kLoadRatio,
     text("--csv", "F", "file for the table; else standard output"),
 };
 
@@ -79,7 +134,7 @@ constexpr Option kOptions[] = {
 
 const Command kBalance{"balance",
                        "torque harmonics, free forces and moments, bearing loads of the whole engine",
-                       "FILE --rpm N [--csv F]",
+                       "FILE --rpm N [--load-ratio Q] [--csv F]",
                        "crankloop balance diesel_495.ini --rpm 2000",
                        1,
                        kOptions,

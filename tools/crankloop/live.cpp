@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "commands.hpp"
@@ -58,6 +59,7 @@ int run_live_command(const Arguments& arguments) {
   const auto figures = std::make_unique<LiveFigures>();
   try {
     port::LiveBlock alone;
+    alone.magic = port::kLiveMagic;
     std::optional<port::SharedBlock> shared;
     if (shares) shared.emplace(port::SharedBlock::create(arguments.text("--shared"), request.tick_s, cylinders_of(file)));
     const auto run = real == "float" ? run_live<float> : run_live<double>;
@@ -73,7 +75,8 @@ int run_live_command(const Arguments& arguments) {
   Output out = Output::standard();
   write_live_summary(out, file, request, real, shares, *figures);
   out.finish();
-  return kSuccess;
+  if (!figures->lost_block) return kSuccess;
+  throw std::runtime_error(arguments.text("--shared") + ": was truncated or overwritten after " + std::to_string(figures->tally.ticks) + " ticks");
 }
 
 constexpr Option kOptions[] = {

@@ -97,7 +97,16 @@ int run_help(const std::vector<std::string>& words) {
   return print(help_of(find_command(words[1])));
 }
 
+/// Messages quote words of the command line: none may carry control codes to a terminal, or make two lines of one.
+void refuse_control_codes(const std::vector<std::string>& words) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool bad = std::any_of(words[i].begin(), words[i].end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; });
+    if (bad) throw InputError("crankloop: word " + std::to_string(i + 1) + " of the command line has a control character");
+  }
+}
+
 int run(const std::vector<std::string>& words) {
+  refuse_control_codes(words);
   if (words.empty()) throw InputError("crankloop: a command is missing; `crankloop --help` lists them");
   if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") return run_help(words);
   if (words[0] == "--version") return print("crankloop " CRANKLOOP_VERSION "\n");
@@ -131,7 +140,10 @@ void complain(const std::string& message) {
 
 int main(int count, char** words) {
   using namespace crankloop::program;
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe becomes an error of write(), and unfinished files are removed
+  // A closed pipe and a file beyond its limit become errors of write(), and unfinished files are removed.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  Output::remove_unfinished_at_signals();
   occupy_closed_standard_files();
   try {
     return run(std::vector<std::string>(words + (count > 0 ? 1 : 0), words + count));

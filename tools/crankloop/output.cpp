@@ -1,10 +1,16 @@
 #include "output.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <climits>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -26,7 +32,111 @@ std::string behind_links(const std::string& path) {
   return error ? path : real.string();
 }
 
+// ---- unfinished files and signals ---------------------------------------------------------------------------------------------
+
+constexpr std::string_view kUnfinished = ".unfinished-";
+
+/// Paths that a signal's handler may read at any moment: a place's path changes only while it is not armed. A longer path, or one file more at
+/// a time than there are places, is left to the next run.
+struct UnfinishedPlace {
+  std::atomic<bool> taken{false};
+  std::atomic<bool> armed{false};
+  std::array<char, PATH_MAX> path{};
+};
+std::array<UnfinishedPlace, 8> unfinished_places;
+static_assert(std::atomic<bool>::is_always_lock_free, "else no handler may touch it");
+
+void arm(const std::string& path) {
+  if (path.size() >= PATH_MAX) return;
+  for (UnfinishedPlace& place : unfinished_places) {
+    if (place.taken.exchange(true)) continue;
+    std::copy_n(path.c_str(), path.size() + 1, place.path.data());
+    place.armed = true;
+    return;
+  }
+}
+
+void disarm(const std::string& path) {
+  for (UnfinishedPlace& place : unfinished_places) {
+    if (!place.armed || path != place.path.data()) continue;
+    place.armed = false;
+    place.taken = false;
+    return;
+  }
+}
+
+/// No signal comes while one lives: a file is made and known to the handler, or neither.
+class SignalsHeld {
+ public:
+  SignalsHeld() noexcept {
+    sigset_t all;
+    ::sigfillset(&all);
+    ::sigprocmask(SIG_BLOCK, &all, &before_);
+  }
+  SignalsHeld(const SignalsHeld&) = delete;
+  SignalsHeld& operator=(const SignalsHeld&) = delete;
+  ~SignalsHeld() { ::sigprocmask(SIG_SETMASK, &before_, nullptr); }
+
+ private:
+  sigset_t before_{};
+};
+
+/// Calls nothing but what POSIX lists as async-signal-safe. The signal comes again, and then does what it does by default.
+extern "C" void remove_unfinished_and_end(int signal_number) {
+  for (const UnfinishedPlace& place : unfinished_places) {
+    if (place.armed) ::unlink(place.path.data());
+  }
+  std::signal(signal_number, SIG_DFL);
+  std::raise(signal_number);
+}
+
+// ---- what killed runs left ----------------------------------------------------------------------------------------------------
+
+/// Whether `name` is `start` and two numbers with a dash between, as create_unfinished() makes it.
+bool is_unfinished(std::string_view name, std::string_view start) {
+  if (name.substr(0, start.size()) != start) return false;
+  const std::string_view numbers = name.substr(start.size());
+  const std::size_t dash = numbers.find('-');
+  const auto is_number = [](std::string_view text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+  };
+  return dash != std::string_view::npos && is_number(numbers.substr(0, dash)) && is_number(numbers.substr(dash + 1));
+}
+
+/// Unless its writer lives: then it is locked.
+void remove_if_left_over(const std::string& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+  if (file < 0) return;
+  struct stat found {};
+  if (::fstat(file, &found) == 0 && S_ISREG(found.st_mode) && ::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(path.c_str());
+  ::close(file);
+}
+
+void remove_left_overs(const std::string& path) {
+  const std::filesystem::path whole(path);
+  const std::string start = whole.filename().string() + std::string(kUnfinished);
+  const std::filesystem::path folder = whole.has_parent_path() ? whole.parent_path() : std::filesystem::path(".");
+  std::error_code error;  // a folder that cannot be listed is no reason not to write into it
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (is_unfinished(entry->path().filename().string(), start)) remove_if_left_over(entry->path().string());
+  }
+}
+
+/// Marks a new file as that of a living writer. False where another run took it for a left-over in the moment before, and removes it.
+bool claim(int file) {
+  if (::flock(file, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;  // a file system without locks has no left-overs removed either
+  struct stat found {};
+  return ::fstat(file, &found) == 0 && found.st_nlink > 0;
+}
+
 }  // namespace
+
+void Output::remove_unfinished_at_signals() {
+  for (const int number : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXCPU}) {
+    struct sigaction before {};
+    if (::sigaction(number, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) std::signal(number, remove_unfinished_and_end);
+  }
+}
 
 Output::Output(const std::string& path) {
   if (path.empty() || path == "-") {
@@ -42,17 +152,30 @@ Output::Output(const std::string& path) {
     return;
   }
   if (exists && ::access(path_.c_str(), W_OK) != 0) fail("cannot be written");
-  for (int attempt = 0; attempt < kMostNames && file_ < 0;
-       ++attempt) {  // more than one only where a killed run left its file behind
-    temporary_ = path_ + ".unfinished-" + std::to_string(::getpid()) + "-" + std::to_string(attempt);
-    file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file_ < 0 && errno != EEXIST) break;
-  }
-  if (file_ < 0) {
-    temporary_.clear();
-    fail("cannot be created");
-  }
+  remove_left_overs(path_);
+  create_unfinished();
   if (exists && ::fchmod(file_, old.st_mode & 07777) != 0) fail("cannot be given its permissions");
+}
+
+void Output::create_unfinished() {
+  // More than one attempt only where several outputs go to one path, or something else has the name.
+  for (int attempt = 0; attempt < kMostNames; ++attempt) {
+    const SignalsHeld held;
+    temporary_ = path_ + std::string(kUnfinished) + std::to_string(::getpid()) + "-" + std::to_string(attempt);
+    file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file_ >= 0 && claim(file_)) return arm(temporary_);
+    temporary_.clear();
+    if (file_ < 0 && errno != EEXIST) break;
+    if (file_ >= 0) ::close(std::exchange(file_, -1));
+  }
+  fail("cannot be created");
+}
+
+void Output::discard_unfinished() {
+  if (temporary_.empty()) return;
+  ::unlink(temporary_.c_str());
+  disarm(temporary_);
+  temporary_.clear();
 }
 
 Output::Output(Output&& other) noexcept
@@ -62,8 +185,8 @@ Output::Output(Output&& other) noexcept
       buffer_{std::move(other.buffer_)} {}
 
 Output::~Output() {
+  discard_unfinished();
   if (file_ >= 0 && file_ != STDOUT_FILENO) ::close(file_);
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
 void Output::write(std::string_view text) {
@@ -86,19 +209,18 @@ void Output::flush() {
 
 void Output::finish() {
   flush();
-  if (file_ != STDOUT_FILENO) {
-    const int file = std::exchange(file_, -1);
-    if (::close(file) != 0) fail("cannot be written");
-  }
-  if (temporary_.empty()) return;
-  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot be created");
+  const int locked = temporary_.empty() ? -1 : ::fcntl(file_, F_DUPFD_CLOEXEC, 0);  // the lock lasts until the file has its name
+  const bool closed = file_ == STDOUT_FILENO || ::close(std::exchange(file_, -1)) == 0;
+  const bool named = closed && (temporary_.empty() || std::rename(temporary_.c_str(), path_.c_str()) == 0);
+  if (!named) fail(closed ? "cannot be created" : "cannot be written");
+  disarm(temporary_);
   temporary_.clear();
+  if (locked >= 0) ::close(locked);
 }
 
 void Output::fail(const char* what) {
   const int error = errno;
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
-  temporary_.clear();
+  discard_unfinished();
   if (path_.empty() && error == EPIPE) throw ReaderGone();
   throw OutputError((path_.empty() ? "standard output" : path_) + " " + what + ": " + std::strerror(error));
 }

@@ -12,12 +12,18 @@ namespace crankloop::program {
 /// the way leaves the old file, or none, but never half of one. What is no file (/dev/null, a pipe) is written to
 /// directly.
 ///
+/// The other name is the path's with .unfinished-PID-N behind it, its file locked (flock) as long as its writer lives. What a writer left
+/// that was killed is removed by the next one to the same path.
+///
 /// Every failure throws OutputError; what was not finished is discarded.
 class Output {
  public:
   /// "" and "-" are standard output.
   explicit Output(const std::string& path);
   static Output standard() { return Output(""); }
+
+  /// From now on a signal that ends the program removes its unfinished files first. Signals that are ignored stay so (nohup).
+  static void remove_unfinished_at_signals();
 
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
@@ -29,6 +35,8 @@ class Output {
   void finish();  ///< nothing may be written after it
 
  private:
+  void create_unfinished();
+  void discard_unfinished();
   void flush();
   [[noreturn]] void fail(const char* what);
 

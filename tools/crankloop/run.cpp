@@ -12,6 +12,7 @@
 #include "engine_file/engine_file.hpp"
 #include "engine_report/engine_report.hpp"
 #include "free/free_request.hpp"
+#include "load_ratio.hpp"
 #include "progress.hpp"
 #include "run/run_accuracy.hpp"
 #include "run/run_loop.hpp"
@@ -104,6 +105,14 @@ void add_valves(Summary& s, const std::string& train, const ValveFigures& f) {
   peak(ValveQuantity::cam_force);
 }
 
+void add_brake(Summary& s, const EngineDefinition& definition, double indicated_Nm, double speed_rad_s) {
+  const BrakeFigures brake = brake_figures(definition, indicated_Nm, speed_rad_s);
+  s.line("friction_mep", brake.friction_mep_Pa / 1e3, "kPa", "of [friction] at this speed");
+  s.line("brake_torque", brake.torque_Nm, "Nm");
+  s.line("brake_power", brake.power_W / 1e3, "kW", six_digits(brake.power_W / 1e3 / definition.layout.cylinders) + " kW a cylinder");
+  if (brake.efficiency_ratio > 0) s.line("mechanical_efficiency", brake.efficiency_ratio);
+}
+
 std::string summary_text(const Engines& engine, const Request& request, const RunFigures& f,
                          double wall_time_per_tick_ns) {
   const EngineDefinition& definition = engine.exact.definition();
@@ -122,6 +131,7 @@ std::string summary_text(const Engines& engine, const Request& request, const Ru
   s.line("mean_torque", f.mean_torque_Nm, "Nm");
   if (engine.has_gas()) {
     s.line("power", f.power_W / 1e3, "kW", "indicated: friction is not subtracted");
+    if (definition.friction.any()) add_brake(s, definition, f.mean_torque_Nm, speed);
     s.line("net_mep", f.net_mep_Pa / 1e3, "kPa");
     s.line("net_mep_exact", engine.summary.net_mep_Pa / 1e3, "kPa", "loop integral of p dV");
     s.line("gross_mep_exact", engine.summary.gross_mep_Pa / 1e3, "kPa", "over the closed 360 deg");
@@ -218,9 +228,7 @@ int run_run(const Arguments& arguments) {
   require_options_that_fit(arguments);
   const EngineFile file = read_engine_file(arguments.file(), {"engine", "crank", "masses"});
   const EngineDefinition& definition = file.definition();
-  if (arguments.has("--load-ratio") && definition.pressure.source == PressureSource::none) {
-    throw InputError(file.path() + ": there is no pressure source, so --load-ratio has nothing to scale");
-  }
+  require_heat_to_scale(arguments, file);
   if (arguments.has("--free")) return run_free_by(arguments, file);
   const Operation operation{arguments.has("--rpm") ? arguments.number("--rpm") : file.rated_rpm(),
                             millionths(arguments.number("--tick-us")), arguments.number("--load-ratio")};
@@ -240,7 +248,7 @@ constexpr Option kOptions[] = {
     number("--tick-us", "T", from(1).up_to(2000), "length of a tick in us", "100"),
     whole_number("--cycles", "N", from(1).up_to(1000000), "cycles of 720 deg to record, after one to settle", "2"),
     choice("--real", "float|double", "arithmetic of the tick, and digits of the CSV", "float"),
-    number("--load-ratio", "Q", from(0).up_to(2), "0 = motored, 1 = the pressure diagram as it is", "1"),
+    kLoadRatio,
     text("--csv", "F", "file for a row per tick; - is standard output, the summary then goes to stderr"),
     text("--report", "F.html", "file for the report, which any browser shows"),
     text("--vcd", "F", "file for the trigger wheels' signals, a value change dump as GTKWave and PulseView open it"),

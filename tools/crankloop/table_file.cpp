@@ -12,12 +12,13 @@ constexpr std::size_t kMostTableBytes = std::size_t{8} << 20;
 void check_header(std::string_view line, const TableFormat& format, const std::string& path, int number) {
   const std::vector<std::string_view> names = split(line, ',');
   if (names.size() == 2 && names[0] == format.first && names[1] == format.second) return;
-  throw InputError(
-      path, number,
-      "the header row is " + in_quotes(trim(line)) + "; it must be '" + format.first + "," + format.second + "'");
+  throw InputError(path, number, std::string("the header row must be '") + format.first + "," + format.second + "'");
 }
 
 double column(std::string_view text, const char* name, const Range& range, const std::string& path, int line) {
+  if (!parse_number(text).ok()) {
+    throw InputError(path, line, std::string(name) + ": not a finite number with a point as decimal sign, and nothing else");
+  }
   const ParsedNumber number = parse_number(text, range, "");
   if (!number.ok()) throw InputError(path, line, std::string(name) + ": " + number.problem);
   return number.value;
@@ -45,8 +46,7 @@ std::vector<TableRow> read_table(const std::string& path, const TableFormat& for
     const std::vector<std::string_view> cells = split(text, ',');
     if (cells.size() != 2) {
       throw InputError(path, line,
-                       in_quotes(text) + " has " + std::to_string(cells.size()) +
-                           (cells.size() == 1 ? " column" : " columns") + "; a row is '" + format.first + "," +
+                       "the row has " + std::to_string(cells.size()) + (cells.size() == 1 ? " column" : " columns") + "; a row is '" + format.first + "," +
                            format.second + "', with a point as decimal sign");
     }
     rows.push_back({column(cells[0], format.first, format.range_first, path, line),

@@ -17,8 +17,8 @@ struct FileBytes {
   [[nodiscard]] bool ok() const noexcept { return problem.empty(); }
 };
 
-/// `most_bytes` is a whole number of MiB. A file that is larger is a problem, an empty one is not. Endless ones
-/// (/dev/zero) are left as soon as they are too large.
+/// `most_bytes` is a whole number of MiB. A file that is larger is a problem, an empty one is not. Only a regular file is read: pipes and
+/// devices may never end, wait for others, or do something when they are read.
 [[nodiscard]] FileBytes read_file(const std::string& path, std::size_t most_bytes);
 
 /// Lines without their ends. LF and CRLF end a line, the last line needs no end, a UTF-8 byte order mark is skipped.

@@ -25,7 +25,7 @@ class TickProbe {
   }
 
   /// Output at an engine angle of 0 to 720 deg.
-  const typename Engine<Real, scenes::Whole>::Output& at(double engine_deg, double speed_rad_s) {
+  const typename Engine<Real, scenes::Whole>::Output& at(double engine_deg, double speed_rad_s, double load_ratio = 1) {
     const Real speed = static_cast<Real>(speed_rad_s);
     const Phase step = Phase::from_cycles(speed * tables_->tables().drive->cycles_per_tick_per_rad_s);
     const Phase here = Phase::from_cycles(engine_deg < 720 ? engine_deg / 720 : engine_deg / 720 - 1);
@@ -33,6 +33,7 @@ class TickProbe {
     if (!status.ok()) throw InputError(std::string(status.field) + " " + describe(status.reason));
     typename Engine<Real, scenes::Whole>::Input input;
     input.speed_rad_s = speed;
+    input.load_ratio = static_cast<Real>(load_ratio);
     const auto& output = engine_.step(input);
     if (output.faults != 0) throw InputError("the speed is beyond the tick's limit of one revolution in 10 us");
     return output;

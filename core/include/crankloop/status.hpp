@@ -14,7 +14,7 @@ enum class Reason : std::uint8_t {
   not_positive,       ///< must be > 0
   negative,           ///< must be >= 0
   out_of_range,       ///< outside the range that the field's comment states
-  rod_too_short,      ///< the rod must be longer than crank radius + |pin offset|, or the crank cannot turn
+  rod_too_short,      ///< the rod must be longer than crank radius + |pin offset|, by a billionth of that, or the crank cannot turn
   inconsistent,       ///< contradicts another field
   not_a_permutation,  ///< a firing order must name every cylinder once
   too_few_points,     ///< a table needs more rows
@@ -23,6 +23,7 @@ enum class Reason : std::uint8_t {
   not_one_period,     ///< rows must span one 720 deg period (a closing row may stand at its end)
   not_a_cycle,        ///< volumes must rise, fall, rise and fall between the dead-centre volumes
   no_solution,        ///< what was asked for cannot be met
+  pressure_too_high,  ///< the diagram that follows from it exceeds kMostPressure_Pa
   missing_table,      ///< the scene needs a table that is not there
   other_tables,       ///< a state belongs to other tables
   contracting_build,  ///< the build fuses a*b+c and so could not keep its bits

@@ -57,10 +57,15 @@ struct Held {
     return {};
   }
   [[nodiscard]] static Status room_in(const Storage* storage, std::size_t size, const char* name) noexcept {
+    if (const Status refused = copy_in(storage, size, name); !refused.ok()) return refused;
+    if (live(storage)) return {Reason::already_created, -1, name};
+    return {};
+  }
+  /// Plain memory that is to take, or holds, a copy of an object.
+  [[nodiscard]] static Status copy_in(const Storage* storage, std::size_t size, const char* name) noexcept {
     if (storage == nullptr) return {Reason::null_pointer, -1, name};
     if (reinterpret_cast<std::uintptr_t>(storage) % alignof(Object) != 0) return {Reason::misaligned, -1, name};
     if (size < sizeof(Object)) return {Reason::wrong_size, -1, name};
-    if (live(storage)) return {Reason::already_created, -1, name};
     return {};
   }
   /// After in() was ok.

@@ -224,6 +224,7 @@ const char* crankloop_describe(std::int32_t reason) {
 }
 
 std::size_t crankloop_status_text(crankloop_status status, char* text, std::size_t room) {
+  if (text == nullptr) room = 0;
   std::size_t length = 0;
   const auto add = [&](char letter) {
     if (length + 1 < room) text[length] = letter;
@@ -243,7 +244,7 @@ std::size_t crankloop_status_text(crankloop_status status, char* text, std::size
   }
   if (length > 0) add(' ');
   add_all(crankloop_describe(status.reason));
-  if (room > 0 && text != nullptr) text[length < room ? length : room - 1] = '\0';
+  if (room > 0) text[length < room ? length : room - 1] = '\0';
   return length;
 }
 

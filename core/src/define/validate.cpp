@@ -36,7 +36,7 @@ const char* describe(Reason reason) noexcept {
     case Reason::not_positive: return "must be greater than zero";
     case Reason::negative: return "must not be negative";
     case Reason::out_of_range: return "is out of range";
-    case Reason::rod_too_short: return "must be longer than crank radius plus pin offset, or the crank cannot turn";
+    case Reason::rod_too_short: return "must be longer than crank radius plus pin offset, by more than a billionth of them, or the crank cannot turn";
     case Reason::inconsistent: return "contradicts another value";
     case Reason::not_a_permutation: return "must name every cylinder once";
     case Reason::too_few_points: return "has too few points";
@@ -45,6 +45,7 @@ const char* describe(Reason reason) noexcept {
     case Reason::not_one_period: return "must span one period of 720 deg";
     case Reason::not_a_cycle: return "must rise, fall, rise and fall between the dead-centre volumes";
     case Reason::no_solution: return "cannot be met";
+    case Reason::pressure_too_high: return "makes a cylinder pressure above 1000 bar";
     case Reason::missing_table: return "is missing";
     case Reason::other_tables: return "belongs to other tables";
     case Reason::contracting_build: return "fuses multiply and add: compile the scene with -ffp-contract=off";
@@ -70,8 +71,7 @@ Status validate(const Crank& crank) noexcept {
   };
   if (const Status refused = first_refusal(answers); !refused.ok()) return refused;
   if (crank.compression_ratio <= 1) return {Reason::out_of_range, -1, "crank.compression_ratio"};
-  const double offset = crank.pin_offset_m < 0 ? -crank.pin_offset_m : crank.pin_offset_m;
-  if (crank.rod_length_m <= crank.crank_radius_m + offset) return {Reason::rod_too_short, -1, "crank.rod_length"};
+  if (crank.rod_length_m <= crank.least_rod_length_m()) return {Reason::rod_too_short, -1, "crank.rod_length"};
   return {};
 }
 
@@ -81,6 +81,10 @@ void lump_rod(const RigidRod& rod, const Crank& crank, Masses& masses) noexcept 
   masses.rod_small_end_kg = rod.mass_kg * l_crank / crank.rod_length_m;
   masses.rod_big_end_kg = rod.mass_kg * l_pin / crank.rod_length_m;
   masses.rod_inertia_correction_kg_m2 = rod.inertia_kg_m2 - rod.mass_kg * l_pin * l_crank;
+}
+
+void reduce_throw(const CrankThrow& crank_throw, const Crank& crank, Masses& masses) noexcept {
+  masses.crank_pin_equivalent_kg = crank_throw.pin_kg + 2 * crank_throw.web_kg * crank_throw.web_com_m / crank.crank_radius_m;
 }
 
 Status validate(const Masses& masses) noexcept {
@@ -206,7 +210,7 @@ namespace {
       between(w.expansion_exponent, "pressure.expansion_exponent", 1.0001, 2),
       between(w.motored_expansion_exponent, "pressure.motored_expansion_exponent", 0, 3),
       between(w.exhaust_valve_opens_deg, "pressure.exhaust_valve_opens", 30, 179),
-      w.heat_given ? not_negative(w.heat_J, "pressure.heat", 1e9) : between(w.net_mep_Pa, "pressure.net_mep", -1e7, 1e8),
+      w.heat_given ? not_negative(w.heat_J, "pressure.heat", 1e9) : between(w.net_mep_Pa, "pressure.net_mep", -1e7, kMostPressure_Pa),
   };
   if (const Status refused = first_refusal(answers); !refused.ok()) return refused;
   if (w.start_of_combustion_deg + w.combustion_duration_deg > w.exhaust_valve_opens_deg) {
@@ -226,17 +230,17 @@ constexpr int kMostPoints = 1 << 20;
   for (int i = 0; i < pressure.point_count; ++i) {
     const DiagramPoint& point = pressure.points[i];
     if (!finite(point.at)) return {Reason::not_finite, i, "pressure.file"};
-    if (const Status refused = between(point.pressure_Pa, "pressure.file", 0, 1e8, i); !refused.ok()) return refused;
+    if (const Status refused = between(point.pressure_Pa, "pressure.file", 0, kMostPressure_Pa, i); !refused.ok()) return refused;
   }
   return {};
 }
 
 [[nodiscard]] Status validate_angles(const Pressure& pressure) noexcept {
   if (const Status refused = validate_points(pressure, kLeastAnglePoints); !refused.ok()) return refused;
-  for (int i = 1; i < pressure.point_count; ++i) {
-    if (pressure.points[i].at <= pressure.points[i - 1].at) {
-      return {Reason::not_increasing, i, "pressure.file"};
-    }
+  for (int i = 0; i < pressure.point_count; ++i) {
+    const double at = pressure.points[i].at;
+    if (at < -kMostDiagramAngle_deg || at > kMostDiagramAngle_deg) return {Reason::out_of_range, i, "pressure.file"};
+    if (i > 0 && at <= pressure.points[i - 1].at) return {Reason::not_increasing, i, "pressure.file"};
   }
   // One period, and no hole in it: the rows span at most 720 deg, and what is left to close the circle is no wider than 60 deg.
   const double span = pressure.points[pressure.point_count - 1].at - pressure.points[0].at;

@@ -2,6 +2,7 @@
 #include <cstddef>
 
 #include <crankloop/tabulate/elementary.hpp>
+#include <crankloop/tabulate/mechanism.hpp>
 #include <crankloop/tabulate/summary.hpp>
 
 namespace crankloop {
@@ -33,6 +34,29 @@ struct Direction {
     if (layout.position_m[k] > most) most = layout.position_m[k];
   }
   return (least + most) / 2;
+}
+
+/// d2x/da2 per crank radius has the part cosine cos(order a) + sine sin(order a).
+struct Part {
+  double cosine;
+  double sine;
+};
+/// From the exact displacement, by the trapezoidal rule: its error falls like (lambda / 2)^kSamples, to rounding for any rod that is not
+/// within a thousandth of the shortest possible. The second derivative of a harmonic is -order^2 of it.
+[[nodiscard]] Part acceleration_part(const Crank& crank, int order) noexcept {
+  constexpr int kSamples = 512;
+  const bool in_line = crank.pin_offset_m == 0;  // then x = r (1 - cos a) + an even function of sin a
+  if (in_line && order % 2 != 0) return {order == 1 ? 1.0 : 0.0, 0};
+  double cosine = 0;
+  double sine = 0;
+  for (int i = 0; i < kSamples; ++i) {
+    const double a = 2 * elementary::kPi * i / kSamples;
+    const double x = exact_pose(crank, a).displacement_m;
+    cosine += x * elementary::cos(order * a);
+    sine += x * elementary::sin(order * a);
+  }
+  const double scale = -2.0 / kSamples * order * order / crank.crank_radius_m;
+  return {scale * cosine, in_line ? 0 : scale * sine};
 }
 
 /// Adds a force (up, lateral) = axis * (along_cos cos + along_sin sin) at a place along the shaft.
@@ -79,35 +103,51 @@ Bearings<double> bearings_of(const EngineDefinition& engine) noexcept {
   return b;
 }
 
+BlockLoad in_block(const EngineDefinition& engine, double engine_deg, double along_N, double across_N) noexcept {
+  int cylinder = 0;
+  while (engine.layout.pin[static_cast<std::size_t>(cylinder)] != 0) ++cylinder;
+  const Direction first_throw = direction(engine_deg + engine.layout.throw_deg(cylinder));
+  return {along_N * first_throw.cosine - across_N * first_throw.sine, along_N * first_throw.sine + across_N * first_throw.cosine};
+}
+
+Turning<double> reciprocating_order(const EngineDefinition& engine, int order) noexcept {
+  const Layout& layout = engine.layout;
+  const double reciprocating = engine.masses.reciprocating_kg() * engine.crank.crank_radius_m;
+  const double middle = middle_m(layout);
+  const Part part = acceleration_part(engine.crank, order);
+  Turning<double> t{};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
+    const Direction axis = direction(layout.bank_deg[k]);
+    const Direction f = direction(order * layout.firing_deg[k]);
+    // -P_j = m_j d2x/da2 w^2 along the cylinder axis away from the crankshaft, with a = A - firing.
+    const double along_cos = reciprocating * (part.cosine * f.cosine - part.sine * f.sine);
+    const double along_sin = reciprocating * (part.cosine * f.sine + part.sine * f.cosine);
+    add(t, layout.position_m[k] - middle, axis.cosine * along_cos, axis.cosine * along_sin, axis.sine * along_cos, axis.sine * along_sin);
+  }
+  return t;
+}
+
 Balance<double> balance_of(const EngineDefinition& engine) noexcept {
   const Layout& layout = engine.layout;
   const double r = engine.crank.crank_radius_m;
-  const double lambda = engine.crank.rod_ratio();
-  const double offset_ratio = engine.crank.pin_offset_m / engine.crank.rod_length_m;
-  const double reciprocating = engine.masses.reciprocating_kg() * r;
   const double middle = middle_m(layout);
   Balance<double> b{};
+  b.first = reciprocating_order(engine, 1);
+  b.second = reciprocating_order(engine, 2);
   double rods_on[kMaxCylinders] = {};
   for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) rods_on[layout.pin[k]] += 1;
   for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
     const double arm = layout.position_m[k] - middle;
-    const Direction axis = direction(layout.bank_deg[k]);
-    const Direction f = direction(layout.firing_deg[k]);
-    const Direction f2 = direction(2 * layout.firing_deg[k]);
-    // -P_jI = m_j r w^2 (cos a + e/l sin a) with a = A - firing, along the cylinder axis away from the crankshaft.
-    const double first_cos = reciprocating * (f.cosine - offset_ratio * f.sine);
-    const double first_sin = reciprocating * (f.sine + offset_ratio * f.cosine);
-    add(b.first, arm, axis.cosine * first_cos, axis.cosine * first_sin, axis.sine * first_cos, axis.sine * first_sin);
-    // -P_jII = m_j r w^2 lambda cos 2a
-    const double second = reciprocating * lambda;
-    add(b.second, arm, axis.cosine * second * f2.cosine, axis.cosine * second * f2.sine, axis.sine * second * f2.cosine,
-        axis.sine * second * f2.sine);
     // Centrifugal, along the throw at A + bank - firing: the big end in the cylinder's own plane, and its part of the pin.
     const Direction throw_at = direction(layout.throw_deg(static_cast<int>(k)));
     const double kg_m = (engine.masses.rod_big_end_kg + engine.masses.crank_pin_equivalent_kg / rods_on[layout.pin[k]]) * r;
     add(b.rotating, arm, kg_m * throw_at.cosine, -kg_m * throw_at.sine, kg_m * throw_at.sine, kg_m * throw_at.cosine);
   }
   return b;
+}
+
+Wave wave_of(double cosine, double sine) noexcept {
+  return {square_root(cosine * cosine + sine * sine), elementary::atan2(sine, cosine) / kRadPerDeg};
 }
 
 double peak_force_kg_m(const Turning<double>& t) noexcept { return peak(t.up_cos, t.up_sin, t.lateral_cos, t.lateral_sin); }

@@ -61,13 +61,19 @@ template <class Real>
   return s;
 }
 
+/// Node i of the interpolation on [from, to], parts of a degree.
+template <class Real>
+[[nodiscard]] double node(std::size_t i, double from, double to) noexcept {
+  return (from + to) / 2 + (to - from) / 2 * Nodes<Real>::at[i];
+}
+
 /// Fits f(u) on [from, to], parts of a degree.
 template <class Real, class Function>
 [[nodiscard]] Polynomial<kCoefficients<Real>> fitted(double from, double to, const Function& f) noexcept {
   double u[kCoefficients<Real>];
   double y[kCoefficients<Real>];
   for (std::size_t i = 0; i < kCoefficients<Real>; ++i) {
-    u[i] = (from + to) / 2 + (to - from) / 2 * Nodes<Real>::at[i];
+    u[i] = node<Real>(i, from, to);
     y[i] = f(u[i]);
   }
   return through(u, y);

@@ -60,13 +60,13 @@ struct Pair {
 };
 
 /// a + b exactly, for |a| >= |b| or a == 0 (Dekker).
-Pair quick_sum(double a, double b) {
+[[gnu::always_inline]] inline Pair quick_sum(double a, double b) {
   const double s = a + b;
   return {s, b - (s - a)};
 }
 
 /// a + b exactly (Knuth).
-Pair sum(double a, double b) {
+[[gnu::always_inline]] inline Pair sum(double a, double b) {
   const double s = a + b;
   const double b_in_s = s - a;
   return {s, (a - (s - b_in_s)) + (b - b_in_s)};
@@ -74,7 +74,7 @@ Pair sum(double a, double b) {
 
 /// a b exactly, from halves of 26 bits (Dekker, Veltkamp): for |a|, |b| < 2^990 and the last bit of a b above
 /// 2^-1074.
-Pair product(double a, double b) {
+[[gnu::always_inline]] inline Pair product(double a, double b) {
   constexpr double kSplitter = 134217729.0;  // 2^27 + 1
   const double a_high = kSplitter * a - (kSplitter * a - a);
   const double b_high = kSplitter * b - (kSplitter * b - b);
@@ -84,21 +84,21 @@ Pair product(double a, double b) {
   return {p, ((a_high * b_high - p) + a_high * b_low + a_low * b_high) + a_low * b_low};
 }
 
-Pair add(Pair a, Pair b) {
+[[gnu::always_inline]] inline Pair add(Pair a, Pair b) {
   const Pair high = sum(a.hi, b.hi);
   const Pair low = sum(a.lo, b.lo);
   const Pair s = quick_sum(high.hi, high.lo + low.hi);
   return quick_sum(s.hi, s.lo + low.lo);
 }
 
-Pair subtract(Pair a, Pair b) { return add(a, {-b.hi, -b.lo}); }
+[[gnu::always_inline]] inline Pair subtract(Pair a, Pair b) { return add(a, {-b.hi, -b.lo}); }
 
-Pair multiply(Pair a, Pair b) {
+[[gnu::always_inline]] inline Pair multiply(Pair a, Pair b) {
   const Pair p = product(a.hi, b.hi);
   return quick_sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
 }
 
-Pair divide(Pair a, Pair b) {
+[[gnu::always_inline]] inline Pair divide(Pair a, Pair b) {
   const double q = a.hi / b.hi;
   const Pair p = product(q, b.hi);
   const double rest = ((a.hi - p.hi) - p.lo) + (a.lo - q * b.lo);
@@ -146,31 +146,30 @@ Reduced reduce(double x) {
   return {sum(b.hi, ((a.lo + b.lo) - second.lo) - n * kHalfPiRest), static_cast<int>(quarter_turns & 3)};
 }
 
-/// Taylor to r^17; the first dropped term, r^19/19!, is below 2^-62 of the sine. r - r^3/6 is carried in full.
-Pair sine_series(Pair r) {
+/// Of an angle within pi/4 and its square. Taylor to r^17; the first dropped term, r^19/19!, is below 2^-62 of the sine. r - r^3/6 is carried in full.
+Pair sine_series(Pair r, Pair square) {
   static constexpr double kTerms[] = {
       1.0 / 120.0,        -1.0 / 5040.0,          1.0 / 362880.0,         -1.0 / 39916800.0,
       1.0 / 6227020800.0, -1.0 / 1307674368000.0, 1.0 / 355687428096000.0};
   constexpr Pair kMinusSixth{-0x1.5555555555555p-3, -0x1.5555555555555p-57};
-  const Pair square = multiply(r, r);
   const Pair head = add(r, multiply(kMinusSixth, multiply(square, r)));
   const double tail = square.hi * square.hi * r.hi * polynomial(kTerms, square.hi);
   return quick_sum(head.hi, head.lo + tail);
 }
 
-/// Taylor to r^18; the first dropped term, r^20/20!, is below 2^-67 of the cosine. 1 - r^2/2 is carried in full.
-Pair cosine_series(Pair r) {
+/// Of the angle's square. Taylor to r^18; the first dropped term, r^20/20!, is below 2^-67 of the cosine. 1 - r^2/2 is carried in full.
+Pair cosine_series(Pair square) {
   static constexpr double kTerms[] = {
       1.0 / 24.0,        -1.0 / 720.0,         1.0 / 40320.0,          -1.0 / 3628800.0,
       1.0 / 479001600.0, -1.0 / 87178291200.0, 1.0 / 20922789888000.0, -1.0 / 6402373705728000.0};
-  const Pair square = multiply(r, r);
   const Pair head = add({1.0, 0.0}, {-0.5 * square.hi, -0.5 * square.lo});
   const double tail = square.hi * square.hi * polynomial(kTerms, square.hi);
   return quick_sum(head.hi, head.lo + tail);
 }
 
 double sine_at(Reduced r) {
-  const double value = ((r.quadrant & 1) != 0 ? cosine_series(r.angle) : sine_series(r.angle)).hi;
+  const Pair square = multiply(r.angle, r.angle);
+  const double value = ((r.quadrant & 1) != 0 ? cosine_series(square) : sine_series(r.angle, square)).hi;
   return flip_sign_if((r.quadrant & 2) != 0, value);
 }
 
@@ -282,13 +281,28 @@ double cos(double angle_rad) noexcept {
   return sine_at({r.angle, r.quadrant + 1});
 }
 
+SinCos sin_cos(double angle_rad) noexcept {
+  const double size = magnitude(angle_rad);
+  if (!(size < kInfinity)) return {kNaN, kNaN};
+  const Reduced r = reduce(size);
+  const Pair square = multiply(r.angle, r.angle);
+  const double sine = sine_series(r.angle, square).hi;
+  const double cosine = cosine_series(square).hi;
+  const bool odd = (r.quadrant & 1) != 0;
+  const bool backward = is_negative(angle_rad);
+  return {flip_sign_if(((r.quadrant & 2) != 0) != backward, odd ? cosine : sine),
+          flip_sign_if(((r.quadrant + 1) & 2) != 0, odd ? sine : cosine)};
+}
+
 double tan(double angle_rad) noexcept {
   const double size = magnitude(angle_rad);
   if (!(size < kInfinity)) return kNaN;
   const Reduced r = reduce(size);
   const bool odd = (r.quadrant & 1) != 0;  // tan(a + pi/2) = -cos a / sin a; no double is an odd multiple of pi/2
-  const double value = odd ? -divide(cosine_series(r.angle), sine_series(r.angle)).hi
-                           : divide(sine_series(r.angle), cosine_series(r.angle)).hi;
+  const Pair square = multiply(r.angle, r.angle);
+  const Pair sine = sine_series(r.angle, square);
+  const Pair cosine = cosine_series(square);
+  const double value = odd ? -divide(cosine, sine).hi : divide(sine, cosine).hi;
   return flip_sign_if(is_negative(angle_rad), value);
 }
 

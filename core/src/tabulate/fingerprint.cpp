@@ -71,8 +71,9 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
     }
     f.add(static_cast<int>(w.heat_given));
   } else {
-    f.add(p.point_count);
-    for (int i = 0; i < p.point_count; ++i) f.add(p.points[i].at), f.add(p.points[i].pressure_Pa);
+    const int rows = p.source == PressureSource::none ? 0 : p.point_count;
+    f.add(rows);
+    for (int i = 0; i < rows; ++i) f.add(p.points[i].at), f.add(p.points[i].pressure_Pa);
   }
   if (engine.train_count > 0) {
     f.add(static_cast<int>(options.valves.integrator));

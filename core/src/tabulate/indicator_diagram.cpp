@@ -51,7 +51,12 @@ Status IndicatorDiagram::init(const Crank& crank, const Pressure& pressure) noex
   bdc_deg_ = centres.bdc_rad * kDegPerRad;
   clearance_m3_ = clearance_volume_m3(crank);
   area_m2_ = bore_area_m2(crank);
-  switch (pressure.source) {
+  if (const Status refused = init_source(); !refused.ok()) return refused;
+  return find_peak();
+}
+
+Status IndicatorDiagram::init_source() noexcept {
+  switch (pressure_.source) {
     case PressureSource::none: return {};
     case PressureSource::wiebe: return init_wiebe();
     case PressureSource::angle_table: return init_angles();
@@ -60,42 +65,66 @@ Status IndicatorDiagram::init(const Crank& crank, const Pressure& pressure) noex
   return {};
 }
 
-double IndicatorDiagram::volume_m3(double crank_deg) const noexcept {
-  return clearance_m3_ + area_m2_ * exact_pose(crank_, crank_deg * kRadPerDeg).displacement_m;
+/// Rows have been checked and the curve stays between them: only a synthesised diagram can be refused here.
+Status IndicatorDiagram::find_peak() noexcept {
+  const auto too_high = [](double p) { return !(p <= kMostPressure_Pa); };  // also where it is no number
+  for (int i = 0; i < 10 * 720; ++i) {
+    const double deg = i / 10.0;
+    const double p = full_Pa(deg);
+    if (p > peak_Pa_) peak_Pa_ = p;
+    if (!too_high(p)) continue;
+    if (too_high(motored_Pa(deg))) return {Reason::pressure_too_high, -1, "pressure.intake"};
+    return {Reason::pressure_too_high, -1, pressure_.wiebe.heat_given ? "pressure.heat" : "pressure.net_mep"};
+  }
+  return {};
 }
 
-double IndicatorDiagram::slope_m(double crank_deg) const noexcept { return exact_pose(crank_, crank_deg * kRadPerDeg).slope_m; }
+double IndicatorDiagram::volume_m3(double crank_deg) const noexcept {
+  return clearance_m3_ + area_m2_ * exact_stroke(crank_, crank_deg * kRadPerDeg).displacement_m;
+}
+
+double IndicatorDiagram::slope_m(double crank_deg) const noexcept { return exact_stroke(crank_, crank_deg * kRadPerDeg).slope_m; }
 
 /// Degrees since firing top dead centre, 0 to 720.
 double IndicatorDiagram::from_top_deg(double crank_deg) const noexcept { return into_cycle(crank_deg - tdc_deg_); }
 
-double IndicatorDiagram::motored_Pa(double crank_deg) const noexcept {
-  switch (pressure_.source) {
-    case PressureSource::none: break;
-    case PressureSource::wiebe: return unfired_Pa(motored_, crank_deg);
-    case PressureSource::angle_table:
-    case PressureSource::volume_table: return table_motored_Pa(crank_deg);
-  }
-  return pressure_.crankcase_Pa;
+IndicatorDiagram::Pressures IndicatorDiagram::pressures(double crank_deg) const noexcept {
+  return pressures_where(crank_deg, [&] { return exact_stroke(crank_, crank_deg * kRadPerDeg).displacement_m; });
+}
+IndicatorDiagram::Pressures IndicatorDiagram::pressures(double crank_deg, double displacement_m) const noexcept {
+  return pressures_where(crank_deg, [&] { return displacement_m; });
 }
 
-double IndicatorDiagram::full_Pa(double crank_deg) const noexcept {
+/// Asks for the piston's displacement only where it is needed.
+template <class Displacement>
+IndicatorDiagram::Pressures IndicatorDiagram::pressures_where(double crank_deg, const Displacement& displacement_m) const noexcept {
   switch (pressure_.source) {
     case PressureSource::none: break;
-    case PressureSource::wiebe: return wiebe_full_Pa(crank_deg);
+    case PressureSource::wiebe: {
+      const double full = wiebe_full_Pa(crank_deg);
+      const double motored = unfired_Pa(motored_, crank_deg);
+      return {full, motored, full - motored};
+    }
     case PressureSource::angle_table:
-    case PressureSource::volume_table: return table_Pa(crank_deg);
+    case PressureSource::volume_table: {
+      const double full = table_Pa(crank_deg);
+      const double motored = table_motored_Pa(crank_deg, displacement_m, full);
+      return {full, motored, full - motored};
+    }
   }
-  return pressure_.crankcase_Pa;
+  return {pressure_.crankcase_Pa, pressure_.crankcase_Pa, 0};
 }
 
-double IndicatorDiagram::heat_Pa(double crank_deg) const noexcept { return full_Pa(crank_deg) - motored_Pa(crank_deg); }
+double IndicatorDiagram::motored_Pa(double crank_deg) const noexcept { return pressures(crank_deg).motored_Pa; }
+double IndicatorDiagram::heat_Pa(double crank_deg) const noexcept { return pressures(crank_deg).heat_Pa; }
+double IndicatorDiagram::full_Pa(double crank_deg) const noexcept { return is_table() ? table_Pa(crank_deg) : pressures(crank_deg).full_Pa; }
 
 // ---- tables ----------------------------------------------------------------------------------------------------------------
 
 Status IndicatorDiagram::init_angles() noexcept {
   rows_ = pressure_.point_count;
   if (pressure_.points[rows_ - 1].at - pressure_.points[0].at > 720 - 1e-9) --rows_;  // a closing row repeats the first
+  first_deg_ = row(0).at_deg;
   find_gas_exchange();
   return {};
 }
@@ -125,10 +154,14 @@ Status IndicatorDiagram::init_volumes() noexcept {
   const double first_off = points[0].at - clearance_m3_;
   if (stroke != 3 || first_off > volume_tolerance) return refused(Reason::not_a_cycle, 0);
   stroke_start_[4] = rows_;
+  first_deg_ = row(0).at_deg;
+  double before_deg = first_deg_;
   for (int i = 1; i < rows_; ++i) {
-    if (row(i).at_deg <= row(i - 1).at_deg) return refused(Reason::not_a_cycle, i);
+    const double at_deg = row(i).at_deg;
+    if (at_deg <= before_deg) return refused(Reason::not_a_cycle, i);
+    before_deg = at_deg;
   }
-  if (row(rows_ - 1).at_deg >= row(0).at_deg + 720) return refused(Reason::not_a_cycle, rows_ - 1);
+  if (before_deg >= first_deg_ + 720) return refused(Reason::not_a_cycle, rows_ - 1);
   find_gas_exchange();
   return {};
 }
@@ -155,49 +188,66 @@ IndicatorDiagram::Row IndicatorDiagram::row(int i) const noexcept {
 
 /// The last row at or before an angle that lies in [first row, first row + 720).
 int IndicatorDiagram::row_before(double at_deg) const noexcept {
-  int low = 0;
-  int high = rows_;
-  while (high - low > 1) {
-    const int middle = (low + high) / 2;
-    if (row(middle).at_deg <= at_deg) {
-      low = middle;
-    } else {
-      high = middle;
+  const auto last_in = [](int low, int high, const auto& is_before) {  // of low to high - 1, low if it is none of those after it
+    while (high - low > 1) {
+      const int middle = low + (high - low) / 2;
+      (is_before(middle) ? low : high) = middle;
     }
-  }
-  return low;
+    return low;
+  };
+  const DiagramPoint* points = pressure_.points;
+  if (pressure_.source == PressureSource::angle_table) return last_in(0, rows_, [&](int i) { return points[i].at <= at_deg; });
+  // Volumes rise or fall within a stroke, and one volume takes far less than an angle for each row on the way. The angles decide: rounding may
+  // have put a row on the other side.
+  const double turns_deg[] = {bdc_deg_, tdc_deg_ + 360, bdc_deg_ + 360};
+  int stroke = 0;
+  while (stroke < 3 && at_deg >= turns_deg[stroke]) ++stroke;
+  const double volume = volume_m3(at_deg);
+  const bool rising = stroke % 2 == 0;
+  const int begin = stroke_start_[stroke] > 0 ? stroke_start_[stroke] - 1 : 0;
+  int before = last_in(begin, stroke_start_[stroke + 1], [&](int i) { return rising ? points[i].at <= volume : points[i].at >= volume; });
+  while (before > 0 && row(before).at_deg > at_deg) --before;
+  while (before + 1 < rows_ && row(before + 1).at_deg <= at_deg) ++before;
+  return before;
 }
 
 double IndicatorDiagram::table_Pa(double crank_deg) const noexcept {
-  const double first_deg = row(0).at_deg;
-  const double at_deg = first_deg + into_cycle(crank_deg - first_deg);
-  const bool cached = cached_row_ >= 0 && cached_[1].at_deg <= at_deg && at_deg < cached_[2].at_deg;
-  if (!cached) {
-    cached_row_ = row_before(at_deg);
-    for (int i = 0; i < 4; ++i) cached_[i] = row(cached_row_ - 1 + i);
+  const double since_first_deg = into_cycle(crank_deg - first_deg_);
+  const double at_deg = first_deg_ + since_first_deg;
+  Interval& interval = intervals_[static_cast<unsigned>(static_cast<int>(since_first_deg)) % kIntervals];
+  if (!(interval.from_deg <= at_deg && at_deg < interval.to_deg)) {
+    const int before = row_before(at_deg);
+    const auto point = [this, before](int i) {
+      const Row there = row(before + i);
+      return detail::Point{there.at_deg, there.pressure_Pa};
+    };
+    const detail::Point from = point(0);
+    const detail::Point to = point(1);
+    interval.from_deg = from.x;
+    interval.to_deg = to.x;
+    detail::monotone_cubic(point(-1), from, to, point(2), interval.c);
   }
-  const auto point = [this](int i) { return detail::Point{cached_[i].at_deg, cached_[i].pressure_Pa}; };
-  return detail::monotone_cubic(point(0), point(1), point(2), point(3), at_deg);
+  return detail::cubic_value(interval.c, (at_deg - interval.from_deg) / (interval.to_deg - interval.from_deg));
 }
 
 /// Without combustion the expansion retraces the compression, volume for volume, less the loss, and the exhaust stroke has no blow-down.
-double IndicatorDiagram::table_motored_Pa(double crank_deg) const noexcept {
+/// `fired_Pa` is the table's pressure at the angle.
+template <class Displacement>
+double IndicatorDiagram::table_motored_Pa(double crank_deg, const Displacement& displacement_m, double fired_Pa) const noexcept {
   const double since_top = from_top_deg(crank_deg);
   const double expansion_deg = bdc_deg_ - tdc_deg_;
-  const auto expansion_Pa = [this](double deg) {
-    const double x = exact_pose(crank_, deg * kRadPerDeg).displacement_m;
+  const auto expansion_Pa = [this](double x) {
     const double loss = elementary::pow(1 + area_m2_ * x / clearance_m3_, -kMotoredLoss);
     return loss * table_Pa(crank_angle_rad(crank_, x, false) * kDegPerRad + 360);
   };
-  if (since_top < expansion_deg) return expansion_Pa(crank_deg);
-  const double pressure = table_Pa(crank_deg);
-  if (since_top >= 360) return pressure;
-  const double exhaust = at_least(intake_Pa_, pressure < exhaust_Pa_ ? pressure : exhaust_Pa_);
+  if (since_top < expansion_deg) return expansion_Pa(displacement_m());
+  if (since_top >= 360) return fired_Pa;
+  const double exhaust = at_least(intake_Pa_, fired_Pa < exhaust_Pa_ ? fired_Pa : exhaust_Pa_);
   const double left = (360 - since_top) / kGasExchangeRampDeg;
-  if (left < 1) return pressure + left * (exhaust - pressure);
+  if (left < 1) return fired_Pa + left * (exhaust - fired_Pa);
   const double ramp = (since_top - expansion_deg) / kMotoredExhaustRampDeg;
   if (ramp >= 1) return exhaust;
-  const double at_bottom = expansion_Pa(bdc_deg_);
+  const double at_bottom = expansion_Pa(exact_stroke(crank_, bdc_deg_ * kRadPerDeg).displacement_m);
   return at_bottom + ramp * (exhaust - at_bottom);
 }
 

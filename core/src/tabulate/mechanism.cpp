@@ -6,26 +6,54 @@ namespace crankloop {
 
 using elementary::kPi;
 
-Pose<double> exact_pose(const Crank& crank, double crank_rad) noexcept {
+namespace {
+
+/// Of crank and rod at one angle.
+struct Angles {
+  double sin_a;
+  double cos_a;
+  double sin_b;
+  double cos_b;
+};
+[[nodiscard]] Angles angles_at(const Crank& crank, double crank_rad) noexcept {
+  const auto [sin_a, cos_a] = elementary::sin_cos(crank_rad);
+  const double l = crank.rod_length_m;
+  const double sin_b = crank.crank_radius_m / l * sin_a - crank.pin_offset_m / l;
+  return {sin_a, cos_a, sin_b, square_root((1 - sin_b) * (1 + sin_b))};
+}
+
+[[nodiscard]] double displacement_m(const Crank& crank, const Angles& at) noexcept {
   const double r = crank.crank_radius_m;
   const double l = crank.rod_length_m;
   const double e = crank.pin_offset_m;
-  const double lambda = r / l;
-  const double sin_a = elementary::sin(crank_rad);
-  const double cos_a = elementary::cos(crank_rad);
-  const double sin_b = lambda * sin_a - e / l;
-  const double cos_b = square_root((1 - sin_b) * (1 + sin_b));
-  const double tan_b = sin_b / cos_b;
-  const double rod_slope = lambda * cos_a / cos_b;
+  return square_root((r + l - e) * (r + l + e)) - r * at.cos_a - l * at.cos_b;
+}
+[[nodiscard]] double slope_m(const Crank& crank, const Angles& at) noexcept {
+  return crank.crank_radius_m * (at.sin_a + at.cos_a * (at.sin_b / at.cos_b));  // sin(a + b) / cos b
+}
+
+}  // namespace
+
+Stroke exact_stroke(const Crank& crank, double crank_rad) noexcept {
+  const Angles at = angles_at(crank, crank_rad);
+  return {displacement_m(crank, at), slope_m(crank, at)};
+}
+
+Pose<double> exact_pose(const Crank& crank, double crank_rad) noexcept {
+  const Angles at = angles_at(crank, crank_rad);
+  const double r = crank.crank_radius_m;
+  const double lambda = r / crank.rod_length_m;
+  const double tan_b = at.sin_b / at.cos_b;
+  const double rod_slope = lambda * at.cos_a / at.cos_b;
 
   Pose<double> pose;
-  pose.displacement_m = square_root((r + l - e) * (r + l + e)) - r * cos_a - l * cos_b;
-  pose.slope_m = r * (sin_a + cos_a * tan_b);                                        // sin(a + b) / cos b
-  pose.radial = cos_a - sin_a * tan_b;                                               // cos(a + b) / cos b
-  pose.acceleration_m = r * (pose.radial + rod_slope * cos_a / (cos_b * cos_b));
-  pose.rod_angle_rad = elementary::asin(sin_b);
+  pose.displacement_m = displacement_m(crank, at);
+  pose.slope_m = slope_m(crank, at);
+  pose.radial = at.cos_a - at.sin_a * tan_b;  // cos(a + b) / cos b
+  pose.acceleration_m = r * (pose.radial + rod_slope * at.cos_a / (at.cos_b * at.cos_b));
+  pose.rod_angle_rad = elementary::asin(at.sin_b);
   pose.rod_slope = rod_slope;
-  pose.rod_curvature = -lambda * sin_a / cos_b + tan_b * rod_slope * rod_slope;
+  pose.rod_curvature = -lambda * at.sin_a / at.cos_b + tan_b * rod_slope * rod_slope;
   pose.rod_tilt = tan_b;
   return pose;
 }

@@ -19,14 +19,18 @@ struct Point {
   return 3 * (h0 + h1) / ((2 * h1 + h0) / d0 + (h1 + 2 * h0) / d1);
 }
 
-/// Value at x between p1 and p2, with p0 and p3 as their neighbours; all x rising.
-[[nodiscard]] inline double monotone_cubic(Point p0, Point p1, Point p2, Point p3, double x) noexcept {
+/// The cubic from p1 to p2, with p0 and p3 as their neighbours; all x rising. Its coefficients by t, the part of the way.
+inline void monotone_cubic(Point p0, Point p1, Point p2, Point p3, double (&c)[4]) noexcept {
   const double h = p2.x - p1.x;
-  const double t = (x - p1.x) / h;
   const double m1 = h * monotone_slope(p0, p1, p2);
   const double m2 = h * monotone_slope(p1, p2, p3);
   const double rise = p2.y - p1.y;
-  return p1.y + t * (m1 + t * ((3 * rise - 2 * m1 - m2) + t * (m1 + m2 - 2 * rise)));
+  c[0] = p1.y;
+  c[1] = m1;
+  c[2] = 3 * rise - 2 * m1 - m2;
+  c[3] = m1 + m2 - 2 * rise;
 }
+
+[[nodiscard]] inline double cubic_value(const double (&c)[4], double t) noexcept { return c[0] + t * (c[1] + t * (c[2] + t * c[3])); }
 
 }  // namespace crankloop::detail

@@ -69,6 +69,18 @@ PinLoad ExactEngine::pin_load(int cylinder, double engine_deg, double speed_rad_
   return load;
 }
 
+BrakeFigures brake_figures(const EngineDefinition& engine, double indicated_Nm, double speed_rad_s) noexcept {
+  const double w = speed_rad_s < 0 ? -speed_rad_s : speed_rad_s;
+  BrakeFigures b{};
+  b.friction_mep_Pa = engine.friction.constant_Pa + w * (engine.friction.linear_Pa_s + w * engine.friction.quadratic_Pa_s2);
+  const double friction_Nm = b.friction_mep_Pa * swept_volume_m3(engine.crank) * engine.layout.cylinders / (4 * kPi);
+  b.torque_Nm = indicated_Nm - (speed_rad_s < 0 ? -friction_Nm : friction_Nm);
+  b.power_W = b.torque_Nm * speed_rad_s;
+  const double indicated_W = indicated_Nm * speed_rad_s;
+  b.efficiency_ratio = indicated_W > 0 ? b.power_W / indicated_W : 0;
+  return b;
+}
+
 CycleSummary summarise(const ExactEngine& engine, double speed_rad_s, double load_ratio) noexcept {
   CycleSummary s{};
   const EngineDefinition& definition = engine.definition();
@@ -89,6 +101,7 @@ CycleSummary summarise(const ExactEngine& engine, double speed_rad_s, double loa
   // Inertia does no work over a cycle, so the mean torque is the gas's.
   s.mean_torque_Nm = s.net_mep_Pa * swept * definition.layout.cylinders / (4 * kPi);
   s.power_W = s.mean_torque_Nm * speed_rad_s;
+  s.brake = brake_figures(definition, s.mean_torque_Nm, speed_rad_s);
 
   constexpr int kSamples = 7200;
   double cosine[kHarmonics] = {};
@@ -114,7 +127,8 @@ CycleSummary summarise(const ExactEngine& engine, double speed_rad_s, double loa
   for (int h = 0; h < kHarmonics; ++h) {
     const double c = cosine[h] * 2 / kSamples;
     const double si = sine[h] * 2 / kSamples;
-    s.harmonics[h] = {(h + 1) / 2.0, c, si, square_root(c * c + si * si)};
+    const Wave wave = wave_of(c, si);
+    s.harmonics[h] = {(h + 1) / 2.0, c, si, wave.amplitude, wave.phase_deg};
   }
   const double range = s.largest_torque_Nm - s.smallest_torque_Nm;
   const bool has_mean = s.mean_torque_Nm > kNoMean * range || s.mean_torque_Nm < -kNoMean * range;

@@ -163,7 +163,7 @@ int main(int count, char** words) {
       path = words[i];
     }
   }
-  if (path == nullptr || !(target_rpm > 0) || !(seconds > 0)) {
+  if (path == nullptr || !(target_rpm > 0) || !(seconds > 0 && seconds <= 1e6)) {  // so many periods are an int
     std::fprintf(stderr, "usage: idle_control PATH [--target-rpm N] [--seconds S]\n");
     return EXIT_FAILURE;
   }

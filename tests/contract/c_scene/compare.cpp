@@ -30,6 +30,21 @@ int main() {
   static_assert(sizeof(all_of_it_engine) == sizeof(all_of_it::Engine), "the exact size");
   static_assert(sizeof(torque_only_engine) == sizeof(torque_only::Engine), "the exact size");
 
+  {  // Nothing is written through a null pointer, nor read.
+    all_of_it_engine none{};
+    const all_of_it_input any = all_of_it_default_input();
+    unsigned char bytes[all_of_it_SAVED_BYTES];
+    all_of_it_init(nullptr, 0);
+    expect("null is not ready", all_of_it_step(nullptr, &any) == kFaultNotReady && all_of_it_step(&none, nullptr) == kFaultNotReady);
+    expect("null has no numbers", all_of_it_phase(nullptr) == 0 && all_of_it_torque_Nm(nullptr) == 0 && all_of_it_mean_torque_Nm(nullptr) == 0);
+    expect("null has no groups", all_of_it_get_forces(nullptr) == nullptr && all_of_it_get_valves(nullptr) == nullptr);
+    expect("null is not saved", all_of_it_save(nullptr, bytes, sizeof bytes).reason == CRANKLOOP_NULL_POINTER &&
+                                    all_of_it_save(&none, nullptr, sizeof bytes).reason == CRANKLOOP_NULL_POINTER);
+    expect("null is not loaded", all_of_it_load(nullptr, bytes, sizeof bytes).reason == CRANKLOOP_NULL_POINTER &&
+                                     all_of_it_load(&none, nullptr, sizeof bytes).reason == CRANKLOOP_NULL_POINTER);
+    turned_turn_at(nullptr, 100);
+  }
+
   all_of_it_engine engine{};
   all_of_it_init(&engine, 77);
   all_of_it::Engine cpp{Phase{77}};

@@ -14,8 +14,8 @@
 namespace crankloop::program {
 namespace {
 
-constexpr TableFormat kAngleTable{"crank_deg", "pressure_kPa", from(-1e6).up_to(1e6), from(0).up_to(1e5)};
-constexpr TableFormat kVolumeTable{"volume_cm3", "pressure_kPa", above(0).up_to(1e9), from(0).up_to(1e5)};
+constexpr TableFormat kAngleTable{"crank_deg", "pressure_kPa", from(-kMostDiagramAngle_deg).up_to(kMostDiagramAngle_deg), from(0).up_to(kMostPressure_Pa / 1e3)};
+constexpr TableFormat kVolumeTable{"volume_cm3", "pressure_kPa", above(0).up_to(1e9), from(0).up_to(kMostPressure_Pa / 1e3)};
 
 std::string title_of(const SectionValues& section) {
   return section.name.empty() ? section.kind : section.kind + " " + section.name;

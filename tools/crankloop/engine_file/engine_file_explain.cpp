@@ -13,7 +13,7 @@ namespace {
 std::string rod_too_short(const SectionValues& crank, const Crank& built) {
   return "rod_ratio: " + shortest(crank.number("rod_ratio")) + " makes the rod " + brief(built.rod_length_m * 1e3) +
          " mm long; it must be longer than stroke_mm / 2 + |pin_offset_mm| = " +
-         brief(crank.number("stroke_mm") / 2 + std::abs(crank.number("pin_offset_mm"))) + " mm, or the crank cannot turn";
+         brief(crank.number("stroke_mm") / 2 + std::abs(crank.number("pin_offset_mm"))) + " mm, by more than a billionth, or the crank cannot turn";
 }
 
 std::string combustion_too_long(const SectionValues& pressure) {

@@ -75,7 +75,10 @@ constexpr Key kKeys[] = {
     {"masses", "rod_g", Kind::number, kG, from(0).up_to(5e6), "", required, "", "", "rod:whole rod", "whole rod, instead of its two ends"},
     {"masses", "rod_com_to_crank_mm", Kind::number, kMm, from(0).up_to(10000), "", required, "", "", "rod:whole rod", "rod's centre of mass from the crank pin"},
     {"masses", "rod_inertia_kg_mm2", Kind::number, kKgMm2, from(0).up_to(1e11), "", optional, "", "", "rod:whole rod", "about the centre of mass; absent: two-mass rod (0 is a value, not absence)"},
-    {"masses", "crank_pin_equivalent_g", Kind::number, kG, from(0).up_to(5e6), "", defaults, "0", "", "", "m_k, pin and webs reduced to the crank radius"},
+    {"masses", "crank_pin_equivalent_g", Kind::number, kG, from(0).up_to(5e6), "", defaults, "0", "", "throw:reduced", "m_k, pin and webs reduced to the crank radius"},
+    {"masses", "crank_pin_g", Kind::number, kG, from(0).up_to(5e6), "", required, "", "", "throw:pin and webs", "crank pin between its webs, instead of m_k"},
+    {"masses", "crank_web_g", Kind::number, kG, from(0).up_to(5e6), "", required, "", "", "throw:pin and webs", "one of the two webs"},
+    {"masses", "crank_web_radius_mm", Kind::number, kMm, from(0).up_to(2000), "", required, "", "", "throw:pin and webs", "a web's centre of mass from the crankshaft's axis, toward the pin"},
     {"masses", "crank_inertia_kg_m2", Kind::number, kKgM2, from(0).up_to(1e6), "", required, "", "", "", "whole crankshaft with flywheel"},
 
     {"layout", "cylinders", Kind::whole_number, kNoUnit, from(1).up_to(kMaxCylinders), "", defaults, "1", "", "", "number of cylinders"},

@@ -9,7 +9,8 @@ namespace crankloop::program {
 std::string rod_length_too_short(const SectionValues& crank) {
   return "rod_length_mm: " + shortest(crank.number("rod_length_mm")) +
          " is too short; it must be longer than stroke_mm / 2 + |pin_offset_mm| = " +
-         brief(crank.number("stroke_mm") / 2 + std::abs(crank.number("pin_offset_mm"))) + " mm, or the crank cannot turn";
+         brief(crank.number("stroke_mm") / 2 + std::abs(crank.number("pin_offset_mm"))) +
+         " mm, by more than a billionth, or the crank cannot turn";
 }
 
 Crank build_crank(const SectionValues& values, const std::string& path) {
@@ -20,7 +21,7 @@ Crank build_crank(const SectionValues& values, const std::string& path) {
   crank.pin_offset_m = values.si("pin_offset_mm");
   crank.compression_ratio = values.si("compression_ratio");
   // Also where rod_ratio replaces it: a rod that cannot be is a slip of the pen.
-  if (crank.rod_length_m <= crank.crank_radius_m + std::abs(crank.pin_offset_m)) {
+  if (crank.rod_length_m <= crank.least_rod_length_m()) {
     throw InputError(path, values.line_of("rod_length_mm"), rod_length_too_short(values));
   }
   // Everything that knows a rod length then knows this one, so that motion, masses and energies agree with one another.
@@ -31,7 +32,11 @@ Crank build_crank(const SectionValues& values, const std::string& path) {
 Masses build_masses(const SectionValues& values, const Crank& crank, const std::string& path) {
   Masses masses;
   masses.piston_kg = values.si("piston_g");
-  masses.crank_pin_equivalent_kg = values.si("crank_pin_equivalent_g");
+  if (values.has("crank_pin_g")) {
+    reduce_throw({values.si("crank_pin_g"), values.si("crank_web_g"), values.si("crank_web_radius_mm")}, crank, masses);
+  } else {
+    masses.crank_pin_equivalent_kg = values.si("crank_pin_equivalent_g");
+  }
   masses.crank_inertia_kg_m2 = values.si("crank_inertia_kg_m2");
   if (values.has("rod_g")) {
     RigidRod rod;

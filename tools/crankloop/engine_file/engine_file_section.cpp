@@ -63,8 +63,21 @@ std::string required_keys(const std::string& section, std::string_view form) {
 struct FormInUse {
   const Value* first_given = nullptr;
   std::vector<std::string> forms;  ///< all of them, in the order of the table
+  std::string in_use;              ///< "" where none is
   bool needed = false;
 };
+
+/// The form that counts where the file says nothing: one whose every key has a default; else "".
+std::string form_by_default(const std::string& section, const std::vector<std::string>& forms) {
+  for (const std::string& form : forms) {
+    const std::vector<const Key*> keys = keys_of(section);
+    const bool all = std::all_of(keys.begin(), keys.end(), [&form](const Key* key) {
+      return form != key->form || key->presence == Presence::with_default;
+    });
+    if (all) return form;
+  }
+  return "";
+}
 
 /// Refuses a file that says the same thing in two ways, and one that says it in none.
 std::map<std::string, FormInUse> forms_in_use(const SectionValues& values, const std::string& path) {
@@ -88,8 +101,9 @@ std::map<std::string, FormInUse> forms_in_use(const SectionValues& values, const
     }
     if (first == nullptr) choice.first_given = &value;
   }
-  for (const auto& [name, choice] : choices) {
-    if (!choice.needed || choice.first_given != nullptr) continue;
+  for (auto& [name, choice] : choices) {
+    choice.in_use = choice.first_given != nullptr ? choice.first_given->key->form : form_by_default(values.kind, choice.forms);
+    if (!choice.needed || !choice.in_use.empty()) continue;
     throw InputError(path, values.line,
                      values.title() + " needs either " + required_keys(values.kind, choice.forms[0]) + ", or " +
                          required_keys(values.kind, choice.forms[1]));
@@ -113,10 +127,7 @@ SectionValues resolve_section(const IniSection& section, const std::string& path
       continue;
     }
     if (!counts(*key, values) || key->presence == Presence::optional) continue;
-    if (key->form[0] != '\0') {
-      const Value* in_use = choices.at(std::string(split(key->form, ':')[0])).first_given;
-      if (in_use == nullptr || in_use->key->form != std::string_view(key->form)) continue;
-    }
+    if (key->form[0] != '\0' && choices.at(std::string(split(key->form, ':')[0])).in_use != key->form) continue;
     if (key->presence == Presence::with_default) {
       complete.push_back(parse_value(*key, key->fallback, path, 0));
       continue;

@@ -34,6 +34,11 @@ std::vector<report::Fact> facts(const ReportInput& input) {
     list.push_back(
         {"Mean torque", report::format_number(input.figures.mean_torque_Nm, 4), "Nm", "all cylinders, indicated"});
     list.push_back({"Power", report::format_number(input.figures.power_W / 1e3, 4), "kW", "indicated"});
+    if (input.exact.definition().friction.any()) {
+      const BrakeFigures brake = brake_figures(input.exact.definition(), input.figures.mean_torque_Nm, input.operation.speed_rad_s());
+      list.push_back({"Brake power", report::format_number(brake.power_W / 1e3, 4), "kW",
+                      report::format_number(brake.torque_Nm, 4) + " Nm, mechanical efficiency " + report::format_fixed(brake.efficiency_ratio, 3)});
+    }
     list.push_back({"Net IMEP", report::format_number(input.figures.net_mep_Pa / 1e3, 4), "kPa",
                     "gross " + report::format_number(input.summary.gross_mep_Pa / 1e3, 4) + " kPa"});
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "../free_orders.hpp"
 #include "engine_report_parts.hpp"
 
 namespace crankloop::program {
@@ -95,7 +96,8 @@ report::Section bearing_section(const ReportInput& input) {
   const Layout& layout = input.exact.definition().layout;
   Section section{"bearings", "Crank pin and main journals", {}};
   section.blocks.push_back(
-      Paragraph{"Loads turn with the crankshaft: their loops show where pin and journal wear. The pin carries the rod "
+      Paragraph{"Loads turn with the crankshaft: their loops show where pin and journal wear; in the frame of the block, where "
+                "the bearing's shells do. The pin carries the rod "
                 "force and the rod "
                 "big end's centrifugal force; journals carry the throws beside them, each taken as simply supported "
                 "between its two."});
@@ -117,6 +119,9 @@ report::Section bearing_section(const ReportInput& input) {
                             "Along the throw of the first pin, outward", "Across it, with the rotation",
                             trace.journal_along_N[journal], trace.journal_across_N[journal], trace);
   section.blocks.push_back(std::move(journal_loop));
+  section.blocks.push_back(polar("Main " + numbered("bearing", journal) + ", the same load on the block, polar",
+                                 "Lateral, a quarter turn on from up with the rotation", "Up", trace.journal_lateral_N[journal],
+                                 trace.journal_up_N[journal], trace));
   std::vector<std::size_t> order(trace.journal_load_N.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -143,6 +148,17 @@ report::Section bearing_section(const ReportInput& input) {
   for (std::size_t j = 0; j < trace.journal_load_N.size(); ++j)
     add_load_row(mains, trace, numbered("Journal", j), trace.journal_load_N[j]);
   section.blocks.push_back(std::move(mains));
+  report::Table block{"Main bearings, in the frame of the block",
+                      {{"", "", false}, {"Largest up", "N"}, {"Largest down", "N"}, {"Largest lateral", "N"}, {"Smallest lateral", "N"}},
+                      {},
+                      false};
+  for (std::size_t j = 0; j < trace.journal_up_N.size(); ++j) {
+    const Span up = span_of(trace.journal_up_N[j]);
+    const Span lateral = span_of(trace.journal_lateral_N[j]);
+    block.rows.push_back({numbered("Bearing", j), report::format_fixed(up.high, 0), report::format_fixed(-up.low, 0),
+                          report::format_fixed(lateral.high, 0), report::format_fixed(lateral.low, 0)});
+  }
+  section.blocks.push_back(std::move(block));
 
   std::vector<AngleColumn> table{{"Pin radial", "N", &trace[Quantity::pin_radial]},
                                  {"Pin tangential", "N", &trace[Quantity::pin_tangential]},
@@ -156,7 +172,7 @@ report::Section bearing_section(const ReportInput& input) {
 
 report::Section balance_section(const ReportInput& input) {
   const Trace& trace = input.trace;
-  const Balance<double> balance = balance_of(input.exact.definition());
+  const EngineDefinition& definition = input.exact.definition();
   const double w2 = input.operation.speed_rad_s() * input.operation.speed_rad_s();
   const double unit_N =
       input.exact.definition().masses.reciprocating_kg() * input.exact.definition().crank.crank_radius_m * w2;
@@ -167,21 +183,39 @@ report::Section balance_section(const ReportInput& input) {
       "crankshaft. Counterweights are not part of the definition, so rotating masses are not balanced here."});
   report::Table table{
       "Largest over a turn", {{"", "", false}, {"Force", "N"}, {"Relative", "%"}, {"Moment", "Nm"}}, {}, false};
-  const auto row = [&](const char* name, const Turning<double>& t) {
+  const auto row = [&](const std::string& name, const Turning<double>& t) {
     const double force = peak_force_kg_m(t) * w2;
     table.rows.push_back({name, report::format_fixed(force, 1), report::format_fixed(100 * force / unit_N, 1),
                           report::format_fixed(peak_moment_kg_m2(t) * w2, 1)});
   };
-  row("First order", balance.first);
-  row("Second order", balance.second);
-  row("Rotating", balance.rotating);
+  const double noise_N = kNoise * unit_N;
+  const double noise_Nm = noise_N * length_of(definition.layout);
+  report::Table waves{"Amplitudes and phases", {{"", "", false}, {"Amplitude", "N, Nm"}, {"Phase", "deg"}}, {}, true};
+  const auto wave = [&](const std::string& name, double cosine, double sine, double noise) {
+    const Wave w = wave_of(cosine * w2, sine * w2);
+    if (w.amplitude > noise) waves.rows.push_back({name, report::format_fixed(w.amplitude, 1), report::format_fixed(w.phase_deg, 1)});
+  };
+  const auto rows = [&](std::string name, const Turning<double>& t) {
+    name[0] = static_cast<char>(name[0] - 'a' + 'A');
+    row(name, t);
+    wave(name + ", up", t.up_cos, t.up_sin, noise_N);
+    wave(name + ", lateral", t.lateral_cos, t.lateral_sin, noise_N);
+    wave(name + ", pitch", t.pitch_cos, t.pitch_sin, noise_Nm);
+    wave(name + ", yaw", t.yaw_cos, t.yaw_sin, noise_Nm);
+  };
+  for (const FreeOrder& order : free_orders(definition.crank)) {
+    rows(std::string(order.name) + " order", reciprocating_order(definition, order.order));
+  }
+  rows("rotating", balance_of(definition).rotating);
   section.blocks.push_back(std::move(table));
   section.blocks.push_back(
       Paragraph{"Relative to the first order of one cylinder: reciprocating mass times r \u03C9\u00B2, " +
-                number_text(unit_N, 5) + " N."});
+                number_text(unit_N, 5) + " N. Orders are per crank turn: harmonics of the exact motion."});
+  if (!waves.rows.empty()) {
+    section.blocks.push_back(std::move(waves));
+    section.blocks.push_back(Paragraph{"Each is amplitude cos(order times engine angle - phase), rotating of order 1."});
+  }
 
-  const double noise_N = kNoise * unit_N;
-  const double noise_Nm = noise_N * length_of(input.exact.definition().layout);
   std::vector<report::Series> forces;
   std::vector<report::Series> moments;
   const auto add = [&](const std::string& order, const FreeForceTrace& of) {

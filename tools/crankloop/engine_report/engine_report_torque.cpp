@@ -118,12 +118,13 @@ report::Section torque_section(const ReportInput& input) {
   }
   section.blocks.push_back(table_over_angle(trace, "Table: torque of the engine and of each cylinder", columns));
   report::Table table{
-      "Table: torque harmonics", {{"Order", ""}, {"Amplitude", "Nm"}, {"Cosine", "Nm"}, {"Sine", "Nm"}}, {}, true};
+      "Table: torque harmonics", {{"Order", ""}, {"Amplitude", "Nm"}, {"Phase", "deg"}, {"Cosine", "Nm"}, {"Sine", "Nm"}}, {}, true};
   double largest = 0;
   for (const Harmonic& h : input.summary.harmonics) largest = std::max(largest, h.amplitude_Nm);
   const int decimals = decimals_for(largest, 5);
   for (const Harmonic& h : input.summary.harmonics) {
     table.rows.push_back({report::format_fixed(h.order, 1), report::format_fixed(h.amplitude_Nm, decimals),
+                          h.amplitude_Nm > 1e-9 * largest ? report::format_fixed(h.phase_deg, 1) : "",
                           report::format_fixed(h.cosine_Nm, decimals), report::format_fixed(h.sine_Nm, decimals)});
   }
   section.blocks.push_back(std::move(table));

@@ -72,10 +72,8 @@ EnergyBooks::EnergyBooks(const ExactEngine& exact, const FreeOperation& operatio
     : engine_{exact.definition()}, gas_{exact, operation}, backwards_Nm_{gas_.backwards_Nm()}, begin_{begin} {}
 
 double EnergyBooks::friction_Nm(double speed_rad_s) const noexcept {
-  const Friction& f = engine_.friction;
-  const double w = std::fabs(speed_rad_s);
-  const double pressure_Pa = f.constant_Pa + w * (f.linear_Pa_s + w * f.quadratic_Pa_s2);
-  return pressure_Pa * swept_volume_m3(engine_.crank) * engine_.layout.cylinders / (4 * kPi) + (speed_rad_s < 0 ? backwards_Nm_ : 0);
+  const double own_Nm = -brake_figures(engine_, 0, std::fabs(speed_rad_s)).torque_Nm;
+  return speed_rad_s < 0 ? own_Nm + backwards_Nm_ : own_Nm;
 }
 
 double EnergyBooks::load_Nm(double speed_rad_s) const noexcept {

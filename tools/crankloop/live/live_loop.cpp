@@ -124,7 +124,8 @@ void run_live(const EngineFile& file, const LiveRequest& request, port::LiveBloc
   const ThreadCounts counts_before = ThreadCounts::now();  // the clock has been read once: its page is there
   const std::int64_t start_ns = periodic.due_ns();
   const port::PeriodicTally& tally = periodic.tally();
-  while (tally.ticks < request.ticks && !stop.received()) {
+  const auto is_ours = [&block] { return block.magic.load(std::memory_order_relaxed) == port::kLiveMagic; };
+  while (tally.ticks < request.ticks && !stop.received() && is_ours()) {
     figures.begin.add(periodic.begin());
     const LiveInputs in = inputs.at(periodic.begun_ns());
     const std::int64_t step_ns = port::now_ns();
@@ -151,7 +152,8 @@ void run_live(const EngineFile& file, const LiveRequest& request, port::LiveBloc
 
   figures.tally = tally;
   figures.wall_s = static_cast<double>(port::now_ns() - start_ns) * 1e-9;
-  figures.stopped = tally.ticks < request.ticks;
+  figures.lost_block = !is_ours();
+  figures.stopped = tally.ticks < request.ticks && !figures.lost_block;
   figures.page_faults = counts_after.page_faults - counts_before.page_faults;
   figures.preemptions = counts_after.preemptions - counts_before.preemptions;
   figures.speed_rad_s = published.speed_rad_s;

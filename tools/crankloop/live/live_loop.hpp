@@ -31,6 +31,7 @@ struct LiveFigures {
   port::LatencyHistogram work;   ///< from the beginning to the end: inputs, step, outputs, and the clock's four readings
   double wall_s = 0;             ///< from the first tick's time to the last one's end
   bool stopped = false;          ///< by a signal, before the last tick
+  bool lost_block = false;       ///< another process truncated or overwrote it: the run ended there
 
   std::int64_t page_faults = 0;  ///< in the loop, of this thread
   std::int64_t preemptions = 0;  ///< in the loop: how often the processor was taken from it
@@ -49,7 +50,7 @@ struct LiveFigures {
 };
 
 /// Builds the engine, runs it and fills `figures`, which is all zero before. Inputs come from the block and outputs go there, each tick.
-/// SIGINT and SIGTERM end the run early. In the loop nothing is allocated, printed or waited for but the clock.
+/// SIGINT, SIGTERM and SIGHUP end the run early, and so does a block whose magic is gone. In the loop nothing is allocated, printed or waited for but the clock.
 ///
 /// The definition is valid. Throws InputError where it is no engine that can turn freely, and UsageError where the start is beyond the tick's
 /// speed limit or the processor asked for is not to be had; before the first tick, both.

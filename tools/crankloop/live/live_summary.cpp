@@ -126,7 +126,7 @@ void write_engine(Output& out, const LiveFigures& f) {
 
 void write_live_summary(Output& out, const EngineFile& file, const LiveRequest& request, const std::string& real, bool shared,
                         const LiveFigures& f) {
-  out.write("# " + file.name() + ", its crank free, in " + real + (f.stopped ? ", stopped by a signal" : "") + "\n");
+  out.write("# " + file.name() + ", its crank free, in " + real + (f.stopped ? ", stopped by a signal" : f.lost_block ? ", until its block was lost" : "") + "\n");
   write_machine(out, request.real_time, f);
   out.write("# a tick is late if it began a whole tick or more after it was due, missed if it was not done when the next was due\n");
   write_times(out, request.tick_ns, f);

@@ -42,7 +42,8 @@ void append(FreeForceTrace& to, const FreeForce<Real>& force) {
 }
 
 template <class Real>
-void append(Trace& trace, double crank_deg, const WholeOutput<Real>& out, CylinderPlace first) {
+void append(Trace& trace, const EngineDefinition& definition, double crank_deg, const WholeOutput<Real>& out) {
+  const CylinderPlace first = place_of(definition.layout, 0);
   trace.crank_deg.push_back(crank_deg);
   for (const QuantityKind& kind : kQuantityKinds) {
     append(trace.of[index_of(kind.quantity)], static_cast<double>(value_of(out, kind.quantity, first)));
@@ -58,6 +59,12 @@ void append(Trace& trace, double crank_deg, const WholeOutput<Real>& out, Cylind
   append(trace.journal_along_N, out.journal_along_N);
   append(trace.journal_across_N, out.journal_across_N);
   append(trace.journal_load_N, out.journal_load_N);
+  for (std::size_t j = 0; j < trace.journal_up_N.size(); ++j) {
+    const BlockLoad load = in_block(definition, crank_deg + definition.layout.firing_deg[0], static_cast<double>(out.journal_along_N[j]),
+                                    static_cast<double>(out.journal_across_N[j]));
+    append(trace.journal_up_N[j], load.up_N);
+    append(trace.journal_lateral_N[j], load.lateral_N);
+  }
   append(trace.first, out.first);
   append(trace.second, out.second);
   append(trace.rotating, out.rotating);
@@ -86,14 +93,15 @@ Trace record_trace(const EngineDefinition& definition, const Operation& operatio
   trace.pin_load_N.resize(pins);
   trace.journal_along_N.resize(pins + 1);
   trace.journal_across_N.resize(pins + 1);
+  trace.journal_up_N.resize(pins + 1);
+  trace.journal_lateral_N.resize(pins + 1);
   trace.journal_load_N.resize(pins + 1);
   trace.valves.resize(static_cast<std::size_t>(definition.train_count));
-  const CylinderPlace first = place_of(definition.layout, 0);
   const int count = static_cast<int>(std::lround(720 / pace.spacing_deg));
-  append(trace, 0, loop.output(), first);
+  append(trace, definition, 0, loop.output());
   for (int i = 1; i <= count; ++i) {
     for (int tick = 0; tick < pace.ticks; ++tick) loop.step();
-    append(trace, i * pace.spacing_deg, loop.output(), first);
+    append(trace, definition, i * pace.spacing_deg, loop.output());
   }
   if (!trace.valves
            .empty()) {  // a lobe's results are there once its cam has passed the base circle: within another cycle

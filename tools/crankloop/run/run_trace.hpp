@@ -43,6 +43,8 @@ struct Trace {
   std::vector<std::vector<double>> pin_load_N;       ///< per crank pin
   std::vector<std::vector<double>> journal_along_N;  ///< per main journal, in the frame that turns with the crank
   std::vector<std::vector<double>> journal_across_N;
+  std::vector<std::vector<double>> journal_up_N;  ///< the same in the frame of the block
+  std::vector<std::vector<double>> journal_lateral_N;
   std::vector<std::vector<double>> journal_load_N;
   FreeForceTrace first;  ///< free forces and moments of the whole engine
   FreeForceTrace second;

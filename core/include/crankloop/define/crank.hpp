@@ -23,11 +23,17 @@ namespace crankloop {
 struct Crank {
   double bore_m = 0;             ///< > 0, at most 2
   double crank_radius_m = 0;     ///< r, half the nominal stroke; > 0, at most 2
-  double rod_length_m = 0;       ///< l > r + |e|, at most 10
+  double rod_length_m = 0;       ///< l > least_rod_length_m(), at most 10
   double pin_offset_m = 0;       ///< e
   double compression_ratio = 2;  ///< (V_c + V_d) / V_c; > 1, at most 100. Only pressure sources that know the volume use it
 
   [[nodiscard]] constexpr double rod_ratio() const noexcept { return crank_radius_m / rod_length_m; }  ///< lambda = r / l
+
+  /// What the rod must be longer than: r + |e|, with which the rod would lie square to the cylinder axis once a turn, cos b = 0, and a billionth
+  /// of that, which keeps cos b above 4e-5 whatever rounding does to sin b.
+  [[nodiscard]] constexpr double least_rod_length_m() const noexcept {
+    return (crank_radius_m + (pin_offset_m < 0 ? -pin_offset_m : pin_offset_m)) * (1 + 1e-9);
+  }
 };
 
 /// Field names "crank.*". Refuses a mechanism that cannot turn.

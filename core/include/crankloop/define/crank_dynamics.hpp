@@ -14,6 +14,8 @@ struct Friction {
   double constant_Pa = 0;     ///< 0 to 1e7
   double linear_Pa_s = 0;     ///< per rad/s; 0 to 1e6
   double quadratic_Pa_s2 = 0; ///< per (rad/s)^2; 0 to 1e6
+
+  [[nodiscard]] constexpr bool any() const noexcept { return constant_Pa != 0 || linear_Pa_s != 0 || quadratic_Pa_s2 != 0; }
 };
 
 /// The driven machine as a passive brake: its torque opposes the rotation like friction does. What may also drive is Input::load_Nm.

@@ -16,6 +16,13 @@ struct RigidRod {
   double inertia_kg_m2 = 0;   ///< J_rod about the centre of mass; 0 is a physical value (a point mass)
 };
 
+/// One throw of the crankshaft as it is drawn.
+struct CrankThrow {
+  double pin_kg = 0;    ///< between the webs
+  double web_kg = 0;    ///< one of the two
+  double web_com_m = 0; ///< rho_web: a web's centre of mass from the crankshaft's axis, toward the pin
+};
+
 /// Masses per cylinder, the rod already lumped on its two ends.
 struct Masses {
   double piston_kg = 0;                     ///< piston, rings, pin
@@ -30,6 +37,9 @@ struct Masses {
 
 /// Lumps a rigid rod on its ends: same mass, centre of mass and, by the correction dI, the same kinetic energy.
 void lump_rod(const RigidRod& rod, const Crank& crank, Masses& masses) noexcept;
+
+/// Reduces pin and webs to the crank radius: the same centrifugal force, m_k = pin + 2 web rho_web / r.
+void reduce_throw(const CrankThrow& crank_throw, const Crank& crank, Masses& masses) noexcept;
 
 /// Field names "masses.*". Every mass >= 0 and m_j > 0.
 Status validate(const Masses& masses) noexcept;

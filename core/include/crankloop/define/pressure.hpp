@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include <crankloop/define/crank.hpp>
+#include <crankloop/limits.hpp>
 #include <crankloop/status.hpp>
 
 namespace crankloop {
@@ -17,7 +18,10 @@ enum class PressureSource : std::uint8_t {
   wiebe,         ///< synthesised: docs/model.md "Synthesised diagram"
 };
 
-/// One row of a diagram: crank angle in degrees or volume in m^3, and absolute pressure.
+/// How far from 0 an angle table may lie: there a double still tells angles 1e-10 deg apart, beyond 1e9 deg no longer 1e-7.
+inline constexpr double kMostDiagramAngle_deg = 1e6;
+
+/// One row of a diagram: crank angle in degrees, within +-kMostDiagramAngle_deg, or volume in m^3, and absolute pressure, 0 to kMostPressure_Pa.
 struct DiagramPoint {
   double at;
   double pressure_Pa;
@@ -46,14 +50,14 @@ struct WiebeDiagram {
   }
 };
 
-/// Pressure at load ratio q is p_motored(a) + q (p_full(a) - p_motored(a)).
+/// Pressure at load ratio q, at most kMostPressure_Pa at q = 1, is p_motored(a) + q (p_full(a) - p_motored(a)).
 ///
 /// The motored diagram is that of a cylinder without combustion, and does no work: docs/model.md "Load ratio".
 struct Pressure {
   PressureSource source = PressureSource::none;
   double crankcase_Pa = 100e3;           ///< p0, on the piston's other side
   WiebeDiagram wiebe{};
-  const DiagramPoint* points = nullptr;  ///< rows of a table source; the caller keeps them alive while tabulating
+  const DiagramPoint* points = nullptr;  ///< rows of a table source, which alone reads them; the caller keeps them alive while tabulating
   int point_count = 0;
 };
 

@@ -36,6 +36,13 @@ inline constexpr double kLargestAngle_rad = 2147483648.0;
 
 [[nodiscard]] double sin(double angle_rad) noexcept;
 [[nodiscard]] double cos(double angle_rad) noexcept;
+
+/// Both, to the same bits, for little more than one of them.
+struct SinCos {
+  double sin;
+  double cos;
+};
+[[nodiscard]] SinCos sin_cos(double angle_rad) noexcept;
 [[nodiscard]] double tan(double angle_rad) noexcept;
 
 /// The angle in rad, -pi/2 to pi/2.

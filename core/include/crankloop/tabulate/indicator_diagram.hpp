@@ -16,13 +16,27 @@ namespace crankloop {
 /// Holds a pointer to the definition's points. Construction O(points), evaluation O(log points); not for two threads at once.
 class IndicatorDiagram {
  public:
-  /// Refuses what validate() refuses, volumes that are no four-stroke loop or repeat from row to row ("pressure.file" with the row), an exhaust opening at or after
-  /// bottom dead centre, and a mean effective pressure below the motored one ("pressure.net_mep").
+  /// Refuses what validate() refuses, volumes that are no four-stroke loop or repeat from row to row ("pressure.file" with the row), an exhaust
+  /// opening at or after bottom dead centre, a mean effective pressure below the motored one ("pressure.net_mep"), and a pressure above
+  /// kMostPressure_Pa: "pressure.heat" or "pressure.net_mep", or "pressure.intake" where compression alone exceeds it.
   Status init(const Crank& crank, const Pressure& pressure) noexcept;
 
   [[nodiscard]] double motored_Pa(double crank_deg) const noexcept;
   [[nodiscard]] double heat_Pa(double crank_deg) const noexcept;  ///< what full load adds
   [[nodiscard]] double full_Pa(double crank_deg) const noexcept;
+
+  /// All three at once, for hardly more than one of them.
+  struct Pressures {
+    double full_Pa;
+    double motored_Pa;
+    double heat_Pa;
+  };
+  [[nodiscard]] Pressures pressures(double crank_deg) const noexcept;
+  /// For who knows the piston's displacement there already.
+  [[nodiscard]] Pressures pressures(double crank_deg, double displacement_m) const noexcept;
+
+  /// Largest of full_Pa() at tenths of a degree.
+  [[nodiscard]] double peak_Pa() const noexcept { return peak_Pa_; }
 
   /// Heat per cycle and cylinder of a synthesised diagram, as given or as found from the mean effective pressure; else 0, as where that is less
   /// than the polytropes alone do.
@@ -45,6 +59,11 @@ class IndicatorDiagram {
     [[nodiscard]] double expanded_Pa(double volume_m3) const noexcept;
   };
 
+  [[nodiscard]] bool is_table() const noexcept {
+    return pressure_.source == PressureSource::angle_table || pressure_.source == PressureSource::volume_table;
+  }
+  Status init_source() noexcept;
+  Status find_peak() noexcept;
   Status init_angles() noexcept;
   Status init_volumes() noexcept;
   Status init_wiebe() noexcept;
@@ -52,7 +71,10 @@ class IndicatorDiagram {
   [[nodiscard]] Row row(int i) const noexcept;
   [[nodiscard]] int row_before(double cycle_deg) const noexcept;
   [[nodiscard]] double table_Pa(double cycle_deg) const noexcept;
-  [[nodiscard]] double table_motored_Pa(double cycle_deg) const noexcept;
+  template <class Displacement>
+  [[nodiscard]] Pressures pressures_where(double crank_deg, const Displacement& displacement_m) const noexcept;
+  template <class Displacement>
+  [[nodiscard]] double table_motored_Pa(double cycle_deg, const Displacement& displacement_m, double fired_Pa) const noexcept;
   [[nodiscard]] double volume_m3(double crank_deg) const noexcept;
   [[nodiscard]] double slope_m(double crank_deg) const noexcept;
   [[nodiscard]] double burn_integral(double since_start_deg) const noexcept;
@@ -78,10 +100,18 @@ class IndicatorDiagram {
   Unfired motored_{};           ///< Wiebe
   double fired_ = 0;            ///< Wiebe: share of the way from motored to polytropes; 1 where there is heat
   double heat_J_ = 0;
+  double peak_Pa_ = 0;
   double burnt_[kBurnPanels + 1] = {};  ///< Wiebe: integral of V^(n2 - 1) dx_b up to each panel of the cube root of the burn's part
-  // The four rows around the last interval asked for, so that a sweep does not turn the same volumes into angles again and again.
-  mutable int cached_row_ = -1;
-  mutable Row cached_[4] = {};
+  double first_deg_ = 0;        ///< table: angle of row 0
+  // The interval asked for last in each degree, modulo kIntervals, so that sweeps, also those of several cylinders in turn, do not look for the
+  // same rows, nor turn the same volumes into angles, again and again.
+  struct Interval {
+    double from_deg = 0;
+    double to_deg = 0;  ///< not beyond the former: nothing yet
+    double c[4] = {};   ///< of the pressure's cubic by the part of the way
+  };
+  static constexpr unsigned kIntervals = 64;
+  mutable Interval intervals_[kIntervals] = {};
 };
 
 }  // namespace crankloop

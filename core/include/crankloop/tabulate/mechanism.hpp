@@ -12,6 +12,13 @@ namespace crankloop {
 /// The pose at crank angle a, exact to rounding: docs/model.md "Kinematics". The crank must be valid.
 [[nodiscard]] Pose<double> exact_pose(const Crank& crank, double crank_rad) noexcept;
 
+/// Two of its members alone, to the same bits, for a third of the work.
+struct Stroke {
+  double displacement_m;
+  double slope_m;
+};
+[[nodiscard]] Stroke exact_stroke(const Crank& crank, double crank_rad) noexcept;
+
 /// The textbook second-order approximations for e = 0 (the offset is ignored), offered beside the exact ones, never instead.
 /// Displacement, slope, acceleration, rod angle, its slope and curvature are the published series; tilt and radial follow from the rod angle's.
 [[nodiscard]] Pose<double> second_order_pose(const Crank& crank, double crank_rad) noexcept;

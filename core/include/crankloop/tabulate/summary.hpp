@@ -49,15 +49,32 @@ class ExactEngine {
   IndicatorDiagram diagram_{};
 };
 
+/// cosine cos(order A) + sine sin(order A) as amplitude cos(order A - phase), phase within +-180 deg.
+struct Wave {
+  double amplitude;
+  double phase_deg;
+};
+[[nodiscard]] Wave wave_of(double cosine, double sine) noexcept;
+
 /// Amplitudes of torque harmonic `order` (per crank revolution): torque = mean + sum cosine cos(order A) + sine sin(order A).
 struct Harmonic {
   double order;
   double cosine_Nm;
   double sine_Nm;
   double amplitude_Nm;
+  double phase_deg;  ///< as in Wave
 };
 
 inline constexpr int kHarmonics = 24;  ///< orders 0.5, 1, 1.5 ... 12
+
+/// What friction leaves of an indicated torque: for the coupling, before the driven machine's own brake.
+struct BrakeFigures {
+  double friction_mep_Pa;
+  double torque_Nm;
+  double power_W;
+  double efficiency_ratio;  ///< mechanical: of the indicated power; 0 where that is not positive
+};
+[[nodiscard]] BrakeFigures brake_figures(const EngineDefinition& engine, double indicated_Nm, double speed_rad_s) noexcept;
 
 /// Whole-cycle figures at constant speed.
 struct CycleSummary {
@@ -70,11 +87,16 @@ struct CycleSummary {
   double smallest_torque_Nm;
   double smallest_torque_deg;
   double fluctuation_ratio;  ///< (largest - smallest) / mean; 0 where the mean is 0
+  BrakeFigures brake;
   Harmonic harmonics[kHarmonics];
 };
 
 /// 7200 torques of every cylinder: some 100 ms on a desktop. Speed in rad/s, load ratio as in Input.
 [[nodiscard]] CycleSummary summarise(const ExactEngine& engine, double speed_rad_s, double load_ratio = 1) noexcept;
+
+/// Harmonic `order` of the reciprocating masses' free force and its moment, of the exact motion: docs/model.md "Balance". Orders 1, 2, 4 and 6
+/// are all that counts; 3 and 5 come from a pin offset.
+[[nodiscard]] Turning<double> reciprocating_order(const EngineDefinition& engine, int order) noexcept;
 
 /// Free forces and moments about the middle of the crankshaft, without the cosine curve: docs/model.md "Balance".
 [[nodiscard]] Balance<double> balance_of(const EngineDefinition& engine) noexcept;
@@ -85,5 +107,13 @@ struct CycleSummary {
 
 /// Crank pins, their throws and masses.
 [[nodiscard]] Bearings<double> bearings_of(const EngineDefinition& engine) noexcept;
+
+/// A main journal's load as the block has it. Up is bank angle 0, lateral a quarter turn on in the sense of rotation.
+struct BlockLoad {
+  double up_N;
+  double lateral_N;
+};
+/// From journal_along_N and journal_across_N, which turn with the crank, at engine angle A.
+[[nodiscard]] BlockLoad in_block(const EngineDefinition& engine, double engine_deg, double along_N, double across_N) noexcept;
 
 }  // namespace crankloop

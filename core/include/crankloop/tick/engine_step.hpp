@@ -139,7 +139,7 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
   if constexpr (Needs<S>::input_pressure) {
     for (std::uint32_t k = 0; k < detail::count<S>(drive.cylinders); ++k) {
       const Real before = state_.pressure_Pa[k];
-      const bool good = detail::within_positive(input.pressure_Pa[k], static_cast<Real>(1e8));
+      const bool good = detail::within_positive(input.pressure_Pa[k], static_cast<Real>(kMostPressure_Pa));
       const Real now = detail::checked(input.pressure_Pa[k], good, state_.pressure_Pa[k], kFaultPressure, faults);
       mean_pressure_Pa[k] = (before + now) / 2;
     }

@@ -38,7 +38,7 @@ struct LoadInput {
 };
 template <class Real, class S>
 struct PressureInput {
-  Real pressure_Pa[S::cylinders.capacity] = {};  ///< absolute, at the end of this tick; 0 to 1e8
+  Real pressure_Pa[S::cylinders.capacity] = {};  ///< absolute, at the end of this tick; 0 to kMostPressure_Pa
 };
 
 template <class Real, class S>

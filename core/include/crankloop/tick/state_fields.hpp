@@ -81,7 +81,7 @@ struct StateFields {
   }
 
  private:
-  static constexpr Real kMostPressure_Pa = static_cast<Real>(1e8);
+  static constexpr Real kMostPressure_Pa = static_cast<Real>(crankloop::kMostPressure_Pa);
   static constexpr Real kMostWork = static_cast<Real>(1e15);    ///< J and Nm; the largest engine that can be defined has 1e10
   static constexpr Real kMostLag_rad_s = static_cast<Real>(1e5);  ///< some speed limits
   static constexpr Real kMostLoad_Nm = static_cast<Real>(crankloop::kMostLoad_Nm);

@@ -1,0 +1,151 @@
+// `crankloop balance` and `crankloop forces`: their tables of the 495 against geometry, plain Fourier sums and its design sheet.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <crankloop/tabulate/summary.hpp>
+
+#include "crankloop/engine_file/engine_file.hpp"
+#include "support/fourier.hpp"
+#include "support/motored_cycle.hpp"
+#include "support/run_command.hpp"
+
+namespace crankloop::program {
+namespace {
+
+constexpr double kRated_rad_s = 2000 * 3.14159265358979323846 / 30;
+
+std::string printed_by(const Command& command, std::vector<std::string> options) {
+  options.insert(options.begin(), kSample);
+  testing::internal::CaptureStdout();
+  const int status = command.run(Arguments(command, options));
+  const std::string text = testing::internal::GetCapturedStdout();
+  EXPECT_EQ(status, kSuccess);
+  return text;
+}
+
+std::map<std::string, double> balance(const std::vector<std::string>& options = {}) {
+  std::vector<std::string> words = {"--rpm", "2000"};
+  words.insert(words.end(), options.begin(), options.end());
+  std::map<std::string, double> values;
+  for (const std::string& row : split_at(printed_by(kBalance, words), '\n')) {
+    const std::vector<std::string> cells = split_at(row, ',');
+    if (cells.at(1) != "value") values[cells.at(0)] = std::stod(cells.at(1));
+  }
+  return values;
+}
+
+/// A column of `forces` by its name.
+std::vector<double> column(const std::string& csv, const std::string& name) {
+  const std::vector<std::string> lines = split_at(csv, '\n');
+  const std::vector<std::string> names = split_at(lines.at(0), ',');
+  const auto at = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  std::vector<double> values;
+  for (std::size_t i = 1; i < lines.size(); ++i) values.push_back(std::stod(split_at(lines[i], ',').at(at)));
+  return values;
+}
+
+EngineDefinition diesel() { return read_engine_file(kSample, {}).definition(); }
+
+TEST(BalanceCommand, GivesTheSheetsPowerAtTheCouplingAndTheEfficiencyAssumed) {
+  std::map<std::string, double> b = balance();
+  EXPECT_NEAR(b["brake_power_kW"] / 4, 8.8, 0.005);
+  EXPECT_NEAR(b["mechanical_efficiency_ratio"], 0.80, 0.0005);
+  EXPECT_NEAR(b["brake_torque_Nm"] * kRated_rad_s / 1000, b["brake_power_kW"], 1e-6);
+  // 90 + 26 * 2 + 5 * 4 kPa [friction]
+  EXPECT_NEAR(b["friction_mep_kPa"], 162, 1e-6);
+  EXPECT_NEAR(b["brake_power_kW"] / b["power_kW"], (809.7 - 162) / 809.7, 1e-6);
+}
+
+TEST(BalanceCommand, AtLoadRatioZeroIsTheMotoredEngine) {
+  const EngineDefinition engine = diesel();
+  const double motored_kPa = support::loop_work_J(engine.crank, [&](double deg) {
+    return support::motored_cycle_Pa(engine.crank, engine.pressure.wiebe, 1.38, deg);
+  }) / support::swept_m3(engine.crank) / 1000;
+  std::map<std::string, double> b = balance({"--load-ratio", "0"});
+  EXPECT_NEAR(b["net_mep_kPa"], motored_kPa, 1e-3);
+  EXPECT_LT(b["brake_power_kW"], b["power_kW"]);
+  EXPECT_EQ(b["mechanical_efficiency_ratio"], 0) << "nothing is indicated to be lost";
+  EXPECT_LT(b["main_journal_3_largest_down_N"], balance()["main_journal_3_largest_down_N"] / 1.2);
+}
+
+TEST(BalanceCommand, GivesAmplitudeAndPhaseOfForcesAndTorque) {
+  const EngineDefinition engine = diesel();
+  std::map<std::string, double> b = balance();
+  // Four pistons, all in phase in even orders: straight up where cylinder 1 is at top dead centre, or straight down.
+  for (const auto& [order, name] : {std::pair<int, const char*>{2, "second"}, {4, "fourth"}, {6, "sixth"}}) {
+    const auto upward_N = [&](double a) {
+      const support::Motion m = support::motion_at(engine.crank, static_cast<long double>(a), static_cast<long double>(kRated_rad_s));
+      return -4 * engine.masses.reciprocating_kg() * static_cast<double>(m.piston_pin_acceleration.up);
+    };
+    const support::FourierTerm term = support::fourier_term(upward_N, order, 64);
+    const std::string key = std::string("free_force_") + name;
+    EXPECT_NEAR(b[key + "_up_N"], std::fabs(term.cosine), 1e-8 * 3700) << name;
+    EXPECT_NEAR(b[key + "_N"], std::fabs(term.cosine), 1e-8 * 3700) << name;
+    EXPECT_NEAR(b[key + "_up_phase_deg"], term.cosine > 0 ? 0 : 180, 1e-6) << name;
+  }
+  ExactEngine exact;
+  ASSERT_TRUE(exact.init(engine).ok());
+  for (const int order : {2, 4, 6}) {
+    const support::FourierTerm term =
+        support::fourier_term([&](double a) { return exact.torque_Nm(a * 180 / 3.14159265358979323846, kRated_rad_s); }, order, 3600);
+    const std::string key = "torque_order_" + std::to_string(order);
+    const double phase_rad = b[key + "_phase_deg"] * 3.14159265358979323846 / 180;
+    EXPECT_NEAR(b[key + "_Nm"] * std::cos(phase_rad), term.cosine, 1e-3) << order;
+    EXPECT_NEAR(b[key + "_Nm"] * std::sin(phase_rad), term.sine, 1e-3) << order;
+  }
+  EXPECT_EQ(b["torque_order_1_phase_deg"], 0) << "it balances: no phase of rounding";
+}
+
+TEST(BalanceCommand, GivesTheMainBearingsLoadsOnTheBlock) {
+  std::map<std::string, double> b = balance();
+  for (int j = 1; j <= 5; ++j) {
+    const std::string journal = "main_journal_" + std::to_string(j) + "_";
+    const double largest = b[journal + "largest_load_N"];
+    const double down = b[journal + "largest_down_N"];
+    const double aside = std::max(b[journal + "largest_lateral_N"], -b[journal + "smallest_lateral_N"]);
+    EXPECT_GT(down, b[journal + "largest_up_N"]) << "gas pushes the crankshaft down";
+    EXPECT_LE(down, largest);
+    EXPECT_GE(std::hypot(std::max(down, b[journal + "largest_up_N"]), aside), largest * (1 - 1e-9));
+  }
+}
+
+TEST(ForcesCommand, GivesDisplacementAndVolumeAndTakesALoadRatio) {
+  const EngineDefinition engine = diesel();
+  for (const char* method : {"table", "exact"}) {
+    const std::string csv = printed_by(kForces, {"--rpm", "2000", "--load-ratio", "0", "--method", method, "--cylinder", "2"});
+    const std::vector<double> deg = column(csv, "crank_deg");
+    const std::vector<double> displacement_mm = column(csv, "displacement_mm");
+    const std::vector<double> volume_cm3 = column(csv, "volume_cm3");
+    const std::vector<double> pressure_kPa = column(csv, "pressure_kPa");
+    ASSERT_EQ(deg.size(), 721u);
+    for (std::size_t i = 0; i < deg.size(); ++i) {
+      const long double a = static_cast<long double>(deg[i]) * support::kWidePi / 180;
+      const auto below_m = static_cast<double>(support::greatest_height(engine.crank) - support::piston_height(engine.crank, a));
+      EXPECT_NEAR(displacement_mm[i], below_m * 1e3, 1e-6) << deg[i];
+      EXPECT_NEAR(volume_cm3[i], support::volume_m3(engine.crank, deg[i]) * 1e6, 1e-5) << deg[i];
+      const double want_Pa = support::motored_cycle_Pa(engine.crank, engine.pressure.wiebe, 1.38, deg[i]);
+      EXPECT_NEAR(pressure_kPa[i], want_Pa / 1000, 0.2) << deg[i];  // tables: 1e-5 of the fired peak of 7 MPa, motored and heat
+    }
+  }
+}
+
+TEST(ForcesCommand, RefusesALoadRatioWithoutAPressure) {
+  class Bare : public RunCommand {
+   public:
+    void TestBody() override {}
+    using RunCommand::engine_without_pressure;
+  };
+  const Bare bare;
+  for (const Command* command : {&kForces, &kBalance}) {
+    const std::vector<std::string> words = {bare.engine_without_pressure(), "--rpm", "2000", "--load-ratio", "0.5"};
+    EXPECT_THROW(command->run(Arguments(*command, words)), InputError);
+  }
+}
+
+}  // namespace
+}  // namespace crankloop::program
