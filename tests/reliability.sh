@@ -53,6 +53,7 @@ if [ "${1:-}" != --page ]; then
   if command -v clang++-19 >/dev/null; then keep numerical release crankloop tests/numerical_sanitizer.sh; fi
   if $long; then
     keep long check crankloop_program tools/check --long
+    [ -s "$logs/mutants.log" ] || { echo tests/mutants.sh && cat build/check-logs/mutants.log; } >"$logs/mutants.log"
   fi
 fi
 
@@ -175,6 +176,17 @@ TEXT
 
 The command lists each branch that is not taken, with its line. tests/coverage_exceptions.conf has the reason of each; a branch
 without a reason, or a reason without a branch, fails the command.
+
+## Mutants
+
+Single-point changes of core, drawn from a seed: a comparison, + - * /, a constant, a condition, a negation, a statement that is left out. The
+valve's tick is not among them. Each is judged by the library's own unit, property and interface tests that come by its place. A mutant that none
+of them notices is an equivalent, which no test could tell, or survives; tests/mutants/survivors.conf has the reason of each.
+
+TEXT
+  command_of mutants
+  sed -n -e 's/^\([a-z]* = .*\)/- \1/p' -e 's/^\(core[^ ]*\)  \(.*[^ ]\)  |  \(.*\): \(equivalent\|survives\): /- \1, `\3`, \2: \4: /p' "$logs/mutants.log"
+  cat <<'TEXT'
 
 ## What fuzzing and stress found
 

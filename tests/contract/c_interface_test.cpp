@@ -793,6 +793,7 @@ TEST(CStatus, IsToldInWordsCutToTheRoomThereIs) {
   EXPECT_EQ(text_of(-1, nullptr), "must not be negative");
   EXPECT_EQ(text_of(-1, ""), "must not be negative");
   EXPECT_STREQ(crankloop_describe(CRANKLOOP_ROD_TOO_SHORT), describe(Reason::rod_too_short));
+  EXPECT_STREQ(crankloop_describe(CRANKLOOP_OK), "ok");
   EXPECT_STREQ(crankloop_describe(-1), "unknown reason");
   EXPECT_STREQ(crankloop_describe(CRANKLOOP_ALREADY_CREATED + 1), "unknown reason");
   EXPECT_STRNE(crankloop_describe(CRANKLOOP_ALREADY_CREATED), "unknown reason");

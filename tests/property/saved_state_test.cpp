@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <set>
 #include <vector>
 
 #include <crankloop/crankloop.hpp>
@@ -527,6 +528,44 @@ TYPED_TEST(SavedState, ForgedInAnyFieldIsRefusedOrStepsOnWithinBounds) {
   }
   EXPECT_GT(accepted, forgeries / 20);
   EXPECT_GT(refused, forgeries / 20);
+}
+
+/// Scenes that differ from a plain one, and from one another, in what their states mean.
+struct Plain : Scene {};
+#define OTHERWISE(Name, type, answer, other) \
+  struct Name : Plain {                      \
+    static constexpr type answer = other;    \
+  }
+OTHERWISE(TwoCylinders, Count, cylinders, exactly<2>);
+OTHERWISE(TwoTrains, Count, trains, exactly<2>);
+OTHERWISE(ByPhase, CrankGiven, crank, CrankGiven::phase);
+OTHERWISE(ByLoad, CrankGiven, crank, CrankGiven::load);
+OTHERWISE(TablePressure, PressureGiven, pressure, PressureGiven::by_table);
+OTHERWISE(InputPressure, PressureGiven, pressure, PressureGiven::by_input);
+OTHERWISE(Following, ValveModel, valves, ValveModel::following);
+OTHERWISE(Elastic, ValveModel, valves, ValveModel::elastic);
+OTHERWISE(WithLoadRatio, bool, load_ratio, true);
+OTHERWISE(WithRodInertia, bool, rod_inertia, true);
+OTHERWISE(WithTorque, bool, torque, true);
+OTHERWISE(WithMeanTorque, bool, mean_torque, true);
+OTHERWISE(WithForces, bool, forces, true);
+OTHERWISE(WithValveResults, bool, valve_results, true);
+OTHERWISE(WithValveGas, bool, valve_gas, true);
+OTHERWISE(WithCamPhasing, bool, cam_phasing, true);
+OTHERWISE(WithBadInputCount, bool, bad_input_count, true);
+OTHERWISE(WithStarter, bool, starter, true);
+OTHERWISE(WithCylinderCut, bool, cylinder_cut, true);
+#undef OTHERWISE
+
+template <class... Scenes>
+std::set<std::uint32_t> codes_of() {
+  return {detail::scene_code<Scenes>()...};
+}
+
+TEST(SceneCode, TellsScenesApartByEveryAnswerThatTheirStatesDependOn) {
+  const auto codes = codes_of<Plain, TwoCylinders, TwoTrains, ByPhase, ByLoad, TablePressure, InputPressure, Following, Elastic, WithLoadRatio, WithRodInertia, WithTorque,
+                              WithMeanTorque, WithForces, WithValveResults, WithValveGas, WithCamPhasing, WithBadInputCount, WithStarter, WithCylinderCut>();
+  EXPECT_EQ(codes.size(), 20u);
 }
 
 TEST(Crc32, HasTheCheckValueOfItsStandard) {

@@ -429,6 +429,15 @@ TEST(SharedPins, AreFoundThoughTheThrowsDifferByWholeTurns) {
   EXPECT_TRUE(validate(layout).ok());
 }
 
+TEST(SharedPins, OfOneCylinderIsItsOwnWhateverStoodThereBefore) {
+  Layout layout;
+  layout.cylinders = 1;
+  layout.pin[0] = 3;
+  share_pins_by_position(layout);
+  EXPECT_EQ(layout.pin[0], 0);
+  EXPECT_TRUE(validate(layout).ok());
+}
+
 TEST(SharedPins, OfALayoutThatValidateRefusesAreNoneOrStaySplit) {
   for (const double bank_deg : {1e7, -1e7, std::nan("")}) {  // angles that point nowhere
     Layout layout;

@@ -252,6 +252,23 @@ TEST(AngleTable, MotoredHasNoHeatInCompressionAndIntakeAndNoBlowDown) {
   }
 }
 
+TEST(AngleTable, MotoredGoesFromCompressionToExhaustPressureInAStraightLineOfTenDegrees) {
+  // One pressure from well before bottom dead centre of the compression, another in all of the exhaust stroke and some way beyond.
+  constexpr double kCompression_Pa = 0.9e5, kExhaust_Pa = 1.5e5;
+  const auto trace = [](double deg) { return deg >= 90 && deg <= 400 ? kExhaust_Pa : kCompression_Pa; };
+  const Rows rows = support::angle_rows(trace, 2);
+  for (const double offset_ratio : {-0.2, 0.0, 0.2}) {
+    const Crank crank = crank_with_offset(offset_ratio);
+    const IndicatorDiagram diagram = diagram_of_rows(rows, PressureSource::angle_table, crank);
+    const double bottom = dead_centres(crank).bdc_rad / kDegree;
+    const double bottom_Pa = kCompression_Pa * std::pow(crank.compression_ratio, -0.03);  // less what it has lost on its way up and down
+    for (double beyond_deg = 0.5; beyond_deg < 15; ++beyond_deg) {
+      const double line_Pa = bottom_Pa + (kExhaust_Pa - bottom_Pa) * std::min(beyond_deg / 10, 1.0);
+      EXPECT_NEAR(diagram.motored_Pa(bottom + beyond_deg), line_Pa, 1e-9 * kExhaust_Pa) << beyond_deg << ", offset " << offset_ratio;
+    }
+  }
+}
+
 /// Largest jump between neighbours of a fine sweep, less what the steepest slope explains; and where.
 void expect_no_step(const IndicatorDiagram& diagram, double steepest_Pa_deg, const std::string& what) {
   constexpr double kStep_deg = 0.01;
