@@ -21,6 +21,7 @@ up_cos up_sin lateral_cos lateral_sin pitch_cos pitch_sin yaw_cos yaw_sin  # amp
 trigger                                            # signals, whose times have their unit
 throw_cos throw_sin quantum # numbers
 reduced_speed reduced_rest per_root_inertia  # sqrt(J) and 1/sqrt(kg m2)
+regime segment                                     # numbers of several units, lane by lane
 from to largest x slope_from slope_to spare        # parameters of numbers, in helpers that serve any unit; filling
 peak magnitude Pose PoseMember PoseFunction tables state turning_at # functions and types that serve any unit
 '
