@@ -187,18 +187,18 @@ double apart(const std::vector<double>& a, const std::vector<double>& b) {
 TEST(OrderOfConvergence, IsFourOrMoreThroughContactChanges) {
   // The steps are exact for a cubic lift, so what is left is where the changes are, and the cubic: both of fourth order at least. Against the
   // same at 1 us, so that the table's own error does not set a floor.
-  for (const double rpm : {7000.0, 12000.0}) {
-    double error[3] = {};
-    const double ticks[3] = {16e-6, 8e-6, 4e-6};
-    for (int shift = 0; shift < 5; ++shift) {
-      const std::vector<double> best = lifts(rpm, 1e-6, 37.7 * shift);
-      for (int i = 0; i < 3; ++i) error[i] = std::max(error[i], apart(lifts(rpm, ticks[i], 37.7 * shift), best));
-    }
-    const double order = std::log(error[0] / error[2]) / std::log(4.0);
-    std::printf("[ figures  ] %5.0f rpm with contact changes: %.1e, %.1e, %.1e um at 16, 8, 4 us: order %.2f\n", rpm,
-                error[0] / kUm, error[1] / kUm, error[2] / kUm, order);
-    EXPECT_GE(order, 3.5);
+  // (At 7000 rpm all are within 1.3 nm of each other: that is where a valve is put at rest.)
+  constexpr double kRpm = 12000;
+  double error[3] = {};
+  const double ticks[3] = {16e-6, 8e-6, 4e-6};
+  for (int shift = 0; shift < 5; ++shift) {
+    const std::vector<double> best = lifts(kRpm, 1e-6, 37.7 * shift);
+    for (int i = 0; i < 3; ++i) error[i] = std::max(error[i], apart(lifts(kRpm, ticks[i], 37.7 * shift), best));
   }
+  const double order = std::log(error[0] / error[2]) / std::log(4.0);
+  std::printf("[ figures  ] %5.0f rpm with contact changes: %.1e, %.1e, %.1e um at 16, 8, 4 us: order %.2f\n", kRpm, error[0] / kUm,
+              error[1] / kUm, error[2] / kUm, order);
+  EXPECT_GE(order, 3.5);
 }
 
 /// Root mean square of the textbook's lift error over a cycle, several grid shifts.
@@ -743,29 +743,27 @@ TEST(ValveEventBudget, WhenExceededIsFlaggedAndSharedByTurns) {
   int as_alone[2][4] = {};
   double worst_m = 0;
   for (int cycle = 0; cycle < 40; ++cycle) {
-    bool same[2][4];
-    for (auto& train : same) std::fill(std::begin(train), std::end(train), true);
+    bool first_of_cycle = true;  // then all eight have moved as the one alone so far
     for (int i = 0; i < rig.ticks_per_cycle(speed); ++i) {
       const auto& out = rig.step(speed);
       const double lift_m = alone.step(speed).valve[0][0].lift_m;
-      flagged += (out.faults & kFaultEventBudget) != 0 ? 1 : 0;
+      const bool over = (out.faults & kFaultEventBudget) != 0;
+      flagged += over ? 1 : 0;
       for (int t = 0; t < 2; ++t) {
         for (int k = 0; k < 4; ++k) {
-          same[t][k] = same[t][k] && out.valve[t][k].lift_m == lift_m;
+          if (over && first_of_cycle) as_alone[t][k] += out.valve[t][k].lift_m == lift_m ? 1 : 0;
           worst_m = std::max(worst_m, std::fabs(out.valve[t][k].lift_m - lift_m));
         }
       }
+      first_of_cycle = first_of_cycle && !over;
     }
     EXPECT_TRUE(alone.at_rest());
-    for (int t = 0; t < 2; ++t) {
-      for (int k = 0; k < 4; ++k) as_alone[t][k] += same[t][k] ? 1 : 0;
-    }
   }
   std::printf("[ figures  ] budget exceeded in %d ticks of 40 cycles, valves off by up to %.1f um\n", flagged, worst_m / kUm);
   EXPECT_GT(flagged, 40);
   EXPECT_LT(worst_m, 100 * kUm) << "a change taken late by at most a tick";
   for (const auto& train : as_alone) {
-    for (const int cycles : train) EXPECT_GT(cycles, 0);
+    for (const int cycles : train) EXPECT_TRUE(cycles > 10 && cycles < 40) << cycles << " of 40, where five in eight are 25";
   }
 }
 
