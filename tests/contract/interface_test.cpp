@@ -64,14 +64,15 @@ static_assert(keeps_its_promises<PistonMotion>() && keeps_its_promises<TorqueOnl
 
 // The promises of README.md and docs/performance.md, on a machine with pointers of eight bytes.
 static_assert(sizeof(Engine<float, TorqueOnly>) <= 128);
-static_assert(sizeof(Engine<float, ValveDynamics>) <= 1024);
-static_assert(sizeof(Engine<float, WholeEngine>) <= 2048);
+static_assert(sizeof(Engine<float, ValveDynamics>) <= 1664);  // where a processor has no lanes 1.2 kB less
+static_assert(sizeof(Engine<float, WholeEngine>) <= 2112);
 
-/// An engine is the address of its tables, its state and its output, and nothing else.
+/// An engine is the address of its tables, its state, its output and what its valves' tick remembers, and nothing else.
 template <class Real, class S>
 constexpr bool has_no_hidden_member() {
   using E = Engine<Real, S>;
-  const std::size_t parts = sizeof(void*) + sizeof(typename E::State) + sizeof(typename E::Output);
+  std::size_t parts = sizeof(void*) + sizeof(typename E::State) + sizeof(typename E::Output);
+  if (Needs<S>::elastic_valves) parts += sizeof(detail::ValvesWork<Real, S>);
   return sizeof(E) >= parts && sizeof(E) < parts + alignof(E);
 }
 static_assert(has_no_hidden_member<float, PistonMotion>() && has_no_hidden_member<float, WholeEngine>() &&

@@ -22,6 +22,7 @@ trigger                                            # signals, whose times have t
 throw_cos throw_sin quantum # numbers
 reduced_speed reduced_rest per_root_inertia  # sqrt(J) and 1/sqrt(kg m2)
 amplitude cosine sine wave_of                      # of a wave of any unit
+regime segment                                     # numbers of several units, lane by lane
 from to largest x slope_from slope_to spare        # parameters of numbers, in helpers that serve any unit; filling
 peak magnitude Pose PoseMember PoseFunction tables state turning_at # functions and types that serve any unit
 '

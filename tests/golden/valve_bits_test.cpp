@@ -35,10 +35,22 @@ class Fnv {
     add(bits);
   }
   template <class Real>
-  void add(const typename StepMatrix<Real>::Row& row) {
-    for (const Real x : {row.y, row.v, row.rest, row.gas, row.gap}) add(x);
-    for (const Real x : row.lift) add(x);
-    for (const Real x : row.wide) add(x);
+  void add(const StepRow<Real>& r) {
+    for (const Real x : {r.rest, r.gas, r.gas_rise, r.gap, r.rise, r.from, r.to, r.lift, r.velocity}) add(x);
+  }
+  template <class Real>
+  void add(const RegimeStep<Real>& s) {
+    add(s.lift);
+    add(s.velocity);
+    const ForceRow<Real>& a = s.acceleration;
+    for (const Real x : {a.rest, a.gas, a.lift, a.velocity, a.gap, a.gap_speed, s.train.sign, s.train.lag_s, s.train.least_m, s.seat.sign,
+                         s.seat.lag_s, s.seat.least_m, s.rest_m, s.rest_m_s}) {
+      add(x);
+    }
+  }
+  template <class Real>
+  void add(const RegimeSeries<Real>& s) {
+    for (const Real x : {s.rest, s.gas, s.stiffness, s.damping, s.lift, s.lift_speed}) add(x);
   }
   [[nodiscard]] std::uint64_t value() const { return hash_; }
 
@@ -119,17 +131,15 @@ std::uint64_t hash_of_tables(const Tables<Real, TwoValves>& tables) {
     const ValveMotion<Real>& m = tables.valve_motions[t];
     const ValveBody<Real>& b = m.body;
     for (const Real x : {b.mass_kg, b.train_N_m, b.train_Ns_m, b.seat_N_m, b.seat_Ns_m, b.spring_N_m, b.guide_Ns_m,
-                         b.preload_N, b.seat_sink_m, b.head_area_m2, b.rocker_mass_kg, m.short_step_deg, m.clear_m, m.rest_m, m.rest_m_s}) {
+                         b.preload_N, b.seat_sink_m, b.head_area_m2, b.rocker_mass_kg, m.tick_s, m.fine_step_s, m.per_parts,
+                         m.widest_step_deg, m.train_lag_s, m.seat_lag_s, m.per_seat_N_m, m.quiet_m, m.per_seat_rate_s}) {
       fnv.add(x);
     }
-    for (const StepLevel<Real>* level : {&m.whole, &m.fine}) {
-      fnv.add(level->parts);
-      for (const Real x : {level->per_parts, level->step_s, level->force_lag}) fnv.add(x);
-      for (const StepMatrix<Real>& matrix : level->matrix) {
-        fnv.template add<Real>(matrix.y);
-        fnv.template add<Real>(matrix.v);
-      }
-    }
+    fnv.add(m.parts);
+    fnv.add(m.most_changes);
+    for (const RegimeStep<Real>& step : m.whole) fnv.add(step);
+    for (const RegimeStep<Real>& step : m.fine) fnv.add(step);
+    for (const RegimeSeries<Real>& series : m.series) fnv.add(series);
   }
   return fnv.value();
 }

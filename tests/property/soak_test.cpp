@@ -49,13 +49,8 @@ bool subnormal(Real x) {
 template <class Real, class S>
 bool any_subnormal(const State<Real, S>& state) {
   bool found = subnormal(state.speed_rad_s) || subnormal(state.torque_Nm);
-  for (const auto& train : state.valve) {
-    for (const auto& valve : train) {
-      for (const Real x : {valve.state.lift_m, valve.state.velocity_m_s, valve.train.lift_m, valve.train.per_deg_m}) {
-        found = found || subnormal(x);
-      }
-    }
-  }
+  for (const Real x : state.valve_lift_m) found = found || subnormal(x);
+  for (const Real x : state.valve_velocity_m_s) found = found || subnormal(x);
   return found;
 }
 

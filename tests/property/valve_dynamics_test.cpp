@@ -78,17 +78,17 @@ void PrintTo(const Case& c, std::ostream* out) {
 
 class ValveAgainstAConvergedReferenceAt : public testing::TestWithParam<Case> {};
 
-// Bounds: the project's own for 6000 rpm at 20 us and 12000 rpm at 10 us, float 0.2 um more. The others keep the
-// accuracy class asked for, 0.1 um, in smooth running, and ten times that with bounce, where one bounce magnifies the
-// error of the one before.
+// Bounds: 0.005 um in smooth running at short ticks. Where the valve bounces, one bounce magnifies the error of the one before; at 100 us a tick of
+// the cam is as wide as 4 degrees, which a cubic follows to some hundredths of a micrometre.
 INSTANTIATE_TEST_SUITE_P(
     OfTheOneTwentyFive, ValveAgainstAConvergedReferenceAt,
-    testing::Values(Case{2000, 100, Integrator::rk4, 0.02, 0.2}, Case{6000, 20, Integrator::rk4, 0.02, 0.22},
-                    Case{6000, 20, Integrator::exponential, 0.02, 0.22}, Case{7000, 100, Integrator::rk4, 0.1, 0.3},
-                    Case{8500, 50, Integrator::rk4, 0.1, 0.3}, Case{12000, 10, Integrator::rk4, 1, 1.2},
-                    Case{12000, 10, Integrator::exponential, 0.2, 0.4}, Case{12000, 100, Integrator::rk4, 1, 1.2},
-                    Case{14000, 10, Integrator::rk4, 1, 1.2}, Case{14000, 10, Integrator::exponential, 0.2, 0.4},
-                    Case{14000, 100, Integrator::exponential, 0.2, 0.4}),
+    testing::Values(Case{2000, 100, Integrator::rk4, 0.005, 0.005}, Case{6000, 10, Integrator::rk4, 0.005, 0.005},
+                    Case{6000, 20, Integrator::rk4, 0.005, 0.005}, Case{6000, 20, Integrator::exponential, 0.005, 0.005},
+                    Case{6000, 100, Integrator::rk4, 0.007, 0.007}, Case{7000, 100, Integrator::rk4, 0.02, 0.02},
+                    Case{8500, 50, Integrator::rk4, 0.01, 0.01}, Case{12000, 10, Integrator::rk4, 0.04, 0.06},
+                    Case{12000, 10, Integrator::exponential, 0.04, 0.06}, Case{12000, 20, Integrator::rk4, 0.35, 0.35},
+                    Case{12000, 100, Integrator::rk4, 0.35, 0.35}, Case{14000, 10, Integrator::rk4, 0.1, 0.1},
+                    Case{14000, 10, Integrator::exponential, 0.1, 0.1}, Case{14000, 100, Integrator::exponential, 0.5, 0.5}),
     name_of_case);
 
 TEST_P(ValveAgainstAConvergedReferenceAt, KeepsItsLift) {
@@ -100,7 +100,7 @@ TEST_P(ValveAgainstAConvergedReferenceAt, KeepsItsLift) {
               name_of(c.integrator), in_double, in_float);
   EXPECT_LE(in_double, c.double_um);
   EXPECT_LE(in_float, c.float_um);
-  EXPECT_LE(in_float, in_double + 0.2);
+  EXPECT_LE(in_float, in_double + 0.05);
 }
 
 TEST(ValveAgainstAConvergedReference, KeepsItsAccuracyClassFromFineToCoarse) {
@@ -163,12 +163,12 @@ TEST(ValveTicks, FromOneMicrosecondToTwoMillisecondsGiveTheSameLift) {
 // ---- order of convergence
 // --------------------------------------------------------------------------------------------------
 
-/// A rig's lifts every 20 us of a cycle; the tick is one Runge-Kutta step.
-std::vector<double> lifts(double rpm, double tick_s, Integrator integrator, double start_deg) {
-  Rig<double> rig(ohc_125_train(), {tick_s, {integrator, 10 * kUm}}, start_deg);
-  EXPECT_EQ(rig.motion().whole.parts * rig.motion().fine.parts, 1u);
+/// A rig's lifts every 16 us of a cycle; the tick is one fine step.
+std::vector<double> lifts(double rpm, double tick_s, double start_deg) {
+  Rig<double> rig(ohc_125_train(), {tick_s, {Integrator::exponential, 0.1 * kUm}}, start_deg);
+  EXPECT_EQ(rig.motion().parts, 1u);
   const double speed = rad_s_of_rpm(rpm);
-  const int per = static_cast<int>(std::lround(20e-6 / tick_s));
+  const int per = static_cast<int>(std::lround(16e-6 / tick_s));
   std::vector<double> all;
   for (int i = 0; i < rig.ticks_per_cycle(speed); ++i) {
     rig.step(speed);
@@ -184,65 +184,21 @@ double apart(const std::vector<double>& a, const std::vector<double>& b) {
   return worst;
 }
 
-TEST(OrderOfConvergence, IsFourWithContactChangesOnceTheSeatsVibrationIsResolved) {
-  // Against the exponential at 1 us on the same lift table, so that the table's own 1e-9 m does not set a floor. Below
-  // w d = 0.2 (5 us).
-  for (const double rpm : {7000.0, 12000.0}) {
-    double error[3] = {};
-    const double ticks[3] = {4e-6, 2e-6, 1e-6};
-    for (int shift = 0; shift < 5; ++shift) {
-      const std::vector<double> best = lifts(rpm, 1e-6, Integrator::exponential, 37.7 * shift);
-      for (int i = 0; i < 3; ++i)
-        error[i] = std::max(error[i], apart(lifts(rpm, ticks[i], Integrator::rk4, 37.7 * shift), best));
-    }
-    const double order = std::log(error[0] / error[2]) / std::log(4.0);
-    std::printf("[ figures  ] %5.0f rpm with contact changes: %.1e, %.1e, %.1e um at 4, 2, 1 us: order %.2f\n", rpm,
-                error[0] / kUm, error[1] / kUm, error[2] / kUm, order);
-    EXPECT_GE(order, 3.7);
-    EXPECT_LE(order, 4.5);
+TEST(OrderOfConvergence, IsFourOrMoreThroughContactChanges) {
+  // The steps are exact for a cubic lift, so what is left is where the changes are, and the cubic: both of fourth order at least. Against the
+  // same at 1 us, so that the table's own error does not set a floor.
+  // (At 7000 rpm all are within 1.3 nm of each other: that is where a valve is put at rest.)
+  constexpr double kRpm = 12000;
+  double error[3] = {};
+  const double ticks[3] = {16e-6, 8e-6, 4e-6};
+  for (int shift = 0; shift < 5; ++shift) {
+    const std::vector<double> best = lifts(kRpm, 1e-6, 37.7 * shift);
+    for (int i = 0; i < 3; ++i) error[i] = std::max(error[i], apart(lifts(kRpm, ticks[i], 37.7 * shift), best));
   }
-}
-
-TEST(OrderOfConvergence, IsFourWithoutContactChanges) {
-  // From full lift down the flank, the train pressing all the while: the valve's own steps, no engine around them.
-  const ValveTrain train = ohc_125_train();
-  Rig<double> rig(train, {100e-6, {}});
-  const ValveBody<double> body = rig.motion().body;
-  const double deg_per_s = 7000 / 2 * 6.0;
-  const double span_s = 1.6e-3;  // 33.6 cam deg
-  const auto run = [&](double step_s, Integrator integrator) {
-    ValveMotion<double> motion{};
-    EXPECT_TRUE(motion_of(body, step_s, {integrator, 10 * kUm}, motion).ok());
-    EXPECT_EQ(motion.whole.parts * motion.fine.parts, 1u);
-    const std::uint64_t opens = phase_at(train.cam.full_lift_deg).units() - rig.curve().opens[0];
-    const auto cam_at = [&](double deg) { return opens + phase_at(2 * deg).units(); };
-    ValveCondition<double> valve{{7.78e-3, 0}, rig.curve().read(LiftCurve<double>::cell(cam_at(0))), kTrainOn, 0};
-    EventBudget budget{0, false};
-    NoRecord<double> none;
-    const int n = static_cast<int>(std::lround(span_s / step_s));
-    const int per = static_cast<int>(std::lround(20e-6 / step_s));
-    std::vector<double> all;
-    for (int i = 0; i < n; ++i) {
-      const double from = deg_per_s * step_s * i;
-      const double to = deg_per_s * step_s * (i + 1);
-      const CamTurn<double> cam{static_cast<std::int64_t>(cam_at(to) - cam_at(from)), to - from, (to - from) / step_s};
-      ValveTick<double>(motion, rig.curve(), cam, budget).run(valve, cam_at(to), NoGasForce<double>{}, none);
-      if (i % per == per - 1) all.push_back(valve.state.lift_m);
-    }
-    EXPECT_FALSE(budget.exceeded) << "a contact changed";
-    EXPECT_EQ(valve.regime, kTrainOn);
-    return all;
-  };
-  const std::vector<double> best = run(1e-6, Integrator::exponential);
-  const double steps[] = {20e-6, 10e-6, 5e-6};
-  double error[3];
-  for (int i = 0; i < 3; ++i) error[i] = apart(run(steps[i], Integrator::rk4), best);
-  const double coarse = std::log2(error[0] / error[1]);
-  const double fine = std::log2(error[1] / error[2]);
-  std::printf("[ figures  ] without contact changes: %.2e, %.2e, %.2e um at 20, 10, 5 us: order %.3f, %.3f\n",
-              error[0] / kUm, error[1] / kUm, error[2] / kUm, coarse, fine);
-  EXPECT_NEAR(coarse, 4.0, 0.1);
-  EXPECT_NEAR(fine, 4.0, 0.1);
+  const double order = std::log(error[0] / error[2]) / std::log(4.0);
+  std::printf("[ figures  ] %5.0f rpm with contact changes: %.1e, %.1e, %.1e um at 16, 8, 4 us: order %.2f\n", kRpm, error[0] / kUm,
+              error[1] / kUm, error[2] / kUm, order);
+  EXPECT_GE(order, 3.5);
 }
 
 /// Root mean square of the textbook's lift error over a cycle, several grid shifts.
@@ -455,7 +411,7 @@ TYPED_TEST(ValveRest, OnTheBaseCircleIsExact) {
     const double cam = rig.cam_deg();
     if (std::fabs(cam) < 110) continue;  // 90 deg closed: another 20, 0.8 ms, for the seat's vibration to die away
     ++rested;
-    EXPECT_TRUE(rig.asleep()) << cam;
+    EXPECT_TRUE(rig.at_rest()) << cam;
     EXPECT_EQ(out.valve[0][0].lift_m, 0);
     EXPECT_EQ(out.valve[0][0].velocity_m_s, 0);
     EXPECT_EQ(out.valve[0][0].acceleration_m_s2, 0);
@@ -477,7 +433,7 @@ TYPED_TEST(ValveRest, EndsBeforeTheTrainTouches) {
       const double before = rig.cam_deg();
       rig.step(speed);
       // While it slept through a tick the lash was open at both ends, by its exact lift.
-      if (rig.asleep()) {
+      if (rig.at_rest()) {
         EXPECT_LT(lift.at(before * kRadPerDeg).lift_m, 0) << before;
         EXPECT_LT(lift.at(rig.cam_deg() * kRadPerDeg).lift_m, 0) << rig.cam_deg();
       }
@@ -515,11 +471,11 @@ TYPED_TEST(ValveRest, WithoutClearanceComesToRestToo) {
   for (int i = 0; i < 3 * rig.ticks_per_cycle(rad_s_of_rpm(1000)); ++i) {
     const auto& out = rig.step(rad_s_of_rpm(1000));
     ASSERT_EQ(out.faults, 0u) << "tick " << i;
-    ASSERT_FALSE(subnormal(static_cast<double>(rig.valve().state.lift_m), least))
+    ASSERT_FALSE(subnormal(static_cast<double>(rig.valve().lift_m), least))
         << "tick " << i << ", cam " << rig.cam_deg();
-    ASSERT_FALSE(subnormal(static_cast<double>(rig.valve().state.velocity_m_s), least))
+    ASSERT_FALSE(subnormal(static_cast<double>(rig.valve().velocity_m_s), least))
         << "tick " << i << ", cam " << rig.cam_deg();
-    if (std::fabs(rig.cam_deg()) > 120 && rig.valve().state.velocity_m_s != 0) ++not_at_rest;
+    if (std::fabs(rig.cam_deg()) > 120 && rig.valve().velocity_m_s != 0) ++not_at_rest;
   }
   EXPECT_EQ(not_at_rest, 0) << "ticks on the base circle that still move";
 }
@@ -529,7 +485,7 @@ TYPED_TEST(ValveRest, LastsThroughLongStandstill) {
   Rig<Real> rig(ohc_125_train(), {100e-6, {}}, 90);
   const long n = long_tests() ? 1'000'000'000 : 10'000'000;
   for (long i = 0; i < n; ++i) rig.step(0);
-  EXPECT_TRUE(rig.asleep());
+  EXPECT_TRUE(rig.at_rest());
   EXPECT_EQ(rig.engine().output().valve[0][0].lift_m, 0);
 }
 
@@ -547,7 +503,7 @@ TYPED_TEST(ValveRest, IsTheSameAfterManyCyclesAsAfterThousand) {
     typename Engine<Real, OneValveOnMeasuredCrank>::Input in;
     in.crank = Phase{phase += std::uint64_t{1} << 54};
     const auto& out = rig.engine().step(in);
-    const ValveState<Real>& s = rig.valve().state;
+    const ValveState<Real> s = rig.valve();
     denormal = denormal || subnormal(static_cast<double>(s.lift_m), least) ||
                subnormal(static_cast<double>(s.velocity_m_s), least);
     if (i / 1024 == 1000) largest_of_1000th = std::max(largest_of_1000th, out.valve[0][0].lift_m);
@@ -680,17 +636,47 @@ TEST(ValveAtStart, StandsOnALiftedCamInEquilibrium) {
 
 const double kCrankcase_Pa = Pressure{}.crankcase_Pa;
 
-TEST(ValveUnderGas, IsHeldOnItsSeatAndTheSeatFeelsIt) {
+TEST(ValveUnderGas, SinksIntoItsSeatByTheSameLawWhateverTheTick) {
+  // 60 bar on 4 cm^2 press with 2.4 kN: 23.6 um into a seat of 100 N/um beside the spring. It swings there for a while, and the seat feels all that
+  // the spring does not.
   ValveTrain train = ohc_125_train();
   train.valve.head_area_m2 = 4e-4;
-  Rig<double, OneValveWithGas> rig(train, {100e-6, {}}, 90);
-  Engine<double, OneValveWithGas>::Input in;
-  in.pressure_Pa[0] = 60e5;
-  for (int i = 0; i < 200; ++i) {
-    const auto& out = rig.engine().step(in);
-    EXPECT_EQ(out.valve[0][0].lift_m, 0) << "a valve at rest stays exactly at rest";
-    EXPECT_NEAR(out.valve_forces[0][0].seat_N, 205.8 + (60e5 - kCrankcase_Pa) * 4e-4, 1e-6);
+  const double gas_N = (60e5 - kCrankcase_Pa) * 4e-4;
+  const double sunk_m = -gas_N / (1e8 + 40e3);
+  for (const double tick_s : {5e-6, 20e-6, 100e-6, 1e-3}) {
+    Rig<double, OneValveWithGas> rig(train, {tick_s, {}}, 90);
+    Engine<double, OneValveWithGas>::Input in;
+    in.pressure_Pa[0] = 60e5;
+    double lowest_m = 0;
+    for (int i = 0; i * tick_s < 20e-3; ++i) lowest_m = std::min(lowest_m, rig.engine().step(in).valve[0][0].lift_m);
+    const auto& out = rig.engine().output();
+    EXPECT_GE(lowest_m, 2 * sunk_m) << "a sudden load swings to twice its rest";
+    EXPECT_NEAR(out.valve[0][0].lift_m, sunk_m, 1e-12) << tick_s;
+    EXPECT_EQ(out.valve[0][0].velocity_m_s, 0) << tick_s;
+    EXPECT_NEAR(out.valve_forces[0][0].seat_N, 205.8 + gas_N * (1e8 / (1e8 + 40e3)), 1e-6) << tick_s;
   }
+}
+
+TEST(ValveUnderGas, FeelsAPressureThatRisesEvenlyWithinATick) {
+  // A ramp of 100 bar in 4 ms, by less than the lash, sampled at the ticks' ends: with the pressure linear between them, ticks of any length give the same motion. Held
+  // over the tick it would be off by half a tick of the ramp: 0.05 um at 10 us, 1 um at 200.
+  ValveTrain train = ohc_125_train();
+  train.valve.head_area_m2 = 4e-4;
+  const auto lifts_at = [&](double tick_s) {
+    Rig<double, OneValveWithGas> rig(train, {tick_s, {Integrator::exponential}}, 90);
+    Engine<double, OneValveWithGas>::Input in;
+    std::vector<double> all;
+    const int per = static_cast<int>(std::lround(200e-6 / tick_s));
+    for (int i = 1; i <= 20 * per; ++i) {
+      in.pressure_Pa[0] = kCrankcase_Pa + 100e5 * i / (20.0 * per);
+      rig.engine().step(in);
+      if (i % per == 0) all.push_back(rig.engine().output().valve[0][0].lift_m);
+    }
+    return all;
+  };
+  const std::vector<double> fine = lifts_at(2e-6);
+  EXPECT_NEAR(fine.back(), -100e5 * 4e-4 / (1e8 + 40e3), 1 * kUm);
+  for (const double tick_s : {10e-6, 20e-6, 100e-6, 200e-6}) EXPECT_LT(apart(lifts_at(tick_s), fine), 1e-3 * kUm) << tick_s;
 }
 
 TEST(ValveUnderGas, OpensLaterAndLessAgainstPressure) {
@@ -707,9 +693,7 @@ TEST(ValveUnderGas, OpensLaterAndLessAgainstPressure) {
     for (int i = 0; i < 1100; ++i) {
       rig.engine().step(in);
       plain.step(in.speed_rad_s);
-      // Where it rests the library says 0 and the reference the 16 um or so by which the gas presses it into its seat.
-      if (!rig.asleep())
-        worst = std::max(worst, std::fabs(rig.engine().output().valve[0][0].lift_m - plain.reference.y));
+      if (i > 500) worst = std::max(worst, std::fabs(rig.engine().output().valve[0][0].lift_m - plain.reference.y));  // the start's swing is over
     }
     std::printf("[ figures  ] %.1f bar on the head, 6000 rpm: %.4f um\n", pressure_Pa / 1e5, worst / kUm);
     EXPECT_LT(worst, 0.05 * kUm);
@@ -739,31 +723,62 @@ TEST(ValveUnderGas, IsSuckedOpenWhereThePortsPressureOvercomesItsSpring) {
 // ---- hostile valves
 // --------------------------------------------------------------------------------------------------------
 
-TEST(ValveEventBudget, WhenExceededIsFlaggedAndTheMotionStaysBounded) {
-  // Undamped, so that it bounces on for ever: 0.65 m/s thrown up against 20 km/s^2 is back in 65 us, and 45 us in its
-  // hard seat. In a tick of 2 ms that is some 36 contact changes.
-  ValveTrain train = ohc_125_train();
-  train.valve.valve_kg = 0.02;
-  train.valve.spring_kg = 0;
-  train.valve.rocker_inertia_kg_m2 = 0;
-  train.valve.seat_N_m = 1e8;
-  train.valve.train_damping_ratio = train.valve.guide_damping_ratio = train.valve.seat_damping_ratio = 0;
-  train.valve.spring_preload_N = 400;
-  for (const double tick_s : {2e-3, 1e-3}) {
-    Rig<double> rig(train, {tick_s, {Integrator::rk4, 10e-6}}, 90);
-    int flagged = 0;
-    double largest = 0;
-    for (int i = 0; i < 20'000; ++i) {
-      const auto& out = rig.step(rad_s_of_rpm(6000));
-      flagged += (out.faults & kFaultEventBudget) != 0 ? 1 : 0;
-      EXPECT_EQ(out.faults & ~std::uint32_t{kFaultEventBudget}, 0u);
-      ASSERT_TRUE(std::isfinite(out.valve[0][0].lift_m));
-      largest = std::max(largest, std::fabs(out.valve[0][0].lift_m));
+struct EightAtOnce : Scene {
+  static constexpr Count cylinders = exactly<4>;
+  static constexpr Count trains = exactly<2>;
+  static constexpr ValveModel valves = ValveModel::elastic;
+};
+
+TEST(ValveEventBudget, WhenExceededIsFlaggedAndSharedByTurns) {
+  // Eight valves that open and close together: 5 changes of the 8 in a tick are located, the others taken at its end. Who comes first, turns: no
+  // valve is always among the others. Beside them one alone, which always has its changes located.
+  EngineDefinition all = tick_test::with_cylinders(engine_with(ohc_125_train()), {0, 0, 0, 0});
+  all.train_count = 2;
+  all.trains[1] = all.trains[0];
+  const TickOptions options{20e-6, {}};
+  Rig<double, EightAtOnce> rig(all, options, 90);
+  Rig<double> alone(ohc_125_train(), options, 90);
+  const double speed = rad_s_of_rpm(7000);
+  int flagged = 0;
+  int as_alone[2][4] = {};
+  double worst_m = 0;
+  for (int cycle = 0; cycle < 40; ++cycle) {
+    bool first_of_cycle = true;  // then all eight have moved as the one alone so far
+    for (int i = 0; i < rig.ticks_per_cycle(speed); ++i) {
+      const auto& out = rig.step(speed);
+      const double lift_m = alone.step(speed).valve[0][0].lift_m;
+      const bool over = (out.faults & kFaultEventBudget) != 0;
+      flagged += over ? 1 : 0;
+      for (int t = 0; t < 2; ++t) {
+        for (int k = 0; k < 4; ++k) {
+          if (over && first_of_cycle) as_alone[t][k] += out.valve[t][k].lift_m == lift_m ? 1 : 0;
+          worst_m = std::max(worst_m, std::fabs(out.valve[t][k].lift_m - lift_m));
+        }
+      }
+      first_of_cycle = first_of_cycle && !over;
     }
-    std::printf("[ figures  ] budget exceeded in %d of 20000 ticks of %.1f ms, lift up to %.3f mm\n", flagged,
-                tick_s * 1e3, largest * 1e3);
-    EXPECT_GT(flagged, 0);
-    EXPECT_LT(largest, 12e-3);
+    EXPECT_TRUE(alone.at_rest());
+  }
+  std::printf("[ figures  ] budget exceeded in %d ticks of 40 cycles, valves off by up to %.1f um\n", flagged, worst_m / kUm);
+  EXPECT_GT(flagged, 40);
+  EXPECT_LT(worst_m, 100 * kUm) << "a change taken late by at most a tick";
+  for (const auto& train : as_alone) {
+    for (const int cycles : train) EXPECT_TRUE(cycles > 10 && cycles < 40) << cycles << " of 40, where five in eight are 25";
+  }
+}
+
+TEST(ValveEventBudget, IsNotExceededByASampleEngineUpToTwiceItsRedline) {
+  for (const double tick_us : {10.0, 20.0, 100.0}) {
+    for (const double rpm : {1000.0, 6000.0, 9000.0, 12000.0}) {
+      EngineDefinition four = tick_test::with_cylinders(engine_with(ohc_125_train()), {0, 540, 180, 360});
+      four.train_count = 2;
+      four.trains[1] = four.trains[0];
+      four.trains[1].cam.full_lift_deg = 250;
+      Rig<float, EightAtOnce> rig(four, {tick_us * 1e-6, {}}, 17);
+      for (int i = 0; i < 4 * rig.ticks_per_cycle(rad_s_of_rpm(rpm)); ++i) {
+        ASSERT_EQ(rig.step(rad_s_of_rpm(rpm)).faults, 0u) << rpm << " rpm, " << tick_us << " us, tick " << i;
+      }
+    }
   }
 }
 

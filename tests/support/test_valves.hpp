@@ -110,8 +110,14 @@ class Rig {
   [[nodiscard]] Engine<Real, S>& engine() { return engine_; }
   [[nodiscard]] const ValveMotion<Real>& motion() const { return tables_->tables().valve_motions[0]; }
   [[nodiscard]] const LiftCurve<Real>& curve() const { return tables_->tables().lift_curves[0]; }
-  [[nodiscard]] const ValveCondition<Real>& valve() const { return engine_.state().valve[0][0]; }
-  [[nodiscard]] bool asleep() const { return valve().sleep == kAsleep; }
+  [[nodiscard]] ValveState<Real> valve() const {
+    return {engine_.state().valve_lift_m[0], engine_.state().valve_velocity_m_s[0]};
+  }
+  [[nodiscard]] std::uint32_t regime() const { return engine_.state().valve_regime[0]; }
+  /// Exactly at rest on its seat.
+  [[nodiscard]] bool at_rest() const {
+    return valve().lift_m == 0 && valve().velocity_m_s == 0 && contacts_of(regime()) == kSeatOn;
+  }
   [[nodiscard]] double tick_s() const { return tick_s_; }
   [[nodiscard]] const ValveTrain& train() const { return definition_.trains[0]; }
 

@@ -27,7 +27,7 @@ struct ReferenceCycle {
   int separations = 0, bounces = 0;
 };
 
-namespace detail {
+namespace of_a_cycle {
 
 /// A cubic through two values and slopes over a step of length h.
 struct Cubic {
@@ -60,7 +60,7 @@ struct Cubic {
   }
 };
 
-}  // namespace detail
+}  // namespace of_a_cycle
 
 [[nodiscard]] inline ReferenceCycle cycle_of(const std::vector<Moment>& all, const SingleMass& mass) {
   constexpr double kOpen_m = 0.1e-3;
@@ -95,9 +95,9 @@ struct Cubic {
     const Moment& a = all[i - 1];
     const Moment& b = all[i];
     const double h = b.t - a.t;
-    const detail::Cubic y{a.y, a.v, b.y, b.v, h};
-    const detail::Cubic Y{a.Y, a.Yd, b.Y, b.Yd, h};
-    const detail::Cubic apart{a.y - a.Y, a.v - a.Yd, b.y - b.Y, b.v - b.Yd, h};
+    const of_a_cycle::Cubic y{a.y, a.v, b.y, b.v, h};
+    const of_a_cycle::Cubic Y{a.Y, a.Yd, b.Y, b.Yd, h};
+    const of_a_cycle::Cubic apart{a.y - a.Y, a.v - a.Yd, b.y - b.Y, b.v - b.Yd, h};
     cycle.largest_lift_m = std::max(cycle.largest_lift_m, y.largest());
     cycle.largest_speed_m_s = std::max(cycle.largest_speed_m_s, std::fabs(b.v));
     cycle.largest_acceleration_m_s2 = std::max({cycle.largest_acceleration_m_s2, std::fabs(b.a), std::fabs(b.a_after)});

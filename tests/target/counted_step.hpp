@@ -62,24 +62,22 @@ void print_limits(const Tables& tables) noexcept {
   port::Line() << "limit trains " << trains;
   port::Line() << "limit valves " << trains * tables.drive->cylinders;
   std::uint32_t pins = 0;
-  std::uint32_t steps = 1;
   std::uint32_t fine_steps = 1;
+  std::uint32_t changes = 0;
   if constexpr (under_test::Scene::bearing_loads) pins = tables.bearings->pins;
   if constexpr (Needs::elastic_valves) {
     for (std::uint32_t t = 0; t < tables.drive->trains; ++t) {
-      const auto& motion = tables.valve_motions[t];
-      if (motion.whole.parts > steps) steps = motion.whole.parts;
-      if (motion.fine.parts > fine_steps) fine_steps = motion.fine.parts;
+      if (tables.valve_motions[t].parts > fine_steps) fine_steps = tables.valve_motions[t].parts;
     }
+    changes = tables.valve_motions[0].most_changes;
   }
   std::uint32_t wheels = 0;
   if constexpr (Needs::any_triggers) wheels = tables.triggers->count;
   port::Line() << "limit wheels " << wheels;
   port::Line() << "limit edges " << under_test::Scene::trigger_edges;
   port::Line() << "limit pins " << pins;
-  port::Line() << "limit steps " << steps;
   port::Line() << "limit fine_steps " << fine_steps;
-  port::Line() << "limit changes " << crankloop::detail::kEventsPerTick;
+  port::Line() << "limit changes " << changes;
 }
 
 }  // namespace

@@ -104,9 +104,12 @@ TEST(StressTrials, AreInaccurateWhereTheMotionIsAnothers) {
 }
 
 TEST(StressTrials, AskMoreCopiesBeforeTheyBlameChaos) {
-  // An undamped seat that the valve bounces on twenty times: of most draws four copies get further off than the engine does.
+  // An undamped seat that the valve bounces on twenty times, and a reference heavier by two thousandths, so that the engine is off by more than four
+  // copies excuse: with thirty-two it is one among them.
   StressTrials trials;
-  const TrialResult result = trials.run(StressCase(2, 9730), true);
+  StressCase drawn(2, 9730);
+  drawn.reference_mass_ratio = 1.002;
+  const TrialResult result = trials.run(drawn, true);
   EXPECT_TRUE(result.judged_again);
   EXPECT_EQ(result.verdict, Verdict::ran) << result.trouble;
   EXPECT_GT(result.of_class, 10) << "or the case is another";

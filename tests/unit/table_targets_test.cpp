@@ -301,8 +301,35 @@ TYPED_TEST(TableTargetsOf, MotionsWithoutLiftsAreFilledAsWithThem) {
   targets.lift_curves = &lift, targets.lift_segments = segments.get(), targets.rocker_ratios = ratios.get();
   ASSERT_TRUE(tabulate(engine, {100e-6, {}}, targets).ok());
   EXPECT_GT(alone.body.mass_kg, Real{0});
-  EXPECT_EQ(alone.whole.matrix[1].y.y, with_lift.whole.matrix[1].y.y);
-  EXPECT_EQ(alone.short_step_deg, with_lift.short_step_deg);
+  EXPECT_EQ(alone.whole[kTrainOn].lift.lift, with_lift.whole[kTrainOn].lift.lift);
+  EXPECT_EQ(alone.widest_step_deg, with_lift.widest_step_deg);
+}
+
+TYPED_TEST(TableTargetsOf, ValvesTellTheFineStepsOfTheWorstTickAndRefuseTooMany) {
+  using Real = TypeParam;
+  EngineDefinition engine = with_cylinders(single_495(), {0, 540, 180, 360});
+  engine.train_count = 2;
+  engine.trains[0] = engine.trains[1] = valve_test::ohc_125_train();
+  ValveMotion<Real> motions[kMaxTrains]{};
+  TableTargets<Real> targets;
+  targets.valve_motions = motions;
+  TableReport report;
+  ASSERT_TRUE(tabulate(engine, {100e-6, {}}, targets, &report).ok());
+  EXPECT_EQ(report.valve_fine_steps, 8 * 5) << "42 900 rad/s on the seat, 100 us: five fine steps for each of eight valves";
+  EXPECT_EQ(report.valve_changes, 4 + 5);
+  EXPECT_EQ(motions[1].most_changes, 9u);
+  // Sixteen cylinders with four trains as stiff as a valve can be: each by itself would do, all together would take some ms for a tick of 0.1 ms.
+  std::vector<double> firing_deg;
+  for (int k = 0; k < 16; ++k) firing_deg.push_back(45.0 * k);
+  EngineDefinition many = with_cylinders(single_495(), firing_deg);
+  many.train_count = 4;
+  for (ValveTrain& train : many.trains) {
+    train = valve_test::ohc_125_train();
+    train.valve.train_N_m = 4.5e10;
+  }
+  EXPECT_TRUE(refuses(tabulate(many, {100e-6, {}}, targets, &report), Reason::out_of_range, "tick.tick", 2));
+  many.train_count = 2;
+  EXPECT_TRUE(tabulate(many, {100e-6, {}}, targets, &report).ok());
 }
 
 }  // namespace

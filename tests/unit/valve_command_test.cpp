@@ -175,7 +175,8 @@ TYPED_TEST(ValveLoopIn, WhatAValveDoesDoesNotDependOnTheTick) {
     EXPECT_NEAR(static_cast<double>(cycle.bounce_height_m), static_cast<double>(fine.bounce_height_m), 2 * kAccuracy_m);
     EXPECT_NEAR(static_cast<double>(cycle.seating_speed_m_s), static_cast<double>(fine.seating_speed_m_s), 1e-4);
     EXPECT_EQ(cycle.bounces, fine.bounces);
-    EXPECT_EQ(cycle.contact_changes, fine.contact_changes);
+    // A touch of 1.4 us, 0.03 deg of the cam, may be seen or not: two changes.
+    EXPECT_NEAR(cycle.contact_changes, fine.contact_changes, 2);
   }
 }
 
@@ -580,20 +581,18 @@ TEST_F(ValveCommands, ARunShowsTheValvesInSummaryAndReport) {
 }
 
 TEST_F(ValveCommands, ATickTooLongIsRefusedWithTheLongestThatIsAccepted) {
-  const std::string message =
-      refusal(kValve, {kOhc125, "--train", "intake", "--rpm", "7000", "--tick-us", "2000", "--accuracy-um", "0.01"});
+  const ChangedFile stiff(kOhc125, "seat_N_per_mm", "seat_N_per_mm = 10000000");
+  const auto refused = [&](const std::string& tick_us) {
+    return refusal(kValve, {stiff.path(), "--train", "intake", "--rpm", "7000", "--tick-us", tick_us, "--accuracy-um", "0.01"});
+  };
+  const std::string message = refused("2000");
   const std::string words = "the longest tick possible is ";
   ASSERT_NE(message.find(words), std::string::npos) << message;
-  EXPECT_EQ(message.rfind(std::string(kOhc125) + ": ", 0), 0u) << message;
+  EXPECT_EQ(message.rfind(stiff.path() + ": ", 0), 0u) << message;
   const std::string longest = split_at(message.substr(message.find(words) + words.size()), ' ')[0];
-  EXPECT_EQ(
-      refusal(kValve, {kOhc125, "--train", "intake", "--rpm", "7000", "--tick-us", longest, "--accuracy-um", "0.01"}),
-      "");
-  const std::string longer = std::to_string(std::stod(longest) * 1.05);
-  EXPECT_NE(
-      refusal(kValve, {kOhc125, "--train", "intake", "--rpm", "7000", "--tick-us", longer, "--accuracy-um", "0.01"}),
-      "");
-  EXPECT_EQ(refusal(kTables, {kOhc125, "--tick-us", "2000", "--accuracy-um", "0.01"}), message);
+  EXPECT_EQ(refused(longest), "");
+  EXPECT_NE(refused(std::to_string(std::stod(longest) * 1.05)), "");
+  EXPECT_EQ(refusal(kTables, {stiff.path(), "--tick-us", "2000", "--accuracy-um", "0.01"}), message);
 }
 
 TEST_F(ValveCommands, NothingIsWrittenWhereSomethingIsRefused) {
@@ -602,7 +601,7 @@ TEST_F(ValveCommands, NothingIsWrittenWhereSomethingIsRefused) {
       {"--train", "intake", "--rpm", "0"},
       {"--train", "intake", "--rpm", "40000", "--tick-us", "1900"},
       {"--train", "intake", "--rpm", "0.001"},
-      {"--train", "intake", "--rpm", "7000", "--tick-us", "2000", "--accuracy-um", "0.01"},
+      {"--train", "intake", "--rpm", "7000", "--tick-us", "2001"},
   };
   for (std::vector<std::string> words : refused) {
     words.insert(words.begin(), kOhc125);
@@ -640,6 +639,11 @@ TEST_F(ValveCommands, ARedlineTellsBothOnsetsAndWritesItsTableAndPage) {
   const std::vector<std::string> rows = split_at(contents(path("r.csv")), '\n');
   EXPECT_EQ(rows[0].substr(0, 17), "factor,speed_rpm,");
   EXPECT_EQ(rows.size(), 1u + 7 * 61);
+  // Compared at the sweep's first speed above the onset as given, in steps of 25 rpm: not where the motion is aperiodic.
+  const double onset_rpm = std::stod(found.at("separation_onset_rpm").first);
+  const double compared_rpm = 25 * (std::floor(onset_rpm / 25) + 1);
+  const std::string table = run(kRedline, {kOhc125, "--train", "intake", "--from", "8000", "--to", "9500", "--vary", "spring"});
+  EXPECT_NE(table.find("from max_lift_mm on at " + std::to_string(static_cast<int>(compared_rpm)) + " rpm"), std::string::npos);
   const std::string page = contents(path("r.html"));
   EXPECT_NE(page.find("<svg"), std::string::npos);
   EXPECT_NE(page.find("spring_N_per_mm"), std::string::npos);

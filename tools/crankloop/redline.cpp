@@ -89,7 +89,7 @@ std::string table_of_factors(const Redline& redline) {
   for (const Sweep& sweep : redline.sweeps) {
     std::vector<std::string> cells{digits(sweep.factor, 6), cell_of(sweep.separation, redline.range),
                                    cell_of(sweep.bounce, redline.range)};
-    for (const ResultColumn& column : kColumns) cells.push_back(digits(column.value(sweep.at.back()), column.digits));
+    for (const ResultColumn& column : kColumns) cells.push_back(digits(column.value(sweep.at[redline.compared_at()]), column.digits));
     table.row(cells);
   }
   return table.text();
@@ -117,7 +117,7 @@ std::string summary(const Redline& redline) {
   text += "seat_frequency_Hz = " + brief(seated_frequency_rad_s(body) * kPerTurn) + " Hz  # on train and seat\n\n";
   if (redline.influence == nullptr) return text + table_of_speeds(given);
   return text + "# influence of " + redline.influence->keys + ", times factor; from max_lift_mm on at " +
-         std::to_string(redline.range.to_rpm) + " rpm\n" + table_of_factors(redline);
+         std::to_string(redline.as_given().at[redline.compared_at()].speed_rpm) + " rpm, just above the onset as given\n" + table_of_factors(redline);
 }
 
 void write_csv(Output& out, const Redline& redline) {

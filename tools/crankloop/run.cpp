@@ -158,6 +158,10 @@ std::string summary_text(const Engines& engine, const Request& request, const Ru
   for (std::size_t t = 0; t < f.valves.size(); ++t) add_valves(s, trains[t], f.valves[t]);
   s.line("table_gas_segments", f.tables.gas_segments);
   s.line("table_pressure_error", f.tables.pressure_error_Pa, "Pa");
+  if (f.tables.valve_fine_steps > 0) {
+    s.line("valve_fine_steps_worst_tick", f.tables.valve_fine_steps);
+    s.line("valve_changes_located", f.tables.valve_changes);
+  }
   s.count("faulty_ticks", f.faulty_ticks);
   s.line("wall_time_per_tick", wall_time_per_tick_ns, "ns",
          "this machine: median of " + std::to_string(FixedStepLoop<float>::kBatches) + " batches of " +

@@ -97,26 +97,36 @@ class Printer {
     list(mass, train, train_damping, seat, seat_damping, spring, guide, preload, sink, head_area, rocker, per_mass);
   }
   template <class Real>
-  void print(const StepMatrix<Real>& m) {
-    const auto row = [this](const typename StepMatrix<Real>::Row& r) {
-      const auto& [y, v, rest, gas, gap, lift, wide] = r;
-      list(y, v, rest, gas, gap, lift, wide);
-    };
-    braced([&] {
-      row(m.y);
-      text(", ");
-      row(m.v);
-    });
+  void print(const StepRow<Real>& r) {
+    const auto& [rest, gas, gas_rise, gap, rise, from, to, lift, velocity] = r;
+    list(rest, gas, gas_rise, gap, rise, from, to, lift, velocity);
   }
   template <class Real>
-  void print(const StepLevel<Real>& level) {
-    const auto& [parts, per_parts_32, per_parts, step, per_step, lag, matrix] = level;
-    list(parts, per_parts_32, per_parts, step, per_step, lag, matrix);
+  void print(const ForceRow<Real>& f) {
+    const auto& [rest, gas, lift, velocity, gap, gap_speed] = f;
+    list(rest, gas, lift, velocity, gap, gap_speed);
+  }
+  template <class Real>
+  void print(const ContactGuard<Real>& g) {
+    const auto& [sign, lag, least] = g;
+    list(sign, lag, least);
+  }
+  template <class Real>
+  void print(const RegimeStep<Real>& s) {
+    const auto& [lift, velocity, acceleration, train, seat, rest, rest_speed] = s;
+    list(lift, velocity, acceleration, train, seat, rest, rest_speed);
+  }
+  template <class Real>
+  void print(const RegimeSeries<Real>& s) {
+    const auto& [rest, gas, stiffness, damping, lift, lift_speed] = s;
+    list(rest, gas, stiffness, damping, lift, lift_speed);
   }
   template <class Real>
   void print(const ValveMotion<Real>& m) {
-    const auto& [body, whole, fine, short_step, widest, clear, rest, rest_speed, quiet, per_seat_rate, per_seat] = m;
-    list(body, whole, fine, short_step, widest, clear, rest, rest_speed, quiet, per_seat_rate, per_seat);
+    const auto& [body, tick, fine, per_fine, per_parts, parts, per_parts_32, changes, widest, train_lag, seat_lag, per_seat, quiet, seat_rate,
+                 whole_steps, fine_steps, series] = m;
+    list(body, tick, fine, per_fine, per_parts, parts, per_parts_32, changes, widest, train_lag, seat_lag, per_seat, quiet, seat_rate, whole_steps,
+         fine_steps, series);
   }
   template <class Real>
   void print(const CrankDynamics<Real>& c) {

@@ -8,6 +8,7 @@
 #include "csv.hpp"
 #include "engine_file/engine_file.hpp"
 #include "progress.hpp"
+#include "textbook_valve.hpp"
 #include "valve/valve_loop.hpp"
 #include "valve/valve_plot.hpp"
 
@@ -103,10 +104,9 @@ std::string summary(const LoneValve& valve, const Request& request, const ValveL
   if (cycle.off_seat_at_end != 0) s.remark("the valve is still off its seat in the middle of the base circle");
   s.line("natural_frequency_Hz", real(open_frequency_rad_s(body) / kRadPerTurn), "Hz", "open, on the train");
   s.line("seat_frequency_Hz", real(seated_frequency_rad_s(body) / kRadPerTurn), "Hz", "on train and seat");
-  s.count("sub_steps", loop.motion().whole.parts * loop.motion().fine.parts,
-          request.method.textbook
-              ? "in each tick"
-              : "in a tick, near contact changes; " + std::to_string(loop.motion().whole.parts) + " elsewhere");
+  const std::uint32_t parts = loop.motion().parts;
+  s.count("sub_steps", request.method.textbook ? TextbookValve<Real>::steps(loop.motion()) : parts,
+          request.method.textbook ? "in each tick" : "in a tick, near contact changes; 1 elsewhere");
   s.count("events", cycle.contact_changes, "contact changes in the cycle");
   if ((loop.faults() & kFaultEventBudget) != 0)
     s.remark("some ticks had more contact changes than are located: take a shorter --tick-us");
@@ -186,7 +186,7 @@ constexpr Option kOptions[] = {
     whole_number("--cycles", "N", from(1).up_to(1000000), "cycles to run from rest; the last is shown", "4"),
     choice("--integrator", "rk4|exponential|textbook",
            "of the tick; textbook: four stages, contact changes not located", "rk4"),
-    number("--accuracy-um", "A", from(0.01).up_to(10), "class of lift error: sets the sub-steps", "0.1"),
+    number("--accuracy-um", "A", from(0.01).up_to(10), "class of lift error: finer ones take finer sub-steps", "0.1"),
     choice("--real", "float|double", "arithmetic of the tick, and digits of the result", "double"),
     text("--csv", "F",
          "file for a row per tick of the last cycle; - is standard output, the summary then goes to stderr"),

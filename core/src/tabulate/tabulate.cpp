@@ -152,9 +152,9 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
   IndicatorDiagram diagram;
   if (const Status refused = diagram.init(engine.crank, engine.pressure); !refused.ok()) return refused;
 
-  if (const Status refused = detail::fill_valves(engine, options, targets); !refused.ok()) return refused;
-
   TableReport found;
+  if (const Status refused = detail::fill_valves(engine, options, targets, found); !refused.ok()) return refused;
+
   if (targets.body != nullptr) *targets.body = rounded<Real>(body_of(engine));
   if (targets.crank_dynamics != nullptr) *targets.crank_dynamics = detail::crank_dynamics_of<Real>(engine, options);
   if (targets.bearings != nullptr) *targets.bearings = rounded<Real>(bearings_of(engine));

@@ -54,9 +54,10 @@ struct DegreeQuintic {
   [[nodiscard]] double fourth_derivative(double u) const noexcept { return 24 * c[4] + 120 * c[5] * u; }
 };
 
-/// Cam degrees over which a cubic through the ends of a step misses the lift by at most a tenth of the accuracy: h^4 / 384 times its
-/// largest fourth derivative.
-[[nodiscard]] double short_step_deg(const ValveLift& lift, double accuracy_m, double widest_deg) noexcept {
+/// Cam degrees over which the cubic through a step's ends will do for the lift: three times those over which it misses it by at most a tenth of
+/// the accuracy, h^4 / 384 times its largest fourth derivative. What it misses has both signs from step to step, and the valve's inertia does the
+/// rest: docs/decisions/0014-valve-records.md has the figures.
+[[nodiscard]] double widest_step_deg(const ValveLift& lift, double accuracy_m) noexcept {
   double largest = 0;
   for (int i = 0; i < lobe_degrees(lift); ++i) {
     const DegreeQuintic quintic(lift, i);
@@ -67,11 +68,11 @@ struct DegreeQuintic {
     }
   }
   const double allowed = 384 * accuracy_m / 10;
-  const double widest2 = widest_deg * widest_deg;
-  return largest * widest2 * widest2 > allowed ? square_root(square_root(allowed / largest)) : widest_deg;
+  const double width = 3 * square_root(square_root(allowed / largest));
+  return width < kDegreesPerTurn ? width : kDegreesPerTurn;
 }
 
-/// Whether the lift comes near enough in a degree to touch a closed valve. With a clearance of less than kLeastLash it always is.
+/// Whether the lift comes near enough in a degree to touch a closed valve.
 [[nodiscard]] bool touches(const DegreeQuintic& quintic) noexcept {
   constexpr int kLooks = 16;  // the cam is smooth: what it rises between two looks is far below the degrees to spare
   for (int look = 0; look <= kLooks; ++look) {
@@ -108,6 +109,7 @@ void fill_lift(const Cam& cam, const Rocker& rocker, const Layout& layout, const
   }
   first = first > 0 ? first - 1 : 0;  // a degree to spare at either end
   last = last + 1 < degrees ? last + 1 : degrees - 1;
+  if (rocker.clearance_m < kLeastLash) first = 0, last = kDegreesPerTurn - 1;  // also where the lobe is not
   curve.touch_from = static_cast<std::uint32_t>(first);
   curve.touch_degrees = static_cast<std::uint32_t>(last >= first ? last - first + 1 : 0);
   curve.leap_deg = static_cast<Real>(curve.touch_degrees > 0 ? static_cast<double>(curve.touch_degrees) : kDegreesPerTurn + 1.0);
@@ -120,13 +122,15 @@ void fill_lift(const Cam& cam, const Rocker& rocker, const Layout& layout, const
 }  // namespace
 
 template <class Real>
-Status fill_valves(const EngineDefinition& engine, const TickOptions& options, const TableTargets<Real>& targets) noexcept {
+Status fill_valves(const EngineDefinition& engine, const TickOptions& options, const TableTargets<Real>& targets, TableReport& report) noexcept {
   if (targets.lift_curves == nullptr && targets.valve_motions == nullptr) return {};
   const auto of_train = [](Status refused, int train) {
     refused.index = train;
     return refused;
   };
   ValveMotion<double> motions[kMaxTrains];
+  int fine_steps = 0;
+  std::uint32_t most_parts = 0;
   for (int t = 0; t < engine.train_count; ++t) {
     const ValveTrain& train = engine.trains[t];
     ValveLift lift;
@@ -137,8 +141,13 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
     if (const Status refused = motion_of(valve_body(train.valve, lever), options.tick_s, options.valves, motions[t]); !refused.ok()) {
       return of_train(refused, t);
     }
-    motions[t].short_step_deg = short_step_deg(lift, options.valves.accuracy_m, motions[t].widest_step_deg);
+    motions[t].widest_step_deg = widest_step_deg(lift, options.valves.accuracy_m);
+    fine_steps += static_cast<int>(motions[t].parts) * engine.layout.cylinders;
+    if (fine_steps > kMostFineStepsOfEngine) return {Reason::out_of_range, t, "tick.tick"};
+    if (motions[t].parts > most_parts) most_parts = motions[t].parts;
   }
+  report.valve_fine_steps = fine_steps;
+  report.valve_changes = targets.valve_motions != nullptr ? static_cast<int>(kChangesBesideParts + most_parts) : 0;
   for (int t = 0; t < engine.train_count; ++t) {
     const ValveTrain& train = engine.trains[t];
     if (targets.lift_curves != nullptr) {
@@ -149,6 +158,7 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
                 targets.rocker_ratios + first);
     }
     if (targets.valve_motions != nullptr) {
+      motions[t].most_changes = kChangesBesideParts + most_parts;
       if constexpr (std::is_same_v<Real, float>) {
         targets.valve_motions[t] = crankloop::rounded(motions[t]);
       } else {
@@ -159,7 +169,7 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
   return {};
 }
 
-template Status fill_valves(const EngineDefinition&, const TickOptions&, const TableTargets<float>&) noexcept;
-template Status fill_valves(const EngineDefinition&, const TickOptions&, const TableTargets<double>&) noexcept;
+template Status fill_valves(const EngineDefinition&, const TickOptions&, const TableTargets<float>&, TableReport&) noexcept;
+template Status fill_valves(const EngineDefinition&, const TickOptions&, const TableTargets<double>&, TableReport&) noexcept;
 
 }  // namespace crankloop::detail

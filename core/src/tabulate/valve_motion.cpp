@@ -1,6 +1,7 @@
 #include <crankloop/tabulate/valve_motion.hpp>
 
 #include <cstring>
+#include <initializer_list>
 
 #include <crankloop/tick/one_instruction.hpp>
 
@@ -14,130 +15,151 @@ namespace {
   return ratio <= 1 ? frequency : frequency * (ratio + square_root(ratio * ratio - 1));
 }
 
-[[nodiscard]] double fastest_rate_per_s(const ValveBody<double>& b) noexcept {
-  const double both = rate_per_s(b.spring_N_m + b.train_N_m + b.seat_N_m, b.guide_Ns_m + b.train_Ns_m + b.seat_Ns_m, b.mass_kg);
-  const double seat = rate_per_s(b.spring_N_m + b.seat_N_m, b.guide_Ns_m + b.seat_Ns_m, b.mass_kg);
-  return both > seat ? both : seat;
-}
-
 [[nodiscard]] double open_rate_per_s(const ValveBody<double>& b) noexcept {
   return rate_per_s(b.spring_N_m + b.train_N_m, b.guide_Ns_m + b.train_Ns_m, b.mass_kg);
 }
 
-/// Rate times fine step for an accuracy class: 0.3 gives 0.1 um (docs/decisions/0007-valve-steps.md); the methods are of fourth order.
-[[nodiscard]] double fine_step_rate(double accuracy_m) noexcept {
-  const double rate = 0.3 * square_root(square_root(accuracy_m / 0.1e-6));
-  return rate < 0.9 ? rate : 0.9;
+[[nodiscard]] double fastest_rate_per_s(const ValveBody<double>& b) noexcept {
+  double fastest = open_rate_per_s(b);
+  for (const double rate : {rate_per_s(b.spring_N_m + b.train_N_m + b.seat_N_m, b.guide_Ns_m + b.train_Ns_m + b.seat_Ns_m, b.mass_kg),
+                            rate_per_s(b.spring_N_m + b.seat_N_m, b.guide_Ns_m + b.seat_Ns_m, b.mass_kg)}) {
+    if (rate > fastest) fastest = rate;
+  }
+  return fastest;
 }
 
-/// Rate of the open valve times whole step: beyond it the cubic between its ends says too little about the motion between.
+/// Fastest rate times fine step: up to here a quintic through the ends of a step knows where in it a contact changes, to 0.1 um in sixth
+/// order. Finer classes take steps of fourth root, as the error of Runge-Kutta's method asks for too.
+[[nodiscard]] double fine_step_rate(double accuracy_m) noexcept {
+  const double ratio = square_root(square_root(accuracy_m / 0.1e-6));
+  return ratio < 1 ? ratio : 1;
+}
+/// The same of a step of Runge-Kutta's method: at 0.1 its own error, 0.1^4 / 120 of a swing for each radian, is far below the class.
+constexpr double kRungeKuttaRate = 0.1;
+/// Rate of the open valve times tick: beyond it the cubic between a tick's ends says too little about the motion between.
 constexpr double kWholeStepRate = 1.5;
-/// A valve so far above the place where its seat begins to act is off it for sure: more than a step's cubic errs.
-constexpr double kClearOfSeat_m = 2e-6;
-/// Cam degrees over which the lift is the quintic through a step's ends and middle, to 0.1 um.
-constexpr double kWidestStepDeg = 4;
+/// Rate times part of an exact step: its series ends with 0.5^21 / 21!.
+constexpr double kExactRate = 0.5;
+constexpr int kExactOrder = 20;
 
 /// A rocker's inertia over the square of a lever that hardly is one may be any mass.
 constexpr double kHeaviest_kg = 1e9;
 
+constexpr double kOffMargin_m = 1e-8;     ///< a contact that is off is sure to stay so beyond this
+constexpr double kTrainMargin_m = 1e-6;   ///< one by the train that is on: what the cubic misses
+constexpr double kNever_m = 1e30;         ///< nothing is beyond this: the contacts are asked in every tick
+constexpr double kRest_m = 1e-9;
+
 /// 1, 2, 3 ... parts so that each is at most `longest`.
-[[nodiscard]] int parts(double whole, double longest) noexcept {
-  const double ratio = whole / longest;
+[[nodiscard]] int parts_of(double whole, double longest) noexcept {
+  const double ratio = whole / longest * (1 - 1e-12);  // what is a whole number but for rounding needs no part more
   if (!(ratio < 1e6)) return 1000000;
-  const int floor = static_cast<int>(ratio);
-  return ratio > floor ? floor + 1 : (floor < 1 ? 1 : floor);
+  return static_cast<int>(ratio) + 1;
 }
 
 /// 2^32 / n for part_of(); a whole has no parts.
 [[nodiscard]] std::uint32_t per_n_32(int n) noexcept { return n == 1 ? 0 : static_cast<std::uint32_t>(0x1p32 / n + 0.5); }
 
-struct Steps {
-  int whole;
-  int fine_per_whole;
+[[nodiscard]] bool train_is_on(std::uint32_t regime) noexcept { return (regime & kTrainOn) != 0; }
+[[nodiscard]] bool seat_is_on(std::uint32_t regime) noexcept { return (regime & kSeatOn) != 0; }
+
+/// M y'' = force + k lift + b lift' - stiffness y - damping y' in a regime.
+struct Linear {
+  double stiffness_N_m, damping_Ns_m, train_N_m, train_Ns_m;
+
+  Linear(const ValveBody<double>& b, std::uint32_t regime) noexcept
+      : stiffness_N_m{b.spring_N_m + (train_is_on(regime) ? b.train_N_m : 0) + (seat_is_on(regime) ? b.seat_N_m : 0)},
+        damping_Ns_m{b.guide_Ns_m + (train_is_on(regime) ? b.train_Ns_m : 0) + (seat_is_on(regime) ? b.seat_Ns_m : 0)},
+        train_N_m{train_is_on(regime) ? b.train_N_m : 0},
+        train_Ns_m{train_is_on(regime) ? b.train_Ns_m : 0} {}
 };
-[[nodiscard]] Steps steps_for(const ValveBody<double>& body, double tick_s, const ValveStepping& stepping) noexcept {
-  const int whole = parts(tick_s, kWholeStepRate / open_rate_per_s(body));
-  return {whole, parts(tick_s / whole, fine_step_rate(stepping.accuracy_m) / fastest_rate_per_s(body))};
-}
 
-/// The matrix of a linear step: its columns are what the step adds to unit vectors. The diagonal is lowered by a rounding, so that no
-/// error of the last bit makes an undamped valve's energy grow. propagate(state, lift, N of force) gives the state after.
+/// A preloaded seat carries the preload.
+[[nodiscard]] double rest_N(const ValveBody<double>& body, std::uint32_t regime) noexcept { return seat_is_on(regime) ? 0 : -body.preload_N; }
+
+/// Both rows of a step in a regime: its columns are what the step adds to unit vectors. The diagonal is lowered by a rounding, so that no error
+/// of the last bit makes an undamped valve's energy grow. propagate(state, drive) gives the state after.
 template <class Propagate>
-[[nodiscard]] StepMatrix<double> matrix_of(const Propagate& propagate, double rest_N) noexcept {
-  const LiftWithin<double> level(LiftStep<double>{});
-  StepMatrix<double> m{};
-  const ValveState<double> by_y = propagate({1, 0}, level, 0.0);
-  const ValveState<double> by_v = propagate({0, 1}, level, 0.0);
-  const ValveState<double> by_force = propagate({0, 0}, level, 1.0);
+void fill_rows(const Propagate& propagate, double rest_N, RegimeStep<double>& step) noexcept {
+  using State = ValveState<double>;
   constexpr double kRounding = 0x1p-52;
-  m.y.y = by_y.lift_m - 1 - kRounding, m.v.y = by_y.velocity_m_s;
-  m.y.v = by_v.lift_m, m.v.v = by_v.velocity_m_s - 1 - kRounding;
-  m.y.rest = rest_N * by_force.lift_m, m.v.rest = rest_N * by_force.velocity_m_s;
-  m.y.gas = by_force.lift_m, m.v.gas = by_force.velocity_m_s;
-  // A level lift, then the polynomials that begin at 0, one for each of their numbers.
-  const ValveState<double> by_level = propagate({0, 0}, LiftWithin<double>(LiftStep<double>{1, 1, 0, 0}), 0.0);
-  m.y.gap = by_level.lift_m, m.v.gap = by_level.velocity_m_s;
-  m.y.y += m.y.gap, m.v.y += m.v.gap;  // lift = gap + y
-  const auto one = [](int i, int j) { return i == j ? 1.0 : 0.0; };
-  for (int i = 0; i < 3; ++i) {
-    const ValveState<double> by_lift = propagate({0, 0}, LiftWithin<double>(LiftStep<double>{0, one(i, 0), one(i, 1), one(i, 2)}), 0.0);
-    m.y.lift[i] = by_lift.lift_m;
-    m.v.lift[i] = by_lift.velocity_m_s;
-  }
-  for (int i = 0; i < 5; ++i) {
-    const LiftWithin<double> lift(LiftStep<double>{0, one(i, 0), one(i, 1), one(i, 2)}, {one(i, 3), one(i, 4)});
-    const ValveState<double> by_lift = propagate({0, 0}, lift, 0.0);
-    m.y.wide[i] = by_lift.lift_m;
-    m.v.wide[i] = by_lift.velocity_m_s;
-  }
-  return m;
-}
-
-/// The exact solution to rounding, by Runge-Kutta steps so short that their error is below it: (0.3 / 64)^4 / 120 of a step.
-constexpr int kExactDivisions = 64;
-
-/// The largest float that is not above x.
-[[nodiscard]] float rounded_down(double x) noexcept {
-  const float nearest = static_cast<float>(x);
-  if (static_cast<double>(nearest) <= x) return nearest;
-  std::uint32_t bits;
-  std::memcpy(&bits, &nearest, sizeof bits);
-  bits = nearest > 0 ? bits - 1 : bits + 1;  // the neighbour toward minus infinity; x = 0 is itself a float
-  float below;
-  std::memcpy(&below, &bits, sizeof below);
-  return below;
-}
-
-[[nodiscard]] float rounded_up(double x) noexcept { return -rounded_down(-x); }
-
-/// The float next to x toward zero.
-[[nodiscard]] float rounded_in(double x) noexcept { return x < 0 ? rounded_up(x) : rounded_down(x); }
-
-/// What a step makes of y is y.y - y.gap, and v.y - v.gap of its speed. Determinant (1 + yy)(1 + vv) - yv vy, with yv > 0 > vy: rounded so
-/// that it does not grow, and with it no undamped valve's energy.
-[[nodiscard]] StepMatrix<float> rounded(const StepMatrix<double>& m) noexcept {
-  const auto drives = [](const StepMatrix<double>::Row& r) {
-    StepMatrix<float>::Row f{};
-    f.rest = static_cast<float>(r.rest);
-    f.gas = static_cast<float>(r.gas);
-    for (int i = 0; i < 3; ++i) f.lift[i] = static_cast<float>(r.lift[i]);
-    for (int i = 0; i < 5; ++i) f.wide[i] = static_cast<float>(r.wide[i]);
-    return f;
+  const State by_lift = propagate(State{1, 0}, StepDrive{});
+  const State by_velocity = propagate(State{0, 1}, StepDrive{});
+  const State by_level = propagate(State{0, 0}, StepDrive{1, 0, 0, 0, 0, 0});
+  const State by_rise = propagate(State{0, 0}, StepDrive{0, 1, 0, 0, 0, 0});
+  const State by_from = propagate(State{0, 0}, StepDrive{0, 0, 1, 0, 0, 0});
+  const State by_to = propagate(State{0, 0}, StepDrive{0, 0, 0, 1, 0, 0});
+  const State by_force = propagate(State{0, 0}, StepDrive{0, 0, 0, 0, 1, 0});
+  const State by_force_rise = propagate(State{0, 0}, StepDrive{0, 0, 0, 0, 0, 1});
+  const auto row = [&](double State::* of, double lift, double velocity) {
+    return StepRow<double>{rest_N * by_force.*of, -(by_force.*of), -(by_force_rise.*of), by_level.*of, by_rise.*of,
+                           by_from.*of,           by_to.*of,       lift + by_level.*of,  velocity};  // the cam's level = gap + y
   };
-  StepMatrix<float> f{drives(m.y), drives(m.v)};
-  f.y.y = rounded_down(m.y.y);
-  f.y.gap = rounded_up(m.y.gap);
-  f.y.v = rounded_in(m.y.v);
-  f.v.y = rounded_up(m.v.y);
-  f.v.gap = rounded_down(m.v.gap);
-  f.v.v = rounded_down(m.v.v);
-  return f;
+  step.lift = row(&State::lift_m, by_lift.lift_m - 1 - kRounding, by_velocity.lift_m);
+  step.velocity = row(&State::velocity_m_s, by_lift.velocity_m_s, by_velocity.velocity_m_s - 1 - kRounding);
 }
 
-[[nodiscard]] StepLevel<float> rounded(const StepLevel<double>& level) noexcept {
+[[nodiscard]] ForceRow<double> force_row(const ValveBody<double>& b, std::uint32_t regime) noexcept {
+  const double seat_N_m = seat_is_on(regime) ? b.seat_N_m : 0;
+  const double seat_Ns_m = seat_is_on(regime) ? b.seat_Ns_m : 0;
+  return {rest_N(b, regime) * b.per_mass,
+          -b.per_mass,
+          -(b.spring_N_m + seat_N_m) * b.per_mass,
+          -(b.guide_Ns_m + seat_Ns_m) * b.per_mass,
+          train_is_on(regime) ? b.train_N_m * b.per_mass : 0,
+          train_is_on(regime) ? b.train_Ns_m * b.per_mass : 0};
+}
+
+/// By the part of a fine step of h seconds.
+[[nodiscard]] RegimeSeries<double> series_of(const ValveBody<double>& b, std::uint32_t regime, double h) noexcept {
+  const Linear l(b, regime);
+  const double per = h * h / b.mass_kg;
+  return {rest_N(b, regime) * per, -per, l.stiffness_N_m * per, l.damping_Ns_m * per / h, l.train_N_m * per, l.train_Ns_m * per / h};
+}
+
+/// The next float toward minus infinity, or toward plus.
+[[nodiscard]] float neighbour(float x, bool down) noexcept {
+  if (x == 0) return down ? -0x1p-149F : 0x1p-149F;
+  std::uint32_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  bits += (x > 0) == down ? ~std::uint32_t{0} : 1;
+  std::memcpy(&x, &bits, sizeof x);
+  return x;
+}
+
+/// What a step makes of (y, v) has determinant (1 + yy)(1 + vv) - yv vy, yy and vy without the gap's share. Rounding must not make it more than 1:
+/// an undamped valve's energy would grow.
+void never_grow(RegimeStep<float>& step) noexcept {
+  for (;;) {
+    const double yy = 1 + static_cast<double>(step.lift.lift) - static_cast<double>(step.lift.gap);
+    const double vy = static_cast<double>(step.velocity.lift) - static_cast<double>(step.velocity.gap);
+    const double vv = 1 + static_cast<double>(step.velocity.velocity);
+    if (yy * vv - static_cast<double>(step.lift.velocity) * vy <= 1) return;
+    if (magnitude(yy) > magnitude(vv)) {
+      step.velocity.velocity = neighbour(step.velocity.velocity, yy > 0);
+    } else {
+      step.lift.lift = neighbour(step.lift.lift, vv > 0);
+    }
+  }
+}
+
+[[nodiscard]] StepRow<float> rounded(const StepRow<double>& r) noexcept {
   const auto real = [](double x) { return static_cast<float>(x); };
-  StepLevel<float> f{level.parts, level.per_parts_32, real(level.per_parts), real(level.step_s), real(level.per_step_s), real(level.force_lag), {}};
-  for (int regime = 0; regime < 4; ++regime) f.matrix[regime] = rounded(level.matrix[regime]);
+  return {real(r.rest), real(r.gas), real(r.gas_rise), real(r.gap), real(r.rise), real(r.from), real(r.to), real(r.lift), real(r.velocity)};
+}
+
+[[nodiscard]] RegimeStep<float> rounded(const RegimeStep<double>& s) noexcept {
+  const auto real = [](double x) { return static_cast<float>(x); };
+  const auto guard = [&](const ContactGuard<double>& g) { return ContactGuard<float>{real(g.sign), real(g.lag_s), real(g.least_m)}; };
+  const ForceRow<double>& a = s.acceleration;
+  RegimeStep<float> f{rounded(s.lift),
+                      rounded(s.velocity),
+                      {real(a.rest), real(a.gas), real(a.lift), real(a.velocity), real(a.gap), real(a.gap_speed)},
+                      guard(s.train),
+                      guard(s.seat),
+                      real(s.rest_m),
+                      real(s.rest_m_s)};
+  never_grow(f);
   return f;
 }
 
@@ -169,20 +191,15 @@ double seated_frequency_rad_s(const ValveBody<double>& body) noexcept {
 }
 
 double longest_tick_s(const ValveBody<double>& body, const ValveStepping& stepping) noexcept {
-  // whole * fine <= tick / fine step + tick / whole step + 1: a bound that rises with the tick, unlike the product itself.
-  const double per_s = fastest_rate_per_s(body) / fine_step_rate(stepping.accuracy_m) + open_rate_per_s(body) / kWholeStepRate;
-  return (kMostFineSteps - 1) / per_s;
+  return kMostFineSteps * fine_step_rate(stepping.accuracy_m) / fastest_rate_per_s(body);
 }
 
 ValveState<double> runge_kutta(const ValveBody<double>& body, std::uint32_t regime, double d_s, int n, ValveState<double> state,
-                               const LiftWithin<double>& lift, double force_N) noexcept {
-  const bool train = (regime & kTrainOn) != 0;
-  const bool seat = (regime & kSeatOn) != 0;
+                               const StepDrive& drive) noexcept {
+  const Linear l(body, regime);
   const auto acceleration = [&](double part, double y, double v) {
-    double force = force_N - body.spring_N_m * y - body.guide_Ns_m * v;
-    if (train) force += body.train_N_m * (lift.value(part) - y) + body.train_Ns_m * (lift.slope(part) / d_s - v);
-    if (seat) force -= body.seat_N_m * y + body.seat_Ns_m * v;
-    return force / body.mass_kg;
+    const double force_N = drive.force_N + drive.force_rise_N * part + l.train_N_m * drive.lift_m(part) + l.train_Ns_m * drive.slope_m(part) / d_s;
+    return (force_N - l.stiffness_N_m * y - l.damping_Ns_m * v) / body.mass_kg;
   };
   const double d = d_s / n;
   double y = state.lift_m;
@@ -201,6 +218,35 @@ ValveState<double> runge_kutta(const ValveBody<double>& body, std::uint32_t regi
   return {y, v};
 }
 
+ValveState<double> exact_motion(const ValveBody<double>& body, std::uint32_t regime, double d_s, ValveState<double> state,
+                                const StepDrive& drive) noexcept {
+  const Linear l(body, regime);
+  const int n = parts_of(d_s, kExactRate / fastest_rate_per_s(body));
+  const double w = 1.0 / n;
+  const double h = d_s * w;
+  const double per_force = h * h / body.mass_kg;
+  for (int i = 0; i < n; ++i) {
+    // The lift and the force about the start of this part, by the part of it.
+    const double x = i * w;
+    const double lift[] = {drive.lift_m(x), drive.slope_m(x) * w, (drive.bend_m() + 3 * drive.twist_m() * x) * (w * w), drive.twist_m() * (w * w * w)};
+    const double force[] = {drive.force_N + drive.force_rise_N * x, drive.force_rise_N * w};
+    double y[kExactOrder + 1] = {state.lift_m, state.velocity_m_s * h};
+    double sum = y[0] + y[1];
+    double slope = y[1];
+    for (int k = 0; k + 2 <= kExactOrder; ++k) {
+      double push_N = k < 2 ? force[k] : 0;
+      if (k < 4) push_N += l.train_N_m * lift[k];
+      if (k < 3) push_N += l.train_Ns_m / h * (k + 1) * lift[k + 1];
+      const double pull_N = l.stiffness_N_m * y[k] + l.damping_Ns_m / h * (k + 1) * y[k + 1];
+      y[k + 2] = (push_N - pull_N) * per_force / ((k + 1) * (k + 2));
+      sum += y[k + 2];
+      slope += (k + 2) * y[k + 2];
+    }
+    state = {sum, slope / h};
+  }
+  return state;
+}
+
 Status motion_of(const ValveBody<double>& body, double tick_s, const ValveStepping& stepping, ValveMotion<double>& motion) noexcept {
   if (!(stepping.accuracy_m >= 0.01e-6 && stepping.accuracy_m <= 10e-6)) return {Reason::out_of_range, -1, "tick.accuracy"};
   if (stepping.integrator != Integrator::rk4 && stepping.integrator != Integrator::exponential) {
@@ -208,37 +254,62 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
   }
   if (!(body.mass_kg <= kHeaviest_kg)) return {Reason::out_of_range, -1, "valve.rocker_inertia"};
   if (!(tick_s > 0 && tick_s <= longest_tick_s(body, stepping))) return {Reason::out_of_range, -1, "tick.tick"};
-  const Steps steps = steps_for(body, tick_s, stepping);
+  const double fastest = fastest_rate_per_s(body);
+  const double fine_rate = fine_step_rate(stepping.accuracy_m);
+  const int parts = parts_of(tick_s, fine_rate / fastest);
   motion = {};
   motion.body = body;
-  motion.short_step_deg = kWidestStepDeg;
-  motion.widest_step_deg = kWidestStepDeg;
-  motion.clear_m = body.seat_sink_m + kClearOfSeat_m;
-  motion.rest_m = 1e-9;
-  motion.rest_m_s = motion.rest_m * seated_frequency_rad_s(body);
-  // A vibration of amplitude A on the seat presses with at least k_z (delta_0 - A) - b_z A w > 0 while A (1 + 2 zeta) < delta_0.
-  const double seat_rate = square_root((body.seat_N_m + body.spring_N_m) / body.mass_kg);
-  const double twice_ratio = body.seat_Ns_m / square_root(body.seat_N_m * body.mass_kg);
-  motion.per_seat_rate_s = 1 / seat_rate;
+  motion.tick_s = tick_s;
+  motion.fine_step_s = tick_s / parts;
+  motion.per_fine_step_s = 1 / motion.fine_step_s;
+  motion.per_parts = 1.0 / parts;
+  motion.parts = static_cast<std::uint32_t>(parts);
+  motion.per_parts_32 = per_n_32(parts);
+  motion.most_changes = kChangesBesideParts + motion.parts;
+  motion.widest_step_deg = kDegreesPerTurn;
+  motion.train_lag_s = body.train_Ns_m / body.train_N_m;
+  motion.seat_lag_s = body.seat_Ns_m / body.seat_N_m;
   motion.per_seat_N_m = 1 / (body.seat_N_m + body.spring_N_m);
-  motion.quiet_m = 0.8 * body.seat_sink_m / (1 + twice_ratio);
-  const int divisions = stepping.integrator == Integrator::exponential ? kExactDivisions : 1;
-  const auto fill = [&](StepLevel<double>& level, double above_s, int parts, int fine_steps) {
-    level.parts = static_cast<std::uint32_t>(parts);
-    level.per_parts_32 = per_n_32(parts);
-    level.per_parts = 1.0 / parts;
-    level.step_s = above_s / parts;
-    level.per_step_s = 1 / level.step_s;
-    level.force_lag = body.train_Ns_m / (body.train_N_m * level.step_s);
-    for (std::uint32_t regime = 0; regime < 4; ++regime) {
-      const auto propagate = [&](ValveState<double> state, const LiftWithin<double>& lift, double force_N) {
-        return runge_kutta(body, regime, level.step_s, fine_steps * divisions, state, lift, force_N);
-      };
-      level.matrix[regime] = matrix_of(propagate, (regime & kSeatOn) != 0 ? 0 : -body.preload_N);  // a preloaded seat carries the preload
-    }
+  // A swing A on the seat presses with at least k_z (delta_0 - A) - b_z A w > 0 while A (1 + 2 zeta) < delta_0.
+  motion.quiet_m = 0.8 * body.seat_sink_m / (1 + body.seat_Ns_m / square_root(body.seat_N_m * body.mass_kg));
+  motion.per_seat_rate_s = 1 / square_root((body.seat_N_m + body.spring_N_m) / body.mass_kg);
+
+  const auto regime_step = [&](std::uint32_t contacts, double step_s) {
+    RegimeStep<double> step{};
+    const int n = parts_of(step_s, fine_rate * kRungeKuttaRate / fastest);
+    const auto propagate = [&](ValveState<double> state, const StepDrive& drive) {
+      if (stepping.integrator == Integrator::exponential) return exact_motion(body, contacts, step_s, state, drive);
+      return runge_kutta(body, contacts, step_s, n, state, drive);
+    };
+    fill_rows(propagate, rest_N(body, contacts), step);
+    step.acceleration = force_row(body, contacts);
+    const double third_s = step_s / 3;
+    step.train = step.seat = {-1, third_s, kOffMargin_m};
+    if (train_is_on(contacts)) step.train = {1, motion.train_lag_s + third_s, kTrainMargin_m};
+    if (seat_is_on(contacts)) step.seat = {1, motion.seat_lag_s + third_s, 0};
+    return step;
   };
-  fill(motion.whole, tick_s, steps.whole, steps.fine_per_whole);
-  fill(motion.fine, motion.whole.step_s, steps.fine_per_whole, 1);
+  const auto may_rest = [&](RegimeStep<double>& step) {
+    step.rest_m = kRest_m;
+    step.rest_m_s = kRest_m * seated_frequency_rad_s(body);
+  };
+  for (std::uint32_t regime = 0; regime < 4; ++regime) {
+    motion.fine[regime] = regime_step(regime, motion.fine_step_s);
+    motion.series[regime] = series_of(body, regime, motion.fine_step_s);
+  }
+  may_rest(motion.fine[kSeatOn]);
+  motion.fine[kQuiet] = motion.fine[kSeatOn];
+  for (std::uint32_t regime = 0; regime < 4; ++regime) {
+    motion.whole[regime] = parts == 1 ? motion.fine[regime] : regime_step(regime, tick_s);
+    // On a seat whose vibration is faster than a tick nothing can be told of the way, nor on a train whose is.
+    const bool tells = !seat_is_on(regime) && (regime == 0 || tick_s * open_rate_per_s(body) <= kWholeStepRate);
+    if (parts > 1 && !tells) motion.whole[regime].seat.least_m = kNever_m;
+  }
+  RegimeStep<double>& quiet = motion.whole[kQuiet];
+  quiet = regime_step(kSeatOn, tick_s);
+  quiet.train.least_m = 2 * motion.quiet_m;
+  quiet.seat = {1, 0, body.seat_sink_m - motion.quiet_m};
+  may_rest(quiet);
   return {};
 }
 
@@ -249,16 +320,27 @@ ValveMotion<float> rounded(const ValveMotion<double>& m) noexcept {
   f.body = {real(b.mass_kg),    real(b.train_N_m),  real(b.train_Ns_m), real(b.seat_N_m),     real(b.seat_Ns_m),     real(b.spring_N_m),
             real(b.guide_Ns_m), real(b.preload_N),  real(b.seat_sink_m), real(b.head_area_m2), real(b.rocker_mass_kg),
             real(b.per_mass)};
-  f.whole = rounded(m.whole);
-  f.fine = rounded(m.fine);
-  f.short_step_deg = real(m.short_step_deg);
+  f.tick_s = real(m.tick_s);
+  f.fine_step_s = real(m.fine_step_s);
+  f.per_fine_step_s = real(m.per_fine_step_s);
+  f.per_parts = real(m.per_parts);
+  f.parts = m.parts;
+  f.per_parts_32 = m.per_parts_32;
+  f.most_changes = m.most_changes;
   f.widest_step_deg = real(m.widest_step_deg);
-  f.clear_m = real(m.clear_m);
-  f.rest_m = real(m.rest_m);
-  f.rest_m_s = real(m.rest_m_s);
+  f.train_lag_s = real(m.train_lag_s);
+  f.seat_lag_s = real(m.seat_lag_s);
+  f.per_seat_N_m = real(m.per_seat_N_m);
   f.quiet_m = real(m.quiet_m);
   f.per_seat_rate_s = real(m.per_seat_rate_s);
-  f.per_seat_N_m = real(m.per_seat_N_m);
+  for (int regime = 0; regime < kRegimes; ++regime) {
+    f.whole[regime] = rounded(m.whole[regime]);
+    f.fine[regime] = rounded(m.fine[regime]);
+  }
+  for (int regime = 0; regime < 4; ++regime) {
+    const RegimeSeries<double>& s = m.series[regime];
+    f.series[regime] = {real(s.rest), real(s.gas), real(s.stiffness), real(s.damping), real(s.lift), real(s.lift_speed)};
+  }
   return f;
 }
 

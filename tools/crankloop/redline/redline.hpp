@@ -22,6 +22,15 @@ struct Redline {
     }
     return sweeps.front();
   }
+
+  /// The speed of the sweeps at which they are compared: the first above the onset of separation as given, where the motion still repeats
+  /// itself; far above it what a factor does is chance. The highest where there is no onset.
+  [[nodiscard]] std::size_t compared_at() const {
+    const std::vector<SpeedResult>& at = as_given().at;
+    std::size_t i = 0;
+    while (i + 1 < at.size() && !(as_given().separation.found && at[i].speed_rpm > as_given().separation.speed_rpm)) ++i;
+    return i;
+  }
 };
 
 /// "8513 rpm", "at or below 500 rpm", "none up to 15000 rpm".

@@ -36,11 +36,10 @@ double limit(double low, double high, const Stable& stable) {
 /// 2000 steps from rest at 1 and from speed 1: no larger at the end than at the start.
 bool stays_bounded(double damping_ratio, double step_s) {
   const ValveBody<double> body = oscillator(damping_ratio);
-  const LiftWithin<double> level(LiftStep<double>{});
   const ValveState<double> starts[] = {{1, 0}, {0, 1}};
   for (ValveState<double> state : starts) {
     for (int i = 0; i < 2'000; ++i) {
-      state = runge_kutta(body, 0, step_s, 1, state, level, 0);
+      state = runge_kutta(body, 0, step_s, 1, state, {});
       if (!(std::hypot(state.lift_m, state.velocity_m_s) < 1e6)) return false;
     }
     if (std::hypot(state.lift_m, state.velocity_m_s) > 2) return false;
@@ -65,7 +64,7 @@ double longest_used(double damping_ratio) {
   body.seat_Ns_m = 2 * damping_ratio;
   ValveMotion<double> motion{};
   constexpr double kTick_s = 50;
-  return motion_of(body, kTick_s, {Integrator::rk4, 10e-6}, motion).ok() ? motion.fine.step_s : 0;
+  return motion_of(body, kTick_s, {Integrator::rk4, 10e-6}, motion).ok() ? motion.fine_step_s : 0;
 }
 
 }  // namespace

@@ -43,15 +43,10 @@ Phase phase_at(double deg) {
   return Phase{static_cast<std::uint64_t>(static_cast<long double>(deg) / 720 * 18446744073709551616.0L)};
 }
 
-/// Fine steps that a tick needs by docs/decisions/0007: the open valve's rate times a whole step at most 1.5, the fastest
-/// times a fine one at most 0.3 for 0.1 um, of fourth order, and 0.9.
+/// Fine steps that a tick needs by docs/decisions/0014: the fastest rate times a fine step at most 1 for 0.1 um and coarser
+/// classes, less by the fourth root for finer ones.
 double fine_steps_needed(const SingleMass& mass, const TickOptions& options) {
-  const double open = std::sqrt((mass.k + mass.k_s) / mass.M);
-  const double zeta = (mass.b + mass.c) / (2 * mass.M * open);
-  const double open_rate = zeta <= 1 ? open : open * (zeta + std::sqrt(zeta * zeta - 1));
-  const double fine_rate = std::min(0.9, 0.3 * std::pow(options.valves.accuracy_m / 0.1e-6, 0.25));
-  const double whole = std::ceil(options.tick_s * open_rate / 1.5);
-  return options.tick_s * mass.fastest() / fine_rate + whole;
+  return options.tick_s * mass.fastest() / std::min(1.0, std::pow(options.valves.accuracy_m / 0.1e-6, 0.25));
 }
 
 /// Whether a refused case could have run, by what this file works out by itself.
@@ -106,7 +101,7 @@ void run_ticks(Rig<Real>& rig, const StressCase& drawn, int copies, TrialResult&
   SingleMass of_reference = mass;
   of_reference.M *= drawn.reference_mass_ratio;
   Comparison comparison(drawn, of_reference, lift, cam_deg_at(engine.state().phase, full_lift_deg),
-                        static_cast<double>(rig.tables.tables().valve_motions[0].fine.step_s),
+                        static_cast<double>(rig.tables.tables().valve_motions[0].fine_step_s),
                         sizeof(Real) == 4 ? 0x1p-24 : 0, copies);
   const int compared_ticks = copies > 0 ? ticks_to_compare(mass, drawn.options, cam_rad_s, ticks_per_cycle) : 0;
   const auto diverged = [&](int tick, const char* how) {
@@ -132,7 +127,7 @@ void run_ticks(Rig<Real>& rig, const StressCase& drawn, int copies, TrialResult&
     }
     if (tick < compared_ticks) {
       comparison.tick(cam_deg_at(engine.state().phase, full_lift_deg), static_cast<double>(valve.lift_m),
-                      engine.state().valve[0][0].sleep == kAsleep);
+                      engine.state().valve_lift_m[0] == 0 && engine.state().valve_velocity_m_s[0] == 0);
     }
   }
   constexpr double kMostChangesInACycle = 1000;  // of the cycle that has not ended

@@ -139,6 +139,7 @@ void ValveLoop<Real>::start(double speed_rpm, double cam_deg, std::uint64_t tick
   const Phase there = full_lift + Phase::from_cycles(cam_deg / kDegreesPerTurn);
   require(engine_.init(tables(), there - Phase{ticks * turned(speed_rpm).units()}));
   textbook_ = {};
+  textbook_.valve.regime = kSeatOn;
   faults_ = 0;
   start_cam_deg_ = cam_deg;
   deg_per_tick_ = deg_per_tick(speed_rpm);
@@ -174,23 +175,23 @@ ValveTickOutput<Real> ValveLoop<Real>::output() const noexcept {
   const double cam_deg = start_cam_deg_ + static_cast<double>(ticks_) * deg_per_tick_;
   if (!is_textbook_) return {cam_deg, engine_.output().valve[0][0], engine_.output().valve_forces[0][0]};
   const ValveBody<Real>& body = motion().body;
-  const ValveCondition<Real>& valve = textbook_.valve;
+  const ValveState<Real>& valve = textbook_.valve.state;
   const Cell cell = LiftCurve<Real>::cell(since_opening(engine_.state().phase));
-  const Lift<Real> lift = curve().read(cell);
-  const Real speed = lift.per_deg_m * textbook_.cam_deg_s;
-  const Contacts<Real> c = contacts(body, valve.state, lift.lift_m, speed);
+  const Lift<Real> cam = curve().read(cell);
+  const LiftNow<Real> lift{cam.lift_m, cam.per_deg_m * textbook_.cam_deg_s};
+  const Contacts<Real> c(body, valve, lift);
   ValveTickOutput<Real> out{};
   out.cam_deg = cam_deg;
-  out.motion = {std::max(lift.lift_m, Real{0}), valve.state.lift_m, valve.state.velocity_m_s,
-                acceleration(body, valve.regime, valve.state, lift.lift_m, speed, textbook_.gas_N)};
-  out.forces.train_N = train_force_N(valve.regime, c);
-  out.forces.seat_N = seat_force_N(valve.regime, c);
+  out.motion = {std::max(lift.lift_m, Real{0}), valve.lift_m, valve.velocity_m_s,
+                textbook_acceleration(body, valve, lift, textbook_.gas_N)};
+  out.forces.train_N = c.train_force_N();
+  out.forces.seat_N = c.seat_force_N();
   out.forces.tip_N = out.forces.train_N - body.rocker_mass_kg * out.motion.acceleration_m_s2;
   const Real ratio =
       cell.degree < curve().segments ? value(curve().rocker_ratio[cell.degree], fraction<Real>(cell)) : Real{0};
   out.forces.cam_N = out.forces.train_N * ratio;
   out.forces.gap_m = c.gap_m;
-  out.forces.regime = valve.regime;
+  out.forces.regime = textbook_.valve.regime;
   return out;
 }
 
@@ -202,7 +203,7 @@ const ValveCycle<Real>& ValveLoop<Real>::last_cycle() const noexcept {
 template <class Real>
 ValveCycle<Real> run_cycles(ValveLoop<Real>& loop, const LoneValve& valve, double speed_rpm, int cycles,
                             const OnValveTick<Real>& on_tick, const std::function<void()>& after_tick) {
-  const double tick_s = static_cast<double>(loop.motion().whole.step_s) * static_cast<double>(loop.motion().whole.parts);
+  const double tick_s = static_cast<double>(loop.motion().tick_s);
   require_ticks(cycles * ticks_per_cycle(speed_rpm, tick_s), tick_s);
   const double sense = speed_rpm < 0 ? -1 : 1;
   const double deg_per_tick = std::abs(loop.deg_per_tick(speed_rpm));

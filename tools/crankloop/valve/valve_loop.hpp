@@ -95,7 +95,7 @@ class ValveLoop {
 
   /// The textbook's valve, and what the engine would hold for it.
   struct Textbook {
-    ValveCondition<Real> valve;
+    detail::Placed<Real> valve;
     ValveRecord<Real> record;
     ValveCycle<Real> cycle;
     Real cam_deg_s;

@@ -52,7 +52,9 @@ double longest_tick_of(const EngineDefinition& definition) {
   for (int t = 0; t < definition.train_count; ++t) {
     const ValveTrain& train = definition.trains[t];
     if (!lift->init(train.cam, train.rocker).ok()) continue;
-    longest_s = std::min(longest_s, longest_tick_s(body_of(train.valve, *lift), {}));
+    const double of_valve_s = longest_tick_s(body_of(train.valve, *lift), {});
+    const double valves = definition.train_count * definition.layout.cylinders;
+    longest_s = std::min({longest_s, of_valve_s, of_valve_s * (kMostFineStepsOfEngine / valves - 1) / kMostFineSteps});
   }
   return longest_s;
 }
@@ -63,6 +65,12 @@ InputError explain_tabulate(const EngineFile& file, const Status& refused, doubl
   for (const TrainOfFile& train : file.trains()) {
     if (!train.complete() || number++ != refused.index) continue;
     if (refused.field == std::string_view("tick.tick")) {
+      const auto own = std::make_unique<ValveLift>();
+      if (own->init(train.definition.cam, train.definition.rocker).ok() &&
+          tick_s <= longest_tick_s(body_of(train.definition.valve, *own), stepping)) {
+        return InputError(file.path() + ": a tick of " + brief(tick_s * 1e6) + " us would take more than " +
+                          std::to_string(kMostFineStepsOfEngine) + " steps of all valves together: take a shorter one");
+      }
       return tick_too_long(file, train, train.definition.valve, tick_s, stepping);
     }
     const auto lift = std::make_unique<ValveLift>();

@@ -71,6 +71,8 @@ struct TableReport {
   double torque_error_Nm = 0;     ///< largest error of full, motored and heat torque of all cylinders, likewise
   int cut_segments = 0;           ///< segments of the grid of one cylinder's heat torque
   int cut_doublings = 0;
+  int valve_fine_steps = 0;       ///< of all elastic valves in the worst tick, when contacts may change in all of them; at most kMostFineStepsOfEngine
+  int valve_changes = 0;          ///< contact changes that a tick locates
 };
 
 /// Fills the targets. Validates the definition first; nothing is written when it refuses.

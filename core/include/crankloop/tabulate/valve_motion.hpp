@@ -1,30 +1,35 @@
-// From a valve train to the constants and step matrices of its motion.
+// The valve's motion at set-up: constants from the definition, fine steps for the tick, one record of constants per contact regime.
 //
-// What belongs here: masses, stiffnesses, step lengths, matrices. What does not: the lift (tabulate/valve_lift.hpp).
+// What belongs here: everything about the step's length and the records. What does not: the step itself (tick/valve.hpp), the lift
+// (tabulate/valve_lift.hpp).
 #pragma once
 
 #include <cstdint>
 
 #include <crankloop/define/valve_train.hpp>
 #include <crankloop/status.hpp>
-#include <crankloop/tick/valve_tables.hpp>
+#include <crankloop/tick/valve.hpp>
 
 namespace crankloop {
 
-/// How a step is taken. Both have the same form, so the tick is the same code.
+/// How a step's record is computed. The tick is the same.
 enum class Integrator : std::uint8_t {
-  rk4,          ///< classical Runge-Kutta of fourth order, its four stages multiplied out
-  exponential,  ///< the exact solution for the polynomial that the lift is over a step
+  rk4,          ///< classical Runge-Kutta of fourth order: so many of its steps that fastest rate times step is at most 0.1, multiplied out
+  exponential,  ///< their limit: the exact solution for the cubic that the lift is over a step
 };
 
 /// How finely a valve is stepped.
 struct ValveStepping {
   Integrator integrator = Integrator::rk4;
-  double accuracy_m = 0.1e-6;  ///< class of lift error asked for, 0.01e-6 to 10e-6: sets the fine step by the stiffest mode
+  double accuracy_m = 0.1e-6;  ///< class of lift error asked for, 0.01e-6 to 10e-6: below 0.1e-6 all steps are finer, above nothing is gained
 };
 
-/// Most fine steps in a tick; a tick that would need more is refused.
+/// Most fine steps of a valve in a tick; a tick that would need more is refused.
 inline constexpr int kMostFineSteps = 512;
+/// Contact changes that a tick locates over all valves: these and one for each fine step of a valve.
+inline constexpr std::uint32_t kChangesBesideParts = 4;
+/// And of all valves of an engine together.
+inline constexpr int kMostFineStepsOfEngine = 4096;
 
 /// Constants of the single-mass model (docs/model.md "Valve"), with the lever l_v of the rocker (1 where its inertia is 0).
 [[nodiscard]] ValveBody<double> valve_body(const Valve& valve, double lever_m) noexcept;
@@ -36,17 +41,32 @@ inline constexpr int kMostFineSteps = 512;
 /// Longest tick for which motion_of() answers, in s.
 [[nodiscard]] double longest_tick_s(const ValveBody<double>& body, const ValveStepping& stepping) noexcept;
 
-/// Steps and matrices for a tick. Refuses a tick that needs more than kMostFineSteps ("tick.tick": see longest_tick_s), an accuracy out of
-/// range ("tick.accuracy"), a number that names no integrator ("tick.integrator"), a mass beyond 1e9 kg, which a lever of nearly nothing
-/// makes ("valve.rocker_inertia"). O(steps).
+/// Fine steps and records for a tick of one train by itself. Refuses a tick that needs more than kMostFineSteps ("tick.tick": see
+/// longest_tick_s), an accuracy out of range ("tick.accuracy"), a number that names no integrator ("tick.integrator"), a mass beyond 1e9 kg,
+/// which a lever of nearly nothing makes ("valve.rocker_inertia"). O(fine steps).
 Status motion_of(const ValveBody<double>& body, double tick_s, const ValveStepping& stepping, ValveMotion<double>& motion) noexcept;
 
 /// The same in the tick's own scalar.
 [[nodiscard]] ValveMotion<float> rounded(const ValveMotion<double>& motion) noexcept;
 
-/// Classical RK4 on (y, v) in one regime, n equal steps over d seconds, with the lift's polynomial for mid-step values [Li 2017, 4.9-4.13].
-/// `force_N` is the constant force. What the matrices are made of, and what tests compare them with.
+/// What drives a step: the cam's lift as the cubic with this level at the start, this rise and these slopes by the part of the step; and a
+/// force that rises evenly.
+struct StepDrive {
+  double level_m, rise_m, from_m, to_m;
+  double force_N, force_rise_N;
+
+  [[nodiscard]] constexpr double lift_m(double x) const noexcept { return level_m + x * (from_m + x * (bend_m() + x * twist_m())); }
+  [[nodiscard]] constexpr double slope_m(double x) const noexcept { return from_m + x * (2 * bend_m() + x * 3 * twist_m()); }
+  [[nodiscard]] constexpr double bend_m() const noexcept { return 3 * rise_m - 2 * from_m - to_m; }
+  [[nodiscard]] constexpr double twist_m() const noexcept { return from_m + to_m - 2 * rise_m; }
+};
+
+/// Classical RK4 on (y, v) in one regime, n equal steps over d seconds [Li 2017, 4.9-4.13].
 [[nodiscard]] ValveState<double> runge_kutta(const ValveBody<double>& body, std::uint32_t regime, double d_s, int n, ValveState<double> state,
-                                             const LiftWithin<double>& lift, double force_N) noexcept;
+                                             const StepDrive& drive) noexcept;
+
+/// The exact solution over d seconds, to rounding: Taylor series of order 20 over parts so short that nothing is left.
+[[nodiscard]] ValveState<double> exact_motion(const ValveBody<double>& body, std::uint32_t regime, double d_s, ValveState<double> state,
+                                              const StepDrive& drive) noexcept;
 
 }  // namespace crankloop

@@ -14,10 +14,12 @@ namespace crankloop {
 
 /// One engine. No heap, no clock, no I/O, no globals; several may run side by side, each used by one thread at a time.
 ///
+/// Its base is what a tick remembers of the state, if the scene has elastic valves.
+///
 /// Invariant: either not ready (no tables, every step answers zeros and kFaultNotReady), or the tables are complete for the scene
 /// and the state is finite and belongs to them.
 template <class Real, class S>
-class Engine {
+class Engine : If<Needs<S>::elastic_valves, detail::ValvesWork<Real, S>> {
   static_assert(CheckedScene<S>::value);
 
  public:

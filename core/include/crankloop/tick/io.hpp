@@ -3,6 +3,7 @@
 // What belongs here: input, output groups, state. What does not: how they come about (tick/engine_step.hpp).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include <crankloop/tick/curve.hpp>
@@ -239,9 +240,18 @@ struct LastPressure {
   Real pressure_Pa[(S::cylinders.capacity + 1) / 2 * 2];  ///< last good, per cylinder
 };
 
+/// Elastic valves, train by train: that of train t and cylinder k is number t * (capacity of cylinders) + k.
 template <class Real, class S>
 struct ValvesState {
-  ValveCondition<Real> valve[S::trains.capacity][S::cylinders.capacity];
+  static constexpr std::size_t kLanes = (std::size_t{S::trains.capacity} * S::cylinders.capacity + 1) / 2 * 2;  ///< even: no padding
+  Real valve_lift_m[kLanes] = {};
+  Real valve_velocity_m_s[kLanes] = {};
+  std::uint32_t valve_regime[kLanes] = {};                       ///< kTrainOn, kSeatOn, or kQuiet
+  Real cam_turned_deg[(S::trains.capacity + 1) / 2 * 2] = {};     ///< per train, in the last tick
+};
+template <class Real, class S>
+struct ValveGasState {
+  Real valve_gas_N[ValvesState<Real, S>::kLanes] = {};  ///< at the end of the last tick
 };
 template <class Real, class S>
 struct CamPhaseState {
@@ -260,9 +270,49 @@ struct State : StateCore<Real>,
                If<Needs<S>::work, WorkState<Real, S>>,
                If<Needs<S>::crank_dynamics, CrankState<Real>>,
                If<Needs<S>::elastic_valves, ValvesState<Real, S>>,
+               If<S::valve_gas, ValveGasState<Real, S>>,
                If<S::cam_phasing, CamPhaseState<Real, S>>,
                If<S::valve_results, ValveRecords<Real, S>>,
                If<S::bad_input_count, BadInputsState> {};
+
+namespace detail {
+
+/// Part of a cam's turn; 2^32 = 360 cam degrees.
+struct CamWindow {
+  std::uint32_t from = 0;
+  std::uint32_t width = 0;
+  [[nodiscard]] constexpr bool holds(std::uint32_t angle) const noexcept { return angle - from < width; }
+};
+
+/// Whether a scene's valves may be stepped abreast. By processor, not by the compiler's flags: a layout depends on it.
+#if defined(__x86_64__) || defined(__aarch64__)
+inline constexpr bool kHasLanes = true;
+#else
+inline constexpr bool kHasLanes = false;
+#endif
+template <class Real, class S>
+inline constexpr bool kMayGoAbreast = kHasLanes && sizeof(Real) == 4 && !S::valve_gas && !S::valve_forces && !S::valve_results;
+
+/// What lanes need side by side (tick/valves_abreast.hpp).
+template <class S>
+struct AbreastWork {
+  static constexpr std::size_t kRoom = (ValvesState<float, S>::kLanes + 7) / 8 * 8;
+  float regime[32][kRoom] = {};            ///< each number of a lane's RegimeStep
+  float segment[6][kRoom] = {};            ///< of its cam's lift,
+  std::uint32_t degree[kRoom] = {};        ///< and which that is
+  float sink_m[kRoom] = {};
+};
+
+/// What a tick of elastic valves remembers beside the state, all of it worked out from that.
+template <class Real, class S>
+struct ValvesWork : If<kMayGoAbreast<Real, S>, AbreastWork<S>> {
+  Real cam_lift_m[ValvesState<Real, S>::kLanes] = {};     ///< at the tick's end, of valves that move,
+  Real cam_per_deg_m[ValvesState<Real, S>::kLanes] = {};  ///< and its slope
+  std::uint32_t moving[S::trains.capacity] = {};          ///< per train, bit k: cylinder k
+  CamWindow clear[S::trains.capacity] = {};               ///< of the train's turn: no cam of a valve at rest comes near it there
+};
+
+}  // namespace detail
 
 /// The same state turning at another speed, for Engine::restore: a run that does not start at rest.
 template <class Real, class S>

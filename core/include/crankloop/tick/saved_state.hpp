@@ -28,7 +28,7 @@
 namespace crankloop {
 
 /// Counts up whenever a release changes the fields or their form.
-inline constexpr std::uint32_t kSavedStateForm = 2;
+inline constexpr std::uint32_t kSavedStateForm = 3;
 
 namespace detail {
 

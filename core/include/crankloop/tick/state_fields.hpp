@@ -58,9 +58,13 @@ struct StateFields {
     }
     if constexpr (N::elastic_valves) {
       v.group("state.valve");
-      for (auto& train : s.valve) {
-        for (auto& valve : train) condition(valve, v);
-      }
+      for (auto& lift : s.valve_lift_m) v.number(lift, -kMostLift_m, kMostLift_m);
+      for (auto& velocity : s.valve_velocity_m_s) v.number(velocity, -kMostSpeed_m_s, kMostSpeed_m_s);
+      for (auto& regime : s.valve_regime) v.word(regime, kQuiet);
+      for (auto& turned : s.cam_turned_deg) v.number(turned, Real{-360}, Real{360});
+    }
+    if constexpr (S::valve_gas) {
+      for (auto& gas : s.valve_gas_N) v.number(gas, -kMostGas_N, kMostGas_N);
     }
     if constexpr (S::cam_phasing) {
       v.group("state.cam_phase");
@@ -91,6 +95,7 @@ struct StateFields {
   static constexpr Real kMostPerRoot = static_cast<Real>(1e5);
   static constexpr Real kMostLift_m = static_cast<Real>(1e6);
   static constexpr Real kMostSpeed_m_s = static_cast<Real>(1e6);
+  static constexpr Real kMostGas_N = static_cast<Real>(1e9);    ///< 1e8 Pa on a bore of 2 m
   static constexpr Real kMostNoted = static_cast<Real>(1e18);   ///< of what is only compared, subtracted and shown
   static constexpr std::uint64_t kMostCamPhase = std::uint64_t{1} << 62;  ///< 180 deg of 720
   static constexpr std::uint32_t kAny = ~std::uint32_t{0};
@@ -99,16 +104,6 @@ struct StateFields {
   static constexpr void integral(AnIntegral& x, Visitor& v) noexcept {
     v.sum(x.base, static_cast<double>(kMostWork));
     v.number(x.part, -kMostWork, kMostWork);
-  }
-
-  template <class ACondition, class Visitor>
-  static constexpr void condition(ACondition& valve, Visitor& v) noexcept {
-    v.number(valve.state.lift_m, -kMostLift_m, kMostLift_m);
-    v.number(valve.state.velocity_m_s, -kMostSpeed_m_s, kMostSpeed_m_s);
-    v.number(valve.train.lift_m, -kMostLift_m, kMostLift_m);
-    v.number(valve.train.per_deg_m, -kMostLift_m, kMostLift_m);
-    v.word(valve.regime, kTrainOn | kSeatOn);
-    v.word(valve.sleep, kSettling);
   }
 
   template <class ARecord, class Visitor>
@@ -121,7 +116,7 @@ struct StateFields {
     for (auto* count : {&c.separations, &c.bounces, &c.contact_changes, &c.off_seat_at_end}) v.word(*count, kAny);
     for (auto* x : {&r.theory_opened_deg_, &r.separated_at_deg_, &r.excursion_m_}) v.number(*x, -kMostNoted, kMostNoted);
     v.word(r.stage_, 2u);
-    v.word(r.flags_, 3u);
+    v.word(r.flags_, 7u);
   }
 };
 

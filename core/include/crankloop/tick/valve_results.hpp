@@ -1,6 +1,6 @@
 // What a valve did in a cycle: lift, float, seating, bounce. Traced in the solver, step by step, not in the samples that a tick shows.
 //
-// What belongs here: the record of a cycle and its rules (docs/model.md "Separation and bounce"). What does not: the motion (valve_tick.hpp).
+// What belongs here: the record of a cycle and its rules (docs/model.md "Separation and bounce"). What does not: the motion (valve_changes.hpp).
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct ValveCycle {
   Real opening_delay_deg;          ///< valve against theory at 0.1 mm of lift
   Real separation_gap_m;           ///< largest y - Y while the train carries nothing before the valve seats
   Real separation_start_deg;       ///< of the separation with the largest gap
-  Real separation_duration_deg;    ///< likewise
+  Real separation_duration_deg;    ///< of that one
   Real seating_speed_m_s;          ///< at the first contact with the seat
   Real bounce_height_m;            ///< largest lift above the seat's contact after a lift-off from it
   std::uint32_t separations;       ///< with a gap of at least kLeastSeparation_m
@@ -34,7 +34,7 @@ struct ObservedStep {
   ValveState<Real> from, to;
   Real theory_from_m, theory_to_m;                ///< Y
   Real theory_speed_from_m_s, theory_speed_to_m_s;
-  Real acceleration_m_s2;                         ///< at its end
+  Real acceleration_from_m_s2, acceleration_to_m_s2;
   Real from_deg, to_deg;                          ///< cam degrees since the start of the lobe
   Real step_s;
   std::uint32_t regime;                           ///< throughout the step
@@ -59,8 +59,10 @@ class ValveRecord {
     const Real lift = peak(s.from.lift_m, s.from.velocity_m_s, s.to.lift_m, s.to.velocity_m_s, s.step_s);
     raise(cycle_.largest_lift_m, lift);
     raise(cycle_.largest_speed_m_s, magnitude(s.to.velocity_m_s));
-    raise(cycle_.largest_acceleration_m_s2, magnitude(s.acceleration_m_s2));
+    raise(cycle_.largest_acceleration_m_s2, magnitude(s.acceleration_from_m_s2));  // a damper's force begins with a jump
+    raise(cycle_.largest_acceleration_m_s2, magnitude(s.acceleration_to_m_s2));
     note_opening(s);
+    if (s.theory_speed_from_m_s > 0 && s.theory_speed_to_m_s <= 0 && s.theory_to_m > 0) flags_ |= kClosing;
     if (stage_ == Stage::seated && (s.regime & kSeatOn) == 0) {
       raise(excursion_m_, lift - seat_contact_m);
     }
@@ -76,7 +78,7 @@ class ValveRecord {
     ++cycle_.contact_changes;
     if (is(kSeparated) && after != 0) end_separation(at_deg);
     const bool landed = (after & ~before & kSeatOn) != 0;
-    if (landed && stage_ == Stage::open) {
+    if (landed && stage_ == Stage::open && is(kClosing)) {
       stage_ = Stage::seated;
       cycle_.seating_speed_m_s = -velocity_m_s;
       excursion_m_ = 0;
@@ -96,10 +98,12 @@ class ValveRecord {
   }
 
  private:
-  enum class Stage : std::uint32_t { closed, open, seated };  // open from 0.1 mm of lift, seated from the first contact after it
+  // Open from 0.1 mm of lift; seated from the first contact behind full lift: one before it ends the flight of the cycle before.
+  enum class Stage : std::uint32_t { closed, open, seated };
 
   static constexpr std::uint32_t kTheoryOpened = 1;  // the cam has passed 0.1 mm
   static constexpr std::uint32_t kSeparated = 2;
+  static constexpr std::uint32_t kClosing = 4;        // the cam is behind its full lift
   [[nodiscard]] constexpr bool is(std::uint32_t flag) const noexcept { return (flags_ & flag) != 0; }
 
   static constexpr void raise(Real& largest, Real x) noexcept {
@@ -176,10 +180,7 @@ class ValveRecord {
 
 /// A record that takes no notes: scenes without results.
 template <class Real>
-struct NoRecord {
-  constexpr void step(const ObservedStep<Real>&, Real) noexcept {}
-  constexpr void change(std::uint32_t, std::uint32_t, Real, Real) noexcept {}
-};
+struct NoRecord {};
 
 /// Results of the last whole cycle, [train][cylinder]; zero until there is one.
 template <class Real, class S>

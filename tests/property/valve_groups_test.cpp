@@ -1,0 +1,105 @@
+// What a scene asks for beside its valves' motion - forces, results of a cycle - changes no bit of that motion, nor does forces' being asked for change
+// results: at ticks of one fine step and of many, at speeds from standstill to a lobe in a tick, through jumps of the crank, with gas on the
+// valves and without.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <memory>
+
+#include "support/both_reals.hpp"
+#include "support/four_with_valves.hpp"
+#include "support/random.hpp"
+
+namespace crankloop {
+namespace {
+
+using namespace tick_test;
+using support::Random;
+
+struct Airless : MeasuredFourWithValves {
+  static constexpr PressureGiven pressure = PressureGiven::by_table;
+  static constexpr bool valve_gas = false;
+};
+template <class Base, bool Forces, bool Results>
+struct Asked : Base {
+  static constexpr bool valve_forces = Forces;
+  static constexpr bool valve_results = Results;
+};
+
+template <class Real, class S>
+struct Rig {
+  Rig(const EngineDefinition& definition, double tick_s) {
+    EXPECT_TRUE(tables->build(definition, {tick_s, {}}).ok());
+    EXPECT_TRUE(engine.init(tables->tables()).ok());
+  }
+  const auto& step(Phase crank, double pressure_Pa) {
+    typename Engine<Real, S>::Input in;
+    in.crank = crank;
+    if constexpr (S::valve_gas) {
+      for (Real& p : in.pressure_Pa) p = static_cast<Real>(pressure_Pa);
+    }
+    return engine.step(in);
+  }
+  std::unique_ptr<TableStorage<Real, S>> tables = std::make_unique<TableStorage<Real, S>>();
+  Engine<Real, S> engine;
+};
+
+/// Same bits, member by member: a structure may have padding.
+template <class Real>
+bool same_motion(const ValveMotionOutput<Real>& a, const ValveMotionOutput<Real>& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+template <class Real>
+class ValveGroups : public ::testing::Test {
+ protected:
+  template <class Base>
+  void all_move_alike(const EngineDefinition& definition) {
+    Random random;
+    int moving = 0;
+    for (const double tick_s : {20e-6, 250e-6, 2e-3}) {
+      Rig<Real, Asked<Base, false, false>> plain(definition, tick_s);
+      Rig<Real, Asked<Base, true, false>> forces(definition, tick_s);
+      Rig<Real, Asked<Base, false, true>> results(definition, tick_s);
+      Rig<Real, Asked<Base, true, true>> both(definition, tick_s);
+      const double limit_deg = static_cast<double>(plain.tables->tables().drive->speed_limit_rad_s) * tick_s * 180 / 3.14159265358979;
+      double deg_per_tick = 0;
+      double pressure_Pa = 1e5;
+      Phase crank;
+      for (int tick = 0; tick < 6000; ++tick) {
+        if (tick % 500 == 0) deg_per_tick = random.between(-1, 1) * limit_deg * (random.coin() ? 1 : 0.05);
+        crank += Phase{static_cast<std::uint64_t>(static_cast<std::int64_t>(deg_per_tick / 720 * 0x1p64))};
+        if (random.whole(0, 299) == 0) crank = Phase{random.bits()};
+        if (random.whole(0, 9) == 0) pressure_Pa = random.between(0, 8e5);
+        const auto& a = plain.step(crank, pressure_Pa);
+        const auto& b = forces.step(crank, pressure_Pa);
+        const auto& c = results.step(crank, pressure_Pa);
+        const auto& d = both.step(crank, pressure_Pa);
+        ASSERT_TRUE(a.faults == b.faults && a.faults == c.faults && a.faults == d.faults);
+        for (int t = 0; t < 2; ++t) {
+          for (int k = 0; k < 4; ++k) {
+            ASSERT_TRUE(same_motion(a.valve[t][k], b.valve[t][k]) && same_motion(a.valve[t][k], c.valve[t][k]) && same_motion(a.valve[t][k], d.valve[t][k]))
+                << random.trace(tick) << ", tick of " << tick_s * 1e6 << " us, train " << t << ", cylinder " << k << ": " << a.valve[t][k].lift_m;
+            ASSERT_EQ(std::memcmp(&b.valve_forces[t][k], &d.valve_forces[t][k], sizeof b.valve_forces[t][k]), 0) << random.trace(tick);
+            ASSERT_EQ(std::memcmp(&c.valve_cycle[t][k], &d.valve_cycle[t][k], sizeof c.valve_cycle[t][k]), 0) << random.trace(tick);
+            moving += a.valve[t][k].lift_m > static_cast<Real>(1e-4) ? 1 : 0;
+          }
+        }
+      }
+    }
+    EXPECT_GT(moving, 5000) << "or nothing happened";
+  }
+};
+TYPED_TEST_SUITE(ValveGroups, BothReals, RealName);
+
+TYPED_TEST(ValveGroups, ChangeNoBitOfTheMotion) { this->template all_move_alike<Airless>(four_with_valves()); }
+
+TYPED_TEST(ValveGroups, ChangeNoBitOfTheMotionUnderGas) {
+  EngineDefinition engine = four_with_valves();
+  for (int t = 0; t < 2; ++t) engine.trains[t].valve.head_area_m2 = 6e-4;
+  this->template all_move_alike<MeasuredFourWithValves>(engine);
+}
+
+}  // namespace
+}  // namespace crankloop

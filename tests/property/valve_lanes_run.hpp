@@ -1,0 +1,104 @@
+// Engines of all sorts of valve counts, run the same way by two translation units: one steps valves abreast, one steps them one by one.
+//
+// What belongs here: the engines and what is done to them. What does not: the comparison (valve_lanes_test.cpp).
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <crankloop/tabulate/tabulate.hpp>
+#include <crankloop/tick/engine_step.hpp>
+
+#include "support/random.hpp"
+#include "support/test_engines.hpp"
+#include "support/test_valves.hpp"
+
+namespace crankloop::valve_lanes {
+
+/// `Unit` makes the scene's type, and with it all that is compiled for it, the translation unit's own.
+template <class Unit, std::uint32_t Cylinders, std::uint32_t Trains, bool Exact, bool Phasing>
+struct Lanes : Scene {
+  static constexpr Count cylinders{Cylinders, Exact};
+  static constexpr Count trains{Trains, Exact};
+  static constexpr CrankGiven crank = CrankGiven::phase;
+  static constexpr ValveModel valves = ValveModel::elastic;
+  static constexpr bool cam_phasing = Phasing;
+};
+
+inline EngineDefinition engine_of(int cylinders, int trains) {
+  std::vector<double> firing_deg;
+  for (int k = 0; k < cylinders; ++k) firing_deg.push_back(720.0 * k / cylinders);
+  EngineDefinition engine = tick_test::with_cylinders(valve_test::engine_with(valve_test::ohc_125_train()), firing_deg);
+  engine.train_count = trains;
+  for (int t = 0; t < trains; ++t) {
+    engine.trains[t] = valve_test::ohc_125_train();
+    engine.trains[t].cam.full_lift_deg = 450 - 120.0 * t;
+    engine.trains[t].cam.phase_rate_deg_s = 3000;
+    engine.trains[t].valve.valve_kg *= 1 + 0.3 * t;
+    if (t == 1) engine.trains[t].rocker.clearance_m = 0;
+  }
+  return engine;
+}
+
+/// Bits of all outputs, the faults and the state, tick by tick: speeds from standstill to a lobe in a tick, both ways, jumps of the crank, moving cams.
+template <class S>
+std::vector<std::uint32_t> bits_of(int cylinders, int trains, double tick_s) {
+  const auto tables = std::make_unique<TableStorage<float, S>>();
+  const Status status = tables->build(engine_of(cylinders, trains), {tick_s, {}});
+  EXPECT_TRUE(status.ok()) << status.field;
+  const auto engine = std::make_unique<Engine<float, S>>();
+  EXPECT_TRUE(engine->init(tables->tables(), Phase{12345678901234567u}).ok());
+  const double limit_deg = static_cast<double>(tables->tables().drive->speed_limit_rad_s) * tick_s * 180 / 3.14159265358979;
+  support::Random random(4711);
+  std::vector<std::uint32_t> bits;
+  typename Engine<float, S>::Input in;
+  double deg_per_tick = 0;
+  for (int tick = 0; tick < 3000; ++tick) {
+    if (tick % 250 == 0) deg_per_tick = random.between(-1, 1) * limit_deg * (tick % 500 == 0 ? 1 : 0.1);
+    in.crank += Phase{static_cast<std::uint64_t>(static_cast<std::int64_t>(deg_per_tick / 720 * 0x1p64))};
+    if (random.whole(0, 399) == 0) in.crank = Phase{random.bits()};
+    if constexpr (S::cam_phasing) {
+      for (float& deg : in.cam_phase_deg) deg = tick % 700 < 350 ? 10.0F : -25.0F;
+    }
+    if (random.whole(0, 99) == 0) {  // what a tick remembers, worked out anew: the same bits
+      EXPECT_TRUE(engine->restore(State<float, S>(engine->state())).ok());
+    }
+    const auto& out = engine->step(in);
+    bits.push_back(out.faults);
+    for (int t = 0; t < trains; ++t) {
+      for (int k = 0; k < cylinders; ++k) {
+        std::uint32_t words[4];
+        static_assert(sizeof words == sizeof out.valve[t][k]);
+        std::memcpy(words, &out.valve[t][k], sizeof words);
+        bits.insert(bits.end(), words, words + 4);
+        bits.push_back(engine->state().valve_regime[static_cast<std::size_t>(t) * S::cylinders.capacity + static_cast<std::size_t>(k)]);
+      }
+    }
+  }
+  return bits;
+}
+
+struct LanesRun {
+  const char* name;
+  std::vector<std::uint32_t> bits;
+};
+
+/// Blocks of eight, of four, what fills none; several trains in a row and each for itself; cams that move.
+template <class Unit>
+std::vector<LanesRun> all_runs(double tick_s) {
+  return {{"one valve", bits_of<Lanes<Unit, 1, 1, true, false>>(1, 1, tick_s)},
+          {"three cylinders", bits_of<Lanes<Unit, 3, 2, true, false>>(3, 2, tick_s)},
+          {"four cylinders", bits_of<Lanes<Unit, 4, 2, true, false>>(4, 2, tick_s)},
+          {"six cylinders, four trains", bits_of<Lanes<Unit, 6, 4, true, false>>(6, 4, tick_s)},
+          {"five of sixteen cylinders", bits_of<Lanes<Unit, 16, 4, false, false>>(5, 3, tick_s)},
+          {"sixteen of sixteen cylinders", bits_of<Lanes<Unit, 16, 4, false, false>>(16, 4, tick_s)},
+          {"phased cams", bits_of<Lanes<Unit, 4, 2, true, true>>(4, 2, tick_s)}};
+}
+
+std::vector<LanesRun> runs_one_by_one(double tick_s);
+
+}  // namespace crankloop::valve_lanes
