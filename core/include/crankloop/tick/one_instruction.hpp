@@ -1,6 +1,8 @@
 // What a tick uses of <cmath>: functions that are one instruction each, with the same bits everywhere.
 #pragma once
 
+#include <cstdint>
+
 namespace crankloop {
 
 /// sqrt: IEEE has it correctly rounded.
@@ -10,5 +12,22 @@ namespace crankloop {
 /// |x|
 [[nodiscard]] constexpr float magnitude(float x) noexcept { return __builtin_fabsf(x); }
 [[nodiscard]] constexpr double magnitude(double x) noexcept { return __builtin_fabs(x); }
+
+/// Zeros below the lowest bit that is set; x is not 0. A few instructions where the processor has none for it: there the compiler would call a
+/// function, which an image for real time need not have.
+[[nodiscard]] constexpr std::uint32_t trailing_zeros(std::uint32_t x) noexcept {
+#if defined(__riscv) && !defined(__riscv_zbb)
+  const std::uint32_t lowest = x & (~x + 1);
+  std::uint32_t zeros = 0;
+  if ((lowest & 0xFFFF'0000u) != 0) zeros += 16;
+  if ((lowest & 0xFF00'FF00u) != 0) zeros += 8;
+  if ((lowest & 0xF0F0'F0F0u) != 0) zeros += 4;
+  if ((lowest & 0xCCCC'CCCCu) != 0) zeros += 2;
+  if ((lowest & 0xAAAA'AAAAu) != 0) zeros += 1;
+  return zeros;
+#else
+  return static_cast<std::uint32_t>(__builtin_ctz(x));
+#endif
+}
 
 }  // namespace crankloop

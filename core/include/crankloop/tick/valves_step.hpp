@@ -239,8 +239,6 @@ class ValvesStep {
     (void)motion;
   }
 
-  [[nodiscard]] static std::uint32_t trailing_zeros(std::uint32_t x) noexcept { return static_cast<std::uint32_t>(__builtin_ctz(x)); }
-
   [[nodiscard]] Placed<Real> placed(std::uint32_t lane) const noexcept {
     return {{state_.valve_lift_m[lane], state_.valve_velocity_m_s[lane]}, state_.valve_regime[lane]};
   }
