@@ -104,8 +104,8 @@ Bearings<double> bearings_of(const EngineDefinition& engine) noexcept {
 }
 
 BlockLoad in_block(const EngineDefinition& engine, double engine_deg, double along_N, double across_N) noexcept {
-  int cylinder = 0;
-  while (engine.layout.pin[static_cast<std::size_t>(cylinder)] != 0) ++cylinder;
+  int cylinder = 0;  // of pin 0: validated, there is one
+  while (cylinder + 1 < engine.layout.cylinders && engine.layout.pin[static_cast<std::size_t>(cylinder)] != 0) ++cylinder;
   const Direction first_throw = direction(engine_deg + engine.layout.throw_deg(cylinder));
   return {along_N * first_throw.cosine - across_N * first_throw.sine, along_N * first_throw.sine + across_N * first_throw.cosine};
 }
