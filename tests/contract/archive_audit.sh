@@ -41,7 +41,7 @@ audit() {
   complain 'has guards of static variables' "$(echo "$symbols" | grep -E '^_ZGV' || true)"
   complain 'has RTTI or virtual tables' "$(echo "$symbols" | grep -E '^_ZT[ISVTC]' || true)"
   complain 'defines names outside its own' "$(nm --defined-only --extern-only --format=posix "$linked" |
-    grep -vE "^(_ZZ?NK?(9crankloop|${#name}$name)|crankloop_|${name}_)" || true)"
+    grep -vE "^(_ZZ*NK?(9crankloop|${#name}$name)|crankloop_|${name}_)" || true)"
 
   instructions=$(objdump -d --no-show-raw-insn "$linked" | awk -F '\t' 'NF > 1 { split($2, word, " "); print word[1] }' | sort -u)
   [ -n "$instructions" ] || complain 'has no code' "$linked"

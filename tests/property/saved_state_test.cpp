@@ -455,7 +455,7 @@ TYPED_TEST(SavedState, GoesOnWithTheSameBitsInAnEngineWhoseValvesStoodOpen) {
   typename Engine<Real, S>::Input in;
   if constexpr (Needs<S>::elastic_valves) {
     typename Engine<Real, S>::Input other_in;
-    const auto open = [&] { return rig.other.output().valve[0][0].lift_m > Real{0.005F}; };
+    const auto open = [&] { return rig.other.output().valve[0][0].lift_m > static_cast<Real>(0.005); };
     for (int i = 0; i < 2000 && !open(); ++i) turn_steadily<Real, S>(other_in), rig.other.step(other_in);
     ASSERT_TRUE(open());
   } else {

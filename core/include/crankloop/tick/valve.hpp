@@ -130,8 +130,11 @@ template <class Real>
   const Real down_N = b.preload_N + gas_N;
   const Real just_off_N = down_N + b.spring_N_m * b.seat_sink_m;  // what holds it down where the seat ends
   const bool sucked_open = just_off_N < 0;
-  const Real off_seat_m = down_N + b.spring_N_m * static_cast<Real>(kFarthest_m) < 0 ? static_cast<Real>(kFarthest_m) : -down_N / b.spring_N_m;
-  const Real alone_m = sucked_open ? off_seat_m : -gas_N * m.per_seat_N_m;
+  Real alone_m = -gas_N * m.per_seat_N_m;
+  if (sucked_open) {
+    constexpr auto kFar = static_cast<Real>(kFarthest_m);
+    alone_m = down_N + b.spring_N_m * kFar < 0 ? kFar : -down_N / b.spring_N_m;
+  }
   if (!(lift_m > alone_m)) return {{alone_m, Real{0}}, sucked_open ? 0u : kSeatOn};
   if (b.train_N_m * (lift_m - b.seat_sink_m) > just_off_N) {
     return {{(b.train_N_m * lift_m - down_N) / (b.train_N_m + b.spring_N_m), Real{0}}, kTrainOn};
