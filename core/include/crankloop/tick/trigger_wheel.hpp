@@ -158,7 +158,7 @@ class TriggerTick {
     std::uint32_t edge = sweep.forward ? wrapped(before_first + 1) : last;
     const std::uint32_t room = out_.edge_count < S::trigger_edges ? S::trigger_edges - out_.edge_count : 0;
     const std::uint32_t listed = passed < room ? passed : room;
-    TriggerEdge<Real>* entry = out_.edge + out_.edge_count;
+    TriggerEdge<Real>* entry = out_.edge + (S::trigger_edges - room);  // not beyond the end, where a sweep before this one has filled them
     for (std::uint32_t i = 0; i < listed; ++i, ++entry, edge = wrapped(edge + step)) {
       const std::uint64_t distance = sweep.forward ? at(edge) - sweep.from : sweep.from - at(edge);
       later(pace.ratio_at(ratio_of<Real>(distance)));
