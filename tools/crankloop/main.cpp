@@ -100,7 +100,7 @@ int run_help(const std::vector<std::string>& words) {
 /// Messages quote words of the command line: none may carry control codes to a terminal, or make two lines of one.
 void refuse_control_codes(const std::vector<std::string>& words) {
   for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool bad = std::any_of(words[i].begin(), words[i].end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; });
+    const bool bad = std::any_of(words[i].begin(), words[i].end(), [](unsigned char c) { return c < ' ' || c == 0x7F; });
     if (bad) throw InputError("crankloop: word " + std::to_string(i + 1) + " of the command line has a control character");
   }
 }
