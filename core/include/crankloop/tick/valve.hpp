@@ -123,18 +123,15 @@ template <class Real>
 inline constexpr double kFarthest_m = 1;
 
 /// A valve at rest where its cam stands. Decided by forces, at the places where a contact begins: on a soft seat a difference of lifts would be
-/// less than their rounding.
+/// less than their rounding. Without a spring the division by its rate has no meaning, and is not used.
 template <class Real>
-[[nodiscard]] constexpr Placed<Real> in_equilibrium(const ValveMotion<Real>& m, Real lift_m, Real gas_N) noexcept {
+[[nodiscard, gnu::no_sanitize("float-divide-by-zero")]] constexpr Placed<Real> in_equilibrium(const ValveMotion<Real>& m, Real lift_m, Real gas_N) noexcept {
   const ValveBody<Real>& b = m.body;
   const Real down_N = b.preload_N + gas_N;
   const Real just_off_N = down_N + b.spring_N_m * b.seat_sink_m;  // what holds it down where the seat ends
   const bool sucked_open = just_off_N < 0;
-  Real alone_m = -gas_N * m.per_seat_N_m;
-  if (sucked_open) {
-    constexpr auto kFar = static_cast<Real>(kFarthest_m);
-    alone_m = down_N + b.spring_N_m * kFar < 0 ? kFar : -down_N / b.spring_N_m;
-  }
+  const Real off_seat_m = down_N + b.spring_N_m * static_cast<Real>(kFarthest_m) < 0 ? static_cast<Real>(kFarthest_m) : -down_N / b.spring_N_m;
+  const Real alone_m = sucked_open ? off_seat_m : -gas_N * m.per_seat_N_m;
   if (!(lift_m > alone_m)) return {{alone_m, Real{0}}, sucked_open ? 0u : kSeatOn};
   if (b.train_N_m * (lift_m - b.seat_sink_m) > just_off_N) {
     return {{(b.train_N_m * lift_m - down_N) / (b.train_N_m + b.spring_N_m), Real{0}}, kTrainOn};
