@@ -125,7 +125,7 @@ inline constexpr double kFarthest_m = 1;
 /// A valve at rest where its cam stands. Decided by forces, at the places where a contact begins: on a soft seat a difference of lifts would be
 /// less than their rounding. Without a spring the division by its rate has no meaning, and is not used.
 template <class Real>
-[[nodiscard, gnu::no_sanitize("float-divide-by-zero")]] constexpr Placed<Real> in_equilibrium(const ValveMotion<Real>& m, Real lift_m, Real gas_N) noexcept {
+[[nodiscard]] __attribute__((no_sanitize("float-divide-by-zero"))) constexpr Placed<Real> in_equilibrium(const ValveMotion<Real>& m, Real lift_m, Real gas_N) noexcept {
   const ValveBody<Real>& b = m.body;
   const Real down_N = b.preload_N + gas_N;
   const Real just_off_N = down_N + b.spring_N_m * b.seat_sink_m;  // what holds it down where the seat ends

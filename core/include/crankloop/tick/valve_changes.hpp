@@ -55,7 +55,7 @@ struct Cubic {
   }
 
   /// Where its slope passes 0 within 0 to 1: by the slopes at both ends, and one step of Newton's method. 1 where it does not.
-  [[nodiscard, gnu::no_sanitize("float-divide-by-zero")]] constexpr Real turn() const noexcept {
+  [[nodiscard]] __attribute__((no_sanitize("float-divide-by-zero"))) constexpr Real turn() const noexcept {
     const Real x = c[1] / (c[1] - (c[1] + 2 * c[2] + 3 * c[3]));
     if (!(x > 0 && x < 1)) return 1;
     const Real better = x - at(x).slope / (2 * c[2] + 6 * x * c[3]);
@@ -71,7 +71,7 @@ struct Cubic {
 
   /// Where it reaches 0 within 0 to 1, its value at 1 given; `again`: where it comes back to 0 after having left it. The root of the quadratic
   /// through both values and the first slope, in the form that does not cancel, and one step of Newton's method.
-  [[nodiscard, gnu::no_sanitize("float-divide-by-zero")]] Real root(bool again, Real to) const noexcept {
+  [[nodiscard]] __attribute__((no_sanitize("float-divide-by-zero"))) Real root(bool again, Real to) const noexcept {
     const Real sum = c[1] + 2 * c[0];
     const Real square = square_root(sum * sum - 4 * c[0] * to);
     Real x = again ? c[1] / (c[1] - to) : 2 * c[0] / ((c[0] < 0 ? -square : square) - c[1]);
