@@ -216,7 +216,7 @@ TEST(ValveRecord, WhoseGuardsHoldAtBothEndsHasNoContactThatChangesBetween) {
       const RegimeStep<double>& record = motion.whole[regime];
       const auto holds = [&](const ValveState<double>& s, const Lift<double>& at) {
         return detail::holds(record.train, at.lift_m - s.lift_m, speed_deg_s * at.per_deg_m - s.velocity_m_s) &&
-               detail::holds(record.seat, body.seat_sink_m - s.lift_m, s.velocity_m_s);
+               detail::holds(record.seat, s.lift_m, s.velocity_m_s);
       };
       const ValveState<double> after = detail::stepped(record, before, cam.from, cam.to, cam.deg, detail::NoGasForce<double>{}).state;
       if (!holds(before, cam.from) || !holds(after, cam.to)) continue;
@@ -535,7 +535,7 @@ constexpr std::size_t bytes_of_parts() {
   constexpr std::size_t valves = std::size_t{Cylinders} * Trains;
   std::size_t bytes = 8 + 8 + 8 + 2 * real;  // fingerprint, phase, ticks; speed and load ratio
   const std::size_t lanes = (valves + 1) / 2 * 2;
-  bytes += lanes * (2 * real + 4) + (Trains + 1) / 2 * 2 * real;  // lift, velocity, regime; per train what its cams turned
+  bytes += lanes * (2 * real + 4) + ((Phasing ? Trains : 1) + 1) / 2 * 2 * real;  // lift, velocity, regime; what cams turned
   if (Phasing) bytes += Trains * 8 + (Trains + 1) / 2 * 2 * real;
   if (Results) bytes += valves * ((9 + 3) * real + (4 + 2) * 4);  // cycle and record: numbers, counts
   return bytes;

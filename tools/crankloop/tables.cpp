@@ -113,8 +113,8 @@ class Printer {
   }
   template <class Real>
   void print(const RegimeStep<Real>& s) {
-    const auto& [lift, velocity, acceleration, train, seat, rest, rest_speed] = s;
-    list(lift, velocity, acceleration, train, seat, rest, rest_speed);
+    const auto& [lift, velocity, acceleration, train, seat, rest, rest_speed, calm] = s;
+    list(lift, velocity, acceleration, train, seat, rest, rest_speed, calm);
   }
   template <class Real>
   void print(const RegimeSeries<Real>& s) {
@@ -204,7 +204,7 @@ void print_trains(Printer& p, const AllSections<Real>& s, const std::string& of_
     section(p, type + of_real, std::string(name) + "[]", [&] {
       p.text("{\n");
       for (std::uint32_t t = 0; t < s.drive.trains; ++t) {
-        for (std::uint32_t i = 0; i < s.lift_curves[t].segments; ++i) {
+        for (std::uint32_t i = 0; i < s.lift_curves[t].rows(); ++i) {
           p.text("  ");
           p.print(all[t * std::size_t{kDegreesPerTurn} + i]);
           p.text(",\n");
@@ -233,7 +233,7 @@ void print_trains(Printer& p, const AllSections<Real>& s, const std::string& of_
       p.text(", ");
       p.number(outside);
       p.text("},\n");
-      first += count;
+      first += s.lift_curves[t].rows();
       static_cast<void>(at);
       static_cast<void>(rocker_ratio);
     }

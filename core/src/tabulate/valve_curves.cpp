@@ -97,6 +97,10 @@ void fill_lift(const Cam& cam, const Rocker& rocker, const Layout& layout, const
     }
     ratios[i] = rounded<Real>(fitted<Real>(0, 1, [&](double u) { return lift.at(angle(i + u)).rocker_ratio; }));
   }
+  if (degrees < kDegreesPerTurn) {
+    segments[degrees] = {{static_cast<Real>(-rocker.clearance_m)}};
+    ratios[degrees] = {};
+  }
   curve.at = segments;
   curve.rocker_ratio = ratios;
   // A cam turns 360 deg in the engine's 720: the phase of full lift less the lobe's rise.
@@ -106,6 +110,7 @@ void fill_lift(const Cam& cam, const Rocker& rocker, const Layout& layout, const
   for (int k = 0; k < kMaxCylinders; ++k) {
     const auto i = static_cast<std::size_t>(k);
     curve.opens[i] = k < layout.cylinders ? phase_units(layout.firing_deg[i]) + phase_units(opens_deg) : 0;
+    if constexpr (sizeof(Real) == 4) curve.opens[i] = (curve.opens[i] + 0x8000'0000u) >> 32 << 32;  // 8e-8 cam degrees: so a tick need not read its low word
   }
   first = first > 0 ? first - 1 : 0;  // a degree to spare at either end
   last = last + 1 < degrees ? last + 1 : degrees - 1;
@@ -141,7 +146,8 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
     if (const Status refused = motion_of(valve_body(train.valve, lever), options.tick_s, options.valves, motions[t]); !refused.ok()) {
       return of_train(refused, t);
     }
-    motions[t].widest_step_deg = widest_step_deg(lift, options.valves.accuracy_m);
+    if (motions[t].parts > 1) motions[t].widest_step_deg = widest_step_deg(lift, options.valves.accuracy_m);
+    find_calm(motions[t], train.rocker.clearance_m);
     fine_steps += static_cast<int>(motions[t].parts) * engine.layout.cylinders;
     if (fine_steps > kMostFineStepsOfEngine) return {Reason::out_of_range, t, "tick.tick"};
     if (motions[t].parts > most_parts) most_parts = motions[t].parts;

@@ -49,6 +49,8 @@ constexpr double kOffMargin_m = 1e-8;     ///< a contact that is off is sure to 
 constexpr double kTrainMargin_m = 1e-6;   ///< one by the train that is on: what the cubic misses
 constexpr double kNever_m = 1e30;         ///< nothing is beyond this: the contacts are asked in every tick
 constexpr double kRest_m = 1e-9;
+constexpr double kMostCalm_m = 1e-5;      ///< what swings more has results to record
+constexpr double kCalmMargin = 0.9;       ///< for rounding
 
 /// 1, 2, 3 ... parts so that each is at most `longest`.
 [[nodiscard]] int parts_of(double whole, double longest) noexcept {
@@ -158,7 +160,8 @@ void never_grow(RegimeStep<float>& step) noexcept {
                       guard(s.train),
                       guard(s.seat),
                       real(s.rest_m),
-                      real(s.rest_m_s)};
+                      real(s.rest_m_s),
+                      real(s.calm_m)};
   never_grow(f);
   return f;
 }
@@ -284,9 +287,10 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
     fill_rows(propagate, rest_N(body, contacts), step);
     step.acceleration = force_row(body, contacts);
     const double third_s = step_s / 3;
-    step.train = step.seat = {-1, third_s, kOffMargin_m};
+    step.train = {-1, third_s, kOffMargin_m};
+    step.seat = {1, third_s, kOffMargin_m + body.seat_sink_m};
     if (train_is_on(contacts)) step.train = {1, motion.train_lag_s + third_s, kTrainMargin_m};
-    if (seat_is_on(contacts)) step.seat = {1, motion.seat_lag_s + third_s, 0};
+    if (seat_is_on(contacts)) step.seat = {-1, motion.seat_lag_s + third_s, -body.seat_sink_m};
     return step;
   };
   const auto may_rest = [&](RegimeStep<double>& step) {
@@ -308,9 +312,23 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
   RegimeStep<double>& quiet = motion.whole[kQuiet];
   quiet = regime_step(kSeatOn, tick_s);
   quiet.train.least_m = 2 * motion.quiet_m;
-  quiet.seat = {1, 0, body.seat_sink_m - motion.quiet_m};
+  quiet.seat = {-1, 0, -motion.quiet_m};
   may_rest(quiet);
   return {};
+}
+
+void find_calm(ValveMotion<double>& motion, double lash_m) noexcept {
+  const double per_s = 1 / motion.per_seat_rate_s;
+  for (const std::uint32_t regime : {kSeatOn, kQuiet}) {
+    RegimeStep<double>& step = motion.whole[regime];
+    // A swing A is never further from its rest than A, nor faster than A times its rate.
+    const auto most = [per_s](const ContactGuard<double>& guard, double depth_m) { return (depth_m - guard.least_m) / (1 + guard.lag_s * per_s); };
+    double calm_m = motion.quiet_m / 2;  // under gas the rest moves as well
+    for (const double limit_m : {most(step.train, lash_m), most(step.seat, 0), kMostCalm_m}) {
+      if (limit_m < calm_m) calm_m = limit_m;
+    }
+    step.calm_m = calm_m > 0 ? kCalmMargin * calm_m : 0;
+  }
 }
 
 ValveMotion<float> rounded(const ValveMotion<double>& m) noexcept {

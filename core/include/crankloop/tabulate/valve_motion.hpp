@@ -46,6 +46,10 @@ inline constexpr int kMostFineStepsOfEngine = 4096;
 /// which a lever of nearly nothing makes ("valve.rocker_inertia"). O(fine steps).
 Status motion_of(const ValveBody<double>& body, double tick_s, const ValveStepping& stepping, ValveMotion<double>& motion) noexcept;
 
+/// Sets calm_m: what a valve may swing on its seat while its cam, which leaves `lash_m` open there, is on its base circle, without a guard of its
+/// whole step that fails.
+void find_calm(ValveMotion<double>& motion, double lash_m) noexcept;
+
 /// The same in the tick's own scalar.
 [[nodiscard]] ValveMotion<float> rounded(const ValveMotion<double>& motion) noexcept;
 

@@ -19,7 +19,7 @@ namespace crankloop {
 /// Invariant: either not ready (no tables, every step answers zeros and kFaultNotReady), or the tables are complete for the scene
 /// and the state is finite and belongs to them.
 template <class Real, class S>
-class Engine : If<Needs<S>::elastic_valves, detail::ValvesWork<Real, S>> {
+class Engine : detail::ValvesWorkOf<Real, S> {
   static_assert(CheckedScene<S>::value);
 
  public:

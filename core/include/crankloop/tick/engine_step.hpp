@@ -98,7 +98,7 @@ Status Engine<Real, S>::init(const Tables& tables, Phase start) noexcept {
     step.remember_work();
     output_ = Output{};
   }
-  if constexpr (Needs<S>::elastic_valves) detail::ValvesStep<Real, S>(tables, state_, *this, output_).start();
+  if constexpr (Needs<S>::elastic_valves) detail::ElasticValves<Real, S>(tables, state_, *this, output_).start();
   return {};
 }
 
@@ -157,7 +157,7 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
   }
   [[maybe_unused]] const detail::CamsBefore<S> cams_before(state_);
   if constexpr (Needs<S>::any_valves) {
-    faults |= detail::ValvesStep<Real, S>(tables, state_, *this, output_, phase_before, jumped, head_pressure_Pa).run(input);
+    faults |= detail::run_valves(tables, state_, *this, output_, input, state_.phase - phase_before, jumped, head_pressure_Pa);
   }
   if constexpr (Needs<S>::any_triggers) {
     Real bend_cycles{};
@@ -180,7 +180,7 @@ Status Engine<Real, S>::restore(const State& state) noexcept {
   if (tables_ == nullptr) return {Reason::missing_table, -1, "tables"};
   if (state.fingerprint != state_.fingerprint) return {Reason::other_tables, -1, "state.fingerprint"};
   state_ = state;
-  if constexpr (Needs<S>::elastic_valves) detail::ValvesStep<Real, S>(*tables_, state_, *this, output_).remember();
+  if constexpr (Needs<S>::elastic_valves) detail::ElasticValves<Real, S>(*tables_, state_, *this, output_).remember();
   return {};
 }
 

@@ -240,6 +240,14 @@ struct LastPressure {
   Real pressure_Pa[(S::cylinders.capacity + 1) / 2 * 2];  ///< last good, per cylinder
 };
 
+namespace detail {
+
+/// Cams that turn alike: all of an engine, or those of each train where phasers turn them.
+template <class S>
+inline constexpr std::uint32_t kCamGroups = S::cam_phasing ? S::trains.capacity : 1;
+
+}  // namespace detail
+
 /// Elastic valves, train by train: that of train t and cylinder k is number t * (capacity of cylinders) + k.
 template <class Real, class S>
 struct ValvesState {
@@ -247,7 +255,7 @@ struct ValvesState {
   Real valve_lift_m[kLanes] = {};
   Real valve_velocity_m_s[kLanes] = {};
   std::uint32_t valve_regime[kLanes] = {};                       ///< kTrainOn, kSeatOn, or kQuiet
-  Real cam_turned_deg[(S::trains.capacity + 1) / 2 * 2] = {};     ///< per train, in the last tick
+  Real cam_turned_deg[(detail::kCamGroups<S> + 1) / 2 * 2] = {};  ///< of cams that turn alike, in the last tick
 };
 template <class Real, class S>
 struct ValveGasState {
@@ -282,6 +290,26 @@ struct CamWindow {
   std::uint32_t from = 0;
   std::uint32_t width = 0;
   [[nodiscard]] constexpr bool holds(std::uint32_t angle) const noexcept { return angle - from < width; }
+  /// All of the way to an angle, `turned` on from where it began: a whole turn is 2^64 there.
+  [[nodiscard]] constexpr bool holds_all_of(std::uint32_t to, std::int64_t turned) const noexcept {
+    const std::int64_t end = to - from;  // no less than 0
+    const std::int64_t begin = end - (turned >> 32);
+    return end < width && begin > 1 && begin + 1 < width;  // of the low words' rounding
+  }
+};
+
+/// The widest window about an angle that keeps off others.
+struct CamClearance {
+  std::uint32_t ahead = 0x7FFF'FFFF;
+  std::uint32_t behind = 0x7FFF'FFFF;
+
+  constexpr void keep_off(const CamWindow& other, std::uint32_t angle) noexcept {
+    const std::uint32_t to = other.from - angle;
+    const std::uint32_t since = angle - (other.from + other.width);
+    ahead = to < ahead ? to : ahead;
+    behind = since < behind ? since : behind;
+  }
+  [[nodiscard]] constexpr CamWindow about(std::uint32_t angle) const noexcept { return {angle - behind, behind + ahead}; }
 };
 
 /// Whether a scene's valves may be stepped abreast. By processor, not by the compiler's flags: a layout depends on it.
@@ -295,22 +323,42 @@ inline constexpr bool kMayGoAbreast = kHasLanes && sizeof(Real) == 4 && !S::valv
 
 /// What lanes need side by side (tick/valves_abreast.hpp).
 template <class S>
-struct AbreastWork {
+struct alignas(16) AbreastWork {
   static constexpr std::size_t kRoom = (ValvesState<float, S>::kLanes + 7) / 8 * 8;
-  float regime[32][kRoom] = {};            ///< each number of a lane's RegimeStep
-  float segment[6][kRoom] = {};            ///< of its cam's lift,
-  std::uint32_t degree[kRoom] = {};        ///< and which that is
-  float sink_m[kRoom] = {};
+  static constexpr bool kBlocksAligned = S::cylinders.exact || S::cylinders.capacity % 8 == 0;
+  float numbers[32][kRoom] = {};           ///< of each lane's RegimeStep, up to calm_m
+  const LiftSegment<float>* curve[kRoom] = {};  ///< of its cam's lift, one for each degree of the lobe and one outside
+  std::int32_t degrees[kRoom] = {};        ///< of its lobe
+  std::int32_t opens_degree[kRoom] = {};   ///< of the train's cams: where its lobe begins,
+  std::uint32_t opens_into[kRoom] = {};    ///< and where in that degree, 2^32 = all of it
+  float cam_lift_m[kRoom] = {};            ///< at the tick's end,
+  float cam_per_deg_m[kRoom] = {};         ///< and its slope
 };
+
+/// The cams of an engine whose valves go one by one.
+template <class Real, class S>
+struct CamsWork {
+  Real cam_lift_m[ValvesState<Real, S>::kLanes] = {};     ///< at the tick's end, of valves that move,
+  Real cam_per_deg_m[ValvesState<Real, S>::kLanes] = {};  ///< and its slope
+  const RegimeStep<Real>* regime[ValvesState<Real, S>::kLanes] = {};  ///< that of each valve's tick
+};
+
+/// A bit for each valve of an engine, by its number.
+template <class S>
+using ValveBits = std::conditional_t<(S::trains.capacity * S::cylinders.capacity > 32), std::uint64_t, std::uint32_t>;
 
 /// What a tick of elastic valves remembers beside the state, all of it worked out from that.
 template <class Real, class S>
-struct ValvesWork : If<kMayGoAbreast<Real, S>, AbreastWork<S>> {
-  Real cam_lift_m[ValvesState<Real, S>::kLanes] = {};     ///< at the tick's end, of valves that move,
-  Real cam_per_deg_m[ValvesState<Real, S>::kLanes] = {};  ///< and its slope
-  std::uint32_t moving[S::trains.capacity] = {};          ///< per train, bit k: cylinder k
-  CamWindow clear[S::trains.capacity] = {};               ///< of the train's turn: no cam of a valve at rest comes near it there
+struct ValvesWork : std::conditional_t<kMayGoAbreast<Real, S>, AbreastWork<S>, CamsWork<Real, S>> {
+  Real leap_deg = 0;                                      ///< a tick that turns some cam so far may pass over all of its lobe that counts;
+  Real far_deg = 0;                                       ///< over more than the cubic through its ends tells
+  ValveBits<S> moving = 0;                                ///< those that are not at rest with their cams away
+  CamWindow clear[kCamGroups<S>] = {};                    ///< of these cams' turn: none of a valve at rest comes near there,
+  CamWindow no_end[kCamGroups<S>] = {};                   ///< and none of any valve ends its cycle
 };
+
+template <class Real, class S>
+using ValvesWorkOf = If<Needs<S>::elastic_valves, ValvesWork<Real, S>>;
 
 }  // namespace detail
 

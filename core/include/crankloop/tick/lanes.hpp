@@ -51,28 +51,51 @@ template <class Lanes>
   std::memcpy(to, &x, sizeof x);
 }
 
-/// Integers as floats.
+/// The same where every block begins at a register's border: then the compiler may multiply by memory.
 template <class Lanes>
-[[nodiscard, gnu::always_inline]] inline Lanes whole_numbers(const std::int32_t* from) noexcept {
-  decltype(Lanes{} < Lanes{}) x;
-  std::memcpy(&x, from, sizeof x);
-  return __builtin_convertvector(x, Lanes);
+[[nodiscard, gnu::always_inline]] inline Lanes load_aligned(const float* from) noexcept {
+  return load<Lanes>(static_cast<const float*>(__builtin_assume_aligned(from, 16)));
 }
 
-/// One bit for each lane in which a comparison does not hold.
+/// As many 32-bit words as lanes.
+template <class Lanes>
+struct Words;
+template <>
+struct Words<Four> {
+  using Bits = std::uint32_t __attribute__((vector_size(16)));
+};
+#if defined(__AVX__)
+template <>
+struct Words<Eight> {
+  using Bits = std::uint32_t __attribute__((vector_size(32)));
+};
+#endif
+template <class Lanes>
+[[nodiscard, gnu::always_inline]] inline typename Words<Lanes>::Bits load_words(const std::uint32_t* from) noexcept {
+  typename Words<Lanes>::Bits x;
+  std::memcpy(&x, from, sizeof x);
+  return x;
+}
+
+/// One bit for each lane in which a comparison holds.
+[[nodiscard, gnu::always_inline]] inline std::uint32_t holding(const FourBits& holds) noexcept {
+#if defined(__SSE2__)
+  return static_cast<std::uint32_t>(__builtin_ia32_movmskps(reinterpret_cast<Four>(holds)));
+#else
+  std::uint32_t bits = 0;
+  for (int i = 0; i < 4; ++i) bits |= static_cast<std::uint32_t>(-holds[i]) << i;
+  return bits;
+#endif
+}
+#if defined(__AVX__)
+[[nodiscard, gnu::always_inline]] inline std::uint32_t holding(const EightBits& holds) noexcept {
+  return static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Eight>(holds)));
+}
+#endif
+/// One for each in which it does not.
 template <class Bits>
 [[nodiscard, gnu::always_inline]] inline std::uint32_t failing(const Bits& holds) noexcept {
-  std::uint32_t bits = 0;
-  for (int i = 0; i < static_cast<int>(sizeof holds / 4); ++i) bits |= static_cast<std::uint32_t>(holds[i] + 1) << i;
-  return bits;
-}
-template <class Bits>
-[[nodiscard, gnu::always_inline]] inline bool all_hold(const Bits& holds) noexcept {
-  std::int64_t words[sizeof holds / 8];
-  std::memcpy(words, &holds, sizeof holds);
-  std::int64_t all = -1;
-  for (const std::int64_t word : words) all &= word;
-  return all == -1;
+  return holding(holds) ^ ((1u << sizeof holds / 4) - 1);
 }
 
 /// Four numbers of each lane, lane by lane.
@@ -88,7 +111,30 @@ template <class Bits>
   for (int i = 0; i < 4; ++i) to[4 * i] = a[i], to[4 * i + 1] = b[i], to[4 * i + 2] = c[i], to[4 * i + 3] = d[i];
 #endif
 }
+/// Six numbers of each of four lanes, of which from[i] are lane i's.
+[[gnu::always_inline]] inline void load_lanes(const float* const (&from)[4], Four (&x)[6]) noexcept {
+#if defined(__clang__) || __GNUC__ >= 12
+  const Four a = load<Four>(from[0]), b = load<Four>(from[1]), c = load<Four>(from[2]), d = load<Four>(from[3]);
+  const Four ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5), ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  const Four cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5), cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+  x[0] = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5), x[1] = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
+  x[2] = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5), x[3] = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
+  using Two = double __attribute__((vector_size(16)));
+  double pairs[4];
+  for (int i = 0; i < 4; ++i) std::memcpy(&pairs[i], from[i] + 4, sizeof pairs[i]);
+  const Four low = reinterpret_cast<Four>(Two{pairs[0], pairs[1]}), high = reinterpret_cast<Four>(Two{pairs[2], pairs[3]});
+  x[4] = __builtin_shufflevector(low, high, 0, 2, 4, 6), x[5] = __builtin_shufflevector(low, high, 1, 3, 5, 7);
+#else
+  for (int i = 0; i < 6; ++i) x[i] = Four{from[0][i], from[1][i], from[2][i], from[3][i]};
+#endif
+}
 #if defined(__AVX__)
+[[gnu::always_inline]] inline void load_lanes(const float* const (&from)[8], Eight (&x)[6]) noexcept {
+  Four low[6], high[6];
+  load_lanes({from[0], from[1], from[2], from[3]}, low);
+  load_lanes({from[4], from[5], from[6], from[7]}, high);
+  for (int i = 0; i < 6; ++i) x[i] = __builtin_shufflevector(low[i], high[i], 0, 1, 2, 3, 4, 5, 6, 7);
+}
 [[gnu::always_inline]] inline void store_lanes(const Eight& a, const Eight& b, const Eight& c, const Eight& d, float* to) noexcept {
   const auto half = [](const Eight& x, int which) {
     Four f;

@@ -39,8 +39,20 @@ struct LiftCurve {
   Real leap_deg;                      ///< a tick that turns the cam so far may pass over all of them; more than any turn where there are none
   Real outside_m;                     ///< lift outside the lobe: minus the clearance
 
+  /// Rows of `at` and of `rocker_ratio`: one more than the lobe has degrees, unless that is all: what holds outside.
+  [[nodiscard]] constexpr std::uint32_t rows() const noexcept { return segments < std::uint32_t{kDegreesPerTurn} ? segments + 1 : segments; }
+
   /// Where a cam stands: `degree` of its turn, counted from the start of the lobe.
   [[nodiscard]] static constexpr Cell cell(std::uint64_t since_opening) noexcept { return cell_of<Real>(since_opening, 360); }
+  /// The same of a cylinder's cam by the train's phase. In float `opens` has no low word.
+  [[nodiscard]] constexpr Cell cell(std::uint64_t phase, std::uint32_t cylinder) const noexcept {
+    if constexpr (sizeof(Real) == 4) {
+      const std::uint32_t high = static_cast<std::uint32_t>(phase >> 32) - static_cast<std::uint32_t>(opens[cylinder] >> 32);
+      return cell(std::uint64_t{high} << 32);
+    } else {
+      return cell(phase - opens[cylinder]);
+    }
+  }
 
   [[nodiscard]] constexpr Lift<Real> read(Cell cell) const noexcept {
     if (cell.degree >= segments) return {outside_m, Real{0}};
@@ -72,12 +84,15 @@ struct LiftCurve {
     return static_cast<Real>(before ? degree - kDegreesPerTurn : degree) + fraction<Real>(place);
   }
 
+  /// The middle of the base circle, since the lobe opens.
+  [[nodiscard]] constexpr std::uint64_t base_middle() const noexcept {
+    return (std::uint64_t{segments} + kDegreesPerTurn) * (~std::uint64_t{0} / (2 * kDegreesPerTurn));
+  }
+
   /// Whether the cam passes the middle of its base circle from one phase to the other: there a cycle ends.
   [[nodiscard]] constexpr bool passes_base_circle(std::uint64_t from, std::uint64_t to) const noexcept {
-    const std::uint64_t half_degrees = std::uint64_t{segments} + kDegreesPerTurn;
-    const std::uint64_t middle = half_degrees * (~std::uint64_t{0} / (2 * kDegreesPerTurn));
-    const auto before = static_cast<std::int64_t>(from - middle);
-    const auto after = static_cast<std::int64_t>(to - middle);
+    const auto before = static_cast<std::int64_t>(from - base_middle());
+    const auto after = static_cast<std::int64_t>(to - base_middle());
     constexpr std::int64_t kNear = std::int64_t{1} << 62;  // crossing zero there, not half a turn away
     return (before < 0) != (after < 0) && after < kNear && after > -kNear;
   }

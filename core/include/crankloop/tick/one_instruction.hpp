@@ -30,4 +30,9 @@ namespace crankloop {
 #endif
 }
 
+[[nodiscard]] constexpr std::uint32_t trailing_zeros(std::uint64_t x) noexcept {
+  const auto low = static_cast<std::uint32_t>(x);
+  return low != 0 ? trailing_zeros(low) : 32 + trailing_zeros(static_cast<std::uint32_t>(x >> 32));
+}
+
 }  // namespace crankloop

@@ -35,7 +35,7 @@ struct Stepped {
   Number rise_m;
 };
 
-/// How a train's cams turn during a step, the same for all cylinders.
+/// How cams turn during a step.
 template <class Real>
 struct CamTurn {
   Real deg;        ///< with sign
@@ -64,6 +64,7 @@ struct GasForce {
   [[nodiscard]] constexpr Number risen(Number coefficient) const noexcept { return coefficient * (to_N - from_N); }
   /// Where it holds a closed valve.
   [[nodiscard]] constexpr Number resting_m(Number per_seat_N_m) const noexcept { return -to_N * per_seat_N_m; }
+  [[nodiscard]] constexpr Number rested_m(Number per_seat_N_m) const noexcept { return -from_N * per_seat_N_m; }
   [[nodiscard]] constexpr GasForce between(Number from, Number to) const noexcept {
     return {from_N + (to_N - from_N) * from, from_N + (to_N - from_N) * to};
   }
@@ -73,8 +74,14 @@ struct GasForce {
 template <class Number>
 struct NoGasForce {
   static constexpr int from_N = 0, to_N = 0;
-  [[nodiscard]] static constexpr Number rest(const ForceRow<Number>& f) noexcept { return f.rest; }
-  [[nodiscard]] static constexpr Number drive(const StepRow<Number>& row) noexcept { return row.rest; }
+  template <class Held>
+  [[nodiscard]] static constexpr const Held& rest(const ForceRow<Held>& f) noexcept {
+    return f.rest;
+  }
+  template <class Held>
+  [[nodiscard]] static constexpr const Held& drive(const StepRow<Held>& row) noexcept {
+    return row.rest;
+  }
   [[nodiscard]] static constexpr Number at_start(Number) noexcept { return Number{}; }
   [[nodiscard]] static constexpr Number risen(Number) noexcept { return Number{}; }
   [[nodiscard]] static constexpr Number resting_m(Number) noexcept { return Number{}; }
@@ -82,14 +89,14 @@ struct NoGasForce {
 };
 
 /// A step in a regime, for a cam's lift that is the cubic through its ends.
-template <class Number, class Real, class Gas>
-[[nodiscard]] constexpr Stepped<Number> stepped(const RegimeStep<Number>& regime, const ValveState<Number>& s, const Lift<Number>& from,
+template <class Held, class Number, class Real, class Gas>
+[[nodiscard]] constexpr Stepped<Number> stepped(const RegimeStep<Held>& regime, const ValveState<Number>& s, const Lift<Number>& from,
                                                 const Lift<Number>& to, Real deg, const Gas& gas) noexcept {
   const Number gap = from.lift_m - s.lift_m;
   const Number rise = to.lift_m - from.lift_m;
   const Number from_slope = deg * from.per_deg_m;
   const Number to_slope = deg * to.per_deg_m;
-  const auto more = [&](const StepRow<Number>& r) {
+  const auto more = [&](const StepRow<Held>& r) -> Number {
     return gas.drive(r) + r.rise * rise + (r.from * from_slope + r.to * to_slope) + r.gap * gap +
            (r.lift * s.lift_m + r.velocity * s.velocity_m_s);
   };
@@ -98,16 +105,27 @@ template <class Number, class Real, class Gas>
 }
 
 /// y'' by the forces of a regime; the gas force as at the end of its step.
-template <class Number, class Gas>
-[[nodiscard]] constexpr Number acceleration(const ForceRow<Number>& f, const ValveState<Number>& s, Number gap_m, Number gap_speed_m_s,
+template <class Held, class Number, class Gas>
+[[nodiscard]] constexpr Number acceleration(const ForceRow<Held>& f, const ValveState<Number>& s, Number gap_m, Number gap_speed_m_s,
                                             const Gas& gas) noexcept {
   return gas.rest(f) + f.lift * s.lift_m + f.velocity * s.velocity_m_s + (f.gap * gap_m + f.gap_speed * gap_speed_m_s);
 }
 
-template <class Number>
-[[nodiscard]] constexpr auto holds(const ContactGuard<Number>& g, Number depth_m, Number depth_speed_m_s) noexcept {
-  return g.sign * depth_m - g.lag_s * magnitude(depth_speed_m_s) > g.least_m;
+template <class Held, class Number>
+[[nodiscard]] constexpr auto holds(const ContactGuard<Held>& g, Number place_m, Number speed_m_s) noexcept {
+  return g.sign * place_m - g.lag_s * magnitude(speed_m_s) > g.least_m;
 }
+
+/// What was before a step, of the valves whose guards it fails: for the look at their contacts.
+template <class Real, std::size_t Lanes>
+struct BeforeStep {
+  Real lift_m[Lanes], velocity_m_s[Lanes], rise_m[Lanes], cam_lift_m[Lanes], cam_per_deg_m[Lanes];
+
+  constexpr void keep(std::size_t lane, const ValveState<Real>& s, Real rise, const Lift<Real>& cam) noexcept {
+    lift_m[lane] = s.lift_m, velocity_m_s[lane] = s.velocity_m_s, rise_m[lane] = rise;
+    cam_lift_m[lane] = cam.lift_m, cam_per_deg_m[lane] = cam.per_deg_m;
+  }
+};
 
 /// Which contacts push: those whose depth and whose force are both positive.
 template <class Real>

@@ -73,6 +73,13 @@ class ValveRecord {
     }
   }
 
+  /// A step of a valve that stays on its seat, its cam on the base circle.
+  constexpr void rest(const ValveState<Real>& to, Real acceleration_m_s2) noexcept {
+    raise(cycle_.largest_lift_m, to.lift_m);
+    raise(cycle_.largest_speed_m_s, magnitude(to.velocity_m_s));
+    raise(cycle_.largest_acceleration_m_s2, magnitude(acceleration_m_s2));
+  }
+
   /// The regime changed at `at_deg`.
   constexpr void change(std::uint32_t before, std::uint32_t after, Real velocity_m_s, Real at_deg) noexcept {
     ++cycle_.contact_changes;

@@ -60,10 +60,10 @@ struct ForceRow {
   Number rest, gas, lift, velocity, gap, gap_speed;
 };
 
-/// A contact is sure to have stayed as it is all through a step where, at its end, sign * depth - lag_s |depth's speed| > least_m. The depth is
-/// the gap, or the sink. The lag is a third of the step, which bounds the depth's cubic within it (the inner Bezier ordinates lie a third of
-/// the slope from the ends; the other end is that of the step before), for a contact that is on and b / k more, which makes the force's
-/// sign that of the depth. A guard that fails costs time, never correctness: the contacts are asked then.
+/// A contact is sure to have stayed as it is all through a step where, at its end, sign * place - lag_s |place's speed| > least_m. The place is
+/// the gap, or the lift: how far the preload presses the seat in is part of least_m. The lag is a third of the step, which bounds the cubic within
+/// it (the inner Bezier ordinates lie a third of the slope from the ends; the other end is that of the step before), for a contact that is on and
+/// b / k more, which makes the force's sign that of the depth. A guard that fails costs time, never correctness: the contacts are asked then.
 template <class Number>
 struct ContactGuard {
   Number sign, lag_s, least_m;
@@ -76,6 +76,7 @@ struct RegimeStep {
   ForceRow<Number> acceleration;
   ContactGuard<Number> train, seat;
   Number rest_m, rest_m_s;  ///< nearer to its rest, and slower, the valve is put there; 0 where a contact may change meanwhile
+  Number calm_m;            ///< with its cam on the base circle a valve that swings by less is sure to pass the guards; 0 where none is
 };
 
 /// The same regime's equation of motion by the part of a fine step: y'' = rest + lift Y + lift_speed Y' - stiffness y - damping y' + gas F.
@@ -94,7 +95,7 @@ struct ValveMotion {
   std::uint32_t parts;          ///< fine steps of a tick in which a contact may change: so short that a change in them can be located
   std::uint32_t per_parts_32;   ///< 2^32 / parts; unused for 1
   std::uint32_t most_changes;   ///< contact changes that a tick locates over all valves: 4 and the most parts of any train
-  Real widest_step_deg;         ///< cam degrees up to which the cubic through the ends of a whole tick will do for the lift
+  Real widest_step_deg;         ///< cam degrees up to which the cubic through the ends of a whole tick of several fine steps will do for the lift
   Real train_lag_s, seat_lag_s;  ///< b / k, b_z / k_z: a contact's force over its stiffness is depth + lag times the depth's speed
   Real per_seat_N_m;            ///< 1 / (k_z + k_s): how far each N of gas force presses a closed valve into its seat
   Real quiet_m;                 ///< a swing on the seat of less than this leaves no contact
