@@ -138,11 +138,20 @@ class ValveChanges {
     std::uint64_t at = to - static_cast<std::uint64_t>(turned);
     Span<Real, Gas> step = tick;
     step.cam.deg = tick.cam.deg * motion_.per_parts;
+    bool was_sure = sure(valve.regime, valve.state, step.from, step.cam);
     for (std::uint32_t i = 1; i <= motion_.parts; ++i) {
       at += part;
       step.to = i == motion_.parts ? tick.to : curve_.read(LiftCurve<Real>::cell(at));
       step.gas = tick.gas.between(static_cast<Real>(i - 1) * motion_.per_parts, static_cast<Real>(i) * motion_.per_parts);
-      valve = checked(valve, stepped(motion_.fine[valve.regime], valve.state, step.from, step.to, step.cam.deg, step.gas), step);
+      const Stepped<Real> end = stepped(motion_.fine[valve.regime], valve.state, step.from, step.to, step.cam.deg, step.gas);
+      const bool is_sure = sure(valve.regime, end.state, step.to, step.cam);
+      if (is_sure && was_sure) {
+        note(valve, end.state, step, motion_.fine_step_s);
+        valve.state = end.state;
+      } else {
+        valve = checked(valve, end, step);
+      }
+      was_sure = is_sure;
       step.from = step.to;
       step.from_deg += step.cam.deg;
     }
@@ -156,6 +165,12 @@ class ValveChanges {
       }
     }
     return valve;
+  }
+
+  /// Whether a fine step's guards hold at one of its ends.
+  [[nodiscard]] bool sure(std::uint32_t regime, const ValveState<Real>& s, const Lift<Real>& cam, const CamTurn<Real>& turn) const noexcept {
+    const RegimeStep<Real>& r = motion_.fine[regime];
+    return holds(r.train, cam.lift_m - s.lift_m, turn.deg_per_s * cam.per_deg_m - s.velocity_m_s) && holds(r.seat, s.lift_m, s.velocity_m_s);
   }
 
   /// A fine step: most often no contact changes in it.
