@@ -62,12 +62,13 @@ void print_limits(const Tables& tables) noexcept {
   port::Line() << "limit trains " << trains;
   port::Line() << "limit valves " << trains * tables.drive->cylinders;
   std::uint32_t pins = 0;
-  std::uint32_t fine_steps = 1;
+  std::uint32_t fine_steps = 0;  // 0: a tick is one, and none goes by several
   std::uint32_t changes = 0;
   if constexpr (under_test::Scene::bearing_loads) pins = tables.bearings->pins;
   if constexpr (Needs::elastic_valves) {
     for (std::uint32_t t = 0; t < tables.drive->trains; ++t) {
-      if (tables.valve_motions[t].parts > fine_steps) fine_steps = tables.valve_motions[t].parts;
+      const std::uint32_t parts = tables.valve_motions[t].parts;
+      if (parts > 1 && parts > fine_steps) fine_steps = parts;
     }
     changes = tables.valve_motions[0].most_changes;
   }

@@ -1,6 +1,7 @@
 // A valve's step: its matrix against the textbook and against the exact solution, contacts, frequencies, energy, step
 // lengths, size of the state.
 #include <crankloop/tabulate/valve_motion.hpp>
+#include <crankloop/tick/io.hpp>
 
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 
 #include "support/status.hpp"
 #include "support/test_valves.hpp"
@@ -430,6 +432,90 @@ TYPED_TEST(ValveEnergy, OfAnUndampedValveDoesNotGrow) {
       }
     }
   }
+}
+
+TEST(ValveCalm, NeverFailsAGuardHoweverItSwings) {
+  // On its seat, its cam on the base circle: a swing below calm_m, from any place and speed that it may have, through many ticks of exact motion.
+  Random random;
+  int swings = 0;
+  for (int draw = 0; draw < 400; ++draw) {
+    ValveTrain train = ohc_125_train();
+    const auto logarithmic = [&](double low, double high) { return low * std::pow(high / low, random.between(0, 1)); };
+    train.valve.valve_kg = logarithmic(0.01, 0.5);
+    train.valve.seat_N_m = logarithmic(1e6, 1e9);
+    train.valve.seat_damping_ratio = random.between(0, 1);
+    train.valve.spring_preload_N = logarithmic(1, 1000);
+    const double lash_m = random.coin() ? logarithmic(1e-8, 1e-3) : 0;
+    const double tick_s = logarithmic(1e-6, 5e-4);
+    ValveMotion<double> motion{};
+    const ValveBody<double> body = body_of(train);
+    if (!motion_of(body, tick_s, {}, motion).ok()) continue;
+    find_calm(motion, lash_m);
+    const Lift<double> cam{-lash_m, 0};
+    for (const std::uint32_t regime : {0u, kTrainOn, kTrainOn | kSeatOn}) EXPECT_EQ(motion.whole[regime].calm_m, 0);
+    for (const std::uint32_t regime : {kSeatOn, kQuiet}) {
+      const RegimeStep<double>& step = motion.whole[regime];
+      if (step.calm_m == 0) continue;
+      ++swings;
+      const double share = random.between(-1, 1);
+      const double sign = random.coin() ? 1 : -1;
+      ValveState<double> s{share * step.calm_m, sign * (1 - std::fabs(share)) * step.calm_m / motion.per_seat_rate_s};
+      for (int tick = 0; tick < 200; ++tick) {
+        s = exact_motion(body, kSeatOn, tick_s, s, {});
+        ASSERT_TRUE(detail::holds(step.train, cam.lift_m - s.lift_m, -s.velocity_m_s)) << random.trace(draw) << ", regime " << regime;
+        ASSERT_TRUE(detail::holds(step.seat, s.lift_m, s.velocity_m_s)) << random.trace(draw) << ", regime " << regime;
+        ASSERT_EQ(detail::asked(motion, s, cam, 0.0), kSeatOn) << random.trace(draw);
+      }
+    }
+  }
+  EXPECT_GT(swings, 100);
+}
+
+TEST(ValveCalm, HasThePlainStepsBitsWithoutItsCam) {
+  // What a short step leaves out are products with 0: the cam's rise, its slopes and the gap.
+  const auto in_float = std::make_unique<ValveMotion<float>>(rounded(motion_for(body_of(ohc_125_train()), 20e-6)));
+  const RegimeStep<float>& step = in_float->whole[kSeatOn];
+  EXPECT_EQ(step.lift.rest, 0);
+  for (const StepRow<float>* row : {&step.lift, &step.velocity}) {
+    EXPECT_EQ(row->gap, 0);
+    EXPECT_EQ(row->rise, 0);
+    EXPECT_EQ(row->from, 0);
+    EXPECT_EQ(row->to, 0);
+  }
+  EXPECT_EQ(step.acceleration.gap, 0);
+  EXPECT_EQ(step.acceleration.gap_speed, 0);
+}
+
+TEST(CamWindow, HoldsAWayThatStaysInsideAndNoOther) {
+  Random random;
+  int held = 0;
+  for (int draw = 0; draw < 100000; ++draw) {
+    const std::uint64_t end = random.bits();
+    const auto turned = static_cast<std::int64_t>(random.bits()) >> random.whole(1, 40);
+    const detail::CamWindow window{static_cast<std::uint32_t>(random.bits()), static_cast<std::uint32_t>(random.bits()) >> random.whole(0, 8)};
+    if (!window.holds_all_of(static_cast<std::uint32_t>(end >> 32), turned)) continue;
+    ++held;
+    const std::uint64_t begin = end - static_cast<std::uint64_t>(turned);
+    for (int i = 0; i <= 16; ++i) {
+      const auto at = begin + static_cast<std::uint64_t>(turned / 16 * i);
+      ASSERT_TRUE(window.holds(static_cast<std::uint32_t>(at >> 32))) << random.trace(draw);
+    }
+  }
+  EXPECT_GT(held, 10000);
+  const detail::CamWindow whole{0, 0xFFFF'FFFFu};
+  EXPECT_FALSE(whole.holds_all_of(10, std::int64_t{20} << 32));  // over the border at 0
+  EXPECT_TRUE(whole.holds_all_of(30, std::int64_t{20} << 32));
+}
+
+TEST(CamClearance, IsAsWideAsItsNeighboursAllow) {
+  detail::CamClearance clear;
+  clear.keep_off({1000, 100}, 2000);
+  clear.keep_off({5000, 1}, 2000);
+  clear.keep_off({6000, 1}, 2000);
+  const detail::CamWindow about = clear.about(2000);
+  EXPECT_EQ(about.from, 1100u);
+  EXPECT_EQ(about.from + about.width, 5000u);
+  EXPECT_TRUE(about.holds(2000));
 }
 
 TEST(ValveRounding, ToFloatMakesNoStepGrow) {

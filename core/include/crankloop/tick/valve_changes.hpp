@@ -182,8 +182,12 @@ class ValveChanges {
     std::uint32_t now = asked(motion_, end.state, step.to, step.cam.deg_per_s);
     const Cubic<Real> lift(step.from.lift_m, step.cam.deg * step.from.per_deg_m, step.to.lift_m, step.cam.deg * step.to.per_deg_m);
     if (now == start.regime) now ^= passing_change(stretch_of(start, end, lift, 1, step), now);
-    if (now != start.regime) return through_changes(start, end, now, lift, step);
+    if (now != start.regime && budget_.left != 0) return through_changes(start, end, now, lift, step);
     note(start, end.state, step, motion_.fine_step_s);
+    if (now != start.regime) {
+      budget_.exceeded = true;
+      note_change(start.regime, now, end.state, step, 1);
+    }
     return {end.state, now};
   }
 
@@ -272,16 +276,12 @@ class ValveChanges {
     return turn * f.root(false, f.at(1).value);
   }
 
-  /// A fine step in which a contact changes: from change to change. Each round takes one of the budget.
+  /// A fine step in which a contact changes: from change to change. Each round takes one of the budget, of which some is left.
   [[nodiscard, gnu::noinline]] Placed<Real> through_changes(Placed<Real> valve, Stepped<Real> end, std::uint32_t now, Cubic<Real> lift,
                                                             const Span<Real, Gas>& step) const noexcept {
     Real left = 1;
     std::uint32_t last = 0;
-    while (now != valve.regime && left > 0) {
-      if (budget_.left == 0) {
-        budget_.exceeded = true;
-        break;
-      }
+    do {
       --budget_.left;
       const std::uint32_t ended = now ^ valve.regime;
       const Stretch s = stretch_of(valve, end, lift, left, step);
@@ -305,7 +305,8 @@ class ValveChanges {
       last = changed;
       end = by_series(motion_.series[valve.regime], valve.state, lift, left, step.gas.between(1 - left, 2 - left));
       now = asked(motion_, end.state, step.to, step.cam.deg_per_s);
-    }
+    } while (budget_.left != 0 && now != valve.regime && left > 0);
+    if (now != valve.regime && left > 0) budget_.exceeded = true;
     note_stretch(valve, end.state, lift, 1 - left, left, step);
     note_change(valve.regime, now, end.state, step, 1);
     return {end.state, now};
