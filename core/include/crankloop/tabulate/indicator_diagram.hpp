@@ -14,7 +14,7 @@ namespace crankloop {
 /// |a| < 1e9.
 ///
 /// Between given points the curve is a monotone cubic (Fritsch-Butland slopes): no value outside those of the two points around it.
-/// Holds a pointer to the definition's points. Construction O(points), evaluation O(log points); not for two threads at once.
+/// 18 kB, and a pointer to the definition's points. Construction O(points), evaluation O(log points); not for two threads at once.
 class IndicatorDiagram {
  public:
   /// Refuses what validate() refuses, volumes that are no four-stroke loop or repeat from row to row ("pressure.file" with the row), an exhaust
