@@ -99,6 +99,12 @@ Sample atan_at(Point p) { return {el::atan(p.x), std::atan(wide(p.x))}; }
 Sample atan2_at(Point p) { return {el::atan2(p.y, p.x), std::atan2(wide(p.y), wide(p.x))}; }
 Sample exp_at(Point p) { return {el::exp(p.x), std::exp(wide(p.x))}; }
 Sample log_at(Point p) { return {el::log(p.x), std::log(wide(p.x))}; }
+Sample quick_atan2_at(Point p) { return {el::quick_atan2(p.y, p.x), std::atan2(wide(p.y), wide(p.x))}; }
+template <int Hundredths>
+Sample fixed_power_at(Point p) {
+  static const el::FixedPower power(Hundredths / 100.0);
+  return {power(p.x), std::pow(wide(p.x), wide(Hundredths / 100.0))};
+}
 Sample pow_at(Point p) { return {el::pow(p.x, p.y), std::pow(wide(p.x), wide(p.y))}; }
 
 /// In distances between doubles of the exact value's size; infinity for a NaN.
@@ -139,6 +145,8 @@ constexpr double kSubnormalExp_ulp = 0.77;
 constexpr double kLog_ulp = 0.51;
 constexpr double kPow_ulp = 0.53;
 constexpr double kFarPow_ulp = 1.0;
+constexpr double kQuickArc_ulp = 4.0;
+constexpr double kFixedPower_ulp = 4.0;
 
 void expect_angles_within_stated_error(const char* range, Point (*next)(Draw&)) {
   expect_within(kSinCos_ulp, sin_at, range, next);
@@ -254,6 +262,18 @@ TEST(Elementary, PowerKeepsItsStatedErrorForPolytropesAndBeyond) {
     const double x = 1.0 + d.any_size(-52, -1);
     return Point{x, 745.0 * d.even(0) / std::log(x)};
   });
+}
+
+TEST(Elementary, QuickFunctionsKeepTheirStatedError) {
+  expect_within(kQuickArc_ulp, quick_atan2_at, "all directions to the right", [](Draw& d) { return Point{std::fabs(d.even(0)), d.even(0)}; });
+  expect_within(kQuickArc_ulp, quick_atan2_at, "near the axes", [](Draw& d) { return Point{std::fabs(d.any_size(-500, 500)), d.any_size(-500, 500)}; });
+  for (const auto power : {fixed_power_at<-3>, fixed_power_at<100>, fixed_power_at<-100>, fixed_power_at<37>}) {
+    expect_within(kFixedPower_ulp, power, "volume ratios", [](Draw& d) { return Point{1.0 + 126.9 * std::fabs(d.even(0))}; });
+    expect_within(kFixedPower_ulp, power, "near dead centre", [](Draw& d) { return Point{1.0 + std::fabs(d.any_size(-52, -1))}; });
+  }
+  EXPECT_EQ(el::quick_atan2(0.0, 1.0), 0.0);
+  EXPECT_EQ(el::quick_atan2(-1.0, 0.0), -kPi / 2.0);
+  for (const double outside : {0.0, neighbour(1.0, -1), 128.0, kInfinity, kNaN}) EXPECT_TRUE(std::isnan(el::FixedPower(0.5)(outside))) << outside;
 }
 
 // ---- Identities -----------------------------------------------------------------------------------------------------

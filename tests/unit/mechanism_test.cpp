@@ -282,6 +282,24 @@ TEST(CrankAngleAt, PutsThePistonWhereItWasAskedForOnBothStrokes) {
   }
 }
 
+TEST(CrankAngleUp, BringsThePistonBackToWhereItWasOnTheWayDown) {
+  Random random;
+  for (int draw = 0; draw < 20'000; ++draw) {
+    SCOPED_TRACE(random.trace(draw));
+    const Crank crank = support::random_crank(random);
+    const DeadCentres centres = dead_centres(crank);
+    const double down = random.between(centres.tdc_rad, centres.bdc_rad);
+    const double x = exact_pose(crank, down).displacement_m;
+    const double up = crank_angle_up_rad(crank, down, x);
+    // The angle is rounded to an ulp of a turn, with a slope of some radii, and leans by as much as the height is off.
+    const double tolerance = 2 * PoseRounding{crank, 0.8}.displacement + 4 * kEps * 2 * kPi * crank.crank_radius_m;
+    EXPECT_NEAR(exact_pose(crank, up).displacement_m, x, tolerance);
+    EXPECT_GE(up, centres.bdc_rad - 4 * kEps);
+    EXPECT_LE(up, centres.tdc_rad + 2 * kPi + 4 * kEps);
+    if (HasFailure()) return;
+  }
+}
+
 TEST(CrankAngleAt, AnswersTheNearerDeadCentreBeyondTheStroke) {
   Crank crank = support::diesel_495_crank();
   for (const double offset : {-0.010, 0.0, 0.010}) {

@@ -2,19 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <cstdio>
 #include <memory>
 #include <vector>
 
 #include <crankloop/tabulate/elementary.hpp>
 #include <crankloop/tabulate/tabulate.hpp>
 #include <crankloop/tabulate/valve_lift.hpp>
-#include <crankloop/tick/scenes.hpp>
 
-#include "port/linux/stopwatch.hpp"
 #include "support/both_reals.hpp"
-#include "support/diagrams.hpp"
-#include "support/random.hpp"
 #include "support/status.hpp"
 #include "support/test_engines.hpp"
 #include "support/test_valves.hpp"
@@ -159,56 +154,6 @@ TYPED_TEST(TableTargetsOf, AnEngineReadNoRowsThatItsSourcesDoNotUse) {
       engine.triggers[0].edge_count = count;
       EXPECT_EQ(fingerprint(engine), without) << count;
     }
-  }
-}
-
-// ---- time -----------------------------------------------------------------------------------------------------------
-
-/// 16 cylinders on an angle table that has two rows in each degree.
-EngineDefinition sixteen_cylinders(const std::vector<DiagramPoint>& rows) {
-  EngineDefinition engine = single_495();
-  engine.layout.cylinders = kMaxCylinders;
-  for (std::size_t k = 0; k < std::size_t{kMaxCylinders}; ++k) {
-    engine.layout.firing_deg[k] = 45.0 * static_cast<double>(k);
-    engine.layout.pin[k] = static_cast<std::uint8_t>(k);
-  }
-  engine.pressure.source = PressureSource::angle_table;
-  engine.pressure.points = rows.data();
-  engine.pressure.point_count = static_cast<int>(rows.size());
-  return engine;
-}
-
-/// Processor time of the scene's tables for an engine with these rows.
-template <class Real, class S, std::size_t Room>
-double build_s(const std::vector<DiagramPoint>& rows) {
-  const auto storage = std::make_unique<TableStorage<Real, S, Room>>();
-  const std::int64_t begin_ns = port::thread_ns();
-  EXPECT_TRUE(storage->build(sixteen_cylinders(rows), {100e-6}).ok());
-  return static_cast<double>(port::thread_ns() - begin_ns) * 1e-9;
-}
-
-/// A trace with 0.3 bar of noise takes the finest divisions nearly everywhere, and where there is no room for them many doublings of the
-/// tolerance; one that jumps between 1 and 60 bar takes them everywhere. Against a smooth one on the same engine that is 20 times the segments,
-/// each of which has to be worked out once: how busy or slow the machine is does not matter to the ratio.
-TYPED_TEST(TableTargetsOf, TracesWithNoiseOrJumpsTakeTheTimeOfTheirSegmentsAndNoMore) {
-  using Real = TypeParam;
-  constexpr double kMostTimes = 30;  // the finest grid has 20 times the segments of the coarsest, and each of them more rows to look for
-  support::Random random(3);
-  const std::vector<DiagramPoint> smooth = support::angle_rows(support::smooth_pressure_Pa, 2);
-  std::vector<DiagramPoint> noisy = smooth;
-  std::vector<DiagramPoint> jagged = smooth;
-  for (std::size_t i = 0; i + 1 < smooth.size(); ++i) {
-    noisy[i].pressure_Pa += random.between(-0.3e5, 0.3e5);
-    jagged[i].pressure_Pa = (i % 2 == 0 ? 60e5 : 1e5) * random.between(0.5, 1);
-  }
-  const double whole_s = build_s<Real, scenes::Whole, 4096>(smooth);
-  const double free_s = build_s<Real, scenes::FreeRunning, kMostGasSegments>(smooth);
-  for (const auto* rows : {&noisy, &jagged}) {
-    const double whole_times = build_s<Real, scenes::Whole, 4096>(*rows) / whole_s;
-    const double free_times = build_s<Real, scenes::FreeRunning, kMostGasSegments>(*rows) / free_s;
-    std::printf("%s: %.1f and %.1f times the %.3f and %.3f s of a smooth trace\n", rows == &noisy ? "noisy" : "jagged", whole_times, free_times, whole_s, free_s);
-    EXPECT_LT(whole_times, kMostTimes);
-    EXPECT_LT(free_times, kMostTimes);
   }
 }
 

@@ -18,7 +18,7 @@ typedef struct crankloop_f_tables {
   uint64_t opaque[CRANKLOOP_F_TABLES_WORDS];
 } crankloop_f_tables;
 
-/* Some 100 ms on a desktop, at most some seconds (docs/contract.md "Complexity and memory"), and up to 65 kB of stack. Refuses a bad
+/* Some 100 ms on a desktop, at most some seconds (docs/contract.md "Complexity and memory"), and up to 80 kB of stack. Refuses a bad
    definition and says which field. */
 CRANKLOOP_API crankloop_status crankloop_f_tables_create(crankloop_f_tables *tables, size_t tables_size,
                                                          const crankloop_definition *definition, size_t definition_size,

@@ -1,6 +1,6 @@
 // How the elementary functions are made.
 //
-// Speed does not count here (set-up time); sameness and brevity do. So there are only five series: sine and cosine,
+// Speed hardly counts here (set-up time; the last two are for what is asked millions of times); sameness and brevity do. So there are only five series: sine and cosine,
 // atan, exp, and atanh for log. Each is a plain Taylor polynomial, whose coefficients are visibly right and whose
 // first dropped term is stated. What rounding would take away where it shows in the result is carried in a second
 // double: hence little over 0.5 ulp.
@@ -113,11 +113,13 @@ Pair square_root(Pair a) {
 }
 
 /// c[0] + c[1] x + c[2] x^2 + ...
-template <std::size_t N>
-double polynomial(const double (&c)[N], double x) {
-  double value = c[N - 1];
-  for (std::size_t i = N - 1; i-- > 0;) value = value * x + c[i];
-  return value;
+template <std::size_t I = 0, std::size_t N>
+[[gnu::always_inline]] inline double polynomial(const double (&c)[N], double x) {
+  if constexpr (I + 1 == N) {
+    return c[I];
+  } else {
+    return c[I] + x * polynomial<I + 1>(c, x);
+  }
 }
 
 // ---- Sine and cosine ------------------------------------------------------------------------------------------------
@@ -175,6 +177,15 @@ double sine_at(Reduced r) {
 
 // ---- Arc functions: all are the direction of a point (x, y) ---------------------------------------------------------
 
+constexpr Pair kAtanOfQuarters[] = {{0.0, 0.0},
+                                    {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},
+                                    {0x1.dac670561bb4fp-2, 0x1.a2b7f222f65e2p-56},
+                                    {0x1.4978fa3269ee1p-1, 0x1.2419a87f2a458p-56},
+                                    {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}};
+/// Taylor from t^3 to t^19; for t up to 1/8 the first dropped term, t^21/21, is below 2^-64 of t.
+constexpr double kAtanTerms[] = {-1.0 / 3.0, 1.0 / 5.0,   -1.0 / 7.0, 1.0 / 9.0,  -1.0 / 11.0,
+                                 1.0 / 13.0, -1.0 / 15.0, 1.0 / 17.0, -1.0 / 19.0};
+
 /// atan(n/d) for 0 <= n <= d, d > 0.
 Pair first_octant(Pair n, Pair d) {
   const double ratio = n.hi / d.hi;
@@ -184,20 +195,12 @@ Pair first_octant(Pair n, Pair d) {
   d = {d.hi * scale, d.lo * scale};
 
   // atan(n/d) = atan(c) + atan(t), t = (n - c d)/(d + c n), with c the nearest quarter, so that |t| <= 1/8.
-  static constexpr Pair kAtanOfQuarters[] = {{0.0, 0.0},
-                                             {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},
-                                             {0x1.dac670561bb4fp-2, 0x1.a2b7f222f65e2p-56},
-                                             {0x1.4978fa3269ee1p-1, 0x1.2419a87f2a458p-56},
-                                             {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}};
   const int quarters = static_cast<int>(4.0 * ratio + 0.5);
   const Pair c{0.25 * quarters, 0.0};
   const Pair t = divide(subtract(n, multiply(c, d)), add(d, multiply(c, n)));
 
-  // Taylor to t^19; the first dropped term, t^21/21, is below 2^-64 of t.
-  static constexpr double kTerms[] = {-1.0 / 3.0, 1.0 / 5.0,   -1.0 / 7.0, 1.0 / 9.0,  -1.0 / 11.0,
-                                      1.0 / 13.0, -1.0 / 15.0, 1.0 / 17.0, -1.0 / 19.0};
   const double square = t.hi * t.hi;
-  return add(kAtanOfQuarters[quarters], quick_sum(t.hi, t.lo + t.hi * square * polynomial(kTerms, square)));
+  return add(kAtanOfQuarters[quarters], quick_sum(t.hi, t.lo + t.hi * square * polynomial(kAtanTerms, square)));
 }
 
 /// Angle of the point (x, y), or of (-x, y) if mirrored, from the x axis: 0 to pi. x, y >= 0, not both 0.
@@ -329,6 +332,18 @@ double atan2(double y, double x) noexcept {
   return flip_sign_if(is_negative(y), direction({rise, 0.0}, {run, 0.0}, is_negative(x)));
 }
 
+double quick_atan2(double y, double x) noexcept {
+  const double rise = magnitude(y);
+  const bool steep = rise > x;
+  const double ratio = steep ? x / rise : rise / x;
+  const int quarters = static_cast<int>(4.0 * ratio + 0.5);  // as in first_octant()
+  const double c = 0.25 * quarters;
+  const double t = (ratio - c) / (1.0 + c * ratio);
+  const double square = t * t;
+  const double angle = kAtanOfQuarters[quarters].hi + (t + t * square * polynomial(kAtanTerms, square));
+  return flip_sign_if(is_negative(y), steep ? kHalfPi.hi - angle : angle);
+}
+
 double exp(double x) noexcept { return is_nan(x) ? kNaN : exponential({x, 0.0}); }
 
 double log(double x) noexcept {
@@ -345,6 +360,23 @@ double pow(double x, double y) noexcept {
   const double bounded = magnitude(y) < 0x1p+64 ? y : flip_sign_if(y < 0.0, 0x1p+64);
   const Pair ln_x = logarithm(x);
   return exponential(add(product(bounded, ln_x.hi), {bounded * ln_x.lo, 0.0}));
+}
+
+FixedPower::FixedPower(double power) noexcept {
+  for (int i = 0; i < kOctaves; ++i) octaves_[i] = elementary::pow(power_of_two(i), power);
+  for (int i = 0; i < kParts; ++i) parts_[i] = elementary::pow(1.0 + (i + 0.5) / kParts, power);
+  terms_[0] = 1.0;
+  for (int i = 1; i < kTerms; ++i) terms_[i] = terms_[i - 1] * (power - (i - 1)) / i;
+}
+
+double FixedPower::operator()(double x) const noexcept {
+  if (!(x >= 1.0 && x < 128.0)) return kNaN;
+  // x = 2^octave c (1 + t), c the middle of a part of [1, 2), |t| <= 1/64. Binomial series: its first dropped term, of t^9, is below 2^-54.
+  int octave = 0;
+  for (; x >= 2.0; x *= 0.5) ++octave;
+  const int part = static_cast<int>((x - 1.0) * kParts);
+  const double c = 1.0 + (part + 0.5) / kParts;
+  return octaves_[octave] * parts_[part] * polynomial(terms_, (x - c) / c);
 }
 
 }  // namespace crankloop::elementary

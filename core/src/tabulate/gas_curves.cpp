@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <crankloop/tabulate/elementary.hpp>
 #include <crankloop/tabulate/mechanism.hpp>
 
 #include "curve_fit.hpp"
@@ -14,27 +15,49 @@ namespace {
 constexpr std::size_t kDivisionCount = 5;
 constexpr int kDivisions[kDivisionCount] = {1, 2, 5, 10, 20};  // of a degree; 0.1 deg data has its points on the borders of 10 and 20
 constexpr int kFinest = kDivisions[kDivisionCount - 1];
-constexpr int kSamplesPerSegment = 10;
-constexpr int kSamplesPerFinest = 5;             // nothing is decided by them: there is no finer division
-constexpr double kTolerance = 1e-5;              // of the peak pressure, and of the torque that it has on the crank radius
-constexpr double kWhateverItIs = 1e300;          // no error is larger
-constexpr int kMostDoublings = 20;               // of the tolerance: beyond the peak pressure, so one segment a degree
+constexpr double kTolerance = 1e-5;  // of the peak pressure, and of the torque that it has on the crank radius
+constexpr int kMostDoublings = 20;   // of the tolerance: beyond the peak pressure, so one segment a degree
 
 [[nodiscard]] double size(double x) noexcept { return x < 0 ? -x : x; }
+[[nodiscard]] double larger(double a, double b) noexcept { return a < b ? b : a; }
 
 /// What the curves that share a grid are at one angle: pressures in Pa or torques in Nm, in this order everywhere.
 enum Part { kFull, kMotored, kHeat };
 constexpr int kParts = 3;
 using AllParts = std::array<double, kParts>;
 
+constexpr std::size_t kPressurePlaces = 5;  // of a segment: ends and quarters
+
+/// Places within one degree, as parts of it, and what is found there.
+struct Places {
+  static constexpr std::size_t kMost = kFinest * kPressurePlaces;
+  std::size_t count = 0;
+  double at[kMost];
+  AllParts found[kMost];
+
+  void add(double part_of_degree) noexcept { at[count++] = part_of_degree; }
+};
+
+/// By Taylor's series: the first dropped terms are below 1e-18.
+[[nodiscard]] elementary::SinCos sin_cos_within_a_degree(double part_of_degree) noexcept {
+  const double a = part_of_degree * kRadPerDegree;
+  const double x = a * a;
+  return {a * (1 - x / 6 * (1 - x / 20 * (1 - x / 42))), 1 - x / 2 * (1 - x / 12 * (1 - x / 30))};
+}
+[[nodiscard]] elementary::SinCos sin_cos_of_sum(const elementary::SinCos& a, const elementary::SinCos& b) noexcept {
+  return {a.sin * b.cos + a.cos * b.sin, a.cos * b.cos - a.sin * b.sin};
+}
+
 /// A cylinder's pressure over its own crank degrees.
 class CylinderPressure {
  public:
   explicit CylinderPressure(const IndicatorDiagram& diagram) noexcept : diagram_{diagram} {}
 
-  [[nodiscard]] AllParts at(double deg) const noexcept {
-    const IndicatorDiagram::Pressures p = diagram_.pressures(deg);
-    return {p.full_Pa, p.motored_Pa, p.heat_Pa};
+  void find(int degree, Places& places) const noexcept {
+    for (std::size_t i = 0; i < places.count; ++i) {
+      const IndicatorDiagram::Pressures p = diagram_.pressures(degree + places.at[i]);
+      places.found[i] = {p.full_Pa, p.motored_Pa, p.heat_Pa};
+    }
   }
   [[nodiscard]] static int period_deg() noexcept { return kDegreesPerCycle; }
 
@@ -46,21 +69,34 @@ class CylinderPressure {
 class EngineTorque {
  public:
   EngineTorque(const EngineDefinition& engine, const IndicatorDiagram& diagram) noexcept
-      : engine_{engine}, diagram_{diagram}, area_m2_{bore_area_m2(engine.crank)} {}
-
-  [[nodiscard]] AllParts at(double deg) const noexcept {
-    AllParts sum{};
-    for (std::size_t k = 0; k < static_cast<std::size_t>(engine_.layout.cylinders); ++k) {
-      double own_deg = deg - engine_.layout.firing_deg[k];
-      if (own_deg < 0) own_deg += kDegreesPerCycle;
-      const auto [displacement_m, slope_m] = exact_stroke(engine_.crank, own_deg * kRadPerDegree);
-      const IndicatorDiagram::Pressures p = diagram_.pressures(own_deg, displacement_m);
-      const double back_Pa = engine_.pressure.crankcase_Pa;
-      sum[kFull] += (p.full_Pa - back_Pa) * area_m2_ * slope_m;
-      sum[kMotored] += (p.motored_Pa - back_Pa) * area_m2_ * slope_m;
-      sum[kHeat] += p.heat_Pa * area_m2_ * slope_m;  // the heat comes on top of the motored pressure
+      : engine_{engine}, diagram_{diagram}, stroke_{engine.crank}, area_m2_{bore_area_m2(engine.crank)} {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(engine.layout.cylinders); ++k) {
+      phases_[k] = elementary::sin_cos(-engine.layout.firing_deg[k] * kRadPerDegree);
     }
-    return sum;
+  }
+
+  /// Cylinder by cylinder, so that each passes the degree from row to row. No sine is worked out for a place of a cylinder: they are sums.
+  void find(int degree, Places& places) const noexcept {
+    const elementary::SinCos start = elementary::sin_cos(degree * kRadPerDegree);
+    elementary::SinCos engine_angles[Places::kMost];
+    for (std::size_t i = 0; i < places.count; ++i) {
+      engine_angles[i] = sin_cos_of_sum(start, sin_cos_within_a_degree(places.at[i]));
+      places.found[i] = {};
+    }
+    const double back_Pa = engine_.pressure.crankcase_Pa;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(engine_.layout.cylinders); ++k) {
+      double own_deg = degree - engine_.layout.firing_deg[k];
+      if (own_deg < 0) own_deg += kDegreesPerCycle;
+      for (std::size_t i = 0; i < places.count; ++i) {
+        const auto [displacement_m, slope_m] = stroke_.at(sin_cos_of_sum(engine_angles[i], phases_[k]));
+        const IndicatorDiagram::Pressures p = diagram_.pressures(own_deg + places.at[i], displacement_m);
+        const double lever_m3 = area_m2_ * slope_m;
+        AllParts& sum = places.found[i];
+        sum[kFull] += (p.full_Pa - back_Pa) * lever_m3;
+        sum[kMotored] += (p.motored_Pa - back_Pa) * lever_m3;
+        sum[kHeat] += p.heat_Pa * lever_m3;  // the heat comes on top of the motored pressure
+      }
+    }
   }
 
   /// Whole degrees after which the torque repeats, because each cylinder then stands where another stood: 720 / cylinders of an evenly firing
@@ -92,138 +128,191 @@ class EngineTorque {
 
   const EngineDefinition& engine_;
   const IndicatorDiagram& diagram_;
+  ExactStroke stroke_;
   double area_m2_;
+  elementary::SinCos phases_[kMaxCylinders];  ///< of each cylinder behind the engine
 };
 
-constexpr std::size_t kPressurePlaces = 5;  // ends and quarters
-
-/// A pressure within one segment, of which `values` are those at its ends and quarters: through both ends, so that the curve has no steps, with
-/// the curvature that meets the middle, limited to what keeps the segment monotone where the diagram is: no overshoot between given points.
-template <class Real>
-[[nodiscard]] Polynomial<kCoefficients<Real>> fitted_pressure(double from, double to, const double (&values)[kPressurePlaces]) noexcept {
-  const auto [start, quarter, middle, three_quarters, end] = values;
-  const double rise = end - start;
-  double bulge = 4 * middle - 2 * (start + end);  // p(t) = start + rise t + bulge t (1 - t), t = 0 to 1
-  const double most = size(rise);
-  const double sign = rise < 0 ? -1 : 1;
-  const auto not_falling = [sign](double a, double b) { return sign * b >= sign * a; };
-  const bool monotone = not_falling(start, quarter) && not_falling(quarter, middle) && not_falling(middle, three_quarters) &&
-                        not_falling(three_quarters, end);
-  if (monotone && size(bulge) > most) bulge = bulge < 0 ? -most : most;
-  const double scale = 1 / (to - from);
-  const double linear = (rise + bulge) * scale;
-  const double square = -bulge * scale * scale;
-  Polynomial<kCoefficients<Real>> p;
-  p.c[0] = start - from * (linear - square * from);
-  p.c[1] = linear - 2 * square * from;
-  p.c[2] = square;
-  return p;
-}
-
-/// All parts' segments between two parts of a degree.
-template <class Real>
-using AllSegments = std::array<Segment<Real>, kParts>;
-
-template <class Real>
-[[nodiscard]] AllSegments<Real> segments_of(const CylinderPressure& pressure, int degree, double from, double to) noexcept {
-  const double places[kPressurePlaces] = {from, from + 0.25 * (to - from), (from + to) / 2, from + 0.75 * (to - from), to};
-  double values[kParts][kPressurePlaces];
-  for (std::size_t i = 0; i < kPressurePlaces; ++i) {
-    const AllParts p = pressure.at(degree + places[i]);
-    for (std::size_t part = 0; part < kParts; ++part) values[part][i] = p[part];
-  }
-  AllSegments<Real> segments;
-  for (std::size_t part = 0; part < kParts; ++part) segments[part] = rounded<Real>(fitted_pressure<Real>(from, to, values[part]));
-  return segments;
-}
-template <class Real>
-[[nodiscard]] AllSegments<Real> segments_of(const EngineTorque& torque, int degree, double from, double to) noexcept {
-  double places[kCoefficients<Real>];
-  double values[kParts][kCoefficients<Real>];
-  for (std::size_t i = 0; i < kCoefficients<Real>; ++i) {
-    places[i] = node<Real>(i, from, to);
-    const AllParts t = torque.at(degree + places[i]);
-    for (std::size_t part = 0; part < kParts; ++part) values[part][i] = t[part];
-  }
-  AllSegments<Real> segments;
-  for (std::size_t part = 0; part < kParts; ++part) segments[part] = rounded<Real>(through(places, values[part]));
-  return segments;
-}
-
-/// Largest error of any of the parts from `first` on in a degree that is divided into n segments; the first that exceeds `limit` is answer enough.
+/// How a quantity becomes segments: from its values at which places of a segment, and by what polynomial.
 template <class Real, class Quantity>
-[[nodiscard]] double degree_error(const Quantity& quantity, Part first, int degree, int n, double limit) noexcept {
-  const int samples = n < kFinest ? kSamplesPerSegment : kSamplesPerFinest;
-  double largest = 0;
-  for (int i = 0; i < n; ++i) {
-    const double from = static_cast<double>(i) / n;
-    const double to = static_cast<double>(i + 1) / n;
-    const AllSegments<Real> segments = segments_of<Real>(quantity, degree, from, to);
-    for (int sample = 0; sample <= samples; ++sample) {
-      const double u = from + (to - from) * sample / samples;
-      const AllParts exact = quantity.at(degree + u);
-      for (std::size_t part = first; part < kParts; ++part) {
-        const double error = size(static_cast<double>(value(segments[part], static_cast<Real>(u))) - exact[part]);
-        if (error > largest) largest = error;
+struct Fit;
+
+/// A pressure goes through both ends, so that the curve has no steps, with the curvature that meets the middle, limited to what keeps the
+/// segment monotone where the diagram is: no overshoot between given points.
+template <class Real>
+struct Fit<Real, CylinderPressure> {
+  static constexpr std::size_t kPlaces = kPressurePlaces;
+  static constexpr int kSamplesPerFinest = 3;  // apart from the places, where there is little or no error
+
+  [[nodiscard]] static double place(std::size_t i, double from, double to) noexcept {
+    const double places[kPlaces] = {from, from + 0.25 * (to - from), (from + to) / 2, from + 0.75 * (to - from), to};
+    return places[i];
+  }
+  [[nodiscard]] static Polynomial<kCoefficients<Real>> fitted(const double (&places)[kPlaces], const double (&values)[kPlaces]) noexcept {
+    const double from = places[0];
+    const double to = places[kPlaces - 1];
+    const auto [start, quarter, middle, three_quarters, end] = values;
+    const double rise = end - start;
+    double bulge = 4 * middle - 2 * (start + end);  // p(t) = start + rise t + bulge t (1 - t), t = 0 to 1
+    const double most = size(rise);
+    const double sign = rise < 0 ? -1 : 1;
+    const auto not_falling = [sign](double a, double b) { return sign * b >= sign * a; };
+    const bool monotone = not_falling(start, quarter) && not_falling(quarter, middle) && not_falling(middle, three_quarters) &&
+                          not_falling(three_quarters, end);
+    if (monotone && size(bulge) > most) bulge = bulge < 0 ? -most : most;
+    const double scale = 1 / (to - from);
+    const double linear = (rise + bulge) * scale;
+    const double square = -bulge * scale * scale;
+    Polynomial<kCoefficients<Real>> p;
+    p.c[0] = start - from * (linear - square * from);
+    p.c[1] = linear - 2 * square * from;
+    p.c[2] = square;
+    return p;
+  }
+};
+
+template <class Real>
+struct Fit<Real, EngineTorque> {
+  static constexpr std::size_t kPlaces = kCoefficients<Real>;
+  static constexpr int kSamplesPerFinest = sizeof(Real) > 4 ? 2 : 3;  // a cubic is off most at its ends and in the middle, a quadratic at thirds
+
+  [[nodiscard]] static double place(std::size_t i, double from, double to) noexcept { return node<Real>(i, from, to); }
+  [[nodiscard]] static Polynomial<kCoefficients<Real>> fitted(const double (&places)[kPlaces], const double (&values)[kPlaces]) noexcept {
+    return through(places, values);
+  }
+};
+
+/// One degree in up to kFinest equal segments of all parts.
+template <class Real>
+struct Degree {
+  int segments;
+  std::array<Segment<Real>, kParts> at[kFinest];
+};
+
+template <class Real, class Quantity>
+[[nodiscard]] Degree<Real> divided(const Quantity& quantity, int degree, int segments) noexcept {
+  using F = Fit<Real, Quantity>;
+  Places places;
+  for (int s = 0; s < segments; ++s) {
+    for (std::size_t i = 0; i < F::kPlaces; ++i) places.add(F::place(i, static_cast<double>(s) / segments, static_cast<double>(s + 1) / segments));
+  }
+  quantity.find(degree, places);
+  Degree<Real> result;
+  result.segments = segments;
+  for (int s = 0; s < segments; ++s) {
+    for (std::size_t part = 0; part < kParts; ++part) {
+      double at[F::kPlaces];
+      double values[F::kPlaces];
+      for (std::size_t i = 0; i < F::kPlaces; ++i) {
+        at[i] = places.at[static_cast<std::size_t>(s) * F::kPlaces + i];
+        values[i] = places.found[static_cast<std::size_t>(s) * F::kPlaces + i][part];
       }
-      if (largest > limit) return largest;
+      result.at[s][part] = rounded<Real>(F::fitted(at, values));
     }
   }
-  return largest;
+  return result;
 }
 
-/// degree_error() of each degree and division, as far as it was asked for: the search for a tolerance asks again and again, and a quantity that
-/// repeats within the cycle has the same errors in each of its periods. 29 kB.
+/// What a quantity is along one degree, each place asked once: all divisions are judged by the same samples.
 template <class Real, class Quantity>
-class GridErrors {
+class Samples {
  public:
-  GridErrors(const Quantity& quantity, Part first) noexcept : quantity_{quantity}, first_{first}, period_deg_{quantity.period_deg()} {}
+  Samples(const Quantity& quantity, int degree) noexcept : quantity_{quantity}, degree_{degree} {}
 
-  /// The error, or a smaller number that exceeds `limit` as well.
-  [[nodiscard]] double operator()(int degree, std::size_t division, double limit) noexcept {
-    const int in_period = degree % period_deg_;
-    double& known = errors_[in_period][division];
-    if (known <= 0 && -known <= limit) {
-      const double error = degree_error<Real>(quantity_, first_, in_period, kDivisions[division], limit);
-      known = error > limit ? -error : error;
+  /// Largest error of any of the parts from `first` on.
+  [[nodiscard]] double largest_error(const Degree<Real>& divided, Part first) noexcept {
+    const int step = divided.segments == 1 ? kFirstStep : 1;  // most degrees need no division, and no more samples
+    if (step != found_step_) find(step);
+    const int per_segment = kCount / divided.segments;
+    double largest = 0;
+    for (int s = 0; s < divided.segments; ++s) {
+      for (int i = s * per_segment; i <= (s + 1) * per_segment; i += step) {
+        for (std::size_t part = first; part < kParts; ++part) {
+          const double error = size(static_cast<double>(value(divided.at[s][part], static_cast<Real>(place(i)))) - exact_[i][part]);
+          largest = larger(largest, error);
+        }
+      }
     }
-    return size(known);
+    return largest;
   }
 
  private:
+  static constexpr int kCount = kFinest * Fit<Real, Quantity>::kSamplesPerFinest;
+  static constexpr int kFirstStep = kCount / 10;
+  static_assert(kCount < static_cast<int>(Places::kMost));
+
+  [[nodiscard]] static double place(int i) noexcept { return static_cast<double>(i) / kCount; }
+
+  void find(int step) noexcept {
+    const auto for_each_missing = [&](const auto& visit) {
+      for (int i = 0; i <= kCount; i += step) {
+        if (found_step_ == 0 || i % found_step_ != 0) visit(i);
+      }
+    };
+    Places places;
+    for_each_missing([&](int i) { places.add(place(i)); });
+    quantity_.find(degree_, places);
+    std::size_t next = 0;
+    for_each_missing([&](int i) { exact_[i] = places.found[next++]; });
+    found_step_ = step;
+  }
+
   const Quantity& quantity_;
-  Part first_;
-  int period_deg_;
-  double errors_[kDegreesPerCycle][kDivisionCount] = {};  ///< negative: at least this much; 0: not yet known, or none
+  int degree_;
+  int found_step_ = 0;  ///< its multiples are there; 0: none
+  AllParts exact_[std::size_t{kCount} + 1];
 };
 
 /// What a grid came to.
 struct Chosen {
   int segments;
   int doublings;  ///< of the tolerance
-  double error;   ///< largest
+  double error;   ///< largest of those divisions that have a finer one
 };
 
 /// Divides each degree into the fewest segments that keep the parts from `first` on within the tolerance; the tolerance is doubled until they
-/// all fit.
+/// all fit. A larger tolerance asks for no finer division, so each is judged at most once; and a quantity that repeats within the cycle has the
+/// same errors in each of its periods.
 template <class Real, class Quantity>
 [[nodiscard]] Chosen choose_grid(GasGrid& grid, const Quantity& quantity, Part first, int capacity, double tolerance) noexcept {
-  GridErrors<Real, Quantity> error(quantity, first);
+  auto limit = static_cast<float>(tolerance);
+  float errors[kDegreesPerCycle][kDivisionCount - 1];
+  const int period_deg = quantity.period_deg();
+  for (int degree = 0; degree < period_deg; ++degree) {
+    Samples<Real, Quantity> samples(quantity, degree);
+    for (std::size_t division = 0; division + 1 < kDivisionCount; ++division) {
+      errors[degree][division] = static_cast<float>(samples.largest_error(divided<Real>(quantity, degree, kDivisions[division]), first));
+      if (errors[degree][division] <= limit) break;
+    }
+  }
   Chosen chosen{};
-  for (int doublings = 0; doublings <= kMostDoublings; ++doublings, tolerance *= 2) {
+  for (int doublings = 0; doublings <= kMostDoublings; ++doublings, limit *= 2) {
     chosen = {0, doublings, 0};
     for (int degree = 0; degree < kDegreesPerCycle; ++degree) {
-      grid.first[degree] = static_cast<std::uint16_t>(chosen.segments);
+      const auto& error = errors[degree % period_deg];
       std::size_t division = 0;
-      while (division + 1 < kDivisionCount && error(degree, division, tolerance) > tolerance) ++division;
+      while (division + 1 < kDivisionCount && error[division] > limit) ++division;
+      grid.first[degree] = static_cast<std::uint16_t>(chosen.segments);
       chosen.segments += kDivisions[division];
-      const double left = error(degree, division, kWhateverItIs);
-      if (left > chosen.error) chosen.error = left;
+      if (division + 1 < kDivisionCount) chosen.error = larger(chosen.error, static_cast<double>(error[division]));
     }
     grid.first[kDegreesPerCycle] = static_cast<std::uint16_t>(chosen.segments);
     if (chosen.segments <= capacity) break;
   }
   return chosen;
+}
+
+/// Calls store(segment index, its parts) for every segment of the grid. Answers the largest error of the finest division.
+template <class Real, class Quantity, class Store>
+double fill_grid(const GasGrid& grid, const Quantity& quantity, Part first, const Store& store) noexcept {
+  double largest = 0;
+  for (int degree = 0; degree < kDegreesPerCycle; ++degree) {
+    const Degree<Real> segments = divided<Real>(quantity, degree, grid.first[degree + 1] - grid.first[degree]);
+    for (int s = 0; s < segments.segments; ++s) store(grid.first[degree] + s, segments.at[s]);
+    if (segments.segments < kFinest) continue;
+    largest = larger(largest, Samples<Real, Quantity>(quantity, degree).largest_error(segments, first));
+  }
+  return largest;
 }
 
 /// Calls visit(segment index, degree, from, to) for every segment of the grid.
@@ -281,16 +370,16 @@ void fill_work(const GasGrid& grid, const TorqueTarget<Real>& target) noexcept {
 }
 
 template <class Real>
-void fill_torque(const EngineTorque& engine, const GasGrid& grid, const std::array<TorqueTarget<Real>, kParts>& targets) noexcept {
-  for_each_segment(grid, [&](int index, int degree, double from, double to) {
-    const AllSegments<Real> segments = segments_of<Real>(engine, degree, from, to);
+double fill_torque(const EngineTorque& engine, const GasGrid& grid, Part first, const std::array<TorqueTarget<Real>, kParts>& targets) noexcept {
+  const double error = fill_grid<Real>(grid, engine, first, [&](int index, const auto& segment) {
     for (std::size_t part = 0; part < kParts; ++part) {
-      if (targets[part].torque != nullptr) targets[part].segments[index].slope = segments[part];
+      if (targets[part].torque != nullptr) targets[part].segments[index].slope = segment[part];
     }
   });
   for (const TorqueTarget<Real>& target : targets) {
     if (target.torque != nullptr) fill_work(grid, target);
   }
+  return error;
 }
 
 template <class Real>
@@ -300,15 +389,13 @@ void fill_pressures(const IndicatorDiagram& diagram, const TableTargets<Real>& t
   const Chosen chosen = choose_grid<Real>(*targets.gas_grid, pressure, kFull, targets.gas_capacity, kTolerance * diagram.peak_Pa());
   report.gas_segments = chosen.segments;
   report.tolerance_doublings = chosen.doublings;
-  report.pressure_error_Pa = chosen.error;
   const std::array<Segment<Real>*, kParts> wanted{targets.pressure_full, targets.pressure_motored, targets.pressure_heat};
-  if (wanted == std::array<Segment<Real>*, kParts>{}) return;
-  for_each_segment(*targets.gas_grid, [&](int index, int degree, double from, double to) {
-    const AllSegments<Real> segments = segments_of<Real>(pressure, degree, from, to);
+  const double finest_Pa = fill_grid<Real>(*targets.gas_grid, pressure, kFull, [&](int index, const auto& segment) {
     for (std::size_t part = 0; part < kParts; ++part) {
-      if (wanted[part] != nullptr) wanted[part][index] = segments[part];
+      if (wanted[part] != nullptr) wanted[part][index] = segment[part];
     }
   });
+  report.pressure_error_Pa = larger(chosen.error, finest_Pa);
 }
 
 template <class Real>
@@ -317,11 +404,11 @@ void fill_torques(const EngineTorque& engine, double peak_Pa, const TableTargets
   const Chosen chosen = choose_grid<Real>(*targets.torque_grid, engine, kFull, targets.gas_capacity, kTolerance * engine.scale_Nm(peak_Pa));
   report.torque_segments = chosen.segments;
   report.torque_doublings = chosen.doublings;
-  report.torque_error_Nm = chosen.error;
-  fill_torque<Real>(engine, *targets.torque_grid,
-                    {{{targets.gas_torque_full, targets.gas_full},
-                      {targets.gas_torque_motored, targets.gas_motored},
-                      {targets.gas_torque_heat, targets.gas_heat}}});
+  const double finest_Nm = fill_torque<Real>(engine, *targets.torque_grid, kFull,
+                                             {{{targets.gas_torque_full, targets.gas_full},
+                                               {targets.gas_torque_motored, targets.gas_motored},
+                                               {targets.gas_torque_heat, targets.gas_heat}}});
+  report.torque_error_Nm = larger(chosen.error, finest_Nm);
 }
 
 /// What a cylinder that does not fire lacks: the torque of its heat, over its own cycle.
@@ -336,7 +423,7 @@ void fill_cut(const EngineDefinition& engine, const IndicatorDiagram& diagram, d
   const Chosen chosen = choose_grid<Real>(*targets.cut_grid, torque, kHeat, targets.gas_capacity, kTolerance * torque.scale_Nm(peak_Pa));
   report.cut_segments = chosen.segments;
   report.cut_doublings = chosen.doublings;
-  fill_torque<Real>(torque, *targets.cut_grid, {{{}, {}, {targets.cut_torque, targets.cut_heat}}});
+  fill_torque<Real>(torque, *targets.cut_grid, kHeat, {{{}, {}, {targets.cut_torque, targets.cut_heat}}});
 }
 
 }  // namespace

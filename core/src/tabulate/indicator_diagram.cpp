@@ -22,7 +22,8 @@ constexpr double kGasExchangeRampDeg = 1;   // exhaust to intake pressure after 
 constexpr double kMotoredExhaustRampDeg = 10;
 
 /// An angle reduced to [0, 720); 0 for one beyond 1e9 deg or that is no number.
-[[nodiscard]] double into_cycle(double deg) noexcept {
+[[nodiscard]] inline double into_cycle(double deg) noexcept {
+  if (deg >= 0 && deg < 720) return deg;
   if (!(deg > -1e9 && deg < 1e9)) return 0;
   const double rest = deg - 720 * static_cast<double>(static_cast<std::int64_t>(deg / 720));
   const double positive = rest < 0 ? rest + 720 : rest;
@@ -125,7 +126,7 @@ Status IndicatorDiagram::init_angles() noexcept {
   rows_ = pressure_.point_count;
   if (pressure_.points[rows_ - 1].at - pressure_.points[0].at > 720 - 1e-9) --rows_;  // a closing row repeats the first
   first_deg_ = row(0).at_deg;
-  find_gas_exchange();
+  init_motored();
   return {};
 }
 
@@ -155,21 +156,26 @@ Status IndicatorDiagram::init_volumes() noexcept {
   if (stroke != 3 || first_off > volume_tolerance) return refused(Reason::not_a_cycle, 0);
   stroke_start_[4] = rows_;
   first_deg_ = row(0).at_deg;
+  rows_kept_ = rows_ <= kMostKeptRows;
+  if (rows_kept_) row_deg_[0] = first_deg_;
   double before_deg = first_deg_;
   for (int i = 1; i < rows_; ++i) {
-    const double at_deg = row(i).at_deg;
+    const double at_deg = volume_row_deg(i);
+    if (rows_kept_) row_deg_[i] = at_deg;
     if (at_deg <= before_deg) return refused(Reason::not_a_cycle, i);
     before_deg = at_deg;
   }
   if (before_deg >= first_deg_ + 720) return refused(Reason::not_a_cycle, rows_ - 1);
-  find_gas_exchange();
+  init_motored();
   return {};
 }
 
-void IndicatorDiagram::find_gas_exchange() noexcept {
+void IndicatorDiagram::init_motored() noexcept {
   exhaust_Pa_ = detail::integrate(tdc_deg_ + 270, tdc_deg_ + 360, 90, [this](double deg) { return table_Pa(deg); }) / 90;
   const double stroke_m = detail::integrate(tdc_deg_ + 360, bdc_deg_ + 360, 180, [this](double deg) { return slope_m(deg); });
   intake_Pa_ = detail::integrate(tdc_deg_ + 360, bdc_deg_ + 360, 180, [this](double deg) { return table_Pa(deg) * slope_m(deg); }) / stroke_m;
+  motored_loss_ = elementary::FixedPower(-kMotoredLoss);
+  motored_bottom_Pa_ = motored_expansion_Pa(bdc_deg_, exact_stroke(crank_, bdc_deg_ * kRadPerDeg).displacement_m);
 }
 
 /// Row i with its angle; rows go round: row(-1) is the last one, a cycle earlier.
@@ -179,11 +185,14 @@ IndicatorDiagram::Row IndicatorDiagram::row(int i) const noexcept {
   if (i >= rows_) i -= rows_, turn_deg = 720;
   const DiagramPoint& point = pressure_.points[i];
   if (pressure_.source == PressureSource::angle_table) return {point.at + turn_deg, point.pressure_Pa};
+  return {(rows_kept_ ? row_deg_[i] : volume_row_deg(i)) + turn_deg, point.pressure_Pa};
+}
+
+double IndicatorDiagram::volume_row_deg(int i) const noexcept {
   int stroke = 0;
   while (stroke < 3 && i >= stroke_start_[stroke + 1]) ++stroke;
-  const double displacement_m = (point.at - clearance_m3_) / area_m2_;
-  const double angle = crank_angle_rad(crank_, displacement_m, stroke % 2 == 0) * kDegPerRad;
-  return {angle + (stroke >= 2 ? 360 : 0) + turn_deg, point.pressure_Pa};
+  const double displacement_m = (pressure_.points[i].at - clearance_m3_) / area_m2_;
+  return crank_angle_rad(crank_, displacement_m, stroke % 2 == 0) * kDegPerRad + (stroke >= 2 ? 360 : 0);
 }
 
 /// The last row at or before an angle that lies in [first row, first row + 720).
@@ -197,36 +206,38 @@ int IndicatorDiagram::row_before(double at_deg) const noexcept {
   };
   const DiagramPoint* points = pressure_.points;
   if (pressure_.source == PressureSource::angle_table) return last_in(0, rows_, [&](int i) { return points[i].at <= at_deg; });
-  // Volumes rise or fall within a stroke, and one volume takes far less than an angle for each row on the way. The angles decide: rounding may
-  // have put a row on the other side.
+  if (rows_kept_) return last_in(0, rows_, [&](int i) { return row_deg_[i] <= at_deg; });
+  // Volumes rise or fall within a stroke, and one volume takes far less than an angle for each row on the way.
   const double turns_deg[] = {bdc_deg_, tdc_deg_ + 360, bdc_deg_ + 360};
   int stroke = 0;
   while (stroke < 3 && at_deg >= turns_deg[stroke]) ++stroke;
   const double volume = volume_m3(at_deg);
   const bool rising = stroke % 2 == 0;
   const int begin = stroke_start_[stroke] > 0 ? stroke_start_[stroke] - 1 : 0;
-  int before = last_in(begin, stroke_start_[stroke + 1], [&](int i) { return rising ? points[i].at <= volume : points[i].at >= volume; });
-  while (before > 0 && row(before).at_deg > at_deg) --before;
-  while (before + 1 < rows_ && row(before + 1).at_deg <= at_deg) ++before;
-  return before;
+  return last_in(begin, stroke_start_[stroke + 1], [&](int i) { return rising ? points[i].at <= volume : points[i].at >= volume; });
+}
+
+IndicatorDiagram::Interval IndicatorDiagram::interval_around(double at_deg) const noexcept {
+  const auto point = [this](int i) {
+    const Row there = row(i);
+    return detail::Point{there.at_deg, there.pressure_Pa};
+  };
+  int before = row_before(at_deg);
+  detail::Point from = point(before);
+  detail::Point to = point(before + 1);
+  // The angles decide: rounding of a volume may have put a row on the other side.
+  while (before > 0 && from.x > at_deg) to = from, from = point(--before);
+  while (before + 1 < rows_ && to.x <= at_deg) from = to, to = point(++before + 1);
+  Interval interval{from.x, to.x, {}};
+  detail::monotone_cubic(point(before - 1), from, to, point(before + 2), interval.c);
+  return interval;
 }
 
 double IndicatorDiagram::table_Pa(double crank_deg) const noexcept {
   const double since_first_deg = into_cycle(crank_deg - first_deg_);
   const double at_deg = first_deg_ + since_first_deg;
   Interval& interval = intervals_[static_cast<unsigned>(static_cast<int>(since_first_deg)) % kIntervals];
-  if (!(interval.from_deg <= at_deg && at_deg < interval.to_deg)) {
-    const int before = row_before(at_deg);
-    const auto point = [this, before](int i) {
-      const Row there = row(before + i);
-      return detail::Point{there.at_deg, there.pressure_Pa};
-    };
-    const detail::Point from = point(0);
-    const detail::Point to = point(1);
-    interval.from_deg = from.x;
-    interval.to_deg = to.x;
-    detail::monotone_cubic(point(-1), from, to, point(2), interval.c);
-  }
+  if (!(interval.from_deg <= at_deg && at_deg < interval.to_deg)) interval = interval_around(at_deg);
   return detail::cubic_value(interval.c, (at_deg - interval.from_deg) / (interval.to_deg - interval.from_deg));
 }
 
@@ -236,19 +247,20 @@ template <class Displacement>
 double IndicatorDiagram::table_motored_Pa(double crank_deg, const Displacement& displacement_m, double fired_Pa) const noexcept {
   const double since_top = from_top_deg(crank_deg);
   const double expansion_deg = bdc_deg_ - tdc_deg_;
-  const auto expansion_Pa = [this](double x) {
-    const double loss = elementary::pow(1 + area_m2_ * x / clearance_m3_, -kMotoredLoss);
-    return loss * table_Pa(crank_angle_rad(crank_, x, false) * kDegPerRad + 360);
-  };
-  if (since_top < expansion_deg) return expansion_Pa(displacement_m());
+  if (since_top < expansion_deg) return motored_expansion_Pa(tdc_deg_ + since_top, displacement_m());
   if (since_top >= 360) return fired_Pa;
   const double exhaust = at_least(intake_Pa_, fired_Pa < exhaust_Pa_ ? fired_Pa : exhaust_Pa_);
   const double left = (360 - since_top) / kGasExchangeRampDeg;
   if (left < 1) return fired_Pa + left * (exhaust - fired_Pa);
   const double ramp = (since_top - expansion_deg) / kMotoredExhaustRampDeg;
   if (ramp >= 1) return exhaust;
-  const double at_bottom = expansion_Pa(exact_stroke(crank_, bdc_deg_ * kRadPerDeg).displacement_m);
-  return at_bottom + ramp * (exhaust - at_bottom);
+  return motored_bottom_Pa_ + ramp * (exhaust - motored_bottom_Pa_);
+}
+
+/// On the way down from firing top dead centre.
+double IndicatorDiagram::motored_expansion_Pa(double crank_deg, double displacement_m) const noexcept {
+  const double compression_deg = crank_angle_up_rad(crank_, crank_deg * kRadPerDeg, displacement_m) * kDegPerRad + 360;
+  return motored_loss_(at_least(1, 1 + area_m2_ * displacement_m / clearance_m3_)) * table_Pa(compression_deg);
 }
 
 // ---- synthesised -----------------------------------------------------------------------------------------------------------

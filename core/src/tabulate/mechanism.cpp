@@ -6,54 +6,35 @@ namespace crankloop {
 
 using elementary::kPi;
 
-namespace {
-
-/// Of crank and rod at one angle.
-struct Angles {
-  double sin_a;
-  double cos_a;
-  double sin_b;
-  double cos_b;
-};
-[[nodiscard]] Angles angles_at(const Crank& crank, double crank_rad) noexcept {
-  const auto [sin_a, cos_a] = elementary::sin_cos(crank_rad);
-  const double l = crank.rod_length_m;
-  const double sin_b = crank.crank_radius_m / l * sin_a - crank.pin_offset_m / l;
-  return {sin_a, cos_a, sin_b, square_root((1 - sin_b) * (1 + sin_b))};
+ExactStroke::ExactStroke(const Crank& crank) noexcept
+    : crank_radius_m_{crank.crank_radius_m},
+      rod_length_m_{crank.rod_length_m},
+      rod_ratio_{crank.rod_ratio()},
+      offset_per_rod_{crank.pin_offset_m / crank.rod_length_m} {
+  const double reach_m = crank_radius_m_ + rod_length_m_;
+  height_at_tdc_m_ = square_root((reach_m - crank.pin_offset_m) * (reach_m + crank.pin_offset_m));
 }
 
-[[nodiscard]] double displacement_m(const Crank& crank, const Angles& at) noexcept {
-  const double r = crank.crank_radius_m;
-  const double l = crank.rod_length_m;
-  const double e = crank.pin_offset_m;
-  return square_root((r + l - e) * (r + l + e)) - r * at.cos_a - l * at.cos_b;
-}
-[[nodiscard]] double slope_m(const Crank& crank, const Angles& at) noexcept {
-  return crank.crank_radius_m * (at.sin_a + at.cos_a * (at.sin_b / at.cos_b));  // sin(a + b) / cos b
-}
-
-}  // namespace
-
-Stroke exact_stroke(const Crank& crank, double crank_rad) noexcept {
-  const Angles at = angles_at(crank, crank_rad);
-  return {displacement_m(crank, at), slope_m(crank, at)};
-}
+Stroke exact_stroke(const Crank& crank, double crank_rad) noexcept { return ExactStroke(crank).at(elementary::sin_cos(crank_rad)); }
 
 Pose<double> exact_pose(const Crank& crank, double crank_rad) noexcept {
-  const Angles at = angles_at(crank, crank_rad);
+  const ExactStroke stroke(crank);
+  const elementary::SinCos a = elementary::sin_cos(crank_rad);
+  const elementary::SinCos b = stroke.rod_angle(a);
   const double r = crank.crank_radius_m;
-  const double lambda = r / crank.rod_length_m;
-  const double tan_b = at.sin_b / at.cos_b;
-  const double rod_slope = lambda * at.cos_a / at.cos_b;
+  const double lambda = crank.rod_ratio();
+  const double tan_b = b.sin / b.cos;
+  const double rod_slope = lambda * a.cos / b.cos;
 
   Pose<double> pose;
-  pose.displacement_m = displacement_m(crank, at);
-  pose.slope_m = slope_m(crank, at);
-  pose.radial = at.cos_a - at.sin_a * tan_b;  // cos(a + b) / cos b
-  pose.acceleration_m = r * (pose.radial + rod_slope * at.cos_a / (at.cos_b * at.cos_b));
-  pose.rod_angle_rad = elementary::asin(at.sin_b);
+  const auto [displacement_m, slope_m] = stroke.at(a);
+  pose.displacement_m = displacement_m;
+  pose.slope_m = slope_m;
+  pose.radial = a.cos - a.sin * tan_b;  // cos(a + b) / cos b
+  pose.acceleration_m = r * (pose.radial + rod_slope * a.cos / (b.cos * b.cos));
+  pose.rod_angle_rad = elementary::asin(b.sin);
   pose.rod_slope = rod_slope;
-  pose.rod_curvature = -lambda * at.sin_a / at.cos_b + tan_b * rod_slope * rod_slope;
+  pose.rod_curvature = -lambda * a.sin / b.cos + tan_b * rod_slope * rod_slope;
   pose.rod_tilt = tan_b;
   return pose;
 }
@@ -90,12 +71,20 @@ double crank_angle_rad(const Crank& crank, double displacement_m, bool downward)
   if (height > highest) height = highest;
   if (height < lowest) height = lowest;
   const double side = square_root(height * height + e * e);
-  double cosine = (r * r + side * side - l * l) / (2 * r * side);
-  if (cosine > 1) cosine = 1;
-  if (cosine < -1) cosine = -1;
-  const double between = elementary::acos(cosine);
-  const double leaning = elementary::atan2(e, height);
+  const double half = (r + l + side) / 2;
+  const auto root = [](double x) { return x > 0 ? square_root(x) : 0; };
+  const double between = 2 * elementary::quick_atan2(root((half - r) * (half - side)), root(half * (half - l)));  // half-angle theorem
+  const double leaning = elementary::quick_atan2(e, height);
   return downward ? leaning + between : leaning - between + 2 * kPi;
+}
+
+double crank_angle_up_rad(const Crank& crank, double down_rad, double displacement_m) noexcept {
+  // Both positions of the crank pin lie symmetrically to the line from the crank centre to the piston pin.
+  const double r = crank.crank_radius_m;
+  const double l = crank.rod_length_m;
+  const double e = crank.pin_offset_m;
+  const double height = square_root((l + r - e) * (l + r + e)) - displacement_m;
+  return 2 * elementary::quick_atan2(e, height) - down_rad + 2 * kPi;
 }
 
 DeadCentres dead_centres(const Crank& crank) noexcept {

@@ -6,6 +6,7 @@
 #include <crankloop/define/crank.hpp>
 #include <crankloop/define/pressure.hpp>
 #include <crankloop/status.hpp>
+#include <crankloop/tabulate/elementary.hpp>
 
 namespace crankloop {
 
@@ -13,7 +14,7 @@ namespace crankloop {
 /// |a| < 1e9.
 ///
 /// Between given points the curve is a monotone cubic (Fritsch-Butland slopes): no value outside those of the two points around it.
-/// Holds a pointer to the definition's points. Construction O(points), evaluation O(log points); not for two threads at once.
+/// 18 kB, and a pointer to the definition's points. Construction O(points), evaluation O(log points); not for two threads at once.
 class IndicatorDiagram {
  public:
   /// Refuses what validate() refuses, volumes that are no four-stroke loop or repeat from row to row ("pressure.file" with the row), an exhaust
@@ -48,6 +49,12 @@ class IndicatorDiagram {
     double at_deg;
     double pressure_Pa;
   };
+  /// Between two rows.
+  struct Interval {
+    double from_deg = 0;
+    double to_deg = 0;  ///< not beyond the former: nothing yet
+    double c[4] = {};   ///< of the pressure's cubic by the part of the way
+  };
   /// A synthesised cycle without heat: expansion by `exponent` from one angle on, until then compression by the definition's.
   struct Unfired {
     double from_deg;
@@ -67,14 +74,17 @@ class IndicatorDiagram {
   Status init_angles() noexcept;
   Status init_volumes() noexcept;
   Status init_wiebe() noexcept;
-  void find_gas_exchange() noexcept;
+  void init_motored() noexcept;
   [[nodiscard]] Row row(int i) const noexcept;
+  [[nodiscard]] double volume_row_deg(int i) const noexcept;
   [[nodiscard]] int row_before(double cycle_deg) const noexcept;
+  [[nodiscard]] Interval interval_around(double at_deg) const noexcept;
   [[nodiscard]] double table_Pa(double cycle_deg) const noexcept;
   template <class Displacement>
   [[nodiscard]] Pressures pressures_where(double crank_deg, const Displacement& displacement_m) const noexcept;
   template <class Displacement>
   [[nodiscard]] double table_motored_Pa(double cycle_deg, const Displacement& displacement_m, double fired_Pa) const noexcept;
+  [[nodiscard]] double motored_expansion_Pa(double crank_deg, double displacement_m) const noexcept;
   [[nodiscard]] double volume_m3(double crank_deg) const noexcept;
   [[nodiscard]] double slope_m(double crank_deg) const noexcept;
   [[nodiscard]] double burn_integral(double since_start_deg) const noexcept;
@@ -95,6 +105,8 @@ class IndicatorDiagram {
   int stroke_start_[5] = {};    ///< volume table: first row of each stroke, and rows_
   double exhaust_Pa_ = 0;       ///< table: mean over the second half of the exhaust stroke
   double intake_Pa_ = 0;        ///< table: mean over the volume of the intake stroke
+  elementary::FixedPower motored_loss_;  ///< table: of the volume in clearance volumes
+  double motored_bottom_Pa_ = 0;         ///< table: at the end of the motored expansion
   double bottom_m3_ = 0;        ///< Wiebe: volume at bottom dead centre
   Unfired polytropes_{};        ///< Wiebe: the diagram as given, without its heat
   Unfired motored_{};           ///< Wiebe
@@ -103,13 +115,12 @@ class IndicatorDiagram {
   double peak_Pa_ = 0;
   double burnt_[kBurnPanels + 1] = {};  ///< Wiebe: integral of V^(n2 - 1) dx_b up to each panel of the cube root of the burn's part
   double first_deg_ = 0;        ///< table: angle of row 0
+  // Angles of a volume table's rows, unless it has too many: then each is worked out when it is asked for.
+  static constexpr int kMostKeptRows = 1536;
+  bool rows_kept_ = false;
+  double row_deg_[kMostKeptRows] = {};
   // The interval asked for last in each degree, modulo kIntervals, so that sweeps, also those of several cylinders in turn, do not look for the
-  // same rows, nor turn the same volumes into angles, again and again.
-  struct Interval {
-    double from_deg = 0;
-    double to_deg = 0;  ///< not beyond the former: nothing yet
-    double c[4] = {};   ///< of the pressure's cubic by the part of the way
-  };
+  // same rows again and again.
   static constexpr unsigned kIntervals = 64;
   mutable Interval intervals_[kIntervals] = {};
 };

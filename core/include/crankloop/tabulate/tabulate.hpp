@@ -65,10 +65,10 @@ struct TableTargets {
 struct TableReport {
   int gas_segments = 0;           ///< segments of the pressures' grid
   int tolerance_doublings = 0;    ///< how often the pressure's tolerance was doubled to fit the capacity
-  double pressure_error_Pa = 0;   ///< largest error of full, motored and heat pressure against the diagram, at 10 points per segment
+  double pressure_error_Pa = 0;   ///< largest error of full, motored and heat pressure against the diagram, at 10 places of an undivided degree, 60 of another
   int torque_segments = 0;        ///< segments of the gas torques' grid
   int torque_doublings = 0;
-  double torque_error_Nm = 0;     ///< largest error of full, motored and heat torque of all cylinders, likewise
+  double torque_error_Nm = 0;     ///< largest error of full, motored and heat torque of all cylinders, likewise at 10, and 40 (float: 60)
   int cut_segments = 0;           ///< segments of the grid of one cylinder's heat torque
   int cut_doublings = 0;
   int valve_fine_steps = 0;       ///< of all elastic valves in the worst tick, when contacts may change in all of them; at most kMostFineStepsOfEngine
