@@ -42,6 +42,7 @@ class ElasticValves {
 
   /// Puts every valve where its cam stands, at rest. The gas comes with the first tick.
   void start() noexcept {
+    find_cams();
     for_each([&](std::uint32_t v) {
       const std::uint64_t since_opening = cam_phase(state_, train(v)) - curve(v).opens[cylinder(v)];
       const Placed<Real> placed = in_equilibrium(motion(v), curve(v).read(curve(v).cell(since_opening)).lift_m, gas_now_N(v));
@@ -55,6 +56,7 @@ class ElasticValves {
 
   /// Works out anew what a tick remembers beside the state.
   void remember() noexcept {
+    find_cams();
     work_.moving = 0;
     work_.leap_deg = work_.far_deg = Real{kDegreesPerTurn + 1};
     for_each([&](std::uint32_t v) {
@@ -63,9 +65,6 @@ class ElasticValves {
       set_regime(v, state_.valve_regime[v]);
       if (curve(v).leap_deg < work_.leap_deg) work_.leap_deg = curve(v).leap_deg;
       if (motion(v).widest_step_deg < work_.far_deg) work_.far_deg = motion(v).widest_step_deg;
-#if CRANKLOOP_ABREAST
-      if constexpr (kAbreast) set_cam_of_lane(work_, v, curve(v), static_cast<std::uint32_t>(curve(v).opens[cylinder(v)] >> 32));
-#endif
     });
     if (work_.leap_deg < work_.far_deg) work_.far_deg = work_.leap_deg;
     for (std::uint32_t g = 0; g < kCamGroups<S>; ++g) work_.clear[g] = work_.no_end[g] = {};
@@ -89,7 +88,18 @@ class ElasticValves {
   [[nodiscard]] static constexpr std::uint32_t train(std::uint32_t v) noexcept { return v / kPerTrain; }
   [[nodiscard]] static constexpr std::uint32_t cylinder(std::uint32_t v) noexcept { return v % kPerTrain; }
   [[nodiscard]] const ValveMotion<Real>& motion(std::uint32_t v) const noexcept { return tables_.valve_motions[train(v)]; }
-  [[nodiscard]] const LiftCurve<Real>& curve(std::uint32_t v) const noexcept { return tables_.lift_curves[train(v)]; }
+  [[nodiscard]] const LiftCurve<Real>& curve(std::uint32_t v) const noexcept {
+    if constexpr (kMayGoAbreast<Real, S>) return tables_.lift_curves[train(v)];
+    else return *work_.valve[v].curve;
+  }
+  /// Where a valve's cam stands. In float its lobe's beginning has no low word.
+  [[nodiscard]] Cell cell(std::uint32_t v, std::uint64_t phase) const noexcept {
+    if constexpr (kMayGoAbreast<Real, S> || sizeof(Real) != 4) {
+      return curve(v).cell(phase, cylinder(v));
+    } else {
+      return LiftCurve<Real>::cell(std::uint64_t{static_cast<std::uint32_t>(phase >> 32) - work_.valve[v].opens} << 32);
+    }
+  }
   [[nodiscard]] std::uint32_t trains() const noexcept { return S::trains.exact ? S::trains.capacity : tables_.drive->trains; }
   [[nodiscard]] std::uint32_t cam_groups() const noexcept { return S::cam_phasing ? trains() : 1; }
 
@@ -108,21 +118,30 @@ class ElasticValves {
     });
   }
 
-  [[nodiscard]] Lift<Real> cam(std::uint32_t v) const noexcept { return {work_.cam_lift_m[v], work_.cam_per_deg_m[v]}; }
+  [[nodiscard]] Lift<Real> cam(std::uint32_t v) const noexcept {
+    if constexpr (kMayGoAbreast<Real, S>) {
+      return {work_.cam_lift_m[v], work_.cam_per_deg_m[v]};
+    } else {
+      return {work_.valve[v].cam_lift_m, work_.valve[v].cam_per_deg_m};
+    }
+  }
   void set_cam(std::uint32_t v, const Lift<Real>& lift) noexcept {
-    work_.cam_lift_m[v] = lift.lift_m;
-    work_.cam_per_deg_m[v] = lift.per_deg_m;
+    if constexpr (kMayGoAbreast<Real, S>) {
+      work_.cam_lift_m[v] = lift.lift_m, work_.cam_per_deg_m[v] = lift.per_deg_m;
+    } else {
+      work_.valve[v].cam_lift_m = lift.lift_m, work_.valve[v].cam_per_deg_m = lift.per_deg_m;
+    }
   }
   void set_regime(std::uint32_t v, std::uint32_t regime) noexcept {
     state_.valve_regime[v] = regime;
-    if constexpr (!kMayGoAbreast<Real, S>) work_.regime[v] = &motion(v).whole[regime];
+    if constexpr (!kMayGoAbreast<Real, S>) work_.valve[v].regime = &motion(v).whole[regime];
 #if CRANKLOOP_ABREAST
     if constexpr (kAbreast) set_lane(work_, v, motion(v).whole[regime]);
 #endif
   }
   [[nodiscard]] const RegimeStep<Real>& regime_of(std::uint32_t v) const noexcept {
     if constexpr (kMayGoAbreast<Real, S>) return motion(v).whole[state_.valve_regime[v]];
-    else return *work_.regime[v];
+    else return *work_.valve[v].regime;
   }
 
   [[nodiscard]] Real gas_now_N(std::uint32_t v) const noexcept {
@@ -136,6 +155,19 @@ class ElasticValves {
     if constexpr (S::valve_gas) return {state_.valve_gas_N[v], gas_now_N(v)};
     (void)v;
     return {};
+  }
+
+  /// Where each valve's cam is in the tables.
+  void find_cams() noexcept {
+    for_each([&](std::uint32_t v) {
+      const LiftCurve<Real>& curve = tables_.lift_curves[train(v)];
+      const auto opens = static_cast<std::uint32_t>(curve.opens[cylinder(v)] >> 32);
+      if constexpr (!kMayGoAbreast<Real, S>) work_.valve[v].curve = &curve, work_.valve[v].opens = opens;
+#if CRANKLOOP_ABREAST
+      if constexpr (kAbreast) set_cam_of_lane(work_, v, curve, opens);
+#endif
+      (void)opens;
+    });
   }
 
   // ---- before the steps ------------------------------------------------------------------------------------------------------
@@ -210,7 +242,7 @@ class ElasticValves {
 
   /// False where its guards fail: then it is looked at, from what was before.
   [[nodiscard, gnu::always_inline]] bool is_sure_after_step(std::uint32_t v, const CamTick<Real>& tick, Before& before) noexcept {
-    const Cell cell = curve(v).cell(tick.phase, cylinder(v));
+    const Cell cell = this->cell(v, tick.phase);
     const Gas gas = gas_on(v);
     const RegimeStep<Real>& regime = regime_of(v);
     const ValveState<Real> start{state_.valve_lift_m[v], state_.valve_velocity_m_s[v]};
@@ -348,7 +380,7 @@ class ElasticValves {
     const Real gap_m = to.lift_m - end.state.lift_m;
     const Real gap_speed_m_s = tick.cam.deg_per_s * to.per_deg_m - end.state.velocity_m_s;
     const ForceRow<Real>& force = motion(v).whole[end.regime].acceleration;
-    show(v, end.state, curve(v).cell(tick.phase, cylinder(v)), {to.lift_m, gap_m, gap_speed_m_s, acceleration(force, end.state, gap_m, gap_speed_m_s, gas)}, gas);
+    show(v, end.state, cell(v, tick.phase), {to.lift_m, gap_m, gap_speed_m_s, acceleration(force, end.state, gap_m, gap_speed_m_s, gas)}, gas);
   }
 
   // ---- after the steps -------------------------------------------------------------------------------------------------------

@@ -335,12 +335,17 @@ struct alignas(16) AbreastWork {
   float cam_per_deg_m[kRoom] = {};         ///< and its slope
 };
 
-/// The cams of an engine whose valves go one by one.
+/// What a valve that goes by itself has at hand.
+template <class Real>
+struct ValveWork {
+  const LiftCurve<Real>* curve;
+  const RegimeStep<Real>* regime;  ///< of its tick
+  std::uint32_t opens;             ///< where its lobe begins, high word
+  Real cam_lift_m, cam_per_deg_m;  ///< at the tick's end, if it moves: its cam's lift and the slope of it
+};
 template <class Real, class S>
-struct CamsWork {
-  Real cam_lift_m[ValvesState<Real, S>::kLanes] = {};     ///< at the tick's end, of valves that move,
-  Real cam_per_deg_m[ValvesState<Real, S>::kLanes] = {};  ///< and its slope
-  const RegimeStep<Real>* regime[ValvesState<Real, S>::kLanes] = {};  ///< that of each valve's tick
+struct OneByOneWork {
+  ValveWork<Real> valve[ValvesState<Real, S>::kLanes] = {};
 };
 
 /// A bit for each valve of an engine, by its number.
@@ -349,7 +354,7 @@ using ValveBits = std::conditional_t<(S::trains.capacity * S::cylinders.capacity
 
 /// What a tick of elastic valves remembers beside the state, all of it worked out from that.
 template <class Real, class S>
-struct ValvesWork : std::conditional_t<kMayGoAbreast<Real, S>, AbreastWork<S>, CamsWork<Real, S>> {
+struct ValvesWork : std::conditional_t<kMayGoAbreast<Real, S>, AbreastWork<S>, OneByOneWork<Real, S>> {
   Real leap_deg = 0;                                      ///< a tick that turns some cam so far may pass over all of its lobe that counts;
   Real far_deg = 0;                                       ///< over more than the cubic through its ends tells
   ValveBits<S> moving = 0;                                ///< those that are not at rest with their cams away
