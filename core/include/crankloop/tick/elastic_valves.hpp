@@ -350,9 +350,7 @@ class ElasticValves {
   }
   [[nodiscard]] Span<Real, Gas> span(std::uint32_t v, const CamTick<Real>& tick, const Lift<Real>& from, const Lift<Real>& to,
                                      const Gas& gas) const noexcept {
-    Real from_deg{};
-    if constexpr (S::valve_results) from_deg = curve(v).degrees(tick.phase_before() - curve(v).opens[cylinder(v)]);
-    return {from, to, tick.cam, gas, from_deg};
+    return {from, to, tick.cam, gas, tick.phase_before() - curve(v).opens[cylinder(v)], Real{0}};
   }
 
   /// Another valve first in every tick: who comes first may spend the budget.

@@ -88,7 +88,8 @@ struct Span {
   Lift<Real> from, to;
   CamTurn<Real> cam;
   Gas gas;
-  Real from_deg;  ///< cam degrees since the lobe opened, where a record is kept
+  std::uint64_t since_opening;  ///< phase units, at the tick's start
+  Real later_deg;               ///< cam degrees that have passed since
 };
 
 template <class Real, class Gas, class Record>
@@ -153,7 +154,7 @@ class ValveChanges {
       }
       was_sure = is_sure;
       step.from = step.to;
-      step.from_deg += step.cam.deg;
+      step.later_deg += step.cam.deg;
     }
     const Real resting_m = tick.gas.resting_m(motion_.per_seat_N_m);
     const Real up_m = resting_m > 0 ? resting_m : Real{0};
@@ -337,6 +338,11 @@ class ValveChanges {
 
   // ---- the record of a cycle -------------------------------------------------------------------------------------------------
 
+  /// Cam degrees since the start of the lobe at a part of a span.
+  [[nodiscard]] Real deg_at(const Span<Real, Gas>& span, Real part) const noexcept {
+    return curve_.degrees(span.since_opening) + span.later_deg + part * span.cam.deg;
+  }
+
   /// A cam's lift and its speed at one moment.
   struct Theory {
     Real lift_m, speed_m_s;
@@ -350,9 +356,8 @@ class ValveChanges {
       return acceleration(force, s, at.lift_m - s.lift_m, at.speed_m_s - s.velocity_m_s, by);
     };
     record_.step({from, to, theory_from.lift_m, theory_to.lift_m, theory_from.speed_m_s, theory_to.speed_m_s,
-                  accelerates(from, theory_from, gas.between(0, 0)), accelerates(to, theory_to, gas), span.from_deg + from_part * span.cam.deg,
-                  span.from_deg + to_part * span.cam.deg, step_s, contacts_of(regime)},
-                 motion_.body.seat_sink_m);
+                  accelerates(from, theory_from, gas.between(0, 0)), accelerates(to, theory_to, gas), step_s, contacts_of(regime)},
+                 motion_.body.seat_sink_m, [&](Real part) { return deg_at(span, from_part + part * (to_part - from_part)); });
   }
 
   /// From the origin of `lift`, which is at `from_part` of the step, over `part` of it.
@@ -369,7 +374,7 @@ class ValveChanges {
 
   void note_change(std::uint32_t before, std::uint32_t after, const ValveState<Real>& s, const Span<Real, Gas>& span, Real part) const noexcept {
     if constexpr (kRecorded) {
-      if (before != after) record_.change(before, after, s.velocity_m_s, span.from_deg + part * span.cam.deg);
+      if (before != after) record_.change(before, after, s.velocity_m_s, deg_at(span, part));
     }
   }
 

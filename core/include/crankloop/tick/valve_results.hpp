@@ -35,7 +35,6 @@ struct ObservedStep {
   Real theory_from_m, theory_to_m;                ///< Y
   Real theory_speed_from_m_s, theory_speed_to_m_s;
   Real acceleration_from_m_s2, acceleration_to_m_s2;
-  Real from_deg, to_deg;                          ///< cam degrees since the start of the lobe
   Real step_s;
   std::uint32_t regime;                           ///< throughout the step
 };
@@ -55,19 +54,21 @@ class ValveRecord {
   static constexpr Real kLeastSeparation_m = static_cast<Real>(1e-6);
   static constexpr Real kOpened_m = static_cast<Real>(0.1e-3);
 
-  constexpr void step(const ObservedStep<Real>& s, Real seat_contact_m) noexcept {
+  /// deg_at(part of the step): cam degrees since the start of the lobe. It is seldom asked.
+  template <class DegAt>
+  constexpr void step(const ObservedStep<Real>& s, Real seat_contact_m, const DegAt& deg_at) noexcept {
     const Real lift = peak(s.from.lift_m, s.from.velocity_m_s, s.to.lift_m, s.to.velocity_m_s, s.step_s);
     raise(cycle_.largest_lift_m, lift);
     raise(cycle_.largest_speed_m_s, magnitude(s.to.velocity_m_s));
     raise(cycle_.largest_acceleration_m_s2, magnitude(s.acceleration_from_m_s2));  // a damper's force begins with a jump
     raise(cycle_.largest_acceleration_m_s2, magnitude(s.acceleration_to_m_s2));
-    note_opening(s);
+    note_opening(s, deg_at);
     if (s.theory_speed_from_m_s > 0 && s.theory_speed_to_m_s <= 0 && s.theory_to_m > 0) flags_ |= kClosing;
     if (stage_ == Stage::seated && (s.regime & kSeatOn) == 0) {
       raise(excursion_m_, lift - seat_contact_m);
     }
     if (stage_ == Stage::open && s.regime == 0) {
-      if (!is(kSeparated)) flags_ |= kSeparated, excursion_m_ = 0, separated_at_deg_ = s.from_deg;
+      if (!is(kSeparated)) flags_ |= kSeparated, excursion_m_ = 0, separated_at_deg_ = deg_at(Real{0});
       raise(excursion_m_, peak(s.from.lift_m - s.theory_from_m, s.from.velocity_m_s - s.theory_speed_from_m_s, s.to.lift_m - s.theory_to_m,
                          s.to.velocity_m_s - s.theory_speed_to_m_s, s.step_s));
     }
@@ -129,11 +130,11 @@ class ValveRecord {
     return inner > larger ? inner : larger;
   }
 
-  /// Cam degrees at which the cubic through two values and slopes (by time) reaches `level`, by bisection: once or twice in a cycle.
-  [[nodiscard]] static constexpr Real reached_deg(Real from, Real slope_from, Real to, Real slope_to, const ObservedStep<Real>& s) noexcept {
+  /// Part of a step after which the cubic through two values and slopes (by time) reaches kOpened_m, by bisection: once or twice in a cycle.
+  [[nodiscard]] static constexpr Real part_opened(Real from, Real slope_from, Real to, Real slope_to, Real step_s) noexcept {
     const Real rise = to - from;
-    const Real a = slope_from * s.step_s;
-    const Real b = slope_to * s.step_s;
+    const Real a = slope_from * step_s;
+    const Real b = slope_to * step_s;
     Real low = 0;
     Real high = 1;
     for (int i = 0; i < 16; ++i) {
@@ -141,22 +142,23 @@ class ValveRecord {
       const Real y = from + at * (a + at * ((3 * rise - 2 * a - b) + at * (a + b - 2 * rise)));
       (y < kOpened_m ? low : high) = at;
     }
-    return s.from_deg + (s.to_deg - s.from_deg) * high;
+    return high;
   }
 
   /// The valve opens where it stands at 0.1 mm or above once the cam has passed that. One that was up before its cam has no delay to tell:
   /// it is still in the air from the cycle before.
-  constexpr void note_opening(const ObservedStep<Real>& s) noexcept {
+  template <class DegAt>
+  constexpr void note_opening(const ObservedStep<Real>& s, const DegAt& deg_at) noexcept {
     if (stage_ != Stage::closed) return;
     if (!is(kTheoryOpened) && s.theory_from_m < kOpened_m && s.theory_to_m >= kOpened_m) {
       flags_ |= kTheoryOpened;
-      theory_opened_deg_ = reached_deg(s.theory_from_m, s.theory_speed_from_m_s, s.theory_to_m, s.theory_speed_to_m_s, s);
+      theory_opened_deg_ = deg_at(part_opened(s.theory_from_m, s.theory_speed_from_m_s, s.theory_to_m, s.theory_speed_to_m_s, s.step_s));
     }
     if (!is(kTheoryOpened) || s.to.lift_m < kOpened_m) return;
     stage_ = Stage::open;
     if (s.from.lift_m >= kOpened_m) return;  // it was open before its cam was: no delay to tell
     cycle_.opening_delay_deg =
-        magnitude(reached_deg(s.from.lift_m, s.from.velocity_m_s, s.to.lift_m, s.to.velocity_m_s, s) - theory_opened_deg_);
+        magnitude(deg_at(part_opened(s.from.lift_m, s.from.velocity_m_s, s.to.lift_m, s.to.velocity_m_s, s.step_s)) - theory_opened_deg_);
   }
 
   constexpr void end_separation(Real at_deg) noexcept {
