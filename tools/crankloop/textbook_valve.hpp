@@ -93,9 +93,8 @@ class TextbookValve {
       const std::uint32_t regime = Contacts<Real>(motion_.body, valve.state, end).regime();
       record.step({before, valve.state, start.lift_m, end.lift_m, start.speed_m_s, end.speed_m_s,
                    textbook_acceleration(motion_.body, before, start, gas_N),
-                   textbook_acceleration(motion_.body, valve.state, end, gas_N), from_deg, from_deg + step_deg, step_s_,
-                   valve.regime},
-                  motion_.body.seat_sink_m);
+                   textbook_acceleration(motion_.body, valve.state, end, gas_N), step_s_, valve.regime},
+                  motion_.body.seat_sink_m, [&](Real part) { return from_deg + part * step_deg; });
       from_deg += step_deg;
       if (regime != valve.regime) record.change(valve.regime, regime, valve.state.velocity_m_s, from_deg);
       valve.regime = regime;
