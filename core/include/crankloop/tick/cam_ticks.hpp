@@ -1,6 +1,6 @@
 // Where the cams stand at a tick's end, how far they turned in it, and the phasers that turn them against the crank.
 //
-// What belongs here: cams as a whole. What does not: their lift (lift_curve.hpp), the valves (valves_step.hpp).
+// What belongs here: cams as a whole. What does not: their lift (lift_curve.hpp), the valves (elastic_valves.hpp).
 #pragma once
 
 #include <cstdint>

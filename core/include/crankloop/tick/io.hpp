@@ -326,7 +326,7 @@ template <class S>
 struct alignas(16) AbreastWork {
   static constexpr std::size_t kRoom = (ValvesState<float, S>::kLanes + 7) / 8 * 8;
   static constexpr bool kBlocksAligned = S::cylinders.exact || S::cylinders.capacity % 8 == 0;
-  float numbers[32][kRoom] = {};           ///< of each lane's RegimeStep, up to calm_m
+  float regime[32][kRoom] = {};            ///< numbers of each lane's RegimeStep, up to calm_m
   const LiftSegment<float>* curve[kRoom] = {};  ///< of its cam's lift, one for each degree of the lobe and one outside
   std::int32_t degrees[kRoom] = {};        ///< of its lobe
   std::int32_t opens_degree[kRoom] = {};   ///< of the train's cams: where its lobe begins,

@@ -28,7 +28,7 @@
 namespace crankloop {
 
 /// Counts up whenever a release changes the fields or their form.
-inline constexpr std::uint32_t kSavedStateForm = 3;
+inline constexpr std::uint32_t kSavedStateForm = 4;
 
 namespace detail {
 

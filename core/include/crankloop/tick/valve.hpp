@@ -1,7 +1,7 @@
 // One elastic valve: a step in a contact regime, and which regime its contacts ask for. docs/model.md "Valve".
 //
 // What belongs here: what holds at one moment, and over one step in which no contact changes. What does not: a step in which one does
-// (valve_changes.hpp), the valves of an engine (valves_step.hpp).
+// (valve_changes.hpp), the valves of an engine (elastic_valves.hpp).
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // A valve's tick in which a contact may change: the change is located, and the step split there.
 //
 // What belongs here: the path of a valve whose guards fail. What does not: the step itself (valve.hpp), which valves there are and what they
-// may spend (valves_step.hpp).
+// may spend (elastic_valves.hpp).
 //
 //     tick   |-------------------------------|    one step; its guards fail:
 //            |-------|-------|-------|-------|    fine steps, so short that cubics tell where a contact changes (one, where the tick is)

@@ -1,7 +1,7 @@
 // The plain step of several valves at once, one in each lane.
 //
 // What belongs here: what lanes need side by side, and their step. What does not: the arithmetic of a step (valve.hpp), lanes whose guards fail
-// (valve_changes.hpp), which valves an engine has (valves_step.hpp).
+// (valve_changes.hpp), which valves an engine has (elastic_valves.hpp).
 //
 // A resting valve is zeros under its regime's constants: it stays at rest, and needs no exception.
 #pragma once
@@ -32,7 +32,7 @@ template <class Lanes, class Work>
 [[nodiscard, gnu::always_inline]] inline auto regimes_at(const Work& w, std::size_t first) noexcept {
   using Held = InMemory<Lanes, Work::kBlocksAligned>;
   int number = 0;
-  const auto next = [&] { return Held{&w.numbers[number++][first]}; };
+  const auto next = [&] { return Held{&w.regime[number++][first]}; };
   RegimeStep<Held> r;
   for (StepRow<Held>* row : {&r.lift, &r.velocity}) {
     row->rest = next(), row->gas = next(), row->gas_rise = next(), row->gap = next(), row->rise = next();
@@ -48,10 +48,10 @@ template <class Lanes, class Work>
 /// A lane is in this regime from now on.
 template <class Work>
 inline void set_lane(Work& w, std::size_t lane, const RegimeStep<float>& regime) noexcept {
-  float numbers[sizeof w.numbers / sizeof w.numbers[0]];
+  float numbers[sizeof w.regime / sizeof w.regime[0]];
   static_assert(sizeof numbers == offsetof(RegimeStep<float>, calm_m));
   std::memcpy(numbers, &regime, sizeof numbers);
-  for (std::size_t i = 0; i < sizeof numbers / sizeof(float); ++i) w.numbers[i][lane] = numbers[i];
+  for (std::size_t i = 0; i < sizeof numbers / sizeof(float); ++i) w.regime[i][lane] = numbers[i];
 }
 
 /// What a lane has of its cam.
