@@ -350,7 +350,7 @@ TYPED_TEST(SavedState, IsWrittenLeastSignificantByteFirstAsDocumented) {
   };
   EXPECT_EQ(std::string(bytes.begin(), bytes.begin() + 4), "CLST");
   EXPECT_EQ(read(4, 2), kSavedStateForm);
-  EXPECT_EQ(kSavedStateForm, 3u);
+  EXPECT_EQ(kSavedStateForm, 4u);
   EXPECT_EQ(read(6, 2), sizeof(Real));
   EXPECT_EQ(read(12, 4), bytes.size());
   EXPECT_EQ(read(16, 8), rig.one.state().fingerprint);
