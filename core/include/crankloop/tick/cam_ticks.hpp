@@ -16,11 +16,13 @@ namespace crankloop::detail {
 /// A tick of the cams that turn alike.
 template <class Real>
 struct CamTick {
-  std::uint64_t phase;   ///< at its end, before each cylinder's own lag; 2^64 = 360 cam degrees
-  std::int64_t turned;   ///< the same units
+  std::uint64_t phase;  ///< at its end, before each cylinder's own lag; 2^64 = 360 cam degrees
+  std::int64_t turned;  ///< the same units
   CamTurn<Real> cam;
 
-  [[nodiscard]] constexpr std::uint64_t phase_before() const noexcept { return phase - static_cast<std::uint64_t>(turned); }
+  [[nodiscard]] constexpr std::uint64_t phase_before() const noexcept {
+    return phase - static_cast<std::uint64_t>(turned);
+  }
 };
 
 /// Where a train's cams stand.
@@ -43,9 +45,12 @@ class CamTicks {
   }
 
   /// Moves a train's cams toward their target.
-  void move(const LiftCurve<Real>& curve, State<Real, S>& state, std::uint32_t t, Real target_deg, std::uint32_t& faults) noexcept {
-    const Real target = checked(target_deg, within_magnitude(target_deg, Real{180}), state.cam_phase_target_deg[t], kFaultCamPhase, faults);
-    const auto wanted = static_cast<std::int64_t>(Phase::from_cycles(target * static_cast<Real>(1.0 / kDegreesPerCycle)).units());
+  void move(const LiftCurve<Real>& curve, State<Real, S>& state, std::uint32_t t, Real target_deg,
+            std::uint32_t& faults) noexcept {
+    const Real target = checked(target_deg, within_magnitude(target_deg, Real{180}), state.cam_phase_target_deg[t],
+                                kFaultCamPhase, faults);
+    const auto wanted =
+        static_cast<std::int64_t>(Phase::from_cycles(target * static_cast<Real>(1.0 / kDegreesPerCycle)).units());
     const auto most = static_cast<std::int64_t>(curve.most_phase_per_tick);
     std::int64_t later = wanted - static_cast<std::int64_t>(state.cam_phase[t]);
     if (later > most) later = most;
@@ -54,7 +59,9 @@ class CamTicks {
     set(t, cam_phase(state, t), turned_ - static_cast<std::uint64_t>(later));
   }
 
-  [[nodiscard]] const CamTick<Real>& operator[](std::uint32_t train) const noexcept { return ticks_[S::cam_phasing ? train : 0]; }
+  [[nodiscard]] const CamTick<Real>& operator[](std::uint32_t train) const noexcept {
+    return ticks_[S::cam_phasing ? train : 0];
+  }
 
  private:
   void set(std::uint32_t i, std::uint64_t phase, std::uint64_t turned) noexcept {

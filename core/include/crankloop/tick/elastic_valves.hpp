@@ -1,12 +1,13 @@
 // The elastic valves of an engine over one tick.
 //
-// What belongs here: which valves move, the round over them, who may spend the budget. What does not: one valve's step (valve.hpp), a step in which
-// contacts change (valve_changes.hpp), the same abreast (valves_abreast.hpp).
+// What belongs here: which valves move, the round over them, who may spend the budget. What does not: one valve's step
+// (valve.hpp), a step in which contacts change (valve_changes.hpp), the same abreast (valves_abreast.hpp).
 //
 //     wake those whose cams come near -> plain step of each that moves, its guards asked -> a look at those whose guards fail, by turns
 //
-// A valve that moves takes one step in its contact regime, whatever that is: its record of constants has the difference. Where the guards
-// say that no contact can have changed meanwhile, that is its tick. One at rest whose cam is away is not visited at all.
+// A valve that moves takes one step in its contact regime, whatever that is: its record of constants has the
+// difference. Where the guards say that no contact can have changed meanwhile, that is its tick. One at rest whose cam
+// is away is not visited at all.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,8 @@
 
 namespace crankloop::detail {
 
-/// From tick to tick the damper's force may change by as much of the cam's speed as this without a look at the contacts.
+/// From tick to tick the damper's force may change by as much of the cam's speed as this without a look at the
+/// contacts.
 inline constexpr double kSpeedJump = 0.02;
 
 template <class Real, class S>
@@ -45,7 +47,8 @@ class ElasticValves {
     find_cams();
     for_each([&](std::uint32_t v) {
       const std::uint64_t since_opening = cam_phase(state_, train(v)) - curve(v).opens[cylinder(v)];
-      const Placed<Real> placed = in_equilibrium(motion(v), curve(v).read(curve(v).cell(since_opening)).lift_m, gas_now_N(v));
+      const Placed<Real> placed =
+          in_equilibrium(motion(v), curve(v).read(curve(v).cell(since_opening)).lift_m, gas_now_N(v));
       state_.valve_lift_m[v] = placed.state.lift_m;
       state_.valve_velocity_m_s[v] = placed.state.velocity_m_s;
       set_regime(v, placed.regime);
@@ -87,10 +90,14 @@ class ElasticValves {
  private:
   [[nodiscard]] static constexpr std::uint32_t train(std::uint32_t v) noexcept { return v / kPerTrain; }
   [[nodiscard]] static constexpr std::uint32_t cylinder(std::uint32_t v) noexcept { return v % kPerTrain; }
-  [[nodiscard]] const ValveMotion<Real>& motion(std::uint32_t v) const noexcept { return tables_.valve_motions[train(v)]; }
+  [[nodiscard]] const ValveMotion<Real>& motion(std::uint32_t v) const noexcept {
+    return tables_.valve_motions[train(v)];
+  }
   [[nodiscard]] const LiftCurve<Real>& curve(std::uint32_t v) const noexcept {
-    if constexpr (kMayGoAbreast<Real, S>) return tables_.lift_curves[train(v)];
-    else return *work_.valve[v].curve;
+    if constexpr (kMayGoAbreast<Real, S>)
+      return tables_.lift_curves[train(v)];
+    else
+      return *work_.valve[v].curve;
   }
   /// Where a valve's cam stands. In float its lobe's beginning has no low word.
   [[nodiscard]] Cell cell(std::uint32_t v, std::uint64_t phase) const noexcept {
@@ -100,7 +107,9 @@ class ElasticValves {
       return LiftCurve<Real>::cell(std::uint64_t{static_cast<std::uint32_t>(phase >> 32) - work_.valve[v].opens} << 32);
     }
   }
-  [[nodiscard]] std::uint32_t trains() const noexcept { return S::trains.exact ? S::trains.capacity : tables_.drive->trains; }
+  [[nodiscard]] std::uint32_t trains() const noexcept {
+    return S::trains.exact ? S::trains.capacity : tables_.drive->trains;
+  }
   [[nodiscard]] std::uint32_t cam_groups() const noexcept { return S::cam_phasing ? trains() : 1; }
 
   /// Valves of all trains.
@@ -140,13 +149,16 @@ class ElasticValves {
 #endif
   }
   [[nodiscard]] const RegimeStep<Real>& regime_of(std::uint32_t v) const noexcept {
-    if constexpr (kMayGoAbreast<Real, S>) return motion(v).whole[state_.valve_regime[v]];
-    else return *work_.valve[v].regime;
+    if constexpr (kMayGoAbreast<Real, S>)
+      return motion(v).whole[state_.valve_regime[v]];
+    else
+      return *work_.valve[v].regime;
   }
 
   [[nodiscard]] Real gas_now_N(std::uint32_t v) const noexcept {
     if constexpr (S::valve_gas) {
-      if (pressure_Pa_ != nullptr) return (pressure_Pa_[cylinder(v)] - tables_.body->crankcase_Pa) * motion(v).body.head_area_m2;
+      if (pressure_Pa_ != nullptr)
+        return (pressure_Pa_[cylinder(v)] - tables_.body->crankcase_Pa) * motion(v).body.head_area_m2;
     }
     (void)v;
     return Real{0};
@@ -170,7 +182,7 @@ class ElasticValves {
     });
   }
 
-  // ---- before the steps ------------------------------------------------------------------------------------------------------
+  // ---- before the steps -------------------------------------------------------------------------------------------
 
   void begin(const CamTicks<Real, S>& cams, std::uint32_t group) noexcept {
     const CamTick<Real>& tick = cams[group];
@@ -183,7 +195,9 @@ class ElasticValves {
     if (jumps) ask_all(tick, group);
   }
 
-  [[nodiscard]] static constexpr std::uint32_t angle_of_cams(const CamTick<Real>& tick) noexcept { return static_cast<std::uint32_t>(tick.phase >> 32); }
+  [[nodiscard]] static constexpr std::uint32_t angle_of_cams(const CamTick<Real>& tick) noexcept {
+    return static_cast<std::uint32_t>(tick.phase >> 32);
+  }
 
   /// Where the train may touch a closed valve; for scenes that show the gap, where it changes.
   [[nodiscard]] static CamWindow near_window(const LiftCurve<Real>& curve, std::uint32_t opens) noexcept {
@@ -192,8 +206,8 @@ class ElasticValves {
     return {opens + curve.touch_from * kUnitsPerDegree, curve.touch_degrees * kUnitsPerDegree};
   }
 
-  /// Valves at rest whose cams have come near move again, from where their cams stood before the tick; and the part of the turn is found in
-  /// which the others may be left alone.
+  /// Valves at rest whose cams have come near move again, from where their cams stood before the tick; and the part of
+  /// the turn is found in which the others may be left alone.
   [[gnu::noinline]] void wake(const CamTick<Real>& tick, std::uint32_t group) noexcept {
     const std::uint32_t angle = angle_of_cams(tick);
     const bool leaps = magnitude(tick.cam.deg) >= work_.leap_deg;
@@ -228,7 +242,7 @@ class ElasticValves {
     });
   }
 
-  // ---- plain steps -----------------------------------------------------------------------------------------------------------
+  // ---- plain steps ------------------------------------------------------------------------------------------------
 
   /// Those of some valves; answers which of them have guards that fail.
   [[nodiscard]] Bits step_those(Bits which, const CamTicks<Real, S>& cams, Before& before) noexcept {
@@ -241,7 +255,8 @@ class ElasticValves {
   }
 
   /// False where its guards fail: then it is looked at, from what was before.
-  [[nodiscard, gnu::always_inline]] bool is_sure_after_step(std::uint32_t v, const CamTick<Real>& tick, Before& before) noexcept {
+  [[nodiscard, gnu::always_inline]] bool is_sure_after_step(std::uint32_t v, const CamTick<Real>& tick,
+                                                            Before& before) noexcept {
     const Cell cell = this->cell(v, tick.phase);
     const Gas gas = gas_on(v);
     const RegimeStep<Real>& regime = regime_of(v);
@@ -271,7 +286,8 @@ class ElasticValves {
       changes(v, none).note({start, state_.valve_regime[v]}, end, span(v, tick, from, to, gas), motion(v).tick_s);
     }
     if (still) leave_alone(v, cell);
-    show(v, end, cell, {to.lift_m, gap_m, gap_speed_m_s, acceleration(regime.acceleration, end, gap_m, gap_speed_m_s, gas)}, gas);
+    show(v, end, cell,
+         {to.lift_m, gap_m, gap_speed_m_s, acceleration(regime.acceleration, end, gap_m, gap_speed_m_s, gas)}, gas);
     return true;
   }
 
@@ -281,9 +297,10 @@ class ElasticValves {
     return deg >= curve(v).leap_deg || (deg > motion(v).widest_step_deg && state_.valve_regime[v] != kQuiet);
   }
 
-  /// Whether a valve swings on its seat by so little that its cam, on the base circle, cannot matter. Gas moves the place that it swings about.
-  [[nodiscard]] bool swings_alone(std::uint32_t v, const ValveState<Real>& s, const RegimeStep<Real>& regime, const CamTick<Real>& tick,
-                                  const Gas& gas) const noexcept {
+  /// Whether a valve swings on its seat by so little that its cam, on the base circle, cannot matter. Gas moves the
+  /// place that it swings about.
+  [[nodiscard]] bool swings_alone(std::uint32_t v, const ValveState<Real>& s, const RegimeStep<Real>& regime,
+                                  const CamTick<Real>& tick, const Gas& gas) const noexcept {
     if (far_ && magnitude(tick.cam.deg) >= work_.leap_deg) return false;
     const ValveMotion<Real>& m = motion(v);
     if constexpr (S::valve_gas) {
@@ -299,8 +316,11 @@ class ElasticValves {
   }
 
   /// The plain step of such a valve: all its cam's factors are 0.
-  [[gnu::always_inline]] void swing(std::uint32_t v, const ValveState<Real>& start, const RegimeStep<Real>& regime, Cell cell, const Gas& gas) noexcept {
-    const auto more = [&](const StepRow<Real>& r) { return gas.drive(r) + (r.lift * start.lift_m + r.velocity * start.velocity_m_s); };
+  [[gnu::always_inline]] void swing(std::uint32_t v, const ValveState<Real>& start, const RegimeStep<Real>& regime,
+                                    Cell cell, const Gas& gas) noexcept {
+    const auto more = [&](const StepRow<Real>& r) {
+      return gas.drive(r) + (r.lift * start.lift_m + r.velocity * start.velocity_m_s);
+    };
     ValveState<Real> end{start.lift_m + more(regime.lift), start.velocity_m_s + more(regime.velocity)};
     if (put_to_rest(v, regime, gas, end)) leave_alone(v, cell);
     state_.valve_lift_m[v] = end.lift_m;
@@ -314,7 +334,8 @@ class ElasticValves {
   }
 
   /// A valve that has all but come to rest is put there.
-  [[nodiscard, gnu::always_inline]] bool put_to_rest(std::uint32_t v, const RegimeStep<Real>& regime, const Gas& gas, ValveState<Real>& s) const noexcept {
+  [[nodiscard, gnu::always_inline]] bool put_to_rest(std::uint32_t v, const RegimeStep<Real>& regime, const Gas& gas,
+                                                     ValveState<Real>& s) const noexcept {
     const Real resting_m = gas.resting_m(motion(v).per_seat_N_m);
     if (!(magnitude(s.lift_m - resting_m) < regime.rest_m && magnitude(s.velocity_m_s) < regime.rest_m_s)) return false;
     s = {resting_m, Real{0}};
@@ -331,14 +352,16 @@ class ElasticValves {
     (void)v, (void)cell;
   }
 
-  [[gnu::always_inline]] void show(std::uint32_t v, const ValveState<Real>& end, Cell cell, const Moment<Real>& at, const Gas& gas) noexcept {
+  [[gnu::always_inline]] void show(std::uint32_t v, const ValveState<Real>& end, Cell cell, const Moment<Real>& at,
+                                   const Gas& gas) noexcept {
     if constexpr (S::valve_gas) state_.valve_gas_N[v] = gas.to_N;
     show_motion((&out_.valve[0][0])[v], end, at);
-    if constexpr (S::valve_forces) show_forces((&out_.valve_forces[0][0])[v], motion(v).body, curve(v), {end, state_.valve_regime[v]}, cell, at);
+    if constexpr (S::valve_forces)
+      show_forces((&out_.valve_forces[0][0])[v], motion(v).body, curve(v), {end, state_.valve_regime[v]}, cell, at);
     (void)cell, (void)gas;
   }
 
-  // ---- those whose guards fail -----------------------------------------------------------------------------------------------
+  // ---- those whose guards fail ------------------------------------------------------------------------------------
 
   using Changes = ValveChanges<Real, Gas, Record>;
   [[nodiscard]] Changes changes(std::uint32_t v, ChangeBudget& budget) noexcept {
@@ -348,13 +371,14 @@ class ElasticValves {
       return Changes(motion(v), curve(v), budget, no_record_);
     }
   }
-  [[nodiscard]] Span<Real, Gas> span(std::uint32_t v, const CamTick<Real>& tick, const Lift<Real>& from, const Lift<Real>& to,
-                                     const Gas& gas) const noexcept {
+  [[nodiscard]] Span<Real, Gas> span(std::uint32_t v, const CamTick<Real>& tick, const Lift<Real>& from,
+                                     const Lift<Real>& to, const Gas& gas) const noexcept {
     return {from, to, tick.cam, gas, tick.phase_before() - curve(v).opens[cylinder(v)], Real{0}};
   }
 
   /// Another valve first in every tick: who comes first may spend the budget.
-  [[gnu::noinline]] void look_by_turns(Bits doubtful, const CamTicks<Real, S>& cams, const Before& before, ChangeBudget& budget) noexcept {
+  [[gnu::noinline]] void look_by_turns(Bits doubtful, const CamTicks<Real, S>& cams, const Before& before,
+                                       ChangeBudget& budget) noexcept {
     const std::uint32_t first = static_cast<std::uint32_t>(state_.ticks) % kMostValves;
     for (Bits left = doubtful; left != 0;) {
       const Bits ahead = left >> first << first;
@@ -378,10 +402,11 @@ class ElasticValves {
     const Real gap_m = to.lift_m - end.state.lift_m;
     const Real gap_speed_m_s = tick.cam.deg_per_s * to.per_deg_m - end.state.velocity_m_s;
     const ForceRow<Real>& force = motion(v).whole[end.regime].acceleration;
-    show(v, end.state, cell(v, tick.phase), {to.lift_m, gap_m, gap_speed_m_s, acceleration(force, end.state, gap_m, gap_speed_m_s, gas)}, gas);
+    show(v, end.state, cell(v, tick.phase),
+         {to.lift_m, gap_m, gap_speed_m_s, acceleration(force, end.state, gap_m, gap_speed_m_s, gas)}, gas);
   }
 
-  // ---- after the steps -------------------------------------------------------------------------------------------------------
+  // ---- after the steps --------------------------------------------------------------------------------------------
 
   /// A valve's cycle ends where its cam passes the middle of the base circle.
   void end_cycles(const CamTicks<Real, S>& cams, std::uint32_t group) noexcept {
@@ -396,15 +421,18 @@ class ElasticValves {
       // In cam degrees since the start of the lobe: after it, or before it when turning backwards.
       const auto lobe_deg = static_cast<Real>(static_cast<std::int32_t>(lift.segments));
       const Real end_deg = (tick.cam.deg < 0 ? lobe_deg - Real{kDegreesPerTurn} : lobe_deg + Real{kDegreesPerTurn}) / 2;
-      out_.valve_cycle[train(v)][cylinder(v)] = state_.record[train(v)][cylinder(v)].finish(end_deg, contacts_of(state_.valve_regime[v]));
+      out_.valve_cycle[train(v)][cylinder(v)] =
+          state_.record[train(v)][cylinder(v)].finish(end_deg, contacts_of(state_.valve_regime[v]));
     });
     work_.no_end[group] = clear.about(angle_of_cams(tick));
   }
 
-  // ---- abreast ---------------------------------------------------------------------------------------------------------------
+  // ---- abreast ----------------------------------------------------------------------------------------------------
 
-  /// Plain steps in blocks of lanes, each a valve by its number; what fills no block one by one. Answers which have guards that fail.
-  [[nodiscard]] Bits step_abreast([[maybe_unused]] const CamTicks<Real, S>& cams, [[maybe_unused]] Before& before) noexcept {
+  /// Plain steps in blocks of lanes, each a valve by its number; what fills no block one by one. Answers which have
+  /// guards that fail.
+  [[nodiscard]] Bits step_abreast([[maybe_unused]] const CamTicks<Real, S>& cams,
+                                  [[maybe_unused]] Before& before) noexcept {
     Bits doubtful = 0;
 #if CRANKLOOP_ABREAST
     if constexpr (kAbreast) {
@@ -423,7 +451,8 @@ class ElasticValves {
         std::uint32_t done = 0;
         float* const shown = &out_.valve[0][0].theoretical_lift_m;
         doubtful |= step_blocks<WidestLanes>(work_, state_, tick, first, row, doubtful, before, shown, done);
-        if constexpr (!std::is_same_v<WidestLanes, Four>) doubtful |= step_blocks<Four>(work_, state_, tick, first, row, doubtful, before, shown, done);
+        if constexpr (!std::is_same_v<WidestLanes, Four>)
+          doubtful |= step_blocks<Four>(work_, state_, tick, first, row, doubtful, before, shown, done);
         const Bits rest = done < row ? ((Bits{1} << (row - done)) - 1) << (first + done) : 0;
         if (rest != 0) doubtful |= step_those(rest, cams, before);
       }

@@ -1,7 +1,8 @@
-// Floats abreast: several valves in one register, by the vector extension of GCC and Clang. The only place that knows of it.
+// Floats abreast: several valves in one register, by the vector extension of GCC and Clang. The only place that knows
+// of it.
 //
-// What belongs here: loading, storing, transposing such numbers. What does not: what is computed with them: the same inline functions as with
-// one (valve.hpp), + - * and comparisons alone, so a lane has the bits that it has by itself.
+// What belongs here: loading, storing, transposing such numbers. What does not: what is computed with them: the same
+// inline functions as with one (valve.hpp), + - * and comparisons alone, so a lane has the bits that it has by itself.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,8 @@
 
 #include <crankloop/tick/one_instruction.hpp>
 
-/// Whether valves are stepped abreast. Either way gives the same bits: where a processor has no vectors of floats, one by one is faster.
+/// Whether valves are stepped abreast. Either way gives the same bits: where a processor has no vectors of floats, one
+/// by one is faster.
 #ifndef CRANKLOOP_ABREAST
 #if defined(__SSE2__) || defined(__ARM_NEON)
 #define CRANKLOOP_ABREAST 1
@@ -23,13 +25,17 @@ namespace crankloop {
 
 using Four = float __attribute__((vector_size(16)));
 using FourBits = std::int32_t __attribute__((vector_size(16)));
-[[nodiscard]] inline Four magnitude(const Four& x) noexcept { return reinterpret_cast<Four>(reinterpret_cast<FourBits>(x) & 0x7FFF'FFFF); }
+[[nodiscard]] inline Four magnitude(const Four& x) noexcept {
+  return reinterpret_cast<Four>(reinterpret_cast<FourBits>(x) & 0x7FFF'FFFF);
+}
 
 /// As many as a register holds: the compiler's target, so no layout may depend on it.
 #if defined(__AVX__)
 using Eight = float __attribute__((vector_size(32)));
 using EightBits = std::int32_t __attribute__((vector_size(32)));
-[[nodiscard]] inline Eight magnitude(const Eight& x) noexcept { return reinterpret_cast<Eight>(reinterpret_cast<EightBits>(x) & 0x7FFF'FFFF); }
+[[nodiscard]] inline Eight magnitude(const Eight& x) noexcept {
+  return reinterpret_cast<Eight>(reinterpret_cast<EightBits>(x) & 0x7FFF'FFFF);
+}
 using WidestLanes = Eight;
 #else
 using WidestLanes = Four;
@@ -99,7 +105,8 @@ template <class Bits>
 }
 
 /// Four numbers of each lane, lane by lane.
-[[gnu::always_inline]] inline void store_lanes(const Four& a, const Four& b, const Four& c, const Four& d, float* to) noexcept {
+[[gnu::always_inline]] inline void store_lanes(const Four& a, const Four& b, const Four& c, const Four& d,
+                                               float* to) noexcept {
 #if defined(__clang__) || __GNUC__ >= 12
   const Four ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5), ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
   const Four cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5), cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
@@ -117,12 +124,15 @@ template <class Bits>
   const Four a = load<Four>(from[0]), b = load<Four>(from[1]), c = load<Four>(from[2]), d = load<Four>(from[3]);
   const Four ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5), ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
   const Four cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5), cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
-  x[0] = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5), x[1] = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
-  x[2] = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5), x[3] = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
+  x[0] = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5),
+  x[1] = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
+  x[2] = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5),
+  x[3] = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
   using Two = double __attribute__((vector_size(16)));
   double pairs[4];
   for (int i = 0; i < 4; ++i) std::memcpy(&pairs[i], from[i] + 4, sizeof pairs[i]);
-  const Four low = reinterpret_cast<Four>(Two{pairs[0], pairs[1]}), high = reinterpret_cast<Four>(Two{pairs[2], pairs[3]});
+  const Four low = reinterpret_cast<Four>(Two{pairs[0], pairs[1]}),
+             high = reinterpret_cast<Four>(Two{pairs[2], pairs[3]});
   x[4] = __builtin_shufflevector(low, high, 0, 2, 4, 6), x[5] = __builtin_shufflevector(low, high, 1, 3, 5, 7);
 #else
   for (int i = 0; i < 6; ++i) x[i] = Four{from[0][i], from[1][i], from[2][i], from[3][i]};
@@ -135,7 +145,8 @@ template <class Bits>
   load_lanes({from[4], from[5], from[6], from[7]}, high);
   for (int i = 0; i < 6; ++i) x[i] = __builtin_shufflevector(low[i], high[i], 0, 1, 2, 3, 4, 5, 6, 7);
 }
-[[gnu::always_inline]] inline void store_lanes(const Eight& a, const Eight& b, const Eight& c, const Eight& d, float* to) noexcept {
+[[gnu::always_inline]] inline void store_lanes(const Eight& a, const Eight& b, const Eight& c, const Eight& d,
+                                               float* to) noexcept {
   const auto half = [](const Eight& x, int which) {
     Four f;
     std::memcpy(&f, reinterpret_cast<const char*>(&x) + which * 16, sizeof f);

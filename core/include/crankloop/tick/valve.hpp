@@ -1,7 +1,7 @@
 // One elastic valve: a step in a contact regime, and which regime its contacts ask for. docs/model.md "Valve".
 //
-// What belongs here: what holds at one moment, and over one step in which no contact changes. What does not: a step in which one does
-// (valve_changes.hpp), the valves of an engine (elastic_valves.hpp).
+// What belongs here: what holds at one moment, and over one step in which no contact changes. What does not: a step in
+// which one does (valve_changes.hpp), the valves of an engine (elastic_valves.hpp).
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,8 @@ struct Placed {
   std::uint32_t regime;
 };
 
-/// What a step leads to, and what it added to the lift before that was rounded: the difference of two lifts has too few bits left.
+/// What a step leads to, and what it added to the lift before that was rounded: the difference of two lifts has too few
+/// bits left.
 template <class Number>
 struct Stepped {
   ValveState<Number> state;
@@ -38,7 +39,7 @@ struct Stepped {
 /// How cams turn during a step.
 template <class Real>
 struct CamTurn {
-  Real deg;        ///< with sign
+  Real deg;  ///< with sign
   Real deg_per_s;
 };
 
@@ -90,8 +91,9 @@ struct NoGasForce {
 
 /// A step in a regime, for a cam's lift that is the cubic through its ends.
 template <class Held, class Number, class Real, class Gas>
-[[nodiscard]] constexpr Stepped<Number> stepped(const RegimeStep<Held>& regime, const ValveState<Number>& s, const Lift<Number>& from,
-                                                const Lift<Number>& to, Real deg, const Gas& gas) noexcept {
+[[nodiscard]] constexpr Stepped<Number> stepped(const RegimeStep<Held>& regime, const ValveState<Number>& s,
+                                                const Lift<Number>& from, const Lift<Number>& to, Real deg,
+                                                const Gas& gas) noexcept {
   const Number gap = from.lift_m - s.lift_m;
   const Number rise = to.lift_m - from.lift_m;
   const Number from_slope = deg * from.per_deg_m;
@@ -106,8 +108,8 @@ template <class Held, class Number, class Real, class Gas>
 
 /// y'' by the forces of a regime; the gas force as at the end of its step.
 template <class Held, class Number, class Gas>
-[[nodiscard]] constexpr Number acceleration(const ForceRow<Held>& f, const ValveState<Number>& s, Number gap_m, Number gap_speed_m_s,
-                                            const Gas& gas) noexcept {
+[[nodiscard]] constexpr Number acceleration(const ForceRow<Held>& f, const ValveState<Number>& s, Number gap_m,
+                                            Number gap_speed_m_s, const Gas& gas) noexcept {
   return gas.rest(f) + f.lift * s.lift_m + f.velocity * s.velocity_m_s + (f.gap * gap_m + f.gap_speed * gap_speed_m_s);
 }
 
@@ -129,7 +131,8 @@ struct BeforeStep {
 
 /// Which contacts push: those whose depth and whose force are both positive.
 template <class Real>
-[[nodiscard]] constexpr std::uint32_t asked(const ValveMotion<Real>& m, const ValveState<Real>& s, const Lift<Real>& lift, Real deg_per_s) noexcept {
+[[nodiscard]] constexpr std::uint32_t asked(const ValveMotion<Real>& m, const ValveState<Real>& s,
+                                            const Lift<Real>& lift, Real deg_per_s) noexcept {
   const Real gap = lift.lift_m - s.lift_m;
   const Real sink = m.body.seat_sink_m - s.lift_m;
   const bool train = gap > 0 && gap + m.train_lag_s * (deg_per_s * lift.per_deg_m - s.velocity_m_s) > 0;
@@ -140,15 +143,18 @@ template <class Real>
 /// No valve gets so far: one that does is put back.
 inline constexpr double kFarthest_m = 1;
 
-/// A valve at rest where its cam stands. Decided by forces, at the places where a contact begins: on a soft seat a difference of lifts would be
-/// less than their rounding. Without a spring the division by its rate has no meaning, and is not used.
+/// A valve at rest where its cam stands. Decided by forces, at the places where a contact begins: on a soft seat a
+/// difference of lifts would be less than their rounding. Without a spring the division by its rate has no meaning, and
+/// is not used.
 template <class Real>
-[[nodiscard]] __attribute__((no_sanitize("float-divide-by-zero"))) constexpr Placed<Real> in_equilibrium(const ValveMotion<Real>& m, Real lift_m, Real gas_N) noexcept {
+[[nodiscard]] __attribute__((no_sanitize("float-divide-by-zero"))) constexpr Placed<Real> in_equilibrium(
+    const ValveMotion<Real>& m, Real lift_m, Real gas_N) noexcept {
   const ValveBody<Real>& b = m.body;
   const Real down_N = b.preload_N + gas_N;
   const Real just_off_N = down_N + b.spring_N_m * b.seat_sink_m;  // what holds it down where the seat ends
   const bool sucked_open = just_off_N < 0;
-  const Real off_seat_m = down_N + b.spring_N_m * static_cast<Real>(kFarthest_m) < 0 ? static_cast<Real>(kFarthest_m) : -down_N / b.spring_N_m;
+  const Real off_seat_m = down_N + b.spring_N_m * static_cast<Real>(kFarthest_m) < 0 ? static_cast<Real>(kFarthest_m)
+                                                                                     : -down_N / b.spring_N_m;
   const Real alone_m = sucked_open ? off_seat_m : -gas_N * m.per_seat_N_m;
   if (!(lift_m > alone_m)) return {{alone_m, Real{0}}, sucked_open ? 0u : kSeatOn};
   if (b.train_N_m * (lift_m - b.seat_sink_m) > just_off_N) {

@@ -1,7 +1,7 @@
 // A valve's tick in which a contact may change: the change is located, and the step split there.
 //
-// What belongs here: the path of a valve whose guards fail. What does not: the step itself (valve.hpp), which valves there are and what they
-// may spend (elastic_valves.hpp).
+// What belongs here: the path of a valve whose guards fail. What does not: the step itself (valve.hpp), which valves
+// there are and what they may spend (elastic_valves.hpp).
 //
 //     tick   |-------------------------------|    one step; its guards fail:
 //            |-------|-------|-------|-------|    fine steps, so short that cubics tell where a contact changes (one, where the tick is)
@@ -17,14 +17,15 @@
 
 namespace crankloop::detail {
 
-/// Contact changes that may still be located in this tick, over all valves. One more is taken at the end of its fine step.
+/// Contact changes that may still be located in this tick, over all valves. One more is taken at the end of its fine
+/// step.
 struct ChangeBudget {
   std::uint32_t left;
   bool exceeded;
 };
 
-/// A cubic by the part of a step. Where one has no slope its places are infinite or no numbers, as IEEE has it, and end as 1: asking first would cost
-/// a kilobyte of code on a Cortex-M4F, so the sanitizer is told that this is meant.
+/// A cubic by the part of a step. Where one has no slope its places are infinite or no numbers, as IEEE has it, and end
+/// as 1: asking first would cost a kilobyte of code on a Cortex-M4F, so the sanitizer is told that this is meant.
 template <class Real>
 struct Cubic {
   Real c[4];
@@ -54,7 +55,8 @@ struct Cubic {
     c[0] = now.value;
   }
 
-  /// Where its slope passes 0 within 0 to 1: by the slopes at both ends, and one step of Newton's method. 1 where it does not.
+  /// Where its slope passes 0 within 0 to 1: by the slopes at both ends, and one step of Newton's method. 1 where it
+  /// does not.
   [[nodiscard]] __attribute__((no_sanitize("float-divide-by-zero"))) constexpr Real turn() const noexcept {
     const Real x = c[1] / (c[1] - (c[1] + 2 * c[2] + 3 * c[3]));
     if (!(x > 0 && x < 1)) return 1;
@@ -69,8 +71,9 @@ struct Cubic {
     c[3] *= x * x * x;
   }
 
-  /// Where it reaches 0 within 0 to 1, its value at 1 given; `again`: where it comes back to 0 after having left it. The root of the quadratic
-  /// through both values and the first slope, in the form that does not cancel, and one step of Newton's method.
+  /// Where it reaches 0 within 0 to 1, its value at 1 given; `again`: where it comes back to 0 after having left it.
+  /// The root of the quadratic through both values and the first slope, in the form that does not cancel, and one step
+  /// of Newton's method.
   [[nodiscard]] __attribute__((no_sanitize("float-divide-by-zero"))) Real root(bool again, Real to) const noexcept {
     const Real sum = c[1] + 2 * c[0];
     const Real square = square_root(sum * sum - 4 * c[0] * to);
@@ -95,21 +98,25 @@ struct Span {
 template <class Real, class Gas, class Record>
 class ValveChanges {
  public:
-  ValveChanges(const ValveMotion<Real>& motion, const LiftCurve<Real>& curve, ChangeBudget& budget, Record& record) noexcept
+  ValveChanges(const ValveMotion<Real>& motion, const LiftCurve<Real>& curve, ChangeBudget& budget,
+               Record& record) noexcept
       : motion_{motion}, curve_{curve}, budget_{budget}, record_{record} {}
 
-  /// A tick of a valve whose guards fail; `end` is where its regime's step led. The cam's speed may have changed the damper's force since
-  /// the tick before, so the contacts are asked at its start too. The cam stands at `to`, `turned` units on. O(parts + changes).
-  [[nodiscard]] Placed<Real> run(const Placed<Real>& start, Stepped<Real> end, const Span<Real, Gas>& tick, std::uint64_t to,
-                                 std::int64_t turned) const noexcept {
+  /// A tick of a valve whose guards fail; `end` is where its regime's step led. The cam's speed may have changed the
+  /// damper's force since the tick before, so the contacts are asked at its start too. The cam stands at `to`, `turned`
+  /// units on. O(parts + changes).
+  [[nodiscard]] Placed<Real> run(const Placed<Real>& start, Stepped<Real> end, const Span<Real, Gas>& tick,
+                                 std::uint64_t to, std::int64_t turned) const noexcept {
     if (motion_.parts > 1) return by_fine_steps(start, tick, to, turned);
     const std::uint32_t regime = asked_at_start(start, tick);
-    if (regime != start.regime) end = stepped(motion_.fine[regime], start.state, tick.from, tick.to, tick.cam.deg, tick.gas);
+    if (regime != start.regime)
+      end = stepped(motion_.fine[regime], start.state, tick.from, tick.to, tick.cam.deg, tick.gas);
     return checked({start.state, regime}, end, tick);
   }
 
   /// A step in which no contact changed.
-  void note(const Placed<Real>& from, const ValveState<Real>& to, const Span<Real, Gas>& span, Real step_s) const noexcept {
+  void note(const Placed<Real>& from, const ValveState<Real>& to, const Span<Real, Gas>& span,
+            Real step_s) const noexcept {
     if constexpr (kRecorded) {
       note_part(from.regime, from.state, to, {span.from.lift_m, span.cam.deg_per_s * span.from.per_deg_m},
                 {span.to.lift_m, span.cam.deg_per_s * span.to.per_deg_m}, span, 0, 1, step_s);
@@ -126,12 +133,13 @@ class ValveChanges {
   }
 
   /// Fine steps all through the tick.
-  [[nodiscard, gnu::noinline]] Placed<Real> by_fine_steps(Placed<Real> valve, const Span<Real, Gas>& tick, std::uint64_t to,
-                                                          std::int64_t turned) const noexcept {
+  [[nodiscard, gnu::noinline]] Placed<Real> by_fine_steps(Placed<Real> valve, const Span<Real, Gas>& tick,
+                                                          std::uint64_t to, std::int64_t turned) const noexcept {
     const bool open = tick.from.lift_m > 0 || tick.to.lift_m > 0;
     const bool leaps = magnitude(tick.cam.deg) >= curve_.leap_deg;
     const bool seated = valve.regime == kSeatOn || valve.regime == kQuiet;
-    if (seated && !open && !leaps && valve.state.lift_m == 0 && valve.state.velocity_m_s == 0 && tick.gas.from_N == 0 && tick.gas.to_N == 0) {
+    if (seated && !open && !leaps && valve.state.lift_m == 0 && valve.state.velocity_m_s == 0 && tick.gas.from_N == 0 &&
+        tick.gas.to_N == 0) {
       return valve;  // at rest, the cam away at both ends
     }
     valve.regime = asked_at_start(valve, tick);
@@ -143,8 +151,10 @@ class ValveChanges {
     for (std::uint32_t i = 1; i <= motion_.parts; ++i) {
       at += part;
       step.to = i == motion_.parts ? tick.to : curve_.read(LiftCurve<Real>::cell(at));
-      step.gas = tick.gas.between(static_cast<Real>(i - 1) * motion_.per_parts, static_cast<Real>(i) * motion_.per_parts);
-      const Stepped<Real> end = stepped(motion_.fine[valve.regime], valve.state, step.from, step.to, step.cam.deg, step.gas);
+      step.gas =
+          tick.gas.between(static_cast<Real>(i - 1) * motion_.per_parts, static_cast<Real>(i) * motion_.per_parts);
+      const Stepped<Real> end =
+          stepped(motion_.fine[valve.regime], valve.state, step.from, step.to, step.cam.deg, step.gas);
       const bool is_sure = sure(valve.regime, end.state, step.to, step.cam);
       if (is_sure && was_sure) {
         note(valve, end.state, step, motion_.fine_step_s);
@@ -161,7 +171,8 @@ class ValveChanges {
     if (valve.regime == kSeatOn && up_m + swing_m(motion_, valve.state, resting_m) < motion_.quiet_m) {
       valve.regime = kQuiet;
       const RegimeStep<Real>& quiet = motion_.whole[kQuiet];
-      if (magnitude(valve.state.lift_m - resting_m) < quiet.rest_m && magnitude(valve.state.velocity_m_s) < quiet.rest_m_s) {
+      if (magnitude(valve.state.lift_m - resting_m) < quiet.rest_m &&
+          magnitude(valve.state.velocity_m_s) < quiet.rest_m_s) {
         valve.state = {resting_m, Real{0}};
       }
     }
@@ -169,19 +180,23 @@ class ValveChanges {
   }
 
   /// Whether a fine step's guards hold at one of its ends.
-  [[nodiscard]] bool sure(std::uint32_t regime, const ValveState<Real>& s, const Lift<Real>& cam, const CamTurn<Real>& turn) const noexcept {
+  [[nodiscard]] bool sure(std::uint32_t regime, const ValveState<Real>& s, const Lift<Real>& cam,
+                          const CamTurn<Real>& turn) const noexcept {
     const RegimeStep<Real>& r = motion_.fine[regime];
-    return holds(r.train, cam.lift_m - s.lift_m, turn.deg_per_s * cam.per_deg_m - s.velocity_m_s) && holds(r.seat, s.lift_m, s.velocity_m_s);
+    return holds(r.train, cam.lift_m - s.lift_m, turn.deg_per_s * cam.per_deg_m - s.velocity_m_s) &&
+           holds(r.seat, s.lift_m, s.velocity_m_s);
   }
 
   /// A fine step: most often no contact changes in it.
-  [[nodiscard]] Placed<Real> checked(const Placed<Real>& start, const Stepped<Real>& end, const Span<Real, Gas>& step) const noexcept {
+  [[nodiscard]] Placed<Real> checked(const Placed<Real>& start, const Stepped<Real>& end,
+                                     const Span<Real, Gas>& step) const noexcept {
     if (!(magnitude(end.state.lift_m) < static_cast<Real>(kFarthest_m))) {  // nor is it a number
       budget_.exceeded = true;
       return in_equilibrium(motion_, step.to.lift_m, static_cast<Real>(step.gas.to_N));
     }
     std::uint32_t now = asked(motion_, end.state, step.to, step.cam.deg_per_s);
-    const Cubic<Real> lift(step.from.lift_m, step.cam.deg * step.from.per_deg_m, step.to.lift_m, step.cam.deg * step.to.per_deg_m);
+    const Cubic<Real> lift(step.from.lift_m, step.cam.deg * step.from.per_deg_m, step.to.lift_m,
+                           step.cam.deg * step.to.per_deg_m);
     if (now == start.regime) now ^= passing_change(stretch_of(start, end, lift, 1, step), now);
     if (now != start.regime && budget_.left != 0) return through_changes(start, end, now, lift, step);
     note(start, end.state, step, motion_.fine_step_s);
@@ -205,12 +220,12 @@ class ValveChanges {
     Real acceleration[2];
     Contact train, seat;
 
-    /// What changes its sign where a contact does, by the part of the stretch. One that is on ends where its force does. One that is off begins
-    /// where its depth becomes positive; or, there already, where its force does.
+    /// What changes its sign where a contact does, by the part of the stretch. One that is on ends where its force
+    /// does. One that is off begins where its depth becomes positive; or, there already, where its force does.
     [[nodiscard]] Cubic<Real> switching(const Contact& c, bool is_on, Real lag_s) const noexcept {
       const Real lag = !is_on && c.depth_m[0] <= 0 ? Real{0} : lag_s;
-      return Cubic<Real>(c.depth_m[0] + lag * c.speed_m_s[0], d_s * (c.speed_m_s[0] + lag * c.rate_m_s2[0]), c.depth_m[1] + lag * c.speed_m_s[1],
-                         d_s * (c.speed_m_s[1] + lag * c.rate_m_s2[1]));
+      return Cubic<Real>(c.depth_m[0] + lag * c.speed_m_s[0], d_s * (c.speed_m_s[0] + lag * c.rate_m_s2[0]),
+                         c.depth_m[1] + lag * c.speed_m_s[1], d_s * (c.speed_m_s[1] + lag * c.rate_m_s2[1]));
     }
 
     /// The state at a part of it: the quintic through states and accelerations at both ends.
@@ -221,7 +236,12 @@ class ValveChanges {
       const Real rise = rise_m - v0 - a0;
       const Real slope = to.velocity_m_s * d_s - v0 - 2 * a0;
       const Real bend = acceleration[1] * half - a0;
-      const Real c[] = {from.lift_m, v0, a0, 10 * rise - 4 * slope + bend, -15 * rise + 7 * slope - 2 * bend, 6 * rise - 3 * slope + bend};
+      const Real c[] = {from.lift_m,
+                        v0,
+                        a0,
+                        10 * rise - 4 * slope + bend,
+                        -15 * rise + 7 * slope - 2 * bend,
+                        6 * rise - 3 * slope + bend};
       Real value = c[5];
       Real by_part = 0;
       for (int i = 4; i >= 0; --i) {
@@ -233,8 +253,8 @@ class ValveChanges {
   };
 
   /// The rest of a fine step, `left` of it, from the origin of `lift`.
-  [[nodiscard]] Stretch stretch_of(const Placed<Real>& valve, const Stepped<Real>& end, const Cubic<Real>& lift, Real left,
-                                   const Span<Real, Gas>& step) const noexcept {
+  [[nodiscard]] Stretch stretch_of(const Placed<Real>& valve, const Stepped<Real>& end, const Cubic<Real>& lift,
+                                   Real left, const Span<Real, Gas>& step) const noexcept {
     const Real per_s = motion_.per_fine_step_s;
     const ForceRow<Real>& force = motion_.fine[valve.regime].acceleration;
     const Gas gas = step.gas.between(1 - left, 1);
@@ -250,7 +270,8 @@ class ValveChanges {
     train.rate_m_s2[0] = 2 * lift.c[2] * (per_s * per_s) - s.acceleration[0];
     train.rate_m_s2[1] = (2 * lift.c[2] + 6 * left * lift.c[3]) * (per_s * per_s) - s.acceleration[1];
     Contact& seat = s.seat;
-    seat.depth_m[0] = motion_.body.seat_sink_m - s.from.lift_m, seat.depth_m[1] = motion_.body.seat_sink_m - s.to.lift_m;
+    seat.depth_m[0] = motion_.body.seat_sink_m - s.from.lift_m,
+    seat.depth_m[1] = motion_.body.seat_sink_m - s.to.lift_m;
     seat.speed_m_s[0] = -s.from.velocity_m_s, seat.speed_m_s[1] = -s.to.velocity_m_s;
     seat.rate_m_s2[0] = -s.acceleration[0], seat.rate_m_s2[1] = -s.acceleration[1];
     return s;
@@ -277,8 +298,10 @@ class ValveChanges {
     return turn * f.root(false, f.at(1).value);
   }
 
-  /// A fine step in which a contact changes: from change to change. Each round takes one of the budget, of which some is left.
-  [[nodiscard, gnu::noinline]] Placed<Real> through_changes(Placed<Real> valve, Stepped<Real> end, std::uint32_t now, Cubic<Real> lift,
+  /// A fine step in which a contact changes: from change to change. Each round takes one of the budget, of which some
+  /// is left.
+  [[nodiscard, gnu::noinline]] Placed<Real> through_changes(Placed<Real> valve, Stepped<Real> end, std::uint32_t now,
+                                                            Cubic<Real> lift,
                                                             const Span<Real, Gas>& step) const noexcept {
     Real left = 1;
     std::uint32_t last = 0;
@@ -313,10 +336,10 @@ class ValveChanges {
     return {end.state, now};
   }
 
-  /// The motion from the origin of the lift's cubic on, over the part x of a fine step: derivatives by the equation of motion, order 8, so
-  /// exact to (rate step)^9 / 9!. The gas force is linear: `gas` over a whole fine step from there.
-  [[nodiscard]] Stepped<Real> by_series(const RegimeSeries<Real>& k, const ValveState<Real>& s, const Cubic<Real>& lift, Real x,
-                                        const Gas& gas) const noexcept {
+  /// The motion from the origin of the lift's cubic on, over the part x of a fine step: derivatives by the equation of
+  /// motion, order 8, so exact to (rate step)^9 / 9!. The gas force is linear: `gas` over a whole fine step from there.
+  [[nodiscard]] Stepped<Real> by_series(const RegimeSeries<Real>& k, const ValveState<Real>& s, const Cubic<Real>& lift,
+                                        Real x, const Gas& gas) const noexcept {
     const Real l1 = lift.c[1];
     const Real l2 = 2 * lift.c[2];
     const Real l3 = 6 * lift.c[3];
@@ -331,12 +354,18 @@ class ValveChanges {
     const Real y7 = next(0, y5, y6);
     const Real y8 = next(0, y6, y7);
     const auto over = [x](int n) { return x * (Real{1} / static_cast<Real>(n)); };
-    const Real rise = x * (y1 + over(2) * (y2 + over(3) * (y3 + over(4) * (y4 + over(5) * (y5 + over(6) * (y6 + over(7) * (y7 + over(8) * y8)))))));
-    const Real slope = y1 + x * (y2 + over(2) * (y3 + over(3) * (y4 + over(4) * (y5 + over(5) * (y6 + over(6) * (y7 + over(7) * y8))))));
+    const Real rise =
+        x *
+        (y1 +
+         over(2) *
+             (y2 + over(3) * (y3 + over(4) * (y4 + over(5) * (y5 + over(6) * (y6 + over(7) * (y7 + over(8) * y8)))))));
+    const Real slope =
+        y1 +
+        x * (y2 + over(2) * (y3 + over(3) * (y4 + over(4) * (y5 + over(5) * (y6 + over(6) * (y7 + over(7) * y8))))));
     return {{y0 + rise, slope * motion_.per_fine_step_s}, rise};
   }
 
-  // ---- the record of a cycle -------------------------------------------------------------------------------------------------
+  // ---- the record of a cycle --------------------------------------------------------------------------------------
 
   /// Cam degrees since the start of the lobe at a part of a span.
   [[nodiscard]] Real deg_at(const Span<Real, Gas>& span, Real part) const noexcept {
@@ -348,31 +377,36 @@ class ValveChanges {
     Real lift_m, speed_m_s;
   };
 
-  void note_part(std::uint32_t regime, const ValveState<Real>& from, const ValveState<Real>& to, const Theory& theory_from, const Theory& theory_to,
-                 const Span<Real, Gas>& span, Real from_part, Real to_part, Real step_s) const noexcept {
+  void note_part(std::uint32_t regime, const ValveState<Real>& from, const ValveState<Real>& to,
+                 const Theory& theory_from, const Theory& theory_to, const Span<Real, Gas>& span, Real from_part,
+                 Real to_part, Real step_s) const noexcept {
     const ForceRow<Real>& force = motion_.fine[regime].acceleration;
     const Gas gas = span.gas.between(from_part, to_part);
     const auto accelerates = [&](const ValveState<Real>& s, const Theory& at, const Gas& by) {
       return acceleration(force, s, at.lift_m - s.lift_m, at.speed_m_s - s.velocity_m_s, by);
     };
     record_.step({from, to, theory_from.lift_m, theory_to.lift_m, theory_from.speed_m_s, theory_to.speed_m_s,
-                  accelerates(from, theory_from, gas.between(0, 0)), accelerates(to, theory_to, gas), step_s, contacts_of(regime)},
-                 motion_.body.seat_sink_m, [&](Real part) { return deg_at(span, from_part + part * (to_part - from_part)); });
+                  accelerates(from, theory_from, gas.between(0, 0)), accelerates(to, theory_to, gas), step_s,
+                  contacts_of(regime)},
+                 motion_.body.seat_sink_m,
+                 [&](Real part) { return deg_at(span, from_part + part * (to_part - from_part)); });
   }
 
   /// From the origin of `lift`, which is at `from_part` of the step, over `part` of it.
-  void note_stretch(const Placed<Real>& from, const ValveState<Real>& to, const Cubic<Real>& lift, Real from_part, Real part,
-                    const Span<Real, Gas>& step) const noexcept {
+  void note_stretch(const Placed<Real>& from, const ValveState<Real>& to, const Cubic<Real>& lift, Real from_part,
+                    Real part, const Span<Real, Gas>& step) const noexcept {
     if constexpr (kRecorded) {
       const auto theory = [&](Real x) {
         const typename Cubic<Real>::At at = lift.at(x);
         return Theory{at.value, at.slope * motion_.per_fine_step_s};
       };
-      note_part(from.regime, from.state, to, theory(0), theory(part), step, from_part, from_part + part, part * motion_.fine_step_s);
+      note_part(from.regime, from.state, to, theory(0), theory(part), step, from_part, from_part + part,
+                part * motion_.fine_step_s);
     }
   }
 
-  void note_change(std::uint32_t before, std::uint32_t after, const ValveState<Real>& s, const Span<Real, Gas>& span, Real part) const noexcept {
+  void note_change(std::uint32_t before, std::uint32_t after, const ValveState<Real>& s, const Span<Real, Gas>& span,
+                   Real part) const noexcept {
     if constexpr (kRecorded) {
       if (before != after) record_.change(before, after, s.velocity_m_s, deg_at(span, part));
     }

@@ -1,7 +1,7 @@
 // The plain step of several valves at once, one in each lane.
 //
-// What belongs here: what lanes need side by side, and their step. What does not: the arithmetic of a step (valve.hpp), lanes whose guards fail
-// (valve_changes.hpp), which valves an engine has (elastic_valves.hpp).
+// What belongs here: what lanes need side by side, and their step. What does not: the arithmetic of a step (valve.hpp),
+// lanes whose guards fail (valve_changes.hpp), which valves an engine has (elastic_valves.hpp).
 //
 // A resting valve is zeros under its regime's constants: it stays at rest, and needs no exception.
 #pragma once
@@ -40,7 +40,8 @@ template <class Lanes, class Work>
   }
   ForceRow<Held>& a = r.acceleration;
   a.rest = next(), a.gas = next(), a.lift = next(), a.velocity = next(), a.gap = next(), a.gap_speed = next();
-  for (ContactGuard<Held>* guard : {&r.train, &r.seat}) guard->sign = next(), guard->lag_s = next(), guard->least_m = next();
+  for (ContactGuard<Held>* guard : {&r.train, &r.seat})
+    guard->sign = next(), guard->lag_s = next(), guard->least_m = next();
   r.rest_m = next(), r.rest_m_s = next();
   return r;
 }
@@ -84,17 +85,19 @@ struct LanesTick {
     return Lanes{} + x[0];
   }
   template <class Lanes>
-  [[nodiscard, gnu::always_inline]] static typename Words<Lanes>::Bits words(const std::uint32_t (&x)[kRoom], std::size_t first) noexcept {
+  [[nodiscard, gnu::always_inline]] static typename Words<Lanes>::Bits words(const std::uint32_t (&x)[kRoom],
+                                                                             std::size_t first) noexcept {
     if constexpr (S::cam_phasing) return load_words<Lanes>(x + first);
     (void)first;
     return typename Words<Lanes>::Bits{} + x[0];
   }
 };
 
-/// The lift of each lane's cam: bit for bit that of LiftCurve::read at LiftCurve::cell. Its angle is the cams' less that of the lobe's beginning, so its place
-/// among the degrees is too, but for a borrow and for a turn.
+/// The lift of each lane's cam: bit for bit that of LiftCurve::read at LiftCurve::cell. Its angle is the cams' less
+/// that of the lobe's beginning, so its place among the degrees is too, but for a borrow and for a turn.
 template <class Lanes, class S>
-[[nodiscard, gnu::always_inline]] inline Lift<Lanes> read_lanes(const AbreastWork<S>& w, std::size_t first, const LanesTick<S>& tick) noexcept {
+[[nodiscard, gnu::always_inline]] inline Lift<Lanes> read_lanes(const AbreastWork<S>& w, std::size_t first,
+                                                                const LanesTick<S>& tick) noexcept {
   using Words32 = typename Words<Lanes>::Bits;
   using Signed = decltype(Lanes{} < Lanes{});
   const auto load_signed = [first](const std::int32_t* from) {
@@ -105,8 +108,8 @@ template <class Lanes, class S>
   const Words32 cams_into = tick.template words<Lanes>(tick.into, first);
   const Words32 opens_into = load_words<Lanes>(&w.opens_into[first]);
   const Words32 into = cams_into - opens_into;
-  Signed degree = reinterpret_cast<Signed>(tick.template words<Lanes>(tick.degree, first)) - load_signed(w.opens_degree) +
-                  reinterpret_cast<Signed>(cams_into < opens_into);
+  Signed degree = reinterpret_cast<Signed>(tick.template words<Lanes>(tick.degree, first)) -
+                  load_signed(w.opens_degree) + reinterpret_cast<Signed>(cams_into < opens_into);
   degree += (degree < 0) & kDegreesPerTurn;
   const Signed last = load_signed(w.degrees);
   degree = degree < last ? degree : last;
@@ -126,24 +129,28 @@ template <class Lanes, class S>
   return {value, slope};
 }
 
-/// The plain step of a block of lanes. State and output are left as if all were sure; answers a bit for each that is not. `look`: some lane is
-/// looked at whatever its guards say.
+/// The plain step of a block of lanes. State and output are left as if all were sure; answers a bit for each that is
+/// not. `look`: some lane is looked at whatever its guards say.
 template <class Lanes, class S, class Work, class State, class Before>
-[[nodiscard, gnu::always_inline]] inline std::uint32_t step_block(Work& w, State& state, std::size_t first, const LanesTick<S>& tick, bool look,
-                                                                  Before& before, float* shown) noexcept {
+[[nodiscard, gnu::always_inline]] inline std::uint32_t step_block(Work& w, State& state, std::size_t first,
+                                                                  const LanesTick<S>& tick, bool look, Before& before,
+                                                                  float* shown) noexcept {
   const auto regime = regimes_at<Lanes>(w, first);
   const ValveState<Lanes> start{load<Lanes>(&state.valve_lift_m[first]), load<Lanes>(&state.valve_velocity_m_s[first])};
   const Lift<Lanes> from{load<Lanes>(&w.cam_lift_m[first]), load<Lanes>(&w.cam_per_deg_m[first])};
   const Lanes deg_per_s = tick.template of<Lanes>(tick.deg_per_s, first);
   const Lift<Lanes> to = read_lanes<Lanes>(w, first, tick);
-  const Stepped<Lanes> step = stepped(regime, start, from, to, tick.template of<Lanes>(tick.deg, first), NoGasForce<Lanes>{});
+  const Stepped<Lanes> step =
+      stepped(regime, start, from, to, tick.template of<Lanes>(tick.deg, first), NoGasForce<Lanes>{});
   const Lanes gap = to.lift_m - step.state.lift_m;
   const Lanes gap_speed = deg_per_s * to.per_deg_m - step.state.velocity_m_s;
-  const auto sure = holds(regime.train, gap, gap_speed) & holds(regime.seat, step.state.lift_m, step.state.velocity_m_s);
-  const auto still = (magnitude(step.state.lift_m) < regime.rest_m) & (magnitude(step.state.velocity_m_s) < regime.rest_m_s);
+  const auto sure =
+      holds(regime.train, gap, gap_speed) & holds(regime.seat, step.state.lift_m, step.state.velocity_m_s);
+  const auto still =
+      (magnitude(step.state.lift_m) < regime.rest_m) & (magnitude(step.state.velocity_m_s) < regime.rest_m_s);
   const ValveState<Lanes> end{still ? Lanes{} : step.state.lift_m, still ? Lanes{} : step.state.velocity_m_s};
-  const Lanes accelerates =
-      acceleration(regime.acceleration, end, to.lift_m - end.lift_m, deg_per_s * to.per_deg_m - end.velocity_m_s, NoGasForce<Lanes>{});
+  const Lanes accelerates = acceleration(regime.acceleration, end, to.lift_m - end.lift_m,
+                                         deg_per_s * to.per_deg_m - end.velocity_m_s, NoGasForce<Lanes>{});
   store<Lanes>(&state.valve_lift_m[first], end.lift_m);
   store<Lanes>(&state.valve_velocity_m_s[first], end.velocity_m_s);
   store<Lanes>(&w.cam_lift_m[first], to.lift_m);
@@ -159,9 +166,11 @@ template <class Lanes, class S, class Work, class State, class Before>
   return doubtful;
 }
 
-/// Blocks of this width from lane `first` on, as far as they fill `lanes` of them; `done` so far. `far`: lanes that are looked at in any case.
+/// Blocks of this width from lane `first` on, as far as they fill `lanes` of them; `done` so far. `far`: lanes that are
+/// looked at in any case.
 template <class Lanes, class S, class Work, class State, class Before, class Bits>
-[[nodiscard, gnu::always_inline]] inline Bits step_blocks(Work& w, State& state, const LanesTick<S>& tick, std::uint32_t first, std::uint32_t lanes, Bits far,
+[[nodiscard, gnu::always_inline]] inline Bits step_blocks(Work& w, State& state, const LanesTick<S>& tick,
+                                                          std::uint32_t first, std::uint32_t lanes, Bits far,
                                                           Before& before, float* shown, std::uint32_t& done) noexcept {
   constexpr auto kWidth = static_cast<std::uint32_t>(kLanesOf<Lanes>);
   Bits doubtful = 0;
