@@ -38,12 +38,11 @@ void load_bearings([[maybe_unused]] const Tables<Real, S>& tables, [[maybe_unuse
     Real across_before{};
     const std::uint8_t* k = b.by_pin.cylinder;
     for (std::uint32_t i = 0; i < b.pins; ++i) {
-      Real radial{};
-      Real tangential{};
-      for (const std::uint8_t* const end = b.by_pin.cylinder + b.by_pin.end[i]; k != end; ++k) {
-        const CylinderForces<Real>& f = out.cylinder[*k];
-        radial += f.radial_force_N;
-        tangential += f.tangential_force_N;
+      Real radial = out.cylinder[*k].radial_force_N;  // every pin has a rod
+      Real tangential = out.cylinder[*k].tangential_force_N;
+      for (const std::uint8_t* const end = b.by_pin.cylinder + b.by_pin.end[i]; ++k != end;) {
+        radial += out.cylinder[*k].radial_force_N;
+        tangential += out.cylinder[*k].tangential_force_N;
       }
       const Real throw_outward = b.throw_kg_m[i] * w2 - radial;
       Real throw_tangential = tangential;
