@@ -32,9 +32,9 @@ has_code() {
 gas_and_mass='torque_grid gas_torque_full gas_torque_full_segments inertia_torque'
 # shellcheck disable=SC2086  # a list of words
 {
-  holds PistonMotion stroke acceleration
+  holds PistonMotion motion
   holds TorqueOnly $gas_and_mass
-  holds ForcesAndTorque $gas_and_mass gas_grid body stroke acceleration rod_tilt radial pressure_full
+  holds ForcesAndTorque $gas_and_mass gas_grid body motion lean pressure_full
   holds ValveLift lift_curves lift_segments rocker_ratios
   holds ValveDynamics lift_curves lift_segments rocker_ratios valve_motions
   holds TriggerSignals triggers trigger_tracks trigger_edges

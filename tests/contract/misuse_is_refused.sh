@@ -78,8 +78,8 @@ refuses "no member named .load_ratio" "$motion" 'in.speed_rad_s = 1; return engi
   'in.load_ratio = 1; return engine.step(in).velocity_m_s[0];'
 refuses "no member named .crank" "$motion" 'in.speed_rad_s = 1; return engine.step(in).velocity_m_s[0];' \
   'in.crank = Phase{1}; return engine.step(in).velocity_m_s[0];'
-refuses "no member named .stroke" \
-  'struct S : Scene { static constexpr bool @ = true; }; const void* f(const Tables<float, S>& tables) { return tables.stroke; }' \
+refuses "no member named .motion" \
+  'struct S : Scene { static constexpr bool @ = true; }; const void* f(const Tables<float, S>& tables) { return tables.motion; }' \
   'kinematics' 'rod_motion'
 
 # ---- slips of the hand ----------------------------------------------------------------------------------------------------------------

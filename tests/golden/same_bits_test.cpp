@@ -52,7 +52,27 @@ class Fnv {
     add(s.slope);
   }
   template <class Real>
-  void add(const Curve<Real>& curve) {
+  void add(const IntegralSegment<Real>& s) {
+    add(s.c);
+  }
+  template <class Real>
+  void add(const MotionSegment<Real>& s) {
+    add(s.displacement);
+    add(s.slope);
+    add(s.acceleration);
+  }
+  template <class Real>
+  void add(const LeanSegment<Real>& s) {
+    add(s.tilt);
+    add(s.radial);
+  }
+  template <class Real>
+  void add(const RodSegment<Real>& s) {
+    add(s.angle);
+    add(s.slope);
+  }
+  template <class Record>
+  void add(const Revolution<Record>& curve) {
     add(curve.at);
   }
   template <class Real>
@@ -97,10 +117,9 @@ std::uint64_t hash_of(const Sections<Real>& s) {
     fnv.add(x);
   }
   fnv.add(*s.stroke);
-  fnv.add(*s.acceleration);
-  fnv.add(*s.rod_tilt);
-  fnv.add(*s.radial);
-  fnv.add(*s.rod_angle);
+  fnv.add(*s.motion);
+  fnv.add(*s.lean);
+  fnv.add(*s.rod);
   fnv.add(*s.rod_curvature);
   fnv.add(*s.inertia_torque);
   fnv.add(s.gas_grid->first);

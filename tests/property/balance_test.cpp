@@ -651,11 +651,14 @@ TEST(Bearings, KnowEveryPinsThrowAndMasses) {
     const Bearings<double> b = bearings_of(e);
     const std::size_t pins = 1u + *std::max_element(e.layout.pin.begin(), e.layout.pin.begin() + e.layout.cylinders);
     ASSERT_EQ(b.pins, pins);
+    ASSERT_EQ(b.by_pin.end[pins - 1], e.layout.cylinders);
     std::size_t first_on_zero = 0;
     while (e.layout.pin[first_on_zero] != 0) ++first_on_zero;
     for (std::size_t k = 0; k < static_cast<std::size_t>(e.layout.cylinders); ++k) {
       const std::size_t pin = e.layout.pin[k];
       EXPECT_EQ(b.pin_of[k], pin);
+      const auto* const begin = b.by_pin.cylinder + (pin == 0 ? 0 : b.by_pin.end[pin - 1]);
+      EXPECT_EQ(std::count(begin, b.by_pin.cylinder + b.by_pin.end[pin], k), 1) << "cylinder " << k << " on pin " << pin;
       const auto rods = std::count(e.layout.pin.begin(), e.layout.pin.begin() + e.layout.cylinders, e.layout.pin[k]);
       EXPECT_NEAR(b.rods_kg_m[pin], static_cast<double>(rods) * e.masses.rod_big_end_kg * e.crank.crank_radius_m,
                   rounding_kg_m(e));

@@ -20,8 +20,11 @@ template <class Real>
 struct AllSections {
   Drive<Real> drive{};
   Body<Real> body{};
-  IntegratedCurve<Real> stroke{}, rod_angle{}, inertia_torque{};
-  Curve<Real> acceleration{}, rod_tilt{}, radial{}, rod_curvature{};
+  IntegratedCurve<Real> stroke{}, inertia_torque{};
+  Revolution<MotionSegment<Real>> motion{};
+  Revolution<LeanSegment<Real>> lean{};
+  Revolution<RodSegment<Real>> rod{};
+  Curve<Real> rod_curvature{};
   Bearings<Real> bearings{};
   Balance<Real> balance{};
   GasGrid gas_grid{}, torque_grid{}, cut_grid{};
@@ -44,8 +47,8 @@ struct AllSections {
 
   TableTargets<Real> targets() {
     TableTargets<Real> t;
-    t.drive = &drive, t.body = &body, t.stroke = &stroke, t.acceleration = &acceleration, t.rod_tilt = &rod_tilt, t.radial = &radial;
-    t.rod_angle = &rod_angle, t.rod_curvature = &rod_curvature, t.inertia_torque = &inertia_torque, t.bearings = &bearings;
+    t.drive = &drive, t.body = &body, t.stroke = &stroke, t.motion = &motion, t.lean = &lean, t.rod = &rod;
+    t.rod_curvature = &rod_curvature, t.inertia_torque = &inertia_torque, t.bearings = &bearings;
     t.balance = &balance, t.gas_grid = &gas_grid, t.torque_grid = &torque_grid, t.gas_capacity = static_cast<int>(kMostGasSegments);
     t.pressure_full = pressure_full.data(), t.pressure_motored = pressure_motored.data(), t.pressure_heat = pressure_heat.data();
     t.gas_torque_full = &gas_torque_full, t.gas_torque_motored = &gas_torque_motored, t.gas_torque_heat = &gas_torque_heat;
@@ -129,12 +132,33 @@ class Printer {
          fine_steps, series);
   }
   template <class Real>
+  void print(const IntegralSegment<Real>& s) { array(s.c); }
+  template <class Real>
+  void print(const MotionSegment<Real>& s) {
+    const auto& [displacement, slope, acceleration] = s;
+    list(displacement, slope, acceleration);
+  }
+  template <class Real>
+  void print(const LeanSegment<Real>& s) {
+    const auto& [tilt, radial] = s;
+    list(tilt, radial);
+  }
+  template <class Real>
+  void print(const RodSegment<Real>& s) {
+    const auto& [angle, slope] = s;
+    list(angle, slope);
+  }
+  void print(const CylinderGroups& g) {
+    const auto& [cylinder, end] = g;
+    list(cylinder, end);
+  }
+  template <class Real>
   void print(const CrankDynamics<Real>& c) {
     const auto& [turning, least, drag, drag_linear, drag_quadratic, stall, slope, most] = c;
     list(turning, least, drag, drag_linear, drag_quadratic, stall, slope, most);
   }
-  template <class Real>
-  void print(const Curve<Real>& c) { braced([&] { rows(c.at, kDegreesPerTurn); }); }
+  template <class Record>
+  void print(const Revolution<Record>& c) { braced([&] { rows(c.at, kDegreesPerTurn); }); }
   template <class Item, std::size_t N>
   void print(const Item (&items)[N]) { array(items); }
   template <class Number>
@@ -276,7 +300,7 @@ void print_sections(Printer& p, const AllSections<Real>& s, const std::string& r
   const Drive<Real>& d = s.drive;
   section(p, type("Drive"), "drive", [&] {
     p.list(d.fingerprint, d.tick_s, d.per_tick_s, d.cycles_per_tick_per_rad_s, d.rad_s_per_cycle_per_tick, d.speed_limit_rad_s, d.cylinders, d.mechanisms,
-           d.firing_phase, d.mechanism_of, d.turn_of, d.trains);
+           d.firing_phase, d.mechanism_of, d.turn_of, d.by_mechanism, d.trains);
   });
   const Body<Real>& b = s.body;
   section(p, type("Body"), "body", [&] {
@@ -292,16 +316,14 @@ void print_sections(Printer& p, const AllSections<Real>& s, const std::string& r
       });
     });
   };
-  const auto plain = [&](const char* name, const Curve<Real>& curve) { section(p, type("Curve"), name, [&] { p.print(curve); }); };
   integrated("stroke", s.stroke);
-  plain("acceleration", s.acceleration);
-  plain("rod_tilt", s.rod_tilt);
-  plain("radial", s.radial);
-  integrated("rod_angle", s.rod_angle);
-  plain("rod_curvature", s.rod_curvature);
+  section(p, "crankloop::Revolution<" + type("MotionSegment") + ">", "motion", [&] { p.print(s.motion); });
+  section(p, "crankloop::Revolution<" + type("LeanSegment") + ">", "lean", [&] { p.print(s.lean); });
+  section(p, "crankloop::Revolution<" + type("RodSegment") + ">", "rod", [&] { p.print(s.rod); });
+  section(p, type("Curve"), "rod_curvature", [&] { p.print(s.rod_curvature); });
   integrated("inertia_torque", s.inertia_torque);
   const Bearings<Real>& g = s.bearings;
-  section(p, type("Bearings"), "bearings", [&] { p.list(g.pins, g.pin_of, g.rods_kg_m, g.throw_kg_m, g.throw_cos, g.throw_sin); });
+  section(p, type("Bearings"), "bearings", [&] { p.list(g.pins, g.pin_of, g.by_pin, g.rods_kg_m, g.throw_kg_m, g.throw_cos, g.throw_sin); });
   section(p, type("Balance"), "balance", [&] { p.list(s.balance.first, s.balance.second, s.balance.rotating, s.balance.cosine); });
   const auto grid = [&](const char* name, const GasGrid& of) { section(p, "crankloop::GasGrid", name, [&] { p.braced([&] { p.print(of.first); }); }); };
   grid("gas_grid", s.gas_grid);
@@ -332,7 +354,7 @@ void print_sections(Printer& p, const AllSections<Real>& s, const std::string& r
   if (s.triggers.count > 0) print_triggers(p, s.triggers);
 
   p.text("\nconstexpr crankloop::Sections" + of_real + " sections = [] {\n  crankloop::Sections" + of_real + " s;\n");
-  for (const char* name : {"drive", "body", "stroke", "acceleration", "rod_tilt", "radial", "rod_angle", "rod_curvature", "inertia_torque",
+  for (const char* name : {"drive", "body", "stroke", "motion", "lean", "rod", "rod_curvature", "inertia_torque",
                            "bearings", "balance", "gas_grid", "torque_grid", "gas_torque_full", "gas_torque_motored", "gas_torque_heat",
                            "cut_grid", "cut_torque", "crank_dynamics"}) {
     p.text(std::string("  s.") + name + " = &" + name + ";\n");

@@ -5,6 +5,8 @@
 #include <crankloop/tabulate/mechanism.hpp>
 #include <crankloop/tabulate/summary.hpp>
 
+#include "cylinder_groups.hpp"
+
 namespace crankloop {
 namespace {
 
@@ -100,6 +102,7 @@ Bearings<double> bearings_of(const EngineDefinition& engine) noexcept {
     b.throw_cos[i] = d.cosine;
     b.throw_sin[i] = d.sine;
   }
+  b.by_pin = detail::grouped(b.pin_of, static_cast<std::uint32_t>(layout.cylinders), b.pins);
   return b;
 }
 

@@ -79,11 +79,31 @@ template <class Real, class Function>
   return through(u, y);
 }
 
-/// Fills a curve from f(angle in rad) over a turn.
+/// f(angle in rad) within a degree.
+template <class Real, class Function>
+[[nodiscard]] Polynomial<kCoefficients<Real>> fitted_at(int degree, const Function& f) noexcept {
+  return fitted<Real>(0, 1, [&](double u) { return f((degree + u) * kRadPerDegree); });
+}
+
+/// Fills a curve from f(angle in rad) over a turn; `part` is where a degree's segment lies in its record.
+template <class Record, class Real, class Function>
+void fill(Revolution<Record>& curve, Segment<Real> Record::*part, const Function& f) noexcept {
+  for (int degree = 0; degree < kDegreesPerTurn; ++degree) curve.at[degree].*part = rounded<Real>(fitted_at<Real>(degree, f));
+}
 template <class Real, class Function>
 void fill(Curve<Real>& curve, const Function& f) noexcept {
+  for (int degree = 0; degree < kDegreesPerTurn; ++degree) curve.at[degree] = rounded<Real>(fitted_at<Real>(degree, f));
+}
+
+/// The same of f, and of its known antiderivative F(angle).
+template <class Record, class Real, class Function, class Antiderivative>
+void fill(Revolution<Record>& curve, IntegralSegment<Real> Record::*integral, Segment<Real> Record::*part, const Function& f, const Antiderivative& F) noexcept {
   for (int degree = 0; degree < kDegreesPerTurn; ++degree) {
-    curve.at[degree] = rounded<Real>(fitted<Real>(0, 1, [&](double u) { return f((degree + u) * kRadPerDegree); }));
+    const auto p = fitted_at<Real>(degree, f);
+    curve.at[degree].*part = rounded<Real>(p);
+    auto& c = (curve.at[degree].*integral).c;
+    c[0] = static_cast<Real>(F(degree * kRadPerDegree));
+    for (std::size_t i = 0; i < kCoefficients<Real>; ++i) c[i + 1] = static_cast<Real>(p.c[i] * kRadPerDegree / static_cast<double>(i + 1));
   }
 }
 
@@ -120,7 +140,7 @@ void fill(IntegratedCurve<Real>& curve, const Function& f, const Antiderivative&
   curve.quantum = static_cast<Real>(quantum);
   for (int degree = 0; degree < kDegreesPerTurn; ++degree) {
     curve.at[degree].base = base_of<Real>(F(degree * kRadPerDegree), quantum);
-    curve.at[degree].slope = rounded<Real>(fitted<Real>(0, 1, [&](double u) { return f((degree + u) * kRadPerDegree); }));
+    curve.at[degree].slope = rounded<Real>(fitted_at<Real>(degree, f));
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "crank_dynamics.hpp"
 #include "curve_fit.hpp"
+#include "cylinder_groups.hpp"
 #include "fingerprint.hpp"
 #include "gas_curves.hpp"
 #include "phase_units.hpp"
@@ -48,11 +49,13 @@ void fill_drive(const EngineDefinition& engine, const TickOptions& options, Driv
     if (m == drive.mechanisms) {
       mechanism_deg[m] = firing;
       drive.firing_phase[m] = detail::phase_units(firing);
+      if constexpr (sizeof(Real) == 4) drive.firing_phase[m] = (drive.firing_phase[m] + 0x8000'0000u) & ~std::uint64_t{0xFFFF'FFFF};
       ++drive.mechanisms;
     }
     drive.mechanism_of[k] = static_cast<std::uint8_t>(m);
     drive.turn_of[k] = turn;
   }
+  drive.by_mechanism = detail::grouped(drive.mechanism_of, drive.cylinders, drive.mechanisms);
 }
 
 template <class Real>
@@ -74,6 +77,7 @@ template <class Real>
 [[nodiscard]] Bearings<Real> rounded(const Bearings<double>& b) noexcept {
   Bearings<Real> r{};
   r.pins = b.pins;
+  r.by_pin = b.by_pin;
   for (std::size_t i = 0; i < std::size_t{kMaxCylinders}; ++i) {
     r.pin_of[i] = b.pin_of[i];
     r.rods_kg_m[i] = static_cast<Real>(b.rods_kg_m[i]);
@@ -113,11 +117,16 @@ void fill_mechanism(const EngineDefinition& engine, const TableTargets<Real>& t)
   const auto slope = quantity(&Pose<double>::slope_m);
   const auto displacement = quantity(&Pose<double>::displacement_m);
   if (t.stroke != nullptr) detail::fill(*t.stroke, slope, displacement);
-  if (t.acceleration != nullptr) detail::fill(*t.acceleration, quantity(&Pose<double>::acceleration_m));
-  if (t.rod_tilt != nullptr) detail::fill(*t.rod_tilt, quantity(&Pose<double>::rod_tilt));
-  if (t.radial != nullptr) detail::fill(*t.radial, quantity(&Pose<double>::radial));
-  if (t.rod_angle != nullptr) {
-    detail::fill(*t.rod_angle, quantity(&Pose<double>::rod_slope), quantity(&Pose<double>::rod_angle_rad));
+  if (t.motion != nullptr) {
+    detail::fill(*t.motion, &MotionSegment<Real>::displacement, &MotionSegment<Real>::slope, slope, displacement);
+    detail::fill(*t.motion, &MotionSegment<Real>::acceleration, quantity(&Pose<double>::acceleration_m));
+  }
+  if (t.lean != nullptr) {
+    detail::fill(*t.lean, &LeanSegment<Real>::tilt, quantity(&Pose<double>::rod_tilt));
+    detail::fill(*t.lean, &LeanSegment<Real>::radial, quantity(&Pose<double>::radial));
+  }
+  if (t.rod != nullptr) {
+    detail::fill(*t.rod, &RodSegment<Real>::angle, &RodSegment<Real>::slope, quantity(&Pose<double>::rod_slope), quantity(&Pose<double>::rod_angle_rad));
   }
   if (t.rod_curvature != nullptr) detail::fill(*t.rod_curvature, quantity(&Pose<double>::rod_curvature));
   if (t.inertia_torque != nullptr) {

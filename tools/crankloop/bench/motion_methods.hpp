@@ -201,7 +201,7 @@ class PolynomialTable {
   std::vector<Segment> at_;
 };
 
-/// The library's tables, read as its tick reads them: displacement is the integral of the stroke's slope.
+/// The library's tables, read as its tick reads them.
 template <class Real>
 class LibraryMotion {
  public:
@@ -210,8 +210,7 @@ class LibraryMotion {
     engine.crank = crank;
     engine.masses.piston_kg = 1;
     status_ = storage_->build(engine, {100e-6});
-    stroke_ = storage_->tables().stroke;
-    acceleration_ = storage_->tables().acceleration;
+    motion_ = storage_->tables().motion;
   }
   [[nodiscard]] const Status& status() const noexcept { return status_; }
 
@@ -219,9 +218,8 @@ class LibraryMotion {
     const Cell cell = Phase{phase}.cell<Real>();
     const std::uint32_t degree = cell.degree >= kDegreesPerTurn ? cell.degree - kDegreesPerTurn : cell.degree;
     const Real u = fraction<Real>(cell);
-    const IntegratedSegment<Real>& stroke = stroke_->at[degree];
-    return {signed_value<Real>(stroke.base) * stroke_->quantum + integral(stroke.slope, u, Real{0}), value(stroke.slope, u),
-            value(acceleration_->at[degree], u)};
+    const MotionSegment<Real>& motion = motion_->at[degree];
+    return {value(motion.displacement, u), value(motion.slope, u), value(motion.acceleration, u)};
   }
 
  private:
@@ -231,8 +229,7 @@ class LibraryMotion {
   using Storage = TableStorage<Real, Pistons>;
 
   std::unique_ptr<Storage> storage_;
-  const IntegratedCurve<Real>* stroke_ = nullptr;
-  const Curve<Real>* acceleration_ = nullptr;
+  const Revolution<MotionSegment<Real>>* motion_ = nullptr;
   Status status_;
 };
 

@@ -28,10 +28,9 @@ struct TableTargets {
   Drive<Real>* drive = nullptr;
   Body<Real>* body = nullptr;
   IntegratedCurve<Real>* stroke = nullptr;
-  Curve<Real>* acceleration = nullptr;
-  Curve<Real>* rod_tilt = nullptr;
-  Curve<Real>* radial = nullptr;
-  IntegratedCurve<Real>* rod_angle = nullptr;
+  Revolution<MotionSegment<Real>>* motion = nullptr;
+  Revolution<LeanSegment<Real>>* lean = nullptr;
+  Revolution<RodSegment<Real>>* rod = nullptr;
   Curve<Real>* rod_curvature = nullptr;
   IntegratedCurve<Real>* inertia_torque = nullptr;
   Bearings<Real>* bearings = nullptr;
@@ -88,9 +87,9 @@ namespace part {
 // One holder per group of sections: a base of TableStorage when the scene needs it.
 template <class Real> struct BodyStore { Body<Real> body; };
 template <class Real> struct StrokeStore { IntegratedCurve<Real> stroke; };
-template <class Real> struct AccelerationStore { Curve<Real> acceleration; };
-template <class Real> struct RodTiltStore { Curve<Real> rod_tilt; Curve<Real> radial; };
-template <class Real> struct RodAngleStore { IntegratedCurve<Real> rod_angle; };
+template <class Real> struct MotionStore { Revolution<MotionSegment<Real>> motion; };
+template <class Real> struct LeanStore { Revolution<LeanSegment<Real>> lean; };
+template <class Real> struct RodStore { Revolution<RodSegment<Real>> rod; };
 template <class Real> struct RodCurvatureStore { Curve<Real> rod_curvature; };
 template <class Real> struct InertiaTorqueStore { IntegratedCurve<Real> inertia_torque; };
 template <class Real> struct BearingsStore { Bearings<Real> bearings; };
@@ -131,9 +130,9 @@ template <std::size_t Wheels> struct TriggerStore {
 template <class Real, class S, std::size_t GasSegments = 4096>
 class TableStorage : If<Needs<S>::body, part::BodyStore<Real>>,
                      If<Needs<S>::stroke, part::StrokeStore<Real>>,
-                     If<Needs<S>::acceleration, part::AccelerationStore<Real>>,
-                     If<Needs<S>::rod_tilt, part::RodTiltStore<Real>>,
-                     If<Needs<S>::rod_angle, part::RodAngleStore<Real>>,
+                     If<Needs<S>::motion, part::MotionStore<Real>>,
+                     If<Needs<S>::lean, part::LeanStore<Real>>,
+                     If<Needs<S>::rod, part::RodStore<Real>>,
                      If<Needs<S>::rod_curvature, part::RodCurvatureStore<Real>>,
                      If<Needs<S>::inertia_torque, part::InertiaTorqueStore<Real>>,
                      If<S::bearing_loads, part::BearingsStore<Real>>,
@@ -165,9 +164,9 @@ class TableStorage : If<Needs<S>::body, part::BodyStore<Real>>,
     t.drive = &drive_;
     if constexpr (N::body) t.body = &this->body;
     if constexpr (N::stroke) t.stroke = &this->stroke;
-    if constexpr (N::acceleration) t.acceleration = &this->acceleration;
-    if constexpr (N::rod_tilt) t.rod_tilt = &this->rod_tilt, t.radial = &this->radial;
-    if constexpr (N::rod_angle) t.rod_angle = &this->rod_angle;
+    if constexpr (N::motion) t.motion = &this->motion;
+    if constexpr (N::lean) t.lean = &this->lean;
+    if constexpr (N::rod) t.rod = &this->rod;
     if constexpr (N::rod_curvature) t.rod_curvature = &this->rod_curvature;
     if constexpr (N::inertia_torque) t.inertia_torque = &this->inertia_torque;
     if constexpr (S::bearing_loads) t.bearings = &this->bearings;
@@ -212,10 +211,9 @@ class TableStorage : If<Needs<S>::body, part::BodyStore<Real>>,
     s.drive = t.drive;
     s.body = t.body;
     s.stroke = t.stroke;
-    s.acceleration = t.acceleration;
-    s.rod_tilt = t.rod_tilt;
-    s.radial = t.radial;
-    s.rod_angle = t.rod_angle;
+    s.motion = t.motion;
+    s.lean = t.lean;
+    s.rod = t.rod;
     s.rod_curvature = t.rod_curvature;
     s.inertia_torque = t.inertia_torque;
     s.bearings = t.bearings;

@@ -25,10 +25,35 @@ struct Angle {
   }
 };
 
+/// From a firing phase on. float reads the top word alone, and its firing phases have no more (Drive::firing_phase).
+template <class Real>
+[[nodiscard]] constexpr std::uint64_t units_from(std::uint64_t phase, std::uint64_t firing_phase) noexcept {
+  if constexpr (sizeof(Real) == 4) {
+    return std::uint64_t{static_cast<std::uint32_t>(phase >> 32) - static_cast<std::uint32_t>(firing_phase >> 32)} << 32;
+  } else {
+    return phase - firing_phase;
+  }
+}
+
 template <class Real>
 [[nodiscard]] constexpr Angle<Real> angle_of(std::uint64_t phase, std::uint64_t firing_phase) noexcept {
-  const Cell cell = Phase{phase - firing_phase}.cell<Real>();
+  const Cell cell = Phase{units_from<Real>(phase, firing_phase)}.cell<Real>();
   return {cell, fraction<Real>(cell)};
+}
+
+/// Where a mechanism stands in its crank turn: the same degree and fraction, for what needs no more.
+template <class Real>
+struct TurnAngle {
+  std::uint32_t degree;
+  Real u;
+
+  [[nodiscard]] constexpr std::uint32_t turn_degree() const noexcept { return degree; }
+};
+
+template <class Real>
+[[nodiscard]] constexpr TurnAngle<Real> turn_angle_of(std::uint64_t phase, std::uint64_t firing_phase) noexcept {
+  const Cell cell = cell_of<Real>(units_from<Real>(phase, firing_phase) << 1, std::uint32_t{kDegreesPerTurn});
+  return {cell.degree, fraction<Real>(cell)};
 }
 
 template <class Real>

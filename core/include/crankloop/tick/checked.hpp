@@ -43,6 +43,15 @@ template <class Real>
   return bits <= bits_of(most) || bits == kNegativeZero;
 }
 
+/// Whether all bits are from those of 0 to those of `most`: then every number is within_positive(), of which only -0 fails here.
+template <class Real>
+[[nodiscard]] inline bool all_within_positive(const Real* x, std::uint32_t count, Real most) noexcept {
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (bits_of(x[i]) > bits_of(most)) return false;
+  }
+  return true;
+}
+
 /// x if it is good, else the last good one and its fault bit.
 template <class Real>
 [[nodiscard]] constexpr Real checked(Real x, bool good, Real& last_good, Fault fault, std::uint32_t& faults) noexcept {

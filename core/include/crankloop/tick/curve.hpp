@@ -4,6 +4,7 @@
 // (core/src/tabulate/curve_fit.hpp).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
@@ -21,11 +22,28 @@ struct Segment {
   Real c[kCurveDegree<Real> + 1];
 };
 
+/// A segment's integral with what it starts from, as a polynomial of its own, so one degree higher: as exact as the integral, and read as any curve.
+template <class Real>
+struct IntegralSegment {
+  Real c[kCurveDegree<Real> + 2];
+};
+
+namespace detail {
+template <class Real, std::size_t N>
+[[nodiscard]] constexpr Real polynomial(const Real (&c)[N], Real u) noexcept {
+  Real sum = c[N - 1];
+  for (std::size_t i = N - 1; i-- > 0;) sum = c[i] + u * sum;
+  return sum;
+}
+}  // namespace detail
+
 template <class Real>
 [[nodiscard]] constexpr Real value(const Segment<Real>& s, Real u) noexcept {
-  Real sum = s.c[kCurveDegree<Real>];
-  for (int i = kCurveDegree<Real> - 1; i >= 0; --i) sum = s.c[i] + u * sum;
-  return sum;
+  return detail::polynomial(s.c, u);
+}
+template <class Real>
+[[nodiscard]] constexpr Real value(const IntegralSegment<Real>& s, Real u) noexcept {
+  return detail::polynomial(s.c, u);
 }
 
 /// Integral over the angle from the degree's start to u, of the curve less `mean`; radians.
@@ -77,11 +95,13 @@ template <class Real>
   return signed_value<Real>(static_cast<IntegralBase<Real>>(to.base - from.base)) * quantum + (to.part - from.part);
 }
 
-/// One crank revolution of a curve.
-template <class Real>
-struct Curve {
-  Segment<Real> at[kDegreesPerTurn];
+/// One crank revolution of a curve, or of several that are read together and so lie side by side.
+template <class Record>
+struct Revolution {
+  Record at[kDegreesPerTurn];
 };
+template <class Real>
+using Curve = Revolution<Segment<Real>>;
 
 /// One crank revolution of a curve with its integral.
 template <class Real>

@@ -20,36 +20,47 @@ template <class Real>
           t.pitch_cos * cosine + t.pitch_sin * sine, t.yaw_cos * cosine + t.yaw_sin * sine};
 }
 
+template <class Real, class S>
+void load_journal(Output<Real, S>& out, std::uint32_t j, Real along_N, Real across_N) noexcept {
+  out.journal_along_N[j] = along_N;
+  out.journal_across_N[j] = across_N;
+  out.journal_load_N[j] = length(along_N, across_N);
+}
+
 /// From the forces of all cylinders, in the frame that turns with the crankshaft.
 template <class Real, class S>
 void load_bearings([[maybe_unused]] const Tables<Real, S>& tables, [[maybe_unused]] const State<Real, S>& state, [[maybe_unused]] Output<Real, S>& out) noexcept {
   if constexpr (S::bearing_loads) {
     const Bearings<Real>& b = *tables.bearings;
     const Real w2 = state.speed_rad_s * state.speed_rad_s;
-    for (std::uint32_t i = 0; i < b.pins; ++i) out.pin_radial_N[i] = out.pin_tangential_N[i] = Real{0};
-    for (std::uint32_t k = 0; k < count<S>(tables.drive->cylinders); ++k) {
-      out.pin_radial_N[b.pin_of[k]] += out.cylinder[k].radial_force_N;
-      out.pin_tangential_N[b.pin_of[k]] += out.cylinder[k].tangential_force_N;
-    }
-    for (std::uint32_t j = 0; j <= b.pins; ++j) out.journal_along_N[j] = out.journal_across_N[j] = Real{0};
+    // Each throw is simply supported between its two journals: half to either, turned from the throw's frame into that of pin 0.
+    Real along_before{};
+    Real across_before{};
+    const std::uint8_t* k = b.by_pin.cylinder;
     for (std::uint32_t i = 0; i < b.pins; ++i) {
-      const Real throw_outward = b.throw_kg_m[i] * w2 - out.pin_radial_N[i];
-      Real tangential = out.pin_tangential_N[i];
-      out.pin_radial_N[i] -= b.rods_kg_m[i] * w2;
-      if constexpr (Needs<S>::crank_dynamics) {  // what turns with the pin is accelerated by it
-        tangential -= b.throw_kg_m[i] * out.acceleration_rad_s2;
-        out.pin_tangential_N[i] -= b.rods_kg_m[i] * out.acceleration_rad_s2;
+      Real radial = out.cylinder[*k].radial_force_N;  // every pin has a rod
+      Real tangential = out.cylinder[*k].tangential_force_N;
+      for (const std::uint8_t* const end = b.by_pin.cylinder + b.by_pin.end[i]; ++k != end;) {
+        radial += out.cylinder[*k].radial_force_N;
+        tangential += out.cylinder[*k].tangential_force_N;
       }
-      out.pin_load_N[i] = length(out.pin_radial_N[i], out.pin_tangential_N[i]);
-      // Each throw is simply supported between its two journals: half to either, turned from the throw's frame into that of pin 0.
-      const Real half_along = (throw_outward * b.throw_cos[i] - tangential * b.throw_sin[i]) / 2;
-      const Real half_across = (throw_outward * b.throw_sin[i] + tangential * b.throw_cos[i]) / 2;
-      out.journal_along_N[i] += half_along;
-      out.journal_across_N[i] += half_across;
-      out.journal_along_N[i + 1] += half_along;
-      out.journal_across_N[i + 1] += half_across;
+      const Real throw_outward = b.throw_kg_m[i] * w2 - radial;
+      Real throw_tangential = tangential;
+      radial -= b.rods_kg_m[i] * w2;
+      if constexpr (Needs<S>::crank_dynamics) {  // what turns with the pin is accelerated by it
+        throw_tangential -= b.throw_kg_m[i] * out.acceleration_rad_s2;
+        tangential -= b.rods_kg_m[i] * out.acceleration_rad_s2;
+      }
+      out.pin_radial_N[i] = radial;
+      out.pin_tangential_N[i] = tangential;
+      out.pin_load_N[i] = length(radial, tangential);
+      const Real half_along = (throw_outward * b.throw_cos[i] - throw_tangential * b.throw_sin[i]) / 2;
+      const Real half_across = (throw_outward * b.throw_sin[i] + throw_tangential * b.throw_cos[i]) / 2;
+      load_journal(out, i, along_before + half_along, across_before + half_across);
+      along_before = half_along;
+      across_before = half_across;
     }
-    for (std::uint32_t j = 0; j <= b.pins; ++j) out.journal_load_N[j] = length(out.journal_along_N[j], out.journal_across_N[j]);
+    load_journal(out, b.pins, along_before, across_before);
   }
 }
 

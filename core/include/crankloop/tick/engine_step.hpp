@@ -22,9 +22,9 @@ template <class Real, class S>
   bool all = t.drive != nullptr;
   if constexpr (N::body) all = all && t.body != nullptr;
   if constexpr (N::stroke) all = all && t.stroke != nullptr;
-  if constexpr (N::acceleration) all = all && t.acceleration != nullptr;
-  if constexpr (N::rod_tilt) all = all && t.rod_tilt != nullptr && t.radial != nullptr;
-  if constexpr (N::rod_angle) all = all && t.rod_angle != nullptr;
+  if constexpr (N::motion) all = all && t.motion != nullptr;
+  if constexpr (N::lean) all = all && t.lean != nullptr;
+  if constexpr (N::rod) all = all && t.rod != nullptr;
   if constexpr (N::rod_curvature) all = all && t.rod_curvature != nullptr;
   if constexpr (N::inertia_torque) all = all && t.inertia_torque != nullptr;
   if constexpr (N::gas_pressure) all = all && t.gas_grid != nullptr;
@@ -87,15 +87,17 @@ Status Engine<Real, S>::init(const Tables& tables, Phase start) noexcept {
     for (Real& pressure : state_.pressure_Pa) pressure = tables.body->crankcase_Pa;
   }
   if constexpr (Needs<S>::work) {  // the first tick's work counts from here
-    detail::Step<Real, S> step(tables, state_, output_);
-    step.read_torque(0);
-    if constexpr (Needs<S>::mechanisms) {
-      Real unused[S::cylinders.capacity];
-      step.read_mechanisms();
-      step.do_cylinders(unused, 0);
+    if constexpr (Needs<S>::crank_dynamics) {
+      Real mean_pressure_Pa[S::cylinders.capacity] = {};
+      detail::Step<Real, S> step(tables, state_, output_);
+      step.read_torque(0);
+      step.read_given_pressures(mean_pressure_Pa);
+      step.start_crank();
+      step.remember_work();
+    } else {
+      Real pressure_Pa[S::cylinders.capacity] = {};
+      detail::run_mechanisms_apart(tables, state_, output_, {{}, {}, {}, true, pressure_Pa, pressure_Pa});
     }
-    step.start_crank();
-    step.remember_work();
     output_ = Output{};
   }
   if constexpr (Needs<S>::elastic_valves) detail::ElasticValves<Real, S>(tables, state_, *this, output_).start();
@@ -135,13 +137,22 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
   if constexpr (Needs<S>::load) {
     (void)detail::checked(input.load_ratio, detail::within_positive(input.load_ratio, Real{2}), state_.load_ratio, kFaultLoadRatio, faults);
   }
-  [[maybe_unused]] Real mean_pressure_Pa[Needs<S>::input_pressure ? S::cylinders.capacity : 1];
+  [[maybe_unused]] Real mean_pressure_Pa[Needs<S>::given_work ? S::cylinders.capacity : 1];
   if constexpr (Needs<S>::input_pressure) {
-    for (std::uint32_t k = 0; k < detail::count<S>(drive.cylinders); ++k) {
-      const Real before = state_.pressure_Pa[k];
-      const bool good = detail::within_positive(input.pressure_Pa[k], static_cast<Real>(kMostPressure_Pa));
-      const Real now = detail::checked(input.pressure_Pa[k], good, state_.pressure_Pa[k], kFaultPressure, faults);
-      mean_pressure_Pa[k] = (before + now) / 2;
+    constexpr Real kMost_Pa = static_cast<Real>(kMostPressure_Pa);
+    const std::uint32_t cylinders = detail::count<S>(drive.cylinders);
+    const auto take = [&](std::uint32_t k, Real now_Pa) {
+      if constexpr (Needs<S>::given_work) mean_pressure_Pa[k] = (state_.pressure_Pa[k] + now_Pa) / 2;
+      state_.pressure_Pa[k] = now_Pa;
+    };
+    if (detail::all_within_positive(input.pressure_Pa, cylinders, kMost_Pa)) {
+      for (std::uint32_t k = 0; k < cylinders; ++k) take(k, input.pressure_Pa[k]);
+    } else {
+      for (std::uint32_t k = 0; k < cylinders; ++k) {
+        const bool good = detail::within_positive(input.pressure_Pa[k], kMost_Pa);
+        take(k, good ? input.pressure_Pa[k] : state_.pressure_Pa[k]);
+        if (!good) faults |= kFaultPressure;
+      }
     }
   }
 

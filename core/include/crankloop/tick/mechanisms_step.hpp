@@ -52,50 +52,24 @@ struct Step : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
   const Tables<Real, S>& tables;
   State<Real, S>& state;
   Output<Real, S>& out;
-  Pose<Real> pose[N::pose ? S::cylinders.capacity : 1];
-  Angle<Real> angle[N::mechanisms ? S::cylinders.capacity : 1];
-
   Real torque_Nm{};          ///< at the tick; where forces turn the crank that of gas alone, until its speed is known
   Integral<Real> inertia{};  ///< of the torque of masses per w^2
   Integral<Real> gas[2]{};
-  Integral<Real> stroke[N::input_pressure ? S::cylinders.capacity : 1]{};
-  Step(const Tables<Real, S>& t, State<Real, S>& s, Output<Real, S>& o) noexcept : tables{t}, state{s}, out{o} {}  // pose, angle: filled as needed
+  Real given_work_J{};  ///< of given pressures, since the last tick
+  Step(const Tables<Real, S>& t, State<Real, S>& s, Output<Real, S>& o) noexcept : tables{t}, state{s}, out{o} {}
 
-  /// Look-ups that cylinders at the same crank angle share.
-  void read_mechanisms() noexcept {
-    const Drive<Real>& drive = *tables.drive;
-    const std::uint32_t mechanisms = drive.mechanisms;
-    for (std::uint32_t m = 0; m < mechanisms; ++m) {
-      const Angle<Real> at = angle_of<Real>(state.phase.units(), drive.firing_phase[m]);
-      const std::uint32_t degree = at.turn_degree();
-      [[maybe_unused]] Pose<Real>& p = pose[N::pose ? m : 0];
-      angle[m] = at;
-      if constexpr (N::stroke) {
-        const IntegratedSegment<Real>& s = tables.stroke->at[degree];
-        p.slope_m = value(s.slope, at.u);
-        if constexpr (N::displacement) {
-          const Integral<Real> x = integral_at(s, at.u, Real{0});
-          p.displacement_m = total(x, tables.stroke->quantum);
-          if constexpr (N::work && N::input_pressure) stroke[m] = x;
-        }
-      }
-      if constexpr (N::acceleration) p.acceleration_m = value(tables.acceleration->at[degree], at.u);
-      if constexpr (N::rod_tilt) {
-        p.rod_tilt = value(tables.rod_tilt->at[degree], at.u);
-        p.radial = value(tables.radial->at[degree], at.u);
-      }
-      if constexpr (N::rod_angle) {
-        const IntegratedSegment<Real>& s = tables.rod_angle->at[degree];
-        p.rod_slope = value(s.slope, at.u);
-        p.rod_angle_rad = total(integral_at(s, at.u, Real{0}), tables.rod_angle->quantum);
-      }
-      if constexpr (N::rod_curvature) p.rod_curvature = value(tables.rod_curvature->at[degree], at.u);
-    }
-  }
+  /// Of one cylinder the compiler knows.
+  [[nodiscard]] std::uint32_t mechanisms() const noexcept { return S::cylinders.capacity == 1 ? 1 : tables.drive->mechanisms; }
 
   /// Torque of tables: they hold that of all cylinders together. Forces add up to it by themselves.
   void read_torque([[maybe_unused]] std::uint32_t cut_cylinders) noexcept {
-    [[maybe_unused]] const Angle<Real> at = angle_of<Real>(state.phase.units(), 0);
+    [[maybe_unused]] const auto at = [&] {
+      if constexpr (N::gas_torque) {
+        return angle_of<Real>(state.phase.units(), 0);
+      } else {
+        return turn_angle_of<Real>(state.phase.units(), 0);
+      }
+    }();
     if constexpr (N::inertia_torque) {
       const IntegratedSegment<Real>& s = tables.inertia_torque->at[at.turn_degree()];
       if constexpr (N::crank_dynamics) {
@@ -129,13 +103,73 @@ struct Step : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
     return value(s.slope, u);
   }
 
-  /// Torque of gas at given pressures: what forces turn the crank with. Other scenes add it up with what they ask of each cylinder.
-  void add_given_pressures() noexcept {
-    const Drive<Real>& drive = *tables.drive;
-    for (std::uint32_t k = 0; k < count<S>(drive.cylinders); ++k) {
-      torque_Nm += (state.pressure_Pa[k] - tables.body->crankcase_Pa) * tables.body->bore_area_m2 * pose[drive.mechanism_of[k]].slope_m;
+  /// What geometry says of a mechanism, as far as the scene shows it.
+  [[nodiscard, gnu::always_inline]] Pose<Real> pose_at(std::uint32_t degree, Real u) const noexcept {
+    Pose<Real> p;  // the others are not read
+    if constexpr (N::motion) {
+      const MotionSegment<Real>& motion = tables.motion->at[degree];
+      p.displacement_m = value(motion.displacement, u);
+      p.slope_m = value(motion.slope, u);
+      p.acceleration_m = value(motion.acceleration, u);
     }
-    this->gas_parts_Nm[0] = torque_Nm;
+    if constexpr (N::lean) {
+      const LeanSegment<Real>& lean = tables.lean->at[degree];
+      p.rod_tilt = value(lean.tilt, u);
+      p.radial = value(lean.radial, u);
+    }
+    if constexpr (N::rod) {
+      const RodSegment<Real>& rod = tables.rod->at[degree];
+      p.rod_angle_rad = value(rod.angle, u);
+      p.rod_slope = value(rod.slope, u);
+    }
+    if constexpr (N::rod_curvature) p.rod_curvature = value(tables.rod_curvature->at[degree], u);
+    return p;
+  }
+
+  /// What the gas above pistons does: dV/da, and the volume swept since the last tick. Per mechanism.
+  struct Swept {
+    Real slope_m3[N::given_torque ? S::cylinders.capacity : 1];
+    Real volume_m3[N::given_work ? S::cylinders.capacity : 1];
+  };
+  [[gnu::always_inline]] void read_swept(std::uint32_t m, [[maybe_unused]] std::uint32_t degree, [[maybe_unused]] Real u, [[maybe_unused]] const Pose<Real>& p,
+                                         Swept& swept) noexcept {
+    const Real area_m2 = tables.body->bore_area_m2;
+    if constexpr (N::stroke) {
+      const IntegratedSegment<Real>& s = tables.stroke->at[degree];
+      swept.slope_m3[m] = value(s.slope, u) * area_m2;
+      if constexpr (N::given_work) {
+        const Integral<Real> x = integral_at(s, u, Real{0});
+        swept.volume_m3[m] = difference(state.stroke[m], x, tables.stroke->quantum) * area_m2;
+        state.stroke[m] = x;
+      }
+    } else {
+      swept.slope_m3[m] = p.slope_m * area_m2;
+    }
+  }
+
+  /// Torque and work of gas at given pressures.
+  [[gnu::always_inline]] void add_given_pressures(const Swept& swept, [[maybe_unused]] const Real* mean_pressure_Pa) noexcept {
+    const Drive<Real>& drive = *tables.drive;
+    const Real crankcase_Pa = tables.body->crankcase_Pa;
+    for (std::uint32_t k = 0; k < count<S>(drive.cylinders); ++k) {
+      const std::uint32_t m = drive.mechanism_of[k];
+      if constexpr (N::crank_dynamics || !S::forces) torque_Nm += (state.pressure_Pa[k] - crankcase_Pa) * swept.slope_m3[m];
+      if constexpr (N::given_work) given_work_J += (mean_pressure_Pa[k] - crankcase_Pa) * swept.volume_m3[m];
+    }
+  }
+
+  /// Where forces turn the crank: torque and work of gas at given pressures, before the crank's speed is known.
+  void read_given_pressures([[maybe_unused]] const Real* mean_pressure_Pa) noexcept {
+    if constexpr (N::crank_dynamics && N::given_torque) {
+      const Drive<Real>& drive = *tables.drive;
+      Swept swept;
+      for (std::uint32_t m = 0; m < mechanisms(); ++m) {
+        const auto at = turn_angle_of<Real>(state.phase.units(), drive.firing_phase[m]);
+        read_swept(m, at.degree, at.u, {}, swept);
+      }
+      add_given_pressures(swept, mean_pressure_Pa);
+      this->gas_parts_Nm[0] = torque_Nm;
+    }
   }
 
   /// J_eff: the integral of the torque of masses per w^2 is minus half of the part that changes.
@@ -154,7 +188,7 @@ struct Step : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
   /// The second half of the crank's motion, and its output.
   void move_crank([[maybe_unused]] const CrankTurn<Real, S>& crank) noexcept {
     if constexpr (N::crank_dynamics) {
-      if constexpr (N::input_pressure) add_given_pressures();
+      read_given_pressures(crank.mean_pressure_Pa);
       CrankStep<Real>& motion = *crank.motion;
       motion.arrive({gas_work_J(crank), torque_Nm, inertia_kg_m2(), this->inertia_slope_kg_m2});
       torque_Nm += this->inertia_slope_kg_m2 * (state.speed_rad_s * state.speed_rad_s);
@@ -164,57 +198,108 @@ struct Step : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
     }
   }
 
-  [[nodiscard]] Real pressure_Pa(std::uint32_t k, std::uint32_t segment, Real u, [[maybe_unused]] std::uint32_t cut_cylinders) noexcept {
+  /// In cylinder k, whose mechanism stands at `at`.
+  template <class At>
+  [[nodiscard, gnu::always_inline]] Real pressure_Pa([[maybe_unused]] std::uint32_t k, [[maybe_unused]] const At& at,
+                                                     [[maybe_unused]] std::uint32_t cut_cylinders, [[maybe_unused]] Real load_ratio) const noexcept {
     if constexpr (N::input_pressure) {
       return state.pressure_Pa[k];
-    } else if constexpr (N::gas_pressure && N::cut) {
-      const Real motored_Pa = value(tables.pressure_motored[segment], u);
-      return (cut_cylinders >> k & 1u) != 0 ? motored_Pa : motored_Pa + state.load_ratio * value(tables.pressure_heat[segment], u);
-    } else if constexpr (N::gas_pressure && N::load) {
-      return value(tables.pressure_motored[segment], u) + state.load_ratio * value(tables.pressure_heat[segment], u);
     } else if constexpr (N::gas_pressure) {
-      return value(tables.pressure_full[segment], u);
+      const std::uint32_t segment = tables.gas_grid->segment(at.delayed(tables.drive->turn_of[k]));
+      if constexpr (!N::load) {
+        return value(tables.pressure_full[segment], at.u);
+      } else {
+        const Real motored_Pa = value(tables.pressure_motored[segment], at.u);
+        if (N::cut && (cut_cylinders >> k & 1u) != 0) return motored_Pa;
+        return motored_Pa + load_ratio * value(tables.pressure_heat[segment], at.u);
+      }
     } else {
-      (void)k, (void)segment, (void)u;
       return tables.body->crankcase_Pa;
     }
   }
 
-  /// Fills head_pressure_Pa, per cylinder, where the scene has gas on its valves' heads.
-  void do_cylinders([[maybe_unused]] Real* head_pressure_Pa, std::uint32_t cut_cylinders) noexcept {
-    const Drive<Real>& drive = *tables.drive;
-    const std::uint32_t cylinders = count<S>(drive.cylinders);
-    const Real speed = state.speed_rad_s;
-    for (std::uint32_t k = 0; k < cylinders; ++k) {
-      const std::uint32_t m = drive.mechanism_of[k];
-      [[maybe_unused]] const Pose<Real>& p = pose[N::pose ? m : 0];
-      [[maybe_unused]] const Real u = angle[m].u;
-      [[maybe_unused]] std::uint32_t segment = 0;
-      if constexpr (N::gas_pressure) segment = tables.gas_grid->segment(angle[m].delayed(drive.turn_of[k]));
+  /// Where in its cycle a mechanism stands; where no gas is looked up, in its turn.
+  [[nodiscard, gnu::always_inline]] auto mechanism_angle(std::uint64_t firing_phase) const noexcept {
+    if constexpr (N::gas_pressure) {
+      return angle_of<Real>(state.phase.units(), firing_phase);
+    } else {
+      return turn_angle_of<Real>(state.phase.units(), firing_phase);
+    }
+  }
 
+  /// Mechanism by mechanism what its cylinders share, then those. Fills crank.head_pressure_Pa where the scene has gas on its valves' heads.
+  void do_mechanisms([[maybe_unused]] const CrankTurn<Real, S>& crank, [[maybe_unused]] std::uint32_t cut_cylinders) noexcept {
+    constexpr bool kGivenGas = N::given_torque && !N::crank_dynamics;
+    if constexpr (N::shown_by_cylinder || kGivenGas) {
+      const Drive<Real>& drive = *tables.drive;
+      [[maybe_unused]] Swept swept;
+      [[maybe_unused]] const std::uint8_t* k = drive.by_mechanism.cylinder;
+      [[maybe_unused]] Real sum_Nm{};
+      for (std::uint32_t m = 0; m < mechanisms(); ++m) {
+        const auto at = mechanism_angle(drive.firing_phase[m]);
+        const std::uint32_t degree = at.turn_degree();
+        const Pose<Real> p = pose_at(degree, at.u);
+        if constexpr (kGivenGas) read_swept(m, degree, at.u, p, swept);
+        if constexpr (N::shown_by_cylinder) {
+          const std::uint8_t* const end = drive.by_mechanism.cylinder + drive.by_mechanism.end[m];
+          sum_Nm = show_cylinders(k, end, at, p, crank, cut_cylinders, sum_Nm);
+          k = end;
+        }
+      }
+      if constexpr (S::forces && !N::crank_dynamics) torque_Nm = sum_Nm;
+      if constexpr (kGivenGas) add_given_pressures(swept, crank.mean_pressure_Pa);
+    }
+  }
+
+  /// What the cylinders of one mechanism show, `next` to before `end`. Answers their torques added to `sum_Nm`.
+  template <class At>
+  [[nodiscard, gnu::always_inline]] Real show_cylinders(const std::uint8_t* next, const std::uint8_t* end, [[maybe_unused]] const At& at,
+                                                       const Pose<Real>& p, [[maybe_unused]] const CrankTurn<Real, S>& crank,
+                                                       [[maybe_unused]] std::uint32_t cut_cylinders, Real sum_Nm) noexcept {
+    const Real speed = state.speed_rad_s;
+    [[maybe_unused]] Real velocity_m_s, acceleration_m_s2, rod_speed_rad_s, rod_acceleration_rad_s2;
+    if constexpr (S::kinematics) {
+      velocity_m_s = p.slope_m * speed;
+      acceleration_m_s2 = p.acceleration_m * (speed * speed);
+      if constexpr (N::crank_dynamics) acceleration_m_s2 += p.slope_m * out.acceleration_rad_s2;
+    }
+    if constexpr (S::rod_motion) {
+      rod_speed_rad_s = p.rod_slope * speed;
+      rod_acceleration_rad_s2 = p.rod_curvature * (speed * speed);
+      if constexpr (N::crank_dynamics) rod_acceleration_rad_s2 += p.rod_slope * out.acceleration_rad_s2;
+    }
+    [[maybe_unused]] const auto forces = [&] {
+      if constexpr (!S::forces) {
+        return 0;
+      } else if constexpr (N::crank_dynamics) {
+        return MechanismForces<S::rod_inertia, Real>(*tables.body, p, CrankRate<Real>{speed, out.acceleration_rad_s2});
+      } else {
+        return MechanismForces<S::rod_inertia, Real>(*tables.body, p, speed);
+      }
+    }();
+    [[maybe_unused]] const Real load_ratio = state.load_ratio;
+    for (; next != end; ++next) {
+      const std::uint32_t k = *next;
       if constexpr (S::kinematics) {
         out.displacement_m[k] = p.displacement_m;
-        out.velocity_m_s[k] = p.slope_m * speed;
-        out.acceleration_m_s2[k] = p.acceleration_m * (speed * speed);
-        if constexpr (N::crank_dynamics) out.acceleration_m_s2[k] += p.slope_m * out.acceleration_rad_s2;
+        out.velocity_m_s[k] = velocity_m_s;
+        out.acceleration_m_s2[k] = acceleration_m_s2;
       }
       if constexpr (S::rod_motion) {
         out.rod_angle_rad[k] = p.rod_angle_rad;
-        out.rod_speed_rad_s[k] = p.rod_slope * speed;
-        out.rod_acceleration_rad_s2[k] = p.rod_curvature * (speed * speed);
-        if constexpr (N::crank_dynamics) out.rod_acceleration_rad_s2[k] += p.rod_slope * out.acceleration_rad_s2;
+        out.rod_speed_rad_s[k] = rod_speed_rad_s;
+        out.rod_acceleration_rad_s2[k] = rod_acceleration_rad_s2;
       }
-      if constexpr (S::valve_gas) head_pressure_Pa[k] = pressure_Pa(k, segment, u, cut_cylinders);
-      if constexpr (S::forces && N::crank_dynamics) {
-        const CrankRate<Real> rate{speed, out.acceleration_rad_s2};
-        out.cylinder[k] = cylinder_forces<S::rod_inertia>(*tables.body, p, pressure_Pa(k, segment, u, cut_cylinders), rate);
-      } else if constexpr (S::forces) {
-        out.cylinder[k] = cylinder_forces<S::rod_inertia>(*tables.body, p, pressure_Pa(k, segment, u, cut_cylinders), speed);
-        torque_Nm += out.cylinder[k].torque_Nm;
-      } else if constexpr (N::any_torque && N::input_pressure && !N::crank_dynamics) {
-        torque_Nm += (state.pressure_Pa[k] - tables.body->crankcase_Pa) * tables.body->bore_area_m2 * p.slope_m;
+      if constexpr (N::cylinder_pressure) {
+        const Real gas_Pa = pressure_Pa(k, at, cut_cylinders, load_ratio);
+        if constexpr (S::valve_gas) crank.head_pressure_Pa[k] = gas_Pa;
+        if constexpr (S::forces) {
+          out.cylinder[k] = forces.at(gas_Pa);
+          sum_Nm += out.cylinder[k].torque_Nm;
+        }
       }
     }
+    return sum_Nm;
   }
 
   void show_torque() noexcept {
@@ -245,13 +330,8 @@ struct Step : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
     } else if constexpr (N::gas_torque) {
       work_J += difference(state.gas[0], gas[0], tables.gas_torque_full->quantum);
       return tables.gas_torque_full->mean_Nm;
-    } else if constexpr (N::input_pressure) {
-      const Drive<Real>& drive = *tables.drive;
-      for (std::uint32_t k = 0; k < count<S>(drive.cylinders); ++k) {
-        const std::uint32_t m = drive.mechanism_of[k];
-        work_J += (crank.mean_pressure_Pa[k] - tables.body->crankcase_Pa) * tables.body->bore_area_m2 *
-                  difference(state.stroke[m], stroke[m], tables.stroke->quantum);
-      }
+    } else if constexpr (N::given_work) {
+      work_J += given_work_J;
     }
     return Real{};
   }
@@ -295,9 +375,6 @@ struct Step : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
         state.gas[0] = gas[0];
         if constexpr (N::load) state.gas[1] = gas[1];
       }
-      if constexpr (N::input_pressure) {
-        for (std::uint32_t m = 0; m < tables.drive->mechanisms; ++m) state.stroke[m] = stroke[m];
-      }
     }
   }
 };
@@ -308,12 +385,9 @@ inline void run_mechanisms(const Tables<Real, S>& tables, State<Real, S>& state,
   std::uint32_t cut_cylinders = 0;
   if constexpr (Needs<S>::cut) cut_cylinders = crank.cut_cylinders;
   step.read_torque(cut_cylinders);
-  if constexpr (Needs<S>::mechanisms) step.read_mechanisms();
   step.move_crank(crank);
-  if constexpr (Needs<S>::mechanisms) {
-    step.do_cylinders(crank.head_pressure_Pa, cut_cylinders);
-    load_bearings(tables, state, out);
-  }
+  step.do_mechanisms(crank, cut_cylinders);
+  load_bearings(tables, state, out);
   step.show_torque();
   step.average_torque(crank);
   step.remember_work();

@@ -86,20 +86,21 @@ struct Needs {
   static constexpr bool torque_curves = work || (S::torque && !S::forces);
 
   static constexpr bool body = S::forces || (any_torque && input_pressure) || cylinder_pressure;
-  static constexpr bool stroke = S::kinematics || S::forces || (any_torque && input_pressure);
-  static constexpr bool displacement = S::kinematics || S::forces || (work && input_pressure);
-  static constexpr bool acceleration = S::kinematics || S::forces;
-  static constexpr bool rod_tilt = S::forces;
-  static constexpr bool rod_angle = S::rod_motion;
+  static constexpr bool motion = S::kinematics || S::forces;
+  static constexpr bool given_torque = any_torque && input_pressure;  ///< of gas, from pressures that are given
+  static constexpr bool given_work = work && input_pressure;          ///< likewise
+  static constexpr bool stroke = given_work || (given_torque && !motion);
+  static constexpr bool lean = S::forces;
+  static constexpr bool rod = S::rod_motion;
   static constexpr bool rod_curvature = S::rod_motion || (S::forces && S::rod_inertia);
-  static constexpr bool pose = stroke || acceleration || rod_tilt || rod_angle || rod_curvature;
+  static constexpr bool shown_by_cylinder = motion || rod || cylinder_pressure;
   static constexpr bool inertia_torque = torque_curves;
   static constexpr bool gas_torque = torque_curves && table_pressure;
   static constexpr bool gas_pressure = cylinder_pressure && table_pressure;
   static constexpr bool load = S::load_ratio && table_pressure;
   static constexpr bool cut = S::cylinder_cut && table_pressure;
   static constexpr bool cut_torque = cut && torque_curves;  ///< the engine's gas torque less that of cylinders which do not fire
-  static constexpr bool mechanisms = stroke || acceleration || rod_angle || rod_curvature || cylinder_pressure;
+  static constexpr bool mechanisms = stroke || shown_by_cylinder;
   static constexpr bool any_triggers = S::triggers.capacity > 0;
   static constexpr std::uint32_t valve_count = any_valves ? S::trains.capacity * S::cylinders.capacity : 0;
 };

@@ -16,6 +16,12 @@
 
 namespace crankloop {
 
+/// Cylinders in groups: those of group g are cylinder[end[g - 1]], or [0] of the first, to cylinder[end[g] - 1].
+struct CylinderGroups {
+  std::uint8_t cylinder[kMaxCylinders];
+  std::uint8_t end[kMaxCylinders];
+};
+
 /// Time and cylinder arrangement; every scene has it.
 template <class Real>
 struct Drive {
@@ -27,9 +33,10 @@ struct Drive {
   Real speed_limit_rad_s;          ///< beyond it an input is refused; at most one revolution per tick
   std::uint32_t cylinders;
   std::uint32_t mechanisms;                         ///< cylinders with different crank angles; the others share their look-ups
-  std::uint64_t firing_phase[kMaxCylinders];        ///< per mechanism: phase units at which its own crank angle is 0
+  std::uint64_t firing_phase[kMaxCylinders];        ///< per mechanism: phase units at which its own crank angle is 0; in float whole 2^32
   std::uint8_t mechanism_of[kMaxCylinders];         ///< per cylinder
   std::uint8_t turn_of[kMaxCylinders];              ///< per cylinder: 0, or 1 when it fires a crank turn after its mechanism's phase
+  CylinderGroups by_mechanism;
   std::uint32_t trains;                             ///< valve trains of each cylinder
 };
 
@@ -47,11 +54,32 @@ struct Body {
   Real rod_inertia_correction_kg_m2;   ///< dI
 };
 
+/// A piston's motion.
+template <class Real>
+struct MotionSegment {
+  IntegralSegment<Real> displacement;  ///< x, m: the integral of the slope
+  Segment<Real> slope;                 ///< dx/da, m/rad
+  Segment<Real> acceleration;          ///< d2x/da2, m/rad^2
+};
+/// How a rod leans on its piston and its crank pin.
+template <class Real>
+struct LeanSegment {
+  Segment<Real> tilt;    ///< tan b
+  Segment<Real> radial;  ///< cos(a + b) / cos b
+};
+/// A rod's motion.
+template <class Real>
+struct RodSegment {
+  IntegralSegment<Real> angle;  ///< b, rad: the integral of the slope
+  Segment<Real> slope;          ///< db/da
+};
+
 /// Crank pins and the main journals between them, numbered along the shaft; journals = pins + 1.
 template <class Real>
 struct Bearings {
   std::uint32_t pins;
   std::uint8_t pin_of[kMaxCylinders];        ///< per cylinder
+  CylinderGroups by_pin;
   Real rods_kg_m[kMaxCylinders];             ///< per pin: m_rod_crank r, times the rods on it
   Real throw_kg_m[kMaxCylinders];            ///< per pin: m_r r
   Real throw_cos[kMaxCylinders];             ///< per pin: direction of its throw, from that of pin 0 in the sense of rotation
@@ -104,11 +132,10 @@ template <class Real>
 struct Sections {
   const Drive<Real>* drive = nullptr;
   const Body<Real>* body = nullptr;
-  const IntegratedCurve<Real>* stroke = nullptr;         ///< slope dx/da in m/rad, integral x in m
-  const Curve<Real>* acceleration = nullptr;             ///< d2x/da2, m/rad^2
-  const Curve<Real>* rod_tilt = nullptr;                 ///< tan b
-  const Curve<Real>* radial = nullptr;                   ///< cos(a + b) / cos b
-  const IntegratedCurve<Real>* rod_angle = nullptr;      ///< slope db/da, integral b in rad
+  const IntegratedCurve<Real>* stroke = nullptr;         ///< slope dx/da in m/rad, integral x in m: for torque and work of given pressures
+  const Revolution<MotionSegment<Real>>* motion = nullptr;
+  const Revolution<LeanSegment<Real>>* lean = nullptr;
+  const Revolution<RodSegment<Real>>* rod = nullptr;
   const Curve<Real>* rod_curvature = nullptr;            ///< d2b/da2
   const IntegratedCurve<Real>* inertia_torque = nullptr; ///< torque of masses per w^2 in kg m^2, all cylinders, over the engine's angle
   const GasGrid* gas_grid = nullptr;                     ///< of the pressures: a cylinder's own cycle
@@ -134,9 +161,9 @@ namespace part {
 // One holder per section: a base of Tables when the scene needs it.
 template <class Real> struct BodyRef { const Body<Real>* body = nullptr; };
 template <class Real> struct StrokeRef { const IntegratedCurve<Real>* stroke = nullptr; };
-template <class Real> struct AccelerationRef { const Curve<Real>* acceleration = nullptr; };
-template <class Real> struct RodTiltRef { const Curve<Real>* rod_tilt = nullptr; const Curve<Real>* radial = nullptr; };
-template <class Real> struct RodAngleRef { const IntegratedCurve<Real>* rod_angle = nullptr; };
+template <class Real> struct MotionRef { const Revolution<MotionSegment<Real>>* motion = nullptr; };
+template <class Real> struct LeanRef { const Revolution<LeanSegment<Real>>* lean = nullptr; };
+template <class Real> struct RodRef { const Revolution<RodSegment<Real>>* rod = nullptr; };
 template <class Real> struct RodCurvatureRef { const Curve<Real>* rod_curvature = nullptr; };
 template <class Real> struct InertiaTorqueRef { const IntegratedCurve<Real>* inertia_torque = nullptr; };
 struct GasGridRef { const GasGrid* gas_grid = nullptr; };
@@ -158,9 +185,9 @@ struct TriggersRef { const TriggerWheels* triggers = nullptr; };
 template <class Real, class S>
 struct Tables : If<Needs<S>::body, part::BodyRef<Real>>,
                 If<Needs<S>::stroke, part::StrokeRef<Real>>,
-                If<Needs<S>::acceleration, part::AccelerationRef<Real>>,
-                If<Needs<S>::rod_tilt, part::RodTiltRef<Real>>,
-                If<Needs<S>::rod_angle, part::RodAngleRef<Real>>,
+                If<Needs<S>::motion, part::MotionRef<Real>>,
+                If<Needs<S>::lean, part::LeanRef<Real>>,
+                If<Needs<S>::rod, part::RodRef<Real>>,
                 If<Needs<S>::rod_curvature, part::RodCurvatureRef<Real>>,
                 If<Needs<S>::inertia_torque, part::InertiaTorqueRef<Real>>,
                 If<Needs<S>::gas_pressure, part::GasGridRef>,
@@ -183,9 +210,9 @@ struct Tables : If<Needs<S>::body, part::BodyRef<Real>>,
     using N = Needs<S>;
     if constexpr (N::body) this->body = s.body;
     if constexpr (N::stroke) this->stroke = s.stroke;
-    if constexpr (N::acceleration) this->acceleration = s.acceleration;
-    if constexpr (N::rod_tilt) this->rod_tilt = s.rod_tilt, this->radial = s.radial;
-    if constexpr (N::rod_angle) this->rod_angle = s.rod_angle;
+    if constexpr (N::motion) this->motion = s.motion;
+    if constexpr (N::lean) this->lean = s.lean;
+    if constexpr (N::rod) this->rod = s.rod;
     if constexpr (N::rod_curvature) this->rod_curvature = s.rod_curvature;
     if constexpr (N::inertia_torque) this->inertia_torque = s.inertia_torque;
     if constexpr (N::gas_pressure) this->gas_grid = s.gas_grid;

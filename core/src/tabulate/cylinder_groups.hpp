@@ -1,0 +1,23 @@
+// Cylinders in the groups that a tick takes together.
+#pragma once
+
+#include <cstdint>
+
+#include <crankloop/tick/tables.hpp>
+
+namespace crankloop::detail {
+
+/// `group_of` each cylinder, all less than `groups`.
+[[nodiscard]] inline CylinderGroups grouped(const std::uint8_t (&group_of)[kMaxCylinders], std::uint32_t cylinders, std::uint32_t groups) noexcept {
+  CylinderGroups by{};
+  std::uint8_t n = 0;
+  for (std::uint32_t g = 0; g < groups; ++g) {
+    for (std::uint8_t k = 0; k < cylinders; ++k) {
+      if (group_of[k] == g) by.cylinder[n++] = k;
+    }
+    by.end[g] = n;
+  }
+  return by;
+}
+
+}  // namespace crankloop::detail
