@@ -66,8 +66,11 @@ struct Sections {
   std::vector<Segment<Real>> pressures[3];
   std::vector<IntegratedSegment<Real>> torques[4];
   GasTorque<Real> gas[4];
-  IntegratedCurve<Real> stroke, rod_angle, inertia_torque;
-  Curve<Real> acceleration, rod_tilt, radial, rod_curvature;
+  IntegratedCurve<Real> stroke, inertia_torque;
+  Revolution<MotionSegment<Real>> motion;
+  Revolution<LeanSegment<Real>> lean;
+  Revolution<RodSegment<Real>> rod;
+  Curve<Real> rod_curvature;
 
   TableTargets<Real> targets(int room) {
     for (auto& p : pressures) p.resize(static_cast<std::size_t>(room));
@@ -80,8 +83,8 @@ struct Sections {
     t.gas_torque_motored = &gas[1], t.gas_motored = torques[1].data();
     t.gas_torque_heat = &gas[2], t.gas_heat = torques[2].data();
     t.cut_torque = &gas[3], t.cut_heat = torques[3].data();
-    t.stroke = &stroke, t.rod_angle = &rod_angle, t.inertia_torque = &inertia_torque;
-    t.acceleration = &acceleration, t.rod_tilt = &rod_tilt, t.radial = &radial, t.rod_curvature = &rod_curvature;
+    t.stroke = &stroke, t.inertia_torque = &inertia_torque;
+    t.motion = &motion, t.lean = &lean, t.rod = &rod, t.rod_curvature = &rod_curvature;
     return t;
   }
 };
