@@ -380,11 +380,12 @@ class ElasticValves {
   [[gnu::noinline]] void look_by_turns(Bits doubtful, const CamTicks<Real, S>& cams, const Before& before,
                                        ChangeBudget& budget) noexcept {
     const std::uint32_t first = static_cast<std::uint32_t>(state_.ticks) % kMostValves;
-    for (Bits left = doubtful; left != 0;) {
-      const Bits ahead = left >> first << first;
-      const std::uint32_t v = trailing_zeros(ahead != 0 ? ahead : left);
-      left ^= Bits{1} << v;
-      look(v, cams[train(v)], before, budget);
+    constexpr Bits kAll = (Bits{1} << (kMostValves - 1) << 1) - 1;
+    const Bits from_first = doubtful >> first | (doubtful << (kMostValves - 1 - first) << 1 & kAll);
+    for (Bits left = from_first; left != 0; left &= left - 1) {
+      const std::uint32_t v = first + trailing_zeros(left);
+      const std::uint32_t valve = v < kMostValves ? v : v - kMostValves;
+      look(valve, cams[train(valve)], before, budget);
     }
   }
 

@@ -145,8 +145,8 @@ class ValveChanges {
     valve.regime = asked_at_start(valve, tick);
     const std::uint64_t part = part_of(turned, motion_.per_parts_32);
     std::uint64_t at = to - static_cast<std::uint64_t>(turned);
-    Span<Real, Gas> step = tick;
-    step.cam.deg = tick.cam.deg * motion_.per_parts;
+    const CamTurn<Real> part_turn{tick.cam.deg * motion_.per_parts, tick.cam.deg_per_s};
+    Span<Real, Gas> step{tick.from, tick.to, part_turn, tick.gas, tick.since_opening, Real{0}};
     bool was_sure = sure(valve.regime, valve.state, step.from, step.cam);
     for (std::uint32_t i = 1; i <= motion_.parts; ++i) {
       at += part;
