@@ -8,6 +8,7 @@
 
 #include <cstddef>
 
+#include <crankloop/tick/cam_ticks.hpp>
 #include <crankloop/tick/io.hpp>
 #include <crankloop/tick/lanes.hpp>
 #include <crankloop/tick/valve.hpp>
