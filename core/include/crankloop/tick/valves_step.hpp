@@ -15,8 +15,9 @@ namespace crankloop::detail {
 
 /// A valve that follows its cam, but for the clearance.
 template <class Real>
-[[nodiscard]] constexpr ValveMotionOutput<Real> following(const LiftCurve<Real>& curve, const Cell& cell,
-                                                          const CamTurn<Real>& cam) noexcept {
+[[nodiscard, gnu::always_inline]] constexpr ValveMotionOutput<Real> following(const LiftCurve<Real>& curve,
+                                                                              const Cell& cell,
+                                                                              const CamTurn<Real>& cam) noexcept {
   const Lift<Real> lift = curve.read(cell);
   if (!(lift.lift_m > 0)) return {};
   return {lift.lift_m, lift.lift_m, lift.per_deg_m * cam.deg_per_s,
@@ -26,10 +27,10 @@ template <class Real>
 /// One tick, in which the engine turned; `jumped`: a measured phase jumped, so valves start anew where their cams
 /// stand. Pressures are those of each cylinder, where the scene has valve_gas. Answers fault bits.
 template <class Real, class S>
-[[nodiscard]] inline std::uint32_t run_valves(const Tables<Real, S>& tables, State<Real, S>& state,
-                                              ValvesWorkOf<Real, S>& work, Output<Real, S>& out,
-                                              const Input<Real, S>& input, Phase turned, bool jumped,
-                                              const Real* pressure_Pa) noexcept {
+[[nodiscard, gnu::always_inline]] inline std::uint32_t run_valves(const Tables<Real, S>& tables, State<Real, S>& state,
+                                                                  ValvesWorkOf<Real, S>& work, Output<Real, S>& out,
+                                                                  const Input<Real, S>& input, Phase turned,
+                                                                  bool jumped, const Real* pressure_Pa) noexcept {
   std::uint32_t faults = 0;
   const std::uint32_t trains = S::trains.exact ? S::trains.capacity : tables.drive->trains;
   CamTicks<Real, S> cams(tables, state, turned, jumped);
