@@ -23,6 +23,9 @@ using support::refuses;
 using tick_test::BothReals;
 using tick_test::RealName;
 
+/// Drawn evenly over the decades.
+double logarithmic(Random& random, double low, double high) { return low * std::pow(high / low, random.between(0, 1)); }
+
 ValveBody<double> body_of(const ValveTrain& train) {
   const ValveLift lift = lift_of(train);
   return valve_body(train.valve, lift.lever_m() > 0 ? lift.lever_m() : 1);
@@ -440,13 +443,12 @@ TEST(ValveCalm, NeverFailsAGuardHoweverItSwings) {
   int swings = 0;
   for (int draw = 0; draw < 400; ++draw) {
     ValveTrain train = ohc_125_train();
-    const auto logarithmic = [&](double low, double high) { return low * std::pow(high / low, random.between(0, 1)); };
-    train.valve.valve_kg = logarithmic(0.01, 0.5);
-    train.valve.seat_N_m = logarithmic(1e6, 1e9);
+    train.valve.valve_kg = logarithmic(random, 0.01, 0.5);
+    train.valve.seat_N_m = logarithmic(random, 1e6, 1e9);
     train.valve.seat_damping_ratio = random.between(0, 1);
-    train.valve.spring_preload_N = logarithmic(1, 1000);
-    const double lash_m = random.coin() ? logarithmic(1e-8, 1e-3) : 0;
-    const double tick_s = logarithmic(1e-6, 5e-4);
+    train.valve.spring_preload_N = logarithmic(random, 1, 1000);
+    const double lash_m = random.coin() ? logarithmic(random, 1e-8, 1e-3) : 0;
+    const double tick_s = logarithmic(random, 1e-6, 5e-4);
     ValveMotion<double> motion{};
     const ValveBody<double> body = body_of(train);
     if (!motion_of(body, tick_s, {}, motion).ok()) continue;
@@ -524,13 +526,12 @@ TEST(ValveRounding, ToFloatMakesNoStepGrow) {
   int at_one = 0;
   for (int draw = 0; draw < 300; ++draw) {
     ValveTrain train = ohc_125_train();
-    const auto logarithmic = [&](double low, double high) { return low * std::pow(high / low, random.between(0, 1)); };
-    train.valve.valve_kg = logarithmic(0.01, 0.5);
-    train.valve.train_N_m = logarithmic(1e6, 1e9);
-    train.valve.seat_N_m = logarithmic(1e6, 1e9);
+    train.valve.valve_kg = logarithmic(random, 0.01, 0.5);
+    train.valve.train_N_m = logarithmic(random, 1e6, 1e9);
+    train.valve.seat_N_m = logarithmic(random, 1e6, 1e9);
     train.valve.train_damping_ratio = train.valve.guide_damping_ratio = train.valve.seat_damping_ratio = 0;
     ValveMotion<double> motion{};
-    if (!motion_of(body_of(train), logarithmic(1e-6, 2e-4), {random.coin() ? Integrator::rk4 : Integrator::exponential, 0.1e-6}, motion).ok()) continue;
+    if (!motion_of(body_of(train), logarithmic(random, 1e-6, 2e-4), {random.coin() ? Integrator::rk4 : Integrator::exponential, 0.1e-6}, motion).ok()) continue;
     const ValveMotion<float> in_float = rounded(motion);
     for (const RegimeStep<float>* level : {in_float.whole, in_float.fine}) {
       for (int regime = 0; regime < kRegimes; ++regime) {

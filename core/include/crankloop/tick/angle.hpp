@@ -25,13 +25,14 @@ struct Angle {
   }
 };
 
-/// From a firing phase on. float reads the top word alone, and its firing phases have no more (Drive::firing_phase).
+/// From where a cylinder fires, or its lobe opens. float reads the top word alone, and its tables' phases have no more
+/// (Drive::firing_phase, LiftCurve::opens).
 template <class Real>
-[[nodiscard]] constexpr std::uint64_t units_from(std::uint64_t phase, std::uint64_t firing_phase) noexcept {
+[[nodiscard]] constexpr std::uint64_t units_from(std::uint64_t phase, std::uint64_t start) noexcept {
   if constexpr (sizeof(Real) == 4) {
-    return std::uint64_t{static_cast<std::uint32_t>(phase >> 32) - static_cast<std::uint32_t>(firing_phase >> 32)} << 32;
+    return std::uint64_t{static_cast<std::uint32_t>(phase >> 32) - static_cast<std::uint32_t>(start >> 32)} << 32;
   } else {
-    return phase - firing_phase;
+    return phase - start;
   }
 }
 

@@ -99,12 +99,12 @@ class ElasticValves {
     else
       return *work_.valve[v].curve;
   }
-  /// Where a valve's cam stands. In float its lobe's beginning has no low word.
+  /// Where a valve's cam stands.
   [[nodiscard]] Cell cell(std::uint32_t v, std::uint64_t phase) const noexcept {
     if constexpr (kMayGoAbreast<Real, S> || sizeof(Real) != 4) {
       return curve(v).cell(phase, cylinder(v));
     } else {
-      return LiftCurve<Real>::cell(std::uint64_t{static_cast<std::uint32_t>(phase >> 32) - work_.valve[v].opens} << 32);
+      return LiftCurve<Real>::cell(units_from<Real>(phase, std::uint64_t{work_.valve[v].opens} << 32));
     }
   }
   [[nodiscard]] std::uint32_t trains() const noexcept {

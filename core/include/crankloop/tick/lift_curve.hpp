@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include <crankloop/limits.hpp>
+#include <crankloop/tick/angle.hpp>
 #include <crankloop/tick/curve.hpp>
 
 namespace crankloop {
@@ -44,14 +45,9 @@ struct LiftCurve {
 
   /// Where a cam stands: `degree` of its turn, counted from the start of the lobe.
   [[nodiscard]] static constexpr Cell cell(std::uint64_t since_opening) noexcept { return cell_of<Real>(since_opening, 360); }
-  /// The same of a cylinder's cam by the train's phase. In float `opens` has no low word.
+  /// The same of a cylinder's cam by the train's phase.
   [[nodiscard]] constexpr Cell cell(std::uint64_t phase, std::uint32_t cylinder) const noexcept {
-    if constexpr (sizeof(Real) == 4) {
-      const std::uint32_t high = static_cast<std::uint32_t>(phase >> 32) - static_cast<std::uint32_t>(opens[cylinder] >> 32);
-      return cell(std::uint64_t{high} << 32);
-    } else {
-      return cell(phase - opens[cylinder]);
-    }
+    return cell(detail::units_from<Real>(phase, opens[cylinder]));
   }
 
   [[nodiscard]] constexpr Lift<Real> read(Cell cell) const noexcept {
