@@ -149,9 +149,9 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
       for (std::uint32_t k = 0; k < cylinders; ++k) take(k, input.pressure_Pa[k]);
     } else {
       for (std::uint32_t k = 0; k < cylinders; ++k) {
-        Real last_Pa = state_.pressure_Pa[k];
         const bool good = detail::within_positive(input.pressure_Pa[k], kMost_Pa);
-        take(k, detail::checked(input.pressure_Pa[k], good, last_Pa, kFaultPressure, faults));
+        take(k, good ? input.pressure_Pa[k] : state_.pressure_Pa[k]);
+        if (!good) faults |= kFaultPressure;
       }
     }
   }
