@@ -52,6 +52,10 @@ class Fnv {
   void add(const RegimeSeries<Real>& s) {
     for (const Real x : {s.rest, s.gas, s.stiffness, s.damping, s.lift, s.lift_speed}) add(x);
   }
+  template <class Real>
+  void add(const MiddleStep<Real>& s) {
+    for (const Real x : {s.lift_by_lift, s.lift_by_slope, s.velocity_by_lift, s.velocity_by_slope}) add(x);
+  }
   [[nodiscard]] std::uint64_t value() const { return hash_; }
 
  private:
@@ -140,6 +144,7 @@ std::uint64_t hash_of_tables(const Tables<Real, TwoValves>& tables) {
     for (const RegimeStep<Real>& step : m.whole) fnv.add(step);
     for (const RegimeStep<Real>& step : m.fine) fnv.add(step);
     for (const RegimeSeries<Real>& series : m.series) fnv.add(series);
+    for (const MiddleStep<Real>& middle : m.middle) fnv.add(middle);
   }
   return fnv.value();
 }

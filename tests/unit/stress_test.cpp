@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <utility>
 
 #include <crankloop/tabulate/valve_lift.hpp>
 
@@ -85,6 +86,16 @@ TEST(StressTrials, OfEightyCasesFindNothing) {
   EXPECT_GT(tally.ran, 50);
   EXPECT_GT(tally.refusals(), 2);
   EXPECT_GT(tally.compared, 3);
+}
+
+TEST(StressTrials, FollowTheCamThroughStepsOfManyDegrees) {
+  // Fine steps of 5 to 30 cam degrees: the cubic through their ends misses the lift between, by up to nine times what is allowed.
+  StressTrials trials;
+  const std::pair<std::uint64_t, std::uint64_t> cases[] = {{1, 4170}, {2, 5410}, {4, 1390}, {4, 8210}, {7, 8520}};
+  for (const auto& [seed, number] : cases) {
+    const TrialResult result = trials.run(StressCase(seed, number), true);
+    EXPECT_EQ(result.verdict, Verdict::ran) << seed << ' ' << number << ": " << result.trouble;
+  }
 }
 
 TEST(StressTrials, AreInaccurateWhereTheMotionIsAnothers) {

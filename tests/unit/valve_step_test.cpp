@@ -232,7 +232,8 @@ TEST(ValveRecord, WhoseGuardsHoldAtBothEndsHasNoContactThatChangesBetween) {
       for (int i = 0; i <= 100; ++i) {
         const double x = i / 100.0;
         // The exact motion up to a place: the same cubic over the shorter step.
-        const StepDrive part{cam.from.lift_m, drive.lift_m(x) - cam.from.lift_m, drive.slope_m(0) * x, drive.slope_m(x) * x, drive.force_N, 0};
+        const StepDrive::Piece there = drive.about(x);
+        const StepDrive part{cam.from.lift_m, there.c[0] - cam.from.lift_m, drive.from_m * x, there.c[1] * x, drive.force_N, 0};
         const ValveState<double> s = i == 0 ? before : exact_motion(body, regime, tick_s * x, before, part);
         const CamStep::At at = cam.at(x);
         least_gap_m = std::min({least_gap_m, std::fabs(at.lift_m - s.lift_m), std::fabs(body.seat_sink_m - s.lift_m)});

@@ -125,11 +125,16 @@ class Printer {
     list(rest, gas, stiffness, damping, lift, lift_speed);
   }
   template <class Real>
+  void print(const MiddleStep<Real>& s) {
+    const auto& [lift_by_lift, lift_by_slope, velocity_by_lift, velocity_by_slope] = s;
+    list(lift_by_lift, lift_by_slope, velocity_by_lift, velocity_by_slope);
+  }
+  template <class Real>
   void print(const ValveMotion<Real>& m) {
     const auto& [body, tick, fine, per_fine, per_parts, parts, per_parts_32, changes, widest, train_lag, seat_lag, per_seat, quiet, seat_rate,
-                 whole_steps, fine_steps, series] = m;
+                 whole_steps, fine_steps, series, middle] = m;
     list(body, tick, fine, per_fine, per_parts, parts, per_parts_32, changes, widest, train_lag, seat_lag, per_seat, quiet, seat_rate, whole_steps,
-         fine_steps, series);
+         fine_steps, series, middle);
   }
   template <class Real>
   void print(const IntegralSegment<Real>& s) { array(s.c); }

@@ -146,7 +146,7 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
     if (const Status refused = motion_of(valve_body(train.valve, lever), options.tick_s, options.valves, motions[t]); !refused.ok()) {
       return of_train(refused, t);
     }
-    if (motions[t].parts > 1) motions[t].widest_step_deg = widest_step_deg(lift, options.valves.accuracy_m);
+    motions[t].widest_step_deg = widest_step_deg(lift, options.valves.accuracy_m);
     find_calm(motions[t], train.rocker.clearance_m);
     fine_steps += static_cast<int>(motions[t].parts) * engine.layout.cylinders;
     if (fine_steps > kMostFineStepsOfEngine) return {Reason::out_of_range, t, "tick.tick"};

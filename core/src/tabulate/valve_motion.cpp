@@ -201,7 +201,8 @@ ValveState<double> runge_kutta(const ValveBody<double>& body, std::uint32_t regi
                                const StepDrive& drive) noexcept {
   const Linear l(body, regime);
   const auto acceleration = [&](double part, double y, double v) {
-    const double force_N = drive.force_N + drive.force_rise_N * part + l.train_N_m * drive.lift_m(part) + l.train_Ns_m * drive.slope_m(part) / d_s;
+    const StepDrive::Piece lift = drive.about(part);
+    const double force_N = drive.force_N + drive.force_rise_N * part + l.train_N_m * lift.c[0] + l.train_Ns_m * lift.c[1] / d_s;
     return (force_N - l.stiffness_N_m * y - l.damping_Ns_m * v) / body.mass_kg;
   };
   const double d = d_s / n;
@@ -231,15 +232,17 @@ ValveState<double> exact_motion(const ValveBody<double>& body, std::uint32_t reg
   for (int i = 0; i < n; ++i) {
     // The lift and the force about the start of this part, by the part of it.
     const double x = i * w;
-    const double lift[] = {drive.lift_m(x), drive.slope_m(x) * w, (drive.bend_m() + 3 * drive.twist_m() * x) * (w * w), drive.twist_m() * (w * w * w)};
+    StepDrive::Piece lift = drive.about(x);
+    double scale = 1;
+    for (double& c : lift.c) c *= scale, scale *= w;
     const double force[] = {drive.force_N + drive.force_rise_N * x, drive.force_rise_N * w};
     double y[kExactOrder + 1] = {state.lift_m, state.velocity_m_s * h};
     double sum = y[0] + y[1];
     double slope = y[1];
     for (int k = 0; k + 2 <= kExactOrder; ++k) {
       double push_N = k < 2 ? force[k] : 0;
-      if (k < 4) push_N += l.train_N_m * lift[k];
-      if (k < 3) push_N += l.train_Ns_m / h * (k + 1) * lift[k + 1];
+      if (k < 6) push_N += l.train_N_m * lift.c[k];
+      if (k < 5) push_N += l.train_Ns_m / h * (k + 1) * lift.c[k + 1];
       const double pull_N = l.stiffness_N_m * y[k] + l.damping_Ns_m / h * (k + 1) * y[k + 1];
       y[k + 2] = (push_N - pull_N) * per_force / ((k + 1) * (k + 2));
       sum += y[k + 2];
@@ -277,14 +280,16 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
   motion.quiet_m = 0.8 * body.seat_sink_m / (1 + body.seat_Ns_m / square_root(body.seat_N_m * body.mass_kg));
   motion.per_seat_rate_s = 1 / square_root((body.seat_N_m + body.spring_N_m) / body.mass_kg);
 
-  const auto regime_step = [&](std::uint32_t contacts, double step_s) {
-    RegimeStep<double> step{};
+  const auto propagator = [&](std::uint32_t contacts, double step_s) {
     const int n = parts_of(step_s, fine_rate * kRungeKuttaRate / fastest);
-    const auto propagate = [&](ValveState<double> state, const StepDrive& drive) {
+    return [&body, &stepping, contacts, step_s, n](ValveState<double> state, const StepDrive& drive) {
       if (stepping.integrator == Integrator::exponential) return exact_motion(body, contacts, step_s, state, drive);
       return runge_kutta(body, contacts, step_s, n, state, drive);
     };
-    fill_rows(propagate, rest_N(body, contacts), step);
+  };
+  const auto regime_step = [&](std::uint32_t contacts, double step_s) {
+    RegimeStep<double> step{};
+    fill_rows(propagator(contacts, step_s), rest_N(body, contacts), step);
     step.acceleration = force_row(body, contacts);
     const double third_s = step_s / 3;
     step.train = {-1, third_s, kOffMargin_m};
@@ -300,6 +305,12 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
   for (std::uint32_t regime = 0; regime < 4; ++regime) {
     motion.fine[regime] = regime_step(regime, motion.fine_step_s);
     motion.series[regime] = series_of(body, regime, motion.fine_step_s);
+  }
+  for (std::uint32_t seat = 0; seat < 2; ++seat) {
+    const auto propagate = propagator(kTrainOn | (seat != 0 ? kSeatOn : 0), motion.fine_step_s);
+    const ValveState<double> by_lift = propagate({0, 0}, StepDrive{0, 0, 0, 0, 0, 0, 1, 0});
+    const ValveState<double> by_slope = propagate({0, 0}, StepDrive{0, 0, 0, 0, 0, 0, 0, 1});
+    motion.middle[seat] = {by_lift.lift_m, by_slope.lift_m, by_lift.velocity_m_s, by_slope.velocity_m_s};
   }
   may_rest(motion.fine[kSeatOn]);
   motion.fine[kQuiet] = motion.fine[kSeatOn];
@@ -358,6 +369,10 @@ ValveMotion<float> rounded(const ValveMotion<double>& m) noexcept {
   for (int regime = 0; regime < 4; ++regime) {
     const RegimeSeries<double>& s = m.series[regime];
     f.series[regime] = {real(s.rest), real(s.gas), real(s.stiffness), real(s.damping), real(s.lift), real(s.lift_speed)};
+  }
+  for (int seat = 0; seat < 2; ++seat) {
+    const MiddleStep<double>& by = m.middle[seat];
+    f.middle[seat] = {real(by.lift_by_lift), real(by.lift_by_slope), real(by.velocity_by_lift), real(by.velocity_by_slope)};
   }
   return f;
 }

@@ -53,16 +53,25 @@ void find_calm(ValveMotion<double>& motion, double lash_m) noexcept;
 /// The same in the tick's own scalar.
 [[nodiscard]] ValveMotion<float> rounded(const ValveMotion<double>& motion) noexcept;
 
-/// What drives a step: the cam's lift as the cubic with this level at the start, this rise and these slopes by the part of the step; and a
-/// force that rises evenly.
+/// What drives a step: the cam's lift as the cubic with this level at the start, this rise and these slopes by the part of the step, and in its
+/// middle so much more of lift and of slope as tick/valve_tables.hpp, MiddleStep, has it; and a force that rises evenly.
 struct StepDrive {
-  double level_m, rise_m, from_m, to_m;
-  double force_N, force_rise_N;
+  double level_m = 0, rise_m = 0, from_m = 0, to_m = 0;
+  double force_N = 0, force_rise_N = 0;
+  double middle_m = 0, middle_slope_m = 0;
 
-  [[nodiscard]] constexpr double lift_m(double x) const noexcept { return level_m + x * (from_m + x * (bend_m() + x * twist_m())); }
-  [[nodiscard]] constexpr double slope_m(double x) const noexcept { return from_m + x * (2 * bend_m() + x * 3 * twist_m()); }
-  [[nodiscard]] constexpr double bend_m() const noexcept { return 3 * rise_m - 2 * from_m - to_m; }
-  [[nodiscard]] constexpr double twist_m() const noexcept { return from_m + to_m - 2 * rise_m; }
+  /// The lift's polynomial about the part x of the step.
+  struct Piece {
+    double c[6];
+  };
+  [[nodiscard]] constexpr Piece about(double x) const noexcept {
+    Piece p{{level_m, from_m, 3 * rise_m - 2 * from_m - to_m + 16 * middle_m - 8 * middle_slope_m,
+             from_m + to_m - 2 * rise_m - 32 * middle_m + 32 * middle_slope_m, 16 * middle_m - 40 * middle_slope_m, 16 * middle_slope_m}};
+    for (int i = 0; i < 5; ++i) {
+      for (int j = 4; j >= i; --j) p.c[j] += x * p.c[j + 1];  // Horner's scheme, again and again
+    }
+    return p;
+  }
 };
 
 /// Classical RK4 on (y, v) in one regime, n equal steps over d seconds [Li 2017, 4.9-4.13].

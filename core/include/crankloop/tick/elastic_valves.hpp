@@ -294,7 +294,8 @@ class ElasticValves {
   /// Too far for the guards: the tick may pass over a lobe, or hold more of the lift than a cubic.
   [[nodiscard]] bool is_far(std::uint32_t v, const CamTick<Real>& tick) const noexcept {
     const Real deg = magnitude(tick.cam.deg);
-    return deg >= curve(v).leap_deg || (deg > motion(v).widest_step_deg && state_.valve_regime[v] != kQuiet);
+    return deg >= curve(v).leap_deg ||
+           (deg > motion(v).widest_step_deg && contacts_of(state_.valve_regime[v]) != kSeatOn);
   }
 
   /// Whether a valve swings on its seat by so little that its cam, on the base circle, cannot matter. Gas moves the

@@ -107,7 +107,8 @@ class ValveChanges {
   /// units on. O(parts + changes).
   [[nodiscard]] Placed<Real> run(const Placed<Real>& start, Stepped<Real> end, const Span<Real, Gas>& tick,
                                  std::uint64_t to, std::int64_t turned) const noexcept {
-    if (motion_.parts > 1) return by_fine_steps(start, tick, to, turned);
+    if (motion_.parts > 1 || magnitude(tick.cam.deg) > motion_.widest_step_deg)
+      return by_fine_steps(start, tick, to, turned);
     const std::uint32_t regime = asked_at_start(start, tick);
     if (regime != start.regime)
       end = stepped(motion_.fine[regime], start.state, tick.from, tick.to, tick.cam.deg, tick.gas);
@@ -143,26 +144,29 @@ class ValveChanges {
       return valve;  // at rest, the cam away at both ends
     }
     valve.regime = asked_at_start(valve, tick);
-    const std::uint64_t part = part_of(turned, motion_.per_parts_32);
+    const std::uint64_t part =
+        motion_.parts > 1 ? part_of(turned, motion_.per_parts_32) : static_cast<std::uint64_t>(turned);
     std::uint64_t at = to - static_cast<std::uint64_t>(turned);
-    const CamTurn<Real> part_turn{tick.cam.deg * motion_.per_parts, tick.cam.deg_per_s};
-    Span<Real, Gas> step{tick.from, tick.to, part_turn, tick.gas, tick.since_opening, Real{0}};
-    bool was_sure = sure(valve.regime, valve.state, step.from, step.cam);
+    Span<Real, Gas> step{tick.from,          tick.to, {tick.cam.deg * motion_.per_parts, tick.cam.deg_per_s}, tick.gas,
+                         tick.since_opening, Real{0}};
+    const bool narrow = magnitude(step.cam.deg) <= motion_.widest_step_deg;
+    bool was_sure = narrow && sure(valve.regime, valve.state, step.from, step.cam);
     for (std::uint32_t i = 1; i <= motion_.parts; ++i) {
       at += part;
       step.to = i == motion_.parts ? tick.to : curve_.read(LiftCurve<Real>::cell(at));
       step.gas =
           tick.gas.between(static_cast<Real>(i - 1) * motion_.per_parts, static_cast<Real>(i) * motion_.per_parts);
-      const Stepped<Real> end =
-          stepped(motion_.fine[valve.regime], valve.state, step.from, step.to, step.cam.deg, step.gas);
+      Stepped<Real> end = stepped(motion_.fine[valve.regime], valve.state, step.from, step.to, step.cam.deg, step.gas);
       const bool is_sure = sure(valve.regime, end.state, step.to, step.cam);
       if (is_sure && was_sure) {
         note(valve, end.state, step, motion_.fine_step_s);
         valve.state = end.state;
       } else {
+        if (!narrow)
+          add_middle(valve.regime, step, at - static_cast<std::uint64_t>(static_cast<std::int64_t>(part) / 2), end);
         valve = checked(valve, end, step);
       }
-      was_sure = is_sure;
+      was_sure = narrow && is_sure;
       step.from = step.to;
       step.later_deg += step.cam.deg;
     }
@@ -177,6 +181,24 @@ class ValveChanges {
       }
     }
     return valve;
+  }
+
+  /// What the cam's lift in the middle of a wide fine step, over which the cubic through its ends does not do, adds to
+  /// it.
+  [[gnu::noinline]] void add_middle(std::uint32_t regime, const Span<Real, Gas>& step, std::uint64_t middle,
+                                    Stepped<Real>& end) const noexcept {
+    if ((regime & kTrainOn) == 0) return;
+    const MiddleStep<Real>& by = motion_.middle[regime >> 1];
+    const Lift<Real> lift = curve_.read(LiftCurve<Real>::cell(middle));
+    const Real from_slope = step.cam.deg * step.from.per_deg_m;
+    const Real to_slope = step.cam.deg * step.to.per_deg_m;
+    const Real rise = step.to.lift_m - step.from.lift_m;
+    const Real more_m = lift.lift_m - step.from.lift_m - (rise / 2 + (from_slope - to_slope) / 8);
+    const Real more_slope_m = step.cam.deg * lift.per_deg_m - (6 * rise - (from_slope + to_slope)) / 4;
+    const Real higher_m = by.lift_by_lift * more_m + by.lift_by_slope * more_slope_m;
+    end.state.lift_m += higher_m;
+    end.state.velocity_m_s += by.velocity_by_lift * more_m + by.velocity_by_slope * more_slope_m;
+    end.rise_m += higher_m;
   }
 
   /// Whether a fine step's guards hold at one of its ends.
@@ -336,7 +358,7 @@ class ValveChanges {
     return {end.state, now};
   }
 
-  /// The motion from the origin of the lift's cubic on, over the part x of a fine step: derivatives by the equation of
+  /// The motion from the origin of the lift's piece on, over the part x of a fine step: derivatives by the equation of
   /// motion, order 8, so exact to (rate step)^9 / 9!. The gas force is linear: `gas` over a whole fine step from there.
   [[nodiscard]] Stepped<Real> by_series(const RegimeSeries<Real>& k, const ValveState<Real>& s, const Cubic<Real>& lift,
                                         Real x, const Gas& gas) const noexcept {

@@ -85,6 +85,13 @@ struct RegimeSeries {
   Real rest, gas, stiffness, damping, lift, lift_speed;
 };
 
+/// What a fine step adds, for each m by which the cam's lift in its middle is above the cubic through its ends, and of slope there by the part of
+/// the step: where a step is wide, the lift is the quintic through both ends and the middle.
+template <class Number>
+struct MiddleStep {
+  Number lift_by_lift, lift_by_slope, velocity_by_lift, velocity_by_slope;
+};
+
 /// All that one valve train's motion reads.
 template <class Real>
 struct ValveMotion {
@@ -95,7 +102,7 @@ struct ValveMotion {
   std::uint32_t parts;          ///< fine steps of a tick in which a contact may change: so short that a change in them can be located
   std::uint32_t per_parts_32;   ///< 2^32 / parts; unused for 1
   std::uint32_t most_changes;   ///< contact changes that a tick locates over all valves: 4 and the most parts of any train
-  Real widest_step_deg;         ///< cam degrees up to which the cubic through the ends of a whole tick of several fine steps will do for the lift
+  Real widest_step_deg;         ///< cam degrees up to which the cubic through the ends of a step will do for the lift
   Real train_lag_s, seat_lag_s;  ///< b / k, b_z / k_z: a contact's force over its stiffness is depth + lag times the depth's speed
   Real per_seat_N_m;            ///< 1 / (k_z + k_s): how far each N of gas force presses a closed valve into its seat
   Real quiet_m;                 ///< a swing on the seat of less than this leaves no contact
@@ -103,6 +110,7 @@ struct ValveMotion {
   RegimeStep<Real> whole[kRegimes];  ///< over a tick
   RegimeStep<Real> fine[kRegimes];   ///< over a fine step
   RegimeSeries<Real> series[kSeatOn + kTrainOn + 1];
+  MiddleStep<Real> middle[2];        ///< of a fine step that the train is on all through: seat off, on
 };
 
 }  // namespace crankloop
