@@ -46,7 +46,7 @@ template <class Real, class S>
 }  // namespace detail
 
 template <class Real, class S>
-Status Engine<Real, S>::init(const Tables& tables, Phase start) noexcept {
+[[gnu::cold]] Status Engine<Real, S>::init(const Tables& tables, Phase start) noexcept {
   tables_ = nullptr;
   state_ = State{};
   output_ = Output{};
@@ -187,7 +187,7 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
 }
 
 template <class Real, class S>
-Status Engine<Real, S>::restore(const State& state) noexcept {
+[[gnu::cold]] Status Engine<Real, S>::restore(const State& state) noexcept {
   if (tables_ == nullptr) return {Reason::missing_table, -1, "tables"};
   if (state.fingerprint != state_.fingerprint) return {Reason::other_tables, -1, "state.fingerprint"};
   state_ = state;
