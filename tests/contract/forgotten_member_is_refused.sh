@@ -1,12 +1,13 @@
 #!/bin/sh
-# forgotten_member_is_refused.sh COMPILER INCLUDE_DIR
+# forgotten_member_is_refused.sh COMPILER CORE_DIR
 # Each record of the tables with one more member does not compile where all members are gone through (tabulate/table_members.hpp), so none
-# can be left out of what is printed for flash. The records as they are do compile: all that the sections are made of are in that list.
+# can be left out of what is printed for flash. Nor does a definition with one more field than its each_field() lists compile where the
+# tables' fingerprint is made. As they are all of them do compile.
 set -eu
-compiler=$1
+compiler=$1 core=$2
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-cp -R "$2/crankloop" "$folder"
+cp -R "$core/include/crankloop" "$folder"
 cat >"$folder/all.cpp" <<'END'
 #include <crankloop/tabulate/table_members.hpp>
 #include <crankloop/tabulate/tabulate.hpp>
@@ -25,22 +26,35 @@ void all(const TableTargets<Real>& tables) {
 }
 template void all(const TableTargets<float>&);
 END
-compiles() { "$compiler" -std=c++17 -fsyntax-only -I "$folder" "$folder/all.cpp" 2>&1; }
+# compiles FILE
+compiles() { "$compiler" -std=c++17 -fsyntax-only -I "$folder" "$1" 2>&1; }
 
-bad=0 records=0
-said=$(compiles) || { bad=1 && printf 'the records as they are do not compile:\n%s\n' "$said"; }
-listed=$(sed -n 's/^CRANKLOOP_MEMBERS[A-Z_]*(\([A-Z][A-Za-z]*\),.*/\1/p' "$folder/crankloop/tabulate/table_members.hpp")
-for record in $listed; do
-  records=$((records + 1))
-  header=$(grep -lE "^struct $record \{" "$folder"/crankloop/tick/*.hpp)
-  cp "$header" "$folder/as_it_is"
-  sed -i "s/^struct $record {/&\n  unsigned added;/" "$header"
-  if said=$(compiles); then
-    bad=$((bad + 1)) && echo "compiles with one more member: $record"
-  elif ! printf '%s' "$said" | grep -Eq 'structured binding|decomposes'; then
-    bad=$((bad + 1)) && printf '%s is refused, but not for its members: %s\n' "$record" "$said"
-  fi
-  cp "$folder/as_it_is" "$header"
-done
-echo "$records records, $bad bad"
-[ "$records" -gt 20 ] && [ "$bad" -eq 0 ]
+bad=0 structs=0
+# each_refused FILE MESSAGE HEADERS STRUCT...: FILE compiles; with one more member of any of the structs it does not, and the compiler says MESSAGE.
+each_refused() {
+  file=$1 message=$2 headers=$3
+  shift 3
+  said=$(compiles "$file") || { bad=$((bad + 1)) && printf 'as it is %s does not compile:\n%s\n' "$file" "$said"; }
+  for struct in "$@"; do
+    structs=$((structs + 1))
+    header=$(grep -lE "^struct $struct \{" "$folder/crankloop/$headers"/*.hpp)
+    cp "$header" "$folder/as_it_is"
+    sed -i "s/^struct $struct {/&\n  unsigned added;/" "$header"
+    if said=$(compiles "$file"); then
+      bad=$((bad + 1)) && echo "compiles with one more member: $struct"
+    elif ! printf '%s' "$said" | grep -Eq "$message"; then
+      bad=$((bad + 1)) && printf '%s is refused, but not for its members: %s\n' "$struct" "$said"
+    fi
+    cp "$folder/as_it_is" "$header"
+  done
+}
+
+records=$(sed -n 's/^CRANKLOOP_MEMBERS[A-Z_]*(\([A-Z][A-Za-z]*\),.*/\1/p' "$folder/crankloop/tabulate/table_members.hpp")
+listing=$(cat "$folder"/crankloop/define/*.hpp | awk '/^struct / { name = $2 } /void each_field\(/ { print name }')
+# shellcheck disable=SC2086  # lists of words
+{
+  each_refused "$folder/all.cpp" 'structured binding|decomposes' tick $records
+  each_refused "$core/src/tabulate/fingerprint.cpp" 'each_field|all but the trigger wheels|structured binding|decomposes' define $listing
+}
+echo "$structs structs, $bad bad"
+[ "$structs" -gt 35 ] && [ "$bad" -eq 0 ]
