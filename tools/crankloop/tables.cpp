@@ -45,7 +45,7 @@ class Printer {
       text("}");
     } else {
       text("{");
-      std::apply([this](const auto&... member) { list(member...); }, members(item));
+      std::apply([this](const auto&... member) { this->list(member...); }, members(item));
       text("}");
     }
   }
