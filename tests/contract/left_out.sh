@@ -29,7 +29,7 @@ has_code() {
   done
 }
 
-gas_and_mass='torque_grid gas_torque_full gas_torque_full_segments inertia_torque'
+gas_and_mass='torque_grid gas_torque_full gas_full inertia_torque'
 # shellcheck disable=SC2086  # a list of words
 {
   holds PistonMotion motion

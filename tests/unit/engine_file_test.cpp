@@ -62,42 +62,66 @@ constexpr const char* kOneCylinder =
     "[engine]\nname = single\nrated_rpm = 3000\n"
     "[crank]\nbore_mm = 95\nstroke_mm = 115\nrod_length_mm = 210\ncompression_ratio = 19\n";
 
-void expect_same(const EngineDefinition& a, const EngineDefinition& b) {
-  EXPECT_EQ(a.crank.bore_m, b.crank.bore_m);
-  EXPECT_EQ(a.crank.crank_radius_m, b.crank.crank_radius_m);
-  EXPECT_EQ(a.crank.rod_length_m, b.crank.rod_length_m);
-  EXPECT_EQ(a.crank.pin_offset_m, b.crank.pin_offset_m);
-  EXPECT_EQ(a.crank.compression_ratio, b.crank.compression_ratio);
-  EXPECT_EQ(a.masses.piston_kg, b.masses.piston_kg);
-  EXPECT_EQ(a.masses.rod_small_end_kg, b.masses.rod_small_end_kg);
-  EXPECT_EQ(a.masses.rod_big_end_kg, b.masses.rod_big_end_kg);
-  EXPECT_EQ(a.masses.rod_inertia_correction_kg_m2, b.masses.rod_inertia_correction_kg_m2);
-  EXPECT_EQ(a.masses.crank_pin_equivalent_kg, b.masses.crank_pin_equivalent_kg);
-  EXPECT_EQ(a.masses.crank_inertia_kg_m2, b.masses.crank_inertia_kg_m2);
-  EXPECT_EQ(a.layout.cylinders, b.layout.cylinders);
-  EXPECT_EQ(a.layout.firing_deg, b.layout.firing_deg);
-  EXPECT_EQ(a.layout.bank_deg, b.layout.bank_deg);
-  EXPECT_EQ(a.layout.position_m, b.layout.position_m);
-  EXPECT_EQ(a.layout.pin, b.layout.pin);
-  EXPECT_EQ(a.pressure.source, b.pressure.source);
-  EXPECT_EQ(a.pressure.crankcase_Pa, b.pressure.crankcase_Pa);
-  EXPECT_EQ(a.pressure.wiebe.intake_Pa, b.pressure.wiebe.intake_Pa);
-  EXPECT_EQ(a.pressure.wiebe.exhaust_Pa, b.pressure.wiebe.exhaust_Pa);
-  EXPECT_EQ(a.pressure.wiebe.start_of_combustion_deg, b.pressure.wiebe.start_of_combustion_deg);
-  EXPECT_EQ(a.pressure.wiebe.combustion_duration_deg, b.pressure.wiebe.combustion_duration_deg);
-  EXPECT_EQ(a.pressure.wiebe.wiebe_m, b.pressure.wiebe.wiebe_m);
-  EXPECT_EQ(a.pressure.wiebe.compression_exponent, b.pressure.wiebe.compression_exponent);
-  EXPECT_EQ(a.pressure.wiebe.expansion_exponent, b.pressure.wiebe.expansion_exponent);
-  EXPECT_EQ(a.pressure.wiebe.motored_expansion_exponent, b.pressure.wiebe.motored_expansion_exponent);
-  EXPECT_EQ(a.pressure.wiebe.exhaust_valve_opens_deg, b.pressure.wiebe.exhaust_valve_opens_deg);
-  EXPECT_EQ(a.pressure.wiebe.heat_given, b.pressure.wiebe.heat_given);
-  EXPECT_EQ(a.pressure.wiebe.net_mep_Pa, b.pressure.wiebe.net_mep_Pa);
-  EXPECT_EQ(a.pressure.wiebe.heat_J, b.pressure.wiebe.heat_J);
-  ASSERT_EQ(a.pressure.point_count, b.pressure.point_count);
-  for (int i = 0; i < a.pressure.point_count; ++i) {
-    EXPECT_EQ(a.pressure.points[i].at, b.pressure.points[i].at);
-    EXPECT_EQ(a.pressure.points[i].pressure_Pa, b.pressure.points[i].pressure_Pa);
+/// Every field of two definitions, with the rows that tables have.
+struct ExpectSame {
+  template <class Field>
+  void operator()(int read, const char* name, const Field& a, const Field& b) const {
+    if constexpr (std::is_same_v<Field, const DiagramPoint*> || std::is_same_v<Field, const CamPoint*>) {
+      for (int i = 0; i < read; ++i) {
+        const auto& [a_at, a_value] = a[i];
+        const auto& [b_at, b_value] = b[i];
+        EXPECT_EQ(a_at, b_at) << name << " row " << i;
+        EXPECT_EQ(a_value, b_value) << name << " row " << i;
+      }
+    } else if constexpr (std::is_array_v<Field>) {
+      for (std::size_t i = 0; i < std::extent_v<Field>; ++i) (*this)(1, name, a[i], b[i]);
+    } else if constexpr (kHasFields<Field>) {
+      Field::each_field(*this, a, b);
+    } else {
+      EXPECT_EQ(a, b) << name;
+    }
   }
+};
+void expect_same(const EngineDefinition& a, const EngineDefinition& b) { ExpectSame{}(1, "", a, b); }
+
+/// The fields that no key is by itself.
+class FieldsWithoutKey {
+ public:
+  template <class Field>
+  void operator()(int, const std::string& name, const Field& field) {
+    if constexpr (kHasFields<Field>) {
+      Field::each_field(*this, field);
+    } else if constexpr (std::is_same_v<Field, ValveTrain[kMaxTrains]>) {
+      (*this)(1, name, field[0]);
+    } else {
+      bool keyed = false;
+      for (const SectionKind& kind : section_kinds()) {
+        for (const Key* key : keys_of(kind.name)) keyed = keyed || key->field == name;
+      }
+      if (!keyed) names_.push_back(name);
+    }
+  }
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  std::vector<std::string> names_;
+};
+
+TEST_F(EngineFileTest, EveryFieldOfADefinitionHasItsKeyOrFollowsFromOthers) {
+  FieldsWithoutKey without;
+  without(1, "", EngineDefinition{});
+  const std::vector<std::string> follow{
+      "crank.crank_radius_m",                 // stroke_mm / 2
+      "masses.rod_inertia_correction_kg_m2",  // rod_g and its like
+      "layout.firing_deg", "layout.bank_deg", "layout.position_m", "layout.pin",
+      "pressure.source", "pressure.wiebe.heat_given",  // by the form in use
+      "pressure.point_count", "pressure.points",       // the file's rows
+      "train_count",
+      "cam.source", "cam.full_lift_deg",  // into the cycle
+      "cam.exponent_count", "cam.exponents", "cam.point_count", "cam.points",
+      "rocker.kind", "rocker.cam_turns",
+  };
+  EXPECT_EQ(without.names(), follow);
 }
 
 TEST_F(EngineFileTest, TheSampleDieselIsTheOneOfTheDesignSheet) {

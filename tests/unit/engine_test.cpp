@@ -60,50 +60,26 @@ TYPED_TEST(EngineOf, StartsWithoutFaultsAtRestAtTheGivenPhase) {
               static_cast<double>(oracle_pose(single_495().crank, 77.5L * kPi_ld / 180).displacement_m), 3e-8);
 }
 
-/// Drops one section; true where the scene needs it and so init must refuse.
+/// Drops one section after the other; answers where a refusal was wrong, or wanting.
 template <class Real, class S>
 std::vector<std::pair<std::string, bool>> init_with_one_section_missing(const Sections<Real>& whole) {
-  using N = Needs<S>;
-  struct Missing {
-    const char* name;
-    bool needed;
-    void (*drop)(Sections<Real>&);
-  };
-  const Missing sections[] = {
-      {"drive", true, [](Sections<Real>& s) { s.drive = nullptr; }},
-      {"body", N::body, [](Sections<Real>& s) { s.body = nullptr; }},
-      {"stroke", N::stroke, [](Sections<Real>& s) { s.stroke = nullptr; }},
-      {"motion", N::motion, [](Sections<Real>& s) { s.motion = nullptr; }},
-      {"lean", N::lean, [](Sections<Real>& s) { s.lean = nullptr; }},
-      {"rod", N::rod, [](Sections<Real>& s) { s.rod = nullptr; }},
-      {"rod_curvature", N::rod_curvature, [](Sections<Real>& s) { s.rod_curvature = nullptr; }},
-      {"inertia_torque", N::inertia_torque, [](Sections<Real>& s) { s.inertia_torque = nullptr; }},
-      {"gas_grid", N::gas_pressure, [](Sections<Real>& s) { s.gas_grid = nullptr; }},
-      {"torque_grid", N::gas_torque, [](Sections<Real>& s) { s.torque_grid = nullptr; }},
-      {"pressure_full", N::gas_pressure && !N::load, [](Sections<Real>& s) { s.pressure_full = nullptr; }},
-      {"pressure_motored", N::gas_pressure && N::load, [](Sections<Real>& s) { s.pressure_motored = nullptr; }},
-      {"pressure_heat", N::gas_pressure && N::load, [](Sections<Real>& s) { s.pressure_heat = nullptr; }},
-      {"gas_torque_full", N::gas_torque && !N::load, [](Sections<Real>& s) { s.gas_torque_full = nullptr; }},
-      {"gas_torque_motored", N::gas_torque && N::load, [](Sections<Real>& s) { s.gas_torque_motored = nullptr; }},
-      {"gas_torque_heat", N::gas_torque && N::load, [](Sections<Real>& s) { s.gas_torque_heat = nullptr; }},
-      {"bearings", S::bearing_loads, [](Sections<Real>& s) { s.bearings = nullptr; }},
-      {"balance", S::free_forces, [](Sections<Real>& s) { s.balance = nullptr; }},
-  };
   std::vector<std::pair<std::string, bool>> wrong;
-  for (const Missing& missing : sections) {
-    Sections<Real> s = whole;
-    missing.drop(s);
-    const Tables<Real, S> complete(whole);
-    const Tables<Real, S> tables(s);
-    Engine<Real, S> engine;
-    EXPECT_TRUE(engine.init(complete).ok());
-    const Status status = engine.init(tables);
-    const bool refused = status.reason == Reason::missing_table;
-    if (refused != missing.needed) wrong.emplace_back(missing.name, refused);
-    // A refusal leaves no engine behind, not even the one there was.
-    const auto faults = engine.step({}).faults;
-    EXPECT_EQ(faults == kFaultNotReady, refused) << missing.name;
-  }
+  sections([&](auto section) {
+    if constexpr (section.kRead) {
+      Sections<Real> s = whole;
+      section.in(s) = nullptr;
+      const Tables<Real, S> complete(whole);
+      const Tables<Real, S> tables(s);
+      Engine<Real, S> engine;
+      EXPECT_TRUE(engine.init(complete).ok());
+      const Status status = engine.init(tables);
+      const bool refused = status.reason == Reason::missing_table;
+      if (refused != section.template needed<S>()) wrong.emplace_back(section.kName, refused);
+      // A refusal leaves no engine behind, not even the one there was.
+      const auto faults = engine.step({}).faults;
+      EXPECT_EQ(faults == kFaultNotReady, refused) << section.kName;
+    }
+  });
   return wrong;
 }
 

@@ -1,7 +1,10 @@
 // tabulate() into sections of the caller's own: what belongs together is refused where a part is missing.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <vector>
 
@@ -36,7 +39,8 @@ TYPED_TEST(TableTargetsOf, APartWithoutWhatBelongsToItAreRefusedByItsName) {
   const auto answer = [](const TableTargets<Real>& targets) { return tabulate(single_495(), {100e-6, {}}, targets); };
   using Targets = TableTargets<Real>;
 
-  for (auto Targets::*one : {&Targets::pressure_full, &Targets::pressure_motored, &Targets::pressure_heat}) {
+  Segment<Real>* Targets::*const pressures[] = {&Targets::pressure_full, &Targets::pressure_motored, &Targets::pressure_heat};
+  for (const auto one : pressures) {
     Targets targets;
     targets.*one = &pressure;
     EXPECT_TRUE(refuses(answer(targets), Reason::missing_table, "targets.gas_grid"));
@@ -76,6 +80,26 @@ TYPED_TEST(TableTargetsOf, APartWithoutWhatBelongsToItAreRefusedByItsName) {
   lifts.lift_segments = nullptr;
   lifts.rocker_ratios = &ratio;
   EXPECT_TRUE(refuses(answer(lifts), Reason::missing_table, "targets.lift_segments"));
+}
+
+TYPED_TEST(TableTargetsOf, AnEngineThatHasEverythingFillEverySection) {
+  using Real = TypeParam;
+  EngineDefinition engine = single_495();
+  engine.train_count = 1;
+  engine.trains[0] = valve_test::ohc_125_train();
+  engine.trigger_count = 1;
+  engine.triggers[0].places = 60;
+  const auto stores = std::make_unique<part::Stores<Real, part::RoomForAll>>();
+  constexpr unsigned char kUntouched = 0xA5;
+  std::memset(static_cast<void*>(stores.get()), kUntouched, sizeof *stores);
+  ASSERT_TRUE(tabulate(engine, {100e-6, {}}, stores->targets()).ok());
+  sections([&](auto section) {
+    const auto& filled = section.in(*stores);
+    constexpr std::size_t kRecord = sizeof(typename decltype(section)::template Record<Real>);
+    unsigned char first[kRecord];
+    std::memcpy(first, &filled, kRecord);
+    EXPECT_TRUE(std::any_of(first, first + kRecord, [](unsigned char byte) { return byte != kUntouched; })) << section.kName;
+  });
 }
 
 TYPED_TEST(TableTargetsOf, AnEngineOfAnImpossibleNumberOfTrainsAreNotFilled) {

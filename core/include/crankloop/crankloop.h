@@ -151,6 +151,7 @@ typedef struct crankloop_wiebe {
   double wiebe_m;
   double compression_exponent;
   double expansion_exponent;
+  double motored_expansion_exponent; /* 0: compression_exponent + 0.03 */
   double exhaust_valve_opens_deg;
   double net_mep_Pa; /* used unless heat_given */
   double heat_J;
@@ -252,7 +253,6 @@ typedef struct crankloop_definition {
   crankloop_friction friction; /* this and what follows: for cranks that forces turn, which scenes of crankloop_add_scene may have */
   crankloop_load load;
   crankloop_starter starter;
-  double motored_expansion_exponent; /* of pressure.wiebe; 0: its compression_exponent + 0.03 */
 } crankloop_definition;
 
 /* Fills in every default. Begin with this: a zeroed definition has other values. */

@@ -8,136 +8,74 @@
 namespace crankloop::c {
 namespace {
 
+/// The largest number of an enumeration that C++ has.
+template <class Enum>
+inline constexpr Enum kLast{};
+template <>
+inline constexpr PressureSource kLast<PressureSource> = PressureSource::wiebe;
+template <>
+inline constexpr CamSource kLast<CamSource> = CamSource::table;
+template <>
+inline constexpr RockerKind kLast<RockerKind> = RockerKind::ratio;
+template <>
+inline constexpr CamTurns kLast<CamTurns> = CamTurns::away_from_pivot;
+template <>
+inline constexpr Integrator kLast<Integrator> = Integrator::exponential;
+
 /// Copies one field to C, or from C. An enumerator that C++ does not have is the answer of the latter.
 struct ToC {
-  template <class C, class Field>
-  void operator()(C& c, const Field& field, int = 0, const char* = "") noexcept {
-    c = static_cast<C>(field);
+  template <class Field, class C>
+  void operator()(const char*, const Field& field, C& c) noexcept {
+    if constexpr (std::is_pointer_v<Field>) {
+      c = reinterpret_cast<C>(field);
+    } else {
+      c = static_cast<C>(field);
+    }
   }
 };
 struct FromC {
   Status status{};
 
-  template <class C, class Field>
-  void operator()(const C& c, Field& field, int most = 0, const char* name = "") noexcept {
-    if constexpr (std::is_same_v<Field, bool>) {
+  template <class Field, class C>
+  void operator()(const char* name, Field& field, const C& c) noexcept {
+    if constexpr (std::is_pointer_v<Field>) {
+      field = reinterpret_cast<Field>(c);
+    } else if constexpr (std::is_same_v<Field, bool>) {
       field = c != 0;
     } else {
       if constexpr (std::is_enum_v<Field>) {
-        if ((c < 0 || c > most) && status.ok()) status = {Reason::out_of_range, -1, name};
+        if ((c < 0 || c > static_cast<int>(kLast<Field>)) && status.ok()) status = {Reason::out_of_range, -1, name};
       }
       field = static_cast<Field>(c);
     }
   }
 };
 
-template <class C, class Cpp, class Copy>
-void each_crank(C& c, Cpp& d, Copy& copy) noexcept {
-  copy(c.bore_m, d.bore_m);
-  copy(c.crank_radius_m, d.crank_radius_m);
-  copy(c.rod_length_m, d.rod_length_m);
-  copy(c.pin_offset_m, d.pin_offset_m);
-  copy(c.compression_ratio, d.compression_ratio);
-}
-template <class C, class Cpp, class Copy>
-void each_mass(C& c, Cpp& d, Copy& copy) noexcept {
-  copy(c.piston_kg, d.piston_kg);
-  copy(c.rod_small_end_kg, d.rod_small_end_kg);
-  copy(c.rod_big_end_kg, d.rod_big_end_kg);
-  copy(c.rod_inertia_correction_kg_m2, d.rod_inertia_correction_kg_m2);
-  copy(c.crank_pin_equivalent_kg, d.crank_pin_equivalent_kg);
-  copy(c.crank_inertia_kg_m2, d.crank_inertia_kg_m2);
-}
-template <class C, class Cpp, class Copy>
-void each_place(C& c, Cpp& d, Copy& copy) noexcept {
-  copy(c.cylinders, d.cylinders);
-  for (std::size_t k = 0; k < std::size_t{kMaxCylinders}; ++k) {
-    copy(c.firing_deg[k], d.firing_deg[k]);
-    copy(c.bank_deg[k], d.bank_deg[k]);
-    copy(c.position_m[k], d.position_m[k]);
-    copy(c.pin[k], d.pin[k]);
+/// A field and its C form: one number or pointer, or all those of a list or a part, whose C form has the same names.
+template <class Copy>
+struct EachNumber {
+  Copy& copy;
+
+  template <class Field, class C>
+  void operator()(int, const char* name, Field& field, C& c) noexcept {
+    if constexpr (std::is_array_v<C>) {
+      for (std::size_t i = 0; i < std::extent_v<C>; ++i) (*this)(1, name, field[i], c[i]);
+    } else if constexpr (std::is_class_v<C>) {
+      std::remove_const_t<Field>::each_field(*this, field, c);
+    } else {
+      copy(name, field, c);
+    }
   }
+};
+template <class Copy, class Cpp, class C>
+void each_field(Copy& copy, Cpp& definition, C& c) noexcept {
+  EachNumber<Copy>{copy}(1, "", definition, c);
 }
-template <class C, class Cpp, class Copy>
-void each_pressure(C& c, Cpp& d, Copy& copy) noexcept {
-  copy(c.source, d.source, static_cast<int>(PressureSource::wiebe), "pressure.source");
-  copy(c.crankcase_Pa, d.crankcase_Pa);
-  copy(c.point_count, d.point_count);
-  copy(c.wiebe.intake_Pa, d.wiebe.intake_Pa);
-  copy(c.wiebe.exhaust_Pa, d.wiebe.exhaust_Pa);
-  copy(c.wiebe.start_of_combustion_deg, d.wiebe.start_of_combustion_deg);
-  copy(c.wiebe.combustion_duration_deg, d.wiebe.combustion_duration_deg);
-  copy(c.wiebe.wiebe_m, d.wiebe.wiebe_m);
-  copy(c.wiebe.compression_exponent, d.wiebe.compression_exponent);
-  copy(c.wiebe.expansion_exponent, d.wiebe.expansion_exponent);
-  copy(c.wiebe.exhaust_valve_opens_deg, d.wiebe.exhaust_valve_opens_deg);
-  copy(c.wiebe.heat_given, d.wiebe.heat_given);
-  copy(c.wiebe.net_mep_Pa, d.wiebe.net_mep_Pa);
-  copy(c.wiebe.heat_J, d.wiebe.heat_J);
-}
-template <class C, class Cpp, class Copy>
-void each_train(C& c, Cpp& d, Copy& copy) noexcept {
-  copy(c.cam.source, d.cam.source, static_cast<int>(CamSource::table), "cam.source");
-  copy(c.cam.max_lift_m, d.cam.max_lift_m);
-  copy(c.cam.half_angle_deg, d.cam.half_angle_deg);
-  copy(c.cam.exponent_count, d.cam.exponent_count);
-  for (int i = 0; i < kMostCamExponents; ++i) copy(c.cam.exponents[i], d.cam.exponents[i]);
-  copy(c.cam.point_count, d.cam.point_count);
-  copy(c.cam.smoothing_m, d.cam.smoothing_m);
-  copy(c.cam.full_lift_deg, d.cam.full_lift_deg);
-  copy(c.cam.phase_rate_deg_s, d.cam.phase_rate_deg_s);
-  copy(c.rocker.kind, d.rocker.kind, static_cast<int>(RockerKind::ratio), "rocker.kind");
-  copy(c.rocker.base_circle_m, d.rocker.base_circle_m);
-  copy(c.rocker.clearance_m, d.rocker.clearance_m);
-  copy(c.rocker.ratio, d.rocker.ratio);
-  copy(c.rocker.pivot_to_pad_m, d.rocker.pivot_to_pad_m);
-  copy(c.rocker.pivot_to_cam_m, d.rocker.pivot_to_cam_m);
-  copy(c.rocker.pad_radius_m, d.rocker.pad_radius_m);
-  copy(c.rocker.pivot_to_screw_m, d.rocker.pivot_to_screw_m);
-  copy(c.rocker.screw_ball_m, d.rocker.screw_ball_m);
-  copy(c.rocker.stem_above_pivot_m, d.rocker.stem_above_pivot_m);
-  copy(c.rocker.cam_turns, d.rocker.cam_turns, static_cast<int>(CamTurns::away_from_pivot), "rocker.cam_turns");
-  copy(c.valve.per_cylinder, d.valve.per_cylinder);
-  copy(c.valve.valve_kg, d.valve.valve_kg);
-  copy(c.valve.spring_kg, d.valve.spring_kg);
-  copy(c.valve.rocker_inertia_kg_m2, d.valve.rocker_inertia_kg_m2);
-  copy(c.valve.spring_N_m, d.valve.spring_N_m);
-  copy(c.valve.spring_preload_N, d.valve.spring_preload_N);
-  copy(c.valve.train_N_m, d.valve.train_N_m);
-  copy(c.valve.train_damping_ratio, d.valve.train_damping_ratio);
-  copy(c.valve.guide_damping_ratio, d.valve.guide_damping_ratio);
-  copy(c.valve.seat_N_m, d.valve.seat_N_m);
-  copy(c.valve.seat_damping_ratio, d.valve.seat_damping_ratio);
-  copy(c.valve.head_area_m2, d.valve.head_area_m2);
-}
-template <class C, class Cpp, class Copy>
-void each_torque(C& c, Cpp& d, Copy& copy) noexcept {
-  copy(c.friction.constant_Pa, d.friction.constant_Pa);
-  copy(c.friction.linear_Pa_s, d.friction.linear_Pa_s);
-  copy(c.friction.quadratic_Pa_s2, d.friction.quadratic_Pa_s2);
-  copy(c.load.constant_Nm, d.load.constant_Nm);
-  copy(c.load.linear_Nm_s, d.load.linear_Nm_s);
-  copy(c.load.quadratic_Nm_s2, d.load.quadratic_Nm_s2);
-  copy(c.load.inertia_kg_m2, d.load.inertia_kg_m2);
-  copy(c.starter.stall_Nm, d.starter.stall_Nm);
-  copy(c.starter.no_load_rad_s, d.starter.no_load_rad_s);
-}
-template <class C, class Cpp, class Copy>
-void each_field(C& c, Cpp& d, Copy& copy) noexcept {
-  each_crank(c.crank, d.crank, copy);
-  each_mass(c.masses, d.masses, copy);
-  each_place(c.layout, d.layout, copy);
-  each_pressure(c.pressure, d.pressure, copy);
-  copy(c.train_count, d.train_count);
-  for (int t = 0; t < kMaxTrains; ++t) each_train(c.trains[t], d.trains[t], copy);
-  each_torque(c, d, copy);
-  copy(c.motored_expansion_exponent, d.pressure.wiebe.motored_expansion_exponent);
-}
-template <class C, class Cpp, class Copy>
-void each_option(C& c, Cpp& d, Copy& copy) noexcept {
-  copy(c.tick_s, d.tick_s);
-  copy(c.valve_integrator, d.valves.integrator, static_cast<int>(Integrator::exponential), "tick.integrator");
-  copy(c.valve_accuracy_m, d.valves.accuracy_m);
+template <class Copy, class Cpp, class C>
+void each_option(Copy& copy, Cpp& options, C& c) noexcept {
+  copy("tick.tick", options.tick_s, c.tick_s);
+  copy("tick.integrator", options.valves.integrator, c.valve_integrator);
+  copy("tick.accuracy", options.valves.accuracy_m, c.valve_accuracy_m);
 }
 
 // Rows are read where they are.
@@ -161,25 +99,23 @@ static_assert(CRANKLOOP_VERSION_MAJOR == CRANKLOOP_PROJECT_MAJOR && CRANKLOOP_VE
 crankloop_definition as_c(const EngineDefinition& definition) noexcept {
   crankloop_definition c{};
   ToC copy;
-  each_field(c, definition, copy);
+  each_field(copy, definition, c);
   return c;
 }
 Status from_c(const crankloop_definition& c, EngineDefinition& definition) noexcept {
   FromC copy;
-  each_field(c, definition, copy);
-  definition.pressure.points = reinterpret_cast<const DiagramPoint*>(c.pressure.points);
-  for (int t = 0; t < kMaxTrains; ++t) definition.trains[t].cam.points = reinterpret_cast<const CamPoint*>(c.trains[t].cam.points);
+  each_field(copy, definition, c);
   return copy.status;
 }
 crankloop_options as_c(const TickOptions& options) noexcept {
   crankloop_options c{};
   ToC copy;
-  each_option(c, options, copy);
+  each_option(copy, options, c);
   return c;
 }
 Status from_c(const crankloop_options& c, TickOptions& options) noexcept {
   FromC copy;
-  each_option(c, options, copy);
+  each_option(copy, options, c);
   return copy.status;
 }
 
@@ -203,10 +139,10 @@ template <class Change>
   if (const Status refused = take(full, definition, size, "definition"); !refused.ok()) return as_c(refused);
   Layout layout;
   FromC read;
-  each_place(full.layout, layout, read);
+  each_field(read, layout, full.layout);
   if (const Status refused = change(layout); !refused.ok()) return as_c(refused);
   ToC write;
-  each_place(full.layout, layout, write);
+  each_field(write, layout, full.layout);
   std::memcpy(definition, &full, size < sizeof full ? size : sizeof full);
   return as_c(Status{});
 }

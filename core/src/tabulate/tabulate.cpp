@@ -13,6 +13,7 @@
 #include "fingerprint.hpp"
 #include "gas_curves.hpp"
 #include "phase_units.hpp"
+#include "rounding.hpp"
 #include "trigger_tracks.hpp"
 #include "valve_curves.hpp"
 
@@ -56,36 +57,6 @@ void fill_drive(const EngineDefinition& engine, const TickOptions& options, Driv
     drive.turn_of[k] = turn;
   }
   drive.by_mechanism = detail::grouped(drive.mechanism_of, drive.cylinders, drive.mechanisms);
-}
-
-template <class Real>
-[[nodiscard]] Body<Real> rounded(const Body<double>& b) noexcept {
-  const auto to_real = [](double x) { return static_cast<Real>(x); };
-  return {to_real(b.crank_radius_m),  to_real(b.per_crank_radius),  to_real(b.per_rod_length),
-          to_real(b.pin_offset_m),    to_real(b.height_at_tdc_m),   to_real(b.bore_area_m2),
-          to_real(b.crankcase_Pa),    to_real(b.reciprocating_kg),  to_real(b.rod_inertia_correction_kg_m2)};
-}
-
-template <class Real>
-[[nodiscard]] Turning<Real> rounded(const Turning<double>& t) noexcept {
-  const auto to_real = [](double x) { return static_cast<Real>(x); };
-  return {to_real(t.up_cos),    to_real(t.up_sin),    to_real(t.lateral_cos), to_real(t.lateral_sin),
-          to_real(t.pitch_cos), to_real(t.pitch_sin), to_real(t.yaw_cos),     to_real(t.yaw_sin)};
-}
-
-template <class Real>
-[[nodiscard]] Bearings<Real> rounded(const Bearings<double>& b) noexcept {
-  Bearings<Real> r{};
-  r.pins = b.pins;
-  r.by_pin = b.by_pin;
-  for (std::size_t i = 0; i < std::size_t{kMaxCylinders}; ++i) {
-    r.pin_of[i] = b.pin_of[i];
-    r.rods_kg_m[i] = static_cast<Real>(b.rods_kg_m[i]);
-    r.throw_kg_m[i] = static_cast<Real>(b.throw_kg_m[i]);
-    r.throw_cos[i] = static_cast<Real>(b.throw_cos[i]);
-    r.throw_sin[i] = static_cast<Real>(b.throw_sin[i]);
-  }
-  return r;
 }
 
 /// The gas sections belong together.
@@ -164,14 +135,14 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
   TableReport found;
   if (const Status refused = detail::fill_valves(engine, options, targets, found); !refused.ok()) return refused;
 
-  if (targets.body != nullptr) *targets.body = rounded<Real>(body_of(engine));
+  if (targets.body != nullptr) detail::round_into(body_of(engine), *targets.body);
   if (targets.crank_dynamics != nullptr) *targets.crank_dynamics = detail::crank_dynamics_of<Real>(engine, options);
-  if (targets.bearings != nullptr) *targets.bearings = rounded<Real>(bearings_of(engine));
+  if (targets.bearings != nullptr) detail::round_into(bearings_of(engine), *targets.bearings);
   if (targets.balance != nullptr) {
     const Balance<double> balance = balance_of(engine);
-    targets.balance->first = rounded<Real>(balance.first);
-    targets.balance->second = rounded<Real>(balance.second);
-    targets.balance->rotating = rounded<Real>(balance.rotating);
+    detail::round_into(balance.first, targets.balance->first);
+    detail::round_into(balance.second, targets.balance->second);
+    detail::round_into(balance.rotating, targets.balance->rotating);
     detail::fill(targets.balance->cosine, elementary::cos);
   }
   fill_mechanism(engine, targets);

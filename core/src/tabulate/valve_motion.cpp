@@ -5,6 +5,8 @@
 
 #include <crankloop/tick/one_instruction.hpp>
 
+#include "rounding.hpp"
+
 namespace crankloop {
 namespace {
 
@@ -143,27 +145,6 @@ void never_grow(RegimeStep<float>& step) noexcept {
       step.lift.lift = neighbour(step.lift.lift, vv > 0);
     }
   }
-}
-
-[[nodiscard]] StepRow<float> rounded(const StepRow<double>& r) noexcept {
-  const auto real = [](double x) { return static_cast<float>(x); };
-  return {real(r.rest), real(r.gas), real(r.gas_rise), real(r.gap), real(r.rise), real(r.from), real(r.to), real(r.lift), real(r.velocity)};
-}
-
-[[nodiscard]] RegimeStep<float> rounded(const RegimeStep<double>& s) noexcept {
-  const auto real = [](double x) { return static_cast<float>(x); };
-  const auto guard = [&](const ContactGuard<double>& g) { return ContactGuard<float>{real(g.sign), real(g.lag_s), real(g.least_m)}; };
-  const ForceRow<double>& a = s.acceleration;
-  RegimeStep<float> f{rounded(s.lift),
-                      rounded(s.velocity),
-                      {real(a.rest), real(a.gas), real(a.lift), real(a.velocity), real(a.gap), real(a.gap_speed)},
-                      guard(s.train),
-                      guard(s.seat),
-                      real(s.rest_m),
-                      real(s.rest_m_s),
-                      real(s.calm_m)};
-  never_grow(f);
-  return f;
 }
 
 }  // namespace
@@ -343,37 +324,10 @@ void find_calm(ValveMotion<double>& motion, double lash_m) noexcept {
 }
 
 ValveMotion<float> rounded(const ValveMotion<double>& m) noexcept {
-  const auto real = [](double x) { return static_cast<float>(x); };
-  const ValveBody<double>& b = m.body;
   ValveMotion<float> f{};
-  f.body = {real(b.mass_kg),    real(b.train_N_m),  real(b.train_Ns_m), real(b.seat_N_m),     real(b.seat_Ns_m),     real(b.spring_N_m),
-            real(b.guide_Ns_m), real(b.preload_N),  real(b.seat_sink_m), real(b.head_area_m2), real(b.rocker_mass_kg),
-            real(b.per_mass)};
-  f.tick_s = real(m.tick_s);
-  f.fine_step_s = real(m.fine_step_s);
-  f.per_fine_step_s = real(m.per_fine_step_s);
-  f.per_parts = real(m.per_parts);
-  f.parts = m.parts;
-  f.per_parts_32 = m.per_parts_32;
-  f.most_changes = m.most_changes;
-  f.widest_step_deg = real(m.widest_step_deg);
-  f.train_lag_s = real(m.train_lag_s);
-  f.seat_lag_s = real(m.seat_lag_s);
-  f.per_seat_N_m = real(m.per_seat_N_m);
-  f.quiet_m = real(m.quiet_m);
-  f.per_seat_rate_s = real(m.per_seat_rate_s);
-  for (int regime = 0; regime < kRegimes; ++regime) {
-    f.whole[regime] = rounded(m.whole[regime]);
-    f.fine[regime] = rounded(m.fine[regime]);
-  }
-  for (int regime = 0; regime < 4; ++regime) {
-    const RegimeSeries<double>& s = m.series[regime];
-    f.series[regime] = {real(s.rest), real(s.gas), real(s.stiffness), real(s.damping), real(s.lift), real(s.lift_speed)};
-  }
-  for (int seat = 0; seat < 2; ++seat) {
-    const MiddleStep<double>& by = m.middle[seat];
-    f.middle[seat] = {real(by.lift_by_lift), real(by.lift_by_slope), real(by.velocity_by_lift), real(by.velocity_by_slope)};
-  }
+  detail::round_into(m, f);
+  for (RegimeStep<float>& step : f.whole) never_grow(step);
+  for (RegimeStep<float>& step : f.fine) never_grow(step);
   return f;
 }
 

@@ -60,35 +60,6 @@ std::vector<DiagramPoint> rows_of(const Case& c, const Crank& crank) {
   return rows;
 }
 
-template <class Real>
-struct Sections {
-  GasGrid grids[3];
-  std::vector<Segment<Real>> pressures[3];
-  std::vector<IntegratedSegment<Real>> torques[4];
-  GasTorque<Real> gas[4];
-  IntegratedCurve<Real> stroke, inertia_torque;
-  Revolution<MotionSegment<Real>> motion;
-  Revolution<LeanSegment<Real>> lean;
-  Revolution<RodSegment<Real>> rod;
-  Curve<Real> rod_curvature;
-
-  TableTargets<Real> targets(int room) {
-    for (auto& p : pressures) p.resize(static_cast<std::size_t>(room));
-    for (auto& t : torques) t.resize(static_cast<std::size_t>(room));
-    TableTargets<Real> t;
-    t.gas_capacity = room;
-    t.gas_grid = &grids[0], t.torque_grid = &grids[1], t.cut_grid = &grids[2];
-    t.pressure_full = pressures[0].data(), t.pressure_motored = pressures[1].data(), t.pressure_heat = pressures[2].data();
-    t.gas_torque_full = &gas[0], t.gas_full = torques[0].data();
-    t.gas_torque_motored = &gas[1], t.gas_motored = torques[1].data();
-    t.gas_torque_heat = &gas[2], t.gas_heat = torques[2].data();
-    t.cut_torque = &gas[3], t.cut_heat = torques[3].data();
-    t.stroke = &stroke, t.inertia_torque = &inertia_torque;
-    t.motion = &motion, t.lean = &lean, t.rod = &rod, t.rod_curvature = &rod_curvature;
-    return t;
-  }
-};
-
 int tabulated(const Case& c) {
   EngineDefinition engine = tick_test::single_495();
   engine.crank.pin_offset_m = 0.005;
@@ -101,9 +72,11 @@ int tabulated(const Case& c) {
   engine.pressure.source = c.source;
   engine.pressure.points = rows.data();
   engine.pressure.point_count = c.rows;
-  const auto sections = std::make_unique<Sections<double>>();
+  const auto stores = std::make_unique<part::Stores<double, part::RoomForAll>>();
+  TableTargets<double> targets = stores->targets();
+  targets.gas_capacity = c.room;
   TableReport report;
-  const Status status = tabulate(engine, {100e-6, {}}, sections->targets(c.room), &report);
+  const Status status = tabulate(engine, {100e-6, {}}, targets, &report);
   if (!status.ok()) {
     std::fprintf(stderr, "%s: %s, row %d: %s\n", c.name, status.field, status.index, describe(status.reason));
     return 1;

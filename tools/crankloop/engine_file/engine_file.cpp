@@ -111,9 +111,9 @@ void EngineFile::build_definition() {
   definition_.pressure = build_pressure(section("pressure"));
   if (section("pressure").has("file")) read_diagram(section("pressure"));
   accept(validate(definition_.pressure, definition_.crank));
-  definition_.friction = build_friction(section("friction"));
-  definition_.load = build_load(section("load"));
-  definition_.starter = build_starter(section("starter"));
+  fill(section("friction"), definition_.friction);
+  fill(section("load"), definition_.load);
+  fill(section("starter"), definition_.starter);
   for (const Status& status : {validate(definition_.friction), validate(definition_.load), validate(definition_.starter)}) accept(status);
   if (has("masses")) accept(validate(definition_));  // what the parts demand of one another
 }

@@ -1,8 +1,10 @@
 #include "engine_file_keys.hpp"
 
 #include <algorithm>
+#include <string_view>
+#include <type_traits>
 
-#include <crankloop/define/layout.hpp>
+#include <crankloop/define/engine_definition.hpp>
 
 #include "../words.hpp"
 
@@ -59,105 +61,132 @@ constexpr SectionKind kSections[] = {
 
 // clang-format off
 constexpr Key kKeys[] = {
-    {"engine", "name", Kind::text, kNoUnit, kAny, "", required, "", "", "", "what reports call the engine; free text"},
-    {"engine", "rated_rpm", Kind::number, kRpm, above(0).up_to(100000), "", required, "", "", "", "rated engine speed"},
+    {"engine", "name", Kind::text, kNoUnit, "", kAny, "", required, "", "", "", "what reports call the engine; free text"},
+    {"engine", "rated_rpm", Kind::number, kRpm, "", above(0).up_to(100000), "", required, "", "", "", "rated engine speed"},
 
-    {"crank", "bore_mm", Kind::number, kMm, above(0).up_to(2000), "", required, "", "", "", "bore"},
-    {"crank", "stroke_mm", Kind::number, kMm, above(0).up_to(4000), "", required, "", "", "", "2 r; with a pin offset the true stroke is longer"},
-    {"crank", "rod_length_mm", Kind::number, kMm, above(0).up_to(10000), "", required, "", "", "", "l, pin to pin"},
-    {"crank", "rod_ratio", Kind::number, kNoUnit, above(0).below(1), "", optional, "", "", "", "lambda; sets l = r / lambda where a source rounds it"},
-    {"crank", "pin_offset_mm", Kind::number, kMm, from(-2000).up_to(2000), "", defaults, "0", "", "", "e; above 0: the axis lies on the side to which the pin moves after TDC"},
-    {"crank", "compression_ratio", Kind::number, kNoUnit, above(1).up_to(100), "", required, "", "", "", "(clearance + displacement) / clearance volume"},
+    {"crank", "bore_mm", Kind::number, kMm, "crank.bore_m", above(0).up_to(2000), "", required, "", "", "", "bore"},
+    {"crank", "stroke_mm", Kind::number, kMm, "", above(0).up_to(4000), "", required, "", "", "", "2 r; with a pin offset the true stroke is longer"},
+    {"crank", "rod_length_mm", Kind::number, kMm, "crank.rod_length_m", above(0).up_to(10000), "", required, "", "", "", "l, pin to pin"},
+    {"crank", "rod_ratio", Kind::number, kNoUnit, "", above(0).below(1), "", optional, "", "", "", "lambda; sets l = r / lambda where a source rounds it"},
+    {"crank", "pin_offset_mm", Kind::number, kMm, "crank.pin_offset_m", from(-2000).up_to(2000), "", defaults, "0", "", "", "e; above 0: the axis lies on the side to which the pin moves after TDC"},
+    {"crank", "compression_ratio", Kind::number, kNoUnit, "crank.compression_ratio", above(1).up_to(100), "", required, "", "", "", "(clearance + displacement) / clearance volume"},
 
-    {"masses", "piston_g", Kind::number, kG, from(0).up_to(5e6), "", required, "", "", "", "piston with rings and pin"},
-    {"masses", "rod_small_end_g", Kind::number, kG, from(0).up_to(5e6), "", required, "", "", "rod:two ends", "rod's share that moves with the piston"},
-    {"masses", "rod_big_end_g", Kind::number, kG, from(0).up_to(5e6), "", required, "", "", "rod:two ends", "rod's share that turns with the crank pin"},
-    {"masses", "rod_g", Kind::number, kG, from(0).up_to(5e6), "", required, "", "", "rod:whole rod", "whole rod, instead of its two ends"},
-    {"masses", "rod_com_to_crank_mm", Kind::number, kMm, from(0).up_to(10000), "", required, "", "", "rod:whole rod", "rod's centre of mass from the crank pin"},
-    {"masses", "rod_inertia_kg_mm2", Kind::number, kKgMm2, from(0).up_to(1e11), "", optional, "", "", "rod:whole rod", "about the centre of mass; absent: two-mass rod (0 is a value, not absence)"},
-    {"masses", "crank_pin_equivalent_g", Kind::number, kG, from(0).up_to(5e6), "", defaults, "0", "", "throw:reduced", "m_k, pin and webs reduced to the crank radius"},
-    {"masses", "crank_pin_g", Kind::number, kG, from(0).up_to(5e6), "", required, "", "", "throw:pin and webs", "crank pin between its webs, instead of m_k"},
-    {"masses", "crank_web_g", Kind::number, kG, from(0).up_to(5e6), "", required, "", "", "throw:pin and webs", "one of the two webs"},
-    {"masses", "crank_web_radius_mm", Kind::number, kMm, from(0).up_to(2000), "", required, "", "", "throw:pin and webs", "a web's centre of mass from the crankshaft's axis, toward the pin"},
-    {"masses", "crank_inertia_kg_m2", Kind::number, kKgM2, from(0).up_to(1e6), "", required, "", "", "", "whole crankshaft with flywheel"},
+    {"masses", "piston_g", Kind::number, kG, "masses.piston_kg", from(0).up_to(5e6), "", required, "", "", "", "piston with rings and pin"},
+    {"masses", "rod_small_end_g", Kind::number, kG, "masses.rod_small_end_kg", from(0).up_to(5e6), "", required, "", "", "rod:two ends", "rod's share that moves with the piston"},
+    {"masses", "rod_big_end_g", Kind::number, kG, "masses.rod_big_end_kg", from(0).up_to(5e6), "", required, "", "", "rod:two ends", "rod's share that turns with the crank pin"},
+    {"masses", "rod_g", Kind::number, kG, "", from(0).up_to(5e6), "", required, "", "", "rod:whole rod", "whole rod, instead of its two ends"},
+    {"masses", "rod_com_to_crank_mm", Kind::number, kMm, "", from(0).up_to(10000), "", required, "", "", "rod:whole rod", "rod's centre of mass from the crank pin"},
+    {"masses", "rod_inertia_kg_mm2", Kind::number, kKgMm2, "", from(0).up_to(1e11), "", optional, "", "", "rod:whole rod", "about the centre of mass; absent: two-mass rod (0 is a value, not absence)"},
+    {"masses", "crank_pin_equivalent_g", Kind::number, kG, "masses.crank_pin_equivalent_kg", from(0).up_to(5e6), "", defaults, "0", "", "throw:reduced", "m_k, pin and webs reduced to the crank radius"},
+    {"masses", "crank_pin_g", Kind::number, kG, "", from(0).up_to(5e6), "", required, "", "", "throw:pin and webs", "crank pin between its webs, instead of m_k"},
+    {"masses", "crank_web_g", Kind::number, kG, "", from(0).up_to(5e6), "", required, "", "", "throw:pin and webs", "one of the two webs"},
+    {"masses", "crank_web_radius_mm", Kind::number, kMm, "", from(0).up_to(2000), "", required, "", "", "throw:pin and webs", "a web's centre of mass from the crankshaft's axis, toward the pin"},
+    {"masses", "crank_inertia_kg_m2", Kind::number, kKgM2, "masses.crank_inertia_kg_m2", from(0).up_to(1e6), "", required, "", "", "", "whole crankshaft with flywheel"},
 
-    {"layout", "cylinders", Kind::whole_number, kNoUnit, from(1).up_to(kMaxCylinders), "", defaults, "1", "", "", "number of cylinders"},
-    {"layout", "firing_order", Kind::firing_order, kNoUnit, kAny, "", optional, "", "", "firing:order", "even firing over 720 deg"},
-    {"layout", "firing_angles_deg", Kind::numbers, kDeg, from(0).below(720), "", optional, "", "", "firing:angles", "engine angle of each cylinder's firing TDC"},
-    {"layout", "bank_angles_deg", Kind::numbers, kDeg, from(-360).up_to(360), "", optional, "", "", "", "cylinder axis from the vertical, in the sense of rotation; absent: all 0"},
-    {"layout", "cylinder_spacing_mm", Kind::number, kMm, above(0).up_to(5000), "", optional, "", "", "place:spacing", "from cylinder to cylinder, from pin to pin where shared_pins is given; absent: 1.2 bore"},
-    {"layout", "cylinder_positions_mm", Kind::numbers, kMm, from(-100000).up_to(100000), "", optional, "", "", "place:positions", "along the crankshaft, per cylinder"},
-    {"layout", "crank_throws_deg", Kind::numbers, kDeg, from(-720).up_to(720), "", optional, "", "", "", "direction of each throw at engine angle 0; must agree with bank - firing angle"},
-    {"layout", "shared_pins", Kind::pin_groups, kNoUnit, kAny, "", optional, "", "", "", "cylinders on one crank pin; absent: those with equal position and throw"},
+    {"layout", "cylinders", Kind::whole_number, kNoUnit, "layout.cylinders", from(1).up_to(kMaxCylinders), "", defaults, "1", "", "", "number of cylinders"},
+    {"layout", "firing_order", Kind::firing_order, kNoUnit, "", kAny, "", optional, "", "", "firing:order", "even firing over 720 deg"},
+    {"layout", "firing_angles_deg", Kind::numbers, kDeg, "", from(0).below(720), "", optional, "", "", "firing:angles", "engine angle of each cylinder's firing TDC"},
+    {"layout", "bank_angles_deg", Kind::numbers, kDeg, "", from(-360).up_to(360), "", optional, "", "", "", "cylinder axis from the vertical, in the sense of rotation; absent: all 0"},
+    {"layout", "cylinder_spacing_mm", Kind::number, kMm, "", above(0).up_to(5000), "", optional, "", "", "place:spacing", "from cylinder to cylinder, from pin to pin where shared_pins is given; absent: 1.2 bore"},
+    {"layout", "cylinder_positions_mm", Kind::numbers, kMm, "", from(-100000).up_to(100000), "", optional, "", "", "place:positions", "along the crankshaft, per cylinder"},
+    {"layout", "crank_throws_deg", Kind::numbers, kDeg, "", from(-720).up_to(720), "", optional, "", "", "", "direction of each throw at engine angle 0; must agree with bank - firing angle"},
+    {"layout", "shared_pins", Kind::pin_groups, kNoUnit, "", kAny, "", optional, "", "", "", "cylinders on one crank pin; absent: those with equal position and throw"},
 
-    {"pressure", "source", Kind::choice, kNoUnit, kAny, "wiebe|angle_table|volume_table|none", required, "", "", "", "what the diagram comes from"},
-    {"pressure", "crankcase_kPa", Kind::number, kKPa, above(0).up_to(10000), "", defaults, "100", "", "", "on the piston's other side"},
-    {"pressure", "intake_kPa", Kind::number, kKPa, above(0).up_to(10000), "", required, "", kWiebe, "", "intake plenum"},
-    {"pressure", "exhaust_kPa", Kind::number, kKPa, above(0).up_to(10000), "", required, "", kWiebe, "", "exhaust back pressure"},
-    {"pressure", "start_of_combustion_deg", Kind::number, kDeg, from(-90).up_to(90), "", required, "", kWiebe, "", "crank angle, firing TDC = 0"},
-    {"pressure", "combustion_duration_deg", Kind::number, kDeg, from(1).up_to(150), "", required, "", kWiebe, "", "must end before the exhaust valve opens"},
-    {"pressure", "wiebe_m", Kind::number, kNoUnit, from(0).up_to(10), "", required, "", kWiebe, "", "form exponent of the heat release"},
-    {"pressure", "compression_exponent", Kind::number, kNoUnit, from(1).up_to(2), "", required, "", kWiebe, "", "n1, polytropic"},
-    {"pressure", "expansion_exponent", Kind::number, kNoUnit, from(1.0001).up_to(2), "", required, "", kWiebe, "", "n2, polytropic"},
-    {"pressure", "motored_expansion_exponent", Kind::number, kNoUnit, from(0).up_to(3), "", defaults, "0", kWiebe, "", "of a cylinder that does not fire, at least n1; 0: n1 + 0.03"},
-    {"pressure", "exhaust_valve_opens_deg", Kind::number, kDeg, from(30).up_to(179), "", required, "", kWiebe, "", "crank angle, firing TDC = 0"},
-    {"pressure", "net_mep_kPa", Kind::number, kKPa, from(-10000).up_to(100000), "", required, "", kWiebe, "heat:net IMEP", "net IMEP over 720 deg, at least the motored one; heat is scaled to meet it"},
-    {"pressure", "heat_J", Kind::number, kJ, from(0).up_to(1e9), "", required, "", kWiebe, "heat:heat", "heat per cylinder and cycle, instead of net_mep_kPa; 0: motored"},
-    {"pressure", "file", Kind::path, kNoUnit, kAny, "", required, "", kTables, "", "CSV with header crank_deg,pressure_kPa or volume_cm3,pressure_kPa; relative to the engine file"},
+    {"pressure", "source", Kind::choice, kNoUnit, "", kAny, "wiebe|angle_table|volume_table|none", required, "", "", "", "what the diagram comes from"},
+    {"pressure", "crankcase_kPa", Kind::number, kKPa, "pressure.crankcase_Pa", above(0).up_to(10000), "", defaults, "100", "", "", "on the piston's other side"},
+    {"pressure", "intake_kPa", Kind::number, kKPa, "pressure.wiebe.intake_Pa", above(0).up_to(10000), "", required, "", kWiebe, "", "intake plenum"},
+    {"pressure", "exhaust_kPa", Kind::number, kKPa, "pressure.wiebe.exhaust_Pa", above(0).up_to(10000), "", required, "", kWiebe, "", "exhaust back pressure"},
+    {"pressure", "start_of_combustion_deg", Kind::number, kDeg, "pressure.wiebe.start_of_combustion_deg", from(-90).up_to(90), "", required, "", kWiebe, "", "crank angle, firing TDC = 0"},
+    {"pressure", "combustion_duration_deg", Kind::number, kDeg, "pressure.wiebe.combustion_duration_deg", from(1).up_to(150), "", required, "", kWiebe, "", "must end before the exhaust valve opens"},
+    {"pressure", "wiebe_m", Kind::number, kNoUnit, "pressure.wiebe.wiebe_m", from(0).up_to(10), "", required, "", kWiebe, "", "form exponent of the heat release"},
+    {"pressure", "compression_exponent", Kind::number, kNoUnit, "pressure.wiebe.compression_exponent", from(1).up_to(2), "", required, "", kWiebe, "", "n1, polytropic"},
+    {"pressure", "expansion_exponent", Kind::number, kNoUnit, "pressure.wiebe.expansion_exponent", from(1.0001).up_to(2), "", required, "", kWiebe, "", "n2, polytropic"},
+    {"pressure", "motored_expansion_exponent", Kind::number, kNoUnit, "pressure.wiebe.motored_expansion_exponent", from(0).up_to(3), "", defaults, "0", kWiebe, "", "of a cylinder that does not fire, at least n1; 0: n1 + 0.03"},
+    {"pressure", "exhaust_valve_opens_deg", Kind::number, kDeg, "pressure.wiebe.exhaust_valve_opens_deg", from(30).up_to(179), "", required, "", kWiebe, "", "crank angle, firing TDC = 0"},
+    {"pressure", "net_mep_kPa", Kind::number, kKPa, "pressure.wiebe.net_mep_Pa", from(-10000).up_to(100000), "", required, "", kWiebe, "heat:net IMEP", "net IMEP over 720 deg, at least the motored one; heat is scaled to meet it"},
+    {"pressure", "heat_J", Kind::number, kJ, "pressure.wiebe.heat_J", from(0).up_to(1e9), "", required, "", kWiebe, "heat:heat", "heat per cylinder and cycle, instead of net_mep_kPa; 0: motored"},
+    {"pressure", "file", Kind::path, kNoUnit, "", kAny, "", required, "", kTables, "", "CSV with header crank_deg,pressure_kPa or volume_cm3,pressure_kPa; relative to the engine file"},
 
-    {"friction", "constant_kPa", Kind::number, kKPa, from(0).up_to(10000), "", defaults, "0", "", "", "at any speed; holds at standstill"},
-    {"friction", "linear_kPa_per_1000rpm", Kind::number, kKPaPerSpeed, from(0).up_to(1e5), "", defaults, "0", "", "", "times the speed in 1000 rpm"},
-    {"friction", "quadratic_kPa_per_1000rpm2", Kind::number, kKPaPerSpeed2, from(0).up_to(1e7), "", defaults, "0", "", "", "times its square"},
+    {"friction", "constant_kPa", Kind::number, kKPa, "friction.constant_Pa", from(0).up_to(10000), "", defaults, "0", "", "", "at any speed; holds at standstill"},
+    {"friction", "linear_kPa_per_1000rpm", Kind::number, kKPaPerSpeed, "friction.linear_Pa_s", from(0).up_to(1e5), "", defaults, "0", "", "", "times the speed in 1000 rpm"},
+    {"friction", "quadratic_kPa_per_1000rpm2", Kind::number, kKPaPerSpeed2, "friction.quadratic_Pa_s2", from(0).up_to(1e7), "", defaults, "0", "", "", "times its square"},
 
-    {"load", "constant_Nm", Kind::number, kNm, from(0).up_to(1e7), "", defaults, "0", "", "", "at any speed; holds at standstill"},
-    {"load", "linear_Nm_per_1000rpm", Kind::number, kNmPerSpeed, from(0).up_to(1e8), "", defaults, "0", "", "", "times the speed in 1000 rpm"},
-    {"load", "quadratic_Nm_per_1000rpm2", Kind::number, kNmPerSpeed2, from(0).up_to(1e10), "", defaults, "0", "", "", "times its square: fan, propeller, water brake"},
-    {"load", "inertia_kg_m2", Kind::number, kKgM2, from(0).up_to(1e6), "", defaults, "0", "", "", "turns with the crankshaft"},
+    {"load", "constant_Nm", Kind::number, kNm, "load.constant_Nm", from(0).up_to(1e7), "", defaults, "0", "", "", "at any speed; holds at standstill"},
+    {"load", "linear_Nm_per_1000rpm", Kind::number, kNmPerSpeed, "load.linear_Nm_s", from(0).up_to(1e8), "", defaults, "0", "", "", "times the speed in 1000 rpm"},
+    {"load", "quadratic_Nm_per_1000rpm2", Kind::number, kNmPerSpeed2, "load.quadratic_Nm_s2", from(0).up_to(1e10), "", defaults, "0", "", "", "times its square: fan, propeller, water brake"},
+    {"load", "inertia_kg_m2", Kind::number, kKgM2, "load.inertia_kg_m2", from(0).up_to(1e6), "", defaults, "0", "", "", "turns with the crankshaft"},
 
-    {"starter", "stall_Nm", Kind::number, kNm, from(0).up_to(1e7), "", defaults, "0", "", "", "torque at standstill; 0: no starter"},
-    {"starter", "no_load_rpm", Kind::number, kRpmAsRadS, from(0).up_to(95000), "", defaults, "0", "", "", "crank speed at which it gives none; above 0 where there is a starter"},
+    {"starter", "stall_Nm", Kind::number, kNm, "starter.stall_Nm", from(0).up_to(1e7), "", defaults, "0", "", "", "torque at standstill; 0: no starter"},
+    {"starter", "no_load_rpm", Kind::number, kRpmAsRadS, "starter.no_load_rad_s", from(0).up_to(95000), "", defaults, "0", "", "", "crank speed at which it gives none; above 0 where there is a starter"},
 
-    {"cam", "source", Kind::choice, kNoUnit, kAny, "polynomial|table", required, "", "", "", "what the lift comes from"},
-    {"cam", "max_lift_mm", Kind::number, kMm, above(0).up_to(100), "", required, "", kPolynomial, "", "largest lift of the flat follower"},
-    {"cam", "half_angle_deg", Kind::number, kDeg, from(10).up_to(180), "", required, "", kPolynomial, "", "from the lobe's begin to full lift, cam angle"},
-    {"cam", "exponents", Kind::numbers, kNoUnit, from(2).up_to(100), "", required, "", kPolynomial, "", "rising; coefficients from y = y' = ... = 0 at the lobe's end"},
-    {"cam", "full_lift_at_crank_deg", Kind::number, kDeg, from(-720).up_to(720), "", required, "", "", "", "engine angle of full theoretical lift in cylinder 1's cycle"},
-    {"cam", "phase_rate_deg_per_s", Kind::number, kDegPerS, from(0).up_to(100000), "", defaults, "0", "", "", "cam phaser's rate limit in crank degrees; 0: fixed cam"},
-    {"cam", "file", Kind::path, kNoUnit, kAny, "", required, "", kCamTable, "", "CSV with header cam_deg,lift_mm; relative to the engine file"},
-    {"cam", "smoothing_um", Kind::number, kUm, above(0).up_to(1000), "", required, "", kCamTable, "", "largest residual that smoothing may leave"},
+    {"cam", "source", Kind::choice, kNoUnit, "", kAny, "polynomial|table", required, "", "", "", "what the lift comes from"},
+    {"cam", "max_lift_mm", Kind::number, kMm, "cam.max_lift_m", above(0).up_to(100), "", required, "", kPolynomial, "", "largest lift of the flat follower"},
+    {"cam", "half_angle_deg", Kind::number, kDeg, "cam.half_angle_deg", from(10).up_to(180), "", required, "", kPolynomial, "", "from the lobe's begin to full lift, cam angle"},
+    {"cam", "exponents", Kind::numbers, kNoUnit, "", from(2).up_to(100), "", required, "", kPolynomial, "", "rising; coefficients from y = y' = ... = 0 at the lobe's end"},
+    {"cam", "full_lift_at_crank_deg", Kind::number, kDeg, "", from(-720).up_to(720), "", required, "", "", "", "engine angle of full theoretical lift in cylinder 1's cycle"},
+    {"cam", "phase_rate_deg_per_s", Kind::number, kDegPerS, "cam.phase_rate_deg_s", from(0).up_to(100000), "", defaults, "0", "", "", "cam phaser's rate limit in crank degrees; 0: fixed cam"},
+    {"cam", "file", Kind::path, kNoUnit, "", kAny, "", required, "", kCamTable, "", "CSV with header cam_deg,lift_mm; relative to the engine file"},
+    {"cam", "smoothing_um", Kind::number, kUm, "cam.smoothing_m", above(0).up_to(1000), "", required, "", kCamTable, "", "largest residual that smoothing may leave"},
 
-    {"rocker", "ratio", Kind::number, kNoUnit, above(0).up_to(10), "", required, "", "", "train:constant ratio", "direct (1) or constant-ratio train, instead of the geometry"},
-    {"rocker", "pivot_to_pad_mm", Kind::number, kMm, above(0).up_to(1000), "", required, "", "", "train:geometry", "l_a"},
-    {"rocker", "pivot_to_cam_mm", Kind::number, kMm, above(0).up_to(1000), "", required, "", "", "train:geometry", "l_c"},
-    {"rocker", "base_circle_mm", Kind::number, kMm, above(0).up_to(1000), "", required, "", "", "", "r_0, radius"},
-    {"rocker", "pad_radius_mm", Kind::number, kMm, above(0).up_to(10000), "", required, "", "", "train:geometry", "r_s"},
-    {"rocker", "pivot_to_screw_mm", Kind::number, kMm, above(0).up_to(1000), "", required, "", "", "train:geometry", "l_b"},
-    {"rocker", "screw_ball_mm", Kind::number, kMm, from(0).up_to(1000), "", required, "", "", "train:geometry", "rho, radius"},
-    {"rocker", "stem_above_pivot_mm", Kind::number, kMm, from(-1000).up_to(1000), "", required, "", "", "train:geometry", "z"},
-    {"rocker", "clearance_mm", Kind::number, kMm, from(0).up_to(10), "", required, "", "", "", "at base circle"},
-    {"rocker", "cam_turns", Kind::choice, kNoUnit, kAny, "toward_pivot|away_from_pivot", required, "", "", "train:geometry", "sense of the cam's rotation"},
+    {"rocker", "ratio", Kind::number, kNoUnit, "rocker.ratio", above(0).up_to(10), "", required, "", "", "train:constant ratio", "direct (1) or constant-ratio train, instead of the geometry"},
+    {"rocker", "pivot_to_pad_mm", Kind::number, kMm, "rocker.pivot_to_pad_m", above(0).up_to(1000), "", required, "", "", "train:geometry", "l_a"},
+    {"rocker", "pivot_to_cam_mm", Kind::number, kMm, "rocker.pivot_to_cam_m", above(0).up_to(1000), "", required, "", "", "train:geometry", "l_c"},
+    {"rocker", "base_circle_mm", Kind::number, kMm, "rocker.base_circle_m", above(0).up_to(1000), "", required, "", "", "", "r_0, radius"},
+    {"rocker", "pad_radius_mm", Kind::number, kMm, "rocker.pad_radius_m", above(0).up_to(10000), "", required, "", "", "train:geometry", "r_s"},
+    {"rocker", "pivot_to_screw_mm", Kind::number, kMm, "rocker.pivot_to_screw_m", above(0).up_to(1000), "", required, "", "", "train:geometry", "l_b"},
+    {"rocker", "screw_ball_mm", Kind::number, kMm, "rocker.screw_ball_m", from(0).up_to(1000), "", required, "", "", "train:geometry", "rho, radius"},
+    {"rocker", "stem_above_pivot_mm", Kind::number, kMm, "rocker.stem_above_pivot_m", from(-1000).up_to(1000), "", required, "", "", "train:geometry", "z"},
+    {"rocker", "clearance_mm", Kind::number, kMm, "rocker.clearance_m", from(0).up_to(10), "", required, "", "", "", "at base circle"},
+    {"rocker", "cam_turns", Kind::choice, kNoUnit, "", kAny, "toward_pivot|away_from_pivot", required, "", "", "train:geometry", "sense of the cam's rotation"},
 
-    {"valve", "per_cylinder", Kind::whole_number, kNoUnit, from(1).up_to(8), "", required, "", "", "", "how many of them a cylinder has"},
-    {"valve", "valve_g", Kind::number, kG, above(0).up_to(1e5), "", required, "", "", "", "valve, retainer, collets"},
-    {"valve", "spring_g", Kind::number, kG, from(0).up_to(1e5), "", required, "", "", "", "spring; a third of it moves"},
-    {"valve", "rocker_inertia_kg_mm2", Kind::number, kKgMm2, from(0).up_to(1e8), "", required, "", "", "", "about the pivot"},
-    {"valve", "spring_N_per_mm", Kind::number, kNPerMm, from(0).up_to(1e6), "", required, "", "", "", "spring rate"},
-    {"valve", "spring_preload_N", Kind::number, kN, above(0).up_to(1e6), "", required, "", "", "", "spring force on the closed valve"},
-    {"valve", "train_N_per_mm", Kind::number, kNPerMm, above(0).up_to(1e9), "", required, "", "", "", "stiffness from rocker to camshaft"},
-    {"valve", "train_damping_ratio", Kind::number, kNoUnit, from(0).up_to(10), "", required, "", "", "", "b = 2 zeta sqrt(k M)"},
-    {"valve", "guide_damping_ratio", Kind::number, kNoUnit, from(0).up_to(10), "", required, "", "", "", "c = 2 zeta sqrt(k M)"},
-    {"valve", "seat_N_per_mm", Kind::number, kNPerMm, above(0).up_to(1e9), "", required, "", "", "", "stiffness of the seat"},
-    {"valve", "seat_damping_ratio", Kind::number, kNoUnit, from(0).up_to(10), "", required, "", "", "", "b_z = 2 zeta sqrt(k_z M)"},
-    {"valve", "head_area_mm2", Kind::number, kMm2, from(0).up_to(1e6), "", defaults, "0", "", "", "gas force on the valve head; 0: none"},
+    {"valve", "per_cylinder", Kind::whole_number, kNoUnit, "valve.per_cylinder", from(1).up_to(8), "", required, "", "", "", "how many of them a cylinder has"},
+    {"valve", "valve_g", Kind::number, kG, "valve.valve_kg", above(0).up_to(1e5), "", required, "", "", "", "valve, retainer, collets"},
+    {"valve", "spring_g", Kind::number, kG, "valve.spring_kg", from(0).up_to(1e5), "", required, "", "", "", "spring; a third of it moves"},
+    {"valve", "rocker_inertia_kg_mm2", Kind::number, kKgMm2, "valve.rocker_inertia_kg_m2", from(0).up_to(1e8), "", required, "", "", "", "about the pivot"},
+    {"valve", "spring_N_per_mm", Kind::number, kNPerMm, "valve.spring_N_m", from(0).up_to(1e6), "", required, "", "", "", "spring rate"},
+    {"valve", "spring_preload_N", Kind::number, kN, "valve.spring_preload_N", above(0).up_to(1e6), "", required, "", "", "", "spring force on the closed valve"},
+    {"valve", "train_N_per_mm", Kind::number, kNPerMm, "valve.train_N_m", above(0).up_to(1e9), "", required, "", "", "", "stiffness from rocker to camshaft"},
+    {"valve", "train_damping_ratio", Kind::number, kNoUnit, "valve.train_damping_ratio", from(0).up_to(10), "", required, "", "", "", "b = 2 zeta sqrt(k M)"},
+    {"valve", "guide_damping_ratio", Kind::number, kNoUnit, "valve.guide_damping_ratio", from(0).up_to(10), "", required, "", "", "", "c = 2 zeta sqrt(k M)"},
+    {"valve", "seat_N_per_mm", Kind::number, kNPerMm, "valve.seat_N_m", above(0).up_to(1e9), "", required, "", "", "", "stiffness of the seat"},
+    {"valve", "seat_damping_ratio", Kind::number, kNoUnit, "valve.seat_damping_ratio", from(0).up_to(10), "", required, "", "", "", "b_z = 2 zeta sqrt(k_z M)"},
+    {"valve", "head_area_mm2", Kind::number, kMm2, "valve.head_area_m2", from(0).up_to(1e6), "", defaults, "0", "", "", "gas force on the valve head; 0: none"},
 
-    {"trigger", "on", Kind::text, kNoUnit, kAny, "", required, "", "", "", "crank, cam, or cam NAME for one that the phaser of [cam NAME] moves"},
-    {"trigger", "pattern", Kind::text, kNoUnit, kAny, "", required, "", "", "edges:teeth", "60 or 60-2 (two missing), 36-2-2-2, 36-2-2-2-H6, half-moon, or teeth and (missing) in turn, like 13(2)16(2)1(2)"},
-    {"trigger", "first_tooth_deg", Kind::number, kDeg, from(-720).up_to(720), "", defaults, "0", "", "edges:teeth", "engine angle at which the first tooth's rising edge is at the sensor; N-M: the tooth after the gap"},
-    {"trigger", "tooth_ratio", Kind::number, kNoUnit, from(0.01).up_to(0.99), "", defaults, "0.5", "", "edges:teeth", "width of a tooth per distance from tooth to tooth"},
-    {"trigger", "edges_deg", Kind::numbers, kDeg, from(0).up_to(1440), "", required, "", "", "edges:list", "instead of a pattern: rise, fall, rise, ... by engine angle, within one turn of the shaft (cam: 720 deg)"},
-    {"trigger", "inverted", Kind::choice, kNoUnit, kAny, "no|yes", defaults, "no", "", "", "whether a tooth pulls the signal down"},
+    {"trigger", "on", Kind::text, kNoUnit, "", kAny, "", required, "", "", "", "crank, cam, or cam NAME for one that the phaser of [cam NAME] moves"},
+    {"trigger", "pattern", Kind::text, kNoUnit, "", kAny, "", required, "", "", "edges:teeth", "60 or 60-2 (two missing), 36-2-2-2, 36-2-2-2-H6, half-moon, or teeth and (missing) in turn, like 13(2)16(2)1(2)"},
+    {"trigger", "first_tooth_deg", Kind::number, kDeg, "", from(-720).up_to(720), "", defaults, "0", "", "edges:teeth", "engine angle at which the first tooth's rising edge is at the sensor; N-M: the tooth after the gap"},
+    {"trigger", "tooth_ratio", Kind::number, kNoUnit, "", from(0.01).up_to(0.99), "", defaults, "0.5", "", "edges:teeth", "width of a tooth per distance from tooth to tooth"},
+    {"trigger", "edges_deg", Kind::numbers, kDeg, "", from(0).up_to(1440), "", required, "", "", "edges:list", "instead of a pattern: rise, fall, rise, ... by engine angle, within one turn of the shaft (cam: 720 deg)"},
+    {"trigger", "inverted", Kind::choice, kNoUnit, "", kAny, "no|yes", defaults, "no", "", "", "whether a tooth pulls the signal down"},
 };
 // clang-format on
+
+/// Looks for a field by its name.
+struct Find {
+  std::string_view name;
+  bool found = false;
+
+  template <class Field>
+  constexpr void operator()(int, std::string_view here, const Field& field) {
+    if constexpr (std::is_array_v<Field>) {
+      (*this)(1, here, field[0]);
+    } else if constexpr (kHasFields<Field>) {
+      Field::each_field(*this, field);
+    } else {
+      found = found || here == name;
+    }
+  }
+};
+constexpr bool fields_exist() {
+  const EngineDefinition definition{};
+  for (const Key& key : kKeys) {
+    Find find{key.field};
+    EngineDefinition::each_field(find, definition);
+    if (key.field[0] != '\0' && !find.found) return false;
+  }
+  return true;
+}
+static_assert(fields_exist(), "a key is that of a field that the definition does not have");
 
 std::string words_about(const Key& key) {
   std::string words = key.meaning;

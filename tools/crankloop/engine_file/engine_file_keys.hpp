@@ -38,6 +38,7 @@ struct Key {
   const char* name;
   Kind kind;
   Unit unit;
+  const char* field;    ///< of the definition, that it is by itself: "crank.bore_m"; "" where more than a unit lies between them
   Range range;
   const char* choices;  ///< "wiebe|angle_table"; only Kind::choice
   Presence presence;

@@ -84,7 +84,7 @@ void check_throws(SectionValues& values, const std::string& path, const Layout& 
 
 Layout build_layout(SectionValues& values, double bore_mm, const std::string& path) {
   Layout layout;
-  layout.cylinders = static_cast<int>(values.number("cylinders"));
+  fill(values, layout);
   set_banks(values, path, layout);
   set_firing(values, path, layout);
   check_throws(values, path, layout);

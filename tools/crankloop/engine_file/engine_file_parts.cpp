@@ -15,11 +15,8 @@ std::string rod_length_too_short(const SectionValues& crank) {
 
 Crank build_crank(const SectionValues& values, const std::string& path) {
   Crank crank;
-  crank.bore_m = values.si("bore_mm");
+  fill(values, crank);
   crank.crank_radius_m = values.si("stroke_mm") / 2;
-  crank.rod_length_m = values.si("rod_length_mm");
-  crank.pin_offset_m = values.si("pin_offset_mm");
-  crank.compression_ratio = values.si("compression_ratio");
   // Also where rod_ratio replaces it: a rod that cannot be is a slip of the pen.
   if (crank.rod_length_m <= crank.least_rod_length_m()) {
     throw InputError(path, values.line_of("rod_length_mm"), rod_length_too_short(values));
@@ -31,13 +28,10 @@ Crank build_crank(const SectionValues& values, const std::string& path) {
 
 Masses build_masses(const SectionValues& values, const Crank& crank, const std::string& path) {
   Masses masses;
-  masses.piston_kg = values.si("piston_g");
+  fill(values, masses);
   if (values.has("crank_pin_g")) {
     reduce_throw({values.si("crank_pin_g"), values.si("crank_web_g"), values.si("crank_web_radius_mm")}, crank, masses);
-  } else {
-    masses.crank_pin_equivalent_kg = values.si("crank_pin_equivalent_g");
   }
-  masses.crank_inertia_kg_m2 = values.si("crank_inertia_kg_m2");
   if (values.has("rod_g")) {
     RigidRod rod;
     rod.mass_kg = values.si("rod_g");
@@ -52,9 +46,6 @@ Masses build_masses(const SectionValues& values, const Crank& crank, const std::
     lump_rod(rod, crank, masses);
     if (!values.has("rod_inertia_kg_mm2"))
       masses.rod_inertia_correction_kg_m2 = 0;  // not weighed: two-mass rod, not a point mass
-  } else {
-    masses.rod_small_end_kg = values.si("rod_small_end_g");
-    masses.rod_big_end_kg = values.si("rod_big_end_g");
   }
   if (!(masses.reciprocating_kg() > 0)) {
     throw InputError(path, values.line_of("piston_g"),
@@ -65,39 +56,13 @@ Masses build_masses(const SectionValues& values, const Crank& crank, const std::
 
 Pressure build_pressure(const SectionValues& values) {
   Pressure pressure;
-  pressure.crankcase_Pa = values.si("crankcase_kPa");
+  fill(values, pressure);
   const std::string& source = values.text("source");
   if (source == "angle_table") pressure.source = PressureSource::angle_table;
   if (source == "volume_table") pressure.source = PressureSource::volume_table;
-  if (source != "wiebe") return pressure;
-
-  pressure.source = PressureSource::wiebe;
-  pressure.wiebe.intake_Pa = values.si("intake_kPa");
-  pressure.wiebe.exhaust_Pa = values.si("exhaust_kPa");
-  pressure.wiebe.start_of_combustion_deg = values.si("start_of_combustion_deg");
-  pressure.wiebe.combustion_duration_deg = values.si("combustion_duration_deg");
-  pressure.wiebe.wiebe_m = values.si("wiebe_m");
-  pressure.wiebe.compression_exponent = values.si("compression_exponent");
-  pressure.wiebe.expansion_exponent = values.si("expansion_exponent");
-  pressure.wiebe.motored_expansion_exponent = values.si("motored_expansion_exponent");
-  pressure.wiebe.exhaust_valve_opens_deg = values.si("exhaust_valve_opens_deg");
+  if (source == "wiebe") pressure.source = PressureSource::wiebe;
   pressure.wiebe.heat_given = values.has("heat_J");
-  if (pressure.wiebe.heat_given) {
-    pressure.wiebe.heat_J = values.si("heat_J");
-  } else {
-    pressure.wiebe.net_mep_Pa = values.si("net_mep_kPa");
-  }
   return pressure;
 }
-
-Friction build_friction(const SectionValues& values) {
-  return {values.si("constant_kPa"), values.si("linear_kPa_per_1000rpm"), values.si("quadratic_kPa_per_1000rpm2")};
-}
-
-Load build_load(const SectionValues& values) {
-  return {values.si("constant_Nm"), values.si("linear_Nm_per_1000rpm"), values.si("quadratic_Nm_per_1000rpm2"), values.si("inertia_kg_m2")};
-}
-
-Starter build_starter(const SectionValues& values) { return {values.si("stall_Nm"), values.si("no_load_rpm")}; }
 
 }  // namespace crankloop::program

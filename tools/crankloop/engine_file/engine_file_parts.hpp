@@ -6,6 +6,7 @@
 
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include <crankloop/define/engine_definition.hpp>
@@ -13,6 +14,19 @@
 #include "engine_file_values.hpp"
 
 namespace crankloop::program {
+
+/// Puts the values whose keys are fields of this part into them; other fields stay as they are.
+template <class Part>
+void fill(const SectionValues& values, Part& part) {
+  Part::each_field([&values](int, std::string_view name, auto& field) {
+    using Field = std::remove_reference_t<decltype(field)>;
+    if constexpr (kHasFields<Field>) {
+      fill(values, field);
+    } else if constexpr (std::is_same_v<Field, double> || std::is_same_v<Field, int>) {
+      if (const Value* value = values.of_field(name)) field = static_cast<Field>(value->si());
+    }
+  }, part);
+}
 
 /// Throws InputError for a rod_length_mm with which the crank cannot turn, even if rod_ratio replaces it.
 [[nodiscard]] Crank build_crank(const SectionValues& values, const std::string& path);
@@ -25,14 +39,9 @@ namespace crankloop::program {
 /// All but the rows of a table source.
 [[nodiscard]] Pressure build_pressure(const SectionValues& values);
 
-[[nodiscard]] Friction build_friction(const SectionValues& values);
-[[nodiscard]] Load build_load(const SectionValues& values);
-[[nodiscard]] Starter build_starter(const SectionValues& values);
-
 /// All but the rows of a table.
 [[nodiscard]] Cam build_cam(const SectionValues& values, const std::string& path);
 [[nodiscard]] Rocker build_rocker(const SectionValues& values);
-[[nodiscard]] Valve build_valve(const SectionValues& values);
 
 /// All but the edges of a list and the train whose phaser moves it. Throws InputError for a pattern that names no wheel.
 [[nodiscard]] TriggerWheel build_trigger(const SectionValues& values, const std::string& path);

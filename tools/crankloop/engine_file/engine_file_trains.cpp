@@ -30,15 +30,12 @@ double into_cycle_deg(double crank_deg) {
 
 Cam build_cam(const SectionValues& values, const std::string& path) {
   Cam cam;
+  fill(values, cam);
   cam.full_lift_deg = into_cycle_deg(values.si("full_lift_at_crank_deg"));
-  cam.phase_rate_deg_s = values.si("phase_rate_deg_per_s");
   if (values.text("source") == "table") {
     cam.source = CamSource::table;
-    cam.smoothing_m = values.si("smoothing_um");
     return cam;
   }
-  cam.max_lift_m = values.si("max_lift_mm");
-  cam.half_angle_deg = values.si("half_angle_deg");
   const std::vector<double>& exponents = values.numbers("exponents");
   if (exponents.size() < 2 || exponents.size() > kMostCamExponents) {
     refuse(values, "exponents", std::to_string(exponents.size()) + " given; allowed: 2 to 8 of them, rising", path);
@@ -54,38 +51,13 @@ Cam build_cam(const SectionValues& values, const std::string& path) {
 
 Rocker build_rocker(const SectionValues& values) {
   Rocker rocker;
-  rocker.base_circle_m = values.si("base_circle_mm");
-  rocker.clearance_m = values.si("clearance_mm");
+  fill(values, rocker);
   if (values.has("ratio")) {
     rocker.kind = RockerKind::ratio;
-    rocker.ratio = values.si("ratio");
-    return rocker;
+  } else if (values.text("cam_turns") == "away_from_pivot") {
+    rocker.cam_turns = CamTurns::away_from_pivot;
   }
-  rocker.pivot_to_pad_m = values.si("pivot_to_pad_mm");
-  rocker.pivot_to_cam_m = values.si("pivot_to_cam_mm");
-  rocker.pad_radius_m = values.si("pad_radius_mm");
-  rocker.pivot_to_screw_m = values.si("pivot_to_screw_mm");
-  rocker.screw_ball_m = values.si("screw_ball_mm");
-  rocker.stem_above_pivot_m = values.si("stem_above_pivot_mm");
-  if (values.text("cam_turns") == "away_from_pivot") rocker.cam_turns = CamTurns::away_from_pivot;
   return rocker;
-}
-
-Valve build_valve(const SectionValues& values) {
-  Valve valve;
-  valve.per_cylinder = static_cast<int>(values.number("per_cylinder"));
-  valve.valve_kg = values.si("valve_g");
-  valve.spring_kg = values.si("spring_g");
-  valve.rocker_inertia_kg_m2 = values.si("rocker_inertia_kg_mm2");
-  valve.spring_N_m = values.si("spring_N_per_mm");
-  valve.spring_preload_N = values.si("spring_preload_N");
-  valve.train_N_m = values.si("train_N_per_mm");
-  valve.train_damping_ratio = values.si("train_damping_ratio");
-  valve.guide_damping_ratio = values.si("guide_damping_ratio");
-  valve.seat_N_m = values.si("seat_N_per_mm");
-  valve.seat_damping_ratio = values.si("seat_damping_ratio");
-  valve.head_area_m2 = values.si("head_area_mm2");
-  return valve;
 }
 
 void EngineFile::build_trains() {
@@ -106,7 +78,7 @@ void EngineFile::build_trains() {
       accept(validate(train.definition.rocker), train);
     } else {
       train.has_valve = true;
-      train.definition.valve = build_valve(section);
+      fill(section, train.definition.valve);
       accept(validate(train.definition.valve), train);
     }
   }

@@ -114,15 +114,17 @@ const Value* SectionValues::find(std::string_view key) const {
   return nullptr;
 }
 
+const Value* SectionValues::of_field(std::string_view field) const {
+  for (const Value& value : values) {
+    if (value.used && field == value.key->field) return &value;
+  }
+  return nullptr;
+}
+
 const Value& SectionValues::at(std::string_view key) const {
   const Value* value = find(key);
   if (value == nullptr) throw std::logic_error(title() + " has no " + std::string(key));
   return *value;
-}
-
-double SectionValues::si(std::string_view key) const {
-  const Value& value = at(key);
-  return value.numbers.at(0) * value.key->unit.times / value.key->unit.over;
 }
 
 int SectionValues::line_of(std::string_view key) const {

@@ -3,6 +3,7 @@
 // What belongs here: lengths that a drawing gives. What does not: motion (tabulate/mechanism.hpp) and masses (define/masses.hpp).
 #pragma once
 
+#include <crankloop/define/field.hpp>
 #include <crankloop/status.hpp>
 
 namespace crankloop {
@@ -33,6 +34,15 @@ struct Crank {
   /// of that, which keeps cos b above 4e-5 whatever rounding does to sin b.
   [[nodiscard]] constexpr double least_rod_length_m() const noexcept {
     return (crank_radius_m + (pin_offset_m < 0 ? -pin_offset_m : pin_offset_m)) * (1 + 1e-9);
+  }
+
+  template <class Visit, class Self, class... Others>
+  static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    CRANKLOOP_FIELD(1, crank, bore_m);
+    CRANKLOOP_FIELD(1, crank, crank_radius_m);
+    CRANKLOOP_FIELD(1, crank, rod_length_m);
+    CRANKLOOP_FIELD(1, crank, pin_offset_m);
+    CRANKLOOP_FIELD(1, crank, compression_ratio);
   }
 };
 

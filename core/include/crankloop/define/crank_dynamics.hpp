@@ -4,6 +4,7 @@
 // changes from tick to tick (Input::load_Nm, Input::starter). Equations: docs/model.md "Crank dynamics". All zero: there is none of it.
 #pragma once
 
+#include <crankloop/define/field.hpp>
 #include <crankloop/status.hpp>
 
 namespace crankloop {
@@ -16,6 +17,13 @@ struct Friction {
   double quadratic_Pa_s2 = 0; ///< per (rad/s)^2; 0 to 1e6
 
   [[nodiscard]] constexpr bool any() const noexcept { return constant_Pa != 0 || linear_Pa_s != 0 || quadratic_Pa_s2 != 0; }
+
+  template <class Visit, class Self, class... Others>
+  static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    CRANKLOOP_FIELD(1, friction, constant_Pa);
+    CRANKLOOP_FIELD(1, friction, linear_Pa_s);
+    CRANKLOOP_FIELD(1, friction, quadratic_Pa_s2);
+  }
 };
 
 /// The driven machine as a passive brake: its torque opposes the rotation like friction does. What may also drive is Input::load_Nm.
@@ -24,6 +32,14 @@ struct Load {
   double linear_Nm_s = 0;      ///< per rad/s; 0 to 1e6
   double quadratic_Nm_s2 = 0;  ///< per (rad/s)^2; 0 to 1e6
   double inertia_kg_m2 = 0;    ///< turns with the crankshaft, seen from it; 0 to 1e6
+
+  template <class Visit, class Self, class... Others>
+  static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    CRANKLOOP_FIELD(1, load, constant_Nm);
+    CRANKLOOP_FIELD(1, load, linear_Nm_s);
+    CRANKLOOP_FIELD(1, load, quadratic_Nm_s2);
+    CRANKLOOP_FIELD(1, load, inertia_kg_m2);
+  }
 };
 
 /// A starter, seen from the crankshaft: its torque falls in a straight line from standstill to the no-load speed. Above, it free-wheels; the
@@ -31,6 +47,12 @@ struct Load {
 struct Starter {
   double stall_Nm = 0;       ///< 0 (no starter) to 1e7
   double no_load_rad_s = 0;  ///< > 0 where there is a stall torque, at most 1e4
+
+  template <class Visit, class Self, class... Others>
+  static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    CRANKLOOP_FIELD(1, starter, stall_Nm);
+    CRANKLOOP_FIELD(1, starter, no_load_rad_s);
+  }
 };
 
 /// Field names "friction.*", "load.*", "starter.*".

@@ -3,6 +3,7 @@
 
 #include <crankloop/define/crank.hpp>
 #include <crankloop/define/crank_dynamics.hpp>
+#include <crankloop/define/field.hpp>
 #include <crankloop/define/layout.hpp>
 #include <crankloop/define/masses.hpp>
 #include <crankloop/define/pressure.hpp>
@@ -23,6 +24,19 @@ struct EngineDefinition {
   Starter starter;
   int trigger_count = 0;  ///< 0 to kMaxTriggerWheels
   TriggerWheel triggers[kMaxTriggerWheels];
+
+  template <class Visit, class Self, class... Others>
+  static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    CRANKLOOP_PART(1, crank);
+    CRANKLOOP_PART(1, masses);
+    CRANKLOOP_PART(1, layout);
+    CRANKLOOP_PART(1, pressure);
+    CRANKLOOP_PART(1, train_count);
+    CRANKLOOP_PART(self.train_count, trains);
+    CRANKLOOP_PART(1, friction);
+    CRANKLOOP_PART(1, load);
+    CRANKLOOP_PART(1, starter);
+  }
 };
 
 /// Validates every part and what they demand of one another, in the order above; the first refusal is returned. Valve trains are

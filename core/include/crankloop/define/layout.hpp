@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <crankloop/define/field.hpp>
 #include <crankloop/limits.hpp>
 #include <crankloop/status.hpp>
 
@@ -26,6 +27,15 @@ struct Layout {
   /// Direction of the cylinder's throw at A = 0, in degrees from the vertical: bank - firing.
   [[nodiscard]] double throw_deg(int cylinder) const noexcept {
     return bank_deg[static_cast<std::size_t>(cylinder)] - firing_deg[static_cast<std::size_t>(cylinder)];
+  }
+
+  template <class Visit, class Self, class... Others>
+  static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    CRANKLOOP_FIELD(1, layout, cylinders);
+    CRANKLOOP_FIELD(self.cylinders, layout, firing_deg);
+    CRANKLOOP_FIELD(self.cylinders, layout, bank_deg);
+    CRANKLOOP_FIELD(self.cylinders, layout, position_m);
+    CRANKLOOP_FIELD(self.cylinders, layout, pin);
   }
 };
 

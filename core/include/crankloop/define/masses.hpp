@@ -5,6 +5,7 @@
 #pragma once
 
 #include <crankloop/define/crank.hpp>
+#include <crankloop/define/field.hpp>
 #include <crankloop/status.hpp>
 
 namespace crankloop {
@@ -33,6 +34,16 @@ struct Masses {
   double crank_inertia_kg_m2 = 0;           ///< whole crankshaft with flywheel, without rods
 
   [[nodiscard]] constexpr double reciprocating_kg() const noexcept { return piston_kg + rod_small_end_kg; }  ///< m_j
+
+  template <class Visit, class Self, class... Others>
+  static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    CRANKLOOP_FIELD(1, masses, piston_kg);
+    CRANKLOOP_FIELD(1, masses, rod_small_end_kg);
+    CRANKLOOP_FIELD(1, masses, rod_big_end_kg);
+    CRANKLOOP_FIELD(1, masses, rod_inertia_correction_kg_m2);
+    CRANKLOOP_FIELD(1, masses, crank_pin_equivalent_kg);
+    CRANKLOOP_FIELD(1, masses, crank_inertia_kg_m2);
+  }
 };
 
 /// Lumps a rigid rod on its ends: same mass, centre of mass and, by the correction dI, the same kinetic energy.

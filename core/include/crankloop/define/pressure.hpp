@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include <crankloop/define/crank.hpp>
+#include <crankloop/define/field.hpp>
 #include <crankloop/limits.hpp>
 #include <crankloop/status.hpp>
 
@@ -48,6 +49,22 @@ struct WiebeDiagram {
   [[nodiscard]] constexpr double motored_exponent() const noexcept {
     return motored_expansion_exponent > 0 ? motored_expansion_exponent : compression_exponent + kMotoredLoss;
   }
+
+  template <class Visit, class Self, class... Others>
+  static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    CRANKLOOP_FIELD(1, pressure.wiebe, intake_Pa);
+    CRANKLOOP_FIELD(1, pressure.wiebe, exhaust_Pa);
+    CRANKLOOP_FIELD(1, pressure.wiebe, start_of_combustion_deg);
+    CRANKLOOP_FIELD(1, pressure.wiebe, combustion_duration_deg);
+    CRANKLOOP_FIELD(1, pressure.wiebe, wiebe_m);
+    CRANKLOOP_FIELD(1, pressure.wiebe, compression_exponent);
+    CRANKLOOP_FIELD(1, pressure.wiebe, expansion_exponent);
+    CRANKLOOP_FIELD(1, pressure.wiebe, motored_expansion_exponent);
+    CRANKLOOP_FIELD(1, pressure.wiebe, exhaust_valve_opens_deg);
+    CRANKLOOP_FIELD(self.heat_given ? 0 : 1, pressure.wiebe, net_mep_Pa);
+    CRANKLOOP_FIELD(self.heat_given ? 1 : 0, pressure.wiebe, heat_J);
+    CRANKLOOP_FIELD(1, pressure.wiebe, heat_given);
+  }
 };
 
 /// Pressure at load ratio q, at most kMostPressure_Pa at q = 1, is p_motored(a) + q (p_full(a) - p_motored(a)).
@@ -59,6 +76,16 @@ struct Pressure {
   WiebeDiagram wiebe{};
   const DiagramPoint* points = nullptr;  ///< rows of a table source, which alone reads them; the caller keeps them alive while tabulating
   int point_count = 0;
+
+  template <class Visit, class Self, class... Others>
+  static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    const bool synthesised = self.source == PressureSource::wiebe;
+    CRANKLOOP_FIELD(1, pressure, source);
+    CRANKLOOP_FIELD(1, pressure, crankcase_Pa);
+    CRANKLOOP_PART(synthesised ? 1 : 0, wiebe);
+    CRANKLOOP_FIELD(synthesised ? 0 : 1, pressure, point_count);
+    CRANKLOOP_FIELD(synthesised ? 0 : self.point_count, pressure, points);
+  }
 };
 
 /// Field names "pressure.*". Row errors carry the row in `index`.

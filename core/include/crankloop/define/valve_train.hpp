@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include <crankloop/define/field.hpp>
 #include <crankloop/limits.hpp>
 #include <crankloop/status.hpp>
 
@@ -36,6 +37,21 @@ struct Cam {
   // place in the cycle
   double full_lift_deg = 0;          ///< engine crank angle of full theoretical lift in the cylinder's own cycle, 0 to below 720
   double phase_rate_deg_s = 0;       ///< how fast a cam phaser may move, crank degrees per second; 0 = fixed cam; 0 to 1e5
+
+  template <class Visit, class Self, class... Others>
+  static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    const bool polynomial = self.source == CamSource::polynomial;
+    CRANKLOOP_FIELD(1, cam, source);
+    CRANKLOOP_FIELD(1, cam, full_lift_deg);
+    CRANKLOOP_FIELD(1, cam, phase_rate_deg_s);
+    CRANKLOOP_FIELD(polynomial ? 1 : 0, cam, max_lift_m);
+    CRANKLOOP_FIELD(polynomial ? 1 : 0, cam, half_angle_deg);
+    CRANKLOOP_FIELD(polynomial ? 1 : 0, cam, exponent_count);
+    CRANKLOOP_FIELD(polynomial ? self.exponent_count : 0, cam, exponents);
+    CRANKLOOP_FIELD(polynomial ? 0 : 1, cam, smoothing_m);
+    CRANKLOOP_FIELD(polynomial ? 0 : 1, cam, point_count);
+    CRANKLOOP_FIELD(polynomial ? 0 : self.point_count, cam, points);
+  }
 };
 
 enum class RockerKind : std::uint8_t {
@@ -57,6 +73,21 @@ struct Rocker {
   double screw_ball_m = 0;            ///< rho, radius; 0 to 1
   double stem_above_pivot_m = 0;      ///< z; -1 to 1
   CamTurns cam_turns = CamTurns::toward_pivot;
+
+  template <class Visit, class Self, class... Others>
+  static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    CRANKLOOP_FIELD(1, rocker, kind);
+    CRANKLOOP_FIELD(1, rocker, cam_turns);
+    CRANKLOOP_FIELD(1, rocker, base_circle_m);
+    CRANKLOOP_FIELD(1, rocker, clearance_m);
+    CRANKLOOP_FIELD(1, rocker, ratio);
+    CRANKLOOP_FIELD(1, rocker, pivot_to_pad_m);
+    CRANKLOOP_FIELD(1, rocker, pivot_to_cam_m);
+    CRANKLOOP_FIELD(1, rocker, pad_radius_m);
+    CRANKLOOP_FIELD(1, rocker, pivot_to_screw_m);
+    CRANKLOOP_FIELD(1, rocker, screw_ball_m);
+    CRANKLOOP_FIELD(1, rocker, stem_above_pivot_m);
+  }
 };
 
 /// The moving parts of one valve as a single mass.
@@ -73,12 +104,35 @@ struct Valve {
   double seat_N_m = 0;                ///< k_z; > 0, at most 1e12
   double seat_damping_ratio = 0;      ///< b_z = 2 zeta sqrt(k_z M); 0 to 10
   double head_area_m2 = 0;            ///< cylinder pressure on it closes the valve; 0 = none; 0 to 1
+
+  template <class Visit, class Self, class... Others>
+  static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    CRANKLOOP_FIELD(0, valve, per_cylinder);
+    CRANKLOOP_FIELD(1, valve, valve_kg);
+    CRANKLOOP_FIELD(1, valve, spring_kg);
+    CRANKLOOP_FIELD(1, valve, rocker_inertia_kg_m2);
+    CRANKLOOP_FIELD(1, valve, spring_N_m);
+    CRANKLOOP_FIELD(1, valve, spring_preload_N);
+    CRANKLOOP_FIELD(1, valve, train_N_m);
+    CRANKLOOP_FIELD(1, valve, train_damping_ratio);
+    CRANKLOOP_FIELD(1, valve, guide_damping_ratio);
+    CRANKLOOP_FIELD(1, valve, seat_N_m);
+    CRANKLOOP_FIELD(1, valve, seat_damping_ratio);
+    CRANKLOOP_FIELD(1, valve, head_area_m2);
+  }
 };
 
 struct ValveTrain {
   Cam cam;
   Rocker rocker;
   Valve valve;
+
+  template <class Visit, class Self, class... Others>
+  static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    CRANKLOOP_PART(1, cam);
+    CRANKLOOP_PART(1, rocker);
+    CRANKLOOP_PART(1, valve);
+  }
 };
 
 /// Field names "cam.*", "rocker.*", "valve.*", as in the engine file without unit (valve.spring_rate is its

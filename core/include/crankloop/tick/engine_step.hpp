@@ -13,45 +13,13 @@
 
 namespace crankloop {
 
-namespace detail {
-
-/// True when every section the scene reads is there.
-template <class Real, class S>
-[[nodiscard]] constexpr bool complete(const Tables<Real, S>& t) noexcept {
-  using N = Needs<S>;
-  bool all = t.drive != nullptr;
-  if constexpr (N::body) all = all && t.body != nullptr;
-  if constexpr (N::stroke) all = all && t.stroke != nullptr;
-  if constexpr (N::motion) all = all && t.motion != nullptr;
-  if constexpr (N::lean) all = all && t.lean != nullptr;
-  if constexpr (N::rod) all = all && t.rod != nullptr;
-  if constexpr (N::rod_curvature) all = all && t.rod_curvature != nullptr;
-  if constexpr (N::inertia_torque) all = all && t.inertia_torque != nullptr;
-  if constexpr (N::gas_pressure) all = all && t.gas_grid != nullptr;
-  if constexpr (N::gas_torque) all = all && t.torque_grid != nullptr;
-  if constexpr (N::gas_pressure && !N::load) all = all && t.pressure_full != nullptr;
-  if constexpr (N::gas_pressure && N::load) all = all && t.pressure_motored != nullptr && t.pressure_heat != nullptr;
-  if constexpr (N::gas_torque && !N::load) all = all && t.gas_torque_full != nullptr;
-  if constexpr (N::gas_torque && N::load) all = all && t.gas_torque_motored != nullptr && t.gas_torque_heat != nullptr;
-  if constexpr (N::cut_torque) all = all && t.cut_grid != nullptr && t.cut_torque != nullptr;
-  if constexpr (N::crank_dynamics) all = all && t.crank_dynamics != nullptr;
-  if constexpr (S::bearing_loads) all = all && t.bearings != nullptr;
-  if constexpr (S::free_forces) all = all && t.balance != nullptr;
-  if constexpr (N::any_valves) all = all && t.lift_curves != nullptr;
-  if constexpr (N::elastic_valves) all = all && t.valve_motions != nullptr;
-  if constexpr (N::any_triggers) all = all && t.triggers != nullptr;
-  return all;
-}
-
-}  // namespace detail
-
 template <class Real, class S>
 [[gnu::cold]] Status Engine<Real, S>::init(const Tables& tables, Phase start) noexcept {
   tables_ = nullptr;
   state_ = State{};
   output_ = Output{};
   if (build_contracts<Real>()) return {Reason::contracting_build, -1, "build"};
-  if (!detail::complete<Real, S>(tables)) return {Reason::missing_table, -1, "tables"};
+  if (!complete(tables)) return {Reason::missing_table, -1, "tables"};
   const Drive<Real>& drive = *tables.drive;
   const std::uint32_t capacity = S::cylinders.capacity;
   if (drive.cylinders < 1 || drive.cylinders > capacity || (S::cylinders.exact && drive.cylinders != capacity)) {

@@ -18,6 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 
 #include <crankloop/status.hpp>
 #include <crankloop/tick/checked.hpp>

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 
 #include <crankloop/tick/faults.hpp>
 #include <crankloop/tick/io.hpp>

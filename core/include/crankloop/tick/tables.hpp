@@ -1,10 +1,10 @@
 // What the tick reads: plain data, made by tabulate in RAM or printed by the program as constexpr arrays for flash.
 //
-// What belongs here: the sections and the view of them that a scene takes. What does not: how they are filled (tabulate/).
-// One object per section, so that what a scene does not reference is not linked.
+// What belongs here: the records, the list of sections made of them, and the view of them that a scene takes. What does not: how they are
+// filled (tabulate/). One object per section, so that what a scene does not reference is not linked.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include <crankloop/limits.hpp>
@@ -127,108 +127,158 @@ struct CrankDynamics {
 inline constexpr double kLeastInertia_kg_m2 = 1e-9;
 inline constexpr double kLeastInertia_ratio = 1e-3;
 
-/// All sections by address; null where there is none. constexpr in flash, so only what a Tables takes from it is linked.
-template <class Real>
-struct Sections {
-  const Drive<Real>* drive = nullptr;
-  const Body<Real>* body = nullptr;
-  const IntegratedCurve<Real>* stroke = nullptr;         ///< slope dx/da in m/rad, integral x in m: for torque and work of given pressures
-  const Revolution<MotionSegment<Real>>* motion = nullptr;
-  const Revolution<LeanSegment<Real>>* lean = nullptr;
-  const Revolution<RodSegment<Real>>* rod = nullptr;
-  const Curve<Real>* rod_curvature = nullptr;            ///< d2b/da2
-  const IntegratedCurve<Real>* inertia_torque = nullptr; ///< torque of masses per w^2 in kg m^2, all cylinders, over the engine's angle
-  const GasGrid* gas_grid = nullptr;                     ///< of the pressures: a cylinder's own cycle
-  const GasGrid* torque_grid = nullptr;                  ///< of the gas torques: the engine's cycle
-  // At load ratio q: motored + q heat. A scene without load ratio takes their sum, `full`.
-  const Segment<Real>* pressure_full = nullptr;          ///< Pa, on gas_grid
-  const Segment<Real>* pressure_motored = nullptr;
-  const Segment<Real>* pressure_heat = nullptr;
-  const GasTorque<Real>* gas_torque_full = nullptr;      ///< on torque_grid
-  const GasTorque<Real>* gas_torque_motored = nullptr;
-  const GasTorque<Real>* gas_torque_heat = nullptr;
-  const GasGrid* cut_grid = nullptr;                     ///< of the torque that a cut lacks: a cylinder's own cycle
-  const GasTorque<Real>* cut_torque = nullptr;           ///< of the heat in one cylinder, on cut_grid
-  const CrankDynamics<Real>* crank_dynamics = nullptr;
-  const Bearings<Real>* bearings = nullptr;
-  const Balance<Real>* balance = nullptr;
-  const LiftCurve<Real>* lift_curves = nullptr;      ///< per train
-  const ValveMotion<Real>* valve_motions = nullptr;  ///< per train
-  const TriggerWheels* triggers = nullptr;
-};
+/// How many records a section has.
+enum class Rows : std::uint8_t { one, gas_grid, torque_grid, cut_grid, trains, lobes, wheels, edges };
+
+// The list of sections: all that knows of every section is made from it. To add one, add its line here, fill it in tabulate and, where its
+// record is new, say in tabulate/table_members.hpp how many members that has.
+//
+// A line: name, record, how many of them, in which scenes S (N = Needs<S>). SECTION is read by the tick through Tables; what is BEHIND the
+// section after it is reached through pointers in that one's records. A macro, because nothing else in C++17 names a member in one place.
+#define CRANKLOOP_SECTIONS(SECTION, BEHIND)                                                                       \
+  SECTION(body, Body<Real>, one, N::body)                                                                         \
+  /* slope dx/da in m/rad, integral x in m: for torque and work of given pressures */                             \
+  SECTION(stroke, IntegratedCurve<Real>, one, N::stroke)                                                          \
+  SECTION(motion, Revolution<MotionSegment<Real>>, one, N::motion)                                                \
+  SECTION(lean, Revolution<LeanSegment<Real>>, one, N::lean)                                                      \
+  SECTION(rod, Revolution<RodSegment<Real>>, one, N::rod)                                                         \
+  SECTION(rod_curvature, Curve<Real>, one, N::rod_curvature) /* d2b/da2 */                                        \
+  /* torque of masses per w^2 in kg m^2, all cylinders, over the engine's angle */                                \
+  SECTION(inertia_torque, IntegratedCurve<Real>, one, N::inertia_torque)                                          \
+  SECTION(gas_grid, GasGrid, one, N::gas_pressure)  /* of the pressures: a cylinder's own cycle */                \
+  SECTION(torque_grid, GasGrid, one, N::gas_torque) /* of the gas torques: the engine's cycle */                  \
+  /* Pa. At load ratio q: motored + q heat. A scene without load ratio takes their sum, `full`. */                \
+  SECTION(pressure_full, Segment<Real>, gas_grid, N::gas_pressure && !N::load)                                    \
+  SECTION(pressure_motored, Segment<Real>, gas_grid, N::gas_pressure && N::load)                                  \
+  SECTION(pressure_heat, Segment<Real>, gas_grid, N::gas_pressure && N::load)                                     \
+  BEHIND(gas_full, IntegratedSegment<Real>, torque_grid, N::gas_torque && !N::load)                               \
+  SECTION(gas_torque_full, GasTorque<Real>, one, N::gas_torque && !N::load)                                       \
+  BEHIND(gas_motored, IntegratedSegment<Real>, torque_grid, N::gas_torque && N::load)                             \
+  SECTION(gas_torque_motored, GasTorque<Real>, one, N::gas_torque && N::load)                                     \
+  BEHIND(gas_heat, IntegratedSegment<Real>, torque_grid, N::gas_torque && N::load)                                \
+  SECTION(gas_torque_heat, GasTorque<Real>, one, N::gas_torque && N::load)                                        \
+  /* what a cylinder that is cut lacks: the torque of the heat in one, over its own cycle */                      \
+  SECTION(cut_grid, GasGrid, one, N::cut_torque)                                                                  \
+  BEHIND(cut_heat, IntegratedSegment<Real>, cut_grid, N::cut_torque)                                              \
+  SECTION(cut_torque, GasTorque<Real>, one, N::cut_torque)                                                        \
+  SECTION(crank_dynamics, CrankDynamics<Real>, one, N::crank_dynamics)                                            \
+  SECTION(bearings, Bearings<Real>, one, S::bearing_loads)                                                        \
+  SECTION(balance, Balance<Real>, one, S::free_forces)                                                            \
+  BEHIND(lift_segments, LiftSegment<Real>, lobes, N::any_valves)                                                  \
+  BEHIND(rocker_ratios, Segment<Real>, lobes, N::any_valves)                                                      \
+  SECTION(lift_curves, LiftCurve<Real>, trains, N::any_valves)                                                    \
+  SECTION(valve_motions, ValveMotion<Real>, trains, N::elastic_valves)                                            \
+  BEHIND(trigger_edges, std::uint32_t, edges, N::any_triggers)                                                    \
+  BEHIND(trigger_tracks, TriggerTrack, wheels, N::any_triggers)                                                   \
+  SECTION(triggers, TriggerWheels, one, N::any_triggers)                                                          \
+  SECTION(drive, Drive<Real>, one, true)
+
+/// What the list says of each section, as a type of its name.
+namespace section {
+#define CRANKLOOP_SECTION(name, Type, rows, condition, read)                                         \
+  struct name {                                                                                      \
+    static constexpr const char* kName = #name;                                                      \
+    static constexpr Rows kRows = Rows::rows;                                                        \
+    static constexpr bool kRead = read; /* by the tick, through Tables */                            \
+    template <class Real>                                                                            \
+    using Record = Type;                                                                             \
+    template <class S>                                                                               \
+    static constexpr bool needed() noexcept {                                                        \
+      using N [[maybe_unused]] = Needs<S>;                                                           \
+      return condition;                                                                              \
+    }                                                                                                \
+    template <class Thing>                                                                           \
+    struct Address { /* a base with the section's address */                                         \
+      Thing* name = nullptr;                                                                         \
+    };                                                                                               \
+    template <class Thing>                                                                           \
+    struct Store { /* a base with the section itself */                                              \
+      Thing name;                                                                                    \
+    };                                                                                               \
+    template <class Holder>                                                                          \
+    [[nodiscard]] static constexpr auto& in(Holder& holder) noexcept { /* the member of that name */ \
+      return holder.name;                                                                            \
+    }                                                                                                \
+  };
+#define CRANKLOOP_SECTION_READ(name, Type, rows, condition) CRANKLOOP_SECTION(name, Type, rows, condition, true)
+#define CRANKLOOP_SECTION_BEHIND(name, Type, rows, condition) CRANKLOOP_SECTION(name, Type, rows, condition, false)
+CRANKLOOP_SECTIONS(CRANKLOOP_SECTION_READ, CRANKLOOP_SECTION_BEHIND)
+}  // namespace section
 
 namespace part {
-// One holder per section: a base of Tables when the scene needs it.
-template <class Real> struct BodyRef { const Body<Real>* body = nullptr; };
-template <class Real> struct StrokeRef { const IntegratedCurve<Real>* stroke = nullptr; };
-template <class Real> struct MotionRef { const Revolution<MotionSegment<Real>>* motion = nullptr; };
-template <class Real> struct LeanRef { const Revolution<LeanSegment<Real>>* lean = nullptr; };
-template <class Real> struct RodRef { const Revolution<RodSegment<Real>>* rod = nullptr; };
-template <class Real> struct RodCurvatureRef { const Curve<Real>* rod_curvature = nullptr; };
-template <class Real> struct InertiaTorqueRef { const IntegratedCurve<Real>* inertia_torque = nullptr; };
-struct GasGridRef { const GasGrid* gas_grid = nullptr; };
-struct TorqueGridRef { const GasGrid* torque_grid = nullptr; };
-template <class Real> struct PressureRef { const Segment<Real>* pressure_full = nullptr; };
-template <class Real> struct PressureByLoadRef { const Segment<Real>* pressure_motored = nullptr; const Segment<Real>* pressure_heat = nullptr; };
-template <class Real> struct GasTorqueRef { const GasTorque<Real>* gas_torque_full = nullptr; };
-template <class Real> struct GasTorqueByLoadRef { const GasTorque<Real>* gas_torque_motored = nullptr; const GasTorque<Real>* gas_torque_heat = nullptr; };
-template <class Real> struct CutTorqueRef { const GasGrid* cut_grid = nullptr; const GasTorque<Real>* cut_torque = nullptr; };
-template <class Real> struct CrankDynamicsRef { const CrankDynamics<Real>* crank_dynamics = nullptr; };
-template <class Real> struct BearingsRef { const Bearings<Real>* bearings = nullptr; };
-template <class Real> struct BalanceRef { const Balance<Real>* balance = nullptr; };
-template <class Real> struct LiftRef { const LiftCurve<Real>* lift_curves = nullptr; };
-template <class Real> struct ValveMotionRef { const ValveMotion<Real>* valve_motions = nullptr; };
-struct TriggersRef { const TriggerWheels* triggers = nullptr; };
+template <class...>
+struct List {};
+#define CRANKLOOP_SECTION_NAME(name, ...) , section::name
+using AllSections = List<void CRANKLOOP_SECTIONS(CRANKLOOP_SECTION_NAME, CRANKLOOP_SECTION_NAME)>;
+
+template <class S, class Section>
+inline constexpr bool kReadBy = Section::kRead && Section::template needed<S>();
+
+/// False where a scene reads the section and it is not there.
+template <class S, class Section, class Tables>
+[[nodiscard]] constexpr bool there(const Tables& tables) noexcept {
+  if constexpr (kReadBy<S, Section>) {
+    return Section::in(tables) != nullptr;
+  } else {
+    return true;
+  }
+}
+template <class S, class Tables, class... Each>
+[[nodiscard]] constexpr bool all_there(const Tables& tables, List<void, Each...>) noexcept {
+  return (there<S, Each>(tables) && ...);
+}
+
+template <class Visit, class... Each>
+constexpr void visit_each(Visit& visit, List<void, Each...>) {
+  (visit(Each{}), ...);
+}
+
+// Holders of addresses, one base per section: of all that is read, of all, of what a scene reads.
+template <class Real, class All>
+struct Read;
+template <class Real, class... Each>
+struct Read<Real, List<void, Each...>> : If<Each::kRead, typename Each::template Address<const typename Each::template Record<Real>>>... {};
+template <class Real, class All>
+struct Targets;
+template <class Real, class... Each>
+struct Targets<Real, List<void, Each...>> : Each::template Address<typename Each::template Record<Real>>... {};
+template <class Real, class S, class All>
+struct Needed;
+template <class Real, class S, class... Each>
+struct Needed<Real, S, List<void, Each...>>
+    : If<kReadBy<S, Each>, typename Each::template Address<const typename Each::template Record<Real>>>... {};
 }  // namespace part
+
+/// Calls visit(section::NAME{}) for each section of the list, in its order.
+template <class Visit>
+constexpr void sections(Visit&& visit) {
+  part::visit_each(visit, part::AllSections{});
+}
+/// All sections that a tick may read, by address; null where there is none. constexpr in flash, so only what a Tables takes from it is linked.
+template <class Real>
+struct Sections : part::Read<Real, part::AllSections> {};
 
 /// The sections a scene reads, and no others.
 template <class Real, class S>
-struct Tables : If<Needs<S>::body, part::BodyRef<Real>>,
-                If<Needs<S>::stroke, part::StrokeRef<Real>>,
-                If<Needs<S>::motion, part::MotionRef<Real>>,
-                If<Needs<S>::lean, part::LeanRef<Real>>,
-                If<Needs<S>::rod, part::RodRef<Real>>,
-                If<Needs<S>::rod_curvature, part::RodCurvatureRef<Real>>,
-                If<Needs<S>::inertia_torque, part::InertiaTorqueRef<Real>>,
-                If<Needs<S>::gas_pressure, part::GasGridRef>,
-                If<Needs<S>::gas_torque, part::TorqueGridRef>,
-                If<Needs<S>::gas_pressure && !Needs<S>::load, part::PressureRef<Real>>,
-                If<Needs<S>::gas_pressure && Needs<S>::load, part::PressureByLoadRef<Real>>,
-                If<Needs<S>::gas_torque && !Needs<S>::load, part::GasTorqueRef<Real>>,
-                If<Needs<S>::gas_torque && Needs<S>::load, part::GasTorqueByLoadRef<Real>>,
-                If<Needs<S>::cut_torque, part::CutTorqueRef<Real>>,
-                If<Needs<S>::crank_dynamics, part::CrankDynamicsRef<Real>>,
-                If<S::bearing_loads, part::BearingsRef<Real>>,
-                If<S::free_forces, part::BalanceRef<Real>>,
-                If<Needs<S>::any_valves, part::LiftRef<Real>>,
-                If<Needs<S>::elastic_valves, part::ValveMotionRef<Real>>,
-                If<Needs<S>::any_triggers, part::TriggersRef> {
-  const Drive<Real>* drive = nullptr;
-
+struct Tables : part::Needed<Real, S, part::AllSections> {
   constexpr Tables() = default;
-  constexpr explicit Tables(const Sections<Real>& s) noexcept : drive{s.drive} {
-    using N = Needs<S>;
-    if constexpr (N::body) this->body = s.body;
-    if constexpr (N::stroke) this->stroke = s.stroke;
-    if constexpr (N::motion) this->motion = s.motion;
-    if constexpr (N::lean) this->lean = s.lean;
-    if constexpr (N::rod) this->rod = s.rod;
-    if constexpr (N::rod_curvature) this->rod_curvature = s.rod_curvature;
-    if constexpr (N::inertia_torque) this->inertia_torque = s.inertia_torque;
-    if constexpr (N::gas_pressure) this->gas_grid = s.gas_grid;
-    if constexpr (N::gas_torque) this->torque_grid = s.torque_grid;
-    if constexpr (N::gas_pressure && !N::load) this->pressure_full = s.pressure_full;
-    if constexpr (N::gas_pressure && N::load) this->pressure_motored = s.pressure_motored, this->pressure_heat = s.pressure_heat;
-    if constexpr (N::gas_torque && !N::load) this->gas_torque_full = s.gas_torque_full;
-    if constexpr (N::gas_torque && N::load) this->gas_torque_motored = s.gas_torque_motored, this->gas_torque_heat = s.gas_torque_heat;
-    if constexpr (N::cut_torque) this->cut_grid = s.cut_grid, this->cut_torque = s.cut_torque;
-    if constexpr (N::crank_dynamics) this->crank_dynamics = s.crank_dynamics;
-    if constexpr (S::bearing_loads) this->bearings = s.bearings;
-    if constexpr (S::free_forces) this->balance = s.balance;
-    if constexpr (N::any_valves) this->lift_curves = s.lift_curves;
-    if constexpr (N::elastic_valves) this->valve_motions = s.valve_motions;
-    if constexpr (N::any_triggers) this->triggers = s.triggers;
+  constexpr explicit Tables(const Sections<Real>& from) noexcept {
+    sections([&](auto section) {
+      if constexpr (part::kReadBy<S, decltype(section)>) section.in(*this) = section.in(from);
+    });
   }
 };
+
+/// True when every section the scene reads is there.
+template <class Real, class S>
+[[nodiscard]] constexpr bool complete(const Tables<Real, S>& tables) noexcept {
+  return part::all_there<S>(tables, part::AllSections{});
+}
+
+#undef CRANKLOOP_SECTIONS
+#undef CRANKLOOP_SECTION
+#undef CRANKLOOP_SECTION_READ
+#undef CRANKLOOP_SECTION_BEHIND
+#undef CRANKLOOP_SECTION_NAME
 
 }  // namespace crankloop

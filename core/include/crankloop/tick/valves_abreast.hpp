@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 
 #include <crankloop/tick/cam_ticks.hpp>
 #include <crankloop/tick/io.hpp>

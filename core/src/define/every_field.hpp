@@ -1,0 +1,45 @@
+// Whether the list beside a struct of the definition has all of its fields.
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+namespace crankloop::detail {
+
+/// Initialises any field; a C array takes one per entry.
+struct Anything {
+  template <class Field>
+  constexpr operator Field() const noexcept;
+};
+
+template <class Struct, class Values, class = void>
+inline constexpr bool kTakes = false;
+template <class Struct, std::size_t... I>
+inline constexpr bool kTakes<Struct, std::index_sequence<I...>, std::void_t<decltype(Struct{(void(I), Anything{})...})>> = true;
+
+/// As many values as an aggregate takes: its fields, all entries of its C arrays.
+template <class Struct, std::size_t N = 0>
+[[nodiscard]] constexpr std::size_t values_taken() noexcept {
+  if constexpr (kTakes<Struct, std::make_index_sequence<N + 1>>) {
+    return values_taken<Struct, N + 1>();
+  } else {
+    return N;
+  }
+}
+
+template <class Struct>
+[[nodiscard]] constexpr std::size_t values_listed() noexcept {
+  std::size_t count = 0;
+  const Struct example{};
+  Struct::each_field([&count](int, const char*, const auto& field) {
+    using Field = std::remove_reference_t<decltype(field)>;
+    count += std::is_array_v<Field> ? std::extent_v<Field> : 1;
+  }, example);
+  return count;
+}
+
+template <class Struct>
+inline constexpr bool kListsEveryField = values_listed<Struct>() == values_taken<Struct>();
+
+}  // namespace crankloop::detail

@@ -1,0 +1,60 @@
+#!/bin/sh
+# forgotten_member_is_refused.sh COMPILER CORE_DIR
+# Each record of the tables with one more member does not compile where all members are gone through (tabulate/table_members.hpp), so none
+# can be left out of what is printed for flash. Nor does a definition with one more field than its each_field() lists compile where the
+# tables' fingerprint is made. As they are all of them do compile.
+set -eu
+compiler=$1 core=$2
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cp -R "$core/include/crankloop" "$folder"
+cat >"$folder/all.cpp" <<'END'
+#include <crankloop/tabulate/table_members.hpp>
+#include <crankloop/tabulate/tabulate.hpp>
+using namespace crankloop;
+template <class T>
+void go_through(const T& x) {
+  if constexpr (std::is_array_v<T>) {
+    go_through(x[0]);
+  } else if constexpr (std::is_class_v<T>) {
+    std::apply([](const auto&... member) { (go_through(member), ...); }, members(x));
+  }
+}
+template <class Real>
+void all(const TableTargets<Real>& tables) {
+  sections([&](auto section) { go_through(*section.in(tables)); });
+}
+template void all(const TableTargets<float>&);
+END
+# compiles FILE
+compiles() { "$compiler" -std=c++17 -fsyntax-only -I "$folder" "$1" 2>&1; }
+
+bad=0 structs=0
+# each_refused FILE MESSAGE HEADERS STRUCT...: FILE compiles; with one more member of any of the structs it does not, and the compiler says MESSAGE.
+each_refused() {
+  file=$1 message=$2 headers=$3
+  shift 3
+  said=$(compiles "$file") || { bad=$((bad + 1)) && printf 'as it is %s does not compile:\n%s\n' "$file" "$said"; }
+  for struct in "$@"; do
+    structs=$((structs + 1))
+    header=$(grep -lE "^struct $struct \{" "$folder/crankloop/$headers"/*.hpp)
+    cp "$header" "$folder/as_it_is"
+    sed -i "s/^struct $struct {/&\n  unsigned added;/" "$header"
+    if said=$(compiles "$file"); then
+      bad=$((bad + 1)) && echo "compiles with one more member: $struct"
+    elif ! printf '%s' "$said" | grep -Eq "$message"; then
+      bad=$((bad + 1)) && printf '%s is refused, but not for its members: %s\n' "$struct" "$said"
+    fi
+    cp "$folder/as_it_is" "$header"
+  done
+}
+
+records=$(sed -n 's/^CRANKLOOP_MEMBERS[A-Z_]*(\([A-Z][A-Za-z]*\),.*/\1/p' "$folder/crankloop/tabulate/table_members.hpp")
+listing=$(cat "$folder"/crankloop/define/*.hpp | awk '/^struct / { name = $2 } /void each_field\(/ { print name }')
+# shellcheck disable=SC2086  # lists of words
+{
+  each_refused "$folder/all.cpp" 'structured binding|decomposes' tick $records
+  each_refused "$core/src/tabulate/fingerprint.cpp" 'each_field|all but the trigger wheels|structured binding|decomposes' define $listing
+}
+echo "$structs structs, $bad bad"
+[ "$structs" -gt 35 ] && [ "$bad" -eq 0 ]
