@@ -1,7 +1,7 @@
 // What a cycle of the reference's motion was, and the textbook method to compare with.
 //
 // What belongs here: the record of a cycle by the rules of docs/model.md, one textbook step. What does not: the reference itself
-// (tools/crankloop/reference/valve_reference.hpp, which the benchmark measures against too), the valves it is run on.
+// (tools/lab/reference/valve_reference.hpp, which the benchmark measures against too), the valves it is run on.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <functional>
 #include <vector>
 
-#include "crankloop/reference/valve_reference.hpp"
+#include "lab/reference/valve_reference.hpp"
 
 namespace crankloop::valve_test {
 

@@ -8,10 +8,10 @@
 #include <crankloop/tabulate/valve_lift.hpp>
 
 #include "crankloop/commands.hpp"
-#include "crankloop/stress/stability_map.hpp"
-#include "crankloop/stress/stress_case.hpp"
-#include "crankloop/stress/stress_tally.hpp"
-#include "crankloop/stress/stress_trial.hpp"
+#include "lab/stress/stability_map.hpp"
+#include "lab/stress/stress_case.hpp"
+#include "lab/stress/stress_tally.hpp"
+#include "lab/stress/stress_trial.hpp"
 
 namespace crankloop::program {
 namespace {

@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "bench/bench_report.hpp"
-#include "bench/groups.hpp"
-#include "bench/kernels.hpp"
-#include "bench/machine.hpp"
+#include "lab/bench/bench_report.hpp"
+#include "lab/bench/groups.hpp"
+#include "lab/bench/kernels.hpp"
+#include "machine.hpp"
 #include "commands.hpp"
 #include "error.hpp"
 #include "output.hpp"
@@ -39,7 +39,7 @@ class Files {
       : json_{opened(arguments, "--json")}, csv_{opened(arguments, "--csv")}, report_{opened(arguments, "--report")}, plot_{opened(arguments, "--plot")} {}
 
   void write(const std::vector<Row>& rows, const std::string& command_line) {
-    const std::string machine = bench::describe_machine();
+    const std::string machine = describe_machine();
     if (json_) json_->write(bench::to_json(rows));
     if (csv_) bench::write_csv(*csv_, rows);
     if (report_) report_->write(report::to_html(bench::bench_page(rows, machine, command_line)));
@@ -68,7 +68,7 @@ int run_bench(const Arguments& arguments) {
   Files files(arguments);
   const std::vector<Row> rows = measure(effort_of(arguments));
   files.write(rows, arguments.has("--quick") ? "crankloop bench --quick" : "crankloop bench");
-  const std::string text = "# " + bench::describe_machine() + "\n" + bench::to_text(rows);
+  const std::string text = "# " + describe_machine() + "\n" + bench::to_text(rows);
   bool output_taken = false;
   for (const char* option : {"--json", "--csv", "--report", "--plot"}) output_taken = output_taken || arguments.text_or_empty(option) == "-";
   tell(text, output_taken);

@@ -17,7 +17,7 @@
 #include "run/run_accuracy.hpp"
 #include "run/run_loop.hpp"
 #include "run/run_signals.hpp"
-#include "run/run_summary.hpp"
+#include "summary.hpp"
 #include "run/run_trace.hpp"
 #include "run/run_valves.hpp"
 #include "valve/valve_tick_limit.hpp"

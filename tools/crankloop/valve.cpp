@@ -8,7 +8,7 @@
 #include "csv.hpp"
 #include "engine_file/engine_file.hpp"
 #include "progress.hpp"
-#include "textbook_valve.hpp"
+#include "valve/textbook_valve.hpp"
 #include "valve/valve_loop.hpp"
 #include "valve/valve_plot.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "../run/run_limits.hpp"
+#include "../run_limits.hpp"
 
 namespace crankloop::program {
 namespace {

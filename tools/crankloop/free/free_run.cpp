@@ -8,7 +8,7 @@
 #include "../number.hpp"
 #include "../output.hpp"
 #include "../progress.hpp"
-#include "../run/run_summary.hpp"
+#include "../summary.hpp"
 #include "../signals/signal_dump.hpp"
 
 namespace crankloop::program {

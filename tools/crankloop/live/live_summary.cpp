@@ -9,7 +9,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "../bench/machine.hpp"
+#include "../machine.hpp"
 #include "../csv.hpp"
 #include "../number.hpp"
 
@@ -90,7 +90,7 @@ void write_count(Output& out, const char* name, std::uint64_t value) { write_sum
 
 void write_machine(Output& out, const port::RealTimeWish& wish, const LiveFigures& f) {
   const std::string scheduler = "SCHED_FIFO " + std::to_string(wish.priority);
-  write_summary(out, "machine", bench::describe_machine());
+  write_summary(out, "machine", describe_machine());
   write_summary(out, "kernel", kernel());
   write_summary(out, "scheduler", wish.priority == 0 ? "as started" : granted(scheduler, f.priority_error));
   write_summary(out, "memory", granted("locked", f.memory_error));

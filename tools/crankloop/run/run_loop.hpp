@@ -13,7 +13,7 @@
 #include <crankloop/crankloop.hpp>
 #include <crankloop/tick/scenes.hpp>
 
-#include "run_limits.hpp"
+#include "../run_limits.hpp"
 #include "run_quantities.hpp"
 #include "run_valves.hpp"
 

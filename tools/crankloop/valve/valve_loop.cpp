@@ -8,7 +8,7 @@
 
 #include "../number.hpp"
 #include "../run/run_loop.hpp"
-#include "../textbook_valve.hpp"
+#include "textbook_valve.hpp"
 #include "valve_tick_limit.hpp"
 
 template class crankloop::Engine<float, crankloop::program::OneValve>;

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-#include "run_loop.hpp"
+#include "run/run_loop.hpp"
 
 namespace crankloop::program {
 

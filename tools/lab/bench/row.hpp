@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "../output.hpp"
+#include "crankloop/output.hpp"
 
 namespace crankloop::program::bench {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../number.hpp"
+#include "crankloop/number.hpp"
 #include "stress_comparison.hpp"
 
 namespace crankloop::program {

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "../error.hpp"
-#include "../words.hpp"
+#include "crankloop/error.hpp"
+#include "crankloop/words.hpp"
 #include "groups.hpp"
 #include "tick_engines.hpp"
 

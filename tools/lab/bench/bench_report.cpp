@@ -6,7 +6,7 @@
 #include <functional>
 #include <map>
 
-#include "../number.hpp"
+#include "crankloop/number.hpp"
 #include "groups.hpp"
 
 namespace crankloop::program::bench {

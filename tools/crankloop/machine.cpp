@@ -4,11 +4,11 @@
 
 #include <fstream>
 
-#ifndef CRANKLOOP_BENCH_FLAGS
-#define CRANKLOOP_BENCH_FLAGS "unknown flags"
+#ifndef CRANKLOOP_BUILD_FLAGS
+#define CRANKLOOP_BUILD_FLAGS "unknown flags"
 #endif
 
-namespace crankloop::program::bench {
+namespace crankloop::program {
 namespace {
 
 /// Where Linux tells it; Arm's does not.
@@ -37,7 +37,7 @@ std::string compiler() {
 }  // namespace
 
 std::string describe_machine() {
-  return architecture() + ", " + processor() + ", " + compiler() + ", " CRANKLOOP_BENCH_FLAGS;
+  return architecture() + ", " + processor() + ", " + compiler() + ", " CRANKLOOP_BUILD_FLAGS;
 }
 
-}  // namespace crankloop::program::bench
+}  // namespace crankloop::program

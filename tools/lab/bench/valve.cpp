@@ -3,7 +3,7 @@
 #include <cmath>
 #include <memory>
 
-#include "../number.hpp"
+#include "crankloop/number.hpp"
 #include "groups.hpp"
 #include "peers.hpp"
 #include "true_lift.hpp"

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "../csv.hpp"
-#include "../number.hpp"
+#include "crankloop/csv.hpp"
+#include "crankloop/number.hpp"
 
 namespace crankloop::program::bench {
 namespace {

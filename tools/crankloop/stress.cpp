@@ -4,11 +4,11 @@
 #include <optional>
 #include <string>
 
-#include "../commands.hpp"
-#include "../error.hpp"
-#include "../output.hpp"
-#include "../progress.hpp"
-#include "stress_tally.hpp"
+#include "commands.hpp"
+#include "error.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+#include "lab/stress/stress_tally.hpp"
 
 namespace crankloop::program {
 namespace {

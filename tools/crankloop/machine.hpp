@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace crankloop::program::bench {
+namespace crankloop::program {
 
 /// One line: "x86_64, AMD EPYC, GCC 12.2.0, Release -O3 -DNDEBUG".
 [[nodiscard]] std::string describe_machine();
 
-}  // namespace crankloop::program::bench
+}  // namespace crankloop::program

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "../report/page.hpp"
-#include "../report/sheet.hpp"
+#include "crankloop/report/page.hpp"
+#include "crankloop/report/sheet.hpp"
 #include "row.hpp"
 
 namespace crankloop::program::bench {

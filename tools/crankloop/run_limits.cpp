@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "../error.hpp"
-#include "../number.hpp"
+#include "error.hpp"
+#include "number.hpp"
 
 namespace crankloop::program {
 namespace {

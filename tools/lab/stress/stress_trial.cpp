@@ -9,7 +9,7 @@
 #include <crankloop/tabulate/valve_lift.hpp>
 #include <crankloop/tick/engine_step.hpp>
 
-#include "../number.hpp"
+#include "crankloop/number.hpp"
 #include "../reference/valve_reference.hpp"
 #include "stress_comparison.hpp"
 #include "stress_energy.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../number.hpp"
+#include "crankloop/number.hpp"
 #include "../reference/ohc_125.hpp"
 
 namespace crankloop::program {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "../report/page.hpp"
+#include "crankloop/report/page.hpp"
 #include "stability_map.hpp"
 #include "stress_trial.hpp"
 
