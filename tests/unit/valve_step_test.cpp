@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include "crankloop/valve/textbook_valve.hpp"
 #include "support/status.hpp"
 #include "support/test_valves.hpp"
 
@@ -74,14 +75,7 @@ ValveState<double> textbook(const ValveBody<double>& b, std::uint32_t regime, do
   };
   const double d = step_s / n;
   for (int i = 0; i < n; ++i) {
-    const double y = s.lift_m;
-    const double v = s.velocity_m_s;
-    const double begin = double(i) / n, middle = (i + 0.5) / n, end = (i + 1.0) / n;
-    const double k1 = f(begin, y, v);
-    const double k2 = f(middle, y + d / 2 * v, v + d / 2 * k1);
-    const double k3 = f(middle, y + d / 2 * v + d * d / 4 * k1, v + d / 2 * k2);
-    const double k4 = f(end, y + d * v + d * d / 2 * k2, v + d * k3);
-    s = {y + d * v + d * d / 6 * (k1 + k2 + k3), v + d / 6 * (k1 + 2 * k2 + 2 * k3 + k4)};
+    s = program::textbook_step([&](int half, double y, double v) { return f((i + 0.5 * half) / n, y, v); }, d, s);
   }
   return s;
 }

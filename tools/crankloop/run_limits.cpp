@@ -4,6 +4,7 @@
 
 #include "error.hpp"
 #include "number.hpp"
+#include "units.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -19,7 +20,7 @@ void require_ticks(double ticks, double tick_s, const std::string& remedy) {
 }
 
 void require_speed(double speed_rpm, double limit_rad_s, double tick_s) {
-  const double limit_rpm = limit_rad_s * 30 / 3.14159265358979323846;
+  const double limit_rpm = limit_rad_s * 30 / kPi;
   if (std::fabs(speed_rpm) <= limit_rpm) return;
   throw UsageError(digits(speed_rpm) + " rpm is too fast for a tick of " + digits(tick_s * 1e6) +
                    " us: at most one revolution per tick, here " + digits(std::floor(limit_rpm)) + " rpm");

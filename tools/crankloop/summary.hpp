@@ -1,46 +1,41 @@
-// The lines that a run prints: "name = value unit".
+// The lines that a command prints: "name = value unit  # remark".
 //
-// What belongs here: their look. What does not: which figures a run has (run.cpp, free_run.cpp).
+// What belongs here: their look. What does not: which figures a command has, and where they go (results.hpp).
 #pragma once
 
-#include <charconv>
-#include <cmath>
-#include <cstdint>
 #include <string>
+#include <type_traits>
 
-#include "run/run_loop.hpp"
+#include "number.hpp"
 
 namespace crankloop::program {
 
-/// Six significant digits: enough to read, and none of float's noise. CSV has all there are.
-inline std::string six_digits(double value) {
-  char buffer[40];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value == 0 ? 0 : value, std::chars_format::general, 6);
-  return std::string(buffer, end.ptr);
-}
-
-/// Lines "name = value unit", and remarks after '#'.
 class Summary {
  public:
+  enum class Digits {
+    six,  ///< enough to read, and none of float's noise
+    all,  ///< as in CSV: 12 for double, 9 for float
+  };
+  explicit Summary(Digits digits = Digits::six) : digits_{digits} {}
+
   void remark(const std::string& text) { text_ += "# " + text + "\n"; }
-  void line(const std::string& name, double value, const std::string& unit = "", const std::string& remark = "") {
-    text_ += name + " = " + six_digits(value) + (unit.empty() ? "" : " " + unit) +
-             (remark.empty() ? "" : "  # " + remark) + "\n";
+  void line(const std::string& name, const std::string& value, const std::string& unit = "", const std::string& remark = "") {
+    text_ += name + " = " + value + (unit.empty() ? "" : " " + unit) + (remark.empty() ? "" : "  # " + remark) + "\n";
   }
-  void count(const std::string& name, std::uint64_t value, const std::string& remark = "") {
-    text_ += name + " = " + std::to_string(value) + (remark.empty() ? "" : "  # " + remark) + "\n";
+  template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
+  void line(const std::string& name, Number value, const std::string& unit = "", const std::string& remark = "") {
+    if constexpr (std::is_integral_v<Number>) {
+      line(name, std::to_string(value), unit, remark);
+    } else {
+      line(name, digits_ == Digits::six ? brief(static_cast<double>(value)) : significant(value), unit, remark);
+    }
   }
-  void peak(const std::string& name, Peak peak, double per_si, const std::string& unit) {
-    line(name, peak.value * per_si, unit);
-    line(name + "_at", std::round(peak.at_deg * 1e3) / 1e3, "deg");
-  }
-  void peaks(const std::string& name, const Peaks& peaks, double per_si, const std::string& unit) {
-    peak("largest_" + name, peaks.largest, per_si, unit);
-    peak("smallest_" + name, peaks.smallest, per_si, unit);
-  }
+  void text(const std::string& more) { text_ += more; }  ///< whole lines of another form
+
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
 
  private:
+  Digits digits_;
   std::string text_;
 };
 

@@ -61,6 +61,21 @@ template <class Real>
   return (c.train_force_N() + c.seat_force_N() - held_N) * b.per_mass;
 }
 
+/// The classical four stages for y'' = f(half, y, v), where half is 0, 1 or 2 halves of the step d from its begin.
+///
+/// One of two in this repository, each an oracle of its own: this one for the tick (tests hold it against the library's step), the other for the
+/// benchmark's plain code (lab/bench/plain_valve.hpp), which must not know the library.
+template <class Real, class Acceleration>
+[[nodiscard]] ValveState<Real> textbook_step(const Acceleration& f, Real d, const ValveState<Real>& s) noexcept {
+  const Real y = s.lift_m;
+  const Real v = s.velocity_m_s;
+  const Real k1 = f(0, y, v);
+  const Real k2 = f(1, y + d / 2 * v, v + d / 2 * k1);
+  const Real k3 = f(1, y + d / 2 * v + d * d / 4 * k1, v + d / 2 * k2);
+  const Real k4 = f(2, y + d * v + d * d / 2 * k2, v + d * k3);
+  return {y + d * v + d * d / 6 * (k1 + k2 + k3), v + d / 6 * (k1 + 2 * k2 + 2 * k3 + k4)};
+}
+
 /// Advances one valve by a tick in equal steps: three to a fine step of the tick, so that fastest rate times step is at
 /// most a third.
 template <class Real>
@@ -107,19 +122,10 @@ class TextbookValve {
     return {lift.lift_m, lift.per_deg_m * deg_per_s};
   }
 
-  [[nodiscard]] ValveState<Real> stepped(ValveState<Real> s, LiftNow<Real> start, LiftNow<Real> middle,
-                                         LiftNow<Real> end, Real gas_N) const noexcept {
-    const auto f = [&](Real y, Real v, const LiftNow<Real>& lift) {
-      return textbook_acceleration(motion_.body, ValveState<Real>{y, v}, lift, gas_N);
-    };
-    const Real d = step_s_;
-    const Real y = s.lift_m;
-    const Real v = s.velocity_m_s;
-    const Real k1 = f(y, v, start);
-    const Real k2 = f(y + d / 2 * v, v + d / 2 * k1, middle);
-    const Real k3 = f(y + d / 2 * v + d * d / 4 * k1, v + d / 2 * k2, middle);
-    const Real k4 = f(y + d * v + d * d / 2 * k2, v + d * k3, end);
-    return {y + d * v + d * d / 6 * (k1 + k2 + k3), v + d / 6 * (k1 + 2 * k2 + 2 * k3 + k4)};
+  [[nodiscard]] ValveState<Real> stepped(const ValveState<Real>& s, const LiftNow<Real>& start, const LiftNow<Real>& middle, const LiftNow<Real>& end,
+                                         Real gas_N) const noexcept {
+    const LiftNow<Real>* const cam[] = {&start, &middle, &end};
+    return textbook_step([&](int half, Real y, Real v) { return textbook_acceleration(motion_.body, ValveState<Real>{y, v}, *cam[half], gas_N); }, step_s_, s);
   }
 
   const ValveMotion<Real>& motion_;

@@ -10,10 +10,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "../../crankloop/units.hpp"  // constants only
+
 namespace crankloop::program::bench {
 namespace {
-
-constexpr double kPlainPi = 3.14159265358979323846;
 
 /// As textbooks print it, in double: derivatives by the crank angle.
 class LibmPistons {
@@ -22,7 +22,7 @@ class LibmPistons {
 
   template <class Real>
   BENCH_INLINE PlainPiston<Real> at(std::uint64_t phase) const noexcept {
-    const double a = static_cast<double>(static_cast<std::int64_t>(phase << 1)) * (kPlainPi / 0x1p63);
+    const double a = static_cast<double>(static_cast<std::int64_t>(phase << 1)) * (kPi / 0x1p63);
     const double sin_a = std::sin(a);
     const double cos_a = std::cos(a);
     const double b = std::asin(lambda_ * sin_a);
@@ -90,11 +90,11 @@ class PlainEngineOf final : public PlainEngine<Real> {
         per_mass_{1 / valve_.mass_kg},
         tick_s_{static_cast<Real>(d.tick_s)},
         speed_rad_s_{static_cast<Real>(d.speed_rad_s)},
-        cam_deg_per_s_{static_cast<Real>(d.speed_rad_s / 2 * 180 / kPlainPi)},
+        cam_deg_per_s_{static_cast<Real>(d.speed_rad_s / 2 * 180 / kPi)},
         area_m2_{static_cast<Real>(d.bore_area_m2)},
         crankcase_Pa_{static_cast<Real>(d.crankcase_Pa)},
         reciprocating_kg_{static_cast<Real>(d.reciprocating_kg)},
-        increment_{static_cast<std::uint64_t>(d.speed_rad_s * d.tick_s / (4 * kPlainPi) * 0x1p64)} {
+        increment_{static_cast<std::uint64_t>(d.speed_rad_s * d.tick_s / (4 * kPi) * 0x1p64)} {
     this->phase = units(d.start_deg);
     for (const double firing_deg : d.firing_deg) firing_.push_back(units(firing_deg));
     for (const double opens_deg : d.lobe_opens_deg) opens_.push_back(units(opens_deg));

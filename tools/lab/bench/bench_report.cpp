@@ -15,6 +15,7 @@ namespace {
 using report::Axis;
 using report::Paragraph;
 using report::Plot;
+using report::plot_of;
 using report::Section;
 using report::Series;
 using report::Table;
@@ -60,10 +61,7 @@ bool is_one_method(const std::string& name) { return name != kLibm && name != kH
 /// One line per method in the order of its settings, and the front. `line_of` names the line of a row, "" leaves it out.
 Plot work_precision(const std::string& title, const Rows& rows, const Axis& time, double per_ns, const Axis& error,
                     const std::function<std::string(const Row&)>& line_of) {
-  Plot plot;
-  plot.title = title;
-  plot.x = time;
-  plot.y = error;
+  Plot plot = plot_of(title, time, error);
   std::vector<Work> all;
   for (const Row& row : rows) {
     const std::string name = line_of(row);
@@ -175,10 +173,7 @@ EngineSetting parsed(const std::string& setting) {
 }
 
 Plot cylinders_plot(const Rows& rows, const char* which, double rpm) {
-  Plot plot;
-  plot.title = (*which == '\0' ? std::string("Mean tick") : std::string("Worst tick")) + " at " + brief(rpm) + " rpm";
-  plot.x = axis("Cylinders", "", false);
-  plot.y = axis("Time", "ns", false);
+  Plot plot = plot_of((*which == '\0' ? std::string("Mean tick") : std::string("Worst tick")) + " at " + brief(rpm) + " rpm", axis("Cylinders", "", false), axis("Time", "ns", false));
   plot.y.include_zero = true;
   std::map<int, Series> by_valves;
   for (const Row& row : rows) {
@@ -218,10 +213,7 @@ Section tick_section(const Rows& rows) {
 
 Section growth_section(const Rows& rows) {
   Section section{"growth", "Longer ticks", {}};
-  Plot plot;
-  plot.title = "Time of a tick over its length, 6000 rpm";
-  plot.x = axis("Tick", "\u00B5s", true);
-  plot.y = axis("Time", "ns", true);
+  Plot plot = plot_of("Time of a tick over its length, 6000 rpm", axis("Tick", "\u00B5s", true), axis("Time", "ns", true));
   for (const char* name : {"located RK4", "located exponential", "one valve held by its train"}) {
     Series line;
     line.name = *name == 'o' ? name : std::string("8 valves, ") + name;

@@ -18,6 +18,8 @@
 #include <crankloop/define/crank.hpp>
 #include <crankloop/tabulate/tabulate.hpp>
 
+#include "crankloop/units.hpp"
+
 namespace crankloop::program::bench {
 
 /// x, v, a; of a table's knots and of the exact poses: x, dx/da, d2x/da2.
@@ -26,7 +28,7 @@ struct Motion {
   Real x, v, a;
 };
 
-inline constexpr long double kTwoPi = 6.283185307179586476925286766559L;
+inline constexpr long double kTwoPi = 2 * kWidePi;
 inline constexpr double kRadPerUnit = static_cast<double>(2 * kTwoPi / 18446744073709551616.0L);  ///< 2^64 phase units are 720 deg
 
 /// The crank angle from -pi to pi: the top bit of a phase only tells the crank's turns apart.

@@ -69,7 +69,8 @@ BENCH_INLINE Real plain_acceleration(const PlainBody<Real>& b, Real per_mass, Re
   return force_N * per_mass;
 }
 
-/// Classical four-stage Runge-Kutta; contacts are tested in each stage. k1 is f at the start, which a caller may know from the step before.
+/// Classical four-stage Runge-Kutta, the second of two in this repository (the other: crankloop/valve/textbook_valve.hpp); contacts are tested in
+/// each stage. k1 is f at the start, which a caller may know from the step before.
 template <class Real, class Acceleration>
 BENCH_INLINE PlainState<Real> textbook_step(const Acceleration& f, Real h, PlainState<Real> s, Real k1, PlainCam<Real> middle,
                                             PlainCam<Real> end) noexcept {

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "crankloop/units.hpp"
 #include "engines.hpp"
 #include "plain_valve.hpp"
 #include "race.hpp"
@@ -17,7 +18,6 @@
 
 namespace crankloop::program::bench {
 
-inline constexpr double kPi = 3.14159265358979323846;
 [[nodiscard]] inline double rad_s_of(double rpm) noexcept { return rpm * kPi / 30; }
 
 /// How a valve is run.

@@ -16,6 +16,8 @@
 #include <crankloop/define/valve_train.hpp>
 #include <crankloop/tabulate/valve_lift.hpp>
 
+#include "crankloop/units.hpp"
+
 namespace crankloop::valve_reference {
 
 /// The single-mass model's constants, from the definition by the printed formulas.
@@ -96,7 +98,7 @@ struct TurnedCam {
   TurnedCam(std::function<Pose(double)> lift, std::vector<double> edges)
       : at{std::move(lift)}, edges_deg{std::move(edges)} {}
 
-  static constexpr double kDeg = 3.14159265358979323846 / 180;
+  static constexpr double kDeg = program::kRadPerDeg;
 };
 
 /// A moment of the reference's motion.

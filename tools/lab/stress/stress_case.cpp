@@ -4,13 +4,11 @@
 #include <cmath>
 
 #include "crankloop/number.hpp"
+#include "crankloop/units.hpp"
 #include "../reference/ohc_125.hpp"
 
 namespace crankloop::program {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kRadPerDeg = kPi / 180;
 
 /// 3-4-5 polynomial from 0 to 1: speed and acceleration begin and end at 0.
 double rise(double u) { return u <= 0 ? 0 : u >= 1 ? 1 : u * u * u * (10 + u * (-15 + 6 * u)); }

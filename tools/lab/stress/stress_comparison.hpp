@@ -13,6 +13,7 @@
 #include <crankloop/tick/valve.hpp>
 
 #include "../reference/valve_reference.hpp"
+#include "crankloop/units.hpp"
 #include "stress_case.hpp"
 
 namespace crankloop::program {
@@ -44,7 +45,7 @@ class Comparison {
     const valve_reference::TurnedCam cam(lift);
     all_.assign(1 + static_cast<std::size_t>(copies), valve_reference::Reference(mass, cam));
     // At rest where the cam stands, as the engine begins.
-    const double Y = lift.at(cam_deg * 3.14159265358979323846 / 180).lift_m;
+    const double Y = lift.at(cam_deg * kPi / 180).lift_m;
     const double open_m = (mass.k * Y - mass.P) / (mass.k + mass.k_s);
     const double pushed_m = mass.k * Y / (mass.k + mass.k_z + mass.k_s);
     for (valve_reference::Reference& one : all_) {

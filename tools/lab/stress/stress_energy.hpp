@@ -9,6 +9,7 @@
 #include <crankloop/tabulate/valve_lift.hpp>
 
 #include "../reference/valve_reference.hpp"
+#include "crankloop/units.hpp"
 
 namespace crankloop::program {
 
@@ -20,7 +21,6 @@ struct LiftFacts {
 
   explicit LiftFacts(const ValveLift& lift) : largest_m{lift.largest_lift_m()} {
     double before = 0;
-    constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
     for (int deg = -180; deg <= 180; ++deg) {
       const double slope = lift.at(deg * kRadPerDeg).per_rad_m;
       fastest_per_rad_m = std::max(fastest_per_rad_m, std::fabs(slope));

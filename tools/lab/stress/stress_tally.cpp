@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "crankloop/number.hpp"
+#include "crankloop/summary.hpp"
 #include "stress_comparison.hpp"
 
 namespace crankloop::program {
@@ -11,6 +12,7 @@ namespace {
 
 using report::Paragraph;
 using report::Plot;
+using report::plot_of;
 using report::Section;
 
 report::Axis axis(const char* title) {
@@ -26,19 +28,13 @@ Section stability_section(const std::vector<StabilityPoint>& map) {
       "How long a Runge-Kutta step may be before the motion grows: frequency times step, against the damping ratio. "
       "Measured by running the library's step 2000 times; theory is where its amplification reaches 1. The library "
       "itself never takes a step longer than the lowest curve, that of the coarsest accuracy class."});
-  Plot plot;
-  plot.title = "Limit of frequency times step";
-  plot.x = axis("Damping ratio");
-  plot.y = axis("Frequency times step");
+  Plot plot = plot_of("Limit of frequency times step", axis("Damping ratio"), axis("Frequency times step"));
   plot.series.resize(3);
   plot.series[0].name = "theory";
   plot.series[1].name = "measured";
   plot.series[1].style.draw = report::Draw::points;
   plot.series[2].name = "longest used";
-  Plot ratio;
-  ratio.title = "Measured limit over theory";
-  ratio.x = axis("Damping ratio");
-  ratio.y = axis("Ratio");
+  Plot ratio = plot_of("Measured limit over theory", axis("Damping ratio"), axis("Ratio"));
   ratio.y.include_zero = false;
   ratio.series.resize(1);
   for (const StabilityPoint& point : map) {
@@ -66,10 +62,7 @@ Section accuracy_section(const StressTally& tally) {
       "contact change, get off their course. Where " +
       std::to_string(kCopies) + " copies excuse too little, " + std::to_string(kMoreCopies) + " judge again: " +
       std::to_string(tally.judged_again) + " times."});
-  Plot plot;
-  plot.title = "Errors in order";
-  plot.x = axis("Per cent of the comparisons");
-  plot.y = axis("Decimal logarithm of the error's ratio");
+  Plot plot = plot_of("Errors in order", axis("Per cent of the comparisons"), axis("Decimal logarithm of the error's ratio"));
   plot.series.resize(2);
   plot.series[0].name = "to the accuracy asked for";
   plot.series[1].name = "to what the rule allows";
@@ -99,21 +92,21 @@ Section counts_section(const StressTally& tally) {
 }  // namespace
 
 void StressTally::add(int number, const StressCase& drawn, const TrialResult& result) {
-  const auto fail = [&](int& counter, const char* what) {
+  const auto fail = [&](int& counter) {
     ++counter;
-    failures.push_back({number, what + (": " + result.trouble), drawn.text()});
+    failures.push_back({number, name_of(result.verdict) + (": " + result.trouble), drawn.text()});
   };
   switch (result.verdict) {
     case Verdict::refused:
       ++refused[std::string(result.refusal.field) + " " + describe(result.refusal.reason)];
       return;
     case Verdict::wrongly_refused:
-      return fail(wrongly_refused, "refused but could run");
+      return fail(wrongly_refused);
     case Verdict::diverged:
-      fail(diverged, "diverged");
+      fail(diverged);
       break;
     case Verdict::inaccurate:
-      fail(inaccurate, "inaccurate");
+      fail(inaccurate);
       break;
     case Verdict::ran:
       break;
@@ -140,6 +133,55 @@ double quantile(std::vector<double> values, double part) {
   std::sort(values.begin(), values.end());
   const auto at = static_cast<std::size_t>(part * static_cast<double>(values.size() - 1));
   return values[at];
+}
+
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::wrongly_refused:
+      return "refused but could run";
+    case Verdict::diverged:
+      return "diverged";
+    case Verdict::inaccurate:
+      return "inaccurate";
+    case Verdict::refused:
+      return "refused";
+    case Verdict::ran:
+      break;
+  }
+  return "ran";
+}
+
+double worst_error(const std::vector<StabilityPoint>& map) {
+  double worst = 0;
+  for (const StabilityPoint& point : map) worst = std::max(worst, std::fabs(point.error()));
+  return worst;
+}
+
+std::string text_of(const StressTally& tally, const std::vector<StabilityPoint>& map) {
+  Summary s(Summary::Digits::all);
+  s.line("seed", tally.seed);
+  s.line("cases", tally.cases);
+  for (const auto& [reason, times] : tally.refused) s.line("refused", times, "", reason);
+  s.line("ran", tally.ran);
+  s.line("ran_all_cycles", tally.all_cycles);
+  s.line("ticks", tally.ticks);
+  s.line("over_event_budget", tally.over_budget);
+  s.line("compared", tally.compared);
+  s.line("judged_again", tally.judged_again);
+  for (const double part : {0.5, 0.9, 0.99, 1.0}) {
+    const std::string percent = std::to_string(static_cast<int>(std::lround(100 * part)));
+    s.line("error_of_class_p" + percent, quantile(tally.of_class, part));
+    s.line("error_of_allowed_p" + percent, quantile(tally.of_allowed, part));
+  }
+  if (!map.empty()) s.line("stability_limit_error", worst_error(map));
+  s.line("diverged", tally.diverged);
+  s.line("inaccurate", tally.inaccurate);
+  s.line("refused_but_could_run", tally.wrongly_refused);
+  for (const StressFailure& failure : tally.failures) {
+    s.line("failure", "--seed " + std::to_string(tally.seed) + " --case " + std::to_string(failure.number) + ": " + failure.what);
+    s.text("  # " + failure.drawn + "\n");
+  }
+  return s.text();
 }
 
 report::Page stress_page(const StressTally& tally, const std::vector<StabilityPoint>& map,

@@ -45,6 +45,15 @@ struct StressTally {
 /// The value that this part of them does not exceed, 0 to 1; 0 of none.
 [[nodiscard]] double quantile(std::vector<double> values, double part);
 
+/// "refused but could run".
+[[nodiscard]] const char* name_of(Verdict verdict);
+
+inline constexpr double kLargestStabilityError = 0.01;  ///< of the theoretical limit
+[[nodiscard]] double worst_error(const std::vector<StabilityPoint>& map);
+
+/// What `crankloop stress` prints.
+[[nodiscard]] std::string text_of(const StressTally& tally, const std::vector<StabilityPoint>& map);
+
 [[nodiscard]] report::Page stress_page(const StressTally& tally, const std::vector<StabilityPoint>& map,
                                        const std::string& command_line);
 

@@ -11,6 +11,7 @@
 
 #include "crankloop/number.hpp"
 #include "../reference/valve_reference.hpp"
+#include "crankloop/units.hpp"
 #include "stress_comparison.hpp"
 #include "stress_energy.hpp"
 
@@ -19,7 +20,6 @@ namespace {
 
 using valve_reference::SingleMass;
 
-constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
 
 /// One cylinder's one valve, everything that is told of it.
 struct StressedValve : Scene {
