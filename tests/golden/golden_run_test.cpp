@@ -1,7 +1,7 @@
 // A golden run of each sample engine in each ready-made scene, and in exact scenes of the usual kinds: 2000 ticks of one life, committed as text.
 //
-// Every 20th tick shows some outputs of cylinder 1, every 100th a hash of all outputs of all ticks so far, every 500th all outputs: any
-// changed bit changes a line, and the first one shows where. Renewing: support/golden.hpp.
+// Every 20th tick shows some outputs of cylinder 1, every 100th a hash of all outputs of all ticks so far, every 500th all outputs. What is
+// committed of these rows, how it is compared and renewed: support/golden.hpp. Any changed bit changes a hash, and the first shows where.
 #include <gtest/gtest.h>
 
 #include <algorithm>
