@@ -11,6 +11,7 @@
 #include "support/both_reals.hpp"
 #include "support/four_with_valves.hpp"
 #include "support/random.hpp"
+#include "support/status.hpp"
 
 namespace crankloop {
 namespace {
@@ -99,7 +100,7 @@ TYPED_TEST(BadInputCount, StaysAtItsLargestValue) {
   const auto engine = started_four<Real, Counting>();
   auto state = engine->state();
   state.bad_input_ticks = ~std::uint32_t{0} - 1;
-  ASSERT_TRUE(engine->restore(state).ok());
+  ASSERT_TRUE(accepted(engine->restore(state)));
   for (int tick = 0; tick < 3; ++tick) {
     engine->step(at_speed<Real, Counting>(this->kNoNumber));
     EXPECT_EQ(engine->state().bad_input_ticks, ~std::uint32_t{0});
@@ -112,12 +113,12 @@ TYPED_TEST(BadInputCount, GoesOnFromASnapshotAndFromBytesAndBeginsAnewWithInit) 
   for (int tick = 0; tick < 5; ++tick) engine->step(at_speed<Real, Counting>(this->kNoNumber));
   const auto snapshot = engine->state();
   std::vector<unsigned char> bytes(kSavedStateBytes<Real, Counting>);
-  ASSERT_TRUE(save_state(*engine, bytes.data(), bytes.size()).ok());
-  ASSERT_TRUE(engine->init(*engine->tables()).ok());
+  ASSERT_TRUE(accepted(save_state(*engine, bytes.data(), bytes.size())));
+  ASSERT_TRUE(accepted(engine->init(*engine->tables())));
   EXPECT_EQ(engine->state().bad_input_ticks, 0u);
   EXPECT_EQ(engine->state().bad_input_kinds, 0u);
   for (const bool from_bytes : {false, true}) {
-    ASSERT_TRUE((from_bytes ? load_state(bytes.data(), bytes.size(), *engine) : engine->restore(snapshot)).ok());
+    ASSERT_TRUE(accepted(from_bytes ? load_state(bytes.data(), bytes.size(), *engine) : engine->restore(snapshot)));
     EXPECT_EQ(engine->state().bad_input_ticks, 5u);
     engine->step(at_speed<Real, Counting>(this->kNoNumber));
     EXPECT_EQ(engine->state().bad_input_ticks, 6u);

@@ -20,6 +20,7 @@
 #include "support/engines.hpp"
 #include "support/fourier.hpp"
 #include "support/newton_euler.hpp"
+#include "support/status.hpp"
 #include "support/vector_geometry.hpp"
 
 namespace crankloop {
@@ -60,7 +61,7 @@ EngineDefinition engine_with(const std::vector<Place>& places) {
     engine.layout.position_m[k] = places[k].position_m;
     engine.layout.pin[k] = places[k].pin;
   }
-  EXPECT_TRUE(validate(engine).ok()) << validate(engine).field;
+  EXPECT_TRUE(accepted(validate(engine)));
   return engine;
 }
 
@@ -282,7 +283,7 @@ EngineDefinition random_layout(Random& random) {
     }
   }
   e.layout.cylinders = n;
-  EXPECT_TRUE(validate(e).ok()) << validate(e).field;
+  EXPECT_TRUE(accepted(validate(e)));
   return e;
 }
 
@@ -410,7 +411,7 @@ TEST(Balance, OfAnInlineFourLeavesOnlyFourSecondOrderForces) {
 TEST(Balance, OfAnInlineFourFromItsFiringOrderIsTheSame) {
   EngineDefinition e = in_line({0, 180, 180, 0});
   const int order[] = {1, 3, 4, 2};
-  ASSERT_TRUE(set_firing_order(order, 4, e.layout).ok());
+  ASSERT_TRUE(accepted(set_firing_order(order, 4, e.layout)));
   const Peaks p{e};
   EXPECT_EQ(p.first, 0);
   EXPECT_NEAR(p.first_moment, 0, rounding_kg_m(e) * arm_m(e));
@@ -570,7 +571,7 @@ std::unique_ptr<Loaded> random_loaded_engine(Random& random) {
   e.pressure.source = PressureSource::wiebe;
   e.pressure.wiebe.net_mep_Pa = random.between(3e5, 12e5);
   e.pressure.wiebe.exhaust_valve_opens_deg = 130;
-  EXPECT_TRUE(loaded->exact.init(e).ok());
+  EXPECT_TRUE(accepted(loaded->exact.init(e)));
   return loaded;
 }
 
@@ -681,13 +682,13 @@ TEST(Tick, ReportsTheLoadsOfPinsAndJournalsAndTheFreeForcesOfItsParts) {
     const std::unique_ptr<Loaded> loaded = random_loaded_engine(random);
     const EngineDefinition& e = loaded->engine;
     const auto tables = std::make_unique<TableStorage<double, Scene, static_cast<std::size_t>(kMostGasSegments)>>();
-    ASSERT_TRUE(tables->build(e, {100e-6}).ok());
+    ASSERT_TRUE(accepted(tables->build(e, {100e-6})));
     const double speed = random.between(20, 600);
     // Curves within 2e-9 of their scale, pressure within 1e-5 of its peak (tabulate.hpp).
     const double tolerance = 1e-8 * force_size(e, speed) + 1e-5 * 250e5 * kPi / 4 * e.crank.bore_m * e.crank.bore_m;
     for (int i = 0; i < 40; ++i) {
       const auto engine = std::make_unique<Engine<double, Scene>>();
-      ASSERT_TRUE(engine->init(tables->tables(), Phase{random.bits()}).ok());
+      ASSERT_TRUE(accepted(engine->init(tables->tables(), Phase{random.bits()})));
       Engine<double, Scene>::Input in;
       in.speed_rad_s = speed;
       in.load_ratio = 1;

@@ -10,6 +10,7 @@
 #include "support/both_reals.hpp"
 #include "support/four_with_valves.hpp"
 #include "support/random.hpp"
+#include "support/status.hpp"
 
 namespace crankloop {
 namespace {
@@ -30,8 +31,8 @@ struct Asked : Base {
 template <class Real, class S>
 struct Rig {
   Rig(const EngineDefinition& definition, double tick_s) {
-    EXPECT_TRUE(tables->build(definition, {tick_s, {}}).ok());
-    EXPECT_TRUE(engine.init(tables->tables()).ok());
+    EXPECT_TRUE(accepted(tables->build(definition, {tick_s, {}})));
+    EXPECT_TRUE(accepted(engine.init(tables->tables())));
   }
   const auto& step(Phase crank, double pressure_Pa) {
     typename Engine<Real, S>::Input in;

@@ -17,6 +17,7 @@
 #include <crankloop/tick/engine_step.hpp>
 
 #include "support/output_fields.hpp"
+#include "support/status.hpp"
 #include "support/test_engines.hpp"
 #include "support/test_valves.hpp"
 
@@ -62,8 +63,7 @@ template <class Real, class S>
 const TableStorage<Real, S>& tables_of_four(double tick_s = 50e-6) {
   static const std::unique_ptr<TableStorage<Real, S>> tables = [tick_s] {
     auto built = std::make_unique<TableStorage<Real, S>>();
-    const Status status = built->build(four_with_valves(), {tick_s, {}});
-    EXPECT_TRUE(status.ok()) << status.field << ": " << describe(status.reason);
+    EXPECT_TRUE(accepted(built->build(four_with_valves(), {tick_s, {}})));
     return built;
   }();
   return *tables;
@@ -72,8 +72,7 @@ const TableStorage<Real, S>& tables_of_four(double tick_s = 50e-6) {
 template <class Real, class S>
 [[nodiscard]] std::unique_ptr<Engine<Real, S>> started_four(Phase start = {}) {
   auto engine = std::make_unique<Engine<Real, S>>();
-  const Status status = engine->init(tables_of_four<Real, S>().tables(), start);
-  EXPECT_TRUE(status.ok()) << status.field << ": " << describe(status.reason);
+  EXPECT_TRUE(accepted(engine->init(tables_of_four<Real, S>().tables(), start)));
   return engine;
 }
 

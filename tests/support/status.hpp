@@ -1,4 +1,4 @@
-// What a refusal must say: its reason, its field, its row or cylinder.
+// What answers must say: accepted, or refused with the reason, the field, its row or cylinder.
 #pragma once
 
 #include <crankloop/status.hpp>
@@ -13,6 +13,11 @@ namespace crankloop {
 /// How GoogleTest shows an answer.
 inline void PrintTo(const Status& status, std::ostream* out) {
   *out << (status.ok() ? "no field" : status.field) << "[" << status.index << "] " << describe(status.reason);
+}
+
+/// EXPECT_TRUE(accepted(validate(engine))): a refusal is shown with field, row and reason.
+inline testing::AssertionResult accepted(const Status& status) {
+  return status.ok() ? testing::AssertionSuccess() : testing::AssertionFailure() << "refused: " << testing::PrintToString(status);
 }
 
 namespace support {

@@ -14,6 +14,7 @@
 #include <crankloop/tabulate/tabulate.hpp>
 #include <crankloop/tick/engine_step.hpp>
 
+#include "support/status.hpp"
 #include "support/test_engines.hpp"
 #include "support/test_scenes.hpp"
 #include "support/valve_reference.hpp"
@@ -98,7 +99,7 @@ class Rig {
       : definition_{definition}, tick_s_{options.tick_s}, tables_{std::make_unique<TableStorage<Real, S>>()} {
     status_ = tables_->build(definition_, options);
     if (status_.ok()) status_ = engine_.init(tables_->tables(), phase_at(start_deg));
-    EXPECT_TRUE(status_.ok()) << status_.field << ": " << describe(status_.reason);
+    EXPECT_TRUE(accepted(status_));
   }
 
   const auto& step(double speed_rad_s) {
@@ -143,8 +144,7 @@ class Rig {
 
 [[nodiscard]] inline ValveLift lift_of(const ValveTrain& train) {
   ValveLift lift;
-  const Status status = lift.init(train.cam, train.rocker);
-  EXPECT_TRUE(status.ok()) << status.field << ": " << describe(status.reason);
+  EXPECT_TRUE(accepted(lift.init(train.cam, train.rocker)));
   return lift;
 }
 

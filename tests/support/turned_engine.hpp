@@ -8,6 +8,7 @@
 
 #include <crankloop/tabulate/tabulate.hpp>
 
+#include "support/status.hpp"
 #include "support/test_scenes.hpp"
 
 namespace crankloop::tick_test {
@@ -36,12 +37,10 @@ class Turned {
   using Input = typename Engine<Real, S>::Input;
 
   explicit Turned(const EngineDefinition& definition, double tick_s = 100e-6, double speed_rad_s = 0, Phase start = Phase{}) {
-    const Status built = storage_->build(definition, {tick_s});
-    EXPECT_TRUE(built.ok()) << built.field << " " << describe(built.reason);
-    const Status ready = engine.init(storage_->tables(), start);
-    EXPECT_TRUE(ready.ok()) << ready.field << " " << describe(ready.reason);
+    EXPECT_TRUE(accepted(storage_->build(definition, {tick_s})));
+    EXPECT_TRUE(accepted(engine.init(storage_->tables(), start)));
     if (speed_rad_s != 0) {
-      EXPECT_TRUE(engine.restore(turning_at<Real, S>(engine.state(), static_cast<Real>(speed_rad_s))).ok());
+      EXPECT_TRUE(accepted(engine.restore(turning_at<Real, S>(engine.state(), static_cast<Real>(speed_rad_s)))));
     }
   }
 

@@ -27,8 +27,7 @@ constexpr double kRad = kPi / 180;
 
 CamProfile profile_of(const Cam& cam) {
   CamProfile profile;
-  const Status status = profile.init(cam);
-  EXPECT_TRUE(status.ok()) << testing::PrintToString(status);
+  EXPECT_TRUE(accepted(profile.init(cam)));
   return profile;
 }
 

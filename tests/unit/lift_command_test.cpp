@@ -15,6 +15,7 @@
 #include "crankloop/commands.hpp"
 #include "crankloop/engine_file/engine_file.hpp"
 #include "crankloop/error.hpp"
+#include "support/status.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/valve_trains.hpp"
 
@@ -94,7 +95,7 @@ class LiftCommand : public testing::Test {
   }
   static std::string cam_rows(int from_deg, int to_deg) {
     CamProfile cam;
-    EXPECT_TRUE(cam.init(support::ohc_125_cam()).ok());
+    EXPECT_TRUE(accepted(cam.init(support::ohc_125_cam())));
     std::string rows = "cam_deg,lift_mm\n";
     for (int deg = from_deg; deg <= to_deg; ++deg) {
       rows += std::to_string(deg) + "," + std::to_string(std::round(cam.at(deg * kRad).lift_m * 1e6) / 1e3) + "\n";
@@ -109,7 +110,7 @@ class LiftCommand : public testing::Test {
 TEST_F(LiftCommand, TabulatesTheTrainOfThe125OverATurnOfItsCam) {
   const auto table = rows(kOhc125);
   ValveLift lift;
-  ASSERT_TRUE(lift.init(support::ohc_125_cam(), support::ohc_125_rocker()).ok());
+  ASSERT_TRUE(accepted(lift.init(support::ohc_125_cam(), support::ohc_125_rocker())));
   ASSERT_EQ(table.size(), 361u);
   for (std::size_t i = 0; i < table.size(); ++i) {
     const std::vector<double>& row = table[i];

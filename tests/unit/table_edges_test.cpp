@@ -31,7 +31,7 @@ class TableEdges : public ::testing::Test {
  protected:
   static std::vector<double> outputs_at(std::uint64_t units) {
     static Engine<Real, FourAtAnAngle> engine;
-    EXPECT_TRUE(engine.init(tables_of_four<Real, FourAtAnAngle>().tables(), Phase{units}).ok());
+    EXPECT_TRUE(accepted(engine.init(tables_of_four<Real, FourAtAnAngle>().tables(), Phase{units})));
     typename Engine<Real, FourAtAnAngle>::Input in;
     in.crank = Phase{units};
     std::vector<double> all;

@@ -59,10 +59,8 @@ struct Rig {
   Engine<Real, S> engine;
 
   explicit Rig(const EngineDefinition& definition, double tick_s = 100e-6, Phase start = {}) {
-    const Status built = storage.build(definition, {tick_s, {}});
-    EXPECT_TRUE(built.ok()) << built.field << " " << describe(built.reason);
-    const Status status = engine.init(storage.tables(), start);
-    EXPECT_TRUE(status.ok()) << status.field << " " << describe(status.reason);
+    EXPECT_TRUE(accepted(storage.build(definition, {tick_s, {}})));
+    EXPECT_TRUE(accepted(engine.init(storage.tables(), start)));
   }
 };
 template <class Real, class S, class... Rest>
@@ -79,7 +77,7 @@ EngineDefinition one_wheel(const TriggerWheel& wheel) {
 // ---- definition ------------------------------------------------------------------------------------------------------------
 
 TEST(TriggerWheelRules, AcceptTheUsualWheels) {
-  for (const DrawnWheel& wheel : drawn_wheels()) EXPECT_TRUE(validate(wheel.definition).ok()) << wheel.name;
+  for (const DrawnWheel& wheel : drawn_wheels()) EXPECT_TRUE(accepted(validate(wheel.definition))) << wheel.name;
 }
 
 TEST(TriggerWheelRules, RefuseATurnThatIsTooShortForItsTeethAndGaps) {
@@ -114,9 +112,9 @@ TEST(TriggerWheelRules, RefuseEdgesThatAreNoPairsOrDoNotRiseWithinOneTurn) {
     wheel.edge_count = static_cast<int>(edges_deg.size());
     return validate(wheel);
   };
-  EXPECT_TRUE(answer({10, 20, 300, 710}).ok());
-  EXPECT_TRUE(answer({700, 730}).ok()) << "a tooth over the top of the cycle";
-  EXPECT_TRUE(answer({0, 359}, TriggerShaft::crank).ok());
+  EXPECT_TRUE(accepted(answer({10, 20, 300, 710})));
+  EXPECT_TRUE(accepted(answer({700, 730}))) << "a tooth over the top of the cycle";
+  EXPECT_TRUE(accepted(answer({0, 359}, TriggerShaft::crank)));
   EXPECT_TRUE(refuses(answer({0, 360}, TriggerShaft::crank), Reason::out_of_range, "trigger.edges", 1));
   EXPECT_TRUE(refuses(answer({10, 20, 30}), Reason::inconsistent, "trigger.edges"));
   EXPECT_TRUE(refuses(answer({}), Reason::too_few_points, "trigger.edges"));
@@ -132,7 +130,7 @@ TEST(TriggerWheelRules, RefuseAPhaserOnTheCrankOrOfATrainThatIsNotThere) {
   wheel.train = 0;
   EXPECT_TRUE(refuses(validate(wheel), Reason::inconsistent, "trigger.on"));
   wheel.shaft = TriggerShaft::cam;
-  EXPECT_TRUE(validate(wheel).ok());
+  EXPECT_TRUE(accepted(validate(wheel)));
   EXPECT_TRUE(refuses(validate(one_wheel(wheel)), Reason::out_of_range, "trigger.on", 0)) << "the engine has no trains";
   EngineDefinition engine = diesel_495();
   engine.trigger_count = kMaxTriggerWheels + 1;
@@ -253,9 +251,9 @@ TEST(TriggerTables, AreRefusedWithoutRoomOrWithAnotherNumberOfWheels) {
       EXPECT_TRUE(refuses(built, Reason::out_of_range, "scene.triggers"));
       continue;
     }
-    ASSERT_TRUE(built.ok());
+    ASSERT_TRUE(accepted(built));
     const Status status = engine.init(storage->tables());
-    EXPECT_TRUE(wheels == 2 ? status.ok() : refuses(status, Reason::out_of_range, "tables.triggers")) << wheels;
+    EXPECT_TRUE(wheels == 2 ? accepted(status) : refuses(status, Reason::out_of_range, "tables.triggers")) << wheels;
   }
   TableTargets<float> targets;
   TriggerWheels wheels{};
@@ -390,7 +388,7 @@ TYPED_TEST(TriggerTickOf, HasTheToothCountOfEveryWheelAtEverySpeedAndTick) {
         SCOPED_TRACE(testing::Message() << rpm << " rpm, " << tick_us << " us, " << (forward ? "forward" : "backward"));
         auto& engine = rigged->engine;
         const Phase start{to_run < ticks ? 355 * kDegree : 0};
-        ASSERT_TRUE(engine.init(rigged->storage.tables(), start).ok());
+        ASSERT_TRUE(accepted(engine.init(rigged->storage.tables(), start)));
         turn_to(*rigged, start);
         std::uint32_t rises[kMaxTriggerWheels] = {};
         std::uint32_t falls[kMaxTriggerWheels] = {};
