@@ -15,7 +15,7 @@
 #include "support/golden.hpp"
 #include "support/output_numbers.hpp"
 #include "support/status.hpp"
-#include "support/test_scenes.hpp"
+#include "support/running.hpp"
 
 namespace crankloop {
 namespace {

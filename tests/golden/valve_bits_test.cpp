@@ -103,16 +103,6 @@ EngineDefinition two_trains() {
   return engine;
 }
 
-struct TwoValves : Scene {
-  static constexpr PressureGiven pressure = PressureGiven::by_table;
-  static constexpr ValveModel valves = ValveModel::elastic;
-  static constexpr Count trains = exactly<2>;
-  static constexpr bool valve_forces = true;
-  static constexpr bool valve_results = true;
-  static constexpr bool valve_gas = true;
-  static constexpr bool cam_phasing = true;
-};
-
 template <class Real>
 std::uint64_t hash_of_tables(const Tables<Real, TwoValves>& tables) {
   Fnv fnv;

@@ -129,17 +129,13 @@ EngineDefinition fired_heavy_rod() {
   return engine;
 }
 
-struct WithBearings : Fired {
-  static constexpr bool bearing_loads = true;
-};
-
 TEST(HeavyRod, PressesPinAndJournalsAsRigidBodiesDoWhereItsSpeedChanges) {
   EngineDefinition engine = fired_heavy_rod();
   engine.masses.crank_pin_equivalent_kg = 1.3;
   const CrankMechanism m = heavy_rod(0.5L, 0);
   const RigidRod rod{static_cast<double>(m.rod_kg), static_cast<double>(m.rod_com_to_crank_m), static_cast<double>(m.rod_inertia_kg_m2)};
   const double area_m2 = kPi / 4 * engine.crank.bore_m * engine.crank.bore_m;
-  Turned<double, WithBearings> run(engine, 100e-6, 60);
+  Turned<double, TurnedWithBearings> run(engine, 100e-6, 60);
   double most_N = 0;
   double largest_N = 0;
   for (int tick = 0; tick < 3000; ++tick) {

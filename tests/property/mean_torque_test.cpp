@@ -14,7 +14,7 @@
 #include "support/random.hpp"
 #include "support/status.hpp"
 #include "support/test_engines.hpp"
-#include "support/test_scenes.hpp"
+#include "support/running.hpp"
 #include "support/work_oracle.hpp"
 
 namespace crankloop {

@@ -15,35 +15,16 @@
 
 #include "support/output_fields.hpp"
 #include "support/random.hpp"
+#include "support/scenes.hpp"
 #include "support/status.hpp"
 #include "support/test_valves.hpp"
 
 namespace crankloop {
 
-/// All that a state may hold, of one cylinder (an odd number: arrays have a spare place): measured crank and pressures, phaser.
-struct MeasuredWithValves : Scene {
-  static constexpr Count cylinders = exactly<1>;
-  static constexpr CrankGiven crank = CrankGiven::phase;
-  static constexpr PressureGiven pressure = PressureGiven::by_input;
-  static constexpr bool rod_inertia = true;
-  static constexpr bool mean_torque = true;
-  static constexpr bool forces = true;
-  static constexpr ValveModel valves = ValveModel::elastic;
-  static constexpr bool valve_forces = true;
-  static constexpr bool valve_results = true;
-  static constexpr bool valve_gas = true;
-  static constexpr bool cam_phasing = true;
-  static constexpr bool bad_input_count = true;
-};
+using tick_test::MeasuredWithValves;
+using OneValve = tick_test::Elastic<1, 1>;  ///< and nothing besides: where it rests, its output is left as it is
 template class Engine<float, MeasuredWithValves>;
 template class Engine<double, MeasuredWithValves>;
-
-/// A valve and nothing besides: where it rests, its output is left as it is.
-struct OneValve : Scene {
-  static constexpr Count cylinders = exactly<1>;
-  static constexpr Count trains = exactly<1>;
-  static constexpr ValveModel valves = ValveModel::elastic;
-};
 template class Engine<float, OneValve>;
 template class Engine<double, OneValve>;
 
@@ -529,32 +510,6 @@ TYPED_TEST(SavedState, ForgedInAnyFieldIsRefusedOrStepsOnWithinBounds) {
   EXPECT_GT(refused, forgeries / 20);
 }
 
-/// Scenes that differ from a plain one, and from one another, in what their states mean.
-struct Plain : Scene {};
-#define OTHERWISE(Name, type, answer, other) \
-  struct Name : Plain {                      \
-    static constexpr type answer = other;    \
-  }
-OTHERWISE(TwoCylinders, Count, cylinders, exactly<2>);
-OTHERWISE(TwoTrains, Count, trains, exactly<2>);
-OTHERWISE(ByPhase, CrankGiven, crank, CrankGiven::phase);
-OTHERWISE(ByLoad, CrankGiven, crank, CrankGiven::load);
-OTHERWISE(TablePressure, PressureGiven, pressure, PressureGiven::by_table);
-OTHERWISE(InputPressure, PressureGiven, pressure, PressureGiven::by_input);
-OTHERWISE(Following, ValveModel, valves, ValveModel::following);
-OTHERWISE(Elastic, ValveModel, valves, ValveModel::elastic);
-OTHERWISE(WithLoadRatio, bool, load_ratio, true);
-OTHERWISE(WithRodInertia, bool, rod_inertia, true);
-OTHERWISE(WithTorque, bool, torque, true);
-OTHERWISE(WithMeanTorque, bool, mean_torque, true);
-OTHERWISE(WithForces, bool, forces, true);
-OTHERWISE(WithValveResults, bool, valve_results, true);
-OTHERWISE(WithValveGas, bool, valve_gas, true);
-OTHERWISE(WithCamPhasing, bool, cam_phasing, true);
-OTHERWISE(WithBadInputCount, bool, bad_input_count, true);
-OTHERWISE(WithStarter, bool, starter, true);
-OTHERWISE(WithCylinderCut, bool, cylinder_cut, true);
-#undef OTHERWISE
 
 template <class... Scenes>
 std::set<std::uint32_t> codes_of() {
@@ -562,6 +517,7 @@ std::set<std::uint32_t> codes_of() {
 }
 
 TEST(SceneCode, TellsScenesApartByEveryAnswerThatTheirStatesDependOn) {
+  using namespace tick_test::otherwise;
   const auto codes = codes_of<Plain, TwoCylinders, TwoTrains, ByPhase, ByLoad, TablePressure, InputPressure, Following, Elastic, WithLoadRatio, WithRodInertia, WithTorque,
                               WithMeanTorque, WithForces, WithValveResults, WithValveGas, WithCamPhasing, WithBadInputCount, WithStarter, WithCylinderCut>();
   EXPECT_EQ(codes.size(), 20u);

@@ -723,12 +723,6 @@ TEST(ValveUnderGas, IsSuckedOpenWhereThePortsPressureOvercomesItsSpring) {
 // ---- hostile valves
 // --------------------------------------------------------------------------------------------------------
 
-struct EightAtOnce : Scene {
-  static constexpr Count cylinders = exactly<4>;
-  static constexpr Count trains = exactly<2>;
-  static constexpr ValveModel valves = ValveModel::elastic;
-};
-
 TEST(ValveEventBudget, WhenExceededIsFlaggedAndSharedByTurns) {
   // Eight valves that open and close together: 5 changes of the 8 in a tick are located, the others taken at its end. Who comes first, turns: no
   // valve is always among the others. Beside them one alone, which always has its changes located.
@@ -736,7 +730,7 @@ TEST(ValveEventBudget, WhenExceededIsFlaggedAndSharedByTurns) {
   all.train_count = 2;
   all.trains[1] = all.trains[0];
   const TickOptions options{20e-6, {}};
-  Rig<double, EightAtOnce> rig(all, options, 90);
+  Rig<double, tick_test::Elastic<4, 2>> rig(all, options, 90);
   Rig<double> alone(ohc_125_train(), options, 90);
   const double speed = rad_s_of_rpm(7000);
   int flagged = 0;
@@ -774,7 +768,7 @@ TEST(ValveEventBudget, IsNotExceededByASampleEngineUpToTwiceItsRedline) {
       four.train_count = 2;
       four.trains[1] = four.trains[0];
       four.trains[1].cam.full_lift_deg = 250;
-      Rig<float, EightAtOnce> rig(four, {tick_us * 1e-6, {}}, 17);
+      Rig<float, tick_test::Elastic<4, 2>> rig(four, {tick_us * 1e-6, {}}, 17);
       for (int i = 0; i < 4 * rig.ticks_per_cycle(rad_s_of_rpm(rpm)); ++i) {
         ASSERT_EQ(rig.step(rad_s_of_rpm(rpm)).faults, 0u) << rpm << " rpm, " << tick_us << " us, tick " << i;
       }

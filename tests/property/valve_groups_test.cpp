@@ -18,16 +18,6 @@ namespace {
 using namespace tick_test;
 using support::Random;
 
-struct Airless : MeasuredFourWithValves {
-  static constexpr PressureGiven pressure = PressureGiven::by_table;
-  static constexpr bool valve_gas = false;
-};
-template <class Base, bool Forces, bool Results>
-struct Asked : Base {
-  static constexpr bool valve_forces = Forces;
-  static constexpr bool valve_results = Results;
-};
-
 template <class Real, class S>
 struct Rig {
   Rig(const EngineDefinition& definition, double tick_s) {

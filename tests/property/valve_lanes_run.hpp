@@ -20,16 +20,6 @@
 
 namespace crankloop::valve_lanes {
 
-/// `Unit` makes the scene's type, and with it all that is compiled for it, the translation unit's own.
-template <class Unit, std::uint32_t Cylinders, std::uint32_t Trains, bool Exact, bool Phasing>
-struct Lanes : Scene {
-  static constexpr Count cylinders{Cylinders, Exact};
-  static constexpr Count trains{Trains, Exact};
-  static constexpr CrankGiven crank = CrankGiven::phase;
-  static constexpr ValveModel valves = ValveModel::elastic;
-  static constexpr bool cam_phasing = Phasing;
-};
-
 inline EngineDefinition engine_of(int cylinders, int trains) {
   std::vector<double> firing_deg;
   for (int k = 0; k < cylinders; ++k) firing_deg.push_back(720.0 * k / cylinders);
@@ -90,13 +80,13 @@ struct LanesRun {
 /// Blocks of eight, of four, what fills none; several trains in a row and each for itself; cams that move.
 template <class Unit>
 std::vector<LanesRun> all_runs(double tick_s) {
-  return {{"one valve", bits_of<Lanes<Unit, 1, 1, true, false>>(1, 1, tick_s)},
-          {"three cylinders", bits_of<Lanes<Unit, 3, 2, true, false>>(3, 2, tick_s)},
-          {"four cylinders", bits_of<Lanes<Unit, 4, 2, true, false>>(4, 2, tick_s)},
-          {"six cylinders, four trains", bits_of<Lanes<Unit, 6, 4, true, false>>(6, 4, tick_s)},
-          {"five of sixteen cylinders", bits_of<Lanes<Unit, 16, 4, false, false>>(5, 3, tick_s)},
-          {"sixteen of sixteen cylinders", bits_of<Lanes<Unit, 16, 4, false, false>>(16, 4, tick_s)},
-          {"phased cams", bits_of<Lanes<Unit, 4, 2, true, true>>(4, 2, tick_s)}};
+  return {{"one valve", bits_of<tick_test::Lanes<Unit, 1, 1, true, false>>(1, 1, tick_s)},
+          {"three cylinders", bits_of<tick_test::Lanes<Unit, 3, 2, true, false>>(3, 2, tick_s)},
+          {"four cylinders", bits_of<tick_test::Lanes<Unit, 4, 2, true, false>>(4, 2, tick_s)},
+          {"six cylinders, four trains", bits_of<tick_test::Lanes<Unit, 6, 4, true, false>>(6, 4, tick_s)},
+          {"five of sixteen cylinders", bits_of<tick_test::Lanes<Unit, 16, 4, false, false>>(5, 3, tick_s)},
+          {"sixteen of sixteen cylinders", bits_of<tick_test::Lanes<Unit, 16, 4, false, false>>(16, 4, tick_s)},
+          {"phased cams", bits_of<tick_test::Lanes<Unit, 4, 2, true, true>>(4, 2, tick_s)}};
 }
 
 std::vector<LanesRun> runs_one_by_one(double tick_s);

@@ -9,7 +9,7 @@
 #include "support/both_reals.hpp"
 #include "support/status.hpp"
 #include "support/test_engines.hpp"
-#include "support/test_scenes.hpp"
+#include "support/running.hpp"
 
 namespace crankloop::tick_test {
 

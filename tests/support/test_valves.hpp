@@ -16,7 +16,7 @@
 
 #include "support/status.hpp"
 #include "support/test_engines.hpp"
-#include "support/test_scenes.hpp"
+#include "support/running.hpp"
 #include "support/valve_reference.hpp"
 #include "support/valve_trains.hpp"
 
@@ -60,22 +60,10 @@ inline EngineDefinition engine_with(const ValveTrain& train) {
   return engine;
 }
 
-/// One valve, all that can be told of it.
-struct OneValve : Scene {
-  static constexpr ValveModel valves = ValveModel::elastic;
-  static constexpr bool valve_forces = true;
-  static constexpr bool valve_results = true;
-};
-struct OneValveWithPhaser : OneValve {
-  static constexpr bool cam_phasing = true;
-};
-struct OneValveOnMeasuredCrank : OneValve {
-  static constexpr CrankGiven crank = CrankGiven::phase;
-};
-struct OneValveWithGas : OneValve {
-  static constexpr PressureGiven pressure = PressureGiven::by_input;
-  static constexpr bool valve_gas = true;
-};
+using tick_test::OneValve;
+using tick_test::OneValveOnMeasuredCrank;
+using tick_test::OneValveWithGas;
+using tick_test::OneValveWithPhaser;
 
 inline double rad_s_of_rpm(double rpm) { return rpm * kPi / 30; }
 

@@ -8,27 +8,11 @@
 
 #include <crankloop/tabulate/tabulate.hpp>
 
+#include "support/scenes.hpp"
 #include "support/status.hpp"
-#include "support/test_scenes.hpp"
+#include "support/running.hpp"
 
 namespace crankloop::tick_test {
-
-/// A scene whose crank is turned by forces; with all its groups, unless told otherwise.
-template <PressureGiven Source = PressureGiven::by_table, std::uint32_t Cylinders = 0>
-struct TurnedByForces : Scene {
-  static constexpr Count cylinders = Cylinders != 0 ? Count{Cylinders, true} : Count{kMaxCylinders, false};
-  static constexpr CrankGiven crank = CrankGiven::load;
-  static constexpr PressureGiven pressure = Source;
-  static constexpr bool load_ratio = Source == PressureGiven::by_table;
-  static constexpr bool rod_inertia = true;
-  static constexpr bool kinematics = true;
-  static constexpr bool rod_motion = true;
-  static constexpr bool torque = true;
-  static constexpr bool mean_torque = true;
-  static constexpr bool forces = true;
-  static constexpr bool starter = true;
-  static constexpr bool cylinder_cut = load_ratio;
-};
 
 /// Fails the test when tables or engine are refused.
 template <class Real, class S>

@@ -9,7 +9,7 @@
 
 #include "support/status.hpp"
 #include "support/test_engines.hpp"
-#include "support/test_scenes.hpp"
+#include "support/running.hpp"
 
 namespace crankloop {
 namespace {

@@ -317,19 +317,6 @@ TYPED_TEST(CrankStep, ValvesMoveAsOnAMeasuredCrank) {
 
 // ---- cylinders that do not fire -----------------------------------------------------------------------------------------------
 
-struct CutAtSpeed : Scene {
-  static constexpr Count cylinders = exactly<4>;
-  static constexpr PressureGiven pressure = PressureGiven::by_table;
-  static constexpr bool load_ratio = true;
-  static constexpr bool rod_inertia = true;
-  static constexpr bool torque = true;
-  static constexpr bool mean_torque = true;
-  static constexpr bool cylinder_cut = true;
-};
-struct CutAtSpeedWithForces : CutAtSpeed {
-  static constexpr bool forces = true;
-};
-
 TYPED_TEST(CrankStep, ACutCylinderHasTheMotoredPressureAndItsTorque) {
   using Real = TypeParam;
   const EngineDefinition engine = uneven_v4();

@@ -145,15 +145,8 @@ TYPED_TEST(EngineOf, ASceneThatAsksForNothingStillCountsTheAngle) {
 }
 
 template <class Real, std::uint32_t Cylinders, bool Exact>
-struct Counting : Scene {
-  static constexpr Count cylinders{Cylinders, Exact};
-  static constexpr bool kinematics = true;
-  static constexpr bool torque = true;
-  static constexpr bool rod_inertia = true;
-};
-template <class Real, std::uint32_t Cylinders, bool Exact>
 Status init_of(const FullTables<Real>& full) {
-  using S = Counting<Real, Cylinders, Exact>;
+  using S = Pistons<Cylinders, Exact>;
   const Tables<Real, S> tables(full.sections());
   Engine<Real, S> engine;
   return engine.init(tables);
@@ -179,10 +172,6 @@ TYPED_TEST(EngineOf, InitTakesExactlyItsCylindersOrUpToItsCapacity) {
   EXPECT_STREQ((init_of<Real, 15, false>(sixteen)).field, "tables.cylinders");
 }
 
-struct ForcesWithoutRodInertia : Scene {
-  static constexpr auto cylinders = up_to<16>;
-  static constexpr bool forces = true;
-};
 TYPED_TEST(EngineOf, InitRefusesToLeaveOutARodInertiaThatTheEngineHas) {
   using Real = TypeParam;
   const Tables<Real, ForcesWithoutRodInertia> with_inertia(this->diesel().sections());

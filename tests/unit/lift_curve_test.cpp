@@ -64,10 +64,6 @@ std::vector<NamedTrain> named_trains() {
   return trains;
 }
 
-struct CamFollowing : Scene {
-  static constexpr ValveModel valves = ValveModel::following;
-};
-
 /// A train's table by itself: all that this test knows of how a curve is stored.
 template <class Real>
 class LiftTable {
@@ -80,7 +76,7 @@ class LiftTable {
   }
 
  private:
-  using Storage = TableStorage<Real, CamFollowing>;
+  using Storage = TableStorage<Real, tick_test::CamFollowing>;
   std::unique_ptr<Storage> storage_ = std::make_unique<Storage>();
 };
 

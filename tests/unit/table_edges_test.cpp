@@ -20,12 +20,6 @@ namespace {
 
 using namespace tick_test;
 
-/// Its tables read at any angle, by starting there: valves at rest where their cams stand, so that every output is a function
-/// of the angle alone.
-struct FourAtAnAngle : FourWithValves {
-  static constexpr CrankGiven crank = CrankGiven::phase;
-};
-
 template <class Real>
 class TableEdges : public ::testing::Test {
  protected:

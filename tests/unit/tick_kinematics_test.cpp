@@ -13,7 +13,7 @@
 #include "support/random.hpp"
 #include "support/status.hpp"
 #include "support/test_engines.hpp"
-#include "support/test_scenes.hpp"
+#include "support/running.hpp"
 #include "support/tick_oracle.hpp"
 
 namespace crankloop {

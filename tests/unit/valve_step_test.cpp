@@ -599,15 +599,6 @@ TYPED_TEST(ValveEnergy, OfADampedValveNeverGrowsBeyondRounding) {
 // ---- the state
 // -------------------------------------------------------------------------------------------------------------
 
-template <std::uint32_t Cylinders, std::uint32_t Trains, bool Phasing, bool Results>
-struct Sized : Scene {
-  static constexpr Count cylinders = exactly<Cylinders>;
-  static constexpr ValveModel valves = ValveModel::elastic;
-  static constexpr Count trains = exactly<Trains>;
-  static constexpr bool valve_results = Results;
-  static constexpr bool cam_phasing = Phasing;
-};
-
 /// Bytes of a state's members, one by one.
 template <class Real, std::uint32_t Cylinders, std::uint32_t Trains, bool Phasing, bool Results>
 constexpr std::size_t bytes_of_parts() {
@@ -623,10 +614,10 @@ constexpr std::size_t bytes_of_parts() {
 
 template <class Real, std::uint32_t C, std::uint32_t T>
 constexpr bool no_padding() {
-  return sizeof(State<Real, Sized<C, T, false, false>>) == bytes_of_parts<Real, C, T, false, false>() &&
-         sizeof(State<Real, Sized<C, T, true, false>>) == bytes_of_parts<Real, C, T, true, false>() &&
-         sizeof(State<Real, Sized<C, T, false, true>>) == bytes_of_parts<Real, C, T, false, true>() &&
-         sizeof(State<Real, Sized<C, T, true, true>>) == bytes_of_parts<Real, C, T, true, true>();
+  return sizeof(State<Real, tick_test::Elastic<C, T, false, false>>) == bytes_of_parts<Real, C, T, false, false>() &&
+         sizeof(State<Real, tick_test::Elastic<C, T, true, false>>) == bytes_of_parts<Real, C, T, true, false>() &&
+         sizeof(State<Real, tick_test::Elastic<C, T, false, true>>) == bytes_of_parts<Real, C, T, false, true>() &&
+         sizeof(State<Real, tick_test::Elastic<C, T, true, true>>) == bytes_of_parts<Real, C, T, true, true>();
 }
 
 TYPED_TEST(ValveEnergy, StateOfAnyNumberOfValvesHasNoPadding) {

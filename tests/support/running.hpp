@@ -14,39 +14,10 @@
 #include <crankloop/tick/engine_step.hpp>
 
 #include "support/both_reals.hpp"
+#include "support/scenes.hpp"
 #include "support/status.hpp"
 
 namespace crankloop::tick_test {
-
-/// Output groups as bits, so that tests can walk all subsets.
-enum Group : unsigned {
-  kKinematics = 1,
-  kRodMotion = 2,
-  kTorque = 4,
-  kMeanTorque = 8,
-  kForces = 16,
-  kBearingLoads = 32,
-  kFreeForces = 64,
-  kAllGroups = 127
-};
-
-/// A scene that asks for the groups in `Groups`; up to 16 cylinders unless `Exactly` says how many.
-template <unsigned Groups, PressureGiven Source = PressureGiven::by_table, bool ByLoad = false,
-          CrankGiven Given = CrankGiven::speed, std::uint32_t Exactly = 0>
-struct Asking : Scene {
-  static constexpr Count cylinders = Exactly != 0 ? Count{Exactly, true} : Count{kMaxCylinders, false};
-  static constexpr CrankGiven crank = Given;
-  static constexpr PressureGiven pressure = Source;
-  static constexpr bool load_ratio = ByLoad;
-  static constexpr bool rod_inertia = true;
-  static constexpr bool kinematics = (Groups & kKinematics) != 0;
-  static constexpr bool rod_motion = (Groups & kRodMotion) != 0;
-  static constexpr bool torque = (Groups & kTorque) != 0;
-  static constexpr bool mean_torque = (Groups & kMeanTorque) != 0;
-  static constexpr bool forces = (Groups & kForces) != 0;
-  static constexpr bool bearing_loads = (Groups & kBearingLoads) != 0;
-  static constexpr bool free_forces = (Groups & kFreeForces) != 0;
-};
 
 /// Room for the finest gas grid of all: 20 segments in every degree.
 inline constexpr int kFinestGrid = static_cast<int>(kMostGasSegments);
