@@ -13,6 +13,7 @@
 #include "support/four_with_valves.hpp"
 #include "support/random.hpp"
 #include "support/status.hpp"
+#include "support/units.hpp"
 
 namespace crankloop {
 namespace {
@@ -99,7 +100,7 @@ TYPED_TEST(InputPolicy, TakesAStepOfTheCrankUpToTheSpeedLimitAndBeyondItForAJump
   const auto& drive = *tables_of_four<Real, MeasuredFourWithValves>().tables().drive;
   // The limit as an angle of the tick, 50 us: less than half a cycle, so that it has a sign.
   const long double limit_deg =
-      static_cast<long double>(drive.speed_limit_rad_s) * 50e-6L * 180 / 3.14159265358979323846L;
+      static_cast<long double>(drive.speed_limit_rad_s) * 50e-6L * 180 / support::kWidePi;
   for (const long double sign : {1.0L, -1.0L}) {
     for (const long double part : {0.999999L, 1.000001L}) {
       const auto engine = started_four<Real, MeasuredFourWithValves>();
@@ -185,7 +186,7 @@ TYPED_TEST(InputPolicy, TurnsAtAnySpeedFromAMillionthRpmBothWaysByTheAngleThatSp
     for (const double sign : {1.0, -1.0}) {
       const auto engine = started_four<Real, S>(phase_at_deg(100));
       typename Engine<Real, S>::Input in;
-      in.speed_rad_s = static_cast<Real>(sign * rpm * 3.14159265358979323846 / 30);
+      in.speed_rad_s = static_cast<Real>(sign * rpm * support::kPi / 30);
       std::uint64_t before = engine->state().phase.units();
       long double turned_units = 0;
       for (int tick = 0; tick < kTicks; ++tick) {

@@ -22,6 +22,7 @@
 #include "support/engines.hpp"
 #include "support/fourier.hpp"
 #include "support/status.hpp"
+#include "support/units.hpp"
 #include "support/vector_geometry.hpp"
 
 namespace crankloop {
@@ -32,8 +33,8 @@ using support::Random;
 using support::wide;
 using support::Wide;
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kRadPerDeg = kPi / 180;
+using support::kPi;
+using support::kRadPerDeg;
 
 /// A random engine's cylinder somewhere in its cycle, with what the identities need from an independent hand.
 struct Moment {

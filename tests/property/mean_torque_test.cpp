@@ -78,7 +78,7 @@ TYPED_TEST(MeanTorque, OverAMeasuredCycleOfAnyNumberOfTicksAddsUpToTheTablesOwnW
   FullTables<Real> tables;
   ASSERT_TRUE(accepted(tables.build(diesel_495(), 500e-6)));
   const GasTorque<Real>& gas = *tables.sections().gas_torque_full;
-  const long double cycle_J = static_cast<long double>(gas.mean_Nm) * 4 * kPi_ld;  // of all cylinders
+  const long double cycle_J = static_cast<long double>(gas.mean_Nm) * 4 * kWidePi;  // of all cylinders
   Random random;
   for (const int ticks : {5, 7, 36, 100, 359, 720, 1440, 3'601, 14'400, 100'003}) {
     for (const bool backwards : {false, true}) {
@@ -97,7 +97,7 @@ TYPED_TEST(MeanTorque, OverAMeasuredCycleOfAnyNumberOfTicksAddsUpToTheTablesOwnW
         step_and_book<Real, MeanByPhase>(run.engine, in, ledger);
       }
       const long double direction = backwards ? -1 : 1;
-      EXPECT_NEAR(static_cast<double>(ledger.turned_rad), static_cast<double>(direction * 4 * kPi_ld), 1e-12);
+      EXPECT_NEAR(static_cast<double>(ledger.turned_rad), static_cast<double>(direction * 4 * kWidePi), 1e-12);
       const double speed = 4 * kPi / ticks / 500e-6;
       const double scale =
           static_cast<double>(gas.mean_Nm) + 4 * 0.0045 * speed * speed;  // m_j r^2 = 4.3e-3 kg m^2
@@ -127,7 +127,7 @@ TYPED_TEST(MeanTorque, TheTablesWorkIsTheDiagramsLoopIntegral) {
   ASSERT_TRUE(full.ready());
   const Sections<Real>& s = tables.sections();
   const auto table_J = [](const GasTorque<Real>& gas) {
-    return static_cast<double>(static_cast<long double>(gas.mean_Nm) * 4 * kPi_ld) / 4;  // of one cylinder
+    return static_cast<double>(static_cast<long double>(gas.mean_Nm) * 4 * kWidePi) / 4;  // of one cylinder
   };
   // The 1e-4 is for measured traces; a synthesised one leaves 1e-6.
   EXPECT_NEAR(table_J(*s.gas_torque_full), full.cycle_J(), 1e-6 * full.cycle_J());
@@ -164,7 +164,7 @@ void expect_work_between_angles(const FullTables<Real>& tables, const WorkOracle
   const long double w = static_cast<long double>(in.speed_rad_s);
   const long double start_deg = deg_of(booked_from);
   const long double end_deg = deg_of(end);
-  const long double cycles = std::round((ledger.turned_rad * 180 / kPi_ld - (end_deg - start_deg)) / 720);
+  const long double cycles = std::round((ledger.turned_rad * 180 / kWidePi - (end_deg - start_deg)) / 720);
   const auto cylinders = static_cast<double>(tables.drive().cylinders);
   const long double want = cycles * wide(cylinders * oracle.cycle_J()) + oracle.gas_J(end_deg) -
                            oracle.gas_J(start_deg) +
@@ -351,14 +351,14 @@ TYPED_TEST(MeanTorque, OfAPressureFromOutsideIsATrapezoidOfPressureTimesVolume) 
   FullTables<Real> tables;
   ASSERT_TRUE(accepted(tables.build(engine, 100e-6)));
   Random random;
-  const long double area = kPi_ld / 4 * 0.095L * 0.095L;
+  const long double area = kWidePi / 4 * 0.095L * 0.095L;
   const WorkOracle masses(engine, 1);
   Running<Real, MeanByInput> run(tables, Phase{random.bits()});
   typename Engine<Real, MeanByInput>::Input in;
   long double last_Pa[4] = {100e3L, 100e3L, 100e3L, 100e3L};  // the engine starts at crankcase pressure
   long double last_deg = deg_of(run.engine.state().phase);
   const auto displacement_m = [&](long double engine_deg, std::size_t k) {
-    return oracle_pose(engine.crank, (engine_deg - wide(engine.layout.firing_deg[k])) * kPi_ld / 180).displacement_m;
+    return oracle_pose(engine.crank, (engine_deg - wide(engine.layout.firing_deg[k])) * kWidePi / 180).displacement_m;
   };
   for (int draw = 0; draw < 2000; ++draw) {
     const double speed = (random.coin() ? 1 : -1) * random.between(200, 8000) * kRpm;

@@ -11,6 +11,7 @@
 #include "support/four_with_valves.hpp"
 #include "support/random.hpp"
 #include "support/status.hpp"
+#include "support/units.hpp"
 
 namespace crankloop {
 namespace {
@@ -54,7 +55,7 @@ class ValveGroups : public ::testing::Test {
       Rig<Real, Asked<Base, true, false>> forces(definition, tick_s);
       Rig<Real, Asked<Base, false, true>> results(definition, tick_s);
       Rig<Real, Asked<Base, true, true>> both(definition, tick_s);
-      const double limit_deg = static_cast<double>(plain.tables->tables().drive->speed_limit_rad_s) * tick_s * 180 / 3.14159265358979;
+      const double limit_deg = static_cast<double>(plain.tables->tables().drive->speed_limit_rad_s) * tick_s * 180 / support::kPi;
       double deg_per_tick = 0;
       double pressure_Pa = 1e5;
       Phase crank;

@@ -17,6 +17,7 @@
 #include "support/status.hpp"
 #include "support/test_engines.hpp"
 #include "support/test_valves.hpp"
+#include "support/units.hpp"
 
 namespace crankloop::valve_lanes {
 
@@ -42,7 +43,7 @@ std::vector<std::uint32_t> bits_of(int cylinders, int trains, double tick_s) {
   EXPECT_TRUE(accepted(tables->build(engine_of(cylinders, trains), {tick_s, {}})));
   const auto engine = std::make_unique<Engine<float, S>>();
   EXPECT_TRUE(accepted(engine->init(tables->tables(), Phase{12345678901234567u})));
-  const double limit_deg = static_cast<double>(tables->tables().drive->speed_limit_rad_s) * tick_s * 180 / 3.14159265358979;
+  const double limit_deg = static_cast<double>(tables->tables().drive->speed_limit_rad_s) * tick_s * 180 / support::kPi;
   support::Random random(4711);
   std::vector<std::uint32_t> bits;
   typename Engine<float, S>::Input in;

@@ -23,7 +23,7 @@ namespace crankloop::tick_test {
 [[nodiscard]] inline long double kinetic_J(const EngineDefinition& engine, long double engine_deg, long double speed_rad_s) {
   long double inertia = static_cast<long double>(engine.masses.crank_inertia_kg_m2 + engine.load.inertia_kg_m2);
   for (std::size_t k = 0; k < static_cast<std::size_t>(engine.layout.cylinders); ++k) {
-    const OraclePose p = oracle_pose(engine.crank, (engine_deg - wide(engine.layout.firing_deg[k])) * kPi_ld / 180);
+    const OraclePose p = oracle_pose(engine.crank, (engine_deg - wide(engine.layout.firing_deg[k])) * kWidePi / 180);
     const Masses& m = engine.masses;
     inertia += wide(m.rod_big_end_kg) * wide(engine.crank.crank_radius_m) * wide(engine.crank.crank_radius_m) +
                wide(m.reciprocating_kg()) * p.slope_m * p.slope_m + wide(m.rod_inertia_correction_kg_m2) * p.rod_slope * p.rod_slope;

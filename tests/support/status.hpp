@@ -22,6 +22,12 @@ inline testing::AssertionResult accepted(const Status& status) {
 
 namespace support {
 
+/// A number that a field must not take, and what it is refused for.
+struct Bad {
+  double value;
+  Reason reason;
+};
+
 inline testing::AssertionResult refuses(const Status& status, Reason reason, const std::string& field, int index = -1) {
   if (status.reason == reason && field == status.field && status.index == index) return testing::AssertionSuccess();
   return testing::AssertionFailure() << "got " << testing::PrintToString(status) << ", want " << field << "[" << index
@@ -29,4 +35,5 @@ inline testing::AssertionResult refuses(const Status& status, Reason reason, con
 }
 
 }  // namespace support
+
 }  // namespace crankloop

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -17,13 +18,14 @@
 #include "support/status.hpp"
 #include "support/test_engines.hpp"
 #include "support/running.hpp"
+#include "support/units.hpp"
 #include "support/valve_reference.hpp"
 #include "support/valve_trains.hpp"
 
 namespace crankloop::valve_test {
 
-inline constexpr double kPi = 3.14159265358979323846;
-inline constexpr double kRadPerDeg = kPi / 180;
+using support::kPi;
+using support::kRadPerDeg;
 
 /// The valve of the 125 cm^3 engine [Li 2017], with what its print leaves open as docs/model.md assumes it.
 inline Valve ohc_125_valve() {
@@ -66,6 +68,13 @@ using tick_test::OneValveWithGas;
 using tick_test::OneValveWithPhaser;
 
 inline double rad_s_of_rpm(double rpm) { return rpm * kPi / 30; }
+
+/// Largest difference of two runs sampled at the same moments.
+inline double apart(const std::vector<double>& a, const std::vector<double>& b) {
+  double worst = 0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) worst = std::max(worst, std::fabs(a[i] - b[i]));
+  return worst;
+}
 
 /// The engine phase of an angle in degrees.
 inline Phase phase_at(double deg) { return tick_test::phase_at_deg(static_cast<long double>(deg)); }

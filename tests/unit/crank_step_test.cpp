@@ -244,7 +244,7 @@ TEST(CrankStepGroups, MotionsAreDerivativesOfOneAnotherAndForcesGoWithThem) {
         const double couple_Nm = body.rod_inertia_correction_kg_m2 * now.rod_acceleration_rad_s2[k];
         const double power_W = f.total_force_N * now.velocity_m_s[k] - couple_Nm * now.rod_speed_rad_s[k];
         EXPECT_NEAR(f.torque_Nm * now.speed_rad_s, power_W, 1e-5 * (1 + std::fabs(power_W)));
-        const OraclePose p = oracle_pose(engine.crank, (deg_of(now.crank) - wide(engine.layout.firing_deg[k])) * kPi_ld / 180);
+        const OraclePose p = oracle_pose(engine.crank, (deg_of(now.crank) - wide(engine.layout.firing_deg[k])) * kWidePi / 180);
         inertia += static_cast<double>(wide(body.reciprocating_kg) * p.slope_m * p.slope_m +
                                        wide(body.rod_inertia_correction_kg_m2) * p.rod_slope * p.rod_slope);
         rods_Nm += f.torque_Nm;
@@ -381,7 +381,7 @@ TYPED_TEST(CrankStep, AChangingCutLeavesNoJumpInTheWork) {
     in.cut_cylinders = static_cast<std::uint32_t>(random.whole(0, 15));
     const auto mean_Nm = static_cast<double>(run.step(in).mean_torque_Nm);
     const long double turned = turned_rad(before, run.state().phase);
-    const long double from_deg = deg_of(before), to_deg = from_deg + turned * 180 / kPi_ld;
+    const long double from_deg = deg_of(before), to_deg = from_deg + turned * 180 / kWidePi;
     double expected_J = kSpeed_rad_s * kSpeed_rad_s * static_cast<double>(fired.masses_kg_m2(0));
     for (int k = 0; k < 4; ++k) {
       const WorkOracle& gas = (in.cut_cylinders >> k & 1u) != 0 ? motored : fired;

@@ -23,7 +23,6 @@ template <class Real>
 class EngineAmongOthers : public DieselEngine<Real> {};
 TYPED_TEST_SUITE(EngineAmongOthers, BothReals, RealName);
 
-
 template <class Real, class S>
 void expect_snapshot_to_go_on_with_the_same_bits(const FullTables<Real>& tables) {
   Running<Real, S> run(tables, phase_at_deg(5));
@@ -159,7 +158,7 @@ void expect_cylinders_as_if_alone(const EngineDefinition& engine) {
                        (drive.turn_of[k] != 0 ? std::uint64_t{1} << 63 : 0)};
     const long double off = turned_rad(phase_at_deg(static_cast<long double>(engine.layout.firing_deg[k])), firing);
     // Angles within 1e-9 deg are one mechanism's; float keeps firing phases to the nearest 2^-32 of a cycle, 4 pi rad.
-    const long double rounding_rad = sizeof(Real) == 4 ? 4 * kPi_ld * 0x1p-33L : 0;
+    const long double rounding_rad = sizeof(Real) == 4 ? 4 * kWidePi * 0x1p-33L : 0;
     ASSERT_LE(std::fabs(off), 2e-11L + rounding_rad) << "cylinder " << k << " fires elsewhere";
     single.push_back(std::make_unique<Running<Real, Everything>>(alone, Phase{} - firing));
   }

@@ -58,7 +58,7 @@ TYPED_TEST(EngineOf, StartsWithoutFaultsAtRestAtTheGivenPhase) {
   EXPECT_EQ(out.faults, 0u);
   EXPECT_EQ(run.engine.state().phase.units(), start.units());
   EXPECT_NEAR(static_cast<double>(out.displacement_m[0]),
-              static_cast<double>(oracle_pose(single_495().crank, 77.5L * kPi_ld / 180).displacement_m), 3e-8);
+              static_cast<double>(oracle_pose(single_495().crank, 77.5L * kWidePi / 180).displacement_m), 3e-8);
 }
 
 /// Drops one section; true where the scene needs it and so init must refuse.

@@ -5,6 +5,7 @@
 
 #include "support/status.hpp"
 #include "support/test_engines.hpp"
+#include "support/units.hpp"
 
 namespace crankloop {
 namespace {
@@ -39,8 +40,8 @@ TEST(BrakeFigures, AreTheIndicatedOnesLessWhatFrictionTakesOverTheCycle) {
   // 100 kPa, 200 Pa s/rad and 1 Pa s^2/rad^2 are 130 kPa at 100 rad/s either way round; over a cycle of 4 pi they take that times the swept volume.
   EngineDefinition engine = diesel_495();
   engine.friction = {100e3, 200, 1};
-  const double swept_m3 = 4 * (3.14159265358979 / 4 * 0.095 * 0.095 * 0.115);
-  const double friction_Nm = 130e3 * swept_m3 / (4 * 3.14159265358979);
+  const double swept_m3 = 4 * (support::kPi / 4 * 0.095 * 0.095 * 0.115);
+  const double friction_Nm = 130e3 * swept_m3 / (4 * support::kPi);
   const BrakeFigures forward = brake_figures(engine, 200, 100);
   EXPECT_NEAR(forward.friction_mep_Pa, 130e3, 1e-9);
   EXPECT_NEAR(forward.torque_Nm, 200 - friction_Nm, 1e-9);

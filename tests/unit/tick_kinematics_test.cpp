@@ -94,7 +94,7 @@ Six answer(const Engine& engine, const Crank& crank) {
 
 Six oracle(const Crank& crank, Phase phase) {
   const OraclePose p =
-      oracle_pose(crank, static_cast<long double>(phase.units()) * (4 * kPi_ld / 18446744073709551616.0L));
+      oracle_pose(crank, static_cast<long double>(phase.units()) * (4 * kWidePi / 18446744073709551616.0L));
   const double r = crank.crank_radius_m;
   return {static_cast<double>(p.displacement_m) / r, static_cast<double>(p.slope_m) / r,
           static_cast<double>(p.acceleration_m) / r, static_cast<double>(p.rod_angle_rad),
@@ -229,7 +229,7 @@ TYPED_TEST(TickKinematics, TablesReadByHandHoldThePromiseForEveryCurve) {
       const std::uint32_t degree = cell.degree % 360;
       const Real u = fraction<Real>(cell);
       const OraclePose want =
-          oracle_pose(crank, static_cast<long double>(phase.units()) * (4 * kPi_ld / 18446744073709551616.0L));
+          oracle_pose(crank, static_cast<long double>(phase.units()) * (4 * kWidePi / 18446744073709551616.0L));
       const auto read = [&](const auto& curve) { return static_cast<long double>(value(curve.at[degree], u)); };
       const auto read_slope = [&](const auto& curve) {
         return static_cast<long double>(value(curve.at[degree].slope, u));
@@ -256,9 +256,9 @@ TYPED_TEST(TickKinematics, TablesReadByHandHoldThePromiseForEveryCurve) {
       long double torque = 0;
       const auto cylinders = static_cast<std::size_t>(engine.layout.cylinders);
       for (std::size_t k = 0; k < cylinders; ++k) {
-        const long double firing = wide(engine.layout.firing_deg[k]) * kPi_ld / 180;
+        const long double firing = wide(engine.layout.firing_deg[k]) * kWidePi / 180;
         const OraclePose p =
-            oracle_pose(crank, static_cast<long double>(phase.units()) * (4 * kPi_ld / 18446744073709551616.0L) - firing);
+            oracle_pose(crank, static_cast<long double>(phase.units()) * (4 * kWidePi / 18446744073709551616.0L) - firing);
         torque -= wide(engine.masses.reciprocating_kg()) * p.slope_m * p.acceleration_m +
                   wide(engine.masses.rod_inertia_correction_kg_m2) * p.rod_slope * p.rod_curvature;
       }

@@ -88,7 +88,7 @@ double tick_work_per_area(const FullTables<Real>& tables, int ticks) {
     in.crank = phase_at_deg(123.4L) + phase_at_deg(720.0L * i / ticks);
     work_J += static_cast<long double>(run.engine.step(in).mean_torque_Nm) * turned_rad(before, in.crank);
   }
-  return static_cast<double>(work_J / (kPi_ld / 4 * 0.095L * 0.095L));
+  return static_cast<double>(work_J / (kWidePi / 4 * 0.095L * 0.095L));
 }
 
 template <class Real>

@@ -14,6 +14,7 @@
 #include "support/test_engines.hpp"
 #include "support/test_valves.hpp"
 #include "support/trigger_wheels.hpp"
+#include "support/units.hpp"
 
 namespace crankloop {
 namespace {
@@ -253,7 +254,7 @@ TYPED_TEST(TriggerTickOf, TellsWhenAToothComesAndGoes) {
   using Real = TypeParam;
   const auto rigged = rig<Real, DrivenWheels>(one_wheel(toothed(TriggerShaft::crank, 60, {{58, 2}}, 6)), 0.8e-3);
   typename Engine<Real, DrivenWheels>::Input in;
-  in.speed_rad_s = static_cast<Real>(1000 * 3.14159265358979 / 30);
+  in.speed_rad_s = static_cast<Real>(1000 * support::kPi / 30);
   const auto& signal = rigged->engine.output().trigger[0];
 
   rigged->engine.step(in);
@@ -324,7 +325,7 @@ TYPED_TEST(TriggerTickOf, ListsTheFirstEdgesAndCountsAllWhereThereAreMoreThanRoo
   using Real = TypeParam;
   const auto rigged = rig<Real, DrivenWheels>(one_wheel(toothed(TriggerShaft::crank, 360, {}, 0)), 1e-3);
   typename Engine<Real, DrivenWheels>::Input in;
-  in.speed_rad_s = static_cast<Real>(2000 * 3.14159265358979 / 30);  // 12 deg in a tick: 24 edges, give or take the one at its end
+  in.speed_rad_s = static_cast<Real>(2000 * support::kPi / 30);  // 12 deg in a tick: 24 edges, give or take the one at its end
   const auto& out = rigged->engine.step(in);
   EXPECT_EQ(out.faults, kFaultTriggerEdges);
   EXPECT_NEAR(out.trigger[0].edge_count, 24, 1);
@@ -332,7 +333,7 @@ TYPED_TEST(TriggerTickOf, ListsTheFirstEdgesAndCountsAllWhereThereAreMoreThanRoo
     EXPECT_EQ(out.trigger[0].edge[i].level, i % 2);
     EXPECT_NEAR(static_cast<double>(out.trigger[0].edge[i].time_s), 1e-3 * (i + 1) / 24, 1e-9);
   }
-  in.speed_rad_s = static_cast<Real>(-100 * 3.14159265358979 / 30);  // 0.6 deg: one edge, or two
+  in.speed_rad_s = static_cast<Real>(-100 * support::kPi / 30);  // 0.6 deg: one edge, or two
   EXPECT_EQ(rigged->engine.step(in).faults, 0u) << "the next tick knows nothing of it";
 }
 
@@ -430,12 +431,12 @@ TYPED_TEST(TriggerTickOf, MovesAWheelWithThePhaserOfItsCam) {
   EXPECT_EQ(out.trigger[1].level, 1u);
 
   // The crank follows at half the phaser's rate: the wheel still goes back.
-  in.speed_rad_s = static_cast<Real>(1000 * 3.14159265358979 / 180);
+  in.speed_rad_s = static_cast<Real>(1000 * support::kPi / 180);
   rigged->engine.step(in);
   EXPECT_EQ(out.trigger[0].edge_count, 0u);
   EXPECT_EQ(out.trigger[0].level, 0u);
   // At twice of it the crank overtakes: 0.15 + 0.1 deg behind, 0.2 deg gained per tick. In the second tick, after a quarter.
-  in.speed_rad_s = static_cast<Real>(4000 * 3.14159265358979 / 180);
+  in.speed_rad_s = static_cast<Real>(4000 * support::kPi / 180);
   rigged->engine.step(in);
   EXPECT_EQ(out.trigger[0].edge_count, 0u);
   rigged->engine.step(in);
