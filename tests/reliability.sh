@@ -93,9 +93,9 @@ before a release and after a change of core. `tools/check --list` names the part
 
 ## Random valve trains
 
-Each of these cases is a valve train and an operating point drawn from a seed (tools/crankloop/stress/stress_case.hpp has the ranges). It is
+Each of these cases is a valve train and an operating point drawn from a seed (tools/lab/stress/stress_case.hpp has the ranges). It is
 refused at set-up for a reason that is worked out anew, or runs through 20 cycles, at most 40 000 ticks, in finite numbers and within a bound
-on its energy; every tenth is compared with the converged reference (tools/crankloop/stress/stress_trial.hpp has the rules).
+on its energy; every tenth is compared with the converged reference (tools/lab/stress/stress_trial.hpp has the rules).
 `--case N` runs one of them again.
 
 TEXT

@@ -11,6 +11,7 @@
 #include "support/both_reals.hpp"
 #include "support/four_with_valves.hpp"
 #include "support/random.hpp"
+#include "support/status.hpp"
 
 namespace crankloop {
 namespace {
@@ -18,14 +19,8 @@ namespace {
 using namespace tick_test;
 using support::Random;
 
-struct Counting : FourWithValves {
-  static constexpr bool bad_input_count = true;
-};
-struct CountingMeasured : MeasuredFourWithValves {
-  static constexpr bool bad_input_count = true;
-};
-static_assert(sizeof(State<float, Counting>) == sizeof(State<float, FourWithValves>) + 8);
-static_assert(sizeof(State<double, Counting>) == sizeof(State<double, FourWithValves>) + 8);
+static_assert(sizeof(State<float, CountingFour>) == sizeof(State<float, FourWithValves>) + 8);
+static_assert(sizeof(State<double, CountingFour>) == sizeof(State<double, FourWithValves>) + 8);
 
 template <class Real>
 class BadInputCount : public ::testing::Test {
@@ -45,12 +40,12 @@ TYPED_TEST(BadInputCount, CountsEachTickWithABadInputOnceAndChangesNoOutput) {
   using Real = TypeParam;
   Random random;
   SCOPED_TRACE(random.trace(0));
-  const auto counting = started_four<Real, Counting>(phase_at_deg(40));
+  const auto counting = started_four<Real, CountingFour>(phase_at_deg(40));
   const auto plain = started_four<Real, FourWithValves>(phase_at_deg(40));
   std::uint32_t bad_ticks = 0;
   std::uint32_t kinds = 0;
   for (int tick = 0; tick < 2000; ++tick) {
-    auto in = at_speed<Real, Counting>(static_cast<Real>(random.between(-100, 700)));
+    auto in = at_speed<Real, CountingFour>(static_cast<Real>(random.between(-100, 700)));
     in.load_ratio = static_cast<Real>(random.between(0, 2));
     std::uint32_t bad = 0;
     // Rare ones last, so that kinds come in one after another.
@@ -75,8 +70,8 @@ TYPED_TEST(BadInputCount, CountsEachTickWithABadInputOnceAndChangesNoOutput) {
 
 TYPED_TEST(BadInputCount, CountsBadPressuresAndJumpsOfAMeasuredCrankButNotItsFirstAngle) {
   using Real = TypeParam;
-  const auto engine = started_four<Real, CountingMeasured>();
-  typename Engine<Real, CountingMeasured>::Input in;
+  const auto engine = started_four<Real, CountingMeasuredFour>();
+  typename Engine<Real, CountingMeasuredFour>::Input in;
   for (Real& p : in.pressure_Pa) p = static_cast<Real>(1.2e5);
   const auto expect = [&](std::uint32_t ticks, std::uint32_t kinds) {
     engine->step(in);
@@ -96,30 +91,30 @@ TYPED_TEST(BadInputCount, CountsBadPressuresAndJumpsOfAMeasuredCrankButNotItsFir
 
 TYPED_TEST(BadInputCount, StaysAtItsLargestValue) {
   using Real = TypeParam;
-  const auto engine = started_four<Real, Counting>();
+  const auto engine = started_four<Real, CountingFour>();
   auto state = engine->state();
   state.bad_input_ticks = ~std::uint32_t{0} - 1;
-  ASSERT_TRUE(engine->restore(state).ok());
+  ASSERT_TRUE(accepted(engine->restore(state)));
   for (int tick = 0; tick < 3; ++tick) {
-    engine->step(at_speed<Real, Counting>(this->kNoNumber));
+    engine->step(at_speed<Real, CountingFour>(this->kNoNumber));
     EXPECT_EQ(engine->state().bad_input_ticks, ~std::uint32_t{0});
   }
 }
 
 TYPED_TEST(BadInputCount, GoesOnFromASnapshotAndFromBytesAndBeginsAnewWithInit) {
   using Real = TypeParam;
-  const auto engine = started_four<Real, Counting>();
-  for (int tick = 0; tick < 5; ++tick) engine->step(at_speed<Real, Counting>(this->kNoNumber));
+  const auto engine = started_four<Real, CountingFour>();
+  for (int tick = 0; tick < 5; ++tick) engine->step(at_speed<Real, CountingFour>(this->kNoNumber));
   const auto snapshot = engine->state();
-  std::vector<unsigned char> bytes(kSavedStateBytes<Real, Counting>);
-  ASSERT_TRUE(save_state(*engine, bytes.data(), bytes.size()).ok());
-  ASSERT_TRUE(engine->init(*engine->tables()).ok());
+  std::vector<unsigned char> bytes(kSavedStateBytes<Real, CountingFour>);
+  ASSERT_TRUE(accepted(save_state(*engine, bytes.data(), bytes.size())));
+  ASSERT_TRUE(accepted(engine->init(*engine->tables())));
   EXPECT_EQ(engine->state().bad_input_ticks, 0u);
   EXPECT_EQ(engine->state().bad_input_kinds, 0u);
   for (const bool from_bytes : {false, true}) {
-    ASSERT_TRUE((from_bytes ? load_state(bytes.data(), bytes.size(), *engine) : engine->restore(snapshot)).ok());
+    ASSERT_TRUE(accepted(from_bytes ? load_state(bytes.data(), bytes.size(), *engine) : engine->restore(snapshot)));
     EXPECT_EQ(engine->state().bad_input_ticks, 5u);
-    engine->step(at_speed<Real, Counting>(this->kNoNumber));
+    engine->step(at_speed<Real, CountingFour>(this->kNoNumber));
     EXPECT_EQ(engine->state().bad_input_ticks, 6u);
     EXPECT_EQ(engine->state().bad_input_kinds, std::uint32_t{kFaultSpeed});
   }

@@ -16,6 +16,7 @@
 #include "crankloop/valve/valve_loop.hpp"
 #include "support/markup.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/units.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -194,7 +195,7 @@ TEST_F(SeparationAndBounce, TellsTheForcesOfTheTrain) {
 
 /// M abs(Y'') = P_s0 + k_s Y, by hand, for the speed at which a rigid train would float.
 TEST_F(SeparationAndBounce, TellsWhereARigidTrainWouldFloat) {
-  constexpr double kPi = 3.14159265358979323846;
+  using support::kPi;
   const EngineFile file = read_engine_file(folder_ / "ohc_125.ini", {});
   const LoneValve valve(file, "intake");
   const Valve& v = valve.valve();

@@ -12,6 +12,6 @@ sources_listed() {
   done
 }
 sources_listed core/src core/CMakeLists.txt core '*.cpp'
-sources_listed tools/crankloop tools/CMakeLists.txt tools '*.cpp'
+for part in crankloop lab; do sources_listed tools/$part tools/CMakeLists.txt tools '*.cpp'; done
 for kind in unit property golden contract; do sources_listed "tests/$kind" tests/CMakeLists.txt "tests/$kind" '*_test.cpp'; done
 [ "$bad" -eq 0 ]

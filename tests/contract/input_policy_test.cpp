@@ -12,6 +12,8 @@
 #include "support/both_reals.hpp"
 #include "support/four_with_valves.hpp"
 #include "support/random.hpp"
+#include "support/status.hpp"
+#include "support/units.hpp"
 
 namespace crankloop {
 namespace {
@@ -98,7 +100,7 @@ TYPED_TEST(InputPolicy, TakesAStepOfTheCrankUpToTheSpeedLimitAndBeyondItForAJump
   const auto& drive = *tables_of_four<Real, MeasuredFourWithValves>().tables().drive;
   // The limit as an angle of the tick, 50 us: less than half a cycle, so that it has a sign.
   const long double limit_deg =
-      static_cast<long double>(drive.speed_limit_rad_s) * 50e-6L * 180 / 3.14159265358979323846L;
+      static_cast<long double>(drive.speed_limit_rad_s) * 50e-6L * 180 / support::kWidePi;
   for (const long double sign : {1.0L, -1.0L}) {
     for (const long double part : {0.999999L, 1.000001L}) {
       const auto engine = started_four<Real, MeasuredFourWithValves>();
@@ -164,14 +166,14 @@ TYPED_TEST(InputPolicy, CountsTicksPast2To32AndBeyond2To64WithoutNoticing) {
     for (int tick = 0; tick < 50; ++tick) aged->step(in), young->step(in);
     State<Real, S> state = aged->state();
     state.ticks = count;
-    ASSERT_TRUE(aged->restore(state).ok());
+    ASSERT_TRUE(accepted(aged->restore(state)));
     for (std::uint64_t tick = 1; tick < 10; ++tick) {
       EXPECT_EQ(bits_now(aged->step(in)), bits_now(young->step(in)));
       EXPECT_EQ(aged->state().ticks, count + tick);
     }
     std::vector<unsigned char> bytes(kSavedStateBytes<Real, S>);
-    ASSERT_TRUE(save_state(*aged, bytes.data(), bytes.size()).ok());
-    ASSERT_TRUE(load_state(bytes.data(), bytes.size(), *young).ok());
+    ASSERT_TRUE(accepted(save_state(*aged, bytes.data(), bytes.size())));
+    ASSERT_TRUE(accepted(load_state(bytes.data(), bytes.size(), *young)));
     EXPECT_EQ(young->state().ticks, count + 9);
   }
 }
@@ -184,7 +186,7 @@ TYPED_TEST(InputPolicy, TurnsAtAnySpeedFromAMillionthRpmBothWaysByTheAngleThatSp
     for (const double sign : {1.0, -1.0}) {
       const auto engine = started_four<Real, S>(phase_at_deg(100));
       typename Engine<Real, S>::Input in;
-      in.speed_rad_s = static_cast<Real>(sign * rpm * 3.14159265358979323846 / 30);
+      in.speed_rad_s = static_cast<Real>(sign * rpm * support::kPi / 30);
       std::uint64_t before = engine->state().phase.units();
       long double turned_units = 0;
       for (int tick = 0; tick < kTicks; ++tick) {

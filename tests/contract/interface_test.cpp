@@ -12,7 +12,7 @@
 #include <crankloop/crankloop.hpp>
 
 #include "contract/scenes/scenes.hpp"
-#include "support/test_scenes.hpp"
+#include "support/running.hpp"
 
 namespace crankloop {
 namespace {
@@ -79,7 +79,6 @@ static_assert(has_no_hidden_member<float, PistonMotion>() && has_no_hidden_membe
               has_no_hidden_member<double, WholeEngine>() && has_no_hidden_member<float, scenes::Whole>());
 
 /// A group that a scene leaves out takes no room.
-struct Nothing : Scene {};
 static_assert(sizeof(Output<float, Nothing>) == sizeof(std::uint32_t));
 static_assert(sizeof(Input<float, Nothing>) == sizeof(float));
 static_assert(sizeof(State<float, Nothing>) == sizeof(StateCore<float>));
@@ -175,29 +174,6 @@ TEST(Padding, IsCountedWhereItIs) {
   EXPECT_EQ(padding_bytes_of<Full>(), 0u);
 }
 
-/// Cylinders and trains in any number, and the parts of a state with them.
-template <std::uint32_t Cylinders, std::uint32_t Trains, bool ByInput>
-struct Sized : Scene {
-  static constexpr Count cylinders = exactly<Cylinders>;
-  static constexpr PressureGiven pressure = ByInput ? PressureGiven::by_input : PressureGiven::by_table;
-  static constexpr bool load_ratio = !ByInput;
-  static constexpr bool mean_torque = true;
-  static constexpr ValveModel valves = ValveModel::elastic;
-  static constexpr Count trains = exactly<Trains>;
-  static constexpr bool valve_results = true;
-  static constexpr bool cam_phasing = true;
-};
-template <class S>
-struct WithoutResults : S {
-  static constexpr bool valve_results = false;
-};
-template <class S>
-struct WithoutValves : S {
-  static constexpr ValveModel valves = ValveModel::none;
-  static constexpr bool valve_results = false;
-  static constexpr bool cam_phasing = false;
-};
-
 template <class S>
 void expect_state_without_padding(const std::string& name) {
   EXPECT_EQ((padding_bytes_of<State<float, S>>()), 0u) << name << ", float";
@@ -206,7 +182,7 @@ void expect_state_without_padding(const std::string& name) {
 
 template <std::uint32_t Cylinders, std::uint32_t Trains, bool ByInput>
 void expect_states_without_padding() {
-  using S = Sized<Cylinders, Trains, ByInput>;
+  using S = LargeState<Cylinders, Trains, ByInput>;
   const std::string name = std::to_string(Cylinders) + " cylinders, " + std::to_string(Trains) + " trains" + (ByInput ? ", pressure by input" : "");
   expect_state_without_padding<S>(name);
   expect_state_without_padding<WithoutResults<S>>(name + ", without results");

@@ -11,10 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "support/units.hpp"
+
 namespace crankloop {
 namespace {
 
-constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
+using support::kRadPerDeg;
 constexpr double kSpeed_rad_s = 210;
 
 // Half a unit of the last printed digit. v at 90 and 270 deg is an exact tie, 12.075 printed as 12.08: hence the 1e-9.

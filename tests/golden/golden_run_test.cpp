@@ -1,7 +1,7 @@
 // A golden run of each sample engine in each ready-made scene, and in exact scenes of the usual kinds: 2000 ticks of one life, committed as text.
 //
-// Every 20th tick shows some outputs of cylinder 1, every 100th a hash of all outputs of all ticks so far, every 500th all outputs: any
-// changed bit changes a line, and the first one shows where. Renewing: support/golden.hpp.
+// Every 20th tick shows some outputs of cylinder 1, every 100th a hash of all outputs of all ticks so far, every 500th all outputs. What is
+// committed of these rows, how it is compared and renewed: support/golden.hpp. Any changed bit changes a hash, and the first shows where.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,38 +20,12 @@
 #include "crankloop/engine_file/engine_file.hpp"
 #include "support/golden.hpp"
 #include "support/output_fields.hpp"
+#include "support/scenes.hpp"
 
 namespace crankloop {
 namespace {
 
-// ---- scenes ----------------------------------------------------------------------------------------------------------------------
-
-template <std::uint32_t Cylinders, std::uint32_t Trains>
-struct Sized : Scene {
-  static constexpr Count cylinders = exactly<Cylinders>;
-  static constexpr Count trains = exactly<Trains>;
-};
-template <std::uint32_t Cylinders, std::uint32_t Trains>
-struct ForcesAndTorque : Sized<Cylinders, Trains> {
-  static constexpr PressureGiven pressure = PressureGiven::by_table;
-  static constexpr bool kinematics = true;
-  static constexpr bool torque = true;
-  static constexpr bool mean_torque = true;
-  static constexpr bool forces = true;
-  static constexpr bool bearing_loads = true;
-};
-template <std::uint32_t Cylinders, std::uint32_t Trains>
-struct ValveKinematics : Sized<Cylinders, Trains> {
-  static constexpr CrankGiven crank = CrankGiven::phase;
-  static constexpr ValveModel valves = ValveModel::following;
-  static constexpr bool cam_phasing = true;
-};
-template <std::uint32_t Cylinders, std::uint32_t Trains>
-struct ValveDynamics : Sized<Cylinders, Trains> {
-  static constexpr ValveModel valves = ValveModel::elastic;
-  static constexpr bool valve_forces = true;
-  static constexpr bool valve_results = true;
-};
+using namespace tick_test;
 
 // ---- the life ----------------------------------------------------------------------------------------------------------------------
 
@@ -195,16 +169,16 @@ TEST_P(GoldenRun, FreeRunning) {
   expect("free_running", "double", life_of<double, scenes::FreeRunning>);
 }
 TEST_P(GoldenRun, ExactForcesAndTorque) {
-  expect("exact_forces_and_torque", "float", life_in_exact<float, ForcesAndTorque>);
-  expect("exact_forces_and_torque", "double", life_in_exact<double, ForcesAndTorque>);
+  expect("exact_forces_and_torque", "float", life_in_exact<float, ExactForcesAndTorque>);
+  expect("exact_forces_and_torque", "double", life_in_exact<double, ExactForcesAndTorque>);
 }
 TEST_P(GoldenRun, ExactValveKinematics) {
-  expect("exact_valve_kinematics", "float", life_in_exact<float, ValveKinematics>);
-  expect("exact_valve_kinematics", "double", life_in_exact<double, ValveKinematics>);
+  expect("exact_valve_kinematics", "float", life_in_exact<float, ExactValveKinematics>);
+  expect("exact_valve_kinematics", "double", life_in_exact<double, ExactValveKinematics>);
 }
 TEST_P(GoldenRun, ExactValveDynamics) {
-  expect("exact_valve_dynamics", "float", life_in_exact<float, ValveDynamics>);
-  expect("exact_valve_dynamics", "double", life_in_exact<double, ValveDynamics>);
+  expect("exact_valve_dynamics", "float", life_in_exact<float, ExactValveDynamics>);
+  expect("exact_valve_dynamics", "double", life_in_exact<double, ExactValveDynamics>);
 }
 INSTANTIATE_TEST_SUITE_P(Of, GoldenRun, ::testing::ValuesIn(sample_engines()), [](const auto& of) { return of.param; });
 

@@ -129,22 +129,18 @@ EngineDefinition fired_heavy_rod() {
   return engine;
 }
 
-struct WithBearings : Fired {
-  static constexpr bool bearing_loads = true;
-};
-
 TEST(HeavyRod, PressesPinAndJournalsAsRigidBodiesDoWhereItsSpeedChanges) {
   EngineDefinition engine = fired_heavy_rod();
   engine.masses.crank_pin_equivalent_kg = 1.3;
   const CrankMechanism m = heavy_rod(0.5L, 0);
   const RigidRod rod{static_cast<double>(m.rod_kg), static_cast<double>(m.rod_com_to_crank_m), static_cast<double>(m.rod_inertia_kg_m2)};
   const double area_m2 = kPi / 4 * engine.crank.bore_m * engine.crank.bore_m;
-  Turned<double, WithBearings> run(engine, 100e-6, 60);
+  Turned<double, TurnedWithBearings> run(engine, 100e-6, 60);
   double most_N = 0;
   double largest_N = 0;
   for (int tick = 0; tick < 3000; ++tick) {
     const auto& out = run.step({});
-    const support::Motion motion = support::motion_at(engine.crank, deg_of(out.crank) * kPi_ld / 180, wide(out.speed_rad_s), wide(out.acceleration_rad_s2));
+    const support::Motion motion = support::motion_at(engine.crank, deg_of(out.crank) * kWidePi / 180, wide(out.speed_rad_s), wide(out.acceleration_rad_s2));
     const auto gas_N = wide((out.cylinder[0].pressure_Pa - engine.pressure.crankcase_Pa) * area_m2);
     const support::JointForces joints = support::newton_euler(engine, rod, motion, gas_N);
     const support::Vec outward = (1 / support::length(motion.crank_pin)) * motion.crank_pin;
@@ -178,8 +174,8 @@ TEST(CrankEnergy, OfAHundredCyclesIsKeptToAMillionth) {
     const long double begin_J = kinetic_J(engine, 0, 100);
     typename Turned<double, Fired>::Input in;
     in.load_Nm = load_Nm;
-    while (run.angle_rad < 100 * 4 * kPi_ld) run.step(in);
-    const long double deg = run.angle_rad * 180 / kPi_ld;
+    while (run.angle_rad < 100 * 4 * kWidePi) run.step(in);
+    const long double deg = run.angle_rad * 180 / kWidePi;
     const long double cycles = std::floor(deg / 720);
     const long double in_J = cycles * wide(gas.cycle_J()) + gas.gas_J(deg - 720 * cycles);
     const long double out_J = wide(load_Nm) * run.angle_rad;
@@ -250,7 +246,7 @@ TEST(MotoredEngine, WithoutFrictionLosesTheLoopWorkOfEveryCycleAndNeverTurnsFast
   int tick = 0;
   for (; run.engine.output().speed_rad_s >= 0 && tick < 1'000'000; ++tick) {
     const double speed = run.step(in).speed_rad_s;
-    const long double deg = run.angle_rad * 180 / kPi_ld;
+    const long double deg = run.angle_rad * 180 / kWidePi;
     const long double end_deg = 720.0L * (cycles + 1);
     if (deg_before < end_deg && deg >= end_deg) {
       const auto part = static_cast<double>((end_deg - deg_before) / (deg - deg_before));
@@ -408,7 +404,6 @@ class FreeDiesel {
   }
 
   [[nodiscard]] const RippleTheory& theory() const { return theory_; }
-
 
  private:
   static constexpr int kSamples = RippleTheory::kSamples;

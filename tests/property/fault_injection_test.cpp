@@ -18,6 +18,7 @@
 #include "support/both_reals.hpp"
 #include "support/four_with_valves.hpp"
 #include "support/random.hpp"
+#include "support/status.hpp"
 #include "target/hostile.hpp"
 #include "target/output_numbers.hpp"
 
@@ -206,8 +207,8 @@ TYPED_TEST(FaultInjection, OfASingleBitOfTheStateIsDetectedByAScrubOrStaysFinite
   const State<Real, S> begin = sound->state();
   for (int flip = 0; flip < kFlips; ++flip) {
     SCOPED_TRACE(this->random_.trace(flip));
-    ASSERT_TRUE(sound->restore(begin).ok());
-    ASSERT_TRUE(engine->restore(begin).ok());
+    ASSERT_TRUE(accepted(sound->restore(begin)));
+    ASSERT_TRUE(accepted(engine->restore(begin)));
     int tick = 2 * kTicksPerCycle;
     for (const int until = tick + this->random_.whole(0, kTicksPerCycle); tick < until; ++tick)
       engine->step(this->said_at(tick)), sound->step(this->said_at(tick));
@@ -219,7 +220,7 @@ TYPED_TEST(FaultInjection, OfASingleBitOfTheStateIsDetectedByAScrubOrStaysFinite
       ++detected;
       continue;
     }
-    ASSERT_TRUE(save_state(*engine, bytes.data(), bytes.size()).ok());
+    ASSERT_TRUE(accepted(save_state(*engine, bytes.data(), bytes.size())));
     if (!load_state(bytes.data(), bytes.size(), *engine).ok()) {
       ++detected;
       continue;

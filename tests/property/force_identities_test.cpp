@@ -21,6 +21,8 @@
 #include "support/diagrams.hpp"
 #include "support/engines.hpp"
 #include "support/fourier.hpp"
+#include "support/status.hpp"
+#include "support/units.hpp"
 #include "support/vector_geometry.hpp"
 
 namespace crankloop {
@@ -31,8 +33,8 @@ using support::Random;
 using support::wide;
 using support::Wide;
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kRadPerDeg = kPi / 180;
+using support::kPi;
+using support::kRadPerDeg;
 
 /// A random engine's cylinder somewhere in its cycle, with what the identities need from an independent hand.
 struct Moment {
@@ -216,7 +218,7 @@ EngineDefinition diesel_495() {
   engine.masses.rod_small_end_kg = 0.505;
   engine.masses.rod_big_end_kg = 1.382;
   const int order[] = {1, 3, 4, 2};
-  EXPECT_TRUE(set_firing_order(order, 4, engine.layout).ok());
+  EXPECT_TRUE(accepted(set_firing_order(order, 4, engine.layout)));
   engine.pressure.source = PressureSource::wiebe;
   engine.pressure.wiebe.net_mep_Pa = 809.7e3;
   return engine;
@@ -224,7 +226,7 @@ EngineDefinition diesel_495() {
 
 ExactEngine ready(const EngineDefinition& definition) {
   ExactEngine engine;
-  EXPECT_TRUE(engine.init(definition).ok());
+  EXPECT_TRUE(accepted(engine.init(definition)));
   return engine;
 }
 
@@ -354,7 +356,7 @@ struct SmoothEngine {
   explicit SmoothEngine(Random& random) {
     definition = support::random_engine(random).definition;
     const int order[] = {1, 2, 3};
-    EXPECT_TRUE(set_firing_order(order, 3, definition.layout).ok());
+    EXPECT_TRUE(accepted(set_firing_order(order, 3, definition.layout)));
     definition.pressure = support::table_pressure(PressureSource::angle_table, rows);
   }
 };

@@ -17,6 +17,7 @@
 #include "support/differences.hpp"
 #include "support/engines.hpp"
 #include "support/newton_euler.hpp"
+#include "support/units.hpp"
 #include "support/vector_geometry.hpp"
 
 namespace crankloop {
@@ -30,7 +31,7 @@ using support::Vec;
 using support::wide;
 using support::Wide;
 
-constexpr double kPi = 3.14159265358979323846;
+using support::kPi;
 
 /// One random engine at a random angle, speed and pressure, by both models.
 struct Encounter {

@@ -17,6 +17,7 @@
 
 #include "support/both_reals.hpp"
 #include "support/random.hpp"
+#include "support/status.hpp"
 #include "support/test_valves.hpp"
 #include "support/trigger_wheels.hpp"
 
@@ -31,17 +32,7 @@ constexpr long double kCycle = 18446744073709551616.0L;  ///< phase units
 
 int ticks_to_run() { return std::getenv("CRANKLOOP_LONG_TESTS") != nullptr ? 50'000'000 : 500'000; }
 
-/// The speed may change within a tick, as where it is integrated.
-struct Bent : Scene {
-  static constexpr Count cylinders = exactly<1>;
-  static constexpr CrankGiven crank = CrankGiven::load;
-  static constexpr ValveModel valves = ValveModel::following;
-  static constexpr Count trains = exactly<1>;
-  static constexpr bool cam_phasing = true;
-  static constexpr Count triggers = exactly<kMaxTriggerWheels>;
-  static constexpr std::uint32_t trigger_edges = 2 * kMaxTriggerEdges;
-};
-static_assert(Needs<Bent>::crank_dynamics);
+static_assert(Needs<BentSpeed>::crank_dynamics);
 
 /// A wheel's unwrapped angle, in 2^-64 turns of the wheel: rises without end.
 struct Unwrapped {
@@ -106,7 +97,7 @@ struct Accuracy {
 
 /// Checks a tick's list against the path: the edges out to the turning point and back again, in this order and no others.
 template <class Real>
-void check_tick(const TriggerSignal<Real, Bent>& signal, const Unwrapped& wheel, Wide to, long double bend, double tick_s, Accuracy& accuracy) {
+void check_tick(const TriggerSignal<Real, BentSpeed>& signal, const Unwrapped& wheel, Wide to, long double bend, double tick_s, Accuracy& accuracy) {
   // A rounding of float is 6e-8 of up to two turns of slope, and there are four on the way: slope, root, quotient, time. Found: 1.9e-7.
   const long double tolerance = sizeof(Real) == 4 ? 5e-7L : 1e-12L;
   const long double turned = static_cast<long double>(to - wheel.at) / kCycle;
@@ -172,11 +163,11 @@ TYPED_TEST(TriggerEdges, AreNeitherLostNorDoubledThroughSpeedsReversalsAndPhaser
   const double tick_s = 100e-6;
   EngineDefinition engine = with_wheels(valve_test::engine_with(valve_test::ohc_125_train()), drawn_wheels());
   for (int i : {5, 7}) engine.triggers[i].train = 0;  // two of the three cams have a phaser
-  const auto storage = std::make_unique<TableStorage<Real, Bent>>();
-  ASSERT_TRUE(storage->build(engine, {tick_s, {}}).ok());
-  const Tables<Real, Bent>& tables = storage->tables();
-  State<Real, Bent> state;
-  auto out = std::make_unique<Output<Real, Bent>>();
+  const auto storage = std::make_unique<TableStorage<Real, BentSpeed>>();
+  ASSERT_TRUE(accepted(storage->build(engine, {tick_s, {}})));
+  const Tables<Real, BentSpeed>& tables = storage->tables();
+  State<Real, BentSpeed> state;
+  auto out = std::make_unique<Output<Real, BentSpeed>>();
 
   Unwrapped wheels[kMaxTriggerWheels] = {};
   Accuracy accuracy;
@@ -206,11 +197,11 @@ TYPED_TEST(TriggerEdges, AreNeitherLostNorDoubledThroughSpeedsReversalsAndPhaser
     }
     const Move move = random_move(random, speed, cam, most);
     const auto bend = static_cast<Real>(move.bend_cycles);
-    const detail::CamsBefore<Bent> before(state);
+    const detail::CamsBefore<BentSpeed> before(state);
     const detail::CrankPath<Real> path{state.phase, Phase{static_cast<std::uint64_t>(move.turned)}, false, bend};
     state.phase += path.turned;
     state.cam_phase[0] += static_cast<std::uint64_t>(move.cam_move);
-    ASSERT_EQ((detail::TriggersStep<Real, Bent>{tables, state, *out, path, before}.run()), 0u);
+    ASSERT_EQ((detail::TriggersStep<Real, BentSpeed>{tables, state, *out, path, before}.run()), 0u);
 
     for (std::uint32_t w = 0; w < tables.triggers->count; ++w) {
       const TriggerTrack& track = tables.triggers->wheel[w];

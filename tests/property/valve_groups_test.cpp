@@ -10,6 +10,8 @@
 #include "support/both_reals.hpp"
 #include "support/four_with_valves.hpp"
 #include "support/random.hpp"
+#include "support/status.hpp"
+#include "support/units.hpp"
 
 namespace crankloop {
 namespace {
@@ -17,21 +19,11 @@ namespace {
 using namespace tick_test;
 using support::Random;
 
-struct Airless : MeasuredFourWithValves {
-  static constexpr PressureGiven pressure = PressureGiven::by_table;
-  static constexpr bool valve_gas = false;
-};
-template <class Base, bool Forces, bool Results>
-struct Asked : Base {
-  static constexpr bool valve_forces = Forces;
-  static constexpr bool valve_results = Results;
-};
-
 template <class Real, class S>
 struct Rig {
   Rig(const EngineDefinition& definition, double tick_s) {
-    EXPECT_TRUE(tables->build(definition, {tick_s, {}}).ok());
-    EXPECT_TRUE(engine.init(tables->tables()).ok());
+    EXPECT_TRUE(accepted(tables->build(definition, {tick_s, {}})));
+    EXPECT_TRUE(accepted(engine.init(tables->tables())));
   }
   const auto& step(Phase crank, double pressure_Pa) {
     typename Engine<Real, S>::Input in;
@@ -63,7 +55,7 @@ class ValveGroups : public ::testing::Test {
       Rig<Real, Asked<Base, true, false>> forces(definition, tick_s);
       Rig<Real, Asked<Base, false, true>> results(definition, tick_s);
       Rig<Real, Asked<Base, true, true>> both(definition, tick_s);
-      const double limit_deg = static_cast<double>(plain.tables->tables().drive->speed_limit_rad_s) * tick_s * 180 / 3.14159265358979;
+      const double limit_deg = static_cast<double>(plain.tables->tables().drive->speed_limit_rad_s) * tick_s * 180 / support::kPi;
       double deg_per_tick = 0;
       double pressure_Pa = 1e5;
       Phase crank;

@@ -14,20 +14,12 @@
 #include <crankloop/tick/engine_step.hpp>
 
 #include "support/random.hpp"
+#include "support/status.hpp"
 #include "support/test_engines.hpp"
 #include "support/test_valves.hpp"
+#include "support/units.hpp"
 
 namespace crankloop::valve_lanes {
-
-/// `Unit` makes the scene's type, and with it all that is compiled for it, the translation unit's own.
-template <class Unit, std::uint32_t Cylinders, std::uint32_t Trains, bool Exact, bool Phasing>
-struct Lanes : Scene {
-  static constexpr Count cylinders{Cylinders, Exact};
-  static constexpr Count trains{Trains, Exact};
-  static constexpr CrankGiven crank = CrankGiven::phase;
-  static constexpr ValveModel valves = ValveModel::elastic;
-  static constexpr bool cam_phasing = Phasing;
-};
 
 inline EngineDefinition engine_of(int cylinders, int trains) {
   std::vector<double> firing_deg;
@@ -48,11 +40,10 @@ inline EngineDefinition engine_of(int cylinders, int trains) {
 template <class S>
 std::vector<std::uint32_t> bits_of(int cylinders, int trains, double tick_s) {
   const auto tables = std::make_unique<TableStorage<float, S>>();
-  const Status status = tables->build(engine_of(cylinders, trains), {tick_s, {}});
-  EXPECT_TRUE(status.ok()) << status.field;
+  EXPECT_TRUE(accepted(tables->build(engine_of(cylinders, trains), {tick_s, {}})));
   const auto engine = std::make_unique<Engine<float, S>>();
-  EXPECT_TRUE(engine->init(tables->tables(), Phase{12345678901234567u}).ok());
-  const double limit_deg = static_cast<double>(tables->tables().drive->speed_limit_rad_s) * tick_s * 180 / 3.14159265358979;
+  EXPECT_TRUE(accepted(engine->init(tables->tables(), Phase{12345678901234567u})));
+  const double limit_deg = static_cast<double>(tables->tables().drive->speed_limit_rad_s) * tick_s * 180 / support::kPi;
   support::Random random(4711);
   std::vector<std::uint32_t> bits;
   typename Engine<float, S>::Input in;
@@ -65,7 +56,7 @@ std::vector<std::uint32_t> bits_of(int cylinders, int trains, double tick_s) {
       for (float& deg : in.cam_phase_deg) deg = tick % 700 < 350 ? 10.0F : -25.0F;
     }
     if (random.whole(0, 99) == 0) {  // what a tick remembers, worked out anew: the same bits
-      EXPECT_TRUE(engine->restore(State<float, S>(engine->state())).ok());
+      EXPECT_TRUE(accepted(engine->restore(State<float, S>(engine->state()))));
     }
     const auto& out = engine->step(in);
     bits.push_back(out.faults);
@@ -90,13 +81,13 @@ struct LanesRun {
 /// Blocks of eight, of four, what fills none; several trains in a row and each for itself; cams that move.
 template <class Unit>
 std::vector<LanesRun> all_runs(double tick_s) {
-  return {{"one valve", bits_of<Lanes<Unit, 1, 1, true, false>>(1, 1, tick_s)},
-          {"three cylinders", bits_of<Lanes<Unit, 3, 2, true, false>>(3, 2, tick_s)},
-          {"four cylinders", bits_of<Lanes<Unit, 4, 2, true, false>>(4, 2, tick_s)},
-          {"six cylinders, four trains", bits_of<Lanes<Unit, 6, 4, true, false>>(6, 4, tick_s)},
-          {"five of sixteen cylinders", bits_of<Lanes<Unit, 16, 4, false, false>>(5, 3, tick_s)},
-          {"sixteen of sixteen cylinders", bits_of<Lanes<Unit, 16, 4, false, false>>(16, 4, tick_s)},
-          {"phased cams", bits_of<Lanes<Unit, 4, 2, true, true>>(4, 2, tick_s)}};
+  return {{"one valve", bits_of<tick_test::Lanes<Unit, 1, 1, true, false>>(1, 1, tick_s)},
+          {"three cylinders", bits_of<tick_test::Lanes<Unit, 3, 2, true, false>>(3, 2, tick_s)},
+          {"four cylinders", bits_of<tick_test::Lanes<Unit, 4, 2, true, false>>(4, 2, tick_s)},
+          {"six cylinders, four trains", bits_of<tick_test::Lanes<Unit, 6, 4, true, false>>(6, 4, tick_s)},
+          {"five of sixteen cylinders", bits_of<tick_test::Lanes<Unit, 16, 4, false, false>>(5, 3, tick_s)},
+          {"sixteen of sixteen cylinders", bits_of<tick_test::Lanes<Unit, 16, 4, false, false>>(16, 4, tick_s)},
+          {"phased cams", bits_of<tick_test::Lanes<Unit, 4, 2, true, true>>(4, 2, tick_s)}};
 }
 
 std::vector<LanesRun> runs_one_by_one(double tick_s);

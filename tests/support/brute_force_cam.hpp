@@ -13,6 +13,8 @@
 #include <cmath>
 #include <functional>
 
+#include "support/units.hpp"
+
 namespace crankloop::support {
 
 struct BruteForceCam {
@@ -75,7 +77,6 @@ struct BruteForceCam {
     return rocker.cam_turns == CamTurns::toward_pivot ? -at_cam : at_cam;
   }
 
-  static constexpr double kPi = 3.14159265358979323846;
   static double wrapped(double rad) { return rad - 2 * kPi * std::floor((rad + kPi) / (2 * kPi)); }
 };
 

@@ -13,8 +13,6 @@
 
 namespace crankloop::support {
 
-inline constexpr double kDegree = 3.14159265358979323846 / 180;
-
 /// Volume of a cylinder at its own crank angle, by vector geometry and the definition of the compression ratio.
 inline double volume_m3(const Crank& crank, double crank_deg) {
   const Wide area = kWidePi / 4 * wide(crank.bore_m) * wide(crank.bore_m);
@@ -31,7 +29,7 @@ inline double swept_m3(const Crank& crank) {
 /// A smooth four-stroke-like pressure: a sharp hump after firing, a shallow one at gas exchange; infinitely
 /// differentiable, period 720 deg.
 inline double smooth_pressure_Pa(double crank_deg) {
-  const double t = crank_deg * kDegree / 2;  // one period = 2 pi
+  const double t = crank_deg * kRadPerDeg / 2;  // one period = 2 pi
   return 1e5 + 60e5 * std::exp(30 * (std::cos(t - 0.1) - 1)) + 0.2e5 * std::exp(4 * (std::cos(t - 2.2) - 1));
 }
 

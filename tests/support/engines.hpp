@@ -4,6 +4,7 @@
 #include <crankloop/define/engine_definition.hpp>
 
 #include "support/random.hpp"
+#include "support/status.hpp"
 
 namespace crankloop::support {
 
@@ -55,6 +56,14 @@ inline RandomEngine random_engine(Random& random) {
   lump_rod(engine.rod, engine.definition.crank, masses);
   engine.definition.pressure.crankcase_Pa = random.between(90e3, 120e3);
   return engine;
+}
+
+inline Layout inline_four() {
+  Layout layout;
+  const int order[] = {1, 3, 4, 2};
+  EXPECT_TRUE(accepted(set_firing_order(order, 4, layout)));
+  for (std::size_t k = 0; k < 4; ++k) layout.position_m[k] = 0.12 * static_cast<double>(k);
+  return layout;
 }
 
 }  // namespace crankloop::support

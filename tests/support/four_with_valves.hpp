@@ -17,34 +17,12 @@
 #include <crankloop/tick/engine_step.hpp>
 
 #include "support/output_fields.hpp"
+#include "support/scenes.hpp"
+#include "support/status.hpp"
 #include "support/test_engines.hpp"
 #include "support/test_valves.hpp"
 
 namespace crankloop::tick_test {
-
-/// Given the speed.
-struct FourWithValves : Scene {
-  static constexpr Count cylinders = exactly<4>;
-  static constexpr PressureGiven pressure = PressureGiven::by_table;
-  static constexpr bool load_ratio = true;
-  static constexpr bool rod_inertia = true;
-  static constexpr bool kinematics = true;
-  static constexpr bool torque = true;
-  static constexpr bool mean_torque = true;
-  static constexpr bool forces = true;
-  static constexpr ValveModel valves = ValveModel::elastic;
-  static constexpr Count trains = exactly<2>;
-  static constexpr bool valve_forces = true;
-  static constexpr bool valve_results = true;
-  static constexpr bool cam_phasing = true;
-};
-/// Given the angle, and the pressures.
-struct MeasuredFourWithValves : FourWithValves {
-  static constexpr CrankGiven crank = CrankGiven::phase;
-  static constexpr PressureGiven pressure = PressureGiven::by_input;
-  static constexpr bool load_ratio = false;
-  static constexpr bool valve_gas = true;
-};
 
 inline EngineDefinition four_with_valves() {
   EngineDefinition engine = diesel_495();
@@ -62,8 +40,7 @@ template <class Real, class S>
 const TableStorage<Real, S>& tables_of_four(double tick_s = 50e-6) {
   static const std::unique_ptr<TableStorage<Real, S>> tables = [tick_s] {
     auto built = std::make_unique<TableStorage<Real, S>>();
-    const Status status = built->build(four_with_valves(), {tick_s, {}});
-    EXPECT_TRUE(status.ok()) << status.field << ": " << describe(status.reason);
+    EXPECT_TRUE(accepted(built->build(four_with_valves(), {tick_s, {}})));
     return built;
   }();
   return *tables;
@@ -72,8 +49,7 @@ const TableStorage<Real, S>& tables_of_four(double tick_s = 50e-6) {
 template <class Real, class S>
 [[nodiscard]] std::unique_ptr<Engine<Real, S>> started_four(Phase start = {}) {
   auto engine = std::make_unique<Engine<Real, S>>();
-  const Status status = engine->init(tables_of_four<Real, S>().tables(), start);
-  EXPECT_TRUE(status.ok()) << status.field << ": " << describe(status.reason);
+  EXPECT_TRUE(accepted(engine->init(tables_of_four<Real, S>().tables(), start)));
   return engine;
 }
 

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "support/units.hpp"
+
 namespace crankloop::support {
 
 struct FourierTerm {
@@ -17,7 +19,7 @@ template <class Function>
   long double cosine = 0;
   long double sine = 0;
   for (int i = 0; i < samples; ++i) {
-    const long double t = 2 * 3.141592653589793238462643383279502884L * i / samples;
+    const long double t = 2 * kWidePi * i / samples;
     const auto value = static_cast<long double>(f(static_cast<double>(t)));
     cosine += value * std::cos(order * t);
     sine += value * std::sin(order * t);

@@ -1,4 +1,5 @@
-// Committed texts that a run must give again, to the last bit, and how they are renewed on purpose.
+// Committed texts that a run must give again, to the last bit, and how they are renewed on purpose. Of a run's rows those of every hundredth tick
+// are committed, and a hash of all rows.
 //
 //     build/check/tests/crankloop_golden_tests --renew "why"      (tests/golden/renew.sh builds first)
 //
@@ -61,8 +62,27 @@ inline std::string contents_of(const std::filesystem::path& path) {
 
 inline std::filesystem::path golden_runs() { return std::filesystem::path(CRANKLOOP_GOLDEN_DIR) / "runs"; }
 
-/// Compares with tests/golden/runs/NAME.txt; the first line that differs is shown.
-inline void expect_golden(const std::string& name, const std::string& text) {
+/// What is committed of a run: rows that tell a phase or a hash at every hundredth tick, a row without a tick, and the hash of all rows.
+inline std::string thinned(const std::string& text) {
+  constexpr int kKeptTicks = 100;
+  Fnv hash;
+  for (const char c : text) hash.add(static_cast<unsigned char>(c));
+  std::istringstream rows(text);
+  std::string kept;
+  int count = 0;
+  for (std::string row; std::getline(rows, row); ++count) {
+    std::istringstream words(row);
+    int tick = 0;
+    std::string what;
+    const bool has_tick = static_cast<bool>(words >> tick >> what);
+    if (!has_tick || (tick % kKeptTicks == 0 && (what == "phase" || what == "hash"))) kept += row + "\n";
+  }
+  return kept + "all " + std::to_string(count) + " rows hash " + hex(hash.value()) + "\n";
+}
+
+/// Compares with tests/golden/runs/NAME.txt; the first line that differs is shown, and where the whole run lies.
+inline void expect_golden(const std::string& name, const std::string& run) {
+  const std::string text = thinned(run);
   const std::filesystem::path path = golden_runs() / (name + ".txt");
   if (renewal() != nullptr) {
     std::filesystem::create_directories(path.parent_path());
@@ -78,8 +98,10 @@ inline void expect_golden(const std::string& name, const std::string& text) {
     const bool more_committed = static_cast<bool>(std::getline(committed, committed_line));
     if (!more_now && !more_committed) return;
     if (more_now && more_committed && now_line == committed_line) continue;
+    const std::filesystem::path whole = std::filesystem::path(::testing::TempDir()) / (name + ".txt");
+    std::ofstream(whole, std::ios::binary) << run;
     ADD_FAILURE() << path.string() << ":" << line << ": the bits have changed\n  committed: " << (more_committed ? committed_line : "(end)")
-                  << "\n  now:       " << (more_now ? now_line : "(end)") << "\nIf that is meant: tests/golden/renew.sh \"why\"";
+                  << "\n  now:       " << (more_now ? now_line : "(end)") << "\nAll rows of now: " << whole.string() << "\nIf that is meant: tests/golden/renew.sh \"why\"";
     return;
   }
 }

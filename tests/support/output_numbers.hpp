@@ -9,7 +9,7 @@
 
 #include <crankloop/tick/io.hpp>
 
-#include "support/test_scenes.hpp"
+#include "support/running.hpp"
 
 namespace crankloop::tick_test {
 

@@ -14,6 +14,7 @@
 #include <crankloop/tabulate/summary.hpp>
 
 #include "support/both_reals.hpp"
+#include "support/status.hpp"
 #include "support/tick_oracle.hpp"
 
 namespace crankloop::tick_test {
@@ -22,7 +23,7 @@ namespace crankloop::tick_test {
 [[nodiscard]] inline long double kinetic_J(const EngineDefinition& engine, long double engine_deg, long double speed_rad_s) {
   long double inertia = static_cast<long double>(engine.masses.crank_inertia_kg_m2 + engine.load.inertia_kg_m2);
   for (std::size_t k = 0; k < static_cast<std::size_t>(engine.layout.cylinders); ++k) {
-    const OraclePose p = oracle_pose(engine.crank, (engine_deg - wide(engine.layout.firing_deg[k])) * kPi_ld / 180);
+    const OraclePose p = oracle_pose(engine.crank, (engine_deg - wide(engine.layout.firing_deg[k])) * kWidePi / 180);
     const Masses& m = engine.masses;
     inertia += wide(m.rod_big_end_kg) * wide(engine.crank.crank_radius_m) * wide(engine.crank.crank_radius_m) +
                wide(m.reciprocating_kg()) * p.slope_m * p.slope_m + wide(m.rod_inertia_correction_kg_m2) * p.rod_slope * p.rod_slope;
@@ -62,7 +63,7 @@ class RippleTheory {
   static constexpr int kSamples = 1440;  ///< of a cycle
 
   RippleTheory(const EngineDefinition& engine, double load_ratio, std::uint32_t cut_cylinders) : load_ratio_{load_ratio}, cut_{cut_cylinders} {
-    EXPECT_TRUE(exact_.init(engine).ok());
+    EXPECT_TRUE(accepted(exact_.init(engine)));
     for (int i = 0; i < kSamples; ++i) gas_Nm_.push_back(gas_torque_Nm(720.0 * i / kSamples));
     for (const double torque : gas_Nm_) mean_gas_Nm_ += torque / kSamples;
   }

@@ -14,7 +14,7 @@
 
 #include "support/output_numbers.hpp"
 #include "support/test_engines.hpp"
-#include "support/test_scenes.hpp"
+#include "support/running.hpp"
 
 namespace crankloop::tick_test {
 

@@ -1,4 +1,4 @@
-// What a refusal must say: its reason, its field, its row or cylinder.
+// What answers must say: accepted, or refused with the reason, the field, its row or cylinder.
 #pragma once
 
 #include <crankloop/status.hpp>
@@ -15,7 +15,18 @@ inline void PrintTo(const Status& status, std::ostream* out) {
   *out << (status.ok() ? "no field" : status.field) << "[" << status.index << "] " << describe(status.reason);
 }
 
+/// EXPECT_TRUE(accepted(validate(engine))): a refusal is shown with field, row and reason.
+inline testing::AssertionResult accepted(const Status& status) {
+  return status.ok() ? testing::AssertionSuccess() : testing::AssertionFailure() << "refused: " << testing::PrintToString(status);
+}
+
 namespace support {
+
+/// A number that a field must not take, and what it is refused for.
+struct Bad {
+  double value;
+  Reason reason;
+};
 
 inline testing::AssertionResult refuses(const Status& status, Reason reason, const std::string& field, int index = -1) {
   if (status.reason == reason && field == status.field && status.index == index) return testing::AssertionSuccess();
@@ -24,4 +35,5 @@ inline testing::AssertionResult refuses(const Status& status, Reason reason, con
 }
 
 }  // namespace support
+
 }  // namespace crankloop

@@ -1,7 +1,7 @@
 // Engines that the tests of the tick run: the 495 diesel, and others made hostile on purpose.
 //
 // What belongs here: definitions by struct, as a user's set-up code writes them. What does not: scenes
-// (test_scenes.hpp), expectations.
+// (running.hpp), expectations.
 #pragma once
 
 #include <cstddef>

@@ -8,21 +8,24 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include <crankloop/tabulate/tabulate.hpp>
 #include <crankloop/tick/engine_step.hpp>
 
+#include "support/status.hpp"
 #include "support/test_engines.hpp"
-#include "support/test_scenes.hpp"
+#include "support/running.hpp"
+#include "support/units.hpp"
 #include "support/valve_reference.hpp"
 #include "support/valve_trains.hpp"
 
 namespace crankloop::valve_test {
 
-inline constexpr double kPi = 3.14159265358979323846;
-inline constexpr double kRadPerDeg = kPi / 180;
+using support::kPi;
+using support::kRadPerDeg;
 
 /// The valve of the 125 cm^3 engine [Li 2017], with what its print leaves open as docs/model.md assumes it.
 inline Valve ohc_125_valve() {
@@ -59,24 +62,19 @@ inline EngineDefinition engine_with(const ValveTrain& train) {
   return engine;
 }
 
-/// One valve, all that can be told of it.
-struct OneValve : Scene {
-  static constexpr ValveModel valves = ValveModel::elastic;
-  static constexpr bool valve_forces = true;
-  static constexpr bool valve_results = true;
-};
-struct OneValveWithPhaser : OneValve {
-  static constexpr bool cam_phasing = true;
-};
-struct OneValveOnMeasuredCrank : OneValve {
-  static constexpr CrankGiven crank = CrankGiven::phase;
-};
-struct OneValveWithGas : OneValve {
-  static constexpr PressureGiven pressure = PressureGiven::by_input;
-  static constexpr bool valve_gas = true;
-};
+using tick_test::OneValve;
+using tick_test::OneValveOnMeasuredCrank;
+using tick_test::OneValveWithGas;
+using tick_test::OneValveWithPhaser;
 
 inline double rad_s_of_rpm(double rpm) { return rpm * kPi / 30; }
+
+/// Largest difference of two runs sampled at the same moments.
+inline double apart(const std::vector<double>& a, const std::vector<double>& b) {
+  double worst = 0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) worst = std::max(worst, std::fabs(a[i] - b[i]));
+  return worst;
+}
 
 /// The engine phase of an angle in degrees.
 inline Phase phase_at(double deg) { return tick_test::phase_at_deg(static_cast<long double>(deg)); }
@@ -98,7 +96,7 @@ class Rig {
       : definition_{definition}, tick_s_{options.tick_s}, tables_{std::make_unique<TableStorage<Real, S>>()} {
     status_ = tables_->build(definition_, options);
     if (status_.ok()) status_ = engine_.init(tables_->tables(), phase_at(start_deg));
-    EXPECT_TRUE(status_.ok()) << status_.field << ": " << describe(status_.reason);
+    EXPECT_TRUE(accepted(status_));
   }
 
   const auto& step(double speed_rad_s) {
@@ -143,8 +141,7 @@ class Rig {
 
 [[nodiscard]] inline ValveLift lift_of(const ValveTrain& train) {
   ValveLift lift;
-  const Status status = lift.init(train.cam, train.rocker);
-  EXPECT_TRUE(status.ok()) << status.field << ": " << describe(status.reason);
+  EXPECT_TRUE(accepted(lift.init(train.cam, train.rocker)));
   return lift;
 }
 

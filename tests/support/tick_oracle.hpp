@@ -6,10 +6,12 @@
 
 #include <crankloop/define/crank.hpp>
 
+#include "support/units.hpp"
+
 namespace crankloop::tick_test {
 
-inline constexpr long double kPi_ld = 3.141592653589793238462643383279502884L;
-inline constexpr double kPi = static_cast<double>(kPi_ld);
+using support::kPi;
+using support::kWidePi;
 
 /// Motion of one mechanism and its derivatives by the crank angle.
 struct OraclePose {
@@ -43,7 +45,7 @@ struct OraclePose {
   return p;
 }
 [[nodiscard]] inline OraclePose oracle_pose_at_deg(const Crank& crank, double crank_deg) {
-  return oracle_pose(crank, static_cast<long double>(crank_deg) * kPi_ld / 180);
+  return oracle_pose(crank, static_cast<long double>(crank_deg) * kWidePi / 180);
 }
 
 }  // namespace crankloop::tick_test

@@ -8,26 +8,11 @@
 
 #include <crankloop/tabulate/tabulate.hpp>
 
-#include "support/test_scenes.hpp"
+#include "support/scenes.hpp"
+#include "support/status.hpp"
+#include "support/running.hpp"
 
 namespace crankloop::tick_test {
-
-/// A scene whose crank is turned by forces; with all its groups, unless told otherwise.
-template <PressureGiven Source = PressureGiven::by_table, std::uint32_t Cylinders = 0>
-struct TurnedByForces : Scene {
-  static constexpr Count cylinders = Cylinders != 0 ? Count{Cylinders, true} : Count{kMaxCylinders, false};
-  static constexpr CrankGiven crank = CrankGiven::load;
-  static constexpr PressureGiven pressure = Source;
-  static constexpr bool load_ratio = Source == PressureGiven::by_table;
-  static constexpr bool rod_inertia = true;
-  static constexpr bool kinematics = true;
-  static constexpr bool rod_motion = true;
-  static constexpr bool torque = true;
-  static constexpr bool mean_torque = true;
-  static constexpr bool forces = true;
-  static constexpr bool starter = true;
-  static constexpr bool cylinder_cut = load_ratio;
-};
 
 /// Fails the test when tables or engine are refused.
 template <class Real, class S>
@@ -36,12 +21,10 @@ class Turned {
   using Input = typename Engine<Real, S>::Input;
 
   explicit Turned(const EngineDefinition& definition, double tick_s = 100e-6, double speed_rad_s = 0, Phase start = Phase{}) {
-    const Status built = storage_->build(definition, {tick_s});
-    EXPECT_TRUE(built.ok()) << built.field << " " << describe(built.reason);
-    const Status ready = engine.init(storage_->tables(), start);
-    EXPECT_TRUE(ready.ok()) << ready.field << " " << describe(ready.reason);
+    EXPECT_TRUE(accepted(storage_->build(definition, {tick_s})));
+    EXPECT_TRUE(accepted(engine.init(storage_->tables(), start)));
     if (speed_rad_s != 0) {
-      EXPECT_TRUE(engine.restore(turning_at<Real, S>(engine.state(), static_cast<Real>(speed_rad_s))).ok());
+      EXPECT_TRUE(accepted(engine.restore(turning_at<Real, S>(engine.state(), static_cast<Real>(speed_rad_s)))));
     }
   }
 

@@ -1,7 +1,7 @@
 // What a cycle of the reference's motion was, and the textbook method to compare with.
 //
 // What belongs here: the record of a cycle by the rules of docs/model.md, one textbook step. What does not: the reference itself
-// (tools/crankloop/reference/valve_reference.hpp, which the benchmark measures against too), the valves it is run on.
+// (tools/lab/reference/valve_reference.hpp, which the benchmark measures against too), the valves it is run on.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,8 @@
 #include <functional>
 #include <vector>
 
-#include "crankloop/reference/valve_reference.hpp"
+#include "crankloop/valve/textbook_valve.hpp"
+#include "lab/reference/valve_reference.hpp"
 
 namespace crankloop::valve_test {
 
@@ -144,12 +145,9 @@ inline void textbook_step(const SingleMass& m, const std::function<CamAt(double 
     const Acting forces = acting(m, y_m, v_m_s, at.Y, at.Yd);
     return (forces.train_N + forces.seat_N - m.k_s * y_m - m.P - m.c * v_m_s) / m.M;
   };
-  const double k1 = f(0, y, v);
-  const double k2 = f(0.5, y + d / 2 * v, v + d / 2 * k1);
-  const double k3 = f(0.5, y + d / 2 * v + d * d / 4 * k1, v + d / 2 * k2);
-  const double k4 = f(1, y + d * v + d * d / 2 * k2, v + d * k3);
-  y += d * v + d * d / 6 * (k1 + k2 + k3);
-  v += d / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+  const ValveState<double> s = program::textbook_step([&](int half, double y_m, double v_m_s) { return f(0.5 * half, y_m, v_m_s); }, d, ValveState<double>{y, v});
+  y = s.lift_m;
+  v = s.velocity_m_s;
 }
 
 }  // namespace crankloop::valve_test

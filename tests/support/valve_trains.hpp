@@ -5,7 +5,7 @@
 
 #include <initializer_list>
 
-#include "crankloop/reference/ohc_125.hpp"
+#include "lab/reference/ohc_125.hpp"
 #include "support/random.hpp"
 
 namespace crankloop::support {

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <limits>
 
+#include "support/units.hpp"
+
 namespace crankloop::support {
 
 /// Wider than double on x86 and 64-bit Arm, so that a comparison sees the library's rounding and not its own.
@@ -17,7 +19,6 @@ using Wide = long double;
 /// To Wide, said aloud: clang counts it among the promotions it warns of.
 [[nodiscard]] constexpr Wide wide(double x) { return static_cast<Wide>(x); }
 
-inline constexpr Wide kWidePi = 3.141592653589793238462643383279502884L;
 inline constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 /// A point or vector in the plane of the mechanism: origin at the crank centre, up = toward the head along the cylinder

@@ -67,7 +67,7 @@ class WorkOracle {
   [[nodiscard]] std::size_t cylinders() const { return static_cast<std::size_t>(engine_.layout.cylinders); }
   [[nodiscard]] long double area_m2() const {
     const auto bore = static_cast<long double>(engine_.crank.bore_m);
-    return kPi_ld / 4 * bore * bore;
+    return kWidePi / 4 * bore * bore;
   }
   [[nodiscard]] double pressure_Pa(double own_deg) const {
     return diagram_.motored_Pa(own_deg) + load_ratio_ * diagram_.heat_Pa(own_deg);
@@ -82,9 +82,9 @@ class WorkOracle {
     const auto torque = [&](long double deg) {
       const auto over_Pa =
           static_cast<long double>(pressure_Pa(static_cast<double>(deg)) - engine_.pressure.crankcase_Pa);
-      return over_Pa * area_m2() * oracle_pose(engine_.crank, deg * (kPi_ld / 180)).slope_m;
+      return over_Pa * area_m2() * oracle_pose(engine_.crank, deg * (kWidePi / 180)).slope_m;
     };
-    return width * (kPi_ld / 180) * (5 * torque(middle - apart) + 8 * torque(middle) + 5 * torque(middle + apart)) / 18;
+    return width * (kWidePi / 180) * (5 * torque(middle - apart) + 8 * torque(middle) + 5 * torque(middle + apart)) / 18;
   }
   /// Work of one cylinder up to its own angle, any value.
   [[nodiscard]] long double one_J(long double own_deg) const {
@@ -95,7 +95,7 @@ class WorkOracle {
     return cycles * one_.back() + one_[index(i)] + panel_J(i, panels - i);
   }
   [[nodiscard]] long double energy_kg_m2(long double own_deg) const {
-    const OraclePose p = oracle_pose(engine_.crank, own_deg * (kPi_ld / 180));
+    const OraclePose p = oracle_pose(engine_.crank, own_deg * (kWidePi / 180));
     const auto m = static_cast<long double>(engine_.masses.reciprocating_kg());
     const auto inertia = static_cast<long double>(engine_.masses.rod_inertia_correction_kg_m2);
     return (m * p.slope_m * p.slope_m + inertia * p.rod_slope * p.rod_slope) / 2;

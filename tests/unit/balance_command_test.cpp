@@ -13,11 +13,13 @@
 #include "support/fourier.hpp"
 #include "support/motored_cycle.hpp"
 #include "support/run_command.hpp"
+#include "support/status.hpp"
+#include "support/units.hpp"
 
 namespace crankloop::program {
 namespace {
 
-constexpr double kRated_rad_s = 2000 * 3.14159265358979323846 / 30;
+constexpr double kRated_rad_s = 2000 * support::kPi / 30;
 
 std::string printed_by(const Command& command, std::vector<std::string> options) {
   options.insert(options.begin(), kSample);
@@ -89,12 +91,12 @@ TEST(BalanceCommand, GivesAmplitudeAndPhaseOfForcesAndTorque) {
     EXPECT_NEAR(b[key + "_up_phase_deg"], term.cosine > 0 ? 0 : 180, 1e-6) << name;
   }
   ExactEngine exact;
-  ASSERT_TRUE(exact.init(engine).ok());
+  ASSERT_TRUE(accepted(exact.init(engine)));
   for (const int order : {2, 4, 6}) {
     const support::FourierTerm term =
-        support::fourier_term([&](double a) { return exact.torque_Nm(a * 180 / 3.14159265358979323846, kRated_rad_s); }, order, 3600);
+        support::fourier_term([&](double a) { return exact.torque_Nm(a * 180 / support::kPi, kRated_rad_s); }, order, 3600);
     const std::string key = "torque_order_" + std::to_string(order);
-    const double phase_rad = b[key + "_phase_deg"] * 3.14159265358979323846 / 180;
+    const double phase_rad = b[key + "_phase_deg"] * support::kPi / 180;
     EXPECT_NEAR(b[key + "_Nm"] * std::cos(phase_rad), term.cosine, 1e-3) << order;
     EXPECT_NEAR(b[key + "_Nm"] * std::sin(phase_rad), term.sine, 1e-3) << order;
   }

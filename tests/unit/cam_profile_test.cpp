@@ -11,6 +11,7 @@
 
 #include "support/differences.hpp"
 #include "support/status.hpp"
+#include "support/units.hpp"
 #include "support/valve_trains.hpp"
 
 namespace crankloop {
@@ -22,13 +23,12 @@ using support::Random;
 using support::refuses;
 using support::slope_of;
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kRad = kPi / 180;
+using support::kPi;
+using support::kRadPerDeg;
 
 CamProfile profile_of(const Cam& cam) {
   CamProfile profile;
-  const Status status = profile.init(cam);
-  EXPECT_TRUE(status.ok()) << testing::PrintToString(status);
+  EXPECT_TRUE(accepted(profile.init(cam)));
   return profile;
 }
 
@@ -68,8 +68,8 @@ TEST(CamPolynomial, MeetsTheBaseCircleWithAsManyZeroDerivativesAsItHasExponents)
 
 TEST(CamPolynomial, IsItsDefinition) {
   const CamProfile cam = profile_of(ohc_125_cam());
-  for (double phi = -80 * kRad; phi < 80 * kRad; phi += 0.00731) {
-    const double u = std::fabs(phi) / (74 * kRad);
+  for (double phi = -80 * kRadPerDeg; phi < 80 * kRadPerDeg; phi += 0.00731) {
+    const double u = std::fabs(phi) / (74 * kRadPerDeg);
     const double y = u >= 1 ? 0
                             : 6.301099e-3 * (1 - 195.0 / 128 * std::pow(u, 2) + 117.0 / 128 * std::pow(u, 10) -
                                              65.0 / 128 * std::pow(u, 18) + 15.0 / 128 * std::pow(u, 26));
@@ -125,7 +125,7 @@ struct Measured {
   Measured(const CamProfile& cam, double from_deg, double to_deg, double step_deg) {
     for (int i = 0; from_deg + i * step_deg <= to_deg + 1e-9; ++i) {
       const double deg = from_deg + i * step_deg;
-      points.push_back({deg, cam.at(deg * kRad).lift_m});
+      points.push_back({deg, cam.at(deg * kRadPerDeg).lift_m});
     }
   }
   Measured& rounded_to(double unit_m) {
@@ -156,7 +156,7 @@ struct Measured {
   [[nodiscard]] double residual_m(const CamProfile& smooth) const {
     double largest = 0;
     for (const CamPoint& point : points) {
-      largest = std::max(largest, std::fabs(point.lift_m - smooth.at((point.cam_deg - smooth.peak_deg()) * kRad).lift_m));
+      largest = std::max(largest, std::fabs(point.lift_m - smooth.at((point.cam_deg - smooth.peak_deg()) * kRadPerDeg).lift_m));
     }
     return largest;
   }
@@ -174,8 +174,8 @@ struct Comparison {
   Comparison(const CamProfile& smooth, const CamProfile& truth) {
     double before = 0;
     for (double deg = -100; deg <= 100; deg += 0.02) {
-      const CamLift a = smooth.at((deg - smooth.peak_deg()) * kRad);
-      const CamLift b = truth.at(deg * kRad);
+      const CamLift a = smooth.at((deg - smooth.peak_deg()) * kRadPerDeg);
+      const CamLift b = truth.at(deg * kRadPerDeg);
       lift_m = std::max(lift_m, std::fabs(a.lift_m - b.lift_m));
       per_rad2_m = std::max(per_rad2_m, std::fabs(a.per_rad2_m - b.per_rad2_m));
       least_m = std::min(least_m, a.lift_m);
@@ -239,8 +239,8 @@ TEST_F(SmoothedCam, OfATableWithThreeMicrometresOfNoiseHasNoSpikes) {
     // What the rows' own second differences say, for comparison: each um of noise is up to 13 mm/rad^2 there.
     double raw = 0;
     for (std::size_t i = 1; i + 1 < table.points.size(); ++i) {
-      const double second = (table.points[i - 1].lift_m - 2 * table.points[i].lift_m + table.points[i + 1].lift_m) / (kRad * kRad);
-      raw = std::max(raw, std::fabs(second - truth.at(table.points[i].cam_deg * kRad).per_rad2_m));
+      const double second = (table.points[i - 1].lift_m - 2 * table.points[i].lift_m + table.points[i + 1].lift_m) / (kRadPerDeg * kRadPerDeg);
+      raw = std::max(raw, std::fabs(second - truth.at(table.points[i].cam_deg * kRadPerDeg).per_rad2_m));
     }
     EXPECT_GT(raw, 4 * found.per_rad2_m) << random.trace(draw);
   }
@@ -280,15 +280,15 @@ TEST_F(SmoothedCam, CountsFromItsOwnPeakWhereverTheTableBegins) {
   EXPECT_NEAR(smooth.peak_deg(), 150.25, 0.05);
   EXPECT_NEAR(smooth.at(0).per_rad_m, 0, 1e-15);
   EXPECT_NEAR(smooth.largest_lift_m(), truth.largest_lift_m(), 1.5e-6);
-  EXPECT_NEAR(smooth.at(-0.5).lift_m, truth.at(-0.5).lift_m, 1.5e-6 + 0.05 * kRad * 9e-3);
+  EXPECT_NEAR(smooth.at(-0.5).lift_m, truth.at(-0.5).lift_m, 1.5e-6 + 0.05 * kRadPerDeg * 9e-3);
 }
 
 TEST_F(SmoothedCam, IsTheSameHoweverFarItsRowsGoOnAlongTheBaseCircle) {
   constexpr double kSmoothing_m = 1e-6;
   double rises_deg = -80;
-  while (truth.at((rises_deg + 1) * kRad).lift_m <= kSmoothing_m) ++rises_deg;  // the last row that may be base circle
+  while (truth.at((rises_deg + 1) * kRadPerDeg).lift_m <= kSmoothing_m) ++rises_deg;  // the last row that may be base circle
   const CamProfile whole = profile_of(Measured(truth, -180, 180, 1).cam(kSmoothing_m));
-  EXPECT_GT(whole.opens_rad(), (rises_deg - 10) * kRad - 1e-12) << "ten degrees of base circle are enough to begin in";
+  EXPECT_GT(whole.opens_rad(), (rises_deg - 10) * kRadPerDeg - 1e-12) << "ten degrees of base circle are enough to begin in";
   for (const double beyond_deg : {11.0, 12.0, 15.0, 40.0}) {
     const CamProfile smooth = profile_of(Measured(truth, rises_deg - beyond_deg, beyond_deg - rises_deg, 1).cam(kSmoothing_m));
     EXPECT_EQ(smooth.opens_rad(), whole.opens_rad()) << beyond_deg;

@@ -15,6 +15,7 @@
 
 #include "crankloop/error.hpp"
 #include "crankloop/number.hpp"
+#include "crankloop/summary.hpp"
 #include "crankloop/words.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -92,12 +93,11 @@ TEST_F(CsvFile, RowsThatDoNotFitTheHeaderAreADefect) {
 }
 
 TEST_F(CsvFile, ASummaryLineNamesItsUnit) {
-  Output out(path_);
-  write_summary(out, "mean_torque", 210.125, "Nm");
-  write_summary(out, "lambda", 0.1F, "");
-  write_summary(out, "engine", "495 diesel");
-  out.finish();
-  EXPECT_EQ(contents(path_), "mean_torque = 210.125 Nm\nlambda = 0.100000001\nengine = 495 diesel\n");
+  Summary s(Summary::Digits::all);
+  s.line("mean_torque", 210.125, "Nm");
+  s.line("lambda", 0.1F);
+  s.line("engine", "495 diesel");
+  EXPECT_EQ(s.text(), "mean_torque = 210.125 Nm\nlambda = 0.100000001\nengine = 495 diesel\n");
 }
 
 TEST(Numbers, AreReadTheSameWhereverTheyAreWritten) {

@@ -11,6 +11,7 @@
 
 #include "support/both_reals.hpp"
 #include "support/random.hpp"
+#include "support/units.hpp"
 
 namespace crankloop {
 namespace {
@@ -21,7 +22,7 @@ using tick_test::RealName;
 using tick_test::wide;
 
 constexpr int kDraws = 100'000;
-constexpr long double kRadPerDegree = 3.141592653589793238462643383279502884L / 180;
+constexpr long double kRadPerDegree = support::kWidePi / 180;
 
 template <class Real>
 Segment<Real> random_segment(Random& random) {

@@ -11,6 +11,7 @@
 
 #include "support/diesel_engine.hpp"
 #include "support/output_numbers.hpp"
+#include "support/status.hpp"
 #include "support/tick_oracle.hpp"
 
 namespace crankloop {
@@ -22,7 +23,6 @@ template <class Real>
 class EngineAmongOthers : public DieselEngine<Real> {};
 TYPED_TEST_SUITE(EngineAmongOthers, BothReals, RealName);
 
-
 template <class Real, class S>
 void expect_snapshot_to_go_on_with_the_same_bits(const FullTables<Real>& tables) {
   Running<Real, S> run(tables, phase_at_deg(5));
@@ -32,10 +32,10 @@ void expect_snapshot_to_go_on_with_the_same_bits(const FullTables<Real>& tables)
   for (int tick = 333; tick < 700; ++tick) first.push_back(all_numbers<Real>(run.engine.step(drive_of<Real, S>(tick))));
 
   const std::vector<Real> last = all_numbers<Real>(run.engine.output());
-  ASSERT_TRUE(run.engine.restore(snapshot).ok());
+  ASSERT_TRUE(accepted(run.engine.restore(snapshot)));
   EXPECT_TRUE(same_bits(all_numbers<Real>(run.engine.output()), last));  // until the next step
   Running<Real, S> fresh(tables, phase_at_deg(300));
-  ASSERT_TRUE(fresh.engine.restore(snapshot).ok());
+  ASSERT_TRUE(accepted(fresh.engine.restore(snapshot)));
   Engine<Real, S> copy = run.engine;
   for (int tick = 333; tick < 700; ++tick) {
     const auto in = drive_of<Real, S>(tick);
@@ -74,7 +74,7 @@ TYPED_TEST(EngineAmongOthers, RefusesASnapshotOfOtherTablesAndKeepsItsOwnState) 
         Case{"more heat", more_heat, kTick_s, kFinestGrid}, Case{"another tick", diesel_495(), 99e-6, kFinestGrid},
         Case{"a coarser gas grid", diesel_495(), kTick_s, 720}}) {
     FullTables<Real> tables;
-    ASSERT_TRUE(tables.build(c.engine, c.tick_s, c.gas_capacity).ok());
+    ASSERT_TRUE(accepted(tables.build(c.engine, c.tick_s, c.gas_capacity)));
     Running<Real, Everything> other(tables, phase_at_deg(100));
     Running<Real, Everything> own(this->diesel(), phase_at_deg(50));
     other.engine.step(at_speed<Engine<Real, Everything>>(100));
@@ -85,10 +85,10 @@ TYPED_TEST(EngineAmongOthers, RefusesASnapshotOfOtherTablesAndKeepsItsOwnState) 
   }
   // The same definition tabulated anew is the same tables.
   FullTables<Real> again;
-  ASSERT_TRUE(again.build(diesel_495(), kTick_s).ok());
+  ASSERT_TRUE(accepted(again.build(diesel_495(), kTick_s)));
   Running<Real, Everything> twin(again, phase_at_deg(100));
   Running<Real, Everything> own(this->diesel());
-  EXPECT_TRUE(own.engine.restore(twin.engine.state()).ok());
+  EXPECT_TRUE(accepted(own.engine.restore(twin.engine.state())));
 }
 
 TYPED_TEST(EngineAmongOthers, TwoEnginesSideBySideDoNotKnowOfEachOther) {
@@ -128,7 +128,7 @@ TYPED_TEST(EngineAmongOthers, CylindersAtTheSameCrankAngleShareTheirLookUps) {
   EXPECT_EQ(this->diesel().drive().mechanisms, 2u);
   const auto mechanisms = [](const std::vector<double>& firing_deg) {
     FullTables<Real> tables;
-    EXPECT_TRUE(tables.build(without_gas(with_cylinders(single_495(), firing_deg)), kTick_s).ok());
+    EXPECT_TRUE(accepted(tables.build(without_gas(with_cylinders(single_495(), firing_deg)), kTick_s)));
     return tables.drive().mechanisms;
   };
   EXPECT_EQ(mechanisms({0}), 1u);
@@ -148,8 +148,8 @@ void expect_cylinders_as_if_alone(const EngineDefinition& engine) {
   EngineDefinition one = with_cylinders(engine, {0});
   FullTables<Real> together;
   FullTables<Real> alone;
-  ASSERT_TRUE(together.build(engine, kTick_s).ok());
-  ASSERT_TRUE(alone.build(one, kTick_s).ok());
+  ASSERT_TRUE(accepted(together.build(engine, kTick_s)));
+  ASSERT_TRUE(accepted(alone.build(one, kTick_s)));
   const Drive<Real>& drive = together.drive();
   Running<Real, Everything> all(together);
   std::vector<std::unique_ptr<Running<Real, Everything>>> single;
@@ -158,7 +158,7 @@ void expect_cylinders_as_if_alone(const EngineDefinition& engine) {
                        (drive.turn_of[k] != 0 ? std::uint64_t{1} << 63 : 0)};
     const long double off = turned_rad(phase_at_deg(static_cast<long double>(engine.layout.firing_deg[k])), firing);
     // Angles within 1e-9 deg are one mechanism's; float keeps firing phases to the nearest 2^-32 of a cycle, 4 pi rad.
-    const long double rounding_rad = sizeof(Real) == 4 ? 4 * kPi_ld * 0x1p-33L : 0;
+    const long double rounding_rad = sizeof(Real) == 4 ? 4 * kWidePi * 0x1p-33L : 0;
     ASSERT_LE(std::fabs(off), 2e-11L + rounding_rad) << "cylinder " << k << " fires elsewhere";
     single.push_back(std::make_unique<Running<Real, Everything>>(alone, Phase{} - firing));
   }
@@ -207,9 +207,9 @@ TYPED_TEST(EngineAmongOthers, EveryCylinderAnswersAsIfItWereAlone) {
 TYPED_TEST(EngineAmongOthers, TablesBuiltForASceneAloneAnswerTheSameBitsAsAllSections) {
   using Real = TypeParam;
   static TableStorage<Real, EverythingOfFour, 14'400> storage;
-  ASSERT_TRUE(storage.build(diesel_495(), {kTick_s}).ok());
+  ASSERT_TRUE(accepted(storage.build(diesel_495(), {kTick_s})));
   Engine<Real, EverythingOfFour> engine;
-  ASSERT_TRUE(engine.init(storage.tables()).ok());
+  ASSERT_TRUE(accepted(engine.init(storage.tables())));
   Running<Real, EverythingOfFour> full(this->diesel());
   for (int tick = 0; tick < 500; ++tick) {
     const auto in = drive_of<Real, EverythingOfFour>(tick);

@@ -19,7 +19,9 @@
 
 #include "crankloop/error.hpp"
 #include "crankloop/text_file.hpp"
+#include "support/status.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/units.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -129,7 +131,7 @@ TEST_F(EngineFileTest, TheSampleDieselIsTheOneOfTheDesignSheet) {
   EXPECT_EQ(engine.name(), "495 diesel");
   EXPECT_EQ(engine.rated_rpm(), 2000);
   const EngineDefinition& diesel = engine.definition();
-  EXPECT_TRUE(validate(diesel).ok());
+  EXPECT_TRUE(accepted(validate(diesel)));
   EXPECT_EQ(diesel.crank.bore_m, 0.095);  // the double nearest to 0.095, not 95 times a rounded 0.001
   EXPECT_EQ(diesel.crank.crank_radius_m, 0.0575);
   EXPECT_NEAR(diesel.crank.rod_ratio(), 0.2738, 1e-16);
@@ -142,7 +144,7 @@ TEST_F(EngineFileTest, TheSampleDieselIsTheOneOfTheDesignSheet) {
   EXPECT_EQ(diesel.layout.firing_deg[3], 360);
   EXPECT_EQ(diesel.layout.position_m[3], 0.36);
   // 8.8 kW of brake power per cylinder at 2000 rpm and a mechanical efficiency of 0.80, from 0.8151 L.
-  const double displacement_m3 = 3.14159265358979 / 4 * 0.095 * 0.095 * 0.115;
+  const double displacement_m3 = support::kPi / 4 * 0.095 * 0.095 * 0.115;
   EXPECT_NEAR(diesel.pressure.wiebe.net_mep_Pa * displacement_m3 * 2000 / 120 * 0.80, 8800, 5);
 }
 
@@ -376,12 +378,12 @@ TEST_F(EngineFileTest, FrictionLoadAndStarterAreReadInTheirUnitsOrAbsent) {
                                      "[starter]\nstall_Nm = 420\nno_load_rpm = 380\n";
   const EngineFile engine = read(brakes);
   const EngineDefinition& d = engine.definition();
-  constexpr double kSpeed_rad_s = 2000 * 3.14159265358979 / 30;  // at 2000 rpm
+  constexpr double kSpeed_rad_s = 2000 * support::kPi / 30;  // at 2000 rpm
   EXPECT_NEAR(d.friction.constant_Pa + kSpeed_rad_s * (d.friction.linear_Pa_s + kSpeed_rad_s * d.friction.quadratic_Pa_s2), 162e3, 1e-6);
   EXPECT_NEAR(d.load.constant_Nm + kSpeed_rad_s * (d.load.linear_Nm_s + kSpeed_rad_s * d.load.quadratic_Nm_s2), 174, 1e-9);
   EXPECT_EQ(d.load.inertia_kg_m2, 0.1);
   EXPECT_EQ(d.starter.stall_Nm, 420);
-  EXPECT_NEAR(d.starter.no_load_rad_s, 380 * 3.14159265358979 / 30, 1e-12);
+  EXPECT_NEAR(d.starter.no_load_rad_s, 380 * support::kPi / 30, 1e-12);
   EXPECT_EQ(show(read(show(engine))), show(engine));
 
   EXPECT_NE(refusal(replaced(brakes, "constant_kPa = 90", "constant_kPa = -90")).find("constant_kPa"), std::string::npos);

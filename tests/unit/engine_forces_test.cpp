@@ -8,6 +8,7 @@
 
 #include "support/diesel_engine.hpp"
 #include "support/random.hpp"
+#include "support/status.hpp"
 #include "support/tick_oracle.hpp"
 
 namespace crankloop {
@@ -26,9 +27,9 @@ template <class Real>
 void expect_exact_forces(const EngineDefinition& engine, double gas_error_Pa, const char* what) {
   using S = Asking<kForces | kTorque>;
   ExactEngine exact;
-  ASSERT_TRUE(exact.init(engine).ok());
+  ASSERT_TRUE(accepted(exact.init(engine)));
   FullTables<Real> tables;
-  ASSERT_TRUE(tables.build(engine, kTick_s).ok());
+  ASSERT_TRUE(accepted(tables.build(engine, kTick_s)));
   Random random;
   const Crank& crank = engine.crank;
   const double area = kPi / 4 * crank.bore_m * crank.bore_m;
@@ -92,7 +93,7 @@ TYPED_TEST(EngineForces, TorqueReadFromCurvesIsTheSumOfTheForcesTorques) {
   using Real = TypeParam;
   for (const EngineDefinition& engine : {diesel_495(), uneven_v4(), without_gas(uneven_v4())}) {
     FullTables<Real> tables;
-    ASSERT_TRUE(tables.build(engine, kTick_s).ok());
+    ASSERT_TRUE(accepted(tables.build(engine, kTick_s)));
     Running<Real, Asking<kTorque, kByTable, true>> by_curve(tables);
     Running<Real, Asking<kTorque | kForces, kByTable, true>> by_forces(tables);
     const double area = kPi / 4 * 0.095 * 0.095;
@@ -120,7 +121,7 @@ TYPED_TEST(EngineForces, TorqueOfMeasuredPressuresIsTheirWorkOnTheVolumes) {
   const auto gas_torque_is_work = [](const EngineDefinition& engine, auto scene) {
     using E = Engine<Real, decltype(scene)>;
     FullTables<Real> tables;
-    ASSERT_TRUE(tables.build(engine, kTick_s).ok());
+    ASSERT_TRUE(accepted(tables.build(engine, kTick_s)));
     Running<Real, decltype(scene)> fired(tables);
     Running<Real, decltype(scene)> at_rest(tables);
     Random random;

@@ -12,6 +12,7 @@
 #include "crankloop/number.hpp"
 #include "support/ripple_theory.hpp"
 #include "support/run_command.hpp"
+#include "support/units.hpp"
 #include "support/vcd_dump.hpp"
 
 namespace crankloop::program {
@@ -138,7 +139,7 @@ TEST_F(FreeRunCommand, ABrakeOfConstantTorqueTakesThePlaceOfTheFiles) {
   EXPECT_EQ(line(held, "turned").first, 0);
   const std::string summary = run({kSample, "--free", "--from-rpm", "1500", "--load-Nm", "50", "--load-ratio", "0.5", "--seconds", "1"});
   EXPECT_EQ(line(summary, "cycle_load").first, 50);
-  EXPECT_NEAR(line(summary, "taken_by_load").first, 50 * line(summary, "turned").first * 2 * 3.14159265358979, 1e-4 * line(summary, "taken_by_load").first);
+  EXPECT_NEAR(line(summary, "taken_by_load").first, 50 * line(summary, "turned").first * 2 * support::kPi, 1e-4 * line(summary, "taken_by_load").first);
 }
 
 TEST_F(FreeRunCommand, ACutCylinderShowsInHalfOrderWhicheverItIs) {

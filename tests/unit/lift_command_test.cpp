@@ -15,14 +15,16 @@
 #include "crankloop/commands.hpp"
 #include "crankloop/engine_file/engine_file.hpp"
 #include "crankloop/error.hpp"
+#include "support/status.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/units.hpp"
 #include "support/valve_trains.hpp"
 
 namespace crankloop::program {
 namespace {
 
 constexpr const char* kOhc125 = CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini";
-constexpr double kRad = 3.14159265358979323846 / 180;
+using support::kRadPerDeg;
 
 std::string contents(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -94,10 +96,10 @@ class LiftCommand : public testing::Test {
   }
   static std::string cam_rows(int from_deg, int to_deg) {
     CamProfile cam;
-    EXPECT_TRUE(cam.init(support::ohc_125_cam()).ok());
+    EXPECT_TRUE(accepted(cam.init(support::ohc_125_cam())));
     std::string rows = "cam_deg,lift_mm\n";
     for (int deg = from_deg; deg <= to_deg; ++deg) {
-      rows += std::to_string(deg) + "," + std::to_string(std::round(cam.at(deg * kRad).lift_m * 1e6) / 1e3) + "\n";
+      rows += std::to_string(deg) + "," + std::to_string(std::round(cam.at(deg * kRadPerDeg).lift_m * 1e6) / 1e3) + "\n";
     }
     return rows;
   }
@@ -109,14 +111,14 @@ class LiftCommand : public testing::Test {
 TEST_F(LiftCommand, TabulatesTheTrainOfThe125OverATurnOfItsCam) {
   const auto table = rows(kOhc125);
   ValveLift lift;
-  ASSERT_TRUE(lift.init(support::ohc_125_cam(), support::ohc_125_rocker()).ok());
+  ASSERT_TRUE(accepted(lift.init(support::ohc_125_cam(), support::ohc_125_rocker())));
   ASSERT_EQ(table.size(), 361u);
   for (std::size_t i = 0; i < table.size(); ++i) {
     const std::vector<double>& row = table[i];
     EXPECT_EQ(row[0], static_cast<double>(i) - 180);
-    const LiftPose pose = lift.at(row[0] * kRad);
+    const LiftPose pose = lift.at(row[0] * kRadPerDeg);
     // 12 digits are printed; the file's millimetres are the definition's to one rounding.
-    EXPECT_NEAR(row[1], pose.rocker_rad / kRad, 1e-9);
+    EXPECT_NEAR(row[1], pose.rocker_rad / kRadPerDeg, 1e-9);
     EXPECT_NEAR(row[2], pose.lift_m > 0 ? pose.lift_m * 1e3 : 0, 1e-11);
     EXPECT_NEAR(row[3], pose.per_rad_m * 1e3, 1e-10);
     EXPECT_NEAR(row[4], pose.per_rad2_m * 1e3, 1e-9);

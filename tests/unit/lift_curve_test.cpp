@@ -13,6 +13,7 @@
 #include "crankloop/engine_file/engine_file.hpp"
 #include "support/both_reals.hpp"
 #include "support/random.hpp"
+#include "support/status.hpp"
 #include "support/test_valves.hpp"
 
 namespace crankloop {
@@ -63,24 +64,19 @@ std::vector<NamedTrain> named_trains() {
   return trains;
 }
 
-struct CamFollowing : Scene {
-  static constexpr ValveModel valves = ValveModel::following;
-};
-
 /// A train's table by itself: all that this test knows of how a curve is stored.
 template <class Real>
 class LiftTable {
  public:
   explicit LiftTable(const ValveTrain& train) {
-    const Status refused = storage_->build(valve_test::engine_with(train), {100e-6});
-    EXPECT_TRUE(refused.ok()) << refused.field;
+    EXPECT_TRUE(accepted(storage_->build(valve_test::engine_with(train), {100e-6})));
   }
   [[nodiscard]] Lift<Real> at(std::uint64_t since_opening) const {
     return storage_->tables().lift_curves[0].read(LiftCurve<Real>::cell(since_opening));
   }
 
  private:
-  using Storage = TableStorage<Real, CamFollowing>;
+  using Storage = TableStorage<Real, tick_test::CamFollowing>;
   std::unique_ptr<Storage> storage_ = std::make_unique<Storage>();
 };
 

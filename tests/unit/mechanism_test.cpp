@@ -12,6 +12,7 @@
 #include "support/differences.hpp"
 #include "support/engines.hpp"
 #include "support/fourier.hpp"
+#include "support/units.hpp"
 #include "support/vector_geometry.hpp"
 
 namespace crankloop {
@@ -23,8 +24,8 @@ using support::Random;
 using support::wide;
 using support::Wide;
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kDeg = kPi / 180;
+using support::kPi;
+using support::kRadPerDeg;
 
 // A figure printed with n decimals is right to half a unit of the last one.
 constexpr double kHalfOfThirdDecimal = 0.0005;
@@ -181,8 +182,8 @@ TEST(DeadCentres, AreThePublishedOnesOfTheExampleWithTenMillimetresOfOffset) {
   Crank crank = support::diesel_495_crank();
   crank.pin_offset_m = 0.010;
   const DeadCentres found = dead_centres(crank);
-  EXPECT_NEAR(found.tdc_rad / kDeg, 2.142, kHalfOfThirdDecimal);
-  EXPECT_NEAR(found.bdc_rad / kDeg, 183.760, kHalfOfThirdDecimal);
+  EXPECT_NEAR(found.tdc_rad / kRadPerDeg, 2.142, kHalfOfThirdDecimal);
+  EXPECT_NEAR(found.bdc_rad / kRadPerDeg, 183.760, kHalfOfThirdDecimal);
   EXPECT_NEAR(found.stroke_m * 1000, 115.141, kHalfOfThirdDecimal);
 }
 
@@ -210,7 +211,7 @@ TEST(DeadCentres, AreWhereTheRodLiesInLineWithTheCrankAndThePistonTurnsRound) {
     EXPECT_LT(std::fabs(found.tdc_rad), kPi / 2);
     EXPECT_NEAR(found.bdc_rad, kPi, kPi / 2);
     for (int i = 0; i < 36; ++i) {
-      const double x = exact_pose(crank, i * 10 * kDeg).displacement_m;
+      const double x = exact_pose(crank, i * 10 * kRadPerDeg).displacement_m;
       EXPECT_GE(x, -rounding.displacement);
       EXPECT_LE(x, stroke + rounding.displacement);
     }
@@ -364,14 +365,14 @@ TEST(SecondOrder, AccelerationAtLambda032IsExactAtTheDeadCentresAndNearFourOther
   EXPECT_NEAR(error(0), 0, tolerance);
   EXPECT_NEAR(error(kPi), 0, tolerance);
   for (const double published_deg : {60.5, 119.5, 240.5, 299.5}) {
-    double low = (published_deg - 5) * kDeg;
-    double high = (published_deg + 5) * kDeg;
+    double low = (published_deg - 5) * kRadPerDeg;
+    double high = (published_deg + 5) * kRadPerDeg;
     ASSERT_LT(error(low) * error(high), 0) << published_deg;
     for (int i = 0; i < 60; ++i) {
       const double middle = (low + high) / 2;
       (error(low) * error(middle) <= 0 ? high : low) = middle;
     }
-    EXPECT_NEAR(low / kDeg, published_deg, kHalfOfTenthOfDegree);
+    EXPECT_NEAR(low / kRadPerDeg, published_deg, kHalfOfTenthOfDegree);
   }
 }
 
@@ -433,7 +434,7 @@ TEST(ExactAcceleration, HasInnerMinimaOnlyAboveTheThreshold026376) {
   const double threshold = (std::sqrt(21.0) - 3) / 6;
   EXPECT_NEAR(threshold, 0.26376, kHalfOfFifthDecimal);
   const auto smallest_off_bottom_deg = [](double lambda) {
-    return std::fabs(extremes(unit_crank(lambda), &Pose<double>::acceleration_m).smallest.at_rad / kDeg - 180);
+    return std::fabs(extremes(unit_crank(lambda), &Pose<double>::acceleration_m).smallest.at_rad / kRadPerDeg - 180);
   };
   // At the threshold the minimum is flat to the fourth power: between 180 deg and a there is a^4/24 j'''' to find, so
   // rounding hides (24 eps)^(1/4) = 0.02 deg. The published five digits are tested from both sides.
@@ -447,7 +448,7 @@ TEST(ExactAcceleration, AndItsApproximationDifferInTheirMinimaAtTheRodRatioOfThe
   const Crank crank = unit_crank(0.2738);
   const Extreme approximate = extremes(crank, &Pose<double>::acceleration_m, second_order_pose).smallest;
   const Extreme exact = extremes(crank, &Pose<double>::acceleration_m).smallest;
-  const auto folded_deg = [](double rad) { return std::min(rad, 2 * kPi - rad) / kDeg; };
+  const auto folded_deg = [](double rad) { return std::min(rad, 2 * kPi - rad) / kRadPerDeg; };
   EXPECT_NEAR(approximate.value, -0.73034, kHalfOfFifthDecimal);
   EXPECT_NEAR(folded_deg(approximate.at_rad), 155.9, kHalfOfTenthOfDegree);
   EXPECT_NEAR(exact.value, -0.72696, kHalfOfFifthDecimal);
@@ -480,7 +481,7 @@ TEST(RodMotion, WithoutOffsetHasThePublishedClosedFormOfItsAcceleration) {
   for (const double lambda : {0.15, 0.2738, 0.45}) {
     const Crank crank = unit_crank(lambda);
     for (int degree = 0; degree < 360; ++degree) {
-      const double a = degree * kDeg;
+      const double a = degree * kRadPerDeg;
       const Pose<double> pose = exact_pose(crank, a);
       const double cos_b = std::cos(pose.rod_angle_rad);
       const double published = -lambda * (1 - lambda * lambda) * std::sin(a) / (cos_b * cos_b * cos_b);
@@ -495,7 +496,7 @@ double largest_error(double lambda, double Pose<double>::*quantity) {
   const Crank crank = unit_crank(lambda);
   double largest = 0;
   for (int degree = 0; degree < 360; ++degree) {
-    const double a = degree * kDeg;
+    const double a = degree * kRadPerDeg;
     largest = std::max(largest, std::fabs(second_order_pose(crank, a).*quantity - exact_pose(crank, a).*quantity));
   }
   return largest;
@@ -576,7 +577,7 @@ TEST(Extremes, AreNotPassedByAnyAngleOfAnyMechanism) {
         EXPECT_NEAR(extreme.value, exact_pose(crank, extreme.at_rad).*one.quantity, one.rounding);
       }
       for (int i = 0; i < 3'600; ++i) {
-        const double value = exact_pose(crank, i * 0.1 * kDeg + random.between(0, 0.1) * kDeg).*one.quantity;
+        const double value = exact_pose(crank, i * 0.1 * kRadPerDeg + random.between(0, 0.1) * kRadPerDeg).*one.quantity;
         EXPECT_LE(value, found.largest.value + one.rounding);
         EXPECT_GE(value, found.smallest.value - one.rounding);
       }

@@ -1,23 +1,21 @@
-// The report's plots and pages: what an engineer reads off them must be what the numbers say, whatever the numbers are.
+// The report's plots: what an engineer reads off them must be what the numbers say, whatever the numbers are.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <locale>
-#include <map>
 #include <random>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "crankloop/report/page.hpp"
 #include "crankloop/report/plot.hpp"
 #include "crankloop/report/thinning.hpp"
 #include "support/markup.hpp"
+#include "support/report_plots.hpp"
+#include "support/units.hpp"
 
 namespace crankloop::report {
 namespace {
@@ -28,7 +26,7 @@ using support::read;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kPi = 3.14159265358979323846;
+using support::kPi;
 
 TEST(MarkupReader, RefusesWhatTheOtherTestsRelyOnItToRefuse) {
   EXPECT_EQ(read("<a b=\"1\"><c/>x &amp; y</a>").fault, "");
@@ -72,33 +70,6 @@ void expect_sound(const std::string& svg) {
       }
     }
   }
-}
-
-// ---- Engines to draw ----
-
-/// A cylinder pressure at 0.1 deg: a narrow peak 8.3 deg after firing TDC.
-Series pressure_trace() {
-  Series series;
-  series.name = "pressure";
-  for (int i = 0; i <= 7200; ++i) {
-    const double deg = 0.1 * i;
-    series.x.push_back(deg);
-    series.y.push_back(1 + 77.3 * std::exp(-std::pow((deg - 8.3) / 14, 2)) +
-                       40 * std::exp(-std::pow((deg - 720) / 30, 2)));
-  }
-  return series;
-}
-
-Plot plot_of(std::vector<Series> series) {
-  Plot plot;
-  plot.id = "p";
-  plot.title = "Cylinder pressure";
-  plot.x.title = "Crank angle";
-  plot.x.unit = "deg";
-  plot.y.title = "Pressure";
-  plot.y.unit = "bar";
-  plot.series = std::move(series);
-  return plot;
 }
 
 // ---- Text ----
@@ -538,195 +509,6 @@ TEST(ReportPlot, SameDataGiveTheSameBytesInAnyLocale) {
   std::locale::global(before);
   EXPECT_EQ(svg, elsewhere);
 }
-
-// ---- Colours ----
-
-using Rgb = std::array<double, 3>;
-
-/// The colour variables of one theme.
-std::map<std::string, Rgb> colours(bool dark) {
-  const std::string style{plot_style()};
-  const std::size_t media = style.find("prefers-color-scheme: dark");
-  std::map<std::string, Rgb> found;
-  std::size_t at = dark ? media : 0;
-  const std::size_t end = dark ? style.find("\n}", media) : media;
-  while ((at = style.find("--", at)) < end) {
-    const std::size_t colon = style.find(':', at);
-    const std::string value = style.substr(colon + 2, 7);
-    Rgb rgb{};
-    for (std::size_t i = 0; i < 3; ++i) {  // sRGB to linear light, IEC 61966-2-1
-      const double c = static_cast<double>(std::strtol(value.substr(1 + 2 * i, 2).c_str(), nullptr, 16)) / 255;
-      rgb[i] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-    }
-    found[style.substr(at + 2, colon - at - 2)] = rgb;
-    at = colon;
-  }
-  return found;
-}
-
-/// Contrast ratio of WCAG 2.
-double contrast(const Rgb& a, const Rgb& b) {
-  const auto luminance = [](const Rgb& c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; };
-  const auto [darker, lighter] = std::minmax({luminance(a), luminance(b)});
-  return (lighter + 0.05) / (darker + 0.05);
-}
-
-TEST(ReportColours, TextIsLegibleInBothThemes) {
-  constexpr double kAa = 4.5;      // WCAG 2, 1.4.3: text
-  constexpr double kGraphics = 3;  // 1.4.11: parts of a graphic needed to understand it
-  for (const bool dark : {false, true}) {
-    const auto theme = colours(dark);
-    SCOPED_TRACE(dark ? "dark" : "light");
-    for (const char* ground : {"paper", "band"}) {
-      for (const char* text :
-           {"ink", "muted", "accent", "series-1", "series-2", "series-3", "series-4", "series-5", "series-6"}) {
-        EXPECT_GE(contrast(theme.at(text), theme.at(ground)), kAa) << text << " on " << ground;
-      }
-      for (const char* line : {"axis", "zero"})
-        EXPECT_GE(contrast(theme.at(line), theme.at(ground)), kGraphics) << line;
-    }
-  }
-}
-
-TEST(ReportColours, CurvesDifferForColourBlindReadersToo) {
-  // Dichromats' view of linear sRGB: Machado, Oliveira, Fernandes 2009, severity 1. Difference: CIE 1976 L*a*b*.
-  using Matrix = std::array<Rgb, 3>;
-  const std::map<std::string, Matrix> views{
-      {"normal", {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}},
-      {"protan", {{{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}}},
-      {"deutan", {{{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}}}},
-      {"tritan",
-       {{{1.255528, -0.076749, -0.178779}, {-0.078411, 0.930809, 0.147602}, {0.004733, 0.691367, 0.303900}}}}};
-  const auto lab = [](const Matrix& view, const Rgb& colour) {
-    Rgb seen{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      seen[i] = std::clamp(view[i][0] * colour[0] + view[i][1] * colour[1] + view[i][2] * colour[2], 0.0, 1.0);
-    }
-    const auto f = [](double t) { return t > 0.008856 ? std::cbrt(t) : 7.787 * t + 16.0 / 116; };
-    const double x = f((0.4124 * seen[0] + 0.3576 * seen[1] + 0.1805 * seen[2]) / 0.9505);
-    const double y = f(0.2126 * seen[0] + 0.7152 * seen[1] + 0.0722 * seen[2]);
-    const double z = f((0.0193 * seen[0] + 0.1192 * seen[1] + 0.9505 * seen[2]) / 1.089);
-    return Rgb{116 * y - 16, 500 * (x - y), 200 * (y - z)};
-  };
-  constexpr double kClearlyDifferent = 10;  // about 2.3 is just noticeable side by side
-  for (const bool dark : {false, true}) {
-    const auto theme = colours(dark);
-    for (const auto& [name, view] : views) {
-      for (int i = 1; i <= kColours; ++i) {
-        for (int k = i + 1; k <= kColours; ++k) {
-          const Rgb a = lab(view, theme.at("series-" + std::to_string(i)));
-          const Rgb b = lab(view, theme.at("series-" + std::to_string(k)));
-          EXPECT_GE(std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]), kClearlyDifferent)
-              << name << (dark ? ", dark " : ", light ") << i << k;
-        }
-      }
-    }
-  }
-}
-
-// ---- Pages ----
-
-Page sample_page() {
-  Page page;
-  page.title = "495 diesel at 2000 rpm";
-  page.subtitle = "Crank mechanism";
-  page.facts = {{"Mean torque", "168.1", "Nm", "four cylinders"}, {"Power", "35.2", "kW", ""}};
-  Table narrow{"Geometry", {{"Quantity", "", false}, {"Value", "", true}}, {{"Bore", "95 mm"}, {"Stroke"}}, false};
-  Table wide{"Forces",
-             {{"a", "deg"}, {"b", "N"}, {"c", "N"}, {"d", "N"}, {"e", "N"}},
-             {{"0", "1", "2", "3", "4", "surplus"}},
-             true};
-  Plot plot = plot_of({pressure_trace()});
-  plot.caption = "Synthesised.";
-  page.sections = {{"",
-                    "Definition",
-                    {Paragraph{"Even firing.", false}, Paragraph{"Pressure is synthesised.", true},
-                     List{{"No offset."}}, narrow, narrow}},
-                   {"forces", "Forces", {plot, plot, wide}}};
-  page.footer = "Made by a test.";
-  return page;
-}
-
-TEST(ReportPage, IsWellFormedAndNeedsNoNetworkAndNoScript) {
-  const std::string html = to_html(sample_page());
-  EXPECT_EQ(read(html).fault, "");
-  EXPECT_EQ(html.rfind("<!DOCTYPE html>", 0), 0u);
-  EXPECT_EQ(html.find("<script"), std::string::npos);
-  EXPECT_EQ(html.find("@import"), std::string::npos);
-  EXPECT_EQ(html.find("src=\""), std::string::npos);
-  for (std::size_t at = html.find("url("); at != std::string::npos; at = html.find("url(", at + 1))
-    EXPECT_EQ(html[at + 4], '#');
-  for (std::size_t at = html.find("http"); at != std::string::npos; at = html.find("http", at + 1)) {
-    const bool name_space = html.compare(at, 26, "http://www.w3.org/2000/svg") == 0;  // a name, which nobody fetches
-    EXPECT_TRUE(name_space || html.compare(at, 10, "http-equiv") == 0) << html.substr(at, 40);
-  }
-}
-
-TEST(ReportPage, CanBeReadByEar) {
-  const Markup html = read(to_html(sample_page()));
-  EXPECT_EQ(html.all("html").at(0).attributes.at("lang"), "en");
-  int level = 0;
-  for (const Element& element : html.elements) {
-    if (element.name.size() != 2 || element.name[0] != 'h' || element.name[1] < '1' || element.name[1] > '6') continue;
-    EXPECT_LE(element.name[1] - '0', level + 1) << "heading skips a level: " << element.text;
-    level = element.name[1] - '0';
-  }
-  EXPECT_EQ(html.all("h1").size(), 1u);
-  EXPECT_EQ(html.all("figure").size(), html.all("svg").size());
-  EXPECT_EQ(html.all("figcaption").size(), 2u);
-  EXPECT_EQ(html.all("table").size(), html.all("caption").size());
-  for (const Element& heading : html.all("th")) EXPECT_EQ(heading.attributes.count("scope"), 1u);
-}
-
-TEST(ReportPage, GivesEveryIdOnceAndEveryReferenceAnId) {
-  Page page = sample_page();
-  page.sections[0].title = "Forces";  // as the other one
-  page.sections[1].id = "p-title";    // as a part of the plot "p"
-  const Markup html = read(to_html(page));
-  std::set<std::string> ids;
-  for (const Element& element : html.elements) {
-    const auto it = element.attributes.find("id");
-    if (it == element.attributes.end()) continue;
-    EXPECT_TRUE(ids.insert(it->second).second) << it->second;
-    EXPECT_EQ(it->second.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-"), std::string::npos) << it->second;
-  }
-  for (const Element& element : html.elements) {
-    for (const char* key : {"href", "aria-labelledby"}) {
-      const auto it = element.attributes.find(key);
-      if (it == element.attributes.end() || it->second == "data:,") continue;
-      std::string names = it->second + ' ';
-      for (std::size_t at = names.find(' '); at != std::string::npos; names.erase(0, at + 1), at = names.find(' ')) {
-        const std::string name = names.substr(names[0] == '#' ? 1 : 0, names[0] == '#' ? at - 1 : at);
-        EXPECT_EQ(ids.count(name), 1u) << name;
-      }
-    }
-  }
-}
-
-TEST(ReportPage, FillsShortRowsAndDropsSurplusCells) {
-  const Markup html = read(to_html(sample_page()));
-  EXPECT_EQ(html.all("td").size() + html.all("th").size(),
-            2u * (2 + 2 * 2) + (5 + 5));  // two narrow tables of two rows, a wide one of one row, each with its head
-}
-
-TEST(ReportPage, EscapesEveryTextItIsGiven) {
-  const std::string evil = "</style><script>\"&'";
-  Page page;
-  page.title = page.subtitle = page.footer = page.language = evil;
-  page.facts = {{evil, evil, evil, evil}};
-  Plot plot = plot_of({});
-  plot.id = plot.title = plot.caption = evil;
-  page.sections = {
-      {evil, evil, {Paragraph{evil, true}, List{{evil}}, Table{evil, {{evil, evil, true}}, {{evil}}, true}, plot}},
-      {"", "", {}}};
-  const std::string html = to_html(page);
-  EXPECT_EQ(read(html).fault, "");
-  EXPECT_EQ(html.find("<script"), std::string::npos);
-}
-
-TEST(ReportPage, AnEmptyPageIsAPage) { EXPECT_EQ(read(to_html({})).fault, ""); }
-
-TEST(ReportPage, SamePageGivesTheSameBytes) { EXPECT_EQ(to_html(sample_page()), to_html(sample_page())); }
 
 }  // namespace
 }  // namespace crankloop::report

@@ -9,10 +9,12 @@
 #include <crankloop/tabulate/valve_lift.hpp>
 
 #include "crankloop/commands.hpp"
-#include "crankloop/stress/stability_map.hpp"
-#include "crankloop/stress/stress_case.hpp"
-#include "crankloop/stress/stress_tally.hpp"
-#include "crankloop/stress/stress_trial.hpp"
+#include "lab/stress/stability_map.hpp"
+#include "lab/stress/stress_case.hpp"
+#include "lab/stress/stress_tally.hpp"
+#include "lab/stress/stress_trial.hpp"
+
+#include "support/status.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -34,7 +36,7 @@ TEST(StressCases, CoverTheirRanges) {
   constexpr int kDraws = 3000;
   for (int i = 0; i < kDraws; ++i) {
     const StressCase one(kSeed, static_cast<std::uint64_t>(i));
-    EXPECT_TRUE(validate(one.train).ok()) << one.text();
+    EXPECT_TRUE(accepted(validate(one.train))) << one.text();
     const double speed_rpm = std::fabs(one.speed_rpm);
     if (speed_rpm > 0) slowest = std::min(slowest, speed_rpm);
     fastest_rpm = std::max(fastest_rpm, speed_rpm);

@@ -11,8 +11,9 @@
 #include <vector>
 
 #include "support/random.hpp"
+#include "support/status.hpp"
 #include "support/test_engines.hpp"
-#include "support/test_scenes.hpp"
+#include "support/running.hpp"
 #include "support/tick_oracle.hpp"
 
 namespace crankloop {
@@ -93,7 +94,7 @@ Six answer(const Engine& engine, const Crank& crank) {
 
 Six oracle(const Crank& crank, Phase phase) {
   const OraclePose p =
-      oracle_pose(crank, static_cast<long double>(phase.units()) * (4 * kPi_ld / 18446744073709551616.0L));
+      oracle_pose(crank, static_cast<long double>(phase.units()) * (4 * kWidePi / 18446744073709551616.0L));
   const double r = crank.crank_radius_m;
   return {static_cast<double>(p.displacement_m) / r, static_cast<double>(p.slope_m) / r,
           static_cast<double>(p.acceleration_m) / r, static_cast<double>(p.rod_angle_rad),
@@ -131,7 +132,7 @@ TYPED_TEST(TickKinematics, AtAMillionRandomPhasesOfTwentyMechanismsAreExactToThe
   Six worst;
   int draw = 0;
   for (const Crank& crank : cranks) {
-    ASSERT_TRUE(tables.build(engine_with<Real>(crank), kTick_s).ok());
+    ASSERT_TRUE(accepted(tables.build(engine_with<Real>(crank), kTick_s)));
     Running<Real, ByPhase> run(tables);
     for (int i = 0; i < kRandomPhases / static_cast<int>(cranks.size()); ++i, ++draw) {
       const Phase phase{random.bits()};
@@ -155,7 +156,7 @@ TYPED_TEST(TickKinematics, OnBothSidesOfEveryBorderAreExactAndWithoutAStep) {
   // float reads the phase's top word: there the neighbours that differ are 2^32 units apart.
   const std::uint64_t one = sizeof(Real) == 4 ? std::uint64_t{1} << 32 : 1;
   for (const Crank& crank : mechanisms(random)) {
-    ASSERT_TRUE(tables.build(engine_with<Real>(crank), kTick_s).ok());
+    ASSERT_TRUE(accepted(tables.build(engine_with<Real>(crank), kTick_s)));
     Running<Real, ByPhase> run(tables);
     for (std::uint32_t degree = 0; degree < 720; ++degree) {
       // The first phase whose cell is this degree: the border by long double, then by asking.
@@ -189,7 +190,7 @@ TYPED_TEST(TickKinematics, GoAroundWithoutAStepAt360And720InSmallTicksEitherWay)
   using Real = TypeParam;
   FullTables<Real> tables;
   const Crank crank = {0.1, 0.0571, 0.127, 0.0114, 10};
-  ASSERT_TRUE(tables.build(engine_with<Real>(crank), 1e-6).ok());
+  ASSERT_TRUE(accepted(tables.build(engine_with<Real>(crank), 1e-6)));
   for (const long double border_deg : {360.0L, 720.0L}) {
     for (const Real speed : {Real{3}, Real{-3}}) {
       Running<Real, BySpeed> run(tables, phase_at_deg(border_deg - (speed > Real{0} ? 0.02L : -0.02L)));
@@ -218,7 +219,7 @@ TYPED_TEST(TickKinematics, TablesReadByHandHoldThePromiseForEveryCurve) {
          inertia = 0, stroke = 0, stroke_slope = 0;
   for (const Crank& crank : mechanisms(random)) {
     const EngineDefinition engine = engine_with<Real>(crank);
-    ASSERT_TRUE(tables.build(engine, kTick_s).ok());
+    ASSERT_TRUE(accepted(tables.build(engine, kTick_s)));
     const Sections<Real>& s = tables.sections();
     const double r = crank.crank_radius_m;
     const double mass_r2 = engine.masses.reciprocating_kg() * crank.crank_radius_m * crank.crank_radius_m;
@@ -228,7 +229,7 @@ TYPED_TEST(TickKinematics, TablesReadByHandHoldThePromiseForEveryCurve) {
       const std::uint32_t degree = cell.degree % 360;
       const Real u = fraction<Real>(cell);
       const OraclePose want =
-          oracle_pose(crank, static_cast<long double>(phase.units()) * (4 * kPi_ld / 18446744073709551616.0L));
+          oracle_pose(crank, static_cast<long double>(phase.units()) * (4 * kWidePi / 18446744073709551616.0L));
       const auto read = [&](const auto& curve) { return static_cast<long double>(value(curve.at[degree], u)); };
       const auto read_slope = [&](const auto& curve) {
         return static_cast<long double>(value(curve.at[degree].slope, u));
@@ -255,9 +256,9 @@ TYPED_TEST(TickKinematics, TablesReadByHandHoldThePromiseForEveryCurve) {
       long double torque = 0;
       const auto cylinders = static_cast<std::size_t>(engine.layout.cylinders);
       for (std::size_t k = 0; k < cylinders; ++k) {
-        const long double firing = wide(engine.layout.firing_deg[k]) * kPi_ld / 180;
+        const long double firing = wide(engine.layout.firing_deg[k]) * kWidePi / 180;
         const OraclePose p =
-            oracle_pose(crank, static_cast<long double>(phase.units()) * (4 * kPi_ld / 18446744073709551616.0L) - firing);
+            oracle_pose(crank, static_cast<long double>(phase.units()) * (4 * kWidePi / 18446744073709551616.0L) - firing);
         torque -= wide(engine.masses.reciprocating_kg()) * p.slope_m * p.acceleration_m +
                   wide(engine.masses.rod_inertia_correction_kg_m2) * p.rod_slope * p.rod_curvature;
       }
@@ -294,7 +295,7 @@ TYPED_TEST(TickKinematics, DisplacementNeverLeavesTheStroke) {
   Random random;
   FullTables<Real> tables;
   for (const Crank& crank : mechanisms(random)) {
-    ASSERT_TRUE(tables.build(engine_with<Real>(crank), kTick_s).ok());
+    ASSERT_TRUE(accepted(tables.build(engine_with<Real>(crank), kTick_s)));
     Running<Real, ByPhase> run(tables);
     const double r = crank.crank_radius_m;
     const double l = crank.rod_length_m;

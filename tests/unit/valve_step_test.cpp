@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include "crankloop/valve/textbook_valve.hpp"
 #include "support/status.hpp"
 #include "support/test_valves.hpp"
 
@@ -33,8 +34,7 @@ ValveBody<double> body_of(const ValveTrain& train) {
 
 ValveMotion<double> motion_for(const ValveBody<double>& body, double tick_s, Integrator integrator = Integrator::rk4) {
   ValveMotion<double> motion{};
-  const Status status = motion_of(body, tick_s, {integrator, 0.1e-6}, motion);
-  EXPECT_TRUE(status.ok()) << status.field;
+  EXPECT_TRUE(accepted(motion_of(body, tick_s, {integrator, 0.1e-6}, motion)));
   return motion;
 }
 
@@ -74,14 +74,7 @@ ValveState<double> textbook(const ValveBody<double>& b, std::uint32_t regime, do
   };
   const double d = step_s / n;
   for (int i = 0; i < n; ++i) {
-    const double y = s.lift_m;
-    const double v = s.velocity_m_s;
-    const double begin = double(i) / n, middle = (i + 0.5) / n, end = (i + 1.0) / n;
-    const double k1 = f(begin, y, v);
-    const double k2 = f(middle, y + d / 2 * v, v + d / 2 * k1);
-    const double k3 = f(middle, y + d / 2 * v + d * d / 4 * k1, v + d / 2 * k2);
-    const double k4 = f(end, y + d * v + d * d / 2 * k2, v + d * k3);
-    s = {y + d * v + d * d / 6 * (k1 + k2 + k3), v + d / 6 * (k1 + 2 * k2 + 2 * k3 + k4)};
+    s = program::textbook_step([&](int half, double y, double v) { return f((i + 0.5 * half) / n, y, v); }, d, s);
   }
   return s;
 }
@@ -354,7 +347,7 @@ TEST(ValveStepping, RefusesWhatItCannotStepAndNamesTheLongestTick) {
     b.seat_Ns_m *= std::pow(10, random.between(-2, 1.5));
     const ValveStepping stepping{Integrator::rk4, 0.01e-6 * std::pow(10, random.between(0, 3))};
     const double longest = longest_tick_s(b, stepping);
-    EXPECT_TRUE(motion_of(b, longest * 0.999999, stepping, motion).ok());
+    EXPECT_TRUE(accepted(motion_of(b, longest * 0.999999, stepping, motion)));
     EXPECT_LE(motion.parts, static_cast<std::uint32_t>(kMostFineSteps));
     if (longest < 0.9) {
       EXPECT_TRUE(refuses(motion_of(b, longest * 1.000001, stepping, motion), Reason::out_of_range, "tick.tick"));
@@ -362,7 +355,7 @@ TEST(ValveStepping, RefusesWhatItCannotStepAndNamesTheLongestTick) {
     }
     // Monotone: what is accepted at a tick is accepted at every shorter one.
     for (int i = 0; i < 20; ++i) {
-      EXPECT_TRUE(motion_of(b, longest * random.between(1e-3, 0.999), stepping, motion).ok());
+      EXPECT_TRUE(accepted(motion_of(b, longest * random.between(1e-3, 0.999), stepping, motion)));
       EXPECT_NEAR(motion.parts * motion.fine_step_s, motion.tick_s, 1e-15);
     }
   }
@@ -557,7 +550,7 @@ TEST(ValveEquilibrium, OnASoftSeatUnderALiftedCamIsWhereTheForcesBalance) {
   train.valve.seat_N_m = 150;
   train.valve.spring_preload_N = 50;
   ValveMotion<double> motion{};
-  ASSERT_TRUE(motion_of(body_of(train), 20e-6, {}, motion).ok());
+  ASSERT_TRUE(accepted(motion_of(body_of(train), 20e-6, {}, motion)));
   const ValveMotion<float> in_float = rounded(motion);
   for (const float lift_m : {1e-7F, 1e-4F, 1e-3F, 8e-3F}) {
     const detail::Placed<float> placed = detail::in_equilibrium(in_float, lift_m, 0.0F);
@@ -607,15 +600,6 @@ TYPED_TEST(ValveEnergy, OfADampedValveNeverGrowsBeyondRounding) {
 // ---- the state
 // -------------------------------------------------------------------------------------------------------------
 
-template <std::uint32_t Cylinders, std::uint32_t Trains, bool Phasing, bool Results>
-struct Sized : Scene {
-  static constexpr Count cylinders = exactly<Cylinders>;
-  static constexpr ValveModel valves = ValveModel::elastic;
-  static constexpr Count trains = exactly<Trains>;
-  static constexpr bool valve_results = Results;
-  static constexpr bool cam_phasing = Phasing;
-};
-
 /// Bytes of a state's members, one by one.
 template <class Real, std::uint32_t Cylinders, std::uint32_t Trains, bool Phasing, bool Results>
 constexpr std::size_t bytes_of_parts() {
@@ -631,10 +615,10 @@ constexpr std::size_t bytes_of_parts() {
 
 template <class Real, std::uint32_t C, std::uint32_t T>
 constexpr bool no_padding() {
-  return sizeof(State<Real, Sized<C, T, false, false>>) == bytes_of_parts<Real, C, T, false, false>() &&
-         sizeof(State<Real, Sized<C, T, true, false>>) == bytes_of_parts<Real, C, T, true, false>() &&
-         sizeof(State<Real, Sized<C, T, false, true>>) == bytes_of_parts<Real, C, T, false, true>() &&
-         sizeof(State<Real, Sized<C, T, true, true>>) == bytes_of_parts<Real, C, T, true, true>();
+  return sizeof(State<Real, tick_test::Elastic<C, T, false, false>>) == bytes_of_parts<Real, C, T, false, false>() &&
+         sizeof(State<Real, tick_test::Elastic<C, T, true, false>>) == bytes_of_parts<Real, C, T, true, false>() &&
+         sizeof(State<Real, tick_test::Elastic<C, T, false, true>>) == bytes_of_parts<Real, C, T, false, true>() &&
+         sizeof(State<Real, tick_test::Elastic<C, T, true, true>>) == bytes_of_parts<Real, C, T, true, true>();
 }
 
 TYPED_TEST(ValveEnergy, StateOfAnyNumberOfValvesHasNoPadding) {

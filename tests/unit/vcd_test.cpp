@@ -36,7 +36,8 @@ void expect_change(const Dump::Change& change, long long time_ns, const std::str
 }
 
 TEST_F(VcdTest, TellsSignalsByNameInTheOrderOfTime) {
-  VcdFile vcd(Output(path_), "495 diesel", {"crank", "cam"}, {"speed_rpm"});
+  Output out(path_);
+  VcdFile vcd(out, "495 diesel", {"crank", "cam"}, {"speed_rpm"});
   vcd.level(0, 0, false);
   vcd.level(1, 0, true);
   vcd.number(0, 0, 812.5);
@@ -48,6 +49,7 @@ TEST_F(VcdTest, TellsSignalsByNameInTheOrderOfTime) {
   vcd.number(0, 100e-6, 812.25);
   vcd.write_until(100e-6);
   vcd.finish(200e-6);
+  out.finish();
 
   const Dump dump = read_dump(path_);
   EXPECT_EQ(dump.scope, "495_diesel");
@@ -64,13 +66,15 @@ TEST_F(VcdTest, TellsSignalsByNameInTheOrderOfTime) {
 }
 
 TEST_F(VcdTest, LeavesOutWhatDoesNotChange) {
-  VcdFile vcd(Output(path_), "m", {"a"}, {"b"});
+  Output out(path_);
+  VcdFile vcd(out, "m", {"a"}, {"b"});
   for (int i = 0; i < 10; ++i) {
     vcd.level(0, i * 1e-6, i >= 5);
     vcd.number(0, i * 1e-6, i / 4);
     vcd.write_until(i * 1e-6);
   }
   vcd.finish(10e-6);
+  out.finish();
   const Dump dump = read_dump(path_);
   ASSERT_EQ(dump.changes.size(), 5u);
   expect_change(dump.changes[2], 4000, "b", 1);
@@ -79,12 +83,14 @@ TEST_F(VcdTest, LeavesOutWhatDoesNotChange) {
 }
 
 TEST_F(VcdTest, KeepsTimesRisingAndLosesNothingAtItsEnd) {
-  VcdFile vcd(Output(path_), "m", {"a"}, {});
+  Output out(path_);
+  VcdFile vcd(out, "m", {"a"}, {});
   vcd.level(0, 100e-9, true);
   vcd.write_until(1e-6);
   vcd.level(0, 50e-9, false);   // too late to be told at its time
   vcd.level(0, 700e-9, true);   // beyond the end that finish() gives
   vcd.finish(300e-9);
+  out.finish();
   const Dump dump = read_dump(path_);
   ASSERT_EQ(dump.changes.size(), 3u);
   expect_change(dump.changes[1], 100, "a", 0);
@@ -95,9 +101,11 @@ TEST_F(VcdTest, KeepsTimesRisingAndLosesNothingAtItsEnd) {
 TEST_F(VcdTest, HasCodesForMoreSignalsThanThereArePrintableCharacters) {
   std::vector<std::string> names;
   for (int i = 0; i < 200; ++i) names.push_back("wheel" + std::to_string(i));
-  VcdFile vcd(Output(path_), "m", names, {});
+  Output out(path_);
+  VcdFile vcd(out, "m", names, {});
   for (std::size_t i = 0; i < names.size(); ++i) vcd.level(i, static_cast<double>(i) * 1e-9, true);
   vcd.finish(1e-6);
+  out.finish();
   const Dump dump = read_dump(path_);
   ASSERT_EQ(dump.changes.size(), names.size());
   for (std::size_t i = 0; i < names.size(); ++i) expect_change(dump.changes[i], static_cast<long long>(i), names[i], 1);
@@ -106,7 +114,9 @@ TEST_F(VcdTest, HasCodesForMoreSignalsThanThereArePrintableCharacters) {
 TEST_F(VcdTest, OfARunHasTheTeethOfItsWheelsAtTheirTimes) {
   // 495: 60-2 from 246 deg on, a tooth every 6 deg; half a moon from 540 to 900 deg. At 2000 rpm a degree takes 83.333 us.
   const EngineFile engine = read_engine_file(CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495.ini", {});
-  write_signals(engine, {2000, 100e-6, 1}, 2, path_);
+  Output out(path_);
+  write_signals(engine, {2000, 100e-6, 1}, 2, out);
+  out.finish();
   const Dump dump = read_dump(path_);
   EXPECT_EQ(dump.scope, "495_diesel");
   EXPECT_EQ(dump.end_ns, 120'000'000) << "two cycles";

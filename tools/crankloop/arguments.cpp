@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <limits>
 
-#include "commands.hpp"
 #include "error.hpp"
 #include "words.hpp"
 

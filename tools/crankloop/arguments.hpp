@@ -3,6 +3,7 @@
 // What belongs here: options and their values. What does not: what they do.
 #pragma once
 
+#include <cstddef>
 #include <initializer_list>
 #include <map>
 #include <string>
@@ -12,8 +13,6 @@
 #include "number.hpp"
 
 namespace crankloop::program {
-
-struct Command;
 
 /// One option as a command declares it; make it with one of the functions below.
 struct Option {
@@ -45,6 +44,32 @@ struct Option {
 [[nodiscard]] constexpr Option text(const char* name, const char* value, const char* meaning) noexcept {
   return {name, Option::Kind::text, value, meaning};
 }
+
+class Arguments;
+
+/// A command's options, from an array or none.
+struct Options {
+  const Option* first = nullptr;
+  std::size_t count = 0;
+
+  constexpr Options() noexcept = default;
+  template <std::size_t N>
+  constexpr Options(const Option (&options)[N]) noexcept
+      : first{options}, count{N} {}  // NOLINT: an array is what it is
+
+  [[nodiscard]] constexpr const Option* begin() const noexcept { return first; }
+  [[nodiscard]] constexpr const Option* end() const noexcept { return first + count; }
+};
+
+struct Command {
+  const char* name;
+  const char* summary;  ///< one line, shown in the list of commands
+  const char* usage;    ///< what follows the name: "FILE --rpm N [--csv F]"
+  const char* example;  ///< a whole line that works from the folder of the sample engines
+  std::size_t files;    ///< how many file names it takes
+  Options options;
+  int (*run)(const Arguments&);  ///< returns an ExitStatus; throws the types of error.hpp
+};
 
 /// What the user asked for, as `--name value`, `--name=value`, `--flag`, and files in between; `--` ends the options.
 class Arguments {

@@ -10,6 +10,7 @@
 #include "free_orders.hpp"
 #include "load_ratio.hpp"
 #include "tick_probe.hpp"
+#include "units.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -85,7 +86,7 @@ void write_bearings(CsvWriter& csv, const EngineDefinition& definition, double s
 int run_balance(const Arguments& arguments) {
   const EngineFile engine = read_engine_file(arguments.file(), {"engine", "crank", "masses"});
   const EngineDefinition& definition = engine.definition();
-  const double speed = arguments.number("--rpm") * kRadPerSPerRpm;
+  const double speed = arguments.number("--rpm") * kRad_sPerRpm;
   require_heat_to_scale(arguments, engine);
   ExactEngine exact;
   if (const Status refused = exact.init(definition); !refused.ok()) throw engine.explain(refused);

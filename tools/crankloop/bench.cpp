@@ -1,16 +1,15 @@
 // `crankloop bench`: run time against error, all contestants in one process.
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "bench/bench_report.hpp"
-#include "bench/groups.hpp"
-#include "bench/kernels.hpp"
-#include "bench/machine.hpp"
+#include "lab/bench/bench_report.hpp"
+#include "lab/bench/groups.hpp"
+#include "lab/bench/kernels.hpp"
 #include "commands.hpp"
 #include "error.hpp"
-#include "output.hpp"
+#include "machine.hpp"
+#include "results.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -32,30 +31,14 @@ bench::Effort effort_of(const Arguments& arguments) {
   return arguments.has("--quick") ? bench::kQuick : bench::kFull;
 }
 
-/// Opened before anything is measured: a place that cannot be written to is told at once, not after a minute.
-class Files {
- public:
-  explicit Files(const Arguments& arguments)
-      : json_{opened(arguments, "--json")}, csv_{opened(arguments, "--csv")}, report_{opened(arguments, "--report")}, plot_{opened(arguments, "--plot")} {}
-
-  void write(const std::vector<Row>& rows, const std::string& command_line) {
-    const std::string machine = bench::describe_machine();
-    if (json_) json_->write(bench::to_json(rows));
-    if (csv_) bench::write_csv(*csv_, rows);
-    if (report_) report_->write(report::to_html(bench::bench_page(rows, machine, command_line)));
-    if (plot_) plot_->write(report::to_svg_file(bench::bench_sheet(rows, machine)));
-    for (std::optional<Output>* file : {&json_, &csv_, &report_, &plot_}) {
-      if (*file) (*file)->finish();
-    }
-  }
-
- private:
-  [[nodiscard]] static std::optional<Output> opened(const Arguments& arguments, const char* option) {
-    if (!arguments.has(option)) return std::nullopt;
-    return std::optional<Output>(std::in_place, arguments.text(option));
-  }
-  std::optional<Output> json_, csv_, report_, plot_;
-};
+void write(Results& results, const std::vector<Row>& rows, const std::string& command_line) {
+  const std::string machine = describe_machine();
+  if (Output* json = results["--json"]) json->write(bench::to_json(rows));
+  if (Output* csv = results["--csv"]) bench::write_csv(*csv, rows);
+  if (Output* page = results["--report"]) page->write(report::to_html(bench::bench_page(rows, machine, command_line)));
+  if (Output* plot = results["--plot"]) plot->write(report::to_svg_file(bench::bench_sheet(rows, machine)));
+  results.finish("# " + machine + "\n" + bench::to_text(rows));
+}
 
 int run_bench(const Arguments& arguments) {
   if (arguments.has("--errors") && (arguments.has("--quick") || arguments.has("--report") || arguments.has("--plot"))) {
@@ -65,13 +48,8 @@ int run_bench(const Arguments& arguments) {
     bench::run_kernel(arguments.text("--kernel"), arguments.whole_number("--ticks"));
     return kSuccess;
   }
-  Files files(arguments);
-  const std::vector<Row> rows = measure(effort_of(arguments));
-  files.write(rows, arguments.has("--quick") ? "crankloop bench --quick" : "crankloop bench");
-  const std::string text = "# " + bench::describe_machine() + "\n" + bench::to_text(rows);
-  bool output_taken = false;
-  for (const char* option : {"--json", "--csv", "--report", "--plot"}) output_taken = output_taken || arguments.text_or_empty(option) == "-";
-  tell(text, output_taken);
+  Results results(arguments, {"--json", "--csv", "--report", "--plot"});
+  write(results, measure(effort_of(arguments)), arguments.has("--quick") ? "crankloop bench --quick" : "crankloop bench");
   return kSuccess;
 }
 

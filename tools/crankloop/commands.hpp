@@ -7,36 +7,11 @@
 //                           "crankloop forces diesel_495.ini --rpm 2000 --csv forces.csv", 1, kOptions, run_forces};
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "arguments.hpp"
 
 namespace crankloop::program {
-
-/// A command's options, from an array or none.
-struct Options {
-  const Option* first = nullptr;
-  std::size_t count = 0;
-
-  constexpr Options() noexcept = default;
-  template <std::size_t N>
-  constexpr Options(const Option (&options)[N]) noexcept
-      : first{options}, count{N} {}  // NOLINT: an array is what it is
-
-  [[nodiscard]] constexpr const Option* begin() const noexcept { return first; }
-  [[nodiscard]] constexpr const Option* end() const noexcept { return first + count; }
-};
-
-struct Command {
-  const char* name;
-  const char* summary;  ///< one line, shown in the list of commands
-  const char* usage;    ///< what follows the name: "FILE --rpm N [--csv F]"
-  const char* example;  ///< a whole line that works from the folder of the sample engines
-  std::size_t files;    ///< how many file names it takes
-  Options options;
-  int (*run)(const Arguments&);  ///< returns an ExitStatus; throws the types of error.hpp
-};
 
 /// Of this program, in the order in which its help lists them; the first gives the example. all_commands.cpp has them all, table_commands.cpp
 /// those of the program that crankloop_add_scene builds to make its tables.

@@ -10,11 +10,11 @@
 #include "engine_file/engine_file.hpp"
 #include "load_ratio.hpp"
 #include "tick_probe.hpp"
+#include "units.hpp"
+#include "with_real.hpp"
 
 namespace crankloop::program {
 namespace {
-
-constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
 
 /// Where it is asked.
 struct Point {
@@ -117,14 +117,10 @@ int run_forces(const Arguments& arguments) {
                      std::to_string(cylinder + 1) + " is none of them");
   }
   const Scale scale = arguments.has("--per-area") ? Scale{1e-6 / bore_area_m2(definition.crank), "_MPa"} : Scale{1, "_N"};
-  const Point point{cylinder, arguments.number("--rpm") * kRadPerSPerRpm, arguments.number("--load-ratio")};
+  const Point point{cylinder, arguments.number("--rpm") * kRad_sPerRpm, arguments.number("--load-ratio")};
   Output out(arguments.text_or_empty("--csv"));
   CsvWriter csv(out, header(scale));
-  if (arguments.text("--real") == "float") {
-    write<float>(csv, engine, arguments, point, scale);
-  } else {
-    write<double>(csv, engine, arguments, point, scale);
-  }
+  with_real(arguments.text("--real"), [&](auto zero) { write<decltype(zero)>(csv, engine, arguments, point, scale); });
   out.finish();
   return kSuccess;
 }

@@ -5,11 +5,11 @@
 #include "csv.hpp"
 #include "engine_file/engine_file.hpp"
 #include "tick_probe.hpp"
+#include "units.hpp"
+#include "with_real.hpp"
 
 namespace crankloop::program {
 namespace {
-
-constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
 
 /// Cylinder 1 alone: kinematics asks for no masses and no pressure.
 EngineDefinition mechanism_alone(const Crank& crank) {
@@ -55,7 +55,7 @@ void write(CsvWriter& csv, const Crank& crank, const std::string& method, double
 
 int run_kinematics(const Arguments& arguments) {
   arguments.require_exactly_one_of({"--rpm", "--speed-rad-s"});
-  const double speed = arguments.has("--rpm") ? arguments.number("--rpm") * kRadPerSPerRpm : arguments.number("--speed-rad-s");
+  const double speed = arguments.has("--rpm") ? arguments.number("--rpm") * kRad_sPerRpm : arguments.number("--speed-rad-s");
   const double step_deg = arguments.number("--step-deg");
   const std::string& method = arguments.text("--method");
   const EngineFile engine = read_engine_file(arguments.file(), {"engine", "crank"});
@@ -66,11 +66,7 @@ int run_kinematics(const Arguments& arguments) {
   Output out(arguments.text_or_empty("--csv"));
   CsvWriter csv(out, {"crank_deg", "rod_angle_deg", "displacement_mm", "velocity_m_s", "acceleration_m_s2", "rod_speed_rad_s",
                       "rod_acceleration_rad_s2"});
-  if (arguments.text("--real") == "float") {
-    write<float>(csv, crank, method, step_deg, speed);
-  } else {
-    write<double>(csv, crank, method, step_deg, speed);
-  }
+  with_real(arguments.text("--real"), [&](auto zero) { write<decltype(zero)>(csv, crank, method, step_deg, speed); });
   out.finish();
   return kSuccess;
 }

@@ -7,12 +7,12 @@
 #include "commands.hpp"
 #include "csv.hpp"
 #include "engine_file/engine_file.hpp"
+#include "summary.hpp"
 #include "tick_probe.hpp"
+#include "units.hpp"
 
 namespace crankloop::program {
 namespace {
-
-constexpr double kDegPerRad = 180 / 3.14159265358979323846;
 
 void write_lift(CsvWriter& csv, const ValveLift& lift, double step_deg) {
   for_each_angle(step_deg, 360, [&](double since_first_row) {
@@ -24,7 +24,7 @@ void write_lift(CsvWriter& csv, const ValveLift& lift, double step_deg) {
   });
 }
 
-void summarise(Output& out, const ValveLift& lift, CamSource source) {
+std::string summary(const ValveLift& lift, CamSource source) {
   double least_ratio = lift.at(0).rocker_ratio;
   double most_ratio = least_ratio;
   for (int tenth = -1800; tenth < 1800; ++tenth) {
@@ -32,15 +32,17 @@ void summarise(Output& out, const ValveLift& lift, CamSource source) {
     least_ratio = std::min(least_ratio, ratio);
     most_ratio = std::max(most_ratio, ratio);
   }
-  write_summary(out, "max_theoretical_lift", lift.largest_lift_m() * 1e3, "mm");
-  write_summary(out, "lobe_begin", lift.opens_rad() * kDegPerRad, "deg");
-  write_summary(out, "lobe_end", lift.closes_rad() * kDegPerRad, "deg");
-  write_summary(out, "rocker_ratio_least", least_ratio, "");
-  write_summary(out, "rocker_ratio_most", most_ratio, "");
-  write_summary(out, "smallest_cam_radius", lift.smallest_radius_m() * 1e3, "mm");
-  if (source != CamSource::table) return;
-  write_summary(out, "smoothing_residual", lift.cam().residual_m() * 1e6, "um");
-  write_summary(out, "table_peak", lift.cam().peak_deg(), "deg");
+  Summary s(Summary::Digits::all);
+  s.line("max_theoretical_lift", lift.largest_lift_m() * 1e3, "mm");
+  s.line("lobe_begin", lift.opens_rad() * kDegPerRad, "deg");
+  s.line("lobe_end", lift.closes_rad() * kDegPerRad, "deg");
+  s.line("rocker_ratio_least", least_ratio);
+  s.line("rocker_ratio_most", most_ratio);
+  s.line("smallest_cam_radius", lift.smallest_radius_m() * 1e3, "mm");
+  if (source != CamSource::table) return s.text();
+  s.line("smoothing_residual", lift.cam().residual_m() * 1e6, "um");
+  s.line("table_peak", lift.cam().peak_deg(), "deg");
+  return s.text();
 }
 
 int run_lift(const Arguments& arguments) {
@@ -58,11 +60,7 @@ int run_lift(const Arguments& arguments) {
   CsvWriter csv(out, {"cam_deg", "rocker_angle_deg", "lift_mm", "lift_mm_per_rad", "lift_mm_per_rad2", "rocker_ratio"});
   write_lift(csv, *lift, arguments.number("--step-deg"));
   out.finish();
-  if (arguments.has("--csv")) {
-    Output summary = Output::standard();
-    summarise(summary, *lift, train.definition.cam.source);
-    summary.finish();
-  }
+  if (arguments.has("--csv")) print(summary(*lift, train.definition.cam.source));
   return kSuccess;
 }
 

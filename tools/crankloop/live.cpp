@@ -11,13 +11,14 @@
 #include "error.hpp"
 #include "live/live_loop.hpp"
 #include "live/live_summary.hpp"
+#include "load_ratio.hpp"
 #include "number.hpp"
 #include "output.hpp"
+#include "units.hpp"
+#include "with_real.hpp"
 
 namespace crankloop::program {
 namespace {
-
-constexpr double kRadPerRpm_s = 3.14159265358979323846 / 30;
 
 std::uint32_t cylinders_of(const EngineFile& file) { return static_cast<std::uint32_t>(file.definition().layout.cylinders); }
 
@@ -30,7 +31,7 @@ LiveRequest request_of(const Arguments& arguments, const EngineFile& file) {
     throw UsageError("--tick-us " + shortest(tick_us) + " is no whole number of nanoseconds, which the clock counts");
   }
   request.ticks = static_cast<std::uint64_t>(std::max(1.0, std::round(arguments.number("--seconds") / request.tick_s)));
-  request.start_rad_s = arguments.number("--from-rpm") * kRadPerRpm_s;
+  request.start_rad_s = arguments.number("--from-rpm") * kRad_sPerRpm;
   request.patience_ns = std::llround(arguments.number("--silent-ms") * 1e6);
   request.at_start.load_ratio = arguments.number("--load-ratio");
   request.at_start.load_Nm = arguments.number("--load-Nm");
@@ -39,9 +40,7 @@ LiveRequest request_of(const Arguments& arguments, const EngineFile& file) {
   if (arguments.has("--cpu")) request.real_time.cpu = arguments.whole_number("--cpu");
 
   const EngineDefinition& definition = file.definition();
-  if (arguments.has("--load-ratio") && definition.pressure.source == PressureSource::none) {
-    throw InputError(file.path() + ": there is no pressure source, so --load-ratio has nothing to scale");
-  }
+  require_heat_to_scale(arguments, file);
   if (arguments.has("--starter") && definition.starter.stall_Nm == 0) {
     throw InputError(file.path() + ": there is no [starter], so --starter has nothing to engage");
   }
@@ -62,8 +61,7 @@ int run_live_command(const Arguments& arguments) {
     alone.magic = port::kLiveMagic;
     std::optional<port::SharedBlock> shared;
     if (shares) shared.emplace(port::SharedBlock::create(arguments.text("--shared"), request.tick_s, cylinders_of(file)));
-    const auto run = real == "float" ? run_live<float> : run_live<double>;
-    run(file, request, shares ? **shared : alone, *figures);
+    with_real(real, [&](auto zero) { run_live<decltype(zero)>(file, request, shares ? **shared : alone, *figures); });
   } catch (const port::SharedBlockError& refused) {
     throw InputError(refused.what());
   }
@@ -72,9 +70,7 @@ int run_live_command(const Arguments& arguments) {
     write_live_histogram(*histogram, *figures);
     histogram->finish();
   }
-  Output out = Output::standard();
-  write_live_summary(out, file, request, real, shares, *figures);
-  out.finish();
+  print(live_summary(file, request, real, shares, *figures));
   if (!figures->lost_block) return kSuccess;
   throw std::runtime_error(arguments.text("--shared") + ": was truncated or overwritten after " + std::to_string(figures->tally.ticks) + " ticks");
 }

@@ -84,17 +84,15 @@ const Command& find_command(const std::string& name) {
                    (guess.empty() ? "; commands: " + join(names) : guess));
 }
 
-int print(const std::string& text) {
-  Output out = Output::standard();
-  out.write(text);
-  out.finish();
+int tell(const std::string& text) {
+  print(text);
   return kSuccess;
 }
 
 int run_help(const std::vector<std::string>& words) {
-  if (words.size() < 2) return print(help());
-  if (words[1] == "engine-file") return print(engine_file_help());
-  return print(help_of(find_command(words[1])));
+  if (words.size() < 2) return tell(help());
+  if (words[1] == "engine-file") return tell(engine_file_help());
+  return tell(help_of(find_command(words[1])));
 }
 
 /// Messages quote words of the command line: none may carry control codes to a terminal, or make two lines of one.
@@ -109,12 +107,12 @@ int run(const std::vector<std::string>& words) {
   refuse_control_codes(words);
   if (words.empty()) throw InputError("crankloop: a command is missing; `crankloop --help` lists them");
   if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") return run_help(words);
-  if (words[0] == "--version") return print("crankloop " CRANKLOOP_VERSION "\n");
+  if (words[0] == "--version") return tell("crankloop " CRANKLOOP_VERSION "\n");
   const Command& command = find_command(words[0]);
   const std::vector<std::string> rest(words.begin() + 1, words.end());
   for (const std::string& word : rest) {
     if (word == "--") break;
-    if (word == "--help" || word == "-h") return print(help_of(command));
+    if (word == "--help" || word == "-h") return tell(help_of(command));
   }
   try {
     return command.run(Arguments(command, rest));

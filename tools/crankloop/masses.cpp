@@ -4,13 +4,14 @@
 #include "commands.hpp"
 #include "error.hpp"
 #include "output.hpp"
+#include "summary.hpp"
 
 namespace crankloop::program {
 namespace {
 
-void write_interval(Output& out, const std::string& name, Interval interval, double scale, const char* unit) {
-  write_summary(out, name + "_least", interval.least * scale, unit);
-  write_summary(out, name + "_most", interval.most * scale, unit);
+void add_interval(Summary& s, const std::string& name, Interval interval, double scale, const char* unit) {
+  s.line(name + "_least", interval.least * scale, unit);
+  s.line(name + "_most", interval.most * scale, unit);
 }
 
 int run_masses(const Arguments& arguments) {
@@ -19,12 +20,12 @@ int run_masses(const Arguments& arguments) {
                           : type == "diesel" ? EngineKind::diesel
                                              : EngineKind::tractor_diesel;
   const FirstDesign design = first_design(kind, arguments.number("--bore-mm") / 1000, arguments.number("--speed-rpm"));
-  Output out = Output::standard();
-  write_interval(out, "piston_group", design.piston_kg, 1000, "g");
-  write_interval(out, "rod", design.rod_kg, 1000, "g");
-  write_interval(out, "rod_share_at_piston_pin_inline", design.pin_share_inline, 1, "");
-  write_interval(out, "rod_share_at_piston_pin_v", design.pin_share_v, 1, "");
-  out.finish();
+  Summary s(Summary::Digits::all);
+  add_interval(s, "piston_group", design.piston_kg, 1000, "g");
+  add_interval(s, "rod", design.rod_kg, 1000, "g");
+  add_interval(s, "rod_share_at_piston_pin_inline", design.pin_share_inline, 1, "");
+  add_interval(s, "rod_share_at_piston_pin_v", design.pin_share_v, 1, "");
+  print(s.text());
   return kSuccess;
 }
 

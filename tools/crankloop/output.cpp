@@ -17,7 +17,6 @@
 #include <utility>
 
 #include "error.hpp"
-#include "number.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -225,29 +224,10 @@ void Output::fail(const char* what) {
   throw OutputError((path_.empty() ? "standard output" : path_) + " " + what + ": " + std::strerror(error));
 }
 
-void tell(const std::string& text, bool output_taken) {
-  if (output_taken) {
-    std::fputs(text.c_str(), stderr);
-    return;
-  }
+void print(std::string_view text) {
   Output out = Output::standard();
   out.write(text);
   out.finish();
-}
-
-void write_summary(Output& out, std::string_view name, std::string_view text) {
-  out.write(name);
-  out.write(" = ");
-  out.write(text);
-  out.write("\n");
-}
-
-void write_summary(Output& out, std::string_view name, double value, std::string_view unit) {
-  write_summary(out, name, unit.empty() ? significant(value) : significant(value) + " " + std::string(unit));
-}
-
-void write_summary(Output& out, std::string_view name, float value, std::string_view unit) {
-  write_summary(out, name, unit.empty() ? significant(value) : significant(value) + " " + std::string(unit));
 }
 
 }  // namespace crankloop::program

@@ -46,12 +46,7 @@ class Output {
   std::string buffer_;
 };
 
-/// What a command has to say: to standard output, or to stderr when a file of its has taken that.
-void tell(const std::string& text, bool output_taken);
-
-/// One line of a summary: "mean_torque = 210.4 Nm". Write dimensionless values with unit "".
-void write_summary(Output& out, std::string_view name, double value, std::string_view unit);
-void write_summary(Output& out, std::string_view name, float value, std::string_view unit);
-void write_summary(Output& out, std::string_view name, std::string_view text);
+/// To standard output, whole.
+void print(std::string_view text);
 
 }  // namespace crankloop::program

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <optional>
 
 #include "commands.hpp"
 #include "csv.hpp"
 #include "progress.hpp"
+#include "results.hpp"
+#include "summary.hpp"
+#include "units.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -95,29 +97,29 @@ std::string table_of_factors(const Redline& redline) {
   return table.text();
 }
 
-std::string onset_line(const char* name, const Onset& onset, const SpeedRange& range) {
-  if (!onset.found) return std::string(name) + " = none  # up to " + std::to_string(range.to_rpm) + " rpm\n";
-  return std::string(name) + " = " + std::to_string(onset.speed_rpm) + " rpm" +
-         (onset.at_the_start ? "  # or below: it is there at the lowest speed\n" : "\n");
+void add_onset(Summary& s, const char* name, const Onset& onset, const SpeedRange& range) {
+  if (!onset.found) return s.line(name, "none", "", "up to " + std::to_string(range.to_rpm) + " rpm");
+  s.line(name, onset.speed_rpm, "rpm", onset.at_the_start ? "or below: it is there at the lowest speed" : "");
 }
 
 std::string summary(const Redline& redline) {
   const Sweep& given = redline.as_given();
   const ValveBody<double> body = redline.valve.body();
-  constexpr double kPerTurn = 1 / (2 * 3.14159265358979323846);
-  std::string text = "# valve train " + redline.valve.train().name + ", " + std::to_string(redline.range.from_rpm) +
+  Summary s;
+  s.remark("valve train " + redline.valve.train().name + ", " + std::to_string(redline.range.from_rpm) +
                      " to " + std::to_string(redline.range.to_rpm) + " rpm of the engine every " +
                      std::to_string(redline.range.step_rpm) + "; double, rk4, tick " + brief(given.tick_s * 1e6) +
-                     " us, cycle " + std::to_string(kRedlineCycles) + " from rest\n" +
-                     "# onset: the lowest speed with a separation, or a bounce, of at least 1 um; to 1 rpm, from the "
-                     "first speed of the sweep that has any\n";
-  text += onset_line("separation_onset_rpm", given.separation, redline.range);
-  text += onset_line("bounce_onset_rpm", given.bounce, redline.range);
-  text += "natural_frequency_Hz = " + brief(open_frequency_rad_s(body) * kPerTurn) + " Hz  # open, on the train\n";
-  text += "seat_frequency_Hz = " + brief(seated_frequency_rad_s(body) * kPerTurn) + " Hz  # on train and seat\n\n";
-  if (redline.influence == nullptr) return text + table_of_speeds(given);
-  return text + "# influence of " + redline.influence->keys + ", times factor; from max_lift_mm on at " +
-         std::to_string(redline.as_given().at[redline.compared_at()].speed_rpm) + " rpm, just above the onset as given\n" + table_of_factors(redline);
+                     " us, cycle " + std::to_string(kRedlineCycles) + " from rest");
+  s.remark("onset: the lowest speed with a separation, or a bounce, of at least 1 um; to 1 rpm, from the first speed of the sweep that has any");
+  add_onset(s, "separation_onset_rpm", given.separation, redline.range);
+  add_onset(s, "bounce_onset_rpm", given.bounce, redline.range);
+  s.line("natural_frequency_Hz", open_frequency_rad_s(body) * kTurnsPerRad, "Hz", "open, on the train");
+  s.line("seat_frequency_Hz", seated_frequency_rad_s(body) * kTurnsPerRad, "Hz", "on train and seat");
+  s.text("\n");
+  if (redline.influence == nullptr) return s.text() + table_of_speeds(given);
+  s.remark(std::string("influence of ") + redline.influence->keys + ", times factor; from max_lift_mm on at " +
+         std::to_string(redline.as_given().at[redline.compared_at()].speed_rpm) + " rpm, just above the onset as given");
+  return s.text() + table_of_factors(redline);
 }
 
 void write_csv(Output& out, const Redline& redline) {
@@ -171,6 +173,7 @@ int run_redline(const Arguments& arguments) {
   const std::string& name = arguments.text("--train");
   const EngineFile file = read_engine_file(arguments.file(), {});
   const LoneValve valve(file, name);
+  Results results(arguments, {"--csv", "--report"});
   Redline redline{valve, range, influence_of(arguments), {}, ""};
   redline.command_line = "crankloop redline " + arguments.file() + " --train " + name + " --from " +
                          std::to_string(range.from_rpm) + " --to " + std::to_string(range.to_rpm);
@@ -189,14 +192,9 @@ int run_redline(const Arguments& arguments) {
       }
     }
   }
-  std::optional<Output> csv;
-  std::optional<Output> page;
-  if (arguments.has("--csv")) write_csv(csv.emplace(arguments.text("--csv")), redline);
-  if (arguments.has("--report")) page.emplace(arguments.text("--report")).write(report::to_html(redline_page(redline)));
-  if (csv) csv->finish();
-  if (page) page->finish();
-  const std::string text = summary(redline);
-  tell(text, arguments.text_or_empty("--csv") == "-" || arguments.text_or_empty("--report") == "-");
+  if (Output* csv = results["--csv"]) write_csv(*csv, redline);
+  if (Output* page = results["--report"]) page->write(report::to_html(redline_page(redline)));
+  results.finish(summary(redline));
   return kSuccess;
 }
 

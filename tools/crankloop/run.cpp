@@ -14,13 +14,15 @@
 #include "free/free_request.hpp"
 #include "load_ratio.hpp"
 #include "progress.hpp"
+#include "results.hpp"
 #include "run/run_accuracy.hpp"
 #include "run/run_loop.hpp"
 #include "run/run_signals.hpp"
-#include "run/run_summary.hpp"
 #include "run/run_trace.hpp"
 #include "run/run_valves.hpp"
+#include "summary.hpp"
 #include "valve/valve_tick_limit.hpp"
+#include "with_real.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -52,30 +54,24 @@ void write_row(CsvWriter& csv, const EngineDefinition& definition, const Operati
   csv.cell(out.torque_Nm);
   csv.cell(out.mean_torque_Nm);
   for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
-    for (std::size_t i = 0; i < kCsvQuantities; ++i) {
-      csv.cell(value_of(out, kQuantityKinds[i].quantity, place_of(layout, k)) *
-               static_cast<Real>(kQuantityKinds[i].per_si));
-    }
+    const QuantityValues<Real> values = values_of(out, layout, k);
+    for (std::size_t i = 0; i < kCsvQuantities; ++i) csv.cell(values[i] * static_cast<Real>(kQuantityKinds[i].per_si));
   }
   for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
     for (std::size_t t = 0; t < static_cast<std::size_t>(definition.train_count); ++t) {
-      for (const ValveQuantityKind& kind : kValveQuantityKinds) {
-        csv.cell(value_of(out, kind.quantity, t, k) * static_cast<Real>(kind.per_si));
-      }
+      const auto values = values_of(out, t, k);
+      for (std::size_t i = 0; i < kValveQuantities; ++i) csv.cell(values[i] * static_cast<Real>(kValveQuantityKinds[i].per_si));
       csv.cell(static_cast<int>(out.valve_forces[t][k].regime));
     }
   }
   csv.end_row();
 }
 
-/// What the user asked for.
+/// What the user asked for, but for the files.
 struct Request {
   Operation operation;
   int cycles;
   std::string real;
-  std::string csv_path;     ///< empty: none
-  std::string report_path;  ///< empty: none
-  std::string vcd_path;     ///< empty: none
 };
 
 struct Engines {
@@ -86,19 +82,29 @@ struct Engines {
   [[nodiscard]] bool has_gas() const noexcept { return exact.definition().pressure.source != PressureSource::none; }
 };
 
+void add_peak(Summary& s, const std::string& name, Peak peak, double per_si, const std::string& unit) {
+  s.line(name, peak.value * per_si, unit);
+  s.line(name + "_at", std::round(peak.at_deg * 1e3) / 1e3, "deg");
+}
+
+void add_peaks(Summary& s, const std::string& name, const Peaks& peaks, double per_si, const std::string& unit) {
+  add_peak(s, "largest_" + name, peaks.largest, per_si, unit);
+  add_peak(s, "smallest_" + name, peaks.smallest, per_si, unit);
+}
+
 /// The worst of a train's valves in their last whole cycle, and peaks over the ticks.
 void add_valves(Summary& s, const std::string& train, const ValveFigures& f) {
   const ValveCycle<double>& cycle = f.last_cycle;
   const auto peak = [&](ValveQuantity quantity) {
     const ValveQuantityKind& kind = kValveQuantityKinds[index_of(quantity)];
-    s.peak("largest_" + train + "_" + kind.name, f.of[index_of(quantity)].largest, kind.per_si, kind.unit);
+    add_peak(s, "largest_" + train + "_" + kind.name, f.of[index_of(quantity)].largest, kind.per_si, kind.unit);
   };
   s.line(train + "_max_lift", cycle.largest_lift_m * 1e3, "mm");
   s.line(train + "_opening_delay", cycle.opening_delay_deg, "deg", "of cam angle, at 0.1 mm of lift");
-  s.count(train + "_separations", cycle.separations);
+  s.line(train + "_separations", cycle.separations);
   s.line(train + "_separation_max_gap", cycle.separation_gap_m * 1e3, "mm");
   s.line(train + "_seating_speed", cycle.seating_speed_m_s, "m/s");
-  s.count(train + "_bounces", cycle.bounces);
+  s.line(train + "_bounces", cycle.bounces);
   s.line(train + "_bounce_height", cycle.bounce_height_m * 1e3, "mm");
   peak(ValveQuantity::train_force);
   peak(ValveQuantity::seat_force);
@@ -109,7 +115,7 @@ void add_brake(Summary& s, const EngineDefinition& definition, double indicated_
   const BrakeFigures brake = brake_figures(definition, indicated_Nm, speed_rad_s);
   s.line("friction_mep", brake.friction_mep_Pa / 1e3, "kPa", "of [friction] at this speed");
   s.line("brake_torque", brake.torque_Nm, "Nm");
-  s.line("brake_power", brake.power_W / 1e3, "kW", six_digits(brake.power_W / 1e3 / definition.layout.cylinders) + " kW a cylinder");
+  s.line("brake_power", brake.power_W / 1e3, "kW", brief(brake.power_W / 1e3 / definition.layout.cylinders) + " kW a cylinder");
   if (brake.efficiency_ratio > 0) s.line("mechanical_efficiency", brake.efficiency_ratio);
 }
 
@@ -121,13 +127,13 @@ std::string summary_text(const Engines& engine, const Request& request, const Ru
   s.remark(engine.file.name() + ", fixed-step loop in " + request.real +
            (engine.has_gas() ? "" : ", no pressure source: inertia only"));
   s.remark("angles: torque and journals from cylinder 1's firing TDC, all else from that of the cylinder itself");
-  s.remark("largest and smallest are over the ticks, every " + six_digits(f.deg_per_tick) + " deg");
+  s.remark("largest and smallest are over the ticks, every " + brief(f.deg_per_tick) + " deg");
   s.line("speed", request.operation.speed_rpm, "rpm");
   if (engine.has_gas()) s.line("load_ratio", request.operation.load_ratio);
   s.line("tick", request.operation.tick_s * 1e6, "us");
   s.line("deg_per_tick", f.deg_per_tick, "deg");
-  s.line("cycles", f.cycles);
-  s.count("ticks", f.ticks, "after " + std::to_string(f.settling_ticks) + " to settle");
+  s.line("cycles", static_cast<double>(f.cycles));
+  s.line("ticks", f.ticks, "", "after " + std::to_string(f.settling_ticks) + " to settle");
   s.line("mean_torque", f.mean_torque_Nm, "Nm");
   if (engine.has_gas()) {
     s.line("power", f.power_W / 1e3, "kW", "indicated: friction is not subtracted");
@@ -136,21 +142,21 @@ std::string summary_text(const Engines& engine, const Request& request, const Ru
     s.line("net_mep_exact", engine.summary.net_mep_Pa / 1e3, "kPa", "loop integral of p dV");
     s.line("gross_mep_exact", engine.summary.gross_mep_Pa / 1e3, "kPa", "over the closed 360 deg");
   }
-  s.peaks("torque", f.torque, 1, "Nm");
+  add_peaks(s, "torque", f.torque, 1, "Nm");
   for (const Quantity quantity : {Quantity::pressure, Quantity::gas_force}) {
     const QuantityKind& kind = kQuantityKinds[index_of(quantity)];
     if (engine.has_gas())
-      s.peak(std::string("largest_") + kind.name, f.of[index_of(quantity)].largest, kind.per_si, kind.unit);
+      add_peak(s, std::string("largest_") + kind.name, f.of[index_of(quantity)].largest, kind.per_si, kind.unit);
   }
   for (const Quantity quantity : {Quantity::inertia_force, Quantity::total_force, Quantity::side_force,
                                   Quantity::rod_force, Quantity::tangential_force, Quantity::radial_force}) {
     const QuantityKind& kind = kQuantityKinds[index_of(quantity)];
-    s.peaks(kind.name, f.of[index_of(quantity)], kind.per_si, kind.unit);
+    add_peaks(s, kind.name, f.of[index_of(quantity)], kind.per_si, kind.unit);
   }
-  s.peak("largest_crank_pin_load", f.of[index_of(Quantity::crank_pin_load)].largest, 1, "N");
-  s.peak("largest_main_journal_load", f.journal_load.largest, 1, "N");
-  s.peaks("velocity", f.of[index_of(Quantity::velocity)], 1, "m/s");
-  s.peaks("acceleration", f.of[index_of(Quantity::acceleration)], 1, "m/s^2");
+  add_peak(s, "largest_crank_pin_load", f.of[index_of(Quantity::crank_pin_load)].largest, 1, "N");
+  add_peak(s, "largest_main_journal_load", f.journal_load.largest, 1, "N");
+  add_peaks(s, "velocity", f.of[index_of(Quantity::velocity)], 1, "m/s");
+  add_peaks(s, "acceleration", f.of[index_of(Quantity::acceleration)], 1, "m/s^2");
   s.line("mean_piston_speed", mean_piston_speed_m_s(definition.crank, speed), "m/s");
   s.line("stroke", dead_centres(definition.crank).stroke_m * 1e3, "mm", "true one, with the pin offset");
   s.line("swept_volume", swept_volume_m3(definition.crank) * 1e6, "cm^3", "one cylinder");
@@ -162,7 +168,7 @@ std::string summary_text(const Engines& engine, const Request& request, const Ru
     s.line("valve_fine_steps_worst_tick", f.tables.valve_fine_steps);
     s.line("valve_changes_located", f.tables.valve_changes);
   }
-  s.count("faulty_ticks", f.faulty_ticks);
+  s.line("faulty_ticks", f.faulty_ticks);
   s.line("wall_time_per_tick", wall_time_per_tick_ns, "ns",
          "this machine: median of " + std::to_string(FixedStepLoop<float>::kBatches) + " batches of " +
              std::to_string(FixedStepLoop<float>::kBatchTicks) + " steps, nothing recorded");
@@ -170,28 +176,23 @@ std::string summary_text(const Engines& engine, const Request& request, const Ru
 }
 
 std::string command_line(const Arguments& arguments, const Request& request) {
-  std::string text = "crankloop run " + arguments.file() + " --rpm " + shortest(request.operation.speed_rpm) +
+  return "crankloop run " + arguments.file() + " --rpm " + shortest(request.operation.speed_rpm) +
                      " --tick-us " + shortest(arguments.number("--tick-us")) + " --cycles " +
                      std::to_string(request.cycles) + " --real " + request.real + " --load-ratio " +
                      shortest(request.operation.load_ratio);
-  return text;
 }
 
 template <class Real>
-int run(const Engines& engine, const Request& request, const Arguments& arguments) {
+void run(const Engines& engine, const Request& request, const Arguments& arguments) {
   const EngineDefinition& definition = engine.exact.definition();
   const Operation& operation = request.operation;
   Progress progress("running", (request.cycles + 1) * 720 / (operation.speed_rad_s() * kDegPerRad * operation.tick_s));
   FixedStepLoop<Real> loop(definition, operation, 0, [&progress] { progress.step(); });
 
-  if (!request.vcd_path.empty()) write_signals(engine.file, operation, request.cycles, request.vcd_path);
-
-  std::optional<Output> csv_file;
+  Results results(arguments, {"--csv", "--report", "--vcd"});
+  if (Output* vcd = results["--vcd"]) write_signals(engine.file, operation, request.cycles, *vcd);
   std::optional<CsvWriter> csv;
-  std::optional<Output> report_file;
-  if (!request.csv_path.empty()) csv_file.emplace(request.csv_path);
-  if (!request.report_path.empty()) report_file.emplace(request.report_path);
-  if (csv_file) csv.emplace(*csv_file, csv_header(definition.layout.cylinders, names_of_trains(engine.file)));
+  if (Output* file = results["--csv"]) csv.emplace(*file, csv_header(definition.layout.cylinders, names_of_trains(engine.file)));
 
   const CloseUpWindow window = close_up_window(engine.summary.largest_torque_deg, loop.deg_per_tick());
   std::vector<CloseUpTick> close_up;
@@ -205,7 +206,7 @@ int run(const Engines& engine, const Request& request, const Arguments& argument
   const RunFigures figures = run_cycles<Real>(loop, definition, operation, request.cycles, on_tick);
   const double wall_time_per_tick_ns = loop.wall_time_per_tick_ns();
 
-  if (report_file) {
+  if (Output* page = results["--report"]) {
     const Trace trace = record_trace<Real>(definition, operation);
     const Accuracy accuracy = measure_accuracy<Real>(engine.exact, operation);
     const ReportInput input{engine.file,
@@ -219,13 +220,9 @@ int run(const Engines& engine, const Request& request, const Arguments& argument
                             request.real,
                             command_line(arguments, request),
                             wall_time_per_tick_ns};
-    report_file->write(report::to_html(engine_report(input)));
+    page->write(report::to_html(engine_report(input)));
   }
-  if (csv_file) csv_file->finish();
-  if (report_file) report_file->finish();
-  const std::string summary = summary_text(engine, request, figures, wall_time_per_tick_ns);
-  tell(summary, request.csv_path == "-" || request.report_path == "-" || request.vcd_path == "-");
-  return kSuccess;
+  results.finish(summary_text(engine, request, figures, wall_time_per_tick_ns));
 }
 
 int run_run(const Arguments& arguments) {
@@ -236,15 +233,14 @@ int run_run(const Arguments& arguments) {
   if (arguments.has("--free")) return run_free_by(arguments, file);
   const Operation operation{arguments.has("--rpm") ? arguments.number("--rpm") : file.rated_rpm(),
                             millionths(arguments.number("--tick-us")), arguments.number("--load-ratio")};
-  const Request request{operation, arguments.whole_number("--cycles"), arguments.text("--real"),
-                        arguments.text_or_empty("--csv"), arguments.text_or_empty("--report"),
-                        arguments.text_or_empty("--vcd")};
+  const Request request{operation, arguments.whole_number("--cycles"), arguments.text("--real")};
   require_trains(file, operation.tick_s);
   ExactEngine exact;
   if (const Status refused = exact.init(definition); !refused.ok()) throw file.explain(refused);
   const CycleSummary summary = summarise(exact, operation.speed_rad_s(), operation.load_ratio);
   const Engines engine{file, exact, summary};
-  return request.real == "float" ? run<float>(engine, request, arguments) : run<double>(engine, request, arguments);
+  with_real(request.real, [&](auto zero) { run<decltype(zero)>(engine, request, arguments); });
+  return kSuccess;
 }
 
 constexpr Option kOptions[] = {

@@ -93,16 +93,16 @@ std::vector<Piece<Record>> pieces_of(const Stores<Real>& s, const TableReport& r
   const auto segments = [rows](int count) { return std::vector<Piece<Record>>{{rows, static_cast<std::size_t>(count)}}; };
   std::vector<Piece<Record>> pieces;
   switch (Section::kRows) {
-    case Rows::one: return {{rows, 1}};
-    case Rows::gas_grid: return segments(report.gas_segments);
-    case Rows::torque_grid: return segments(report.torque_segments);
-    case Rows::cut_grid: return segments(report.cut_segments);
-    case Rows::trains: return {{rows, s.drive.trains}};
-    case Rows::wheels: return {{rows, s.triggers.count}};
-    case Rows::lobes:
+    case SectionRows::one: return {{rows, 1}};
+    case SectionRows::gas_grid: return segments(report.gas_segments);
+    case SectionRows::torque_grid: return segments(report.torque_segments);
+    case SectionRows::cut_grid: return segments(report.cut_segments);
+    case SectionRows::trains: return {{rows, s.drive.trains}};
+    case SectionRows::wheels: return {{rows, s.triggers.count}};
+    case SectionRows::lobes:
       for (std::uint32_t t = 0; t < s.drive.trains; ++t) pieces.push_back({rows + t * std::size_t{kDegreesPerTurn}, s.lift_curves[t].rows()});
       return pieces;
-    case Rows::edges:
+    case SectionRows::edges:
       for (std::uint32_t w = 0; w < s.triggers.count; ++w) pieces.push_back({rows + w * std::size_t{kMaxTriggerEdges}, s.trigger_tracks[w].edge_count});
       return pieces;
   }
@@ -112,7 +112,7 @@ std::vector<Piece<Record>> pieces_of(const Stores<Real>& s, const TableReport& r
 /// One section as an object of its name, or as an array of it. False where it has no rows, or leads to none.
 template <class Section, class Real>
 bool print_section(Printer& p, const Stores<Real>& s, const TableReport& report, const std::string& real) {
-  constexpr bool kOne = Section::kRows == Rows::one;
+  constexpr bool kOne = Section::kRows == SectionRows::one;
   if (std::is_same_v<Section, section::triggers> && s.triggers.count == 0) return false;
   const std::string name = Section::kName;
   const std::string object = "\nconstexpr crankloop::section::" + name + "::Record<" + real + "> " + name;
@@ -140,7 +140,7 @@ void print_sections(Printer& p, const Stores<Real>& s, const std::string& real, 
   std::string all;
   sections([&](auto section) {
     if (!print_section<decltype(section)>(p, s, report, real) || !section.kRead) return;
-    all += std::string("  s.") + section.kName + " = " + (section.kRows == Rows::one ? "&" : "") + section.kName + ";\n";
+    all += std::string("  s.") + section.kName + " = " + (section.kRows == SectionRows::one ? "&" : "") + section.kName + ";\n";
   });
   const std::string type = "crankloop::Sections<" + real + ">";
   p.text("\nconstexpr " + type + " sections = [] {\n  " + type + " s;\n" + all + "  return s;\n}();\n");

@@ -10,8 +10,6 @@
 
 namespace crankloop::program {
 
-inline constexpr double kRadPerSPerRpm = 3.14159265358979323846 / 30;
-
 /// Tables and engine of scenes::Whole. The engine is started one tick before the angle and stepped onto it.
 template <class Real>
 class TickProbe {

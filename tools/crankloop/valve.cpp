@@ -8,38 +8,19 @@
 #include "csv.hpp"
 #include "engine_file/engine_file.hpp"
 #include "progress.hpp"
-#include "textbook_valve.hpp"
+#include "results.hpp"
+#include "summary.hpp"
+#include "units.hpp"
+#include "valve/textbook_valve.hpp"
 #include "valve/valve_loop.hpp"
 #include "valve/valve_plot.hpp"
+#include "with_real.hpp"
 
 namespace crankloop::program {
 namespace {
 
-constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
-constexpr double kRadPerTurn = 2 * 3.14159265358979323846;
 constexpr double kPeriodicWithin_m = 1e-6;
 constexpr double kMostTicksDrawn = 2e6;  // of 100 bytes
-
-/// Lines "name = value unit", and remarks behind '#'. Names carry the unit too: they are those of the CSV columns.
-class Lines {
- public:
-  void remark(const std::string& text) { text_ += "# " + text + "\n"; }
-  template <class Real>
-  void line(const char* name, Real value, const char* unit, const std::string& remark = "") {
-    text_ +=
-        std::string(name) + " = " + significant(value) + " " + unit + (remark.empty() ? "" : "  # " + remark) + "\n";
-  }
-  void count(const char* name, std::uint32_t value, const std::string& remark = "") {
-    text_ += std::string(name) + " = " + std::to_string(value) + (remark.empty() ? "" : "  # " + remark) + "\n";
-  }
-  void word(const char* name, const char* value, const std::string& remark) {
-    text_ += std::string(name) + " = " + value + "  # " + remark + "\n";
-  }
-  [[nodiscard]] const std::string& text() const noexcept { return text_; }
-
- private:
-  std::string text_;
-};
 
 struct Request {
   double speed_rpm;
@@ -48,8 +29,6 @@ struct Request {
   std::string integrator;
   ValveMethod method;
   std::string real;
-  std::string csv_path;  ///< empty: none, as below
-  std::string plot_path;
 };
 
 template <class Real>
@@ -84,7 +63,8 @@ std::string summary(const LoneValve& valve, const Request& request, const ValveL
   const auto real = [](double value) { return static_cast<Real>(value); };
   const ValveBody<double> body = valve.body();
   const bool separated = cycle.separations > 0;
-  Lines s;
+  Summary s(Summary::Digits::all);
+  // Names carry the unit too: they are those of the CSV columns.
   s.remark("valve train " + title(valve, request) + ", " + circumstances(request));
   s.remark("cam angle: 0 at full theoretical lift; " + gas_remark(valve));
   s.line("max_theoretical_lift_mm", real(valve.lift().largest_lift_m() * 1e3), "mm");
@@ -92,72 +72,60 @@ std::string summary(const LoneValve& valve, const Request& request, const ValveL
   s.line("max_velocity_m_s", cycle.largest_speed_m_s, "m/s");
   s.line("max_acceleration_m_s2", cycle.largest_acceleration_m_s2, "m/s^2");
   s.line("opening_delay_deg", cycle.opening_delay_deg, "deg", "of cam angle, at 0.1 mm of lift");
-  s.count("separations", cycle.separations, "of at least 1 um");
+  s.line("separations", cycle.separations, "", "of at least 1 um");
   s.line("separation_max_gap_mm", cycle.separation_gap_m * real(1e3), "mm");
   s.line("separation_start_deg",
          separated ? real(valve.cam_deg(static_cast<double>(cycle.separation_start_deg))) : Real{0}, "deg",
          separated ? "cam angle, of the largest" : "none");
   s.line("separation_duration_deg", cycle.separation_duration_deg, "deg");
   s.line("seating_speed_m_s", cycle.seating_speed_m_s, "m/s");
-  s.count("bounces", cycle.bounces, "of at least 1 um");
+  s.line("bounces", cycle.bounces, "", "of at least 1 um");
   s.line("bounce_height_mm", cycle.bounce_height_m * real(1e3), "mm");
   if (cycle.off_seat_at_end != 0) s.remark("the valve is still off its seat in the middle of the base circle");
-  s.line("natural_frequency_Hz", real(open_frequency_rad_s(body) / kRadPerTurn), "Hz", "open, on the train");
-  s.line("seat_frequency_Hz", real(seated_frequency_rad_s(body) / kRadPerTurn), "Hz", "on train and seat");
+  s.line("natural_frequency_Hz", real(open_frequency_rad_s(body) / (2 * kPi)), "Hz", "open, on the train");
+  s.line("seat_frequency_Hz", real(seated_frequency_rad_s(body) / (2 * kPi)), "Hz", "on train and seat");
   const std::uint32_t parts = loop.motion().parts;
-  s.count("sub_steps", request.method.textbook ? TextbookValve<Real>::steps(loop.motion()) : parts,
+  s.line("sub_steps", request.method.textbook ? TextbookValve<Real>::steps(loop.motion()) : parts, "",
           request.method.textbook ? "in each tick" : "in a tick, near contact changes; 1 elsewhere");
-  s.count("events", cycle.contact_changes, "contact changes in the cycle");
+  s.line("events", cycle.contact_changes, "", "contact changes in the cycle");
   if ((loop.faults() & kFaultEventBudget) != 0)
     s.remark("some ticks had more contact changes than are located: take a shorter --tick-us");
   s.line("cycle_difference_um", real(change_m * 1e6), "um", "of lift, largest between two consecutive cycles");
-  s.word("periodic", change_m <= kPeriodicWithin_m ? "yes" : "no", "yes: they agree within 1 um");
+  s.line("periodic", change_m <= kPeriodicWithin_m ? "yes" : "no", "", "yes: they agree within 1 um");
   return s.text();
 }
 
 template <class Real>
-int run(const LoneValve& valve, const Request& request) {
+void run(const LoneValve& valve, const Request& request, Results& results) {
   ValveLoop<Real> loop(valve, request.tick_s, request.method);
   const double ticks = ticks_per_cycle(request.speed_rpm, request.tick_s);
-  if (!request.plot_path.empty() && ticks > kMostTicksDrawn) {
+  Output* plot = results["--plot"];
+  if (plot != nullptr && ticks > kMostTicksDrawn) {
     throw UsageError("--plot: a cycle of " + brief(ticks) + " ticks, at most " + brief(kMostTicksDrawn) +
                      " can be drawn: take a longer --tick-us");
   }
   Progress progress("running", (2.0 * request.cycles + 2) * ticks);
   const auto after_tick = [&progress] { progress.step(); };
-  std::optional<Output> file;
-  std::optional<Output> plot;
   std::optional<CsvWriter> csv;
+  if (Output* file = results["--csv"]) {
+    csv.emplace(*file, std::vector<std::string>{"cam_deg", "theoretical_lift_mm", "rocker_ratio", "lift_mm", "velocity_m_s", "acceleration_m_s2",
+                                                "train_force_N", "seat_force_N", "cam_force_N", "gap_mm", "regime"});
+  }
   ValveCycleTrace trace;
-  bool begun = false;
   const OnValveTick<Real> on_tick = [&](const ValveTickOutput<Real>& out) {
-    if (!begun) {  // the loop is known to run now, so nothing is written that would have to go
-      begun = true;
-      if (!request.plot_path.empty()) plot.emplace(request.plot_path);
-      if (!request.csv_path.empty()) {
-        file.emplace(request.csv_path);
-        csv.emplace(*file, std::vector<std::string>{"cam_deg", "theoretical_lift_mm", "rocker_ratio", "lift_mm",
-                                                    "velocity_m_s", "acceleration_m_s2", "train_force_N",
-                                                    "seat_force_N", "cam_force_N", "gap_mm", "regime"});
-      }
-    }
     if (csv) write_row(*csv, valve, out);
-    if (plot) trace.ticks.push_back(in_double(out));
+    if (plot != nullptr) trace.ticks.push_back(in_double(out));
   };
   const ValveCycle<Real> cycle = run_cycles<Real>(loop, valve, request.speed_rpm, request.cycles, on_tick, after_tick);
   const double change_m = largest_change_of_lift_m<Real>(valve, request.speed_rpm, request.tick_s, request.method,
                                                          request.cycles, after_tick);
-  if (plot) {
+  if (plot != nullptr) {
     trace.cycle = in_double(cycle);
     const std::string remark = std::filesystem::path(valve.file().path()).filename().string() + ", " +
                                circumstances(request) + "; " + gas_remark(valve);
     plot->write(report::to_svg_file(valve_sheet(trace, "Valve train " + title(valve, request), remark)));
   }
-  if (file) file->finish();
-  if (plot) plot->finish();
-  const std::string text = summary(valve, request, loop, cycle, change_m);
-  tell(text, request.csv_path == "-" || request.plot_path == "-");
-  return kSuccess;
+  results.finish(summary(valve, request, loop, cycle, change_m));
 }
 
 int run_valve(const Arguments& arguments) {
@@ -169,14 +137,14 @@ int run_valve(const Arguments& arguments) {
                         arguments.whole_number("--cycles"),
                         integrator,
                         {stepping, integrator == "textbook"},
-                        arguments.text("--real"),
-                        arguments.text_or_empty("--csv"),
-                        arguments.text_or_empty("--plot")};
+                        arguments.text("--real")};
   if (request.speed_rpm == 0) throw UsageError("--rpm 0: the cam would never turn");
   const std::string& name = arguments.text("--train");
   const EngineFile file = read_engine_file(arguments.file(), {});
   const LoneValve valve(file, name);
-  return request.real == "float" ? run<float>(valve, request) : run<double>(valve, request);
+  Results results(arguments, {"--csv", "--plot"});
+  with_real(request.real, [&](auto zero) { run<decltype(zero)>(valve, request, results); });
+  return kSuccess;
 }
 
 constexpr Option kOptions[] = {

@@ -15,13 +15,14 @@
 #include <crankloop/tabulate/tabulate.hpp>
 
 #include "crankloop/engine_file/engine_file.hpp"
+#include "support/units.hpp"
 #include "tabulate/quadrature.hpp"
 
 namespace {
 
 using namespace crankloop;
 
-constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
+using crankloop::support::kRadPerDeg;
 
 /// Gas torque of cylinder 1 by the library's tables, at steady speed 0: what one cylinder's work counts.
 template <class Real>

@@ -14,13 +14,14 @@
 #include "crankloop/engine_file/engine_file.hpp"
 #include "support/pressure_traces.hpp"
 #include "support/random.hpp"
+#include "support/units.hpp"
 #include "tabulate/quadrature.hpp"
 
 namespace {
 
 using namespace crankloop;
 
-constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
+using crankloop::support::kRadPerDeg;
 constexpr double kDegPerUnit = 720.0 / 18446744073709551616.0;
 
 [[nodiscard]] double deg_of(Phase phase) { return static_cast<double>(phase.units()) * kDegPerUnit; }

@@ -14,12 +14,13 @@
 
 #include "support/random.hpp"
 #include "support/test_engines.hpp"
+#include "support/units.hpp"
 
 namespace {
 
 using namespace crankloop;
 
-constexpr double kPi = 3.14159265358979323846;
+using crankloop::support::kPi;
 constexpr double kBar = 1e5;
 
 struct Case {

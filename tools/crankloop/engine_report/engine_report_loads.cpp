@@ -48,10 +48,7 @@ std::size_t most_loaded(const std::vector<std::vector<double>>& loads) {
 
 Plot polar(const std::string& title, const std::string& x, const std::string& y, const std::vector<double>& along,
            const std::vector<double>& across, const Trace& trace) {
-  Plot plot;
-  plot.title = title;
-  plot.x = force_axis(x);
-  plot.y = force_axis(y);
+  Plot plot = plot_of(title, force_axis(x), force_axis(y));
   report::Series loop;
   loop.x = scaled(along, kKilo);
   loop.y = scaled(across, kKilo);

@@ -47,13 +47,6 @@ report::Series piece(const Trace& trace, const std::string& name, const std::vec
 
 }  // namespace
 
-report::Axis axis_of(const std::string& title, const std::string& unit) {
-  report::Axis axis;
-  axis.title = title;
-  axis.unit = unit;
-  return axis;
-}
-
 report::Axis crank_axis() {
   report::Axis axis = axis_of("Crank angle from cylinder 1's firing TDC", "deg");
   axis.tick_step = 90;
@@ -103,10 +96,7 @@ report::Series over_angle(const Trace& trace, const std::string& name, const std
 
 report::Plot plot_over_angle(const ReportInput& input, const std::string& title, const report::Axis& y,
                              std::vector<report::Series> curves) {
-  report::Plot plot;
-  plot.title = title;
-  plot.x = crank_axis();
-  plot.y = y;
+  report::Plot plot = plot_of(title, crank_axis(), y);
   plot.series = std::move(curves);
   if (has_gas(input)) plot.bands = strokes(input.exact.definition().crank);
   return plot;
@@ -211,15 +201,6 @@ std::string pretty_unit(std::string unit) {
   replace("2", "\u00B2");
   replace("3", "\u00B3");
   return unit;
-}
-
-std::string number_text(double value, int significant_digits) {
-  std::string text = report::format_number(value, significant_digits);
-  if (text.find('.') == std::string::npos || text.find("\u00B7") != std::string::npos)
-    return text;  // a power of ten follows
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
 }
 
 std::string angle_text(double deg) { return number_text(deg, 5) + " deg"; }

@@ -31,7 +31,9 @@ namespace crankloop::program {
 /// What every report says of its pressure: synthesised, from which table, or none.
 [[nodiscard]] std::string pressure_remark(const ReportInput& input);
 
-[[nodiscard]] report::Axis axis_of(const std::string& title, const std::string& unit);
+using report::axis_of;
+using report::number_text;
+using report::plot_of;
 
 /// 0 to 720 deg, 0 = firing top dead centre of cylinder 1: the convention stands at the axis.
 [[nodiscard]] report::Axis crank_axis();
@@ -90,9 +92,6 @@ void use_equal_scales(report::Plot& plot);
 
 /// A unit of engine file or CSV as it is printed: "kg mm\u00B2" for "kg_mm2", "m/s\u00B2" for "m/s^2".
 [[nodiscard]] std::string pretty_unit(std::string unit);
-
-/// "1.25" without needless zeros.
-[[nodiscard]] std::string number_text(double value, int significant_digits = 4);
 
 /// "704.25 deg".
 [[nodiscard]] std::string angle_text(double deg);

@@ -41,11 +41,8 @@ Plot single_torque(const ReportInput& input) {
 }
 
 Plot harmonics(const ReportInput& input) {
-  Plot plot;
-  plot.title = "Torque harmonics";
-  plot.x = axis_of("Order per crank revolution", "");
+  Plot plot = plot_of("Torque harmonics", axis_of("Order per crank revolution", ""), axis_of("Amplitude", "Nm"));
   plot.x.tick_step = 1;
-  plot.y = axis_of("Amplitude", "Nm");
   Series bars;
   bars.style.draw = report::Draw::bar;
   for (const Harmonic& h : input.summary.harmonics) {
@@ -88,12 +85,9 @@ Plot close_up(const ReportInput& input) {
   }
   mean.x.push_back(window.high);
   mean.y.push_back(mean.y.back());
-  Plot plot;
-  plot.title = "The fixed step close up";
-  plot.x = crank_axis();
+  Plot plot = plot_of("The fixed step close up", crank_axis(), axis_of("Engine torque", "Nm"));
   plot.x.tick_step = 0;
   plot.x.range = window;
-  plot.y = axis_of("Engine torque", "Nm");
   plot.series = {std::move(fine), std::move(mean), std::move(points)};
   plot.caption = "What a controller gets at a tick of " + number_text(input.operation.tick_s * 1e6) +
                  " \u00B5s, one tick every " + number_text(input.figures.deg_per_tick) +

@@ -43,7 +43,6 @@ double crank_deg(const Train& train, double since_opening_deg) {
 std::vector<Train> trains_of(const ReportInput& input) {
   const EngineDefinition& definition = input.exact.definition();
   const std::vector<std::string> names = names_of_trains(input.file);
-  constexpr double kPerTurn = 1 / (2 * 3.14159265358979323846);
   std::vector<Train> trains;
   const auto lift = std::make_unique<ValveLift>();
   for (std::size_t t = 0; t < input.trace.valves.size(); ++t) {
@@ -53,7 +52,7 @@ std::vector<Train> trains_of(const ReportInput& input) {
     const ValveTrace& trace = input.trace.valves[t];
     trains.push_back({names[t], trace, index_of_largest(trace[ValveQuantity::theoretical_lift]),
                       train.cam.full_lift_deg + 2 * lift->opens_rad() * kDegPerRad, lift->largest_lift_m(),
-                      open_frequency_rad_s(body) * kPerTurn, seated_frequency_rad_s(body) * kPerTurn});
+                      open_frequency_rad_s(body) * kTurnsPerRad, seated_frequency_rad_s(body) * kTurnsPerRad});
   }
   return trains;
 }
@@ -164,10 +163,7 @@ Plot seating_plot(const ReportInput& input, const Train& train) {
     const bool in_the_air = i > seated && (train.trace.regime[entries[i]] & kSeatOn) == 0;
     if (in_the_air && (top == 0 || actual.y.back() > actual.y[top])) top = actual.y.size() - 1;
   }
-  Plot plot;
-  plot.title = "Seating of the " + train.name + " valve";
-  plot.x = axis_of("Crank angle from cylinder 1's firing TDC", "deg");
-  plot.y = axis_of("Lift", "\u00B5m");
+  Plot plot = plot_of("Seating of the " + train.name + " valve", axis_of("Crank angle from cylinder 1's firing TDC", "deg"), axis_of("Lift", "\u00B5m"));
   plot.caption = "Zero is the closed valve under its spring. Below, the seat yields to the impact.";
   if (top > 0 && train.trace.cycle.bounces > 0) {
     plot.markers.push_back({actual.x[top], actual.y[top],

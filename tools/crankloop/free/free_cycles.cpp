@@ -7,7 +7,6 @@
 namespace crankloop::program {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegPerSample = 720.0 / kSamplesPerCycle;
 constexpr double kCycle_rad = 4 * kPi;
 

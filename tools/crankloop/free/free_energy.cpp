@@ -8,8 +8,6 @@
 namespace crankloop::program {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kRadPerDeg = kPi / 180;
 constexpr int kParts = 7200;  ///< of a cycle
 
 }  // namespace

@@ -2,15 +2,10 @@
 
 #include <cmath>
 
-#include "../run/run_limits.hpp"
+#include "../run_limits.hpp"
+#include "../units.hpp"
 
 namespace crankloop::program {
-namespace {
-
-constexpr double kDegPerUnit = 720.0 / 18446744073709551616.0;  // 2^64 units are a cycle
-constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
-
-}  // namespace
 
 std::uint64_t FreeOperation::ticks() const noexcept {
   constexpr double kHairOfATick = 1e-6;  // 2 s are 20000 ticks of 100 us, however the quotient is rounded

@@ -11,10 +11,9 @@
 #include <crankloop/tick/scenes.hpp>
 
 #include "../engine_file/engine_file.hpp"
+#include "../units.hpp"
 
 namespace crankloop::program {
-
-inline constexpr double kRpmPerRad_s = 30 / 3.14159265358979323846;
 
 /// How the engine is let run. All of it holds for the whole run.
 struct FreeOperation {

@@ -3,9 +3,9 @@
 #include <string>
 
 #include "../error.hpp"
-#include "free_run.hpp"
 #include "../number.hpp"
 #include "../words.hpp"
+#include "free_run.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -65,11 +65,10 @@ int run_free_by(const Arguments& arguments, const EngineFile& file) {
   request.operation.starter = arguments.has("--starter");
   if (arguments.has("--cut")) request.operation.cut_cylinders = cut_cylinders(arguments.text("--cut"), definition.layout);
   request.real = arguments.text("--real");
-  request.csv_path = arguments.text_or_empty("--csv");
-  request.report_path = arguments.text_or_empty("--report");
-  request.vcd_path = arguments.text_or_empty("--vcd");
   request.command_line = command_line(arguments);
-  return run_free(file, definition, request);
+  Results results(arguments, {"--csv", "--report", "--vcd"});
+  run_free(file, definition, request, results);
+  return kSuccess;
 }
 
 }  // namespace crankloop::program

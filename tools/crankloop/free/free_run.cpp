@@ -6,10 +6,11 @@
 
 #include "../csv.hpp"
 #include "../number.hpp"
-#include "../output.hpp"
 #include "../progress.hpp"
-#include "../run/run_summary.hpp"
+#include "../results.hpp"
 #include "../signals/signal_dump.hpp"
+#include "../summary.hpp"
+#include "../with_real.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -137,12 +138,12 @@ std::string summary_text(const EngineFile& file, const FreeRequest& request, con
            (file.definition().pressure.source != PressureSource::none ? "" : ", no pressure source: no gas"));
   s.line("tick", operation.tick_s * 1e6, "us");
   s.line("time", f.end.time_s, "s");
-  s.count("ticks", f.ticks);
+  s.line("ticks", f.ticks);
   s.line("load_ratio", operation.load_ratio);
   s.line("turned", f.end.angle_deg / 360, "rev");
   s.line("speed_at_end", f.end.speed_rpm(), "rpm");
   s.line("largest_speed", f.largest_speed_rad_s * kRpmPerRad_s, "rpm");
-  s.count("reversals", f.reversals);
+  s.line("reversals", f.reversals);
   add_cycle(s, f);
   s.line("work_of_gas", f.energy.gas_J, "J");
   s.line("work_of_starter", f.energy.starter_J, "J");
@@ -151,38 +152,29 @@ std::string summary_text(const EngineFile& file, const FreeRequest& request, con
   s.line("change_of_kinetic_energy", f.energy.kinetic_J, "J");
   s.line("energy_defect", f.energy.missing_ratio(), "", "of the largest of these");
   for (const SignalFigures& signal : f.signals) {
-    s.count(signal.name + "_edges", signal.edges);
-    s.count(signal.name + "_edges_lost", signal.lost, signal.lost > 0 ? "more in a tick than there is room for: take a shorter --tick-us" : "");
+    s.line(signal.name + "_edges", signal.edges);
+    s.line(signal.name + "_edges_lost", signal.lost, "", signal.lost > 0 ? "more in a tick than there is room for: take a shorter --tick-us" : "");
   }
-  s.count("faulty_ticks", f.faulty_ticks);
+  s.line("faulty_ticks", f.faulty_ticks);
   return s.text();
 }
 
 template <class Real>
-FreeFigures run_and_write(const EngineFile& file, const EngineDefinition& definition, const FreeRequest& request) {
-  std::optional<Output> csv_file;
-  std::optional<Output> report_file;
+void run_and_write(const EngineFile& file, const EngineDefinition& definition, const FreeRequest& request, Results& results) {
   std::optional<TickTable<Real>> table;
   std::optional<SignalDump> dump;
-  if (!request.vcd_path.empty()) dump.emplace(file, request.vcd_path, std::vector<std::string>{"speed_rpm", "torque_Nm"});
-  if (!request.csv_path.empty()) csv_file.emplace(request.csv_path);
-  if (!request.report_path.empty()) report_file.emplace(request.report_path);
-  if (csv_file) table.emplace(*csv_file, names_of_triggers(file));
+  if (Output* vcd = results["--vcd"]) dump.emplace(file, *vcd, std::vector<std::string>{"speed_rpm", "torque_Nm"});
+  if (Output* csv = results["--csv"]) table.emplace(*csv, names_of_triggers(file));
   const FreeFigures figures = run_ticks<Real>(file, definition, request, table ? &*table : nullptr, dump ? &*dump : nullptr);
   if (dump) dump->finish(figures.end.time_s);
-  if (report_file) report_file->write(report::to_html(free_run_report({file, definition, request, figures})));
-  if (csv_file) csv_file->finish();
-  if (report_file) report_file->finish();
-  return figures;
+  if (Output* page = results["--report"]) page->write(report::to_html(free_run_report({file, definition, request, figures})));
+  results.finish(summary_text(file, request, figures));
 }
 
 }  // namespace
 
-int run_free(const EngineFile& file, const EngineDefinition& definition, const FreeRequest& request) {
-  const FreeFigures figures =
-      request.real == "float" ? run_and_write<float>(file, definition, request) : run_and_write<double>(file, definition, request);
-  tell(summary_text(file, request, figures), request.csv_path == "-" || request.report_path == "-" || request.vcd_path == "-");
-  return kSuccess;
+void run_free(const EngineFile& file, const EngineDefinition& definition, const FreeRequest& request, Results& results) {
+  with_real(request.real, [&](auto zero) { run_and_write<decltype(zero)>(file, definition, request, results); });
 }
 
 }  // namespace crankloop::program

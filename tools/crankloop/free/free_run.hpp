@@ -13,15 +13,13 @@
 #include "free_loop.hpp"
 #include "free_overview.hpp"
 #include "../report/page.hpp"
+#include "../results.hpp"
 
 namespace crankloop::program {
 
 struct FreeRequest {
   FreeOperation operation;
   std::string real;          ///< "float" or "double"
-  std::string csv_path;      ///< empty: none; so are the next two
-  std::string report_path;
-  std::string vcd_path;
   std::string command_line;  ///< for the report
 };
 
@@ -46,8 +44,8 @@ struct FreeFigures {
   std::vector<SignalFigures> signals;
 };
 
-/// Runs, writes what was asked for, and prints the summary. `definition` is the file's, with the load it is to run with.
-int run_free(const EngineFile& file, const EngineDefinition& definition, const FreeRequest& request);
+/// Runs, writes --csv, --report and --vcd of the results, and tells the summary. `definition` is the file's, with the load it is to run with.
+void run_free(const EngineFile& file, const EngineDefinition& definition, const FreeRequest& request, Results& results);
 
 struct FreeReportInput {
   const EngineFile& file;

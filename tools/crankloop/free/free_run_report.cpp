@@ -3,26 +3,20 @@
 #include <cmath>
 #include <string>
 
-#include "../engine_report/engine_report_parts.hpp"
-#include "free_run.hpp"
 #include "../number.hpp"
+#include "../report/page.hpp"
+#include "free_run.hpp"
 
 namespace crankloop::program {
 namespace {
 
 using report::Axis;
+using report::axis_of;
 using report::Paragraph;
 using report::Plot;
+using report::plot_of;
 using report::Section;
 using report::Series;
-
-Plot plot(const char* title, const Axis& x, const Axis& y) {
-  Plot one;
-  one.title = title;
-  one.x = x;
-  one.y = y;
-  return one;
-}
 
 Axis cycle_axis(double cycles) {
   Axis one = axis_of("Crank angle", "deg");
@@ -60,7 +54,7 @@ Series level_line(const char* name, double value, bool dashed) {
 
 Section speed_section(const FreeReportInput& input) {
   Section section{"speed", "Speed", {}};
-  Plot whole = plot("Over the run", axis_of("Time", "s"), axis_of("Speed", "rpm"));
+  Plot whole = plot_of("Over the run", axis_of("Time", "s"), axis_of("Speed", "rpm"));
   whole.y.include_zero = true;
   Series series;
   for (const Overview::Part& part : input.figures.speed_rpm.parts()) {
@@ -77,7 +71,7 @@ Section speed_section(const FreeReportInput& input) {
     section.blocks.push_back(Paragraph{"No whole cycle of 720 deg was turned forward without a stop: there is no ripple to show.", true});
     return section;
   }
-  Plot ripple = plot("Over the last cycles", cycle_axis(static_cast<double>(cycles.size())), axis_of("Speed", "rpm"));
+  Plot ripple = plot_of("Over the last cycles", cycle_axis(static_cast<double>(cycles.size())), axis_of("Speed", "rpm"));
   ripple.caption = "Each firing stroke speeds the crank up, each compression slows it down. 0, 720 ...: firing top dead centre of cylinder 1.";
   ripple.series.push_back(over_cycles(cycles, 0, rpm));
   section.blocks.push_back(std::move(ripple));
@@ -86,7 +80,7 @@ Section speed_section(const FreeReportInput& input) {
 
 Section harmonic_section(const FreeReportInput& input) {
   Section section{"harmonics", "Ripple and torque of the last cycle", {}};
-  Plot bars = plot("Harmonics of the speed", axis_of("Order per crank turn", ""), axis_of("Amplitude", "rad/s"));
+  Plot bars = plot_of("Harmonics of the speed", axis_of("Order per crank turn", ""), axis_of("Amplitude", "rad/s"));
   bars.x.tick_step = 1;
   Series series;
   series.style.draw = report::Draw::bar;
@@ -100,7 +94,7 @@ Section harmonic_section(const FreeReportInput& input) {
   }
   bars.series.push_back(std::move(series));
   section.blocks.push_back(std::move(bars));
-  Plot torque = plot("Torque", cycle_axis(1), axis_of("Torque", "Nm"));
+  Plot torque = plot_of("Torque", cycle_axis(1), axis_of("Torque", "Nm"));
   torque.series.push_back(over_cycles(input.figures.cycles, input.figures.cycles.size() - 1, torque_Nm));
   torque.series.back().name = "gas and masses";
   torque.series.push_back(level_line("its mean", last_cycle(input).mean_torque_Nm(), false));

@@ -1,13 +1,15 @@
 // Trigger signals of a free run's last cycle as square waves.
 #include <algorithm>
 
-#include "../engine_report/engine_report_parts.hpp"
+#include "../report/page.hpp"
 #include "free_run.hpp"
 
 namespace crankloop::program {
 namespace {
 
+using report::axis_of;
 using report::Plot;
+using report::plot_of;
 using report::Series;
 
 /// A square wave over a part of the cycle, in ms from its begin.
@@ -37,10 +39,7 @@ Series square_wave(const FreeCycle& cycle, std::size_t wheel, double from_s, dou
 
 Plot signal_plot(const std::string& title, const FreeCycle& cycle, std::size_t wheel, double from_s, double to_s) {
   const double begin_s = cycle.samples.front().time_s;
-  Plot one;
-  one.title = title;
-  one.x = axis_of("Time in the cycle", "ms");
-  one.y = axis_of("Level", "");
+  Plot one = plot_of(title, axis_of("Time in the cycle", "ms"), axis_of("Level", ""));
   one.x.range = report::Range{(from_s - begin_s) * 1e3, (to_s - begin_s) * 1e3};
   one.y.tick_step = 1;
   one.y.range = report::Range{-0.25, 1.25};

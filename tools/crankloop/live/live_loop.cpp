@@ -13,6 +13,7 @@
 
 #include "../error.hpp"
 #include "../number.hpp"
+#include "../units.hpp"
 #include "port/linux/stop_signal.hpp"
 #include "port/linux/stopwatch.hpp"
 #include "port/linux/watched_inputs.hpp"
@@ -22,8 +23,6 @@ namespace {
 
 using port::LiveInputs;
 using port::LiveOutputs;
-
-constexpr double kRpmPerRad_s = 30 / 3.14159265358979323846;
 
 /// A controller's number may be any: what the type cannot hold becomes infinite, which the engine refuses as it does infinity.
 template <class Real>
@@ -36,7 +35,7 @@ Real as(double value) noexcept {
 }
 
 double crank_deg(Phase phase) noexcept {
-  const double deg = static_cast<double>(phase.units()) * (720.0 / 18446744073709551616.0);  // 2^64 units are a cycle
+  const double deg = static_cast<double>(phase.units()) * kDegPerUnit;
   return deg < 720 ? deg : 0;  // the last 2^10 units round up to 720
 }
 

@@ -9,16 +9,16 @@
 #include <cstring>
 #include <fstream>
 
-#include "../bench/machine.hpp"
+#include "../machine.hpp"
 #include "../csv.hpp"
 #include "../number.hpp"
+#include "../summary.hpp"
+#include "../units.hpp"
 
 namespace crankloop::program {
 namespace {
 
 using port::LatencyHistogram;
-
-constexpr double kRpmPerRad_s = 30 / 3.14159265358979323846;
 
 // ---- the machine ------------------------------------------------------------------------------------------------------------
 
@@ -43,22 +43,20 @@ std::string kernel() {
 
 // ---- what is told -----------------------------------------------------------------------------------------------------------
 
-std::string in_us(double time_ns) { return brief(time_ns / 1e3) + " us"; }
-
 struct Quantile {
   const char* name;
   std::uint32_t parts;  ///< of 10 000
 };
 constexpr Quantile kQuantiles[] = {{"p50", 5000}, {"p99", 9900}, {"p99_9", 9990}, {"p99_99", 9999}, {"max", 10000}};
 
-void write_quantiles(Output& out, const std::string& name, const LatencyHistogram& times) {
+void add_quantiles(Summary& s, const std::string& name, const LatencyHistogram& times) {
   for (const Quantile& quantile : kQuantiles) {
-    write_summary(out, name + "_" + quantile.name, in_us(static_cast<double>(times.quantile_ns(quantile.parts))));
+    s.line(name + "_" + quantile.name, static_cast<double>(times.quantile_ns(quantile.parts)) / 1e3, "us");
   }
 }
 
 /// A row per octave, its bar as long as the logarithm of its count: a single tick is still seen beside a million.
-void write_picture(Output& out, const LatencyHistogram& times) {
+void add_picture(Summary& s, const LatencyHistogram& times) {
   constexpr std::size_t kOctaves = 64;
   std::array<std::uint64_t, kOctaves> counts{};
   std::size_t first = kOctaves;
@@ -77,7 +75,7 @@ void write_picture(Output& out, const LatencyHistogram& times) {
     std::array<char, 80> row{};
     std::snprintf(row.data(), row.size(), "#  %10.3f us and more %10llu", std::ldexp(1e-3, static_cast<int>(octave)),
                   static_cast<unsigned long long>(counts[octave]));
-    out.write(row.data() + (bar == 0 ? "" : " " + std::string(bar, '*')) + "\n");
+    s.text(row.data() + (bar == 0 ? "" : " " + std::string(bar, '*')) + "\n");
   }
 }
 
@@ -85,59 +83,58 @@ std::string granted(const std::string& what, int error) {
   return error == 0 ? what : "not " + what + ": " + std::strerror(error);
 }
 
-void write_count(Output& out, const char* name, std::int64_t value) { write_summary(out, name, std::to_string(value)); }
-void write_count(Output& out, const char* name, std::uint64_t value) { write_summary(out, name, std::to_string(value)); }
-
-void write_machine(Output& out, const port::RealTimeWish& wish, const LiveFigures& f) {
+void add_machine(Summary& s, const port::RealTimeWish& wish, const LiveFigures& f) {
   const std::string scheduler = "SCHED_FIFO " + std::to_string(wish.priority);
-  write_summary(out, "machine", bench::describe_machine());
-  write_summary(out, "kernel", kernel());
-  write_summary(out, "scheduler", wish.priority == 0 ? "as started" : granted(scheduler, f.priority_error));
-  write_summary(out, "memory", granted("locked", f.memory_error));
-  write_summary(out, "processor", wish.cpu < 0 ? "any" : std::to_string(wish.cpu));
+  s.line("machine", describe_machine());
+  s.line("kernel", kernel());
+  s.line("scheduler", wish.priority == 0 ? "as started" : granted(scheduler, f.priority_error));
+  s.line("memory", granted("locked", f.memory_error));
+  s.line("processor", wish.cpu < 0 ? "any" : std::to_string(wish.cpu));
 }
 
-void write_times(Output& out, std::int64_t tick_ns, const LiveFigures& f) {
+void add_times(Summary& s, std::int64_t tick_ns, const LiveFigures& f) {
   const auto tick = static_cast<double>(tick_ns);
-  write_summary(out, "tick", in_us(tick));
-  write_count(out, "ticks", f.tally.ticks);
-  write_summary(out, "wall_time", f.wall_s, "s");
-  write_count(out, "late_ticks", f.tally.late);
-  write_count(out, "missed_deadlines", f.tally.missed);
-  write_summary(out, "longest_backlog", brief(static_cast<double>(f.tally.longest_backlog_ns) / tick) + " ticks");
-  write_quantiles(out, "wakeup_latency", f.begin);
-  write_quantiles(out, "model_time", f.model);
-  write_quantiles(out, "work_time", f.work);
-  write_summary(out, "model_share_mean", brief(100 * f.model.mean_ns() / tick) + " %");
-  write_summary(out, "model_share_max", brief(100 * static_cast<double>(f.model.longest_ns()) / tick) + " %");
-  write_count(out, "page_faults", f.page_faults);
-  write_count(out, "preemptions", f.preemptions);
+  s.line("tick", tick / 1e3, "us");
+  s.line("ticks", f.tally.ticks);
+  s.line("wall_time", significant(f.wall_s), "s");
+  s.line("late_ticks", f.tally.late);
+  s.line("missed_deadlines", f.tally.missed);
+  s.line("longest_backlog", static_cast<double>(f.tally.longest_backlog_ns) / tick, "ticks");
+  add_quantiles(s, "wakeup_latency", f.begin);
+  add_quantiles(s, "model_time", f.model);
+  add_quantiles(s, "work_time", f.work);
+  s.line("model_share_mean", 100 * f.model.mean_ns() / tick, "%");
+  s.line("model_share_max", 100 * static_cast<double>(f.model.longest_ns()) / tick, "%");
+  s.line("page_faults", f.page_faults);
+  s.line("preemptions", f.preemptions);
 }
 
-void write_engine(Output& out, const LiveFigures& f) {
-  write_summary(out, "final_speed", brief(f.speed_rad_s * kRpmPerRad_s) + " rpm");
-  write_summary(out, "mean_speed", brief(f.mean_speed_rad_s * kRpmPerRad_s) + " rpm");
-  write_summary(out, "mean_torque", brief(f.mean_torque_Nm) + " Nm  # of gas and masses, over the ticks");
-  write_count(out, "faulty_ticks", f.faulty_ticks);
-  write_count(out, "faults", std::uint64_t{f.faults});
+void add_engine(Summary& s, const LiveFigures& f) {
+  s.line("final_speed", f.speed_rad_s * kRpmPerRad_s, "rpm");
+  s.line("mean_speed", f.mean_speed_rad_s * kRpmPerRad_s, "rpm");
+  s.line("mean_torque", f.mean_torque_Nm, "Nm", "of gas and masses, over the ticks");
+  s.line("faulty_ticks", f.faulty_ticks);
+  s.line("faults", f.faults);
 }
 
 }  // namespace
 
-void write_live_summary(Output& out, const EngineFile& file, const LiveRequest& request, const std::string& real, bool shared,
-                        const LiveFigures& f) {
-  out.write("# " + file.name() + ", its crank free, in " + real + (f.stopped ? ", stopped by a signal" : f.lost_block ? ", until its block was lost" : "") + "\n");
-  write_machine(out, request.real_time, f);
-  out.write("# a tick is late if it began a whole tick or more after it was due, missed if it was not done when the next was due\n");
-  write_times(out, request.tick_ns, f);
-  out.write("# wake-up latency, ticks; a bar grows with the logarithm\n");
-  write_picture(out, f.begin);
-  out.write("# the engine\n");
-  write_engine(out, f);
-  if (!shared) return;
-  write_summary(out, "controller", f.controller_seen ? "seen" : "never seen");
-  write_count(out, "controller_silences", std::uint64_t{f.controller_silences});
-  write_count(out, "torn_inputs", std::uint64_t{f.torn_inputs});
+std::string live_summary(const EngineFile& file, const LiveRequest& request, const std::string& real, bool shared,
+                         const LiveFigures& f) {
+  Summary s;
+  s.remark(file.name() + ", its crank free, in " + real + (f.stopped ? ", stopped by a signal" : f.lost_block ? ", until its block was lost" : ""));
+  add_machine(s, request.real_time, f);
+  s.remark("a tick is late if it began a whole tick or more after it was due, missed if it was not done when the next was due");
+  add_times(s, request.tick_ns, f);
+  s.remark("wake-up latency, ticks; a bar grows with the logarithm");
+  add_picture(s, f.begin);
+  s.remark("the engine");
+  add_engine(s, f);
+  if (!shared) return s.text();
+  s.line("controller", f.controller_seen ? "seen" : "never seen");
+  s.line("controller_silences", f.controller_silences);
+  s.line("torn_inputs", f.torn_inputs);
+  return s.text();
 }
 
 void write_live_histogram(Output& out, const LiveFigures& f) {

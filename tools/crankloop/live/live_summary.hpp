@@ -12,7 +12,7 @@
 namespace crankloop::program {
 
 /// Lines "name = value unit", remarks after '#'. `real`: arithmetic of the tick; `shared`: there was a block that a controller could write to.
-void write_live_summary(Output& out, const EngineFile& file, const LiveRequest& request, const std::string& real, bool shared,
+[[nodiscard]] std::string live_summary(const EngineFile& file, const LiveRequest& request, const std::string& real, bool shared,
                         const LiveFigures& figures);
 
 /// CSV: a row per bucket that counted anything.

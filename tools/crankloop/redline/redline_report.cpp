@@ -1,23 +1,17 @@
 // The page of `crankloop redline`: float and bounce over speed, and the influence of what was varied.
 #include "../number.hpp"
+#include "../units.hpp"
 #include "redline.hpp"
 
 namespace crankloop::program {
 namespace {
 
 using report::Axis;
+using report::axis_of;
 using report::Paragraph;
 using report::Plot;
+using report::plot_of;
 using report::Section;
-
-constexpr double kPerTurn = 1 / (2 * 3.14159265358979323846);
-
-Axis axis(const char* title, const char* unit) {
-  Axis one;
-  one.title = title;
-  one.unit = unit;
-  return one;
-}
 
 using Value = double (*)(const SpeedResult&);
 
@@ -31,20 +25,12 @@ report::Series over_speed(const Sweep& sweep, const std::string& name, Value val
   return series;
 }
 
-Plot plot_over_speed(const std::string& title, const Axis& y) {
-  Plot plot;
-  plot.title = title;
-  plot.x = axis("Engine speed", "rpm");
-  plot.y = y;
-  plot.y.include_zero = true;
-  return plot;
-}
-
 std::string factor_name(const Sweep& sweep) { return "\u00D7 " + brief(sweep.factor); }
 
 /// One curve, or one for each factor.
-Plot plot_of(const Redline& redline, const std::string& title, const Axis& y, Value value) {
-  Plot plot = plot_over_speed(title, y);
+Plot plot_over_speed(const Redline& redline, const std::string& title, const Axis& y, Value value) {
+  Plot plot = plot_of(title, axis_of("Engine speed", "rpm"), y);
+  plot.y.include_zero = true;
   for (const Sweep& sweep : redline.sweeps) {
     plot.series.push_back(over_speed(sweep, redline.influence != nullptr ? factor_name(sweep) : "", value));
   }
@@ -72,8 +58,8 @@ Section speed_section(const Redline& redline) {
     section.blocks.push_back(Paragraph{"Each curve is the train with " + std::string(redline.influence->keys) +
                                        " times the factor beside it; \u00D7 1 is the train as its file gives it."});
   }
-  Plot gap = plot_of(redline, "Separation", axis("Largest gap between train and valve", "mm"), gap_mm);
-  Plot bounce = plot_of(redline, "Bounce", axis("Largest height above the seat", "mm"), bounce_mm);
+  Plot gap = plot_over_speed(redline, "Separation", axis_of("Largest gap between train and valve", "mm"), gap_mm);
+  Plot bounce = plot_over_speed(redline, "Bounce", axis_of("Largest height above the seat", "mm"), bounce_mm);
   if (redline.influence == nullptr) {
     mark(gap, redline.as_given().separation, "from");
     mark(bounce, redline.as_given().bounce, "from");
@@ -83,11 +69,11 @@ Section speed_section(const Redline& redline) {
   section.blocks.push_back(std::move(gap));
   section.blocks.push_back(std::move(bounce));
   section.blocks.push_back(
-      plot_of(redline, "Seating", axis("Speed at the first contact with the seat", "m/s"), seating_m_s));
-  section.blocks.push_back(plot_of(redline, "Largest force between cam and follower", axis("Force", "kN"), cam_kN));
+      plot_over_speed(redline, "Seating", axis_of("Speed at the first contact with the seat", "m/s"), seating_m_s));
+  section.blocks.push_back(plot_over_speed(redline, "Largest force between cam and follower", axis_of("Force", "kN"), cam_kN));
   section.blocks.push_back(
-      plot_of(redline, "Largest acceleration", axis("Acceleration", "km/s\u00B2"), acceleration_km_s2));
-  Plot lift = plot_of(redline, "Largest lift", axis("Lift", "mm"), lift_mm);
+      plot_over_speed(redline, "Largest acceleration", axis_of("Acceleration", "km/s\u00B2"), acceleration_km_s2));
+  Plot lift = plot_over_speed(redline, "Largest lift", axis_of("Lift", "mm"), lift_mm);
   lift.y.include_zero = false;
   section.blocks.push_back(std::move(lift));
   return section;
@@ -95,10 +81,7 @@ Section speed_section(const Redline& redline) {
 
 Section onset_section(const Redline& redline) {
   Section section{"onset", "Onset of separation and bounce", {}};
-  Plot plot;
-  plot.title = "Onset";
-  plot.x = axis("Factor", "");
-  plot.y = axis("Engine speed", "rpm");
+  Plot plot = plot_of("Onset", axis_of("Factor", ""), axis_of("Engine speed", "rpm"));
   const auto series = [&](const char* name, Onset Sweep::*onset) {
     report::Series one;
     one.name = name;
@@ -158,9 +141,9 @@ report::Page redline_page(const Redline& redline) {
   page.facts = {
       onset("Separation from", given.separation, "float"),
       onset("Bounce from", given.bounce, "after seating"),
-      {"Natural frequency", report::format_number(open_frequency_rad_s(body) * kPerTurn, 4), "Hz",
+      {"Natural frequency", report::format_number(open_frequency_rad_s(body) * kTurnsPerRad, 4), "Hz",
        "open, on the train"},
-      {"Seated", report::format_number(seated_frequency_rad_s(body) * kPerTurn, 4), "Hz", "on train and seat"},
+      {"Seated", report::format_number(seated_frequency_rad_s(body) * kTurnsPerRad, 4), "Hz", "on train and seat"},
       {"Largest theoretical lift", report::format_number(redline.valve.lift().largest_lift_m() * 1e3, 5), "mm", ""}};
   if (redline.influence != nullptr) page.sections.push_back(onset_section(redline));
   page.sections.push_back(speed_section(redline));

@@ -8,7 +8,6 @@
 // plot_style() therefore sets the type between 17 units (11 px on that phone) and 13 (14 px); margins and label places
 // are computed for the largest. Equal input gives equal bytes.
 #pragma once
-#pragma once
 
 #include <cstddef>
 #include <cstdint>
@@ -66,6 +65,21 @@ struct Plot {
   std::vector<Band> bands{};
   std::vector<Marker> markers{};
 };
+
+[[nodiscard]] inline Axis axis_of(const std::string& title, const std::string& unit) {
+  Axis axis;
+  axis.title = title;
+  axis.unit = unit;
+  return axis;
+}
+
+[[nodiscard]] inline Plot plot_of(const std::string& title, const Axis& x, const Axis& y) {
+  Plot plot;
+  plot.title = title;
+  plot.x = x;
+  plot.y = y;
+  return plot;
+}
 
 /// The <svg> element, with <title> and a <desc> that says each series' range. Two or more named series are labelled
 /// beside their curves where every name finds a free place nearer to its own curve than to others, else in a legend.

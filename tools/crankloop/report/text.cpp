@@ -134,6 +134,15 @@ std::string format_number(double value, int significant_digits) {
   return typeset(fixed(value, std::max(0, digits - 1 - exponent)));
 }
 
+std::string number_text(double value, int significant_digits) {
+  std::string text = format_number(value, significant_digits);
+  if (text.find('.') == std::string::npos || text.find("\u00B7") != std::string::npos)
+    return text;  // a power of ten follows
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
 std::string format_fixed(double value, int decimals) {
   if (!std::isfinite(value)) return "\u2013";
   return typeset(fixed(value, std::clamp(decimals, 0, 17)));

@@ -18,6 +18,9 @@ namespace crankloop::report {
 /// finite. Integer digits are never rounded away.
 [[nodiscard]] std::string format_number(double value, int significant_digits);
 
+/// format_number() without needless zeros: "1.25".
+[[nodiscard]] std::string number_text(double value, int significant_digits = 4);
+
 /// The same with so many decimals, whatever the size: for a column of a table, whose decimal points then stand in line.
 [[nodiscard]] std::string format_fixed(double value, int decimals);
 

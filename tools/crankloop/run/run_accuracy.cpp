@@ -72,12 +72,10 @@ Accuracy measure_accuracy(const ExactEngine& engine, const Operation& operation)
     const double engine_deg = loop.crank_deg();
     const WholeOutput<double> exact = exact_output(engine, engine_deg, operation.speed_rad_s(), operation.load_ratio);
     for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
-      const CylinderPlace place = place_of(layout, k);
-      for (const QuantityKind& kind : kQuantityKinds) {
-        accuracy.of[index_of(kind.quantity)].take(static_cast<double>(value_of(out, kind.quantity, place)),
-                                                  value_of(exact, kind.quantity, place),
-                                                  own_angle(layout, k, engine_deg));
-      }
+      const QuantityValues<Real> in_loop = values_of(out, layout, k);
+      const QuantityValues<double> of_exact = values_of(exact, layout, k);
+      const double own_deg = own_angle(layout, k, engine_deg);
+      for (std::size_t q = 0; q < kQuantities; ++q) accuracy.of[q].take(static_cast<double>(in_loop[q]), of_exact[q], own_deg);
     }
     accuracy.torque.take(static_cast<double>(out.torque_Nm), exact.torque_Nm, engine_deg);
   }

@@ -13,8 +13,7 @@
 namespace crankloop::program {
 namespace {
 
-constexpr double kDegPerUnit = 720.0 / 18446744073709551616.0;  // 2^64 units are a cycle
-constexpr double kRadPerCycle = 4 * 3.14159265358979323846;
+constexpr double kRadPerCycle = 4 * kPi;
 
 /// Of a tick: less than this beyond the last cycle is rounding of the phase increment, and no reason for another tick.
 constexpr double kHairOfATick = 1e-3;
@@ -110,15 +109,11 @@ RunFigures run_cycles(FixedStepLoop<Real>& loop, const EngineDefinition& definit
     for (std::size_t k = 0; k < cylinders; ++k) {
       const double from_firing_deg = engine_deg - layout.firing_deg[k];
       const double own_deg = from_firing_deg < 0 ? from_firing_deg + 720 : from_firing_deg;
-      const CylinderPlace place = place_of(layout, k);
-      for (const QuantityKind& kind : kQuantityKinds) {
-        f.of[index_of(kind.quantity)].take(static_cast<double>(value_of(out, kind.quantity, place)), own_deg);
-      }
+      const QuantityValues<Real> values = values_of(out, layout, k);
+      for (std::size_t i = 0; i < kQuantities; ++i) f.of[i].take(static_cast<double>(values[i]), own_deg);
       for (std::size_t t = 0; t < f.valves.size(); ++t) {
-        for (const ValveQuantityKind& kind : kValveQuantityKinds) {
-          const auto value = static_cast<double>(value_of(out, kind.quantity, t, k));
-          f.valves[t].of[index_of(kind.quantity)].take(value, own_deg);
-        }
+        const auto of_valve = values_of(out, t, k);
+        for (std::size_t i = 0; i < kValveQuantities; ++i) f.valves[t].of[i].take(static_cast<double>(of_valve[i]), own_deg);
       }
     }
     for (std::size_t j = 0; j < journals; ++j)

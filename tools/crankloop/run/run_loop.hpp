@@ -13,7 +13,7 @@
 #include <crankloop/crankloop.hpp>
 #include <crankloop/tick/scenes.hpp>
 
-#include "run_limits.hpp"
+#include "../run_limits.hpp"
 #include "run_quantities.hpp"
 #include "run_valves.hpp"
 
@@ -25,7 +25,7 @@ struct Operation {
   double tick_s = 100e-6;
   double load_ratio = 1;
 
-  [[nodiscard]] double speed_rad_s() const noexcept { return speed_rpm * 3.14159265358979323846 / 30; }
+  [[nodiscard]] double speed_rad_s() const noexcept { return speed_rpm * kPi / 30; }
 };
 
 /// Engine, tables and input. After construction one cycle has been run, which lets any state settle, and the engine

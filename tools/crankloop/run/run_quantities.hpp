@@ -4,10 +4,13 @@
 // What does not: what is done with them.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include <crankloop/tick/scenes.hpp>
+
+#include "../units.hpp"
 
 namespace crankloop::program {
 
@@ -39,18 +42,21 @@ enum class Quantity : std::uint8_t {
 inline constexpr std::size_t kCsvQuantities = 14;
 inline constexpr std::size_t kQuantities = 19;
 
+template <class Real>
+using QuantityValues = std::array<Real, kQuantities>;
+
 [[nodiscard]] constexpr std::size_t index_of(Quantity quantity) noexcept { return static_cast<std::size_t>(quantity); }
 
 /// How a quantity is written: value in SI times `per_si`, in a unit that stands in CSV names as `suffix`.
-struct QuantityKind {
+template <class Quantity>
+struct KindOf {
   Quantity quantity;
   const char* name;
   const char* suffix;
   const char* unit;
   double per_si;
 };
-
-inline constexpr double kDegPerRad = 180 / 3.14159265358979323846;
+using QuantityKind = KindOf<Quantity>;
 
 inline constexpr QuantityKind kQuantityKinds[kQuantities] = {
     {Quantity::pressure, "pressure", "kPa", "kPa", 1e-3},
@@ -74,61 +80,31 @@ inline constexpr QuantityKind kQuantityKinds[kQuantities] = {
     {Quantity::pin_tangential, "pin_tangential", "N", "N", 1},
 };
 
-/// A cylinder and the crank pin that carries its rod, both from 0.
-struct CylinderPlace {
-  std::size_t cylinder = 0;
-  std::size_t pin = 0;
-};
-
-[[nodiscard]] inline CylinderPlace place_of(const Layout& layout, std::size_t cylinder) noexcept {
-  return {cylinder, layout.pin[cylinder]};
-}
-
-/// In SI. Crank pin values are those of the whole pin, with all its rods.
+/// In SI, in the order of Quantity. Crank pin values are those of the whole pin, with all its rods.
 template <class Real>
-[[nodiscard]] Real value_of(const WholeOutput<Real>& out, Quantity quantity, CylinderPlace place) noexcept {
-  const CylinderForces<Real>& forces = out.cylinder[place.cylinder];
-  switch (quantity) {
-    case Quantity::pressure:
-      return forces.pressure_Pa;
-    case Quantity::displacement:
-      return out.displacement_m[place.cylinder];
-    case Quantity::velocity:
-      return out.velocity_m_s[place.cylinder];
-    case Quantity::acceleration:
-      return out.acceleration_m_s2[place.cylinder];
-    case Quantity::gas_force:
-      return forces.gas_force_N;
-    case Quantity::inertia_force:
-      return forces.inertia_force_N;
-    case Quantity::total_force:
-      return forces.total_force_N;
-    case Quantity::side_force:
-      return forces.side_force_N;
-    case Quantity::rod_force:
-      return forces.rod_force_N;
-    case Quantity::radial_force:
-      return forces.radial_force_N;
-    case Quantity::tangential_force:
-      return forces.tangential_force_N;
-    case Quantity::torque:
-      return forces.torque_Nm;
-    case Quantity::tilting_moment:
-      return forces.tilting_moment_Nm;
-    case Quantity::crank_pin_load:
-      return out.pin_load_N[place.pin];
-    case Quantity::rod_angle:
-      return out.rod_angle_rad[place.cylinder];
-    case Quantity::rod_speed:
-      return out.rod_speed_rad_s[place.cylinder];
-    case Quantity::rod_acceleration:
-      return out.rod_acceleration_rad_s2[place.cylinder];
-    case Quantity::pin_radial:
-      return out.pin_radial_N[place.pin];
-    case Quantity::pin_tangential:
-      return out.pin_tangential_N[place.pin];
-  }
-  return Real{0};
+[[nodiscard]] QuantityValues<Real> values_of(const WholeOutput<Real>& out, const Layout& layout, std::size_t cylinder) noexcept {
+  const std::size_t k = cylinder;
+  const std::size_t pin = layout.pin[k];
+  const CylinderForces<Real>& f = out.cylinder[k];
+  return {f.pressure_Pa,
+          out.displacement_m[k],
+          out.velocity_m_s[k],
+          out.acceleration_m_s2[k],
+          f.gas_force_N,
+          f.inertia_force_N,
+          f.total_force_N,
+          f.side_force_N,
+          f.rod_force_N,
+          f.radial_force_N,
+          f.tangential_force_N,
+          f.torque_Nm,
+          f.tilting_moment_Nm,
+          out.pin_load_N[pin],
+          out.rod_angle_rad[k],
+          out.rod_speed_rad_s[k],
+          out.rod_acceleration_rad_s2[k],
+          out.pin_radial_N[pin],
+          out.pin_tangential_N[pin]};
 }
 
 }  // namespace crankloop::program

@@ -24,8 +24,8 @@ struct SignalEngine {
 
 }  // namespace
 
-void write_signals(const EngineFile& engine_file, const Operation& operation, int cycles, const std::string& path) {
-  SignalDump dump(engine_file, path, {"speed_rpm"});
+void write_signals(const EngineFile& engine_file, const Operation& operation, int cycles, Output& out) {
+  SignalDump dump(engine_file, out, {"speed_rpm"});
   const auto made = std::make_unique<SignalEngine>();
   Status status = made->storage.build(engine_file.definition(), {operation.tick_s, {}});
   if (status.ok()) status = made->engine.init(made->storage.tables());

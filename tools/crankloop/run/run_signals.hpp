@@ -3,14 +3,13 @@
 // What belongs here: the run. What does not: how its ticks become a file (signal_dump.hpp).
 #pragma once
 
-#include <string>
-
 #include "../engine_file/engine_file.hpp"
+#include "../output.hpp"
 #include "run_loop.hpp"
 
 namespace crankloop::program {
 
 /// Writes the levels of all wheels from phase 0 over some cycles of 720 deg, and the speed. Throws InputError for a file without wheels.
-void write_signals(const EngineFile& engine, const Operation& operation, int cycles, const std::string& path);
+void write_signals(const EngineFile& engine, const Operation& operation, int cycles, Output& out);
 
 }  // namespace crankloop::program

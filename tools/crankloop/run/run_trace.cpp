@@ -43,11 +43,9 @@ void append(FreeForceTrace& to, const FreeForce<Real>& force) {
 
 template <class Real>
 void append(Trace& trace, const EngineDefinition& definition, double crank_deg, const WholeOutput<Real>& out) {
-  const CylinderPlace first = place_of(definition.layout, 0);
+  const QuantityValues<Real> values = values_of(out, definition.layout, 0);
   trace.crank_deg.push_back(crank_deg);
-  for (const QuantityKind& kind : kQuantityKinds) {
-    append(trace.of[index_of(kind.quantity)], static_cast<double>(value_of(out, kind.quantity, first)));
-  }
+  for (std::size_t i = 0; i < kQuantities; ++i) append(trace.of[i], static_cast<double>(values[i]));
   double tilting_moment_Nm = 0;
   for (std::size_t k = 0; k < trace.cylinder_torque_Nm.size(); ++k) {
     append(trace.cylinder_torque_Nm[k], static_cast<double>(out.cylinder[k].torque_Nm));
@@ -69,9 +67,8 @@ void append(Trace& trace, const EngineDefinition& definition, double crank_deg, 
   append(trace.second, out.second);
   append(trace.rotating, out.rotating);
   for (std::size_t t = 0; t < trace.valves.size(); ++t) {
-    for (const ValveQuantityKind& kind : kValveQuantityKinds) {
-      append(trace.valves[t].of[index_of(kind.quantity)], static_cast<double>(value_of(out, kind.quantity, t, 0)));
-    }
+    const auto of_valve = values_of(out, t, 0);
+    for (std::size_t i = 0; i < kValveQuantities; ++i) append(trace.valves[t].of[i], static_cast<double>(of_valve[i]));
     trace.valves[t].regime.push_back(out.valve_forces[t][0].regime);
   }
 }

@@ -13,6 +13,7 @@
 #include <crankloop/tick/scenes.hpp>
 
 #include "../engine_file/engine_file.hpp"
+#include "../valve/valve_cycle.hpp"
 #include "run_quantities.hpp"
 
 namespace crankloop::program {
@@ -34,14 +35,7 @@ inline constexpr std::size_t kValveQuantities = 8;
   return static_cast<std::size_t>(quantity);
 }
 
-/// How a quantity is written: value in SI times `per_si`, in a unit that stands in CSV names as `suffix`.
-struct ValveQuantityKind {
-  ValveQuantity quantity;
-  const char* name;
-  const char* suffix;
-  const char* unit;
-  double per_si;
-};
+using ValveQuantityKind = KindOf<ValveQuantity>;
 inline constexpr ValveQuantityKind kValveQuantityKinds[kValveQuantities] = {
     {ValveQuantity::theoretical_lift, "theoretical_lift", "mm", "mm", 1e3},
     {ValveQuantity::lift, "lift", "mm", "mm", 1e3},
@@ -53,50 +47,12 @@ inline constexpr ValveQuantityKind kValveQuantityKinds[kValveQuantities] = {
     {ValveQuantity::gap, "gap", "mm", "mm", 1e3},
 };
 
-/// In SI.
+/// In SI, in the order of ValveQuantity.
 template <class Real>
-[[nodiscard]] Real value_of(const WholeOutput<Real>& out, ValveQuantity quantity, std::size_t train,
-                            std::size_t cylinder) noexcept {
-  const ValveMotionOutput<Real>& motion = out.valve[train][cylinder];
-  const ValveForcesOutput<Real>& forces = out.valve_forces[train][cylinder];
-  switch (quantity) {
-    case ValveQuantity::theoretical_lift:
-      return motion.theoretical_lift_m;
-    case ValveQuantity::lift:
-      return motion.lift_m;
-    case ValveQuantity::velocity:
-      return motion.velocity_m_s;
-    case ValveQuantity::acceleration:
-      return motion.acceleration_m_s2;
-    case ValveQuantity::train_force:
-      return forces.train_N;
-    case ValveQuantity::seat_force:
-      return forces.seat_N;
-    case ValveQuantity::cam_force:
-      return forces.cam_N;
-    case ValveQuantity::gap:
-      return forces.gap_m;
-  }
-  return Real{0};
-}
-
-/// A cycle's results in double.
-template <class Real>
-[[nodiscard]] ValveCycle<double> in_double(const ValveCycle<Real>& c) noexcept {
-  const auto wide = [](Real x) { return static_cast<double>(x); };
-  return {wide(c.largest_lift_m),
-          wide(c.largest_speed_m_s),
-          wide(c.largest_acceleration_m_s2),
-          wide(c.opening_delay_deg),
-          wide(c.separation_gap_m),
-          wide(c.separation_start_deg),
-          wide(c.separation_duration_deg),
-          wide(c.seating_speed_m_s),
-          wide(c.bounce_height_m),
-          c.separations,
-          c.bounces,
-          c.contact_changes,
-          c.off_seat_at_end};
+[[nodiscard]] std::array<Real, kValveQuantities> values_of(const WholeOutput<Real>& out, std::size_t train, std::size_t cylinder) noexcept {
+  const ValveMotionOutput<Real>& m = out.valve[train][cylinder];
+  const ValveForcesOutput<Real>& f = out.valve_forces[train][cylinder];
+  return {m.theoretical_lift_m, m.lift_m, m.velocity_m_s, m.acceleration_m_s2, f.train_N, f.seat_N, f.cam_N, f.gap_m};
 }
 
 /// Of each result the worst of two cycles; start and duration are those of the larger separation.

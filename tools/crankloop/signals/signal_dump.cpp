@@ -10,7 +10,7 @@ const EngineFile& with_wheels(const EngineFile& engine) {
 
 }  // namespace
 
-SignalDump::SignalDump(const EngineFile& engine, const std::string& path, const std::vector<std::string>& numbers)
-    : wheels_{with_wheels(engine).triggers().size()}, vcd_{Output(path), engine.name(), names_of_triggers(engine), numbers} {}
+SignalDump::SignalDump(const EngineFile& engine, Output& out, const std::vector<std::string>& numbers)
+    : wheels_{with_wheels(engine).triggers().size()}, vcd_{out, engine.name(), names_of_triggers(engine), numbers} {}
 
 }  // namespace crankloop::program

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "../engine_file/engine_file.hpp"
+#include "../output.hpp"
 #include "vcd.hpp"
 
 namespace crankloop::program {
@@ -35,7 +36,7 @@ template <class Signal>
 class SignalDump {
  public:
   /// Throws InputError for a file without wheels.
-  SignalDump(const EngineFile& engine, const std::string& path, const std::vector<std::string>& numbers);
+  SignalDump(const EngineFile& engine, Output& out, const std::vector<std::string>& numbers);
 
   /// The edges of a tick that ends at `end_s`; before the first, the levels to begin with.
   template <class Output>

@@ -30,8 +30,8 @@ std::string reference(std::string name) {
 
 }  // namespace
 
-VcdFile::VcdFile(Output out, const std::string& module, const std::vector<std::string>& wires, const std::vector<std::string>& numbers)
-    : out_{std::move(out)}, wires_{wires.size()} {
+VcdFile::VcdFile(Output& out, const std::string& module, const std::vector<std::string>& wires, const std::vector<std::string>& numbers)
+    : out_{out}, wires_{wires.size()} {
   out_.write("$version crankloop $end\n$timescale 1 ns $end\n$scope module " + reference(module) + " $end\n");
   const auto declare = [this](const std::string& type, const std::string& name) {
     variables_.push_back({code_of(variables_.size()), 0, false});
@@ -80,7 +80,6 @@ void VcdFile::finish(double time_s) {
   for (const Change& change : noted_) time_s = std::max(time_s, static_cast<double>(change.time_ns) / 1e9);
   write_until(time_s);
   write_time(std::max(nanoseconds(time_s), written_ns_));
-  out_.finish();
 }
 
 }  // namespace crankloop::program

@@ -1,6 +1,6 @@
 // Signals over time as a value change dump (IEEE 1364, clause 18): what GTKWave, PulseView and logic analysers open.
 //
-//     VcdFile vcd(Output(path), "crankloop", {{"crank"}, {"cam"}}, {{"speed_rpm"}});
+//     VcdFile vcd(out, "crankloop", {{"crank"}, {"cam"}}, {{"speed_rpm"}});
 //     vcd.level(0, time_s, true);       // in any order within a tick
 //     vcd.number(0, time_s, 812.5);
 //     vcd.write_until(tick_end_s);      // sorted
@@ -22,7 +22,7 @@ namespace crankloop::program {
 class VcdFile {
  public:
   /// Names of wires (one bit) and of real variables; what is not a letter, digit or underscore in them becomes an underscore.
-  VcdFile(Output out, const std::string& module, const std::vector<std::string>& wires, const std::vector<std::string>& numbers);
+  VcdFile(Output& out, const std::string& module, const std::vector<std::string>& wires, const std::vector<std::string>& numbers);
 
   /// A change, at or after the time that was written last.
   void level(std::size_t wire, double time_s, bool high) { note({nanoseconds(time_s), wire, high ? 1.0 : 0.0}); }
@@ -31,7 +31,7 @@ class VcdFile {
   /// Writes what was noted up to this time, in the order of time; what is noted at one time, in the order of noting.
   void write_until(double time_s);
 
-  /// Writes the rest, and the end of the recording.
+  /// Writes the rest, and the end of the recording. The caller finishes the Output.
   void finish(double time_s);
 
  private:
@@ -51,7 +51,7 @@ class VcdFile {
   void write(const Change& change);
   void write_time(std::int64_t time_ns);
 
-  Output out_;
+  Output& out_;
   std::size_t wires_;
   std::vector<Variable> variables_;
   std::vector<Change> noted_;

@@ -7,8 +7,9 @@
 #include <crankloop/tick/engine_step.hpp>
 
 #include "../number.hpp"
-#include "../run/run_loop.hpp"
-#include "../textbook_valve.hpp"
+#include "../run_limits.hpp"
+#include "../units.hpp"
+#include "textbook_valve.hpp"
 #include "valve_tick_limit.hpp"
 
 template class crankloop::Engine<float, crankloop::program::OneValve>;
@@ -116,7 +117,7 @@ ValveLoop<Real>::ValveLoop(const LoneValve& valve, double tick_s, const ValveMet
 
 template <class Real>
 Phase ValveLoop<Real>::turned(double speed_rpm) const noexcept {
-  const Real speed_rad_s = static_cast<Real>(speed_rpm * 3.14159265358979323846 / 30);
+  const Real speed_rad_s = static_cast<Real>(speed_rpm * kPi / 30);
   return Phase::from_cycles(speed_rad_s * tables().drive->cycles_per_tick_per_rad_s);
 }
 
@@ -128,9 +129,9 @@ double ValveLoop<Real>::deg_per_tick(double speed_rpm) const noexcept {
 template <class Real>
 void ValveLoop<Real>::start(double speed_rpm, double cam_deg, std::uint64_t ticks) {
   const Drive<Real>& drive = *tables().drive;
-  input_.speed_rad_s = static_cast<Real>(speed_rpm * 3.14159265358979323846 / 30);
+  input_.speed_rad_s = static_cast<Real>(speed_rpm * kPi / 30);
   if (!(std::abs(input_.speed_rad_s) <= drive.speed_limit_rad_s)) {
-    const double limit_rpm = std::floor(static_cast<double>(drive.speed_limit_rad_s) * 30 / 3.14159265358979323846);
+    const double limit_rpm = std::floor(static_cast<double>(drive.speed_limit_rad_s) * 30 / kPi);
     throw UsageError(brief(speed_rpm) + " rpm is too fast for a tick of " +
                      brief(static_cast<double>(drive.tick_s) * 1e6) + " us: at most one revolution per tick, here " +
                      brief(limit_rpm) + " rpm");
@@ -161,7 +162,7 @@ void ValveLoop<Real>::textbook_step(Phase before, Phase after) noexcept {
   textbook_.cam_deg_s = cam.turned_deg<Real>() * tables().drive->per_tick_s;
   textbook_.gas_N = Real{0};
   if (diagram_) {
-    const double engine_deg = static_cast<double>(after.units()) * (kDegreesPerCycle / 18446744073709551616.0);
+    const double engine_deg = static_cast<double>(after.units()) * kDegPerUnit;
     textbook_.gas_N = static_cast<Real>((diagram_->full_Pa(engine_deg) - crankcase_Pa_) * head_area_m2_);
   }
   TextbookValve<Real>(motion(), curve()).advance(textbook_.valve, cam, textbook_.gas_N, textbook_.record);

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include "../engine_report/engine_report_parts.hpp"
+#include "../report/plot.hpp"
 
 namespace crankloop::program {
 namespace {
 
+using report::axis_of;
+using report::number_text;
 using report::Plot;
 using report::Series;
 
@@ -134,14 +136,11 @@ void add_by_contact(Plot& plot, const Shown& s, Part part, Value value) {
 
 /// The x axis ends with the data, not on the next tick.
 Plot plot_over_cam(const Shown& s, Part part, const char* title, const char* y, const char* unit) {
-  Plot plot;
-  plot.title = title;
-  plot.x = axis_of("Cam angle from full lift", "deg");
+  Plot plot = report::plot_of(title, axis_of("Cam angle from full lift", "deg"), axis_of(y, unit));
   const double from_deg = s.ticks[part.from].cam_deg;
   const double to_deg = s.ticks[part.to - 1].cam_deg;
   plot.x.range = report::Range{std::min(from_deg, to_deg), std::max(from_deg, to_deg)};
   if (std::abs(to_deg - from_deg) > 90) plot.x.tick_step = std::abs(to_deg - from_deg) > 240 ? 60 : 30;
-  plot.y = axis_of(y, unit);
   return plot;
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "../report/sheet.hpp"
-#include "../run/run_valves.hpp"
+#include "valve_cycle.hpp"
 #include "valve_loop.hpp"
 
 namespace crankloop::program {

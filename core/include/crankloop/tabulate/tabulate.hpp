@@ -55,16 +55,16 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
 
 namespace part {
 /// Rows of a section where an engine has at most so many trains and wheels, a grid so many segments.
-[[nodiscard]] constexpr std::size_t most_rows(Rows rows, std::size_t trains, std::size_t wheels, std::size_t gas_segments) noexcept {
+[[nodiscard]] constexpr std::size_t most_rows(SectionRows rows, std::size_t trains, std::size_t wheels, std::size_t gas_segments) noexcept {
   switch (rows) {
-    case Rows::one: return 1;
-    case Rows::gas_grid:
-    case Rows::torque_grid:
-    case Rows::cut_grid: return gas_segments;
-    case Rows::trains: return trains;
-    case Rows::lobes: return trains * std::size_t{kDegreesPerTurn};
-    case Rows::wheels: return wheels;
-    case Rows::edges: return wheels * std::size_t{kMaxTriggerEdges};
+    case SectionRows::one: return 1;
+    case SectionRows::gas_grid:
+    case SectionRows::torque_grid:
+    case SectionRows::cut_grid: return gas_segments;
+    case SectionRows::trains: return trains;
+    case SectionRows::lobes: return trains * std::size_t{kDegreesPerTurn};
+    case SectionRows::wheels: return wheels;
+    case SectionRows::edges: return wheels * std::size_t{kMaxTriggerEdges};
   }
   return 0;
 }

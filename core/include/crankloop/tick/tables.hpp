@@ -128,7 +128,7 @@ inline constexpr double kLeastInertia_kg_m2 = 1e-9;
 inline constexpr double kLeastInertia_ratio = 1e-3;
 
 /// How many records a section has.
-enum class Rows : std::uint8_t { one, gas_grid, torque_grid, cut_grid, trains, lobes, wheels, edges };
+enum class SectionRows : std::uint8_t { one, gas_grid, torque_grid, cut_grid, trains, lobes, wheels, edges };
 
 // The list of sections: all that knows of every section is made from it. To add one, add its line here, fill it in tabulate and, where its
 // record is new, say in tabulate/table_members.hpp how many members that has.
@@ -178,7 +178,7 @@ namespace section {
 #define CRANKLOOP_SECTION(name, Type, rows, condition, read)                                         \
   struct name {                                                                                      \
     static constexpr const char* kName = #name;                                                      \
-    static constexpr Rows kRows = Rows::rows;                                                        \
+    static constexpr SectionRows kRows = SectionRows::rows;                                          \
     static constexpr bool kRead = read; /* by the tick, through Tables */                            \
     template <class Real>                                                                            \
     using Record = Type;                                                                             \

@@ -1,0 +1,206 @@
+// Bad command lines are told with the usage of their command; an output file appears whole or not at all.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "support/bad_input.hpp"
+
+namespace crankloop::bad_input {
+namespace {
+
+/// Everything wrong with a command line is told with the command's usage.
+class BadCommandLine : public BadInput {
+ protected:
+  void expect_usage(const std::vector<std::string>& words, const std::vector<std::string>& fragments) const {
+    const Answer answer = run(words);
+    EXPECT_EQ(answer.status, kBadInput) << answer.error;
+    EXPECT_EQ(answer.out, "");
+    for (const std::string& fragment : fragments) {
+      EXPECT_NE(answer.error.find(fragment), std::string::npos) << answer.error << "  should say: " << fragment;
+    }
+  }
+};
+
+TEST_F(BadCommandLine, IsToldWithTheUsageOfItsCommand) {
+  expect_usage({}, {"a command is missing"});
+  expect_usage({"shw"}, {"unknown command 'shw'", "did you mean show?"});
+  expect_usage({"help", "kinematic"}, {"did you mean kinematics?"});
+  expect_usage({"show"}, {"a file name is missing", "usage: crankloop show FILE"});
+  expect_usage({"show", kSample, "another"}, {"unexpected argument 'another'"});
+  expect_usage({"show", kSample, "--rpm", "3"}, {"unknown option '--rpm'"});
+  const std::string usage = "usage: crankloop kinematics FILE";
+  const auto kinematics = [&](std::vector<std::string> words, const std::string& complaint) {
+    words.insert(words.begin(), {"kinematics", kSample});
+    expect_usage(words, {complaint, usage});
+  };
+  kinematics({}, "--rpm or --speed-rad-s");
+  kinematics({"--rpm"}, "--rpm needs a value");
+  kinematics({"--rpm", "--step-deg"}, "--rpm needs a value");
+  kinematics({"--rpm="}, "--rpm: the value is missing");
+  kinematics({"--rpm", "2000", "--rpm=2000"}, "--rpm is given twice");
+  kinematics({"--rpm", "2000", "--speed-rad-s", "210"}, "exclude each other");
+  kinematics({"--rpm", "2000rpm"}, "'rpm' follows it");
+  kinematics({"--rpm", "nan"}, "not a finite number");
+  kinematics({"--rpm", "1e9"}, "out of range");
+  kinematics({"--rmp", "2000"}, "did you mean --rpm?");
+  kinematics({"--rpm", "2000", "--method", "tabel"}, "did you mean table?");
+  kinematics({"--rpm", "2000", "--csv", kSample}, "--csv would overwrite the input file");
+}
+
+TEST_F(BadCommandLine, CarriesNoControlCodesToTheTerminal) {
+  const std::vector<std::vector<std::string>> cases = {{"\x1b[31mrun"}, {"show", "\x1b]0;title\x07"}, {"show", kSample, "--\x1b[2J"}, {"show", "two\nlines.ini"}};
+  for (const std::vector<std::string>& words : cases) {
+    const Answer answer = run(words);
+    EXPECT_EQ(answer.status, kBadInput);
+    EXPECT_EQ(answer.error, "crankloop: word " + std::to_string(words.size()) + " of the command line has a control character\n");
+  }
+}
+
+TEST_F(BadCommandLine, OfValvesIsToldWithTheUsageOfItsCommand) {
+  const auto valve = [&](std::vector<std::string> words, const std::string& complaint) {
+    words.insert(words.begin(), {"valve", kSample});
+    expect_usage(words, {complaint, "usage: crankloop valve FILE"});
+  };
+  valve({"--rpm", "2000"}, "--train is missing");
+  valve({"--train", "intake"}, "--rpm is missing");
+  valve({"--train", "intake", "--rpm", "0"}, "would never turn");
+  valve({"--train", "intake", "--rpm", "200000"}, "out of range");
+  valve({"--train", "intake", "--rpm", "2000", "--accuracy-um", "0"}, "out of range");
+  valve({"--train", "intake", "--rpm", "2000", "--integrator", "rk5"}, "did you mean rk4?");
+  valve({"--train", "intake", "--rpm", "2000", "--cycles", "0"}, "out of range");
+  valve({"--train", "intake", "--rpm", "40000", "--tick-us", "2000"}, "at most one revolution per tick");
+  valve({"--train", "intake", "--rpm", "0.0001"}, "ticks of 20 us");
+  const auto redline = [&](std::vector<std::string> words, const std::string& complaint) {
+    words.insert(words.begin(), {"redline", kSample, "--train", "intake"});
+    expect_usage(words, {complaint, "usage: crankloop redline FILE"});
+  };
+  redline({"--from", "3000", "--to", "2000"}, "--from must be less than --to");
+  redline({"--from", "1500.5"}, "not a whole number");
+  redline({"--vary", "springs"}, "did you mean spring?");
+}
+
+TEST_F(BadCommandLine, HelpIsNoMistake) {
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"--help"}, {"help"}, {"help", "show"}, {"show", "--help"}, {"help", "engine-file"}, {"--version"}}) {
+    const Answer answer = run(words);
+    EXPECT_EQ(answer.status, 0);
+    EXPECT_EQ(answer.error, "");
+    EXPECT_NE(answer.out, "");
+  }
+}
+
+/// Output that cannot be written is a failure of the machine, not of the input, and leaves no half file behind.
+class Output : public BadInput {
+ protected:
+  /// A run that is long in writing r.csv, once it has begun to.
+  pid_t start_long_run() const {
+    const pid_t child = start({"run", kSample, "--cycles", "1000000", "--csv", folder_ / "r.csv"}, folder_ / "stdout");
+    const auto deadline = std::chrono::steady_clock::now() + kPatience;
+    while (unfinished().empty() && std::chrono::steady_clock::now() < deadline) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_EQ(unfinished().size(), 1u);
+    return child;
+  }
+  std::vector<std::string> unfinished() const {
+    std::vector<std::string> found;
+    for (const std::string& name : files()) {
+      if (name.find(".unfinished-") != std::string::npos) found.push_back(name);
+    }
+    return found;
+  }
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+      names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+};
+
+TEST_F(Output, IsNotTouchedByBadInput) {
+  write("old.csv", "precious\n");
+  write("engine.ini", sample_.with("bore_mm", "-1").text());
+  EXPECT_EQ(run({"kinematics", path_, "--rpm", "2000", "--csv", folder_ / "new.csv"}).status, kBadInput);
+  EXPECT_EQ(run({"kinematics", path_, "--rpm", "2000", "--csv", folder_ / "old.csv"}).status, kBadInput);
+  EXPECT_EQ(files(), (std::vector<std::string>{"engine.ini", "old.csv", "stderr", "stdout"}));
+  EXPECT_EQ(contents(folder_ / "old.csv"), "precious\n");
+}
+
+TEST_F(Output, AppearsWhole) {
+  const Answer answer = run({"kinematics", kSample, "--rpm", "2000"});
+  EXPECT_EQ(answer.status, 0);
+  EXPECT_EQ(run({"kinematics", kSample, "--rpm", "2000", "--csv", folder_ / "k.csv"}).out, "");
+  EXPECT_EQ(contents(folder_ / "k.csv"), answer.out);
+  EXPECT_EQ(files(), (std::vector<std::string>{"k.csv", "stderr", "stdout"}));
+}
+
+TEST_F(Output, OfAProgramThatASignalEndsIsTakenAway) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}) {
+    write("r.csv", "precious\n");
+    const pid_t child = start_long_run();
+    kill(child, number);
+    EXPECT_EQ(status_of(child), -number) << "whoever waits for it sees by what it ended";
+    EXPECT_EQ(unfinished(), std::vector<std::string>{}) << number;
+    EXPECT_EQ(contents(folder_ / "r.csv"), "precious\n");
+  }
+}
+
+TEST_F(Output, BeyondTheLargestFileAllowedIsAFailureThatLeavesNothing) {
+  const std::string command = "ulimit -f 100; exec '" CRANKLOOP_PROGRAM "' run '" + std::string(kSample) + "' --cycles 1000 --csv '" + (folder_ / "r.csv") +
+                              "' 2>'" + (folder_ / "stderr") + "'";
+  const int status = std::system(command.c_str());
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == kFailure) << status;
+  EXPECT_NE(contents(folder_ / "stderr").find("r.csv cannot be written: File too large"), std::string::npos) << contents(folder_ / "stderr");
+  EXPECT_EQ(files(), std::vector<std::string>{"stderr"});
+}
+
+TEST_F(Output, LeftByAKilledRunIsTakenAwayByTheNextAndThatOfARunningOneIsNot) {
+  const pid_t killed = start_long_run();
+  kill(killed, SIGKILL);  // which no program can see coming
+  EXPECT_EQ(status_of(killed), -SIGKILL);
+  ASSERT_EQ(unfinished().size(), 1u);
+  const std::string of_another = "r.csv.unfinished-1-x";  // not a name that the program gives
+  write(of_another, "somebody's\n");
+  EXPECT_EQ(run({"kinematics", kSample, "--rpm", "2000", "--csv", folder_ / "other.csv"}).status, 0);
+  EXPECT_EQ(unfinished().size(), 2u) << "another output's";
+  EXPECT_EQ(run({"kinematics", kSample, "--rpm", "2000", "--csv", folder_ / "r.csv"}).status, 0);
+  EXPECT_EQ(unfinished(), std::vector<std::string>{of_another});
+  std::filesystem::remove(folder_ / of_another);
+
+  const pid_t running = start_long_run();
+  EXPECT_EQ(run({"kinematics", kSample, "--rpm", "2000", "--csv", folder_ / "r.csv"}).status, 0);
+  EXPECT_EQ(unfinished().size(), 1u);
+  kill(running, SIGTERM);
+  EXPECT_EQ(status_of(running), -SIGTERM);
+}
+
+TEST_F(Output, ThatCannotBeWrittenIsAFailure) {
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"show", kSample}, {"--help"}, {"kinematics", kSample, "--rpm", "2000"}}) {
+    const Answer closed = run(words, "");
+    EXPECT_EQ(closed.status, kFailure);
+    EXPECT_NE(closed.error.find("standard output cannot be written"), std::string::npos) << closed.error;
+    const Answer full = run(words, "/dev/full");
+    EXPECT_EQ(full.status, kFailure);
+    EXPECT_NE(full.error.find("No space left"), std::string::npos) << full.error;
+  }
+  const Answer nowhere = run({"kinematics", kSample, "--rpm", "2000", "--csv", folder_ / "no/such/folder.csv"});
+  EXPECT_EQ(nowhere.status, kFailure);
+  EXPECT_NE(nowhere.error.find("folder.csv cannot be created: No such file or directory"), std::string::npos)
+      << nowhere.error;
+  EXPECT_EQ(run({"kinematics", kSample, "--rpm", "2000", "--csv", folder_.path()}).status, kFailure);
+  EXPECT_EQ(run({"kinematics", kSample, "--rpm", "2000", "--csv", "/dev/full"}).status, kFailure);
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));  // not replaced by a file
+}
+
+}  // namespace
+}  // namespace crankloop::bad_input
