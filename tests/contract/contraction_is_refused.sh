@@ -12,7 +12,7 @@ echo | "$compiler" -march=native -dM -E -x c++ - 2>/dev/null | grep -qE '__FMA__
 
 # A scene's unit: says why init refuses an engine without tables.
 cat >unit.cpp <<'END'
-#include <crankloop/tick/engine_step.hpp>
+#include <crankloop/tick/step.hpp>
 namespace {
 struct MyScene : crankloop::Scene {};
 template <class Real>

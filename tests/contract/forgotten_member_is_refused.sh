@@ -53,7 +53,7 @@ records=$(sed -n 's/^CRANKLOOP_MEMBERS[A-Z_]*(\([A-Z][A-Za-z]*\),.*/\1/p' "$fold
 listing=$(cat "$folder"/crankloop/define/*.hpp | awk '/^struct / { name = $2 } /void each_field\(/ { print name }')
 # shellcheck disable=SC2086  # lists of words
 {
-  each_refused "$folder/all.cpp" 'structured binding|decomposes' tick $records
+  each_refused "$folder/all.cpp" 'structured binding|decomposes' tables $records
   each_refused "$core/src/tabulate/fingerprint.cpp" 'each_field|all but the trigger wheels|structured binding|decomposes' define $listing
 }
 echo "$structs structs, $bad bad"

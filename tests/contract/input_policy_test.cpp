@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include <crankloop/tick/saved_state.hpp>
+#include <crankloop/tick/state/saved_state.hpp>
 
 #include "support/both_reals.hpp"
 #include "support/four_with_valves.hpp"
@@ -198,7 +198,7 @@ TYPED_TEST(InputPolicy, TurnsAtAnySpeedFromAMillionthRpmBothWaysByTheAngleThatSp
       }
       const long double per_rad = 18446744073709551616.0L / 12.566370614359172953850573533118L;
       const long double want = wide(in.speed_rad_s) * 50e-6L * kTicks * per_rad;
-      // Each tick: a product of two rounded factors, and up to 3 units lost to the integer (tick/phase.hpp).
+      // Each tick: a product of two rounded factors, and up to 3 units lost to the integer (phase.hpp).
       const long double allowed = 3 * wide(std::numeric_limits<Real>::epsilon()) * std::fabs(want) + 4.0L * kTicks;
       EXPECT_LE(std::fabs(turned_units - want), allowed) << sign * rpm << " rpm";
     }

@@ -20,7 +20,7 @@
 #include <thread>
 #include <vector>
 
-#include <crankloop/tick/faults.hpp>
+#include <crankloop/faults.hpp>
 
 #include "port/linux/shared_block.hpp"
 #include "support/temporary_folder.hpp"

@@ -1,6 +1,6 @@
 // Any bytes as a definition: refused by validate() or set-up with a reason and a field, or tables on which an engine
 // steps in finite numbers, through a whole cycle, at any speed.
-#include <crankloop/tick/engine_step.hpp>
+#include <crankloop/tick/step.hpp>
 
 #include "fuzzed_engine.hpp"
 

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include <crankloop/tabulate/tabulate.hpp>
-#include <crankloop/tick/engine_step.hpp>
+#include <crankloop/tick/step.hpp>
 
 #include "fuzz.hpp"
 #include "target/bits.hpp"

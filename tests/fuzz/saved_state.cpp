@@ -2,7 +2,7 @@
 //
 // First byte odd: the bytes as they are. Even: a good state with changed bytes, (place 0 to 65 535, new byte) each, and
 // with a checksum that is right again, for a forger would see to that.
-#include <crankloop/tick/saved_state.hpp>
+#include <crankloop/tick/state/saved_state.hpp>
 
 #include <vector>
 

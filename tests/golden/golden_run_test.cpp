@@ -15,7 +15,7 @@
 #include <vector>
 
 #include <crankloop/crankloop.hpp>
-#include <crankloop/tick/engine_step.hpp>
+#include <crankloop/tick/step.hpp>
 
 #include "crankloop/engine_file/engine_file.hpp"
 #include "support/golden.hpp"

@@ -1,6 +1,6 @@
 // What pins and journals of whole engines carry, against Newton's and Euler's equations of every rod, added up.
 #include <crankloop/tabulate/tabulate.hpp>
-#include <crankloop/tick/scenes.hpp>
+#include <crankloop/scenes.hpp>
 
 #include <gtest/gtest.h>
 

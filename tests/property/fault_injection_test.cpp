@@ -13,7 +13,7 @@
 #include <limits>
 #include <vector>
 
-#include <crankloop/tick/saved_state.hpp>
+#include <crankloop/tick/state/saved_state.hpp>
 
 #include "support/both_reals.hpp"
 #include "support/four_with_valves.hpp"

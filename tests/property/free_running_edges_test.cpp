@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <vector>
 
-#include <crankloop/tick/scenes.hpp>
+#include <crankloop/scenes.hpp>
 
 #include "support/trigger_wheels.hpp"
 #include "support/turned_engine.hpp"

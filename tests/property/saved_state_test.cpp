@@ -1,6 +1,6 @@
 // A run that is restored, from a snapshot or from bytes, goes on as if nothing had happened; bytes that are not exactly what was written are
 // refused and change nothing; and no bytes at all lead a later step out of its bounds.
-#include <crankloop/tick/saved_state.hpp>
+#include <crankloop/tick/state/saved_state.hpp>
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <crankloop/tabulate/tabulate.hpp>
-#include <crankloop/tick/engine_step.hpp>
+#include <crankloop/tick/step.hpp>
 
 #include "support/output_fields.hpp"
 #include "support/scenes.hpp"

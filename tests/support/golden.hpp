@@ -19,7 +19,7 @@
 
 #include <gtest/gtest.h>
 
-#include <crankloop/tick/saved_bytes.hpp>
+#include <crankloop/tick/state/saved_bytes.hpp>
 
 namespace crankloop::support {
 

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <crankloop/tabulate/tabulate.hpp>
-#include <crankloop/tick/engine_step.hpp>
+#include <crankloop/tick/step.hpp>
 
 #include "support/both_reals.hpp"
 #include "support/scenes.hpp"

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-#include <crankloop/tick/scene.hpp>
+#include <crankloop/scene.hpp>
 
 namespace crankloop::tick_test {
 

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <crankloop/tabulate/tabulate.hpp>
-#include <crankloop/tick/engine_step.hpp>
+#include <crankloop/tick/step.hpp>
 
 #include "support/status.hpp"
 #include "support/test_engines.hpp"

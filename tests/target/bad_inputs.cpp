@@ -1,5 +1,5 @@
 // Whatever bits come in, every output is finite and the faults say what was wrong.
-#include <crankloop/tick/engine.hpp>
+#include <crankloop/engine.hpp>
 
 #include "diesel_closed_loop.hpp"
 #include "diesel_elastic_valves.hpp"

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include <crankloop/tick/valves_step.hpp>
+#include <crankloop/tick/valve/valves_step.hpp>
 
 #include "hostile.hpp"
 #include "port/common/machine.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <type_traits>
 
-#include <crankloop/tick/engine.hpp>
+#include <crankloop/engine.hpp>
 
 #include "bits.hpp"
 #include "output_numbers.hpp"

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include <crankloop/tick/engine.hpp>
+#include <crankloop/engine.hpp>
 
 #include "bits.hpp"
 

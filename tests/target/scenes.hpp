@@ -3,7 +3,7 @@
 // What belongs here: one scene per typical use, for four cylinders with an intake and an exhaust valve each.
 #pragma once
 
-#include <crankloop/tick/scene.hpp>
+#include <crankloop/scene.hpp>
 
 namespace target_scenes {
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include <crankloop/tabulate/summary.hpp>
-#include <crankloop/tick/saved_state.hpp>
-#include <crankloop/tick/scenes.hpp>
+#include <crankloop/tick/state/saved_state.hpp>
+#include <crankloop/scenes.hpp>
 
 #include "support/output_fields.hpp"
 #include "support/random.hpp"

@@ -1,7 +1,7 @@
 // Curves: polynomials in the fraction of a degree, their integrals, and the grid that divides steep degrees.
 //
 // Oracle: the same polynomials in long double, integrals by Gauss-Legendre, places by integer division.
-#include <crankloop/tick/curve.hpp>
+#include <crankloop/tables/curve.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The tick's table of valve lift against the geometry that it stands for, over the whole turn of the cam.
-#include <crankloop/tick/lift_curve.hpp>
+#include <crankloop/tables/lift_curve.hpp>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // by one.
 //
 // Oracle: integer arithmetic on 2^64 units, and the binary digits of the numbers that go in.
-#include <crankloop/tick/phase.hpp>
+#include <crankloop/phase.hpp>
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <crankloop/tabulate/tabulate.hpp>
-#include <crankloop/tick/engine_step.hpp>
+#include <crankloop/tick/step.hpp>
 
 #include "support/both_reals.hpp"
 #include "support/status.hpp"

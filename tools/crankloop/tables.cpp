@@ -162,7 +162,7 @@ void print_header(Output& out, const EngineFile& engine, const Arguments& argume
   p.text("// Tables of the engine \"" + engine.name() + "\" for a tick of " + shortest(arguments.number("--tick-us")) + " us, " + real +
          (has_valves ? "; valves: " + arguments.text("--integrator") + ", " + shortest(arguments.number("--accuracy-um")) + " um" : "") +
          ".\n// Made by `crankloop tables`; do not edit. Each section is an object of its own: what a scene does not read is not linked.\n"
-         "#pragma once\n\n#include <crankloop/tick/tables.hpp>\n\nnamespace " + name_space + " {\n");
+         "#pragma once\n\n#include <crankloop/tables/tables.hpp>\n\nnamespace " + name_space + " {\n");
   print_sections(p, *stores, real, report);
   p.text("\n}  // namespace " + name_space + "\n");
 }

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include <crankloop/crankloop.hpp>
-#include <crankloop/tick/scenes.hpp>
+#include <crankloop/scenes.hpp>
 
 #include "error.hpp"
 

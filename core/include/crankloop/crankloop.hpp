@@ -7,6 +7,6 @@
 #include <crankloop/define/engine_definition.hpp>
 #include <crankloop/status.hpp>
 #include <crankloop/tabulate/tabulate.hpp>
-#include <crankloop/tick/engine.hpp>
-#include <crankloop/tick/saved_state.hpp>
-#include <crankloop/tick/scenes.hpp>
+#include <crankloop/engine.hpp>
+#include <crankloop/tick/state/saved_state.hpp>
+#include <crankloop/scenes.hpp>

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <crankloop/tick/curve.hpp>
+#include <crankloop/tables/curve.hpp>
 
 namespace crankloop::detail {
 

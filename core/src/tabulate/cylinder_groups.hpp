@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include <crankloop/tick/tables.hpp>
+#include <crankloop/tables/tables.hpp>
 
 namespace crankloop::detail {
 

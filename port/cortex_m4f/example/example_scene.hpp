@@ -1,7 +1,7 @@
 // What this firmware wants of the model: the torque of the last tick and the motion of eight elastic valves.
 #pragma once
 
-#include <crankloop/tick/scene.hpp>
+#include <crankloop/scene.hpp>
 
 struct ExampleScene : crankloop::Scene {
   static constexpr auto cylinders = crankloop::exactly<4>;

@@ -1,7 +1,7 @@
 // Scenes of a product: everything, little, and measured inputs.
 #pragma once
 
-#include <crankloop/tick/scene.hpp>
+#include <crankloop/scene.hpp>
 
 struct AllOfIt : crankloop::Scene {
   static constexpr auto cylinders = crankloop::exactly<4>;

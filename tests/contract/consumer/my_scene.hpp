@@ -1,7 +1,7 @@
 // A scene as a user writes one.
 #pragma once
 
-#include <crankloop/tick/scene.hpp>
+#include <crankloop/scene.hpp>
 
 struct MyScene : crankloop::Scene {
   static constexpr auto cylinders = crankloop::exactly<4>;

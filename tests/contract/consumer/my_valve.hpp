@@ -1,7 +1,7 @@
 // A scene of one elastic valve.
 #pragma once
 
-#include <crankloop/tick/scene.hpp>
+#include <crankloop/scene.hpp>
 
 struct MyValve : crankloop::Scene {
   static constexpr auto valves = crankloop::ValveModel::elastic;

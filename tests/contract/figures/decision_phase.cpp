@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <cstdio>
 
-#include <crankloop/tick/phase.hpp>
+#include <crankloop/phase.hpp>
 
 namespace {
 

@@ -1,10 +1,10 @@
 // Variants of the example scenes whose cost the README states beside theirs.
 //
 // What belongs here: what one more question costs. What does not: one scene per kind of use (../scenes/scenes.hpp), the ready-made ones
-// (tick/scenes.hpp).
+// (scenes.hpp).
 #pragma once
 
-#include <crankloop/tick/scene.hpp>
+#include <crankloop/scene.hpp>
 
 #include "../scenes/scenes.hpp"
 

@@ -10,7 +10,7 @@
 #include <type_traits>
 
 #include <crankloop/tabulate/tabulate.hpp>
-#include <crankloop/tick/engine.hpp>
+#include <crankloop/engine.hpp>
 
 #include "crankloop/engine_file/engine_file.hpp"
 #include "flash_double.hpp"

@@ -1,6 +1,6 @@
 #include "scenes.hpp"
 
-#include <crankloop/tick/engine_step.hpp>
+#include <crankloop/tick/step.hpp>
 
 namespace crankloop {
 

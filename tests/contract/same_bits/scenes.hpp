@@ -1,7 +1,7 @@
 // Scenes that between them run every line of the tick.
 #pragma once
 
-#include <crankloop/tick/scene.hpp>
+#include <crankloop/scene.hpp>
 
 struct Everything : crankloop::Scene {
   static constexpr auto cylinders = crankloop::up_to<16>;

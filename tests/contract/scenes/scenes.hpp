@@ -1,10 +1,10 @@
 // Seven scenes of a four-cylinder engine with two valve trains and two trigger wheels, from the smallest to the whole: examples of what a
 // scene says, what the contract tests audit, and, but for the wheels, what docs/performance.md measures.
 //
-// What belongs here: one scene per kind of use. What does not: variants of them (figures/scenes.hpp), the ready-made ones (tick/scenes.hpp).
+// What belongs here: one scene per kind of use. What does not: variants of them (figures/scenes.hpp), the ready-made ones (scenes.hpp).
 #pragma once
 
-#include <crankloop/tick/scene.hpp>
+#include <crankloop/scene.hpp>
 
 /// Kinematics only: where the pistons are, how fast, and their acceleration.
 struct PistonMotion : crankloop::Scene {

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include <crankloop/crankloop.hpp>
-#include <crankloop/tick/scenes.hpp>
+#include <crankloop/scenes.hpp>
 
 #include "../engine_file/engine_file.hpp"
 #include "../units.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 
 #include <crankloop/crankloop.hpp>
-#include <crankloop/tick/scenes.hpp>
+#include <crankloop/scenes.hpp>
 
 #include "../error.hpp"
 #include "../number.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include <crankloop/tabulate/mechanism.hpp>
-#include <crankloop/tick/cylinder_forces.hpp>
+#include <crankloop/tick/crank/cylinder_forces.hpp>
 
 #include "../valve/valve_tick_limit.hpp"
 

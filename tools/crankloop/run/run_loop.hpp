@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <crankloop/crankloop.hpp>
-#include <crankloop/tick/scenes.hpp>
+#include <crankloop/scenes.hpp>
 
 #include "../run_limits.hpp"
 #include "run_quantities.hpp"

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <crankloop/tick/scenes.hpp>
+#include <crankloop/scenes.hpp>
 
 #include "../units.hpp"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <memory>
 
-#include <crankloop/tick/engine_step.hpp>
+#include <crankloop/tick/step.hpp>
 
 #include "../signals/signal_dump.hpp"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include <crankloop/tick/scenes.hpp>
+#include <crankloop/scenes.hpp>
 
 #include "../engine_file/engine_file.hpp"
 #include "../valve/valve_cycle.hpp"

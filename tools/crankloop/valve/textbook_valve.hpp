@@ -1,16 +1,16 @@
 // The valve's motion as textbooks and [Li 2017, 4.9-4.13] compute it: the reference that the tick is compared with.
 //
 // What belongs here: classical four-stage Runge-Kutta with the cam looked up in every stage and contact tested there.
-// What does not: the tick (crankloop/tick/valve_changes.hpp), which locates contact changes. This one finds them where a
+// What does not: the tick (crankloop/tick/valve/valve_changes.hpp), which locates contact changes. This one finds them where a
 // step happens to end, so its order falls from 4 to about 1 as soon as there are any.
 #pragma once
 
 #include <cstdint>
 
-#include <crankloop/tick/lift_curve.hpp>
-#include <crankloop/tick/valve.hpp>
-#include <crankloop/tick/valve_results.hpp>
-#include <crankloop/tick/valve_tables.hpp>
+#include <crankloop/tables/lift_curve.hpp>
+#include <crankloop/tick/valve/valve.hpp>
+#include <crankloop/tick/valve/valve_results.hpp>
+#include <crankloop/tables/valve_tables.hpp>
 
 namespace crankloop::program {
 

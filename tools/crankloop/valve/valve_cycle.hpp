@@ -1,7 +1,7 @@
 // The results of one lobe of a valve, whatever the arithmetic of the tick that found them.
 #pragma once
 
-#include <crankloop/tick/valve_results.hpp>
+#include <crankloop/tick/valve/valve_results.hpp>
 
 namespace crankloop::program {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <crankloop/tick/engine_step.hpp>
+#include <crankloop/tick/step.hpp>
 
 #include "../number.hpp"
 #include "../run_limits.hpp"

@@ -12,7 +12,7 @@
 #include <crankloop/tabulate/indicator_diagram.hpp>
 #include <crankloop/tabulate/tabulate.hpp>
 #include <crankloop/tabulate/valve_lift.hpp>
-#include <crankloop/tick/engine.hpp>
+#include <crankloop/engine.hpp>
 
 #include "../engine_file/engine_file.hpp"
 

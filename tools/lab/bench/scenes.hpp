@@ -4,7 +4,7 @@
 #pragma once
 
 #include <crankloop/tabulate/tabulate.hpp>
-#include <crankloop/tick/engine.hpp>
+#include <crankloop/engine.hpp>
 
 namespace crankloop::program::bench {
 

@@ -1,5 +1,5 @@
 // The benchmark's scenes: any number of cylinders and valves.
-#include <crankloop/tick/engine_step.hpp>
+#include <crankloop/tick/step.hpp>
 
 #include "scenes.hpp"
 

@@ -1,5 +1,5 @@
 // The benchmark's scenes: four cylinders, four different valves each.
-#include <crankloop/tick/engine_step.hpp>
+#include <crankloop/tick/step.hpp>
 
 #include "scenes.hpp"
 

@@ -1,5 +1,5 @@
 // The benchmark's scenes: eight valves with their forces, and with the record of their cycles.
-#include <crankloop/tick/engine_step.hpp>
+#include <crankloop/tick/step.hpp>
 
 #include "scenes.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <crankloop/define/valve_train.hpp>
-#include <crankloop/tick/phase.hpp>
+#include <crankloop/phase.hpp>
 
 #include "../reference/valve_reference.hpp"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <crankloop/tabulate/valve_lift.hpp>
-#include <crankloop/tick/valve.hpp>
+#include <crankloop/tick/valve/valve.hpp>
 
 #include "../reference/valve_reference.hpp"
 #include "crankloop/units.hpp"

@@ -7,7 +7,7 @@
 
 #include <crankloop/tabulate/tabulate.hpp>
 #include <crankloop/tabulate/valve_lift.hpp>
-#include <crankloop/tick/engine_step.hpp>
+#include <crankloop/tick/step.hpp>
 
 #include "crankloop/number.hpp"
 #include "../reference/valve_reference.hpp"

@@ -1,7 +1,7 @@
 // The moving masses of one crank mechanism.
 //
 // What belongs here: masses as the equations use them, and the ways to get there from a weighed or a drawn rod.
-// What does not: forces (tick/cylinder_forces.hpp), first-design estimates (tabulate/first_design.hpp).
+// What does not: forces (tick/crank/cylinder_forces.hpp), first-design estimates (tabulate/first_design.hpp).
 #pragma once
 
 #include <crankloop/define/crank.hpp>

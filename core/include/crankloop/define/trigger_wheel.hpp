@@ -1,7 +1,7 @@
 // One trigger wheel: the toothed disc on the crankshaft or on a camshaft whose edges a controller decodes.
 //
 // What belongs here: teeth, gaps and where they stand. What does not: names such as 36-2-2-2 (the program turns them into teeth and gaps),
-// the sensor and its delay, the wheel's edges as the tick reads them (tick/trigger_tables.hpp).
+// the sensor and its delay, the wheel's edges as the tick reads them (tables/trigger_tables.hpp).
 #pragma once
 
 #include <cstdint>

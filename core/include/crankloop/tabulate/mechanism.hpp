@@ -6,7 +6,7 @@
 
 #include <crankloop/define/crank.hpp>
 #include <crankloop/tabulate/elementary.hpp>
-#include <crankloop/tick/cylinder_forces.hpp>
+#include <crankloop/tick/crank/cylinder_forces.hpp>
 
 namespace crankloop {
 

@@ -7,7 +7,7 @@
 #include <crankloop/status.hpp>
 #include <crankloop/tabulate/indicator_diagram.hpp>
 #include <crankloop/tabulate/mechanism.hpp>
-#include <crankloop/tick/tables.hpp>
+#include <crankloop/tables/tables.hpp>
 
 namespace crankloop {
 

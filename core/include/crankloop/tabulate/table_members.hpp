@@ -1,12 +1,12 @@
 // The members of each record of the tables, for who goes through a whole table: to print it, to round it.
 //
 // What belongs here: members(record), all of them as a tuple of references. By structured binding, so that a record whose member is
-// forgotten here does not compile: no member can be silently zero in flash. What does not: what they mean (tick/tables.hpp).
+// forgotten here does not compile: no member can be silently zero in flash. What does not: what they mean (tables/tables.hpp).
 #pragma once
 
 #include <tuple>
 
-#include <crankloop/tick/tables.hpp>
+#include <crankloop/tables/tables.hpp>
 
 namespace crankloop {
 

@@ -1,6 +1,6 @@
 // From a definition and a tick length to the tables that the tick reads.
 //
-// What belongs here: the call and the memory it fills. What does not: the sections' meaning (tick/tables.hpp).
+// What belongs here: the call and the memory it fills. What does not: the sections' meaning (tables/tables.hpp).
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 #include <crankloop/define/engine_definition.hpp>
 #include <crankloop/status.hpp>
 #include <crankloop/tabulate/valve_motion.hpp>
-#include <crankloop/tick/tables.hpp>
+#include <crankloop/tables/tables.hpp>
 
 namespace crankloop {
 

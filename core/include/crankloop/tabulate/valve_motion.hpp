@@ -1,6 +1,6 @@
 // The valve's motion at set-up: constants from the definition, fine steps for the tick, one record of constants per contact regime.
 //
-// What belongs here: everything about the step's length and the records. What does not: the step itself (tick/valve.hpp), the lift
+// What belongs here: everything about the step's length and the records. What does not: the step itself (tick/valve/valve.hpp), the lift
 // (tabulate/valve_lift.hpp).
 #pragma once
 
@@ -8,7 +8,7 @@
 
 #include <crankloop/define/valve_train.hpp>
 #include <crankloop/status.hpp>
-#include <crankloop/tick/valve.hpp>
+#include <crankloop/tick/valve/valve.hpp>
 
 namespace crankloop {
 
@@ -54,7 +54,7 @@ void find_calm(ValveMotion<double>& motion, double lash_m) noexcept;
 [[nodiscard]] ValveMotion<float> rounded(const ValveMotion<double>& motion) noexcept;
 
 /// What drives a step: the cam's lift as the cubic with this level at the start, this rise and these slopes by the part of the step, and in its
-/// middle so much more of lift and of slope as tick/valve_tables.hpp, MiddleStep, has it; and a force that rises evenly.
+/// middle so much more of lift and of slope as tables/valve_tables.hpp, MiddleStep, has it; and a force that rises evenly.
 struct StepDrive {
   double level_m = 0, rise_m = 0, from_m = 0, to_m = 0;
   double force_N = 0, force_rise_N = 0;

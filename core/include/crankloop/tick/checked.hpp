@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include <crankloop/tick/faults.hpp>
-#include <crankloop/tick/scene.hpp>
+#include <crankloop/faults.hpp>
+#include <crankloop/scene.hpp>
 
 namespace crankloop::detail {
 

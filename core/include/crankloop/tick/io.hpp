@@ -1,15 +1,15 @@
 // What goes into a step and what comes out: only what the scene asked for; asking for more does not compile.
 //
-// What belongs here: input, output groups, state. What does not: how they come about (tick/engine_step.hpp).
+// What belongs here: input, output groups, state. What does not: how they come about (tick/step.hpp).
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-#include <crankloop/tick/curve.hpp>
-#include <crankloop/tick/scene.hpp>
-#include <crankloop/tick/trigger_output.hpp>
-#include <crankloop/tick/valve_results.hpp>
+#include <crankloop/tables/curve.hpp>
+#include <crankloop/scene.hpp>
+#include <crankloop/tick/trigger/trigger_output.hpp>
+#include <crankloop/tick/valve/valve_results.hpp>
 
 namespace crankloop {
 
@@ -321,7 +321,7 @@ inline constexpr bool kHasLanes = false;
 template <class Real, class S>
 inline constexpr bool kMayGoAbreast = kHasLanes && sizeof(Real) == 4 && !S::valve_gas && !S::valve_forces && !S::valve_results;
 
-/// What lanes need side by side (tick/valves_abreast.hpp).
+/// What lanes need side by side (tick/valve/valves_abreast.hpp).
 template <class S>
 struct alignas(16) AbreastWork {
   static constexpr std::size_t kRoom = (ValvesState<float, S>::kLanes + 7) / 8 * 8;

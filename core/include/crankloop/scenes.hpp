@@ -1,0 +1,88 @@
+// The scenes that are compiled into the library, so that they link without a translation unit of your own.
+//
+// What belongs here: common needs with any number of cylinders. What does not: one product's scene (crankloop_add_scene makes it a
+// library of its own, smaller and faster because its counts are exact).
+#pragma once
+
+#include <crankloop/engine.hpp>
+
+namespace crankloop::scenes {
+
+/// Everything there is but trigger wheels: the program and comparisons use it.
+struct Whole : Scene {
+  static constexpr Count cylinders = up_to<kMaxCylinders>;
+  static constexpr PressureGiven pressure = PressureGiven::by_table;
+  static constexpr bool load_ratio = true;
+  static constexpr bool rod_inertia = true;
+  static constexpr bool kinematics = true;
+  static constexpr bool rod_motion = true;
+  static constexpr bool torque = true;
+  static constexpr bool mean_torque = true;
+  static constexpr bool forces = true;
+  static constexpr bool bearing_loads = true;
+  static constexpr bool free_forces = true;
+  static constexpr ValveModel valves = ValveModel::elastic;
+  static constexpr Count trains = up_to<kMaxTrains>;
+  static constexpr bool valve_forces = true;
+  static constexpr bool valve_results = true;
+  static constexpr bool valve_gas = true;
+  static constexpr bool cam_phasing = true;
+  static constexpr bool bad_input_count = true;
+};
+
+/// Where the pistons are, at an angle that the caller measured.
+struct MeasuredMotion : Scene {
+  static constexpr Count cylinders = up_to<kMaxCylinders>;
+  static constexpr CrankGiven crank = CrankGiven::phase;
+  static constexpr bool kinematics = true;
+  static constexpr bool rod_motion = true;
+};
+
+/// Torque from the definition's diagram and a load ratio: a torque model.
+struct TorqueByTable : Scene {
+  static constexpr Count cylinders = up_to<kMaxCylinders>;
+  static constexpr PressureGiven pressure = PressureGiven::by_table;
+  static constexpr bool load_ratio = true;
+  static constexpr bool torque = true;
+  static constexpr bool mean_torque = true;
+};
+
+/// Torque from measured pressures: a torque sensor.
+struct TorqueByPressure : Scene {
+  static constexpr Count cylinders = up_to<kMaxCylinders>;
+  static constexpr PressureGiven pressure = PressureGiven::by_input;
+  static constexpr bool torque = true;
+  static constexpr bool mean_torque = true;
+};
+
+/// The crank turned by gas, friction, load and starter: the engine in a loop with its controller.
+struct FreeRunning : Scene {
+  static constexpr Count cylinders = up_to<kMaxCylinders>;
+  static constexpr CrankGiven crank = CrankGiven::load;
+  static constexpr PressureGiven pressure = PressureGiven::by_table;
+  static constexpr bool load_ratio = true;
+  static constexpr bool rod_inertia = true;
+  static constexpr bool torque = true;
+  static constexpr bool mean_torque = true;
+  static constexpr bool starter = true;
+  static constexpr bool cylinder_cut = true;
+  static constexpr Count triggers = up_to<kMaxTriggerWheels>;
+  static constexpr std::uint32_t trigger_edges = 32;
+};
+
+}  // namespace crankloop::scenes
+
+namespace crankloop {
+
+extern template class Engine<float, scenes::Whole>;
+extern template class Engine<double, scenes::Whole>;
+extern template class Engine<float, scenes::MeasuredMotion>;
+extern template class Engine<double, scenes::MeasuredMotion>;
+extern template class Engine<float, scenes::TorqueByTable>;
+extern template class Engine<double, scenes::TorqueByTable>;
+extern template class Engine<float, scenes::TorqueByPressure>;
+extern template class Engine<double, scenes::TorqueByPressure>;
+extern template class Engine<float, scenes::FreeRunning>;
+extern template class Engine<double, scenes::FreeRunning>;
+
+}  // namespace crankloop

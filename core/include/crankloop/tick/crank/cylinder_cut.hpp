@@ -1,0 +1,79 @@
+// What the engine's gas torque lacks where cylinders do not fire: the torque of their heat, and its work.
+//
+// What belongs here: look-ups of cut cylinders, at both ends of a tick, so that a mask that changes from tick to tick leaves no jump in the
+// work. What does not: the torque of all cylinders (tick/crank/mechanisms_step.hpp).
+#pragma once
+
+#include <cstdint>
+
+#include <crankloop/tables/angle.hpp>
+#include <crankloop/tick/checked.hpp>
+#include <crankloop/tables/tables.hpp>
+
+namespace crankloop::detail {
+
+template <class Real, class S>
+class CutHeat {
+ public:
+  /// Bits of `cut` beyond the engine's cylinders mean nothing.
+  CutHeat(const Tables<Real, S>& tables, std::uint32_t cut) noexcept : tables_{tables}, cut_{cut} {}
+
+  /// At load ratio 1, of all cut cylinders.
+  [[nodiscard]] Real torque_Nm(Phase phase) const noexcept {
+    Real sum{};
+    for_each([&](std::uint32_t k) {
+      const Angle<Real> at = own_angle(k, phase);
+      sum += value(segment(at).slope, at.u);
+    });
+    return sum;
+  }
+
+  /// Likewise between two phases: work_J less that of mean_Nm.
+  struct Work {
+    Real work_J;
+    Real mean_Nm;
+  };
+  [[nodiscard]] Work work(Phase from, Phase to) const noexcept {
+    const GasTorque<Real>& heat = *tables_.cut_torque;
+    Work sum{};
+    for_each([&](std::uint32_t k) {
+      sum.work_J += difference(integral(k, from), integral(k, to), heat.quantum);
+      sum.mean_Nm += heat.mean_Nm;
+    });
+    return sum;
+  }
+
+  /// Likewise, over a cycle.
+  [[nodiscard]] Real mean_Nm() const noexcept {
+    Real sum{};
+    for_each([&](std::uint32_t) { sum += tables_.cut_torque->mean_Nm; });
+    return sum;
+  }
+
+ private:
+  template <class Visit>
+  void for_each(const Visit& visit) const noexcept {
+    if (cut_ == 0) return;
+    for (std::uint32_t k = 0; k < count<S>(tables_.drive->cylinders); ++k) {
+      if ((cut_ >> k & 1u) != 0) visit(k);
+    }
+  }
+  /// In the cylinder's own cycle.
+  [[nodiscard]] Angle<Real> own_angle(std::uint32_t k, Phase phase) const noexcept {
+    const Drive<Real>& drive = *tables_.drive;
+    const Angle<Real> at = angle_of<Real>(phase.units(), drive.firing_phase[drive.mechanism_of[k]]);
+    return {at.delayed(drive.turn_of[k]), at.u};
+  }
+  [[nodiscard]] const IntegratedSegment<Real>& segment(const Angle<Real>& at) const noexcept {
+    return tables_.cut_torque->at[tables_.cut_grid->segment(at.cell)];
+  }
+  [[nodiscard]] Integral<Real> integral(std::uint32_t k, Phase phase) const noexcept {
+    const Angle<Real> at = own_angle(k, phase);
+    return integral_at(segment(at), at.u, tables_.cut_torque->mean_Nm);
+  }
+
+  const Tables<Real, S>& tables_;
+  std::uint32_t cut_;
+};
+
+}  // namespace crankloop::detail

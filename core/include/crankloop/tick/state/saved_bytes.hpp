@@ -1,0 +1,158 @@
+// Numbers as bytes, least significant first, and their checksum.
+//
+// What belongs here: how one field is written and read back. What does not: which fields (tick/state/state_fields.hpp), what stands before and
+// behind them (tick/state/saved_state.hpp).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include <crankloop/status.hpp>
+#include <crankloop/tick/checked.hpp>
+#include <crankloop/phase.hpp>
+
+namespace crankloop::detail {
+
+/// CRC-32 of IEEE 802.3, half a byte at a time: any change within 32 bits in a row shows, so any changed byte.
+class Crc32 {
+ public:
+  constexpr void add(unsigned char byte) noexcept {
+    sum_ ^= byte;
+    for (int half = 0; half < 2; ++half) sum_ = sum_ >> 4 ^ kOfNibble[sum_ & 0xFu];
+  }
+  constexpr void add(std::uint32_t word) noexcept {
+    for (int shift = 0; shift < 32; shift += 8) add(static_cast<unsigned char>(word >> shift));
+  }
+  [[nodiscard]] constexpr std::uint32_t value() const noexcept { return ~sum_; }
+
+ private:
+  static constexpr std::uint32_t kOfNibble[16] = {0x00000000, 0x1DB71064, 0x3B6E20C8, 0x26D930AC, 0x76DC4190, 0x6B6B51F4,
+                                                  0x4DB26158, 0x5005713C, 0xEDB88320, 0xF00F9344, 0xD6D6A3E8, 0xCB61B38C,
+                                                  0x9B64C2B0, 0x86D3D2D4, 0xA00AE278, 0xBDBDF21C};
+  std::uint32_t sum_ = 0xFFFF'FFFFu;
+};
+
+[[nodiscard]] constexpr std::uint32_t crc32_of(const unsigned char* bytes, std::size_t size) noexcept {
+  Crc32 crc;
+  for (std::size_t i = 0; i < size; ++i) crc.add(bytes[i]);
+  return crc.value();
+}
+
+template <class T>
+[[nodiscard]] std::uint64_t word_of(const T& x) noexcept {
+  if constexpr (sizeof(T) == 8) {
+    std::uint64_t bits;
+    std::memcpy(&bits, &x, sizeof bits);
+    return bits;
+  } else {
+    std::uint32_t bits;
+    std::memcpy(&bits, &x, sizeof bits);
+    return bits;
+  }
+}
+template <class T>
+void set_bits(T& x, std::uint64_t bits) noexcept {
+  if constexpr (sizeof(T) == 8) {
+    std::memcpy(&x, &bits, sizeof x);
+  } else {
+    const auto low = static_cast<std::uint32_t>(bits);
+    std::memcpy(&x, &low, sizeof x);
+  }
+}
+
+/// Writes fields one behind the other.
+class StateWriter {
+ public:
+  explicit StateWriter(unsigned char* at) noexcept : at_{at} {}
+
+  template <class T>
+  void put(const T& x, std::size_t bytes = sizeof(T)) noexcept {
+    const std::uint64_t bits = word_of(x);
+    for (std::size_t i = 0; i < bytes; ++i) *at_++ = static_cast<unsigned char>(bits >> (8 * i));
+  }
+
+  void group(const char*) noexcept {}
+  template <class Real>
+  void number(const Real& x, Real, Real) noexcept {
+    put(x);
+  }
+  template <class Base>
+  void sum(const Base& x, double) noexcept {
+    put(x);
+  }
+  void wide(const std::uint64_t& x) noexcept { put(x); }
+  void phase(const Phase& x) noexcept { put(x.units()); }
+  void signed_wide(const std::uint64_t& x, std::uint64_t) noexcept { put(x); }
+  template <class Word>
+  void word(const Word& x, std::uint32_t) noexcept {
+    put(x);
+  }
+  template <class T>
+  void spare(const T&) noexcept {}
+
+ private:
+  unsigned char* at_;
+};
+
+/// Reads them back; the first field that is out of its range is the answer.
+class StateReader {
+ public:
+  explicit StateReader(const unsigned char* at) noexcept : at_{at} {}
+
+  [[nodiscard]] Status status() const noexcept { return status_; }
+
+  template <class T>
+  void take(T& x, std::size_t bytes = sizeof(T)) noexcept {
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < bytes; ++i) bits |= std::uint64_t{*at_++} << (8 * i);
+    set_bits(x, bits);
+  }
+
+  void group(const char* name) noexcept { group_ = name; }
+  template <class Real>
+  void number(Real& x, Real least, Real most) noexcept {
+    take(x);
+    if (within(x, least, most)) return;
+    constexpr Real kLargest = std::numeric_limits<Real>::max();
+    refuse(within(x, -kLargest, kLargest) ? Reason::out_of_range : Reason::not_finite);
+  }
+  template <class Base>
+  void sum(Base& x, double most) noexcept {
+    if constexpr (sizeof(Base) == 8) {
+      number(x, -most, most);
+    } else {
+      take(x);
+      (void)most;
+    }
+  }
+  void wide(std::uint64_t& x) noexcept { take(x); }
+  void phase(Phase& x) noexcept {
+    std::uint64_t units = 0;
+    take(units);
+    x = Phase{units};
+  }
+  void signed_wide(std::uint64_t& x, std::uint64_t most) noexcept {
+    take(x);
+    if (x + most > 2 * most) refuse(Reason::out_of_range);  // wraps where x is negative
+  }
+  template <class Word>
+  void word(Word& x, std::uint32_t most) noexcept {
+    take(x);
+    if (static_cast<std::uint32_t>(x) > most) refuse(Reason::out_of_range);
+  }
+  template <class T>
+  void spare(T&) noexcept {}
+
+ private:
+  void refuse(Reason reason) noexcept {
+    if (status_.ok()) status_ = {reason, -1, group_};
+  }
+
+  const unsigned char* at_;
+  const char* group_ = "state";
+  Status status_{};
+};
+
+}  // namespace crankloop::detail

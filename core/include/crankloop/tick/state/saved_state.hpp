@@ -1,0 +1,116 @@
+// A state as bytes that outlive the program: written field by field, the same on every machine, and refused when anything is wrong.
+//
+// What belongs here: the form of the bytes. What does not: the fields (tick/state/state_fields.hpp). Where the bytes are kept is the caller's
+// affair. A snapshot within one program needs none of this: copy engine.state().
+//
+//     offset 0   "CLST"
+//            4   form of the bytes, 16 bits: kSavedStateForm
+//            6   size of the scalar, 16 bits: 4 or 8
+//            8   scene, 32 bits: CRC-32 of its answers
+//           12   size of all, 32 bits
+//           16   the fields, the tables' fingerprint first
+//       size-4   CRC-32 of all before it
+//
+// Least significant byte first; floating point as its IEEE 754 bits. Only comparisons and copies are made here, so it may be compiled with
+// a user's own flags.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <initializer_list>
+
+#include <crankloop/status.hpp>
+#include <crankloop/tick/checked.hpp>
+#include <crankloop/engine.hpp>
+#include <crankloop/tick/state/saved_bytes.hpp>
+#include <crankloop/tick/state/state_fields.hpp>
+
+namespace crankloop {
+
+/// Counts up whenever a release changes the fields or their form.
+inline constexpr std::uint32_t kSavedStateForm = 4;
+
+namespace detail {
+
+inline constexpr std::size_t kSavedHeaderBytes = 16;
+inline constexpr std::size_t kSavedChecksumBytes = 4;
+
+/// What a scene answers, as a number: the same fields mean something else under other answers.
+template <class S>
+[[nodiscard]] constexpr std::uint32_t scene_code() noexcept {
+  Crc32 crc;
+  crc.add(S::cylinders.capacity);
+  crc.add(S::trains.capacity);
+  crc.add(static_cast<std::uint32_t>(S::crank));
+  crc.add(static_cast<std::uint32_t>(S::pressure));
+  crc.add(static_cast<std::uint32_t>(S::valves));
+  for (const bool answer : {S::load_ratio, S::rod_inertia, S::torque, S::mean_torque, S::forces, S::valve_results, S::valve_gas, S::cam_phasing,
+                            S::bad_input_count}) {
+    crc.add(std::uint32_t{answer});
+  }
+  if (S::starter || S::cylinder_cut) {  // scenes without them keep the code they always had
+    crc.add(std::uint32_t{S::starter});
+    crc.add(std::uint32_t{S::cylinder_cut});
+  }
+  return crc.value();
+}
+
+}  // namespace detail
+
+/// Size of a saved state in bytes: of the scene, not of the engine.
+template <class Real, class S>
+inline constexpr std::size_t kSavedStateBytes = detail::kSavedHeaderBytes + detail::count_fields<Real, S>().in_bytes + detail::kSavedChecksumBytes;
+
+/// Writes the engine's state; `size` is the room there is, at least kSavedStateBytes. Refuses an engine that is not ready. O(state).
+template <class Real, class S>
+Status save_state(const Engine<Real, S>& engine, unsigned char* bytes, std::size_t size) noexcept {
+  static_assert(detail::count_fields<Real, S>().in_memory == sizeof(State<Real, S>), "a field of State is missing in tick/state/state_fields.hpp");
+  constexpr std::size_t all = kSavedStateBytes<Real, S>;
+  if (engine.tables() == nullptr) return {Reason::missing_table, -1, "tables"};
+  if (bytes == nullptr || size < all) return {Reason::wrong_size, -1, "state.size"};
+  for (int i = 0; i < 4; ++i) bytes[i] = static_cast<unsigned char>("CLST"[i]);
+  detail::StateWriter write(bytes + 4);
+  write.put(kSavedStateForm, 2);
+  write.put(std::uint32_t{sizeof(Real)}, 2);
+  write.put(detail::scene_code<S>());
+  write.put(static_cast<std::uint32_t>(all));
+  detail::StateFields<Real, S>::visit(engine.state(), write);
+  write.put(detail::crc32_of(bytes, all - detail::kSavedChecksumBytes));
+  return {};
+}
+
+/// Goes on from saved bytes, with the same bits; `size` must be kSavedStateBytes. Refuses bytes that are damaged, of another version, scene,
+/// scalar or other tables, and numbers that no step could compute with; the engine is then as it was. Takes a State on the stack. O(state).
+template <class Real, class S>
+Status load_state(const unsigned char* bytes, std::size_t size, Engine<Real, S>& engine) noexcept {
+  constexpr std::size_t all = kSavedStateBytes<Real, S>;
+  if (engine.tables() == nullptr) return {Reason::missing_table, -1, "tables"};
+  if (bytes == nullptr || size < detail::kSavedHeaderBytes) return {Reason::wrong_size, -1, "state.size"};
+  if (std::memcmp(bytes, "CLST", 4) != 0) return {Reason::damaged, -1, "state"};
+  detail::StateReader read(bytes + 4);
+  std::uint32_t form = 0;
+  std::uint32_t real_bytes = 0;
+  std::uint32_t scene = 0;
+  std::uint32_t said = 0;
+  read.take(form, 2);
+  read.take(real_bytes, 2);
+  read.take(scene);
+  read.take(said);
+  if (form != kSavedStateForm) return {Reason::other_version, -1, "state"};
+  if (real_bytes != sizeof(Real) || scene != detail::scene_code<S>()) return {Reason::other_scene, -1, "state"};
+  if (size != all || said != all) return {Reason::wrong_size, -1, "state.size"};
+  std::uint32_t checksum = 0;
+  detail::StateReader(bytes + all - detail::kSavedChecksumBytes).take(checksum);
+  if (checksum != detail::crc32_of(bytes, all - detail::kSavedChecksumBytes)) return {Reason::damaged, -1, "state"};
+
+  State<Real, S> state{};
+  detail::StateFields<Real, S>::visit(state, read);
+  if (state.fingerprint != engine.state().fingerprint) return {Reason::other_tables, -1, "state.fingerprint"};
+  if (!read.status().ok()) return read.status();
+  const Real limit = engine.tables()->drive->speed_limit_rad_s;
+  if (!detail::within(state.speed_rad_s, -limit, limit)) return {Reason::out_of_range, -1, "state.drive"};
+  return engine.restore(state);
+}
+
+}  // namespace crankloop

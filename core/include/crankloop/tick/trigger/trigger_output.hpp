@@ -1,0 +1,31 @@
+// The signals of trigger wheels during a tick.
+//
+// What belongs here: the output group. What does not: how edges are found (trigger_wheel.hpp).
+#pragma once
+
+#include <cstdint>
+
+#include <crankloop/scene.hpp>
+
+namespace crankloop {
+
+template <class Real>
+struct TriggerEdge {
+  Real time_s;          ///< since the tick's begin, 0 to the tick; never before the edge that is listed before it
+  std::uint32_t level;  ///< of the signal after it: 1 = it rose, 0 = it fell
+};
+
+/// One wheel.
+template <class Real, class S>
+struct TriggerSignal {
+  std::uint32_t level;       ///< 0 or 1, at the end of the tick
+  std::uint32_t edge_count;  ///< in this tick; with more than S::trigger_edges the first of them are listed, and kFaultTriggerEdges is set
+  TriggerEdge<Real> edge[S::trigger_edges];  ///< in the order of time; beyond edge_count without meaning
+};
+
+template <class Real, class S>
+struct Triggers {
+  TriggerSignal<Real, S> trigger[S::triggers.capacity];
+};
+
+}  // namespace crankloop

@@ -1,0 +1,186 @@
+// The edges of one trigger wheel in one tick, from the angle turned. Nothing is remembered from tick to tick: the level follows from the
+// phase, and an edge at angle e belongs to the tick in which the wheel came from below e to e or beyond it, or from there to below e.
+// Phases are integers and so are edges: none is lost or counted twice, however ticks follow one another.
+//
+// What belongs here: one wheel. What does not: the round over all of them (triggers_step.hpp).
+//
+//                 bottom            top
+//     ---|----------o------|---------o--------->  angle      forward: bottom < e <= top rise and fall as drawn;
+//        e0                e1                                backward the same ones, the other way, from the top
+#pragma once
+
+#include <cstdint>
+
+#include <crankloop/tick/trigger/crank_path.hpp>
+#include <crankloop/tick/one_instruction.hpp>
+#include <crankloop/tick/trigger/trigger_output.hpp>
+#include <crankloop/tables/trigger_tables.hpp>
+
+namespace crankloop::detail {
+
+/// The last edge at or before an angle: at most 10 comparisons, one or two for evenly spaced teeth.
+[[nodiscard]] inline std::uint32_t edge_behind(const TriggerTrack& wheel, std::uint32_t angle) noexcept {
+  static_assert(kTriggerParts == 1 << 7);
+  const std::uint16_t* part = &wheel.edges_before[angle >> 25];
+  std::uint32_t low = part[0];
+  std::uint32_t high = part[1];
+  while (low < high) {
+    const std::uint32_t middle = (low + high) / 2;
+    if (wheel.edges[middle] <= angle) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low - 1;  // the first edge is at 0: there is one
+}
+
+/// The signal beyond an edge, as the shaft turns forward.
+[[nodiscard]] inline std::uint32_t level_beyond(const TriggerTrack& wheel, std::uint32_t edge) noexcept {
+  return (~edge & 1u) ^ wheel.inverted;
+}
+
+/// Units (2^64 = 1) as a number, without their last two bits.
+template <class Real>
+[[nodiscard]] constexpr Real ratio_of(std::uint64_t units) noexcept {
+  constexpr Real two_to_minus_31 = static_cast<Real>(1.0 / 2147483648.0);
+  const auto high = static_cast<std::int32_t>(static_cast<std::uint32_t>(units >> 33));
+  const auto low = static_cast<std::int32_t>(static_cast<std::uint32_t>(units >> 2) & 0x7FFF'FFFFu);
+  return (static_cast<Real>(high) + static_cast<Real>(low) * two_to_minus_31) * two_to_minus_31;
+}
+
+/// Part of a tick in which the wheel turns one way: where it begins, how far it goes (less than a turn), in units of 2^-64 turns.
+struct Sweep {
+  std::uint64_t from;
+  std::uint64_t span;
+  bool forward;
+
+  [[nodiscard]] std::uint64_t to() const noexcept { return forward ? from + span : from - span; }
+};
+
+/// When a wheel has gone a distance: d = slope (s - since) + bend (s - since)^2, in turns, with nothing negative but the bend.
+template <class Real>
+struct BentPace {
+  Real since;
+  Real slope;
+  Real bend;
+
+  void prepare(std::uint64_t) const noexcept {}
+
+  /// By the root's form that does not cancel; a wheel that turns round or sets off has slope 0 there.
+  [[nodiscard]] Real ratio_at(Real distance) const noexcept {
+    const Real square = slope * slope + 4 * bend * distance;  // of the speed there
+    const Real speeds = slope + (square > 0 ? square_root(square) : Real{0});
+    return speeds > 0 ? since + 2 * distance / speeds : since;
+  }
+};
+
+/// The same at a constant speed; the division waits until there is an edge.
+template <class Real>
+struct EvenPace {
+  Real per_span{};
+
+  void prepare(std::uint64_t span) noexcept {
+    const Real whole = ratio_of<Real>(span);
+    per_span = whole > 0 ? Real{1} / whole : Real{0};
+  }
+  [[nodiscard]] Real ratio_at(Real distance) const noexcept { return distance * per_span; }
+};
+
+/// One wheel's signal in the making.
+template <class Real, class S>
+class TriggerTick {
+ public:
+  TriggerTick(const TriggerTrack& wheel, Real tick_s, TriggerSignal<Real, S>& out) noexcept : wheel_{wheel}, tick_s_{tick_s}, out_{out} {
+    out_.edge_count = 0;
+  }
+
+  /// Nobody knows how it got there: the level, and no edges.
+  void leap(std::uint64_t to) noexcept { stand_at(edge_behind(wheel_, angle(to))); }
+
+  /// At a constant speed.
+  void turn(const Sweep& sweep) noexcept { pass(sweep, EvenPace<Real>{}); }
+
+  /// At a speed that changes evenly. `bend` as in CrankPath, but in turns of this wheel.
+  void turn(const Sweep& sweep, Real bend) noexcept {
+    const Real turned = sweep.forward ? ratio_of<Real>(sweep.span) : -ratio_of<Real>(sweep.span);
+    const Real slope = turned - bend;
+    const Real slope_at_end = turned + bend;
+    const bool turns_round = (slope > 0 && slope_at_end < 0) || (slope < 0 && slope_at_end > 0);
+    if (turns_round) {
+      turn_round(sweep, slope, bend);
+    } else {
+      pass(sweep, BentPace<Real>{Real{0}, magnitude(slope), sweep.forward ? bend : -bend});
+    }
+  }
+
+ private:
+  [[nodiscard]] static std::uint32_t angle(std::uint64_t at) noexcept { return static_cast<std::uint32_t>(at >> 32); }
+
+  void stand_at(std::uint32_t edge) noexcept { out_.level = level_beyond(wheel_, edge); }
+
+  /// Out to the turning point and back from it, each a sweep. The turning point is rounded, but one and the same for both.
+  void turn_round(const Sweep& tick, Real slope, Real bend) noexcept {
+    constexpr Real kMost = static_cast<Real>(0.999);  // of a turn; half of one at the speed limit
+    const Real since = slope / (-2 * bend);
+    const Real reach = magnitude(slope) * since / 2;
+    const bool outward = slope > 0;
+    const bool ends_beyond = tick.forward == outward;  // beyond where it began, as it went out
+    std::uint64_t out = Phase::from_cycles(reach < kMost ? reach : kMost).units();
+    if (ends_beyond && out < tick.span) out = tick.span;
+    const Sweep there{tick.from, out, outward};
+    const Sweep back{there.to(), ends_beyond ? out - tick.span : out + tick.span, !outward};
+    pass(there, BentPace<Real>{Real{0}, magnitude(slope), -magnitude(bend)});
+    pass(back, BentPace<Real>{since, Real{0}, magnitude(bend)});
+  }
+
+  /// Most sweeps pass no edge: one search and a comparison.
+  template <class Pace>
+  void pass(const Sweep& sweep, const Pace& pace) noexcept {
+    const std::uint64_t top = sweep.forward ? sweep.to() : sweep.from;
+    const std::uint32_t last = edge_behind(wheel_, angle(top));
+    if (top - at(last) < sweep.span) {
+      list(sweep, last, pace);
+    } else {  // it lies at the bottom, or below
+      stand_at(last);
+    }
+  }
+
+  /// Counts the edges of a sweep up to its last, lists as many as there is room for, and stands at its end. A call of its own, so that its
+  /// registers are not those of a sweep without edges.
+  template <class Pace>
+  [[gnu::noinline]] void list(const Sweep& sweep, std::uint32_t last, Pace pace) noexcept {
+    const std::uint64_t bottom = sweep.forward ? sweep.from : sweep.to();
+    const std::uint32_t before_first = edge_behind(wheel_, angle(bottom));
+    const std::uint32_t passed = last > before_first ? last - before_first : last + wheel_.edge_count - before_first;
+    pace.prepare(sweep.span);
+    const std::uint32_t step = sweep.forward ? 1 : wheel_.edge_count - 1;  // to the next edge, modulo their number
+    std::uint32_t edge = sweep.forward ? wrapped(before_first + 1) : last;
+    const std::uint32_t room = out_.edge_count < S::trigger_edges ? S::trigger_edges - out_.edge_count : 0;
+    const std::uint32_t listed = passed < room ? passed : room;
+    TriggerEdge<Real>* entry = out_.edge + (S::trigger_edges - room);  // not beyond the end, where a sweep before this one has filled them
+    for (std::uint32_t i = 0; i < listed; ++i, ++entry, edge = wrapped(edge + step)) {
+      const std::uint64_t distance = sweep.forward ? at(edge) - sweep.from : sweep.from - at(edge);
+      later(pace.ratio_at(ratio_of<Real>(distance)));
+      entry->time_s = latest_ * tick_s_;
+      entry->level = level_beyond(wheel_, edge) ^ (sweep.forward ? 0u : 1u);
+    }
+    out_.edge_count += passed;
+    stand_at(sweep.forward ? last : before_first);
+  }
+
+  [[nodiscard]] std::uint64_t at(std::uint32_t edge) const noexcept { return std::uint64_t{wheel_.edges[edge]} << 32; }
+  [[nodiscard]] std::uint32_t wrapped(std::uint32_t edge) const noexcept { return edge < wheel_.edge_count ? edge : edge - wheel_.edge_count; }
+
+  /// Rounding neither turns two edges round nor puts one beyond the tick.
+  void later(Real ratio) noexcept {
+    if (ratio > latest_) latest_ = ratio < 1 ? ratio : Real{1};
+  }
+
+  const TriggerTrack& wheel_;
+  Real tick_s_;
+  TriggerSignal<Real, S>& out_;
+  Real latest_{0};  ///< part of the tick until the edge listed last
+};
+
+}  // namespace crankloop::detail

@@ -1,0 +1,94 @@
+// All trigger wheels of an engine over one tick.
+//
+// What belongs here: how far each wheel turns, with its phaser. What does not: one wheel's edges (trigger_wheel.hpp).
+#pragma once
+
+#include <crankloop/tick/trigger/crank_path.hpp>
+#include <crankloop/faults.hpp>
+#include <crankloop/tick/io.hpp>
+#include <crankloop/tables/tables.hpp>
+#include <crankloop/tick/trigger/trigger_wheel.hpp>
+
+namespace crankloop::detail {
+
+/// Where the phasers stood before the tick; after it, the state knows. Nothing where no wheel asks.
+template <class S>
+struct CamsBefore {
+  static constexpr bool needed = S::cam_phasing && Needs<S>::any_triggers;
+  std::uint64_t cam_phase[needed ? S::trains.capacity : 1];
+
+  template <class Real>
+  explicit CamsBefore([[maybe_unused]] const State<Real, S>& state) noexcept {
+    if constexpr (needed) {
+      for (std::uint32_t t = 0; t < S::trains.capacity; ++t) cam_phase[t] = state.cam_phase[t];
+    }
+  }
+};
+
+template <class Real, class S>
+struct TriggersStep {
+  const Tables<Real, S>& tables;
+  const State<Real, S>& state;
+  Output<Real, S>& out;
+  const CrankPath<Real>& path;
+  const CamsBefore<S>& cams_before;
+
+  [[nodiscard]] std::uint32_t run() noexcept {
+    std::uint32_t faults = 0;
+    const std::uint32_t wheels = S::triggers.exact ? S::triggers.capacity : tables.triggers->count;
+    for (std::uint32_t i = 0; i < wheels; ++i) {
+      const TriggerTrack& wheel = tables.triggers->wheel[i];
+      TriggerSignal<Real, S>& signal = out.trigger[i];
+      TriggerTick<Real, S> tick(wheel, tables.drive->tick_s, signal);
+      if (path.jumped) {
+        tick.leap(on_wheel(wheel, path.begin + path.turned, phaser_after(wheel)));
+      } else if constexpr (Needs<S>::crank_dynamics) {
+        const Sweep sweep = sweep_of(wheel);
+        tick.turn(sweep, wheel.on_crank != 0 ? 2 * path.bend_cycles : path.bend_cycles);
+      } else {
+        tick.turn(sweep_of(wheel));
+      }
+      if (signal.edge_count > S::trigger_edges) faults |= kFaultTriggerEdges;
+    }
+    return faults;
+  }
+
+ private:
+  /// Phase units (2^64 = 720 deg) in units of the wheel's turn. A sum: a shift by a variable is a call on some processors.
+  [[nodiscard]] static std::uint64_t in_turns(const TriggerTrack& wheel, std::uint64_t phase) noexcept {
+    return wheel.on_crank != 0 ? phase + phase : phase;
+  }
+
+  /// Where a wheel stands, in units of 2^-64 turns since its first edge.
+  [[nodiscard]] static std::uint64_t on_wheel(const TriggerTrack& wheel, Phase crank, std::uint64_t phaser) noexcept {
+    return in_turns(wheel, crank.units() - phaser - wheel.starts);
+  }
+
+  /// A phaser moves its wheel back, evenly over the tick. Crank and phaser may each go half a cycle, and so more together than a signed
+  /// number of units holds.
+  [[nodiscard]] Sweep sweep_of(const TriggerTrack& wheel) const noexcept {
+    const std::uint64_t before = phaser_before(wheel);
+    const auto crank = static_cast<std::int64_t>(path.turned.units());
+    const auto cam = static_cast<std::int64_t>(phaser_after(wheel) - before);
+    const bool forward = (crank < 0) == (cam < 0) ? crank >= cam : crank >= 0;
+    const std::uint64_t turned = path.turned.units() - static_cast<std::uint64_t>(cam);
+    return {on_wheel(wheel, path.begin, before), in_turns(wheel, forward ? turned : 0 - turned), forward};
+  }
+
+  [[nodiscard]] std::uint64_t phaser_before(const TriggerTrack& wheel) const noexcept {
+    if constexpr (S::cam_phasing) {
+      if (wheel.train != kNoTrain) return cams_before.cam_phase[wheel.train];
+    }
+    (void)wheel;
+    return 0;
+  }
+  [[nodiscard]] std::uint64_t phaser_after(const TriggerTrack& wheel) const noexcept {
+    if constexpr (S::cam_phasing) {
+      if (wheel.train != kNoTrain) return state.cam_phase[wheel.train];
+    }
+    (void)wheel;
+    return 0;
+  }
+};
+
+}  // namespace crankloop::detail

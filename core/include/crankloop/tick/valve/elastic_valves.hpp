@@ -1,0 +1,203 @@
+// The elastic valves of an engine over one tick.
+//
+// What belongs here: which valves move, who may spend the budget, when a cycle ends. What does not: the round over them
+// (valve_round.hpp), a step in which contacts change (valve_changes.hpp).
+//
+//     wake those whose cams come near -> plain step of each that moves, its guards asked -> a look at those whose guards fail, by turns
+//
+// A valve that moves takes one step in its contact regime, whatever that is: its record of constants has the
+// difference. Where the guards say that no contact can have changed meanwhile, that is its tick. One at rest whose cam
+// is away is not visited at all.
+#pragma once
+
+#include <cstdint>
+
+#include <crankloop/tick/valve/valve_round.hpp>
+
+namespace crankloop::detail {
+
+/// From tick to tick the damper's force may change by as much of the cam's speed as this without a look at the
+/// contacts.
+inline constexpr double kSpeedJump = 0.02;
+
+template <class Real, class S>
+class ElasticValves {
+  using Valves = ValvesAtHand<Real, S>;
+  using Round = ValveRound<Real, S>;
+  using Before = typename Round::Before;
+  using Bits = typename Valves::Bits;
+
+ public:
+  /// Pressures are those of each cylinder, where the scene has valve_gas; none at the start.
+  ElasticValves(const Tables<Real, S>& tables, State<Real, S>& state, ValvesWork<Real, S>& work, Output<Real, S>& out,
+                const Real* pressure_Pa = nullptr) noexcept
+      : valves_{tables, state, work, out, pressure_Pa} {}
+
+  /// Puts every valve where its cam stands, at rest. The gas comes with the first tick.
+  [[gnu::cold]] void start() noexcept {
+    valves_.find_cams();
+    valves_.for_each([&](std::uint32_t v) {
+      const std::uint64_t since_opening =
+          cam_phase(valves_.state, valves_.train(v)) - valves_.curve(v).opens[valves_.cylinder(v)];
+      const Placed<Real> placed = in_equilibrium(
+          valves_.motion(v), valves_.curve(v).read(valves_.curve(v).cell(since_opening)).lift_m, valves_.gas_now_N(v));
+      valves_.state.valve_lift_m[v] = placed.state.lift_m;
+      valves_.state.valve_velocity_m_s[v] = placed.state.velocity_m_s;
+      valves_.set_regime(v, placed.regime);
+      if constexpr (S::valve_gas) valves_.state.valve_gas_N[v] = valves_.gas_now_N(v);
+    });
+    remember();
+  }
+
+  /// Works out anew what a tick remembers beside the state.
+  [[gnu::cold, gnu::noinline]] void remember() noexcept {
+    valves_.find_cams();
+    valves_.work.moving = 0;
+    valves_.work.leap_deg = valves_.work.far_deg = Real{kDegreesPerTurn + 1};
+    valves_.for_each([&](std::uint32_t v) {
+      valves_.set_cam(v, valves_.curve(v).read(valves_.curve(v).cell(cam_phase(valves_.state, valves_.train(v)) -
+                                                                     valves_.curve(v).opens[valves_.cylinder(v)])));
+      valves_.work.moving |= Bits{1} << v;
+      valves_.set_regime(v, valves_.state.valve_regime[v]);
+      if (valves_.curve(v).leap_deg < valves_.work.leap_deg) valves_.work.leap_deg = valves_.curve(v).leap_deg;
+      if (valves_.motion(v).widest_step_deg < valves_.work.far_deg)
+        valves_.work.far_deg = valves_.motion(v).widest_step_deg;
+    });
+    if (valves_.work.leap_deg < valves_.work.far_deg) valves_.work.far_deg = valves_.work.leap_deg;
+    for (std::uint32_t g = 0; g < kCamGroups<S>; ++g) valves_.work.clear[g] = valves_.work.no_end[g] = {};
+  }
+
+  /// Answers fault bits.
+  [[nodiscard]] std::uint32_t run(const CamTicks<Real, S>& cams, bool jumped) noexcept {
+    if (jumped) start();
+    for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g) begin(cams, g);
+    Before before;
+    const Bits doubtful = Round(valves_).run(cams, before);
+    ChangeBudget budget{valves_.tables.valve_motions[0].most_changes, false};
+    if (doubtful != 0) look_by_turns(doubtful, cams, before, budget);
+    if constexpr (S::valve_results) {
+      for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g) end_cycles(cams, g);
+    }
+    return budget.exceeded ? std::uint32_t{kFaultEventBudget} : 0;
+  }
+
+ private:
+  void begin(const CamTicks<Real, S>& cams, std::uint32_t group) noexcept {
+    const CamTick<Real>& tick = cams[group];
+    valves_.far = valves_.far || magnitude(tick.cam.deg) >= valves_.work.far_deg;
+    if (magnitude(tick.cam.deg) >= valves_.work.leap_deg || !valves_.work.clear[group].holds(angle_of_cams(tick)))
+      wake(tick, group);
+    Real& before_deg = valves_.state.cam_turned_deg[group];
+    if (tick.cam.deg == before_deg) return;
+    const bool jumps = magnitude(tick.cam.deg - before_deg) > static_cast<Real>(kSpeedJump) * magnitude(tick.cam.deg);
+    before_deg = tick.cam.deg;
+    if (jumps) ask_all(tick, group);
+  }
+
+  [[nodiscard]] static constexpr std::uint32_t angle_of_cams(const CamTick<Real>& tick) noexcept {
+    return static_cast<std::uint32_t>(tick.phase >> 32);
+  }
+
+  /// Where the train may touch a closed valve; for scenes that show the gap, where it changes.
+  [[nodiscard]] static CamWindow near_window(const LiftCurve<Real>& curve, std::uint32_t opens) noexcept {
+    constexpr std::uint32_t kUnitsPerDegree = 0xFFFF'FFFFu / kDegreesPerTurn;
+    if (S::valve_forces && curve.touch_degrees < curve.segments) return {opens, curve.segments * kUnitsPerDegree};
+    return {opens + curve.touch_from * kUnitsPerDegree, curve.touch_degrees * kUnitsPerDegree};
+  }
+
+  /// Valves at rest whose cams have come near move again, from where their cams stood before the tick; and the part of
+  /// the turn is found in which the others may be left alone.
+  [[gnu::cold, gnu::noinline]] void wake(const CamTick<Real>& tick, std::uint32_t group) noexcept {
+    const std::uint32_t angle = angle_of_cams(tick);
+    const bool leaps = magnitude(tick.cam.deg) >= valves_.work.leap_deg;
+    CamClearance clear;
+    valves_.for_each_of(group, [&](std::uint32_t v) {
+      if ((valves_.work.moving >> v & 1) != 0) return;
+      const std::uint64_t opens = valves_.curve(v).opens[valves_.cylinder(v)];
+      const CamWindow near = near_window(valves_.curve(v), static_cast<std::uint32_t>(opens >> 32));
+      if (leaps || near.holds(angle)) {
+        valves_.set_cam(v, valves_.curve(v).read(valves_.curve(v).cell(tick.phase_before() - opens)));
+        valves_.work.moving |= Bits{1} << v;
+      } else {
+        clear.keep_off(near, angle);
+      }
+    });
+    valves_.work.clear[group] = clear.about(angle);
+  }
+
+  /// The cams' speed has jumped, and with it the dampers' forces.
+  [[gnu::cold, gnu::noinline]] void ask_all(const CamTick<Real>& tick, std::uint32_t group) noexcept {
+    valves_.for_each_of(group, [&](std::uint32_t v) {
+      if ((valves_.work.moving >> v & 1) == 0) return;
+      const ValveState<Real> s{valves_.state.valve_lift_m[v], valves_.state.valve_velocity_m_s[v]};
+      const std::uint32_t before = contacts_of(valves_.state.valve_regime[v]);
+      const std::uint32_t regime = asked(valves_.motion(v), s, valves_.cam(v), tick.cam.deg_per_s);
+      if (regime == before) return;
+      valves_.set_regime(v, regime);
+      if constexpr (S::valve_results) {
+        const Real deg = valves_.curve(v).degrees(tick.phase_before() - valves_.curve(v).opens[valves_.cylinder(v)]);
+        valves_.state.record[valves_.train(v)][valves_.cylinder(v)].change(before, regime, s.velocity_m_s, deg);
+      }
+    });
+  }
+
+  // ---- those whose guards fail ------------------------------------------------------------------------------------
+
+  /// Another valve first in every tick: who comes first may spend the budget.
+  [[gnu::noinline]] void look_by_turns(Bits doubtful, const CamTicks<Real, S>& cams, const Before& before,
+                                       ChangeBudget& budget) noexcept {
+    const std::uint32_t first = static_cast<std::uint32_t>(valves_.state.ticks) % Valves::kMostValves;
+    constexpr Bits kAll = (Bits{1} << (Valves::kMostValves - 1) << 1) - 1;
+    const Bits from_first = doubtful >> first | (doubtful << (Valves::kMostValves - 1 - first) << 1 & kAll);
+    for (Bits left = from_first; left != 0; left &= left - 1) {
+      const std::uint32_t v = first + trailing_zeros(left);
+      const std::uint32_t valve = v < Valves::kMostValves ? v : v - Valves::kMostValves;
+      look(valve, cams[valves_.train(valve)], before, budget);
+    }
+  }
+
+  void look(std::uint32_t v, const CamTick<Real>& tick, const Before& before, ChangeBudget& budget) noexcept {
+    const typename Valves::Gas gas = valves_.gas_on(v);
+    const Lift<Real> from{before.cam_lift_m[v], before.cam_per_deg_m[v]};
+    const Lift<Real> to = valves_.cam(v);
+    const Placed<Real> start{{before.lift_m[v], before.velocity_m_s[v]}, valves_.state.valve_regime[v]};
+    const Stepped<Real> step{{valves_.state.valve_lift_m[v], valves_.state.valve_velocity_m_s[v]}, before.rise_m[v]};
+    const std::uint64_t at = tick.phase - valves_.curve(v).opens[valves_.cylinder(v)];
+    const Placed<Real> end =
+        valves_.changes(v, budget).run(start, step, valves_.span(v, tick, from, to, gas), at, tick.turned);
+    valves_.state.valve_lift_m[v] = end.state.lift_m;
+    valves_.state.valve_velocity_m_s[v] = end.state.velocity_m_s;
+    if (end.regime != start.regime) valves_.set_regime(v, end.regime);
+    const Real gap_m = to.lift_m - end.state.lift_m;
+    const Real gap_speed_m_s = tick.cam.deg_per_s * to.per_deg_m - end.state.velocity_m_s;
+    const ForceRow<Real>& force = valves_.motion(v).whole[end.regime].acceleration;
+    valves_.show(v, end.state, valves_.cell(v, tick.phase),
+                 {to.lift_m, gap_m, gap_speed_m_s, acceleration(force, end.state, gap_m, gap_speed_m_s, gas)}, gas);
+  }
+
+  // ---- after the steps --------------------------------------------------------------------------------------------
+
+  /// A valve's cycle ends where its cam passes the middle of the base circle.
+  void end_cycles(const CamTicks<Real, S>& cams, std::uint32_t group) noexcept {
+    const CamTick<Real>& tick = cams[group];
+    if (valves_.work.no_end[group].holds_all_of(angle_of_cams(tick), tick.turned)) return;
+    CamClearance clear;
+    valves_.for_each_of(group, [&](std::uint32_t v) {
+      const LiftCurve<Real>& lift = valves_.curve(v);
+      const std::uint64_t opens = lift.opens[valves_.cylinder(v)];
+      clear.keep_off({static_cast<std::uint32_t>((opens + lift.base_middle()) >> 32), 0}, angle_of_cams(tick));
+      if (!lift.passes_base_circle(tick.phase_before() - opens, tick.phase - opens)) return;
+      // In cam degrees since the start of the lobe: after it, or before it when turning backwards.
+      const auto lobe_deg = static_cast<Real>(static_cast<std::int32_t>(lift.segments));
+      const Real end_deg = (tick.cam.deg < 0 ? lobe_deg - Real{kDegreesPerTurn} : lobe_deg + Real{kDegreesPerTurn}) / 2;
+      valves_.out.valve_cycle[valves_.train(v)][valves_.cylinder(v)] =
+          valves_.state.record[valves_.train(v)][valves_.cylinder(v)].finish(
+              end_deg, contacts_of(valves_.state.valve_regime[v]));
+    });
+    valves_.work.no_end[group] = clear.about(angle_of_cams(tick));
+  }
+
+  Valves valves_;
+};
+
+}  // namespace crankloop::detail

@@ -1,0 +1,173 @@
+// One elastic valve: a step in a contact regime, and which regime its contacts ask for. docs/model.md "Valve".
+//
+// What belongs here: what holds at one moment, and over one step in which no contact changes. What does not: a step in
+// which one does (valve_changes.hpp), the valves of an engine (elastic_valves.hpp).
+#pragma once
+
+#include <cstdint>
+
+#include <crankloop/tick/valve/lanes.hpp>
+#include <crankloop/tables/lift_curve.hpp>
+#include <crankloop/tick/one_instruction.hpp>
+#include <crankloop/tables/valve_tables.hpp>
+
+namespace crankloop {
+
+template <class Real>
+struct ValveState {
+  Real lift_m;
+  Real velocity_m_s;
+};
+
+namespace detail {
+
+/// A state, and the regime in which it is.
+template <class Real>
+struct Placed {
+  ValveState<Real> state;
+  std::uint32_t regime;
+};
+
+/// What a step leads to, and what it added to the lift before that was rounded: the difference of two lifts has too few
+/// bits left.
+template <class Number>
+struct Stepped {
+  ValveState<Number> state;
+  Number rise_m;
+};
+
+/// How cams turn during a step.
+template <class Real>
+struct CamTurn {
+  Real deg;  ///< with sign
+  Real deg_per_s;
+};
+
+/// One of n equal parts of a phase difference; per_n_32 = 2^32 / n, rounded. By 32-bit multiplications.
+[[nodiscard]] constexpr std::uint64_t part_of(std::int64_t units, std::uint32_t per_n_32) noexcept {
+  const auto bits = static_cast<std::uint64_t>(units);
+  const std::int64_t high = static_cast<std::int32_t>(static_cast<std::uint32_t>(bits >> 32));
+  const std::uint64_t low = (bits & 0xFFFF'FFFFu) * per_n_32 >> 32;
+  return static_cast<std::uint64_t>(high * static_cast<std::int64_t>(std::uint64_t{per_n_32})) + low;
+}
+
+/// Gas force on the head, toward the seat, linear over a step.
+template <class Number>
+struct GasForce {
+  Number from_N, to_N;
+
+  [[nodiscard]] constexpr Number rest(const ForceRow<Number>& f) const noexcept { return f.rest + f.gas * to_N; }
+  [[nodiscard]] constexpr Number drive(const StepRow<Number>& row) const noexcept {
+    return row.rest + row.gas * from_N + row.gas_rise * (to_N - from_N);
+  }
+  /// A coefficient times the force at the step's start, and times what it rises from there.
+  [[nodiscard]] constexpr Number at_start(Number coefficient) const noexcept { return coefficient * from_N; }
+  [[nodiscard]] constexpr Number risen(Number coefficient) const noexcept { return coefficient * (to_N - from_N); }
+  /// Where it holds a closed valve.
+  [[nodiscard]] constexpr Number resting_m(Number per_seat_N_m) const noexcept { return -to_N * per_seat_N_m; }
+  [[nodiscard]] constexpr Number rested_m(Number per_seat_N_m) const noexcept { return -from_N * per_seat_N_m; }
+  [[nodiscard]] constexpr GasForce between(Number from, Number to) const noexcept {
+    return {from_N + (to_N - from_N) * from, from_N + (to_N - from_N) * to};
+  }
+};
+
+/// That of a scene without it.
+template <class Number>
+struct NoGasForce {
+  static constexpr int from_N = 0, to_N = 0;
+  template <class Held>
+  [[nodiscard]] static constexpr const Held& rest(const ForceRow<Held>& f) noexcept {
+    return f.rest;
+  }
+  template <class Held>
+  [[nodiscard]] static constexpr const Held& drive(const StepRow<Held>& row) noexcept {
+    return row.rest;
+  }
+  [[nodiscard]] static constexpr Number at_start(Number) noexcept { return Number{}; }
+  [[nodiscard]] static constexpr Number risen(Number) noexcept { return Number{}; }
+  [[nodiscard]] static constexpr Number resting_m(Number) noexcept { return Number{}; }
+  [[nodiscard]] static constexpr NoGasForce between(Number, Number) noexcept { return {}; }
+};
+
+/// A step in a regime, for a cam's lift that is the cubic through its ends.
+template <class Held, class Number, class Real, class Gas>
+[[nodiscard]] constexpr Stepped<Number> stepped(const RegimeStep<Held>& regime, const ValveState<Number>& s,
+                                                const Lift<Number>& from, const Lift<Number>& to, Real deg,
+                                                const Gas& gas) noexcept {
+  const Number gap = from.lift_m - s.lift_m;
+  const Number rise = to.lift_m - from.lift_m;
+  const Number from_slope = deg * from.per_deg_m;
+  const Number to_slope = deg * to.per_deg_m;
+  const auto more = [&](const StepRow<Held>& r) -> Number {
+    return gas.drive(r) + r.rise * rise + (r.from * from_slope + r.to * to_slope) + r.gap * gap +
+           (r.lift * s.lift_m + r.velocity * s.velocity_m_s);
+  };
+  const Number rise_m = more(regime.lift);
+  return {{s.lift_m + rise_m, s.velocity_m_s + more(regime.velocity)}, rise_m};
+}
+
+/// y'' by the forces of a regime; the gas force as at the end of its step.
+template <class Held, class Number, class Gas>
+[[nodiscard]] constexpr Number acceleration(const ForceRow<Held>& f, const ValveState<Number>& s, Number gap_m,
+                                            Number gap_speed_m_s, const Gas& gas) noexcept {
+  return gas.rest(f) + f.lift * s.lift_m + f.velocity * s.velocity_m_s + (f.gap * gap_m + f.gap_speed * gap_speed_m_s);
+}
+
+template <class Held, class Number>
+[[nodiscard]] constexpr auto holds(const ContactGuard<Held>& g, Number place_m, Number speed_m_s) noexcept {
+  return g.sign * place_m - g.lag_s * magnitude(speed_m_s) > g.least_m;
+}
+
+/// What was before a step, of the valves whose guards it fails: for the look at their contacts.
+template <class Real, std::size_t Lanes>
+struct BeforeStep {
+  Real lift_m[Lanes], velocity_m_s[Lanes], rise_m[Lanes], cam_lift_m[Lanes], cam_per_deg_m[Lanes];
+
+  constexpr void keep(std::size_t lane, const ValveState<Real>& s, Real rise, const Lift<Real>& cam) noexcept {
+    lift_m[lane] = s.lift_m, velocity_m_s[lane] = s.velocity_m_s, rise_m[lane] = rise;
+    cam_lift_m[lane] = cam.lift_m, cam_per_deg_m[lane] = cam.per_deg_m;
+  }
+};
+
+/// Which contacts push: those whose depth and whose force are both positive.
+template <class Real>
+[[nodiscard]] constexpr std::uint32_t asked(const ValveMotion<Real>& m, const ValveState<Real>& s,
+                                            const Lift<Real>& lift, Real deg_per_s) noexcept {
+  const Real gap = lift.lift_m - s.lift_m;
+  const Real sink = m.body.seat_sink_m - s.lift_m;
+  const bool train = gap > 0 && gap + m.train_lag_s * (deg_per_s * lift.per_deg_m - s.velocity_m_s) > 0;
+  const bool seat = sink > 0 && sink - m.seat_lag_s * s.velocity_m_s > 0;
+  return (train ? kTrainOn : 0u) | (seat ? kSeatOn : 0u);
+}
+
+/// No valve gets so far: one that does is put back.
+inline constexpr double kFarthest_m = 1;
+
+/// A valve at rest where its cam stands. Decided by forces, at the places where a contact begins: on a soft seat a
+/// difference of lifts would be less than their rounding. Without a spring the division by its rate has no meaning, and
+/// is not used.
+template <class Real>
+[[nodiscard]] __attribute__((no_sanitize("float-divide-by-zero"))) constexpr Placed<Real> in_equilibrium(
+    const ValveMotion<Real>& m, Real lift_m, Real gas_N) noexcept {
+  const ValveBody<Real>& b = m.body;
+  const Real down_N = b.preload_N + gas_N;
+  const Real just_off_N = down_N + b.spring_N_m * b.seat_sink_m;  // what holds it down where the seat ends
+  const bool sucked_open = just_off_N < 0;
+  const Real off_seat_m = down_N + b.spring_N_m * static_cast<Real>(kFarthest_m) < 0 ? static_cast<Real>(kFarthest_m)
+                                                                                     : -down_N / b.spring_N_m;
+  const Real alone_m = sucked_open ? off_seat_m : -gas_N * m.per_seat_N_m;
+  if (!(lift_m > alone_m)) return {{alone_m, Real{0}}, sucked_open ? 0u : kSeatOn};
+  if (b.train_N_m * (lift_m - b.seat_sink_m) > just_off_N) {
+    return {{(b.train_N_m * lift_m - down_N) / (b.train_N_m + b.spring_N_m), Real{0}}, kTrainOn};
+  }
+  return {{(b.train_N_m * lift_m - gas_N) / (b.train_N_m + b.seat_N_m + b.spring_N_m), Real{0}}, kTrainOn | kSeatOn};
+}
+
+/// The swing of a valve on its seat about the place where it would rest.
+template <class Real>
+[[nodiscard]] constexpr Real swing_m(const ValveMotion<Real>& m, const ValveState<Real>& s, Real resting_m) noexcept {
+  return magnitude(s.lift_m - resting_m) + magnitude(s.velocity_m_s) * m.per_seat_rate_s;
+}
+
+}  // namespace detail
+}  // namespace crankloop

@@ -1,0 +1,253 @@
+// A valve's tick in which a contact may change: the change is located, and the step split there.
+//
+// What belongs here: the path of a valve whose guards fail. What does not: the step itself (valve.hpp), which valves
+// there are and what they may spend (elastic_valves.hpp).
+//
+//     tick   |-------------------------------|    one step; its guards fail:
+//            |-------|-------|-------|-------|    fine steps, so short that cubics tell where a contact changes (one, where the tick is)
+//                         x                       there: the state by the quintic through both ends,
+//                         |--|                    on from it by a Taylor series in the new regime
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include <crankloop/tick/valve/valve.hpp>
+#include <crankloop/tick/valve/valve_results.hpp>
+#include <crankloop/tick/valve/valve_stretch.hpp>
+
+namespace crankloop::detail {
+
+/// Contact changes that may still be located in this tick, over all valves. One more is taken at the end of its fine
+/// step.
+struct ChangeBudget {
+  std::uint32_t left;
+  bool exceeded;
+};
+
+template <class Real, class Gas, class Record>
+class ValveChanges {
+ public:
+  ValveChanges(const ValveMotion<Real>& motion, const LiftCurve<Real>& curve, ChangeBudget& budget,
+               Record& record) noexcept
+      : motion_{motion}, curve_{curve}, budget_{budget}, record_{record} {}
+
+  /// A tick of a valve whose guards fail; `end` is where its regime's step led. The cam's speed may have changed the
+  /// damper's force since the tick before, so the contacts are asked at its start too. The cam stands at `to`, `turned`
+  /// units on. O(parts + changes).
+  [[nodiscard]] Placed<Real> run(const Placed<Real>& start, Stepped<Real> end, const Span<Real, Gas>& tick,
+                                 std::uint64_t to, std::int64_t turned) const noexcept {
+    if (motion_.parts > 1 || magnitude(tick.cam.deg) > motion_.widest_step_deg)
+      return by_fine_steps(start, tick, to, turned);
+    const std::uint32_t regime = asked_at_start(start, tick);
+    if (regime != start.regime)
+      end = stepped(motion_.fine[regime], start.state, tick.from, tick.to, tick.cam.deg, tick.gas);
+    return checked({start.state, regime}, end, tick);
+  }
+
+  /// A step in which no contact changed.
+  void note(const Placed<Real>& from, const ValveState<Real>& to, const Span<Real, Gas>& span,
+            Real step_s) const noexcept {
+    if constexpr (kRecorded) {
+      note_part(from.regime, from.state, to, {span.from.lift_m, span.cam.deg_per_s * span.from.per_deg_m},
+                {span.to.lift_m, span.cam.deg_per_s * span.to.per_deg_m}, span, 0, 1, step_s);
+    }
+  }
+
+ private:
+  static constexpr bool kRecorded = !std::is_same_v<Record, NoRecord<Real>>;
+
+  [[nodiscard]] std::uint32_t asked_at_start(const Placed<Real>& start, const Span<Real, Gas>& tick) const noexcept {
+    const std::uint32_t regime = asked(motion_, start.state, tick.from, tick.cam.deg_per_s);
+    note_change(contacts_of(start.regime), regime, start.state, tick, 0);
+    return regime;
+  }
+
+  /// Fine steps all through the tick.
+  [[nodiscard, gnu::noinline]] Placed<Real> by_fine_steps(Placed<Real> valve, const Span<Real, Gas>& tick,
+                                                          std::uint64_t to, std::int64_t turned) const noexcept {
+    const bool open = tick.from.lift_m > 0 || tick.to.lift_m > 0;
+    const bool leaps = magnitude(tick.cam.deg) >= curve_.leap_deg;
+    const bool seated = valve.regime == kSeatOn || valve.regime == kQuiet;
+    if (seated && !open && !leaps && valve.state.lift_m == 0 && valve.state.velocity_m_s == 0 && tick.gas.from_N == 0 &&
+        tick.gas.to_N == 0) {
+      return valve;  // at rest, the cam away at both ends
+    }
+    valve.regime = asked_at_start(valve, tick);
+    const std::uint64_t part =
+        motion_.parts > 1 ? part_of(turned, motion_.per_parts_32) : static_cast<std::uint64_t>(turned);
+    std::uint64_t at = to - static_cast<std::uint64_t>(turned);
+    Span<Real, Gas> step{tick.from,          tick.to, {tick.cam.deg * motion_.per_parts, tick.cam.deg_per_s}, tick.gas,
+                         tick.since_opening, Real{0}};
+    const bool narrow = magnitude(step.cam.deg) <= motion_.widest_step_deg;
+    bool was_sure = narrow && sure(valve.regime, valve.state, step.from, step.cam);
+    for (std::uint32_t i = 1; i <= motion_.parts; ++i) {
+      at += part;
+      step.to = i == motion_.parts ? tick.to : curve_.read(LiftCurve<Real>::cell(at));
+      step.gas =
+          tick.gas.between(static_cast<Real>(i - 1) * motion_.per_parts, static_cast<Real>(i) * motion_.per_parts);
+      Stepped<Real> end = stepped(motion_.fine[valve.regime], valve.state, step.from, step.to, step.cam.deg, step.gas);
+      const bool is_sure = sure(valve.regime, end.state, step.to, step.cam);
+      if (is_sure && was_sure) {
+        note(valve, end.state, step, motion_.fine_step_s);
+        valve.state = end.state;
+      } else {
+        if (!narrow)
+          add_middle(valve.regime, step, at - static_cast<std::uint64_t>(static_cast<std::int64_t>(part) / 2), end);
+        valve = checked(valve, end, step);
+      }
+      was_sure = narrow && is_sure;
+      step.from = step.to;
+      step.later_deg += step.cam.deg;
+    }
+    const Real resting_m = tick.gas.resting_m(motion_.per_seat_N_m);
+    const Real up_m = resting_m > 0 ? resting_m : Real{0};
+    if (valve.regime == kSeatOn && up_m + swing_m(motion_, valve.state, resting_m) < motion_.quiet_m) {
+      valve.regime = kQuiet;
+      const RegimeStep<Real>& quiet = motion_.whole[kQuiet];
+      if (magnitude(valve.state.lift_m - resting_m) < quiet.rest_m &&
+          magnitude(valve.state.velocity_m_s) < quiet.rest_m_s) {
+        valve.state = {resting_m, Real{0}};
+      }
+    }
+    return valve;
+  }
+
+  /// What the cam's lift in the middle of a wide fine step, over which the cubic through its ends does not do, adds to
+  /// it.
+  [[gnu::cold, gnu::noinline]] void add_middle(std::uint32_t regime, const Span<Real, Gas>& step, std::uint64_t middle,
+                                               Stepped<Real>& end) const noexcept {
+    if ((regime & kTrainOn) == 0) return;
+    const MiddleStep<Real>& by = motion_.middle[regime >> 1];
+    const Lift<Real> lift = curve_.read(LiftCurve<Real>::cell(middle));
+    const Real from_slope = step.cam.deg * step.from.per_deg_m;
+    const Real to_slope = step.cam.deg * step.to.per_deg_m;
+    const Real rise = step.to.lift_m - step.from.lift_m;
+    const Real more_m = lift.lift_m - step.from.lift_m - (rise / 2 + (from_slope - to_slope) / 8);
+    const Real more_slope_m = step.cam.deg * lift.per_deg_m - (6 * rise - (from_slope + to_slope)) / 4;
+    const Real higher_m = by.lift_by_lift * more_m + by.lift_by_slope * more_slope_m;
+    end.state.lift_m += higher_m;
+    end.state.velocity_m_s += by.velocity_by_lift * more_m + by.velocity_by_slope * more_slope_m;
+    end.rise_m += higher_m;
+  }
+
+  /// Whether a fine step's guards hold at one of its ends.
+  [[nodiscard]] bool sure(std::uint32_t regime, const ValveState<Real>& s, const Lift<Real>& cam,
+                          const CamTurn<Real>& turn) const noexcept {
+    const RegimeStep<Real>& r = motion_.fine[regime];
+    return holds(r.train, cam.lift_m - s.lift_m, turn.deg_per_s * cam.per_deg_m - s.velocity_m_s) &&
+           holds(r.seat, s.lift_m, s.velocity_m_s);
+  }
+
+  /// A fine step: most often no contact changes in it.
+  [[nodiscard, gnu::noinline]] Placed<Real> checked(const Placed<Real>& start, const Stepped<Real>& end,
+                                                    const Span<Real, Gas>& step) const noexcept {
+    if (!(magnitude(end.state.lift_m) < static_cast<Real>(kFarthest_m))) {  // nor is it a number
+      budget_.exceeded = true;
+      return in_equilibrium(motion_, step.to.lift_m, static_cast<Real>(step.gas.to_N));
+    }
+    std::uint32_t now = asked(motion_, end.state, step.to, step.cam.deg_per_s);
+    const Cubic<Real> lift(step.from.lift_m, step.cam.deg * step.from.per_deg_m, step.to.lift_m,
+                           step.cam.deg * step.to.per_deg_m);
+    if (now == start.regime) now ^= passing_change(motion_, stretch_of(motion_, start, end, lift, Real{1}, step), now);
+    if (now != start.regime && budget_.left != 0) return through_changes(start, end, now, lift, step);
+    note(start, end.state, step, motion_.fine_step_s);
+    if (now != start.regime) {
+      budget_.exceeded = true;
+      note_change(start.regime, now, end.state, step, 1);
+    }
+    return {end.state, now};
+  }
+
+  /// A fine step in which a contact changes: from change to change. Each round takes one of the budget, of which some
+  /// is left.
+  [[nodiscard, gnu::noinline]] Placed<Real> through_changes(Placed<Real> valve, Stepped<Real> end, std::uint32_t now,
+                                                            Cubic<Real> lift,
+                                                            const Span<Real, Gas>& step) const noexcept {
+    Real left = 1;
+    std::uint32_t last = 0;
+    do {
+      --budget_.left;
+      const std::uint32_t ended = now ^ valve.regime;
+      const Stretch<Real> s = stretch_of(motion_, valve, end, lift, left, step);
+      Real x = 1;
+      std::uint32_t changed = 0;
+      if ((ended & kTrainOn) != 0) {
+        x = place_of(s, s.train, (valve.regime & kTrainOn) != 0, last == kTrainOn, motion_.train_lag_s);
+        changed = kTrainOn;
+      }
+      if ((ended & kSeatOn) != 0) {
+        const Real at = place_of(s, s.seat, (valve.regime & kSeatOn) != 0, last == kSeatOn, motion_.seat_lag_s);
+        if (changed == 0 || at < x) x = at, changed = kSeatOn;
+      }
+      const ValveState<Real> there = s.at(x);
+      const Real passed = x * left;
+      note_stretch(valve, there, lift, 1 - left, passed, step);
+      lift.shift(passed);
+      left -= passed;
+      note_change(valve.regime, valve.regime ^ changed, there, step, 1 - left);
+      valve = {there, valve.regime ^ changed};
+      last = changed;
+      end = by_series(motion_, valve.regime, valve.state, lift, left, step.gas.between(1 - left, 2 - left));
+      now = asked(motion_, end.state, step.to, step.cam.deg_per_s);
+    } while (budget_.left != 0 && now != valve.regime && left > 0);
+    if (now != valve.regime && left > 0) budget_.exceeded = true;
+    note_stretch(valve, end.state, lift, 1 - left, left, step);
+    note_change(valve.regime, now, end.state, step, 1);
+    return {end.state, now};
+  }
+
+  // ---- the record of a cycle --------------------------------------------------------------------------------------
+
+  /// Cam degrees since the start of the lobe at a part of a span.
+  [[nodiscard]] Real deg_at(const Span<Real, Gas>& span, Real part) const noexcept {
+    return curve_.degrees(span.since_opening) + span.later_deg + part * span.cam.deg;
+  }
+
+  /// A cam's lift and its speed at one moment.
+  struct Theory {
+    Real lift_m, speed_m_s;
+  };
+
+  void note_part(std::uint32_t regime, const ValveState<Real>& from, const ValveState<Real>& to,
+                 const Theory& theory_from, const Theory& theory_to, const Span<Real, Gas>& span, Real from_part,
+                 Real to_part, Real step_s) const noexcept {
+    const ForceRow<Real>& force = motion_.fine[regime].acceleration;
+    const Gas gas = span.gas.between(from_part, to_part);
+    const auto accelerates = [&](const ValveState<Real>& s, const Theory& at, const Gas& by) {
+      return acceleration(force, s, at.lift_m - s.lift_m, at.speed_m_s - s.velocity_m_s, by);
+    };
+    record_.step({from, to, theory_from.lift_m, theory_to.lift_m, theory_from.speed_m_s, theory_to.speed_m_s,
+                  accelerates(from, theory_from, gas.between(0, 0)), accelerates(to, theory_to, gas), step_s,
+                  contacts_of(regime)},
+                 motion_.body.seat_sink_m,
+                 [&](Real part) { return deg_at(span, from_part + part * (to_part - from_part)); });
+  }
+
+  /// From the origin of `lift`, which is at `from_part` of the step, over `part` of it.
+  void note_stretch(const Placed<Real>& from, const ValveState<Real>& to, const Cubic<Real>& lift, Real from_part,
+                    Real part, const Span<Real, Gas>& step) const noexcept {
+    if constexpr (kRecorded) {
+      const auto theory = [&](Real x) {
+        const typename Cubic<Real>::At at = lift.at(x);
+        return Theory{at.value, at.slope * motion_.per_fine_step_s};
+      };
+      note_part(from.regime, from.state, to, theory(0), theory(part), step, from_part, from_part + part,
+                part * motion_.fine_step_s);
+    }
+  }
+
+  void note_change(std::uint32_t before, std::uint32_t after, const ValveState<Real>& s, const Span<Real, Gas>& span,
+                   Real part) const noexcept {
+    if constexpr (kRecorded) {
+      if (before != after) record_.change(before, after, s.velocity_m_s, deg_at(span, part));
+    }
+  }
+
+  const ValveMotion<Real>& motion_;
+  const LiftCurve<Real>& curve_;
+  ChangeBudget& budget_;
+  Record& record_;
+};
+
+}  // namespace crankloop::detail

@@ -1,0 +1,41 @@
+// What a tick shows of an elastic valve.
+#pragma once
+
+#include <crankloop/tick/io.hpp>
+#include <crankloop/tick/valve/valve.hpp>
+
+namespace crankloop::detail {
+
+/// A valve's cam and contacts at a tick's end.
+template <class Real>
+struct Moment {
+  Real cam_lift_m, gap_m, gap_speed_m_s, acceleration_m_s2;
+};
+
+template <class Real>
+[[gnu::always_inline]] inline void show_motion(ValveMotionOutput<Real>& shown, const ValveState<Real>& s,
+                                               const Moment<Real>& at) noexcept {
+  shown.theoretical_lift_m = at.cam_lift_m > 0 ? at.cam_lift_m : Real{0};
+  shown.lift_m = s.lift_m;
+  shown.velocity_m_s = s.velocity_m_s;
+  shown.acceleration_m_s2 = at.acceleration_m_s2;
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void show_forces(ValveForcesOutput<Real>& shown, const ValveBody<Real>& b,
+                                               const LiftCurve<Real>& curve, const Placed<Real>& valve, Cell cell,
+                                               const Moment<Real>& at) noexcept {
+  const auto pushing = [](bool on, Real force_N) { return on && force_N > 0 ? force_N : Real{0}; };
+  const std::uint32_t contacts = contacts_of(valve.regime);
+  shown.train_N = pushing((contacts & kTrainOn) != 0, b.train_N_m * at.gap_m + b.train_Ns_m * at.gap_speed_m_s);
+  shown.seat_N = pushing((contacts & kSeatOn) != 0,
+                         b.preload_N - (b.seat_N_m * valve.state.lift_m + b.seat_Ns_m * valve.state.velocity_m_s));
+  shown.tip_N = shown.train_N - b.rocker_mass_kg * at.acceleration_m_s2;
+  // Read where the train touches; outside the lobe there is no force to multiply.
+  const bool in_lobe = cell.degree < curve.segments;
+  shown.cam_N = shown.train_N * (in_lobe ? value(curve.rocker_ratio[cell.degree], fraction<Real>(cell)) : Real{0});
+  shown.gap_m = at.gap_m;
+  shown.regime = contacts;
+}
+
+}  // namespace crankloop::detail

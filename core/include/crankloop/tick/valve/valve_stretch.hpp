@@ -1,0 +1,152 @@
+// A stretch of a valve's motion in one regime: where in it a contact changes, the state there, and how it goes on.
+//
+// What belongs here: one stretch, without a thought of what led to it. What does not: which stretches a tick has, and
+// what it may spend on them (valve_changes.hpp).
+#pragma once
+
+#include <cstdint>
+
+#include <crankloop/tick/valve/cubic.hpp>
+#include <crankloop/tick/valve/valve.hpp>
+
+namespace crankloop::detail {
+
+/// A tick, or a fine step of it.
+template <class Real, class Gas>
+struct Span {
+  Lift<Real> from, to;
+  CamTurn<Real> cam;
+  Gas gas;
+  std::uint64_t since_opening;  ///< phase units, at the tick's start
+  Real later_deg;               ///< cam degrees that have passed since
+};
+
+/// A contact's depth, with its speed and the rate of that, at both ends of a stretch.
+template <class Real>
+struct Contact {
+  Real depth_m[2], speed_m_s[2], rate_m_s2[2];
+};
+
+/// Part of a fine step between two states of one regime.
+template <class Real>
+struct Stretch {
+  Real d_s;
+  ValveState<Real> from, to;
+  Real rise_m;
+  Real acceleration[2];
+  Contact<Real> train, seat;
+
+  /// What changes its sign where a contact does, by the part of the stretch. One that is on ends where its force
+  /// does. One that is off begins where its depth becomes positive; or, there already, where its force does.
+  [[nodiscard]] Cubic<Real> switching(const Contact<Real>& c, bool is_on, Real lag_s) const noexcept {
+    const Real lag = !is_on && c.depth_m[0] <= 0 ? Real{0} : lag_s;
+    return Cubic<Real>(c.depth_m[0] + lag * c.speed_m_s[0], d_s * (c.speed_m_s[0] + lag * c.rate_m_s2[0]),
+                       c.depth_m[1] + lag * c.speed_m_s[1], d_s * (c.speed_m_s[1] + lag * c.rate_m_s2[1]));
+  }
+
+  /// The state at a part of it: the quintic through states and accelerations at both ends.
+  [[nodiscard]] ValveState<Real> at(Real x) const noexcept {
+    const Real v0 = from.velocity_m_s * d_s;
+    const Real half = d_s * d_s / 2;
+    const Real a0 = acceleration[0] * half;
+    const Real rise = rise_m - v0 - a0;
+    const Real slope = to.velocity_m_s * d_s - v0 - 2 * a0;
+    const Real bend = acceleration[1] * half - a0;
+    const Real c[] = {from.lift_m,
+                      v0,
+                      a0,
+                      10 * rise - 4 * slope + bend,
+                      -15 * rise + 7 * slope - 2 * bend,
+                      6 * rise - 3 * slope + bend};
+    Real value = c[5];
+    Real by_part = 0;
+    for (int i = 4; i >= 0; --i) {
+      by_part = value + x * by_part;
+      value = c[i] + x * value;
+    }
+    return {value, by_part / d_s};
+  }
+};
+
+/// The rest of a fine step, `left` of it, from the origin of `lift`.
+template <class Real, class Gas>
+[[nodiscard]] inline Stretch<Real> stretch_of(const ValveMotion<Real>& motion, const Placed<Real>& valve,
+                                              const Stepped<Real>& end, const Cubic<Real>& lift, Real left,
+                                              const Span<Real, Gas>& step) noexcept {
+  const Real per_s = motion.per_fine_step_s;
+  const ForceRow<Real>& force = motion.fine[valve.regime].acceleration;
+  const Gas gas = step.gas.between(1 - left, 1);
+  Stretch<Real> s;
+  s.d_s = left * motion.fine_step_s;
+  s.from = valve.state, s.to = end.state, s.rise_m = end.rise_m;
+  Contact<Real>& train = s.train;
+  train.depth_m[0] = lift.c[0] - s.from.lift_m, train.depth_m[1] = step.to.lift_m - s.to.lift_m;
+  train.speed_m_s[0] = lift.c[1] * per_s - s.from.velocity_m_s;
+  train.speed_m_s[1] = step.cam.deg_per_s * step.to.per_deg_m - s.to.velocity_m_s;
+  s.acceleration[0] = acceleration(force, s.from, train.depth_m[0], train.speed_m_s[0], gas.between(0, 0));
+  s.acceleration[1] = acceleration(force, s.to, train.depth_m[1], train.speed_m_s[1], gas);
+  train.rate_m_s2[0] = 2 * lift.c[2] * (per_s * per_s) - s.acceleration[0];
+  train.rate_m_s2[1] = (2 * lift.c[2] + 6 * left * lift.c[3]) * (per_s * per_s) - s.acceleration[1];
+  Contact<Real>& seat = s.seat;
+  seat.depth_m[0] = motion.body.seat_sink_m - s.from.lift_m, seat.depth_m[1] = motion.body.seat_sink_m - s.to.lift_m;
+  seat.speed_m_s[0] = -s.from.velocity_m_s, seat.speed_m_s[1] = -s.to.velocity_m_s;
+  seat.rate_m_s2[0] = -s.acceleration[0], seat.rate_m_s2[1] = -s.acceleration[1];
+  return s;
+}
+
+/// A contact that changes and changes back within a stretch: what tells of it turns round beyond zero.
+template <class Real>
+[[nodiscard]] inline std::uint32_t passing_change(const ValveMotion<Real>& motion, const Stretch<Real>& s,
+                                                  std::uint32_t regime) noexcept {
+  const auto passes = [&](const Contact<Real>& c, bool is_on, Real lag_s) {
+    const Cubic<Real> f = s.switching(c, is_on, lag_s);
+    const Real sign = is_on ? Real{1} : Real{-1};
+    return sign * f.c[1] < 0 && sign * (f.c[1] + 2 * f.c[2] + 3 * f.c[3]) > 0 && sign * f.at(f.turn()).value < 0;
+  };
+  if (passes(s.train, (regime & kTrainOn) != 0, motion.train_lag_s)) return kTrainOn;
+  return passes(s.seat, (regime & kSeatOn) != 0, motion.seat_lag_s) ? kSeatOn : 0u;
+}
+
+/// The part of a stretch after which a contact changes; `again`: it has changed at the stretch's start.
+template <class Real>
+[[nodiscard]] inline Real place_of(const Stretch<Real>& s, const Contact<Real>& c, bool is_on, bool again,
+                                   Real lag_s) noexcept {
+  Cubic<Real> f = s.switching(c, is_on, lag_s);
+  const Real last = f.c[0] + f.c[1] + f.c[2] + f.c[3];
+  if (again || (f.c[0] > 0) != (last > 0)) return f.root(again, last);
+  const Real turn = f.turn();  // it changes back before the end
+  f.shrink(turn);
+  return turn * f.root(false, f.at(1).value);
+}
+
+/// The motion from the origin of the lift's cubic on, over the part x of a fine step: derivatives by the equation of
+/// motion, order 8, so exact to (rate step)^9 / 9!. The gas force is linear: `gas` over a whole fine step from there.
+template <class Real, class Gas>
+[[nodiscard]] inline Stepped<Real> by_series(const ValveMotion<Real>& motion, std::uint32_t regime,
+                                             const ValveState<Real>& s, const Cubic<Real>& lift, Real x,
+                                             const Gas& gas) noexcept {
+  const RegimeSeries<Real>& k = motion.series[regime];
+  const Real l1 = lift.c[1];
+  const Real l2 = 2 * lift.c[2];
+  const Real l3 = 6 * lift.c[3];
+  const auto next = [&k](Real drive, Real y, Real v) { return drive - k.stiffness * y - k.damping * v; };
+  const Real y0 = s.lift_m;
+  const Real y1 = s.velocity_m_s * motion.fine_step_s;
+  const Real y2 = next(k.rest + gas.at_start(k.gas) + k.lift * lift.c[0] + k.lift_speed * l1, y0, y1);
+  const Real y3 = next(gas.risen(k.gas) + k.lift * l1 + k.lift_speed * l2, y1, y2);
+  const Real y4 = next(k.lift * l2 + k.lift_speed * l3, y2, y3);
+  const Real y5 = next(k.lift * l3, y3, y4);
+  const Real y6 = next(0, y4, y5);
+  const Real y7 = next(0, y5, y6);
+  const Real y8 = next(0, y6, y7);
+  const auto over = [x](int n) { return x * (Real{1} / static_cast<Real>(n)); };
+  const Real rise =
+      x * (y1 + over(2) *
+                    (y2 + over(3) *
+                              (y3 + over(4) * (y4 + over(5) * (y5 + over(6) * (y6 + over(7) * (y7 + over(8) * y8)))))));
+  const Real slope =
+      y1 + x * (y2 + over(2) * (y3 + over(3) * (y4 + over(4) * (y5 + over(5) * (y6 + over(6) * (y7 + over(7) * y8))))));
+  return {{y0 + rise, slope * motion.per_fine_step_s}, rise};
+}
+
+}  // namespace crankloop::detail

@@ -1,0 +1,154 @@
+// What a tick has at hand of each elastic valve: its tables, its state, where its cam stood, what is shown of it.
+//
+// What belongs here: where things lie, whether valves go abreast or one by one. What does not: what is done with them
+// (valve_round.hpp, elastic_valves.hpp).
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include <crankloop/tick/valve/cam_ticks.hpp>
+#include <crankloop/tick/io.hpp>
+#include <crankloop/tables/tables.hpp>
+#include <crankloop/tick/valve/valve_changes.hpp>
+#include <crankloop/tick/valve/valve_outputs.hpp>
+#include <crankloop/tick/valve/valves_abreast.hpp>
+
+namespace crankloop::detail {
+
+/// Valves are numbered train by train: v = train times the scene's cylinders + cylinder.
+template <class Real, class S>
+struct ValvesAtHand {
+  using Gas = std::conditional_t<S::valve_gas, GasForce<Real>, NoGasForce<Real>>;
+  using Record = std::conditional_t<S::valve_results, ValveRecord<Real>, NoRecord<Real>>;
+  using Changes = ValveChanges<Real, Gas, Record>;
+  using Bits = ValveBits<S>;
+  static constexpr bool kAbreast = CRANKLOOP_ABREAST != 0 && kMayGoAbreast<Real, S>;
+  static constexpr std::uint32_t kPerTrain = S::cylinders.capacity;
+  static constexpr std::uint32_t kMostValves = S::trains.capacity * kPerTrain;
+
+  const Tables<Real, S>& tables;
+  State<Real, S>& state;
+  ValvesWork<Real, S>& work;
+  Output<Real, S>& out;
+  const Real* pressure_Pa;  ///< of each cylinder, where the scene has valve_gas; none at the start
+  bool far = false;         ///< the cams have turned so far in this tick that some valve's guards may not tell
+  NoRecord<Real> no_record{};
+
+  [[nodiscard]] static constexpr std::uint32_t train(std::uint32_t v) noexcept { return v / kPerTrain; }
+  [[nodiscard]] static constexpr std::uint32_t cylinder(std::uint32_t v) noexcept { return v % kPerTrain; }
+  [[nodiscard]] const ValveMotion<Real>& motion(std::uint32_t v) const noexcept {
+    return tables.valve_motions[train(v)];
+  }
+  [[nodiscard]] const LiftCurve<Real>& curve(std::uint32_t v) const noexcept {
+    if constexpr (kMayGoAbreast<Real, S>)
+      return tables.lift_curves[train(v)];
+    else
+      return *work.valve[v].curve;
+  }
+  /// Where a valve's cam stands.
+  [[nodiscard]] Cell cell(std::uint32_t v, std::uint64_t phase) const noexcept {
+    if constexpr (kMayGoAbreast<Real, S> || sizeof(Real) != 4) {
+      return curve(v).cell(phase, cylinder(v));
+    } else {
+      return LiftCurve<Real>::cell(units_from<Real>(phase, std::uint64_t{work.valve[v].opens} << 32));
+    }
+  }
+  [[nodiscard]] std::uint32_t trains() const noexcept {
+    return S::trains.exact ? S::trains.capacity : tables.drive->trains;
+  }
+  [[nodiscard]] std::uint32_t cam_groups() const noexcept { return S::cam_phasing ? trains() : 1; }
+
+  /// Valves of all trains.
+  template <class Call>
+  void for_each(const Call& call) const noexcept {
+    for (std::uint32_t t = 0; t < trains(); ++t) {
+      for (std::uint32_t k = 0; k < count<S>(tables.drive->cylinders); ++k) call(t * kPerTrain + k);
+    }
+  }
+  /// Those whose cams turn alike.
+  template <class Call>
+  void for_each_of(std::uint32_t group, const Call& call) const noexcept {
+    for_each([&](std::uint32_t v) {
+      if (!S::cam_phasing || train(v) == group) call(v);
+    });
+  }
+
+  [[nodiscard]] Lift<Real> cam(std::uint32_t v) const noexcept {
+    if constexpr (kMayGoAbreast<Real, S>) {
+      return {work.cam_lift_m[v], work.cam_per_deg_m[v]};
+    } else {
+      return {work.valve[v].cam_lift_m, work.valve[v].cam_per_deg_m};
+    }
+  }
+  void set_cam(std::uint32_t v, const Lift<Real>& lift) noexcept {
+    if constexpr (kMayGoAbreast<Real, S>) {
+      work.cam_lift_m[v] = lift.lift_m, work.cam_per_deg_m[v] = lift.per_deg_m;
+    } else {
+      work.valve[v].cam_lift_m = lift.lift_m, work.valve[v].cam_per_deg_m = lift.per_deg_m;
+    }
+  }
+  void set_regime(std::uint32_t v, std::uint32_t regime) noexcept {
+    state.valve_regime[v] = regime;
+    if constexpr (!kMayGoAbreast<Real, S>) work.valve[v].regime = &motion(v).whole[regime];
+#if CRANKLOOP_ABREAST
+    if constexpr (kAbreast) set_lane(work, v, motion(v).whole[regime]);
+#endif
+  }
+  [[nodiscard]] const RegimeStep<Real>& regime_of(std::uint32_t v) const noexcept {
+    if constexpr (kMayGoAbreast<Real, S>)
+      return motion(v).whole[state.valve_regime[v]];
+    else
+      return *work.valve[v].regime;
+  }
+
+  [[nodiscard]] Real gas_now_N(std::uint32_t v) const noexcept {
+    if constexpr (S::valve_gas) {
+      if (pressure_Pa != nullptr)
+        return (pressure_Pa[cylinder(v)] - tables.body->crankcase_Pa) * motion(v).body.head_area_m2;
+    }
+    (void)v;
+    return Real{0};
+  }
+  [[nodiscard]] Gas gas_on(std::uint32_t v) const noexcept {
+    if constexpr (S::valve_gas) return {state.valve_gas_N[v], gas_now_N(v)};
+    (void)v;
+    return {};
+  }
+
+  /// Where each valve's cam is in the tables.
+  void find_cams() noexcept {
+    for_each([&](std::uint32_t v) {
+      const LiftCurve<Real>& curve = tables.lift_curves[train(v)];
+      const auto opens = static_cast<std::uint32_t>(curve.opens[cylinder(v)] >> 32);
+      if constexpr (!kMayGoAbreast<Real, S>) work.valve[v].curve = &curve, work.valve[v].opens = opens;
+#if CRANKLOOP_ABREAST
+      if constexpr (kAbreast) set_cam_of_lane(work, v, curve, opens);
+#endif
+      (void)opens;
+    });
+  }
+
+  [[gnu::always_inline]] void show(std::uint32_t v, const ValveState<Real>& end, Cell cell, const Moment<Real>& at,
+                                   const Gas& gas) noexcept {
+    if constexpr (S::valve_gas) state.valve_gas_N[v] = gas.to_N;
+    show_motion((&out.valve[0][0])[v], end, at);
+    if constexpr (S::valve_forces)
+      show_forces((&out.valve_forces[0][0])[v], motion(v).body, curve(v), {end, state.valve_regime[v]}, cell, at);
+    (void)cell, (void)gas;
+  }
+
+  [[nodiscard]] Changes changes(std::uint32_t v, ChangeBudget& budget) noexcept {
+    if constexpr (S::valve_results) {
+      return Changes(motion(v), curve(v), budget, state.record[train(v)][cylinder(v)]);
+    } else {
+      return Changes(motion(v), curve(v), budget, no_record);
+    }
+  }
+  [[nodiscard]] Span<Real, Gas> span(std::uint32_t v, const CamTick<Real>& tick, const Lift<Real>& from,
+                                     const Lift<Real>& to, const Gas& gas) const noexcept {
+    return {from, to, tick.cam, gas, tick.phase_before() - curve(v).opens[cylinder(v)], Real{0}};
+  }
+};
+
+}  // namespace crankloop::detail
