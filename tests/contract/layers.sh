@@ -8,7 +8,7 @@ set -eu
 cd "$1"
 
 layers='report engine_file signals valve run engine_report redline free live'
-for_all='arguments csv error machine number output progress results run_limits summary table_file text_file tick_probe units with_real words free_orders'
+for_all='arguments csv error machine number output_file progress results run_limits summary table_file text_file tick_probe units with_real words free_orders'
 
 bad=0
 refuse() {

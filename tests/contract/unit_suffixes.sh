@@ -6,7 +6,7 @@
 # private members, the bodies of functions (lines indented deeper than a member), and elementary.hpp, whose arguments are pure numbers.
 set -eu
 cd "$1/crankloop"
-interface=$(find define tabulate engine.hpp tick/io.hpp tables/tables.hpp tick/trigger/trigger_output.hpp tick/valve/valve_results.hpp -name "*.hpp" ! -name elementary.hpp | sort)
+interface=$(find define tabulate engine.hpp input.hpp output.hpp state.hpp tables/tables.hpp tick/trigger/trigger_output.hpp tick/valve/valve_results.hpp -name "*.hpp" ! -name elementary.hpp | sort)
 
 units='m|m2|m3|m_s|m_s2|rad|rad_s|rad_s2|deg|deg_s|deg_per_s|rpm|s|kg|kg_m|kg_m2|N|Nm|N_m|Ns_m|Nm_s|Nm_s2|Pa_s|Pa_s2|J|W|Pa|Hz|ratio'
 

@@ -1,6 +1,6 @@
 // A crankcase full of parts, the other way to forces and moments of whole engines: each piston with the vector acceleration that geometry gives
 // it, each big end and crank pin turning, put where they are along the shaft, and added up. Up is bank angle 0, lateral a quarter turn on in the
-// sense of rotation, as in tick/io.hpp.
+// sense of rotation, as in output.hpp.
 #pragma once
 
 #include <crankloop/tabulate/summary.hpp>

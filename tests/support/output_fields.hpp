@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <crankloop/tick/io.hpp>
+#include <crankloop/output.hpp>
 
 namespace crankloop::support {
 

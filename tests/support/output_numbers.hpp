@@ -7,7 +7,7 @@
 #include <cstring>
 #include <vector>
 
-#include <crankloop/tick/io.hpp>
+#include <crankloop/output.hpp>
 
 #include "support/running.hpp"
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <initializer_list>
 
-#include <crankloop/tick/io.hpp>
+#include <crankloop/output.hpp>
 
 namespace target_check {
 

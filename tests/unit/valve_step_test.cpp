@@ -1,7 +1,7 @@
 // A valve's step: its matrix against the textbook and against the exact solution, contacts, frequencies, energy, step
 // lengths, size of the state.
 #include <crankloop/tabulate/valve_motion.hpp>
-#include <crankloop/tick/io.hpp>
+#include <crankloop/output.hpp>
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "output.hpp"
+#include "output_file.hpp"
 
 namespace crankloop::program {
 

@@ -13,7 +13,7 @@
 #include "live/live_summary.hpp"
 #include "load_ratio.hpp"
 #include "number.hpp"
-#include "output.hpp"
+#include "output_file.hpp"
 #include "units.hpp"
 #include "with_real.hpp"
 

@@ -12,7 +12,7 @@
 #include "commands.hpp"
 #include "engine_file/engine_file_keys.hpp"
 #include "error.hpp"
-#include "output.hpp"
+#include "output_file.hpp"
 #include "words.hpp"
 
 #ifndef CRANKLOOP_VERSION

@@ -3,7 +3,7 @@
 
 #include "commands.hpp"
 #include "error.hpp"
-#include "output.hpp"
+#include "output_file.hpp"
 #include "summary.hpp"
 
 namespace crankloop::program {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "arguments.hpp"
-#include "output.hpp"
+#include "output_file.hpp"
 
 namespace crankloop::program {
 

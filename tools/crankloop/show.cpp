@@ -5,7 +5,7 @@
 #include "commands.hpp"
 #include "engine_file/engine_file.hpp"
 #include "error.hpp"
-#include "output.hpp"
+#include "output_file.hpp"
 #include "words.hpp"
 
 namespace crankloop::program {

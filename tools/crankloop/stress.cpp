@@ -4,7 +4,7 @@
 
 #include "commands.hpp"
 #include "error.hpp"
-#include "output.hpp"
+#include "output_file.hpp"
 #include "lab/stress/stress_tally.hpp"
 #include "progress.hpp"
 #include "summary.hpp"

@@ -14,7 +14,7 @@
 #include "commands.hpp"
 #include "engine_file/engine_file.hpp"
 #include "error.hpp"
-#include "output.hpp"
+#include "output_file.hpp"
 #include "valve/valve_tick_limit.hpp"
 
 namespace crankloop::program {

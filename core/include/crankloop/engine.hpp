@@ -7,7 +7,10 @@
 #include <crankloop/build_check.hpp>
 #include <crankloop/status.hpp>
 #include <crankloop/faults.hpp>
-#include <crankloop/tick/io.hpp>
+#include <crankloop/input.hpp>
+#include <crankloop/output.hpp>
+#include <crankloop/state.hpp>
+#include <crankloop/tick/valve/valves_work.hpp>
 #include <crankloop/tables/tables.hpp>
 
 namespace crankloop {

@@ -7,7 +7,7 @@
 
 #include "../engine_file/engine_file.hpp"
 #include "live_loop.hpp"
-#include "../output.hpp"
+#include "../output_file.hpp"
 
 namespace crankloop::program {
 

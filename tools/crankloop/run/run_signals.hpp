@@ -4,7 +4,7 @@
 #pragma once
 
 #include "../engine_file/engine_file.hpp"
-#include "../output.hpp"
+#include "../output_file.hpp"
 #include "run_loop.hpp"
 
 namespace crankloop::program {

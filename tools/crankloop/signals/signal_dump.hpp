@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "../engine_file/engine_file.hpp"
-#include "../output.hpp"
+#include "../output_file.hpp"
 #include "vcd.hpp"
 
 namespace crankloop::program {

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "../output.hpp"
+#include "../output_file.hpp"
 
 namespace crankloop::program {
 

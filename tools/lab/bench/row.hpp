@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "crankloop/output.hpp"
+#include "crankloop/output_file.hpp"
 
 namespace crankloop::program::bench {
 

@@ -12,7 +12,9 @@
 
 #include <cstdint>
 
-#include <crankloop/tick/io.hpp>
+#include <crankloop/output.hpp>
+#include <crankloop/state.hpp>
+#include <crankloop/tick/crank/crank_rate.hpp>
 #include <crankloop/tick/one_instruction.hpp>
 #include <crankloop/tick/crank/starter.hpp>
 #include <crankloop/tables/tables.hpp>

@@ -5,7 +5,8 @@
 
 #include <type_traits>
 
-#include <crankloop/tick/io.hpp>
+#include <crankloop/output.hpp>
+#include <crankloop/tick/crank/crank_rate.hpp>
 #include <crankloop/tick/one_instruction.hpp>
 #include <crankloop/tables/tables.hpp>
 

@@ -5,7 +5,8 @@
 
 #include <crankloop/tables/angle.hpp>
 #include <crankloop/tick/checked.hpp>
-#include <crankloop/tick/io.hpp>
+#include <crankloop/output.hpp>
+#include <crankloop/state.hpp>
 #include <crankloop/tick/one_instruction.hpp>
 #include <crankloop/tables/tables.hpp>
 

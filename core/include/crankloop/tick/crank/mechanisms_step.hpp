@@ -13,7 +13,9 @@
 #include <crankloop/tick/crank/cylinder_cut.hpp>
 #include <crankloop/tick/crank/cylinder_forces.hpp>
 #include <crankloop/tick/crank/engine_loads.hpp>
-#include <crankloop/tick/io.hpp>
+#include <crankloop/input.hpp>
+#include <crankloop/output.hpp>
+#include <crankloop/state.hpp>
 #include <crankloop/tables/tables.hpp>
 
 namespace crankloop::detail {

@@ -11,7 +11,8 @@
 #include <initializer_list>
 
 #include <crankloop/faults.hpp>
-#include <crankloop/tick/io.hpp>
+#include <crankloop/input.hpp>
+#include <crankloop/state.hpp>
 
 namespace crankloop::detail {
 

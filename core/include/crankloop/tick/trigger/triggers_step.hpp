@@ -5,7 +5,8 @@
 
 #include <crankloop/tick/trigger/crank_path.hpp>
 #include <crankloop/faults.hpp>
-#include <crankloop/tick/io.hpp>
+#include <crankloop/output.hpp>
+#include <crankloop/state.hpp>
 #include <crankloop/tables/tables.hpp>
 #include <crankloop/tick/trigger/trigger_wheel.hpp>
 

@@ -7,7 +7,7 @@
 
 #include <crankloop/tick/checked.hpp>
 #include <crankloop/faults.hpp>
-#include <crankloop/tick/io.hpp>
+#include <crankloop/state.hpp>
 #include <crankloop/tables/tables.hpp>
 #include <crankloop/tick/valve/valve.hpp>
 

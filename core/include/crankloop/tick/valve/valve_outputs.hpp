@@ -1,7 +1,7 @@
 // What a tick shows of an elastic valve.
 #pragma once
 
-#include <crankloop/tick/io.hpp>
+#include <crankloop/output.hpp>
 #include <crankloop/tick/valve/valve.hpp>
 
 namespace crankloop::detail {

@@ -10,7 +10,7 @@
 #include <initializer_list>
 
 #include <crankloop/tick/valve/cam_ticks.hpp>
-#include <crankloop/tick/io.hpp>
+#include <crankloop/tick/valve/valves_work.hpp>
 #include <crankloop/tick/valve/lanes.hpp>
 #include <crankloop/tick/valve/valve.hpp>
 

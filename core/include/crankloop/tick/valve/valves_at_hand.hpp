@@ -8,7 +8,8 @@
 #include <type_traits>
 
 #include <crankloop/tick/valve/cam_ticks.hpp>
-#include <crankloop/tick/io.hpp>
+#include <crankloop/output.hpp>
+#include <crankloop/tick/valve/valves_work.hpp>
 #include <crankloop/tables/tables.hpp>
 #include <crankloop/tick/valve/valve_changes.hpp>
 #include <crankloop/tick/valve/valve_outputs.hpp>

@@ -8,7 +8,9 @@
 
 #include <crankloop/tick/valve/cam_ticks.hpp>
 #include <crankloop/tick/valve/elastic_valves.hpp>
-#include <crankloop/tick/io.hpp>
+#include <crankloop/input.hpp>
+#include <crankloop/output.hpp>
+#include <crankloop/tick/valve/valves_work.hpp>
 #include <crankloop/tables/tables.hpp>
 
 namespace crankloop::detail {

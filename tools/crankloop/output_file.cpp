@@ -1,4 +1,4 @@
-#include "output.hpp"
+#include "output_file.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>

@@ -1,0 +1,149 @@
+// What comes out of a step: only the groups that the scene asked for; reading another does not compile.
+//
+// What belongs here: what outputs mean. What does not: how they come about (tick/step.hpp). Edges of trigger wheels:
+// tick/trigger/trigger_output.hpp; results of valves: tick/valve/valve_results.hpp.
+#pragma once
+
+#include <cstdint>
+
+#include <crankloop/phase.hpp>
+#include <crankloop/scene.hpp>
+#include <crankloop/tick/trigger/trigger_output.hpp>
+#include <crankloop/tick/valve/valve_results.hpp>
+
+namespace crankloop {
+
+/// Motion of each piston, positive toward the crankshaft, counted from top dead centre.
+template <class Real, class S>
+struct Kinematics {
+  Real displacement_m[S::cylinders.capacity];
+  Real velocity_m_s[S::cylinders.capacity];
+  Real acceleration_m_s2[S::cylinders.capacity];
+};
+
+/// Motion of each rod about its piston pin.
+template <class Real, class S>
+struct RodMotion {
+  Real rod_angle_rad[S::cylinders.capacity];
+  Real rod_speed_rad_s[S::cylinders.capacity];
+  Real rod_acceleration_rad_s2[S::cylinders.capacity];
+};
+
+/// How the crank moves where the speed is not given. At the end of the tick, with this tick's inputs:
+///
+///     J_eff acceleration = torque_Nm + starter_Nm - friction_Nm - load_Nm,    torque_Nm as in Torque
+template <class Real>
+struct CrankMotion {
+  Phase crank;                ///< 0 = cylinder 1's firing top dead centre
+  Real speed_rad_s;           ///< negative = backwards
+  Real acceleration_rad_s2;
+  Real friction_Nm;           ///< friction and brake, positive against forward rotation; at standstill what they hold against
+};
+template <class Real>
+struct StarterTorque {
+  Real starter_Nm;
+};
+
+/// At the end of the tick, of gas and masses at the crank speed w then: P dx/da - dM db/da with the masses' parts that go with w^2. Where
+/// forces make the speed, what masses take to be accelerated with the crank is in J_eff, not here, but it is in CylinderForces::torque_Nm.
+template <class Real>
+struct Torque {
+  Real torque_Nm;  ///< on the crankshaft, all cylinders
+};
+template <class Real>
+struct MeanTorque {
+  Real mean_torque_Nm;  ///< averaged over the angle turned in the tick: the work done divided by it
+};
+
+/// Forces of one cylinder: docs/model.md "Forces".
+template <class Real>
+struct CylinderForces {
+  Real pressure_Pa;          ///< absolute
+  Real gas_force_N;          ///< P_g, positive toward the crankshaft
+  Real inertia_force_N;      ///< P_j, reciprocating masses
+  Real total_force_N;        ///< P = P_g + P_j
+  Real side_force_N;         ///< N, on the cylinder wall
+  Real rod_force_N;          ///< S = P / cos b, along the rod; a rod's couple has no part in it
+  Real radial_force_N;       ///< K, at the crank pin, positive toward the crank centre
+  Real tangential_force_N;   ///< T, at the crank pin, positive with the rotation
+  Real torque_Nm;            ///< M = T r
+  Real tilting_moment_Nm;    ///< on the engine block about the crank axis
+};
+template <class Real, class S>
+struct Forces {
+  CylinderForces<Real> cylinder[S::cylinders.capacity];
+};
+
+/// Loads of crank pins and main journals in the frame that turns with the crankshaft.
+template <class Real, class S>
+struct BearingLoads {
+  Real pin_radial_N[S::cylinders.capacity];          ///< toward the crank centre
+  Real pin_tangential_N[S::cylinders.capacity];      ///< with the rotation
+  Real pin_load_N[S::cylinders.capacity];            ///< magnitude
+  Real journal_along_N[S::cylinders.capacity + 1];   ///< along the throw of pin 0, outward
+  Real journal_across_N[S::cylinders.capacity + 1];  ///< a quarter turn further in the sense of rotation
+  Real journal_load_N[S::cylinders.capacity + 1];
+};
+
+/// One free force and its moment about the middle of the crankshaft. Up is bank angle 0, lateral a quarter turn on in the sense of rotation.
+template <class Real>
+struct FreeForce {
+  Real up_N;
+  Real lateral_N;
+  Real pitch_Nm;  ///< sum of position times force up
+  Real yaw_Nm;    ///< sum of position times force lateral
+};
+template <class Real>
+struct FreeForces {
+  FreeForce<Real> first;     ///< of the reciprocating masses, first order
+  FreeForce<Real> second;    ///< of the reciprocating masses, second order
+  FreeForce<Real> rotating;  ///< centrifugal
+};
+
+/// Motion of one valve (of all that are alike in a cylinder and train).
+template <class Real>
+struct ValveMotionOutput {
+  Real theoretical_lift_m;   ///< of the cam, not below 0
+  Real lift_m;               ///< from the closed, preloaded valve
+  Real velocity_m_s;
+  Real acceleration_m_s2;
+};
+/// [train][cylinder]
+template <class Real, class S>
+struct Valves {
+  ValveMotionOutput<Real> valve[S::trains.capacity][S::cylinders.capacity];
+};
+
+/// Forces of one elastic valve.
+template <class Real>
+struct ValveForcesOutput {
+  Real train_N;      ///< between train and valve, pushing
+  Real seat_N;
+  Real tip_N;        ///< at the stem: the train's less the rocker's inertia; negative = the single mass would pull
+  Real cam_N;        ///< between cam and pad: rocker ratio times the train's
+  Real gap_m;        ///< train lift less valve lift; negative = lash or separation
+  std::uint32_t regime;  ///< 0 free, 1 train, 2 seat, 3 both
+};
+template <class Real, class S>
+struct ValveForces {
+  ValveForcesOutput<Real> valve_forces[S::trains.capacity][S::cylinders.capacity];
+};
+
+template <class Real, class S>
+struct Output : If<Needs<S>::crank_dynamics, CrankMotion<Real>>,
+                If<S::starter, StarterTorque<Real>>,
+                If<S::kinematics, Kinematics<Real, S>>,
+                If<S::rod_motion, RodMotion<Real, S>>,
+                If<S::torque, Torque<Real>>,
+                If<S::mean_torque, MeanTorque<Real>>,
+                If<S::forces, Forces<Real, S>>,
+                If<S::bearing_loads, BearingLoads<Real, S>>,
+                If<S::free_forces, FreeForces<Real>>,
+                If<Needs<S>::any_valves, Valves<Real, S>>,
+                If<S::valve_forces, ValveForces<Real, S>>,
+                If<S::valve_results, ValveResults<Real, S>>,
+                If<Needs<S>::any_triggers, Triggers<Real, S>> {
+  std::uint32_t faults;  ///< Fault bits of this tick
+};
+
+}  // namespace crankloop

@@ -1,0 +1,94 @@
+// What a tick of elastic valves remembers beside the state, all of it worked out from that.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include <crankloop/state.hpp>
+#include <crankloop/tables/lift_curve.hpp>
+#include <crankloop/tables/valve_tables.hpp>
+
+namespace crankloop::detail {
+
+/// Part of a cam's turn; 2^32 = 360 cam degrees.
+struct CamWindow {
+  std::uint32_t from = 0;
+  std::uint32_t width = 0;
+  [[nodiscard]] constexpr bool holds(std::uint32_t angle) const noexcept { return angle - from < width; }
+  /// All of the way to an angle, `turned` on from where it began: a whole turn is 2^64 there.
+  [[nodiscard]] constexpr bool holds_all_of(std::uint32_t to, std::int64_t turned) const noexcept {
+    const std::int64_t end = to - from;  // no less than 0
+    const std::int64_t begin = end - (turned >> 32);
+    return end < width && begin > 1 && begin + 1 < width;  // of the low words' rounding
+  }
+};
+
+/// The widest window about an angle that keeps off others.
+struct CamClearance {
+  std::uint32_t ahead = 0x7FFF'FFFF;
+  std::uint32_t behind = 0x7FFF'FFFF;
+
+  constexpr void keep_off(const CamWindow& other, std::uint32_t angle) noexcept {
+    const std::uint32_t to = other.from - angle;
+    const std::uint32_t since = angle - (other.from + other.width);
+    ahead = to < ahead ? to : ahead;
+    behind = since < behind ? since : behind;
+  }
+  [[nodiscard]] constexpr CamWindow about(std::uint32_t angle) const noexcept { return {angle - behind, behind + ahead}; }
+};
+
+/// Whether a scene's valves may be stepped abreast. By processor, not by the compiler's flags: a layout depends on it.
+#if defined(__x86_64__) || defined(__aarch64__)
+inline constexpr bool kHasLanes = true;
+#else
+inline constexpr bool kHasLanes = false;
+#endif
+template <class Real, class S>
+inline constexpr bool kMayGoAbreast = kHasLanes && sizeof(Real) == 4 && !S::valve_gas && !S::valve_forces && !S::valve_results;
+
+/// What lanes need side by side (tick/valve/valves_abreast.hpp).
+template <class S>
+struct alignas(16) AbreastWork {
+  static constexpr std::size_t kRoom = (ValvesState<float, S>::kLanes + 7) / 8 * 8;
+  static constexpr bool kBlocksAligned = S::cylinders.exact || S::cylinders.capacity % 8 == 0;
+  float regime[32][kRoom] = {};            ///< numbers of each lane's RegimeStep, up to calm_m
+  const LiftSegment<float>* curve[kRoom] = {};  ///< of its cam's lift, one for each degree of the lobe and one outside
+  std::int32_t degrees[kRoom] = {};        ///< of its lobe
+  std::int32_t opens_degree[kRoom] = {};   ///< of the train's cams: where its lobe begins,
+  std::uint32_t opens_into[kRoom] = {};    ///< and where in that degree, 2^32 = all of it
+  float cam_lift_m[kRoom] = {};            ///< at the tick's end,
+  float cam_per_deg_m[kRoom] = {};         ///< and its slope
+};
+
+/// What a valve that goes by itself has at hand.
+template <class Real>
+struct ValveWork {
+  const LiftCurve<Real>* curve;
+  const RegimeStep<Real>* regime;  ///< of its tick
+  std::uint32_t opens;             ///< where its lobe begins, high word
+  Real cam_lift_m, cam_per_deg_m;  ///< at the tick's end, if it moves: its cam's lift and the slope of it
+};
+template <class Real, class S>
+struct OneByOneWork {
+  ValveWork<Real> valve[ValvesState<Real, S>::kLanes] = {};
+};
+
+/// A bit for each valve of an engine, by its number.
+template <class S>
+using ValveBits = std::conditional_t<(S::trains.capacity * S::cylinders.capacity > 32), std::uint64_t, std::uint32_t>;
+
+/// What a tick of elastic valves remembers beside the state, all of it worked out from that.
+template <class Real, class S>
+struct ValvesWork : std::conditional_t<kMayGoAbreast<Real, S>, AbreastWork<S>, OneByOneWork<Real, S>> {
+  Real leap_deg = 0;                                      ///< a tick that turns some cam so far may pass over all of its lobe that counts;
+  Real far_deg = 0;                                       ///< over more than the cubic through its ends tells
+  ValveBits<S> moving = 0;                                ///< those that are not at rest with their cams away
+  CamWindow clear[kCamGroups<S>] = {};                    ///< of these cams' turn: none of a valve at rest comes near there,
+  CamWindow no_end[kCamGroups<S>] = {};                   ///< and none of any valve ends its cycle
+};
+
+template <class Real, class S>
+using ValvesWorkOf = If<Needs<S>::elastic_valves, ValvesWork<Real, S>>;
+
+}  // namespace crankloop::detail
