@@ -57,7 +57,7 @@ template <class Real, class S>
   if constexpr (Needs<S>::work) {  // the first tick's work counts from here
     if constexpr (Needs<S>::crank_dynamics) {
       Real mean_pressure_Pa[S::cylinders.capacity] = {};
-      detail::Step<Real, S> step(tables, state_, output_);
+      detail::TorqueStep<Real, S> step(tables, state_, output_);
       step.read_torque(0);
       step.read_given_pressures(mean_pressure_Pa);
       step.start_crank();

@@ -1,7 +1,7 @@
 // One tick of a crank that is turned by forces: docs/model.md "Crank dynamics".
 //
 // What belongs here: the integration of angle and speed, friction. What does not: gas torque and its work, which come from tables
-// (tick/crank/mechanisms_step.hpp), and the starter's torque (tick/crank/starter.hpp).
+// (tick/crank/torque_step.hpp), and the starter's torque (tick/crank/starter.hpp).
 //
 // The state is the reduced speed u = w sqrt(J_eff): u^2 / 2 is the kinetic energy, so work changes it without a term in dJ/da, and an energy
 // balance is kept to rounding. A tick is half of the friction, then gas, load and starter over the angle turned, then the other half of the

@@ -1,7 +1,7 @@
 // What the engine's gas torque lacks where cylinders do not fire: the torque of their heat, and its work.
 //
 // What belongs here: look-ups of cut cylinders, at both ends of a tick, so that a mask that changes from tick to tick leaves no jump in the
-// work. What does not: the torque of all cylinders (tick/crank/mechanisms_step.hpp).
+// work. What does not: the torque of all cylinders (tick/crank/torque_step.hpp).
 #pragma once
 
 #include <cstdint>
