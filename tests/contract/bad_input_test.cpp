@@ -126,7 +126,19 @@ TEST_F(BadInput, ARodThatCannotTurnIsRefusedWithTheLengthItNeeds) {
   expect_accepted(drawn.with("rod_length_mm", "67.6").with("pin_offset_mm", "-10"));
   expect_refused(sample_.with("rod_length_mm", "50"), "rod_length_mm",
                  {"50 is too short"});  // though rod_ratio replaces it
-  expect_refused(sample_.with("rod_ratio", "0.9").with("pin_offset_mm", "10"), "rod_ratio", {"makes the rod 63.88"});
+  const Engine hardly = sample_.with("pin_offset_mm", "10").with("rod_length_mm", "67.501");  // by a thousandth of a millimetre
+  expect_refused(hardly.with("rod_ratio", "0.852"), "rod_ratio", {"makes the rod 67.4883"});
+}
+
+TEST_F(BadInput, ARodWhoseLengthAndRatioDisagreeIsRefusedWithBoth) {
+  expect_accepted(sample_);  // 0.2738, and 57.5 / 210 = 0.27381
+  expect_accepted(sample_.with("rod_ratio", "0.27354"));                                            // 0.098 % below 57.5 / 210
+  expect_refused(sample_.with("rod_ratio", "0.27353"), "rod_ratio", {"0.27353", "rod_length_mm"});  // 0.102 %
+  expect_refused(sample_.with("rod_ratio", "0.27409"), "rod_ratio", {"0.27409"});                   // 0.102 % above
+  expect_refused(sample_.with("rod_length_mm", "260"), "rod_ratio",
+                 {"rod_ratio: 0.2738 contradicts rod_length_mm = 260 (line " + std::to_string(sample_.line_of("rod_length_mm")) + ")",
+                  "stroke_mm / 2 / rod_length_mm = 0.221154", "0.1 %", "leave rod_ratio out"});
+  expect_accepted(sample_.with("rod_length_mm", "260").without("rod_ratio"));
 }
 
 TEST_F(BadInput, AFiringOrderNamesEveryCylinderOnce) {

@@ -67,7 +67,7 @@ constexpr Key kKeys[] = {
     {"crank", "bore_mm", Kind::number, kMm, "crank.bore_m", above(0).up_to(2000), "", required, "", "", "", "bore"},
     {"crank", "stroke_mm", Kind::number, kMm, "", above(0).up_to(4000), "", required, "", "", "", "2 r; with a pin offset the true stroke is longer"},
     {"crank", "rod_length_mm", Kind::number, kMm, "crank.rod_length_m", above(0).up_to(10000), "", required, "", "", "", "l, pin to pin"},
-    {"crank", "rod_ratio", Kind::number, kNoUnit, "", above(0).below(1), "", optional, "", "", "", "lambda; sets l = r / lambda where a source rounds it"},
+    {"crank", "rod_ratio", Kind::number, kNoUnit, "", above(0).below(1), "", optional, "", "", "", "lambda; sets l = r / lambda where a source rounds it, within 0.1 % of rod_length_mm"},
     {"crank", "pin_offset_mm", Kind::number, kMm, "crank.pin_offset_m", from(-2000).up_to(2000), "", defaults, "0", "", "", "e; above 0: the axis lies on the side to which the pin moves after TDC"},
     {"crank", "compression_ratio", Kind::number, kNoUnit, "crank.compression_ratio", above(1).up_to(100), "", required, "", "", "", "(clearance + displacement) / clearance volume"},
 
