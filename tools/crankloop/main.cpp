@@ -39,10 +39,11 @@ std::string usage_of(const Command& command) {
 
 std::string help_of(const Command& command) {
   std::string text = "crankloop " + std::string(command.name) + ": " + command.summary + "\n\n" + usage_of(command);
-  if (command.options.count > 0) text += "\n";
+  const std::vector<Option> options = options_of(command);
+  if (!options.empty()) text += "\n";
   std::size_t width = 0;
-  for (const Option& option : command.options) width = std::max(width, with_value(option).size() + 2);
-  for (const Option& option : command.options) {
+  for (const Option& option : options) width = std::max(width, with_value(option).size() + 2);
+  for (const Option& option : options) {
     text += in_column(with_value(option), width) + option.meaning;
     if (const std::string allowed = describe(option.range, ""); !allowed.empty()) text += "; " + allowed;
     if (option.fallback != nullptr) text += std::string("; default ") + option.fallback;

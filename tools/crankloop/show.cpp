@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "commands.hpp"
-#include "engine_file/engine_file.hpp"
+#include "engine_file/plausibility.hpp"
 #include "error.hpp"
 #include "output.hpp"
 #include "words.hpp"
@@ -39,7 +39,7 @@ std::string show_section(const SectionValues& section, const std::string& engine
 }
 
 int run_show(const Arguments& arguments) {
-  const EngineFile engine = read_engine_file(arguments.file(), {});
+  const EngineFile engine = read_engine(arguments, {});
   Output out = Output::standard();
   out.write(show(engine));
   out.finish();

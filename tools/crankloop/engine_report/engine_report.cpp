@@ -106,6 +106,7 @@ report::Page engine_report(const ReportInput& input) {
       report::Paragraph{"Crank angles count from the firing top dead centre of cylinder 1 (0) over a four-stroke cycle "
                         "of 720 deg; displacement, velocity and axial forces are positive toward the crankshaft."});
   first.insert(first.begin(), report::Paragraph{pressure_remark(input), true});
+  report::put_first(page, input.warnings);
   page.footer = "Made by crankloop from " + input.file.path() + ".";
   return page;
 }
