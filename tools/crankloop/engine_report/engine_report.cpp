@@ -96,6 +96,7 @@ report::Page engine_report(const ReportInput& input) {
   page.sections.push_back(bearing_section(input));
   page.sections.push_back(balance_section(input));
   if (!input.trace.valves.empty()) page.sections.push_back(valve_section(input));
+  if (input.exact.definition().layout.cylinders > 1) page.sections.push_back(crankshaft_section(input));
   page.sections.push_back(accuracy_section(input));
   page.sections.push_back(definition_section(input));
 
