@@ -63,8 +63,10 @@ std::string help() {
   text += in_column("--version") + "prints the version\n";
   text += "\nexample: " + std::string(commands().front()->example) + "\n";
   text +=
-      "\nBad input ends with one line on stderr, FILE:LINE: what is wrong, and exit status 2, before anything is "
-      "written.\n";
+      "\nBad input ends before anything is written, with exit status 2 and on stderr:\n"
+      "  FILE:LINE: what is wrong, what is allowed         for each error of an engine file, up to 20; for the first one of a table\n"
+      "  crankloop COMMAND: what is wrong, what is allowed  for an option, with the command's usage below\n"
+      "Output that cannot be written, and any other failure, is a line crankloop: ... and exit status 1.\n";
   return text;
 }
 
