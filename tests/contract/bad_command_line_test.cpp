@@ -126,6 +126,25 @@ class Output : public BadInput {
   }
 };
 
+TEST_F(BadCommandLine, HelpSaysWhatErrorsLookLikeAndWhatAKeyUsuallyIs) {
+  const std::string help = run({"help"}).out;
+  for (const char* text : {"FILE:LINE: what is wrong", "crankloop COMMAND: what is wrong", "exit status 2", "exit status 1"}) {
+    EXPECT_NE(help.find(text), std::string::npos) << text;
+  }
+  const std::string keys = run({"help", "engine-file"}).out;
+  const auto about = [&keys](const std::string& key) {
+    const auto at = keys.find("\n  " + key + " ");
+    EXPECT_NE(at, std::string::npos) << key;
+    return keys.substr(at + 1, keys.find('\n', at + 1) - at - 1);
+  };
+  EXPECT_NE(about("bore_mm").find("; required"), std::string::npos) << about("bore_mm");
+  EXPECT_NE(about("net_mep_kPa").find("; required, or heat_J"), std::string::npos) << about("net_mep_kPa");
+  EXPECT_NE(about("rod_g").find("; required, or rod_small_end_g and rod_big_end_g"), std::string::npos) << about("rod_g");
+  EXPECT_EQ(about("crankcase_kPa").find("required"), std::string::npos);
+  EXPECT_NE(about("wiebe_m").find("; default 0.9; usual 0.7 to 3"), std::string::npos) << about("wiebe_m");
+  EXPECT_NE(about("compression_ratio").find("; usual "), std::string::npos) << about("compression_ratio");
+}
+
 TEST_F(Output, IsNotTouchedByBadInput) {
   write("old.csv", "precious\n");
   write("engine.ini", sample_.with("bore_mm", "-1").text());

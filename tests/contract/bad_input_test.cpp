@@ -40,14 +40,14 @@ constexpr NumberKey kNumberKeys[] = {
     {"[masses]", "crank_inertia_kg_m2", false, false},
     {"[layout]", "cylinder_spacing_mm", true, false},
     {"[pressure]", "crankcase_kPa", true, false},
-    {"[pressure]", "intake_kPa", false, false},
-    {"[pressure]", "exhaust_kPa", false, false},
-    {"[pressure]", "start_of_combustion_deg", false, true},
-    {"[pressure]", "combustion_duration_deg", false, false},
-    {"[pressure]", "wiebe_m", false, false},
-    {"[pressure]", "compression_exponent", false, false},
-    {"[pressure]", "expansion_exponent", false, false},
-    {"[pressure]", "exhaust_valve_opens_deg", false, false},
+    {"[pressure]", "intake_kPa", true, false},
+    {"[pressure]", "exhaust_kPa", true, false},
+    {"[pressure]", "start_of_combustion_deg", true, true},
+    {"[pressure]", "combustion_duration_deg", true, false},
+    {"[pressure]", "wiebe_m", true, false},
+    {"[pressure]", "compression_exponent", true, false},
+    {"[pressure]", "expansion_exponent", true, false},
+    {"[pressure]", "exhaust_valve_opens_deg", true, false},
     {"[pressure]", "net_mep_kPa", false, true},
 };
 
@@ -126,7 +126,19 @@ TEST_F(BadInput, ARodThatCannotTurnIsRefusedWithTheLengthItNeeds) {
   expect_accepted(drawn.with("rod_length_mm", "67.6").with("pin_offset_mm", "-10"));
   expect_refused(sample_.with("rod_length_mm", "50"), "rod_length_mm",
                  {"50 is too short"});  // though rod_ratio replaces it
-  expect_refused(sample_.with("rod_ratio", "0.9").with("pin_offset_mm", "10"), "rod_ratio", {"makes the rod 63.88"});
+  const Engine hardly = sample_.with("pin_offset_mm", "10").with("rod_length_mm", "67.501");  // by a thousandth of a millimetre
+  expect_refused(hardly.with("rod_ratio", "0.852"), "rod_ratio", {"makes the rod 67.4883"});
+}
+
+TEST_F(BadInput, ARodWhoseLengthAndRatioDisagreeIsRefusedWithBoth) {
+  expect_accepted(sample_);  // 0.2738, and 57.5 / 210 = 0.27381
+  expect_accepted(sample_.with("rod_ratio", "0.27354"));                                            // 0.098 % below 57.5 / 210
+  expect_refused(sample_.with("rod_ratio", "0.27353"), "rod_ratio", {"0.27353", "rod_length_mm"});  // 0.102 %
+  expect_refused(sample_.with("rod_ratio", "0.27409"), "rod_ratio", {"0.27409"});                   // 0.102 % above
+  expect_refused(sample_.with("rod_length_mm", "260"), "rod_ratio",
+                 {"rod_ratio: 0.2738 contradicts rod_length_mm = 260 (line " + std::to_string(sample_.line_of("rod_length_mm")) + ")",
+                  "stroke_mm / 2 / rod_length_mm = 0.221154", "0.1 %", "leave rod_ratio out"});
+  expect_accepted(sample_.with("rod_length_mm", "260").without("rod_ratio"));
 }
 
 TEST_F(BadInput, AFiringOrderNamesEveryCylinderOnce) {
@@ -181,7 +193,7 @@ TEST_F(BadInput, ARodIsGivenByItsEndsOrAsAWholeButNotBothOrNeither) {
     return no_rod.changed("piston_g", "piston_g = 810\n" + keys);
   };
   expect_refused(whole("rod_g = 1887"), "[masses]", {"lacks rod_com_to_crank_mm"});
-  expect_refused(whole("rod_inertia_kg_mm2 = 9000"), "[masses]", {"lacks rod_g"});
+  expect_refused(whole("rod_inertia_kg_mm2 = 9000\nrod_com_to_crank_mm = 56"), "[masses]", {"lacks rod_g"});
   expect_refused(whole("rod_g = 1887\nrod_com_to_crank_mm = 250"), "rod_com_to_crank_mm",
                  {"250 is out of range", "between the pins"});
   expect_accepted(whole("rod_g = 1887\nrod_com_to_crank_mm = 56"));
@@ -193,7 +205,7 @@ TEST_F(BadInput, AThrowIsGivenReducedOrByPinAndWebsButNotBothOrInPart) {
   expect_refused(with("crank_pin_equivalent_g = 900\ncrank_pin_g = 900"), "crank_pin_g",
                  {"crank_pin_g and crank_pin_equivalent_g", "exclude each other", "crank_pin_g and crank_web_g and crank_web_radius_mm"});
   expect_refused(with("crank_pin_g = 900\ncrank_web_radius_mm = 21"), "[masses]", {"lacks crank_web_g"});
-  expect_refused(with("crank_web_g = 1400"), "[masses]", {"lacks crank_pin_g"});
+  expect_refused(with("crank_web_g = 1400\ncrank_web_radius_mm = 21"), "[masses]", {"lacks crank_pin_g"});
   expect_refused(with("crank_pin_g = 900\ncrank_web_g = -1\ncrank_web_radius_mm = 21"), "crank_web_g", {"-1 is out of range; allowed: "});
 }
 
@@ -220,6 +232,39 @@ TEST_F(BadInput, MisspeltNamesAreToldWithTheNameThatWasMeant) {
   expect_refused(sample_.changed("[crank]", "[crank 1]"), "[crank 1]", {"takes no name"});
   expect_refused(sample_.plus("[crank]"), sample_.size() + 1,
                  {"[crank] is given twice", "line " + std::to_string(sample_.line_of("[crank]"))});
+}
+
+TEST_F(BadInput, SeveralErrorsAreToldAtOnceAndNoneThatFollowsFromAnother) {
+  const auto told = [this](const Engine& engine) {
+    write("engine.ini", engine.text());
+    const Answer answer = run({"show", path_});
+    EXPECT_EQ(answer.status, kBadInput);
+    EXPECT_EQ(answer.out, "");
+    return lines_of(answer.error);
+  };
+  const auto expect_at = [this](const std::string& line, std::size_t number, const std::string& fragment) {
+    const std::string start = path_ + ":" + std::to_string(number) + ": ";
+    EXPECT_EQ(line.compare(0, start.size(), start), 0) << line << "  should start with " << start;
+    EXPECT_NE(line.find(fragment), std::string::npos) << line << "  should say: " << fragment;
+  };
+  const Engine engine = sample_.with("bore_mm", "abc").with("compression_ratio", "-1").without("piston_g").without("rod_big_end_g").with("wiebe_m", "99");
+  const std::vector<std::string> lines = told(engine);
+  ASSERT_EQ(lines.size(), 5u);
+  expect_at(lines[0], engine.line_of("bore_mm"), "not a number");
+  expect_at(lines[1], engine.line_of("compression_ratio"), "-1 is out of range");
+  expect_at(lines[2], engine.line_of("[masses]"), "lacks piston_g");
+  expect_at(lines[3], engine.line_of("[masses]"), "lacks rod_big_end_g");
+  expect_at(lines[4], engine.line_of("wiebe_m"), "99 is out of range");
+  EXPECT_EQ(told(sample_.with("source", "weibe").without("net_mep_kPa")).size(), 1u) << "what a source needs is known with the source";
+  EXPECT_EQ(told(sample_.changed("bore_mm", "bor_mm = 95")).size(), 1u) << "the key that was meant is not missing too";
+  EXPECT_EQ(told(sample_.changed("[crank]", "[crnk]").changed("[masses]", "[mases]")).size(), 2u);
+  EXPECT_EQ(told(sample_.changed("[crank]", "[crank").changed("bore_mm", "bore_mm 95")).size(), 2u);
+
+  Engine many = sample_;
+  for (int i = 0; i < 30; ++i) many = many.plus("nonsense" + std::to_string(i) + " = 1");
+  const std::vector<std::string> most = told(many);
+  ASSERT_EQ(most.size(), 20u);
+  EXPECT_EQ(most.back(), path_ + ": 11 errors more");
 }
 
 TEST_F(BadInput, LinesThatAreNoLinesAreTold) {

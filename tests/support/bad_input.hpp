@@ -158,7 +158,7 @@ class BadInput : public testing::Test {
   }
   void expect_accepted(const Engine& engine) const {
     write("engine.ini", engine.text());
-    const Answer answer = run({"show", path_});
+    const Answer answer = run({"show", path_, "--no-warnings"});
     EXPECT_EQ(answer.status, 0) << answer.error;
     EXPECT_EQ(answer.error, "");
   }

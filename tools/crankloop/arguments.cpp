@@ -10,17 +10,13 @@
 namespace crankloop::program {
 namespace {
 
-const Option* find_option(const Options& options, std::string_view name) {
-  for (const Option& option : options) {
-    if (name == option.name) return &option;
-  }
-  return nullptr;
-}
-
 const Option& known_option(const Command& command, std::string_view name) {
-  if (const Option* option = find_option(command.options, name)) return *option;
+  for (const Option& option : command.options) {
+    if (name == option.name) return option;
+  }
+  if (command.files > 0 && name == kNoWarnings.name) return kNoWarnings;
   std::vector<std::string> names;
-  for (const Option& option : command.options) names.emplace_back(option.name);
+  for (const Option& option : options_of(command)) names.emplace_back(option.name);
   const std::string guess = suggestion(name, names);
   const std::string all = names.empty() ? "; this command has none" : "; options: " + join(names);
   throw UsageError("unknown option " + in_quotes(name) + (guess.empty() ? all : guess));
@@ -35,6 +31,12 @@ bool is_same_file(const std::string& a, const std::string& b) {
 }
 
 }  // namespace
+
+std::vector<Option> options_of(const Command& command) {
+  std::vector<Option> options(command.options.begin(), command.options.end());
+  if (command.files > 0) options.push_back(kNoWarnings);
+  return options;
+}
 
 Arguments::Arguments(const Command& command, const std::vector<std::string>& words) {
   bool options_ended = false;

@@ -45,6 +45,9 @@ struct Option {
   return {name, Option::Kind::text, value, meaning};
 }
 
+/// Of every command that takes an engine file, besides its own.
+inline constexpr Option kNoWarnings = flag("--no-warnings", "says nothing of values that are allowed but unusual");
+
 class Arguments;
 
 /// A command's options, from an array or none.
@@ -70,6 +73,9 @@ struct Command {
   Options options;
   int (*run)(const Arguments&);  ///< returns an ExitStatus; throws the types of error.hpp
 };
+
+/// Its own, and those of all that are like it.
+[[nodiscard]] std::vector<Option> options_of(const Command& command);
 
 /// What the user asked for, as `--name value`, `--name=value`, `--flag`, and files in between; `--` ends the options.
 class Arguments {

@@ -6,7 +6,7 @@
 
 #include "commands.hpp"
 #include "csv.hpp"
-#include "engine_file/engine_file.hpp"
+#include "engine_file/plausibility.hpp"
 #include "free_orders.hpp"
 #include "load_ratio.hpp"
 #include "tick_probe.hpp"
@@ -84,7 +84,7 @@ void write_bearings(CsvWriter& csv, const EngineDefinition& definition, double s
 }
 
 int run_balance(const Arguments& arguments) {
-  const EngineFile engine = read_engine_file(arguments.file(), {"engine", "crank", "masses"});
+  const EngineFile engine = read_engine(arguments, {"engine", "crank", "masses"});
   const EngineDefinition& definition = engine.definition();
   const double speed = arguments.number("--rpm") * kRad_sPerRpm;
   require_heat_to_scale(arguments, engine);

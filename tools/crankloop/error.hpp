@@ -15,7 +15,7 @@ enum ExitStatus : int {
   kBadInput = 2,  ///< the user's: an option, an engine file, a table
 };
 
-/// Bad input. The message is one line, "FILE:LINE: what is wrong, what is allowed".
+/// Bad input. The message is a line "FILE:LINE: what is wrong, what is allowed", of an engine file up to 20.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& message) : std::runtime_error(message) {}

@@ -7,7 +7,7 @@
 
 #include "commands.hpp"
 #include "csv.hpp"
-#include "engine_file/engine_file.hpp"
+#include "engine_file/plausibility.hpp"
 #include "load_ratio.hpp"
 #include "tick_probe.hpp"
 #include "units.hpp"
@@ -108,7 +108,7 @@ void write(CsvWriter& csv, const EngineFile& engine, const Arguments& arguments,
 }
 
 int run_forces(const Arguments& arguments) {
-  const EngineFile engine = read_engine_file(arguments.file(), {"engine", "crank", "masses"});
+  const EngineFile engine = read_engine(arguments, {"engine", "crank", "masses"});
   const EngineDefinition& definition = engine.definition();
   require_heat_to_scale(arguments, engine);
   const int cylinder = arguments.whole_number("--cylinder") - 1;

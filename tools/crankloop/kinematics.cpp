@@ -3,7 +3,7 @@
 
 #include "commands.hpp"
 #include "csv.hpp"
-#include "engine_file/engine_file.hpp"
+#include "engine_file/plausibility.hpp"
 #include "tick_probe.hpp"
 #include "units.hpp"
 #include "with_real.hpp"
@@ -58,7 +58,7 @@ int run_kinematics(const Arguments& arguments) {
   const double speed = arguments.has("--rpm") ? arguments.number("--rpm") * kRad_sPerRpm : arguments.number("--speed-rad-s");
   const double step_deg = arguments.number("--step-deg");
   const std::string& method = arguments.text("--method");
-  const EngineFile engine = read_engine_file(arguments.file(), {"engine", "crank"});
+  const EngineFile engine = read_engine(arguments, {"engine", "crank"});
   const Crank& crank = engine.definition().crank;
   if (method == "approx" && crank.pin_offset_m != 0) {
     throw InputError(engine.path() + ": the second-order approximations hold for pin_offset_mm = 0 only; use --method exact");

@@ -6,7 +6,7 @@
 
 #include "commands.hpp"
 #include "csv.hpp"
-#include "engine_file/engine_file.hpp"
+#include "engine_file/plausibility.hpp"
 #include "summary.hpp"
 #include "tick_probe.hpp"
 #include "units.hpp"
@@ -47,7 +47,7 @@ std::string summary(const ValveLift& lift, CamSource source) {
 
 int run_lift(const Arguments& arguments) {
   const std::string& name = arguments.text("--train");
-  const EngineFile engine = read_engine_file(arguments.file(), {});
+  const EngineFile engine = read_engine(arguments, {});
   const TrainOfFile& train = engine.train(name);
   for (const std::string& title : {"cam " + name, "rocker " + name}) {
     if (!engine.has(title)) throw InputError(engine.path() + ": section [" + title + "] is missing; this command needs it");

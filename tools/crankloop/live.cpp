@@ -7,7 +7,7 @@
 #include <string>
 
 #include "commands.hpp"
-#include "engine_file/engine_file.hpp"
+#include "engine_file/plausibility.hpp"
 #include "error.hpp"
 #include "live/live_loop.hpp"
 #include "live/live_summary.hpp"
@@ -48,10 +48,11 @@ LiveRequest request_of(const Arguments& arguments, const EngineFile& file) {
 }
 
 int run_live_command(const Arguments& arguments) {
-  const EngineFile file = read_engine_file(arguments.file(), {"engine", "crank", "masses"});
+  const EngineFile file = read_engine(arguments, {"engine", "crank", "masses"});
   const LiveRequest request = request_of(arguments, file);
   const std::string& real = arguments.text("--real");
   const bool shares = arguments.has("--shared");
+  if (!shares && request.at_start.load_Nm == 0) tell_warnings(arguments, warnings_about_running_free(file, file.definition()));
   std::optional<Output> histogram;
   if (arguments.has("--histogram")) histogram.emplace(arguments.text("--histogram"));
 

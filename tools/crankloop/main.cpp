@@ -39,10 +39,11 @@ std::string usage_of(const Command& command) {
 
 std::string help_of(const Command& command) {
   std::string text = "crankloop " + std::string(command.name) + ": " + command.summary + "\n\n" + usage_of(command);
-  if (command.options.count > 0) text += "\n";
+  const std::vector<Option> options = options_of(command);
+  if (!options.empty()) text += "\n";
   std::size_t width = 0;
-  for (const Option& option : command.options) width = std::max(width, with_value(option).size() + 2);
-  for (const Option& option : command.options) {
+  for (const Option& option : options) width = std::max(width, with_value(option).size() + 2);
+  for (const Option& option : options) {
     text += in_column(with_value(option), width) + option.meaning;
     if (const std::string allowed = describe(option.range, ""); !allowed.empty()) text += "; " + allowed;
     if (option.fallback != nullptr) text += std::string("; default ") + option.fallback;
@@ -62,8 +63,10 @@ std::string help() {
   text += in_column("--version") + "prints the version\n";
   text += "\nexample: " + std::string(commands().front()->example) + "\n";
   text +=
-      "\nBad input ends with one line on stderr, FILE:LINE: what is wrong, and exit status 2, before anything is "
-      "written.\n";
+      "\nBad input ends before anything is written, with exit status 2 and on stderr:\n"
+      "  FILE:LINE: what is wrong, what is allowed         for each error of an engine file, up to 20; for the first one of a table\n"
+      "  crankloop COMMAND: what is wrong, what is allowed  for an option, with the command's usage below\n"
+      "Output that cannot be written, and any other failure, is a line crankloop: ... and exit status 1.\n";
   return text;
 }
 

@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "csv.hpp"
+#include "engine_file/plausibility.hpp"
 #include "progress.hpp"
 #include "results.hpp"
 #include "summary.hpp"
@@ -171,7 +172,7 @@ int run_redline(const Arguments& arguments) {
   const SpeedRange range = speed_range(arguments.whole_number("--from"), arguments.whole_number("--to"));
   if (range.from_rpm >= range.to_rpm) throw UsageError("--from must be less than --to");
   const std::string& name = arguments.text("--train");
-  const EngineFile file = read_engine_file(arguments.file(), {});
+  const EngineFile file = read_engine(arguments, {});
   const LoneValve valve(file, name);
   Results results(arguments, {"--csv", "--report"});
   Redline redline{valve, range, influence_of(arguments), {}, ""};

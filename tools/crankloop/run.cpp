@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <crankloop/tabulate/mechanism.hpp>
@@ -9,7 +10,7 @@
 
 #include "commands.hpp"
 #include "csv.hpp"
-#include "engine_file/engine_file.hpp"
+#include "engine_file/plausibility.hpp"
 #include "engine_report/engine_report.hpp"
 #include "free/free_request.hpp"
 #include "load_ratio.hpp"
@@ -72,6 +73,7 @@ struct Request {
   Operation operation;
   int cycles;
   std::string real;
+  std::vector<std::string> warnings;  ///< told, for the report
 };
 
 struct Engines {
@@ -219,7 +221,8 @@ void run(const Engines& engine, const Request& request, const Arguments& argumen
                             close_up,
                             request.real,
                             command_line(arguments, request),
-                            wall_time_per_tick_ns};
+                            wall_time_per_tick_ns,
+                            request.warnings};
     page->write(report::to_html(engine_report(input)));
   }
   results.finish(summary_text(engine, request, figures, wall_time_per_tick_ns));
@@ -227,13 +230,14 @@ void run(const Engines& engine, const Request& request, const Arguments& argumen
 
 int run_run(const Arguments& arguments) {
   require_options_that_fit(arguments);
-  const EngineFile file = read_engine_file(arguments.file(), {"engine", "crank", "masses"});
+  std::vector<std::string> warnings;
+  const EngineFile file = read_engine(arguments, {"engine", "crank", "masses"}, &warnings);
   const EngineDefinition& definition = file.definition();
   require_heat_to_scale(arguments, file);
-  if (arguments.has("--free")) return run_free_by(arguments, file);
+  if (arguments.has("--free")) return run_free_by(arguments, file, std::move(warnings));
   const Operation operation{arguments.has("--rpm") ? arguments.number("--rpm") : file.rated_rpm(),
                             millionths(arguments.number("--tick-us")), arguments.number("--load-ratio")};
-  const Request request{operation, arguments.whole_number("--cycles"), arguments.text("--real")};
+  const Request request{operation, arguments.whole_number("--cycles"), arguments.text("--real"), std::move(warnings)};
   require_trains(file, operation.tick_s);
   ExactEngine exact;
   if (const Status refused = exact.init(definition); !refused.ok()) throw file.explain(refused);

@@ -3,7 +3,8 @@
 #include <filesystem>
 
 #include "commands.hpp"
-#include "engine_file/engine_file.hpp"
+#include "engine_file/crankshaft_words.hpp"
+#include "engine_file/plausibility.hpp"
 #include "error.hpp"
 #include "output_file.hpp"
 #include "words.hpp"
@@ -38,8 +39,18 @@ std::string show_section(const SectionValues& section, const std::string& engine
   return text;
 }
 
+/// As comments: what the layout became.
+std::string show_crankshaft(const Layout& layout) {
+  if (layout.cylinders < 2) return "";
+  std::string text;
+  for (const std::string& line : throws_in_words(layout)) text += (text.empty() ? "# " : "#   ") + line + "\n";
+  text += "# " + firing_in_words(layout) + "\n";
+  const std::string hint = shared_pins_hint(layout);
+  return hint.empty() ? text : text + "# " + hint + "\n";
+}
+
 int run_show(const Arguments& arguments) {
-  const EngineFile engine = read_engine_file(arguments.file(), {});
+  const EngineFile engine = read_engine(arguments, {});
   Output out = Output::standard();
   out.write(show(engine));
   out.finish();
@@ -50,7 +61,10 @@ int run_show(const Arguments& arguments) {
 
 std::string show(const EngineFile& engine) {
   std::string text = "# A complete engine definition: every default is filled in.\n";
-  for (const SectionValues& section : engine.sections()) text += show_section(section, engine.path());
+  for (const SectionValues& section : engine.sections()) {
+    text += show_section(section, engine.path());
+    if (section.kind == "layout") text += show_crankshaft(engine.definition().layout);
+  }
   if (engine.has("crank") && !engine.has("masses")) {
     text += "\n# There is no [masses] section, and it has no defaults: no forces.\n";
   }

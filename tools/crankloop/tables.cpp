@@ -12,7 +12,7 @@
 #include <crankloop/tabulate/tabulate.hpp>
 
 #include "commands.hpp"
-#include "engine_file/engine_file.hpp"
+#include "engine_file/plausibility.hpp"
 #include "error.hpp"
 #include "output_file.hpp"
 #include "valve/valve_tick_limit.hpp"
@@ -177,7 +177,7 @@ bool is_identifier(const std::string& s) {
 
 int run_tables(const Arguments& arguments) {
   if (!is_identifier(arguments.text("--namespace"))) throw UsageError("--namespace must be a C++ identifier");
-  const EngineFile engine = read_engine_file(arguments.file(), {"engine", "crank", "masses"});
+  const EngineFile engine = read_engine(arguments, {"engine", "crank", "masses"});
   Output out(arguments.text_or_empty("--output"));
   if (arguments.text("--real") == "float") {
     print_header<float>(out, engine, arguments);

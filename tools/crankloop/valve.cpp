@@ -6,7 +6,7 @@
 
 #include "commands.hpp"
 #include "csv.hpp"
-#include "engine_file/engine_file.hpp"
+#include "engine_file/plausibility.hpp"
 #include "progress.hpp"
 #include "results.hpp"
 #include "summary.hpp"
@@ -140,7 +140,7 @@ int run_valve(const Arguments& arguments) {
                         arguments.text("--real")};
   if (request.speed_rpm == 0) throw UsageError("--rpm 0: the cam would never turn");
   const std::string& name = arguments.text("--train");
-  const EngineFile file = read_engine_file(arguments.file(), {});
+  const EngineFile file = read_engine(arguments, {});
   const LoneValve valve(file, name);
   Results results(arguments, {"--csv", "--plot"});
   with_real(request.real, [&](auto zero) { run<decltype(zero)>(valve, request, results); });

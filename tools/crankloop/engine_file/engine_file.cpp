@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine_file_parts.hpp"
+#include "problems.hpp"
 #include "../table_file.hpp"
 #include "../text_file.hpp"
 #include "../words.hpp"
@@ -22,32 +23,31 @@ std::string title_of(const SectionValues& section) {
 }
 
 /// Known kinds, named where they must be, none twice.
-void check_headers(const IniText& ini, const std::string& path) {
-  std::map<std::string, int> first_lines;
-  for (const IniSection& section : ini.sections) {
-    const SectionKind* kind = find_section_kind(section.kind);
-    if (kind == nullptr) {
-      std::vector<std::string> names;
-      for (const SectionKind& known : section_kinds()) names.emplace_back(known.name);
-      const std::string guess = suggestion(section.kind, names);
-      throw InputError(
-          path, section.line,
-          "unknown section [" + section.kind + "]" + (guess.empty() ? "; sections: " + join(names) : guess));
-    }
-    if (kind->named && section.name.empty()) {
-      throw InputError(path, section.line,
-                       "[" + section.kind + "] needs a name; write it like [" + section.kind + " intake]");
-    }
-    if (!kind->named && !section.name.empty()) {
-      throw InputError(path, section.line, section.title() + " takes no name; write it [" + section.kind + "]");
-    }
-    const auto [first, is_new] = first_lines.emplace(section.title(), section.line);
-    if (!is_new) {
-      throw InputError(path, section.line,
-                       section.title() + " is given twice (first in line " + std::to_string(first->second) +
-                           "); put all its keys under one header");
-    }
+void check_header(const IniSection& section, std::map<std::string, int>& first_lines, const std::string& path) {
+  const SectionKind* kind = find_section_kind(section.kind);
+  if (kind == nullptr) {
+    std::vector<std::string> names;
+    for (const SectionKind& known : section_kinds()) names.emplace_back(known.name);
+    const std::string guess = suggestion(section.kind, names);
+    throw InputError(path, section.line, "unknown section [" + section.kind + "]" + (guess.empty() ? "; sections: " + join(names) : guess));
   }
+  if (kind->named && section.name.empty()) {
+    throw InputError(path, section.line, "[" + section.kind + "] needs a name; write it like [" + section.kind + " intake]");
+  }
+  if (!kind->named && !section.name.empty()) {
+    throw InputError(path, section.line, section.title() + " takes no name; write it [" + section.kind + "]");
+  }
+  const auto [first, is_new] = first_lines.emplace(section.title(), section.line);
+  if (is_new) return;
+  throw InputError(path, section.line,
+                   section.title() + " is given twice (first in line " + std::to_string(first->second) + "); put all its keys under one header");
+}
+
+void check_headers(const IniText& ini, const std::string& path) {
+  Problems problems;
+  std::map<std::string, int> first_lines;
+  for (const IniSection& section : ini.sections) problems.of([&] { check_header(section, first_lines, path); });
+  problems.refuse(path);
 }
 
 /// In the order of section_kinds(); sections of one kind stay in the order of the file.
@@ -68,11 +68,15 @@ EngineFile read_engine_file(const std::string& path, const std::vector<std::stri
   check_headers(ini, path);
 
   EngineFile engine(path);
-  for (const IniSection& section : ini.sections) engine.sections_.push_back(resolve_section(section, path));
+  Problems problems;
+  for (const IniSection& section : ini.sections) problems.of([&] { engine.sections_.push_back(resolve_section(section, path)); });
   for (const std::string& title : needed_sections) {
-    if (!engine.has(title))
-      throw InputError(path, ini.last_line, "section [" + title + "] is missing; this command needs it");
+    const bool there = std::any_of(ini.sections.begin(), ini.sections.end(), [&title](const IniSection& one) { return one.kind == title; });
+    problems.of([&] {
+      if (!there) throw InputError(path, ini.last_line, "section [" + title + "] is missing; this command needs it");
+    });
   }
+  problems.refuse(path);
   if (engine.has("crank")) {
     if (!engine.has("layout")) engine.sections_.push_back(resolve_section({"layout", "", 0, {}}, path));
     if (!engine.has("pressure"))

@@ -1,6 +1,6 @@
 // One engine from its file: read, checked, complete.
 //
-//     const EngineFile engine = read_engine_file(arguments.file(), {"engine", "crank", "masses"});
+//     const EngineFile engine = read_engine_file(path, {"engine", "crank", "masses"});
 //     const Status status = tabulate(engine.definition(), ...);
 //     if (!status.ok()) throw engine.explain(status);
 //

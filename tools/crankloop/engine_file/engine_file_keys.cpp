@@ -67,9 +67,9 @@ constexpr Key kKeys[] = {
     {"crank", "bore_mm", Kind::number, kMm, "crank.bore_m", above(0).up_to(2000), "", required, "", "", "", "bore"},
     {"crank", "stroke_mm", Kind::number, kMm, "", above(0).up_to(4000), "", required, "", "", "", "2 r; with a pin offset the true stroke is longer"},
     {"crank", "rod_length_mm", Kind::number, kMm, "crank.rod_length_m", above(0).up_to(10000), "", required, "", "", "", "l, pin to pin"},
-    {"crank", "rod_ratio", Kind::number, kNoUnit, "", above(0).below(1), "", optional, "", "", "", "lambda; sets l = r / lambda where a source rounds it"},
+    {"crank", "rod_ratio", Kind::number, kNoUnit, "", above(0).below(1), "", optional, "", "", "", "lambda; sets l = r / lambda where a source rounds it, within 0.1 % of rod_length_mm", "0.2 to 0.35"},
     {"crank", "pin_offset_mm", Kind::number, kMm, "crank.pin_offset_m", from(-2000).up_to(2000), "", defaults, "0", "", "", "e; above 0: the axis lies on the side to which the pin moves after TDC"},
-    {"crank", "compression_ratio", Kind::number, kNoUnit, "crank.compression_ratio", above(1).up_to(100), "", required, "", "", "", "(clearance + displacement) / clearance volume"},
+    {"crank", "compression_ratio", Kind::number, kNoUnit, "crank.compression_ratio", above(1).up_to(100), "", required, "", "", "", "(clearance + displacement) / clearance volume", "8 to 12 with spark ignition, 14 to 22 in diesels"},
 
     {"masses", "piston_g", Kind::number, kG, "masses.piston_kg", from(0).up_to(5e6), "", required, "", "", "", "piston with rings and pin"},
     {"masses", "rod_small_end_g", Kind::number, kG, "masses.rod_small_end_kg", from(0).up_to(5e6), "", required, "", "", "rod:two ends", "rod's share that moves with the piston"},
@@ -94,15 +94,15 @@ constexpr Key kKeys[] = {
 
     {"pressure", "source", Kind::choice, kNoUnit, "", kAny, "wiebe|angle_table|volume_table|none", required, "", "", "", "what the diagram comes from"},
     {"pressure", "crankcase_kPa", Kind::number, kKPa, "pressure.crankcase_Pa", above(0).up_to(10000), "", defaults, "100", "", "", "on the piston's other side"},
-    {"pressure", "intake_kPa", Kind::number, kKPa, "pressure.wiebe.intake_Pa", above(0).up_to(10000), "", required, "", kWiebe, "", "intake plenum"},
-    {"pressure", "exhaust_kPa", Kind::number, kKPa, "pressure.wiebe.exhaust_Pa", above(0).up_to(10000), "", required, "", kWiebe, "", "exhaust back pressure"},
-    {"pressure", "start_of_combustion_deg", Kind::number, kDeg, "pressure.wiebe.start_of_combustion_deg", from(-90).up_to(90), "", required, "", kWiebe, "", "crank angle, firing TDC = 0"},
-    {"pressure", "combustion_duration_deg", Kind::number, kDeg, "pressure.wiebe.combustion_duration_deg", from(1).up_to(150), "", required, "", kWiebe, "", "must end before the exhaust valve opens"},
-    {"pressure", "wiebe_m", Kind::number, kNoUnit, "pressure.wiebe.wiebe_m", from(0).up_to(10), "", required, "", kWiebe, "", "form exponent of the heat release"},
-    {"pressure", "compression_exponent", Kind::number, kNoUnit, "pressure.wiebe.compression_exponent", from(1).up_to(2), "", required, "", kWiebe, "", "n1, polytropic"},
-    {"pressure", "expansion_exponent", Kind::number, kNoUnit, "pressure.wiebe.expansion_exponent", from(1.0001).up_to(2), "", required, "", kWiebe, "", "n2, polytropic"},
+    {"pressure", "intake_kPa", Kind::number, kKPa, "pressure.wiebe.intake_Pa", above(0).up_to(10000), "", defaults, "98", kWiebe, "", "intake plenum"},
+    {"pressure", "exhaust_kPa", Kind::number, kKPa, "pressure.wiebe.exhaust_Pa", above(0).up_to(10000), "", defaults, "105", kWiebe, "", "exhaust back pressure"},
+    {"pressure", "start_of_combustion_deg", Kind::number, kDeg, "pressure.wiebe.start_of_combustion_deg", from(-90).up_to(90), "", defaults, "-6", kWiebe, "", "crank angle, firing TDC = 0", "-25 to 0"},
+    {"pressure", "combustion_duration_deg", Kind::number, kDeg, "pressure.wiebe.combustion_duration_deg", from(1).up_to(150), "", defaults, "60", kWiebe, "", "must end before the exhaust valve opens", "40 to 80"},
+    {"pressure", "wiebe_m", Kind::number, kNoUnit, "pressure.wiebe.wiebe_m", from(0).up_to(10), "", defaults, "0.9", kWiebe, "", "form exponent of the heat release", "0.7 to 3"},
+    {"pressure", "compression_exponent", Kind::number, kNoUnit, "pressure.wiebe.compression_exponent", from(1).up_to(2), "", defaults, "1.35", kWiebe, "", "n1, polytropic", "1.3 to 1.4"},
+    {"pressure", "expansion_exponent", Kind::number, kNoUnit, "pressure.wiebe.expansion_exponent", from(1.0001).up_to(2), "", defaults, "1.28", kWiebe, "", "n2, polytropic", "1.25 to 1.35"},
     {"pressure", "motored_expansion_exponent", Kind::number, kNoUnit, "pressure.wiebe.motored_expansion_exponent", from(0).up_to(3), "", defaults, "0", kWiebe, "", "of a cylinder that does not fire, at least n1; 0: n1 + 0.03"},
-    {"pressure", "exhaust_valve_opens_deg", Kind::number, kDeg, "pressure.wiebe.exhaust_valve_opens_deg", from(30).up_to(179), "", required, "", kWiebe, "", "crank angle, firing TDC = 0"},
+    {"pressure", "exhaust_valve_opens_deg", Kind::number, kDeg, "pressure.wiebe.exhaust_valve_opens_deg", from(30).up_to(179), "", defaults, "135", kWiebe, "", "crank angle, firing TDC = 0", "110 to 145"},
     {"pressure", "net_mep_kPa", Kind::number, kKPa, "pressure.wiebe.net_mep_Pa", from(-10000).up_to(100000), "", required, "", kWiebe, "heat:net IMEP", "net IMEP over 720 deg, at least the motored one; heat is scaled to meet it"},
     {"pressure", "heat_J", Kind::number, kJ, "pressure.wiebe.heat_J", from(0).up_to(1e9), "", required, "", kWiebe, "heat:heat", "heat per cylinder and cycle, instead of net_mep_kPa; 0: motored"},
     {"pressure", "file", Kind::path, kNoUnit, "", kAny, "", required, "", kTables, "", "CSV with header crank_deg,pressure_kPa or volume_cm3,pressure_kPa; relative to the engine file"},
@@ -188,11 +188,25 @@ constexpr bool fields_exist() {
 }
 static_assert(fields_exist(), "a key is that of a field that the definition does not have");
 
+/// ", or heat_J": what may be given instead, where there is a choice.
+std::string other_ways(const Key& key) {
+  if (key.form[0] == '\0') return "";
+  const std::string_view choice = split(key.form, ':')[0];
+  std::vector<std::string> keys;
+  for (const Key& other : kKeys) {
+    const bool instead = key.section == std::string_view(other.section) && split(other.form, ':')[0] == choice && key.form != std::string_view(other.form);
+    if (instead && other.presence != Presence::optional) keys.emplace_back(other.name);
+  }
+  return keys.empty() ? "" : ", or " + join(keys, " and ");
+}
+
 std::string words_about(const Key& key) {
   std::string words = key.meaning;
   if (const std::string allowed = key.allowed(); !allowed.empty()) words += "; " + allowed;
+  if (key.presence == Presence::required) words += "; required" + other_ways(key);
   if (key.presence == Presence::with_default) words += std::string("; default ") + key.fallback;
   if (key.presence == Presence::optional) words += "; optional";
+  if (key.usual[0] != '\0') words += std::string("; usual ") + key.usual;
   if (key.only_if[0] != '\0') words += std::string("; only with ") + key.only_if;
   return words;
 }

@@ -46,6 +46,7 @@ struct Key {
   const char* only_if;   ///< "source=wiebe": with another source the key is checked, but not used; "" always
   const char* form;      ///< "rod:ends": one of two ways to say the same thing, given exactly one way; "" no other way
   const char* meaning;
+  const char* usual = "";  ///< "0.7 to 3"; only for help
 
   [[nodiscard]] std::string allowed() const;  ///< "above 0, at most 2000 mm"
 };

@@ -13,16 +13,35 @@ std::string rod_length_too_short(const SectionValues& crank) {
          " mm, by more than a billionth, or the crank cannot turn";
 }
 
+namespace {
+
+/// A source that prints both rounds both; farther apart than this they are two rods, and one of them is not meant.
+constexpr double kMostRodDisagreement = 1e-3;
+
+void require_that_rod_and_ratio_agree(const SectionValues& values, const Crank& drawn, const std::string& path) {
+  const double given = values.si("rod_ratio");
+  if (std::abs(given / drawn.rod_ratio() - 1) <= kMostRodDisagreement) return;
+  refuse(values, "rod_ratio",
+         shortest(given) + " contradicts rod_length_mm = " + shortest(values.number("rod_length_mm")) + " (line " +
+             std::to_string(values.line_of("rod_length_mm")) + "), with which stroke_mm / 2 / rod_length_mm = " + brief(drawn.rod_ratio()) +
+             "; they may differ by 0.1 %, or leave rod_ratio out",
+         path);
+}
+
+}  // namespace
+
 Crank build_crank(const SectionValues& values, const std::string& path) {
   Crank crank;
   fill(values, crank);
   crank.crank_radius_m = values.si("stroke_mm") / 2;
-  // Also where rod_ratio replaces it: a rod that cannot be is a slip of the pen.
   if (crank.rod_length_m <= crank.least_rod_length_m()) {
     throw InputError(path, values.line_of("rod_length_mm"), rod_length_too_short(values));
   }
-  // Everything that knows a rod length then knows this one, so that motion, masses and energies agree with one another.
-  if (values.has("rod_ratio")) crank.rod_length_m = crank.crank_radius_m / values.si("rod_ratio");
+  if (values.has("rod_ratio")) {
+    require_that_rod_and_ratio_agree(values, crank, path);
+    // Everything that knows a rod length then knows this one, so that motion, masses and energies agree with one another.
+    crank.rod_length_m = crank.crank_radius_m / values.si("rod_ratio");
+  }
   return crank;
 }
 

@@ -28,7 +28,7 @@ void fill(const SectionValues& values, Part& part) {
   }, part);
 }
 
-/// Throws InputError for a rod_length_mm with which the crank cannot turn, even if rod_ratio replaces it.
+/// Throws InputError for a rod_length_mm with which the crank cannot turn, and for a rod_ratio that contradicts it.
 [[nodiscard]] Crank build_crank(const SectionValues& values, const std::string& path);
 
 [[nodiscard]] Masses build_masses(const SectionValues& values, const Crank& crank, const std::string& path);

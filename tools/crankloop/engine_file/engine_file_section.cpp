@@ -5,6 +5,7 @@
 
 #include "engine_file_values.hpp"
 #include "../error.hpp"
+#include "problems.hpp"
 #include "../words.hpp"
 
 namespace crankloop::program {
@@ -21,18 +22,34 @@ const Key& known_key(const IniSection& section, const IniEntry& entry, const std
   throw InputError(path, entry.line, "unknown key " + in_quotes(entry.key) + " in " + section.title() + help);
 }
 
-SectionValues read_given(const IniSection& section, const std::string& path) {
-  SectionValues values{section.kind, section.name, section.line, {}};
-  for (const IniEntry& entry : section.entries) {
-    const Key& key = known_key(section, entry, path);
-    if (values.has(key.name)) {
-      throw InputError(path, entry.line,
-                       std::string(key.name) + " is given twice in " + section.title() + " (first in line " +
-                           std::to_string(values.find(key.name)->line) + "); once is allowed");
-    }
-    values.values.push_back(parse_value(key, entry.value, path, entry.line));
+/// What a section says, and what of it could not be read.
+struct Given {
+  SectionValues values;
+  std::vector<const Key*> bad;  ///< there, but without a value
+  bool guessing = false;        ///< what else is needed depends on what could not be read
+};
+
+Value read_entry(const IniSection& section, const IniEntry& entry, const SectionValues& before, const std::string& path) {
+  const Key& key = known_key(section, entry, path);
+  if (before.has(key.name)) {
+    throw InputError(path, entry.line,
+                     std::string(key.name) + " is given twice in " + section.title() + " (first in line " +
+                         std::to_string(before.find(key.name)->line) + "); once is allowed");
   }
-  return values;
+  return parse_value(key, entry.value, path, entry.line);
+}
+
+Given read_given(const IniSection& section, const std::string& path, Problems& problems) {
+  Given given{{section.kind, section.name, section.line, {}}, {}, false};
+  for (const IniEntry& entry : section.entries) {
+    const std::size_t before = given.values.values.size();
+    problems.of([&] { given.values.values.push_back(read_entry(section, entry, given.values, path)); });
+    if (given.values.values.size() > before) continue;
+    const Key* key = find_key(section.kind, entry.key);
+    given.guessing = given.guessing || key == nullptr || key->kind == Kind::choice || key->form[0] != '\0';
+    given.bad.push_back(key);
+  }
+  return given;
 }
 
 /// "source=angle_table|volume_table": whether the source is one of them.
@@ -114,16 +131,20 @@ std::map<std::string, FormInUse> forms_in_use(const SectionValues& values, const
 }  // namespace
 
 SectionValues resolve_section(const IniSection& section, const std::string& path) {
-  SectionValues values = read_given(section, path);
+  Problems problems;
+  Given given = read_given(section, path, problems);
+  if (given.guessing) problems.refuse(path);
+  SectionValues& values = given.values;
   for (Value& value : values.values) value.used = counts(*value.key, values);
-  const std::map<std::string, FormInUse> choices = forms_in_use(values, path);
+  std::map<std::string, FormInUse> choices;
+  if (!problems.of([&] { choices = forms_in_use(values, path); })) problems.refuse(path);
 
   std::vector<Value> complete;
   for (const Key* key : keys_of(section.kind)) {
-    const auto given = std::find_if(values.values.begin(), values.values.end(),
+    const auto found = std::find_if(values.values.begin(), values.values.end(),
                                     [key](const Value& value) { return value.key == key; });
-    if (given != values.values.end()) {
-      complete.push_back(*given);
+    if (found != values.values.end()) {
+      complete.push_back(*found);
       continue;
     }
     if (!counts(*key, values) || key->presence == Presence::optional) continue;
@@ -132,13 +153,18 @@ SectionValues resolve_section(const IniSection& section, const std::string& path
       complete.push_back(parse_value(*key, key->fallback, path, 0));
       continue;
     }
+    if (std::find(given.bad.begin(), given.bad.end(), key) != given.bad.end()) continue;
     const std::string allowed = key->allowed();
-    throw InputError(path, section.line,
-                     section.title() + " lacks " + key->name + " (" + key->meaning + (allowed.empty() ? "" : "; ") +
-                         allowed + ")" + (key->only_if[0] == '\0' ? "" : std::string(", needed with ") + key->only_if));
+    problems.of([&] {
+      throw InputError(path, section.line,
+                       section.title() + " lacks " + key->name + " (" + key->meaning + (allowed.empty() ? "" : "; ") +
+                           allowed + ")" + (key->only_if[0] == '\0' ? "" : std::string(", needed with ") + key->only_if));
+    });
+    if (key->kind == Kind::choice) break;  // what else is needed depends on it
   }
+  problems.refuse(path);
   values.values = std::move(complete);
-  return values;
+  return std::move(given.values);
 }
 
 }  // namespace crankloop::program

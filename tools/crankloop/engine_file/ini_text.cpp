@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "../error.hpp"
+#include "problems.hpp"
 #include "../words.hpp"
 
 namespace crankloop::program {
@@ -61,21 +62,28 @@ IniEntry parse_entry(std::string_view text, const std::string& path, int line) {
 
 IniText parse_ini(const std::vector<std::string>& lines, const std::string& path) {
   IniText ini;
+  Problems problems;
+  bool any_header = false;  // also a bad one, under which keys may stand
   ini.last_line = std::max(1, static_cast<int>(lines.size()));
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const int line = static_cast<int>(i) + 1;
     const std::string_view text = trim(without_comment(lines[i]));
     if (text.empty()) continue;
-    if (text[0] == '[') {
-      ini.sections.push_back(parse_header(text, path, line));
-      continue;
-    }
-    IniEntry entry = parse_entry(text, path, line);
-    if (ini.sections.empty()) {
-      throw InputError(path, line, "key '" + entry.key + "' stands before the first section; write [section] above it");
-    }
-    ini.sections.back().entries.push_back(std::move(entry));
+    problems.of([&] {
+      if (text[0] == '[') {
+        any_header = true;
+        ini.sections.push_back(parse_header(text, path, line));
+        return;
+      }
+      IniEntry entry = parse_entry(text, path, line);
+      if (!any_header) {
+        any_header = true;  // told once
+        throw InputError(path, line, "key '" + entry.key + "' stands before the first section; write [section] above it");
+      }
+      if (!ini.sections.empty()) ini.sections.back().entries.push_back(std::move(entry));
+    });
   }
+  problems.refuse(path);
   if (ini.sections.empty())
     throw InputError(path, ini.last_line, "the file is empty; an engine file has at least one [section]");
   return ini;

@@ -96,6 +96,7 @@ report::Page engine_report(const ReportInput& input) {
   page.sections.push_back(bearing_section(input));
   page.sections.push_back(balance_section(input));
   if (!input.trace.valves.empty()) page.sections.push_back(valve_section(input));
+  if (input.exact.definition().layout.cylinders > 1) page.sections.push_back(crankshaft_section(input));
   page.sections.push_back(accuracy_section(input));
   page.sections.push_back(definition_section(input));
 
@@ -106,6 +107,7 @@ report::Page engine_report(const ReportInput& input) {
       report::Paragraph{"Crank angles count from the firing top dead centre of cylinder 1 (0) over a four-stroke cycle "
                         "of 720 deg; displacement, velocity and axial forces are positive toward the crankshaft."});
   first.insert(first.begin(), report::Paragraph{pressure_remark(input), true});
+  report::put_first(page, input.warnings);
   page.footer = "Made by crankloop from " + input.file.path() + ".";
   return page;
 }

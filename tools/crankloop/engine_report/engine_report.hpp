@@ -46,6 +46,7 @@ struct ReportInput {
   std::string real;          ///< "float" or "double"
   std::string command_line;  ///< with every option filled in
   double wall_time_per_tick_ns = 0;
+  std::vector<std::string> warnings;  ///< each stands at the page's head
 };
 
 [[nodiscard]] report::Page engine_report(const ReportInput& input);

@@ -21,6 +21,7 @@ namespace crankloop::program {
 [[nodiscard]] report::Section bearing_section(const ReportInput& input);
 [[nodiscard]] report::Section balance_section(const ReportInput& input);
 [[nodiscard]] report::Section valve_section(const ReportInput& input);  ///< where there are valve trains
+[[nodiscard]] report::Section crankshaft_section(const ReportInput& input);  ///< of two cylinders or more
 [[nodiscard]] report::Section accuracy_section(const ReportInput& input);
 [[nodiscard]] report::Section definition_section(const ReportInput& input);
 

@@ -1,7 +1,9 @@
 #include "free_request.hpp"
 
 #include <string>
+#include <utility>
 
+#include "../engine_file/plausibility.hpp"
 #include "../error.hpp"
 #include "../number.hpp"
 #include "../words.hpp"
@@ -52,7 +54,7 @@ void require_options_that_fit(const Arguments& arguments) {
   if (free && arguments.has("--cycles")) throw UsageError("--cycles is for a run at constant speed; with --free take --seconds");
 }
 
-int run_free_by(const Arguments& arguments, const EngineFile& file) {
+int run_free_by(const Arguments& arguments, const EngineFile& file, std::vector<std::string> warnings) {
   const EngineDefinition definition = loaded(file, arguments);
   if (arguments.has("--starter") && definition.starter.stall_Nm == 0) {
     throw InputError(file.path() + ": there is no [starter] with a torque, so --starter has nothing to turn the crank with");
@@ -66,6 +68,8 @@ int run_free_by(const Arguments& arguments, const EngineFile& file) {
   if (arguments.has("--cut")) request.operation.cut_cylinders = cut_cylinders(arguments.text("--cut"), definition.layout);
   request.real = arguments.text("--real");
   request.command_line = command_line(arguments);
+  for (std::string& line : tell_warnings(arguments, warnings_about_running_free(file, definition))) warnings.push_back(std::move(line));
+  request.warnings = std::move(warnings);
   Results results(arguments, {"--csv", "--report", "--vcd"});
   run_free(file, definition, request, results);
   return kSuccess;

@@ -1,6 +1,9 @@
 // What `crankloop run --free` is asked for, from its command line.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "../arguments.hpp"
 #include "../engine_file/engine_file.hpp"
 
@@ -9,7 +12,7 @@ namespace crankloop::program {
 /// Throws UsageError for options of a free run without --free, and for those of a run at constant speed with it.
 void require_options_that_fit(const Arguments& arguments);
 
-/// The command, where --free is given.
-int run_free_by(const Arguments& arguments, const EngineFile& file);
+/// The command, where --free is given; `warnings`: those that the file gave.
+int run_free_by(const Arguments& arguments, const EngineFile& file, std::vector<std::string> warnings);
 
 }  // namespace crankloop::program

@@ -21,6 +21,7 @@ struct FreeRequest {
   FreeOperation operation;
   std::string real;          ///< "float" or "double"
   std::string command_line;  ///< for the report
+  std::vector<std::string> warnings;  ///< likewise
 };
 
 /// What became of one trigger wheel's signal.

@@ -184,6 +184,7 @@ report::Page free_run_report(const FreeReportInput& input) {
   }
   page.sections.push_back(energy_section(input));
   page.sections.push_back(method_section(input));
+  report::put_first(page, input.request.warnings);
   page.footer = "Made by crankloop from " + input.file.path() + ".";
   return page;
 }

@@ -270,6 +270,12 @@ class Document {
 
 }  // namespace
 
+void put_first(Page& page, const std::vector<std::string>& notes) {
+  if (page.sections.empty()) return;
+  std::vector<Block>& first = page.sections.front().blocks;
+  for (std::size_t i = 0; i < notes.size(); ++i) first.insert(first.begin() + static_cast<std::ptrdiff_t>(i), Paragraph{notes[i], true});
+}
+
 std::string to_html(const Page& page) { return Document{page}.html(); }
 
 }  // namespace crankloop::report

@@ -64,6 +64,9 @@ struct Page {
   std::string language = "en";
 };
 
+/// What must not be overlooked: notes, before all else of the first section.
+void put_first(Page& page, const std::vector<std::string>& notes);
+
 /// The whole file. All text is escaped; ids are made valid and unique.
 [[nodiscard]] std::string to_html(const Page& page);
 

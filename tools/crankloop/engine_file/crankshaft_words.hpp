@@ -1,0 +1,29 @@
+// A layout as its crankshaft: which throws there are, which cylinders run on each, who fires when.
+//
+// What belongs here: words about it, for `show` and reports. What does not: how it is built (engine_file_layout.cpp, engine_file_pins.cpp).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <crankloop/define/layout.hpp>
+
+namespace crankloop::program {
+
+/// One crank pin between its webs, in the order of the shaft. A group of rods on one pin has one throw.
+struct CrankThrow {
+  double direction_deg = 0;    ///< at engine angle 0 from the vertical in the sense of rotation, 0 to below 360
+  std::vector<int> cylinders;  ///< counted from 1
+};
+[[nodiscard]] std::vector<CrankThrow> throws_of(const Layout& layout);
+
+/// How many throws and where they point, then a line for each of them.
+[[nodiscard]] std::vector<std::string> throws_in_words(const Layout& layout);
+
+/// "Fires 1, 3, 4, 2, at 0, 180, 360, 540 deg: 180, 180, 180, 180 deg apart."
+[[nodiscard]] std::string firing_in_words(const Layout& layout);
+
+/// What to write where rods of two banks should run on one pin; "" where some do, and where no two banks stand at an angle.
+[[nodiscard]] std::string shared_pins_hint(const Layout& layout);
+
+}  // namespace crankloop::program

@@ -1,0 +1,26 @@
+// What an engine file may say and hardly means: warnings, after which the command goes on.
+//
+// What belongs here: bounds of the usual. What does not: bounds of the possible (validate(), engine_file_keys.cpp).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine_file.hpp"
+#include "../arguments.hpp"
+
+namespace crankloop::program {
+
+/// One line each: "FILE:LINE: warning: what is unusual; what is usual".
+[[nodiscard]] std::vector<std::string> warnings_about(const EngineFile& engine);
+
+/// The same of an engine whose gas makes its speed; `definition` is the file's, with the load it is to run with.
+[[nodiscard]] std::vector<std::string> warnings_about_running_free(const EngineFile& engine, const EngineDefinition& definition);
+
+/// Tells them on stderr and returns them, for a report; with --no-warnings there are none.
+std::vector<std::string> tell_warnings(const Arguments& arguments, std::vector<std::string> warnings);
+
+/// The engine of a command's file, its warnings told, and kept where asked for; else as read_engine_file().
+[[nodiscard]] EngineFile read_engine(const Arguments& arguments, const std::vector<std::string>& needed_sections, std::vector<std::string>* warnings = nullptr);
+
+}  // namespace crankloop::program

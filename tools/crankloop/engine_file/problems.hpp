@@ -1,0 +1,48 @@
+// Errors of an engine file that do not follow from one another, told together.
+//
+//     Problems problems;
+//     for (const Line& line : lines) problems.of([&] { read(line); });
+//     problems.refuse(path);
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "../error.hpp"
+#include "../words.hpp"
+
+namespace crankloop::program {
+
+class Problems {
+ public:
+  /// Whether it ran to its end; an InputError that it throws is kept, also one of several lines.
+  template <class Work>
+  bool of(Work&& work) {
+    try {
+      work();
+      return true;
+    } catch (const InputError& error) {
+      for (const std::string_view line : split(error.what(), '\n')) lines_.emplace_back(line);
+    }
+    return false;
+  }
+
+  /// Throws what was kept, if anything was.
+  void refuse(const std::string& path) {
+    if (lines_.empty()) return;
+    if (lines_.size() > kMostLines) {
+      const std::size_t left_out = lines_.size() - (kMostLines - 1);
+      lines_.resize(kMostLines - 1);
+      lines_.push_back(path + ": " + std::to_string(left_out) + " errors more");
+    }
+    throw InputError(join(lines_, "\n"));
+  }
+
+ private:
+  static constexpr std::size_t kMostLines = 20;
+  std::vector<std::string> lines_;
+};
+
+}  // namespace crankloop::program
