@@ -22,6 +22,7 @@
 
 #include "crankloop/error.hpp"
 #include "crankloop/text_file.hpp"
+#include "lab/reference/valve_reference.hpp"
 #include "support/status.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/units.hpp"
@@ -118,13 +119,23 @@ TEST_F(EngineFileTest, EveryFieldOfADefinitionHasItsKeyOrFollowsFromOthers) {
   const std::vector<std::string> follow{
       "crank.crank_radius_m",                 // stroke_mm / 2
       "masses.rod_inertia_correction_kg_m2",  // rod_g and its like
-      "layout.firing_deg", "layout.bank_deg", "layout.position_m", "layout.pin",
-      "pressure.source", "pressure.wiebe.heat_given",  // by the form in use
-      "pressure.point_count", "pressure.points",       // the file's rows
+      "layout.firing_deg",
+      "layout.bank_deg",
+      "layout.position_m",
+      "layout.pin",
+      "pressure.source",
+      "pressure.wiebe.heat_given",  // by the form in use
+      "pressure.point_count",
+      "pressure.points",  // the file's rows
       "train_count",
-      "cam.source", "cam.full_lift_deg",  // into the cycle
-      "cam.exponent_count", "cam.exponents", "cam.point_count", "cam.points",
-      "rocker.kind", "rocker.cam_turns",
+      "cam.source",
+      "cam.full_lift_deg",  // into the cycle
+      "cam.exponent_count",
+      "cam.exponents",
+      "cam.point_count",
+      "cam.points",
+      "rocker.kind",
+      "rocker.cam_turns",
   };
   EXPECT_EQ(without.names(), follow);
 }
@@ -231,7 +242,8 @@ TEST(TextFile, HoldsEveryCharacterOfUnicodeInItsShortestFormAndNothingElse) {
   };
   for (int bytes = 1; bytes <= 4; ++bytes) {
     const std::uint32_t forms = bytes == 1 ? 0x80u : 1u << (5 * bytes + 1);  // 11, 16, 21 bits
-    for (std::uint32_t code = 0; code < forms; code += bytes < 4 || code < 0x11000u || (code >= 0x10FF00u && code < 0x111000u) ? 1 : 0x100u) {
+    for (std::uint32_t code = 0; code < forms;
+         code += bytes < 4 || code < 0x11000u || (code >= 0x10FF00u && code < 0x111000u) ? 1 : 0x100u) {
       const int fewest = code < 0x80u ? 1 : code < 0x800u ? 2 : code < 0x10000u ? 3 : 4;
       const bool control = (code < 0x20u && code != '\t' && code != '\n') || (code >= 0x7Fu && code < 0xA0u);
       const bool surrogate = code >= 0xD800u && code < 0xE000u;
@@ -276,8 +288,9 @@ TEST_F(EngineFileTest, AWholeRodIsLumpedOnItsEnds) {
 }
 
 TEST_F(EngineFileTest, PinAndWebsAreReducedToTheCrankRadius) {
-  const std::string masses = std::string(kOneCylinder) +
-                             "[masses]\npiston_g = 810\nrod_small_end_g = 505\nrod_big_end_g = 1382\ncrank_inertia_kg_m2 = 0.5\n";
+  const std::string masses =
+      std::string(kOneCylinder) +
+      "[masses]\npiston_g = 810\nrod_small_end_g = 505\nrod_big_end_g = 1382\ncrank_inertia_kg_m2 = 0.5\n";
   const EngineFile drawn = read(masses + "crank_pin_g = 900\ncrank_web_g = 1400\ncrank_web_radius_mm = 21\n");
   EXPECT_NEAR(drawn.definition().masses.crank_pin_equivalent_kg * 0.0575, 0.9 * 0.0575 + 2 * 1.4 * 0.021, 1e-16);
   EXPECT_EQ(show(read(show(drawn))), show(drawn));
@@ -333,7 +346,8 @@ TEST_F(EngineFileTest, PinsAreNumberedAlongTheShaftWhateverTheCylindersAreCalled
 
 TEST_F(EngineFileTest, PinsThatMeetAreNumberedByTheMiddleOfTheirRods) {
   // A four with two pins of two rods: cylinders 1 and 3 stand at one place, where the pins meet, and each pin goes on to the other side.
-  const std::string four = std::string(kOneCylinder) + "[layout]\ncylinders = 4\nfiring_angles_deg = 0,0,180,180\nshared_pins = 1-2,3-4\n";
+  const std::string four =
+      std::string(kOneCylinder) + "[layout]\ncylinders = 4\nfiring_angles_deg = 0,0,180,180\nshared_pins = 1-2,3-4\n";
   const auto pins = [&](const char* positions_mm) {
     const Layout layout = read(four + "cylinder_positions_mm = " + positions_mm + "\n").definition().layout;
     return std::vector<int>(layout.pin.begin(), layout.pin.begin() + 4);
@@ -354,7 +368,8 @@ TEST_F(EngineFileTest, ThrowsMayBeGivenAsACheckWithFewDigits) {
   expect_same(read(three + "crank_throws_deg = " + list + "\n").definition(), free.definition());
   EXPECT_NE(refusal(three + "crank_throws_deg = 0,0,0,0,0,0,0\n"), "");
   // Two digits behind the point are enough, one is not.
-  const std::string two = std::string(kOneCylinder) + "[layout]\ncylinders = 2\nfiring_angles_deg = 0,600\ncrank_throws_deg = 0,";
+  const std::string two =
+      std::string(kOneCylinder) + "[layout]\ncylinders = 2\nfiring_angles_deg = 0,600\ncrank_throws_deg = 0,";
   for (const char* good : {"120", "120.009", "119.991", "-240.009"}) EXPECT_EQ(refusal(two + good + "\n"), "") << good;
   for (const char* bad : {"120.011", "119.989", "120.1", "-240.1"}) EXPECT_NE(refusal(two + bad + "\n"), "") << bad;
 }
@@ -402,6 +417,23 @@ TEST_F(EngineFileTest, AnotherSourceLeavesItsRivalsKeysUnusedButChecked) {
   EXPECT_NE(refusal(replaced(motored, "intake_kPa = 98", "intake_kPa = -98")), "");
 }
 
+TEST_F(EngineFileTest, WhatATickCostsItsValvesIsShown) {
+  const EngineFile engine = read_engine_file(CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini", {});
+  const TrainOfFile& train = engine.trains().front();
+  // A fine step is at most 1 by the fastest rate; 512 are the most.
+  const double rate = valve_reference::SingleMass(train.definition.valve, train.definition.rocker, 8.5e-3).fastest();
+  const std::string line = "# a valve of train intake takes " +
+                           std::to_string(static_cast<int>(std::ceil(100e-6 * rate))) +
+                           " fine steps in the worst tick of 100 us; 512 is the most, in a tick of ";
+  const std::string shown = show(engine);
+  const std::size_t at = shown.find(line);
+  ASSERT_NE(at, std::string::npos) << line;
+  EXPECT_NEAR(std::stod(shown.substr(at + line.size())), 512 / rate * 1e6, 0.01 * 512 / rate * 1e6)
+      << "the lever's mean is that of another lift";
+  EXPECT_EQ(show(read(contents(kSample))).find("fine steps") != std::string::npos,
+            !read(contents(kSample)).trains().empty());
+}
+
 TEST_F(EngineFileTest, WhatTheLibraryRefusesIsToldAtTheLineOfTheKey) {
   const EngineFile engine = read(kOneCylinder);
   const std::string path = folder_ / "engine.ini";
@@ -420,21 +452,28 @@ TEST_F(EngineFileTest, FrictionLoadAndStarterAreReadInTheirUnitsOrAbsent) {
   EXPECT_EQ(without.definition().starter.stall_Nm, 0);
   EXPECT_EQ(show(read(show(without))), show(without));
 
-  const std::string brakes = crank + "[friction]\nconstant_kPa = 90\nlinear_kPa_per_1000rpm = 26\nquadratic_kPa_per_1000rpm2 = 5\n"
-                                     "[load]\nlinear_Nm_per_1000rpm = 3\nquadratic_Nm_per_1000rpm2 = 42\ninertia_kg_m2 = 0.1\n"
-                                     "[starter]\nstall_Nm = 420\nno_load_rpm = 380\n";
+  const std::string brakes =
+      crank +
+      "[friction]\nconstant_kPa = 90\nlinear_kPa_per_1000rpm = 26\nquadratic_kPa_per_1000rpm2 = 5\n"
+      "[load]\nlinear_Nm_per_1000rpm = 3\nquadratic_Nm_per_1000rpm2 = 42\ninertia_kg_m2 = 0.1\n"
+      "[starter]\nstall_Nm = 420\nno_load_rpm = 380\n";
   const EngineFile engine = read(brakes);
   const EngineDefinition& d = engine.definition();
   constexpr double kSpeed_rad_s = 2000 * support::kPi / 30;  // at 2000 rpm
-  EXPECT_NEAR(d.friction.constant_Pa + kSpeed_rad_s * (d.friction.linear_Pa_s + kSpeed_rad_s * d.friction.quadratic_Pa_s2), 162e3, 1e-6);
-  EXPECT_NEAR(d.load.constant_Nm + kSpeed_rad_s * (d.load.linear_Nm_s + kSpeed_rad_s * d.load.quadratic_Nm_s2), 174, 1e-9);
+  EXPECT_NEAR(
+      d.friction.constant_Pa + kSpeed_rad_s * (d.friction.linear_Pa_s + kSpeed_rad_s * d.friction.quadratic_Pa_s2),
+      162e3, 1e-6);
+  EXPECT_NEAR(d.load.constant_Nm + kSpeed_rad_s * (d.load.linear_Nm_s + kSpeed_rad_s * d.load.quadratic_Nm_s2), 174,
+              1e-9);
   EXPECT_EQ(d.load.inertia_kg_m2, 0.1);
   EXPECT_EQ(d.starter.stall_Nm, 420);
   EXPECT_NEAR(d.starter.no_load_rad_s, 380 * support::kPi / 30, 1e-12);
   EXPECT_EQ(show(read(show(engine))), show(engine));
 
-  EXPECT_NE(refusal(replaced(brakes, "constant_kPa = 90", "constant_kPa = -90")).find("constant_kPa"), std::string::npos);
-  EXPECT_NE(refusal(replaced(brakes, "no_load_rpm = 380", "")).find("no_load_rpm: 0 must be greater than zero"), std::string::npos);
+  EXPECT_NE(refusal(replaced(brakes, "constant_kPa = 90", "constant_kPa = -90")).find("constant_kPa"),
+            std::string::npos);
+  EXPECT_NE(refusal(replaced(brakes, "no_load_rpm = 380", "")).find("no_load_rpm: 0 must be greater than zero"),
+            std::string::npos);
   EXPECT_NE(refusal("[friction]\nconstant_kPa = 90\n").find("needs a [crank] section"), std::string::npos);
 }
 
@@ -602,14 +641,17 @@ TEST_F(HostileEngineFile, ItsDiagramMutatedAtRandomIsReadOrRefused) {
 std::string drawing(const TriggerWheel& wheel) {
   std::string places;
   for (int i = 0; i < wheel.gap_count; ++i) {
-    places += std::string(static_cast<std::size_t>(wheel.gaps[i].teeth), 'x') + std::string(static_cast<std::size_t>(wheel.gaps[i].missing), '-');
+    places += std::string(static_cast<std::size_t>(wheel.gaps[i].teeth), 'x') +
+              std::string(static_cast<std::size_t>(wheel.gaps[i].missing), '-');
   }
   return places + std::string(static_cast<std::size_t>(wheel.places) - places.size(), 'x');
 }
 
 TEST_F(EngineFileTest, ReadsTriggerWheelsByTheNamesOfTheirPatterns) {
   const auto read_wheel = [this](const std::string& pattern) {
-    return drawing(read(std::string(kOneCylinder) + "[trigger a]\non = crank\npattern = " + pattern + "\n").definition().triggers[0]);
+    return drawing(read(std::string(kOneCylinder) + "[trigger a]\non = crank\npattern = " + pattern + "\n")
+                       .definition()
+                       .triggers[0]);
   };
   EXPECT_EQ(read_wheel("4"), "xxxx");
   EXPECT_EQ(read_wheel("12-3"), "xxxxxxxxx---");
@@ -618,18 +660,25 @@ TEST_F(EngineFileTest, ReadsTriggerWheelsByTheNamesOfTheirPatterns) {
   EXPECT_EQ(read_wheel("36-2-2-2-H6"), "xxxxxxxxxxxxxxxxxxx--xxxxxxxxxx--x--");
   EXPECT_EQ(read_wheel("half-moon"), "x");
   EXPECT_EQ(read_wheel("3(1)2"), "xxx-xx");
-  for (const char* none : {"0", "60-60", "60-", "-2", "60-2-1", "3(1", "3(0)", "(2)3", "3(1)2(", "1000", "half moon", "3 (1)"}) {
-    const std::string message = refusal(std::string(kOneCylinder) + "[trigger a]\non = crank\npattern = " + none + "\n");
-    EXPECT_NE(message.find(":11: pattern: '" + std::string(none) + "' is no wheel"), std::string::npos) << none << ": " << message;
+  for (const char* none :
+       {"0", "60-60", "60-", "-2", "60-2-1", "3(1", "3(0)", "(2)3", "3(1)2(", "1000", "half moon", "3 (1)"}) {
+    const std::string message =
+        refusal(std::string(kOneCylinder) + "[trigger a]\non = crank\npattern = " + none + "\n");
+    EXPECT_NE(message.find(":11: pattern: '" + std::string(none) + "' is no wheel"), std::string::npos)
+        << none << ": " << message;
   }
-  EXPECT_NE(refusal(std::string(kOneCylinder) + "[trigger a]\non = crank\npattern = 361\n").find("is too fine"), std::string::npos);
-  EXPECT_NE(refusal(std::string(kOneCylinder) + "[trigger a]\non = crank\npattern = 1(1)1(1)1(1)1(1)1(1)1(1)1(1)1(1)1(1)\n").find("is too fine"),
+  EXPECT_NE(refusal(std::string(kOneCylinder) + "[trigger a]\non = crank\npattern = 361\n").find("is too fine"),
             std::string::npos);
+  EXPECT_NE(
+      refusal(std::string(kOneCylinder) + "[trigger a]\non = crank\npattern = 1(1)1(1)1(1)1(1)1(1)1(1)1(1)1(1)1(1)\n")
+          .find("is too fine"),
+      std::string::npos);
 }
 
 TEST_F(EngineFileTest, ReadsWhereATriggerWheelStandsAndWhatMovesIt) {
   const std::string sample = contents(kSample);
-  const EngineFile engine = read(sample + "[trigger exhaust]\non = cam exhaust\nedges_deg = 700,730,800,900\ninverted = yes\n");
+  const EngineFile engine =
+      read(sample + "[trigger exhaust]\non = cam exhaust\nedges_deg = 700,730,800,900\ninverted = yes\n");
   ASSERT_EQ(engine.definition().trigger_count, 3);
   const TriggerWheel* wheels = engine.definition().triggers;
   EXPECT_EQ(wheels[0].shaft, TriggerShaft::crank);
@@ -648,9 +697,11 @@ TEST_F(EngineFileTest, ReadsWhereATriggerWheelStandsAndWhatMovesIt) {
   ASSERT_EQ(engine.triggers().size(), 3u);
   EXPECT_EQ(engine.triggers()[2].name, "exhaust");
 
-  EXPECT_NE(refusal(sample + "[trigger a]\non = cam outlet\npattern = 1\n").find("'cam outlet' is not one of crank, cam, cam intake, cam exhaust"),
+  EXPECT_NE(refusal(sample + "[trigger a]\non = cam outlet\npattern = 1\n")
+                .find("'cam outlet' is not one of crank, cam, cam intake, cam exhaust"),
             std::string::npos);
-  EXPECT_NE(refusal(sample + "[trigger a]\non = crank\nedges_deg = 10,300,380,390\n").find("edges_deg: entry 3: 380 is out of range"),
+  EXPECT_NE(refusal(sample + "[trigger a]\non = crank\nedges_deg = 10,300,380,390\n")
+                .find("edges_deg: entry 3: 380 is out of range"),
             std::string::npos);
 }
 

@@ -7,6 +7,7 @@
 #include "engine_file/plausibility.hpp"
 #include "error.hpp"
 #include "output_file.hpp"
+#include "valve/valve_tick_limit.hpp"
 #include "words.hpp"
 
 namespace crankloop::program {
@@ -68,6 +69,7 @@ std::string show(const EngineFile& engine) {
   if (engine.has("crank") && !engine.has("masses")) {
     text += "\n# There is no [masses] section, and it has no defaults: no forces.\n";
   }
+  for (const std::string& line : ticks_in_words(engine)) text += "\n# " + line + "\n";
   return text;
 }
 

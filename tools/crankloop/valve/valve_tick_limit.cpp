@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <crankloop/tabulate/valve_lift.hpp>
 
@@ -44,6 +45,25 @@ void require_trains(const EngineFile& file, double tick_s, const ValveStepping& 
       throw tick_too_long(file, train, train.definition.valve, tick_s, stepping);
     }
   }
+}
+
+std::vector<std::string> ticks_in_words(const EngineFile& file) {
+  constexpr double kUsualTick_s = 100e-6;
+  std::vector<std::string> lines;
+  for (const TrainOfFile& train : file.trains()) {
+    if (!train.complete()) continue;
+    const auto lift = std::make_unique<ValveLift>();
+    if (!lift->init(train.definition.cam, train.definition.rocker).ok()) continue;
+    const ValveBody<double> body = body_of(train.definition.valve, *lift);
+    const double longest_us = std::floor(longest_tick_s(body, {}) * 1e6);
+    std::string line = "a valve of train " + train.name + " takes ";
+    if (ValveMotion<double> motion; motion_of(body, kUsualTick_s, {}, motion).ok()) {
+      line += std::to_string(motion.parts) + (motion.parts == 1 ? " step" : " fine steps") + " in the worst tick of " +
+              brief(kUsualTick_s * 1e6) + " us; ";
+    }
+    lines.push_back(line + std::to_string(kMostFineSteps) + " is the most, in a tick of " + brief(longest_us) + " us");
+  }
+  return lines;
 }
 
 double longest_tick_of(const EngineDefinition& definition) {

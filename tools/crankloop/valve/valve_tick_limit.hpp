@@ -4,6 +4,9 @@
 // (crankloop/tabulate/valve_motion.hpp).
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <crankloop/tabulate/valve_motion.hpp>
 
 #include "../engine_file/engine_file.hpp"
@@ -22,6 +25,9 @@ namespace crankloop::program {
 /// Throws what explain_tabulate() says where a train of the file does not go with a tick, or its geometry does not
 /// close.
 void require_trains(const EngineFile& file, double tick_s, const ValveStepping& stepping = {});
+
+/// What the length of a tick means for each train: steps of a valve in the worst tick, and the longest tick.
+[[nodiscard]] std::vector<std::string> ticks_in_words(const EngineFile& file);
 
 /// Longest tick that every train of a definition allows, at most 2 ms.
 [[nodiscard]] double longest_tick_of(const EngineDefinition& definition);
