@@ -29,7 +29,7 @@ function(crankloop_numerics target)
     # torque of scenes with measured pressures lost its inertia. tests/target/golden.cpp sees it.
     $<$<CXX_COMPILER_ID:GNU>:-fno-ipa-modref>
     # Of a store whose address its loop optimiser has written as 0 plus the rest GCC 12 believes that it traps, and of its function that it
-    # does nothing else: on x86-64 no valve learnt where its cam is. tests/property/valve_lanes_test.cpp sees it.
+    # does nothing else: at -O3 on x86-64 no valve learnt where its cam is, and `crankloop bench --kernel 8-valves-float` fell over.
     $<$<CXX_COMPILER_ID:GNU>:-fno-ipa-pure-const>)
 endfunction()
 
