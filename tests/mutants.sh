@@ -1,14 +1,16 @@
 #!/bin/sh
 # mutants.sh [--seed N] [--count N] [BUILD_DIR]
-# How many single-point changes of core the tests notice: a sample of what tests/mutants/mutate.cpp can change, the valve's tick left out.
+# How many single-point changes of core the tests notice: a sample of what tests/mutants/mutate.cpp can change, the
+# valve's tick left out.
 #
-# All mutants of a sample are in one build, of the library's own unit, property and interface tests; CRANKLOOP_MUTANT=N makes a run the mutant N. Each is
-# judged by the tests that come by its place, up to the first that fails; a run is also over after 60 s of processor time, of which the tests
-# take half at most without a change. Places that no test comes by, since the compiler has done there what is to be done or since
-# tests/coverage_exceptions.conf says why, are told and replaced by the next of the sample.
+# All mutants of a sample are in one build, of the library's own unit, property and interface tests; CRANKLOOP_MUTANT=N
+# makes a run the mutant N. Each is judged by the tests that come by its place, up to the first that fails; a run is
+# also over after 60 s of processor time, of which the tests take half at most without a change. Places that no test
+# comes by, since the compiler has done there what is to be done or since tests/coverage_exceptions.conf says why, are
+# told and replaced by the next of the sample.
 #
-# Fails when under 90 % of the mutants that are no equivalents are noticed, or one survives that tests/mutants/survivors.conf does not know.
-# Last line: "N passed, M failed".
+# Fails when under 90 % of the mutants that are no equivalents are noticed, or one survives that
+# tests/mutants/survivors.conf does not know. Last line: "N passed, M failed".
 set -eu
 CDPATH='' cd -- "$(dirname -- "$0")/.."
 seed=1 count=60 build=build/mutants
@@ -29,7 +31,7 @@ drawn=$((count * 3 / 2))  # some are never reached
 mkdir -p "$build"
 build=$(CDPATH='' cd -- "$build" && pwd)
 
-# ---- the build --------------------------------------------------------------------------------------------------------------
+# ---- the build -------------------------------------------------------------------------------------------------------
 
 quietly() { "$@" >"$build/build.log" 2>&1 || { tail -n 40 "$build/build.log" >&2 && exit 1; }; }
 quietly cmake -S tests/mutants -B "$build/mutate" -DCMAKE_BUILD_TYPE=Release
@@ -47,7 +49,7 @@ while :; do
   cat "$build/refused" >>"$build/left_out"
 done
 
-# ---- which tests come by which place ----------------------------------------------------------------------------------------
+# ---- which tests come by which place ---------------------------------------------------------------------------------
 
 # Not those that take seconds to do again what others do. CProgram's runs a program that is not built here.
 slow='*LastsThroughLongStandstill*:*IsTheSameAfterManyCycles*:Soak*:FaultInjection*:ValveOfAnyDesign*:ValveTicks.FromOne*:CProgram*'
@@ -59,8 +61,8 @@ if [ ! -e "$build/reach" ] || [ -n "$(find "$build/judge/judge" -newer "$build/r
   mv "$build/reach.part" "$build/reach"
 fi
 
-# tests_of NUMBER: those that come by the mutant's place, the quickest first, together 30 s at most; all where it is reached before any test.
-# Two filters of GoogleTest: what takes a second together, and the rest.
+# tests_of NUMBER: those that come by the mutant's place, the quickest first, together 30 s at most; all where it is
+# reached before any test. Two filters of GoogleTest: what takes a second together, and the rest.
 tests_of() {
   awk -v number="$1" '
     {
@@ -74,7 +76,7 @@ tests_of() {
     END { for (i = 0; i < 2; ++i) if (filter[i] != "") print "--gtest_filter=" substr(filter[i], 2) }'
 }
 
-# ---- the judgement ----------------------------------------------------------------------------------------------------------
+# ---- the judgement ---------------------------------------------------------------------------------------------------
 
 # reason_of FILE CHANGE CODE: "equivalent" or "survives", and why, of a mutant that survivors.conf knows.
 reason_of() {

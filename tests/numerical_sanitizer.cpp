@@ -1,5 +1,5 @@
-// The engine with eight elastic valves, in float, up through the speeds: what tests/numerical_sanitizer.sh runs. No test: it asserts
-// nothing, the sanitizer's findings are read line by line.
+// The engine with eight elastic valves, in float, up through the speeds: what tests/numerical_sanitizer.sh runs. No
+// test: it asserts nothing, the sanitizer's findings are read line by line.
 #include <cstdio>
 
 #include "support/four_with_valves.hpp"

@@ -1,7 +1,8 @@
 #!/bin/sh
 # numerical_sanitizer.sh
-# The tick under the numerical sanitizer of clang 19 (-fsanitize=numerical), which computes each float in double too: prints the lines
-# where the two part by more than 2^-10 of the number, and how often. Needs build/release/core/libcrankloop.a, clang++-19, llvm-symbolizer.
+# The tick under the numerical sanitizer of clang 19 (-fsanitize=numerical), which computes each float in double too:
+# prints the lines where the two part by more than 2^-10 of the number, and how often. Needs
+# build/release/core/libcrankloop.a, clang++-19, llvm-symbolizer.
 set -eu
 CDPATH='' cd -- "$(dirname -- "$0")/.."
 folder=build/numerical

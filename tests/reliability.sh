@@ -2,10 +2,11 @@
 # reliability.sh [--long | --page]
 # Writes docs/reliability.md: what was tried to break crankloop, and what came of it.
 #
-# Runs what has no log in build/reliability yet, so that a run of hours need not be repeated for another: delete a log to renew its
-# figures. --long is for those hours: 100 000 random cases, 10^8 hostile inputs, 10^9 ticks of soak, 6 minutes of each fuzz target, the
-# whole suite under the sanitizers. Needs the presets release, check, sanitize and coverage (clang++, llvm-cov), and builds them; clang++-19 for
-# its numerical sanitizer. --page runs nothing: the page from the logs there are.
+# Runs what has no log in build/reliability yet, so that a run of hours need not be repeated for another: delete a log
+# to renew its figures. --long is for those hours: 100 000 random cases, 10^8 hostile inputs, 10^9 ticks of soak, 6
+# minutes of each fuzz target, the whole suite under the sanitizers. Needs the presets release, check, sanitize and
+# coverage (clang++, llvm-cov), and builds them; clang++-19 for its numerical sanitizer. --page runs nothing: the page
+# from the logs there are.
 set -eu
 CDPATH='' cd -- "$(dirname -- "$0")/.."
 logs=build/reliability
@@ -57,7 +58,7 @@ if [ "${1:-}" != --page ]; then
   fi
 fi
 
-# ---- the page ---------------------------------------------------------------------------------------------------------------
+# ---- the page --------------------------------------------------------------------------------------------------------
 
 command_of() { printf '    %s\n\n' "$(head -n 1 "$logs/$1.log")"; }
 # figures LOG: its "[ figures  ]" lines as a list, with the test's scalar.
@@ -83,10 +84,11 @@ before a release and after a change of core. `tools/check --list` names the part
 | proof | every change, `--all` | `--long` |
 | --- | --- | --- |
 | host tests | all, g++ -O2, test sources -O1 (`host`, `slow`) | under the thread sanitizer (`thread`) |
-| address and undefined-behaviour sanitizers, clang++ -O1 | tests of under a second (`sanitize`); fuzz targets, 15 s each (`fuzz`) | the rest (`sanitize_slow`) |
-| clang++ -O2 | golden, contract, self-check (`clang`) | unit and property tests (`clang_rest`) |
+| address and undefined-behaviour sanitizers, assertions on, clang++ -O1 | unit and golden tests (`sanitize`); fuzz targets, 15 s each (`fuzz`) | the rest (`sanitize_rest`) |
+| clang++ -O2 | golden, quick contract tests, self-check (`clang`) | the rest (`clang_rest`) |
 | same bits | ten builds by two compilers (`same_bits`) | |
-| 64-bit Arm Linux, emulated | golden, contract, self-check (`aarch64`) | unit tests (`aarch64_rest`) |
+| 64-bit Arm Linux, emulated | golden, self-check (`aarch64`) | the rest but for the longest (`aarch64_rest`) |
+| 64-bit Windows, by Wine | self-check (`windows`) | FMUs: the same bits as on Linux (`windows_rest`) |
 | Cortex-M4F, M7, M33, R5F, RV32IMAFC, emulated | self-check, costs, bounds, 50 000 hostile ticks | 10^6 hostile ticks on a Cortex-M4F (`hostile`) |
 | figures of README and docs, benchmark's instructions and errors, demonstration | `figures`, `bench`, `demo` | |
 | the tests themselves | | a sample of single-point changes of core (`mutants`) |

@@ -1,6 +1,6 @@
 # shellcheck shell=sh
-# What tools/demo and tools/check share: installing what is missing, and running one part after the other with a log for each.
-# Sourced by them, from the top of the checkout.
+# What tools/demo and tools/check share: installing what is missing, and running one part after the other with a log for
+# each. Sourced by them, from the top of the checkout.
 
 say() { printf '%s\n' "$*"; }
 
@@ -12,12 +12,12 @@ die() {
 # shellcheck disable=SC2034  # for those who source this
 jobs=$(nproc 2>/dev/null || getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
 
-# ---- installing what is missing ---------------------------------------------------------------------------------------------
+# ---- installing what is missing --------------------------------------------------------------------------------------
 
 has_command() { command -v "$1" >/dev/null 2>&1; }
 
-# The Debian and Ubuntu package that brings what is missing: command:package, or file:package for a path that starts with /.
-# Sets missing_packages.
+# The Debian and Ubuntu package that brings what is missing: command:package, or file:package for a path that starts
+# with /. Sets missing_packages.
 find_missing() {
   missing_packages=
   for pair in "$@"; do
@@ -76,7 +76,8 @@ require_cmake_3_22() {
   esac
 }
 
-# Several builds compile the same sources with the same flags, and the next run most of them again: with ccache each once.
+# Several builds compile the same sources with the same flags, and the next run most of them again: with ccache each
+# once.
 use_compiler_cache() {
   has_command ccache || return 0
   export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
@@ -85,13 +86,13 @@ use_compiler_cache() {
   export CCACHE_BASEDIR CCACHE_NOHASHDIR CCACHE_SLOPPINESS
 }
 
-# Ninja calls the compiler from the top of the build folder wherever a source lies: then builds of other projects find in the compiler cache what
-# this one's left there. A build folder that exists keeps its generator.
+# Ninja calls the compiler from the top of the build folder wherever a source lies: then builds of other projects find
+# in the compiler cache what this one's left there. A build folder that exists keeps its generator.
 use_ninja() {
   if has_command ninja; then export CMAKE_GENERATOR=Ninja; fi
 }
 
-# ---- one part after the other -----------------------------------------------------------------------------------------------
+# ---- one part after the other ----------------------------------------------------------------------------------------
 
 # run_logged LOG command...: quiet; when the command fails, the end of what it printed goes to stderr.
 run_logged() {
@@ -106,4 +107,17 @@ run_logged() {
     say "----"
   } >&2
   return 1
+}
+
+# run_watched LOG command...: as run_logged, of a build by CMake; every ten seconds, or watch_every_s, a line tells how
+# far it is.
+run_watched() {
+  while sleep "${watch_every_s:-10}" >/dev/null 2>&1 && kill -0 "$$" 2>/dev/null; do
+    sed -n 's/^\(\[[ 0-9%/]*\]\).*/  \1/p' "$1" | tail -n 1
+  done &
+  watcher=$!
+  status=0
+  run_logged "$@" || status=$?
+  kill "$watcher" 2>/dev/null || :
+  return $status
 }

@@ -1,8 +1,8 @@
 # crankloop_add_scene(NAME SCENE_HEADER ENGINE_FILE [TICK_US 100] [REAL float|double] [SCENE Type]
-#                     [INTEGRATOR rk4|exponential] [ACCURACY_UM 0.1] [WITH_C])
+#                     [INTEGRATOR rk4|exponential] [ACCURACY_UM 0.1] [WITH_C] [WITH_FMU])
 #
-# Makes the static library NAME: one engine for real time, its tables as constant data and its tick compiled with the house flags.
-# A program links NAME and includes "NAME.hpp", where namespace NAME has Engine, Input, Output, State.
+# Makes the static library NAME: one engine for real time, its tables as constant data and its tick compiled with the
+# house flags. A program links NAME and includes "NAME.hpp", where namespace NAME has Engine, Input, Output, State.
 #
 #   SCENE_HEADER  a header with the scene, a struct derived from crankloop::Scene
 #   ENGINE_FILE   the engine, as the command-line program reads it
@@ -11,21 +11,21 @@
 #   SCENE         the scene's type; default the header's name in CamelCase: my_scene.hpp has MyScene
 #   INTEGRATOR    of elastic valves: Runge-Kutta of fourth order, or the exact exponential of each contact regime; default rk4
 #   ACCURACY_UM   class of the valves' lift error in micrometres, 0.01 to 10: it sets the fine steps near contact changes; default 0.1
-#   WITH_C        also "NAME.h" for C99: NAME_engine, NAME_init(), NAME_step(), NAME_get_...() for what the scene has
+#   WITH_C        also "NAME.h" for C99: NAME_create(), NAME_step(), NAME_read(), with structs of what the scene has
+#   WITH_FMU      also NAME_fmi2.fmu and NAME_fmi3.fmu, for any simulator that imports FMI 2.0 or 3.0: docs/fmi.md
 #
-# The tables are made by the command-line program, on the machine that builds. Where that program cannot be built along (when
-# cross-compiling), set CRANKLOOP_PROGRAM to one that was installed, of this version, or have it on the PATH.
+# The tables are made by the command-line program, on the machine that builds: built along (by add_subdirectory, also
+# when cross-compiling), installed with the library, CRANKLOOP_PROGRAM, or found on the PATH; it must be of this version.
 
 include("${CMAKE_CURRENT_LIST_DIR}/CrankloopHouseFlags.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/CrankloopAddFmu.cmake")
 
 function(crankloop_add_scene name scene_header engine_file)
-  cmake_parse_arguments(PARSE_ARGV 3 arg "WITH_C" "TICK_US;REAL;SCENE;INTEGRATOR;ACCURACY_UM" "")
+  cmake_parse_arguments(PARSE_ARGV 3 arg "WITH_C;WITH_FMU" "TICK_US;REAL;SCENE;INTEGRATOR;ACCURACY_UM" "")
   if(arg_UNPARSED_ARGUMENTS OR arg_KEYWORDS_MISSING_VALUES)
     message(FATAL_ERROR "crankloop_add_scene(${name}): not understood: ${arg_UNPARSED_ARGUMENTS} ${arg_KEYWORDS_MISSING_VALUES}")
   endif()
-  if(NOT name MATCHES "^[A-Za-z][A-Za-z0-9_]*$")
-    message(FATAL_ERROR "crankloop_add_scene(${name}): the name becomes a C++ namespace, so it must be an identifier")
-  endif()
+  crankloop_require_name("${name}")
   if(NOT DEFINED arg_TICK_US)
     set(arg_TICK_US 100)
   endif()
@@ -57,7 +57,8 @@ function(crankloop_add_scene name scene_header engine_file)
   set(tables "${dir}/${name}_tables.hpp")
   crankloop_program(program)
   crankloop_tables_of_engine_file(pressure_tables "${engine_file}")
-  # A program that is newer makes the tables again; only where they differ is what they are compiled into compiled again.
+  # A program that is newer makes the tables again; only where they differ is what they are compiled into compiled
+  # again.
   add_custom_command(
     OUTPUT "${tables}.made"
     BYPRODUCTS "${tables}"
@@ -77,36 +78,58 @@ function(crankloop_add_scene name scene_header engine_file)
   configure_file("${CMAKE_CURRENT_FUNCTION_LIST_DIR}/scene.cpp.in" "${dir}/${name}.cpp" @ONLY)
   add_library(${name} STATIC "${dir}/${name}.cpp" "${dir}/${name}.hpp" "${tables}.made")
   target_include_directories(${name} PUBLIC "${dir}")
-  target_link_libraries(${name} PUBLIC crankloop::crankloop)
+  target_link_libraries(${name} PUBLIC crankloop::headers)
   if(TARGET crankloop_host_program)  # a cross build of crankloop itself: port/common/host_program.cmake
     add_dependencies(${name} crankloop_host_program)
   endif()
   crankloop_house_flags(${name})
   if(arg_WITH_C)
-    crankloop_add_c_glue("${name}" "${dir}")
+    crankloop_c_interface(${name} ${name} SCENE "${arg_SCENE}" REAL ${arg_REAL} TICK ", ${arg_TICK_US} us per step"
+      FORM "crankloop::c::CompiledIn<${name}::Real, ${name}::Engine>" FORM_HEADER "${name}.hpp" INCLUDES "${dir}"
+      HEADER_DIR "${dir}" HEADER "${name}.h" SOURCE "${dir}/${name}_c.cpp")
+  endif()
+  if(arg_WITH_FMU)
+    crankloop_add_fmu("${name}" "${dir}" "${program}")
   endif()
 endfunction()
 
-# NAME.h and NAME_c.cpp. Only the compiler knows what a scene has and how large its engine is: it says so in an object file that is read, not
-# run, so that cross-compiling is no different.
-function(crankloop_add_c_glue name dir)
-  configure_file("${CMAKE_CURRENT_FUNCTION_LIST_DIR}/scene_facts.cpp.in" "${dir}/${name}_facts.cpp" @ONLY)
-  add_library(${name}_facts OBJECT "${dir}/${name}_facts.cpp")
-  target_include_directories(${name}_facts PRIVATE "${dir}")
-  target_link_libraries(${name}_facts PRIVATE crankloop::crankloop)
+# The C interface of an engine: HEADER and SOURCE, which target TARGET compiles. FORM is where it has its tables from, a
+# C++ type of FORM_HEADER (crankloop/c/engine.hpp). Only the compiler knows what a scene has and how large its engine is:
+# it says so in an object file that is read, not run, so that cross-compiling is no different.
+function(crankloop_c_interface target name)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "SCENE;REAL;TICK;FORM;FORM_HEADER;HEADER_DIR;HEADER;SOURCE" "INCLUDES")
+  set(templates "${CMAKE_CURRENT_FUNCTION_LIST_DIR}")
+  set(NAME "${name}")
+  set(FORM "${arg_FORM}")
+  set(FORM_HEADER "${arg_FORM_HEADER}")
+  set(out "${arg_HEADER_DIR}/${arg_HEADER}")
+  configure_file("${templates}/engine_c_facts.cpp.in" "${CMAKE_CURRENT_BINARY_DIR}/crankloop_c/${name}_facts.cpp" @ONLY)
+  add_library(${name}_facts OBJECT "${CMAKE_CURRENT_BINARY_DIR}/crankloop_c/${name}_facts.cpp")
+  target_include_directories(${name}_facts PRIVATE ${arg_INCLUDES})
+  target_link_libraries(${name}_facts PRIVATE crankloop::headers)
   crankloop_house_flags(${name}_facts)
-  set(templates "")
-  foreach(file IN ITEMS scene_c.cmake scene_c.h.in scene_c.cpp.in)
-    list(APPEND templates "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/${file}")
-  endforeach()
   add_custom_command(
-    OUTPUT "${dir}/${name}.h" "${dir}/${name}_c.cpp"
-    COMMAND "${CMAKE_COMMAND}" -D "FACTS=$<TARGET_OBJECTS:${name}_facts>" -D "NAME=${name}" -D "SCENE_TYPE=${SCENE_TYPE}"
-      -D "REAL=${SCENE_REAL}" -D "TICK_US=${SCENE_TICK_US}" -D "DIR=${dir}" -P "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/scene_c.cmake"
-    DEPENDS ${name}_facts "$<TARGET_OBJECTS:${name}_facts>" ${templates}
+    OUTPUT "${out}" "${arg_SOURCE}"
+    COMMAND "${CMAKE_COMMAND}" -D "FACTS=$<TARGET_OBJECTS:${name}_facts>" -D "NAME=${name}" -D "SCENE=${arg_SCENE}"
+      -D "REAL=${arg_REAL}" -D "TICK=${arg_TICK}" -D "FORM=${arg_FORM}" -D "FORM_HEADER=${arg_FORM_HEADER}"
+      -D "HEADER=${arg_HEADER}" -D "OUT=${out}" -D "SOURCE=${arg_SOURCE}" -P "${templates}/engine_c.cmake"
+    DEPENDS ${name}_facts "$<TARGET_OBJECTS:${name}_facts>" "${templates}/engine_c.cmake" "${templates}/engine_c.h.in"
+      "${templates}/engine_c.cpp.in"
     COMMENT "C interface of ${name}"
     VERBATIM)
-  target_sources(${name} PRIVATE "${dir}/${name}_c.cpp" "${dir}/${name}.h")
+  target_sources(${target} PRIVATE "${arg_SOURCE}" "${out}")
+  add_custom_target(${name}_c DEPENDS "${out}" "${arg_SOURCE}")  # made once, also where two targets compile them
+  add_dependencies(${target} ${name}_c)
+endfunction()
+
+# Where the library's headers are, in its source tree or installed.
+function(crankloop_include_dir result)
+  cmake_path(APPEND CMAKE_CURRENT_FUNCTION_LIST_DIR ../include OUTPUT_VARIABLE include_dir)
+  if(NOT EXISTS "${include_dir}/crankloop")
+    get_target_property(include_dir crankloop::headers INTERFACE_INCLUDE_DIRECTORIES)
+  endif()
+  cmake_path(NORMAL_PATH include_dir)
+  set(${result} "${include_dir}" PARENT_SCOPE)
 endfunction()
 
 # path/to/my_scene.hpp -> MyScene
@@ -123,24 +146,75 @@ function(crankloop_camel_case result header)
   set(${result} "${type}" PARENT_SCOPE)
 endfunction()
 
-# The program that makes the tables: named by the user, built along or installed with the library, or found on the PATH.
+# The program that makes the tables: named by the user, built along, installed with the library, or found on the PATH.
 function(crankloop_program result)
-  if(NOT CRANKLOOP_PROGRAM AND NOT CMAKE_CROSSCOMPILING)
-    foreach(program IN ITEMS crankloop_table_maker crankloop::program)
-      if(TARGET ${program})
-        set(${result} "$<TARGET_FILE:${program}>" PARENT_SCOPE)
-        return()
-      endif()
-    endforeach()
+  if(NOT CRANKLOOP_PROGRAM)
+    if(TARGET crankloop_host_program)  # a cross build of crankloop: port/common/host_program.cmake
+      get_target_property(program crankloop_host_program CRANKLOOP_PROGRAM)
+      set(${result} "${program}" PARENT_SCOPE)
+      return()
+    endif()
+    if(TARGET crankloop_table_maker AND NOT CMAKE_CROSSCOMPILING)
+      set(${result} "$<TARGET_FILE:crankloop_table_maker>" PARENT_SCOPE)
+      return()
+    endif()
+    get_property(installed GLOBAL PROPERTY CRANKLOOP_INSTALLED_PROGRAM)
+    crankloop_why_no_table_maker(why "${installed}")
+    if(NOT why)
+      set(${result} "${installed}" PARENT_SCOPE)
+      return()
+    endif()
   endif()
   find_program(CRANKLOOP_PROGRAM crankloop DOC "The crankloop program of the machine that builds, of the library's version")
   if(NOT CRANKLOOP_PROGRAM)
     message(FATAL_ERROR "crankloop_add_scene: no program to make the tables with; set CRANKLOOP_PROGRAM to an installed crankloop")
   endif()
+  crankloop_why_no_table_maker(why "${CRANKLOOP_PROGRAM}")
+  if(why)
+    message(FATAL_ERROR "crankloop_add_scene: CRANKLOOP_PROGRAM = ${CRANKLOOP_PROGRAM} ${why}")
+  endif()
   set(${result} "${CRANKLOOP_PROGRAM}" PARENT_SCOPE)
 endfunction()
 
-# The files that an engine file names by "file = ...": the tables depend on them too. Read anew whenever the engine file changes.
+# Empty for a program of this machine and of the library's version.
+function(crankloop_why_no_table_maker result program)
+  get_property(version GLOBAL PROPERTY CRANKLOOP_VERSION)
+  set(said "")
+  set(status "it does not exist")
+  if(EXISTS "${program}")
+    execute_process(COMMAND "${program}" --version OUTPUT_VARIABLE said ERROR_QUIET RESULT_VARIABLE status
+      OUTPUT_STRIP_TRAILING_WHITESPACE)
+  endif()
+  string(REGEX REPLACE "\n.*" "" said "${said}")
+  set(why "")
+  if(NOT status STREQUAL 0)
+    set(why "does not run here (${status}); crankloop ${version} is needed")
+  elseif(NOT said STREQUAL "crankloop ${version}")
+    set(why "is '${said}'; crankloop ${version} is needed")
+  endif()
+  set(${result} "${why}" PARENT_SCOPE)
+endfunction()
+
+# Names become C++ namespaces, and prefixes in C.
+function(crankloop_require_name name)
+  if(NOT name MATCHES "^[A-Za-z][A-Za-z0-9_]*$")
+    message(FATAL_ERROR "crankloop_add_scene(${name}): the name becomes a C++ namespace, so it must be an identifier")
+  endif()
+  set(words
+    alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t char32_t char8_t class co_await
+    co_return co_yield compl concept const const_cast consteval constexpr constinit continue crankloop crankloop_tables
+    decltype default delete do double dynamic_cast else enum explicit export extern false float for friend goto if
+    inline int long mutable namespace new noexcept not not_eq nullptr operator or or_eq private protected public
+    register reinterpret_cast requires restrict return short signed sizeof static static_assert static_cast std struct
+    switch template this thread_local throw true try typedef typeid typename union unsigned using virtual void volatile
+    wchar_t while xor xor_eq)
+  if(name IN_LIST words)
+    message(FATAL_ERROR "crankloop_add_scene(${name}): the name becomes a C++ namespace, and C++ uses '${name}' itself")
+  endif()
+endfunction()
+
+# The files that an engine file names by "file = ...": the tables depend on them too. Read anew whenever the engine file
+# changes.
 function(crankloop_tables_of_engine_file result engine_file)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${engine_file}")
   file(STRINGS "${engine_file}" lines REGEX "^[ \t]*file[ \t]*=")

@@ -15,8 +15,8 @@ macro(crankloop_bare_metal port prefix flags)
   set(crankloop_qemu_arguments -nographic -monitor none -serial none -semihosting-config enable=on,target=native)
 endmacro()
 
-# crankloop_port(SOURCE...): the target crankloop_port, which an image links for start-up, text, end and counter; and the linker script
-# crankloop_linker_script of the calling folder.
+# crankloop_port(SOURCE...): the target crankloop_port, which an image links for start-up, text, end and counter; and
+# the linker script crankloop_linker_script of the calling folder.
 function(crankloop_port linker_script)
   add_library(crankloop_port OBJECT ${ARGN})
   target_include_directories(crankloop_port PUBLIC ${crankloop_SOURCE_DIR})

@@ -1,5 +1,6 @@
-# The program that makes tables runs on the machine that builds: a cross build of crankloop itself builds it along, as a build of its own
-# in CRANKLOOP_HOST_TOOLS, and renews it whenever its sources have changed. Not needed where CRANKLOOP_PROGRAM names one.
+# The program that makes tables runs on the machine that builds: a cross build of crankloop itself builds it along, as a
+# build of its own in CRANKLOOP_HOST_TOOLS, and renews it whenever its sources have changed. Not needed where
+# CRANKLOOP_PROGRAM names one.
 set(CRANKLOOP_HOST_TOOLS "${PROJECT_BINARY_DIR}/host-tools" CACHE PATH "Where the program of the building machine is built")
 cmake_host_system_information(RESULT crankloop_host_jobs QUERY NUMBER_OF_LOGICAL_CORES)
 
@@ -12,4 +13,4 @@ add_custom_target(crankloop_host_program
   COMMENT "The program that makes the tables, for the building machine"
   USES_TERMINAL
   VERBATIM)
-set(CRANKLOOP_PROGRAM "${CRANKLOOP_HOST_TOOLS}/bin/crankloop_table_maker")
+set_target_properties(crankloop_host_program PROPERTIES CRANKLOOP_PROGRAM "${CRANKLOOP_HOST_TOOLS}/bin/crankloop_table_maker")

@@ -1,7 +1,8 @@
 // What an image asks of the machine it runs on: text out, an end, a count of instructions, the extent of its stack.
 //
-// What belongs here: the declarations that every folder of port/ implements, and no more than crankloop's own images need. What does not:
-// anything of the library, which asks nothing of a machine; the clock and the interrupts, which are the application's.
+// What belongs here: the declarations that every folder of port/ implements, and no more than crankloop's own images
+// need. What does not: anything of the library, which asks nothing of a machine; the clock and the interrupts, which
+// are the application's.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +15,9 @@ void write(const char* text) noexcept;
 /// Ends the image; 0 = well.
 [[noreturn]] void finish(int status) noexcept;
 
-/// A counter that runs with the instructions, and how many it counted from one reading to a later one less than 100 million instructions on:
-/// exact in the emulator when that is started as the toolchain file says. The readings themselves are among them, a constant that a caller
-/// measures and takes off. 0 for ever where there is no counter.
+/// A counter that runs with the instructions, and how many it counted from one reading to a later one less than 100
+/// million instructions on: exact in the emulator when that is started as the toolchain file says. The readings
+/// themselves are among them, a constant that a caller measures and takes off. 0 for ever where there is no counter.
 [[nodiscard]] std::uint32_t counter() noexcept;
 [[nodiscard]] std::uint32_t instructions_between(std::uint32_t from, std::uint32_t to) noexcept;
 

@@ -1,6 +1,7 @@
 // What every bare-metal start-up does before main, once the stack and the floating-point unit are there.
 //
-// What belongs here: initialised data, zeroed data, constructors. What does not: what differs between processors (each port's start.cpp).
+// What belongs here: initialised data, zeroed data, constructors. What does not: what differs between processors (each
+// port's start.cpp).
 #pragma once
 
 #include <cstdint>
@@ -21,13 +22,14 @@ int main();
 
 namespace crankloop::port {
 
-/// An engine made by crankloop_add_scene gets its tables in its constructor, so an image that leaves the last loop out has engines that
-/// answer kFaultNotReady.
+/// An engine made by crankloop_add_scene gets its tables in its constructor, so an image that leaves the last loop out
+/// has engines that answer kFaultNotReady.
 inline void prepare_memory() noexcept {
   const volatile std::uint32_t* from = crankloop_data_in_flash;
   for (volatile std::uint32_t* to = crankloop_data_begin; to != crankloop_data_end; ++to) *to = *from++;
   for (volatile std::uint32_t* to = crankloop_zero_begin; to != crankloop_zero_end; ++to) *to = 0;
-  for (auto constructor = crankloop_constructors_begin; constructor != crankloop_constructors_end; ++constructor) (*constructor)();
+  for (auto constructor = crankloop_constructors_begin; constructor != crankloop_constructors_end; ++constructor)
+    (*constructor)();
 }
 
 }  // namespace crankloop::port

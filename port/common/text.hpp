@@ -13,7 +13,8 @@ struct Hex {
   std::uint64_t value;
 };
 
-/// A line in the making; what does not fit is left off. Written at its end in one piece: each write through semihosting is a trap.
+/// A line in the making; what does not fit is left off. Written at its end in one piece: each write through semihosting
+/// is a trap.
 class Line {
  public:
   Line() = default;

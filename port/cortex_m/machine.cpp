@@ -18,7 +18,8 @@ void ask_host(std::uint32_t operation, const void* argument) noexcept {
   asm volatile("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
 }
 
-// CMSDK timer 0 of the MPS2 boards: counts down at 25 MHz. QEMU's -icount shift=10 makes an instruction take 1024 ns = 25.6 counts.
+// CMSDK timer 0 of the MPS2 boards: counts down at 25 MHz. QEMU's -icount shift=10 makes an instruction take 1024 ns
+// = 25.6 counts.
 struct Timer {
   volatile std::uint32_t control;
   volatile std::uint32_t value;

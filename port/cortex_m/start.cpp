@@ -1,6 +1,7 @@
 // Start-up of a Cortex-M with floating-point unit: vector table and reset.
 //
-// What belongs here: what happens between reset and main. What does not: clocks, flash wait states, caches: a board's own business.
+// What belongs here: what happens between reset and main. What does not: clocks, flash wait states, caches: a board's
+// own business.
 #include "port/common/start.hpp"
 
 #include "port/common/machine.hpp"
@@ -20,7 +21,8 @@ void crankloop_fault() {
 }
 
 void crankloop_reset() {
-  // Coprocessor access control register: full access to CP10 and CP11, the floating-point unit (Armv7-M Architecture Reference Manual, B3.2.20).
+  // Coprocessor access control register: full access to CP10 and CP11, the floating-point unit (Armv7-M Architecture
+  // Reference Manual, B3.2.20).
   *reinterpret_cast<volatile std::uint32_t*>(0xE000ED88u) |= 0xFu << 20;
   asm volatile("dsb\n isb" ::: "memory");
   crankloop::port::prepare_memory();
@@ -41,7 +43,8 @@ struct Vectors {
 // The exceptions of Armv7-M by number: 1 reset, 2 to 6 faults, 11 SVCall, 12 debug, 14 PendSV, 15 SysTick.
 [[gnu::section(".start"), gnu::used]] const Vectors vectors{
     crankloop_stack_top,
-    {crankloop_reset, crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault,
-     crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault, SysTick_Handler}};
+    {crankloop_reset, crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault,
+     crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault,
+     crankloop_fault, crankloop_fault, SysTick_Handler}};
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Semihosting and the instruction counter of a Cortex-R5F in QEMU.
 //
-// Semihosting for AArch32 and AArch64 (Arm IHI 0100): operation in r0, argument in r1, supervisor call 0x123456 in Arm code. Within supervisor
-// mode the call overwrites lr.
+// Semihosting for AArch32 and AArch64 (Arm IHI 0100): operation in r0, argument in r1, supervisor call 0x123456 in Arm
+// code. Within supervisor mode the call overwrites lr.
 #include "port/common/machine.hpp"
 
 extern "C" std::uint32_t crankloop_stack_low[];
@@ -30,14 +30,14 @@ void finish(int status) noexcept {
   }
 }
 
-// The performance monitor's cycle counter (Armv7-AR Architecture Reference Manual, C12): QEMU's counts nanoseconds of emulated time, and
-// -icount shift=0 makes an instruction take one.
+// The performance monitor's cycle counter (Armv7-AR Architecture Reference Manual, C12): QEMU's counts nanoseconds of
+// emulated time, and -icount shift=0 makes an instruction take one.
 std::uint32_t counter() noexcept {
   std::uint32_t control;
   asm volatile("mrc p15, 0, %0, c9, c12, 0" : "=r"(control));
   if ((control & 1u) == 0) {
-    asm volatile("mcr p15, 0, %0, c9, c12, 0" ::"r"(control | 5u));   // enable all, reset the cycle counter
-    asm volatile("mcr p15, 0, %0, c9, c12, 1" ::"r"(0x80000000u));  // and the cycle counter itself
+    asm volatile("mcr p15, 0, %0, c9, c12, 0" ::"r"(control | 5u));  // enable all, reset the cycle counter
+    asm volatile("mcr p15, 0, %0, c9, c12, 1" ::"r"(0x80000000u));   // and the cycle counter itself
   }
   std::uint32_t count;
   asm volatile("mrc p15, 0, %0, c9, c13, 0" : "=r"(count)::"memory");

@@ -1,7 +1,7 @@
 // Start-up of a Cortex-R5F: vectors, stack, floating-point unit.
 //
-// What belongs here: what happens between reset and main, one core, supervisor mode, interrupts off. What does not: the memory protection
-// unit, caches, tightly coupled memory: a board's own business.
+// What belongs here: what happens between reset and main, one core, supervisor mode, interrupts off. What does not: the
+// memory protection unit, caches, tightly coupled memory: a board's own business.
 #include "port/common/start.hpp"
 
 #include "port/common/machine.hpp"
@@ -11,8 +11,8 @@ extern "C" {
 [[noreturn]] void crankloop_main();
 [[noreturn]] void crankloop_fault();
 
-// Eight exceptions of Armv7-R, a branch each: reset, undefined instruction, supervisor call, prefetch abort, data abort, (unused), interrupt,
-// fast interrupt.
+// Eight exceptions of Armv7-R, a branch each: reset, undefined instruction, supervisor call, prefetch abort, data
+// abort, (unused), interrupt, fast interrupt.
 [[gnu::section(".start"), gnu::naked, gnu::used]] void crankloop_vectors() {
   asm volatile(
       "b crankloop_reset\n"
@@ -25,8 +25,8 @@ extern "C" {
       "b crankloop_exception\n");
 }
 
-// The coprocessor access control register grants CP10 and CP11, FPEXC.EN turns the unit on (Armv7-AR Architecture Reference Manual, B4.1.40
-// and B6.1.39).
+// The coprocessor access control register grants CP10 and CP11, FPEXC.EN turns the unit on (Armv7-AR Architecture
+// Reference Manual, B4.1.40 and B6.1.39).
 [[gnu::naked]] void crankloop_reset() {
   asm volatile(
       "ldr sp, =crankloop_stack_top\n"

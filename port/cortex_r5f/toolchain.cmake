@@ -1,4 +1,5 @@
-# Cortex-R5F: Arm state, floating-point unit with double precision. Images run on a bare Cortex-R5F of QEMU with 16 MB of RAM at 0.
+# Cortex-R5F: Arm state, floating-point unit with double precision. Images run on a bare Cortex-R5F of QEMU with 16 MB
+# of RAM at 0.
 include("${CMAKE_CURRENT_LIST_DIR}/../common/bare_metal.cmake")
 crankloop_bare_metal(cortex_r5f arm-none-eabi "-mcpu=cortex-r5 -marm -mfpu=vfpv3-d16 -mfloat-abi=hard")
 # An instruction takes 2^0 ns of the emulated time, and the cycle counter counts nanoseconds.

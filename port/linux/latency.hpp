@@ -1,6 +1,8 @@
-// How long something took, many times over: a histogram with fixed buckets, so that counting neither allocates nor waits.
+// How long something took, many times over: a histogram with fixed buckets, so that counting neither allocates nor
+// waits.
 //
-// What belongs here: counting times and telling percentiles. What does not: reading clocks (stopwatch.hpp), text and files.
+// What belongs here: counting times and telling percentiles. What does not: reading clocks (stopwatch.hpp), text and
+// files.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +12,8 @@
 
 namespace crankloop::port {
 
-/// Buckets as wide as 1 ns below 128 ns, and 64 to each octave above: no bucket is wider than 1/64 of the times in it. Octaves end at
-/// 2^40 ns, 18 minutes; longer times are counted in the last bucket. Some 18 KB.
+/// Buckets as wide as 1 ns below 128 ns, and 64 to each octave above: no bucket is wider than 1/64 of the times in it.
+/// Octaves end at 2^40 ns, 18 minutes; longer times are counted in the last bucket. Some 18 KB.
 class LatencyHistogram {
  public:
   struct Bucket {
@@ -35,8 +37,8 @@ class LatencyHistogram {
     return count_ == 0 ? 0 : static_cast<double>(sum_ns_) / static_cast<double>(count_);
   }
 
-  /// The time that at least `parts` of 10 000 did not exceed: 5000 is the median, 9990 the 99.9th percentile, 10 000 the longest. Told
-  /// as its bucket's end, so never too short, and at most 1/64 too long. 0 where nothing was counted.
+  /// The time that at least `parts` of 10 000 did not exceed: 5000 is the median, 9990 the 99.9th percentile, 10 000
+  /// the longest. Told as its bucket's end, so never too short, and at most 1/64 too long. 0 where nothing was counted.
   [[nodiscard]] std::int64_t quantile_ns(std::uint32_t parts) const noexcept {
     // The rank in whole numbers: 99.9 / 100 * count in double can come out one too high. ceil(parts * count / 10 000):
     const std::uint64_t rank = count_ / 10000 * parts + (count_ % 10000 * parts + 9999) / 10000;
@@ -55,7 +57,8 @@ class LatencyHistogram {
 
   /// From the shortest times to the longest.
   [[nodiscard]] Bucket bucket(std::size_t index) const noexcept {
-    if (index < 2 * kParts) return {static_cast<std::int64_t>(index), static_cast<std::int64_t>(index), buckets_[index]};
+    if (index < 2 * kParts)
+      return {static_cast<std::int64_t>(index), static_cast<std::int64_t>(index), buckets_[index]};
     const std::size_t width_log2 = index / kParts - 1;
     const auto first_ns = static_cast<std::int64_t>((index % kParts + kParts) << width_log2);
     return {first_ns, first_ns + (std::int64_t{1} << width_log2) - 1, buckets_[index]};

@@ -10,8 +10,8 @@
 namespace crankloop::port {
 namespace {
 
-/// By CLOCK_MONOTONIC, as now_ns(). To an absolute time, so that neither a signal nor what passes between reading the clock and falling
-/// asleep shifts it.
+/// By CLOCK_MONOTONIC, as now_ns(). To an absolute time, so that neither a signal nor what passes between reading the
+/// clock and falling asleep shifts it.
 void sleep_until(std::int64_t time_ns) noexcept {
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
   timespec time{};

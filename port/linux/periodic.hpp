@@ -1,7 +1,7 @@
 // A loop with a fixed period against the machine's clock.
 //
-// What belongs here: when a tick is due, and whether it was done in time. What does not: what a tick does, and how to be woken in time
-// (real_time.hpp).
+// What belongs here: when a tick is due, and whether it was done in time. What does not: what a tick does, and how to
+// be woken in time (real_time.hpp).
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@ namespace crankloop::port {
 
 /// What became of the ticks so far.
 struct PeriodicTally {
-  std::uint64_t ticks = 0;             ///< done
-  std::uint64_t late = 0;              ///< of them, those that began a period or more after they were due
-  std::uint64_t missed = 0;            ///< of them, those that were not done when the next one was due; late ones are among them
-  std::int64_t longest_backlog_ns = 0; ///< how far behind the clock a tick began
+  std::uint64_t ticks = 0;   ///< done
+  std::uint64_t late = 0;    ///< of them, those that began a period or more after they were due
+  std::uint64_t missed = 0;  ///< of them, those that were not done when the next one was due; late ones are among them
+  std::int64_t longest_backlog_ns = 0;  ///< how far behind the clock a tick began
 };
 
-/// Tick n is due n + 1 periods after the construction, whatever happened before: a tick is never dropped, and the times do not drift. Ticks whose
-/// time has passed begin at once, back to back, until the loop has caught up with the clock.
+/// Tick n is due n + 1 periods after the construction, whatever happened before: a tick is never dropped, and the times
+/// do not drift. Ticks whose time has passed begin at once, back to back, until the loop has caught up with the clock.
 ///
 ///     Periodic periodic(1'000'000);
 ///     while (periodic.tally().ticks < 1000) {

@@ -1,5 +1,5 @@
-# crankloop_real_time: a periodic loop on Linux and the block it shares; what `crankloop live` and its controllers link. Included by tools/,
-# since the program needs it, and images (crankloop_port) do not.
+# crankloop_real_time: a periodic loop on Linux and the block it shares; what `crankloop live` and its controllers link.
+# Included by tools/, since the program needs it, and images (crankloop_port) do not.
 add_library(crankloop_real_time STATIC
   ${CMAKE_CURRENT_LIST_DIR}/periodic.cpp
   ${CMAKE_CURRENT_LIST_DIR}/real_time.cpp

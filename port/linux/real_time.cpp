@@ -9,8 +9,8 @@
 namespace crankloop::port {
 namespace {
 
-/// Touches the stack that the loop may grow into, so that its pages are there to be locked. Not inlined: the array has to lie below the
-/// caller's frame.
+/// Touches the stack that the loop may grow into, so that its pages are there to be locked. Not inlined: the array has
+/// to lie below the caller's frame.
 __attribute__((noinline)) void touch_stack() noexcept {
   constexpr std::size_t kBytes = 256 * 1024;
   constexpr std::size_t kPage = 4096;  // the smallest there is
@@ -34,7 +34,8 @@ RealTime::RealTime(const RealTimeWish& wish) noexcept : before_{::sched_getsched
   if (wish.cpu >= 0) cpu_error_ = run_only_on(wish.cpu);
   touch_stack();
   if (::mlockall(MCL_CURRENT) != 0) memory_error_ = errno;
-  // Under the usual scheduler Linux may wake a sleeper 50 us late to save power, unless told otherwise; under SCHED_FIFO it does not.
+  // Under the usual scheduler Linux may wake a sleeper 50 us late to save power, unless told otherwise; under
+  // SCHED_FIFO it does not.
   ::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
   if (wish.priority > 0) {
     sched_param parameters{};

@@ -12,11 +12,13 @@ struct RealTimeWish {
   int cpu = -1;      ///< the only processor to run on, counted from 0; -1: any
 };
 
-/// Held by the calling thread from the construction to the end of the object. Nothing of it is needed for right results, only for being
-/// in time, so a refusal is no error: it is kept, as errno's number (0: granted), for whoever wants to tell it.
+/// Held by the calling thread from the construction to the end of the object. Nothing of it is needed for right
+/// results, only for being in time, so a refusal is no error: it is kept, as errno's number (0: granted), for whoever
+/// wants to tell it.
 ///
-/// Memory: every page that there is at the construction stays in RAM, and 256 KiB of stack below the caller with them. Pages that come
-/// later do not (MCL_FUTURE): a limit on locked memory would then let an allocation fail somewhere else. So allocate before, not in the loop.
+/// Memory: every page that there is at the construction stays in RAM, and 256 KiB of stack below the caller with them.
+/// Pages that come later do not (MCL_FUTURE): a limit on locked memory would then let an allocation fail somewhere
+/// else. So allocate before, not in the loop.
 class RealTime {
  public:
   explicit RealTime(const RealTimeWish& wish) noexcept;

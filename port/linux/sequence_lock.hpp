@@ -12,18 +12,20 @@
 
 namespace crankloop::port {
 
-/// The writer makes the sequence number odd, writes the words, and makes it even again, two more than before. Who reads the same even number
-/// before and after the words has words of one write; otherwise they are torn and thrown away.
+/// The writer makes the sequence number odd, writes the words, and makes it even again, two more than before. Who reads
+/// the same even number before and after the words has words of one write; otherwise they are torn and thrown away.
 ///
-/// Every word is an atomic of its own, so a torn read is no data race. A word is stored with release and loaded with acquire: whoever
-/// loads a word of a write also sees the odd number stored before it, and so never accepts it as a part of the write before. The same is often
-/// written with fences, which the thread sanitizer does not understand; on x86 both are plain moves.
+/// Every word is an atomic of its own, so a torn read is no data race. A word is stored with release and loaded with
+/// acquire: whoever loads a word of a write also sees the odd number stored before it, and so never accepts it as a
+/// part of the write before. The same is often written with fences, which the thread sanitizer does not understand; on
+/// x86 both are plain moves.
 ///
 /// One writer. All zeros is a valid lock that was never written (sequence 0), so it may lie in a new file.
 template <class Value>
 class SequenceLocked {
   static_assert(std::is_trivially_copyable_v<Value> && sizeof(Value) % sizeof(std::uint32_t) == 0);
-  static_assert(std::atomic<std::uint32_t>::is_always_lock_free, "a lock hidden in an atomic is not shared with another process");
+  static_assert(std::atomic<std::uint32_t>::is_always_lock_free,
+                "a lock hidden in an atomic is not shared with another process");
 
  public:
   /// Never waits. A writer that died while writing left the number odd; the next one goes on from there.

@@ -38,12 +38,13 @@ class File {
   int descriptor_;
 };
 
-// ---- a block that is taken away -------------------------------------------------------------------------------------------------
+// ---- a block that is taken away -------------------------------------------------------------------------------------
 
-constexpr std::size_t kMostBlocks = 8;  // of one process, at a time
-std::array<std::atomic<void*>, kMostBlocks> mapped_blocks{};
+constexpr std::size_t kMaxBlocks = 8;  // of one process, at a time
+std::array<std::atomic<void*>, kMaxBlocks> mapped_blocks{};
 
-/// Puts a page of zeros in the place of a block's that is gone; the access is then made again. mmap is no more than its system call.
+/// Puts a page of zeros in the place of a block's that is gone; the access is then made again. mmap is no more than its
+/// system call.
 extern "C" void replace_lost_block(int signal_number, siginfo_t* information, void*) {
   const auto* touched = static_cast<const unsigned char*>(information->si_addr);
   for (const std::atomic<void*>& mapped : mapped_blocks) {
@@ -75,7 +76,7 @@ void forget(void* block) {
   }
 }
 
-// ---- files ----------------------------------------------------------------------------------------------------------------------
+// ---- files ----------------------------------------------------------------------------------------------------------
 
 bool is_block_sized(int file) {
   struct stat found {};
@@ -86,14 +87,16 @@ bool is_block_sized(int file) {
 bool is_at(int file, const std::string& path) {
   struct stat mine {};
   struct stat there {};
-  return ::fstat(file, &mine) == 0 && ::lstat(path.c_str(), &there) == 0 && mine.st_dev == there.st_dev && mine.st_ino == there.st_ino;
+  return ::fstat(file, &mine) == 0 && ::lstat(path.c_str(), &there) == 0 && mine.st_dev == there.st_dev &&
+         mine.st_ino == there.st_ino;
 }
 
-/// A block of this version, or what there is of one whose maker died over it, or that was truncated: the words of its head are right, or 0, or
-/// not there.
+/// A block of this version, or what there is of one whose maker died over it, or that was truncated: the words of its
+/// head are right, or 0, or not there.
 bool was_block(int file) {
   struct stat found {};
-  if (::fstat(file, &found) != 0 || !S_ISREG(found.st_mode) || found.st_size > static_cast<off_t>(kLiveBlockBytes)) return false;
+  if (::fstat(file, &found) != 0 || !S_ISREG(found.st_mode) || found.st_size > static_cast<off_t>(kLiveBlockBytes))
+    return false;
   std::array<std::uint32_t, 3> head{};
   if (::pread(file, head.data(), sizeof head, 0) < 0) return false;
   constexpr std::array<std::uint32_t, 3> kHead{kLiveMagic, kLiveVersion, std::uint32_t{kLiveBlockBytes}};
@@ -103,7 +106,8 @@ bool was_block(int file) {
   return true;
 }
 
-/// Removes a block that no process runs on any more. Only who has its lock may, so nobody removes what another has put there meanwhile.
+/// Removes a block that no process runs on any more. Only who has its lock may, so nobody removes what another has put
+/// there meanwhile.
 void remove_left_over(const std::string& path) {
   const File old(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
   if (old.descriptor() < 0 && errno == ENOENT) return;  // its owner has ended, or another has removed it
@@ -122,8 +126,8 @@ int create_file(const std::string& path) {
     return create_file(path);
   }
   if (file.descriptor() < 0) refuse(path, "cannot be created", errno);
-  // Locked until this process ends, however it does: that tells a running block from a left-over one. In the moment before, another process may
-  // have taken it for one that its maker died over.
+  // Locked until this process ends, however it does: that tells a running block from a left-over one. In the moment
+  // before, another process may have taken it for one that its maker died over.
   const bool taken = ::flock(file.descriptor(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   if (taken || !is_at(file.descriptor(), path)) return create_file(path);
   // Room now, or a full disk would stop the loop by a signal later.
@@ -136,7 +140,8 @@ int create_file(const std::string& path) {
 
 }  // namespace
 
-SharedBlock::SharedBlock(std::string path, int file, bool creator) : path_{std::move(path)}, file_{file}, creator_{creator} {
+SharedBlock::SharedBlock(std::string path, int file, bool creator)
+    : path_{std::move(path)}, file_{file}, creator_{creator} {
   void* memory = ::mmap(nullptr, kLiveBlockBytes, PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);
   if (memory == MAP_FAILED) {
     const int error = errno;
@@ -148,12 +153,13 @@ SharedBlock::SharedBlock(std::string path, int file, bool creator) : path_{std::
   block_ = creator_ ? new (memory) LiveBlock : std::launder(static_cast<LiveBlock*>(memory));
 }
 
-SharedBlock SharedBlock::create(const std::string& path, double tick_s, std::uint32_t cylinders) {
+SharedBlock SharedBlock::create(const std::string& path, double tick_s, std::uint32_t cylinders, bool breathes) {
   SharedBlock block(path, create_file(path), true);
   block->version = kLiveVersion;
   block->size_bytes = kLiveBlockBytes;
   block->tick_s = tick_s;
   block->cylinders = cylinders;
+  block->breathes = breathes ? 1 : 0;
   block->magic.store(kLiveMagic, std::memory_order_release);
   return block;
 }

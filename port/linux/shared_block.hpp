@@ -1,7 +1,8 @@
-// The block of memory that `crankloop live` shares with a controller: inputs in, outputs out. docs/live.md has the same as a table.
+// The block of memory that `crankloop live` shares with a controller: inputs in, outputs out. docs/live.md has the same
+// as a table.
 //
-// What belongs here: the layout, and how a process gets hold of the block. What does not: what the engine makes of it. This header,
-// sequence_lock.hpp and shared_block.cpp need nothing else of crankloop: a controller may copy them.
+// What belongs here: the layout, and how a process gets hold of the block. What does not: what the engine makes of it.
+// This header, sequence_lock.hpp and shared_block.cpp need nothing else of crankloop: a controller may copy them.
 #pragma once
 
 #include <atomic>
@@ -14,13 +15,17 @@
 
 namespace crankloop::port {
 
-/// What the controller wants. Written as a whole, each of its periods, also where nothing changed: that is its sign of life.
-/// As it stands here it is the safe one: no fuel, no load, no starter.
+/// What the controller wants. Written as a whole, each of its periods, also where nothing changed: that is its sign of
+/// life. As it stands here it is the safe one: no fuel, no load, no starter, throttle closed.
 struct LiveInputs {
-  double load_ratio = 0;            ///< 0 = motored, 1 = the pressure diagram as it is
-  double load_Nm = 0;               ///< brake torque on the crankshaft, positive against forward rotation
+  double load_ratio = 0;            ///< 0 = motored, 1 = the pressure diagram as it is; of an engine that has one
+  double external_torque_Nm = 0;    ///< brake torque on the crankshaft, positive against forward rotation
   std::uint32_t starter = 0;        ///< not 0: engaged
   std::uint32_t cut_cylinders = 0;  ///< bit k: cylinder k, counted from 0, does not fire
+  // of an engine that breathes
+  double throttle_ratio = 0;  ///< 0 = closed, 1 = wide open
+  double fuel_kg = 0;         ///< per cylinder and cycle
+  double burn_start_deg = 0;  ///< after firing top dead centre
 };
 
 /// Bits of LiveOutputs::flags.
@@ -46,11 +51,14 @@ struct LiveOutputs {
   std::uint32_t torn_inputs = 0;       ///< ticks that found inputs half written and used the last whole ones
   std::uint64_t late_ticks = 0;        ///< ticks that began a whole tick or more after their time
   std::uint64_t missed_deadlines = 0;  ///< ticks that were not done when the next one was due
+  double intake_Pa = 0;                ///< in the manifold of an engine that breathes
+  double trapped_air_kg = 0;           ///< of its cylinders' last whole cycles, mean
 };
 
 enum class LiveState : std::uint32_t { starting = 0, running = 1, ended = 2 };
 
-/// The block itself, in the byte order and with the floating-point numbers (IEEE 754) of the machine. Words not named are 0.
+/// The block itself, in the byte order and with the floating-point numbers (IEEE 754) of the machine. Words not named
+/// are 0.
 struct alignas(64) LiveBlock {
   std::atomic<std::uint32_t> magic{0};  ///< kLiveMagic, written last: before that nothing in the block is valid
   std::uint32_t version = 0;
@@ -58,21 +66,28 @@ struct alignas(64) LiveBlock {
   std::atomic<LiveState> state{LiveState::starting};
   double tick_s = 0;
   std::uint32_t cylinders = 0;
+  std::uint32_t breathes = 0;  ///< 1: throttle, fuel and burn start count, and the load ratio does not
   alignas(64) SequenceLocked<LiveInputs> inputs;    ///< written by the controller, one only
   alignas(64) SequenceLocked<LiveOutputs> outputs;  ///< written by live
 };
 
 inline constexpr std::uint32_t kLiveMagic = 0x4C4B5243;  ///< the bytes "CRKL" where the lowest comes first
-inline constexpr std::uint32_t kLiveVersion = 1;         ///< another layout has another number
+inline constexpr std::uint32_t kLiveVersion = 2;         ///< another layout has another number
 inline constexpr std::size_t kLiveBlockBytes = 256;
 
 static_assert(sizeof(double) == 8 && sizeof(LiveBlock) == kLiveBlockBytes);
-static_assert(offsetof(LiveBlock, version) == 4 && offsetof(LiveBlock, size_bytes) == 8 && offsetof(LiveBlock, state) == 12);
-static_assert(offsetof(LiveBlock, tick_s) == 16 && offsetof(LiveBlock, cylinders) == 24);
+static_assert(offsetof(LiveBlock, version) == 4 && offsetof(LiveBlock, size_bytes) == 8 &&
+              offsetof(LiveBlock, state) == 12);
+static_assert(offsetof(LiveBlock, tick_s) == 16 && offsetof(LiveBlock, cylinders) == 24 &&
+              offsetof(LiveBlock, breathes) == 28);
 static_assert(offsetof(LiveBlock, inputs) == 64 && offsetof(LiveBlock, outputs) == 128);
-static_assert(sizeof(SequenceLocked<LiveInputs>) == 8 + sizeof(LiveInputs), "the words follow 8 bytes after the sequence number");
-static_assert(offsetof(LiveInputs, load_Nm) == 8 && offsetof(LiveInputs, starter) == 16 && offsetof(LiveInputs, cut_cylinders) == 20);
-static_assert(sizeof(LiveInputs) == 24 && sizeof(LiveOutputs) == 104);
+static_assert(sizeof(SequenceLocked<LiveInputs>) == 8 + sizeof(LiveInputs),
+              "the words follow 8 bytes after the sequence number");
+static_assert(offsetof(LiveInputs, external_torque_Nm) == 8 && offsetof(LiveInputs, starter) == 16 &&
+              offsetof(LiveInputs, cut_cylinders) == 20);
+static_assert(offsetof(LiveInputs, throttle_ratio) == 24 && offsetof(LiveInputs, fuel_kg) == 32 &&
+              offsetof(LiveInputs, burn_start_deg) == 40);
+static_assert(sizeof(LiveInputs) == 48 && sizeof(LiveOutputs) == 120);
 static_assert(offsetof(LiveOutputs, time_s) == 8 && offsetof(LiveOutputs, speed_rad_s) == 16);
 static_assert(offsetof(LiveOutputs, acceleration_rad_s2) == 24 && offsetof(LiveOutputs, crank_deg) == 32);
 static_assert(offsetof(LiveOutputs, torque_Nm) == 40 && offsetof(LiveOutputs, mean_torque_Nm) == 48);
@@ -80,6 +95,7 @@ static_assert(offsetof(LiveOutputs, friction_Nm) == 56 && offsetof(LiveOutputs, 
 static_assert(offsetof(LiveOutputs, faults) == 72 && offsetof(LiveOutputs, flags) == 76);
 static_assert(offsetof(LiveOutputs, inputs_sequence) == 80 && offsetof(LiveOutputs, torn_inputs) == 84);
 static_assert(offsetof(LiveOutputs, late_ticks) == 88 && offsetof(LiveOutputs, missed_deadlines) == 96);
+static_assert(offsetof(LiveOutputs, intake_Pa) == 104 && offsetof(LiveOutputs, trapped_air_kg) == 112);
 
 /// A block that cannot be had: one line, "PATH: why".
 class SharedBlockError : public std::runtime_error {
@@ -89,14 +105,16 @@ class SharedBlockError : public std::runtime_error {
 
 /// A block mapped into this process, for as long as the object lives.
 ///
-/// Anybody who may write to the file may truncate it, and whoever touches the page then gets SIGBUS. Such a block becomes memory of this process
-/// alone, all zero: its magic is gone, which tells both sides that they have lost it. The signal's handler stays for the life of the process; a
-/// SIGBUS from elsewhere ends the process as ever.
+/// Anybody who may write to the file may truncate it, and whoever touches the page then gets SIGBUS. Such a block
+/// becomes memory of this process alone, all zero: its magic is gone, which tells both sides that they have lost it.
+/// The signal's handler stays for the life of the process; a SIGBUS from elsewhere ends the process as ever.
 class SharedBlock {
  public:
-  /// Live's side: a new file, mode 0660 less the umask, removed at the end. A block that a killed run left behind is replaced, whole or
-  /// half made; any other file at that path, and a block that another process runs on, is refused and left alone.
-  [[nodiscard]] static SharedBlock create(const std::string& path, double tick_s, std::uint32_t cylinders);
+  /// Live's side: a new file, mode 0660 less the umask, removed at the end. A block that a killed run left behind is
+  /// replaced, whole or half made; any other file at that path, and a block that another process runs on, is refused
+  /// and left alone.
+  [[nodiscard]] static SharedBlock create(const std::string& path, double tick_s, std::uint32_t cylinders,
+                                          bool breathes = false);
 
   /// The controller's side: the block of a running `live`. Refused: no such file, not ready yet, another layout.
   [[nodiscard]] static SharedBlock open(const std::string& path);

@@ -8,8 +8,8 @@
 
 namespace crankloop::port {
 
-/// While one lives, these signals only set the flag; before and after they do what they did. A SIGHUP that is ignored stays so: a run under nohup
-/// outlives its terminal. One at a time.
+/// While one lives, these signals only set the flag; before and after they do what they did. A SIGHUP that is ignored
+/// stays so: a run under nohup outlives its terminal. One at a time.
 class StopSignal {
  public:
   StopSignal() noexcept {

@@ -1,6 +1,7 @@
 // A clock for measuring what a tick costs on this machine.
 //
-// What belongs here: reading the clock. What does not: what is measured, and how often (tools/crankloop/run/run_loop.cpp).
+// What belongs here: reading the clock. What does not: what is measured, and how often
+// (tools/crankloop/run/run_loop.cpp).
 #pragma once
 
 #include <time.h>

@@ -1,6 +1,7 @@
 // Whose inputs a tick uses: those given at the start, the controller's, or the safe ones once it falls silent.
 //
-// What belongs here: telling a live controller from a dead one. What does not: whether its numbers make sense (the engine says).
+// What belongs here: telling a live controller from a dead one. What does not: whether its numbers make sense (the
+// engine says).
 #pragma once
 
 #include <cstdint>
@@ -9,12 +10,13 @@
 
 namespace crankloop::port {
 
-/// A controller is there from its first write on. Its sign of life is a write: a sequence number not seen before, with inputs that are
-/// whole. One that stays away for longer than the patience, be it dead, stopped or stuck half-way through a write, is silent until its
-/// next write. Never waits and never loops.
+/// A controller is there from its first write on. Its sign of life is a write: a sequence number not seen before, with
+/// inputs that are whole. One that stays away for longer than the patience, be it dead, stopped or stuck half-way
+/// through a write, is silent until its next write. Never waits and never loops.
 class WatchedInputs {
  public:
-  /// `at_start` is used until a controller has written. What stands in `area` now was written for an earlier run and is not used.
+  /// `at_start` is used until a controller has written. What stands in `area` now was written for an earlier run and is
+  /// not used.
   WatchedInputs(const SequenceLocked<LiveInputs>& area, const LiveInputs& at_start, std::int64_t patience_ns) noexcept
       : area_{area}, used_{at_start}, patience_ns_{patience_ns}, sequence_{area.sequence()} {}
 
@@ -38,10 +40,10 @@ class WatchedInputs {
     return used_;
   }
 
-  [[nodiscard]] std::uint32_t flags() const noexcept { return flags_; }           ///< LiveFlag
-  [[nodiscard]] std::uint32_t sequence() const noexcept { return sequence_; }     ///< of the latest inputs that came
-  [[nodiscard]] std::uint32_t torn() const noexcept { return torn_; }             ///< ticks that found a write under way
-  [[nodiscard]] std::uint32_t silences() const noexcept { return silences_; }     ///< how often the controller fell silent
+  [[nodiscard]] std::uint32_t flags() const noexcept { return flags_; }        ///< LiveFlag
+  [[nodiscard]] std::uint32_t sequence() const noexcept { return sequence_; }  ///< of the latest inputs that came
+  [[nodiscard]] std::uint32_t torn() const noexcept { return torn_; }          ///< ticks that found a write under way
+  [[nodiscard]] std::uint32_t silences() const noexcept { return silences_; }  ///< how often the controller fell silent
 
  private:
   const SequenceLocked<LiveInputs>& area_;

@@ -1,6 +1,7 @@
 // Start-up of a RISC-V core in machine mode: trap vector, stack, floating-point unit.
 //
-// What belongs here: what happens between reset and main on one hart, interrupts off. What does not: a board's clocks and memories.
+// What belongs here: what happens between reset and main on one hart, interrupts off. What does not: a board's clocks
+// and memories.
 #include "port/common/start.hpp"
 
 #include "port/common/machine.hpp"

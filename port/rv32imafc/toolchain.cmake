@@ -1,7 +1,8 @@
 # RV32IMAFC: 32-bit RISC-V with single-precision floating-point unit. Images run on QEMU's virt machine.
 include("${CMAKE_CURRENT_LIST_DIR}/../common/bare_metal.cmake")
 crankloop_bare_metal(rv32imafc riscv64-unknown-elf "-march=rv32imafc -mabi=ilp32f -mcmodel=medany --specs=picolibc.specs")
-# Debian has no C++ library for bare-metal RISC-V. The library needs headers only, and those of the Arm compiler of the same version serve.
+# Debian has no C++ library for bare-metal RISC-V. The library needs headers only, and those of the Arm compiler of the
+# same version serve.
 file(GLOB crankloop_cxx_headers /usr/include/newlib/c++/*)
 if(crankloop_cxx_headers)
   string(APPEND CMAKE_CXX_FLAGS_INIT " -isystem ${crankloop_cxx_headers} -isystem ${crankloop_cxx_headers}/arm-none-eabi")

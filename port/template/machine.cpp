@@ -6,8 +6,8 @@ extern "C" std::uint32_t crankloop_stack_low[];
 namespace crankloop::port {
 namespace {
 
-// CHANGE: a way out for text and status. Semihosting works in QEMU and with every debugger; a UART does too, if a script on the other side
-// looks for "N passed, M failed" and makes the exit status of it.
+// CHANGE: a way out for text and status. Semihosting works in QEMU and with every debugger; a UART does too, if a
+// script on the other side looks for "N passed, M failed" and makes the exit status of it.
 void ask_host(std::uint32_t operation, const void* argument) noexcept {
   register std::uint32_t r0 asm("r0") = operation;
   register const void* r1 asm("r1") = argument;
@@ -28,7 +28,7 @@ void write(const char* text) noexcept { ask_host(0x04, text); }  // SYS_WRITE0
 
 void finish(int status) noexcept {
   const std::uint32_t block[2] = {0x20026, static_cast<std::uint32_t>(status)};  // ADP_Stopped_ApplicationExit
-  ask_host(0x20, block);                                                        // SYS_EXIT_EXTENDED
+  ask_host(0x20, block);                                                         // SYS_EXIT_EXTENDED
   for (;;) {
   }
 }
@@ -42,7 +42,8 @@ std::uint32_t counter() noexcept {
   return 0xFFFFFFFFu - timer->value;  // upwards
 }
 
-// CHANGE: counts to instructions, or to cycles on a board (performance.md then says cycles). Here 1024 ns an instruction, 20.48 counts.
+// CHANGE: counts to instructions, or to cycles on a board (performance.md then says cycles). Here 1024 ns an
+// instruction, 20.48 counts.
 std::uint32_t instructions_between(std::uint32_t from, std::uint32_t to) noexcept {
   return static_cast<std::uint32_t>((std::uint64_t{to - from} * 25 + 256) / 512);
 }

@@ -1,6 +1,7 @@
 // Start-up: vector table and reset. CHANGE: as it stands, of a Cortex-M with floating-point unit.
 //
-// What belongs here: what happens between reset and main. Section .start is what the linker script puts first into flash.
+// What belongs here: what happens between reset and main. Section .start is what the linker script puts first into
+// flash.
 #include "port/common/start.hpp"
 
 #include "port/common/machine.hpp"
@@ -16,8 +17,8 @@ void crankloop_fault() {
 }
 
 void crankloop_reset() {
-  // CHANGE: turn the floating-point unit on, before anything else. A processor that does not load the stack pointer from its vector table
-  // does that first, in a [[gnu::naked]] function: see port/cortex_r5f and port/rv32imafc.
+  // CHANGE: turn the floating-point unit on, before anything else. A processor that does not load the stack pointer
+  // from its vector table does that first, in a [[gnu::naked]] function: see port/cortex_r5f and port/rv32imafc.
   *reinterpret_cast<volatile std::uint32_t*>(0xE000ED88u) |= 0xFu << 20;  // CPACR: CP10 and CP11
   asm volatile("dsb\n isb" ::: "memory");
   crankloop::port::prepare_memory();  // initialised data, zeroed data, constructors
@@ -38,7 +39,8 @@ struct Vectors {
 // CHANGE: the processor's exceptions. Here: 1 is reset, all else ends the image.
 [[gnu::section(".start"), gnu::used]] const Vectors vectors{
     crankloop_stack_top,
-    {crankloop_reset, crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault,
-     crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault}};
+    {crankloop_reset, crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault,
+     crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault, crankloop_fault,
+     crankloop_fault, crankloop_fault, crankloop_fault}};
 
 }  // namespace

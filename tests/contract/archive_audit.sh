@@ -1,8 +1,9 @@
 #!/bin/sh
 # archive_audit.sh [--float] ARCHIVE...
-# What linking an archive brings with it, and what it does not: asks nothing of the image but memcpy, memset and memmove, has no variable,
-# nothing that runs before main, no exception, no RTTI, no guard of a static, no symbol of a name that could be a user's, and no fused
-# multiply-add. With --float also no instruction that computes in double. Complains of everything it finds.
+# What linking an archive brings with it, and what it does not: asks nothing of the image but memcpy, memset and
+# memmove, has no variable, nothing that runs before main, no exception, no RTTI, no guard of a static, no symbol of a
+# name that could be a user's, and no fused multiply-add. With --float also no instruction that computes in double.
+# Complains of everything it finds.
 #
 # Instructions are looked at on x86-64 and AArch64, double ones on x86-64.
 set -eu

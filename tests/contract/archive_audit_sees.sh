@@ -1,5 +1,6 @@
 #!/bin/sh
-# archive_audit_sees.sh COMPILER: the audit finds what it is for. Each case is a library with one thing in it that must not be there.
+# archive_audit_sees.sh COMPILER: the audit finds what it is for. Each case is a library with one thing in it that must
+# not be there.
 set -eu
 compiler=$1
 audit=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)/archive_audit.sh

@@ -43,7 +43,6 @@ TEST_F(BadCommandLine, IsToldWithTheUsageOfItsCommand) {
     words.insert(words.begin(), {"kinematics", kSample});
     expect_usage(words, {complaint, usage});
   };
-  kinematics({}, "--rpm or --speed-rad-s");
   kinematics({"--rpm"}, "--rpm needs a value");
   kinematics({"--rpm", "--step-deg"}, "--rpm needs a value");
   kinematics({"--rpm="}, "--rpm: the value is missing");
@@ -55,14 +54,34 @@ TEST_F(BadCommandLine, IsToldWithTheUsageOfItsCommand) {
   kinematics({"--rmp", "2000"}, "did you mean --rpm?");
   kinematics({"--rpm", "2000", "--method", "tabel"}, "did you mean table?");
   kinematics({"--rpm", "2000", "--csv", kSample}, "--csv would overwrite the input file");
+  expect_usage({"masses"}, {"--type, --bore-mm, --speed-rpm are missing", "usage: crankloop masses"});
+  expect_usage({"map", kSample, "--throttle", "0:1:3"}, {"--rpm is missing"});
+}
+
+TEST_F(BadCommandLine, TakesOutputByBothItsNames) {
+  std::filesystem::create_directory(folder_ / "packed");
+  write("packed/one.txt", "one");
+  for (const std::string name : {"-o", "--output"}) {
+    for (const auto& [command, input] : {std::pair{"tables", std::string(kSample)}, {"pack", folder_ / "packed"}}) {
+      const std::filesystem::path file = folder_ / (command + name);
+      const Answer answer = run({command, input, name, file});
+      EXPECT_EQ(answer.status, 0) << answer.error;
+      EXPECT_EQ(answer.out, "");
+      EXPECT_TRUE(std::filesystem::exists(file)) << command << " " << name;
+    }
+  }
+  expect_usage({"pack", folder_ / "packed"}, {"--output is missing", "usage: crankloop pack"});
+  expect_usage({"show", kSample, "-o", "x"}, {"unknown option '--output'"});
 }
 
 TEST_F(BadCommandLine, CarriesNoControlCodesToTheTerminal) {
-  const std::vector<std::vector<std::string>> cases = {{"\x1b[31mrun"}, {"show", "\x1b]0;title\x07"}, {"show", kSample, "--\x1b[2J"}, {"show", "two\nlines.ini"}};
+  const std::vector<std::vector<std::string>> cases = {
+      {"\x1b[31mrun"}, {"show", "\x1b]0;title\x07"}, {"show", kSample, "--\x1b[2J"}, {"show", "two\nlines.ini"}};
   for (const std::vector<std::string>& words : cases) {
     const Answer answer = run(words);
     EXPECT_EQ(answer.status, kBadInput);
-    EXPECT_EQ(answer.error, "crankloop: word " + std::to_string(words.size()) + " of the command line has a control character\n");
+    EXPECT_EQ(answer.error,
+              "crankloop: word " + std::to_string(words.size()) + " of the command line has a control character\n");
   }
 }
 
@@ -71,8 +90,7 @@ TEST_F(BadCommandLine, OfValvesIsToldWithTheUsageOfItsCommand) {
     words.insert(words.begin(), {"valve", kSample});
     expect_usage(words, {complaint, "usage: crankloop valve FILE"});
   };
-  valve({"--rpm", "2000"}, "--train is missing");
-  valve({"--train", "intake"}, "--rpm is missing");
+  valve({"--rpm", "2000"}, "--train is missing; " + std::string(kSample) + " has intake, exhaust");
   valve({"--train", "intake", "--rpm", "0"}, "would never turn");
   valve({"--train", "intake", "--rpm", "200000"}, "out of range");
   valve({"--train", "intake", "--rpm", "2000", "--accuracy-um", "0"}, "out of range");
@@ -89,9 +107,35 @@ TEST_F(BadCommandLine, OfValvesIsToldWithTheUsageOfItsCommand) {
   redline({"--vary", "springs"}, "did you mean spring?");
 }
 
+TEST_F(BadCommandLine, LacksNothingThatTheFileAnswers) {
+  constexpr const char* k125 = CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini";
+  const auto expect_same = [&](const std::vector<std::string>& brief, std::vector<std::string> rest) {
+    rest.insert(rest.begin(), brief.begin(), brief.end());
+    const Answer answer = run(brief);
+    EXPECT_EQ(answer.status, 0) << answer.error;
+    EXPECT_EQ(answer.out, run(rest).out) << brief[0];
+  };
+  expect_same({"kinematics", kSample, "--step-deg", "30"}, {"--rpm", "2000"});
+  expect_same({"forces", kSample, "--step-deg", "30"}, {"--rpm", "2000"});
+  expect_same({"balance", kSample}, {"--rpm", "2000"});
+  expect_same({"tables", kSample}, {"--tick-us", "100"});
+  expect_same({"lift", k125, "--step-deg", "30"}, {"--train", "intake"});
+  expect_same({"valve", k125}, {"--train", "intake", "--rpm", "7000", "--tick-us", "20"});
+  expect_same({"redline", k125, "--from", "3000", "--to", "4000"}, {"--train", "intake"});
+  const std::string sample = contents(k125);
+  write("train.ini",
+        sample.substr(sample.find("[cam intake]"), sample.find("# Trigger") - sample.find("[cam intake]")));
+  expect_usage({"valve", folder_ / "train.ini"}, {"--rpm is missing", "has no [engine] with a rated_rpm"});
+}
+
 TEST_F(BadCommandLine, HelpIsNoMistake) {
-  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
-           {"--help"}, {"help"}, {"help", "show"}, {"show", "--help"}, {"help", "engine-file"}, {"--version"}}) {
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{{"--help"},
+                                                                                     {"help"},
+                                                                                     {"help", "show"},
+                                                                                     {"show", "--help"},
+                                                                                     {"help", "engine-file"},
+                                                                                     {"help", "patterns"},
+                                                                                     {"--version"}}) {
     const Answer answer = run(words);
     EXPECT_EQ(answer.status, 0);
     EXPECT_EQ(answer.error, "");
@@ -106,7 +150,8 @@ class Output : public BadInput {
   pid_t start_long_run() const {
     const pid_t child = start({"run", kSample, "--cycles", "1000000", "--csv", folder_ / "r.csv"}, folder_ / "stdout");
     const auto deadline = std::chrono::steady_clock::now() + kPatience;
-    while (unfinished().empty() && std::chrono::steady_clock::now() < deadline) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    while (unfinished().empty() && std::chrono::steady_clock::now() < deadline)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
     EXPECT_EQ(unfinished().size(), 1u);
     return child;
   }
@@ -128,7 +173,8 @@ class Output : public BadInput {
 
 TEST_F(BadCommandLine, HelpSaysWhatErrorsLookLikeAndWhatAKeyUsuallyIs) {
   const std::string help = run({"help"}).out;
-  for (const char* text : {"FILE:LINE: what is wrong", "crankloop COMMAND: what is wrong", "exit status 2", "exit status 1"}) {
+  for (const char* text :
+       {"FILE:LINE: what is wrong", "crankloop COMMAND: what is wrong", "exit status 2", "exit status 1"}) {
     EXPECT_NE(help.find(text), std::string::npos) << text;
   }
   const std::string keys = run({"help", "engine-file"}).out;
@@ -139,7 +185,8 @@ TEST_F(BadCommandLine, HelpSaysWhatErrorsLookLikeAndWhatAKeyUsuallyIs) {
   };
   EXPECT_NE(about("bore_mm").find("; required"), std::string::npos) << about("bore_mm");
   EXPECT_NE(about("net_mep_kPa").find("; required, or heat_J"), std::string::npos) << about("net_mep_kPa");
-  EXPECT_NE(about("rod_g").find("; required, or rod_small_end_g and rod_big_end_g"), std::string::npos) << about("rod_g");
+  EXPECT_NE(about("rod_g").find("; required, or rod_small_end_g and rod_big_end_g"), std::string::npos)
+      << about("rod_g");
   EXPECT_EQ(about("crankcase_kPa").find("required"), std::string::npos);
   EXPECT_NE(about("wiebe_m").find("; default 0.9; usual 0.7 to 3"), std::string::npos) << about("wiebe_m");
   EXPECT_NE(about("compression_ratio").find("; usual "), std::string::npos) << about("compression_ratio");
@@ -174,11 +221,12 @@ TEST_F(Output, OfAProgramThatASignalEndsIsTakenAway) {
 }
 
 TEST_F(Output, BeyondTheLargestFileAllowedIsAFailureThatLeavesNothing) {
-  const std::string command = "ulimit -f 100; exec '" CRANKLOOP_PROGRAM "' run '" + std::string(kSample) + "' --cycles 1000 --csv '" + (folder_ / "r.csv") +
-                              "' 2>'" + (folder_ / "stderr") + "'";
+  const std::string command = "ulimit -f 100; exec '" CRANKLOOP_PROGRAM "' run '" + std::string(kSample) +
+                              "' --cycles 1000 --csv '" + (folder_ / "r.csv") + "' 2>'" + (folder_ / "stderr") + "'";
   const int status = std::system(command.c_str());
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == kFailure) << status;
-  EXPECT_NE(contents(folder_ / "stderr").find("r.csv cannot be written: File too large"), std::string::npos) << contents(folder_ / "stderr");
+  EXPECT_NE(contents(folder_ / "stderr").find("r.csv cannot be written: File too large"), std::string::npos)
+      << contents(folder_ / "stderr");
   EXPECT_EQ(files(), std::vector<std::string>{"stderr"});
 }
 

@@ -1,5 +1,5 @@
-// docs/contract.md "Recovery": a scene that asks for bad_input_count has ticks with bad inputs counted, and their kinds kept, in
-// its state; nothing else changes.
+// docs/contract.md "Recovery": a scene that asks for bad_input_count has ticks with bad inputs counted, and their kinds
+// kept, in its state; nothing else changes.
 #include <gtest/gtest.h>
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// What the program answers to bad engine files and diagrams: one line that names file and line, exit status 2, and nothing else written.
+// What the program answers to bad engine files and diagrams: one line that names file and line, exit status 2, and
+// nothing else written.
 //
 // The program runs as its users run it, as a process of its own.
 #include <gtest/gtest.h>
@@ -62,7 +63,7 @@ TEST_F(BadInput, EveryKeyIsMissedWhereItHasNoDefault) {
   }
   expect_refused(sample_.without("name"), "[engine]", {"lacks name"});
   expect_refused(sample_.without("source"), "[pressure]",
-                 {"lacks source", "wiebe | angle_table | volume_table | none"});
+                 {"lacks source", "wiebe | angle_table | volume_table | gas | none"});
 }
 
 TEST_F(BadInput, EveryKeyIsRefusedWhenItIsDoubled) {
@@ -101,12 +102,14 @@ TEST_F(BadInput, EveryNumberMustBeAPlainFiniteNumber) {
 
 TEST_F(BadInput, AMotoredExpansionThatGivesWorkIsRefused) {
   const auto with_exponent = [this](const char* exponent) {
-    return sample_.changed("exhaust_valve_opens_deg", std::string("exhaust_valve_opens_deg = 135\nmotored_expansion_exponent = ") + exponent);
+    return sample_.changed("exhaust_valve_opens_deg",
+                           std::string("exhaust_valve_opens_deg = 135\nmotored_expansion_exponent = ") + exponent);
   };
   for (const char* good : {"0", "1.35", "1.5"}) expect_accepted(with_exponent(good));
   expect_refused(with_exponent("1.34"), sample_.line_of("exhaust_valve_opens_deg") + 1,
                  {"motored_expansion_exponent: 1.34 would give work", "at least compression_exponent = 1.35"});
-  expect_refused(with_exponent("3.1"), sample_.line_of("exhaust_valve_opens_deg") + 1, {"3.1 is out of range; allowed: "});
+  expect_refused(with_exponent("3.1"), sample_.line_of("exhaust_valve_opens_deg") + 1,
+                 {"3.1 is out of range; allowed: "});
 }
 
 TEST_F(BadInput, ZeroIsRefusedWhereItMeansNothing) {
@@ -126,17 +129,19 @@ TEST_F(BadInput, ARodThatCannotTurnIsRefusedWithTheLengthItNeeds) {
   expect_accepted(drawn.with("rod_length_mm", "67.6").with("pin_offset_mm", "-10"));
   expect_refused(sample_.with("rod_length_mm", "50"), "rod_length_mm",
                  {"50 is too short"});  // though rod_ratio replaces it
-  const Engine hardly = sample_.with("pin_offset_mm", "10").with("rod_length_mm", "67.501");  // by a thousandth of a millimetre
+  const Engine hardly =
+      sample_.with("pin_offset_mm", "10").with("rod_length_mm", "67.501");  // by a thousandth of a millimetre
   expect_refused(hardly.with("rod_ratio", "0.852"), "rod_ratio", {"makes the rod 67.4883"});
 }
 
 TEST_F(BadInput, ARodWhoseLengthAndRatioDisagreeIsRefusedWithBoth) {
-  expect_accepted(sample_);  // 0.2738, and 57.5 / 210 = 0.27381
-  expect_accepted(sample_.with("rod_ratio", "0.27354"));                                            // 0.098 % below 57.5 / 210
+  expect_accepted(sample_);                               // 0.2738, and 57.5 / 210 = 0.27381
+  expect_accepted(sample_.with("rod_ratio", "0.27354"));  // 0.098 % below 57.5 / 210
   expect_refused(sample_.with("rod_ratio", "0.27353"), "rod_ratio", {"0.27353", "rod_length_mm"});  // 0.102 %
   expect_refused(sample_.with("rod_ratio", "0.27409"), "rod_ratio", {"0.27409"});                   // 0.102 % above
   expect_refused(sample_.with("rod_length_mm", "260"), "rod_ratio",
-                 {"rod_ratio: 0.2738 contradicts rod_length_mm = 260 (line " + std::to_string(sample_.line_of("rod_length_mm")) + ")",
+                 {"rod_ratio: 0.2738 contradicts rod_length_mm = 260 (line " +
+                      std::to_string(sample_.line_of("rod_length_mm")) + ")",
                   "stroke_mm / 2 / rod_length_mm = 0.221154", "0.1 %", "leave rod_ratio out"});
   expect_accepted(sample_.with("rod_length_mm", "260").without("rod_ratio"));
 }
@@ -203,10 +208,12 @@ TEST_F(BadInput, AThrowIsGivenReducedOrByPinAndWebsButNotBothOrInPart) {
   const auto with = [this](const std::string& keys) { return sample_.changed("crank_pin_equivalent_g", keys); };
   expect_accepted(with("crank_pin_g = 900\ncrank_web_g = 1400\ncrank_web_radius_mm = 21"));
   expect_refused(with("crank_pin_equivalent_g = 900\ncrank_pin_g = 900"), "crank_pin_g",
-                 {"crank_pin_g and crank_pin_equivalent_g", "exclude each other", "crank_pin_g and crank_web_g and crank_web_radius_mm"});
+                 {"crank_pin_g and crank_pin_equivalent_g", "exclude each other",
+                  "crank_pin_g and crank_web_g and crank_web_radius_mm"});
   expect_refused(with("crank_pin_g = 900\ncrank_web_radius_mm = 21"), "[masses]", {"lacks crank_web_g"});
   expect_refused(with("crank_web_g = 1400\ncrank_web_radius_mm = 21"), "[masses]", {"lacks crank_pin_g"});
-  expect_refused(with("crank_pin_g = 900\ncrank_web_g = -1\ncrank_web_radius_mm = 21"), "crank_web_g", {"-1 is out of range; allowed: "});
+  expect_refused(with("crank_pin_g = 900\ncrank_web_g = -1\ncrank_web_radius_mm = 21"), "crank_web_g",
+                 {"-1 is out of range; allowed: "});
 }
 
 TEST_F(BadInput, HeatIsGivenAsItselfOrByWhatItMustReach) {
@@ -247,7 +254,11 @@ TEST_F(BadInput, SeveralErrorsAreToldAtOnceAndNoneThatFollowsFromAnother) {
     EXPECT_EQ(line.compare(0, start.size(), start), 0) << line << "  should start with " << start;
     EXPECT_NE(line.find(fragment), std::string::npos) << line << "  should say: " << fragment;
   };
-  const Engine engine = sample_.with("bore_mm", "abc").with("compression_ratio", "-1").without("piston_g").without("rod_big_end_g").with("wiebe_m", "99");
+  const Engine engine = sample_.with("bore_mm", "abc")
+                            .with("compression_ratio", "-1")
+                            .without("piston_g")
+                            .without("rod_big_end_g")
+                            .with("wiebe_m", "99");
   const std::vector<std::string> lines = told(engine);
   ASSERT_EQ(lines.size(), 5u);
   expect_at(lines[0], engine.line_of("bore_mm"), "not a number");
@@ -255,7 +266,8 @@ TEST_F(BadInput, SeveralErrorsAreToldAtOnceAndNoneThatFollowsFromAnother) {
   expect_at(lines[2], engine.line_of("[masses]"), "lacks piston_g");
   expect_at(lines[3], engine.line_of("[masses]"), "lacks rod_big_end_g");
   expect_at(lines[4], engine.line_of("wiebe_m"), "99 is out of range");
-  EXPECT_EQ(told(sample_.with("source", "weibe").without("net_mep_kPa")).size(), 1u) << "what a source needs is known with the source";
+  EXPECT_EQ(told(sample_.with("source", "weibe").without("net_mep_kPa")).size(), 1u)
+      << "what a source needs is known with the source";
   EXPECT_EQ(told(sample_.changed("bore_mm", "bor_mm = 95")).size(), 1u) << "the key that was meant is not missing too";
   EXPECT_EQ(told(sample_.changed("[crank]", "[crnk]").changed("[masses]", "[mases]")).size(), 2u);
   EXPECT_EQ(told(sample_.changed("[crank]", "[crank").changed("bore_mm", "bore_mm 95")).size(), 2u);
@@ -298,22 +310,29 @@ TEST_F(BadInput, AFileThatIsNoEngineFileIsRefusedAsAWhole) {
   EXPECT_EQ(run({"show", path_}).status, 0);
 }
 
-/// Some never end, some wait for another process, some do something when they are read: nothing but a regular file is read.
+/// Some never end, some wait for another process, some do something when they are read: nothing but a regular file is
+/// read.
 TEST_F(BadInput, AFileThatIsNoRegularOneIsNotRead) {
   ASSERT_EQ(mkfifo((folder_ / "fifo").c_str(), 0600), 0);
   std::filesystem::create_symlink(folder_ / "fifo", folder_ / "link");
-  for (const std::string& path : {folder_ / "fifo", folder_ / "link", std::string("/dev/zero"), std::string("/dev/null"), std::string("/dev/tty")}) {
+  for (const std::string& path : {folder_ / "fifo", folder_ / "link", std::string("/dev/zero"),
+                                  std::string("/dev/null"), std::string("/dev/tty")}) {
     const Answer answer = run({"show", path});
     EXPECT_EQ(answer.status, kBadInput) << path;
     if (path != "/dev/tty") expect_refusal(answer, path, {"is no regular file"});  // which may not even open
   }
   for (const std::string source : {"angle_table", "volume_table"}) {
     for (const std::string table : {"fifo", "link", "/dev/zero"}) {
-      expect_refused(sample_.changed("source", "source = " + source + "\nfile = " + table), "file = ", {table + " is no regular file"});
+      expect_refused(sample_.changed("source", "source = " + source + "\nfile = " + table),
+                     "file = ", {table + " is no regular file"});
     }
   }
   const Engine ohc(contents(CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini"));
-  write("engine.ini", ohc.changed("source = polynomial", "source = table\nfile = fifo\nsmoothing_um = 10").without("max_lift_mm").without("half_angle_deg").without("exponents").text());
+  write("engine.ini", ohc.changed("source = polynomial", "source = table\nfile = fifo\nsmoothing_um = 10")
+                          .without("max_lift_mm")
+                          .without("half_angle_deg")
+                          .without("exponents")
+                          .text());
   const Answer answer = run({"lift", path_, "--train", "intake"});
   EXPECT_EQ(answer.status, kBadInput);
   EXPECT_NE(answer.error.find("fifo is no regular file"), std::string::npos) << answer.error;
@@ -357,13 +376,15 @@ TEST_F(BadDiagram, IsMissedWhereItIsNamed) {
 /// The path stands in an engine file, which may come from anybody, and leads to whatever its reader may read.
 TEST_F(BadDiagram, IsNotShownWhereItIsNone) {
   const std::string secret = "root:$6$salt$hash:19000:0:99999:7:::";
-  for (const std::string& text : {secret + "\n", "crank_deg,pressure_kPa\n" + secret + "\n", "crank_deg,pressure_kPa\n1," + secret + "\n",
-                                  "crank_deg,pressure_kPa\n" + secret + ",1\n", "crank_deg,pressure_kPa\n1,12" + secret + "\n"}) {
+  for (const std::string& text :
+       {secret + "\n", "crank_deg,pressure_kPa\n" + secret + "\n", "crank_deg,pressure_kPa\n1," + secret + "\n",
+        "crank_deg,pressure_kPa\n" + secret + ",1\n", "crank_deg,pressure_kPa\n1,12" + secret + "\n"}) {
     write("p.csv", text);
     write("engine.ini", sample_.changed("source", "source = angle_table\nfile = p.csv").text());
     const Answer answer = run({"show", path_});
     expect_refusal(answer, folder_ / "p.csv:" + std::to_string(std::count(text.begin(), text.end(), '\n')), {});
-    for (const char* part : {"root", "salt", "hash", "19000"}) EXPECT_EQ(answer.error.find(part), std::string::npos) << answer.error;
+    for (const char* part : {"root", "salt", "hash", "19000"})
+      EXPECT_EQ(answer.error.find(part), std::string::npos) << answer.error;
   }
 }
 

@@ -1,6 +1,6 @@
 #!/bin/sh
-# bench_sees.sh CHECKOUT: tests/contract/bench/bench.sh finds what it is for, and tells what it leaves out: with a program of two kernels, a
-# compiler and a valgrind made of scripts.
+# bench_sees.sh CHECKOUT: tests/contract/bench/bench.sh finds what it is for, and tells what it leaves out: with a
+# program of two kernels, a compiler and a valgrind made of scripts.
 set -eu
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -1,6 +1,6 @@
 #!/bin/sh
-# check_counts.sh CHECKOUT: tools/check counts what its logs say. Each case is what a part's command prints, how it ends, and what has to be
-# counted: "passed failed skipped".
+# check_counts.sh CHECKOUT: tools/check counts what its logs say. Each case is what a part's command prints, how it
+# ends, and what has to be counted: "passed failed skipped".
 set -eu
 cd "$1"
 . tools/common.sh
@@ -67,7 +67,7 @@ test_command "$folder/log" true
 test_command "$folder/log" false 2>"$folder/said"
 [ "$passed $failed" = '1 1' ] || { echo "of a command that does well and one that fails: $passed passed, $failed failed" && bad=$((bad + 1)); }
 
-# ---- what the environment must not do ---------------------------------------------------------------------------------------
+# ---- what the environment must not do --------------------------------------------------------------------------------
 left=$(
   export GTEST_TOTAL_SHARDS=2 GTEST_FILTER=-Crank.\* GTEST_REPEAT=0 ASAN_OPTIONS=exitcode=0 LSAN_OPTIONS=a UBSAN_OPTIONS=b TSAN_OPTIONS=c
   clean_environment
@@ -85,7 +85,7 @@ for seconds in 1 15 360; do
   CRANKLOOP_FUZZ_SECONDS=$seconds tools/check --list | grep -q "^fuzz: .* $seconds s each" || { echo "CRANKLOOP_FUZZ_SECONDS=$seconds is not taken" && bad=$((bad + 1)); }
 done
 
-# ---- the list ---------------------------------------------------------------------------------------------------------------
+# ---- the list --------------------------------------------------------------------------------------------------------
 # Every line of it has a reason.
 awk '!/^#/ && NF > 0 && NF < 4 { print "tests/may_be_skipped.conf:" NR ": no reason"; bad = 1 } END { exit bad }' tests/may_be_skipped.conf || bad=$((bad + 1))
 [ "$bad" -eq 0 ]

@@ -1,7 +1,8 @@
 #!/bin/sh
 # contraction_is_refused.sh COMPILER CORE_DIR
-# A scene whose translation unit fuses a*b + c is refused by init, at every optimisation that fuses; one that does not is not, also when both are linked
-# into one program: each answers for itself. Exit status 77, "skipped", where this machine's processor has no fused multiply-add.
+# A scene whose translation unit fuses a*b + c is refused by init, at every optimisation that fuses; one that does not
+# is not, also when both are linked into one program: each answers for itself. Exit status 77, "skipped", where this
+# machine's processor has no fused multiply-add.
 set -eu
 compiler=$1 core=$2
 folder=$(mktemp -d)

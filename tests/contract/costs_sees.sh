@@ -1,6 +1,6 @@
 #!/bin/sh
-# costs_sees.sh CHECKOUT: tests/target/costs.sh finds what it is for, on a target made of scripts: two scenes, a compiler that only knows its
-# version, an emulator that prints what images of costs.cpp would.
+# costs_sees.sh CHECKOUT: tests/target/costs.sh finds what it is for, on a target made of scripts: two scenes, a
+# compiler that only knows its version, an emulator that prints what images of costs.cpp would.
 set -eu
 costs=$1/tests/target/costs.sh
 folder=$(mktemp -d)

@@ -1,4 +1,5 @@
-// The documents' figures: every command that docs/separation_and_bounce.md shows is run, and what stands below it compared.
+// The documents' figures: every command that docs/separation_and_bounce.md shows is run, and what stands below it
+// compared.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -104,9 +105,7 @@ bool begins(const std::vector<std::string>& shown, const std::vector<std::string
 
 class SeparationAndBounce : public testing::Test {
  protected:
-  SeparationAndBounce() {
-    std::filesystem::copy(kSource / "tools/engines/ohc_125.ini", folder_.path());
-  }
+  SeparationAndBounce() { std::filesystem::copy(kSource / "tools/engines/ohc_125.ini", folder_.path()); }
 
   /// What a command of the document prints, run beside the sample engine.
   std::string output_of(const std::string& command) const {
@@ -182,7 +181,7 @@ TEST_F(SeparationAndBounce, TellsTheForcesOfTheTrain) {
   double compression_m = 0;
   lowest.forces.train_N = 1e9;
   run_cycles<double>(loop, valve, 7000, 4, [&](const ValveTickOutput<double>& out) {
-    compression_m = std::max(compression_m, out.forces.gap_m);
+    compression_m = std::max(compression_m, out.forces.train_compression_m);
     if (out.cam_deg > 0 && out.cam_deg < 45 && out.forces.train_N < lowest.forces.train_N) lowest = out;
     if (std::abs(out.cam_deg) < std::abs(at_full_lift.cam_deg) || at_full_lift.forces.train_N == 0) at_full_lift = out;
   });

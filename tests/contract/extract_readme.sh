@@ -1,7 +1,7 @@
 #!/bin/sh
 # extract_readme.sh README FOLDER NAME...
-# Writes the README's code blocks whose first line is a comment with a file's name ("// main.cpp", "# CMakeLists.txt") to that file in
-# FOLDER. Every NAME must be among them.
+# Writes the README's code blocks whose first line is a comment with a file's name ("// main.cpp", "# CMakeLists.txt")
+# to that file in FOLDER. Every NAME must be among them.
 set -eu
 readme=$1 folder=$2
 shift 2

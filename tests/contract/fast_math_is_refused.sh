@@ -1,7 +1,7 @@
 #!/bin/sh
 # fast_math_is_refused.sh COMPILER CORE_DIR
-# Under flags that give up IEEE arithmetic, a user's source that includes the library is refused with an error that says so, and the
-# library itself cannot be built; under ordinary flags both are accepted.
+# Under flags that give up IEEE arithmetic, a user's source that includes the library is refused with an error that says
+# so, and the library itself cannot be built; under ordinary flags both are accepted.
 set -eu
 compiler=$1 core=$2
 
@@ -24,7 +24,8 @@ for flags in -ffast-math -Ofast -ffinite-math-only; do
   esac
 done
 
-# That every source of the library is accepted under ordinary flags, its own build shows; one that refuses is enough to end a build.
+# That every source of the library is accepted under ordinary flags, its own build shows; one that refuses is enough to
+# end a build.
 for source in "$core"/src/tick/*.cpp; do
   accepts "$source" || fail "$source is refused under ordinary flags"
   said=$(accepts -ffast-math "$source") && fail "$source can be built under -ffast-math"

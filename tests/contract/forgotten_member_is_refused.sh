@@ -1,8 +1,9 @@
 #!/bin/sh
 # forgotten_member_is_refused.sh COMPILER CORE_DIR
-# Each record of the tables with one more member does not compile where all members are gone through (tabulate/table_members.hpp), so none
-# can be left out of what is printed for flash. Nor does a definition with one more field than its each_field() lists compile where the
-# tables' fingerprint is made. As they are all of them do compile.
+# Each record of the tables with one more member does not compile where all members are gone through
+# (tabulate/table_members.hpp), so none can be left out of what is printed for flash. Nor does a definition with one
+# more field than its each_field() lists compile where the tables' fingerprint is made. As they are all of them do
+# compile.
 set -eu
 compiler=$1 core=$2
 folder=$(mktemp -d)
@@ -12,6 +13,7 @@ cat >"$folder/all.cpp" <<'END'
 #include <crankloop/tabulate/table_members.hpp>
 #include <crankloop/tabulate/tabulate.hpp>
 using namespace crankloop;
+using namespace crankloop::detail;
 template <class T>
 void go_through(const T& x) {
   if constexpr (std::is_array_v<T>) {
@@ -30,7 +32,8 @@ END
 compiles() { "$compiler" -std=c++17 -fsyntax-only -I "$folder" "$1" 2>&1; }
 
 bad=0 structs=0
-# each_refused FILE MESSAGE HEADERS STRUCT...: FILE compiles; with one more member of any of the structs it does not, and the compiler says MESSAGE.
+# each_refused FILE MESSAGE HEADERS STRUCT...: FILE compiles; with one more member of any of the structs it does not,
+# and the compiler says MESSAGE.
 each_refused() {
   file=$1 message=$2 headers=$3
   shift 3

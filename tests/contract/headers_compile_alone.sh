@@ -1,6 +1,7 @@
 #!/bin/sh
 # headers_compile_alone.sh COMPILER STANDARD INCLUDE_DIR
-# Every public header compiles as the only one included, and included twice, under the warnings that crankloop's own builds use.
+# Every public header compiles as the only one included, and included twice, under the warnings that crankloop's own
+# builds use.
 set -eu
 compiler=$1 standard=$2 include_dir=$3
 

@@ -1,5 +1,5 @@
-// docs/contract.md "What init refuses", and build where a scene lacks the room: each by its reason, leaving an engine that is
-// not ready.
+// docs/contract.md "What init refuses", and build where a scene lacks the room: each by its reason, leaving an engine
+// that is not ready.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -9,6 +9,8 @@
 #include "support/status.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 namespace {
 
 using namespace tick_test;

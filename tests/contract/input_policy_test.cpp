@@ -1,5 +1,5 @@
-// docs/contract.md "Inputs of a step", of an engine with elastic valves: each input's range to the last bit, what a bad one
-// is replaced by, the way back, and counters and speeds at their ends.
+// docs/contract.md "Inputs of a step", of an engine with elastic valves: each input's range to the last bit, what a bad
+// one is replaced by, the way back, and counters and speeds at their ends.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -99,8 +99,7 @@ TYPED_TEST(InputPolicy, TakesAStepOfTheCrankUpToTheSpeedLimitAndBeyondItForAJump
   using Real = TypeParam;
   const auto& drive = *tables_of_four<Real, MeasuredFourWithValves>().tables().drive;
   // The limit as an angle of the tick, 50 us: less than half a cycle, so that it has a sign.
-  const long double limit_deg =
-      static_cast<long double>(drive.speed_limit_rad_s) * 50e-6L * 180 / support::kWidePi;
+  const long double limit_deg = static_cast<long double>(drive.speed_limit_rad_s) * 50e-6L * 180 / support::kWidePi;
   for (const long double sign : {1.0L, -1.0L}) {
     for (const long double part : {0.999999L, 1.000001L}) {
       const auto engine = started_four<Real, MeasuredFourWithValves>();

@@ -2,12 +2,12 @@
 # layers.sh CHECKOUT: no file of a lower layer includes one of a higher one.
 #
 # Core knows nothing of ports, tools and tests. The program's folders stand in the order below, each on those
-# before it; files beside the folders are either for all of them or one for each command, and a command may include all. The laboratory may
-# include all but commands, of which only bench and stress include it.
+# before it; files beside the folders are either for all of them or one for each command, and a command may include all.
+# The laboratory may include all but commands, of which only bench and stress include it.
 set -eu
 cd "$1"
 
-layers='report engine_file signals valve run engine_report redline free live'
+layers='report engine_file signals valve run engine_report redline map free live fmu'
 for_all='arguments csv error machine number output_file progress results run_limits summary table_file text_file tick_probe units with_real words free_orders'
 
 bad=0

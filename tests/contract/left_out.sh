@@ -1,6 +1,7 @@
 #!/bin/sh
-# left_out.sh FOLDER: what a scene leaves out is not in its library. In FOLDER are the libraries of scenes/; each must hold exactly the tables
-# that its scene reads, and code of valves only where it has valves. An archive that asks nothing of others (archive_audit.sh) is all there is.
+# left_out.sh FOLDER: what a scene leaves out is not in its library. In FOLDER are the libraries of scenes/; each must
+# hold exactly the tables that its scene reads, and code of valves only where it has valves. An archive that asks
+# nothing of others (archive_audit.sh) is all there is.
 set -eu
 folder=$1
 

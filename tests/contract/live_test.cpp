@@ -1,5 +1,5 @@
-// `crankloop live`, run as a user runs it: with the example's controller, with a controller that errs or dies, until a signal, with bad arguments.
-// Times are this machine's, which may be busy: they are looked for, never bounded.
+// `crankloop live`, run as a user runs it: with the example's controller, with a controller that errs or dies, until a
+// signal, with bad arguments. Times are this machine's, which may be busy: they are looked for, never bounded.
 #include <gtest/gtest.h>
 #include <sys/types.h>
 #include <sys/wait.h>
@@ -47,7 +47,8 @@ class Process {
     arguments.push_back(nullptr);
     id_ = ::fork();
     if (id_ != 0) return;
-    if (std::freopen(output_path_.c_str(), "w", stdout) == nullptr || ::dup2(STDOUT_FILENO, STDERR_FILENO) < 0) ::_exit(126);
+    if (std::freopen(output_path_.c_str(), "w", stdout) == nullptr || ::dup2(STDOUT_FILENO, STDERR_FILENO) < 0)
+      ::_exit(126);
     ::execv(arguments[0], arguments.data());
     ::_exit(127);
   }
@@ -136,12 +137,16 @@ LiveOutputs outputs_of(const SharedBlock& block) {
 
 TEST_F(Live, StartsAndIdlesUnderTheExamplesController) {
   constexpr double kTarget_rpm = 800;
-  // The controller is integral: the mean is off only by what its last disturbance left, the end of the run-up 2 s before.
+  // The controller is integral: the mean is off only by what its last disturbance left, the end of the run-up 2 s
+  // before.
   constexpr double kMean_rpm = 0.01 * kTarget_rpm;
-  // Ignition by ignition the speed swings, and the smoothed one a quarter of that; a controller held up by the machine adds to it.
+  // Ignition by ignition the speed swings, and the smoothed one a quarter of that; a controller held up by the machine
+  // adds to it.
   constexpr double kPeak_rpm = 0.1 * kTarget_rpm;
-  Process engine(live({"--tick-us", "1000", "--seconds", "30", "--shared", block_path(), "--silent-ms", "5000"}), in_folder("live.txt"));
-  Process controller({CRANKLOOP_IDLE_CONTROL, block_path(), "--target-rpm", "800", "--seconds", "5"}, in_folder("control.txt"));
+  Process engine(live({"--tick-us", "1000", "--seconds", "30", "--shared", block_path(), "--silent-ms", "5000"}),
+                 in_folder("live.txt"));
+  Process controller({CRANKLOOP_IDLE_CONTROL, block_path(), "--target-rpm", "800", "--seconds", "5"},
+                     in_folder("control.txt"));
   EXPECT_EQ(controller.wait(), 0) << controller.output();
   engine.signal(SIGINT);
   EXPECT_EQ(engine.wait(), 0) << engine.output();
@@ -154,13 +159,44 @@ TEST_F(Live, StartsAndIdlesUnderTheExamplesController) {
   EXPECT_EQ(ran.at("faulty_ticks"), "0");
 }
 
+TEST_F(Live, IdlesByTheThrottleWhereTheEngineBreathes) {
+  constexpr double kTarget_rpm = 800;
+  // Torque follows the throttle by the time that the manifold takes to fill, so the controller is slow: of its run-up
+  // to 1700 rpm a few per cent are left after 6 s.
+  constexpr double kMean_rpm = 0.05 * kTarget_rpm;
+  constexpr double kPeak_rpm = 0.15 * kTarget_rpm;
+  Process engine({CRANKLOOP_PROGRAM, "live", CRANKLOOP_SOURCE_DIR "/tools/engines/four_2000.ini", "--tick-us", "500",
+                  "--seconds", "60", "--shared", block_path(), "--silent-ms", "5000"},
+                 in_folder("live.txt"));
+  Process controller({CRANKLOOP_IDLE_CONTROL, block_path(), "--target-rpm", "800", "--seconds", "12"},
+                     in_folder("control.txt"));
+  const std::optional<SharedBlock> block = open_running();
+  ASSERT_TRUE(block);
+  EXPECT_EQ((*block)->breathes, 1u);
+  EXPECT_EQ(controller.wait(), 0) << controller.output();
+  const LiveOutputs idling = outputs_of(*block);
+  engine.signal(SIGINT);
+  EXPECT_EQ(engine.wait(), 0) << engine.output();
+
+  const auto held = values_of(controller.output());
+  EXPECT_NEAR(std::stod(held.at("mean_speed")), kTarget_rpm, kMean_rpm) << controller.output();
+  EXPECT_LE(std::stod(held.at("peak_error")), kPeak_rpm) << controller.output();
+  // A throttled engine: a quarter of an atmosphere in the manifold, an eighth of the charge.
+  EXPECT_GT(idling.intake_Pa, 15e3);
+  EXPECT_LT(idling.intake_Pa, 45e3);
+  EXPECT_GT(idling.trapped_air_kg, 40e-6);
+  EXPECT_LT(idling.trapped_air_kg, 120e-6);
+  EXPECT_EQ(values_of(engine.output()).at("faulty_ticks"), "0");
+}
+
 TEST_F(Live, TellsTimesAndDeadlinesOfEveryTick) {
   const std::string csv = in_folder("histogram.csv");
-  Process engine(live({"--tick-us", "500", "--seconds", "0.5", "--from-rpm", "900", "--histogram", csv}), in_folder("live.txt"));
+  Process engine(live({"--tick-us", "500", "--seconds", "0.5", "--from-rpm", "900", "--histogram", csv}),
+                 in_folder("live.txt"));
   ASSERT_EQ(engine.wait(), 0) << engine.output();
   const auto values = values_of(engine.output());
-  for (const char* name : {"machine", "kernel", "scheduler", "memory", "processor", "late_ticks", "missed_deadlines", "longest_backlog",
-                           "model_share_mean", "model_share_max", "final_speed", "mean_torque"}) {
+  for (const char* name : {"machine", "kernel", "scheduler", "memory", "processor", "late_ticks", "missed_deadlines",
+                           "longest_backlog", "model_share_mean", "model_share_max", "final_speed", "mean_torque"}) {
     EXPECT_EQ(values.count(name), 1u) << name;
   }
   EXPECT_EQ(values.at("ticks"), "1000");
@@ -191,7 +227,8 @@ TEST_F(Live, TellsTimesAndDeadlinesOfEveryTick) {
 }
 
 TEST_F(Live, TurnsOnWithoutFuelWhenItsControllerFallsSilent) {
-  Process engine(live({"--seconds", "600", "--from-rpm", "1000", "--shared", block_path(), "--silent-ms", "50"}), in_folder("live.txt"));
+  Process engine(live({"--seconds", "600", "--from-rpm", "1000", "--shared", block_path(), "--silent-ms", "50"}),
+                 in_folder("live.txt"));
   const std::optional<SharedBlock> block = open_running();
   ASSERT_TRUE(block) << engine.output();
   EXPECT_EQ((*block)->cylinders, 4u);
@@ -199,7 +236,7 @@ TEST_F(Live, TurnsOnWithoutFuelWhenItsControllerFallsSilent) {
 
   LiveInputs in;
   in.load_ratio = 0.3;
-  in.load_Nm = 10;
+  in.external_torque_Nm = 10;
   (*block)->inputs.write(in);
   const std::uint32_t written = (*block)->inputs.sequence();
   EXPECT_TRUE(comes_true([&] { return outputs_of(*block).inputs_sequence == written; }));
@@ -222,14 +259,15 @@ TEST_F(Live, TurnsOnWithoutFuelWhenItsControllerFallsSilent) {
 }
 
 TEST_F(Live, SaysWhichInputsOfAControllerAreNone) {
-  Process engine(live({"--seconds", "600", "--from-rpm", "1000", "--shared", block_path(), "--silent-ms", "60000"}), in_folder("live.txt"));
+  Process engine(live({"--seconds", "600", "--from-rpm", "1000", "--shared", block_path(), "--silent-ms", "60000"}),
+                 in_folder("live.txt"));
   const std::optional<SharedBlock> block = open_running();
   ASSERT_TRUE(block) << engine.output();
   LiveInputs in;
   in.load_ratio = std::numeric_limits<double>::quiet_NaN();
-  in.load_Nm = 1e300;  // more than a float holds
+  in.external_torque_Nm = 1e300;  // more than a float holds
   (*block)->inputs.write(in);
-  EXPECT_TRUE(comes_true([&] { return outputs_of(*block).faults == (kFaultLoadRatio | kFaultLoad); }));
+  EXPECT_TRUE(comes_true([&] { return outputs_of(*block).faults == (kFaultLoadRatio | kFaultExternalTorque); }));
   EXPECT_TRUE(std::isfinite(outputs_of(*block).speed_rad_s));
   (*block)->inputs.write(LiveInputs{});
   EXPECT_TRUE(comes_true([&] { return outputs_of(*block).faults == 0; }));
@@ -239,8 +277,12 @@ TEST_F(Live, SaysWhichInputsOfAControllerAreNone) {
 }
 
 TEST_F(Live, EndsWithItsFiguresAndALineWhenItsBlockIsTakenAway) {
-  const auto truncate = [&] { std::filesystem::resize_file(block_path(), 0); };  // its pages are gone: who touches them gets SIGBUS
-  const auto overwrite = [&] { std::ofstream(block_path()) << std::string(kLiveBlockBytes, '\0'); };  // as `cp` would: truncated, then as large again
+  const auto truncate = [&] {
+    std::filesystem::resize_file(block_path(), 0);
+  };  // its pages are gone: who touches them gets SIGBUS
+  const auto overwrite = [&] {
+    std::ofstream(block_path()) << std::string(kLiveBlockBytes, '\0');
+  };  // as `cp` would: truncated, then as large again
   for (const std::function<void()>& take_away : {std::function<void()>(truncate), std::function<void()>(overwrite)}) {
     Process engine(live({"--seconds", "600", "--from-rpm", "1000", "--shared", block_path()}), in_folder("live.txt"));
     {
@@ -251,7 +293,9 @@ TEST_F(Live, EndsWithItsFiguresAndALineWhenItsBlockIsTakenAway) {
     EXPECT_EQ(engine.wait(), 1);
     const auto values = values_of(engine.output());
     EXPECT_EQ(values.count("ticks"), 1u) << engine.output();
-    EXPECT_NE(engine.output().find("crankloop: " + block_path() + ": was truncated or overwritten after "), std::string::npos) << engine.output();
+    EXPECT_NE(engine.output().find("crankloop: " + block_path() + ": was truncated or overwritten after "),
+              std::string::npos)
+        << engine.output();
     EXPECT_FALSE(std::filesystem::exists(block_path()));
   }
 }

@@ -1,7 +1,7 @@
 #!/bin/sh
 # misuse_is_refused.sh COMPILER INCLUDE_DIR
-# Mistakes that a user could make do not compile, and the compiler says why. Each is tried beside its correct form, which must compile: so
-# that a slip in the case itself cannot pass for a refusal.
+# Mistakes that a user could make do not compile, and the compiler says why. Each is tried beside its correct form,
+# which must compile: so that a slip in the case itself cannot pass for a refusal.
 set -eu
 compiler=$1 include_dir=$2
 
@@ -13,7 +13,8 @@ accepts() {
     "$compiler" -std=c++17 -fsyntax-only -Wall -Wextra -Wconversion -Werror -I "$include_dir" -x c++ - 2>&1
 }
 
-# refuses MESSAGE CODE RIGHT WRONG: CODE with its @ replaced by RIGHT compiles; by WRONG it does not, and the compiler says MESSAGE.
+# refuses MESSAGE CODE RIGHT WRONG: CODE with its @ replaced by RIGHT compiles; by WRONG it does not, and the compiler
+# says MESSAGE.
 refuses() {
   cases=$((cases + 1))
   if ! said=$(accepts "${2%%@*}$3${2#*@}"); then
@@ -26,7 +27,7 @@ refuses() {
   fi
 }
 
-# ---- scenes that make no sense --------------------------------------------------------------------------------------------------------
+# ---- scenes that make no sense ---------------------------------------------------------------------------------------
 
 # A scene of these answers, and its engine.
 engine_of='struct S : Scene {
@@ -66,7 +67,7 @@ refuses 'valve_gas needs a pressure' "$engine_of" "$elastic $by_input static con
 refuses 'at most 8 trigger wheels' "$engine_of" 'static constexpr Count triggers = up_to<8>;' 'static constexpr Count triggers = up_to<9>;'
 refuses 'trigger_edges is 1 to 1440' "$engine_of" 'static constexpr std::uint32_t trigger_edges = 1;' 'static constexpr std::uint32_t trigger_edges = 0;'
 
-# ---- what the scene left out ----------------------------------------------------------------------------------------------------------
+# ---- what the scene left out -----------------------------------------------------------------------------------------
 
 motion='struct S : Scene { static constexpr bool kinematics = true; };
 float f(Engine<float, S>& engine, Engine<float, S>::Input& in) { @ }'
@@ -82,10 +83,10 @@ refuses "no member named .motion" \
   'struct S : Scene { static constexpr bool @ = true; }; const void* f(const Tables<float, S>& tables) { return tables.motion; }' \
   'kinematics' 'rod_motion'
 
-# ---- slips of the hand ----------------------------------------------------------------------------------------------------------------
+# ---- slips of the hand -----------------------------------------------------------------------------------------------
 
-refuses 'narrow' 'SpeedInput<float> f(double speed_rad_s) { return {@}; }' 'static_cast<float>(speed_rad_s)' 'speed_rad_s'
-refuses 'conversion' 'void f(SpeedInput<float>& in, double speed_rad_s) { in.speed_rad_s = @; }' 'static_cast<float>(speed_rad_s)' 'speed_rad_s'
+refuses 'narrow' 'group::SpeedInput<float> f(double speed_rad_s) { return {@}; }' 'static_cast<float>(speed_rad_s)' 'speed_rad_s'
+refuses 'conversion' 'void f(group::SpeedInput<float>& in, double speed_rad_s) { in.speed_rad_s = @; }' 'static_cast<float>(speed_rad_s)' 'speed_rad_s'
 refuses 'conver' 'Phase f() { return @; }' 'Phase{1}' '1'
 refuses 'nodiscard' 'struct S : Scene {}; void f(Engine<float, S>& engine, const Tables<float, S>& tables) { @engine.init(tables); }' \
   'if (!engine.init(tables).ok()) return; (void)' ''

@@ -17,7 +17,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     shown = show(read_engine_file(file.path(), {}));
   } catch (const InputError& refusal) {
     const std::string message = refusal.what();
-    fuzz::must(!message.empty() && message.back() != '\n' && std::count(message.begin(), message.end(), '\n') < 20, "a refusal is 1 to 20 lines");
+    fuzz::must(!message.empty() && message.back() != '\n' && std::count(message.begin(), message.end(), '\n') < 20,
+               "a refusal is 1 to 20 lines");
     return 0;
   }
   again.write(shown.data(), shown.size());

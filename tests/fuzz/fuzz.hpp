@@ -41,8 +41,8 @@ class Bytes {
     return x;
   }
 
-  /// A number as it may stand in a definition: by its first byte as given, another one that is often near a limit, or any
-  /// bits at all. `usual` is a good one.
+  /// A number as it may stand in a definition: by its first byte as given, another one that is often near a limit, or
+  /// any bits at all. `usual` is a good one.
   [[nodiscard]] double number(double usual) {
     const auto how = take<std::uint8_t>();
     if (how < 128) return usual;

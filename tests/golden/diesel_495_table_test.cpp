@@ -14,6 +14,8 @@
 #include "support/units.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 namespace {
 
 using support::kRadPerDeg;

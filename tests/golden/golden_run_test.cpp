@@ -1,7 +1,9 @@
-// A golden run of each sample engine in each ready-made scene, and in exact scenes of the usual kinds: 2000 ticks of one life, committed as text.
+// A golden run of each sample engine in each ready-made scene, and in exact scenes of the usual kinds: 2000 ticks of
+// one life, committed as text.
 //
-// Every 20th tick shows some outputs of cylinder 1, every 100th a hash of all outputs of all ticks so far, every 500th all outputs. What is
-// committed of these rows, how it is compared and renewed: support/golden.hpp. Any changed bit changes a hash, and the first shows where.
+// Every 20th tick shows some outputs of cylinder 1, every 100th a hash of all outputs of all ticks so far, every 500th
+// all outputs. What is committed of these rows, how it is compared and renewed: support/golden.hpp. Any changed bit
+// changes a hash, and the first shows where.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,16 +20,20 @@
 #include <crankloop/tick/step.hpp>
 
 #include "crankloop/engine_file/engine_file.hpp"
+#include "support/four_2000.hpp"
+#include "support/gas_engine.hpp"
 #include "support/golden.hpp"
 #include "support/output_fields.hpp"
 #include "support/scenes.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 namespace {
 
 using namespace tick_test;
 
-// ---- the life ----------------------------------------------------------------------------------------------------------------------
+// ---- the life -------------------------------------------------------------------------------------------------------
 
 constexpr int kTicks = 2000;
 constexpr double kTick_s = 100e-6;
@@ -46,9 +52,9 @@ void drive(int tick, double rated_rad_s, Input<Real, S>& in) {
   const double speed = speed_rad_s(tick, rated_rad_s);
   if constexpr (S::crank == CrankGiven::speed) {
     in.speed_rad_s = tick == 1100 ? static_cast<Real>(1e9) : static_cast<Real>(speed);
-  } else if constexpr (S::crank == CrankGiven::load) {
+  } else if constexpr (S::crank == CrankGiven::torque) {
     // Started, run, thrown back through standstill, stopped.
-    in.load_Nm = static_cast<Real>(tick == 1100 ? 1e9 : tick < 1200 ? 0 : tick < 1700 ? 60 : 5);
+    in.external_torque_Nm = static_cast<Real>(tick == 1100 ? 1e9 : tick < 1200 ? 0 : tick < 1700 ? 60 : 5);
     in.starter = tick < 800 ? 1 : 0;
     in.cut_cylinders = tick < 900 ? 0 : static_cast<std::uint32_t>(tick / 64);
   } else {
@@ -56,16 +62,24 @@ void drive(int tick, double rated_rad_s, Input<Real, S>& in) {
     in.crank += Phase::from_cycles(speed * kTick_s * kCyclesPerRad);
     if (tick == 1100) in.crank += Phase{std::uint64_t{1} << 63};
   }
-  if constexpr (Needs<S>::load) in.load_ratio = tick == 600 ? Real{-1} : static_cast<Real>(tick / 100 % 6 * 0.25);
-  if constexpr (Needs<S>::input_pressure) {
-    for (int k = 0; k < static_cast<int>(S::cylinders.capacity); ++k) in.pressure_Pa[k] = static_cast<Real>(90'000 + 64 * ((37 * tick + 911 * k) % 60'000));
+  if constexpr (detail::Needs<S>::load)
+    in.load_ratio = tick == 600 ? Real{-1} : static_cast<Real>(tick / 100 % 6 * 0.25);
+  if constexpr (detail::Needs<S>::input_pressure) {
+    for (int k = 0; k < static_cast<int>(S::cylinders.capacity); ++k)
+      in.pressure_Pa[k] = static_cast<Real>(90'000 + 64 * ((37 * tick + 911 * k) % 60'000));
+  }
+  if constexpr (detail::Needs<S>::manifolds)
+    in.throttle_ratio = tick == 600 ? Real{-1} : static_cast<Real>(0.25 * (tick / 300 % 5));
+  if constexpr (detail::Needs<S>::burn_input) {
+    for (Real& fuel : in.fuel_kg) fuel = static_cast<Real>(tick / 400 * 10e-6);
+    in.burn_start_deg[0] = Real{-25}, in.burn_duration_deg[0] = Real{70};
   }
   if constexpr (S::cam_phasing) {
     for (Real& target : in.cam_phase_deg) target = tick < 500 ? Real{0} : tick < 1500 ? Real{-20} : Real{10};
   }
 }
 
-// ---- the text ----------------------------------------------------------------------------------------------------------------------
+// ---- the text -------------------------------------------------------------------------------------------------------
 
 template <class Number>
 std::string text_of(Number x) {
@@ -88,9 +102,13 @@ std::string life_of(const EngineDefinition& definition, double rated_rad_s) {
 
   const Layout& layout = definition.layout;
   std::uint8_t pins = 0;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) pins = std::max<std::uint8_t>(pins, layout.pin[k] + 1);
-  const support::Used used{static_cast<std::size_t>(layout.cylinders), pins, static_cast<std::size_t>(definition.train_count)};
-  static const std::set<std::string> kKeys{"torque_Nm", "mean_torque_Nm", "displacement_m", "rod_angle_rad", "pressure_Pa", "pin_load_N", "lift_m", "train_N", "gap_m"};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k)
+    pins = std::max<std::uint8_t>(pins, layout.pin[k] + 1);
+  const support::Used used{static_cast<std::size_t>(layout.cylinders), pins,
+                           static_cast<std::size_t>(definition.train_count)};
+  static const std::set<std::string> kKeys{"torque_Nm",   "mean_torque_Nm", "displacement_m",     "rod_angle_rad",
+                                           "pressure_Pa", "pin_load_N",     "gas_pressure_Pa",    "manifold_Pa",
+                                           "lift_m",      "train_N",        "train_compression_m"};
 
   std::string text = "tables " + support::hex(storage->tables().drive->fingerprint) + "\n";
   support::Fnv hash;
@@ -128,12 +146,15 @@ std::string life_in_exact(const EngineDefinition& definition, double rated_rad_s
   return "";
 }
 
-// ---- the tests -----------------------------------------------------------------------------------------------------------------------
+// ---- the tests ------------------------------------------------------------------------------------------------------
 
+/// Those with a diagram: the one that breathes has its own runs, below.
 std::vector<std::string> sample_engines() {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(CRANKLOOP_SOURCE_DIR "/tools/engines")) {
-    if (entry.path().extension() == ".ini") names.push_back(entry.path().stem().string());
+    if (entry.path().extension() != ".ini") continue;
+    const program::EngineFile file = program::read_engine_file(entry.path().string(), {});
+    if (file.definition().pressure.source != PressureSource::gas) names.push_back(entry.path().stem().string());
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -143,8 +164,10 @@ class GoldenRun : public ::testing::TestWithParam<std::string> {
  protected:
   template <class Life>
   void expect(const char* scene, const char* real, const Life& life) {
-    const program::EngineFile file = program::read_engine_file(CRANKLOOP_SOURCE_DIR "/tools/engines/" + GetParam() + ".ini", {"engine", "crank", "masses"});
-    support::expect_golden(GetParam() + "_" + scene + "_" + real, life(file.definition(), file.rated_rpm() * 0.10471975511965977));
+    const program::EngineFile file = program::read_engine_file(
+        CRANKLOOP_SOURCE_DIR "/tools/engines/" + GetParam() + ".ini", {"engine", "crank", "masses"});
+    support::expect_golden(GetParam() + "_" + scene + "_" + real,
+                           life(file.definition(), file.rated_rpm() * 0.10471975511965977));
   }
 };
 
@@ -180,16 +203,24 @@ TEST_P(GoldenRun, ExactValveDynamics) {
   expect("exact_valve_dynamics", "float", life_in_exact<float, ExactValveDynamics>);
   expect("exact_valve_dynamics", "double", life_in_exact<double, ExactValveDynamics>);
 }
+TEST(GoldenRunOfGas, FourCylindersWithElasticValves) {
+  constexpr double kRated_rad_s = 6000 * 0.10471975511965977;
+  support::expect_golden("four_2000_breathing_float",
+                         life_of<float, support::ElasticBreathingFour>(support::four_2000(), kRated_rad_s));
+  support::expect_golden("four_2000_breathing_double",
+                         life_of<double, support::ElasticBreathingFour>(support::four_2000(), kRated_rad_s));
+}
 INSTANTIATE_TEST_SUITE_P(Of, GoldenRun, ::testing::ValuesIn(sample_engines()), [](const auto& of) { return of.param; });
 
-// ---- the changelog -------------------------------------------------------------------------------------------------------------------
+// ---- the changelog --------------------------------------------------------------------------------------------------
 
 constexpr const char* kChangelog = CRANKLOOP_SOURCE_DIR "/CHANGELOG.md";
 
 TEST(GoldenRuns, AreThoseThatTheChangelogNames) {
   if (support::renewal() != nullptr) GTEST_SKIP() << "renewing";
   const std::string line = "golden runs " + support::checksum_of_golden_runs();
-  EXPECT_NE(support::contents_of(kChangelog).find(line), std::string::npos) << "no \"" << line << "\" in CHANGELOG.md: tests/golden/renew.sh \"why\"";
+  EXPECT_NE(support::contents_of(kChangelog).find(line), std::string::npos)
+      << "no \"" << line << "\" in CHANGELOG.md: tests/golden/renew.sh \"why\"";
 }
 
 /// After a renewal: its line in the changelog, under those before it.

@@ -1,4 +1,5 @@
-// Runs the golden tests. With `--renew WHY`, which tests/golden/renew.sh gives and no run of tests does, they write what they would compare.
+// Runs the golden tests. With `--renew WHY`, which tests/golden/renew.sh gives and no run of tests does, they write
+// what they would compare.
 #include <cstdio>
 #include <cstring>
 

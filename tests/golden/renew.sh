@@ -1,5 +1,6 @@
 #!/bin/sh
-# renew.sh WHY: writes all golden runs anew, on purpose, with a line in CHANGELOG.md that says WHY; then shows what changed.
+# renew.sh WHY: writes all golden runs anew, on purpose, with a line in CHANGELOG.md that says WHY; then shows what
+# changed.
 set -eu
 if [ $# -ne 1 ] || [ -z "$1" ]; then
   echo "usage: $0 WHY" >&2

@@ -1,8 +1,8 @@
 // The same bits everywhere: all tables of a 495-like engine, and 2000 ticks of it, have one hash each, whatever
 // compiler, optimisation or machine built them, as long as it does not fuse multiply and add (-ffp-contract=off).
 //
-// A changed hash means that every user's tables or outputs change: count kTableFormat up (core/src/tabulate/fingerprint.hpp) and renew it
-// (support/golden.hpp), which says so in the CHANGELOG.
+// A changed hash means that every user's tables or outputs change: count kTableFormat up
+// (core/src/tabulate/fingerprint.hpp) and renew it (support/golden.hpp), which says so in the CHANGELOG.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -14,10 +14,12 @@
 
 #include "support/golden.hpp"
 #include "support/output_numbers.hpp"
-#include "support/status.hpp"
 #include "support/running.hpp"
+#include "support/status.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 namespace {
 
 using namespace tick_test;
@@ -82,7 +84,7 @@ class Fnv {
     add(curve.at);
   }
   template <class Real>
-  void add(const Turning<Real>& t) {
+  void add(const RotatingVector<Real>& t) {
     for (const Real x :
          {t.up_cos, t.up_sin, t.lateral_cos, t.lateral_sin, t.pitch_cos, t.pitch_sin, t.yaw_cos, t.yaw_sin})
       add(x);
@@ -142,7 +144,8 @@ std::uint64_t hash_of(const Sections<Real>& s) {
     for (const Real x : {bearings.rods_kg_m[i], bearings.throw_kg_m[i], bearings.throw_cos[i], bearings.throw_sin[i]})
       fnv.add(x);
   }
-  for (const Turning<Real>& turning : {s.balance->first, s.balance->second, s.balance->rotating}) fnv.add(turning);
+  for (const RotatingVector<Real>& turning : {s.balance->first, s.balance->second, s.balance->rotating})
+    fnv.add(turning);
   fnv.add(s.balance->cosine);
   return fnv.value();
 }
@@ -197,7 +200,8 @@ TYPED_TEST_SUITE(SameBits, BothReals, RealName);
 
 template <class Real>
 void expect_hash(const char* what, std::uint64_t hash) {
-  support::expect_golden(std::string("like_the_495_") + what + (sizeof(Real) == 4 ? "_float" : "_double"), support::hex(hash) + "\n");
+  support::expect_golden(std::string("like_the_495_") + what + (sizeof(Real) == 4 ? "_float" : "_double"),
+                         support::hex(hash) + "\n");
 }
 
 TYPED_TEST(SameBits, OfAllTables) {

@@ -16,6 +16,8 @@
 #include "support/test_valves.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 namespace {
 
 using namespace tick_test;
@@ -44,8 +46,8 @@ class Fnv {
     add(s.lift);
     add(s.velocity);
     const ForceRow<Real>& a = s.acceleration;
-    for (const Real x : {a.rest, a.gas, a.lift, a.velocity, a.gap, a.gap_speed, s.train.sign, s.train.lag_s, s.train.least_m, s.seat.sign,
-                         s.seat.lag_s, s.seat.least_m, s.rest_m, s.rest_m_s}) {
+    for (const Real x : {a.rest, a.gas, a.lift, a.velocity, a.gap, a.gap_speed, s.train.sign, s.train.lag_s,
+                         s.train.least_m, s.seat.sign, s.seat.lag_s, s.seat.least_m, s.rest_m, s.rest_m_s}) {
       add(x);
     }
   }
@@ -117,7 +119,7 @@ std::uint64_t hash_of_tables(const Tables<Real, TwoValves>& tables) {
     fnv.add(curve.segments);
     fnv.add(curve.touch_from);
     fnv.add(curve.touch_degrees);
-    fnv.add(curve.leap_deg);
+    fnv.add(curve.skip_deg);
     fnv.add(curve.outside_m);
     for (std::uint32_t i = 0; i < curve.segments; ++i) {
       for (const Real x : curve.at[i].c) fnv.add(x);
@@ -125,9 +127,11 @@ std::uint64_t hash_of_tables(const Tables<Real, TwoValves>& tables) {
     }
     const ValveMotion<Real>& m = tables.valve_motions[t];
     const ValveBody<Real>& b = m.body;
-    for (const Real x : {b.mass_kg, b.train_N_m, b.train_Ns_m, b.seat_N_m, b.seat_Ns_m, b.spring_N_m, b.guide_Ns_m,
-                         b.preload_N, b.seat_sink_m, b.head_area_m2, b.rocker_mass_kg, m.tick_s, m.fine_step_s, m.per_parts,
-                         m.widest_step_deg, m.train_lag_s, m.seat_lag_s, m.per_seat_N_m, m.quiet_m, m.per_seat_rate_s}) {
+    for (const Real x :
+         {b.mass_kg,     b.train_N_m,      b.train_Ns_m,         b.seat_N_m,     b.seat_Ns_m,      b.spring_N_m,
+          b.guide_Ns_m,  b.preload_N,      b.seat_compression_m, b.head_area_m2, b.rocker_mass_kg, m.tick_s,
+          m.fine_step_s, m.per_parts,      m.widest_step_deg,    m.train_lag_s,  m.seat_lag_s,     m.per_seat_N_m,
+          m.quiet_m,     m.per_seat_rate_s}) {
       fnv.add(x);
     }
     fnv.add(m.parts);
@@ -157,13 +161,13 @@ std::uint64_t hash_of_run(const Tables<Real, TwoValves>& tables) {
       const ValveMotionOutput<Real>& v = out.valve[t][0];
       const ValveForcesOutput<Real>& f = out.valve_forces[t][0];
       for (const Real x : {v.theoretical_lift_m, v.lift_m, v.velocity_m_s, v.acceleration_m_s2, f.train_N, f.seat_N,
-                           f.tip_N, f.cam_N, f.gap_m})
+                           f.tip_N, f.cam_N, f.train_compression_m})
         fnv.add(x);
       fnv.add(f.regime);
       const ValveCycle<Real>& c = out.valve_cycle[t][0];
-      for (const Real x :
-           {c.largest_lift_m, c.largest_speed_m_s, c.largest_acceleration_m_s2, c.opening_delay_deg, c.separation_gap_m,
-            c.separation_start_deg, c.separation_duration_deg, c.seating_speed_m_s, c.bounce_height_m}) {
+      for (const Real x : {c.largest_lift_m, c.largest_speed_m_s, c.largest_acceleration_m_s2, c.opening_delay_deg,
+                           c.separation_clearance_m, c.separation_start_deg, c.separation_duration_deg,
+                           c.seating_speed_m_s, c.bounce_height_m}) {
         fnv.add(x);
       }
       for (const std::uint32_t x : {c.separations, c.bounces, c.contact_changes, c.off_seat_at_end}) fnv.add(x);
@@ -184,7 +188,8 @@ TYPED_TEST(ValveBits, OfTablesAndASweepOfSpeedsAreTheCommittedOnes) {
     auto storage = std::make_unique<TableStorage<Real, TwoValves>>();
     ASSERT_TRUE(accepted(storage->build(two_trains(), {50e-6, {integrator}})));
     hashes += std::string(integrator == Integrator::rk4 ? "rk4" : "exponential") + " tables " +
-              support::hex(hash_of_tables<Real>(storage->tables())) + " run " + support::hex(hash_of_run<Real>(storage->tables())) + "\n";
+              support::hex(hash_of_tables<Real>(storage->tables())) + " run " +
+              support::hex(hash_of_run<Real>(storage->tables())) + "\n";
   }
   support::expect_golden(sizeof(Real) == 4 ? "two_valves_float" : "two_valves_double", hashes);
 }

@@ -1,5 +1,6 @@
-// Runs the tests that judge mutants. With CRANKLOOP_MUTANT_REACH=FILE in the environment it writes, for each test, "NAME MILLISECONDS NUMBER...": its
-// processor time, and the places that a mutant may change and that the test came by. What ran before the first test has the name "-".
+// Runs the tests that judge mutants. With CRANKLOOP_MUTANT_REACH=FILE in the environment it writes, for each test,
+// "NAME MILLISECONDS NUMBER...": its processor time, and the places that a mutant may change and that the test came by.
+// What ran before the first test has the name "-".
 #include <cstdlib>
 #include <cstring>
 #include <ctime>

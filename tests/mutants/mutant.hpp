@@ -1,5 +1,6 @@
-// What tests/mutants/mutate.cpp writes into core: places that compute as they stand, but for the one whose number CRANKLOOP_MUTANT names. One build
-// then has all mutants, and a run chooses. What the compiler computes itself is never changed, and never counts as reached.
+// What tests/mutants/mutate.cpp writes into core: places that compute as they stand, but for the one whose number
+// CRANKLOOP_MUTANT names. One build then has all mutants, and a run chooses. What the compiler computes itself is never
+// changed, and never counts as reached.
 //
 //     a < b          a < mutant::change<7, mutant::Op::less_equal> < b      keeps the precedence of its operator
 //     2.5            mutant::twice<7>(2.5)          in a constant's definition mutant::at_start(mutant::twice<7>, 2.5)

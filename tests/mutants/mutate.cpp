@@ -1,12 +1,13 @@
 // mutate CHECKOUT OUT SEED COUNT [LEFT_OUT]
 //
-// Copies core of a checkout to the folder OUT, with COUNT single-point changes written into it that mutant.hpp can switch on, drawn from SEED. Prints for
-// each "NUMBER<TAB>FILE:LINE<TAB>CHANGE<TAB>CODE". The lines FILE:LINE that LEFT_OUT names stay as they are, and the others
-// keep their numbers: where a change did not compile.
+// Copies core of a checkout to the folder OUT, with COUNT single-point changes written into it that mutant.hpp can
+// switch on, drawn from SEED. Prints for each "NUMBER<TAB>FILE:LINE<TAB>CHANGE<TAB>CODE". The lines FILE:LINE that
+// LEFT_OUT names stay as they are, and the others keep their numbers: where a change did not compile.
 //
-// What is changed: comparisons, + - * /, constants (one more, twice, a tenth), conditions, negations, statements that are left out. What is not:
-// the valve's tick, what templates are made of, static_assert, enumerators, and constants that the compiler itself needs. A change is drawn by what
-// it changes and where it stands, not by how many there are: an edit of one line leaves the others of a sample as they were.
+// What is changed: comparisons, + - * /, constants (one more, twice, a tenth), conditions, negations, statements that
+// are left out. What is not: the valve's tick, what templates are made of, static_assert, enumerators, and constants
+// that the compiler itself needs. A change is drawn by what it changes and where it stands, not by how many there are:
+// an edit of one line leaves the others of a sample as they were.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -27,7 +28,9 @@ namespace {
 namespace fs = std::filesystem;
 using Lines = std::vector<std::string>;
 
-constexpr const char* kOutside = "tick/(valve[a-z_]*|valves_step|lift_curve)[.]hpp$";  // the valve's tick
+// The valve's tick; and FMUs, whose tests load them as shared objects (tests/fmi).
+constexpr const char* kOutside =
+    "(tick/(valve[a-z_]*|valves_step|lift_curve)[.]hpp|crankloop/variables[.]hpp|fmi/[a-z0-9_]*[.](hpp|inc))$";
 
 /// Replaces `length` characters at a place of a line.
 struct Edit {
@@ -254,7 +257,8 @@ const std::regex Finder::kNotAtRunTime(
     "static_assert|^ *template\\b|\\busing\\b|if constexpr|\\bcase\\b|\\bextern\\b|alignas|\\boperator\\b|\\bconstexpr "
     "bool\\b.*;|CRANKLOOP_C\\(");
 
-/// The file with its edits, each but once (two mutants of one definition both make it a variable), and the last of a line first.
+/// The file with its edits, each but once (two mutants of one definition both make it a variable), and the last of a
+/// line first.
 std::string edited(Lines lines, std::vector<Edit> edits) {
   const auto order = [](const Edit& a, const Edit& b) {
     return a.line != b.line ? a.line < b.line : a.column < b.column;

@@ -63,7 +63,7 @@ Load exact_reciprocating(const EngineDefinition& e, Wide engine_deg) {
   return sum;
 }
 
-Load of_turning(const Turning<double>& t, int order, Wide engine_deg) {
+Load of_turning(const detail::RotatingVector<double>& t, int order, Wide engine_deg) {
   const Wide c = std::cos(order * engine_deg * kRadPerDeg);
   const Wide s = std::sin(order * engine_deg * kRadPerDeg);
   const auto at = [&](double cosine, double sine) { return wide(cosine) * c + wide(sine) * s; };
@@ -72,7 +72,7 @@ Load of_turning(const Turning<double>& t, int order, Wide engine_deg) {
 }
 
 void expect_balance_of_parts(const EngineDefinition& e) {
-  const Balance<double> b = balance_of(e);
+  const detail::Balance<double> b = balance_of(e);
   const double tolerance = rounding_kg_m(e);
   const double arm = arm_m(e);
   for (int deg = 0; deg < 720; deg += 7) {
@@ -137,11 +137,12 @@ TEST(Balance, HasEveryFourierTermOfTheExactForces) {
     const EngineDefinition& e = known.engine;
     for (int order = 1; order <= 6; ++order) {
       SCOPED_TRACE("order " + std::to_string(order));
-      const Turning<double> t = reciprocating_order(e, order);
+      const detail::RotatingVector<double> t = reciprocating_order(e, order);
       // The sum over cylinders of m_j j, whole, and its Fourier terms: nothing of the single harmonics goes in.
       const auto term = [&](Wide Load::*part) {
         return support::fourier_term(
-            [&](double a) { return static_cast<double>(exact_reciprocating(e, wide(a) / kRadPerDeg).*part); }, order, 64);
+            [&](double a) { return static_cast<double>(exact_reciprocating(e, wide(a) / kRadPerDeg).*part); }, order,
+            64);
       };
       const struct {
         Wide Load::*part;
@@ -169,9 +170,10 @@ TEST(Balance, OrdersOneToSixAreAllThatCountsOfTheExactForce) {
       SCOPED_TRACE(known.name);
       EngineDefinition e = known.engine;
       e.crank.pin_offset_m = offset_m;
-      Turning<double> orders[7] = {};
+      detail::RotatingVector<double> orders[7] = {};
       for (int order = 1; order <= 6; ++order) orders[order] = reciprocating_order(e, order);
-      // Of order 8 5/2048 lambda^7 times 64 is left, and with an offset less of order 7: below 1e-4 of a cylinder's first order.
+      // Of order 8 5/2048 lambda^7 times 64 is left, and with an offset less of order 7: below 1e-4 of a cylinder's
+      // first order.
       const double left_kg_m = 1e-4 * e.layout.cylinders * reciprocating_kg_m(e);
       for (int deg = 0; deg < 360; deg += 5) {
         Load sum;
@@ -186,9 +188,10 @@ TEST(Balance, OrdersOneToSixAreAllThatCountsOfTheExactForce) {
 }
 
 TEST(Balance, OfACrossPlaneV8HasAFourthOrderForceThatIsLeftOverAndAMomentOfNone) {
-  // Eight cylinders 90 deg apart in fourth order all push at once, along both banks: sqrt 2 of four of them, straight up.
+  // Eight cylinders 90 deg apart in fourth order all push at once, along both banks: sqrt 2 of four of them, straight
+  // up.
   const EngineDefinition e = cross_plane_v8();
-  const Turning<double> fourth = reciprocating_order(e, 4);
+  const detail::RotatingVector<double> fourth = reciprocating_order(e, 4);
   const double want = 8 * std::sqrt(0.5) * std::fabs(exact_term(e.crank, 4).cosine) * reciprocating_kg_m(e);
   EXPECT_NEAR(peak_force_kg_m(fourth), want, 16 * rounding_kg_m(e));
   EXPECT_GT(want, 8 * std::sqrt(0.5) * 0.9 * std::pow(e.crank.rod_ratio(), 3) / 4 * reciprocating_kg_m(e));
@@ -200,7 +203,7 @@ TEST(Balance, OfACrossPlaneV8HasAFourthOrderForceThatIsLeftOverAndAMomentOfNone)
 struct Peaks {
   double first, second, rotating, first_moment, second_moment, rotating_moment;
   explicit Peaks(const EngineDefinition& e) {
-    const Balance<double> b = balance_of(e);
+    const detail::Balance<double> b = balance_of(e);
     first = peak_force_kg_m(b.first);
     second = peak_force_kg_m(b.second);
     rotating = peak_force_kg_m(b.rotating);
@@ -262,14 +265,13 @@ TEST(Balance, OfAnInlineThreeRocksButDoesNotShake) {
   const double tolerance = rounding_kg_m(e);
   for (const double force : {p.first, p.second, p.rotating}) EXPECT_NEAR(force, 0, tolerance);
   EXPECT_NEAR(p.first_moment, std::sqrt(3) * reciprocating_kg_m(e) * kSpacing_m, tolerance * arm_m(e));
-  EXPECT_NEAR(p.second_moment, std::sqrt(3) * second_kg_m(e) * kSpacing_m,
-              tolerance * arm_m(e));
+  EXPECT_NEAR(p.second_moment, std::sqrt(3) * second_kg_m(e) * kSpacing_m, tolerance * arm_m(e));
   EXPECT_NEAR(p.rotating_moment, std::sqrt(3) * rotating_kg_m(e, 1) * kSpacing_m, tolerance * arm_m(e));
 }
 
 TEST(Balance, OfA90DegreeVTwinIsAFirstOrderForceThatTurnsWithTheCrankAndALateralSecondOrder) {
   const EngineDefinition e = v_engine({-45}, 45);
-  const Balance<double> b = balance_of(e);
+  const detail::Balance<double> b = balance_of(e);
   const double tolerance = rounding_kg_m(e);
   for (int deg = 0; deg < 360; deg += 15) {
     // A counterweight of m_j opposite the pin would cancel it: constant size, always along the throw (-45 deg when
@@ -297,7 +299,7 @@ TEST(Balance, OfACrossPlaneV8LeavesOnlyAMomentThatTurnsWithTheCrank) {
   EXPECT_NEAR(p.rotating, 0, tolerance);
   EXPECT_NEAR(p.first_moment, std::sqrt(10) * reciprocating_kg_m(e) * kSpacing_m, tolerance * arm_m(e));
   EXPECT_NEAR(p.rotating_moment, std::sqrt(10) * rotating_kg_m(e, 2) * kSpacing_m, tolerance * arm_m(e));
-  const Balance<double> b = balance_of(e);
+  const detail::Balance<double> b = balance_of(e);
   for (int deg = 0; deg < 360; deg += 15) {
     const Load first = of_turning(b.first, 1, deg);
     EXPECT_NEAR(static_cast<double>(std::hypot(first.pitch, first.yaw)), p.first_moment, tolerance * arm_m(e))
@@ -332,8 +334,7 @@ TEST(Balance, OfAnOddFireV6DoesNotShakeButRocks) {
   // Each pair is a V-twin: first order m_j along the throw, so the inline three's sqrt 3 as a turning couple; second
   // order sqrt 2 lambda m_j across.
   EXPECT_NEAR(p.first_moment, std::sqrt(3) * reciprocating_kg_m(e) * kSpacing_m, tolerance * arm_m(e));
-  EXPECT_NEAR(p.second_moment, std::sqrt(6) * second_kg_m(e) * kSpacing_m,
-              tolerance * arm_m(e));
+  EXPECT_NEAR(p.second_moment, std::sqrt(6) * second_kg_m(e) * kSpacing_m, tolerance * arm_m(e));
   EXPECT_NEAR(p.rotating_moment, std::sqrt(3) * rotating_kg_m(e, 2) * kSpacing_m, tolerance * arm_m(e));
 }
 
@@ -359,7 +360,7 @@ TEST(Peak, IsTheLongestTheTurningVectorGetsAtAnyAngle) {
   Random random;
   for (int draw = 0; draw < 100; ++draw) {
     SCOPED_TRACE(random.trace(draw));
-    Turning<double> t{};
+    detail::RotatingVector<double> t{};
     for (double* amplitude :
          {&t.up_cos, &t.up_sin, &t.lateral_cos, &t.lateral_sin, &t.pitch_cos, &t.pitch_sin, &t.yaw_cos, &t.yaw_sin}) {
       *amplitude = random.between(-1, 1);

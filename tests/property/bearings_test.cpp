@@ -1,6 +1,6 @@
 // What pins and journals of whole engines carry, against Newton's and Euler's equations of every rod, added up.
-#include <crankloop/tabulate/tabulate.hpp>
 #include <crankloop/scenes.hpp>
+#include <crankloop/tabulate/tabulate.hpp>
 
 #include <gtest/gtest.h>
 
@@ -111,7 +111,7 @@ TEST(Bearings, KnowEveryPinsThrowAndMasses) {
   for (int draw = 0; draw < 200; ++draw) {
     SCOPED_TRACE(random.trace(draw));
     const EngineDefinition e = random_layout(random);
-    const Bearings<double> b = bearings_of(e);
+    const detail::Bearings<double> b = bearings_of(e);
     const std::size_t pins = 1u + *std::max_element(e.layout.pin.begin(), e.layout.pin.begin() + e.layout.cylinders);
     ASSERT_EQ(b.pins, pins);
     ASSERT_EQ(b.by_pin.end[pins - 1], e.layout.cylinders);
@@ -121,7 +121,8 @@ TEST(Bearings, KnowEveryPinsThrowAndMasses) {
       const std::size_t pin = e.layout.pin[k];
       EXPECT_EQ(b.pin_of[k], pin);
       const auto* const begin = b.by_pin.cylinder + (pin == 0 ? 0 : b.by_pin.end[pin - 1]);
-      EXPECT_EQ(std::count(begin, b.by_pin.cylinder + b.by_pin.end[pin], k), 1) << "cylinder " << k << " on pin " << pin;
+      EXPECT_EQ(std::count(begin, b.by_pin.cylinder + b.by_pin.end[pin], k), 1)
+          << "cylinder " << k << " on pin " << pin;
       const auto rods = std::count(e.layout.pin.begin(), e.layout.pin.begin() + e.layout.cylinders, e.layout.pin[k]);
       EXPECT_NEAR(b.rods_kg_m[pin], static_cast<double>(rods) * e.masses.rod_big_end_kg * e.crank.crank_radius_m,
                   rounding_kg_m(e));
@@ -143,7 +144,7 @@ TEST(Tick, ReportsTheLoadsOfPinsAndJournalsAndTheFreeForcesOfItsParts) {
     SCOPED_TRACE(random.trace(draw));
     const std::unique_ptr<Loaded> loaded = random_loaded_engine(random);
     const EngineDefinition& e = loaded->engine;
-    const auto tables = std::make_unique<TableStorage<double, Scene, static_cast<std::size_t>(kMostGasSegments)>>();
+    const auto tables = std::make_unique<TableStorage<double, Scene, static_cast<std::size_t>(kMaxGasSegments)>>();
     ASSERT_TRUE(accepted(tables->build(e, {100e-6})));
     const double speed = random.between(20, 600);
     // Curves within 2e-9 of their scale, pressure within 1e-5 of its peak (tabulate.hpp).
@@ -177,7 +178,8 @@ TEST(Tick, ReportsTheLoadsOfPinsAndJournalsAndTheFreeForcesOfItsParts) {
         EXPECT_NEAR(out.journal_along_N[journal], static_cast<double>(support::dot(load, along)), tolerance);
         EXPECT_NEAR(out.journal_across_N[journal], static_cast<double>(support::dot(load, across)), tolerance);
         EXPECT_NEAR(out.journal_load_N[journal], static_cast<double>(support::length(load)), 2 * tolerance);
-        const BlockLoad block = in_block(e, static_cast<double>(deg), out.journal_along_N[journal], out.journal_across_N[journal]);
+        const BlockLoad block =
+            in_block(e, static_cast<double>(deg), out.journal_along_N[journal], out.journal_across_N[journal]);
         EXPECT_NEAR(block.up_N, static_cast<double>(load.up), 2 * tolerance);
         EXPECT_NEAR(block.lateral_N, static_cast<double>(load.lateral), 2 * tolerance);
       }

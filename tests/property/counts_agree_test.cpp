@@ -21,7 +21,10 @@ void expect_exact_counts_to_agree(const FullTables<Real>& tables) {
   const auto compare = [&](const Record& exact) { expect_same(exact, up_to, Groups); };
   const std::uint32_t cylinders = tables.drive().cylinders;
   int compared = 0;
-  ((N == cylinders ? (compare(record_of<Real, Asking<Groups, Source, ByLoad, CrankGiven::speed, N>>(tables)), ++compared) : 0), ...);
+  ((N == cylinders
+        ? (compare(record_of<Real, Asking<Groups, Source, ByLoad, CrankGiven::speed, N>>(tables)), ++compared)
+        : 0),
+   ...);
   ASSERT_EQ(compared, 1) << cylinders << " cylinders";
 }
 
@@ -34,13 +37,15 @@ void with_engine(const std::vector<double>& firing_deg, void (*expect)(const Ful
 }
 
 TEST(CountsAgree, InEveryGroup) {
-  for (const std::vector<double>& firing_deg : std::vector<std::vector<double>>{{0},
-                                                                                {0, 480, 240},
-                                                                                {0, 540, 180, 360},
-                                                                                {0, 90, 450, 360.5},
-                                                                                {0, 480, 240, 600, 120, 360},
-                                                                                {0, 90, 270, 180, 630, 540, 450, 360}}) {
-    with_engine<float>(firing_deg, expect_exact_counts_to_agree<kAllGroups, PressureGiven::by_table, false, 1, 3, 4, 6, 8>);
+  for (const std::vector<double>& firing_deg :
+       std::vector<std::vector<double>>{{0},
+                                        {0, 480, 240},
+                                        {0, 540, 180, 360},
+                                        {0, 90, 450, 360.5},
+                                        {0, 480, 240, 600, 120, 360},
+                                        {0, 90, 270, 180, 630, 540, 450, 360}}) {
+    with_engine<float>(firing_deg,
+                       expect_exact_counts_to_agree<kAllGroups, PressureGiven::by_table, false, 1, 3, 4, 6, 8>);
   }
 }
 
@@ -49,9 +54,11 @@ class CountsAgree4 : public ::testing::Test {};
 TYPED_TEST_SUITE(CountsAgree4, BothReals, RealName);
 
 TYPED_TEST(CountsAgree4, WithTorqueByLoadAndFromMeasuredPressures) {
-  for (const std::vector<double>& firing_deg : std::vector<std::vector<double>>{{0, 540, 180, 360}, {0, 90, 450, 360.5}}) {
+  for (const std::vector<double>& firing_deg :
+       std::vector<std::vector<double>>{{0, 540, 180, 360}, {0, 90, 450, 360.5}}) {
     with_engine<TypeParam>(firing_deg, expect_exact_counts_to_agree<kTorques, PressureGiven::by_table, true, 4>);
-    with_engine<TypeParam>(firing_deg, expect_exact_counts_to_agree<kTorques | kForces, PressureGiven::by_input, false, 4>);
+    with_engine<TypeParam>(firing_deg,
+                           expect_exact_counts_to_agree<kTorques | kForces, PressureGiven::by_input, false, 4>);
   }
 }
 

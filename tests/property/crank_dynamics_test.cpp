@@ -1,5 +1,5 @@
-// A crank that is turned by forces moves as mechanics says, whatever the tick: against Lagrange's equation from the places of the bodies,
-// against the books of energy, and against the torque's harmonics.
+// A crank that is turned by forces moves as mechanics says, whatever the tick: against Lagrange's equation from the
+// places of the bodies, against the books of energy, and against the torque's harmonics.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ using support::Lagrange;
 using Bare = TurnedByForces<PressureGiven::none>;
 using Fired = TurnedByForces<>;
 
-// ---- a single cylinder with a heavy rod ---------------------------------------------------------------------------------------
+// ---- a single cylinder with a heavy rod -----------------------------------------------------------------------------
 
 /// Lengths and masses of the Modelica standard library's Engine1b: a steel rod of 20 x 60 mm.
 CrankMechanism heavy_rod(long double crank_inertia_kg_m2, long double torque_Nm) {
@@ -40,7 +40,8 @@ EngineDefinition defined(const CrankMechanism& m) {
   engine.crank = {0.1, static_cast<double>(m.crank_radius_m), static_cast<double>(m.rod_length_m), 0, 10};
   engine.masses.piston_kg = static_cast<double>(m.piston_kg);
   engine.masses.crank_inertia_kg_m2 = static_cast<double>(m.crank_inertia_kg_m2);
-  const RigidRod rod{static_cast<double>(m.rod_kg), static_cast<double>(m.rod_com_to_crank_m), static_cast<double>(m.rod_inertia_kg_m2)};
+  const RigidRod rod{static_cast<double>(m.rod_kg), static_cast<double>(m.rod_com_to_crank_m),
+                     static_cast<double>(m.rod_inertia_kg_m2)};
   lump_rod(rod, engine.crank, engine.masses);
   return engine;
 }
@@ -53,15 +54,17 @@ struct Off {
   double speed_rad_s;
 };
 /// After half a second, against the oracle.
-Off error_of(const EngineDefinition& engine, const Lagrange& oracle, const CrankMechanism& m, double speed_rad_s, double tick_s) {
+Off error_of(const EngineDefinition& engine, const Lagrange& oracle, const CrankMechanism& m, double speed_rad_s,
+             double tick_s) {
   Turned<double, Bare> run(engine, tick_s, speed_rad_s);
   typename Turned<double, Bare>::Input in;
-  in.load_Nm = -static_cast<double>(m.torque_Nm);
+  in.external_torque_Nm = -static_cast<double>(m.torque_Nm);
   const int ticks = static_cast<int>(kTime_s / tick_s + 0.5);
   for (int i = 0; i < ticks; ++i) run.step(in);
   EXPECT_EQ(run.engine.output().faults, 0u);
   const long double speed_rad_s_now = wide(run.engine.output().speed_rad_s);
-  return {static_cast<double>(run.angle_rad - oracle.angle_rad()), static_cast<double>(speed_rad_s_now - oracle.speed_rad_s())};
+  return {static_cast<double>(run.angle_rad - oracle.angle_rad()),
+          static_cast<double>(speed_rad_s_now - oracle.speed_rad_s())};
 }
 
 TEST(HeavyRod, ConvergesToLagrangesEquationByMoreThanSecondOrder) {
@@ -77,8 +80,8 @@ TEST(HeavyRod, ConvergesToLagrangesEquationByMoreThanSecondOrder) {
     double last_rad = 0;
     for (const double tick_s : {800e-6, 400e-6, 200e-6, 100e-6, 50e-6}) {
       const Off off = error_of(defined(m), oracle, m, kSpeed_rad_s, tick_s);
-      std::printf("crank %.2Lf kg m2, tick %3.0f us: %9.2e rad, %9.2e rad/s, of %.1Lf rad and %.1Lf rad/s\n", crank_kg_m2, tick_s * 1e6,
-                  off.angle_rad, off.speed_rad_s, oracle.angle_rad(), oracle.speed_rad_s());
+      std::printf("crank %.2Lf kg m2, tick %3.0f us: %9.2e rad, %9.2e rad/s, of %.1Lf rad and %.1Lf rad/s\n",
+                  crank_kg_m2, tick_s * 1e6, off.angle_rad, off.speed_rad_s, oracle.angle_rad(), oracle.speed_rad_s());
       const double here_rad = std::fabs(off.angle_rad);
       // Halving the tick divides a third-order error by eight; at least by four is the second order promised.
       if (last_rad > 1e3 * oracle_rad) {
@@ -91,8 +94,9 @@ TEST(HeavyRod, ConvergesToLagrangesEquationByMoreThanSecondOrder) {
 }
 
 TEST(HeavyRod, LeavingOutItsInertiaCorrectionShowsAndWithItTheErrorIsGone) {
-  // Published: up to 0.31 % of speed and 0.049 rad after 0.5 s, of a fired engine with a flywheel of 1 kg m2; its gas and speeds are not printed.
-  // Coasting from top dead centre at 130 rad/s gives the same speed error and nine tenths of the angle.
+  // Published: up to 0.31 % of speed and 0.049 rad after 0.5 s, of a fired engine with a flywheel of 1 kg m2; its gas
+  // and speeds are not printed. Coasting from top dead centre at 130 rad/s gives the same speed error and nine tenths
+  // of the angle.
   const CrankMechanism m = heavy_rod(1, 0);
   constexpr double kSpeed_rad_s = 130;
   constexpr double kTick_s = 100e-6;
@@ -108,13 +112,14 @@ TEST(HeavyRod, LeavingOutItsInertiaCorrectionShowsAndWithItTheErrorIsGone) {
     for (int i = 0; i < static_cast<int>(kTime_s / kTick_s); ++i) {
       oracle.run(wide(kTick_s), 2);
       const long double speed = static_cast<long double>(run.step({}).speed_rad_s);
-      error_ratio[which] = std::max(error_ratio[which], static_cast<double>(std::fabs(speed / oracle.speed_rad_s() - 1)));
+      error_ratio[which] =
+          std::max(error_ratio[which], static_cast<double>(std::fabs(speed / oracle.speed_rad_s() - 1)));
     }
     error_rad[which] = static_cast<double>(std::fabs(run.angle_rad - oracle.angle_rad()));
     ++which;
   }
-  std::printf("rod as two masses: %.2f %% of speed, %.3f rad after %.1f s; with its inertia: %.1e, %.1e rad\n", 100 * error_ratio[1],
-              error_rad[1], kTime_s, error_ratio[0], error_rad[0]);
+  std::printf("rod as two masses: %.2f %% of speed, %.3f rad after %.1f s; with its inertia: %.1e, %.1e rad\n",
+              100 * error_ratio[1], error_rad[1], kTime_s, error_ratio[0], error_rad[0]);
   EXPECT_NEAR(error_ratio[1], 0.0031, 0.0001);
   EXPECT_NEAR(error_rad[1], 0.0434, 0.001);
   EXPECT_LT(error_ratio[0], 1e-7);
@@ -133,27 +138,38 @@ TEST(HeavyRod, PressesPinAndJournalsAsRigidBodiesDoWhereItsSpeedChanges) {
   EngineDefinition engine = fired_heavy_rod();
   engine.masses.crank_pin_equivalent_kg = 1.3;
   const CrankMechanism m = heavy_rod(0.5L, 0);
-  const RigidRod rod{static_cast<double>(m.rod_kg), static_cast<double>(m.rod_com_to_crank_m), static_cast<double>(m.rod_inertia_kg_m2)};
+  const RigidRod rod{static_cast<double>(m.rod_kg), static_cast<double>(m.rod_com_to_crank_m),
+                     static_cast<double>(m.rod_inertia_kg_m2)};
   const double area_m2 = kPi / 4 * engine.crank.bore_m * engine.crank.bore_m;
   Turned<double, TurnedWithBearings> run(engine, 100e-6, 60);
   double most_N = 0;
   double largest_N = 0;
   for (int tick = 0; tick < 3000; ++tick) {
     const auto& out = run.step({});
-    const support::Motion motion = support::motion_at(engine.crank, deg_of(out.crank) * kWidePi / 180, wide(out.speed_rad_s), wide(out.acceleration_rad_s2));
+    const support::Motion motion = support::motion_at(engine.crank, deg_of(out.crank) * kWidePi / 180,
+                                                      wide(out.speed_rad_s), wide(out.acceleration_rad_s2));
     const auto gas_N = wide((out.cylinder[0].pressure_Pa - engine.pressure.crankcase_Pa) * area_m2);
     const support::JointForces joints = support::newton_euler(engine, rod, motion, gas_N);
     const support::Vec outward = (1 / support::length(motion.crank_pin)) * motion.crank_pin;
     const support::Vec onward = support::quarter_turn(outward);
-    // What tables are off by: 1e-9 of the largest force; the journals stand either side of the throw and carry half each.
+    // What tables are off by: 1e-9 of the largest force; the journals stand either side of the throw and carry half
+    // each.
     const double tolerance_N = 1e-4;
-    EXPECT_NEAR(out.pin_radial_N[0], static_cast<double>(-support::dot(joints.rod_on_crank_pin, outward)), tolerance_N) << tick;
-    EXPECT_NEAR(out.pin_tangential_N[0], static_cast<double>(support::dot(joints.rod_on_crank_pin, onward)), tolerance_N) << tick;
+    EXPECT_NEAR(out.pin_radial_N[0], static_cast<double>(-support::dot(joints.rod_on_crank_pin, outward)), tolerance_N)
+        << tick;
+    EXPECT_NEAR(out.pin_tangential_N[0], static_cast<double>(support::dot(joints.rod_on_crank_pin, onward)),
+                tolerance_N)
+        << tick;
     EXPECT_NEAR(out.pin_load_N[0], static_cast<double>(support::length(joints.rod_on_crank_pin)), tolerance_N) << tick;
     for (std::size_t j = 0; j < 2; ++j) {
-      EXPECT_NEAR(2 * out.journal_along_N[j], static_cast<double>(-support::dot(joints.bearing_on_crank, outward)), tolerance_N) << tick;
-      EXPECT_NEAR(2 * out.journal_across_N[j], static_cast<double>(-support::dot(joints.bearing_on_crank, onward)), tolerance_N) << tick;
-      EXPECT_NEAR(2 * out.journal_load_N[j], static_cast<double>(support::length(joints.bearing_on_crank)), tolerance_N) << tick;
+      EXPECT_NEAR(2 * out.journal_along_N[j], static_cast<double>(-support::dot(joints.bearing_on_crank, outward)),
+                  tolerance_N)
+          << tick;
+      EXPECT_NEAR(2 * out.journal_across_N[j], static_cast<double>(-support::dot(joints.bearing_on_crank, onward)),
+                  tolerance_N)
+          << tick;
+      EXPECT_NEAR(2 * out.journal_load_N[j], static_cast<double>(support::length(joints.bearing_on_crank)), tolerance_N)
+          << tick;
     }
     if (HasFailure()) return;
     const double big_end_N = engine.masses.rod_big_end_kg * engine.crank.crank_radius_m * out.acceleration_rad_s2;
@@ -168,34 +184,37 @@ TEST(CrankEnergy, OfAHundredCyclesIsKeptToAMillionth) {
   const EngineDefinition engine = fired_heavy_rod();
   const WorkOracle gas(engine, 1);
   ASSERT_TRUE(gas.ready());
-  const double load_Nm = 0.9 * gas.cycle_J() / (4 * kPi);  // the rest is kept as speed
+  const double external_torque_Nm = 0.9 * gas.cycle_J() / (4 * kPi);  // the rest is kept as speed
   for (const double tick_s : {50e-6, 200e-6, 1e-3}) {
     Turned<double, Fired> run(engine, tick_s, 100);
     const long double begin_J = kinetic_J(engine, 0, 100);
     typename Turned<double, Fired>::Input in;
-    in.load_Nm = load_Nm;
+    in.external_torque_Nm = external_torque_Nm;
     while (run.angle_rad < 100 * 4 * kWidePi) run.step(in);
     const long double deg = run.angle_rad * 180 / kWidePi;
     const long double cycles = std::floor(deg / 720);
     const long double in_J = cycles * wide(gas.cycle_J()) + gas.gas_J(deg - 720 * cycles);
-    const long double out_J = wide(load_Nm) * run.angle_rad;
+    const long double out_J = wide(external_torque_Nm) * run.angle_rad;
     const long double change_J = kinetic_J(engine, deg, wide(run.engine.output().speed_rad_s)) - begin_J;
     const auto off = static_cast<double>((in_J - out_J - change_J) / in_J);
-    std::printf("tick %4.0f us: in %.3Lf J, out %.3Lf J, change %.3Lf J, lost %.1e of what came in\n", tick_s * 1e6, in_J, out_J, change_J, off);
+    std::printf("tick %4.0f us: in %.3Lf J, out %.3Lf J, change %.3Lf J, lost %.1e of what came in\n", tick_s * 1e6,
+                in_J, out_J, change_J, off);
     EXPECT_LT(std::fabs(off), 1e-6);
     EXPECT_GT(change_J, in_J / 20);
   }
 }
 
-/// A crank that compression throws back and forth, without friction: kinetic energy and the gas's add up to the same for good. At load ratio 1,
-/// where nothing is lost by passing the cycle backwards.
+/// A crank that compression throws back and forth, without friction: kinetic energy and the gas's add up to the same
+/// for good. At load ratio 1, where nothing is lost by passing the cycle backwards.
 template <class Real>
 void rocks_for_good(double rounding_J) {
   EngineDefinition engine = single_495();
   constexpr double kSpeed_rad_s = 15;
   constexpr double kStart_deg = 200;
   const WorkOracle gas(engine, 1);
-  const auto potential_J = [&](long double deg) { return std::floor(deg / 720) * wide(gas.cycle_J()) - gas.gas_J(deg); };
+  const auto potential_J = [&](long double deg) {
+    return std::floor(deg / 720) * wide(gas.cycle_J()) - gas.gas_J(deg);
+  };
   for (const double tick_s : {100e-6, 1e-3}) {
     Turned<Real, Fired> run(engine, tick_s, kSpeed_rad_s, phase_at_deg(wide(kStart_deg)));
     const long double begin_J = kinetic_J(engine, wide(kStart_deg), wide(kSpeed_rad_s)) + potential_J(wide(kStart_deg));
@@ -210,20 +229,22 @@ void rocks_for_good(double rounding_J) {
       last = now;
       if (i % 16 != 0) continue;
       const long double deg = deg_of(run.engine.state().phase);
-      worst_J = std::max(worst_J, static_cast<double>(std::fabs(kinetic_J(engine, deg, wide(now)) + potential_J(deg) - begin_J)));
+      worst_J = std::max(
+          worst_J, static_cast<double>(std::fabs(kinetic_J(engine, deg, wide(now)) + potential_J(deg) - begin_J)));
     }
-    std::printf("%zu bytes, tick %4.0f us: %d reversals in 20 s, energy within %.1e of %.0Lf J\n", sizeof(Real), tick_s * 1e6, reversals,
-                worst_J, begin_J);
+    std::printf("%zu bytes, tick %4.0f us: %d reversals in 20 s, energy within %.1e of %.0Lf J\n", sizeof(Real),
+                tick_s * 1e6, reversals, worst_J, begin_J);
     EXPECT_GT(reversals, 20);
     EXPECT_LT(worst_J, rounding_J);
   }
 }
 TEST(CrankEnergy, RockingAgainstCompressionIsKeptThroughEveryReversal) {
   rocks_for_good<double>(1e-7);  // what the tables of gas work are off by
-  rocks_for_good<float>(1e-4);   // 340 J change hands: some roundings of 6e-8 of them in each output, none of which is kept
+  rocks_for_good<float>(
+      1e-4);  // 340 J change hands: some roundings of 6e-8 of them in each output, none of which is kept
 }
 
-// ---- motored ---------------------------------------------------------------------------------------------------------------------
+// ---- motored --------------------------------------------------------------------------------------------------------
 
 /// The 495, four cylinders, at load ratio 0 and with no friction at all, from 500 rpm on: nothing feeds it.
 TEST(MotoredEngine, WithoutFrictionLosesTheLoopWorkOfEveryCycleAndNeverTurnsFasterAgain) {
@@ -274,7 +295,7 @@ TEST(MotoredEngine, WithoutFrictionLosesTheLoopWorkOfEveryCycleAndNeverTurnsFast
   EXPECT_LT(last_third_rad_s, 5) << "it has come to rest, or nearly";
 }
 
-// ---- friction and brake --------------------------------------------------------------------------------------------------------
+// ---- friction and brake ---------------------------------------------------------------------------------------------
 
 /// A crank of nearly constant inertia.
 EngineDefinition flywheel(double inertia_kg_m2) {
@@ -288,7 +309,7 @@ TEST(CrankFriction, CoastDownIsOfSecondOrderToAnExactStop) {
   constexpr double kStart_rad_s = 200;
   EngineDefinition engine = flywheel(kInertia_kg_m2);
   const double c = 50, l = 0.5, q = 1e-2;
-  engine.load = {c, l, q, 0};
+  engine.machine = {c, l, q, 0};
   // dw/dt = -(c + l w + q w^2) / J: time over speed in closed form; q w^2 + l w + c has no real root here.
   const double root = std::sqrt(4 * q * c - l * l);
   const auto angle_of = [&](double w) { return std::atan((2 * q * w + l) / root); };
@@ -329,11 +350,12 @@ TEST(CrankStarter, SpinsAFlywheelUpByTheExactExponentialAndLetsGoInsideATick) {
   const double lets_go_s = -std::log(1 - kNoLoad_rad_s / end_rad_s) / rate_1_s;
   const auto angle_rad = [&](double t) {
     const double with_s = std::min(t, lets_go_s), without_s = t - with_s;
-    return end_rad_s * (with_s - (1 - std::exp(-rate_1_s * with_s)) / rate_1_s) + kNoLoad_rad_s * without_s + kDrive_Nm / kInertia_kg_m2 * without_s * without_s / 2;
+    return end_rad_s * (with_s - (1 - std::exp(-rate_1_s * with_s)) / rate_1_s) + kNoLoad_rad_s * without_s +
+           kDrive_Nm / kInertia_kg_m2 * without_s * without_s / 2;
   };
   Turned<double, Bare>::Input in;
   in.starter = 1;
-  in.load_Nm = -kDrive_Nm;
+  in.external_torque_Nm = -kDrive_Nm;
   double last_rad = 0;
   for (const double tick_s : {1600e-6, 800e-6, 400e-6, 200e-6}) {
     Turned<double, Bare> run(engine, tick_s);
@@ -354,15 +376,15 @@ TEST(CrankStarter, SpinsAFlywheelUpByTheExactExponentialAndLetsGoInsideATick) {
 
 TEST(CrankFriction, BackwardsItIsTheMirrorImage) {
   EngineDefinition engine = flywheel(0.5);
-  engine.load = {5, 0.05, 1e-3, 0};
+  engine.machine = {5, 0.05, 1e-3, 0};
   engine.friction = {100e3, 200, 1};
   Turned<double, Bare> forward(engine, 1e-3, 150);
   Turned<double, Bare> backward(engine, 1e-3, -150);
   for (int i = 0; i < 5000; ++i) {
     typename Turned<double, Bare>::Input in;
-    in.load_Nm = 2;
+    in.external_torque_Nm = 2;
     const auto& there = forward.step(in);
-    in.load_Nm = -2;
+    in.external_torque_Nm = -2;
     const auto& back = backward.step(in);
     ASSERT_NEAR(there.speed_rad_s, -back.speed_rad_s, 1e-6) << i;  // the piston's few milligrams are no mirror image
     ASSERT_NEAR(there.friction_Nm, -back.friction_Nm, 1e-6) << i;
@@ -370,14 +392,15 @@ TEST(CrankFriction, BackwardsItIsTheMirrorImage) {
   EXPECT_EQ(forward.engine.output().speed_rad_s, 0.0);
 }
 
-// ---- a four-cylinder engine, running free -------------------------------------------------------------------------------------
+// ---- a four-cylinder engine, running free ---------------------------------------------------------------------------
 
 /// The 495 with its mean torque as the load: a cycle then ends at the speed it began with.
 class FreeDiesel {
  public:
   static constexpr double kLoadRatio = 0.3;
 
-  FreeDiesel(double rpm, std::uint32_t cut) : speed_rad_s_{rpm * kPi / 30}, cut_{cut}, engine_{diesel()}, theory_{engine_, kLoadRatio, cut} {}
+  FreeDiesel(double rpm, std::uint32_t cut)
+      : speed_rad_s_{rpm * kPi / 30}, cut_{cut}, engine_{diesel()}, theory_{engine_, kLoadRatio, cut} {}
 
   /// One cycle in kSamples equal steps of angle.
   [[nodiscard]] Ripple run() const {
@@ -385,15 +408,15 @@ class FreeDiesel {
     std::vector<double> speeds;
     typename Turned<double, Fired>::Input in;
     in.load_ratio = kLoadRatio;
-    in.load_Nm = theory_.mean_gas_Nm();
+    in.external_torque_Nm = theory_.mean_gas_Nm();
     in.cut_cylinders = cut_;
     double before_rad = 0;
     double before_rad_s = speed_rad_s_;
     while (speeds.size() < kSamples) {
       const double speed = run.step(in).speed_rad_s;
       const auto now_rad = static_cast<double>(run.angle_rad);
-      for (double at = static_cast<double>(speeds.size()) * 4 * kPi / kSamples; at <= now_rad && speeds.size() < kSamples;
-           at = static_cast<double>(speeds.size()) * 4 * kPi / kSamples) {
+      for (double at = static_cast<double>(speeds.size()) * 4 * kPi / kSamples;
+           at <= now_rad && speeds.size() < kSamples; at = static_cast<double>(speeds.size()) * 4 * kPi / kSamples) {
         speeds.push_back(before_rad_s + (speed - before_rad_s) * (at - before_rad) / (now_rad - before_rad));
       }
       before_rad = now_rad;
@@ -425,14 +448,17 @@ Ripple expect_harmonics(double rpm, std::uint32_t cut) {
   const Ripple found = diesel.run();
   const Ripple expected = diesel.theory().by_harmonics(rpm * kPi / 30);
   const Ripple thumb = diesel.theory().by_rule_of_thumb(found.mean_rad_s);
-  std::printf("%4.0f rpm, cut %u: irregularity %.5f, by torque harmonics and inertia %.5f\n", rpm, cut, found.irregularity_ratio,
-              expected.irregularity_ratio);
+  std::printf("%4.0f rpm, cut %u: irregularity %.5f, by torque harmonics and inertia %.5f\n", rpm, cut,
+              found.irregularity_ratio, expected.irregularity_ratio);
   std::printf("  order: amplitude of speed in rad/s, by torque harmonics and inertia, by T_k / (J k w)\n");
   const double largest = *std::max_element(found.amplitude_rad_s, found.amplitude_rad_s + 13);
   for (int i = 1; i < 13; ++i) {
-    std::printf("  %4.1f: %9.6f %9.6f %9.6f\n", i / 2.0, found.amplitude_rad_s[i], expected.amplitude_rad_s[i], thumb.amplitude_rad_s[i]);
+    std::printf("  %4.1f: %9.6f %9.6f %9.6f\n", i / 2.0, found.amplitude_rad_s[i], expected.amplitude_rad_s[i],
+                thumb.amplitude_rad_s[i]);
     // Of orders that are there: within 1 %, and of the others not more than a ten-thousandth of the largest.
-    EXPECT_NEAR(found.amplitude_rad_s[i], expected.amplitude_rad_s[i], 0.01 * expected.amplitude_rad_s[i] + 1e-4 * largest) << "order " << i / 2.0;
+    EXPECT_NEAR(found.amplitude_rad_s[i], expected.amplitude_rad_s[i],
+                0.01 * expected.amplitude_rad_s[i] + 1e-4 * largest)
+        << "order " << i / 2.0;
   }
   EXPECT_NEAR(found.irregularity_ratio / expected.irregularity_ratio, 1, 0.01);
   return found;

@@ -1,5 +1,5 @@
-// Faults at random ticks of a running engine with eight elastic valves: what of them is detected, what is forgotten within
-// a cycle, and that all of it stays finite.
+// Faults at random ticks of a running engine with eight elastic valves: what of them is detected, what is forgotten
+// within a cycle, and that all of it stays finite.
 //
 // Two engines run side by side on a measured crank at 6000 rpm; one is hurt. Bits of a saved state that are changed or
 // missing: tests/property/saved_state_test.cpp.
@@ -86,8 +86,8 @@ class FaultInjection : public ::testing::Test {
     }
   }
 
-  /// A missing tick is a cam that rushes through what it missed. At the speed limit, above which that is a jump, it throws the valve up at
-  /// twice its largest speed, against the spring alone: lift + 2 (dY/dphi) w / sqrt(k_s / M).
+  /// A missing tick is a cam that rushes through what it missed. At the speed limit, above which that is a jump, it
+  /// throws the valve up at twice its largest speed, against the spring alone: lift + 2 (dY/dphi) w / sqrt(k_s / M).
   static double largest_throw_m() {
     static const double most = [] {
       const ValveTrain train = valve_test::ohc_125_train();

@@ -26,6 +26,8 @@
 #include "support/vector_geometry.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 namespace {
 
 using support::kEps;

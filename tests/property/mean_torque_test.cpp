@@ -12,12 +12,14 @@
 #include <vector>
 
 #include "support/random.hpp"
+#include "support/running.hpp"
 #include "support/status.hpp"
 #include "support/test_engines.hpp"
-#include "support/running.hpp"
 #include "support/work_oracle.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 namespace {
 
 using namespace tick_test;
@@ -99,8 +101,7 @@ TYPED_TEST(MeanTorque, OverAMeasuredCycleOfAnyNumberOfTicksAddsUpToTheTablesOwnW
       const long double direction = backwards ? -1 : 1;
       EXPECT_NEAR(static_cast<double>(ledger.turned_rad), static_cast<double>(direction * 4 * kWidePi), 1e-12);
       const double speed = 4 * kPi / ticks / 500e-6;
-      const double scale =
-          static_cast<double>(gas.mean_Nm) + 4 * 0.0045 * speed * speed;  // m_j r^2 = 4.3e-3 kg m^2
+      const double scale = static_cast<double>(gas.mean_Nm) + 4 * 0.0045 * speed * speed;  // m_j r^2 = 4.3e-3 kg m^2
       // Torques at the ends of crawling ticks are those of a trapezoid: its error over a cycle comes from the diagram's
       // few kinks.
       const bool crawls = 4 * kPi / ticks <= kCrawl_rad<Real>;

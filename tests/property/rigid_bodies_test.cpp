@@ -21,6 +21,8 @@
 #include "support/vector_geometry.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 namespace {
 
 using support::JointForces;

@@ -1,5 +1,5 @@
-// A run that is restored, from a snapshot or from bytes, goes on as if nothing had happened; bytes that are not exactly what was written are
-// refused and change nothing; and no bytes at all lead a later step out of its bounds.
+// A run that is restored, from a snapshot or from bytes, goes on as if nothing had happened; bytes that are not exactly
+// what was written are refused and change nothing; and no bytes at all lead a later step out of its bounds.
 #include <crankloop/tick/state/saved_state.hpp>
 
 #include <gtest/gtest.h>
@@ -20,6 +20,8 @@
 #include "support/test_valves.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 
 using tick_test::MeasuredWithValves;
 using OneValve = tick_test::Elastic<1, 1>;  ///< and nothing besides: where it rests, its output is left as it is
@@ -44,7 +46,7 @@ EngineDefinition busy_engine() {
   engine.trains[0].cam.phase_rate_deg_s = 300;
   if (S::valve_gas) engine.trains[0].valve.head_area_m2 = 6e-4;
   engine.friction = {60e3, 100, 0.5};
-  engine.load = {1, 0.01, 1e-3, 0.02};
+  engine.machine = {1, 0.01, 1e-3, 0.02};
   engine.starter = {60, 60};
   return engine;
 }
@@ -57,9 +59,7 @@ struct Rig {
     restart(one, Phase{});
     restart(other, Phase{1});
   }
-  void restart(Engine<Real, S>& engine, Phase start) {
-    EXPECT_TRUE(accepted(engine.init(storage->tables(), start)));
-  }
+  void restart(Engine<Real, S>& engine, Phase start) { EXPECT_TRUE(accepted(engine.init(storage->tables(), start))); }
 
   std::unique_ptr<TableStorage<Real, S>> storage = std::make_unique<TableStorage<Real, S>>();
   std::unique_ptr<Engine<Real, S>> heap = std::make_unique<Engine<Real, S>>();
@@ -75,9 +75,9 @@ void drive(Random& random, typename Engine<Real, S>::Input& in) {
   if constexpr (S::crank == CrankGiven::speed) {
     in.speed_rad_s = static_cast<Real>(random.between(-200, 1400));
     if (bad) in.speed_rad_s = std::numeric_limits<Real>::quiet_NaN();
-  } else if constexpr (S::crank == CrankGiven::load) {
-    in.load_Nm = static_cast<Real>(random.between(-300, 200));
-    if (bad) in.load_Nm = std::numeric_limits<Real>::infinity();
+  } else if constexpr (S::crank == CrankGiven::torque) {
+    in.external_torque_Nm = static_cast<Real>(random.between(-300, 200));
+    if (bad) in.external_torque_Nm = std::numeric_limits<Real>::infinity();
     in.starter = random.coin() ? 1 : 0;
     in.cut_cylinders = static_cast<std::uint32_t>(random.bits());
   } else {
@@ -93,8 +93,8 @@ void drive(Random& random, typename Engine<Real, S>::Input& in) {
   }
 }
 
-/// All numbers of an output as bits. Results of the last whole valve cycle belong to the output, not to the state: an engine that was
-/// restored shows them from the end of its first cycle, and they are left out here.
+/// All numbers of an output as bits. Results of the last whole valve cycle belong to the output, not to the state: an
+/// engine that was restored shows them from the end of its first cycle, and they are left out here.
 template <class Real, class S>
 std::vector<std::uint64_t> bits(const Output<Real, S>& out) {
   std::vector<std::uint64_t> all;
@@ -142,18 +142,20 @@ struct CaseName {
   template <class Case>
   static std::string GetName(int) {
     using S = typename Case::S;
-    const char* scene = S::valve_results ? (S::kinematics ? "Whole" : "MeasuredWithValves")
-                        : S::rod_motion  ? "MeasuredMotion"
+    const char* scene = S::valve_results                   ? (S::kinematics ? "Whole" : "MeasuredWithValves")
+                        : S::rod_motion                    ? "MeasuredMotion"
                         : S::valves == ValveModel::elastic ? "OneValve"
-                        : S::starter     ? "FreeRunning"
-                        : S::load_ratio  ? "TorqueByTable"
-                                         : "TorqueByPressure";
+                        : S::starter                       ? "FreeRunning"
+                        : S::load_ratio                    ? "TorqueByTable"
+                                                           : "TorqueByPressure";
     return std::string(scene) + (sizeof(typename Case::Real) == 4 ? "Float" : "Double");
   }
 };
-using Cases = ::testing::Types<Of<float, scenes::Whole>, Of<double, scenes::Whole>, Of<float, MeasuredWithValves>, Of<double, MeasuredWithValves>, Of<float, OneValve>, Of<double, OneValve>,
-                               Of<float, scenes::TorqueByTable>, Of<double, scenes::TorqueByTable>, Of<float, scenes::TorqueByPressure>,
-                               Of<double, scenes::TorqueByPressure>, Of<float, scenes::FreeRunning>, Of<double, scenes::FreeRunning>, Of<float, scenes::MeasuredMotion>, Of<double, scenes::MeasuredMotion>>;
+using Cases = ::testing::Types<
+    Of<float, scenes::Whole>, Of<double, scenes::Whole>, Of<float, MeasuredWithValves>, Of<double, MeasuredWithValves>,
+    Of<float, OneValve>, Of<double, OneValve>, Of<float, scenes::TorqueByTable>, Of<double, scenes::TorqueByTable>,
+    Of<float, scenes::TorqueByPressure>, Of<double, scenes::TorqueByPressure>, Of<float, scenes::FreeRunning>,
+    Of<double, scenes::FreeRunning>, Of<float, scenes::MeasuredMotion>, Of<double, scenes::MeasuredMotion>>;
 TYPED_TEST_SUITE(SavedState, Cases, CaseName);
 
 TYPED_TEST(SavedState, GoesOnWithTheSameBitsFromAnyTick) {
@@ -197,8 +199,10 @@ TYPED_TEST(SavedState, ShowsTheSameValveResultsFromTheFirstWholeCycleOn) {
     const std::vector<unsigned char> bytes = saved(rig.one);
     ASSERT_TRUE(accepted(load_state(bytes.data(), bytes.size(), rig.other)));
     for (int i = 0; i < 300; ++i) rig.one.step(in), rig.other.step(in);  // a cycle takes 97 ticks
-    EXPECT_GT(rig.one.output().valve_cycle[0][0].separation_gap_m, Real{0});
-    EXPECT_EQ(std::memcmp(rig.one.output().valve_cycle, rig.other.output().valve_cycle, sizeof rig.one.output().valve_cycle), 0);
+    EXPECT_GT(rig.one.output().valve_cycle[0][0].separation_clearance_m, Real{0});
+    EXPECT_EQ(
+        std::memcmp(rig.one.output().valve_cycle, rig.other.output().valve_cycle, sizeof rig.one.output().valve_cycle),
+        0);
   }
 }
 
@@ -206,7 +210,8 @@ TYPED_TEST(SavedState, ShowsTheSameValveResultsFromTheFirstWholeCycleOn) {
 template <class Real, class S>
 class Refuser {
  public:
-  explicit Refuser(Engine<Real, S>& engine) : engine_{engine}, before_{engine.state()}, output_{bits(engine.output())} {}
+  explicit Refuser(Engine<Real, S>& engine)
+      : engine_{engine}, before_{engine.state()}, output_{bits(engine.output())} {}
 
   [[nodiscard]] Status operator()(const std::vector<unsigned char>& bytes) { return (*this)(bytes, bytes.size()); }
   [[nodiscard]] Status operator()(const std::vector<unsigned char>& bytes, std::size_t size) {
@@ -239,7 +244,8 @@ TYPED_TEST(SavedState, IsRefusedAtEveryLengthButItsOwn) {
   std::vector<unsigned char> bytes = saved(rig.one);
   Refuser<Real, S> refused(rig.other);
   for (std::size_t size = 0; size < bytes.size(); ++size) {
-    const std::vector<unsigned char> part(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));  // read beyond it: ASan tells
+    const std::vector<unsigned char> part(
+        bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));  // read beyond it: ASan tells
     EXPECT_TRUE(refuses(refused(part), Reason::wrong_size, "state.size")) << size;
   }
   bytes.push_back(0);
@@ -308,7 +314,8 @@ TYPED_TEST(SavedState, SaysWhatIsWrongWithBytesOfAnotherKind) {
   EXPECT_TRUE(refuses(refused(with(6, 12 - sizeof(Real))), Reason::other_scene, "state"));
   EXPECT_TRUE(refuses(refused(with(8, static_cast<unsigned char>(good[8] + 1))), Reason::other_scene, "state"));
   EXPECT_TRUE(refuses(refused(with(12, static_cast<unsigned char>(good[12] + 1))), Reason::wrong_size, "state.size"));
-  EXPECT_TRUE(refuses(refused(with(16, static_cast<unsigned char>(good[16] + 1))), Reason::other_tables, "state.fingerprint"));
+  EXPECT_TRUE(
+      refuses(refused(with(16, static_cast<unsigned char>(good[16] + 1))), Reason::other_tables, "state.fingerprint"));
   std::vector<unsigned char> spoilt = good;
   spoilt.back() ^= 1u;
   EXPECT_TRUE(refuses(refused(spoilt), Reason::damaged, "state"));
@@ -390,8 +397,8 @@ TYPED_TEST(SavedState, IsRefusedWhereANumberLiesOutsideWhatAStepCanCompute) {
   }
   if constexpr (Needs<S>::elastic_valves) {
     bad = good;
-    bad.valve_regime[0] = kRegimes;
-    EXPECT_TRUE(refuses(loaded(rig, bad), Reason::out_of_range, "state.valve"));
+    bad.valve_regime[0] = kRegimes;  // an index into a table: not even restored
+    EXPECT_TRUE(refuses(rig.one.restore(bad), Reason::out_of_range, "state.valve"));
     bad = good;
     bad.cam_turned_deg[0] = Real{361};
     EXPECT_TRUE(refuses(loaded(rig, bad), Reason::out_of_range, "state.valve"));
@@ -420,13 +427,14 @@ template <class Real, class S>
 void turn_steadily(typename Engine<Real, S>::Input& in) {
   if constexpr (S::crank == CrankGiven::speed) in.speed_rad_s = Real{300};
   if constexpr (S::crank == CrankGiven::phase) in.crank += Phase::from_cycles(0.0024);  // of 100 us
-  if constexpr (S::crank == CrankGiven::load) in.starter = 1;
+  if constexpr (S::crank == CrankGiven::torque) in.starter = 1;
   if constexpr (Needs<S>::input_pressure) {
     for (Real& pressure : in.pressure_Pa) pressure = Real{100'000};
   }
 }
 
-/// One engine saw its valves rest, the other stopped with them open: what it showed last must not show through what it is restored to.
+/// One engine saw its valves rest, the other stopped with them open: what it showed last must not show through what it
+/// is restored to.
 TYPED_TEST(SavedState, GoesOnWithTheSameBitsInAnEngineWhoseValvesStoodOpen) {
   using Real = typename TypeParam::Real;
   using S = typename TypeParam::S;
@@ -471,7 +479,8 @@ TYPED_TEST(SavedState, OfAnEngineAtItsFastestEitherWayRoundIsTaken) {
   }
 }
 
-/// Whoever forges bytes with a right checksum may get wrong numbers, but no infinite ones, and no step out of bounds (the sanitizers look).
+/// Whoever forges bytes with a right checksum may get wrong numbers, but no infinite ones, and no step out of bounds
+/// (the sanitizers look).
 TYPED_TEST(SavedState, ForgedInAnyFieldIsRefusedOrStepsOnWithinBounds) {
   using Real = typename TypeParam::Real;
   using S = typename TypeParam::S;
@@ -488,11 +497,16 @@ TYPED_TEST(SavedState, ForgedInAnyFieldIsRefusedOrStepsOnWithinBounds) {
     // Fields in use come first within their groups: most forgeries go there, two at a time.
     for (int change = 0; change < 2; ++change) {
       const int words = static_cast<int>((good.size() - 28) / 4);
-      const std::size_t at = 24 + 4 * static_cast<std::size_t>(random.whole(0, random.coin() && words > 100 ? 100 : words - 1));
-      const Real numbers[] = {static_cast<Real>(1e6), std::numeric_limits<Real>::max(), static_cast<Real>(-999.5), std::numeric_limits<Real>::denorm_min()};
+      const std::size_t at =
+          24 + 4 * static_cast<std::size_t>(random.whole(0, random.coin() && words > 100 ? 100 : words - 1));
+      const Real numbers[] = {static_cast<Real>(1e6), std::numeric_limits<Real>::max(), static_cast<Real>(-999.5),
+                              std::numeric_limits<Real>::denorm_min()};
       const std::uint64_t bits_of_number = detail::word_of(numbers[random.whole(0, 3)]);
-      const std::uint64_t word = random.coin() ? random.bits() : random.coin() ? bits_of_number : static_cast<std::uint64_t>(random.whole(0, 4));
-      for (std::size_t i = 0; i < sizeof(Real) && at + i + 4 < bytes.size(); ++i) bytes[at + i] = static_cast<unsigned char>(word >> (8 * i));
+      const std::uint64_t word = random.coin()   ? random.bits()
+                                 : random.coin() ? bits_of_number
+                                                 : static_cast<std::uint64_t>(random.whole(0, 4));
+      for (std::size_t i = 0; i < sizeof(Real) && at + i + 4 < bytes.size(); ++i)
+        bytes[at + i] = static_cast<unsigned char>(word >> (8 * i));
     }
     seal(bytes);
     if (!load_state(bytes.data(), bytes.size(), rig.other).ok()) {
@@ -510,7 +524,6 @@ TYPED_TEST(SavedState, ForgedInAnyFieldIsRefusedOrStepsOnWithinBounds) {
   EXPECT_GT(refused, forgeries / 20);
 }
 
-
 template <class... Scenes>
 std::set<std::uint32_t> codes_of() {
   return {detail::scene_code<Scenes>()...};
@@ -518,8 +531,10 @@ std::set<std::uint32_t> codes_of() {
 
 TEST(SceneCode, TellsScenesApartByEveryAnswerThatTheirStatesDependOn) {
   using namespace tick_test::otherwise;
-  const auto codes = codes_of<Plain, TwoCylinders, TwoTrains, ByPhase, ByLoad, TablePressure, InputPressure, Following, Elastic, WithLoadRatio, WithRodInertia, WithTorque,
-                              WithMeanTorque, WithForces, WithValveResults, WithValveGas, WithCamPhasing, WithBadInputCount, WithStarter, WithCylinderCut>();
+  const auto codes =
+      codes_of<Plain, TwoCylinders, TwoTrains, ByPhase, ByLoad, TablePressure, InputPressure, Following, Elastic,
+               WithLoadRatio, WithRodInertia, WithTorque, WithMeanTorque, WithForces, WithValveResults, WithValveGas,
+               WithCamPhasing, WithBadInputCount, WithStarter, WithCylinderCut>();
   EXPECT_EQ(codes.size(), 20u);
 }
 

@@ -38,7 +38,8 @@ std::vector<Named> engines() {
 constexpr unsigned kWithBearings = unsigned{kForces} | kBearingLoads;
 constexpr unsigned kWithoutForces = kAllGroups & ~kWithBearings;
 
-/// Runs the scenes that ask for `Groups`, one after the other, against the ones that ask for all, with forces or without.
+/// Runs the scenes that ask for `Groups`, one after the other, against the ones that ask for all, with forces or
+/// without.
 template <class Real, PressureGiven Source, bool ByLoad, unsigned... Groups>
 void expect_subsets_to_agree() {
   for (const Named& n : engines()) {
@@ -48,7 +49,9 @@ void expect_subsets_to_agree() {
     const Record with = record_of<Real, Asking<kAllGroups, Source, ByLoad>>(tables);
     const Record without = record_of<Real, Asking<kWithoutForces, Source, ByLoad>>(tables);
     expect_same(with, without, kKinematics | kRodMotion | kFreeForces);  // what does not come from forces
-    (expect_same(record_of<Real, Asking<Groups, Source, ByLoad>>(tables), (Groups & kForces) != 0 ? with : without, Groups), ...);
+    (expect_same(record_of<Real, Asking<Groups, Source, ByLoad>>(tables), (Groups & kForces) != 0 ? with : without,
+                 Groups),
+     ...);
   }
 }
 
@@ -59,22 +62,27 @@ void expect_torque_and_forces_to_agree() {
 }
 
 TEST(ScenesAgree, EachGroupAlone) {
-  expect_subsets_to_agree<float, PressureGiven::by_table, false, kKinematics, kRodMotion, kTorque, kMeanTorque, kForces, kWithBearings,
-                          kFreeForces>();
+  expect_subsets_to_agree<float, PressureGiven::by_table, false, kKinematics, kRodMotion, kTorque, kMeanTorque, kForces,
+                          kWithBearings, kFreeForces>();
 }
 TEST(ScenesAgree, PairsThatShareLookUpsOrSums) {
   expect_subsets_to_agree<float, PressureGiven::by_table, false, kKinematics | kRodMotion, kKinematics | kMeanTorque,
-                          kKinematics | kForces, kRodMotion | kForces, kTorque | kMeanTorque, kForces | kTorque, kForces | kMeanTorque,
-                          kRodMotion | kFreeForces>();
+                          kKinematics | kForces, kRodMotion | kForces, kTorque | kMeanTorque, kForces | kTorque,
+                          kForces | kMeanTorque, kRodMotion | kFreeForces>();
 }
 TEST(ScenesAgree, AllGroupsButOne) {
   expect_subsets_to_agree<float, PressureGiven::by_table, false, kAllGroups & ~kKinematics, kAllGroups & ~kRodMotion,
-                          kAllGroups & ~kTorque, kAllGroups & ~kMeanTorque, kAllGroups & ~kBearingLoads, kAllGroups & ~kFreeForces>();
+                          kAllGroups & ~kTorque, kAllGroups & ~kMeanTorque, kAllGroups & ~kBearingLoads,
+                          kAllGroups & ~kFreeForces>();
 }
 TEST(ScenesAgree, TorqueAndForcesByLoad) { expect_torque_and_forces_to_agree<float, PressureGiven::by_table, true>(); }
-TEST(ScenesAgree, TorqueAndForcesByMeasuredPressure) { expect_torque_and_forces_to_agree<float, PressureGiven::by_input, false>(); }
+TEST(ScenesAgree, TorqueAndForcesByMeasuredPressure) {
+  expect_torque_and_forces_to_agree<float, PressureGiven::by_input, false>();
+}
 TEST(ScenesAgree, TorqueAndForcesWithoutGas) { expect_torque_and_forces_to_agree<float, PressureGiven::none, false>(); }
-TEST(ScenesAgree, TorqueAndForcesByLoadInDouble) { expect_torque_and_forces_to_agree<double, PressureGiven::by_table, true>(); }
+TEST(ScenesAgree, TorqueAndForcesByLoadInDouble) {
+  expect_torque_and_forces_to_agree<double, PressureGiven::by_table, true>();
+}
 TEST(ScenesAgree, TorqueAndForcesByMeasuredPressureInDouble) {
   expect_torque_and_forces_to_agree<double, PressureGiven::by_input, false>();
 }

@@ -1,5 +1,5 @@
-// A long drive: four cylinders, eight elastic valves, up and down through the speeds over and over. Nothing drifts, nothing
-// grows, nothing fades into denormal numbers.
+// A long drive: four cylinders, eight elastic valves, up and down through the speeds over and over. Nothing drifts,
+// nothing grows, nothing fades into denormal numbers.
 //
 // 10^7 ticks, a quarter in each test of each scalar; CRANKLOOP_LONG_TESTS=1 in the environment: 10^9.
 #include <gtest/gtest.h>
@@ -63,8 +63,8 @@ std::vector<std::uint32_t> drive_up_and_down() {
 }
 
 TYPED_TEST(Soak, OnAMeasuredCrankGivesTheSameBitsInEveryDriveUpAndDown) {
-  // Each cycle has a whole number of ticks, so that every drive sees the same angles: what differs between two drives is
-  // drift. The first begins from rest and does not count.
+  // Each cycle has a whole number of ticks, so that every drive sees the same angles: what differs between two drives
+  // is drift. The first begins from rest and does not count.
   using Real = TypeParam;
   using S = MeasuredFourWithValves;
   const auto engine = started_four<Real, S>();

@@ -1,5 +1,6 @@
-// docs/contract.md "What the caller keeps alive, and threads": engines share nothing but tables that they read, and set-up
-// shares nothing at all. The preset `thread` runs this under the thread sanitizer, which sees any byte that two threads touch.
+// docs/contract.md "What the caller keeps alive, and threads": engines share nothing but tables that they read, and
+// set-up shares nothing at all. The preset `thread` runs this under the thread sanitizer, which sees any byte that two
+// threads touch.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -51,8 +52,8 @@ template <class Real>
 class Threads : public ::testing::Test {};
 TYPED_TEST_SUITE(Threads, BothReals, RealName);
 
-/// Every output of some cycles and the state after them, saved: of engine `which`, each at a speed of its own, now and then
-/// given nonsense.
+/// Every output of some cycles and the state after them, saved: of engine `which`, each at a speed of its own, now and
+/// then given nonsense.
 template <class Real>
 std::vector<std::uint64_t> drive(std::uint32_t which) {
   using S = FourWithValves;
@@ -97,7 +98,8 @@ TYPED_TEST(Threads, BuildTablesAtOnce) {
     ASSERT_TRUE(accepted(status[i]));
     const Tables<Real, S>& tables = built[i]->tables();
     EXPECT_EQ(tables.drive->fingerprint, want.drive->fingerprint);
-    EXPECT_EQ(std::memcmp(tables.valve_motions, want.valve_motions, 2 * sizeof *want.valve_motions), 0) << "thread " << i;
+    EXPECT_EQ(std::memcmp(tables.valve_motions, want.valve_motions, 2 * sizeof *want.valve_motions), 0)
+        << "thread " << i;
   }
 }
 

@@ -1,5 +1,6 @@
-// Edges of trigger wheels over any motion: none lost, none twice, each at its time. The crank is driven by random speeds that change evenly within
-// a tick, through standstill and back, at angles that only integers know: the reference counts edges over the whole way in 128 bits.
+// Edges of trigger wheels over any motion: none lost, none twice, each at its time. The crank is driven by random
+// speeds that change evenly within a tick, through standstill and back, at angles that only integers know: the
+// reference counts edges over the whole way in 128 bits.
 //
 // CRANKLOOP_LONG_TESTS=1 in the environment: 10^8 ticks instead of 10^6, both scalars together.
 #include <gtest/gtest.h>
@@ -22,6 +23,8 @@
 #include "support/trigger_wheels.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 namespace {
 
 using namespace tick_test;
@@ -46,7 +49,9 @@ struct Unwrapped {
     Wide rest = angle % turn;
     if (rest < 0) rest += turn, --turns;
     const std::uint32_t* end = track->edges + track->edge_count;
-    const auto in_turn = std::upper_bound(track->edges, end, static_cast<std::uint32_t>(static_cast<std::uint64_t>(rest) >> 32)) - track->edges;
+    const auto in_turn =
+        std::upper_bound(track->edges, end, static_cast<std::uint32_t>(static_cast<std::uint64_t>(rest) >> 32)) -
+        track->edges;
     return static_cast<long long>(turns) * track->edge_count + in_turn;
   }
   /// The angle of the edge that is the n-th of that count.
@@ -61,7 +66,7 @@ struct Unwrapped {
 
 /// A tick of the crank, as the dynamics would tell it.
 struct Move {
-  std::int64_t turned;    ///< phase units
+  std::int64_t turned;  ///< phase units
   double bend_cycles;
   std::int64_t cam_move;  ///< phase units
 };
@@ -95,10 +100,13 @@ struct Accuracy {
   long long turned_round = 0;
 };
 
-/// Checks a tick's list against the path: the edges out to the turning point and back again, in this order and no others.
+/// Checks a tick's list against the path: the edges out to the turning point and back again, in this order and no
+/// others.
 template <class Real>
-void check_tick(const TriggerSignal<Real, BentSpeed>& signal, const Unwrapped& wheel, Wide to, long double bend, double tick_s, Accuracy& accuracy) {
-  // A rounding of float is 6e-8 of up to two turns of slope, and there are four on the way: slope, root, quotient, time. Found: 1.9e-7.
+void check_tick(const TriggerSignal<Real, BentSpeed>& signal, const Unwrapped& wheel, Wide to, long double bend,
+                double tick_s, Accuracy& accuracy) {
+  // A rounding of float is 6e-8 of up to two turns of slope, and there are four on the way: slope, root, quotient,
+  // time. Found: 1.9e-7.
   const long double tolerance = sizeof(Real) == 4 ? 5e-7L : 1e-12L;
   const long double turned = static_cast<long double>(to - wheel.at) / kCycle;
   const long double slope = turned - bend;
@@ -120,7 +128,9 @@ void check_tick(const TriggerSignal<Real, BentSpeed>& signal, const Unwrapped& w
   accuracy.turned_round += back > 0 ? 1 : 0;
 
   // Outward, the edges after the start; the last lies within reach and the next does not.
-  const auto edge_out = [&](long long i) { return outward > 0 ? wheel.angle_of(from_count + 1 + i) : wheel.angle_of(from_count - i); };
+  const auto edge_out = [&](long long i) {
+    return outward > 0 ? wheel.angle_of(from_count + 1 + i) : wheel.angle_of(from_count - i);
+  };
   const auto turns_to = [&](Wide angle) { return static_cast<long double>(angle - wheel.at) / kCycle; };
   if (out > 0) {
     ASSERT_LE(turns_to(edge_out(out - 1)) * outward, reach * outward + tolerance);
@@ -187,17 +197,23 @@ TYPED_TEST(TriggerEdges, AreNeitherLostNorDoubledThroughSpeedsReversalsAndPhaser
       for (std::uint32_t w = 0; w < tables.triggers->count; ++w) {
         const TriggerTrack& track = tables.triggers->wheel[w];
         if (w == static_cast<std::uint32_t>(random.whole(0, 31))) {
-          state.phase = Phase{track.starts + (std::uint64_t{track.edges[static_cast<std::size_t>(random.whole(0, static_cast<int>(track.edge_count) - 1))]} << (32 - track.on_crank))};
+          state.phase =
+              Phase{track.starts +
+                    (std::uint64_t{
+                         track.edges[static_cast<std::size_t>(random.whole(0, static_cast<int>(track.edge_count) - 1))]}
+                     << (32 - track.on_crank))};
         }
       }
       for (std::uint32_t w = 0; w < tables.triggers->count; ++w) {
         const TriggerTrack& track = tables.triggers->wheel[w];
-        wheels[w] = {&track, static_cast<Wide>(static_cast<std::uint64_t>((state.phase.units() - track.starts) << track.on_crank))};
+        wheels[w] = {&track, static_cast<Wide>(
+                                 static_cast<std::uint64_t>((state.phase.units() - track.starts) << track.on_crank))};
       }
     }
     const Move move = random_move(random, speed, cam, most);
     const auto bend = static_cast<Real>(move.bend_cycles);
-    const detail::CamsBefore<BentSpeed> before(state);
+    detail::BeforeTick<Real, BentSpeed> before;
+    before.keep(state);
     const detail::CrankPath<Real> path{state.phase, Phase{static_cast<std::uint64_t>(move.turned)}, false, bend};
     state.phase += path.turned;
     state.cam_phase[0] += static_cast<std::uint64_t>(move.cam_move);
@@ -209,12 +225,15 @@ TYPED_TEST(TriggerEdges, AreNeitherLostNorDoubledThroughSpeedsReversalsAndPhaser
       const Wide to = wheels[w].at + gone * (track.on_crank != 0 ? 2 : 1);
       const long double bend_turns = static_cast<long double>(bend) * (track.on_crank != 0 ? 2 : 1);
       ASSERT_NO_FATAL_FAILURE(check_tick(out->trigger[w], wheels[w], to, bend_turns, tick_s, accuracy))
-          << random.trace(i) << ", wheel " << w << ", turned " << move.turned << ", bend " << static_cast<double>(bend) << ", cam " << move.cam_move;
+          << random.trace(i) << ", wheel " << w << ", turned " << move.turned << ", bend " << static_cast<double>(bend)
+          << ", cam " << move.cam_move;
       wheels[w].at = to;
     }
   }
-  std::printf("[ figures  ] %d ticks of %u wheels: %lld edges, some of them on the way back in %lld ticks of a wheel; largest error %.2g turns\n", ticks,
-              tables.triggers->count, accuracy.edges, accuracy.turned_round, accuracy.largest_turns);
+  std::printf(
+      "[ figures  ] %d ticks of %u wheels: %lld edges, some of them on the way back in %lld ticks of a wheel; largest "
+      "error %.2g turns\n",
+      ticks, tables.triggers->count, accuracy.edges, accuracy.turned_round, accuracy.largest_turns);
   EXPECT_GT(accuracy.edges, ticks);
   EXPECT_GT(accuracy.turned_round, ticks / 100);
   EXPECT_LT(accuracy.largest_turns, 1e-6);

@@ -12,6 +12,8 @@
 #include "support/test_valves.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 namespace {
 
 using namespace valve_test;
@@ -73,17 +75,20 @@ void PrintTo(const Case& c, std::ostream* out) {
 
 class ValveAgainstAConvergedReferenceAt : public testing::TestWithParam<Case> {};
 
-// Bounds: 0.005 um in smooth running at short ticks. Where the valve bounces, one bounce magnifies the error of the one before; at 100 us a tick of
-// the cam is as wide as 4 degrees, which a cubic follows to some hundredths of a micrometre.
+// Bounds: 0.005 um in smooth running at short ticks. Where the valve bounces, one bounce magnifies the error of the one
+// before; at 100 us a tick of the cam is as wide as 4 degrees, which a cubic follows to some hundredths of a
+// micrometre.
 INSTANTIATE_TEST_SUITE_P(
     OfTheOneTwentyFive, ValveAgainstAConvergedReferenceAt,
     testing::Values(Case{2000, 100, Integrator::rk4, 0.005, 0.005}, Case{6000, 10, Integrator::rk4, 0.005, 0.005},
-                    Case{6000, 20, Integrator::rk4, 0.005, 0.005}, Case{6000, 20, Integrator::exponential, 0.005, 0.005},
+                    Case{6000, 20, Integrator::rk4, 0.005, 0.005},
+                    Case{6000, 20, Integrator::exponential, 0.005, 0.005},
                     Case{6000, 100, Integrator::rk4, 0.007, 0.007}, Case{7000, 100, Integrator::rk4, 0.02, 0.02},
                     Case{8500, 50, Integrator::rk4, 0.01, 0.01}, Case{12000, 10, Integrator::rk4, 0.04, 0.06},
                     Case{12000, 10, Integrator::exponential, 0.04, 0.06}, Case{12000, 20, Integrator::rk4, 0.35, 0.35},
                     Case{12000, 100, Integrator::rk4, 0.35, 0.35}, Case{14000, 10, Integrator::rk4, 0.1, 0.1},
-                    Case{14000, 10, Integrator::exponential, 0.1, 0.1}, Case{14000, 100, Integrator::exponential, 0.5, 0.5}),
+                    Case{14000, 10, Integrator::exponential, 0.1, 0.1},
+                    Case{14000, 100, Integrator::exponential, 0.5, 0.5}),
     name_of_case);
 
 TEST_P(ValveAgainstAConvergedReferenceAt, KeepsItsLift) {
@@ -173,9 +178,9 @@ std::vector<double> lifts(double rpm, double tick_s, double start_deg) {
 }
 
 TEST(OrderOfConvergence, IsFourOrMoreThroughContactChanges) {
-  // The steps are exact for a cubic lift, so what is left is where the changes are, and the cubic: both of fourth order at least. Against the
-  // same at 1 us, so that the table's own error does not set a floor.
-  // (At 7000 rpm all are within 1.3 nm of each other: that is where a valve is put at rest.)
+  // The steps are exact for a cubic lift, so what is left is where the changes are, and the cubic: both of fourth order
+  // at least. Against the same at 1 us, so that the table's own error does not set a floor. (At 7000 rpm all are
+  // within 1.3 nm of each other: that is where a valve is put at rest.)
   constexpr double kRpm = 12000;
   double error[3] = {};
   const double ticks[3] = {16e-6, 8e-6, 4e-6};
@@ -184,8 +189,8 @@ TEST(OrderOfConvergence, IsFourOrMoreThroughContactChanges) {
     for (int i = 0; i < 3; ++i) error[i] = std::max(error[i], apart(lifts(kRpm, ticks[i], 37.7 * shift), best));
   }
   const double order = std::log(error[0] / error[2]) / std::log(4.0);
-  std::printf("[ figures  ] %5.0f rpm with contact changes: %.1e, %.1e, %.1e um at 16, 8, 4 us: order %.2f\n", kRpm, error[0] / kUm,
-              error[1] / kUm, error[2] / kUm, order);
+  std::printf("[ figures  ] %5.0f rpm with contact changes: %.1e, %.1e, %.1e um at 16, 8, 4 us: order %.2f\n", kRpm,
+              error[0] / kUm, error[1] / kUm, error[2] / kUm, order);
   EXPECT_GE(order, 3.5);
 }
 
@@ -264,7 +269,7 @@ TEST(ValveSeparation, IsNoneAtTwoRpmThoughTheTrainIsCompressed) {
   // Full lift presses the train by some 44 um: that is no separation, and at a crawl nothing else happens.
   const ValveCycle<double> cycle = settled_cycle(ohc_125_train(), 2, 2e-3, 1);
   EXPECT_EQ(cycle.separations, 0u);
-  EXPECT_EQ(cycle.separation_gap_m, 0);
+  EXPECT_EQ(cycle.separation_clearance_m, 0);
   EXPECT_EQ(cycle.bounces, 0u);
   EXPECT_NEAR(cycle.largest_lift_m, 7.815e-3 - 44e-6, 2e-6);
 }
@@ -274,16 +279,16 @@ TEST(ValveSeparation, GrowsWithSpeed) {
   for (const double rpm : {6000.0, 8000.0, 10000.0, 12000.0, 13000.0, 14000.0}) {
     const ValveCycle<double> cycle = settled_cycle(ohc_125_train(), rpm);
     std::printf("[ figures  ] %5.0f rpm: %u separations up to %.1f um\n", rpm, cycle.separations,
-                cycle.separation_gap_m / kUm);
-    EXPECT_GE(cycle.separation_gap_m, before) << rpm;
-    before = cycle.separation_gap_m;
+                cycle.separation_clearance_m / kUm);
+    EXPECT_GE(cycle.separation_clearance_m, before) << rpm;
+    before = cycle.separation_clearance_m;
   }
   EXPECT_GT(before, 100 * kUm);
 }
 
 TEST(ValveSeparation, ShrinksWithAStifferSpringAndLessMass) {
   for (const double rpm : {9500.0, 10500.0, 11500.0, 12500.0}) {
-    const auto gap = [rpm](const ValveTrain& train) { return settled_cycle(train, rpm).separation_gap_m; };
+    const auto gap = [rpm](const ValveTrain& train) { return settled_cycle(train, rpm).separation_clearance_m; };
     ValveTrain stiffer_spring = ohc_125_train();
     stiffer_spring.valve.spring_N_m *= 1.5;
     ValveTrain higher_preload = ohc_125_train();
@@ -302,7 +307,7 @@ TEST(ValveSeparation, ComesEarlierWithASofterTrain) {
   const auto gap = [](double of_stiffness) {
     ValveTrain train = ohc_125_train();
     train.valve.train_N_m *= of_stiffness;
-    return settled_cycle(train, 8500).separation_gap_m;
+    return settled_cycle(train, 8500).separation_clearance_m;
   };
   std::printf(
       "[ figures  ] gap at 8500 rpm with a train of 0.05, 0.1, 0.25, 1, 4 times the stiffness: %.0f %.0f %.0f %.0f "
@@ -319,7 +324,7 @@ TEST(ValveSeparation, ComesToATrainWithATenthOfItsSpringForce) {
   train.valve.spring_N_m /= 10;
   const ValveCycle<double> cycle = settled_cycle(train, 7000);
   EXPECT_GE(cycle.separations, 1u);
-  EXPECT_GT(cycle.separation_gap_m, 100 * kUm);
+  EXPECT_GT(cycle.separation_clearance_m, 100 * kUm);
 }
 
 // ---- what every motion keeps
@@ -385,8 +390,9 @@ TEST(ValveForces, AtTheCamAreTheRockerRatioTimesTheTrains) {
 // --------------------------------------------------------------------------------------------------------
 
 TEST(ValveEventBudget, WhenExceededIsFlaggedAndSharedByTurns) {
-  // Eight valves that open and close together: 5 changes of the 8 in a tick are located, the others taken at its end. Who comes first, turns: no
-  // valve is always among the others. Beside them one alone, which always has its changes located.
+  // Eight valves that open and close together: 5 changes of the 8 in a tick are located, the others taken at its end.
+  // Who comes first, turns: no valve is always among the others. Beside them one alone, which always has its changes
+  // located.
   EngineDefinition all = tick_test::with_cylinders(engine_with(ohc_125_train()), {0, 0, 0, 0});
   all.train_count = 2;
   all.trains[1] = all.trains[0];
@@ -414,11 +420,13 @@ TEST(ValveEventBudget, WhenExceededIsFlaggedAndSharedByTurns) {
     }
     EXPECT_TRUE(alone.at_rest());
   }
-  std::printf("[ figures  ] budget exceeded in %d ticks of 40 cycles, valves off by up to %.1f um\n", flagged, worst_m / kUm);
+  std::printf("[ figures  ] budget exceeded in %d ticks of 40 cycles, valves off by up to %.1f um\n", flagged,
+              worst_m / kUm);
   EXPECT_GT(flagged, 40);
   EXPECT_LT(worst_m, 100 * kUm) << "a change taken late by at most a tick";
   for (const auto& train : as_alone) {
-    for (const int cycles : train) EXPECT_TRUE(cycles > 10 && cycles < 40) << cycles << " of 40, where five in eight are 25";
+    for (const int cycles : train)
+      EXPECT_TRUE(cycles > 10 && cycles < 40) << cycles << " of 40, where five in eight are 25";
   }
 }
 

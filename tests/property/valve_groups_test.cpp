@@ -1,6 +1,6 @@
-// What a scene asks for beside its valves' motion - forces, results of a cycle - changes no bit of that motion, nor does forces' being asked for change
-// results: at ticks of one fine step and of many, at speeds from standstill to a lobe in a tick, through jumps of the crank, with gas on the
-// valves and without.
+// What a scene asks for beside its valves' motion - forces, results of a cycle - changes no bit of that motion, nor
+// does forces' being asked for change results: at ticks of one fine step and of many, at speeds from standstill to a
+// lobe in a tick, through jumps of the crank, with gas on the valves and without.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -55,7 +55,8 @@ class ValveGroups : public ::testing::Test {
       Rig<Real, Asked<Base, true, false>> forces(definition, tick_s);
       Rig<Real, Asked<Base, false, true>> results(definition, tick_s);
       Rig<Real, Asked<Base, true, true>> both(definition, tick_s);
-      const double limit_deg = static_cast<double>(plain.tables->tables().drive->speed_limit_rad_s) * tick_s * 180 / support::kPi;
+      const double limit_deg =
+          static_cast<double>(plain.tables->tables().drive->speed_limit_rad_s) * tick_s * 180 / support::kPi;
       double deg_per_tick = 0;
       double pressure_Pa = 1e5;
       Phase crank;
@@ -71,10 +72,14 @@ class ValveGroups : public ::testing::Test {
         ASSERT_TRUE(a.faults == b.faults && a.faults == c.faults && a.faults == d.faults);
         for (int t = 0; t < 2; ++t) {
           for (int k = 0; k < 4; ++k) {
-            ASSERT_TRUE(same_motion(a.valve[t][k], b.valve[t][k]) && same_motion(a.valve[t][k], c.valve[t][k]) && same_motion(a.valve[t][k], d.valve[t][k]))
-                << random.trace(tick) << ", tick of " << tick_s * 1e6 << " us, train " << t << ", cylinder " << k << ": " << a.valve[t][k].lift_m;
-            ASSERT_EQ(std::memcmp(&b.valve_forces[t][k], &d.valve_forces[t][k], sizeof b.valve_forces[t][k]), 0) << random.trace(tick);
-            ASSERT_EQ(std::memcmp(&c.valve_cycle[t][k], &d.valve_cycle[t][k], sizeof c.valve_cycle[t][k]), 0) << random.trace(tick);
+            ASSERT_TRUE(same_motion(a.valve[t][k], b.valve[t][k]) && same_motion(a.valve[t][k], c.valve[t][k]) &&
+                        same_motion(a.valve[t][k], d.valve[t][k]))
+                << random.trace(tick) << ", tick of " << tick_s * 1e6 << " us, train " << t << ", cylinder " << k
+                << ": " << a.valve[t][k].lift_m;
+            ASSERT_EQ(std::memcmp(&b.valve_forces[t][k], &d.valve_forces[t][k], sizeof b.valve_forces[t][k]), 0)
+                << random.trace(tick);
+            ASSERT_EQ(std::memcmp(&c.valve_cycle[t][k], &d.valve_cycle[t][k], sizeof c.valve_cycle[t][k]), 0)
+                << random.trace(tick);
             moving += a.valve[t][k].lift_m > static_cast<Real>(1e-4) ? 1 : 0;
           }
         }

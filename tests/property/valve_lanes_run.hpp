@@ -1,4 +1,5 @@
-// Engines of all sorts of valve counts, run the same way by two translation units: one steps valves abreast, one steps them one by one.
+// Engines of all sorts of valve counts, run the same way by two translation units: one steps valves abreast, one steps
+// them one by one.
 //
 // What belongs here: the engines and what is done to them. What does not: the comparison (valve_lanes_test.cpp).
 #pragma once
@@ -21,7 +22,7 @@
 
 namespace crankloop::valve_lanes {
 
-inline EngineDefinition engine_of(int cylinders, int trains) {
+inline EngineDefinition engine_of(int cylinders, int trains, bool gas) {
   std::vector<double> firing_deg;
   for (int k = 0; k < cylinders; ++k) firing_deg.push_back(720.0 * k / cylinders);
   EngineDefinition engine = tick_test::with_cylinders(valve_test::engine_with(valve_test::ohc_125_train()), firing_deg);
@@ -32,15 +33,25 @@ inline EngineDefinition engine_of(int cylinders, int trains) {
     engine.trains[t].cam.phase_rate_deg_s = 3000;
     engine.trains[t].valve.valve_kg *= 1 + 0.3 * t;
     if (t == 1) engine.trains[t].rocker.clearance_m = 0;
+    if (gas) engine.trains[t].valve.head_area_m2 = 4e-4 + 1e-4 * t;
   }
   return engine;
 }
 
-/// Bits of all outputs, the faults and the state, tick by tick: speeds from standstill to a lobe in a tick, both ways, jumps of the crank, moving cams.
+template <class T>
+void add_words(const T& of, std::vector<std::uint32_t>& bits) {
+  std::uint32_t words[sizeof of / 4];
+  static_assert(sizeof words == sizeof of);
+  std::memcpy(words, &of, sizeof words);
+  bits.insert(bits.end(), words, words + sizeof of / 4);
+}
+
+/// Bits of all outputs, the faults and the state, tick by tick: speeds from standstill to a lobe in a tick, both ways,
+/// jumps of the crank, moving cams, pressures that press a closed valve into its seat and suck it open.
 template <class S>
 std::vector<std::uint32_t> bits_of(int cylinders, int trains, double tick_s) {
   const auto tables = std::make_unique<TableStorage<float, S>>();
-  EXPECT_TRUE(accepted(tables->build(engine_of(cylinders, trains), {tick_s, {}})));
+  EXPECT_TRUE(accepted(tables->build(engine_of(cylinders, trains, S::valve_gas), {tick_s, {}})));
   const auto engine = std::make_unique<Engine<float, S>>();
   EXPECT_TRUE(accepted(engine->init(tables->tables(), Phase{12345678901234567u})));
   const double limit_deg = static_cast<double>(tables->tables().drive->speed_limit_rad_s) * tick_s * 180 / support::kPi;
@@ -55,6 +66,11 @@ std::vector<std::uint32_t> bits_of(int cylinders, int trains, double tick_s) {
     if constexpr (S::cam_phasing) {
       for (float& deg : in.cam_phase_deg) deg = tick % 700 < 350 ? 10.0F : -25.0F;
     }
+    if constexpr (S::valve_gas) {
+      for (float& pressure : in.pressure_Pa) {
+        if (random.whole(0, 19) == 0) pressure = static_cast<float>(random.between(0, random.coin() ? 2e5 : 2e7));
+      }
+    }
     if (random.whole(0, 99) == 0) {  // what a tick remembers, worked out anew: the same bits
       EXPECT_TRUE(accepted(engine->restore(State<float, S>(engine->state()))));
     }
@@ -62,11 +78,14 @@ std::vector<std::uint32_t> bits_of(int cylinders, int trains, double tick_s) {
     bits.push_back(out.faults);
     for (int t = 0; t < trains; ++t) {
       for (int k = 0; k < cylinders; ++k) {
-        std::uint32_t words[4];
-        static_assert(sizeof words == sizeof out.valve[t][k]);
-        std::memcpy(words, &out.valve[t][k], sizeof words);
-        bits.insert(bits.end(), words, words + 4);
-        bits.push_back(engine->state().valve_regime[static_cast<std::size_t>(t) * S::cylinders.capacity + static_cast<std::size_t>(k)]);
+        add_words(out.valve[t][k], bits);
+        if constexpr (S::valve_forces) add_words(out.valve_forces[t][k], bits);
+        if constexpr (S::valve_results) {
+          add_words(out.valve_cycle[t][k], bits);
+          add_words(engine->state().record[t][k], bits);
+        }
+        bits.push_back(engine->state().valve_regime[static_cast<std::size_t>(t) * S::cylinders.capacity +
+                                                    static_cast<std::size_t>(k)]);
       }
     }
   }
@@ -78,6 +97,12 @@ struct LanesRun {
   std::vector<std::uint32_t> bits;
 };
 
+template <class Unit, std::uint32_t Cylinders, std::uint32_t Trains, bool Exact, bool Phasing, bool Gas>
+LanesRun told(const char* name, int cylinders, int trains, double tick_s) {
+  return {name, bits_of<tick_test::ToldLanes<tick_test::Lanes<Unit, Cylinders, Trains, Exact, Phasing>, Gas>>(
+                    cylinders, trains, tick_s)};
+}
+
 /// Blocks of eight, of four, what fills none; several trains in a row and each for itself; cams that move.
 template <class Unit>
 std::vector<LanesRun> all_runs(double tick_s) {
@@ -87,7 +112,11 @@ std::vector<LanesRun> all_runs(double tick_s) {
           {"six cylinders, four trains", bits_of<tick_test::Lanes<Unit, 6, 4, true, false>>(6, 4, tick_s)},
           {"five of sixteen cylinders", bits_of<tick_test::Lanes<Unit, 16, 4, false, false>>(5, 3, tick_s)},
           {"sixteen of sixteen cylinders", bits_of<tick_test::Lanes<Unit, 16, 4, false, false>>(16, 4, tick_s)},
-          {"phased cams", bits_of<tick_test::Lanes<Unit, 4, 2, true, true>>(4, 2, tick_s)}};
+          {"phased cams", bits_of<tick_test::Lanes<Unit, 4, 2, true, true>>(4, 2, tick_s)},
+          told<Unit, 4, 2, true, true, false>("phased cams, forces and results", 4, 2, tick_s),
+          told<Unit, 4, 2, true, false, true>("four cylinders under gas", 4, 2, tick_s),
+          told<Unit, 6, 3, true, true, true>("six phased cylinders under gas", 6, 3, tick_s),
+          told<Unit, 8, 2, false, false, true>("five of eight cylinders under gas", 5, 2, tick_s)};
 }
 
 std::vector<LanesRun> runs_one_by_one(double tick_s);

@@ -15,7 +15,8 @@ TEST(ValveLanes, HaveTheBitsOfValvesOneByOne) {
       ASSERT_EQ(abreast[i].bits.size(), one_by_one[i].bits.size());
       std::size_t at = 0;
       while (at < abreast[i].bits.size() && abreast[i].bits[at] == one_by_one[i].bits[at]) ++at;
-      EXPECT_EQ(at, abreast[i].bits.size()) << abreast[i].name << ", " << tick_s * 1e6 << " us: word " << at << " of " << abreast[i].bits.size();
+      EXPECT_EQ(at, abreast[i].bits.size())
+          << abreast[i].name << ", " << tick_s * 1e6 << " us: word " << at << " of " << abreast[i].bits.size();
     }
   }
 }

@@ -45,7 +45,7 @@ Told one_cycle(const ValveTrain& train, double rpm, const TickOptions& options) 
     t.largest_speed_m_s = static_cast<double>(told.largest_speed_m_s);
     t.largest_acceleration_m_s2 = static_cast<double>(told.largest_acceleration_m_s2);
     t.opening_delay_deg = static_cast<double>(told.opening_delay_deg);
-    t.separation_gap_m = static_cast<double>(told.separation_gap_m);
+    t.separation_clearance_m = static_cast<double>(told.separation_clearance_m);
     t.separation_start_deg = static_cast<double>(told.separation_start_deg);
     t.separation_duration_deg = static_cast<double>(told.separation_duration_deg);
     t.seating_speed_m_s = static_cast<double>(told.seating_speed_m_s);
@@ -81,7 +81,7 @@ void expect_same(const Told& told, const Tolerance& within) {
   if (truth.nearest_to_threshold_m < within.lift_m) return;  // the errors of both may decide whether it counts
   EXPECT_EQ(static_cast<int>(ours.separations), truth.separations);
   EXPECT_EQ(static_cast<int>(ours.bounces), truth.bounces);
-  EXPECT_NEAR(ours.separation_gap_m, truth.separation_gap_m, within.lift_m);
+  EXPECT_NEAR(ours.separation_clearance_m, truth.separation_clearance_m, within.lift_m);
   EXPECT_NEAR(ours.bounce_height_m, truth.bounce_height_m, within.lift_m);
   if (truth.separations > 0) {
     EXPECT_NEAR(wrapped(ours.separation_start_deg - (truth.separation_start_deg - told.opens_deg)), 0,
@@ -97,11 +97,11 @@ void print(double rpm, double tick_us, const Told& told) {
       "[ figures  ] %6.0f rpm, %4.0f us: delay %.4f (reference %.4f) deg, float %u (%d) to %.3f (%.3f) um for %.3f "
       "(%.3f) deg from %.3f (%.3f), "
       "seating at %.5f (%.5f) m/s, bounces %u (%d) to %.3f (%.3f) um, speed %.3f (%.3f), acceleration %.0f (%.0f)\n",
-      rpm, tick_us, a.opening_delay_deg, b.opening_delay_deg, a.separations, b.separations, a.separation_gap_m / kUm,
-      b.separation_gap_m / kUm, a.separation_duration_deg, b.separation_duration_deg, a.separation_start_deg,
-      b.separation_start_deg - told.opens_deg, a.seating_speed_m_s, b.seating_speed_m_s, a.bounces, b.bounces,
-      a.bounce_height_m / kUm, b.bounce_height_m / kUm, a.largest_speed_m_s, b.largest_speed_m_s,
-      a.largest_acceleration_m_s2, b.largest_acceleration_m_s2);
+      rpm, tick_us, a.opening_delay_deg, b.opening_delay_deg, a.separations, b.separations,
+      a.separation_clearance_m / kUm, b.separation_clearance_m / kUm, a.separation_duration_deg,
+      b.separation_duration_deg, a.separation_start_deg, b.separation_start_deg - told.opens_deg, a.seating_speed_m_s,
+      b.seating_speed_m_s, a.bounces, b.bounces, a.bounce_height_m / kUm, b.bounce_height_m / kUm, a.largest_speed_m_s,
+      b.largest_speed_m_s, a.largest_acceleration_m_s2, b.largest_acceleration_m_s2);
 }
 
 // 1 um of lift at 12000 rpm is 0.003 deg where the valve moves at 8 m/s and 0.03 deg near the ends of a gap, 1e-4 of
@@ -164,7 +164,7 @@ TEST(ValveRecord, ReportsAValveThatIsStillInTheAirAtTheEndOfItsCycle) {
     if (c.largest_lift_m == 0 || told != 0) continue;
     ++told;
     std::printf("[ figures  ] float from %.2f for %.2f deg, gap %.2f mm; the cycle ends at %.2f\n",
-                c.separation_start_deg, c.separation_duration_deg, c.separation_gap_m * 1e3, middle);
+                c.separation_start_deg, c.separation_duration_deg, c.separation_clearance_m * 1e3, middle);
     EXPECT_EQ(c.off_seat_at_end, 1u);
     EXPECT_GE(c.separations, 1u);
     // Float that goes on when the cycle ends is told up to there, and no further.
@@ -218,8 +218,9 @@ TEST(ValveRecord, OfRandomTrainsAgreesWithTheReference) {
 }
 
 TEST(ValveRecord, TakesAFlightThatOutlivesItsCycleForNoBounce) {
-  // A train of 0.7 times the stiffness at 13 000 rpm: the valve may still be in the air when its cam opens, touches the seat before the cam's full
-  // lift or not at all, and is carried up again. That was told as seating, and the lift after it as a bounce of 8.5 mm.
+  // A train of 0.7 times the stiffness at 13 000 rpm: the valve may still be in the air when its cam opens, touches the
+  // seat before the cam's full lift or not at all, and is carried up again. That was told as seating, and the lift
+  // after it as a bounce of 8.5 mm.
   ValveTrain train = ohc_125_train();
   train.valve.train_N_m *= 0.7;
   Rig<double> rig(train, {20e-6, {}}, 90);
@@ -231,7 +232,9 @@ TEST(ValveRecord, TakesAFlightThatOutlivesItsCycleForNoBounce) {
     highest_m = std::max(highest_m, cycle.bounce_height_m);
     in_the_air += cycle.off_seat_at_end != 0 ? 1 : 0;
   }
-  std::printf("[ figures  ] 13 000 rpm, soft train: highest bounce %.2f mm, %d ticks behind a cycle that ended in the air\n", highest_m * 1e3, in_the_air);
+  std::printf(
+      "[ figures  ] 13 000 rpm, soft train: highest bounce %.2f mm, %d ticks behind a cycle that ended in the air\n",
+      highest_m * 1e3, in_the_air);
   EXPECT_GT(in_the_air, 0) << "or nothing of the kind happened";
   EXPECT_LT(highest_m, 6e-3) << "a bounce, not the next lift of 7.8 mm and more";
 }

@@ -10,6 +10,8 @@
 #include "support/test_valves.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 namespace {
 
 using namespace valve_test;
@@ -145,8 +147,8 @@ TYPED_TEST(ValveRest, IsTheSameAfterManyCyclesAsAfterThousand) {
 }
 
 TEST(ValveOnASoftSeat, MeetsItsTrainWhereItSwingsUpIntoTheSeatByMoreThanTheLash) {
-  // Found by crankloop stress: the preload presses 0.8 mm into the seat, the lash is 6 um, and what trembles on the seat after
-  // closing comes up against the rocker again and again. Taken for quiet it was off by 23 um.
+  // Found by crankloop stress: the preload presses 0.8 mm into the seat, the lash is 6 um, and what trembles on the
+  // seat after closing comes up against the rocker again and again. Taken for quiet it was off by 23 um.
   ValveTrain train = ohc_125_train();
   train.valve.valve_kg = 0.15;
   train.rocker.clearance_m = 6e-6;
@@ -265,8 +267,8 @@ TEST(ValveAtStart, StandsOnALiftedCamInEquilibrium) {
 }
 
 TEST(ValveUnderGas, SinksIntoItsSeatByTheSameLawWhateverTheTick) {
-  // 60 bar on 4 cm^2 press with 2.4 kN: 23.6 um into a seat of 100 N/um beside the spring. It swings there for a while, and the seat feels all that
-  // the spring does not.
+  // 60 bar on 4 cm^2 press with 2.4 kN: 23.6 um into a seat of 100 N/um beside the spring. It swings there for a while,
+  // and the seat feels all that the spring does not.
   ValveTrain train = ohc_125_train();
   train.valve.head_area_m2 = 4e-4;
   const double gas_N = (60e5 - kCrankcase_Pa) * 4e-4;
@@ -285,9 +287,33 @@ TEST(ValveUnderGas, SinksIntoItsSeatByTheSameLawWhateverTheTick) {
   }
 }
 
+TEST(ValveUnderGas, MeetsItsTrainWhereItIsPressedIntoTheSeatByMoreThanTheLash) {
+  // So slowly that it never leaves its rest by itself: 100 bar in 0.2 s, 40 um into the seat, with a lash of 6 um.
+  ValveTrain train = ohc_125_train();
+  train.valve.head_area_m2 = 4e-4;
+  train.rocker.clearance_m = 6e-6;
+  for (const double tick_s : {20e-6, 100e-6}) {
+    Rig<double, OneValveWithGas> rig(train, {tick_s, {}}, 90);
+    Engine<double, OneValveWithGas>::Input in;
+    const int ticks = static_cast<int>(std::lround(0.2 / tick_s));
+    for (int i = 0; i <= 2 * ticks; ++i) {
+      in.pressure_Pa[0] = kCrankcase_Pa + 100e5 * std::min(i, ticks) / ticks;
+      rig.engine().step(in);
+    }
+    const ValveBody<double>& b = rig.motion().body;
+    const double rest_m =
+        -(b.train_N_m * 6e-6 + 100e5 * 4e-4) / (b.train_N_m + b.seat_N_m + b.spring_N_m);  // both contacts bear
+    const auto& out = rig.engine().output();
+    EXPECT_NEAR(out.valve[0][0].lift_m, rest_m, 1e-9) << tick_s;
+    EXPECT_EQ(out.valve_forces[0][0].regime, kTrainOn | kSeatOn) << tick_s;
+    EXPECT_NEAR(out.valve_forces[0][0].train_N, b.train_N_m * (-6e-6 - rest_m), 0.01) << tick_s;
+  }
+}
+
 TEST(ValveUnderGas, FeelsAPressureThatRisesEvenlyWithinATick) {
-  // A ramp of 100 bar in 4 ms, by less than the lash, sampled at the ticks' ends: with the pressure linear between them, ticks of any length give the same motion. Held
-  // over the tick it would be off by half a tick of the ramp: 0.05 um at 10 us, 1 um at 200.
+  // A ramp of 100 bar in 4 ms, by less than the lash, sampled at the ticks' ends: with the pressure linear between
+  // them, ticks of any length give the same motion. Held over the tick it would be off by half a tick of the ramp: 0.05
+  // um at 10 us, 1 um at 200.
   ValveTrain train = ohc_125_train();
   train.valve.head_area_m2 = 4e-4;
   const auto lifts_at = [&](double tick_s) {
@@ -304,7 +330,8 @@ TEST(ValveUnderGas, FeelsAPressureThatRisesEvenlyWithinATick) {
   };
   const std::vector<double> fine = lifts_at(2e-6);
   EXPECT_NEAR(fine.back(), -100e5 * 4e-4 / (1e8 + 40e3), 1 * kUm);
-  for (const double tick_s : {10e-6, 20e-6, 100e-6, 200e-6}) EXPECT_LT(apart(lifts_at(tick_s), fine), 1e-3 * kUm) << tick_s;
+  for (const double tick_s : {10e-6, 20e-6, 100e-6, 200e-6})
+    EXPECT_LT(apart(lifts_at(tick_s), fine), 1e-3 * kUm) << tick_s;
 }
 
 TEST(ValveUnderGas, OpensLaterAndLessAgainstPressure) {
@@ -321,7 +348,9 @@ TEST(ValveUnderGas, OpensLaterAndLessAgainstPressure) {
     for (int i = 0; i < 1100; ++i) {
       rig.engine().step(in);
       plain.step(in.speed_rad_s);
-      if (i > 500) worst = std::max(worst, std::fabs(rig.engine().output().valve[0][0].lift_m - plain.reference.y));  // the start's swing is over
+      if (i > 500)
+        worst = std::max(worst, std::fabs(rig.engine().output().valve[0][0].lift_m -
+                                          plain.reference.y));  // the start's swing is over
     }
     std::printf("[ figures  ] %.1f bar on the head, 6000 rpm: %.4f um\n", pressure_Pa / 1e5, worst / kUm);
     EXPECT_LT(worst, 0.05 * kUm);

@@ -94,9 +94,7 @@ class Engine {
 
 class BadInput : public testing::Test {
  protected:
-  BadInput() {
-    path_ = folder_ / "engine.ini";
-  }
+  BadInput() { path_ = folder_ / "engine.ini"; }
 
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;

@@ -1,6 +1,6 @@
-// A crankcase full of parts, the other way to forces and moments of whole engines: each piston with the vector acceleration that geometry gives
-// it, each big end and crank pin turning, put where they are along the shaft, and added up. Up is bank angle 0, lateral a quarter turn on in the
-// sense of rotation, as in output.hpp.
+// A crankcase full of parts, the other way to forces and moments of whole engines: each piston with the vector
+// acceleration that geometry gives it, each big end and crank pin turning, put where they are along the shaft, and
+// added up. Up is bank angle 0, lateral a quarter turn on in the sense of rotation, as in output.hpp.
 #pragma once
 
 #include <crankloop/tabulate/summary.hpp>
@@ -106,12 +106,18 @@ inline Wide middle_of_shaft(const Layout& layout) {
   return (wide(*front) + wide(*back)) / 2;
 }
 
-inline Wide own_deg(const Layout& layout, std::size_t k, Wide engine_deg) { return engine_deg - wide(layout.firing_deg[k]); }
+inline Wide own_deg(const Layout& layout, std::size_t k, Wide engine_deg) {
+  return engine_deg - wide(layout.firing_deg[k]);
+}
 
-/// Fourier term of a piston's acceleration toward the crankshaft at 1 rad/s, per crank radius: of the vectors of its motion.
+/// Fourier term of a piston's acceleration toward the crankshaft at 1 rad/s, per crank radius: of the vectors of its
+/// motion.
 inline support::FourierTerm exact_term(const Crank& crank, int order) {
   return support::fourier_term(
-      [&](double a) { return static_cast<double>(-support::motion_at(crank, wide(a), 1).piston_pin_acceleration.up / wide(crank.crank_radius_m)); },
+      [&](double a) {
+        return static_cast<double>(-support::motion_at(crank, wide(a), 1).piston_pin_acceleration.up /
+                                   wide(crank.crank_radius_m));
+      },
       order, 256);
 }
 

@@ -1,7 +1,8 @@
-// Cam and rocker by brute force: a turned convex body and a circle that touches it. No formula of the rocker's kinematics, no derivative.
+// Cam and rocker by brute force: a turned convex body and a circle that touches it. No formula of the rocker's
+// kinematics, no derivative.
 //
-// A flat follower of direction n(theta) stands base + y(theta) above the cam's centre, so the cam is what lies below all of them, and the
-// distance of a point P outside it is the largest P n(theta) - (base + y(theta)) over theta.
+// A flat follower of direction n(theta) stands base + y(theta) above the cam's centre, so the cam is what lies below
+// all of them, and the distance of a point P outside it is the largest P n(theta) - (base + y(theta)) over theta.
 //
 //        A  pad centre, l_a from O            x axis: from the cam's centre Oc to the pivot O
 //       / \                                   A = O + l_a (-cos W, sin W)
@@ -30,7 +31,8 @@ struct BruteForceCam {
   [[nodiscard]] Touch touch(double rocker_rad, double turned_rad) const {
     const double x = rocker.pivot_to_cam_m - rocker.pivot_to_pad_m * std::cos(rocker_rad);
     const double y = rocker.pivot_to_pad_m * std::sin(rocker_rad);
-    // On a cam that turns clockwise phi grows counter-clockwise, so that its larger angles come by later; and the other way round.
+    // On a cam that turns clockwise phi grows counter-clockwise, so that its larger angles come by later; and the other
+    // way round.
     const double sense = rocker.cam_turns == CamTurns::toward_pivot ? 1 : -1;
     const auto above = [&](double phi) {
       const double in_space = sense * (phi - turned_rad);

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "support/both_reals.hpp"
+#include "support/running.hpp"
 #include "support/status.hpp"
 #include "support/test_engines.hpp"
-#include "support/running.hpp"
 
 namespace crankloop::tick_test {
 
@@ -42,8 +42,8 @@ template <class Real, class S>
 typename Engine<Real, S>::Input drive_of(int tick) {
   typename Engine<Real, S>::Input in;
   in.speed_rad_s = static_cast<Real>(180 + 30 * std::sin(0.01 * tick));
-  if constexpr (Needs<S>::load) in.load_ratio = static_cast<Real>(0.5 + 0.4 * std::sin(0.003 * tick));
-  if constexpr (Needs<S>::input_pressure) {
+  if constexpr (detail::Needs<S>::load) in.load_ratio = static_cast<Real>(0.5 + 0.4 * std::sin(0.003 * tick));
+  if constexpr (detail::Needs<S>::input_pressure) {
     int k = 0;
     for (Real& pressure : in.pressure_Pa) pressure = static_cast<Real>(1e5 + 4e4 * (tick * ++k % 97));
   }

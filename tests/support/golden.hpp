@@ -1,5 +1,5 @@
-// Committed texts that a run must give again, to the last bit, and how they are renewed on purpose. Of a run's rows those of every hundredth tick
-// are committed, and a hash of all rows.
+// Committed texts that a run must give again, to the last bit, and how they are renewed on purpose. Of a run's rows
+// those of every hundredth tick are committed, and a hash of all rows.
 //
 //     build/check/tests/crankloop_golden_tests --renew "why"      (tests/golden/renew.sh builds first)
 //
@@ -62,7 +62,8 @@ inline std::string contents_of(const std::filesystem::path& path) {
 
 inline std::filesystem::path golden_runs() { return std::filesystem::path(CRANKLOOP_GOLDEN_DIR) / "runs"; }
 
-/// What is committed of a run: rows that tell a phase or a hash at every hundredth tick, a row without a tick, and the hash of all rows.
+/// What is committed of a run: rows that tell a phase or a hash at every hundredth tick, a row without a tick, and the
+/// hash of all rows.
 inline std::string thinned(const std::string& text) {
   constexpr int kKeptTicks = 100;
   Fnv hash;
@@ -100,8 +101,10 @@ inline void expect_golden(const std::string& name, const std::string& run) {
     if (more_now && more_committed && now_line == committed_line) continue;
     const std::filesystem::path whole = std::filesystem::path(::testing::TempDir()) / (name + ".txt");
     std::ofstream(whole, std::ios::binary) << run;
-    ADD_FAILURE() << path.string() << ":" << line << ": the bits have changed\n  committed: " << (more_committed ? committed_line : "(end)")
-                  << "\n  now:       " << (more_now ? now_line : "(end)") << "\nAll rows of now: " << whole.string() << "\nIf that is meant: tests/golden/renew.sh \"why\"";
+    ADD_FAILURE() << path.string() << ":" << line
+                  << ": the bits have changed\n  committed: " << (more_committed ? committed_line : "(end)")
+                  << "\n  now:       " << (more_now ? now_line : "(end)") << "\nAll rows of now: " << whole.string()
+                  << "\nIf that is meant: tests/golden/renew.sh \"why\"";
     return;
   }
 }

@@ -1,6 +1,8 @@
-// Indicator diagrams under test, and what they are held against: bounds of the smooth pressure, the same height on the other stroke.
+// Indicator diagrams under test, and what they are held against: bounds of the smooth pressure, the same height on the
+// other stroke.
 //
-// What belongs here: what the tests of tables and of synthesised diagrams share. What does not: pressures made of formulas (diagrams.hpp).
+// What belongs here: what the tests of tables and of synthesised diagrams share. What does not: pressures made of
+// formulas (diagrams.hpp).
 #pragma once
 
 #include <crankloop/tabulate/indicator_diagram.hpp>
@@ -29,7 +31,7 @@ using Rows = std::vector<DiagramPoint>;
 
 /// The rows must outlive the diagram: not for temporaries.
 inline IndicatorDiagram diagram_of_rows(const Rows& rows, PressureSource source,
-                                 const Crank& crank = diesel_495_crank()) {
+                                        const Crank& crank = diesel_495_crank()) {
   return diagram_of(crank, table_pressure(source, rows));
 }
 inline IndicatorDiagram diagram_of_rows(Rows&&, PressureSource, const Crank& = diesel_495_crank()) = delete;
@@ -71,7 +73,7 @@ inline double same_height_going_up(const Crank& crank, double deg, double bottom
 /// Steepest slope and curvature of smooth_pressure_Pa per degree: 60e5 exp(30 (cos u - 1)), u = deg/2, rises by at most
 /// 60e5 sqrt(30/e) per rad of u and bends by at most 60e5 * 30 per rad^2.
 inline const double kSteepest_Pa_deg = 60e5 * std::sqrt(30 / std::exp(1.0)) * kRadPerDeg / 2;
-inline constexpr double kMostBent_Pa_deg2 = 60e5 * 30 * (kRadPerDeg / 2) * (kRadPerDeg / 2);
+inline constexpr double kMaxBent_Pa_deg2 = 60e5 * 30 * (kRadPerDeg / 2) * (kRadPerDeg / 2);
 
 /// The p-V loop of p(a), in the order of time from firing top dead centre; rows[i] belongs to angles[i]. Without a row
 /// at a dead centre the row before it must be the nearer one: where the volume turns round is all that the file tells.

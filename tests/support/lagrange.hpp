@@ -17,9 +17,11 @@ struct CrankMechanism {
   long double torque_Nm;
 };
 
-/// Its motion over time: J(a) a'' + 1/2 dJ/da a'^2 = torque, J = sum of m (dP/da)^2 + I (db/da)^2 by differences of the positions.
+/// Its motion over time: J(a) a'' + 1/2 dJ/da a'^2 = torque, J = sum of m (dP/da)^2 + I (db/da)^2 by differences of the
+/// positions.
 class Lagrange {
-  using Place = std::array<long double, 4>;  ///< height of the piston, place of the rod's centre of mass, the rod's angle
+  using Place =
+      std::array<long double, 4>;  ///< height of the piston, place of the rod's centre of mass, the rod's angle
 
  public:
   Lagrange(const CrankMechanism& mechanism, long double speed_rad_s) : m_{mechanism}, speed_{speed_rad_s} {}
@@ -40,8 +42,10 @@ class Lagrange {
   [[nodiscard]] long double speed_rad_s() const { return speed_; }
 
   [[nodiscard]] long double inertia_kg_m2(long double a) const {
-    const Place d = difference(1e-4L, [&](long double at) { return place(at); }, a);
-    return m_.crank_inertia_kg_m2 + m_.piston_kg * d[0] * d[0] + m_.rod_kg * (d[1] * d[1] + d[2] * d[2]) + m_.rod_inertia_kg_m2 * d[3] * d[3];
+    const Place d = difference(
+        1e-4L, [&](long double at) { return place(at); }, a);
+    return m_.crank_inertia_kg_m2 + m_.piston_kg * d[0] * d[0] + m_.rod_kg * (d[1] * d[1] + d[2] * d[2]) +
+           m_.rod_inertia_kg_m2 * d[3] * d[3];
   }
 
  private:
@@ -50,7 +54,8 @@ class Lagrange {
   [[nodiscard]] static Place difference(long double d, const Function& f, long double a) {
     const auto near_up = f(a + d), near_down = f(a - d), far_up = f(a + 2 * d), far_down = f(a - 2 * d);
     Place slope{};
-    for (std::size_t i = 0; i < slope.size(); ++i) slope[i] = (8 * (near_up[i] - near_down[i]) - (far_up[i] - far_down[i])) / (12 * d);
+    for (std::size_t i = 0; i < slope.size(); ++i)
+      slope[i] = (8 * (near_up[i] - near_down[i]) - (far_up[i] - far_down[i])) / (12 * d);
     return slope;
   }
   [[nodiscard]] Place place(long double a) const {

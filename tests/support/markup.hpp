@@ -1,7 +1,7 @@
 // A small reader of XML: elements with attributes, in order; and the fault that stopped it, if any.
 //
-// What belongs here: what tests of pages and pictures need to find their way. What does not: entities but the common five,
-// comments, declarations.
+// What belongs here: what tests of pages and pictures need to find their way. What does not: entities but the common
+// five, comments, declarations.
 #pragma once
 
 #include <algorithm>
@@ -62,7 +62,8 @@ inline Markup read(const std::string& source) {
       const std::size_t end = std::min(source.find('<', at), source.size());
       const std::string text = source.substr(at, end - at);
       if (has_bare_ampersand(text)) return {markup.elements, "bare & in: " + text};
-      if (text.find('>') != std::string::npos && !(open.empty() || markup.elements[open.back()].name == "style")) {
+      const std::string inside = open.empty() ? "style" : markup.elements[open.back()].name;
+      if (text.find('>') != std::string::npos && inside != "style" && inside != "script") {
         return {markup.elements, "bare > in: " + text};
       }
       if (!open.empty()) markup.elements[open.back()].text += text;

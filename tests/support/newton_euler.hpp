@@ -24,7 +24,8 @@ struct JointForces {
   Wide wall_on_piston, wall_moment, load_torque;
 };
 
-/// In the cylinder's own frame. The crank's own unbalance is m_k at the pin's radius; what accelerates the crankshaft is in the load.
+/// In the cylinder's own frame. The crank's own unbalance is m_k at the pin's radius; what accelerates the crankshaft
+/// is in the load.
 inline JointForces newton_euler(const EngineDefinition& engine, const RigidRod& rod, const Motion& m, Wide gas_force) {
   enum Unknown : std::size_t { bl, bu, cl, cu, pl, pu, wall, wall_moment, load };
   const Wide crank_kg = wide(engine.masses.crank_pin_equivalent_kg);

@@ -17,16 +17,16 @@ struct Used {
   std::size_t trains;
 };
 
-/// Calls f(name, index, value) for every number in use, value a Real or a uint32_t; cylinder, pin or journal counted from 0 is the index, of
-/// valves 16 * train + cylinder.
+/// Calls f(name, index, value) for every number in use, value a Real or a uint32_t; cylinder, pin or journal counted
+/// from 0 is the index, of valves 16 * train + cylinder.
 template <class Real, class S, class F>
 void each_output(const Output<Real, S>& out, const Used& used, const F& f) {
   const auto row = [&f](const char* name, const Real* first, std::size_t n) {
     for (std::size_t i = 0; i < n; ++i) f(name, i, first[i]);
   };
-  if constexpr (Needs<S>::crank_dynamics) {
+  if constexpr (detail::Needs<S>::crank_dynamics) {
     f("speed_rad_s", std::size_t{0}, out.speed_rad_s);
-    f("crank_acceleration_rad_s2", std::size_t{0}, out.CrankMotion<Real>::acceleration_rad_s2);
+    f("crank_acceleration_rad_s2", std::size_t{0}, out.acceleration_rad_s2);
     f("friction_Nm", std::size_t{0}, out.friction_Nm);
   }
   if constexpr (S::starter) f("starter_Nm", std::size_t{0}, out.starter_Nm);
@@ -75,7 +75,7 @@ void each_output(const Output<Real, S>& out, const Used& used, const F& f) {
       ++i;
     }
   }
-  if constexpr (Needs<S>::any_valves) {
+  if constexpr (detail::Needs<S>::any_valves) {
     for (std::size_t t = 0; t < used.trains; ++t) {
       for (std::size_t k = 0; k < used.cylinders; ++k) {
         const std::size_t i = 16 * t + k;
@@ -90,7 +90,7 @@ void each_output(const Output<Real, S>& out, const Used& used, const F& f) {
           f("seat_N", i, force.seat_N);
           f("tip_N", i, force.tip_N);
           f("cam_N", i, force.cam_N);
-          f("gap_m", i, force.gap_m);
+          f("train_compression_m", i, force.train_compression_m);
           f("regime", i, force.regime);
         }
         if constexpr (S::valve_results) {
@@ -99,7 +99,7 @@ void each_output(const Output<Real, S>& out, const Used& used, const F& f) {
           f("cycle_largest_speed_m_s", i, c.largest_speed_m_s);
           f("cycle_largest_acceleration_m_s2", i, c.largest_acceleration_m_s2);
           f("cycle_opening_delay_deg", i, c.opening_delay_deg);
-          f("cycle_separation_gap_m", i, c.separation_gap_m);
+          f("cycle_separation_gap_m", i, c.separation_clearance_m);
           f("cycle_separation_start_deg", i, c.separation_start_deg);
           f("cycle_separation_duration_deg", i, c.separation_duration_deg);
           f("cycle_seating_speed_m_s", i, c.seating_speed_m_s);
@@ -110,6 +110,46 @@ void each_output(const Output<Real, S>& out, const Used& used, const F& f) {
           f("cycle_off_seat_at_end", i, c.off_seat_at_end);
         }
       }
+    }
+  }
+  if constexpr (detail::Needs<S>::gas) {
+    for (std::size_t k = 0; k < used.cylinders; ++k) {
+      const CylinderGasOutput<Real>& gas = out.cylinder_gas[k];
+      f("gas_pressure_Pa", k, gas.pressure_Pa);
+      f("gas_temperature_K", k, gas.temperature_K);
+      f("gas_mass_kg", k, gas.mass_kg);
+      f("gas_burned_ratio", k, gas.burned_ratio);
+      f("intake_kg_s", k, gas.flow_kg_s[kIntake]);
+      f("exhaust_kg_s", k, gas.flow_kg_s[kExhaust]);
+      f("wall_heat_W", k, gas.wall_heat_W);
+    }
+  }
+  if constexpr (detail::Needs<S>::manifolds) {
+    for (std::size_t port = 0; port < kPorts; ++port) {
+      f("manifold_Pa", port, out.manifold[port].pressure_Pa);
+      f("manifold_K", port, out.manifold[port].temperature_K);
+      f("manifold_burned_ratio", port, out.manifold[port].burned_ratio);
+    }
+    f("throttle_kg_s", std::size_t{0}, out.throttle_kg_s);
+    f("outlet_kg_s", std::size_t{0}, out.outlet_kg_s);
+  }
+  if constexpr (S::gas_results) {
+    for (std::size_t k = 0; k < used.cylinders; ++k) {
+      const GasCycle<Real>& c = out.gas_cycle[k];
+      f("net_mep_Pa", k, c.net_mep_Pa);
+      f("pumping_mep_Pa", k, c.pumping_mep_Pa);
+      f("peak_Pa", k, c.peak_Pa);
+      f("peak_deg", k, c.peak_deg);
+      f("trapped_kg", k, c.trapped_kg);
+      f("trapped_air_kg", k, c.trapped_air_kg);
+      f("residual_ratio", k, c.residual_ratio);
+      f("volumetric_efficiency", k, c.volumetric_efficiency);
+      f("exhaust_K", k, c.exhaust_K);
+      f("fuel_kg", k, c.fuel_kg);
+      f("excess_air_ratio", k, c.excess_air_ratio);
+      f("heat_J", k, c.heat_J);
+      f("gas_wall_heat_J", k, c.wall_heat_J);
+      f("energy_defect_J", k, c.energy_defect_J);
     }
   }
   f("faults", std::size_t{0}, out.faults);

@@ -20,13 +20,15 @@
 namespace crankloop::tick_test {
 
 /// Of all bodies, from the mechanism's geometry.
-[[nodiscard]] inline long double kinetic_J(const EngineDefinition& engine, long double engine_deg, long double speed_rad_s) {
-  long double inertia = static_cast<long double>(engine.masses.crank_inertia_kg_m2 + engine.load.inertia_kg_m2);
+[[nodiscard]] inline long double kinetic_J(const EngineDefinition& engine, long double engine_deg,
+                                           long double speed_rad_s) {
+  long double inertia = static_cast<long double>(engine.masses.crank_inertia_kg_m2 + engine.machine.inertia_kg_m2);
   for (std::size_t k = 0; k < static_cast<std::size_t>(engine.layout.cylinders); ++k) {
     const OraclePose p = oracle_pose(engine.crank, (engine_deg - wide(engine.layout.firing_deg[k])) * kWidePi / 180);
     const Masses& m = engine.masses;
     inertia += wide(m.rod_big_end_kg) * wide(engine.crank.crank_radius_m) * wide(engine.crank.crank_radius_m) +
-               wide(m.reciprocating_kg()) * p.slope_m * p.slope_m + wide(m.rod_inertia_correction_kg_m2) * p.rod_slope * p.rod_slope;
+               wide(m.reciprocating_kg()) * p.slope_m * p.slope_m +
+               wide(m.rod_inertia_correction_kg_m2) * p.rod_slope * p.rod_slope;
   }
   return inertia * speed_rad_s * speed_rad_s / 2;
 }
@@ -34,8 +36,8 @@ namespace crankloop::tick_test {
 /// What a cycle's speed, sampled over the crank angle, consists of.
 struct Ripple {
   double mean_rad_s = 0;
-  double irregularity_ratio = 0;         ///< (largest - smallest) / mean
-  double amplitude_rad_s[13] = {};       ///< of order i / 2
+  double irregularity_ratio = 0;    ///< (largest - smallest) / mean
+  double amplitude_rad_s[13] = {};  ///< of order i / 2
 };
 
 /// Of values over a cycle in equal steps of angle.
@@ -62,7 +64,8 @@ class RippleTheory {
  public:
   static constexpr int kSamples = 1440;  ///< of a cycle
 
-  RippleTheory(const EngineDefinition& engine, double load_ratio, std::uint32_t cut_cylinders) : load_ratio_{load_ratio}, cut_{cut_cylinders} {
+  RippleTheory(const EngineDefinition& engine, double load_ratio, std::uint32_t cut_cylinders)
+      : load_ratio_{load_ratio}, cut_{cut_cylinders} {
     EXPECT_TRUE(accepted(exact_.init(engine)));
     for (int i = 0; i < kSamples; ++i) gas_Nm_.push_back(gas_torque_Nm(720.0 * i / kSamples));
     for (const double torque : gas_Nm_) mean_gas_Nm_ += torque / kSamples;
@@ -70,7 +73,8 @@ class RippleTheory {
 
   [[nodiscard]] double mean_gas_Nm() const { return mean_gas_Nm_; }
 
-  /// From the harmonics of the gas torque and the inertia: J_eff(A) w^2 / 2 is at A = 0 that of the speed given, and then grows by the harmonics' integral.
+  /// From the harmonics of the gas torque and the inertia: J_eff(A) w^2 / 2 is at A = 0 that of the speed given, and
+  /// then grows by the harmonics' integral.
   [[nodiscard]] Ripple by_harmonics(double speed_rad_s) const {
     constexpr int kOrders = 240;  // half orders up to 120: the gas torque is smooth beyond
     double cosine[kOrders] = {}, sine[kOrders] = {};
@@ -88,7 +92,8 @@ class RippleTheory {
         const double turn = 2 * kPi * i * s / kSamples;
         energy_J += (cosine[i] * std::sin(turn) + sine[i] * (1 - std::cos(turn))) / (i / 2.0);
       }
-      speeds.push_back(std::sqrt(energy_J / static_cast<double>(kinetic_J(exact_.definition(), 720.0L * s / kSamples, 1))));
+      speeds.push_back(
+          std::sqrt(energy_J / static_cast<double>(kinetic_J(exact_.definition(), 720.0L * s / kSamples, 1))));
     }
     return ripple_of(speeds);
   }
@@ -112,7 +117,8 @@ class RippleTheory {
   /// By cylinder: those that are cut are motored.
   [[nodiscard]] double gas_torque_Nm(double deg) const {
     double sum = 0;
-    for (int k = 0; k < exact_.definition().layout.cylinders; ++k) sum += exact_.forces(k, deg, 0, (cut_ >> k & 1u) != 0 ? 0 : load_ratio_).torque_Nm;
+    for (int k = 0; k < exact_.definition().layout.cylinders; ++k)
+      sum += exact_.forces(k, deg, 0, (cut_ >> k & 1u) != 0 ? 0 : load_ratio_).torque_Nm;
     return sum;
   }
 

@@ -20,7 +20,7 @@
 namespace crankloop::tick_test {
 
 /// Room for the finest gas grid of all: 20 segments in every degree.
-inline constexpr int kFinestGrid = static_cast<int>(kMostGasSegments);
+inline constexpr int kFinestGrid = static_cast<int>(kMaxGasSegments);
 
 /// Every section of an engine's tables, on the heap.
 template <class Real>
@@ -77,30 +77,30 @@ class FullTables {
 
   [[nodiscard]] const Sections<Real>& sections() const { return sections_; }
   [[nodiscard]] const TableReport& report() const { return report_; }
-  [[nodiscard]] const Drive<Real>& drive() const { return *sections_.drive; }
+  [[nodiscard]] const detail::Drive<Real>& drive() const { return *sections_.drive; }
 
  private:
   struct Fixed {
-    Drive<Real> drive;
-    Body<Real> body;
-    IntegratedCurve<Real> stroke;
-    Revolution<MotionSegment<Real>> motion;
-    Revolution<LeanSegment<Real>> lean;
-    Revolution<RodSegment<Real>> rod;
-    Curve<Real> rod_curvature;
-    IntegratedCurve<Real> inertia_torque;
-    Bearings<Real> bearings;
-    Balance<Real> balance;
-    GasGrid gas_grid;
-    GasGrid torque_grid;
-    GasTorque<Real> gas_torque_full;
-    GasTorque<Real> gas_torque_motored;
-    GasTorque<Real> gas_torque_heat;
+    detail::Drive<Real> drive;
+    detail::Body<Real> body;
+    detail::IntegratedCurve<Real> stroke;
+    detail::Revolution<detail::MotionSegment<Real>> motion;
+    detail::Revolution<detail::LeanSegment<Real>> lean;
+    detail::Revolution<detail::RodSegment<Real>> rod;
+    detail::Curve<Real> rod_curvature;
+    detail::IntegratedCurve<Real> inertia_torque;
+    detail::Bearings<Real> bearings;
+    detail::Balance<Real> balance;
+    detail::GasGrid gas_grid;
+    detail::GasGrid torque_grid;
+    detail::GasTorque<Real> gas_torque_full;
+    detail::GasTorque<Real> gas_torque_motored;
+    detail::GasTorque<Real> gas_torque_heat;
   };
   std::vector<Fixed> heap_ = std::vector<Fixed>(1);
   Fixed* s_ = heap_.data();
-  std::vector<Segment<Real>> pressure_full_, pressure_motored_, pressure_heat_;
-  std::vector<IntegratedSegment<Real>> gas_full_, gas_motored_, gas_heat_;
+  std::vector<detail::Segment<Real>> pressure_full_, pressure_motored_, pressure_heat_;
+  std::vector<detail::IntegratedSegment<Real>> gas_full_, gas_motored_, gas_heat_;
   Sections<Real> sections_{};
   TableReport report_{};
 };

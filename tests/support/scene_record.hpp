@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 
 #include "support/output_numbers.hpp"
-#include "support/test_engines.hpp"
 #include "support/running.hpp"
+#include "support/test_engines.hpp"
 
 namespace crankloop::tick_test {
 
@@ -22,7 +22,7 @@ constexpr double kLifeTick_s = 200e-6;
 constexpr int kLifeTicks = 330;
 constexpr int kLifeGasSegments = 1500;
 
-// ---- what goes in ----------------------------------------------------------------------------------------------------
+// ---- what goes in ---------------------------------------------------------------------------------------------------
 
 /// An engine's life in a test: it speeds up and slows down, crawls, stands, turns back; load and pressures vary; some
 /// inputs are bad.
@@ -56,14 +56,14 @@ template <class Real, class S>
 Input<Real, S> input_at(const Moment& m) {
   Input<Real, S> in;
   in.speed_rad_s = static_cast<Real>(m.speed_rad_s);
-  if constexpr (Needs<S>::load) in.load_ratio = static_cast<Real>(m.load_ratio);
-  if constexpr (Needs<S>::input_pressure) {
+  if constexpr (detail::Needs<S>::load) in.load_ratio = static_cast<Real>(m.load_ratio);
+  if constexpr (detail::Needs<S>::input_pressure) {
     for (std::uint32_t k = 0; k < S::cylinders.capacity; ++k) in.pressure_Pa[k] = static_cast<Real>(m.pressure_Pa[k]);
   }
   return in;
 }
 
-// ---- what comes out --------------------------------------------------------------------------------------------------
+// ---- what comes out -------------------------------------------------------------------------------------------------
 
 /// All that a scene said in its life: the bytes of each group it has, tick after tick, in the order of Group's bits.
 struct Record {
@@ -95,10 +95,12 @@ void record_output(const Output<Real, S>& out, const InUse& use, Recorder to) {
   const std::size_t pins = use.pins * sizeof(Real);
   const std::size_t journals = (use.pins + 1) * sizeof(Real);
   if constexpr (S::kinematics) {
-    for (const Real* row : {out.displacement_m, out.velocity_m_s, out.acceleration_m_s2}) to.row(kKinematics, row, cylinders);
+    for (const Real* row : {out.displacement_m, out.velocity_m_s, out.acceleration_m_s2})
+      to.row(kKinematics, row, cylinders);
   }
   if constexpr (S::rod_motion) {
-    for (const Real* row : {out.rod_angle_rad, out.rod_speed_rad_s, out.rod_acceleration_rad_s2}) to.row(kRodMotion, row, cylinders);
+    for (const Real* row : {out.rod_angle_rad, out.rod_speed_rad_s, out.rod_acceleration_rad_s2})
+      to.row(kRodMotion, row, cylinders);
   }
   if constexpr (S::torque) to.row(kTorque, &out.torque_Nm, sizeof(Real));
   if constexpr (S::mean_torque) to.row(kMeanTorque, &out.mean_torque_Nm, sizeof(Real));
@@ -108,18 +110,20 @@ void record_output(const Output<Real, S>& out, const InUse& use, Recorder to) {
   }
   if constexpr (S::bearing_loads) {
     for (const Real* row : {out.pin_radial_N, out.pin_tangential_N, out.pin_load_N}) to.row(kBearingLoads, row, pins);
-    for (const Real* row : {out.journal_along_N, out.journal_across_N, out.journal_load_N}) to.row(kBearingLoads, row, journals);
+    for (const Real* row : {out.journal_along_N, out.journal_across_N, out.journal_load_N})
+      to.row(kBearingLoads, row, journals);
   }
   if constexpr (S::free_forces) {
-    static_assert(sizeof(FreeForces<Real>) == 12 * sizeof(Real), "numbers and no padding");
-    to.row(kFreeForces, static_cast<const FreeForces<Real>*>(&out), sizeof(FreeForces<Real>));
+    static_assert(sizeof(group::FreeForces<Real>) == 12 * sizeof(Real), "numbers and no padding");
+    to.row(kFreeForces, static_cast<const group::FreeForces<Real>*>(&out), sizeof(group::FreeForces<Real>));
   }
 }
 
 /// A bad load ratio is no fault of a scene in which nothing depends on it, nor is a bad pressure.
 template <class S>
-inline constexpr std::uint32_t kFaultsOf = std::uint32_t{kFaultSpeed} | (Needs<S>::load ? kFaultLoadRatio : 0u) |
-                                    (Needs<S>::input_pressure ? kFaultPressure : 0u);
+inline constexpr std::uint32_t kFaultsOf = std::uint32_t{kFaultSpeed} |
+                                           (detail::Needs<S>::load ? kFaultLoadRatio : 0u) |
+                                           (detail::Needs<S>::input_pressure ? kFaultPressure : 0u);
 
 template <class Real, class S>
 Record record_of(const FullTables<Real>& tables) {
@@ -150,7 +154,8 @@ inline void expect_same(const Record& got, const Record& want, unsigned groups) 
                             << at / (a.size() / kLifeTicks);
   }
   for (std::size_t tick = 0; tick < got.faults.size(); ++tick)
-    ASSERT_EQ(got.faults[tick], want.faults[tick] & got.possible_faults) << "groups " << got.groups << ", tick " << tick;
+    ASSERT_EQ(got.faults[tick], want.faults[tick] & got.possible_faults)
+        << "groups " << got.groups << ", tick " << tick;
 }
 
 }  // namespace crankloop::tick_test

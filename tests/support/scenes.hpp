@@ -1,8 +1,8 @@
-// The scenes that tests run, by what they are about. Not here: those that a project is built with (contract/*/scenes.hpp, target/scenes.hpp), as a
-// user writes them.
+// The scenes that tests run, by what they are about. Not here: those that a project is built with
+// (contract/*/scenes.hpp, target/scenes.hpp), as a user writes them.
 //
-// What belongs here: scenes. What does not: tables and engines of them (running.hpp, turned_engine.hpp, test_valves.hpp), definitions
-// (test_engines.hpp).
+// What belongs here: scenes. What does not: tables and engines of them (running.hpp, turned_engine.hpp,
+// test_valves.hpp), definitions (test_engines.hpp).
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace crankloop::tick_test {
 
-// ---- any outputs -----------------------------------------------------------------------------------------------------------
+// ---- any outputs ----------------------------------------------------------------------------------------------------
 
 struct Nothing : Scene {};
 
@@ -45,7 +45,7 @@ struct Asking : Scene {
   static constexpr bool free_forces = (Groups & kFreeForces) != 0;
 };
 
-// ---- any numbers of cylinders and valves ---------------------------------------------------------------------------------
+// ---- any numbers of cylinders and valves ----------------------------------------------------------------------------
 
 template <std::uint32_t Cylinders, std::uint32_t Trains>
 struct Sized : Scene {
@@ -109,13 +109,13 @@ struct ForcesWithoutRodInertia : Scene {
   static constexpr bool forces = true;
 };
 
-// ---- the crank turned by forces, cylinders cut ---------------------------------------------------------------------------
+// ---- the crank turned by forces, cylinders cut ----------------------------------------------------------------------
 
 /// A scene whose crank is turned by forces; with all its groups, unless told otherwise.
 template <PressureGiven Source = PressureGiven::by_table, std::uint32_t Cylinders = 0>
 struct TurnedByForces : Scene {
   static constexpr Count cylinders = Cylinders != 0 ? Count{Cylinders, true} : Count{kMaxCylinders, false};
-  static constexpr CrankGiven crank = CrankGiven::load;
+  static constexpr CrankGiven crank = CrankGiven::torque;
   static constexpr PressureGiven pressure = Source;
   static constexpr bool load_ratio = Source == PressureGiven::by_table;
   static constexpr bool rod_inertia = true;
@@ -143,7 +143,7 @@ struct CutAtSpeedWithForces : CutAtSpeed {
   static constexpr bool forces = true;
 };
 
-// ---- a diesel with eight elastic valves ----------------------------------------------------------------------------------
+// ---- a diesel with eight elastic valves -----------------------------------------------------------------------------
 
 /// Given the speed.
 struct FourWithValves : Elastic<4, 2, true, true> {
@@ -169,8 +169,8 @@ struct CountingFour : FourWithValves {
 struct CountingMeasuredFour : MeasuredFourWithValves {
   static constexpr bool bad_input_count = true;
 };
-/// Its tables read at any angle, by starting there: valves at rest where their cams stand, so that every output is a function
-/// of the angle alone.
+/// Its tables read at any angle, by starting there: valves at rest where their cams stand, so that every output is a
+/// function of the angle alone.
 struct FourAtAnAngle : FourWithValves {
   static constexpr CrankGiven crank = CrankGiven::phase;
 };
@@ -184,7 +184,7 @@ struct Asked : Base {
   static constexpr bool valve_results = Results;
 };
 
-// ---- one or two valves -----------------------------------------------------------------------------------------------------
+// ---- one or two valves ----------------------------------------------------------------------------------------------
 
 /// One valve, all that can be told of it.
 struct OneValve : Scene {
@@ -214,7 +214,8 @@ struct TwoValves : Scene {
   static constexpr bool valve_gas = true;
   static constexpr bool cam_phasing = true;
 };
-/// All that a state may hold, of one cylinder (an odd number: arrays have a spare place): measured crank and pressures, phaser.
+/// All that a state may hold, of one cylinder (an odd number: arrays have a spare place): measured crank and pressures,
+/// phaser.
 struct MeasuredWithValves : Scene {
   static constexpr Count cylinders = exactly<1>;
   static constexpr CrankGiven crank = CrankGiven::phase;
@@ -238,8 +239,16 @@ struct Lanes : Scene {
   static constexpr ValveModel valves = ValveModel::elastic;
   static constexpr bool cam_phasing = Phasing;
 };
+/// With forces and results, and with or without gas on the valves' heads.
+template <class Base, bool Gas>
+struct ToldLanes : Base {
+  static constexpr PressureGiven pressure = Gas ? PressureGiven::by_input : PressureGiven::by_table;
+  static constexpr bool valve_forces = true;
+  static constexpr bool valve_results = true;
+  static constexpr bool valve_gas = Gas;
+};
 
-// ---- trigger wheels --------------------------------------------------------------------------------------------------------
+// ---- trigger wheels -------------------------------------------------------------------------------------------------
 
 struct OneWheel : Scene {
   static constexpr Count cylinders = exactly<4>;
@@ -276,7 +285,7 @@ struct FinelyPhasedWheel : PhasedWheels {
 /// The speed may change within a tick, as where it is integrated.
 struct BentSpeed : Scene {
   static constexpr Count cylinders = exactly<1>;
-  static constexpr CrankGiven crank = CrankGiven::load;
+  static constexpr CrankGiven crank = CrankGiven::torque;
   static constexpr ValveModel valves = ValveModel::following;
   static constexpr Count trains = exactly<1>;
   static constexpr bool cam_phasing = true;
@@ -284,7 +293,7 @@ struct BentSpeed : Scene {
   static constexpr std::uint32_t trigger_edges = 2 * kMaxTriggerEdges;
 };
 
-// ---- states that mean something else ----------------------------------------------------------------------------------------
+// ---- states that mean something else --------------------------------------------------------------------------------
 
 /// Scenes that differ from a plain one, and from one another, in what their states mean.
 namespace otherwise {
@@ -296,7 +305,7 @@ struct Plain : Scene {};
 OTHERWISE(TwoCylinders, Count, cylinders, exactly<2>);
 OTHERWISE(TwoTrains, Count, trains, exactly<2>);
 OTHERWISE(ByPhase, CrankGiven, crank, CrankGiven::phase);
-OTHERWISE(ByLoad, CrankGiven, crank, CrankGiven::load);
+OTHERWISE(ByLoad, CrankGiven, crank, CrankGiven::torque);
 OTHERWISE(TablePressure, PressureGiven, pressure, PressureGiven::by_table);
 OTHERWISE(InputPressure, PressureGiven, pressure, PressureGiven::by_input);
 OTHERWISE(Following, ValveModel, valves, ValveModel::following);

@@ -8,6 +8,8 @@
 #include <ostream>
 #include <string>
 
+#include "field_names.hpp"
+
 namespace crankloop {
 
 /// How GoogleTest shows an answer.
@@ -17,7 +19,8 @@ inline void PrintTo(const Status& status, std::ostream* out) {
 
 /// EXPECT_TRUE(accepted(validate(engine))): a refusal is shown with field, row and reason.
 inline testing::AssertionResult accepted(const Status& status) {
-  return status.ok() ? testing::AssertionSuccess() : testing::AssertionFailure() << "refused: " << testing::PrintToString(status);
+  return status.ok() ? testing::AssertionSuccess()
+                     : testing::AssertionFailure() << "refused: " << testing::PrintToString(status);
 }
 
 namespace support {
@@ -29,6 +32,7 @@ struct Bad {
 };
 
 inline testing::AssertionResult refuses(const Status& status, Reason reason, const std::string& field, int index = -1) {
+  if (!is_field(status.field)) return testing::AssertionFailure() << status.field << " is no field of the library";
   if (status.reason == reason && field == status.field && status.index == index) return testing::AssertionSuccess();
   return testing::AssertionFailure() << "got " << testing::PrintToString(status) << ", want " << field << "[" << index
                                      << "] " << describe(reason);

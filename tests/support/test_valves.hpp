@@ -15,9 +15,9 @@
 #include <crankloop/tabulate/tabulate.hpp>
 #include <crankloop/tick/step.hpp>
 
+#include "support/running.hpp"
 #include "support/status.hpp"
 #include "support/test_engines.hpp"
-#include "support/running.hpp"
 #include "support/units.hpp"
 #include "support/valve_reference.hpp"
 #include "support/valve_trains.hpp"
@@ -106,15 +106,15 @@ class Rig {
   }
 
   [[nodiscard]] Engine<Real, S>& engine() { return engine_; }
-  [[nodiscard]] const ValveMotion<Real>& motion() const { return tables_->tables().valve_motions[0]; }
-  [[nodiscard]] const LiftCurve<Real>& curve() const { return tables_->tables().lift_curves[0]; }
-  [[nodiscard]] ValveState<Real> valve() const {
+  [[nodiscard]] const detail::ValveMotion<Real>& motion() const { return tables_->tables().valve_motions[0]; }
+  [[nodiscard]] const detail::LiftCurve<Real>& curve() const { return tables_->tables().lift_curves[0]; }
+  [[nodiscard]] detail::ValveState<Real> valve() const {
     return {engine_.state().valve_lift_m[0], engine_.state().valve_velocity_m_s[0]};
   }
   [[nodiscard]] std::uint32_t regime() const { return engine_.state().valve_regime[0]; }
   /// Exactly at rest on its seat.
   [[nodiscard]] bool at_rest() const {
-    return valve().lift_m == 0 && valve().velocity_m_s == 0 && contacts_of(regime()) == kSeatOn;
+    return valve().lift_m == 0 && valve().velocity_m_s == 0 && detail::contacts_of(regime()) == kSeatOn;
   }
   [[nodiscard]] double tick_s() const { return tick_s_; }
   [[nodiscard]] const ValveTrain& train() const { return definition_.trains[0]; }
@@ -186,5 +186,17 @@ class SideBySide {
  private:
   double cam_deg_;
 };
+
+inline detail::ValveBody<double> body_of(const ValveTrain& train) {
+  const ValveLift lift = lift_of(train);
+  return valve_body(train.valve, lift.lever_m() > 0 ? lift.lever_m() : 1);
+}
+
+inline detail::ValveMotion<double> motion_for(const detail::ValveBody<double>& body, double tick_s,
+                                              Integrator integrator = Integrator::rk4) {
+  detail::ValveMotion<double> motion{};
+  EXPECT_TRUE(accepted(motion_of(body, tick_s, {integrator, 0.1e-6}, motion)));
+  return motion;
+}
 
 }  // namespace crankloop::valve_test

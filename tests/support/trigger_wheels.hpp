@@ -35,7 +35,8 @@ struct DrawnWheel {
   }
 };
 
-inline TriggerWheel toothed(TriggerShaft shaft, int places, std::initializer_list<ToothGap> gaps, double first_tooth_deg, double tooth_ratio = 0.5) {
+inline TriggerWheel toothed(TriggerShaft shaft, int places, std::initializer_list<ToothGap> gaps,
+                            double first_tooth_deg, double tooth_ratio = 0.5) {
   TriggerWheel wheel;
   wheel.shaft = shaft;
   wheel.places = places;

@@ -8,9 +8,9 @@
 
 #include <crankloop/tabulate/tabulate.hpp>
 
+#include "support/running.hpp"
 #include "support/scenes.hpp"
 #include "support/status.hpp"
-#include "support/running.hpp"
 
 namespace crankloop::tick_test {
 
@@ -20,7 +20,8 @@ class Turned {
  public:
   using Input = typename Engine<Real, S>::Input;
 
-  explicit Turned(const EngineDefinition& definition, double tick_s = 100e-6, double speed_rad_s = 0, Phase start = Phase{}) {
+  explicit Turned(const EngineDefinition& definition, double tick_s = 100e-6, double speed_rad_s = 0,
+                  Phase start = Phase{}) {
     EXPECT_TRUE(accepted(storage_->build(definition, {tick_s})));
     EXPECT_TRUE(accepted(engine.init(storage_->tables(), start)));
     if (speed_rad_s != 0) {

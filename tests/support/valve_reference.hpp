@@ -1,7 +1,8 @@
 // What a cycle of the reference's motion was, and the textbook method to compare with.
 //
-// What belongs here: the record of a cycle by the rules of docs/model.md, one textbook step. What does not: the reference itself
-// (tools/lab/reference/valve_reference.hpp, which the benchmark measures against too), the valves it is run on.
+// What belongs here: the record of a cycle by the rules of docs/model.md, one textbook step. What does not: the
+// reference itself (tools/lab/reference/valve_reference.hpp, which the benchmark measures against too), the valves it
+// is run on.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +22,7 @@ using namespace valve_reference;  // NOLINT: one vocabulary for tests
 struct ReferenceCycle {
   double largest_lift_m = 0, largest_speed_m_s = 0, largest_acceleration_m_s2 = 0;
   double opening_delay_deg = 0;
-  double separation_gap_m = 0, separation_start_deg = 0, separation_duration_deg = 0;
+  double separation_clearance_m = 0, separation_start_deg = 0, separation_duration_deg = 0;
   double seating_speed_m_s = 0;
   double bounce_height_m = 0;
   double nearest_to_threshold_m = 1;  ///< how far the nearest gap or hop is from the 1 um that count
@@ -79,8 +80,8 @@ struct Cubic {
     near_threshold(gap);
     if (gap < kLeast_m) return;
     ++cycle.separations;
-    if (gap > cycle.separation_gap_m) {
-      cycle.separation_gap_m = gap;
+    if (gap > cycle.separation_clearance_m) {
+      cycle.separation_clearance_m = gap;
       cycle.separation_start_deg = floats_since;
       cycle.separation_duration_deg = std::fabs(deg - floats_since);
     }
@@ -145,7 +146,9 @@ inline void textbook_step(const SingleMass& m, const std::function<CamAt(double 
     const Acting forces = acting(m, y_m, v_m_s, at.Y, at.Yd);
     return (forces.train_N + forces.seat_N - m.k_s * y_m - m.P - m.c * v_m_s) / m.M;
   };
-  const ValveState<double> s = program::textbook_step([&](int half, double y_m, double v_m_s) { return f(0.5 * half, y_m, v_m_s); }, d, ValveState<double>{y, v});
+  const detail::ValveState<double> s =
+      program::textbook_step([&](int half, double y_m, double v_m_s) { return f(0.5 * half, y_m, v_m_s); }, d,
+                             detail::ValveState<double>{y, v});
   y = s.lift_m;
   v = s.velocity_m_s;
 }

@@ -49,7 +49,8 @@ inline Cam random_cam(Random& random) {
   const double first = random.between(2, 2.5);
   const double second = first + random.between(3, 9);
   const double third = second + random.between(3, 9);
-  return polynomial_cam(random.between(3e-3, 9e-3), random.between(55, 85), {first, second, third, third + random.between(3, 9)});
+  return polynomial_cam(random.between(3e-3, 9e-3), random.between(55, 85),
+                        {first, second, third, third + random.between(3, 9)});
 }
 
 inline Rocker random_rocker(Random& random) {

@@ -84,7 +84,8 @@ class WorkOracle {
           static_cast<long double>(pressure_Pa(static_cast<double>(deg)) - engine_.pressure.crankcase_Pa);
       return over_Pa * area_m2() * oracle_pose(engine_.crank, deg * (kWidePi / 180)).slope_m;
     };
-    return width * (kWidePi / 180) * (5 * torque(middle - apart) + 8 * torque(middle) + 5 * torque(middle + apart)) / 18;
+    return width * (kWidePi / 180) * (5 * torque(middle - apart) + 8 * torque(middle) + 5 * torque(middle + apart)) /
+           18;
   }
   /// Work of one cylinder up to its own angle, any value.
   [[nodiscard]] long double one_J(long double own_deg) const {

@@ -5,8 +5,8 @@
 #include "diesel_elastic_valves.hpp"
 #include "diesel_everything.hpp"
 #include "diesel_torque_sensor.hpp"
-#include "ohc_125_everything.hpp"
 #include "hostile.hpp"
+#include "ohc_125_everything.hpp"
 #include "output_numbers.hpp"
 #include "report.hpp"
 
@@ -18,7 +18,8 @@ using crankloop::Input;
 constexpr int kTicks = 20'000;
 constexpr std::uint64_t kSeed = 495;
 /// Not of the input: the engine may still be as fast as it was thrown.
-constexpr std::uint32_t kOfTheMotion = crankloop::kFaultEventBudget | crankloop::kFaultOverspeed | crankloop::kFaultTriggerEdges;
+constexpr std::uint32_t kOfTheMotion =
+    crankloop::kFaultEventBudget | crankloop::kFaultOverspeed | crankloop::kFaultTriggerEdges;
 
 template <class Real, class S>
 void survive(Report& report, crankloop::Engine<Real, S>& engine, const char* name) noexcept {

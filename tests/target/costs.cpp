@@ -1,4 +1,5 @@
-// What a tick of one engine costs: instructions, RAM, stack. Compiled once for each scene; costs.sh reads what it prints.
+// What a tick of one engine costs: instructions, RAM, stack. Compiled once for each scene; costs.sh reads what it
+// prints.
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -8,7 +9,7 @@
 namespace {
 
 std::uint32_t phase_per_tick_high;  ///< of a measured phase
-[[maybe_unused]] Real held_rad_s;         ///< of a crank that forces turn, by a brake that meets every change of it
+[[maybe_unused]] Real held_rad_s;   ///< of a crank that forces turn, by a brake that meets every change of it
 
 struct Speed {
   const char* name;
@@ -20,18 +21,22 @@ constexpr std::uint32_t kCycles = 2;  ///< measured, after as many in which the 
 // Templates, since a scene's input lacks what the scene does not ask for.
 template <class In>
 void set_speed(In& in, std::int32_t rpm) noexcept {
-  if constexpr (std::is_base_of_v<crankloop::SpeedInput<Real>, In>) {
+  if constexpr (std::is_base_of_v<crankloop::group::SpeedInput<Real>, In>) {
     in.speed_rad_s = static_cast<Real>(rpm) * static_cast<Real>(0.10471975511965977);
   }
-  if constexpr (crankloop::Needs<under_test::Scene>::input_pressure) {
+  if constexpr (crankloop::detail::Needs<under_test::Scene>::input_pressure) {
     for (Real& pressure : in.pressure_Pa) pressure = static_cast<Real>(3e5);
   }
-  if constexpr (crankloop::Needs<under_test::Scene>::crank_dynamics) {
+  if constexpr (crankloop::detail::Needs<under_test::Scene>::burn_input) {
+    for (Real& fuel : in.fuel_kg) fuel = static_cast<Real>(30e-6);
+  }
+  if constexpr (crankloop::detail::Needs<under_test::Scene>::crank_dynamics) {
     held_rad_s = static_cast<Real>(rpm) * static_cast<Real>(0.10471975511965977);
     (void)engine.restore(crankloop::turning_at<Real, under_test::Scene>(engine.state(), held_rad_s));
   }
   // 2^32 per cycle of two turns.
-  phase_per_tick_high = static_cast<std::uint32_t>((std::uint64_t{1} << 32) * static_cast<std::uint64_t>(rpm) * COSTS_TICK_US / 120'000'000u);
+  phase_per_tick_high = static_cast<std::uint32_t>((std::uint64_t{1} << 32) * static_cast<std::uint64_t>(rpm) *
+                                                   COSTS_TICK_US / 120'000'000u);
 }
 
 /// A template, so that a scene without a crank's motion need not have it in its output.
@@ -42,10 +47,11 @@ Real speed_of(const Out& out) noexcept {
 
 template <class In>
 void turn_crank(In& in) noexcept {
-  if constexpr (std::is_base_of_v<crankloop::PhaseInput, In>) in.crank += crankloop::Phase{std::uint64_t{phase_per_tick_high} << 32};
-  if constexpr (crankloop::Needs<under_test::Scene>::crank_dynamics) {
+  if constexpr (std::is_base_of_v<crankloop::group::PhaseInput, In>)
+    in.crank += crankloop::Phase{std::uint64_t{phase_per_tick_high} << 32};
+  if constexpr (crankloop::detail::Needs<under_test::Scene>::crank_dynamics) {
     constexpr Real kBrake_Nm_s = 50;
-    in.load_Nm = kBrake_Nm_s * (speed_of(engine.output()) - held_rad_s);
+    in.external_torque_Nm = kBrake_Nm_s * (speed_of(engine.output()) - held_rad_s);
   }
 }
 
@@ -68,7 +74,8 @@ void measure(const Speed& speed) noexcept {
     if (cost > worst) worst = cost;
     faults |= engine.output().faults;
   }
-  port::Line() << "instructions " << speed.name << " " << static_cast<std::uint32_t>((sum + ticks / 2) / ticks) << " " << worst;
+  port::Line() << "instructions " << speed.name << " " << static_cast<std::uint32_t>((sum + ticks / 2) / ticks) << " "
+               << worst;
   if (faults != 0) port::Line() << "faults " << faults;
 }
 

@@ -1,7 +1,8 @@
-// One engine, and what its steps cost by the emulator's counter: for images that measure. Needs COSTS_ENGINE and COSTS_ENGINE_HEADER defined.
+// One engine, and what its steps cost by the emulator's counter: for images that measure. Needs COSTS_ENGINE and
+// COSTS_ENGINE_HEADER defined.
 //
-// What belongs here: the engine under test, counting one step, hostile input, what bounds its loops. What does not: operating speeds and
-// stack (costs.cpp).
+// What belongs here: the engine under test, counting one step, hostile input, what bounds its loops. What does not:
+// operating speeds and stack (costs.cpp).
 #pragma once
 
 #include <cstdint>
@@ -52,10 +53,11 @@ void measure_hostile(std::uint32_t ticks) noexcept {
   port::Line() << "hostile " << worst;
 }
 
-/// What bounds the loops of a tick, for worst_tick: counts of the engine, from its tables, and the tick's budget of contact changes.
+/// What bounds the loops of a tick, for worst_tick: counts of the engine, from its tables, and the tick's budget of
+/// contact changes.
 template <class Tables>
 void print_limits(const Tables& tables) noexcept {
-  using Needs = crankloop::Needs<under_test::Scene>;
+  using Needs = crankloop::detail::Needs<under_test::Scene>;
   port::Line() << "limit cylinders " << tables.drive->cylinders;
   port::Line() << "limit mechanisms " << tables.drive->mechanisms;
   const std::uint32_t trains = Needs::any_valves ? tables.drive->trains : 0;

@@ -1,6 +1,6 @@
 #!/bin/sh
-# demand_line.sh PATTERN COMMAND...: runs the command and demands both that it ends well and that a line of what it prints matches PATTERN (of
-# grep -E): an emulator that runs nothing ends well too.
+# demand_line.sh PATTERN COMMAND...: runs the command and demands both that it ends well and that a line of what it
+# prints matches PATTERN (of grep -E): an emulator that runs nothing ends well too.
 set -u
 pattern=$1
 shift

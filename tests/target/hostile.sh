@@ -1,6 +1,6 @@
 #!/bin/sh
-# hostile.sh CONF ENGINE...: runs each engine's image of hostile.cpp; fails when a tick has taken more instructions than the bound for any
-# input allows. CONF is costs.conf in the build's tests/target. Last line: "N passed, M failed".
+# hostile.sh CONF ENGINE...: runs each engine's image of hostile.cpp; fails when a tick has taken more instructions than
+# the bound for any input allows. CONF is costs.conf in the build's tests/target. Last line: "N passed, M failed".
 set -eu
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
 conf=$1

@@ -1,6 +1,8 @@
-// Every number of an output, one after the other, without the padding between them: to hash it and to see whether it is finite.
+// Every number of an output, one after the other, without the padding between them: to hash it and to see whether it is
+// finite.
 //
-// What belongs here: the members of each output group. Groups are bound member by member, so one that is added cannot be forgotten here.
+// What belongs here: the members of each output group. Groups are bound member by member, so one that is added cannot
+// be forgotten here.
 #pragma once
 
 #include <cstddef>
@@ -50,9 +52,25 @@ void each(Sink& sink, const crankloop::ValveForcesOutput<Real>& forces) {
 }
 template <class Sink, class Real>
 void each(Sink& sink, const crankloop::ValveCycle<Real>& cycle) {
-  const auto& [lift, speed, acceleration, delay, gap, start, duration, seating, bounce, separations, bounces, changes, off_seat] = cycle;
+  const auto& [lift, speed, acceleration, delay, gap, start, duration, seating, bounce, separations, bounces, changes,
+               off_seat] = cycle;
   for (const Real x : {lift, speed, acceleration, delay, gap, start, duration, seating, bounce}) sink.add(x);
   for (const std::uint32_t x : {separations, bounces, changes, off_seat}) sink.add(x);
+}
+
+template <class Sink, class Real>
+void each(Sink& sink, const crankloop::CylinderGasOutput<Real>& gas) {
+  const auto& [pressure, temperature, mass, burned, flow, wall_heat] = gas;
+  for (const Real x : {pressure, temperature, mass, burned, flow[0], flow[1], wall_heat}) sink.add(x);
+}
+template <class Sink, class Real>
+void each(Sink& sink, const crankloop::GasCycle<Real>& cycle) {
+  const auto& [net, pumping, peak, peak_deg, trapped, air, residual, volumetric, exhaust, fuel, excess, heat, wall,
+               defect] = cycle;
+  for (const Real x :
+       {net, pumping, peak, peak_deg, trapped, air, residual, volumetric, exhaust, fuel, excess, heat, wall, defect}) {
+    sink.add(x);
+  }
 }
 
 /// Edges beyond those listed have no meaning.
@@ -60,24 +78,25 @@ template <class Sink, class Real, class S>
 void each(Sink& sink, const crankloop::TriggerSignal<Real, S>& signal) {
   const auto& [level, edge_count, edge] = signal;
   sink.add(level), sink.add(edge_count);
-  for (std::uint32_t i = 0; i < edge_count && i < S::trigger_edges; ++i) sink.add(edge[i].time_s), sink.add(edge[i].level);
+  for (std::uint32_t i = 0; i < edge_count && i < S::trigger_edges; ++i)
+    sink.add(edge[i].time_s), sink.add(edge[i].level);
 }
 
 /// sink.add(x) for each number of the output, the fault bits last.
 template <class Sink, class Real, class S>
 void each_number(Sink& sink, const crankloop::Output<Real, S>& out) {
-  if constexpr (crankloop::Needs<S>::crank_dynamics) {
-    const auto& [crank, speed, acceleration, friction] = static_cast<const crankloop::CrankMotion<Real>&>(out);
+  if constexpr (crankloop::detail::Needs<S>::crank_dynamics) {
+    const auto& [crank, speed, acceleration, friction] = static_cast<const crankloop::group::CrankMotion<Real>&>(out);
     sink.add(static_cast<std::uint32_t>(crank.units() >> 32)), sink.add(static_cast<std::uint32_t>(crank.units()));
     for (const Real x : {speed, acceleration, friction}) sink.add(x);
   }
   if constexpr (S::starter) each(sink, out.starter_Nm);
   if constexpr (S::kinematics) {
-    const auto& [displacement, velocity, acceleration] = static_cast<const crankloop::Kinematics<Real, S>&>(out);
+    const auto& [displacement, velocity, acceleration] = static_cast<const crankloop::group::Kinematics<Real, S>&>(out);
     each(sink, displacement), each(sink, velocity), each(sink, acceleration);
   }
   if constexpr (S::rod_motion) {
-    const auto& [angle, speed, acceleration] = static_cast<const crankloop::RodMotion<Real, S>&>(out);
+    const auto& [angle, speed, acceleration] = static_cast<const crankloop::group::RodMotion<Real, S>&>(out);
     each(sink, angle), each(sink, speed), each(sink, acceleration);
   }
   if constexpr (S::torque) each(sink, out.torque_Nm);
@@ -86,11 +105,13 @@ void each_number(Sink& sink, const crankloop::Output<Real, S>& out) {
     for (const auto& forces : out.cylinder) each(sink, forces);
   }
   if constexpr (S::bearing_loads) {
-    const auto& [radial, tangential, load, along, across, journal] = static_cast<const crankloop::BearingLoads<Real, S>&>(out);
-    each(sink, radial), each(sink, tangential), each(sink, load), each(sink, along), each(sink, across), each(sink, journal);
+    const auto& [radial, tangential, load, along, across, journal] =
+        static_cast<const crankloop::group::BearingLoads<Real, S>&>(out);
+    each(sink, radial), each(sink, tangential), each(sink, load), each(sink, along), each(sink, across),
+        each(sink, journal);
   }
   if constexpr (S::free_forces) each(sink, out.first), each(sink, out.second), each(sink, out.rotating);
-  if constexpr (crankloop::Needs<S>::any_valves) {
+  if constexpr (crankloop::detail::Needs<S>::any_valves) {
     for (const auto& train : out.valve) {
       for (const auto& valve : train) each(sink, valve);
     }
@@ -105,7 +126,20 @@ void each_number(Sink& sink, const crankloop::Output<Real, S>& out) {
       for (const auto& cycle : train) each(sink, cycle);
     }
   }
-  if constexpr (crankloop::Needs<S>::any_triggers) {
+  if constexpr (crankloop::detail::Needs<S>::gas) {
+    for (const auto& gas : out.cylinder_gas) each(sink, gas);
+  }
+  if constexpr (crankloop::detail::Needs<S>::manifolds) {
+    const auto& [manifolds, throttle, outlet] = static_cast<const crankloop::group::Manifolds<Real>&>(out);
+    for (const auto& [pressure, temperature, burned] : manifolds) {
+      for (const Real x : {pressure, temperature, burned}) sink.add(x);
+    }
+    sink.add(throttle), sink.add(outlet);
+  }
+  if constexpr (S::gas_results) {
+    for (const auto& cycle : out.gas_cycle) each(sink, cycle);
+  }
+  if constexpr (crankloop::detail::Needs<S>::any_triggers) {
     for (const auto& signal : out.trigger) each(sink, signal);
   }
   sink.add(out.faults);

@@ -1,7 +1,8 @@
 #!/bin/sh
-# purity.sh CONF: what the library part of a firmware must not have: calls of anything but what moves memory, data that start-up has to
-# initialise or zero, constructors, exception tables, type information, double arithmetic in a float scene. Of every scene that costs.sh
-# measures; the last line says "N passed, M failed". CONF is costs.conf in the build's tests/target.
+# purity.sh CONF: what the library part of a firmware must not have: calls of anything but what moves memory, data that
+# start-up has to initialise or zero, constructors, exception tables, type information, double arithmetic in a float
+# scene. Of every scene that costs.sh measures; the last line says "N passed, M failed". CONF is costs.conf in the
+# build's tests/target.
 set -eu
 # shellcheck disable=SC1090  # made by CMake
 . "$1"

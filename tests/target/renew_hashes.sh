@@ -1,6 +1,7 @@
 #!/bin/sh
 # renew_hashes.sh SELF_CHECK: writes golden_hashes.inc anew from what the self-check built on this machine answers.
-# `cmake --build --preset check --target renew_target_hashes` calls it. Changed hashes mean changed results: CHANGELOG.md has to say so.
+# `cmake --build --preset check --target renew_target_hashes` calls it. Changed hashes mean changed results:
+# CHANGELOG.md has to say so.
 set -eu
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
 { "$1" 2>&1 || true; } | sed -n 's/^golden \([a-z0-9_]*\) \(0x[0-9A-F]*\)$/{"\1", \2},/p' >"$here/golden_hashes.inc.new"

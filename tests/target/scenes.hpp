@@ -58,13 +58,39 @@ struct ElasticValves : TorqueOfTables {
   static constexpr auto trains = crankloop::exactly<2>;
 };
 
-/// The engine that a controller is tested against: gas, friction and load turn the crank, and a crank and a cam wheel tell where it is.
+/// The engine that a controller is tested against: gas, friction and load turn the crank, and a crank and a cam wheel
+/// tell where it is.
 struct ClosedLoop : TorqueOfTables {
-  static constexpr auto crank = crankloop::CrankGiven::load;
+  static constexpr auto crank = crankloop::CrankGiven::torque;
   static constexpr bool load_ratio = true;
   static constexpr bool starter = true;
   static constexpr bool cylinder_cut = true;
   static constexpr auto triggers = crankloop::exactly<2>;
+};
+
+/// An engine that breathes through elastic valves, behind a throttle, and turns its crank.
+struct Breathing : ElasticValves {
+  static constexpr auto pressure = crankloop::PressureGiven::by_gas;
+  static constexpr auto crank = crankloop::CrankGiven::torque;
+  static constexpr auto manifold = crankloop::Manifold::throttle;
+  static constexpr auto combustion = crankloop::Combustion::by_input;
+  static constexpr bool gas_results = true;
+  static constexpr bool valve_gas = true;
+  static constexpr bool mean_torque = true;
+  static constexpr bool starter = true;
+  static constexpr bool cylinder_cut = true;
+};
+
+/// The same without dynamics and fuel, between manifolds that are given.
+struct Motored : FollowingValves {
+  static constexpr auto pressure = crankloop::PressureGiven::by_gas;
+};
+
+/// With all that its gas does, at a given speed.
+struct Fired : Motored {
+  static constexpr auto manifold = crankloop::Manifold::throttle;
+  static constexpr auto combustion = crankloop::Combustion::by_input;
+  static constexpr bool gas_results = true;
 };
 
 /// All there is, for up to four cylinders with up to two trains.

@@ -8,7 +8,8 @@
 namespace target_check {
 namespace {
 
-/// tools/engines/ohc_125.ini, units divided as the program reads it: 52.4 / 1e3 is not 52.4e-3 to the last bit, and the fingerprint tells.
+/// tools/engines/ohc_125.ini, units divided as the program reads it: 52.4 / 1e3 is not 52.4e-3 to the last bit, and the
+/// fingerprint tells.
 crankloop::EngineDefinition ohc_125() noexcept {
   crankloop::EngineDefinition engine;
   engine.crank = {52.4 / 1e3, 28.9 / 1e3, 101 / 1e3, 0, 9.2};
@@ -27,7 +28,7 @@ crankloop::EngineDefinition ohc_125() noexcept {
   gas.net_mep_Pa = 950e3;
   constexpr double kPer1000Rpm = 104.71975511965977;  // rad/s
   engine.friction = {60e3, 8 / (kPer1000Rpm / 1e3), 1.5 / (kPer1000Rpm * kPer1000Rpm / 1e3)};
-  engine.load.quadratic_Nm_s2 = 0.154 / (kPer1000Rpm * kPer1000Rpm);
+  engine.machine.quadratic_Nm_s2 = 0.154 / (kPer1000Rpm * kPer1000Rpm);
   engine.starter = {35, 700 / (1e3 / kPer1000Rpm)};
   engine.train_count = 1;
   crankloop::Cam& cam = engine.trains[0].cam;
@@ -68,8 +69,10 @@ void check_tables_in_ram(Report& report) noexcept {
   const crankloop::Status built = storage.build(ohc_125(), {20e-6});
   report.check(built.ok(), "tables are built on the target");
   report.check(built.ok() && from_ram.init(storage.tables()).ok(), "an engine takes the tables built on the target");
-  report.check(from_ram.state().fingerprint == from_flash.state().fingerprint, "tables built on the target have the fingerprint of those in flash");
-  report.check(golden_hash(from_ram, 1400) == golden_hash(from_flash, 1400), "tables built on the target give the bits of those in flash");
+  report.check(from_ram.state().fingerprint == from_flash.state().fingerprint,
+               "tables built on the target have the fingerprint of those in flash");
+  report.check(golden_hash(from_ram, 1400) == golden_hash(from_flash, 1400),
+               "tables built on the target give the bits of those in flash");
 }
 
 }  // namespace target_check

@@ -1,8 +1,9 @@
 # worst_stack.awk -v root=PATTERN FILE.ci...: the most stack that a function can take, in bytes, with all that it calls.
 #
-# Reads what g++ -fcallgraph-info=su writes. To that it adds what GCC forgets: on Arm, a class that is passed by value partly in registers has
-# those, up to 16 bytes, put on the stack by the function called. Refuses what has no bound or is not known: recursion, stack of a size that depends on data,
-# calls through pointers, calls of functions that are neither in the files nor in `leaf_bytes`. The message says which; exit status 1.
+# Reads what g++ -fcallgraph-info=su writes. To that it adds what GCC forgets: on Arm, a class that is passed by value
+# partly in registers has those, up to 16 bytes, put on the stack by the function called. Refuses what has no bound or
+# is not known: recursion, stack of a size that depends on data, calls through pointers, calls of functions that are
+# neither in the files nor in `leaf_bytes`. The message says which; exit status 1.
 BEGIN {
   # Of the C library: leaf functions, which push at most all sixteen registers.
   leaf_bytes["memcpy"] = leaf_bytes["memset"] = leaf_bytes["memmove"] = 64
@@ -10,7 +11,8 @@ BEGIN {
   leaf_bytes["__aeabi_memcpy"] = leaf_bytes["__aeabi_memset"] = leaf_bytes["__aeabi_memclr"] = 64
 }
 
-# node: { title: "SYMBOL" label: "NAME\nPLACE\n48 bytes (static)" }; without bytes where the function is not in the file.
+# node: { title: "SYMBOL" label: "NAME\nPLACE\n48 bytes (static)" }; without bytes where the function is not in the
+# file.
 /^node:/ {
   symbol = quoted($0, "title: ")
   label = quoted($0, "label: ")

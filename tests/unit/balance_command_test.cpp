@@ -1,4 +1,5 @@
-// `crankloop balance` and `crankloop forces`: their tables of the 495 against geometry, plain Fourier sums and its design sheet.
+// `crankloop balance` and `crankloop forces`: their tables of the 495 against geometry, plain Fourier sums and its
+// design sheet.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -65,9 +66,11 @@ TEST(BalanceCommand, GivesTheSheetsPowerAtTheCouplingAndTheEfficiencyAssumed) {
 
 TEST(BalanceCommand, AtLoadRatioZeroIsTheMotoredEngine) {
   const EngineDefinition engine = diesel();
-  const double motored_kPa = support::loop_work_J(engine.crank, [&](double deg) {
-    return support::motored_cycle_Pa(engine.crank, engine.pressure.wiebe, 1.38, deg);
-  }) / support::swept_m3(engine.crank) / 1000;
+  const double motored_kPa =
+      support::loop_work_J(
+          engine.crank,
+          [&](double deg) { return support::motored_cycle_Pa(engine.crank, engine.pressure.wiebe, 1.38, deg); }) /
+      support::swept_m3(engine.crank) / 1000;
   std::map<std::string, double> b = balance({"--load-ratio", "0"});
   EXPECT_NEAR(b["net_mep_kPa"], motored_kPa, 1e-3);
   EXPECT_LT(b["brake_power_kW"], b["power_kW"]);
@@ -81,7 +84,8 @@ TEST(BalanceCommand, GivesAmplitudeAndPhaseOfForcesAndTorque) {
   // Four pistons, all in phase in even orders: straight up where cylinder 1 is at top dead centre, or straight down.
   for (const auto& [order, name] : {std::pair<int, const char*>{2, "second"}, {4, "fourth"}, {6, "sixth"}}) {
     const auto upward_N = [&](double a) {
-      const support::Motion m = support::motion_at(engine.crank, static_cast<long double>(a), static_cast<long double>(kRated_rad_s));
+      const support::Motion m =
+          support::motion_at(engine.crank, static_cast<long double>(a), static_cast<long double>(kRated_rad_s));
       return -4 * engine.masses.reciprocating_kg() * static_cast<double>(m.piston_pin_acceleration.up);
     };
     const support::FourierTerm term = support::fourier_term(upward_N, order, 64);
@@ -93,8 +97,8 @@ TEST(BalanceCommand, GivesAmplitudeAndPhaseOfForcesAndTorque) {
   ExactEngine exact;
   ASSERT_TRUE(accepted(exact.init(engine)));
   for (const int order : {2, 4, 6}) {
-    const support::FourierTerm term =
-        support::fourier_term([&](double a) { return exact.torque_Nm(a * 180 / support::kPi, kRated_rad_s); }, order, 3600);
+    const support::FourierTerm term = support::fourier_term(
+        [&](double a) { return exact.torque_Nm(a * 180 / support::kPi, kRated_rad_s); }, order, 3600);
     const std::string key = "torque_order_" + std::to_string(order);
     const double phase_rad = b[key + "_phase_deg"] * support::kPi / 180;
     EXPECT_NEAR(b[key + "_Nm"] * std::cos(phase_rad), term.cosine, 1e-3) << order;
@@ -119,7 +123,8 @@ TEST(BalanceCommand, GivesTheMainBearingsLoadsOnTheBlock) {
 TEST(ForcesCommand, GivesDisplacementAndVolumeAndTakesALoadRatio) {
   const EngineDefinition engine = diesel();
   for (const char* method : {"table", "exact"}) {
-    const std::string csv = printed_by(kForces, {"--rpm", "2000", "--load-ratio", "0", "--method", method, "--cylinder", "2"});
+    const std::string csv =
+        printed_by(kForces, {"--rpm", "2000", "--load-ratio", "0", "--method", method, "--cylinder", "2"});
     const std::vector<double> deg = column(csv, "crank_deg");
     const std::vector<double> displacement_mm = column(csv, "displacement_mm");
     const std::vector<double> volume_cm3 = column(csv, "volume_cm3");
@@ -127,11 +132,13 @@ TEST(ForcesCommand, GivesDisplacementAndVolumeAndTakesALoadRatio) {
     ASSERT_EQ(deg.size(), 721u);
     for (std::size_t i = 0; i < deg.size(); ++i) {
       const long double a = static_cast<long double>(deg[i]) * support::kWidePi / 180;
-      const auto below_m = static_cast<double>(support::greatest_height(engine.crank) - support::piston_height(engine.crank, a));
+      const auto below_m =
+          static_cast<double>(support::greatest_height(engine.crank) - support::piston_height(engine.crank, a));
       EXPECT_NEAR(displacement_mm[i], below_m * 1e3, 1e-6) << deg[i];
       EXPECT_NEAR(volume_cm3[i], support::volume_m3(engine.crank, deg[i]) * 1e6, 1e-5) << deg[i];
       const double want_Pa = support::motored_cycle_Pa(engine.crank, engine.pressure.wiebe, 1.38, deg[i]);
-      EXPECT_NEAR(pressure_kPa[i], want_Pa / 1000, 0.2) << deg[i];  // tables: 1e-5 of the fired peak of 7 MPa, motored and heat
+      EXPECT_NEAR(pressure_kPa[i], want_Pa / 1000, 0.2)
+          << deg[i];  // tables: 1e-5 of the fired peak of 7 MPa, motored and heat
     }
   }
 }

@@ -1,4 +1,5 @@
-// `crankloop bench`: its statistics, what it writes, and whether the errors it tells are true, by other ways than its own.
+// `crankloop bench`: its statistics, what it writes, and whether the errors it tells are true, by other ways than its
+// own.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -16,6 +17,8 @@
 
 #include <crankloop/tabulate/mechanism.hpp>
 
+#include "crankloop/engine_file/engine_file.hpp"
+#include "crankloop/error.hpp"
 #include "lab/bench/bench_report.hpp"
 #include "lab/bench/engines.hpp"
 #include "lab/bench/groups.hpp"
@@ -25,8 +28,6 @@
 #include "lab/bench/row.hpp"
 #include "lab/bench/tick_engines.hpp"
 #include "lab/bench/true_lift.hpp"
-#include "crankloop/engine_file/engine_file.hpp"
-#include "crankloop/error.hpp"
 #include "support/random.hpp"
 #include "support/status.hpp"
 #include "support/temporary_folder.hpp"
@@ -34,7 +35,7 @@
 namespace crankloop::program::bench {
 namespace {
 
-// ---- statistics -------------------------------------------------------------------------------------------------------------
+// ---- statistics -----------------------------------------------------------------------------------------------------
 
 TEST(BenchStatistics, MedianAndQuartilesOfAKnownSample) {
   std::vector<double> sample{9, 1, 5, 3, 7};
@@ -67,7 +68,8 @@ void add_up(int count) {
 
 TEST(BenchRace, TellsAContestantOfFourTimesTheWorkFromOneOfOnce) {
   const Effort effort{15, 50e3};
-  const std::vector<Timing> timings = race({{[] { add_up(1000); }, 1}, {[] { add_up(4000); }, 1}, {[] { add_up(4000); }, 4}}, effort);
+  const std::vector<Timing> timings =
+      race({{[] { add_up(1000); }, 1}, {[] { add_up(4000); }, 1}, {[] { add_up(4000); }, 4}}, effort);
   // Whatever else the machine does, it does to all of them: the margins are for rounds in which it did so unevenly.
   EXPECT_GT(timings[1].median_ns, 2 * timings[0].median_ns);
   EXPECT_LT(timings[1].median_ns, 8 * timings[0].median_ns);
@@ -99,15 +101,18 @@ TEST(BenchFront, IsWhatNoOtherPointBeatsInBoth) {
     for (int i = random.whole(1, 30); i > 0; --i) points.push_back({random.between(1, 9), random.between(1, 9)});
     const std::vector<Work> front = pareto_front(points);
     for (const Work& p : points) {
-      const bool beaten = std::any_of(points.begin(), points.end(), [&](const Work& q) { return q.time < p.time && q.error < p.error; });
-      const bool on_front = std::any_of(front.begin(), front.end(), [&](const Work& q) { return q.time == p.time && q.error == p.error; });
+      const bool beaten = std::any_of(points.begin(), points.end(),
+                                      [&](const Work& q) { return q.time < p.time && q.error < p.error; });
+      const bool on_front = std::any_of(front.begin(), front.end(),
+                                        [&](const Work& q) { return q.time == p.time && q.error == p.error; });
       EXPECT_EQ(on_front, !beaten);
     }
-    EXPECT_TRUE(std::is_sorted(front.begin(), front.end(), [](const Work& a, const Work& b) { return a.time < b.time; }));
+    EXPECT_TRUE(
+        std::is_sorted(front.begin(), front.end(), [](const Work& a, const Work& b) { return a.time < b.time; }));
   }
 }
 
-// ---- what it writes ---------------------------------------------------------------------------------------------------------
+// ---- what it writes -------------------------------------------------------------------------------------------------
 
 /// Reads JSON as far as its grammar goes (RFC 8259); counts objects.
 class JsonReader {
@@ -208,7 +213,8 @@ TEST(BenchJson, IsAnArrayOfObjectsWhateverTheRowsSay) {
   JsonReader reader(json);
   EXPECT_TRUE(reader.valid()) << json;
   EXPECT_EQ(reader.objects(), 3);
-  for (const char* field : {"group", "contestant", "real", "setting", "ns_median", "ns_spread", "error", "error_unit"}) {
+  for (const char* field :
+       {"group", "contestant", "real", "setting", "ns_median", "ns_spread", "error", "error_unit"}) {
     EXPECT_NE(json.find(std::string("\"") + field + "\": "), std::string::npos) << field;
   }
   EXPECT_NE(json.find("\"ns_median\": null"), std::string::npos);
@@ -219,7 +225,8 @@ TEST(BenchJson, IsAnArrayOfObjectsWhateverTheRowsSay) {
 }
 
 TEST(BenchJson, TheReaderOfThisTestRefusesWhatIsNone) {
-  for (const std::string text : {"[", "[1,]", "{\"a\" 1}", "{\"a\": nan}", "[\"\n\"]", "[1] 2", "[1.]"}) EXPECT_FALSE(JsonReader(text).valid()) << text;
+  for (const std::string text : {"[", "[1,]", "{\"a\" 1}", "{\"a\": nan}", "[\"\n\"]", "[1] 2", "[1.]"})
+    EXPECT_FALSE(JsonReader(text).valid()) << text;
 }
 
 TEST(BenchCsv, HasARowForEach) {
@@ -234,7 +241,9 @@ TEST(BenchCsv, HasARowForEach) {
   for (std::string line; std::getline(file, line);) lines.push_back(line);
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines[1], "valve,located RK4,float,12000 rpm; 10 us,cam cycle,123.400002,5.5999999,9.99999972e-10,um,,,");
-  EXPECT_EQ(lines[2], "valve,located RK4,float,12000 rpm; 10 us,cam cycle,123.400002,5.5999999,9.99999972e-10,um,at most 8,7.5,yes");
+  EXPECT_EQ(
+      lines[2],
+      "valve,located RK4,float,12000 rpm; 10 us,cam cycle,123.400002,5.5999999,9.99999972e-10,um,at most 8,7.5,yes");
 }
 
 TEST(BenchRow, ANameThatIsNotThereIsADefect) {
@@ -247,7 +256,7 @@ TEST(BenchKernel, EachRunsAndAnUnknownOneIsTheUsersError) {
   EXPECT_THROW(run_kernel("no such kernel", 10), UsageError);
 }
 
-// ---- whether its errors are true --------------------------------------------------------------------------------------------
+// ---- whether its errors are true ------------------------------------------------------------------------------------
 
 TEST(BenchEngines, AreThoseOfTheSampleFiles) {
   const EngineFile file = read_engine_file(CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini", {"crank", "masses"});
@@ -259,16 +268,18 @@ TEST(BenchEngines, AreThoseOfTheSampleFiles) {
   ASSERT_EQ(ours.cam.exponent_count, theirs.cam.exponent_count);
   for (int i = 0; i < ours.cam.exponent_count; ++i) EXPECT_EQ(ours.cam.exponents[i], theirs.cam.exponents[i]);
   const auto rocker = [](const Rocker& r) {
-    return std::vector<double>{r.base_circle_m, r.clearance_m, r.pivot_to_pad_m, r.pivot_to_cam_m, r.pad_radius_m, r.pivot_to_screw_m, r.screw_ball_m,
-                               r.stem_above_pivot_m};
+    return std::vector<double>{r.base_circle_m, r.clearance_m,      r.pivot_to_pad_m, r.pivot_to_cam_m,
+                               r.pad_radius_m,  r.pivot_to_screw_m, r.screw_ball_m,   r.stem_above_pivot_m};
   };
   const auto valve = [](const Valve& v) {
-    return std::vector<double>{v.valve_kg,        v.spring_kg,  v.rocker_inertia_kg_m2, v.spring_N_m,          v.spring_preload_N,
-                               v.train_N_m,       v.seat_N_m,   v.train_damping_ratio,  v.guide_damping_ratio, v.seat_damping_ratio,
-                               v.head_area_m2};
+    return std::vector<double>{v.valve_kg,           v.spring_kg,           v.rocker_inertia_kg_m2,
+                               v.spring_N_m,         v.spring_preload_N,    v.train_N_m,
+                               v.seat_N_m,           v.train_damping_ratio, v.guide_damping_ratio,
+                               v.seat_damping_ratio, v.head_area_m2};
   };
   constexpr double kRounding = 1e-14;  // of units: millimetres there, metres here
-  for (std::size_t i = 0; i < rocker(ours.rocker).size(); ++i) EXPECT_NEAR(rocker(ours.rocker)[i], rocker(theirs.rocker)[i], kRounding) << i;
+  for (std::size_t i = 0; i < rocker(ours.rocker).size(); ++i)
+    EXPECT_NEAR(rocker(ours.rocker)[i], rocker(theirs.rocker)[i], kRounding) << i;
   for (std::size_t i = 0; i < valve(ours.valve).size(); ++i) {
     EXPECT_NEAR(valve(ours.valve)[i], valve(theirs.valve)[i], kRounding * valve(theirs.valve)[i]) << i;
   }
@@ -303,7 +314,9 @@ TEST(BenchMotion, LinearTablesErrAsTheirChordsDo) {
   constexpr double kStep_rad = 1e-3;
   for (double a = 0; a < 2 * kPi; a += kStep_rad) {
     const auto acceleration = [&](double at) { return exact_pose(crank, at).acceleration_m; };
-    most_bent_m = std::max(most_bent_m, std::fabs(acceleration(a - kStep_rad) - 2 * acceleration(a) + acceleration(a + kStep_rad)) / (kStep_rad * kStep_rad));
+    most_bent_m = std::max(most_bent_m,
+                           std::fabs(acceleration(a - kStep_rad) - 2 * acceleration(a) + acceleration(a + kStep_rad)) /
+                               (kStep_rad * kStep_rad));
   }
   const double width_rad = kPi / 180;
   const double expected = most_bent_m * width_rad * width_rad / 8 / crank.crank_radius_m;
@@ -330,7 +343,9 @@ TEST(BenchTrueLift, IsTheReferencesMotionAtAnyAngle) {
     for (int draw = 0; draw < 8; ++draw) {
       SCOPED_TRACE(random.trace(draw));
       const double cam_deg = random.between(-80, 180);
-      valve_reference::Reference reference(valve_reference::SingleMass(train.valve, train.rocker, lift.largest_lift_m()), valve_reference::TurnedCam(lift));
+      valve_reference::Reference reference(
+          valve_reference::SingleMass(train.valve, train.rocker, lift.largest_lift_m()),
+          valve_reference::TurnedCam(lift));
       reference.advance((cam_deg + 180) / deg_per_s, -180, cam_deg);
       constexpr double kConverged_m = 1e-11;  // both: their steps differ
       EXPECT_NEAR(truth.lift_m(cam_deg), reference.y, kConverged_m);
@@ -350,8 +365,11 @@ TEST(BenchPlainValve, ItsMatrixIsItsTextbookStepInTheRegimeThatItWasMadeFor) {
     const PlainCam<double> from{state.lift_m + gap, state.velocity_m_s};
     const PlainCam<double> to{from.lift_m + h * from.speed_m_s, from.speed_m_s};
     const PlainCam<double> middle{(from.lift_m + to.lift_m) / 2, from.speed_m_s};
-    const auto f = [&](double y, double v, PlainCam<double> cam) { return plain_acceleration(body, 1 / body.mass_kg, y, v, cam); };
-    const PlainState<double> textbook = textbook_step(f, h, state, f(state.lift_m, state.velocity_m_s, from), middle, to);
+    const auto f = [&](double y, double v, PlainCam<double> cam) {
+      return plain_acceleration(body, 1 / body.mass_kg, y, v, cam);
+    };
+    const PlainState<double> textbook =
+        textbook_step(f, h, state, f(state.lift_m, state.velocity_m_s, from), middle, to);
     const PlainState<double> matrix = plain_matrix<double>(body, kPlainTrain, h).step(state, from, to);
     constexpr double kRounding = 1e-11;  // a lift times the train's stiffness is a hundred thousand N
     EXPECT_NEAR(matrix.lift_m, textbook.lift_m, kRounding * 1e-3);

@@ -1,4 +1,5 @@
-// The cam as the lift of a flat follower: the polynomial to its definition, measured tables to the cam that was measured.
+// The cam as the lift of a flat follower: the polynomial to its definition, measured tables to the cam that was
+// measured.
 #include <crankloop/tabulate/cam_profile.hpp>
 
 #include <gtest/gtest.h>
@@ -32,7 +33,7 @@ CamProfile profile_of(const Cam& cam) {
   return profile;
 }
 
-// ---- polynomial ------------------------------------------------------------------------------------------------------------
+// ---- polynomial -----------------------------------------------------------------------------------------------------
 
 TEST(CamPolynomial, OfThe125HasThePrintedCoefficients) {
   const double exponents[] = {2, 10, 18, 26};
@@ -47,9 +48,9 @@ TEST(CamPolynomial, OfThe125HasThePrintedCoefficients) {
 TEST(CamPolynomial, MeetsTheBaseCircleWithAsManyZeroDerivativesAsItHasExponents) {
   Random random;
   for (int draw = 0; draw < 100; ++draw) {
-    const int n = random.whole(2, kMostCamExponents);
-    double p[kMostCamExponents];
-    double c[kMostCamExponents];
+    const int n = random.whole(2, kMaxCamExponents);
+    double p[kMaxCamExponents];
+    double c[kMaxCamExponents];
     for (int i = 0; i < n; ++i) p[i] = (i == 0 ? 2 : p[i - 1]) + random.between(0.5, 9);
     cam_coefficients(p, n, c);
     for (int order = 0; order < n; ++order) {
@@ -80,7 +81,8 @@ TEST(CamPolynomial, IsItsDefinition) {
 }
 
 TEST(CamPolynomial, HasDerivativesThatAgreeWithDifferences) {
-  const Cam cams[] = {ohc_125_cam(), polynomial_cam(8e-3, 60, {2.3, 6.1, 9.7}), polynomial_cam(4e-3, 90, {3, 4, 50, 60, 100})};
+  const Cam cams[] = {ohc_125_cam(), polynomial_cam(8e-3, 60, {2.3, 6.1, 9.7}),
+                      polynomial_cam(4e-3, 90, {3, 4, 50, 60, 100})};
   for (const Cam& cam : cams) {
     const CamProfile profile = profile_of(cam);
     for (double phi = 0.05; phi < profile.closes_rad() - 0.01; phi += 0.0037) {
@@ -109,14 +111,15 @@ TEST(CamPolynomial, RisesOnceAndFallsOnceWhateverItsExponents) {
 
 TEST(CamPolynomial, IsExactlyZeroFromTheEndsOfItsLobeOn) {
   const CamProfile cam = profile_of(ohc_125_cam());
-  for (const double phi : {cam.opens_rad(), cam.closes_rad(), -2.0, 2.0, kPi, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double phi :
+       {cam.opens_rad(), cam.closes_rad(), -2.0, 2.0, kPi, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_EQ(cam.at(phi).lift_m, 0);
     EXPECT_EQ(cam.at(phi).per_rad_m, 0);
     EXPECT_EQ(cam.at(phi).per_rad2_m, 0);
   }
 }
 
-// ---- measured tables -------------------------------------------------------------------------------------------------------
+// ---- measured tables ------------------------------------------------------------------------------------------------
 
 /// A cam measured from `from_deg` to `to_deg`, with what the instrument adds.
 struct Measured {
@@ -156,7 +159,8 @@ struct Measured {
   [[nodiscard]] double residual_m(const CamProfile& smooth) const {
     double largest = 0;
     for (const CamPoint& point : points) {
-      largest = std::max(largest, std::fabs(point.lift_m - smooth.at((point.cam_deg - smooth.peak_deg()) * kRadPerDeg).lift_m));
+      largest = std::max(largest,
+                         std::fabs(point.lift_m - smooth.at((point.cam_deg - smooth.peak_deg()) * kRadPerDeg).lift_m));
     }
     return largest;
   }
@@ -164,12 +168,12 @@ struct Measured {
 
 /// How far a smoothed cam is from the true one, and what its second derivative does on the way.
 struct Comparison {
-  double lift_m = 0;            ///< largest distance
-  double per_rad2_m = 0;        ///< largest distance
-  double least_m = 0;           ///< smallest lift
-  double most_per_rad2_m = 0;   ///< peaks of the smoothed y''
+  double lift_m = 0;           ///< largest distance
+  double per_rad2_m = 0;       ///< largest distance
+  double least_m = 0;          ///< smallest lift
+  double most_per_rad2_m = 0;  ///< peaks of the smoothed y''
   double least_per_rad2_m = 0;
-  double swing_m = 0;           ///< sum of all ups and downs of the smoothed y''
+  double swing_m = 0;  ///< sum of all ups and downs of the smoothed y''
 
   Comparison(const CamProfile& smooth, const CamProfile& truth) {
     double before = 0;
@@ -215,8 +219,8 @@ TEST_F(SmoothedCam, OfATableRoundedToAMicrometreIsTheMeasuredOne) {
 }
 
 TEST_F(SmoothedCam, OfATableWithThreeMicrometresOfNoiseHasNoSpikes) {
-  // Normal noise of 3 um is smoothed to five times that (one row in two million is further off), uniform noise of +-3 um to twice that.
-  // The bounds are 1.2 to 2 times what 400 draws of each kind showed at most.
+  // Normal noise of 3 um is smoothed to five times that (one row in two million is further off), uniform noise of +-3
+  // um to twice that. The bounds are 1.2 to 2 times what 400 draws of each kind showed at most.
   Random random;
   for (int draw = 0; draw < 40; ++draw) {
     const bool normal = draw % 2 == 0;
@@ -239,7 +243,8 @@ TEST_F(SmoothedCam, OfATableWithThreeMicrometresOfNoiseHasNoSpikes) {
     // What the rows' own second differences say, for comparison: each um of noise is up to 13 mm/rad^2 there.
     double raw = 0;
     for (std::size_t i = 1; i + 1 < table.points.size(); ++i) {
-      const double second = (table.points[i - 1].lift_m - 2 * table.points[i].lift_m + table.points[i + 1].lift_m) / (kRadPerDeg * kRadPerDeg);
+      const double second = (table.points[i - 1].lift_m - 2 * table.points[i].lift_m + table.points[i + 1].lift_m) /
+                            (kRadPerDeg * kRadPerDeg);
       raw = std::max(raw, std::fabs(second - truth.at(table.points[i].cam_deg * kRadPerDeg).per_rad2_m));
     }
     EXPECT_GT(raw, 4 * found.per_rad2_m) << random.trace(draw);
@@ -254,7 +259,8 @@ TEST_F(SmoothedCam, MeetsTheBaseCircleSoftlyAndNeverGoesBelowIt) {
     EXPECT_GE(Comparison(smooth, truth).least_m, 0) << random.trace(draw);
     for (const double end : {smooth.opens_rad(), smooth.closes_rad()}) {
       const double into = end < 0 ? 1e-4 : -1e-4;
-      // Four derivatives are zero at the end, the fifth is at most some thousand metres: y = 1e3 x^5 / 5!, y'' = 1e3 x^3 / 3!.
+      // Four derivatives are zero at the end, the fifth is at most some thousand metres: y = 1e3 x^5 / 5!, y'' = 1e3
+      // x^3 / 3!.
       EXPECT_LE(std::fabs(smooth.at(end + into).lift_m), 1e-18) << random.trace(draw);
       EXPECT_LE(std::fabs(smooth.at(end + into).per_rad2_m), 1e-9) << random.trace(draw);
       EXPECT_EQ(smooth.at(end - into).lift_m, 0) << random.trace(draw);
@@ -267,8 +273,10 @@ TEST_F(SmoothedCam, HasDerivativesThatAgreeWithDifferences) {
   const CamProfile smooth = profile_of(Measured(truth, -180, 180, 1).off_by_up_to(3e-6, random).cam(6e-6));
   for (double phi = smooth.opens_rad() - 0.01; phi < smooth.closes_rad() + 0.01; phi += 0.00137) {
     constexpr double h = 1.0 / 32768;
-    EXPECT_NEAR(smooth.at(phi).per_rad_m, slope_of([&](double x) { return smooth.at(x).lift_m; }, phi, h), 1e-11) << random.trace(0);
-    EXPECT_NEAR(smooth.at(phi).per_rad2_m, slope_of([&](double x) { return smooth.at(x).per_rad_m; }, phi, h), 1e-9) << random.trace(0);
+    EXPECT_NEAR(smooth.at(phi).per_rad_m, slope_of([&](double x) { return smooth.at(x).lift_m; }, phi, h), 1e-11)
+        << random.trace(0);
+    EXPECT_NEAR(smooth.at(phi).per_rad2_m, slope_of([&](double x) { return smooth.at(x).per_rad_m; }, phi, h), 1e-9)
+        << random.trace(0);
   }
 }
 
@@ -286,14 +294,18 @@ TEST_F(SmoothedCam, CountsFromItsOwnPeakWhereverTheTableBegins) {
 TEST_F(SmoothedCam, IsTheSameHoweverFarItsRowsGoOnAlongTheBaseCircle) {
   constexpr double kSmoothing_m = 1e-6;
   double rises_deg = -80;
-  while (truth.at((rises_deg + 1) * kRadPerDeg).lift_m <= kSmoothing_m) ++rises_deg;  // the last row that may be base circle
+  while (truth.at((rises_deg + 1) * kRadPerDeg).lift_m <= kSmoothing_m)
+    ++rises_deg;  // the last row that may be base circle
   const CamProfile whole = profile_of(Measured(truth, -180, 180, 1).cam(kSmoothing_m));
-  EXPECT_GT(whole.opens_rad(), (rises_deg - 10) * kRadPerDeg - 1e-12) << "ten degrees of base circle are enough to begin in";
+  EXPECT_GT(whole.opens_rad(), (rises_deg - 10) * kRadPerDeg - 1e-12)
+      << "ten degrees of base circle are enough to begin in";
   for (const double beyond_deg : {11.0, 12.0, 15.0, 40.0}) {
-    const CamProfile smooth = profile_of(Measured(truth, rises_deg - beyond_deg, beyond_deg - rises_deg, 1).cam(kSmoothing_m));
+    const CamProfile smooth =
+        profile_of(Measured(truth, rises_deg - beyond_deg, beyond_deg - rises_deg, 1).cam(kSmoothing_m));
     EXPECT_EQ(smooth.opens_rad(), whole.opens_rad()) << beyond_deg;
     EXPECT_EQ(smooth.closes_rad(), whole.closes_rad()) << beyond_deg;
-    for (double phi = -1.4; phi < 1.4; phi += 0.01) EXPECT_EQ(smooth.at(phi).lift_m, whole.at(phi).lift_m) << beyond_deg << ", " << phi;
+    for (double phi = -1.4; phi < 1.4; phi += 0.01)
+      EXPECT_EQ(smooth.at(phi).lift_m, whole.at(phi).lift_m) << beyond_deg << ", " << phi;
   }
 }
 
@@ -324,22 +336,23 @@ TEST_F(SmoothedCam, IsRefusedWhereNoSmoothLobeComesCloseEnough) {
   Random random;
   CamProfile smooth;
   const Measured noisy = Measured(truth, -180, 180, 1).off_by_up_to(3e-6, random);
-  EXPECT_TRUE(refuses(smooth.init(noisy.cam(1e-6)), Reason::no_solution, "cam.smoothing"));
+  EXPECT_TRUE(refuses(smooth.init(noisy.cam(1e-6)), Reason::no_solution, "cam.smoothing_m"));
   for (const double step_deg : {0.5, 1.0}) {
     Measured misread(truth, -180, 180, step_deg);
     misread.points[misread.points.size() * 5 / 12].lift_m += 50e-6;  // one row, at -30 deg
-    EXPECT_TRUE(refuses(smooth.init(misread.cam(10e-6)), Reason::no_solution, "cam.smoothing")) << step_deg;
+    EXPECT_TRUE(refuses(smooth.init(misread.cam(10e-6)), Reason::no_solution, "cam.smoothing_m")) << step_deg;
   }
 }
 
 TEST_F(SmoothedCam, IsRefusedWhereTheTableDoesNotBeginOrEndOnTheBaseCircle) {
   CamProfile smooth;
-  EXPECT_TRUE(refuses(smooth.init(Measured(truth, -60, 180, 1).cam(5e-6)), Reason::inconsistent, "cam.file", 0));
-  EXPECT_TRUE(refuses(smooth.init(Measured(truth, -180, 60, 1).cam(5e-6)), Reason::inconsistent, "cam.file", 240));
+  EXPECT_TRUE(refuses(smooth.init(Measured(truth, -60, 180, 1).cam(5e-6)), Reason::inconsistent, "cam.points", 0));
+  EXPECT_TRUE(refuses(smooth.init(Measured(truth, -180, 60, 1).cam(5e-6)), Reason::inconsistent, "cam.points", 240));
   Measured flat(truth, 90, 180, 1);
   EXPECT_EQ(smooth.init(flat.cam(5e-6)).reason, Reason::inconsistent);
-  EXPECT_TRUE(refuses(smooth.init(Measured(profile_of(polynomial_cam(5e-3, 180, {2, 10, 18, 26})), -180, 180, 1).cam(1e-6)),
-                      Reason::out_of_range, "cam.file"));
+  EXPECT_TRUE(
+      refuses(smooth.init(Measured(profile_of(polynomial_cam(5e-3, 180, {2, 10, 18, 26})), -180, 180, 1).cam(1e-6)),
+              Reason::out_of_range, "cam.points"));
 }
 
 }  // namespace

@@ -7,9 +7,9 @@
 #include <limits>
 #include <vector>
 
+#include "support/running.hpp"
 #include "support/status.hpp"
 #include "support/test_engines.hpp"
-#include "support/running.hpp"
 
 namespace crankloop {
 namespace {
@@ -26,7 +26,8 @@ Real from_bits(BitsOf<Real> bits) {
   return x;
 }
 
-/// Both zeros, denormals, every power of two with its neighbours, infinities, numbers that are none; and around each of `limits`.
+/// Both zeros, denormals, every power of two with its neighbours, infinities, numbers that are none; and around each of
+/// `limits`.
 template <class Real>
 std::vector<Real> edges(const std::vector<Real>& limits) {
   constexpr int kMantissaBits = std::numeric_limits<Real>::digits - 1;
@@ -39,7 +40,8 @@ std::vector<Real> edges(const std::vector<Real>& limits) {
     all.push_back(from_bits<Real>(bits | kSign));
   };
   for (BitsOf<Real> exponent = 0; exponent < kSign >> kMantissaBits; ++exponent) {
-    for (const BitsOf<Real> mantissa : {BitsOf<Real>{0}, BitsOf<Real>{1}, kMantissa / 2, kMantissa / 2 + 1, kMantissa}) {
+    for (const BitsOf<Real> mantissa :
+         {BitsOf<Real>{0}, BitsOf<Real>{1}, kMantissa / 2, kMantissa / 2 + 1, kMantissa}) {
       add(static_cast<BitsOf<Real>>(exponent << kMantissaBits) | mantissa);
     }
   }
@@ -55,7 +57,7 @@ TYPED_TEST_SUITE(InputCheck, BothReals, RealName);
 
 TYPED_TEST(InputCheck, SaysOfEveryNumberWhatComparisonSays) {
   using Real = TypeParam;
-  const std::vector<Real> limits = {static_cast<Real>(kMostPressure_Pa), Real{2}, std::numeric_limits<Real>::min(),
+  const std::vector<Real> limits = {static_cast<Real>(kMaxPressure_Pa), Real{2}, std::numeric_limits<Real>::min(),
                                     std::numeric_limits<Real>::max()};
   for (const Real most : limits) {
     for (const Real x : edges(limits)) {
@@ -66,7 +68,8 @@ TYPED_TEST(InputCheck, SaysOfEveryNumberWhatComparisonSays) {
         Real four[4] = {Real{0}, most, most / 2, Real{1} < most ? Real{1} : most};
         four[place] = x;
         // -0 is as good as 0, but is left to the check of one number.
-        ASSERT_EQ(detail::all_within_positive(four, 4, most), good && !std::signbit(x)) << x << " up to " << most << " at " << place;
+        ASSERT_EQ(detail::all_within_positive(four, 4, most), good && !std::signbit(x))
+            << x << " up to " << most << " at " << place;
       }
     }
   }
@@ -77,7 +80,7 @@ TYPED_TEST(InputCheck, ABadPressureOfFourLeavesItsCylinderTheLastGoodOneAndTheOt
   using FourPressures = Asking<kTorque | kMeanTorque, PressureGiven::by_input, false, CrankGiven::speed, 4>;
   FullTables<Real> tables;
   ASSERT_TRUE(accepted(tables.build(diesel_495(), 100e-6)));
-  const Real most = static_cast<Real>(kMostPressure_Pa);
+  const Real most = static_cast<Real>(kMaxPressure_Pa);
   for (const Real x : edges<Real>({most})) {
     const bool good = x >= Real{0} && x <= most;
     for (std::size_t cylinder = 0; cylinder < 4; ++cylinder) {
@@ -91,7 +94,8 @@ TYPED_TEST(InputCheck, ABadPressureOfFourLeavesItsCylinderTheLastGoodOneAndTheOt
       in.pressure_Pa[cylinder] = x;
       ASSERT_EQ(run.engine.step(in).faults, good ? 0u : std::uint32_t{kFaultPressure}) << x;
       for (std::size_t k = 0; k < 4; ++k) {
-        ASSERT_EQ(run.engine.state().pressure_Pa[k], k == cylinder && !good ? before : in.pressure_Pa[k]) << x << ", cylinder " << k;
+        ASSERT_EQ(run.engine.state().pressure_Pa[k], k == cylinder && !good ? before : in.pressure_Pa[k])
+            << x << ", cylinder " << k;
       }
     }
   }

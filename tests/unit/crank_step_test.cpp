@@ -1,5 +1,5 @@
-// A crank that is turned by forces, piece by piece: starter, standstill, stall and reversal, what the other groups say of it, cut cylinders,
-// and any input.
+// A crank that is turned by forces, piece by piece: starter, standstill, stall and reversal, what the other groups say
+// of it, cut cylinders, and any input.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,9 +11,9 @@
 #include <memory>
 #include <vector>
 
+#include <crankloop/scenes.hpp>
 #include <crankloop/tabulate/summary.hpp>
 #include <crankloop/tick/state/saved_state.hpp>
-#include <crankloop/scenes.hpp>
 
 #include "support/output_fields.hpp"
 #include "support/random.hpp"
@@ -25,6 +25,8 @@
 #include "support/work_oracle.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 namespace {
 
 using namespace tick_test;
@@ -38,7 +40,7 @@ using NoGas = TurnedByForces<PressureGiven::none>;
 EngineDefinition free_diesel() {
   EngineDefinition engine = diesel_495();
   engine.friction = {110e3, 250, 0.4};
-  engine.load.inertia_kg_m2 = 0.05;
+  engine.machine.inertia_kg_m2 = 0.05;
   engine.starter = {420, 40};
   return engine;
 }
@@ -47,7 +49,7 @@ template <class Real>
 class CrankStep : public ::testing::Test {};
 TYPED_TEST_SUITE(CrankStep, BothReals, RealName);
 
-// ---- start, run, stop ----------------------------------------------------------------------------------------------------------
+// ---- start, run, stop -----------------------------------------------------------------------------------------------
 
 TYPED_TEST(CrankStep, StarterTurnsTheEngineItFiresRunsAndComesToRest) {
   using Real = TypeParam;
@@ -83,19 +85,20 @@ TYPED_TEST(CrankStep, StarterTurnsTheEngineItFiresRunsAndComesToRest) {
 TYPED_TEST(CrankStep, AtStandstillFrictionHoldsWhatItCanToTheLastBit) {
   using Real = TypeParam;
   EngineDefinition engine = without_gas(single_495());
-  engine.load.constant_Nm = 30;
+  engine.machine.constant_Nm = 30;
   Turned<Real, NoGas> run(engine, 100e-6, 0, phase_at_deg(37));
   typename Turned<Real, NoGas>::Input in;
   for (const double push_Nm : {29.0, -29.0, 30.0, -30.0}) {
-    in.load_Nm = static_cast<Real>(push_Nm);
+    in.external_torque_Nm = static_cast<Real>(push_Nm);
     for (int i = 0; i < 1000; ++i) run.step(in);
     EXPECT_EQ(run.angle_rad, 0.0L) << push_Nm;
-    EXPECT_EQ(run.engine.output().friction_Nm, -in.load_Nm);
+    EXPECT_EQ(run.engine.output().friction_Nm, -in.external_torque_Nm);
     EXPECT_EQ(run.engine.output().acceleration_rad_s2, Real{0});
   }
   // One part in a thousand more, and it goes the way it is pushed, with what friction leaves.
-  in.load_Nm = static_cast<Real>(30.03);
-  const double inertia = 0.45 + 1.382 * 0.0575 * 0.0575 + 1.315 * std::pow(static_cast<double>(oracle_pose_at_deg(engine.crank, 37).slope_m), 2) -
+  in.external_torque_Nm = static_cast<Real>(30.03);
+  const double inertia = 0.45 + 1.382 * 0.0575 * 0.0575 +
+                         1.315 * std::pow(static_cast<double>(oracle_pose_at_deg(engine.crank, 37).slope_m), 2) -
                          0.0042 * std::pow(static_cast<double>(oracle_pose_at_deg(engine.crank, 37).rod_slope), 2);
   EXPECT_NEAR(static_cast<double>(run.step(in).acceleration_rad_s2), -0.03 / inertia, 1e-4);
   for (int i = 0; i < 1000; ++i) run.step(in);
@@ -106,7 +109,7 @@ TYPED_TEST(CrankStep, AtStandstillFrictionHoldsWhatItCanToTheLastBit) {
 TYPED_TEST(CrankStep, AnEngineThatDiesBeforeCompressionSwingsBack) {
   using Real = TypeParam;
   EngineDefinition engine = single_495();
-  engine.load.constant_Nm = 2;
+  engine.machine.constant_Nm = 2;
   Turned<Real, Fired> run(engine, 100e-6, 10, phase_at_deg(560));
   typename Turned<Real, Fired>::Input in;
   in.load_ratio = 0;
@@ -125,13 +128,13 @@ TYPED_TEST(CrankStep, TooHighASpeedIsHeldAndFlagged) {
   using Real = TypeParam;
   Turned<Real, Fired> run(free_diesel(), 1e-3);
   typename Turned<Real, Fired>::Input in;
-  in.load_Nm = static_cast<Real>(-1e6);
+  in.external_torque_Nm = static_cast<Real>(-1e6);
   for (int i = 0; i < 100; ++i) run.step(in);
   EXPECT_EQ(run.engine.output().faults, std::uint32_t{kFaultOverspeed});
   const Real limit = run.engine.tables()->drive->speed_limit_rad_s;
   EXPECT_LE(run.engine.output().speed_rad_s, limit);
   EXPECT_GT(run.engine.output().speed_rad_s, limit * static_cast<Real>(0.99));
-  in.load_Nm = 0;
+  in.external_torque_Nm = 0;
   in.load_ratio = 0;
   for (int i = 0; i < 100; ++i) run.step(in);
   EXPECT_EQ(run.engine.output().faults, 0u);
@@ -142,14 +145,15 @@ TYPED_TEST(CrankStep, ABadLoadIsTheLastGoodOne) {
   Turned<Real, Fired> good(free_diesel(), 100e-6, 100);
   Turned<Real, Fired> bad(free_diesel(), 100e-6, 100);
   typename Turned<Real, Fired>::Input in;
-  in.load_Nm = 40;
+  in.external_torque_Nm = 40;
   good.step(in), bad.step(in);
   constexpr Real kBeyond = static_cast<Real>(1.001e8);
-  for (const Real load : {std::numeric_limits<Real>::quiet_NaN(), std::numeric_limits<Real>::infinity(), -kBeyond, kBeyond}) {
+  for (const Real load :
+       {std::numeric_limits<Real>::quiet_NaN(), std::numeric_limits<Real>::infinity(), -kBeyond, kBeyond}) {
     good.step(in);
     auto wrong = in;
-    wrong.load_Nm = load;
-    EXPECT_EQ(bad.step(wrong).faults, std::uint32_t{kFaultLoad});
+    wrong.external_torque_Nm = load;
+    EXPECT_EQ(bad.step(wrong).faults, std::uint32_t{kFaultExternalTorque});
     EXPECT_EQ(bad.engine.output().speed_rad_s, good.engine.output().speed_rad_s);
   }
 }
@@ -167,11 +171,13 @@ TEST(CrankStepInit, RefusesACrankWithoutInertia) {
 }
 
 TEST(CrankStepInit, RefusesACrankThatIsLighterAtADeadCentreThanAThousandthOfItsMost) {
-  // A kilogram on the piston pin, and nothing else but the crank: J_eff = J + 1 kg s'^2, s' = dx/da from the places of the pin. An offset puts
-  // the dead centre, where s' is 0, at a whole degree of the scan.
+  // A kilogram on the piston pin, and nothing else but the crank: J_eff = J + 1 kg s'^2, s' = dx/da from the places of
+  // the pin. An offset puts the dead centre, where s' is 0, at a whole degree of the scan.
   for (const double dead_centre_deg : {0, 1, 7, -1, -7}) {
     const double offset_m = (0.0575 + 0.210) * std::sin(dead_centre_deg * kPi / 180);
-    const auto pin_m = [&](double rad) { return 0.0575 * std::cos(rad) + std::sqrt(0.210 * 0.210 - std::pow(0.0575 * std::sin(rad) - offset_m, 2)); };
+    const auto pin_m = [&](double rad) {
+      return 0.0575 * std::cos(rad) + std::sqrt(0.210 * 0.210 - std::pow(0.0575 * std::sin(rad) - offset_m, 2));
+    };
     double piston_kg_m2 = 0;
     for (int i = 0; i < 36000; ++i) {
       const double rad = i * (kPi / 18000);
@@ -186,9 +192,11 @@ TEST(CrankStepInit, RefusesACrankThatIsLighterAtADeadCentreThanAThousandthOfItsM
       Engine<double, NoGas> turned;
       return turned.init(storage.tables());
     };
-    // Its most is found at whole degrees: within half a degree of the true one, where s' has lost less than 1e-4 of itself.
+    // Its most is found at whole degrees: within half a degree of the true one, where s' has lost less than 1e-4 of
+    // itself.
     EXPECT_TRUE(accepted(answer_at(1.001e-3))) << dead_centre_deg;
-    EXPECT_TRUE(support::refuses(answer_at(0.999e-3), Reason::not_positive, "masses.crank_inertia")) << dead_centre_deg;
+    EXPECT_TRUE(support::refuses(answer_at(0.999e-3), Reason::not_positive, "masses.crank_inertia_kg_m2"))
+        << dead_centre_deg;
   }
 }
 
@@ -205,8 +213,8 @@ TEST(CrankStepTables, FingerprintKnowsFrictionLoadAndStarterButOnlyWhereThereAre
   for (int which = 0; which < 4; ++which) {
     EngineDefinition engine = bare;
     if (which == 0) engine.friction.linear_Pa_s = 1;
-    if (which == 1) engine.load.linear_Nm_s = 1;
-    if (which == 2) engine.load.inertia_kg_m2 = 1;
+    if (which == 1) engine.machine.linear_Nm_s = 1;
+    if (which == 2) engine.machine.inertia_kg_m2 = 1;
     if (which == 3) engine.starter = {1, 1};
     const std::uint64_t one = fingerprint_of(engine);
     EXPECT_EQ(std::count(seen.begin(), seen.end(), one), 0) << which;
@@ -215,7 +223,7 @@ TEST(CrankStepTables, FingerprintKnowsFrictionLoadAndStarterButOnlyWhereThereAre
   // That engines without have the fingerprint they always had: the golden runs of an engine like the 495.
 }
 
-// ---- what the other groups say -------------------------------------------------------------------------------------------------
+// ---- what the other groups say --------------------------------------------------------------------------------------
 
 TEST(CrankStepGroups, MotionsAreDerivativesOfOneAnotherAndForcesGoWithThem) {
   EngineDefinition engine = free_diesel();
@@ -223,42 +231,52 @@ TEST(CrankStepGroups, MotionsAreDerivativesOfOneAnotherAndForcesGoWithThem) {
   constexpr double kTick_s = 10e-6;
   Turned<double, Fired> run(engine, kTick_s, 100);
   typename Turned<double, Fired>::Input in;
-  in.load_Nm = 20;
+  in.external_torque_Nm = 20;
   const Body<double> body = body_of(engine);
   Output<double, Fired> before{}, now{};
   double most = 0, most_rod = 0, most_crank = 0, largest = 0;
   for (int i = 0; i < 4000; ++i) {
     const Output<double, Fired> after = run.step(in);
     if (i > 2) {
-      EXPECT_NEAR(now.mean_torque_Nm, (before.torque_Nm + now.torque_Nm) / 2, 0.2);  // of some 1000 Nm, over a tenth of a degree
+      EXPECT_NEAR(now.mean_torque_Nm, (before.torque_Nm + now.torque_Nm) / 2,
+                  0.2);  // of some 1000 Nm, over a tenth of a degree
       double inertia = 0.02 + 0.05 + 4 * 1.382 * 0.0575 * 0.0575;
       double rods_Nm = 0;
       for (std::size_t k = 0; k < 4; ++k) {
-        most = std::max(most, std::fabs((after.velocity_m_s[k] - before.velocity_m_s[k]) / (2 * kTick_s) - now.acceleration_m_s2[k]));
+        most = std::max(most, std::fabs((after.velocity_m_s[k] - before.velocity_m_s[k]) / (2 * kTick_s) -
+                                        now.acceleration_m_s2[k]));
         largest = std::max(largest, std::fabs(now.acceleration_m_s2[k]));
         const double rod_rad_s2 = (after.rod_speed_rad_s[k] - before.rod_speed_rad_s[k]) / (2 * kTick_s);
         most_rod = std::max(most_rod, std::fabs(rod_rad_s2 - now.rod_acceleration_rad_s2[k]));
         const CylinderForces<double>& f = now.cylinder[k];
-        EXPECT_NEAR(f.inertia_force_N, -body.reciprocating_kg * now.acceleration_m_s2[k], 1e-6 + 1e-9 * std::fabs(f.inertia_force_N));
+        EXPECT_NEAR(f.inertia_force_N, -body.reciprocating_kg * now.acceleration_m_s2[k],
+                    1e-6 + 1e-9 * std::fabs(f.inertia_force_N));
         // Power into the crank is that of the gas less what the masses take.
         const double couple_Nm = body.rod_inertia_correction_kg_m2 * now.rod_acceleration_rad_s2[k];
         const double power_W = f.total_force_N * now.velocity_m_s[k] - couple_Nm * now.rod_speed_rad_s[k];
         EXPECT_NEAR(f.torque_Nm * now.speed_rad_s, power_W, 1e-5 * (1 + std::fabs(power_W)));
-        const OraclePose p = oracle_pose(engine.crank, (deg_of(now.crank) - wide(engine.layout.firing_deg[k])) * kWidePi / 180);
+        const OraclePose p =
+            oracle_pose(engine.crank, (deg_of(now.crank) - wide(engine.layout.firing_deg[k])) * kWidePi / 180);
         inertia += static_cast<double>(wide(body.reciprocating_kg) * p.slope_m * p.slope_m +
                                        wide(body.rod_inertia_correction_kg_m2) * p.rod_slope * p.rod_slope);
         rods_Nm += f.torque_Nm;
       }
-      most_crank = std::max(most_crank, std::fabs((after.speed_rad_s - before.speed_rad_s) / (2 * kTick_s) - now.acceleration_rad_s2));
-      EXPECT_NEAR(inertia * now.acceleration_rad_s2, now.torque_Nm + now.starter_Nm - now.friction_Nm - in.load_Nm, 1e-4);
+      most_crank = std::max(
+          most_crank, std::fabs((after.speed_rad_s - before.speed_rad_s) / (2 * kTick_s) - now.acceleration_rad_s2));
+      EXPECT_NEAR(inertia * now.acceleration_rad_s2,
+                  now.torque_Nm + now.starter_Nm - now.friction_Nm - in.external_torque_Nm, 1e-4);
       // What the rods give the crank accelerates the crankshaft itself.
-      EXPECT_NEAR((0.07 + 4 * 1.382 * 0.0575 * 0.0575) * now.acceleration_rad_s2, rods_Nm - now.friction_Nm - in.load_Nm, 0.02);
+      EXPECT_NEAR((0.07 + 4 * 1.382 * 0.0575 * 0.0575) * now.acceleration_rad_s2,
+                  rods_Nm - now.friction_Nm - in.external_torque_Nm, 0.02);
     }
     before = now;
     now = after;
   }
-  std::printf("differences of speeds: crank within %.2g rad/s2, pistons %.2g of %.0f m/s2, rods %.2g rad/s2\n", most_crank, most, largest, most_rod);
-  EXPECT_LT(most_crank, 2);  // of 12 000; the central difference's own error is the third derivative's, and that of pressures' kinks
+  std::printf("differences of speeds: crank within %.2g rad/s2, pistons %.2g of %.0f m/s2, rods %.2g rad/s2\n",
+              most_crank, most, largest, most_rod);
+  EXPECT_LT(
+      most_crank,
+      2);  // of 12 000; the central difference's own error is the third derivative's, and that of pressures' kinks
   EXPECT_LT(most, 0.5);
   EXPECT_LT(most_rod, 5);
 }
@@ -276,11 +294,13 @@ TEST(CrankStepGroups, GivenPressuresTurnItAsTheTableDoes) {
     const double speed = by_input.engine.state().speed_rad_s;
     const double deg = static_cast<double>(deg_of(by_input.engine.state().phase)) + speed * kTick_s * 180 / kPi;
     typename Turned<double, GivenPressure>::Input given;
-    for (std::size_t k = 0; k < 4; ++k) given.pressure_Pa[k] = diagram.full_Pa(std::fmod(deg - engine.layout.firing_deg[k] + 720, 720));
+    for (std::size_t k = 0; k < 4; ++k)
+      given.pressure_Pa[k] = diagram.full_Pa(std::fmod(deg - engine.layout.firing_deg[k] + 720, 720));
     by_input.step(given);
   }
   const double speed = by_table.engine.output().speed_rad_s;
-  std::printf("after 0.2 s: %.4f rad/s by table, %.4f by the same pressures given\n", speed, by_input.engine.output().speed_rad_s);
+  std::printf("after 0.2 s: %.4f rad/s by table, %.4f by the same pressures given\n", speed,
+              by_input.engine.output().speed_rad_s);
   EXPECT_NEAR(by_input.engine.output().speed_rad_s, speed, 0.05);
 }
 
@@ -293,10 +313,10 @@ struct WithValves : valve_test::OneValve {
 
 TYPED_TEST(CrankStep, ValvesMoveAsOnAMeasuredCrank) {
   using Real = TypeParam;
-  using Turning = WithValves<CrankGiven::load>;
+  using Turning = WithValves<CrankGiven::torque>;
   using Measured = WithValves<CrankGiven::phase>;
   EngineDefinition engine = valve_test::engine_with(valve_test::ohc_125_train());
-  engine.load = {1, 0.01, 0, 0};
+  engine.machine = {1, 0.01, 0, 0};
   Turned<Real, Turning> turned(engine, 50e-6, 900);
   TableStorage<Real, Measured> tables;
   ASSERT_TRUE(accepted(tables.build(engine, {50e-6})));
@@ -315,7 +335,7 @@ TYPED_TEST(CrankStep, ValvesMoveAsOnAMeasuredCrank) {
   EXPECT_GT(highest, static_cast<Real>(7e-3));
 }
 
-// ---- cylinders that do not fire -----------------------------------------------------------------------------------------------
+// ---- cylinders that do not fire -------------------------------------------------------------------------------------
 
 TYPED_TEST(CrankStep, ACutCylinderHasTheMotoredPressureAndItsTorque) {
   using Real = TypeParam;
@@ -344,7 +364,8 @@ TYPED_TEST(CrankStep, ACutCylinderHasTheMotoredPressureAndItsTorque) {
     const auto deg = static_cast<double>(deg_of(by_curves.state().phase));
     double expected = 0;
     for (int k = 0; k < 4; ++k) {
-      expected += exact.forces(k, deg, 200, (in.cut_cylinders >> k & 1u) != 0 ? 0 : static_cast<double>(in.load_ratio)).torque_Nm;
+      expected += exact.forces(k, deg, 200, (in.cut_cylinders >> k & 1u) != 0 ? 0 : static_cast<double>(in.load_ratio))
+                      .torque_Nm;
     }
     ASSERT_NEAR(curves, expected, 5e-5 * scale_Nm) << random.trace(i);
     ASSERT_NEAR(static_cast<double>(by_forces.output().torque_Nm), expected, 5e-5 * scale_Nm) << random.trace(i);
@@ -386,8 +407,9 @@ TYPED_TEST(CrankStep, AChangingCutLeavesNoJumpInTheWork) {
     for (int k = 0; k < 4; ++k) {
       const WorkOracle& gas = (in.cut_cylinders >> k & 1u) != 0 ? motored : fired;
       const long double firing = wide(engine.layout.firing_deg[static_cast<std::size_t>(k)]);
-      expected_J += work_J(gas, k, from_deg, to_deg) +
-                    kSpeed_rad_s * kSpeed_rad_s * static_cast<double>(fired.masses_kg_m2(to_deg - firing) - fired.masses_kg_m2(from_deg - firing));
+      expected_J += work_J(gas, k, from_deg, to_deg) + kSpeed_rad_s * kSpeed_rad_s *
+                                                           static_cast<double>(fired.masses_kg_m2(to_deg - firing) -
+                                                                               fired.masses_kg_m2(from_deg - firing));
     }
     worst_Nm = std::max(worst_Nm, std::fabs(mean_Nm - expected_J / static_cast<double>(turned)));
   }
@@ -395,7 +417,7 @@ TYPED_TEST(CrankStep, AChangingCutLeavesNoJumpInTheWork) {
   EXPECT_LT(worst_Nm, 5e-5 * scale_Nm);
 }
 
-// ---- float, saved bytes, any input ---------------------------------------------------------------------------------------------
+// ---- float, saved bytes, any input ----------------------------------------------------------------------------------
 
 TEST(CrankStepFloat, StaysWithDoubleThroughAStartAndARun) {
   Turned<double, Fired> in_double(free_diesel());
@@ -412,8 +434,8 @@ TEST(CrankStepFloat, StaysWithDoubleThroughAStartAndARun) {
     if (speed > 20) worst_ratio = std::max(worst_ratio, std::fabs(speed_f / speed - 1));
   }
   const double apart_rad = static_cast<double>(in_float.angle_rad - in_double.angle_rad);
-  std::printf("float against double over 5 s: speed within %.1e, angle within %.1e of %.0f rad\n", worst_ratio, apart_rad,
-              static_cast<double>(in_double.angle_rad));
+  std::printf("float against double over 5 s: speed within %.1e, angle within %.1e of %.0f rad\n", worst_ratio,
+              apart_rad, static_cast<double>(in_double.angle_rad));
   EXPECT_LT(worst_ratio, 5e-6);
   EXPECT_LT(std::fabs(apart_rad), 1e-6 * static_cast<double>(in_double.angle_rad));
 }
@@ -423,7 +445,7 @@ TYPED_TEST(CrankStep, GoesOnFromSavedBytesWithTheSameBits) {
   Turned<Real, Fired> first(free_diesel(), 100e-6, 100);
   Turned<Real, Fired> second(free_diesel());
   typename Turned<Real, Fired>::Input in;
-  in.load_Nm = 17;
+  in.external_torque_Nm = 17;
   for (int i = 0; i < 777; ++i) first.step(in);
   std::vector<unsigned char> bytes(kSavedStateBytes<Real, Fired>);
   ASSERT_TRUE(accepted(save_state(first.engine, bytes.data(), bytes.size())));
@@ -447,7 +469,8 @@ Real any_number(Random& random) {
 }
 
 template <class Real, class S>
-void survives_anything(const EngineDefinition& engine, double tick_s, int ticks, const char* name, bool overspeeds = true) {
+void survives_anything(const EngineDefinition& engine, double tick_s, int ticks, const char* name,
+                       bool overspeeds = true) {
   Turned<Real, S> run(engine, tick_s);
   const auto limit = static_cast<double>(run.engine.tables()->drive->speed_limit_rad_s);
   Random random;
@@ -455,21 +478,23 @@ void survives_anything(const EngineDefinition& engine, double tick_s, int ticks,
   int bad = 0;
   for (int i = 0; i < ticks; ++i) {
     typename Turned<Real, S>::Input in;
-    in.load_Nm = any_number<Real>(random);
+    in.external_torque_Nm = any_number<Real>(random);
     in.starter = static_cast<std::uint32_t>(random.bits());
-    if constexpr (Needs<S>::load) in.load_ratio = random.coin() ? static_cast<Real>(random.between(0, 2)) : any_number<Real>(random);
+    if constexpr (Needs<S>::load)
+      in.load_ratio = random.coin() ? static_cast<Real>(random.between(0, 2)) : any_number<Real>(random);
     if constexpr (Needs<S>::cut) in.cut_cylinders = static_cast<std::uint32_t>(random.bits());
     if constexpr (Needs<S>::input_pressure) {
       for (Real& pressure : in.pressure_Pa) pressure = any_number<Real>(random);
     }
     const auto& out = run.engine.step(in);
     seen |= out.faults;
-    support::each_output(out, support::Used{static_cast<std::size_t>(engine.layout.cylinders), 0, 0},
-                         [&](const char*, std::size_t, auto x) { bad += std::isfinite(static_cast<double>(x)) ? 0 : 1; });
+    support::each_output(
+        out, support::Used{static_cast<std::size_t>(engine.layout.cylinders), 0, 0},
+        [&](const char*, std::size_t, auto x) { bad += std::isfinite(static_cast<double>(x)) ? 0 : 1; });
     ASSERT_EQ(bad, 0) << name << ", " << random.trace(i);
     ASSERT_LE(std::fabs(static_cast<double>(out.speed_rad_s)), limit * 1.0000001) << name << ", " << random.trace(i);
   }
-  EXPECT_NE(seen & kFaultLoad, 0u) << name;
+  EXPECT_NE(seen & kFaultExternalTorque, 0u) << name;
   EXPECT_EQ((seen & kFaultOverspeed) != 0, overspeeds) << name;
 }
 
@@ -480,11 +505,11 @@ EngineDefinition extreme(bool heavy) {
     engine.crank = {2, 2, 4.1, 0, 20};
     engine.masses = {1e4, 1e4, 1e4, 1e6, 1e4, 1e6};
     engine.friction = {1e7, 1e6, 1e6};
-    engine.load = {1e7, 1e6, 1e6, 1e6};
+    engine.machine = {1e7, 1e6, 1e6, 1e6};
   } else {
     engine.crank = {0.001, 1e-4, 3e-4, 0, 20};
     engine.masses = {1e-4, 0, 0, 0, 0, 1.1e-9};
-    engine.load = {0, 0, 1e6, 0};
+    engine.machine = {0, 0, 1e6, 0};
   }
   engine.starter = {1e7, 1e-9};
   return engine;
@@ -518,8 +543,10 @@ TYPED_TEST(CrankStep, TurnsTheShortestRodThatIsAcceptedWithFiniteNumbersThroughE
       in.starter = 1;
       for (int i = 0; i < 100; ++i) {
         const auto& out = free.step(in);
-        ASSERT_TRUE(std::isfinite(out.speed_rad_s) && std::isfinite(out.torque_Nm) && std::isfinite(out.mean_torque_Nm)) << degree << " " << i;
-        for (const Real acceleration : out.acceleration_m_s2) ASSERT_TRUE(std::isfinite(acceleration)) << degree << " " << i;
+        ASSERT_TRUE(std::isfinite(out.speed_rad_s) && std::isfinite(out.torque_Nm) && std::isfinite(out.mean_torque_Nm))
+            << degree << " " << i;
+        for (const Real acceleration : out.acceleration_m_s2)
+          ASSERT_TRUE(std::isfinite(acceleration)) << degree << " " << i;
       }
       ASSERT_GT(free.output().speed_rad_s, Real{0}) << degree;
     }

@@ -31,19 +31,25 @@ class Crankshaft : public bad_input::BadInput {
 };
 
 void expect_in(const std::string& text, const std::vector<std::string>& lines) {
-  for (const std::string& line : lines) EXPECT_NE(text.find(line), std::string::npos) << text << "  should say: " << line;
+  for (const std::string& line : lines)
+    EXPECT_NE(text.find(line), std::string::npos) << text << "  should say: " << line;
 }
-void expect_not_in(const std::string& text, const std::string& line) { EXPECT_EQ(text.find(line), std::string::npos) << line; }
+void expect_not_in(const std::string& text, const std::string& line) {
+  EXPECT_EQ(text.find(line), std::string::npos) << line;
+}
 
 constexpr const char* kVTwin = "cylinders = 2\nfiring_angles_deg = 0,315\nbank_angles_deg = 0,45";
 
 TEST_F(Crankshaft, OfAVTwinThatBecameTwoThrowsIsToldWithWhatWouldMakeThemOne) {
   // A throw points along bank - firing: 0 - 0, and 45 - 315 = -270.
   const std::string text = shown(kVTwin);
-  expect_in(text, {"\n# 2 cylinders on 2 crank throws.", "\n#   throw 1 at 0 deg: cylinder 1 (bank 0 deg)\n", "\n#   throw 2 at 90 deg: cylinder 2 (bank 45 deg)\n",
-                   "\n# Fires 1-2, at 0, 315 deg: 315, 405 deg apart.\n", "shared_pins = 1-2. Their bank - firing angles must then be equal, and are 0 and 90 deg."});
+  expect_in(text, {"\n# 2 cylinders on 2 crank throws.", "\n#   throw 1 at 0 deg: cylinder 1 (bank 0 deg)\n",
+                   "\n#   throw 2 at 90 deg: cylinder 2 (bank 45 deg)\n",
+                   "\n# Fires 1-2, at 0, 315 deg: 315, 405 deg apart.\n",
+                   "shared_pins = 1-2. Their bank - firing angles must then be equal, and are 0 and 90 deg."});
   const std::string one = shown("cylinders = 2\nfiring_angles_deg = 0,405\nbank_angles_deg = 0,45\nshared_pins = 1-2");
-  expect_in(one, {"# 2 cylinders on 1 crank throw.", "#   throw 1 at 0 deg: cylinder 1 (bank 0 deg), cylinder 2 (bank 45 deg)\n"});
+  expect_in(one, {"# 2 cylinders on 1 crank throw.",
+                  "#   throw 1 at 0 deg: cylinder 1 (bank 0 deg), cylinder 2 (bank 45 deg)\n"});
   expect_not_in(one, "No two rods share");
 }
 
@@ -51,14 +57,18 @@ TEST_F(Crankshaft, OfAVEngineWithEqualThrowsIsToldWhichRodsMayShareAPin) {
   const std::string v8 = "cylinders = 8\nfiring_order = 1-8-4-3-6-5-7-2\nbank_angles_deg = 45,-45,45,-45,45,-45,45,-45";
   expect_in(shown(v8), {"8 cylinders on 8 crank throws", "shared_pins = 1-2,3-4,5-6,7-8\n"});
   const std::string paired = shown(v8 + "\nshared_pins = 1-2,3-4,5-6,7-8");
-  expect_in(paired, {"8 cylinders on 4 crank throws", "throw 2 at 135 deg: cylinder 3 (bank 45 deg), cylinder 4 (bank -45 deg)",
-                     "Fires 1-8-4-3-6-5-7-2, at 0, 90, 180, 270, 360, 450, 540, 630 deg: 90, 90, 90, 90, 90, 90, 90, 90 deg apart."});
+  expect_in(
+      paired,
+      {"8 cylinders on 4 crank throws", "throw 2 at 135 deg: cylinder 3 (bank 45 deg), cylinder 4 (bank -45 deg)",
+       "Fires 1-8-4-3-6-5-7-2, at 0, 90, 180, 270, 360, 450, 540, 630 deg: 90, 90, 90, 90, 90, 90, 90, 90 deg apart."});
 }
 
 TEST_F(Crankshaft, WithoutBanksAtAnAngleAsksForNoSharedPin) {
-  expect_in(shown("cylinders = 4\nfiring_order = 1-3-4-2"), {"4 cylinders on 4 crank throws", "throw 2 at 180 deg: cylinder 2 (bank 0 deg)"});
+  expect_in(shown("cylinders = 4\nfiring_order = 1-3-4-2"),
+            {"4 cylinders on 4 crank throws", "throw 2 at 180 deg: cylinder 2 (bank 0 deg)"});
   expect_not_in(shown("cylinders = 4\nfiring_order = 1-3-4-2"), "No two rods share");
-  expect_not_in(shown("cylinders = 2\nfiring_angles_deg = 0,360\nbank_angles_deg = 90,-90"), "No two rods share");  // a boxer
+  expect_not_in(shown("cylinders = 2\nfiring_angles_deg = 0,360\nbank_angles_deg = 90,-90"),
+                "No two rods share");  // a boxer
   expect_not_in(shown("cylinders = 1"), "crank throw");
 }
 
@@ -72,8 +82,9 @@ TEST_F(Crankshaft, StandsInTheReportInWordsAndDrawn) {
   write_engine(kVTwin);
   EXPECT_EQ(run({"run", path_, "--cycles", "1", "--report", folder_ / "report.html"}).status, 0);
   const std::string page = contents(folder_ / "report.html");
-  expect_in(page, {"2 cylinders on 2 crank throws.", "throw 2 at 90 deg: cylinder 2 (bank 45 deg)", "Fires 1-2, at 0, 315 deg",
-                   "No two rods share a crank pin", "Throws and banks at engine angle 0", "Firing order"});
+  expect_in(page, {"2 cylinders on 2 crank throws.", "throw 2 at 90 deg: cylinder 2 (bank 45 deg)",
+                   "Fires 1-2, at 0, 315 deg", "No two rods share a crank pin", "Throws and banks at engine angle 0",
+                   "Firing order"});
 }
 
 }  // namespace

@@ -24,9 +24,7 @@ namespace {
 
 class CsvFile : public testing::Test {
  protected:
-  CsvFile() {
-    path_ = folder_ / "table.csv";
-  }
+  CsvFile() { path_ = folder_ / "table.csv"; }
 
   static std::string contents(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
@@ -129,6 +127,9 @@ TEST(Words, AGuessIsMadeOnlyWhereItIsLikely) {
   EXPECT_EQ(suggestion("bore", keys), "; did you mean bore_mm?");
   EXPECT_EQ(suggestion("storke_mm", keys), "; did you mean stroke_mm?");
   EXPECT_EQ(suggestion("rod_lenght_mm", keys), "; did you mean rod_length_mm?");
+  EXPECT_EQ(suggestion("load", {"friction", "machine"}), "; it is now called machine");
+  EXPECT_EQ(suggestion("--load-Nm", {"--load-ratio", "--external-torque-Nm"}),
+            "; it is now called --external-torque-Nm");
   EXPECT_EQ(suggestion("colour", keys), "");
   EXPECT_EQ(suggestion("x", keys), "");
   EXPECT_EQ(suggestion(std::string(100'000, 'b'), keys), "");
@@ -148,6 +149,13 @@ TEST(Words, AQuoteIsShortAndNeverCutsACharacter) {
   std::string long_text(39, 'a');
   for (int i = 0; i < 10; ++i) long_text += "\xC3\xBC";
   EXPECT_EQ(in_quotes(long_text), "'" + std::string(39, 'a') + "...'");
+}
+
+TEST(Words, AShellReadsThemBack) {
+  EXPECT_EQ(shell_word("engines/v-2.ini"), "engines/v-2.ini");
+  EXPECT_EQ(shell_word("my engine.ini"), "'my engine.ini'");
+  EXPECT_EQ(shell_word("o'clock"), "'o'\\''clock'");
+  EXPECT_EQ(shell_word(""), "''");
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "support/engines.hpp"
+#include "support/four_2000.hpp"
 #include "support/status.hpp"
 
 namespace crankloop {
@@ -42,9 +43,9 @@ TEST(CrankDefinition, RefusesEveryLengthThatIsNoLengthByItsName) {
     double Crank::*member;
     const char* field;
     double most;
-  } fields[] = {{&Crank::bore_m, "crank.bore", 2},
-                {&Crank::crank_radius_m, "crank.stroke", 2},
-                {&Crank::rod_length_m, "crank.rod_length", 10}};
+  } fields[] = {{&Crank::bore_m, "crank.bore_m", 2},
+                {&Crank::crank_radius_m, "crank.crank_radius_m", 2},
+                {&Crank::rod_length_m, "crank.rod_length_m", 10}};
   for (const auto& field : fields) {
     for (const Bad& bad :
          {Bad{0, Reason::not_positive}, Bad{-0.0, Reason::not_positive}, Bad{-0.1, Reason::not_positive},
@@ -61,11 +62,11 @@ TEST(CrankDefinition, RefusesAnOffsetThatIsNoNumber) {
   for (const double bad : {kNaN, kInfinity, -kInfinity}) {
     Crank crank = support::diesel_495_crank();
     crank.pin_offset_m = bad;
-    EXPECT_TRUE(refuses(validate(crank), Reason::not_finite, "crank.pin_offset"));
+    EXPECT_TRUE(refuses(validate(crank), Reason::not_finite, "crank.pin_offset_m"));
   }
   Crank crank = support::diesel_495_crank();
   crank.pin_offset_m = 2.1;
-  EXPECT_TRUE(refuses(validate(crank), Reason::out_of_range, "crank.pin_offset"));
+  EXPECT_TRUE(refuses(validate(crank), Reason::out_of_range, "crank.pin_offset_m"));
 }
 
 TEST(CrankDefinition, RefusesARodThatTheCrankCannotCarryRound) {
@@ -74,14 +75,14 @@ TEST(CrankDefinition, RefusesARodThatTheCrankCannotCarryRound) {
     Crank crank = support::diesel_495_crank();
     crank.pin_offset_m = offset;
     crank.rod_length_m = crank.crank_radius_m + std::fabs(offset);
-    EXPECT_TRUE(refuses(validate(crank), Reason::rod_too_short, "crank.rod_length")) << offset;
+    EXPECT_TRUE(refuses(validate(crank), Reason::rod_too_short, "crank.rod_length_m")) << offset;
     crank.rod_length_m *= 1 - 1e-9;
-    EXPECT_TRUE(refuses(validate(crank), Reason::rod_too_short, "crank.rod_length")) << offset;
+    EXPECT_TRUE(refuses(validate(crank), Reason::rod_too_short, "crank.rod_length_m")) << offset;
     // Nor with a rod that is longer by less than a billionth: the tangent of its angle would be anything.
     const double touching_m = crank.crank_radius_m + std::fabs(offset);
     for (const double rod_m : {std::nextafter(touching_m, 1), touching_m * (1 + 0.99e-9)}) {
       crank.rod_length_m = rod_m;
-      EXPECT_TRUE(refuses(validate(crank), Reason::rod_too_short, "crank.rod_length")) << offset;
+      EXPECT_TRUE(refuses(validate(crank), Reason::rod_too_short, "crank.rod_length_m")) << offset;
     }
     crank.rod_length_m = touching_m * (1 + 1.01e-9);
     EXPECT_TRUE(accepted(validate(crank))) << offset;
@@ -121,11 +122,11 @@ TEST(MassesDefinition, RefusesEveryMassThatIsNoMassByItsName) {
   const struct {
     double Masses::*member;
     const char* field;
-  } fields[] = {{&Masses::piston_kg, "masses.piston"},
-                {&Masses::rod_small_end_kg, "masses.rod_small_end"},
-                {&Masses::rod_big_end_kg, "masses.rod_big_end"},
-                {&Masses::crank_pin_equivalent_kg, "masses.crank_pin_equivalent"},
-                {&Masses::crank_inertia_kg_m2, "masses.crank_inertia"}};
+  } fields[] = {{&Masses::piston_kg, "masses.piston_kg"},
+                {&Masses::rod_small_end_kg, "masses.rod_small_end_kg"},
+                {&Masses::rod_big_end_kg, "masses.rod_big_end_kg"},
+                {&Masses::crank_pin_equivalent_kg, "masses.crank_pin_equivalent_kg"},
+                {&Masses::crank_inertia_kg_m2, "masses.crank_inertia_kg_m2"}};
   for (const auto& field : fields) {
     for (const Bad& bad :
          {Bad{-1e-9, Reason::negative}, Bad{kNaN, Reason::not_finite}, Bad{kInfinity, Reason::not_finite},
@@ -142,7 +143,7 @@ TEST(MassesDefinition, AllowsARodWhoseInertiaIsLessThanThatOfTwoMasses) {
   masses.rod_inertia_correction_kg_m2 = -0.001;
   EXPECT_TRUE(accepted(validate(masses)));
   masses.rod_inertia_correction_kg_m2 = kNaN;
-  EXPECT_TRUE(refuses(validate(masses), Reason::not_finite, "masses.rod_inertia"));
+  EXPECT_TRUE(refuses(validate(masses), Reason::not_finite, "masses.rod_inertia_correction_kg_m2"));
 }
 
 TEST(MassesDefinition, RefusesARodOfNegativeInertia) {
@@ -155,7 +156,7 @@ TEST(MassesDefinition, RefusesARodOfNegativeInertia) {
   engine.masses.rod_inertia_correction_kg_m2 = point_mass;
   EXPECT_TRUE(accepted(validate(engine)));
   engine.masses.rod_inertia_correction_kg_m2 = point_mass * 1.001;
-  EXPECT_TRUE(refuses(validate(engine), Reason::negative, "masses.rod_inertia"));
+  EXPECT_TRUE(refuses(validate(engine), Reason::negative, "masses.rod_inertia_correction_kg_m2"));
 }
 
 TEST(MassesDefinition, RefusesAnEngineInWhichNothingReciprocates) {
@@ -163,7 +164,7 @@ TEST(MassesDefinition, RefusesAnEngineInWhichNothingReciprocates) {
   masses.piston_kg = 0;
   EXPECT_TRUE(accepted(validate(masses))) << "a weightless piston on a rod with a small end still has mass";
   masses.rod_small_end_kg = 0;
-  EXPECT_TRUE(refuses(validate(masses), Reason::not_positive, "masses.piston"));
+  EXPECT_TRUE(refuses(validate(masses), Reason::not_positive, "masses.piston_kg"));
 }
 
 TEST(LumpedRod, OfThe495HasTheWeighedEndsThatItsCentreOfMassGives) {
@@ -209,7 +210,8 @@ TEST(CrankThrow, PullsOutwardAsItsPinAndBothWebsDo) {
   for (const CrankThrow& drawn : {CrankThrow{0.9, 1.4, 0.021}, CrankThrow{0.9, 1.4, 0}, CrankThrow{0, 1.4, 0.07}}) {
     Masses masses = diesel_495_masses();
     reduce_throw(drawn, crank, masses);
-    const double of_parts_N = centrifugal_N(drawn.pin_kg, crank.crank_radius_m) + centrifugal_N(drawn.web_kg, drawn.web_com_m) +
+    const double of_parts_N = centrifugal_N(drawn.pin_kg, crank.crank_radius_m) +
+                              centrifugal_N(drawn.web_kg, drawn.web_com_m) +
                               centrifugal_N(drawn.web_kg, drawn.web_com_m);
     EXPECT_NEAR(centrifugal_N(masses.crank_pin_equivalent_kg, crank.crank_radius_m), of_parts_N, 8 * kEps * of_parts_N);
     EXPECT_EQ(masses.reciprocating_kg(), diesel_495_masses().reciprocating_kg());
@@ -243,7 +245,7 @@ TEST(PressureDefinition, CrankcasePressureIsAskedForWhateverTheSource) {
       Pressure pressure = wiebe_pressure();
       pressure.source = source;
       pressure.crankcase_Pa = bad.value;
-      EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), bad.reason, "pressure.crankcase"));
+      EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), bad.reason, "pressure.crankcase_Pa"));
     }
   }
 }
@@ -255,27 +257,30 @@ TEST(PressureDefinition, RefusesEveryWiebeFigureOutsideItsRangeByItsName) {
     double bad;
     Reason reason;
   } cases[] = {
-      {&WiebeDiagram::intake_Pa, "pressure.intake", 0, Reason::not_positive},
-      {&WiebeDiagram::intake_Pa, "pressure.intake", kNaN, Reason::not_finite},
-      {&WiebeDiagram::exhaust_Pa, "pressure.exhaust", -1, Reason::not_positive},
-      {&WiebeDiagram::exhaust_Pa, "pressure.exhaust", 2e7, Reason::out_of_range},
-      {&WiebeDiagram::start_of_combustion_deg, "pressure.start_of_combustion", -91, Reason::out_of_range},
-      {&WiebeDiagram::start_of_combustion_deg, "pressure.start_of_combustion", 91, Reason::out_of_range},
-      {&WiebeDiagram::combustion_duration_deg, "pressure.combustion_duration", 0.5, Reason::out_of_range},
-      {&WiebeDiagram::combustion_duration_deg, "pressure.combustion_duration", 151, Reason::out_of_range},
-      {&WiebeDiagram::wiebe_m, "pressure.wiebe_m", -0.1, Reason::out_of_range},
-      {&WiebeDiagram::wiebe_m, "pressure.wiebe_m", 10.1, Reason::out_of_range},
-      {&WiebeDiagram::compression_exponent, "pressure.compression_exponent", 0.9, Reason::out_of_range},
-      {&WiebeDiagram::compression_exponent, "pressure.compression_exponent", 2.1, Reason::out_of_range},
-      {&WiebeDiagram::expansion_exponent, "pressure.expansion_exponent", 1, Reason::out_of_range},
-      {&WiebeDiagram::motored_expansion_exponent, "pressure.motored_expansion_exponent", -0.1, Reason::out_of_range},
-      {&WiebeDiagram::motored_expansion_exponent, "pressure.motored_expansion_exponent", 3.1, Reason::out_of_range},
-      {&WiebeDiagram::motored_expansion_exponent, "pressure.motored_expansion_exponent", 1.34, Reason::inconsistent},
-      {&WiebeDiagram::expansion_exponent, "pressure.expansion_exponent", kInfinity, Reason::not_finite},
-      {&WiebeDiagram::exhaust_valve_opens_deg, "pressure.exhaust_valve_opens", 180, Reason::out_of_range},
-      {&WiebeDiagram::exhaust_valve_opens_deg, "pressure.exhaust_valve_opens", 29, Reason::out_of_range},
-      {&WiebeDiagram::net_mep_Pa, "pressure.net_mep", kNaN, Reason::not_finite},
-      {&WiebeDiagram::net_mep_Pa, "pressure.net_mep", 2e8, Reason::out_of_range},
+      {&WiebeDiagram::intake_Pa, "pressure.wiebe.intake_Pa", 0, Reason::not_positive},
+      {&WiebeDiagram::intake_Pa, "pressure.wiebe.intake_Pa", kNaN, Reason::not_finite},
+      {&WiebeDiagram::exhaust_Pa, "pressure.wiebe.exhaust_Pa", -1, Reason::not_positive},
+      {&WiebeDiagram::exhaust_Pa, "pressure.wiebe.exhaust_Pa", 2e7, Reason::out_of_range},
+      {&WiebeDiagram::start_of_combustion_deg, "pressure.wiebe.start_of_combustion_deg", -91, Reason::out_of_range},
+      {&WiebeDiagram::start_of_combustion_deg, "pressure.wiebe.start_of_combustion_deg", 91, Reason::out_of_range},
+      {&WiebeDiagram::combustion_duration_deg, "pressure.wiebe.combustion_duration_deg", 0.5, Reason::out_of_range},
+      {&WiebeDiagram::combustion_duration_deg, "pressure.wiebe.combustion_duration_deg", 151, Reason::out_of_range},
+      {&WiebeDiagram::wiebe_m, "pressure.wiebe.wiebe_m", -0.1, Reason::out_of_range},
+      {&WiebeDiagram::wiebe_m, "pressure.wiebe.wiebe_m", 10.1, Reason::out_of_range},
+      {&WiebeDiagram::compression_exponent, "pressure.wiebe.compression_exponent", 0.9, Reason::out_of_range},
+      {&WiebeDiagram::compression_exponent, "pressure.wiebe.compression_exponent", 2.1, Reason::out_of_range},
+      {&WiebeDiagram::expansion_exponent, "pressure.wiebe.expansion_exponent", 1, Reason::out_of_range},
+      {&WiebeDiagram::motored_expansion_exponent, "pressure.wiebe.motored_expansion_exponent", -0.1,
+       Reason::out_of_range},
+      {&WiebeDiagram::motored_expansion_exponent, "pressure.wiebe.motored_expansion_exponent", 3.1,
+       Reason::out_of_range},
+      {&WiebeDiagram::motored_expansion_exponent, "pressure.wiebe.motored_expansion_exponent", 1.34,
+       Reason::inconsistent},
+      {&WiebeDiagram::expansion_exponent, "pressure.wiebe.expansion_exponent", kInfinity, Reason::not_finite},
+      {&WiebeDiagram::exhaust_valve_opens_deg, "pressure.wiebe.exhaust_valve_opens_deg", 180, Reason::out_of_range},
+      {&WiebeDiagram::exhaust_valve_opens_deg, "pressure.wiebe.exhaust_valve_opens_deg", 29, Reason::out_of_range},
+      {&WiebeDiagram::net_mep_Pa, "pressure.wiebe.net_mep_Pa", kNaN, Reason::not_finite},
+      {&WiebeDiagram::net_mep_Pa, "pressure.wiebe.net_mep_Pa", 2e8, Reason::out_of_range},
   };
   for (const auto& one : cases) {
     Pressure pressure = wiebe_pressure();
@@ -286,11 +291,11 @@ TEST(PressureDefinition, RefusesEveryWiebeFigureOutsideItsRangeByItsName) {
   EXPECT_TRUE(accepted(validate(pressure, support::diesel_495_crank())));
   pressure.wiebe.heat_given = true;
   pressure.wiebe.heat_J = -1;
-  EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::negative, "pressure.heat"));
+  EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::negative, "pressure.wiebe.heat_J"));
   pressure.wiebe.heat_J = 1e10;
-  EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::out_of_range, "pressure.heat"));
+  EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::out_of_range, "pressure.wiebe.heat_J"));
   pressure.wiebe.heat_J = kNaN;
-  EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::not_finite, "pressure.heat"));
+  EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::not_finite, "pressure.wiebe.heat_J"));
 }
 
 TEST(PressureDefinition, RefusesCombustionThatOutlastsTheClosedExhaustValve) {
@@ -300,8 +305,8 @@ TEST(PressureDefinition, RefusesCombustionThatOutlastsTheClosedExhaustValve) {
   pressure.wiebe.combustion_duration_deg = 120;
   EXPECT_TRUE(accepted(validate(pressure, support::diesel_495_crank())));
   pressure.wiebe.combustion_duration_deg = 120.001;
-  EXPECT_TRUE(
-      refuses(validate(pressure, support::diesel_495_crank()), Reason::inconsistent, "pressure.combustion_duration"));
+  EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::inconsistent,
+                      "pressure.wiebe.combustion_duration_deg"));
 }
 
 /// An angle table with a point every 10 deg.
@@ -332,10 +337,10 @@ TEST(PressureDefinition, AcceptsATableOfOnePeriodWithAndWithoutItsClosingRowFrom
 TEST(PressureDefinition, RefusesTablesThatAreNotOnePeriod) {
   std::vector<DiagramPoint> too_long = flat_table();
   too_long.push_back({720.1, 1e5});
-  EXPECT_TRUE(refuses(validate_table(too_long), Reason::not_one_period, "pressure.file"));
+  EXPECT_TRUE(refuses(validate_table(too_long), Reason::not_one_period, "pressure.points"));
   std::vector<DiagramPoint> one_turn = flat_table();
   one_turn.resize(37);
-  EXPECT_TRUE(refuses(validate_table(one_turn), Reason::not_one_period, "pressure.file"));
+  EXPECT_TRUE(refuses(validate_table(one_turn), Reason::not_one_period, "pressure.points"));
 }
 
 TEST(PressureDefinition, AcceptsAGapThatClosesTheCircleUpToSixtyDegreesWide) {
@@ -349,7 +354,7 @@ TEST(PressureDefinition, AcceptsAGapThatClosesTheCircleUpToSixtyDegreesWide) {
     };
     EXPECT_TRUE(accepted(with_gap(59.9))) << start;
     EXPECT_TRUE(accepted(with_gap(60))) << start;
-    EXPECT_TRUE(refuses(with_gap(60.1), Reason::not_one_period, "pressure.file")) << start;
+    EXPECT_TRUE(refuses(with_gap(60.1), Reason::not_one_period, "pressure.points")) << start;
   }
 }
 
@@ -358,7 +363,7 @@ TEST(PressureDefinition, RefusesAnAngleTableSoFarFromZeroThatADoubleHardlyTellsI
     std::vector<DiagramPoint> points = flat_table();
     for (DiagramPoint& point : points) point.at += start;
     const int row = start == 1e6 - 700 ? 71 : 0;  // from 999 300 deg on, the last row is the one beyond 1e6
-    EXPECT_TRUE(refuses(validate_table(points), Reason::out_of_range, "pressure.file", row)) << start;
+    EXPECT_TRUE(refuses(validate_table(points), Reason::out_of_range, "pressure.points", row)) << start;
   }
   for (const double start : {1e6 - 710, -1e6}) {
     std::vector<DiagramPoint> points = flat_table();
@@ -370,9 +375,9 @@ TEST(PressureDefinition, RefusesAnAngleTableSoFarFromZeroThatADoubleHardlyTellsI
 TEST(PressureDefinition, RefusesRowsThatDoNotRiseAndNamesTheRow) {
   std::vector<DiagramPoint> points = flat_table();
   points[40].at = points[39].at;
-  EXPECT_TRUE(refuses(validate_table(points), Reason::not_increasing, "pressure.file", 40));
+  EXPECT_TRUE(refuses(validate_table(points), Reason::not_increasing, "pressure.points", 40));
   points[40].at = points[39].at - 5;
-  EXPECT_TRUE(refuses(validate_table(points), Reason::not_increasing, "pressure.file", 40));
+  EXPECT_TRUE(refuses(validate_table(points), Reason::not_increasing, "pressure.points", 40));
 }
 
 TEST(PressureDefinition, RefusesRowsThatAreNoNumbersOrNoPressuresAndNamesTheRow) {
@@ -380,42 +385,81 @@ TEST(PressureDefinition, RefusesRowsThatAreNoNumbersOrNoPressuresAndNamesTheRow)
     for (const double bad : {kNaN, kInfinity, -kInfinity}) {
       std::vector<DiagramPoint> points = flat_table();
       points[17].at = bad;
-      EXPECT_TRUE(refuses(validate_table(points, source), Reason::not_finite, "pressure.file", 17));
+      EXPECT_TRUE(refuses(validate_table(points, source), Reason::not_finite, "pressure.points", 17));
       points = flat_table();
       points[71].pressure_Pa = bad;
-      EXPECT_TRUE(refuses(validate_table(points, source), Reason::not_finite, "pressure.file", 71));
+      EXPECT_TRUE(refuses(validate_table(points, source), Reason::not_finite, "pressure.points", 71));
     }
     std::vector<DiagramPoint> points = flat_table();
     points[5].pressure_Pa = -1;
-    EXPECT_TRUE(refuses(validate_table(points, source), Reason::out_of_range, "pressure.file", 5));
+    EXPECT_TRUE(refuses(validate_table(points, source), Reason::out_of_range, "pressure.points", 5));
     points[5].pressure_Pa = 1.1e8;
-    EXPECT_TRUE(refuses(validate_table(points, source), Reason::out_of_range, "pressure.file", 5));
+    EXPECT_TRUE(refuses(validate_table(points, source), Reason::out_of_range, "pressure.points", 5));
   }
 }
 
 TEST(PressureDefinition, RefusesTablesThatAreMissingOrTooShortOrTooLong) {
   for (const PressureSource source : {PressureSource::angle_table, PressureSource::volume_table}) {
-    EXPECT_TRUE(refuses(validate_table({}, source), Reason::too_few_points, "pressure.file"));
+    EXPECT_TRUE(refuses(validate_table({}, source), Reason::too_few_points, "pressure.points"));
     std::vector<DiagramPoint> few = flat_table();
     few.resize(7);
-    EXPECT_TRUE(refuses(validate_table(few, source), Reason::too_few_points, "pressure.file"));
+    EXPECT_TRUE(refuses(validate_table(few, source), Reason::too_few_points, "pressure.points"));
     Pressure pressure;
     pressure.source = source;
     pressure.point_count = 100;  // and no rows
-    EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::too_few_points, "pressure.file"));
+    EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::too_few_points, "pressure.points"));
     pressure.points = few.data();
     pressure.point_count = -5;
-    EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::too_few_points, "pressure.file"));
+    EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::too_few_points, "pressure.points"));
     pressure.point_count = (1 << 20) + 1;  // refused by its count, no row is read
-    EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::too_many_points, "pressure.file"));
+    EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::too_many_points, "pressure.points"));
   }
+}
+
+TEST(GasDefinition, SaysWhichFieldIsWrong) {
+  const EngineDefinition good = support::four_2000();
+  EXPECT_TRUE(accepted(validate(good)));
+  const auto refused = [&good](const auto& spoil, Reason reason, const char* field) {
+    EngineDefinition engine = good;
+    spoil(engine.gas);
+    const Status answer = validate(engine);
+    return answer.reason == reason && std::string(answer.field) == field;
+  };
+  EXPECT_TRUE(refused([](Gas& g) { g.intake_m3 = 0; }, Reason::not_positive, "gas.intake_m3"));
+  EXPECT_TRUE(refused([](Gas& g) { g.exhaust_m3 = kNaN; }, Reason::not_finite, "gas.exhaust_m3"));
+  EXPECT_TRUE(refused([](Gas& g) { g.throttle_closed_m2 = 1; }, Reason::inconsistent, "gas.throttle_closed_m2"));
+  EXPECT_TRUE(refused([](Gas& g) { g.throttle_count = 1; }, Reason::too_few_points, "gas.throttle_ratio"));
+  EXPECT_TRUE(refused([](Gas& g) { g.throttle_count = 17; }, Reason::too_many_points, "gas.throttle_ratio"));
+  EXPECT_TRUE(refused([](Gas& g) { g.throttle_ratio[1] = 0; }, Reason::not_increasing, "gas.throttle_ratio"));
+  EXPECT_TRUE(refused([](Gas& g) { g.throttle_ratio[3] = 0.9; }, Reason::inconsistent, "gas.throttle_ratio"));
+  EXPECT_TRUE(refused([](Gas& g) { g.ambient_K = 149; }, Reason::out_of_range, "gas.ambient_K"));
+  EXPECT_TRUE(refused([](Gas& g) { g.latch_deg = -89; }, Reason::out_of_range, "gas.latch_deg"));
+  EXPECT_TRUE(refused([](Gas& g) { g.burn_start_deg = 101; }, Reason::out_of_range, "gas.burn_start_deg"));
+  EXPECT_TRUE(refused([](Gas& g) { g.burn_start_deg = 60, g.burn_duration_deg = 91; }, Reason::inconsistent,
+                      "gas.burn_duration_deg"));
+  EXPECT_TRUE(refused([](Gas& g) { g.second_ratio = 0.1, g.burn_duration_deg = 60; }, Reason::inconsistent,
+                      "gas.burn_duration_deg"));
+  EXPECT_TRUE(refused([](Gas& g) { g.ports[1].port = GasPort::none; }, Reason::inconsistent, "gas.port"));
+  EXPECT_TRUE(refused([](Gas& g) { g.ports[0].port = static_cast<GasPort>(3); }, Reason::inconsistent, "gas.port"));
+  EXPECT_TRUE(refused([](Gas& g) { g.ports[0].seat_diameter_m = 0; }, Reason::not_positive, "gas.seat_diameter_m"));
+  EXPECT_TRUE(refused([](Gas& g) { g.ports[0].flow_ratio[0] = 0.1; }, Reason::inconsistent, "gas.flow_lift_ratio"));
+  EXPECT_TRUE(
+      refused([](Gas& g) { g.ports[1].flow_lift_ratio[9] = 0.6; }, Reason::out_of_range, "gas.flow_lift_ratio"));
+  EngineDefinition valveless = good;
+  valveless.train_count = 0;
+  EXPECT_TRUE(refuses(validate(valveless), Reason::inconsistent, "train_count"));
+  EngineDefinition unread = good;  // of an engine with a diagram nothing of the gas counts
+  unread.pressure.source = PressureSource::none;
+  unread.gas.intake_m3 = -1;
+  EXPECT_TRUE(accepted(validate(unread)));
 }
 
 TEST(PressureDefinition, RefusesASourceThatIsNone) {
   Pressure pressure = wiebe_pressure();
-  for (const int number : {4, 5, 128, 255}) {
+  for (const int number : {5, 6, 128, 255}) {
     pressure.source = static_cast<PressureSource>(number);
-    EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::out_of_range, "pressure.source")) << number;
+    EXPECT_TRUE(refuses(validate(pressure, support::diesel_495_crank()), Reason::out_of_range, "pressure.source"))
+        << number;
   }
 }
 
@@ -429,18 +473,18 @@ TEST(EngineDefinition, IsRefusedForItsFirstBadPart) {
   engine.pressure = wiebe_pressure();
   EXPECT_TRUE(accepted(validate(engine)));
   engine.pressure.crankcase_Pa = -1;
-  EXPECT_TRUE(refuses(validate(engine), Reason::not_positive, "pressure.crankcase"));
+  EXPECT_TRUE(refuses(validate(engine), Reason::not_positive, "pressure.crankcase_Pa"));
   engine.layout.cylinders = 0;
   EXPECT_TRUE(refuses(validate(engine), Reason::out_of_range, "layout.cylinders"));
   engine.masses.piston_kg = -1;
-  EXPECT_TRUE(refuses(validate(engine), Reason::negative, "masses.piston"));
+  EXPECT_TRUE(refuses(validate(engine), Reason::negative, "masses.piston_kg"));
   engine.crank.bore_m = 0;
-  EXPECT_TRUE(refuses(validate(engine), Reason::not_positive, "crank.bore"));
+  EXPECT_TRUE(refuses(validate(engine), Reason::not_positive, "crank.bore_m"));
 }
 
 TEST(Reasons, EachHaveTheirOwnWords) {
   std::vector<std::string> phrases;
-  for (int i = 0; i <= static_cast<int>(Reason::already_created); ++i) {
+  for (int i = 0; i <= static_cast<int>(Reason::unknown_name); ++i) {
     const std::string phrase = describe(static_cast<Reason>(i));
     EXPECT_FALSE(phrase.empty());
     for (const std::string& earlier : phrases) EXPECT_NE(phrase, earlier);
@@ -453,8 +497,9 @@ TEST(Reasons, EachHaveTheirOwnWords) {
 
 template <class Part>
 void expect_none_or_positive(const char* field, double Part::*member, double most) {
-  for (const Bad& bad : {Bad{-1e-9, Reason::negative}, Bad{kNaN, Reason::not_finite}, Bad{kInfinity, Reason::not_finite},
-                         Bad{std::nextafter(most, kInfinity), Reason::out_of_range}}) {
+  for (const Bad& bad :
+       {Bad{-1e-9, Reason::negative}, Bad{kNaN, Reason::not_finite}, Bad{kInfinity, Reason::not_finite},
+        Bad{std::nextafter(most, kInfinity), Reason::out_of_range}}) {
     Part part;
     part.*member = bad.value;
     EXPECT_TRUE(refuses(validate(part), bad.reason, field)) << bad.value;
@@ -467,16 +512,17 @@ void expect_none_or_positive(const char* field, double Part::*member, double mos
 }
 
 TEST(CrankshaftDefinition, RefusesFrictionLoadAndStarterOutsideTheirRangesByName) {
-  expect_none_or_positive("friction.constant", &Friction::constant_Pa, 1e7);
-  expect_none_or_positive("friction.linear", &Friction::linear_Pa_s, 1e6);
-  expect_none_or_positive("friction.quadratic", &Friction::quadratic_Pa_s2, 1e6);
-  expect_none_or_positive("load.constant", &Load::constant_Nm, 1e7);
-  expect_none_or_positive("load.linear", &Load::linear_Nm_s, 1e6);
-  expect_none_or_positive("load.quadratic", &Load::quadratic_Nm_s2, 1e6);
-  expect_none_or_positive("load.inertia", &Load::inertia_kg_m2, 1e6);
-  EXPECT_TRUE(refuses(validate(Starter{-1, 10}), Reason::negative, "starter.stall"));
-  EXPECT_TRUE(refuses(validate(Starter{1, 0}), Reason::not_positive, "starter.no_load"));  // a torque that never ends
-  EXPECT_TRUE(refuses(validate(Starter{1, 1.1e4}), Reason::out_of_range, "starter.no_load"));
+  expect_none_or_positive("friction.constant_Pa", &Friction::constant_Pa, 1e7);
+  expect_none_or_positive("friction.linear_Pa_s", &Friction::linear_Pa_s, 1e6);
+  expect_none_or_positive("friction.quadratic_Pa_s2", &Friction::quadratic_Pa_s2, 1e6);
+  expect_none_or_positive("machine.constant_Nm", &DrivenMachine::constant_Nm, 1e7);
+  expect_none_or_positive("machine.linear_Nm_s", &DrivenMachine::linear_Nm_s, 1e6);
+  expect_none_or_positive("machine.quadratic_Nm_s2", &DrivenMachine::quadratic_Nm_s2, 1e6);
+  expect_none_or_positive("machine.inertia_kg_m2", &DrivenMachine::inertia_kg_m2, 1e6);
+  EXPECT_TRUE(refuses(validate(Starter{-1, 10}), Reason::negative, "starter.stall_Nm"));
+  EXPECT_TRUE(
+      refuses(validate(Starter{1, 0}), Reason::not_positive, "starter.no_load_rad_s"));  // a torque that never ends
+  EXPECT_TRUE(refuses(validate(Starter{1, 1.1e4}), Reason::out_of_range, "starter.no_load_rad_s"));
   EXPECT_TRUE(accepted(validate(Starter{0, 0})));
   EXPECT_TRUE(accepted(validate(Starter{300, 30})));
 }

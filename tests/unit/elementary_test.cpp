@@ -265,15 +265,22 @@ TEST(Elementary, PowerKeepsItsStatedErrorForPolytropesAndBeyond) {
 }
 
 TEST(Elementary, QuickFunctionsKeepTheirStatedError) {
-  expect_within(kQuickArc_ulp, quick_atan2_at, "all directions to the right", [](Draw& d) { return Point{std::fabs(d.even(0)), d.even(0)}; });
-  expect_within(kQuickArc_ulp, quick_atan2_at, "near the axes", [](Draw& d) { return Point{std::fabs(d.any_size(-500, 500)), d.any_size(-500, 500)}; });
+  expect_within(kQuickArc_ulp, quick_atan2_at, "all directions to the right", [](Draw& d) {
+    return Point{std::fabs(d.even(0)), d.even(0)};
+  });
+  expect_within(kQuickArc_ulp, quick_atan2_at, "near the axes", [](Draw& d) {
+    return Point{std::fabs(d.any_size(-500, 500)), d.any_size(-500, 500)};
+  });
   for (const auto power : {fixed_power_at<-3>, fixed_power_at<100>, fixed_power_at<-100>, fixed_power_at<37>}) {
-    expect_within(kFixedPower_ulp, power, "volume ratios", [](Draw& d) { return Point{1.0 + 126.9 * std::fabs(d.even(0))}; });
-    expect_within(kFixedPower_ulp, power, "near dead centre", [](Draw& d) { return Point{1.0 + std::fabs(d.any_size(-52, -1))}; });
+    expect_within(kFixedPower_ulp, power, "volume ratios",
+                  [](Draw& d) { return Point{1.0 + 126.9 * std::fabs(d.even(0))}; });
+    expect_within(kFixedPower_ulp, power, "near dead centre",
+                  [](Draw& d) { return Point{1.0 + std::fabs(d.any_size(-52, -1))}; });
   }
   EXPECT_EQ(el::quick_atan2(0.0, 1.0), 0.0);
   EXPECT_EQ(el::quick_atan2(-1.0, 0.0), -kPi / 2.0);
-  for (const double outside : {0.0, neighbour(1.0, -1), 128.0, kInfinity, kNaN}) EXPECT_TRUE(std::isnan(el::FixedPower(0.5)(outside))) << outside;
+  for (const double outside : {0.0, neighbour(1.0, -1), 128.0, kInfinity, kNaN})
+    EXPECT_TRUE(std::isnan(el::FixedPower(0.5)(outside))) << outside;
 }
 
 // ---- Identities -----------------------------------------------------------------------------------------------------

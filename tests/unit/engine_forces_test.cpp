@@ -115,8 +115,8 @@ TYPED_TEST(EngineForces, TorqueReadFromCurvesIsTheSumOfTheForcesTorques) {
 }
 
 TYPED_TEST(EngineForces, TorqueOfMeasuredPressuresIsTheirWorkOnTheVolumes) {
-  // Two engines side by side, one of them with nothing but the crankcase's pressure in its cylinders: what their torques differ by is
-  // the gas's, (p - p_0) dV/da, whoever adds it up.
+  // Two engines side by side, one of them with nothing but the crankcase's pressure in its cylinders: what their
+  // torques differ by is the gas's, (p - p_0) dV/da, whoever adds it up.
   using Real = TypeParam;
   const auto gas_torque_is_work = [](const EngineDefinition& engine, auto scene) {
     using E = Engine<Real, decltype(scene)>;
@@ -131,16 +131,20 @@ TYPED_TEST(EngineForces, TorqueOfMeasuredPressuresIsTheirWorkOnTheVolumes) {
       auto idle = in;
       for (Real& pressure : in.pressure_Pa) pressure = static_cast<Real>(random.between(0.5e5, 60e5));
       for (Real& pressure : idle.pressure_Pa) pressure = static_cast<Real>(engine.pressure.crankcase_Pa);
-      const auto torque_Nm = static_cast<double>(fired.engine.step(in).torque_Nm) - static_cast<double>(at_rest.engine.step(idle).torque_Nm);
+      const auto torque_Nm = static_cast<double>(fired.engine.step(in).torque_Nm) -
+                             static_cast<double>(at_rest.engine.step(idle).torque_Nm);
       const auto deg = static_cast<double>(deg_of(fired.engine.state().phase));
       double work_Nm = 0;
       for (std::size_t k = 0; k < static_cast<std::size_t>(engine.layout.cylinders); ++k) {
-        const double slope_m = static_cast<double>(oracle_pose_at_deg(engine.crank, deg - engine.layout.firing_deg[k]).slope_m);
+        const double slope_m =
+            static_cast<double>(oracle_pose_at_deg(engine.crank, deg - engine.layout.firing_deg[k]).slope_m);
         work_Nm += (static_cast<double>(in.pressure_Pa[k]) - engine.pressure.crankcase_Pa) * area_m2 * slope_m;
       }
-      // Of each cylinder: the kinematics' error (tick_kinematics_test) of 60 bar, and roundings of the masses' 2 kNm at 300 rad/s.
+      // Of each cylinder: the kinematics' error (tick_kinematics_test) of 60 bar, and roundings of the masses' 2 kNm at
+      // 300 rad/s.
       const double scale_Nm = 60e5 * area_m2 * engine.crank.crank_radius_m + 500;
-      ASSERT_NEAR(torque_Nm, work_Nm, engine.layout.cylinders * (sizeof(Real) == 4 ? 1.2e-6 : 4e-9) * scale_Nm) << random.trace(draw);
+      ASSERT_NEAR(torque_Nm, work_Nm, engine.layout.cylinders * (sizeof(Real) == 4 ? 1.2e-6 : 4e-9) * scale_Nm)
+          << random.trace(draw);
     }
   };
   for (const EngineDefinition& engine : {diesel_495(), uneven_v4()}) {

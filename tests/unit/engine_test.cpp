@@ -18,6 +18,8 @@
 #include "support/tick_oracle.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 namespace {
 
 using namespace tick_test;

@@ -1,4 +1,5 @@
-// Cylinder pressure synthesised from a heat release obeys its equations; the motored diagram of any source. Tables: indicator_table_test.cpp.
+// Cylinder pressure synthesised from a heat release obeys its equations; the motored diagram of any source. Tables:
+// indicator_table_test.cpp.
 #include <crankloop/tabulate/indicator_diagram.hpp>
 #include <crankloop/tabulate/mechanism.hpp>
 
@@ -218,7 +219,8 @@ TEST(MotoredDiagram, WithoutLossRetracesTheCompressionVolumeForVolume) {
     for (double deg = top + 1; deg < 134; deg += 1.1) {
       const double up = same_height_going_up(crank, deg, bottom, top);
       const double p = diagram.motored_Pa(deg);
-      EXPECT_NEAR(p, diagram.motored_Pa(up), 1e-9 * p) << deg;  // the bisection's angle near top dead centre: 1e-8 of p's slope
+      EXPECT_NEAR(p, diagram.motored_Pa(up), 1e-9 * p)
+          << deg;  // the bisection's angle near top dead centre: 1e-8 of p's slope
     }
   }
 }
@@ -344,7 +346,9 @@ TEST(SynthesisedDiagram, HeatFoundForTheMeanEffectivePressureGivesItBack) {
 
 double net_mep_Pa(const Crank& crank, const IndicatorDiagram& diagram,
                   double (IndicatorDiagram::*curve)(double) const noexcept, int steps = 72'000) {
-  return support::loop_work_J(crank, [&](double deg) { return (diagram.*curve)(deg); }, steps) / support::swept_m3(crank);
+  return support::loop_work_J(
+             crank, [&](double deg) { return (diagram.*curve)(deg); }, steps) /
+         support::swept_m3(crank);
 }
 
 TEST(MotoredDiagram, OfThe495IsCompressedByOneExponentAndExpandedByALargerOneAndCosts25KPa) {
@@ -354,7 +358,8 @@ TEST(MotoredDiagram, OfThe495IsCompressedByOneExponentAndExpandedByALargerOneAnd
   constexpr double kUsual = 1.35 + 0.03;
   for (double deg = 0.05; deg < 720; deg += 0.37) {
     const double want = support::motored_cycle_Pa(crank, w, kUsual, deg);
-    // The volume of the first degree after dead centre hangs on its rounding: 1e-16 of r, 1e-13 of the clearance height.
+    // The volume of the first degree after dead centre hangs on its rounding: 1e-16 of r, 1e-13 of the clearance
+    // height.
     EXPECT_NEAR(diagram.motored_Pa(deg), want, 1e-11 * want) << deg;
   }
   const double loss_Pa = net_mep_Pa(crank, diagram, &IndicatorDiagram::motored_Pa);
@@ -430,7 +435,8 @@ TEST(MotoredDiagram, OfALoopOverVolumeIsThatOfTheTraceOverAngle) {
   const Rows rows = support::angle_rows(smooth_pressure_Pa, 2);
   const IndicatorDiagram of_angles = diagram_of_rows(rows, PressureSource::angle_table, crank);
   EXPECT_LT(mep_Pa, -10e3);
-  // Between rows 0.5 deg apart either table is off by h^2/4 of the bend, some hundred Pa at the peak, alike in sign up and down.
+  // Between rows 0.5 deg apart either table is off by h^2/4 of the bend, some hundred Pa at the peak, alike in sign up
+  // and down.
   EXPECT_NEAR(mep_Pa, net_mep_Pa(crank, of_angles, &IndicatorDiagram::motored_Pa), 20);
 }
 
@@ -446,7 +452,8 @@ TEST(SynthesisedDiagram, AnyMeanEffectivePressureFromTheMotoredOneOnIsMet) {
     // Midpoint pressures, h = 0.01 deg: h^2/12 of p' V'' and corners of p, below 1e-8 of 200 bar.
     EXPECT_NEAR(net_mep_Pa(crank, diagram, &IndicatorDiagram::full_Pa), mep_Pa, 0.2) << mep_Pa;
     EXPECT_GE(diagram.heat_J(), 0);
-    // Only the heat is another: the motored diagram stays, and a little more work is a little more pressure, without a step.
+    // Only the heat is another: the motored diagram stays, and a little more work is a little more pressure, without a
+    // step.
     EXPECT_EQ(diagram.motored_Pa(30), usual.motored_Pa(30));
     EXPECT_GE(diagram.full_Pa(60), usual.motored_Pa(60));
     EXPECT_GT(mep_Pa, before_Pa);
@@ -455,7 +462,7 @@ TEST(SynthesisedDiagram, AnyMeanEffectivePressureFromTheMotoredOneOnIsMet) {
   WiebeDiagram less = wiebe_495();
   less.net_mep_Pa = motored_Pa - 1;
   IndicatorDiagram diagram;
-  EXPECT_TRUE(refuses(diagram.init(crank, wiebe_pressure(less)), Reason::no_solution, "pressure.net_mep"));
+  EXPECT_TRUE(refuses(diagram.init(crank, wiebe_pressure(less)), Reason::no_solution, "pressure.wiebe.net_mep_Pa"));
 }
 
 TEST(SynthesisedDiagram, WithoutHeatIsTheMotoredOne) {
@@ -479,7 +486,8 @@ TEST(SynthesisedDiagram, RefusesAnExhaustValveThatOpensAfterTheBottomDeadCentreO
   IndicatorDiagram diagram;
   EXPECT_TRUE(accepted(diagram.init(crank, wiebe_pressure(w))));
   w.exhaust_valve_opens_deg = 175;
-  EXPECT_TRUE(refuses(diagram.init(crank, wiebe_pressure(w)), Reason::inconsistent, "pressure.exhaust_valve_opens"));
+  EXPECT_TRUE(
+      refuses(diagram.init(crank, wiebe_pressure(w)), Reason::inconsistent, "pressure.wiebe.exhaust_valve_opens_deg"));
 }
 
 TEST(SynthesisedDiagram, RefusesHeatAndCompressionThatWouldMakeMoreThanAThousandBar) {
@@ -496,7 +504,7 @@ TEST(SynthesisedDiagram, RefusesHeatAndCompressionThatWouldMakeMoreThanAThousand
   double added_Pa = 0;
   for (double deg = 0; deg < 90; deg += 0.1) added_Pa = std::max(added_Pa, twice.full_Pa(deg) - diagram.full_Pa(deg));
   w.heat_J = 1000 * 1e8 / added_Pa;
-  EXPECT_TRUE(refuses(diagram.init(crank, wiebe_pressure(w)), Reason::pressure_too_high, "pressure.heat"));
+  EXPECT_TRUE(refuses(diagram.init(crank, wiebe_pressure(w)), Reason::pressure_too_high, "pressure.wiebe.heat_J"));
   w.heat_J *= 0.9;
   ASSERT_TRUE(accepted(diagram.init(crank, wiebe_pressure(w))));
   EXPECT_GT(diagram.peak_Pa(), 0.9e8);
@@ -505,24 +513,25 @@ TEST(SynthesisedDiagram, RefusesHeatAndCompressionThatWouldMakeMoreThanAThousand
   Crank pin_hole = crank;
   pin_hole.bore_m = 1e-9;
   w.heat_J = 1e9;
-  EXPECT_TRUE(refuses(diagram.init(pin_hole, wiebe_pressure(w)), Reason::pressure_too_high, "pressure.heat"));
+  EXPECT_TRUE(refuses(diagram.init(pin_hole, wiebe_pressure(w)), Reason::pressure_too_high, "pressure.wiebe.heat_J"));
 
   w = wiebe_495();
   w.net_mep_Pa = 1e8;  // a mean pressure of 1000 bar has a larger peak
-  EXPECT_TRUE(refuses(diagram.init(crank, wiebe_pressure(w)), Reason::pressure_too_high, "pressure.net_mep"));
+  EXPECT_TRUE(refuses(diagram.init(crank, wiebe_pressure(w)), Reason::pressure_too_high, "pressure.wiebe.net_mep_Pa"));
 
   w = wiebe_495();
   w.intake_Pa = 1e7;  // 100 bar, compressed 19 times by the power of 1.35: 5000 bar without any heat
   w.heat_given = true;
   w.heat_J = 0;
-  EXPECT_TRUE(refuses(diagram.init(crank, wiebe_pressure(w)), Reason::pressure_too_high, "pressure.intake"));
+  EXPECT_TRUE(refuses(diagram.init(crank, wiebe_pressure(w)), Reason::pressure_too_high, "pressure.wiebe.intake_Pa"));
 }
 
 TEST(Diagram, OfAnySourceKnowsItsPeak) {
   const Crank crank = support::diesel_495_crank();
   const Rows rows = support::angle_rows(smooth_pressure_Pa, 10);
   Pressure none;
-  for (const Pressure& pressure : {none, wiebe_pressure(wiebe_495()), support::table_pressure(PressureSource::angle_table, rows)}) {
+  for (const Pressure& pressure :
+       {none, wiebe_pressure(wiebe_495()), support::table_pressure(PressureSource::angle_table, rows)}) {
     const IndicatorDiagram diagram = diagram_of(crank, pressure);
     double peak_Pa = 0;
     for (int i = 0; i < 7200; ++i) peak_Pa = std::max(peak_Pa, diagram.full_Pa(i / 10.0));
@@ -534,12 +543,13 @@ TEST(SynthesisedDiagram, RefusesWhatItsDefinitionRefuses) {
   IndicatorDiagram diagram;
   Crank crank = support::diesel_495_crank();
   crank.bore_m = -1;
-  EXPECT_TRUE(refuses(diagram.init(crank, wiebe_pressure(wiebe_495())), Reason::not_positive, "crank.bore"));
+  EXPECT_TRUE(refuses(diagram.init(crank, wiebe_pressure(wiebe_495())), Reason::not_positive, "crank.bore_m"));
   WiebeDiagram w = wiebe_495();
   w.expansion_exponent = 1;
   EXPECT_TRUE(refuses(diagram.init(support::diesel_495_crank(), wiebe_pressure(w)), Reason::out_of_range,
-                      "pressure.expansion_exponent"));
-  EXPECT_TRUE(accepted(diagram.init(support::diesel_495_crank(), wiebe_pressure(wiebe_495())))) << "a refusal leaves nothing behind";
+                      "pressure.wiebe.expansion_exponent"));
+  EXPECT_TRUE(accepted(diagram.init(support::diesel_495_crank(), wiebe_pressure(wiebe_495()))))
+      << "a refusal leaves nothing behind";
   EXPECT_NEAR(diagram.full_Pa(400), 98e3, 1);
 }
 

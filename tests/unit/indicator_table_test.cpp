@@ -1,4 +1,5 @@
-// Cylinder pressure from tables over the angle or the volume: they give back what they were made of, and their motored part.
+// Cylinder pressure from tables over the angle or the volume: they give back what they were made of, and their motored
+// part.
 #include <crankloop/tabulate/indicator_diagram.hpp>
 #include <crankloop/tabulate/mechanism.hpp>
 
@@ -14,6 +15,8 @@
 #include "support/random.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 namespace {
 
 using namespace support;
@@ -142,7 +145,7 @@ TEST(AngleTable, OfASmoothCurveIsThatCurveToTheSquareOfItsSpacing) {
     const IndicatorDiagram diagram = diagram_of_rows(rows, PressureSource::angle_table);
     const double h = 1.0 / per_degree;
     for (double deg = -360; deg < 720; deg += 0.0371) {
-      EXPECT_NEAR(diagram.full_Pa(deg), smooth_pressure_Pa(deg), h * h / 4 * kMostBent_Pa_deg2) << deg;
+      EXPECT_NEAR(diagram.full_Pa(deg), smooth_pressure_Pa(deg), h * h / 4 * kMaxBent_Pa_deg2) << deg;
     }
   }
 }
@@ -199,7 +202,8 @@ TEST(AngleTable, MotoredHasNoHeatInCompressionAndIntakeAndNoBlowDown) {
 }
 
 TEST(AngleTable, MotoredGoesFromCompressionToExhaustPressureInAStraightLineOfTenDegrees) {
-  // One pressure from well before bottom dead centre of the compression, another in all of the exhaust stroke and some way beyond.
+  // One pressure from well before bottom dead centre of the compression, another in all of the exhaust stroke and some
+  // way beyond.
   constexpr double kCompression_Pa = 0.9e5, kExhaust_Pa = 1.5e5;
   const auto trace = [](double deg) { return deg >= 90 && deg <= 400 ? kExhaust_Pa : kCompression_Pa; };
   const Rows rows = support::angle_rows(trace, 2);
@@ -207,10 +211,12 @@ TEST(AngleTable, MotoredGoesFromCompressionToExhaustPressureInAStraightLineOfTen
     const Crank crank = crank_with_offset(offset_ratio);
     const IndicatorDiagram diagram = diagram_of_rows(rows, PressureSource::angle_table, crank);
     const double bottom = dead_centres(crank).bdc_rad / kRadPerDeg;
-    const double bottom_Pa = kCompression_Pa * std::pow(crank.compression_ratio, -0.03);  // less what it has lost on its way up and down
+    const double bottom_Pa =
+        kCompression_Pa * std::pow(crank.compression_ratio, -0.03);  // less what it has lost on its way up and down
     for (double beyond_deg = 0.5; beyond_deg < 15; ++beyond_deg) {
       const double line_Pa = bottom_Pa + (kExhaust_Pa - bottom_Pa) * std::min(beyond_deg / 10, 1.0);
-      EXPECT_NEAR(diagram.motored_Pa(bottom + beyond_deg), line_Pa, 1e-9 * kExhaust_Pa) << beyond_deg << ", offset " << offset_ratio;
+      EXPECT_NEAR(diagram.motored_Pa(bottom + beyond_deg), line_Pa, 1e-9 * kExhaust_Pa)
+          << beyond_deg << ", offset " << offset_ratio;
     }
   }
 }
@@ -280,7 +286,7 @@ TEST(VolumeTable, MadeFromAKnownPressureOverTheAngleGivesItBack) {
       // Between the points: as an angle table, with the wider gap across a dead centre that was not given.
       const double h = with_dead_centres ? step_deg : 1.5 * step_deg;
       for (double deg = 0; deg < 720; deg += 0.0937) {
-        EXPECT_NEAR(diagram.full_Pa(deg), smooth_pressure_Pa(deg), h * h / 4 * kMostBent_Pa_deg2 * 1.1) << deg;
+        EXPECT_NEAR(diagram.full_Pa(deg), smooth_pressure_Pa(deg), h * h / 4 * kMaxBent_Pa_deg2 * 1.1) << deg;
       }
     }
   }
@@ -347,7 +353,7 @@ TEST(VolumeTable, RefusesVolumesThatTheCylinderDoesNotHave) {
       loop.rows[row].at = bad;
       IndicatorDiagram diagram;
       EXPECT_TRUE(refuses(diagram.init(crank, support::table_pressure(PressureSource::volume_table, loop.rows)),
-                          Reason::out_of_range, "pressure.file", static_cast<int>(row)));
+                          Reason::out_of_range, "pressure.points", static_cast<int>(row)));
     }
   }
 }
@@ -372,11 +378,11 @@ TEST(VolumeTable, RefusesLoopsThatAreNoFourStrokes) {
 
   Rows shaking = loop.rows;
   std::swap(shaking[30], shaking[31]);
-  EXPECT_TRUE(refuses(answer(shaking), Reason::not_a_cycle, "pressure.file", 31)) << "turns back in mid-stroke";
+  EXPECT_TRUE(refuses(answer(shaking), Reason::not_a_cycle, "pressure.points", 31)) << "turns back in mid-stroke";
 
   Rows standing = loop.rows;
   standing[30].at = standing[29].at;
-  EXPECT_TRUE(refuses(answer(standing), Reason::not_a_cycle, "pressure.file", 30)) << "stands still";
+  EXPECT_TRUE(refuses(answer(standing), Reason::not_a_cycle, "pressure.points", 30)) << "stands still";
 
   Rows short_stroke = part(0, 60);  // turns at 120 deg, then from there back up
   for (int i = 120; i < 360; ++i) short_stroke.push_back(loop.rows[static_cast<std::size_t>(i)]);
@@ -399,8 +405,8 @@ TEST(VolumeTable, RefusesLoopsThatAreNoFourStrokes) {
 }
 
 TEST(VolumeTable, MayTurnTwoHundredthsOfTheSweptVolumeFromADeadCentreAndNoMore) {
-  // A measured loop whose volumes are a little off: a row at a dead centre stands 1.9 or 2.1 % of the swept volume from it. Inside the stroke
-  // its neighbours, which would be beyond it, are left out; outside no second row is.
+  // A measured loop whose volumes are a little off: a row at a dead centre stands 1.9 or 2.1 % of the swept volume from
+  // it. Inside the stroke its neighbours, which would be beyond it, are left out; outside no second row is.
   const Crank crank = support::diesel_495_crank();
   const VolumeLoop loop = volume_loop(crank, smooth_pressure_Pa, 2, true);
   const double top_m3 = loop.rows[0].at;
@@ -412,7 +418,8 @@ TEST(VolumeTable, MayTurnTwoHundredthsOfTheSweptVolumeFromADeadCentreAndNoMore) 
     for (std::size_t i = 0; i < loop.rows.size(); ++i) {
       if (i == turn) {
         rows.push_back({at_m3, loop.rows[i].pressure_Pa});
-      } else if (sign * (loop.rows[i].at - at_m3) > 0 || std::min((i + 360 - turn) % 360, (turn + 360 - i) % 360) > 90) {
+      } else if (sign * (loop.rows[i].at - at_m3) > 0 ||
+                 std::min((i + 360 - turn) % 360, (turn + 360 - i) % 360) > 90) {
         rows.push_back(loop.rows[i]);
       }
     }

@@ -65,13 +65,13 @@ TEST(FiringOrder, OfAnyEngineLeavesEqualIntervalsBetweenNeighboursInTheOrder) {
 TEST(FiringOrder, ThatIsNoPermutationIsRefusedAtTheEntryThatBreaksIt) {
   Layout layout = inline_four();
   const int twice[] = {1, 3, 3, 2};
-  EXPECT_TRUE(refuses(set_firing_order(twice, 4, layout), Reason::not_a_permutation, "layout.firing_order", 2));
+  EXPECT_TRUE(refuses(set_firing_order(twice, 4, layout), Reason::not_a_permutation, "order", 2));
   const int beyond[] = {1, 3, 4, 5};
-  EXPECT_TRUE(refuses(set_firing_order(beyond, 4, layout), Reason::not_a_permutation, "layout.firing_order", 3));
+  EXPECT_TRUE(refuses(set_firing_order(beyond, 4, layout), Reason::not_a_permutation, "order", 3));
   const int zero[] = {0, 3, 4, 2};
-  EXPECT_TRUE(refuses(set_firing_order(zero, 4, layout), Reason::not_a_permutation, "layout.firing_order", 0));
+  EXPECT_TRUE(refuses(set_firing_order(zero, 4, layout), Reason::not_a_permutation, "order", 0));
   const int negative[] = {1, -2147483647 - 1, 4, 2};
-  EXPECT_TRUE(refuses(set_firing_order(negative, 4, layout), Reason::not_a_permutation, "layout.firing_order", 1));
+  EXPECT_TRUE(refuses(set_firing_order(negative, 4, layout), Reason::not_a_permutation, "order", 1));
   for (std::size_t k = 0; k < 4; ++k)
     EXPECT_EQ(layout.firing_deg[k], inline_four().firing_deg[k]) << "a refusal changes nothing";
 }
@@ -99,9 +99,9 @@ TEST(LayoutDefinition, RefusesAnAngleOrPlaceThatIsNoneAndNamesTheCylinder) {
     std::array<double, kMaxCylinders> Layout::*member;
     const char* field;
     double too_low, too_high;
-  } fields[] = {{&Layout::firing_deg, "layout.firing_angles", -1e-9, 720},
-                {&Layout::bank_deg, "layout.bank_angles", -360.5, 360.5},
-                {&Layout::position_m, "layout.cylinder_positions", -100.5, 100.5}};
+  } fields[] = {{&Layout::firing_deg, "layout.firing_deg", -1e-9, 720},
+                {&Layout::bank_deg, "layout.bank_deg", -360.5, 360.5},
+                {&Layout::position_m, "layout.position_m", -100.5, 100.5}};
   for (const auto& field : fields) {
     for (const Bad& bad :
          {Bad{kNaN, Reason::not_finite}, Bad{kInfinity, Reason::not_finite}, Bad{-kInfinity, Reason::not_finite},
@@ -126,23 +126,23 @@ TEST(LayoutDefinition, RefusesCylindersThatShareAPinTheirThrowsDoNotAllow) {
   layout.pin = {0, 1, 1, 2};  // 2 and 3 fire 360 deg apart: their throws point the same way
   EXPECT_TRUE(accepted(validate(layout)));
   layout.pin = {0, 0, 1, 2};  // 1 and 2 are half a turn apart
-  EXPECT_TRUE(refuses(validate(layout), Reason::inconsistent, "layout.shared_pins", 1));
+  EXPECT_TRUE(refuses(validate(layout), Reason::inconsistent, "layout.pin", 1));
 }
 
 TEST(LayoutDefinition, RefusesPinNumbersWithAGapOrBeyondTheCylinders) {
   Layout layout = inline_four();
   layout.pin = {0, 2, 2, 3};
-  EXPECT_TRUE(refuses(validate(layout), Reason::inconsistent, "layout.shared_pins"));
+  EXPECT_TRUE(refuses(validate(layout), Reason::inconsistent, "layout.pin"));
   layout.pin = {1, 2, 2, 3};
-  EXPECT_TRUE(refuses(validate(layout), Reason::inconsistent, "layout.shared_pins"));
+  EXPECT_TRUE(refuses(validate(layout), Reason::inconsistent, "layout.pin"));
   layout.pin = {0, 1, 4, 2};
-  EXPECT_TRUE(refuses(validate(layout), Reason::out_of_range, "layout.shared_pins", 2));
+  EXPECT_TRUE(refuses(validate(layout), Reason::out_of_range, "layout.pin", 2));
 }
 
 TEST(LayoutDefinition, RefusesPinsThatAreNotNumberedAlongTheShaft) {
   Layout layout = inline_four();
   layout.pin = {0, 1, 3, 2};
-  EXPECT_TRUE(refuses(validate(layout), Reason::inconsistent, "layout.shared_pins"));
+  EXPECT_TRUE(refuses(validate(layout), Reason::inconsistent, "layout.pin"));
   layout.position_m = {0, 0.1, 0.3, 0.2};
   EXPECT_TRUE(accepted(validate(layout)));
 }

@@ -1,4 +1,5 @@
-// `crankloop lift` and the valve trains of an engine file: the 125's table, measured cams, and what is said about trains that cannot work.
+// `crankloop lift` and the valve trains of an engine file: the 125's table, measured cams, and what is said about
+// trains that cannot work.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
@@ -99,7 +100,8 @@ class LiftCommand : public testing::Test {
     EXPECT_TRUE(accepted(cam.init(support::ohc_125_cam())));
     std::string rows = "cam_deg,lift_mm\n";
     for (int deg = from_deg; deg <= to_deg; ++deg) {
-      rows += std::to_string(deg) + "," + std::to_string(std::round(cam.at(deg * kRadPerDeg).lift_m * 1e6) / 1e3) + "\n";
+      rows +=
+          std::to_string(deg) + "," + std::to_string(std::round(cam.at(deg * kRadPerDeg).lift_m * 1e6) / 1e3) + "\n";
     }
     return rows;
   }
@@ -143,8 +145,9 @@ TEST_F(LiftCommand, SmoothsAMeasuredCamAndTellsWhatItLeft) {
   const auto smooth = rows(write("measured.ini", measured_125("cam.csv", 1)));
   ASSERT_EQ(smooth.size(), exact.size());
   for (std::size_t i = 0; i < exact.size(); ++i) {
-    EXPECT_NEAR(smooth[i][2], exact[i][2], 1.65 * 1.5e-3 + 1e-3) << exact[i][0];  // the cam's 1.5 um by the ratio, and a little turn
-    EXPECT_NEAR(smooth[i][4], exact[i][4], 3) << exact[i][0];                     // of 45 mm/rad^2
+    EXPECT_NEAR(smooth[i][2], exact[i][2], 1.65 * 1.5e-3 + 1e-3)
+        << exact[i][0];                                        // the cam's 1.5 um by the ratio, and a little turn
+    EXPECT_NEAR(smooth[i][4], exact[i][4], 3) << exact[i][0];  // of 45 mm/rad^2
   }
   EXPECT_NE(summary_.find("smoothing_residual = "), std::string::npos) << summary_;
 }
@@ -153,9 +156,9 @@ TEST_F(LiftCommand, NamesTheTrainThatIsNotThere) {
   EXPECT_NE(refusal(kOhc125, "intak").find("did you mean intake?"), std::string::npos) << refusal(kOhc125, "intak");
   const std::string none = write("none.ini", "[engine]\nname = bare\nrated_rpm = 1000\n");
   EXPECT_EQ(refusal(none), none + ": no valve train is called 'intake'; the file has none");
-  const std::string cam_alone =
-      write("cam_alone.ini",
-            "[cam intake]\nsource = polynomial\nmax_lift_mm = 6\nhalf_angle_deg = 74\nexponents = 2,10\nfull_lift_at_crank_deg = 470\n");
+  const std::string cam_alone = write("cam_alone.ini",
+                                      "[cam intake]\nsource = polynomial\nmax_lift_mm = 6\nhalf_angle_deg = "
+                                      "74\nexponents = 2,10\nfull_lift_at_crank_deg = 470\n");
   EXPECT_EQ(refusal(cam_alone), cam_alone + ": section [rocker intake] is missing; this command needs it");
 }
 
@@ -167,8 +170,10 @@ TEST_F(LiftCommand, NamesTheLineAndTheAngleWhereTheGeometryCannotWork) {
   } cases[] = {
       {"base_circle_mm", "base_circle_mm = 6.5", "base_circle_mm: the cam is undercut at 32.9"},
       {"pivot_to_pad_mm", "pivot_to_pad_mm = 18", "pivot_to_pad_mm: pivot, pad and cam form no triangle at 0 deg"},
-      {"pivot_to_screw_mm", "pivot_to_screw_mm = 11.69", "pivot_to_screw_mm: the screw would stand more than 90 deg off the pivot's level at -74 deg"},
-      {"stem_above_pivot_mm", "stem_above_pivot_mm = -42.6", "pivot_to_screw_mm: the screw would stand more than 90 deg off the pivot's level at 0 deg"},
+      {"pivot_to_screw_mm", "pivot_to_screw_mm = 11.69",
+       "pivot_to_screw_mm: the screw would stand more than 90 deg off the pivot's level at -74 deg"},
+      {"stem_above_pivot_mm", "stem_above_pivot_mm = -42.6",
+       "pivot_to_screw_mm: the screw would stand more than 90 deg off the pivot's level at 0 deg"},
       {"exponents", "exponents = 2,10,10.05,26", "exponents: 2,10,10.05,26 must rise by at least 0.1"},
       {"half_angle_deg", "half_angle_deg = 7", "half_angle_deg: 7 is out of range; allowed: 10 to 180 deg"},
   };
@@ -199,10 +204,13 @@ TEST_F(LiftCommand, NamesTheRowOfAMeasuredCamThatIsWrong) {
 
 TEST_F(LiftCommand, AllowsNoRockerInertiaToATrainOfConstantRatio) {
   const std::string train =
-      "[cam a]\nsource = polynomial\nmax_lift_mm = 6\nhalf_angle_deg = 74\nexponents = 2,10,18\nfull_lift_at_crank_deg = -250\n"
+      "[cam a]\nsource = polynomial\nmax_lift_mm = 6\nhalf_angle_deg = 74\nexponents = 2,10,18\nfull_lift_at_crank_deg "
+      "= -250\n"
       "[rocker a]\nratio = 1.4\nbase_circle_mm = 18\nclearance_mm = 0.2\n"
-      "[valve a]\nper_cylinder = 2\nvalve_g = 90\nspring_g = 60\nrocker_inertia_kg_mm2 = 0\nspring_N_per_mm = 40\nspring_preload_N = 200\n"
-      "train_N_per_mm = 5000\ntrain_damping_ratio = 0.1\nguide_damping_ratio = 0.003\nseat_N_per_mm = 100000\nseat_damping_ratio = 0.1\n";
+      "[valve a]\nper_cylinder = 2\nvalve_g = 90\nspring_g = 60\nrocker_inertia_kg_mm2 = 0\nspring_N_per_mm = "
+      "40\nspring_preload_N = 200\n"
+      "train_N_per_mm = 5000\ntrain_damping_ratio = 0.1\nguide_damping_ratio = 0.003\nseat_N_per_mm = "
+      "100000\nseat_damping_ratio = 0.1\n";
   const EngineFile engine = read_engine_file(write("direct.ini", train), {});
   ASSERT_EQ(engine.definition().train_count, 1);
   const ValveTrain& read = engine.definition().trains[0];
@@ -213,7 +221,8 @@ TEST_F(LiftCommand, AllowsNoRockerInertiaToATrainOfConstantRatio) {
   EXPECT_EQ(read.valve.per_cylinder, 2);
   EXPECT_EQ(read.valve.train_N_m, 5e6);
   const std::string heavy = write("heavy.ini", with_line(train, "rocker_inertia_kg_mm2", "rocker_inertia_kg_mm2 = 8"));
-  EXPECT_EQ(refusal(heavy, "a").compare(0, heavy.size() + 27, heavy + ":15: rocker_inertia_kg_mm2:"), 0) << refusal(heavy, "a");
+  EXPECT_EQ(refusal(heavy, "a").compare(0, heavy.size() + 27, heavy + ":15: rocker_inertia_kg_mm2:"), 0)
+      << refusal(heavy, "a");
 }
 
 TEST_F(LiftCommand, AllowsFourTrains) {
@@ -222,7 +231,8 @@ TEST_F(LiftCommand, AllowsFourTrains) {
   for (const char* name : {"exhaust", "third", "fourth", "fifth"}) {
     const std::size_t cam = sample.find("[cam intake]");
     std::string more = sample.substr(cam, sample.find("# Trigger wheels") - cam);
-    for (std::size_t at = more.find(" intake]"); at != std::string::npos; at = more.find(" intake]")) more.replace(at, 8, " " + std::string(name) + "]");
+    for (std::size_t at = more.find(" intake]"); at != std::string::npos; at = more.find(" intake]"))
+      more.replace(at, 8, " " + std::string(name) + "]");
     if (std::string(name) == "fifth") {
       const std::string four = write("four.ini", text);
       EXPECT_EQ(read_engine_file(four, {}).definition().train_count, kMaxTrains);

@@ -17,6 +17,8 @@
 #include "support/test_valves.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 namespace {
 
 using tick_test::BothReals;

@@ -16,6 +16,8 @@
 #include "support/vector_geometry.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 namespace {
 
 using support::kEps;
@@ -577,7 +579,8 @@ TEST(Extremes, AreNotPassedByAnyAngleOfAnyMechanism) {
         EXPECT_NEAR(extreme.value, exact_pose(crank, extreme.at_rad).*one.quantity, one.rounding);
       }
       for (int i = 0; i < 3'600; ++i) {
-        const double value = exact_pose(crank, i * 0.1 * kRadPerDeg + random.between(0, 0.1) * kRadPerDeg).*one.quantity;
+        const double value =
+            exact_pose(crank, i * 0.1 * kRadPerDeg + random.between(0, 0.1) * kRadPerDeg).*one.quantity;
         EXPECT_LE(value, found.largest.value + one.rounding);
         EXPECT_GE(value, found.smallest.value - one.rounding);
       }

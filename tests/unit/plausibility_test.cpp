@@ -60,17 +60,20 @@ TEST_F(Unusual, NothingIsInTheSampleEngines) {
 TEST_F(Unusual, ShapeOfACylinderIsToldOutsideItsBounds) {
   const Engine long_stroke = bare_.with("stroke_mm", "310").with("rod_length_mm", "600");
   EXPECT_TRUE(warnings(long_stroke).empty());  // 95 / 310 = 0.306, 155 / 600 = 0.258
-  expect_only(long_stroke.with("stroke_mm", "320"), "bore_mm", "bore_mm / stroke_mm = 0.296875 is unusual; usual: 0.3 to 2");
+  expect_only(long_stroke.with("stroke_mm", "320"), "bore_mm",
+              "bore_mm / stroke_mm = 0.296875 is unusual; usual: 0.3 to 2");
   EXPECT_TRUE(warnings(bare_.with("stroke_mm", "48").with("rod_length_mm", "100")).empty());
   expect_only(bare_.with("stroke_mm", "47").with("rod_length_mm", "100"), "bore_mm", "bore_mm / stroke_mm = 2.02128");
   EXPECT_TRUE(warnings(bare_.with("rod_length_mm", "380")).empty());  // 0.1513
-  expect_only(bare_.with("rod_length_mm", "390"), "rod_length_mm", "stroke_mm / 2 / rod_length_mm = 0.147436 is unusual; usual: 0.15 to 0.45");
+  expect_only(bare_.with("rod_length_mm", "390"), "rod_length_mm",
+              "stroke_mm / 2 / rod_length_mm = 0.147436 is unusual; usual: 0.15 to 0.45");
   EXPECT_TRUE(warnings(bare_.with("rod_length_mm", "128")).empty());  // 0.4492
   expect_only(bare_.with("rod_length_mm", "127"), "rod_length_mm", "0.452756");
 }
 
 TEST_F(Unusual, SizeIsToldOutsideItsBounds) {
-  const Engine model = bare_.with("bore_mm", "9.9").with("stroke_mm", "10").with("rod_length_mm", "20").with("piston_g", "1.5");
+  const Engine model =
+      bare_.with("bore_mm", "9.9").with("stroke_mm", "10").with("rod_length_mm", "20").with("piston_g", "1.5");
   expect_only(model, "bore_mm", "bore_mm = 9.9 is unusual; usual: 10 to 1200 mm");
   EXPECT_TRUE(warnings(model.with("bore_mm", "10.1")).empty());
   const Engine ship = bare_.with("stroke_mm", "3000").with("rod_length_mm", "4500").with("piston_g", "2e6");
@@ -79,7 +82,8 @@ TEST_F(Unusual, SizeIsToldOutsideItsBounds) {
 }
 
 TEST_F(Unusual, APistonIsToldBelowATenthAndAboveTenTimesTheTableOfFirstDesigns) {
-  // At 95 mm and 2000 rpm `masses` has 1.08 to 2.2 kg/m^2 for each mm of bore and 70.88 cm^2: 727 to 1481 g over its three kinds.
+  // At 95 mm and 2000 rpm `masses` has 1.08 to 2.2 kg/m^2 for each mm of bore and 70.88 cm^2: 727 to 1481 g over its
+  // three kinds.
   EXPECT_TRUE(warnings(sample_.with("piston_g", "73")).empty());
   expect_only(sample_.with("piston_g", "72"), "piston_g", "piston_g = 72 is unusual");
   expect_only(sample_.with("piston_g", "0.81"), "piston_g", "piston_g = 0.81");  // kilograms where grams are asked for
@@ -89,7 +93,8 @@ TEST_F(Unusual, APistonIsToldBelowATenthAndAboveTenTimesTheTableOfFirstDesigns) 
 
 TEST_F(Unusual, ACompressionThatNoGasFollowsIsTold) {
   EXPECT_TRUE(warnings(sample_.with("compression_exponent", "1.26")).empty());
-  expect_only(sample_.with("compression_exponent", "1.24"), "compression_exponent", "polytropic exponent of the compression, -90 to -30 deg, = 1.24 ");
+  expect_only(sample_.with("compression_exponent", "1.24"), "compression_exponent",
+              "polytropic exponent of the compression, -90 to -30 deg, = 1.24 ");
   EXPECT_TRUE(warnings(sample_.with("compression_exponent", "1.44")).empty());
   expect_only(sample_.with("compression_exponent", "1.46"), "compression_exponent", "= 1.46 ");
 }
@@ -103,7 +108,8 @@ TEST_F(Unusual, ATraceThatIsFiveDegreesOffIsTold) {
 TEST_F(Unusual, AMotoredTraceThatPeaksLongBeforeDeadCentreIsTold) {
   EXPECT_TRUE(warnings(measured(0, true)).empty());
   EXPECT_TRUE(warnings(measured(-2.5, true)).empty());
-  expect_only(measured(-3.5, true), "file = trace.csv", "the motored pressure is largest 3.5 deg before top dead centre");
+  expect_only(measured(-3.5, true), "file = trace.csv",
+              "the motored pressure is largest 3.5 deg before top dead centre");
 }
 
 TEST_F(Unusual, WarningsStandOnStderrAndInTheReportUnlessSilenced) {
@@ -114,7 +120,8 @@ TEST_F(Unusual, WarningsStandOnStderrAndInTheReportUnlessSilenced) {
     if (*silence != '\0') words.emplace_back(silence);
     return run(words);
   };
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"run", "--cycles", "1"}, {"run", "--free", "--from-rpm", "900", "--seconds", "0.2"}}) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"run", "--cycles", "1"}, {"run", "--free", "--from-rpm", "900", "--seconds", "0.2"}}) {
     const bad_input::Answer told = answer(words, "");
     EXPECT_EQ(told.status, 0);
     EXPECT_NE(told.error.find(path_ + ":12: warning: " + warning), std::string::npos) << told.error;
@@ -137,7 +144,7 @@ TEST_F(Unusual, AnEngineThatNothingHoldsBackIsToldWhereItRunsFree) {
   const std::vector<std::string> free{"run", path_, "--free", "--seconds", "0.05"};
   EXPECT_EQ(run(free).error.compare(0, warning.size(), warning), 0) << run(free).error;
   std::vector<std::string> braked = free;
-  braked.insert(braked.end(), {"--load-Nm", "5"});
+  braked.insert(braked.end(), {"--machine-Nm", "5"});
   EXPECT_EQ(run(braked).error, "");
   EXPECT_EQ(run({"run", path_, "--cycles", "1"}).error, "");
 }

@@ -1,4 +1,5 @@
-// The histogram of port/linux against sorting, the periodic loop against the clock, and what is asked of the operating system.
+// The histogram of port/linux against sorting, the periodic loop against the clock, and what is asked of the operating
+// system.
 #include <gtest/gtest.h>
 #include <pthread.h>
 #include <sched.h>
@@ -23,7 +24,7 @@
 namespace crankloop::port {
 namespace {
 
-// ---- the histogram ----------------------------------------------------------------------------------------------------------
+// ---- the histogram --------------------------------------------------------------------------------------------------
 
 TEST(Latency, NothingCountedIsZeroEverywhere) {
   const LatencyHistogram empty;
@@ -96,7 +97,7 @@ TEST(Latency, QuantilesAreThoseOfTheSortedTimesAndAtMostA64thMore) {
   }
 }
 
-// ---- the loop ---------------------------------------------------------------------------------------------------------------
+// ---- the loop -------------------------------------------------------------------------------------------------------
 
 constexpr std::int64_t kPeriod_ns = 1'000'000;
 
@@ -140,13 +141,14 @@ TEST(Periodic, ATickThatTakesTooLongIsMissedAndTheNextOnesCatchUpWithoutLoss) {
   EXPECT_GE(periodic.tally().longest_backlog_ns, 5 * kPeriod_ns / 2);
 }
 
-// ---- what is asked of Linux -------------------------------------------------------------------------------------------------
+// ---- what is asked of Linux -----------------------------------------------------------------------------------------
 
 TEST(RealTime, HasThePriorityOrSaysWhyNotAndGivesItBack) {
   const int before = ::sched_getscheduler(0);
   {
     const RealTime real_time({1, -1});
-    EXPECT_EQ(::sched_getscheduler(0) == SCHED_FIFO, real_time.priority_error() == 0) << std::strerror(real_time.priority_error());
+    EXPECT_EQ(::sched_getscheduler(0) == SCHED_FIFO, real_time.priority_error() == 0)
+        << std::strerror(real_time.priority_error());
   }
   EXPECT_EQ(::sched_getscheduler(0), before);
 }

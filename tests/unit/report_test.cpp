@@ -362,7 +362,7 @@ TEST(ReportPlot, DrawsAnythingItIsGivenWithoutANumberGoingAstray) {
           Plot plot = plot_of({series, other});
           plot.x.logarithmic = plot.y.logarithmic = logarithmic;
           plot.bands = {{-kInfinity, 5, "a"}, {5, kNan, "b"}, {720, 0, "c"}, {1, 3, "d"}};
-          plot.markers = mark_extremes(plot, 0);
+          if (!x.empty() && !y.empty()) plot.markers = {{x[0], y[0], "first", 0}};
           plot.markers.push_back({kNan, 1, "nowhere", 0});
           plot.markers.push_back({1e9, -1e9, "far", 99});
           expect_sound(to_svg(plot));
@@ -470,18 +470,6 @@ TEST(ReportPlot, NamesStandBesideCurvesThatLeaveRoomAndInALegendOtherwise) {
   EXPECT_EQ(on_top.of_class("legend").size(), 2u);
 }
 
-TEST(ReportPlot, MarksExtremesWithTheirValueAndPlace) {
-  const Plot plot = plot_of({pressure_trace()});
-  const std::vector<Marker> marks = mark_extremes(plot, 0);
-  ASSERT_EQ(marks.size(), 2u);
-  EXPECT_EQ(marks[0].label, "78.3 bar at 8.3 deg");
-  EXPECT_EQ(mark_extremes(plot_of({{"", {1, 2}, {5, 5}, {}}}), 0).size(), 1u);
-  EXPECT_TRUE(mark_extremes(plot_of({{"", {1}, {kNan}, {}}}), 0).empty());
-  EXPECT_TRUE(mark_extremes(plot, 7).empty());
-  // sin(180 deg) in double is 1.2e-16: rounding, which nobody wants to read.
-  EXPECT_EQ(mark_extremes(plot_of({{"", {90, 180}, {1, std::sin(kPi)}, {}}}), 0).at(1).label, "0 bar at 180 deg");
-}
-
 TEST(ReportPlot, EscapesEveryTextItIsGiven) {
   const std::string evil = "<script>\"&'";
   Plot plot = plot_of({pressure_trace(), {evil, {0, 720}, {9, 9}, {}}});
@@ -501,7 +489,7 @@ struct DecimalComma : std::numpunct<char> {
 
 TEST(ReportPlot, SameDataGiveTheSameBytesInAnyLocale) {
   Plot plot = plot_of({pressure_trace()});
-  plot.markers = mark_extremes(plot, 0);
+  plot.markers = {{8.3, 78.3, "78.3 bar at 8.3 deg", 0}};
   const std::string svg = to_svg(plot);
   EXPECT_EQ(svg, to_svg(plot));
   const std::locale before = std::locale::global(std::locale(std::locale::classic(), new DecimalComma));

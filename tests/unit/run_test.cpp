@@ -341,7 +341,8 @@ TEST_F(RunCommand, PrintsThe495AtItsRatedSpeed) {
   EXPECT_NEAR(line(summary, "power").first, work_J * 2000 / 120 / 1000, 0.005);
   EXPECT_EQ(line(summary, "power").second, "kW");
   EXPECT_NEAR(line(summary, "brake_power").first, 4 * 8.8, 0.02);  // the sheet's 8.8 kW a cylinder
-  EXPECT_NEAR(line(summary, "brake_torque").first * 2000 * elementary::kPi / 30, line(summary, "brake_power").first * 1000, 1);
+  EXPECT_NEAR(line(summary, "brake_torque").first * 2000 * elementary::kPi / 30,
+              line(summary, "brake_power").first * 1000, 1);
   EXPECT_NEAR(line(summary, "mechanical_efficiency").first, 0.80, 0.001);
   EXPECT_NEAR(line(summary, "net_mep").first, 809.7, 0.08);
   EXPECT_NEAR(line(summary, "net_mep_exact").first, 809.7, 1e-3);
@@ -385,8 +386,8 @@ TEST_F(RunCommand, CsvHasAHeaderAndARowForEachTickOfTheRecordedCycles) {
   }
   for (const char* c : {"c1", "c2", "c3", "c4"}) {
     for (const char* train : {"intake", "exhaust"}) {
-      for (const char* quantity : {"theoretical_lift_mm", "lift_mm", "velocity_m_s", "acceleration_m_s2", "train_force_N",
-                                   "seat_force_N", "cam_force_N", "gap_mm", "regime"}) {
+      for (const char* quantity : {"theoretical_lift_mm", "lift_mm", "velocity_m_s", "acceleration_m_s2",
+                                   "train_force_N", "seat_force_N", "cam_force_N", "train_compression_mm", "regime"}) {
         header += std::string(",") + c + "_" + train + "_" + quantity;
       }
     }
@@ -448,7 +449,7 @@ TEST_F(RunCommand, ReportShowsEveryCurveThatTheDesignSheetAsksFor) {
   EXPECT_NE(page.find("0.2738"), std::string::npos);
   EXPECT_NE(page.find("assumed: not in the sheet; the usual one"), std::string::npos);  // the firing order's remark
   EXPECT_EQ(page.find("http"), page.find("http-equiv"));                                // and the SVG namespace below
-  EXPECT_EQ(page.find("<script"), std::string::npos);
+  EXPECT_EQ(page.find("<script"), page.rfind("<script"));  // report_page_test.cpp has the one
   EXPECT_EQ(page.find("nan"), std::string::npos);
 }
 

@@ -1,4 +1,5 @@
-// The sequence lock of port/linux: what is read is what was written as a whole. Also built with the thread sanitizer (tests/contract).
+// The sequence lock of port/linux: what is read is what was written as a whole. Also built with the thread sanitizer
+// (tests/contract).
 #include <gtest/gtest.h>
 
 #include <array>
@@ -78,7 +79,8 @@ TEST(SequenceLock, GoesOnWhereTheNumberWraps) {
 TEST(SequenceLock, NoTornReadIsEverAcceptedBetweenTwoThreads) {
   constexpr std::uint32_t kReads = 300'000;
   constexpr std::uint32_t kTorn = 10'000;  // reads that met a write
-  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(3);  // on one processor they hardly meet
+  const auto patience =
+      std::chrono::steady_clock::now() + std::chrono::seconds(3);  // on one processor they hardly meet
   SequenceLocked<Numbered> shared;
   std::atomic<bool> enough{false};
   std::thread writer([&] {

@@ -1,4 +1,5 @@
-// The block that `crankloop live` shares: its bytes as docs/live.md lists them, who gets it and who is refused, and whose inputs count.
+// The block that `crankloop live` shares: its bytes as docs/live.md lists them, who gets it and who is refused, and
+// whose inputs count.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -63,29 +64,38 @@ class SharedBlockFile : public testing::Test {
   support::TemporaryFolder folder_;
 };
 
-// ---- layout -----------------------------------------------------------------------------------------------------------------
+// ---- layout ---------------------------------------------------------------------------------------------------------
 
 TEST_F(SharedBlockFile, HasItsNumbersWhereTheDocumentSays) {
   const SharedBlock block = create_at(path());
   EXPECT_EQ(bytes_of(path()).size(), 256u);
   EXPECT_EQ(at<std::uint32_t>(0), 0x4C4B5243u);
-  EXPECT_EQ(at<std::uint32_t>(4), 1u);
+  EXPECT_EQ(at<std::uint32_t>(4), 2u);
   EXPECT_EQ(at<std::uint32_t>(8), 256u);
   EXPECT_EQ(at<std::uint32_t>(12), 0u);
   EXPECT_EQ(at<double>(16), kTick_s);
   EXPECT_EQ(at<std::uint32_t>(24), kCylinders);
+  EXPECT_EQ(at<std::uint32_t>(28), 0u);
+  block->breathes = 1;
+  EXPECT_EQ(at<std::uint32_t>(28), 1u);
 
   LiveInputs in;
   in.load_ratio = 0.25;
-  in.load_Nm = -3;
+  in.external_torque_Nm = -3;
   in.starter = 1;
   in.cut_cylinders = 5;
+  in.throttle_ratio = 0.75;
+  in.fuel_kg = 6;
+  in.burn_start_deg = 7;
   block->inputs.write(in);
   EXPECT_EQ(at<std::uint32_t>(64), 2u);
   EXPECT_EQ(at<double>(72), 0.25);
   EXPECT_EQ(at<double>(80), -3);
   EXPECT_EQ(at<std::uint32_t>(88), 1u);
   EXPECT_EQ(at<std::uint32_t>(92), 5u);
+  EXPECT_EQ(at<double>(96), 0.75);
+  EXPECT_EQ(at<double>(104), 6);
+  EXPECT_EQ(at<double>(112), 7);
 
   LiveOutputs out;
   out.ticks = 1;
@@ -103,6 +113,8 @@ TEST_F(SharedBlockFile, HasItsNumbersWhereTheDocumentSays) {
   out.torn_inputs = 13;
   out.late_ticks = 14;
   out.missed_deadlines = 15;
+  out.intake_Pa = 16;
+  out.trapped_air_kg = 17;
   block->outputs.write(out);
   EXPECT_EQ(at<std::uint32_t>(128), 2u);
   EXPECT_EQ(at<std::uint64_t>(136), 1u);
@@ -110,6 +122,8 @@ TEST_F(SharedBlockFile, HasItsNumbersWhereTheDocumentSays) {
   for (std::size_t i = 0; i <= 3; ++i) EXPECT_EQ(at<std::uint32_t>(208 + 4 * i), static_cast<std::uint32_t>(i + 10));
   EXPECT_EQ(at<std::uint64_t>(224), 14u);
   EXPECT_EQ(at<std::uint64_t>(232), 15u);
+  EXPECT_EQ(at<double>(240), 16);
+  EXPECT_EQ(at<double>(248), 17);
 }
 
 /// The rows "| offset | type | field | ..." of the document's table.
@@ -120,7 +134,8 @@ std::map<std::string, std::size_t> offsets_of_the_document() {
     std::string bar, field, type;
     std::size_t offset = 0;
     std::istringstream row(line);
-    if (row >> bar >> offset >> bar >> type >> bar >> field && (type == "u32" || type == "u64" || type == "f64")) offsets[field] = offset;
+    if (row >> bar >> offset >> bar >> type >> bar >> field && (type == "u32" || type == "u64" || type == "f64"))
+      offsets[field] = offset;
   }
   return offsets;
 }
@@ -135,10 +150,14 @@ TEST(LiveBlock, IsTheTableOfTheDocument) {
       {"state", offsetof(LiveBlock, state)},
       {"tick_s", offsetof(LiveBlock, tick_s)},
       {"cylinders", offsetof(LiveBlock, cylinders)},
+      {"breathes", offsetof(LiveBlock, breathes)},
       {"load_ratio", kInputs + offsetof(LiveInputs, load_ratio)},
-      {"load_Nm", kInputs + offsetof(LiveInputs, load_Nm)},
+      {"external_torque_Nm", kInputs + offsetof(LiveInputs, external_torque_Nm)},
       {"starter", kInputs + offsetof(LiveInputs, starter)},
       {"cut_cylinders", kInputs + offsetof(LiveInputs, cut_cylinders)},
+      {"throttle_ratio", kInputs + offsetof(LiveInputs, throttle_ratio)},
+      {"fuel_kg", kInputs + offsetof(LiveInputs, fuel_kg)},
+      {"burn_start_deg", kInputs + offsetof(LiveInputs, burn_start_deg)},
       {"ticks", kOutputs + offsetof(LiveOutputs, ticks)},
       {"time_s", kOutputs + offsetof(LiveOutputs, time_s)},
       {"speed_rad_s", kOutputs + offsetof(LiveOutputs, speed_rad_s)},
@@ -154,6 +173,8 @@ TEST(LiveBlock, IsTheTableOfTheDocument) {
       {"torn_inputs", kOutputs + offsetof(LiveOutputs, torn_inputs)},
       {"late_ticks", kOutputs + offsetof(LiveOutputs, late_ticks)},
       {"missed_deadlines", kOutputs + offsetof(LiveOutputs, missed_deadlines)},
+      {"intake_Pa", kOutputs + offsetof(LiveOutputs, intake_Pa)},
+      {"trapped_air_kg", kOutputs + offsetof(LiveOutputs, trapped_air_kg)},
   };
   EXPECT_EQ(offsets_of_the_document(), offsets);
 }
@@ -178,7 +199,7 @@ TEST_F(SharedBlockFile, IsTheSameMemoryOnBothSides) {
   EXPECT_EQ(out.speed_rad_s, 83);
 }
 
-// ---- who gets it ------------------------------------------------------------------------------------------------------------
+// ---- who gets it ----------------------------------------------------------------------------------------------------
 
 TEST_F(SharedBlockFile, IsReadAndWrittenByNobodyElseAndRemovedAtTheEnd) {
   {
@@ -209,8 +230,10 @@ TEST_F(SharedBlockFile, IsRefusedAndLeftAloneWhereAnotherFileStands) {
     EXPECT_EQ(bytes_of(path()), text);
     EXPECT_EQ(refusal_of(SharedBlock::open, path()), path() + ": is no block of this version of crankloop");
   }
-  EXPECT_EQ(refusal_of(create_at, folder_.path()), folder_.path() + ": exists and is no block of this version of crankloop");
-  EXPECT_EQ(refusal_of(create_at, folder_ / "none/block"), folder_ / "none/block: cannot be created: No such file or directory");
+  EXPECT_EQ(refusal_of(create_at, folder_.path()),
+            folder_.path() + ": exists and is no block of this version of crankloop");
+  EXPECT_EQ(refusal_of(create_at, folder_ / "none/block"),
+            folder_ / "none/block: cannot be created: No such file or directory");
 }
 
 TEST_F(SharedBlockFile, IsRefusedWhereItIsOfAnotherVersion) {
@@ -219,7 +242,7 @@ TEST_F(SharedBlockFile, IsRefusedWhereItIsOfAnotherVersion) {
     const SharedBlock live = create_at(path());
     bytes = bytes_of(path());
   }
-  bytes[4] = 2;
+  bytes[4] = 3;
   put(bytes);
   EXPECT_EQ(refusal_of(create_at, path()), path() + ": exists and is no block of this version of crankloop");
   EXPECT_EQ(refusal_of(SharedBlock::open, path()), path() + ": is no block of this version of crankloop");
@@ -259,7 +282,8 @@ TEST_F(SharedBlockFile, ReplacesABlockThatItsMakerDiedOver) {
   }
   std::string without_magic = whole;  // which is written last
   without_magic.replace(0, 4, 4, '\0');
-  for (const std::string& text : {std::string(), std::string(256, '\0'), without_magic, without_magic.substr(0, 16), whole.substr(0, 100)}) {
+  for (const std::string& text :
+       {std::string(), std::string(256, '\0'), without_magic, without_magic.substr(0, 16), whole.substr(0, 100)}) {
     put(text);
     const SharedBlock live = create_at(path());
     EXPECT_EQ(bytes_of(path()), whole) << text.size();
@@ -328,16 +352,18 @@ TEST_F(SharedBlockFile, IsNotOpenedBeforeItIsReady) {
   EXPECT_EQ(refusal_of(SharedBlock::open, path()), path() + ": cannot be opened: No such file or directory");
 }
 
-// ---- whose inputs count -----------------------------------------------------------------------------------------------------
+// ---- whose inputs count ---------------------------------------------------------------------------------------------
 
 constexpr std::int64_t kPatience_ns = 1000;
 
 LiveInputs with_load(double load_ratio) {
   LiveInputs in;
   in.load_ratio = load_ratio;
-  in.load_Nm = 40;
+  in.external_torque_Nm = 40;
   in.starter = 1;
   in.cut_cylinders = 2;
+  in.throttle_ratio = 0.5;
+  in.fuel_kg = 1e-5;
   return in;
 }
 
@@ -364,9 +390,11 @@ TEST(WatchedInputs, AreTheSafeOnesAfterTheControllerFellSilentAndItsOwnWhenItIsB
 
   const LiveInputs safe = watched.at(5001 + kPatience_ns);
   EXPECT_EQ(safe.load_ratio, 0);
-  EXPECT_EQ(safe.load_Nm, 0);
+  EXPECT_EQ(safe.external_torque_Nm, 0);
   EXPECT_EQ(safe.starter, 0u);
   EXPECT_EQ(safe.cut_cylinders, 0u);
+  EXPECT_EQ(safe.throttle_ratio, 0);
+  EXPECT_EQ(safe.fuel_kg, 0);
   EXPECT_EQ(watched.flags(), kControllerSeen | kControllerSilent);
   EXPECT_EQ(watched.at(5002 + kPatience_ns).load_ratio, 0);
   EXPECT_EQ(watched.silences(), 1u);

@@ -91,7 +91,8 @@ TEST(StressTrials, OfEightyCasesFindNothing) {
 }
 
 TEST(StressTrials, FollowTheCamThroughStepsOfManyDegrees) {
-  // Fine steps of 5 to 30 cam degrees: the cubic through their ends misses the lift between, by up to nine times what is allowed.
+  // Fine steps of 5 to 30 cam degrees: the cubic through their ends misses the lift between, by up to nine times what
+  // is allowed.
   StressTrials trials;
   const std::pair<std::uint64_t, std::uint64_t> cases[] = {{1, 4170}, {2, 5410}, {4, 1390}, {4, 8210}, {7, 8520}};
   for (const auto& [seed, number] : cases) {
@@ -117,8 +118,8 @@ TEST(StressTrials, AreInaccurateWhereTheMotionIsAnothers) {
 }
 
 TEST(StressTrials, AskMoreCopiesBeforeTheyBlameChaos) {
-  // An undamped seat that the valve bounces on twenty times, and a reference heavier by two thousandths, so that the engine is off by more than four
-  // copies excuse: with thirty-two it is one among them.
+  // An undamped seat that the valve bounces on twenty times, and a reference heavier by two thousandths, so that the
+  // engine is off by more than four copies excuse: with thirty-two it is one among them.
   StressTrials trials;
   StressCase drawn(2, 9730);
   drawn.reference_mass_ratio = 1.002;

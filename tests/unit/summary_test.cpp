@@ -18,10 +18,10 @@ TEST(ExactEngine, RefusesWhatItsDefinitionAndItsDiagramRefuse) {
   ExactEngine exact;
   EngineDefinition engine = single_495();
   engine.crank.bore_m = 0;
-  EXPECT_TRUE(refuses(exact.init(engine), Reason::not_positive, "crank.bore"));
+  EXPECT_TRUE(refuses(exact.init(engine), Reason::not_positive, "crank.bore_m"));
   engine = single_495();
   engine.pressure.wiebe.net_mep_Pa = -50e3;  // a motored cylinder loses less
-  EXPECT_TRUE(refuses(exact.init(engine), Reason::no_solution, "pressure.net_mep"));
+  EXPECT_TRUE(refuses(exact.init(engine), Reason::no_solution, "pressure.wiebe.net_mep_Pa"));
 }
 
 TEST(CycleSummary, OfAnEngineThatPumpsHasANegativeMeanAndFluctuatesByIt) {
@@ -37,7 +37,8 @@ TEST(CycleSummary, OfAnEngineThatPumpsHasANegativeMeanAndFluctuatesByIt) {
 }
 
 TEST(BrakeFigures, AreTheIndicatedOnesLessWhatFrictionTakesOverTheCycle) {
-  // 100 kPa, 200 Pa s/rad and 1 Pa s^2/rad^2 are 130 kPa at 100 rad/s either way round; over a cycle of 4 pi they take that times the swept volume.
+  // 100 kPa, 200 Pa s/rad and 1 Pa s^2/rad^2 are 130 kPa at 100 rad/s either way round; over a cycle of 4 pi they take
+  // that times the swept volume.
   EngineDefinition engine = diesel_495();
   engine.friction = {100e3, 200, 1};
   const double swept_m3 = 4 * (support::kPi / 4 * 0.095 * 0.095 * 0.115);

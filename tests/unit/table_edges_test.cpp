@@ -1,7 +1,8 @@
-// The tick's tables at their edges: one unit before, on and after every knot, every end of a lobe and the cycle's own end.
+// The tick's tables at their edges: one unit before, on and after every knot, every end of a lobe and the cycle's own
+// end.
 //
-// Each test is named after a bug that table code of others has had: an index off by one at the last knot, a cast before its
-// range check, another answer beyond the end from one table to the next, a NaN that came in with a row.
+// Each test is named after a bug that table code of others has had: an index off by one at the last knot, a cast before
+// its range check, another answer beyond the end from one table to the next, a NaN that came in with a row.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,6 +17,8 @@
 #include "support/status.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 namespace {
 
 using namespace tick_test;
@@ -59,8 +62,8 @@ TYPED_TEST_SUITE(TableEdges, BothReals, RealName);
 
 TYPED_TEST(TableEdges, HaveNoIndexOffByOneAtTheLastKnotNorAtAnyOther) {
   // From one unit to the next nothing may change but by rounding, which sixteen operations of float make 1e-6: also the
-  // cycle's first and last unit are neighbours. A segment too far would be a degree off, which shows in every curve that is
-  // not level there.
+  // cycle's first and last unit are neighbours. A segment too far would be a degree off, which shows in every curve
+  // that is not level there.
   const std::vector<std::string> names = this->names();
   std::vector<double> least = this->outputs_at(0);
   std::vector<double> most = least;
@@ -91,7 +94,8 @@ TYPED_TEST(TableEdges, AnswerTheSameBeyondTheirEndWhateverIsAsked) {
   const auto& tables = tables_of_four<Real, FourAtAnAngle>().tables();
   for (std::uint32_t t = 0; t < 2; ++t) {
     const LiftCurve<Real>& curve = tables.lift_curves[t];
-    // 2^64 = 360 cam degrees. The first unit of the next degree that the scalar tells from the last of this: float reads the top word.
+    // 2^64 = 360 cam degrees. The first unit of the next degree that the scalar tells from the last of this: float
+    // reads the top word.
     const std::uint64_t last = phase_at_deg(2 * curve.segments).units();
     const std::uint64_t end = last + (sizeof(Real) == 4 ? std::uint64_t{1} << 32 : 1);
     for (const std::uint64_t beyond : {end, end + 1, ~std::uint64_t{0}, end + (~std::uint64_t{0} - end) / 2}) {
@@ -144,7 +148,7 @@ TYPED_TEST(TableEdges, OfADiagramAreNotMadeOfNaNRows) {
       engine.pressure.points = rows.data();
       engine.pressure.point_count = static_cast<int>(rows.size());
       const auto tables = std::make_unique<TableStorage<Real, FourWithValves>>();
-      EXPECT_TRUE(support::refuses(tables->build(engine, {50e-6, {}}), Reason::not_finite, "pressure.file", 17));
+      EXPECT_TRUE(support::refuses(tables->build(engine, {50e-6, {}}), Reason::not_finite, "pressure.points", 17));
       Engine<Real, FourWithValves> on_them;
       EXPECT_FALSE(on_them.init(tables->tables()).ok()) << "tables of a refused build are none";
     }

@@ -18,6 +18,8 @@
 #include "support/test_valves.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 namespace {
 
 using support::refuses;
@@ -39,7 +41,8 @@ TYPED_TEST(TableTargetsOf, APartWithoutWhatBelongsToItAreRefusedByItsName) {
   const auto answer = [](const TableTargets<Real>& targets) { return tabulate(single_495(), {100e-6, {}}, targets); };
   using Targets = TableTargets<Real>;
 
-  Segment<Real>* Targets::*const pressures[] = {&Targets::pressure_full, &Targets::pressure_motored, &Targets::pressure_heat};
+  Segment<Real>* Targets::*const pressures[] = {&Targets::pressure_full, &Targets::pressure_motored,
+                                                &Targets::pressure_heat};
   for (const auto one : pressures) {
     Targets targets;
     targets.*one = &pressure;
@@ -89,7 +92,7 @@ TYPED_TEST(TableTargetsOf, AnEngineThatHasEverythingFillEverySection) {
   engine.trains[0] = valve_test::ohc_125_train();
   engine.trigger_count = 1;
   engine.triggers[0].places = 60;
-  const auto stores = std::make_unique<part::Stores<Real, part::RoomForAll>>();
+  const auto stores = std::make_unique<detail::part::Stores<Real, detail::part::RoomForAll>>();
   constexpr unsigned char kUntouched = 0xA5;
   std::memset(static_cast<void*>(stores.get()), kUntouched, sizeof *stores);
   ASSERT_TRUE(tabulate(engine, {100e-6, {}}, stores->targets()).ok());
@@ -98,7 +101,8 @@ TYPED_TEST(TableTargetsOf, AnEngineThatHasEverythingFillEverySection) {
     constexpr std::size_t kRecord = sizeof(typename decltype(section)::template Record<Real>);
     unsigned char first[kRecord];
     std::memcpy(first, &filled, kRecord);
-    EXPECT_TRUE(std::any_of(first, first + kRecord, [](unsigned char byte) { return byte != kUntouched; })) << section.kName;
+    EXPECT_TRUE(std::any_of(first, first + kRecord, [](unsigned char byte) { return byte != kUntouched; }))
+        << section.kName;
   });
 }
 
@@ -110,7 +114,7 @@ TYPED_TEST(TableTargetsOf, AnEngineOfAnImpossibleNumberOfTrainsAreNotFilled) {
   EngineDefinition engine = single_495();
   for (const int trains : {-1, kMaxTrains + 1, 1 << 30}) {
     engine.train_count = trains;
-    EXPECT_TRUE(refuses(tabulate(engine, {100e-6, {}}, targets), Reason::out_of_range, "trains")) << trains;
+    EXPECT_TRUE(refuses(tabulate(engine, {100e-6, {}}, targets), Reason::out_of_range, "train_count")) << trains;
   }
   EXPECT_EQ(drive.cylinders, 0u) << "nothing is written by a refusal";
 }
@@ -124,11 +128,11 @@ TYPED_TEST(TableTargetsOf, WhatCannotBeTabulatedAreNotFilled) {
   targets.valve_motions = &motion;
   EngineDefinition engine = single_495();
   for (const double tick_s : {0.999e-6, 2.001e-3, 0.0}) {
-    EXPECT_TRUE(refuses(tabulate(engine, {tick_s, {}}, targets), Reason::out_of_range, "tick.tick")) << tick_s;
+    EXPECT_TRUE(refuses(tabulate(engine, {tick_s, {}}, targets), Reason::out_of_range, "options.tick_s")) << tick_s;
   }
   engine.pressure.source = PressureSource::wiebe;
   engine.pressure.wiebe.net_mep_Pa = -50e3;  // a motored cylinder loses less: no heat is negative
-  EXPECT_TRUE(refuses(tabulate(engine, {100e-6, {}}, targets), Reason::no_solution, "pressure.net_mep"));
+  EXPECT_TRUE(refuses(tabulate(engine, {100e-6, {}}, targets), Reason::no_solution, "pressure.wiebe.net_mep_Pa"));
   engine = single_495();
   engine.train_count = 2;
   engine.trains[0] = engine.trains[1] = valve_test::ohc_125_train();
@@ -238,7 +242,7 @@ TYPED_TEST(TableTargetsOf, AGridThatExactlyFitsAreFilledAsWithRoomToSpare) {
     EXPECT_TRUE(accepted(tabulate(single_495(), {100e-6, {}}, targets, &report))) << capacity;
     return report;
   };
-  const TableReport spare = filled(kMostGasSegments);
+  const TableReport spare = filled(kMaxGasSegments);
   ASSERT_EQ(spare.tolerance_doublings, 0);
   ASSERT_GT(spare.gas_segments, 720) << "steeper than a segment a degree can follow";
   const TableReport fits = filled(spare.gas_segments);
@@ -283,10 +287,12 @@ TYPED_TEST(TableTargetsOf, ValvesTellTheFineStepsOfTheWorstTickAndRefuseTooMany)
   targets.valve_motions = motions;
   TableReport report;
   ASSERT_TRUE(accepted(tabulate(engine, {100e-6, {}}, targets, &report)));
-  EXPECT_EQ(report.valve_fine_steps, 8 * 5) << "42 900 rad/s on the seat, 100 us: five fine steps for each of eight valves";
+  EXPECT_EQ(report.valve_fine_steps, 8 * 5)
+      << "42 900 rad/s on the seat, 100 us: five fine steps for each of eight valves";
   EXPECT_EQ(report.valve_changes, 4 + 5);
   EXPECT_EQ(motions[1].most_changes, 9u);
-  // Sixteen cylinders with four trains as stiff as a valve can be: each by itself would do, all together would take some ms for a tick of 0.1 ms.
+  // Sixteen cylinders with four trains as stiff as a valve can be: each by itself would do, all together would take
+  // some ms for a tick of 0.1 ms.
   std::vector<double> firing_deg;
   for (int k = 0; k < 16; ++k) firing_deg.push_back(45.0 * k);
   EngineDefinition many = with_cylinders(single_495(), firing_deg);
@@ -295,7 +301,7 @@ TYPED_TEST(TableTargetsOf, ValvesTellTheFineStepsOfTheWorstTickAndRefuseTooMany)
     train = valve_test::ohc_125_train();
     train.valve.train_N_m = 4.5e10;
   }
-  EXPECT_TRUE(refuses(tabulate(many, {100e-6, {}}, targets, &report), Reason::out_of_range, "tick.tick", 2));
+  EXPECT_TRUE(refuses(tabulate(many, {100e-6, {}}, targets, &report), Reason::out_of_range, "options.tick_s", 2));
   many.train_count = 2;
   EXPECT_TRUE(accepted(tabulate(many, {100e-6, {}}, targets, &report)));
 }

@@ -11,12 +11,14 @@
 #include <vector>
 
 #include "support/random.hpp"
+#include "support/running.hpp"
 #include "support/status.hpp"
 #include "support/test_engines.hpp"
-#include "support/running.hpp"
 #include "support/tick_oracle.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 namespace {
 
 using namespace tick_test;
@@ -235,7 +237,8 @@ TYPED_TEST(TickKinematics, TablesReadByHandHoldThePromiseForEveryCurve) {
         return static_cast<long double>(value(curve.at[degree].slope, u));
       };
       const auto read_integral = [&](const auto& curve) {
-        return static_cast<long double>(detail::total(detail::integral_at(curve.at[degree], u, Real{0}), curve.quantum));
+        return static_cast<long double>(
+            detail::total(detail::integral_at(curve.at[degree], u, Real{0}), curve.quantum));
       };
       const MotionSegment<Real>& motion = s.motion->at[degree];
       const LeanSegment<Real>& lean = s.lean->at[degree];
@@ -257,12 +260,13 @@ TYPED_TEST(TickKinematics, TablesReadByHandHoldThePromiseForEveryCurve) {
       const auto cylinders = static_cast<std::size_t>(engine.layout.cylinders);
       for (std::size_t k = 0; k < cylinders; ++k) {
         const long double firing = wide(engine.layout.firing_deg[k]) * kWidePi / 180;
-        const OraclePose p =
-            oracle_pose(crank, static_cast<long double>(phase.units()) * (4 * kWidePi / 18446744073709551616.0L) - firing);
+        const OraclePose p = oracle_pose(
+            crank, static_cast<long double>(phase.units()) * (4 * kWidePi / 18446744073709551616.0L) - firing);
         torque -= wide(engine.masses.reciprocating_kg()) * p.slope_m * p.acceleration_m +
                   wide(engine.masses.rod_inertia_correction_kg_m2) * p.rod_slope * p.rod_curvature;
       }
-      inertia = std::max(inertia, apart(read_slope(*s.inertia_torque), torque) / (mass_r2 * static_cast<double>(cylinders)));
+      inertia =
+          std::max(inertia, apart(read_slope(*s.inertia_torque), torque) / (mass_r2 * static_cast<double>(cylinders)));
     }
   }
   const double tolerance = kTolerance<Real>;

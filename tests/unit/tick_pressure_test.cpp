@@ -17,9 +17,9 @@
 
 #include "support/pressure_traces.hpp"
 #include "support/random.hpp"
+#include "support/running.hpp"
 #include "support/status.hpp"
 #include "support/test_engines.hpp"
-#include "support/running.hpp"
 
 namespace crankloop {
 namespace {

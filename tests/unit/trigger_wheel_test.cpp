@@ -17,12 +17,15 @@
 #include "support/units.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 namespace {
 
 using support::refuses;
 using namespace tick_test;
 
-constexpr std::uint64_t kDegree = ~std::uint64_t{0} / 720 + 1;  ///< phase units, rounded: 16 of 2^64 are lost over a cycle
+constexpr std::uint64_t kDegree =
+    ~std::uint64_t{0} / 720 + 1;  ///< phase units, rounded: 16 of 2^64 are lost over a cycle
 
 /// To an angle.
 template <class Rig>
@@ -53,7 +56,7 @@ EngineDefinition one_wheel(const TriggerWheel& wheel) {
   return engine;
 }
 
-// ---- definition ------------------------------------------------------------------------------------------------------------
+// ---- definition -----------------------------------------------------------------------------------------------------
 
 TEST(TriggerWheelRules, AcceptTheUsualWheels) {
   for (const DrawnWheel& wheel : drawn_wheels()) EXPECT_TRUE(accepted(validate(wheel.definition))) << wheel.name;
@@ -61,23 +64,25 @@ TEST(TriggerWheelRules, AcceptTheUsualWheels) {
 
 TEST(TriggerWheelRules, RefuseATurnThatIsTooShortForItsTeethAndGaps) {
   constexpr auto crank = TriggerShaft::crank;
-  EXPECT_TRUE(refuses(validate(toothed(crank, 0, {}, 0)), Reason::out_of_range, "trigger.pattern"));
-  EXPECT_TRUE(refuses(validate(toothed(crank, 361, {}, 0)), Reason::out_of_range, "trigger.pattern"));
-  EXPECT_TRUE(refuses(validate(toothed(crank, 60, {{59, 2}}, 0)), Reason::inconsistent, "trigger.pattern", 0));
-  EXPECT_TRUE(refuses(validate(toothed(crank, 36, {{13, 2}, {16, 2}, {2, 2}}, 0)), Reason::inconsistent, "trigger.pattern", 2));
-  EXPECT_TRUE(refuses(validate(toothed(crank, 60, {{0, 2}}, 0)), Reason::not_positive, "trigger.pattern", 0));
-  EXPECT_TRUE(refuses(validate(toothed(crank, 60, {{58, 0}}, 0)), Reason::not_positive, "trigger.pattern", 0));
-  EXPECT_TRUE(refuses(validate(toothed(crank, 60, {{2147483647, 2147483647}}, 0)), Reason::inconsistent, "trigger.pattern", 0));
+  EXPECT_TRUE(refuses(validate(toothed(crank, 0, {}, 0)), Reason::out_of_range, "trigger.places"));
+  EXPECT_TRUE(refuses(validate(toothed(crank, 361, {}, 0)), Reason::out_of_range, "trigger.places"));
+  EXPECT_TRUE(refuses(validate(toothed(crank, 60, {{59, 2}}, 0)), Reason::inconsistent, "trigger.gaps", 0));
+  EXPECT_TRUE(
+      refuses(validate(toothed(crank, 36, {{13, 2}, {16, 2}, {2, 2}}, 0)), Reason::inconsistent, "trigger.gaps", 2));
+  EXPECT_TRUE(refuses(validate(toothed(crank, 60, {{0, 2}}, 0)), Reason::not_positive, "trigger.gaps", 0));
+  EXPECT_TRUE(refuses(validate(toothed(crank, 60, {{58, 0}}, 0)), Reason::not_positive, "trigger.gaps", 0));
+  EXPECT_TRUE(
+      refuses(validate(toothed(crank, 60, {{2147483647, 2147483647}}, 0)), Reason::inconsistent, "trigger.gaps", 0));
   TriggerWheel many = toothed(crank, 60, {{58, 2}}, 0);
   many.gap_count = kMaxToothGaps + 1;
-  EXPECT_TRUE(refuses(validate(many), Reason::out_of_range, "trigger.pattern"));
+  EXPECT_TRUE(refuses(validate(many), Reason::out_of_range, "trigger.gap_count"));
 }
 
 TEST(TriggerWheelRules, RefuseAnglesAndWidthsOutOfRange) {
   constexpr auto crank = TriggerShaft::crank;
-  EXPECT_TRUE(refuses(validate(toothed(crank, 60, {}, 720)), Reason::out_of_range, "trigger.first_tooth"));
-  EXPECT_TRUE(refuses(validate(toothed(crank, 60, {}, -1)), Reason::out_of_range, "trigger.first_tooth"));
-  EXPECT_TRUE(refuses(validate(toothed(crank, 60, {}, std::nan(""))), Reason::not_finite, "trigger.first_tooth"));
+  EXPECT_TRUE(refuses(validate(toothed(crank, 60, {}, 720)), Reason::out_of_range, "trigger.first_tooth_deg"));
+  EXPECT_TRUE(refuses(validate(toothed(crank, 60, {}, -1)), Reason::out_of_range, "trigger.first_tooth_deg"));
+  EXPECT_TRUE(refuses(validate(toothed(crank, 60, {}, std::nan(""))), Reason::not_finite, "trigger.first_tooth_deg"));
   EXPECT_TRUE(refuses(validate(toothed(crank, 60, {}, 0, 0.009)), Reason::out_of_range, "trigger.tooth_ratio"));
   EXPECT_TRUE(refuses(validate(toothed(crank, 60, {}, 0, 1)), Reason::out_of_range, "trigger.tooth_ratio"));
 }
@@ -94,42 +99,43 @@ TEST(TriggerWheelRules, RefuseEdgesThatAreNoPairsOrDoNotRiseWithinOneTurn) {
   EXPECT_TRUE(accepted(answer({10, 20, 300, 710})));
   EXPECT_TRUE(accepted(answer({700, 730}))) << "a tooth over the top of the cycle";
   EXPECT_TRUE(accepted(answer({0, 359}, TriggerShaft::crank)));
-  EXPECT_TRUE(refuses(answer({0, 360}, TriggerShaft::crank), Reason::out_of_range, "trigger.edges", 1));
-  EXPECT_TRUE(refuses(answer({10, 20, 30}), Reason::inconsistent, "trigger.edges"));
-  EXPECT_TRUE(refuses(answer({}), Reason::too_few_points, "trigger.edges"));
-  EXPECT_TRUE(refuses(answer(std::vector<double>(722, 1)), Reason::too_many_points, "trigger.edges"));
-  EXPECT_TRUE(refuses(answer({720, 730}), Reason::out_of_range, "trigger.edges", 0));
-  EXPECT_TRUE(refuses(answer({10, 10.0005}), Reason::not_increasing, "trigger.edges", 1));
-  EXPECT_TRUE(refuses(answer({10, 730}), Reason::out_of_range, "trigger.edges", 1));
-  EXPECT_TRUE(refuses(answer({10, std::nan("")}), Reason::not_finite, "trigger.edges", 1));
+  EXPECT_TRUE(refuses(answer({0, 360}, TriggerShaft::crank), Reason::out_of_range, "trigger.edges_deg", 1));
+  EXPECT_TRUE(refuses(answer({10, 20, 30}), Reason::inconsistent, "trigger.edges_deg"));
+  EXPECT_TRUE(refuses(answer({}), Reason::too_few_points, "trigger.edges_deg"));
+  EXPECT_TRUE(refuses(answer(std::vector<double>(722, 1)), Reason::too_many_points, "trigger.edges_deg"));
+  EXPECT_TRUE(refuses(answer({720, 730}), Reason::out_of_range, "trigger.edges_deg", 0));
+  EXPECT_TRUE(refuses(answer({10, 10.0005}), Reason::not_increasing, "trigger.edges_deg", 1));
+  EXPECT_TRUE(refuses(answer({10, 730}), Reason::out_of_range, "trigger.edges_deg", 1));
+  EXPECT_TRUE(refuses(answer({10, std::nan("")}), Reason::not_finite, "trigger.edges_deg", 1));
 }
 
 TEST(TriggerWheelRules, RefuseAPhaserOnTheCrankOrOfATrainThatIsNotThere) {
   TriggerWheel wheel = toothed(TriggerShaft::crank, 60, {{58, 2}}, 0);
   wheel.train = 0;
-  EXPECT_TRUE(refuses(validate(wheel), Reason::inconsistent, "trigger.on"));
+  EXPECT_TRUE(refuses(validate(wheel), Reason::inconsistent, "trigger.train"));
   wheel.shaft = TriggerShaft::cam;
   EXPECT_TRUE(accepted(validate(wheel)));
-  EXPECT_TRUE(refuses(validate(one_wheel(wheel)), Reason::out_of_range, "trigger.on", 0)) << "the engine has no trains";
+  EXPECT_TRUE(refuses(validate(one_wheel(wheel)), Reason::out_of_range, "trigger.train", 0))
+      << "the engine has no trains";
   EngineDefinition engine = diesel_495();
   engine.trigger_count = kMaxTriggerWheels + 1;
-  EXPECT_TRUE(refuses(validate(engine), Reason::out_of_range, "triggers"));
+  EXPECT_TRUE(refuses(validate(engine), Reason::out_of_range, "trigger_count"));
 }
 
 TEST(TriggerWheelRules, RefuseNumbersThatNoWheelHas) {
   TriggerWheel wheel = toothed(TriggerShaft::cam, 4, {}, 0);
   for (const int gaps : {-1, kMaxToothGaps + 1}) {
     wheel.gap_count = gaps;
-    EXPECT_TRUE(refuses(validate(wheel), Reason::out_of_range, "trigger.pattern")) << gaps;
+    EXPECT_TRUE(refuses(validate(wheel), Reason::out_of_range, "trigger.gap_count")) << gaps;
   }
   wheel.gap_count = 0;
   for (const int train : {-2, int{kMaxTrains}}) {
     wheel.train = train;
-    EXPECT_TRUE(refuses(validate(wheel), Reason::out_of_range, "trigger.on")) << train;
+    EXPECT_TRUE(refuses(validate(wheel), Reason::out_of_range, "trigger.train")) << train;
   }
   wheel.train = -1;
   wheel.shaft = static_cast<TriggerShaft>(2);
-  EXPECT_TRUE(refuses(validate(wheel), Reason::out_of_range, "trigger.on"));
+  EXPECT_TRUE(refuses(validate(wheel), Reason::out_of_range, "trigger.shaft"));
   wheel.shaft = TriggerShaft::cam;
   wheel.pattern = static_cast<TriggerPattern>(2);
   EXPECT_TRUE(refuses(validate(wheel), Reason::out_of_range, "trigger.pattern"));
@@ -137,14 +143,15 @@ TEST(TriggerWheelRules, RefuseNumbersThatNoWheelHas) {
   const double one_deg = 10;
   wheel.edges_deg = &one_deg;
   wheel.edge_count = 1;
-  EXPECT_TRUE(refuses(validate(wheel), Reason::too_few_points, "trigger.edges"));
-  EXPECT_TRUE(refuses(validate(one_wheel(wheel)), Reason::too_few_points, "trigger.edges", 0)) << "of the engine's first wheel";
+  EXPECT_TRUE(refuses(validate(wheel), Reason::too_few_points, "trigger.edges_deg"));
+  EXPECT_TRUE(refuses(validate(one_wheel(wheel)), Reason::too_few_points, "trigger.edges_deg", 0))
+      << "of the engine's first wheel";
   EngineDefinition engine = diesel_495();
   engine.trigger_count = -1;
-  EXPECT_TRUE(refuses(validate(engine), Reason::out_of_range, "triggers"));
+  EXPECT_TRUE(refuses(validate(engine), Reason::out_of_range, "trigger_count"));
 }
 
-// ---- tables ----------------------------------------------------------------------------------------------------------------
+// ---- tables ---------------------------------------------------------------------------------------------------------
 
 /// Edges given one by one, on the crank and on a cam.
 TEST(TriggerTables, HaveGivenEdgesWhereTheyStand) {
@@ -243,7 +250,7 @@ TEST(TriggerTables, AreRefusedWithoutRoomOrWithAnotherNumberOfWheels) {
   EXPECT_TRUE(refuses(tabulate(one_wheel(wheel), {}, targets), Reason::missing_table, "targets.trigger_edges"));
 }
 
-// ---- one tick --------------------------------------------------------------------------------------------------------------
+// ---- one tick -------------------------------------------------------------------------------------------------------
 
 template <class Real>
 class TriggerTickOf : public ::testing::Test {};
@@ -325,7 +332,8 @@ TYPED_TEST(TriggerTickOf, ListsTheFirstEdgesAndCountsAllWhereThereAreMoreThanRoo
   using Real = TypeParam;
   const auto rigged = rig<Real, DrivenWheels>(one_wheel(toothed(TriggerShaft::crank, 360, {}, 0)), 1e-3);
   typename Engine<Real, DrivenWheels>::Input in;
-  in.speed_rad_s = static_cast<Real>(2000 * support::kPi / 30);  // 12 deg in a tick: 24 edges, give or take the one at its end
+  in.speed_rad_s =
+      static_cast<Real>(2000 * support::kPi / 30);  // 12 deg in a tick: 24 edges, give or take the one at its end
   const auto& out = rigged->engine.step(in);
   EXPECT_EQ(out.faults, kFaultTriggerEdges);
   EXPECT_NEAR(out.trigger[0].edge_count, 24, 1);
@@ -350,8 +358,9 @@ TYPED_TEST(TriggerTickOf, TellsTheLevelButNoEdgesOfALeap) {
 }
 
 TYPED_TEST(TriggerTickOf, HasTheToothCountOfEveryWheelAtEverySpeedAndTick) {
-  // A cycle of 720 deg in as many ticks as speed and tick give, both ways: every tooth of the drawing comes and goes, twice on the crank. Where
-  // that is more ticks than one likes to wait for, as many cycles' parts: the count is then held against the angle.
+  // A cycle of 720 deg in as many ticks as speed and tick give, both ways: every tooth of the drawing comes and goes,
+  // twice on the crank. Where that is more ticks than one likes to wait for, as many cycles' parts: the count is then
+  // held against the angle.
   using Real = TypeParam;
   const std::vector<DrawnWheel> wheels = drawn_wheels();
   const bool long_test = std::getenv("CRANKLOOP_LONG_TESTS") != nullptr;
@@ -377,12 +386,14 @@ TYPED_TEST(TriggerTickOf, HasTheToothCountOfEveryWheelAtEverySpeedAndTick) {
           const auto& out = turn_to(*rigged, forward ? start + Phase{gone} : start - Phase{gone});
           ASSERT_EQ(out.faults, 0u);
           for (std::size_t w = 0; w < wheels.size(); ++w) {
-            for (std::uint32_t e = 0; e < out.trigger[w].edge_count; ++e) ++(out.trigger[w].edge[e].level == 1 ? rises : falls)[w];
+            for (std::uint32_t e = 0; e < out.trigger[w].edge_count; ++e)
+              ++(out.trigger[w].edge[e].level == 1 ? rises : falls)[w];
           }
         }
         for (std::size_t w = 0; w < wheels.size(); ++w) {
           if (to_run == ticks) {
-            const auto teeth = static_cast<std::uint32_t>(wheels[w].edges_deg().size() / 2 * (wheels[w].turn_deg() == 360 ? 2 : 1));
+            const auto teeth =
+                static_cast<std::uint32_t>(wheels[w].edges_deg().size() / 2 * (wheels[w].turn_deg() == 360 ? 2 : 1));
             EXPECT_EQ(rises[w], teeth) << wheels[w].name;
             EXPECT_EQ(falls[w], teeth) << wheels[w].name;
             continue;
@@ -404,11 +415,11 @@ TYPED_TEST(TriggerTickOf, HasTheToothCountOfEveryWheelAtEverySpeedAndTick) {
   }
 }
 
-// ---- phased cams -----------------------------------------------------------------------------------------------------------
+// ---- phased cams ----------------------------------------------------------------------------------------------------
 
 TYPED_TEST(TriggerTickOf, MovesAWheelWithThePhaserOfItsCam) {
-  // The crank stands, the phaser moves the cam 0.2 deg later per tick: the tooth edge that the cam had just passed comes back. A wheel on the
-  // same cam without a phaser stays.
+  // The crank stands, the phaser moves the cam 0.2 deg later per tick: the tooth edge that the cam had just passed
+  // comes back. A wheel on the same cam without a phaser stays.
   using Real = TypeParam;
   EngineDefinition engine = single_495();
   engine.train_count = 1;
@@ -435,7 +446,8 @@ TYPED_TEST(TriggerTickOf, MovesAWheelWithThePhaserOfItsCam) {
   rigged->engine.step(in);
   EXPECT_EQ(out.trigger[0].edge_count, 0u);
   EXPECT_EQ(out.trigger[0].level, 0u);
-  // At twice of it the crank overtakes: 0.15 + 0.1 deg behind, 0.2 deg gained per tick. In the second tick, after a quarter.
+  // At twice of it the crank overtakes: 0.15 + 0.1 deg behind, 0.2 deg gained per tick. In the second tick, after a
+  // quarter.
   in.speed_rad_s = static_cast<Real>(4000 * support::kPi / 180);
   rigged->engine.step(in);
   EXPECT_EQ(out.trigger[0].edge_count, 0u);
@@ -446,7 +458,8 @@ TYPED_TEST(TriggerTickOf, MovesAWheelWithThePhaserOfItsCam) {
 }
 
 TYPED_TEST(TriggerTickOf, KeepsCountWhereCrankAndPhaserGoTogetherFurtherThanASignedPhaseHolds) {
-  // 0.4999 cycles of crank forward and 200 deg of phaser back in one tick of 2 ms: 560 deg on a cam wheel with an edge every degree.
+  // 0.4999 cycles of crank forward and 200 deg of phaser back in one tick of 2 ms: 560 deg on a cam wheel with an edge
+  // every degree.
   using Real = TypeParam;
   EngineDefinition engine = single_495();
   engine.train_count = 1;
@@ -459,7 +472,8 @@ TYPED_TEST(TriggerTickOf, KeepsCountWhereCrankAndPhaserGoTogetherFurtherThanASig
     const auto rigged = rig<Real, FinelyPhasedWheel>(engine, 2e-3, Phase{kDegree / 2});
     typename Engine<Real, FinelyPhasedWheel>::Input in;
     in.cam_phase_deg[0] = forward ? Real{100} : Real{-100};
-    for (int i = 0; i < 3; ++i) rigged->engine.step(in);  // the phaser out to one side, and back past the middle with the crank
+    for (int i = 0; i < 3; ++i)
+      rigged->engine.step(in);  // the phaser out to one side, and back past the middle with the crank
     in.cam_phase_deg[0] = -in.cam_phase_deg[0];
     const Real limit = rigged->storage.tables().drive->speed_limit_rad_s;
     in.speed_rad_s = forward ? limit : -limit;

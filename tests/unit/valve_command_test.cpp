@@ -1,4 +1,5 @@
-// `crankloop valve` and `redline`: CSV, plot and summary of one train, and the search for the onset of float and bounce.
+// `crankloop valve` and `redline`: CSV, plot and summary of one train, and the search for the onset of float and
+// bounce.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -43,6 +44,25 @@ TEST(Redline, AnOnsetIsTheFirstWholeSpeedThatHasIt) {
   EXPECT_EQ(run<double>(valve, sweep.separation.speed_rpm - 1).results.separations, 0u);
   EXPECT_EQ(run<double>(valve, sweep.bounce.speed_rpm).results.bounces, 1u);
   EXPECT_EQ(run<double>(valve, sweep.bounce.speed_rpm - 1).results.bounces, 0u);
+}
+
+/// The valve of the 125 lifts off its seat by micrometres long before it bounces in earnest.
+TEST(Redline, ABounceCountsFromTheHeightThatIsAskedFor) {
+  const EngineFile file = read_engine_file(kOhc125, {});
+  const LoneValve valve(file, "intake");
+  const auto onset_rpm = [&](double least_m) {
+    return sweep_speeds(valve, speed_range(2000, 11000), 1, {}, least_m).bounce.speed_rpm;
+  };
+  const int of_any_rpm = onset_rpm(1e-6);
+  const int of_high_rpm = onset_rpm(100e-6);
+  EXPECT_EQ(of_any_rpm, sweep_speeds(valve, speed_range(2000, 11000), 1, {}).bounce.speed_rpm);
+  EXPECT_GT(of_high_rpm, of_any_rpm + 1000);
+  ValveLoop<double> loop(valve, kRedlineTick_s, {});
+  const auto height_m = [&](int rpm) {
+    return run_cycles<double>(loop, valve, rpm, kRedlineCycles, [](const ValveTickOutput<double>&) {}).bounce_height_m;
+  };
+  EXPECT_GE(height_m(of_high_rpm), 100e-6);
+  EXPECT_LT(height_m(of_high_rpm - 1), 100e-6);
 }
 
 TEST(Redline, AnOnsetOutsideTheRangeIsToldAsSuch) {
@@ -168,7 +188,7 @@ TEST_F(ValveCommands, TheCsvHasARowForEveryTickOfACycle) {
   const std::vector<std::string> rows = split_at(contents(path("v.csv")), '\n');
   ASSERT_EQ(rows[0],
             "cam_deg,theoretical_lift_mm,rocker_ratio,lift_mm,velocity_m_s,acceleration_m_s2,train_force_N,seat_force_"
-            "N,cam_force_N,gap_mm,regime");
+            "N,cam_force_N,train_compression_mm,regime");
   ASSERT_EQ(rows.size(), 1u + 400 + 1);  // 20 ms, both ends shown
   const auto cells = [&](std::size_t row) {
     std::vector<double> values;
@@ -252,9 +272,11 @@ TEST_F(ValveCommands, APlotTellsSeparationFromBounceFromCompression) {
   EXPECT_EQ(gap_at_7000.find("separation"), std::string::npos) << gap_at_7000;
   EXPECT_GT(span_in(gap_at_7000, "on the train").second, 50);  // compressed by its force, 0.7 kN on 11765 N/mm
   EXPECT_LT(span_in(gap_at_7000, "on the train").second, 70);
-  const double contact_um = 205.8 / 100e6 * 1e6;  // delta_0, from where bounces count
-  EXPECT_NEAR(span_in(description_of(at_7000, "Seating, closer"), "bounce").second,
-              um(found.at("bounce_height_mm")) + contact_um, kDigits * 20 + 0.1);
+  const double contact_um = 205.8 / 100e6 * 1e6;  // delta_0: the closed valve lies that far below the seat's contact
+  EXPECT_NEAR(span_in(description_of(at_7000, "Seating, closer"), "bounce").second, um(found.at("bounce_height_mm")),
+              kDigits * 20 + 0.1);
+  EXPECT_LT(span_in(description_of(at_7000, "Seating, closer"), "on the seat").first, -contact_um);
+  EXPECT_EQ(span_in(description_of(at_7000, "Seating, closer"), "seat contact"), std::make_pair(0.0, 0.0));
 
   const support::Markup at_12000 = picture("12000", found);
   const double widest_um = um(found.at("separation_max_gap_mm"));
@@ -306,8 +328,9 @@ TEST_F(ValveCommands, ARunShowsTheValvesInSummaryAndReport) {
   EXPECT_GT(std::stod(found.at("intake_separation_max_gap").first), 1);
   EXPECT_GT(std::stod(found.at("intake_bounce_height").first), 2);
   const std::string page = contents(path("run.html"));
-  for (const char* words : {"Valve train", "intake, theory", "At this speed the valve leaves its train: intake.",
-                            "separation", "bounce", "Seating of the intake valve"}) {
+  for (const char* words :
+       {"Valve train", "theory", "seat contact", "Valve timing", "At this speed the valve leaves its train: intake.",
+        "separation", "bounce", "Seating of the intake valve"}) {
     EXPECT_NE(page.find(words), std::string::npos) << words;
   }
 }
@@ -315,7 +338,8 @@ TEST_F(ValveCommands, ARunShowsTheValvesInSummaryAndReport) {
 TEST_F(ValveCommands, ATickTooLongIsRefusedWithTheLongestThatIsAccepted) {
   const ChangedFile stiff(kOhc125, "seat_N_per_mm", "seat_N_per_mm = 10000000");
   const auto refused = [&](const std::string& tick_us) {
-    return refusal(kValve, {stiff.path(), "--train", "intake", "--rpm", "7000", "--tick-us", tick_us, "--accuracy-um", "0.01"});
+    return refusal(kValve,
+                   {stiff.path(), "--train", "intake", "--rpm", "7000", "--tick-us", tick_us, "--accuracy-um", "0.01"});
   };
   const std::string message = refused("2000");
   const std::string words = "the longest tick possible is ";
@@ -371,11 +395,14 @@ TEST_F(ValveCommands, ARedlineTellsBothOnsetsAndWritesItsTableAndPage) {
   const std::vector<std::string> rows = split_at(contents(path("r.csv")), '\n');
   EXPECT_EQ(rows[0].substr(0, 17), "factor,speed_rpm,");
   EXPECT_EQ(rows.size(), 1u + 7 * 61);
-  // Compared at the sweep's first speed above the onset as given, in steps of 25 rpm: not where the motion is aperiodic.
+  // Compared at the sweep's first speed above the onset as given, in steps of 25 rpm: not where the motion is
+  // aperiodic.
   const double onset_rpm = std::stod(found.at("separation_onset_rpm").first);
   const double compared_rpm = 25 * (std::floor(onset_rpm / 25) + 1);
-  const std::string table = run(kRedline, {kOhc125, "--train", "intake", "--from", "8000", "--to", "9500", "--vary", "spring"});
-  EXPECT_NE(table.find("from max_lift_mm on at " + std::to_string(static_cast<int>(compared_rpm)) + " rpm"), std::string::npos);
+  const std::string table =
+      run(kRedline, {kOhc125, "--train", "intake", "--from", "8000", "--to", "9500", "--vary", "spring"});
+  EXPECT_NE(table.find("from max_lift_mm on at " + std::to_string(static_cast<int>(compared_rpm)) + " rpm"),
+            std::string::npos);
   const std::string page = contents(path("r.html"));
   EXPECT_NE(page.find("<svg"), std::string::npos);
   EXPECT_NE(page.find("spring_N_per_mm"), std::string::npos);

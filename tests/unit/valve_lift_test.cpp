@@ -1,4 +1,5 @@
-// Cam to rocker to valve: against a body that is turned and touched, against differences, and what a train that cannot work is told.
+// Cam to rocker to valve: against a body that is turned and touched, against differences, and what a train that cannot
+// work is told.
 #include <crankloop/tabulate/valve_lift.hpp>
 
 #include <gtest/gtest.h>
@@ -33,15 +34,16 @@ using support::kRadPerDeg;
 double printed_lift_m(double phi_rad) {
   const double u = std::fabs(phi_rad) / (74 * kRadPerDeg);
   if (u >= 1) return 0;
-  return 6.301099e-3 * (1 - 195.0 / 128 * std::pow(u, 2) + 117.0 / 128 * std::pow(u, 10) - 65.0 / 128 * std::pow(u, 18) +
-                        15.0 / 128 * std::pow(u, 26));
+  return 6.301099e-3 * (1 - 195.0 / 128 * std::pow(u, 2) + 117.0 / 128 * std::pow(u, 10) -
+                        65.0 / 128 * std::pow(u, 18) + 15.0 / 128 * std::pow(u, 26));
 }
 
 double printed_slope_m(double phi_rad) {
   const double u = std::fabs(phi_rad) / (74 * kRadPerDeg);
   if (u >= 1) return 0;
   return std::copysign(6.301099e-3 / (74 * kRadPerDeg), phi_rad) *
-         (-195.0 / 64 * u + 1170.0 / 128 * std::pow(u, 9) - 1170.0 / 128 * std::pow(u, 17) + 390.0 / 128 * std::pow(u, 25));
+         (-195.0 / 64 * u + 1170.0 / 128 * std::pow(u, 9) - 1170.0 / 128 * std::pow(u, 17) +
+          390.0 / 128 * std::pow(u, 25));
 }
 
 ValveLift lift_of(const Cam& cam, const Rocker& rocker) {
@@ -60,17 +62,20 @@ class RockerOfThe125 : public testing::TestWithParam<CamTurns> {
   const BruteForceCam body{rocker, printed_lift_m};
 };
 
-INSTANTIATE_TEST_SUITE_P(TurningEitherWay, RockerOfThe125, testing::Values(CamTurns::toward_pivot, CamTurns::away_from_pivot));
+INSTANTIATE_TEST_SUITE_P(TurningEitherWay, RockerOfThe125,
+                         testing::Values(CamTurns::toward_pivot, CamTurns::away_from_pivot));
 
 TEST_P(RockerOfThe125, StandsWhereItsPadTouchesTheTurnedCam) {
   const double full_lift = body.turned_at_full_lift_rad();
   for (int deg = -180; deg <= 180; deg += 4) {
-    EXPECT_NEAR(lift.at(deg * kRadPerDeg).rocker_rad, body.rocker_rad(full_lift + deg * kRadPerDeg), kTouch_rad) << deg << " deg";
+    EXPECT_NEAR(lift.at(deg * kRadPerDeg).rocker_rad, body.rocker_rad(full_lift + deg * kRadPerDeg), kTouch_rad)
+        << deg << " deg";
   }
 }
 
 TEST_P(RockerOfThe125, MovesTheValveByTheRatioTimesTheContactsSpeedAlongItsNormal) {
-  // The brute force tells which flat follower touches at the same point; its y' is the speed at which the cam pushes there.
+  // The brute force tells which flat follower touches at the same point; its y' is the speed at which the cam pushes
+  // there.
   const double full_lift = body.turned_at_full_lift_rad();
   for (int deg = -84; deg <= 84; deg += 4) {
     const double turned = full_lift + deg * kRadPerDeg;
@@ -82,7 +87,8 @@ TEST_P(RockerOfThe125, MovesTheValveByTheRatioTimesTheContactsSpeedAlongItsNorma
 }
 
 TEST_P(RockerOfThe125, PushesTheStemWithTheScrewsBall) {
-  // The ball's centre stands l_b sin psi above the pivot, psi falling as the rocker swings out; under it the stem's end at z while closed.
+  // The ball's centre stands l_b sin psi above the pivot, psi falling as the rocker swings out; under it the stem's end
+  // at z while closed.
   const double rest = lift.at(kPi).rocker_rad;
   const double psi_rest = std::asin((10e-3 + 0.05e-3 + 1.65e-3) / 33.28e-3);
   for (int deg = -90; deg <= 90; deg += 3) {
@@ -94,7 +100,8 @@ TEST_P(RockerOfThe125, PushesTheStemWithTheScrewsBall) {
 
 TEST_P(RockerOfThe125, LiftsTheValveBy7815MicrometresAtFullLift) {
   EXPECT_NEAR(lift.largest_lift_m(), 7.815e-3, 0.0005e-3);
-  for (int tenth = -1800; tenth <= 1800; ++tenth) EXPECT_LE(lift.at(tenth * 0.1 * kRadPerDeg).lift_m, lift.largest_lift_m());
+  for (int tenth = -1800; tenth <= 1800; ++tenth)
+    EXPECT_LE(lift.at(tenth * 0.1 * kRadPerDeg).lift_m, lift.largest_lift_m());
   EXPECT_EQ(lift.at(0).lift_m, lift.largest_lift_m());
   EXPECT_NEAR(lift.at(0).per_rad_m, 0, 1e-17);
 }
@@ -112,27 +119,32 @@ TEST_P(RockerOfThe125, HasRatiosFrom102To165) {
 }
 
 TEST_P(RockerOfThe125, HasDerivativesThatAgreeWithDifferences) {
-  // Five points h apart are off by h^4 / 30 times the fifth derivative, by 5e-16 m and 7e-13 m here, and by 1.5 / h times rounding (a few 1e-18
-  // m): 2e-13 m.
+  // Five points h apart are off by h^4 / 30 times the fifth derivative, by 5e-16 m and 7e-13 m here, and by 1.5 / h
+  // times rounding (a few 1e-18 m): 2e-13 m.
   constexpr double h = 1.0 / 32768;
   const double peak_slope_m = 0.0144;
   const double peak_curvature_m = 0.0384;
   for (double rad = -1.5; rad < 1.5; rad += 0.00173) {
     const LiftPose pose = lift.at(rad);
-    EXPECT_NEAR(pose.per_rad_m, slope_of([&](double x) { return lift.at(x).lift_m; }, rad, h), 1e-10 * peak_slope_m) << rad;
-    EXPECT_NEAR(pose.per_rad2_m, slope_of([&](double x) { return lift.at(x).per_rad_m; }, rad, h), 1e-10 * peak_curvature_m) << rad;
+    EXPECT_NEAR(pose.per_rad_m, slope_of([&](double x) { return lift.at(x).lift_m; }, rad, h), 1e-10 * peak_slope_m)
+        << rad;
+    EXPECT_NEAR(pose.per_rad2_m, slope_of([&](double x) { return lift.at(x).per_rad_m; }, rad, h),
+                1e-10 * peak_curvature_m)
+        << rad;
   }
 }
 
 TEST_P(RockerOfThe125, RestsExactlyOneClearanceBelowTheValveOutsideTheLobe) {
-  const double ends[] = {lift.opens_rad(), lift.closes_rad(), lift.opens_rad() - 0.3, lift.closes_rad() + 0.3, kPi, -kPi};
+  const double ends[] = {
+      lift.opens_rad(), lift.closes_rad(), lift.opens_rad() - 0.3, lift.closes_rad() + 0.3, kPi, -kPi};
   for (const double rad : ends) {
     const LiftPose pose = lift.at(rad);
     EXPECT_EQ(pose.lift_m, -0.05e-3) << rad;
     EXPECT_EQ(pose.per_rad_m, 0) << rad;
     EXPECT_EQ(pose.per_rad2_m, 0) << rad;
   }
-  EXPECT_NEAR(lift.closes_rad() - lift.opens_rad(), 148 * kRadPerDeg, 1e-15);  // base circle at both ends: the pad's share is the same
+  EXPECT_NEAR(lift.closes_rad() - lift.opens_rad(), 148 * kRadPerDeg,
+              1e-15);  // base circle at both ends: the pad's share is the same
   EXPECT_GT(lift.at(lift.opens_rad() + 0.02).lift_m, -0.05e-3);
   EXPECT_GT(lift.at(lift.closes_rad() - 0.02).lift_m, -0.05e-3);
 }
@@ -141,7 +153,8 @@ TEST_P(RockerOfThe125, DoesNotMindInWhichTurnItsAngleIs) {
   for (const double rad : {-1.1, -0.4, 0.0, 0.3, 0.9, 2.5}) {
     for (const int turns : {-1000, -1, 1, 2, 1000}) {
       // A thousand turns round the angle to 1e-12 rad.
-      EXPECT_NEAR(lift.at(rad + turns * 2 * kPi).lift_m, lift.at(rad).lift_m, 2e-12 * 0.0144) << rad << " + " << turns << " turns";
+      EXPECT_NEAR(lift.at(rad + turns * 2 * kPi).lift_m, lift.at(rad).lift_m, 2e-12 * 0.0144)
+          << rad << " + " << turns << " turns";
     }
   }
   for (const double nowhere : {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
@@ -182,7 +195,8 @@ TEST(RockerLift, OfAnyTrainThatCanTurnIsThatOfTheBruteForce) {
       const LiftPose pose = lift.at(rad);
       EXPECT_NEAR(pose.rocker_rad, W, kTouch_rad) << random.trace(draw) << ", " << rad << " rad";
       const double contact_speed = profile.at(body.touch(W, turned).phi_rad).per_rad_m;
-      EXPECT_NEAR(pose.per_rad_m, pose.rocker_ratio * contact_speed, 2e-8) << random.trace(draw) << ", " << rad << " rad";
+      EXPECT_NEAR(pose.per_rad_m, pose.rocker_ratio * contact_speed, 2e-8)
+          << random.trace(draw) << ", " << rad << " rad";
     }
   }
 }
@@ -194,7 +208,7 @@ TEST(RockerLever, IsTheMeanOfSeatedAndFullyOpen) {
   EXPECT_NEAR(lift.lever_m(), 33.28e-3 * (std::cos(psi_seated) + std::cos(psi_open)) / 2, 1e-16);
 }
 
-// ---- constant ratio --------------------------------------------------------------------------------------------------------
+// ---- constant ratio -------------------------------------------------------------------------------------------------
 
 TEST(ConstantRatioTrain, MultipliesTheFollowersLiftAndTakesTheClearanceOff) {
   const ValveLift lift = lift_of(ohc_125_cam(), direct_rocker(18e-3, 0.2e-3, 1.5));
@@ -216,7 +230,7 @@ TEST(ConstantRatioTrain, HasTheLeverItIsGiven) {
   EXPECT_EQ(lift_of(ohc_125_cam(), rocker).lever_m(), 0.03);
 }
 
-// ---- what cannot work ------------------------------------------------------------------------------------------------------
+// ---- what cannot work -----------------------------------------------------------------------------------------------
 
 TEST(CamOfThe125, IsNowhereSharperThan587Millimetres) {
   const ValveLift lift = lift_of(ohc_125_cam(), ohc_125_rocker());
@@ -236,7 +250,8 @@ TEST(CamOfThe125, IsNowhereSharperThan587Millimetres) {
 }
 
 TEST(ValveLift, FindsACamsSharpestPlaceOnWhicheverSideOfAnyGridItLies) {
-  // The contour's radius of curvature r_0 + y + y'' of lobes of many widths, at a ten-thousandth of a degree about its smallest.
+  // The contour's radius of curvature r_0 + y + y'' of lobes of many widths, at a ten-thousandth of a degree about its
+  // smallest.
   for (double half_angle_deg = 60; half_angle_deg < 90; half_angle_deg += 1.7) {
     Cam cam = ohc_125_cam();
     cam.half_angle_deg = half_angle_deg;
@@ -258,10 +273,11 @@ TEST(ValveLift, FindsACamsSharpestPlaceOnWhicheverSideOfAnyGridItLies) {
 }
 
 TEST(ValveLiftRefusal, OfAnUndercutCamNamesTheAngleOfItsSharpestPlace) {
-  // The 125's contour loses 12.5 - 5.87 mm to its smallest radius of curvature: a base circle of 6.6 mm is undercut, one of 6.7 is not.
+  // The 125's contour loses 12.5 - 5.87 mm to its smallest radius of curvature: a base circle of 6.6 mm is undercut,
+  // one of 6.7 is not.
   ValveLift lift;
   Rocker rocker = direct_rocker(6.6e-3, 0);
-  EXPECT_TRUE(refuses(lift.init(ohc_125_cam(), rocker), Reason::inconsistent, "rocker.base_circle"));
+  EXPECT_TRUE(refuses(lift.init(ohc_125_cam(), rocker), Reason::inconsistent, "rocker.base_circle_m"));
   EXPECT_NEAR(std::fabs(lift.failed_at_deg()), 32.9, 0.1);
   rocker.base_circle_m = 6.7e-3;
   EXPECT_TRUE(accepted(lift.init(ohc_125_cam(), rocker)));
@@ -272,7 +288,7 @@ TEST(ValveLiftRefusal, OfATriangleThatTheNosePushesOpenNamesFullLift) {
   ValveLift lift;
   Rocker rocker = ohc_125_rocker();
   rocker.pivot_to_pad_m = 48.75e-3 - rocker.pivot_to_cam_m;
-  EXPECT_TRUE(refuses(lift.init(ohc_125_cam(), rocker), Reason::inconsistent, "rocker.pivot_to_pad"));
+  EXPECT_TRUE(refuses(lift.init(ohc_125_cam(), rocker), Reason::inconsistent, "rocker.pivot_to_pad_m"));
   EXPECT_NEAR(lift.failed_at_deg(), 0, 0.01);
 }
 
@@ -281,7 +297,7 @@ TEST(ValveLiftRefusal, OfATriangleThatDoesNotReachTheBaseCircleNamesAnAngleThere
   ValveLift lift;
   Rocker rocker = ohc_125_rocker();
   rocker.pivot_to_pad_m = 42.6e-3 + rocker.pivot_to_cam_m;
-  EXPECT_TRUE(refuses(lift.init(ohc_125_cam(), rocker), Reason::inconsistent, "rocker.pivot_to_pad"));
+  EXPECT_TRUE(refuses(lift.init(ohc_125_cam(), rocker), Reason::inconsistent, "rocker.pivot_to_pad_m"));
   EXPECT_NEAR(std::fabs(lift.failed_at_deg()), 74, 0.1);
 }
 
@@ -293,33 +309,35 @@ TEST(ValveLiftRefusal, OfATrainThatJamsNamesWhereTheNormalMeetsThePivot) {
   rocker.pad_radius_m = 12e-3;
   rocker.pivot_to_pad_m = 42.4e-3;
   rocker.pivot_to_cam_m = 14.3e-3;
-  EXPECT_TRUE(refuses(lift.init(ohc_125_cam(), rocker), Reason::inconsistent, "rocker.pivot_to_cam"));
+  EXPECT_TRUE(refuses(lift.init(ohc_125_cam(), rocker), Reason::inconsistent, "rocker.pivot_to_cam_m"));
   const auto pressure_angle = [&](double phi) {
     const double height = 28.5e-3 + printed_lift_m(phi);
     const double R = std::hypot(height, printed_slope_m(phi));
-    return std::acos((42.4e-3 * 42.4e-3 + R * R - 14.3e-3 * 14.3e-3) / (2 * 42.4e-3 * R)) - std::atan(printed_slope_m(phi) / height);
+    return std::acos((42.4e-3 * 42.4e-3 + R * R - 14.3e-3 * 14.3e-3) / (2 * 42.4e-3 * R)) -
+           std::atan(printed_slope_m(phi) / height);
   };
   const double worst = lift.failed_at_deg() * kRadPerDeg;
   EXPECT_LT(pressure_angle(worst), 0);
-  for (double phi = -1.29; phi < 1.29; phi += 0.001) EXPECT_GE(pressure_angle(phi), pressure_angle(worst) - 1e-9) << phi;
+  for (double phi = -1.29; phi < 1.29; phi += 0.001)
+    EXPECT_GE(pressure_angle(phi), pressure_angle(worst) - 1e-9) << phi;
 }
 
 TEST(ValveLiftRefusal, OfAScrewThatCannotReachTheStemNamesIt) {
   ValveLift lift;
   Rocker rocker = ohc_125_rocker();
   rocker.pivot_to_screw_m = 11.69e-3;  // rho + z + clearance = 11.70 mm
-  EXPECT_TRUE(refuses(lift.init(ohc_125_cam(), rocker), Reason::inconsistent, "rocker.pivot_to_screw"));
+  EXPECT_TRUE(refuses(lift.init(ohc_125_cam(), rocker), Reason::inconsistent, "rocker.pivot_to_screw_m"));
   EXPECT_NEAR(lift.failed_at_deg(), -74, 1e-9);
   rocker = ohc_125_rocker();
   rocker.stem_above_pivot_m = -1;  // as far below
-  EXPECT_TRUE(refuses(lift.init(ohc_125_cam(), rocker), Reason::inconsistent, "rocker.pivot_to_screw"));
+  EXPECT_TRUE(refuses(lift.init(ohc_125_cam(), rocker), Reason::inconsistent, "rocker.pivot_to_screw_m"));
 }
 
 TEST(ValveLiftRefusal, OfAScrewThatSwingsPastTheVerticalNamesFullLift) {
   ValveLift lift;
   Rocker rocker = ohc_125_rocker();
   rocker.stem_above_pivot_m = -42.6e-3;  // psi_0 = -78 deg, and the rocker swings by 14
-  EXPECT_TRUE(refuses(lift.init(ohc_125_cam(), rocker), Reason::inconsistent, "rocker.pivot_to_screw"));
+  EXPECT_TRUE(refuses(lift.init(ohc_125_cam(), rocker), Reason::inconsistent, "rocker.pivot_to_screw_m"));
   EXPECT_NEAR(lift.failed_at_deg(), 0, 0.01);
 }
 
@@ -327,10 +345,10 @@ TEST(ValveLiftRefusal, OfWhatIsNoDefinitionIsThatOfTheDefinition) {
   ValveLift lift;
   Rocker rocker = ohc_125_rocker();
   rocker.pad_radius_m = -1;
-  EXPECT_TRUE(refuses(lift.init(ohc_125_cam(), rocker), Reason::not_positive, "rocker.pad_radius"));
+  EXPECT_TRUE(refuses(lift.init(ohc_125_cam(), rocker), Reason::not_positive, "rocker.pad_radius_m"));
   Cam cam = ohc_125_cam();
   cam.half_angle_deg = 181;
-  EXPECT_TRUE(refuses(lift.init(cam, ohc_125_rocker()), Reason::out_of_range, "cam.half_angle"));
+  EXPECT_TRUE(refuses(lift.init(cam, ohc_125_rocker()), Reason::out_of_range, "cam.half_angle_deg"));
 }
 
 TEST(RockerLift, OfAnyTrainThatIsAcceptedRisesAndFallsOnceWithoutAStep) {

@@ -192,7 +192,7 @@ TYPED_TEST(ValveLoopIn, InAWholeEngineEveryCylinderHasTheSameValves) {
     const auto expect_same = [](double a, Real b, double within) { EXPECT_NEAR(a, static_cast<double>(b), within); };
     expect_same(together.largest_lift_m, alone.largest_lift_m, 2 * kAccuracy_m);
     expect_same(together.bounce_height_m, alone.bounce_height_m, 2 * kAccuracy_m);
-    expect_same(together.separation_gap_m, alone.separation_gap_m, 2 * kAccuracy_m);
+    expect_same(together.separation_clearance_m, alone.separation_clearance_m, 2 * kAccuracy_m);
     expect_same(together.seating_speed_m_s, alone.seating_speed_m_s, 1e-3);
     EXPECT_EQ(together.bounces, alone.bounces);
     EXPECT_EQ(together.separations, alone.separations);
@@ -224,12 +224,12 @@ TEST(Cycles, AreComparedResultByResult) {
   ValveCycle<double> b{};
   a.largest_lift_m = 2, b.largest_lift_m = 1;
   a.bounces = 1, b.bounces = 3;
-  a.separation_gap_m = 1, a.separation_start_deg = 10, a.separation_duration_deg = 2;
-  b.separation_gap_m = 2, b.separation_start_deg = 5, b.separation_duration_deg = 1;
+  a.separation_clearance_m = 1, a.separation_start_deg = 10, a.separation_duration_deg = 2;
+  b.separation_clearance_m = 2, b.separation_start_deg = 5, b.separation_duration_deg = 1;
   for (const ValveCycle<double>& worse : {worse_of(a, b), worse_of(b, a)}) {
     EXPECT_EQ(worse.largest_lift_m, 2);
     EXPECT_EQ(worse.bounces, 3u);
-    EXPECT_EQ(worse.separation_gap_m, 2);
+    EXPECT_EQ(worse.separation_clearance_m, 2);
     EXPECT_EQ(worse.separation_start_deg, 5);  // of the larger separation, not the larger angle
     EXPECT_EQ(worse.separation_duration_deg, 1);
   }

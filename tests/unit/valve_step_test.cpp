@@ -1,7 +1,7 @@
 // A valve's step: its matrix against the textbook and against the exact solution, contacts, frequencies, energy, step
 // lengths, size of the state.
-#include <crankloop/tabulate/valve_motion.hpp>
 #include <crankloop/output.hpp>
+#include <crankloop/tabulate/valve_motion.hpp>
 
 #include <gtest/gtest.h>
 
@@ -16,6 +16,8 @@
 #include "support/test_valves.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 namespace {
 
 using namespace valve_test;
@@ -27,17 +29,6 @@ using tick_test::RealName;
 /// Drawn evenly over the decades.
 double logarithmic(Random& random, double low, double high) { return low * std::pow(high / low, random.between(0, 1)); }
 
-ValveBody<double> body_of(const ValveTrain& train) {
-  const ValveLift lift = lift_of(train);
-  return valve_body(train.valve, lift.lever_m() > 0 ? lift.lever_m() : 1);
-}
-
-ValveMotion<double> motion_for(const ValveBody<double>& body, double tick_s, Integrator integrator = Integrator::rk4) {
-  ValveMotion<double> motion{};
-  EXPECT_TRUE(accepted(motion_of(body, tick_s, {integrator, 0.1e-6}, motion)));
-  return motion;
-}
-
 /// The cam over a step: at its ends, and by the cubic Hermite formulas of any handbook between them.
 struct CamStep {
   Lift<double> from, to;
@@ -48,9 +39,10 @@ struct CamStep {
   };
   [[nodiscard]] At at(double x) const {
     const double p0 = from.lift_m, p1 = to.lift_m, m0 = deg * from.per_deg_m, m1 = deg * to.per_deg_m;
-    return {(2 * x * x * x - 3 * x * x + 1) * p0 + (x * x * x - 2 * x * x + x) * m0 + (3 * x * x - 2 * x * x * x) * p1 +
-                (x * x * x - x * x) * m1,
-            (6 * x * x - 6 * x) * p0 + (3 * x * x - 4 * x + 1) * m0 + (6 * x - 6 * x * x) * p1 + (3 * x * x - 2 * x) * m1};
+    return {
+        (2 * x * x * x - 3 * x * x + 1) * p0 + (x * x * x - 2 * x * x + x) * m0 + (3 * x * x - 2 * x * x * x) * p1 +
+            (x * x * x - x * x) * m1,
+        (6 * x * x - 6 * x) * p0 + (3 * x * x - 4 * x + 1) * m0 + (6 * x - 6 * x * x) * p1 + (3 * x * x - 2 * x) * m1};
   }
 };
 
@@ -63,8 +55,8 @@ CamStep cam_step_at(const ValveLift& lift, double deg, double turned_deg) {
 }
 
 /// The textbook's four stages in one regime, n times over the step [Li 2017, 4.9-4.13]; the gas force rises evenly.
-ValveState<double> textbook(const ValveBody<double>& b, std::uint32_t regime, double step_s, int n, ValveState<double> s,
-                            const CamStep& cam, const detail::GasForce<double>& gas) {
+ValveState<double> textbook(const ValveBody<double>& b, std::uint32_t regime, double step_s, int n,
+                            ValveState<double> s, const CamStep& cam, const detail::GasForce<double>& gas) {
   const auto f = [&](double x, double y, double v) {
     double force = -b.spring_N_m * y - b.preload_N - b.guide_Ns_m * v - (gas.from_N + x * (gas.to_N - gas.from_N));
     const CamStep::At c = cam.at(x);
@@ -112,11 +104,13 @@ TEST(ValveRecord, IsSoManyTextbookStepsMultipliedOutInEveryRegime) {
         const double step_s = whole ? tick_s : motion.fine_step_s;
         const int n = static_cast<int>(std::ceil(step_s * fastest / 0.1 * (1 - 1e-12)));  // rate times step at most 0.1
         const RegimeStep<double>& record = (whole ? motion.whole : motion.fine)[regime];
-        const ValveState<double> by_record = detail::stepped(record, step.before, step.cam.from, step.cam.to, step.cam.deg, step.gas).state;
+        const ValveState<double> by_record =
+            detail::stepped(record, step.before, step.cam.from, step.cam.to, step.cam.deg, step.gas).state;
         const ValveState<double> by_stages = textbook(body, regime, step_s, n, step.before, step.cam, step.gas);
         // Relative to what is added up: a state, what drives it, and what a step makes of them.
         const double w = std::sqrt((body.train_N_m + body.seat_N_m) / body.mass_kg);
-        const double size = std::fabs(step.before.lift_m) + std::fabs(step.cam.from.lift_m) + std::fabs(step.before.velocity_m_s) / w;
+        const double size =
+            std::fabs(step.before.lift_m) + std::fabs(step.cam.from.lift_m) + std::fabs(step.before.velocity_m_s) / w;
         worst = std::max(worst, std::fabs(by_record.lift_m - by_stages.lift_m) / size);
         worst = std::max(worst, std::fabs(by_record.velocity_m_s - by_stages.velocity_m_s) / (size * w));
       }
@@ -133,8 +127,8 @@ TEST(ValveRecord, OfTheExponentialIsTheExactSolutionForTheCubicLift) {
   const double d = 20e-6;
   const ValveMotion<double> motion = motion_for(body, d, Integrator::exponential);
   ASSERT_EQ(motion.parts, 1u);
-  // Power series of the solution of M y'' + C y' + K y = F + k Y + b Y' with Y a polynomial, in long double, term by term
-  // until nothing is added: one series over all of the step.
+  // Power series of the solution of M y'' + C y' + K y = F + k Y + b Y' with Y a polynomial, in long double, term by
+  // term until nothing is added: one series over all of the step.
   using Long = long double;
   const auto wide = [](double x) { return static_cast<Long>(x); };
   Random random;
@@ -142,7 +136,8 @@ TEST(ValveRecord, OfTheExponentialIsTheExactSolutionForTheCubicLift) {
     const std::uint32_t regime = static_cast<std::uint32_t>(draw % 4);
     const DrawnStep step(lift, regime, random);
     const CamStep& cam = step.cam;
-    const double rise = cam.to.lift_m - cam.from.lift_m, m0 = cam.deg * cam.from.per_deg_m, m1 = cam.deg * cam.to.per_deg_m;
+    const double rise = cam.to.lift_m - cam.from.lift_m, m0 = cam.deg * cam.from.per_deg_m,
+                 m1 = cam.deg * cam.to.per_deg_m;
     const Long within[] = {wide(cam.from.lift_m), wide(m0), wide(3 * rise - 2 * m0 - m1), wide(m0 + m1 - 2 * rise)};
     const Long h = wide(d);
     const Long M = wide(body.mass_kg);
@@ -164,11 +159,15 @@ TEST(ValveRecord, OfTheExponentialIsTheExactSolutionForTheCubicLift) {
       y += term[n + 2];
       v += (n + 2) * term[n + 2];
     }
-    const ValveState<double> after = detail::stepped(motion.fine[regime], step.before, cam.from, cam.to, cam.deg, step.gas).state;
+    const ValveState<double> after =
+        detail::stepped(motion.fine[regime], step.before, cam.from, cam.to, cam.deg, step.gas).state;
     const double w = std::sqrt(static_cast<double>(K / M));
-    const double size = std::fabs(step.before.lift_m) + std::fabs(cam.from.lift_m) + std::fabs(step.before.velocity_m_s) / w;
-    EXPECT_NEAR(after.lift_m, static_cast<double>(y), 1e-13 * size) << "regime " << regime << ", " << random.trace(draw);
-    EXPECT_NEAR(after.velocity_m_s, static_cast<double>(v / h), 1e-13 * size * w) << "regime " << regime << ", " << random.trace(draw);
+    const double size =
+        std::fabs(step.before.lift_m) + std::fabs(cam.from.lift_m) + std::fabs(step.before.velocity_m_s) / w;
+    EXPECT_NEAR(after.lift_m, static_cast<double>(y), 1e-13 * size)
+        << "regime " << regime << ", " << random.trace(draw);
+    EXPECT_NEAR(after.velocity_m_s, static_cast<double>(v / h), 1e-13 * size * w)
+        << "regime " << regime << ", " << random.trace(draw);
   }
 }
 
@@ -183,18 +182,21 @@ TEST(ValveRecord, HasTheForcesOfItsRegimeOverTheMass) {
     const DrawnStep step(lift, regime, random);
     const double gap = step.cam.to.lift_m - step.before.lift_m, gap_speed = random.between(-5, 5);
     const double train_N = b.train_N_m * gap + b.train_Ns_m * gap_speed;
-    const double seat_N = b.seat_N_m * (b.seat_sink_m - step.before.lift_m) - b.seat_Ns_m * step.before.velocity_m_s;
-    double force_N = -b.spring_N_m * step.before.lift_m - b.preload_N - b.guide_Ns_m * step.before.velocity_m_s - step.gas.to_N;
+    const double seat_N =
+        b.seat_N_m * (b.seat_compression_m - step.before.lift_m) - b.seat_Ns_m * step.before.velocity_m_s;
+    double force_N =
+        -b.spring_N_m * step.before.lift_m - b.preload_N - b.guide_Ns_m * step.before.velocity_m_s - step.gas.to_N;
     if ((regime & kTrainOn) != 0) force_N += train_N;
     if ((regime & kSeatOn) != 0) force_N += seat_N;
     const double of_forces = std::fabs(train_N) + std::fabs(seat_N) + 1000;
-    EXPECT_NEAR(detail::acceleration(motion.fine[regime].acceleration, step.before, gap, gap_speed, step.gas), force_N / b.mass_kg,
-                1e-14 * of_forces / b.mass_kg);
+    EXPECT_NEAR(detail::acceleration(motion.fine[regime].acceleration, step.before, gap, gap_speed, step.gas),
+                force_N / b.mass_kg, 1e-14 * of_forces / b.mass_kg);
   }
 }
 
 TEST(ValveRecord, WhoseGuardsHoldAtBothEndsHasNoContactThatChangesBetween) {
-  // By the exact motion, looked at in a hundred places of each step: where the step is long, where a contact is near, at all speeds of the cam.
+  // By the exact motion, looked at in a hundred places of each step: where the step is long, where a contact is near,
+  // at all speeds of the cam.
   const ValveTrain train = ohc_125_train();
   const ValveLift lift = lift_of(train);
   const ValveBody<double> body = body_of(train);
@@ -208,32 +210,43 @@ TEST(ValveRecord, WhoseGuardsHoldAtBothEndsHasNoContactThatChangesBetween) {
       const double speed_deg_s = random.between(-36000, 36000);
       const CamStep cam = cam_step_at(lift, random.between(-80, 80), speed_deg_s * tick_s);
       const double scale_m = std::pow(10, random.between(-7, -4));
-      const double place_m = (regime & kTrainOn) != 0 ? cam.from.lift_m : (regime & kSeatOn) != 0 ? 0 : std::max(0.0, cam.from.lift_m);
-      const ValveState<double> before{place_m + random.between(-scale_m, scale_m),
-                                      speed_deg_s * cam.from.per_deg_m * random.whole(0, 1) + random.between(-1, 1) * scale_m * 4e4};
+      const double place_m = (regime & kTrainOn) != 0  ? cam.from.lift_m
+                             : (regime & kSeatOn) != 0 ? 0
+                                                       : std::max(0.0, cam.from.lift_m);
+      const ValveState<double> before{
+          place_m + random.between(-scale_m, scale_m),
+          speed_deg_s * cam.from.per_deg_m * random.whole(0, 1) + random.between(-1, 1) * scale_m * 4e4};
       const RegimeStep<double>& record = motion.whole[regime];
       const auto holds = [&](const ValveState<double>& s, const Lift<double>& at) {
         return detail::holds(record.train, at.lift_m - s.lift_m, speed_deg_s * at.per_deg_m - s.velocity_m_s) &&
                detail::holds(record.seat, s.lift_m, s.velocity_m_s);
       };
-      const ValveState<double> after = detail::stepped(record, before, cam.from, cam.to, cam.deg, detail::NoGasForce<double>{}).state;
+      const ValveState<double> after =
+          detail::stepped(record, before, cam.from, cam.to, cam.deg, detail::NoGasForce<double>{}).state;
       if (!holds(before, cam.from) || !holds(after, cam.to)) continue;
       ++sure;
       const double rise = cam.to.lift_m - cam.from.lift_m;
-      const StepDrive drive{cam.from.lift_m, rise, cam.deg * cam.from.per_deg_m, cam.deg * cam.to.per_deg_m, constant_force_N(body, regime, 0), 0};
-      double least_gap_m = 1;
+      const StepDrive drive{cam.from.lift_m,
+                            rise,
+                            cam.deg * cam.from.per_deg_m,
+                            cam.deg * cam.to.per_deg_m,
+                            constant_force_N(body, regime, 0),
+                            0};
+      double least_compression_m = 1;
       for (int i = 0; i <= 100; ++i) {
         const double x = i / 100.0;
         // The exact motion up to a place: the same cubic over the shorter step.
         const StepDrive::Piece there = drive.about(x);
-        const StepDrive part{cam.from.lift_m, there.c[0] - cam.from.lift_m, drive.from_m * x, there.c[1] * x, drive.force_N, 0};
+        const StepDrive part{
+            cam.from.lift_m, there.c[0] - cam.from.lift_m, drive.from_m * x, there.c[1] * x, drive.force_N, 0};
         const ValveState<double> s = i == 0 ? before : exact_motion(body, regime, tick_s * x, before, part);
         const CamStep::At at = cam.at(x);
-        least_gap_m = std::min({least_gap_m, std::fabs(at.lift_m - s.lift_m), std::fabs(body.seat_sink_m - s.lift_m)});
+        least_compression_m = std::min(
+            {least_compression_m, std::fabs(at.lift_m - s.lift_m), std::fabs(body.seat_compression_m - s.lift_m)});
         ASSERT_EQ(detail::asked(motion, s, Lift<double>{at.lift_m, at.slope_m / cam.deg}, speed_deg_s), regime)
             << random.trace(draw) << ", tick " << tick_s << ", at " << x;
       }
-      near += least_gap_m < 1e-6 ? 1 : 0;
+      near += least_compression_m < 1e-6 ? 1 : 0;
     }
   }
   std::printf("[ figures  ] %d steps with sure contacts, %d of them within a micrometre of a change\n", sure, near);
@@ -253,7 +266,7 @@ TEST(ValveBody, IsThePrintedFormulasOfItsDefinition) {
     EXPECT_NEAR(body.train_Ns_m, mass.b, 1e-11);
     EXPECT_NEAR(body.seat_Ns_m, mass.b_z, 1e-11);
     EXPECT_NEAR(body.guide_Ns_m, mass.c, 1e-13);
-    EXPECT_DOUBLE_EQ(body.seat_sink_m, 205.8 / 1e8);
+    EXPECT_DOUBLE_EQ(body.seat_compression_m, 205.8 / 1e8);
   }
 }
 
@@ -275,7 +288,8 @@ double swing_s(const ValveMotion<double>& motion, std::uint32_t regime, int swin
   double first = 0;
   for (int i = 1;; ++i) {
     const ValveState<double> next =
-        detail::stepped(motion.fine[regime], s, Lift<double>{}, Lift<double>{}, 0.0, detail::NoGasForce<double>{}).state;
+        detail::stepped(motion.fine[regime], s, Lift<double>{}, Lift<double>{}, 0.0, detail::NoGasForce<double>{})
+            .state;
     if (s.lift_m < rest_m && next.lift_m >= rest_m) {
       const double at = i - (next.lift_m - rest_m) / (next.lift_m - s.lift_m);  // near the crossing a sine is straight
       if (upward == 0) first = at;
@@ -300,8 +314,8 @@ TEST(ValveBody, SwingsAtItsNaturalFrequencies) {
 
 TEST(Contacts, HoldOnlyWhileBothTheGapAndTheForceArePositive) {
   ValveBody<double> b{};
-  b.train_N_m = 1e7, b.train_Ns_m = 100, b.seat_N_m = 1e8, b.seat_Ns_m = 500, b.preload_N = 200, b.seat_sink_m = 2e-6,
-  b.mass_kg = 0.06;
+  b.train_N_m = 1e7, b.train_Ns_m = 100, b.seat_N_m = 1e8, b.seat_Ns_m = 500, b.preload_N = 200,
+  b.seat_compression_m = 2e-6, b.mass_kg = 0.06;
   const ValveMotion<double> motion = motion_for(b, 20e-6);
   const auto regime = [&](double y, double v, double Y, double Yd) {
     return detail::asked(motion, ValveState<double>{y, v}, Lift<double>{Y, Yd}, 1.0);
@@ -321,24 +335,26 @@ TEST(ValveStepping, RefusesWhatItCannotStepAndNamesTheLongestTick) {
   const ValveBody<double> body = body_of(ohc_125_train());
   ValveMotion<double> motion{};
   for (const double accuracy_m : {0.009e-6, 11e-6, 0.0, -1e-6, std::nan(""), HUGE_VAL}) {
-    EXPECT_TRUE(
-        refuses(motion_of(body, 100e-6, {Integrator::rk4, accuracy_m}, motion), Reason::out_of_range, "tick.accuracy"))
+    EXPECT_TRUE(refuses(motion_of(body, 100e-6, {Integrator::rk4, accuracy_m}, motion), Reason::out_of_range,
+                        "options.valves.accuracy_m"))
         << accuracy_m;
   }
   for (const int number : {2, 3, 255}) {
     const ValveStepping unknown{static_cast<Integrator>(number), 0.1e-6};
-    EXPECT_TRUE(refuses(motion_of(body, 100e-6, unknown, motion), Reason::out_of_range, "tick.integrator")) << number;
+    EXPECT_TRUE(refuses(motion_of(body, 100e-6, unknown, motion), Reason::out_of_range, "options.valves.integrator"))
+        << number;
   }
   for (const double tick_s : {0.0, -1e-6, std::nan("")}) {
-    EXPECT_TRUE(refuses(motion_of(body, tick_s, {}, motion), Reason::out_of_range, "tick.tick")) << tick_s;
+    EXPECT_TRUE(refuses(motion_of(body, tick_s, {}, motion), Reason::out_of_range, "options.tick_s")) << tick_s;
   }
   ValveBody<double> boulder = body;
   for (const double mass_kg : {1.1e9, HUGE_VAL, std::nan("")}) {
     boulder.mass_kg = mass_kg;
-    EXPECT_TRUE(refuses(motion_of(boulder, 100e-6, {}, motion), Reason::out_of_range, "valve.rocker_inertia")) << mass_kg;
+    EXPECT_TRUE(refuses(motion_of(boulder, 100e-6, {}, motion), Reason::out_of_range, "valve.rocker_inertia_kg_m2"))
+        << mass_kg;
   }
   Random random;
-  for (int draw = 0; draw < 200; ++draw) {
+  for (int draw = 0; draw < 30; ++draw) {
     SCOPED_TRACE(random.trace(draw));
     ValveBody<double> b = body;
     b.mass_kg *= std::pow(10, random.between(-2, 1));
@@ -348,13 +364,13 @@ TEST(ValveStepping, RefusesWhatItCannotStepAndNamesTheLongestTick) {
     const ValveStepping stepping{Integrator::rk4, 0.01e-6 * std::pow(10, random.between(0, 3))};
     const double longest = longest_tick_s(b, stepping);
     EXPECT_TRUE(accepted(motion_of(b, longest * 0.999999, stepping, motion)));
-    EXPECT_LE(motion.parts, static_cast<std::uint32_t>(kMostFineSteps));
+    EXPECT_LE(motion.parts, static_cast<std::uint32_t>(kMaxFineSteps));
     if (longest < 0.9) {
-      EXPECT_TRUE(refuses(motion_of(b, longest * 1.000001, stepping, motion), Reason::out_of_range, "tick.tick"));
-      EXPECT_TRUE(refuses(motion_of(b, longest * 4, stepping, motion), Reason::out_of_range, "tick.tick"));
+      EXPECT_TRUE(refuses(motion_of(b, longest * 1.000001, stepping, motion), Reason::out_of_range, "options.tick_s"));
+      EXPECT_TRUE(refuses(motion_of(b, longest * 4, stepping, motion), Reason::out_of_range, "options.tick_s"));
     }
     // Monotone: what is accepted at a tick is accepted at every shorter one.
-    for (int i = 0; i < 20; ++i) {
+    for (int i = 0; i < 4; ++i) {
       EXPECT_TRUE(accepted(motion_of(b, longest * random.between(1e-3, 0.999), stepping, motion)));
       EXPECT_NEAR(motion.parts * motion.fine_step_s, motion.tick_s, 1e-15);
     }
@@ -432,7 +448,8 @@ TYPED_TEST(ValveEnergy, OfAnUndampedValveDoesNotGrow) {
 }
 
 TEST(ValveCalm, NeverFailsAGuardHoweverItSwings) {
-  // On its seat, its cam on the base circle: a swing below calm_m, from any place and speed that it may have, through many ticks of exact motion.
+  // On its seat, its cam on the base circle: a swing below calm_m, from any place and speed that it may have, through
+  // many ticks of exact motion.
   Random random;
   int swings = 0;
   for (int draw = 0; draw < 400; ++draw) {
@@ -458,7 +475,8 @@ TEST(ValveCalm, NeverFailsAGuardHoweverItSwings) {
       ValveState<double> s{share * step.calm_m, sign * (1 - std::fabs(share)) * step.calm_m / motion.per_seat_rate_s};
       for (int tick = 0; tick < 200; ++tick) {
         s = exact_motion(body, kSeatOn, tick_s, s, {});
-        ASSERT_TRUE(detail::holds(step.train, cam.lift_m - s.lift_m, -s.velocity_m_s)) << random.trace(draw) << ", regime " << regime;
+        ASSERT_TRUE(detail::holds(step.train, cam.lift_m - s.lift_m, -s.velocity_m_s))
+            << random.trace(draw) << ", regime " << regime;
         ASSERT_TRUE(detail::holds(step.seat, s.lift_m, s.velocity_m_s)) << random.trace(draw) << ", regime " << regime;
         ASSERT_EQ(detail::asked(motion, s, cam, 0.0), kSeatOn) << random.trace(draw);
       }
@@ -488,7 +506,8 @@ TEST(CamWindow, HoldsAWayThatStaysInsideAndNoOther) {
   for (int draw = 0; draw < 100000; ++draw) {
     const std::uint64_t end = random.bits();
     const auto turned = static_cast<std::int64_t>(random.bits()) >> random.whole(1, 40);
-    const detail::CamWindow window{static_cast<std::uint32_t>(random.bits()), static_cast<std::uint32_t>(random.bits()) >> random.whole(0, 8)};
+    const detail::CamWindow window{static_cast<std::uint32_t>(random.bits()),
+                                   static_cast<std::uint32_t>(random.bits()) >> random.whole(0, 8)};
     if (!window.holds_all_of(static_cast<std::uint32_t>(end >> 32), turned)) continue;
     ++held;
     const std::uint64_t begin = end - static_cast<std::uint64_t>(turned);
@@ -515,7 +534,8 @@ TEST(CamClearance, IsAsWideAsItsNeighboursAllow) {
 }
 
 TEST(ValveRounding, ToFloatMakesNoStepGrow) {
-  // What a step makes of (y, v) must have a determinant of at most 1, whatever the train: else an undamped valve gains energy.
+  // What a step makes of (y, v) must have a determinant of at most 1, whatever the train: else an undamped valve gains
+  // energy.
   Random random;
   int at_one = 0;
   for (int draw = 0; draw < 300; ++draw) {
@@ -525,14 +545,18 @@ TEST(ValveRounding, ToFloatMakesNoStepGrow) {
     train.valve.seat_N_m = logarithmic(random, 1e6, 1e9);
     train.valve.train_damping_ratio = train.valve.guide_damping_ratio = train.valve.seat_damping_ratio = 0;
     ValveMotion<double> motion{};
-    if (!motion_of(body_of(train), logarithmic(random, 1e-6, 2e-4), {random.coin() ? Integrator::rk4 : Integrator::exponential, 0.1e-6}, motion).ok()) continue;
+    if (!motion_of(body_of(train), logarithmic(random, 1e-6, 2e-4),
+                   {random.coin() ? Integrator::rk4 : Integrator::exponential, 0.1e-6}, motion)
+             .ok())
+      continue;
     const ValveMotion<float> in_float = rounded(motion);
     for (const RegimeStep<float>* level : {in_float.whole, in_float.fine}) {
       for (int regime = 0; regime < kRegimes; ++regime) {
         const RegimeStep<float>& step = level[regime];
         const auto real = [](float x) { return static_cast<double>(x); };
         const double yy = 1 + (real(step.lift.lift) - real(step.lift.gap)), vv = 1 + real(step.velocity.velocity);
-        const double determinant = yy * vv - real(step.lift.velocity) * (real(step.velocity.lift) - real(step.velocity.gap));
+        const double determinant =
+            yy * vv - real(step.lift.velocity) * (real(step.velocity.lift) - real(step.velocity.gap));
         EXPECT_LE(determinant, 1) << random.trace(draw) << ", regime " << regime;
         EXPECT_GT(determinant, 0.97) << random.trace(draw) << ", regime " << regime;
         at_one += determinant > 1 - 1e-6 ? 1 : 0;
@@ -540,50 +564,6 @@ TEST(ValveRounding, ToFloatMakesNoStepGrow) {
     }
   }
   EXPECT_GT(at_one, 1000);
-}
-
-TEST(ValveEquilibrium, OnASoftSeatUnderALiftedCamIsWhereTheForcesBalance) {
-  // A train 3e8 times as stiff as the seat: the seat's share of the lift is below float's rounding of it. Taken for closed, the valve was thrown
-  // off at 2350 m/s.
-  ValveTrain train = ohc_125_train();
-  train.valve.train_N_m = 4.5e10;
-  train.valve.seat_N_m = 150;
-  train.valve.spring_preload_N = 50;
-  ValveMotion<double> motion{};
-  ASSERT_TRUE(accepted(motion_of(body_of(train), 20e-6, {}, motion)));
-  const ValveMotion<float> in_float = rounded(motion);
-  for (const float lift_m : {1e-7F, 1e-4F, 1e-3F, 8e-3F}) {
-    const detail::Placed<float> placed = detail::in_equilibrium(in_float, lift_m, 0.0F);
-    EXPECT_NE(placed.regime & kTrainOn, 0u) << lift_m;
-    EXPECT_NEAR(placed.state.lift_m, lift_m, 1e-6F * lift_m) << "the train gives way by less than a millionth";
-  }
-  const detail::Placed<float> closed = detail::in_equilibrium(in_float, -1e-6F, 0.0F);
-  EXPECT_EQ(closed.regime, kSeatOn);
-  EXPECT_EQ(closed.state.lift_m, 0);
-}
-
-TEST(ValveEquilibrium, HasNoNetForceWhateverPresses) {
-  Random random;
-  const ValveBody<double> b = body_of(ohc_125_train());
-  const ValveMotion<double> motion = motion_for(b, 20e-6);
-  int seen[4] = {};
-  for (int draw = 0; draw < 2000; ++draw) {
-    const double lift_m = random.coin() ? random.between(-50e-6, 50e-6) : random.between(0, 8e-3);
-    const double gas_N = random.coin() ? 0 : random.between(-400, 4000);
-    const detail::Placed<double> placed = detail::in_equilibrium(motion, lift_m, gas_N);
-    const detail::GasForce<double> gas{gas_N, gas_N};
-    ++seen[placed.regime];
-    const double gap_m = lift_m - placed.state.lift_m;
-    EXPECT_NEAR(detail::acceleration(motion.fine[placed.regime].acceleration, placed.state, gap_m, 0.0, gas), 0, 1e-4) << random.trace(draw);
-    EXPECT_EQ(detail::asked(motion, placed.state, Lift<double>{lift_m, 0}, 0.0), placed.regime) << random.trace(draw);
-  }
-  for (const int n : seen) EXPECT_GT(n, 10);
-  // Without a spring, sucked open: nothing holds it, so it is put where no valve gets, and not beyond.
-  ValveBody<double> springless = b;
-  springless.spring_N_m = 0;
-  const detail::Placed<double> open = detail::in_equilibrium(motion_for(springless, 20e-6), -50e-6, -400.0);
-  EXPECT_EQ(open.state.lift_m, 1);
-  EXPECT_EQ(open.regime, 0u);
 }
 
 TYPED_TEST(ValveEnergy, OfADampedValveNeverGrowsBeyondRounding) {
@@ -607,7 +587,8 @@ constexpr std::size_t bytes_of_parts() {
   constexpr std::size_t valves = std::size_t{Cylinders} * Trains;
   std::size_t bytes = 8 + 8 + 8 + 2 * real;  // fingerprint, phase, ticks; speed and load ratio
   const std::size_t lanes = (valves + 1) / 2 * 2;
-  bytes += lanes * (2 * real + 4) + ((Phasing ? Trains : 1) + 1) / 2 * 2 * real;  // lift, velocity, regime; what cams turned
+  bytes +=
+      lanes * (2 * real + 4) + ((Phasing ? Trains : 1) + 1) / 2 * 2 * real;  // lift, velocity, regime; what cams turned
   if (Phasing) bytes += Trains * 8 + (Trains + 1) / 2 * 2 * real;
   if (Results) bytes += valves * ((9 + 3) * real + (4 + 2) * 4);  // cycle and record: numbers, counts
   return bytes;

@@ -21,9 +21,7 @@ namespace {
 
 class VcdTest : public testing::Test {
  protected:
-  VcdTest() {
-    path_ = folder_ / "signals.vcd";
-  }
+  VcdTest() { path_ = folder_ / "signals.vcd"; }
 
   support::TemporaryFolder folder_;
   std::string path_;
@@ -87,8 +85,8 @@ TEST_F(VcdTest, KeepsTimesRisingAndLosesNothingAtItsEnd) {
   VcdFile vcd(out, "m", {"a"}, {});
   vcd.level(0, 100e-9, true);
   vcd.write_until(1e-6);
-  vcd.level(0, 50e-9, false);   // too late to be told at its time
-  vcd.level(0, 700e-9, true);   // beyond the end that finish() gives
+  vcd.level(0, 50e-9, false);  // too late to be told at its time
+  vcd.level(0, 700e-9, true);  // beyond the end that finish() gives
   vcd.finish(300e-9);
   out.finish();
   const Dump dump = read_dump(path_);
@@ -112,7 +110,8 @@ TEST_F(VcdTest, HasCodesForMoreSignalsThanThereArePrintableCharacters) {
 }
 
 TEST_F(VcdTest, OfARunHasTheTeethOfItsWheelsAtTheirTimes) {
-  // 495: 60-2 from 246 deg on, a tooth every 6 deg; half a moon from 540 to 900 deg. At 2000 rpm a degree takes 83.333 us.
+  // 495: 60-2 from 246 deg on, a tooth every 6 deg; half a moon from 540 to 900 deg. At 2000 rpm a degree takes 83.333
+  // us.
   const EngineFile engine = read_engine_file(CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495.ini", {});
   Output out(path_);
   write_signals(engine, {2000, 100e-6, 1}, 2, out);
@@ -126,7 +125,8 @@ TEST_F(VcdTest, OfARunHasTheTeethOfItsWheelsAtTheirTimes) {
   }
   const auto expect_times = [](const std::vector<long long>& times_ns, const std::vector<double>& degrees) {
     ASSERT_EQ(times_ns.size(), degrees.size());
-    for (std::size_t i = 0; i < degrees.size(); ++i) EXPECT_NEAR(static_cast<double>(times_ns[i]), degrees[i] / 12e-6, 1.0);
+    for (std::size_t i = 0; i < degrees.size(); ++i)
+      EXPECT_NEAR(static_cast<double>(times_ns[i]), degrees[i] / 12e-6, 1.0);
   };
   std::vector<double> teeth_deg;
   for (double turn_deg = 246 - 360; turn_deg < 1440; turn_deg += 360) {

@@ -226,7 +226,8 @@ TEST(WorstTick, CopiesWhatALoopWithTwoWaysInRunsBeforeItsHeader) {
       "      18:\tcmp\tr2, r3\n"
       "      1a:\tbcc.n\t12 <step+0x2>\n"
       "      1c:\tbx\tlr\n";
-  // The way to a copy of 12 and 14, then the loop from its header at 16. That has the test: four times round, and out at 14 in the fifth.
+  // The way to a copy of 12 and 14, then the loop from its header at 16. That has the test: four times round, and out
+  // at 14 in the fifth.
   EXPECT_EQ(bound(listing, "1a 1", "loop | engine.hpp | i < cylinders; ++i) { | 4 | .\n"), 1 + 2 + 4 * 5 + 5 + 1);
 }
 

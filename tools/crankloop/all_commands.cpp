@@ -3,8 +3,9 @@
 namespace crankloop::program {
 
 const std::vector<const Command*>& commands() {
-  static const std::vector<const Command*> all = {&kShow,    &kMasses, &kKinematics, &kForces, &kBalance, &kLift,  &kValve,
-                                                  &kRedline, &kRun,    &kLive,       &kBench,  &kStress,  &kTables};
+  static const std::vector<const Command*> all = {&kShow,  &kNew,    &kMasses,  &kKinematics, &kForces, &kBalance,
+                                                  &kLift,  &kValve,  &kRedline, &kRun,        &kMap,    &kLive,
+                                                  &kBench, &kStress, &kTables,  &kPack,       &kFmu};
   return all;
 }
 

@@ -11,6 +11,7 @@ namespace crankloop::program {
 namespace {
 
 const Option& known_option(const Command& command, std::string_view name) {
+  if (name == "-o") name = "--output";
   for (const Option& option : command.options) {
     if (name == option.name) return option;
   }
@@ -71,7 +72,16 @@ Arguments::Arguments(const Command& command, const std::vector<std::string>& wor
   }
   if (files_.size() < command.files) throw UsageError("a file name is missing");
   if (files_.size() > command.files) throw UsageError("unexpected argument " + in_quotes(files_[command.files]));
+  require(command);
   refuse_overwriting();
+}
+
+void Arguments::require(const Command& command) const {
+  std::vector<std::string> missing;
+  for (const Option& option : command.options) {
+    if (option.is_required && !has(option.name)) missing.emplace_back(option.name);
+  }
+  if (!missing.empty()) throw UsageError(join(missing) + (missing.size() == 1 ? " is missing" : " are missing"));
 }
 
 void Arguments::refuse_overwriting() const {
@@ -139,16 +149,5 @@ double Arguments::number(std::string_view option) const { return get(option).num
 int Arguments::whole_number(std::string_view option) const { return static_cast<int>(get(option).number); }
 const std::string& Arguments::text(std::string_view option) const { return get(option).text; }
 std::string Arguments::text_or_empty(std::string_view option) const { return has(option) ? get(option).text : ""; }
-
-void Arguments::require_exactly_one_of(std::initializer_list<const char*> options) const {
-  std::vector<std::string> names;
-  int count = 0;
-  for (const char* option : options) {
-    names.emplace_back(option);
-    count += has(option) ? 1 : 0;
-  }
-  if (count > 1) throw UsageError(join(names, " and ") + " exclude each other; give one");
-  if (count == 0) throw UsageError("give one of " + join(names, " or "));
-}
 
 }  // namespace crankloop::program

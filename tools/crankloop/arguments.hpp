@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstddef>
-#include <initializer_list>
 #include <map>
 #include <string>
 #include <string_view>
@@ -24,6 +23,7 @@ struct Option {
   const char* meaning;             ///< half a line, with the unit
   const char* fallback = nullptr;  ///< the value where the option is not given; nullptr: none
   Range range{};
+  bool is_required = false;  ///< the command does nothing without it
 };
 
 [[nodiscard]] constexpr Option flag(const char* name, const char* meaning) noexcept {
@@ -41,8 +41,14 @@ struct Option {
                                       const char* fallback = nullptr) noexcept {
   return {name, Option::Kind::choice, choices, meaning, fallback};
 }
-[[nodiscard]] constexpr Option text(const char* name, const char* value, const char* meaning) noexcept {
-  return {name, Option::Kind::text, value, meaning};
+[[nodiscard]] constexpr Option text(const char* name, const char* value, const char* meaning,
+                                    const char* fallback = nullptr) noexcept {
+  return {name, Option::Kind::text, value, meaning, fallback};
+}
+
+[[nodiscard]] constexpr Option required(Option option) noexcept {
+  option.is_required = true;
+  return option;
 }
 
 /// Of every command that takes an engine file, besides its own.
@@ -77,11 +83,13 @@ struct Command {
 /// Its own, and those of all that are like it.
 [[nodiscard]] std::vector<Option> options_of(const Command& command);
 
-/// What the user asked for, as `--name value`, `--name=value`, `--flag`, and files in between; `--` ends the options.
+/// What the user asked for, as `--name value`, `--name=value`, `--flag`, and files in between; `--` ends the options,
+/// `-o` is --output.
 class Arguments {
  public:
   /// Throws UsageError for an option that is unknown, doubled, without its value, with a value out of its range, for
-  /// files that are missing or too many, and for an output that would overwrite an input or another output.
+  /// files that are missing or too many, for all required options that are missing, and for an output that would
+  /// overwrite an input or another output.
   Arguments(const Command& command, const std::vector<std::string>& words);
 
   [[nodiscard]] const std::string& file(std::size_t index = 0) const { return files_.at(index); }
@@ -95,9 +103,6 @@ class Arguments {
   /// text(option), or "" if it was not given: what Output wants for an optional --csv.
   [[nodiscard]] std::string text_or_empty(std::string_view option) const;
 
-  /// For options that exclude each other, such as --rpm and --speed-rad-s.
-  void require_exactly_one_of(std::initializer_list<const char*> options) const;
-
  private:
   struct Given {
     const Option* option = nullptr;
@@ -106,6 +111,7 @@ class Arguments {
     bool by_user = false;
   };
   void set(const Option& option, std::string_view value, bool by_user);
+  void require(const Command& command) const;
   void refuse_overwriting() const;
   [[nodiscard]] const Given& get(std::string_view option) const;
 

@@ -6,9 +6,11 @@
 
 #include "commands.hpp"
 #include "csv.hpp"
+#include "engine_file/gas_order.hpp"
 #include "engine_file/plausibility.hpp"
 #include "free_orders.hpp"
-#include "load_ratio.hpp"
+#include "operating_point.hpp"
+#include "run/run_trace.hpp"
 #include "tick_probe.hpp"
 #include "units.hpp"
 
@@ -26,10 +28,11 @@ void write_wave(CsvWriter& csv, const std::string& name, const char* unit, doubl
 class TurningWriter {
  public:
   TurningWriter(CsvWriter& csv, const EngineDefinition& definition, double speed_rad_s)
-      : csv_{csv}, w2_{speed_rad_s * speed_rad_s},
+      : csv_{csv},
+        w2_{speed_rad_s * speed_rad_s},
         noise_N_{1e-9 * definition.masses.reciprocating_kg() * definition.crank.crank_radius_m * w2_} {}
 
-  void write(const std::string& name, const Turning<double>& t) {
+  void write(const std::string& name, const detail::RotatingVector<double>& t) {
     csv_.row("free_force_" + name + "_N", peak_force_kg_m(t) * w2_);
     component("free_force_" + name + "_up", "N", t.up_cos, t.up_sin);
     component("free_force_" + name + "_lateral", "N", t.lateral_cos, t.lateral_sin);
@@ -55,47 +58,83 @@ struct Range {
 };
 
 /// Largest loads of every crank pin and main journal over the cycle; the journals' also by direction in the block.
-void write_bearings(CsvWriter& csv, const EngineDefinition& definition, double speed, double load_ratio) {
-  TickProbe<double> probe(definition);
+struct BearingRanges {
   Range pins[kMaxCylinders];
   Range journals[kMaxCylinders + 1];
   Range up[kMaxCylinders + 1];
   Range lateral[kMaxCylinders + 1];
+};
+
+BearingRanges bearings_by_angle(const EngineDefinition& definition, double speed, double load_ratio) {
+  TickProbe<double> probe(definition);
+  BearingRanges r;
   const std::uint32_t count = bearings_of(definition).pins;
   for_each_angle(0.5, 720, [&](double deg) {
     const auto& out = probe.at(deg, speed, load_ratio);
-    for (std::uint32_t i = 0; i < count; ++i) pins[i].take(out.pin_load_N[i]);
+    for (std::uint32_t i = 0; i < count; ++i) r.pins[i].take(out.pin_load_N[i]);
     for (std::uint32_t j = 0; j <= count; ++j) {
-      journals[j].take(out.journal_load_N[j]);
+      r.journals[j].take(out.journal_load_N[j]);
       const BlockLoad load = in_block(definition, deg, out.journal_along_N[j], out.journal_across_N[j]);
-      up[j].take(load.up_N);
-      lateral[j].take(load.lateral_N);
+      r.up[j].take(load.up_N);
+      r.lateral[j].take(load.lateral_N);
     }
   });
-  for (std::uint32_t i = 0; i < count; ++i) csv.row("crank_pin_" + std::to_string(i + 1) + "_largest_load_N", pins[i].most);
+  return r;
+}
+
+/// Of an engine that breathes, from a cycle that it ran.
+BearingRanges bearings_of_trace(const Trace& trace) {
+  BearingRanges r;
+  const auto take = [](Range& range, const std::vector<double>& values) {
+    for (const double value : values) range.take(value);
+  };
+  for (std::size_t i = 0; i < trace.pin_load_N.size(); ++i) take(r.pins[i], trace.pin_load_N[i]);
+  for (std::size_t j = 0; j < trace.journal_load_N.size(); ++j) {
+    take(r.journals[j], trace.journal_load_N[j]);
+    take(r.up[j], trace.journal_up_N[j]);
+    take(r.lateral[j], trace.journal_lateral_N[j]);
+  }
+  return r;
+}
+
+void write_bearings(CsvWriter& csv, std::uint32_t count, const BearingRanges& r) {
+  for (std::uint32_t i = 0; i < count; ++i)
+    csv.row("crank_pin_" + std::to_string(i + 1) + "_largest_load_N", r.pins[i].most);
   for (std::uint32_t j = 0; j <= count; ++j) {
     const std::string journal = "main_journal_" + std::to_string(j + 1) + "_";
-    csv.row(journal + "largest_load_N", journals[j].most);
-    csv.row(journal + "largest_up_N", up[j].most);
-    csv.row(journal + "largest_down_N", -up[j].least);
-    csv.row(journal + "largest_lateral_N", lateral[j].most);
-    csv.row(journal + "smallest_lateral_N", lateral[j].least);
+    csv.row(journal + "largest_load_N", r.journals[j].most);
+    csv.row(journal + "largest_up_N", r.up[j].most);
+    csv.row(journal + "largest_down_N", -r.up[j].least);
+    csv.row(journal + "largest_lateral_N", r.lateral[j].most);
+    csv.row(journal + "smallest_lateral_N", r.lateral[j].least);
   }
 }
 
 int run_balance(const Arguments& arguments) {
   const EngineFile engine = read_engine(arguments, {"engine", "crank", "masses"});
   const EngineDefinition& definition = engine.definition();
-  const double speed = arguments.number("--rpm") * kRad_sPerRpm;
+  const double rpm = speed_rpm(arguments, engine);
+  const double speed = rpm * kRad_sPerRpm;
   require_heat_to_scale(arguments, engine);
   ExactEngine exact;
   if (const Status refused = exact.init(definition); !refused.ok()) throw engine.explain(refused);
   const double load_ratio = arguments.number("--load-ratio");
-  const CycleSummary cycle = summarise(exact, speed, load_ratio);
+  const GasOrder gas = gas_order(arguments, engine, 1);
+  CycleSummary cycle;
+  BearingRanges bearings;
+  if (breathes(definition)) {
+    if (rpm <= 0) throw UsageError("--rpm: an engine that breathes is run forward");
+    const Trace trace = record_trace<double, scenes::Breathing>(definition, {rpm, 0, 1, gas});
+    cycle = summarise(definition, speed, trace);
+    bearings = bearings_of_trace(trace);
+  } else {
+    cycle = summarise(exact, speed, load_ratio);
+    bearings = bearings_by_angle(definition, speed, load_ratio);
+  }
 
   Output out(arguments.text_or_empty("--csv"));
   CsvWriter csv(out, {"name", "value"});
-  csv.row("speed_rpm", arguments.number("--rpm"));
+  csv.row("speed_rpm", rpm);
   csv.row("reciprocating_mass_kg", definition.masses.reciprocating_kg());
   csv.row("mean_piston_speed_m_s", mean_piston_speed_m_s(definition.crank, speed));
   csv.row("net_mep_kPa", cycle.net_mep_Pa / 1000);
@@ -118,24 +157,23 @@ int run_balance(const Arguments& arguments) {
     write_wave(csv, "torque_order_" + shortest(h.order), "Nm", h.cosine_Nm, h.sine_Nm, noise_Nm);
   }
   TurningWriter turning(csv, definition, speed);
-  for (const FreeOrder& order : free_orders(definition.crank)) turning.write(order.name, reciprocating_order(definition, order.order));
+  for (const FreeOrder& order : free_orders(definition.crank))
+    turning.write(order.name, reciprocating_order(definition, order.order));
   turning.write("rotating", balance_of(definition).rotating);
-  write_bearings(csv, definition, speed, load_ratio);
+  write_bearings(csv, bearings_of(definition).pins, bearings);
   out.finish();
   return kSuccess;
 }
 
 constexpr Option kOptions[] = {
-    number("--rpm", "N", from(-100000).up_to(100000), "engine speed in rpm"),
-    kLoadRatio,
-    text("--csv", "F", "file for the table; else standard output"),
+    kSpeed, kLoadRatio, kThrottle, kFuel, kBurnStart, text("--csv", "F", "file for the table; else standard output"),
 };
 
 }  // namespace
 
 const Command kBalance{"balance",
                        "torque harmonics, free forces and moments, bearing loads of the whole engine",
-                       "FILE --rpm N [--load-ratio Q] [--csv F]",
+                       "FILE [--rpm N] [--load-ratio Q] [--throttle R] [--fuel-mg M] [--burn-start-deg A] [--csv F]",
                        "crankloop balance diesel_495.ini --rpm 2000",
                        1,
                        kOptions,

@@ -3,12 +3,13 @@
 #include <utility>
 #include <vector>
 
+#include "commands.hpp"
+#include "error.hpp"
 #include "lab/bench/bench_report.hpp"
 #include "lab/bench/groups.hpp"
 #include "lab/bench/kernels.hpp"
-#include "commands.hpp"
-#include "error.hpp"
 #include "machine.hpp"
+#include "progress.hpp"
 #include "results.hpp"
 
 namespace crankloop::program {
@@ -16,9 +17,12 @@ namespace {
 
 using bench::Row;
 
-std::vector<Row> measure(const bench::Effort& effort) {
+std::vector<Row> measure(bench::Effort effort) {
+  Progress progress("measuring", bench::kRaces * effort.rounds, Progress::kLogPeriod_ns);
+  effort.progress = &progress;
   std::vector<Row> rows;
-  for (const auto group : {bench::kinematics_rows, bench::valve_rows, bench::tick_rows, bench::growth_rows, bench::skip_rows}) {
+  for (const auto group :
+       {bench::kinematics_rows, bench::valve_rows, bench::tick_rows, bench::growth_rows, bench::skip_rows}) {
     for (Row& row : group(effort)) rows.push_back(std::move(row));
   }
   if (effort.rounds == 0) return rows;  // ratios are of times
@@ -49,12 +53,15 @@ int run_bench(const Arguments& arguments) {
     return kSuccess;
   }
   Results results(arguments, {"--json", "--csv", "--report", "--plot"});
-  write(results, measure(effort_of(arguments)), arguments.has("--quick") ? "crankloop bench --quick" : "crankloop bench");
+  write(results, measure(effort_of(arguments)),
+        arguments.has("--quick") ? "crankloop bench --quick" : "crankloop bench");
   return kSuccess;
 }
 
 constexpr Option kOptions[] = {
-    text("--json", "F", "file for an array of objects, one per contestant and setting; - is standard output, the rest then goes to stderr"),
+    text("--json", "F",
+         "file for an array of objects, one per contestant and setting; - is standard output, the rest then goes to "
+         "stderr"),
     text("--csv", "F", "the same as a table"),
     text("--report", "F.html", "file for the work-precision diagrams, which any browser shows"),
     text("--plot", "F.svg", "file for the diagrams alone, as a picture"),
@@ -66,12 +73,13 @@ constexpr Option kOptions[] = {
 
 }  // namespace
 
-const Command kBench{"bench",
-                     "run time against error: kinematics, valves, whole ticks; the library against plain code",
-                     "[--json F] [--csv F] [--report F.html] [--plot F.svg] [--quick | --errors] | --kernel NAME [--ticks N]",
-                     "crankloop bench --quick --report bench.html",
-                     0,
-                     kOptions,
-                     run_bench};
+const Command kBench{
+    "bench",
+    "run time against error: kinematics, valves, whole ticks; the library against plain code",
+    "[--json F] [--csv F] [--report F.html] [--plot F.svg] [--quick | --errors] | --kernel NAME [--ticks N]",
+    "crankloop bench --quick --report bench.html",
+    0,
+    kOptions,
+    run_bench};
 
 }  // namespace crankloop::program

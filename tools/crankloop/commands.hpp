@@ -13,17 +13,21 @@
 
 namespace crankloop::program {
 
-/// Of this program, in the order in which its help lists them; the first gives the example. all_commands.cpp has them all, table_commands.cpp
-/// those of the program that crankloop_add_scene builds to make its tables.
+/// Of this program, in the order in which its help lists them; the first gives the example. all_commands.cpp has them
+/// all, table_commands.cpp those of the program that crankloop_add_scene builds to make its tables.
 const std::vector<const Command*>& commands();
 
 extern const Command kBalance;
 extern const Command kBench;
+extern const Command kFmu;
 extern const Command kForces;
 extern const Command kKinematics;
 extern const Command kLift;
 extern const Command kLive;
+extern const Command kMap;
 extern const Command kMasses;
+extern const Command kNew;
+extern const Command kPack;
 extern const Command kRedline;
 extern const Command kRun;
 extern const Command kTables;

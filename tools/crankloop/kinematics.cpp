@@ -4,6 +4,7 @@
 #include "commands.hpp"
 #include "csv.hpp"
 #include "engine_file/plausibility.hpp"
+#include "operating_point.hpp"
 #include "tick_probe.hpp"
 #include "units.hpp"
 #include "with_real.hpp"
@@ -20,8 +21,8 @@ EngineDefinition mechanism_alone(const Crank& crank) {
 }
 
 template <class Real>
-void write_row(CsvWriter& csv, double crank_deg, double rod_angle_rad, double x_m, double v_m_s, double a_m_s2, double rod_speed,
-               double rod_acceleration) {
+void write_row(CsvWriter& csv, double crank_deg, double rod_angle_rad, double x_m, double v_m_s, double a_m_s2,
+               double rod_speed, double rod_acceleration) {
   const auto real = [](double value) { return static_cast<Real>(value); };
   csv.row(crank_deg, real(rod_angle_rad / kRadPerDeg), real(x_m * 1000), real(v_m_s), real(a_m_s2), real(rod_speed),
           real(rod_acceleration));
@@ -54,28 +55,32 @@ void write(CsvWriter& csv, const Crank& crank, const std::string& method, double
 }
 
 int run_kinematics(const Arguments& arguments) {
-  arguments.require_exactly_one_of({"--rpm", "--speed-rad-s"});
-  const double speed = arguments.has("--rpm") ? arguments.number("--rpm") * kRad_sPerRpm : arguments.number("--speed-rad-s");
   const double step_deg = arguments.number("--step-deg");
   const std::string& method = arguments.text("--method");
+  if (arguments.has("--rpm") && arguments.has("--speed-rad-s"))
+    throw UsageError("--rpm and --speed-rad-s exclude each other; give one");
   const EngineFile engine = read_engine(arguments, {"engine", "crank"});
+  const double speed =
+      arguments.has("--speed-rad-s") ? arguments.number("--speed-rad-s") : speed_rpm(arguments, engine) * kRad_sPerRpm;
   const Crank& crank = engine.definition().crank;
   if (method == "approx" && crank.pin_offset_m != 0) {
-    throw InputError(engine.path() + ": the second-order approximations hold for pin_offset_mm = 0 only; use --method exact");
+    throw InputError(engine.path() +
+                     ": the second-order approximations hold for pin_offset_mm = 0 only; use --method exact");
   }
   Output out(arguments.text_or_empty("--csv"));
-  CsvWriter csv(out, {"crank_deg", "rod_angle_deg", "displacement_mm", "velocity_m_s", "acceleration_m_s2", "rod_speed_rad_s",
-                      "rod_acceleration_rad_s2"});
+  CsvWriter csv(out, {"crank_deg", "rod_angle_deg", "displacement_mm", "velocity_m_s", "acceleration_m_s2",
+                      "rod_speed_rad_s", "rod_acceleration_rad_s2"});
   with_real(arguments.text("--real"), [&](auto zero) { write<decltype(zero)>(csv, crank, method, step_deg, speed); });
   out.finish();
   return kSuccess;
 }
 
 constexpr Option kOptions[] = {
-    number("--rpm", "N", from(-100000).up_to(100000), "engine speed in rpm"),
+    kSpeed,
     number("--speed-rad-s", "W", from(-10471).up_to(10471), "engine speed in rad/s, instead of --rpm"),
     number("--step-deg", "D", from(0.001).up_to(360), "crank degrees between rows", "1"),
-    choice("--method", "table|exact|approx", "as the tick computes it, exactly, or by the second-order approximations", "table"),
+    choice("--method", "table|exact|approx", "as the tick computes it, exactly, or by the second-order approximations",
+           "table"),
     choice("--real", "float|double", "arithmetic of the tick, and digits of the result", "double"),
     text("--csv", "F", "file for the table; else standard output"),
 };
@@ -84,7 +89,7 @@ constexpr Option kOptions[] = {
 
 const Command kKinematics{"kinematics",
                           "motion of piston and rod over one turn",
-                          "FILE (--rpm N | --speed-rad-s W) [--step-deg D] [--method M] [--real R] [--csv F]",
+                          "FILE [--rpm N | --speed-rad-s W] [--step-deg D] [--method M] [--real R] [--csv F]",
                           "crankloop kinematics diesel_495.ini --rpm 2000 --step-deg 10",
                           1,
                           kOptions,

@@ -1,4 +1,4 @@
-// `crankloop lift FILE --train NAME`: cam, rocker and theoretical valve lift over a turn of the cam, without forces or elasticity.
+// `crankloop lift FILE`: cam, rocker and theoretical valve lift over a turn of the cam, without forces or elasticity.
 #include <algorithm>
 #include <memory>
 
@@ -7,6 +7,7 @@
 #include "commands.hpp"
 #include "csv.hpp"
 #include "engine_file/plausibility.hpp"
+#include "operating_point.hpp"
 #include "summary.hpp"
 #include "tick_probe.hpp"
 #include "units.hpp"
@@ -18,9 +19,10 @@ void write_lift(CsvWriter& csv, const ValveLift& lift, double step_deg) {
   for_each_angle(step_deg, 360, [&](double since_first_row) {
     const double cam_deg = since_first_row - 180;
     const LiftPose pose = lift.at(cam_deg / kDegPerRad);
-    // The valve waits while the lash is open; the train, whose derivatives these are, does not: its speed there is that of the impact.
-    csv.row(cam_deg, pose.rocker_rad * kDegPerRad, std::max(pose.lift_m, 0.0) * 1e3, pose.per_rad_m * 1e3, pose.per_rad2_m * 1e3,
-            pose.rocker_ratio);
+    // The valve waits while the lash is open; the train, whose derivatives these are, does not: its speed there is that
+    // of the impact.
+    csv.row(cam_deg, pose.rocker_rad * kDegPerRad, std::max(pose.lift_m, 0.0) * 1e3, pose.per_rad_m * 1e3,
+            pose.per_rad2_m * 1e3, pose.rocker_ratio);
   });
 }
 
@@ -46,11 +48,12 @@ std::string summary(const ValveLift& lift, CamSource source) {
 }
 
 int run_lift(const Arguments& arguments) {
-  const std::string& name = arguments.text("--train");
   const EngineFile engine = read_engine(arguments, {});
+  const std::string name = train_name(arguments, engine);
   const TrainOfFile& train = engine.train(name);
   for (const std::string& title : {"cam " + name, "rocker " + name}) {
-    if (!engine.has(title)) throw InputError(engine.path() + ": section [" + title + "] is missing; this command needs it");
+    if (!engine.has(title))
+      throw InputError(engine.path() + ": section [" + title + "] is missing; this command needs it");
   }
   const auto lift = std::make_unique<ValveLift>();
   if (const Status refused = lift->init(train.definition.cam, train.definition.rocker); !refused.ok()) {
@@ -65,7 +68,8 @@ int run_lift(const Arguments& arguments) {
 }
 
 constexpr Option kOptions[] = {
-    text("--train", "NAME", "valve train: the NAME of its [cam NAME] and [rocker NAME]"),
+    text("--train", "NAME",
+         "valve train: the NAME of its [cam NAME] and [rocker NAME]; default the only one of the file"),
     number("--step-deg", "D", from(0.001).up_to(360), "cam degrees between rows", "1"),
     text("--csv", "F", "file for the table, and a summary on standard output; else the table there"),
 };
@@ -74,7 +78,7 @@ constexpr Option kOptions[] = {
 
 const Command kLift{"lift",
                     "cam, rocker and theoretical valve lift over a turn of the cam",
-                    "FILE --train NAME [--step-deg D] [--csv F]",
+                    "FILE [--train NAME] [--step-deg D] [--csv F]",
                     "crankloop lift ohc_125.ini --train intake --csv lift.csv",
                     1,
                     kOptions,

@@ -11,8 +11,8 @@
 #include "error.hpp"
 #include "live/live_loop.hpp"
 #include "live/live_summary.hpp"
-#include "load_ratio.hpp"
 #include "number.hpp"
+#include "operating_point.hpp"
 #include "output_file.hpp"
 #include "units.hpp"
 #include "with_real.hpp"
@@ -20,7 +20,9 @@
 namespace crankloop::program {
 namespace {
 
-std::uint32_t cylinders_of(const EngineFile& file) { return static_cast<std::uint32_t>(file.definition().layout.cylinders); }
+std::uint32_t cylinders_of(const EngineFile& file) {
+  return static_cast<std::uint32_t>(file.definition().layout.cylinders);
+}
 
 LiveRequest request_of(const Arguments& arguments, const EngineFile& file) {
   const double tick_us = arguments.number("--tick-us");
@@ -33,8 +35,13 @@ LiveRequest request_of(const Arguments& arguments, const EngineFile& file) {
   request.ticks = static_cast<std::uint64_t>(std::max(1.0, std::round(arguments.number("--seconds") / request.tick_s)));
   request.start_rad_s = arguments.number("--from-rpm") * kRad_sPerRpm;
   request.patience_ns = std::llround(arguments.number("--silent-ms") * 1e6);
+  const GasOrder gas = gas_order(arguments, file, 0);
   request.at_start.load_ratio = arguments.number("--load-ratio");
-  request.at_start.load_Nm = arguments.number("--load-Nm");
+  request.at_start.throttle_ratio = gas.throttle_ratio;
+  request.at_start.fuel_kg = gas.fuel_kg;
+  request.at_start.burn_start_deg = gas.burn_start_deg;
+  request.burn_duration_deg = gas.burn_duration_deg;
+  request.at_start.external_torque_Nm = arguments.number("--external-torque-Nm");
   request.at_start.starter = arguments.has("--starter") ? 1 : 0;
   request.real_time.priority = arguments.whole_number("--priority");
   if (arguments.has("--cpu")) request.real_time.cpu = arguments.whole_number("--cpu");
@@ -52,7 +59,8 @@ int run_live_command(const Arguments& arguments) {
   const LiveRequest request = request_of(arguments, file);
   const std::string& real = arguments.text("--real");
   const bool shares = arguments.has("--shared");
-  if (!shares && request.at_start.load_Nm == 0) tell_warnings(arguments, warnings_about_running_free(file, file.definition()));
+  if (!shares && request.at_start.external_torque_Nm == 0)
+    tell_warnings(arguments, warnings_about_running_free(file, file.definition()));
   std::optional<Output> histogram;
   if (arguments.has("--histogram")) histogram.emplace(arguments.text("--histogram"));
 
@@ -61,7 +69,9 @@ int run_live_command(const Arguments& arguments) {
     port::LiveBlock alone;
     alone.magic = port::kLiveMagic;
     std::optional<port::SharedBlock> shared;
-    if (shares) shared.emplace(port::SharedBlock::create(arguments.text("--shared"), request.tick_s, cylinders_of(file)));
+    if (shares)
+      shared.emplace(port::SharedBlock::create(arguments.text("--shared"), request.tick_s, cylinders_of(file),
+                                               breathes(file.definition())));
     with_real(real, [&](auto zero) { run_live<decltype(zero)>(file, request, shares ? **shared : alone, *figures); });
   } catch (const port::SharedBlockError& refused) {
     throw InputError(refused.what());
@@ -73,21 +83,30 @@ int run_live_command(const Arguments& arguments) {
   }
   print(live_summary(file, request, real, shares, *figures));
   if (!figures->lost_block) return kSuccess;
-  throw std::runtime_error(arguments.text("--shared") + ": was truncated or overwritten after " + std::to_string(figures->tally.ticks) + " ticks");
+  throw std::runtime_error(arguments.text("--shared") + ": was truncated or overwritten after " +
+                           std::to_string(figures->tally.ticks) + " ticks");
 }
 
 constexpr Option kOptions[] = {
-    number("--tick-us", "T", from(1).up_to(2000), "length of a tick in us", "1000"),
+    number("--tick-us", "T", from(1).up_to(2000), "length of a tick in us; longer than elsewhere: most systems keep it",
+           "1000"),
     number("--seconds", "S", above(0).up_to(1000000), "how long; Ctrl-C ends it earlier, with its figures", "10"),
     text("--shared", "PATH", "block of memory shared with a controller, such as /dev/shm/engine: docs/live.md"),
-    number("--silent-ms", "N", above(0).up_to(100000), "a controller that does not write for N ms is gone: no fuel, no load, no starter", "100"),
-    number("--load-ratio", "Q", from(0).up_to(2), "0 = motored, 1 = the pressure diagram as it is; until a controller says", "0"),
-    number("--load-Nm", "L", from(-1e8).up_to(1e8), "load on the crankshaft in Nm; until a controller says", "0"),
+    number("--silent-ms", "N", above(0).up_to(100000),
+           "a controller that does not write for N ms is gone: no fuel, no load, no starter", "100"),
+    number("--load-ratio", "Q", from(0).up_to(2),
+           "0 = motored, 1 = the pressure diagram as it is; until a controller says", "0"),
+    kThrottle,
+    kFuel,
+    kBurnStart,
+    number("--external-torque-Nm", "L", from(-1e8).up_to(1e8), "load on the crankshaft in Nm; until a controller says",
+           "0"),
     flag("--starter", "starter engaged; until a controller says"),
     number("--from-rpm", "N", from(-100000).up_to(100000), "speed at the start in rpm", "0"),
     choice("--real", "float|double", "arithmetic of the tick", "float"),
     whole_number("--cpu", "N", from(0).up_to(1023), "the only processor to run on, counted from 0; without it any"),
-    whole_number("--priority", "P", from(0).up_to(99), "SCHED_FIFO priority, where allowed; 0 leaves the scheduler as it is", "80"),
+    whole_number("--priority", "P", from(0).up_to(99),
+                 "SCHED_FIFO priority, where allowed; 0 leaves the scheduler as it is", "80"),
     text("--histogram", "F", "CSV file for the histograms of wake-up latency and of times"),
 };
 
@@ -95,7 +114,8 @@ constexpr Option kOptions[] = {
 
 const Command kLive{"live",
                     "the engine against the clock, with a controller in the loop: latencies, missed deadlines",
-                    "FILE [--tick-us T] [--seconds S] [--shared PATH] [--from-rpm N] [--load-ratio Q] [--load-Nm L] [--starter] [...]",
+                    "FILE [--tick-us T] [--seconds S] [--shared PATH] [--from-rpm N] [--load-ratio Q] [--throttle R] "
+                    "[--external-torque-Nm L] [--starter] [...]",
                     "crankloop live diesel_495.ini --from-rpm 800 --load-ratio 0.2 --tick-us 100 --seconds 5",
                     1,
                     kOptions,

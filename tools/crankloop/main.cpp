@@ -11,6 +11,7 @@
 
 #include "commands.hpp"
 #include "engine_file/engine_file_keys.hpp"
+#include "engine_file/trigger_patterns.hpp"
 #include "error.hpp"
 #include "output_file.hpp"
 #include "words.hpp"
@@ -46,6 +47,7 @@ std::string help_of(const Command& command) {
   for (const Option& option : options) {
     text += in_column(with_value(option), width) + option.meaning;
     if (const std::string allowed = describe(option.range, ""); !allowed.empty()) text += "; " + allowed;
+    if (option.is_required) text += "; required";
     if (option.fallback != nullptr) text += std::string("; default ") + option.fallback;
     text += "\n";
   }
@@ -60,11 +62,13 @@ std::string help() {
   for (const Command* command : commands()) text += in_column(command->name) + command->summary + "\n";
   text += in_column("help COMMAND") + "usage, options and an example of a command\n";
   text += in_column("help engine-file") + "sections, keys, units and ranges of an engine file\n";
+  text += in_column("help patterns") + "trigger wheels in use, by name, with their sources\n";
   text += in_column("--version") + "prints the version\n";
   text += "\nexample: " + std::string(commands().front()->example) + "\n";
   text +=
       "\nBad input ends before anything is written, with exit status 2 and on stderr:\n"
-      "  FILE:LINE: what is wrong, what is allowed         for each error of an engine file, up to 20; for the first one of a table\n"
+      "  FILE:LINE: what is wrong, what is allowed         for each error of an engine file, up to 20; for the first "
+      "one of a table\n"
       "  crankloop COMMAND: what is wrong, what is allowed  for an option, with the command's usage below\n"
       "Output that cannot be written, and any other failure, is a line crankloop: ... and exit status 1.\n";
   return text;
@@ -95,14 +99,17 @@ int tell(const std::string& text) {
 int run_help(const std::vector<std::string>& words) {
   if (words.size() < 2) return tell(help());
   if (words[1] == "engine-file") return tell(engine_file_help());
+  if (words[1] == "patterns") return tell(describe_patterns());
   return tell(help_of(find_command(words[1])));
 }
 
 /// Messages quote words of the command line: none may carry control codes to a terminal, or make two lines of one.
 void refuse_control_codes(const std::vector<std::string>& words) {
   for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool bad = std::any_of(words[i].begin(), words[i].end(), [](unsigned char c) { return c < ' ' || c == 0x7F; });
-    if (bad) throw InputError("crankloop: word " + std::to_string(i + 1) + " of the command line has a control character");
+    const bool bad =
+        std::any_of(words[i].begin(), words[i].end(), [](unsigned char c) { return c < ' ' || c == 0x7F; });
+    if (bad)
+      throw InputError("crankloop: word " + std::to_string(i + 1) + " of the command line has a control character");
   }
 }
 

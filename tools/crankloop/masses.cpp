@@ -30,9 +30,9 @@ int run_masses(const Arguments& arguments) {
 }
 
 constexpr Option kOptions[] = {
-    choice("--type", "si|diesel|tractor", "spark ignition, car and truck diesel, or tractor diesel"),
-    number("--bore-mm", "D", above(0).up_to(2000), "bore in mm"),
-    number("--speed-rpm", "N", above(0).up_to(100000), "rated speed in rpm"),
+    required(choice("--type", "si|diesel|tractor", "spark ignition, car and truck diesel, or tractor diesel")),
+    required(number("--bore-mm", "D", above(0).up_to(2000), "bore in mm")),
+    required(number("--speed-rpm", "N", above(0).up_to(100000), "rated speed in rpm")),
 };
 
 }  // namespace

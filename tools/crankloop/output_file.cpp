@@ -22,7 +22,7 @@ namespace crankloop::program {
 namespace {
 
 constexpr std::size_t kBufferBytes = 65536;
-constexpr int kMostNames = 100;
+constexpr int kMaxNames = 100;
 
 /// Where a name leads: renaming onto a symbolic link would replace the link, not the file.
 std::string behind_links(const std::string& path) {
@@ -31,12 +31,12 @@ std::string behind_links(const std::string& path) {
   return error ? path : real.string();
 }
 
-// ---- unfinished files and signals ---------------------------------------------------------------------------------------------
+// ---- unfinished files and signals -----------------------------------------------------------------------------------
 
 constexpr std::string_view kUnfinished = ".unfinished-";
 
-/// Paths that a signal's handler may read at any moment: a place's path changes only while it is not armed. A longer path, or one file more at
-/// a time than there are places, is left to the next run.
+/// Paths that a signal's handler may read at any moment: a place's path changes only while it is not armed. A longer
+/// path, or one file more at a time than there are places, is left to the next run.
 struct UnfinishedPlace {
   std::atomic<bool> taken{false};
   std::atomic<bool> armed{false};
@@ -80,7 +80,8 @@ class SignalsHeld {
   sigset_t before_{};
 };
 
-/// Calls nothing but what POSIX lists as async-signal-safe. The signal comes again, and then does what it does by default.
+/// Calls nothing but what POSIX lists as async-signal-safe. The signal comes again, and then does what it does by
+/// default.
 extern "C" void remove_unfinished_and_end(int signal_number) {
   for (const UnfinishedPlace& place : unfinished_places) {
     if (place.armed) ::unlink(place.path.data());
@@ -89,7 +90,7 @@ extern "C" void remove_unfinished_and_end(int signal_number) {
   std::raise(signal_number);
 }
 
-// ---- what killed runs left ----------------------------------------------------------------------------------------------------
+// ---- what killed runs left ------------------------------------------------------------------------------------------
 
 /// Whether `name` is `start` and two numbers with a dash between, as create_unfinished() makes it.
 bool is_unfinished(std::string_view name, std::string_view start) {
@@ -107,7 +108,8 @@ void remove_if_left_over(const std::string& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (file < 0) return;
   struct stat found {};
-  if (::fstat(file, &found) == 0 && S_ISREG(found.st_mode) && ::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(path.c_str());
+  if (::fstat(file, &found) == 0 && S_ISREG(found.st_mode) && ::flock(file, LOCK_EX | LOCK_NB) == 0)
+    ::unlink(path.c_str());
   ::close(file);
 }
 
@@ -121,9 +123,11 @@ void remove_left_overs(const std::string& path) {
   }
 }
 
-/// Marks a new file as that of a living writer. False where another run took it for a left-over in the moment before, and removes it.
+/// Marks a new file as that of a living writer. False where another run took it for a left-over in the moment before,
+/// and removes it.
 bool claim(int file) {
-  if (::flock(file, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;  // a file system without locks has no left-overs removed either
+  if (::flock(file, LOCK_EX | LOCK_NB) != 0)
+    return errno != EWOULDBLOCK;  // a file system without locks has no left-overs removed either
   struct stat found {};
   return ::fstat(file, &found) == 0 && found.st_nlink > 0;
 }
@@ -133,7 +137,8 @@ bool claim(int file) {
 void Output::remove_unfinished_at_signals() {
   for (const int number : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXCPU}) {
     struct sigaction before {};
-    if (::sigaction(number, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) std::signal(number, remove_unfinished_and_end);
+    if (::sigaction(number, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
+      std::signal(number, remove_unfinished_and_end);
   }
 }
 
@@ -158,7 +163,7 @@ Output::Output(const std::string& path) {
 
 void Output::create_unfinished() {
   // More than one attempt only where several outputs go to one path, or something else has the name.
-  for (int attempt = 0; attempt < kMostNames; ++attempt) {
+  for (int attempt = 0; attempt < kMaxNames; ++attempt) {
     const SignalsHeld held;
     temporary_ = path_ + std::string(kUnfinished) + std::to_string(::getpid()) + "-" + std::to_string(attempt);
     file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -208,7 +213,8 @@ void Output::flush() {
 
 void Output::finish() {
   flush();
-  const int locked = temporary_.empty() ? -1 : ::fcntl(file_, F_DUPFD_CLOEXEC, 0);  // the lock lasts until the file has its name
+  const int locked =
+      temporary_.empty() ? -1 : ::fcntl(file_, F_DUPFD_CLOEXEC, 0);  // the lock lasts until the file has its name
   const bool closed = file_ == STDOUT_FILENO || ::close(std::exchange(file_, -1)) == 0;
   const bool named = closed && (temporary_.empty() || std::rename(temporary_.c_str(), path_.c_str()) == 0);
   if (!named) fail(closed ? "cannot be created" : "cannot be written");

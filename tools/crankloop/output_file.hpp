@@ -12,8 +12,8 @@ namespace crankloop::program {
 /// the way leaves the old file, or none, but never half of one. What is no file (/dev/null, a pipe) is written to
 /// directly.
 ///
-/// The other name is the path's with .unfinished-PID-N behind it, its file locked (flock) as long as its writer lives. What a writer left
-/// that was killed is removed by the next one to the same path.
+/// The other name is the path's with .unfinished-PID-N behind it, its file locked (flock) as long as its writer lives.
+/// What a writer left that was killed is removed by the next one to the same path.
 ///
 /// Every failure throws OutputError; what was not finished is discarded.
 class Output {
@@ -22,7 +22,8 @@ class Output {
   explicit Output(const std::string& path);
   static Output standard() { return Output(""); }
 
-  /// From now on a signal that ends the program removes its unfinished files first. Signals that are ignored stay so (nohup).
+  /// From now on a signal that ends the program removes its unfinished files first. Signals that are ignored stay so
+  /// (nohup).
   static void remove_unfinished_at_signals();
 
   Output(const Output&) = delete;

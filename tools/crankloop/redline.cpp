@@ -1,4 +1,4 @@
-// `crankloop redline FILE --train NAME`: up to which speed a valve keeps to its cam and to its seat, and what moves
+// `crankloop redline FILE`: up to which speed a valve keeps to its cam and to its seat, and what moves
 // that speed.
 #include "redline/redline.hpp"
 
@@ -8,11 +8,14 @@
 
 #include "commands.hpp"
 #include "csv.hpp"
+#include "engine_file/gas_order.hpp"
 #include "engine_file/plausibility.hpp"
+#include "operating_point.hpp"
 #include "progress.hpp"
 #include "results.hpp"
 #include "summary.hpp"
 #include "units.hpp"
+#include "words.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -26,7 +29,7 @@ struct ResultColumn {
 constexpr ResultColumn kColumns[] = {
     {"max_lift_mm", 6, [](const SpeedResult& r) { return r.cycle.largest_lift_m * 1e3; }},
     {"separations", 6, [](const SpeedResult& r) { return static_cast<double>(r.cycle.separations); }},
-    {"separation_max_gap_mm", 4, [](const SpeedResult& r) { return r.cycle.separation_gap_m * 1e3; }},
+    {"separation_max_gap_mm", 4, [](const SpeedResult& r) { return r.cycle.separation_clearance_m * 1e3; }},
     {"seating_speed_m_s", 4, [](const SpeedResult& r) { return r.cycle.seating_speed_m_s; }},
     {"bounces", 6, [](const SpeedResult& r) { return static_cast<double>(r.cycle.bounces); }},
     {"bounce_height_mm", 4, [](const SpeedResult& r) { return r.cycle.bounce_height_m * 1e3; }},
@@ -92,7 +95,8 @@ std::string table_of_factors(const Redline& redline) {
   for (const Sweep& sweep : redline.sweeps) {
     std::vector<std::string> cells{digits(sweep.factor, 6), cell_of(sweep.separation, redline.range),
                                    cell_of(sweep.bounce, redline.range)};
-    for (const ResultColumn& column : kColumns) cells.push_back(digits(column.value(sweep.at[redline.compared_at()]), column.digits));
+    for (const ResultColumn& column : kColumns)
+      cells.push_back(digits(column.value(sweep.at[redline.compared_at()]), column.digits));
     table.row(cells);
   }
   return table.text();
@@ -105,13 +109,16 @@ void add_onset(Summary& s, const char* name, const Onset& onset, const SpeedRang
 
 std::string summary(const Redline& redline) {
   const Sweep& given = redline.as_given();
-  const ValveBody<double> body = redline.valve.body();
+  const detail::ValveBody<double> body = redline.valve.body();
   Summary s;
-  s.remark("valve train " + redline.valve.train().name + ", " + std::to_string(redline.range.from_rpm) +
-                     " to " + std::to_string(redline.range.to_rpm) + " rpm of the engine every " +
-                     std::to_string(redline.range.step_rpm) + "; double, rk4, tick " + brief(given.tick_s * 1e6) +
-                     " us, cycle " + std::to_string(kRedlineCycles) + " from rest");
-  s.remark("onset: the lowest speed with a separation, or a bounce, of at least 1 um; to 1 rpm, from the first speed of the sweep that has any");
+  s.remark("valve train " + redline.valve.train().name + ", " + std::to_string(redline.range.from_rpm) + " to " +
+           std::to_string(redline.range.to_rpm) + " rpm of the engine every " + std::to_string(redline.range.step_rpm) +
+           "; double, rk4, tick " + brief(given.tick_s * 1e6) + " us, cycle " + std::to_string(kRedlineCycles) +
+           " from rest");
+  s.remark("onset: the lowest speed with a separation of at least 1 um, or a bounce of at least " +
+           brief(redline.least_bounce_m * 1e6) + " um; to 1 rpm, from the first speed of the sweep that has any");
+  if (breathes(redline.valve.file().definition()))
+    s.remark("no gas force on the head: that of an engine that breathes is in `crankloop run`");
   add_onset(s, "separation_onset_rpm", given.separation, redline.range);
   add_onset(s, "bounce_onset_rpm", given.bounce, redline.range);
   s.line("natural_frequency_Hz", open_frequency_rad_s(body) * kTurnsPerRad, "Hz", "open, on the train");
@@ -119,7 +126,8 @@ std::string summary(const Redline& redline) {
   s.text("\n");
   if (redline.influence == nullptr) return s.text() + table_of_speeds(given);
   s.remark(std::string("influence of ") + redline.influence->keys + ", times factor; from max_lift_mm on at " +
-         std::to_string(redline.as_given().at[redline.compared_at()].speed_rpm) + " rpm, just above the onset as given");
+           std::to_string(redline.as_given().at[redline.compared_at()].speed_rpm) +
+           " rpm, just above the onset as given");
   return s.text() + table_of_factors(redline);
 }
 
@@ -171,25 +179,26 @@ void refuse_nothing_to_vary(const LoneValve& valve, const std::string& option) {
 int run_redline(const Arguments& arguments) {
   const SpeedRange range = speed_range(arguments.whole_number("--from"), arguments.whole_number("--to"));
   if (range.from_rpm >= range.to_rpm) throw UsageError("--from must be less than --to");
-  const std::string& name = arguments.text("--train");
   const EngineFile file = read_engine(arguments, {});
+  const std::string name = train_name(arguments, file);
   const LoneValve valve(file, name);
   Results results(arguments, {"--csv", "--report"});
-  Redline redline{valve, range, influence_of(arguments), {}, ""};
-  redline.command_line = "crankloop redline " + arguments.file() + " --train " + name + " --from " +
-                         std::to_string(range.from_rpm) + " --to " + std::to_string(range.to_rpm);
+  Redline redline{valve, range, influence_of(arguments), {}, "", millionths(arguments.number("--bounce-um"))};
+  redline.command_line = "crankloop redline " + shell_word(arguments.file()) + " --train " + name + " --from " +
+                         std::to_string(range.from_rpm) + " --to " + std::to_string(range.to_rpm) + " --bounce-um " +
+                         shortest(arguments.number("--bounce-um"));
   {
     const std::size_t sweeps = redline.influence != nullptr ? std::size(kInfluenceFactors) : 1;
     Progress progress("searching", static_cast<double>(sweeps) * speeds_of(range));
     const auto after_speed = [&progress] { progress.long_step(); };
     if (redline.influence == nullptr) {
-      redline.sweeps.push_back(sweep_speeds(valve, range, 1, after_speed));
+      redline.sweeps.push_back(sweep_speeds(valve, range, 1, after_speed, redline.least_bounce_m));
     } else {
       redline.command_line += std::string(" --vary ") + redline.influence->option;
       refuse_nothing_to_vary(valve, redline.influence->option);
       for (const double factor : kInfluenceFactors) {
-        redline.sweeps.push_back(
-            sweep_speeds(varied_valve(valve, *redline.influence, factor), range, factor, after_speed));
+        redline.sweeps.push_back(sweep_speeds(varied_valve(valve, *redline.influence, factor), range, factor,
+                                              after_speed, redline.least_bounce_m));
       }
     }
   }
@@ -200,9 +209,11 @@ int run_redline(const Arguments& arguments) {
 }
 
 constexpr Option kOptions[] = {
-    text("--train", "NAME", "valve train: the NAME of its [cam NAME], [rocker NAME] and [valve NAME]"),
+    text("--train", "NAME",
+         "valve train: the NAME of its [cam NAME], [rocker NAME] and [valve NAME]; default the only one of the file"),
     whole_number("--from", "N", from(1).up_to(100000), "lowest engine speed in rpm", "500"),
     whole_number("--to", "N", from(1).up_to(100000), "highest engine speed in rpm", "15000"),
+    number("--bounce-um", "H", from(1).up_to(1000), "least height of what counts as a bounce in its onset", "1"),
     choice(
         "--vary", "train|mass|spring|preload|damping",
         "sweeps again with this times 0.5, 0.7, 0.85, 1, 1.2, 1.5, 2; mass: all that moves, damping: all three ratios"),
@@ -219,7 +230,7 @@ std::string text_of(const Onset& onset, const SpeedRange& range) {
 
 const Command kRedline{"redline",
                        "the speeds at which a valve begins to float and to bounce, and what moves them",
-                       "FILE --train NAME [--from N] [--to N] [--vary P] [--csv F] [--report F.html]",
+                       "FILE [--train NAME] [--from N] [--to N] [--bounce-um H] [--vary P] [--csv F] [--report F.html]",
                        "crankloop redline ohc_125.ini --train intake --vary spring --report redline.html",
                        1,
                        kOptions,

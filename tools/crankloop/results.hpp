@@ -1,6 +1,7 @@
 // Where a command's results go: files that its options name, and a summary.
 //
-// What belongs here: opening and finishing them together. What does not: what is written (csv.hpp, report/, summary.hpp).
+// What belongs here: opening and finishing them together. What does not: what is written (csv.hpp, report/,
+// summary.hpp).
 #pragma once
 
 #include <initializer_list>

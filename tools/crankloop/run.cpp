@@ -1,4 +1,5 @@
-// `crankloop run FILE`: the fixed-step loop over some cycles, its figures, its ticks as CSV, its report. With --free: free_request.cpp.
+// `crankloop run FILE`: the fixed-step loop over some cycles, its figures, its ticks as CSV, its report. With --free:
+// free_request.cpp.
 #include <cmath>
 #include <optional>
 #include <string>
@@ -10,10 +11,12 @@
 
 #include "commands.hpp"
 #include "csv.hpp"
+#include "engine_file/gas_order.hpp"
 #include "engine_file/plausibility.hpp"
+#include "engine_file/pressure_words.hpp"
 #include "engine_report/engine_report.hpp"
 #include "free/free_request.hpp"
-#include "load_ratio.hpp"
+#include "operating_point.hpp"
 #include "progress.hpp"
 #include "results.hpp"
 #include "run/run_accuracy.hpp"
@@ -24,11 +27,12 @@
 #include "summary.hpp"
 #include "valve/valve_tick_limit.hpp"
 #include "with_real.hpp"
+#include "words.hpp"
 
 namespace crankloop::program {
 namespace {
 
-std::vector<std::string> csv_header(int cylinders, const std::vector<std::string>& trains) {
+std::vector<std::string> csv_header(int cylinders, const std::vector<std::string>& trains, bool gas) {
   std::vector<std::string> header{"time_s", "crank_deg", "speed_rpm", "torque_Nm", "mean_torque_Nm"};
   for (int k = 1; k <= cylinders; ++k) {
     for (std::size_t i = 0; i < kCsvQuantities; ++i) {
@@ -42,12 +46,13 @@ std::vector<std::string> csv_header(int cylinders, const std::vector<std::string
       header.push_back(valve + "regime");
     }
   }
+  if (gas) add_gas_columns(header, static_cast<std::size_t>(cylinders));
   return header;
 }
 
-template <class Real>
+template <class Real, class S>
 void write_row(CsvWriter& csv, const EngineDefinition& definition, const Operation& operation, std::uint64_t tick,
-               double crank_deg, const WholeOutput<Real>& out) {
+               double crank_deg, const WholeOutput<Real, S>& out) {
   const Layout& layout = definition.layout;
   csv.cell(static_cast<double>(tick) * operation.tick_s);
   csv.cell(crank_deg);
@@ -61,10 +66,12 @@ void write_row(CsvWriter& csv, const EngineDefinition& definition, const Operati
   for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
     for (std::size_t t = 0; t < static_cast<std::size_t>(definition.train_count); ++t) {
       const auto values = values_of(out, t, k);
-      for (std::size_t i = 0; i < kValveQuantities; ++i) csv.cell(values[i] * static_cast<Real>(kValveQuantityKinds[i].per_si));
+      for (std::size_t i = 0; i < kValveQuantities; ++i)
+        csv.cell(values[i] * static_cast<Real>(kValveQuantityKinds[i].per_si));
       csv.cell(static_cast<int>(out.valve_forces[t][k].regime));
     }
   }
+  if constexpr (detail::Needs<S>::gas) write_gas(csv, out, static_cast<std::size_t>(layout.cylinders));
   csv.end_row();
 }
 
@@ -79,9 +86,9 @@ struct Request {
 struct Engines {
   const EngineFile& file;
   const ExactEngine& exact;
-  const CycleSummary& summary;
 
   [[nodiscard]] bool has_gas() const noexcept { return exact.definition().pressure.source != PressureSource::none; }
+  [[nodiscard]] bool breathes() const noexcept { return program::breathes(exact.definition()); }
 };
 
 void add_peak(Summary& s, const std::string& name, Peak peak, double per_si, const std::string& unit) {
@@ -104,7 +111,7 @@ void add_valves(Summary& s, const std::string& train, const ValveFigures& f) {
   s.line(train + "_max_lift", cycle.largest_lift_m * 1e3, "mm");
   s.line(train + "_opening_delay", cycle.opening_delay_deg, "deg", "of cam angle, at 0.1 mm of lift");
   s.line(train + "_separations", cycle.separations);
-  s.line(train + "_separation_max_gap", cycle.separation_gap_m * 1e3, "mm");
+  s.line(train + "_separation_max_gap", cycle.separation_clearance_m * 1e3, "mm");
   s.line(train + "_seating_speed", cycle.seating_speed_m_s, "m/s");
   s.line(train + "_bounces", cycle.bounces);
   s.line(train + "_bounce_height", cycle.bounce_height_m * 1e3, "mm");
@@ -117,21 +124,27 @@ void add_brake(Summary& s, const EngineDefinition& definition, double indicated_
   const BrakeFigures brake = brake_figures(definition, indicated_Nm, speed_rad_s);
   s.line("friction_mep", brake.friction_mep_Pa / 1e3, "kPa", "of [friction] at this speed");
   s.line("brake_torque", brake.torque_Nm, "Nm");
-  s.line("brake_power", brake.power_W / 1e3, "kW", brief(brake.power_W / 1e3 / definition.layout.cylinders) + " kW a cylinder");
+  s.line("brake_power", brake.power_W / 1e3, "kW",
+         brief(brake.power_W / 1e3 / definition.layout.cylinders) + " kW a cylinder");
   if (brake.efficiency_ratio > 0) s.line("mechanical_efficiency", brake.efficiency_ratio);
 }
 
 std::string summary_text(const Engines& engine, const Request& request, const RunFigures& f,
-                         double wall_time_per_tick_ns) {
+                         const CycleSummary& summary, double wall_time_per_tick_ns) {
   const EngineDefinition& definition = engine.exact.definition();
   const double speed = request.operation.speed_rad_s();
   Summary s;
   s.remark(engine.file.name() + ", fixed-step loop in " + request.real +
            (engine.has_gas() ? "" : ", no pressure source: inertia only"));
+  s.remark(pressure_in_short(engine.file));
   s.remark("angles: torque and journals from cylinder 1's firing TDC, all else from that of the cylinder itself");
   s.remark("largest and smallest are over the ticks, every " + brief(f.deg_per_tick) + " deg");
   s.line("speed", request.operation.speed_rpm, "rpm");
-  if (engine.has_gas()) s.line("load_ratio", request.operation.load_ratio);
+  if (engine.breathes()) {
+    add_order(s, request.operation.gas);
+  } else if (engine.has_gas()) {
+    s.line("load_ratio", request.operation.load_ratio);
+  }
   s.line("tick", request.operation.tick_s * 1e6, "us");
   s.line("deg_per_tick", f.deg_per_tick, "deg");
   s.line("cycles", static_cast<double>(f.cycles));
@@ -141,8 +154,16 @@ std::string summary_text(const Engines& engine, const Request& request, const Ru
     s.line("power", f.power_W / 1e3, "kW", "indicated: friction is not subtracted");
     if (definition.friction.any()) add_brake(s, definition, f.mean_torque_Nm, speed);
     s.line("net_mep", f.net_mep_Pa / 1e3, "kPa");
-    s.line("net_mep_exact", engine.summary.net_mep_Pa / 1e3, "kPa", "loop integral of p dV");
-    s.line("gross_mep_exact", engine.summary.gross_mep_Pa / 1e3, "kPa", "over the closed 360 deg");
+    if (engine.breathes()) {
+      add_gas(s, f.gas.cycle);
+      s.line("energy_defect", f.gas.cycle.energy_defect_J, "J", "of a cylinder's cycle, the largest: rounding");
+      s.line("intake_pressure", f.gas.intake_Pa / 1e3, "kPa", "in the manifold, mean");
+      s.line("exhaust_pressure", f.gas.exhaust_Pa / 1e3, "kPa", "likewise");
+      s.line("exhaust_manifold_temperature", f.gas.exhaust_manifold_K, "K", "mean: what a probe would read");
+    } else {
+      s.line("net_mep_exact", summary.net_mep_Pa / 1e3, "kPa", "loop integral of p dV");
+      s.line("gross_mep_exact", summary.gross_mep_Pa / 1e3, "kPa", "over the closed 360 deg");
+    }
   }
   add_peaks(s, "torque", f.torque, 1, "Nm");
   for (const Quantity quantity : {Quantity::pressure, Quantity::gas_force}) {
@@ -164,8 +185,10 @@ std::string summary_text(const Engines& engine, const Request& request, const Ru
   s.line("swept_volume", swept_volume_m3(definition.crank) * 1e6, "cm^3", "one cylinder");
   const std::vector<std::string> trains = names_of_trains(engine.file);
   for (std::size_t t = 0; t < f.valves.size(); ++t) add_valves(s, trains[t], f.valves[t]);
-  s.line("table_gas_segments", f.tables.gas_segments);
-  s.line("table_pressure_error", f.tables.pressure_error_Pa, "Pa");
+  if (!engine.breathes()) {
+    s.line("table_gas_segments", f.tables.gas_segments);
+    s.line("table_pressure_error", f.tables.pressure_error_Pa, "Pa");
+  }
   if (f.tables.valve_fine_steps > 0) {
     s.line("valve_fine_steps_worst_tick", f.tables.valve_fine_steps);
     s.line("valve_changes_located", f.tables.valve_changes);
@@ -177,55 +200,64 @@ std::string summary_text(const Engines& engine, const Request& request, const Ru
   return s.text();
 }
 
-std::string command_line(const Arguments& arguments, const Request& request) {
-  return "crankloop run " + arguments.file() + " --rpm " + shortest(request.operation.speed_rpm) +
-                     " --tick-us " + shortest(arguments.number("--tick-us")) + " --cycles " +
-                     std::to_string(request.cycles) + " --real " + request.real + " --load-ratio " +
-                     shortest(request.operation.load_ratio);
+std::string command_line(const Arguments& arguments, const Request& request, bool breathes) {
+  return "crankloop run " + shell_word(arguments.file()) + " --rpm " + shortest(request.operation.speed_rpm) +
+         " --tick-us " + shortest(arguments.number("--tick-us")) + " --cycles " + std::to_string(request.cycles) +
+         " --real " + request.real + " " +
+         (breathes ? options_of(request.operation.gas) : "--load-ratio " + shortest(request.operation.load_ratio));
 }
 
-template <class Real>
+template <class Real, class S>
 void run(const Engines& engine, const Request& request, const Arguments& arguments) {
   const EngineDefinition& definition = engine.exact.definition();
   const Operation& operation = request.operation;
-  Progress progress("running", (request.cycles + 1) * 720 / (operation.speed_rad_s() * kDegPerRad * operation.tick_s));
-  FixedStepLoop<Real> loop(definition, operation, 0, [&progress] { progress.step(); });
+  Progress progress("running", (request.cycles + cycles_to_settle(definition)) * 720 /
+                                   (operation.speed_rad_s() * kDegPerRad * operation.tick_s));
+  FixedStepLoop<Real, S> loop(definition, operation, 0, [&progress] { progress.step(); });
 
   Results results(arguments, {"--csv", "--report", "--vcd"});
   if (Output* vcd = results["--vcd"]) write_signals(engine.file, operation, request.cycles, *vcd);
   std::optional<CsvWriter> csv;
-  if (Output* file = results["--csv"]) csv.emplace(*file, csv_header(definition.layout.cylinders, names_of_trains(engine.file)));
+  if (Output* file = results["--csv"])
+    csv.emplace(*file, csv_header(definition.layout.cylinders, names_of_trains(engine.file), engine.breathes()));
 
-  const CloseUpWindow window = close_up_window(engine.summary.largest_torque_deg, loop.deg_per_tick());
+  Trace trace;
+  if (results["--report"] != nullptr) trace = record_trace<Real, S>(definition, operation);
+  CycleSummary summary{};
+  if (!engine.breathes()) {
+    summary = summarise(engine.exact, operation.speed_rad_s(), operation.load_ratio);
+  } else if (results["--report"] != nullptr) {
+    summary = summarise(definition, operation.speed_rad_s(), trace);
+  }
+  const CloseUpWindow window = close_up_window(summary.largest_torque_deg, loop.deg_per_tick());
   std::vector<CloseUpTick> close_up;
-  const OnTick<Real> on_tick = [&](std::uint64_t tick, double crank_deg, const WholeOutput<Real>& out) {
-    if (csv) write_row(*csv, definition, operation, tick, crank_deg, out);
+  const OnTick<Real, S> on_tick = [&](std::uint64_t tick, double crank_deg, const WholeOutput<Real, S>& out) {
+    if (csv) write_row<Real, S>(*csv, definition, operation, tick, crank_deg, out);
     if (static_cast<double>(tick) <= loop.ticks_per_cycle() && window.contains(crank_deg)) {
       close_up.push_back({crank_deg, static_cast<double>(out.torque_Nm), static_cast<double>(out.mean_torque_Nm)});
     }
     progress.step();
   };
-  const RunFigures figures = run_cycles<Real>(loop, definition, operation, request.cycles, on_tick);
+  const RunFigures figures = run_cycles<Real, S>(loop, definition, operation, request.cycles, on_tick);
   const double wall_time_per_tick_ns = loop.wall_time_per_tick_ns();
 
   if (Output* page = results["--report"]) {
-    const Trace trace = record_trace<Real>(definition, operation);
-    const Accuracy accuracy = measure_accuracy<Real>(engine.exact, operation);
+    const Accuracy accuracy = engine.breathes() ? Accuracy{} : measure_accuracy<Real>(engine.exact, operation);
     const ReportInput input{engine.file,
                             engine.exact,
-                            engine.summary,
+                            summary,
                             operation,
                             figures,
                             trace,
                             accuracy,
                             close_up,
                             request.real,
-                            command_line(arguments, request),
+                            command_line(arguments, request, engine.breathes()),
                             wall_time_per_tick_ns,
                             request.warnings};
     page->write(report::to_html(engine_report(input)));
   }
-  results.finish(summary_text(engine, request, figures, wall_time_per_tick_ns));
+  results.finish(summary_text(engine, request, figures, summary, wall_time_per_tick_ns));
 }
 
 int run_run(const Arguments& arguments) {
@@ -234,45 +266,60 @@ int run_run(const Arguments& arguments) {
   const EngineFile file = read_engine(arguments, {"engine", "crank", "masses"}, &warnings);
   const EngineDefinition& definition = file.definition();
   require_heat_to_scale(arguments, file);
-  if (arguments.has("--free")) return run_free_by(arguments, file, std::move(warnings));
-  const Operation operation{arguments.has("--rpm") ? arguments.number("--rpm") : file.rated_rpm(),
-                            millionths(arguments.number("--tick-us")), arguments.number("--load-ratio")};
+  const GasOrder gas = gas_order(arguments, file, 1);
+  if (arguments.has("--free")) return run_free_by(arguments, file, gas, std::move(warnings));
+  const Operation operation{speed_rpm(arguments, file), millionths(arguments.number("--tick-us")),
+                            arguments.number("--load-ratio"), gas};
   const Request request{operation, arguments.whole_number("--cycles"), arguments.text("--real"), std::move(warnings)};
   require_trains(file, operation.tick_s);
   ExactEngine exact;
   if (const Status refused = exact.init(definition); !refused.ok()) throw file.explain(refused);
-  const CycleSummary summary = summarise(exact, operation.speed_rad_s(), operation.load_ratio);
-  const Engines engine{file, exact, summary};
-  with_real(request.real, [&](auto zero) { run<decltype(zero)>(engine, request, arguments); });
+  const Engines engine{file, exact};
+  with_real(request.real, [&](auto zero) {
+    using Real = decltype(zero);
+    if (engine.breathes()) {
+      run<Real, scenes::Breathing>(engine, request, arguments);
+    } else {
+      run<Real, scenes::Whole>(engine, request, arguments);
+    }
+  });
   return kSuccess;
 }
 
 constexpr Option kOptions[] = {
     number("--rpm", "N", above(0).up_to(100000), "engine speed in rpm; default the file's rated_rpm"),
-    number("--tick-us", "T", from(1).up_to(2000), "length of a tick in us", "100"),
-    whole_number("--cycles", "N", from(1).up_to(1000000), "cycles of 720 deg to record, after one to settle", "2"),
+    kTick,
+    whole_number("--cycles", "N", from(1).up_to(1000000),
+                 "cycles of 720 deg to record, after one to settle; of an engine that breathes after more", "2"),
     choice("--real", "float|double", "arithmetic of the tick, and digits of the CSV", "float"),
     kLoadRatio,
+    kThrottle,
+    kFuel,
+    kBurnStart,
     text("--csv", "F", "file for a row per tick; - is standard output, the summary then goes to stderr"),
     text("--report", "F.html", "file for the report, which any browser shows"),
     text("--vcd", "F", "file for the trigger wheels' signals, a value change dump as GTKWave and PulseView open it"),
-    flag("--free", "the engine turns by its own gas against friction and load, instead of at one speed; for the options below"),
+    flag("--free",
+         "the engine turns by its own gas against friction and load, instead of at one speed; for the options below"),
     number("--from-rpm", "N", from(-100000).up_to(100000), "speed to begin with, backwards if negative", "0"),
     number("--seconds", "S", above(0).up_to(1e6), "how long", "2"),
-    number("--load-Nm", "L", from(0).up_to(1e7), "a brake of constant torque instead of that of the file's [load], whose inertia stays"),
+    number("--machine-Nm", "L", from(0).up_to(1e7),
+           "a brake of constant torque instead of that of the file's [machine], whose inertia stays"),
     flag("--starter", "the file's [starter] turns the crank too; it free-wheels where the engine is faster"),
     text("--cut", "K,..", "cylinders that do not fire, like 1,3"),
 };
 
 }  // namespace
 
-const Command kRun{"run",
-                   "the fixed-step loop: torque, power, peak forces, time per tick; or an engine that runs free; CSV and report",
-                   "FILE [--rpm N] [--cycles N] [--tick-us T] [--real R] [--load-ratio Q] [--csv F] [--report F.html] [--vcd F]\n"
-                   "       crankloop run FILE --free [--from-rpm N] [--seconds S] [--load-Nm L] [--starter] [--cut K,..] [...]",
-                   "crankloop run diesel_495.ini --rpm 2000 --csv run.csv --report report.html",
-                   1,
-                   kOptions,
-                   run_run};
+const Command kRun{
+    "run",
+    "the fixed-step loop: torque, power, peak forces, time per tick; or an engine that runs free; CSV and report",
+    "FILE [--rpm N] [--cycles N] [--tick-us T] [--real R] [--load-ratio Q] [--csv F] [--report F.html] [--vcd F]\n"
+    "       [--throttle R] [--fuel-mg M] [--burn-start-deg A]\n"
+    "       crankloop run FILE --free [--from-rpm N] [--seconds S] [--machine-Nm L] [--starter] [--cut K,..] [...]",
+    "crankloop run diesel_495.ini --rpm 2000 --csv run.csv --report report.html",
+    1,
+    kOptions,
+    run_run};
 
 }  // namespace crankloop::program

@@ -14,9 +14,9 @@ std::string digits(double value) { return significant(static_cast<float>(value))
 }  // namespace
 
 void require_ticks(double ticks, double tick_s, const std::string& remedy) {
-  if (ticks <= kMostTicks) return;
-  throw UsageError("the run would take " + digits(ticks) + " ticks of " + digits(tick_s * 1e6) + " us, at most " + digits(kMostTicks) +
-                   " are allowed: take a longer --tick-us, " + remedy);
+  if (ticks <= kMaxTicks) return;
+  throw UsageError("the run would take " + digits(ticks) + " ticks of " + digits(tick_s * 1e6) + " us, at most " +
+                   digits(kMaxTicks) + " are allowed: take a longer --tick-us, " + remedy);
 }
 
 void require_speed(double speed_rpm, double limit_rad_s, double tick_s) {

@@ -6,7 +6,7 @@
 namespace crankloop::program {
 
 /// Most ticks of a run: some minutes for four cylinders.
-inline constexpr double kMostTicks = 1e9;
+inline constexpr double kMaxTicks = 1e9;
 
 /// Throws UsageError for more ticks than that; `remedy` says what else would help: "fewer --cycles".
 void require_ticks(double ticks, double tick_s, const std::string& remedy);

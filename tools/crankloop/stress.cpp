@@ -4,8 +4,8 @@
 
 #include "commands.hpp"
 #include "error.hpp"
-#include "output_file.hpp"
 #include "lab/stress/stress_tally.hpp"
+#include "output_file.hpp"
 #include "progress.hpp"
 #include "summary.hpp"
 
@@ -44,7 +44,7 @@ int run_stress(const Arguments& arguments) {
   if (arguments.has("--report")) page.emplace(arguments.text("--report"));
   {
     StressTrials trials;
-    Progress progress("stressing", tally.cases);
+    Progress progress("stressing", tally.cases, Progress::kLogPeriod_ns);
     for (int number = 0; number < tally.cases; ++number) {
       const StressCase drawn(static_cast<std::uint64_t>(tally.seed), static_cast<std::uint64_t>(number));
       tally.add(number, drawn, trials.run(drawn, number % tally.compare_every == 0));

@@ -19,7 +19,8 @@ class Summary {
   explicit Summary(Digits digits = Digits::six) : digits_{digits} {}
 
   void remark(const std::string& text) { text_ += "# " + text + "\n"; }
-  void line(const std::string& name, const std::string& value, const std::string& unit = "", const std::string& remark = "") {
+  void line(const std::string& name, const std::string& value, const std::string& unit = "",
+            const std::string& remark = "") {
     text_ += name + " = " + value + (unit.empty() ? "" : " " + unit) + (remark.empty() ? "" : "  # " + remark) + "\n";
   }
   template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>

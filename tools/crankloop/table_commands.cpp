@@ -3,7 +3,7 @@
 namespace crankloop::program {
 
 const std::vector<const Command*>& commands() {
-  static const std::vector<const Command*> all = {&kTables};
+  static const std::vector<const Command*> all = {&kTables, &kPack};
   return all;
 }
 

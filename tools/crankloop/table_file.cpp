@@ -7,7 +7,7 @@
 namespace crankloop::program {
 namespace {
 
-constexpr std::size_t kMostTableBytes = std::size_t{8} << 20;
+constexpr std::size_t kMaxTableBytes = std::size_t{8} << 20;
 
 void check_header(std::string_view line, const TableFormat& format, const std::string& path, int number) {
   const std::vector<std::string_view> names = split(line, ',');
@@ -17,7 +17,8 @@ void check_header(std::string_view line, const TableFormat& format, const std::s
 
 double column(std::string_view text, const char* name, const Range& range, const std::string& path, int line) {
   if (!parse_number(text).ok()) {
-    throw InputError(path, line, std::string(name) + ": not a finite number with a point as decimal sign, and nothing else");
+    throw InputError(path, line,
+                     std::string(name) + ": not a finite number with a point as decimal sign, and nothing else");
   }
   const ParsedNumber number = parse_number(text, range, "");
   if (!number.ok()) throw InputError(path, line, std::string(name) + ": " + number.problem);
@@ -28,7 +29,7 @@ double column(std::string_view text, const char* name, const Range& range, const
 
 std::vector<TableRow> read_table(const std::string& path, const TableFormat& format, const std::string& named_in,
                                  int named_at) {
-  const FileBytes file = read_file(path, kMostTableBytes);
+  const FileBytes file = read_file(path, kMaxTableBytes);
   if (!file.ok()) throw InputError(named_in, named_at, "file: " + path + " " + file.problem);
   const std::vector<std::string> lines = split_lines(file.bytes, path);
 
@@ -46,8 +47,8 @@ std::vector<TableRow> read_table(const std::string& path, const TableFormat& for
     const std::vector<std::string_view> cells = split(text, ',');
     if (cells.size() != 2) {
       throw InputError(path, line,
-                       "the row has " + std::to_string(cells.size()) + (cells.size() == 1 ? " column" : " columns") + "; a row is '" + format.first + "," +
-                           format.second + "', with a point as decimal sign");
+                       "the row has " + std::to_string(cells.size()) + (cells.size() == 1 ? " column" : " columns") +
+                           "; a row is '" + format.first + "," + format.second + "', with a point as decimal sign");
     }
     rows.push_back({column(cells[0], format.first, format.range_first, path, line),
                     column(cells[1], format.second, format.range_second, path, line), line});

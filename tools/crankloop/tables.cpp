@@ -1,4 +1,4 @@
-// `crankloop tables FILE --tick-us T`: the tables as a C++ header of constexpr data, one object per section.
+// `crankloop tables FILE`: the tables as a C++ header of constexpr data, one object per section.
 #include <cstddef>
 #include <cstdio>
 #include <map>
@@ -14,6 +14,7 @@
 #include "commands.hpp"
 #include "engine_file/plausibility.hpp"
 #include "error.hpp"
+#include "operating_point.hpp"
 #include "output_file.hpp"
 #include "valve/valve_tick_limit.hpp"
 
@@ -21,7 +22,7 @@ namespace crankloop::program {
 namespace {
 
 template <class Real>
-using Stores = part::Stores<Real, part::RoomForAll>;
+using Stores = detail::part::Stores<Real, detail::part::RoomForAll>;
 
 /// Prints initialisers. Floating-point numbers are hexadecimal, so that the compiler reads back the same bits.
 class Printer {
@@ -87,36 +88,53 @@ struct Piece {
   std::size_t count;
 };
 
-/// The rows in use of a section that has several: in one piece, or in one per train or wheel, without the room that tabulate leaves between them.
+/// The rows in use of a section that has several: in one piece, or in one per train or wheel, without the room that
+/// tabulate leaves between them.
 template <class Section, class Real, class Record>
 std::vector<Piece<Record>> pieces_of(const Stores<Real>& s, const TableReport& report, const Record* rows) {
-  const auto segments = [rows](int count) { return std::vector<Piece<Record>>{{rows, static_cast<std::size_t>(count)}}; };
+  const auto segments = [rows](int count) {
+    return std::vector<Piece<Record>>{{rows, static_cast<std::size_t>(count)}};
+  };
   std::vector<Piece<Record>> pieces;
   switch (Section::kRows) {
-    case SectionRows::one: return {{rows, 1}};
-    case SectionRows::gas_grid: return segments(report.gas_segments);
-    case SectionRows::torque_grid: return segments(report.torque_segments);
-    case SectionRows::cut_grid: return segments(report.cut_segments);
-    case SectionRows::trains: return {{rows, s.drive.trains}};
-    case SectionRows::wheels: return {{rows, s.triggers.count}};
-    case SectionRows::lobes:
-      for (std::uint32_t t = 0; t < s.drive.trains; ++t) pieces.push_back({rows + t * std::size_t{kDegreesPerTurn}, s.lift_curves[t].rows()});
+    case detail::SectionRows::one:
+      return {{rows, 1}};
+    case detail::SectionRows::gas_grid:
+      return segments(report.gas_segments);
+    case detail::SectionRows::torque_grid:
+      return segments(report.torque_segments);
+    case detail::SectionRows::cut_grid:
+      return segments(report.cut_segments);
+    case detail::SectionRows::trains:
+      return {{rows, s.drive.trains}};
+    case detail::SectionRows::wheels:
+      return {{rows, s.triggers.count}};
+    case detail::SectionRows::lobes:
+      for (std::uint32_t t = 0; t < s.drive.trains; ++t)
+        pieces.push_back({rows + t * std::size_t{kDegreesPerTurn}, s.lift_curves[t].rows()});
       return pieces;
-    case SectionRows::edges:
-      for (std::uint32_t w = 0; w < s.triggers.count; ++w) pieces.push_back({rows + w * std::size_t{kMaxTriggerEdges}, s.trigger_tracks[w].edge_count});
+    case detail::SectionRows::edges:
+      for (std::uint32_t w = 0; w < s.triggers.count; ++w)
+        pieces.push_back({rows + w * std::size_t{kMaxTriggerEdges}, s.trigger_tracks[w].edge_count});
       return pieces;
   }
   return pieces;
 }
 
-/// One section as an object of its name, or as an array of it. False where it has no rows, or leads to none.
+/// One section as an object of its name, or as an array of it. Trains and wheels that an engine does not have are one
+/// of zeros that no tick reads, so that a scene with room for them goes with it. False where a section has no rows.
 template <class Section, class Real>
 bool print_section(Printer& p, const Stores<Real>& s, const TableReport& report, const std::string& real) {
-  constexpr bool kOne = Section::kRows == SectionRows::one;
-  if (std::is_same_v<Section, section::triggers> && s.triggers.count == 0) return false;
+  constexpr bool kOne = Section::kRows == detail::SectionRows::one;
+  constexpr bool kOfGas =
+      std::is_same_v<Section, detail::section::gas_cylinders> || std::is_same_v<Section, detail::section::gas_ports> ||
+      std::is_same_v<Section, detail::section::gas_manifolds> || std::is_same_v<Section, detail::section::burn>;
+  if (kOfGas && !(s.gas_cylinders.clearance_m3 > 0)) return false;  // an engine that does not breathe
   const std::string name = Section::kName;
-  const std::string object = "\nconstexpr crankloop::section::" + name + "::Record<" + real + "> " + name;
-  if constexpr (kOne) {
+  const std::string object = "\nconstexpr crankloop::detail::section::" + name + "::Record<" + real + "> " + name;
+  if (std::is_same_v<Section, detail::section::triggers> && s.triggers.count == 0) {
+    p.text(object + " = {}");
+  } else if constexpr (kOne) {
     p.text(object + " = ");
     p.print(Section::in(s));
   } else {
@@ -128,8 +146,8 @@ bool print_section(Printer& p, const Stores<Real>& s, const TableReport& report,
       p.rows(piece.first, piece.count);
       printed += piece.count;
     }
-    if (printed == 0) return false;
-    p.text("\n}");
+    if (printed == 0 && Section::kRows != detail::SectionRows::trains) return false;
+    p.text(printed == 0 ? object + "[1] = {}" : "\n}");
   }
   p.text(";\n");
   return true;
@@ -138,9 +156,10 @@ bool print_section(Printer& p, const Stores<Real>& s, const TableReport& report,
 template <class Real>
 void print_sections(Printer& p, const Stores<Real>& s, const std::string& real, const TableReport& report) {
   std::string all;
-  sections([&](auto section) {
+  detail::sections([&](auto section) {
     if (!print_section<decltype(section)>(p, s, report, real) || !section.kRead) return;
-    all += std::string("  s.") + section.kName + " = " + (section.kRows == SectionRows::one ? "&" : "") + section.kName + ";\n";
+    all += std::string("  s.") + section.kName + " = " + (section.kRows == detail::SectionRows::one ? "&" : "") +
+           section.kName + ";\n";
   });
   const std::string type = "crankloop::Sections<" + real + ">";
   p.text("\nconstexpr " + type + " sections = [] {\n  " + type + " s;\n" + all + "  return s;\n}();\n");
@@ -151,18 +170,24 @@ void print_header(Output& out, const EngineFile& engine, const Arguments& argume
   const std::string& real = arguments.text("--real");
   const auto stores = std::make_unique<Stores<Real>>();
   TableReport report;
-  const TickOptions options{millionths(arguments.number("--tick-us")),
-                            {arguments.text("--integrator") == "exponential" ? Integrator::exponential : Integrator::rk4,
-                             millionths(arguments.number("--accuracy-um"))}};
+  const TickOptions options{
+      millionths(arguments.number("--tick-us")),
+      {arguments.text("--integrator") == "exponential" ? Integrator::exponential : Integrator::rk4,
+       millionths(arguments.number("--accuracy-um"))}};
   const Status status = tabulate(engine.definition(), options, stores->targets(), &report);
   if (!status.ok()) throw explain_tabulate(engine, status, options.tick_s, options.valves);
   const std::string& name_space = arguments.text("--namespace");
   Printer p(out);
   const bool has_valves = engine.definition().train_count > 0;
-  p.text("// Tables of the engine \"" + engine.name() + "\" for a tick of " + shortest(arguments.number("--tick-us")) + " us, " + real +
-         (has_valves ? "; valves: " + arguments.text("--integrator") + ", " + shortest(arguments.number("--accuracy-um")) + " um" : "") +
-         ".\n// Made by `crankloop tables`; do not edit. Each section is an object of its own: what a scene does not read is not linked.\n"
-         "#pragma once\n\n#include <crankloop/tables/tables.hpp>\n\nnamespace " + name_space + " {\n");
+  p.text("// Tables of the engine \"" + engine.name() + "\" for a tick of " + shortest(arguments.number("--tick-us")) +
+         " us, " + real +
+         (has_valves ? "; valves: " + arguments.text("--integrator") + ", " +
+                           shortest(arguments.number("--accuracy-um")) + " um"
+                     : "") +
+         ".\n// Made by `crankloop tables`; do not edit. Each section is an object of its own: what a scene does not "
+         "read is not linked.\n"
+         "#pragma once\n\n#include <crankloop/tables/tables.hpp>\n\nnamespace " +
+         name_space + " {\n");
   print_sections(p, *stores, real, report);
   p.text("\n}  // namespace " + name_space + "\n");
 }
@@ -189,22 +214,23 @@ int run_tables(const Arguments& arguments) {
 }
 
 constexpr Option kOptions[] = {
-    number("--tick-us", "T", from(1).up_to(2000), "tick length in microseconds"),
+    kTick,
     choice("--real", "float|double", "arithmetic of the tick", "float"),
     choice("--integrator", "rk4|exponential", "of elastic valves", "rk4"),
     number("--accuracy-um", "A", from(0.01).up_to(10), "class of valve lift error: sets the sub-steps", "0.1"),
     {"--namespace", Option::Kind::text, "NAME", "C++ namespace of the tables", "crankloop_tables"},
-    text("--output", "F", "file for the header; else standard output"),
+    text("--output", "F", "file for the header, -o for short; else standard output"),
 };
 
 }  // namespace
 
-const Command kTables{"tables",
-                      "the tables as a C++ header, for firmware",
-                      "FILE --tick-us T [--real R] [--integrator I] [--accuracy-um A] [--namespace NAME] [--output F]",
-                      "crankloop tables diesel_495.ini --tick-us 100 --real float > diesel_495_tables.hpp",
-                      1,
-                      kOptions,
-                      run_tables};
+const Command kTables{
+    "tables",
+    "the tables as a C++ header, for firmware",
+    "FILE [--tick-us T] [--real R] [--integrator I] [--accuracy-um A] [--namespace NAME] [--output F]",
+    "crankloop tables diesel_495.ini --tick-us 100 --real float > diesel_495_tables.hpp",
+    1,
+    kOptions,
+    run_tables};
 
 }  // namespace crankloop::program

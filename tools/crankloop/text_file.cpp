@@ -1,11 +1,5 @@
 #include "text_file.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
 #include <string_view>
 
 #include "error.hpp"
@@ -43,39 +37,7 @@ std::string why_not_text(std::string_view whole, std::string_view from_bad_byte)
          "; allowed are plain ASCII and UTF-8, with LF or CRLF at the end of a line";
 }
 
-/// Why an open file is not read; "" where it is. Asked of the open file, not of its path, under which another may stand by then.
-std::string why_not_read(int file) {
-  struct stat found {};
-  if (::fstat(file, &found) != 0) return std::string("cannot be read: ") + std::strerror(errno);
-  if (S_ISDIR(found.st_mode)) return "is a directory; a file is needed";
-  return S_ISREG(found.st_mode) ? "" : "is no regular file; pipes and devices are not read";
-}
-
 }  // namespace
-
-FileBytes read_file(const std::string& path, std::size_t most_bytes) {
-  FileBytes result;
-  // Without O_NONBLOCK a FIFO would hold us here until somebody writes to it.
-  constexpr int kFlags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
-  const int file = path.find('\0') == std::string::npos ? ::open(path.c_str(), kFlags) : (errno = ENOENT, -1);
-  int error = file < 0 ? errno : 0;
-  if (file >= 0) result.problem = why_not_read(file);
-  while (result.ok() && error == 0 && result.bytes.size() <= most_bytes) {
-    char chunk[16384];
-    const ssize_t count = ::read(file, chunk, sizeof chunk);
-    if (count == 0) break;
-    if (count > 0) result.bytes.append(chunk, static_cast<std::size_t>(count));
-    if (count < 0 && errno != EINTR) error = errno;
-  }
-  if (file >= 0) ::close(file);
-
-  if (error != 0) {
-    result.problem = std::string("cannot be read: ") + std::strerror(error);
-  } else if (result.bytes.size() > most_bytes) {
-    result.problem = "is too large; at most " + std::to_string(most_bytes >> 20) + " MiB are allowed";
-  }
-  return result;
-}
 
 std::vector<std::string> split_lines(const std::string& bytes, const std::string& path) {
   std::string_view rest = bytes;

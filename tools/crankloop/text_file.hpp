@@ -17,9 +17,13 @@ struct FileBytes {
   [[nodiscard]] bool ok() const noexcept { return problem.empty(); }
 };
 
-/// `most_bytes` is a whole number of MiB. A file that is larger is a problem, an empty one is not. Only a regular file is read: pipes and
-/// devices may never end, wait for others, or do something when they are read.
+/// `most_bytes` is a whole number of MiB. A file that is larger is a problem, an empty one is not. Only a regular file
+/// is read: pipes and devices may never end, wait for others, or do something when they are read.
 [[nodiscard]] FileBytes read_file(const std::string& path, std::size_t most_bytes);
+
+/// Paths here are UTF-8 on every system: the folder of a file, and a file by the name that one in the folder gives it.
+[[nodiscard]] std::string folder_of(const std::string& path);
+[[nodiscard]] std::string in_folder(const std::string& folder, const std::string& name);
 
 /// Lines without their ends. LF and CRLF end a line, the last line needs no end, a UTF-8 byte order mark is skipped.
 ///

@@ -14,7 +14,8 @@ namespace crankloop::program {
 template <class Real>
 class TickProbe {
  public:
-  explicit TickProbe(const EngineDefinition& definition) : tables_{std::make_unique<TableStorage<Real, scenes::Whole>>()} {
+  explicit TickProbe(const EngineDefinition& definition)
+      : tables_{std::make_unique<TableStorage<Real, scenes::Whole>>()} {
     EngineDefinition without_valves = definition;  // which need time to move, not an angle
     without_valves.train_count = 0;
     without_valves.trigger_count = 0;  // a wheel may turn with a valve train's cam

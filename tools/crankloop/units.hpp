@@ -1,4 +1,5 @@
-// Factors between units, and pi, for the program and its laboratories. Tests have their own (tests/support/units.hpp), so has core.
+// Factors between units, and pi, for the program and its laboratories. Tests have their own (tests/support/units.hpp),
+// so has core.
 #pragma once
 
 namespace crankloop::program {

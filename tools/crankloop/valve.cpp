@@ -1,4 +1,4 @@
-// `crankloop valve FILE --train NAME --rpm N`: one elastic valve at constant speed, tick by tick, and what it does in a
+// `crankloop valve FILE`: one elastic valve at constant speed, tick by tick, and what it does in a
 // cycle.
 #include <cmath>
 #include <filesystem>
@@ -6,7 +6,9 @@
 
 #include "commands.hpp"
 #include "csv.hpp"
+#include "engine_file/gas_order.hpp"
 #include "engine_file/plausibility.hpp"
+#include "operating_point.hpp"
 #include "progress.hpp"
 #include "results.hpp"
 #include "summary.hpp"
@@ -20,7 +22,7 @@ namespace crankloop::program {
 namespace {
 
 constexpr double kPeriodicWithin_m = 1e-6;
-constexpr double kMostTicksDrawn = 2e6;  // of 100 bytes
+constexpr double kMaxTicksDrawn = 2e6;  // of 100 bytes
 
 struct Request {
   double speed_rpm;
@@ -37,8 +39,8 @@ void write_row(CsvWriter& csv, const LoneValve& valve, const ValveTickOutput<Rea
   const ValveMotionOutput<Real>& m = out.motion;
   const ValveForcesOutput<Real>& f = out.forces;
   csv.row(out.cam_deg, m.theoretical_lift_m * real(1e3), real(valve.lift().at(out.cam_deg * kRadPerDeg).rocker_ratio),
-          m.lift_m * real(1e3), m.velocity_m_s, m.acceleration_m_s2, f.train_N, f.seat_N, f.cam_N, f.gap_m * real(1e3),
-          static_cast<int>(f.regime));
+          m.lift_m * real(1e3), m.velocity_m_s, m.acceleration_m_s2, f.train_N, f.seat_N, f.cam_N,
+          f.train_compression_m * real(1e3), static_cast<int>(f.regime));
 }
 
 std::string title(const LoneValve& valve, const Request& request) {
@@ -52,6 +54,7 @@ std::string circumstances(const Request& request) {
 
 std::string gas_remark(const LoneValve& valve) {
   if (!(valve.valve().head_area_m2 > 0)) return "no gas force: head_area_mm2 is 0";
+  if (breathes(valve.file().definition())) return "no gas force: that of an engine that breathes is in `crankloop run`";
   if (valve.definition().pressure.source == PressureSource::none)
     return "no gas force: the file has no [pressure] source";
   return "with the gas force on the head, full load";
@@ -61,7 +64,7 @@ template <class Real>
 std::string summary(const LoneValve& valve, const Request& request, const ValveLoop<Real>& loop,
                     const ValveCycle<Real>& cycle, double change_m) {
   const auto real = [](double value) { return static_cast<Real>(value); };
-  const ValveBody<double> body = valve.body();
+  const detail::ValveBody<double> body = valve.body();
   const bool separated = cycle.separations > 0;
   Summary s(Summary::Digits::all);
   // Names carry the unit too: they are those of the CSV columns.
@@ -73,7 +76,7 @@ std::string summary(const LoneValve& valve, const Request& request, const ValveL
   s.line("max_acceleration_m_s2", cycle.largest_acceleration_m_s2, "m/s^2");
   s.line("opening_delay_deg", cycle.opening_delay_deg, "deg", "of cam angle, at 0.1 mm of lift");
   s.line("separations", cycle.separations, "", "of at least 1 um");
-  s.line("separation_max_gap_mm", cycle.separation_gap_m * real(1e3), "mm");
+  s.line("separation_max_gap_mm", cycle.separation_clearance_m * real(1e3), "mm");
   s.line("separation_start_deg",
          separated ? real(valve.cam_deg(static_cast<double>(cycle.separation_start_deg))) : Real{0}, "deg",
          separated ? "cam angle, of the largest" : "none");
@@ -86,7 +89,7 @@ std::string summary(const LoneValve& valve, const Request& request, const ValveL
   s.line("seat_frequency_Hz", real(seated_frequency_rad_s(body) / (2 * kPi)), "Hz", "on train and seat");
   const std::uint32_t parts = loop.motion().parts;
   s.line("sub_steps", request.method.textbook ? TextbookValve<Real>::steps(loop.motion()) : parts, "",
-          request.method.textbook ? "in each tick" : "in a tick, near contact changes; 1 elsewhere");
+         request.method.textbook ? "in each tick" : "in a tick, near contact changes; 1 elsewhere");
   s.line("events", cycle.contact_changes, "", "contact changes in the cycle");
   if ((loop.faults() & kFaultEventBudget) != 0)
     s.remark("some ticks had more contact changes than are located: take a shorter --tick-us");
@@ -100,16 +103,17 @@ void run(const LoneValve& valve, const Request& request, Results& results) {
   ValveLoop<Real> loop(valve, request.tick_s, request.method);
   const double ticks = ticks_per_cycle(request.speed_rpm, request.tick_s);
   Output* plot = results["--plot"];
-  if (plot != nullptr && ticks > kMostTicksDrawn) {
-    throw UsageError("--plot: a cycle of " + brief(ticks) + " ticks, at most " + brief(kMostTicksDrawn) +
+  if (plot != nullptr && ticks > kMaxTicksDrawn) {
+    throw UsageError("--plot: a cycle of " + brief(ticks) + " ticks, at most " + brief(kMaxTicksDrawn) +
                      " can be drawn: take a longer --tick-us");
   }
   Progress progress("running", (2.0 * request.cycles + 2) * ticks);
   const auto after_tick = [&progress] { progress.step(); };
   std::optional<CsvWriter> csv;
   if (Output* file = results["--csv"]) {
-    csv.emplace(*file, std::vector<std::string>{"cam_deg", "theoretical_lift_mm", "rocker_ratio", "lift_mm", "velocity_m_s", "acceleration_m_s2",
-                                                "train_force_N", "seat_force_N", "cam_force_N", "gap_mm", "regime"});
+    csv.emplace(*file, std::vector<std::string>{"cam_deg", "theoretical_lift_mm", "rocker_ratio", "lift_mm",
+                                                "velocity_m_s", "acceleration_m_s2", "train_force_N", "seat_force_N",
+                                                "cam_force_N", "train_compression_mm", "regime"});
   }
   ValveCycleTrace trace;
   const OnValveTick<Real> on_tick = [&](const ValveTickOutput<Real>& out) {
@@ -121,6 +125,7 @@ void run(const LoneValve& valve, const Request& request, Results& results) {
                                                          request.cycles, after_tick);
   if (plot != nullptr) {
     trace.cycle = in_double(cycle);
+    trace.seat_contact_m = valve.body().preload_N / valve.body().seat_N_m;
     const std::string remark = std::filesystem::path(valve.file().path()).filename().string() + ", " +
                                circumstances(request) + "; " + gas_remark(valve);
     plot->write(report::to_svg_file(valve_sheet(trace, "Valve train " + title(valve, request), remark)));
@@ -129,18 +134,15 @@ void run(const LoneValve& valve, const Request& request, Results& results) {
 }
 
 int run_valve(const Arguments& arguments) {
+  const EngineFile file = read_engine(arguments, {});
   const std::string& integrator = arguments.text("--integrator");
   const ValveStepping stepping{integrator == "exponential" ? Integrator::exponential : Integrator::rk4,
                                millionths(arguments.number("--accuracy-um"))};
-  const Request request{arguments.number("--rpm"),
-                        millionths(arguments.number("--tick-us")),
-                        arguments.whole_number("--cycles"),
-                        integrator,
-                        {stepping, integrator == "textbook"},
-                        arguments.text("--real")};
+  const Request request{speed_rpm(arguments, file),           millionths(arguments.number("--tick-us")),
+                        arguments.whole_number("--cycles"),   integrator,
+                        {stepping, integrator == "textbook"}, arguments.text("--real")};
   if (request.speed_rpm == 0) throw UsageError("--rpm 0: the cam would never turn");
-  const std::string& name = arguments.text("--train");
-  const EngineFile file = read_engine(arguments, {});
+  const std::string name = train_name(arguments, file);
   const LoneValve valve(file, name);
   Results results(arguments, {"--csv", "--plot"});
   with_real(request.real, [&](auto zero) { run<decltype(zero)>(valve, request, results); });
@@ -148,9 +150,11 @@ int run_valve(const Arguments& arguments) {
 }
 
 constexpr Option kOptions[] = {
-    text("--train", "NAME", "valve train: the NAME of its [cam NAME], [rocker NAME] and [valve NAME]"),
-    number("--rpm", "N", from(-100000).up_to(100000), "engine speed in rpm; negative = backwards"),
-    number("--tick-us", "T", from(1).up_to(2000), "length of a tick in us", "20"),
+    text("--train", "NAME",
+         "valve train: the NAME of its [cam NAME], [rocker NAME] and [valve NAME]; default the only one of the file"),
+    kSpeed,
+    number("--tick-us", "T", from(1).up_to(2000), "length of a tick in us; finer than elsewhere, to show each bounce",
+           "20"),
     whole_number("--cycles", "N", from(1).up_to(1000000), "cycles to run from rest; the last is shown", "4"),
     choice("--integrator", "rk4|exponential|textbook",
            "of the tick; textbook: four stages, contact changes not located", "rk4"),
@@ -167,7 +171,7 @@ constexpr Option kOptions[] = {
 const Command kValve{
     "valve",
     "one elastic valve at constant speed: lift, forces, float and bounce",
-    "FILE --train NAME --rpm N [--tick-us T] [--cycles N] [--integrator I] [--accuracy-um A] [--real R] [--csv F] "
+    "FILE [--train NAME] [--rpm N] [--tick-us T] [--cycles N] [--integrator I] [--accuracy-um A] [--real R] [--csv F] "
     "[--plot F.svg]",
     "crankloop valve ohc_125.ini --train intake --rpm 7000 --csv valve.csv --plot valve.svg",
     1,

@@ -1,6 +1,7 @@
 #include "words.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace crankloop::program {
 namespace {
@@ -65,6 +66,14 @@ std::string in_quotes(std::string_view text) {
   return "'" + std::string(text.substr(0, end)) + "...'";
 }
 
+std::string shell_word(std::string_view text) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:,+-=@%";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string_view::npos) return std::string(text);
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
 std::string join(const std::vector<std::string>& words, const char* separator) {
   std::string text;
   for (const std::string& word : words) {
@@ -82,8 +91,18 @@ std::string unit_in_words(std::string_view unit) {
   return text;
 }
 
+namespace {
+/// Names of 0.1 that have another one now.
+constexpr std::pair<std::string_view, std::string_view> kRenamed[] = {
+    {"load", "machine"}, {"--load-Nm", "--machine-Nm"}, {"--load-Nm", "--external-torque-Nm"}};
+}  // namespace
+
 std::string suggestion(std::string_view given, const std::vector<std::string>& known) {
   if (given.empty() || given.size() > kLongestGuess) return "";
+  for (const auto& [before, now] : kRenamed) {
+    if (given == before && std::find(known.begin(), known.end(), now) != known.end())
+      return "; it is now called " + std::string(now);
+  }
   const std::string word = lower(given);
   const std::string* best = nullptr;
   std::size_t best_distance = std::min<std::size_t>(2, given.size() / 3) + 1;

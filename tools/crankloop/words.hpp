@@ -16,6 +16,9 @@ namespace crankloop::program {
 /// In single quotes, cut after 40 bytes, so that no message runs away with a line of the file.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
+/// As a word that any shell reads back: in single quotes where it has to be.
+[[nodiscard]] std::string shell_word(std::string_view text);
+
 /// "a, b, c".
 [[nodiscard]] std::string join(const std::vector<std::string>& words, const char* separator = ", ");
 

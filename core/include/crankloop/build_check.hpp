@@ -16,9 +16,10 @@ namespace crankloop {
 
 /// True where the compiler fuses a*b - c into one rounding in the translation unit that asks.
 ///
-/// (1 + 2^-k)^2 rounds to 1 + 2^-(k-1) when k exceeds half the precision, so a separate multiply leaves exactly 0 and a fused one 2^-2k.
-/// The operands are volatile so that the answer comes from the instruction the compiler chose, not from its constant folding. Always
-/// inlined: a copy that units share through the linker would answer for whichever of them it came from.
+/// (1 + 2^-k)^2 rounds to 1 + 2^-(k-1) when k exceeds half the precision, so a separate multiply leaves exactly 0 and a
+/// fused one 2^-2k. The operands are volatile so that the answer comes from the instruction the compiler chose, not
+/// from its constant folding. Always inlined: a copy that units share through the linker would answer for whichever of
+/// them it came from.
 template <class Real>
 [[nodiscard, gnu::always_inline]] inline bool build_contracts() noexcept {
   constexpr Real small = sizeof(Real) == 4 ? static_cast<Real>(1.0 / 16384.0) : static_cast<Real>(1.0 / 1073741824.0);

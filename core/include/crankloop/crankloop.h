@@ -1,16 +1,17 @@
-/* crankloop for C99: crank-resolved engine mechanics in real time, all outputs, 1 to 16 cylinders, up to 4 valve trains each.
+/* crankloop for C99: crank-resolved engine mechanics in real time.
  *
  *     definition  ->  tables  ->  engine: step, read
  *     (a struct)      (set-up)    (real time)
  *
- * This header has what float and double share: definitions, options, answers. crankloop_float.h (prefix crankloop_f_) and
- * crankloop_double.h (crankloop_d_) have tables and engine, and say the same of either; docs/c_interface.md has an example. A single
- * product's scene is smaller and faster: crankloop_add_scene.
+ * This header has what all engines share: definitions, options, answers. An engine has a header of its own, made from
+ * the list of its inputs and outputs: crankloop_whole_f.h and crankloop_whole_d.h (crank speed given, all outputs,
+ * float and double), crankloop_free_f.h and crankloop_free_d.h (crank turned by forces, with starter and trigger
+ * wheels), each of 1 to 16 cylinders; and NAME.h of crankloop_add_scene(NAME ... WITH_C), smaller and faster.
+ * docs/c_interface.md has examples; crankloop_engine_file.h reads engine files.
  *
- * Memory is the caller's and nothing is hidden: no heap, no globals. Each call that takes a struct takes its size too, always
- * `sizeof *pointer`, so that structs can grow at their end: what an older program does not know of keeps its default, what it has no room
- * for is not written. SI units; the unit is in the name. A thread may use any objects that no other thread uses at the time; engines may
- * share tables.
+ * Each call that takes a struct takes its size too, always `sizeof *pointer`, so that structs can grow at their end:
+ * what an older program does not know of keeps its default, what it has no room for is not written. SI units; the unit
+ * is in the name.
  */
 #ifndef CRANKLOOP_CRANKLOOP_H
 #define CRANKLOOP_CRANKLOOP_H
@@ -20,8 +21,10 @@
 
 #if defined(__GNUC__)
 #define CRANKLOOP_API __attribute__((visibility("default")))
+#define CRANKLOOP_ALIGNED(bytes) __attribute__((aligned(bytes))) /* no less than its type asks for */
 #else
 #define CRANKLOOP_API
+#define CRANKLOOP_ALIGNED(bytes)
 #endif
 
 #ifdef __cplusplus
@@ -29,29 +32,17 @@ extern "C" {
 #endif
 
 #define CRANKLOOP_VERSION_MAJOR 0
-#define CRANKLOOP_VERSION_MINOR 1
+#define CRANKLOOP_VERSION_MINOR 2
 #define CRANKLOOP_VERSION_PATCH 0
 #define CRANKLOOP_VERSION (CRANKLOOP_VERSION_MAJOR << 16 | CRANKLOOP_VERSION_MINOR << 8 | CRANKLOOP_VERSION_PATCH)
 
 /* The version of the library that was linked; compare with CRANKLOOP_VERSION, that of the header. */
 CRANKLOOP_API uint32_t crankloop_version(void);
 
-enum { CRANKLOOP_MOST_CYLINDERS = 16, CRANKLOOP_MOST_TRAINS = 4, CRANKLOOP_MOST_CAM_EXPONENTS = 8 };
+enum { CRANKLOOP_MAX_CYLINDERS = 16, CRANKLOOP_MAX_TRAINS = 4, CRANKLOOP_MAX_CAM_EXPONENTS = 8 };
+enum { CRANKLOOP_MAX_TRIGGER_WHEELS = 8, CRANKLOOP_MAX_TOOTH_GAPS = 8 };
 
-/* Room for the objects in 64-bit words. Generous: the library's own build checks that it is enough. */
-enum {
-  CRANKLOOP_F_TABLES_WORDS = 384 * 128,
-  CRANKLOOP_D_TABLES_WORDS = 960 * 128,
-  CRANKLOOP_F_ENGINE_WORDS = 16 * 128,
-  CRANKLOOP_D_ENGINE_WORDS = 28 * 128,
-  CRANKLOOP_F_SNAPSHOT_WORDS = 8 * 128,
-  CRANKLOOP_D_SNAPSHOT_WORDS = 14 * 128
-};
-
-/* Bytes of a saved state: exact, the same on every machine. */
-enum { CRANKLOOP_F_SAVED_BYTES = 5792, CRANKLOOP_D_SAVED_BYTES = 9708 };
-
-/* ---- answers ---------------------------------------------------------------------------------------------------------------- */
+/* ---- answers ----------------------------------------------------------------------------------------------------- */
 
 /* Why a call was refused; crankloop_describe() has the words. */
 enum {
@@ -80,20 +71,22 @@ enum {
   CRANKLOOP_NULL_POINTER,
   CRANKLOOP_MISALIGNED,
   CRANKLOOP_NOT_CREATED,
-  CRANKLOOP_ALREADY_CREATED
+  CRANKLOOP_ALREADY_CREATED,
+  CRANKLOOP_UNKNOWN_NAME
 };
 
 typedef struct crankloop_status {
   int32_t reason;    /* CRANKLOOP_OK, or why not */
   int32_t index;     /* cylinder or row counted from 0; -1 where the field is not a list */
-  const char *field; /* what was refused, "crank.rod_length"; never null; lives for ever */
+  const char* field; /* what was refused, "crank.rod_length_m"; never null; lives for ever */
 } crankloop_status;
 
 /* A short English phrase for a reason, "must be greater than zero"; never null; lives for ever. */
-CRANKLOOP_API const char *crankloop_describe(int32_t reason);
+CRANKLOOP_API const char* crankloop_describe(int32_t reason);
 
-/* "layout.firing_angles[2] is out of range" into `text`, cut to `room` with its closing 0. Answers the length uncut, as snprintf does. */
-CRANKLOOP_API size_t crankloop_status_text(crankloop_status status, char *text, size_t room);
+/* "layout.firing_deg[2] is out of range" into `text`, cut to `room` with its closing 0. Answers the length uncut, as
+ * snprintf does. */
+CRANKLOOP_API size_t crankloop_status_text(crankloop_status status, char* text, size_t room);
 
 /* Bits of what a step answers: docs/contract.md "Inputs of a step". */
 enum {
@@ -104,12 +97,16 @@ enum {
   CRANKLOOP_FAULT_PHASE_JUMP = 1 << 4,
   CRANKLOOP_FAULT_CAM_PHASE = 1 << 5,
   CRANKLOOP_FAULT_EVENT_BUDGET = 1 << 6,
-  CRANKLOOP_FAULT_LOAD = 1 << 7,
+  CRANKLOOP_FAULT_EXTERNAL_TORQUE = 1 << 7,
   CRANKLOOP_FAULT_OVERSPEED = 1 << 8,
-  CRANKLOOP_FAULT_TRIGGER_EDGES = 1 << 9
+  CRANKLOOP_FAULT_TRIGGER_EDGES = 1 << 9,
+  CRANKLOOP_FAULT_GAS = 1 << 10,
+  CRANKLOOP_FAULT_MANIFOLD = 1 << 11,
+  CRANKLOOP_FAULT_BURN = 1 << 12
 };
 
-/* ---- definition: what an engine is. Meaning and ranges of each field: crankloop/define/, where they have the same names --------- */
+/* ---- definition: what an engine is -------------------------------------------------------------------------------
+ * Meaning and ranges of each field: crankloop/define/, where they have the same names. */
 
 typedef struct crankloop_crank {
   double bore_m;
@@ -129,14 +126,19 @@ typedef struct crankloop_masses {
 } crankloop_masses;
 
 typedef struct crankloop_layout {
-  double firing_deg[CRANKLOOP_MOST_CYLINDERS]; /* or crankloop_set_firing_order() */
-  double bank_deg[CRANKLOOP_MOST_CYLINDERS];
-  double position_m[CRANKLOOP_MOST_CYLINDERS];
-  uint8_t pin[CRANKLOOP_MOST_CYLINDERS]; /* which crank pin; default: each its own */
+  double firing_deg[CRANKLOOP_MAX_CYLINDERS]; /* or crankloop_set_firing_order() */
+  double bank_deg[CRANKLOOP_MAX_CYLINDERS];
+  double position_m[CRANKLOOP_MAX_CYLINDERS];
+  uint8_t pin[CRANKLOOP_MAX_CYLINDERS]; /* which crank pin; default: each its own */
   int32_t cylinders;
 } crankloop_layout;
 
-enum { CRANKLOOP_PRESSURE_NONE, CRANKLOOP_PRESSURE_ANGLE_TABLE, CRANKLOOP_PRESSURE_VOLUME_TABLE, CRANKLOOP_PRESSURE_WIEBE };
+enum {
+  CRANKLOOP_PRESSURE_NONE,
+  CRANKLOOP_PRESSURE_ANGLE_TABLE,
+  CRANKLOOP_PRESSURE_VOLUME_TABLE,
+  CRANKLOOP_PRESSURE_WIEBE
+};
 
 typedef struct crankloop_diagram_point {
   double at; /* crank angle in degrees, or volume in m^3 */
@@ -161,7 +163,7 @@ typedef struct crankloop_wiebe {
 typedef struct crankloop_pressure {
   int32_t source; /* CRANKLOOP_PRESSURE_... */
   int32_t point_count;
-  const crankloop_diagram_point *points; /* of a table; must live while tables are created, no longer */
+  const crankloop_diagram_point* points; /* of a table; must live while tables are created, no longer */
   double crankcase_Pa;
   crankloop_wiebe wiebe;
 } crankloop_pressure;
@@ -178,8 +180,8 @@ typedef struct crankloop_cam {
   int32_t exponent_count;
   double max_lift_m;
   double half_angle_deg;
-  double exponents[CRANKLOOP_MOST_CAM_EXPONENTS];
-  const crankloop_cam_point *points; /* of a table; must live while tables are created, no longer */
+  double exponents[CRANKLOOP_MAX_CAM_EXPONENTS];
+  const crankloop_cam_point* points; /* of a table; must live while tables are created, no longer */
   int32_t point_count;
   double smoothing_m;
   double full_lift_deg;
@@ -230,17 +232,39 @@ typedef struct crankloop_friction {
   double quadratic_Pa_s2;
 } crankloop_friction;
 
-typedef struct crankloop_load {
+typedef struct crankloop_machine {
   double constant_Nm;
   double linear_Nm_s;
   double quadratic_Nm_s2;
   double inertia_kg_m2;
-} crankloop_load;
+} crankloop_machine;
 
 typedef struct crankloop_starter {
   double stall_Nm;
   double no_load_rad_s;
 } crankloop_starter;
+
+enum { CRANKLOOP_TRIGGER_ON_CRANK, CRANKLOOP_TRIGGER_ON_CAM };
+enum { CRANKLOOP_TRIGGER_TEETH, CRANKLOOP_TRIGGER_EDGES };
+
+typedef struct crankloop_tooth_gap {
+  int32_t teeth; /* before it */
+  int32_t missing;
+} crankloop_tooth_gap;
+
+typedef struct crankloop_trigger_wheel {
+  int32_t shaft; /* CRANKLOOP_TRIGGER_ON_... */
+  int32_t train; /* whose phaser moves it too; -1: none does */
+  int32_t pattern;
+  int32_t places; /* teeth and missing ones in a turn of the shaft */
+  int32_t gap_count;
+  int32_t edge_count;
+  crankloop_tooth_gap gaps[CRANKLOOP_MAX_TOOTH_GAPS];
+  double first_tooth_deg;
+  double tooth_ratio;
+  const double* edges_deg; /* must live while tables are created, no longer */
+  int32_t inverted;
+} crankloop_trigger_wheel;
 
 /* The structs above keep their size; what comes later stands at the end of this one. */
 typedef struct crankloop_definition {
@@ -249,23 +273,25 @@ typedef struct crankloop_definition {
   crankloop_layout layout;
   crankloop_pressure pressure;
   int32_t train_count;
-  crankloop_valve_train trains[CRANKLOOP_MOST_TRAINS];
-  crankloop_friction friction; /* this and what follows: for cranks that forces turn, which scenes of crankloop_add_scene may have */
-  crankloop_load load;
+  crankloop_valve_train trains[CRANKLOOP_MAX_TRAINS];
+  crankloop_friction friction; /* this and what follows: for cranks that forces turn */
+  crankloop_machine machine;
   crankloop_starter starter;
+  int32_t trigger_count;
+  crankloop_trigger_wheel triggers[CRANKLOOP_MAX_TRIGGER_WHEELS];
 } crankloop_definition;
 
 /* Fills in every default. Begin with this: a zeroed definition has other values. */
-CRANKLOOP_API crankloop_status crankloop_definition_defaults(crankloop_definition *definition, size_t size);
+CRANKLOOP_API crankloop_status crankloop_definition_defaults(crankloop_definition* definition, size_t size);
 
 /* Even firing over 720 deg in this order (cylinder numbers from 1); sets the number of cylinders. */
-CRANKLOOP_API crankloop_status crankloop_set_firing_order(crankloop_definition *definition, size_t size, const int32_t *order,
-                                                          int32_t cylinders);
+CRANKLOOP_API crankloop_status crankloop_set_firing_order(crankloop_definition* definition, size_t size,
+                                                          const int32_t* order, int32_t cylinders);
 
 /* Cylinders at one position whose throws point the same way share a pin. */
-CRANKLOOP_API crankloop_status crankloop_share_pins_by_position(crankloop_definition *definition, size_t size);
+CRANKLOOP_API crankloop_status crankloop_share_pins_by_position(crankloop_definition* definition, size_t size);
 
-/* ---- options: how the engine will be stepped ----------------------------------------------------------------------------------- */
+/* ---- options: how the engine will be stepped --------------------------------------------------------------------- */
 
 enum { CRANKLOOP_INTEGRATOR_RK4, CRANKLOOP_INTEGRATOR_EXPONENTIAL };
 
@@ -275,13 +301,25 @@ typedef struct crankloop_options {
   int32_t valve_integrator; /* CRANKLOOP_INTEGRATOR_... */
 } crankloop_options;
 
-CRANKLOOP_API crankloop_status crankloop_options_defaults(crankloop_options *options, size_t size);
+CRANKLOOP_API crankloop_status crankloop_options_defaults(crankloop_options* options, size_t size);
+
+/* ---- columns of NAME_step_many() --------------------------------------------------------------------------------- */
+
+/* One variable over all ticks: an input, which is read, or an output, which is written; its name says which. Numbers
+ * whatever it is kept as: a phase in degrees, yes as 1. */
+typedef struct crankloop_column {
+  const char* name; /* "speed_rad_s", "valve[2,1].lift_m": as the structs have it, indices from 1; "faults" */
+  double* values;
+  size_t count;  /* room in values */
+  size_t stride; /* from tick to tick: 1 = one value after another, 0 = the same for all ticks */
+  /* The library's, while it works: */
+  void* at;
+  int32_t storage;
+  int32_t is_input;
+} crankloop_column;
 
 #ifdef __cplusplus
 }
 #endif
-
-#include <crankloop/crankloop_double.h>
-#include <crankloop/crankloop_float.h>
 
 #endif

@@ -5,8 +5,8 @@
 #pragma once
 
 #include <crankloop/define/engine_definition.hpp>
+#include <crankloop/engine.hpp>
+#include <crankloop/scenes.hpp>
 #include <crankloop/status.hpp>
 #include <crankloop/tabulate/tabulate.hpp>
-#include <crankloop/engine.hpp>
 #include <crankloop/tick/state/saved_state.hpp>
-#include <crankloop/scenes.hpp>

@@ -9,6 +9,15 @@
 
 namespace crankloop {
 
+inline constexpr double kMaxExternalTorque_Nm = 1e8;
+
+inline constexpr double kLeastManifold_Pa = 1e3, kMaxManifold_Pa = 1e7;
+inline constexpr double kLeastManifold_K = 150, kMaxManifold_K = 3000;
+inline constexpr double kMaxFuel_kg = 0.01;  ///< of a cylinder's cycle
+
+// The groups of inputs, each a base of Input where the scene asks for it.
+namespace group {
+
 template <class Real>
 struct SpeedInput {
   Real speed_rad_s = 0;  ///< crank speed; negative = backwards
@@ -16,10 +25,10 @@ struct SpeedInput {
 struct PhaseInput {
   Phase crank{};  ///< absolute: 0 = cylinder 1's firing top dead centre
 };
-inline constexpr double kMostLoad_Nm = 1e8;
 template <class Real>
-struct LoadTorqueInput {
-  Real load_Nm = 0;  ///< on the crankshaft this tick, beside the definition's brake: positive against forward rotation; may drive; +-1e8
+struct ExternalTorqueInput {
+  Real external_torque_Nm = 0;  ///< on the crankshaft this tick, beside the definition's brake: positive against
+                                ///< forward rotation; may drive; +-1e8
 };
 struct StarterInput {
   std::uint32_t starter = 0;  ///< 0 = off; else the starter turns the crank forward this tick
@@ -33,24 +42,56 @@ struct LoadInput {
 };
 template <class Real, class S>
 struct PressureInput {
-  Real pressure_Pa[S::cylinders.capacity] = {};  ///< absolute, at the end of this tick; 0 to kMostPressure_Pa
+  Real pressure_Pa[S::cylinders.capacity] = {};  ///< absolute, at the end of this tick; 0 to kMaxPressure_Pa
+};
+
+/// The gas outside the ports, absolute; each 1e3 to 1e7 Pa, 150 to 3000 K.
+template <class Real>
+struct GivenManifoldInput {
+  Real intake_Pa = static_cast<Real>(100e3);
+  Real intake_K = static_cast<Real>(298.15);
+  Real exhaust_Pa = static_cast<Real>(100e3);
+  Real exhaust_K = static_cast<Real>(773.15);
+};
+template <class Real>
+struct ThrottleInput {
+  Real throttle_ratio = 1;  ///< 0 = closed, 1 = wide open
+};
+/// Of each cylinder, read where its cycle takes its fuel (Gas::latch_deg). A burn has to end by 150 deg.
+template <class Real, class S>
+struct CombustionInput {
+  Real fuel_kg[S::cylinders.capacity] = {};            ///< per cycle; 0 to 0.01
+  Real burn_start_deg[S::cylinders.capacity] = {};     ///< after firing top dead centre, -90 to 60
+  Real burn_duration_deg[S::cylinders.capacity] = {};  ///< of the first law; 5 to 150
+
+  /// No fuel until some is given.
+  constexpr CombustionInput() noexcept {
+    for (std::uint32_t k = 0; k < S::cylinders.capacity; ++k) burn_start_deg[k] = -18, burn_duration_deg[k] = 50;
+  }
 };
 
 template <class Real, class S>
 struct CamPhaseInput {
-  Real cam_phase_deg[S::trains.capacity] = {};  ///< target, crank degrees later than defined; -180 to 180; moved at the train's limited rate
+  Real cam_phase_deg[S::trains.capacity] =
+      {};  ///< target, crank degrees later than defined; -180 to 180; moved at the train's limited rate
 };
 
 template <class Real, class S>
-using CrankInput = std::conditional_t<S::crank == CrankGiven::speed, SpeedInput<Real>,
-                                      std::conditional_t<S::crank == CrankGiven::phase, PhaseInput, LoadTorqueInput<Real>>>;
+using CrankInput =
+    std::conditional_t<S::crank == CrankGiven::speed, SpeedInput<Real>,
+                       std::conditional_t<S::crank == CrankGiven::phase, PhaseInput, ExternalTorqueInput<Real>>>;
+
+}  // namespace group
 
 template <class Real, class S>
-struct Input : CrankInput<Real, S>,
-               If<Needs<S>::load, LoadInput<Real>>,
-               If<Needs<S>::input_pressure, PressureInput<Real, S>>,
-               If<S::cam_phasing, CamPhaseInput<Real, S>>,
-               If<S::starter, StarterInput>,
-               If<Needs<S>::cut, CylinderCutInput> {};
+struct Input : group::CrankInput<Real, S>,
+               detail::If<detail::Needs<S>::load, group::LoadInput<Real>>,
+               detail::If<detail::Needs<S>::input_pressure, group::PressureInput<Real, S>>,
+               detail::If<S::cam_phasing, group::CamPhaseInput<Real, S>>,
+               detail::If<S::starter, group::StarterInput>,
+               detail::If<detail::Needs<S>::cut || detail::Needs<S>::gas_cut, group::CylinderCutInput>,
+               detail::If<detail::Needs<S>::gas && !detail::Needs<S>::manifolds, group::GivenManifoldInput<Real>>,
+               detail::If<detail::Needs<S>::manifolds, group::ThrottleInput<Real>>,
+               detail::If<detail::Needs<S>::burn_input, group::CombustionInput<Real, S>> {};
 
 }  // namespace crankloop

@@ -8,10 +8,77 @@
 
 #include <crankloop/phase.hpp>
 #include <crankloop/scene.hpp>
+#include <crankloop/tables/gas_tables.hpp>
+#include <crankloop/tick/gas/gas_results.hpp>
 #include <crankloop/tick/trigger/trigger_output.hpp>
 #include <crankloop/tick/valve/valve_results.hpp>
 
 namespace crankloop {
+
+/// Forces of one cylinder: docs/model.md "Forces".
+template <class Real>
+struct CylinderForces {
+  Real pressure_Pa;         ///< absolute
+  Real gas_force_N;         ///< P_g, positive toward the crankshaft
+  Real inertia_force_N;     ///< P_j, reciprocating masses
+  Real total_force_N;       ///< P = P_g + P_j
+  Real side_force_N;        ///< N, on the cylinder wall
+  Real rod_force_N;         ///< S = P / cos b, along the rod; a rod's couple has no part in it
+  Real radial_force_N;      ///< K, at the crank pin, positive toward the crank centre
+  Real tangential_force_N;  ///< T, at the crank pin, positive with the rotation
+  Real torque_Nm;           ///< M = T r
+  Real tilting_moment_Nm;   ///< on the engine block about the crank axis
+};
+
+/// One free force and its moment about the middle of the crankshaft. Up is bank angle 0, lateral a quarter turn on in
+/// the sense of rotation.
+template <class Real>
+struct FreeForce {
+  Real up_N;
+  Real lateral_N;
+  Real pitch_Nm;  ///< sum of position times force up
+  Real yaw_Nm;    ///< sum of position times force lateral
+};
+
+/// Motion of one valve (of all that are alike in a cylinder and train).
+template <class Real>
+struct ValveMotionOutput {
+  Real theoretical_lift_m;  ///< of the cam, not below 0
+  Real lift_m;              ///< from the closed, preloaded valve
+  Real velocity_m_s;
+  Real acceleration_m_s2;
+};
+
+/// Forces of one elastic valve.
+template <class Real>
+struct ValveForcesOutput {
+  Real train_N;  ///< between train and valve, pushing
+  Real seat_N;
+  Real tip_N;  ///< at the stem: the train's less the rocker's inertia; negative = the single mass would pull
+  Real cam_N;  ///< between cam and pad: rocker ratio times the train's
+  Real train_compression_m;  ///< train lift less valve lift; negative: clearance
+  std::uint32_t regime;      ///< 0 free, 1 train, 2 seat, 3 both
+};
+
+// The groups of outputs, each a base of Output where the scene asks for it.
+/// The gas of one cylinder at the end of the tick; flows and heat are means over it.
+template <class Real>
+struct CylinderGasOutput {
+  Real pressure_Pa;  ///< absolute
+  Real temperature_K;
+  Real mass_kg;
+  Real burned_ratio;
+  Real flow_kg_s[kPorts];  ///< into the cylinder, through kIntake and kExhaust
+  Real wall_heat_W;        ///< to the walls
+};
+template <class Real>
+struct ManifoldOutput {
+  Real pressure_Pa;
+  Real temperature_K;
+  Real burned_ratio;
+};
+
+namespace group {
 
 /// Motion of each piston, positive toward the crankshaft, counted from top dead centre.
 template <class Real, class S>
@@ -31,21 +98,22 @@ struct RodMotion {
 
 /// How the crank moves where the speed is not given. At the end of the tick, with this tick's inputs:
 ///
-///     J_eff acceleration = torque_Nm + starter_Nm - friction_Nm - load_Nm,    torque_Nm as in Torque
+///     J_eff acceleration = torque_Nm + starter_Nm - friction_Nm - external_torque_Nm,    torque_Nm as below
 template <class Real>
 struct CrankMotion {
-  Phase crank;                ///< 0 = cylinder 1's firing top dead centre
-  Real speed_rad_s;           ///< negative = backwards
+  Phase crank;       ///< 0 = cylinder 1's firing top dead centre
+  Real speed_rad_s;  ///< negative = backwards
   Real acceleration_rad_s2;
-  Real friction_Nm;           ///< friction and brake, positive against forward rotation; at standstill what they hold against
+  Real friction_Nm;  ///< friction and brake, positive against forward rotation; at standstill what they hold against
 };
 template <class Real>
 struct StarterTorque {
   Real starter_Nm;
 };
 
-/// At the end of the tick, of gas and masses at the crank speed w then: P dx/da - dM db/da with the masses' parts that go with w^2. Where
-/// forces make the speed, what masses take to be accelerated with the crank is in J_eff, not here, but it is in CylinderForces::torque_Nm.
+/// At the end of the tick, of gas and masses at the crank speed w then: P dx/da - dM db/da with the masses' parts that
+/// go with w^2. Where forces make the speed, what masses take to be accelerated with the crank is in J_eff, not here,
+/// but it is in CylinderForces::torque_Nm.
 template <class Real>
 struct Torque {
   Real torque_Nm;  ///< on the crankshaft, all cylinders
@@ -55,20 +123,6 @@ struct MeanTorque {
   Real mean_torque_Nm;  ///< averaged over the angle turned in the tick: the work done divided by it
 };
 
-/// Forces of one cylinder: docs/model.md "Forces".
-template <class Real>
-struct CylinderForces {
-  Real pressure_Pa;          ///< absolute
-  Real gas_force_N;          ///< P_g, positive toward the crankshaft
-  Real inertia_force_N;      ///< P_j, reciprocating masses
-  Real total_force_N;        ///< P = P_g + P_j
-  Real side_force_N;         ///< N, on the cylinder wall
-  Real rod_force_N;          ///< S = P / cos b, along the rod; a rod's couple has no part in it
-  Real radial_force_N;       ///< K, at the crank pin, positive toward the crank centre
-  Real tangential_force_N;   ///< T, at the crank pin, positive with the rotation
-  Real torque_Nm;            ///< M = T r
-  Real tilting_moment_Nm;    ///< on the engine block about the crank axis
-};
 template <class Real, class S>
 struct Forces {
   CylinderForces<Real> cylinder[S::cylinders.capacity];
@@ -85,14 +139,6 @@ struct BearingLoads {
   Real journal_load_N[S::cylinders.capacity + 1];
 };
 
-/// One free force and its moment about the middle of the crankshaft. Up is bank angle 0, lateral a quarter turn on in the sense of rotation.
-template <class Real>
-struct FreeForce {
-  Real up_N;
-  Real lateral_N;
-  Real pitch_Nm;  ///< sum of position times force up
-  Real yaw_Nm;    ///< sum of position times force lateral
-};
 template <class Real>
 struct FreeForces {
   FreeForce<Real> first;     ///< of the reciprocating masses, first order
@@ -100,49 +146,52 @@ struct FreeForces {
   FreeForce<Real> rotating;  ///< centrifugal
 };
 
-/// Motion of one valve (of all that are alike in a cylinder and train).
-template <class Real>
-struct ValveMotionOutput {
-  Real theoretical_lift_m;   ///< of the cam, not below 0
-  Real lift_m;               ///< from the closed, preloaded valve
-  Real velocity_m_s;
-  Real acceleration_m_s2;
-};
 /// [train][cylinder]
 template <class Real, class S>
 struct Valves {
   ValveMotionOutput<Real> valve[S::trains.capacity][S::cylinders.capacity];
 };
 
-/// Forces of one elastic valve.
-template <class Real>
-struct ValveForcesOutput {
-  Real train_N;      ///< between train and valve, pushing
-  Real seat_N;
-  Real tip_N;        ///< at the stem: the train's less the rocker's inertia; negative = the single mass would pull
-  Real cam_N;        ///< between cam and pad: rocker ratio times the train's
-  Real gap_m;        ///< train lift less valve lift; negative = lash or separation
-  std::uint32_t regime;  ///< 0 free, 1 train, 2 seat, 3 both
-};
 template <class Real, class S>
 struct ValveForces {
   ValveForcesOutput<Real> valve_forces[S::trains.capacity][S::cylinders.capacity];
 };
 
 template <class Real, class S>
-struct Output : If<Needs<S>::crank_dynamics, CrankMotion<Real>>,
-                If<S::starter, StarterTorque<Real>>,
-                If<S::kinematics, Kinematics<Real, S>>,
-                If<S::rod_motion, RodMotion<Real, S>>,
-                If<S::torque, Torque<Real>>,
-                If<S::mean_torque, MeanTorque<Real>>,
-                If<S::forces, Forces<Real, S>>,
-                If<S::bearing_loads, BearingLoads<Real, S>>,
-                If<S::free_forces, FreeForces<Real>>,
-                If<Needs<S>::any_valves, Valves<Real, S>>,
-                If<S::valve_forces, ValveForces<Real, S>>,
-                If<S::valve_results, ValveResults<Real, S>>,
-                If<Needs<S>::any_triggers, Triggers<Real, S>> {
+struct CylinderGases {
+  CylinderGasOutput<Real> cylinder_gas[S::cylinders.capacity];
+};
+template <class Real>
+struct Manifolds {
+  ManifoldOutput<Real> manifold[kPorts];  ///< kIntake, kExhaust
+  Real throttle_kg_s;                     ///< into the intake manifold, mean over the tick
+  Real outlet_kg_s;                       ///< out of the exhaust manifold
+};
+/// Results of each cylinder's last whole cycle; zero until there is one.
+template <class Real, class S>
+struct GasResults {
+  GasCycle<Real> gas_cycle[S::cylinders.capacity];
+};
+
+}  // namespace group
+
+template <class Real, class S>
+struct Output : detail::If<detail::Needs<S>::crank_dynamics, group::CrankMotion<Real>>,
+                detail::If<S::starter, group::StarterTorque<Real>>,
+                detail::If<S::kinematics, group::Kinematics<Real, S>>,
+                detail::If<S::rod_motion, group::RodMotion<Real, S>>,
+                detail::If<S::torque, group::Torque<Real>>,
+                detail::If<S::mean_torque, group::MeanTorque<Real>>,
+                detail::If<S::forces, group::Forces<Real, S>>,
+                detail::If<S::bearing_loads, group::BearingLoads<Real, S>>,
+                detail::If<S::free_forces, group::FreeForces<Real>>,
+                detail::If<detail::Needs<S>::gas, group::CylinderGases<Real, S>>,
+                detail::If<detail::Needs<S>::manifolds, group::Manifolds<Real>>,
+                detail::If<S::gas_results, group::GasResults<Real, S>>,
+                detail::If<detail::Needs<S>::any_valves, group::Valves<Real, S>>,
+                detail::If<S::valve_forces, group::ValveForces<Real, S>>,
+                detail::If<S::valve_results, group::ValveResults<Real, S>>,
+                detail::If<detail::Needs<S>::any_triggers, group::Triggers<Real, S>> {
   std::uint32_t faults;  ///< Fault bits of this tick
 };
 

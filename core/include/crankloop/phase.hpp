@@ -6,9 +6,19 @@
 
 #include <cstdint>
 
+#include <crankloop/assert.hpp>
+
 namespace crankloop {
 
-/// Position in a per-degree table: `degree` 0 to 719 (of a cam 0 to 359), and how far into it: `into` in units of 2^-32 deg, `rest` in units of 2^-64 deg.
+inline constexpr int kDegreesPerTurn = 360;
+inline constexpr int kDegreesPerCycle = 720;
+
+namespace detail {
+
+inline constexpr double kRadPerDegree = 0x1.1df46a2529d39p-6;
+
+/// Position in a per-degree table: `degree` 0 to 719 (of a cam 0 to 359), and how far into it: `into` in units of 2^-32
+/// deg, `rest` in units of 2^-64 deg.
 struct Cell {
   std::uint32_t degree;
   std::uint32_t into;
@@ -17,25 +27,22 @@ struct Cell {
 
 /// The part of the degree as a number, 0 <= result < 1.
 ///
-/// 2^32 - 1 times 2^-32 rounds up to 1 in float: the bits that the type cannot hold are dropped first. By way of signed 32-bit integers,
-/// whose conversion every FPU has.
+/// 2^32 - 1 times 2^-32 rounds up to 1 in float: the bits that the type cannot hold are dropped first. By way of signed
+/// 32-bit integers, whose conversion every FPU has.
 template <class Real>
 [[nodiscard]] constexpr Real fraction(Cell cell) noexcept {
   if constexpr (sizeof(Real) == 4) {
     return static_cast<Real>(static_cast<std::int32_t>(cell.into >> 8)) * static_cast<Real>(0x1p-24);
   } else {
-    const auto high = static_cast<std::int32_t>(cell.into >> 1);                                    // 31 bits
-    const auto low = static_cast<std::int32_t>((cell.into & 1u) << 21 | cell.rest >> 11);           // the next 22
+    const auto high = static_cast<std::int32_t>(cell.into >> 1);                           // 31 bits
+    const auto low = static_cast<std::int32_t>((cell.into & 1u) << 21 | cell.rest >> 11);  // the next 22
     return static_cast<Real>(high) * static_cast<Real>(0x1p-31) + static_cast<Real>(low) * static_cast<Real>(0x1p-53);
   }
 }
 
-inline constexpr int kDegreesPerTurn = 360;
-inline constexpr int kDegreesPerCycle = 720;
-
-/// x as a number that the compiler does not know, so that multiplying by it is one multiplication: for a known 360 GCC's 32-bit targets
-/// shift and add 64-bit numbers thirteen times.
-[[nodiscard]] inline std::uint32_t unknown(std::uint32_t x) noexcept {
+/// x as a number that the compiler does not know, so that multiplying by it is one multiplication: for a known 360
+/// GCC's 32-bit targets shift and add 64-bit numbers thirteen times.
+[[nodiscard]] inline std::uint32_t opaque(std::uint32_t x) noexcept {
   asm("" : "+r"(x));
   return x;
 }
@@ -44,16 +51,20 @@ inline constexpr int kDegreesPerCycle = 720;
 template <class Real>
 [[nodiscard]] constexpr Cell cell_of(std::uint64_t units, std::uint32_t degrees) noexcept {
   std::uint64_t parts = degrees;
-  if (!__builtin_is_constant_evaluated()) parts = unknown(degrees);
+  if (!__builtin_is_constant_evaluated()) parts = opaque(degrees);
   const std::uint64_t high = std::uint64_t{static_cast<std::uint32_t>(units >> 32)} * parts;
+  CRANKLOOP_ASSERT(high >> 32 < degrees);
   if constexpr (sizeof(Real) == 4) {
     return {static_cast<std::uint32_t>(high >> 32), static_cast<std::uint32_t>(high), 0};
   } else {
     const std::uint64_t low = (units & 0xFFFF'FFFFu) * parts;
     const std::uint64_t sum = high + (low >> 32);
+    CRANKLOOP_ASSERT(sum >> 32 < degrees);
     return {static_cast<std::uint32_t>(sum >> 32), static_cast<std::uint32_t>(sum), static_cast<std::uint32_t>(low)};
   }
 }
+
+}  // namespace detail
 
 /// An angle that wraps by itself: 2^64 units are one four-stroke cycle (4 pi rad of crank).
 ///
@@ -64,10 +75,11 @@ class Phase {
   constexpr Phase() = default;
   constexpr explicit Phase(std::uint64_t units) : units_{units} {}
 
-  /// From cycles (1 = 720 deg), |cycles| < 1: by way of 32-bit integers, because the direct conversion calls soft-double helpers
-  /// on single-precision FPUs. Bits of `cycles` below 2^-62 are dropped.
+  /// From cycles (1 = 720 deg), |cycles| < 1: by way of 32-bit integers, because the direct conversion calls
+  /// soft-double helpers on single-precision FPUs. Bits of `cycles` below 2^-62 are dropped.
   template <class Real>
   [[nodiscard]] static constexpr Phase from_cycles(Real cycles) noexcept {
+    CRANKLOOP_ASSERT(cycles > -1 && cycles < 1);
     constexpr Real two_to_31 = static_cast<Real>(2147483648.0);
     const Real scaled = cycles * two_to_31;
     const auto high = static_cast<std::int32_t>(scaled);  // |scaled| < 2^31
@@ -85,13 +97,14 @@ class Phase {
   [[nodiscard]] friend constexpr Phase operator+(Phase a, Phase b) noexcept { return a += b; }
   [[nodiscard]] friend constexpr Phase operator-(Phase a, Phase b) noexcept { return Phase{a.units_ - b.units_}; }
 
-  /// The phase's degree among the 720 of a cycle: one multiply, no branch. double adds what the low word contributes; to float it is nothing.
+  /// The phase's degree among the 720 of a cycle: one multiply, no branch. double adds what the low word contributes;
+  /// to float it is nothing.
   ///
   ///     phase         |   top word   |   low word   |
   ///     times 720  =  |    degree    |     into     |     rest     |
   template <class Real>
-  [[nodiscard]] constexpr Cell cell() const noexcept {
-    return cell_of<Real>(units_, kDegreesPerCycle);
+  [[nodiscard]] constexpr detail::Cell cell() const noexcept {
+    return detail::cell_of<Real>(units_, kDegreesPerCycle);
   }
 
   /// Cycles as a signed number in [-0.5, 0.5]: the short way round.

@@ -1,6 +1,7 @@
 // The scene: what one use of the model needs. What it does not ask for costs no code, no RAM, no flash and no time.
 //
-// What belongs here: the questions a scene answers and what follows from the answers. What does not: the data (tables, output).
+// What belongs here: the questions a scene answers and what follows from the answers. What does not: the data (tables,
+// output).
 #pragma once
 
 #include <cstdint>
@@ -21,15 +22,30 @@ template <std::uint32_t N>
 inline constexpr Count up_to{N, false};
 
 enum class CrankGiven : std::uint8_t {
-  speed,  ///< Input::speed_rad_s; the engine counts the angle
-  phase,  ///< Input::crank, an absolute angle that the controller measured; the engine works out the speed
-  load,   ///< Input::load_Nm; gas, masses, friction and load make the speed (docs/model.md "Crank dynamics")
+  speed,   ///< Input::speed_rad_s; the engine counts the angle
+  phase,   ///< Input::crank, an absolute angle that the controller measured; the engine works out the speed
+  torque,  ///< integrated from gas, masses, friction, driven machine, starter and Input::external_torque_Nm
 };
 
 enum class PressureGiven : std::uint8_t {
   none,      ///< crankcase pressure on both sides: inertia only
   by_table,  ///< from the definition's diagram
   by_input,  ///< Input::pressure_Pa, each tick
+  by_gas,  ///< of what the cylinder holds: gas flows through the valves as they move, burns, loses heat (docs/model.md
+           ///< "Gas")
+};
+
+/// Where the gas outside the ports comes from.
+enum class Manifold : std::uint8_t {
+  given,     ///< Input::intake_Pa and the like, each tick: pure air in, burned gas back
+  throttle,  ///< one volume each, behind a throttle and before the exhaust system: Input::throttle_ratio
+};
+
+/// What burns in the gas.
+enum class Combustion : std::uint8_t {
+  none,      ///< motored
+  by_table,  ///< fuel and burn of the definition
+  by_input,  ///< Input::fuel_kg, burn_start_deg, burn_duration_deg, taken once in a cycle
 };
 
 enum class ValveModel : std::uint8_t {
@@ -49,8 +65,12 @@ struct Scene {
   static constexpr Count cylinders = exactly<1>;
   static constexpr CrankGiven crank = CrankGiven::speed;
   static constexpr PressureGiven pressure = PressureGiven::none;
-  static constexpr bool load_ratio = false;     ///< Input::load_ratio scales the heat of a pressure table; else full load
-  static constexpr bool rod_inertia = false;    ///< take the rod's inertia correction dI into account; a definition with dI != 0 demands it
+  static constexpr Manifold manifold = Manifold::given;  ///< of PressureGiven::by_gas, as are the next two
+  static constexpr Combustion combustion = Combustion::none;
+  static constexpr bool gas_results = false;  ///< per-cycle results: mean pressures, charge, heat
+  static constexpr bool load_ratio = false;   ///< Input::load_ratio scales the heat of a pressure table; else full load
+  static constexpr bool rod_inertia =
+      false;  ///< take the rod's inertia correction dI into account; a definition with dI != 0 demands it
   static constexpr bool kinematics = false;     ///< displacement, velocity, acceleration of each piston
   static constexpr bool rod_motion = false;     ///< angle, speed, acceleration of each rod
   static constexpr bool torque = false;         ///< engine torque at the tick
@@ -62,34 +82,48 @@ struct Scene {
   static constexpr Count trains = exactly<1>;   ///< valve trains per cylinder, where there are valves
   static constexpr bool valve_forces = false;   ///< forces at train, seat, stem tip and cam; elastic valves
   static constexpr bool valve_results = false;  ///< per-cycle results: float, bounce, seating speed; elastic valves
-  static constexpr bool valve_gas = false;      ///< cylinder pressure on the valve heads; a train with a head area demands it
-  static constexpr bool cam_phasing = false;    ///< Input::cam_phase_deg moves the cams
-  static constexpr bool bad_input_count = false;  ///< State::bad_input_ticks: how many ticks had a bad input, and of which kinds
-  static constexpr bool starter = false;        ///< Input::starter turns the crank; CrankGiven::load
-  static constexpr bool cylinder_cut = false;   ///< Input::cut_cylinders: cylinders that do not fire this tick; needs load_ratio
+  static constexpr bool valve_gas =
+      false;  ///< cylinder pressure on the valve heads; a train with a head area demands it
+  static constexpr bool cam_phasing = false;  ///< Input::cam_phase_deg moves the cams
+  static constexpr bool bad_input_count =
+      false;  ///< State::bad_input_ticks: how many ticks had a bad input, and of which kinds
+  static constexpr bool starter = false;  ///< Input::starter turns the crank; CrankGiven::torque
+  static constexpr bool cylinder_cut =
+      false;  ///< Input::cut_cylinders: cylinders that do not fire this tick (where gas burns: the cycle whose fuel is
+              ///< due); needs load_ratio or combustion
   static constexpr Count triggers = exactly<0>;  ///< trigger wheels: their signals and the edges in each tick
-  static constexpr std::uint32_t trigger_edges = 8;  ///< of a wheel that a tick has room for; more are counted, but not listed
+  static constexpr std::uint32_t trigger_edges =
+      8;  ///< of a wheel that a tick has room for; more are counted, but not listed
 };
+
+namespace detail {
 
 /// What a scene's answers imply.
 template <class S>
 struct Needs {
   static constexpr bool table_pressure = S::pressure == PressureGiven::by_table;
-  static constexpr bool crank_dynamics = S::crank == CrankGiven::load;
+  static constexpr bool gas = S::pressure == PressureGiven::by_gas;
+  static constexpr bool manifolds = gas && S::manifold == Manifold::throttle;
+  static constexpr bool burn = gas && S::combustion != Combustion::none;
+  static constexpr bool burn_input = gas && S::combustion == Combustion::by_input;
+  static constexpr bool gas_cut = burn && S::cylinder_cut;
+  static constexpr bool crank_dynamics = S::crank == CrankGiven::torque;
   static constexpr bool any_torque = S::torque || S::mean_torque || crank_dynamics;
   static constexpr bool work = S::mean_torque || crank_dynamics;  ///< of a tick, as a difference of integrals
   static constexpr bool any_valves = S::valves != ValveModel::none;
   static constexpr bool elastic_valves = S::valves == ValveModel::elastic;
-  static constexpr bool cylinder_pressure = S::forces || (elastic_valves && S::valve_gas);
+  static constexpr bool cylinder_pressure = S::forces || (elastic_valves && S::valve_gas && !gas);
   static constexpr bool input_pressure = S::pressure == PressureGiven::by_input && (any_torque || cylinder_pressure);
   /// With forces asked for, the torque at the tick is their sum; without, it is read from torque curves.
   static constexpr bool torque_curves = work || (S::torque && !S::forces);
 
-  static constexpr bool body = S::forces || (any_torque && input_pressure) || cylinder_pressure;
+  static constexpr bool body = S::forces || (any_torque && input_pressure) || cylinder_pressure || gas;
   static constexpr bool motion = S::kinematics || S::forces;
-  static constexpr bool given_torque = any_torque && input_pressure;  ///< of gas, from pressures that are given
-  static constexpr bool given_work = work && input_pressure;          ///< likewise
-  static constexpr bool stroke = given_work || (given_torque && !motion);
+  static constexpr bool given_torque =
+      any_torque && (input_pressure || gas);                  ///< of gas, from pressures and not from curves
+  static constexpr bool given_work = work && input_pressure;  ///< of gas, from pressures and not from curves
+  static constexpr bool gas_work = work && gas;
+  static constexpr bool stroke = given_work || ((given_torque || gas) && !motion) || (gas && crank_dynamics);
   static constexpr bool lean = S::forces;
   static constexpr bool rod = S::rod_motion;
   static constexpr bool rod_curvature = S::rod_motion || (S::forces && S::rod_inertia);
@@ -99,7 +133,9 @@ struct Needs {
   static constexpr bool gas_pressure = cylinder_pressure && table_pressure;
   static constexpr bool load = S::load_ratio && table_pressure;
   static constexpr bool cut = S::cylinder_cut && table_pressure;
-  static constexpr bool cut_torque = cut && torque_curves;  ///< the engine's gas torque less that of cylinders which do not fire
+  static constexpr bool valve_gas_held = S::valve_gas && !gas;  ///< the force of the last tick is part of the state
+  static constexpr bool cut_torque =
+      cut && torque_curves;  ///< the engine's gas torque less that of cylinders which do not fire
   static constexpr bool mechanisms = stroke || shown_by_cylinder;
   static constexpr bool any_triggers = S::triggers.capacity > 0;
   static constexpr std::uint32_t valve_count = any_valves ? S::trains.capacity * S::cylinders.capacity : 0;
@@ -111,16 +147,26 @@ struct CheckedScene {
   static_assert(S::cylinders.capacity >= 1, "a scene has at least one cylinder");
   static_assert(S::cylinders.capacity <= kMaxCylinders, "a scene has at most 16 cylinders");
   static_assert(!S::bearing_loads || S::forces, "bearing_loads are made from forces: ask for forces too");
-  static_assert(!S::load_ratio || S::pressure == PressureGiven::by_table, "load_ratio scales a pressure table: set pressure = by_table");
-  static_assert(!S::cylinder_cut || S::load_ratio, "a cut cylinder has the pressure of load ratio 0: set load_ratio too");
-  static_assert(!S::starter || S::crank == CrankGiven::load, "a starter needs a crank that is turned by forces: set crank = load");
-  static_assert(S::valves == ValveModel::none || (S::trains.capacity >= 1 && S::trains.capacity <= kMaxTrains), "a cylinder has 1 to 4 valve trains");
+  static_assert(!S::load_ratio || S::pressure == PressureGiven::by_table,
+                "load_ratio scales a pressure table: set pressure = by_table");
+  static_assert(!S::cylinder_cut || S::load_ratio || Needs<S>::burn,
+                "a cut cylinder has the pressure of load ratio 0: set load_ratio too");
+  static_assert(S::pressure != PressureGiven::by_gas || S::valves != ValveModel::none,
+                "gas flows through valves: ask for elastic or following ones");
+  static_assert(S::pressure == PressureGiven::by_gas ||
+                    (S::manifold == Manifold::given && S::combustion == Combustion::none && !S::gas_results),
+                "manifold, combustion and gas_results are of gas: set pressure = by_gas");
+  static_assert(!S::starter || S::crank == CrankGiven::torque,
+                "a starter needs a crank that is turned by forces: set crank = torque");
+  static_assert(S::valves == ValveModel::none || (S::trains.capacity >= 1 && S::trains.capacity <= kMaxTrains),
+                "a cylinder has 1 to 4 valve trains");
   static_assert(S::valves == ValveModel::elastic || (!S::valve_forces && !S::valve_results && !S::valve_gas),
                 "valve forces, results and gas force need elastic valves");
   static_assert(S::valves != ValveModel::none || !S::cam_phasing, "cam_phasing needs valves");
   static_assert(!S::valve_gas || S::pressure != PressureGiven::none, "valve_gas needs a pressure");
   static_assert(S::triggers.capacity <= kMaxTriggerWheels, "an engine has at most 8 trigger wheels");
-  static_assert(S::trigger_edges >= 1 && S::trigger_edges <= 2 * kMaxTriggerEdges, "trigger_edges is 1 to 1440: two turns of the finest wheel");
+  static_assert(S::trigger_edges >= 1 && S::trigger_edges <= 2 * kMaxTriggerEdges,
+                "trigger_edges is 1 to 1440: two turns of the finest wheel");
   static constexpr bool value = true;
 };
 
@@ -130,4 +176,5 @@ struct Without {};
 template <bool Has, class Group>
 using If = std::conditional_t<Has, Group, Without<Group>>;
 
+}  // namespace detail
 }  // namespace crankloop

@@ -1,7 +1,7 @@
 // The scenes that are compiled into the library, so that they link without a translation unit of your own.
 //
-// What belongs here: common needs with any number of cylinders. What does not: one product's scene (crankloop_add_scene makes it a
-// library of its own, smaller and faster because its counts are exact).
+// What belongs here: common needs with any number of cylinders. What does not: one product's scene (crankloop_add_scene
+// makes it a library of its own, smaller and faster because its counts are exact).
 #pragma once
 
 #include <crankloop/engine.hpp>
@@ -58,7 +58,7 @@ struct TorqueByPressure : Scene {
 /// The crank turned by gas, friction, load and starter: the engine in a loop with its controller.
 struct FreeRunning : Scene {
   static constexpr Count cylinders = up_to<kMaxCylinders>;
-  static constexpr CrankGiven crank = CrankGiven::load;
+  static constexpr CrankGiven crank = CrankGiven::torque;
   static constexpr PressureGiven pressure = PressureGiven::by_table;
   static constexpr bool load_ratio = true;
   static constexpr bool rod_inertia = true;
@@ -68,6 +68,27 @@ struct FreeRunning : Scene {
   static constexpr bool cylinder_cut = true;
   static constexpr Count triggers = up_to<kMaxTriggerWheels>;
   static constexpr std::uint32_t trigger_edges = 32;
+};
+
+/// All of Whole where the cylinders breathe: behind a throttle, with the fuel that each is given.
+struct Breathing : Whole {
+  static constexpr PressureGiven pressure = PressureGiven::by_gas;
+  static constexpr Manifold manifold = Manifold::throttle;
+  static constexpr Combustion combustion = Combustion::by_input;
+  static constexpr bool gas_results = true;
+  static constexpr bool load_ratio = false;
+};
+
+/// FreeRunning with an engine that breathes: its controller sets throttle, fuel and spark.
+struct BreathingFree : FreeRunning {
+  static constexpr PressureGiven pressure = PressureGiven::by_gas;
+  static constexpr Manifold manifold = Manifold::throttle;
+  static constexpr Combustion combustion = Combustion::by_input;
+  static constexpr bool gas_results = true;
+  static constexpr bool load_ratio = false;
+  static constexpr ValveModel valves = ValveModel::elastic;
+  static constexpr Count trains = up_to<kMaxTrains>;
+  static constexpr bool valve_gas = true;
 };
 
 }  // namespace crankloop::scenes
@@ -84,5 +105,9 @@ extern template class Engine<float, scenes::TorqueByPressure>;
 extern template class Engine<double, scenes::TorqueByPressure>;
 extern template class Engine<float, scenes::FreeRunning>;
 extern template class Engine<double, scenes::FreeRunning>;
+extern template class Engine<float, scenes::Breathing>;
+extern template class Engine<double, scenes::Breathing>;
+extern template class Engine<float, scenes::BreathingFree>;
+extern template class Engine<double, scenes::BreathingFree>;
 
 }  // namespace crankloop

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "arguments.hpp"
+#include "definition.hpp"
 
 namespace crankloop::c {
 namespace {
@@ -19,6 +19,10 @@ template <>
 inline constexpr RockerKind kLast<RockerKind> = RockerKind::ratio;
 template <>
 inline constexpr CamTurns kLast<CamTurns> = CamTurns::away_from_pivot;
+template <>
+inline constexpr TriggerShaft kLast<TriggerShaft> = TriggerShaft::cam;
+template <>
+inline constexpr TriggerPattern kLast<TriggerPattern> = TriggerPattern::edges;
 template <>
 inline constexpr Integrator kLast<Integrator> = Integrator::exponential;
 
@@ -44,7 +48,7 @@ struct FromC {
       field = c != 0;
     } else {
       if constexpr (std::is_enum_v<Field>) {
-        if ((c < 0 || c > static_cast<int>(kLast<Field>)) && status.ok()) status = {Reason::out_of_range, -1, name};
+        if ((c < 0 || c > static_cast<int>(kLast<Field>)) && status.ok()) status = refuse(name, Reason::out_of_range);
       }
       field = static_cast<Field>(c);
     }
@@ -67,32 +71,44 @@ struct EachNumber {
     }
   }
 };
+/// All of a definition but its gas, which no ready-made engine has.
 template <class Copy, class Cpp, class C>
 void each_field(Copy& copy, Cpp& definition, C& c) noexcept {
   EachNumber<Copy>{copy}(1, "", definition, c);
+  if constexpr (std::is_same_v<std::remove_const_t<Cpp>, EngineDefinition>) {
+    copy("trigger_count", definition.trigger_count, c.trigger_count);
+    EachNumber<Copy>{copy}(1, "", definition.triggers, c.triggers);
+  }
 }
 template <class Copy, class Cpp, class C>
 void each_option(Copy& copy, Cpp& options, C& c) noexcept {
-  copy("tick.tick", options.tick_s, c.tick_s);
-  copy("tick.integrator", options.valves.integrator, c.valve_integrator);
-  copy("tick.accuracy", options.valves.accuracy_m, c.valve_accuracy_m);
+  copy("options.tick_s", options.tick_s, c.tick_s);
+  copy("options.valves.integrator", options.valves.integrator, c.valve_integrator);
+  copy("options.valves.accuracy_m", options.valves.accuracy_m, c.valve_accuracy_m);
 }
 
 // Rows are read where they are.
-static_assert(sizeof(crankloop_diagram_point) == sizeof(DiagramPoint) && offsetof(crankloop_diagram_point, pressure_Pa) == offsetof(DiagramPoint, pressure_Pa));
-static_assert(sizeof(crankloop_cam_point) == sizeof(CamPoint) && offsetof(crankloop_cam_point, lift_m) == offsetof(CamPoint, lift_m));
+static_assert(sizeof(crankloop_diagram_point) == sizeof(DiagramPoint) &&
+              offsetof(crankloop_diagram_point, pressure_Pa) == offsetof(DiagramPoint, pressure_Pa));
+static_assert(sizeof(crankloop_cam_point) == sizeof(CamPoint) &&
+              offsetof(crankloop_cam_point, lift_m) == offsetof(CamPoint, lift_m));
 
-static_assert(CRANKLOOP_MOST_CYLINDERS == kMaxCylinders && CRANKLOOP_MOST_TRAINS == kMaxTrains && CRANKLOOP_MOST_CAM_EXPONENTS == kMostCamExponents);
-static_assert(CRANKLOOP_ALREADY_CREATED == static_cast<int>(Reason::already_created) && CRANKLOOP_ROD_TOO_SHORT == static_cast<int>(Reason::rod_too_short) &&
-              CRANKLOOP_NO_SOLUTION == static_cast<int>(Reason::no_solution) && CRANKLOOP_CONTRACTING_BUILD == static_cast<int>(Reason::contracting_build));
-static_assert(CRANKLOOP_PRESSURE_WIEBE == static_cast<int>(PressureSource::wiebe) && CRANKLOOP_PRESSURE_NONE == static_cast<int>(PressureSource::none) &&
+static_assert(CRANKLOOP_MAX_TRIGGER_WHEELS == kMaxTriggerWheels && CRANKLOOP_MAX_TOOTH_GAPS == kMaxToothGaps);
+static_assert(CRANKLOOP_MAX_CYLINDERS == kMaxCylinders && CRANKLOOP_MAX_TRAINS == kMaxTrains &&
+              CRANKLOOP_MAX_CAM_EXPONENTS == kMaxCamExponents);
+static_assert(CRANKLOOP_UNKNOWN_NAME == static_cast<int>(Reason::unknown_name) &&
+              CRANKLOOP_ROD_TOO_SHORT == static_cast<int>(Reason::rod_too_short) &&
+              CRANKLOOP_NO_SOLUTION == static_cast<int>(Reason::no_solution) &&
+              CRANKLOOP_CONTRACTING_BUILD == static_cast<int>(Reason::contracting_build));
+static_assert(CRANKLOOP_PRESSURE_WIEBE == static_cast<int>(PressureSource::wiebe) &&
+              CRANKLOOP_PRESSURE_NONE == static_cast<int>(PressureSource::none) &&
               CRANKLOOP_PRESSURE_ANGLE_TABLE == static_cast<int>(PressureSource::angle_table));
-static_assert(CRANKLOOP_CAM_TABLE == static_cast<int>(CamSource::table) && CRANKLOOP_ROCKER_RATIO == static_cast<int>(RockerKind::ratio) &&
+static_assert(CRANKLOOP_CAM_TABLE == static_cast<int>(CamSource::table) &&
+              CRANKLOOP_ROCKER_RATIO == static_cast<int>(RockerKind::ratio) &&
               CRANKLOOP_CAM_TURNS_AWAY_FROM_PIVOT == static_cast<int>(CamTurns::away_from_pivot) &&
+              CRANKLOOP_TRIGGER_ON_CAM == static_cast<int>(TriggerShaft::cam) &&
+              CRANKLOOP_TRIGGER_EDGES == static_cast<int>(TriggerPattern::edges) &&
               CRANKLOOP_INTEGRATOR_EXPONENTIAL == static_cast<int>(Integrator::exponential));
-static_assert(CRANKLOOP_VERSION_MAJOR == CRANKLOOP_PROJECT_MAJOR && CRANKLOOP_VERSION_MINOR == CRANKLOOP_PROJECT_MINOR &&
-                  CRANKLOOP_VERSION_PATCH == CRANKLOOP_PROJECT_PATCH,
-              "crankloop.h: the version is not the project's");
 
 }  // namespace
 
@@ -130,73 +146,4 @@ Status take(TickOptions& options, const crankloop_options* from, std::size_t siz
   return from_c(full, options);
 }
 
-namespace {
-
-/// Lets `change` work on the layout of the caller's definition.
-template <class Change>
-[[nodiscard]] crankloop_status change_layout(crankloop_definition* definition, std::size_t size, const Change& change) noexcept {
-  crankloop_definition full = as_c(EngineDefinition{});
-  if (const Status refused = take(full, definition, size, "definition"); !refused.ok()) return as_c(refused);
-  Layout layout;
-  FromC read;
-  each_field(read, layout, full.layout);
-  if (const Status refused = change(layout); !refused.ok()) return as_c(refused);
-  ToC write;
-  each_field(write, layout, full.layout);
-  std::memcpy(definition, &full, size < sizeof full ? size : sizeof full);
-  return as_c(Status{});
-}
-
-}  // namespace
 }  // namespace crankloop::c
-
-using namespace crankloop;
-
-std::uint32_t crankloop_version() { return CRANKLOOP_VERSION; }
-
-const char* crankloop_describe(std::int32_t reason) {
-  const bool known = reason >= 0 && reason <= CRANKLOOP_ALREADY_CREATED;
-  return known ? describe(static_cast<Reason>(reason)) : "unknown reason";
-}
-
-std::size_t crankloop_status_text(crankloop_status status, char* text, std::size_t room) {
-  if (text == nullptr) room = 0;
-  std::size_t length = 0;
-  const auto add = [&](char letter) {
-    if (length + 1 < room) text[length] = letter;
-    ++length;
-  };
-  const auto add_all = [&](const char* words) {
-    while (words != nullptr && *words != '\0') add(*words++);
-  };
-  add_all(status.field);
-  if (status.index >= 0) {
-    char digits[10];
-    int count = 0;
-    for (std::int32_t rest = status.index; rest > 0 || count == 0; rest /= 10) digits[count++] = static_cast<char>('0' + rest % 10);
-    add('[');
-    while (count > 0) add(digits[--count]);
-    add(']');
-  }
-  if (length > 0) add(' ');
-  add_all(crankloop_describe(status.reason));
-  if (room > 0) text[length < room ? length : room - 1] = '\0';
-  return length;
-}
-
-crankloop_status crankloop_definition_defaults(crankloop_definition* definition, std::size_t size) {
-  return c::as_c(c::give(definition, size, c::as_c(EngineDefinition{})));
-}
-crankloop_status crankloop_options_defaults(crankloop_options* options, std::size_t size) {
-  return c::as_c(c::give(options, size, c::as_c(TickOptions{})));
-}
-
-crankloop_status crankloop_set_firing_order(crankloop_definition* definition, std::size_t size, const std::int32_t* order, std::int32_t cylinders) {
-  if (order == nullptr) return c::refusal(Reason::null_pointer, "order");
-  int numbers[kMaxCylinders] = {};  // where int32_t is not int
-  for (int k = 0; k < cylinders && k < kMaxCylinders; ++k) numbers[k] = static_cast<int>(order[k]);
-  return c::change_layout(definition, size, [&](Layout& layout) { return set_firing_order(numbers, static_cast<int>(cylinders), layout); });
-}
-crankloop_status crankloop_share_pins_by_position(crankloop_definition* definition, std::size_t size) {
-  return c::change_layout(definition, size, [](Layout& layout) { return share_pins_by_position(layout), Status{}; });
-}

@@ -16,7 +16,8 @@ struct Anything {
 template <class Struct, class Values, class = void>
 inline constexpr bool kTakes = false;
 template <class Struct, std::size_t... I>
-inline constexpr bool kTakes<Struct, std::index_sequence<I...>, std::void_t<decltype(Struct{(void(I), Anything{})...})>> = true;
+inline constexpr bool
+    kTakes<Struct, std::index_sequence<I...>, std::void_t<decltype(Struct{(void(I), Anything{})...})>> = true;
 
 /// As many values as an aggregate takes: its fields, all entries of its C arrays.
 template <class Struct, std::size_t N = 0>
@@ -32,10 +33,12 @@ template <class Struct>
 [[nodiscard]] constexpr std::size_t values_listed() noexcept {
   std::size_t count = 0;
   const Struct example{};
-  Struct::each_field([&count](int, const char*, const auto& field) {
-    using Field = std::remove_reference_t<decltype(field)>;
-    count += std::is_array_v<Field> ? std::extent_v<Field> : 1;
-  }, example);
+  Struct::each_field(
+      [&count](int, const char*, const auto& field) {
+        using Field = std::remove_reference_t<decltype(field)>;
+        count += std::is_array_v<Field> ? std::extent_v<Field> : 1;
+      },
+      example);
   return count;
 }
 

@@ -31,47 +31,76 @@ constexpr double kHeaviest_kg = 1e4;
 
 const char* describe(Reason reason) noexcept {
   switch (reason) {
-    case Reason::ok: return "ok";
-    case Reason::not_finite: return "must be a finite number";
-    case Reason::not_positive: return "must be greater than zero";
-    case Reason::negative: return "must not be negative";
-    case Reason::out_of_range: return "is out of range";
-    case Reason::rod_too_short: return "must be longer than crank radius plus pin offset, by more than a billionth of them, or the crank cannot turn";
-    case Reason::inconsistent: return "contradicts another value";
-    case Reason::not_a_permutation: return "must name every cylinder once";
-    case Reason::too_few_points: return "has too few points";
-    case Reason::too_many_points: return "has too many points";
-    case Reason::not_increasing: return "must rise from row to row";
-    case Reason::not_one_period: return "must span one period of 720 deg";
-    case Reason::not_a_cycle: return "must rise, fall, rise and fall between the dead-centre volumes";
-    case Reason::no_solution: return "cannot be met";
-    case Reason::pressure_too_high: return "makes a cylinder pressure above 1000 bar";
-    case Reason::missing_table: return "is missing";
-    case Reason::other_tables: return "belongs to other tables";
-    case Reason::contracting_build: return "fuses multiply and add: compile the scene with -ffp-contract=off";
-    case Reason::wrong_size: return "has the wrong size";
-    case Reason::damaged: return "is damaged";
-    case Reason::other_version: return "is of another version";
-    case Reason::other_scene: return "belongs to another scene or scalar";
-    case Reason::null_pointer: return "is null";
-    case Reason::misaligned: return "is not aligned";
-    case Reason::not_created: return "was not created";
-    case Reason::already_created: return "was created already";
+    case Reason::ok:
+      return "ok";
+    case Reason::not_finite:
+      return "must be a finite number";
+    case Reason::not_positive:
+      return "must be greater than zero";
+    case Reason::negative:
+      return "must not be negative";
+    case Reason::out_of_range:
+      return "is out of range";
+    case Reason::rod_too_short:
+      return "must be longer than crank radius plus pin offset, by more than a billionth of them, or the crank cannot "
+             "turn";
+    case Reason::inconsistent:
+      return "contradicts another value";
+    case Reason::not_a_permutation:
+      return "must name every cylinder once";
+    case Reason::too_few_points:
+      return "has too few points";
+    case Reason::too_many_points:
+      return "has too many points";
+    case Reason::not_increasing:
+      return "must rise from row to row";
+    case Reason::not_one_period:
+      return "must span one period of 720 deg";
+    case Reason::not_a_cycle:
+      return "must rise, fall, rise and fall between the dead-centre volumes";
+    case Reason::no_solution:
+      return "cannot be met";
+    case Reason::pressure_too_high:
+      return "makes a cylinder pressure above 1000 bar";
+    case Reason::missing_table:
+      return "is missing";
+    case Reason::other_tables:
+      return "belongs to other tables";
+    case Reason::contracting_build:
+      return "fuses multiply and add: compile the scene with -ffp-contract=off";
+    case Reason::wrong_size:
+      return "has the wrong size";
+    case Reason::damaged:
+      return "is damaged";
+    case Reason::other_version:
+      return "is of another version";
+    case Reason::other_scene:
+      return "belongs to another scene or scalar";
+    case Reason::null_pointer:
+      return "is null";
+    case Reason::misaligned:
+      return "is not aligned";
+    case Reason::not_created:
+      return "was not created";
+    case Reason::already_created:
+      return "was created already";
+    case Reason::unknown_name:
+      return "names no input or output of this engine";
   }
   return "unknown reason";
 }
 
 Status validate(const Crank& crank) noexcept {
   const Status answers[] = {
-      positive(crank.bore_m, "crank.bore", 2),
-      positive(crank.crank_radius_m, "crank.stroke", 2),
-      positive(crank.rod_length_m, "crank.rod_length", 10),
-      between(crank.pin_offset_m, "crank.pin_offset", -2, 2),
+      positive(crank.bore_m, "crank.bore_m", 2),
+      positive(crank.crank_radius_m, "crank.crank_radius_m", 2),
+      positive(crank.rod_length_m, "crank.rod_length_m", 10),
+      between(crank.pin_offset_m, "crank.pin_offset_m", -2, 2),
       between(crank.compression_ratio, "crank.compression_ratio", 1, 100),
   };
   if (const Status refused = first_refusal(answers); !refused.ok()) return refused;
-  if (crank.compression_ratio <= 1) return {Reason::out_of_range, -1, "crank.compression_ratio"};
-  if (crank.rod_length_m <= crank.least_rod_length_m()) return {Reason::rod_too_short, -1, "crank.rod_length"};
+  if (crank.compression_ratio <= 1) return refuse("crank.compression_ratio", Reason::out_of_range);
+  if (crank.rod_length_m <= crank.least_rod_length_m()) return refuse("crank.rod_length_m", Reason::rod_too_short);
   return {};
 }
 
@@ -84,29 +113,30 @@ void lump_rod(const RigidRod& rod, const Crank& crank, Masses& masses) noexcept 
 }
 
 void reduce_throw(const CrankThrow& crank_throw, const Crank& crank, Masses& masses) noexcept {
-  masses.crank_pin_equivalent_kg = crank_throw.pin_kg + 2 * crank_throw.web_kg * crank_throw.web_com_m / crank.crank_radius_m;
+  masses.crank_pin_equivalent_kg =
+      crank_throw.pin_kg + 2 * crank_throw.web_kg * crank_throw.web_com_m / crank.crank_radius_m;
 }
 
 Status validate(const Masses& masses) noexcept {
   const Status answers[] = {
-      not_negative(masses.piston_kg, "masses.piston", kHeaviest_kg),
-      not_negative(masses.rod_small_end_kg, "masses.rod_small_end", kHeaviest_kg),
-      not_negative(masses.rod_big_end_kg, "masses.rod_big_end", kHeaviest_kg),
-      between(masses.rod_inertia_correction_kg_m2, "masses.rod_inertia", -1e6, 1e6),
-      not_negative(masses.crank_pin_equivalent_kg, "masses.crank_pin_equivalent", kHeaviest_kg),
-      not_negative(masses.crank_inertia_kg_m2, "masses.crank_inertia", 1e6),
-      positive(masses.reciprocating_kg(), "masses.piston", 2 * kHeaviest_kg),
+      not_negative(masses.piston_kg, "masses.piston_kg", kHeaviest_kg),
+      not_negative(masses.rod_small_end_kg, "masses.rod_small_end_kg", kHeaviest_kg),
+      not_negative(masses.rod_big_end_kg, "masses.rod_big_end_kg", kHeaviest_kg),
+      between(masses.rod_inertia_correction_kg_m2, "masses.rod_inertia_correction_kg_m2", -1e6, 1e6),
+      not_negative(masses.crank_pin_equivalent_kg, "masses.crank_pin_equivalent_kg", kHeaviest_kg),
+      not_negative(masses.crank_inertia_kg_m2, "masses.crank_inertia_kg_m2", 1e6),
+      positive(masses.reciprocating_kg(), "masses.piston_kg", 2 * kHeaviest_kg),
   };
   return first_refusal(answers);
 }
 
 Status set_firing_order(const int* order, int cylinders, Layout& layout) noexcept {
-  if (cylinders < 1 || cylinders > kMaxCylinders) return {Reason::out_of_range, -1, "layout.cylinders"};
+  if (cylinders < 1 || cylinders > kMaxCylinders) return refuse("layout.cylinders", Reason::out_of_range);
   unsigned seen = 0;
   for (int i = 0; i < cylinders; ++i) {
     const int cylinder = order[i];
     if (cylinder < 1 || cylinder > cylinders || (seen >> cylinder & 1u) != 0) {
-      return {Reason::not_a_permutation, i, "layout.firing_order"};
+      return refuse("order", Reason::not_a_permutation, i);
     }
     seen |= 1u << cylinder;
   }
@@ -150,7 +180,8 @@ void share_pins_by_position(Layout& layout) noexcept {
 
 namespace {
 
-/// Middle of the rods on a pin, which has at least one: the first one's place and the mean distance from it, exact for equal places.
+/// Middle of the rods on a pin, which has at least one: the first one's place and the mean distance from it, exact for
+/// equal places.
 [[nodiscard]] double pin_position_m(const Layout& layout, std::size_t pin) noexcept {
   double first = 0;
   double beyond = 0;
@@ -167,32 +198,33 @@ namespace {
 }  // namespace
 
 Status validate(const Layout& layout) noexcept {
-  if (layout.cylinders < 1 || layout.cylinders > kMaxCylinders) return {Reason::out_of_range, -1, "layout.cylinders"};
+  if (layout.cylinders < 1 || layout.cylinders > kMaxCylinders) return refuse("layout.cylinders", Reason::out_of_range);
   const auto n = static_cast<std::size_t>(layout.cylinders);
   std::uint8_t last_pin = 0;
   unsigned pins_used = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const int index = static_cast<int>(k);
     const Status answers[] = {
-        between(layout.firing_deg[k], "layout.firing_angles", 0, 720, index),
-        between(layout.bank_deg[k], "layout.bank_angles", -360, 360, index),
-        between(layout.position_m[k], "layout.cylinder_positions", -100, 100, index),
+        between(layout.firing_deg[k], "layout.firing_deg", 0, 720, index),
+        between(layout.bank_deg[k], "layout.bank_deg", -360, 360, index),
+        between(layout.position_m[k], "layout.position_m", -100, 100, index),
     };
     if (const Status refused = first_refusal(answers); !refused.ok()) return refused;
-    if (layout.firing_deg[k] >= 720) return {Reason::out_of_range, index, "layout.firing_angles"};
-    if (layout.pin[k] >= n) return {Reason::out_of_range, index, "layout.shared_pins"};
+    if (layout.firing_deg[k] >= 720) return refuse("layout.firing_deg", Reason::out_of_range, index);
+    if (layout.pin[k] >= n) return refuse("layout.pin", Reason::out_of_range, index);
     pins_used |= 1u << layout.pin[k];
     if (layout.pin[k] > last_pin) last_pin = layout.pin[k];
     for (std::size_t other = 0; other < k; ++other) {
       if (layout.pin[other] != layout.pin[k]) continue;
       if (!same_direction(layout.throw_deg(index), layout.throw_deg(static_cast<int>(other)))) {
-        return {Reason::inconsistent, index, "layout.shared_pins"};
+        return refuse("layout.pin", Reason::inconsistent, index);
       }
     }
   }
-  if (pins_used != (2u << last_pin) - 1u) return {Reason::inconsistent, -1, "layout.shared_pins"};  // a gap in the numbers
+  if (pins_used != (2u << last_pin) - 1u) return refuse("layout.pin", Reason::inconsistent);  // a gap in the numbers
   for (std::size_t pin = 1; pin <= last_pin; ++pin) {
-    if (pin_position_m(layout, pin) < pin_position_m(layout, pin - 1)) return {Reason::inconsistent, -1, "layout.shared_pins"};
+    if (pin_position_m(layout, pin) < pin_position_m(layout, pin - 1))
+      return refuse("layout.pin", Reason::inconsistent);
   }
   return {};
 }
@@ -201,36 +233,40 @@ namespace {
 
 [[nodiscard]] Status validate_wiebe(const WiebeDiagram& w) noexcept {
   const Status answers[] = {
-      positive(w.intake_Pa, "pressure.intake", 1e7),
-      positive(w.exhaust_Pa, "pressure.exhaust", 1e7),
-      between(w.start_of_combustion_deg, "pressure.start_of_combustion", -90, 90),
-      between(w.combustion_duration_deg, "pressure.combustion_duration", 1, 150),
-      between(w.wiebe_m, "pressure.wiebe_m", 0, 10),
-      between(w.compression_exponent, "pressure.compression_exponent", 1, 2),
-      between(w.expansion_exponent, "pressure.expansion_exponent", 1.0001, 2),
-      between(w.motored_expansion_exponent, "pressure.motored_expansion_exponent", 0, 3),
-      between(w.exhaust_valve_opens_deg, "pressure.exhaust_valve_opens", 30, 179),
-      w.heat_given ? not_negative(w.heat_J, "pressure.heat", 1e9) : between(w.net_mep_Pa, "pressure.net_mep", -1e7, kMostPressure_Pa),
+      positive(w.intake_Pa, "pressure.wiebe.intake_Pa", 1e7),
+      positive(w.exhaust_Pa, "pressure.wiebe.exhaust_Pa", 1e7),
+      between(w.start_of_combustion_deg, "pressure.wiebe.start_of_combustion_deg", -90, 90),
+      between(w.combustion_duration_deg, "pressure.wiebe.combustion_duration_deg", 1, 150),
+      between(w.wiebe_m, "pressure.wiebe.wiebe_m", 0, 10),
+      between(w.compression_exponent, "pressure.wiebe.compression_exponent", 1, 2),
+      between(w.expansion_exponent, "pressure.wiebe.expansion_exponent", 1.0001, 2),
+      between(w.motored_expansion_exponent, "pressure.wiebe.motored_expansion_exponent", 0, 3),
+      between(w.exhaust_valve_opens_deg, "pressure.wiebe.exhaust_valve_opens_deg", 30, 179),
+      w.heat_given ? not_negative(w.heat_J, "pressure.wiebe.heat_J", 1e9)
+                   : between(w.net_mep_Pa, "pressure.wiebe.net_mep_Pa", -1e7, kMaxPressure_Pa),
   };
   if (const Status refused = first_refusal(answers); !refused.ok()) return refused;
   if (w.start_of_combustion_deg + w.combustion_duration_deg > w.exhaust_valve_opens_deg) {
-    return {Reason::inconsistent, -1, "pressure.combustion_duration"};
+    return refuse("pressure.wiebe.combustion_duration_deg", Reason::inconsistent);
   }
-  if (w.motored_exponent() < w.compression_exponent) return {Reason::inconsistent, -1, "pressure.motored_expansion_exponent"};  // work from nothing
+  if (w.motored_exponent() < w.compression_exponent)
+    return refuse("pressure.wiebe.motored_expansion_exponent", Reason::inconsistent);  // work from nothing
   return {};
 }
 
 constexpr int kLeastAnglePoints = 8;
 constexpr int kLeastVolumePoints = 16;
-constexpr int kMostPoints = 1 << 20;
+constexpr int kMaxPoints = 1 << 20;
 
 [[nodiscard]] Status validate_points(const Pressure& pressure, int least) noexcept {
-  if (pressure.points == nullptr || pressure.point_count < least) return {Reason::too_few_points, -1, "pressure.file"};
-  if (pressure.point_count > kMostPoints) return {Reason::too_many_points, -1, "pressure.file"};
+  if (pressure.points == nullptr || pressure.point_count < least)
+    return refuse("pressure.points", Reason::too_few_points);
+  if (pressure.point_count > kMaxPoints) return refuse("pressure.points", Reason::too_many_points);
   for (int i = 0; i < pressure.point_count; ++i) {
     const DiagramPoint& point = pressure.points[i];
-    if (!finite(point.at)) return {Reason::not_finite, i, "pressure.file"};
-    if (const Status refused = between(point.pressure_Pa, "pressure.file", 0, kMostPressure_Pa, i); !refused.ok()) return refused;
+    if (!finite(point.at)) return refuse("pressure.points", Reason::not_finite, i);
+    if (const Status refused = between(point.pressure_Pa, "pressure.points", 0, kMaxPressure_Pa, i); !refused.ok())
+      return refused;
   }
   return {};
 }
@@ -239,47 +275,64 @@ constexpr int kMostPoints = 1 << 20;
   if (const Status refused = validate_points(pressure, kLeastAnglePoints); !refused.ok()) return refused;
   for (int i = 0; i < pressure.point_count; ++i) {
     const double at = pressure.points[i].at;
-    if (at < -kMostDiagramAngle_deg || at > kMostDiagramAngle_deg) return {Reason::out_of_range, i, "pressure.file"};
-    if (i > 0 && at <= pressure.points[i - 1].at) return {Reason::not_increasing, i, "pressure.file"};
+    if (at < -kMaxDiagramAngle_deg || at > kMaxDiagramAngle_deg)
+      return refuse("pressure.points", Reason::out_of_range, i);
+    if (i > 0 && at <= pressure.points[i - 1].at) return refuse("pressure.points", Reason::not_increasing, i);
   }
-  // One period, and no hole in it: the rows span at most 720 deg, and what is left to close the circle is no wider than 60 deg.
+  // One period, and no hole in it: the rows span at most 720 deg, and what is left to close the circle is no wider than
+  // 60 deg.
   const double span = pressure.points[pressure.point_count - 1].at - pressure.points[0].at;
   constexpr double kWidestGapDeg = 60;
-  if (span > 720 + 1e-9 || span < 720 - kWidestGapDeg) return {Reason::not_one_period, -1, "pressure.file"};
+  if (span > 720 + 1e-9 || span < 720 - kWidestGapDeg) return refuse("pressure.points", Reason::not_one_period);
   return {};
 }
 
 }  // namespace
 
 Status validate(const Pressure& pressure, const Crank& crank) noexcept {
-  if (const Status refused = positive(pressure.crankcase_Pa, "pressure.crankcase", 1e7); !refused.ok()) return refused;
+  if (const Status refused = positive(pressure.crankcase_Pa, "pressure.crankcase_Pa", 1e7); !refused.ok())
+    return refused;
   switch (pressure.source) {
-    case PressureSource::none: return {};
-    case PressureSource::wiebe: return validate_wiebe(pressure.wiebe);
-    case PressureSource::angle_table: return validate_angles(pressure);
+    case PressureSource::none:
+    case PressureSource::gas:
+      return {};
+    case PressureSource::wiebe:
+      return validate_wiebe(pressure.wiebe);
+    case PressureSource::angle_table:
+      return validate_angles(pressure);
     case PressureSource::volume_table:
-      (void)crank;  // the volumes are checked against the dead centres where they are turned into angles: tabulate/indicator_diagram.hpp
+      (void)crank;  // the volumes are checked against the dead centres where they are turned into angles:
+                    // tabulate/indicator_diagram.hpp
       return validate_points(pressure, kLeastVolumePoints);
   }
-  return {Reason::out_of_range, -1, "pressure.source"};  // a number that names no source
+  return refuse("pressure.source", Reason::out_of_range);  // a number that names no source
 }
 
 Status validate(const EngineDefinition& engine) noexcept {
-  const Status answers[] = {validate(engine.crank), validate(engine.masses), validate(engine.layout),
-                            validate(engine.pressure, engine.crank), validate(engine.friction), validate(engine.load), validate(engine.starter)};
-  if (engine.train_count < 0 || engine.train_count > kMaxTrains) return {Reason::out_of_range, -1, "trains"};
+  const Status answers[] = {validate(engine.crank),    validate(engine.masses),
+                            validate(engine.layout),   validate(engine.pressure, engine.crank),
+                            validate(engine.friction), validate(engine.machine),
+                            validate(engine.starter)};
+  if (engine.train_count < 0 || engine.train_count > kMaxTrains) return refuse("train_count", Reason::out_of_range);
   if (const Status refused = first_refusal(answers); !refused.ok()) return refused;
   // No rod has a negative moment of inertia: J_rod = dI + m_rod l_pin l_crank.
   const Masses& m = engine.masses;
   const double rod_kg = m.rod_small_end_kg + m.rod_big_end_kg;
-  const double ends_kg_m2 = rod_kg > 0 ? m.rod_small_end_kg * m.rod_big_end_kg / rod_kg * engine.crank.rod_length_m * engine.crank.rod_length_m : 0;
-  if (m.rod_inertia_correction_kg_m2 < -ends_kg_m2 * (1 + 1e-9)) return {Reason::negative, -1, "masses.rod_inertia"};
+  const double ends_kg_m2 = rod_kg > 0 ? m.rod_small_end_kg * m.rod_big_end_kg / rod_kg * engine.crank.rod_length_m *
+                                             engine.crank.rod_length_m
+                                       : 0;
+  if (m.rod_inertia_correction_kg_m2 < -ends_kg_m2 * (1 + 1e-9))
+    return refuse("masses.rod_inertia_correction_kg_m2", Reason::negative);
 
-  if (engine.trigger_count < 0 || engine.trigger_count > kMaxTriggerWheels) return {Reason::out_of_range, -1, "triggers"};
+  if (engine.pressure.source == PressureSource::gas) {
+    if (const Status refused = validate(engine.gas, engine.train_count); !refused.ok()) return refused;
+  }
+  if (engine.trigger_count < 0 || engine.trigger_count > kMaxTriggerWheels)
+    return refuse("trigger_count", Reason::out_of_range);
   for (int i = 0; i < engine.trigger_count; ++i) {
     const TriggerWheel& wheel = engine.triggers[i];
-    if (const Status refused = validate(wheel); !refused.ok()) return {refused.reason, i, refused.field};
-    if (wheel.train >= engine.train_count) return {Reason::out_of_range, i, "trigger.on"};
+    if (const Status refused = validate(wheel); !refused.ok()) return refuse(refused.field, refused.reason, i);
+    if (wheel.train >= engine.train_count) return refuse("trigger.train", Reason::out_of_range, i);
   }
   return {};
 }

@@ -1,6 +1,7 @@
 // Free forces, pins and journals of a whole engine: docs/model.md "Balance".
 #include <cstddef>
 
+#include <crankloop/phase.hpp>
 #include <crankloop/tabulate/elementary.hpp>
 #include <crankloop/tabulate/mechanism.hpp>
 #include <crankloop/tabulate/summary.hpp>
@@ -8,9 +9,9 @@
 #include "cylinder_groups.hpp"
 
 namespace crankloop {
-namespace {
 
-constexpr double kRadPerDeg = elementary::kPi / 180;
+using namespace detail;
+namespace {
 
 /// cos and sin of an angle in degrees, exact at multiples of 90: balanced engines balance to the last bit.
 struct Direction {
@@ -24,7 +25,7 @@ struct Direction {
   if (deg == 90) return {0, 1};
   if (deg == 180) return {-1, 0};
   if (deg == 270) return {0, -1};
-  return {elementary::cos(deg * kRadPerDeg), elementary::sin(deg * kRadPerDeg)};
+  return {elementary::cos(deg * detail::kRadPerDegree), elementary::sin(deg * detail::kRadPerDegree)};
 }
 
 /// Middle of the crankshaft: half way between its first and last throw.
@@ -43,8 +44,9 @@ struct Part {
   double cosine;
   double sine;
 };
-/// From the exact displacement, by the trapezoidal rule: its error falls like (lambda / 2)^kSamples, to rounding for any rod that is not
-/// within a thousandth of the shortest possible. The second derivative of a harmonic is -order^2 of it.
+/// From the exact displacement, by the trapezoidal rule: its error falls like (lambda / 2)^kSamples, to rounding for
+/// any rod that is not within a thousandth of the shortest possible. The second derivative of a harmonic is -order^2 of
+/// it.
 [[nodiscard]] Part acceleration_part(const Crank& crank, int order) noexcept {
   constexpr int kSamples = 512;
   const bool in_line = crank.pin_offset_m == 0;  // then x = r (1 - cos a) + an even function of sin a
@@ -62,7 +64,8 @@ struct Part {
 }
 
 /// Adds a force (up, lateral) = axis * (along_cos cos + along_sin sin) at a place along the shaft.
-void add(Turning<double>& t, double arm_m, double up_cos, double up_sin, double lateral_cos, double lateral_sin) noexcept {
+void add(RotatingVector<double>& t, double arm_m, double up_cos, double up_sin, double lateral_cos,
+         double lateral_sin) noexcept {
   t.up_cos += up_cos;
   t.up_sin += up_sin;
   t.lateral_cos += lateral_cos;
@@ -73,7 +76,8 @@ void add(Turning<double>& t, double arm_m, double up_cos, double up_sin, double 
   t.yaw_sin += arm_m * lateral_sin;
 }
 
-/// Half the major axis of the ellipse (ac cos + as sin, bc cos + bs sin): the vector is a forward and a backward circle.
+/// Half the major axis of the ellipse (ac cos + as sin, bc cos + bs sin): the vector is a forward and a backward
+/// circle.
 [[nodiscard]] double peak(double ac, double as, double bc, double bs) noexcept {
   const double forward = square_root((ac + bs) * (ac + bs) + (as - bc) * (as - bc)) / 2;
   const double backward = square_root((ac - bs) * (ac - bs) + (as + bc) * (as + bc)) / 2;
@@ -108,24 +112,27 @@ Bearings<double> bearings_of(const EngineDefinition& engine) noexcept {
 
 BlockLoad in_block(const EngineDefinition& engine, double engine_deg, double along_N, double across_N) noexcept {
   int cylinder = 0;  // of pin 0: validated, there is one
-  while (cylinder + 1 < engine.layout.cylinders && engine.layout.pin[static_cast<std::size_t>(cylinder)] != 0) ++cylinder;
+  while (cylinder + 1 < engine.layout.cylinders && engine.layout.pin[static_cast<std::size_t>(cylinder)] != 0)
+    ++cylinder;
   const Direction first_throw = direction(engine_deg + engine.layout.throw_deg(cylinder));
-  return {along_N * first_throw.cosine - across_N * first_throw.sine, along_N * first_throw.sine + across_N * first_throw.cosine};
+  return {along_N * first_throw.cosine - across_N * first_throw.sine,
+          along_N * first_throw.sine + across_N * first_throw.cosine};
 }
 
-Turning<double> reciprocating_order(const EngineDefinition& engine, int order) noexcept {
+RotatingVector<double> reciprocating_order(const EngineDefinition& engine, int order) noexcept {
   const Layout& layout = engine.layout;
   const double reciprocating = engine.masses.reciprocating_kg() * engine.crank.crank_radius_m;
   const double middle = middle_m(layout);
   const Part part = acceleration_part(engine.crank, order);
-  Turning<double> t{};
+  RotatingVector<double> t{};
   for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
     const Direction axis = direction(layout.bank_deg[k]);
     const Direction f = direction(order * layout.firing_deg[k]);
     // -P_j = m_j d2x/da2 w^2 along the cylinder axis away from the crankshaft, with a = A - firing.
     const double along_cos = reciprocating * (part.cosine * f.cosine - part.sine * f.sine);
     const double along_sin = reciprocating * (part.cosine * f.sine + part.sine * f.cosine);
-    add(t, layout.position_m[k] - middle, axis.cosine * along_cos, axis.cosine * along_sin, axis.sine * along_cos, axis.sine * along_sin);
+    add(t, layout.position_m[k] - middle, axis.cosine * along_cos, axis.cosine * along_sin, axis.sine * along_cos,
+        axis.sine * along_sin);
   }
   return t;
 }
@@ -141,20 +148,26 @@ Balance<double> balance_of(const EngineDefinition& engine) noexcept {
   for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) rods_on[layout.pin[k]] += 1;
   for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
     const double arm = layout.position_m[k] - middle;
-    // Centrifugal, along the throw at A + bank - firing: the big end in the cylinder's own plane, and its part of the pin.
+    // Centrifugal, along the throw at A + bank - firing: the big end in the cylinder's own plane, and its part of the
+    // pin.
     const Direction throw_at = direction(layout.throw_deg(static_cast<int>(k)));
-    const double kg_m = (engine.masses.rod_big_end_kg + engine.masses.crank_pin_equivalent_kg / rods_on[layout.pin[k]]) * r;
+    const double kg_m =
+        (engine.masses.rod_big_end_kg + engine.masses.crank_pin_equivalent_kg / rods_on[layout.pin[k]]) * r;
     add(b.rotating, arm, kg_m * throw_at.cosine, -kg_m * throw_at.sine, kg_m * throw_at.sine, kg_m * throw_at.cosine);
   }
   return b;
 }
 
 Wave wave_of(double cosine, double sine) noexcept {
-  return {square_root(cosine * cosine + sine * sine), elementary::atan2(sine, cosine) / kRadPerDeg};
+  return {square_root(cosine * cosine + sine * sine), elementary::atan2(sine, cosine) / detail::kRadPerDegree};
 }
 
-double peak_force_kg_m(const Turning<double>& t) noexcept { return peak(t.up_cos, t.up_sin, t.lateral_cos, t.lateral_sin); }
+double peak_force_kg_m(const RotatingVector<double>& t) noexcept {
+  return peak(t.up_cos, t.up_sin, t.lateral_cos, t.lateral_sin);
+}
 
-double peak_moment_kg_m2(const Turning<double>& t) noexcept { return peak(t.pitch_cos, t.pitch_sin, t.yaw_cos, t.yaw_sin); }
+double peak_moment_kg_m2(const RotatingVector<double>& t) noexcept {
+  return peak(t.pitch_cos, t.pitch_sin, t.yaw_cos, t.yaw_sin);
+}
 
 }  // namespace crankloop

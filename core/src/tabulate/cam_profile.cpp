@@ -1,5 +1,6 @@
 #include <crankloop/tabulate/cam_profile.hpp>
 
+#include <crankloop/phase.hpp>
 #include <crankloop/tabulate/elementary.hpp>
 
 #include "cam_smoothing.hpp"
@@ -7,11 +8,7 @@
 
 namespace crankloop {
 
-namespace {
-
-constexpr double kRadPerDeg = elementary::kPi / 180;
-
-}  // namespace
+namespace {}  // namespace
 
 CamLift LobeSpline::at(double phi_rad) const noexcept {
   const double knots = (phi_rad - first_rad) / knot_rad;
@@ -30,8 +27,8 @@ CamLift LobeSpline::at(double phi_rad) const noexcept {
 }
 
 void cam_coefficients(const double* exponents, int count, double* coefficients) noexcept {
-  // With C_0 = 1 for u^0, the conditions at u = 1 make sum C_i q(p_i) = 0 for every polynomial q of degree below `count`. Choosing the q
-  // that is zero at all exponents but 0 and p_i leaves one equation for C_i.
+  // With C_0 = 1 for u^0, the conditions at u = 1 make sum C_i q(p_i) = 0 for every polynomial q of degree below
+  // `count`. Choosing the q that is zero at all exponents but 0 and p_i leaves one equation for C_i.
   for (int i = 0; i < count; ++i) {
     double product = 1;
     for (int j = 0; j < count; ++j) {
@@ -58,7 +55,7 @@ CamLift CamProfile::at(double phi_rad) const noexcept {
 
 void CamProfile::init_polynomial(const Cam& cam) noexcept {
   max_lift_m_ = cam.max_lift_m;
-  half_angle_rad_ = cam.half_angle_deg * kRadPerDeg;
+  half_angle_rad_ = cam.half_angle_deg * detail::kRadPerDegree;
   opens_rad_ = -half_angle_rad_;
   closes_rad_ = half_angle_rad_;
   terms_ = cam.exponent_count;
@@ -85,7 +82,7 @@ Status CamProfile::init_table(const Cam& cam) noexcept {
   if (const Status refused = detail::smooth_cam(cam, spline_, residual_m_); !refused.ok()) return refused;
   // The smooth curve's own peak becomes phi = 0: rows are often a little off, and the rocker counts from full lift.
   const double peak_rad = detail::peak_of(spline_);
-  peak_deg_ = peak_rad / kRadPerDeg;
+  peak_deg_ = peak_rad / detail::kRadPerDegree;
   spline_.first_rad -= peak_rad;
   opens_rad_ = spline_.opens_rad();
   closes_rad_ = spline_.closes_rad();

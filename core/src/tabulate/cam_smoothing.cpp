@@ -1,15 +1,19 @@
-// Smoothing by a penalised spline (Eilers and Marx, Statistical Science 11 (1996) 89; Reinsch, Numerische Mathematik 10 (1967) 177):
-// weights c >= 0 that minimise
+// Smoothing by a penalised spline (Eilers and Marx, Statistical Science 11 (1996) 89; Reinsch, Numerische Mathematik 10
+// (1967) 177): weights c >= 0 that minimise
 //
 //     sum over rows (y(row) - lift)^2  +  stiffness * sum (third differences of c)^2
 //
-// with the largest stiffness that keeps every row within the residual allowed. Third differences stand for the jerk: what is made small is
-// what rounding and noise blow up. (Fourth differences left two to three times the error of y'' at the feet of the lobe.)
+// with the largest stiffness that keeps every row within the residual allowed. Third differences stand for the jerk:
+// what is made small is what rounding and noise blow up. (Fourth differences left two to three times the error of y''
+// at the feet of the lobe.)
 //
-//     weights       0 0 0 c c c c c c c c c c 0 0 0     The spline begins and ends with whole basis functions, so four derivatives
-//     lift          ______....--''''--....________      are zero there; c >= 0 keeps the lift from swinging below the base circle.
+//     weights       0 0 0 c c c c c c c c c c 0 0 0     The spline begins and ends with whole basis functions,
+//     lift          ______....--''''--....________      so four derivatives are zero there; c >= 0 keeps the lift from
+//                                                       swinging below the base circle.
 #include "cam_smoothing.hpp"
 
+#include <crankloop/assert.hpp>
+#include <crankloop/phase.hpp>
 #include <crankloop/tabulate/elementary.hpp>
 #include <crankloop/tick/one_instruction.hpp>
 
@@ -19,14 +23,14 @@ namespace crankloop::detail {
 
 namespace {
 
-constexpr double kRadPerDeg = elementary::kPi / 180;
-constexpr int kMost = LobeSpline::kMostWeights;
-constexpr int kFewestSegments = 160;         // about one a degree: also a coarse table is smoothed, not interpolated
-constexpr int kMostSegments = kMost + kBasis - 1;
-constexpr double kMarginDeg = 10;            // base circle to either side of the rows that rise, in which the lobe may begin
+constexpr int kMost = LobeSpline::kMaxWeights;
+constexpr int kFewestSegments = 160;  // about one a degree: also a coarse table is smoothed, not interpolated
+constexpr int kMaxSegments = kMost + kBasis - 1;
+constexpr double kMarginDeg = 10;  // base circle to either side of the rows that rise, in which the lobe may begin
 constexpr double kWidestLobeDeg = 350;
-constexpr double kLeastStiffness = 0.1;      // per row in a segment: halves a wave of four segments, so no spike follows a single row
-constexpr double kMostStiffness = 1e9;
+constexpr double kLeastStiffness =
+    0.1;  // per row in a segment: halves a wave of four segments, so no spike follows a single row
+constexpr double kMaxStiffness = 1e9;
 
 class Smoothing {
  public:
@@ -39,7 +43,9 @@ class Smoothing {
   [[nodiscard]] double least_stiffness() const noexcept { return least_stiffness_; }
 
  private:
-  [[nodiscard]] double knots(int row) const noexcept { return (cam_.points[row].cam_deg * kRadPerDeg - lobe_.first_rad) / lobe_.knot_rad; }
+  [[nodiscard]] double knots(int row) const noexcept {
+    return (cam_.points[row].cam_deg * kRadPerDegree - lobe_.first_rad) / lobe_.knot_rad;
+  }
   void solve(double stiffness) noexcept;
   [[nodiscard]] bool trim() noexcept;
 
@@ -47,7 +53,7 @@ class Smoothing {
   LobeSpline& lobe_;
   int weights_ = 0;
   double least_stiffness_ = 0;
-  double rows_[kMost][kBasis];    ///< normal equations: row i holds columns i to i + 5
+  double rows_[kMost][kBasis];  ///< normal equations: row i holds columns i to i + 5
   double right_[kMost];
   double factor_[kMost][kBasis];  ///< Cholesky factor, transposed
 };
@@ -64,8 +70,8 @@ Status Smoothing::place() noexcept {
   while (left > 0 && row[left].lift_m > cam_.smoothing_m) --left;
   int right = peak;
   while (right < last && row[right].lift_m > cam_.smoothing_m) ++right;
-  if (left == right || row[left].lift_m > cam_.smoothing_m) return {Reason::inconsistent, left, "cam.file"};
-  if (row[right].lift_m > cam_.smoothing_m) return {Reason::inconsistent, right, "cam.file"};
+  if (left == right || row[left].lift_m > cam_.smoothing_m) return refuse("cam.points", Reason::inconsistent, left);
+  if (row[right].lift_m > cam_.smoothing_m) return refuse("cam.points", Reason::inconsistent, right);
 
   double from = row[left].cam_deg - kMarginDeg;
   double to = row[right].cam_deg + kMarginDeg;
@@ -75,16 +81,16 @@ Status Smoothing::place() noexcept {
   }
   int segments = rows;
   if (segments < kFewestSegments) segments = kFewestSegments;
-  if (segments > kMostSegments) segments = kMostSegments;
+  if (segments > kMaxSegments) segments = kMaxSegments;
   // Where the table ends, the base circle goes on: three more segments let the lobe begin there as softly as elsewhere.
   const double beyond = 3 * (row[right].cam_deg - row[left].cam_deg) / (segments - 6);
   if (from < row[0].cam_deg - beyond) from = row[0].cam_deg - beyond;
   if (to > row[last].cam_deg + beyond) to = row[last].cam_deg + beyond;
-  if (to - from > kWidestLobeDeg) return {Reason::out_of_range, -1, "cam.file"};
+  if (to - from > kWidestLobeDeg) return refuse("cam.points", Reason::out_of_range);
   weights_ = segments - (kBasis - 1);
   least_stiffness_ = kLeastStiffness * rows / segments;
-  lobe_.first_rad = from * kRadPerDeg;
-  lobe_.knot_rad = (to - from) * kRadPerDeg / segments;
+  lobe_.first_rad = from * kRadPerDegree;
+  lobe_.knot_rad = (to - from) * kRadPerDegree / segments;
   return {};
 }
 
@@ -108,8 +114,10 @@ void Smoothing::gather() noexcept {
   }
 }
 
-/// The lobe's weights by Cholesky's method; O(weights). The matrix is positive definite because the differences reach across both ends.
+/// The lobe's weights by Cholesky's method; O(weights). The matrix is positive definite because the differences reach
+/// across both ends.
 void Smoothing::solve(double stiffness) noexcept {
+  CRANKLOOP_ASSERT(lobe_.begin >= 0 && lobe_.begin < lobe_.end && lobe_.end <= kMost);
   constexpr double kThirdDifferences[kBasis] = {20, -15, 6, -1, 0, 0};  // D'D of D = (1, -3, 3, -1)
   double* c = lobe_.c_m;
   const auto reach = [&](int i) { return i - (kBasis - 1) > lobe_.begin ? i - (kBasis - 1) : lobe_.begin; };
@@ -118,6 +126,7 @@ void Smoothing::solve(double stiffness) noexcept {
     for (int k = 0; k < kBasis && i + k < lobe_.end; ++k) {
       double sum = rows_[i][k] + stiffness * kThirdDifferences[k];
       for (int m = reach(i + k); m < i; ++m) sum -= factor_[m][i - m] * factor_[m][i + k - m];
+      CRANKLOOP_ASSERT(k != 0 || sum > 0);  // the matrix is positive definite
       factor_[i][k] = k == 0 ? square_root(sum) : sum / factor_[i][0];
     }
     double sum = right_[i];
@@ -131,8 +140,8 @@ void Smoothing::solve(double stiffness) noexcept {
   }
 }
 
-/// Takes the outermost weight that is not above 0 out of the lobe on either side of the peak, with those outside it. True if there was one.
-/// One at a time, because the next ones often recover.
+/// Takes the outermost weight that is not above 0 out of the lobe on either side of the peak, with those outside it.
+/// True if there was one. One at a time, because the next ones often recover.
 bool Smoothing::trim() noexcept {
   int peak = lobe_.begin;
   for (int i = lobe_.begin; i < lobe_.end; ++i) {
@@ -159,7 +168,7 @@ bool Smoothing::keeps_to_rows(double stiffness) noexcept {
 double Smoothing::residual_m() const noexcept {
   double largest = 0;
   for (int row = 0; row < cam_.point_count; ++row) {
-    const double off = cam_.points[row].lift_m - lobe_.at(cam_.points[row].cam_deg * kRadPerDeg).lift_m;
+    const double off = cam_.points[row].lift_m - lobe_.at(cam_.points[row].cam_deg * kRadPerDegree).lift_m;
     if (off > largest) largest = off;
     if (-off > largest) largest = -off;
   }
@@ -172,11 +181,12 @@ Status smooth_cam(const Cam& cam, LobeSpline& lobe, double& residual_m) noexcept
   Smoothing smoothing{cam, lobe};
   if (const Status refused = smoothing.place(); !refused.ok()) return refused;
   smoothing.gather();
-  // From above, because a loose spline follows the noise and a lobe that was trimmed to it may miss rows that a stiffer one keeps.
-  double low = kMostStiffness;
+  // From above, because a loose spline follows the noise and a lobe that was trimmed to it may miss rows that a stiffer
+  // one keeps.
+  double low = kMaxStiffness;
   double high = low;
   while (!smoothing.keeps_to_rows(low)) {
-    if (low < smoothing.least_stiffness()) return {Reason::no_solution, -1, "cam.smoothing"};
+    if (low < smoothing.least_stiffness()) return refuse("cam.smoothing_m", Reason::no_solution);
     high = low;
     low /= 4;
   }
@@ -184,7 +194,7 @@ Status smooth_cam(const Cam& cam, LobeSpline& lobe, double& residual_m) noexcept
     const double middle = square_root(low * high);
     (smoothing.keeps_to_rows(middle) ? low : high) = middle;
   }
-  if (!smoothing.keeps_to_rows(low)) return {Reason::no_solution, -1, "cam.smoothing"};
+  if (!smoothing.keeps_to_rows(low)) return refuse("cam.smoothing_m", Reason::no_solution);
   residual_m = smoothing.residual_m();
   return {};
 }

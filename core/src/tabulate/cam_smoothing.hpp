@@ -6,9 +6,10 @@
 
 namespace crankloop::detail {
 
-/// The smoothest lobe whose distance from every row is at most cam.smoothing_m, angles as in the table. `residual_m`: the largest distance.
-/// Refuses a table without a lobe that begins and ends on the base circle (inconsistent "cam.file", the row), a lobe of nearly a turn
-/// (out_of_range "cam.file"), and a residual that no lobe keeps (no_solution "cam.smoothing"). 27 kB of stack, some milliseconds.
+/// The smoothest lobe whose distance from every row is at most cam.smoothing_m, angles as in the table. `residual_m`:
+/// the largest distance. Refuses a table without a lobe that begins and ends on the base circle (inconsistent
+/// "cam.points", the row), a lobe of nearly a turn (out_of_range "cam.points"), and a residual that no lobe keeps
+/// (no_solution "cam.smoothing_m"). 27 kB of stack, some milliseconds.
 Status smooth_cam(const Cam& cam, LobeSpline& lobe, double& residual_m) noexcept;
 
 /// Angle of largest lift.

@@ -14,7 +14,8 @@ namespace {
   double sum = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(engine.layout.cylinders); ++k) {
     const Pose<double> p = exact_pose(engine.crank, engine_rad - engine.layout.firing_deg[k] * kRadPerDegree);
-    sum += engine.masses.reciprocating_kg() * p.slope_m * p.slope_m + engine.masses.rod_inertia_correction_kg_m2 * p.rod_slope * p.rod_slope;
+    sum += engine.masses.reciprocating_kg() * p.slope_m * p.slope_m +
+           engine.masses.rod_inertia_correction_kg_m2 * p.rod_slope * p.rod_slope;
   }
   return sum;
 }
@@ -43,20 +44,22 @@ double speed_limit_rad_s(double tick_s) noexcept {
 template <class Real>
 CrankDynamics<Real> crank_dynamics_of(const EngineDefinition& engine, const TickOptions& options) noexcept {
   const Masses& masses = engine.masses;
-  const Load& load = engine.load;
+  const DrivenMachine& machine = engine.machine;
   const Friction& friction = engine.friction;
   const Starter& starter = engine.starter;
   const double radius = engine.crank.crank_radius_m;
   const double cylinders = engine.layout.cylinders;
-  const double turning = masses.crank_inertia_kg_m2 + load.inertia_kg_m2 + cylinders * masses.rod_big_end_kg * radius * radius;
-  // Work of a mean effective pressure over a cycle is the pressure times the swept volume; its mean torque is that work / (4 pi).
+  const double turning =
+      masses.crank_inertia_kg_m2 + machine.inertia_kg_m2 + cylinders * masses.rod_big_end_kg * radius * radius;
+  // Work of a mean effective pressure over a cycle is the pressure times the swept volume; its mean torque is that work
+  // / (4 pi).
   const double per_Pa = cylinders * swept_volume_m3(engine.crank) / kRadPerCycle;
   const auto to_real = [](double x) { return static_cast<Real>(x); };
   return {to_real(turning),
           to_real(least_inertia_kg_m2(engine, turning)),
-          to_real(load.constant_Nm + friction.constant_Pa * per_Pa),
-          to_real(load.linear_Nm_s + friction.linear_Pa_s * per_Pa),
-          to_real(load.quadratic_Nm_s2 + friction.quadratic_Pa_s2 * per_Pa),
+          to_real(machine.constant_Nm + friction.constant_Pa * per_Pa),
+          to_real(machine.linear_Nm_s + friction.linear_Pa_s * per_Pa),
+          to_real(machine.quadratic_Nm_s2 + friction.quadratic_Pa_s2 * per_Pa),
           to_real(starter.stall_Nm),
           to_real(starter.stall_Nm > 0 ? starter.stall_Nm / starter.no_load_rad_s : 0),
           to_real(2 * speed_limit_rad_s(options.tick_s) / options.tick_s)};

@@ -1,6 +1,7 @@
 // What moves the crank besides gas and the pistons' masses, as the tick reads it.
 //
-// What belongs here: the numbers of CrankDynamics from a definition. What does not: curves over the angle (tabulate.cpp, gas_curves.hpp).
+// What belongs here: the numbers of CrankDynamics from a definition. What does not: curves over the angle
+// (tabulate.cpp, gas_curves.hpp).
 #pragma once
 
 #include <crankloop/tabulate/tabulate.hpp>
@@ -12,6 +13,7 @@ namespace crankloop::detail {
 
 /// `engine` and `options` are valid.
 template <class Real>
-[[nodiscard]] CrankDynamics<Real> crank_dynamics_of(const EngineDefinition& engine, const TickOptions& options) noexcept;
+[[nodiscard]] CrankDynamics<Real> crank_dynamics_of(const EngineDefinition& engine,
+                                                    const TickOptions& options) noexcept;
 
 }  // namespace crankloop::detail

@@ -1,16 +1,17 @@
 // From a function of the crank angle to the segments of a curve.
 //
-// What belongs here: interpolation, rounding, integer bases. What does not: which function (tabulate.cpp, gas_curves.cpp).
+// What belongs here: interpolation, rounding, integer bases. What does not: which function (tabulate.cpp,
+// gas_curves.cpp).
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
+#include <crankloop/assert.hpp>
 #include <crankloop/tables/curve.hpp>
 
 namespace crankloop::detail {
 
-inline constexpr double kRadPerDegree = 0x1.1df46a2529d39p-6;
 inline constexpr double kRadPerCycle = 0x1.921fb54442d18p+3;
 
 /// Coefficients of a polynomial of degree N - 1 in u.
@@ -22,6 +23,7 @@ struct Polynomial {
 /// The polynomial through N points (Newton's divided differences, multiplied out).
 template <std::size_t N>
 [[nodiscard]] Polynomial<N> through(const double (&u)[N], const double (&y)[N]) noexcept {
+  for (std::size_t i = 1; i < N; ++i) CRANKLOOP_ASSERT(u[i] > u[i - 1]);
   double divided[N];
   for (std::size_t i = 0; i < N; ++i) divided[i] = y[i];
   for (std::size_t order = 1; order < N; ++order) {
@@ -37,9 +39,9 @@ template <std::size_t N>
 
 /// Where a segment is interpolated, as parts of its half width from its middle.
 ///
-/// Cubic: Chebyshev's nodes; the error is the same at both ends, so neighbours meet. Quadratic: Chebyshev's +-0.866 would leave an error
-/// of opposite sign at the ends, and twice the error as a step from degree to degree; +-0.922 makes the inner error a fifth larger and
-/// the step three fifths of that (docs/decisions/0003-curves.md).
+/// Cubic: Chebyshev's nodes; the error is the same at both ends, so neighbours meet. Quadratic: Chebyshev's +-0.866
+/// would leave an error of opposite sign at the ends, and twice the error as a step from degree to degree; +-0.922
+/// makes the inner error a fifth larger and the step three fifths of that (docs/decisions/0003-curves.md).
 template <class Real>
 struct Nodes;
 template <>
@@ -48,7 +50,8 @@ struct Nodes<float> {
 };
 template <>
 struct Nodes<double> {
-  static constexpr double at[4] = {-0.92387953251128674, -0.38268343236508978, 0.38268343236508978, 0.92387953251128674};
+  static constexpr double at[4] = {-0.92387953251128674, -0.38268343236508978, 0.38268343236508978,
+                                   0.92387953251128674};
 };
 
 template <class Real>
@@ -88,7 +91,8 @@ template <class Real, class Function>
 /// Fills a curve from f(angle in rad) over a turn; `part` is where a degree's segment lies in its record.
 template <class Record, class Real, class Function>
 void fill(Revolution<Record>& curve, Segment<Real> Record::*part, const Function& f) noexcept {
-  for (int degree = 0; degree < kDegreesPerTurn; ++degree) curve.at[degree].*part = rounded<Real>(fitted_at<Real>(degree, f));
+  for (int degree = 0; degree < kDegreesPerTurn; ++degree)
+    curve.at[degree].*part = rounded<Real>(fitted_at<Real>(degree, f));
 }
 template <class Real, class Function>
 void fill(Curve<Real>& curve, const Function& f) noexcept {
@@ -97,17 +101,20 @@ void fill(Curve<Real>& curve, const Function& f) noexcept {
 
 /// The same of f, and of its known antiderivative F(angle).
 template <class Record, class Real, class Function, class Antiderivative>
-void fill(Revolution<Record>& curve, IntegralSegment<Real> Record::*integral, Segment<Real> Record::*part, const Function& f, const Antiderivative& F) noexcept {
+void fill(Revolution<Record>& curve, IntegralSegment<Real> Record::*integral, Segment<Real> Record::*part,
+          const Function& f, const Antiderivative& F) noexcept {
   for (int degree = 0; degree < kDegreesPerTurn; ++degree) {
     const auto p = fitted_at<Real>(degree, f);
     curve.at[degree].*part = rounded<Real>(p);
     auto& c = (curve.at[degree].*integral).c;
     c[0] = static_cast<Real>(F(degree * kRadPerDegree));
-    for (std::size_t i = 0; i < kCoefficients<Real>; ++i) c[i + 1] = static_cast<Real>(p.c[i] * kRadPerDegree / static_cast<double>(i + 1));
+    for (std::size_t i = 0; i < kCoefficients<Real>; ++i)
+      c[i + 1] = static_cast<Real>(p.c[i] * kRadPerDegree / static_cast<double>(i + 1));
   }
 }
 
-/// The unit in which float counts integrals up to `range` in a signed 32-bit count: a power of two, so that multiplying by it is exact. double keeps the integral itself.
+/// The unit in which float counts integrals up to `range` in a signed 32-bit count: a power of two, so that multiplying
+/// by it is exact. double keeps the integral itself.
 template <class Real>
 [[nodiscard]] double quantum_for(double range) noexcept {
   if (sizeof(Real) > 4) return 1;
@@ -121,6 +128,7 @@ template <class Real>
 [[nodiscard]] IntegralBase<Real> base_of(double integral, double quantum) noexcept {
   if constexpr (sizeof(Real) == 4) {
     const double units = integral / quantum;
+    CRANKLOOP_ASSERT(units > -0x1p31 && units < 0x1p31 - 1);
     return static_cast<std::uint32_t>(static_cast<std::int32_t>(units < 0 ? units - 0.5 : units + 0.5));
   } else {
     return integral;

@@ -8,7 +8,8 @@
 namespace crankloop::detail {
 
 /// `group_of` each cylinder, all less than `groups`.
-[[nodiscard]] inline CylinderGroups grouped(const std::uint8_t (&group_of)[kMaxCylinders], std::uint32_t cylinders, std::uint32_t groups) noexcept {
+[[nodiscard]] inline CylinderGroups grouped(const std::uint8_t (&group_of)[kMaxCylinders], std::uint32_t cylinders,
+                                            std::uint32_t groups) noexcept {
   CylinderGroups by{};
   std::uint8_t n = 0;
   for (std::uint32_t g = 0; g < groups; ++g) {

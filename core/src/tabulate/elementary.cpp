@@ -1,12 +1,13 @@
 // How the elementary functions are made.
 //
-// Speed hardly counts here (set-up time; the last two are for what is asked millions of times); sameness and brevity do. So there are only five series: sine and cosine,
-// atan, exp, and atanh for log. Each is a plain Taylor polynomial, whose coefficients are visibly right and whose
-// first dropped term is stated. What rounding would take away where it shows in the result is carried in a second
-// double: hence little over 0.5 ulp.
+// Speed hardly counts here (set-up time; the last two are for what is asked millions of times); sameness and brevity
+// do. So there are only five series: sine and cosine, atan, exp, and atanh for log. Each is a plain Taylor polynomial,
+// whose coefficients are visibly right and whose first dropped term is stated. What rounding would take away where it
+// shows in the result is carried in a second double: hence little over 0.5 ulp.
 //
 // Every operation is + - * / or sqrt, which IEEE 754 rounds in one way only (to nearest), as long as the compiler
 // neither fuses (-ffp-contract=off, a house flag) nor reorders nor widens them (build_check.hpp).
+#include <crankloop/assert.hpp>
 #include <crankloop/tabulate/elementary.hpp>
 
 #include <cmath>
@@ -16,6 +17,8 @@
 #include <limits>
 
 #include <crankloop/build_check.hpp>
+
+#include "double_double.hpp"
 
 namespace crankloop::elementary {
 namespace {
@@ -48,68 +51,9 @@ double magnitude(double x) { return from_bits(bits_of(x) & ~kSignBit); }
 double flip_sign_if(bool flip, double x) { return flip ? -x : x; }
 
 /// 2^exponent, -1022 <= exponent <= 1023.
-double power_of_two(int exponent) { return from_bits(static_cast<std::uint64_t>(exponent + 1023) << 52); }
-
-// ---- A number in two doubles ----------------------------------------------------------------------------------------
-
-/// The unevaluated sum hi + lo, where hi is that sum rounded to double. Operations on pairs are right to about
-/// 2^-102.
-struct Pair {
-  double hi;
-  double lo;
-};
-
-/// a + b exactly, for |a| >= |b| or a == 0 (Dekker).
-[[gnu::always_inline]] inline Pair quick_sum(double a, double b) {
-  const double s = a + b;
-  return {s, b - (s - a)};
-}
-
-/// a + b exactly (Knuth).
-[[gnu::always_inline]] inline Pair sum(double a, double b) {
-  const double s = a + b;
-  const double b_in_s = s - a;
-  return {s, (a - (s - b_in_s)) + (b - b_in_s)};
-}
-
-/// a b exactly, from halves of 26 bits (Dekker, Veltkamp): for |a|, |b| < 2^990 and the last bit of a b above
-/// 2^-1074.
-[[gnu::always_inline]] inline Pair product(double a, double b) {
-  constexpr double kSplitter = 134217729.0;  // 2^27 + 1
-  const double a_high = kSplitter * a - (kSplitter * a - a);
-  const double b_high = kSplitter * b - (kSplitter * b - b);
-  const double a_low = a - a_high;
-  const double b_low = b - b_high;
-  const double p = a * b;
-  return {p, ((a_high * b_high - p) + a_high * b_low + a_low * b_high) + a_low * b_low};
-}
-
-[[gnu::always_inline]] inline Pair add(Pair a, Pair b) {
-  const Pair high = sum(a.hi, b.hi);
-  const Pair low = sum(a.lo, b.lo);
-  const Pair s = quick_sum(high.hi, high.lo + low.hi);
-  return quick_sum(s.hi, s.lo + low.lo);
-}
-
-[[gnu::always_inline]] inline Pair subtract(Pair a, Pair b) { return add(a, {-b.hi, -b.lo}); }
-
-[[gnu::always_inline]] inline Pair multiply(Pair a, Pair b) {
-  const Pair p = product(a.hi, b.hi);
-  return quick_sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
-}
-
-[[gnu::always_inline]] inline Pair divide(Pair a, Pair b) {
-  const double q = a.hi / b.hi;
-  const Pair p = product(q, b.hi);
-  const double rest = ((a.hi - p.hi) - p.lo) + (a.lo - q * b.lo);
-  return quick_sum(q, rest / b.hi);
-}
-
-Pair square_root(Pair a) {
-  if (!(a.hi > 0.0)) return {0.0, 0.0};
-  const double root = std::sqrt(a.hi);
-  const Pair square = product(root, root);
-  return quick_sum(root, (((a.hi - square.hi) - square.lo) + a.lo) / (root + root));
+double power_of_two(int exponent) {
+  CRANKLOOP_ASSERT(exponent > -1023 && exponent < 1024);
+  return from_bits(static_cast<std::uint64_t>(exponent + 1023) << 52);
 }
 
 /// c[0] + c[1] x + c[2] x^2 + ...
@@ -138,6 +82,7 @@ struct Reduced {
 /// No double up to 2^31 is nearer than 2^-60.5 to a multiple of pi/2 (all were tried: one beside 29 pi/2 is nearest).
 /// pi/2 to 163 bits, in three doubles, leaves the angle wrong by less than 2^-129, so even there by 2^-68 of itself.
 Reduced reduce(double x) {
+  CRANKLOOP_ASSERT(x >= 0);
   if (x > kLargestAngle_rad) return {{0.0, 0.0}, 0};
   const auto quarter_turns = static_cast<std::int64_t>(x * kTwoOverPi + 0.5);
   const auto n = static_cast<double>(quarter_turns);
@@ -148,7 +93,8 @@ Reduced reduce(double x) {
   return {sum(b.hi, ((a.lo + b.lo) - second.lo) - n * kHalfPiRest), static_cast<int>(quarter_turns & 3)};
 }
 
-/// Of an angle within pi/4 and its square. Taylor to r^17; the first dropped term, r^19/19!, is below 2^-62 of the sine. r - r^3/6 is carried in full.
+/// Of an angle within pi/4 and its square. Taylor to r^17; the first dropped term, r^19/19!, is below 2^-62 of the
+/// sine. r - r^3/6 is carried in full.
 Pair sine_series(Pair r, Pair square) {
   static constexpr double kTerms[] = {
       1.0 / 120.0,        -1.0 / 5040.0,          1.0 / 362880.0,         -1.0 / 39916800.0,
@@ -159,7 +105,8 @@ Pair sine_series(Pair r, Pair square) {
   return quick_sum(head.hi, head.lo + tail);
 }
 
-/// Of the angle's square. Taylor to r^18; the first dropped term, r^20/20!, is below 2^-67 of the cosine. 1 - r^2/2 is carried in full.
+/// Of the angle's square. Taylor to r^18; the first dropped term, r^20/20!, is below 2^-67 of the cosine. 1 - r^2/2 is
+/// carried in full.
 Pair cosine_series(Pair square) {
   static constexpr double kTerms[] = {
       1.0 / 24.0,        -1.0 / 720.0,         1.0 / 40320.0,          -1.0 / 3628800.0,
@@ -224,6 +171,7 @@ constexpr double kOneOverLn2 = 0x1.71547652b82fep+0;
 
 /// e^(x.hi + x.lo) for any x.hi but NaN.
 double exponential(Pair x) {
+  CRANKLOOP_ASSERT(!is_nan(x.hi));
   if (x.hi > 710.0) return kInfinity;
   if (x.hi < -746.0) return 0.0;
   const int k = static_cast<int>(x.hi * kOneOverLn2 + (x.hi < 0.0 ? -0.5 : 0.5));
@@ -243,6 +191,7 @@ double exponential(Pair x) {
 
 /// ln x for finite x > 0, to 2^-63 of its value.
 Pair logarithm(double x) {
+  CRANKLOOP_ASSERT(x > 0 && x < kInfinity);
   int exponent = 0;
   if (x < 0x1p-1022) {  // subnormal: its exponent bits say nothing
     x *= 0x1p+54;
@@ -371,7 +320,8 @@ FixedPower::FixedPower(double power) noexcept {
 
 double FixedPower::operator()(double x) const noexcept {
   if (!(x >= 1.0 && x < 128.0)) return kNaN;
-  // x = 2^octave c (1 + t), c the middle of a part of [1, 2), |t| <= 1/64. Binomial series: its first dropped term, of t^9, is below 2^-54.
+  // x = 2^octave c (1 + t), c the middle of a part of [1, 2), |t| <= 1/64. Binomial series: its first dropped term, of
+  // t^9, is below 2^-54.
   int octave = 0;
   for (; x >= 2.0; x *= 0.5) ++octave;
   const int part = static_cast<int>((x - 1.0) * kParts);

@@ -7,11 +7,15 @@
 
 namespace crankloop::detail {
 
-static_assert(kListsEveryField<Crank> && kListsEveryField<Masses> && kListsEveryField<Layout> && kListsEveryField<WiebeDiagram> &&
-                  kListsEveryField<Pressure> && kListsEveryField<Cam> && kListsEveryField<Rocker> && kListsEveryField<Valve> &&
-                  kListsEveryField<ValveTrain> && kListsEveryField<Friction> && kListsEveryField<Load> && kListsEveryField<Starter>,
-              "a field that its struct's each_field() lacks would be missing in the tables' fingerprint");
-static_assert(values_listed<EngineDefinition>() + 1 + kMaxTriggerWheels == values_taken<EngineDefinition>(), "all but the trigger wheels are listed");
+static_assert(kListsEveryField<Crank> && kListsEveryField<Masses> && kListsEveryField<Layout> &&
+                  kListsEveryField<WiebeDiagram> && kListsEveryField<Pressure> && kListsEveryField<Cam> &&
+                  kListsEveryField<Rocker> && kListsEveryField<Valve> && kListsEveryField<ValveTrain> &&
+                  kListsEveryField<PortOfTrain> && kListsEveryField<Gas> && kListsEveryField<Friction> &&
+                  kListsEveryField<DrivenMachine> && kListsEveryField<Starter> && kListsEveryField<ToothGap> &&
+                  kListsEveryField<TriggerWheel>,
+              "a field that its struct's each_field() lacks would be missing in the tables' fingerprint, or in C");
+static_assert(values_listed<EngineDefinition>() + 2 + kMaxTriggerWheels == values_taken<EngineDefinition>(),
+              "all but the gas and the trigger wheels are listed");
 
 namespace {
 
@@ -39,9 +43,10 @@ struct AddRead {
 }  // namespace
 
 std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& options, const TableReport& report,
-                                           int scalar_bytes) noexcept {
+                             int scalar_bytes) noexcept {
   // A part that is added to the definition has to be named here, and then to count.
-  const auto& [crank, masses, layout, pressure, train_count, trains, friction, load, starter, trigger_count, triggers] = engine;
+  const auto& [crank, masses, layout, pressure, train_count, trains, friction, load, starter, trigger_count, triggers,
+               gas] = engine;
   Fingerprint f;
   AddRead add{f};
   f.add(kTableFormat);
@@ -53,12 +58,14 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
   add(1, "", masses);
   f.add(layout.cylinders);
   for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
-    Layout::each_field([&f, k](int, const char*, const auto& field) {
-      if constexpr (!std::is_arithmetic_v<std::remove_reference_t<decltype(field)>>) f.add(+field[k]);
-    }, layout);
+    Layout::each_field(
+        [&f, k](int, const char*, const auto& field) {
+          if constexpr (!std::is_arithmetic_v<std::remove_reference_t<decltype(field)>>) f.add(+field[k]);
+        },
+        layout);
   }
   Pressure diagram = pressure;
-  if (diagram.source == PressureSource::none) diagram.point_count = 0;
+  if (diagram.source == PressureSource::none || diagram.source == PressureSource::gas) diagram.point_count = 0;
   diagram.wiebe.motored_expansion_exponent = diagram.wiebe.motored_exponent();
   add(1, "", diagram);
   if (train_count > 0) {
@@ -71,12 +78,17 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
   bool any = false;
   const auto look = [&any](int, const char*, double x) { any = any || x != 0; };
   Friction::each_field(look, friction);
-  Load::each_field(look, load);
+  DrivenMachine::each_field(look, load);
   Starter::each_field(look, starter);
   if (any) {
     add(1, "", friction);
     add(1, "", load);
     add(1, "", starter);
+  }
+  if (pressure.source == PressureSource::gas) {
+    Gas read = gas;
+    for (int t = train_count; t < kMaxTrains; ++t) read.ports[t] = {};
+    add(1, "", read);
   }
   return f.value();
 }

@@ -33,9 +33,10 @@ class Fingerprint {
 
 inline constexpr int kTableFormat = 7;  ///< counts up whenever the same definition gives other tables
 
-/// Same definition, tick, stepping of the valves, scalar, accuracy of the gas grid and table format: same fingerprint, whichever sections are built and wherever.
-/// Trigger wheels do not count: a state holds nothing of them, so it goes on with others.
-[[nodiscard]] std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& options, const TableReport& report,
-                                           int scalar_bytes) noexcept;
+/// Same definition, tick, stepping of the valves, scalar, accuracy of the gas grid and table format: same fingerprint,
+/// whichever sections are built and wherever. Trigger wheels do not count: a state holds nothing of them, so it goes on
+/// with others.
+[[nodiscard]] std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& options,
+                                           const TableReport& report, int scalar_bytes) noexcept;
 
 }  // namespace crankloop::detail

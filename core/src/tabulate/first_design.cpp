@@ -21,9 +21,12 @@ constexpr Row kTractor{{2.0, 2.2}, {2.3, 2.5}, {0.26, 0.30}, {0.30, 0.34}};
 
 [[nodiscard]] const Row& row_for(EngineKind kind, double speed_rpm) noexcept {
   switch (kind) {
-    case EngineKind::spark_ignition: return speed_rpm < 4500 ? kSparkSlow : kSparkFast;
-    case EngineKind::diesel: return speed_rpm < 3000 ? kDieselSlow : kDieselFast;
-    case EngineKind::tractor_diesel: break;
+    case EngineKind::spark_ignition:
+      return speed_rpm < 4500 ? kSparkSlow : kSparkFast;
+    case EngineKind::diesel:
+      return speed_rpm < 3000 ? kDieselSlow : kDieselFast;
+    case EngineKind::tractor_diesel:
+      break;
   }
   return kTractor;
 }

@@ -4,141 +4,28 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <crankloop/tabulate/elementary.hpp>
-#include <crankloop/tabulate/mechanism.hpp>
-
 #include "curve_fit.hpp"
+#include "gas_quantities.hpp"
 
 namespace crankloop::detail {
 namespace {
 
 constexpr std::size_t kDivisionCount = 5;
-constexpr int kDivisions[kDivisionCount] = {1, 2, 5, 10, 20};  // of a degree; 0.1 deg data has its points on the borders of 10 and 20
-constexpr int kFinest = kDivisions[kDivisionCount - 1];
+constexpr int kDivisions[kDivisionCount] = {
+    1, 2, 5, 10, 20};  // of a degree; 0.1 deg data has its points on the borders of 10 and 20
+static_assert(kFinest == kDivisions[kDivisionCount - 1]);
 constexpr double kTolerance = 1e-5;  // of the peak pressure, and of the torque that it has on the crank radius
-constexpr int kMostDoublings = 20;   // of the tolerance: beyond the peak pressure, so one segment a degree
+constexpr int kMaxDoublings = 20;    // of the tolerance: beyond the peak pressure, so one segment a degree
 
 [[nodiscard]] double size(double x) noexcept { return x < 0 ? -x : x; }
 [[nodiscard]] double larger(double a, double b) noexcept { return a < b ? b : a; }
-
-/// What the curves that share a grid are at one angle: pressures in Pa or torques in Nm, in this order everywhere.
-enum Part { kFull, kMotored, kHeat };
-constexpr int kParts = 3;
-using AllParts = std::array<double, kParts>;
-
-constexpr std::size_t kPressurePlaces = 5;  // of a segment: ends and quarters
-
-/// Places within one degree, as parts of it, and what is found there.
-struct Places {
-  static constexpr std::size_t kMost = kFinest * kPressurePlaces;
-  std::size_t count = 0;
-  double at[kMost];
-  AllParts found[kMost];
-
-  void add(double part_of_degree) noexcept { at[count++] = part_of_degree; }
-};
-
-/// By Taylor's series: the first dropped terms are below 1e-18.
-[[nodiscard]] elementary::SinCos sin_cos_within_a_degree(double part_of_degree) noexcept {
-  const double a = part_of_degree * kRadPerDegree;
-  const double x = a * a;
-  return {a * (1 - x / 6 * (1 - x / 20 * (1 - x / 42))), 1 - x / 2 * (1 - x / 12 * (1 - x / 30))};
-}
-[[nodiscard]] elementary::SinCos sin_cos_of_sum(const elementary::SinCos& a, const elementary::SinCos& b) noexcept {
-  return {a.sin * b.cos + a.cos * b.sin, a.cos * b.cos - a.sin * b.sin};
-}
-
-/// A cylinder's pressure over its own crank degrees.
-class CylinderPressure {
- public:
-  explicit CylinderPressure(const IndicatorDiagram& diagram) noexcept : diagram_{diagram} {}
-
-  void find(int degree, Places& places) const noexcept {
-    for (std::size_t i = 0; i < places.count; ++i) {
-      const IndicatorDiagram::Pressures p = diagram_.pressures(degree + places.at[i]);
-      places.found[i] = {p.full_Pa, p.motored_Pa, p.heat_Pa};
-    }
-  }
-  [[nodiscard]] static int period_deg() noexcept { return kDegreesPerCycle; }
-
- private:
-  const IndicatorDiagram& diagram_;
-};
-
-/// Gas torque of all cylinders over engine degrees.
-class EngineTorque {
- public:
-  EngineTorque(const EngineDefinition& engine, const IndicatorDiagram& diagram) noexcept
-      : engine_{engine}, diagram_{diagram}, stroke_{engine.crank}, area_m2_{bore_area_m2(engine.crank)} {
-    for (std::size_t k = 0; k < static_cast<std::size_t>(engine.layout.cylinders); ++k) {
-      phases_[k] = elementary::sin_cos(-engine.layout.firing_deg[k] * kRadPerDegree);
-    }
-  }
-
-  /// Cylinder by cylinder, so that each passes the degree from row to row. No sine is worked out for a place of a cylinder: they are sums.
-  void find(int degree, Places& places) const noexcept {
-    const elementary::SinCos start = elementary::sin_cos(degree * kRadPerDegree);
-    elementary::SinCos engine_angles[Places::kMost];
-    for (std::size_t i = 0; i < places.count; ++i) {
-      engine_angles[i] = sin_cos_of_sum(start, sin_cos_within_a_degree(places.at[i]));
-      places.found[i] = {};
-    }
-    const double back_Pa = engine_.pressure.crankcase_Pa;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(engine_.layout.cylinders); ++k) {
-      double own_deg = degree - engine_.layout.firing_deg[k];
-      if (own_deg < 0) own_deg += kDegreesPerCycle;
-      for (std::size_t i = 0; i < places.count; ++i) {
-        const auto [displacement_m, slope_m] = stroke_.at(sin_cos_of_sum(engine_angles[i], phases_[k]));
-        const IndicatorDiagram::Pressures p = diagram_.pressures(own_deg + places.at[i], displacement_m);
-        const double lever_m3 = area_m2_ * slope_m;
-        AllParts& sum = places.found[i];
-        sum[kFull] += (p.full_Pa - back_Pa) * lever_m3;
-        sum[kMotored] += (p.motored_Pa - back_Pa) * lever_m3;
-        sum[kHeat] += p.heat_Pa * lever_m3;  // the heat comes on top of the motored pressure
-      }
-    }
-  }
-
-  /// Whole degrees after which the torque repeats, because each cylinder then stands where another stood: 720 / cylinders of an evenly firing
-  /// engine, if that is a whole number.
-  [[nodiscard]] int period_deg() const noexcept {
-    for (int deg = 1; deg < kDegreesPerCycle; ++deg) {
-      if (kDegreesPerCycle % deg == 0 && repeats_after(deg)) return deg;
-    }
-    return kDegreesPerCycle;
-  }
-
-  /// Of a pressure on one piston, with the crank radius as its lever.
-  [[nodiscard]] double scale_Nm(double pressure_Pa) const noexcept { return pressure_Pa * area_m2_ * engine_.crank.crank_radius_m; }
-
- private:
-  [[nodiscard]] int firing_at(double deg) const noexcept {
-    int count = 0;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(engine_.layout.cylinders); ++k) count += engine_.layout.firing_deg[k] == deg ? 1 : 0;
-    return count;
-  }
-  [[nodiscard]] bool repeats_after(int deg) const noexcept {
-    for (std::size_t k = 0; k < static_cast<std::size_t>(engine_.layout.cylinders); ++k) {
-      const double here = engine_.layout.firing_deg[k];
-      const double there = here + deg < kDegreesPerCycle ? here + deg : here + deg - kDegreesPerCycle;
-      if (firing_at(there) != firing_at(here)) return false;
-    }
-    return true;
-  }
-
-  const EngineDefinition& engine_;
-  const IndicatorDiagram& diagram_;
-  ExactStroke stroke_;
-  double area_m2_;
-  elementary::SinCos phases_[kMaxCylinders];  ///< of each cylinder behind the engine
-};
 
 /// How a quantity becomes segments: from its values at which places of a segment, and by what polynomial.
 template <class Real, class Quantity>
 struct Fit;
 
-/// A pressure goes through both ends, so that the curve has no steps, with the curvature that meets the middle, limited to what keeps the
-/// segment monotone where the diagram is: no overshoot between given points.
+/// A pressure goes through both ends, so that the curve has no steps, with the curvature that meets the middle, limited
+/// to what keeps the segment monotone where the diagram is: no overshoot between given points.
 template <class Real>
 struct Fit<Real, CylinderPressure> {
   static constexpr std::size_t kPlaces = kPressurePlaces;
@@ -148,7 +35,8 @@ struct Fit<Real, CylinderPressure> {
     const double places[kPlaces] = {from, from + 0.25 * (to - from), (from + to) / 2, from + 0.75 * (to - from), to};
     return places[i];
   }
-  [[nodiscard]] static Polynomial<kCoefficients<Real>> fitted(const double (&places)[kPlaces], const double (&values)[kPlaces]) noexcept {
+  [[nodiscard]] static Polynomial<kCoefficients<Real>> fitted(const double (&places)[kPlaces],
+                                                              const double (&values)[kPlaces]) noexcept {
     const double from = places[0];
     const double to = places[kPlaces - 1];
     const auto [start, quarter, middle, three_quarters, end] = values;
@@ -157,8 +45,8 @@ struct Fit<Real, CylinderPressure> {
     const double most = size(rise);
     const double sign = rise < 0 ? -1 : 1;
     const auto not_falling = [sign](double a, double b) { return sign * b >= sign * a; };
-    const bool monotone = not_falling(start, quarter) && not_falling(quarter, middle) && not_falling(middle, three_quarters) &&
-                          not_falling(three_quarters, end);
+    const bool monotone = not_falling(start, quarter) && not_falling(quarter, middle) &&
+                          not_falling(middle, three_quarters) && not_falling(three_quarters, end);
     if (monotone && size(bulge) > most) bulge = bulge < 0 ? -most : most;
     const double scale = 1 / (to - from);
     const double linear = (rise + bulge) * scale;
@@ -174,10 +62,12 @@ struct Fit<Real, CylinderPressure> {
 template <class Real>
 struct Fit<Real, EngineTorque> {
   static constexpr std::size_t kPlaces = kCoefficients<Real>;
-  static constexpr int kSamplesPerFinest = sizeof(Real) > 4 ? 2 : 3;  // a cubic is off most at its ends and in the middle, a quadratic at thirds
+  static constexpr int kSamplesPerFinest =
+      sizeof(Real) > 4 ? 2 : 3;  // a cubic is off most at its ends and in the middle, a quadratic at thirds
 
   [[nodiscard]] static double place(std::size_t i, double from, double to) noexcept { return node<Real>(i, from, to); }
-  [[nodiscard]] static Polynomial<kCoefficients<Real>> fitted(const double (&places)[kPlaces], const double (&values)[kPlaces]) noexcept {
+  [[nodiscard]] static Polynomial<kCoefficients<Real>> fitted(const double (&places)[kPlaces],
+                                                              const double (&values)[kPlaces]) noexcept {
     return through(places, values);
   }
 };
@@ -194,7 +84,8 @@ template <class Real, class Quantity>
   using F = Fit<Real, Quantity>;
   Places places;
   for (int s = 0; s < segments; ++s) {
-    for (std::size_t i = 0; i < F::kPlaces; ++i) places.add(F::place(i, static_cast<double>(s) / segments, static_cast<double>(s + 1) / segments));
+    for (std::size_t i = 0; i < F::kPlaces; ++i)
+      places.add(F::place(i, static_cast<double>(s) / segments, static_cast<double>(s + 1) / segments));
   }
   quantity.find(degree, places);
   Degree<Real> result;
@@ -228,7 +119,8 @@ class Samples {
     for (int s = 0; s < divided.segments; ++s) {
       for (int i = s * per_segment; i <= (s + 1) * per_segment; i += step) {
         for (std::size_t part = first; part < kParts; ++part) {
-          const double error = size(static_cast<double>(value(divided.at[s][part], static_cast<Real>(place(i)))) - exact_[i][part]);
+          const double error =
+              size(static_cast<double>(value(divided.at[s][part], static_cast<Real>(place(i)))) - exact_[i][part]);
           largest = larger(largest, error);
         }
       }
@@ -270,23 +162,25 @@ struct Chosen {
   double error;   ///< largest of those divisions that have a finer one
 };
 
-/// Divides each degree into the fewest segments that keep the parts from `first` on within the tolerance; the tolerance is doubled until they
-/// all fit. A larger tolerance asks for no finer division, so each is judged at most once; and a quantity that repeats within the cycle has the
-/// same errors in each of its periods.
+/// Divides each degree into the fewest segments that keep the parts from `first` on within the tolerance; the tolerance
+/// is doubled until they all fit. A larger tolerance asks for no finer division, so each is judged at most once; and a
+/// quantity that repeats within the cycle has the same errors in each of its periods.
 template <class Real, class Quantity>
-[[nodiscard]] Chosen choose_grid(GasGrid& grid, const Quantity& quantity, Part first, int capacity, double tolerance) noexcept {
+[[nodiscard]] Chosen choose_grid(GasGrid& grid, const Quantity& quantity, Part first, int capacity,
+                                 double tolerance) noexcept {
   auto limit = static_cast<float>(tolerance);
   float errors[kDegreesPerCycle][kDivisionCount - 1];
   const int period_deg = quantity.period_deg();
   for (int degree = 0; degree < period_deg; ++degree) {
     Samples<Real, Quantity> samples(quantity, degree);
     for (std::size_t division = 0; division + 1 < kDivisionCount; ++division) {
-      errors[degree][division] = static_cast<float>(samples.largest_error(divided<Real>(quantity, degree, kDivisions[division]), first));
+      errors[degree][division] =
+          static_cast<float>(samples.largest_error(divided<Real>(quantity, degree, kDivisions[division]), first));
       if (errors[degree][division] <= limit) break;
     }
   }
   Chosen chosen{};
-  for (int doublings = 0; doublings <= kMostDoublings; ++doublings, limit *= 2) {
+  for (int doublings = 0; doublings <= kMaxDoublings; ++doublings, limit *= 2) {
     chosen = {0, doublings, 0};
     for (int degree = 0; degree < kDegreesPerCycle; ++degree) {
       const auto& error = errors[degree % period_deg];
@@ -302,7 +196,8 @@ template <class Real, class Quantity>
   return chosen;
 }
 
-/// Calls store(segment index, its parts) for every segment of the grid. Answers the largest error of the finest division.
+/// Calls store(segment index, its parts) for every segment of the grid. Answers the largest error of the finest
+/// division.
 template <class Real, class Quantity, class Store>
 double fill_grid(const GasGrid& grid, const Quantity& quantity, Part first, const Store& store) noexcept {
   double largest = 0;
@@ -349,8 +244,8 @@ void fill_work(const GasGrid& grid, const TorqueTarget<Real>& target) noexcept {
   });
   const double mean = cycle_J / kRadPerCycle;
   // Work less that of the mean torque repeats from cycle to cycle. First its range, then the counts.
-  // The tick adds a segment's integral from the whole degree's start, where a steep segment's polynomial may be far away: the base is
-  // what is missing to it.
+  // The tick adds a segment's integral from the whole degree's start, where a steep segment's polynomial may be far
+  // away: the base is what is missing to it.
   const auto for_each_base = [&](const auto& visit) {
     double done_J = 0;
     for_each_segment(grid, [&](int index, int degree, double from, double to) {
@@ -370,7 +265,8 @@ void fill_work(const GasGrid& grid, const TorqueTarget<Real>& target) noexcept {
 }
 
 template <class Real>
-double fill_torque(const EngineTorque& engine, const GasGrid& grid, Part first, const std::array<TorqueTarget<Real>, kParts>& targets) noexcept {
+double fill_torque(const EngineTorque& engine, const GasGrid& grid, Part first,
+                   const std::array<TorqueTarget<Real>, kParts>& targets) noexcept {
   const double error = fill_grid<Real>(grid, engine, first, [&](int index, const auto& segment) {
     for (std::size_t part = 0; part < kParts; ++part) {
       if (targets[part].torque != nullptr) targets[part].segments[index].slope = segment[part];
@@ -386,10 +282,12 @@ template <class Real>
 void fill_pressures(const IndicatorDiagram& diagram, const TableTargets<Real>& targets, TableReport& report) noexcept {
   if (targets.gas_grid == nullptr) return;
   const CylinderPressure pressure(diagram);
-  const Chosen chosen = choose_grid<Real>(*targets.gas_grid, pressure, kFull, targets.gas_capacity, kTolerance * diagram.peak_Pa());
+  const Chosen chosen =
+      choose_grid<Real>(*targets.gas_grid, pressure, kFull, targets.gas_capacity, kTolerance * diagram.peak_Pa());
   report.gas_segments = chosen.segments;
   report.tolerance_doublings = chosen.doublings;
-  const std::array<Segment<Real>*, kParts> wanted{targets.pressure_full, targets.pressure_motored, targets.pressure_heat};
+  const std::array<Segment<Real>*, kParts> wanted{targets.pressure_full, targets.pressure_motored,
+                                                  targets.pressure_heat};
   const double finest_Pa = fill_grid<Real>(*targets.gas_grid, pressure, kFull, [&](int index, const auto& segment) {
     for (std::size_t part = 0; part < kParts; ++part) {
       if (wanted[part] != nullptr) wanted[part][index] = segment[part];
@@ -399,9 +297,11 @@ void fill_pressures(const IndicatorDiagram& diagram, const TableTargets<Real>& t
 }
 
 template <class Real>
-void fill_torques(const EngineTorque& engine, double peak_Pa, const TableTargets<Real>& targets, TableReport& report) noexcept {
+void fill_torques(const EngineTorque& engine, double peak_Pa, const TableTargets<Real>& targets,
+                  TableReport& report) noexcept {
   if (targets.torque_grid == nullptr) return;
-  const Chosen chosen = choose_grid<Real>(*targets.torque_grid, engine, kFull, targets.gas_capacity, kTolerance * engine.scale_Nm(peak_Pa));
+  const Chosen chosen = choose_grid<Real>(*targets.torque_grid, engine, kFull, targets.gas_capacity,
+                                          kTolerance * engine.scale_Nm(peak_Pa));
   report.torque_segments = chosen.segments;
   report.torque_doublings = chosen.doublings;
   const double finest_Nm = fill_torque<Real>(engine, *targets.torque_grid, kFull,
@@ -413,14 +313,15 @@ void fill_torques(const EngineTorque& engine, double peak_Pa, const TableTargets
 
 /// What a cylinder that does not fire lacks: the torque of its heat, over its own cycle.
 template <class Real>
-void fill_cut(const EngineDefinition& engine, const IndicatorDiagram& diagram, double peak_Pa, const TableTargets<Real>& targets,
-              TableReport& report) noexcept {
+void fill_cut(const EngineDefinition& engine, const IndicatorDiagram& diagram, double peak_Pa,
+              const TableTargets<Real>& targets, TableReport& report) noexcept {
   if (targets.cut_grid == nullptr) return;
   EngineDefinition one = engine;
   one.layout.cylinders = 1;
   one.layout.firing_deg[0] = 0;
   const EngineTorque torque(one, diagram);
-  const Chosen chosen = choose_grid<Real>(*targets.cut_grid, torque, kHeat, targets.gas_capacity, kTolerance * torque.scale_Nm(peak_Pa));
+  const Chosen chosen =
+      choose_grid<Real>(*targets.cut_grid, torque, kHeat, targets.gas_capacity, kTolerance * torque.scale_Nm(peak_Pa));
   report.cut_segments = chosen.segments;
   report.cut_doublings = chosen.doublings;
   fill_torque<Real>(torque, *targets.cut_grid, kHeat, {{{}, {}, {targets.cut_torque, targets.cut_heat}}});
@@ -437,7 +338,9 @@ void fill_gas(const EngineDefinition& engine, const IndicatorDiagram& diagram, c
   fill_cut(engine, diagram, peak_Pa, targets, report);
 }
 
-template void fill_gas(const EngineDefinition&, const IndicatorDiagram&, const TableTargets<float>&, TableReport&) noexcept;
-template void fill_gas(const EngineDefinition&, const IndicatorDiagram&, const TableTargets<double>&, TableReport&) noexcept;
+template void fill_gas(const EngineDefinition&, const IndicatorDiagram&, const TableTargets<float>&,
+                       TableReport&) noexcept;
+template void fill_gas(const EngineDefinition&, const IndicatorDiagram&, const TableTargets<double>&,
+                       TableReport&) noexcept;
 
 }  // namespace crankloop::detail

@@ -1,4 +1,5 @@
-// Gas pressure of a cylinder and gas torque of the engine over the cycle, each on a grid that is fine where it is steep.
+// Gas pressure of a cylinder and gas torque of the engine over the cycle, each on a grid that is fine where it is
+// steep.
 #pragma once
 
 #include <crankloop/tabulate/indicator_diagram.hpp>

@@ -1,7 +1,9 @@
+#include <crankloop/assert.hpp>
 #include <crankloop/tabulate/indicator_diagram.hpp>
 
 #include <cstdint>
 
+#include <crankloop/phase.hpp>
 #include <crankloop/tabulate/elementary.hpp>
 #include <crankloop/tabulate/mechanism.hpp>
 
@@ -15,10 +17,6 @@ using elementary::kPi;
 namespace {
 
 constexpr double kDegPerRad = 180 / kPi;
-constexpr double kRadPerDeg = kPi / 180;
-constexpr double kWiebeEfficiency = 6.908;  // a_w: 1 - exp(-6.908) = 99.9 % burnt at the end
-constexpr double kBlowDown = 5;             // e-foldings of the blow-down from exhaust opening to bottom dead centre
-constexpr double kGasExchangeRampDeg = 1;   // exhaust to intake pressure after gas-exchange top dead centre
 constexpr double kMotoredExhaustRampDeg = 10;
 
 /// An angle reduced to [0, 720); 0 for one beyond 1e9 deg or that is no number.
@@ -31,13 +29,6 @@ constexpr double kMotoredExhaustRampDeg = 10;
 }
 
 [[nodiscard]] double at_least(double least, double x) noexcept { return x < least ? least : x; }
-
-/// Wiebe's burnt fraction at s = (a - a0)/da in [0, 1], and its derivative by s.
-[[nodiscard]] double burn_rate(double s, double m) noexcept {
-  if (s <= 0) return m > 0 ? 0 : kWiebeEfficiency;
-  const double s_m = elementary::pow(s, m);
-  return kWiebeEfficiency * (m + 1) * s_m * elementary::exp(-kWiebeEfficiency * s_m * s);
-}
 
 }  // namespace
 
@@ -58,39 +49,48 @@ Status IndicatorDiagram::init(const Crank& crank, const Pressure& pressure) noex
 
 Status IndicatorDiagram::init_source() noexcept {
   switch (pressure_.source) {
-    case PressureSource::none: return {};
-    case PressureSource::wiebe: return init_wiebe();
-    case PressureSource::angle_table: return init_angles();
-    case PressureSource::volume_table: return init_volumes();
+    case PressureSource::none:
+    case PressureSource::gas:
+      return {};
+    case PressureSource::wiebe:
+      return init_wiebe();
+    case PressureSource::angle_table:
+      return init_angles();
+    case PressureSource::volume_table:
+      return init_volumes();
   }
   return {};
 }
 
 /// Rows have been checked and the curve stays between them: only a synthesised diagram can be refused here.
 Status IndicatorDiagram::find_peak() noexcept {
-  const auto too_high = [](double p) { return !(p <= kMostPressure_Pa); };  // also where it is no number
+  const auto too_high = [](double p) { return !(p <= kMaxPressure_Pa); };  // also where it is no number
   for (int i = 0; i < 10 * 720; ++i) {
     const double deg = i / 10.0;
     const double p = full_Pa(deg);
     if (p > peak_Pa_) peak_Pa_ = p;
     if (!too_high(p)) continue;
-    if (too_high(motored_Pa(deg))) return {Reason::pressure_too_high, -1, "pressure.intake"};
-    return {Reason::pressure_too_high, -1, pressure_.wiebe.heat_given ? "pressure.heat" : "pressure.net_mep"};
+    if (too_high(motored_Pa(deg))) return refuse("pressure.wiebe.intake_Pa", Reason::pressure_too_high);
+    return refuse(pressure_.wiebe.heat_given ? "pressure.wiebe.heat_J" : "pressure.wiebe.net_mep_Pa",
+                  Reason::pressure_too_high);
   }
   return {};
 }
 
 double IndicatorDiagram::volume_m3(double crank_deg) const noexcept {
-  return clearance_m3_ + area_m2_ * exact_stroke(crank_, crank_deg * kRadPerDeg).displacement_m;
+  return clearance_m3_ + area_m2_ * exact_stroke(crank_, crank_deg * detail::kRadPerDegree).displacement_m;
 }
 
-double IndicatorDiagram::slope_m(double crank_deg) const noexcept { return exact_stroke(crank_, crank_deg * kRadPerDeg).slope_m; }
+double IndicatorDiagram::slope_m(double crank_deg) const noexcept {
+  return exact_stroke(crank_, crank_deg * detail::kRadPerDegree).slope_m;
+}
 
 /// Degrees since firing top dead centre, 0 to 720.
 double IndicatorDiagram::from_top_deg(double crank_deg) const noexcept { return into_cycle(crank_deg - tdc_deg_); }
 
 IndicatorDiagram::Pressures IndicatorDiagram::pressures(double crank_deg) const noexcept {
-  return pressures_where(crank_deg, [&] { return exact_stroke(crank_, crank_deg * kRadPerDeg).displacement_m; });
+  return pressures_where(crank_deg,
+                         [&] { return exact_stroke(crank_, crank_deg * detail::kRadPerDegree).displacement_m; });
 }
 IndicatorDiagram::Pressures IndicatorDiagram::pressures(double crank_deg, double displacement_m) const noexcept {
   return pressures_where(crank_deg, [&] { return displacement_m; });
@@ -98,9 +98,12 @@ IndicatorDiagram::Pressures IndicatorDiagram::pressures(double crank_deg, double
 
 /// Asks for the piston's displacement only where it is needed.
 template <class Displacement>
-IndicatorDiagram::Pressures IndicatorDiagram::pressures_where(double crank_deg, const Displacement& displacement_m) const noexcept {
+IndicatorDiagram::Pressures IndicatorDiagram::pressures_where(double crank_deg,
+                                                              const Displacement& displacement_m) const noexcept {
   switch (pressure_.source) {
-    case PressureSource::none: break;
+    case PressureSource::none:
+    case PressureSource::gas:
+      break;
     case PressureSource::wiebe: {
       const double full = wiebe_full_Pa(crank_deg);
       const double motored = unfired_Pa(motored_, crank_deg);
@@ -118,9 +121,11 @@ IndicatorDiagram::Pressures IndicatorDiagram::pressures_where(double crank_deg, 
 
 double IndicatorDiagram::motored_Pa(double crank_deg) const noexcept { return pressures(crank_deg).motored_Pa; }
 double IndicatorDiagram::heat_Pa(double crank_deg) const noexcept { return pressures(crank_deg).heat_Pa; }
-double IndicatorDiagram::full_Pa(double crank_deg) const noexcept { return is_table() ? table_Pa(crank_deg) : pressures(crank_deg).full_Pa; }
+double IndicatorDiagram::full_Pa(double crank_deg) const noexcept {
+  return is_table() ? table_Pa(crank_deg) : pressures(crank_deg).full_Pa;
+}
 
-// ---- tables ----------------------------------------------------------------------------------------------------------------
+// ---- tables ---------------------------------------------------------------------------------------------------------
 
 Status IndicatorDiagram::init_angles() noexcept {
   rows_ = pressure_.point_count;
@@ -131,7 +136,7 @@ Status IndicatorDiagram::init_angles() noexcept {
 }
 
 Status IndicatorDiagram::init_volumes() noexcept {
-  const auto refused = [](Reason reason, int row) { return Status{reason, row, "pressure.file"}; };
+  const auto refused = [](Reason reason, int row) { return refuse("pressure.points", reason, row); };
   const double swept = swept_volume_m3(crank_);
   const double volume_tolerance = 0.02 * swept;
   rows_ = pressure_.point_count;
@@ -156,7 +161,7 @@ Status IndicatorDiagram::init_volumes() noexcept {
   if (stroke != 3 || first_off > volume_tolerance) return refused(Reason::not_a_cycle, 0);
   stroke_start_[4] = rows_;
   first_deg_ = row(0).at_deg;
-  rows_kept_ = rows_ <= kMostKeptRows;
+  rows_kept_ = rows_ <= kMaxKeptRows;
   if (rows_kept_) row_deg_[0] = first_deg_;
   double before_deg = first_deg_;
   for (int i = 1; i < rows_; ++i) {
@@ -171,11 +176,16 @@ Status IndicatorDiagram::init_volumes() noexcept {
 }
 
 void IndicatorDiagram::init_motored() noexcept {
-  exhaust_Pa_ = detail::integrate(tdc_deg_ + 270, tdc_deg_ + 360, 90, [this](double deg) { return table_Pa(deg); }) / 90;
-  const double stroke_m = detail::integrate(tdc_deg_ + 360, bdc_deg_ + 360, 180, [this](double deg) { return slope_m(deg); });
-  intake_Pa_ = detail::integrate(tdc_deg_ + 360, bdc_deg_ + 360, 180, [this](double deg) { return table_Pa(deg) * slope_m(deg); }) / stroke_m;
+  exhaust_Pa_ =
+      detail::integrate(tdc_deg_ + 270, tdc_deg_ + 360, 90, [this](double deg) { return table_Pa(deg); }) / 90;
+  const double stroke_m =
+      detail::integrate(tdc_deg_ + 360, bdc_deg_ + 360, 180, [this](double deg) { return slope_m(deg); });
+  intake_Pa_ = detail::integrate(tdc_deg_ + 360, bdc_deg_ + 360, 180,
+                                 [this](double deg) { return table_Pa(deg) * slope_m(deg); }) /
+               stroke_m;
   motored_loss_ = elementary::FixedPower(-kMotoredLoss);
-  motored_bottom_Pa_ = motored_expansion_Pa(bdc_deg_, exact_stroke(crank_, bdc_deg_ * kRadPerDeg).displacement_m);
+  motored_bottom_Pa_ =
+      motored_expansion_Pa(bdc_deg_, exact_stroke(crank_, bdc_deg_ * detail::kRadPerDegree).displacement_m);
 }
 
 /// Row i with its angle; rows go round: row(-1) is the last one, a cycle earlier.
@@ -197,7 +207,9 @@ double IndicatorDiagram::volume_row_deg(int i) const noexcept {
 
 /// The last row at or before an angle that lies in [first row, first row + 720).
 int IndicatorDiagram::row_before(double at_deg) const noexcept {
-  const auto last_in = [](int low, int high, const auto& is_before) {  // of low to high - 1, low if it is none of those after it
+  const auto last_in = [](int low, int high,
+                          const auto& is_before) {  // of low to high - 1, low if it is none of those after it
+    CRANKLOOP_ASSERT(low >= 0);
     while (high - low > 1) {
       const int middle = low + (high - low) / 2;
       (is_before(middle) ? low : high) = middle;
@@ -205,7 +217,8 @@ int IndicatorDiagram::row_before(double at_deg) const noexcept {
     return low;
   };
   const DiagramPoint* points = pressure_.points;
-  if (pressure_.source == PressureSource::angle_table) return last_in(0, rows_, [&](int i) { return points[i].at <= at_deg; });
+  if (pressure_.source == PressureSource::angle_table)
+    return last_in(0, rows_, [&](int i) { return points[i].at <= at_deg; });
   if (rows_kept_) return last_in(0, rows_, [&](int i) { return row_deg_[i] <= at_deg; });
   // Volumes rise or fall within a stroke, and one volume takes far less than an angle for each row on the way.
   const double turns_deg[] = {bdc_deg_, tdc_deg_ + 360, bdc_deg_ + 360};
@@ -214,7 +227,8 @@ int IndicatorDiagram::row_before(double at_deg) const noexcept {
   const double volume = volume_m3(at_deg);
   const bool rising = stroke % 2 == 0;
   const int begin = stroke_start_[stroke] > 0 ? stroke_start_[stroke] - 1 : 0;
-  return last_in(begin, stroke_start_[stroke + 1], [&](int i) { return rising ? points[i].at <= volume : points[i].at >= volume; });
+  return last_in(begin, stroke_start_[stroke + 1],
+                 [&](int i) { return rising ? points[i].at <= volume : points[i].at >= volume; });
 }
 
 IndicatorDiagram::Interval IndicatorDiagram::interval_around(double at_deg) const noexcept {
@@ -241,10 +255,11 @@ double IndicatorDiagram::table_Pa(double crank_deg) const noexcept {
   return detail::cubic_value(interval.c, (at_deg - interval.from_deg) / (interval.to_deg - interval.from_deg));
 }
 
-/// Without combustion the expansion retraces the compression, volume for volume, less the loss, and the exhaust stroke has no blow-down.
-/// `fired_Pa` is the table's pressure at the angle.
+/// Without combustion the expansion retraces the compression, volume for volume, less the loss, and the exhaust stroke
+/// has no blow-down. `fired_Pa` is the table's pressure at the angle.
 template <class Displacement>
-double IndicatorDiagram::table_motored_Pa(double crank_deg, const Displacement& displacement_m, double fired_Pa) const noexcept {
+double IndicatorDiagram::table_motored_Pa(double crank_deg, const Displacement& displacement_m,
+                                          double fired_Pa) const noexcept {
   const double since_top = from_top_deg(crank_deg);
   const double expansion_deg = bdc_deg_ - tdc_deg_;
   if (since_top < expansion_deg) return motored_expansion_Pa(tdc_deg_ + since_top, displacement_m());
@@ -259,124 +274,9 @@ double IndicatorDiagram::table_motored_Pa(double crank_deg, const Displacement& 
 
 /// On the way down from firing top dead centre.
 double IndicatorDiagram::motored_expansion_Pa(double crank_deg, double displacement_m) const noexcept {
-  const double compression_deg = crank_angle_up_rad(crank_, crank_deg * kRadPerDeg, displacement_m) * kDegPerRad + 360;
+  const double compression_deg =
+      crank_angle_up_rad(crank_, crank_deg * detail::kRadPerDegree, displacement_m) * kDegPerRad + 360;
   return motored_loss_(at_least(1, 1 + area_m2_ * displacement_m / clearance_m3_)) * table_Pa(compression_deg);
-}
-
-// ---- synthesised -----------------------------------------------------------------------------------------------------------
-
-Status IndicatorDiagram::init_wiebe() noexcept {
-  const WiebeDiagram& w = pressure_.wiebe;
-  if (w.exhaust_valve_opens_deg >= bdc_deg_) return {Reason::inconsistent, -1, "pressure.exhaust_valve_opens"};
-  // dp = ((n2 - 1)/V) dQ - n2 p dV/V has the solution p V^n2 = const + (n2 - 1) * integral of V^(n2 - 1) dQ.
-  burnt_[0] = 0;
-  for (int i = 0; i < kBurnPanels; ++i) {
-    burnt_[i + 1] = burnt_[i] + burn_panel(static_cast<double>(i) / kBurnPanels, static_cast<double>(i + 1) / kBurnPanels);
-  }
-  bottom_m3_ = volume_m3(bdc_deg_);
-  polytropes_ = unfired(w.start_of_combustion_deg, w.expansion_exponent, w.exhaust_Pa);
-  motored_ = unfired(tdc_deg_, w.motored_exponent(), at_least(w.intake_Pa, w.exhaust_Pa));
-  if (w.heat_given) {
-    heat_J_ = w.heat_J;
-    fired_ = heat_J_ > 0 ? 1 : 0;
-    return {};
-  }
-  // The loop integral is linear in the heat: two of them tell what heat gives the mean effective pressure.
-  const auto loop_J = [this](const auto& pressure_Pa) {
-    return detail::integrate(0, 720, 7200, [&](double deg) { return pressure_Pa(deg) * area_m2_ * slope_m(deg) * kRadPerDeg; });
-  };
-  const double asked_J = w.net_mep_Pa * swept_volume_m3(crank_);
-  const double polytropes_J = loop_J([this](double deg) { return unfired_Pa(polytropes_, deg); });
-  heat_J_ = 1;
-  heat_J_ = (asked_J - polytropes_J) / loop_J([this](double deg) { return released_Pa(deg); });
-  fired_ = 1;
-  if (heat_J_ >= 0) return {};
-  // The polytropes alone do more: what is asked for lies between them and the motored diagram.
-  const double motored_J = loop_J([this](double deg) { return unfired_Pa(motored_, deg); });
-  heat_J_ = 0;
-  fired_ = (asked_J - motored_J) / (polytropes_J - motored_J);
-  if (!(fired_ >= 0 && fired_ <= 1)) return {Reason::no_solution, -1, "pressure.net_mep"};
-  return {};
-}
-
-IndicatorDiagram::Unfired IndicatorDiagram::unfired(double from_deg, double exponent, double exhaust_Pa) const noexcept {
-  const WiebeDiagram& w = pressure_.wiebe;
-  Unfired u{from_deg, volume_m3(from_deg), 0, exponent, exhaust_Pa, 0};
-  u.from_Pa = w.intake_Pa * elementary::pow(bottom_m3_ / u.from_m3, w.compression_exponent);
-  u.opens_Pa = u.expanded_Pa(volume_m3(w.exhaust_valve_opens_deg - 1e-9));
-  return u;
-}
-
-double IndicatorDiagram::Unfired::expanded_Pa(double volume_m3) const noexcept {
-  return from_Pa * elementary::pow(from_m3 / volume_m3, exponent);
-}
-
-/// Integral of V^(n2 - 1) dx_b from the start of combustion. Panels are equal in the cube root u of its part s: s^m ds is smooth in u for any m.
-double IndicatorDiagram::burn_integral(double since_start_deg) const noexcept {
-  const double part = since_start_deg / pressure_.wiebe.combustion_duration_deg;
-  if (part <= 0) return 0;
-  if (part >= 1) return burnt_[kBurnPanels];
-  const double u = elementary::pow(part, 1.0 / 3);
-  const int panel = static_cast<int>(u * kBurnPanels);
-  return burnt_[panel] + burn_panel(static_cast<double>(panel) / kBurnPanels, u);
-}
-
-double IndicatorDiagram::burn_panel(double from_u, double to_u) const noexcept {
-  const WiebeDiagram& w = pressure_.wiebe;
-  return detail::gauss5(from_u, to_u, [&](double u) {
-    const double s = u * u * u;
-    const double volume = volume_m3(w.start_of_combustion_deg + s * w.combustion_duration_deg);
-    return 3 * u * u * burn_rate(s, w.wiebe_m) * elementary::pow(volume, w.expansion_exponent - 1);
-  });
-}
-
-namespace {
-
-/// The blow-down's course: 1 at exhaust opening, 0 at bottom dead centre.
-[[nodiscard]] double blow_down(double from_opening_ratio) noexcept {
-  const double rest = elementary::exp(-kBlowDown);
-  return (elementary::exp(-kBlowDown * from_opening_ratio) - rest) / (1 - rest);
-}
-
-}  // namespace
-
-double IndicatorDiagram::unfired_Pa(const Unfired& unfired, double crank_deg) const noexcept {
-  const WiebeDiagram& w = pressure_.wiebe;
-  const double since_top = from_top_deg(crank_deg);
-  const double deg = since_top + tdc_deg_;                  // tdc to tdc + 720
-  const double closed_deg = deg >= bdc_deg_ + 360 ? deg - 720 : deg;  // compression and expansion without a break at 720
-  const double opens_deg = w.exhaust_valve_opens_deg;
-  if (closed_deg < opens_deg) {
-    const double volume = volume_m3(closed_deg);
-    if (closed_deg > unfired.from_deg) return unfired.expanded_Pa(volume);
-    return w.intake_Pa * elementary::pow(bottom_m3_ / volume, w.compression_exponent);
-  }
-  if (deg < bdc_deg_) {
-    return unfired.exhaust_Pa + (unfired.opens_Pa - unfired.exhaust_Pa) * blow_down((deg - opens_deg) / (bdc_deg_ - opens_deg));
-  }
-  if (since_top < 360) return unfired.exhaust_Pa;
-  const double ramp = (since_top - 360) / kGasExchangeRampDeg;
-  return ramp < 1 ? unfired.exhaust_Pa + ramp * (w.intake_Pa - unfired.exhaust_Pa) : w.intake_Pa;
-}
-
-double IndicatorDiagram::released_Pa(double crank_deg) const noexcept {
-  const WiebeDiagram& w = pressure_.wiebe;
-  const double deg = from_top_deg(crank_deg) + tdc_deg_;
-  const double closed_deg = deg >= bdc_deg_ + 360 ? deg - 720 : deg;
-  if (closed_deg <= w.start_of_combustion_deg || closed_deg >= bdc_deg_) return 0;
-  const double opens_deg = w.exhaust_valve_opens_deg;
-  const double at_deg = closed_deg < opens_deg ? closed_deg : opens_deg;
-  const double burnt = burn_integral(at_deg - w.start_of_combustion_deg);
-  const double p = heat_J_ * (w.expansion_exponent - 1) * burnt * elementary::pow(volume_m3(at_deg), -w.expansion_exponent);
-  return closed_deg < opens_deg ? p : p * blow_down((closed_deg - opens_deg) / (bdc_deg_ - opens_deg));
-}
-
-double IndicatorDiagram::wiebe_full_Pa(double crank_deg) const noexcept {
-  if (fired_ < 1) {
-    const double motored = unfired_Pa(motored_, crank_deg);
-    return motored + fired_ * (unfired_Pa(polytropes_, crank_deg) - motored);
-  }
-  return unfired_Pa(polytropes_, crank_deg) + released_Pa(crank_deg);
 }
 
 }  // namespace crankloop

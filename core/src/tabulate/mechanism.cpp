@@ -1,8 +1,11 @@
+#include <crankloop/assert.hpp>
 #include <crankloop/tabulate/mechanism.hpp>
 
 #include <crankloop/tabulate/elementary.hpp>
 
 namespace crankloop {
+
+using namespace detail;
 
 using elementary::kPi;
 
@@ -15,7 +18,9 @@ ExactStroke::ExactStroke(const Crank& crank) noexcept
   height_at_tdc_m_ = square_root((reach_m - crank.pin_offset_m) * (reach_m + crank.pin_offset_m));
 }
 
-Stroke exact_stroke(const Crank& crank, double crank_rad) noexcept { return ExactStroke(crank).at(elementary::sin_cos(crank_rad)); }
+Stroke exact_stroke(const Crank& crank, double crank_rad) noexcept {
+  return ExactStroke(crank).at(elementary::sin_cos(crank_rad));
+}
 
 Pose<double> exact_pose(const Crank& crank, double crank_rad) noexcept {
   const ExactStroke stroke(crank);
@@ -61,7 +66,8 @@ Pose<double> second_order_pose(const Crank& crank, double crank_rad) noexcept {
 }
 
 double crank_angle_rad(const Crank& crank, double displacement_m, bool downward) noexcept {
-  // Triangle crank centre - crank pin - piston pin: the side from the centre to the piston pin is known, so is every angle.
+  // Triangle crank centre - crank pin - piston pin: the side from the centre to the piston pin is known, so is every
+  // angle.
   const double r = crank.crank_radius_m;
   const double l = crank.rod_length_m;
   const double e = crank.pin_offset_m;
@@ -73,7 +79,8 @@ double crank_angle_rad(const Crank& crank, double displacement_m, bool downward)
   const double side = square_root(height * height + e * e);
   const double half = (r + l + side) / 2;
   const auto root = [](double x) { return x > 0 ? square_root(x) : 0; };
-  const double between = 2 * elementary::quick_atan2(root((half - r) * (half - side)), root(half * (half - l)));  // half-angle theorem
+  const double between =
+      2 * elementary::quick_atan2(root((half - r) * (half - side)), root(half * (half - l)));  // half-angle theorem
   const double leaning = elementary::quick_atan2(e, height);
   return downward ? leaning + between : leaning - between + 2 * kPi;
 }
@@ -103,12 +110,16 @@ double bore_area_m2(const Crank& crank) noexcept { return kPi / 4 * crank.bore_m
 
 double swept_volume_m3(const Crank& crank) noexcept { return bore_area_m2(crank) * dead_centres(crank).stroke_m; }
 
-double clearance_volume_m3(const Crank& crank) noexcept { return swept_volume_m3(crank) / (crank.compression_ratio - 1); }
+double clearance_volume_m3(const Crank& crank) noexcept {
+  return swept_volume_m3(crank) / (crank.compression_ratio - 1);
+}
 
 namespace {
 
 /// Golden-section search for the largest sign * quantity between two angles that bracket it.
-[[nodiscard]] Extreme refine(const Crank& crank, PoseMember quantity, PoseFunction pose, double sign, double low, double high) noexcept {
+[[nodiscard]] Extreme refine(const Crank& crank, PoseMember quantity, PoseFunction pose, double sign, double low,
+                             double high) noexcept {
+  CRANKLOOP_ASSERT(low < high);
   constexpr double kGolden = 0.6180339887498949;
   double left = high - kGolden * (high - low);
   double right = low + kGolden * (high - low);
@@ -147,7 +158,8 @@ Extremes extremes(const Crank& crank, PoseMember quantity, PoseFunction pose) no
   }
   const auto sharpen = [&](const Extreme& coarse, double sign) {
     Extreme fine = refine(crank, quantity, pose, sign, coarse.at_rad - kStep, coarse.at_rad + kStep);
-    // A smooth extreme is flat: the search finds its angle to the square root of rounding only, so a whole degree that is as good wins.
+    // A smooth extreme is flat: the search finds its angle to the square root of rounding only, so a whole degree that
+    // is as good wins.
     if (sign * fine.value <= sign * coarse.value) fine = coarse;
     if (fine.at_rad < 0) fine.at_rad += 2 * kPi;
     if (fine.at_rad >= 2 * kPi) fine.at_rad -= 2 * kPi;
@@ -160,7 +172,8 @@ DisplacementSeries displacement_series(double rod_ratio) noexcept {
   const double l1 = rod_ratio;
   const double l3 = l1 * l1 * l1;
   const double l5 = l3 * l1 * l1;
-  return {1 + l1 / 4 + 3 * l3 / 64 + 5 * l5 / 256, -1, -(l1 / 4 + l3 / 16 + 15 * l5 / 512), l3 / 64 + 3 * l5 / 256, -l5 / 512};
+  return {1 + l1 / 4 + 3 * l3 / 64 + 5 * l5 / 256, -1, -(l1 / 4 + l3 / 16 + 15 * l5 / 512), l3 / 64 + 3 * l5 / 256,
+          -l5 / 512};
 }
 
 }  // namespace crankloop

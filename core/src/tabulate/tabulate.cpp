@@ -12,12 +12,15 @@
 #include "cylinder_groups.hpp"
 #include "fingerprint.hpp"
 #include "gas_curves.hpp"
+#include "gas_exchange.hpp"
 #include "phase_units.hpp"
 #include "rounding.hpp"
 #include "trigger_tracks.hpp"
 #include "valve_curves.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 
 using detail::kRadPerCycle;
 
@@ -50,7 +53,8 @@ void fill_drive(const EngineDefinition& engine, const TickOptions& options, Driv
     if (m == drive.mechanisms) {
       mechanism_deg[m] = firing;
       drive.firing_phase[m] = detail::phase_units(firing);
-      if constexpr (sizeof(Real) == 4) drive.firing_phase[m] = (drive.firing_phase[m] + 0x8000'0000u) & ~std::uint64_t{0xFFFF'FFFF};
+      if constexpr (sizeof(Real) == 4)
+        drive.firing_phase[m] = (drive.firing_phase[m] + 0x8000'0000u) & ~std::uint64_t{0xFFFF'FFFF};
       ++drive.mechanisms;
     }
     drive.mechanism_of[k] = static_cast<std::uint8_t>(m);
@@ -64,18 +68,24 @@ template <class Real>
 [[nodiscard]] Status validate(const TableTargets<Real>& t) noexcept {
   const bool pressure = t.pressure_full != nullptr || t.pressure_motored != nullptr || t.pressure_heat != nullptr;
   const bool torque = t.gas_torque_full != nullptr || t.gas_torque_motored != nullptr || t.gas_torque_heat != nullptr;
-  if (pressure && t.gas_grid == nullptr) return {Reason::missing_table, -1, "targets.gas_grid"};
-  if (torque && t.torque_grid == nullptr) return {Reason::missing_table, -1, "targets.torque_grid"};
-  if (t.cut_torque != nullptr && t.cut_grid == nullptr) return {Reason::missing_table, -1, "targets.cut_grid"};
-  if ((t.gas_grid != nullptr || t.torque_grid != nullptr || t.cut_grid != nullptr) && t.gas_capacity < kDegreesPerCycle) return {Reason::out_of_range, -1, "targets.gas_capacity"};
-  if ((t.gas_torque_full != nullptr) != (t.gas_full != nullptr)) return {Reason::missing_table, -1, "targets.gas_full"};
-  if ((t.gas_torque_motored != nullptr) != (t.gas_motored != nullptr)) return {Reason::missing_table, -1, "targets.gas_motored"};
-  if ((t.cut_torque != nullptr) != (t.cut_heat != nullptr)) return {Reason::missing_table, -1, "targets.cut_heat"};
+  if (pressure && t.gas_grid == nullptr) return refuse("targets.gas_grid", Reason::missing_table);
+  if (torque && t.torque_grid == nullptr) return refuse("targets.torque_grid", Reason::missing_table);
+  if (t.cut_torque != nullptr && t.cut_grid == nullptr) return refuse("targets.cut_grid", Reason::missing_table);
+  if ((t.gas_grid != nullptr || t.torque_grid != nullptr || t.cut_grid != nullptr) && t.gas_capacity < kDegreesPerCycle)
+    return refuse("targets.gas_capacity", Reason::out_of_range);
+  if ((t.gas_torque_full != nullptr) != (t.gas_full != nullptr))
+    return refuse("targets.gas_full", Reason::missing_table);
+  if ((t.gas_torque_motored != nullptr) != (t.gas_motored != nullptr))
+    return refuse("targets.gas_motored", Reason::missing_table);
+  if ((t.cut_torque != nullptr) != (t.cut_heat != nullptr)) return refuse("targets.cut_heat", Reason::missing_table);
   const bool all_of_lift = t.lift_segments != nullptr && t.rocker_ratios != nullptr;
-  if (t.lift_curves != nullptr && !all_of_lift) return {Reason::missing_table, -1, "targets.lift_segments"};
-  if ((t.gas_torque_heat != nullptr) != (t.gas_heat != nullptr)) return {Reason::missing_table, -1, "targets.gas_heat"};
-  if (t.triggers != nullptr && t.trigger_tracks == nullptr) return {Reason::missing_table, -1, "targets.trigger_tracks"};
-  if (t.triggers != nullptr && t.trigger_edges == nullptr) return {Reason::missing_table, -1, "targets.trigger_edges"};
+  if (t.lift_curves != nullptr && !all_of_lift) return refuse("targets.lift_segments", Reason::missing_table);
+  if ((t.gas_torque_heat != nullptr) != (t.gas_heat != nullptr))
+    return refuse("targets.gas_heat", Reason::missing_table);
+  if (t.triggers != nullptr && t.trigger_tracks == nullptr)
+    return refuse("targets.trigger_tracks", Reason::missing_table);
+  if (t.triggers != nullptr && t.trigger_edges == nullptr)
+    return refuse("targets.trigger_edges", Reason::missing_table);
   return {};
 }
 
@@ -97,11 +107,13 @@ void fill_mechanism(const EngineDefinition& engine, const TableTargets<Real>& t)
     detail::fill(*t.lean, &LeanSegment<Real>::radial, quantity(&Pose<double>::radial));
   }
   if (t.rod != nullptr) {
-    detail::fill(*t.rod, &RodSegment<Real>::angle, &RodSegment<Real>::slope, quantity(&Pose<double>::rod_slope), quantity(&Pose<double>::rod_angle_rad));
+    detail::fill(*t.rod, &RodSegment<Real>::angle, &RodSegment<Real>::slope, quantity(&Pose<double>::rod_slope),
+                 quantity(&Pose<double>::rod_angle_rad));
   }
   if (t.rod_curvature != nullptr) detail::fill(*t.rod_curvature, quantity(&Pose<double>::rod_curvature));
   if (t.inertia_torque != nullptr) {
-    // Kinetic energy of piston and rod beyond the big end is 1/2 w^2 (m_j x'^2 + dI b'^2); the torque takes it from the crank.
+    // Kinetic energy of piston and rod beyond the big end is 1/2 w^2 (m_j x'^2 + dI b'^2); the torque takes it from the
+    // crank.
     const double m = engine.masses.reciprocating_kg();
     const double inertia = engine.masses.rod_inertia_correction_kg_m2;
     const auto of_all = [&](double angle, const auto& of_one) {
@@ -117,7 +129,9 @@ void fill_mechanism(const EngineDefinition& engine, const TableTargets<Real>& t)
     const auto energy_given = [&](const Pose<double>& p) {
       return -(m * p.slope_m * p.slope_m + inertia * p.rod_slope * p.rod_slope) / 2;
     };
-    detail::fill(*t.inertia_torque, [&](double angle) { return of_all(angle, torque); }, [&](double angle) { return of_all(angle, energy_given); });
+    detail::fill(
+        *t.inertia_torque, [&](double angle) { return of_all(angle, torque); },
+        [&](double angle) { return of_all(angle, energy_given); });
   }
 }
 
@@ -126,7 +140,7 @@ void fill_mechanism(const EngineDefinition& engine, const TableTargets<Real>& t)
 template <class Real>
 Status tabulate(const EngineDefinition& engine, const TickOptions& options, const TableTargets<Real>& targets,
                 TableReport* report) noexcept {
-  if (!(options.tick_s >= 1e-6 && options.tick_s <= 2e-3)) return {Reason::out_of_range, -1, "tick.tick"};
+  if (!(options.tick_s >= 1e-6 && options.tick_s <= 2e-3)) return refuse("options.tick_s", Reason::out_of_range);
   if (const Status refused = validate(targets); !refused.ok()) return refused;
   if (const Status refused = validate(engine); !refused.ok()) return refused;
   IndicatorDiagram diagram;
@@ -147,6 +161,7 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
   }
   fill_mechanism(engine, targets);
   detail::fill_gas(engine, diagram, targets, found);
+  detail::fill_gas_exchange(engine, targets);
   detail::fill_triggers(engine, targets);
   if (targets.drive != nullptr) {
     fill_drive(engine, options, *targets.drive);
@@ -156,7 +171,9 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
   return {};
 }
 
-template Status tabulate(const EngineDefinition&, const TickOptions&, const TableTargets<float>&, TableReport*) noexcept;
-template Status tabulate(const EngineDefinition&, const TickOptions&, const TableTargets<double>&, TableReport*) noexcept;
+template Status tabulate(const EngineDefinition&, const TickOptions&, const TableTargets<float>&,
+                         TableReport*) noexcept;
+template Status tabulate(const EngineDefinition&, const TickOptions&, const TableTargets<double>&,
+                         TableReport*) noexcept;
 
 }  // namespace crankloop

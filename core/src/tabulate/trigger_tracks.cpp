@@ -7,16 +7,20 @@
 namespace crankloop::detail {
 namespace {
 
-/// A part of a turn, 0 to below 1, to the nearest of 2^32 equal parts. The rules keep edges too far apart for two to become one, or for the
-/// last to become a whole turn.
-[[nodiscard]] std::uint32_t turn_units(double turns) noexcept { return static_cast<std::uint32_t>(turns * 4294967296.0 + 0.5); }
+/// A part of a turn, 0 to below 1, to the nearest of 2^32 equal parts. The rules keep edges too far apart for two to
+/// become one, or for the last to become a whole turn.
+[[nodiscard]] std::uint32_t turn_units(double turns) noexcept {
+  CRANKLOOP_ASSERT(turns >= 0 && turns * 4294967296.0 + 0.5 < 4294967296.0);
+  return static_cast<std::uint32_t>(turns * 4294967296.0 + 0.5);
+}
 
 /// Angles of a wheel's edges, the first at 0; answers their number.
 std::uint32_t fill_edges(const TriggerWheel& wheel, std::uint32_t* edges) noexcept {
   std::uint32_t count = 0;
   if (wheel.pattern == TriggerPattern::edges) {
     const double turn_deg = wheel.shaft == TriggerShaft::crank ? 360 : 720;
-    for (int i = 0; i < wheel.edge_count; ++i) edges[count++] = turn_units((wheel.edges_deg[i] - wheel.edges_deg[0]) / turn_deg);
+    for (int i = 0; i < wheel.edge_count; ++i)
+      edges[count++] = turn_units((wheel.edges_deg[i] - wheel.edges_deg[0]) / turn_deg);
     return count;
   }
   int place = 0;
@@ -37,6 +41,7 @@ std::uint32_t fill_edges(const TriggerWheel& wheel, std::uint32_t* edges) noexce
 void fill_parts(TriggerTrack& track) noexcept {
   constexpr std::uint32_t kPart = std::uint32_t{1} << 25;
   static_assert(kTriggerParts * std::uint64_t{kPart} == std::uint64_t{1} << 32);
+  CRANKLOOP_ASSERT(track.edges[0] == 0);
   std::uint32_t edge = 0;
   for (std::uint32_t part = 0; part < std::uint32_t{kTriggerParts}; ++part) {
     while (edge < track.edge_count && track.edges[edge] < part * kPart) ++edge;
@@ -58,6 +63,7 @@ void fill_triggers(const EngineDefinition& engine, const TableTargets<Real>& tar
     track = {};
     track.edges = edges;
     track.edge_count = fill_edges(wheel, edges);
+    CRANKLOOP_ASSERT(track.edge_count >= 2 && track.edge_count <= std::uint32_t{kMaxTriggerEdges});
     track.on_crank = wheel.shaft == TriggerShaft::crank ? 1 : 0;
     track.starts = phase_units(wheel.pattern == TriggerPattern::teeth ? wheel.first_tooth_deg : wheel.edges_deg[0]);
     track.train = wheel.train >= 0 ? static_cast<std::uint32_t>(wheel.train) : kNoTrain;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <type_traits>
 
+#include <crankloop/assert.hpp>
 #include <crankloop/tabulate/valve_lift.hpp>
 #include <crankloop/tick/one_instruction.hpp>
 
@@ -50,13 +51,15 @@ struct DegreeQuintic {
     c[5] = 6 * rise - 3 * slope + curvature / 2;
   }
 
-  [[nodiscard]] double value(double u) const noexcept { return c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * (c[4] + u * c[5])))); }
+  [[nodiscard]] double value(double u) const noexcept {
+    return c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * (c[4] + u * c[5]))));
+  }
   [[nodiscard]] double fourth_derivative(double u) const noexcept { return 24 * c[4] + 120 * c[5] * u; }
 };
 
-/// Cam degrees over which the cubic through a step's ends will do for the lift: three times those over which it misses it by at most a tenth of
-/// the accuracy, h^4 / 384 times its largest fourth derivative. What it misses has both signs from step to step, and the valve's inertia does the
-/// rest: docs/decisions/0014-valve-records.md has the figures.
+/// Cam degrees over which the cubic through a step's ends will do for the lift: three times those over which it misses
+/// it by at most a tenth of the accuracy, h^4 / 384 times its largest fourth derivative. What it misses has both signs
+/// from step to step, and the valve's inertia does the rest: docs/decisions/0014-valve-records.md has the figures.
 [[nodiscard]] double widest_step_deg(const ValveLift& lift, double accuracy_m) noexcept {
   double largest = 0;
   for (int i = 0; i < lobe_degrees(lift); ++i) {
@@ -82,9 +85,10 @@ struct DegreeQuintic {
 }
 
 template <class Real>
-void fill_lift(const Cam& cam, const Rocker& rocker, const Layout& layout, const ValveLift& lift, double tick_s, LiftCurve<Real>& curve,
-               LiftSegment<Real>* segments, Segment<Real>* ratios) noexcept {
+void fill_lift(const Cam& cam, const Rocker& rocker, const Layout& layout, const ValveLift& lift, double tick_s,
+               LiftCurve<Real>& curve, LiftSegment<Real>* segments, Segment<Real>* ratios) noexcept {
   const int degrees = lobe_degrees(lift);
+  CRANKLOOP_ASSERT(degrees >= 1 && degrees <= kDegreesPerTurn);
   const auto angle = [&](double degree) { return lift.opens_rad() + degree * kRadPerDegree; };
   int first = degrees;
   int last = 0;
@@ -110,24 +114,28 @@ void fill_lift(const Cam& cam, const Rocker& rocker, const Layout& layout, const
   for (int k = 0; k < kMaxCylinders; ++k) {
     const auto i = static_cast<std::size_t>(k);
     curve.opens[i] = k < layout.cylinders ? phase_units(layout.firing_deg[i]) + phase_units(opens_deg) : 0;
-    if constexpr (sizeof(Real) == 4) curve.opens[i] = (curve.opens[i] + 0x8000'0000u) >> 32 << 32;  // 8e-8 cam degrees: so a tick need not read its low word
+    if constexpr (sizeof(Real) == 4)
+      curve.opens[i] =
+          (curve.opens[i] + 0x8000'0000u) >> 32 << 32;  // 8e-8 cam degrees: so a tick need not read its low word
   }
   first = first > 0 ? first - 1 : 0;  // a degree to spare at either end
   last = last + 1 < degrees ? last + 1 : degrees - 1;
   if (rocker.clearance_m < kLeastLash) first = 0, last = kDegreesPerTurn - 1;  // also where the lobe is not
   curve.touch_from = static_cast<std::uint32_t>(first);
   curve.touch_degrees = static_cast<std::uint32_t>(last >= first ? last - first + 1 : 0);
-  curve.leap_deg = static_cast<Real>(curve.touch_degrees > 0 ? static_cast<double>(curve.touch_degrees) : kDegreesPerTurn + 1.0);
+  curve.skip_deg =
+      static_cast<Real>(curve.touch_degrees > 0 ? static_cast<double>(curve.touch_degrees) : kDegreesPerTurn + 1.0);
   const double most_deg = cam.phase_rate_deg_s * tick_s;
   curve.most_phase_per_tick = most_deg < kDegreesPerTurn ? phase_units(most_deg) : phase_units(kDegreesPerTurn);
   curve.segments = static_cast<std::uint32_t>(degrees);
-  curve.outside_m = static_cast<Real>(-rocker.clearance_m);
+  curve.outside_m = static_cast<Real>(0 - rocker.clearance_m);  // not -0, which its row of the lift does not give
 }
 
 }  // namespace
 
 template <class Real>
-Status fill_valves(const EngineDefinition& engine, const TickOptions& options, const TableTargets<Real>& targets, TableReport& report) noexcept {
+Status fill_valves(const EngineDefinition& engine, const TickOptions& options, const TableTargets<Real>& targets,
+                   TableReport& report) noexcept {
   if (targets.lift_curves == nullptr && targets.valve_motions == nullptr) return {};
   const auto of_train = [](Status refused, int train) {
     refused.index = train;
@@ -143,13 +151,14 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
     if (targets.valve_motions == nullptr) continue;
     if (const Status refused = validate(train.valve); !refused.ok()) return of_train(refused, t);
     const double lever = lift.lever_m() > 0 ? lift.lever_m() : 1;
-    if (const Status refused = motion_of(valve_body(train.valve, lever), options.tick_s, options.valves, motions[t]); !refused.ok()) {
+    if (const Status refused = motion_of(valve_body(train.valve, lever), options.tick_s, options.valves, motions[t]);
+        !refused.ok()) {
       return of_train(refused, t);
     }
     motions[t].widest_step_deg = widest_step_deg(lift, options.valves.accuracy_m);
     find_calm(motions[t], train.rocker.clearance_m);
     fine_steps += static_cast<int>(motions[t].parts) * engine.layout.cylinders;
-    if (fine_steps > kMostFineStepsOfEngine) return {Reason::out_of_range, t, "tick.tick"};
+    if (fine_steps > kMaxFineStepsOfEngine) return refuse("options.tick_s", Reason::out_of_range, t);
     if (motions[t].parts > most_parts) most_parts = motions[t].parts;
   }
   report.valve_fine_steps = fine_steps;
@@ -160,8 +169,8 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
       ValveLift lift;
       static_cast<void>(lift.init(train.cam, train.rocker));  // it was accepted above
       const std::ptrdiff_t first = t * kDegreesPerTurn;
-      fill_lift(train.cam, train.rocker, engine.layout, lift, options.tick_s, targets.lift_curves[t], targets.lift_segments + first,
-                targets.rocker_ratios + first);
+      fill_lift(train.cam, train.rocker, engine.layout, lift, options.tick_s, targets.lift_curves[t],
+                targets.lift_segments + first, targets.rocker_ratios + first);
     }
     if (targets.valve_motions != nullptr) {
       motions[t].most_changes = kChangesBesideParts + most_parts;
@@ -175,7 +184,9 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
   return {};
 }
 
-template Status fill_valves(const EngineDefinition&, const TickOptions&, const TableTargets<float>&, TableReport&) noexcept;
-template Status fill_valves(const EngineDefinition&, const TickOptions&, const TableTargets<double>&, TableReport&) noexcept;
+template Status fill_valves(const EngineDefinition&, const TickOptions&, const TableTargets<float>&,
+                            TableReport&) noexcept;
+template Status fill_valves(const EngineDefinition&, const TickOptions&, const TableTargets<double>&,
+                            TableReport&) noexcept;
 
 }  // namespace crankloop::detail

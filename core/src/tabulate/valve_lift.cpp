@@ -1,5 +1,5 @@
-// Derivation in docs/model.md "Rocker". Derivatives by phi_r come out short because turning the cam by dphi_r lifts the contact along its
-// normal by y' dphi_r, and the pad centre turns about the pivot on the arm l_a sin J':
+// Derivation in docs/model.md "Rocker". Derivatives by phi_r come out short because turning the cam by dphi_r lifts the
+// contact along its normal by y' dphi_r, and the pad centre turns about the pivot on the arm l_a sin J':
 //
 //     dW/dphi_r = y' / (l_a sin J')        dY/dphi_r = l_b cos psi dW/dphi_r = i y'
 #include <crankloop/tabulate/valve_lift.hpp>
@@ -10,6 +10,8 @@
 #include <crankloop/tick/one_instruction.hpp>
 
 namespace crankloop {
+
+using namespace detail;
 
 using elementary::kPi;
 
@@ -41,7 +43,7 @@ Status ValveLift::init(const Cam& cam, const Rocker& rocker) noexcept {
     const double sine_at_rest = (screw_height_m + rocker.clearance_m) / rocker.pivot_to_screw_m;
     if (!(sine_seated > -1 && sine_at_rest < 1)) {
       failed_at_deg_ = cam_.opens_rad() * kDegPerRad;
-      return {Reason::inconsistent, -1, "rocker.pivot_to_screw"};
+      return refuse("rocker.pivot_to_screw_m", Reason::inconsistent);
     }
     screw_at_rest_rad_ = elementary::asin(sine_at_rest);
   }
@@ -52,14 +54,16 @@ Status ValveLift::init(const Cam& cam, const Rocker& rocker) noexcept {
   closes_rad_ = contact(cam_.closes_rad()).cam_rad;
   if (rocker.kind == RockerKind::circular_pad) {
     const double sine_seated = (rocker.screw_ball_m + rocker.stem_above_pivot_m) / rocker.pivot_to_screw_m;
-    lever_m_ = rocker.pivot_to_screw_m * (square_root((1 - sine_seated) * (1 + sine_seated)) + contact(0).cos_screw) / 2;
+    lever_m_ =
+        rocker.pivot_to_screw_m * (square_root((1 - sine_seated) * (1 + sine_seated)) + contact(0).cos_screw) / 2;
   } else {
     lever_m_ = rocker.pivot_to_screw_m;
   }
   return {};
 }
 
-/// Whether a quantity of the contact is above 0 over the whole lobe. Its smallest value stands at failed_at_deg_ afterwards.
+/// Whether a quantity of the contact is above 0 over the whole lobe. Its smallest value stands at failed_at_deg_
+/// afterwards.
 template <class Quantity>
 bool ValveLift::stays_positive(const Quantity& quantity, double& smallest) noexcept {
   const double step = (cam_.closes_rad() - cam_.opens_rad()) / kScan;
@@ -89,18 +93,22 @@ bool ValveLift::stays_positive(const Quantity& quantity, double& smallest) noexc
 
 Status ValveLift::check_contacts() noexcept {
   if (!stays_positive([](const Contact& c) { return c.radius_m; }, smallest_radius_m_)) {
-    return {Reason::inconsistent, -1, "rocker.base_circle"};
+    return refuse("rocker.base_circle_m", Reason::inconsistent);
   }
   smallest_radius_at_deg_ = failed_at_deg_;
   if (rocker_.kind == RockerKind::ratio) return {};
   double smallest = 0;
-  if (!stays_positive([](const Contact& c) { return c.triangle; }, smallest)) return {Reason::inconsistent, -1, "rocker.pivot_to_pad"};
-  // The triangle closes, so what W and K are counted from is known; as long as these are 0, contact() answers with W and K themselves.
+  if (!stays_positive([](const Contact& c) { return c.triangle; }, smallest))
+    return refuse("rocker.pivot_to_pad_m", Reason::inconsistent);
+  // The triangle closes, so what W and K are counted from is known; as long as these are 0, contact() answers with W
+  // and K themselves.
   const double full_lift_rad = contact(0).cam_rad;
   rocker_at_rest_rad_ = contact(cam_.opens_rad()).pose.rocker_rad;
   cam_angle_at_full_lift_rad_ = rocker_.cam_turns == CamTurns::toward_pivot ? -full_lift_rad : full_lift_rad;
-  if (!stays_positive([](const Contact& c) { return c.sin_pressure; }, smallest)) return {Reason::inconsistent, -1, "rocker.pivot_to_cam"};
-  if (!stays_positive([](const Contact& c) { return c.cos_screw; }, smallest)) return {Reason::inconsistent, -1, "rocker.pivot_to_screw"};
+  if (!stays_positive([](const Contact& c) { return c.sin_pressure; }, smallest))
+    return refuse("rocker.pivot_to_cam_m", Reason::inconsistent);
+  if (!stays_positive([](const Contact& c) { return c.cos_screw; }, smallest))
+    return refuse("rocker.pivot_to_screw_m", Reason::inconsistent);
   return {};
 }
 
@@ -118,7 +126,8 @@ ValveLift::Contact ValveLift::pad_contact(const CamLift& y, double phi_rad) cons
   const double l_b = rocker_.pivot_to_screw_m;
   const double toward = rocker_.cam_turns == CamTurns::toward_pivot ? 1 : -1;
 
-  // Triangle pivot O, pad centre A, cam centre Oc, by its sides; the angles by their tangents, good to rounding however flat it is.
+  // Triangle pivot O, pad centre A, cam centre Oc, by its sides; the angles by their tangents, good to rounding however
+  // flat it is.
   const double height = rocker_.base_circle_m + rocker_.pad_radius_m + y.lift_m;
   const double R = square_root(height * height + y.per_rad_m * y.per_rad_m);
   const double area4_squared = (l_a + l_c - R) * (l_a + l_c + R) * (R - l_a + l_c) * (R + l_a - l_c);
@@ -127,8 +136,8 @@ ValveLift::Contact ValveLift::pad_contact(const CamLift& y, double phi_rad) cons
   c.triangle = area4_squared / (l_a * l_a * l_c * l_c);
   if (!(c.triangle > 0)) return c;
   const double area4 = square_root(area4_squared);
-  const double W = elementary::atan2(area4, l_a * l_a + l_c * l_c - R * R);                           // at O
-  const double K = elementary::atan2(area4, l_c * l_c + R * R - l_a * l_a);                           // at Oc
+  const double W = elementary::atan2(area4, l_a * l_a + l_c * l_c - R * R);  // at O
+  const double K = elementary::atan2(area4, l_c * l_c + R * R - l_a * l_a);  // at Oc
   const double gamma = elementary::atan2(y.per_rad_m, height);
   const double pressure = elementary::atan2(area4, l_a * l_a + R * R - l_c * l_c) + toward * gamma;  // J', at A
   c.cam_rad = phi_rad + gamma - toward * (K - cam_angle_at_full_lift_rad_);
@@ -139,7 +148,8 @@ ValveLift::Contact ValveLift::pad_contact(const CamLift& y, double phi_rad) cons
   const double psi = screw_at_rest_rad_ - turned;
   c.cos_screw = elementary::cos(psi);
 
-  // The pad centre runs on a contour `offset` beyond the cam's. dR/dphi = y' offset_radius / R, dK/dR = -cot J / R, dJ/dR = -cot K / R.
+  // The pad centre runs on a contour `offset` beyond the cam's. dR/dphi = y' offset_radius / R, dK/dR = -cot J / R,
+  // dJ/dR = -cot K / R.
   const double offset_radius = c.radius_m + rocker_.pad_radius_m;
   const double arm = l_a * c.sin_pressure;
   c.cam_per_phi = 2 * arm * offset_radius / area4;
@@ -149,7 +159,8 @@ ValveLift::Contact ValveLift::pad_contact(const CamLift& y, double phi_rad) cons
   const double arm_per_cam = l_a * elementary::cos(pressure) * (J_per_phi + toward * gamma_per_phi) / c.cam_per_phi;
   const double W_per_cam = y.per_rad_m / arm;
   const double W_per_cam2 = (y.per_rad2_m / c.cam_per_phi - W_per_cam * arm_per_cam) / arm;
-  const double h = 2 * l_b * elementary::cos(screw_at_rest_rad_ - turned / 2) * elementary::sin(turned / 2);  // l_b (sin psi_0 - sin psi)
+  const double h = 2 * l_b * elementary::cos(screw_at_rest_rad_ - turned / 2) *
+                   elementary::sin(turned / 2);  // l_b (sin psi_0 - sin psi)
   c.pose.lift_m = h - rocker_.clearance_m;
   c.pose.per_rad_m = l_b * c.cos_screw * W_per_cam;
   c.pose.per_rad2_m = l_b * (c.cos_screw * W_per_cam2 + elementary::sin(psi) * W_per_cam * W_per_cam);
@@ -161,8 +172,8 @@ LiftPose ValveLift::at(double cam_rad) const noexcept {
   const double since_opening = into_turn(cam_rad - opens_rad_);
   if (!(since_opening > 0 && since_opening < closes_rad_ - opens_rad_)) return outside_;
   const double wanted = opens_rad_ + since_opening;
-  // phi_r rises with phi (check_contacts), so the root stays between `low` and `high`. Newton's step is taken where it stays there too and
-  // is less than half the step before; otherwise half the interval is.
+  // phi_r rises with phi (check_contacts), so the root stays between `low` and `high`. Newton's step is taken where it
+  // stays there too and is less than half the step before; otherwise half the interval is.
   double low = cam_.opens_rad();
   double high = cam_.closes_rad();
   double phi = low + since_opening;

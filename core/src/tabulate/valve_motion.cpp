@@ -1,3 +1,4 @@
+#include <crankloop/assert.hpp>
 #include <crankloop/tabulate/valve_motion.hpp>
 
 #include <cstring>
@@ -8,6 +9,8 @@
 #include "rounding.hpp"
 
 namespace crankloop {
+
+using namespace detail;
 namespace {
 
 /// Fastest rate of a regime: its frequency, or beyond critical damping the faster of its two decay rates.
@@ -23,22 +26,26 @@ namespace {
 
 [[nodiscard]] double fastest_rate_per_s(const ValveBody<double>& b) noexcept {
   double fastest = open_rate_per_s(b);
-  for (const double rate : {rate_per_s(b.spring_N_m + b.train_N_m + b.seat_N_m, b.guide_Ns_m + b.train_Ns_m + b.seat_Ns_m, b.mass_kg),
-                            rate_per_s(b.spring_N_m + b.seat_N_m, b.guide_Ns_m + b.seat_Ns_m, b.mass_kg)}) {
+  for (const double rate :
+       {rate_per_s(b.spring_N_m + b.train_N_m + b.seat_N_m, b.guide_Ns_m + b.train_Ns_m + b.seat_Ns_m, b.mass_kg),
+        rate_per_s(b.spring_N_m + b.seat_N_m, b.guide_Ns_m + b.seat_Ns_m, b.mass_kg)}) {
     if (rate > fastest) fastest = rate;
   }
   return fastest;
 }
 
-/// Fastest rate times fine step: up to here a quintic through the ends of a step knows where in it a contact changes, to 0.1 um in sixth
-/// order. Finer classes take steps of fourth root, as the error of Runge-Kutta's method asks for too.
+/// Fastest rate times fine step: up to here a quintic through the ends of a step knows where in it a contact changes,
+/// to 0.1 um in sixth order. Finer classes take steps of fourth root, as the error of Runge-Kutta's method asks for
+/// too.
 [[nodiscard]] double fine_step_rate(double accuracy_m) noexcept {
   const double ratio = square_root(square_root(accuracy_m / 0.1e-6));
   return ratio < 1 ? ratio : 1;
 }
-/// The same of a step of Runge-Kutta's method: at 0.1 its own error, 0.1^4 / 120 of a swing for each radian, is far below the class.
+/// The same of a step of Runge-Kutta's method: at 0.1 its own error, 0.1^4 / 120 of a swing for each radian, is far
+/// below the class.
 constexpr double kRungeKuttaRate = 0.1;
-/// Rate of the open valve times tick: beyond it the cubic between a tick's ends says too little about the motion between.
+/// Rate of the open valve times tick: beyond it the cubic between a tick's ends says too little about the motion
+/// between.
 constexpr double kWholeStepRate = 1.5;
 /// Rate times part of an exact step: its series ends with 0.5^21 / 21!.
 constexpr double kExactRate = 0.5;
@@ -47,22 +54,26 @@ constexpr int kExactOrder = 20;
 /// A rocker's inertia over the square of a lever that hardly is one may be any mass.
 constexpr double kHeaviest_kg = 1e9;
 
-constexpr double kOffMargin_m = 1e-8;     ///< a contact that is off is sure to stay so beyond this
-constexpr double kTrainMargin_m = 1e-6;   ///< one by the train that is on: what the cubic misses
-constexpr double kNever_m = 1e30;         ///< nothing is beyond this: the contacts are asked in every tick
+constexpr double kOffMargin_m = 1e-8;    ///< a contact that is off is sure to stay so beyond this
+constexpr double kTrainMargin_m = 1e-6;  ///< one by the train that is on: what the cubic misses
+constexpr double kNever_m = 1e30;        ///< nothing is beyond this: the contacts are asked in every tick
 constexpr double kRest_m = 1e-9;
-constexpr double kMostCalm_m = 1e-5;      ///< what swings more has results to record
-constexpr double kCalmMargin = 0.9;       ///< for rounding
+constexpr double kMaxCalm_m = 1e-5;  ///< what swings more has results to record
+constexpr double kCalmMargin = 0.9;  ///< for rounding
 
 /// 1, 2, 3 ... parts so that each is at most `longest`.
 [[nodiscard]] int parts_of(double whole, double longest) noexcept {
+  CRANKLOOP_ASSERT(whole > 0 && longest > 0);
   const double ratio = whole / longest * (1 - 1e-12);  // what is a whole number but for rounding needs no part more
   if (!(ratio < 1e6)) return 1000000;
   return static_cast<int>(ratio) + 1;
 }
 
 /// 2^32 / n for part_of(); a whole has no parts.
-[[nodiscard]] std::uint32_t per_n_32(int n) noexcept { return n == 1 ? 0 : static_cast<std::uint32_t>(0x1p32 / n + 0.5); }
+[[nodiscard]] std::uint32_t per_n_32(int n) noexcept {
+  CRANKLOOP_ASSERT(n >= 1);
+  return n == 1 ? 0 : static_cast<std::uint32_t>(0x1p32 / n + 0.5);
+}
 
 [[nodiscard]] bool train_is_on(std::uint32_t regime) noexcept { return (regime & kTrainOn) != 0; }
 [[nodiscard]] bool seat_is_on(std::uint32_t regime) noexcept { return (regime & kSeatOn) != 0; }
@@ -79,10 +90,13 @@ struct Linear {
 };
 
 /// A preloaded seat carries the preload.
-[[nodiscard]] double rest_N(const ValveBody<double>& body, std::uint32_t regime) noexcept { return seat_is_on(regime) ? 0 : -body.preload_N; }
+[[nodiscard]] double rest_N(const ValveBody<double>& body, std::uint32_t regime) noexcept {
+  return seat_is_on(regime) ? 0 : -body.preload_N;
+}
 
-/// Both rows of a step in a regime: its columns are what the step adds to unit vectors. The diagonal is lowered by a rounding, so that no error
-/// of the last bit makes an undamped valve's energy grow. propagate(state, drive) gives the state after.
+/// Both rows of a step in a regime: its columns are what the step adds to unit vectors. The diagonal is lowered by a
+/// rounding, so that no error of the last bit makes an undamped valve's energy grow. propagate(state, drive) gives the
+/// state after.
 template <class Propagate>
 void fill_rows(const Propagate& propagate, double rest_N, RegimeStep<double>& step) noexcept {
   using State = ValveState<double>;
@@ -95,9 +109,10 @@ void fill_rows(const Propagate& propagate, double rest_N, RegimeStep<double>& st
   const State by_to = propagate(State{0, 0}, StepDrive{0, 0, 0, 1, 0, 0});
   const State by_force = propagate(State{0, 0}, StepDrive{0, 0, 0, 0, 1, 0});
   const State by_force_rise = propagate(State{0, 0}, StepDrive{0, 0, 0, 0, 0, 1});
-  const auto row = [&](double State::* of, double lift, double velocity) {
-    return StepRow<double>{rest_N * by_force.*of, -(by_force.*of), -(by_force_rise.*of), by_level.*of, by_rise.*of,
-                           by_from.*of,           by_to.*of,       lift + by_level.*of,  velocity};  // the cam's level = gap + y
+  const auto row = [&](double State::*of, double lift, double velocity) {
+    return StepRow<double>{
+        rest_N * by_force.*of, -(by_force.*of), -(by_force_rise.*of), by_level.*of, by_rise.*of,
+        by_from.*of,           by_to.*of,       lift + by_level.*of,  velocity};  // the cam's level = gap + y
   };
   step.lift = row(&State::lift_m, by_lift.lift_m - 1 - kRounding, by_velocity.lift_m);
   step.velocity = row(&State::velocity_m_s, by_lift.velocity_m_s, by_velocity.velocity_m_s - 1 - kRounding);
@@ -118,7 +133,8 @@ void fill_rows(const Propagate& propagate, double rest_N, RegimeStep<double>& st
 [[nodiscard]] RegimeSeries<double> series_of(const ValveBody<double>& b, std::uint32_t regime, double h) noexcept {
   const Linear l(b, regime);
   const double per = h * h / b.mass_kg;
-  return {rest_N(b, regime) * per, -per, l.stiffness_N_m * per, l.damping_Ns_m * per / h, l.train_N_m * per, l.train_Ns_m * per / h};
+  return {rest_N(b, regime) * per, -per, l.stiffness_N_m * per, l.damping_Ns_m * per / h, l.train_N_m * per,
+          l.train_Ns_m * per / h};
 }
 
 /// The next float toward minus infinity, or toward plus.
@@ -131,8 +147,8 @@ void fill_rows(const Propagate& propagate, double rest_N, RegimeStep<double>& st
   return x;
 }
 
-/// What a step makes of (y, v) has determinant (1 + yy)(1 + vv) - yv vy, yy and vy without the gap's share. Rounding must not make it more than 1:
-/// an undamped valve's energy would grow.
+/// What a step makes of (y, v) has determinant (1 + yy)(1 + vv) - yv vy, yy and vy without the gap's share. Rounding
+/// must not make it more than 1: an undamped valve's energy would grow.
 void never_grow(RegimeStep<float>& step) noexcept {
   for (;;) {
     const double yy = 1 + static_cast<double>(step.lift.lift) - static_cast<double>(step.lift.gap);
@@ -149,43 +165,20 @@ void never_grow(RegimeStep<float>& step) noexcept {
 
 }  // namespace
 
-ValveBody<double> valve_body(const Valve& valve, double lever_m) noexcept {
-  ValveBody<double> b{};
-  b.rocker_mass_kg = valve.rocker_inertia_kg_m2 / (lever_m * lever_m);
-  b.mass_kg = valve.valve_kg + valve.spring_kg / 3 + b.rocker_mass_kg;
-  b.train_N_m = valve.train_N_m;
-  b.seat_N_m = valve.seat_N_m;
-  b.spring_N_m = valve.spring_N_m;
-  b.train_Ns_m = 2 * valve.train_damping_ratio * square_root(b.train_N_m * b.mass_kg);
-  b.guide_Ns_m = 2 * valve.guide_damping_ratio * square_root(b.train_N_m * b.mass_kg);
-  b.seat_Ns_m = 2 * valve.seat_damping_ratio * square_root(b.seat_N_m * b.mass_kg);
-  b.preload_N = valve.spring_preload_N;
-  b.seat_sink_m = valve.spring_preload_N / valve.seat_N_m;
-  b.head_area_m2 = valve.head_area_m2;
-  b.per_mass = 1 / b.mass_kg;
-  return b;
-}
-
-double open_frequency_rad_s(const ValveBody<double>& body) noexcept {
-  return square_root((body.train_N_m + body.spring_N_m) / body.mass_kg);
-}
-
-double seated_frequency_rad_s(const ValveBody<double>& body) noexcept {
-  return square_root((body.train_N_m + body.seat_N_m + body.spring_N_m) / body.mass_kg);
-}
-
 double longest_tick_s(const ValveBody<double>& body, const ValveStepping& stepping) noexcept {
-  return kMostFineSteps * fine_step_rate(stepping.accuracy_m) / fastest_rate_per_s(body);
+  return kMaxFineSteps * fine_step_rate(stepping.accuracy_m) / fastest_rate_per_s(body);
 }
 
-ValveState<double> runge_kutta(const ValveBody<double>& body, std::uint32_t regime, double d_s, int n, ValveState<double> state,
-                               const StepDrive& drive) noexcept {
+ValveState<double> runge_kutta(const ValveBody<double>& body, std::uint32_t regime, double d_s, int n,
+                               ValveState<double> state, const StepDrive& drive) noexcept {
   const Linear l(body, regime);
   const auto acceleration = [&](double part, double y, double v) {
     const StepDrive::Piece lift = drive.about(part);
-    const double force_N = drive.force_N + drive.force_rise_N * part + l.train_N_m * lift.c[0] + l.train_Ns_m * lift.c[1] / d_s;
+    const double force_N =
+        drive.force_N + drive.force_rise_N * part + l.train_N_m * lift.c[0] + l.train_Ns_m * lift.c[1] / d_s;
     return (force_N - l.stiffness_N_m * y - l.damping_Ns_m * v) / body.mass_kg;
   };
+  CRANKLOOP_ASSERT(regime < kQuiet && n >= 1 && d_s > 0);
   const double d = d_s / n;
   double y = state.lift_m;
   double v = state.velocity_m_s;
@@ -203,9 +196,10 @@ ValveState<double> runge_kutta(const ValveBody<double>& body, std::uint32_t regi
   return {y, v};
 }
 
-ValveState<double> exact_motion(const ValveBody<double>& body, std::uint32_t regime, double d_s, ValveState<double> state,
-                                const StepDrive& drive) noexcept {
+ValveState<double> exact_motion(const ValveBody<double>& body, std::uint32_t regime, double d_s,
+                                ValveState<double> state, const StepDrive& drive) noexcept {
   const Linear l(body, regime);
+  CRANKLOOP_ASSERT(regime < kQuiet);
   const int n = parts_of(d_s, kExactRate / fastest_rate_per_s(body));
   const double w = 1.0 / n;
   const double h = d_s * w;
@@ -234,13 +228,15 @@ ValveState<double> exact_motion(const ValveBody<double>& body, std::uint32_t reg
   return state;
 }
 
-Status motion_of(const ValveBody<double>& body, double tick_s, const ValveStepping& stepping, ValveMotion<double>& motion) noexcept {
-  if (!(stepping.accuracy_m >= 0.01e-6 && stepping.accuracy_m <= 10e-6)) return {Reason::out_of_range, -1, "tick.accuracy"};
+Status motion_of(const ValveBody<double>& body, double tick_s, const ValveStepping& stepping,
+                 ValveMotion<double>& motion) noexcept {
+  if (!(stepping.accuracy_m >= 0.01e-6 && stepping.accuracy_m <= 10e-6))
+    return refuse("options.valves.accuracy_m", Reason::out_of_range);
   if (stepping.integrator != Integrator::rk4 && stepping.integrator != Integrator::exponential) {
-    return {Reason::out_of_range, -1, "tick.integrator"};  // a number that names no integrator
+    return refuse("options.valves.integrator", Reason::out_of_range);  // a number that names no integrator
   }
-  if (!(body.mass_kg <= kHeaviest_kg)) return {Reason::out_of_range, -1, "valve.rocker_inertia"};
-  if (!(tick_s > 0 && tick_s <= longest_tick_s(body, stepping))) return {Reason::out_of_range, -1, "tick.tick"};
+  if (!(body.mass_kg <= kHeaviest_kg)) return refuse("valve.rocker_inertia_kg_m2", Reason::out_of_range);
+  if (!(tick_s > 0 && tick_s <= longest_tick_s(body, stepping))) return refuse("options.tick_s", Reason::out_of_range);
   const double fastest = fastest_rate_per_s(body);
   const double fine_rate = fine_step_rate(stepping.accuracy_m);
   const int parts = parts_of(tick_s, fine_rate / fastest);
@@ -258,7 +254,7 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
   motion.seat_lag_s = body.seat_Ns_m / body.seat_N_m;
   motion.per_seat_N_m = 1 / (body.seat_N_m + body.spring_N_m);
   // A swing A on the seat presses with at least k_z (delta_0 - A) - b_z A w > 0 while A (1 + 2 zeta) < delta_0.
-  motion.quiet_m = 0.8 * body.seat_sink_m / (1 + body.seat_Ns_m / square_root(body.seat_N_m * body.mass_kg));
+  motion.quiet_m = 0.8 * body.seat_compression_m / (1 + body.seat_Ns_m / square_root(body.seat_N_m * body.mass_kg));
   motion.per_seat_rate_s = 1 / square_root((body.seat_N_m + body.spring_N_m) / body.mass_kg);
 
   const auto propagator = [&](std::uint32_t contacts, double step_s) {
@@ -274,9 +270,9 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
     step.acceleration = force_row(body, contacts);
     const double third_s = step_s / 3;
     step.train = {-1, third_s, kOffMargin_m};
-    step.seat = {1, third_s, kOffMargin_m + body.seat_sink_m};
+    step.seat = {1, third_s, kOffMargin_m + body.seat_compression_m};
     if (train_is_on(contacts)) step.train = {1, motion.train_lag_s + third_s, kTrainMargin_m};
-    if (seat_is_on(contacts)) step.seat = {-1, motion.seat_lag_s + third_s, -body.seat_sink_m};
+    if (seat_is_on(contacts)) step.seat = {-1, motion.seat_lag_s + third_s, -body.seat_compression_m};
     return step;
   };
   const auto may_rest = [&](RegimeStep<double>& step) {
@@ -314,9 +310,11 @@ void find_calm(ValveMotion<double>& motion, double lash_m) noexcept {
   for (const std::uint32_t regime : {kSeatOn, kQuiet}) {
     RegimeStep<double>& step = motion.whole[regime];
     // A swing A is never further from its rest than A, nor faster than A times its rate.
-    const auto most = [per_s](const ContactGuard<double>& guard, double depth_m) { return (depth_m - guard.least_m) / (1 + guard.lag_s * per_s); };
+    const auto most = [per_s](const ContactGuard<double>& guard, double depth_m) {
+      return (depth_m - guard.least_m) / (1 + guard.lag_s * per_s);
+    };
     double calm_m = motion.quiet_m / 2;  // under gas the rest moves as well
-    for (const double limit_m : {most(step.train, lash_m), most(step.seat, 0), kMostCalm_m}) {
+    for (const double limit_m : {most(step.train, lash_m), most(step.seat, 0), kMaxCalm_m}) {
       if (limit_m < calm_m) calm_m = limit_m;
     }
     step.calm_m = calm_m > 0 ? kCalmMargin * calm_m : 0;

@@ -1,7 +1,9 @@
-// A firmware that runs a four-cylinder engine with eight valves from a timer interrupt at 10 kHz, from standstill to 6000 rpm in two seconds.
+// A firmware that runs a four-cylinder engine with eight valves from a timer interrupt at 10 kHz, from standstill to
+// 6000 rpm in two seconds.
 //
-// The interrupt does what a controller's would: reads the speed (here a ramp), steps the engine, keeps what it needs, and looks whether it
-// was done in time. The main loop sleeps, prints when all is over, and ends with the number of things that went wrong.
+// The interrupt does what a controller's would: reads the speed (here a ramp), steps the engine, keeps what it needs,
+// and looks whether it was done in time. The main loop sleeps, prints when all is over, and ends with the number of
+// things that went wrong.
 #include <cstdint>
 
 #include "example_engine.hpp"
@@ -31,10 +33,10 @@ example_engine::Engine engine;  // tables in flash, state here
 /// Written by the interrupt, read by the main loop once `done` is set.
 struct Results {
   std::uint32_t faults;
-  std::uint32_t overruns;         ///< ticks during which the next one fell due
-  std::uint32_t worst_time_us;    ///< of a tick
-  std::uint32_t cycles;           ///< of the crank at full speed
-  float mean_torque_sum_Nm;       ///< over the ticks at full speed
+  std::uint32_t overruns;       ///< ticks during which the next one fell due
+  std::uint32_t worst_time_us;  ///< of a tick
+  std::uint32_t cycles;         ///< of the crank at full speed
+  float mean_torque_sum_Nm;     ///< over the ticks at full speed
   float largest_lift_m;
   float lowest_lift_m;
 };
@@ -59,7 +61,9 @@ extern "C" void SysTick_Handler() {
   if (done) return;
   example_engine::Input in;
   ++ticks;
-  in.speed_rad_s = ticks < kRampTicks ? kRedline_rad_s * static_cast<float>(static_cast<std::int32_t>(ticks)) / static_cast<float>(kRampTicks) : kRedline_rad_s;
+  in.speed_rad_s = ticks < kRampTicks ? kRedline_rad_s * static_cast<float>(static_cast<std::int32_t>(ticks)) /
+                                            static_cast<float>(kRampTicks)
+                                      : kRedline_rad_s;
   keep(engine.step(in));
 
   const std::uint32_t elapsed_us = (systick->reload - systick->value) / (kCoreClock_Hz / 1'000'000);

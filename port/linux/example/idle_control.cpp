@@ -1,7 +1,11 @@
-// A controller for `crankloop live`: starts the engine and holds its idle speed, by the load ratio alone. An example to begin from.
+// A controller for `crankloop live`: starts the engine and holds its idle speed, by the load ratio alone; by the
+// throttle where the engine breathes. An example to begin from.
 //
 //   crankloop live diesel_495.ini --shared /dev/shm/engine --seconds 12 &
 //   idle_control /dev/shm/engine --seconds 10
+//
+//   crankloop live four_2000.ini --shared /dev/shm/engine --seconds 12 &
+//   idle_control /dev/shm/engine --seconds 10 --target-rpm 1200
 //
 //   --target-rpm N   idle speed, 800 unless told      --seconds S   how long, 10 unless told
 //
@@ -28,10 +32,13 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kRpmPerRad_s = 30 / 3.14159265358979323846;
 
-/// Speed seen through a low-pass filter: an engine of four cylinders pulses 27 times a second at 800 rpm, and a controller is not to answer that.
+/// Speed seen through a low-pass filter: an engine of four cylinders pulses 27 times a second at 800 rpm, and a
+/// controller is not to answer that.
 class SmoothSpeed {
  public:
-  void take(double speed_rad_s, double period_s) noexcept { value_rad_s_ += (speed_rad_s - value_rad_s_) * period_s / (kTime_s + period_s); }
+  void take(double speed_rad_s, double period_s) noexcept {
+    value_rad_s_ += (speed_rad_s - value_rad_s_) * period_s / (kTime_s + period_s);
+  }
   [[nodiscard]] double rad_s() const noexcept { return value_rad_s_; }
 
  private:
@@ -39,29 +46,47 @@ class SmoothSpeed {
   double value_rad_s_ = 0;
 };
 
-/// Proportional and integral, for the 495 diesel: 210 Nm at load ratio 1 on about 0.6 kg m^2. The proportional part alone would close an error
-/// within 0.2 s.
+struct Gains {
+  double per_rad_s;  ///< of the error in rad/s
+  double per_rad;    ///< of its integral in rad
+  double most;
+  double begin;  ///< of the integral, about what idling takes
+};
+/// Of the load ratio, for the 495 diesel: 210 Nm at load ratio 1 on about 0.6 kg m^2. The proportional part alone would
+/// close an error within 0.2 s.
+constexpr Gains kLoadGains{0.015, 0.03, 0.5, 0};
+/// Of the throttle, for the two-litre engine: torque follows some 0.3 s after it, as the intake manifold fills, so the
+/// controller is slower than that.
+constexpr Gains kThrottleGains{0.00015, 0.0001, 0.1, 0.008};
+
+/// Proportional and integral.
 class IdleControl {
  public:
-  explicit IdleControl(double target_rad_s) noexcept : target_rad_s_{target_rad_s} {}
+  IdleControl(double target_rad_s, const Gains& gains) noexcept : target_rad_s_{target_rad_s}, gains_{gains} {}
 
-  /// The load ratio for the next period.
-  [[nodiscard]] double load_ratio(double speed_rad_s, double period_s) noexcept {
+  /// The load ratio, or throttle, for the next period.
+  [[nodiscard]] double ratio(double speed_rad_s, double period_s) noexcept {
     const double error_rad_s = target_rad_s_ - speed_rad_s;
-    const double wanted = kPerRad_s * error_rad_s + integral_;
-    const double allowed = std::clamp(wanted, 0.0, kMost);
-    if (wanted == allowed) integral_ += kPerRad * error_rad_s * period_s;  // at a limit it would only wind up
+    const double wanted = gains_.per_rad_s * error_rad_s + integral_;
+    const double allowed = std::clamp(wanted, 0.0, gains_.most);
+    if (wanted == allowed) integral_ += gains_.per_rad * error_rad_s * period_s;  // at a limit it would only wind up
     return allowed;
   }
 
  private:
-  static constexpr double kPerRad_s = 0.015;  // of the error in rad/s
-  static constexpr double kPerRad = 0.03;     // of its integral in rad
-  static constexpr double kMost = 0.5;
-
   double target_rad_s_;
-  double integral_ = 0;
+  Gains gains_;
+  double integral_ = gains_.begin;
 };
+
+/// Fuel for the air that the last cycles had, and a rich mixture until there was one. Late spark: the engine makes less
+/// of its air, so that the throttle stands where it can move both ways.
+void feed(LiveInputs& in, const LiveOutputs& out) noexcept {
+  constexpr double kAirPerFuel = 14.6;
+  constexpr double kFirst_kg = 20e-6;
+  in.fuel_kg = out.trapped_air_kg > 0 ? out.trapped_air_kg / kAirPerFuel : kFirst_kg;
+  in.burn_start_deg = 10;
+}
 
 /// Engaged from rest to half the target, and again where the engine stalls.
 bool starter_needed(bool engaged, double speed_rad_s, double target_rad_s) noexcept {
@@ -115,7 +140,8 @@ int control(const SharedBlock& block, double target_rad_s, double seconds) {
   constexpr auto kPeriod = std::chrono::milliseconds(5);
   constexpr double kPeriod_s = 5e-3;
   SmoothSpeed smooth;
-  IdleControl idle(target_rad_s);
+  const bool breathes = block->breathes != 0;
+  IdleControl idle(target_rad_s, breathes ? kThrottleGains : kLoadGains);
   Record record;
   LiveInputs in;
   LiveOutputs out;
@@ -125,11 +151,14 @@ int control(const SharedBlock& block, double target_rad_s, double seconds) {
   auto next = Clock::now();
   for (int period = 0; period < periods && block->state == LiveState::running; ++period) {
     std::uint32_t sequence = 0;
-    static_cast<void>(block->outputs.read(out, sequence));  // caught half written: the ones of the period before will do
+    static_cast<void>(
+        block->outputs.read(out, sequence));  // caught half written: the ones of the period before will do
     smooth.take(out.speed_rad_s, kPeriod_s);
     engaged = starter_needed(engaged, smooth.rad_s(), target_rad_s);
     in.starter = engaged ? 1 : 0;
-    in.load_ratio = idle.load_ratio(smooth.rad_s(), kPeriod_s);
+    const double ratio = idle.ratio(smooth.rad_s(), kPeriod_s);
+    (breathes ? in.throttle_ratio : in.load_ratio) = ratio;
+    if (breathes) feed(in, out);
     block->inputs.write(in);  // every period, changed or not: the sign of life
 
     if (running_after_s < 0 && smooth.rad_s() > 0.9 * target_rad_s) running_after_s = period * kPeriod_s;

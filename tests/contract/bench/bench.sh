@@ -1,13 +1,15 @@
 #!/bin/sh
-# What of the benchmark is committed: a gate that no noisy clock moves, of instructions and errors; and what docs/performance.md says of it.
+# What of the benchmark is committed: a gate that no noisy clock moves, of instructions and errors; and what
+# docs/performance.md says of it.
 #
 #   bench.sh BUILD_DIR check   fails when a kernel takes over 2 % more instructions than instructions.txt says, or an error has grown by
 #                              over 2 % from errors.csv; last line: "N passed, M failed"
 #   bench.sh BUILD_DIR renew   writes both anew
 #   bench.sh BUILD_DIR performance FILE PICTURE   rewrites the benchmark's part of docs/performance.md, and its diagrams
 #
-# Builds the release program into BUILD_DIR; CXX names another compiler than c++. Instructions are compared only where compiler and processor
-# family are those of instructions.txt; errors everywhere: they are the same on every machine, but for those of the mathematics library.
+# Builds the release program into BUILD_DIR; CXX names another compiler than c++. Instructions are compared only where
+# compiler and processor family are those of instructions.txt; errors everywhere: they are the same on every machine,
+# but for those of the mathematics library.
 set -eu
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
 # shellcheck source-path=SCRIPTDIR source=../instructions.sh
@@ -19,7 +21,7 @@ cycle_ticks=1000  # a cycle of most kernels; of the others two or four, or a par
 growth_percent=2
 
 mkdir -p "$build_dir"
-if ! { cmake -S "$here/../../.." -B "$build_dir" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE="-O3 -DNDEBUG" -DCRANKLOOP_DEVELOPER=ON &&
+if ! { cmake -S "$here/../../.." -B "$build_dir" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE="-O3 -DNDEBUG" -DCRANKLOOP_BENCH_PEERS=ON &&
   cmake --build "$build_dir" --target crankloop_program --parallel "$jobs"; } >"$build_dir/build.log" 2>&1; then
   tail -n 40 "$build_dir/build.log" >&2
   exit 1
@@ -93,7 +95,7 @@ check() {
   [ "$failed" -eq 0 ]
 }
 
-# ---- docs/performance.md ----------------------------------------------------------------------------------------------------
+# ---- docs/performance.md ---------------------------------------------------------------------------------------------
 
 # goals CSV: asked and reached.
 goals() {

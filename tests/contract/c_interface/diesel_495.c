@@ -1,12 +1,13 @@
-/* The 495 diesel by the C interface alone, in C99: a cycle at 2000 rpm, torque of every tick in float and in double. The values are printed
- * as hexadecimal floats; c_interface_test.cpp compares them with the C++ engine's. */
-#include <crankloop/crankloop.h>
+/* The 495 diesel by the C interface alone, in C99: a cycle at 2000 rpm, torque of every tick in float and in double.
+ * The values are printed as hexadecimal floats; c_engine_test.cpp compares them with the C++ engine's. */
+#include <crankloop/crankloop_whole_d.h>
+#include <crankloop/crankloop_whole_f.h>
 #include <stdio.h>
 
-static crankloop_f_tables f_tables;
-static crankloop_f_engine f_engine;
-static crankloop_d_tables d_tables;
-static crankloop_d_engine d_engine;
+static crankloop_whole_f_tables f_tables;
+static crankloop_whole_f_engine f_engine;
+static crankloop_whole_d_tables d_tables;
+static crankloop_whole_d_engine d_engine;
 
 static int refused(crankloop_status status) {
   char text[100];
@@ -16,7 +17,7 @@ static int refused(crankloop_status status) {
   return 1;
 }
 
-static void make_train(crankloop_valve_train *train, double half_angle_deg, double full_lift_deg, double valve_kg) {
+static void make_train(crankloop_valve_train* train, double half_angle_deg, double full_lift_deg, double valve_kg) {
   static const double exponents[] = {2, 6, 10, 14};
   int i;
   train->cam.max_lift_m = 7.2e-3;
@@ -43,8 +44,8 @@ int main(void) {
   static const int32_t order[] = {1, 3, 4, 2};
   crankloop_definition diesel;
   crankloop_options options;
-  crankloop_f_input f_in;
-  crankloop_d_input d_in;
+  crankloop_whole_f_input f_in;
+  crankloop_whole_d_input d_in;
   int k, tick;
 
   if (refused(crankloop_definition_defaults(&diesel, sizeof diesel))) return 1;
@@ -65,24 +66,29 @@ int main(void) {
   make_train(&diesel.trains[1], 80, 266, 0.470);
   if (refused(crankloop_options_defaults(&options, sizeof options))) return 1;
 
-  if (refused(crankloop_f_tables_create(&f_tables, sizeof f_tables, &diesel, sizeof diesel, &options, sizeof options))) return 1;
-  if (refused(crankloop_f_engine_create(&f_engine, sizeof f_engine, &f_tables, 0))) return 1;
-  if (refused(crankloop_f_input_defaults(&f_in, sizeof f_in))) return 1;
-  if (refused(crankloop_d_tables_create(&d_tables, sizeof d_tables, &diesel, sizeof diesel, &options, sizeof options))) return 1;
-  if (refused(crankloop_d_engine_create(&d_engine, sizeof d_engine, &d_tables, 0))) return 1;
-  if (refused(crankloop_d_input_defaults(&d_in, sizeof d_in))) return 1;
+  if (refused(crankloop_whole_f_tables_create(&f_tables, sizeof f_tables, &diesel, sizeof diesel, &options,
+                                              sizeof options)))
+    return 1;
+  if (refused(crankloop_whole_f_create(&f_engine, sizeof f_engine, &f_tables, 0))) return 1;
+  if (refused(crankloop_whole_f_input_defaults(&f_in, sizeof f_in))) return 1;
+  if (refused(crankloop_whole_d_tables_create(&d_tables, sizeof d_tables, &diesel, sizeof diesel, &options,
+                                              sizeof options)))
+    return 1;
+  if (refused(crankloop_whole_d_create(&d_engine, sizeof d_engine, &d_tables, 0))) return 1;
+  if (refused(crankloop_whole_d_input_defaults(&d_in, sizeof d_in))) return 1;
 
   f_in.speed_rad_s = 209.5f;
   d_in.speed_rad_s = 209.5;
   for (tick = 0; tick < 600; ++tick) {
-    crankloop_f_torque f_out;
-    crankloop_d_torque d_out;
-    uint32_t faults = crankloop_f_step(&f_engine, &f_in, sizeof f_in);
-    faults |= crankloop_d_step(&d_engine, &d_in, sizeof d_in);
+    crankloop_whole_f_output f_out;
+    crankloop_whole_d_output d_out;
+    uint32_t faults = crankloop_whole_f_step(&f_engine, &f_in, sizeof f_in);
+    faults |= crankloop_whole_d_step(&d_engine, &d_in, sizeof d_in);
     if (faults != 0) return 1;
-    if (refused(crankloop_f_read_torque(&f_engine, &f_out, sizeof f_out))) return 1;
-    if (refused(crankloop_d_read_torque(&d_engine, &d_out, sizeof d_out))) return 1;
-    printf("%a %a %a %a\n", (double)f_out.torque_Nm, (double)f_out.mean_torque_Nm, d_out.torque_Nm, d_out.mean_torque_Nm);
+    if (refused(crankloop_whole_f_read(&f_engine, &f_out, sizeof f_out))) return 1;
+    if (refused(crankloop_whole_d_read(&d_engine, &d_out, sizeof d_out))) return 1;
+    printf("%a %a %a %a\n", (double)f_out.torque_Nm, (double)f_out.mean_torque_Nm, d_out.torque_Nm,
+           d_out.mean_torque_Nm);
   }
   return 0;
 }

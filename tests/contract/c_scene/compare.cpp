@@ -1,7 +1,11 @@
-// The generated C interfaces against the C++ engines they are made of: every group, bit for bit.
+// The C interfaces of a product's own scenes against the C++ engines they are made of: every output, bit for bit.
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <string_view>
+
+#include <crankloop/variables.hpp>
 
 #include "all_of_it.h"
 #include "all_of_it.hpp"
@@ -12,140 +16,196 @@
 #include "turned.h"
 #include "turned.hpp"
 
+using namespace crankloop;
+
 static int bad = 0;
 
-template <class C, class Cpp>
-static void expect_same(const char* what, int tick, const C* c, const Cpp& cpp) {
-  static_assert(sizeof(C) == sizeof(Cpp));
-  if (std::memcmp(c, &cpp, sizeof cpp) != 0 && bad++ < 10) std::printf("tick %d: other %s\n", tick, what);
-}
 static void expect(const char* what, bool is_so) {
   if (!is_so && bad++ < 10) std::printf("not so: %s\n", what);
 }
+static bool ok(const crankloop_status& status) { return status.reason == CRANKLOOP_OK; }
 
-int main() {
-  using namespace crankloop;
-  using Real = all_of_it::Real;
-  using S = all_of_it::Scene;
-  static_assert(sizeof(all_of_it_engine) == sizeof(all_of_it::Engine), "the exact size");
-  static_assert(sizeof(torque_only_engine) == sizeof(torque_only::Engine), "the exact size");
-
-  {  // Nothing is written through a null pointer, nor read.
-    all_of_it_engine none{};
-    const all_of_it_input any = all_of_it_default_input();
-    unsigned char bytes[all_of_it_SAVED_BYTES];
-    all_of_it_init(nullptr, 0);
-    expect("null is not ready", all_of_it_step(nullptr, &any) == kFaultNotReady && all_of_it_step(&none, nullptr) == kFaultNotReady);
-    expect("null has no numbers", all_of_it_phase(nullptr) == 0 && all_of_it_torque_Nm(nullptr) == 0 && all_of_it_mean_torque_Nm(nullptr) == 0);
-    expect("null has no groups", all_of_it_get_forces(nullptr) == nullptr && all_of_it_get_valves(nullptr) == nullptr);
-    expect("null is not saved", all_of_it_save(nullptr, bytes, sizeof bytes).reason == CRANKLOOP_NULL_POINTER &&
-                                    all_of_it_save(&none, nullptr, sizeof bytes).reason == CRANKLOOP_NULL_POINTER);
-    expect("null is not loaded", all_of_it_load(nullptr, bytes, sizeof bytes).reason == CRANKLOOP_NULL_POINTER &&
-                                     all_of_it_load(&none, nullptr, sizeof bytes).reason == CRANKLOOP_NULL_POINTER);
-    turned_turn_at(nullptr, 100);
+/// Of a C output: bit for bit the variables of the list, in its order, each where C has its member: first those that
+/// the state alone knows, then the others.
+template <class S, class Real, class COutput>
+static void expect_same(const char* what, const COutput& c, const Engine<Real, S>& cpp) {
+  const detail::EngineShape largest{S::cylinders.capacity, S::trains.capacity, S::triggers.capacity, 1};
+  std::size_t at = 0;
+  const auto align_to = [&at](std::size_t bytes) { at = (at + bytes - 1) / bytes * bytes; };
+  std::string_view record;
+  std::uint32_t index = 0;
+  for (const bool of_state : {true, false}) {
+    const auto compare = [&](const detail::Variable& variable, const auto& value, bool is_of_state) {
+      if (is_of_state != of_state) return;
+      const std::string_view name = variable.name;
+      const std::string_view part = name.substr(0, name.find('.'));
+      if (part.size() < name.size() && (part != record || variable.first != index))
+        align_to(alignof(Real));  // it has one
+      record = part, index = variable.first;
+      align_to(alignof(decltype(value)));
+      if (std::memcmp(reinterpret_cast<const char*>(&c) + at, &value, sizeof value) != 0 && bad++ < 10)
+        std::printf("%s: other %s\n", what, variable.name);
+      at += sizeof value;
+    };
+    const auto* state = reinterpret_cast<const char*>(&cpp.state());
+    detail::each_output<S>(
+        [&](const detail::Variable& variable, const auto& value) {
+          const auto offset = reinterpret_cast<const char*>(&value) - state;
+          compare(variable, value, offset >= 0 && offset < static_cast<std::ptrdiff_t>(sizeof cpp.state()));
+        },
+        cpp.state(), cpp.output(), largest);
+    detail::each_event<S>([&](const detail::Variable& variable, const auto& value) { compare(variable, value, false); },
+                          cpp.output(), largest);
   }
+  align_to(alignof(COutput));
+  expect("the list has all of the struct", at == sizeof c);
+}
 
+static void misuse() {
+  all_of_it_engine none{};
   all_of_it_engine engine{};
-  all_of_it_init(&engine, 77);
+  all_of_it_input any;
+  all_of_it_output out;
+  unsigned char bytes[all_of_it_SAVED_BYTES];
+  const auto is = [](const crankloop_status& status, int reason) { return status.reason == reason; };
+  expect("defaults", ok(all_of_it_input_defaults(&any, sizeof any)) && any.load_ratio == 1);
+  expect("null has no defaults", is(all_of_it_input_defaults(nullptr, 9), CRANKLOOP_NULL_POINTER));
+  expect("null is not created", is(all_of_it_create(nullptr, sizeof engine, 0), CRANKLOOP_NULL_POINTER));
+  expect("nor in too little room", is(all_of_it_create(&engine, sizeof engine - 1, 0), CRANKLOOP_WRONG_SIZE));
+  expect("null is not ready", all_of_it_step(nullptr, &any, sizeof any) == kFaultNotReady);
+  expect("zero is not ready", all_of_it_step(&none, &any, sizeof any) == kFaultNotReady);
+  expect("zero is not read", is(all_of_it_read(&none, &out, sizeof out), CRANKLOOP_NOT_CREATED));
+  expect("null is not read", is(all_of_it_read(nullptr, &out, sizeof out), CRANKLOOP_NULL_POINTER));
+  expect("null is not saved", is(all_of_it_save(nullptr, bytes, sizeof bytes), CRANKLOOP_NULL_POINTER));
+  expect("null is not loaded", is(all_of_it_load(nullptr, bytes, sizeof bytes), CRANKLOOP_NULL_POINTER));
+  expect("null does not turn", is(turned_turn_at(nullptr, 100), CRANKLOOP_NULL_POINTER));
+  std::memset(&engine, 0x5A, sizeof engine);
+  expect("noise is not ready", all_of_it_step(&engine, &any, sizeof any) == kFaultNotReady);
+  expect("it is created over noise", ok(all_of_it_create(&engine, sizeof engine, 0)));
+  expect("once", is(all_of_it_create(&engine, sizeof engine, 0), CRANKLOOP_ALREADY_CREATED));
+  expect("null is not stepped with", all_of_it_step(&engine, nullptr, sizeof any) == kFaultNotReady);
+  expect("null is not read to", is(all_of_it_read(&engine, nullptr, sizeof out), CRANKLOOP_NULL_POINTER));
+  expect("null is not saved to", is(all_of_it_save(&engine, nullptr, sizeof bytes), CRANKLOOP_NULL_POINTER));
+  expect("it is discarded", ok(all_of_it_discard(&engine)) && is(all_of_it_reset(&engine, 0), CRANKLOOP_NOT_CREATED));
+}
+
+static void all_outputs() {
+  all_of_it_engine engine{};
+  expect("it is created", ok(all_of_it_create(&engine, sizeof engine, 77)));
   all_of_it::Engine cpp{Phase{77}};
-  all_of_it_input in = all_of_it_default_input();
+  all_of_it_input in;
+  all_of_it_output out;
+  expect("it has defaults", ok(all_of_it_input_defaults(&in, sizeof in)));
   all_of_it::Input cpp_in;
   long edges = 0;
   for (int tick = 0; tick < 1500; ++tick) {
     in.speed_rad_s = cpp_in.speed_rad_s = 420 - 0.5 * tick;
     in.load_ratio = cpp_in.load_ratio = tick % 5 * 0.25;
-    in.cam_phase_deg[1] = cpp_in.cam_phase_deg[1] = 0;
-    const auto& out = cpp.step(cpp_in);
-    expect("the same faults", all_of_it_step(&engine, &in) == out.faults);
-    const double torque_Nm = all_of_it_torque_Nm(&engine);
-    const double mean_torque_Nm = all_of_it_mean_torque_Nm(&engine);
-    expect_same("torque", tick, &torque_Nm, out.torque_Nm);
-    expect_same("mean torque", tick, &mean_torque_Nm, out.mean_torque_Nm);
-    expect_same("kinematics", tick, all_of_it_get_kinematics(&engine), static_cast<const Kinematics<Real, S>&>(out));
-    expect_same("rod motion", tick, all_of_it_get_rod_motion(&engine), static_cast<const RodMotion<Real, S>&>(out));
-    expect_same("forces", tick, all_of_it_get_forces(&engine), static_cast<const Forces<Real, S>&>(out));
-    expect_same("bearing loads", tick, all_of_it_get_bearing_loads(&engine), static_cast<const BearingLoads<Real, S>&>(out));
-    expect_same("free forces", tick, all_of_it_get_free_forces(&engine), static_cast<const FreeForces<Real>&>(out));
-    expect_same("valves", tick, all_of_it_get_valves(&engine), static_cast<const Valves<Real, S>&>(out));
-    const all_of_it_valve_forces& forces = *all_of_it_get_valve_forces(&engine);
-    for (int t = 0; t < 2; ++t) {
-      for (int k = 0; k < 4; ++k) {  // without the padding behind the regime, which nobody promises
-        const all_of_it_valve_force& one = forces.valve_forces[t][k];
-        const ValveForcesOutput<Real>& other = out.valve_forces[t][k];
-        expect("the same valve forces", std::memcmp(&one, &other, offsetof(all_of_it_valve_force, regime)) == 0 && one.regime == other.regime);
-      }
-    }
-    expect_same("valve results", tick, all_of_it_get_valve_results(&engine), static_cast<const ValveResults<Real, S>&>(out));
-    const all_of_it_triggers& triggers = *all_of_it_get_triggers(&engine);
-    for (int w = 0; w < 2; ++w) {  // likewise
-      const TriggerSignal<Real, S>& signal = out.trigger[w];
-      expect("the same trigger level", triggers.trigger[w].level == signal.level);
-      expect("the same trigger edges", triggers.trigger[w].edge_count == signal.edge_count);
-      for (std::uint32_t e = 0; e < signal.edge_count && e < S::trigger_edges; ++e) {
-        const all_of_it_trigger_edge& edge = triggers.trigger[w].edge[e];
-        expect("the same trigger edge", edge.time_s == signal.edge[e].time_s && edge.level == signal.edge[e].level);
-        ++edges;
-      }
-    }
-    expect("the same phase", all_of_it_phase(&engine) == cpp.state().phase.units());
+    in.cam_phase_deg[1] = cpp_in.cam_phase_deg[1] = tick % 3;
+    const auto& shown = cpp.step(cpp_in);
+    expect("the same faults", all_of_it_step(&engine, &in, sizeof in) == shown.faults);
+    expect("it is read", ok(all_of_it_read(&engine, &out, sizeof out)));
+    expect_same("all of it", out, static_cast<const Engine<all_of_it::Real, all_of_it::Scene>&>(cpp));
+    // By name, in case list and struct had the same numbers in another order.
+    expect("phase", out.crank == cpp.state().phase.units());
+    expect("torque", out.torque_Nm == shown.torque_Nm && out.mean_torque_Nm == shown.mean_torque_Nm);
+    expect("lift", out.valve[1][2].lift_m == shown.valve[1][2].lift_m);
+    expect("regime", out.valve_forces[1][3].regime == shown.valve_forces[1][3].regime);
+    expect("seating", out.valve_cycle[0][3].seating_speed_m_s == shown.valve_cycle[0][3].seating_speed_m_s);
+    expect("journal", out.journal_load_N[4] == shown.journal_load_N[4]);
+    expect("edge", out.trigger[1].edge[2].time_s == shown.trigger[1].edge[2].time_s);
+    edges += out.trigger[0].edge_count;
   }
-  expect("no bad input was counted", all_of_it_bad_input_ticks(&engine) == 0 && all_of_it_bad_input_kinds(&engine) == 0);
+  expect("there were trigger edges", edges > 100);
+  expect("no bad input was counted", out.bad_input_ticks == 0 && out.bad_input_kinds == 0);
   all_of_it_input bad_in = in;
   bad_in.load_ratio = -1;
-  for (int tick = 0; tick < 3; ++tick) all_of_it_step(&engine, &bad_in);
-  expect("three bad inputs were counted", all_of_it_bad_input_ticks(&engine) == 3);
-  expect("of one kind", all_of_it_bad_input_kinds(&engine) == CRANKLOOP_FAULT_LOAD_RATIO);
-
-  expect("there were trigger edges", edges > 100);
+  for (int tick = 0; tick < 3; ++tick) all_of_it_step(&engine, &bad_in, sizeof bad_in);
+  expect("it is read again", ok(all_of_it_read(&engine, &out, sizeof out)));
+  expect("three bad inputs were counted", out.bad_input_ticks == 3);
+  expect("of one kind", out.bad_input_kinds == CRANKLOOP_FAULT_LOAD_RATIO);
 
   // Snapshot by copy, and bytes.
+  const auto torque_after_100 = [&] {
+    for (int tick = 0; tick < 100; ++tick) all_of_it_step(&engine, &in, sizeof in);
+    expect("it is read later", ok(all_of_it_read(&engine, &out, sizeof out)));
+    return out.torque_Nm;
+  };
   unsigned char bytes[all_of_it_SAVED_BYTES];
-  expect("it saves", all_of_it_save(&engine, bytes, sizeof bytes).reason == CRANKLOOP_OK);
+  expect("it saves", ok(all_of_it_save(&engine, bytes, sizeof bytes)));
   const all_of_it_engine copy = engine;
-  for (int tick = 0; tick < 100; ++tick) all_of_it_step(&engine, &in);
-  const double then_Nm = all_of_it_torque_Nm(&engine);
-  expect("it loads", all_of_it_load(&engine, bytes, sizeof bytes).reason == CRANKLOOP_OK);
-  for (int tick = 0; tick < 100; ++tick) all_of_it_step(&engine, &in);
-  expect("it goes on from bytes", all_of_it_torque_Nm(&engine) == then_Nm);
+  const double then_Nm = torque_after_100();
+  expect("it loads", ok(all_of_it_load(&engine, bytes, sizeof bytes)));
+  expect("it goes on from bytes", torque_after_100() == then_Nm);
   engine = copy;
-  for (int tick = 0; tick < 100; ++tick) all_of_it_step(&engine, &in);
-  expect("it goes on from a copy", all_of_it_torque_Nm(&engine) == then_Nm);
+  expect("it goes on from a copy", torque_after_100() == then_Nm);
   bytes[99] ^= 1;
   expect("it refuses damage", all_of_it_load(&engine, bytes, sizeof bytes).reason == CRANKLOOP_DAMAGED);
 
-  sensor_engine measured{};
-  sensor_init(&measured, 0);
-  sensor::Engine cpp_measured;
-  sensor_input measured_in = sensor_default_input();
-  sensor::Input cpp_measured_in;
+  // In columns.
+  engine = copy;
+  double speed = in.speed_rad_s, load = in.load_ratio, cam = in.cam_phase_deg[1], torque[100], edge[100];
+  crankloop_column columns[] = {{"speed_rad_s", &speed, 1, 0, nullptr, 0, 0},
+                                {"load_ratio", &load, 1, 0, nullptr, 0, 0},
+                                {"cam_phase_deg[2]", &cam, 1, 0, nullptr, 0, 0},
+                                {"torque_Nm", torque, 100, 1, nullptr, 0, 0},
+                                {"trigger[1].edge_count", edge, 100, 1, nullptr, 0, 0}};
+  std::uint32_t faults = 1;
+  expect("it steps many", ok(all_of_it_step_many(&engine, 100, columns, 5, &faults)) && faults == 0);
+  expect("and gets there", torque[99] == then_Nm);
+}
+
+static void measured_inputs() {
+  sensor_engine engine{};
+  expect("the sensor is created", ok(sensor_create(&engine, sizeof engine, 0)));
+  sensor::Engine cpp;
+  sensor_input in;
+  expect("the sensor has defaults", ok(sensor_input_defaults(&in, sizeof in)));
+  sensor::Input cpp_in;
   for (int tick = 0; tick < 500; ++tick) {
-    measured_in.crank_phase += std::uint64_t{1} << 55;
-    cpp_measured_in.crank = Phase{measured_in.crank_phase};
-    for (int k = 0; k < 6; ++k) measured_in.pressure_Pa[k] = cpp_measured_in.pressure_Pa[k] = static_cast<float>(1e5 + 1000 * (tick * (k + 1) % 97));
-    const auto& out = cpp_measured.step(cpp_measured_in);
-    expect("the same faults of the sensor", sensor_step(&measured, &measured_in) == out.faults && out.faults == 0);
-    const float mean_torque_Nm = sensor_mean_torque_Nm(&measured);
-    expect_same("mean torque of the sensor", tick, &mean_torque_Nm, out.mean_torque_Nm);
+    in.crank += std::uint64_t{1} << 55;
+    cpp_in.crank = Phase{in.crank};
+    for (int k = 0; k < 6; ++k)
+      in.pressure_Pa[k] = cpp_in.pressure_Pa[k] = static_cast<float>(1e5 + 1000 * (tick * (k + 1) % 97));
+    const auto& shown = cpp.step(cpp_in);
+    expect("the same faults of the sensor", sensor_step(&engine, &in, sizeof in) == shown.faults && shown.faults == 0);
+    sensor_output out;
+    expect("the sensor is read", ok(sensor_read(&engine, &out, sizeof out)));
+    expect("mean torque of the sensor", out.mean_torque_Nm == shown.mean_torque_Nm);
   }
-  turned_engine by_forces{};
-  turned_init(&by_forces, 0);
-  turned_turn_at(&by_forces, 30);
-  turned::Engine cpp_by_forces;
-  expect("it takes its own state", cpp_by_forces.restore(turning_at<turned::Real, turned::Scene>(cpp_by_forces.state(), 30)).ok());
-  turned_input turned_in = turned_default_input();
-  turned::Input cpp_turned_in;
+}
+
+static void forces() {
+  turned_engine engine{};
+  expect("the turned one is created", ok(turned_create(&engine, sizeof engine, 0)) && ok(turned_turn_at(&engine, 30)));
+  turned::Engine cpp;
+  expect("it takes its own state", cpp.restore(turning_at<turned::Real, turned::Scene>(cpp.state(), 30)).ok());
+  turned_input in;
+  turned_output out;
+  expect("the turned one has defaults", ok(turned_input_defaults(&in, sizeof in)));
+  turned::Input cpp_in;
   for (int tick = 0; tick < 2000; ++tick) {
-    turned_in.load_Nm = cpp_turned_in.load_Nm = static_cast<float>(tick % 40);
-    turned_in.starter = cpp_turned_in.starter = tick < 500 ? 1 : 0;
-    turned_in.cut_cylinders = cpp_turned_in.cut_cylinders = tick > 1000 ? 2 : 0;
-    const auto& out = cpp_by_forces.step(cpp_turned_in);
-    expect("the same faults of the turned one", turned_step(&by_forces, &turned_in) == out.faults && out.faults == 0);
-    const turned_crank_motion& motion = *turned_get_crank_motion(&by_forces);
-    expect("the same motion", motion.crank_phase == out.crank.units() && motion.speed_rad_s == out.speed_rad_s &&
-                                  motion.acceleration_rad_s2 == out.acceleration_rad_s2 && motion.friction_Nm == out.friction_Nm);
-    expect("the same torques", turned_torque_Nm(&by_forces) == out.torque_Nm && turned_starter_Nm(&by_forces) == out.starter_Nm);
+    in.external_torque_Nm = cpp_in.external_torque_Nm = static_cast<float>(tick % 40);
+    in.starter = cpp_in.starter = tick < 500 ? 1 : 0;
+    in.cut_cylinders = cpp_in.cut_cylinders = tick > 1000 ? 2 : 0;
+    const auto& shown = cpp.step(cpp_in);
+    expect("the same faults of the turned one",
+           turned_step(&engine, &in, sizeof in) == shown.faults && shown.faults == 0);
+    expect("the turned one is read", ok(turned_read(&engine, &out, sizeof out)));
+    expect_same("turned", out, static_cast<const Engine<turned::Real, turned::Scene>&>(cpp));
+    expect("the same motion", out.crank == shown.crank.units() && out.speed_rad_s == shown.speed_rad_s &&
+                                  out.friction_Nm == shown.friction_Nm && out.starter_Nm == shown.starter_Nm);
   }
-  expect("it runs", turned_get_crank_motion(&by_forces)->speed_rad_s > 60);
+  expect("it runs", out.speed_rad_s > 60);
+}
+
+int main() {
+  static_assert(sizeof(all_of_it_engine) == sizeof(all_of_it::Engine), "the exact size");
+  static_assert(sizeof(torque_only_engine) == sizeof(torque_only::Engine), "the exact size");
+  misuse();
+  all_outputs();
+  measured_inputs();
+  forces();
   std::printf("%d bad\n", bad);
   return bad == 0 ? 0 : 1;
 }

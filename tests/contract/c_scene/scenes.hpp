@@ -34,7 +34,7 @@ struct TorqueOnly : crankloop::Scene {
 
 struct Turned : crankloop::Scene {
   static constexpr auto cylinders = crankloop::exactly<4>;
-  static constexpr auto crank = crankloop::CrankGiven::load;
+  static constexpr auto crank = crankloop::CrankGiven::torque;
   static constexpr auto pressure = crankloop::PressureGiven::by_table;
   static constexpr bool load_ratio = true;
   static constexpr bool torque = true;

@@ -1,17 +1,22 @@
-// Runs the 495 diesel, and the valve of the 125 stepped in three ways, for some cycles, and looks whether they turn: the figures
-// themselves are tested elsewhere.
+// Runs the 495 diesel, and the valve of the 125 stepped in three ways, for some cycles, and looks whether they turn:
+// the figures themselves are tested elsewhere.
 #include <cmath>
 #include <cstdio>
 
 #include "as_usual.hpp"
 #include "exactly.hpp"
 #include "finely.hpp"
+#include "free_running.hpp"
 #include "my_engine.hpp"
+#include "whole.hpp"
 
-static my_engine::Engine engine;
+static my_engine::Engine diesel;
+static whole::Engine diesel_without_valves;
+static free_running::Engine diesel_without_wheels;
 
-static bool turns() {
-  my_engine::Input in;
+template <class Engine>
+static bool turns(Engine& engine) {
+  typename Engine::Input in;
   in.speed_rad_s = 209.44F;
   float sum_Nm = 0;
   std::uint32_t faults = 0;
@@ -34,7 +39,7 @@ struct Seating {
 template <class Engine>
 static Seating seating(Engine& valve) {
   typename Engine::Input in;
-  in.speed_rad_s = 733.04;  // 7000 rpm
+  in.speed_rad_s = 733.04;                                 // 7000 rpm
   for (int tick = 0; tick < 2000; ++tick) valve.step(in);  // six cycles of 17 ms
   const auto& cycle = valve.output().valve_cycle[0][0];
   std::printf("lift %.6f mm, seating at %.6f m/s\n", cycle.largest_lift_m * 1e3, cycle.seating_speed_m_s);
@@ -52,7 +57,18 @@ static bool steps_in_three_ways() {
     if (std::fabs(way.largest_lift_m - 7.785e-3) > 0.5e-6) return false;  // a printed digit
     if (std::fabs(way.largest_lift_m - ways[0].largest_lift_m) > 0.2e-6) return false;
   }
-  return ways[0].speed_m_s != ways[1].speed_m_s && ways[0].speed_m_s != ways[2].speed_m_s && ways[1].speed_m_s != ways[2].speed_m_s;
+  return ways[0].speed_m_s != ways[1].speed_m_s && ways[0].speed_m_s != ways[2].speed_m_s &&
+         ways[1].speed_m_s != ways[2].speed_m_s;
 }
 
-int main() { return turns() && steps_in_three_ways() ? 0 : 1; }
+static bool starts() {
+  free_running::Input in;
+  in.starter = 1;
+  for (int tick = 0; tick < 20000; ++tick) diesel_without_wheels.step(in);
+  const auto& out = diesel_without_wheels.output();
+  std::printf("after 2 s %.0f rad/s, faults %u\n", static_cast<double>(out.speed_rad_s),
+              static_cast<unsigned>(out.faults));
+  return out.faults == 0 && out.speed_rad_s > 50;
+}
+
+int main() { return turns(diesel) && turns(diesel_without_valves) && starts() && steps_in_three_ways() ? 0 : 1; }

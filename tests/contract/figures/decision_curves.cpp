@@ -1,7 +1,7 @@
 // Polynomials of a degree: how many coefficients, and through which points (docs/decisions/0003-curves.md).
 //
-// Errors and steps at the borders of r, r w, r w^2 or of the rod's angle; the worst of all curves of the mechanism, lambda 0.15 to 0.45,
-// offset 0 and 0.2 r.
+// Errors and steps at the borders of r, r w, r w^2 or of the rod's angle; the worst of all curves of the mechanism,
+// lambda 0.15 to 0.45, offset 0 and 0.2 r.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -23,7 +23,8 @@ struct Quality {
 template <class Real, std::size_t N>
 class Fit {
  public:
-  Fit(const Crank& crank, PoseMember quantity, double scale, const double (&nodes)[N]) : crank_{crank}, quantity_{quantity}, scale_{scale} {
+  Fit(const Crank& crank, PoseMember quantity, double scale, const double (&nodes)[N])
+      : crank_{crank}, quantity_{quantity}, scale_{scale} {
     for (std::size_t i = 0; i < N; ++i) u_[i] = 0.5 + 0.5 * nodes[i];
   }
 
@@ -41,7 +42,9 @@ class Fit {
   }
 
  private:
-  [[nodiscard]] double exact(double deg) const { return exact_pose(crank_, deg * detail::kRadPerDegree).*quantity_ / scale_; }
+  [[nodiscard]] double exact(double deg) const {
+    return exact_pose(crank_, deg * detail::kRadPerDegree).*quantity_ / scale_;
+  }
   [[nodiscard]] detail::Polynomial<N> fitted(int degree) const {
     double y[N];
     for (std::size_t i = 0; i < N; ++i) y[i] = exact(degree + u_[i]);
@@ -69,7 +72,8 @@ void report(const char* what, const double (&nodes)[N]) {
       for (const PoseMember length : {&Pose<double>::slope_m, &Pose<double>::acceleration_m}) {
         Fit<Real, N>(crank, length, crank.crank_radius_m, nodes).measure(worst);
       }
-      for (const PoseMember ratio : {&Pose<double>::rod_tilt, &Pose<double>::radial, &Pose<double>::rod_slope, &Pose<double>::rod_curvature}) {
+      for (const PoseMember ratio :
+           {&Pose<double>::rod_tilt, &Pose<double>::radial, &Pose<double>::rod_slope, &Pose<double>::rod_curvature}) {
         Fit<Real, N>(crank, ratio, 1, nodes).measure(worst);
       }
     }

@@ -1,5 +1,6 @@
-// The C library's elementary functions against crankloop's own (docs/decisions/0006-elementary.md): a hash of a million results of each
-// function. figures.sh runs this twice, the second time with the C library told that the processor has no fused multiply-add.
+// The C library's elementary functions against crankloop's own (docs/decisions/0006-elementary.md): a hash of a million
+// results of each function. figures.sh runs this twice, the second time with the C library told that the processor has
+// no fused multiply-add.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -39,8 +40,9 @@ void compare(const char* name, double low, double high, const Own& of_own, const
     libm_hash.add(b);
     differ += a == b ? 0 : 1;
   }
-  std::printf("%-5s own %016llx  C library %016llx  differ in %d of %d\n", name, static_cast<unsigned long long>(own_hash.sum),
-              static_cast<unsigned long long>(libm_hash.sum), differ, kCalls);
+  std::printf("%-5s own %016llx  C library %016llx  differ in %d of %d\n", name,
+              static_cast<unsigned long long>(own_hash.sum), static_cast<unsigned long long>(libm_hash.sum), differ,
+              kCalls);
 }
 
 }  // namespace
@@ -52,6 +54,7 @@ int main() {
   compare("atan", -10, 10, own::atan, [](double x) { return std::atan(x); });
   compare("exp", -10, 10, own::exp, [](double x) { return std::exp(x); });
   compare("log", 1e-3, 1e3, own::log, [](double x) { return std::log(x); });
-  compare("pow", 1e-3, 1e3, [](double x) { return own::pow(x, 1.35); }, [](double x) { return std::pow(x, 1.35); });
+  compare(
+      "pow", 1e-3, 1e3, [](double x) { return own::pow(x, 1.35); }, [](double x) { return std::pow(x, 1.35); });
   return 0;
 }

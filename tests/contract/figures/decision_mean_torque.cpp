@@ -1,5 +1,5 @@
-// Torque over a tick as a difference of work: against sampling, with integer and with float bases, and where it stops being the better way
-// (docs/decisions/0005-mean-torque.md, 0003-curves.md). Errors are of the engine's largest torque.
+// Torque over a tick as a difference of work: against sampling, with integer and with float bases, and where it stops
+// being the better way (docs/decisions/0005-mean-torque.md, 0003-curves.md). Errors are of the engine's largest torque.
 //
 //     decision_mean_torque ENGINE_FILE
 #include <algorithm>
@@ -21,6 +21,7 @@
 namespace {
 
 using namespace crankloop;
+using namespace crankloop::detail;
 
 using crankloop::support::kRadPerDeg;
 
@@ -28,10 +29,10 @@ using crankloop::support::kRadPerDeg;
 template <class Real>
 class GasWork {
  public:
-  explicit GasWork(const EngineDefinition& engine) : segments_(kMostGasSegments) {
+  explicit GasWork(const EngineDefinition& engine) : segments_(kMaxGasSegments) {
     TableTargets<Real> targets;
     targets.torque_grid = &grid_;
-    targets.gas_capacity = static_cast<int>(kMostGasSegments);
+    targets.gas_capacity = static_cast<int>(kMaxGasSegments);
     targets.gas_torque_full = &curve_;
     targets.gas_full = segments_.data();
     EngineDefinition one = engine;  // the tables are those of all cylinders
@@ -48,13 +49,17 @@ class GasWork {
     return {segment.base, integral(segment.slope, u, curve_.mean_Nm)};
   }
   /// Difference of the bases first, as the library does it.
-  [[nodiscard]] double mean_Nm(Phase from, Phase to) const { return per_angle(difference(work(from), work(to), curve_.quantum), to - from); }
+  [[nodiscard]] double mean_Nm(Phase from, Phase to) const {
+    return per_angle(difference(work(from), work(to), curve_.quantum), to - from);
+  }
   /// Each work as one number, then their difference.
   [[nodiscard]] double mean_by_plain_difference_Nm(Phase from, Phase to) const {
     const auto whole = [this](const Integral<Real>& w) { return signed_value<Real>(w.base) * curve_.quantum + w.part; };
     return per_angle(whole(work(to)) - whole(work(from)), to - from);
   }
-  [[nodiscard]] double mean_of_ends_Nm(Phase from, Phase to) const { return static_cast<double>((torque_Nm(from) + torque_Nm(to)) / 2); }
+  [[nodiscard]] double mean_of_ends_Nm(Phase from, Phase to) const {
+    return static_cast<double>((torque_Nm(from) + torque_Nm(to)) / 2);
+  }
 
  private:
   struct At {
@@ -85,7 +90,8 @@ class Exact {
   [[nodiscard]] double torque_Nm(double deg) const { return engine_.forces(0, deg, 0).torque_Nm; }
   [[nodiscard]] double mean_Nm(double from_deg, double to_deg) const {
     const int panels = 1 + static_cast<int>((to_deg - from_deg) * 10);
-    return detail::integrate(from_deg, to_deg, panels, [this](double deg) { return torque_Nm(deg); }) / (to_deg - from_deg);
+    return detail::integrate(from_deg, to_deg, panels, [this](double deg) { return torque_Nm(deg); }) /
+           (to_deg - from_deg);
   }
   [[nodiscard]] double largest_Nm() const { return largest_Nm_; }
   [[nodiscard]] const ExactEngine& engine() const { return engine_; }
@@ -95,9 +101,12 @@ class Exact {
   double largest_Nm_ = 0;
 };
 
-[[nodiscard]] double deg_of(Phase phase) { return static_cast<double>(phase.units()) * (720.0 / 18446744073709551616.0); }
+[[nodiscard]] double deg_of(Phase phase) {
+  return static_cast<double>(phase.units()) * (720.0 / 18446744073709551616.0);
+}
 
-/// Mean torque of the whole engine over one cycle from torques sampled every `step_deg`, wherever the first sample falls: the worst.
+/// Mean torque of the whole engine over one cycle from torques sampled every `step_deg`, wherever the first sample
+/// falls: the worst.
 void compare_with_sampling(const Exact& exact, double speed_rad_s, double step_deg, const char* tick) {
   const double mean = summarise(exact.engine(), speed_rad_s).mean_torque_Nm;
   const int samples = static_cast<int>(720 / step_deg + 0.5);
@@ -113,8 +122,11 @@ void compare_with_sampling(const Exact& exact, double speed_rad_s, double step_d
 template <class Real>
 void compare_over_angles(const EngineDefinition& definition, const Exact& exact, const char* real) {
   const auto gas = std::make_unique<GasWork<Real>>(definition);
-  std::printf("\n| %s, degrees turned in a tick | difference of work | plain difference | mean of both ends | torque at the end |\n"
-              "| --- | --- | --- | --- | --- |\n", real);
+  std::printf(
+      "\n| %s, degrees turned in a tick | difference of work | plain difference | mean of both ends | torque at the "
+      "end |\n"
+      "| --- | --- | --- | --- | --- |\n",
+      real);
   for (const int log2_deg : {1, 0, -2, -3, -4, -5, -6, -8, -12, -16, -20, -24}) {
     if (sizeof(Real) == 4 && log2_deg < -12) continue;
     const double turned_deg = std::ldexp(1.0, log2_deg);
@@ -133,7 +145,8 @@ void compare_over_angles(const EngineDefinition& definition, const Exact& exact,
       at_end = std::max(at_end, std::fabs(static_cast<double>(gas->torque_Nm(from + turned)) - want));
     }
     const double scale = exact.largest_Nm();
-    std::printf("| %g | %.1e | %.1e | %.1e | %.1e |\n", turned_deg, by_work / scale, by_plain / scale, by_ends / scale, at_end / scale);
+    std::printf("| %g | %.1e | %.1e | %.1e | %.1e |\n", turned_deg, by_work / scale, by_plain / scale, by_ends / scale,
+                at_end / scale);
   }
 }
 

@@ -1,4 +1,5 @@
-// How far each way of counting the crank angle is off after 1e9 ticks of 10 us at 2000.123 rpm (docs/decisions/0002-phase.md).
+// How far each way of counting the crank angle is off after 1e9 ticks of 10 us at 2000.123 rpm
+// (docs/decisions/0002-phase.md).
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -62,6 +63,7 @@ int main() {
   std::printf("double, wrapped at 720: %.2g deg off\n", wrapped_deg<double>());
   std::printf("32-bit phase: %.2g deg off\n", in_32_bits_deg());
   std::printf("crankloop::Phase, increment from double: %.2g deg off\n", by_phase_deg<double>());
-  std::printf("crankloop::Phase, increment from float: %.2g deg off, all of it the rounding of the speed\n", by_phase_deg<float>());
+  std::printf("crankloop::Phase, increment from float: %.2g deg off, all of it the rounding of the speed\n",
+              by_phase_deg<float>());
   return 0;
 }

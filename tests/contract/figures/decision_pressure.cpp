@@ -16,6 +16,7 @@
 namespace {
 
 using namespace crankloop;
+using namespace crankloop::detail;
 
 constexpr double kBar = 1e5;
 
@@ -38,7 +39,8 @@ double largest_error_bar(const IndicatorDiagram& diagram, const Pressure& pressu
 /// Float values at equal steps, straight between them.
 double linear_error_bar(const IndicatorDiagram& diagram, int per_degree) {
   std::vector<float> at;
-  for (int i = 0; i <= 720 * per_degree; ++i) at.push_back(static_cast<float>(diagram.full_Pa(static_cast<double>(i) / per_degree)));
+  for (int i = 0; i <= 720 * per_degree; ++i)
+    at.push_back(static_cast<float>(diagram.full_Pa(static_cast<double>(i) / per_degree)));
   return largest_error_bar(diagram, [&](double deg) {
     const auto i = static_cast<std::size_t>(deg * per_degree);
     const auto u = static_cast<float>(deg * per_degree - static_cast<double>(i));
@@ -52,9 +54,10 @@ void compare(const char* trace, const std::vector<DiagramPoint>& rows) {
   if (!diagram.init(engine.crank, engine.pressure).ok()) std::exit(1);
   std::printf("\n| %s | segments | float bytes | largest error, bar |\n| --- | --- | --- | --- |\n", trace);
   for (const int per_degree : {1, 5, 10}) {
-    std::printf("| linear, %d per degree | %d | %d | %.2g |\n", per_degree, 720 * per_degree, 2880 * per_degree, linear_error_bar(diagram, per_degree));
+    std::printf("| linear, %d per degree | %d | %d | %.2g |\n", per_degree, 720 * per_degree, 2880 * per_degree,
+                linear_error_bar(diagram, per_degree));
   }
-  for (const int capacity : {720, 1500, 4096, static_cast<int>(kMostGasSegments)}) {
+  for (const int capacity : {720, 1500, 4096, static_cast<int>(kMaxGasSegments)}) {
     std::vector<Segment<float>> segments(static_cast<std::size_t>(capacity));
     GasGrid grid{};
     TableTargets<float> targets;
@@ -90,7 +93,8 @@ double monotone(detail::Point p0, detail::Point p1, detail::Point p2, detail::Po
   return detail::cubic_value(c, (x - p1.x) / (p2.x - p1.x));
 }
 
-/// How far a cubic leaves the range of the two given points around it, and how far it is from the trace that the points were read from.
+/// How far a cubic leaves the range of the two given points around it, and how far it is from the trace that the points
+/// were read from.
 template <class Trace, class Cubic>
 void join(const char* how, const Trace& trace, const Cubic& cubic, int rows) {
   const auto at = [&](int i) {

@@ -36,7 +36,7 @@ void keep_larger(double& largest, double candidate) {
   return status.ok();
 }
 
-// ---- motion of piston and rod ----------------------------------------------------------------------------------------------
+// ---- motion of piston and rod ---------------------------------------------------------------------------------------
 
 /// Of r, r w and r w^2.
 struct MotionErrors {
@@ -66,10 +66,12 @@ class MotionTable {
     const auto& out = engine_.step(in);
     const double w = static_cast<double>(engine_.state().speed_rad_s);
     const double r = crank_.crank_radius_m;
-    const Pose<double> exact = exact_pose(crank_, static_cast<double>(here.units() & ~(std::uint64_t{1} << 63)) * kDegPerUnit * kRadPerDeg);
+    const Pose<double> exact =
+        exact_pose(crank_, static_cast<double>(here.units() & ~(std::uint64_t{1} << 63)) * kDegPerUnit * kRadPerDeg);
     keep_larger(errors.displacement, (static_cast<double>(out.displacement_m[0]) - exact.displacement_m) / r);
     keep_larger(errors.velocity, (static_cast<double>(out.velocity_m_s[0]) / w - exact.slope_m) / r);
-    keep_larger(errors.acceleration, (static_cast<double>(out.acceleration_m_s2[0]) / (w * w) - exact.acceleration_m) / r);
+    keep_larger(errors.acceleration,
+                (static_cast<double>(out.acceleration_m_s2[0]) / (w * w) - exact.acceleration_m) / r);
   }
 
  private:
@@ -79,7 +81,8 @@ class MotionTable {
   Engine<Real, scenes::MeasuredMotion> engine_;
 };
 
-/// lambda 0.15 to 0.45 and offsets to a fifth of the crank radius; every border of a degree and its neighbours, and a million phases between.
+/// lambda 0.15 to 0.45 and offsets to a fifth of the crank radius; every border of a degree and its neighbours, and a
+/// million phases between.
 template <class Real>
 MotionErrors motion_errors() {
   MotionErrors errors;
@@ -94,7 +97,8 @@ MotionErrors motion_errors() {
       MotionTable<Real> table(crank);
       for (std::uint64_t degree = 0; degree < 720; ++degree) {
         const std::uint64_t border = ((degree << 32) / 720) << 32;
-        for (const std::uint64_t unit : {border - 1, border, border + (std::uint64_t{1} << 32)}) table.compare_at(Phase{unit}, errors);
+        for (const std::uint64_t unit : {border - 1, border, border + (std::uint64_t{1} << 32)})
+          table.compare_at(Phase{unit}, errors);
       }
       for (int k = 0; k < 1000000 / 35; ++k) table.compare_at(Phase{random.bits()}, errors);
     }
@@ -102,13 +106,13 @@ MotionErrors motion_errors() {
   return errors;
 }
 
-// ---- pressure and torque ---------------------------------------------------------------------------------------------------
+// ---- pressure and torque --------------------------------------------------------------------------------------------
 
 /// Largest error of the tick's pressure, in Pa, over the cycle of cylinder 1.
 template <class Real>
 double pressure_error_Pa(const EngineDefinition& definition) {
   using Scene = scenes::Whole;
-  const auto tables = std::make_unique<TableStorage<Real, Scene, kMostGasSegments>>();
+  const auto tables = std::make_unique<TableStorage<Real, Scene, kMaxGasSegments>>();
   IndicatorDiagram diagram;
   Engine<Real, Scene> engine;
   if (!said(tables->build(definition, {10e-6})) || !said(diagram.init(definition.crank, definition.pressure)) ||
@@ -120,7 +124,8 @@ double pressure_error_Pa(const EngineDefinition& definition) {
   double error_Pa = 0;
   for (int tick = 0; tick < 180000; ++tick) {
     const auto& out = engine.step(in);
-    keep_larger(error_Pa, static_cast<double>(out.cylinder[0].pressure_Pa) - diagram.full_Pa(deg_of(engine.state().phase)));
+    keep_larger(error_Pa,
+                static_cast<double>(out.cylinder[0].pressure_Pa) - diagram.full_Pa(deg_of(engine.state().phase)));
   }
   return error_Pa;
 }
@@ -134,10 +139,12 @@ template <class Real>
 TorqueErrors torque_errors(const EngineDefinition& definition) {
   constexpr double kTick_s = 100e-6;
   using Scene = scenes::Whole;
-  const auto tables = std::make_unique<TableStorage<Real, Scene, kMostGasSegments>>();
+  const auto tables = std::make_unique<TableStorage<Real, Scene, kMaxGasSegments>>();
   ExactEngine exact;
   Engine<Real, Scene> engine;
-  if (!said(tables->build(definition, {kTick_s})) || !said(exact.init(definition)) || !said(engine.init(tables->tables()))) std::exit(1);
+  if (!said(tables->build(definition, {kTick_s})) || !said(exact.init(definition)) ||
+      !said(engine.init(tables->tables())))
+    std::exit(1);
   typename Engine<Real, Scene>::Input in;
   in.speed_rad_s = static_cast<Real>(209.44);
   const double w = static_cast<double>(in.speed_rad_s);
@@ -177,9 +184,12 @@ int main(int count, char** words) {
   steep.pressure.point_count = static_cast<int>(rows.size());
 
   std::printf("| largest error | float | double |\n| --- | --- | --- |\n");
-  row("piston displacement, velocity, acceleration; of r, r w, r w^2", motion_errors<float>().largest(), motion_errors<double>().largest());
-  row("pressure of the 495 diesel", pressure_error_Pa<float>(diesel) / 1e5, pressure_error_Pa<double>(diesel) / 1e5, " bar");
-  row("pressure of a trace that rises 11.6 bar per degree", pressure_error_Pa<float>(steep) / 1e5, pressure_error_Pa<double>(steep) / 1e5, " bar");
+  row("piston displacement, velocity, acceleration; of r, r w, r w^2", motion_errors<float>().largest(),
+      motion_errors<double>().largest());
+  row("pressure of the 495 diesel", pressure_error_Pa<float>(diesel) / 1e5, pressure_error_Pa<double>(diesel) / 1e5,
+      " bar");
+  row("pressure of a trace that rises 11.6 bar per degree", pressure_error_Pa<float>(steep) / 1e5,
+      pressure_error_Pa<double>(steep) / 1e5, " bar");
   const TorqueErrors in_float = torque_errors<float>(diesel);
   const TorqueErrors in_double = torque_errors<double>(diesel);
   row("torque of the 495 diesel at the tick; of its largest", in_float.at_tick, in_double.at_tick);

@@ -27,7 +27,7 @@ if ! { cmake -S "$here" -B "$build_dir" -DCMAKE_BUILD_TYPE=Release -DCRANKLOOP_D
 fi
 cd "$build_dir"
 
-# ---- scenes -----------------------------------------------------------------------------------------------------------------
+# ---- scenes ----------------------------------------------------------------------------------------------------------
 
 # section_bytes NAME PATTERN: bytes of the engine's sections whose names match.
 section_bytes() { size -A "lib$1.a" | awk -v pattern="$2" '$1 ~ pattern { sum += $2 } END { print sum + 0 }'; }
@@ -70,6 +70,7 @@ scenes() {
     scene_row "piston motion, $real" "PistonMotion_$real"
     scene_row "mean torque from measured phase and pressures, $real" "TorqueSensor_$real"
     scene_row "motion, forces, torque, $real" "ForcesAndTorque_$real"
+    scene_row "an engine that breathes: throttle, fuel and burn in, torque out, 8 cam-following valves, $real" "Breathing_$real"
     scene_row "everything, $real" "Everything_$real"
     scene_row "everything, up to 16 cylinders, $real" "EverythingUpTo16_$real"
   done
@@ -77,7 +78,7 @@ scenes() {
   echo "$(measured_on), load $(cut -d ' ' -f 1 /proc/loadavg)"
 }
 
-# ---- docs/performance.md ----------------------------------------------------------------------------------------------------
+# ---- docs/performance.md ---------------------------------------------------------------------------------------------
 
 example_rows() {  # example_rows REAL
   scene_row "kinematics only" "PistonMotion_$1"
@@ -111,7 +112,7 @@ performance() {
        END { exit !found }' "$1" >performance.md && cp performance.md "$1"
 }
 
-# ---- decisions --------------------------------------------------------------------------------------------------------------
+# ---- decisions -------------------------------------------------------------------------------------------------------
 
 decisions() {
   for decision in phase curves pressure; do
@@ -126,7 +127,7 @@ decisions() {
   GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2,-AVX512F ./decision_elementary
 }
 
-# ---- check ------------------------------------------------------------------------------------------------------------------
+# ---- check -----------------------------------------------------------------------------------------------------------
 
 # states_ram FILE ENGINE...: a row of FILE has each engine's RAM in its fourth column.
 states_ram() {
@@ -139,14 +140,15 @@ states_ram() {
   done
 }
 
-# Every measured row of errors stands in the README, and so does the RAM of every scene that it and docs/performance.md name.
+# Every measured row of errors stands in the README, and so does the RAM of every scene that it and docs/performance.md
+# name.
 check() {
   bad=0
   ./errors "$engine" >errors.txt
   while read -r row; do
     grep -qxF "$row" "$1" || { echo "not in $1: $row" && bad=$((bad + 1)); }
   done <errors.txt
-  states_ram "$1" TorqueOnly_float TorqueByLoad_float PistonMotion_float TorqueSensor_float ForcesAndTorque_float Everything_float \
+  states_ram "$1" TorqueOnly_float TorqueByLoad_float PistonMotion_float TorqueSensor_float ForcesAndTorque_float Breathing_float Everything_float \
     ValveLift_float ValveDynamics_float WholeEngine_float
   for real in float double; do
     states_ram "$2" "PistonMotion_$real" "TorqueOnly_$real" "ForcesAndTorque_$real" "ValveLift_$real" "ValveDynamics_$real" "WholeEngine_$real"

@@ -1,7 +1,7 @@
 // Variants of the example scenes whose cost the README states beside theirs.
 //
-// What belongs here: what one more question costs. What does not: one scene per kind of use (../scenes/scenes.hpp), the ready-made ones
-// (scenes.hpp).
+// What belongs here: what one more question costs. What does not: one scene per kind of use (../scenes/scenes.hpp), the
+// ready-made ones (scenes.hpp).
 #pragma once
 
 #include <crankloop/scene.hpp>
@@ -34,4 +34,15 @@ struct Everything : ForcesAndTorque {
 /// The same for any number of cylinders: what exact counts save.
 struct EverythingUpTo16 : Everything {
   static constexpr auto cylinders = crankloop::up_to<16>;
+};
+
+/// An engine that breathes through its valves: throttle, fuel and burn in, torque out.
+struct Breathing : crankloop::Scene {
+  static constexpr auto cylinders = crankloop::exactly<4>;
+  static constexpr auto trains = crankloop::exactly<2>;
+  static constexpr auto pressure = crankloop::PressureGiven::by_gas;
+  static constexpr auto manifold = crankloop::Manifold::throttle;
+  static constexpr auto combustion = crankloop::Combustion::by_input;
+  static constexpr auto valves = crankloop::ValveModel::following;
+  static constexpr bool torque = true;
 };

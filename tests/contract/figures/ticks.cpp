@@ -1,5 +1,5 @@
-// Steps one engine of crankloop_add_scene: `ticks` prints its RAM in bytes and the time of a tick in ns, `ticks N` only makes N steps,
-// so that two runs under an instruction counter tell what one step takes.
+// Steps one engine of crankloop_add_scene: `ticks` prints its RAM in bytes and the time of a tick in ns, `ticks N` only
+// makes N steps, so that two runs under an instruction counter tell what one step takes.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -13,7 +13,8 @@ namespace the_engine = FIGURES_ENGINE;
 namespace {
 
 constexpr int kBatches = 1001;
-constexpr long kTicksPerBatch = 600;  // a cycle at 2000 rpm: whole, because valves take more at work; short, so that most are not interrupted
+constexpr long kTicksPerBatch =
+    600;  // a cycle at 2000 rpm: whole, because valves take more at work; short, so that most are not interrupted
 
 the_engine::Engine engine;
 the_engine::Input input;
@@ -21,14 +22,18 @@ the_engine::Input input;
 /// Some 2000 rpm at part load, or pressures that do not stand still, by whichever input the scene has.
 template <class Real, class Input>
 void drive(Input& in, long tick) {
-  if constexpr (std::is_base_of_v<crankloop::PhaseInput, Input>) {
+  if constexpr (std::is_base_of_v<crankloop::group::PhaseInput, Input>) {
     in.crank += crankloop::Phase{std::uint64_t{1} << 55};  // 1.4 deg
   } else {
     in.speed_rad_s = static_cast<Real>(209 + (tick & 1));
   }
-  if constexpr (std::is_base_of_v<crankloop::LoadInput<Real>, Input>) in.load_ratio = static_cast<Real>(0.75);
-  if constexpr (std::is_base_of_v<crankloop::PressureInput<Real, the_engine::Scene>, Input>) {
+  if constexpr (std::is_base_of_v<crankloop::group::LoadInput<Real>, Input>) in.load_ratio = static_cast<Real>(0.75);
+  if constexpr (std::is_base_of_v<crankloop::group::PressureInput<Real, the_engine::Scene>, Input>) {
     for (Real& pressure : in.pressure_Pa) pressure = static_cast<Real>(150000 + (tick & 1));
+  }
+  if constexpr (std::is_base_of_v<crankloop::group::CombustionInput<Real, the_engine::Scene>, Input>) {
+    for (Real& fuel_kg : in.fuel_kg) fuel_kg = static_cast<Real>(30e-6);
+    for (Real& burn_deg : in.burn_duration_deg) burn_deg = 20;
   }
 }
 

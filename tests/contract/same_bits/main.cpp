@@ -1,5 +1,5 @@
-// same_bits ENGINE_FILE...: hashes of what each scene answers over 2000 ticks of wild driving, one line for each file, scene and scalar.
-// Fails where tables in flash and tables in RAM differ.
+// same_bits ENGINE_FILE...: hashes of what each scene answers over 2000 ticks of wild driving, one line for each file,
+// scene and scalar. Fails where tables in flash and tables in RAM differ.
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -9,8 +9,8 @@
 #include <string>
 #include <type_traits>
 
-#include <crankloop/tabulate/tabulate.hpp>
 #include <crankloop/engine.hpp>
+#include <crankloop/tabulate/tabulate.hpp>
 
 #include "crankloop/engine_file/engine_file.hpp"
 #include "flash_double.hpp"
@@ -59,18 +59,18 @@ class Driver {
 template <class Real, class Input>
 void drive(Input& in, Driver& driver, int tick) {
   const Real x = driver.template between_minus_one_and_one<Real>();
-  if constexpr (std::is_base_of_v<SpeedInput<Real>, Input>) {
+  if constexpr (std::is_base_of_v<group::SpeedInput<Real>, Input>) {
     in.speed_rad_s = tick < 1000 ? Real{200} + 10 * x : tick < 1200 ? Real{0} : tick < 1400 ? x / 1024 : 900 * x;
     if (tick % 97 == 0) in.speed_rad_s = std::numeric_limits<Real>::quiet_NaN();
   } else {
     in.crank += Phase{std::uint64_t{1} << 55} + Phase{driver.next() >> 12};
     if (tick % 97 == 0) in.crank += Phase{driver.next()};
   }
-  if constexpr (std::is_base_of_v<LoadInput<Real>, Input>) in.load_ratio = (1 + x) / 2;
-  if constexpr (std::is_base_of_v<CamPhaseInput<Real, ElasticValves>, Input>) {
+  if constexpr (std::is_base_of_v<group::LoadInput<Real>, Input>) in.load_ratio = (1 + x) / 2;
+  if constexpr (std::is_base_of_v<group::CamPhaseInput<Real, ElasticValves>, Input>) {
     for (Real& phase : in.cam_phase_deg) phase = tick / 500 % 2 == 0 ? Real{0} : 20 * x;
   }
-  if constexpr (!std::is_base_of_v<SpeedInput<Real>, Input>) {
+  if constexpr (!std::is_base_of_v<group::SpeedInput<Real>, Input>) {
     for (Real& pressure : in.pressure_Pa) pressure = static_cast<Real>(4e6) * (1 + x);
   }
 }
@@ -88,7 +88,7 @@ void add_output(Hash& hash, const Output<Real, ElasticValves>& out) {
   hash.add(&out.valve, sizeof out.valve);
   for (const auto& train : out.valve_forces) {
     for (const ValveForcesOutput<Real>& f : train) {
-      for (const Real x : {f.train_N, f.seat_N, f.tip_N, f.cam_N, f.gap_m}) hash.add(&x, sizeof x);
+      for (const Real x : {f.train_N, f.seat_N, f.tip_N, f.cam_N, f.train_compression_m}) hash.add(&x, sizeof x);
       hash.add(&f.regime, sizeof f.regime);
     }
   }
@@ -110,7 +110,8 @@ unsigned long long run(Engine& engine) {
   return hash.sum();
 }
 
-void print(const std::string& file, const char* scene, const char* tables, std::size_t real_bytes, unsigned long long hash) {
+void print(const std::string& file, const char* scene, const char* tables, std::size_t real_bytes,
+           unsigned long long hash) {
   std::printf("%s %s %s %s %016llx\n", file.c_str(), scene, real_bytes == 4 ? "float" : "double", tables, hash);
 }
 
@@ -118,7 +119,7 @@ void print(const std::string& file, const char* scene, const char* tables, std::
 template <class Real, class Scene>
 unsigned long long run_from_ram(const std::string& file, const char* scene, const EngineDefinition& definition,
                                 const TickOptions& options = {100e-6}) {
-  const auto storage = std::make_unique<TableStorage<Real, Scene, kMostGasSegments>>();
+  const auto storage = std::make_unique<TableStorage<Real, Scene, kMaxGasSegments>>();
   Engine<Real, Scene> engine;
   if (!storage->build(definition, options).ok() || !engine.init(storage->tables()).ok()) {
     throw std::runtime_error(file + ": refused for " + scene);
@@ -148,7 +149,8 @@ bool run_scenes(const std::string& file, const EngineDefinition& definition) {
 template <class Real, class FlashEngine>
 bool same_from_flash(const char* scene, const EngineDefinition& definition, Integrator integrator) {
   const std::string file = "diesel_495_phased.ini";
-  const unsigned long long from_ram = run_from_ram<Real, ElasticValves>(file, scene, definition, {100e-6, {integrator}});
+  const unsigned long long from_ram =
+      run_from_ram<Real, ElasticValves>(file, scene, definition, {100e-6, {integrator}});
   FlashEngine in_flash;
   const unsigned long long from_flash = run<Real>(in_flash);
   print(file, scene, "flash", sizeof(Real), from_flash);
@@ -160,8 +162,10 @@ bool valves_are_same_from_flash() {
   const EngineDefinition& d = engine.definition();
   bool same = same_from_flash<float, valves_rk4_float::Engine>("ElasticValves rk4", d, Integrator::rk4);
   same &= same_from_flash<double, valves_rk4_double::Engine>("ElasticValves rk4", d, Integrator::rk4);
-  same &= same_from_flash<float, valves_exponential_float::Engine>("ElasticValves exponential", d, Integrator::exponential);
-  same &= same_from_flash<double, valves_exponential_double::Engine>("ElasticValves exponential", d, Integrator::exponential);
+  same &=
+      same_from_flash<float, valves_exponential_float::Engine>("ElasticValves exponential", d, Integrator::exponential);
+  same &= same_from_flash<double, valves_exponential_double::Engine>("ElasticValves exponential", d,
+                                                                     Integrator::exponential);
   return same;
 }
 

@@ -23,11 +23,11 @@
 #include "WholeEngine_double.hpp"
 #include "WholeEngine_float.hpp"
 
-using Engines = std::tuple<PistonMotion_float::Engine, PistonMotion_double::Engine, TorqueOnly_float::Engine, TorqueOnly_double::Engine,
-                           ForcesAndTorque_float::Engine, ForcesAndTorque_double::Engine, ValveLift_float::Engine,
-                           ValveLift_double::Engine, ValveDynamics_float::Engine, ValveDynamics_double::Engine,
-                           TriggerSignals_float::Engine, TriggerSignals_double::Engine, WholeEngine_float::Engine,
-                           WholeEngine_double::Engine>;
+using Engines = std::tuple<PistonMotion_float::Engine, PistonMotion_double::Engine, TorqueOnly_float::Engine,
+                           TorqueOnly_double::Engine, ForcesAndTorque_float::Engine, ForcesAndTorque_double::Engine,
+                           ValveLift_float::Engine, ValveLift_double::Engine, ValveDynamics_float::Engine,
+                           ValveDynamics_double::Engine, TriggerSignals_float::Engine, TriggerSignals_double::Engine,
+                           WholeEngine_float::Engine, WholeEngine_double::Engine>;
 
 /// Runs up and down between 600 and 2400 rpm, backwards now and then; one input in a thousand is bad.
 template <class Engine>
@@ -38,6 +38,7 @@ template <class Engine>
   const double speed_rad_s = 63 + 0.094 * static_cast<double>(ramp);
   in.speed_rad_s = static_cast<Real>(tick % 50000 < 48000 ? speed_rad_s : -speed_rad_s);
   if (tick % 1000 == 999) in.speed_rad_s = std::numeric_limits<Real>::quiet_NaN();
-  if constexpr (std::is_base_of_v<crankloop::LoadInput<Real>, typename Engine::Input>) in.load_ratio = static_cast<Real>(tick % 3) / 2;
+  if constexpr (std::is_base_of_v<crankloop::group::LoadInput<Real>, typename Engine::Input>)
+    in.load_ratio = static_cast<Real>(tick % 3) / 2;
   return in;
 }

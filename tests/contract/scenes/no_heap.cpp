@@ -1,5 +1,5 @@
-// Counts every call of the heap, by operator new or by malloc, while engines are initialised, stepped a million times, copied and
-// restored, and while tables are built: there must be none.
+// Counts every call of the heap, by operator new or by malloc, while engines are initialised, stepped a million times,
+// copied and restored, and while tables are built: there must be none.
 //
 // The whole program's heap is the one below: it hands out pieces of an array and takes none back.
 #include <cerrno>

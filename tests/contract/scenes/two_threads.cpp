@@ -1,5 +1,5 @@
-// Two threads, each with its own engine, on the same tables: every scene, stepped at the same time, answers what one thread alone does.
-// Built with -fsanitize=thread it also says whether they share anything.
+// Two threads, each with its own engine, on the same tables: every scene, stepped at the same time, answers what one
+// thread alone does. Built with -fsanitize=thread it also says whether they share anything.
 //
 //   two_threads          exit status 0 when all is well
 //   two_threads --race   both threads step one engine: what the thread sanitizer must complain about

@@ -1,8 +1,9 @@
-// setup_cost CASE: tabulates an engine of 16 cylinders whose measured trace is as hard on set-up as can be. Its instructions are counted from
-// outside (setup_cost.sh). Without a case: their names.
+// setup_cost CASE: tabulates an engine of 16 cylinders whose measured trace is as hard on set-up as can be. Its
+// instructions are counted from outside (setup_cost.sh). Without a case: their names.
 //
-// What makes a set-up slow, all at once: every degree divided as finely as there is room for, cylinders that fire at fractions of a degree, so
-// that none has a place in common with another, an offset piston pin, every section that a trace has part in, double.
+// What makes a set-up slow, all at once: every degree divided as finely as there is room for, cylinders that fire at
+// fractions of a degree, so that none has a place in common with another, an offset piston pin, every section that a
+// trace has part in, double.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -27,12 +28,12 @@ struct Case {
   const char* name;
   PressureSource source;
   int rows;
-  bool jumps;     // between 1 and 60 bar, from row to row; else a compression with 0.3 bar of noise
-  bool uneven;    // rows at any distance
-  int room;       // for segments
+  bool jumps;        // between 1 and 60 bar, from row to row; else a compression with 0.3 bar of noise
+  bool uneven;       // rows at any distance
+  int room;          // for segments
   double apart_deg;  // how far one cylinder fires after the other
 };
-constexpr int kRoomForAll = static_cast<int>(kMostGasSegments);
+constexpr int kRoomForAll = static_cast<int>(kMaxGasSegments);
 constexpr PressureSource kAngle = PressureSource::angle_table;
 constexpr PressureSource kVolume = PressureSource::volume_table;
 constexpr Case kCases[] = {
@@ -40,7 +41,8 @@ constexpr Case kCases[] = {
     {"jumps", kAngle, 1440, true, false, kRoomForAll, 45.0617},
     {"jumps_nearly_all", kAngle, 1440, true, false, 14000, 45.0617},
     {"uneven_rows", kAngle, 1536, true, true, kRoomForAll, 45.0617},
-    {"volume", kVolume, 1536, true, true, kRoomForAll, 64.0617},  // 64 deg: the cylinders take turns in the diagram's intervals
+    {"volume", kVolume, 1536, true, true, kRoomForAll,
+     64.0617},  // 64 deg: the cylinders take turns in the diagram's intervals
     {"million_angles", kAngle, 1 << 20, true, false, kRoomForAll, 45.0617},
     {"million_volumes", kVolume, 1 << 20, true, false, kRoomForAll, 45.0617},
 };
@@ -55,8 +57,10 @@ std::vector<DiagramPoint> rows_of(const Case& c, const Crank& crank) {
     const double deg = top_deg + 720 * (i + random_part(random, c)) / c.rows;
     const double compression_Pa = kBar + 60 * kBar * std::exp(30 * (std::cos(deg * kPi / 360) - 1));
     const double jumping_Pa = (i % 2 == 0 ? 60 * kBar : kBar) * random.between(0.5, 1);
-    const double volume_m3 = clearance_volume_m3(crank) + bore_area_m2(crank) * exact_stroke(crank, deg * kPi / 180).displacement_m;
-    rows.push_back({c.source == kVolume ? volume_m3 : deg, c.jumps ? jumping_Pa : compression_Pa + random.between(-0.3 * kBar, 0.3 * kBar)});
+    const double volume_m3 =
+        clearance_volume_m3(crank) + bore_area_m2(crank) * exact_stroke(crank, deg * kPi / 180).displacement_m;
+    rows.push_back({c.source == kVolume ? volume_m3 : deg,
+                    c.jumps ? jumping_Pa : compression_Pa + random.between(-0.3 * kBar, 0.3 * kBar)});
   }
   return rows;
 }
@@ -73,7 +77,7 @@ int tabulated(const Case& c) {
   engine.pressure.source = c.source;
   engine.pressure.points = rows.data();
   engine.pressure.point_count = c.rows;
-  const auto stores = std::make_unique<part::Stores<double, part::RoomForAll>>();
+  const auto stores = std::make_unique<detail::part::Stores<double, detail::part::RoomForAll>>();
   TableTargets<double> targets = stores->targets();
   targets.gas_capacity = c.room;
   TableReport report;

@@ -142,8 +142,9 @@ std::vector<Bounds::Test> Bounds::tests(const Function& function, const Graph& g
   return found;
 }
 
-/// A machine loop stems from the source loop whose line the branch that leaves it has. Where an outer loop is also left by an inner one's
-/// test (the compiler makes a copy of the outer loop for the case that the inner is empty), the outer's own counts.
+/// A machine loop stems from the source loop whose line the branch that leaves it has. Where an outer loop is also left
+/// by an inner one's test (the compiler makes a copy of the outer loop for the case that the inner is empty), the
+/// outer's own counts.
 Bounds::Repeats Bounds::repeats(const Function& function, const Graph& graph, std::size_t loop) const {
   std::vector<Test> own = tests(function, graph, loop);
   const auto is_inner = [&](const Test& test) {

@@ -1,15 +1,17 @@
 // What the tool cannot see in machine code: how often loops run, and what a whole tick has a budget for.
 //
-// What belongs here: the bounds file, and which of its lines speaks of which loop. What does not: the longest path (longest_path.hpp).
+// What belongs here: the bounds file, and which of its lines speaks of which loop. What does not: the longest path
+// (longest_path.hpp).
 //
-// A line of the file is one of these; FILE is a source's name without folders, TEXT a piece of the source line, a number may be a name
-// that the image tells (a limit of its tables). A reason follows each.
+// A line of the file is one of these; FILE is a source's name without folders, TEXT a piece of the source line, a
+// number may be a name that the image tells (a limit of its tables). A reason follows each.
 //
 //     loop | FILE | TEXT | ROUNDS | why                a loop runs its body at most ROUNDS times
 //     loop | FILE | TEXT | ROUNDS spends NAME | why    likewise, and whenever it begins anew it spends one of a budget
 //     loop | FILE | TEXT | ROUNDS each spends NAME | why    likewise, its first round too, where it is sure to have one
-//     code | FILE | TEXT | INSTRUCTION spends NAME | why   so does that line's instruction, or what was inlined there: a mnemonic, its type
-//                                                      left out or not, then perhaps a piece of its operands
+//     code | FILE | TEXT | INSTRUCTION spends NAME | why   so does that line's instruction, or what was
+//                                                      inlined there: a mnemonic, its type left out or not, then
+//                                                      perhaps a piece of its operands
 //     budget | NAME | NUMBER | why                     of one tick
 //     call | FUNCTION | INSTRUCTIONS | why             what a function without source takes, with all that it calls
 #pragma once

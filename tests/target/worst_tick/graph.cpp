@@ -63,8 +63,8 @@ class Builder {
     return function_.name + ", " + hex(function_.instructions[graph_.blocks[block].begin].address);
   }
 
-  /// Takes out what can only run into data: what would lead there is undefined, such as a count beyond an array, and the compiler left
-  /// away what comes after.
+  /// Takes out what can only run into data: what would lead there is undefined, such as a count beyond an array, and
+  /// the compiler left away what comes after.
   void prune() {
     auto& blocks = graph_.blocks;
     const auto is_nowhere = [&](std::size_t b) {
@@ -127,8 +127,9 @@ class Builder {
     return found;
   }
 
-  /// Makes every knot a loop: a block of it becomes its header, and what can run before that gets a copy outside, from which the paths are
-  /// the same. Then likewise what is knotted within, without the header. Each is smaller than the one before, so that it ends.
+  /// Makes every knot a loop: a block of it becomes its header, and what can run before that gets a copy outside, from
+  /// which the paths are the same. Then likewise what is knotted within, without the header. Each is smaller than the
+  /// one before, so that it ends.
   void give_single_ways_in(const Blocks& within) {
     for (const Blocks& knot : knots(within)) {
       const std::vector<std::size_t> entries = ways_into(knot);
@@ -176,14 +177,15 @@ class Builder {
     return best;
   }
 
-  /// Copies blocks of a knot: whoever comes from outside it comes to the copies, and goes on in them. Returns the copies.
+  /// Copies blocks of a knot: whoever comes from outside it comes to the copies, and goes on in them. Returns the
+  /// copies.
   [[nodiscard]] Blocks copy(const Blocks& originals, const Blocks& knot) {
     const std::size_t n = graph_.blocks.size();
     std::map<std::size_t, std::size_t> copy_of;
     for (std::size_t b = 0; b < n; ++b) {
       if (is_in(b, originals)) copy_of.emplace(b, n + copy_of.size());
     }
-    if (n + copy_of.size() > kMostBlocks)
+    if (n + copy_of.size() > kMaxBlocks)
       throw Refusal(where(copy_of.begin()->first) + ": a loop with too many ways in");
     for (const auto& [original, unused] : copy_of) graph_.blocks.push_back(Block{graph_.blocks[original]});
     Blocks copies(graph_.blocks.size(), false);
@@ -233,7 +235,7 @@ class Builder {
   }
 
   static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
-  static constexpr std::size_t kMostBlocks = 5000;
+  static constexpr std::size_t kMaxBlocks = 5000;
   const Function& function_;
   Graph graph_;
   std::map<std::uint32_t, std::size_t> index_;

@@ -1,6 +1,7 @@
 // A function's control flow: blocks, the edges between them, its natural loops.
 //
-// What belongs here: structure. What does not: how often a loop runs (bounds.hpp), what a path costs (longest_path.hpp).
+// What belongs here: structure. What does not: how often a loop runs (bounds.hpp), what a path costs
+// (longest_path.hpp).
 #pragma once
 
 #include <cstddef>
@@ -31,8 +32,8 @@ struct Graph {
   std::vector<Loop> loops;         ///< inner ones before those around them
 };
 
-/// Refuses unknown branches and flow into data. What a loop with several ways in runs before its header is copied, so a block may be there
-/// twice.
+/// Refuses unknown branches and flow into data. What a loop with several ways in runs before its header is copied, so a
+/// block may be there twice.
 [[nodiscard]] Graph graph_of(const Function& function);
 
 }  // namespace worst_tick

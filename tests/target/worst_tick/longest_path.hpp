@@ -2,9 +2,9 @@
 //
 // What belongs here: the search. What does not: structure (graph.hpp), how often loops run (bounds.hpp).
 //
-// Budgets of a whole tick are kept by prices: whoever spends one of a budget pays its price, and the tick is credited with the whole
-// budget's worth. For any prices that are not negative this is a bound (weak duality: a path within its budgets pays no more than the
-// credit); mixture.hpp finds those that make it low.
+// Budgets of a whole tick are kept by prices: whoever spends one of a budget pays its price, and the tick is credited
+// with the whole budget's worth. For any prices that are not negative this is a bound (weak duality: a path within its
+// budgets pays no more than the credit); mixture.hpp finds those that make it low.
 #pragma once
 
 #include <cstdint>

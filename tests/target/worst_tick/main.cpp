@@ -1,15 +1,16 @@
-// worst_tick LISTING PLACES LIMITS BOUNDS ROOT: the most instructions that the functions whose names match ROOT take, with all that they call,
-// whatever their input. It reads machine code, so it holds for this image only, but for every path through it.
+// worst_tick LISTING PLACES LIMITS BOUNDS ROOT: the most instructions that the functions whose names match ROOT take,
+// with all that they call, whatever their input. It reads machine code, so it holds for this image only, but for every
+// path through it.
 //
 //   LISTING   objdump -d --no-show-raw-insn of the image
 //   PLACES    addr2line -a -i of the listing's addresses
 //   LIMITS    what the image tells of its tables: lines "limit NAME NUMBER"
 //   BOUNDS    how often loops run: bounds.hpp
 //
-// What a bound rests on besides the machine code: the bounds file; the line table, where it names the branch that leaves a loop, and the
-// instructions that spend; and that the compiler neither computes in float where the source does not (it may not: -ftrapping-math) nor
-// shares such an instruction between two lines. A loop's test is one comparison, and no loop's body is empty. Whatever else the tool
-// does not know it refuses, with the place; exit status 1.
+// What a bound rests on besides the machine code: the bounds file; the line table, where it names the branch that
+// leaves a loop, and the instructions that spend; and that the compiler neither computes in float where the source does
+// not (it may not: -ftrapping-math) nor shares such an instruction between two lines. A loop's test is one comparison,
+// and no loop's body is empty. Whatever else the tool does not know it refuses, with the place; exit status 1.
 #include <fstream>
 #include <iostream>
 #include <sstream>

@@ -1,8 +1,8 @@
 // Which prices make the lowest bound: the linear programme behind longest_path.hpp.
 //
-// What belongs here: the mixture of known paths that is longest on average within the budgets on average, and the prices that go with it,
-// by the simplex method (Dantzig and Wolfe, Decomposition principle for linear programs, 1960: a path is a column). No bound rests on its
-// arithmetic: any prices give one.
+// What belongs here: the mixture of known paths that is longest on average within the budgets on average, and the
+// prices that go with it, by the simplex method (Dantzig and Wolfe, Decomposition principle for linear programs, 1960:
+// a path is a column). No bound rests on its arithmetic: any prices give one.
 #pragma once
 
 #include <vector>
@@ -15,14 +15,16 @@ class Mixture {
  public:
   explicit Mixture(const std::vector<std::int64_t>& budgets);
 
-  /// Takes in a path that was the longest at prices(). False if the mixture gains nothing: then the prices are the best.
+  /// Takes in a path that was the longest at prices(). False if the mixture gains nothing: then the prices are the
+  /// best.
   bool add(const Path& path);
 
   /// Of the budgets; none is negative.
   [[nodiscard]] Prices prices() const;
 
  private:
-  /// A column of the programme: what it adds to the mean length, and its entries in the rows, one per budget and one for the shares' sum.
+  /// A column of the programme: what it adds to the mean length, and its entries in the rows, one per budget and one
+  /// for the shares' sum.
   struct Column {
     double length;
     std::vector<double> entries;

@@ -1,7 +1,7 @@
 // What an instruction of Thumb-2 does to the flow of a program.
 //
-// What belongs here: the instruction set (Armv7-M and Armv8-M, "Armv7-M Architecture Reference Manual" A6.3). What does not: how blocks
-// follow each other (graph.hpp).
+// What belongs here: the instruction set (Armv7-M and Armv8-M, "Armv7-M Architecture Reference Manual" A6.3). What does
+// not: how blocks follow each other (graph.hpp).
 #pragma once
 
 #include <cstdint>

@@ -34,13 +34,16 @@ std::vector<CrankThrow> throws_of(const Layout& layout) {
 
 std::vector<std::string> throws_in_words(const Layout& layout) {
   const std::vector<CrankThrow> throws = throws_of(layout);
-  const auto count = [](std::size_t number, const char* what) { return std::to_string(number) + " " + what + (number == 1 ? "" : "s"); };
+  const auto count = [](std::size_t number, const char* what) {
+    return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
+  };
   std::vector<std::string> lines{cylinders_text(layout.cylinders) + " on " + count(throws.size(), "crank throw") +
                                  ". At engine angle 0, from the vertical in the sense of rotation:"};
   for (std::size_t i = 0; i < throws.size(); ++i) {
     std::vector<std::string> rods;
     for (const int cylinder : throws[i].cylinders) {
-      rods.push_back("cylinder " + std::to_string(cylinder) + " (bank " + brief(bank_deg(layout, cylinder - 1)) + " deg)");
+      rods.push_back("cylinder " + std::to_string(cylinder) + " (bank " + brief(bank_deg(layout, cylinder - 1)) +
+                     " deg)");
     }
     lines.push_back("throw " + std::to_string(i + 1) + " at " + brief(throws[i].direction_deg) + " deg: " + join(rods));
   }
@@ -78,8 +81,9 @@ std::string shared_pins_hint(const Layout& layout) {
   if (a < 0) return "";
   const std::string start = "No two rods share a crank pin; where they do, name them: shared_pins = ";
   if (!pairs.empty()) return start + join(pairs, ",");
-  return start + std::to_string(a + 1) + "-" + std::to_string(a + 2) + ". Their bank - firing angles must then be equal, and are " +
-         brief(full_turn(layout.throw_deg(a))) + " and " + brief(full_turn(layout.throw_deg(a + 1))) + " deg.";
+  return start + std::to_string(a + 1) + "-" + std::to_string(a + 2) +
+         ". Their bank - firing angles must then be equal, and are " + brief(full_turn(layout.throw_deg(a))) + " and " +
+         brief(full_turn(layout.throw_deg(a + 1))) + " deg.";
 }
 
 }  // namespace crankloop::program

@@ -1,6 +1,7 @@
 // A layout as its crankshaft: which throws there are, which cylinders run on each, who fires when.
 //
-// What belongs here: words about it, for `show` and reports. What does not: how it is built (engine_file_layout.cpp, engine_file_pins.cpp).
+// What belongs here: words about it, for `show` and reports. What does not: how it is built (engine_file_layout.cpp,
+// engine_file_pins.cpp).
 #pragma once
 
 #include <string>
@@ -23,7 +24,8 @@ struct CrankThrow {
 /// "Fires 1, 3, 4, 2, at 0, 180, 360, 540 deg: 180, 180, 180, 180 deg apart."
 [[nodiscard]] std::string firing_in_words(const Layout& layout);
 
-/// What to write where rods of two banks should run on one pin; "" where some do, and where no two banks stand at an angle.
+/// What to write where rods of two banks should run on one pin; "" where some do, and where no two banks stand at an
+/// angle.
 [[nodiscard]] std::string shared_pins_hint(const Layout& layout);
 
 }  // namespace crankloop::program

@@ -1,22 +1,23 @@
 #include "engine_file.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <stdexcept>
 #include <utility>
 
-#include "engine_file_parts.hpp"
-#include "problems.hpp"
 #include "../table_file.hpp"
 #include "../text_file.hpp"
 #include "../words.hpp"
+#include "engine_file_parts.hpp"
+#include "problems.hpp"
 
 namespace crankloop::program {
 namespace {
 
-constexpr TableFormat kAngleTable{"crank_deg", "pressure_kPa", from(-kMostDiagramAngle_deg).up_to(kMostDiagramAngle_deg), from(0).up_to(kMostPressure_Pa / 1e3)};
-constexpr TableFormat kVolumeTable{"volume_cm3", "pressure_kPa", above(0).up_to(1e9), from(0).up_to(kMostPressure_Pa / 1e3)};
+constexpr TableFormat kAngleTable{"crank_deg", "pressure_kPa", from(-kMaxDiagramAngle_deg).up_to(kMaxDiagramAngle_deg),
+                                  from(0).up_to(kMaxPressure_Pa / 1e3)};
+constexpr TableFormat kVolumeTable{"volume_cm3", "pressure_kPa", above(0).up_to(1e9),
+                                   from(0).up_to(kMaxPressure_Pa / 1e3)};
 
 std::string title_of(const SectionValues& section) {
   return section.name.empty() ? section.kind : section.kind + " " + section.name;
@@ -29,10 +30,12 @@ void check_header(const IniSection& section, std::map<std::string, int>& first_l
     std::vector<std::string> names;
     for (const SectionKind& known : section_kinds()) names.emplace_back(known.name);
     const std::string guess = suggestion(section.kind, names);
-    throw InputError(path, section.line, "unknown section [" + section.kind + "]" + (guess.empty() ? "; sections: " + join(names) : guess));
+    throw InputError(path, section.line,
+                     "unknown section [" + section.kind + "]" + (guess.empty() ? "; sections: " + join(names) : guess));
   }
   if (kind->named && section.name.empty()) {
-    throw InputError(path, section.line, "[" + section.kind + "] needs a name; write it like [" + section.kind + " intake]");
+    throw InputError(path, section.line,
+                     "[" + section.kind + "] needs a name; write it like [" + section.kind + " intake]");
   }
   if (!kind->named && !section.name.empty()) {
     throw InputError(path, section.line, section.title() + " takes no name; write it [" + section.kind + "]");
@@ -40,7 +43,8 @@ void check_header(const IniSection& section, std::map<std::string, int>& first_l
   const auto [first, is_new] = first_lines.emplace(section.title(), section.line);
   if (is_new) return;
   throw InputError(path, section.line,
-                   section.title() + " is given twice (first in line " + std::to_string(first->second) + "); put all its keys under one header");
+                   section.title() + " is given twice (first in line " + std::to_string(first->second) +
+                       "); put all its keys under one header");
 }
 
 void check_headers(const IniText& ini, const std::string& path) {
@@ -62,16 +66,23 @@ void sort_by_kind(std::vector<SectionValues>& sections) {
 }  // namespace
 
 EngineFile read_engine_file(const std::string& path, const std::vector<std::string>& needed_sections) {
-  const FileBytes file = read_file(path, kMostEngineFileBytes);
+  const FileBytes file = read_file(path, kMaxEngineFileBytes);
   if (!file.ok()) throw InputError(path + ": " + file.problem);
-  IniText ini = parse_ini(split_lines(file.bytes, path), path);
+  return read_engine_text(file.bytes, path, needed_sections);
+}
+
+EngineFile read_engine_text(const std::string& text, const std::string& path,
+                            const std::vector<std::string>& needed_sections) {
+  IniText ini = parse_ini(split_lines(text, path), path);
   check_headers(ini, path);
 
   EngineFile engine(path);
   Problems problems;
-  for (const IniSection& section : ini.sections) problems.of([&] { engine.sections_.push_back(resolve_section(section, path)); });
+  for (const IniSection& section : ini.sections)
+    problems.of([&] { engine.sections_.push_back(resolve_section(section, path)); });
   for (const std::string& title : needed_sections) {
-    const bool there = std::any_of(ini.sections.begin(), ini.sections.end(), [&title](const IniSection& one) { return one.kind == title; });
+    const bool there = std::any_of(ini.sections.begin(), ini.sections.end(),
+                                   [&title](const IniSection& one) { return one.kind == title; });
     problems.of([&] {
       if (!there) throw InputError(path, ini.last_line, "section [" + title + "] is missing; this command needs it");
     });
@@ -79,9 +90,12 @@ EngineFile read_engine_file(const std::string& path, const std::vector<std::stri
   problems.refuse(path);
   if (engine.has("crank")) {
     if (!engine.has("layout")) engine.sections_.push_back(resolve_section({"layout", "", 0, {}}, path));
+    const SectionValues* const pressure = engine.find("pressure");
+    const bool breathes = pressure != nullptr && pressure->text("source") == "gas";
+    if (breathes && !engine.has("gas")) engine.sections_.push_back(resolve_section({"gas", "", 0, {}}, path));
     if (!engine.has("pressure"))
       engine.sections_.push_back(resolve_section({"pressure", "", 0, {{"source", "none", 0}}}, path));
-    for (const char* optional : {"friction", "load", "starter"}) {
+    for (const char* optional : {"friction", "machine", "starter"}) {
       if (!engine.has(optional)) engine.sections_.push_back(resolve_section({optional, "", 0, {}}, path));
     }
   }
@@ -115,17 +129,41 @@ void EngineFile::build_definition() {
   definition_.pressure = build_pressure(section("pressure"));
   if (section("pressure").has("file")) read_diagram(section("pressure"));
   accept(validate(definition_.pressure, definition_.crank));
+  if (definition_.pressure.source == PressureSource::gas) build_gas_exchange();
   fill(section("friction"), definition_.friction);
-  fill(section("load"), definition_.load);
+  fill(section("machine"), definition_.machine);
   fill(section("starter"), definition_.starter);
-  for (const Status& status : {validate(definition_.friction), validate(definition_.load), validate(definition_.starter)}) accept(status);
+  for (const Status& status :
+       {validate(definition_.friction), validate(definition_.machine), validate(definition_.starter)})
+    accept(status);
   if (has("masses")) accept(validate(definition_));  // what the parts demand of one another
+}
+
+/// The ports are those of the trains, already.
+void EngineFile::build_gas_exchange() {
+  Gas gas = build_gas(section("gas"), path_);
+  int number = 0;
+  for (const TrainOfFile& train : trains_) {
+    if (!train.complete()) continue;
+    const SectionValues& valve = section("valve " + train.name);
+    for (const char* key : {"port", "seat_diameter_mm"}) {
+      if (!valve.has(key)) {
+        throw InputError(path_, valve.line, valve.title() + " lacks " + key + ", needed with [pressure] source = gas");
+      }
+    }
+    gas.ports[number++] = train.port;
+  }
+  if (number == 0) {
+    throw InputError(path_, section("pressure").line_of("source"),
+                     "source: gas needs valves: a [cam NAME], [rocker NAME] and [valve NAME] each");
+  }
+  definition_.gas = gas;
+  if (const Status status = validate(definition_.gas, definition_.train_count); !status.ok()) throw explain(status);
 }
 
 void EngineFile::read_diagram(const SectionValues& pressure) {
   const bool over_angle = definition_.pressure.source == PressureSource::angle_table;
-  const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
-  points_path_ = (folder / pressure.text("file")).string();
+  points_path_ = in_folder(folder_of(path_), pressure.text("file"));
   for (const TableRow& row :
        read_table(points_path_, over_angle ? kAngleTable : kVolumeTable, path_, pressure.line_of("file"))) {
     // Core refuses this too, but a Status counts rows only up to 32767 and knows no values.

@@ -13,17 +13,18 @@
 
 #include <crankloop/define/engine_definition.hpp>
 
-#include "engine_file_values.hpp"
 #include "../error.hpp"
+#include "engine_file_values.hpp"
 
 namespace crankloop::program {
 
-inline constexpr std::size_t kMostEngineFileBytes = std::size_t{1} << 20;
+inline constexpr std::size_t kMaxEngineFileBytes = std::size_t{1} << 20;
 
 /// A valve train of the file: what it has of [cam NAME], [rocker NAME] and [valve NAME].
 struct TrainOfFile {
   std::string name;
   ValveTrain definition;  ///< parts that the file lacks are all zero
+  PortOfTrain port;
   bool has_cam = false;
   bool has_rocker = false;
   bool has_valve = false;
@@ -55,8 +56,8 @@ class EngineFile {
   /// has("masses"), all is zero unless has("crank"). Pressure rows live as long as this object, also when it is moved.
   [[nodiscard]] const EngineDefinition& definition() const noexcept { return definition_; }
 
-  /// Every NAME of a [cam], [rocker] or [valve], in the order of the file, each part valid. The complete ones are definition().trains, in the
-  /// same order.
+  /// Every NAME of a [cam], [rocker] or [valve], in the order of the file, each part valid. The complete ones are
+  /// definition().trains, in the same order.
   [[nodiscard]] const std::vector<TrainOfFile>& trains() const noexcept { return trains_; }
 
   /// The NAME of every [trigger], in the order of definition().triggers.
@@ -75,22 +76,23 @@ class EngineFile {
   /// The message for what core refused, at the line of the key that is to blame.
   [[nodiscard]] InputError explain(const Status& status) const;
 
-  /// Likewise for what was refused about a valve train; `cam_deg`: where on the cam, for what ValveLift finds.
+  /// The message for what core refused about a valve train; `cam_deg`: where on the cam, for what ValveLift finds.
   [[nodiscard]] InputError explain(const Status& status, const TrainOfFile& train, double cam_deg = 0) const;
 
  private:
-  friend EngineFile read_engine_file(const std::string&, const std::vector<std::string>&);
+  friend EngineFile read_engine_text(const std::string&, const std::string&, const std::vector<std::string>&);
 
   explicit EngineFile(const std::string& path) : path_{path} {}
   [[nodiscard]] const SectionValues* find(const std::string& title) const noexcept;
   [[nodiscard]] SectionValues* find(const std::string& title) noexcept;
   void build_definition();
   void read_diagram(const SectionValues& pressure);
+  void build_gas_exchange();
   void build_trains();
   void build_triggers();
   [[nodiscard]] int train_with_phaser(const SectionValues& trigger) const;
   void read_cam(const SectionValues& cam, TrainOfFile& train);
-  [[nodiscard]] const TrainOfFile* train_to_blame(const Status& status) const;
+  [[nodiscard]] const TrainOfFile* train_to_blame(const Key& key, int index) const;
 
   std::string path_;
   std::vector<SectionValues> sections_;
@@ -102,11 +104,15 @@ class EngineFile {
   std::vector<TriggerOfFile> triggers_;
 };
 
-/// The file that would say all of this with nothing left to defaults. Reading it gives the same definition, and showing that
-/// the same text.
+/// The file that would say all of this with nothing left to defaults. Reading it gives the same definition, and showing
+/// that the same text.
 [[nodiscard]] std::string show(const EngineFile& engine);
 
 /// Reads and validates everything in the file, and demands the sections that the command needs; throws InputError.
 [[nodiscard]] EngineFile read_engine_file(const std::string& path, const std::vector<std::string>& needed_sections);
+
+/// The same of a text that stands for the file: messages name `path`, and files that it names are looked for beside it.
+[[nodiscard]] EngineFile read_engine_text(const std::string& text, const std::string& path,
+                                          const std::vector<std::string>& needed_sections);
 
 }  // namespace crankloop::program

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include <crankloop/define/engine_definition.hpp>
+#include <crankloop/variable.hpp>
 
 #include "../words.hpp"
 
@@ -18,7 +19,11 @@ constexpr Unit kRpm{"rpm"};
 constexpr Unit kMm{"mm", 1, 1e3};
 constexpr Unit kUm{"um", 1, 1e6};
 constexpr Unit kMm2{"mm2", 1, 1e6};
+constexpr Unit kCm3{"cm3", 1, 1e6};
 constexpr Unit kG{"g", 1, 1e3};
+constexpr Unit kMg{"mg", 1, 1e6};
+constexpr Unit kMJPerKg{"MJ_per_kg", 1e6, 1};
+constexpr Unit kCelsius{"C"};  // core takes kelvins: engine_file_gas.cpp
 constexpr Unit kKgM2{"kg_m2"};
 constexpr Unit kKgMm2{"kg_mm2", 1, 1e6};
 constexpr Unit kKPa{"kPa", 1e3, 1};
@@ -27,12 +32,12 @@ constexpr Unit kN{"N"};
 constexpr Unit kNPerMm{"N_per_mm", 1e3, 1};
 constexpr Unit kNm{"Nm"};
 
-constexpr double kRadSPer1000Rpm = 104.71975511965977;
+using detail::kRadSPer1000Rpm;
 constexpr Unit kRpmAsRadS{"rpm", 1, 1e3 / kRadSPer1000Rpm};  // core takes these speeds in rad/s
 constexpr Unit kKPaPerSpeed{"kPa_per_1000rpm", 1, kRadSPer1000Rpm / 1e3};
-constexpr Unit kKPaPerSpeed2{"kPa_per_1000rpm2", 1, kRadSPer1000Rpm * kRadSPer1000Rpm / 1e3};
+constexpr Unit kKPaPerSpeed2{"kPa_per_1000rpm2", 1, kRadSPer1000Rpm* kRadSPer1000Rpm / 1e3};
 constexpr Unit kNmPerSpeed{"Nm_per_1000rpm", 1, kRadSPer1000Rpm};
-constexpr Unit kNmPerSpeed2{"Nm_per_1000rpm2", 1, kRadSPer1000Rpm * kRadSPer1000Rpm};
+constexpr Unit kNmPerSpeed2{"Nm_per_1000rpm2", 1, kRadSPer1000Rpm* kRadSPer1000Rpm};
 
 constexpr Range kAny{};
 constexpr Presence required = Presence::required;
@@ -50,8 +55,9 @@ constexpr SectionKind kSections[] = {
     {"masses", false, "moving masses of one cylinder, and the crankshaft"},
     {"layout", false, "cylinders around and along the crankshaft; absent: one cylinder"},
     {"pressure", false, "where the cylinder pressure comes from; absent: source = none"},
+    {"gas", false, "manifolds, walls and combustion of an engine that breathes ([pressure] source = gas)"},
     {"friction", false, "mean effective pressure of friction; absent: none"},
-    {"load", false, "the driven machine, a passive brake on the crankshaft; absent: none"},
+    {"machine", false, "the driven machine, a passive brake on the crankshaft; absent: none"},
     {"starter", false, "as seen from the crankshaft; absent: none"},
     {"cam", true, "a cam, by the lift of a flat follower"},
     {"rocker", true, "what carries the cam's lift to the valve of the same NAME"},
@@ -92,7 +98,7 @@ constexpr Key kKeys[] = {
     {"layout", "crank_throws_deg", Kind::numbers, kDeg, "", from(-720).up_to(720), "", optional, "", "", "", "direction of each throw at engine angle 0; must agree with bank - firing angle"},
     {"layout", "shared_pins", Kind::pin_groups, kNoUnit, "", kAny, "", optional, "", "", "", "cylinders on one crank pin; absent: those with equal position and throw"},
 
-    {"pressure", "source", Kind::choice, kNoUnit, "", kAny, "wiebe|angle_table|volume_table|none", required, "", "", "", "what the diagram comes from"},
+    {"pressure", "source", Kind::choice, kNoUnit, "", kAny, "wiebe|angle_table|volume_table|gas|none", required, "", "", "", "what the diagram comes from"},
     {"pressure", "crankcase_kPa", Kind::number, kKPa, "pressure.crankcase_Pa", above(0).up_to(10000), "", defaults, "100", "", "", "on the piston's other side"},
     {"pressure", "intake_kPa", Kind::number, kKPa, "pressure.wiebe.intake_Pa", above(0).up_to(10000), "", defaults, "98", kWiebe, "", "intake plenum"},
     {"pressure", "exhaust_kPa", Kind::number, kKPa, "pressure.wiebe.exhaust_Pa", above(0).up_to(10000), "", defaults, "105", kWiebe, "", "exhaust back pressure"},
@@ -107,14 +113,36 @@ constexpr Key kKeys[] = {
     {"pressure", "heat_J", Kind::number, kJ, "pressure.wiebe.heat_J", from(0).up_to(1e9), "", required, "", kWiebe, "heat:heat", "heat per cylinder and cycle, instead of net_mep_kPa; 0: motored"},
     {"pressure", "file", Kind::path, kNoUnit, "", kAny, "", required, "", kTables, "", "CSV with header crank_deg,pressure_kPa or volume_cm3,pressure_kPa; relative to the engine file"},
 
+    {"gas", "intake_volume_cm3", Kind::number, kCm3, "gas.intake_m3", above(0).up_to(1e8), "", defaults, "3000", "", "", "of the intake manifold"},
+    {"gas", "exhaust_volume_cm3", Kind::number, kCm3, "gas.exhaust_m3", above(0).up_to(1e8), "", defaults, "2500", "", "", "of the exhaust manifold"},
+    {"gas", "throttle_mm2", Kind::number, kMm2, "gas.throttle_m2", above(0).up_to(1e7), "", defaults, "1600", "", "", "effective area of the throttle, wide open"},
+    {"gas", "throttle_closed_mm2", Kind::number, kMm2, "gas.throttle_closed_m2", from(0).up_to(1e7), "", defaults, "12", "", "", "effective area, closed; at most the open one"},
+    {"gas", "throttle_curve", Kind::pairs, kNoUnit, "", from(0).up_to(1), "", defaults, "0:0,0.2:0.06,0.5:0.3,1:1", "", "", "share of the area between closed and open, by the throttle ratio 0 to 1; straight lines"},
+    {"gas", "outlet_mm2", Kind::number, kMm2, "gas.outlet_m2", above(0).up_to(1e7), "", defaults, "1200", "", "", "effective area of the exhaust system, as one orifice"},
+    {"gas", "ambient_kPa", Kind::number, kKPa, "gas.ambient_Pa", from(1).up_to(10000), "", defaults, "100", "", "", "absolute"},
+    {"gas", "ambient_C", Kind::number, kCelsius, "", from(-123.15).up_to(2726.85), "", defaults, "25", "", "", "of the air before the throttle"},
+    {"gas", "exhaust_C", Kind::number, kCelsius, "", from(-123.15).up_to(2726.85), "", defaults, "500", "", "", "of gas that may flow back from the outlet"},
+    {"gas", "wall_C", Kind::number, kCelsius, "", from(-123.15).up_to(1726.85), "", defaults, "150", "", "", "mean temperature of the cylinder's walls"},
+    {"gas", "wall_heat_factor", Kind::number, kNoUnit, "gas.wall_heat_ratio", from(0).up_to(100), "", defaults, "1", "", "", "k_w, of Hohenberg's heat transfer; 0: adiabatic"},
+    {"gas", "fuel_mg", Kind::number, kMg, "gas.fuel_kg", from(0).up_to(10000), "", defaults, "30", "", "", "fuel per cylinder and cycle; 0: motored"},
+    {"gas", "heating_value_MJ_per_kg", Kind::number, kMJPerKg, "gas.heating_value_J_kg", from(0).up_to(200), "", defaults, "43", "", "", "lower"},
+    {"gas", "combustion_efficiency", Kind::number, kNoUnit, "gas.combustion_efficiency", from(0).up_to(1), "", defaults, "0.97", "", "", "share of the fuel's heat that is released"},
+    {"gas", "air_fuel_ratio", Kind::number, kNoUnit, "gas.air_fuel_ratio", from(1).up_to(100), "", defaults, "14.6", "", "", "stoichiometric, by mass"},
+    {"gas", "burn_start_deg", Kind::number, kDeg, "gas.burn_start_deg", from(-90).up_to(60), "", defaults, "-18", "", "", "crank angle, firing TDC = 0"},
+    {"gas", "burn_duration_deg", Kind::number, kDeg, "gas.burn_duration_deg", from(5).up_to(150), "", defaults, "50", "", "", "must end by 150 deg"},
+    {"gas", "wiebe_m", Kind::number, kNoUnit, "gas.wiebe_m", from(0).up_to(10), "", defaults, "2", "", "", "form exponent of the heat release"},
+    {"gas", "second_share", Kind::number, kNoUnit, "gas.second_ratio", from(0).up_to(1), "", defaults, "0", "", "", "share of the fuel that burns by a second law from the same start (diesel)"},
+    {"gas", "second_m", Kind::number, kNoUnit, "gas.second_m", from(0).up_to(10), "", defaults, "1", "", "", "its form exponent"},
+    {"gas", "second_duration_ratio", Kind::number, kNoUnit, "gas.second_duration_ratio", from(0.1).up_to(10), "", defaults, "3", "", "", "its duration by that of the first"},
+
     {"friction", "constant_kPa", Kind::number, kKPa, "friction.constant_Pa", from(0).up_to(10000), "", defaults, "0", "", "", "at any speed; holds at standstill"},
     {"friction", "linear_kPa_per_1000rpm", Kind::number, kKPaPerSpeed, "friction.linear_Pa_s", from(0).up_to(1e5), "", defaults, "0", "", "", "times the speed in 1000 rpm"},
     {"friction", "quadratic_kPa_per_1000rpm2", Kind::number, kKPaPerSpeed2, "friction.quadratic_Pa_s2", from(0).up_to(1e7), "", defaults, "0", "", "", "times its square"},
 
-    {"load", "constant_Nm", Kind::number, kNm, "load.constant_Nm", from(0).up_to(1e7), "", defaults, "0", "", "", "at any speed; holds at standstill"},
-    {"load", "linear_Nm_per_1000rpm", Kind::number, kNmPerSpeed, "load.linear_Nm_s", from(0).up_to(1e8), "", defaults, "0", "", "", "times the speed in 1000 rpm"},
-    {"load", "quadratic_Nm_per_1000rpm2", Kind::number, kNmPerSpeed2, "load.quadratic_Nm_s2", from(0).up_to(1e10), "", defaults, "0", "", "", "times its square: fan, propeller, water brake"},
-    {"load", "inertia_kg_m2", Kind::number, kKgM2, "load.inertia_kg_m2", from(0).up_to(1e6), "", defaults, "0", "", "", "turns with the crankshaft"},
+    {"machine", "constant_Nm", Kind::number, kNm, "machine.constant_Nm", from(0).up_to(1e7), "", defaults, "0", "", "", "at any speed; holds at standstill"},
+    {"machine", "linear_Nm_per_1000rpm", Kind::number, kNmPerSpeed, "machine.linear_Nm_s", from(0).up_to(1e8), "", defaults, "0", "", "", "times the speed in 1000 rpm"},
+    {"machine", "quadratic_Nm_per_1000rpm2", Kind::number, kNmPerSpeed2, "machine.quadratic_Nm_s2", from(0).up_to(1e10), "", defaults, "0", "", "", "times its square: fan, propeller, water brake"},
+    {"machine", "inertia_kg_m2", Kind::number, kKgM2, "machine.inertia_kg_m2", from(0).up_to(1e6), "", defaults, "0", "", "", "turns with the crankshaft"},
 
     {"starter", "stall_Nm", Kind::number, kNm, "starter.stall_Nm", from(0).up_to(1e7), "", defaults, "0", "", "", "torque at standstill; 0: no starter"},
     {"starter", "no_load_rpm", Kind::number, kRpmAsRadS, "starter.no_load_rad_s", from(0).up_to(95000), "", defaults, "0", "", "", "crank speed at which it gives none; above 0 where there is a starter"},
@@ -151,15 +179,54 @@ constexpr Key kKeys[] = {
     {"valve", "seat_N_per_mm", Kind::number, kNPerMm, "valve.seat_N_m", above(0).up_to(1e9), "", required, "", "", "", "stiffness of the seat"},
     {"valve", "seat_damping_ratio", Kind::number, kNoUnit, "valve.seat_damping_ratio", from(0).up_to(10), "", required, "", "", "", "b_z = 2 zeta sqrt(k_z M)"},
     {"valve", "head_area_mm2", Kind::number, kMm2, "valve.head_area_m2", from(0).up_to(1e6), "", defaults, "0", "", "", "gas force on the valve head; 0: none"},
+    {"valve", "port", Kind::choice, kNoUnit, "", kAny, "intake|exhaust", optional, "", "", "", "what it opens; needed with [pressure] source = gas"},
+    {"valve", "seat_diameter_mm", Kind::number, kMm, "gas.seat_diameter_m", above(0).up_to(1000), "", optional, "", "", "", "inner; needed with [pressure] source = gas"},
+    {"valve", "flow_over_lift_ratio", Kind::pairs, kNoUnit, "", from(0).up_to(1), "", optional, "", "", "", "instead of a usual valve's: flow coefficient times area over that of the seat, by lift over its diameter, 0 to 0.5"},
 
     {"trigger", "on", Kind::text, kNoUnit, "", kAny, "", required, "", "", "", "crank, cam, or cam NAME for one that the phaser of [cam NAME] moves"},
-    {"trigger", "pattern", Kind::text, kNoUnit, "", kAny, "", required, "", "", "edges:teeth", "60 or 60-2 (two missing), 36-2-2-2, 36-2-2-2-H6, half-moon, or teeth and (missing) in turn, like 13(2)16(2)1(2)"},
+    {"trigger", "pattern", Kind::text, kNoUnit, "", kAny, "", required, "", "", "edges:teeth", "60 or 60-2 (two missing), 36-2-2-2, 36-2-2-2-H6, half-moon, teeth and (missing) in turn, like 13(2)16(2)1(2), or the name of a pair: `crankloop help patterns`"},
     {"trigger", "first_tooth_deg", Kind::number, kDeg, "", from(-720).up_to(720), "", defaults, "0", "", "edges:teeth", "engine angle at which the first tooth's rising edge is at the sensor; N-M: the tooth after the gap"},
     {"trigger", "tooth_ratio", Kind::number, kNoUnit, "", from(0.01).up_to(0.99), "", defaults, "0.5", "", "edges:teeth", "width of a tooth per distance from tooth to tooth"},
     {"trigger", "edges_deg", Kind::numbers, kDeg, "", from(0).up_to(1440), "", required, "", "", "edges:list", "instead of a pattern: rise, fall, rise, ... by engine angle, within one turn of the shaft (cam: 720 deg)"},
     {"trigger", "inverted", Kind::choice, kNoUnit, "", kAny, "no|yes", defaults, "no", "", "", "whether a tooth pulls the signal down"},
 };
 // clang-format on
+
+/// Fields that follow from a key, which is none of them by itself.
+struct Follows {
+  const char* field;
+  const char* section;
+  const char* key;
+};
+constexpr Follows kFollows[] = {
+    {"crank.crank_radius_m", "crank", "stroke_mm"},
+    {"masses.rod_inertia_correction_kg_m2", "masses", "rod_inertia_kg_mm2"},
+    {"layout.firing_deg", "layout", "firing_angles_deg"},
+    {"layout.bank_deg", "layout", "bank_angles_deg"},
+    {"layout.position_m", "layout", "cylinder_positions_mm"},
+    {"layout.pin", "layout", "shared_pins"},
+    {"pressure.source", "pressure", "source"},
+    {"pressure.point_count", "pressure", "file"},
+    {"pressure.points", "pressure", "file"},
+    {"cam.source", "cam", "source"},
+    {"cam.full_lift_deg", "cam", "full_lift_at_crank_deg"},
+    {"cam.exponent_count", "cam", "exponents"},
+    {"cam.exponents", "cam", "exponents"},
+    {"cam.point_count", "cam", "file"},
+    {"cam.points", "cam", "file"},
+    {"rocker.kind", "rocker", "ratio"},
+    {"rocker.cam_turns", "rocker", "cam_turns"},
+    {"gas.throttle_count", "gas", "throttle_curve"},
+    {"gas.throttle_ratio", "gas", "throttle_curve"},
+    {"gas.throttle_area_ratio", "gas", "throttle_curve"},
+    {"gas.ambient_K", "gas", "ambient_C"},
+    {"gas.exhaust_K", "gas", "exhaust_C"},
+    {"gas.wall_K", "gas", "wall_C"},
+    {"gas.port", "valve", "port"},
+    {"gas.flow_count", "valve", "flow_over_lift_ratio"},
+    {"gas.flow_lift_ratio", "valve", "flow_over_lift_ratio"},
+    {"gas.flow_ratio", "valve", "flow_over_lift_ratio"},
+};
 
 /// Looks for a field by its name.
 struct Find {
@@ -182,6 +249,7 @@ constexpr bool fields_exist() {
   for (const Key& key : kKeys) {
     Find find{key.field};
     EngineDefinition::each_field(find, definition);
+    Gas::each_field(find, definition.gas);
     if (key.field[0] != '\0' && !find.found) return false;
   }
   return true;
@@ -194,7 +262,8 @@ std::string other_ways(const Key& key) {
   const std::string_view choice = split(key.form, ':')[0];
   std::vector<std::string> keys;
   for (const Key& other : kKeys) {
-    const bool instead = key.section == std::string_view(other.section) && split(other.form, ':')[0] == choice && key.form != std::string_view(other.form);
+    const bool instead = key.section == std::string_view(other.section) && split(other.form, ':')[0] == choice &&
+                         key.form != std::string_view(other.form);
     if (instead && other.presence != Presence::optional) keys.emplace_back(other.name);
   }
   return keys.empty() ? "" : ", or " + join(keys, " and ");
@@ -226,6 +295,8 @@ std::string Key::allowed() const {
       return "like 1-2,3-4";
     case Kind::numbers:
       return "list; each " + describe(range, unit_in_words(unit.name));
+    case Kind::pairs:
+      return "pairs, like 0:0, 1:1; each " + describe(range, unit_in_words(unit.name));
     case Kind::whole_number:
       return "whole number; " + describe(range, unit_in_words(unit.name));
     case Kind::number:
@@ -260,6 +331,16 @@ std::vector<const Key*> keys_of(const std::string& section) {
 const Key* find_key(const std::string& section, const std::string& name) {
   for (const Key& key : kKeys) {
     if (key.section == section && key.name == name) return &key;
+  }
+  return nullptr;
+}
+
+const Key* key_of_field(std::string_view field) {
+  for (const Key& key : kKeys) {
+    if (key.field == field) return &key;
+  }
+  for (const Follows& follows : kFollows) {
+    if (follows.field == field) return find_key(follows.section, follows.key);
   }
   return nullptr;
 }

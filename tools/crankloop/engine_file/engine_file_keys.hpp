@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "../number.hpp"
@@ -15,6 +16,7 @@ enum class Kind {
   number,
   whole_number,
   numbers,       ///< 0,540,180,360
+  pairs,         ///< 0:0, 0.5:0.3, 1:1: rows of a curve
   choice,        ///< one of Key::choices
   text,          ///< free text
   path,          ///< free text that names a file
@@ -38,7 +40,8 @@ struct Key {
   const char* name;
   Kind kind;
   Unit unit;
-  const char* field;    ///< of the definition, that it is by itself: "crank.bore_m"; "" where more than a unit lies between them
+  const char*
+      field;  ///< of the definition, that it is by itself: "crank.bore_m"; "" where more than a unit lies between them
   Range range;
   const char* choices;  ///< "wiebe|angle_table"; only Kind::choice
   Presence presence;
@@ -64,6 +67,9 @@ struct SectionKind {
 /// In the order of `show`. The table is a constant array; the vectors only point into it.
 [[nodiscard]] std::vector<const Key*> keys_of(const std::string& section);
 [[nodiscard]] const Key* find_key(const std::string& section, const std::string& name);
+
+/// The key that a Status's field is by itself or follows from: stroke_mm for "crank.crank_radius_m"; nullptr: none.
+[[nodiscard]] const Key* key_of_field(std::string_view field);
 
 /// Sections that have a key of this name: "bore_mm belongs to [crank]".
 [[nodiscard]] std::vector<std::string> sections_with_key(const std::string& name);

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine_file_parts.hpp"
 #include "../error.hpp"
+#include "engine_file_parts.hpp"
 
 namespace crankloop::program {
 namespace {

@@ -16,15 +16,15 @@ std::string rod_length_too_short(const SectionValues& crank) {
 namespace {
 
 /// A source that prints both rounds both; farther apart than this they are two rods, and one of them is not meant.
-constexpr double kMostRodDisagreement = 1e-3;
+constexpr double kMaxRodDisagreement = 1e-3;
 
 void require_that_rod_and_ratio_agree(const SectionValues& values, const Crank& drawn, const std::string& path) {
   const double given = values.si("rod_ratio");
-  if (std::abs(given / drawn.rod_ratio() - 1) <= kMostRodDisagreement) return;
+  if (std::abs(given / drawn.rod_ratio() - 1) <= kMaxRodDisagreement) return;
   refuse(values, "rod_ratio",
          shortest(given) + " contradicts rod_length_mm = " + shortest(values.number("rod_length_mm")) + " (line " +
-             std::to_string(values.line_of("rod_length_mm")) + "), with which stroke_mm / 2 / rod_length_mm = " + brief(drawn.rod_ratio()) +
-             "; they may differ by 0.1 %, or leave rod_ratio out",
+             std::to_string(values.line_of("rod_length_mm")) + "), with which stroke_mm / 2 / rod_length_mm = " +
+             brief(drawn.rod_ratio()) + "; they may differ by 0.1 %, or leave rod_ratio out",
          path);
 }
 
@@ -39,7 +39,8 @@ Crank build_crank(const SectionValues& values, const std::string& path) {
   }
   if (values.has("rod_ratio")) {
     require_that_rod_and_ratio_agree(values, crank, path);
-    // Everything that knows a rod length then knows this one, so that motion, masses and energies agree with one another.
+    // Everything that knows a rod length then knows this one, so that motion, masses and energies agree with one
+    // another.
     crank.rod_length_m = crank.crank_radius_m / values.si("rod_ratio");
   }
   return crank;
@@ -79,6 +80,7 @@ Pressure build_pressure(const SectionValues& values) {
   const std::string& source = values.text("source");
   if (source == "angle_table") pressure.source = PressureSource::angle_table;
   if (source == "volume_table") pressure.source = PressureSource::volume_table;
+  if (source == "gas") pressure.source = PressureSource::gas;
   if (source == "wiebe") pressure.source = PressureSource::wiebe;
   pressure.wiebe.heat_given = values.has("heat_J");
   return pressure;

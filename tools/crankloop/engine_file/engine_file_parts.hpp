@@ -18,14 +18,16 @@ namespace crankloop::program {
 /// Puts the values whose keys are fields of this part into them; other fields stay as they are.
 template <class Part>
 void fill(const SectionValues& values, Part& part) {
-  Part::each_field([&values](int, std::string_view name, auto& field) {
-    using Field = std::remove_reference_t<decltype(field)>;
-    if constexpr (kHasFields<Field>) {
-      fill(values, field);
-    } else if constexpr (std::is_same_v<Field, double> || std::is_same_v<Field, int>) {
-      if (const Value* value = values.of_field(name)) field = static_cast<Field>(value->si());
-    }
-  }, part);
+  Part::each_field(
+      [&values](int, std::string_view name, auto& field) {
+        using Field = std::remove_reference_t<decltype(field)>;
+        if constexpr (kHasFields<Field>) {
+          fill(values, field);
+        } else if constexpr (std::is_same_v<Field, double> || std::is_same_v<Field, int>) {
+          if (const Value* value = values.of_field(name)) field = static_cast<Field>(value->si());
+        }
+      },
+      part);
 }
 
 /// Throws InputError for a rod_length_mm with which the crank cannot turn, and for a rod_ratio that contradicts it.
@@ -39,12 +41,18 @@ void fill(const SectionValues& values, Part& part) {
 /// All but the rows of a table source.
 [[nodiscard]] Pressure build_pressure(const SectionValues& values);
 
+/// All but the ports of trains.
+[[nodiscard]] Gas build_gas(const SectionValues& values, const std::string& path);
+[[nodiscard]] PortOfTrain build_port(const SectionValues& valve, const std::string& path);
+
 /// All but the rows of a table.
 [[nodiscard]] Cam build_cam(const SectionValues& values, const std::string& path);
 [[nodiscard]] Rocker build_rocker(const SectionValues& values);
 
-/// All but the edges of a list and the train whose phaser moves it. Throws InputError for a pattern that names no wheel.
-[[nodiscard]] TriggerWheel build_trigger(const SectionValues& values, const std::string& path);
+/// All but the train whose phaser moves it and the list of edges, which is put into `edges_deg`; empty where the wheel
+/// has teeth and gaps. Throws InputError for a pattern that names no wheel.
+[[nodiscard]] TriggerWheel build_trigger(const SectionValues& values, const std::string& path,
+                                         std::vector<double>& edges_deg);
 
 /// The part of build_layout() that stands in engine_file_pins.cpp: positions along the crankshaft, and pins. Needs
 /// firing and bank angles.
@@ -54,12 +62,13 @@ void place_cylinders(SectionValues& values, double bore_mm, const std::string& p
 [[noreturn]] void refuse(const SectionValues& values, std::string_view key, const std::string& message,
                          const std::string& path);
 
+/// "bore_mm: 95 must be greater than zero": a refusal about a key of a section, which may have no value for it.
+[[nodiscard]] std::string in_words(const SectionValues& home, const Key& key, Reason reason,
+                                   const std::string& refusal);
+
 /// A list with as many entries as there are cylinders.
 [[nodiscard]] const std::vector<double>& one_per_cylinder(const SectionValues& values, std::string_view key,
                                                           const std::string& path);
-
-/// Whether a Status's field means this key: fields are named as keys without their unit, "rod_length" for rod_length_mm.
-[[nodiscard]] bool is_named(const Key& key, std::string_view field);
 
 /// "1 cylinder", "4 cylinders".
 [[nodiscard]] std::string cylinders_text(int count);

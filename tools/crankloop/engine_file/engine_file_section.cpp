@@ -3,10 +3,10 @@
 #include <map>
 #include <utility>
 
-#include "engine_file_values.hpp"
 #include "../error.hpp"
-#include "problems.hpp"
 #include "../words.hpp"
+#include "engine_file_values.hpp"
+#include "problems.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -29,7 +29,8 @@ struct Given {
   bool guessing = false;        ///< what else is needed depends on what could not be read
 };
 
-Value read_entry(const IniSection& section, const IniEntry& entry, const SectionValues& before, const std::string& path) {
+Value read_entry(const IniSection& section, const IniEntry& entry, const SectionValues& before,
+                 const std::string& path) {
   const Key& key = known_key(section, entry, path);
   if (before.has(key.name)) {
     throw InputError(path, entry.line,
@@ -119,7 +120,8 @@ std::map<std::string, FormInUse> forms_in_use(const SectionValues& values, const
     if (first == nullptr) choice.first_given = &value;
   }
   for (auto& [name, choice] : choices) {
-    choice.in_use = choice.first_given != nullptr ? choice.first_given->key->form : form_by_default(values.kind, choice.forms);
+    choice.in_use =
+        choice.first_given != nullptr ? choice.first_given->key->form : form_by_default(values.kind, choice.forms);
     if (!choice.needed || !choice.in_use.empty()) continue;
     throw InputError(path, values.line,
                      values.title() + " needs either " + required_keys(values.kind, choice.forms[0]) + ", or " +
@@ -158,7 +160,8 @@ SectionValues resolve_section(const IniSection& section, const std::string& path
     problems.of([&] {
       throw InputError(path, section.line,
                        section.title() + " lacks " + key->name + " (" + key->meaning + (allowed.empty() ? "" : "; ") +
-                           allowed + ")" + (key->only_if[0] == '\0' ? "" : std::string(", needed with ") + key->only_if));
+                           allowed + ")" +
+                           (key->only_if[0] == '\0' ? "" : std::string(", needed with ") + key->only_if));
     });
     if (key->kind == Kind::choice) break;  // what else is needed depends on it
   }

@@ -1,12 +1,13 @@
-// Valve trains of an engine file: [cam NAME], [rocker NAME] and [valve NAME] as definitions, and what core refuses about them in words.
+// Valve trains of an engine file: [cam NAME], [rocker NAME] and [valve NAME] as definitions, and what core refuses
+// about them in words.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
+#include "../table_file.hpp"
+#include "../text_file.hpp"
+#include "../words.hpp"
 #include "engine_file.hpp"
 #include "engine_file_parts.hpp"
-#include "../table_file.hpp"
-#include "../words.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -14,7 +15,8 @@ namespace {
 constexpr TableFormat kCamTable{"cam_deg", "lift_mm", from(-360).up_to(360), from(-100).up_to(100)};
 
 TrainOfFile& named(std::vector<TrainOfFile>& trains, const std::string& name) {
-  const auto found = std::find_if(trains.begin(), trains.end(), [&name](const TrainOfFile& one) { return one.name == name; });
+  const auto found =
+      std::find_if(trains.begin(), trains.end(), [&name](const TrainOfFile& one) { return one.name == name; });
   if (found != trains.end()) return *found;
   trains.emplace_back();
   trains.back().name = name;
@@ -37,12 +39,14 @@ Cam build_cam(const SectionValues& values, const std::string& path) {
     return cam;
   }
   const std::vector<double>& exponents = values.numbers("exponents");
-  if (exponents.size() < 2 || exponents.size() > kMostCamExponents) {
+  if (exponents.size() < 2 || exponents.size() > kMaxCamExponents) {
     refuse(values, "exponents", std::to_string(exponents.size()) + " given; allowed: 2 to 8 of them, rising", path);
   }
   for (const double exponent : exponents) {
     if (cam.exponent_count > 0 && exponent <= cam.exponents[cam.exponent_count - 1]) {
-      refuse(values, "exponents", shortest(exponent) + " follows " + shortest(cam.exponents[cam.exponent_count - 1]) + "; they must rise", path);
+      refuse(values, "exponents",
+             shortest(exponent) + " follows " + shortest(cam.exponents[cam.exponent_count - 1]) + "; they must rise",
+             path);
     }
     cam.exponents[cam.exponent_count++] = exponent;
   }
@@ -79,6 +83,7 @@ void EngineFile::build_trains() {
     } else {
       train.has_valve = true;
       fill(section, train.definition.valve);
+      train.port = build_port(section, path_);
       accept(validate(train.definition.valve), train);
     }
   }
@@ -86,16 +91,16 @@ void EngineFile::build_trains() {
     if (!train.complete()) continue;
     accept(validate(train.definition), train);
     if (definition_.train_count == kMaxTrains) {
-      throw InputError(path_, section("cam " + train.name).line,
-                       "[cam " + train.name + "] makes one valve train too many; allowed: " + std::to_string(kMaxTrains));
+      throw InputError(
+          path_, section("cam " + train.name).line,
+          "[cam " + train.name + "] makes one valve train too many; allowed: " + std::to_string(kMaxTrains));
     }
     definition_.trains[definition_.train_count++] = train.definition;
   }
 }
 
 void EngineFile::read_cam(const SectionValues& cam, TrainOfFile& train) {
-  const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
-  train.points_path = (folder / cam.text("file")).string();
+  train.points_path = in_folder(folder_of(path_), cam.text("file"));
   for (const TableRow& row : read_table(train.points_path, kCamTable, path_, cam.line_of("file"))) {
     if (!train.points.empty() && row.at <= train.points.back().cam_deg) {
       throw InputError(train.points_path, row.line,
@@ -105,9 +110,10 @@ void EngineFile::read_cam(const SectionValues& cam, TrainOfFile& train) {
     train.points.push_back({row.at, row.value / 1e3});
     train.point_lines.push_back(row.line);
   }
-  if (train.points.size() > kMostCamPoints) {
-    throw InputError(train.points_path, train.point_lines[kMostCamPoints],
-                     std::to_string(train.points.size()) + " rows; at most " + std::to_string(kMostCamPoints) + " are allowed");
+  if (train.points.size() > kMaxCamPoints) {
+    throw InputError(
+        train.points_path, train.point_lines[kMaxCamPoints],
+        std::to_string(train.points.size()) + " rows; at most " + std::to_string(kMaxCamPoints) + " are allowed");
   }
   train.definition.cam.points = train.points.data();
   train.definition.cam.point_count = static_cast<int>(train.points.size());
@@ -121,16 +127,17 @@ const TrainOfFile& EngineFile::train(const std::string& name) const {
   }
   const std::string guess = suggestion(name, names);
   throw InputError(path_ + ": no valve train is called " + in_quotes(name) +
-                   (!guess.empty() ? guess : names.empty() ? "; the file has none" : "; there are: " + join(names)));
+                   (!guess.empty()  ? guess
+                    : names.empty() ? "; the file has none"
+                                    : "; there are: " + join(names)));
 }
 
 /// The train that a Status about a whole definition means, by its number among the complete ones.
-const TrainOfFile* EngineFile::train_to_blame(const Status& status) const {
-  const std::string_view kind = split(status.field, '.')[0];
-  if (kind != "cam" && kind != "rocker" && kind != "valve") return nullptr;
+const TrainOfFile* EngineFile::train_to_blame(const Key& key, int index) const {
+  if (!find_section_kind(key.section)->named) return nullptr;
   int number = 0;
   for (const TrainOfFile& train : trains_) {
-    if (train.complete() && number++ == status.index) return &train;
+    if (train.complete() && number++ == index) return &train;
   }
   return nullptr;
 }
@@ -139,49 +146,53 @@ namespace {
 
 /// What ValveLift found of the geometry; empty for anything else.
 std::string geometry_in_words(std::string_view field, const std::string& at) {
-  if (field == "rocker.base_circle") return "base_circle_mm: the cam is undercut" + at + "; a larger base circle or a blunter lift is needed";
-  if (field == "rocker.pivot_to_pad") return "pivot_to_pad_mm: pivot, pad and cam form no triangle" + at;
-  if (field == "rocker.pivot_to_cam") return "pivot_to_cam_mm: the train jams" + at + ", where the contact's normal meets the pivot";
-  if (field == "rocker.pivot_to_screw") return "pivot_to_screw_mm: the screw would stand more than 90 deg off the pivot's level" + at;
-  if (field == "valve.rocker_inertia") return "rocker_inertia_kg_mm2: must be 0 with a constant ratio, which has no lever; add the rocker's share to valve_g";
+  if (field == "rocker.base_circle_m")
+    return "base_circle_mm: the cam is undercut" + at + "; a larger base circle or a blunter lift is needed";
+  if (field == "rocker.pivot_to_pad_m") return "pivot_to_pad_mm: pivot, pad and cam form no triangle" + at;
+  if (field == "rocker.pivot_to_cam_m")
+    return "pivot_to_cam_mm: the train jams" + at + ", where the contact's normal meets the pivot";
+  if (field == "rocker.pivot_to_screw_m")
+    return "pivot_to_screw_mm: the screw would stand more than 90 deg off the pivot's level" + at;
+  if (field == "valve.rocker_inertia_kg_m2")
+    return "rocker_inertia_kg_mm2: must be 0 with a constant ratio, which has no lever; add the rocker's share to "
+           "valve_g";
   return "";
 }
 
 }  // namespace
 
 InputError EngineFile::explain(const Status& status, const TrainOfFile& train, double cam_deg) const {
-  const std::vector<std::string_view> field = split(status.field, '.');
-  const SectionValues* home = find(std::string(field[0]) + " " + train.name);
-  if (home == nullptr || field.size() != 2) return InputError(path_ + ": valve train " + train.name + ": " + status.field + " " + describe(status.reason));
+  const Key* key = key_of_field(status.field);
+  const SectionValues* home = key == nullptr ? nullptr : find(key->section + (" " + train.name));
+  if (home == nullptr)
+    return InputError(path_ + ": valve train " + train.name + ": " + status.field + " " + describe(status.reason));
 
-  if (field[1] == "file" && !train.point_lines.empty()) {
+  const std::string_view field = status.field;
+  if (field == "cam.points" && !train.point_lines.empty()) {
     const bool has_row = status.index >= 0 && static_cast<std::size_t>(status.index) < train.point_lines.size();
     const int line = has_row ? train.point_lines[static_cast<std::size_t>(status.index)] : train.point_lines.back();
     std::string message = "the cam " + std::string(describe(status.reason));
-    if (status.reason == Reason::too_few_points) message = std::to_string(train.points.size()) + " rows are too few for a cam";
+    if (status.reason == Reason::too_few_points)
+      message = std::to_string(train.points.size()) + " rows are too few for a cam";
     if (status.reason == Reason::inconsistent) {
       message = "the lobe must rise from the base circle and return to it within the table; smoothing_um (" +
                 shortest(home->number("smoothing_um")) + ") is the lift that still counts as base circle";
     }
-    if (status.reason == Reason::out_of_range && !has_row) message = "the rows must lie within one turn of 360 deg, and the lobe within 330 deg of it";
+    if (status.reason == Reason::out_of_range && !has_row)
+      message = "the rows must lie within one turn of 360 deg, and the lobe within 330 deg of it";
     return InputError(train.points_path, line, message);
   }
   if (status.reason == Reason::inconsistent) {
-    const std::string words = geometry_in_words(status.field, " at " + brief(cam_deg) + " deg of the flat follower's cam angle");
+    const std::string words =
+        geometry_in_words(field, " at " + brief(cam_deg) + " deg of the flat follower's cam angle");
     if (!words.empty()) return InputError(path_, home->line_of(split(words, ':')[0]), words);
   }
-  const std::string_view name = status.field == std::string_view("valve.spring_rate") ? "spring_N_per_mm" : field[1];
-  for (const Key* key : keys_of(home->kind)) {
-    if (!is_named(*key, name) && name != key->name) continue;
-    const Value* value = home->find(key->name);
-    std::string message = std::string(key->name) + ": ";
-    if (value != nullptr) message += format_value(*value) + " ";
-    message += name == "exponents" && status.reason == Reason::not_increasing ? "must rise by at least 0.1" : describe(status.reason);
-    if (status.reason == Reason::out_of_range) message += "; allowed: " + key->allowed();
-    if (name == "smoothing") message += ": no smooth lobe comes that close to every row; allow more, or look for a faulty row";
-    return InputError(path_, home->line_of(key->name), message);
-  }
-  return InputError(path_, home->line, home->title() + " " + std::string(name) + " " + describe(status.reason));
+  std::string refusal = field == "cam.exponents" && status.reason == Reason::not_increasing
+                            ? "must rise by at least 0.1"
+                            : describe(status.reason);
+  if (field == "cam.smoothing_m")
+    refusal += ": no smooth lobe comes that close to every row; allow more, or look for a faulty row";
+  return InputError(path_, home->line_of(key->name), in_words(*home, *key, status.reason, refusal));
 }
 
 }  // namespace crankloop::program

@@ -85,6 +85,21 @@ Value parse_value(const Key& key, std::string_view text, const std::string& path
           throw InputError(path, line, std::string(key.name) + ": the list is too long");
       }
       break;
+    case Kind::pairs:
+      for (const std::string_view part : split(text, ',')) {
+        const std::string where = "entry " + std::to_string(value.numbers.size() / 2 + 1) + ": ";
+        const std::vector<std::string_view> pair = split(part, ':');
+        if (pair.size() != 2) {
+          throw InputError(
+              path, line,
+              std::string(key.name) + ": " + where + in_quotes(trim(part)) + " is no pair; allowed: " + key.allowed());
+        }
+        for (const std::string_view one : pair)
+          value.numbers.push_back(number_in_range(key, trim(one), path, line, where));
+        if (value.numbers.size() > kLongestList)
+          throw InputError(path, line, std::string(key.name) + ": the list is too long");
+      }
+      break;
     case Kind::firing_order:
       value.groups.push_back(cylinder_numbers(key, text, path, line));
       break;
@@ -98,6 +113,11 @@ Value parse_value(const Key& key, std::string_view text, const std::string& path
 
 std::string format_value(const Value& value) {
   std::vector<std::string> parts;
+  if (value.key != nullptr && value.key->kind == Kind::pairs) {
+    for (std::size_t i = 0; i + 1 < value.numbers.size(); i += 2)
+      parts.push_back(shortest(value.numbers[i]) + ":" + shortest(value.numbers[i + 1]));
+    return join(parts, ",");
+  }
   for (const double number : value.numbers) parts.push_back(shortest(number));
   for (const std::vector<int>& group : value.groups) {
     std::vector<std::string> cylinders;

@@ -18,10 +18,12 @@ struct Value {
   int line = 0;                          ///< 0: a default or derived
   bool used = true;                      ///< false: belongs to a form or source that is not chosen
   std::string text;                      ///< choice, text, path
-  std::vector<double> numbers;           ///< number, whole_number (one each), numbers
+  std::vector<double> numbers;           ///< number, whole_number (one each), numbers, pairs (two each)
   std::vector<std::vector<int>> groups;  ///< firing_order (one group), pin_groups; cylinders counted from 1
 
-  [[nodiscard]] double si() const { return numbers.at(0) * key->unit.times / key->unit.over; }  ///< angles stay in degrees
+  [[nodiscard]] double si() const {
+    return numbers.at(0) * key->unit.times / key->unit.over;
+  }  ///< angles stay in degrees
 };
 
 /// Reads what stands behind `key =`; throws InputError at path:line.
@@ -39,7 +41,8 @@ struct SectionValues {
   [[nodiscard]] std::string title() const { return name.empty() ? "[" + kind + "]" : "[" + kind + " " + name + "]"; }
 
   [[nodiscard]] const Value* find(std::string_view key) const;  ///< nullptr: not given and no default, or not used
-  [[nodiscard]] const Value* of_field(std::string_view field) const;  ///< of the key that is this field; nullptr as for find()
+  [[nodiscard]] const Value* of_field(
+      std::string_view field) const;  ///< of the key that is this field; nullptr as for find()
   [[nodiscard]] bool has(std::string_view key) const { return find(key) != nullptr; }
   [[nodiscard]] const std::string& text(std::string_view key) const { return at(key).text; }
   [[nodiscard]] double number(std::string_view key) const { return at(key).numbers.at(0); }  ///< in the file's unit

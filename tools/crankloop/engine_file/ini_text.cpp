@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "../error.hpp"
-#include "problems.hpp"
 #include "../words.hpp"
+#include "problems.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -78,7 +78,8 @@ IniText parse_ini(const std::vector<std::string>& lines, const std::string& path
       IniEntry entry = parse_entry(text, path, line);
       if (!any_header) {
         any_header = true;  // told once
-        throw InputError(path, line, "key '" + entry.key + "' stands before the first section; write [section] above it");
+        throw InputError(path, line,
+                         "key '" + entry.key + "' stands before the first section; write [section] above it");
       }
       if (!ini.sections.empty()) ini.sections.back().entries.push_back(std::move(entry));
     });

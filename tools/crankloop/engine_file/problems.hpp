@@ -32,16 +32,16 @@ class Problems {
   /// Throws what was kept, if anything was.
   void refuse(const std::string& path) {
     if (lines_.empty()) return;
-    if (lines_.size() > kMostLines) {
-      const std::size_t left_out = lines_.size() - (kMostLines - 1);
-      lines_.resize(kMostLines - 1);
+    if (lines_.size() > kMaxLines) {
+      const std::size_t left_out = lines_.size() - (kMaxLines - 1);
+      lines_.resize(kMaxLines - 1);
       lines_.push_back(path + ": " + std::to_string(left_out) + " errors more");
     }
     throw InputError(join(lines_, "\n"));
   }
 
  private:
-  static constexpr std::size_t kMostLines = 20;
+  static constexpr std::size_t kMaxLines = 20;
   std::vector<std::string> lines_;
 };
 

@@ -35,12 +35,21 @@ std::vector<report::Fact> facts(const ReportInput& input) {
         {"Mean torque", report::format_number(input.figures.mean_torque_Nm, 4), "Nm", "all cylinders, indicated"});
     list.push_back({"Power", report::format_number(input.figures.power_W / 1e3, 4), "kW", "indicated"});
     if (input.exact.definition().friction.any()) {
-      const BrakeFigures brake = brake_figures(input.exact.definition(), input.figures.mean_torque_Nm, input.operation.speed_rad_s());
+      const BrakeFigures brake =
+          brake_figures(input.exact.definition(), input.figures.mean_torque_Nm, input.operation.speed_rad_s());
       list.push_back({"Brake power", report::format_number(brake.power_W / 1e3, 4), "kW",
-                      report::format_number(brake.torque_Nm, 4) + " Nm, mechanical efficiency " + report::format_fixed(brake.efficiency_ratio, 3)});
+                      report::format_number(brake.torque_Nm, 4) + " Nm, mechanical efficiency " +
+                          report::format_fixed(brake.efficiency_ratio, 3)});
     }
     list.push_back({"Net IMEP", report::format_number(input.figures.net_mep_Pa / 1e3, 4), "kPa",
                     "gross " + report::format_number(input.summary.gross_mep_Pa / 1e3, 4) + " kPa"});
+  }
+  if (breathes(input)) {
+    const GasCycle<double>& cycle = input.figures.gas.cycle;
+    list.push_back({"Air charge", report::format_number(cycle.trapped_air_kg * 1e6, 4), "mg",
+                    "volumetric efficiency " + report::format_fixed(cycle.volumetric_efficiency, 3)});
+    list.push_back({"Pumping loss", report::format_number(-cycle.pumping_mep_Pa / 1e3, 3), "kPa",
+                    "intake manifold at " + report::format_number(input.figures.gas.intake_Pa / 1e3, 3) + " kPa"});
   }
   list.push_back(peak_fact("Largest torque", trace, trace.torque_Nm, 1, "Nm"));
   if (has_gas(input)) list.push_back(peak_fact("Peak pressure", trace, trace[Quantity::pressure], 1e-5, "bar"));
@@ -62,6 +71,8 @@ std::string subtitle(const ReportInput& input) {
   std::string text = "At " + number_text(input.operation.speed_rpm, 6) + " rpm";
   if (!has_gas(input)) {
     text += ", without gas pressure: inertia only";
+  } else if (breathes(input)) {
+    text += ", throttle " + number_text(input.operation.gas.throttle_ratio);
   } else if (input.operation.load_ratio == 0) {
     text += ", motored";
   } else {
@@ -90,10 +101,12 @@ report::Page engine_report(const ReportInput& input) {
   page.facts = facts(input);
   page.sections.push_back(torque_section(input));
   if (has_gas(input)) page.sections.push_back(pressure_section(input));
+  if (breathes(input)) page.sections.push_back(gas_section(input));
   page.sections.push_back(motion_section(input));
   page.sections.push_back(force_section(input));
-  page.sections.push_back(force_per_area_section(input));
+  if (!breathes(input)) page.sections.push_back(force_per_area_section(input));  // the page has enough of them
   page.sections.push_back(bearing_section(input));
+  if (!breathes(input)) page.sections.push_back(speed_section(input));
   page.sections.push_back(balance_section(input));
   if (!input.trace.valves.empty()) page.sections.push_back(valve_section(input));
   if (input.exact.definition().layout.cylinders > 1) page.sections.push_back(crankshaft_section(input));

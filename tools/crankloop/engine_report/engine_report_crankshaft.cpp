@@ -27,7 +27,8 @@ report::Series ray(const std::string& name, double direction_deg, double from, d
 }
 
 Plot end_view(const Layout& layout) {
-  Plot plot = plot_of("Throws and banks at engine angle 0", axis_of("A quarter turn on from up, with the rotation", "r"), axis_of("Up", "r"));
+  Plot plot = plot_of("Throws and banks at engine angle 0",
+                      axis_of("A quarter turn on from up, with the rotation", "r"), axis_of("Up", "r"));
   const auto add = [&plot](report::Series series, int colour, const std::string& label) {
     series.style.colour = colour;
     series.style.dashed = colour != 1;

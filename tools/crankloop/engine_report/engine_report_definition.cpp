@@ -5,9 +5,9 @@
 
 #include <crankloop/tabulate/mechanism.hpp>
 
-#include "engine_report_parts.hpp"
 #include "../number.hpp"
 #include "../words.hpp"
+#include "engine_report_parts.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -37,12 +37,16 @@ std::string remark_on(const std::vector<std::string>& lines, int line) {
   return hash == std::string::npos ? "" : std::string(trim(text.substr(hash + 1)));
 }
 
-/// Whole-line comments of a section as one text. Keys that are commented out are no remarks.
-std::string remarks_in(const std::vector<std::string>& lines, int header_line) {
+bool is_comment_or_blank(const std::string& line) {
+  const std::string_view text = trim(line);
+  return text.empty() || text.front() == '#';
+}
+
+/// Whole-line comments from one line to another as one text. Keys that are commented out are no remarks.
+std::string remarks_in(const std::vector<std::string>& lines, std::size_t from, std::size_t to) {
   std::string remarks;
-  for (std::size_t i = static_cast<std::size_t>(std::max(header_line, 0)); i < lines.size(); ++i) {
+  for (std::size_t i = from; i < to; ++i) {
     const std::string line{trim(lines[i])};
-    if (!line.empty() && line.front() == '[') break;
     if (line.empty() || line.front() != '#') continue;
     const std::string text{trim(std::string_view(line).substr(1))};
     const std::string before_equals{trim(std::string_view(text).substr(0, text.find('=')))};
@@ -52,11 +56,30 @@ std::string remarks_in(const std::vector<std::string>& lines, int header_line) {
   return remarks;
 }
 
+std::size_t next_header(const std::vector<std::string>& lines, std::size_t from) {
+  while (from < lines.size() && (lines[from].empty() || trim(lines[from]).substr(0, 1) != "[")) ++from;
+  return from;
+}
+
+/// What a section's comments say: those before its header, after the last key of the section before, and its own.
+std::string remarks_about(const std::vector<std::string>& lines, int header_line) {
+  const auto header = static_cast<std::size_t>(header_line - 1);
+  if (header >= lines.size()) return "";  // it has changed meanwhile
+  std::size_t from = header;
+  while (from > 0 && is_comment_or_blank(lines[from - 1])) --from;
+  if (from == 0) from = header;  // the file's own
+  std::size_t to = next_header(lines, header + 1);
+  if (to < lines.size()) {
+    while (is_comment_or_blank(lines[to - 1])) --to;
+  }
+  return remarks_in(lines, from, to);
+}
+
 // ---- Definition ----
 
 /// Lines as they would stand in a complete file: they wrap on a phone, and can be copied.
 Table section_table(const SectionValues& values, const std::vector<std::string>& lines) {
-  Table table{values.title(), {{"Key and value", "", false}, {"Meaning, and the file's remark", "", false}}, {}, false};
+  Table table{values.title(), {{"Key and value", "", false}, {"Meaning, and the file's remark", "", false}}, {}, true};
   for (const Value& value : values.values) {
     if (!value.used) continue;
     const std::string remark = value.line == 0 ? "not in the file: default or derived" : remark_on(lines, value.line);
@@ -99,12 +122,17 @@ List assumptions(const ReportInput& input) {
       "inertia (" +
       number_text(d.masses.crank_inertia_kg_m2) + " kg m\u00B2) decides how much; no figure here depends on it.");
   list.items.push_back(
-      "Piston, rod and crankshaft are rigid and without clearance; nothing rubs. Power and mean effective pressure are indicated ones.");
+      "Piston, rod and crankshaft are rigid and without clearance; nothing rubs. Power and mean effective pressure are "
+      "indicated ones.");
   list.items.push_back(d.masses.rod_inertia_correction_kg_m2 == 0
                            ? "The rod is two masses at its ends, without inertia correction (dI = 0)."
                            : "The rod is a rigid body: two masses at its ends and the inertia correction dI, whose "
                              "couple is in every force.");
-  list.items.push_back("All cylinders are alike, and have the same pressure at the same crank angle of their own.");
+  list.items.push_back(breathes(input)
+                           ? "All cylinders are alike; what they do differs by the pressure in the manifolds as their "
+                             "valves open. Curves are of cylinder 1."
+                           : "All cylinders are alike, and have the same pressure at the same crank angle of their "
+                             "own.");
   if (has_gas(input))
     list.items.push_back("Below the piston stands the constant crankcase pressure of " +
                          number_text(d.pressure.crankcase_Pa * kKilo) + " kPa.");
@@ -163,37 +191,6 @@ Table deviation_table(const ReportInput& input) {
 
 }  // namespace
 
-std::string pressure_remark(const ReportInput& input) {
-  const Pressure& p = input.exact.definition().pressure;
-  const std::string load = input.operation.load_ratio == 1
-                               ? ""
-                               : " Load ratio " + number_text(input.operation.load_ratio) +
-                                     ": that share of what combustion adds to the motored pressure.";
-  const auto from_file = [&](const char* over) {
-    return "The cylinder pressure is the table " + input.file.section("pressure").text("file") + ", given over the " +
-           over + "." + load;
-  };
-  switch (p.source) {
-    case PressureSource::none:
-      return "There is no pressure source: gas forces are zero, and all forces and torques are those of the masses "
-             "alone.";
-    case PressureSource::angle_table:
-      return from_file("crank angle");
-    case PressureSource::volume_table:
-      return from_file("cylinder volume");
-    case PressureSource::wiebe:
-      break;
-  }
-  const WiebeDiagram& w = p.wiebe;
-  const std::string heat = w.heat_given ? "a heat of " + number_text(w.heat_J, 5) + " J per cycle and cylinder"
-                                        : "a net IMEP of " + number_text(w.net_mep_Pa * kKilo, 6) + " kPa";
-  return "The cylinder pressure is not measured: it is synthesised with " + heat +
-         ", by a Wiebe heat release of form exponent " + number_text(w.wiebe_m) + " over " +
-         number_text(w.combustion_duration_deg) + " deg from " + number_text(w.start_of_combustion_deg) +
-         " deg, between polytropes of exponents " + number_text(w.compression_exponent) + " and " +
-         number_text(w.expansion_exponent) + "; without combustion it would expand by " + number_text(w.motored_exponent()) + "." + load;
-}
-
 report::Section accuracy_section(const ReportInput& input) {
   const RunFigures& f = input.figures;
   Section section{"made", "How these figures were made", {}};
@@ -211,7 +208,11 @@ report::Section accuracy_section(const ReportInput& input) {
                        number_text(input.trace.spacing_deg) + " deg of a cycle are there to be drawn.");
   list.items.push_back(
       "Where a cycle is no whole number of ticks, the last one counts by the work of its part inside the cycle.");
-  if (has_gas(input)) {
+  if (breathes(input)) {
+    list.items.push_back("Net IMEP: " + number_text(f.net_mep_Pa * kKilo, 5) + " kPa from the loop's torque, " +
+                         number_text(input.summary.net_mep_Pa * kKilo, 5) +
+                         " kPa from the loop integral of p dV over the curves.");
+  } else if (has_gas(input)) {
     list.items.push_back("Net IMEP: " + number_text(f.net_mep_Pa * kKilo, 7) + " kPa from the loop's torque, " +
                          number_text(input.summary.net_mep_Pa * kKilo, 7) + " kPa from the loop integral of p dV.");
     list.items.push_back("The pressure table has " + std::to_string(f.tables.gas_segments) +
@@ -221,6 +222,11 @@ report::Section accuracy_section(const ReportInput& input) {
   list.items.push_back("A tick takes " + number_text(input.wall_time_per_tick_ns, 3) +
                        " ns on the machine that made this page (" + percent_of_tick(input) +
                        " of the tick), with every output of every cylinder.");
+  if (breathes(input)) {
+    list.items.push_back("Free forces' largest values are computed in double from the equations, without tables.");
+    section.blocks.push_back(std::move(list));
+    return section;
+  }
   list.items.push_back(
       "Harmonics, free forces' largest values and the exact figures to compare with are computed in double from the "
       "equations, without tables.");
@@ -236,10 +242,10 @@ report::Section definition_section(const ReportInput& input) {
   Section section{"definition", "Definition and assumptions", {}};
   section.blocks.push_back(assumptions(input));
   const std::vector<std::string> lines = lines_of(input.file.path());
-  const std::string about = remarks_in(lines, 0);
+  const std::string about = remarks_in(lines, 0, next_header(lines, 0));
   if (!about.empty()) section.blocks.push_back(Paragraph{"The engine file says: " + about});
   for (const SectionValues& values : input.file.sections()) {
-    const std::string remarks = values.line > 0 ? remarks_in(lines, values.line) : "";
+    const std::string remarks = values.line > 0 ? remarks_about(lines, values.line) : "";
     if (!remarks.empty()) section.blocks.push_back(Paragraph{values.title() + ": " + remarks});
     section.blocks.push_back(section_table(values, lines));
   }

@@ -112,7 +112,8 @@ report::Section force_section(const ReportInput& input) {
        "moves after TDC.");
   const std::vector<double> displacement = scaled(trace[Quantity::displacement], 1e3);
   const std::vector<double> side = scaled(trace[Quantity::side_force], kKilo);
-  Plot over_stroke = plot_of("Side force over the piston displacement", axis_of("Displacement from TDC", "mm"), axis_of("Side force", "kN"));
+  Plot over_stroke = plot_of("Side force over the piston displacement", axis_of("Displacement from TDC", "mm"),
+                             axis_of("Side force", "kN"));
   over_stroke.series = loop_by_strokes(input, displacement, side);
   over_stroke.caption = "Where along the cylinder the wall is loaded, and from which side.";
   section.blocks.push_back(std::move(over_stroke));

@@ -15,7 +15,7 @@ using report::Plot;
 using report::Section;
 
 constexpr double kKilo = 1e-3;
-constexpr std::size_t kMostCurves = 6;  // colours there are
+constexpr std::size_t kMaxCurves = 6;  // colours there are
 
 Axis force_axis(const std::string& title) { return axis_of(title, "kN"); }
 Axis moment_axis() { return axis_of("Moment", "Nm"); }
@@ -92,12 +92,12 @@ report::Section bearing_section(const ReportInput& input) {
   const Trace& trace = input.trace;
   const Layout& layout = input.exact.definition().layout;
   Section section{"bearings", "Crank pin and main journals", {}};
-  section.blocks.push_back(
-      Paragraph{"Loads turn with the crankshaft: their loops show where pin and journal wear; in the frame of the block, where "
-                "the bearing's shells do. The pin carries the rod "
-                "force and the rod "
-                "big end's centrifugal force; journals carry the throws beside them, each taken as simply supported "
-                "between its two."});
+  section.blocks.push_back(Paragraph{
+      "Loads turn with the crankshaft: their loops show where pin and journal wear; in the frame of the block, where "
+      "the bearing's shells do. The pin carries the rod "
+      "force and the rod "
+      "big end's centrifugal force; journals carry the throws beside them, each taken as simply supported "
+      "between its two."});
 
   const std::size_t first_pin = layout.pin[0];
   Plot loop =
@@ -117,15 +117,15 @@ report::Section bearing_section(const ReportInput& input) {
                             trace.journal_along_N[journal], trace.journal_across_N[journal], trace);
   section.blocks.push_back(std::move(journal_loop));
   section.blocks.push_back(polar("Main " + numbered("bearing", journal) + ", the same load on the block, polar",
-                                 "Lateral, a quarter turn on from up with the rotation", "Up", trace.journal_lateral_N[journal],
-                                 trace.journal_up_N[journal], trace));
+                                 "Lateral, a quarter turn on from up with the rotation", "Up",
+                                 trace.journal_lateral_N[journal], trace.journal_up_N[journal], trace));
   std::vector<std::size_t> order(trace.journal_load_N.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return span_of(trace.journal_load_N[a]).high > span_of(trace.journal_load_N[b]).high;
   });
-  const bool all = order.size() <= kMostCurves;
-  if (!all) order.resize(kMostCurves);
+  const bool all = order.size() <= kMaxCurves;
+  if (!all) order.resize(kMaxCurves);
   std::sort(order.begin(), order.end());
   std::vector<report::Series> curves;
   for (const std::size_t j : order)
@@ -146,7 +146,11 @@ report::Section bearing_section(const ReportInput& input) {
     add_load_row(mains, trace, numbered("Journal", j), trace.journal_load_N[j]);
   section.blocks.push_back(std::move(mains));
   report::Table block{"Main bearings, in the frame of the block",
-                      {{"", "", false}, {"Largest up", "N"}, {"Largest down", "N"}, {"Largest lateral", "N"}, {"Smallest lateral", "N"}},
+                      {{"", "", false},
+                       {"Largest up", "N"},
+                       {"Largest down", "N"},
+                       {"Largest lateral", "N"},
+                       {"Smallest lateral", "N"}},
                       {},
                       false};
   for (std::size_t j = 0; j < trace.journal_up_N.size(); ++j) {
@@ -180,7 +184,7 @@ report::Section balance_section(const ReportInput& input) {
       "crankshaft. Counterweights are not part of the definition, so rotating masses are not balanced here."});
   report::Table table{
       "Largest over a turn", {{"", "", false}, {"Force", "N"}, {"Relative", "%"}, {"Moment", "Nm"}}, {}, false};
-  const auto row = [&](const std::string& name, const Turning<double>& t) {
+  const auto row = [&](const std::string& name, const detail::RotatingVector<double>& t) {
     const double force = peak_force_kg_m(t) * w2;
     table.rows.push_back({name, report::format_fixed(force, 1), report::format_fixed(100 * force / unit_N, 1),
                           report::format_fixed(peak_moment_kg_m2(t) * w2, 1)});
@@ -190,9 +194,10 @@ report::Section balance_section(const ReportInput& input) {
   report::Table waves{"Amplitudes and phases", {{"", "", false}, {"Amplitude", "N, Nm"}, {"Phase", "deg"}}, {}, true};
   const auto wave = [&](const std::string& name, double cosine, double sine, double noise) {
     const Wave w = wave_of(cosine * w2, sine * w2);
-    if (w.amplitude > noise) waves.rows.push_back({name, report::format_fixed(w.amplitude, 1), report::format_fixed(w.phase_deg, 1)});
+    if (w.amplitude > noise)
+      waves.rows.push_back({name, report::format_fixed(w.amplitude, 1), report::format_fixed(w.phase_deg, 1)});
   };
-  const auto rows = [&](std::string name, const Turning<double>& t) {
+  const auto rows = [&](std::string name, const detail::RotatingVector<double>& t) {
     name[0] = static_cast<char>(name[0] - 'a' + 'A');
     row(name, t);
     wave(name + ", up", t.up_cos, t.up_sin, noise_N);
@@ -210,7 +215,8 @@ report::Section balance_section(const ReportInput& input) {
                 number_text(unit_N, 5) + " N. Orders are per crank turn: harmonics of the exact motion."});
   if (!waves.rows.empty()) {
     section.blocks.push_back(std::move(waves));
-    section.blocks.push_back(Paragraph{"Each is amplitude cos(order times engine angle - phase), rotating of order 1."});
+    section.blocks.push_back(
+        Paragraph{"Each is amplitude cos(order times engine angle - phase), rotating of order 1."});
   }
 
   std::vector<report::Series> forces;

@@ -7,20 +7,23 @@
 #include <string>
 #include <vector>
 
-#include "engine_report.hpp"
+#include "../engine_file/pressure_words.hpp"
 #include "../report/page.hpp"
+#include "engine_report.hpp"
 
 namespace crankloop::program {
 
 // The sections, in the order of the page. Those that need gas pressure are left out where there is none.
 [[nodiscard]] report::Section torque_section(const ReportInput& input);
 [[nodiscard]] report::Section pressure_section(const ReportInput& input);
+[[nodiscard]] report::Section gas_section(const ReportInput& input);  ///< of an engine that breathes
 [[nodiscard]] report::Section motion_section(const ReportInput& input);
 [[nodiscard]] report::Section force_section(const ReportInput& input);
 [[nodiscard]] report::Section force_per_area_section(const ReportInput& input);
 [[nodiscard]] report::Section bearing_section(const ReportInput& input);
+[[nodiscard]] report::Section speed_section(const ReportInput& input);
 [[nodiscard]] report::Section balance_section(const ReportInput& input);
-[[nodiscard]] report::Section valve_section(const ReportInput& input);  ///< where there are valve trains
+[[nodiscard]] report::Section valve_section(const ReportInput& input);       ///< where there are valve trains
 [[nodiscard]] report::Section crankshaft_section(const ReportInput& input);  ///< of two cylinders or more
 [[nodiscard]] report::Section accuracy_section(const ReportInput& input);
 [[nodiscard]] report::Section definition_section(const ReportInput& input);
@@ -29,8 +32,12 @@ namespace crankloop::program {
   return input.exact.definition().pressure.source != PressureSource::none;
 }
 
+[[nodiscard]] inline bool breathes(const ReportInput& input) { return breathes(input.exact.definition()); }
+
 /// What every report says of its pressure: synthesised, from which table, or none.
-[[nodiscard]] std::string pressure_remark(const ReportInput& input);
+[[nodiscard]] inline std::string pressure_remark(const ReportInput& input) {
+  return pressure_in_words(input.file, input.operation.load_ratio, input.operation.gas);
+}
 
 using report::axis_of;
 using report::number_text;

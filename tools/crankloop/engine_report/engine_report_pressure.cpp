@@ -1,5 +1,6 @@
 // Section of the engine report: cylinder pressure and work.
 #include <algorithm>
+#include <cmath>
 
 #include <crankloop/tabulate/mechanism.hpp>
 
@@ -14,6 +15,7 @@ using report::Section;
 
 constexpr double kBar = 1e-5;
 constexpr double kKilo = 1e-3;
+constexpr double kUsualGamma = 1.33;  ///< ratio of specific heats of burning gas
 
 std::vector<double> volume_cm3(const ReportInput& input) {
   const Crank& crank = input.exact.definition().crank;
@@ -32,6 +34,47 @@ double exchange_top(const ReportInput& input, const std::vector<double>& pressur
     if (input.trace.crank_deg[i] > 270 && input.trace.crank_deg[i] < 540) most = std::max(most, pressure_bar[i]);
   }
   return 2 * most;
+}
+
+/// What the gas takes up, from pressure and volume alone: dQ = g/(g-1) p dV + 1/(g-1) V dp (Heywood, Internal
+/// Combustion Engine Fundamentals, 1988, section 9.2.2). From shortly before combustion until the exhaust valve opens.
+void add_heat_release(Section& section, const ReportInput& input, const std::vector<double>& volume_m3) {
+  const Pressure& p = input.exact.definition().pressure;
+  const bool synthesised = p.source == PressureSource::wiebe;
+  const double gamma = synthesised ? p.wiebe.expansion_exponent : kUsualGamma;
+  const double from_deg = synthesised ? p.wiebe.start_of_combustion_deg : -30;
+  const double to_deg = synthesised ? p.wiebe.exhaust_valve_opens_deg : 110;
+  const std::vector<double>& pressure_Pa = input.trace[Quantity::pressure];
+  const double spacing_deg = input.trace.spacing_deg;
+  const auto count = static_cast<int>(pressure_Pa.size()) - 1;  // the last is the first of the next cycle
+  const auto at = [count](int i) { return static_cast<std::size_t>((i + count) % count); };
+  Plot rate = plot_of("Rate of heat release", axis_of("Crank angle from firing TDC", "deg"), axis_of("Rate", "J/deg"));
+  Plot heat = plot_of("Heat released", rate.x, axis_of("Heat", "J"));
+  rate.series.resize(1);
+  heat.series.resize(1);
+  double sum_J = 0;
+  for (int i = static_cast<int>(std::ceil(from_deg / spacing_deg)); i * spacing_deg < to_deg; ++i) {
+    const std::size_t here = at(i);
+    const std::size_t next = at(i + 1);
+    const double dQ_J = (gamma * (pressure_Pa[here] + pressure_Pa[next]) / 2 * (volume_m3[next] - volume_m3[here]) +
+                         (volume_m3[here] + volume_m3[next]) / 2 * (pressure_Pa[next] - pressure_Pa[here])) /
+                        (gamma - 1);
+    sum_J += dQ_J;
+    rate.series[0].x.push_back((i + 0.5) * spacing_deg);
+    rate.series[0].y.push_back(dQ_J / spacing_deg);
+    heat.series[0].x.push_back((i + 1) * spacing_deg);
+    heat.series[0].y.push_back(sum_J);
+  }
+  rate.markers = {largest_marker(rate, 0)};
+  heat.markers = {largest_marker(heat, 0)};
+  rate.caption = "Apparent: from pressure and volume, by the ratio of specific heats " + number_text(gamma) +
+                 "; what the walls take is not in it.";
+  if (breathes(input)) {
+    heat.caption = "Of " + number_text(input.figures.gas.cycle.heat_J) + " J of combustion; " +
+                   number_text(input.figures.gas.cycle.wall_heat_J) + " J went to the walls in the whole cycle.";
+  }
+  section.blocks.push_back(std::move(rate));
+  section.blocks.push_back(std::move(heat));
 }
 
 }  // namespace
@@ -79,6 +122,7 @@ report::Section pressure_section(const ReportInput& input) {
                      " kPa.";
   section.blocks.push_back(std::move(exchange));
   const std::vector<double> volume_m3 = scaled(volume, 1e-6);
+  add_heat_release(section, input, volume_m3);
   section.blocks.push_back(table_over_angle(
       trace, "Table: pressure and volume of one cylinder",
       {{"Pressure", "bar", &trace[Quantity::pressure], kBar}, {"Volume", "cm\u00B3", &volume_m3, 1e6}}));

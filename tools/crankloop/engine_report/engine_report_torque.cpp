@@ -53,7 +53,10 @@ Plot harmonics(const ReportInput& input) {
   plot.markers.push_back({bars.x[most], bars.y[most],
                           report::format_number(bars.y[most], 3) + " Nm at order " + number_text(bars.x[most]), 0});
   plot.series.push_back(std::move(bars));
-  plot.caption = "Amplitudes of the engine torque's Fourier series, from 7200 exact torques over the cycle.";
+  plot.caption = "Amplitudes of the engine torque's Fourier series, from " +
+                 (breathes(input) ? std::to_string(input.trace.crank_deg.size() - 1) + " torques of the loop"
+                                  : std::string("7200 exact torques")) +
+                 " over the cycle.";
   return plot;
 }
 
@@ -111,8 +114,10 @@ report::Section torque_section(const ReportInput& input) {
     columns.push_back({"Cylinder " + std::to_string(k + 1), "Nm", &trace.cylinder_torque_Nm[k]});
   }
   section.blocks.push_back(table_over_angle(trace, "Table: torque of the engine and of each cylinder", columns));
-  report::Table table{
-      "Table: torque harmonics", {{"Order", ""}, {"Amplitude", "Nm"}, {"Phase", "deg"}, {"Cosine", "Nm"}, {"Sine", "Nm"}}, {}, true};
+  report::Table table{"Table: torque harmonics",
+                      {{"Order", ""}, {"Amplitude", "Nm"}, {"Phase", "deg"}, {"Cosine", "Nm"}, {"Sine", "Nm"}},
+                      {},
+                      true};
   double largest = 0;
   for (const Harmonic& h : input.summary.harmonics) largest = std::max(largest, h.amplitude_Nm);
   const int decimals = decimals_for(largest, 5);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include <crankloop/tabulate/valve_lift.hpp>
 #include <crankloop/tabulate/valve_motion.hpp>
@@ -21,6 +22,7 @@ using report::Series;
 constexpr double kMilli = 1e3;
 constexpr double kMicro = 1e6;
 constexpr double kKilo = 1e-3;
+constexpr int kTheoryColour = 6;
 constexpr double kHighBounce_m = 0.5e-3;  // takes longer than those that an engine is run with
 
 /// What the report says of one train of cylinder 1.
@@ -30,6 +32,7 @@ struct Train {
   std::size_t full_lift;  ///< entry of the trace with the largest theoretical lift
   double lobe_begin_deg;  ///< crank angle at which the lobe begins, in [0, 720)
   double largest_theory_m;
+  double seat_contact_m;  ///< lift at which the valve meets its seat
   double open_Hz;
   double seated_Hz;
 };
@@ -48,11 +51,12 @@ std::vector<Train> trains_of(const ReportInput& input) {
   for (std::size_t t = 0; t < input.trace.valves.size(); ++t) {
     const ValveTrain& train = definition.trains[t];
     if (!lift->init(train.cam, train.rocker).ok()) continue;  // the loop has accepted it
-    const ValveBody<double> body = valve_body(train.valve, lift->lever_m() > 0 ? lift->lever_m() : 1);
+    const detail::ValveBody<double> body = valve_body(train.valve, lift->lever_m() > 0 ? lift->lever_m() : 1);
     const ValveTrace& trace = input.trace.valves[t];
     trains.push_back({names[t], trace, index_of_largest(trace[ValveQuantity::theoretical_lift]),
                       train.cam.full_lift_deg + 2 * lift->opens_rad() * kDegPerRad, lift->largest_lift_m(),
-                      open_frequency_rad_s(body) * kTurnsPerRad, seated_frequency_rad_s(body) * kTurnsPerRad});
+                      body.preload_N / body.seat_N_m, open_frequency_rad_s(body) * kTurnsPerRad,
+                      seated_frequency_rad_s(body) * kTurnsPerRad});
   }
   return trains;
 }
@@ -79,19 +83,88 @@ Series curve(const ReportInput& input, const Train& train, ValveQuantity quantit
   return series;
 }
 
+/// Where theory leaves 1 mm of lift behind, or half of a smaller valve's: the crank angles of opening and closing.
+struct Timing {
+  double opens_deg;
+  double closes_deg;
+};
+double timed_lift_m(const Train& train) { return std::min(1e-3, train.largest_theory_m / 2); }
+Timing timing_of(const ReportInput& input, const Train& train) {
+  const std::vector<double>& lift_m = train.trace[ValveQuantity::theoretical_lift];
+  const std::size_t count = lift_m.size() - 1;  // the last is the first of the next cycle
+  const double spacing_deg = input.trace.spacing_deg;
+  const auto steps_until_low = [&](std::size_t direction) {
+    double steps = 0;
+    std::size_t i = train.full_lift % count;
+    for (; steps < static_cast<double>(count) && lift_m[i] > timed_lift_m(train); ++steps) i = (i + direction) % count;
+    return steps;
+  };
+  const double full_deg = static_cast<double>(train.full_lift) * spacing_deg;
+  return {full_deg - steps_until_low(count - 1) * spacing_deg, full_deg + steps_until_low(1) * spacing_deg};
+}
+
+/// "12 deg before TDC", from the nearest dead centre, at 0, 180, 360 and 540 deg.
+std::string from_dead_centre(double crank_deg) {
+  const double nearest = std::round(crank_deg / 180);
+  const double after_deg = crank_deg - 180 * nearest;
+  const bool top = std::fmod(std::abs(nearest), 2) == 0;
+  return number_text(std::abs(after_deg), 3) + " deg " + (after_deg < 0 ? "before " : "after ") + (top ? "TDC" : "BDC");
+}
+
+/// The circle of the crank, clockwise from top dead centre, an arc for each train while its valve is open.
+Plot timing_plot(const ReportInput& input, const std::vector<Train>& trains) {
+  Plot plot = plot_of("Valve timing", {}, {});
+  plot.x.bare = plot.y.bare = true;
+  const auto arc = [&plot](const std::string& name, double radius, double from_deg, double to_deg, int colour) {
+    Series series{name, {}, {}, {}};
+    series.style.colour = colour;
+    series.style.bold = !name.empty();
+    const double step_deg = (to_deg - from_deg) / 120;
+    for (int i = 0; i <= 120; ++i) {
+      const double angle_rad = (from_deg + i * step_deg) * kRadPerDeg;
+      series.x.push_back(radius * std::sin(angle_rad));
+      series.y.push_back(radius * std::cos(angle_rad));
+    }
+    plot.series.push_back(std::move(series));
+  };
+  double radius = 1;
+  for (std::size_t t = 0; t < trains.size(); ++t, radius -= 0.18) {
+    const Timing timing = timing_of(input, trains[t]);
+    const std::size_t series = plot.series.size();
+    arc(trains[t].name, radius, timing.opens_deg, timing.closes_deg, static_cast<int>(t) + 1);
+    const Series& drawn = plot.series[series];
+    plot.markers.push_back({drawn.x.front(), drawn.y.front(), from_dead_centre(timing.opens_deg), series});
+    plot.markers.push_back({drawn.x.back(), drawn.y.back(), from_dead_centre(timing.closes_deg), series});
+    plot.caption += trains[t].name + " opens " + from_dead_centre(timing.opens_deg) + ", closes " +
+                    from_dead_centre(timing.closes_deg) + "; ";
+  }
+  arc("", 1.15, 0, 360, kTheoryColour);
+  plot.caption += "at " + number_text(timed_lift_m(trains[0]) * kMilli, 3) +
+                  " mm of theoretical lift. Clockwise, top dead centre above.";
+  use_equal_scales(plot);
+  return plot;
+}
+
+/// Several marked curves share a plot: their labels tell the values alone.
+Plot with_short_labels(Plot plot) {
+  for (report::Marker& marker : plot.markers)
+    marker.label.resize(std::min(marker.label.size(), marker.label.find(" at ")));
+  return plot;
+}
+
 Plot lift_plot(const ReportInput& input, const std::vector<Train>& trains) {
   std::vector<Series> curves;
   for (std::size_t t = 0; t < trains.size(); ++t) {
     const int colour = static_cast<int>(t) + 1;
     curves.push_back(curve(input, trains[t], ValveQuantity::lift, kMilli, trains[t].name, colour));
     curves.push_back(
-        curve(input, trains[t], ValveQuantity::theoretical_lift, kMilli, trains[t].name + ", theory", colour));
+        curve(input, trains[t], ValveQuantity::theoretical_lift, kMilli, t == 0 ? "theory" : "", kTheoryColour));
     curves.back().style.dashed = true;
   }
   Plot plot = plot_over_angle(input, "Valve lift", axis_of("Lift", "mm"), std::move(curves));
   for (std::size_t t = 0; t < trains.size(); ++t) plot.markers.push_back(largest_marker(plot, 2 * t));
   plot.caption = "Dashed: what cam and rocker alone would give. The valve stays below it by what the train yields.";
-  return plot;
+  return with_short_labels(std::move(plot));
 }
 
 Plot one_each(const ReportInput& input, const std::vector<Train>& trains, const std::string& title, const Axis& axis,
@@ -113,14 +186,14 @@ Plot force_plot(const ReportInput& input, const Train& train) {
   plot.caption =
       "Cam: between cam and follower, the train's times the rocker ratio. Train: on the valve. Seat: the closed valve "
       "carries its spring.";
-  return plot;
+  return with_short_labels(std::move(plot));
 }
 
 /// How far the train is compressed, or the valve has flown off it.
 Plot gap_plot(const ReportInput& input, const Train& train) {
   Plot plot =
       plot_over_angle(input, "Between train and valve, " + train.name, axis_of("Train lift less valve lift", "\u00B5m"),
-                      {curve(input, train, ValveQuantity::gap, kMicro, "", 0)});
+                      {curve(input, train, ValveQuantity::compression, kMicro, "", 0)});
   plot.caption =
       "Above zero the train is compressed and carries force; below zero there is a gap: the clearance while the valve "
       "is closed.";
@@ -131,12 +204,12 @@ Plot gap_plot(const ReportInput& input, const Train& train) {
   double gap = 0;
   for (std::size_t i = 0; i < train.trace.regime.size(); ++i) {
     const double since_deg = std::fmod(input.trace.crank_deg[i] - begin_deg + 720, 720);
-    const double here = train.trace[ValveQuantity::gap][i];
+    const double here = train.trace[ValveQuantity::compression][i];
     if (since_deg < 2 * cycle.separation_duration_deg && here < gap) gap = here, widest = i;
   }
   if (gap < 0) {
     plot.markers.push_back({input.trace.crank_deg[widest], gap * kMicro,
-                            "separation " + number_text(cycle.separation_gap_m * kMicro, 3) + " \u00B5m", 0});
+                            "separation " + number_text(cycle.separation_clearance_m * kMicro, 3) + " \u00B5m", 0});
   }
   return plot;
 }
@@ -153,6 +226,7 @@ Plot seating_plot(const ReportInput& input, const Train& train) {
   Series actual{"valve", {}, {}, {}};
   Series theory{"theory", {}, {}, {}};
   theory.style.dashed = true;
+  theory.style.colour = kTheoryColour;
   std::size_t top = 0;
   double deg = from < to ? input.trace.crank_deg[entries[from]] : 0;
   for (std::size_t i = from; i < to; ++i, deg += input.trace.spacing_deg) {
@@ -163,13 +237,18 @@ Plot seating_plot(const ReportInput& input, const Train& train) {
     const bool in_the_air = i > seated && (train.trace.regime[entries[i]] & kSeatOn) == 0;
     if (in_the_air && (top == 0 || actual.y.back() > actual.y[top])) top = actual.y.size() - 1;
   }
-  Plot plot = plot_of("Seating of the " + train.name + " valve", axis_of("Crank angle from cylinder 1's firing TDC", "deg"), axis_of("Lift", "\u00B5m"));
-  plot.caption = "Zero is the closed valve under its spring. Below, the seat yields to the impact.";
+  Plot plot =
+      plot_of("Seating of the " + train.name + " valve", axis_of("Crank angle from cylinder 1's firing TDC", "deg"),
+              axis_of("Lift above the seat's contact", "\u00B5m"));
+  plot.caption =
+      "Zero is where the valve meets its seat; bounces count from there. Below, the seat yields: to the closed valve's "
+      "spring, more to the impact.";
   if (top > 0 && train.trace.cycle.bounces > 0) {
     plot.markers.push_back({actual.x[top], actual.y[top],
                             "bounce " + number_text(train.trace.cycle.bounce_height_m * kMicro, 3) + " \u00B5m", 0});
   }
   plot.series = {std::move(actual), std::move(theory)};
+  report::count_from(plot, train.seat_contact_m * kMicro, "seat contact", 5);
   return plot;
 }
 
@@ -195,7 +274,7 @@ report::Table results_table(const std::vector<Train>& trains) {
       [](const Train&, const Cycle& c) { return number_text(c.opening_delay_deg, 3); });
   row("Separations", "", [](const Train&, const Cycle& c) { return std::to_string(c.separations); });
   row("Largest gap", "\u00B5m",
-      [](const Train&, const Cycle& c) { return number_text(c.separation_gap_m * kMicro, 3); });
+      [](const Train&, const Cycle& c) { return number_text(c.separation_clearance_m * kMicro, 3); });
   row("its begin, crank angle", "deg", [](const Train& t, const Cycle& c) {
     return c.separations > 0 ? report::format_fixed(crank_deg(t, c.separation_start_deg), 1) : std::string("\u2013");
   });
@@ -251,8 +330,9 @@ report::Section valve_section(const ReportInput& input) {
                 "the spring. " +
                 verdict(trains)});
   section.blocks.push_back(lift_plot(input, trains));
-  section.blocks.push_back(
-      with_extremes(one_each(input, trains, "Valve velocity", axis_of("Velocity", "m/s"), ValveQuantity::velocity, 1)));
+  section.blocks.push_back(timing_plot(input, trains));
+  section.blocks.push_back(with_short_labels(with_extremes(
+      one_each(input, trains, "Valve velocity", axis_of("Velocity", "m/s"), ValveQuantity::velocity, 1))));
   section.blocks.push_back(one_each(input, trains, "Valve acceleration", axis_of("Acceleration", "km/s\u00B2"),
                                     ValveQuantity::acceleration, kKilo));
   for (const Train& train : trains) section.blocks.push_back(force_plot(input, train));

@@ -19,7 +19,8 @@ double cubic(double begin, double end, double slope_begin, double slope_end, dou
 /// A tick of the crank, at any part of it.
 class Within {
  public:
-  Within(const FreeState& before, const FreeState& after) : a_{before}, b_{after}, tick_s_{after.time_s - before.time_s} {}
+  Within(const FreeState& before, const FreeState& after)
+      : a_{before}, b_{after}, tick_s_{after.time_s - before.time_s} {}
 
   [[nodiscard]] double angle_deg(double s) const {
     const double scale = tick_s_ * 180 / kPi;
@@ -39,9 +40,11 @@ class Within {
     FreeState state;
     state.time_s = a_.time_s + s * tick_s_;
     state.angle_deg = angle_deg(s);
-    state.speed_rad_s = cubic(a_.speed_rad_s, b_.speed_rad_s, a_.acceleration_rad_s2 * tick_s_, b_.acceleration_rad_s2 * tick_s_, s);
+    state.speed_rad_s =
+        cubic(a_.speed_rad_s, b_.speed_rad_s, a_.acceleration_rad_s2 * tick_s_, b_.acceleration_rad_s2 * tick_s_, s);
     state.torque_Nm = a_.torque_Nm + (b_.torque_Nm - a_.torque_Nm) * s;
-    state.work_J = cubic(a_.work_J, b_.work_J, a_.torque_Nm * a_.speed_rad_s * tick_s_, b_.torque_Nm * b_.speed_rad_s * tick_s_, s);
+    state.work_J = cubic(a_.work_J, b_.work_J, a_.torque_Nm * a_.speed_rad_s * tick_s_,
+                         b_.torque_Nm * b_.speed_rad_s * tick_s_, s);
     return state;
   }
 
@@ -67,7 +70,9 @@ double FreeCycle::smallest_speed_rad_s() const {
   return smallest;
 }
 
-double FreeCycle::irregularity_ratio() const { return (largest_speed_rad_s() - smallest_speed_rad_s()) / mean_speed_rad_s(); }
+double FreeCycle::irregularity_ratio() const {
+  return (largest_speed_rad_s() - smallest_speed_rad_s()) / mean_speed_rad_s();
+}
 
 double FreeCycle::mean_torque_Nm() const { return (samples.back().work_J - samples.front().work_J) / kCycle_rad; }
 
@@ -101,7 +106,8 @@ void CycleRecorder::begin(const FreeState& at) {
 void CycleRecorder::edge(std::size_t wheel, double ratio, bool level) { new_edges_.push_back({wheel, ratio, level}); }
 
 void CycleRecorder::take(const FreeState& before, const FreeState& after) {
-  std::stable_sort(new_edges_.begin(), new_edges_.end(), [](const NewEdge& a, const NewEdge& b) { return a.ratio < b.ratio; });
+  std::stable_sort(new_edges_.begin(), new_edges_.end(),
+                   [](const NewEdge& a, const NewEdge& b) { return a.ratio < b.ratio; });
   const Within tick(before, after);
   auto next_edge = new_edges_.begin();
   const auto edges_until = [&](double part) {

@@ -1,7 +1,8 @@
-// A free run's speed and torque over the crank angle, and what a cycle of it amounts to: mean speed, irregularity, harmonics, torque.
+// A free run's speed and torque over the crank angle, and what a cycle of it amounts to: mean speed, irregularity,
+// harmonics, torque.
 //
-// What belongs here: whole cycles of 720 deg from one firing top dead centre of cylinder 1 to the next, turned forward without a stop. What
-// does not: the run from its beginning (free_overview.hpp).
+// What belongs here: whole cycles of 720 deg from one firing top dead centre of cylinder 1 to the next, turned forward
+// without a stop. What does not: the run from its beginning (free_overview.hpp).
 #pragma once
 
 #include <cstddef>
@@ -29,11 +30,11 @@ struct FreeCycle {
   std::vector<std::vector<Edge>> edges;  ///< per trigger wheel
   std::vector<bool> levels;              ///< per trigger wheel, as the cycle begins
 
-  [[nodiscard]] double mean_speed_rad_s() const;     ///< angle over time
+  [[nodiscard]] double mean_speed_rad_s() const;  ///< angle over time
   [[nodiscard]] double largest_speed_rad_s() const;
   [[nodiscard]] double smallest_speed_rad_s() const;
-  [[nodiscard]] double irregularity_ratio() const;   ///< (largest - smallest) / mean
-  [[nodiscard]] double mean_torque_Nm() const;       ///< of gas and masses: work over angle
+  [[nodiscard]] double irregularity_ratio() const;  ///< (largest - smallest) / mean
+  [[nodiscard]] double mean_torque_Nm() const;      ///< of gas and masses: work over angle
 
   /// Amplitudes of the speed over the angle, of orders 0.5, 1, 1.5 ... per crank turn, in rad/s.
   [[nodiscard]] std::vector<double> harmonics_rad_s() const;
@@ -46,7 +47,8 @@ class CycleRecorder {
 
   explicit CycleRecorder(std::size_t wheels) : level_(wheels) {}
 
-  /// A tick from one state to the next. Within it the angle is the cubic over time that has speed and angle of both ends.
+  /// A tick from one state to the next. Within it the angle is the cubic over time that has speed and angle of both
+  /// ends.
   void take(const FreeState& before, const FreeState& after);
 
   /// An edge of the tick that is taken next, `ratio` of it after its begin.
@@ -54,7 +56,9 @@ class CycleRecorder {
   /// The level before the first edge.
   void begin_at(std::size_t wheel, bool level) { level_[wheel] = level; }
 
-  [[nodiscard]] const std::deque<FreeCycle>& cycles() const noexcept { return cycles_; }  ///< whole ones, the last at the back
+  [[nodiscard]] const std::deque<FreeCycle>& cycles() const noexcept {
+    return cycles_;
+  }  ///< whole ones, the last at the back
 
  private:
   struct NewEdge {

@@ -5,6 +5,8 @@
 
 #include <crankloop/tabulate/mechanism.hpp>
 
+#include "../engine_file/gas_order.hpp"
+
 namespace crankloop::program {
 namespace {
 
@@ -14,14 +16,16 @@ constexpr int kParts = 7200;  ///< of a cycle
 
 double EnergyBalance::missing_ratio() const noexcept {
   double largest = 0;
-  for (const double energy_J : {gas_J, starter_J, friction_J, load_J, kinetic_J}) largest = std::max(largest, std::fabs(energy_J));
+  for (const double energy_J : {gas_J, starter_J, friction_J, load_J, kinetic_J})
+    largest = std::max(largest, std::fabs(energy_J));
   return largest > 0 ? missing_J() / largest : 0;
 }
 
 GasWork::GasWork(const ExactEngine& exact, const FreeOperation& operation)
     : cut_{operation.cut_cylinders}, firing_{curve_of(exact, operation.load_ratio)}, motored_{curve_of(exact, 0)} {
   const Layout& layout = exact.definition().layout;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) firing_deg_.push_back(layout.firing_deg[k]);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k)
+    firing_deg_.push_back(layout.firing_deg[k]);
 }
 
 GasWork::Curve GasWork::curve_of(const ExactEngine& exact, double load_ratio) const {
@@ -75,7 +79,7 @@ double EnergyBooks::friction_Nm(double speed_rad_s) const noexcept {
 }
 
 double EnergyBooks::load_Nm(double speed_rad_s) const noexcept {
-  const Load& l = engine_.load;
+  const DrivenMachine& l = engine_.machine;
   const double w = std::fabs(speed_rad_s);
   return l.constant_Nm + w * (l.linear_Nm_s + w * l.quadratic_Nm_s2);
 }
@@ -83,7 +87,7 @@ double EnergyBooks::load_Nm(double speed_rad_s) const noexcept {
 double EnergyBooks::inertia_kg_m2(double angle_deg) const noexcept {
   const Masses& m = engine_.masses;
   const double radius_m = engine_.crank.crank_radius_m;
-  double sum = m.crank_inertia_kg_m2 + engine_.load.inertia_kg_m2;
+  double sum = m.crank_inertia_kg_m2 + engine_.machine.inertia_kg_m2;
   for (std::size_t k = 0; k < static_cast<std::size_t>(engine_.layout.cylinders); ++k) {
     const Pose<double> p = exact_pose(engine_.crank, (angle_deg - engine_.layout.firing_deg[k]) * kRadPerDeg);
     sum += m.rod_big_end_kg * radius_m * radius_m + m.reciprocating_kg() * p.slope_m * p.slope_m +
@@ -103,16 +107,21 @@ void EnergyBooks::take(const FreeState& before, const FreeState& after, double s
   // Simpson's rule, with the speed in the middle of the tick by the cubic through both ends.
   const double middle = (w0 + w1) / 2 + tick_s / 8 * (before.acceleration_rad_s2 - after.acceleration_rad_s2);
   const auto work_J = [&](auto torque_Nm) {
-    return tick_s / 6 * (torque_Nm(w0) * std::fabs(w0) + 4 * torque_Nm(middle) * std::fabs(middle) + torque_Nm(w1) * std::fabs(w1));
+    return tick_s / 6 *
+           (torque_Nm(w0) * std::fabs(w0) + 4 * torque_Nm(middle) * std::fabs(middle) + torque_Nm(w1) * std::fabs(w1));
   };
   friction_J_ += work_J([this](double w) { return friction_Nm(w); });
   load_J_ += work_J([this](double w) { return load_Nm(w); });
   starter_J_ += tick_s / 2 * (starter_before_Nm_ * w0 + starter_Nm * w1);
   starter_before_Nm_ = starter_Nm;
+  slowed_J_ += (inertia_kg_m2(in_cycle_deg(after.angle_deg)) - inertia_kg_m2(in_cycle_deg(before.angle_deg))) *
+               (w0 * w0 + w1 * w1) / 4;
 }
 
 EnergyBalance EnergyBooks::balance(const FreeState& end) const {
-  return {gas_.between_J(begin_.angle_deg, end.angle_deg), starter_J_, friction_J_, load_J_, kinetic_J(end) - kinetic_J(begin_)};
+  const double gas_J =
+      breathes(engine_) ? end.work_J - begin_.work_J + slowed_J_ : gas_.between_J(begin_.angle_deg, end.angle_deg);
+  return {gas_J, starter_J_, friction_J_, load_J_, kinetic_J(end) - kinetic_J(begin_)};
 }
 
 }  // namespace crankloop::program

@@ -1,7 +1,9 @@
 // The books of a free run: what gas and starter put in, what friction and load took out, what the moving masses kept.
 //
-// What belongs here: energies by ways that the tick does not go: the gas's from the exact engine's torque over the angle, the masses' from the
-// mechanism's geometry, friction, load and starter by their power over time. What does not: the tick's own energy (crankloop::CrankStep).
+// What belongs here: energies by ways that the tick does not go: the gas's from the exact engine's torque over the
+// angle (where the engine breathes: from the loop's torque, less that of the masses), the masses' from the mechanism's
+// geometry, friction, load and starter by their power over time. What does not: the tick's own energy
+// (crankloop::CrankStep).
 #pragma once
 
 #include <vector>
@@ -31,7 +33,8 @@ class GasWork {
   GasWork(const ExactEngine& exact, const FreeOperation& operation);
 
   [[nodiscard]] double between_J(double from_deg, double to_deg) const { return until_J(to_deg) - until_J(from_deg); }
-  /// What the crank loses beside it when it turns backwards, where the gas's cycle would give it work: docs/model.md "Crank dynamics".
+  /// What the crank loses beside it when it turns backwards, where the gas's cycle would give it work: docs/model.md
+  /// "Crank dynamics".
   [[nodiscard]] double backwards_Nm() const;
 
  private:
@@ -60,7 +63,8 @@ class EnergyBooks {
 
   [[nodiscard]] EnergyBalance balance(const FreeState& end) const;
 
-  [[nodiscard]] double friction_Nm(double speed_rad_s) const noexcept;  ///< the engine's own, against the rotation; backwards also the gas's
+  [[nodiscard]] double friction_Nm(
+      double speed_rad_s) const noexcept;  ///< the engine's own, against the rotation; backwards also the gas's
   [[nodiscard]] double load_Nm(double speed_rad_s) const noexcept;      ///< the brake's
   [[nodiscard]] double inertia_kg_m2(double angle_deg) const noexcept;  ///< J_eff
 
@@ -75,6 +79,7 @@ class EnergyBooks {
   double friction_J_ = 0;
   double load_J_ = 0;
   double starter_before_Nm_ = 0;
+  double slowed_J_ = 0;  ///< what the masses took by their change of inertia, at the speed of the moment
 };
 
 }  // namespace crankloop::program

@@ -4,6 +4,7 @@
 
 #include "../run_limits.hpp"
 #include "../units.hpp"
+#include "../valve/valve_tick_limit.hpp"
 
 namespace crankloop::program {
 
@@ -17,25 +18,30 @@ double in_cycle_deg(double angle_deg) noexcept {
   return deg < 720 ? deg : 0;
 }
 
-template <class Real>
-FreeLoop<Real>::FreeLoop(const EngineFile& file, const EngineDefinition& definition, const FreeOperation& operation) : tick_s_{operation.tick_s} {
+template <class Real, class S>
+FreeLoop<Real, S>::FreeLoop(const EngineFile& file, const EngineDefinition& definition, const FreeOperation& operation)
+    : tick_s_{operation.tick_s} {
   require_ticks(operation.seconds / tick_s_, tick_s_, "or fewer --seconds");
   Status status = tables_->build(definition, {tick_s_});
-  if (!status.ok()) throw file.explain(status);
+  if (!status.ok()) throw explain_tabulate(file, status, tick_s_, {});
   require_speed(operation.from_rpm, static_cast<double>(tables_->tables().drive->speed_limit_rad_s), tick_s_);
   status = engine_.init(tables_->tables());
   if (!status.ok()) throw file.explain(status);
   const double speed_rad_s = operation.from_rpm / kRpmPerRad_s;
-  status = engine_.restore(turning_at<Real, scenes::FreeRunning>(engine_.state(), static_cast<Real>(speed_rad_s)));
+  status = engine_.restore(turning_at<Real, S>(engine_.state(), static_cast<Real>(speed_rad_s)));
   if (!status.ok()) throw file.explain(status);
-  input_.load_ratio = static_cast<Real>(operation.load_ratio);
+  if constexpr (detail::Needs<S>::gas) {
+    tell(input_, operation.gas);
+  } else {
+    input_.load_ratio = static_cast<Real>(operation.load_ratio);
+  }
   input_.starter = operation.starter ? 1 : 0;
   input_.cut_cylinders = operation.cut_cylinders;
   state_.speed_rad_s = static_cast<double>(engine_.state().speed_rad_s);
 }
 
-template <class Real>
-const typename FreeLoop<Real>::Output& FreeLoop<Real>::step() noexcept {
+template <class Real, class S>
+const typename FreeLoop<Real, S>::Output& FreeLoop<Real, S>::step() noexcept {
   before_ = state_;
   const std::uint64_t phase_before = engine_.state().phase.units();
   const Output& out = engine_.step(input_);
@@ -53,7 +59,9 @@ const typename FreeLoop<Real>::Output& FreeLoop<Real>::step() noexcept {
   return out;
 }
 
-template class FreeLoop<float>;
-template class FreeLoop<double>;
+template class FreeLoop<float, scenes::FreeRunning>;
+template class FreeLoop<double, scenes::FreeRunning>;
+template class FreeLoop<float, scenes::BreathingFree>;
+template class FreeLoop<double, scenes::BreathingFree>;
 
 }  // namespace crankloop::program

@@ -1,7 +1,7 @@
 // The engine turned by its own gas, as a controller's test bench runs it: `crankloop run --free`.
 //
-// What belongs here: stepping, and what a tick has come to, in double. What does not: what a run makes of it (free_cycles.hpp,
-// free_energy.hpp), files (free_run.cpp).
+// What belongs here: stepping, and what a tick has come to, in double. What does not: what a run makes of it
+// (free_cycles.hpp, free_energy.hpp), files (free_run.cpp).
 #pragma once
 
 #include <cstdint>
@@ -11,6 +11,7 @@
 #include <crankloop/scenes.hpp>
 
 #include "../engine_file/engine_file.hpp"
+#include "../engine_file/gas_order.hpp"
 #include "../units.hpp"
 
 namespace crankloop::program {
@@ -23,6 +24,7 @@ struct FreeOperation {
   double seconds = 2;
   bool starter = false;
   std::uint32_t cut_cylinders = 0;  ///< bit k: cylinder k does not fire
+  GasOrder gas{};                   ///< of an engine that breathes, instead of the load ratio
 
   [[nodiscard]] std::uint64_t ticks() const noexcept;  ///< as many as it takes to cover the time
 };
@@ -42,23 +44,25 @@ struct FreeState {
 /// `angle_deg` within the cycle, 0 to below 720.
 [[nodiscard]] double in_cycle_deg(double angle_deg) noexcept;
 
-template <class Real>
+/// S is FreeRunning, or BreathingFree for an engine that breathes.
+template <class Real, class S = scenes::FreeRunning>
 class FreeLoop {
  public:
-  using Engine = crankloop::Engine<Real, scenes::FreeRunning>;
+  using Engine = crankloop::Engine<Real, S>;
   using Output = typename Engine::Output;
 
-  /// `definition` is the file's, perhaps with another load. Throws UsageError for a speed beyond one revolution per tick or too many ticks,
-  /// InputError for an engine that cannot run free.
+  /// `definition` is the file's, perhaps with another load. Throws UsageError for a speed beyond one revolution per
+  /// tick or too many ticks, InputError for an engine that cannot run free.
   FreeLoop(const EngineFile& file, const EngineDefinition& definition, const FreeOperation& operation);
 
   const Output& step() noexcept;
 
+  [[nodiscard]] const Output& output() const noexcept { return engine_.output(); }
   [[nodiscard]] const FreeState& state() const noexcept { return state_; }
   [[nodiscard]] const FreeState& before() const noexcept { return before_; }  ///< the last tick
 
  private:
-  using Tables = TableStorage<Real, scenes::FreeRunning, kMostGasSegments>;  // the program has memory
+  using Tables = TableStorage<Real, S, kMaxGasSegments>;  // the program has memory
 
   std::unique_ptr<Tables> tables_ = std::make_unique<Tables>();
   Engine engine_;

@@ -1,6 +1,7 @@
 // A free run from its beginning to its end, in as many points as a drawing shows.
 //
-// What belongs here: the smallest and largest of a value in equal parts of the run. What does not: a cycle's details (free_cycles.hpp).
+// What belongs here: the smallest and largest of a value in equal parts of the run. What does not: a cycle's details
+// (free_cycles.hpp).
 #pragma once
 
 #include <algorithm>
@@ -19,7 +20,7 @@ class Overview {
     double largest;
   };
 
-  explicit Overview(std::uint64_t ticks) : ticks_per_part_{ticks / kMostParts + 1} {}
+  explicit Overview(std::uint64_t ticks) : ticks_per_part_{ticks / kMaxParts + 1} {}
 
   void take(double time_s, double value) {
     if (taken_++ % ticks_per_part_ == 0) parts_.push_back({time_s, value, value});
@@ -29,7 +30,7 @@ class Overview {
   [[nodiscard]] const std::vector<Part>& parts() const noexcept { return parts_; }
 
  private:
-  static constexpr std::uint64_t kMostParts = 2000;
+  static constexpr std::uint64_t kMaxParts = 2000;
 
   std::uint64_t ticks_per_part_;
   std::uint64_t taken_ = 0;

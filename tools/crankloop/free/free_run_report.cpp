@@ -1,8 +1,10 @@
-// The page of `crankloop run --free`: speed, ripple and its harmonics, torque, the books of energy; trigger signals: free_run_report_signals.cpp.
+// The page of `crankloop run --free`: speed, ripple and its harmonics, torque, the books of energy; trigger signals:
+// free_run_report_signals.cpp.
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "../engine_file/pressure_words.hpp"
 #include "../number.hpp"
 #include "../report/page.hpp"
 #include "free_run.hpp"
@@ -52,27 +54,44 @@ Series level_line(const char* name, double value, bool dashed) {
   return series;
 }
 
-Section speed_section(const FreeReportInput& input) {
-  Section section{"speed", "Speed", {}};
-  Plot whole = plot_of("Over the run", axis_of("Time", "s"), axis_of("Speed", "rpm"));
-  whole.y.include_zero = true;
+/// The smallest and largest of each part of the run.
+Series over_run(const Overview& overview) {
   Series series;
-  for (const Overview::Part& part : input.figures.speed_rpm.parts()) {
+  for (const Overview::Part& part : overview.parts()) {
     for (const double value : {part.smallest, part.largest}) {
       series.x.push_back(part.begin_s);
       series.y.push_back(value);
       if (part.smallest == part.largest) break;
     }
   }
-  whole.series.push_back(std::move(series));
+  return series;
+}
+
+Plot intake_plot(const FreeFigures& figures) {
+  Plot plot = plot_of("Pressure in the intake manifold", axis_of("Time", "s"), axis_of("Pressure, absolute", "kPa"));
+  plot.y.include_zero = true;
+  plot.series.push_back(over_run(figures.intake_kPa));
+  return plot;
+}
+
+Section speed_section(const FreeReportInput& input) {
+  Section section{"speed", "Speed", {}};
+  Plot whole = plot_of("Over the run", axis_of("Time", "s"), axis_of("Speed", "rpm"));
+  whole.y.include_zero = true;
+  whole.series.push_back(over_run(input.figures.speed_rpm));
   section.blocks.push_back(std::move(whole));
+  if (breathes(input.definition)) section.blocks.push_back(intake_plot(input.figures));
   const std::vector<FreeCycle>& cycles = input.figures.cycles;
   if (cycles.empty()) {
-    section.blocks.push_back(Paragraph{"No whole cycle of 720 deg was turned forward without a stop: there is no ripple to show.", true});
+    section.blocks.push_back(
+        Paragraph{"No whole cycle of 720 deg was turned forward without a stop: there is no ripple to show.", true});
     return section;
   }
-  Plot ripple = plot_of("Over the last cycles", cycle_axis(static_cast<double>(cycles.size())), axis_of("Speed", "rpm"));
-  ripple.caption = "Each firing stroke speeds the crank up, each compression slows it down. 0, 720 ...: firing top dead centre of cylinder 1.";
+  Plot ripple =
+      plot_of("Over the last cycles", cycle_axis(static_cast<double>(cycles.size())), axis_of("Speed", "rpm"));
+  ripple.caption =
+      "Each firing stroke speeds the crank up, each compression slows it down. Multiples of 720: firing top dead "
+      "centre of cylinder 1.";
   ripple.series.push_back(over_cycles(cycles, 0, rpm));
   section.blocks.push_back(std::move(ripple));
   return section;
@@ -100,7 +119,8 @@ Section harmonic_section(const FreeReportInput& input) {
   torque.series.push_back(level_line("its mean", last_cycle(input).mean_torque_Nm(), false));
   torque.series.push_back(level_line("friction and load", input.figures.friction_Nm + input.figures.load_Nm, true));
   torque.caption =
-      "Friction and load at the cycle's mean speed. What lies between them and the mean torque changes the speed from cycle to cycle.";
+      "Friction and load at the cycle's mean speed. What lies between them and the mean torque changes the speed from "
+      "cycle to cycle.";
   section.blocks.push_back(std::move(torque));
   section.blocks.push_back(std::move(table));
   return section;
@@ -117,10 +137,12 @@ Section energy_section(const FreeReportInput& input) {
   table.rows.push_back({"Load", "", number(energy.load_J)});
   table.rows.push_back({"Kept by the moving masses", "", number(energy.kinetic_J)});
   section.blocks.push_back(std::move(table));
-  section.blocks.push_back(
-      Paragraph{"In less out: " + report::format_number(energy.missing_ratio(), 2) +
-                " of the largest. The gas's work is that of the exact engine over the angle turned, the masses' energy that of the "
-                "mechanism's geometry, the others their power at the ticks: none is what the loop itself counts."});
+  section.blocks.push_back(Paragraph{
+      "In less out: " + report::format_number(energy.missing_ratio(), 2) + " of the largest. The gas's work is " +
+      (breathes(input.definition) ? "the loop's torque over the angle turned, less that of the masses"
+                                  : "that of the exact engine over the angle turned") +
+      ", the masses' energy that of the mechanism's geometry, the others their power at the ticks" +
+      (breathes(input.definition) ? "." : ": none is what the loop itself counts.")});
   return section;
 }
 
@@ -131,8 +153,38 @@ Section method_section(const FreeReportInput& input) {
   list.items.push_back("The crank is turned by gas, masses, friction, load and starter in ticks of " +
                        shortest(input.request.operation.tick_s * 1e6) + " \u00B5s, in " + input.request.real + ".");
   list.items.push_back(
-      "Between ticks the angle is the cubic over time that has angle and speed of both; the ripple is read from it each half degree.");
-  list.items.push_back("Harmonics are amplitudes of the speed over the crank angle, without what it drifts from the cycle's begin to its end.");
+      "Between ticks the angle is the cubic over time that has angle and speed of both; the ripple is read from it "
+      "each half degree.");
+  list.items.push_back(
+      "Harmonics are amplitudes of the speed over the crank angle, without what it drifts from the cycle's begin to "
+      "its end.");
+  section.blocks.push_back(std::move(list));
+  return section;
+}
+
+Section assumption_section(const FreeReportInput& input) {
+  const EngineDefinition& d = input.definition;
+  Section section{"assumptions", "Assumptions", {}};
+  const auto number = [](double value) { return report::format_number(value, 4); };
+  report::List list;
+  list.items.push_back("Piston, rod and crankshaft are rigid and without clearance. " +
+                       number(d.masses.crank_inertia_kg_m2 + d.machine.inertia_kg_m2) +
+                       " kg m\u00B2 turn with the crank, pistons and rods move with it.");
+  list.items.push_back(d.friction.any() ? "Friction is a mean effective pressure over the speed, even over the cycle."
+                                        : "Nothing rubs: the file has no [friction].");
+  list.items.push_back(breathes(d) ? "All cylinders are alike; cranking and warming up have no combustion of their own."
+                                   : "All cylinders are alike and every cycle has the same diagram at any speed, "
+                                     "scaled by the load ratio; cranking and warming up have no combustion of their "
+                                     "own.");
+  if (input.request.operation.starter) {
+    list.items.push_back("The starter's torque falls in a straight line from " + number(d.starter.stall_Nm) +
+                         " Nm at rest to none at " + number(d.starter.no_load_rad_s * kRpmPerRad_s) +
+                         " rpm, and it free-wheels where the engine is faster.");
+  }
+  list.items.push_back(
+      "The driven machine turns rigidly with the crank; its torque at the end was that of the file's [machine] or "
+      "--machine-Nm, " +
+      number(input.figures.load_Nm) + " Nm.");
   section.blocks.push_back(std::move(list));
   return section;
 }
@@ -141,24 +193,31 @@ std::vector<report::Fact> facts(const FreeReportInput& input) {
   const FreeFigures& f = input.figures;
   const auto number = [](double value) { return report::format_number(value, 4); };
   std::vector<report::Fact> list;
-  list.push_back({"Speed at the end", number(f.end.speed_rpm()), "rpm", "after " + shortest(input.request.operation.seconds) + " s"});
+  list.push_back({"Speed at the end", number(f.end.speed_rpm()), "rpm",
+                  "after " + shortest(input.request.operation.seconds) + " s"});
   if (!f.cycles.empty()) {
     const FreeCycle& cycle = last_cycle(input);
+    list.insert(list.begin(),
+                {"Mean speed", number(cycle.mean_speed_rad_s() * kRpmPerRad_s), "rpm", "of the last cycle"});
     list.push_back({"Irregularity", number(cycle.irregularity_ratio() * 100), "%",
-                    "of the last cycle, mean " + number(cycle.mean_speed_rad_s() * kRpmPerRad_s) + " rpm"});
+                    "of the last cycle, (largest - smallest) / mean"});
     list.push_back({"Mean torque", number(cycle.mean_torque_Nm()), "Nm", "of the last cycle, indicated"});
     list.push_back({"Friction", number(f.friction_Nm), "Nm", "load " + number(f.load_Nm) + " Nm"});
   }
-  list.push_back({"Energy defect", report::format_number(std::fabs(f.energy.missing_ratio()), 2), "", "of the largest energy"});
+  list.push_back(
+      {"Energy defect", report::format_number(std::fabs(f.energy.missing_ratio()), 2), "", "of the largest energy"});
   for (const SignalFigures& signal : f.signals) {
-    list.push_back({"Edges of " + signal.name, std::to_string(signal.edges), "", std::to_string(signal.lost) + " lost"});
+    list.push_back(
+        {"Edges of " + signal.name, std::to_string(signal.edges), "", std::to_string(signal.lost) + " lost"});
   }
   return list;
 }
 
 std::string subtitle(const FreeReportInput& input) {
   const FreeOperation& operation = input.request.operation;
-  std::string text = "Running free from " + report::format_number(operation.from_rpm, 4) + " rpm, load ratio " + shortest(operation.load_ratio);
+  std::string text = "Running free from " + report::format_number(operation.from_rpm, 4) + " rpm, " +
+                     (breathes(input.definition) ? "throttle " + shortest(operation.gas.throttle_ratio)
+                                                 : "load ratio " + shortest(operation.load_ratio));
   if (operation.starter) text += ", with the starter";
   if (operation.cut_cylinders != 0) {
     std::string cut;
@@ -174,7 +233,7 @@ std::string subtitle(const FreeReportInput& input) {
 
 report::Page free_run_report(const FreeReportInput& input) {
   report::Page page;
-  page.title = input.file.name();
+  page.title = input.file.name() + (input.request.operation.starter ? ", started and running free" : ", running free");
   page.subtitle = subtitle(input);
   page.facts = facts(input);
   page.sections.push_back(speed_section(input));
@@ -184,6 +243,9 @@ report::Page free_run_report(const FreeReportInput& input) {
   }
   page.sections.push_back(energy_section(input));
   page.sections.push_back(method_section(input));
+  page.sections.push_back(assumption_section(input));
+  report::put_first(page,
+                    {pressure_in_words(input.file, input.request.operation.load_ratio, input.request.operation.gas)});
   report::put_first(page, input.request.warnings);
   page.footer = "Made by crankloop from " + input.file.path() + ".";
   return page;

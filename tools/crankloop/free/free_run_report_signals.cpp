@@ -47,6 +47,30 @@ Plot signal_plot(const std::string& title, const FreeCycle& cycle, std::size_t w
   return one;
 }
 
+/// The time from tooth to tooth: in a whole cycle of many teeth the only thing that can be read is where there is none.
+Plot tooth_time_plot(const std::string& name, const FreeCycle& cycle, std::size_t wheel) {
+  Plot one = plot_of(name + ", from tooth to tooth", axis_of("Time in the cycle", "ms"),
+                     axis_of("Time since the tooth before", "ms"));
+  one.y.include_zero = true;
+  one.caption = "From rising edge to rising edge: a gap stands out, and in between the speed's ripple.";
+  Series series;
+  series.style.draw = report::Draw::step;
+  double before_s = -1;
+  std::size_t longest = 0;
+  for (const FreeCycle::Edge& edge : cycle.edges[wheel]) {
+    if (!edge.level) continue;
+    if (before_s >= 0) {
+      series.x.push_back((before_s - cycle.samples.front().time_s) * 1e3);
+      series.y.push_back((edge.time_s - before_s) * 1e3);
+      if (series.y.back() > series.y[longest]) longest = series.y.size() - 1;
+    }
+    before_s = edge.time_s;
+  }
+  if (!series.y.empty()) one.markers.push_back({series.x[longest], series.y[longest], "gap", 0});
+  one.series.push_back(std::move(series));
+  return one;
+}
+
 /// Twelve edges on either side of the longest time between two: where the gap of a wheel with many teeth is.
 Plot close_up(const std::string& name, const FreeCycle& cycle, std::size_t wheel) {
   constexpr std::size_t kAround = 12;
@@ -68,7 +92,10 @@ report::Section trigger_signal_section(const FreeReportInput& input) {
   const FreeCycle& cycle = input.figures.cycles.back();
   const std::vector<SignalFigures>& signals = input.figures.signals;
   for (std::size_t w = 0; w < signals.size(); ++w) {
-    section.blocks.push_back(signal_plot(signals[w].name, cycle, w, cycle.samples.front().time_s, cycle.samples.back().time_s));
+    const bool many = cycle.edges[w].size() > kManyEdges;
+    section.blocks.push_back(
+        many ? tooth_time_plot(signals[w].name, cycle, w)
+             : signal_plot(signals[w].name, cycle, w, cycle.samples.front().time_s, cycle.samples.back().time_s));
   }
   for (std::size_t w = 0; w < signals.size(); ++w) {  // beside each other, so that whole cycles can be compared
     if (cycle.edges[w].size() > kManyEdges) section.blocks.push_back(close_up(signals[w].name, cycle, w));

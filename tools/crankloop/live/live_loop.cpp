@@ -14,6 +14,7 @@
 #include "../error.hpp"
 #include "../number.hpp"
 #include "../units.hpp"
+#include "../valve/valve_tick_limit.hpp"
 #include "port/linux/stop_signal.hpp"
 #include "port/linux/stopwatch.hpp"
 #include "port/linux/watched_inputs.hpp"
@@ -24,7 +25,8 @@ namespace {
 using port::LiveInputs;
 using port::LiveOutputs;
 
-/// A controller's number may be any: what the type cannot hold becomes infinite, which the engine refuses as it does infinity.
+/// A controller's number may be any: what the type cannot hold becomes infinite, which the engine refuses as it does
+/// infinity.
 template <class Real>
 Real as(double value) noexcept {
   constexpr auto kMost = static_cast<double>(std::numeric_limits<Real>::max());
@@ -40,14 +42,16 @@ double crank_deg(Phase phase) noexcept {
 }
 
 /// The engine at rest or turning, and its tables.
-template <class Real>
+template <class Real, class S>
 class FreeEngine {
  public:
-  using Engine = crankloop::Engine<Real, scenes::FreeRunning>;
+  using Engine = crankloop::Engine<Real, S>;
 
-  FreeEngine(const EngineFile& file, const LiveRequest& request) {
+  FreeEngine(const EngineFile& file, const LiveRequest& request)
+      : cylinders_{static_cast<std::size_t>(file.definition().layout.cylinders)},
+        burn_duration_deg_{request.burn_duration_deg} {
     const Status built = tables_->build(file.definition(), {request.tick_s});
-    if (!built.ok()) throw file.explain(built);
+    if (!built.ok()) throw explain_tabulate(file, built, request.tick_s, {});
     const Status ready = engine_.init(tables_->tables());
     if (!ready.ok()) throw file.explain(ready);
     const auto limit_rad_s = static_cast<double>(tables_->tables().drive->speed_limit_rad_s);
@@ -62,8 +66,17 @@ class FreeEngine {
 
   void step(const LiveInputs& in) noexcept {
     typename Engine::Input input;
-    input.load_ratio = as<Real>(in.load_ratio);
-    input.load_Nm = as<Real>(in.load_Nm);
+    if constexpr (detail::Needs<S>::gas) {
+      input.throttle_ratio = as<Real>(in.throttle_ratio);
+      for (std::size_t k = 0; k < cylinders_; ++k) {
+        input.fuel_kg[k] = as<Real>(in.fuel_kg);
+        input.burn_start_deg[k] = as<Real>(in.burn_start_deg);
+        input.burn_duration_deg[k] = static_cast<Real>(burn_duration_deg_);
+      }
+    } else {
+      input.load_ratio = as<Real>(in.load_ratio);
+    }
+    input.external_torque_Nm = as<Real>(in.external_torque_Nm);
     input.starter = in.starter;
     input.cut_cylinders = in.cut_cylinders;
     engine_.step(input);
@@ -79,11 +92,19 @@ class FreeEngine {
     told.friction_Nm = static_cast<double>(out.friction_Nm);
     told.starter_Nm = static_cast<double>(out.starter_Nm);
     told.faults = out.faults;
+    if constexpr (detail::Needs<S>::gas) {
+      told.intake_Pa = static_cast<double>(out.manifold[kIntake].pressure_Pa);
+      told.trapped_air_kg = 0;
+      for (std::size_t k = 0; k < cylinders_; ++k)
+        told.trapped_air_kg += static_cast<double>(out.gas_cycle[k].trapped_air_kg) / static_cast<double>(cylinders_);
+    }
   }
 
  private:
-  using Tables = TableStorage<Real, scenes::FreeRunning, kMostGasSegments>;  // room for the finest gas grid there is
+  using Tables = TableStorage<Real, S, kMaxGasSegments>;  // room for the finest gas grid there is
 
+  std::size_t cylinders_;
+  double burn_duration_deg_;
   std::unique_ptr<Tables> tables_ = std::make_unique<Tables>();
   Engine engine_;
 };
@@ -102,10 +123,12 @@ struct ThreadCounts {
 
 }  // namespace
 
-template <class Real>
-void run_live(const EngineFile& file, const LiveRequest& request, port::LiveBlock& block, LiveFigures& figures) {
+namespace {
+
+template <class Real, class S>
+void run_scene(const EngineFile& file, const LiveRequest& request, port::LiveBlock& block, LiveFigures& figures) {
   const port::StopSignal stop;
-  FreeEngine<Real> engine(file, request);
+  FreeEngine<Real, S> engine(file, request);
   port::WatchedInputs inputs(block.inputs, request.at_start, request.patience_ns);
   LiveOutputs published;
   double speed_sum_rad_s = 0;
@@ -163,6 +186,19 @@ void run_live(const EngineFile& file, const LiveRequest& request, port::LiveBloc
   figures.controller_seen = (inputs.flags() & port::kControllerSeen) != 0;
   figures.controller_silences = inputs.silences();
   figures.torn_inputs = inputs.torn();
+  figures.intake_Pa = published.intake_Pa;
+  figures.trapped_air_kg = published.trapped_air_kg;
+}
+
+}  // namespace
+
+template <class Real>
+void run_live(const EngineFile& file, const LiveRequest& request, port::LiveBlock& block, LiveFigures& figures) {
+  if (breathes(file.definition())) {
+    run_scene<Real, scenes::BreathingFree>(file, request, block, figures);
+  } else {
+    run_scene<Real, scenes::FreeRunning>(file, request, block, figures);
+  }
 }
 
 template void run_live<float>(const EngineFile&, const LiveRequest&, port::LiveBlock&, LiveFigures&);

@@ -9,8 +9,8 @@
 #include <cstring>
 #include <fstream>
 
-#include "../machine.hpp"
 #include "../csv.hpp"
+#include "../machine.hpp"
 #include "../number.hpp"
 #include "../summary.hpp"
 #include "../units.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 using port::LatencyHistogram;
 
-// ---- the machine ------------------------------------------------------------------------------------------------------------
+// ---- the machine ----------------------------------------------------------------------------------------------------
 
 std::string first_line(const char* path) {
   std::ifstream file(path);
@@ -29,19 +29,20 @@ std::string first_line(const char* path) {
   return line;
 }
 
-/// "Linux 6.1.0, PREEMPT_RT": what kind of kernel it is, by its own words. How a PREEMPT_DYNAMIC one was started stands in a file that only root
-/// reads; the mode in force is in brackets.
+/// "Linux 6.1.0, PREEMPT_RT": what kind of kernel it is, by its own words. How a PREEMPT_DYNAMIC one was started stands
+/// in a file that only root reads; the mode in force is in brackets.
 std::string kernel() {
   utsname names{};
   if (::uname(&names) != 0) return "unknown kernel";
   const std::string version = names.version;
   const std::size_t begin = version.find("PREEMPT");
-  const std::string preemption = begin == std::string::npos ? "no PREEMPT" : version.substr(begin, version.find(' ', begin) - begin);
+  const std::string preemption =
+      begin == std::string::npos ? "no PREEMPT" : version.substr(begin, version.find(' ', begin) - begin);
   const std::string mode = first_line("/sys/kernel/debug/sched/preempt");
   return std::string(names.sysname) + " " + names.release + ", " + preemption + (mode.empty() ? "" : " " + mode);
 }
 
-// ---- what is told -----------------------------------------------------------------------------------------------------------
+// ---- what is told ---------------------------------------------------------------------------------------------------
 
 struct Quantile {
   const char* name;
@@ -64,7 +65,9 @@ void add_picture(Summary& s, const LatencyHistogram& times) {
   for (std::size_t i = 0; i < LatencyHistogram::kBuckets; ++i) {
     const LatencyHistogram::Bucket bucket = times.bucket(i);
     if (bucket.count == 0) continue;
-    const auto octave = bucket.first_ns == 0 ? std::size_t{0} : static_cast<std::size_t>(std::ilogb(static_cast<double>(bucket.first_ns)));
+    const auto octave = bucket.first_ns == 0
+                            ? std::size_t{0}
+                            : static_cast<std::size_t>(std::ilogb(static_cast<double>(bucket.first_ns)));
     counts[octave] += bucket.count;
     first = std::min(first, octave);
     last = octave;
@@ -113,6 +116,10 @@ void add_engine(Summary& s, const LiveFigures& f) {
   s.line("final_speed", f.speed_rad_s * kRpmPerRad_s, "rpm");
   s.line("mean_speed", f.mean_speed_rad_s * kRpmPerRad_s, "rpm");
   s.line("mean_torque", f.mean_torque_Nm, "Nm", "of gas and masses, over the ticks");
+  if (f.intake_Pa > 0) {
+    s.line("intake_pressure", f.intake_Pa / 1e3, "kPa", "in the manifold, at the end");
+    s.line("trapped_air", f.trapped_air_kg * 1e6, "mg", "of the cylinders' last whole cycles, mean");
+  }
   s.line("faulty_ticks", f.faulty_ticks);
   s.line("faults", f.faults);
 }
@@ -122,9 +129,14 @@ void add_engine(Summary& s, const LiveFigures& f) {
 std::string live_summary(const EngineFile& file, const LiveRequest& request, const std::string& real, bool shared,
                          const LiveFigures& f) {
   Summary s;
-  s.remark(file.name() + ", its crank free, in " + real + (f.stopped ? ", stopped by a signal" : f.lost_block ? ", until its block was lost" : ""));
+  s.remark(file.name() + ", its crank free, in " + real +
+           (f.stopped      ? ", stopped by a signal"
+            : f.lost_block ? ", until its block was lost"
+                           : ""));
   add_machine(s, request.real_time, f);
-  s.remark("a tick is late if it began a whole tick or more after it was due, missed if it was not done when the next was due");
+  s.remark(
+      "a tick is late if it began a whole tick or more after it was due, missed if it was not done when the next was "
+      "due");
   add_times(s, request.tick_ns, f);
   s.remark("wake-up latency, ticks; a bar grows with the logarithm");
   add_picture(s, f.begin);
@@ -144,8 +156,8 @@ void write_live_histogram(Output& out, const LiveFigures& f) {
     const LatencyHistogram::Bucket model = f.model.bucket(i);
     const LatencyHistogram::Bucket work = f.work.bucket(i);
     if (begin.count + model.count + work.count == 0) continue;
-    csv.row(static_cast<double>(begin.first_ns) / 1e3, static_cast<double>(begin.last_ns + 1) / 1e3, std::to_string(begin.count),
-            std::to_string(model.count), std::to_string(work.count));
+    csv.row(static_cast<double>(begin.first_ns) / 1e3, static_cast<double>(begin.last_ns + 1) / 1e3,
+            std::to_string(begin.count), std::to_string(model.count), std::to_string(work.count));
   }
 }
 

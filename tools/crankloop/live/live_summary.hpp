@@ -6,14 +6,15 @@
 #include <string>
 
 #include "../engine_file/engine_file.hpp"
-#include "live_loop.hpp"
 #include "../output_file.hpp"
+#include "live_loop.hpp"
 
 namespace crankloop::program {
 
-/// Lines "name = value unit", remarks after '#'. `real`: arithmetic of the tick; `shared`: there was a block that a controller could write to.
-[[nodiscard]] std::string live_summary(const EngineFile& file, const LiveRequest& request, const std::string& real, bool shared,
-                        const LiveFigures& figures);
+/// Lines "name = value unit", remarks after '#'. `real`: arithmetic of the tick; `shared`: there was a block that a
+/// controller could write to.
+[[nodiscard]] std::string live_summary(const EngineFile& file, const LiveRequest& request, const std::string& real,
+                                       bool shared, const LiveFigures& figures);
 
 /// CSV: a row per bucket that counted anything.
 void write_live_histogram(Output& out, const LiveFigures& figures);

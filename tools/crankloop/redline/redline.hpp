@@ -1,11 +1,12 @@
 // What `redline` found, for its text, CSV and page.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
-#include "redline_search.hpp"
 #include "../report/page.hpp"
+#include "redline_search.hpp"
 
 namespace crankloop::program {
 
@@ -15,6 +16,7 @@ struct Redline {
   const Influence* influence;  ///< null: nothing is varied
   std::vector<Sweep> sweeps;   ///< by factor; without an influence one, of factor 1
   std::string command_line;
+  double least_bounce_m = 1e-6;  ///< what counts as a bounce
 
   [[nodiscard]] const Sweep& as_given() const noexcept {
     for (const Sweep& sweep : sweeps) {
@@ -23,12 +25,22 @@ struct Redline {
     return sweeps.front();
   }
 
-  /// The speed of the sweeps at which they are compared: the first above the onset of separation as given, where the motion still repeats
-  /// itself; far above it what a factor does is chance. The highest where there is no onset.
+  /// Where plots end: shortly above the highest onset of separation; beyond, the motion is chance.
+  [[nodiscard]] double shown_to_rpm() const {
+    double onset_rpm = 0;
+    for (const Sweep& sweep : sweeps) {
+      if (sweep.separation.found) onset_rpm = std::max<double>(onset_rpm, sweep.separation.speed_rpm);
+    }
+    return onset_rpm == 0 ? range.to_rpm : std::clamp(1.15 * onset_rpm, range.from_rpm + 1.0, 1.0 * range.to_rpm);
+  }
+
+  /// The speed of the sweeps at which they are compared: the first above the onset of separation as given, where the
+  /// motion still repeats itself; far above it what a factor does is chance. The highest where there is no onset.
   [[nodiscard]] std::size_t compared_at() const {
     const std::vector<SpeedResult>& at = as_given().at;
     std::size_t i = 0;
-    while (i + 1 < at.size() && !(as_given().separation.found && at[i].speed_rpm > as_given().separation.speed_rpm)) ++i;
+    while (i + 1 < at.size() && !(as_given().separation.found && at[i].speed_rpm > as_given().separation.speed_rpm))
+      ++i;
     return i;
   }
 };

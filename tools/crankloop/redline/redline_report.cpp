@@ -15,12 +15,14 @@ using report::Section;
 
 using Value = double (*)(const SpeedResult&);
 
-report::Series over_speed(const Sweep& sweep, const std::string& name, Value value) {
+/// With one speed beyond where the plot ends.
+report::Series over_speed(const Sweep& sweep, const std::string& name, Value value, double to_rpm) {
   report::Series series;
   series.name = name;
   for (const SpeedResult& result : sweep.at) {
     series.x.push_back(result.speed_rpm);
     series.y.push_back(value(result));
+    if (result.speed_rpm > to_rpm) break;
   }
   return series;
 }
@@ -31,13 +33,18 @@ std::string factor_name(const Sweep& sweep) { return "\u00D7 " + brief(sweep.fac
 Plot plot_over_speed(const Redline& redline, const std::string& title, const Axis& y, Value value) {
   Plot plot = plot_of(title, axis_of("Engine speed", "rpm"), y);
   plot.y.include_zero = true;
+  plot.x.range = report::Range{static_cast<double>(redline.range.from_rpm), redline.shown_to_rpm()};
   for (const Sweep& sweep : redline.sweeps) {
-    plot.series.push_back(over_speed(sweep, redline.influence != nullptr ? factor_name(sweep) : "", value));
+    plot.series.push_back(
+        over_speed(sweep, redline.influence != nullptr ? factor_name(sweep) : "", value, redline.shown_to_rpm()));
+    if (redline.influence == nullptr) continue;
+    plot.series.back().style.ramp = static_cast<int>(plot.series.size());
+    plot.series.back().style.bold = sweep.factor == 1;
   }
   return plot;
 }
 
-double gap_mm(const SpeedResult& r) { return r.cycle.separation_gap_m * 1e3; }
+double gap_mm(const SpeedResult& r) { return r.cycle.separation_clearance_m * 1e3; }
 double bounce_mm(const SpeedResult& r) { return r.cycle.bounce_height_m * 1e3; }
 double seating_m_s(const SpeedResult& r) { return r.cycle.seating_speed_m_s; }
 double lift_mm(const SpeedResult& r) { return r.cycle.largest_lift_m * 1e3; }
@@ -55,8 +62,9 @@ Section speed_section(const Redline& redline) {
   Section section{
       "speed", redline.influence != nullptr ? std::string(redline.influence->title) + " and speed" : "Over speed", {}};
   if (redline.influence != nullptr) {
-    section.blocks.push_back(Paragraph{"Each curve is the train with " + std::string(redline.influence->keys) +
-                                       " times the factor beside it; \u00D7 1 is the train as its file gives it."});
+    section.blocks.push_back(
+        Paragraph{"Each curve is the train with " + std::string(redline.influence->keys) +
+                  " times its factor, the larger the stronger; \u00D7 1, bold, is the train as its file gives it."});
   }
   Plot gap = plot_over_speed(redline, "Separation", axis_of("Largest gap between train and valve", "mm"), gap_mm);
   Plot bounce = plot_over_speed(redline, "Bounce", axis_of("Largest height above the seat", "mm"), bounce_mm);
@@ -70,7 +78,8 @@ Section speed_section(const Redline& redline) {
   section.blocks.push_back(std::move(bounce));
   section.blocks.push_back(
       plot_over_speed(redline, "Seating", axis_of("Speed at the first contact with the seat", "m/s"), seating_m_s));
-  section.blocks.push_back(plot_over_speed(redline, "Largest force between cam and follower", axis_of("Force", "kN"), cam_kN));
+  section.blocks.push_back(
+      plot_over_speed(redline, "Largest force between cam and follower", axis_of("Force", "kN"), cam_kN));
   section.blocks.push_back(
       plot_over_speed(redline, "Largest acceleration", axis_of("Acceleration", "km/s\u00B2"), acceleration_km_s2));
   Plot lift = plot_over_speed(redline, "Largest lift", axis_of("Lift", "mm"), lift_mm);
@@ -114,9 +123,11 @@ Section method_section(const Redline& redline) {
                        " \u00B5s (rk4); the last cycle counts.");
   list.items.push_back(
       "The sweep goes in steps of " + std::to_string(redline.range.step_rpm) +
-      " rpm. An onset is narrowed down to 1 rpm between the first speed that has a separation, or a bounce, of at "
-      "least "
-      "1 \u00B5m, and the speed before it. What comes and goes between two speeds of the sweep is not seen.");
+      " rpm. An onset is narrowed down to 1 rpm between the first speed that has a separation of at least 1 \u00B5m, "
+      "or a "
+      "bounce of at least " +
+      brief(redline.least_bounce_m * 1e6) +
+      " \u00B5m, and the speed before it. What comes and goes between two speeds of the sweep is not seen.");
   list.items.push_back("The single-mass model opens its contact only at the cam, and knows no surge of the spring.");
   if (redline.influence != nullptr) list.items.push_back("Damping ratios are held while mass or stiffness are varied.");
   section.blocks.push_back(std::move(list));
@@ -127,7 +138,7 @@ Section method_section(const Redline& redline) {
 
 report::Page redline_page(const Redline& redline) {
   const Sweep& given = redline.as_given();
-  const ValveBody<double> body = redline.valve.body();
+  const detail::ValveBody<double> body = redline.valve.body();
   const auto onset = [&](const char* name, const Onset& one, const char* note) {
     if (!one.found) return report::Fact{name, "none", "", "up to " + std::to_string(redline.range.to_rpm) + " rpm"};
     return report::Fact{name, std::to_string(one.speed_rpm), "rpm", one.at_the_start ? "or below" : note};

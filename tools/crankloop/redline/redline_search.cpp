@@ -8,7 +8,7 @@
 namespace crankloop::program {
 namespace {
 
-constexpr int kMostSteps = 60;
+constexpr int kMaxSteps = 60;
 constexpr double kShortestTick_s = 1e-6;
 
 /// The tick of the search, or the longest that a stiff train allows.
@@ -46,13 +46,13 @@ Onset onset_of(const std::vector<SpeedResult>& sweep, const Happens& happens, co
 SpeedRange speed_range(int from_rpm, int to_rpm) noexcept {
   constexpr int kSteps[] = {1, 2, 5, 10, 20, 25, 50, 100, 200, 250, 500, 1000, 2000};
   for (const int step : kSteps) {
-    if (to_rpm - from_rpm <= step * kMostSteps) return {from_rpm, to_rpm, step};
+    if (to_rpm - from_rpm <= step * kMaxSteps) return {from_rpm, to_rpm, step};
   }
-  return {from_rpm, to_rpm, (to_rpm - from_rpm + kMostSteps - 1) / kMostSteps};
+  return {from_rpm, to_rpm, (to_rpm - from_rpm + kMaxSteps - 1) / kMaxSteps};
 }
 
 Sweep sweep_speeds(const LoneValve& valve, const SpeedRange& range, double factor,
-                   const std::function<void()>& after_speed) {
+                   const std::function<void()>& after_speed, double least_bounce_m) {
   Sweep sweep;
   sweep.factor = factor;
   sweep.tick_s = tick_for(valve);
@@ -67,7 +67,8 @@ Sweep sweep_speeds(const LoneValve& valve, const SpeedRange& range, double facto
   sweep.separation = onset_of(
       sweep.at, [](const SpeedResult& r) { return r.cycle.separations > 0; }, run);
   sweep.bounce = onset_of(
-      sweep.at, [](const SpeedResult& r) { return r.cycle.bounces > 0; }, run);
+      sweep.at, [=](const SpeedResult& r) { return r.cycle.bounces > 0 && r.cycle.bounce_height_m >= least_bounce_m; },
+      run);
   return sweep;
 }
 

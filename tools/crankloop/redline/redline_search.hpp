@@ -46,11 +46,11 @@ struct Sweep {
   Onset bounce;
 };
 
-/// Sweeps the range and narrows both onsets down: between the first speed of the sweep that has any separation (or
-/// bounce) of at least 1 um and the one before. What comes and goes between two speeds of the sweep is not seen.
-/// `after_speed` is called after each speed that was run.
+/// Sweeps the range and narrows both onsets down: between the first speed of the sweep that has any separation of
+/// at least 1 um (or bounce of at least `least_bounce_m`) and the one before. What comes and goes between two speeds of
+/// the sweep is not seen. `after_speed` is called after each speed that was run.
 [[nodiscard]] Sweep sweep_speeds(const LoneValve& valve, const SpeedRange& range, double factor,
-                                 const std::function<void()>& after_speed);
+                                 const std::function<void()>& after_speed, double least_bounce_m = 1e-6);
 
 /// What may be varied: its name as an option, and the keys that are multiplied.
 struct Influence {

@@ -27,6 +27,7 @@ struct Label {
   Anchor anchor = Anchor::start;
   std::string text{};
   int colour = 0;
+  int series = -1;  // whose name it is
 };
 
 [[nodiscard]] Box box_of(const Label& label);
@@ -39,12 +40,14 @@ struct Curve {
   bool dashed = false;
   std::vector<Polyline> lines{};  // thinned, one per unbroken piece
   Polyline points{};              // marks, and points that stand alone
-  std::vector<Box> bars{};
+  std::vector<Box> bars{};        // or cells
 };
 
 [[nodiscard]] inline std::size_t size_of(const Series& series) { return std::min(series.x.size(), series.y.size()); }
 
 [[nodiscard]] inline bool is_bar(const Series& series) { return series.style.draw == Draw::bar; }
+
+[[nodiscard]] inline bool has_cells(const Series& series) { return series.style.draw == Draw::cells; }
 
 class Drawing {
  public:
@@ -61,6 +64,7 @@ class Drawing {
   void make_legend();
   void make_curves();
   void make_bars(const Series& series, std::size_t position, std::size_t of, Curve& curve) const;
+  void make_cells(const Series& series, Curve& curve) const;
   void make_lines(const Series& series, Curve& curve) const;
   int colour_of(std::size_t index) const;
   double baseline() const;

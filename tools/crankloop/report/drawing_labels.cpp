@@ -61,7 +61,7 @@ double Drawing::outside_frame(const Box& box) const {
          std::max(0.0, frame_.top + 1 - box.top) + std::max(0.0, box.bottom - frame_.bottom + 2);
 }
 
-/// Every marker gets its label at the best of eight places around it, good or not.
+/// Every marker gets its label at the best of eight places around it, at three distances.
 void Drawing::place_markers() {
   for (const Marker& marker : plot_.markers) {
     if (!visible(marker)) continue;
@@ -74,21 +74,25 @@ void Drawing::place_markers() {
     Label best;
     double least = std::numeric_limits<double>::infinity();
     const bool high = dot.y < (frame_.top + frame_.bottom) / 2;
-    const double above = -10;
-    const double below = 10 + 0.76 * kTypeSize;
-    const double beside = 0.26 * kTypeSize;
     double order = 0;
-    for (const double dy : {high ? above : below, beside, high ? below : above}) {
-      for (const int side : {0, 1, -1}) {
-        if (side == 0 && dy == beside) continue;
-        const Anchor anchor = side == 0 ? Anchor::middle : side > 0 ? Anchor::start : Anchor::end;
-        const Label label{
-            {dot.x + side * (dy == beside ? 10 : 6), dot.y + dy}, anchor, marker.label, colour_of(marker.series)};
-        const Box box = box_of(label);
-        const double penalty = hidden_by(grown(box, 3)) + 20 * outside_frame(box) + order++;
-        if (penalty < least) {
-          least = penalty;
-          best = label;
+    for (const double away : {10.0, 22.0, 34.0}) {  // farther, where curves are in the way
+      const double above = -away;
+      const double below = away + 0.76 * kTypeSize;
+      const double beside = 0.26 * kTypeSize;
+      for (const double dy : {high ? above : below, beside, high ? below : above}) {
+        for (const int side : {0, 1, -1}) {
+          if (side == 0 && dy == beside) continue;
+          const Anchor anchor = side == 0 ? Anchor::middle : side > 0 ? Anchor::start : Anchor::end;
+          const Label label{{dot.x + side * (dy == beside ? away : 6), dot.y + dy},
+                            anchor,
+                            marker.label,
+                            colour_of(marker.series)};
+          const Box box = box_of(label);
+          const double penalty = hidden_by(grown(box, 3)) + 20 * outside_frame(box) + order++;
+          if (penalty < least) {
+            least = penalty;
+            best = label;
+          }
         }
       }
     }
@@ -105,10 +109,11 @@ bool Drawing::place_names() {
     Label best;
     double highest = 0;
     for (const Point& place : places_along(curve)) {
-      const Label candidates[] = {{{place.x, place.y - 8}, Anchor::middle, curve.name, curve.colour},
-                                  {{place.x, place.y + 20}, Anchor::middle, curve.name, curve.colour},
-                                  {{place.x + 9, place.y + 5}, Anchor::start, curve.name, curve.colour},
-                                  {{place.x - 9, place.y + 5}, Anchor::end, curve.name, curve.colour}};
+      const Label candidates[] = {
+          {{place.x, place.y - 8}, Anchor::middle, curve.name, curve.colour, static_cast<int>(i)},
+          {{place.x, place.y + 20}, Anchor::middle, curve.name, curve.colour, static_cast<int>(i)},
+          {{place.x + 9, place.y + 5}, Anchor::start, curve.name, curve.colour, static_cast<int>(i)},
+          {{place.x - 9, place.y + 5}, Anchor::end, curve.name, curve.colour, static_cast<int>(i)}};
       for (const Label& candidate : candidates) {
         const double score = clarity(candidate, i);
         if (score <= highest) continue;

@@ -144,9 +144,11 @@ void Drawing::make_curves() {
     curve.name = series.name;
     curve.style = series.style;
     curve.colour = colour_of(i);
-    curve.dashed = series.style.dashed || (series.style.colour == 0 && i >= kColours);
+    curve.dashed = series.style.dashed || (series.style.colour == 0 && series.style.ramp == 0 && i >= kColours);
     if (is_bar(series)) {
       make_bars(series, bars_before++, bar_series, curve);
+    } else if (has_cells(series)) {
+      make_cells(series, curve);
     } else {
       make_lines(series, curve);
     }
@@ -160,14 +162,22 @@ double Drawing::baseline() const {
 }
 
 void Drawing::make_bars(const Series& series, std::size_t position, std::size_t of, Curve& curve) const {
-  const double pitch =
-      plot_.x.logarithmic ? 10 : bar_pitch_ * (to_x_.to - to_x_.from) / (x_.range.high - x_.range.low);
+  const double pitch = plot_.x.logarithmic ? 10 : bar_pitch_ * (to_x_.to - to_x_.from) / (x_.range.high - x_.range.low);
   const double width = 0.72 * std::min(pitch, 60.0) / static_cast<double>(of);
   for (std::size_t i = 0; i < size_of(series); ++i) {
     if (!drawable(series.x[i], plot_.x) || !drawable(series.y[i], plot_.y)) continue;
     const double left = to_x_(series.x[i]) + width * (static_cast<double>(position) - static_cast<double>(of) / 2);
     const double end = to_y_(series.y[i]);
     curve.bars.push_back({left, std::min(end, baseline()), left + width, std::max(end, baseline())});
+  }
+}
+
+void Drawing::make_cells(const Series& series, Curve& curve) const {
+  for (std::size_t i = 0; i < size_of(series); ++i) {
+    const double x = series.x[i];
+    const double y = series.y[i];
+    curve.bars.push_back({to_x_(x - plot_.cell_x / 2), to_y_(y + plot_.cell_y / 2), to_x_(x + plot_.cell_x / 2),
+                          to_y_(y - plot_.cell_y / 2)});
   }
 }
 
@@ -202,8 +212,7 @@ void Drawing::make_lines(const Series& series, Curve& curve) const {
 
 bool Drawing::visible(const Marker& marker) const {
   if (!drawable(marker.x, plot_.x) || !drawable(marker.y, plot_.y)) return false;
-  return marker.x >= x_.range.low && marker.x <= x_.range.high && marker.y >= y_.range.low &&
-         marker.y <= y_.range.high;
+  return marker.x >= x_.range.low && marker.x <= x_.range.high && marker.y >= y_.range.low && marker.y <= y_.range.high;
 }
 
 }  // namespace crankloop::report

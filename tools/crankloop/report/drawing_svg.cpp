@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string>
 
+#include "../number.hpp"
 #include "drawing.hpp"
 
 namespace crankloop::report {
@@ -15,6 +16,27 @@ std::string path_of(const Polyline& line) {
   for (std::size_t i = 1; i < line.size(); ++i)
     d += (i == 1 ? 'L' : ' ') + coordinate(line[i].x) + ' ' + coordinate(line[i].y);
   return d;
+}
+
+std::string colour_class(const Curve& curve) {
+  const std::string ramp = curve.style.ramp > 0 ? " r" + std::to_string(std::min(curve.style.ramp, kRamp)) : "";
+  return " c" + std::to_string(curve.colour) + ramp;
+}
+
+std::string line_class(const Curve& curve) {
+  return std::string("curve") + (curve.dashed ? " dashed" : "") + (curve.style.bold ? " bold" : "") +
+         colour_class(curve);
+}
+
+std::string rectangle_class(const Curve& curve) {
+  return (curve.style.draw == Draw::cells ? "cell" : "bar") + colour_class(curve);
+}
+
+/// For the page's script: a scale as "low high from to", in the user units that stand for it.
+std::string scale_of(const char* name, const Mapping& map, const std::string& unit) {
+  return std::string(" data-") + name + "=\"" + program::brief(map.range.low) + ' ' + program::brief(map.range.high) +
+         ' ' + coordinate(map.from) + ' ' + coordinate(map.to) + (map.logarithmic ? " log" : "") + "\"" +
+         (unit.empty() ? "" : std::string(" data-unit-") + name + "=\"" + escape(unit) + "\"");
 }
 
 }  // namespace
@@ -32,9 +54,8 @@ void Drawing::path(const std::string& what, const std::string& d) {
 }
 
 void Drawing::rectangle(const std::string& what, const Box& box) {
-  out_ += "<rect class=\"" + what + "\" x=\"" + coordinate(box.left) + "\" y=\"" + coordinate(box.top) +
-          "\" width=\"" + coordinate(box.right - box.left) + "\" height=\"" + coordinate(box.bottom - box.top) +
-          "\"/>\n";
+  out_ += "<rect class=\"" + what + "\" x=\"" + coordinate(box.left) + "\" y=\"" + coordinate(box.top) + "\" width=\"" +
+          coordinate(box.right - box.left) + "\" height=\"" + coordinate(box.bottom - box.top) + "\"/>\n";
 }
 
 std::string Drawing::description() const {
@@ -59,11 +80,12 @@ void Drawing::write() {
   const std::string id = escape(plot_.id);
   const bool clipped = plot_.x.range || plot_.y.range;
   // Some browsers take the size of an inner drawing from its attributes, some let the style sheet override them.
-  const std::string size = "width=\"" + coordinate(kWidth) + "\" height=\"" + coordinate(height_) + "\" style=\"width:" +
-                           coordinate(kWidth) + "px;height:" + coordinate(height_) + "px\" ";
+  const std::string size = "width=\"" + coordinate(kWidth) + "\" height=\"" + coordinate(height_) +
+                           "\" style=\"width:" + coordinate(kWidth) + "px;height:" + coordinate(height_) + "px\" ";
   out_ = "<svg class=\"plot\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + coordinate(kWidth) + ' ' +
-         coordinate(height_) + "\" " + (fixed_ ? size : "") + "role=\"img\" aria-labelledby=\"" + id + "-title " + id +
-         "-desc\">\n";
+         coordinate(height_) + "\" " +
+         (fixed_ ? size : scale_of("x", to_x_, plot_.x.unit).substr(1) + scale_of("y", to_y_, plot_.y.unit) + ' ') +
+         "role=\"img\" aria-labelledby=\"" + id + "-title " + id + "-desc\">\n";
   out_ += "<title id=\"" + id + "-title\">" + escape(plot_.title) + "</title>\n";
   out_ += "<desc id=\"" + id + "-desc\">" + escape(description()) + "</desc>\n";
   if (clipped) {
@@ -74,7 +96,12 @@ void Drawing::write() {
   write_bands();
   write_axes();
   out_ += clipped ? "<g clip-path=\"url(#" + id + "-clip)\">\n" : "<g>\n";
-  for (const Curve& curve : curves_) write_curve(curve);
+  for (std::size_t i = 0; i < curves_.size(); ++i) {
+    out_ += "<g data-s=\"" + std::to_string(i) + "\" data-zero=\"" + coordinate(baseline()) + "\"" +
+            (curves_[i].name.empty() ? "" : " data-name=\"" + escape(curves_[i].name) + "\"") + ">\n";
+    write_curve(curves_[i]);
+    out_ += "</g>\n";
+  }
   out_ += "</g>\n";
   for (const Marker& marker : plot_.markers) {
     if (!visible(marker)) continue;
@@ -82,18 +109,24 @@ void Drawing::write() {
   }
   if (empty_)
     text("tick", {(frame_.left + frame_.right) / 2, (frame_.top + frame_.bottom) / 2}, Anchor::middle, "no data");
-  for (const Label& label : labels_) text("name", label.at, label.anchor, label.text, label.colour);
+  for (const Label& label : labels_) {
+    if (label.series >= 0) out_ += "<g class=\"key\" data-s=\"" + std::to_string(label.series) + "\">";
+    text("name", label.at, label.anchor, label.text, label.colour);
+    if (label.series >= 0) out_ += "</g>\n";
+  }
   for (const auto& [at, index] : legend_) {
     const Curve& curve = curves_[index];
-    const std::string colour = " c" + std::to_string(curve.colour);
+    const std::string colour = colour_class(curve);
+    out_ += "<g class=\"key\" data-s=\"" + std::to_string(index) + "\">\n";
     const double middle = at.y - 0.33 * kTypeSize;
-    if (curve.style.draw == Draw::bar)
-      rectangle("bar" + colour, {at.x, middle - 6, at.x + 14, middle + 6});
+    if (curve.style.draw == Draw::bar || curve.style.draw == Draw::cells)
+      rectangle(rectangle_class(curve), {at.x, middle - 6, at.x + 14, middle + 6});
     else if (curve.style.draw != Draw::points)
-      path((curve.dashed ? "curve dashed" : "curve") + colour, move(at.x, middle) + "h20");
+      path(line_class(curve), move(at.x, middle) + "h20");
     if (curve.style.draw == Draw::points || curve.style.draw == Draw::line_and_points)
       path("dot" + colour, move(at.x + 10, middle) + "h0");
     text("legend", {at.x + kSwatch, at.y}, Anchor::start, curve.name);
+    out_ += "</g>\n";
   }
   out_ += "</svg>\n";
 }
@@ -127,7 +160,7 @@ void Drawing::write_axes() {
   }
   if (!fine.empty()) path("grid fine", fine);
   path("grid", grid);
-  path("axis", move(frame_.left, frame_.bottom) + width + marks);
+  if (!plot_.x.bare) path("axis", move(frame_.left, frame_.bottom) + width + marks);
   // Zero stands out when values of both signs are seen, and under curves that start from it.
   std::string zero;
   if (!plot_.y.logarithmic && y_.range.low <= 0 && y_.range.high > 0) zero += move(frame_.left, to_y_(0)) + width;
@@ -146,7 +179,7 @@ void Drawing::write_axes() {
 }
 
 void Drawing::write_curve(const Curve& curve) {
-  const std::string colour = " c" + std::to_string(curve.colour);
+  const std::string colour = colour_class(curve);
   std::string d;
   std::string area;
   for (const Polyline& line : curve.lines) {
@@ -160,9 +193,9 @@ void Drawing::write_curve(const Curve& curve) {
   std::string dots;
   for (const Point& point : curve.points) dots += move(point.x, point.y) + "h0";
   if (!area.empty()) path("area" + colour, area);
-  if (!d.empty()) path((curve.dashed ? "curve dashed" : "curve") + colour, d);
+  if (!d.empty()) path(line_class(curve), d);
   if (!dots.empty()) path("dot" + colour, dots);
-  for (const Box& bar : curve.bars) rectangle("bar" + colour, bar);
+  for (const Box& bar : curve.bars) rectangle(rectangle_class(curve), bar);
 }
 
 }  // namespace crankloop::report

@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "read_out.hpp"
+
 namespace crankloop::report {
 namespace {
 
@@ -34,9 +36,10 @@ li { margin-bottom: 0.3rem; }
 a { color: var(--accent); text-decoration-thickness: 1px; text-underline-offset: 0.2em; }
 a:focus-visible, summary:focus-visible, .scroll:focus-visible { outline: 2px solid var(--accent); outline-offset: 3px; }
 .subtitle { margin: 0.6rem 0 0; color: var(--muted); font-size: 1.1rem; }
+nav { position: sticky; top: 0; z-index: 2; margin: 2rem 0 0; background: var(--paper); }
 nav ul {
-  display: flex; flex-wrap: wrap; gap: 0.1rem 1.5rem; margin: 1.6rem 0 0; padding: 0;
-  max-width: none; list-style: none;
+  display: flex; flex-wrap: wrap; gap: 0.1rem 1.05rem; margin: 0; padding: 0.4rem 0; max-width: none; list-style: none;
+  border-bottom: 1px solid var(--rule); font-size: 0.88rem;
 }
 nav li { margin: 0; }
 nav a { display: inline-block; padding: 0.25rem 0; }
@@ -51,6 +54,7 @@ nav a { display: inline-block; padding: 0.25rem 0; }
 .facts .unit { font-size: 1rem; letter-spacing: 0; }
 .facts .remark { color: var(--muted); font-size: 0.85rem; line-height: 1.35; }
 section { margin-top: 3.6rem; }
+h2, .figure { scroll-margin-top: 5rem; }
 .note { padding: 0.1rem 0 0.1rem 1rem; border-left: 3px solid var(--accent); }
 .row {
   display: grid; grid-template-columns: minmax(0, 1fr); gap: 2.8rem clamp(1.8rem, 4vw, 3rem);
@@ -80,6 +84,11 @@ td.number, tbody th.number { white-space: nowrap; }
 thead .unit { display: block; font-weight: 400; }
 summary { padding: 0.4rem 0; cursor: pointer; font-weight: 600; }
 details caption { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); padding: 0; }
+.read-out {
+  position: absolute; z-index: 3; padding: 0.3rem 0.55rem; border: 1px solid var(--axis); border-radius: 3px;
+  background: var(--paper); color: var(--ink); font-size: 0.85rem; line-height: 1.4; white-space: pre;
+  pointer-events: none;
+}
 footer {
   margin-top: 4rem; padding-top: 1.1rem; border-top: 1px solid var(--rule); color: var(--muted);
   font-size: 0.9rem;
@@ -87,6 +96,7 @@ footer {
 @media (max-width: 30rem) {
   body { padding-top: 2rem; }
   section { margin-top: 2.8rem; }
+  nav ul { flex-wrap: nowrap; overflow-x: auto; white-space: nowrap; }
   .facts { grid-template-columns: 1fr 1fr; gap: 1.2rem 1rem; }
   .facts .value { font-size: 1.45rem; }
 }
@@ -94,13 +104,14 @@ footer {
 @media print {
   :root { --paper: #ffffff; color-scheme: light; }
   body { padding: 0; max-width: none; font-size: 10pt; }
-  nav { display: none; }
+  nav, .read-out { display: none; }
   section { margin-top: 2rem; }
   .row { grid-template-columns: 1fr 1fr; gap: 1.6rem 1.8rem; }
   .scroll { overflow: visible; }
   table { font-size: 8.5pt; }
   figure, tr, .facts, .row .table { break-inside: avoid; }
   h2, h3, caption { break-after: avoid; }
+  .plot .hair { display: none; }
   details::details-content { content-visibility: visible; height: auto; }
   .plot * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
 }
@@ -115,9 +126,8 @@ class Document {
     out_ = "<!DOCTYPE html>\n<html lang=\"" + escape(page_.language) + "\">\n<head>\n<meta charset=\"utf-8\"/>\n";
     out_ += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n";
     out_ += "<meta name=\"color-scheme\" content=\"light dark\"/>\n";
-    out_ +=
-        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
-        "data:\"/>\n";
+    out_ += std::string("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src ") +
+            "'unsafe-inline'; img-src data:; script-src 'sha256-" + kReadOutHash + "'\"/>\n";
     out_ += "<link rel=\"icon\" href=\"data:,\"/>\n";  // else browsers ask a server for one
     out_ += "<title>" + title + "</title>\n<style>\n";
     out_ += plot_style();
@@ -127,13 +137,16 @@ class Document {
     std::vector<std::string> ids;
     for (const Section& section : page_.sections)
       ids.push_back(unique_id(section.id.empty() ? section.title : section.id));
-    if (ids.size() > 1) contents(ids);
     if (!page_.facts.empty()) facts();
-    out_ += "</header>\n<main>\n";
+    out_ += "</header>\n";
+    if (ids.size() > 1) contents(ids);
+    out_ += "<main>\n";
     for (std::size_t i = 0; i < ids.size(); ++i) section(page_.sections[i], ids[i]);
     out_ += "</main>\n";
     if (!page_.footer.empty()) out_ += "<footer>" + escape(page_.footer) + "</footer>\n";
-    out_ += "</body>\n</html>\n";
+    out_ += "<script>";
+    out_ += read_out_script();
+    out_ += "</script>\n</body>\n</html>\n";
     return std::move(out_);
   }
 
@@ -273,7 +286,8 @@ class Document {
 void put_first(Page& page, const std::vector<std::string>& notes) {
   if (page.sections.empty()) return;
   std::vector<Block>& first = page.sections.front().blocks;
-  for (std::size_t i = 0; i < notes.size(); ++i) first.insert(first.begin() + static_cast<std::ptrdiff_t>(i), Paragraph{notes[i], true});
+  for (std::size_t i = 0; i < notes.size(); ++i)
+    first.insert(first.begin() + static_cast<std::ptrdiff_t>(i), Paragraph{notes[i], true});
 }
 
 std::string to_html(const Page& page) { return Document{page}.html(); }

@@ -2,9 +2,9 @@
 //
 // What belongs here: the order and look of a page. What does not: drawing (plot.hpp), engines, files.
 //
-// The page needs no script and no network (its content security policy forbids both), follows the reader's light or
-// dark theme, has one column on a phone and two on a desk, and prints light. It is well-formed XML too, which makes it
-// testable.
+// The page needs no network (its content security policy forbids it) and no script: the one it has, read_out.hpp, only
+// tells values under the pointer. It follows the reader's light or dark theme, has one column on a phone and two on a
+// desk, and prints light. It is well-formed XML too, which makes it testable.
 #pragma once
 
 #include "plot.hpp"

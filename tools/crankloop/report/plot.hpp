@@ -1,4 +1,4 @@
-// A plot as inline SVG: curves, loops, steps, bars over labelled axes, from plain numbers.
+// A plot as inline SVG: curves, loops, steps, bars, heat maps over labelled axes, from plain numbers.
 //
 // What belongs here: what a plot is made of, and the colours of both themes, because a colour that is legible on paper
 // is not on a dark screen. What does not: engines (the caller names every quantity and its unit), pages (page.hpp),
@@ -20,17 +20,20 @@
 
 namespace crankloop::report {
 
-enum class Draw : std::uint8_t { line, step, bar, points, line_and_points };
+enum class Draw : std::uint8_t { line, step, bar, points, line_and_points, cells };
 
 struct Style {
   Draw draw = Draw::line;
   int colour = 0;  ///< 1 to kColours; 0 = by position in the plot, dashed from the (kColours + 1)th on
+  int ramp = 0;    ///< 1 to kRamp: a shade of one hue instead, for curves of a rising parameter
+  bool bold = false;
   bool dashed = false;
   bool closed = false;  ///< joins the last point to the first: a loop
   bool filled = false;  ///< tints the inside of a loop, or the area between an open line and zero
 };
 
 inline constexpr int kColours = 6;
+inline constexpr int kRamp = 7;
 
 /// y over x in the caller's order; x need not be monotone. A point that is not finite breaks the line.
 struct Series {
@@ -64,6 +67,8 @@ struct Plot {
   std::vector<Series> series{};
   std::vector<Band> bands{};
   std::vector<Marker> markers{};
+  double cell_x = 1;  ///< of Draw::cells, in units of the axes: a rectangle around each point, as in a heat map
+  double cell_y = 1;
 };
 
 [[nodiscard]] inline Axis axis_of(const std::string& title, const std::string& unit) {
@@ -96,8 +101,7 @@ struct Drawn {
 /// CSS of the drawings and the colour variables of the light and dark theme; once per page.
 [[nodiscard]] std::string_view plot_style();
 
-/// Markers "78.3 bar at 8 deg" on the largest and the smallest y of a series (one if they are equal, none if it is
-/// empty).
-[[nodiscard]] std::vector<Marker> mark_extremes(const Plot& plot, std::size_t series, int significant_digits = 3);
+/// Moves a plot of one x range down by `zero`, and draws a dashed line of that name where y is 0 then.
+void count_from(Plot& plot, double zero, const std::string& name, int colour);
 
 }  // namespace crankloop::report

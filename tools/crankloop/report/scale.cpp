@@ -57,7 +57,7 @@ Scale linear_scale(const Axis& axis, Range data, int intervals) {
   if (largest >= 1e6 || largest < 1e-3) scale.exponent = 3 * static_cast<int>(std::floor(std::log10(largest) / 3));
   const double unit = std::pow(10.0, scale.exponent);
   const int decimals = decimals_of(step / unit);
-  const int count = static_cast<int>(last - first);
+  const int count = axis.bare ? -1 : static_cast<int>(last - first);
   for (int i = 0; i <= count; ++i) {
     const double value = (first + i) * step;
     scale.ticks.push_back({value, typeset(fixed(value / unit, decimals))});

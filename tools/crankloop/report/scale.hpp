@@ -1,6 +1,7 @@
 // Scales: from the range of data to an axis with ticks and their labels.
 //
-// What belongs here: which numbers stand on an axis, and where a value lies along it. What does not: lines (drawing.hpp).
+// What belongs here: which numbers stand on an axis, and where a value lies along it. What does not: lines
+// (drawing.hpp).
 #pragma once
 
 #include <cstdint>
@@ -21,6 +22,7 @@ struct Axis {
   bool logarithmic = false;      ///< values <= 0 are then missing values
   double tick_step = 0;          ///< e.g. 90 for crank degrees; 0 = chosen as 1, 2 or 5 times a power of ten
   bool include_zero = false;     ///< bars always include it
+  bool bare = false;             ///< no ticks: of a drawing that is no graph
   std::optional<Range> range{};  ///< absent = the data, rounded out to whole ticks
 };
 

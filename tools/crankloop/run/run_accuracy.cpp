@@ -32,10 +32,11 @@ void Deviation::take(double loop, double exact, double deg) noexcept {
 
 WholeOutput<double> exact_output(const ExactEngine& engine, double engine_deg, double speed_rad_s, double load_ratio) {
   const EngineDefinition& definition = engine.definition();
-  const Bearings<double> bearings = bearings_of(definition);
+  const detail::Bearings<double> bearings = bearings_of(definition);
   WholeOutput<double> out{};
   for (std::size_t k = 0; k < static_cast<std::size_t>(definition.layout.cylinders); ++k) {
-    const Pose<double> pose = exact_pose(definition.crank, own_angle(definition.layout, k, engine_deg) / kDegPerRad);
+    const Pose<double> pose =
+        exact_pose(definition.crank, own_angle(definition.layout, k, engine_deg) / kDegPerRad);
     out.displacement_m[k] = pose.displacement_m;
     out.velocity_m_s[k] = pose.slope_m * speed_rad_s;
     out.acceleration_m_s2[k] = pose.acceleration_m * speed_rad_s * speed_rad_s;
@@ -75,7 +76,8 @@ Accuracy measure_accuracy(const ExactEngine& engine, const Operation& operation)
       const QuantityValues<Real> in_loop = values_of(out, layout, k);
       const QuantityValues<double> of_exact = values_of(exact, layout, k);
       const double own_deg = own_angle(layout, k, engine_deg);
-      for (std::size_t q = 0; q < kQuantities; ++q) accuracy.of[q].take(static_cast<double>(in_loop[q]), of_exact[q], own_deg);
+      for (std::size_t q = 0; q < kQuantities; ++q)
+        accuracy.of[q].take(static_cast<double>(in_loop[q]), of_exact[q], own_deg);
     }
     accuracy.torque.take(static_cast<double>(out.torque_Nm), exact.torque_Nm, engine_deg);
   }

@@ -36,22 +36,28 @@ double part_of_tick(double start_Nm, double end_Nm, double mean_Nm, double part)
 
 }  // namespace
 
-template <class Real>
-FixedStepLoop<Real>::FixedStepLoop(const EngineDefinition& definition, const Operation& operation, double start_deg,
-                                   const std::function<void()>& after_tick) {
+template <class Real, class S>
+FixedStepLoop<Real, S>::FixedStepLoop(const EngineDefinition& definition, const Operation& operation, double start_deg,
+                                      const std::function<void()>& after_tick) {
   require(tables_->build(definition, {operation.tick_s}, &report_));
-  const Drive<Real>& drive = *tables_->tables().drive;
+  const detail::Drive<Real>& drive = *tables_->tables().drive;
   input_.speed_rad_s = static_cast<Real>(operation.speed_rad_s());
-  input_.load_ratio = static_cast<Real>(operation.load_ratio);
+  if constexpr (detail::Needs<S>::gas) {
+    tell(input_, operation.gas);
+  } else {
+    input_.load_ratio = static_cast<Real>(operation.load_ratio);
+  }
   require_speed(operation.speed_rpm, static_cast<double>(drive.speed_limit_rad_s), operation.tick_s);
-  require_ticks(720 / (operation.speed_rad_s() * kDegPerRad * operation.tick_s), operation.tick_s, kFewerTicks);
+  const int settling_cycles = cycles_to_settle(definition);
+  require_ticks(settling_cycles * 720 / (operation.speed_rad_s() * kDegPerRad * operation.tick_s), operation.tick_s,
+                kFewerTicks);
 
   // At constant speed all ticks turn the crank equally far: one tells how far.
   require(engine_.init(tables_->tables()));
   engine_.step(input_);
   const Phase turned = engine_.state().phase;
   deg_per_tick_ = static_cast<double>(turned.units()) * kDegPerUnit;
-  settling_ticks_ = static_cast<std::uint64_t>(std::ceil(ticks_per_cycle() - kHairOfATick));
+  settling_ticks_ = static_cast<std::uint64_t>(std::ceil(settling_cycles * ticks_per_cycle() - kHairOfATick));
   const Phase settling{settling_ticks_ * turned.units()};
   require(engine_.init(tables_->tables(), phase_at(start_deg) - settling));
   for (std::uint64_t i = 0; i < settling_ticks_; ++i) {
@@ -60,14 +66,14 @@ FixedStepLoop<Real>::FixedStepLoop(const EngineDefinition& definition, const Ope
   }
 }
 
-template <class Real>
-double FixedStepLoop<Real>::crank_deg() const noexcept {
+template <class Real, class S>
+double FixedStepLoop<Real, S>::crank_deg() const noexcept {
   const double deg = static_cast<double>(engine_.state().phase.units()) * kDegPerUnit;
   return deg < 720 ? deg : 0;  // the last 2^10 units round up to 720
 }
 
-template <class Real>
-double FixedStepLoop<Real>::wall_time_per_tick_ns() noexcept {
+template <class Real, class S>
+double FixedStepLoop<Real, S>::wall_time_per_tick_ns() noexcept {
   std::array<double, kBatches> batch{};
   for (double& per_tick_ns : batch) {
     const port::Stopwatch stopwatch;
@@ -78,9 +84,9 @@ double FixedStepLoop<Real>::wall_time_per_tick_ns() noexcept {
   return batch[kBatches / 2];
 }
 
-template <class Real>
-RunFigures run_cycles(FixedStepLoop<Real>& loop, const EngineDefinition& definition, const Operation& operation,
-                      int cycles, const OnTick<Real>& on_tick) {
+template <class Real, class S>
+RunFigures run_cycles(FixedStepLoop<Real, S>& loop, const EngineDefinition& definition, const Operation& operation,
+                      int cycles, const OnTick<Real, S>& on_tick) {
   const Layout& layout = definition.layout;
   const auto cylinders = static_cast<std::size_t>(layout.cylinders);
   const std::uint32_t journals = bearings_of(definition).pins + 1;
@@ -98,7 +104,7 @@ RunFigures run_cycles(FixedStepLoop<Real>& loop, const EngineDefinition& definit
   double torque_sum_Nm = 0;
   auto torque_before_Nm = static_cast<double>(loop.output().torque_Nm);
   for (std::uint64_t tick = 1; tick <= f.ticks; ++tick) {
-    const WholeOutput<Real>& out = loop.step();
+    const WholeOutput<Real, S>& out = loop.step();
     const double engine_deg = loop.crank_deg();
     const auto torque_Nm = static_cast<double>(out.torque_Nm);
     const auto mean_torque_Nm = static_cast<double>(out.mean_torque_Nm);
@@ -113,15 +119,23 @@ RunFigures run_cycles(FixedStepLoop<Real>& loop, const EngineDefinition& definit
       for (std::size_t i = 0; i < kQuantities; ++i) f.of[i].take(static_cast<double>(values[i]), own_deg);
       for (std::size_t t = 0; t < f.valves.size(); ++t) {
         const auto of_valve = values_of(out, t, k);
-        for (std::size_t i = 0; i < kValveQuantities; ++i) f.valves[t].of[i].take(static_cast<double>(of_valve[i]), own_deg);
+        for (std::size_t i = 0; i < kValveQuantities; ++i)
+          f.valves[t].of[i].take(static_cast<double>(of_valve[i]), own_deg);
       }
     }
     for (std::size_t j = 0; j < journals; ++j)
       f.journal_load.take(static_cast<double>(out.journal_load_N[j]), engine_deg);
     f.faulty_ticks += out.faults != 0 ? 1 : 0;
     f.faults |= out.faults;
+    if constexpr (detail::Needs<S>::gas) {
+      f.gas.intake_Pa += static_cast<double>(out.manifold[kIntake].pressure_Pa) / static_cast<double>(f.ticks);
+      f.gas.exhaust_Pa += static_cast<double>(out.manifold[kExhaust].pressure_Pa) / static_cast<double>(f.ticks);
+      f.gas.exhaust_manifold_K +=
+          static_cast<double>(out.manifold[kExhaust].temperature_K) / static_cast<double>(f.ticks);
+    }
     if (on_tick) on_tick(tick, engine_deg, out);
   }
+  if constexpr (detail::Needs<S>::gas) f.gas.cycle = mean_cycle(loop.output().gas_cycle, cylinders);
   for (std::size_t t = 0; t < f.valves.size(); ++t) {
     for (std::size_t k = 0; k < cylinders; ++k) {
       f.valves[t].last_cycle = worse_of(f.valves[t].last_cycle, in_double(loop.output().valve_cycle[t][k]));
@@ -133,11 +147,17 @@ RunFigures run_cycles(FixedStepLoop<Real>& loop, const EngineDefinition& definit
   return f;
 }
 
-template class FixedStepLoop<float>;
-template class FixedStepLoop<double>;
-template RunFigures run_cycles(FixedStepLoop<float>&, const EngineDefinition&, const Operation&, int,
-                               const OnTick<float>&);
-template RunFigures run_cycles(FixedStepLoop<double>&, const EngineDefinition&, const Operation&, int,
-                               const OnTick<double>&);
+template class FixedStepLoop<float, scenes::Whole>;
+template class FixedStepLoop<double, scenes::Whole>;
+template class FixedStepLoop<float, scenes::Breathing>;
+template class FixedStepLoop<double, scenes::Breathing>;
+template RunFigures run_cycles(FixedStepLoop<float, scenes::Whole>&, const EngineDefinition&, const Operation&, int,
+                               const OnTick<float, scenes::Whole>&);
+template RunFigures run_cycles(FixedStepLoop<double, scenes::Whole>&, const EngineDefinition&, const Operation&, int,
+                               const OnTick<double, scenes::Whole>&);
+template RunFigures run_cycles(FixedStepLoop<float, scenes::Breathing>&, const EngineDefinition&, const Operation&, int,
+                               const OnTick<float, scenes::Breathing>&);
+template RunFigures run_cycles(FixedStepLoop<double, scenes::Breathing>&, const EngineDefinition&, const Operation&,
+                               int, const OnTick<double, scenes::Breathing>&);
 
 }  // namespace crankloop::program

@@ -13,7 +13,9 @@
 #include <crankloop/crankloop.hpp>
 #include <crankloop/scenes.hpp>
 
+#include "../engine_file/gas_order.hpp"
 #include "../run_limits.hpp"
+#include "run_gas.hpp"
 #include "run_quantities.hpp"
 #include "run_valves.hpp"
 
@@ -23,27 +25,31 @@ namespace crankloop::program {
 struct Operation {
   double speed_rpm = 0;
   double tick_s = 100e-6;
-  double load_ratio = 1;
+  double load_ratio = 1;  ///< of an engine with a diagram
+  GasOrder gas{};         ///< of one that breathes
 
   [[nodiscard]] double speed_rad_s() const noexcept { return speed_rpm * kPi / 30; }
 };
 
-/// Engine, tables and input. After construction one cycle has been run, which lets any state settle, and the engine
-/// stands at `start_deg`: whatever the tick, a recorded run begins there.
-template <class Real>
+/// Engine, tables and input. After construction cycles_to_settle() have been run, which lets any state settle, and the
+/// engine stands at `start_deg`: whatever the tick, a recorded run begins there. S is Whole, or Breathing for an engine
+/// that breathes.
+template <class Real, class S = scenes::Whole>
 class FixedStepLoop {
  public:
-  using Engine = crankloop::Engine<Real, scenes::Whole>;
+  using Engine = crankloop::Engine<Real, S>;
+  /// Called after every recorded tick: its number from 1, the engine angle after it in [0, 720), and the output.
+  using OnTick = std::function<void(std::uint64_t tick, double crank_deg, const WholeOutput<Real, S>& out)>;
 
   /// The definition is valid and has masses, and the tick suits its valve trains. Throws UsageError for a speed beyond
-  /// one revolution per tick, and for a tick so short that a cycle takes more than kMostTicks. `after_tick` is called
+  /// one revolution per tick, and for a tick so short that a cycle takes more than kMaxTicks. `after_tick` is called
   /// after each tick of the settling cycle.
   FixedStepLoop(const EngineDefinition& definition, const Operation& operation, double start_deg = 0,
                 const std::function<void()>& after_tick = {});
 
-  const WholeOutput<Real>& step() noexcept { return engine_.step(input_); }
+  const WholeOutput<Real, S>& step() noexcept { return engine_.step(input_); }
 
-  [[nodiscard]] const WholeOutput<Real>& output() const noexcept { return engine_.output(); }
+  [[nodiscard]] const WholeOutput<Real, S>& output() const noexcept { return engine_.output(); }
   [[nodiscard]] double crank_deg() const noexcept;  ///< engine angle, 0 to below 720
   [[nodiscard]] double deg_per_tick() const noexcept { return deg_per_tick_; }
   [[nodiscard]] double ticks_per_cycle() const noexcept { return 720 / deg_per_tick_; }
@@ -57,7 +63,7 @@ class FixedStepLoop {
 
  private:
   // Room for the finest gas grid there is: the program has memory.
-  using Tables = TableStorage<Real, scenes::Whole, kMostGasSegments>;
+  using Tables = TableStorage<Real, S, kMaxGasSegments>;
 
   std::unique_ptr<Tables> tables_ = std::make_unique<Tables>();
   TableReport report_;
@@ -103,22 +109,22 @@ struct RunFigures {
   std::array<Peaks, kQuantities> of;  ///< over all cylinders; where: the cylinder's own crank angle
   Peaks journal_load;                 ///< over all main journals; where: engine angle
   std::vector<ValveFigures> valves;   ///< per valve train
+  GasFigures gas;                     ///< of an engine that breathes
   std::uint64_t faulty_ticks = 0;
   std::uint32_t faults = 0;  ///< all fault bits that occurred
   TableReport tables;
 };
 
-/// Called after every recorded tick: its number from 1, the engine angle after it in [0, 720), and the output.
-template <class Real>
-using OnTick = std::function<void(std::uint64_t tick, double crank_deg, const WholeOutput<Real>& out)>;
+template <class Real, class S = scenes::Whole>
+using OnTick = typename FixedStepLoop<Real, S>::OnTick;
 
 /// Runs `cycles` cycles from where the loop stands and gathers the figures.
 ///
 /// A cycle is in general no whole number of ticks. The last tick then reaches beyond the last cycle; the work of its
 /// part inside is that of the parabola through the torques at both its ends with its mean torque. Peaks are those of
-/// the ticks: what lies between two is not seen. Throws UsageError where the run would take more than kMostTicks.
-template <class Real>
-RunFigures run_cycles(FixedStepLoop<Real>& loop, const EngineDefinition& definition, const Operation& operation,
-                      int cycles, const OnTick<Real>& on_tick = {});
+/// the ticks: what lies between two is not seen. Throws UsageError where the run would take more than kMaxTicks.
+template <class Real, class S>
+RunFigures run_cycles(FixedStepLoop<Real, S>& loop, const EngineDefinition& definition, const Operation& operation,
+                      int cycles, const OnTick<Real, S>& on_tick = {});
 
 }  // namespace crankloop::program

@@ -14,8 +14,9 @@
 
 namespace crankloop::program {
 
-template <class Real>
-using WholeOutput = crankloop::Output<Real, scenes::Whole>;
+/// Whole, or Breathing: all that `run` shows is in both.
+template <class Real, class S = scenes::Whole>
+using WholeOutput = crankloop::Output<Real, S>;
 
 /// In the order of the CSV columns; those from rod_angle on are not in the CSV.
 enum class Quantity : std::uint8_t {
@@ -81,8 +82,9 @@ inline constexpr QuantityKind kQuantityKinds[kQuantities] = {
 };
 
 /// In SI, in the order of Quantity. Crank pin values are those of the whole pin, with all its rods.
-template <class Real>
-[[nodiscard]] QuantityValues<Real> values_of(const WholeOutput<Real>& out, const Layout& layout, std::size_t cylinder) noexcept {
+template <class Real, class S>
+[[nodiscard]] QuantityValues<Real> values_of(const crankloop::Output<Real, S>& out, const Layout& layout,
+                                             std::size_t cylinder) noexcept {
   const std::size_t k = cylinder;
   const std::size_t pin = layout.pin[k];
   const CylinderForces<Real>& f = out.cylinder[k];

@@ -9,7 +9,8 @@
 
 namespace crankloop::program {
 
-/// Writes the levels of all wheels from phase 0 over some cycles of 720 deg, and the speed. Throws InputError for a file without wheels.
+/// Writes the levels of all wheels from phase 0 over some cycles of 720 deg, and the speed. Throws InputError for a
+/// file without wheels.
 void write_signals(const EngineFile& engine, const Operation& operation, int cycles, Output& out);
 
 }  // namespace crankloop::program

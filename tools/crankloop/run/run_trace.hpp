@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <crankloop/define/engine_definition.hpp>
+#include <crankloop/tabulate/summary.hpp>
 
 #include "run_loop.hpp"
 #include "run_quantities.hpp"
@@ -26,6 +27,16 @@ struct ValveTrace {
   ValveCycle<double> cycle{};         ///< results of the lobe in the trace
 
   [[nodiscard]] const std::vector<double>& operator[](ValveQuantity quantity) const noexcept {
+    return of[index_of(quantity)];
+  }
+};
+
+/// The gas of cylinder 1 and of the manifolds; empty vectors where the engine does not breathe.
+struct GasTrace {
+  std::array<std::vector<double>, kGasQuantities> of;
+  std::array<std::vector<double>, kPorts> manifold_Pa;
+
+  [[nodiscard]] const std::vector<double>& operator[](GasQuantity quantity) const noexcept {
     return of[index_of(quantity)];
   }
 };
@@ -50,6 +61,7 @@ struct Trace {
   FreeForceTrace second;
   FreeForceTrace rotating;
   std::vector<ValveTrace> valves;  ///< per valve train
+  GasTrace gas;                    ///< of an engine that breathes
 
   [[nodiscard]] const std::vector<double>& operator[](Quantity quantity) const noexcept {
     return of[index_of(quantity)];
@@ -58,7 +70,11 @@ struct Trace {
 
 /// Runs the loop at the operation's speed and load, at a tick of its own: 0.25 deg apart, or wider where that would
 /// take ticks below 1 us, or every n-th of ticks of 2 ms at most, less where a valve train demands it.
-template <class Real>
+template <class Real, class S = scenes::Whole>
 Trace record_trace(const EngineDefinition& definition, const Operation& operation);
+
+/// What summarise() says of an engine with a diagram, from a cycle that was recorded: pressures and torques as they
+/// came.
+[[nodiscard]] CycleSummary summarise(const EngineDefinition& definition, double speed_rad_s, const Trace& trace);
 
 }  // namespace crankloop::program

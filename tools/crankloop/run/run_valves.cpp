@@ -5,7 +5,7 @@
 namespace crankloop::program {
 
 ValveCycle<double> worse_of(const ValveCycle<double>& a, const ValveCycle<double>& b) noexcept {
-  ValveCycle<double> worse = a.separation_gap_m >= b.separation_gap_m ? a : b;
+  ValveCycle<double> worse = a.separation_clearance_m >= b.separation_clearance_m ? a : b;
   worse.largest_lift_m = std::max(a.largest_lift_m, b.largest_lift_m);
   worse.largest_speed_m_s = std::max(a.largest_speed_m_s, b.largest_speed_m_s);
   worse.largest_acceleration_m_s2 = std::max(a.largest_acceleration_m_s2, b.largest_acceleration_m_s2);

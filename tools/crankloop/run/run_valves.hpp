@@ -27,7 +27,7 @@ enum class ValveQuantity : std::uint8_t {
   train_force,
   seat_force,
   cam_force,
-  gap,
+  compression,
 };
 inline constexpr std::size_t kValveQuantities = 8;
 
@@ -44,15 +44,17 @@ inline constexpr ValveQuantityKind kValveQuantityKinds[kValveQuantities] = {
     {ValveQuantity::train_force, "train_force", "N", "N", 1},
     {ValveQuantity::seat_force, "seat_force", "N", "N", 1},
     {ValveQuantity::cam_force, "cam_force", "N", "N", 1},
-    {ValveQuantity::gap, "gap", "mm", "mm", 1e3},
+    {ValveQuantity::compression, "train_compression", "mm", "mm", 1e3},
 };
 
 /// In SI, in the order of ValveQuantity.
-template <class Real>
-[[nodiscard]] std::array<Real, kValveQuantities> values_of(const WholeOutput<Real>& out, std::size_t train, std::size_t cylinder) noexcept {
+template <class Real, class S>
+[[nodiscard]] std::array<Real, kValveQuantities> values_of(const crankloop::Output<Real, S>& out, std::size_t train,
+                                                           std::size_t cylinder) noexcept {
   const ValveMotionOutput<Real>& m = out.valve[train][cylinder];
   const ValveForcesOutput<Real>& f = out.valve_forces[train][cylinder];
-  return {m.theoretical_lift_m, m.lift_m, m.velocity_m_s, m.acceleration_m_s2, f.train_N, f.seat_N, f.cam_N, f.gap_m};
+  return {m.theoretical_lift_m, m.lift_m, m.velocity_m_s, m.acceleration_m_s2, f.train_N, f.seat_N, f.cam_N,
+          f.train_compression_m};
 }
 
 /// Of each result the worst of two cycles; start and duration are those of the larger separation.

@@ -4,7 +4,8 @@ namespace crankloop::program {
 namespace {
 
 const EngineFile& with_wheels(const EngineFile& engine) {
-  if (engine.triggers().empty()) throw InputError(engine.path() + ": there is no [trigger NAME], so --vcd has no signal to show");
+  if (engine.triggers().empty())
+    throw InputError(engine.path() + ": there is no [trigger NAME], so --vcd has no signal to show");
   return engine;
 }
 

@@ -1,6 +1,7 @@
 // The signals of an engine's trigger wheels, tick by tick, as a file that viewers of logic signals open.
 //
-// What belongs here: wheels, edges and times. What does not: the file's format (vcd.hpp), what turns the crank (run_signals.hpp, free_run.hpp).
+// What belongs here: wheels, edges and times. What does not: the file's format (vcd.hpp), what turns the crank
+// (run_signals.hpp, free_run.hpp).
 #pragma once
 
 #include <cstddef>

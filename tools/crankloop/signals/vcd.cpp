@@ -30,7 +30,8 @@ std::string reference(std::string name) {
 
 }  // namespace
 
-VcdFile::VcdFile(Output& out, const std::string& module, const std::vector<std::string>& wires, const std::vector<std::string>& numbers)
+VcdFile::VcdFile(Output& out, const std::string& module, const std::vector<std::string>& wires,
+                 const std::vector<std::string>& numbers)
     : out_{out}, wires_{wires.size()} {
   out_.write("$version crankloop $end\n$timescale 1 ns $end\n$scope module " + reference(module) + " $end\n");
   const auto declare = [this](const std::string& type, const std::string& name) {
@@ -51,8 +52,10 @@ void VcdFile::note(Change change) {
 
 void VcdFile::write_until(double time_s) {
   const std::int64_t until_ns = nanoseconds(time_s);
-  std::stable_sort(noted_.begin(), noted_.end(), [](const Change& a, const Change& b) { return a.time_ns < b.time_ns; });
-  const auto rest = std::find_if(noted_.begin(), noted_.end(), [until_ns](const Change& c) { return c.time_ns > until_ns; });
+  std::stable_sort(noted_.begin(), noted_.end(),
+                   [](const Change& a, const Change& b) { return a.time_ns < b.time_ns; });
+  const auto rest =
+      std::find_if(noted_.begin(), noted_.end(), [until_ns](const Change& c) { return c.time_ns > until_ns; });
   std::for_each(noted_.begin(), rest, [this](const Change& change) { write(change); });
   noted_.erase(noted_.begin(), rest);
 }

@@ -18,11 +18,14 @@
 
 namespace crankloop::program {
 
-/// Times are rounded to whole nanoseconds. A value that does not change is not written. Values are unknown (x) until their first change.
+/// Times are rounded to whole nanoseconds. A value that does not change is not written. Values are unknown (x) until
+/// their first change.
 class VcdFile {
  public:
-  /// Names of wires (one bit) and of real variables; what is not a letter, digit or underscore in them becomes an underscore.
-  VcdFile(Output& out, const std::string& module, const std::vector<std::string>& wires, const std::vector<std::string>& numbers);
+  /// Names of wires (one bit) and of real variables; what is not a letter, digit or underscore in them becomes an
+  /// underscore.
+  VcdFile(Output& out, const std::string& module, const std::vector<std::string>& wires,
+          const std::vector<std::string>& numbers);
 
   /// A change, at or after the time that was written last.
   void level(std::size_t wire, double time_s, bool high) { note({nanoseconds(time_s), wire, high ? 1.0 : 0.0}); }

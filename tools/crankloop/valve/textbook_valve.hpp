@@ -1,16 +1,16 @@
 // The valve's motion as textbooks and [Li 2017, 4.9-4.13] compute it: the reference that the tick is compared with.
 //
 // What belongs here: classical four-stage Runge-Kutta with the cam looked up in every stage and contact tested there.
-// What does not: the tick (crankloop/tick/valve/valve_changes.hpp), which locates contact changes. This one finds them where a
-// step happens to end, so its order falls from 4 to about 1 as soon as there are any.
+// What does not: the tick (crankloop/tick/valve/valve_changes.hpp), which locates contact changes. This one finds them
+// where a step happens to end, so its order falls from 4 to about 1 as soon as there are any.
 #pragma once
 
 #include <cstdint>
 
 #include <crankloop/tables/lift_curve.hpp>
+#include <crankloop/tables/valve_tables.hpp>
 #include <crankloop/tick/valve/valve.hpp>
 #include <crankloop/tick/valve/valve_results.hpp>
-#include <crankloop/tables/valve_tables.hpp>
 
 namespace crankloop::program {
 
@@ -36,17 +36,17 @@ struct LiftNow {
 /// What both contacts would push with, and how deep they are: each acts while both are positive.
 template <class Real>
 struct Contacts {
-  Real gap_m, train_N;
+  Real compression_m, train_N;
   Real sink_m, seat_N;
 
-  Contacts(const ValveBody<Real>& b, const ValveState<Real>& s, const LiftNow<Real>& lift) noexcept
-      : gap_m{lift.lift_m - s.lift_m},
-        train_N{b.train_N_m * gap_m + b.train_Ns_m * (lift.speed_m_s - s.velocity_m_s)},
-        sink_m{b.seat_sink_m - s.lift_m},
+  Contacts(const detail::ValveBody<Real>& b, const detail::ValveState<Real>& s, const LiftNow<Real>& lift) noexcept
+      : compression_m{lift.lift_m - s.lift_m},
+        train_N{b.train_N_m * compression_m + b.train_Ns_m * (lift.speed_m_s - s.velocity_m_s)},
+        sink_m{b.seat_compression_m - s.lift_m},
         seat_N{b.seat_N_m * sink_m - b.seat_Ns_m * s.velocity_m_s} {}
 
   [[nodiscard]] std::uint32_t regime() const noexcept {
-    return (gap_m > 0 && train_N > 0 ? kTrainOn : 0u) | (sink_m > 0 && seat_N > 0 ? kSeatOn : 0u);
+    return (compression_m > 0 && train_N > 0 ? kTrainOn : 0u) | (sink_m > 0 && seat_N > 0 ? kSeatOn : 0u);
   }
   [[nodiscard]] Real train_force_N() const noexcept { return (regime() & kTrainOn) != 0 ? train_N : Real{0}; }
   [[nodiscard]] Real seat_force_N() const noexcept { return (regime() & kSeatOn) != 0 ? seat_N : Real{0}; }
@@ -54,8 +54,8 @@ struct Contacts {
 
 /// y'' of docs/model.md "Valve".
 template <class Real>
-[[nodiscard]] Real textbook_acceleration(const ValveBody<Real>& b, const ValveState<Real>& s, const LiftNow<Real>& lift,
-                                         Real gas_N) noexcept {
+[[nodiscard]] Real textbook_acceleration(const detail::ValveBody<Real>& b, const detail::ValveState<Real>& s,
+                                         const LiftNow<Real>& lift, Real gas_N) noexcept {
   const Contacts<Real> c(b, s, lift);
   const Real held_N = b.spring_N_m * s.lift_m + b.preload_N + b.guide_Ns_m * s.velocity_m_s + gas_N;
   return (c.train_force_N() + c.seat_force_N() - held_N) * b.per_mass;
@@ -63,10 +63,11 @@ template <class Real>
 
 /// The classical four stages for y'' = f(half, y, v), where half is 0, 1 or 2 halves of the step d from its begin.
 ///
-/// One of two in this repository, each an oracle of its own: this one for the tick (tests hold it against the library's step), the other for the
-/// benchmark's plain code (lab/bench/plain_valve.hpp), which must not know the library.
+/// One of two in this repository, each an oracle of its own: this one for the tick (tests hold it against the library's
+/// step), the other for the benchmark's plain code (lab/bench/plain_valve.hpp), which must not know the library.
 template <class Real, class Acceleration>
-[[nodiscard]] ValveState<Real> textbook_step(const Acceleration& f, Real d, const ValveState<Real>& s) noexcept {
+[[nodiscard]] detail::ValveState<Real> textbook_step(const Acceleration& f, Real d,
+                                                     const detail::ValveState<Real>& s) noexcept {
   const Real y = s.lift_m;
   const Real v = s.velocity_m_s;
   const Real k1 = f(0, y, v);
@@ -81,15 +82,16 @@ template <class Real, class Acceleration>
 template <class Real>
 class TextbookValve {
  public:
-  TextbookValve(const ValveMotion<Real>& motion, const LiftCurve<Real>& curve) noexcept
+  TextbookValve(const detail::ValveMotion<Real>& motion, const detail::LiftCurve<Real>& curve) noexcept
       : motion_{motion}, curve_{curve}, step_s_{motion.fine_step_s / static_cast<Real>(kStepsOfFineStep)} {}
 
   static constexpr std::uint32_t kStepsOfFineStep = 3;
-  [[nodiscard]] static std::uint32_t steps(const ValveMotion<Real>& motion) noexcept {
+  [[nodiscard]] static std::uint32_t steps(const detail::ValveMotion<Real>& motion) noexcept {
     return kStepsOfFineStep * motion.parts;
   }
 
-  void advance(detail::Placed<Real>& valve, const CamSpan& cam, Real gas_N, ValveRecord<Real>& record) const noexcept {
+  void advance(detail::Placed<Real>& valve, const CamSpan& cam, Real gas_N,
+               detail::ValveRecord<Real>& record) const noexcept {
     const std::uint32_t count = steps(motion_);
     const Real step_deg = cam.turned_deg<Real>() / static_cast<Real>(count);
     const Real deg_per_s = step_deg / step_s_;
@@ -103,13 +105,13 @@ class TextbookValve {
       const LiftNow<Real> start = lift_at(place(2 * i), deg_per_s);
       const LiftNow<Real> middle = lift_at(place(2 * i + 1), deg_per_s);
       const LiftNow<Real> end = lift_at(place(2 * i + 2), deg_per_s);
-      const ValveState<Real> before = valve.state;
+      const detail::ValveState<Real> before = valve.state;
       valve.state = stepped(before, start, middle, end, gas_N);
       const std::uint32_t regime = Contacts<Real>(motion_.body, valve.state, end).regime();
       record.step({before, valve.state, start.lift_m, end.lift_m, start.speed_m_s, end.speed_m_s,
                    textbook_acceleration(motion_.body, before, start, gas_N),
                    textbook_acceleration(motion_.body, valve.state, end, gas_N), step_s_, valve.regime},
-                  motion_.body.seat_sink_m, [&](Real part) { return from_deg + part * step_deg; });
+                  motion_.body.seat_compression_m, [&](Real part) { return from_deg + part * step_deg; });
       from_deg += step_deg;
       if (regime != valve.regime) record.change(valve.regime, regime, valve.state.velocity_m_s, from_deg);
       valve.regime = regime;
@@ -118,18 +120,23 @@ class TextbookValve {
 
  private:
   [[nodiscard]] LiftNow<Real> lift_at(std::uint64_t since_opening, Real deg_per_s) const noexcept {
-    const Lift<Real> lift = curve_.read(LiftCurve<Real>::cell(since_opening));
+    const detail::Lift<Real> lift = curve_.read(detail::LiftCurve<Real>::cell(since_opening));
     return {lift.lift_m, lift.per_deg_m * deg_per_s};
   }
 
-  [[nodiscard]] ValveState<Real> stepped(const ValveState<Real>& s, const LiftNow<Real>& start, const LiftNow<Real>& middle, const LiftNow<Real>& end,
-                                         Real gas_N) const noexcept {
+  [[nodiscard]] detail::ValveState<Real> stepped(const detail::ValveState<Real>& s, const LiftNow<Real>& start,
+                                                 const LiftNow<Real>& middle, const LiftNow<Real>& end,
+                                                 Real gas_N) const noexcept {
     const LiftNow<Real>* const cam[] = {&start, &middle, &end};
-    return textbook_step([&](int half, Real y, Real v) { return textbook_acceleration(motion_.body, ValveState<Real>{y, v}, *cam[half], gas_N); }, step_s_, s);
+    return textbook_step(
+        [&](int half, Real y, Real v) {
+          return textbook_acceleration(motion_.body, detail::ValveState<Real>{y, v}, *cam[half], gas_N);
+        },
+        step_s_, s);
   }
 
-  const ValveMotion<Real>& motion_;
-  const LiftCurve<Real>& curve_;
+  const detail::ValveMotion<Real>& motion_;
+  const detail::LiftCurve<Real>& curve_;
   Real step_s_;
 };
 

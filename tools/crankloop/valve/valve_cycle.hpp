@@ -13,7 +13,7 @@ template <class Real>
           wide(c.largest_speed_m_s),
           wide(c.largest_acceleration_m_s2),
           wide(c.opening_delay_deg),
-          wide(c.separation_gap_m),
+          wide(c.separation_clearance_m),
           wide(c.separation_start_deg),
           wide(c.separation_duration_deg),
           wide(c.seating_speed_m_s),

@@ -6,6 +6,7 @@
 
 #include <crankloop/tick/step.hpp>
 
+#include "../engine_file/gas_order.hpp"
 #include "../number.hpp"
 #include "../run_limits.hpp"
 #include "../units.hpp"
@@ -40,14 +41,14 @@ void require(const Status& status) {
 }
 
 void require_ticks(double ticks, double tick_s) {
-  if (ticks <= kMostTicks) return;
+  if (ticks <= kMaxTicks) return;
   throw UsageError("that would take " + brief(ticks) + " ticks of " + brief(tick_s * 1e6) + " us, at most " +
-                   brief(kMostTicks) + " are allowed: take a longer --tick-us, fewer --cycles or a higher --rpm");
+                   brief(kMaxTicks) + " are allowed: take a longer --tick-us, fewer --cycles or a higher --rpm");
 }
 
 /// Where a cycle ends, in cam degrees from the start of the lobe: the middle of the base circle, as the tick sees it.
 template <class Real>
-double middle_of_base_circle_deg(const LiftCurve<Real>& curve) {
+double middle_of_base_circle_deg(const detail::LiftCurve<Real>& curve) {
   return (static_cast<double>(curve.segments) + kDegreesPerTurn) / 2;
 }
 
@@ -64,7 +65,9 @@ LoneValve::LoneValve(const EngineFile& file, const std::string& name) : file_{fi
   }
   if (file.has("crank")) {
     definition_.crank = file.definition().crank;
-    if (train_.definition.valve.head_area_m2 > 0) definition_.pressure = file.definition().pressure;
+    // Of an engine that breathes, one valve alone does not know the gas.
+    if (train_.definition.valve.head_area_m2 > 0 && !breathes(file.definition()))
+      definition_.pressure = file.definition().pressure;
   } else {
     definition_.crank = any_crank();
   }
@@ -84,7 +87,7 @@ LoneValve LoneValve::with(const Valve& valve) const {
   return other;
 }
 
-ValveBody<double> LoneValve::body() const noexcept {
+detail::ValveBody<double> LoneValve::body() const noexcept {
   return valve_body(valve(), lift_->lever_m() > 0 ? lift_->lever_m() : 1);
 }
 
@@ -103,7 +106,7 @@ ValveLoop<Real>::ValveLoop(const LoneValve& valve, double tick_s, const ValveMet
       storage_{std::make_shared<Storage>()} {
   const EngineDefinition& definition = valve.definition();
   if (const Status refused = storage_->build(definition, {tick_s, method.stepping}); !refused.ok()) {
-    if (refused.field == std::string("tick.tick")) {
+    if (refused.field == std::string("options.tick_s")) {
       throw tick_too_long(valve.file(), valve.train(), valve.valve(), tick_s, method.stepping);
     }
     throw valve.file().explain({refused.reason, -1, refused.field}, valve.train(), valve.lift().failed_at_deg());
@@ -128,7 +131,7 @@ double ValveLoop<Real>::deg_per_tick(double speed_rpm) const noexcept {
 
 template <class Real>
 void ValveLoop<Real>::start(double speed_rpm, double cam_deg, std::uint64_t ticks) {
-  const Drive<Real>& drive = *tables().drive;
+  const detail::Drive<Real>& drive = *tables().drive;
   input_.speed_rad_s = static_cast<Real>(speed_rpm * kPi / 30);
   if (!(std::abs(input_.speed_rad_s) <= drive.speed_limit_rad_s)) {
     const double limit_rpm = std::floor(static_cast<double>(drive.speed_limit_rad_s) * 30 / kPi);
@@ -175,10 +178,10 @@ template <class Real>
 ValveTickOutput<Real> ValveLoop<Real>::output() const noexcept {
   const double cam_deg = start_cam_deg_ + static_cast<double>(ticks_) * deg_per_tick_;
   if (!is_textbook_) return {cam_deg, engine_.output().valve[0][0], engine_.output().valve_forces[0][0]};
-  const ValveBody<Real>& body = motion().body;
-  const ValveState<Real>& valve = textbook_.valve.state;
-  const Cell cell = LiftCurve<Real>::cell(since_opening(engine_.state().phase));
-  const Lift<Real> cam = curve().read(cell);
+  const detail::ValveBody<Real>& body = motion().body;
+  const detail::ValveState<Real>& valve = textbook_.valve.state;
+  const detail::Cell cell = detail::LiftCurve<Real>::cell(since_opening(engine_.state().phase));
+  const detail::Lift<Real> cam = curve().read(cell);
   const LiftNow<Real> lift{cam.lift_m, cam.per_deg_m * textbook_.cam_deg_s};
   const Contacts<Real> c(body, valve, lift);
   ValveTickOutput<Real> out{};
@@ -189,9 +192,9 @@ ValveTickOutput<Real> ValveLoop<Real>::output() const noexcept {
   out.forces.seat_N = c.seat_force_N();
   out.forces.tip_N = out.forces.train_N - body.rocker_mass_kg * out.motion.acceleration_m_s2;
   const Real ratio =
-      cell.degree < curve().segments ? value(curve().rocker_ratio[cell.degree], fraction<Real>(cell)) : Real{0};
+      cell.degree < curve().segments ? value(curve().rocker_ratio[cell.degree], detail::fraction<Real>(cell)) : Real{0};
   out.forces.cam_N = out.forces.train_N * ratio;
-  out.forces.gap_m = c.gap_m;
+  out.forces.train_compression_m = c.compression_m;
   out.forces.regime = textbook_.valve.regime;
   return out;
 }

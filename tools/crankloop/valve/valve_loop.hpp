@@ -9,10 +9,10 @@
 #include <memory>
 #include <string>
 
+#include <crankloop/engine.hpp>
 #include <crankloop/tabulate/indicator_diagram.hpp>
 #include <crankloop/tabulate/tabulate.hpp>
 #include <crankloop/tabulate/valve_lift.hpp>
-#include <crankloop/engine.hpp>
 
 #include "../engine_file/engine_file.hpp"
 
@@ -42,7 +42,7 @@ class LoneValve {
   [[nodiscard]] const EngineDefinition& definition() const noexcept { return definition_; }
   [[nodiscard]] const Valve& valve() const noexcept { return definition_.trains[0].valve; }
   [[nodiscard]] const ValveLift& lift() const noexcept { return *lift_; }
-  [[nodiscard]] ValveBody<double> body() const noexcept;
+  [[nodiscard]] detail::ValveBody<double> body() const noexcept;
 
   /// Cam angle from full lift of what the tick counts from the start of the lobe.
   [[nodiscard]] double cam_deg(double since_opening_deg) const noexcept;
@@ -86,17 +86,17 @@ class ValveLoop {
   [[nodiscard]] std::uint32_t faults() const noexcept { return faults_; }  ///< of all ticks since the start
 
   [[nodiscard]] double deg_per_tick(double speed_rpm) const noexcept;  ///< cam degrees, with sign
-  [[nodiscard]] const LiftCurve<Real>& curve() const noexcept { return tables().lift_curves[0]; }
-  [[nodiscard]] const ValveMotion<Real>& motion() const noexcept { return tables().valve_motions[0]; }
+  [[nodiscard]] const detail::LiftCurve<Real>& curve() const noexcept { return tables().lift_curves[0]; }
+  [[nodiscard]] const detail::ValveMotion<Real>& motion() const noexcept { return tables().valve_motions[0]; }
 
  private:
   using OneEngine = Engine<Real, OneValve>;
-  using Storage = TableStorage<Real, OneValve, kMostGasSegments>;
+  using Storage = TableStorage<Real, OneValve, kMaxGasSegments>;
 
   /// The textbook's valve, and what the engine would hold for it.
   struct Textbook {
     detail::Placed<Real> valve;
-    ValveRecord<Real> record;
+    detail::ValveRecord<Real> record;
     ValveCycle<Real> cycle;
     Real cam_deg_s;
     Real gas_N;
@@ -128,7 +128,7 @@ using OnValveTick = std::function<void(const ValveTickOutput<Real>&)>;
 
 /// Runs `cycles` cycles from rest. The last goes from -180 to 180 deg of cam angle (backwards from 180 to -180) and is
 /// shown tick by tick, its first at the very start; its results are returned. Throws UsageError where that would take
-/// more than kMostTicks.
+/// more than kMaxTicks.
 template <class Real>
 ValveCycle<Real> run_cycles(ValveLoop<Real>& loop, const LoneValve& valve, double speed_rpm, int cycles,
                             const OnValveTick<Real>& on_tick, const std::function<void()>& after_tick = {});

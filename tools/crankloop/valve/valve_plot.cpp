@@ -42,22 +42,23 @@ constexpr int kTheoryColour = 6;
 struct Shown {
   const std::vector<Tick>& ticks;
   const ValveCycle<double>& cycle;
+  double seat_contact_m;
   std::vector<Contact> contacts{};
   std::size_t seated = 0;  ///< first tick on the seat behind the lobe; ticks.size(): none
   std::size_t rested = 0;  ///< first tick behind that one from which the valve stays closed
 };
 
-/// Without any contact the valve is separated until it has met its seat, and bounces after that and before it opens: the
-/// rule by which the library counts, here without the least height that it asks for.
+/// Without any contact the valve is separated until it has met its seat, and bounces after that and before it opens:
+/// the rule by which the library counts, here without the least height that it asks for.
 Shown shown(const ValveCycleTrace& trace) {
-  Shown s{trace.ticks, trace.cycle};
+  Shown s{trace.ticks, trace.cycle, trace.seat_contact_m};
   s.seated = s.ticks.size();
   bool open = false;
   for (std::size_t i = 0; i < s.ticks.size(); ++i) {
     const Tick& tick = s.ticks[i];
     const bool on_train = (tick.forces.regime & kTrainOn) != 0;
     const bool on_seat = (tick.forces.regime & kSeatOn) != 0;
-    const double opened_m = ValveRecord<double>::kOpened_m;
+    const double opened_m = detail::ValveRecord<double>::kOpened_m;
     if (s.seated == s.ticks.size() && tick.motion.theoretical_lift_m >= opened_m && tick.motion.lift_m >= opened_m)
       open = true;
     if (open && on_seat) open = false, s.seated = i;
@@ -163,7 +164,7 @@ double theory_mm(const Tick& t) { return t.motion.theoretical_lift_m * kMilli; }
 double lift_mm(const Tick& t) { return t.motion.lift_m * kMilli; }
 double theory_um(const Tick& t) { return t.motion.theoretical_lift_m * kMicro; }
 double lift_um(const Tick& t) { return t.motion.lift_m * kMicro; }
-double gap_um(const Tick& t) { return t.forces.gap_m * kMicro; }
+double gap_um(const Tick& t) { return t.forces.train_compression_m * kMicro; }
 double train_kN(const Tick& t) { return t.forces.train_N * kKilo; }
 double seat_kN(const Tick& t) { return t.forces.seat_N * kKilo; }
 
@@ -188,8 +189,8 @@ std::string micrometres(double length_m) { return number_text(length_m * kMicro,
 
 Plot lift_plot(const Shown& s, Part part) {
   Plot plot = plot_over_cam(s, part, "Lift", "Lift", "mm");
-  plot.series.push_back(theory(s, part, theory_mm));
   add_by_contact(plot, s, part, lift_mm);
+  plot.series.push_back(theory(s, part, theory_mm));  // dashes on the valve's curve
   fit_y(plot);
   return plot;
 }
@@ -199,8 +200,8 @@ Plot gap_plot(const Shown& s, Part part) {
   add_by_contact(plot, s, part, gap_um);
   if (s.cycle.separations > 0) {
     mark(
-        plot, s, part, Contact::separated, [](const Tick& t) { return -t.forces.gap_m; }, gap_um,
-        "separation " + micrometres(s.cycle.separation_gap_m));
+        plot, s, part, Contact::separated, [](const Tick& t) { return -t.forces.train_compression_m; }, gap_um,
+        "separation " + micrometres(s.cycle.separation_clearance_m));
   }
   return plot;
 }
@@ -213,14 +214,15 @@ Plot force_plot(const Shown& s, Part part) {
 
 Plot seating_plot(const Shown& s) {
   const Part part = seating_part(s);
-  Plot plot = plot_over_cam(s, part, "Seating, closer", "Lift; below 0 the seat yields", "\u00B5m");
-  plot.series.push_back(theory(s, part, theory_um));
+  Plot plot = plot_over_cam(s, part, "Seating, closer", "Lift above the seat's contact", "\u00B5m");
   add_by_contact(plot, s, part, lift_um);
-  fit_y(plot);
+  plot.series.push_back(theory(s, part, theory_um));
   if (s.cycle.bounces > 0) {
     const Part behind{s.seated, part.to};
     mark(plot, s, behind, Contact::bouncing, lift_um, lift_um, "bounce " + micrometres(s.cycle.bounce_height_m));
   }
+  report::count_from(plot, s.seat_contact_m * kMicro, "seat contact", 5);
+  fit_y(plot);
   return plot;
 }
 
@@ -237,7 +239,7 @@ std::string motion_in_words(const ValveCycle<double>& c) {
 
 std::string flight_in_words(const ValveCycle<double>& c) {
   std::string text = c.separations == 0 ? "No separation" : count(c.separations, "separation");
-  if (c.separations > 0) text += " of up to " + micrometres(c.separation_gap_m);
+  if (c.separations > 0) text += " of up to " + micrometres(c.separation_clearance_m);
   text += ", " + count(c.bounces, "bounce");
   if (c.bounces > 0) text += " of up to " + micrometres(c.bounce_height_m);
   return text + (c.off_seat_at_end != 0 ? "; still off its seat in the middle of the base circle" : "");

@@ -17,6 +17,8 @@ namespace crankloop::program {
 struct ValveCycleTrace {
   std::vector<ValveTickOutput<double>> ticks{};
   ValveCycle<double> cycle{};
+  double seat_contact_m =
+      0;  ///< lift at which the valve meets its seat: closed, its spring presses the seat below that
 };
 
 /// Lift, gap and forces over the cam angle, and a closer look at the seating where the valve does seat.
@@ -30,7 +32,7 @@ template <class Real>
   const ValveForcesOutput<Real>& f = out.forces;
   return {out.cam_deg,
           {wide(m.theoretical_lift_m), wide(m.lift_m), wide(m.velocity_m_s), wide(m.acceleration_m_s2)},
-          {wide(f.train_N), wide(f.seat_N), wide(f.tip_N), wide(f.cam_N), wide(f.gap_m), f.regime}};
+          {wide(f.train_N), wide(f.seat_N), wide(f.tip_N), wide(f.cam_N), wide(f.train_compression_m), f.regime}};
 }
 
 }  // namespace crankloop::program

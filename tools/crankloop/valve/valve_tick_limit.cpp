@@ -14,7 +14,9 @@
 namespace crankloop::program {
 namespace {
 
-ValveBody<double> body_of(const Valve& valve, const ValveLift& lift) {
+constexpr double kLongestTick_s = 2e-3;  // of any engine
+
+detail::ValveBody<double> body_of(const Valve& valve, const ValveLift& lift) {
   return valve_body(valve, lift.lever_m() > 0 ? lift.lever_m() : 1);
 }
 
@@ -29,7 +31,7 @@ InputError tick_too_long(const EngineFile& file, const TrainOfFile& train, const
   const double longest_us =
       std::floor(longest_tick_s(body_of(valve, *lift), stepping) * 1e7) / 10;  // down, so that it is accepted
   return InputError(file.path() + ": a tick of " + brief(tick_s * 1e6) + " us would take more than " +
-                    std::to_string(kMostFineSteps) + " steps of the valve train " + train.name + " at an accuracy of " +
+                    std::to_string(kMaxFineSteps) + " steps of the valve train " + train.name + " at an accuracy of " +
                     brief(stepping.accuracy_m * 1e6) + " um; the longest tick possible is " + brief(longest_us) +
                     " us");
 }
@@ -54,27 +56,32 @@ std::vector<std::string> ticks_in_words(const EngineFile& file) {
     if (!train.complete()) continue;
     const auto lift = std::make_unique<ValveLift>();
     if (!lift->init(train.definition.cam, train.definition.rocker).ok()) continue;
-    const ValveBody<double> body = body_of(train.definition.valve, *lift);
+    const detail::ValveBody<double> body = body_of(train.definition.valve, *lift);
     const double longest_us = std::floor(longest_tick_s(body, {}) * 1e6);
     std::string line = "a valve of train " + train.name + " takes ";
-    if (ValveMotion<double> motion; motion_of(body, kUsualTick_s, {}, motion).ok()) {
+    if (detail::ValveMotion<double> motion; motion_of(body, kUsualTick_s, {}, motion).ok()) {
       line += std::to_string(motion.parts) + (motion.parts == 1 ? " step" : " fine steps") + " in the worst tick of " +
               brief(kUsualTick_s * 1e6) + " us; ";
     }
-    lines.push_back(line + std::to_string(kMostFineSteps) + " is the most, in a tick of " + brief(longest_us) + " us");
+    if (longest_us < kLongestTick_s * 1e6) {
+      line += std::to_string(kMaxFineSteps) + " is the most, in a tick of " + brief(longest_us) + " us";
+    } else {
+      line += "no tick is too long for it";
+    }
+    lines.push_back(line);
   }
   return lines;
 }
 
 double longest_tick_of(const EngineDefinition& definition) {
-  double longest_s = 2e-3;
+  double longest_s = kLongestTick_s;
   const auto lift = std::make_unique<ValveLift>();
   for (int t = 0; t < definition.train_count; ++t) {
     const ValveTrain& train = definition.trains[t];
     if (!lift->init(train.cam, train.rocker).ok()) continue;
     const double of_valve_s = longest_tick_s(body_of(train.valve, *lift), {});
     const double valves = definition.train_count * definition.layout.cylinders;
-    longest_s = std::min({longest_s, of_valve_s, of_valve_s * (kMostFineStepsOfEngine / valves - 1) / kMostFineSteps});
+    longest_s = std::min({longest_s, of_valve_s, of_valve_s * (kMaxFineStepsOfEngine / valves - 1) / kMaxFineSteps});
   }
   return longest_s;
 }
@@ -84,12 +91,12 @@ InputError explain_tabulate(const EngineFile& file, const Status& refused, doubl
   int number = 0;
   for (const TrainOfFile& train : file.trains()) {
     if (!train.complete() || number++ != refused.index) continue;
-    if (refused.field == std::string_view("tick.tick")) {
+    if (refused.field == std::string_view("options.tick_s")) {
       const auto own = std::make_unique<ValveLift>();
       if (own->init(train.definition.cam, train.definition.rocker).ok() &&
           tick_s <= longest_tick_s(body_of(train.definition.valve, *own), stepping)) {
         return InputError(file.path() + ": a tick of " + brief(tick_s * 1e6) + " us would take more than " +
-                          std::to_string(kMostFineStepsOfEngine) + " steps of all valves together: take a shorter one");
+                          std::to_string(kMaxFineStepsOfEngine) + " steps of all valves together: take a shorter one");
       }
       return tick_too_long(file, train, train.definition.valve, tick_s, stepping);
     }

@@ -1,7 +1,7 @@
 // A whole engine's tick as plain code: what ratios are told against.
 //
-// What belongs here: what such an engine is given and gives. What does not: its code (baseline.inl), timing (tick.cpp). No header of
-// crankloop's: see plain_valve.hpp.
+// What belongs here: what such an engine is given and gives. What does not: its code (baseline.inl), timing (tick.cpp).
+// No header of crankloop's: see plain_valve.hpp.
 #pragma once
 
 #include <cstdint>
@@ -48,7 +48,7 @@ class PlainEngine {
   std::vector<PlainPiston<Real>> pistons;  ///< outputs of the last tick
   std::vector<PlainValve<Real>> valves;    ///< [cylinder * trains + train]
   Real torque_Nm = 0;
-  std::uint64_t phase = 0;                 ///< after it; 2^64 are 720 deg
+  std::uint64_t phase = 0;  ///< after it; 2^64 are 720 deg
 };
 
 /// Compiled with the flags of the rest.
@@ -56,6 +56,7 @@ template <class Real>
 [[nodiscard]] std::unique_ptr<PlainEngine<Real>> plain_engine(PlainPistons pistons, const PlainEngineData& data);
 /// Compiled without the flags that keep the library's bits: what the plain code would gain.
 template <class Real>
-[[nodiscard]] std::unique_ptr<PlainEngine<Real>> plain_engine_of_usual_flags(PlainPistons pistons, const PlainEngineData& data);
+[[nodiscard]] std::unique_ptr<PlainEngine<Real>> plain_engine_of_usual_flags(PlainPistons pistons,
+                                                                             const PlainEngineData& data);
 
 }  // namespace crankloop::program::bench

@@ -1,8 +1,9 @@
 // The plain engine's code: included by baseline.cpp and baseline_usual_flags.cpp, which differ in their flags.
 //
-// What belongs here: piston motion by the mathematics library or by linear tables, torque, and every valve by one textbook Runge-Kutta step per
-// tick with the cam's lift from a linear table. Written plainly and well: the angle is counted in an integer, the table look-ups are one
-// multiplication, what a step needs of the one before is kept, and nothing is computed twice.
+// What belongs here: piston motion by the mathematics library or by linear tables, torque, and every valve by one
+// textbook Runge-Kutta step per tick with the cam's lift from a linear table. Written plainly and well: the angle is
+// counted in an integer, the table look-ups are one multiplication, what a step needs of the one before is kept, and
+// nothing is computed twice.
 #include "baseline.hpp"
 
 #include <array>
@@ -43,7 +44,8 @@ class LinearPistons {
     for (std::size_t i = 0; i <= 360; ++i) {
       const auto degree = static_cast<std::uint64_t>(static_cast<double>(i % 360) / 720 * 0x1p64);
       const PlainPiston<double> p = exact.at<double>(degree);
-      at_[i] = {static_cast<Real>(p.displacement_m), static_cast<Real>(p.velocity_m_s), static_cast<Real>(p.acceleration_m_s2)};
+      at_[i] = {static_cast<Real>(p.displacement_m), static_cast<Real>(p.velocity_m_s),
+                static_cast<Real>(p.acceleration_m_s2)};
     }
   }
 
@@ -52,8 +54,10 @@ class LinearPistons {
     const std::uint64_t product = std::uint64_t{static_cast<std::uint32_t>(phase >> 31)} * 360;
     const PlainPiston<Real>& from = at_[product >> 32];
     const PlainPiston<Real>& to = at_[(product >> 32) + 1];
-    const Real u = static_cast<Real>(static_cast<std::int32_t>(static_cast<std::uint32_t>(product) >> 8)) * static_cast<Real>(0x1p-24);
-    return {from.displacement_m + u * (to.displacement_m - from.displacement_m), from.velocity_m_s + u * (to.velocity_m_s - from.velocity_m_s),
+    const Real u = static_cast<Real>(static_cast<std::int32_t>(static_cast<std::uint32_t>(product) >> 8)) *
+                   static_cast<Real>(0x1p-24);
+    return {from.displacement_m + u * (to.displacement_m - from.displacement_m),
+            from.velocity_m_s + u * (to.velocity_m_s - from.velocity_m_s),
             from.acceleration_m_s2 + u * (to.acceleration_m_s2 - from.acceleration_m_s2)};
   }
 
@@ -65,15 +69,18 @@ template <class Real>
 class LinearLift {
  public:
   explicit LinearLift(const PlainEngineData& d) {
-    for (std::size_t i = 0; i <= 360; ++i) at_[i] = {static_cast<Real>(d.lift_m[i]), static_cast<Real>(d.lift_per_deg_m[i])};
+    for (std::size_t i = 0; i <= 360; ++i)
+      at_[i] = {static_cast<Real>(d.lift_m[i]), static_cast<Real>(d.lift_per_deg_m[i])};
   }
 
   BENCH_INLINE PlainCam<Real> at(std::uint64_t since_opening, Real deg_per_s) const noexcept {
     const std::uint64_t product = (since_opening >> 32) * 360;
     const PlainCam<Real>& from = at_[product >> 32];
     const PlainCam<Real>& to = at_[(product >> 32) + 1];
-    const Real u = static_cast<Real>(static_cast<std::int32_t>(static_cast<std::uint32_t>(product) >> 8)) * static_cast<Real>(0x1p-24);
-    return {from.lift_m + u * (to.lift_m - from.lift_m), (from.speed_m_s + u * (to.speed_m_s - from.speed_m_s)) * deg_per_s};
+    const Real u = static_cast<Real>(static_cast<std::int32_t>(static_cast<std::uint32_t>(product) >> 8)) *
+                   static_cast<Real>(0x1p-24);
+    return {from.lift_m + u * (to.lift_m - from.lift_m),
+            (from.speed_m_s + u * (to.speed_m_s - from.speed_m_s)) * deg_per_s};
   }
 
  private:
@@ -106,7 +113,8 @@ class PlainEngineOf final : public PlainEngine<Real> {
         Moving& moving = states_[k * opens_.size() + t];
         const PlainCam<Real> cam = lift_.at(this->phase - firing_[k] - opens_[t], cam_deg_per_s_);
         moving.valve = {cam.lift_m > 0 ? cam.lift_m : Real{0}, cam.lift_m > 0 ? cam.speed_m_s : Real{0}};
-        moving.acceleration_m_s2 = plain_acceleration(valve_, per_mass_, moving.valve.lift_m, moving.valve.velocity_m_s, cam);
+        moving.acceleration_m_s2 =
+            plain_acceleration(valve_, per_mass_, moving.valve.lift_m, moving.valve.velocity_m_s, cam);
       }
     }
   }
@@ -140,10 +148,13 @@ class PlainEngineOf final : public PlainEngine<Real> {
   BENCH_INLINE void step_valve(std::uint64_t from, Moving& moving, PlainValve<Real>& out) const noexcept {
     const PlainCam<Real> middle = lift_.at(from + increment_ / 2, cam_deg_per_s_);
     const PlainCam<Real> end = lift_.at(from + increment_, cam_deg_per_s_);
-    const auto f = [this](Real y, Real v, PlainCam<Real> cam) { return plain_acceleration(valve_, per_mass_, y, v, cam); };
+    const auto f = [this](Real y, Real v, PlainCam<Real> cam) {
+      return plain_acceleration(valve_, per_mass_, y, v, cam);
+    };
     moving.valve = textbook_step(f, tick_s_, moving.valve, moving.acceleration_m_s2, middle, end);
     moving.acceleration_m_s2 = f(moving.valve.lift_m, moving.valve.velocity_m_s, end);
-    out = {end.lift_m > 0 ? end.lift_m : Real{0}, moving.valve.lift_m, moving.valve.velocity_m_s, moving.acceleration_m_s2};
+    out = {end.lift_m > 0 ? end.lift_m : Real{0}, moving.valve.lift_m, moving.valve.velocity_m_s,
+           moving.acceleration_m_s2};
   }
 
   /// 2^64 units are 720 deg.

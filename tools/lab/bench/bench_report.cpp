@@ -35,7 +35,8 @@ std::string with_signs(std::string text) {
   const std::pair<const char*, const char*> signs[] = {{" us", " \u00B5s"}, {" um", " \u00B5m"}, {"^2", "\u00B2"}};
   for (const auto& [plain, sign] : signs) {
     const std::string from = plain;
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + 1)) text.replace(at, from.size(), sign);
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + 1))
+      text.replace(at, from.size(), sign);
   }
   return text;
 }
@@ -51,14 +52,15 @@ Rows where(const Rows& rows, const std::function<bool(const Row&)>& wanted) {
   return some;
 }
 
-// ---- work and precision -----------------------------------------------------------------------------------------------------
+// ---- work and precision ---------------------------------------------------------------------------------------------
 
 constexpr const char* kLibm = "libm";
 constexpr const char* kHigherDegrees = "degree 3 to 5";
 /// Else what stands together is not a line.
 bool is_one_method(const std::string& name) { return name != kLibm && name != kHigherDegrees; }
 
-/// One line per method in the order of its settings, and the front. `line_of` names the line of a row, "" leaves it out.
+/// One line per method in the order of its settings, and the front. `line_of` names the line of a row, "" leaves it
+/// out.
 Plot work_precision(const std::string& title, const Rows& rows, const Axis& time, double per_ns, const Axis& error,
                     const std::function<std::string(const Row&)>& line_of) {
   Plot plot = plot_of(title, time, error);
@@ -94,7 +96,8 @@ std::string polynomial_line(const Row& row) {
 }
 
 Plot kinematics_plot(const Rows& rows, const char* real) {
-  Plot plot = work_precision(std::string("Piston motion in ") + real, where(rows, [&](const Row& r) { return r.group == "kinematics" && r.real == real; }),
+  Plot plot = work_precision(std::string("Piston motion in ") + real,
+                             where(rows, [&](const Row& r) { return r.group == "kinematics" && r.real == real; }),
                              axis("Time", "ns", true), 1, axis("Largest error", "", true), polynomial_line);
   plot.caption = *real == 'd' ? "libm: by asin, and by sin, cos and sqrt." : "libm: sinf, cosf, sqrtf.";
   return plot;
@@ -102,10 +105,12 @@ Plot kinematics_plot(const Rows& rows, const char* real) {
 
 Section kinematics_section(const Rows& rows) {
   Section section{"kinematics", "Displacement, velocity, acceleration", {}};
-  section.blocks.push_back(Paragraph{
-      "One evaluation of all three at a random crank angle. The error is the largest of the three, relative to r, r w and r w\u00B2. A line joins "
-      "the settings of a method: widths of the table's segments. Down and left is better; the dashed line is the Pareto front, the settings that "
-      "no other beats in both."});
+  section.blocks.push_back(
+      Paragraph{"One evaluation of all three at a random crank angle. The error is the largest of the three, relative "
+                "to r, r w and r w\u00B2. A line joins "
+                "the settings of a method: widths of the table's segments. Down and left is better; the dashed line is "
+                "the Pareto front, the settings that "
+                "no other beats in both."});
   for (const char* real : {"float", "double"}) section.blocks.push_back(kinematics_plot(rows, real));
   return section;
 }
@@ -120,41 +125,61 @@ struct ValveSpeed {
   double rpm;
   const char* what;
 };
-constexpr ValveSpeed kValveSpeeds[] = {{kSmooth_rpm, "gentle contacts"}, {kSwitching_rpm, "hard contacts"}, {kBouncing_rpm, "float and bounce"}};
+constexpr ValveSpeed kValveSpeeds[] = {
+    {kSmooth_rpm, "gentle contacts"}, {kSwitching_rpm, "hard contacts"}, {kBouncing_rpm, "float and bounce"}};
 
 Plot valve_plot(const Rows& rows, const ValveSpeed& speed, const char* real) {
   const std::string start = brief(speed.rpm) + " rpm, ";
-  return work_precision(brief(speed.rpm) + " rpm, " + speed.what + ", in " + real,
-                        where(rows, [&](const Row& r) { return r.group == "valve" && r.real == real && starts_with(r.setting, start); }),
-                        axis("Time of a cam cycle", "\u00B5s", true), 1e-3, axis("Largest error of lift", "\u00B5m", true), method_line);
+  return work_precision(
+      brief(speed.rpm) + " rpm, " + speed.what + ", in " + real,
+      where(rows, [&](const Row& r) { return r.group == "valve" && r.real == real && starts_with(r.setting, start); }),
+      axis("Time of a cam cycle", "\u00B5s", true), 1e-3, axis("Largest error of lift", "\u00B5m", true), method_line);
 }
 
 Section valve_section(const Rows& rows) {
   Section section{"valve", "One elastic valve", {}};
-  section.blocks.push_back(Paragraph{
-      "A whole turn of the cam, the look-up of its lift included, against the true motion. The error is the largest of the lift, the worst of six shifts "
-      "of the ticks against the cam. A line joins a method's steps or ticks, from 1 \u00B5s on the right to the last that is stable. The library's finest "
-      "steps do not grow with its tick: its longest are as exact as its shortest."});
+  section.blocks.push_back(
+      Paragraph{"A whole turn of the cam, the look-up of its lift included, against the true motion. The error is the "
+                "largest of the lift, the worst of six shifts "
+                "of the ticks against the cam. A line joins a method's steps or ticks, from 1 \u00B5s on the right to "
+                "the last that is stable. The library's finest "
+                "steps do not grow with its tick: its longest are as exact as its shortest."});
   for (const ValveSpeed& speed : kValveSpeeds) {
     for (const char* real : {"float", "double"}) section.blocks.push_back(valve_plot(rows, speed, real));
   }
   return section;
 }
 
-// ---- whole ticks ------------------------------------------------------------------------------------------------------------
+// ---- whole ticks ----------------------------------------------------------------------------------------------------
 
 std::string time_text(const Row& row) { return digits(row.ns_median) + " \u00B1 " + digits(row.ns_spread / 2, 2); }
 
+constexpr const char* kFourCylinders = "Four cylinders, 6000 rpm, 20 \u00B5s";
+
+/// "8 valves" of "4 cylinders, 8 valves, 6000 rpm, 20 us".
+std::string valves_text(const Row& row) {
+  const std::size_t from = row.setting.find(", ") + 2;
+  return row.setting.substr(from, row.setting.find(", ", from) - from);
+}
+
 /// Mean and, where it was measured, the distribution of each row that stands for a mean.
-Table distribution_table(const Rows& ticks) {
-  Table table{"Ticks of 20 \u00B5s",
-              {{"Contestant", "", false}, {"Real", "", false}, {"Engine", "", false}, {"Mean", "ns"}, {"Median", "ns"}, {"99.9 %", "ns"}, {"Worst", "ns"},
+Table distribution_table(const char* caption, const char* engine, std::string (*engine_text)(const Row&),
+                         const Rows& ticks) {
+  Table table{caption,
+              {{"Contestant", "", false},
+               {"Real", "", false},
+               {engine, "", false},
+               {"Mean", "ns"},
+               {"Median", "ns"},
+               {"99.9 %", "ns"},
+               {"Worst", "ns"},
                {"Error", "", false}},
               {},
               false};
   for (std::size_t i = 0; i + 3 < ticks.size(); i += 4) {
     const Row& mean = ticks[i];
-    table.rows.push_back({mean.contestant, mean.real, with_signs(mean.setting), time_text(mean), digits(ticks[i + 1].ns_median), digits(ticks[i + 2].ns_median),
+    table.rows.push_back({mean.contestant, mean.real, engine_text(mean), time_text(mean),
+                          digits(ticks[i + 1].ns_median), digits(ticks[i + 2].ns_median),
                           digits(ticks[i + 3].ns_median), error_text(mean)});
   }
   return table;
@@ -173,7 +198,9 @@ EngineSetting parsed(const std::string& setting) {
 }
 
 Plot cylinders_plot(const Rows& rows, const char* which, double rpm) {
-  Plot plot = plot_of((*which == '\0' ? std::string("Mean tick") : std::string("Worst tick")) + " at " + brief(rpm) + " rpm", axis("Cylinders", "", false), axis("Time", "ns", false));
+  Plot plot =
+      plot_of((*which == '\0' ? std::string("Mean tick") : std::string("Worst tick")) + " at " + brief(rpm) + " rpm",
+              axis("Cylinders", "", false), axis("Time", "ns", false));
   plot.y.include_zero = true;
   std::map<int, Series> by_valves;
   for (const Row& row : rows) {
@@ -193,19 +220,26 @@ Plot cylinders_plot(const Rows& rows, const char* which, double rpm) {
 
 Section tick_section(const Rows& rows) {
   Section section{"ticks", "Whole ticks", {}};
-  section.blocks.push_back(Paragraph{
-      "Motion of every piston, torque of given pressures, motion of every elastic valve. The plain engines give the same outputs by one textbook "
-      "step per tick and valve; \"usual flags\" are those without the library's promise of equal bits. Median, 99.9 % and worst are over the ticks of a cycle, each "
-      "timed by itself many times, which keeps the processor from overlapping it with its neighbours: they exceed the mean also where all ticks are alike."});
   section.blocks.push_back(
-      distribution_table(where(rows, [](const Row& r) { return r.group == "tick" && !starts_with(r.contestant, "library, any engine"); })));
-  const Rows any = where(rows, [](const Row& r) { return r.group == "tick" && starts_with(r.contestant, "library, any engine"); });
+      Paragraph{"Motion of every piston, torque of given pressures, motion of every elastic valve. The plain engines "
+                "give the same outputs by one textbook "
+                "step per tick and valve; \"usual flags\" are those without the library's promise of equal bits. "
+                "Median, 99.9 % and worst are over the ticks of a cycle, each "
+                "timed by itself many times, which keeps the processor from overlapping it with its neighbours: they "
+                "exceed the mean also where all ticks are alike."});
+  section.blocks.push_back(distribution_table(kFourCylinders, "Valves", valves_text, where(rows, [](const Row& r) {
+                                                return r.group == "tick" &&
+                                                       !starts_with(r.contestant, "library, any engine");
+                                              })));
+  const Rows any =
+      where(rows, [](const Row& r) { return r.group == "tick" && starts_with(r.contestant, "library, any engine"); });
   for (const double rpm : {kIdle_rpm, kRated_rpm, kRedline_rpm}) {
     section.blocks.push_back(cylinders_plot(any, "", rpm));
     section.blocks.push_back(cylinders_plot(any, ", worst tick", rpm));
   }
-  Table all = distribution_table(any);
-  all.caption = "Any number of cylinders and valves, as the figures above show it";
+  Table all = distribution_table(
+      "Any number of cylinders and valves, as the figures above show it", "Engine",
+      [](const Row& row) { return with_signs(row.setting); }, any);
   all.folded = true;
   section.blocks.push_back(std::move(all));
   return section;
@@ -213,7 +247,8 @@ Section tick_section(const Rows& rows) {
 
 Section growth_section(const Rows& rows) {
   Section section{"growth", "Longer ticks", {}};
-  Plot plot = plot_of("Time of a tick over its length, 6000 rpm", axis("Tick", "\u00B5s", true), axis("Time", "ns", true));
+  Plot plot =
+      plot_of("Time of a tick over its length, 6000 rpm", axis("Tick", "\u00B5s", true), axis("Time", "ns", true));
   for (const char* name : {"located RK4", "located exponential", "one valve held by its train"}) {
     Series line;
     line.name = *name == 'o' ? name : std::string("8 valves, ") + name;
@@ -233,41 +268,50 @@ Section growth_section(const Rows& rows) {
 
 Section skip_section(const Rows& rows) {
   Section section{"skips", "What is left out costs nothing", {}};
-  Table table{"Four cylinders, 6000 rpm, 20 \u00B5s, float", {{"Scene", "", false}, {"Valves", "", false}, {"Tick", "ns"}, {"Error", "", false}}, {}, false};
+  Table table{kFourCylinders + std::string(", float"),
+              {{"Scene", "", false}, {"Valves", "", false}, {"Tick", "ns"}, {"Error", "", false}},
+              {},
+              false};
   for (const Row& row : rows) {
     if (row.group != "skips") continue;
-    const std::size_t from = row.setting.find(", ") + 2;
-    table.rows.push_back({row.contestant, row.setting.substr(from, row.setting.find(", ", from) - from), time_text(row),
+    table.rows.push_back({row.contestant, valves_text(row), time_text(row), error_text(row)});
+  }
+  section.blocks.push_back(std::move(table));
+  return section;
+}
+
+// ---- goals and rows -------------------------------------------------------------------------------------------------
+
+Section goal_section(const Rows& rows) {
+  Section section{"goals", "Asked and reached", {}};
+  Table table{"Ratios in this process, float",
+              {{"What", "", false},
+               {"Asked", ""},
+               {"Reached", ""},
+               {"Met", "", false},
+               {"Setting", "", false},
+               {"Error of it", "", false}},
+              {},
+              false};
+  for (const Row& row : rows) {
+    if (!row.goal) continue;
+    table.rows.push_back({row.contestant, (row.goal->at_least ? "\u2265 " : "\u2264 ") + digits(row.goal->asked),
+                          digits(row.goal->reached), row.goal->met() ? "yes" : "no", with_signs(row.setting),
                           error_text(row)});
   }
   section.blocks.push_back(std::move(table));
   return section;
 }
 
-// ---- goals and rows ---------------------------------------------------------------------------------------------------------
-
-Section goal_section(const Rows& rows) {
-  Section section{"goals", "Asked and reached", {}};
-  Table table{"Ratios in this process, float",
-              {{"What", "", false}, {"Asked", ""}, {"Reached", ""}, {"Met", "", false}, {"Setting", "", false}, {"Error of it", "", false}},
-              {},
-              false};
-  for (const Row& row : rows) {
-    if (!row.goal) continue;
-    table.rows.push_back({row.contestant, (row.goal->at_least ? "\u2265 " : "\u2264 ") + digits(row.goal->asked), digits(row.goal->reached),
-                          row.goal->met() ? "yes" : "no", with_signs(row.setting), error_text(row)});
-  }
-  section.blocks.push_back(std::move(table));
-  return section;
-}
-
 Table all_rows(const Rows& rows, const char* group, const char* caption) {
-  Table table{caption,
-              {{"Contestant", "", false}, {"Real", "", false}, {"Setting", "", false}, {"Time", "ns"}, {"Error", "", false}},
-              {},
-              true};
+  Table table{
+      caption,
+      {{"Contestant", "", false}, {"Real", "", false}, {"Setting", "", false}, {"Time", "ns"}, {"Error", "", false}},
+      {},
+      true};
   for (const Row& row : rows) {
-    if (row.group == group) table.rows.push_back({row.contestant, row.real, with_signs(row.setting), time_text(row), error_text(row)});
+    if (row.group == group)
+      table.rows.push_back({row.contestant, row.real, with_signs(row.setting), time_text(row), error_text(row)});
   }
   return table;
 }
@@ -304,18 +348,24 @@ report::Page bench_page(const std::vector<Row>& rows, const std::string& machine
   const Row& eight = find(rows, "tick", "library", "float", "4 cylinders, 8 valves, 6000 rpm, 20 us");
   const Row& motion = find(rows, "kinematics", "library", "float", "1 deg");
   const Row& valve = find(rows, "valve", "located exponential", "float", "12000 rpm, 10 us");
-  page.facts = {{"Four cylinders, 8 elastic valves", digits(eight.ns_median), "ns", "a tick of 20 \u00B5s; lift within " + digits(eight.error) + " \u00B5m"},
+  page.facts = {{"Four cylinders, 8 elastic valves", digits(eight.ns_median), "ns",
+                 "a tick of 20 \u00B5s; lift within " + digits(eight.error) + " \u00B5m"},
                 {"Piston motion", digits(motion.ns_median), "ns", "x, v and a; within " + digits(motion.error)},
-                {"A bouncing valve's cycle", digits(valve.ns_median * 1e-3), "\u00B5s", "lift within " + digits(valve.error) + " \u00B5m"},
+                {"A bouncing valve's cycle", digits(valve.ns_median * 1e-3), "\u00B5s",
+                 "lift within " + digits(valve.error) + " \u00B5m"},
                 {"Goals met", std::to_string(met) + " of " + std::to_string(goals.size()), "", "see below"}};
-  page.sections = {goal_section(rows), kinematics_section(rows), valve_section(rows), tick_section(rows), growth_section(rows), skip_section(rows)};
+  page.sections = {kinematics_section(rows), valve_section(rows), tick_section(rows), growth_section(rows),
+                   skip_section(rows)};
   Section all{"rows", "All rows", {}};
-  all.blocks.push_back(Paragraph{"Command: " + command_line + ". Medians over rounds in which all contestants took turns; \u00B1 half the distance between the quartiles. "
-                                 "A time without a number is one that was not measured."});
+  all.blocks.push_back(Paragraph{
+      "Command: " + command_line +
+      ". Medians over rounds in which all contestants took turns; \u00B1 half the distance between the quartiles. "
+      "A time without a number is one that was not measured."});
   all.blocks.push_back(all_rows(rows, "kinematics", "Piston motion"));
   all.blocks.push_back(all_rows(rows, "valve", "One elastic valve"));
   all.blocks.push_back(all_rows(rows, "growth", "Longer ticks"));
   page.sections.push_back(std::move(all));
+  page.sections.push_back(goal_section(rows));
   page.footer = "Made by crankloop bench on " + machine + ".";
   return page;
 }

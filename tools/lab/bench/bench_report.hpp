@@ -12,7 +12,8 @@
 
 namespace crankloop::program::bench {
 
-[[nodiscard]] report::Page bench_page(const std::vector<Row>& rows, const std::string& machine, const std::string& command_line);
+[[nodiscard]] report::Page bench_page(const std::vector<Row>& rows, const std::string& machine,
+                                      const std::string& command_line);
 
 /// The work-precision diagrams alone, as a picture.
 [[nodiscard]] report::Sheet bench_sheet(const std::vector<Row>& rows, const std::string& machine);

@@ -10,12 +10,18 @@ namespace {
 
 std::vector<int> firing_order(int cylinders) {
   switch (cylinders) {
-    case 1: return {1};
-    case 4: return {1, 3, 4, 2};
-    case 6: return {1, 5, 3, 6, 2, 4};
-    case 8: return {1, 8, 4, 3, 6, 5, 7, 2};
-    case 12: return {1, 7, 5, 11, 3, 9, 6, 12, 2, 8, 4, 10};
-    default: throw std::logic_error("no firing order for that many cylinders");
+    case 1:
+      return {1};
+    case 4:
+      return {1, 3, 4, 2};
+    case 6:
+      return {1, 5, 3, 6, 2, 4};
+    case 8:
+      return {1, 8, 4, 3, 6, 5, 7, 2};
+    case 12:
+      return {1, 7, 5, 11, 3, 9, 6, 12, 2, 8, 4, 10};
+    default:
+      throw std::logic_error("no firing order for that many cylinders");
   }
 }
 
@@ -59,7 +65,8 @@ EngineDefinition engine_of(int cylinders, int trains) {
   engine.masses.rod_big_end_kg = 0.110;
   engine.masses.crank_inertia_kg_m2 = 0.003;
   const std::vector<int> order = firing_order(cylinders);
-  if (!set_firing_order(order.data(), cylinders, engine.layout).ok()) throw std::logic_error("a firing order was refused");
+  if (!set_firing_order(order.data(), cylinders, engine.layout).ok())
+    throw std::logic_error("a firing order was refused");
   for (int k = 0; k < cylinders; ++k) engine.layout.position_m[static_cast<std::size_t>(k)] = 0.07 * k;
   engine.train_count = trains;
   const double full_lift_deg[] = {470, 250, 474, 254};

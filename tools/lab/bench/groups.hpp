@@ -1,4 +1,5 @@
-// The groups of the benchmark. To add one: a file with a function that returns its rows, named here and called by bench.cpp.
+// The groups of the benchmark. To add one: a file with a function that returns its rows, named here and called by
+// bench.cpp.
 #pragma once
 
 #include <functional>
@@ -12,7 +13,8 @@ namespace crankloop::program::bench {
 /// Displacement, velocity and acceleration of a piston: formulas and tables.
 [[nodiscard]] std::vector<Row> kinematics_rows(const Effort& effort);
 
-/// Speeds of the 125's valve: six gentle contact changes a cycle; ten, hard, with hops on the seat; float and high bounces.
+/// Speeds of the 125's valve: six gentle contact changes a cycle; ten, hard, with hops on the seat; float and high
+/// bounces.
 inline constexpr double kSmooth_rpm = 2000;
 inline constexpr double kSwitching_rpm = 7000;
 inline constexpr double kBouncing_rpm = 12000;
@@ -25,12 +27,16 @@ inline constexpr double kIdle_rpm = 800;
 inline constexpr double kRated_rpm = 6000;
 inline constexpr double kRedline_rpm = 7500;
 
-/// Whole ticks of the library and of plain code, mean, median, 99.9 % and worst; engines of 1 to 12 cylinders with 0 to 4 valves each.
+/// Whole ticks of the library and of plain code, mean, median, 99.9 % and worst; engines of 1 to 12 cylinders with 0 to
+/// 4 valves each.
 [[nodiscard]] std::vector<Row> tick_rows(const Effort& effort);
 /// The same engine in longer ticks: what sub-steps cost.
 [[nodiscard]] std::vector<Row> growth_rows(const Effort& effort);
 /// The same engine asked for more and more: what it saves to leave something out.
 [[nodiscard]] std::vector<Row> skip_rows(const Effort& effort);
+
+/// Races of all groups together, for the progress that is told.
+inline constexpr int kRaces = 9;
 
 /// What was asked of the library against what the rows of all groups say.
 [[nodiscard]] std::vector<Row> ratio_rows(const std::vector<Row>& rows);

@@ -1,4 +1,5 @@
-// Single contestants of the benchmark without a clock, for an instruction counter: `crankloop bench --kernel NAME --ticks N`.
+// Single contestants of the benchmark without a clock, for an instruction counter: `crankloop bench --kernel NAME
+// --ticks N`.
 //
 // What belongs here: what stands under the gate of tests/contract/bench. What does not: timing, errors.
 #pragma once

@@ -11,7 +11,7 @@
 namespace crankloop::program::bench {
 namespace {
 
-constexpr std::size_t kPhases = 4096;      // their table and the largest method's fit into the second-level cache
+constexpr std::size_t kPhases = 4096;  // their table and the largest method's fit into the second-level cache
 constexpr std::size_t kErrorPhases = 200000;
 
 /// splitmix64: phases without a pattern, the same in every run.
@@ -64,7 +64,8 @@ class Group {
 
   [[nodiscard]] std::vector<Row> run(const Effort& effort) {
     const std::vector<Timing> timings = race(contestants_, effort);
-    for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].ns_median = timings[i].median_ns, rows_[i].ns_spread = timings[i].spread_ns;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      rows_[i].ns_median = timings[i].median_ns, rows_[i].ns_spread = timings[i].spread_ns;
     return std::move(rows_);
   }
 
@@ -76,7 +77,8 @@ class Group {
     for (const Known& known : known_) {
       const auto m = method.at(known.phase);
       largest = std::max({largest, std::fabs(static_cast<long double>(m.x) - known.motion.x),
-                          std::fabs(static_cast<long double>(m.v) - known.motion.v), std::fabs(static_cast<long double>(m.a) - known.motion.a)});
+                          std::fabs(static_cast<long double>(m.v) - known.motion.v),
+                          std::fabs(static_cast<long double>(m.a) - known.motion.a)});
     }
     return static_cast<double>(largest / static_cast<long double>(crank_.crank_radius_m));
   }

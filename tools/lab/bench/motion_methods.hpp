@@ -1,11 +1,12 @@
 // Ways to a piston's displacement, velocity and acceleration from a crank phase: formulas, and tables of all kinds.
 //
-// What belongs here: the contestants' code, each as one would write it who wants it quick. What does not: timing and errors (kinematics.cpp).
-// A pin offset is left out in all of them, as numbers of other authors leave it out. Derivatives are by the crank angle; the speed enters at
-// the end, alike for all.
+// What belongs here: the contestants' code, each as one would write it who wants it quick. What does not: timing and
+// errors (kinematics.cpp). A pin offset is left out in all of them, as numbers of other authors leave it out.
+// Derivatives are by the crank angle; the speed enters at the end, alike for all.
 //
 //     s = sin a, c = cos a, q = cos b = sqrt(1 - (lambda s)^2), lambda = r / l
-//     x = r (1 - c) + l (1 - q),  dx/da = r (s + lambda s c / q),  d2x/da2 = r (c + lambda (c^2 - s^2) / q + lambda^3 s^2 c^2 / q^3)
+//     x = r (1 - c) + l (1 - q),  dx/da = r (s + lambda s c / q),
+//     d2x/da2 = r (c + lambda (c^2 - s^2) / q + lambda^3 s^2 c^2 / q^3)
 #pragma once
 
 #include <array>
@@ -29,7 +30,8 @@ struct Motion {
 };
 
 inline constexpr long double kTwoPi = 2 * kWidePi;
-inline constexpr double kRadPerUnit = static_cast<double>(2 * kTwoPi / 18446744073709551616.0L);  ///< 2^64 phase units are 720 deg
+inline constexpr double kRadPerUnit =
+    static_cast<double>(2 * kTwoPi / 18446744073709551616.0L);  ///< 2^64 phase units are 720 deg
 
 /// The crank angle from -pi to pi: the top bit of a phase only tells the crank's turns apart.
 template <class Real>
@@ -61,7 +63,8 @@ class ExactMotion {
 };
 
 /// Exactly the angle of a phase, for the reference.
-[[nodiscard]] inline Motion<long double> true_motion(const ExactMotion<long double>& exact, std::uint64_t phase) noexcept {
+[[nodiscard]] inline Motion<long double> true_motion(const ExactMotion<long double>& exact,
+                                                     std::uint64_t phase) noexcept {
   return exact.at_angle(static_cast<long double>(phase << 1) * (kTwoPi / 18446744073709551616.0L));
 }
 
@@ -85,7 +88,8 @@ class TextbookMotion {
   Real r_, l_, lambda_;
 };
 
-/// Where a phase lies among N equal segments of a crank turn: one multiplication, in double a second one for the bits that float has not.
+/// Where a phase lies among N equal segments of a crank turn: one multiplication, in double a second one for the bits
+/// that float has not.
 template <class Real, std::uint32_t N>
 struct Place {
   std::uint32_t index;
@@ -176,19 +180,23 @@ class PolynomialTable {
     std::array<double, Degree + 1> u{};
     std::array<Motion<double>, Degree + 1> here{};
     for (std::size_t j = 0; j <= Degree; ++j) {
-      u[j] = 0.5 - 0.5 * std::cos((2 * static_cast<double>(j) + 1) / (2 * static_cast<double>(Degree) + 2) * static_cast<double>(kTwoPi) / 2);
+      u[j] = 0.5 - 0.5 * std::cos((2 * static_cast<double>(j) + 1) / (2 * static_cast<double>(Degree) + 2) *
+                                  static_cast<double>(kTwoPi) / 2);
       here[j] = motion_at_turn(crank, (segment + u[j]) / N);
     }
-    return {through(u, here, &Motion<double>::x), through(u, here, &Motion<double>::v), through(u, here, &Motion<double>::a)};
+    return {through(u, here, &Motion<double>::x), through(u, here, &Motion<double>::v),
+            through(u, here, &Motion<double>::a)};
   }
 
   /// Newton's divided differences, multiplied out.
-  [[nodiscard]] static Coefficients through(const std::array<double, Degree + 1>& u, const std::array<Motion<double>, Degree + 1>& here,
-                                            double Motion<double>::* quantity) {
+  [[nodiscard]] static Coefficients through(const std::array<double, Degree + 1>& u,
+                                            const std::array<Motion<double>, Degree + 1>& here,
+                                            double Motion<double>::*quantity) {
     std::array<double, Degree + 1> difference{};
     for (std::size_t j = 0; j <= Degree; ++j) difference[j] = here[j].*quantity;
     for (std::size_t order = 1; order <= Degree; ++order) {
-      for (std::size_t j = Degree; j >= order; --j) difference[j] = (difference[j] - difference[j - 1]) / (u[j] - u[j - order]);
+      for (std::size_t j = Degree; j >= order; --j)
+        difference[j] = (difference[j] - difference[j - 1]) / (u[j] - u[j - order]);
     }
     std::array<double, Degree + 1> c{};
     for (std::size_t j = Degree + 1; j-- > 0;) {  // c = difference[j] + (u - u_j) c
@@ -217,10 +225,10 @@ class LibraryMotion {
   [[nodiscard]] const Status& status() const noexcept { return status_; }
 
   [[nodiscard]] Motion<Real> at(std::uint64_t phase) const noexcept {
-    const Cell cell = Phase{phase}.cell<Real>();
+    const detail::Cell cell = Phase{phase}.cell<Real>();
     const std::uint32_t degree = cell.degree >= kDegreesPerTurn ? cell.degree - kDegreesPerTurn : cell.degree;
-    const Real u = fraction<Real>(cell);
-    const MotionSegment<Real>& motion = motion_->at[degree];
+    const Real u = detail::fraction<Real>(cell);
+    const detail::MotionSegment<Real>& motion = motion_->at[degree];
     return {value(motion.displacement, u), value(motion.slope, u), value(motion.acceleration, u)};
   }
 
@@ -231,7 +239,7 @@ class LibraryMotion {
   using Storage = TableStorage<Real, Pistons>;
 
   std::unique_ptr<Storage> storage_;
-  const Revolution<MotionSegment<Real>>* motion_ = nullptr;
+  const detail::Revolution<detail::MotionSegment<Real>>* motion_ = nullptr;
   Status status_;
 };
 

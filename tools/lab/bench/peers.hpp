@@ -1,6 +1,8 @@
-// Other people's solvers on the valve problem, where they are installed: Boost.odeint (libboost-dev) and GSL (libgsl-dev). Never needed.
+// Other people's solvers on the valve problem, where they are installed: Boost.odeint (libboost-dev) and GSL
+// (libgsl-dev). Never needed.
 //
-// What belongs here: what they all are given, the equation and a tick. What does not: the solvers (peers_odeint.cpp, peers_gsl.cpp).
+// What belongs here: what they all are given, the equation and a tick. What does not: the solvers (peers_odeint.cpp,
+// peers_gsl.cpp).
 #pragma once
 
 #include <functional>
@@ -12,7 +14,8 @@
 
 namespace crankloop::program::bench {
 
-/// The 125's valve from tick to tick, in double, with the library's cam. A solver does as it likes within a tick, whose end it has to meet.
+/// The 125's valve from tick to tick, in double, with the library's cam. A solver does as it likes within a tick, whose
+/// end it has to meet.
 class PeerValve : public PlainLoop<double, CurveCam<double>> {
  public:
   virtual ~PeerValve() = default;
@@ -24,7 +27,11 @@ class PeerValve : public PlainLoop<double, CurveCam<double>> {
   }
 
  protected:
-  explicit PeerValve(const ValveRun& run) : PlainLoop{run}, tick_s_{run.step_s}, units_per_s_{static_cast<double>(increment_) / run.step_s}, per_mass_{1 / body_.mass_kg} {}
+  explicit PeerValve(const ValveRun& run)
+      : PlainLoop{run},
+        tick_s_{run.step_s},
+        units_per_s_{static_cast<double>(increment_) / run.step_s},
+        per_mass_{1 / body_.mass_kg} {}
 
   /// y'' at a time since the tick's start.
   [[nodiscard]] double acceleration(double y, double v, double since_s) const noexcept {

@@ -12,7 +12,8 @@ class Driven final : public PeerValve {
  public:
   Driven(const ValveRun& run, const gsl_odeiv2_step_type* type, double tolerance)
       : PeerValve{run},
-        driver_{gsl_odeiv2_driver_alloc_y_new(&system_, type, run.step_s, tolerance * 1e-3, tolerance), gsl_odeiv2_driver_free} {}
+        driver_{gsl_odeiv2_driver_alloc_y_new(&system_, type, run.step_s, tolerance * 1e-3, tolerance),
+                gsl_odeiv2_driver_free} {}
 
  private:
   static int slopes(double t, const double* x, double* slope, void* self) {
@@ -41,7 +42,8 @@ void add_gsl(std::vector<Peer>& peers) {
     const gsl_odeiv2_step_type* type;
   } steppers[] = {{"GSL rkf45", gsl_odeiv2_step_rkf45}, {"GSL rk8pd", gsl_odeiv2_step_rk8pd}};
   for (const auto& stepper : steppers) {
-    peers.push_back({stepper.name, "tolerance 1e-6", [type = stepper.type](const ValveRun& run) { return std::make_shared<Driven>(run, type, 1e-6); }});
+    peers.push_back({stepper.name, "tolerance 1e-6",
+                     [type = stepper.type](const ValveRun& run) { return std::make_shared<Driven>(run, type, 1e-6); }});
   }
 }
 

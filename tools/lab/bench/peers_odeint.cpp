@@ -19,7 +19,11 @@ class Fixed final : public PeerValve {
  private:
   void advance(PlainState<double>& state) noexcept override {
     State x{state.lift_m, state.velocity_m_s};
-    stepper_.do_step([this](const State& at, State& slope, double t) { slope = {at[1], acceleration(at[0], at[1], t)}; }, x, 0.0, tick_s_);
+    stepper_.do_step(
+        [this](const State& at, State& slope, double t) {
+          slope = {at[1], acceleration(at[0], at[1], t)};
+        },
+        x, 0.0, tick_s_);
     state = {x[0], x[1]};
   }
   odeint::runge_kutta4<State> stepper_;
@@ -33,10 +37,14 @@ class Controlled final : public PeerValve {
  private:
   void advance(PlainState<double>& state) noexcept override {
     State x{state.lift_m, state.velocity_m_s};
-    // Absolute tolerances of a lift in m would be far too wide: this one is the error allowed of a millimetre and of a m/s.
-    odeint::integrate_adaptive(odeint::make_controlled<odeint::runge_kutta_dopri5<State>>(tolerance_ * 1e-3, tolerance_),
-                               [this](const State& at, State& slope, double t) { slope = {at[1], acceleration(at[0], at[1], t)}; }, x, 0.0, tick_s_,
-                               first_s_);
+    // Absolute tolerances of a lift in m would be far too wide: this one is the error allowed of a millimetre and of a
+    // m/s.
+    odeint::integrate_adaptive(
+        odeint::make_controlled<odeint::runge_kutta_dopri5<State>>(tolerance_ * 1e-3, tolerance_),
+        [this](const State& at, State& slope, double t) {
+          slope = {at[1], acceleration(at[0], at[1], t)};
+        },
+        x, 0.0, tick_s_, first_s_);
     state = {x[0], x[1]};
   }
   double tolerance_;

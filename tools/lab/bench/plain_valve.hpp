@@ -1,8 +1,8 @@
 // A valve as one writes it who has read the equations and wants them quick: what the library is compared with.
 //
-// What belongs here: the single mass, its textbook step and the same step as one matrix. What does not: cams and loops (valve_methods.hpp,
-// baseline.inl). No header of crankloop's: this is also compiled with other flags than the library's, and every function is inlined, so that
-// the linker cannot take one flavour for another.
+// What belongs here: the single mass, its textbook step and the same step as one matrix. What does not: cams and loops
+// (valve_methods.hpp, baseline.inl). No header of crankloop's: this is also compiled with other flags than the
+// library's, and every function is inlined, so that the linker cannot take one flavour for another.
 #pragma once
 
 namespace crankloop::program::bench {
@@ -16,13 +16,13 @@ struct PlainBody {
   Real train_N_m, train_Ns_m;
   Real seat_N_m, seat_Ns_m;
   Real spring_N_m, guide_Ns_m, preload_N;
-  Real seat_sink_m;
+  Real seat_compression_m;
 
   template <class Other>
   [[nodiscard]] PlainBody<Other> rounded() const noexcept {
     const auto to = [](Real x) { return static_cast<Other>(x); };
-    return {to(mass_kg),    to(train_N_m),  to(train_Ns_m), to(seat_N_m),   to(seat_Ns_m),
-            to(spring_N_m), to(guide_Ns_m), to(preload_N),  to(seat_sink_m)};
+    return {to(mass_kg),    to(train_N_m),  to(train_Ns_m), to(seat_N_m),          to(seat_Ns_m),
+            to(spring_N_m), to(guide_Ns_m), to(preload_N),  to(seat_compression_m)};
   }
 };
 
@@ -46,7 +46,7 @@ inline constexpr unsigned kPlainSeat = 2;
 template <class Real>
 BENCH_INLINE unsigned plain_regime(const PlainBody<Real>& b, PlainState<Real> s, PlainCam<Real> cam) noexcept {
   const Real gap = cam.lift_m - s.lift_m;
-  const Real sink = b.seat_sink_m - s.lift_m;
+  const Real sink = b.seat_compression_m - s.lift_m;
   const bool train = gap > 0 && b.train_N_m * gap + b.train_Ns_m * (cam.speed_m_s - s.velocity_m_s) > 0;
   const bool seat = sink > 0 && b.seat_N_m * sink - b.seat_Ns_m * s.velocity_m_s > 0;
   return (train ? kPlainTrain : 0u) | (seat ? kPlainSeat : 0u);
@@ -54,14 +54,15 @@ BENCH_INLINE unsigned plain_regime(const PlainBody<Real>& b, PlainState<Real> s,
 
 /// y'' with the contacts as they are at this moment.
 template <class Real>
-BENCH_INLINE Real plain_acceleration(const PlainBody<Real>& b, Real per_mass, Real y, Real v, PlainCam<Real> cam) noexcept {
+BENCH_INLINE Real plain_acceleration(const PlainBody<Real>& b, Real per_mass, Real y, Real v,
+                                     PlainCam<Real> cam) noexcept {
   Real force_N = -b.preload_N - b.spring_N_m * y - b.guide_Ns_m * v;
   const Real gap = cam.lift_m - y;
   if (gap > 0) {
     const Real train_N = b.train_N_m * gap + b.train_Ns_m * (cam.speed_m_s - v);
     if (train_N > 0) force_N += train_N;
   }
-  const Real sink = b.seat_sink_m - y;
+  const Real sink = b.seat_compression_m - y;
   if (sink > 0) {
     const Real seat_N = b.seat_N_m * sink - b.seat_Ns_m * v;
     if (seat_N > 0) force_N += seat_N;
@@ -69,11 +70,12 @@ BENCH_INLINE Real plain_acceleration(const PlainBody<Real>& b, Real per_mass, Re
   return force_N * per_mass;
 }
 
-/// Classical four-stage Runge-Kutta, the second of two in this repository (the other: crankloop/valve/textbook_valve.hpp); contacts are tested in
-/// each stage. k1 is f at the start, which a caller may know from the step before.
+/// Classical four-stage Runge-Kutta, the second of two in this repository (the other:
+/// crankloop/valve/textbook_valve.hpp); contacts are tested in each stage. k1 is f at the start, which a caller may
+/// know from the step before.
 template <class Real, class Acceleration>
-BENCH_INLINE PlainState<Real> textbook_step(const Acceleration& f, Real h, PlainState<Real> s, Real k1, PlainCam<Real> middle,
-                                            PlainCam<Real> end) noexcept {
+BENCH_INLINE PlainState<Real> textbook_step(const Acceleration& f, Real h, PlainState<Real> s, Real k1,
+                                            PlainCam<Real> middle, PlainCam<Real> end) noexcept {
   const Real y = s.lift_m;
   const Real v = s.velocity_m_s;
   const Real half = h / 2;
@@ -86,15 +88,15 @@ BENCH_INLINE PlainState<Real> textbook_step(const Acceleration& f, Real h, Plain
   return {y + h / 6 * (v + 2 * (v2 + v3) + v4), v + h / 6 * (k1 + 2 * (k2 + k3) + k4)};
 }
 
-/// The same step in a regime that stays as it is, multiplied out: a matrix on the state, the lift and its slope by the part of the step at
-/// both ends, and one. The lift in the middle is that of the cubic through the ends.
+/// The same step in a regime that stays as it is, multiplied out: a matrix on the state, the lift and its slope by the
+/// part of the step at both ends, and one. The lift in the middle is that of the cubic through the ends.
 template <class Real>
 struct PlainMatrix {
   Real y[7];
   Real v[7];
 
   BENCH_INLINE PlainState<Real> step(PlainState<Real> s, PlainCam<Real> from, PlainCam<Real> to) const noexcept {
-    const auto row = [&](const Real (&m)[7]) {
+    const auto row = [&](const Real(&m)[7]) {
       return m[0] * s.lift_m + m[1] * s.velocity_m_s + m[2] * from.lift_m + m[3] * from.speed_m_s + m[4] * to.lift_m +
              m[5] * to.speed_m_s + m[6];
     };
@@ -111,7 +113,7 @@ template <class Real>
     const auto f = [&](double y, double v, PlainCam<double> cam) {
       double force = -b.spring_N_m * y - b.guide_Ns_m * v - b.preload_N * constant;
       if ((regime & kPlainTrain) != 0) force += b.train_N_m * (cam.lift_m - y) + b.train_Ns_m * (cam.speed_m_s - v);
-      if ((regime & kPlainSeat) != 0) force += b.seat_N_m * (b.seat_sink_m * constant - y) - b.seat_Ns_m * v;
+      if ((regime & kPlainSeat) != 0) force += b.seat_N_m * (b.seat_compression_m * constant - y) - b.seat_Ns_m * v;
       return force / b.mass_kg;
     };
     return textbook_step<double>(f, h, s, f(s.lift_m, s.velocity_m_s, from), middle, to);

@@ -54,7 +54,8 @@ std::vector<Timing> race(const std::vector<Contestant>& contestants, const Effor
   std::vector<int> batches;
   for (const Contestant& one : contestants) {
     turn_ns(one, 1);
-    batches.push_back(static_cast<int>(std::clamp(std::ceil(effort.round_ns / std::max(1.0, turn_ns(one, 1))), 1.0, 1e6)));
+    batches.push_back(
+        static_cast<int>(std::clamp(std::ceil(effort.round_ns / std::max(1.0, turn_ns(one, 1))), 1.0, 1e6)));
   }
 
   const std::size_t count = contestants.size();
@@ -62,8 +63,10 @@ std::vector<Timing> race(const std::vector<Contestant>& contestants, const Effor
   for (int round = 0; round < effort.rounds; ++round) {
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t which = (i + static_cast<std::size_t>(round)) % count;
-      samples[which].push_back(turn_ns(contestants[which], batches[which]) / (batches[which] * contestants[which].operations));
+      samples[which].push_back(turn_ns(contestants[which], batches[which]) /
+                               (batches[which] * contestants[which].operations));
     }
+    if (effort.progress != nullptr) effort.progress->long_step();
   }
   std::vector<Timing> timings;
   for (std::vector<double>& sample : samples) timings.push_back(timing_of(sample));

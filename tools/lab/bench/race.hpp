@@ -1,4 +1,5 @@
-// Timing contestants against one another: in one process, in turns, so that whatever slows the machine slows all of them.
+// Timing contestants against one another: in one process, in turns, so that whatever slows the machine slows all of
+// them.
 //
 // What belongs here: rounds, medians, the clock's own cost. What does not: what is timed.
 #pragma once
@@ -8,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "crankloop/progress.hpp"
+
 namespace crankloop::program::bench {
 
 /// Makes the compiler believe that the value is read: neither it nor what led to it can be left out.
@@ -16,15 +19,17 @@ inline void keep(const T& value) noexcept {
   asm volatile("" : : "m"(value) : "memory");
 }
 
-/// Something to be timed. A batch is a whole number of what repeats itself (a cycle of the engine), so that batches cost alike.
+/// Something to be timed. A batch is a whole number of what repeats itself (a cycle of the engine), so that batches
+/// cost alike.
 struct Contestant {
   std::function<void()> batch;
   double operations;  ///< of one batch: the time is divided by them
 };
 
 struct Effort {
-  int rounds;        ///< after one to warm up
-  double round_ns;   ///< a contestant's turn lasts at least that long: as many batches as it takes
+  int rounds;                    ///< after one to warm up
+  double round_ns;               ///< a contestant's turn lasts at least that long: as many batches as it takes
+  Progress* progress = nullptr;  ///< a long step of it is a round
 };
 inline constexpr Effort kQuick{15, 100e3};
 inline constexpr Effort kFull{101, 400e3};
@@ -36,8 +41,8 @@ struct Timing {
   double spread_ns;  ///< between the quartiles
 };
 
-/// Every contestant has its turn in every round, in another order each time. Timed by what this thread ran, so that being put aside for
-/// another program does not count.
+/// Every contestant has its turn in every round, in another order each time. Timed by what this thread ran, so that
+/// being put aside for another program does not count.
 [[nodiscard]] std::vector<Timing> race(const std::vector<Contestant>& contestants, const Effort& effort);
 
 using Clock = std::int64_t() noexcept;

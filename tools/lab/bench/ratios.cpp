@@ -8,7 +8,8 @@
 namespace crankloop::program::bench {
 namespace {
 
-/// numerics of the prototypes that the plain engines are checked against: libm and linear tables, 16 valves, ns per tick.
+/// numerics of the prototypes that the plain engines are checked against: libm and linear tables, 16 valves, ns per
+/// tick.
 constexpr double kPrototypeLibm_ns = 422;
 constexpr double kPrototypeLinear_ns = 226;
 constexpr double kPrototypeMargin = 0.15;
@@ -20,11 +21,16 @@ class Ratios {
  public:
   explicit Ratios(const std::vector<Row>& rows) : rows_{rows} {}
 
-  [[nodiscard]] const Row& row(const char* group, const char* contestant, const char* setting, const char* real = "float") const {
+  [[nodiscard]] const Row& row(const char* group, const char* contestant, const char* setting,
+                               const char* real = "float") const {
     return find(rows_, group, contestant, real, setting);
   }
-  void at_least(const std::string& what, double asked, double reached, const Row& of) { add(what, {asked, reached, true}, of); }
-  void at_most(const std::string& what, double asked, double reached, const Row& of) { add(what, {asked, reached, false}, of); }
+  void at_least(const std::string& what, double asked, double reached, const Row& of) {
+    add(what, {asked, reached, true}, of);
+  }
+  void at_most(const std::string& what, double asked, double reached, const Row& of) {
+    add(what, {asked, reached, false}, of);
+  }
   [[nodiscard]] std::vector<Row> take() { return std::move(out_); }
 
  private:
@@ -46,7 +52,8 @@ void add_kinematics(Ratios& r) {
   const Row& linear = r.row("kinematics", "linear", "1 deg");
   r.at_least("kinematics: time of libm double to the library's", 10,
              r.row("kinematics", "libm sin/cos/sqrt", "exact", "double").ns_median / library.ns_median, library);
-  r.at_most("kinematics: the library's time to that of linear tables", 1.3, library.ns_median / linear.ns_median, library);
+  r.at_most("kinematics: the library's time to that of linear tables", 1.3, library.ns_median / linear.ns_median,
+            library);
   r.at_least("kinematics: error of linear tables to the library's", 100, linear.error / library.error, library);
 }
 
@@ -57,7 +64,8 @@ void add_valve(Ratios& r) {
   r.at_most("bouncing valve: error of located exponential, um", 0.2, exponential.error, exponential);
   r.at_most("bouncing valve: error of located RK4, um", 1, rk4.error, rk4);
   r.at_least("bouncing valve: error of the textbook's, um", 10, textbook.error, textbook);
-  r.at_most("bouncing valve: time of located exponential to the textbook's", 0.6, exponential.ns_median / textbook.ns_median, exponential);
+  r.at_most("bouncing valve: time of located exponential to the textbook's", 0.6,
+            exponential.ns_median / textbook.ns_median, exponential);
   r.at_most("bouncing valve: time of located RK4 to the textbook's", 0.6, rk4.ns_median / textbook.ns_median, rk4);
 }
 
@@ -69,8 +77,10 @@ void add_ticks(Ratios& r) {
   const Row& library = r.row("tick", "library", eight);
   const Row& of_sixteen = r.row("tick", "library", sixteen);
   const Row& pairs = r.row("tick", "library", "4 cylinders, 16 valves in pairs, 6000 rpm, 20 us");
-  r.at_least("tick, 8 valves: time of linear tables + textbook RK4 to the library's", 3.5, r.row("tick", linear, eight).ns_median / library.ns_median, library);
-  r.at_least("tick, 8 valves: time of libm + textbook RK4 to the library's", 8, r.row("tick", libm, eight).ns_median / library.ns_median, library);
+  r.at_least("tick, 8 valves: time of linear tables + textbook RK4 to the library's", 3.5,
+             r.row("tick", linear, eight).ns_median / library.ns_median, library);
+  r.at_least("tick, 8 valves: time of libm + textbook RK4 to the library's", 8,
+             r.row("tick", libm, eight).ns_median / library.ns_median, library);
   r.at_most("tick: 16 different valves to 8", 1.5, of_sixteen.ns_median / library.ns_median, of_sixteen);
   r.at_most("tick: 16 valves in identical pairs to 8", 1 + kScatter, pairs.ns_median / library.ns_median, pairs);
   const Row& held = r.row("growth", "one valve held by its train", "6000 rpm, 100 us");

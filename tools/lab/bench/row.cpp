@@ -28,7 +28,9 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
-std::string number_or_null(double value) { return std::isfinite(value) ? significant(static_cast<float>(value)) : "null"; }
+std::string number_or_null(double value) {
+  return std::isfinite(value) ? significant(static_cast<float>(value)) : "null";
+}
 
 /// Four significant digits, for reading.
 std::string short_number(double value) {
@@ -51,9 +53,11 @@ std::string padded(std::string text, std::size_t width) {
 }
 
 std::string line_of(const Row& row, std::size_t names, std::size_t settings) {
-  std::string line = "  " + padded(row.contestant, names) + "  " + padded(row.real, 6) + "  " + padded(row.setting, settings) + "  ";
+  std::string line =
+      "  " + padded(row.contestant, names) + "  " + padded(row.real, 6) + "  " + padded(row.setting, settings) + "  ";
   if (row.goal) return line + goal_text(*row.goal);
-  if (std::isfinite(row.ns_median)) line += padded(short_number(row.ns_median) + " +- " + short_number(row.ns_spread / 2) + " ns per " + row.per, 40);
+  if (std::isfinite(row.ns_median))
+    line += padded(short_number(row.ns_median) + " +- " + short_number(row.ns_spread / 2) + " ns per " + row.per, 40);
   if (!row.error_unit.empty()) line += "  error " + short_number(row.error) + " " + row.error_unit;
   return line;
 }
@@ -65,12 +69,14 @@ std::string to_json(const std::vector<Row>& rows) {
   const char* separator = "\n";
   for (const Row& row : rows) {
     text += separator;
-    text += "  {\"group\": " + quoted(row.group) + ", \"contestant\": " + quoted(row.contestant) + ", \"real\": " + quoted(row.real) +
-            ", \"setting\": " + quoted(row.setting) + ", \"per\": " + quoted(row.per) + ", \"ns_median\": " + number_or_null(row.ns_median) +
+    text += "  {\"group\": " + quoted(row.group) + ", \"contestant\": " + quoted(row.contestant) +
+            ", \"real\": " + quoted(row.real) + ", \"setting\": " + quoted(row.setting) +
+            ", \"per\": " + quoted(row.per) + ", \"ns_median\": " + number_or_null(row.ns_median) +
             ", \"ns_spread\": " + number_or_null(row.ns_spread) + ", \"error\": " + number_or_null(row.error) +
             ", \"error_unit\": " + quoted(row.error_unit);
     if (row.goal) {
-      text += ", \"asked\": " + quoted(asked_text(*row.goal)) + ", \"reached\": " + number_or_null(row.goal->reached) + ", \"met\": " + (row.goal->met() ? "true" : "false");
+      text += ", \"asked\": " + quoted(asked_text(*row.goal)) + ", \"reached\": " + number_or_null(row.goal->reached) +
+              ", \"met\": " + (row.goal->met() ? "true" : "false");
     }
     text += "}";
     separator = ",\n";
@@ -100,21 +106,29 @@ void write_csv(Output& out, const std::vector<Row>& rows) {
     std::replace(text.begin(), text.end(), ',', ';');
     return text;
   };
-  CsvWriter csv(out, {"group", "contestant", "real", "setting", "per", "ns_median", "ns_spread", "error", "error_unit", "asked", "reached", "met"});
+  CsvWriter csv(out, {"group", "contestant", "real", "setting", "per", "ns_median", "ns_spread", "error", "error_unit",
+                      "asked", "reached", "met"});
   for (const Row& row : rows) {
-    const auto number = [](double value) { return std::isfinite(value) ? significant(static_cast<float>(value)) : std::string(); };
-    csv.row(cell(row.group), cell(row.contestant), row.real, cell(row.setting), row.per, number(row.ns_median), number(row.ns_spread),
-            number(row.error), cell(row.error_unit), row.goal ? asked_text(*row.goal) : std::string(),
-            row.goal ? number(row.goal->reached) : std::string(), !row.goal ? "" : row.goal->met() ? "yes" : "no");
+    const auto number = [](double value) {
+      return std::isfinite(value) ? significant(static_cast<float>(value)) : std::string();
+    };
+    csv.row(cell(row.group), cell(row.contestant), row.real, cell(row.setting), row.per, number(row.ns_median),
+            number(row.ns_spread), number(row.error), cell(row.error_unit),
+            row.goal ? asked_text(*row.goal) : std::string(), row.goal ? number(row.goal->reached) : std::string(),
+            !row.goal         ? ""
+            : row.goal->met() ? "yes"
+                              : "no");
   }
 }
 
-const Row& find(const std::vector<Row>& rows, const std::string& group, const std::string& contestant, const std::string& real,
-                const std::string& setting) {
+const Row& find(const std::vector<Row>& rows, std::string_view group, std::string_view contestant,
+                std::string_view real, std::string_view setting) {
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) {
     return r.group == group && r.contestant == contestant && r.real == real && r.setting == setting;
   });
-  if (row == rows.end()) throw std::logic_error("the benchmark has no row " + group + ", " + contestant + ", " + real + ", " + setting);
+  if (row == rows.end())
+    throw std::logic_error("the benchmark has no row " + std::string(group) + ", " + std::string(contestant) + ", " +
+                           std::string(real) + ", " + std::string(setting));
   return *row;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "crankloop/output_file.hpp"
@@ -22,14 +23,15 @@ struct Goal {
 };
 
 struct Row {
-  std::string group;       ///< "kinematics", "valve", ...
+  std::string group;  ///< "kinematics", "valve", ...
   std::string contestant;
-  std::string real;        ///< "float" or "double"
-  std::string setting;     ///< "12000 rpm, 10 us"
-  std::string per;         ///< what the time is of: "evaluation", "cam cycle", "tick"
+  std::string real;     ///< "float" or "double"
+  std::string setting;  ///< "12000 rpm, 10 us"
+  std::string per;      ///< what the time is of: "evaluation", "cam cycle", "tick"
   double ns_median = 0;
-  double ns_spread = 0;    ///< between the quartiles of the rounds
-  double error = std::numeric_limits<double>::quiet_NaN();  ///< largest; not a number: none was measured, or the motion blew up
+  double ns_spread = 0;  ///< between the quartiles of the rounds
+  double error =
+      std::numeric_limits<double>::quiet_NaN();  ///< largest; not a number: none was measured, or the motion blew up
   std::string error_unit{};
   std::optional<Goal> goal{};
 };
@@ -44,7 +46,7 @@ struct Row {
 void write_csv(Output& out, const std::vector<Row>& rows);
 
 /// The row of this name, which must be there (std::logic_error).
-[[nodiscard]] const Row& find(const std::vector<Row>& rows, const std::string& group, const std::string& contestant, const std::string& real,
-                              const std::string& setting);
+[[nodiscard]] const Row& find(const std::vector<Row>& rows, std::string_view group, std::string_view contestant,
+                              std::string_view real, std::string_view setting);
 
 }  // namespace crankloop::program::bench

@@ -1,10 +1,11 @@
-// The scenes that the benchmark runs, compiled one per source file with the library's own flags, as crankloop_add_scene does it.
+// The scenes that the benchmark runs, compiled one per source file with the library's own flags, as crankloop_add_scene
+// does it.
 //
 // What belongs here: which questions each scene asks. What does not: engines (engines.hpp), timing.
 #pragma once
 
-#include <crankloop/tabulate/tabulate.hpp>
 #include <crankloop/engine.hpp>
+#include <crankloop/tabulate/tabulate.hpp>
 
 namespace crankloop::program::bench {
 

@@ -20,11 +20,14 @@ struct Case {
   int ticks;
 };
 
-std::string counted(int count, const char* what) { return std::to_string(count) + " " + what + (count == 1 ? "" : "s"); }
+std::string counted(int count, const char* what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
 std::string valves_of(int count) { return counted(count, "valve"); }
 
 std::string setting_of(int cylinders, const std::string& valves, const Operation& operation) {
-  return counted(cylinders, "cylinder") + ", " + valves + ", " + brief(operation.engine_rpm) + " rpm, " + brief(operation.tick_s * 1e6) + " us";
+  return counted(cylinders, "cylinder") + ", " + valves + ", " + brief(operation.engine_rpm) + " rpm, " +
+         brief(operation.tick_s * 1e6) + " us";
 }
 
 class Group {
@@ -32,9 +35,10 @@ class Group {
   explicit Group(std::string name) : name_{std::move(name)} {}
 
   template <class Real, class S>
-  void library(const std::string& contestant, const EngineDefinition& definition, const Operation& operation, const std::string& valves) {
-    add<Real>(contestant, std::make_shared<LibraryEngine<Real, S>>(definition, operation), definition, operation, valves,
-              S::valves != ValveModel::none);
+  void library(const std::string& contestant, const EngineDefinition& definition, const Operation& operation,
+               const std::string& valves) {
+    add<Real>(contestant, std::make_shared<LibraryEngine<Real, S>>(definition, operation), definition, operation,
+              valves, S::valves != ValveModel::none);
   }
 
   template <class Real>
@@ -42,8 +46,8 @@ class Group {
              const Operation& operation, const std::string& valves) {
     const PlainEngineData data = plain_data(definition, operation);
     auto engine = usual_flags ? plain_engine_of_usual_flags<Real>(pistons, data) : plain_engine<Real>(pistons, data);
-    add<Real>(contestant, std::make_shared<PlainEngineRun<Real>>(std::move(engine), definition.layout.cylinders), definition, operation, valves,
-              definition.train_count > 0);
+    add<Real>(contestant, std::make_shared<PlainEngineRun<Real>>(std::move(engine), definition.layout.cylinders),
+              definition, operation, valves, definition.train_count > 0);
   }
 
   /// Means; with `each_tick` also the median, 99.9 % and worst tick of a cycle.
@@ -62,8 +66,8 @@ class Group {
 
  private:
   template <class Real, class Run>
-  void add(const std::string& contestant, const std::shared_ptr<Run>& run, const EngineDefinition& definition, const Operation& operation,
-           const std::string& valves, bool has_valves) {
+  void add(const std::string& contestant, const std::shared_ptr<Run>& run, const EngineDefinition& definition,
+           const Operation& operation, const std::string& valves, bool has_valves) {
     Case one;
     one.row.group = name_;
     one.row.contestant = contestant;
@@ -87,7 +91,8 @@ class Group {
     cases_.push_back(std::move(one));
   }
 
-  /// Every tick of the cycle by the middle half of repeated cycles: what another program does to one of them is not the tick's.
+  /// Every tick of the cycle by the middle half of repeated cycles: what another program does to one of them is not the
+  /// tick's.
   static void add_profile(const Case& one, const Effort& effort, std::vector<Row>& all) {
     const double clock_ns = clock_cost_ns(port::now_ns);
     const int cycles = effort.rounds;
@@ -141,16 +146,20 @@ void add_main(Group& group) {
   group.plain<Real>("libm + textbook RK4", PlainPistons::libm, false, eight, operation, valves_of(8));
   group.library<Real, FourElastic<4>>("library", sixteen, operation, valves_of(16));
   group.library<Real, FourElastic<2>>("library", in_pairs(eight), operation, "16 valves in pairs");
-  group.plain<Real>("linear tables + textbook RK4", PlainPistons::linear_tables, false, sixteen, operation, valves_of(16));
+  group.plain<Real>("linear tables + textbook RK4", PlainPistons::linear_tables, false, sixteen, operation,
+                    valves_of(16));
   group.plain<Real>("libm + textbook RK4", PlainPistons::libm, false, sixteen, operation, valves_of(16));
-  group.plain<Real>("linear tables + textbook RK4, usual flags", PlainPistons::linear_tables, true, eight, operation, valves_of(8));
+  group.plain<Real>("linear tables + textbook RK4, usual flags", PlainPistons::linear_tables, true, eight, operation,
+                    valves_of(8));
   group.plain<Real>("libm + textbook RK4, usual flags", PlainPistons::libm, true, eight, operation, valves_of(8));
   group.library<Real, FourMotion>("library", pistons, operation, valves_of(0));
-  group.plain<Real>("linear tables + textbook RK4", PlainPistons::linear_tables, false, pistons, operation, valves_of(0));
+  group.plain<Real>("linear tables + textbook RK4", PlainPistons::linear_tables, false, pistons, operation,
+                    valves_of(0));
   group.plain<Real>("libm + textbook RK4", PlainPistons::libm, false, pistons, operation, valves_of(0));
 }
 
-/// One valve from 50 deg of cam before full lift to 50 deg after it: its train holds it all the while, so that no contact change is near.
+/// One valve from 50 deg of cam before full lift to 50 deg after it: its train holds it all the while, so that no
+/// contact change is near.
 void add_held_valve(double tick_us, std::vector<Row>& rows, std::vector<Contestant>& contestants) {
   constexpr double kArc_deg = 50;
   const ValveRun run{kRated_rpm, tick_us * 1e-6};
@@ -162,7 +171,8 @@ void add_held_valve(double tick_us, std::vector<Row>& rows, std::vector<Contesta
   do valve->step();
   while (cam_deg() < -kArc_deg);
   const auto before = valve->snapshot();
-  Row row{"growth", "one valve held by its train", "float", brief(kRated_rpm) + " rpm, " + brief(tick_us) + " us", "tick"};
+  Row row{"growth", "one valve held by its train", "float", brief(kRated_rpm) + " rpm, " + brief(tick_us) + " us",
+          "tick"};
   row.error = 0;
   row.error_unit = "um";
   int ticks = 0;
@@ -193,7 +203,8 @@ std::vector<Row> tick_rows(const Effort& effort) {
     for (const int cylinders : {1, 4, 6, 8, 12}) {
       any.library<float, AnyMotion>("library, any engine", engine_of(cylinders, 0), operation, valves_of(0));
       for (const int trains : {1, 2, 4}) {
-        any.library<float, AnyElastic>("library, any engine", engine_of(cylinders, trains), operation, valves_of(cylinders * trains));
+        any.library<float, AnyElastic>("library, any engine", engine_of(cylinders, trains), operation,
+                                       valves_of(cylinders * trains));
       }
     }
   }
@@ -237,16 +248,22 @@ std::vector<Row> skip_rows(const Effort& effort) {
   group.library<float, FourTorque>("torque", pistons, operation, valves_of(0));
   group.library<float, FourMotion>("torque, motion", pistons, operation, valves_of(0));
   group.library<float, AnyMotion>("torque, motion; counts from the tables", pistons, operation, valves_of(0));
-  group.library<float, FourMotion>("torque, motion; no two cylinders at one crank angle", unevenly_firing(pistons), operation, valves_of(0));
+  group.library<float, FourMotion>("torque, motion; no two cylinders at one crank angle", unevenly_firing(pistons),
+                                   operation, valves_of(0));
   group.library<float, FourForces>("torque, motion, forces", pistons, operation, valves_of(0));
   group.library<float, FourFollowing<2>>("torque, motion, cam-following valves", eight, operation, valves_of(8));
   group.library<float, FourTorqueElastic>("torque, elastic valves", eight, operation, valves_of(8));
   group.library<float, FourElastic<2>>("torque, motion, elastic valves", eight, operation, valves_of(8));
-  group.library<float, AnyElastic>("torque, motion, elastic valves; counts from the tables", eight, operation, valves_of(8));
-  group.library<float, FourElastic<2>>("torque, motion, elastic valves; in identical pairs", in_pairs(eight), operation, "16 valves in pairs");
-  group.library<float, FourElastic<4>>("torque, motion, elastic valves; no two alike", engine_of(4, 4), operation, valves_of(16));
-  group.library<float, FourElasticForces>("torque, motion, elastic valves and their forces", eight, operation, valves_of(8));
-  group.library<float, FourElasticResults>("torque, motion, elastic valves, forces, results", eight, operation, valves_of(8));
+  group.library<float, AnyElastic>("torque, motion, elastic valves; counts from the tables", eight, operation,
+                                   valves_of(8));
+  group.library<float, FourElastic<2>>("torque, motion, elastic valves; in identical pairs", in_pairs(eight), operation,
+                                       "16 valves in pairs");
+  group.library<float, FourElastic<4>>("torque, motion, elastic valves; no two alike", engine_of(4, 4), operation,
+                                       valves_of(16));
+  group.library<float, FourElasticForces>("torque, motion, elastic valves and their forces", eight, operation,
+                                          valves_of(8));
+  group.library<float, FourElasticResults>("torque, motion, elastic valves, forces, results", eight, operation,
+                                           valves_of(8));
   std::vector<Row> rows;
   group.run(effort, false, rows);
   return rows;

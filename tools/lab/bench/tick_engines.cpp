@@ -19,7 +19,8 @@ void OutputCheck::torque(std::uint64_t phase, double torque_Nm) noexcept {
   for (int k = 0; k < definition_.layout.cylinders; ++k) {
     const Motion<long double> m = true_motion(exact, phase - firing_units(definition_, k));
     const double gas_N = (pressure_Pa(k) - definition_.pressure.crankcase_Pa) * bore_area_m2(definition_.crank);
-    const double inertia_N = -definition_.masses.reciprocating_kg() * static_cast<double>(m.a) * speed_rad_s_ * speed_rad_s_;
+    const double inertia_N =
+        -definition_.masses.reciprocating_kg() * static_cast<double>(m.a) * speed_rad_s_ * speed_rad_s_;
     const double one_Nm = (gas_N + inertia_N) * static_cast<double>(m.v);
     largest_torque_Nm_ = std::max(largest_torque_Nm_, std::fabs(one_Nm));
     sum_Nm += one_Nm;
@@ -42,17 +43,19 @@ PlainEngineData plain_data(const EngineDefinition& definition, const Operation& 
   d.reciprocating_kg = definition.masses.reciprocating_kg();
   d.tick_s = operation.tick_s;
   d.speed_rad_s = rad_s_of(operation.engine_rpm);
-  for (int k = 0; k < definition.layout.cylinders; ++k) d.firing_deg.push_back(definition.layout.firing_deg[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < definition.layout.cylinders; ++k)
+    d.firing_deg.push_back(definition.layout.firing_deg[static_cast<std::size_t>(k)]);
   const LibraryValve<double, LoneElastic> one(ValveRun{operation.engine_rpm, operation.tick_s});
-  const LiftCurve<double>& curve = one.tables().lift_curves[0];
+  const detail::LiftCurve<double>& curve = one.tables().lift_curves[0];
   for (std::uint32_t degree = 0; degree <= 360; ++degree) {
-    const Lift<double> lift = curve.read(Cell{degree % 360, 0, 0});
+    const detail::Lift<double> lift = curve.read(detail::Cell{degree % 360, 0, 0});
     d.lift_m.push_back(lift.lift_m);
     d.lift_per_deg_m.push_back(lift.per_deg_m);
   }
   const double opens_before_full_lift_deg =
       definition.trains[0].cam.full_lift_deg - static_cast<double>(curve.opens[0]) * (720 / 0x1p64);
-  for (int t = 0; t < definition.train_count; ++t) d.lobe_opens_deg.push_back(definition.trains[t].cam.full_lift_deg - opens_before_full_lift_deg);
+  for (int t = 0; t < definition.train_count; ++t)
+    d.lobe_opens_deg.push_back(definition.trains[t].cam.full_lift_deg - opens_before_full_lift_deg);
   d.valve = plain_body(one.tables().valve_motions[0].body);
   return d;
 }

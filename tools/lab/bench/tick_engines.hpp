@@ -1,6 +1,8 @@
-// Whole engines under the benchmark: the library's in any scene, and the plain one, at constant speed and given pressures.
+// Whole engines under the benchmark: the library's in any scene, and the plain one, at constant speed and given
+// pressures.
 //
-// What belongs here: making them, stepping them, how far their outputs are off. What does not: which are compared (tick.cpp).
+// What belongs here: making them, stepping them, how far their outputs are off. What does not: which are compared
+// (tick.cpp).
 #pragma once
 
 #include <algorithm>
@@ -57,8 +59,10 @@ class OutputCheck {
 template <class Real, class S>
 class LibraryEngine {
  public:
-  LibraryEngine(const EngineDefinition& definition, const Operation& operation) : tables_{std::make_unique<TableStorage<Real, S>>()} {
-    if (!tables_->build(definition, {operation.tick_s, operation.stepping}).ok() || !engine_.init(tables_->tables()).ok()) {
+  LibraryEngine(const EngineDefinition& definition, const Operation& operation)
+      : tables_{std::make_unique<TableStorage<Real, S>>()} {
+    if (!tables_->build(definition, {operation.tick_s, operation.stepping}).ok() ||
+        !engine_.init(tables_->tables()).ok()) {
       throw std::logic_error("the benchmark's engine was refused");
     }
     input_.speed_rad_s = static_cast<Real>(rad_s_of(operation.engine_rpm));
@@ -72,7 +76,8 @@ class LibraryEngine {
     check.torque(phase, static_cast<double>(out.torque_Nm));
     if constexpr (S::valves != ValveModel::none) {
       for (int k = 0; k < definition.layout.cylinders; ++k) {
-        for (int t = 0; t < definition.train_count; ++t) check.lift(phase, k, t, static_cast<double>(out.valve[t][k].lift_m));
+        for (int t = 0; t < definition.train_count; ++t)
+          check.lift(phase, k, t, static_cast<double>(out.valve[t][k].lift_m));
       }
     }
   }
@@ -98,7 +103,9 @@ class PlainEngineRun {
     check.torque(engine_->phase, static_cast<double>(engine_->torque_Nm));
     for (int k = 0; k < definition.layout.cylinders; ++k) {
       for (int t = 0; t < definition.train_count; ++t) {
-        check.lift(engine_->phase, k, t, static_cast<double>(engine_->valves[static_cast<std::size_t>(k * definition.train_count + t)].lift_m));
+        check.lift(
+            engine_->phase, k, t,
+            static_cast<double>(engine_->valves[static_cast<std::size_t>(k * definition.train_count + t)].lift_m));
       }
     }
   }

@@ -14,7 +14,8 @@ constexpr double kFiner = 2;  // of the reference's own step: what it leaves is 
 }  // namespace
 
 double cam_deg_from_full_lift(std::uint64_t phase, double full_lift_deg) noexcept {
-  return static_cast<double>(static_cast<std::int64_t>(phase - phase_at_cam_deg(0, full_lift_deg).units())) * kCamDegPerUnit;
+  return static_cast<double>(static_cast<std::int64_t>(phase - phase_at_cam_deg(0, full_lift_deg).units())) *
+         kCamDegPerUnit;
 }
 
 Phase phase_at_cam_deg(double cam_deg, double full_lift_deg) noexcept {
@@ -47,13 +48,15 @@ double TrueLift::lift_m(double cam_deg) const noexcept {
   const double v0 = from.v * h, v1 = to.v * h, a0 = from.a_after * h * h / 2, a1 = to.a * h * h / 2;
   const double rise = to.y - from.y;
   const double p = rise - v0 - a0, q = v1 - v0 - 2 * a0, r = a1 - a0;
-  return from.y + x * (v0 + x * (a0 + x * ((10 * p - 4 * q + r) + x * ((-15 * p + 7 * q - 2 * r) + x * (6 * p - 3 * q + r)))));
+  return from.y +
+         x * (v0 + x * (a0 + x * ((10 * p - 4 * q + r) + x * ((-15 * p + 7 * q - 2 * r) + x * (6 * p - 3 * q + r)))));
 }
 
 const TrueLift& true_lift_of_ohc_125(double engine_rpm) {
   static std::map<double, TrueLift> known;
   const auto at = known.find(engine_rpm);
-  return at != known.end() ? at->second : known.emplace(engine_rpm, TrueLift(ohc_125_train(), engine_rpm)).first->second;
+  return at != known.end() ? at->second
+                           : known.emplace(engine_rpm, TrueLift(ohc_125_train(), engine_rpm)).first->second;
 }
 
 }  // namespace crankloop::program::bench

@@ -1,6 +1,7 @@
 // A valve's true lift over one cycle that begins at rest in the middle of the cam's base circle.
 //
-// What belongs here: the reference's motion, kept so densely that it answers at any angle. What does not: how it is integrated
+// What belongs here: the reference's motion, kept so densely that it answers at any angle. What does not: how it is
+// integrated
 // (../reference/valve_reference.hpp).
 #pragma once
 
@@ -16,7 +17,8 @@ namespace crankloop::program::bench {
 
 inline constexpr double kCamDegPerUnit = 360.0 / 18446744073709551616.0;  ///< 2^64 phase units are 360 cam deg
 
-/// Cam angle of a train from its full lift, -180 to 180 deg, at an engine phase counted from its cylinder's firing top dead centre.
+/// Cam angle of a train from its full lift, -180 to 180 deg, at an engine phase counted from its cylinder's firing top
+/// dead centre.
 [[nodiscard]] double cam_deg_from_full_lift(std::uint64_t phase, double full_lift_deg) noexcept;
 
 /// The engine phase at which that cam angle is reached.
@@ -26,7 +28,8 @@ class TrueLift {
  public:
   TrueLift(const ValveTrain& train, double engine_rpm);
 
-  /// At a cam angle from full lift, -180 to 180 deg. The quintic through neighbouring moments of the reference errs by 1e-6 um.
+  /// At a cam angle from full lift, -180 to 180 deg. The quintic through neighbouring moments of the reference errs by
+  /// 1e-6 um.
   [[nodiscard]] double lift_m(double cam_deg) const noexcept;
 
   [[nodiscard]] int contact_changes() const noexcept { return changes_; }
@@ -37,7 +40,8 @@ class TrueLift {
   double deg_per_s_ = 0;
 };
 
-/// That of the 125's intake train (engines.hpp), worked out once for each speed. Trains that differ in phase only have the same.
+/// That of the 125's intake train (engines.hpp), worked out once for each speed. Trains that differ in phase only have
+/// the same.
 [[nodiscard]] const TrueLift& true_lift_of_ohc_125(double engine_rpm);
 
 }  // namespace crankloop::program::bench

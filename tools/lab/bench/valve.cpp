@@ -1,4 +1,5 @@
-// The group "valve": one valve over a cam's turn, by several methods and steps, from gentle contacts to float and bounce.
+// The group "valve": one valve over a cam's turn, by several methods and steps, from gentle contacts to float and
+// bounce.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -46,7 +47,8 @@ class Group {
     add(std::make_shared<Valve>(run), contestant, real, run, setting);
   }
   template <class Valve>
-  void add(const std::shared_ptr<Valve>& valve, const std::string& contestant, const char* real, const ValveRun& run, const std::string& setting) {
+  void add(const std::shared_ptr<Valve>& valve, const std::string& contestant, const char* real, const ValveRun& run,
+           const std::string& setting) {
     Row row;
     row.group = "valve";
     row.contestant = contestant;
@@ -73,12 +75,14 @@ class Group {
       add<TextbookValveLoop<Real, LinearCam<Real>>>("textbook RK4, linear cam", real, run, setting);
       add<MatrixValveLoop<Real, CurveCam<Real>>>("matrix RK4, unlocated", real, run, setting);
     }
-    for (const double tick_us : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0}) add_library<Real>(real, tick_us, 0.1);
+    for (const double tick_us : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0})
+      add_library<Real>(real, tick_us, 0.1);
     for (const double accuracy_um : {0.01, 1.0, 10.0}) {
       for (const double tick_us : {10.0, 20.0, 100.0}) add_library<Real>(real, tick_us, accuracy_um);
     }
     for (const double tick_us : {10.0, 100.0}) {
-      add<LibraryValve<Real, LoneFollowing>>("cam-following", real, {engine_rpm_, tick_us * 1e-6}, brief(tick_us) + " us");
+      add<LibraryValve<Real, LoneFollowing>>("cam-following", real, {engine_rpm_, tick_us * 1e-6},
+                                             brief(tick_us) + " us");
     }
   }
 
@@ -87,7 +91,8 @@ class Group {
     for (const Peer& peer : peers()) {
       for (const double tick_us : {5.0, 10.0, 20.0}) {
         const ValveRun run{engine_rpm_, tick_us * 1e-6};
-        add(peer.make(run), peer.contestant, "double", run, brief(tick_us) + " us" + (peer.setting.empty() ? "" : ", " + peer.setting));
+        add(peer.make(run), peer.contestant, "double", run,
+            brief(tick_us) + " us" + (peer.setting.empty() ? "" : ", " + peer.setting));
       }
     }
   }
@@ -108,7 +113,8 @@ class Group {
     if (accuracy_um != kUsualAccuracy_um) setting += ", class " + brief(accuracy_um) + " um";
     for (const Integrator integrator : {Integrator::rk4, Integrator::exponential}) {
       const ValveRun run{engine_rpm_, tick_us * 1e-6, {integrator, millionths(accuracy_um)}};
-      add<LibraryValve<Real, LoneElastic>>(integrator == Integrator::rk4 ? "located RK4" : "located exponential", real, run, setting);
+      add<LibraryValve<Real, LoneElastic>>(integrator == Integrator::rk4 ? "located RK4" : "located exponential", real,
+                                           run, setting);
     }
   }
 

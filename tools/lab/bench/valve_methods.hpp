@@ -1,7 +1,7 @@
 // Ways to step one valve over a cam's turn: the textbook's, the same as matrices, and the library's tick.
 //
-// What belongs here: the contestants, all with the same calls: start(phase), step(), phase(), lift_m(). What does not: errors and times
-// (valve.cpp). Whoever steps looks its cam up itself: that is part of the work.
+// What belongs here: the contestants, all with the same calls: start(phase), step(), phase(), lift_m(). What does not:
+// errors and times (valve.cpp). Whoever steps looks its cam up itself: that is part of the work.
 #pragma once
 
 #include <cmath>
@@ -35,7 +35,8 @@ template <class Real, class S>
 class LibraryValve {
  public:
   explicit LibraryValve(const ValveRun& run) : tables_{std::make_unique<TableStorage<Real, S>>()} {
-    if (!tables_->build(one_valve_engine(), {run.step_s, run.stepping}).ok()) throw std::logic_error("the benchmark's valve was refused");
+    if (!tables_->build(one_valve_engine(), {run.step_s, run.stepping}).ok())
+      throw std::logic_error("the benchmark's valve was refused");
     input_.speed_rad_s = static_cast<Real>(rad_s_of(run.engine_rpm));
   }
   void start(Phase phase) {
@@ -64,23 +65,23 @@ class LibraryValve {
 template <class Real>
 class CurveCam {
  public:
-  explicit CurveCam(const LiftCurve<Real>& curve) noexcept : curve_{&curve} {}
+  explicit CurveCam(const detail::LiftCurve<Real>& curve) noexcept : curve_{&curve} {}
   [[nodiscard]] PlainCam<Real> at(std::uint64_t phase, Real deg_per_s) const noexcept {
-    const Lift<Real> lift = curve_->read(LiftCurve<Real>::cell(phase - curve_->opens[0]));
+    const detail::Lift<Real> lift = curve_->read(detail::LiftCurve<Real>::cell(phase - curve_->opens[0]));
     return {lift.lift_m, lift.per_deg_m * deg_per_s};
   }
 
  private:
-  const LiftCurve<Real>* curve_;
+  const detail::LiftCurve<Real>* curve_;
 };
 
 /// Lift and slope per cam degree, straight lines between.
 template <class Real>
 class LinearCam {
  public:
-  explicit LinearCam(const LiftCurve<Real>& curve) : opens_{curve.opens[0]}, at_(361) {
+  explicit LinearCam(const detail::LiftCurve<Real>& curve) : opens_{curve.opens[0]}, at_(361) {
     for (std::uint32_t i = 0; i <= 360; ++i) {
-      const Lift<Real> lift = curve.read(Cell{i % 360, 0, 0});
+      const detail::Lift<Real> lift = curve.read(detail::Cell{i % 360, 0, 0});
       at_[i] = {lift.lift_m, lift.per_deg_m};
     }
   }
@@ -88,8 +89,10 @@ class LinearCam {
     const std::uint64_t product = ((phase - opens_) >> 32) * 360;
     const Knot& from = at_[product >> 32];
     const Knot& to = at_[(product >> 32) + 1];
-    const Real u = static_cast<Real>(static_cast<std::int32_t>(static_cast<std::uint32_t>(product) >> 8)) * static_cast<Real>(0x1p-24);
-    return {from.lift_m + u * (to.lift_m - from.lift_m), (from.per_deg_m + u * (to.per_deg_m - from.per_deg_m)) * deg_per_s};
+    const Real u = static_cast<Real>(static_cast<std::int32_t>(static_cast<std::uint32_t>(product) >> 8)) *
+                   static_cast<Real>(0x1p-24);
+    return {from.lift_m + u * (to.lift_m - from.lift_m),
+            (from.per_deg_m + u * (to.per_deg_m - from.per_deg_m)) * deg_per_s};
   }
 
  private:
@@ -101,8 +104,9 @@ class LinearCam {
 };
 
 /// The library's constants of a valve, under the names of the plain code.
-[[nodiscard]] inline PlainBody<double> plain_body(const ValveBody<double>& b) noexcept {
-  return {b.mass_kg, b.train_N_m, b.train_Ns_m, b.seat_N_m, b.seat_Ns_m, b.spring_N_m, b.guide_Ns_m, b.preload_N, b.seat_sink_m};
+[[nodiscard]] inline PlainBody<double> plain_body(const detail::ValveBody<double>& b) noexcept {
+  return {b.mass_kg,    b.train_N_m,  b.train_Ns_m, b.seat_N_m,          b.seat_Ns_m,
+          b.spring_N_m, b.guide_Ns_m, b.preload_N,  b.seat_compression_m};
 }
 
 /// The 125's valve on its own: what a plain loop around it needs to know.
@@ -142,7 +146,10 @@ template <class Real, class Cam>
 class TextbookValveLoop : public PlainLoop<Real, Cam> {
  public:
   explicit TextbookValveLoop(const ValveRun& run)
-      : PlainLoop<Real, Cam>{run}, h_{static_cast<Real>(run.step_s)}, real_body_{this->body_.template rounded<Real>()}, per_mass_{1 / real_body_.mass_kg} {}
+      : PlainLoop<Real, Cam>{run},
+        h_{static_cast<Real>(run.step_s)},
+        real_body_{this->body_.template rounded<Real>()},
+        per_mass_{1 / real_body_.mass_kg} {}
 
   void start(Phase phase) noexcept {
     PlainLoop<Real, Cam>::start(phase);
@@ -152,7 +159,9 @@ class TextbookValveLoop : public PlainLoop<Real, Cam> {
     const PlainCam<Real> middle = this->cam_.at(this->phase_.units() + this->increment_ / 2, this->deg_per_s_);
     this->phase_ += Phase{this->increment_};
     const PlainCam<Real> end = this->cam_.at(this->phase_.units(), this->deg_per_s_);
-    const auto f = [this](Real y, Real v, PlainCam<Real> cam) { return plain_acceleration(real_body_, per_mass_, y, v, cam); };
+    const auto f = [this](Real y, Real v, PlainCam<Real> cam) {
+      return plain_acceleration(real_body_, per_mass_, y, v, cam);
+    };
     this->state_ = textbook_step(f, h_, this->state_, k1_, middle, end);
     k1_ = f(this->state_.lift_m, this->state_.velocity_m_s, end);
     keep(this->state_);
@@ -170,7 +179,8 @@ template <class Real, class Cam>
 class MatrixValveLoop : public PlainLoop<Real, Cam> {
  public:
   explicit MatrixValveLoop(const ValveRun& run) : PlainLoop<Real, Cam>{run} {
-    for (unsigned regime = 0; regime < 4; ++regime) matrix_[regime] = plain_matrix<Real>(this->body_, regime, run.step_s);
+    for (unsigned regime = 0; regime < 4; ++regime)
+      matrix_[regime] = plain_matrix<Real>(this->body_, regime, run.step_s);
     real_body_ = this->body_.template rounded<Real>();
   }
 

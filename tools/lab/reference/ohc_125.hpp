@@ -1,6 +1,8 @@
-// The shape of the 125 cm^3 overhead-cam engine's valve train, for what runs it without a file: tools/engines/ohc_125.ini [Li 2017].
+// The shape of the 125 cm^3 overhead-cam engine's valve train, for what runs it without a file:
+// tools/engines/ohc_125.ini [Li 2017].
 //
-// What belongs here: its cam and its rocker's geometry. What does not: clearance, phase and valve, which whoever runs it chooses.
+// What belongs here: its cam and its rocker's geometry. What does not: clearance, phase and valve, which whoever runs
+// it chooses.
 #pragma once
 
 #include <crankloop/define/valve_train.hpp>

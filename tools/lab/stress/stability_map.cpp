@@ -9,8 +9,8 @@ namespace crankloop::program {
 namespace {
 
 /// A free valve on its spring, which is the whole stiffness: 1 rad/s, and the guide has the damping.
-ValveBody<double> oscillator(double damping_ratio) {
-  ValveBody<double> body{};
+detail::ValveBody<double> oscillator(double damping_ratio) {
+  detail::ValveBody<double> body{};
   body.mass_kg = body.per_mass = body.spring_N_m = 1;
   body.guide_Ns_m = 2 * damping_ratio;
   return body;
@@ -35,9 +35,9 @@ double limit(double low, double high, const Stable& stable) {
 
 /// 2000 steps from rest at 1 and from speed 1: no larger at the end than at the start.
 bool stays_bounded(double damping_ratio, double step_s) {
-  const ValveBody<double> body = oscillator(damping_ratio);
-  const ValveState<double> starts[] = {{1, 0}, {0, 1}};
-  for (ValveState<double> state : starts) {
+  const detail::ValveBody<double> body = oscillator(damping_ratio);
+  const detail::ValveState<double> starts[] = {{1, 0}, {0, 1}};
+  for (detail::ValveState<double> state : starts) {
     for (int i = 0; i < 2'000; ++i) {
       state = runge_kutta(body, 0, step_s, 1, state, {});
       if (!(std::hypot(state.lift_m, state.velocity_m_s) < 1e6)) return false;
@@ -58,11 +58,11 @@ bool theory_is_stable(double damping_ratio, double step_s) {
 
 /// Frequency times fine step of a valve on its seat in the coarsest class.
 double longest_used(double damping_ratio) {
-  ValveBody<double> body{};
+  detail::ValveBody<double> body{};
   body.mass_kg = body.per_mass = body.seat_N_m = 1;
   body.train_N_m = 1e-9;
   body.seat_Ns_m = 2 * damping_ratio;
-  ValveMotion<double> motion{};
+  detail::ValveMotion<double> motion{};
   constexpr double kTick_s = 50;
   return motion_of(body, kTick_s, {Integrator::rk4, 10e-6}, motion).ok() ? motion.fine_step_s : 0;
 }

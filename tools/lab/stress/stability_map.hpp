@@ -1,7 +1,7 @@
 // Where the valve's step turns unstable: rate times step against damping ratio, measured and from theory.
 //
-// What belongs here: both limits. What does not: how long the library's own steps are (tabulate/valve_motion.hpp), which
-// stay far below.
+// What belongs here: both limits. What does not: how long the library's own steps are (tabulate/valve_motion.hpp),
+// which stay far below.
 #pragma once
 
 #include <vector>

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../reference/ohc_125.hpp"
 #include "crankloop/number.hpp"
 #include "crankloop/units.hpp"
-#include "../reference/ohc_125.hpp"
 
 namespace crankloop::program {
 namespace {

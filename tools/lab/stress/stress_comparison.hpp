@@ -19,14 +19,14 @@
 namespace crankloop::program {
 
 inline constexpr int kCopies = 4;
-/// So many where kCopies excuse too little: the engine is then like one more copy that luck has put among the far ones, and in
-/// ten thousand comparisons luck comes up.
+/// So many where kCopies excuse too little: the engine is then like one more copy that luck has put among the far ones,
+/// and in ten thousand comparisons luck comes up.
 inline constexpr int kMoreCopies = 32;
 inline constexpr double kMagnified = 3;
 
-/// Amplitude of the vibration for which an accuracy class is made. Fourth-order Runge-Kutta with w d = x is off by x^5/120
-/// of the amplitude in a step, 2 pi x^4/120 in a period, and the class a takes x^4 = 0.3^4 a/0.1 um: together a times the
-/// amplitude over 0.24 mm.
+/// Amplitude of the vibration for which an accuracy class is made. Fourth-order Runge-Kutta with w d = x is off by
+/// x^5/120 of the amplitude in a step, 2 pi x^4/120 in a period, and the class a takes x^4 = 0.3^4 a/0.1 um: together a
+/// times the amplitude over 0.24 mm.
 inline constexpr double kClassAmplitude_m = 0.24e-3;
 
 /// The reference and its knocked copies, in step with an engine.
@@ -100,8 +100,8 @@ class Comparison {
     int changes;
   };
 
-  /// By the accuracy asked for, or by what that is worth in a vibration as wide as the speed at a contact makes one. The
-  /// cam that starts to turn under an open valve is such a contact too.
+  /// By the accuracy asked for, or by what that is worth in a vibration as wide as the speed at a contact makes one.
+  /// The cam that starts to turn under an open valve is such a contact too.
   void knock(valve_reference::Reference& one, std::uint32_t contacts, double v_m_s, double cam_deg_per_s) {
     if (contacts == 0) return;
     const valve_reference::SingleMass& m = one.mass();

@@ -59,10 +59,11 @@ Section accuracy_section(const StressTally& tally) {
       "allows, which is " +
       brief(kMagnified) +
       " times the accuracy and as much as copies of the reference, knocked by the accuracy at each " +
-      "contact change, get off their course. Where " +
-      std::to_string(kCopies) + " copies excuse too little, " + std::to_string(kMoreCopies) + " judge again: " +
-      std::to_string(tally.judged_again) + " times."});
-  Plot plot = plot_of("Errors in order", axis("Per cent of the comparisons"), axis("Decimal logarithm of the error's ratio"));
+      "contact change, get off their course. Where " + std::to_string(kCopies) + " copies excuse too little, " +
+      std::to_string(kMoreCopies) + " judge again: " + std::to_string(tally.judged_again) + " times."});
+  Plot plot = plot_of("Errors in order", axis("Per cent of the comparisons"), axis("Error's ratio"));
+  plot.y.include_zero = false;
+  plot.y.logarithmic = true;
   plot.series.resize(2);
   plot.series[0].name = "to the accuracy asked for";
   plot.series[1].name = "to what the rule allows";
@@ -70,7 +71,7 @@ Section accuracy_section(const StressTally& tally) {
     const double values[] = {quantile(tally.of_class, percent / 100.0), quantile(tally.of_allowed, percent / 100.0)};
     for (std::size_t i = 0; i < 2; ++i) {
       plot.series[i].x.push_back(percent);
-      plot.series[i].y.push_back(std::log10(std::max(1e-6, values[i])));
+      plot.series[i].y.push_back(std::max(1e-6, values[i]));
     }
   }
   section.blocks.push_back(std::move(plot));
@@ -79,10 +80,10 @@ Section accuracy_section(const StressTally& tally) {
 
 Section counts_section(const StressTally& tally) {
   Section section{"counts", "Counts", {}};
-  report::Table refused{"Refused at set-up", {{"Field and reason", ""}, {"Cases", ""}}, {}, false};
+  report::Table refused{"Refused at set-up", {{"Field and reason", "", false}, {"Cases", ""}}, {}, false};
   for (const auto& [reason, times] : tally.refused) refused.rows.push_back({reason, std::to_string(times)});
   section.blocks.push_back(std::move(refused));
-  report::Table failures{"Failures", {{"Case", ""}, {"What", "", false}, {"Drawn", "", false}}, {}, false};
+  report::Table failures{"Failures", {{"Case", "", false}, {"What", "", false}, {"Drawn", "", false}}, {}, false};
   for (const StressFailure& one : tally.failures)
     failures.rows.push_back({std::to_string(one.number), one.what, one.drawn});
   if (!tally.failures.empty()) section.blocks.push_back(std::move(failures));
@@ -178,7 +179,8 @@ std::string text_of(const StressTally& tally, const std::vector<StabilityPoint>&
   s.line("inaccurate", tally.inaccurate);
   s.line("refused_but_could_run", tally.wrongly_refused);
   for (const StressFailure& failure : tally.failures) {
-    s.line("failure", "--seed " + std::to_string(tally.seed) + " --case " + std::to_string(failure.number) + ": " + failure.what);
+    s.line("failure",
+           "--seed " + std::to_string(tally.seed) + " --case " + std::to_string(failure.number) + ": " + failure.what);
     s.text("  # " + failure.drawn + "\n");
   }
   return s.text();
@@ -195,7 +197,7 @@ report::Page stress_page(const StressTally& tally, const std::vector<StabilityPo
   fact("Refused", tally.refusals(), "at set-up, rightly");
   fact("Ran", tally.ran,
        std::to_string(tally.all_cycles) + " through " + std::to_string(kStressCycles) + " cycles, the others for " +
-           std::to_string(kMostTicks) + " ticks");
+           std::to_string(kMaxTicks) + " ticks");
   fact("Compared", tally.compared, "with the converged reference");
   fact("Diverged", tally.diverged, "");
   fact("Inaccurate", tally.inaccurate, "");

@@ -35,7 +35,7 @@ struct StressTally {
   int inaccurate = 0;
   std::int64_t ticks = 0;
   std::vector<double> of_class;    ///< of every comparison
-  std::vector<double> of_allowed;  ///< likewise, but for those over the event budget
+  std::vector<double> of_allowed;  ///< of every comparison, but for those over the event budget
   std::vector<StressFailure> failures;
 
   void add(int number, const StressCase& drawn, const TrialResult& result);

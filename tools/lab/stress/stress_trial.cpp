@@ -9,8 +9,8 @@
 #include <crankloop/tabulate/valve_lift.hpp>
 #include <crankloop/tick/step.hpp>
 
-#include "crankloop/number.hpp"
 #include "../reference/valve_reference.hpp"
+#include "crankloop/number.hpp"
 #include "crankloop/units.hpp"
 #include "stress_comparison.hpp"
 #include "stress_energy.hpp"
@@ -19,7 +19,6 @@ namespace crankloop::program {
 namespace {
 
 using valve_reference::SingleMass;
-
 
 /// One cylinder's one valve, everything that is told of it.
 struct StressedValve : Scene {
@@ -43,19 +42,19 @@ Phase phase_at(double deg) {
   return Phase{static_cast<std::uint64_t>(static_cast<long double>(deg) / 720 * 18446744073709551616.0L)};
 }
 
-/// Fine steps that a tick needs by docs/decisions/0014: the fastest rate times a fine step at most 1 for 0.1 um and coarser
-/// classes, less by the fourth root for finer ones.
+/// Fine steps that a tick needs by docs/decisions/0014: the fastest rate times a fine step at most 1 for 0.1 um and
+/// coarser classes, less by the fourth root for finer ones.
 double fine_steps_needed(const SingleMass& mass, const TickOptions& options) {
   return options.tick_s * mass.fastest() / std::min(1.0, std::pow(options.valves.accuracy_m / 0.1e-6, 0.25));
 }
 
 /// Whether a refused case could have run, by what this file works out by itself.
 bool could_run(const StressCase& drawn, const Status& refused) {
-  if (refused.field == std::string_view("rocker.base_circle")) {
+  if (refused.field == std::string_view("rocker.base_circle_m")) {
     // Smoothing bends a table's contour by some hundredths of the base circle.
     return drawn.smallest_radius_m() > 0.1 * drawn.train.rocker.base_circle_m;
   }
-  if (refused.field != std::string_view("tick.tick") || refused.reason != Reason::out_of_range) return true;
+  if (refused.field != std::string_view("options.tick_s") || refused.reason != Reason::out_of_range) return true;
   ValveLift lift;
   if (!lift.init(drawn.train.cam, drawn.train.rocker).ok()) return true;
   const SingleMass mass(drawn.train.valve, drawn.train.rocker, lift.largest_lift_m());
@@ -91,8 +90,8 @@ void run_ticks(Rig<Real>& rig, const StressCase& drawn, int copies, TrialResult&
   const double cam_rad_s = static_cast<double>(in.speed_rad_s) / 2;
   const double ticks_per_cycle = 360 * kRadPerDeg / std::max(1e-30, std::fabs(cam_rad_s)) / drawn.options.tick_s;
   const double wanted = kStressCycles * ticks_per_cycle;
-  result.all_cycles = wanted < kMostTicks;
-  result.ticks = result.all_cycles ? static_cast<int>(wanted) + 1 : kMostTicks;
+  result.all_cycles = wanted < kMaxTicks;
+  result.ticks = result.all_cycles ? static_cast<int>(wanted) + 1 : kMaxTicks;
 
   auto& engine = rig.engine;
   const auto& curve = rig.tables.tables().lift_curves[0];
@@ -117,7 +116,7 @@ void run_ticks(Rig<Real>& rig, const StressCase& drawn, int copies, TrialResult&
       return diverged(tick, "a fault other than the event budget's");
     result.over_budget = result.over_budget || out.faults != 0;
     for (const Real x : {valve.lift_m, valve.velocity_m_s, valve.acceleration_m_s2, valve.theoretical_lift_m,
-                         force.train_N, force.seat_N, force.tip_N, force.cam_N, force.gap_m}) {
+                         force.train_N, force.seat_N, force.tip_N, force.cam_N, force.train_compression_m}) {
       if (!std::isfinite(x)) return diverged(tick, "not finite");
     }
     energy.tick(static_cast<double>(valve.lift_m), static_cast<double>(valve.velocity_m_s));
@@ -130,8 +129,8 @@ void run_ticks(Rig<Real>& rig, const StressCase& drawn, int copies, TrialResult&
                       engine.state().valve_lift_m[0] == 0 && engine.state().valve_velocity_m_s[0] == 0);
     }
   }
-  constexpr double kMostChangesInACycle = 1000;  // of the cycle that has not ended
-  if (!energy.cycle(kMostChangesInACycle)) return diverged(result.ticks, "more energy than the train can have given");
+  constexpr double kMaxChangesInACycle = 1000;  // of the cycle that has not ended
+  if (!energy.cycle(kMaxChangesInACycle)) return diverged(result.ticks, "more energy than the train can have given");
   if (compared_ticks == 0) return;
   result.compared = true;
   result.of_class = comparison.of_class();

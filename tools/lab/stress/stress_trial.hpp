@@ -7,17 +7,17 @@
 //
 //   refused    at set-up, and rightly: the tick needs more fine steps than the contract allows, or the cam cannot be
 //              ground, both worked out here by formulas of their own.
-//   bounded    20 cycles, or kMostTicks: every output finite, no fault but an exceeded event budget, and at the end of
-//              each cycle sqrt(2 E / M) at most twice what the train can have put in: its share at rest, every change of
-//              the cam's speed so far, and twice its largest speed for every contact change.
+//   bounded    20 cycles, or kMaxTicks: every output finite, no fault but an exceeded event budget, and at the end of
+//              each cycle sqrt(2 E / M) at most twice what the train can have put in: its share at rest, every change
+//              of the cam's speed so far, and twice its largest speed for every contact change.
 //   accurate   for kReferenceCycles, or as far as kReferenceSteps go: at every tick the lift is off by at most
-//              kMagnified times this: the accuracy asked for, and the most that kCopies copies of the reference have got
-//              off it since the valve last rested. Each copy is knocked up or down where the cam starts under it and in
-//              every tick in which its contact changes: by the accuracy asked for, with Runge-Kutta times as much as its
-//              vibration is wider than kClassAmplitude_m. In float rounding shakes the copies in every tick. So a motion
-//              that magnifies errors excuses an error, by as much as it magnifies, and nothing else does but an exceeded
-//              event budget. What is beyond that is judged again with kMoreCopies before it counts as inaccurate.
-//              (stress_comparison.hpp)
+//              kMagnified times this: the accuracy asked for, and the most that kCopies copies of the reference have
+//              got off it since the valve last rested. Each copy is knocked up or down where the cam starts under it
+//              and in every tick in which its contact changes: by the accuracy asked for, with Runge-Kutta times as
+//              much as its vibration is wider than kClassAmplitude_m. In float rounding shakes the copies in every
+//              tick. So a motion that magnifies errors excuses an error, by as much as it magnifies, and nothing else
+//              does but an exceeded event budget. What is beyond that is judged again with kMoreCopies before it counts
+//              as inaccurate. (stress_comparison.hpp)
 #pragma once
 
 #include <memory>
@@ -30,7 +30,7 @@
 namespace crankloop::program {
 
 inline constexpr int kStressCycles = 20;
-inline constexpr int kMostTicks = 40'000;
+inline constexpr int kMaxTicks = 40'000;
 inline constexpr double kReferenceCycles = 1.5;
 inline constexpr double kReferenceSteps = 2500;
 
@@ -45,8 +45,8 @@ struct TrialResult {
   bool over_budget = false;  ///< more contact changes in a tick than are located
   bool compared = false;
   bool judged_again = false;  ///< with kMoreCopies
-  double of_class = 0;    ///< largest error over the accuracy asked for
-  double of_allowed = 0;  ///< largest error over what the rule allows
+  double of_class = 0;        ///< largest error over the accuracy asked for
+  double of_allowed = 0;      ///< largest error over what the rule allows
 };
 
 class StressTrials {

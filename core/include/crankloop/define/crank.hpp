@@ -1,6 +1,7 @@
 // The geometry of one crank mechanism: bore, crank, rod, offset.
 //
-// What belongs here: lengths that a drawing gives. What does not: motion (tabulate/mechanism.hpp) and masses (define/masses.hpp).
+// What belongs here: lengths that a drawing gives. What does not: motion (tabulate/mechanism.hpp) and masses
+// (define/masses.hpp).
 #pragma once
 
 #include <crankloop/define/field.hpp>
@@ -10,7 +11,7 @@ namespace crankloop {
 
 /// Slider-crank of one cylinder; all cylinders of an engine are alike.
 ///
-///              |  head                  a: crank angle, 0 when the throw is parallel to the cylinder axis toward the head
+///              |  head                  a: crank angle, 0 with the throw parallel to the cylinder axis to the head
 ///         _____|_____                   b: rod angle from the cylinder axis
 ///        |  piston   |                  x: displacement from top dead centre, positive toward the crankshaft
 ///        |_____o_____|
@@ -22,16 +23,19 @@ namespace crankloop {
 ///        r   \ |
 ///             \|
 struct Crank {
-  double bore_m = 0;             ///< > 0, at most 2
-  double crank_radius_m = 0;     ///< r, half the nominal stroke; > 0, at most 2
-  double rod_length_m = 0;       ///< l > least_rod_length_m(), at most 10
-  double pin_offset_m = 0;       ///< e
-  double compression_ratio = 2;  ///< (V_c + V_d) / V_c; > 1, at most 100. Only pressure sources that know the volume use it
+  double bore_m = 0;          ///< > 0, at most 2
+  double crank_radius_m = 0;  ///< r, half the nominal stroke; > 0, at most 2
+  double rod_length_m = 0;    ///< l > least_rod_length_m(), at most 10
+  double pin_offset_m = 0;    ///< e
+  double compression_ratio =
+      2;  ///< (V_c + V_d) / V_c; > 1, at most 100. Only pressure sources that know the volume use it
 
-  [[nodiscard]] constexpr double rod_ratio() const noexcept { return crank_radius_m / rod_length_m; }  ///< lambda = r / l
+  [[nodiscard]] constexpr double rod_ratio() const noexcept {
+    return crank_radius_m / rod_length_m;
+  }  ///< lambda = r / l
 
-  /// What the rod must be longer than: r + |e|, with which the rod would lie square to the cylinder axis once a turn, cos b = 0, and a billionth
-  /// of that, which keeps cos b above 4e-5 whatever rounding does to sin b.
+  /// What the rod must be longer than: r + |e|, with which the rod would lie square to the cylinder axis once a turn,
+  /// cos b = 0, and a billionth of that, which keeps cos b above 4e-5 whatever rounding does to sin b.
   [[nodiscard]] constexpr double least_rod_length_m() const noexcept {
     return (crank_radius_m + (pin_offset_m < 0 ? -pin_offset_m : pin_offset_m)) * (1 + 1e-9);
   }

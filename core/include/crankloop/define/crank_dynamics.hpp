@@ -1,7 +1,8 @@
 // What acts on the crankshaft besides gas and masses: friction, the driven machine, the starter.
 //
-// What belongs here: what a scene that integrates the speed (CrankGiven::load) needs to know beyond the engine itself. What does not: what
-// changes from tick to tick (Input::load_Nm, Input::starter). Equations: docs/model.md "Crank dynamics". All zero: there is none of it.
+// What belongs here: what a scene that integrates the speed (CrankGiven::torque) needs to know beyond the engine
+// itself. What does not: what changes from tick to tick (Input::external_torque_Nm, Input::starter). Equations:
+// docs/model.md "Crank dynamics". All zero: there is none of it.
 #pragma once
 
 #include <crankloop/define/field.hpp>
@@ -9,14 +10,17 @@
 
 namespace crankloop {
 
-/// Friction of the engine as a mean effective pressure over the crank speed w: constant + linear |w| + quadratic w^2. As a torque it is that
-/// pressure times the swept volume of all cylinders / (4 pi). It opposes the rotation whatever its sense, and holds at standstill.
+/// Friction of the engine as a mean effective pressure over the crank speed w: constant + linear |w| + quadratic w^2.
+/// As a torque it is that pressure times the swept volume of all cylinders / (4 pi). It opposes the rotation whatever
+/// its sense, and holds at standstill.
 struct Friction {
-  double constant_Pa = 0;     ///< 0 to 1e7
-  double linear_Pa_s = 0;     ///< per rad/s; 0 to 1e6
-  double quadratic_Pa_s2 = 0; ///< per (rad/s)^2; 0 to 1e6
+  double constant_Pa = 0;      ///< 0 to 1e7
+  double linear_Pa_s = 0;      ///< per rad/s; 0 to 1e6
+  double quadratic_Pa_s2 = 0;  ///< per (rad/s)^2; 0 to 1e6
 
-  [[nodiscard]] constexpr bool any() const noexcept { return constant_Pa != 0 || linear_Pa_s != 0 || quadratic_Pa_s2 != 0; }
+  [[nodiscard]] constexpr bool any() const noexcept {
+    return constant_Pa != 0 || linear_Pa_s != 0 || quadratic_Pa_s2 != 0;
+  }
 
   template <class Visit, class Self, class... Others>
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
@@ -26,8 +30,9 @@ struct Friction {
   }
 };
 
-/// The driven machine as a passive brake: its torque opposes the rotation like friction does. What may also drive is Input::load_Nm.
-struct Load {
+/// The driven machine as a passive brake: its torque opposes the rotation like friction does. What may also drive is
+/// Input::external_torque_Nm.
+struct DrivenMachine {
   double constant_Nm = 0;      ///< 0 to 1e7
   double linear_Nm_s = 0;      ///< per rad/s; 0 to 1e6
   double quadratic_Nm_s2 = 0;  ///< per (rad/s)^2; 0 to 1e6
@@ -35,15 +40,15 @@ struct Load {
 
   template <class Visit, class Self, class... Others>
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
-    CRANKLOOP_FIELD(1, load, constant_Nm);
-    CRANKLOOP_FIELD(1, load, linear_Nm_s);
-    CRANKLOOP_FIELD(1, load, quadratic_Nm_s2);
-    CRANKLOOP_FIELD(1, load, inertia_kg_m2);
+    CRANKLOOP_FIELD(1, machine, constant_Nm);
+    CRANKLOOP_FIELD(1, machine, linear_Nm_s);
+    CRANKLOOP_FIELD(1, machine, quadratic_Nm_s2);
+    CRANKLOOP_FIELD(1, machine, inertia_kg_m2);
   }
 };
 
-/// A starter, seen from the crankshaft: its torque falls in a straight line from standstill to the no-load speed. Above, it free-wheels; the
-/// crank turning backwards meets the stall torque.
+/// A starter, seen from the crankshaft: its torque falls in a straight line from standstill to the no-load speed.
+/// Above, it free-wheels; the crank turning backwards meets the stall torque.
 struct Starter {
   double stall_Nm = 0;       ///< 0 (no starter) to 1e7
   double no_load_rad_s = 0;  ///< > 0 where there is a stall torque, at most 1e4
@@ -55,9 +60,9 @@ struct Starter {
   }
 };
 
-/// Field names "friction.*", "load.*", "starter.*".
+/// Field names "friction.*", "machine.*", "starter.*".
 Status validate(const Friction& friction) noexcept;
-Status validate(const Load& load) noexcept;
+Status validate(const DrivenMachine& machine) noexcept;
 Status validate(const Starter& starter) noexcept;
 
 }  // namespace crankloop

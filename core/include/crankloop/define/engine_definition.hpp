@@ -4,6 +4,7 @@
 #include <crankloop/define/crank.hpp>
 #include <crankloop/define/crank_dynamics.hpp>
 #include <crankloop/define/field.hpp>
+#include <crankloop/define/gas.hpp>
 #include <crankloop/define/layout.hpp>
 #include <crankloop/define/masses.hpp>
 #include <crankloop/define/pressure.hpp>
@@ -20,10 +21,11 @@ struct EngineDefinition {
   int train_count = 0;  ///< 0 to kMaxTrains
   ValveTrain trains[kMaxTrains];
   Friction friction;
-  Load load;
+  DrivenMachine machine;
   Starter starter;
   int trigger_count = 0;  ///< 0 to kMaxTriggerWheels
   TriggerWheel triggers[kMaxTriggerWheels];
+  Gas gas;  ///< read where pressure.source is gas
 
   template <class Visit, class Self, class... Others>
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
@@ -34,13 +36,14 @@ struct EngineDefinition {
     CRANKLOOP_PART(1, train_count);
     CRANKLOOP_PART(self.train_count, trains);
     CRANKLOOP_PART(1, friction);
-    CRANKLOOP_PART(1, load);
+    CRANKLOOP_PART(1, machine);
     CRANKLOOP_PART(1, starter);
   }
 };
 
-/// Validates every part and what they demand of one another, in the order above; the first refusal is returned. Valve trains are
-/// validated where their lift and motion are worked out (tabulate). About a trigger wheel, `index` is its number.
+/// Validates every part and what they demand of one another, in the order above; the first refusal is returned. Valve
+/// trains are validated where their lift and motion are worked out (tabulate). About a trigger wheel, `index` is its
+/// number.
 Status validate(const EngineDefinition& engine) noexcept;
 
 }  // namespace crankloop

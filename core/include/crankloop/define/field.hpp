@@ -1,11 +1,13 @@
 // The one list of fields that each struct of a definition has, its each_field().
 //
-//     Crank::each_field(visit, crank)             visit(read, "crank.bore_m", crank.bore_m), and so on
-//     Crank::each_field(visit, crank, other)      visit(read, "crank.bore_m", crank.bore_m, other.bore_m): any struct with fields of these names
+//     Crank::each_field(visit, crank)           calls visit(read, "crank.bore_m", crank.bore_m), and so on
+//     Crank::each_field(visit, crank, other)    calls visit(read, "crank.bore_m", crank.bore_m, other.bore_m):
+//                                               `other` is any struct with fields of these names
 //
-// `read` is how many of it the tables read while the definition is as `crank` is: 1 or 0, of a list how many entries. A part that is a struct
-// itself is visited as one. What goes through a definition goes by these lists: the tables' fingerprint, the C interface, the program's
-// engine file. That none lacks a field is checked where the fingerprint is made.
+// `read` is how many of it the tables read while the definition is as `crank` is: 1 or 0, of a list how many entries. A
+// part that is a struct itself is visited as one. What goes through a definition goes by these lists: the tables'
+// fingerprint, the C interface, the program's engine file. That none lacks a field is checked where the fingerprint is
+// made.
 #pragma once
 
 #include <type_traits>

@@ -13,14 +13,16 @@
 
 namespace crankloop {
 
-/// Places of the cylinders. Cylinder 1 is index 0. Angles in degrees, as they are given and kept exact: 120 deg has no exact radian.
+/// Places of the cylinders. Cylinder 1 is index 0. Angles in degrees, as they are given and kept exact: 120 deg has no
+/// exact radian.
 ///
-/// Engine angle A is 0 at cylinder 1's firing top dead centre when firing_deg[0] = 0; cylinder k's own crank angle is A - firing_deg[k].
+/// Engine angle A is 0 at cylinder 1's firing top dead centre when firing_deg[0] = 0; cylinder k's own crank angle is A
+/// - firing_deg[k].
 struct Layout {
-  int cylinders = 1;                                        ///< 1 to 16
-  std::array<double, kMaxCylinders> firing_deg{};           ///< engine angle at which the cylinder's own angle is 0, in [0, 720)
-  std::array<double, kMaxCylinders> bank_deg{};             ///< cylinder axis from the vertical, positive in the sense of rotation
-  std::array<double, kMaxCylinders> position_m{};           ///< along the crankshaft
+  int cylinders = 1;                               ///< 1 to 16
+  std::array<double, kMaxCylinders> firing_deg{};  ///< engine angle at which the cylinder's own angle is 0, in [0, 720)
+  std::array<double, kMaxCylinders> bank_deg{};  ///< cylinder axis from the vertical, positive in the sense of rotation
+  std::array<double, kMaxCylinders> position_m{};  ///< along the crankshaft
   std::array<std::uint8_t, kMaxCylinders> pin{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   ///< which crank pin carries the rod, numbered from 0 without gaps along the shaft; equal numbers share a pin
 
@@ -39,7 +41,8 @@ struct Layout {
   }
 };
 
-/// Sets firing_deg for even firing over 720 deg in the given order (cylinder numbers from 1); order has `cylinders` entries.
+/// Sets firing_deg for even firing over 720 deg in the given order (cylinder numbers from 1); order has `cylinders`
+/// entries.
 Status set_firing_order(const int* order, int cylinders, Layout& layout) noexcept;
 
 /// Numbers the pins along the shaft: cylinders at one position whose throws point the same way share a pin.

@@ -19,9 +19,9 @@ struct RigidRod {
 
 /// One throw of the crankshaft as it is drawn.
 struct CrankThrow {
-  double pin_kg = 0;    ///< between the webs
-  double web_kg = 0;    ///< one of the two
-  double web_com_m = 0; ///< rho_web: a web's centre of mass from the crankshaft's axis, toward the pin
+  double pin_kg = 0;     ///< between the webs
+  double web_kg = 0;     ///< one of the two
+  double web_com_m = 0;  ///< rho_web: a web's centre of mass from the crankshaft's axis, toward the pin
 };
 
 /// Masses per cylinder, the rod already lumped on its two ends.
@@ -30,8 +30,9 @@ struct Masses {
   double rod_small_end_kg = 0;              ///< m_rod_pin, moves with the piston
   double rod_big_end_kg = 0;                ///< m_rod_crank, turns with the crank pin
   double rod_inertia_correction_kg_m2 = 0;  ///< dI = J_rod - m_rod l_pin l_crank; 0 = two-mass rod; may be negative
-  double crank_pin_equivalent_kg = 0;       ///< m_k, pin and webs reduced to the crank radius; acts in the centrifugal force only
-  double crank_inertia_kg_m2 = 0;           ///< whole crankshaft with flywheel, without rods
+  double crank_pin_equivalent_kg =
+      0;  ///< m_k, pin and webs reduced to the crank radius; acts in the centrifugal force only
+  double crank_inertia_kg_m2 = 0;  ///< whole crankshaft with flywheel, without rods
 
   [[nodiscard]] constexpr double reciprocating_kg() const noexcept { return piston_kg + rod_small_end_kg; }  ///< m_j
 

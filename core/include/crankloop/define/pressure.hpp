@@ -1,6 +1,7 @@
 // Where the cylinder pressure comes from when it is not an input of every tick.
 //
-// What belongs here: diagrams as given. What does not: pressure over crank angle as used (tabulate/indicator_diagram.hpp).
+// What belongs here: diagrams as given. What does not: pressure over crank angle as used
+// (tabulate/indicator_diagram.hpp).
 #pragma once
 
 #include <cstdint>
@@ -17,34 +18,40 @@ enum class PressureSource : std::uint8_t {
   angle_table,   ///< rows (crank_deg, pressure_Pa), one 720 deg period
   volume_table,  ///< rows (volume_m3, pressure_Pa), the loop in the order of time from firing top dead centre
   wiebe,         ///< synthesised: docs/model.md "Synthesised diagram"
+  gas,           ///< no diagram: it follows from what is in the cylinder (EngineDefinition::gas), in scenes with
+                 ///< PressureGiven::by_gas
 };
 
-/// How far from 0 an angle table may lie: there a double still tells angles 1e-10 deg apart, beyond 1e9 deg no longer 1e-7.
-inline constexpr double kMostDiagramAngle_deg = 1e6;
+/// How far from 0 an angle table may lie: there a double still tells angles 1e-10 deg apart, beyond 1e9 deg no longer
+/// 1e-7.
+inline constexpr double kMaxDiagramAngle_deg = 1e6;
 
-/// One row of a diagram: crank angle in degrees, within +-kMostDiagramAngle_deg, or volume in m^3, and absolute pressure, 0 to kMostPressure_Pa.
+/// One row of a diagram: crank angle in degrees, within +-kMaxDiagramAngle_deg, or volume in m^3, and absolute
+/// pressure, 0 to kMaxPressure_Pa.
 struct DiagramPoint {
   double at;
   double pressure_Pa;
 };
 
-/// A cylinder that does not fire loses heat and gas: its expansion lies below its compression by (volume / clearance volume) to the minus this.
+/// A cylinder that does not fire loses heat and gas: its expansion lies below its compression by (volume / clearance
+/// volume) to the minus this.
 inline constexpr double kMotoredLoss = 0.03;
 
 /// Synthesised four-stroke diagram. Angles in degrees of the cylinder's own crank angle, firing at 0.
 struct WiebeDiagram {
-  double intake_Pa = 98e3;                   ///< plenum, from gas-exchange top dead centre to bottom dead centre
-  double exhaust_Pa = 105e3;                 ///< back pressure
-  double start_of_combustion_deg = -6;       ///< -90 to 90
-  double combustion_duration_deg = 60;       ///< 1 to 150; must end before the exhaust valve opens
-  double wiebe_m = 0.9;                      ///< form exponent, 0 to 10
-  double compression_exponent = 1.35;        ///< n1, 1 to 2
-  double expansion_exponent = 1.28;          ///< n2, 1.0001 to 2
-  double motored_expansion_exponent = 0;     ///< of a cylinder that does not fire: at least n1, at most 3; 0 = n1 + kMotoredLoss
-  double exhaust_valve_opens_deg = 135;      ///< 30 to 179
-  bool heat_given = false;                   ///< true: heat_J is used; false: heat is scaled to net_mep_Pa
-  double net_mep_Pa = 0;                     ///< indicated mean effective pressure over 720 deg at load ratio 1; from the motored one on
-  double heat_J = 0;                         ///< heat released per cycle and cylinder at load ratio 1; 0 = motored
+  double intake_Pa = 98e3;              ///< plenum, from gas-exchange top dead centre to bottom dead centre
+  double exhaust_Pa = 105e3;            ///< back pressure
+  double start_of_combustion_deg = -6;  ///< -90 to 90
+  double combustion_duration_deg = 60;  ///< 1 to 150; must end before the exhaust valve opens
+  double wiebe_m = 0.9;                 ///< form exponent, 0 to 10
+  double compression_exponent = 1.35;   ///< n1, 1 to 2
+  double expansion_exponent = 1.28;     ///< n2, 1.0001 to 2
+  double motored_expansion_exponent =
+      0;  ///< of a cylinder that does not fire: at least n1, at most 3; 0 = n1 + kMotoredLoss
+  double exhaust_valve_opens_deg = 135;  ///< 30 to 179
+  bool heat_given = false;               ///< true: heat_J is used; false: heat is scaled to net_mep_Pa
+  double net_mep_Pa = 0;  ///< indicated mean effective pressure over 720 deg at load ratio 1; from the motored one on
+  double heat_J = 0;      ///< heat released per cycle and cylinder at load ratio 1; 0 = motored
 
   [[nodiscard]] constexpr double motored_exponent() const noexcept {
     return motored_expansion_exponent > 0 ? motored_expansion_exponent : compression_exponent + kMotoredLoss;
@@ -67,14 +74,15 @@ struct WiebeDiagram {
   }
 };
 
-/// Pressure at load ratio q, at most kMostPressure_Pa at q = 1, is p_motored(a) + q (p_full(a) - p_motored(a)).
+/// Pressure at load ratio q, at most kMaxPressure_Pa at q = 1, is p_motored(a) + q (p_full(a) - p_motored(a)).
 ///
 /// The motored diagram is that of a cylinder without combustion, and does no work: docs/model.md "Load ratio".
 struct Pressure {
   PressureSource source = PressureSource::none;
-  double crankcase_Pa = 100e3;           ///< p0, on the piston's other side
+  double crankcase_Pa = 100e3;  ///< p0, on the piston's other side
   WiebeDiagram wiebe{};
-  const DiagramPoint* points = nullptr;  ///< rows of a table source, which alone reads them; the caller keeps them alive while tabulating
+  const DiagramPoint* points =
+      nullptr;  ///< rows of a table source, which alone reads them; the caller keeps them alive while tabulating
   int point_count = 0;
 
   template <class Visit, class Self, class... Others>

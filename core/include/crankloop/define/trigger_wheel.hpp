@@ -1,11 +1,12 @@
 // One trigger wheel: the toothed disc on the crankshaft or on a camshaft whose edges a controller decodes.
 //
-// What belongs here: teeth, gaps and where they stand. What does not: names such as 36-2-2-2 (the program turns them into teeth and gaps),
-// the sensor and its delay, the wheel's edges as the tick reads them (tables/trigger_tables.hpp).
+// What belongs here: teeth, gaps and where they stand. What does not: names such as 36-2-2-2 (the program turns them
+// into teeth and gaps), the sensor and its delay, the wheel's edges as the tick reads them (tables/trigger_tables.hpp).
 #pragma once
 
 #include <cstdint>
 
+#include <crankloop/define/field.hpp>
 #include <crankloop/limits.hpp>
 #include <crankloop/status.hpp>
 
@@ -25,6 +26,12 @@ enum class TriggerPattern : std::uint8_t {
 struct ToothGap {
   int teeth;    ///< 1 or more
   int missing;  ///< 1 or more
+
+  template <class Visit, class Self, class... Others>
+  static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    CRANKLOOP_FIELD(1, trigger, teeth);
+    CRANKLOOP_FIELD(1, trigger, missing);
+  }
 };
 
 inline constexpr int kMaxToothGaps = 8;
@@ -40,17 +47,35 @@ struct TriggerWheel {
   int train = -1;  ///< cam: the valve train whose phaser moves the wheel too, counted from 0; -1 = none does
   TriggerPattern pattern = TriggerPattern::teeth;
   // teeth
-  int places = 0;                     ///< teeth and missing ones in a turn of the shaft, 1 to 360
-  int gap_count = 0;                  ///< 0 to 8; the places that are left after the last gap have teeth
+  int places = 0;     ///< teeth and missing ones in a turn of the shaft, 1 to 360
+  int gap_count = 0;  ///< 0 to 8; the places that are left after the last gap have teeth
   ToothGap gaps[kMaxToothGaps] = {};
-  double first_tooth_deg = 0;         ///< crank angle after cylinder 1's firing top dead centre of tooth 1's rising edge; 0 to below 720
-  double tooth_ratio = 0.5;           ///< width of a tooth per distance from place to place; 0.01 to 0.99
+  double first_tooth_deg =
+      0;  ///< crank angle after cylinder 1's firing top dead centre of tooth 1's rising edge; 0 to below 720
+  double tooth_ratio = 0.5;  ///< width of a tooth per distance from place to place; 0.01 to 0.99
   // edges
-  const double* edges_deg = nullptr;  ///< rise, fall, rise, ... in crank degrees after cylinder 1's firing top dead centre: the first 0 to
-                                      ///< below 720, rising, within one turn of the shaft; the caller keeps them alive while tabulating
-  int edge_count = 0;                 ///< even, 2 to kMaxTriggerEdges
+  const double* edges_deg =
+      nullptr;  ///< rise, fall, rise, ... in crank degrees after cylinder 1's firing top dead centre: the first 0 to
+                ///< below 720, rising, within one turn of the shaft; the caller keeps them alive while tabulating
+  int edge_count = 0;  ///< even, 2 to kMaxTriggerEdges
 
-  bool inverted = false;              ///< the signal is 0 where it says 1 above
+  bool inverted = false;  ///< the signal is 0 where it says 1 above
+
+  template <class Visit, class Self, class... Others>
+  static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    const bool teeth = self.pattern == TriggerPattern::teeth;
+    CRANKLOOP_FIELD(1, trigger, shaft);
+    CRANKLOOP_FIELD(1, trigger, train);
+    CRANKLOOP_FIELD(1, trigger, pattern);
+    CRANKLOOP_FIELD(teeth ? 1 : 0, trigger, places);
+    CRANKLOOP_FIELD(teeth ? 1 : 0, trigger, gap_count);
+    CRANKLOOP_FIELD(teeth ? self.gap_count : 0, trigger, gaps);
+    CRANKLOOP_FIELD(1, trigger, first_tooth_deg);
+    CRANKLOOP_FIELD(teeth ? 1 : 0, trigger, tooth_ratio);
+    CRANKLOOP_FIELD(teeth ? 0 : self.edge_count, trigger, edges_deg);
+    CRANKLOOP_FIELD(teeth ? 0 : 1, trigger, edge_count);
+    CRANKLOOP_FIELD(1, trigger, inverted);
+  }
 };
 
 /// Field names "trigger.*", as in the engine file without unit; `index` is the gap or the edge.

@@ -3,8 +3,9 @@
 
 #include <cstdint>
 
-#include <crankloop/tables/curve.hpp>
+#include <crankloop/assert.hpp>
 #include <crankloop/phase.hpp>
+#include <crankloop/tables/curve.hpp>
 
 namespace crankloop::detail {
 
@@ -16,12 +17,16 @@ struct Angle {
 
   /// The degree within the crank turn, 0 to 359.
   [[nodiscard]] constexpr std::uint32_t turn_degree() const noexcept {
+    CRANKLOOP_ASSERT(cell.degree < std::uint32_t{kDegreesPerCycle});
     return cell.degree >= std::uint32_t{kDegreesPerTurn} ? cell.degree - std::uint32_t{kDegreesPerTurn} : cell.degree;
   }
   /// The cell of a cylinder that fires `turns` (0 or 1) crank turns after the mechanism's phase.
   [[nodiscard]] constexpr Cell delayed(std::uint32_t turns) const noexcept {
+    CRANKLOOP_ASSERT(turns <= 1);
+    CRANKLOOP_ASSERT(cell.degree < std::uint32_t{kDegreesPerCycle});
     const std::uint32_t degree = cell.degree + turns * std::uint32_t{kDegreesPerTurn};
-    return {degree >= std::uint32_t{kDegreesPerCycle} ? degree - std::uint32_t{kDegreesPerCycle} : degree, cell.into, cell.rest};
+    return {degree >= std::uint32_t{kDegreesPerCycle} ? degree - std::uint32_t{kDegreesPerCycle} : degree, cell.into,
+            cell.rest};
   }
 };
 

@@ -1,41 +1,43 @@
-// Per-degree curves: a function of the crank angle as one small polynomial per degree, alone or together with its integral.
+// Per-degree curves: a function of the crank angle as one small polynomial per degree, alone or together with its
+// integral.
 //
-// What belongs here: how a curve is stored and read. What does not: which curves there are (tables/tables.hpp), how they are fitted
-// (core/src/tabulate/curve_fit.hpp).
+// What belongs here: how a curve is stored and read. What does not: which curves there are (tables/tables.hpp), how
+// they are fitted (core/src/tabulate/curve_fit.hpp).
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
+#include <crankloop/assert.hpp>
 #include <crankloop/phase.hpp>
 
-namespace crankloop {
+namespace crankloop::detail {
 
-/// Quadratic in float errs by 2.6e-7 of r w^2, twice float's own rounding, cubic in double by 7.1e-10 (docs/decisions/0003-curves.md).
+/// Quadratic in float errs by 2.6e-7 of r w^2, twice float's own rounding, cubic in double by 7.1e-10
+/// (docs/decisions/0003-curves.md).
 template <class Real>
 inline constexpr int kCurveDegree = sizeof(Real) == 4 ? 2 : 3;
 
-/// value = c[0] + u (c[1] + u (c[2] + ...)), u = fraction of the whole degree, also where a degree is divided into several segments.
+/// value = c[0] + u (c[1] + u (c[2] + ...)), u = fraction of the whole degree, also where a degree is divided into
+/// several segments.
 template <class Real>
 struct Segment {
   Real c[kCurveDegree<Real> + 1];
 };
 
-/// A segment's integral with what it starts from, as a polynomial of its own, so one degree higher: as exact as the integral, and read as any curve.
+/// A segment's integral with what it starts from, as a polynomial of its own, so one degree higher: as exact as the
+/// integral, and read as any curve.
 template <class Real>
 struct IntegralSegment {
   Real c[kCurveDegree<Real> + 2];
 };
-
-namespace detail {
 template <class Real, std::size_t N>
 [[nodiscard]] constexpr Real polynomial(const Real (&c)[N], Real u) noexcept {
   Real sum = c[N - 1];
   for (std::size_t i = N - 1; i-- > 0;) sum = c[i] + u * sum;
   return sum;
 }
-}  // namespace detail
 
 template <class Real>
 [[nodiscard]] constexpr Real value(const Segment<Real>& s, Real u) noexcept {
@@ -49,14 +51,15 @@ template <class Real>
 /// Integral over the angle from the degree's start to u, of the curve less `mean`; radians.
 template <class Real>
 [[nodiscard]] constexpr Real integral(const Segment<Real>& s, Real u, Real mean) noexcept {
-  constexpr Real kRadPerDegree = static_cast<Real>(0x1.1df46a2529d39p-6);
+  constexpr Real kPerDegree = static_cast<Real>(kRadPerDegree);
   Real sum = s.c[kCurveDegree<Real>] * (Real{1} / static_cast<Real>(kCurveDegree<Real> + 1));
   for (int i = kCurveDegree<Real> - 1; i > 0; --i) sum = s.c[i] * (Real{1} / static_cast<Real>(i + 1)) + u * sum;
-  return kRadPerDegree * u * ((s.c[0] - mean) + u * sum);
+  return kPerDegree * u * ((s.c[0] - mean) + u * sum);
 }
 
-/// The integral up to a degree's start. In float an integer count of `quantum`, so that the difference of two large integrals is exact:
-/// a tick's work is a hundred-thousandth of a cycle's, and float holds seven digits. Unsigned, so that sums over cylinders may wrap.
+/// The integral up to a degree's start. In float an integer count of `quantum`, so that the difference of two large
+/// integrals is exact: a tick's work is a hundred-thousandth of a cycle's, and float holds seven digits. Unsigned, so
+/// that sums over cylinders may wrap.
 template <class Real>
 using IntegralBase = std::conditional_t<sizeof(Real) == 4, std::uint32_t, double>;
 
@@ -110,16 +113,18 @@ struct IntegratedCurve {
   IntegratedSegment<Real> at[kDegreesPerTurn];
 };
 
-/// Division of the cycle's degrees into segments: degree i has the segments first[i] to first[i + 1] - 1, of equal width.
-/// Only a steep piece of a pressure trace needs more than one (docs/decisions/0004-pressure.md).
+/// Division of the cycle's degrees into segments: degree i has the segments first[i] to first[i + 1] - 1, of equal
+/// width. Only a steep piece of a pressure trace needs more than one (docs/decisions/0004-pressure.md).
 struct GasGrid {
   std::uint16_t first[kDegreesPerCycle + 1];
 
   [[nodiscard]] constexpr std::uint32_t segment(Cell cell) const noexcept {
+    CRANKLOOP_ASSERT(cell.degree < std::uint32_t{kDegreesPerCycle});
     const std::uint32_t start = first[cell.degree];
     const std::uint32_t count = first[cell.degree + 1] - start;
+    CRANKLOOP_ASSERT(count >= 1 && count <= 0xFFFF);
     return start + static_cast<std::uint32_t>((std::uint64_t{cell.into} * count) >> 32);
   }
 };
 
-}  // namespace crankloop
+}  // namespace crankloop::detail

@@ -1,15 +1,17 @@
 // Theoretical valve lift over the cam angle: one quintic per cam degree of the lobe, a constant outside.
 //
-// What belongs here: how the lift is stored and read. What does not: how it is made (tabulate/), what the valve does with it (valve.hpp).
+// What belongs here: how the lift is stored and read. What does not: how it is made (tabulate/), what the valve does
+// with it (valve.hpp).
 #pragma once
 
 #include <cstdint>
 
+#include <crankloop/assert.hpp>
 #include <crankloop/limits.hpp>
 #include <crankloop/tables/angle.hpp>
 #include <crankloop/tables/curve.hpp>
 
-namespace crankloop {
+namespace crankloop::detail {
 
 /// Unclipped train lift and its slope by the cam angle in degrees; negative lift = lash open.
 template <class Real>
@@ -21,36 +23,45 @@ struct Lift {
 /// Lash that keeps a closed valve from being touched whatever it does on its seat, in m.
 inline constexpr double kLeastLash = 1e-6;
 
-/// Y(u) = c[0] + u (c[1] + ...), u = fraction of the cam degree. Through lift, slope and curvature at both ends, so all three are continuous.
+/// Y(u) = c[0] + u (c[1] + ...), u = fraction of the cam degree. Through lift, slope and curvature at both ends, so all
+/// three are continuous.
 template <class Real>
 struct LiftSegment {
   Real c[6];
 };
 
-/// The first segment begins exactly where the lobe opens, so a kink of the higher derivatives can only lie inside the last one.
+/// The first segment begins exactly where the lobe opens, so a kink of the higher derivatives can only lie inside the
+/// last one.
 template <class Real>
 struct LiftCurve {
   const LiftSegment<Real>* at;
-  const Segment<Real>* rocker_ratio;  ///< cam force per valve force, same cells
-  std::uint64_t opens[kMaxCylinders]; ///< per cylinder: engine phase at which its lobe starts; 2^64 = 360 cam deg
-  std::uint64_t most_phase_per_tick;  ///< how far a phaser moves the cam in a tick, phase units; 0 = fixed cam
-  std::uint32_t segments;             ///< cam degrees of the lobe
-  std::uint32_t touch_from;           ///< first degree of it in which the train may touch a closed valve,
-  std::uint32_t touch_degrees;        ///< and how many from there
-  Real leap_deg;                      ///< a tick that turns the cam so far may pass over all of them; more than any turn where there are none
-  Real outside_m;                     ///< lift outside the lobe: minus the clearance
+  const Segment<Real>* rocker_ratio;   ///< cam force per valve force, same cells
+  std::uint64_t opens[kMaxCylinders];  ///< per cylinder: engine phase at which its lobe starts; 2^64 = 360 cam deg
+  std::uint64_t most_phase_per_tick;   ///< how far a phaser moves the cam in a tick, phase units; 0 = fixed cam
+  std::uint32_t segments;              ///< cam degrees of the lobe
+  std::uint32_t touch_from;            ///< first degree of it in which the train may touch a closed valve,
+  std::uint32_t touch_degrees;         ///< and how many from there
+  Real skip_deg;   ///< a tick that turns the cam so far may pass over all of them; more than any turn where there are
+                   ///< none
+  Real outside_m;  ///< lift outside the lobe: minus the clearance
 
   /// Rows of `at` and of `rocker_ratio`: one more than the lobe has degrees, unless that is all: what holds outside.
-  [[nodiscard]] constexpr std::uint32_t rows() const noexcept { return segments < std::uint32_t{kDegreesPerTurn} ? segments + 1 : segments; }
+  [[nodiscard]] constexpr std::uint32_t rows() const noexcept {
+    return segments < std::uint32_t{kDegreesPerTurn} ? segments + 1 : segments;
+  }
 
   /// Where a cam stands: `degree` of its turn, counted from the start of the lobe.
-  [[nodiscard]] static constexpr Cell cell(std::uint64_t since_opening) noexcept { return cell_of<Real>(since_opening, 360); }
+  [[nodiscard]] static constexpr Cell cell(std::uint64_t since_opening) noexcept {
+    return cell_of<Real>(since_opening, 360);
+  }
   /// The same of a cylinder's cam by the train's phase.
   [[nodiscard]] constexpr Cell cell(std::uint64_t phase, std::uint32_t cylinder) const noexcept {
+    CRANKLOOP_ASSERT(cylinder < std::uint32_t{kMaxCylinders});
     return cell(detail::units_from<Real>(phase, opens[cylinder]));
   }
 
   [[nodiscard]] constexpr Lift<Real> read(Cell cell) const noexcept {
+    CRANKLOOP_ASSERT(cell.degree < std::uint32_t{kDegreesPerTurn});
     if (cell.degree >= segments) return {outside_m, Real{0}};
     const Real u = fraction<Real>(cell);
     const Real(&c)[6] = at[cell.degree].c;
@@ -82,6 +93,7 @@ struct LiftCurve {
 
   /// The middle of the base circle, since the lobe opens.
   [[nodiscard]] constexpr std::uint64_t base_middle() const noexcept {
+    CRANKLOOP_ASSERT(segments <= std::uint32_t{kDegreesPerTurn});
     return (std::uint64_t{segments} + kDegreesPerTurn) * (~std::uint64_t{0} / (2 * kDegreesPerTurn));
   }
 
@@ -97,4 +109,4 @@ struct LiftCurve {
   [[nodiscard]] constexpr bool may_touch(Cell cell) const noexcept { return cell.degree - touch_from < touch_degrees; }
 };
 
-}  // namespace crankloop
+}  // namespace crankloop::detail

@@ -1,176 +1,72 @@
 // What the tick reads: plain data, made by tabulate in RAM or printed by the program as constexpr arrays for flash.
 //
-// What belongs here: the records, the list of sections made of them, and the view of them that a scene takes. What does not: how they are
-// filled (tabulate/). One object per section, so that what a scene does not reference is not linked.
+// What belongs here: the list of sections, and the view of them that a scene takes. What does not: what a section is
+// made of (tables/records.hpp and beside it), how it is filled (tabulate/). One object per section, so that what a
+// scene does not reference is not linked.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-#include <crankloop/limits.hpp>
-#include <crankloop/tables/curve.hpp>
-#include <crankloop/tables/lift_curve.hpp>
 #include <crankloop/scene.hpp>
+#include <crankloop/tables/curve.hpp>
+#include <crankloop/tables/gas_tables.hpp>
+#include <crankloop/tables/lift_curve.hpp>
+#include <crankloop/tables/records.hpp>
 #include <crankloop/tables/trigger_tables.hpp>
 #include <crankloop/tables/valve_tables.hpp>
 
-namespace crankloop {
-
-/// Cylinders in groups: those of group g are cylinder[end[g - 1]], or [0] of the first, to cylinder[end[g] - 1].
-struct CylinderGroups {
-  std::uint8_t cylinder[kMaxCylinders];
-  std::uint8_t end[kMaxCylinders];
-};
-
-/// Time and cylinder arrangement; every scene has it.
-template <class Real>
-struct Drive {
-  std::uint64_t fingerprint;  ///< of all sections: a state belongs to its tables
-  Real tick_s;
-  Real per_tick_s;                 ///< 1 / tick
-  Real cycles_per_tick_per_rad_s;  ///< tick / (4 pi): speed to phase increment
-  Real rad_s_per_cycle_per_tick;   ///< 4 pi / tick
-  Real speed_limit_rad_s;          ///< beyond it an input is refused; at most one revolution per tick
-  std::uint32_t cylinders;
-  std::uint32_t mechanisms;                         ///< cylinders with different crank angles; the others share their look-ups
-  std::uint64_t firing_phase[kMaxCylinders];        ///< per mechanism: phase units at which its own crank angle is 0; in float whole 2^32
-  std::uint8_t mechanism_of[kMaxCylinders];         ///< per cylinder
-  std::uint8_t turn_of[kMaxCylinders];              ///< per cylinder: 0, or 1 when it fires a crank turn after its mechanism's phase
-  CylinderGroups by_mechanism;
-  std::uint32_t trains;                             ///< valve trains of each cylinder
-};
-
-/// Lengths and masses of one cylinder as the force equations use them. All cylinders are alike.
-template <class Real>
-struct Body {
-  Real crank_radius_m;
-  Real per_crank_radius;   ///< 1 / r
-  Real per_rod_length;     ///< 1 / l
-  Real pin_offset_m;       ///< e
-  Real height_at_tdc_m;    ///< h + x = sqrt((r + l)^2 - e^2): piston pin above the crank centre at top dead centre
-  Real bore_area_m2;
-  Real crankcase_Pa;
-  Real reciprocating_kg;               ///< m_j
-  Real rod_inertia_correction_kg_m2;   ///< dI
-};
-
-/// A piston's motion.
-template <class Real>
-struct MotionSegment {
-  IntegralSegment<Real> displacement;  ///< x, m: the integral of the slope
-  Segment<Real> slope;                 ///< dx/da, m/rad
-  Segment<Real> acceleration;          ///< d2x/da2, m/rad^2
-};
-/// How a rod leans on its piston and its crank pin.
-template <class Real>
-struct LeanSegment {
-  Segment<Real> tilt;    ///< tan b
-  Segment<Real> radial;  ///< cos(a + b) / cos b
-};
-/// A rod's motion.
-template <class Real>
-struct RodSegment {
-  IntegralSegment<Real> angle;  ///< b, rad: the integral of the slope
-  Segment<Real> slope;          ///< db/da
-};
-
-/// Crank pins and the main journals between them, numbered along the shaft; journals = pins + 1.
-template <class Real>
-struct Bearings {
-  std::uint32_t pins;
-  std::uint8_t pin_of[kMaxCylinders];        ///< per cylinder
-  CylinderGroups by_pin;
-  Real rods_kg_m[kMaxCylinders];             ///< per pin: m_rod_crank r, times the rods on it
-  Real throw_kg_m[kMaxCylinders];            ///< per pin: m_r r
-  Real throw_cos[kMaxCylinders];             ///< per pin: direction of its throw, from that of pin 0 in the sense of rotation
-  Real throw_sin[kMaxCylinders];
-};
-
-/// One vector that turns with the engine: value = (cos, sin) amplitudes of cos(order A), sin(order A), per w^2.
-template <class Real>
-struct Turning {
-  Real up_cos, up_sin, lateral_cos, lateral_sin;              ///< kg m
-  Real pitch_cos, pitch_sin, yaw_cos, yaw_sin;                ///< kg m^2
-};
-
-/// Free forces and moments of the whole engine about the middle of its crankshaft.
-template <class Real>
-struct Balance {
-  Turning<Real> first;     ///< reciprocating, first order
-  Turning<Real> second;    ///< reciprocating, second order
-  Turning<Real> rotating;  ///< centrifugal, first order
-  Curve<Real> cosine;      ///< cos of the crank angle
-};
-
-/// Gas torque of all cylinders over the cycle, on a GasGrid; its integral is the work less that of the mean torque, so it repeats.
-template <class Real>
-struct GasTorque {
-  const IntegratedSegment<Real>* at;
-  Real quantum;
-  Real mean_Nm;
-};
-
-/// What moves the crank besides gas and the pistons' masses, for scenes that integrate its speed w: docs/model.md "Crank dynamics".
-template <class Real>
-struct CrankDynamics {
-  Real turning_kg_m2;         ///< the part of J_eff that does not change with the angle: crankshaft, driven machine, the rods' big ends
-  Real least_kg_m2;           ///< J_eff where it is smallest; 0 where that is less than kLeastInertia_ratio of its largest
-  Real drag_Nm;               ///< friction and brake: constant, per |w| and per w^2
-  Real drag_Nm_s;
-  Real drag_Nm_s2;
-  Real starter_stall_Nm;
-  Real starter_slope_Nm_s;    ///< stall torque / no-load speed
-  Real most_rad_s2;           ///< from one speed limit to the other in a tick: no acceleration is larger
-};
-
-/// Least J_eff that is integrated, and least part of its largest: float keeps the difference of the two that make it.
-inline constexpr double kLeastInertia_kg_m2 = 1e-9;
-inline constexpr double kLeastInertia_ratio = 1e-3;
+namespace crankloop::detail {
 
 /// How many records a section has.
 enum class SectionRows : std::uint8_t { one, gas_grid, torque_grid, cut_grid, trains, lobes, wheels, edges };
 
-// The list of sections: all that knows of every section is made from it. To add one, add its line here, fill it in tabulate and, where its
-// record is new, say in tabulate/table_members.hpp how many members that has.
+// The list of sections: all that knows of every section is made from it. To add one, add its line here, fill it in
+// tabulate and, where its record is new, say in tabulate/table_members.hpp how many members that has.
 //
-// A line: name, record, how many of them, in which scenes S (N = Needs<S>). SECTION is read by the tick through Tables; what is BEHIND the
-// section after it is reached through pointers in that one's records. A macro, because nothing else in C++17 names a member in one place.
-#define CRANKLOOP_SECTIONS(SECTION, BEHIND)                                                                       \
-  SECTION(body, Body<Real>, one, N::body)                                                                         \
-  /* slope dx/da in m/rad, integral x in m: for torque and work of given pressures */                             \
-  SECTION(stroke, IntegratedCurve<Real>, one, N::stroke)                                                          \
-  SECTION(motion, Revolution<MotionSegment<Real>>, one, N::motion)                                                \
-  SECTION(lean, Revolution<LeanSegment<Real>>, one, N::lean)                                                      \
-  SECTION(rod, Revolution<RodSegment<Real>>, one, N::rod)                                                         \
-  SECTION(rod_curvature, Curve<Real>, one, N::rod_curvature) /* d2b/da2 */                                        \
-  /* torque of masses per w^2 in kg m^2, all cylinders, over the engine's angle */                                \
-  SECTION(inertia_torque, IntegratedCurve<Real>, one, N::inertia_torque)                                          \
-  SECTION(gas_grid, GasGrid, one, N::gas_pressure)  /* of the pressures: a cylinder's own cycle */                \
-  SECTION(torque_grid, GasGrid, one, N::gas_torque) /* of the gas torques: the engine's cycle */                  \
-  /* Pa. At load ratio q: motored + q heat. A scene without load ratio takes their sum, `full`. */                \
-  SECTION(pressure_full, Segment<Real>, gas_grid, N::gas_pressure && !N::load)                                    \
-  SECTION(pressure_motored, Segment<Real>, gas_grid, N::gas_pressure && N::load)                                  \
-  SECTION(pressure_heat, Segment<Real>, gas_grid, N::gas_pressure && N::load)                                     \
-  BEHIND(gas_full, IntegratedSegment<Real>, torque_grid, N::gas_torque && !N::load)                               \
-  SECTION(gas_torque_full, GasTorque<Real>, one, N::gas_torque && !N::load)                                       \
-  BEHIND(gas_motored, IntegratedSegment<Real>, torque_grid, N::gas_torque && N::load)                             \
-  SECTION(gas_torque_motored, GasTorque<Real>, one, N::gas_torque && N::load)                                     \
-  BEHIND(gas_heat, IntegratedSegment<Real>, torque_grid, N::gas_torque && N::load)                                \
-  SECTION(gas_torque_heat, GasTorque<Real>, one, N::gas_torque && N::load)                                        \
-  /* what a cylinder that is cut lacks: the torque of the heat in one, over its own cycle */                      \
-  SECTION(cut_grid, GasGrid, one, N::cut_torque)                                                                  \
-  BEHIND(cut_heat, IntegratedSegment<Real>, cut_grid, N::cut_torque)                                              \
-  SECTION(cut_torque, GasTorque<Real>, one, N::cut_torque)                                                        \
-  SECTION(crank_dynamics, CrankDynamics<Real>, one, N::crank_dynamics)                                            \
-  SECTION(bearings, Bearings<Real>, one, S::bearing_loads)                                                        \
-  SECTION(balance, Balance<Real>, one, S::free_forces)                                                            \
-  BEHIND(lift_segments, LiftSegment<Real>, lobes, N::any_valves)                                                  \
-  BEHIND(rocker_ratios, Segment<Real>, lobes, N::any_valves)                                                      \
-  SECTION(lift_curves, LiftCurve<Real>, trains, N::any_valves)                                                    \
-  SECTION(valve_motions, ValveMotion<Real>, trains, N::elastic_valves)                                            \
-  BEHIND(trigger_edges, std::uint32_t, edges, N::any_triggers)                                                    \
-  BEHIND(trigger_tracks, TriggerTrack, wheels, N::any_triggers)                                                   \
-  SECTION(triggers, TriggerWheels, one, N::any_triggers)                                                          \
+// A line: name, record, how many of them, in which scenes S (N = Needs<S>). SECTION is read by the tick through Tables;
+// what is BEHIND the section after it is reached through pointers in that one's records. A macro, because nothing else
+// in C++17 names a member in one place.
+#define CRANKLOOP_SECTIONS(SECTION, BEHIND)                                                        \
+  SECTION(body, Body<Real>, one, N::body)                                                          \
+  /* slope dx/da in m/rad, integral x in m: for torque and work of given pressures */              \
+  SECTION(stroke, IntegratedCurve<Real>, one, N::stroke)                                           \
+  SECTION(motion, Revolution<MotionSegment<Real>>, one, N::motion)                                 \
+  SECTION(lean, Revolution<LeanSegment<Real>>, one, N::lean)                                       \
+  SECTION(rod, Revolution<RodSegment<Real>>, one, N::rod)                                          \
+  SECTION(rod_curvature, Curve<Real>, one, N::rod_curvature) /* d2b/da2 */                         \
+  /* torque of masses per w^2 in kg m^2, all cylinders, over the engine's angle */                 \
+  SECTION(inertia_torque, IntegratedCurve<Real>, one, N::inertia_torque)                           \
+  SECTION(gas_grid, GasGrid, one, N::gas_pressure)  /* of the pressures: a cylinder's own cycle */ \
+  SECTION(torque_grid, GasGrid, one, N::gas_torque) /* of the gas torques: the engine's cycle */   \
+  /* Pa. At load ratio q: motored + q heat. A scene without load ratio takes their sum, `full`. */ \
+  SECTION(pressure_full, Segment<Real>, gas_grid, N::gas_pressure && !N::load)                     \
+  SECTION(pressure_motored, Segment<Real>, gas_grid, N::gas_pressure&& N::load)                    \
+  SECTION(pressure_heat, Segment<Real>, gas_grid, N::gas_pressure&& N::load)                       \
+  BEHIND(gas_full, IntegratedSegment<Real>, torque_grid, N::gas_torque && !N::load)                \
+  SECTION(gas_torque_full, GasTorque<Real>, one, N::gas_torque && !N::load)                        \
+  BEHIND(gas_motored, IntegratedSegment<Real>, torque_grid, N::gas_torque&& N::load)               \
+  SECTION(gas_torque_motored, GasTorque<Real>, one, N::gas_torque&& N::load)                       \
+  BEHIND(gas_heat, IntegratedSegment<Real>, torque_grid, N::gas_torque&& N::load)                  \
+  SECTION(gas_torque_heat, GasTorque<Real>, one, N::gas_torque&& N::load)                          \
+  /* what a cylinder that is cut lacks: the torque of the heat in one, over its own cycle */       \
+  SECTION(cut_grid, GasGrid, one, N::cut_torque)                                                   \
+  BEHIND(cut_heat, IntegratedSegment<Real>, cut_grid, N::cut_torque)                               \
+  SECTION(cut_torque, GasTorque<Real>, one, N::cut_torque)                                         \
+  SECTION(crank_dynamics, CrankDynamics<Real>, one, N::crank_dynamics)                             \
+  SECTION(gas_cylinders, GasCylinders<Real>, one, N::gas)                                          \
+  SECTION(gas_ports, GasPortCurve<Real>, trains, N::gas)                                           \
+  SECTION(gas_manifolds, GasManifolds<Real>, one, N::manifolds)                                    \
+  SECTION(burn, BurnTable<Real>, one, N::burn)                                                     \
+  SECTION(bearings, Bearings<Real>, one, S::bearing_loads)                                         \
+  SECTION(balance, Balance<Real>, one, S::free_forces)                                             \
+  BEHIND(lift_segments, LiftSegment<Real>, lobes, N::any_valves)                                   \
+  BEHIND(rocker_ratios, Segment<Real>, lobes, N::any_valves)                                       \
+  SECTION(lift_curves, LiftCurve<Real>, trains, N::any_valves)                                     \
+  SECTION(valve_motions, ValveMotion<Real>, trains, N::elastic_valves)                             \
+  BEHIND(trigger_edges, std::uint32_t, edges, N::any_triggers)                                     \
+  BEHIND(trigger_tracks, TriggerTrack, wheels, N::any_triggers)                                    \
+  SECTION(triggers, TriggerWheels, one, N::any_triggers)                                           \
   SECTION(drive, Drive<Real>, one, true)
 
 /// What the list says of each section, as a type of its name.
@@ -212,7 +108,7 @@ struct List {};
 using AllSections = List<void CRANKLOOP_SECTIONS(CRANKLOOP_SECTION_NAME, CRANKLOOP_SECTION_NAME)>;
 
 template <class S, class Section>
-inline constexpr bool kReadBy = Section::kRead && Section::template needed<S>();
+inline constexpr bool kReadBy = Section::kRead&& Section::template needed<S>();
 
 /// False where a scene reads the section and it is not there.
 template <class S, class Section, class Tables>
@@ -237,7 +133,8 @@ constexpr void visit_each(Visit& visit, List<void, Each...>) {
 template <class Real, class All>
 struct Read;
 template <class Real, class... Each>
-struct Read<Real, List<void, Each...>> : If<Each::kRead, typename Each::template Address<const typename Each::template Record<Real>>>... {};
+struct Read<Real, List<void, Each...>>
+    : If<Each::kRead, typename Each::template Address<const typename Each::template Record<Real>>>... {};
 template <class Real, class All>
 struct Targets;
 template <class Real, class... Each>
@@ -254,17 +151,29 @@ template <class Visit>
 constexpr void sections(Visit&& visit) {
   part::visit_each(visit, part::AllSections{});
 }
-/// All sections that a tick may read, by address; null where there is none. constexpr in flash, so only what a Tables takes from it is linked.
+
+#undef CRANKLOOP_SECTIONS
+#undef CRANKLOOP_SECTION
+#undef CRANKLOOP_SECTION_READ
+#undef CRANKLOOP_SECTION_BEHIND
+#undef CRANKLOOP_SECTION_NAME
+
+}  // namespace crankloop::detail
+
+namespace crankloop {
+
+/// All sections that a tick may read, by address; null where there is none. constexpr in flash, so only what a Tables
+/// takes from it is linked.
 template <class Real>
-struct Sections : part::Read<Real, part::AllSections> {};
+struct Sections : detail::part::Read<Real, detail::part::AllSections> {};
 
 /// The sections a scene reads, and no others.
 template <class Real, class S>
-struct Tables : part::Needed<Real, S, part::AllSections> {
+struct Tables : detail::part::Needed<Real, S, detail::part::AllSections> {
   constexpr Tables() = default;
   constexpr explicit Tables(const Sections<Real>& from) noexcept {
-    sections([&](auto section) {
-      if constexpr (part::kReadBy<S, decltype(section)>) section.in(*this) = section.in(from);
+    detail::sections([&](auto section) {
+      if constexpr (detail::part::kReadBy<S, decltype(section)>) section.in(*this) = section.in(from);
     });
   }
 };
@@ -272,13 +181,7 @@ struct Tables : part::Needed<Real, S, part::AllSections> {
 /// True when every section the scene reads is there.
 template <class Real, class S>
 [[nodiscard]] constexpr bool complete(const Tables<Real, S>& tables) noexcept {
-  return part::all_there<S>(tables, part::AllSections{});
+  return detail::part::all_there<S>(tables, detail::part::AllSections{});
 }
-
-#undef CRANKLOOP_SECTIONS
-#undef CRANKLOOP_SECTION
-#undef CRANKLOOP_SECTION_READ
-#undef CRANKLOOP_SECTION_BEHIND
-#undef CRANKLOOP_SECTION_NAME
 
 }  // namespace crankloop

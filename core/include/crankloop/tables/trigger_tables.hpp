@@ -1,22 +1,22 @@
 // What a trigger wheel's signal reads, made at set-up.
 //
-// What belongs here: the edges of a wheel over its turn. What does not: how they are made (tabulate/), how a tick finds them
-// (trigger_wheel.hpp).
+// What belongs here: the edges of a wheel over its turn. What does not: how they are made (tabulate/), how a tick finds
+// them (trigger_wheel.hpp).
 #pragma once
 
 #include <cstdint>
 
 #include <crankloop/limits.hpp>
 
-namespace crankloop {
+namespace crankloop::detail {
 
 /// Equal parts of a wheel's turn, each with the number of edges before it: so that the search for an edge is short.
 inline constexpr int kTriggerParts = 128;
 
 inline constexpr std::uint32_t kNoTrain = ~std::uint32_t{0};
 
-/// One wheel. Angles on it are counted from its first rising edge as the shaft turns forward, 2^32 = one turn of the wheel. Edges are
-/// there up to a rounding of 1.2e-10 turns.
+/// One wheel. Angles on it are counted from its first rising edge as the shaft turns forward, 2^32 = one turn of the
+/// wheel. Edges are there up to a rounding of 1.2e-10 turns.
 struct TriggerTrack {
   const std::uint32_t* edges;  ///< angles on the wheel, rising; the first is 0, and even ones rise
   std::uint32_t edge_count;    ///< even, 2 to kMaxTriggerEdges
@@ -33,4 +33,4 @@ struct TriggerWheels {
   std::uint32_t count;  ///< 0 to kMaxTriggerWheels
 };
 
-}  // namespace crankloop
+}  // namespace crankloop::detail

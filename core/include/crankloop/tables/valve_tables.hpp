@@ -1,14 +1,15 @@
 // What an elastic valve's tick reads, made at set-up: one record of constants for each contact regime.
 //
-// What belongs here: the constants and what they stand for. What does not: how they are made (tabulate/valve_motion.hpp), how a step uses
-// them (valve.hpp), the lift (lift_curve.hpp).
+// What belongs here: the constants and what they stand for. What does not: how they are made
+// (tabulate/valve_motion.hpp), how a step uses them (valve.hpp), the lift (lift_curve.hpp).
 //
 //         cam, rocker                 M y'' = F_train + F_seat - k_s y - P_s0 - c y' - F_gas
-//             |  Y(t)                 gap g = Y - y:          F_train = k g + b g'       while both g and it are positive, else 0
-//            k, b                     sink s = delta_0 - y:   F_seat = k_z s - b_z y'    while both s and it are positive, else 0
-//             |
-//           [ M ]  y                  Each of the four regimes (train on or off, seat on or off) is linear: a step adds to (y, y') a
-//           /   \                     constant matrix times what drives it, whatever its length and however it was integrated.
+//             |  Y(t)                 gap g = Y - y:          F_train = k g + b g'     while both g and it are positive
+//            k, b                     seat's compression s = delta_0 - y: F_seat = k_z s - b_z y' while both are
+//            positive
+//             |                                               (else 0)
+//           [ M ]  y                  Each of the four regimes (train on or off, seat on or off) is linear: a step
+//           /   \                     adds to (y, y') a constant matrix times what drives it, whatever its length.
 //     spring     seat k_z, b_z
 #pragma once
 
@@ -19,32 +20,39 @@ namespace crankloop {
 /// Bits of a contact regime.
 inline constexpr std::uint32_t kTrainOn = 1;
 inline constexpr std::uint32_t kSeatOn = 2;
-/// On the seat, swinging by less than could leave it or reach the train: a regime of its own, which needs no fine steps however stiff the seat.
+
+namespace detail {
+
+/// On the seat, swinging by less than could leave it or reach the train: a regime of its own, which needs no fine steps
+/// however stiff the seat.
 inline constexpr std::uint32_t kQuiet = 4;
 inline constexpr int kRegimes = 5;
 
-[[nodiscard]] constexpr std::uint32_t contacts_of(std::uint32_t regime) noexcept { return regime == kQuiet ? kSeatOn : regime; }
+[[nodiscard]] constexpr std::uint32_t contacts_of(std::uint32_t regime) noexcept {
+  return regime == kQuiet ? kSeatOn : regime;
+}
 
 /// The valve's constants.
 template <class Real>
 struct ValveBody {
-  Real mass_kg;         ///< M
-  Real train_N_m;       ///< k
-  Real train_Ns_m;      ///< b
-  Real seat_N_m;        ///< k_z
-  Real seat_Ns_m;       ///< b_z
-  Real spring_N_m;      ///< k_s
-  Real guide_Ns_m;      ///< c
-  Real preload_N;       ///< P_s0
-  Real seat_sink_m;     ///< delta_0 = P_s0 / k_z
+  Real mass_kg;             ///< M
+  Real train_N_m;           ///< k
+  Real train_Ns_m;          ///< b
+  Real seat_N_m;            ///< k_z
+  Real seat_Ns_m;           ///< b_z
+  Real spring_N_m;          ///< k_s
+  Real guide_Ns_m;          ///< c
+  Real preload_N;           ///< P_s0
+  Real seat_compression_m;  ///< delta_0 = P_s0 / k_z
   Real head_area_m2;
   Real rocker_mass_kg;  ///< I_rocker / l_v^2
   Real per_mass;        ///< 1 / M
 };
 
-/// What a step adds to the lift, or to the velocity, is this times what drives it: increments, because in float a matrix near one would lose
-/// the stiffness of a short step to rounding; and by the gap and the cam's rise instead of the cam's lift, because a lift times the train's
-/// stiffness is a large number that the valve's own nearly cancels. The cam's lift over a step is the cubic through its ends.
+/// What a step adds to the lift, or to the velocity, is this times what drives it: increments, because in float a
+/// matrix near one would lose the stiffness of a short step to rounding; and by the gap and the cam's rise instead of
+/// the cam's lift, because a lift times the train's stiffness is a large number that the valve's own nearly cancels.
+/// The cam's lift over a step is the cubic through its ends.
 template <class Number>
 struct StepRow {
   Number rest;            ///< of the spring's preload, where the seat does not carry it
@@ -60,10 +68,11 @@ struct ForceRow {
   Number rest, gas, lift, velocity, gap, gap_speed;
 };
 
-/// A contact is sure to have stayed as it is all through a step where, at its end, sign * place - lag_s |place's speed| > least_m. The place is
-/// the gap, or the lift: how far the preload presses the seat in is part of least_m. The lag is a third of the step, which bounds the cubic within
-/// it (the inner Bezier ordinates lie a third of the slope from the ends; the other end is that of the step before), for a contact that is on and
-/// b / k more, which makes the force's sign that of the depth. A guard that fails costs time, never correctness: the contacts are asked then.
+/// A contact is sure to have stayed as it is all through a step where, at its end, sign * place - lag_s |place's speed|
+/// > least_m. The place is the gap, or the lift: how far the preload presses the seat in is part of least_m. The lag is
+/// a third of the step, which bounds the cubic within it (the inner Bezier ordinates lie a third of the slope from the
+/// ends; the other end is that of the step before), for a contact that is on and b / k more, which makes the force's
+/// sign that of the depth. A guard that fails costs time, never correctness: the contacts are asked then.
 template <class Number>
 struct ContactGuard {
   Number sign, lag_s, least_m;
@@ -75,18 +84,21 @@ struct RegimeStep {
   StepRow<Number> lift, velocity;
   ForceRow<Number> acceleration;
   ContactGuard<Number> train, seat;
-  Number rest_m, rest_m_s;  ///< nearer to its rest, and slower, the valve is put there; 0 where a contact may change meanwhile
-  Number calm_m;            ///< with its cam on the base circle a valve that swings by less is sure to pass the guards; 0 where none is
+  Number rest_m,
+      rest_m_s;   ///< nearer to its rest, and slower, the valve is put there; 0 where a contact may change meanwhile
+  Number calm_m;  ///< with its cam on the base circle a valve that swings by less is sure to pass the guards; 0 where
+                  ///< none is
 };
 
-/// The same regime's equation of motion by the part of a fine step: y'' = rest + lift Y + lift_speed Y' - stiffness y - damping y' + gas F.
+/// The same regime's equation of motion by the part of a fine step: y'' = rest + lift Y + lift_speed Y' - stiffness y -
+/// damping y' + gas F.
 template <class Real>
 struct RegimeSeries {
   Real rest, gas, stiffness, damping, lift, lift_speed;
 };
 
-/// What a fine step adds, for each m by which the cam's lift in its middle is above the cubic through its ends, and of slope there by the part of
-/// the step: where a step is wide, the lift is the quintic through both ends and the middle.
+/// What a fine step adds, for each m by which the cam's lift in its middle is above the cubic through its ends, and of
+/// slope there by the part of the step: where a step is wide, the lift is the quintic through both ends and the middle.
 template <class Number>
 struct MiddleStep {
   Number lift_by_lift, lift_by_slope, velocity_by_lift, velocity_by_slope;
@@ -98,19 +110,23 @@ struct ValveMotion {
   ValveBody<Real> body;
   Real tick_s;
   Real fine_step_s, per_fine_step_s;
-  Real per_parts;               ///< 1 / parts
-  std::uint32_t parts;          ///< fine steps of a tick in which a contact may change: so short that a change in them can be located
-  std::uint32_t per_parts_32;   ///< 2^32 / parts; unused for 1
-  std::uint32_t most_changes;   ///< contact changes that a tick locates over all valves: 4 and the most parts of any train
-  Real widest_step_deg;         ///< cam degrees up to which the cubic through the ends of a step will do for the lift
-  Real train_lag_s, seat_lag_s;  ///< b / k, b_z / k_z: a contact's force over its stiffness is depth + lag times the depth's speed
-  Real per_seat_N_m;            ///< 1 / (k_z + k_s): how far each N of gas force presses a closed valve into its seat
-  Real quiet_m;                 ///< a swing on the seat of less than this leaves no contact
-  Real per_seat_rate_s;         ///< 1 / rate on the seat: times the velocity, what that adds to a swing
+  Real per_parts;  ///< 1 / parts
+  std::uint32_t
+      parts;  ///< fine steps of a tick in which a contact may change: so short that a change in them can be located
+  std::uint32_t per_parts_32;  ///< 2^32 / parts; unused for 1
+  std::uint32_t
+      most_changes;      ///< contact changes that a tick locates over all valves: 4 and the most parts of any train
+  Real widest_step_deg;  ///< cam degrees up to which the cubic through the ends of a step will do for the lift
+  Real train_lag_s,
+      seat_lag_s;     ///< b / k, b_z / k_z: a contact's force over its stiffness is depth + lag times the depth's speed
+  Real per_seat_N_m;  ///< 1 / (k_z + k_s): how far each N of gas force presses a closed valve into its seat
+  Real quiet_m;       ///< a swing on the seat of less than this leaves no contact
+  Real per_seat_rate_s;              ///< 1 / rate on the seat: times the velocity, what that adds to a swing
   RegimeStep<Real> whole[kRegimes];  ///< over a tick
   RegimeStep<Real> fine[kRegimes];   ///< over a fine step
   RegimeSeries<Real> series[kSeatOn + kTrainOn + 1];
-  MiddleStep<Real> middle[2];        ///< of a fine step that the train is on all through: seat off, on
+  MiddleStep<Real> middle[2];  ///< of a fine step that the train is on all through: seat off, on
 };
 
+}  // namespace detail
 }  // namespace crankloop

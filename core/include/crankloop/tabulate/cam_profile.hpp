@@ -1,6 +1,7 @@
 // A cam as the lift of a flat follower over the cam angle, whatever it was given as: docs/model.md "Cam".
 //
-// What belongs here: y(phi) and its derivatives at set-up time, in double. What does not: the rocker (tabulate/valve_lift.hpp).
+// What belongs here: y(phi) and its derivatives at set-up time, in double. What does not: the rocker
+// (tabulate/valve_lift.hpp).
 #pragma once
 
 #include <crankloop/define/valve_train.hpp>
@@ -10,33 +11,35 @@ namespace crankloop {
 
 /// Lift of the flat follower at one cam angle phi, and its derivatives by phi.
 struct CamLift {
-  double lift_m;       ///< y
-  double per_rad_m;    ///< y', also the distance of the contact from the cam's centre line
-  double per_rad2_m;   ///< y''; r_0 + y + y'' is the contour's radius of curvature
+  double lift_m;      ///< y
+  double per_rad_m;   ///< y', also the distance of the contact from the cam's centre line
+  double per_rad2_m;  ///< y''; r_0 + y + y'' is the contour's radius of curvature
 };
 
-/// A uniform quintic B-spline that rises from zero and returns to it, four times continuously differentiable everywhere.
+/// A uniform quintic B-spline that rises from zero and returns to it, four times continuously differentiable
+/// everywhere.
 ///
 /// c[i] weighs the basis function over [first + i knot, first + (i + 6) knot]; weights left out at both ends are zeros.
 struct LobeSpline {
-  static constexpr int kMostWeights = 256;
+  static constexpr int kMaxWeights = 256;
 
   double first_rad = 0;  ///< knot where c[0]'s basis function begins
   double knot_rad = 1;   ///< distance of knots
   int begin = 0;         ///< first and one past the last weight that is not zero
   int end = 0;
-  double c_m[kMostWeights] = {};
+  double c_m[kMaxWeights] = {};
 
   [[nodiscard]] CamLift at(double phi_rad) const noexcept;
   [[nodiscard]] double opens_rad() const noexcept { return first_rad + begin * knot_rad; }
   [[nodiscard]] double closes_rad() const noexcept { return first_rad + (end + 5) * knot_rad; }
 };
 
-/// 2.3 kB. Construction of a polynomial takes some microseconds, smoothing a table of 1 deg rows a millisecond and 27 kB of stack.
+/// 2.3 kB. Construction of a polynomial takes some microseconds, smoothing a table of 1 deg rows a millisecond and 27
+/// kB of stack.
 class CamProfile {
  public:
-  /// Refuses what validate() refuses, and a table that has no lobe ("cam.file", with the row) or cannot be smoothed to the residual
-  /// asked for ("cam.smoothing").
+  /// Refuses what validate() refuses, and a table that has no lobe ("cam.points", with the row) or cannot be smoothed
+  /// to the residual asked for ("cam.smoothing_m").
   Status init(const Cam& cam) noexcept;
 
   /// At phi, 0 at full lift, not wrapped; all zero outside the lobe.
@@ -47,8 +50,12 @@ class CamProfile {
   [[nodiscard]] double largest_lift_m() const noexcept { return at(0).lift_m; }
 
   // Of a smoothed table; 0 for a polynomial.
-  [[nodiscard]] double residual_m() const noexcept { return residual_m_; }     ///< largest distance of a row from the smooth curve
-  [[nodiscard]] double peak_deg() const noexcept { return peak_deg_; }         ///< table angle of the smooth curve's peak, here phi = 0
+  [[nodiscard]] double residual_m() const noexcept {
+    return residual_m_;
+  }  ///< largest distance of a row from the smooth curve
+  [[nodiscard]] double peak_deg() const noexcept {
+    return peak_deg_;
+  }  ///< table angle of the smooth curve's peak, here phi = 0
 
  private:
   void init_polynomial(const Cam& cam) noexcept;
@@ -64,8 +71,8 @@ class CamProfile {
   double max_lift_m_ = 0;
   double half_angle_rad_ = 1;
   int terms_ = 0;
-  double exponent_[kMostCamExponents] = {};
-  double coefficient_[kMostCamExponents] = {};
+  double exponent_[kMaxCamExponents] = {};
+  double coefficient_[kMaxCamExponents] = {};
   // table
   LobeSpline spline_;
 };

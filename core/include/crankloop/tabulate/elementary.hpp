@@ -8,7 +8,7 @@
 //
 //     function     accurate for                   ulp: stated, found   otherwise
 //     sin, cos     |angle| <= kLargestAngle_rad        0.58   0.566    beyond: as for angle 0; infinity, NaN: NaN
-//     tan          likewise                            0.62   0.583    likewise
+//     tan          |angle| <= kLargestAngle_rad        0.62   0.583    beyond: as for angle 0; infinity, NaN: NaN
 //     asin, acos   [-1, 1]                             0.53   0.519    NaN
 //     atan, atan2  all but NaN                         0.53   0.517    NaN
 //     exp          results from 2^-1022                0.53   0.523    above the largest double: infinity; NaN: NaN

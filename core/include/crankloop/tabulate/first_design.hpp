@@ -14,14 +14,14 @@ struct Interval {
 
 /// Usual values; masses of one cylinder. The rod's mass is for an inline engine.
 struct FirstDesign {
-  Interval piston_kg;             ///< piston group
+  Interval piston_kg;  ///< piston group
   Interval rod_kg;
-  Interval pin_share_inline;      ///< l_crank / l, the part of the rod's mass that goes to the piston pin
-  Interval pin_share_v;           ///< the same in a V engine
+  Interval pin_share_inline;  ///< l_crank / l, the part of the rod's mass that goes to the piston pin
+  Interval pin_share_v;       ///< the same in a V engine
 };
 
-/// m' = m / A in kg/m^2 is a multiple of the bore in mm, by kind and rated speed: 4500 rpm divides spark-ignition engines, 3000 rpm
-/// car and truck diesels (at the border: the faster row), tractor diesels have one row. bore > 0.
+/// m' = m / A in kg/m^2 is a multiple of the bore in mm, by kind and rated speed: 4500 rpm divides spark-ignition
+/// engines, 3000 rpm car and truck diesels (at the border: the faster row), tractor diesels have one row. bore > 0.
 [[nodiscard]] FirstDesign first_design(EngineKind kind, double bore_m, double speed_rpm) noexcept;
 
 }  // namespace crankloop

@@ -34,7 +34,7 @@ class ExactStroke {
   /// Between rod and cylinder axis.
   [[nodiscard]] elementary::SinCos rod_angle(const elementary::SinCos& crank_angle) const noexcept {
     const double sin_b = rod_ratio_ * crank_angle.sin - offset_per_rod_;
-    return {sin_b, square_root((1 - sin_b) * (1 + sin_b))};
+    return {sin_b, detail::square_root((1 - sin_b) * (1 + sin_b))};
   }
 
  private:
@@ -45,16 +45,17 @@ class ExactStroke {
   double height_at_tdc_m_;
 };
 
-/// The textbook second-order approximations for e = 0 (the offset is ignored), offered beside the exact ones, never instead.
-/// Displacement, slope, acceleration, rod angle, its slope and curvature are the published series; tilt and radial follow from the rod angle's.
+/// The textbook second-order approximations for e = 0 (the offset is ignored), offered beside the exact ones, never
+/// instead. Displacement, slope, acceleration, rod angle, its slope and curvature are the published series; tilt and
+/// radial follow from the rod angle's.
 [[nodiscard]] Pose<double> second_order_pose(const Crank& crank, double crank_rad) noexcept;
 
-/// Crank angle at which the piston is at displacement x: on the way down in [tdc, bdc], on the way up in [bdc, tdc + 2 pi].
-/// x outside the stroke answers the dead centre that is nearer.
+/// Crank angle at which the piston is at displacement x: on the way down in [tdc, bdc], on the way up in [bdc, tdc + 2
+/// pi]. x outside the stroke answers the dead centre that is nearer.
 [[nodiscard]] double crank_angle_rad(const Crank& crank, double displacement_m, bool downward) noexcept;
 
-/// Crank angle on the way up, in [bdc, tdc + 2 pi], at which the piston is where it was on the way down: at `down_rad`, in [tdc, bdc], and
-/// the displacement there.
+/// Crank angle on the way up, in [bdc, tdc + 2 pi], at which the piston is where it was on the way down: at `down_rad`,
+/// in [tdc, bdc], and the displacement there.
 [[nodiscard]] double crank_angle_up_rad(const Crank& crank, double down_rad, double displacement_m) noexcept;
 
 /// True dead centres and stroke. Without offset: 0, pi, 2 r.
@@ -87,7 +88,8 @@ using PoseMember = double Pose<double>::*;
 using PoseFunction = Pose<double> (*)(const Crank&, double crank_rad) noexcept;
 
 /// Largest and smallest value of a quantity over a turn; value to rounding. Angle to 1e-7 rad where the curve
-/// bends at its extreme; flatter ones (acceleration at lambda = 0.264 is flat to fourth order) are known less. 440 evaluations.
+/// bends at its extreme; flatter ones (acceleration at lambda = 0.264 is flat to fourth order) are known less. 440
+/// evaluations.
 [[nodiscard]] Extremes extremes(const Crank& crank, PoseMember quantity, PoseFunction pose = exact_pose) noexcept;
 
 /// Fourier coefficients of x / r for e = 0, to O(lambda^7): x = r (a0 + a1 cos a + a2 cos 2a + a4 cos 4a + a6 cos 6a).

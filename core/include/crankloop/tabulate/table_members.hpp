@@ -1,14 +1,15 @@
 // The members of each record of the tables, for who goes through a whole table: to print it, to round it.
 //
-// What belongs here: members(record), all of them as a tuple of references. By structured binding, so that a record whose member is
-// forgotten here does not compile: no member can be silently zero in flash. What does not: what they mean (tables/tables.hpp).
+// What belongs here: members(record), all of them as a tuple of references. By structured binding, so that a record
+// whose member is forgotten here does not compile: no member can be silently zero in flash. What does not: what they
+// mean (tables/records.hpp and beside it).
 #pragma once
 
 #include <tuple>
 
 #include <crankloop/tables/tables.hpp>
 
-namespace crankloop {
+namespace crankloop::detail {
 
 #define CRANKLOOP_TIED(Prefix, Record, ...)                     \
   Prefix [[nodiscard]] constexpr auto members(Record& record) { \
@@ -16,13 +17,13 @@ namespace crankloop {
     return std::tie(__VA_ARGS__);                               \
   }
 #define CRANKLOOP_MEMBERS(Record, ...) CRANKLOOP_TIED(, Record, __VA_ARGS__) CRANKLOOP_TIED(, const Record, __VA_ARGS__)
-#define CRANKLOOP_MEMBERS_OF(Record, ...)                         \
+#define CRANKLOOP_MEMBERS_OF(Record, ...)                          \
   CRANKLOOP_TIED(template <class Real>, Record<Real>, __VA_ARGS__) \
   CRANKLOOP_TIED(template <class Real>, const Record<Real>, __VA_ARGS__)
 
 CRANKLOOP_MEMBERS(CylinderGroups, cylinder, end)
-CRANKLOOP_MEMBERS_OF(Drive, fingerprint, tick, per_tick, cycles_per_tick, speed_per_cycle, speed_limit, cylinders, mechanisms, firing_phase,
-                     mechanism_of, turn_of, by_mechanism, trains)
+CRANKLOOP_MEMBERS_OF(Drive, fingerprint, tick, per_tick, cycles_per_tick, speed_per_cycle, speed_limit, cylinders,
+                     mechanisms, firing_phase, mechanism_of, turn_of, by_mechanism, trains)
 CRANKLOOP_MEMBERS_OF(Body, radius, per_radius, per_rod, offset, height, area, crankcase, mass, inertia)
 CRANKLOOP_MEMBERS_OF(Segment, c)
 CRANKLOOP_MEMBERS_OF(IntegralSegment, c)
@@ -36,19 +37,27 @@ CRANKLOOP_MEMBERS(GasGrid, first)
 CRANKLOOP_MEMBERS_OF(GasTorque, at, quantum, mean)
 CRANKLOOP_MEMBERS_OF(CrankDynamics, turning, least, drag, drag_linear, drag_quadratic, stall, starter_slope, most)
 CRANKLOOP_MEMBERS_OF(Bearings, pins, pin_of, by_pin, rods, throws, cosines, sines)
-CRANKLOOP_MEMBERS_OF(Turning, up_cos, up_sin, lateral_cos, lateral_sin, pitch_cos, pitch_sin, yaw_cos, yaw_sin)
+CRANKLOOP_MEMBERS_OF(RotatingVector, up_cos, up_sin, lateral_cos, lateral_sin, pitch_cos, pitch_sin, yaw_cos, yaw_sin)
 CRANKLOOP_MEMBERS_OF(Balance, first, second, rotating, cosine)
 CRANKLOOP_MEMBERS_OF(LiftSegment, c)
 CRANKLOOP_MEMBERS_OF(LiftCurve, at, rocker_ratio, opens, most_phase, segments, touch_from, touch_degrees, leap, outside)
-CRANKLOOP_MEMBERS_OF(ValveBody, mass, train, train_damping, seat, seat_damping, spring, guide, preload, sink, head_area, rocker_mass, per_mass)
+CRANKLOOP_MEMBERS_OF(ValveBody, mass, train, train_damping, seat, seat_damping, spring, guide, preload,
+                     seat_compression, head_area, rocker_mass, per_mass)
 CRANKLOOP_MEMBERS_OF(StepRow, rest, gas, gas_rise, gap, rise, from, to, lift, velocity)
 CRANKLOOP_MEMBERS_OF(ForceRow, rest, gas, lift, velocity, gap, gap_speed)
 CRANKLOOP_MEMBERS_OF(ContactGuard, sign, lag, least)
 CRANKLOOP_MEMBERS_OF(RegimeStep, lift, velocity, acceleration, train, seat, rest, rest_speed, calm)
 CRANKLOOP_MEMBERS_OF(RegimeSeries, rest, gas, stiffness, damping, lift, lift_speed)
 CRANKLOOP_MEMBERS_OF(MiddleStep, lift_by_lift, lift_by_slope, velocity_by_lift, velocity_by_slope)
-CRANKLOOP_MEMBERS_OF(ValveMotion, body, tick, fine, per_fine, per_parts, parts, per_parts_32, changes, widest, train_lag, seat_lag, per_seat, quiet,
-                     seat_rate, whole_steps, fine_steps, series, middle)
+CRANKLOOP_MEMBERS_OF(ValveMotion, body, tick, fine, per_fine, per_parts, parts, per_parts_32, changes, widest,
+                     train_lag, seat_lag, per_seat, quiet, seat_rate, whole_steps, fine_steps, series, middle)
+CRANKLOOP_MEMBERS_OF(GasWalls, factor, area, per_volume, temperature, piston)
+CRANKLOOP_MEMBERS_OF(GasCylinders, walls, clearance, bore_area, crankcase, least, per_swept, per_charge, ambient,
+                     ambient_temperature, exhaust_temperature)
+CRANKLOOP_MEMBERS_OF(GasPortCurve, port, per_step, area)
+CRANKLOOP_MEMBERS_OF(GasBeyond, pressure, choked, specific_work, enthalpy, burned, response, most_area)
+CRANKLOOP_MEMBERS_OF(GasManifolds, per_volume, least, outside, outlet, throttle)
+CRANKLOOP_MEMBERS_OF(BurnTable, latch, energy, heat, burned, air_fuel, per_air_fuel, span, fuel, start, duration, burnt)
 CRANKLOOP_MEMBERS(TriggerTrack, edges, edge_count, on_crank, starts, train, inverted, edges_before)
 CRANKLOOP_MEMBERS(TriggerWheels, wheel, count)
 
@@ -56,4 +65,4 @@ CRANKLOOP_MEMBERS(TriggerWheels, wheel, count)
 #undef CRANKLOOP_MEMBERS
 #undef CRANKLOOP_MEMBERS_OF
 
-}  // namespace crankloop
+}  // namespace crankloop::detail

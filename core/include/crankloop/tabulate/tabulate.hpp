@@ -8,63 +8,75 @@
 
 #include <crankloop/define/engine_definition.hpp>
 #include <crankloop/status.hpp>
-#include <crankloop/tabulate/valve_motion.hpp>
 #include <crankloop/tables/tables.hpp>
+#include <crankloop/tabulate/valve_motion.hpp>
 
 namespace crankloop {
 
 /// How the engine will be stepped.
 struct TickOptions {
-  double tick_s = 100e-6;    ///< 1e-6 to 2e-3
-  ValveStepping valves{};    ///< integrator and accuracy of elastic valves
+  double tick_s = 100e-6;  ///< 1e-6 to 2e-3
+  ValveStepping valves{};  ///< integrator and accuracy of elastic valves
 };
 
 /// Most segments of a grid: 20 in every degree.
-inline constexpr std::size_t kMostGasSegments = 20 * kDegreesPerCycle;
+inline constexpr std::size_t kMaxGasSegments = 20 * kDegreesPerCycle;
 
-/// Where to build each section; null = leave it out. Pressures go with a gas_grid, gas torques with a torque_grid, cut_torque with a cut_grid; each has room for
-/// `gas_capacity` segments. A gas torque goes with its segments, lift curves with theirs and their rocker ratios (kDegreesPerTurn rows per train of
-/// the definition), triggers with tracks and edges (kMaxTriggerEdges rows per wheel).
+/// Where to build each section; null = leave it out. Pressures go with a gas_grid, gas torques with a torque_grid,
+/// cut_torque with a cut_grid; each has room for `gas_capacity` segments. A gas torque goes with its segments, lift
+/// curves with theirs and their rocker ratios (kDegreesPerTurn rows per train of the definition), triggers with tracks
+/// and edges (kMaxTriggerEdges rows per wheel).
 template <class Real>
-struct TableTargets : part::Targets<Real, part::AllSections> {
+struct TableTargets : detail::part::Targets<Real, detail::part::AllSections> {
   int gas_capacity = 0;  ///< at least 720 where there is a grid
 };
 
 /// What tabulate found.
 struct TableReport {
-  int gas_segments = 0;           ///< segments of the pressures' grid
-  int tolerance_doublings = 0;    ///< how often the pressure's tolerance was doubled to fit the capacity
-  double pressure_error_Pa = 0;   ///< largest error of full, motored and heat pressure against the diagram, at 10 places of an undivided degree, 60 of another
-  int torque_segments = 0;        ///< segments of the gas torques' grid
+  int gas_segments = 0;          ///< segments of the pressures' grid
+  int tolerance_doublings = 0;   ///< how often the pressure's tolerance was doubled to fit the capacity
+  double pressure_error_Pa = 0;  ///< largest error of full, motored and heat pressure against the diagram, at 10 places
+                                 ///< of an undivided degree, 60 of another
+  int torque_segments = 0;       ///< segments of the gas torques' grid
   int torque_doublings = 0;
-  double torque_error_Nm = 0;     ///< largest error of full, motored and heat torque of all cylinders, likewise at 10, and 40 (float: 60)
-  int cut_segments = 0;           ///< segments of the grid of one cylinder's heat torque
+  double torque_error_Nm = 0;  ///< largest error of full, motored and heat torque of all cylinders, at 10 places of an
+                               ///< undivided degree, 40 of another (float: 60)
+  int cut_segments = 0;        ///< segments of the grid of one cylinder's heat torque
   int cut_doublings = 0;
-  int valve_fine_steps = 0;       ///< of all elastic valves in the worst tick, when contacts may change in all of them; at most kMostFineStepsOfEngine
-  int valve_changes = 0;          ///< contact changes that a tick locates
+  int valve_fine_steps = 0;  ///< of all elastic valves in the worst tick, when contacts may change in all of them; at
+                             ///< most kMaxFineStepsOfEngine
+  int valve_changes = 0;     ///< contact changes that a tick locates
 };
 
 /// Fills the targets. Validates the definition first; nothing is written when it refuses.
 ///
-/// Accuracy: docs/model.md "Tables". A grid divides a degree into 1, 2, 5, 10 or 20 segments, the fewest that keep the pressure
-/// within 1e-5 of its peak (the torque: of the peak pressure on the crank radius), or 20; where the capacity does not suffice the bound is doubled until it does. The report tells what is left.
-/// Float and double; O(segments), some 100 ms on a desktop.
+/// Accuracy: docs/model.md "Tables". A grid divides a degree into 1, 2, 5, 10 or 20 segments, the fewest that keep the
+/// pressure within 1e-5 of its peak (the torque: of the peak pressure on the crank radius), or 20; where the capacity
+/// does not suffice the bound is doubled until it does. The report tells what is left. Float and double; O(segments),
+/// some 100 ms on a desktop.
 template <class Real>
 Status tabulate(const EngineDefinition& engine, const TickOptions& options, const TableTargets<Real>& targets,
                 TableReport* report = nullptr) noexcept;
 
-namespace part {
+namespace detail::part {
 /// Rows of a section where an engine has at most so many trains and wheels, a grid so many segments.
-[[nodiscard]] constexpr std::size_t most_rows(SectionRows rows, std::size_t trains, std::size_t wheels, std::size_t gas_segments) noexcept {
+[[nodiscard]] constexpr std::size_t most_rows(SectionRows rows, std::size_t trains, std::size_t wheels,
+                                              std::size_t gas_segments) noexcept {
   switch (rows) {
-    case SectionRows::one: return 1;
+    case SectionRows::one:
+      return 1;
     case SectionRows::gas_grid:
     case SectionRows::torque_grid:
-    case SectionRows::cut_grid: return gas_segments;
-    case SectionRows::trains: return trains;
-    case SectionRows::lobes: return trains * std::size_t{kDegreesPerTurn};
-    case SectionRows::wheels: return wheels;
-    case SectionRows::edges: return wheels * std::size_t{kMaxTriggerEdges};
+    case SectionRows::cut_grid:
+      return gas_segments;
+    case SectionRows::trains:
+      return trains;
+    case SectionRows::lobes:
+      return trains * std::size_t{kDegreesPerTurn};
+    case SectionRows::wheels:
+      return wheels;
+    case SectionRows::edges:
+      return wheels * std::size_t{kMaxTriggerEdges};
   }
   return 0;
 }
@@ -74,14 +86,15 @@ template <class S, std::size_t GasSegments>
 struct RoomForScene {
   static constexpr std::size_t kGasSegments = GasSegments;
   template <class Section>
-  static constexpr std::size_t kRows =
-      Section::template needed<S>() ? most_rows(Section::kRows, S::trains.capacity, S::triggers.capacity, GasSegments) : 0;
+  static constexpr std::size_t kRows = Section::template needed<S>() ? most_rows(Section::kRows, S::trains.capacity,
+                                                                                 S::triggers.capacity, GasSegments)
+                                                                     : 0;
 };
 /// Room for every section of any engine.
 struct RoomForAll {
-  static constexpr std::size_t kGasSegments = kMostGasSegments;
+  static constexpr std::size_t kGasSegments = kMaxGasSegments;
   template <class Section>
-  static constexpr std::size_t kRows = most_rows(Section::kRows, kMaxTrains, kMaxTriggerWheels, kMostGasSegments);
+  static constexpr std::size_t kRows = most_rows(Section::kRows, kMaxTrains, kMaxTriggerWheels, kMaxGasSegments);
 };
 
 template <class Thing, std::size_t N>
@@ -92,7 +105,8 @@ struct Stores;
 /// The sections themselves, one base each.
 template <class Real, class Room, class... Each>
 struct Stores<Real, Room, List<void, Each...>>
-    : If<(Room::template kRows<Each> > 0), typename Each::template Store<OneOr<typename Each::template Record<Real>, Room::template kRows<Each>>>>... {
+    : If<(Room::template kRows<Each> > 0),
+         typename Each::template Store<OneOr<typename Each::template Record<Real>, Room::template kRows<Each>>>>... {
   [[nodiscard]] TableTargets<Real> targets() noexcept {
     TableTargets<Real> to;
     to.gas_capacity = static_cast<int>(Room::kGasSegments);
@@ -106,19 +120,20 @@ struct Stores<Real, Room, List<void, Each...>>
     return to;
   }
 };
-}  // namespace part
+}  // namespace detail::part
 
 /// What a tick may read of the sections that were built.
 template <class Real>
 [[nodiscard]] constexpr Sections<Real> sections_of(const TableTargets<Real>& built) noexcept {
   Sections<Real> all;
-  sections([&](auto section) {
+  detail::sections([&](auto section) {
     if constexpr (section.kRead) section.in(all) = section.in(built);
   });
   return all;
 }
 
-/// Tables in RAM: the sections that a scene needs, and no others. Large (tens of kB to 1 MB): static or on the heap, not on a stack.
+/// Tables in RAM: the sections that a scene needs, and no others. Large (tens of kB to 1 MB): static or on the heap,
+/// not on a stack.
 ///
 ///     static crankloop::TableStorage<float, MyScene> storage;
 ///     if (!storage.build(definition, {100e-6}).ok()) ...
@@ -127,22 +142,25 @@ template <class Real>
 /// Not copyable: engines point into it.
 template <class Real, class S, std::size_t GasSegments = 4096>
 class TableStorage {
-  static_assert(GasSegments >= std::size_t{kDegreesPerCycle} && GasSegments <= kMostGasSegments, "720 to 14400 gas segments");
+  static_assert(GasSegments >= std::size_t{kDegreesPerCycle} && GasSegments <= kMaxGasSegments,
+                "720 to 14400 gas segments");
 
  public:
   TableStorage() = default;
   TableStorage(const TableStorage&) = delete;
   TableStorage& operator=(const TableStorage&) = delete;
 
-  /// Tabulates; after a refusal the old tables are gone and tables() is refused by init. No engine may run on them meanwhile, and every
-  /// engine that did must be initialised anew.
+  /// Tabulates; after a refusal the old tables are gone and tables() is refused by init. No engine may run on them
+  /// meanwhile, and every engine that did must be initialised anew.
   Status build(const EngineDefinition& engine, const TickOptions& options, TableReport* report = nullptr) noexcept {
     tables_ = {};
-    if constexpr (Needs<S>::any_valves) {
-      if (engine.train_count > static_cast<int>(S::trains.capacity)) return {Reason::out_of_range, -1, "scene.trains"};
+    if constexpr (detail::Needs<S>::any_valves) {
+      if (engine.train_count > static_cast<int>(S::trains.capacity))
+        return refuse("scene.trains", Reason::out_of_range);
     }
-    if constexpr (Needs<S>::any_triggers) {
-      if (engine.trigger_count > static_cast<int>(S::triggers.capacity)) return {Reason::out_of_range, -1, "scene.triggers"};
+    if constexpr (detail::Needs<S>::any_triggers) {
+      if (engine.trigger_count > static_cast<int>(S::triggers.capacity))
+        return refuse("scene.triggers", Reason::out_of_range);
     }
     const TableTargets<Real> targets = stores_.targets();
     if (const Status refused = tabulate(engine, options, targets, report); !refused.ok()) return refused;
@@ -153,7 +171,7 @@ class TableStorage {
   [[nodiscard]] const Tables<Real, S>& tables() const noexcept { return tables_; }
 
  private:
-  part::Stores<Real, part::RoomForScene<S, GasSegments>> stores_;
+  detail::part::Stores<Real, detail::part::RoomForScene<S, GasSegments>> stores_;
   Tables<Real, S> tables_{};
 };
 

@@ -1,6 +1,7 @@
 // Theoretical valve lift over the cam angle, cam to rocker to valve, exact to its definition: docs/model.md "Rocker".
 //
-// What belongs here: kinematics at set-up time, in double. What does not: the tick's table of it, and the valve's own motion.
+// What belongs here: kinematics at set-up time, in double. What does not: the tick's table of it, and the valve's own
+// motion.
 #pragma once
 
 #include <crankloop/define/valve_train.hpp>
@@ -18,30 +19,33 @@ struct LiftPose {
   double rocker_rad;    ///< W, 0 for a constant ratio
 };
 
-/// phi_r counts the cam's own turn from full lift, negative while opening. The flat follower's angle phi, in which a cam is drawn, differs
-/// from it by the pad's share: equal steps of one are not equal steps of the other.
+/// phi_r counts the cam's own turn from full lift, negative while opening. The flat follower's angle phi, in which a
+/// cam is drawn, differs from it by the pad's share: equal steps of one are not equal steps of the other.
 class ValveLift {
  public:
   /// Refuses what validate() and CamProfile refuse, and with Reason::inconsistent and the angle in failed_at_deg()
-  ///   "rocker.base_circle"       the cam is undercut: r_0 + y + y'' <= 0
-  ///   "rocker.pivot_to_pad"      pivot, pad centre and cam centre form no triangle
-  ///   "rocker.pivot_to_cam"      the contact's normal meets the pivot, so that phi_r turns back and the train jams
-  ///   "rocker.pivot_to_screw"    the screw's ball would stand more than 90 deg above or below the pivot
+  ///   "rocker.base_circle_m"       the cam is undercut: r_0 + y + y'' <= 0
+  ///   "rocker.pivot_to_pad_m"      pivot, pad centre and cam centre form no triangle
+  ///   "rocker.pivot_to_cam_m"      the contact's normal meets the pivot, so that phi_r turns back and the train jams
+  ///   "rocker.pivot_to_screw_m"    the screw's ball would stand more than 90 deg above or below the pivot
   Status init(const Cam& cam, const Rocker& rocker) noexcept;
 
   /// Where init found the geometry worst, as flat follower's cam angle.
   [[nodiscard]] double failed_at_deg() const noexcept { return failed_at_deg_; }
 
-  /// At cam angle phi_r, any value (wrapped). Exact to rounding: phi is found by Newton's method, derivatives are formulas.
+  /// At cam angle phi_r, any value (wrapped). Exact to rounding: phi is found by Newton's method, derivatives are
+  /// formulas.
   [[nodiscard]] LiftPose at(double cam_rad) const noexcept;
 
-  /// Ends of the lobe in phi_r, -2 pi to 2 pi, less than a turn apart; outside them the lift is minus the clearance, exactly.
+  /// Ends of the lobe in phi_r, -2 pi to 2 pi, less than a turn apart; outside them the lift is minus the clearance,
+  /// exactly.
   [[nodiscard]] double opens_rad() const noexcept { return opens_rad_; }
   [[nodiscard]] double closes_rad() const noexcept { return closes_rad_; }
 
   [[nodiscard]] double largest_lift_m() const noexcept { return at(0).lift_m; }
 
-  /// l_v, the valve's lever on the rocker: I_rocker / l_v^2 moves with the valve. 0 for a constant ratio without `pivot_to_screw`.
+  /// l_v, the valve's lever on the rocker: I_rocker / l_v^2 moves with the valve. 0 for a constant ratio without
+  /// `pivot_to_screw`.
   [[nodiscard]] double lever_m() const noexcept { return lever_m_; }
 
   /// The contour's smallest radius of curvature over the lobe, and where, as flat follower's cam angle.
@@ -53,12 +57,12 @@ class ValveLift {
  private:
   /// Cam, pad and rocker in contact at the flat follower's angle phi.
   struct Contact {
-    double cam_rad;        ///< phi_r
-    double cam_per_phi;    ///< dphi_r/dphi
-    double radius_m;       ///< of the contour's curvature, r_0 + y + y''
-    double triangle;       ///< 4 area of pivot, pad centre, cam centre, squared, per (l_a l_c)^2; <= 0: no triangle
-    double sin_pressure;   ///< sin J', of the angle between rocker arm and contact normal
-    double cos_screw;      ///< cos psi
+    double cam_rad;       ///< phi_r
+    double cam_per_phi;   ///< dphi_r/dphi
+    double radius_m;      ///< of the contour's curvature, r_0 + y + y''
+    double triangle;      ///< 4 area of pivot, pad centre, cam centre, squared, per (l_a l_c)^2; <= 0: no triangle
+    double sin_pressure;  ///< sin J', of the angle between rocker arm and contact normal
+    double cos_screw;     ///< cos psi
     LiftPose pose;
   };
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace crankloop {
+namespace crankloop::detail {
 
 /// sqrt: IEEE has it correctly rounded.
 [[nodiscard]] inline float square_root(float x) noexcept { return __builtin_sqrtf(x); }
@@ -13,8 +13,8 @@ namespace crankloop {
 [[nodiscard]] constexpr float magnitude(float x) noexcept { return __builtin_fabsf(x); }
 [[nodiscard]] constexpr double magnitude(double x) noexcept { return __builtin_fabs(x); }
 
-/// Zeros below the lowest bit that is set; x is not 0. A few instructions where the processor has none for it: there the compiler would call a
-/// function, which an image for real time need not have.
+/// Zeros below the lowest bit that is set; x is not 0. A few instructions where the processor has none for it: there
+/// the compiler would call a function, which an image for real time need not have.
 [[nodiscard]] constexpr std::uint32_t trailing_zeros(std::uint32_t x) noexcept {
 #if defined(__riscv) && !defined(__riscv_zbb)
   const std::uint32_t lowest = x & (~x + 1);
@@ -35,4 +35,4 @@ namespace crankloop {
   return low != 0 ? trailing_zeros(low) : 32 + trailing_zeros(static_cast<std::uint32_t>(x >> 32));
 }
 
-}  // namespace crankloop
+}  // namespace crankloop::detail

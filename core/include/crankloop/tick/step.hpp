@@ -1,13 +1,19 @@
 // The implementation of Engine: include it in the one translation unit that instantiates a scene, nowhere else.
 //
-// What belongs here: the order of one tick, and what an engine starts from. What does not: its parts, each in a header of its own.
+// What belongs here: the order of one tick, and what an engine starts from. What does not: its parts, each in a header
+// of its own.
 //
 //     input -> checked -> crank: angle, torque, forces (mechanisms_step.hpp) -> valves -> trigger wheels -> output
+//
+// Where gas makes the pressure: angle -> valves -> gas (gas/gas_step.hpp) -> torque, forces -> trigger wheels.
 #pragma once
 
-#include <crankloop/tick/checked.hpp>
+#include <crankloop/assert.hpp>
 #include <crankloop/engine.hpp>
+#include <crankloop/tick/checked.hpp>
+#include <crankloop/tick/crank/crank_inputs.hpp>
 #include <crankloop/tick/crank/mechanisms_step.hpp>
+#include <crankloop/tick/gas/gas_step.hpp>
 #include <crankloop/tick/trigger/triggers_step.hpp>
 #include <crankloop/tick/valve/valves_step.hpp>
 
@@ -18,44 +24,49 @@ template <class Real, class S>
   tables_ = nullptr;
   state_ = State{};
   output_ = Output{};
-  if (build_contracts<Real>()) return {Reason::contracting_build, -1, "build"};
-  if (!complete(tables)) return {Reason::missing_table, -1, "tables"};
-  const Drive<Real>& drive = *tables.drive;
+  if (build_contracts<Real>()) return refuse("build", Reason::contracting_build);
+  if (!complete(tables)) return refuse("tables", Reason::missing_table);
+  const detail::Drive<Real>& drive = *tables.drive;
   const std::uint32_t capacity = S::cylinders.capacity;
   if (drive.cylinders < 1 || drive.cylinders > capacity || (S::cylinders.exact && drive.cylinders != capacity)) {
-    return {Reason::out_of_range, -1, "tables.cylinders"};
+    return refuse("tables.cylinders", Reason::out_of_range);
   }
-  if constexpr (Needs<S>::body && !S::rod_inertia) {
-    if (tables.body->rod_inertia_correction_kg_m2 != Real{0}) return {Reason::inconsistent, -1, "scene.rod_inertia"};
+  if constexpr (detail::Needs<S>::body && !S::rod_inertia) {
+    if (tables.body->rod_inertia_correction_kg_m2 != Real{0}) return refuse("scene.rod_inertia", Reason::inconsistent);
   }
-  if constexpr (Needs<S>::crank_dynamics) {
-    const bool enough = tables.crank_dynamics->least_kg_m2 >= static_cast<Real>(kLeastInertia_kg_m2);
-    if (!enough) return {Reason::not_positive, -1, "masses.crank_inertia"};
+  if constexpr (detail::Needs<S>::crank_dynamics) {
+    const bool enough = tables.crank_dynamics->least_kg_m2 >= static_cast<Real>(detail::kLeastInertia_kg_m2);
+    if (!enough) return refuse("masses.crank_inertia_kg_m2", Reason::not_positive);
   }
-  if constexpr (Needs<S>::any_valves) {
+  if constexpr (detail::Needs<S>::any_valves) {
     if (drive.trains > S::trains.capacity || (S::trains.exact && drive.trains != S::trains.capacity)) {
-      return {Reason::out_of_range, -1, "tables.trains"};
+      return refuse("tables.trains", Reason::out_of_range);
     }
   }
-  if constexpr (Needs<S>::elastic_valves && !S::valve_gas) {
+  if constexpr (detail::Needs<S>::elastic_valves && !S::valve_gas) {
     for (std::uint32_t t = 0; t < drive.trains; ++t) {
-      if (tables.valve_motions[t].body.head_area_m2 != Real{0}) return {Reason::inconsistent, static_cast<std::int32_t>(t), "scene.valve_gas"};
+      if (tables.valve_motions[t].body.head_area_m2 != Real{0})
+        return refuse("scene.valve_gas", Reason::inconsistent, static_cast<std::int32_t>(t));
     }
   }
-  if constexpr (Needs<S>::any_triggers) {
+  if constexpr (detail::Needs<S>::any_triggers) {
     const std::uint32_t wheels = tables.triggers->count;
     if (wheels > S::triggers.capacity || (S::triggers.exact && wheels != S::triggers.capacity)) {
-      return {Reason::out_of_range, -1, "tables.triggers"};
+      return refuse("tables.triggers", Reason::out_of_range);
     }
+  }
+  if constexpr (detail::Needs<S>::gas) {
+    if (!(tables.gas_cylinders->clearance_m3 > 0)) return refuse("pressure.source", Reason::inconsistent);
   }
   tables_ = &tables;
   state_.fingerprint = drive.fingerprint;
   state_.phase = start;
-  if constexpr (Needs<S>::input_pressure) {
+  if constexpr (detail::Needs<S>::input_pressure) {
     for (Real& pressure : state_.pressure_Pa) pressure = tables.body->crankcase_Pa;
   }
-  if constexpr (Needs<S>::work) {  // the first tick's work counts from here
-    if constexpr (Needs<S>::crank_dynamics) {
+  if constexpr (detail::Needs<S>::gas) detail::start_gas(tables, state_);
+  if constexpr (detail::Needs<S>::work) {  // the first tick's work counts from here
+    if constexpr (detail::Needs<S>::crank_dynamics) {
       Real mean_pressure_Pa[S::cylinders.capacity] = {};
       detail::TorqueStep<Real, S> step(tables, state_, output_);
       step.read_torque(0);
@@ -63,14 +74,71 @@ template <class Real, class S>
       step.start_crank();
       step.remember_work();
     } else {
-      Real pressure_Pa[S::cylinders.capacity] = {};
-      detail::run_mechanisms_apart(tables, state_, output_, {{}, {}, {}, true, pressure_Pa, pressure_Pa});
+      detail::CrankTurn<Real, S> crank{};
+      crank.jumped = true;
+      detail::run_mechanisms_apart(tables, state_, output_, crank);
     }
     output_ = Output{};
   }
-  if constexpr (Needs<S>::elastic_valves) detail::ElasticValves<Real, S>(tables, state_, *this, output_).start();
+  if constexpr (detail::Needs<S>::elastic_valves)
+    detail::ElasticValves<Real, S>(tables, state_, *this, output_).start();
   return {};
 }
+
+namespace detail {
+
+/// Valves and the gas that flows through them, once the crank has turned. Answers fault bits.
+template <class Real, class S>
+[[nodiscard, gnu::always_inline]] inline std::uint32_t breathe(const Tables<Real, S>& tables, State<Real, S>& state,
+                                                               ValvesWorkOf<Real, S>& work, Output<Real, S>& out,
+                                                               const Input<Real, S>& input,
+                                                               CrankTurn<Real, S>& crank) noexcept {
+  push_heads<Real, S>(tables, state, crank.head_pressure_Pa);
+  std::uint32_t faults =
+      run_valves(tables, state, work, out, input, crank.turned, crank.has_jumped(), crank.head_pressure_Pa);
+  Real work_J;
+  faults |= GasStep<Real, S>(tables, state, out).run(input, crank.turned, crank.has_jumped(), work_J);
+  if constexpr (Needs<S>::gas_work) crank.gas_work_J = work_J;
+  return faults;
+}
+
+/// Crank, valves and gas to the tick's end, in the order in which each needs the others. Answers fault bits.
+template <class Real, class S>
+[[nodiscard, gnu::always_inline]] inline std::uint32_t move_parts(const Tables<Real, S>& tables, State<Real, S>& state,
+                                                                  ValvesWorkOf<Real, S>& work, Output<Real, S>& out,
+                                                                  const Input<Real, S>& input,
+                                                                  CrankTurn<Real, S>& crank) noexcept {
+  using N = Needs<S>;
+  std::uint32_t faults = 0;
+  if constexpr (N::gas && N::crank_dynamics) {
+    const auto once_turned = [&] { faults |= breathe(tables, state, work, out, input, crank); };
+    faults |= turn_by_forces(tables, state, out, crank, input, once_turned);
+  } else if constexpr (N::gas) {
+    faults = breathe(tables, state, work, out, input, crank);
+    run_mechanisms_apart(tables, state, out, crank);
+  } else {
+    if constexpr (N::crank_dynamics)
+      faults = run_turned_by_forces(tables, state, out, crank, input);
+    else if constexpr (N::elastic_valves)
+      run_mechanisms_apart(tables, state, out, crank);
+    else
+      run_mechanisms(tables, state, out, crank);
+    if constexpr (N::any_valves)
+      faults |= run_valves(tables, state, work, out, input, crank.turned, crank.has_jumped(), crank.head_pressure_Pa);
+  }
+  (void)work, (void)input;
+  return faults;
+}
+
+template <class Real, class S>
+inline void count_bad_input(State<Real, S>& state, std::uint32_t faults) noexcept {
+  const std::uint32_t bad = faults & kInputFaults;
+  if (bad == 0) return;
+  state.bad_input_kinds |= bad;
+  if (state.bad_input_ticks != ~std::uint32_t{0}) ++state.bad_input_ticks;
+}
+
+}  // namespace detail
 
 template <class Real, class S>
 const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input) noexcept {
@@ -79,87 +147,29 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
     return output_;
   }
   const Tables& tables = *tables_;
-  const Drive<Real>& drive = *tables.drive;
-  std::uint32_t faults = 0;
-
-  [[maybe_unused]] const Phase phase_before = state_.phase;
-  [[maybe_unused]] const Real speed_before_rad_s = state_.speed_rad_s;
-  Phase turned;
-  bool jumped = false;
-  if constexpr (S::crank == CrankGiven::speed) {
-    const Real limit = drive.speed_limit_rad_s;
-    const Real speed = detail::checked(input.speed_rad_s, detail::within_magnitude(input.speed_rad_s, limit), state_.speed_rad_s, kFaultSpeed, faults);
-    turned = Phase::from_cycles(speed * drive.cycles_per_tick_per_rad_s);
-    state_.phase += turned;
-  } else if constexpr (S::crank == CrankGiven::phase) {
-    turned = input.crank - state_.phase;
-    const Real speed = turned.template signed_cycles<Real>() * drive.rad_s_per_cycle_per_tick;
-    // The first measured angle says nothing of the speed, nor does one that no crankshaft could have reached.
-    const bool possible = detail::within(speed, -drive.speed_limit_rad_s, drive.speed_limit_rad_s);
-    jumped = !possible || state_.ticks == 0;
-    if (!jumped) state_.speed_rad_s = speed;
-    if (!possible && state_.ticks != 0) faults |= kFaultPhaseJump;
-    state_.phase = input.crank;
-  }
-  ++state_.ticks;
-  if constexpr (Needs<S>::load) {
-    (void)detail::checked(input.load_ratio, detail::within_positive(input.load_ratio, Real{2}), state_.load_ratio, kFaultLoadRatio, faults);
-  }
-  [[maybe_unused]] Real mean_pressure_Pa[Needs<S>::given_work ? S::cylinders.capacity : 1];
-  if constexpr (Needs<S>::input_pressure) {
-    constexpr Real kMost_Pa = static_cast<Real>(kMostPressure_Pa);
-    const std::uint32_t cylinders = detail::count<S>(drive.cylinders);
-    const auto take = [&](std::uint32_t k, Real now_Pa) {
-      if constexpr (Needs<S>::given_work) mean_pressure_Pa[k] = (state_.pressure_Pa[k] + now_Pa) / 2;
-      state_.pressure_Pa[k] = now_Pa;
-    };
-    if (detail::all_within_positive(input.pressure_Pa, cylinders, kMost_Pa)) {
-      for (std::uint32_t k = 0; k < cylinders; ++k) take(k, input.pressure_Pa[k]);
-    } else {
-      for (std::uint32_t k = 0; k < cylinders; ++k) {
-        const bool good = detail::within_positive(input.pressure_Pa[k], kMost_Pa);
-        take(k, good ? input.pressure_Pa[k] : state_.pressure_Pa[k]);
-        if (!good) faults |= kFaultPressure;
-      }
-    }
-  }
-
-  [[maybe_unused]] Real head_pressure_Pa[S::valve_gas ? S::cylinders.capacity : 1];
-  detail::CrankTurn<Real, S> crank{{}, {}, turned, jumped, mean_pressure_Pa, head_pressure_Pa};
-  if constexpr (Needs<S>::cut) crank.cut_cylinders = input.cut_cylinders;
-  if constexpr (Needs<S>::crank_dynamics) {
-    faults |= detail::run_turned_by_forces(tables, state_, output_, crank, input);
-  } else if constexpr (Needs<S>::elastic_valves) {
-    detail::run_mechanisms_apart(tables, state_, output_, crank);
-  } else {
-    detail::run_mechanisms(tables, state_, output_, crank);
-  }
-  [[maybe_unused]] const detail::CamsBefore<S> cams_before(state_);
-  if constexpr (Needs<S>::any_valves) {
-    faults |= detail::run_valves(tables, state_, *this, output_, input, state_.phase - phase_before, jumped, head_pressure_Pa);
-  }
-  if constexpr (Needs<S>::any_triggers) {
-    Real bend_cycles{};
-    if constexpr (Needs<S>::crank_dynamics) bend_cycles = (state_.speed_rad_s - speed_before_rad_s) * drive.cycles_per_tick_per_rad_s / 2;
-    const detail::CrankPath<Real> path{phase_before, crank.turned, jumped, bend_cycles};
-    faults |= detail::TriggersStep<Real, S>{tables, state_, output_, path, cams_before}.run();
-  }
-  if constexpr (S::bad_input_count) {
-    if (const std::uint32_t bad = faults & kInputFaults; bad != 0) {
-      state_.bad_input_kinds |= bad;
-      if (state_.bad_input_ticks != ~std::uint32_t{0}) ++state_.bad_input_ticks;
-    }
-  }
+  [[maybe_unused]] detail::BeforeTick<Real, S> before;
+  if constexpr (detail::Needs<S>::any_triggers) before.keep(state_);
+  detail::CrankTurn<Real, S> crank;
+  std::uint32_t faults = detail::take_crank_inputs(*tables.drive, state_, input, crank);
+  faults |= detail::move_parts(tables, state_, *this, output_, input, crank);
+  if constexpr (detail::Needs<S>::any_triggers) faults |= detail::read_triggers(tables, state_, output_, before, crank);
+  if constexpr (S::bad_input_count) detail::count_bad_input(state_, faults);
+  CRANKLOOP_ASSERT(detail::within_magnitude(state_.speed_rad_s, tables.drive->speed_limit_rad_s));
   output_.faults = faults;
   return output_;
 }
 
 template <class Real, class S>
 [[gnu::cold]] Status Engine<Real, S>::restore(const State& state) noexcept {
-  if (tables_ == nullptr) return {Reason::missing_table, -1, "tables"};
-  if (state.fingerprint != state_.fingerprint) return {Reason::other_tables, -1, "state.fingerprint"};
+  if (tables_ == nullptr) return refuse("tables", Reason::missing_table);
+  if (state.fingerprint != state_.fingerprint) return refuse("state.fingerprint", Reason::other_tables);
+  if constexpr (detail::Needs<S>::elastic_valves) {
+    for (const std::uint32_t of_valve : state.valve_regime)
+      if (of_valve >= std::uint32_t{detail::kRegimes}) return refuse("state.valve", Reason::out_of_range);
+  }
   state_ = state;
-  if constexpr (Needs<S>::elastic_valves) detail::ElasticValves<Real, S>(*tables_, state_, *this, output_).remember();
+  if constexpr (detail::Needs<S>::elastic_valves)
+    detail::ElasticValves<Real, S>(*tables_, state_, *this, output_).remember();
   return {};
 }
 

@@ -1,23 +1,26 @@
 // One tick of a crank that is turned by forces: docs/model.md "Crank dynamics".
 //
-// What belongs here: the integration of angle and speed, friction. What does not: gas torque and its work, which come from tables
-// (tick/crank/torque_step.hpp), and the starter's torque (tick/crank/starter.hpp).
+// What belongs here: the integration of angle and speed. What does not: gas torque and its work, which come from tables
+// (tick/crank/torque_step.hpp), torques of friction and starter (crank_friction.hpp, starter.hpp).
 //
-// The state is the reduced speed u = w sqrt(J_eff): u^2 / 2 is the kinetic energy, so work changes it without a term in dJ/da, and an energy
-// balance is kept to rounding. A tick is half of the friction, then gas, load and starter over the angle turned, then the other half of the
-// friction: second order, and friction can stop the crank but never turn it back; where it is less than what pushes, a crank that slows down goes
-// through standstill. The angle is predicted from the speed and its rate; when the tick's other end is known too, a better value is (the cubic
-// through both), and what lacks is turned in the next tick: without friction the method is then of third order, at the price of one number.
+// The state is the reduced speed u = w sqrt(J_eff): u^2 / 2 is the kinetic energy, so work changes it without a term in
+// dJ/da, and an energy balance is kept to rounding. A tick is half of the friction, then gas, load and starter over the
+// angle turned, then the other half of the friction: second order, and friction can stop the crank but never turn it
+// back; where it is less than what pushes, a crank that slows down goes through standstill. The angle is predicted from
+// the speed and its rate; when the tick's other end is known too, a better value is (the cubic through both), and what
+// lacks is turned in the next tick: without friction the method is then of third order, at the price of one number.
 #pragma once
 
 #include <cstdint>
 
+#include <crankloop/assert.hpp>
 #include <crankloop/output.hpp>
 #include <crankloop/state.hpp>
-#include <crankloop/tick/crank/crank_rate.hpp>
-#include <crankloop/tick/one_instruction.hpp>
-#include <crankloop/tick/crank/starter.hpp>
 #include <crankloop/tables/tables.hpp>
+#include <crankloop/tick/crank/crank_friction.hpp>
+#include <crankloop/tick/crank/crank_rate.hpp>
+#include <crankloop/tick/crank/starter.hpp>
+#include <crankloop/tick/one_instruction.hpp>
 
 namespace crankloop::detail {
 
@@ -25,12 +28,20 @@ template <class Real>
 class CrankStep {
  public:
   /// `gas_mean_Nm` over a cycle: where that takes work, the same cycle passed backwards would give it.
-  CrankStep(const Drive<Real>& drive, const CrankDynamics<Real>& crank, CrankState<Real>& state, Real& speed_rad_s, Real gas_mean_Nm) noexcept
-      : drive_{drive}, crank_{crank}, state_{state}, speed_rad_s_{speed_rad_s}, speed_before_rad_s_{speed_rad_s},
-        stiction_Nm_{crank.drag_Nm, gas_mean_Nm < 0 ? crank.drag_Nm - 2 * gas_mean_Nm : crank.drag_Nm} {}
+  CrankStep(const Drive<Real>& drive, const CrankDynamics<Real>& crank, group::CrankState<Real>& state,
+            Real& speed_rad_s, Real gas_mean_Nm) noexcept
+      : drive_{drive},
+        crank_{crank},
+        state_{state},
+        speed_rad_s_{speed_rad_s},
+        speed_before_rad_s_{speed_rad_s},
+        friction_{{crank.drag_Nm, gas_mean_Nm < 0 ? crank.drag_Nm - 2 * gas_mean_Nm : crank.drag_Nm}} {}
 
-  /// The first half: answers how far the crank turns. `gas_Nm` as it is before the tick; a scene without starter says that it is off.
+  /// The first half: answers how far the crank turns. `gas_Nm` as it is before the tick; a scene without starter says
+  /// that it is off.
   [[nodiscard]] Phase turn(Real gas_Nm, bool starter_is_on) noexcept {
+    CRANKLOOP_ASSERT(is_finite(gas_Nm));
+    CRANKLOOP_ASSERT(state_.per_root_inertia > 0);
     gas_before_Nm_ = gas_Nm;
     starter_ = {crank_.starter_stall_Nm, crank_.starter_slope_Nm_s, starter_is_on};
     const Real tick_s = drive_.tick_s;
@@ -40,7 +51,7 @@ class CrankStep {
       slow_down(tick_s / 2, Stop::may_pass);
       friction_s_ = tick_s / 2;
     }
-    const Real push_Nm = gas_Nm + starter_.torque_Nm(speed_rad_s_) - state_.load_Nm;
+    const Real push_Nm = gas_Nm + starter_.torque_Nm(speed_rad_s_) - state_.external_torque_Nm;
     held_ = holds(push_Nm);
     if (held_) {
       state_.lag_rad_s = Real{0};
@@ -53,29 +64,24 @@ class CrankStep {
     const Real share = starter_.share_of_gain(speed_rad_s_, tick_s, per_root * per_root);
     predicted_rad_s_ = held_to_limit(start_.speed_rad_s + gain_rad_s / 2 * share);
     mean_rad_s_ = limited(predicted_rad_s_ + state_.lag_rad_s, drive_.speed_limit_rad_s);
+    CRANKLOOP_ASSERT(magnitude(mean_rad_s_) <= drive_.speed_limit_rad_s);
     return Phase::from_cycles(mean_rad_s_ * drive_.cycles_per_tick_per_rad_s);
   }
 
   /// In radians.
   [[nodiscard]] Real turned_rad() const noexcept { return held_ ? Real{0} : mean_rad_s_ * drive_.tick_s; }
 
-  /// What the tick has come to.
-  struct Arrival {
-    Real gas_work_J;           ///< over the angle turned
-    Real gas_Nm;               ///< at its end, as are the next two
-    Real inertia_kg_m2;        ///< J_eff
-    Real inertia_slope_kg_m2;  ///< torque of masses per w^2
-  };
-
   /// The second half: speed at the end of the tick.
-  void arrive(const Arrival& at) noexcept {
+  void arrive(const CrankArrival<Real>& at) noexcept {
+    CRANKLOOP_ASSERT(at.inertia_kg_m2 > 0);
     const Real per_root = Real{1} / square_root(at.inertia_kg_m2);
     state_.per_root_inertia = per_root;
     state_.inertia_slope_kg_m2 = at.inertia_slope_kg_m2;
     gas_Nm_ = at.gas_Nm;
     if (held_) return;
-    const Real starter_J = starter_.work_J(start_.speed_rad_s, start_.acceleration_rad_s2 * drive_.tick_s, mean_rad_s_, drive_.tick_s);
-    gain(at.gas_work_J + starter_J - state_.load_Nm * turned_rad());
+    const Real starter_J =
+        starter_.work_J(start_.speed_rad_s, start_.acceleration_rad_s2 * drive_.tick_s, mean_rad_s_, drive_.tick_s);
+    gain(at.gas_work_J + starter_J - state_.external_torque_Nm * turned_rad());
     const Real reached_rad_s = state_.reduced_speed * per_root;
     speed_rad_s_ = held_to_limit(reached_rad_s);
     if (speed_rad_s_ != reached_rad_s) set_reduced(speed_rad_s_ / per_root);
@@ -85,14 +91,15 @@ class CrankStep {
     } else {
       slow_down(friction_s_, Stop::stays);
     }
+    CRANKLOOP_ASSERT(is_finite(speed_rad_s_) && is_finite(state_.reduced_speed));
   }
 
   /// At the end of the tick. `motion` has the phase already.
-  void show(CrankMotion<Real>& motion) const noexcept {
+  void show(group::CrankMotion<Real>& motion) const noexcept {
     const Real w = speed_rad_s_;
-    const Real push_Nm = gas_Nm_ + starter_.torque_Nm(w) - state_.load_Nm;
+    const Real push_Nm = gas_Nm_ + starter_.torque_Nm(w) - state_.external_torque_Nm;
     const Sense sense = w < 0 || (w == Real{0} && push_Nm < 0) ? kBackward : kForward;
-    Real friction_Nm = drag_Nm(sense, magnitude(w));
+    Real friction_Nm = friction_.torque_Nm(crank_, sense, magnitude(w));
     if (holds(push_Nm)) {
       friction_Nm = push_Nm;
     } else if (sense == kBackward) {
@@ -110,10 +117,6 @@ class CrankStep {
   [[nodiscard]] Real speed_before_rad_s() const noexcept { return speed_before_rad_s_; }
 
  private:
-  enum Sense : std::uint8_t { kForward, kBackward };
-  [[nodiscard]] static Sense sense_of(Real motion) noexcept { return motion < 0 ? kBackward : kForward; }
-  [[nodiscard]] static Sense other(Sense sense) noexcept { return sense == kForward ? kBackward : kForward; }
-
   [[nodiscard]] static Real limited(Real x, Real most) noexcept { return x > most ? most : x < -most ? -most : x; }
   [[nodiscard]] Real held_to_limit(Real speed_rad_s) noexcept {
     const Real held = limited(speed_rad_s, drive_.speed_limit_rad_s);
@@ -121,13 +124,9 @@ class CrankStep {
     return held;
   }
 
-  /// At a speed without its sign.
-  [[nodiscard]] Real drag_Nm(Sense sense, Real speed_rad_s) const noexcept {
-    return stiction_Nm_[sense] + speed_rad_s * (crank_.drag_Nm_s + speed_rad_s * crank_.drag_Nm_s2);
+  [[nodiscard]] bool holds(Real push_Nm) const noexcept {
+    return state_.reduced_speed == Real{0} && friction_.meets(push_Nm);
   }
-  /// At standstill friction meets any push up to its constant part.
-  [[nodiscard]] bool meets(Real push_Nm) const noexcept { return magnitude(push_Nm) <= stiction_Nm_[sense_of(push_Nm)]; }
-  [[nodiscard]] bool holds(Real push_Nm) const noexcept { return state_.reduced_speed == Real{0} && meets(push_Nm); }
 
   /// By torques beside that of the masses.
   [[nodiscard]] Real acceleration_rad_s2(Real push_Nm) const noexcept {
@@ -136,8 +135,9 @@ class CrankStep {
   }
   /// Mean speed of the cubic angle that has speed and acceleration of the tick's both ends, friction apart.
   [[nodiscard]] Real cubic_rad_s() const noexcept {
-    const Real end_rad_s2 = acceleration_rad_s2(gas_Nm_ + starter_.torque_Nm(speed_rad_s_) - state_.load_Nm);
-    return (start_.speed_rad_s + speed_rad_s_) / 2 + drive_.tick_s * static_cast<Real>(1.0 / 12) * (start_.acceleration_rad_s2 - end_rad_s2);
+    const Real end_rad_s2 = acceleration_rad_s2(gas_Nm_ + starter_.torque_Nm(speed_rad_s_) - state_.external_torque_Nm);
+    return (start_.speed_rad_s + speed_rad_s_) / 2 +
+           drive_.tick_s * static_cast<Real>(1.0 / 12) * (start_.acceleration_rad_s2 - end_rad_s2);
   }
 
   void set_reduced(Real reduced_speed) noexcept {
@@ -153,27 +153,31 @@ class CrankStep {
   }
 
   /// What pushes a crank that stands.
-  [[nodiscard]] Real push_at_rest_Nm(Real gas_Nm) const noexcept { return gas_Nm + starter_.torque_Nm(Real{0}) - state_.load_Nm; }
+  [[nodiscard]] Real push_at_rest_Nm(Real gas_Nm) const noexcept {
+    return gas_Nm + starter_.torque_Nm(Real{0}) - state_.external_torque_Nm;
+  }
   /// False where it would only stop a crank that is breaking away: that has all its friction at the end.
   [[nodiscard]] bool begin_with_friction(Real push_Nm) const noexcept {
     if (before_ == Real{0}) return false;
-    const Real drag_Nm = stiction_Nm_[sense_of(before_)];
+    const Real drag_Nm = friction_.constant_Nm[sense_of(before_)];
     const bool breaks_away = before_ > 0 ? push_Nm > drag_Nm : push_Nm < -drag_Nm;
     return !breaks_away || drive_.tick_s / 2 * drag_Nm * state_.per_root_inertia < magnitude(before_);
   }
 
   enum class Stop : std::uint8_t { stays, may_pass };
-  /// Friction for a while: du/dt = -drag / sqrt(J), the drag's slope taken half implicitly, so that it is second order and no drag, however
-  /// steep, overshoots. A crank that it stops stays there, or passes through where what pushes it back is more than friction.
+  /// Friction for a while: du/dt = -drag / sqrt(J), the drag's slope taken half implicitly, so that it is second order
+  /// and no drag, however steep, overshoots. A crank that it stops stays there, or passes through where what pushes it
+  /// back is more than friction.
   void slow_down(Real time_s, Stop stop) noexcept {
+    CRANKLOOP_ASSERT(time_s > 0);
     const Real speed = magnitude(speed_rad_s_);
-    const Real drag = drag_Nm(sense_of(speed_rad_s_), speed);
+    const Real drag = friction_.torque_Nm(crank_, sense_of(speed_rad_s_), speed);
     if (!(drag > 0)) return;
     const Real per_root = state_.per_root_inertia;
     const Real slope_Nm_s = crank_.drag_Nm_s + 2 * crank_.drag_Nm_s2 * speed;
     const Real impulse = time_s * drag * per_root / (Real{1} + time_s / 2 * slope_Nm_s * (per_root * per_root));
     const bool stops = impulse >= magnitude(state_.reduced_speed);
-    if (stops && !(stop == Stop::may_pass && !meets(push_at_rest_Nm(gas_before_Nm_)))) {
+    if (stops && !(stop == Stop::may_pass && !friction_.meets(push_at_rest_Nm(gas_before_Nm_)))) {
       set_reduced(Real{0});
       speed_rad_s_ = Real{0};
       return;
@@ -185,30 +189,21 @@ class CrankStep {
     speed_rad_s_ += change * state_.per_root_inertia;
   }
 
-  /// Whether the crank comes through standstill in this tick: what pushes it back is more than friction, and half a tick of that stops it.
+  /// Whether the crank comes through standstill in this tick: what pushes it back is more than friction, and half a
+  /// tick of that stops it.
   [[nodiscard]] bool turns_round() const noexcept {
     const Real back_Nm = before_ > 0 ? -push_at_rest_Nm(gas_Nm_) : push_at_rest_Nm(gas_Nm_);
     const Real left = before_ > 0 ? state_.reduced_speed : -state_.reduced_speed;
     const Sense then = sense_of(before_);
-    return before_ != Real{0} && stiction_Nm_[kBackward] > 0 && back_Nm > stiction_Nm_[other(then)] &&
-           left <= drive_.tick_s / 2 * stiction_Nm_[then] * state_.per_root_inertia;
+    return before_ != Real{0} && friction_.constant_Nm[kBackward] > 0 && back_Nm > friction_.constant_Nm[other(then)] &&
+           left <= drive_.tick_s / 2 * friction_.constant_Nm[then] * state_.per_root_inertia;
   }
-  /// Friction turns round with the crank: it has acted for half of the tick in the old sense, and is due in the new one for as much, less twice
-  /// the time by which the crank stood still after the middle of the tick. Speeds at hand have that friction, but no other, so they tell this
-  /// time too long, by what friction adds to the forces that turn the crank round.
   void turn_friction_round() noexcept {
+    const Real per_root = state_.per_root_inertia;
+    const Real impulse_Nms = friction_.impulse_of_turning_Nms(sense_of(before_), start_.speed_rad_s, speed_rad_s_,
+                                                              per_root * per_root, drive_.tick_s);
     const Real sense = before_ > 0 ? Real{1} : Real{-1};
-    const Real per_inertia = state_.per_root_inertia * state_.per_root_inertia;
-    const Real by_forces_rad_s = magnitude(start_.speed_rad_s - speed_rad_s_);
-    const Real then_Nm = stiction_Nm_[sense_of(before_)];
-    const Real more_Nm = stiction_Nm_[other(sense_of(before_))] - then_Nm;
-    const Real by_friction_rad_s = drive_.tick_s * then_Nm * per_inertia;
-    const Real twice_late_rad_s = sense * (start_.speed_rad_s + speed_rad_s_);
-    const Real turned_rad_s = by_forces_rad_s + by_friction_rad_s;  // 0 where a friction of next to nothing underflows
-    const Real twice_late = turned_rad_s > 0 ? limited(twice_late_rad_s / turned_rad_s, Real{1}) : Real{0};
-    const Real time_s = drive_.tick_s * (static_cast<Real>(0.5) - twice_late);
-    const Real impulse_Nms = time_s * then_Nm + more_Nm * (drive_.tick_s / 2) * (Real{1} - twice_late);
-    const Real change = sense * (impulse_Nms * state_.per_root_inertia);
+    const Real change = sense * (impulse_Nms * per_root);
     if (sense * (state_.reduced_speed + change) < 0) {
       push_reduced(change);
     } else {  // by rounding alone
@@ -217,8 +212,10 @@ class CrankStep {
     }
   }
 
-  /// Work changes u^2 / 2. Through a reversal too; should the predicted angle be a hair beyond the one that the energy reaches, the crank stands.
+  /// Work changes u^2 / 2. Through a reversal too; should the predicted angle be a hair beyond the one that the energy
+  /// reaches, the crank stands.
   void gain(Real work_J) noexcept {
+    CRANKLOOP_ASSERT(is_finite(work_J));
     const Real twice_J = 2 * work_J;
     const Real u = state_.reduced_speed;
     const Real left = u * u + twice_J;
@@ -237,15 +234,15 @@ class CrankStep {
   /// From rest, or through standstill: where friction could hold the crank, that is as far as it goes.
   void turn_back(Real before, Real after) noexcept {
     const Real push_Nm = push_at_rest_Nm(gas_Nm_);
-    set_reduced(before != Real{0} && meets(push_Nm) ? Real{0} : after);
+    set_reduced(before != Real{0} && friction_.meets(push_Nm) ? Real{0} : after);
   }
 
   const Drive<Real>& drive_;
   const CrankDynamics<Real>& crank_;
-  CrankState<Real>& state_;
+  group::CrankState<Real>& state_;
   Real& speed_rad_s_;
   Real speed_before_rad_s_;
-  Real stiction_Nm_[2];      ///< constant part of friction and brake, by Sense: backwards also what the gas's loop would give, twice
+  CrankFriction<Real> friction_;
   Starter<Real> starter_{};
   CrankRate<Real> start_{};  ///< after the first half of the friction
   Real predicted_rad_s_{};   ///< mean speed by the start alone
@@ -254,8 +251,8 @@ class CrankStep {
   Real before_{};            ///< u at the tick's begin
   Real friction_s_{};        ///< time that is left for friction
   Real gas_before_Nm_{};
-  Real gas_Nm_{};            ///< at the end of the tick
-  bool held_ = false;    ///< by friction, at standstill
+  Real gas_Nm_{};      ///< at the end of the tick
+  bool held_ = false;  ///< by friction, at standstill
   bool overspeed_ = false;
 };
 

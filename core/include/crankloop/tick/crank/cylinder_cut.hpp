@@ -1,14 +1,14 @@
 // What the engine's gas torque lacks where cylinders do not fire: the torque of their heat, and its work.
 //
-// What belongs here: look-ups of cut cylinders, at both ends of a tick, so that a mask that changes from tick to tick leaves no jump in the
-// work. What does not: the torque of all cylinders (tick/crank/torque_step.hpp).
+// What belongs here: look-ups of cut cylinders, at both ends of a tick, so that a mask that changes from tick to tick
+// leaves no jump in the work. What does not: the torque of all cylinders (tick/crank/torque_step.hpp).
 #pragma once
 
 #include <cstdint>
 
 #include <crankloop/tables/angle.hpp>
-#include <crankloop/tick/checked.hpp>
 #include <crankloop/tables/tables.hpp>
+#include <crankloop/tick/checked.hpp>
 
 namespace crankloop::detail {
 
@@ -28,7 +28,7 @@ class CutHeat {
     return sum;
   }
 
-  /// Likewise between two phases: work_J less that of mean_Nm.
+  /// Heat work at load ratio 1 of all cut cylinders between two phases: work_J, less that of mean_Nm.
   struct Work {
     Real work_J;
     Real mean_Nm;
@@ -43,7 +43,7 @@ class CutHeat {
     return sum;
   }
 
-  /// Likewise, over a cycle.
+  /// Mean torque over a cycle at load ratio 1, of all cut cylinders.
   [[nodiscard]] Real mean_Nm() const noexcept {
     Real sum{};
     for_each([&](std::uint32_t) { sum += tables_.cut_torque->mean_Nm; });

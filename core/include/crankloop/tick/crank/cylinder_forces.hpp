@@ -6,27 +6,29 @@
 #include <type_traits>
 
 #include <crankloop/output.hpp>
+#include <crankloop/tables/tables.hpp>
 #include <crankloop/tick/crank/crank_rate.hpp>
 #include <crankloop/tick/one_instruction.hpp>
-#include <crankloop/tables/tables.hpp>
 
 namespace crankloop {
 
 /// What geometry says of a mechanism at a crank angle a; derivatives are by a.
 template <class Real>
 struct Pose {
-  Real displacement_m;     ///< x
-  Real slope_m;            ///< dx/da
-  Real acceleration_m;     ///< d2x/da2
-  Real rod_angle_rad;      ///< b
-  Real rod_slope;          ///< db/da
-  Real rod_curvature;      ///< d2b/da2
-  Real rod_tilt;           ///< tan b
-  Real radial;             ///< cos(a + b) / cos b
+  Real displacement_m;  ///< x
+  Real slope_m;         ///< dx/da
+  Real acceleration_m;  ///< d2x/da2
+  Real rod_angle_rad;   ///< b
+  Real rod_slope;       ///< db/da
+  Real rod_curvature;   ///< d2b/da2
+  Real rod_tilt;        ///< tan b
+  Real radial;          ///< cos(a + b) / cos b
 };
 
-/// Forces of the cylinders of one mechanism at a speed w, constant or with its rate: what their pressures do not change is worked out once.
-/// With RodInertia the couple dM = dI d2b/dt2 is in every force, as in docs/model.md.
+namespace detail {
+
+/// Forces of the cylinders of one mechanism at a speed w, constant or with its rate: what their pressures do not change
+/// is worked out once. With RodInertia the couple dM = dI d2b/dt2 is in every force, as in docs/model.md.
 ///
 /// (radial, slope / r) is the vector (1, tan b) turned by a, so sin a and cos a need no table of their own:
 /// cos a = (radial + tan b slope / r) cos^2 b, sin a = (slope / r - tan b radial) cos^2 b.
@@ -35,8 +37,12 @@ class MechanismForces {
  public:
   template <class Speed>
   [[gnu::always_inline]] MechanismForces(const Body<Real>& body, const Pose<Real>& pose, const Speed& speed) noexcept
-      : rod_tilt_{pose.rod_tilt}, radial_{pose.radial}, crankcase_Pa_{body.crankcase_Pa}, bore_area_m2_{body.bore_area_m2},
-        crank_radius_m_{body.crank_radius_m}, pin_offset_m_{body.pin_offset_m} {
+      : rod_tilt_{pose.rod_tilt},
+        radial_{pose.radial},
+        crankcase_Pa_{body.crankcase_Pa},
+        bore_area_m2_{body.bore_area_m2},
+        crank_radius_m_{body.crank_radius_m},
+        pin_offset_m_{body.pin_offset_m} {
     constexpr bool kAccelerates = std::is_same_v<Speed, CrankRate<Real>>;
     Real speed_rad_s;
     if constexpr (kAccelerates) {
@@ -93,10 +99,10 @@ class MechanismForces {
 
 /// All forces of one cylinder.
 template <bool RodInertia, class Real, class Speed>
-[[nodiscard]] inline CylinderForces<Real> cylinder_forces(const Body<Real>& body, const Pose<Real>& pose, Real pressure_Pa,
-                                                          const Speed& speed) noexcept {
+[[nodiscard]] inline CylinderForces<Real> cylinder_forces(const Body<Real>& body, const Pose<Real>& pose,
+                                                          Real pressure_Pa, const Speed& speed) noexcept {
   return MechanismForces<RodInertia, Real>(body, pose, speed).at(pressure_Pa);
 }
 
-
+}  // namespace detail
 }  // namespace crankloop

@@ -1,22 +1,27 @@
-// What the whole engine's parts add up to: loads of crank pins and journals, free forces and moments. docs/model.md "Forces", "Balance".
+// What the whole engine's parts add up to: loads of crank pins and journals, free forces and moments. docs/model.md
+// "Forces", "Balance".
 //
-// What belongs here: sums over cylinders that no other output needs. What does not: the forces of a cylinder (cylinder_forces.hpp).
+// What belongs here: sums over cylinders that no other output needs. What does not: the forces of a cylinder
+// (cylinder_forces.hpp).
 #pragma once
 
-#include <crankloop/tables/angle.hpp>
-#include <crankloop/tick/checked.hpp>
+#include <crankloop/assert.hpp>
 #include <crankloop/output.hpp>
 #include <crankloop/state.hpp>
-#include <crankloop/tick/one_instruction.hpp>
+#include <crankloop/tables/angle.hpp>
 #include <crankloop/tables/tables.hpp>
+#include <crankloop/tick/checked.hpp>
+#include <crankloop/tick/one_instruction.hpp>
 
 namespace crankloop::detail {
 
 template <class Real>
-[[nodiscard]] Real length(Real x, Real y) noexcept { return square_root(x * x + y * y); }
+[[nodiscard]] Real length(Real x, Real y) noexcept {
+  return square_root(x * x + y * y);
+}
 
 template <class Real>
-[[nodiscard]] FreeForce<Real> turned_by(const Turning<Real>& t, Real cosine, Real sine) noexcept {
+[[nodiscard]] FreeForce<Real> turned_by(const RotatingVector<Real>& t, Real cosine, Real sine) noexcept {
   return {t.up_cos * cosine + t.up_sin * sine, t.lateral_cos * cosine + t.lateral_sin * sine,
           t.pitch_cos * cosine + t.pitch_sin * sine, t.yaw_cos * cosine + t.yaw_sin * sine};
 }
@@ -30,56 +35,54 @@ void load_journal(Output<Real, S>& out, std::uint32_t j, Real along_N, Real acro
 
 /// From the forces of all cylinders, in the frame that turns with the crankshaft.
 template <class Real, class S>
-void load_bearings([[maybe_unused]] const Tables<Real, S>& tables, [[maybe_unused]] const State<Real, S>& state, [[maybe_unused]] Output<Real, S>& out) noexcept {
-  if constexpr (S::bearing_loads) {
-    const Bearings<Real>& b = *tables.bearings;
-    const Real w2 = state.speed_rad_s * state.speed_rad_s;
-    // Each throw is simply supported between its two journals: half to either, turned from the throw's frame into that of pin 0.
-    Real along_before{};
-    Real across_before{};
-    const std::uint8_t* k = b.by_pin.cylinder;
-    for (std::uint32_t i = 0; i < b.pins; ++i) {
-      Real radial = out.cylinder[*k].radial_force_N;  // every pin has a rod
-      Real tangential = out.cylinder[*k].tangential_force_N;
-      for (const std::uint8_t* const end = b.by_pin.cylinder + b.by_pin.end[i]; ++k != end;) {
-        radial += out.cylinder[*k].radial_force_N;
-        tangential += out.cylinder[*k].tangential_force_N;
-      }
-      const Real throw_outward = b.throw_kg_m[i] * w2 - radial;
-      Real throw_tangential = tangential;
-      radial -= b.rods_kg_m[i] * w2;
-      if constexpr (Needs<S>::crank_dynamics) {  // what turns with the pin is accelerated by it
-        throw_tangential -= b.throw_kg_m[i] * out.acceleration_rad_s2;
-        tangential -= b.rods_kg_m[i] * out.acceleration_rad_s2;
-      }
-      out.pin_radial_N[i] = radial;
-      out.pin_tangential_N[i] = tangential;
-      out.pin_load_N[i] = length(radial, tangential);
-      const Real half_along = (throw_outward * b.throw_cos[i] - throw_tangential * b.throw_sin[i]) / 2;
-      const Real half_across = (throw_outward * b.throw_sin[i] + throw_tangential * b.throw_cos[i]) / 2;
-      load_journal(out, i, along_before + half_along, across_before + half_across);
-      along_before = half_along;
-      across_before = half_across;
+void load_bearings(const Tables<Real, S>& tables, const State<Real, S>& state, Output<Real, S>& out) noexcept {
+  const Bearings<Real>& b = *tables.bearings;
+  const Real w2 = state.speed_rad_s * state.speed_rad_s;
+  // Each throw is simply supported between its two journals: half to either, turned from the throw's frame into that
+  // of pin 0.
+  Real along_before{};
+  Real across_before{};
+  const std::uint8_t* k = b.by_pin.cylinder;
+  for (std::uint32_t i = 0; i < b.pins; ++i) {
+    CRANKLOOP_ASSERT(k != b.by_pin.cylinder + b.by_pin.end[i]);  // every pin has a rod
+    Real radial = out.cylinder[*k].radial_force_N;
+    Real tangential = out.cylinder[*k].tangential_force_N;
+    for (const std::uint8_t* const end = b.by_pin.cylinder + b.by_pin.end[i]; ++k != end;) {
+      radial += out.cylinder[*k].radial_force_N;
+      tangential += out.cylinder[*k].tangential_force_N;
     }
-    load_journal(out, b.pins, along_before, across_before);
+    const Real throw_outward = b.throw_kg_m[i] * w2 - radial;
+    Real throw_tangential = tangential;
+    radial -= b.rods_kg_m[i] * w2;
+    if constexpr (Needs<S>::crank_dynamics) {  // what turns with the pin is accelerated by it
+      throw_tangential -= b.throw_kg_m[i] * out.acceleration_rad_s2;
+      tangential -= b.rods_kg_m[i] * out.acceleration_rad_s2;
+    }
+    out.pin_radial_N[i] = radial;
+    out.pin_tangential_N[i] = tangential;
+    out.pin_load_N[i] = length(radial, tangential);
+    const Real half_along = (throw_outward * b.throw_cos[i] - throw_tangential * b.throw_sin[i]) / 2;
+    const Real half_across = (throw_outward * b.throw_sin[i] + throw_tangential * b.throw_cos[i]) / 2;
+    load_journal(out, i, along_before + half_along, across_before + half_across);
+    along_before = half_along;
+    across_before = half_across;
   }
+  load_journal(out, b.pins, along_before, across_before);
 }
 
 /// Of the speed and the angle alone.
 template <class Real, class S>
-void balance_engine([[maybe_unused]] const Tables<Real, S>& tables, [[maybe_unused]] const State<Real, S>& state, [[maybe_unused]] Output<Real, S>& out) noexcept {
-  if constexpr (S::free_forces) {
-    const Balance<Real>& b = *tables.balance;
-    const Real w2 = state.speed_rad_s * state.speed_rad_s;
-    const Angle<Real> a = angle_of<Real>(state.phase.units(), 0);
-    const std::uint32_t degree = a.turn_degree();
-    const std::uint32_t quarter_back = degree >= 90 ? degree - 90 : degree + 270;
-    const Real cosine = value(b.cosine.at[degree], a.u);
-    const Real sine = value(b.cosine.at[quarter_back], a.u);
-    out.first = turned_by(b.first, cosine * w2, sine * w2);
-    out.rotating = turned_by(b.rotating, cosine * w2, sine * w2);
-    out.second = turned_by(b.second, (2 * cosine * cosine - 1) * w2, 2 * sine * cosine * w2);
-  }
+void balance_engine(const Tables<Real, S>& tables, const State<Real, S>& state, Output<Real, S>& out) noexcept {
+  const Balance<Real>& b = *tables.balance;
+  const Real w2 = state.speed_rad_s * state.speed_rad_s;
+  const Angle<Real> a = angle_of<Real>(state.phase.units(), 0);
+  const std::uint32_t degree = a.turn_degree();
+  const std::uint32_t quarter_back = degree >= 90 ? degree - 90 : degree + 270;
+  const Real cosine = value(b.cosine.at[degree], a.u);
+  const Real sine = value(b.cosine.at[quarter_back], a.u);
+  out.first = turned_by(b.first, cosine * w2, sine * w2);
+  out.rotating = turned_by(b.rotating, cosine * w2, sine * w2);
+  out.second = turned_by(b.second, (2 * cosine * cosine - 1) * w2, 2 * sine * cosine * w2);
 }
 
 }  // namespace crankloop::detail

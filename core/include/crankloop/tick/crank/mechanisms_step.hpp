@@ -1,12 +1,14 @@
 // The crank's part of a tick: look-ups, torque and its work, forces of the cylinders.
 //
-// What belongs here: what is read per mechanism at the tick's end, and the order of the crank's part. What does not: inputs and the tick
-// as a whole (tick/step.hpp), torque and its work (torque_step.hpp), the force algebra (cylinder_forces.hpp), how tables are read (curve.hpp).
+// What belongs here: what is read per mechanism at the tick's end, and the order of the crank's part. What does not:
+// inputs and the tick as a whole (tick/step.hpp), torque and its work (torque_step.hpp), the force algebra
+// (cylinder_forces.hpp), how tables are read (curve.hpp).
 //
 //     phase -> torque tables of the whole engine -> output
 //           -> look-ups per mechanism -> pressure, torque, forces per cylinder -> totals -> output
 #pragma once
 
+#include <crankloop/assert.hpp>
 #include <crankloop/input.hpp>
 #include <crankloop/output.hpp>
 #include <crankloop/state.hpp>
@@ -25,8 +27,13 @@ struct MechanismsStep {
 
   TorqueStep<Real, S>& torque;
 
+  static constexpr bool kGivenGas = N::given_torque && !N::crank_dynamics;
+  static constexpr bool kNeeded = N::shown_by_cylinder || kGivenGas;
+
   /// What geometry says of a mechanism, as far as the scene shows it.
   [[nodiscard, gnu::always_inline]] Pose<Real> pose_at(std::uint32_t degree, Real u) const noexcept {
+    CRANKLOOP_ASSERT(degree < std::uint32_t{kDegreesPerTurn});
+    CRANKLOOP_ASSERT(u >= 0 && u < 1);
     Pose<Real> p;  // the others are not read
     if constexpr (N::motion) {
       const MotionSegment<Real>& motion = torque.tables.motion->at[degree];
@@ -55,6 +62,8 @@ struct MechanismsStep {
                                                      [[maybe_unused]] Real load_ratio) const noexcept {
     if constexpr (N::input_pressure) {
       return torque.state.pressure_Pa[k];
+    } else if constexpr (N::gas) {
+      return torque.held_pressure_Pa(k);
     } else if constexpr (N::gas_pressure) {
       const std::uint32_t segment = torque.tables.gas_grid->segment(at.delayed(torque.tables.drive->turn_of[k]));
       if constexpr (!N::load) {
@@ -78,35 +87,33 @@ struct MechanismsStep {
     }
   }
 
-  /// Mechanism by mechanism what its cylinders share, then those. Fills crank.head_pressure_Pa where the scene has gas on its valves' heads.
-  void run([[maybe_unused]] const CrankTurn<Real, S>& crank, [[maybe_unused]] std::uint32_t cut_cylinders) noexcept {
-    constexpr bool kGivenGas = N::given_torque && !N::crank_dynamics;
-    if constexpr (N::shown_by_cylinder || kGivenGas) {
-      const Drive<Real>& drive = *torque.tables.drive;
-      [[maybe_unused]] typename TorqueStep<Real, S>::Swept swept;
-      [[maybe_unused]] const std::uint8_t* k = drive.by_mechanism.cylinder;
-      [[maybe_unused]] Real sum_Nm{};
-      for (std::uint32_t m = 0; m < torque.mechanisms(); ++m) {
-        const auto at = mechanism_angle(drive.firing_phase[m]);
-        const std::uint32_t degree = at.turn_degree();
-        const Pose<Real> p = pose_at(degree, at.u);
-        if constexpr (kGivenGas) torque.read_swept(m, degree, at.u, p, swept);
-        if constexpr (N::shown_by_cylinder) {
-          const std::uint8_t* const end = drive.by_mechanism.cylinder + drive.by_mechanism.end[m];
-          sum_Nm = show_cylinders(k, end, at, p, crank, cut_cylinders, sum_Nm);
-          k = end;
-        }
+  /// Mechanism by mechanism what its cylinders share, then those. Fills crank.head_pressure_Pa where the scene has gas
+  /// on its valves' heads.
+  void run([[maybe_unused]] CrankTurn<Real, S>& crank, [[maybe_unused]] std::uint32_t cut_cylinders) noexcept {
+    const Drive<Real>& drive = *torque.tables.drive;
+    [[maybe_unused]] typename TorqueStep<Real, S>::Swept swept;
+    [[maybe_unused]] const std::uint8_t* k = drive.by_mechanism.cylinder;
+    [[maybe_unused]] Real sum_Nm{};
+    for (std::uint32_t m = 0; m < torque.mechanisms(); ++m) {
+      const auto at = mechanism_angle(drive.firing_phase[m]);
+      const std::uint32_t degree = at.turn_degree();
+      const Pose<Real> p = pose_at(degree, at.u);
+      if constexpr (kGivenGas) torque.read_swept(m, degree, at.u, p, swept);
+      if constexpr (N::shown_by_cylinder) {
+        const std::uint8_t* const end = drive.by_mechanism.cylinder + drive.by_mechanism.end[m];
+        sum_Nm = show_cylinders(k, end, at, p, crank, cut_cylinders, sum_Nm);
+        k = end;
       }
-      if constexpr (S::forces && !N::crank_dynamics) torque.torque_Nm = sum_Nm;
-      if constexpr (kGivenGas) torque.add_given_pressures(swept, crank.mean_pressure_Pa);
     }
+    if constexpr (S::forces && !N::crank_dynamics) torque.torque_Nm = sum_Nm;
+    if constexpr (kGivenGas) torque.add_given_pressures(swept, crank.mean_pressure_Pa);
   }
 
   /// What the cylinders of one mechanism show, `next` to before `end`. Answers their torques added to `sum_Nm`.
   template <class At>
   [[nodiscard, gnu::always_inline]] Real show_cylinders(const std::uint8_t* next, const std::uint8_t* end,
                                                         [[maybe_unused]] const At& at, const Pose<Real>& p,
-                                                        [[maybe_unused]] const CrankTurn<Real, S>& crank,
+                                                        [[maybe_unused]] CrankTurn<Real, S>& crank,
                                                         [[maybe_unused]] std::uint32_t cut_cylinders,
                                                         Real sum_Nm) noexcept {
     const Real speed = torque.state.speed_rad_s;
@@ -134,6 +141,7 @@ struct MechanismsStep {
     [[maybe_unused]] const Real load_ratio = torque.state.load_ratio;
     for (; next != end; ++next) {
       const std::uint32_t k = *next;
+      CRANKLOOP_ASSERT(k < S::cylinders.capacity);
       if constexpr (S::kinematics) {
         torque.out.displacement_m[k] = p.displacement_m;
         torque.out.velocity_m_s[k] = velocity_m_s;
@@ -146,7 +154,7 @@ struct MechanismsStep {
       }
       if constexpr (N::cylinder_pressure) {
         const Real gas_Pa = pressure_Pa(k, at, cut_cylinders, load_ratio);
-        if constexpr (S::valve_gas) crank.head_pressure_Pa[k] = gas_Pa;
+        if constexpr (N::valve_gas_held) crank.head_pressure_Pa[k] = gas_Pa;
         if constexpr (S::forces) {
           torque.out.cylinder[k] = forces.at(gas_Pa);
           sum_Nm += torque.out.cylinder[k].torque_Nm;
@@ -159,35 +167,38 @@ struct MechanismsStep {
 
 template <class Real, class S>
 inline void run_mechanisms(const Tables<Real, S>& tables, State<Real, S>& state, Output<Real, S>& out,
-                           const CrankTurn<Real, S>& crank) noexcept {
+                           CrankTurn<Real, S>& crank) noexcept {
   TorqueStep<Real, S> torque(tables, state, out);
   std::uint32_t cut_cylinders = 0;
   if constexpr (Needs<S>::cut) cut_cylinders = crank.cut_cylinders;
   torque.read_torque(cut_cylinders);
   torque.move_crank(crank);
-  MechanismsStep<Real, S>{torque}.run(crank, cut_cylinders);
-  load_bearings(tables, state, out);
+  if constexpr (MechanismsStep<Real, S>::kNeeded) MechanismsStep<Real, S>{torque}.run(crank, cut_cylinders);
+  if constexpr (S::bearing_loads) load_bearings(tables, state, out);
   torque.show_torque();
   torque.average_torque(crank);
   torque.remember_work();
-  balance_engine(tables, state, out);
+  if constexpr (S::free_forces) balance_engine(tables, state, out);
 }
 
 /// The same as a call of its own: its stack is free again when the valves need theirs.
 template <class Real, class S>
 [[gnu::noinline]] void run_mechanisms_apart(const Tables<Real, S>& tables, State<Real, S>& state, Output<Real, S>& out,
-                                            const CrankTurn<Real, S>& crank) noexcept {
+                                            CrankTurn<Real, S>& crank) noexcept {
   run_mechanisms(tables, state, out, crank);
 }
 
-/// Where forces turn the crank: its motion around the look-ups. Answers fault bits. A call of its own for the same reason.
-template <class Real, class S>
-[[gnu::noinline]] std::uint32_t run_turned_by_forces(const Tables<Real, S>& tables, State<Real, S>& state,
-                                                     Output<Real, S>& out, CrankTurn<Real, S>& crank,
-                                                     const Input<Real, S>& input) noexcept {
+/// Where forces turn the crank: its motion around the look-ups. Answers fault bits. `once_turned()` makes what the
+/// torque at the new angle needs.
+template <class Real, class S, class OnceTurned>
+[[gnu::always_inline]] inline std::uint32_t turn_by_forces(const Tables<Real, S>& tables, State<Real, S>& state,
+                                                           Output<Real, S>& out, CrankTurn<Real, S>& crank,
+                                                           const Input<Real, S>& input,
+                                                           [[maybe_unused]] OnceTurned once_turned) noexcept {
   std::uint32_t faults = 0;
-  (void)checked(input.load_Nm, within_magnitude(input.load_Nm, static_cast<Real>(kMostLoad_Nm)), state.load_Nm,
-                kFaultLoad, faults);
+  (void)checked(input.external_torque_Nm,
+                within_magnitude(input.external_torque_Nm, static_cast<Real>(kMaxExternalTorque_Nm)),
+                state.external_torque_Nm, kFaultExternalTorque, faults);
   Real gas_Nm = state.gas_Nm[0];
   std::uint32_t cut_cylinders = 0;
   if constexpr (Needs<S>::cut) cut_cylinders = crank.cut_cylinders;
@@ -203,8 +214,16 @@ template <class Real, class S>
   crank.turned = motion.turn(gas_Nm, starter);
   crank.motion = &motion;
   state.phase += crank.turned;
+  if constexpr (Needs<S>::gas) once_turned();
   run_mechanisms(tables, state, out, crank);
   return motion.overspeed() ? faults | kFaultOverspeed : faults;
+}
+/// A call of its own for the same reason.
+template <class Real, class S>
+[[gnu::noinline]] std::uint32_t run_turned_by_forces(const Tables<Real, S>& tables, State<Real, S>& state,
+                                                     Output<Real, S>& out, CrankTurn<Real, S>& crank,
+                                                     const Input<Real, S>& input) noexcept {
+  return turn_by_forces(tables, state, out, crank, input, 0);
 }
 
 }  // namespace crankloop::detail

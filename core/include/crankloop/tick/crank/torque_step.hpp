@@ -1,41 +1,23 @@
 // The torque of a tick: of tables or of given pressures, its work over the angle turned, and the crank that it turns.
 //
-// What belongs here: what adds up over the whole engine. What does not: what each cylinder shows (mechanisms_step.hpp), the
-// integration of the crank's motion (crank_step.hpp).
+// What belongs here: what adds up over the whole engine. What does not: what each cylinder shows (mechanisms_step.hpp),
+// the integration of the crank's motion (crank_step.hpp).
 #pragma once
 
 #include <cstdint>
 
+#include <crankloop/assert.hpp>
 #include <crankloop/output.hpp>
 #include <crankloop/phase.hpp>
 #include <crankloop/state.hpp>
 #include <crankloop/tables/angle.hpp>
 #include <crankloop/tables/tables.hpp>
 #include <crankloop/tick/checked.hpp>
-#include <crankloop/tick/crank/crank_step.hpp>
+#include <crankloop/tick/crank/crank_turn.hpp>
 #include <crankloop/tick/crank/cylinder_cut.hpp>
 #include <crankloop/tick/crank/cylinder_forces.hpp>
 
 namespace crankloop::detail {
-
-/// Which cylinders do not fire this tick.
-struct CutOfTick {
-  std::uint32_t cut_cylinders;
-};
-/// The integration of the crank's motion, between its halves.
-template <class Real>
-struct MotionOfTick {
-  CrankStep<Real>* motion;
-};
-
-/// What a tick's crank part takes and gives besides tables, state and output.
-template <class Real, class S>
-struct CrankTurn : If<Needs<S>::cut, CutOfTick>, If<Needs<S>::crank_dynamics, MotionOfTick<Real>> {
-  Phase turned;
-  bool jumped;
-  const Real* mean_pressure_Pa;  ///< per cylinder, where pressures are given
-  Real* head_pressure_Pa;        ///< per cylinder, for the valves
-};
 
 /// What a crank that is turned by forces needs of the look-ups.
 template <class Real>
@@ -128,6 +110,14 @@ struct TorqueStep : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
     }
   }
 
+  [[nodiscard]] Real held_pressure_Pa(std::uint32_t k) const noexcept {
+    if constexpr (N::gas) {
+      return state.cylinder_gas[k].point.pressure_Pa;
+    } else {
+      return state.pressure_Pa[k];
+    }
+  }
+
   /// Torque and work of gas at given pressures.
   [[gnu::always_inline]] void add_given_pressures(const Swept& swept,
                                                   [[maybe_unused]] const Real* mean_pressure_Pa) noexcept {
@@ -135,8 +125,9 @@ struct TorqueStep : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
     const Real crankcase_Pa = tables.body->crankcase_Pa;
     for (std::uint32_t k = 0; k < count<S>(drive.cylinders); ++k) {
       const std::uint32_t m = drive.mechanism_of[k];
+      CRANKLOOP_ASSERT(m < mechanisms());
       if constexpr (N::crank_dynamics || !S::forces)
-        torque_Nm += (state.pressure_Pa[k] - crankcase_Pa) * swept.slope_m3[m];
+        torque_Nm += (held_pressure_Pa(k) - crankcase_Pa) * swept.slope_m3[m];
       if constexpr (N::given_work) given_work_J += (mean_pressure_Pa[k] - crankcase_Pa) * swept.volume_m3[m];
     }
   }
@@ -210,6 +201,8 @@ struct TorqueStep : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
     } else if constexpr (N::gas_torque) {
       work_J += difference(state.gas[0], gas[0], tables.gas_torque_full->quantum);
       return tables.gas_torque_full->mean_Nm;
+    } else if constexpr (N::gas_work) {
+      work_J += crank.gas_work_J;
     } else if constexpr (N::given_work) {
       work_J += given_work_J;
     }
@@ -219,15 +212,16 @@ struct TorqueStep : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
   /// Where forces turn the crank: the gas's work since the last tick.
   [[nodiscard]] Real gas_work_J(const CrankTurn<Real, S>& crank) noexcept {
     const Real turned_rad = crank.motion->turned_rad();
+    if constexpr (N::gas_work) return crank.gas_work_J;  // what left the gas, however slow: their energies add up
     if (crawling(crank.turned)) return (crank.motion->gas_before_Nm() + torque_Nm) / 2 * turned_rad;
     Real work_J{};
     const Real mean_Nm = add_gas_work(crank, work_J);
     return work_J + mean_Nm * turned_rad;
   }
 
-  /// Work done since the last tick over the angle turned. At a crawl the difference drowns in rounding: there the mean of the
-  /// torques at both ends is the better average (docs/decisions/0005-mean-torque.md).
-  /// After a jump of a measured phase there is no tick to average over.
+  /// Work done since the last tick over the angle turned. At a crawl the difference drowns in rounding: there the mean
+  /// of the torques at both ends is the better average (docs/decisions/0005-mean-torque.md). After a jump of a measured
+  /// phase there is no tick to average over.
   void average_torque(const CrankTurn<Real, S>& crank) noexcept {
     if constexpr (S::mean_torque) {
       if (crank.jumped) {
@@ -243,6 +237,7 @@ struct TorqueStep : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
         Real work_J = w2 * difference(state.inertia, inertia, tables.inertia_torque->quantum);
         const Real mean_Nm = add_gas_work(crank, work_J);
         out.mean_torque_Nm = work_J * per_rad + mean_Nm;
+        CRANKLOOP_ASSERT(is_finite(out.mean_torque_Nm));
       }
     }
   }
@@ -259,20 +254,5 @@ struct TorqueStep : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
     }
   }
 };
-
-/// Where forces turn the crank: mean torque of the gas over a cycle as it is at the tick; 0 of given pressures, which are no cycle.
-template <class Real, class S>
-[[nodiscard]] Real mean_gas_Nm([[maybe_unused]] const Tables<Real, S>& tables, [[maybe_unused]] Real load_ratio,
-                               [[maybe_unused]] std::uint32_t cut_cylinders) noexcept {
-  if constexpr (Needs<S>::gas_torque && Needs<S>::load) {
-    Real heat_Nm = tables.gas_torque_heat->mean_Nm;
-    if constexpr (Needs<S>::cut) heat_Nm -= CutHeat<Real, S>(tables, cut_cylinders).mean_Nm();
-    return tables.gas_torque_motored->mean_Nm + load_ratio * heat_Nm;
-  } else if constexpr (Needs<S>::gas_torque) {
-    return tables.gas_torque_full->mean_Nm;
-  } else {
-    return Real{};
-  }
-}
 
 }  // namespace crankloop::detail

@@ -1,7 +1,7 @@
 // Numbers as bytes, least significant first, and their checksum.
 //
-// What belongs here: how one field is written and read back. What does not: which fields (tick/state/state_fields.hpp), what stands before and
-// behind them (tick/state/saved_state.hpp).
+// What belongs here: how one field is written and read back. What does not: which fields (tick/state/state_fields.hpp),
+// what stands before and behind them (tick/state/saved_state.hpp).
 #pragma once
 
 #include <cstddef>
@@ -9,9 +9,10 @@
 #include <cstring>
 #include <limits>
 
+#include <crankloop/assert.hpp>
+#include <crankloop/phase.hpp>
 #include <crankloop/status.hpp>
 #include <crankloop/tick/checked.hpp>
-#include <crankloop/phase.hpp>
 
 namespace crankloop::detail {
 
@@ -28,9 +29,9 @@ class Crc32 {
   [[nodiscard]] constexpr std::uint32_t value() const noexcept { return ~sum_; }
 
  private:
-  static constexpr std::uint32_t kOfNibble[16] = {0x00000000, 0x1DB71064, 0x3B6E20C8, 0x26D930AC, 0x76DC4190, 0x6B6B51F4,
-                                                  0x4DB26158, 0x5005713C, 0xEDB88320, 0xF00F9344, 0xD6D6A3E8, 0xCB61B38C,
-                                                  0x9B64C2B0, 0x86D3D2D4, 0xA00AE278, 0xBDBDF21C};
+  static constexpr std::uint32_t kOfNibble[16] = {
+      0x00000000, 0x1DB71064, 0x3B6E20C8, 0x26D930AC, 0x76DC4190, 0x6B6B51F4, 0x4DB26158, 0x5005713C,
+      0xEDB88320, 0xF00F9344, 0xD6D6A3E8, 0xCB61B38C, 0x9B64C2B0, 0x86D3D2D4, 0xA00AE278, 0xBDBDF21C};
   std::uint32_t sum_ = 0xFFFF'FFFFu;
 };
 
@@ -69,6 +70,7 @@ class StateWriter {
 
   template <class T>
   void put(const T& x, std::size_t bytes = sizeof(T)) noexcept {
+    CRANKLOOP_ASSERT(bytes >= 1 && bytes <= sizeof(T));
     const std::uint64_t bits = word_of(x);
     for (std::size_t i = 0; i < bytes; ++i) *at_++ = static_cast<unsigned char>(bits >> (8 * i));
   }
@@ -105,6 +107,7 @@ class StateReader {
 
   template <class T>
   void take(T& x, std::size_t bytes = sizeof(T)) noexcept {
+    CRANKLOOP_ASSERT(bytes >= 1 && bytes <= sizeof(T));
     std::uint64_t bits = 0;
     for (std::size_t i = 0; i < bytes; ++i) bits |= std::uint64_t{*at_++} << (8 * i);
     set_bits(x, bits);

@@ -1,7 +1,8 @@
-// A state as bytes that outlive the program: written field by field, the same on every machine, and refused when anything is wrong.
+// A state as bytes that outlive the program: written field by field, the same on every machine, and refused when
+// anything is wrong.
 //
-// What belongs here: the form of the bytes. What does not: the fields (tick/state/state_fields.hpp). Where the bytes are kept is the caller's
-// affair. A snapshot within one program needs none of this: copy engine.state().
+// What belongs here: the form of the bytes. What does not: the fields (tick/state/state_fields.hpp). Where the bytes
+// are kept is the caller's affair. A snapshot within one program needs none of this: copy engine.state().
 //
 //     offset 0   "CLST"
 //            4   form of the bytes, 16 bits: kSavedStateForm
@@ -11,8 +12,8 @@
 //           16   the fields, the tables' fingerprint first
 //       size-4   CRC-32 of all before it
 //
-// Least significant byte first; floating point as its IEEE 754 bits. Only comparisons and copies are made here, so it may be compiled with
-// a user's own flags.
+// Least significant byte first; floating point as its IEEE 754 bits. Only comparisons and copies are made here, so it
+// may be compiled with a user's own flags.
 #pragma once
 
 #include <cstddef>
@@ -20,9 +21,9 @@
 #include <cstring>
 #include <initializer_list>
 
+#include <crankloop/engine.hpp>
 #include <crankloop/status.hpp>
 #include <crankloop/tick/checked.hpp>
-#include <crankloop/engine.hpp>
 #include <crankloop/tick/state/saved_bytes.hpp>
 #include <crankloop/tick/state/state_fields.hpp>
 
@@ -45,13 +46,18 @@ template <class S>
   crc.add(static_cast<std::uint32_t>(S::crank));
   crc.add(static_cast<std::uint32_t>(S::pressure));
   crc.add(static_cast<std::uint32_t>(S::valves));
-  for (const bool answer : {S::load_ratio, S::rod_inertia, S::torque, S::mean_torque, S::forces, S::valve_results, S::valve_gas, S::cam_phasing,
-                            S::bad_input_count}) {
+  for (const bool answer : {S::load_ratio, S::rod_inertia, S::torque, S::mean_torque, S::forces, S::valve_results,
+                            S::valve_gas, S::cam_phasing, S::bad_input_count}) {
     crc.add(std::uint32_t{answer});
   }
   if (S::starter || S::cylinder_cut) {  // scenes without them keep the code they always had
     crc.add(std::uint32_t{S::starter});
     crc.add(std::uint32_t{S::cylinder_cut});
+  }
+  if (Needs<S>::gas) {
+    crc.add(static_cast<std::uint32_t>(S::manifold));
+    crc.add(static_cast<std::uint32_t>(S::combustion));
+    crc.add(std::uint32_t{S::gas_results});
   }
   return crc.value();
 }
@@ -60,15 +66,18 @@ template <class S>
 
 /// Size of a saved state in bytes: of the scene, not of the engine.
 template <class Real, class S>
-inline constexpr std::size_t kSavedStateBytes = detail::kSavedHeaderBytes + detail::count_fields<Real, S>().in_bytes + detail::kSavedChecksumBytes;
+inline constexpr std::size_t kSavedStateBytes = detail::kSavedHeaderBytes + detail::count_fields<Real, S>().in_bytes
+                                                + detail::kSavedChecksumBytes;
 
-/// Writes the engine's state; `size` is the room there is, at least kSavedStateBytes. Refuses an engine that is not ready. O(state).
+/// Writes the engine's state; `size` is the room there is, at least kSavedStateBytes. Refuses an engine that is not
+/// ready. O(state).
 template <class Real, class S>
 Status save_state(const Engine<Real, S>& engine, unsigned char* bytes, std::size_t size) noexcept {
-  static_assert(detail::count_fields<Real, S>().in_memory == sizeof(State<Real, S>), "a field of State is missing in tick/state/state_fields.hpp");
+  static_assert(detail::count_fields<Real, S>().in_memory == sizeof(State<Real, S>),
+                "a field of State is missing in tick/state/state_fields.hpp");
   constexpr std::size_t all = kSavedStateBytes<Real, S>;
-  if (engine.tables() == nullptr) return {Reason::missing_table, -1, "tables"};
-  if (bytes == nullptr || size < all) return {Reason::wrong_size, -1, "state.size"};
+  if (engine.tables() == nullptr) return refuse("tables", Reason::missing_table);
+  if (bytes == nullptr || size < all) return refuse("state.size", Reason::wrong_size);
   for (int i = 0; i < 4; ++i) bytes[i] = static_cast<unsigned char>("CLST"[i]);
   detail::StateWriter write(bytes + 4);
   write.put(kSavedStateForm, 2);
@@ -80,14 +89,15 @@ Status save_state(const Engine<Real, S>& engine, unsigned char* bytes, std::size
   return {};
 }
 
-/// Goes on from saved bytes, with the same bits; `size` must be kSavedStateBytes. Refuses bytes that are damaged, of another version, scene,
-/// scalar or other tables, and numbers that no step could compute with; the engine is then as it was. Takes a State on the stack. O(state).
+/// Goes on from saved bytes, with the same bits; `size` must be kSavedStateBytes. Refuses bytes that are damaged, of
+/// another version, scene, scalar or other tables, and numbers that no step could compute with; the engine is then as
+/// it was. Takes a State on the stack. O(state).
 template <class Real, class S>
 Status load_state(const unsigned char* bytes, std::size_t size, Engine<Real, S>& engine) noexcept {
   constexpr std::size_t all = kSavedStateBytes<Real, S>;
-  if (engine.tables() == nullptr) return {Reason::missing_table, -1, "tables"};
-  if (bytes == nullptr || size < detail::kSavedHeaderBytes) return {Reason::wrong_size, -1, "state.size"};
-  if (std::memcmp(bytes, "CLST", 4) != 0) return {Reason::damaged, -1, "state"};
+  if (engine.tables() == nullptr) return refuse("tables", Reason::missing_table);
+  if (bytes == nullptr || size < detail::kSavedHeaderBytes) return refuse("state.size", Reason::wrong_size);
+  if (std::memcmp(bytes, "CLST", 4) != 0) return refuse("state", Reason::damaged);
   detail::StateReader read(bytes + 4);
   std::uint32_t form = 0;
   std::uint32_t real_bytes = 0;
@@ -97,19 +107,19 @@ Status load_state(const unsigned char* bytes, std::size_t size, Engine<Real, S>&
   read.take(real_bytes, 2);
   read.take(scene);
   read.take(said);
-  if (form != kSavedStateForm) return {Reason::other_version, -1, "state"};
-  if (real_bytes != sizeof(Real) || scene != detail::scene_code<S>()) return {Reason::other_scene, -1, "state"};
-  if (size != all || said != all) return {Reason::wrong_size, -1, "state.size"};
+  if (form != kSavedStateForm) return refuse("state", Reason::other_version);
+  if (real_bytes != sizeof(Real) || scene != detail::scene_code<S>()) return refuse("state", Reason::other_scene);
+  if (size != all || said != all) return refuse("state.size", Reason::wrong_size);
   std::uint32_t checksum = 0;
   detail::StateReader(bytes + all - detail::kSavedChecksumBytes).take(checksum);
-  if (checksum != detail::crc32_of(bytes, all - detail::kSavedChecksumBytes)) return {Reason::damaged, -1, "state"};
+  if (checksum != detail::crc32_of(bytes, all - detail::kSavedChecksumBytes)) return refuse("state", Reason::damaged);
 
   State<Real, S> state{};
   detail::StateFields<Real, S>::visit(state, read);
-  if (state.fingerprint != engine.state().fingerprint) return {Reason::other_tables, -1, "state.fingerprint"};
+  if (state.fingerprint != engine.state().fingerprint) return refuse("state.fingerprint", Reason::other_tables);
   if (!read.status().ok()) return read.status();
   const Real limit = engine.tables()->drive->speed_limit_rad_s;
-  if (!detail::within(state.speed_rad_s, -limit, limit)) return {Reason::out_of_range, -1, "state.drive"};
+  if (!detail::within(state.speed_rad_s, -limit, limit)) return refuse("state.drive", Reason::out_of_range);
   return engine.restore(state);
 }
 

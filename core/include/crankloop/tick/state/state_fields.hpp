@@ -1,9 +1,10 @@
 // Every field of a state, named once: how many bytes it takes, how it is written, what it may be when it is read back.
 //
-// What belongs here: the fields' order and their ranges. What does not: the form of the bytes (tick/state/saved_state.hpp).
+// What belongs here: the fields' order and their ranges. What does not: the form of the bytes
+// (tick/state/saved_state.hpp).
 //
-// The ranges are wider than any engine's: they keep out what a step could not compute with. Within them no index leaves its table, no
-// conversion its integer, and no number becomes infinite.
+// The ranges are wider than any engine's: they keep out what a step could not compute with. Within them no index leaves
+// its table, no conversion its integer, and no number becomes infinite.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +21,7 @@ namespace crankloop::detail {
 ///
 ///     v.group(name)               what the fields that follow are called in a Status
 ///     v.number(x, least, most)    a Real
-///     v.sum(x, most)              the counted part of an integral: an integer that may wrap, or a double of at most this magnitude
+///     v.sum(x, most)              counted part of an integral: an integer that may wrap, or a double up to `most`
 ///     v.wide(x), v.phase(x)       any 64 bits
 ///     v.signed_wide(x, most)      64 bits that hold a signed number of at most this magnitude
 ///     v.word(x, most)             a 32-bit number, 0 to most
@@ -38,39 +39,39 @@ struct StateFields {
     v.number(s.load_ratio, Real{0}, Real{2});
     if constexpr (N::input_pressure) {
       v.group("state.pressure");
-      for (auto& pressure : s.pressure_Pa) v.number(pressure, Real{0}, kMostPressure_Pa);
+      for (auto& pressure : s.pressure_Pa) v.number(pressure, Real{0}, kMaxPressure_Pa);
     }
     if constexpr (N::work) {
       v.group("state.work");
       integral(s.inertia, v);
       for (auto& gas : s.gas) integral(gas, v);
       for (auto& stroke : s.stroke) integral(stroke, v);
-      v.number(s.torque_Nm, -kMostWork, kMostWork);
+      v.number(s.torque_Nm, -kMaxWork, kMaxWork);
       v.spare(s.spare);
     }
     if constexpr (N::crank_dynamics) {
       v.group("state.crank");
-      v.number(s.reduced_speed, -kMostReducedSpeed, kMostReducedSpeed);
-      v.number(s.reduced_rest, -kMostReducedSpeed, kMostReducedSpeed);
-      v.number(s.per_root_inertia, kLeastPerRoot, kMostPerRoot);
-      v.number(s.inertia_slope_kg_m2, -kMostInertia_kg_m2, kMostInertia_kg_m2);
-      for (auto& torque : s.gas_Nm) v.number(torque, -kMostWork, kMostWork);
-      v.number(s.lag_rad_s, -kMostLag_rad_s, kMostLag_rad_s);
-      v.number(s.load_Nm, -kMostLoad_Nm, kMostLoad_Nm);
+      v.number(s.reduced_speed, -kMaxReducedSpeed, kMaxReducedSpeed);
+      v.number(s.reduced_rest, -kMaxReducedSpeed, kMaxReducedSpeed);
+      v.number(s.per_root_inertia, kLeastPerRoot, kMaxPerRoot);
+      v.number(s.inertia_slope_kg_m2, -kMaxInertia_kg_m2, kMaxInertia_kg_m2);
+      for (auto& torque : s.gas_Nm) v.number(torque, -kMaxWork, kMaxWork);
+      v.number(s.lag_rad_s, -kMaxLag_rad_s, kMaxLag_rad_s);
+      v.number(s.external_torque_Nm, -kMaxExternalTorque_Nm, kMaxExternalTorque_Nm);
     }
     if constexpr (N::elastic_valves) {
       v.group("state.valve");
-      for (auto& lift : s.valve_lift_m) v.number(lift, -kMostLift_m, kMostLift_m);
-      for (auto& velocity : s.valve_velocity_m_s) v.number(velocity, -kMostSpeed_m_s, kMostSpeed_m_s);
+      for (auto& lift : s.valve_lift_m) v.number(lift, -kMaxLift_m, kMaxLift_m);
+      for (auto& velocity : s.valve_velocity_m_s) v.number(velocity, -kMaxSpeed_m_s, kMaxSpeed_m_s);
       for (auto& regime : s.valve_regime) v.word(regime, kQuiet);
       for (auto& turned : s.cam_turned_deg) v.number(turned, Real{-360}, Real{360});
     }
-    if constexpr (S::valve_gas) {
-      for (auto& gas : s.valve_gas_N) v.number(gas, -kMostGas_N, kMostGas_N);
+    if constexpr (N::valve_gas_held) {
+      for (auto& gas : s.valve_gas_N) v.number(gas, -kMaxGas_N, kMaxGas_N);
     }
     if constexpr (S::cam_phasing) {
       v.group("state.cam_phase");
-      for (auto& phase : s.cam_phase) v.signed_wide(phase, kMostCamPhase);
+      for (auto& phase : s.cam_phase) v.signed_wide(phase, kMaxCamPhase);
       for (auto& target : s.cam_phase_target_deg) v.number(target, Real{-180}, Real{180});
     }
     if constexpr (S::valve_results) {
@@ -79,6 +80,7 @@ struct StateFields {
         for (auto& one : train) record(one, v);
       }
     }
+    if constexpr (N::gas) visit_gas(s, v);
     if constexpr (S::bad_input_count) {
       v.group("state.bad_input");
       v.word(s.bad_input_ticks, kAny);
@@ -87,36 +89,108 @@ struct StateFields {
   }
 
  private:
-  static constexpr Real kMostPressure_Pa = static_cast<Real>(crankloop::kMostPressure_Pa);
-  static constexpr Real kMostWork = static_cast<Real>(1e15);    ///< J and Nm; the largest engine that can be defined has 1e10
-  static constexpr Real kMostLag_rad_s = static_cast<Real>(1e5);  ///< some speed limits
-  static constexpr Real kMostLoad_Nm = static_cast<Real>(crankloop::kMostLoad_Nm);
-  static constexpr Real kMostInertia_kg_m2 = static_cast<Real>(1e9);  ///< J_eff of the largest engine that can be defined has 1e8
-  static constexpr Real kMostReducedSpeed = static_cast<Real>(1e9);   ///< sqrt(J): that times the speed limit
-  static constexpr Real kLeastPerRoot = static_cast<Real>(1e-5);      ///< 1/sqrt(kg m^2): of that inertia, and of kLeastInertia_kg_m2
-  static constexpr Real kMostPerRoot = static_cast<Real>(1e5);
-  static constexpr Real kMostLift_m = static_cast<Real>(1e6);
-  static constexpr Real kMostSpeed_m_s = static_cast<Real>(1e6);
-  static constexpr Real kMostGas_N = static_cast<Real>(1e9);    ///< 1e8 Pa on a bore of 2 m
-  static constexpr Real kMostNoted = static_cast<Real>(1e18);   ///< of what is only compared, subtracted and shown
-  static constexpr std::uint64_t kMostCamPhase = std::uint64_t{1} << 62;  ///< 180 deg of 720
+  static constexpr Real kMaxPressure_Pa = static_cast<Real>(crankloop::kMaxPressure_Pa);
+  static constexpr Real kMaxWork =
+      static_cast<Real>(1e15);  ///< J and Nm; the largest engine that can be defined has 1e10
+  static constexpr Real kMaxLag_rad_s = static_cast<Real>(1e5);  ///< some speed limits
+  static constexpr Real kMaxExternalTorque_Nm = static_cast<Real>(crankloop::kMaxExternalTorque_Nm);
+  static constexpr Real kMaxInertia_kg_m2 =
+      static_cast<Real>(1e9);  ///< J_eff of the largest engine that can be defined has 1e8
+  static constexpr Real kMaxReducedSpeed = static_cast<Real>(1e9);  ///< sqrt(J): that times the speed limit
+  static constexpr Real kLeastPerRoot =
+      static_cast<Real>(1e-5);  ///< 1/sqrt(kg m^2): of that inertia, and of kLeastInertia_kg_m2
+  static constexpr Real kMaxPerRoot = static_cast<Real>(1e5);
+  static constexpr Real kMaxLift_m = static_cast<Real>(1e6);
+  static constexpr Real kMaxSpeed_m_s = static_cast<Real>(1e6);
+  static constexpr Real kMaxGas_N = static_cast<Real>(1e9);   ///< 1e8 Pa on a bore of 2 m
+  static constexpr Real kMaxNoted = static_cast<Real>(1e18);  ///< of what is only compared, subtracted and shown
+  static constexpr std::uint64_t kMaxCamPhase = std::uint64_t{1} << 62;  ///< 180 deg of 720
   static constexpr std::uint32_t kAny = ~std::uint32_t{0};
 
   template <class AnIntegral, class Visitor>
   static constexpr void integral(AnIntegral& x, Visitor& v) noexcept {
-    v.sum(x.base, static_cast<double>(kMostWork));
-    v.number(x.part, -kMostWork, kMostWork);
+    v.sum(x.base, static_cast<double>(kMaxWork));
+    v.number(x.part, -kMaxWork, kMaxWork);
+  }
+
+  // Gas: no cylinder holds a thousand tons, and no step makes more of what is within these ranges than a number.
+
+  static constexpr Real kMaxGas_kg = static_cast<Real>(1e6);
+  static constexpr Real kMaxGas_J = static_cast<Real>(1e13);
+  static constexpr Real kLeastOfGas = static_cast<Real>(1e-18);  ///< m^3 and kg
+
+  template <class AContents, class APoint, class Visitor>
+  static constexpr void contents(AContents& c, APoint& p, Visitor& v) noexcept {
+    v.number(c.mass_kg, kLeastOfGas, kMaxGas_kg);
+    v.number(c.mass_rest_kg, -kMaxGas_kg, kMaxGas_kg);
+    v.number(c.energy_J, kLeastOfGas, kMaxGas_J);
+    v.number(c.energy_rest_J, -kMaxGas_J, kMaxGas_J);
+    v.number(c.burned_kg, Real{0}, kMaxGas_kg);
+    v.number(c.burned_rest_kg, -kMaxGas_kg, kMaxGas_kg);
+    v.number(p.pressure_Pa, static_cast<Real>(1e-6), static_cast<Real>(1e12));
+    v.number(p.temperature_K, static_cast<Real>(kLeastGas_K / 2), static_cast<Real>(kMaxGas_K * 2));
+    v.number(p.burned_ratio, Real{0}, Real{1});
+    v.number(p.gas_ratio, static_cast<Real>(0.01), Real{1});
+  }
+  template <class AState, class Visitor>
+  static constexpr void visit_gas(AState& s, Visitor& v) noexcept {
+    using N = Needs<S>;
+    const auto numbers = [&v](Real most, auto&... x) { (v.number(x, -most, most), ...); };
+    v.group("state.gas");
+    for (auto& gas : s.cylinder_gas) {
+      contents(gas.contents, gas.point, v);
+      v.number(gas.volume_m3, Real{0}, Real{100});
+      for (auto& area : gas.area_m2) v.number(area, Real{0}, Real{100});
+      numbers(kMaxGas_J, gas.wall_heat_W, gas.pressure_before_Pa);
+      v.spare(gas.spare);
+    }
+    if constexpr (N::manifolds) {
+      for (auto& manifold : s.manifold) contents(manifold.contents, manifold.point, v);
+      v.number(s.throttle_ratio, Real{0}, Real{1});
+      v.spare(s.spare_of_manifolds);
+    } else {
+      for (auto& given : s.given_gas) {
+        v.number(given.pressure_Pa, static_cast<Real>(kLeastManifold_Pa), static_cast<Real>(kMaxManifold_Pa));
+        v.number(given.temperature_K, static_cast<Real>(kLeastManifold_K), static_cast<Real>(kMaxManifold_K));
+      }
+    }
+    if constexpr (N::burn) {
+      v.group("state.burn");
+      for (auto& burn : s.burn) {
+        v.number(burn.fuel_kg, Real{0}, static_cast<Real>(kMaxFuel_kg));
+        v.number(burn.burnt_ratio, Real{0}, Real{1});
+        v.number(burn.start_deg, Real{-90}, Real{60});
+        v.number(burn.duration_deg, Real{0}, Real{150});
+        v.number(burn.per_deg, Real{0}, Real{1});
+        v.number(burn.excess_air_ratio, Real{0}, kMaxNoted);
+        v.number(burn.asked_kg, Real{0}, static_cast<Real>(kMaxFuel_kg));
+        v.spare(burn.spare_number);
+        v.word(burn.taken, 1u);
+        v.spare(burn.spare);
+      }
+    }
+    if constexpr (S::gas_results) {
+      v.group("state.gas_record");
+      for (auto& r : s.gas_record) {
+        numbers(kMaxNoted, r.work_J, r.pumping_J, r.peak_Pa, r.peak_deg, r.trapped_kg, r.trapped_air_kg, r.air_kg,
+                r.exhaust_kg, r.exhaust_J, r.exhaust_burned_kg, r.fuel_kg, r.wall_heat_J, r.begin_J, r.begin_rest_J,
+                r.gained_J, r.gained_rest_J);
+        v.word(r.whole, 1u);
+        v.spare(r.spare);
+      }
+    }
   }
 
   template <class ARecord, class Visitor>
   static constexpr void record(ARecord& r, Visitor& v) noexcept {
     auto& c = r.cycle_;
-    for (auto* x : {&c.largest_lift_m, &c.largest_speed_m_s, &c.largest_acceleration_m_s2, &c.opening_delay_deg, &c.separation_gap_m,
-                    &c.separation_start_deg, &c.separation_duration_deg, &c.seating_speed_m_s, &c.bounce_height_m}) {
-      v.number(*x, -kMostNoted, kMostNoted);
+    for (auto* x : {&c.largest_lift_m, &c.largest_speed_m_s, &c.largest_acceleration_m_s2, &c.opening_delay_deg,
+                    &c.separation_clearance_m, &c.separation_start_deg, &c.separation_duration_deg,
+                    &c.seating_speed_m_s, &c.bounce_height_m}) {
+      v.number(*x, -kMaxNoted, kMaxNoted);
     }
     for (auto* count : {&c.separations, &c.bounces, &c.contact_changes, &c.off_seat_at_end}) v.word(*count, kAny);
-    for (auto* x : {&r.theory_opened_deg_, &r.separated_at_deg_, &r.excursion_m_}) v.number(*x, -kMostNoted, kMostNoted);
+    for (auto* x : {&r.theory_opened_deg_, &r.separated_at_deg_, &r.excursion_m_}) v.number(*x, -kMaxNoted, kMaxNoted);
     v.word(r.stage_, 2u);
     v.word(r.flags_, 7u);
   }

@@ -13,8 +13,8 @@ namespace crankloop::detail {
 ///
 ///     angle(s) = begin + turned s + bend s (s - 1)
 ///
-/// At a constant speed the bend is 0. Where the speed changes evenly from w0 to w1 it is (w1 - w0) tick / 2 as an angle, and the crank may turn
-/// round on the way: at s = (1 - turned/bend) / 2.
+/// At a constant speed the bend is 0. Where the speed changes evenly from w0 to w1 it is (w1 - w0) tick / 2 as an
+/// angle, and the crank may turn round on the way: at s = (1 - turned/bend) / 2.
 template <class Real>
 struct CrankPath {
   Phase begin;

@@ -19,13 +19,16 @@ struct TriggerEdge {
 template <class Real, class S>
 struct TriggerSignal {
   std::uint32_t level;       ///< 0 or 1, at the end of the tick
-  std::uint32_t edge_count;  ///< in this tick; with more than S::trigger_edges the first of them are listed, and kFaultTriggerEdges is set
+  std::uint32_t edge_count;  ///< in this tick; with more than S::trigger_edges the first of them are listed, and
+                             ///< kFaultTriggerEdges is set
   TriggerEdge<Real> edge[S::trigger_edges];  ///< in the order of time; beyond edge_count without meaning
 };
 
+namespace group {
 template <class Real, class S>
 struct Triggers {
   TriggerSignal<Real, S> trigger[S::triggers.capacity];
 };
+}  // namespace group
 
 }  // namespace crankloop

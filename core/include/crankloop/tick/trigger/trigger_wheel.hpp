@@ -1,6 +1,7 @@
-// The edges of one trigger wheel in one tick, from the angle turned. Nothing is remembered from tick to tick: the level follows from the
-// phase, and an edge at angle e belongs to the tick in which the wheel came from below e to e or beyond it, or from there to below e.
-// Phases are integers and so are edges: none is lost or counted twice, however ticks follow one another.
+// The edges of one trigger wheel in one tick, from the angle turned. Nothing is remembered from tick to tick: the level
+// follows from the phase, and an edge at angle e belongs to the tick in which the wheel came from below e to e or
+// beyond it, or from there to below e. Phases are integers and so are edges: none is lost or counted twice, however
+// ticks follow one another.
 //
 // What belongs here: one wheel. What does not: the round over all of them (triggers_step.hpp).
 //
@@ -11,16 +12,18 @@
 
 #include <cstdint>
 
-#include <crankloop/tick/trigger/crank_path.hpp>
-#include <crankloop/tick/one_instruction.hpp>
-#include <crankloop/tick/trigger/trigger_output.hpp>
+#include <crankloop/assert.hpp>
 #include <crankloop/tables/trigger_tables.hpp>
+#include <crankloop/tick/one_instruction.hpp>
+#include <crankloop/tick/trigger/crank_path.hpp>
+#include <crankloop/tick/trigger/trigger_output.hpp>
 
 namespace crankloop::detail {
 
 /// The last edge at or before an angle: at most 10 comparisons, one or two for evenly spaced teeth.
 [[nodiscard]] inline std::uint32_t edge_behind(const TriggerTrack& wheel, std::uint32_t angle) noexcept {
   static_assert(kTriggerParts == 1 << 7);
+  CRANKLOOP_ASSERT(wheel.edge_count >= 2 && wheel.edges[0] == 0);
   const std::uint16_t* part = &wheel.edges_before[angle >> 25];
   std::uint32_t low = part[0];
   std::uint32_t high = part[1];
@@ -32,6 +35,7 @@ namespace crankloop::detail {
       high = middle;
     }
   }
+  CRANKLOOP_ASSERT(low >= 1 && low <= wheel.edge_count && wheel.edges[low - 1] <= angle);
   return low - 1;  // the first edge is at 0: there is one
 }
 
@@ -49,7 +53,8 @@ template <class Real>
   return (static_cast<Real>(high) + static_cast<Real>(low) * two_to_minus_31) * two_to_minus_31;
 }
 
-/// Part of a tick in which the wheel turns one way: where it begins, how far it goes (less than a turn), in units of 2^-64 turns.
+/// Part of a tick in which the wheel turns one way: where it begins, how far it goes (less than a turn), in units of
+/// 2^-64 turns.
 struct Sweep {
   std::uint64_t from;
   std::uint64_t span;
@@ -58,7 +63,8 @@ struct Sweep {
   [[nodiscard]] std::uint64_t to() const noexcept { return forward ? from + span : from - span; }
 };
 
-/// When a wheel has gone a distance: d = slope (s - since) + bend (s - since)^2, in turns, with nothing negative but the bend.
+/// When a wheel has gone a distance: d = slope (s - since) + bend (s - since)^2, in turns, with nothing negative but
+/// the bend.
 template <class Real>
 struct BentPace {
   Real since;
@@ -91,7 +97,8 @@ struct EvenPace {
 template <class Real, class S>
 class TriggerTick {
  public:
-  TriggerTick(const TriggerTrack& wheel, Real tick_s, TriggerSignal<Real, S>& out) noexcept : wheel_{wheel}, tick_s_{tick_s}, out_{out} {
+  TriggerTick(const TriggerTrack& wheel, Real tick_s, TriggerSignal<Real, S>& out) noexcept
+      : wheel_{wheel}, tick_s_{tick_s}, out_{out} {
     out_.edge_count = 0;
   }
 
@@ -119,10 +126,13 @@ class TriggerTick {
 
   void stand_at(std::uint32_t edge) noexcept { out_.level = level_beyond(wheel_, edge); }
 
-  /// Out to the turning point and back from it, each a sweep. The turning point is rounded, but one and the same for both.
+  /// Out to the turning point and back from it, each a sweep. The turning point is rounded, but one and the same for
+  /// both.
   void turn_round(const Sweep& tick, Real slope, Real bend) noexcept {
     constexpr Real kMost = static_cast<Real>(0.999);  // of a turn; half of one at the speed limit
+    CRANKLOOP_ASSERT(bend != 0);
     const Real since = slope / (-2 * bend);
+    CRANKLOOP_ASSERT(since > 0 && since < 1);
     const Real reach = magnitude(slope) * since / 2;
     const bool outward = slope > 0;
     const bool ends_beyond = tick.forward == outward;  // beyond where it began, as it went out
@@ -146,19 +156,22 @@ class TriggerTick {
     }
   }
 
-  /// Counts the edges of a sweep up to its last, lists as many as there is room for, and stands at its end. A call of its own, so that its
-  /// registers are not those of a sweep without edges.
+  /// Counts the edges of a sweep up to its last, lists as many as there is room for, and stands at its end. A call of
+  /// its own, so that its registers are not those of a sweep without edges.
   template <class Pace>
   [[gnu::noinline]] void list(const Sweep& sweep, std::uint32_t last, Pace pace) noexcept {
     const std::uint64_t bottom = sweep.forward ? sweep.from : sweep.to();
     const std::uint32_t before_first = edge_behind(wheel_, angle(bottom));
     const std::uint32_t passed = last > before_first ? last - before_first : last + wheel_.edge_count - before_first;
+    CRANKLOOP_ASSERT(passed >= 1 && passed <= wheel_.edge_count);
     pace.prepare(sweep.span);
     const std::uint32_t step = sweep.forward ? 1 : wheel_.edge_count - 1;  // to the next edge, modulo their number
     std::uint32_t edge = sweep.forward ? wrapped(before_first + 1) : last;
     const std::uint32_t room = out_.edge_count < S::trigger_edges ? S::trigger_edges - out_.edge_count : 0;
     const std::uint32_t listed = passed < room ? passed : room;
-    TriggerEdge<Real>* entry = out_.edge + (S::trigger_edges - room);  // not beyond the end, where a sweep before this one has filled them
+    TriggerEdge<Real>* entry =
+        out_.edge + (S::trigger_edges - room);  // not beyond the end, where a sweep before this one has filled them
+    CRANKLOOP_ASSERT(entry + listed <= out_.edge + S::trigger_edges);
     for (std::uint32_t i = 0; i < listed; ++i, ++entry, edge = wrapped(edge + step)) {
       const std::uint64_t distance = sweep.forward ? at(edge) - sweep.from : sweep.from - at(edge);
       later(pace.ratio_at(ratio_of<Real>(distance)));
@@ -170,10 +183,13 @@ class TriggerTick {
   }
 
   [[nodiscard]] std::uint64_t at(std::uint32_t edge) const noexcept { return std::uint64_t{wheel_.edges[edge]} << 32; }
-  [[nodiscard]] std::uint32_t wrapped(std::uint32_t edge) const noexcept { return edge < wheel_.edge_count ? edge : edge - wheel_.edge_count; }
+  [[nodiscard]] std::uint32_t wrapped(std::uint32_t edge) const noexcept {
+    return edge < wheel_.edge_count ? edge : edge - wheel_.edge_count;
+  }
 
   /// Rounding neither turns two edges round nor puts one beyond the tick.
   void later(Real ratio) noexcept {
+    CRANKLOOP_ASSERT(latest_ >= 0 && latest_ <= 1);
     if (ratio > latest_) latest_ = ratio < 1 ? ratio : Real{1};
   }
 

@@ -3,26 +3,35 @@
 // What belongs here: how far each wheel turns, with its phaser. What does not: one wheel's edges (trigger_wheel.hpp).
 #pragma once
 
-#include <crankloop/tick/trigger/crank_path.hpp>
 #include <crankloop/faults.hpp>
 #include <crankloop/output.hpp>
 #include <crankloop/state.hpp>
 #include <crankloop/tables/tables.hpp>
+#include <crankloop/tick/crank/crank_turn.hpp>
+#include <crankloop/tick/trigger/crank_path.hpp>
 #include <crankloop/tick/trigger/trigger_wheel.hpp>
 
 namespace crankloop::detail {
 
-/// Where the phasers stood before the tick; after it, the state knows. Nothing where no wheel asks.
+/// Where the phasers stood before the tick; after it, the state knows.
 template <class S>
 struct CamsBefore {
-  static constexpr bool needed = S::cam_phasing && Needs<S>::any_triggers;
-  std::uint64_t cam_phase[needed ? S::trains.capacity : 1];
-
-  template <class Real>
-  explicit CamsBefore([[maybe_unused]] const State<Real, S>& state) noexcept {
-    if constexpr (needed) {
-      for (std::uint32_t t = 0; t < S::trains.capacity; ++t) cam_phase[t] = state.cam_phase[t];
+  std::uint64_t cam_phase[S::trains.capacity];
+};
+template <class Real>
+struct SpeedBefore {
+  Real speed_rad_s;
+};
+/// What wheels are told of the state before the tick; nothing where no wheel asks.
+template <class Real, class S>
+struct BeforeTick : If<Needs<S>::any_triggers && S::cam_phasing, CamsBefore<S>>,
+                    If<Needs<S>::any_triggers && Needs<S>::crank_dynamics, SpeedBefore<Real>> {
+  [[gnu::always_inline]] void keep(const State<Real, S>& state) noexcept {
+    if constexpr (S::cam_phasing) {
+      for (std::uint32_t t = 0; t < S::trains.capacity; ++t) this->cam_phase[t] = state.cam_phase[t];
     }
+    if constexpr (Needs<S>::crank_dynamics) this->speed_rad_s = state.speed_rad_s;
+    (void)state;
   }
 };
 
@@ -32,7 +41,7 @@ struct TriggersStep {
   const State<Real, S>& state;
   Output<Real, S>& out;
   const CrankPath<Real>& path;
-  const CamsBefore<S>& cams_before;
+  const BeforeTick<Real, S>& before;
 
   [[nodiscard]] std::uint32_t run() noexcept {
     std::uint32_t faults = 0;
@@ -55,7 +64,8 @@ struct TriggersStep {
   }
 
  private:
-  /// Phase units (2^64 = 720 deg) in units of the wheel's turn. A sum: a shift by a variable is a call on some processors.
+  /// Phase units (2^64 = 720 deg) in units of the wheel's turn. A sum: a shift by a variable is a call on some
+  /// processors.
   [[nodiscard]] static std::uint64_t in_turns(const TriggerTrack& wheel, std::uint64_t phase) noexcept {
     return wheel.on_crank != 0 ? phase + phase : phase;
   }
@@ -65,20 +75,20 @@ struct TriggersStep {
     return in_turns(wheel, crank.units() - phaser - wheel.starts);
   }
 
-  /// A phaser moves its wheel back, evenly over the tick. Crank and phaser may each go half a cycle, and so more together than a signed
-  /// number of units holds.
+  /// A phaser moves its wheel back, evenly over the tick. Crank and phaser may each go half a cycle, and so more
+  /// together than a signed number of units holds.
   [[nodiscard]] Sweep sweep_of(const TriggerTrack& wheel) const noexcept {
-    const std::uint64_t before = phaser_before(wheel);
+    const std::uint64_t stood = phaser_before(wheel);
     const auto crank = static_cast<std::int64_t>(path.turned.units());
-    const auto cam = static_cast<std::int64_t>(phaser_after(wheel) - before);
+    const auto cam = static_cast<std::int64_t>(phaser_after(wheel) - stood);
     const bool forward = (crank < 0) == (cam < 0) ? crank >= cam : crank >= 0;
     const std::uint64_t turned = path.turned.units() - static_cast<std::uint64_t>(cam);
-    return {on_wheel(wheel, path.begin, before), in_turns(wheel, forward ? turned : 0 - turned), forward};
+    return {on_wheel(wheel, path.begin, stood), in_turns(wheel, forward ? turned : 0 - turned), forward};
   }
 
   [[nodiscard]] std::uint64_t phaser_before(const TriggerTrack& wheel) const noexcept {
     if constexpr (S::cam_phasing) {
-      if (wheel.train != kNoTrain) return cams_before.cam_phase[wheel.train];
+      if (wheel.train != kNoTrain) return before.cam_phase[wheel.train];
     }
     (void)wheel;
     return 0;
@@ -91,5 +101,16 @@ struct TriggersStep {
     return 0;
   }
 };
+
+/// Answers fault bits.
+template <class Real, class S>
+[[nodiscard]] std::uint32_t read_triggers(const Tables<Real, S>& tables, const State<Real, S>& state,
+                                          Output<Real, S>& out, const BeforeTick<Real, S>& before,
+                                          const CrankTurn<Real, S>& crank) noexcept {
+  CrankPath<Real> path{state.phase - crank.turned, crank.turned, crank.has_jumped(), {}};
+  if constexpr (Needs<S>::crank_dynamics)
+    path.bend_cycles = (state.speed_rad_s - before.speed_rad_s) * tables.drive->cycles_per_tick_per_rad_s / 2;
+  return TriggersStep<Real, S>{tables, state, out, path, before}.run();
+}
 
 }  // namespace crankloop::detail

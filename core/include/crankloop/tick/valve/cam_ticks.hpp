@@ -5,10 +5,11 @@
 
 #include <cstdint>
 
-#include <crankloop/tick/checked.hpp>
+#include <crankloop/assert.hpp>
 #include <crankloop/faults.hpp>
 #include <crankloop/state.hpp>
 #include <crankloop/tables/tables.hpp>
+#include <crankloop/tick/checked.hpp>
 #include <crankloop/tick/valve/valve.hpp>
 
 namespace crankloop::detail {
@@ -55,6 +56,8 @@ class CamTicks {
     std::int64_t later = wanted - static_cast<std::int64_t>(state.cam_phase[t]);
     if (later > most) later = most;
     if (later < -most) later = -most;
+    CRANKLOOP_ASSERT(t < kCamGroups<S>);
+    CRANKLOOP_ASSERT(later >= -most && later <= most);
     state.cam_phase[t] += static_cast<std::uint64_t>(later);
     set(t, cam_phase(state, t), turned_ - static_cast<std::uint64_t>(later));
   }

@@ -1,6 +1,7 @@
 // A cubic over a step: its values, where it turns, where it reaches 0.
 #pragma once
 
+#include <crankloop/assert.hpp>
 #include <crankloop/tick/one_instruction.hpp>
 
 namespace crankloop::detail {
@@ -47,6 +48,7 @@ struct Cubic {
 
   /// The piece from 0 to x, by the part of it.
   constexpr void shrink(Real x) noexcept {
+    CRANKLOOP_ASSERT(x > 0 && x <= 1);
     c[1] *= x;
     c[2] *= x * x;
     c[3] *= x * x * x;

@@ -3,7 +3,8 @@
 // What belongs here: which valves move, who may spend the budget, when a cycle ends. What does not: the round over them
 // (valve_round.hpp), a step in which contacts change (valve_changes.hpp).
 //
-//     wake those whose cams come near -> plain step of each that moves, its guards asked -> a look at those whose guards fail, by turns
+//     wake those whose cams come near -> plain step of each that moves, its guards asked
+//     -> a look at those whose guards fail, by turns
 //
 // A valve that moves takes one step in its contact regime, whatever that is: its record of constants has the
 // difference. Where the guards say that no contact can have changed meanwhile, that is its tick. One at rest whose cam
@@ -12,6 +13,7 @@
 
 #include <cstdint>
 
+#include <crankloop/assert.hpp>
 #include <crankloop/tick/valve/valve_round.hpp>
 
 namespace crankloop::detail {
@@ -44,7 +46,7 @@ class ElasticValves {
       valves_.state.valve_lift_m[v] = placed.state.lift_m;
       valves_.state.valve_velocity_m_s[v] = placed.state.velocity_m_s;
       valves_.set_regime(v, placed.regime);
-      if constexpr (S::valve_gas) valves_.state.valve_gas_N[v] = valves_.gas_now_N(v);
+      if constexpr (Needs<S>::valve_gas_held) valves_.state.valve_gas_N[v] = valves_.gas_now_N(v);
     });
     remember();
   }
@@ -53,28 +55,29 @@ class ElasticValves {
   [[gnu::cold, gnu::noinline]] void remember() noexcept {
     valves_.find_cams();
     valves_.work.moving = 0;
-    valves_.work.leap_deg = valves_.work.far_deg = Real{kDegreesPerTurn + 1};
+    valves_.work.skip_deg = valves_.work.far_deg = Real{kDegreesPerTurn + 1};
     valves_.for_each([&](std::uint32_t v) {
       valves_.set_cam(v, valves_.curve(v).read(valves_.curve(v).cell(cam_phase(valves_.state, valves_.train(v)) -
                                                                      valves_.curve(v).opens[valves_.cylinder(v)])));
       valves_.work.moving |= Bits{1} << v;
       valves_.set_regime(v, valves_.state.valve_regime[v]);
-      if (valves_.curve(v).leap_deg < valves_.work.leap_deg) valves_.work.leap_deg = valves_.curve(v).leap_deg;
+      if (valves_.curve(v).skip_deg < valves_.work.skip_deg) valves_.work.skip_deg = valves_.curve(v).skip_deg;
       if (valves_.motion(v).widest_step_deg < valves_.work.far_deg)
         valves_.work.far_deg = valves_.motion(v).widest_step_deg;
     });
-    if (valves_.work.leap_deg < valves_.work.far_deg) valves_.work.far_deg = valves_.work.leap_deg;
+    if (valves_.work.skip_deg < valves_.work.far_deg) valves_.work.far_deg = valves_.work.skip_deg;
     for (std::uint32_t g = 0; g < kCamGroups<S>; ++g) valves_.work.clear[g] = valves_.work.no_end[g] = {};
   }
 
   /// Answers fault bits.
-  [[nodiscard]] std::uint32_t run(const CamTicks<Real, S>& cams, bool jumped) noexcept {
+  [[nodiscard, gnu::always_inline]] std::uint32_t run(const CamTicks<Real, S>& cams, bool jumped) noexcept {
     if (jumped) start();
     for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g) begin(cams, g);
     Before before;
     const Bits doubtful = Round(valves_).run(cams, before);
     ChangeBudget budget{valves_.tables.valve_motions[0].most_changes, false};
     if (doubtful != 0) look_by_turns(doubtful, cams, before, budget);
+    CRANKLOOP_ASSERT(budget.left <= valves_.tables.valve_motions[0].most_changes);
     if constexpr (S::valve_results) {
       for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g) end_cycles(cams, g);
     }
@@ -83,9 +86,11 @@ class ElasticValves {
 
  private:
   void begin(const CamTicks<Real, S>& cams, std::uint32_t group) noexcept {
+    CRANKLOOP_ASSERT(group < kCamGroups<S>);
     const CamTick<Real>& tick = cams[group];
+    CRANKLOOP_ASSERT(magnitude(tick.cam.deg) <= Real{kDegreesPerTurn / 2});
     valves_.far = valves_.far || magnitude(tick.cam.deg) >= valves_.work.far_deg;
-    if (magnitude(tick.cam.deg) >= valves_.work.leap_deg || !valves_.work.clear[group].holds(angle_of_cams(tick)))
+    if (magnitude(tick.cam.deg) >= valves_.work.skip_deg || !valves_.work.clear[group].holds(angle_of_cams(tick)))
       wake(tick, group);
     Real& before_deg = valves_.state.cam_turned_deg[group];
     if (tick.cam.deg == before_deg) return;
@@ -109,13 +114,13 @@ class ElasticValves {
   /// the turn is found in which the others may be left alone.
   [[gnu::cold, gnu::noinline]] void wake(const CamTick<Real>& tick, std::uint32_t group) noexcept {
     const std::uint32_t angle = angle_of_cams(tick);
-    const bool leaps = magnitude(tick.cam.deg) >= valves_.work.leap_deg;
+    const bool may_skip = magnitude(tick.cam.deg) >= valves_.work.skip_deg;
     CamClearance clear;
     valves_.for_each_of(group, [&](std::uint32_t v) {
       if ((valves_.work.moving >> v & 1) != 0) return;
       const std::uint64_t opens = valves_.curve(v).opens[valves_.cylinder(v)];
       const CamWindow near = near_window(valves_.curve(v), static_cast<std::uint32_t>(opens >> 32));
-      if (leaps || near.holds(angle)) {
+      if (may_skip || near.holds(angle)) {
         valves_.set_cam(v, valves_.curve(v).read(valves_.curve(v).cell(tick.phase_before() - opens)));
         valves_.work.moving |= Bits{1} << v;
       } else {
@@ -137,6 +142,7 @@ class ElasticValves {
       if constexpr (S::valve_results) {
         const Real deg = valves_.curve(v).degrees(tick.phase_before() - valves_.curve(v).opens[valves_.cylinder(v)]);
         valves_.state.record[valves_.train(v)][valves_.cylinder(v)].change(before, regime, s.velocity_m_s, deg);
+        valves_.set_known(v);
       }
     });
   }
@@ -146,12 +152,13 @@ class ElasticValves {
   /// Another valve first in every tick: who comes first may spend the budget.
   [[gnu::noinline]] void look_by_turns(Bits doubtful, const CamTicks<Real, S>& cams, const Before& before,
                                        ChangeBudget& budget) noexcept {
-    const std::uint32_t first = static_cast<std::uint32_t>(valves_.state.ticks) % Valves::kMostValves;
-    constexpr Bits kAll = (Bits{1} << (Valves::kMostValves - 1) << 1) - 1;
-    const Bits from_first = doubtful >> first | (doubtful << (Valves::kMostValves - 1 - first) << 1 & kAll);
+    const std::uint32_t first = static_cast<std::uint32_t>(valves_.state.ticks) % Valves::kMaxValves;
+    constexpr Bits kAll = (Bits{1} << (Valves::kMaxValves - 1) << 1) - 1;
+    const Bits from_first = doubtful >> first | (doubtful << (Valves::kMaxValves - 1 - first) << 1 & kAll);
     for (Bits left = from_first; left != 0; left &= left - 1) {
       const std::uint32_t v = first + trailing_zeros(left);
-      const std::uint32_t valve = v < Valves::kMostValves ? v : v - Valves::kMostValves;
+      const std::uint32_t valve = v < Valves::kMaxValves ? v : v - Valves::kMaxValves;
+      CRANKLOOP_ASSERT((doubtful >> valve & 1) != 0);
       look(valve, cams[valves_.train(valve)], before, budget);
     }
   }
@@ -161,18 +168,23 @@ class ElasticValves {
     const Lift<Real> from{before.cam_lift_m[v], before.cam_per_deg_m[v]};
     const Lift<Real> to = valves_.cam(v);
     const Placed<Real> start{{before.lift_m[v], before.velocity_m_s[v]}, valves_.state.valve_regime[v]};
-    const Stepped<Real> step{{valves_.state.valve_lift_m[v], valves_.state.valve_velocity_m_s[v]}, before.rise_m[v]};
+    const Stepped<Real> step{{valves_.state.valve_lift_m[v], valves_.state.valve_velocity_m_s[v]},
+                             before.increment_m[v]};
     const std::uint64_t at = tick.phase - valves_.curve(v).opens[valves_.cylinder(v)];
     const Placed<Real> end =
         valves_.changes(v, budget).run(start, step, valves_.span(v, tick, from, to, gas), at, tick.turned);
+    CRANKLOOP_ASSERT(is_finite(end.state.lift_m) && is_finite(end.state.velocity_m_s));
     valves_.state.valve_lift_m[v] = end.state.lift_m;
     valves_.state.valve_velocity_m_s[v] = end.state.velocity_m_s;
     if (end.regime != start.regime) valves_.set_regime(v, end.regime);
-    const Real gap_m = to.lift_m - end.state.lift_m;
-    const Real gap_speed_m_s = tick.cam.deg_per_s * to.per_deg_m - end.state.velocity_m_s;
+    valves_.set_known(v);
+    const Real compression_m = to.lift_m - end.state.lift_m;
+    const Real compression_speed_m_s = tick.cam.deg_per_s * to.per_deg_m - end.state.velocity_m_s;
     const ForceRow<Real>& force = valves_.motion(v).whole[end.regime].acceleration;
     valves_.show(v, end.state, valves_.cell(v, tick.phase),
-                 {to.lift_m, gap_m, gap_speed_m_s, acceleration(force, end.state, gap_m, gap_speed_m_s, gas)}, gas);
+                 {to.lift_m, compression_m, compression_speed_m_s,
+                  acceleration(force, end.state, compression_m, compression_speed_m_s, gas)},
+                 gas);
   }
 
   // ---- after the steps --------------------------------------------------------------------------------------------
@@ -193,6 +205,7 @@ class ElasticValves {
       valves_.out.valve_cycle[valves_.train(v)][valves_.cylinder(v)] =
           valves_.state.record[valves_.train(v)][valves_.cylinder(v)].finish(
               end_deg, contacts_of(valves_.state.valve_regime[v]));
+      valves_.set_known(v);
     });
     valves_.work.no_end[group] = clear.about(angle_of_cams(tick));
   }

@@ -6,20 +6,19 @@
 
 #include <cstdint>
 
-#include <crankloop/tick/valve/lanes.hpp>
+#include <crankloop/assert.hpp>
 #include <crankloop/tables/lift_curve.hpp>
-#include <crankloop/tick/one_instruction.hpp>
 #include <crankloop/tables/valve_tables.hpp>
+#include <crankloop/tick/lanes.hpp>
+#include <crankloop/tick/one_instruction.hpp>
 
-namespace crankloop {
+namespace crankloop::detail {
 
 template <class Real>
 struct ValveState {
   Real lift_m;
   Real velocity_m_s;
 };
-
-namespace detail {
 
 /// A state, and the regime in which it is.
 template <class Real>
@@ -33,7 +32,7 @@ struct Placed {
 template <class Number>
 struct Stepped {
   ValveState<Number> state;
-  Number rise_m;
+  Number increment_m;
 };
 
 /// How cams turn during a step.
@@ -56,8 +55,12 @@ template <class Number>
 struct GasForce {
   Number from_N, to_N;
 
-  [[nodiscard]] constexpr Number rest(const ForceRow<Number>& f) const noexcept { return f.rest + f.gas * to_N; }
-  [[nodiscard]] constexpr Number drive(const StepRow<Number>& row) const noexcept {
+  template <class Held>
+  [[nodiscard]] constexpr Number rest(const ForceRow<Held>& f) const noexcept {
+    return f.rest + f.gas * to_N;
+  }
+  template <class Held>
+  [[nodiscard]] constexpr Number drive(const StepRow<Held>& row) const noexcept {
     return row.rest + row.gas * from_N + row.gas_rise * (to_N - from_N);
   }
   /// A coefficient times the force at the step's start, and times what it rises from there.
@@ -66,6 +69,8 @@ struct GasForce {
   /// Where it holds a closed valve.
   [[nodiscard]] constexpr Number resting_m(Number per_seat_N_m) const noexcept { return -to_N * per_seat_N_m; }
   [[nodiscard]] constexpr Number rested_m(Number per_seat_N_m) const noexcept { return -from_N * per_seat_N_m; }
+  /// Held as it is at the step's start.
+  [[nodiscard]] constexpr GasForce before() const noexcept { return {from_N, from_N}; }
   [[nodiscard]] constexpr GasForce between(Number from, Number to) const noexcept {
     return {from_N + (to_N - from_N) * from, from_N + (to_N - from_N) * to};
   }
@@ -86,6 +91,7 @@ struct NoGasForce {
   [[nodiscard]] static constexpr Number at_start(Number) noexcept { return Number{}; }
   [[nodiscard]] static constexpr Number risen(Number) noexcept { return Number{}; }
   [[nodiscard]] static constexpr Number resting_m(Number) noexcept { return Number{}; }
+  [[nodiscard]] static constexpr NoGasForce before() noexcept { return {}; }
   [[nodiscard]] static constexpr NoGasForce between(Number, Number) noexcept { return {}; }
 };
 
@@ -102,15 +108,16 @@ template <class Held, class Number, class Real, class Gas>
     return gas.drive(r) + r.rise * rise + (r.from * from_slope + r.to * to_slope) + r.gap * gap +
            (r.lift * s.lift_m + r.velocity * s.velocity_m_s);
   };
-  const Number rise_m = more(regime.lift);
-  return {{s.lift_m + rise_m, s.velocity_m_s + more(regime.velocity)}, rise_m};
+  const Number increment_m = more(regime.lift);
+  return {{s.lift_m + increment_m, s.velocity_m_s + more(regime.velocity)}, increment_m};
 }
 
 /// y'' by the forces of a regime; the gas force as at the end of its step.
 template <class Held, class Number, class Gas>
-[[nodiscard]] constexpr Number acceleration(const ForceRow<Held>& f, const ValveState<Number>& s, Number gap_m,
-                                            Number gap_speed_m_s, const Gas& gas) noexcept {
-  return gas.rest(f) + f.lift * s.lift_m + f.velocity * s.velocity_m_s + (f.gap * gap_m + f.gap_speed * gap_speed_m_s);
+[[nodiscard]] constexpr Number acceleration(const ForceRow<Held>& f, const ValveState<Number>& s, Number compression_m,
+                                            Number compression_speed_m_s, const Gas& gas) noexcept {
+  return gas.rest(f) + f.lift * s.lift_m + f.velocity * s.velocity_m_s +
+         (f.gap * compression_m + f.gap_speed * compression_speed_m_s);
 }
 
 template <class Held, class Number>
@@ -121,10 +128,10 @@ template <class Held, class Number>
 /// What was before a step, of the valves whose guards it fails: for the look at their contacts.
 template <class Real, std::size_t Lanes>
 struct BeforeStep {
-  Real lift_m[Lanes], velocity_m_s[Lanes], rise_m[Lanes], cam_lift_m[Lanes], cam_per_deg_m[Lanes];
+  Real lift_m[Lanes], velocity_m_s[Lanes], increment_m[Lanes], cam_lift_m[Lanes], cam_per_deg_m[Lanes];
 
   constexpr void keep(std::size_t lane, const ValveState<Real>& s, Real rise, const Lift<Real>& cam) noexcept {
-    lift_m[lane] = s.lift_m, velocity_m_s[lane] = s.velocity_m_s, rise_m[lane] = rise;
+    lift_m[lane] = s.lift_m, velocity_m_s[lane] = s.velocity_m_s, increment_m[lane] = rise;
     cam_lift_m[lane] = cam.lift_m, cam_per_deg_m[lane] = cam.per_deg_m;
   }
 };
@@ -133,10 +140,10 @@ struct BeforeStep {
 template <class Real>
 [[nodiscard]] constexpr std::uint32_t asked(const ValveMotion<Real>& m, const ValveState<Real>& s,
                                             const Lift<Real>& lift, Real deg_per_s) noexcept {
-  const Real gap = lift.lift_m - s.lift_m;
-  const Real sink = m.body.seat_sink_m - s.lift_m;
-  const bool train = gap > 0 && gap + m.train_lag_s * (deg_per_s * lift.per_deg_m - s.velocity_m_s) > 0;
-  const bool seat = sink > 0 && sink - m.seat_lag_s * s.velocity_m_s > 0;
+  const Real train_m = lift.lift_m - s.lift_m;
+  const Real seat_m = m.body.seat_compression_m - s.lift_m;
+  const bool train = train_m > 0 && train_m + m.train_lag_s * (deg_per_s * lift.per_deg_m - s.velocity_m_s) > 0;
+  const bool seat = seat_m > 0 && seat_m - m.seat_lag_s * s.velocity_m_s > 0;
   return (train ? kTrainOn : 0u) | (seat ? kSeatOn : 0u);
 }
 
@@ -150,14 +157,16 @@ template <class Real>
 [[nodiscard]] __attribute__((no_sanitize("float-divide-by-zero"))) constexpr Placed<Real> in_equilibrium(
     const ValveMotion<Real>& m, Real lift_m, Real gas_N) noexcept {
   const ValveBody<Real>& b = m.body;
+  CRANKLOOP_ASSERT(b.train_N_m > 0 && b.seat_N_m > 0);
+  CRANKLOOP_ASSERT(is_finite(lift_m) && is_finite(gas_N));
   const Real down_N = b.preload_N + gas_N;
-  const Real just_off_N = down_N + b.spring_N_m * b.seat_sink_m;  // what holds it down where the seat ends
+  const Real just_off_N = down_N + b.spring_N_m * b.seat_compression_m;  // what holds it down where the seat ends
   const bool sucked_open = just_off_N < 0;
   const Real off_seat_m = down_N + b.spring_N_m * static_cast<Real>(kFarthest_m) < 0 ? static_cast<Real>(kFarthest_m)
                                                                                      : -down_N / b.spring_N_m;
   const Real alone_m = sucked_open ? off_seat_m : -gas_N * m.per_seat_N_m;
   if (!(lift_m > alone_m)) return {{alone_m, Real{0}}, sucked_open ? 0u : kSeatOn};
-  if (b.train_N_m * (lift_m - b.seat_sink_m) > just_off_N) {
+  if (b.train_N_m * (lift_m - b.seat_compression_m) > just_off_N) {
     return {{(b.train_N_m * lift_m - down_N) / (b.train_N_m + b.spring_N_m), Real{0}}, kTrainOn};
   }
   return {{(b.train_N_m * lift_m - gas_N) / (b.train_N_m + b.seat_N_m + b.spring_N_m), Real{0}}, kTrainOn | kSeatOn};
@@ -169,5 +178,4 @@ template <class Real>
   return magnitude(s.lift_m - resting_m) + magnitude(s.velocity_m_s) * m.per_seat_rate_s;
 }
 
-}  // namespace detail
-}  // namespace crankloop
+}  // namespace crankloop::detail

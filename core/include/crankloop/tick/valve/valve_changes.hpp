@@ -4,7 +4,8 @@
 // there are and what they may spend (elastic_valves.hpp).
 //
 //     tick   |-------------------------------|    one step; its guards fail:
-//            |-------|-------|-------|-------|    fine steps, so short that cubics tell where a contact changes (one, where the tick is)
+//            |-------|-------|-------|-------|    fine steps, so short that cubics tell where a contact changes
+//                                                  (the tick itself where it is short enough)
 //                         x                       there: the state by the quintic through both ends,
 //                         |--|                    on from it by a Taylor series in the new regime
 #pragma once
@@ -12,6 +13,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include <crankloop/assert.hpp>
 #include <crankloop/tick/valve/valve.hpp>
 #include <crankloop/tick/valve/valve_results.hpp>
 #include <crankloop/tick/valve/valve_stretch.hpp>
@@ -37,6 +39,9 @@ class ValveChanges {
   /// units on. O(parts + changes).
   [[nodiscard]] Placed<Real> run(const Placed<Real>& start, Stepped<Real> end, const Span<Real, Gas>& tick,
                                  std::uint64_t to, std::int64_t turned) const noexcept {
+    CRANKLOOP_ASSERT(start.regime < std::uint32_t{kRegimes});
+    CRANKLOOP_ASSERT(is_finite(start.state.lift_m) && is_finite(start.state.velocity_m_s));
+    CRANKLOOP_ASSERT(motion_.parts >= 1);
     if (motion_.parts > 1 || magnitude(tick.cam.deg) > motion_.widest_step_deg)
       return by_fine_steps(start, tick, to, turned);
     const std::uint32_t regime = asked_at_start(start, tick);
@@ -67,10 +72,10 @@ class ValveChanges {
   [[nodiscard, gnu::noinline]] Placed<Real> by_fine_steps(Placed<Real> valve, const Span<Real, Gas>& tick,
                                                           std::uint64_t to, std::int64_t turned) const noexcept {
     const bool open = tick.from.lift_m > 0 || tick.to.lift_m > 0;
-    const bool leaps = magnitude(tick.cam.deg) >= curve_.leap_deg;
+    const bool may_skip = magnitude(tick.cam.deg) >= curve_.skip_deg;
     const bool seated = valve.regime == kSeatOn || valve.regime == kQuiet;
-    if (seated && !open && !leaps && valve.state.lift_m == 0 && valve.state.velocity_m_s == 0 && tick.gas.from_N == 0 &&
-        tick.gas.to_N == 0) {
+    if (seated && !open && !may_skip && valve.state.lift_m == 0 && valve.state.velocity_m_s == 0 &&
+        tick.gas.from_N == 0 && tick.gas.to_N == 0) {
       return valve;  // at rest, the cam away at both ends
     }
     valve.regime = asked_at_start(valve, tick);
@@ -82,6 +87,7 @@ class ValveChanges {
     const bool narrow = magnitude(step.cam.deg) <= motion_.widest_step_deg;
     bool was_sure = narrow && sure(valve.regime, valve.state, step.from, step.cam);
     for (std::uint32_t i = 1; i <= motion_.parts; ++i) {
+      CRANKLOOP_ASSERT(valve.regime < kQuiet);
       at += part;
       step.to = i == motion_.parts ? tick.to : curve_.read(LiftCurve<Real>::cell(at));
       step.gas =
@@ -93,13 +99,16 @@ class ValveChanges {
         valve.state = end.state;
       } else {
         if (!narrow)
-          add_middle(valve.regime, step, at - static_cast<std::uint64_t>(static_cast<std::int64_t>(part) / 2), end);
+          add_middle(motion_, curve_, valve.regime, step,
+                     at - static_cast<std::uint64_t>(static_cast<std::int64_t>(part) / 2), end);
         valve = checked(valve, end, step);
       }
       was_sure = narrow && is_sure;
       step.from = step.to;
       step.later_deg += step.cam.deg;
     }
+    constexpr std::uint64_t kRounding = std::uint64_t{1} << 44;  // up to 2^31 in each of up to 4096 parts
+    CRANKLOOP_ASSERT(to - at + kRounding <= 2 * kRounding);
     const Real resting_m = tick.gas.resting_m(motion_.per_seat_N_m);
     const Real up_m = resting_m > 0 ? resting_m : Real{0};
     if (valve.regime == kSeatOn && up_m + swing_m(motion_, valve.state, resting_m) < motion_.quiet_m) {
@@ -113,24 +122,6 @@ class ValveChanges {
     return valve;
   }
 
-  /// What the cam's lift in the middle of a wide fine step, over which the cubic through its ends does not do, adds to
-  /// it.
-  [[gnu::cold, gnu::noinline]] void add_middle(std::uint32_t regime, const Span<Real, Gas>& step, std::uint64_t middle,
-                                               Stepped<Real>& end) const noexcept {
-    if ((regime & kTrainOn) == 0) return;
-    const MiddleStep<Real>& by = motion_.middle[regime >> 1];
-    const Lift<Real> lift = curve_.read(LiftCurve<Real>::cell(middle));
-    const Real from_slope = step.cam.deg * step.from.per_deg_m;
-    const Real to_slope = step.cam.deg * step.to.per_deg_m;
-    const Real rise = step.to.lift_m - step.from.lift_m;
-    const Real more_m = lift.lift_m - step.from.lift_m - (rise / 2 + (from_slope - to_slope) / 8);
-    const Real more_slope_m = step.cam.deg * lift.per_deg_m - (6 * rise - (from_slope + to_slope)) / 4;
-    const Real higher_m = by.lift_by_lift * more_m + by.lift_by_slope * more_slope_m;
-    end.state.lift_m += higher_m;
-    end.state.velocity_m_s += by.velocity_by_lift * more_m + by.velocity_by_slope * more_slope_m;
-    end.rise_m += higher_m;
-  }
-
   /// Whether a fine step's guards hold at one of its ends.
   [[nodiscard]] bool sure(std::uint32_t regime, const ValveState<Real>& s, const Lift<Real>& cam,
                           const CamTurn<Real>& turn) const noexcept {
@@ -142,6 +133,7 @@ class ValveChanges {
   /// A fine step: most often no contact changes in it.
   [[nodiscard, gnu::noinline]] Placed<Real> checked(const Placed<Real>& start, const Stepped<Real>& end,
                                                     const Span<Real, Gas>& step) const noexcept {
+    CRANKLOOP_ASSERT(start.regime < kQuiet);
     if (!(magnitude(end.state.lift_m) < static_cast<Real>(kFarthest_m))) {  // nor is it a number
       budget_.exceeded = true;
       return in_equilibrium(motion_, step.to.lift_m, static_cast<Real>(step.gas.to_N));
@@ -167,8 +159,11 @@ class ValveChanges {
     Real left = 1;
     std::uint32_t last = 0;
     do {
+      CRANKLOOP_ASSERT(budget_.left != 0);
+      CRANKLOOP_ASSERT(left > 0 && left <= 1);
       --budget_.left;
       const std::uint32_t ended = now ^ valve.regime;
+      CRANKLOOP_ASSERT(ended != 0 && ended < kQuiet);
       const Stretch<Real> s = stretch_of(motion_, valve, end, lift, left, step);
       Real x = 1;
       std::uint32_t changed = 0;
@@ -181,6 +176,9 @@ class ValveChanges {
         if (changed == 0 || at < x) x = at, changed = kSeatOn;
       }
       const ValveState<Real> there = s.at(x);
+      CRANKLOOP_ASSERT(changed == kTrainOn || changed == kSeatOn);
+      CRANKLOOP_ASSERT(x >= 0 && x <= 1);
+      CRANKLOOP_ASSERT(is_finite(there.lift_m) && is_finite(there.velocity_m_s));
       const Real passed = x * left;
       note_stretch(valve, there, lift, 1 - left, passed, step);
       lift.shift(passed);
@@ -192,6 +190,8 @@ class ValveChanges {
       now = asked(motion_, end.state, step.to, step.cam.deg_per_s);
     } while (budget_.left != 0 && now != valve.regime && left > 0);
     if (now != valve.regime && left > 0) budget_.exceeded = true;
+    CRANKLOOP_ASSERT(left >= 0 && now < kQuiet);
+    CRANKLOOP_ASSERT(is_finite(end.state.lift_m) && is_finite(end.state.velocity_m_s));
     note_stretch(valve, end.state, lift, 1 - left, left, step);
     note_change(valve.regime, now, end.state, step, 1);
     return {end.state, now};
@@ -220,7 +220,7 @@ class ValveChanges {
     record_.step({from, to, theory_from.lift_m, theory_to.lift_m, theory_from.speed_m_s, theory_to.speed_m_s,
                   accelerates(from, theory_from, gas.between(0, 0)), accelerates(to, theory_to, gas), step_s,
                   contacts_of(regime)},
-                 motion_.body.seat_sink_m,
+                 motion_.body.seat_compression_m,
                  [&](Real part) { return deg_at(span, from_part + part * (to_part - from_part)); });
   }
 

@@ -9,7 +9,7 @@ namespace crankloop::detail {
 /// A valve's cam and contacts at a tick's end.
 template <class Real>
 struct Moment {
-  Real cam_lift_m, gap_m, gap_speed_m_s, acceleration_m_s2;
+  Real cam_lift_m, compression_m, compression_speed_m_s, acceleration_m_s2;
 };
 
 template <class Real>
@@ -27,14 +27,14 @@ template <class Real>
                                                const Moment<Real>& at) noexcept {
   const auto pushing = [](bool on, Real force_N) { return on && force_N > 0 ? force_N : Real{0}; };
   const std::uint32_t contacts = contacts_of(valve.regime);
-  shown.train_N = pushing((contacts & kTrainOn) != 0, b.train_N_m * at.gap_m + b.train_Ns_m * at.gap_speed_m_s);
+  shown.train_N =
+      pushing((contacts & kTrainOn) != 0, b.train_N_m * at.compression_m + b.train_Ns_m * at.compression_speed_m_s);
   shown.seat_N = pushing((contacts & kSeatOn) != 0,
                          b.preload_N - (b.seat_N_m * valve.state.lift_m + b.seat_Ns_m * valve.state.velocity_m_s));
   shown.tip_N = shown.train_N - b.rocker_mass_kg * at.acceleration_m_s2;
-  // Read where the train touches; outside the lobe there is no force to multiply.
-  const bool in_lobe = cell.degree < curve.segments;
-  shown.cam_N = shown.train_N * (in_lobe ? value(curve.rocker_ratio[cell.degree], fraction<Real>(cell)) : Real{0});
-  shown.gap_m = at.gap_m;
+  const bool pushed = shown.train_N > 0 && cell.degree < curve.segments;
+  shown.cam_N = pushed ? shown.train_N * value(curve.rocker_ratio[cell.degree], fraction<Real>(cell)) : Real{0};
+  shown.train_compression_m = at.compression_m;
   shown.regime = contacts;
 }
 

@@ -1,23 +1,27 @@
-// What a valve did in a cycle: lift, float, seating, bounce. Traced in the solver, step by step, not in the samples that a tick shows.
+// What a valve did in a cycle: lift, float, seating, bounce. Traced in the solver, step by step, not in the samples
+// that a tick shows.
 //
-// What belongs here: the record of a cycle and its rules (docs/model.md "Separation and bounce"). What does not: the motion (valve_changes.hpp).
+// What belongs here: the record of a cycle and its rules (docs/model.md "Separation and bounce"). What does not: the
+// motion (valve_changes.hpp).
 #pragma once
 
 #include <cstdint>
 
+#include <crankloop/assert.hpp>
 #include <crankloop/scene.hpp>
 #include <crankloop/tick/valve/valve.hpp>
 
 namespace crankloop {
 
-/// One cycle of one valve, from the middle of the base circle to the next. Angles are cam degrees since the start of the lobe.
+/// One cycle of one valve, from the middle of the base circle to the next. Angles are cam degrees since the start of
+/// the lobe.
 template <class Real>
 struct ValveCycle {
   Real largest_lift_m;
   Real largest_speed_m_s;          ///< magnitude
   Real largest_acceleration_m_s2;  ///< magnitude
   Real opening_delay_deg;          ///< valve against theory at 0.1 mm of lift
-  Real separation_gap_m;           ///< largest y - Y while the train carries nothing before the valve seats
+  Real separation_clearance_m;     ///< largest y - Y while the train carries nothing before the valve seats
   Real separation_start_deg;       ///< of the separation with the largest gap
   Real separation_duration_deg;    ///< of that one
   Real seating_speed_m_s;          ///< at the first contact with the seat
@@ -25,24 +29,24 @@ struct ValveCycle {
   std::uint32_t separations;       ///< with a gap of at least kLeastSeparation_m
   std::uint32_t bounces;           ///< lift-offs that rise by at least kLeastSeparation_m
   std::uint32_t contact_changes;
-  std::uint32_t off_seat_at_end;   ///< 1: still off its seat in the middle of the base circle
+  std::uint32_t off_seat_at_end;  ///< 1: still off its seat in the middle of the base circle
 };
+
+namespace detail {
 
 /// A step as the record sees it.
 template <class Real>
 struct ObservedStep {
   ValveState<Real> from, to;
-  Real theory_from_m, theory_to_m;                ///< Y
+  Real theory_from_m, theory_to_m;  ///< Y
   Real theory_speed_from_m_s, theory_speed_to_m_s;
   Real acceleration_from_m_s2, acceleration_to_m_s2;
   Real step_s;
-  std::uint32_t regime;                           ///< throughout the step
+  std::uint32_t regime;  ///< throughout the step
 };
 
-namespace detail {
 template <class Real, class S>
 struct StateFields;
-}
 
 /// The cycle in progress.
 template <class Real>
@@ -60,7 +64,8 @@ class ValveRecord {
     const Real lift = peak(s.from.lift_m, s.from.velocity_m_s, s.to.lift_m, s.to.velocity_m_s, s.step_s);
     raise(cycle_.largest_lift_m, lift);
     raise(cycle_.largest_speed_m_s, magnitude(s.to.velocity_m_s));
-    raise(cycle_.largest_acceleration_m_s2, magnitude(s.acceleration_from_m_s2));  // a damper's force begins with a jump
+    raise(cycle_.largest_acceleration_m_s2,
+          magnitude(s.acceleration_from_m_s2));  // a damper's force begins with a jump
     raise(cycle_.largest_acceleration_m_s2, magnitude(s.acceleration_to_m_s2));
     note_opening(s, deg_at);
     if (s.theory_speed_from_m_s > 0 && s.theory_speed_to_m_s <= 0 && s.theory_to_m > 0) flags_ |= kClosing;
@@ -69,8 +74,8 @@ class ValveRecord {
     }
     if (stage_ == Stage::open && s.regime == 0) {
       if (!is(kSeparated)) flags_ |= kSeparated, excursion_m_ = 0, separated_at_deg_ = deg_at(Real{0});
-      raise(excursion_m_, peak(s.from.lift_m - s.theory_from_m, s.from.velocity_m_s - s.theory_speed_from_m_s, s.to.lift_m - s.theory_to_m,
-                         s.to.velocity_m_s - s.theory_speed_to_m_s, s.step_s));
+      raise(excursion_m_, peak(s.from.lift_m - s.theory_from_m, s.from.velocity_m_s - s.theory_speed_from_m_s,
+                               s.to.lift_m - s.theory_to_m, s.to.velocity_m_s - s.theory_speed_to_m_s, s.step_s));
     }
   }
 
@@ -79,6 +84,25 @@ class ValveRecord {
     raise(cycle_.largest_lift_m, to.lift_m);
     raise(cycle_.largest_speed_m_s, magnitude(to.velocity_m_s));
     raise(cycle_.largest_acceleration_m_s2, magnitude(acceleration_m_s2));
+  }
+
+  /// The largest values so far.
+  struct Largest {
+    Real lift_m, speed_m_s, acceleration_m_s2;
+  };
+  [[nodiscard]] constexpr Largest largest() const noexcept {
+    return {cycle_.largest_lift_m, cycle_.largest_speed_m_s, cycle_.largest_acceleration_m_s2};
+  }
+  constexpr void set_largest(const Largest& x) noexcept {
+    cycle_.largest_lift_m = x.lift_m, cycle_.largest_speed_m_s = x.speed_m_s;
+    cycle_.largest_acceleration_m_s2 = x.acceleration_m_s2;
+  }
+  /// In these contacts, and while neither its cam nor a valve is lifted so far, only they change.
+  [[nodiscard]] constexpr Real eventless_to_m(std::uint32_t contacts) const noexcept {
+    constexpr Real kAny = static_cast<Real>(1e30);
+    if (stage_ == Stage::closed) return kOpened_m;
+    const bool flies = stage_ == Stage::open ? contacts == 0 : (contacts & kSeatOn) == 0;
+    return flies ? -kAny : kAny;
   }
 
   /// The regime changed at `at_deg`.
@@ -106,12 +130,13 @@ class ValveRecord {
   }
 
  private:
-  // Open from 0.1 mm of lift; seated from the first contact behind full lift: one before it ends the flight of the cycle before.
+  // Open from 0.1 mm of lift; seated from the first contact behind full lift: one before it ends the flight of the
+  // cycle before.
   enum class Stage : std::uint32_t { closed, open, seated };
 
   static constexpr std::uint32_t kTheoryOpened = 1;  // the cam has passed 0.1 mm
   static constexpr std::uint32_t kSeparated = 2;
-  static constexpr std::uint32_t kClosing = 4;        // the cam is behind its full lift
+  static constexpr std::uint32_t kClosing = 4;  // the cam is behind its full lift
   [[nodiscard]] constexpr bool is(std::uint32_t flag) const noexcept { return (flags_ & flag) != 0; }
 
   static constexpr void raise(Real& largest, Real x) noexcept {
@@ -130,11 +155,14 @@ class ValveRecord {
     return inner > larger ? inner : larger;
   }
 
-  /// Part of a step after which the cubic through two values and slopes (by time) reaches kOpened_m, by bisection: once or twice in a cycle.
-  [[nodiscard]] static constexpr Real part_opened(Real from, Real slope_from, Real to, Real slope_to, Real step_s) noexcept {
+  /// Part of a step after which the cubic through two values and slopes (by time) reaches kOpened_m, by bisection: once
+  /// or twice in a cycle.
+  [[nodiscard]] static constexpr Real part_opened(Real from, Real slope_from, Real to, Real slope_to,
+                                                  Real step_s) noexcept {
     const Real rise = to - from;
     const Real a = slope_from * step_s;
     const Real b = slope_to * step_s;
+    CRANKLOOP_ASSERT(from < kOpened_m);
     Real low = 0;
     Real high = 1;
     for (int i = 0; i < 16; ++i) {
@@ -145,28 +173,31 @@ class ValveRecord {
     return high;
   }
 
-  /// The valve opens where it stands at 0.1 mm or above once the cam has passed that. One that was up before its cam has no delay to tell:
-  /// it is still in the air from the cycle before.
+  /// The valve opens where it stands at 0.1 mm or above once the cam has passed that. One that was up before its cam
+  /// has no delay to tell: it is still in the air from the cycle before.
   template <class DegAt>
   constexpr void note_opening(const ObservedStep<Real>& s, const DegAt& deg_at) noexcept {
     if (stage_ != Stage::closed) return;
     if (!is(kTheoryOpened) && s.theory_from_m < kOpened_m && s.theory_to_m >= kOpened_m) {
       flags_ |= kTheoryOpened;
-      theory_opened_deg_ = deg_at(part_opened(s.theory_from_m, s.theory_speed_from_m_s, s.theory_to_m, s.theory_speed_to_m_s, s.step_s));
+      theory_opened_deg_ =
+          deg_at(part_opened(s.theory_from_m, s.theory_speed_from_m_s, s.theory_to_m, s.theory_speed_to_m_s, s.step_s));
     }
     if (!is(kTheoryOpened) || s.to.lift_m < kOpened_m) return;
     stage_ = Stage::open;
     if (s.from.lift_m >= kOpened_m) return;  // it was open before its cam was: no delay to tell
     cycle_.opening_delay_deg =
-        magnitude(deg_at(part_opened(s.from.lift_m, s.from.velocity_m_s, s.to.lift_m, s.to.velocity_m_s, s.step_s)) - theory_opened_deg_);
+        magnitude(deg_at(part_opened(s.from.lift_m, s.from.velocity_m_s, s.to.lift_m, s.to.velocity_m_s, s.step_s)) -
+                  theory_opened_deg_);
   }
 
   constexpr void end_separation(Real at_deg) noexcept {
+    CRANKLOOP_ASSERT(is(kSeparated));
     flags_ &= ~kSeparated;
     if (excursion_m_ < kLeastSeparation_m) return;
     ++cycle_.separations;
-    if (excursion_m_ <= cycle_.separation_gap_m) return;
-    cycle_.separation_gap_m = excursion_m_;
+    if (excursion_m_ <= cycle_.separation_clearance_m) return;
+    cycle_.separation_clearance_m = excursion_m_;
     cycle_.separation_start_deg = separated_at_deg_;
     cycle_.separation_duration_deg = magnitude(at_deg - separated_at_deg_);
   }
@@ -191,6 +222,10 @@ class ValveRecord {
 template <class Real>
 struct NoRecord {};
 
+}  // namespace detail
+
+namespace group {
+
 /// Results of the last whole cycle, [train][cylinder]; zero until there is one.
 template <class Real, class S>
 struct ValveResults {
@@ -198,7 +233,8 @@ struct ValveResults {
 };
 template <class Real, class S>
 struct ValveRecords {
-  ValveRecord<Real> record[S::trains.capacity][S::cylinders.capacity];
+  detail::ValveRecord<Real> record[S::trains.capacity][S::cylinders.capacity];
 };
+}  // namespace group
 
 }  // namespace crankloop

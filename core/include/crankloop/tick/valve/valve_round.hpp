@@ -1,12 +1,13 @@
 // The plain step of each elastic valve that moves, its guards asked: most ticks of most valves are no more.
 //
-// What belongs here: the round over the valves, one by one and abreast, and what keeps a valve out of it. What does not:
-// the step's arithmetic (valve.hpp, valves_abreast.hpp), those whose guards fail (valve_changes.hpp).
+// What belongs here: the round over the valves, one by one and abreast, and what keeps a valve out of it. What does
+// not: the step's arithmetic (valve.hpp, valves_abreast.hpp), those whose guards fail (valve_changes.hpp).
 #pragma once
 
 #include <cstdint>
 #include <type_traits>
 
+#include <crankloop/tick/valve/lane_blocks.hpp>
 #include <crankloop/tick/valve/valves_at_hand.hpp>
 
 namespace crankloop::detail {
@@ -18,7 +19,7 @@ class ValveRound {
   using Bits = typename Valves::Bits;
 
  public:
-  using Before = BeforeStep<Real, ValvesState<Real, S>::kLanes>;
+  using Before = BeforeStep<Real, group::ValvesState<Real, S>::kLanes>;
 
   explicit ValveRound(Valves& valves) noexcept : valves_{valves} {}
 
@@ -45,42 +46,42 @@ class ValveRound {
     const Gas gas = valves_.gas_on(v);
     const RegimeStep<Real>& regime = valves_.regime_of(v);
     const ValveState<Real> start{valves_.state.valve_lift_m[v], valves_.state.valve_velocity_m_s[v]};
-    if (cell.degree >= valves_.curve(v).segments && swings_alone(v, start, regime, tick, gas)) {
-      swing(v, start, regime, cell, gas);
-      return true;
-    }
+    if (cell.degree >= valves_.curve(v).segments && swings_alone(v, start, regime, tick, gas))
+      return swing(v, start, regime, cell, gas, before);
     const Lift<Real> from = valves_.cam(v);
     const Lift<Real> to = valves_.curve(v).read(cell);
     const Stepped<Real> step = stepped(regime, start, from, to, tick.cam.deg, gas);
     ValveState<Real> end = step.state;
-    const Real gap_m = to.lift_m - end.lift_m;
-    const Real gap_speed_m_s = tick.cam.deg_per_s * to.per_deg_m - end.velocity_m_s;
-    const bool sure = holds(regime.train, gap_m, gap_speed_m_s) && holds(regime.seat, end.lift_m, end.velocity_m_s) &&
-                      !(valves_.far && is_far(v, tick));
+    Real compression_m = to.lift_m - end.lift_m;
+    Real compression_speed_m_s = tick.cam.deg_per_s * to.per_deg_m - end.velocity_m_s;
+    const bool sure = holds(regime.train, compression_m, compression_speed_m_s) &&
+                      holds(regime.seat, end.lift_m, end.velocity_m_s) && !(valves_.far && is_far(v, tick));
     const bool still = put_to_rest(v, regime, gas, end);
+    if (S::valve_forces && still) {  // as it is shown
+      compression_m = to.lift_m - end.lift_m;
+      compression_speed_m_s = tick.cam.deg_per_s * to.per_deg_m - end.velocity_m_s;
+    }
     valves_.state.valve_lift_m[v] = end.lift_m;
     valves_.state.valve_velocity_m_s[v] = end.velocity_m_s;
     valves_.set_cam(v, to);
     if (!sure) {
-      before.keep(v, start, step.rise_m, from);
+      before.keep(v, start, step.increment_m, from);
       return false;
     }
+    const Real acceleration_m_s2 = acceleration(regime.acceleration, end, compression_m, compression_speed_m_s, gas);
     if constexpr (S::valve_results) {
-      ChangeBudget none{};
-      valves_.changes(v, none).note({start, valves_.state.valve_regime[v]}, end, valves_.span(v, tick, from, to, gas),
-                                    valves_.motion(v).tick_s);
+      valves_.note(v, start, end, from, to, tick, gas, acceleration_m_s2);
+      valves_.set_known(v);
     }
     if (still) leave_alone(v, cell);
-    valves_.show(v, end, cell,
-                 {to.lift_m, gap_m, gap_speed_m_s, acceleration(regime.acceleration, end, gap_m, gap_speed_m_s, gas)},
-                 gas);
+    valves_.show(v, end, cell, {to.lift_m, compression_m, compression_speed_m_s, acceleration_m_s2}, gas);
     return true;
   }
 
   /// Too far for the guards: the tick may pass over a lobe, or hold more of the lift than a cubic.
   [[nodiscard]] bool is_far(std::uint32_t v, const CamTick<Real>& tick) const noexcept {
     const Real deg = magnitude(tick.cam.deg);
-    return deg >= valves_.curve(v).leap_deg ||
+    return deg >= valves_.curve(v).skip_deg ||
            (deg > valves_.motion(v).widest_step_deg && contacts_of(valves_.state.valve_regime[v]) != kSeatOn);
   }
 
@@ -88,7 +89,7 @@ class ValveRound {
   /// place that it swings about.
   [[nodiscard]] bool swings_alone(std::uint32_t v, const ValveState<Real>& s, const RegimeStep<Real>& regime,
                                   const CamTick<Real>& tick, const Gas& gas) const noexcept {
-    if (valves_.far && magnitude(tick.cam.deg) >= valves_.work.leap_deg) return false;
+    if (valves_.far && magnitude(tick.cam.deg) >= valves_.work.skip_deg) return false;
     const ValveMotion<Real>& m = valves_.motion(v);
     if constexpr (S::valve_gas) {
       const Real was_m = gas.rested_m(m.per_seat_N_m);
@@ -102,23 +103,57 @@ class ValveRound {
     }
   }
 
-  /// The plain step of such a valve: all its cam's factors are 0.
-  [[gnu::always_inline]] void swing(std::uint32_t v, const ValveState<Real>& start, const RegimeStep<Real>& regime,
-                                    Cell cell, const Gas& gas) noexcept {
-    const auto more = [&](const StepRow<Real>& r) {
-      return gas.drive(r) + (r.lift * start.lift_m + r.velocity * start.velocity_m_s);
-    };
-    ValveState<Real> end{start.lift_m + more(regime.lift), start.velocity_m_s + more(regime.velocity)};
-    if (put_to_rest(v, regime, gas, end)) leave_alone(v, cell);
+  /// The plain step of such a valve: all its cam's factors are 0. False where gas presses it so far into its seat that
+  /// the train may touch it: then it is looked at.
+  [[nodiscard, gnu::always_inline]] bool swing(std::uint32_t v, const ValveState<Real>& start,
+                                               const RegimeStep<Real>& regime, Cell cell, const Gas& gas,
+                                               Before& before) noexcept {
+    const Real outside_m = valves_.curve(v).outside_m;
+    ValveState<Real> end{gas.resting_m(valves_.motion(v).per_seat_N_m), Real{0}};
+    if (!stays_at_rest(v, start, regime, gas)) {
+      const auto more = [&](const StepRow<Real>& r) {
+        return gas.drive(r) + (r.lift * start.lift_m + r.velocity * start.velocity_m_s);
+      };
+      const Real increment_m = more(regime.lift);
+      end = {start.lift_m + increment_m, start.velocity_m_s + more(regime.velocity)};
+      if (S::valve_gas && !holds(regime.train, outside_m - end.lift_m, end.velocity_m_s)) {
+        before.keep(v, start, increment_m, valves_.cam(v));
+        valves_.set_cam(v, {outside_m, Real{0}});
+        valves_.state.valve_lift_m[v] = end.lift_m;
+        valves_.state.valve_velocity_m_s[v] = end.velocity_m_s;
+        return false;
+      }
+      if (put_to_rest(v, regime, gas, end)) leave_alone(v, cell);
+    }
     valves_.state.valve_lift_m[v] = end.lift_m;
     valves_.state.valve_velocity_m_s[v] = end.velocity_m_s;
-    const Real outside_m = valves_.curve(v).outside_m;
     valves_.set_cam(v, {outside_m, Real{0}});
     const ForceRow<Real>& f = regime.acceleration;
     const Real acceleration_m_s2 = gas.rest(f) + f.lift * end.lift_m + f.velocity * end.velocity_m_s;
-    if constexpr (S::valve_results)
+    if constexpr (S::valve_results) {
       valves_.state.record[valves_.train(v)][valves_.cylinder(v)].rest(end, acceleration_m_s2);
+      valves_.set_known(v);
+    }
     valves_.show(v, end, cell, {outside_m, outside_m - end.lift_m, -end.velocity_m_s, acceleration_m_s2}, gas);
+    return true;
+  }
+
+  /// Whether a valve that gas holds at rest is sure to be put to rest again, where the gas holds it by the tick's end:
+  /// on the way its velocity differs by at most twice that of its place, its lift by as much over the rate on the seat.
+  /// Its guards hold then, but for that of the train.
+  [[nodiscard, gnu::always_inline]] bool stays_at_rest([[maybe_unused]] std::uint32_t v,
+                                                       [[maybe_unused]] const ValveState<Real>& s,
+                                                       [[maybe_unused]] const RegimeStep<Real>& regime,
+                                                       [[maybe_unused]] const Gas& gas) const noexcept {
+    if constexpr (S::valve_gas) {
+      const Real per_seat_N_m = valves_.motion(v).per_seat_N_m;
+      const Real was_m = gas.rested_m(per_seat_N_m);
+      const Real drift_m_s = magnitude(gas.resting_m(per_seat_N_m) - was_m) * valves_.tables.drive->per_tick_s;
+      const Real lash_m = regime.train.sign * (valves_.curve(v).outside_m - gas.resting_m(per_seat_N_m));
+      return s.velocity_m_s == 0 && s.lift_m == was_m && 4 * drift_m_s < regime.rest_m_s &&
+             lash_m > regime.train.least_m + (2 * regime.rest_m + regime.train.lag_s * regime.rest_m_s);
+    }
+    return false;
   }
 
   /// A valve that has all but come to rest is put there.
@@ -140,6 +175,23 @@ class ValveRound {
     (void)v, (void)cell;
   }
 
+  /// Into a lane's record, what it did in its block.
+  void note(std::uint32_t v, const CamTick<Real>& tick, const Before& before) noexcept {
+    const Gas gas = valves_.gas_on(v);
+    const ValveState<Real> start{before.lift_m[v], before.velocity_m_s[v]};
+    const ValveState<Real> end{valves_.state.valve_lift_m[v], valves_.state.valve_velocity_m_s[v]};
+    const Real acceleration_m_s2 = (&valves_.out.valve[0][0])[v].acceleration_m_s2;
+    if (valves_.cell(v, tick.phase).degree >= valves_.curve(v).segments &&
+        swings_alone(v, start, valves_.regime_of(v), tick, gas)) {
+      valves_.state.record[valves_.train(v)][valves_.cylinder(v)].rest(end, acceleration_m_s2);
+    } else {
+      valves_.note(v, start, end, {before.cam_lift_m[v], before.cam_per_deg_m[v]}, valves_.cam(v), tick, gas,
+                   acceleration_m_s2);
+    }
+    if constexpr (Needs<S>::valve_gas_held) valves_.state.valve_gas_N[v] = gas.to_N;
+    valves_.set_known(v);
+  }
+
   /// Plain steps in blocks of lanes, each a valve by its number; what fills no block one by one. Answers which have
   /// guards that fail.
   [[nodiscard]] Bits step_abreast([[maybe_unused]] const CamTicks<Real, S>& cams,
@@ -147,29 +199,29 @@ class ValveRound {
     Bits doubtful = 0;
 #if CRANKLOOP_ABREAST
     if constexpr (Valves::kAbreast) {
-      LanesTick<S> tick;
-      if constexpr (S::cam_phasing) {
-        valves_.for_each([&](std::uint32_t v) { tick.set(v, cams[valves_.train(v)]); });
-      } else {
-        tick.set(0, cams[0]);
-      }
+      Bits far = 0;
       if (valves_.far) {
-        valves_.for_each([&](std::uint32_t v) { doubtful |= Bits{is_far(v, cams[valves_.train(v)])} << v; });
+        valves_.for_each([&](std::uint32_t v) { far |= Bits{is_far(v, cams[valves_.train(v)])} << v; });
       }
+      LaneBlocks<S> blocks(valves_, cams, far, before);
       const bool in_a_row =
           count<S>(valves_.tables.drive->cylinders) == Valves::kPerTrain;  // then the lanes of all trains are
       const std::uint32_t row =
           in_a_row ? valves_.trains() * Valves::kPerTrain : count<S>(valves_.tables.drive->cylinders);
       for (std::uint32_t first = 0; first < valves_.trains() * Valves::kPerTrain;
            first += in_a_row ? row : Valves::kPerTrain) {
-        std::uint32_t done = 0;
-        float* const shown = &valves_.out.valve[0][0].theoretical_lift_m;
-        doubtful |=
-            step_blocks<WidestLanes>(valves_.work, valves_.state, tick, first, row, doubtful, before, shown, done);
-        if constexpr (!std::is_same_v<WidestLanes, Four>)
-          doubtful |= step_blocks<Four>(valves_.work, valves_.state, tick, first, row, doubtful, before, shown, done);
+        const std::uint32_t done = blocks.step(first, row);
         const Bits rest = done < row ? ((Bits{1} << (row - done)) - 1) << (first + done) : 0;
         if (rest != 0) doubtful |= step_those(rest, cams, before);
+      }
+      doubtful |= blocks.doubtful();
+      if constexpr (S::valve_results) {
+        for (Bits left = blocks.enlarged() & ~(blocks.eventful() | doubtful); left != 0; left &= left - 1)
+          valves_.keep_largest(trailing_zeros(left));
+        for (Bits left = blocks.eventful() & ~doubtful; left != 0; left &= left - 1) {
+          const std::uint32_t v = trailing_zeros(left);
+          note(v, cams[valves_.train(v)], before);
+        }
       }
     }
 #endif

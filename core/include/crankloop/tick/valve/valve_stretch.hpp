@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include <crankloop/assert.hpp>
 #include <crankloop/tick/valve/cubic.hpp>
 #include <crankloop/tick/valve/valve.hpp>
 
@@ -32,7 +33,7 @@ template <class Real>
 struct Stretch {
   Real d_s;
   ValveState<Real> from, to;
-  Real rise_m;
+  Real increment_m;
   Real acceleration[2];
   Contact<Real> train, seat;
 
@@ -46,10 +47,12 @@ struct Stretch {
 
   /// The state at a part of it: the quintic through states and accelerations at both ends.
   [[nodiscard]] ValveState<Real> at(Real x) const noexcept {
+    CRANKLOOP_ASSERT(x >= 0 && x <= 1);
+    CRANKLOOP_ASSERT(d_s > 0);
     const Real v0 = from.velocity_m_s * d_s;
     const Real half = d_s * d_s / 2;
     const Real a0 = acceleration[0] * half;
-    const Real rise = rise_m - v0 - a0;
+    const Real rise = increment_m - v0 - a0;
     const Real slope = to.velocity_m_s * d_s - v0 - 2 * a0;
     const Real bend = acceleration[1] * half - a0;
     const Real c[] = {from.lift_m,
@@ -73,12 +76,14 @@ template <class Real, class Gas>
 [[nodiscard]] inline Stretch<Real> stretch_of(const ValveMotion<Real>& motion, const Placed<Real>& valve,
                                               const Stepped<Real>& end, const Cubic<Real>& lift, Real left,
                                               const Span<Real, Gas>& step) noexcept {
+  CRANKLOOP_ASSERT(left > 0 && left <= 1);
+  CRANKLOOP_ASSERT(valve.regime < std::uint32_t{kRegimes});
   const Real per_s = motion.per_fine_step_s;
   const ForceRow<Real>& force = motion.fine[valve.regime].acceleration;
   const Gas gas = step.gas.between(1 - left, 1);
   Stretch<Real> s;
   s.d_s = left * motion.fine_step_s;
-  s.from = valve.state, s.to = end.state, s.rise_m = end.rise_m;
+  s.from = valve.state, s.to = end.state, s.increment_m = end.increment_m;
   Contact<Real>& train = s.train;
   train.depth_m[0] = lift.c[0] - s.from.lift_m, train.depth_m[1] = step.to.lift_m - s.to.lift_m;
   train.speed_m_s[0] = lift.c[1] * per_s - s.from.velocity_m_s;
@@ -88,10 +93,32 @@ template <class Real, class Gas>
   train.rate_m_s2[0] = 2 * lift.c[2] * (per_s * per_s) - s.acceleration[0];
   train.rate_m_s2[1] = (2 * lift.c[2] + 6 * left * lift.c[3]) * (per_s * per_s) - s.acceleration[1];
   Contact<Real>& seat = s.seat;
-  seat.depth_m[0] = motion.body.seat_sink_m - s.from.lift_m, seat.depth_m[1] = motion.body.seat_sink_m - s.to.lift_m;
+  seat.depth_m[0] = motion.body.seat_compression_m - s.from.lift_m,
+  seat.depth_m[1] = motion.body.seat_compression_m - s.to.lift_m;
   seat.speed_m_s[0] = -s.from.velocity_m_s, seat.speed_m_s[1] = -s.to.velocity_m_s;
   seat.rate_m_s2[0] = -s.acceleration[0], seat.rate_m_s2[1] = -s.acceleration[1];
   return s;
+}
+
+/// What the cam's lift in the middle of a wide fine step, over which the cubic through its ends does not do, adds to
+/// it.
+template <class Real, class Gas>
+[[gnu::cold, gnu::noinline]] void add_middle(const ValveMotion<Real>& motion, const LiftCurve<Real>& curve,
+                                             std::uint32_t regime, const Span<Real, Gas>& step, std::uint64_t middle,
+                                             Stepped<Real>& end) noexcept {
+  CRANKLOOP_ASSERT(regime < kQuiet);
+  if ((regime & kTrainOn) == 0) return;
+  const MiddleStep<Real>& by = motion.middle[regime >> 1];
+  const Lift<Real> lift = curve.read(LiftCurve<Real>::cell(middle));
+  const Real from_slope = step.cam.deg * step.from.per_deg_m;
+  const Real to_slope = step.cam.deg * step.to.per_deg_m;
+  const Real rise = step.to.lift_m - step.from.lift_m;
+  const Real more_m = lift.lift_m - step.from.lift_m - (rise / 2 + (from_slope - to_slope) / 8);
+  const Real more_slope_m = step.cam.deg * lift.per_deg_m - (6 * rise - (from_slope + to_slope)) / 4;
+  const Real higher_m = by.lift_by_lift * more_m + by.lift_by_slope * more_slope_m;
+  end.state.lift_m += higher_m;
+  end.state.velocity_m_s += by.velocity_by_lift * more_m + by.velocity_by_slope * more_slope_m;
+  end.increment_m += higher_m;
 }
 
 /// A contact that changes and changes back within a stretch: what tells of it turns round beyond zero.
@@ -125,6 +152,8 @@ template <class Real, class Gas>
 [[nodiscard]] inline Stepped<Real> by_series(const ValveMotion<Real>& motion, std::uint32_t regime,
                                              const ValveState<Real>& s, const Cubic<Real>& lift, Real x,
                                              const Gas& gas) noexcept {
+  CRANKLOOP_ASSERT(regime < kQuiet);
+  CRANKLOOP_ASSERT(x >= 0 && x <= 1);
   const RegimeSeries<Real>& k = motion.series[regime];
   const Real l1 = lift.c[1];
   const Real l2 = 2 * lift.c[2];

@@ -1,18 +1,17 @@
-// The plain step of several valves at once, one in each lane.
+// Several valves at once, one in each lane: what lanes have side by side, and how it is read.
 //
-// What belongs here: what lanes need side by side, and their step. What does not: the arithmetic of a step (valve.hpp),
-// lanes whose guards fail (valve_changes.hpp), which valves an engine has (elastic_valves.hpp).
-//
-// A resting valve is zeros under its regime's constants: it stays at rest, and needs no exception.
+// What belongs here: a lane's regime, its body, its cam. What does not: the plain step of a block of lanes
+// (lane_blocks.hpp), the arithmetic of a step (valve.hpp), which valves an engine has (elastic_valves.hpp).
 #pragma once
 
 #include <cstddef>
 #include <initializer_list>
 
+#include <crankloop/assert.hpp>
+#include <crankloop/tick/lanes.hpp>
 #include <crankloop/tick/valve/cam_ticks.hpp>
-#include <crankloop/tick/valve/valves_work.hpp>
-#include <crankloop/tick/valve/lanes.hpp>
 #include <crankloop/tick/valve/valve.hpp>
+#include <crankloop/tick/valve/valves_work.hpp>
 
 #if CRANKLOOP_ABREAST
 namespace crankloop::detail {
@@ -57,6 +56,20 @@ inline void set_lane(Work& w, std::size_t lane, const RegimeStep<float>& regime)
   for (std::size_t i = 0; i < sizeof numbers / sizeof(float); ++i) w.regime[i][lane] = numbers[i];
 }
 
+/// What a lane has of its valve's body.
+template <class S>
+inline void set_body_of_lane(AbreastWork<S>& w, std::size_t lane, const ValveMotion<float>& motion) noexcept {
+  if constexpr (S::valve_gas)
+    w.head_area_m2[lane] = motion.body.head_area_m2, w.per_seat_N_m[lane] = motion.per_seat_N_m;
+  if constexpr (S::valve_forces) {
+    const ValveBody<float>& b = motion.body;
+    w.train_N_m[lane] = b.train_N_m, w.train_Ns_m[lane] = b.train_Ns_m;
+    w.preload_N[lane] = b.preload_N, w.seat_N_m[lane] = b.seat_N_m, w.seat_Ns_m[lane] = b.seat_Ns_m;
+    w.rocker_mass_kg[lane] = b.rocker_mass_kg;
+  }
+  (void)w, (void)lane, (void)motion;
+}
+
 /// What a lane has of its cam.
 template <class Work>
 inline void set_cam_of_lane(Work& w, std::size_t lane, const LiftCurve<float>& curve, std::uint32_t opens) noexcept {
@@ -74,11 +87,13 @@ struct LanesTick {
   float deg[kRoom], deg_per_s[kRoom];
   std::uint32_t degree[kRoom], into[kRoom];  ///< where the train's cams stand, as AbreastWork has the lobes' beginnings
 
-  void set(std::size_t lane, const CamTick<float>& tick) noexcept {
-    const std::size_t i = S::cam_phasing ? lane : 0;
+  void set(std::size_t first, std::size_t lanes, const CamTick<float>& tick) noexcept {
+    CRANKLOOP_ASSERT(first + lanes <= kRoom);
     const Cell cell = LiftCurve<float>::cell(tick.phase);
-    deg[i] = tick.cam.deg, deg_per_s[i] = tick.cam.deg_per_s;
-    degree[i] = cell.degree, into[i] = cell.into;
+    for (std::size_t i = first; i < first + lanes; ++i) {
+      deg[i] = tick.cam.deg, deg_per_s[i] = tick.cam.deg_per_s;
+      degree[i] = cell.degree, into[i] = cell.into;
+    }
   }
   template <class Lanes>
   [[nodiscard, gnu::always_inline]] static Lanes of(const float (&x)[kRoom], std::size_t first) noexcept {
@@ -95,11 +110,19 @@ struct LanesTick {
   }
 };
 
+/// Where each lane's cam stands: a segment of its lift, and how far into it.
+template <class Lanes>
+struct LanesPlace {
+  std::uint32_t segment[kLanesOf<Lanes>];  ///< that of outside the lobe is its last
+  Lanes u;
+};
+
 /// The lift of each lane's cam: bit for bit that of LiftCurve::read at LiftCurve::cell. Its angle is the cams' less
 /// that of the lobe's beginning, so its place among the degrees is too, but for a borrow and for a turn.
 template <class Lanes, class S>
 [[nodiscard, gnu::always_inline]] inline Lift<Lanes> read_lanes(const AbreastWork<S>& w, std::size_t first,
-                                                                const LanesTick<S>& tick) noexcept {
+                                                                const LanesTick<S>& tick,
+                                                                LanesPlace<Lanes>& place) noexcept {
   using Words32 = typename Words<Lanes>::Bits;
   using Signed = decltype(Lanes{} < Lanes{});
   const auto load_signed = [first](const std::int32_t* from) {
@@ -115,13 +138,13 @@ template <class Lanes, class S>
   degree += (degree < 0) & kDegreesPerTurn;
   const Signed last = load_signed(w.degrees);
   degree = degree < last ? degree : last;
-  std::uint32_t segment[kLanesOf<Lanes>];
-  std::memcpy(segment, &degree, sizeof segment);
+  std::memcpy(place.segment, &degree, sizeof place.segment);
+  CRANKLOOP_ASSERT(place.segment[0] <= std::uint32_t{kDegreesPerTurn});
   const float* from[kLanesOf<Lanes>];
-  for (int i = 0; i < kLanesOf<Lanes>; ++i) from[i] = w.curve[first + static_cast<std::size_t>(i)][segment[i]].c;
+  for (int i = 0; i < kLanesOf<Lanes>; ++i) from[i] = w.curve[first + static_cast<std::size_t>(i)][place.segment[i]].c;
   Lanes c[6];
   load_lanes(from, c);
-  const Lanes u = __builtin_convertvector(reinterpret_cast<Signed>(into >> 8), Lanes) * 0x1p-24F;
+  const Lanes u = place.u = __builtin_convertvector(reinterpret_cast<Signed>(into >> 8), Lanes) * 0x1p-24F;
   Lanes slope = c[5];
   Lanes value = c[4] + u * slope;
   for (int i = 3; i >= 0; --i) {  // as LiftCurve::read
@@ -129,59 +152,6 @@ template <class Lanes, class S>
     value = c[i] + u * value;
   }
   return {value, slope};
-}
-
-/// The plain step of a block of lanes. State and output are left as if all were sure; answers a bit for each that is
-/// not. `look`: some lane is looked at whatever its guards say.
-template <class Lanes, class S, class Work, class State, class Before>
-[[nodiscard, gnu::always_inline]] inline std::uint32_t step_block(Work& w, State& state, std::size_t first,
-                                                                  const LanesTick<S>& tick, bool look, Before& before,
-                                                                  float* shown) noexcept {
-  const auto regime = regimes_at<Lanes>(w, first);
-  const ValveState<Lanes> start{load<Lanes>(&state.valve_lift_m[first]), load<Lanes>(&state.valve_velocity_m_s[first])};
-  const Lift<Lanes> from{load<Lanes>(&w.cam_lift_m[first]), load<Lanes>(&w.cam_per_deg_m[first])};
-  const Lanes deg_per_s = tick.template of<Lanes>(tick.deg_per_s, first);
-  const Lift<Lanes> to = read_lanes<Lanes>(w, first, tick);
-  const Stepped<Lanes> step =
-      stepped(regime, start, from, to, tick.template of<Lanes>(tick.deg, first), NoGasForce<Lanes>{});
-  const Lanes gap = to.lift_m - step.state.lift_m;
-  const Lanes gap_speed = deg_per_s * to.per_deg_m - step.state.velocity_m_s;
-  const auto sure =
-      holds(regime.train, gap, gap_speed) & holds(regime.seat, step.state.lift_m, step.state.velocity_m_s);
-  const auto still =
-      (magnitude(step.state.lift_m) < regime.rest_m) & (magnitude(step.state.velocity_m_s) < regime.rest_m_s);
-  const ValveState<Lanes> end{still ? Lanes{} : step.state.lift_m, still ? Lanes{} : step.state.velocity_m_s};
-  const Lanes accelerates = acceleration(regime.acceleration, end, to.lift_m - end.lift_m,
-                                         deg_per_s * to.per_deg_m - end.velocity_m_s, NoGasForce<Lanes>{});
-  store<Lanes>(&state.valve_lift_m[first], end.lift_m);
-  store<Lanes>(&state.valve_velocity_m_s[first], end.velocity_m_s);
-  store<Lanes>(&w.cam_lift_m[first], to.lift_m);
-  store<Lanes>(&w.cam_per_deg_m[first], to.per_deg_m);
-  store_lanes(to.lift_m > Lanes{} ? to.lift_m : Lanes{}, end.lift_m, end.velocity_m_s, accelerates, shown);
-  const std::uint32_t doubtful = failing(sure);
-  if (!look && doubtful == 0) return 0;
-  store<Lanes>(&before.lift_m[first], start.lift_m);
-  store<Lanes>(&before.velocity_m_s[first], start.velocity_m_s);
-  store<Lanes>(&before.rise_m[first], step.rise_m);
-  store<Lanes>(&before.cam_lift_m[first], from.lift_m);
-  store<Lanes>(&before.cam_per_deg_m[first], from.per_deg_m);
-  return doubtful;
-}
-
-/// Blocks of this width from lane `first` on, as far as they fill `lanes` of them; `done` so far. `far`: lanes that are
-/// looked at in any case.
-template <class Lanes, class S, class Work, class State, class Before, class Bits>
-[[nodiscard, gnu::always_inline]] inline Bits step_blocks(Work& w, State& state, const LanesTick<S>& tick,
-                                                          std::uint32_t first, std::uint32_t lanes, Bits far,
-                                                          Before& before, float* shown, std::uint32_t& done) noexcept {
-  constexpr auto kWidth = static_cast<std::uint32_t>(kLanesOf<Lanes>);
-  Bits doubtful = 0;
-  for (; done + kWidth <= lanes; done += kWidth) {
-    const std::uint32_t at = first + done;
-    const bool look = (far >> at & ((1u << kWidth) - 1)) != 0;
-    doubtful |= Bits{step_block<Lanes>(w, state, at, tick, look, before, shown + 4 * at)} << at;
-  }
-  return doubtful;
 }
 
 }  // namespace crankloop::detail

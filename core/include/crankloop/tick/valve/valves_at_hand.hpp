@@ -7,13 +7,15 @@
 #include <cstdint>
 #include <type_traits>
 
-#include <crankloop/tick/valve/cam_ticks.hpp>
+#include <crankloop/assert.hpp>
 #include <crankloop/output.hpp>
-#include <crankloop/tick/valve/valves_work.hpp>
 #include <crankloop/tables/tables.hpp>
+#include <crankloop/tick/gas/head_pressure.hpp>
+#include <crankloop/tick/valve/cam_ticks.hpp>
 #include <crankloop/tick/valve/valve_changes.hpp>
 #include <crankloop/tick/valve/valve_outputs.hpp>
 #include <crankloop/tick/valve/valves_abreast.hpp>
+#include <crankloop/tick/valve/valves_work.hpp>
 
 namespace crankloop::detail {
 
@@ -26,7 +28,7 @@ struct ValvesAtHand {
   using Bits = ValveBits<S>;
   static constexpr bool kAbreast = CRANKLOOP_ABREAST != 0 && kMayGoAbreast<Real, S>;
   static constexpr std::uint32_t kPerTrain = S::cylinders.capacity;
-  static constexpr std::uint32_t kMostValves = S::trains.capacity * kPerTrain;
+  static constexpr std::uint32_t kMaxValves = S::trains.capacity * kPerTrain;
 
   const Tables<Real, S>& tables;
   State<Real, S>& state;
@@ -90,11 +92,28 @@ struct ValvesAtHand {
     }
   }
   void set_regime(std::uint32_t v, std::uint32_t regime) noexcept {
+    CRANKLOOP_ASSERT(v < kMaxValves && regime < std::uint32_t{kRegimes});
     state.valve_regime[v] = regime;
     if constexpr (!kMayGoAbreast<Real, S>) work.valve[v].regime = &motion(v).whole[regime];
 #if CRANKLOOP_ABREAST
     if constexpr (kAbreast) set_lane(work, v, motion(v).whole[regime]);
 #endif
+    set_known(v);
+  }
+  /// Lanes know what the valve's record has.
+  void set_known([[maybe_unused]] std::uint32_t v) noexcept {
+    if constexpr (kAbreast && S::valve_results) {
+      const detail::ValveRecord<Real>& record = state.record[train(v)][cylinder(v)];
+      const auto largest = record.largest();
+      work.largest_lift_m[v] = largest.lift_m, work.largest_speed_m_s[v] = largest.speed_m_s;
+      work.largest_acceleration_m_s2[v] = largest.acceleration_m_s2;
+      work.eventless_to_m[v] = record.eventless_to_m(contacts_of(state.valve_regime[v]));
+    }
+  }
+  /// Of a lane, into its valve's record.
+  void keep_largest(std::uint32_t v) noexcept {
+    state.record[train(v)][cylinder(v)].set_largest(
+        {work.largest_lift_m[v], work.largest_speed_m_s[v], work.largest_acceleration_m_s2[v]});
   }
   [[nodiscard]] const RegimeStep<Real>& regime_of(std::uint32_t v) const noexcept {
     if constexpr (kMayGoAbreast<Real, S>)
@@ -103,16 +122,28 @@ struct ValvesAtHand {
       return *work.valve[v].regime;
   }
 
+  /// On the head's other side.
+  [[nodiscard]] Real behind_head_Pa([[maybe_unused]] std::uint32_t v) const noexcept {
+    if constexpr (Needs<S>::gas) {
+      return port_pressure_Pa(tables, state, train(v));
+    } else {
+      return tables.body->crankcase_Pa;
+    }
+  }
   [[nodiscard]] Real gas_now_N(std::uint32_t v) const noexcept {
     if constexpr (S::valve_gas) {
-      if (pressure_Pa != nullptr)
-        return (pressure_Pa[cylinder(v)] - tables.body->crankcase_Pa) * motion(v).body.head_area_m2;
+      if (pressure_Pa != nullptr) return (pressure_Pa[cylinder(v)] - behind_head_Pa(v)) * motion(v).body.head_area_m2;
     }
     (void)v;
     return Real{0};
   }
   [[nodiscard]] Gas gas_on(std::uint32_t v) const noexcept {
-    if constexpr (S::valve_gas) return {state.valve_gas_N[v], gas_now_N(v)};
+    if constexpr (Needs<S>::gas && S::valve_gas) {
+      const Real from_Pa = state.cylinder_gas[cylinder(v)].point.pressure_Pa;
+      return {(from_Pa - behind_head_Pa(v)) * motion(v).body.head_area_m2, gas_now_N(v)};
+    } else if constexpr (S::valve_gas) {
+      return {state.valve_gas_N[v], gas_now_N(v)};
+    }
     (void)v;
     return {};
   }
@@ -124,7 +155,7 @@ struct ValvesAtHand {
       const auto opens = static_cast<std::uint32_t>(curve.opens[cylinder(v)] >> 32);
       if constexpr (!kMayGoAbreast<Real, S>) work.valve[v].curve = &curve, work.valve[v].opens = opens;
 #if CRANKLOOP_ABREAST
-      if constexpr (kAbreast) set_cam_of_lane(work, v, curve, opens);
+      if constexpr (kAbreast) set_cam_of_lane(work, v, curve, opens), set_body_of_lane(work, v, motion(v));
 #endif
       (void)opens;
     });
@@ -132,11 +163,29 @@ struct ValvesAtHand {
 
   [[gnu::always_inline]] void show(std::uint32_t v, const ValveState<Real>& end, Cell cell, const Moment<Real>& at,
                                    const Gas& gas) noexcept {
-    if constexpr (S::valve_gas) state.valve_gas_N[v] = gas.to_N;
+    if constexpr (Needs<S>::valve_gas_held) state.valve_gas_N[v] = gas.to_N;
     show_motion((&out.valve[0][0])[v], end, at);
     if constexpr (S::valve_forces)
       show_forces((&out.valve_forces[0][0])[v], motion(v).body, curve(v), {end, state.valve_regime[v]}, cell, at);
     (void)cell, (void)gas;
+  }
+
+  /// Into the record of its cycle: a plain step, its gas force, and its acceleration at the end as shown.
+  [[gnu::always_inline]] void note(std::uint32_t v, const ValveState<Real>& start, const ValveState<Real>& end,
+                                   const Lift<Real>& from, const Lift<Real>& to, const CamTick<Real>& tick,
+                                   const Gas& gas, Real acceleration_m_s2) noexcept {
+    const Real from_m_s = tick.cam.deg_per_s * from.per_deg_m;
+    const Real started_m_s2 = acceleration(regime_of(v).acceleration, start, from.lift_m - start.lift_m,
+                                           from_m_s - start.velocity_m_s, gas.before());
+    state.record[train(v)][cylinder(v)].step(
+        {start, end, from.lift_m, to.lift_m, from_m_s, tick.cam.deg_per_s * to.per_deg_m, started_m_s2,
+         acceleration_m_s2, motion(v).tick_s, contacts_of(state.valve_regime[v])},
+        motion(v).body.seat_compression_m, [&](Real part) { return deg_in(v, tick, part); });
+  }
+  /// Cam degrees since the start of its lobe, after a part of the tick.
+  [[nodiscard, gnu::cold, gnu::noinline]] Real deg_in(std::uint32_t v, const CamTick<Real>& tick,
+                                                      Real part) const noexcept {
+    return curve(v).degrees(tick.phase_before() - curve(v).opens[cylinder(v)]) + part * tick.cam.deg;
   }
 
   [[nodiscard]] Changes changes(std::uint32_t v, ChangeBudget& budget) noexcept {

@@ -6,12 +6,12 @@
 
 #include <cstdint>
 
-#include <crankloop/tick/valve/cam_ticks.hpp>
-#include <crankloop/tick/valve/elastic_valves.hpp>
 #include <crankloop/input.hpp>
 #include <crankloop/output.hpp>
-#include <crankloop/tick/valve/valves_work.hpp>
 #include <crankloop/tables/tables.hpp>
+#include <crankloop/tick/valve/cam_ticks.hpp>
+#include <crankloop/tick/valve/elastic_valves.hpp>
+#include <crankloop/tick/valve/valves_work.hpp>
 
 namespace crankloop::detail {
 

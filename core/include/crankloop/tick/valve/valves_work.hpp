@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include <crankloop/assert.hpp>
 #include <crankloop/state.hpp>
 #include <crankloop/tables/lift_curve.hpp>
 #include <crankloop/tables/valve_tables.hpp>
@@ -35,7 +36,10 @@ struct CamClearance {
     ahead = to < ahead ? to : ahead;
     behind = since < behind ? since : behind;
   }
-  [[nodiscard]] constexpr CamWindow about(std::uint32_t angle) const noexcept { return {angle - behind, behind + ahead}; }
+  [[nodiscard]] constexpr CamWindow about(std::uint32_t angle) const noexcept {
+    CRANKLOOP_ASSERT(ahead <= 0x7FFF'FFFF && behind <= 0x7FFF'FFFF);
+    return {angle - behind, behind + ahead};
+  }
 };
 
 /// Whether a scene's valves may be stepped abreast. By processor, not by the compiler's flags: a layout depends on it.
@@ -45,20 +49,45 @@ inline constexpr bool kHasLanes = true;
 inline constexpr bool kHasLanes = false;
 #endif
 template <class Real, class S>
-inline constexpr bool kMayGoAbreast = kHasLanes && sizeof(Real) == 4 && !S::valve_gas && !S::valve_forces && !S::valve_results;
+inline constexpr bool kMayGoAbreast = kHasLanes && sizeof(Real) == 4;
+
+template <class S>
+inline constexpr std::size_t kLaneRoom = (group::ValvesState<float, S>::kLanes + 7) / 8 * 8;
+
+/// What lanes need side by side of their valves' bodies, where gas pushes them,
+template <class S>
+struct GasLanes {
+  float head_area_m2[kLaneRoom<S>] = {}, per_seat_N_m[kLaneRoom<S>] = {};
+};
+/// and where their forces are shown;
+template <class S>
+struct ForceLanes {
+  float train_N_m[kLaneRoom<S>] = {}, train_Ns_m[kLaneRoom<S>] = {};
+  float preload_N[kLaneRoom<S>] = {}, seat_N_m[kLaneRoom<S>] = {}, seat_Ns_m[kLaneRoom<S>] = {};
+  float rocker_mass_kg[kLaneRoom<S>] = {};
+};
+/// and of their records: the largest values, and ValveRecord::eventless_to_m().
+template <class S>
+struct RecordLanes {
+  float largest_lift_m[kLaneRoom<S>] = {}, largest_speed_m_s[kLaneRoom<S>] = {};
+  float largest_acceleration_m_s2[kLaneRoom<S>] = {};
+  float eventless_to_m[kLaneRoom<S>] = {};
+};
 
 /// What lanes need side by side (tick/valve/valves_abreast.hpp).
 template <class S>
-struct alignas(16) AbreastWork {
-  static constexpr std::size_t kRoom = (ValvesState<float, S>::kLanes + 7) / 8 * 8;
-  static constexpr bool kBlocksAligned = S::cylinders.exact || S::cylinders.capacity % 8 == 0;
-  float regime[32][kRoom] = {};            ///< numbers of each lane's RegimeStep, up to calm_m
+struct alignas(16) AbreastWork : If<S::valve_gas, GasLanes<S>>,
+                                 If<S::valve_forces, ForceLanes<S>>,
+                                 If<S::valve_results, RecordLanes<S>> {
+  static constexpr std::size_t kRoom = kLaneRoom<S>;
+  static constexpr bool kBlocksAligned = S::cylinders.exact || S::cylinders.capacity % 4 == 0;
+  float regime[32][kRoom] = {};                 ///< numbers of each lane's RegimeStep, up to calm_m
   const LiftSegment<float>* curve[kRoom] = {};  ///< of its cam's lift, one for each degree of the lobe and one outside
-  std::int32_t degrees[kRoom] = {};        ///< of its lobe
-  std::int32_t opens_degree[kRoom] = {};   ///< of the train's cams: where its lobe begins,
-  std::uint32_t opens_into[kRoom] = {};    ///< and where in that degree, 2^32 = all of it
-  float cam_lift_m[kRoom] = {};            ///< at the tick's end,
-  float cam_per_deg_m[kRoom] = {};         ///< and its slope
+  std::int32_t degrees[kRoom] = {};             ///< of its lobe
+  std::int32_t opens_degree[kRoom] = {};        ///< of the train's cams: where its lobe begins,
+  std::uint32_t opens_into[kRoom] = {};         ///< and where in that degree, 2^32 = all of it
+  float cam_lift_m[kRoom] = {};                 ///< at the tick's end,
+  float cam_per_deg_m[kRoom] = {};              ///< and its slope
 };
 
 /// What a valve that goes by itself has at hand.
@@ -71,7 +100,7 @@ struct ValveWork {
 };
 template <class Real, class S>
 struct OneByOneWork {
-  ValveWork<Real> valve[ValvesState<Real, S>::kLanes] = {};
+  ValveWork<Real> valve[group::ValvesState<Real, S>::kLanes] = {};
 };
 
 /// A bit for each valve of an engine, by its number.
@@ -81,11 +110,11 @@ using ValveBits = std::conditional_t<(S::trains.capacity * S::cylinders.capacity
 /// What a tick of elastic valves remembers beside the state, all of it worked out from that.
 template <class Real, class S>
 struct ValvesWork : std::conditional_t<kMayGoAbreast<Real, S>, AbreastWork<S>, OneByOneWork<Real, S>> {
-  Real leap_deg = 0;                                      ///< a tick that turns some cam so far may pass over all of its lobe that counts;
-  Real far_deg = 0;                                       ///< over more than the cubic through its ends tells
-  ValveBits<S> moving = 0;                                ///< those that are not at rest with their cams away
-  CamWindow clear[kCamGroups<S>] = {};                    ///< of these cams' turn: none of a valve at rest comes near there,
-  CamWindow no_end[kCamGroups<S>] = {};                   ///< and none of any valve ends its cycle
+  Real skip_deg = 0;        ///< a tick that turns some cam so far may pass over all of its lobe that counts;
+  Real far_deg = 0;         ///< over more than the cubic through its ends tells
+  ValveBits<S> moving = 0;  ///< those that are not at rest with their cams away
+  CamWindow clear[kCamGroups<S>] = {};   ///< of these cams' turn: none of a valve at rest comes near there,
+  CamWindow no_end[kCamGroups<S>] = {};  ///< and none of any valve ends its cycle
 };
 
 template <class Real, class S>

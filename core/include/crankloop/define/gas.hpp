@@ -1,0 +1,114 @@
+// The gas of an engine that breathes through its valves: manifolds, ports, walls, combustion.
+//
+// What belongs here: what a scene with PressureGiven::by_gas needs to know beyond the engine itself. What does not:
+// what changes from tick to tick (throttle, fuel, spark: input.hpp). Equations: docs/model.md "Gas".
+#pragma once
+
+#include <cstdint>
+
+#include <crankloop/define/field.hpp>
+#include <crankloop/limits.hpp>
+#include <crankloop/status.hpp>
+
+namespace crankloop {
+
+enum class GasPort : std::uint8_t { none, intake, exhaust };
+
+inline constexpr int kMaxFlowPoints = 16;
+
+/// What a valve train opens. All valves of it are alike (Valve::per_cylinder).
+struct PortOfTrain {
+  GasPort port = GasPort::none;  ///< a train of an engine that breathes needs one
+  double seat_diameter_m = 0;    ///< D, inner; > 0, at most 1
+  /// Flow coefficient times geometric area over pi/4 D^2, by the lift over D: discharge, curtain and port in one
+  /// measured curve. Straight lines between, from 0 at 0; beyond the last the last. Lift ratios rising, 0 to 0.5; flow
+  /// ratios 0 to 1.
+  int flow_count = 10;  ///< 2 to kMaxFlowPoints
+  double flow_lift_ratio[kMaxFlowPoints] = {0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5};
+  double flow_ratio[kMaxFlowPoints] = {0, 0.14, 0.27, 0.385, 0.47, 0.52, 0.555, 0.575, 0.59, 0.6};
+
+  template <class Visit, class Self, class... Others>
+  static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    const bool any = self.port != GasPort::none;
+    CRANKLOOP_FIELD(1, gas, port);
+    CRANKLOOP_FIELD(any ? 1 : 0, gas, seat_diameter_m);
+    CRANKLOOP_FIELD(any ? 1 : 0, gas, flow_count);
+    CRANKLOOP_FIELD(any ? self.flow_count : 0, gas, flow_lift_ratio);
+    CRANKLOOP_FIELD(any ? self.flow_count : 0, gas, flow_ratio);
+  }
+};
+
+/// All pressures are absolute.
+struct Gas {
+  // manifolds, for scenes with a throttle
+  double intake_m3 = 3000e-6;         ///< > 0, at most 100
+  double exhaust_m3 = 2500e-6;        ///< > 0, at most 100
+  double throttle_m2 = 1600e-6;       ///< effective area wide open; > 0, at most 10
+  double throttle_closed_m2 = 12e-6;  ///< 0 to the open one
+  int throttle_count =
+      4;  ///< 2 to kMaxFlowPoints: share of the area between closed and open, by the throttle ratio, straight lines
+  double throttle_ratio[kMaxFlowPoints] = {0, 0.2, 0.5, 1};        ///< rising from 0 to 1
+  double throttle_area_ratio[kMaxFlowPoints] = {0, 0.06, 0.3, 1};  ///< 0 to 1
+  double outlet_m2 = 1200e-6;                                      ///< exhaust system as one orifice; > 0, at most 10
+  double ambient_Pa = 100e3;                                       ///< 1e3 to 1e7
+  double ambient_K = 298.15;                                       ///< 150 to 3000
+  double exhaust_K = 773.15;  ///< of gas that may flow back from the outlet; 150 to 3000
+  // walls
+  double wall_K = 423.15;      ///< 150 to 2000
+  double wall_heat_ratio = 1;  ///< k_w; 0 = adiabatic; 0 to 100
+  // combustion
+  double fuel_kg = 30e-6;               ///< per cycle and cylinder; 0 to 0.01
+  double heating_value_J_kg = 43e6;     ///< lower; 0 to 2e8
+  double combustion_efficiency = 0.97;  ///< 0 to 1
+  double air_fuel_ratio = 14.6;         ///< L, stoichiometric, by mass; 1 to 100
+  double latch_deg = -90;               ///< where a cylinder takes its cycle's fuel and burn; -180 to -90
+  double burn_start_deg = -18;          ///< -90 to 60
+  double burn_duration_deg = 50;        ///< 5 to 150; the burn ends by 150 deg
+  double wiebe_m = 2;                   ///< 0 to 10
+  double second_ratio = 0;           ///< of the fuel that burns by a second law, from the same start (diesel); 0 to 1
+  double second_m = 1;               ///< 0 to 10
+  double second_duration_ratio = 3;  ///< of its duration to the first's; 0.1 to 10
+  PortOfTrain ports[kMaxTrains];
+
+  /// The whole burn's duration, by that of the first law.
+  [[nodiscard]] constexpr double span_ratio() const noexcept {
+    return second_ratio > 0 && second_duration_ratio > 1 ? second_duration_ratio : 1;
+  }
+
+  template <class Visit, class Self, class... Others>
+  static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    CRANKLOOP_FIELD(1, gas, intake_m3);
+    CRANKLOOP_FIELD(1, gas, exhaust_m3);
+    CRANKLOOP_FIELD(1, gas, throttle_m2);
+    CRANKLOOP_FIELD(1, gas, throttle_closed_m2);
+    CRANKLOOP_FIELD(1, gas, throttle_count);
+    CRANKLOOP_FIELD(self.throttle_count, gas, throttle_ratio);
+    CRANKLOOP_FIELD(self.throttle_count, gas, throttle_area_ratio);
+    CRANKLOOP_FIELD(1, gas, outlet_m2);
+    CRANKLOOP_FIELD(1, gas, ambient_Pa);
+    CRANKLOOP_FIELD(1, gas, ambient_K);
+    CRANKLOOP_FIELD(1, gas, exhaust_K);
+    CRANKLOOP_FIELD(1, gas, wall_K);
+    CRANKLOOP_FIELD(1, gas, wall_heat_ratio);
+    CRANKLOOP_FIELD(1, gas, fuel_kg);
+    CRANKLOOP_FIELD(1, gas, heating_value_J_kg);
+    CRANKLOOP_FIELD(1, gas, combustion_efficiency);
+    CRANKLOOP_FIELD(1, gas, air_fuel_ratio);
+    CRANKLOOP_FIELD(1, gas, latch_deg);
+    CRANKLOOP_FIELD(1, gas, burn_start_deg);
+    CRANKLOOP_FIELD(1, gas, burn_duration_deg);
+    CRANKLOOP_FIELD(1, gas, wiebe_m);
+    CRANKLOOP_FIELD(1, gas, second_ratio);
+    CRANKLOOP_FIELD(1, gas, second_m);
+    CRANKLOOP_FIELD(1, gas, second_duration_ratio);
+    CRANKLOOP_PART(kMaxTrains, ports);
+  }
+};
+
+/// Where a burn must have ended, before the exhaust opens.
+inline constexpr double kLatestBurn_deg = 150;
+
+/// Field names "gas.*", of ports "valve.*" with the train in `index`, where the tables read them: `trains` of them.
+Status validate(const Gas& gas, int trains) noexcept;
+
+}  // namespace crankloop

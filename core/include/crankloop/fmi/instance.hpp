@@ -1,0 +1,476 @@
+// One functional mock-up unit (FMU) at work: its variables, its life cycle, its time, its state as bytes. The same for
+// FMI 2.0 and 3.0, whose functions (fmi/fmi2.hpp, fmi/fmi3.hpp) only translate.
+//
+// What belongs here: what an importer's calls do. What does not: where tables come from, which is the Supply's:
+//
+//     using Real, Scene
+//     static constexpr std::size_t kMaxParameters      engine numbers that may be set before the start
+//     bool open(const char* resources, Message& why)    once; from then on the following answer
+//     EngineShape shape() const;  double tick_s() const;  std::uint64_t identity() const;  std::size_t parameters()
+//     const Variable parameter(std::size_t) const;  double parameter_default(std::size_t) const const Tables<Real,
+//     Scene>* build(const double* parameters, Message& why)      null: refused
+//
+// Nothing is allocated here: an instance lies in one piece of memory, a stored state in another.
+#pragma once
+
+#include <cstdarg>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+#include <crankloop/crankloop.h>  // the version
+
+#include <crankloop/engine.hpp>
+#include <crankloop/tick/state/saved_state.hpp>
+#include <crankloop/variable_values.hpp>
+#include <crankloop/variables.hpp>
+
+namespace crankloop::fmi {
+
+using namespace crankloop::detail;  // the list of variables
+
+/// A refusal in words.
+struct Message {
+  char text[2048];  // all of it cleared would take as long as a tick
+
+  Message() noexcept { text[0] = '\0'; }
+
+  [[gnu::format(printf, 2, 3)]] void say(const char* format, ...) noexcept {
+    std::va_list values;
+    va_start(values, format);
+    std::vsnprintf(text, sizeof text, format, values);
+    va_end(values);
+  }
+};
+
+/// `event`: an output that changes at an edge or fault, and in no step between.
+enum class Role : std::uint8_t { independent, input, parameter, output, event, constant };
+
+/// What get and set need of a variable.
+struct Slot {
+  std::uint32_t offset;  ///< from the instance's begin
+  Storage storage;
+  VariableKind kind;
+  Role role;
+};
+
+enum class Stage : std::uint32_t { instantiated, initializing, stepping, terminated };
+
+inline constexpr std::uint32_t kEdgesShown = 8;
+/// Whole numbers are signed in FMI 2: counts go on at 0 behind this one.
+inline constexpr std::uint32_t kMaxWhole = 0x7FFF'FFFF;
+
+/// A trigger wheel's signal since the start; edges newest first.
+struct WheelShown {
+  std::uint32_t level = 0;
+  std::uint32_t edges = 0;
+  double edge_s[kEdgesShown] = {};
+  std::uint32_t edge_rises[kEdgesShown] = {};
+};
+
+[[nodiscard]] inline bool finite(double x) noexcept {
+  return detail::within(x, -std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
+}
+
+template <class Supply>
+class Instance {
+ public:
+  using Real = typename Supply::Real;
+  using S = typename Supply::Scene;
+  using Token = std::uint32_t[4];
+
+  /// Once, in new memory. False: `why` says what is wrong with the resources.
+  bool open(const char* resources, Message& why) noexcept {
+    if (!supply_.open(resources, why)) return false;
+    shape_ = supply_.shape();
+    tick_s_ = supply_.tick_s();
+    std::uint32_t next = 0;
+    each([this, &next](Role role, const Variable& variable, auto& value) {
+      using Value = std::remove_cv_t<std::remove_reference_t<decltype(value)>>;
+      const auto* at = reinterpret_cast<const unsigned char*>(&value);
+      const auto offset = static_cast<std::uint32_t>(at - reinterpret_cast<const unsigned char*>(this));
+      slots_[next++] = {offset, kStorageOf<Value>, variable.kind, role};
+    });
+    variables_ = next;
+    make_token();
+    reset();
+    return true;
+  }
+
+  [[nodiscard]] const Token& token() const noexcept { return token_; }
+  [[nodiscard]] const EngineShape& shape() const noexcept { return shape_; }
+  [[nodiscard]] const Supply& supply() const noexcept { return supply_; }
+  [[nodiscard]] double tick_s() const noexcept { return tick_s_; }
+  [[nodiscard]] Stage stage() const noexcept { return kept_.stage; }
+  [[nodiscard]] double time_s() const noexcept { return kept_.time_s; }
+  [[nodiscard]] std::uint32_t faults() const noexcept { return kept_.faults; }
+  [[nodiscard]] std::uint32_t variables() const noexcept { return variables_; }
+
+  /// All variables, visit(role, variable, value): a variable's number in this order is its value reference.
+  template <class Visit>
+  void each(Visit&& visit) noexcept {
+    visit(Role::independent, real("time", "Time"), kept_.time_s);
+    double* input = kept_.inputs;
+    Input<double, S> shown;
+    each_input<S>([&](const Variable& variable, auto&) { visit(Role::input, variable, *input++); }, shown, shape_);
+    if constexpr (S::crank != CrankGiven::phase) {
+      visit(Role::parameter, real("start.crank_deg", "Crank angle at the start").within(0, 720), kept_.start_crank_deg);
+    }
+    if constexpr (detail::Needs<S>::crank_dynamics) {
+      const double limit_rad_s = shape_.speed_limit_rad_s;
+      visit(Role::parameter, real("start.speed_rad_s", "Crank speed at the start").within(-limit_rad_s, limit_rad_s),
+            kept_.start_speed_rad_s);
+    }
+    for (std::size_t i = 0; i < supply_.parameters(); ++i)
+      visit(Role::parameter, supply_.parameter(i), kept_.parameters[i]);
+    each_output<S>([&visit](const Variable& variable, auto& value) { visit(Role::output, variable, value); },
+                   engine_.state(), engine_.output(), shape_);
+    for (std::uint32_t i = 0; i < shape_.wheels; ++i) {
+      WheelShown& w = kept_.wheels[i];
+      visit(Role::event, truth("trigger[#].level", "Level of the signal").at(i), w.level);
+      visit(Role::event, whole("trigger[#].edges", "Edges since the start, modulo 2^31").at(i), w.edges);
+      for (std::uint32_t e = 0; e < kEdgesShown; ++e)
+        visit(Role::event, real("trigger[#].edge_s[#]", "Time of an edge; 1 is the newest").at(i, e), w.edge_s[e]);
+      for (std::uint32_t e = 0; e < kEdgesShown; ++e)
+        visit(Role::event, truth("trigger[#].edge_rises[#]", "Whether it rose").at(i, e), w.edge_rises[e]);
+    }
+    visit(Role::event, whole("faults", "Fault bits of the last communication step, or-ed"), kept_.faults);
+    visit(Role::event, whole("fault_ticks", "Ticks with a fault bit since the start"), kept_.fault_ticks);
+    visit(Role::constant, real("tick_s", "Length of a tick"), tick_s_);
+  }
+
+  // ---- get and set: `reference` is a value reference ---------------------------------------------------------
+
+  [[nodiscard]] bool has(std::uint32_t reference, VariableKind kind) const noexcept {
+    return reference < variables_ && slots_[reference].kind == kind;
+  }
+  /// Whether it may be set at this stage.
+  [[nodiscard]] bool takes(std::uint32_t reference, VariableKind kind) const noexcept {
+    if (!has(reference, kind)) return false;
+    const Role role = slots_[reference].role;
+    return role == Role::input || (role == Role::parameter && kept_.stage < Stage::stepping);
+  }
+
+  /// Of a reference that has the kind.
+  [[nodiscard]] double number(std::uint32_t reference) const noexcept {
+    const Slot& slot = slots_[reference];
+    auto* at = const_cast<unsigned char*>(reinterpret_cast<const unsigned char*>(this)) + slot.offset;
+    double number = 0;
+    with_value(slot.storage, at, [&number](auto& value) { number = as_number(value); });
+    return number;
+  }
+  /// Of a reference that takes it. All that may be set is kept in double.
+  void set_number(std::uint32_t reference, double value) noexcept {
+    std::memcpy(reinterpret_cast<unsigned char*>(this) + slots_[reference].offset, &value, sizeof value);
+  }
+
+  // ---- life cycle: false is a refusal, nothing has changed, `why` says it -------------------------------------
+
+  bool set_start(double start_s, Message& why) noexcept {
+    if (!finite(start_s)) return why.say("the start time is not finite"), false;
+    kept_.start_s = kept_.time_s = start_s;
+    return true;
+  }
+  void begin_initialization() noexcept { kept_.stage = Stage::initializing; }
+
+  bool finish_initialization(Message& why) noexcept {
+    if (!detail::within(kept_.start_crank_deg, 0.0, 720.0))
+      return why.say("start.crank_deg must be 0 to 720, not %g", kept_.start_crank_deg), false;
+    const double limit_rad_s = shape_.speed_limit_rad_s;
+    if (!detail::within(kept_.start_speed_rad_s, -limit_rad_s, limit_rad_s))
+      return why.say("start.speed_rad_s must be at most %g either way, not %g", limit_rad_s, kept_.start_speed_rad_s),
+             false;
+    if (!start_engine(why)) return false;
+    kept_.stage = Stage::stepping;
+    return true;
+  }
+
+  void terminate() noexcept { kept_.stage = Stage::terminated; }
+
+  /// As new; what the importer set is forgotten.
+  void reset() noexcept {
+    engine_ = Engine<Real, S>{};
+    kept_ = Kept{};
+    double* input = kept_.inputs;
+    Input<double, S> in;
+    each_input<S>([&input](const Variable&, auto& value) { *input++ = as_number(value); }, in, shape_);
+    for (std::size_t i = 0; i < supply_.parameters(); ++i) kept_.parameters[i] = supply_.parameter_default(i);
+  }
+
+  /// Advances to time_s + step_s by whole ticks. Tick k ends at start + k tick, however the importer divides the time,
+  /// and whatever its sums round to: a thousandth of a tick is forgiven.
+  bool step(double time_s, double step_s, Message& why) noexcept {
+    constexpr double kForgiven = 1e-3;
+    constexpr double kMaxTicks = 1e7;
+    if (!(step_s > 0 && step_s <= std::numeric_limits<double>::max()))
+      return why.say("a step of %g s: it must be above 0 and finite", step_s), false;
+    if (!detail::within(time_s - kept_.time_s, -tick_s_ / 2, tick_s_ / 2))
+      return why.say("a step from %.17g s, where the last one ended at %.17g s", time_s, kept_.time_s), false;
+    const double end_s = time_s + step_s;
+    const double due = (end_s - kept_.start_s) / tick_s_ + kForgiven -
+                       static_cast<double>(static_cast<std::int64_t>(kept_.ticks));  // signed: one instruction
+    if (!(due < kMaxTicks + 1)) return why.say("a step of %.0f ticks: at most %.0f are run", due, kMaxTicks), false;
+    kept_.faults = 0;
+    if (due >= 1) run(static_cast<std::uint32_t>(due));
+    kept_.time_s = end_s;
+    return true;
+  }
+
+  // ---- state as bytes -------------------------------------------------------------------------------------------
+
+  static constexpr std::size_t kEngineBytes = kSavedStateBytes<Real, S>;
+
+  /// Least significant byte first: "CLFM", form, size, token, the fields, CRC-32 of all before it.
+  void save(unsigned char* bytes) const noexcept {
+    for (int i = 0; i < 4; ++i) bytes[i] = static_cast<unsigned char>("CLFM"[i]);
+    detail::StateWriter write(bytes + 4);
+    write.put(kForm);
+    write.put(static_cast<std::uint32_t>(kStateBytes));
+    for (const std::uint32_t word : token_) write.put(word);
+    visit_kept(kept_, [&write](const auto& x) { write.put(x); });
+    each_output<S>([&write](const Variable&, const auto& x) { write_value(write, x); }, engine_.state(),
+                   engine_.output(), kLargestShape);
+    unsigned char* engine = bytes + kStateBytes - detail::kSavedChecksumBytes - kEngineBytes;
+    if (!save_state(engine_, engine, kEngineBytes).ok()) std::memset(engine, 0, kEngineBytes);  // not started yet
+    detail::StateWriter(bytes + kStateBytes - detail::kSavedChecksumBytes)
+        .put(detail::crc32_of(bytes, kStateBytes - detail::kSavedChecksumBytes));
+  }
+
+  /// Whether they are the bytes of a state of this FMU.
+  bool check(const unsigned char* bytes, Message& why) const noexcept {
+    if (std::memcmp(bytes, "CLFM", 4) != 0) return why.say("the bytes are no saved state"), false;
+    detail::StateReader read(bytes + 4);
+    const auto is = [&read](std::uint32_t expected) {
+      std::uint32_t word = 0;
+      read.take(word);
+      return word == expected;
+    };
+    if (!is(kForm) || !is(static_cast<std::uint32_t>(kStateBytes)))
+      return why.say("the state was saved by another version"), false;
+    for (const std::uint32_t word : token_) {
+      if (!is(word)) return why.say("the state is of another FMU"), false;
+    }
+    detail::StateReader checksum(bytes + kStateBytes - detail::kSavedChecksumBytes);
+    std::uint32_t sum = 0;
+    checksum.take(sum);
+    const bool whole = sum == detail::crc32_of(bytes, kStateBytes - detail::kSavedChecksumBytes);
+    return whole || (why.say("the state is damaged"), false);
+  }
+
+  /// Goes on from it. Refused: as it was.
+  bool load(const unsigned char* bytes, Message& why) noexcept {
+    if (!check(bytes, why)) return false;
+    detail::StateReader read(bytes + kHeaderBytes);
+    Kept kept{};
+    visit_kept(kept, [&read](auto& x) { read.take(x); });
+    if (kept.stage > Stage::terminated || !finite(kept.start_s) || !finite(kept.time_s))
+      return why.say("the state is damaged"), false;
+    Output<Real, S> output{};
+    [[maybe_unused]] State<Real, S> unused{};
+    each_output<S>([&read](const Variable&, auto& x) { read_value(read, x); }, unused, output, kLargestShape);
+    const unsigned char* engine = bytes + kStateBytes - detail::kSavedChecksumBytes - kEngineBytes;
+    if (kept.stage < Stage::stepping) {
+      engine_ = Engine<Real, S>{};
+    } else if (!load_engine(engine, kept.parameters, output, why)) {
+      return false;
+    }
+    kept_ = kept;
+    return true;
+  }
+
+ private:
+  static constexpr std::uint32_t kForm = 1;
+  static constexpr std::size_t kHeaderBytes = 28;
+  static constexpr EngineShape kLargestShape{S::cylinders.capacity, S::trains.capacity, S::triggers.capacity, 1.0};
+
+  [[nodiscard]] static constexpr std::size_t count_inputs() noexcept {
+    std::size_t count = 0;
+    Input<double, S> in{};
+    each_input<S>([&count](const Variable&, auto&) { ++count; }, in, kLargestShape);
+    return count;
+  }
+  struct OutputCount {
+    std::size_t variables, bytes;
+  };
+  [[nodiscard]] static constexpr OutputCount count_outputs() noexcept {
+    OutputCount count{};
+    const State<Real, S> state{};
+    const Output<Real, S> out{};
+    each_output<S>([&count](const Variable&, auto& value) { ++count.variables, count.bytes += sizeof value; }, state,
+                   out, kLargestShape);
+    return count;
+  }
+  static constexpr std::size_t kMaxInputs = count_inputs();
+  static constexpr std::size_t kMaxParameters = Supply::kMaxParameters > 0 ? Supply::kMaxParameters : 1;
+  static constexpr std::size_t kMaxWheels = S::triggers.capacity > 0 ? S::triggers.capacity : 1;
+  static constexpr std::size_t kMaxVariables =
+      6 + kMaxInputs + kMaxParameters + count_outputs().variables + kMaxWheels * (2 + 2 * kEdgesShown);
+
+  /// What a stored state has besides the engine.
+  struct Kept {
+    Stage stage = Stage::instantiated;
+    std::uint64_t ticks = 0;  ///< since the start
+    double start_s = 0;
+    double time_s = 0;  ///< where the last step ended
+    double start_crank_deg = 0;
+    double start_speed_rad_s = 0;
+    std::uint32_t faults = 0;
+    std::uint32_t fault_ticks = 0;
+    double inputs[kMaxInputs]{};
+    double parameters[kMaxParameters]{};
+    WheelShown wheels[kMaxWheels]{};
+  };
+  template <class AKept, class Visit>
+  static constexpr void visit_kept(AKept& k, const Visit& visit) noexcept {
+    visit(k.stage), visit(k.ticks), visit(k.start_s), visit(k.time_s);
+    visit(k.start_crank_deg), visit(k.start_speed_rad_s), visit(k.faults), visit(k.fault_ticks);
+    for (auto& x : k.inputs) visit(x);
+    for (auto& x : k.parameters) visit(x);
+    for (auto& w : k.wheels) {
+      visit(w.level), visit(w.edges);
+      for (auto& x : w.edge_s) visit(x);
+      for (auto& x : w.edge_rises) visit(x);
+    }
+  }
+  [[nodiscard]] static constexpr std::size_t count_kept_bytes() noexcept {
+    std::size_t bytes = 0;
+    const Kept none{};
+    visit_kept(none, [&bytes](const auto& x) { bytes += sizeof x; });
+    return bytes;
+  }
+
+ public:
+  static constexpr std::size_t kStateBytes =
+      kHeaderBytes + count_kept_bytes() + count_outputs().bytes + kEngineBytes + detail::kSavedChecksumBytes;
+
+ private:
+  template <class Value>
+  static void write_value(detail::StateWriter& write, const Value& x) noexcept {
+    if constexpr (std::is_same_v<Value, Phase>) {
+      write.put(x.units());
+    } else {
+      write.put(x);
+    }
+  }
+  template <class Value>
+  static void read_value(detail::StateReader& read, Value& x) noexcept {
+    if constexpr (std::is_same_v<Value, Phase>) {
+      read.phase(x);
+    } else {
+      read.take(x);
+    }
+  }
+
+  bool start_engine(Message& why) noexcept {
+    const Tables<Real, S>* tables = supply_.build(kept_.parameters, why);
+    if (tables == nullptr) return false;
+    if (const Status refused = engine_.init(*tables, phase_of(kept_.start_crank_deg)); !refused.ok())
+      return why.say("the engine does not start: %s, reason %d", refused.field, static_cast<int>(refused.reason)),
+             false;
+    if constexpr (detail::Needs<S>::crank_dynamics) {
+      // An engine's own state is of its own tables.
+      (void)engine_.restore(turning_at<Real, S>(engine_.state(), static_cast<Real>(kept_.start_speed_rad_s)));
+    }
+    return true;
+  }
+
+  /// The engine of a saved state, on tables of the parameters it was saved with. Refused: as it was.
+  bool load_engine(const unsigned char* bytes, const double* parameters, const Output<Real, S>& output,
+                   Message& why) noexcept {
+    const Tables<Real, S>* before = engine_.tables();
+    const Tables<Real, S>* tables = supply_.build(parameters, why);
+    Engine<Real, S> engine;
+    bool good = tables != nullptr && engine.init(*tables).ok();
+    if (good) {
+      good = load_state(bytes, kEngineBytes, engine).ok() && engine.restore(engine.state(), output).ok();
+      if (!good) why.say("the state of the engine is refused");
+    }
+    if (good) {
+      engine_ = engine;
+    } else if (before != nullptr) {
+      Message unsaid;  // they were built once
+      (void)supply_.build(kept_.parameters, unsaid);
+    }
+    return good;
+  }
+
+  void run(std::uint32_t count) noexcept {
+    Input<Real, S> in;
+    const double* input = kept_.inputs;
+    each_input<S>([&input](const Variable&, auto& value) { assign(value, *input++); }, in, shape_);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const auto& out = engine_.step(in);
+      if (out.faults != 0) {
+        kept_.faults |= out.faults;
+        if (kept_.fault_ticks < kMaxWhole) ++kept_.fault_ticks;
+      }
+      if constexpr (detail::Needs<S>::any_triggers) {
+        for (std::uint32_t w = 0; w < shape_.wheels; ++w) note_edges(kept_.wheels[w], out.trigger[w]);
+      }
+      ++kept_.ticks;
+    }
+  }
+
+  template <class Signal>
+  void note_edges(WheelShown& shown, const Signal& signal) const noexcept {
+    shown.level = signal.level;
+    if (signal.edge_count == 0) return;
+    shown.edges = (shown.edges + signal.edge_count) & kMaxWhole;
+    const std::uint32_t listed = signal.edge_count < S::trigger_edges ? signal.edge_count : S::trigger_edges;
+    for (std::uint32_t e = 0; e < listed; ++e) {
+      for (std::uint32_t k = kEdgesShown - 1; k > 0; --k) {
+        shown.edge_s[k] = shown.edge_s[k - 1];
+        shown.edge_rises[k] = shown.edge_rises[k - 1];
+      }
+      const double tick_begins_s = kept_.start_s + static_cast<double>(kept_.ticks) * tick_s_;
+      shown.edge_s[0] = tick_begins_s + static_cast<double>(signal.edge[e].time_s);
+      shown.edge_rises[0] = signal.edge[e].level;
+    }
+  }
+
+  /// What tells one FMU from another: tables, arithmetic, version, and every variable's name in its place.
+  void make_token() noexcept {
+    detail::Crc32 names;
+    each([&names](Role role, const Variable& variable, auto&) {
+      for (const char* c = variable.name; *c != '\0'; ++c) names.add(static_cast<unsigned char>(*c));
+      names.add(static_cast<std::uint32_t>(role) << 16 | variable.first << 8 | variable.second);
+    });
+    detail::Crc32 rest;
+    rest.add(detail::scene_code<S>());
+    rest.add(std::uint32_t{sizeof(Real)});
+    rest.add(std::uint32_t{CRANKLOOP_VERSION});
+    const std::uint64_t tick_bits = detail::bits_of(tick_s_);
+    rest.add(static_cast<std::uint32_t>(tick_bits));
+    rest.add(static_cast<std::uint32_t>(tick_bits >> 32));
+    const std::uint64_t identity = supply_.identity();
+    token_[0] = static_cast<std::uint32_t>(identity >> 32);
+    token_[1] = static_cast<std::uint32_t>(identity);
+    token_[2] = names.value();
+    token_[3] = rest.value();
+  }
+
+  Supply supply_{};
+  EngineShape shape_{};
+  double tick_s_ = 0;
+  Token token_{};
+  std::uint32_t variables_ = 0;
+  Slot slots_[kMaxVariables]{};
+
+  Engine<Real, S> engine_{};
+  Kept kept_{};
+};
+
+/// A token as FMI writes it: "{8-4-4-4-12}" of hexadecimal digits.
+struct TokenText {
+  char text[39];
+
+  explicit TokenText(const std::uint32_t (&t)[4]) noexcept {
+    std::snprintf(text, sizeof text, "{%08x-%04x-%04x-%04x-%04x%08x}", t[0], t[1] >> 16, t[1] & 0xFFFFu, t[2] >> 16,
+                  t[2] & 0xFFFFu, t[3]);
+  }
+};
+
+}  // namespace crankloop::fmi

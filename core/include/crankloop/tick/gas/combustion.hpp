@@ -1,0 +1,101 @@
+// What burns in a cylinder's step: fuel and burn taken once in a cycle, by a Wiebe law over the crank angle.
+// docs/model.md "Gas".
+//
+// What belongs here: when a cycle takes its fuel, how much of it burns. What does not: the heat that it makes
+// (cylinder_gas.hpp).
+#pragma once
+
+#include <cstdint>
+
+#include <crankloop/faults.hpp>
+#include <crankloop/input.hpp>
+#include <crankloop/phase.hpp>
+#include <crankloop/tables/gas_tables.hpp>
+#include <crankloop/tick/checked.hpp>
+#include <crankloop/tick/gas/gas_state.hpp>
+
+namespace crankloop::detail {
+
+/// A cylinder's way in its own cycle over one step; 0 = its firing top dead centre.
+struct CycleWay {
+  std::uint64_t to;
+  std::int64_t turned;
+
+  [[nodiscard]] constexpr std::uint64_t from() const noexcept { return to - static_cast<std::uint64_t>(turned); }
+  [[nodiscard]] constexpr bool forward() const noexcept { return turned > 0; }
+  [[nodiscard]] constexpr bool passes_forward(std::uint64_t place) const noexcept {
+    return turned > 0 && static_cast<std::int64_t>(to - place) >= 0 && static_cast<std::int64_t>(from() - place) < 0;
+  }
+  /// Over the top dead centre of gas exchange, where a cycle ends, either way: in the middle of all numbers, where the
+  /// top bit changes; it changes at firing top dead centre too.
+  [[nodiscard]] constexpr bool passes_end() const noexcept {
+    if (static_cast<std::int64_t>(from() ^ to) >= 0) return false;
+    return (to >> 63 != 0) == (turned > 0);
+  }
+  /// Whether it ends in the half of the cycle about gas exchange: 180 to 540 deg.
+  [[nodiscard]] constexpr bool in_gas_exchange() const noexcept {
+    constexpr std::uint64_t kQuarter = std::uint64_t{1} << 62;
+    return static_cast<std::int64_t>(to - kQuarter) >= 0;
+  }
+  /// Of the end, from -360 to 360.
+  template <class Real>
+  [[nodiscard]] constexpr Real deg() const noexcept {
+    return Phase{to}.template signed_cycles<Real>() * Real{kDegreesPerCycle};
+  }
+};
+
+/// Takes a cycle's fuel: no more burns than there is air for. What is out of range, or a burn that would not end in
+/// time, is that of the cycle before. Answers fault bits.
+template <class Real>
+[[gnu::noinline]] std::uint32_t take_fuel(CylinderBurn<Real>& burn, const BurnTable<Real>& table,
+                                          const GasContents<Real>& gas, const BurnOrder<Real>& order,
+                                          bool cut) noexcept {
+  constexpr Real kLatest_deg = static_cast<Real>(150.001);  // kLatestBurn_deg, and rounding
+  std::uint32_t faults = 0;
+  (void)checked(order.fuel_kg, within_positive(order.fuel_kg, static_cast<Real>(kMaxFuel_kg)), burn.asked_kg,
+                kFaultBurn, faults);
+  const bool good = within(order.start_deg, Real{-90}, Real{60}) && within(order.duration_deg, Real{5}, Real{150}) &&
+                    order.start_deg + order.duration_deg * table.span_ratio <= kLatest_deg;
+  if (good) {
+    burn.start_deg = order.start_deg, burn.duration_deg = order.duration_deg;
+  } else {
+    faults |= kFaultBurn;
+  }
+  burn.per_deg = Real{1} / (burn.duration_deg * table.span_ratio);
+  const Real air_kg = gas.mass_kg > gas.burned_kg ? gas.mass_kg - gas.burned_kg : Real{0};
+  const Real most_kg = air_kg * table.per_air_fuel_ratio;
+  const Real fuel_kg = cut ? Real{0} : burn.asked_kg;
+  burn.fuel_kg = fuel_kg < most_kg ? fuel_kg : most_kg;
+  burn.excess_air_ratio = fuel_kg > 0 ? most_kg / fuel_kg : Real{0};
+  burn.burnt_ratio = Real{0};
+  burn.taken = 1;
+  return faults;
+}
+
+/// Fuel that burns on the way. What has burned does not burn again where the crank turns back.
+template <class Real>
+[[nodiscard]] inline Real burnt_kg(CylinderBurn<Real>& burn, const BurnTable<Real>& table,
+                                   const CycleWay& way) noexcept {
+  if (!(burn.fuel_kg > 0)) return Real{0};
+  const Real s = (way.deg<Real>() - burn.start_deg) * burn.per_deg;
+  if (!(s > 0)) return Real{0};
+  Real burnt = Real{1};
+  if (s < 1) {
+    const Real place = s * Real{kBurnSteps};
+    const auto row = static_cast<std::int32_t>(place);
+    burnt = table.burnt[row] + (table.burnt[row + 1] - table.burnt[row]) * (place - static_cast<Real>(row));
+  }
+  if (!(burnt > burn.burnt_ratio)) return Real{0};
+  const Real fuel_kg = burn.fuel_kg * (burnt - burn.burnt_ratio);
+  burn.burnt_ratio = burnt;
+  if (!(s < 1)) burn.fuel_kg = Real{0};
+  return fuel_kg;
+}
+
+template <class Real>
+constexpr void end_burn(CylinderBurn<Real>& burn) noexcept {
+  burn.taken = 0;
+  burn.fuel_kg = Real{0};
+}
+
+}  // namespace crankloop::detail

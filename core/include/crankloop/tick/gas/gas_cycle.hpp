@@ -1,0 +1,63 @@
+// The cycle of one cylinder of an engine: the fuel that it brings to a step, the results that it leaves.
+#pragma once
+
+#include <cstdint>
+
+#include <crankloop/input.hpp>
+#include <crankloop/output.hpp>
+#include <crankloop/state.hpp>
+#include <crankloop/tables/tables.hpp>
+#include <crankloop/tick/gas/combustion.hpp>
+
+namespace crankloop::detail {
+
+/// As an input asks, or as defined.
+template <class Real, class S>
+[[nodiscard]] inline BurnOrder<Real> burn_order(const Tables<Real, S>& tables,
+                                                [[maybe_unused]] const Input<Real, S>& input,
+                                                [[maybe_unused]] std::uint32_t cylinder) noexcept {
+  if constexpr (Needs<S>::burn_input) {
+    (void)tables;
+    return {input.fuel_kg[cylinder], input.burn_start_deg[cylinder], input.burn_duration_deg[cylinder]};
+  } else {
+    return {tables.burn->fuel_kg, tables.burn->burn_start_deg, tables.burn->burn_duration_deg};
+  }
+}
+
+/// Fuel that burns on the way of a cylinder: where that passes latch_deg, of a new cycle. `ends`: it passes a cycle's
+/// end.
+template <class Real, class S>
+[[nodiscard]] inline Real burn_on_way(const Tables<Real, S>& tables, State<Real, S>& state, const Input<Real, S>& input,
+                                      std::uint32_t cylinder, const CycleWay& way, bool ends,
+                                      std::uint32_t& faults) noexcept {
+  const BurnTable<Real>& table = *tables.burn;
+  CylinderBurn<Real>& burn = state.burn[cylinder];
+  if (ends && !way.forward()) end_burn(burn);
+  if (burn.taken == 0 && way.passes_forward(table.latch_phase)) {
+    bool cut = false;
+    if constexpr (Needs<S>::gas_cut) cut = (input.cut_cylinders >> cylinder & 1u) != 0;
+    const BurnOrder<Real> order = burn_order(tables, input, cylinder);
+    faults |= take_fuel(burn, table, state.cylinder_gas[cylinder].contents, order, cut);
+  }
+  const Real fuel_kg = burnt_kg(burn, table, way);
+  if (ends && way.forward()) end_burn(burn);
+  return fuel_kg;
+}
+
+/// Shows a cycle that was recorded from its begin, and begins the next.
+template <class Real, class S>
+[[gnu::noinline]] void end_cycle(const Tables<Real, S>& tables, State<Real, S>& state, Output<Real, S>& out,
+                                 std::uint32_t cylinder) noexcept {
+  GasRecord<Real>& record = state.gas_record[cylinder];
+  const GasContents<Real>& gas = state.cylinder_gas[cylinder].contents;
+  if (record.whole != 0) {
+    Real heat_J_kg{}, excess_air_ratio{};
+    if constexpr (Needs<S>::burn) {
+      heat_J_kg = tables.burn->heat_J_kg, excess_air_ratio = state.burn[cylinder].excess_air_ratio;
+    }
+    out.gas_cycle[cylinder] = finished(record, gas, *tables.gas_cylinders, heat_J_kg, excess_air_ratio);
+  }
+  begin_cycle(record, gas);
+}
+
+}  // namespace crankloop::detail

@@ -1,0 +1,60 @@
+// What an engine's gas starts from, at init and where a measured crank jumps.
+#pragma once
+
+#include <crankloop/state.hpp>
+#include <crankloop/tables/tables.hpp>
+#include <crankloop/tick/gas/gas_inputs.hpp>
+#include <crankloop/tick/gas/gas_places.hpp>
+
+namespace crankloop::detail {
+
+/// In the intake manifold.
+template <class Real, class S>
+[[nodiscard]] GasPoint<Real> intake_of(const State<Real, S>& state) noexcept {
+  if constexpr (Needs<S>::manifolds) {
+    return state.manifold[kIntake].point;
+  } else {
+    return {state.given_gas[kIntake].pressure_Pa, state.given_gas[kIntake].temperature_K, Real{0}, Real{0}};
+  }
+}
+
+/// Anew, from the intake manifold, at the volumes as they are.
+template <class Real, class S>
+[[gnu::cold, gnu::noinline]] void fill_cylinders(const Tables<Real, S>& tables, State<Real, S>& state) noexcept {
+  const GasPoint<Real> from = intake_of(state);
+  for (std::uint32_t k = 0; k < count<S>(tables.drive->cylinders); ++k) {
+    CylinderGas<Real>& gas = state.cylinder_gas[k];
+    gas = {};
+    gas.volume_m3 = gas_volume_m3(tables, state.phase.units(), tables.drive->mechanism_of[k]);
+    gas.contents = contents_of(from.pressure_Pa, from.temperature_K, from.burned_ratio, gas.volume_m3);
+    gas.point = point_of(gas.contents, Real{1} / gas.volume_m3);
+    gas.pressure_before_Pa = gas.point.pressure_Pa;
+    const GasWalls<Real>& walls = tables.gas_cylinders->walls;
+    gas.wall_heat_W = wall_heat_W(walls, gas.point, gas.volume_m3, stirring_m_s(walls, state.speed_rad_s));
+    if constexpr (Needs<S>::burn) end_burn(state.burn[k]);
+    if constexpr (S::gas_results) state.gas_record[k] = {};
+  }
+}
+
+/// Manifolds as outside, and cylinders filled from there.
+template <class Real, class S>
+[[gnu::cold]] void start_gas(const Tables<Real, S>& tables, State<Real, S>& state) noexcept {
+  start_gas_inputs(tables, state);
+  if constexpr (Needs<S>::manifolds) {
+    for (int port = 0; port < kPorts; ++port) {
+      const GasBeyond<Real>& outside = tables.gas_manifolds->outside[port];
+      const Real per_volume_m3 = tables.gas_manifolds->per_volume_m3[port];
+      ManifoldGas<Real>& manifold = state.manifold[port];
+      manifold.contents = contents_of(outside.pressure_Pa, outside.specific_work_J_kg * kPerGasConstant<Real>,
+                                      outside.burned_ratio, Real{1} / per_volume_m3);
+      manifold.point = point_of(manifold.contents, per_volume_m3);
+    }
+  }
+  fill_cylinders(tables, state);
+  // Cylinders that a scene has room for and the engine has not: as the first, so that a saved state is all numbers that
+  // a step could compute with.
+  for (std::uint32_t k = count<S>(tables.drive->cylinders); k < S::cylinders.capacity; ++k)
+    state.cylinder_gas[k] = state.cylinder_gas[0];
+}
+
+}  // namespace crankloop::detail

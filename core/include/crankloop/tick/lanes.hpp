@@ -1,0 +1,249 @@
+// Floats abreast: several valves, or cylinders, in one register, by the vector extension of GCC and Clang. The only
+// place that knows of it.
+//
+// What belongs here: loading, storing, transposing such numbers. What does not: what is computed with them: the same
+// inline functions as with one (valve.hpp, gas/cylinder_gas.hpp), of + - * / sqrt and comparisons alone, so a lane has
+// the bits that it has by itself.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+#include <crankloop/tick/one_instruction.hpp>
+
+/// Whether valves are stepped abreast. Either way gives the same bits: where a processor has no vectors of floats, one
+/// by one is faster.
+#ifndef CRANKLOOP_ABREAST
+#if defined(__SSE2__) || defined(__ARM_NEON)
+#define CRANKLOOP_ABREAST 1
+#else
+#define CRANKLOOP_ABREAST 0
+#endif
+#endif
+
+namespace crankloop::detail {
+
+/// Of T, a number or lanes of them: how many, the number, unsigned words of its size, one of them by itself.
+template <class T>
+inline constexpr int kLanesIn = 1;
+template <class T>
+struct LaneTypes {
+  using Number = T;
+  using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+};
+template <class T>
+using NumberOf = typename LaneTypes<T>::Number;
+template <class T>
+using BitsOf = typename LaneTypes<T>::Bits;
+template <class T>
+[[nodiscard, gnu::always_inline]] inline NumberOf<T> lane(const T& x, int i) noexcept {
+  if constexpr (kLanesIn<T> == 1) {
+    return static_cast<void>(i), x;
+  } else {
+    return x[i];
+  }
+}
+template <class T>
+[[gnu::always_inline]] inline void put_lane(T& x, int i, NumberOf<T> number) noexcept {
+  if constexpr (kLanesIn<T> == 1) {
+    static_cast<void>(i), x = number;
+  } else {
+    x[i] = number;
+  }
+}
+
+}  // namespace crankloop::detail
+
+#if CRANKLOOP_ABREAST
+namespace crankloop::detail {
+
+using Four = float __attribute__((vector_size(16)));
+using FourBits = std::int32_t __attribute__((vector_size(16)));
+[[nodiscard]] inline Four magnitude(const Four& x) noexcept {
+  return reinterpret_cast<Four>(reinterpret_cast<FourBits>(x) & 0x7FFF'FFFF);
+}
+
+template <>
+inline constexpr int kLanesIn<Four> = 4;
+template <>
+struct LaneTypes<Four> {
+  using Number = float;
+  using Bits = std::uint32_t __attribute__((vector_size(16)));
+};
+[[nodiscard, gnu::always_inline]] inline Four square_root(const Four& x) noexcept {
+#if defined(__SSE2__)
+  return __builtin_ia32_sqrtps(x);
+#else
+  return Four{square_root(x[0]), square_root(x[1]), square_root(x[2]), square_root(x[3])};
+#endif
+}
+[[gnu::always_inline]] inline void transpose(Four (&x)[4]) noexcept {
+#if defined(__clang__) || __GNUC__ >= 12
+  const Four low[2] = {__builtin_shufflevector(x[0], x[1], 0, 4, 1, 5),
+                       __builtin_shufflevector(x[2], x[3], 0, 4, 1, 5)};
+  const Four high[2] = {__builtin_shufflevector(x[0], x[1], 2, 6, 3, 7),
+                        __builtin_shufflevector(x[2], x[3], 2, 6, 3, 7)};
+  x[0] = __builtin_shufflevector(low[0], low[1], 0, 1, 4, 5),
+  x[1] = __builtin_shufflevector(low[0], low[1], 2, 3, 6, 7);
+  x[2] = __builtin_shufflevector(high[0], high[1], 0, 1, 4, 5),
+  x[3] = __builtin_shufflevector(high[0], high[1], 2, 3, 6, 7);
+#else
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < i; ++j) {
+      const float held = x[i][j];
+      x[i][j] = x[j][i], x[j][i] = held;
+    }
+  }
+#endif
+}
+
+/// As many as a register holds: the compiler's target, so no layout may depend on it.
+#if defined(__AVX__)
+using Eight = float __attribute__((vector_size(32)));
+using EightBits = std::int32_t __attribute__((vector_size(32)));
+[[nodiscard]] inline Eight magnitude(const Eight& x) noexcept {
+  return reinterpret_cast<Eight>(reinterpret_cast<EightBits>(x) & 0x7FFF'FFFF);
+}
+using WidestLanes = Eight;
+#else
+using WidestLanes = Four;
+#endif
+
+template <class Lanes>
+inline constexpr int kLanesOf = sizeof(Lanes) / sizeof(float);
+
+template <class Lanes>
+[[nodiscard, gnu::always_inline]] inline Lanes load(const float* from) noexcept {
+  Lanes x;
+  std::memcpy(&x, from, sizeof x);
+  return x;
+}
+template <class Lanes>
+[[gnu::always_inline]] inline void store(float* to, const Lanes& x) noexcept {
+  std::memcpy(to, &x, sizeof x);
+}
+
+/// The same where every block begins at a register's border: then the compiler may multiply by memory.
+template <class Lanes>
+[[nodiscard, gnu::always_inline]] inline Lanes load_aligned(const float* from) noexcept {
+  return load<Lanes>(static_cast<const float*>(__builtin_assume_aligned(from, 16)));
+}
+
+/// As many 32-bit words as lanes.
+template <class Lanes>
+struct Words;
+template <>
+struct Words<Four> {
+  using Bits = std::uint32_t __attribute__((vector_size(16)));
+};
+#if defined(__AVX__)
+template <>
+struct Words<Eight> {
+  using Bits = std::uint32_t __attribute__((vector_size(32)));
+};
+#endif
+template <class Lanes>
+[[nodiscard, gnu::always_inline]] inline typename Words<Lanes>::Bits load_words(const std::uint32_t* from) noexcept {
+  typename Words<Lanes>::Bits x;
+  std::memcpy(&x, from, sizeof x);
+  return x;
+}
+
+/// One bit for each lane in which a comparison holds.
+[[nodiscard, gnu::always_inline]] inline std::uint32_t holding(const FourBits& holds) noexcept {
+#if defined(__SSE2__)
+  return static_cast<std::uint32_t>(__builtin_ia32_movmskps(reinterpret_cast<Four>(holds)));
+#else
+  std::uint32_t bits = 0;
+  for (int i = 0; i < 4; ++i) bits |= static_cast<std::uint32_t>(-holds[i]) << i;
+  return bits;
+#endif
+}
+#if defined(__AVX__)
+[[nodiscard, gnu::always_inline]] inline std::uint32_t holding(const EightBits& holds) noexcept {
+  return static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Eight>(holds)));
+}
+#endif
+/// One for each in which it does not.
+template <class Bits>
+[[nodiscard, gnu::always_inline]] inline std::uint32_t failing(const Bits& holds) noexcept {
+  return holding(holds) ^ ((1u << sizeof holds / 4) - 1);
+}
+
+/// Four numbers of each lane, lane by lane.
+[[gnu::always_inline]] inline void store_lanes(const Four& a, const Four& b, const Four& c, const Four& d,
+                                               float* to) noexcept {
+#if defined(__clang__) || __GNUC__ >= 12
+  const Four ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5), ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  const Four cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5), cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+  store<Four>(to, __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5));
+  store<Four>(to + 4, __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7));
+  store<Four>(to + 8, __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5));
+  store<Four>(to + 12, __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7));
+#else
+  for (int i = 0; i < 4; ++i) to[4 * i] = a[i], to[4 * i + 1] = b[i], to[4 * i + 2] = c[i], to[4 * i + 3] = d[i];
+#endif
+}
+/// Six.
+[[gnu::always_inline]] inline void store_lanes(const Four (&x)[6], float* to) noexcept {
+  Four first[4] = {x[0], x[1], x[2], x[3]};
+  transpose(first);
+  for (int i = 0; i < 4; ++i) store<Four>(to + 6 * i, first[i]);
+#if defined(__clang__) || __GNUC__ >= 12
+  using Two = double __attribute__((vector_size(16)));
+  const Two low = reinterpret_cast<Two>(__builtin_shufflevector(x[4], x[5], 0, 4, 1, 5)),
+            high = reinterpret_cast<Two>(__builtin_shufflevector(x[4], x[5], 2, 6, 3, 7));
+  const double pairs[4] = {low[0], low[1], high[0], high[1]};
+  for (int i = 0; i < 4; ++i) std::memcpy(to + 6 * i + 4, &pairs[i], sizeof pairs[i]);
+#else
+  for (int i = 0; i < 4; ++i) to[6 * i + 4] = x[4][i], to[6 * i + 5] = x[5][i];
+#endif
+}
+/// Six numbers of each of four lanes, of which from[i] are lane i's.
+[[gnu::always_inline]] inline void load_lanes(const float* const (&from)[4], Four (&x)[6]) noexcept {
+#if defined(__clang__) || __GNUC__ >= 12
+  const Four a = load<Four>(from[0]), b = load<Four>(from[1]), c = load<Four>(from[2]), d = load<Four>(from[3]);
+  const Four ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5), ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  const Four cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5), cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+  x[0] = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5),
+  x[1] = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
+  x[2] = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5),
+  x[3] = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
+  using Two = double __attribute__((vector_size(16)));
+  double pairs[4];
+  for (int i = 0; i < 4; ++i) std::memcpy(&pairs[i], from[i] + 4, sizeof pairs[i]);
+  const Four low = reinterpret_cast<Four>(Two{pairs[0], pairs[1]}),
+             high = reinterpret_cast<Four>(Two{pairs[2], pairs[3]});
+  x[4] = __builtin_shufflevector(low, high, 0, 2, 4, 6), x[5] = __builtin_shufflevector(low, high, 1, 3, 5, 7);
+#else
+  for (int i = 0; i < 6; ++i) x[i] = Four{from[0][i], from[1][i], from[2][i], from[3][i]};
+#endif
+}
+#if defined(__AVX__)
+[[gnu::always_inline]] inline void load_lanes(const float* const (&from)[8], Eight (&x)[6]) noexcept {
+  Four low[6], high[6];
+  load_lanes({from[0], from[1], from[2], from[3]}, low);
+  load_lanes({from[4], from[5], from[6], from[7]}, high);
+  for (int i = 0; i < 6; ++i) x[i] = __builtin_shufflevector(low[i], high[i], 0, 1, 2, 3, 4, 5, 6, 7);
+}
+[[gnu::always_inline]] inline void store_lanes(const Eight& a, const Eight& b, const Eight& c, const Eight& d,
+                                               float* to) noexcept {
+  const auto half = [](const Eight& x, int which) {
+    Four f;
+    std::memcpy(&f, reinterpret_cast<const char*>(&x) + which * 16, sizeof f);
+    return f;
+  };
+  for (int i = 0; i < 2; ++i) store_lanes(half(a, i), half(b, i), half(c, i), half(d, i), to + 16 * i);
+}
+[[gnu::always_inline]] inline void store_lanes(const Eight (&x)[6], float* to) noexcept {
+  for (int half = 0; half < 2; ++half) {
+    Four part[6];
+    for (int i = 0; i < 6; ++i) std::memcpy(&part[i], reinterpret_cast<const char*>(&x[i]) + half * 16, sizeof part[i]);
+    store_lanes(part, to + 24 * half);
+  }
+}
+#endif
+
+}  // namespace crankloop::detail
+#endif

@@ -1,0 +1,140 @@
+#include "gas_exchange.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+#include <crankloop/tabulate/elementary.hpp>
+#include <crankloop/tabulate/mechanism.hpp>
+#include <crankloop/tick/gas/orifice.hpp>
+
+#include "phase_units.hpp"
+#include "rounding.hpp"
+
+namespace crankloop::detail {
+namespace {
+
+/// By straight lines through a definition's rows, beyond the last the last.
+[[nodiscard]] double between_rows(const double* at, const double* value, int count, double x) noexcept {
+  for (int i = 1; i < count; ++i) {
+    if (x <= at[i]) return value[i - 1] + (value[i] - value[i - 1]) * (x - at[i - 1]) / (at[i] - at[i - 1]);
+  }
+  return value[count - 1];
+}
+
+[[nodiscard]] double least_kg_m3(const EngineDefinition& engine) noexcept {
+  constexpr double kShare = 1e-3;
+  constexpr double kCold_K = 300;
+  return kShare * engine.pressure.crankcase_Pa / (kGasConstant<double> * kCold_K);
+}
+
+[[nodiscard]] GasCylinders<double> cylinders_of(const EngineDefinition& engine) noexcept {
+  const Crank& crank = engine.crank;
+  const Gas& gas = engine.gas;
+  const double area = bore_area_m2(crank);
+  const double swept = swept_volume_m3(crank);
+  GasCylinders<double> c{};
+  // Hohenberg's C holds the exponent of the volume, of half the swept one at all angles.
+  c.walls = {130e-4 * gas.wall_heat_ratio * elementary::pow(swept / 2, -0.06), 2 * area, 4 / crank.bore_m, gas.wall_K,
+             mean_piston_speed_m_s(crank, 1)};
+  c.clearance_m3 = clearance_volume_m3(crank);
+  c.bore_area_m2 = area;
+  c.crankcase_Pa = engine.pressure.crankcase_Pa;
+  c.least_kg_m3 = least_kg_m3(engine);
+  c.per_swept_m3 = 1 / swept;
+  c.per_full_charge = kGasConstant<double> * gas.ambient_K / (gas.ambient_Pa * swept);
+  c.ambient_Pa = gas.ambient_Pa;
+  c.ambient_K = gas.ambient_K;
+  c.exhaust_K = gas.exhaust_K;
+  return c;
+}
+
+[[nodiscard]] GasPortCurve<double> port_of(const EngineDefinition& engine, int train) noexcept {
+  const PortOfTrain& port = engine.gas.ports[train];
+  const double seat = port.seat_diameter_m;
+  GasPortCurve<double> curve{};
+  curve.port = port.port == GasPort::exhaust ? kExhaust : kIntake;
+  curve.per_step_m = 80 / seat;
+  for (int i = 0; i <= kFlowSteps; ++i) {
+    const double ratio = between_rows(port.flow_lift_ratio, port.flow_ratio, port.flow_count, i / 80.0);
+    curve.area_m2[i] = engine.trains[train].valve.per_cylinder * elementary::kPi / 4 * seat * seat * ratio;
+  }
+  return curve;
+}
+
+[[nodiscard]] GasManifolds<double> manifolds_of(const EngineDefinition& engine) noexcept {
+  const Gas& gas = engine.gas;
+  constexpr double kNoLimit_m2 = 1e9;
+  const auto outside = [&gas](double temperature_K, double burned_ratio) {
+    return beyond(GasPoint<double>{gas.ambient_Pa, temperature_K, burned_ratio, 0}, 0.0, kNoLimit_m2);
+  };
+  const double volumes[kPorts] = {gas.intake_m3, gas.exhaust_m3};
+  GasManifolds<double> m{};
+  for (int i = 0; i < kPorts; ++i) {
+    m.per_volume_m3[i] = 1 / volumes[i];
+    m.least_kg[i] = least_kg_m3(engine) * volumes[i];
+  }
+  m.outside[kIntake] = outside(gas.ambient_K, 0);
+  m.outside[kExhaust] = outside(gas.exhaust_K, 1);
+  m.outlet_m2 = gas.outlet_m2;
+  for (int i = 0; i <= kThrottleSteps; ++i) {
+    const double share = between_rows(gas.throttle_ratio, gas.throttle_area_ratio, gas.throttle_count,
+                                      i / static_cast<double>(kThrottleSteps));
+    m.throttle_m2[i] = gas.throttle_closed_m2 + share * (gas.throttle_m2 - gas.throttle_closed_m2);
+  }
+  return m;
+}
+
+/// 1 - exp(-6.908 s^(m+1)), 1 at s = 1 (and beyond).
+[[nodiscard]] double wiebe(double s, double m) noexcept {
+  constexpr double kWhole = 6.908;
+  if (s >= 1) return 1;
+  return (1 - elementary::exp(-kWhole * elementary::pow(s, m + 1))) / (1 - elementary::exp(-kWhole));
+}
+
+[[nodiscard]] BurnTable<double> burn_of(const EngineDefinition& engine) noexcept {
+  const Gas& gas = engine.gas;
+  const double air = gas.air_fuel_ratio;
+  // Heating values are measured at 25 C, the gas's energies counted from 0 K.
+  constexpr double kMeasured_K = 298.15;
+  BurnTable<double> b{};
+  b.latch_phase = phase_units(gas.latch_deg + 720);
+  b.heat_J_kg = gas.combustion_efficiency * gas.heating_value_J_kg;
+  b.energy_J_kg = b.heat_J_kg + (1 + air) * energy_J_kg(kMeasured_K, 1.0) - air * energy_J_kg(kMeasured_K, 0.0);
+  b.burned_kg_kg = 1 + air;
+  b.air_fuel_ratio = air;
+  b.per_air_fuel_ratio = 1 / air;
+  b.span_ratio = gas.span_ratio();
+  b.fuel_kg = gas.fuel_kg;
+  b.burn_start_deg = gas.burn_start_deg;
+  b.burn_duration_deg = gas.burn_duration_deg;
+  for (int i = 0; i <= kBurnSteps; ++i) {
+    const double s = i * b.span_ratio / kBurnSteps;
+    b.burnt[i] = (1 - gas.second_ratio) * wiebe(s, gas.wiebe_m) +
+                 gas.second_ratio * wiebe(s / gas.second_duration_ratio, gas.second_m);
+  }
+  b.burnt[kBurnSteps] = 1;
+  return b;
+}
+
+}  // namespace
+
+template <class Real>
+void fill_gas_exchange(const EngineDefinition& engine, const TableTargets<Real>& targets) noexcept {
+  const bool breathes = engine.pressure.source == PressureSource::gas;
+  const auto fill = [breathes, &engine](auto* target, const auto& make) {
+    if (target == nullptr) return;
+    *target = {};
+    if (breathes) round_into(make(engine), *target);
+  };
+  fill(targets.gas_cylinders, cylinders_of);
+  fill(targets.gas_manifolds, manifolds_of);
+  fill(targets.burn, burn_of);
+  if (targets.gas_ports == nullptr) return;
+  for (int t = 0; t < engine.train_count; ++t)
+    fill(targets.gas_ports + t, [t](const EngineDefinition& e) { return port_of(e, t); });
+}
+
+template void fill_gas_exchange(const EngineDefinition&, const TableTargets<float>&) noexcept;
+template void fill_gas_exchange(const EngineDefinition&, const TableTargets<double>&) noexcept;
+
+}  // namespace crankloop::detail

@@ -1,0 +1,16 @@
+#!/bin/sh
+# run.sh CRANKLOOP FOLDER: runs the programs of docs/how_to.md, here, and `crankloop` on its engine files in FOLDER.
+set -eu
+crankloop=$1 folder=$2
+fail() { echo "docs/how_to.md: $*" >&2 && exit 1; }
+
+for program in tick_length edges vvt many snapshot; do ./$program || fail "$program failed"; done
+./faults >faults.txt || fail "faults failed"
+printf 'not ready\nspeed, load ratio\n' | cmp - faults.txt || fail "faults does not say what its comments do"
+
+# A warning would be on stderr. The trace is the 495's, whose net mean effective pressure is 809.7 kPa.
+"$crankloop" run "$folder/measured.ini" --cycles 1 >measured.txt 2>warnings.txt
+[ ! -s warnings.txt ] || fail "measured.ini: $(cat warnings.txt)"
+awk '$1 == "net_mep_exact" { found = $3 > 800 && $3 < 820 } END { exit !found }' measured.txt || fail "$(cat measured.txt)"
+"$crankloop" lift "$folder/own_cam.ini" --csv lift.csv >lift.txt
+awk '$1 == "max_theoretical_lift" { found = $3 > 10.45 && $3 < 10.55 } END { exit !found }' lift.txt || fail "$(cat lift.txt)"

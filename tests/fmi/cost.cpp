@@ -1,0 +1,44 @@
+// fmu_cost SCENE 0|2|3 TICKS: so many ticks of a scene's engine, or of its FMU in steps of a tick. What it costs is
+// counted from outside (step_cost.sh).
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "fmu.hpp"
+
+#include "engines.hpp"
+
+namespace {
+
+constexpr double kSpeed_rad_s = 150;
+
+template <class Of>
+bool run(const std::string& scene, int version, long ticks) {
+  if (scene != Of::kName) return false;
+  if (version == 0) {
+    typename Of::Engine engine;
+    typename Of::Engine::Input in;
+    in.speed_rad_s = static_cast<typename Of::Real>(kSpeed_rad_s);
+    std::uint32_t faults = 0;
+    for (long k = 0; k < ticks; ++k) faults |= engine.step(in).faults;
+    return faults == 0;
+  }
+  const fmu::Fmu fmu(std::string(FMU_DIR) + "/" + scene + "_fmi" + std::to_string(version) + ".fmu");
+  fmu::Unit unit(fmu);
+  unit.start();
+  unit.set("speed_rad_s", kSpeed_rad_s);
+  return unit_step_many(unit.unit, 0, Of::kTick_s, ticks) == UNIT_OK && unit.get("fault_ticks") == 0;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  if (count != 4) return 2;
+  const int version = std::atoi(words[2]);
+  const long ticks = std::atol(words[3]);
+  const std::string scene = words[1];
+  const bool good = run<fmu::Of_four_pistons>(scene, version, ticks) || run<fmu::Of_whole>(scene, version, ticks) ||
+                    run<fmu::Of_trigger_wheels>(scene, version, ticks) ||
+                    run<fmu::Of_bouncing_valve>(scene, version, ticks);
+  return good ? 0 : 1;
+}

@@ -1,0 +1,31 @@
+#!/bin/sh
+# step_cost.sh FMU_COST MOST: what doStep of one tick, without get and set, costs above the tick itself: instructions, the
+# difference of two runs' lengths, FMU against the scene driven directly. Fails above MOST, and 15 more for each trigger
+# wheel, whose edges are collected.
+set -eu
+program=$1 most=$2
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+instructions() {  # SCENE VERSION TICKS
+  valgrind --tool=callgrind --callgrind-out-file=/dev/null "$program" "$@" >"$log" 2>&1 || { cat "$log" && return 1; }
+  sed -n 's/.*Collected : //p' "$log"
+}
+ticks=4000
+per_tick() {  # SCENE VERSION: in hundredths
+  few=$(instructions "$1" "$2" 1000)
+  many=$(instructions "$1" "$2" $((1000 + ticks)))
+  echo $(((many - few) * 100 / ticks))
+}
+bad=0
+for scene in four_pistons trigger_wheels whole bouncing_valve; do
+  direct=$(per_tick "$scene" 0)
+  for version in 2 3; do
+    whole=$(per_tick "$scene" "$version")
+    more=$(((whole - direct + 50) / 100))
+    echo "$scene, FMI $version: a tick of $((direct / 100)) instructions, doStep $more more"
+    case $scene in trigger_wheels) allowed=$((most + 2 * 15)) ;; *) allowed=$most ;; esac
+    [ "$more" -le "$allowed" ] || bad=1
+  done
+done
+[ "$bad" -eq 0 ] || echo "more than $most"
+[ "$bad" -eq 0 ]

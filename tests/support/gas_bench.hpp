@@ -1,0 +1,65 @@
+// One cylinder of the gas by itself, for tests of its step: a volume, ports to given gas, heat or none.
+#pragma once
+
+#include <cmath>
+
+#include <crankloop/tick/gas/cylinder_gas.hpp>
+
+namespace crankloop::support {
+
+inline constexpr double kGasR = 287.1;  // of docs/model.md "Gas", as are the next two
+inline constexpr double kGasB = 0.205;
+[[nodiscard]] inline double gas_a(double burned_ratio) { return 646 + 93 * burned_ratio; }
+[[nodiscard]] inline double gas_energy(double temperature_K, double burned_ratio) {
+  return gas_a(burned_ratio) * temperature_K + kGasB / 2 * temperature_K * temperature_K;
+}
+
+template <class Real>
+struct GasBench {
+  detail::GasFuel<Real> fuel{};
+  detail::GasWalls<Real> walls{};  // adiabatic
+  detail::CylinderGas<Real> gas{};
+  detail::GasBeyond<Real> beyond[2]{};
+  Real mass_kg[2]{};  ///< through each port in the last step
+
+  GasBench(double pressure_Pa, double temperature_K, double burned_ratio, double volume_m3) {
+    gas.contents = detail::contents_of<Real>(static_cast<Real>(pressure_Pa), static_cast<Real>(temperature_K),
+                                             static_cast<Real>(burned_ratio), static_cast<Real>(volume_m3));
+    gas.volume_m3 = static_cast<Real>(volume_m3);
+    gas.point = detail::point_of(gas.contents, 1 / gas.volume_m3);
+    given(0, 1e5, 300, 0);
+    given(1, 1e5, 300, 1);
+  }
+  /// Gas of a pressure that nothing changes behind a port.
+  void given(int port, double pressure_Pa, double temperature_K, double burned_ratio) {
+    const detail::GasPoint<Real> point{static_cast<Real>(pressure_Pa), static_cast<Real>(temperature_K),
+                                       static_cast<Real>(burned_ratio), Real{}};
+    beyond[port] = detail::beyond(point, Real{0}, static_cast<Real>(1e30));
+  }
+  detail::CylinderStep<Real> step(double step_s, double volume_m3, double intake_m2 = 0, double exhaust_m2 = 0,
+                                  double fuel_kg = 0) {
+    const auto real = [](double x) { return static_cast<Real>(x); };
+    const detail::GasDrive<Real> drive{real(step_s), real(1.4), detail::most_area_per_m3(real(step_s)), real(1e-12)};
+    const Real to_m2[] = {real(intake_m2), real(exhaust_m2)};
+    mass_kg[0] = mass_kg[1] = Real{0};
+    const auto flow = [&](int, const detail::ClosedStep<Real>& closed, detail::GasGain<Real>& gain) {
+      if (!detail::any_port_open(gas, to_m2)) return Real{0};
+      return detail::flow_through_ports(
+          gas, closed, gain, to_m2, beyond, drive,
+          [this](int port, const detail::PortStep<Real>& through) { mass_kg[port] = through.mass_kg; });
+    };
+    return detail::step_gas<Real>(gas, real(volume_m3), real(fuel_kg), fuel, walls, drive, flow);
+  }
+  [[nodiscard]] double pressure_Pa() const { return static_cast<double>(gas.point.pressure_Pa); }
+  [[nodiscard]] double temperature_K() const { return static_cast<double>(gas.point.temperature_K); }
+};
+
+/// Saint-Venant and Wantzel: flow per area, kg/(s m2), ratio of specific heats 1.36.
+[[nodiscard]] inline double saint_venant(double up_Pa, double down_Pa, double up_K) {
+  const double g = 1.36;
+  const double ratio = std::fmax(down_Pa / up_Pa, std::pow(2 / (g + 1), g / (g - 1)));
+  return up_Pa / std::sqrt(kGasR * up_K) *
+         std::sqrt(2 * g / (g - 1) * (std::pow(ratio, 2 / g) - std::pow(ratio, (g + 1) / g)));
+}
+
+}  // namespace crankloop::support

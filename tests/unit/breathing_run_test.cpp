@@ -1,0 +1,242 @@
+// `crankloop run` and `run --free` with engines that breathe: figures against the ticks of the CSV and against what is
+// known of engines.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "support/markup.hpp"
+#include "support/run_command.hpp"
+#include "support/units.hpp"
+
+namespace crankloop::program {
+namespace {
+
+const std::string kEngines = CRANKLOOP_SOURCE_DIR "/tools/engines/";
+const std::string kFour = kEngines + "four_2000.ini";
+
+/// A CSV file of numbers, by its columns.
+struct Columns {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> rows;
+
+  explicit Columns(const std::string& path) {
+    const std::vector<std::string> lines = split_at(contents(path), '\n');
+    names = split_at(lines.at(0), ',');
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+      rows.emplace_back();
+      for (const std::string& cell : split_at(lines[i], ',')) rows.back().push_back(std::stod(cell));
+    }
+  }
+  [[nodiscard]] std::vector<double> column(const std::string& name) const {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (names[i] != name) continue;
+      std::vector<double> values;
+      for (const auto& row : rows) values.push_back(row.at(i));
+      return values;
+    }
+    ADD_FAILURE() << "no column " << name;
+    return std::vector<double>(rows.size());
+  }
+};
+
+class BreathingRun : public RunCommand {
+ protected:
+  /// The summary's number of that name, at a speed, with more options.
+  static double at(const std::string& name, const std::string& engine, double rpm,
+                   std::vector<std::string> options = {}) {
+    options.insert(options.begin(), {engine, "--rpm", std::to_string(rpm), "--no-warnings"});
+    return line(run(options), name).first;
+  }
+};
+
+TEST_F(BreathingRun, TellsWhatItsTicksAddUpTo) {
+  // Trapezoids over ticks of 0.24 deg, and flows that are means over a tick: a part in a thousand.
+  constexpr double kOfSums = 2e-3;
+  constexpr double kStroke_mm = 86;
+  constexpr double kSwept_mm3 = kStroke_mm * 86 * 86 * 3.14159265358979 / 4;
+  const std::string csv = path("run.csv");
+  const std::string summary =
+      run({kFour, "--rpm", "2000", "--tick-us", "20", "--cycles", "1", "--real", "double", "--csv", csv});
+  const Columns ticks(csv);
+  const std::vector<double> pressure_kPa = ticks.column("c1_gas_pressure_kPa");
+  EXPECT_EQ(pressure_kPa, ticks.column("c1_pressure_kPa"));
+  const std::vector<double> piston_mm = ticks.column("c1_displacement_mm");
+  const std::vector<double> intake_g_s = ticks.column("c1_intake_flow_g_s");
+  const std::vector<double> mass_mg = ticks.column("c1_mass_mg");
+  const std::vector<double> burned = ticks.column("c1_burned_ratio");
+  const std::vector<double> lift_mm = ticks.column("c1_intake_lift_mm");
+  const std::vector<double> wall_W = ticks.column("c1_wall_heat_W");
+  ASSERT_EQ(pressure_kPa.size(), 3000u);
+  double work = 0;
+  double in_mg = 0;
+  double wall_J = 0;
+  double trapped_mg = 0;
+  double peak_kPa = 0;
+  for (std::size_t i = 0; i < pressure_kPa.size(); ++i) {
+    const std::size_t before = (i + pressure_kPa.size() - 1) % pressure_kPa.size();
+    work += (pressure_kPa[before] + pressure_kPa[i]) / 2 * (piston_mm[i] - piston_mm[before]);
+    in_mg += intake_g_s[i] * 20e-6 * 1e3;
+    wall_J += wall_W[i] * 20e-6;
+    peak_kPa = std::max(peak_kPa, pressure_kPa[i]);
+    if (lift_mm[before] > 1e-3 && lift_mm[i] <= 1e-3) trapped_mg = mass_mg[i] * (1 - burned[i]);
+  }
+  EXPECT_NEAR(line(summary, "net_mep").first, work / kStroke_mm, kOfSums * work / kStroke_mm);
+  EXPECT_NEAR(line(summary, "trapped_air").first, trapped_mg, kOfSums * trapped_mg);
+  EXPECT_NEAR(line(summary, "wall_heat").first, wall_J, kOfSums * wall_J);
+  EXPECT_NEAR(line(summary, "largest_pressure").first, peak_kPa, 1e-5 * peak_kPa);
+  // Wide open at low speed some fresh gas is pushed back, and comes in again: what came in on balance is air.
+  const double ambient_mg = 100e3 / 287.1 / 298.15 * kSwept_mm3 * 1e-9 * 1e6;
+  EXPECT_NEAR(line(summary, "volumetric_efficiency").first, in_mg / ambient_mg, 0.01);
+  EXPECT_NEAR(line(summary, "heat").first, 30e-6 * 0.97 * 43e6, 0.02 * 1251);  // and what LHV's zero of energy brings
+  EXPECT_LT(line(summary, "energy_defect").first, 1e-9 * line(summary, "heat").first);
+}
+
+TEST_F(BreathingRun, HasTheChargeOfAnEngineOfItsKind) {
+  // No pressure waves, so no tuning peaks: flat, and less where the valves choke.
+  for (const double rpm : {1000.0, 2000.0, 4000.0, 6000.0}) {
+    const double charge = at("volumetric_efficiency", kFour, rpm);
+    EXPECT_GT(charge, 0.8) << rpm;
+    EXPECT_LT(charge, 0.95) << rpm;
+  }
+  EXPECT_LT(at("volumetric_efficiency", kFour, 9000), at("volumetric_efficiency", kFour, 6000) - 0.02);
+}
+
+TEST_F(BreathingRun, PumpsThroughAThrottleAndKeepsMoreOfItsExhaust) {
+  double residual_before = 0;
+  for (const char* throttle : {"1", "0.2", "0.05", "0.02"}) {
+    SCOPED_TRACE(throttle);
+    const std::vector<std::string> options{"--throttle", throttle, "--fuel-mg", "10"};
+    const double intake_kPa = at("intake_pressure", kFour, 1500, options);
+    const double exhaust_kPa = at("exhaust_pressure", kFour, 1500, options);
+    // Down at the manifold's pressure, up at the exhaust's: what lies between is lost, less what the last of the
+    // expansion and the first of the compression share with it.
+    EXPECT_NEAR(at("pumping_mep", kFour, 1500, options), intake_kPa - exhaust_kPa, 8);
+    const double residual = at("residual_ratio", kFour, 1500, options);
+    EXPECT_GT(residual, residual_before);
+    residual_before = residual;
+  }
+  EXPECT_GT(residual_before, 0.1);
+  EXPECT_LT(residual_before, 0.35);
+}
+
+TEST_F(BreathingRun, MakesTheMostTorqueWherePressurePeaksSomeTwelveDegreesLate) {
+  double best_mep_kPa = 0;
+  double best_peak_deg = 0;
+  for (const char* start : {"-34", "-30", "-26", "-22", "-18", "-14", "-10", "-6"}) {
+    const std::vector<std::string> options{"--burn-start-deg", start, "--tick-us", "20"};
+    const double mep_kPa = at("net_mep", kFour, 2000, options);
+    if (mep_kPa <= best_mep_kPa) continue;
+    best_mep_kPa = mep_kPa;
+    best_peak_deg = at("largest_pressure_at", kFour, 2000, options);
+  }
+  EXPECT_GT(best_peak_deg, 8);  // Heywood, Internal Combustion Engine Fundamentals, section 9.1: about 16
+  EXPECT_LT(best_peak_deg, 18);
+}
+
+TEST_F(BreathingRun, OfTheDieselGivesTheSheetsPowerWithoutAThrottle) {
+  const std::string diesel = kEngines + "diesel_495_gas.ini";
+  EXPECT_NEAR(at("brake_power", diesel, 2000), 4 * 8.8, 0.05 * 4 * 8.8);
+  EXPECT_EQ(at("net_mep", diesel, 2000), at("net_mep", diesel, 2000, {"--throttle", "0"}));
+  EXPECT_GT(at("excess_air_ratio", diesel, 2000), 1.3);
+  EXPECT_LT(at("net_mep", diesel, 2000, {"--fuel-mg", "0"}), 0);
+}
+
+TEST_F(BreathingRun, TurnsFreelyToTheSpeedWhereItsFrictionTakesWhatItMakes) {
+  const std::string summary = run({kFour, "--free", "--from-rpm", "1000", "--throttle", "0.02", "--fuel-mg", "8",
+                                   "--seconds", "12", "--tick-us", "200"});
+  const double torque_Nm = line(summary, "cycle_torque").first;
+  EXPECT_NEAR(torque_Nm, line(summary, "cycle_friction").first, 0.05 * torque_Nm);
+  const double rpm = line(summary, "cycle_speed").first;
+  EXPECT_NEAR(line(summary, "net_mep").first,
+              at("net_mep", kFour, rpm, {"--throttle", "0.02", "--fuel-mg", "8", "--tick-us", "200"}),
+              0.05 * line(summary, "net_mep").first);
+  // What left the gas turned the crank: the books close but for friction's trapezoids.
+  EXPECT_LT(std::fabs(line(summary, "energy_defect").first), 1e-4);
+  EXPECT_EQ(line(summary, "faulty_ticks").first, 0);
+}
+
+TEST_F(BreathingRun, OfOneCylinderCutTurnsMoreSlowly) {
+  const auto speed = [](const std::vector<std::string>& more) {
+    std::vector<std::string> words{kFour, "--free", "--from-rpm", "2000", "--throttle", "0.05", "--seconds", "2"};
+    words.insert(words.end(), more.begin(), more.end());
+    return line(run(words), "speed_at_end").first;
+  };
+  EXPECT_LT(speed({"--cut", "2"}), speed({}) - 50);
+}
+
+TEST_F(BreathingRun, DrawsItsGasExchangeOnAPageOfTheUsualSize) {
+  const std::string summary = run({kFour, "--rpm", "3000", "--report", path("report.html")});
+  const std::string text = contents(path("report.html"));
+  EXPECT_LT(text.size(), 450'000u);
+  EXPECT_NE(text.find("Not modelled: pressure waves in pipes"), std::string::npos);
+  const support::Markup page = support::read(text);
+  const auto description = [&page](const std::string& title) {
+    const auto titles = page.all("title");
+    for (std::size_t i = 1; i < titles.size(); ++i) {
+      if (titles[i].text == title) return page.all("desc")[i - 1].text;  // the first is the page's
+    }
+    return std::string();
+  };
+  for (const char* title : {"Pressure over the volume", "The same, both axes logarithmic", "Rate of heat release",
+                            "Flow through the valves", "Pressure on both sides of the valves", "Temperature of the gas",
+                            "Mass in the cylinder", "Heat to the walls"})
+    EXPECT_NE(description(title), "") << title;
+  const auto largest = [&](const std::string& title) {
+    const std::string all = description(title);
+    return std::stod(all.substr(all.rfind(" to ") + 4));
+  };
+  // What the gas takes up by pressure and volume is the heat less what the walls take until the exhaust opens.
+  const double heat_J = line(summary, "heat").first;
+  EXPECT_LT(largest("Heat released"), heat_J);
+  EXPECT_GT(largest("Heat released"), heat_J - line(summary, "wall_heat").first);
+  EXPECT_NEAR(largest("Mass in the cylinder"),
+              line(summary, "trapped_air").first / (1 - line(summary, "residual_ratio").first) + 30, 12);
+}
+
+TEST_F(BreathingRun, HasTheBalanceOfTheCycleThatItRuns) {
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(kBalance.run(Arguments(kBalance, {kFour, "--rpm", "3000", "--throttle", "0.3"})), kSuccess);
+  const std::string rows = testing::internal::GetCapturedStdout();
+  const auto row = [&](const std::string& name) {
+    for (const std::string& text : split_at(rows, '\n')) {
+      if (text.rfind(name + ",", 0) == 0) return std::stod(text.substr(name.size() + 1));
+    }
+    ADD_FAILURE() << name;
+    return 0.0;
+  };
+  const std::string summary = run({kFour, "--rpm", "3000", "--throttle", "0.3", "--tick-us", "20"});
+  const double torque_Nm = line(summary, "mean_torque").first;
+  EXPECT_NEAR(row("mean_torque_Nm"), torque_Nm, 2e-3 * torque_Nm);
+  EXPECT_NEAR(row("net_mep_kPa"), line(summary, "net_mep").first, 2e-3 * line(summary, "net_mep").first);
+  EXPECT_NEAR(row("net_mep_kPa") - row("gross_mep_kPa"), line(summary, "pumping_mep").first, 1);
+  // Four even firings: the second order and its multiples are all that torque has.
+  EXPECT_GT(row("torque_order_2_Nm"), 0.5 * torque_Nm);
+  for (const char* order : {"0.5", "1", "1.5", "3"})
+    EXPECT_LT(row("torque_order_" + std::string(order) + "_Nm"), 0.01 * torque_Nm) << order;
+  const double pin_N = line(summary, "largest_crank_pin_load").first;
+  EXPECT_NEAR(row("crank_pin_1_largest_load_N"), pin_N, 2e-3 * pin_N);
+}
+
+TEST_F(BreathingRun, RefusesWhatItsEngineDoesNotHave) {
+  const auto refused = [](const std::vector<std::string>& words, const std::string& why) {
+    try {
+      kRun.run(Arguments(kRun, words));
+      ADD_FAILURE() << "not refused: " << why;
+    } catch (const std::exception& error) {
+      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+    }
+  };
+  refused({kFour, "--load-ratio", "1"}, "breathes (source = gas) and has no diagram to scale");
+  refused({kFour, "--free", "--load-ratio", "1"}, "breathes (source = gas) and has no diagram to scale");
+  for (const char* option : {"--throttle", "--fuel-mg", "--burn-start-deg"})
+    refused({kSample, option, "0.5"}, std::string(option) + ": " + kSample + " has its pressure from a diagram");
+  std::string slow = contents(kFour);
+  slow.replace(slow.find("burn_duration_deg = 50"), 22, "burn_duration_deg = 95");
+  std::ofstream(path("slow.ini")) << slow;
+  refused({path("slow.ini"), "--burn-start-deg", "60"}, "the burn would end at 155 deg; it must end by 150 deg");
+}
+
+}  // namespace
+}  // namespace crankloop::program

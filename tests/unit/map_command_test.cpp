@@ -1,0 +1,122 @@
+// `crankloop map`: its points against single runs, its heat maps against its rows, what it refuses.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "support/markup.hpp"
+#include "support/run_command.hpp"
+
+namespace crankloop::program {
+namespace {
+
+const std::string kFour = CRANKLOOP_SOURCE_DIR "/tools/engines/four_2000.ini";
+
+class MapCommand : public RunCommand {
+ protected:
+  static std::string map(const std::vector<std::string>& words) {
+    testing::internal::CaptureStdout();
+    const int status = kMap.run(Arguments(kMap, words));
+    const std::string printed = testing::internal::GetCapturedStdout();
+    EXPECT_EQ(status, kSuccess);
+    return printed;
+  }
+  static std::string refusal(const std::vector<std::string>& words) {
+    try {
+      kMap.run(Arguments(kMap, words));
+    } catch (const std::exception& refused) {
+      return refused.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(MapCommand, HasAtEachPointWhatARunOfThatPointHas) {
+  const std::string csv = path("map.csv");
+  map({kFour, "--rpm", "1500:3000:2", "--throttle", "0.1:0.7:3", "--tick-us", "200", "--fuel-mg", "20",
+       "--burn-start-deg", "-15", "--csv", csv});
+  const std::vector<std::string> lines = split_at(contents(csv), '\n');
+  ASSERT_EQ(lines.size(), 7u);
+  const std::vector<std::string> names = split_at(lines[0], ',');
+  std::size_t row = 1;
+  for (const char* rpm : {"1500", "3000"}) {
+    for (const char* throttle : {"0.1", "0.4", "0.7"}) {
+      SCOPED_TRACE(lines[row]);
+      const std::vector<std::string> cells = split_at(lines[row++], ',');
+      EXPECT_EQ(std::stod(cells[0]), std::stod(rpm));
+      EXPECT_EQ(static_cast<float>(std::stod(cells[1])), std::stof(throttle));
+      const std::string summary = run({kFour, "--rpm", rpm, "--throttle", throttle, "--tick-us", "200", "--fuel-mg",
+                                       "20", "--burn-start-deg", "-15", "--cycles", "1"});
+      const struct {
+        const char* column;
+        const char* line;
+      } same[] = {{"torque_Nm", "mean_torque"},
+                  {"brake_torque_Nm", "brake_torque"},
+                  {"pumping_mep_kPa", "pumping_mep"},
+                  {"trapped_air_mg", "trapped_air"},
+                  {"residual_ratio", "residual_ratio"},
+                  {"volumetric_efficiency", "volumetric_efficiency"},
+                  {"intake_pressure_kPa", "intake_pressure"}};
+      for (const auto& [column, of_run] : same) {
+        const auto at = std::find(names.begin(), names.end(), column) - names.begin();
+        const double expected = line(summary, of_run).first;
+        EXPECT_NEAR(std::stod(cells.at(static_cast<std::size_t>(at))), expected, 1e-5 * std::abs(expected)) << column;
+      }
+    }
+  }
+}
+
+TEST_F(MapCommand, IsTheSameHoweverItsPointsAreShared) {
+  const std::vector<std::string> words{kFour, "--rpm", "2000:4000:3", "--throttle", "0.2:1:4", "--csv"};
+  const auto once = [&](const char* name) {
+    std::vector<std::string> all = words;
+    all.push_back(path(name));
+    map(all);
+    return contents(path(name));
+  };
+  EXPECT_EQ(once("one.csv"), once("two.csv"));
+}
+
+TEST_F(MapCommand, ColoursEachPointOnceInEachHeatMap) {
+  const std::string summary =
+      map({kFour, "--rpm", "1000:5000:5", "--throttle", "0:1:4", "--tick-us", "200", "--report", path("map.html")});
+  const support::Markup page = support::read(contents(path("map.html")));
+  const std::size_t maps = page.all("svg").size();
+  EXPECT_EQ(maps, 6u);
+  std::size_t cells = 0;
+  std::size_t keys = 0;
+  for (const auto& rectangle : page.all("rect")) {
+    if (rectangle.attributes.at("class").rfind("cell ", 0) != 0) continue;
+    (rectangle.attributes.at("width") == "14" ? keys : cells) += 1;
+  }
+  EXPECT_EQ(cells, maps * 5 * 4);
+  EXPECT_GE(keys, 2 * maps);
+  EXPECT_LE(keys, 7 * maps);
+  const std::string text = contents(path("map.html"));
+  EXPECT_NE(text.find("Not modelled: pressure waves"), std::string::npos);
+  EXPECT_EQ(line(summary, "points").first, 20);
+  EXPECT_EQ(line(summary, "faulty_ticks").first, 0);
+}
+
+TEST_F(MapCommand, RefusesWhatIsNoMap) {
+  const auto refuses = [](const std::string& rpm, const std::string& throttle, const std::string& why) {
+    const std::string told = refusal({kFour, "--rpm", rpm, "--throttle", throttle});
+    EXPECT_NE(told.find(why), std::string::npos) << told;
+  };
+  refuses("1000:6000", "0:1:3", "--rpm: give FROM:TO:N");
+  refuses("6000:1000:3", "0:1:3", "--rpm: FROM must be less than TO");
+  refuses("1000:6000:1", "0:1:3", "--rpm: FROM must be less than TO, or the same with N = 1");
+  refuses("1000:6000:2.5", "0:1:3", "'2.5' is not a whole number");
+  refuses("1000:6000:3", "0:1.5:3", "--throttle: 1.5 is out of range");
+  refuses("1000:6000:1000", "0:1:1000", "a map of 1e+06 points");
+  refuses("1000:500000:2", "1:1:1", "--rpm: 500000 is out of range");
+  EXPECT_NE(refusal({kSample, "--rpm", "1000:2000:2", "--throttle", "0:1:2"}).find("has no [pressure] source = gas"),
+            std::string::npos);
+  EXPECT_NE(refusal({kFour, "--rpm", "70000:80000:2", "--throttle", "1:1:1", "--tick-us", "2000"})
+                .find("at most one revolution per tick"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace crankloop::program

@@ -1,0 +1,109 @@
+// What the report of a run shows beside its curves, worked out by hand for the 495: heat release, valve timing, loads
+// over the speed, the engine file's remarks.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "support/markup.hpp"
+#include "support/run_command.hpp"
+#include "support/units.hpp"
+
+namespace crankloop::program {
+namespace {
+
+class ReportOfThe495 : public RunCommand {
+ protected:
+  ReportOfThe495() { summary_ = run({kSample, "--cycles", "1", "--report", path("report.html")}); }
+
+  /// The description of a drawing: "... NAME: from LOW to HIGH UNIT."
+  std::string description(const std::string& title) const {
+    const auto titles = page().all("title");
+    const auto descriptions = page().all("desc");
+    for (std::size_t i = 0; i < descriptions.size(); ++i) {
+      if (titles[i + 1].text == title) return descriptions[i].text;  // the first is the page's
+    }
+    ADD_FAILURE() << "no drawing " << title;
+    return "";
+  }
+  support::Markup page() const { return support::read(contents(path("report.html"))); }
+
+  std::string summary_;
+};
+
+/// The Wiebe heat comes back from pressure and volume: the table of what follows has it.
+TEST_F(ReportOfThe495, FindsTheHeatThatItsDiagramWasMadeOf) {
+  const std::string page = contents(path("report.html"));
+  const std::string row = "Heat per cycle and cylinder at full load</th><td class=\"number\">";
+  const std::size_t at = page.find(row);
+  ASSERT_NE(at, std::string::npos);
+  std::string digits;
+  for (const char c : page.substr(at + row.size(), 20)) {
+    if (c == '<') break;
+    if ((c >= '0' && c <= '9') || c == '.') digits += c;
+  }
+  const double heat_J = std::stod(digits);
+  EXPECT_GT(heat_J, 1000);  // 660 J of work at an efficiency of about a half
+  std::string released = description("Heat released");
+  released = released.substr(released.rfind(" to ") + 4);
+  EXPECT_NEAR(std::stod(released), heat_J, 0.01 * heat_J) << released;
+}
+
+/// 1 mm of valve lift is (1 + 0.3 mm of clearance) / 1.5 of the follower's, which the polynomial has at u of its half
+/// angle of 78 cam degrees, twice as many of the crank, from full lift at 466 and 266 deg (exhaust: 80 cam degrees).
+TEST_F(ReportOfThe495, TimesItsValvesAtAMillimetre) {
+  const auto half_width_deg = [](double half_angle_deg) {
+    double low = 0, high = 1;
+    for (int i = 0; i < 50; ++i) {
+      const double u = (low + high) / 2;
+      const double y = 7.2 * (1 - 2.1875 * std::pow(u, 2) + 2.1875 * std::pow(u, 6) - 1.3125 * std::pow(u, 10) +
+                              0.3125 * std::pow(u, 14));
+      (y > 1.3 / 1.5 ? low : high) = u;
+    }
+    return 2 * half_angle_deg * low;
+  };
+  std::string caption;
+  for (const support::Element& one : page().all("figcaption")) {
+    if (one.text.find("intake opens") != std::string::npos) caption = one.text;
+  }
+  const auto told_deg = [&](const std::string& before) {
+    const std::size_t at = caption.find(before);
+    EXPECT_NE(at, std::string::npos) << caption;
+    return at == std::string::npos ? -1 : std::stod(caption.substr(at + before.size()));
+  };
+  constexpr double kTold = 0.5;                                                                // whole degrees
+  EXPECT_NEAR(told_deg("intake opens "), 360 - (466 - half_width_deg(78)), kTold) << caption;  // before TDC
+  EXPECT_NEAR(told_deg("closes "), 466 + half_width_deg(78) - 540, kTold);                     // after BDC
+  EXPECT_NEAR(told_deg("exhaust opens "), 180 - (266 - half_width_deg(80)), kTold);            // before BDC
+}
+
+/// One diagram at every speed has one mean torque: 809.7 kPa on 3.2605 L over 4 pi. The masses' share has no mean.
+TEST_F(ReportOfThe495, HasOneMeanTorqueAtEverySpeed) {
+  const std::string torque = description("Torque of the engine");
+  EXPECT_NE(torque.find("mean: from 210 to 210 Nm"), std::string::npos) << torque;
+
+  // At 2400 rpm the rod is pulled most at the top dead centre of gas exchange: m_j r w^2 (1 + lambda) of 1.315 kg and
+  // 57.5 mm, and an intake of 2 kPa below the crankcase on 70.9 cm^2.
+  const double w = 2400 * support::kPi / 30;
+  const double pulled_kN = (1.315 * 0.0575 * w * w * 1.2738 + 2e3 * 70.88e-4) / 1e3;
+  std::string loads = description("Largest loads");
+  loads = loads.substr(loads.find("rod, pulled"));
+  EXPECT_NEAR(std::stod(loads.substr(loads.find(" to ") + 4)), pulled_kN, 0.005 * pulled_kN) << loads;
+}
+
+TEST_F(ReportOfThe495, PutsRemarksUnderTheSectionThatFollowsThem) {
+  const std::string page = contents(path("report.html"));
+  EXPECT_NE(page.find("[friction]: What turns and brakes the crankshaft besides the gas"), std::string::npos);
+  EXPECT_NE(page.find("[cam intake]: Valve trains: nothing of them is in the sheet."), std::string::npos);
+  EXPECT_NE(page.find("[pressure]: The sheet&#39;s indicator diagram is not printed."), std::string::npos);
+  EXPECT_NE(page.find("The engine file says: The 495 diesel: four-cylinder"), std::string::npos);
+  for (const char* folded : {"<summary>[crank]</summary>", "<summary>[valve exhaust]</summary>"})
+    EXPECT_NE(page.find(folded), std::string::npos) << folded;
+}
+
+TEST_F(ReportOfThe495, SaysOnStandardOutputTooThatItsPressureIsNotMeasured) {
+  EXPECT_NE(summary_.find("\n# cylinder pressure: synthesised, not measured\n"), std::string::npos) << summary_;
+  EXPECT_LT(contents(path("report.html")).size(), 450'000u);
+}
+
+}  // namespace
+}  // namespace crankloop::program

@@ -1,0 +1,66 @@
+// The gas of an engine file: [gas], and what its valves open.
+#include <cstddef>
+#include <vector>
+
+#include "engine_file_parts.hpp"
+
+namespace crankloop::program {
+namespace {
+
+constexpr double kCelsiusInKelvin = 273.15;
+
+/// Rows of a curve from 0 on, rising; at most as many as there is room for.
+int fill_rows(const SectionValues& values, const char* key, double last, const std::string& path,
+              double (&at)[kMaxFlowPoints], double (&value)[kMaxFlowPoints]) {
+  const std::vector<double>& numbers = values.numbers(key);
+  const std::size_t rows = numbers.size() / 2;
+  if (rows < 2 || rows > kMaxFlowPoints) {
+    refuse(values, key, std::to_string(rows) + " pairs given; allowed: 2 to " + std::to_string(kMaxFlowPoints), path);
+  }
+  for (std::size_t i = 0; i < kMaxFlowPoints; ++i) at[i] = value[i] = 0;
+  for (std::size_t i = 0; i < rows; ++i) {
+    at[i] = numbers[2 * i], value[i] = numbers[2 * i + 1];
+    if (i == 0 && at[i] != 0) refuse(values, key, "begins at " + shortest(at[i]) + "; it must begin at 0", path);
+    if (i > 0 && at[i] <= at[i - 1]) {
+      refuse(values, key, shortest(at[i]) + " follows " + shortest(at[i - 1]) + "; they must rise", path);
+    }
+    if (at[i] > last) refuse(values, key, shortest(at[i]) + " is beyond " + shortest(last), path);
+  }
+  return static_cast<int>(rows);
+}
+
+}  // namespace
+
+Gas build_gas(const SectionValues& values, const std::string& path) {
+  Gas gas;
+  fill(values, gas);
+  gas.ambient_K = values.number("ambient_C") + kCelsiusInKelvin;
+  gas.exhaust_K = values.number("exhaust_C") + kCelsiusInKelvin;
+  gas.wall_K = values.number("wall_C") + kCelsiusInKelvin;
+  gas.throttle_count = fill_rows(values, "throttle_curve", 1, path, gas.throttle_ratio, gas.throttle_area_ratio);
+  if (gas.throttle_ratio[gas.throttle_count - 1] != 1) refuse(values, "throttle_curve", "must end at 1", path);
+  if (gas.throttle_closed_m2 > gas.throttle_m2) {
+    refuse(values, "throttle_closed_mm2",
+           shortest(values.number("throttle_closed_mm2")) +
+               " is more than throttle_mm2 = " + shortest(values.number("throttle_mm2")),
+           path);
+  }
+  const double end_deg = gas.burn_start_deg + gas.burn_duration_deg * gas.span_ratio();
+  if (end_deg > kLatestBurn_deg) {
+    refuse(values, "burn_duration_deg",
+           "the burn would end at " + brief(end_deg) + " deg; it must end by " + brief(kLatestBurn_deg) + " deg", path);
+  }
+  return gas;
+}
+
+PortOfTrain build_port(const SectionValues& valve, const std::string& path) {
+  PortOfTrain port;
+  if (valve.has("port")) port.port = valve.text("port") == "intake" ? GasPort::intake : GasPort::exhaust;
+  if (valve.has("seat_diameter_mm")) port.seat_diameter_m = valve.si("seat_diameter_mm");
+  if (!valve.has("flow_over_lift_ratio")) return port;
+  port.flow_count = fill_rows(valve, "flow_over_lift_ratio", 0.5, path, port.flow_lift_ratio, port.flow_ratio);
+  if (port.flow_ratio[0] != 0) refuse(valve, "flow_over_lift_ratio", "must be 0 at 0: a closed valve is closed", path);
+  return port;
+}
+
+}  // namespace crankloop::program

@@ -1,0 +1,68 @@
+#include "pressure_words.hpp"
+
+#include "../report/text.hpp"
+
+namespace crankloop::program {
+namespace {
+
+constexpr double kKilo = 1e-3;
+using report::number_text;
+
+}  // namespace
+
+std::string pressure_in_words(const EngineFile& file, double load_ratio, const GasOrder& gas, const char* throttle) {
+  const Pressure& p = file.definition().pressure;
+  const std::string load = load_ratio == 1 ? ""
+                                           : " Load ratio " + number_text(load_ratio) +
+                                                 ": that share of what combustion adds to the motored pressure.";
+  const auto from_file = [&](const char* over) {
+    return "The cylinder pressure is the table " + file.section("pressure").text("file") + ", given over the " + over +
+           "." + load;
+  };
+  switch (p.source) {
+    case PressureSource::gas:
+      return "The cylinder pressure is not given: it follows from what the cylinders hold, by gas exchange through the "
+             "valves as they move, compression, heat release and wall heat. Throttle " +
+             (throttle != nullptr ? throttle : number_text(gas.throttle_ratio)) + ", " +
+             number_text(gas.fuel_kg * 1e6) + " mg of fuel per cylinder and cycle, burning from " +
+             number_text(gas.burn_start_deg) + " deg for " +
+             number_text(gas.burn_duration_deg * file.definition().gas.span_ratio()) +
+             " deg. Not modelled: pressure waves in pipes and the tuning they bring, fuel evaporation, two zones, "
+             "dissociation, crevices and blow-by, swirl, cycle-to-cycle variation, turbochargers, layers of backflow "
+             "in "
+             "a port.";
+    case PressureSource::none:
+      return "There is no pressure source: gas forces are zero, and all forces and torques are those of the masses "
+             "alone.";
+    case PressureSource::angle_table:
+      return from_file("crank angle");
+    case PressureSource::volume_table:
+      return from_file("cylinder volume");
+    case PressureSource::wiebe:
+      break;
+  }
+  const WiebeDiagram& w = p.wiebe;
+  const std::string heat = w.heat_given ? "a heat of " + number_text(w.heat_J, 5) + " J per cycle and cylinder"
+                                        : "a net IMEP of " + number_text(w.net_mep_Pa * kKilo, 6) + " kPa";
+  return "The cylinder pressure is not measured: it is synthesised with " + heat +
+         ", by a Wiebe heat release of form exponent " + number_text(w.wiebe_m) + " over " +
+         number_text(w.combustion_duration_deg) + " deg from " + number_text(w.start_of_combustion_deg) +
+         " deg, between polytropes of exponents " + number_text(w.compression_exponent) + " and " +
+         number_text(w.expansion_exponent) + "; without combustion it would expand by " +
+         number_text(w.motored_exponent()) + "." + load;
+}
+
+std::string pressure_in_short(const EngineFile& file) {
+  switch (file.definition().pressure.source) {
+    case PressureSource::none:
+      return "no cylinder pressure: masses alone";
+    case PressureSource::gas:
+      return "cylinder pressure: by gas exchange; no pressure waves, one zone";
+    case PressureSource::wiebe:
+      return "cylinder pressure: synthesised, not measured";
+    default:
+      return "cylinder pressure: the table " + file.section("pressure").text("file");
+  }
+}
+
+}  // namespace crankloop::program

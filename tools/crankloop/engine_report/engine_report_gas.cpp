@@ -1,0 +1,81 @@
+// Section of the engine report: gas exchange of an engine that breathes.
+#include <algorithm>
+
+#include "engine_report_parts.hpp"
+
+namespace crankloop::program {
+namespace {
+
+using report::Plot;
+using report::Section;
+
+constexpr double kBar = 1e-5;
+
+/// The ports' pressures, and that of the cylinder as far as it is of their size.
+Plot pressures(const ReportInput& input) {
+  const Trace& trace = input.trace;
+  Plot plot = plot_over_angle(input, "Pressure on both sides of the valves", axis_of("Pressure, absolute", "bar"),
+                              {over_angle(trace, "cylinder", trace[Quantity::pressure], kBar),
+                               over_angle(trace, "intake manifold", trace.gas.manifold_Pa[kIntake], kBar),
+                               over_angle(trace, "exhaust manifold", trace.gas.manifold_Pa[kExhaust], kBar)});
+  const double most_Pa =
+      std::max(span_of(trace.gas.manifold_Pa[kIntake]).high, span_of(trace.gas.manifold_Pa[kExhaust]).high);
+  plot.y.range = report::Range{0, 2 * most_Pa * kBar};
+  plot.caption = "Of cylinder 1. Blow-down and compression go beyond the frame.";
+  return plot;
+}
+
+Plot flows(const ReportInput& input) {
+  const Trace& trace = input.trace;
+  Plot plot = plot_over_angle(input, "Flow through the valves", axis_of("Into the cylinder", "g/s"),
+                              {over_angle(trace, "intake", trace.gas[GasQuantity::intake_flow], 1e3),
+                               over_angle(trace, "exhaust", trace.gas[GasQuantity::exhaust_flow], 1e3)});
+  plot.caption = "Positive into cylinder 1: intake below zero and exhaust above it are backflow.";
+  return plot;
+}
+
+report::Table cycle_table(const ReportInput& input) {
+  const GasCycle<double>& c = input.figures.gas.cycle;
+  report::Table table{
+      "A cycle of a cylinder", {{"Quantity", "", false}, {"Value", ""}, {"Unit", "", false}}, {}, false};
+  const auto row = [&](const char* name, double value, const char* unit) {
+    table.rows.push_back({name, number_text(value), unit});
+  };
+  row("Net IMEP", c.net_mep_Pa / 1e3, "kPa");
+  row("Pumping mean pressure", c.pumping_mep_Pa / 1e3, "kPa");
+  row("Volumetric efficiency", c.volumetric_efficiency, "");
+  row("Trapped air", c.trapped_air_kg * 1e6, "mg");
+  row("Residual gas, of all that is trapped", c.residual_ratio, "");
+  row("Excess air ratio", c.excess_air_ratio, "");
+  row("Fuel burned", c.fuel_kg * 1e6, "mg");
+  row("Heat of combustion", c.heat_J, "J");
+  row("Heat to the walls", c.wall_heat_J, "J");
+  row("Exhaust temperature, net enthalpy over net mass", c.exhaust_K, "K");
+  row("Intake manifold, mean pressure", input.figures.gas.intake_Pa / 1e3, "kPa");
+  row("Exhaust manifold, mean pressure", input.figures.gas.exhaust_Pa / 1e3, "kPa");
+  row("Exhaust manifold, mean temperature", input.figures.gas.exhaust_manifold_K, "K");
+  row("What the first law lacks", c.energy_defect_J, "J");
+  return table;
+}
+
+}  // namespace
+
+report::Section gas_section(const ReportInput& input) {
+  const Trace& trace = input.trace;
+  Section section{"gas", "Gas exchange", {}};
+  section.blocks.push_back(flows(input));
+  section.blocks.push_back(pressures(input));
+  Plot temperature = plot_over_angle(input, "Temperature of the gas", axis_of("Temperature", "K"),
+                                     {over_angle(trace, "", trace.gas[GasQuantity::temperature], 1)});
+  temperature.markers = {largest_marker(temperature, 0)};
+  temperature.caption = "Mean of the cylinder: one zone.";
+  section.blocks.push_back(std::move(temperature));
+  section.blocks.push_back(plot_over_angle(input, "Mass in the cylinder", axis_of("Mass", "mg"),
+                                           {over_angle(trace, "", trace.gas[GasQuantity::mass], 1e6)}));
+  section.blocks.push_back(plot_over_angle(input, "Heat to the walls", axis_of("Heat flow", "kW"),
+                                           {over_angle(trace, "", trace.gas[GasQuantity::wall_heat], 1e-3)}));
+  section.blocks.push_back(cycle_table(input));
+  return section;
+}
+
+}  // namespace crankloop::program
