@@ -24,7 +24,7 @@ class Reach : public ::testing::EmptyTestEventListener {
   }
   void write(const std::string& name) {
     file_ << name << ' ' << (std::clock() - start_) / (CLOCKS_PER_SEC / 1000);
-    for (int number = 0; number < mutant::kMost; ++number) {
+    for (int number = 0; number < mutant::kMax; ++number) {
       if (mutant::reached[number]) file_ << ' ' << number;
     }
     file_ << '\n';

@@ -13,8 +13,8 @@
 
 namespace mutant {
 
-inline constexpr int kMost = 20000;
-inline bool reached[kMost];
+inline constexpr int kMax = 20000;
+inline bool reached[kMax];
 inline const int chosen = std::getenv("CRANKLOOP_MUTANT") != nullptr ? std::atoi(std::getenv("CRANKLOOP_MUTANT")) : -1;
 
 inline bool reach(int number) noexcept {

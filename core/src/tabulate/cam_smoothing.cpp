@@ -23,9 +23,9 @@ namespace crankloop::detail {
 
 namespace {
 
-constexpr int kMost = LobeSpline::kMaxWeights;
+constexpr int kMax = LobeSpline::kMaxWeights;
 constexpr int kFewestSegments = 160;  // about one a degree: also a coarse table is smoothed, not interpolated
-constexpr int kMaxSegments = kMost + kBasis - 1;
+constexpr int kMaxSegments = kMax + kBasis - 1;
 constexpr double kMarginDeg = 10;  // base circle to either side of the rows that rise, in which the lobe may begin
 constexpr double kWidestLobeDeg = 350;
 constexpr double kLeastStiffness =
@@ -53,9 +53,9 @@ class Smoothing {
   LobeSpline& lobe_;
   int weights_ = 0;
   double least_stiffness_ = 0;
-  double rows_[kMost][kBasis];  ///< normal equations: row i holds columns i to i + 5
-  double right_[kMost];
-  double factor_[kMost][kBasis];  ///< Cholesky factor, transposed
+  double rows_[kMax][kBasis];  ///< normal equations: row i holds columns i to i + 5
+  double right_[kMax];
+  double factor_[kMax][kBasis];  ///< Cholesky factor, transposed
 };
 
 /// Where the lobe may lie, and its knots.
@@ -96,7 +96,7 @@ Status Smoothing::place() noexcept {
 
 /// The rows' share of the normal equations.
 void Smoothing::gather() noexcept {
-  for (int i = 0; i < kMost; ++i) {
+  for (int i = 0; i < kMax; ++i) {
     right_[i] = 0;
     for (int k = 0; k < kBasis; ++k) rows_[i][k] = 0;
   }
@@ -117,11 +117,11 @@ void Smoothing::gather() noexcept {
 /// The lobe's weights by Cholesky's method; O(weights). The matrix is positive definite because the differences reach
 /// across both ends.
 void Smoothing::solve(double stiffness) noexcept {
-  CRANKLOOP_ASSERT(lobe_.begin >= 0 && lobe_.begin < lobe_.end && lobe_.end <= kMost);
+  CRANKLOOP_ASSERT(lobe_.begin >= 0 && lobe_.begin < lobe_.end && lobe_.end <= kMax);
   constexpr double kThirdDifferences[kBasis] = {20, -15, 6, -1, 0, 0};  // D'D of D = (1, -3, 3, -1)
   double* c = lobe_.c_m;
   const auto reach = [&](int i) { return i - (kBasis - 1) > lobe_.begin ? i - (kBasis - 1) : lobe_.begin; };
-  for (int i = 0; i < kMost; ++i) c[i] = 0;
+  for (int i = 0; i < kMax; ++i) c[i] = 0;
   for (int i = lobe_.begin; i < lobe_.end; ++i) {
     for (int k = 0; k < kBasis && i + k < lobe_.end; ++k) {
       double sum = rows_[i][k] + stiffness * kThirdDifferences[k];

@@ -131,7 +131,7 @@ class Samples {
  private:
   static constexpr int kCount = kFinest * Fit<Real, Quantity>::kSamplesPerFinest;
   static constexpr int kFirstStep = kCount / 10;
-  static_assert(kCount < static_cast<int>(Places::kMost));
+  static_assert(kCount < static_cast<int>(Places::kMax));
 
   [[nodiscard]] static double place(int i) noexcept { return static_cast<double>(i) / kCount; }
 

@@ -23,10 +23,10 @@ inline constexpr std::size_t kPressurePlaces = 5;  // of a segment: ends and qua
 
 /// Places within one degree, as parts of it, and what is found there.
 struct Places {
-  static constexpr std::size_t kMost = kFinest * kPressurePlaces;
+  static constexpr std::size_t kMax = kFinest * kPressurePlaces;
   std::size_t count = 0;
-  double at[kMost];
-  AllParts found[kMost];
+  double at[kMax];
+  AllParts found[kMax];
 
   void add(double part_of_degree) noexcept { at[count++] = part_of_degree; }
 };
@@ -72,7 +72,7 @@ class EngineTorque {
   /// cylinder: they are sums.
   void find(int degree, Places& places) const noexcept {
     const elementary::SinCos start = elementary::sin_cos(degree * kRadPerDegree);
-    elementary::SinCos engine_angles[Places::kMost];
+    elementary::SinCos engine_angles[Places::kMax];
     for (std::size_t i = 0; i < places.count; ++i) {
       engine_angles[i] = sin_cos_of_sum(start, sin_cos_within_a_degree(places.at[i]));
       places.found[i] = {};

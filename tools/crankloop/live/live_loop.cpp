@@ -29,10 +29,10 @@ using port::LiveOutputs;
 /// infinity.
 template <class Real>
 Real as(double value) noexcept {
-  constexpr auto kMost = static_cast<double>(std::numeric_limits<Real>::max());
+  constexpr auto kMax = static_cast<double>(std::numeric_limits<Real>::max());
   constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
-  if (value > kMost) return kInfinite;
-  if (value < -kMost) return -kInfinite;
+  if (value > kMax) return kInfinite;
+  if (value < -kMax) return -kInfinite;
   return static_cast<Real>(value);
 }
 

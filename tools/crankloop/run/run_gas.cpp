@@ -42,10 +42,10 @@ int cycles_to_settle(const EngineDefinition& engine) noexcept {
   // was there is left. Residual gas and walls follow within some cycles.
   constexpr double kChanges = 8;
   constexpr double kAfter = 6;
-  constexpr double kMost = 500;
+  constexpr double kMax = 500;
   const double volume_m3 = std::max(engine.gas.intake_m3, engine.gas.exhaust_m3);
   const double swept_m3 = swept_volume_m3(engine.crank) * engine.layout.cylinders;
-  return static_cast<int>(std::min(kMost, std::ceil(kAfter + kChanges * volume_m3 / swept_m3)));
+  return static_cast<int>(std::min(kMax, std::ceil(kAfter + kChanges * volume_m3 / swept_m3)));
 }
 
 }  // namespace crankloop::program

@@ -29,8 +29,8 @@ struct Member {
 
 /// The members of a struct, in its order.
 struct Members {
-  static constexpr std::size_t kMost = 256;
-  Member all[kMost]{};
+  static constexpr std::size_t kMax = 256;
+  Member all[kMax]{};
   std::size_t count = 0;
   std::size_t last = 0;
 

@@ -46,18 +46,18 @@ template <class Real, class S>
                                                   const Input<Real, S>& input,
                                                   [[maybe_unused]] CrankTurn<Real, S>& crank,
                                                   std::uint32_t& faults) noexcept {
-  constexpr Real kMost_Pa = static_cast<Real>(kMaxPressure_Pa);
+  constexpr Real kMax_Pa = static_cast<Real>(kMaxPressure_Pa);
   const std::uint32_t cylinders = count<S>(drive.cylinders);
   const auto take = [&](std::uint32_t k, Real now_Pa) {
     if constexpr (Needs<S>::given_work) crank.mean_pressure_Pa[k] = (state.pressure_Pa[k] + now_Pa) / 2;
     state.pressure_Pa[k] = now_Pa;
   };
-  if (all_within_positive(input.pressure_Pa, cylinders, kMost_Pa)) {
+  if (all_within_positive(input.pressure_Pa, cylinders, kMax_Pa)) {
     for (std::uint32_t k = 0; k < cylinders; ++k) take(k, input.pressure_Pa[k]);
     return;
   }
   for (std::uint32_t k = 0; k < cylinders; ++k) {
-    const bool good = within_positive(input.pressure_Pa[k], kMost_Pa);
+    const bool good = within_positive(input.pressure_Pa[k], kMax_Pa);
     take(k, good ? input.pressure_Pa[k] : state.pressure_Pa[k]);
     if (!good) faults |= kFaultPressure;
   }

@@ -129,14 +129,14 @@ class TriggerTick {
   /// Out to the turning point and back from it, each a sweep. The turning point is rounded, but one and the same for
   /// both.
   void turn_round(const Sweep& tick, Real slope, Real bend) noexcept {
-    constexpr Real kMost = static_cast<Real>(0.999);  // of a turn; half of one at the speed limit
+    constexpr Real kMax = static_cast<Real>(0.999);  // of a turn; half of one at the speed limit
     CRANKLOOP_ASSERT(bend != 0);
     const Real since = slope / (-2 * bend);
     CRANKLOOP_ASSERT(since > 0 && since < 1);
     const Real reach = magnitude(slope) * since / 2;
     const bool outward = slope > 0;
     const bool ends_beyond = tick.forward == outward;  // beyond where it began, as it went out
-    std::uint64_t out = Phase::from_cycles(reach < kMost ? reach : kMost).units();
+    std::uint64_t out = Phase::from_cycles(reach < kMax ? reach : kMax).units();
     if (ends_beyond && out < tick.span) out = tick.span;
     const Sweep there{tick.from, out, outward};
     const Sweep back{there.to(), ends_beyond ? out - tick.span : out + tick.span, !outward};
