@@ -9,6 +9,8 @@
 
 #include "all_of_it.h"
 #include "all_of_it.hpp"
+#include "breathes.h"
+#include "breathes.hpp"
 #include "sensor.h"
 #include "sensor.hpp"
 #include "torque_only.h"
@@ -199,6 +201,48 @@ static void forces() {
   expect("it runs", out.speed_rad_s > 60);
 }
 
+/// Started, fired and throttled: its inputs are the list's, its results are those of whole cycles, its bytes have the
+/// gas.
+static void gas() {
+  breathes_engine engine{};
+  expect("the one that breathes is created", ok(breathes_create(&engine, sizeof engine, 0)));
+  breathes::Engine cpp;
+  breathes_input in;
+  breathes_output out;
+  expect("it has defaults too", ok(breathes_input_defaults(&in, sizeof in)) && in.throttle_ratio == 1);
+  breathes::Input cpp_in;
+  const auto step = [&](int tick) {
+    in.starter = cpp_in.starter = tick < 5000 ? 1 : 0;
+    in.throttle_ratio = cpp_in.throttle_ratio = tick < 8000 ? 0.3F : 0.1F;
+    for (int k = 0; k < 4; ++k) {
+      in.fuel_kg[k] = cpp_in.fuel_kg[k] = 2e-5F + 1e-6F * static_cast<float>(k);
+      in.burn_start_deg[k] = cpp_in.burn_start_deg[k] = static_cast<float>(-10 - k);
+    }
+    return breathes_step(&engine, &in, sizeof in);
+  };
+  for (int tick = 0; tick < 12'000; ++tick) {
+    const std::uint32_t faults = step(tick);
+    const auto& shown = cpp.step(cpp_in);
+    expect("the same faults of the one that breathes", faults == shown.faults && faults == 0);
+    expect("the one that breathes is read", ok(breathes_read(&engine, &out, sizeof out)));
+    expect_same("breathes", out, static_cast<const Engine<breathes::Real, breathes::Scene>&>(cpp));
+    expect("the same pressure", out.cylinder_gas[2].pressure_Pa == shown.cylinder_gas[2].pressure_Pa);
+  }
+  expect("it fires", out.speed_rad_s > 100 && out.gas_cycle[3].net_mep_Pa > 5e4F && out.gas_cycle[3].fuel_kg > 4e-6F);
+  unsigned char bytes[breathes_SAVED_BYTES];
+  expect("it saves its gas", ok(breathes_save(&engine, bytes, sizeof bytes)));
+  const auto after_1000 = [&] {
+    for (int tick = 12'000; tick < 13'000; ++tick) (void)step(tick);
+    expect("it is read once more", ok(breathes_read(&engine, &out, sizeof out)));
+    return out;
+  };
+  const breathes_output then = after_1000();
+  expect("it loads its gas", ok(breathes_load(&engine, bytes, sizeof bytes)));
+  const breathes_output again = after_1000();
+  expect("it goes on as it did", again.cylinder_gas[1].pressure_Pa == then.cylinder_gas[1].pressure_Pa &&
+                                     again.crank == then.crank && again.torque_Nm == then.torque_Nm);
+}
+
 int main() {
   static_assert(sizeof(all_of_it_engine) == sizeof(all_of_it::Engine), "the exact size");
   static_assert(sizeof(torque_only_engine) == sizeof(torque_only::Engine), "the exact size");
@@ -206,6 +250,7 @@ int main() {
   all_outputs();
   measured_inputs();
   forces();
+  gas();
   std::printf("%d bad\n", bad);
   return bad == 0 ? 0 : 1;
 }

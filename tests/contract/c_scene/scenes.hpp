@@ -1,4 +1,4 @@
-// Scenes of a product: everything, little, and measured inputs.
+// Scenes of a product: everything, little, measured inputs, and an engine that breathes.
 #pragma once
 
 #include <crankloop/scene.hpp>
@@ -47,4 +47,18 @@ struct Sensor : crankloop::Scene {
   static constexpr auto crank = crankloop::CrankGiven::phase;
   static constexpr auto pressure = crankloop::PressureGiven::by_input;
   static constexpr bool mean_torque = true;
+};
+
+struct Breathes : crankloop::Scene {
+  static constexpr auto cylinders = crankloop::exactly<4>;
+  static constexpr auto crank = crankloop::CrankGiven::torque;
+  static constexpr auto pressure = crankloop::PressureGiven::by_gas;
+  static constexpr auto manifold = crankloop::Manifold::throttle;
+  static constexpr auto combustion = crankloop::Combustion::by_input;
+  static constexpr bool gas_results = true;
+  static constexpr auto valves = crankloop::ValveModel::elastic;
+  static constexpr auto trains = crankloop::exactly<2>;
+  static constexpr bool valve_gas = true;
+  static constexpr bool torque = true;
+  static constexpr bool starter = true;
 };
