@@ -1,19 +1,20 @@
 #!/bin/sh
-# mutants.sh [--seed N] [--count N] [BUILD_DIR]
-# How many single-point changes of core the tests notice: a sample of what tests/mutants/mutate.cpp can change, the
-# valve's tick left out.
+# mutants.sh [--seed N] [--count N] [--only REGEX] [BUILD_DIR]
+# How many single-point changes of core the tests notice: a sample of what tests/mutants/mutate.cpp can change; with
+# --only in files whose paths have it, such as tick/valve/. Nothing goes abreast: what lanes have of their own is
+# another test's.
 #
-# All mutants of a sample are in one build, of the library's own unit, property and interface tests; CRANKLOOP_MUTANT=N
-# makes a run the mutant N. Each is judged by the tests that come by its place, up to the first that fails; a run is
-# also over after 60 s of processor time, of which the tests take half at most without a change. Places that no test
-# comes by, since the compiler has done there what is to be done or since tests/coverage_exceptions.conf says why, are
-# told and replaced by the next of the sample.
+# All mutants of a sample are in one build, of the library's own unit, property and interface tests, with assertions;
+# CRANKLOOP_MUTANT=N makes a run the mutant N. Each is judged by the tests that come by its place, up to the first that
+# fails; a run is also over after 60 s of processor time, of which the tests take half at most without a change. Places
+# that no test comes by, since the compiler has done there what is to be done or since tests/coverage_exceptions.conf
+# says why, are told and replaced by the next of the sample.
 #
 # Fails when under 90 % of the mutants that are no equivalents are noticed, or one survives that
 # tests/mutants/survivors.conf does not know. Last line: "N passed, M failed".
 set -eu
 CDPATH='' cd -- "$(dirname -- "$0")/.."
-seed=1 count=60 build=build/mutants
+seed=1 count=60 only=. build=build/mutants
 usage() { sed -n '2,/^[^#]/s/^# \{0,1\}//p' tests/mutants.sh >&2 && exit 2; }
 while [ $# -gt 0 ]; do
   case $1 in
@@ -22,6 +23,7 @@ while [ $# -gt 0 ]; do
       if [ "$1" = --seed ]; then seed=$2; else count=$2; fi
       shift 2
       ;;
+    --only) [ -n "${2:-}" ] || usage && only=$2 && shift 2 ;;
     -*) usage ;;
     *) build=$1 && shift ;;
   esac
@@ -40,7 +42,7 @@ quietly cmake --build "$build/mutate"
 # A change that does not compile is left out; the compiler names its place.
 : >"$build/left_out"
 while :; do
-  "$build/mutate/mutate" . "$build/core" "$seed" "$drawn" "$build/left_out" >"$build/mutants" 2>"$build/places"
+  "$build/mutate/mutate" . "$build/core" "$seed" "$drawn" "$only" "$build/left_out" >"$build/mutants" 2>"$build/places"
   quietly cmake -S tests/mutants -B "$build/judge" -DMUTATED="$build/core"
   cmake --build "$build/judge" --target judge --parallel "$jobs" >"$build/build.log" 2>&1 && break
   cut -f 2 "$build/mutants" | sort -u >"$build/changed"
@@ -127,6 +129,7 @@ done <"$build/mutants"
 
 echo "date = $(date +%F)"
 echo "places = $(sed -n 's/ places$//p' "$build/places")"
+echo "only = $only"
 echo "seed = $seed"
 echo "mutants = $judged"
 echo "noticed = $killed"

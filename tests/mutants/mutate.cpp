@@ -1,13 +1,14 @@
-// mutate CHECKOUT OUT SEED COUNT [LEFT_OUT]
+// mutate CHECKOUT OUT SEED COUNT ONLY [LEFT_OUT]
 //
 // Copies core of a checkout to the folder OUT, with COUNT single-point changes written into it that mutant.hpp can
-// switch on, drawn from SEED. Prints for each "NUMBER<TAB>FILE:LINE<TAB>CHANGE<TAB>CODE". The lines FILE:LINE that
-// LEFT_OUT names stay as they are, and the others keep their numbers: where a change did not compile.
+// switch on, drawn from SEED, in files that the regular expression ONLY finds. Prints for each
+// "NUMBER<TAB>FILE:LINE<TAB>CHANGE<TAB>CODE". The lines FILE:LINE that LEFT_OUT names stay as they are, and the others
+// keep their numbers: where a change did not compile.
 //
 // What is changed: comparisons, + - * /, constants (one more, twice, a tenth), conditions, negations, statements that
-// are left out. What is not: the valve's tick, what templates are made of, static_assert, enumerators, and constants
-// that the compiler itself needs. A change is drawn by what it changes and where it stands, not by how many there are:
-// an edit of one line leaves the others of a sample as they were.
+// are left out. What is not: lanes, FMUs, the C interface, what templates are made of, assertions, enumerators, and
+// constants that the compiler itself needs. A change is drawn by what it changes and where it stands, not by how many
+// there are: an edit of one line leaves the others of a sample as they were.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -28,9 +29,10 @@ namespace {
 namespace fs = std::filesystem;
 using Lines = std::vector<std::string>;
 
-// The valve's tick; and FMUs, whose tests load them as shared objects (tests/fmi).
+// Lanes, which are left out of the build; FMUs, whose tests load them as shared objects (tests/fmi); and the C
+// interface, of which the build generates the greater part.
 constexpr const char* kOutside =
-    "(tick/(valve[a-z_]*|valves_step|lift_curve)[.]hpp|crankloop/variables[.]hpp|fmi/[a-z0-9_]*[.](hpp|inc))$";
+    "(/lanes?[a-z_]*[.]hpp|abreast[.]hpp|crankloop/variables[.]hpp|/(fmi|c)/[a-z0-9_]*[.](hpp|inc|cpp))$";
 
 /// Replaces `length` characters at a place of a line.
 struct Edit {
@@ -255,7 +257,7 @@ class Finder {
 };
 const std::regex Finder::kNotAtRunTime(
     "static_assert|^ *template\\b|\\busing\\b|if constexpr|\\bcase\\b|\\bextern\\b|alignas|\\boperator\\b|\\bconstexpr "
-    "bool\\b.*;|CRANKLOOP_C\\(");
+    "bool\\b.*;|CRANKLOOP_C\\(|CRANKLOOP_ASSERT\\(");
 
 /// The file with its edits, each but once (two mutants of one definition both make it a variable), and the last of a
 /// line first.
@@ -278,14 +280,15 @@ std::string edited(Lines lines, std::vector<Edit> edits) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 5 && argc != 6) fail("usage: mutate CHECKOUT OUT SEED COUNT [LEFT_OUT]");
+  if (argc != 6 && argc != 7) fail("usage: mutate CHECKOUT OUT SEED COUNT ONLY [LEFT_OUT]");
   const fs::path checkout = argv[1];
   const fs::path out = argv[2];
   const std::string seed = argv[3];
   const auto count = static_cast<std::size_t>(std::strtoul(argv[4], nullptr, 10));
+  const std::regex only(argv[5]);
   std::set<std::string> left_out;
-  if (argc == 6) {
-    for (const std::string& line : read_lines(argv[5])) left_out.insert(line);
+  if (argc == 7) {
+    for (const std::string& line : read_lines(argv[6])) left_out.insert(line);
   }
 
   std::vector<std::string> files;  // of core, by their paths in the checkout
@@ -302,7 +305,9 @@ int main(int argc, char** argv) {
 
   std::vector<Mutant> mutants;
   for (const std::string& file : files) {
-    if (file.substr(file.size() - 2) == ".h" || std::regex_search(file, std::regex(kOutside))) continue;
+    if (file.substr(file.size() - 2) == ".h" || std::regex_search(file, std::regex(kOutside)) ||
+        !std::regex_search(file, only))
+      continue;
     for (Mutant& mutant : Finder(file, read_lines(checkout / file), all_code, seed).find())
       mutants.push_back(std::move(mutant));
   }
