@@ -13,6 +13,7 @@
 // Nothing is allocated here: an instance lies in one piece of memory, a stored state in another.
 #pragma once
 
+#include <cmath>
 #include <cstdarg>
 #include <cstddef>
 #include <cstdint>
@@ -65,10 +66,13 @@ inline constexpr std::uint32_t kMaxWhole = 0x7FFF'FFFF;
 
 /// A trigger wheel's signal since the start; edges newest first.
 struct WheelShown {
+  struct Edge {
+    double time_s = 0;
+    std::uint32_t rises = 0;
+  };
   std::uint32_t level = 0;
   std::uint32_t edges = 0;
-  double edge_s[kEdgesShown] = {};
-  std::uint32_t edge_rises[kEdgesShown] = {};
+  Edge edge[kEdgesShown] = {};
 };
 
 [[nodiscard]] inline bool finite(double x) noexcept {
@@ -133,9 +137,9 @@ class Instance {
       visit(Role::event, truth("trigger[#].level", "Level of the signal").at(i), w.level);
       visit(Role::event, whole("trigger[#].edges", "Edges since the start, modulo 2^31").at(i), w.edges);
       for (std::uint32_t e = 0; e < kEdgesShown; ++e)
-        visit(Role::event, real("trigger[#].edge_s[#]", "Time of an edge; 1 is the newest").at(i, e), w.edge_s[e]);
+        visit(Role::event, real("trigger[#].edge_s[#]", "Time of an edge; 1 is the newest").at(i, e), w.edge[e].time_s);
       for (std::uint32_t e = 0; e < kEdgesShown; ++e)
-        visit(Role::event, truth("trigger[#].edge_rises[#]", "Whether it rose").at(i, e), w.edge_rises[e]);
+        visit(Role::event, truth("trigger[#].edge_rises[#]", "Whether it rose").at(i, e), w.edge[e].rises);
     }
     visit(Role::event, whole("faults", "Fault bits of the last communication step, or-ed"), kept_.faults);
     visit(Role::event, whole("fault_ticks", "Ticks with a fault bit since the start"), kept_.fault_ticks);
@@ -201,22 +205,22 @@ class Instance {
   }
 
   /// Advances to time_s + step_s by whole ticks. Tick k ends at start + k tick, however the importer divides the time,
-  /// and whatever its sums round to: a thousandth of a tick is forgiven.
-  bool step(double time_s, double step_s, Message& why) noexcept {
+  /// and whatever its sums round to: a thousandth of a tick is forgiven. False: refused, say_why_no_step() tells why.
+  [[gnu::always_inline]] bool step(double time_s, double step_s) noexcept {
     constexpr double kForgiven = 1e-3;
-    constexpr double kMaxTicks = 1e7;
-    if (!(step_s > 0 && step_s <= std::numeric_limits<double>::max()))
-      return why.say("a step of %g s: it must be above 0 and finite", step_s), false;
-    if (!detail::within(time_s - kept_.time_s, -tick_s_ / 2, tick_s_ / 2))
-      return why.say("a step from %.17g s, where the last one ended at %.17g s", time_s, kept_.time_s), false;
     const double end_s = time_s + step_s;
-    const double due = (end_s - kept_.start_s) / tick_s_ + kForgiven -
-                       static_cast<double>(static_cast<std::int64_t>(kept_.ticks));  // signed: one instruction
-    if (!(due < kMaxTicks + 1)) return why.say("a step of %.0f ticks: at most %.0f are run", due, kMaxTicks), false;
+    const double due = (end_s - kept_.start_s) / tick_s_ + kForgiven - ticks_run();
+    if (!(step_s > 0 && begins_at_end(time_s) && due < kMaxTicks + 1)) return false;
     kept_.faults = 0;
     if (due >= 1) run(static_cast<std::uint32_t>(due));
     kept_.time_s = end_s;
     return true;
+  }
+  [[gnu::cold]] void say_why_no_step(double time_s, double step_s, Message& why) const noexcept {
+    if (!(step_s > 0 && finite(step_s))) return why.say("a step of %g s: it must be above 0 and finite", step_s);
+    if (!begins_at_end(time_s))
+      return why.say("a step from %.17g s, where the last one ended at %.17g s", time_s, kept_.time_s);
+    why.say("a step of %.0f ticks: at most %.0f are run", step_s / tick_s_, kMaxTicks);
   }
 
   // ---- state as bytes -------------------------------------------------------------------------------------------
@@ -282,6 +286,7 @@ class Instance {
   }
 
  private:
+  static constexpr double kMaxTicks = 1e7;
   static constexpr std::uint32_t kForm = 1;
   static constexpr std::size_t kHeaderBytes = 28;
   static constexpr EngineShape kLargestShape{S::cylinders.capacity, S::trains.capacity, S::triggers.capacity, 1.0};
@@ -331,8 +336,8 @@ class Instance {
     for (auto& x : k.parameters) visit(x);
     for (auto& w : k.wheels) {
       visit(w.level), visit(w.edges);
-      for (auto& x : w.edge_s) visit(x);
-      for (auto& x : w.edge_rises) visit(x);
+      for (auto& e : w.edge) visit(e.time_s);
+      for (auto& e : w.edge) visit(e.rises);
     }
   }
   [[nodiscard]] static constexpr std::size_t count_kept_bytes() noexcept {
@@ -397,37 +402,50 @@ class Instance {
     return good;
   }
 
-  void run(std::uint32_t count) noexcept {
+  /// Signed: a conversion of one instruction.
+  [[nodiscard]] double ticks_run() const noexcept {
+    return static_cast<double>(static_cast<std::int64_t>(kept_.ticks));
+  }
+  /// Whether the last step ended there, within half a tick.
+  [[nodiscard]] bool begins_at_end(double time_s) const noexcept {
+    return std::fabs(time_s - kept_.time_s) <= tick_s_ / 2;
+  }
+
+  /// The first tick of a step in line: most steps have no other.
+  [[gnu::always_inline]] void run(std::uint32_t count) noexcept {
     Input<Real, S> in;
     const double* input = kept_.inputs;
     each_input<S>([&input](const Variable&, auto& value) { assign(value, *input++); }, in, shape_);
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const auto& out = engine_.step(in);
-      if (out.faults != 0) {
-        kept_.faults |= out.faults;
-        if (kept_.fault_ticks < kMaxWhole) ++kept_.fault_ticks;
-      }
-      if constexpr (detail::Needs<S>::any_triggers) {
-        for (std::uint32_t w = 0; w < shape_.wheels; ++w) note_edges(kept_.wheels[w], out.trigger[w]);
-      }
-      ++kept_.ticks;
-    }
+    tick(in);
+    if (count > 1) run_on(in, count - 1);
+  }
+  [[gnu::noinline]] void run_on(const Input<Real, S>& in, std::uint32_t count) noexcept {
+    while (count-- > 0) tick(in);
   }
 
+  [[gnu::always_inline]] void tick(const Input<Real, S>& in) noexcept {
+    const auto& out = engine_.step(in);
+    if (out.faults != 0) note_faults(out.faults);
+    if constexpr (detail::Needs<S>::any_triggers) {
+      for (std::uint32_t w = 0; w < shape_.wheels; ++w) {
+        kept_.wheels[w].level = out.trigger[w].level;
+        if (out.trigger[w].edge_count != 0) note_edges(kept_.wheels[w], out.trigger[w]);
+      }
+    }
+    ++kept_.ticks;
+  }
+  [[gnu::noinline]] void note_faults(std::uint32_t faults) noexcept {
+    kept_.faults |= faults;
+    if (kept_.fault_ticks < kMaxWhole) ++kept_.fault_ticks;
+  }
   template <class Signal>
-  void note_edges(WheelShown& shown, const Signal& signal) const noexcept {
-    shown.level = signal.level;
-    if (signal.edge_count == 0) return;
+  [[gnu::noinline]] void note_edges(WheelShown& shown, const Signal& signal) const noexcept {
+    const double tick_begins_s = kept_.start_s + ticks_run() * tick_s_;
     shown.edges = (shown.edges + signal.edge_count) & kMaxWhole;
     const std::uint32_t listed = signal.edge_count < S::trigger_edges ? signal.edge_count : S::trigger_edges;
     for (std::uint32_t e = 0; e < listed; ++e) {
-      for (std::uint32_t k = kEdgesShown - 1; k > 0; --k) {
-        shown.edge_s[k] = shown.edge_s[k - 1];
-        shown.edge_rises[k] = shown.edge_rises[k - 1];
-      }
-      const double tick_begins_s = kept_.start_s + static_cast<double>(kept_.ticks) * tick_s_;
-      shown.edge_s[0] = tick_begins_s + static_cast<double>(signal.edge[e].time_s);
-      shown.edge_rises[0] = signal.edge[e].level;
+      for (std::uint32_t k = kEdgesShown - 1; k > 0; --k) shown.edge[k] = shown.edge[k - 1];
+      shown.edge[0] = {tick_begins_s + static_cast<double>(signal.edge[e].time_s), signal.edge[e].level};
     }
   }
 

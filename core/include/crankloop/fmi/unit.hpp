@@ -181,10 +181,10 @@ class Unit {
     instance.reset();
     return kOk;
   }
-  Answer step(double time_s, double step_s) noexcept {
+  [[gnu::always_inline]] Answer step(double time_s, double step_s) noexcept {
     if (instance.stage() != Stage::stepping) return refuse_now();
     const std::uint32_t faults_before = instance.faults();
-    if (Message why; !instance.step(time_s, step_s, why)) return refuse(why.text);
+    if (!instance.step(time_s, step_s)) return refuse_step(time_s, step_s);
     if (instance.faults() != 0 && instance.faults() != faults_before && logger.tells_faults) tell_faults();
     return kOk;
   }
@@ -275,6 +275,11 @@ class Unit {
     static constexpr const char* kNotNow[] = {"not allowed while instantiated", "not allowed in initialization mode",
                                               "not allowed in step mode", "not allowed when terminated"};
     return refuse(kNotNow[static_cast<std::uint32_t>(instance.stage())]);
+  }
+  [[gnu::noinline]] Answer refuse_step(double time_s, double step_s) const noexcept {
+    Message why;
+    instance.say_why_no_step(time_s, step_s, why);
+    return refuse(why.text);
   }
   [[gnu::noinline]] void tell_faults() const noexcept {
     Message what;
