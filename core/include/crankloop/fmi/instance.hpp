@@ -105,8 +105,6 @@ class Instance {
   }
 
   [[nodiscard]] const Token& token() const noexcept { return token_; }
-  [[nodiscard]] const EngineShape& shape() const noexcept { return shape_; }
-  [[nodiscard]] const Supply& supply() const noexcept { return supply_; }
   [[nodiscard]] double tick_s() const noexcept { return tick_s_; }
   [[nodiscard]] Stage stage() const noexcept { return kept_.stage; }
   [[nodiscard]] double time_s() const noexcept { return kept_.time_s; }
@@ -181,12 +179,12 @@ class Instance {
   void begin_initialization() noexcept { kept_.stage = Stage::initializing; }
 
   bool finish_initialization(Message& why) noexcept {
-    if (!detail::within(kept_.start_crank_deg, 0.0, 720.0))
-      return why.say("start.crank_deg must be 0 to 720, not %g", kept_.start_crank_deg), false;
+    const auto is_within = [&why](const char* name, double x, double least, double most) {
+      return detail::within(x, least, most) || (why.say("%s must be %g to %g, not %g", name, least, most, x), false);
+    };
     const double limit_rad_s = shape_.speed_limit_rad_s;
-    if (!detail::within(kept_.start_speed_rad_s, -limit_rad_s, limit_rad_s))
-      return why.say("start.speed_rad_s must be at most %g either way, not %g", limit_rad_s, kept_.start_speed_rad_s),
-             false;
+    if (!is_within("start.crank_deg", kept_.start_crank_deg, 0, 720)) return false;
+    if (!is_within("start.speed_rad_s", kept_.start_speed_rad_s, -limit_rad_s, limit_rad_s)) return false;
     if (!start_engine(why)) return false;
     kept_.stage = Stage::stepping;
     return true;
@@ -235,8 +233,8 @@ class Instance {
     write.put(static_cast<std::uint32_t>(kStateBytes));
     for (const std::uint32_t word : token_) write.put(word);
     visit_kept(kept_, [&write](const auto& x) { write.put(x); });
-    each_output<S>([&write](const Variable&, const auto& x) { write_value(write, x); }, engine_.state(),
-                   engine_.output(), kLargestShape);
+    each_output<S>([&write](const Variable&, const auto& x) { write.put(x); }, engine_.state(), engine_.output(),
+                   kLargestShape);
     unsigned char* engine = bytes + kStateBytes - detail::kSavedChecksumBytes - kEngineBytes;
     if (!save_state(engine_, engine, kEngineBytes).ok()) std::memset(engine, 0, kEngineBytes);  // not started yet
     detail::StateWriter(bytes + kStateBytes - detail::kSavedChecksumBytes)
@@ -274,7 +272,7 @@ class Instance {
       return why.say("the state is damaged"), false;
     Output<Real, S> output{};
     [[maybe_unused]] State<Real, S> unused{};
-    each_output<S>([&read](const Variable&, auto& x) { read_value(read, x); }, unused, output, kLargestShape);
+    each_output<S>([&read](const Variable&, auto& x) { read.take(x); }, unused, output, kLargestShape);
     const unsigned char* engine = bytes + kStateBytes - detail::kSavedChecksumBytes - kEngineBytes;
     if (kept.stage < Stage::stepping) {
       engine_ = Engine<Real, S>{};
@@ -291,28 +289,24 @@ class Instance {
   static constexpr std::size_t kHeaderBytes = 28;
   static constexpr EngineShape kLargestShape{S::cylinders.capacity, S::trains.capacity, S::triggers.capacity, 1.0};
 
-  [[nodiscard]] static constexpr std::size_t count_inputs() noexcept {
-    std::size_t count = 0;
-    Input<double, S> in{};
-    each_input<S>([&count](const Variable&, auto&) { ++count; }, in, kLargestShape);
-    return count;
-  }
-  struct OutputCount {
-    std::size_t variables, bytes;
+  struct Count {
+    std::size_t inputs, outputs, output_bytes;
   };
-  [[nodiscard]] static constexpr OutputCount count_outputs() noexcept {
-    OutputCount count{};
+  [[nodiscard]] static constexpr Count count() noexcept {
+    Count count{};
+    Input<double, S> in{};
     const State<Real, S> state{};
     const Output<Real, S> out{};
-    each_output<S>([&count](const Variable&, auto& value) { ++count.variables, count.bytes += sizeof value; }, state,
+    each_input<S>([&](const Variable&, auto&) { ++count.inputs; }, in, kLargestShape);
+    each_output<S>([&](const Variable&, auto& value) { ++count.outputs, count.output_bytes += sizeof value; }, state,
                    out, kLargestShape);
     return count;
   }
-  static constexpr std::size_t kMaxInputs = count_inputs();
+  static constexpr Count kMost = count();
   static constexpr std::size_t kMaxParameters = Supply::kMaxParameters > 0 ? Supply::kMaxParameters : 1;
   static constexpr std::size_t kMaxWheels = S::triggers.capacity > 0 ? S::triggers.capacity : 1;
   static constexpr std::size_t kMaxVariables =
-      6 + kMaxInputs + kMaxParameters + count_outputs().variables + kMaxWheels * (2 + 2 * kEdgesShown);
+      6 + kMost.inputs + kMaxParameters + kMost.outputs + kMaxWheels * (2 + 2 * kEdgesShown);
 
   /// What a stored state has besides the engine.
   struct Kept {
@@ -324,12 +318,12 @@ class Instance {
     double start_speed_rad_s = 0;
     std::uint32_t faults = 0;
     std::uint32_t fault_ticks = 0;
-    double inputs[kMaxInputs]{};
+    double inputs[kMost.inputs]{};
     double parameters[kMaxParameters]{};
     WheelShown wheels[kMaxWheels]{};
   };
   template <class AKept, class Visit>
-  static constexpr void visit_kept(AKept& k, const Visit& visit) noexcept {
+  static constexpr void visit_kept(AKept&& k, const Visit& visit) noexcept {
     visit(k.stage), visit(k.ticks), visit(k.start_s), visit(k.time_s);
     visit(k.start_crank_deg), visit(k.start_speed_rad_s), visit(k.faults), visit(k.fault_ticks);
     for (auto& x : k.inputs) visit(x);
@@ -340,35 +334,16 @@ class Instance {
       for (auto& e : w.edge) visit(e.rises);
     }
   }
-  [[nodiscard]] static constexpr std::size_t count_kept_bytes() noexcept {
-    std::size_t bytes = 0;
-    const Kept none{};
-    visit_kept(none, [&bytes](const auto& x) { bytes += sizeof x; });
+  [[nodiscard]] static constexpr std::size_t count_state_bytes() noexcept {
+    std::size_t bytes = kHeaderBytes + kMost.output_bytes + kEngineBytes + detail::kSavedChecksumBytes;
+    visit_kept(Kept{}, [&bytes](const auto& x) { bytes += sizeof x; });
     return bytes;
   }
 
  public:
-  static constexpr std::size_t kStateBytes =
-      kHeaderBytes + count_kept_bytes() + count_outputs().bytes + kEngineBytes + detail::kSavedChecksumBytes;
+  static constexpr std::size_t kStateBytes = count_state_bytes();
 
  private:
-  template <class Value>
-  static void write_value(detail::StateWriter& write, const Value& x) noexcept {
-    if constexpr (std::is_same_v<Value, Phase>) {
-      write.put(x.units());
-    } else {
-      write.put(x);
-    }
-  }
-  template <class Value>
-  static void read_value(detail::StateReader& read, Value& x) noexcept {
-    if constexpr (std::is_same_v<Value, Phase>) {
-      read.phase(x);
-    } else {
-      read.take(x);
-    }
-  }
-
   bool start_engine(Message& why) noexcept {
     const Tables<Real, S>* tables = supply_.build(kept_.parameters, why);
     if (tables == nullptr) return false;
@@ -449,7 +424,7 @@ class Instance {
     }
   }
 
-  /// What tells one FMU from another: tables, arithmetic, version, and every variable's name in its place.
+  /// What tells one FMU from another: tables, scene, arithmetic, version, tick, and every variable's name in its place.
   void make_token() noexcept {
     detail::Crc32 names;
     each([&names](Role role, const Variable& variable, auto&) {
@@ -457,12 +432,11 @@ class Instance {
       names.add(static_cast<std::uint32_t>(role) << 16 | variable.first << 8 | variable.second);
     });
     detail::Crc32 rest;
-    rest.add(detail::scene_code<S>());
-    rest.add(std::uint32_t{sizeof(Real)});
-    rest.add(std::uint32_t{CRANKLOOP_VERSION});
-    const std::uint64_t tick_bits = detail::bits_of(tick_s_);
-    rest.add(static_cast<std::uint32_t>(tick_bits));
-    rest.add(static_cast<std::uint32_t>(tick_bits >> 32));
+    const std::uint64_t tick = detail::bits_of(tick_s_);
+    for (const std::uint32_t word :
+         {detail::scene_code<S>(), std::uint32_t{sizeof(Real)}, std::uint32_t{CRANKLOOP_VERSION},
+          static_cast<std::uint32_t>(tick), static_cast<std::uint32_t>(tick >> 32)})
+      rest.add(word);
     const std::uint64_t identity = supply_.identity();
     token_[0] = static_cast<std::uint32_t>(identity >> 32);
     token_[1] = static_cast<std::uint32_t>(identity);
