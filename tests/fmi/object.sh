@@ -2,8 +2,8 @@
 # object.sh SHARED_OBJECT SCENE|FILE: what an importer's loader sees of an FMU's shared object.
 #
 # Nothing but fmi2* and fmi3* is seen from outside; nothing is needed but the C library and what comes with it; no path
-# is searched. One of a scene needs nothing newer than glibc 2.31; what one of an engine file needs, through the
-# compiler's own static library, is printed.
+# is searched. One of a scene needs nothing newer than glibc 2.17 of 2012, the oldest for aarch64; what one of an engine
+# file needs, through the compiler's own static library, is printed.
 set -eu
 object=$1
 bad=0
@@ -21,7 +21,7 @@ readelf -d "$object" | grep -q SYMBOLIC || complain 'is not bound to its own sym
 newest=$(readelf -V "$object" | grep -oE 'GLIBC_2\.[0-9]+' | sort -t. -k2n | tail -n 1)
 echo "$object: needs glibc ${newest#GLIBC_}"
 if [ "$2" = SCENE ]; then
-  [ "${newest#GLIBC_2.}" -le 31 ] || complain "needs $newest"
+  [ "${newest#GLIBC_2.}" -le 17 ] || complain "needs $newest"
   # the one constructor is the C compiler's own, which does nothing here
   size=$(readelf -d "$object" | awk '/INIT_ARRAYSZ/ { print $3 }')
   [ "${size:-0}" -le 8 ] || complain "has constructors: $size bytes of them"

@@ -13,6 +13,7 @@
 // Nothing is allocated here: an instance lies in one piece of memory, a stored state in another.
 #pragma once
 
+#include <cmath>
 #include <cstdarg>
 #include <cstddef>
 #include <cstdint>
@@ -65,10 +66,13 @@ inline constexpr std::uint32_t kMaxWhole = 0x7FFF'FFFF;
 
 /// A trigger wheel's signal since the start; edges newest first.
 struct WheelShown {
+  struct Edge {
+    double time_s = 0;
+    std::uint32_t rises = 0;
+  };
   std::uint32_t level = 0;
   std::uint32_t edges = 0;
-  double edge_s[kEdgesShown] = {};
-  std::uint32_t edge_rises[kEdgesShown] = {};
+  Edge edge[kEdgesShown] = {};
 };
 
 [[nodiscard]] inline bool finite(double x) noexcept {
@@ -101,8 +105,6 @@ class Instance {
   }
 
   [[nodiscard]] const Token& token() const noexcept { return token_; }
-  [[nodiscard]] const EngineShape& shape() const noexcept { return shape_; }
-  [[nodiscard]] const Supply& supply() const noexcept { return supply_; }
   [[nodiscard]] double tick_s() const noexcept { return tick_s_; }
   [[nodiscard]] Stage stage() const noexcept { return kept_.stage; }
   [[nodiscard]] double time_s() const noexcept { return kept_.time_s; }
@@ -133,9 +135,9 @@ class Instance {
       visit(Role::event, truth("trigger[#].level", "Level of the signal").at(i), w.level);
       visit(Role::event, whole("trigger[#].edges", "Edges since the start, modulo 2^31").at(i), w.edges);
       for (std::uint32_t e = 0; e < kEdgesShown; ++e)
-        visit(Role::event, real("trigger[#].edge_s[#]", "Time of an edge; 1 is the newest").at(i, e), w.edge_s[e]);
+        visit(Role::event, real("trigger[#].edge_s[#]", "Time of an edge; 1 is the newest").at(i, e), w.edge[e].time_s);
       for (std::uint32_t e = 0; e < kEdgesShown; ++e)
-        visit(Role::event, truth("trigger[#].edge_rises[#]", "Whether it rose").at(i, e), w.edge_rises[e]);
+        visit(Role::event, truth("trigger[#].edge_rises[#]", "Whether it rose").at(i, e), w.edge[e].rises);
     }
     visit(Role::event, whole("faults", "Fault bits of the last communication step, or-ed"), kept_.faults);
     visit(Role::event, whole("fault_ticks", "Ticks with a fault bit since the start"), kept_.fault_ticks);
@@ -177,12 +179,12 @@ class Instance {
   void begin_initialization() noexcept { kept_.stage = Stage::initializing; }
 
   bool finish_initialization(Message& why) noexcept {
-    if (!detail::within(kept_.start_crank_deg, 0.0, 720.0))
-      return why.say("start.crank_deg must be 0 to 720, not %g", kept_.start_crank_deg), false;
+    const auto is_within = [&why](const char* name, double x, double least, double most) {
+      return detail::within(x, least, most) || (why.say("%s must be %g to %g, not %g", name, least, most, x), false);
+    };
     const double limit_rad_s = shape_.speed_limit_rad_s;
-    if (!detail::within(kept_.start_speed_rad_s, -limit_rad_s, limit_rad_s))
-      return why.say("start.speed_rad_s must be at most %g either way, not %g", limit_rad_s, kept_.start_speed_rad_s),
-             false;
+    if (!is_within("start.crank_deg", kept_.start_crank_deg, 0, 720)) return false;
+    if (!is_within("start.speed_rad_s", kept_.start_speed_rad_s, -limit_rad_s, limit_rad_s)) return false;
     if (!start_engine(why)) return false;
     kept_.stage = Stage::stepping;
     return true;
@@ -201,22 +203,22 @@ class Instance {
   }
 
   /// Advances to time_s + step_s by whole ticks. Tick k ends at start + k tick, however the importer divides the time,
-  /// and whatever its sums round to: a thousandth of a tick is forgiven.
-  bool step(double time_s, double step_s, Message& why) noexcept {
+  /// and whatever its sums round to: a thousandth of a tick is forgiven. False: refused, say_why_no_step() tells why.
+  [[gnu::always_inline]] bool step(double time_s, double step_s) noexcept {
     constexpr double kForgiven = 1e-3;
-    constexpr double kMaxTicks = 1e7;
-    if (!(step_s > 0 && step_s <= std::numeric_limits<double>::max()))
-      return why.say("a step of %g s: it must be above 0 and finite", step_s), false;
-    if (!detail::within(time_s - kept_.time_s, -tick_s_ / 2, tick_s_ / 2))
-      return why.say("a step from %.17g s, where the last one ended at %.17g s", time_s, kept_.time_s), false;
     const double end_s = time_s + step_s;
-    const double due = (end_s - kept_.start_s) / tick_s_ + kForgiven -
-                       static_cast<double>(static_cast<std::int64_t>(kept_.ticks));  // signed: one instruction
-    if (!(due < kMaxTicks + 1)) return why.say("a step of %.0f ticks: at most %.0f are run", due, kMaxTicks), false;
+    const double due = (end_s - kept_.start_s) / tick_s_ + kForgiven - ticks_run();
+    if (!(step_s > 0 && begins_at_end(time_s) && due < kMaxTicks + 1)) return false;
     kept_.faults = 0;
     if (due >= 1) run(static_cast<std::uint32_t>(due));
     kept_.time_s = end_s;
     return true;
+  }
+  [[gnu::cold]] void say_why_no_step(double time_s, double step_s, Message& why) const noexcept {
+    if (!(step_s > 0 && finite(step_s))) return why.say("a step of %g s: it must be above 0 and finite", step_s);
+    if (!begins_at_end(time_s))
+      return why.say("a step from %.17g s, where the last one ended at %.17g s", time_s, kept_.time_s);
+    why.say("a step of %.0f ticks: at most %.0f are run", step_s / tick_s_, kMaxTicks);
   }
 
   // ---- state as bytes -------------------------------------------------------------------------------------------
@@ -231,8 +233,8 @@ class Instance {
     write.put(static_cast<std::uint32_t>(kStateBytes));
     for (const std::uint32_t word : token_) write.put(word);
     visit_kept(kept_, [&write](const auto& x) { write.put(x); });
-    each_output<S>([&write](const Variable&, const auto& x) { write_value(write, x); }, engine_.state(),
-                   engine_.output(), kLargestShape);
+    each_output<S>([&write](const Variable&, const auto& x) { write.put(x); }, engine_.state(), engine_.output(),
+                   kLargestShape);
     unsigned char* engine = bytes + kStateBytes - detail::kSavedChecksumBytes - kEngineBytes;
     if (!save_state(engine_, engine, kEngineBytes).ok()) std::memset(engine, 0, kEngineBytes);  // not started yet
     detail::StateWriter(bytes + kStateBytes - detail::kSavedChecksumBytes)
@@ -270,7 +272,7 @@ class Instance {
       return why.say("the state is damaged"), false;
     Output<Real, S> output{};
     [[maybe_unused]] State<Real, S> unused{};
-    each_output<S>([&read](const Variable&, auto& x) { read_value(read, x); }, unused, output, kLargestShape);
+    each_output<S>([&read](const Variable&, auto& x) { read.take(x); }, unused, output, kLargestShape);
     const unsigned char* engine = bytes + kStateBytes - detail::kSavedChecksumBytes - kEngineBytes;
     if (kept.stage < Stage::stepping) {
       engine_ = Engine<Real, S>{};
@@ -282,32 +284,29 @@ class Instance {
   }
 
  private:
+  static constexpr double kMaxTicks = 1e7;
   static constexpr std::uint32_t kForm = 1;
   static constexpr std::size_t kHeaderBytes = 28;
   static constexpr EngineShape kLargestShape{S::cylinders.capacity, S::trains.capacity, S::triggers.capacity, 1.0};
 
-  [[nodiscard]] static constexpr std::size_t count_inputs() noexcept {
-    std::size_t count = 0;
-    Input<double, S> in{};
-    each_input<S>([&count](const Variable&, auto&) { ++count; }, in, kLargestShape);
-    return count;
-  }
-  struct OutputCount {
-    std::size_t variables, bytes;
+  struct Count {
+    std::size_t inputs, outputs, output_bytes;
   };
-  [[nodiscard]] static constexpr OutputCount count_outputs() noexcept {
-    OutputCount count{};
+  [[nodiscard]] static constexpr Count count() noexcept {
+    Count count{};
+    Input<double, S> in{};
     const State<Real, S> state{};
     const Output<Real, S> out{};
-    each_output<S>([&count](const Variable&, auto& value) { ++count.variables, count.bytes += sizeof value; }, state,
+    each_input<S>([&](const Variable&, auto&) { ++count.inputs; }, in, kLargestShape);
+    each_output<S>([&](const Variable&, auto& value) { ++count.outputs, count.output_bytes += sizeof value; }, state,
                    out, kLargestShape);
     return count;
   }
-  static constexpr std::size_t kMaxInputs = count_inputs();
+  static constexpr Count kMost = count();
   static constexpr std::size_t kMaxParameters = Supply::kMaxParameters > 0 ? Supply::kMaxParameters : 1;
   static constexpr std::size_t kMaxWheels = S::triggers.capacity > 0 ? S::triggers.capacity : 1;
   static constexpr std::size_t kMaxVariables =
-      6 + kMaxInputs + kMaxParameters + count_outputs().variables + kMaxWheels * (2 + 2 * kEdgesShown);
+      6 + kMost.inputs + kMaxParameters + kMost.outputs + kMaxWheels * (2 + 2 * kEdgesShown);
 
   /// What a stored state has besides the engine.
   struct Kept {
@@ -319,51 +318,32 @@ class Instance {
     double start_speed_rad_s = 0;
     std::uint32_t faults = 0;
     std::uint32_t fault_ticks = 0;
-    double inputs[kMaxInputs]{};
+    double inputs[kMost.inputs]{};
     double parameters[kMaxParameters]{};
     WheelShown wheels[kMaxWheels]{};
   };
   template <class AKept, class Visit>
-  static constexpr void visit_kept(AKept& k, const Visit& visit) noexcept {
+  static constexpr void visit_kept(AKept&& k, const Visit& visit) noexcept {
     visit(k.stage), visit(k.ticks), visit(k.start_s), visit(k.time_s);
     visit(k.start_crank_deg), visit(k.start_speed_rad_s), visit(k.faults), visit(k.fault_ticks);
     for (auto& x : k.inputs) visit(x);
     for (auto& x : k.parameters) visit(x);
     for (auto& w : k.wheels) {
       visit(w.level), visit(w.edges);
-      for (auto& x : w.edge_s) visit(x);
-      for (auto& x : w.edge_rises) visit(x);
+      for (auto& e : w.edge) visit(e.time_s);
+      for (auto& e : w.edge) visit(e.rises);
     }
   }
-  [[nodiscard]] static constexpr std::size_t count_kept_bytes() noexcept {
-    std::size_t bytes = 0;
-    const Kept none{};
-    visit_kept(none, [&bytes](const auto& x) { bytes += sizeof x; });
+  [[nodiscard]] static constexpr std::size_t count_state_bytes() noexcept {
+    std::size_t bytes = kHeaderBytes + kMost.output_bytes + kEngineBytes + detail::kSavedChecksumBytes;
+    visit_kept(Kept{}, [&bytes](const auto& x) { bytes += sizeof x; });
     return bytes;
   }
 
  public:
-  static constexpr std::size_t kStateBytes =
-      kHeaderBytes + count_kept_bytes() + count_outputs().bytes + kEngineBytes + detail::kSavedChecksumBytes;
+  static constexpr std::size_t kStateBytes = count_state_bytes();
 
  private:
-  template <class Value>
-  static void write_value(detail::StateWriter& write, const Value& x) noexcept {
-    if constexpr (std::is_same_v<Value, Phase>) {
-      write.put(x.units());
-    } else {
-      write.put(x);
-    }
-  }
-  template <class Value>
-  static void read_value(detail::StateReader& read, Value& x) noexcept {
-    if constexpr (std::is_same_v<Value, Phase>) {
-      read.phase(x);
-    } else {
-      read.take(x);
-    }
-  }
-
   bool start_engine(Message& why) noexcept {
     const Tables<Real, S>* tables = supply_.build(kept_.parameters, why);
     if (tables == nullptr) return false;
@@ -397,41 +377,54 @@ class Instance {
     return good;
   }
 
-  void run(std::uint32_t count) noexcept {
+  /// Signed: a conversion of one instruction.
+  [[nodiscard]] double ticks_run() const noexcept {
+    return static_cast<double>(static_cast<std::int64_t>(kept_.ticks));
+  }
+  /// Whether the last step ended there, within half a tick.
+  [[nodiscard]] bool begins_at_end(double time_s) const noexcept {
+    return std::fabs(time_s - kept_.time_s) <= tick_s_ / 2;
+  }
+
+  /// The first tick of a step in line: most steps have no other.
+  [[gnu::always_inline]] void run(std::uint32_t count) noexcept {
     Input<Real, S> in;
     const double* input = kept_.inputs;
     each_input<S>([&input](const Variable&, auto& value) { assign(value, *input++); }, in, shape_);
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const auto& out = engine_.step(in);
-      if (out.faults != 0) {
-        kept_.faults |= out.faults;
-        if (kept_.fault_ticks < kMaxWhole) ++kept_.fault_ticks;
-      }
-      if constexpr (detail::Needs<S>::any_triggers) {
-        for (std::uint32_t w = 0; w < shape_.wheels; ++w) note_edges(kept_.wheels[w], out.trigger[w]);
-      }
-      ++kept_.ticks;
-    }
+    tick(in);
+    if (count > 1) run_on(in, count - 1);
+  }
+  [[gnu::noinline]] void run_on(const Input<Real, S>& in, std::uint32_t count) noexcept {
+    while (count-- > 0) tick(in);
   }
 
+  [[gnu::always_inline]] void tick(const Input<Real, S>& in) noexcept {
+    const auto& out = engine_.step(in);
+    if (out.faults != 0) note_faults(out.faults);
+    if constexpr (detail::Needs<S>::any_triggers) {
+      for (std::uint32_t w = 0; w < shape_.wheels; ++w) {
+        kept_.wheels[w].level = out.trigger[w].level;
+        if (out.trigger[w].edge_count != 0) note_edges(kept_.wheels[w], out.trigger[w]);
+      }
+    }
+    ++kept_.ticks;
+  }
+  [[gnu::noinline]] void note_faults(std::uint32_t faults) noexcept {
+    kept_.faults |= faults;
+    if (kept_.fault_ticks < kMaxWhole) ++kept_.fault_ticks;
+  }
   template <class Signal>
-  void note_edges(WheelShown& shown, const Signal& signal) const noexcept {
-    shown.level = signal.level;
-    if (signal.edge_count == 0) return;
+  [[gnu::noinline]] void note_edges(WheelShown& shown, const Signal& signal) const noexcept {
+    const double tick_begins_s = kept_.start_s + ticks_run() * tick_s_;
     shown.edges = (shown.edges + signal.edge_count) & kMaxWhole;
     const std::uint32_t listed = signal.edge_count < S::trigger_edges ? signal.edge_count : S::trigger_edges;
     for (std::uint32_t e = 0; e < listed; ++e) {
-      for (std::uint32_t k = kEdgesShown - 1; k > 0; --k) {
-        shown.edge_s[k] = shown.edge_s[k - 1];
-        shown.edge_rises[k] = shown.edge_rises[k - 1];
-      }
-      const double tick_begins_s = kept_.start_s + static_cast<double>(kept_.ticks) * tick_s_;
-      shown.edge_s[0] = tick_begins_s + static_cast<double>(signal.edge[e].time_s);
-      shown.edge_rises[0] = signal.edge[e].level;
+      for (std::uint32_t k = kEdgesShown - 1; k > 0; --k) shown.edge[k] = shown.edge[k - 1];
+      shown.edge[0] = {tick_begins_s + static_cast<double>(signal.edge[e].time_s), signal.edge[e].level};
     }
   }
 
-  /// What tells one FMU from another: tables, arithmetic, version, and every variable's name in its place.
+  /// What tells one FMU from another: tables, scene, arithmetic, version, tick, and every variable's name in its place.
   void make_token() noexcept {
     detail::Crc32 names;
     each([&names](Role role, const Variable& variable, auto&) {
@@ -439,12 +432,11 @@ class Instance {
       names.add(static_cast<std::uint32_t>(role) << 16 | variable.first << 8 | variable.second);
     });
     detail::Crc32 rest;
-    rest.add(detail::scene_code<S>());
-    rest.add(std::uint32_t{sizeof(Real)});
-    rest.add(std::uint32_t{CRANKLOOP_VERSION});
-    const std::uint64_t tick_bits = detail::bits_of(tick_s_);
-    rest.add(static_cast<std::uint32_t>(tick_bits));
-    rest.add(static_cast<std::uint32_t>(tick_bits >> 32));
+    const std::uint64_t tick = detail::bits_of(tick_s_);
+    for (const std::uint32_t word :
+         {detail::scene_code<S>(), std::uint32_t{sizeof(Real)}, std::uint32_t{CRANKLOOP_VERSION},
+          static_cast<std::uint32_t>(tick), static_cast<std::uint32_t>(tick >> 32)})
+      rest.add(word);
     const std::uint64_t identity = supply_.identity();
     token_[0] = static_cast<std::uint32_t>(identity >> 32);
     token_[1] = static_cast<std::uint32_t>(identity);

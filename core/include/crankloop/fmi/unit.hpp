@@ -41,7 +41,6 @@ struct Logger {
 
 /// Stages as bits, for the calls that are allowed in several.
 [[nodiscard]] constexpr std::uint32_t in(Stage stage) noexcept { return 1u << static_cast<std::uint32_t>(stage); }
-inline constexpr std::uint32_t kAnyStage = 15;
 inline constexpr std::uint32_t kGetStages = in(Stage::initializing) | in(Stage::stepping) | in(Stage::terminated);
 inline constexpr std::uint32_t kSetStages = in(Stage::instantiated) | in(Stage::initializing) | in(Stage::stepping);
 
@@ -159,9 +158,7 @@ class Unit {
     return allows(in(Stage::instantiated)) ? answer(instance.set_start(start_s, why), why) : kError;
   }
   Answer begin_initialization() noexcept {
-    if (!allows(in(Stage::instantiated))) return kError;
-    instance.begin_initialization();
-    return kOk;
+    return allows(in(Stage::instantiated)) ? (instance.begin_initialization(), kOk) : kError;
   }
   /// As FMI 3 has both in one call.
   Answer begin_initialization(double start_s) noexcept {
@@ -172,19 +169,15 @@ class Unit {
     Message why;
     return allows(in(Stage::initializing)) ? answer(instance.finish_initialization(why), why) : kError;
   }
-  Answer terminate() noexcept {
-    if (!allows(in(Stage::stepping))) return kError;
-    instance.terminate();
-    return kOk;
-  }
+  Answer terminate() noexcept { return allows(in(Stage::stepping)) ? (instance.terminate(), kOk) : kError; }
   Answer reset() noexcept {
     instance.reset();
     return kOk;
   }
-  Answer step(double time_s, double step_s) noexcept {
+  [[gnu::always_inline]] Answer step(double time_s, double step_s) noexcept {
     if (instance.stage() != Stage::stepping) return refuse_now();
     const std::uint32_t faults_before = instance.faults();
-    if (Message why; !instance.step(time_s, step_s, why)) return refuse(why.text);
+    if (!instance.step(time_s, step_s)) return refuse_step(time_s, step_s);
     if (instance.faults() != 0 && instance.faults() != faults_before && logger.tells_faults) tell_faults();
     return kOk;
   }
@@ -216,11 +209,9 @@ class Unit {
   // ---- stored states: the bytes of instance.save(), in memory of their own ------------------------------------------
 
   Answer get_state(void** state) const noexcept {
-    if (state == nullptr) return refuse(kNullPointer);
-    if (*state == nullptr) *state = std::malloc(kStateBytes);
-    if (*state == nullptr) return refuse("there is no memory for a state");
-    instance.save(static_cast<unsigned char*>(*state));
-    return kOk;
+    const Answer made = make_room(state);
+    if (made == kOk) instance.save(static_cast<unsigned char*>(*state));
+    return made;
   }
   Answer set_state(const void* state) noexcept {
     if (state == nullptr) return refuse(kNullPointer);
@@ -245,14 +236,13 @@ class Unit {
     return kOk;
   }
   Answer read_state(const void* bytes, std::size_t size, void** state) const noexcept {
-    if (bytes == nullptr || state == nullptr) return refuse(kNullPointer);
+    if (bytes == nullptr) return refuse(kNullPointer);
     if (size != kStateBytes) return refuse("not the size of a state");
     Message why;
     if (!instance.check(static_cast<const unsigned char*>(bytes), why)) return refuse(why.text);
-    if (*state == nullptr) *state = std::malloc(kStateBytes);
-    if (*state == nullptr) return refuse("there is no memory for a state");
-    std::memcpy(*state, bytes, kStateBytes);
-    return kOk;
+    const Answer made = make_room(state);
+    if (made == kOk) std::memcpy(*state, bytes, kStateBytes);
+    return made;
   }
 
   Logger logger{};
@@ -267,6 +257,13 @@ class Unit {
     return unit != nullptr && unit->version_ == version ? unit : nullptr;
   }
 
+  /// Memory of a state, where the importer hands none back to be filled again.
+  Answer make_room(void** state) const noexcept {
+    if (state == nullptr) return refuse(kNullPointer);
+    if (*state == nullptr) *state = std::malloc(kStateBytes);
+    return *state != nullptr ? kOk : refuse("there is no memory for a state");
+  }
+
   /// Whether the function may be called at this stage; says so if not.
   [[nodiscard]] bool allows(std::uint32_t stages) const noexcept {
     return (stages & in(instance.stage())) != 0 || (refuse_now(), false);
@@ -275,6 +272,11 @@ class Unit {
     static constexpr const char* kNotNow[] = {"not allowed while instantiated", "not allowed in initialization mode",
                                               "not allowed in step mode", "not allowed when terminated"};
     return refuse(kNotNow[static_cast<std::uint32_t>(instance.stage())]);
+  }
+  [[gnu::noinline]] Answer refuse_step(double time_s, double step_s) const noexcept {
+    Message why;
+    instance.say_why_no_step(time_s, step_s, why);
+    return refuse(why.text);
   }
   [[gnu::noinline]] void tell_faults() const noexcept {
     Message what;
@@ -321,10 +323,9 @@ class Unit {
   if (uri[0] == '/' && uri[1] != '\0' && uri[2] == ':') ++uri;  // "/C:/..."
 #endif
   const auto digit = [](char c) {
-    return c >= '0' && c <= '9'   ? c - '0'
-           : c >= 'a' && c <= 'f' ? c - 'a' + 10
-           : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                  : -1;
+    static constexpr char kDigits[] = "0123456789abcdef0123456789ABCDEF";
+    const char* at = c != '\0' ? std::strchr(kDigits, c) : nullptr;
+    return at != nullptr ? static_cast<int>(at - kDigits) % 16 : -1;
   };
   for (; *uri != '\0'; ++uri, ++path, --room) {
     if (room < 2) return false;
