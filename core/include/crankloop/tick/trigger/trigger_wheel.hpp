@@ -132,7 +132,7 @@ class TriggerTick {
     constexpr Real kMax = static_cast<Real>(0.999);  // of a turn; half of one at the speed limit
     CRANKLOOP_ASSERT(bend != 0);
     const Real since = slope / (-2 * bend);
-    CRANKLOOP_ASSERT(since > 0 && since < 1);
+    CRANKLOOP_ASSERT(since >= 0 && since <= 1);  // it is rounded
     const Real reach = magnitude(slope) * since / 2;
     const bool outward = slope > 0;
     const bool ends_beyond = tick.forward == outward;  // beyond where it began, as it went out
