@@ -15,7 +15,7 @@ target_include_directories(crankloop_fmu_core PRIVATE ${crankloop_SOURCE_DIR}/co
 crankloop_house_flags(crankloop_fmu_core)
 
 get_target_property(reader_sources crankloop_engine_file SOURCES)
-list(APPEND reader_sources crankloop/fmu/engine_source.cpp crankloop/valve/valve_tick_limit.cpp)
+list(APPEND reader_sources crankloop/fmu/engine_source.cpp crankloop/fmu/old_glibc.cpp crankloop/valve/valve_tick_limit.cpp)
 add_library(crankloop_fmu_reader OBJECT ${reader_sources})
 crankloop_numerics(crankloop_fmu_reader)
 foreach(target IN ITEMS crankloop_fmu_core crankloop_fmu_reader)

@@ -62,6 +62,8 @@ void set_bits(T& x, std::uint64_t bits) noexcept {
     std::memcpy(&x, &low, sizeof x);
   }
 }
+[[nodiscard]] inline std::uint64_t word_of(const Phase& x) noexcept { return x.units(); }
+inline void set_bits(Phase& x, std::uint64_t bits) noexcept { x = Phase{bits}; }
 
 /// Writes fields one behind the other.
 class StateWriter {
@@ -85,7 +87,7 @@ class StateWriter {
     put(x);
   }
   void wide(const std::uint64_t& x) noexcept { put(x); }
-  void phase(const Phase& x) noexcept { put(x.units()); }
+  void phase(const Phase& x) noexcept { put(x); }
   void signed_wide(const std::uint64_t& x, std::uint64_t) noexcept { put(x); }
   template <class Word>
   void word(const Word& x, std::uint32_t) noexcept {
@@ -131,11 +133,7 @@ class StateReader {
     }
   }
   void wide(std::uint64_t& x) noexcept { take(x); }
-  void phase(Phase& x) noexcept {
-    std::uint64_t units = 0;
-    take(units);
-    x = Phase{units};
-  }
+  void phase(Phase& x) noexcept { take(x); }
   void signed_wide(std::uint64_t& x, std::uint64_t most) noexcept {
     take(x);
     if (x + most > 2 * most) refuse(Reason::out_of_range);  // wraps where x is negative
