@@ -180,8 +180,8 @@ class Unit {
     return kOk;
   }
   /// As FMI 3 has it: what a step may ask for, which no step does, and where it ended.
-  Answer step(double time_s, double step_s, bool* needs_event, bool* ends_simulation, bool* returns_early,
-              double* last_time_s) noexcept {
+  [[gnu::always_inline]] Answer step(double time_s, double step_s, bool* needs_event, bool* ends_simulation,
+                                     bool* returns_early, double* last_time_s) noexcept {
     if (needs_event == nullptr || ends_simulation == nullptr || returns_early == nullptr || last_time_s == nullptr)
       return refuse(kNullPointer);
     *needs_event = *ends_simulation = *returns_early = false;
