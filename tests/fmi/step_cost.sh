@@ -16,7 +16,8 @@ per_tick() {  # SCENE VERSION: in hundredths
   echo $(((many - few) * 100 / ticks))
 }
 bad=0
-for scene in four_pistons trigger_wheels whole bouncing_valve; do
+for scene in four_pistons measured_motion torque_by_table torque_by_pressure trigger_wheels bouncing_valve whole \
+  free_running breathing_free; do
   direct=$(per_tick "$scene" 0)
   for version in 2 3; do
     whole=$(per_tick "$scene" "$version")

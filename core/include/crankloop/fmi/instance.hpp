@@ -166,6 +166,7 @@ class Instance {
   }
   /// Of a reference that takes it. All that may be set is kept in double.
   void set_number(std::uint32_t reference, double value) noexcept {
+    kept_.input_is_old = true;
     std::memcpy(reinterpret_cast<unsigned char*>(this) + slots_[reference].offset, &value, sizeof value);
   }
 
@@ -196,9 +197,8 @@ class Instance {
   void reset() noexcept {
     engine_ = Engine<Real, S>{};
     kept_ = Kept{};
-    double* input = kept_.inputs;
     Input<double, S> in;
-    each_input<S>([&input](const Variable&, auto& value) { *input++ = as_number(value); }, in, shape_);
+    each_input<S>([to = kept_.inputs](const Variable&, auto& value) mutable { *to++ = as_number(value); }, in, shape_);
     for (std::size_t i = 0; i < supply_.parameters(); ++i) kept_.parameters[i] = supply_.parameter_default(i);
   }
 
@@ -321,6 +321,7 @@ class Instance {
     double inputs[kMost.inputs]{};
     double parameters[kMaxParameters]{};
     WheelShown wheels[kMaxWheels]{};
+    bool input_is_old = true;  ///< whether the next step has to convert the inputs anew; the one that is not stored
   };
   template <class AKept, class Visit>
   static constexpr void visit_kept(AKept&& k, const Visit& visit) noexcept {
@@ -388,18 +389,21 @@ class Instance {
 
   /// The first tick of a step in line: most steps have no other.
   [[gnu::always_inline]] void run(std::uint32_t count) noexcept {
-    Input<Real, S> in;
-    const double* input = kept_.inputs;
-    each_input<S>([&input](const Variable&, auto& value) { assign(value, *input++); }, in, shape_);
-    tick(in);
-    if (count > 1) run_on(in, count - 1);
+    if (kept_.input_is_old) convert_inputs();
+    tick();
+    if (count > 1) run_on(count - 1);
   }
-  [[gnu::noinline]] void run_on(const Input<Real, S>& in, std::uint32_t count) noexcept {
-    while (count-- > 0) tick(in);
+  [[gnu::noinline]] void run_on(std::uint32_t count) noexcept {
+    while (count-- > 0) tick();
+  }
+  [[gnu::noinline]] void convert_inputs() noexcept {
+    each_input<S>([from = kept_.inputs](const Variable&, auto& value) mutable { assign(value, *from++); }, input_,
+                  shape_);
+    kept_.input_is_old = false;
   }
 
-  [[gnu::always_inline]] void tick(const Input<Real, S>& in) noexcept {
-    const auto& out = engine_.step(in);
+  [[gnu::always_inline]] void tick() noexcept {
+    const auto& out = engine_.step(input_);
     if (out.faults != 0) note_faults(out.faults);
     if constexpr (detail::Needs<S>::any_triggers) {
       for (std::uint32_t w = 0; w < shape_.wheels; ++w) {
@@ -451,6 +455,7 @@ class Instance {
   std::uint32_t variables_ = 0;
   Slot slots_[kMaxVariables]{};
 
+  Input<Real, S> input_{};  ///< kept_.inputs as the engine takes them
   Engine<Real, S> engine_{};
   Kept kept_{};
 };

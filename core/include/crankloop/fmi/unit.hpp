@@ -62,12 +62,10 @@ class Unit {
     unit->logger = logger;
     unit->logger.instance_name = kept_name;
     Message why;
-    bool good = unit->instance.open(resources, why);
-    if (good && (token == nullptr || std::strcmp(token, TokenText(unit->instance.token()).text) != 0)) {
-      why.say("the token is not this FMU's: model description and binary are of different builds");
-      good = false;
-    }
-    if (good) return unit;
+    const bool opened = unit->instance.open(resources, why);
+    const TokenText right(unit->instance.token());
+    if (opened && token != nullptr && std::strcmp(token, right.text) == 0) return unit;
+    if (opened) why.say("the token is not this FMU's: model description and binary are of different builds");
     logger.instance_name = name;
     (void)refuse_instance(logger, why.text);
     destroy(unit, version);
@@ -182,8 +180,8 @@ class Unit {
     return kOk;
   }
   /// As FMI 3 has it: what a step may ask for, which no step does, and where it ended.
-  Answer step(double time_s, double step_s, bool* needs_event, bool* ends_simulation, bool* returns_early,
-              double* last_time_s) noexcept {
+  [[gnu::always_inline]] Answer step(double time_s, double step_s, bool* needs_event, bool* ends_simulation,
+                                     bool* returns_early, double* last_time_s) noexcept {
     if (needs_event == nullptr || ends_simulation == nullptr || returns_early == nullptr || last_time_s == nullptr)
       return refuse(kNullPointer);
     *needs_event = *ends_simulation = *returns_early = false;
@@ -200,9 +198,8 @@ class Unit {
   }
   Answer never(bool asked, int* truth) const noexcept {
     if (truth == nullptr) return refuse(kNullPointer);
-    if (!asked) return kDiscard;
-    *truth = 0;
-    return kOk;
+    if (asked) *truth = 0;
+    return asked ? kOk : kDiscard;
   }
   Answer discard() const noexcept { return kDiscard; }
 
