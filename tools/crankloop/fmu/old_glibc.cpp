@@ -25,7 +25,7 @@ int fstat(int file, struct stat* found) noexcept { return static_cast<int>(::sys
 
 // glibc 2.34: before it was in a library of its own, as were all of threads but their mutexes.
 int pthread_once(pthread_once_t* once, void (*work)()) {
-  static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+  static pthread_mutex_t mutex = PTHREAD_RECURSIVE_MUTEX_INITIALIZER_NP;  // work may come by another
   pthread_mutex_lock(&mutex);
   if (*once == PTHREAD_ONCE_INIT) work();
   *once = PTHREAD_ONCE_INIT + 1;

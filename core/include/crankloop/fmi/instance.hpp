@@ -1,7 +1,8 @@
-// One functional mock-up unit (FMU) at work: its variables, its life cycle, its time, its state as bytes. The same for
-// FMI 2.0 and 3.0, whose functions (fmi/fmi2.hpp, fmi/fmi3.hpp) only translate.
+// One functional mock-up unit (FMU) at work: its variables, its life cycle, its time. The same for FMI 2.0 and
+// 3.0, whose functions (fmi/fmi2_exports.inc, fmi/fmi3_exports.inc) only translate.
 //
-// What belongs here: what an importer's calls do. What does not: where tables come from, which is the Supply's:
+// What belongs here: what an importer's calls do. What does not: its state as bytes (fmi/kept.hpp), and where tables
+// come from, which is the Supply's:
 //
 //     using Real, Scene
 //     static constexpr std::size_t kMaxParameters      engine numbers that may be set before the start
@@ -14,38 +15,15 @@
 #pragma once
 
 #include <cmath>
-#include <cstdarg>
-#include <cstddef>
-#include <cstdint>
-#include <cstdio>
 #include <cstring>
-#include <limits>
 #include <type_traits>
 
 #include <crankloop/crankloop.h>  // the version
 
-#include <crankloop/engine.hpp>
-#include <crankloop/tick/state/saved_state.hpp>
+#include <crankloop/fmi/kept.hpp>
 #include <crankloop/variable_values.hpp>
-#include <crankloop/variables.hpp>
 
 namespace crankloop::fmi {
-
-using namespace crankloop::detail;  // the list of variables
-
-/// A refusal in words.
-struct Message {
-  char text[2048];  // all of it cleared would take as long as a tick
-
-  Message() noexcept { text[0] = '\0'; }
-
-  [[gnu::format(printf, 2, 3)]] void say(const char* format, ...) noexcept {
-    std::va_list values;
-    va_start(values, format);
-    std::vsnprintf(text, sizeof text, format, values);
-    va_end(values);
-  }
-};
 
 /// `event`: an output that changes at an edge or fault, and in no step between.
 enum class Role : std::uint8_t { independent, input, parameter, output, event, constant };
@@ -58,33 +36,11 @@ struct Slot {
   Role role;
 };
 
-enum class Stage : std::uint32_t { instantiated, initializing, stepping, terminated };
-
-inline constexpr std::uint32_t kEdgesShown = 8;
-/// Whole numbers are signed in FMI 2: counts go on at 0 behind this one.
-inline constexpr std::uint32_t kMaxWhole = 0x7FFF'FFFF;
-
-/// A trigger wheel's signal since the start; edges newest first.
-struct WheelShown {
-  struct Edge {
-    double time_s = 0;
-    std::uint32_t rises = 0;
-  };
-  std::uint32_t level = 0;
-  std::uint32_t edges = 0;
-  Edge edge[kEdgesShown] = {};
-};
-
-[[nodiscard]] inline bool finite(double x) noexcept {
-  return detail::within(x, -std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
-}
-
 template <class Supply>
 class Instance {
  public:
   using Real = typename Supply::Real;
   using S = typename Supply::Scene;
-  using Token = std::uint32_t[4];
 
   /// Once, in new memory. False: `why` says what is wrong with the resources.
   bool open(const char* resources, Message& why) noexcept {
@@ -196,7 +152,7 @@ class Instance {
   /// As new; what the importer set is forgotten.
   void reset() noexcept {
     engine_ = Engine<Real, S>{};
-    kept_ = Kept{};
+    kept_ = Kept<Supply>{};
     Input<double, S> in;
     each_input<S>([to = kept_.inputs](const Variable&, auto& value) mutable { *to++ = as_number(value); }, in, shape_);
     for (std::size_t i = 0; i < supply_.parameters(); ++i) kept_.parameters[i] = supply_.parameter_default(i);
@@ -223,60 +179,19 @@ class Instance {
 
   // ---- state as bytes -------------------------------------------------------------------------------------------
 
-  static constexpr std::size_t kEngineBytes = kSavedStateBytes<Real, S>;
+  static constexpr std::size_t kStateBytes = Kept<Supply>::count_bytes();
 
-  /// Least significant byte first: "CLFM", form, size, token, the fields, CRC-32 of all before it.
-  void save(unsigned char* bytes) const noexcept {
-    for (int i = 0; i < 4; ++i) bytes[i] = static_cast<unsigned char>("CLFM"[i]);
-    detail::StateWriter write(bytes + 4);
-    write.put(kForm);
-    write.put(static_cast<std::uint32_t>(kStateBytes));
-    for (const std::uint32_t word : token_) write.put(word);
-    visit_kept(kept_, [&write](const auto& x) { write.put(x); });
-    each_output<S>([&write](const Variable&, const auto& x) { write.put(x); }, engine_.state(), engine_.output(),
-                   kLargestShape);
-    unsigned char* engine = bytes + kStateBytes - detail::kSavedChecksumBytes - kEngineBytes;
-    if (!save_state(engine_, engine, kEngineBytes).ok()) std::memset(engine, 0, kEngineBytes);  // not started yet
-    detail::StateWriter(bytes + kStateBytes - detail::kSavedChecksumBytes)
-        .put(detail::crc32_of(bytes, kStateBytes - detail::kSavedChecksumBytes));
-  }
-
-  /// Whether they are the bytes of a state of this FMU.
-  bool check(const unsigned char* bytes, Message& why) const noexcept {
-    if (std::memcmp(bytes, "CLFM", 4) != 0) return why.say("the bytes are no saved state"), false;
-    detail::StateReader read(bytes + 4);
-    const auto is = [&read](std::uint32_t expected) {
-      std::uint32_t word = 0;
-      read.take(word);
-      return word == expected;
-    };
-    if (!is(kForm) || !is(static_cast<std::uint32_t>(kStateBytes)))
-      return why.say("the state was saved by another version"), false;
-    for (const std::uint32_t word : token_) {
-      if (!is(word)) return why.say("the state is of another FMU"), false;
-    }
-    detail::StateReader checksum(bytes + kStateBytes - detail::kSavedChecksumBytes);
-    std::uint32_t sum = 0;
-    checksum.take(sum);
-    const bool whole = sum == detail::crc32_of(bytes, kStateBytes - detail::kSavedChecksumBytes);
-    return whole || (why.say("the state is damaged"), false);
-  }
+  void save(unsigned char* bytes) const noexcept { kept_.save(bytes, token_, engine_); }
+  bool check(const unsigned char* bytes, Message& why) const noexcept { return kept_.check(bytes, token_, why); }
 
   /// Goes on from it. Refused: as it was.
   bool load(const unsigned char* bytes, Message& why) noexcept {
-    if (!check(bytes, why)) return false;
-    detail::StateReader read(bytes + kHeaderBytes);
-    Kept kept{};
-    visit_kept(kept, [&read](auto& x) { read.take(x); });
-    if (kept.stage > Stage::terminated || !finite(kept.start_s) || !finite(kept.time_s))
-      return why.say("the state is damaged"), false;
+    Kept<Supply> kept;
     Output<Real, S> output{};
-    [[maybe_unused]] State<Real, S> unused{};
-    each_output<S>([&read](const Variable&, auto& x) { read.take(x); }, unused, output, kLargestShape);
-    const unsigned char* engine = bytes + kStateBytes - detail::kSavedChecksumBytes - kEngineBytes;
+    if (!kept.read(bytes, token_, output, why)) return false;
     if (kept.stage < Stage::stepping) {
       engine_ = Engine<Real, S>{};
-    } else if (!load_engine(engine, kept.parameters, output, why)) {
+    } else if (!load_engine(bytes, kept.parameters, output, why)) {
       return false;
     }
     kept_ = kept;
@@ -287,64 +202,10 @@ class Instance {
   static constexpr double kMaxTicks = 1e7;
   static constexpr std::uint32_t kForm = 1;
   static constexpr std::size_t kHeaderBytes = 28;
-  static constexpr EngineShape kLargestShape{S::cylinders.capacity, S::trains.capacity, S::triggers.capacity, 1.0};
+  static constexpr std::size_t kMaxVariables = 6 + Kept<Supply>::kCount.inputs + Kept<Supply>::kMaxParameters +
+                                               Kept<Supply>::kCount.outputs +
+                                               Kept<Supply>::kMaxWheels * (2 + 2 * kEdgesShown);
 
-  struct Count {
-    std::size_t inputs, outputs, output_bytes;
-  };
-  [[nodiscard]] static constexpr Count count() noexcept {
-    Count count{};
-    Input<double, S> in{};
-    const State<Real, S> state{};
-    const Output<Real, S> out{};
-    each_input<S>([&](const Variable&, auto&) { ++count.inputs; }, in, kLargestShape);
-    each_output<S>([&](const Variable&, auto& value) { ++count.outputs, count.output_bytes += sizeof value; }, state,
-                   out, kLargestShape);
-    return count;
-  }
-  static constexpr Count kMost = count();
-  static constexpr std::size_t kMaxParameters = Supply::kMaxParameters > 0 ? Supply::kMaxParameters : 1;
-  static constexpr std::size_t kMaxWheels = S::triggers.capacity > 0 ? S::triggers.capacity : 1;
-  static constexpr std::size_t kMaxVariables =
-      6 + kMost.inputs + kMaxParameters + kMost.outputs + kMaxWheels * (2 + 2 * kEdgesShown);
-
-  /// What a stored state has besides the engine.
-  struct Kept {
-    Stage stage = Stage::instantiated;
-    std::uint64_t ticks = 0;  ///< since the start
-    double start_s = 0;
-    double time_s = 0;  ///< where the last step ended
-    double start_crank_deg = 0;
-    double start_speed_rad_s = 0;
-    std::uint32_t faults = 0;
-    std::uint32_t fault_ticks = 0;
-    double inputs[kMost.inputs]{};
-    double parameters[kMaxParameters]{};
-    WheelShown wheels[kMaxWheels]{};
-    bool input_is_old = true;  ///< whether the next step has to convert the inputs anew; the one that is not stored
-  };
-  template <class AKept, class Visit>
-  static constexpr void visit_kept(AKept&& k, const Visit& visit) noexcept {
-    visit(k.stage), visit(k.ticks), visit(k.start_s), visit(k.time_s);
-    visit(k.start_crank_deg), visit(k.start_speed_rad_s), visit(k.faults), visit(k.fault_ticks);
-    for (auto& x : k.inputs) visit(x);
-    for (auto& x : k.parameters) visit(x);
-    for (auto& w : k.wheels) {
-      visit(w.level), visit(w.edges);
-      for (auto& e : w.edge) visit(e.time_s);
-      for (auto& e : w.edge) visit(e.rises);
-    }
-  }
-  [[nodiscard]] static constexpr std::size_t count_state_bytes() noexcept {
-    std::size_t bytes = kHeaderBytes + kMost.output_bytes + kEngineBytes + detail::kSavedChecksumBytes;
-    visit_kept(Kept{}, [&bytes](const auto& x) { bytes += sizeof x; });
-    return bytes;
-  }
-
- public:
-  static constexpr std::size_t kStateBytes = count_state_bytes();
-
- private:
   bool start_engine(Message& why) noexcept {
     const Tables<Real, S>* tables = supply_.build(kept_.parameters, why);
     if (tables == nullptr) return false;
@@ -366,7 +227,7 @@ class Instance {
     Engine<Real, S> engine;
     bool good = tables != nullptr && engine.init(*tables).ok();
     if (good) {
-      good = load_state(bytes, kEngineBytes, engine).ok() && engine.restore(engine.state(), output).ok();
+      good = Kept<Supply>::read(bytes, engine) && engine.restore(engine.state(), output).ok();
       if (!good) why.say("the state of the engine is refused");
     }
     if (good) {
@@ -408,7 +269,7 @@ class Instance {
     if constexpr (detail::Needs<S>::any_triggers) {
       for (std::uint32_t w = 0; w < shape_.wheels; ++w) {
         kept_.wheels[w].level = out.trigger[w].level;
-        if (out.trigger[w].edge_count != 0) note_edges(kept_.wheels[w], out.trigger[w]);
+        if (out.trigger[w].edge_count != 0) kept_.wheels[w].note(out.trigger[w], kept_.start_s + ticks_run() * tick_s_);
       }
     }
     ++kept_.ticks;
@@ -417,17 +278,6 @@ class Instance {
     kept_.faults |= faults;
     if (kept_.fault_ticks < kMaxWhole) ++kept_.fault_ticks;
   }
-  template <class Signal>
-  [[gnu::noinline]] void note_edges(WheelShown& shown, const Signal& signal) const noexcept {
-    const double tick_begins_s = kept_.start_s + ticks_run() * tick_s_;
-    shown.edges = (shown.edges + signal.edge_count) & kMaxWhole;
-    const std::uint32_t listed = signal.edge_count < S::trigger_edges ? signal.edge_count : S::trigger_edges;
-    for (std::uint32_t e = 0; e < listed; ++e) {
-      for (std::uint32_t k = kEdgesShown - 1; k > 0; --k) shown.edge[k] = shown.edge[k - 1];
-      shown.edge[0] = {tick_begins_s + static_cast<double>(signal.edge[e].time_s), signal.edge[e].level};
-    }
-  }
-
   /// What tells one FMU from another: tables, scene, arithmetic, version, tick, and every variable's name in its place.
   void make_token() noexcept {
     detail::Crc32 names;
@@ -457,17 +307,7 @@ class Instance {
 
   Input<Real, S> input_{};  ///< kept_.inputs as the engine takes them
   Engine<Real, S> engine_{};
-  Kept kept_{};
-};
-
-/// A token as FMI writes it: "{8-4-4-4-12}" of hexadecimal digits.
-struct TokenText {
-  char text[39];
-
-  explicit TokenText(const std::uint32_t (&t)[4]) noexcept {
-    std::snprintf(text, sizeof text, "{%08x-%04x-%04x-%04x-%04x%08x}", t[0], t[1] >> 16, t[1] & 0xFFFFu, t[2] >> 16,
-                  t[2] & 0xFFFFu, t[3]);
-  }
+  Kept<Supply> kept_{};
 };
 
 }  // namespace crankloop::fmi

@@ -6,12 +6,8 @@
 // A refused call says why by the importer's logger, answers error, and changes nothing.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <new>
-#include <type_traits>
 
 #include <crankloop/fmi/instance.hpp>
 
@@ -168,10 +164,7 @@ class Unit {
     return allows(in(Stage::initializing)) ? answer(instance.finish_initialization(why), why) : kError;
   }
   Answer terminate() noexcept { return allows(in(Stage::stepping)) ? (instance.terminate(), kOk) : kError; }
-  Answer reset() noexcept {
-    instance.reset();
-    return kOk;
-  }
+  Answer reset() noexcept { return instance.reset(), kOk; }
   [[gnu::always_inline]] Answer step(double time_s, double step_s) noexcept {
     if (instance.stage() != Stage::stepping) return refuse_now();
     const std::uint32_t faults_before = instance.faults();
