@@ -98,5 +98,27 @@ TYPED_TEST(ValveGroups, ChangeNoBitOfTheMotionUnderGas) {
   this->template all_move_alike<MeasuredFourWithValves>(engine);
 }
 
+/// Also of valves at rest, which a tick leaves alone: their cams pass all the same.
+TYPED_TEST(ValveGroups, ForcesAreThoseOfWhereValveAndCamStand) {
+  using S = Asked<Airless, true, false>;
+  Rig<TypeParam, S> rig(four_with_valves(), 50e-6);
+  int away = 0;
+  for (int tick = 0; tick < 3000; ++tick) {
+    const auto& out = rig.step(Phase::from_cycles(1.7 / 720 * tick), 0);
+    ASSERT_EQ(out.faults, 0u);
+    for (std::uint32_t t = 0; t < 2; ++t) {
+      const auto& curve = rig.tables->tables().lift_curves[t];
+      for (std::uint32_t k = 0; k < 4; ++k) {
+        const auto& f = out.valve_forces[t][k];
+        const auto cell = curve.cell(detail::cam_phase(rig.engine.state(), t), k);
+        ASSERT_EQ(f.train_compression_m, curve.read(cell).lift_m - out.valve[t][k].lift_m) << t << k << ' ' << tick;
+        ASSERT_EQ(f.cam_N > 0, f.train_N > 0 && cell.degree < curve.segments) << t << k << ' ' << tick;
+        away += cell.degree >= curve.segments ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(away, 3000);
+}
+
 }  // namespace
 }  // namespace crankloop
