@@ -174,7 +174,8 @@ struct Held {
   }
   template <class State>
   explicit Held(const State& state) {
-    for (const auto& gas : state.cylinder_gas) add(gas.contents);
+    using Real = std::remove_cv_t<std::remove_reference_t<decltype(state.cylinder_gas.mass_kg[0])>>;
+    for (std::uint32_t k = 0; k < 4; ++k) add(state.cylinder_gas.template at<Real>(k).contents);
     for (const auto& manifold : state.manifold) add(manifold.contents);
   }
 };
@@ -256,8 +257,8 @@ TYPED_TEST(GasEngine, TurnsItsCrankByWhatTheGasLoses) {
     const auto& state = run.engine.state();
     const double speed = static_cast<double>(state.reduced_speed) + static_cast<double>(state.reduced_rest);
     double sum = speed * speed / 2 + Held(state).J;
-    for (const auto& gas : state.cylinder_gas)
-      sum += 100e3 * static_cast<double>(gas.volume_m3);  // the crankcase's push
+    for (const Real volume_m3 : state.cylinder_gas.volume_m3)
+      sum += 100e3 * static_cast<double>(volume_m3);  // the crankcase's push
     return sum;
   };
   const double start_J = energy_J();
@@ -558,8 +559,8 @@ TYPED_TEST(GasEngine, GoesOnFromItsSavedStateInMidBurn) {
     if (tick > 1100) {
       ASSERT_EQ(a, b) << tick;  // results of the last whole cycle are no part of the state
     } else {
-      ASSERT_EQ(run->engine.state().cylinder_gas[0].contents.energy_J,
-                other->engine.state().cylinder_gas[0].contents.energy_J)
+      ASSERT_EQ(run->engine.state().cylinder_gas.energy_J[0],
+                other->engine.state().cylinder_gas.energy_J[0])
           << tick;
     }
   }

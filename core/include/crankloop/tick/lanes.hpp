@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 
 #include <crankloop/tick/one_instruction.hpp>
@@ -50,6 +51,80 @@ template <class T>
     static_cast<void>(i), x = number;
   } else {
     x[i] = number;
+  }
+}
+template <class T>
+[[nodiscard, gnu::always_inline]] inline T load(const NumberOf<T>* from) noexcept {
+  T x;
+  std::memcpy(&x, from, sizeof x);
+  return x;
+}
+template <class T>
+[[gnu::always_inline]] inline void store(NumberOf<T>* to, const T& x) noexcept {
+  std::memcpy(to, &x, sizeof x);
+}
+/// One number in all lanes.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline T spread(NumberOf<T> x) noexcept {
+  if constexpr (kLanesIn<T> == 1) {
+    return x;
+  } else {
+    return T{x, x, x, x};
+  }
+}
+
+/// A comparison of one number. Of lanes, below, it is a mask: `&` and `|` join either.
+[[nodiscard]] constexpr bool any(bool holds) noexcept { return holds; }
+[[nodiscard]] constexpr bool all(bool holds) noexcept { return holds; }
+[[nodiscard]] constexpr bool none_of(bool holds) noexcept { return !holds; }
+/// One bit for each lane.
+[[nodiscard]] constexpr std::uint32_t holding(bool holds) noexcept { return holds ? 1 : 0; }
+
+/// One of two. Of lanes, each its own, bit by bit: the other is never seen, be it no number.
+template <class T, class Holds>
+[[nodiscard, gnu::always_inline]] inline T pick(const Holds& holds, const T& then, const T& otherwise) noexcept {
+  if constexpr (kLanesIn<T> == 1) {
+    return holds ? then : otherwise;
+  } else {
+    return reinterpret_cast<T>((reinterpret_cast<Holds>(then) & holds) | (reinterpret_cast<Holds>(otherwise) & ~holds));
+  }
+}
+/// The same of what is still to be computed: of one number only what is picked.
+template <class T, class Holds, class Then, class Else>
+[[nodiscard, gnu::always_inline]] inline T either(const Holds& holds, const Then& then,
+                                                  const Else& otherwise) noexcept {
+  if constexpr (kLanesIn<T> == 1) {
+    return holds ? then() : otherwise();
+  } else {
+    return pick<T>(holds, then(), otherwise());
+  }
+}
+/// Else +0.
+template <class T, class Holds>
+[[nodiscard, gnu::always_inline]] inline T where(const Holds& holds, const T& then) noexcept {
+  if constexpr (kLanesIn<T> == 1) {
+    return holds ? then : T{};
+  } else {
+    return reinterpret_cast<T>(reinterpret_cast<Holds>(then) & holds);
+  }
+}
+/// A short cut for one number: lanes go the long way, which leads to the same.
+template <class T, class Holds, class Short, class Long>
+[[nodiscard, gnu::always_inline]] inline T short_cut(const Holds& holds, const Short& by_short,
+                                                     const Long& by_long) noexcept {
+  if constexpr (kLanesIn<T> == 1) {
+    if (holds) return by_short();
+  }
+  return by_long();
+}
+/// -x where it holds.
+template <class T, class Holds>
+[[nodiscard, gnu::always_inline]] inline T negative_where(const Holds& holds, const T& x) noexcept {
+  if constexpr (kLanesIn<T> == 1) {
+    return holds ? -x : x;
+  } else {
+    constexpr std::int32_t kSign = std::numeric_limits<std::int32_t>::min();
+    return reinterpret_cast<T>(reinterpret_cast<Holds>(x) ^ (holds & kSign));
   }
 }
 
@@ -105,6 +180,10 @@ using EightBits = std::int32_t __attribute__((vector_size(32)));
 [[nodiscard]] inline Eight magnitude(const Eight& x) noexcept {
   return reinterpret_cast<Eight>(reinterpret_cast<EightBits>(x) & 0x7FFF'FFFF);
 }
+template <>
+struct LaneTypes<Eight> {
+  using Number = float;
+};
 using WidestLanes = Eight;
 #else
 using WidestLanes = Four;
@@ -112,17 +191,6 @@ using WidestLanes = Four;
 
 template <class Lanes>
 inline constexpr int kLanesOf = sizeof(Lanes) / sizeof(float);
-
-template <class Lanes>
-[[nodiscard, gnu::always_inline]] inline Lanes load(const float* from) noexcept {
-  Lanes x;
-  std::memcpy(&x, from, sizeof x);
-  return x;
-}
-template <class Lanes>
-[[gnu::always_inline]] inline void store(float* to, const Lanes& x) noexcept {
-  std::memcpy(to, &x, sizeof x);
-}
 
 /// The same where every block begins at a register's border: then the compiler may multiply by memory.
 template <class Lanes>
@@ -165,6 +233,9 @@ template <class Lanes>
   return static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Eight>(holds)));
 }
 #endif
+[[nodiscard, gnu::always_inline]] inline bool any(const FourBits& holds) noexcept { return holding(holds) != 0; }
+[[nodiscard, gnu::always_inline]] inline bool all(const FourBits& holds) noexcept { return holding(holds) == 15; }
+[[nodiscard, gnu::always_inline]] inline FourBits none_of(const FourBits& holds) noexcept { return ~holds; }
 /// One for each in which it does not.
 template <class Bits>
 [[nodiscard, gnu::always_inline]] inline std::uint32_t failing(const Bits& holds) noexcept {

@@ -15,27 +15,19 @@ template <class Real>
   return beyond(at, response_Pa_kg, most_area_per_m3(step_s) / per_volume_m3);
 }
 
-/// What a cylinder's step brought or took: the very same numbers, so that the two together lose nothing. The next
-/// cylinder sees it.
+/// After the cylinders, which have taken some: an opening to the outside. Answers the mass that came in.
 template <class Real>
-inline void give_and_take(ManifoldGas<Real>& manifold, GasBeyond<Real>& seen, const PortStep<Real>& step) noexcept {
-  manifold.contents.add(-step.mass_kg, -step.enthalpy_J, -step.burned_kg);
-  const Real after_Pa = seen.pressure_Pa - seen.response_Pa_kg * step.mass_kg;
-  const Real least_Pa = seen.pressure_Pa / 4;
-  seen.pressure_Pa = after_Pa > least_Pa ? after_Pa : least_Pa;
-}
-
-/// After the cylinders: an opening to the outside. Answers the mass that came in.
-template <class Real>
-inline Real step_manifold(ManifoldGas<Real>& manifold, const GasBeyond<Real>& seen, const GasBeyond<Real>& outside,
-                          Real area_m2, Real per_volume_m3, Real least_kg, Real step_s, bool& put_back) noexcept {
-  const GasNear<Real> near{seen.pressure_Pa, manifold.point.temperature_K, seen.response_Pa_kg};
+inline Real step_manifold(ManifoldGas<Real>& manifold, const GasBeyond<Real>& seen, Real taken_kg,
+                          const GasBeyond<Real>& outside, Real area_m2, Real per_volume_m3, Real least_kg, Real step_s, bool& put_back) noexcept {
+  const Real left_Pa = seen.pressure_Pa - seen.response_Pa_kg * taken_kg, least_Pa = seen.pressure_Pa / 4;
+  const GasNear<Real> near{left_Pa > least_Pa ? left_Pa : least_Pa, manifold.point.temperature_K, seen.response_Pa_kg};
   const Real area = area_m2 < seen.most_area_m2 ? area_m2 : seen.most_area_m2;
-  const Real in_Pa_kg = (Real{1} + manifold.point.gas_ratio) * per_volume_m3 * outside.specific_work_J_kg;
-  const Real mass_kg = step_s * implicit_flow(area, near, in_Pa_kg, outside, outside.pressure_Pa, step_s);
+  const Opening<Real> opening{area, area, outside,
+                              (Real{1} + manifold.point.gas_ratio) * per_volume_m3 * outside.specific_work_J_kg};
+  const Real mass_kg = step_s * implicit_flow(opening, near, outside.pressure_Pa, step_s);
   GasContents<Real>& gas = manifold.contents;
   const PortStep<Real> step =
-      exchange<Real>(mass_kg, {gas.mass_kg, gas.energy_J, gas.burned_kg}, seen.specific_work_J_kg, outside);
+      exchange<Real>(mass_kg, {gas.mass_kg, gas.energy_J, gas.burned_kg, seen.specific_work_J_kg}, outside);
   gas.add(step.mass_kg, step.enthalpy_J, step.burned_kg);
   manifold.point = point_of(gas, per_volume_m3);
   if (__builtin_expect(!is_well(manifold.point, gas.mass_kg, least_kg), 0))
