@@ -142,30 +142,38 @@ template <class T, class Holds>
             pick(at_exhaust, to_m2[kExhaust], to_m2[kIntake]), there, response * there.specific_work_J_kg};
   };
   PortStep<T> larger{}, other{};
-  T moved_Pa{};
+  T larger_Pa_kg{}, other_Pa_kg{};
+  const bool overlap = any(both);
   if (!all(both)) {
     const Opening<T> at = opening(exhaust);
     const PortFlow<T> flow = one_port_flow(at, gas.point, near, step_s);
-    larger = exchange(where(open, flow.mass_kg), before, at.far);
-    moved_Pa = flow.per_kg_Pa * larger.mass_kg;
+    larger = exchange(where(open, flow.mass_kg), before, at.far), larger_Pa_kg = flow.per_kg_Pa;
   }
-  if (any(both)) {
+  if (__builtin_expect(overlap, 0)) {
     const Opening<T> at[2] = {opening(exhaust), opening(none_of(exhaust))};
     const GasPoint<T> begin = gas.point;
     const GasNear<T> of_both = near;
+    PortFlow<T> flow[2];
     PortStep<T> step[2];
-    T both_Pa;
-    flow_in_overlap(at, begin, of_both, before, step_s, step, both_Pa);
-    larger = pick(both, step[0], larger), other = where(both, step[1]), moved_Pa = pick(both, both_Pa, moved_Pa);
-    gain.add(other);
+    flow_in_overlap(at, begin, of_both, before, step_s, flow, step);
+    larger = pick(both, step[0], larger), larger_Pa_kg = pick(both, flow[0].per_kg_Pa, larger_Pa_kg);
+    other = where(both, step[1]), other_Pa_kg = flow[1].per_kg_Pa;
   }
-  gain.add(larger);
-  through[kIntake] = pick(exhaust, other, larger), through[kExhaust] = pick(exhaust, larger, other);
-  // What flows moves the pressure on the way: half of that, over the step, works too.
-  const T left_J = gas.contents.energy_J + gain.energy_J;
+  // What flows moves the pressure on the way: half of that, over the step, works too. What flows out leaves with the
+  // enthalpy that it has on the way, not at the step's end: less by as much.
+  const T half_m3 = (closed.volume_m3 - gas.volume_m3) * static_cast<Real>(0.5);
+  const T left_J = before.energy_J + (larger.enthalpy_J + other.enthalpy_J);
   const T most_J = where(left_J > Real{0}, left_J * static_cast<Real>(0.25));
-  const T work_J = held_within<T>((closed.volume_m3 - gas.volume_m3) * static_cast<Real>(0.5) * moved_Pa, most_J);
-  gain.energy_J -= work_J;
+  const auto let_work = [&](PortStep<T>& step, const T& per_kg_Pa) __attribute__((always_inline)) {
+    const T work_J = held_within<T>(half_m3 * per_kg_Pa * step.mass_kg, most_J);
+    step.enthalpy_J += where(step.mass_kg < Real{0}, work_J);
+    gain.add(step);
+    gain.energy_J -= work_J;
+    return work_J;
+  };
+  T work_J = let_work(larger, larger_Pa_kg);
+  if (overlap) work_J += let_work(other, other_Pa_kg);
+  through[kIntake] = pick(exhaust, other, larger), through[kExhaust] = pick(exhaust, larger, other);
   return work_J;
 }
 

@@ -62,14 +62,13 @@ template <class T>
   }
 }
 
-/// What both ports of an overlap bring or take; `moved_Pa`, how far that moves the pressure. Half of what flows in mixes
-/// before what flows out leaves, the other half after: of second order. Kept apart: few ticks have an overlap.
+/// What both ports of an overlap let flow, and bring or take. Half of what flows in mixes before what flows out leaves,
+/// the other half after: of second order. Kept apart: few ticks have an overlap.
 template <class T>
 [[gnu::noinline]] void flow_in_overlap(const Opening<T> (&at)[2], const GasPoint<T>& begin, const GasNear<T>& pressure,
-                                       FlowingGas<T> near, NumberOf<T> step_s, PortStep<T> (&step)[2],
-                                       T& moved_Pa) noexcept {
+                                       FlowingGas<T> near, NumberOf<T> step_s, PortFlow<T> (&flow)[2],
+                                       PortStep<T> (&step)[2]) noexcept {
   using Real = NumberOf<T>;
-  PortFlow<T> flow[2];
   two_port_flow(at, begin, pressure, step_s, flow);
   constexpr Real kHalf = static_cast<Real>(0.5);
   const auto out_0 = flow[0].mass_kg < Real{0}, out_1 = flow[1].mass_kg < Real{0};
@@ -95,7 +94,6 @@ template <class T>
   };
   step[0] = pick(out_0, part(flow[0].mass_kg), in_0);
   step[1] = pick(out_1, part(flow[1].mass_kg), in_1);
-  moved_Pa = flow[0].per_kg_Pa * step[0].mass_kg + flow[1].per_kg_Pa * step[1].mass_kg;
 }
 
 }  // namespace crankloop::detail

@@ -123,17 +123,19 @@ class GasStep {
   }
 
   [[nodiscard]] std::uint32_t run_step(const Input<Real, S>& input, EngineGasStep<Real>& step, const Areas& areas) noexcept {
-    see_manifolds(step);
+    see_manifolds(step, areas);
     const std::uint32_t faults = GasCylindersStep<Real, S>(tables_, state_, out_, totals_).run(input, step, areas);
     return faults | step_manifolds(step);
   }
 
-  [[gnu::always_inline]] void see_manifolds(EngineGasStep<Real>& step) const noexcept {
+  [[gnu::always_inline]] void see_manifolds(EngineGasStep<Real>& step, [[maybe_unused]] const Areas& areas) const noexcept {
     for (int port = 0; port < kPorts; ++port) {
       step.taken_kg[port] = Real{0};
       if constexpr (N::manifolds) {
-        step.beyond[port] =
-            seen_from_ports(state_.manifold[port], tables_.gas_manifolds->per_volume_m3[port], step.drive.step_s);
+        std::uint32_t open = 0;
+        for (std::uint32_t k = 0; k < cylinders(); ++k) open += areas.of[port][k] > 0 ? 1 : 0;
+        step.beyond[port] = seen_from_ports(state_.manifold[port], tables_.gas_manifolds->per_volume_m3[port],
+                                            static_cast<Real>(open), most_m3(), step.drive.step_s);
       } else {
         const GivenGas<Real>& given = state_.given_gas[port];
         constexpr Real kNoLimit_m2 = static_cast<Real>(1e9);
@@ -142,6 +144,11 @@ class GasStep {
                    kNoLimit_m2);
       }
     }
+  }
+  /// Of a cylinder.
+  [[nodiscard]] Real most_m3() const noexcept {
+    const GasCylinders<Real>& table = *tables_.gas_cylinders;
+    return table.clearance_m3 + Real{1} / table.per_swept_m3;
   }
 
   [[nodiscard]] std::uint32_t step_manifolds(const EngineGasStep<Real>& step) noexcept {
