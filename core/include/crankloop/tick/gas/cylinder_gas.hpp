@@ -91,6 +91,7 @@ struct CylinderStep {
   ClosedStep<T> closed;
   PortStep<T> through[kPorts];  ///< each port, 0 where it is closed
   T work_J;                     ///< on the piston, absolute
+  bool flows;                   ///< through any
 
   /// What the first law adds to the internal energy.
   [[nodiscard, gnu::always_inline]] T gained_J() const noexcept {
@@ -137,7 +138,7 @@ template <class T, class Holds>
   const auto exhaust = exhaust_m2 > intake_m2;
   const auto both = (intake_m2 > Real{0}) & (exhaust_m2 > Real{0});
   const auto opening = [&](const auto& at_exhaust) __attribute__((always_inline))->Opening<T> {
-    const GasBeyond<T> there = beyond_port<T>(far, at_exhaust);
+    const BeyondOf<T> there = beyond_port<T>(far, at_exhaust);
     return {pick(at_exhaust, gas.area_m2[kExhaust], gas.area_m2[kIntake]),
             pick(at_exhaust, to_m2[kExhaust], to_m2[kIntake]), there, response * there.specific_work_J_kg};
   };
@@ -190,7 +191,8 @@ template <class T>
   PortStep<T> through[kPorts] = {};
   GasGain<T> gain{fuel_kg, closed.heat_J - closed.wall_heat_J - closed.work_J, fuel.burned_kg_kg * fuel_kg};
   const auto open = any_open(gas.area_m2[kIntake], gas.area_m2[kExhaust], to_m2[kIntake], to_m2[kExhaust]);
-  if (any(open)) {
+  const bool flows = any(open);
+  if (flows) {
     const T own_m2 = volume_m3 * drive.area_per_m3;
     T limited_m2[kPorts];
     for (int port = 0; port < kPorts; ++port) {
@@ -205,7 +207,7 @@ template <class T>
   gas.contents.add(gain.mass_kg, gain.energy_J, gain.burned_kg);
   gas.volume_m3 = volume_m3;
   gas.point = point_of<T>(gas.contents, closed.per_volume_m3);
-  return {closed, {through[kIntake], through[kExhaust]}, work_J};
+  return {closed, {through[kIntake], through[kExhaust]}, work_J, flows};
 }
 
 }  // namespace crankloop::detail

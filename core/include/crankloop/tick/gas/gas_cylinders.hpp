@@ -14,6 +14,7 @@
 #include <crankloop/tick/gas/cylinder_gas.hpp>
 #include <crankloop/tick/gas/gas_cycle.hpp>
 #include <crankloop/tick/gas/gas_places.hpp>
+#include <crankloop/tick/gas/gas_shown.hpp>
 #include <crankloop/tick/gas/manifold.hpp>
 
 namespace crankloop::detail {
@@ -28,14 +29,6 @@ struct EngineGasStep {
   Real taken_kg[kPorts];           ///< from there
 };
 
-/// What went in a tick.
-template <class Real, std::uint32_t kCylinders>
-struct GasTotals {
-  Real work_J;  ///< of all cylinders on the crank, against the crankcase's pressure
-  Real flow_kg[kPorts][kCylinders];
-  Real wall_heat_J[kCylinders];
-};
-
 template <class Real, class S>
 class GasCylindersStep {
   using N = Needs<S>;
@@ -43,8 +36,8 @@ class GasCylindersStep {
 
  public:
   GasCylindersStep(const Tables<Real, S>& tables, State<Real, S>& state, Output<Real, S>& out,
-                   GasTotals<Real, kCylinders>& totals) noexcept
-      : tables_{tables}, state_{state}, out_{out}, totals_{totals} {}
+                   Real& work_J) noexcept
+      : tables_{tables}, state_{state}, out_{out}, work_J_{work_J} {}
 
   /// Answers fault bits.
   [[nodiscard, gnu::always_inline]] std::uint32_t run(const Input<Real, S>& input, EngineGasStep<Real>& step,
@@ -112,30 +105,37 @@ class GasCylindersStep {
     const T to_m2[kPorts] = {load<T>(areas.of[kIntake] + k), load<T>(areas.of[kExhaust] + k)};
     const CylinderStep<T> done =
         step_gas<T>(gas, volume_m3, fuel_kg, fuel, table.walls, step.drive, to_m2, step.beyond);
-    const T least_kg = step.drive.least_kg_m3 * volume_m3;
     state_.cylinder_gas.put(k, gas);
+    const Real per_tick_s = tables_.drive->per_tick_s;
+    T shown[7] = {gas.point.pressure_Pa,  gas.point.temperature_K, gas.contents.mass_kg, gas.point.burned_ratio, T{}, T{},
+                  done.closed.wall_heat_J * per_tick_s};
+    if (done.flows) {
+      state_.cylinder_gas.put_areas(k, gas);
+      for (int port = 0; port < kPorts; ++port) shown[4 + port] = done.through[port].mass_kg * per_tick_s;
+      if constexpr (N::manifolds) take_from_manifolds(step, done.through);
+    }
+    show(shown, &out_.cylinder_gas[k]);
+    const T least_kg = step.drive.least_kg_m3 * volume_m3;
     if (__builtin_expect(!all(is_well<T>(gas.point, gas.contents.mass_kg, least_kg)), 0)) {
       for (int i = 0; i < kLanes; ++i) {
-        auto one = state_.cylinder_gas.template at<Real>(k + static_cast<std::uint32_t>(i));
-        if (put_right(one, lane(done.closed.per_volume_m3, i), lane(least_kg, i))) faults |= kFaultGas;
-        state_.cylinder_gas.put(k + static_cast<std::uint32_t>(i), one);
+        faults |= put_cylinder_right(k + static_cast<std::uint32_t>(i), lane(done.closed.per_volume_m3, i), lane(least_kg, i));
       }
     }
-    const auto add = [](Real* sum, const T& x) { store(sum, load<T>(sum) + x); };
-    for (int port = 0; port < kPorts; ++port) add(totals_.flow_kg[port] + k, done.through[port].mass_kg);
-    add(totals_.wall_heat_J + k, done.closed.wall_heat_J);
     const T crank_J = done.work_J - table.crankcase_Pa * (volume_m3 - before_m3);
-    for (int i = 0; i < kLanes; ++i) totals_.work_J += lane(crank_J, i);
-    if constexpr (N::manifolds) take_from_manifolds(step, done.through);
+    Real work_J = work_J_;
+    for (int i = 0; i < kLanes; ++i) work_J += lane(crank_J, i);
+    work_J_ = work_J;
     if constexpr (S::gas_results) {
-      const std::uint32_t intake_shut = holding((intake_was_m2 > Real{0}) & none_of(gas.area_m2[kIntake] > Real{0}));
+      std::uint32_t intake_shut = 0;
+      if (done.flows) intake_shut = holding((intake_was_m2 > Real{0}) & none_of(gas.area_m2[kIntake] > Real{0}));
       const T gained_J = done.gained_J();
       for (int i = 0; i < kLanes; ++i) {
         const std::uint32_t one = k + static_cast<std::uint32_t>(i);
         GasRecord<Real>& record = state_.gas_record[one];
         for (int port = 0; port < kPorts; ++port) {
           const PortStep<T>& p = done.through[port];
-          record_flow(record, port, PortStep<Real>{lane(p.mass_kg, i), lane(p.enthalpy_J, i), lane(p.burned_kg, i)});
+          if (done.flows && lane(p.mass_kg, i) != Real{0})
+            record_flow(record, port, PortStep<Real>{lane(p.mass_kg, i), lane(p.enthalpy_J, i), lane(p.burned_kg, i)});
         }
         record_step(record, state_.cylinder_gas.pressure_Pa[one], lane(done.work_J, i), lane(done.closed.wall_heat_J, i),
                     lane(gained_J, i), lane(fuel_kg, i), way[i]);
@@ -144,6 +144,17 @@ class GasCylindersStep {
       }
     }
     return faults;
+  }
+
+  [[gnu::cold, gnu::noinline]] std::uint32_t put_cylinder_right(std::uint32_t k, Real per_volume_m3,
+                                                                Real least_kg) noexcept {
+    CylinderGas<Real> gas = state_.cylinder_gas.template at<Real>(k);
+    const bool put_back = put_right(gas, per_volume_m3, least_kg);
+    state_.cylinder_gas.put(k, gas);
+    CylinderGasOutput<Real>& shown = out_.cylinder_gas[k];
+    shown.pressure_Pa = gas.point.pressure_Pa, shown.temperature_K = gas.point.temperature_K;
+    shown.mass_kg = gas.contents.mass_kg, shown.burned_ratio = gas.point.burned_ratio;
+    return put_back ? std::uint32_t{kFaultGas} : 0;
   }
 
   /// The very numbers that the cylinders gained, so that nothing is lost.
@@ -163,7 +174,7 @@ class GasCylindersStep {
   const Tables<Real, S>& tables_;
   State<Real, S>& state_;
   Output<Real, S>& out_;
-  GasTotals<Real, kCylinders>& totals_;
+  Real& work_J_;  ///< of all cylinders on the crank, against the crankcase's pressure
 };
 
 }  // namespace crankloop::detail

@@ -29,7 +29,7 @@ template <class Real, class S>
     gas.point = point_of(gas.contents, Real{1} / gas.volume_m3);
     const GasWalls<Real>& walls = tables.gas_cylinders->walls;
     gas.wall_heat_W = wall_heat_W(walls, gas.point, gas.volume_m3, stirring_m_s(walls, state.speed_rad_s));
-    state.cylinder_gas.put(k, gas);
+    state.cylinder_gas.put(k, gas), state.cylinder_gas.put_areas(k, gas);
     state.cylinder_gas.pressure_before_Pa[k] = gas.point.pressure_Pa;
     state.cylinder_gas.spare[k] = Real{0};
     if constexpr (Needs<S>::burn) end_burn(state.burn[k]);

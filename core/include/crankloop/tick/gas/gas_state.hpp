@@ -35,7 +35,8 @@ struct CylinderGases {
   template <class T>
   [[nodiscard, gnu::always_inline]] CylinderGas<T> at(std::uint32_t k) const noexcept {
     CylinderGas<T> gas;
-    each(*this, gas, [k](const Real* column, T& x) { std::memcpy(&x, column + k, sizeof x); });
+    const auto take = [k](const Real* column, T& x) { std::memcpy(&x, column + k, sizeof x); };
+    each(*this, gas, take), each_area(*this, gas, take);
     return gas;
   }
   template <class T>
@@ -43,8 +44,13 @@ struct CylinderGases {
     each(*this, gas, [k](Real* column, const T& x) { std::memcpy(column + k, &x, sizeof x); });
   }
 
+  /// Not among what a step always leaves: most ports are closed.
+  template <class T>
+  [[gnu::always_inline]] void put_areas(std::uint32_t k, const CylinderGas<T>& gas) noexcept {
+    each_area(*this, gas, [k](Real* column, const T& x) { std::memcpy(column + k, &x, sizeof x); });
+  }
   void copy(std::uint32_t from, std::uint32_t to) noexcept {
-    put(to, at<Real>(from));
+    put(to, at<Real>(from)), put_areas(to, at<Real>(from));
     pressure_before_Pa[to] = pressure_before_Pa[from], spare[to] = spare[from];
   }
 
@@ -57,6 +63,9 @@ struct CylinderGases {
     visit(column.pressure_Pa, gas.point.pressure_Pa), visit(column.temperature_K, gas.point.temperature_K);
     visit(column.burned_ratio, gas.point.burned_ratio), visit(column.gas_ratio, gas.point.gas_ratio);
     visit(column.volume_m3, gas.volume_m3), visit(column.wall_heat_W, gas.wall_heat_W);
+  }
+  template <class Columns, class Gas, class Visit>
+  [[gnu::always_inline]] static void each_area(Columns& column, Gas& gas, const Visit& visit) noexcept {
     visit(column.area_m2[kIntake], gas.area_m2[kIntake]), visit(column.area_m2[kExhaust], gas.area_m2[kExhaust]);
   }
 };

@@ -10,7 +10,6 @@
 
 #include <crankloop/tick/gas/gas_cylinders.hpp>
 #include <crankloop/tick/gas/gas_inputs.hpp>
-#include <crankloop/tick/gas/gas_shown.hpp>
 #include <crankloop/tick/gas/gas_start.hpp>
 #include <crankloop/tick/valve/valve.hpp>
 
@@ -41,12 +40,15 @@ class GasStep {
     if (jumped) {
       fill_cylinders(tables_, state_);
       std::memcpy(gases.area_m2, end.of, sizeof end.of);
+      for (std::uint32_t k = 0; k < cylinders(); ++k) {
+        const Real shown[7] = {gases.pressure_Pa[k], gases.temperature_K[k], gases.mass_kg[k], gases.burned_ratio[k]};
+        show(shown, &out_.cylinder_gas[k]);
+      }
     } else {
       faults |= run_steps(input, end, static_cast<std::int64_t>(turned.units()));
     }
-    show_cylinders();
     show_manifolds();
-    work_J = totals_.work_J;
+    work_J = work_J_;
     return faults;
   }
 
@@ -104,6 +106,7 @@ class GasStep {
     const std::uint64_t each = part_of(step.turned, kPerParts_32[parts]);
     step.drive.step_s *= kPerParts[parts];
     step.drive.area_per_m3 = most_area_per_m3(step.drive.step_s);
+    CylinderGasOutput<Real> shown[kCylinders] = {};
     std::uint32_t faults = 0;
     for (int i = 1; i < parts; ++i, from = step.phase) {
       step.phase = from + each;
@@ -116,15 +119,31 @@ class GasStep {
         areas.of[port][k] = area > 0 ? area : Real{0};
       });
       faults |= run_step(input, step, areas);
+      add_shown(shown);
     }
     step.phase = state_.phase.units();
     step.turned = static_cast<std::int64_t>(step.phase - from);
-    return faults | run_step(input, step, end);
+    faults |= run_step(input, step, end);
+    add_shown(shown);
+    for (std::uint32_t k = 0; k < cylinders(); ++k) {
+      CylinderGasOutput<Real>& all = out_.cylinder_gas[k];
+      for (int port = 0; port < kPorts; ++port) all.flow_kg_s[port] = shown[k].flow_kg_s[port];
+      all.wall_heat_W = shown[k].wall_heat_W;
+    }
+    return faults;
+  }
+  /// What a step shows of flow and heat.
+  void add_shown(CylinderGasOutput<Real> (&sum)[kCylinders]) const noexcept {
+    for (std::uint32_t k = 0; k < cylinders(); ++k) {
+      const CylinderGasOutput<Real>& last = out_.cylinder_gas[k];
+      for (int port = 0; port < kPorts; ++port) sum[k].flow_kg_s[port] += last.flow_kg_s[port];
+      sum[k].wall_heat_W += last.wall_heat_W;
+    }
   }
 
   [[nodiscard]] std::uint32_t run_step(const Input<Real, S>& input, EngineGasStep<Real>& step, const Areas& areas) noexcept {
     see_manifolds(step, areas);
-    const std::uint32_t faults = GasCylindersStep<Real, S>(tables_, state_, out_, totals_).run(input, step, areas);
+    const std::uint32_t faults = GasCylindersStep<Real, S>(tables_, state_, out_, work_J_).run(input, step, areas);
     return faults | step_manifolds(step);
   }
 
@@ -133,7 +152,7 @@ class GasStep {
       step.taken_kg[port] = Real{0};
       if constexpr (N::manifolds) {
         std::uint32_t open = 0;
-        for (std::uint32_t k = 0; k < cylinders(); ++k) open += areas.of[port][k] > 0 ? 1 : 0;
+        for (std::uint32_t k = 0; k < cylinders(); ++k) open += bits_of(areas.of[port][k]) != 0 ? 1u : 0u;
         step.beyond[port] = seen_from_ports(state_.manifold[port], tables_.gas_manifolds->per_volume_m3[port],
                                             static_cast<Real>(open), most_m3(), step.drive.step_s);
       } else {
@@ -180,26 +199,6 @@ class GasStep {
 
   // ---- what is shown ------------------------------------------------------------------------------------------------
 
-  void show_cylinders() noexcept {
-    std::uint32_t k = 0;
-#if CRANKLOOP_ABREAST
-    if constexpr (sizeof(Real) == 4 && kCylinders >= 4) {
-      for (; k + 4 <= cylinders(); k += 4) show_block<Four>(k);
-    }
-#endif
-    for (; k < cylinders(); ++k) show_block<Real>(k);
-  }
-  template <class T>
-  [[gnu::always_inline]] void show_block(std::uint32_t k) noexcept {
-    const CylinderGases<Real, kCylinders>& gases = state_.cylinder_gas;
-    const Real per_s = tables_.drive->per_tick_s;
-    const T x[7] = {load<T>(gases.pressure_Pa + k),           load<T>(gases.temperature_K + k),
-                    load<T>(gases.mass_kg + k),               load<T>(gases.burned_ratio + k),
-                    load<T>(totals_.flow_kg[kIntake] + k) * per_s, load<T>(totals_.flow_kg[kExhaust] + k) * per_s,
-                    load<T>(totals_.wall_heat_J + k) * per_s};
-    show(x, &out_.cylinder_gas[k]);
-  }
-
   void show_manifolds() noexcept {
     if constexpr (N::manifolds) {
       for (int port = 0; port < kPorts; ++port) {
@@ -214,7 +213,7 @@ class GasStep {
   const Tables<Real, S>& tables_;
   State<Real, S>& state_;
   Output<Real, S>& out_;
-  GasTotals<Real, kCylinders> totals_ = {};
+  Real work_J_ = Real{0};
   Real outside_kg_[kPorts] = {};  ///< into the manifolds from outside, in this tick
 };
 

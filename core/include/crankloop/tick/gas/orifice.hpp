@@ -10,6 +10,8 @@
 // x_c = 1 - (2/(g+1))^(g/(g-1)), psi_c = sqrt(g) (2/(g+1))^((g+1)/(2(g-1))).
 #pragma once
 
+#include <type_traits>
+
 #include <crankloop/tables/gas_tables.hpp>
 #include <crankloop/tick/gas/gas_properties.hpp>
 
@@ -46,20 +48,28 @@ template <class Real>
           most_area_m2};
 }
 
-/// What is beyond one of two ports: of lanes, each its own.
+/// As an opening has it: of lanes, each has its own.
+template <class T>
+using BeyondOf = std::conditional_t<kLanesIn<T> == 1, const GasBeyond<T>&, GasBeyond<T>>;
+
+/// What is beyond one of two ports.
 template <class T, class Holds>
-[[nodiscard, gnu::always_inline]] inline GasBeyond<T> beyond_port(const GasBeyond<NumberOf<T>> (&far)[kPorts],
-                                                                  const Holds& exhaust) noexcept {
-  const auto& e = far[kExhaust];
-  const auto& i = far[kIntake];
-  const auto of = [&exhaust](auto a, auto b) { return pick(exhaust, spread<T>(a), spread<T>(b)); };
-  return {of(e.pressure_Pa, i.pressure_Pa),
-          of(e.choked_per_Pa, i.choked_per_Pa),
-          of(e.specific_work_J_kg, i.specific_work_J_kg),
-          of(e.enthalpy_J_kg, i.enthalpy_J_kg),
-          of(e.burned_ratio, i.burned_ratio),
-          of(e.response_Pa_kg, i.response_Pa_kg),
-          of(e.most_area_m2, i.most_area_m2)};
+[[nodiscard, gnu::always_inline]] inline BeyondOf<T> beyond_port(const GasBeyond<NumberOf<T>> (&far)[kPorts],
+                                                                 const Holds& exhaust) noexcept {
+  if constexpr (kLanesIn<T> == 1) {
+    return far[exhaust ? kExhaust : kIntake];
+  } else {
+    const auto& e = far[kExhaust];
+    const auto& i = far[kIntake];
+    const auto of = [&exhaust](auto a, auto b) { return pick(exhaust, spread<T>(a), spread<T>(b)); };
+    return {of(e.pressure_Pa, i.pressure_Pa),
+            of(e.choked_per_Pa, i.choked_per_Pa),
+            of(e.specific_work_J_kg, i.specific_work_J_kg),
+            of(e.enthalpy_J_kg, i.enthalpy_J_kg),
+            of(e.burned_ratio, i.burned_ratio),
+            of(e.response_Pa_kg, i.response_Pa_kg),
+            T{}};
+  }
 }
 
 /// Flow into the near side at one moment, per area and signed, and its slope: by how much less flows per Pa that the

@@ -24,7 +24,7 @@ struct GasNear {
 template <class T>
 struct Opening {
   T from_m2, to_m2;
-  GasBeyond<T> far;
+  BeyondOf<T> far;
   T per_kg_in_Pa;
 };
 
