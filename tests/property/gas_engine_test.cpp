@@ -559,9 +559,7 @@ TYPED_TEST(GasEngine, GoesOnFromItsSavedStateInMidBurn) {
     if (tick > 1100) {
       ASSERT_EQ(a, b) << tick;  // results of the last whole cycle are no part of the state
     } else {
-      ASSERT_EQ(run->engine.state().cylinder_gas.energy_J[0],
-                other->engine.state().cylinder_gas.energy_J[0])
-          << tick;
+      ASSERT_EQ(run->engine.state().cylinder_gas.energy_J[0], other->engine.state().cylinder_gas.energy_J[0]) << tick;
     }
   }
 }

@@ -117,6 +117,15 @@ template <class T, class Holds, class Short, class Long>
   }
   return by_long();
 }
+/// What depends on one comparison throughout: of one number a branch with a constant in each arm.
+template <class T, class Holds, class Work>
+[[nodiscard, gnu::always_inline]] inline auto branch(const Holds& holds, const Work& work) noexcept {
+  if constexpr (kLanesIn<T> == 1) {
+    return holds ? work(std::true_type{}) : work(std::false_type{});
+  } else {
+    return work(holds);
+  }
+}
 /// -x where it holds.
 template <class T, class Holds>
 [[nodiscard, gnu::always_inline]] inline T negative_where(const Holds& holds, const T& x) noexcept {

@@ -7,8 +7,8 @@
 //     half of the heat -> compression -> the other half -> flow at the pressure that this leads to -> sums
 #pragma once
 
-#include <crankloop/tick/gas/gas_state.hpp>
 #include <crankloop/tick/gas/exchange.hpp>
+#include <crankloop/tick/gas/gas_state.hpp>
 #include <crankloop/tick/gas/wall_heat.hpp>
 
 namespace crankloop::detail {
@@ -95,8 +95,7 @@ struct CylinderStep {
 
   /// What the first law adds to the internal energy.
   [[nodiscard, gnu::always_inline]] T gained_J() const noexcept {
-    return (closed.heat_J - closed.wall_heat_J - work_J) +
-           (through[kIntake].enthalpy_J + through[kExhaust].enthalpy_J);
+    return (closed.heat_J - closed.wall_heat_J - work_J) + (through[kIntake].enthalpy_J + through[kExhaust].enthalpy_J);
   }
 };
 
@@ -165,7 +164,7 @@ template <class T, class Holds>
   const T half_m3 = (closed.volume_m3 - gas.volume_m3) * static_cast<Real>(0.5);
   const T left_J = before.energy_J + (larger.enthalpy_J + other.enthalpy_J);
   const T most_J = where(left_J > Real{0}, left_J * static_cast<Real>(0.25));
-  const auto let_work = [&](PortStep<T>& step, const T& per_kg_Pa) __attribute__((always_inline)) {
+  const auto let_work = [&](PortStep<T> & step, const T& per_kg_Pa) __attribute__((always_inline)) {
     const T work_J = held_within<T>(half_m3 * per_kg_Pa * step.mass_kg, most_J);
     step.enthalpy_J += where(step.mass_kg < Real{0}, work_J);
     gain.add(step);
@@ -180,12 +179,10 @@ template <class T, class Holds>
 
 /// Steps a cylinder, or several abreast. Contents that no engine holds are still to be put right.
 template <class T>
-[[nodiscard, gnu::always_inline]] inline CylinderStep<T> step_gas(CylinderGas<T>& gas, const T& volume_m3,
-                                                                  const T& fuel_kg, const GasFuel<NumberOf<T>>& fuel,
-                                                                  const GasWalls<NumberOf<T>>& walls,
-                                                                  const GasDrive<NumberOf<T>>& drive,
-                                                                  const T (&to_m2)[kPorts],
-                                                                  const GasBeyond<NumberOf<T>> (&far)[kPorts]) noexcept {
+[[nodiscard, gnu::always_inline]] inline CylinderStep<T> step_gas(
+    CylinderGas<T>& gas, const T& volume_m3, const T& fuel_kg, const GasFuel<NumberOf<T>>& fuel,
+    const GasWalls<NumberOf<T>>& walls, const GasDrive<NumberOf<T>>& drive, const T (&to_m2)[kPorts],
+    const GasBeyond<NumberOf<T>> (&far)[kPorts]) noexcept {
   const ClosedStep<T> closed = ClosedStep<T>::of(gas, volume_m3, fuel.energy_J_kg * fuel_kg, walls, drive);
   T work_J = closed.work_J;
   PortStep<T> through[kPorts] = {};

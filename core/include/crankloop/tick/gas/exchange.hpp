@@ -73,7 +73,8 @@ template <class T>
   constexpr Real kHalf = static_cast<Real>(0.5);
   const auto out_0 = flow[0].mass_kg < Real{0}, out_1 = flow[1].mass_kg < Real{0};
   const T out_kg = where(out_0, flow[0].mass_kg) + where(out_1, flow[1].mass_kg);
-  const PortStep<T> in_0 = PortStep<T>::in(flow[0].mass_kg, at[0].far), in_1 = PortStep<T>::in(flow[1].mass_kg, at[1].far);
+  const PortStep<T> in_0 = PortStep<T>::in(flow[0].mass_kg, at[0].far),
+                    in_1 = PortStep<T>::in(flow[1].mass_kg, at[1].far);
   const auto in = [&](const T& of_0, const T& of_1) __attribute__((always_inline)) {
     return where(none_of(out_0), of_0) + where(none_of(out_1), of_1);
   };

@@ -35,8 +35,7 @@ class GasCylindersStep {
   static constexpr std::uint32_t kCylinders = S::cylinders.capacity;
 
  public:
-  GasCylindersStep(const Tables<Real, S>& tables, State<Real, S>& state, Output<Real, S>& out,
-                   Real& work_J) noexcept
+  GasCylindersStep(const Tables<Real, S>& tables, State<Real, S>& state, Output<Real, S>& out, Real& work_J) noexcept
       : tables_{tables}, state_{state}, out_{out}, work_J_{work_J} {}
 
   /// Answers fault bits.
@@ -107,7 +106,12 @@ class GasCylindersStep {
         step_gas<T>(gas, volume_m3, fuel_kg, fuel, table.walls, step.drive, to_m2, step.beyond);
     state_.cylinder_gas.put(k, gas);
     const Real per_tick_s = tables_.drive->per_tick_s;
-    T shown[7] = {gas.point.pressure_Pa,  gas.point.temperature_K, gas.contents.mass_kg, gas.point.burned_ratio, T{}, T{},
+    T shown[7] = {gas.point.pressure_Pa,
+                  gas.point.temperature_K,
+                  gas.contents.mass_kg,
+                  gas.point.burned_ratio,
+                  T{},
+                  T{},
                   done.closed.wall_heat_J * per_tick_s};
     if (done.flows) {
       state_.cylinder_gas.put_areas(k, gas);
@@ -118,7 +122,8 @@ class GasCylindersStep {
     const T least_kg = step.drive.least_kg_m3 * volume_m3;
     if (__builtin_expect(!all(is_well<T>(gas.point, gas.contents.mass_kg, least_kg)), 0)) {
       for (int i = 0; i < kLanes; ++i) {
-        faults |= put_cylinder_right(k + static_cast<std::uint32_t>(i), lane(done.closed.per_volume_m3, i), lane(least_kg, i));
+        faults |= put_cylinder_right(k + static_cast<std::uint32_t>(i), lane(done.closed.per_volume_m3, i),
+                                     lane(least_kg, i));
       }
     }
     const T crank_J = done.work_J - table.crankcase_Pa * (volume_m3 - before_m3);
@@ -137,8 +142,8 @@ class GasCylindersStep {
           if (done.flows && lane(p.mass_kg, i) != Real{0})
             record_flow(record, port, PortStep<Real>{lane(p.mass_kg, i), lane(p.enthalpy_J, i), lane(p.burned_kg, i)});
         }
-        record_step(record, state_.cylinder_gas.pressure_Pa[one], lane(done.work_J, i), lane(done.closed.wall_heat_J, i),
-                    lane(gained_J, i), lane(fuel_kg, i), way[i]);
+        record_step(record, state_.cylinder_gas.pressure_Pa[one], lane(done.work_J, i),
+                    lane(done.closed.wall_heat_J, i), lane(gained_J, i), lane(fuel_kg, i), way[i]);
         if ((intake_shut >> i & 1u) != 0) record_trapped(record, state_.cylinder_gas.template at<Real>(one).contents);
         if ((ends >> i & 1u) != 0) end_cycle(tables_, state_, out_, one);
       }

@@ -82,8 +82,8 @@ class GasStep {
 
   /// A tick in equal parts. Between its ends port areas are as the cams have them, and what the valves are off their
   /// cams goes in a straight line: a straight line of areas alone would be 1 % off in charge at 36 deg.
-  [[nodiscard, gnu::noinline]] std::uint32_t run_parts(const Input<Real, S>& input, EngineGasStep<Real>& step, std::uint64_t way,
-                                                       const Areas& end) noexcept {
+  [[nodiscard, gnu::noinline]] std::uint32_t run_parts(const Input<Real, S>& input, EngineGasStep<Real>& step,
+                                                       std::uint64_t way, const Areas& end) noexcept {
     int parts = 2;
     while (parts < kMaxGasSteps && way > static_cast<std::uint64_t>(parts) * kGasStep) ++parts;
     constexpr std::uint32_t kPerParts_32[kMaxGasSteps + 1] = {
@@ -141,13 +141,15 @@ class GasStep {
     }
   }
 
-  [[nodiscard]] std::uint32_t run_step(const Input<Real, S>& input, EngineGasStep<Real>& step, const Areas& areas) noexcept {
+  [[nodiscard]] std::uint32_t run_step(const Input<Real, S>& input, EngineGasStep<Real>& step,
+                                       const Areas& areas) noexcept {
     see_manifolds(step, areas);
     const std::uint32_t faults = GasCylindersStep<Real, S>(tables_, state_, out_, work_J_).run(input, step, areas);
     return faults | step_manifolds(step);
   }
 
-  [[gnu::always_inline]] void see_manifolds(EngineGasStep<Real>& step, [[maybe_unused]] const Areas& areas) const noexcept {
+  [[gnu::always_inline]] void see_manifolds(EngineGasStep<Real>& step,
+                                            [[maybe_unused]] const Areas& areas) const noexcept {
     for (int port = 0; port < kPorts; ++port) {
       step.taken_kg[port] = Real{0};
       if constexpr (N::manifolds) {
@@ -176,8 +178,9 @@ class GasStep {
       const GasManifolds<Real>& table = *tables_.gas_manifolds;
       const Real areas[kPorts] = {throttle_m2(), table.outlet_m2};
       for (int port = 0; port < kPorts; ++port) {
-        const Real in_kg = step_manifold(state_.manifold[port], step.beyond[port], step.taken_kg[port], table.outside[port], areas[port],
-                                         table.per_volume_m3[port], table.least_kg[port], step.drive.step_s, put_back);
+        const Real in_kg =
+            step_manifold(state_.manifold[port], step.beyond[port], step.taken_kg[port], table.outside[port],
+                          areas[port], table.per_volume_m3[port], table.least_kg[port], step.drive.step_s, put_back);
         outside_kg_[port] += in_kg;
       }
     }

@@ -29,8 +29,8 @@ template <class Real>
 /// After the cylinders, which have taken some: an opening to the outside. Answers the mass that came in.
 template <class Real>
 inline Real step_manifold(ManifoldGas<Real>& manifold, const GasBeyond<Real>& seen, Real taken_kg,
-                          const GasBeyond<Real>& outside, Real area_m2, Real per_volume_m3, Real least_kg,
-                          Real step_s, bool& put_back) noexcept {
+                          const GasBeyond<Real>& outside, Real area_m2, Real per_volume_m3, Real least_kg, Real step_s,
+                          bool& put_back) noexcept {
   const Real per_kg_Pa = response_Pa_kg(manifold, per_volume_m3);
   const Real left_Pa = seen.pressure_Pa - per_kg_Pa * taken_kg, least_Pa = seen.pressure_Pa / 4;
   const GasNear<Real> near{left_Pa > least_Pa ? left_Pa : least_Pa, manifold.point.temperature_K, per_kg_Pa};

@@ -82,15 +82,18 @@ struct Orifice {
   [[nodiscard, gnu::always_inline]] static Orifice at(const T& near_Pa, const T& near_K,
                                                       const GasBeyond<T>& far) noexcept {
     using Real = NumberOf<T>;
-    const auto out = near_Pa >= far.pressure_Pa;
-    const T up_Pa = pick(out, near_Pa, far.pressure_Pa);
-    const T per_Pa = either<T>(out, [&] { return choked_per_Pa(near_K); }, [&] { return far.choked_per_Pa; });
-    const T s = magnitude(near_Pa - far.pressure_Pa) / up_Pa * kPerChokedDrop<Real>;
-    const T until_choked = s < Real{1} ? s : spread<T>(1);
-    const T root = square_root(until_choked * (Real{2} - until_choked));
-    const T steep = kPerChokedDrop<Real> * (Real{1} - until_choked) / root;
-    const T least = where(out, spread<T>(1));  // choked flow out falls with the near pressure
-    return {negative_where(out, up_Pa * per_Pa * root), per_Pa * (steep > least ? steep : least)};
+    return branch<T>(
+        near_Pa >= far.pressure_Pa, [&](auto out) __attribute__((always_inline))->Orifice {
+          const T up_Pa = pick(out, near_Pa, far.pressure_Pa);
+          const T per_Pa = either<T>(
+              out, [&] { return choked_per_Pa(near_K); }, [&] { return far.choked_per_Pa; });
+          const T s = magnitude(near_Pa - far.pressure_Pa) / up_Pa * kPerChokedDrop<Real>;
+          const T until_choked = s < Real{1} ? s : spread<T>(1);
+          const T root = square_root(until_choked * (Real{2} - until_choked));
+          const T steep = kPerChokedDrop<Real> * (Real{1} - until_choked) / root;
+          const T least = where(out, spread<T>(1));  // choked flow out falls with the near pressure
+          return {negative_where(out, up_Pa * per_Pa * root), per_Pa * (steep > least ? steep : least)};
+        });
   }
 };
 

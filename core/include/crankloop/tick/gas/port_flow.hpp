@@ -38,31 +38,35 @@ template <class T>
                                                          const T& time_s) noexcept {
   using Real = NumberOf<T>;
   constexpr Real kPer = kPerChokedDrop<Real>;
-  const auto out = near.pressure_Pa >= far_Pa;
-  const T d = magnitude(far_Pa - near.pressure_Pa);
-  const T per_Pa = at.to_m2 * either<T>(out, [&] { return choked_per_Pa(near.temperature_K); },
+  return branch<T>(
+      near.pressure_Pa >= far_Pa, [&](auto out) __attribute__((always_inline)) {
+        const T d = magnitude(far_Pa - near.pressure_Pa);
+        const T per_Pa = at.to_m2 * either<T>(
+                                        out, [&] { return choked_per_Pa(near.temperature_K); },
                                         [&] { return at.far.choked_per_Pa; });
-  const T reach = per_Pa * time_s;
-  const T k = reach * (pick(out, near.per_kg_out_Pa, at.per_kg_in_Pa) + at.far.response_Pa_kg);
-  // The pressure upstream falls by what flows out; flow goes with p / sqrt(T), which falls slower: 0.87.
-  const T begin_Pa = pick(out, near.pressure_Pa, far_Pa), falls = where(out, reach * near.per_kg_out_Pa);
-  const T up_Pa = short_cut<T>(none_of(out), [&] { return begin_Pa; },
-                               [&] { return begin_Pa / (Real{1} + static_cast<Real>(0.87) * falls); });
-  const auto unchoked = [&]() __attribute__((always_inline)) {
-    const T e = where(out, spread<T>(2)) - kPer;
-    const T half = kPer * k * (far_Pa + e * d);
-    const T square = kPer * d * (Real{2} * far_Pa + e * d);
-    const T lead = Real{1} - kPer * e * (k * k);
-    const T inner = half * half + lead * square;
-    const T root = square_root(inner > Real{0} ? inner : T{});
-    T above = square, below = half + root;
-    if (const auto digits_lost = half < Real{0}; any(digits_lost))
-      above = pick(digits_lost, root - half, above), below = pick(digits_lost, lead, below);
-    return above / (below + static_cast<Real>(1e-30));
-  };
-  const T v = either<T>(d - k * up_Pa >= kChokedDrop<Real> * (begin_Pa - falls * up_Pa), [&] { return up_Pa; },
-                        unchoked);
-  return negative_where(out, per_Pa * v);
+        const T reach = per_Pa * time_s;
+        const T k = reach * (pick(out, near.per_kg_out_Pa, at.per_kg_in_Pa) + at.far.response_Pa_kg);
+        // The pressure upstream falls by what flows out; flow goes with p / sqrt(T), which falls slower: 0.87.
+        const T begin_Pa = pick(out, near.pressure_Pa, far_Pa), falls = where(out, reach * near.per_kg_out_Pa);
+        const T up_Pa = short_cut<T>(
+            none_of(out), [&] { return begin_Pa; },
+            [&] { return begin_Pa / (Real{1} + static_cast<Real>(0.87) * falls); });
+        const auto unchoked = [&]() __attribute__((always_inline)) {
+          const T e = where(out, spread<T>(2)) - kPer;
+          const T half = kPer * k * (far_Pa + e * d);
+          const T square = kPer * d * (Real{2} * far_Pa + e * d);
+          const T lead = Real{1} - kPer * e * (k * k);
+          const T inner = half * half + lead * square;
+          const T root = square_root(inner > Real{0} ? inner : T{});
+          T above = square, below = half + root;
+          if (const auto digits_lost = half < Real{0}; any(digits_lost))
+            above = pick(digits_lost, root - half, above), below = pick(digits_lost, lead, below);
+          return above / (below + static_cast<Real>(1e-30));
+        };
+        const T v = either<T>(
+            d - k * up_Pa >= kChokedDrop<Real> * (begin_Pa - falls * up_Pa), [&] { return up_Pa; }, unchoked);
+        return negative_where(out, per_Pa * v);
+      });
 }
 
 /// What an opening gets through in a step before its implicit part does.
@@ -92,8 +96,8 @@ struct EarlyFlow {
     const T apart_Pa = near_Pa - far.pressure_Pa;
     const T after_Pa = apart_Pa + (near_part_Pa + far_part_Pa);
     constexpr Real kMost = static_cast<Real>(0.25);
-    return (flow_kg_s_m2 != Real{0}) & (apart_Pa * after_Pa >= Real{0}) &
-           (magnitude(near_part_Pa) <= kMost * near_Pa) & (magnitude(far_part_Pa) <= kMost * far.pressure_Pa);
+    return (flow_kg_s_m2 != Real{0}) & (apart_Pa * after_Pa >= Real{0}) & (magnitude(near_part_Pa) <= kMost * near_Pa) &
+           (magnitude(far_part_Pa) <= kMost * far.pressure_Pa);
   }
 };
 

@@ -14,7 +14,7 @@ template <class T>
 struct OverlapPort {
   using Real = NumberOf<T>;
 
-  T out, in;  ///< A psi_c / sqrt(R T1)
+  T out, in;            ///< A psi_c / sqrt(R T1)
   T out_Pa_s, in_Pa_s;  ///< how far a flow moves p1
   T far_Pa, far_Pa_s;
   T damping = spread<T>(1);
@@ -32,17 +32,18 @@ struct OverlapPort {
     const T f = s * left;
     const T by_s = per_Pa * kPerChokedDrop<Real>;
     const auto chokes = s >= Real{1};
-    const T passes = either<T>(chokes, [&] { return per_Pa * up_Pa / drop_Pa; },
-                               [&] { return by_s * left / square_root(f + static_cast<Real>(1e-10)); });
+    const T passes = either<T>(
+        chokes, [&] { return per_Pa * up_Pa / drop_Pa; },
+        [&] { return by_s * left / square_root(f + static_cast<Real>(1e-10)); });
     damping = Real{1} / (Real{1} + far_Pa_s * passes);
     conductance = passes * damping;
     if (!for_slope) return;
     const T flow = passes * drop_Pa;
     flow_kg_s = pick(inwards, flow, -flow);
     // No slope is without bound.
-    slope = damping * either<T>(chokes, [&] { return pick(inwards, T{}, per_Pa); }, [&] {
-              return by_s * (Real{1} - s) / square_root(f + static_cast<Real>(4.3e-4));
-            });
+    slope = damping * either<T>(
+                          chokes, [&] { return pick(inwards, T{}, per_Pa); },
+                          [&] { return by_s * (Real{1} - s) / square_root(f + static_cast<Real>(4.3e-4)); });
   }
 };
 
