@@ -58,19 +58,25 @@ class GasCylindersStep {
 
  private:
   [[gnu::always_inline]] void prepare(const EngineGasStep<Real>& step, Real (&volume_m3)[kCylinders],
-                                      [[maybe_unused]] CycleWay (&way)[kCylinders]) const noexcept {
+                                      [[maybe_unused]] CycleWay (&way)[kCylinders]) noexcept {
     const Drive<Real>& drive = *tables_.drive;
     volume_m3[0] = Real{0}, way[0] = {};  // for compilers, which do not know that there is a mechanism
     const std::uint32_t mechanisms = kCylinders == 1 ? 1 : drive.mechanisms;
     const std::uint8_t* next = drive.by_mechanism.cylinder;
     for (std::uint32_t m = 0; m < mechanisms; ++m) {
       const Real volume = gas_volume_m3(tables_, step.phase, m);
+      [[maybe_unused]] const std::uint8_t* first = next;
       const std::uint8_t* const end = drive.by_mechanism.cylinder + drive.by_mechanism.end[m];
       const std::uint64_t own = step.phase - drive.firing_phase[m];
       for (; next != end; ++next) {
         volume_m3[*next] = volume;
         if constexpr (N::burn || S::gas_results)
           way[*next] = {own + (std::uint64_t{drive.turn_of[*next]} << 63), step.turned};
+      }
+      if constexpr (N::burn || S::gas_results) {
+        if (__builtin_expect(CycleWay{own, step.turned}.passes_dead_centre(), 0)) {
+          for (; first != end; ++first) ends_ |= std::uint32_t{way[*first].passes_end()} << *first;
+        }
       }
     }
   }
@@ -84,10 +90,7 @@ class GasCylindersStep {
     constexpr int kLanes = kLanesIn<T>;
     const GasCylinders<Real>& table = *tables_.gas_cylinders;
     std::uint32_t faults = 0;
-    [[maybe_unused]] std::uint32_t ends = 0;  // one bit of each lane
-    if constexpr (N::burn || S::gas_results) {
-      for (int i = 0; i < kLanes; ++i) ends |= std::uint32_t{way[i].passes_end()} << i;
-    }
+    [[maybe_unused]] const std::uint32_t ends = ends_ >> k;  // one bit of each lane
     T fuel_kg{};
     GasFuel<Real> fuel{};
     if constexpr (N::burn) {
@@ -134,16 +137,11 @@ class GasCylindersStep {
       std::uint32_t intake_shut = 0;
       if (done.flows) intake_shut = holding((intake_was_m2 > Real{0}) & none_of(gas.area_m2[kIntake] > Real{0}));
       const T gained_J = done.gained_J();
+      record_step<T>(&state_.gas_record[k], done, fuel_kg, way);
       for (int i = 0; i < kLanes; ++i) {
         const std::uint32_t one = k + static_cast<std::uint32_t>(i);
         GasRecord<Real>& record = state_.gas_record[one];
-        for (int port = 0; port < kPorts; ++port) {
-          const PortStep<T>& p = done.through[port];
-          if (done.flows && lane(p.mass_kg, i) != Real{0})
-            record_flow(record, port, PortStep<Real>{lane(p.mass_kg, i), lane(p.enthalpy_J, i), lane(p.burned_kg, i)});
-        }
-        record_step(record, state_.cylinder_gas.pressure_Pa[one], lane(done.work_J, i),
-                    lane(done.closed.wall_heat_J, i), lane(gained_J, i), lane(fuel_kg, i), way[i]);
+        record_end(record, state_.cylinder_gas.pressure_Pa[one], lane(gained_J, i), way[i]);
         if ((intake_shut >> i & 1u) != 0) record_trapped(record, state_.cylinder_gas.template at<Real>(one).contents);
         if ((ends >> i & 1u) != 0) end_cycle(tables_, state_, out_, one);
       }
@@ -168,9 +166,12 @@ class GasCylindersStep {
                                                   const PortStep<T> (&through)[kPorts]) noexcept {
     for (int port = 0; port < kPorts; ++port) {
       const PortStep<T>& all = through[port];
+      const std::uint32_t flowing = holding(all.mass_kg != Real{0});
+      if (flowing == 0) continue;
+      GasContents<Real>& contents = state_.manifold[port].contents;
       for (int i = 0; i < kLanesIn<T>; ++i) {
-        if (lane(all.mass_kg, i) == Real{0}) continue;
-        state_.manifold[port].contents.add(-lane(all.mass_kg, i), -lane(all.enthalpy_J, i), -lane(all.burned_kg, i));
+        if ((flowing >> i & 1u) == 0) continue;
+        contents.add(-lane(all.mass_kg, i), -lane(all.enthalpy_J, i), -lane(all.burned_kg, i));
         step.taken_kg[port] += lane(all.mass_kg, i);
       }
     }
@@ -179,7 +180,8 @@ class GasCylindersStep {
   const Tables<Real, S>& tables_;
   State<Real, S>& state_;
   Output<Real, S>& out_;
-  Real& work_J_;  ///< of all cylinders on the crank, against the crankcase's pressure
+  std::uint32_t ends_ = 0;  ///< one bit of each cylinder whose cycle does
+  Real& work_J_;            ///< of all cylinders on the crank, against the crankcase's pressure
 };
 
 }  // namespace crankloop::detail
