@@ -73,10 +73,11 @@ template <class T>
   }
 }
 
-/// A comparison of one number. Of lanes, below, it is a mask: `&` and `|` join either.
+/// Of a comparison. Of lanes, below, that is a mask.
 [[nodiscard]] constexpr bool any(bool holds) noexcept { return holds; }
 [[nodiscard]] constexpr bool all(bool holds) noexcept { return holds; }
 [[nodiscard]] constexpr bool none_of(bool holds) noexcept { return !holds; }
+[[nodiscard]] constexpr bool both_hold(bool a, bool b) noexcept { return a && b; }
 /// One bit for each lane.
 [[nodiscard]] constexpr std::uint32_t holding(bool holds) noexcept { return holds ? 1 : 0; }
 
@@ -245,6 +246,9 @@ template <class Lanes>
 [[nodiscard, gnu::always_inline]] inline bool any(const FourBits& holds) noexcept { return holding(holds) != 0; }
 [[nodiscard, gnu::always_inline]] inline bool all(const FourBits& holds) noexcept { return holding(holds) == 15; }
 [[nodiscard, gnu::always_inline]] inline FourBits none_of(const FourBits& holds) noexcept { return ~holds; }
+[[nodiscard, gnu::always_inline]] inline FourBits both_hold(const FourBits& a, const FourBits& b) noexcept {
+  return a & b;
+}
 /// One for each in which it does not.
 template <class Bits>
 [[nodiscard, gnu::always_inline]] inline std::uint32_t failing(const Bits& holds) noexcept {

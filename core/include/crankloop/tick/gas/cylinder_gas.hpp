@@ -135,7 +135,7 @@ template <class T, class Holds>
                         response * specific_work_J_kg};
   const T intake_m2 = gas.area_m2[kIntake] + to_m2[kIntake], exhaust_m2 = gas.area_m2[kExhaust] + to_m2[kExhaust];
   const auto exhaust = exhaust_m2 > intake_m2;
-  const auto both = (intake_m2 > Real{0}) & (exhaust_m2 > Real{0});
+  const auto both = both_hold(intake_m2 > Real{0}, exhaust_m2 > Real{0});
   const auto opening = [&](const auto& at_exhaust) __attribute__((always_inline))->Opening<T> {
     const BeyondOf<T> there = beyond_port<T>(far, at_exhaust);
     return {pick(at_exhaust, gas.area_m2[kExhaust], gas.area_m2[kIntake]),

@@ -135,7 +135,8 @@ class GasCylindersStep {
     work_J_ = work_J;
     if constexpr (S::gas_results) {
       std::uint32_t intake_shut = 0;
-      if (done.flows) intake_shut = holding((intake_was_m2 > Real{0}) & none_of(gas.area_m2[kIntake] > Real{0}));
+      if (done.flows)
+        intake_shut = holding(both_hold(intake_was_m2 > Real{0}, none_of(gas.area_m2[kIntake] > Real{0})));
       const T gained_J = done.gained_J();
       record_step<T>(&state_.gas_record[k], done, fuel_kg, way);
       for (int i = 0; i < kLanes; ++i) {

@@ -96,8 +96,9 @@ struct EarlyFlow {
     const T apart_Pa = near_Pa - far.pressure_Pa;
     const T after_Pa = apart_Pa + (near_part_Pa + far_part_Pa);
     constexpr Real kMost = static_cast<Real>(0.25);
-    return (flow_kg_s_m2 != Real{0}) & (apart_Pa * after_Pa >= Real{0}) & (magnitude(near_part_Pa) <= kMost * near_Pa) &
-           (magnitude(far_part_Pa) <= kMost * far.pressure_Pa);
+    return both_hold(
+        both_hold(flow_kg_s_m2 != Real{0}, apart_Pa * after_Pa >= Real{0}),
+        both_hold(magnitude(near_part_Pa) <= kMost * near_Pa, magnitude(far_part_Pa) <= kMost * far.pressure_Pa));
   }
 };
 

@@ -92,7 +92,8 @@ template <class T>
   const EarlyFlow<T> a = EarlyFlow<T>::of(at[0], begin, near, step_s), b = EarlyFlow<T>::of(at[1], begin, near, step_s);
   const T part_s = explicit_share(a.stiffness + b.stiffness) * step_s;
   const T all_a_kg = part_s * at[0].from_m2 * a.flow_kg_s_m2, all_b_kg = part_s * at[1].from_m2 * b.flow_kg_s_m2;
-  const auto may = a.may_be(all_a_kg, near.pressure_Pa, at[0].far) & b.may_be(all_b_kg, near.pressure_Pa, at[1].far);
+  const auto may =
+      both_hold(a.may_be(all_a_kg, near.pressure_Pa, at[0].far), b.may_be(all_b_kg, near.pressure_Pa, at[1].far));
   const T a_kg = where(may, all_a_kg), b_kg = where(may, all_b_kg);
   const T time_s = step_s - where(may, part_s);
   near.pressure_Pa += a_kg * a.per_kg_Pa;
