@@ -41,14 +41,9 @@ struct GasBench {
     const auto real = [](double x) { return static_cast<Real>(x); };
     const detail::GasDrive<Real> drive{real(step_s), real(1.4), detail::most_area_per_m3(real(step_s)), real(1e-12)};
     const Real to_m2[] = {real(intake_m2), real(exhaust_m2)};
-    mass_kg[0] = mass_kg[1] = Real{0};
-    const auto flow = [&](int, const detail::ClosedStep<Real>& closed, detail::GasGain<Real>& gain) {
-      if (!detail::any_port_open(gas, to_m2)) return Real{0};
-      return detail::flow_through_ports(
-          gas, closed, gain, to_m2, beyond, drive,
-          [this](int port, const detail::PortStep<Real>& through) { mass_kg[port] = through.mass_kg; });
-    };
-    return detail::step_gas<Real>(gas, real(volume_m3), real(fuel_kg), fuel, walls, drive, flow);
+    const auto done = detail::step_gas<Real>(gas, real(volume_m3), real(fuel_kg), fuel, walls, drive, to_m2, beyond);
+    for (int port = 0; port < 2; ++port) mass_kg[port] = done.through[port].mass_kg;
+    return done;
   }
   [[nodiscard]] double pressure_Pa() const { return static_cast<double>(gas.point.pressure_Pa); }
   [[nodiscard]] double temperature_K() const { return static_cast<double>(gas.point.temperature_K); }

@@ -83,7 +83,7 @@ struct CamPhaseState {
 };
 template <class Real, class S>
 struct CylinderGasState {
-  detail::CylinderGas<Real> cylinder_gas[S::cylinders.capacity];
+  detail::CylinderGases<Real, S::cylinders.capacity> cylinder_gas;
 };
 template <class Real>
 struct ManifoldState {

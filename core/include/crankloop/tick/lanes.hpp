@@ -1,13 +1,15 @@
 // Floats abreast: several valves, or cylinders, in one register, by the vector extension of GCC and Clang. The only
 // place that knows of it.
 //
-// What belongs here: loading, storing, transposing such numbers. What does not: what is computed with them: the same
+// What belongs here: loading, storing, transposing, choosing such numbers. What does not: records of them
+// (valve/lane_records.hpp), what is computed with them: the same
 // inline functions as with one (valve.hpp, gas/cylinder_gas.hpp), of + - * / sqrt and comparisons alone, so a lane has
 // the bits that it has by itself.
 #pragma once
 
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 
 #include <crankloop/tick/one_instruction.hpp>
@@ -50,6 +52,90 @@ template <class T>
     static_cast<void>(i), x = number;
   } else {
     x[i] = number;
+  }
+}
+template <class T>
+[[nodiscard, gnu::always_inline]] inline T load(const NumberOf<T>* from) noexcept {
+  T x;
+  std::memcpy(&x, from, sizeof x);
+  return x;
+}
+template <class T>
+[[gnu::always_inline]] inline void store(NumberOf<T>* to, const T& x) noexcept {
+  std::memcpy(to, &x, sizeof x);
+}
+/// One number in all lanes.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline T spread(NumberOf<T> x) noexcept {
+  if constexpr (kLanesIn<T> == 1) {
+    return x;
+  } else {
+    return T{x, x, x, x};
+  }
+}
+
+/// Of a comparison. Of lanes, below, that is a mask.
+[[nodiscard]] constexpr bool any(bool holds) noexcept { return holds; }
+[[nodiscard]] constexpr bool all(bool holds) noexcept { return holds; }
+[[nodiscard]] constexpr bool none_of(bool holds) noexcept { return !holds; }
+[[nodiscard]] constexpr bool both_hold(bool a, bool b) noexcept { return a && b; }
+/// One bit for each lane.
+[[nodiscard]] constexpr std::uint32_t holding(bool holds) noexcept { return holds ? 1 : 0; }
+
+/// One of two. Of lanes, each its own, bit by bit: the other is never seen, be it no number.
+template <class T, class Holds>
+[[nodiscard, gnu::always_inline]] inline T pick(const Holds& holds, const T& then, const T& otherwise) noexcept {
+  if constexpr (kLanesIn<T> == 1) {
+    return holds ? then : otherwise;
+  } else {
+    return reinterpret_cast<T>((reinterpret_cast<Holds>(then) & holds) | (reinterpret_cast<Holds>(otherwise) & ~holds));
+  }
+}
+/// The same of what is still to be computed: of one number only what is picked.
+template <class T, class Holds, class Then, class Else>
+[[nodiscard, gnu::always_inline]] inline T either(const Holds& holds, const Then& then,
+                                                  const Else& otherwise) noexcept {
+  if constexpr (kLanesIn<T> == 1) {
+    return holds ? then() : otherwise();
+  } else {
+    return pick<T>(holds, then(), otherwise());
+  }
+}
+/// Else +0.
+template <class T, class Holds>
+[[nodiscard, gnu::always_inline]] inline T where(const Holds& holds, const T& then) noexcept {
+  if constexpr (kLanesIn<T> == 1) {
+    return holds ? then : T{};
+  } else {
+    return reinterpret_cast<T>(reinterpret_cast<Holds>(then) & holds);
+  }
+}
+/// A short cut for one number: lanes go the long way, which leads to the same.
+template <class T, class Holds, class Short, class Long>
+[[nodiscard, gnu::always_inline]] inline T short_cut(const Holds& holds, const Short& by_short,
+                                                     const Long& by_long) noexcept {
+  if constexpr (kLanesIn<T> == 1) {
+    if (holds) return by_short();
+  }
+  return by_long();
+}
+/// What depends on one comparison throughout: of one number a branch with a constant in each arm.
+template <class T, class Holds, class Work>
+[[nodiscard, gnu::always_inline]] inline auto branch(const Holds& holds, const Work& work) noexcept {
+  if constexpr (kLanesIn<T> == 1) {
+    return holds ? work(std::true_type{}) : work(std::false_type{});
+  } else {
+    return work(holds);
+  }
+}
+/// -x where it holds.
+template <class T, class Holds>
+[[nodiscard, gnu::always_inline]] inline T negative_where(const Holds& holds, const T& x) noexcept {
+  if constexpr (kLanesIn<T> == 1) {
+    return holds ? -x : x;
+  } else {
+    constexpr std::int32_t kSign = std::numeric_limits<std::int32_t>::min();
+    return reinterpret_cast<T>(reinterpret_cast<Holds>(x) ^ (holds & kSign));
   }
 }
 
@@ -105,6 +191,10 @@ using EightBits = std::int32_t __attribute__((vector_size(32)));
 [[nodiscard]] inline Eight magnitude(const Eight& x) noexcept {
   return reinterpret_cast<Eight>(reinterpret_cast<EightBits>(x) & 0x7FFF'FFFF);
 }
+template <>
+struct LaneTypes<Eight> {
+  using Number = float;
+};
 using WidestLanes = Eight;
 #else
 using WidestLanes = Four;
@@ -112,17 +202,6 @@ using WidestLanes = Four;
 
 template <class Lanes>
 inline constexpr int kLanesOf = sizeof(Lanes) / sizeof(float);
-
-template <class Lanes>
-[[nodiscard, gnu::always_inline]] inline Lanes load(const float* from) noexcept {
-  Lanes x;
-  std::memcpy(&x, from, sizeof x);
-  return x;
-}
-template <class Lanes>
-[[gnu::always_inline]] inline void store(float* to, const Lanes& x) noexcept {
-  std::memcpy(to, &x, sizeof x);
-}
 
 /// The same where every block begins at a register's border: then the compiler may multiply by memory.
 template <class Lanes>
@@ -165,85 +244,17 @@ template <class Lanes>
   return static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Eight>(holds)));
 }
 #endif
+[[nodiscard, gnu::always_inline]] inline bool any(const FourBits& holds) noexcept { return holding(holds) != 0; }
+[[nodiscard, gnu::always_inline]] inline bool all(const FourBits& holds) noexcept { return holding(holds) == 15; }
+[[nodiscard, gnu::always_inline]] inline FourBits none_of(const FourBits& holds) noexcept { return ~holds; }
+[[nodiscard, gnu::always_inline]] inline FourBits both_hold(const FourBits& a, const FourBits& b) noexcept {
+  return a & b;
+}
 /// One for each in which it does not.
 template <class Bits>
 [[nodiscard, gnu::always_inline]] inline std::uint32_t failing(const Bits& holds) noexcept {
   return holding(holds) ^ ((1u << sizeof holds / 4) - 1);
 }
-
-/// Four numbers of each lane, lane by lane.
-[[gnu::always_inline]] inline void store_lanes(const Four& a, const Four& b, const Four& c, const Four& d,
-                                               float* to) noexcept {
-#if defined(__clang__) || __GNUC__ >= 12
-  const Four ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5), ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
-  const Four cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5), cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
-  store<Four>(to, __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5));
-  store<Four>(to + 4, __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7));
-  store<Four>(to + 8, __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5));
-  store<Four>(to + 12, __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7));
-#else
-  for (int i = 0; i < 4; ++i) to[4 * i] = a[i], to[4 * i + 1] = b[i], to[4 * i + 2] = c[i], to[4 * i + 3] = d[i];
-#endif
-}
-/// Six.
-[[gnu::always_inline]] inline void store_lanes(const Four (&x)[6], float* to) noexcept {
-  Four first[4] = {x[0], x[1], x[2], x[3]};
-  transpose(first);
-  for (int i = 0; i < 4; ++i) store<Four>(to + 6 * i, first[i]);
-#if defined(__clang__) || __GNUC__ >= 12
-  using Two = double __attribute__((vector_size(16)));
-  const Two low = reinterpret_cast<Two>(__builtin_shufflevector(x[4], x[5], 0, 4, 1, 5)),
-            high = reinterpret_cast<Two>(__builtin_shufflevector(x[4], x[5], 2, 6, 3, 7));
-  const double pairs[4] = {low[0], low[1], high[0], high[1]};
-  for (int i = 0; i < 4; ++i) std::memcpy(to + 6 * i + 4, &pairs[i], sizeof pairs[i]);
-#else
-  for (int i = 0; i < 4; ++i) to[6 * i + 4] = x[4][i], to[6 * i + 5] = x[5][i];
-#endif
-}
-/// Six numbers of each of four lanes, of which from[i] are lane i's.
-[[gnu::always_inline]] inline void load_lanes(const float* const (&from)[4], Four (&x)[6]) noexcept {
-#if defined(__clang__) || __GNUC__ >= 12
-  const Four a = load<Four>(from[0]), b = load<Four>(from[1]), c = load<Four>(from[2]), d = load<Four>(from[3]);
-  const Four ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5), ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
-  const Four cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5), cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
-  x[0] = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5),
-  x[1] = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
-  x[2] = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5),
-  x[3] = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
-  using Two = double __attribute__((vector_size(16)));
-  double pairs[4];
-  for (int i = 0; i < 4; ++i) std::memcpy(&pairs[i], from[i] + 4, sizeof pairs[i]);
-  const Four low = reinterpret_cast<Four>(Two{pairs[0], pairs[1]}),
-             high = reinterpret_cast<Four>(Two{pairs[2], pairs[3]});
-  x[4] = __builtin_shufflevector(low, high, 0, 2, 4, 6), x[5] = __builtin_shufflevector(low, high, 1, 3, 5, 7);
-#else
-  for (int i = 0; i < 6; ++i) x[i] = Four{from[0][i], from[1][i], from[2][i], from[3][i]};
-#endif
-}
-#if defined(__AVX__)
-[[gnu::always_inline]] inline void load_lanes(const float* const (&from)[8], Eight (&x)[6]) noexcept {
-  Four low[6], high[6];
-  load_lanes({from[0], from[1], from[2], from[3]}, low);
-  load_lanes({from[4], from[5], from[6], from[7]}, high);
-  for (int i = 0; i < 6; ++i) x[i] = __builtin_shufflevector(low[i], high[i], 0, 1, 2, 3, 4, 5, 6, 7);
-}
-[[gnu::always_inline]] inline void store_lanes(const Eight& a, const Eight& b, const Eight& c, const Eight& d,
-                                               float* to) noexcept {
-  const auto half = [](const Eight& x, int which) {
-    Four f;
-    std::memcpy(&f, reinterpret_cast<const char*>(&x) + which * 16, sizeof f);
-    return f;
-  };
-  for (int i = 0; i < 2; ++i) store_lanes(half(a, i), half(b, i), half(c, i), half(d, i), to + 16 * i);
-}
-[[gnu::always_inline]] inline void store_lanes(const Eight (&x)[6], float* to) noexcept {
-  for (int half = 0; half < 2; ++half) {
-    Four part[6];
-    for (int i = 0; i < 6; ++i) std::memcpy(&part[i], reinterpret_cast<const char*>(&x[i]) + half * 16, sizeof part[i]);
-    store_lanes(part, to + 24 * half);
-  }
-}
-#endif
 
 }  // namespace crankloop::detail
 #endif

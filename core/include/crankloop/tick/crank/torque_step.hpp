@@ -112,7 +112,7 @@ struct TorqueStep : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
 
   [[nodiscard]] Real held_pressure_Pa(std::uint32_t k) const noexcept {
     if constexpr (N::gas) {
-      return state.cylinder_gas[k].point.pressure_Pa;
+      return state.cylinder_gas.pressure_Pa[k];
     } else {
       return state.pressure_Pa[k];
     }

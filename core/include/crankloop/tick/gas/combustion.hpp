@@ -29,8 +29,11 @@ struct CycleWay {
   /// Over the top dead centre of gas exchange, where a cycle ends, either way: in the middle of all numbers, where the
   /// top bit changes; it changes at firing top dead centre too.
   [[nodiscard]] constexpr bool passes_end() const noexcept {
-    if (static_cast<std::int64_t>(from() ^ to) >= 0) return false;
-    return (to >> 63 != 0) == (turned > 0);
+    return passes_dead_centre() && (to >> 63 != 0) == (turned > 0);
+  }
+  /// The one or the other.
+  [[nodiscard]] constexpr bool passes_dead_centre() const noexcept {
+    return static_cast<std::int64_t>(from() ^ to) < 0;
   }
   /// Whether it ends in the half of the cycle about gas exchange: 180 to 540 deg.
   [[nodiscard]] constexpr bool in_gas_exchange() const noexcept {

@@ -37,7 +37,7 @@ template <class Real, class S>
     bool cut = false;
     if constexpr (Needs<S>::gas_cut) cut = (input.cut_cylinders >> cylinder & 1u) != 0;
     const BurnOrder<Real> order = burn_order(tables, input, cylinder);
-    faults |= take_fuel(burn, table, state.cylinder_gas[cylinder].contents, order, cut);
+    faults |= take_fuel(burn, table, state.cylinder_gas.template at<Real>(cylinder).contents, order, cut);
   }
   const Real fuel_kg = burnt_kg(burn, table, way);
   if (ends && way.forward()) end_burn(burn);
@@ -49,7 +49,7 @@ template <class Real, class S>
 [[gnu::noinline]] void end_cycle(const Tables<Real, S>& tables, State<Real, S>& state, Output<Real, S>& out,
                                  std::uint32_t cylinder) noexcept {
   GasRecord<Real>& record = state.gas_record[cylinder];
-  const GasContents<Real>& gas = state.cylinder_gas[cylinder].contents;
+  const GasContents<Real> gas = state.cylinder_gas.template at<Real>(cylinder).contents;
   if (record.whole != 0) {
     Real heat_J_kg{}, excess_air_ratio{};
     if constexpr (Needs<S>::burn) {

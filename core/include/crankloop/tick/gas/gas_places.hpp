@@ -5,6 +5,7 @@
 
 #include <crankloop/tables/angle.hpp>
 #include <crankloop/tables/tables.hpp>
+#include <crankloop/tick/checked.hpp>
 
 namespace crankloop::detail {
 
@@ -26,13 +27,35 @@ template <class Real, class S>
   return table.clearance_m3 + table.bore_area_m2 * (displacement_m > 0 ? displacement_m : Real{0});
 }
 
-/// Effective, of all valves of a train in a cylinder.
+/// Effective, of all valves of a train in a cylinder that are open.
 template <class Real>
 [[nodiscard]] inline Real port_area_m2(const GasPortCurve<Real>& curve, Real lift_m) noexcept {
-  if (!(lift_m > static_cast<Real>(kClosedLift_m))) return Real{0};
   const Real place = lift_m * curve.per_step_m;
   if (!(place < Real{kFlowSteps})) return curve.area_m2[kFlowSteps];
   const auto row = static_cast<std::int32_t>(place);
   return curve.area_m2[row] + (curve.area_m2[row + 1] - curve.area_m2[row]) * (place - static_cast<Real>(row));
 }
+
+/// Of each port of each cylinder.
+template <class Real, std::uint32_t kCylinders>
+struct PortAreas {
+  Real of[kPorts][kCylinders];
+};
+
+/// Of the lifts that `lift_of(train, cylinder)` answers.
+template <class Real, class S, class LiftOf>
+inline void read_areas(const Tables<Real, S>& tables, PortAreas<Real, S::cylinders.capacity>& areas,
+                       const LiftOf& lift_of) noexcept {
+  areas = {};
+  const std::uint32_t trains = S::trains.exact ? S::trains.capacity : tables.drive->trains;
+  for (std::uint32_t t = 0; t < trains; ++t) {
+    const GasPortCurve<Real>& curve = tables.gas_ports[t];
+    Real* const of_port = areas.of[curve.port];
+    for (std::uint32_t k = 0; k < count<S>(tables.drive->cylinders); ++k) {
+      const Real lift_m = lift_of(t, k);
+      if (lift_m > static_cast<Real>(kClosedLift_m)) of_port[k] += port_area_m2(curve, lift_m);
+    }
+  }
+}
+
 }  // namespace crankloop::detail

@@ -4,7 +4,9 @@
 // does not: the gas itself (cylinder_gas.hpp).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include <crankloop/tick/gas/combustion.hpp>
 #include <crankloop/tick/gas/cylinder_gas.hpp>
@@ -35,10 +37,11 @@ namespace detail {
 /// The cycle in progress.
 template <class Real>
 struct GasRecord {
-  Real work_J, pumping_J, peak_Pa, peak_deg, trapped_kg, trapped_air_kg;
+  // Rows of four, which lanes add to at once.
+  Real work_J, pumping_J, fuel_kg, wall_heat_J;
   Real air_kg;                                    ///< through the intake
   Real exhaust_kg, exhaust_J, exhaust_burned_kg;  ///< through the exhaust
-  Real fuel_kg, wall_heat_J;
+  Real peak_Pa, peak_deg, trapped_kg, trapped_air_kg;
   Real begin_J, begin_rest_J;    ///< internal energy
   Real gained_J, gained_rest_J;  ///< what the first law adds to it
   std::uint32_t whole;           ///< 1: from its begin
@@ -52,28 +55,57 @@ inline void begin_cycle(GasRecord<Real>& record, const GasContents<Real>& gas) n
   record.whole = 1;
 }
 
-/// What any step did: `gained_J`, what the first law adds to the internal energy.
-template <class Real>
-[[gnu::always_inline]] inline void record_step(GasRecord<Real>& record, Real pressure_Pa, Real work_J, Real wall_heat_J,
-                                               Real gained_J, Real fuel_kg, const CycleWay& way) noexcept {
-  record.work_J += work_J;
-  if (way.in_gas_exchange()) record.pumping_J += work_J;
-  if (pressure_Pa > record.peak_Pa) record.peak_Pa = pressure_Pa, record.peak_deg = way.deg<Real>();
-  record.fuel_kg += fuel_kg;
-  record.wall_heat_J += wall_heat_J;
-  add_carried(record.gained_J, record.gained_rest_J, gained_J);
+#if CRANKLOOP_ABREAST
+/// Adds four numbers of each lane to row `row` of its record.
+[[gnu::always_inline]] inline void add_row(GasRecord<float>* records, int row, const Four& a, const Four& b,
+                                           const Four& c, const Four& d) noexcept {
+  Four x[4] = {a, b, c, d};
+  transpose(x);
+#pragma GCC unroll 4
+  for (int i = 0; i < 4; ++i) {
+    auto* const at = reinterpret_cast<unsigned char*>(records + i) + static_cast<std::size_t>(row) * sizeof x[i];
+    Four sum;
+    std::memcpy(&sum, at, sizeof sum);
+    sum += x[i];
+    std::memcpy(at, &sum, sizeof sum);
+  }
+}
+#endif
+
+/// What any step of a cylinder, or of lanes, did.
+template <class T>
+[[gnu::always_inline]] inline void record_step(GasRecord<NumberOf<T>>* records, const CylinderStep<T>& step,
+                                               const T& fuel_kg, const CycleWay* way) noexcept {
+  const PortStep<T>& in = step.through[kIntake];
+  const PortStep<T>& out = step.through[kExhaust];
+  if constexpr (kLanesIn<T> == 1) {
+    GasRecord<T>& record = *records;
+    record.work_J += step.work_J;
+    if (way->in_gas_exchange()) record.pumping_J += step.work_J;
+    record.fuel_kg += fuel_kg;
+    record.wall_heat_J += step.closed.wall_heat_J;
+    if (!step.flows) return;
+    if (in.mass_kg != T{0}) record.air_kg += in.mass_kg - in.burned_kg;
+    if (out.mass_kg == T{0}) return;
+    record.exhaust_kg -= out.mass_kg;
+    record.exhaust_J -= out.enthalpy_J;
+    record.exhaust_burned_kg -= out.burned_kg;
+  } else {
+    T pumping_J{};
+    for (int i = 0; i < kLanesIn<T>; ++i) {
+      if (way[i].in_gas_exchange()) put_lane(pumping_J, i, lane(step.work_J, i));
+    }
+    add_row(records, 0, step.work_J, pumping_J, fuel_kg, step.closed.wall_heat_J);
+    if (step.flows) add_row(records, 1, in.mass_kg - in.burned_kg, -out.mass_kg, -out.enthalpy_J, -out.burned_kg);
+  }
 }
 
-/// What came through a port.
+/// Where a step of one led; `gained_J`, what the first law adds to the internal energy.
 template <class Real>
-inline void record_flow(GasRecord<Real>& record, int port, const PortStep<Real>& step) noexcept {
-  if (port == kIntake) {
-    record.air_kg += step.mass_kg - step.burned_kg;
-  } else {
-    record.exhaust_kg -= step.mass_kg;
-    record.exhaust_J -= step.enthalpy_J;
-    record.exhaust_burned_kg -= step.burned_kg;
-  }
+[[gnu::always_inline]] inline void record_end(GasRecord<Real>& record, Real pressure_Pa, Real gained_J,
+                                              const CycleWay& way) noexcept {
+  if (pressure_Pa > record.peak_Pa) record.peak_Pa = pressure_Pa, record.peak_deg = way.deg<Real>();
+  add_carried(record.gained_J, record.gained_rest_J, gained_J);
 }
 
 /// What the intake shut in.

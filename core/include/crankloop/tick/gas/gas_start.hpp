@@ -23,14 +23,15 @@ template <class Real, class S>
 [[gnu::cold, gnu::noinline]] void fill_cylinders(const Tables<Real, S>& tables, State<Real, S>& state) noexcept {
   const GasPoint<Real> from = intake_of(state);
   for (std::uint32_t k = 0; k < count<S>(tables.drive->cylinders); ++k) {
-    CylinderGas<Real>& gas = state.cylinder_gas[k];
-    gas = {};
+    CylinderGas<Real> gas{};
     gas.volume_m3 = gas_volume_m3(tables, state.phase.units(), tables.drive->mechanism_of[k]);
     gas.contents = contents_of(from.pressure_Pa, from.temperature_K, from.burned_ratio, gas.volume_m3);
     gas.point = point_of(gas.contents, Real{1} / gas.volume_m3);
-    gas.pressure_before_Pa = gas.point.pressure_Pa;
     const GasWalls<Real>& walls = tables.gas_cylinders->walls;
     gas.wall_heat_W = wall_heat_W(walls, gas.point, gas.volume_m3, stirring_m_s(walls, state.speed_rad_s));
+    state.cylinder_gas.put(k, gas), state.cylinder_gas.put_areas(k, gas);
+    state.cylinder_gas.pressure_before_Pa[k] = gas.point.pressure_Pa;
+    state.cylinder_gas.spare[k] = Real{0};
     if constexpr (Needs<S>::burn) end_burn(state.burn[k]);
     if constexpr (S::gas_results) state.gas_record[k] = {};
   }
@@ -54,7 +55,7 @@ template <class Real, class S>
   // Cylinders that a scene has room for and the engine has not: as the first, so that a saved state is all numbers that
   // a step could compute with.
   for (std::uint32_t k = count<S>(tables.drive->cylinders); k < S::cylinders.capacity; ++k)
-    state.cylinder_gas[k] = state.cylinder_gas[0];
+    state.cylinder_gas.copy(0, k);
 }
 
 }  // namespace crankloop::detail

@@ -2,27 +2,72 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 
 #include <crankloop/tables/gas_tables.hpp>
 #include <crankloop/tick/gas/gas_properties.hpp>
 
 namespace crankloop::detail {
 
-/// What a step of a cylinder, or of several abreast, starts from and leaves: twelve numbers.
+/// What a step of a cylinder, or of several abreast, starts from and leaves.
 template <class T>
-struct CylinderGasNow {
+struct CylinderGas {
   GasContents<T> contents;
   GasPoint<T> point;
   T volume_m3;
-  T wall_heat_W;  ///< at the begin of the last step
+  T wall_heat_W;      ///< at the begin of the last step
+  T area_m2[kPorts];  ///< effective, of each port
 };
 
-/// One cylinder, at the end of the last step. Sixteen numbers: no padding.
-template <class Real>
-struct CylinderGas : CylinderGasNow<Real> {
-  Real area_m2[kPorts];     ///< effective, of each port
-  Real pressure_before_Pa;  ///< at the end of the tick before
-  Real spare;
+/// The cylinders of an engine, in columns: neighbours go abreast.
+template <class Real, std::uint32_t kCylinders>
+struct CylinderGases {
+  Real mass_kg[kCylinders], mass_rest_kg[kCylinders];
+  Real energy_J[kCylinders], energy_rest_J[kCylinders];
+  Real burned_kg[kCylinders], burned_rest_kg[kCylinders];
+  Real pressure_Pa[kCylinders], temperature_K[kCylinders], burned_ratio[kCylinders], gas_ratio[kCylinders];
+  Real volume_m3[kCylinders], wall_heat_W[kCylinders];
+  Real area_m2[kPorts][kCylinders];
+  Real pressure_before_Pa[kCylinders];  ///< at the end of the tick before
+  Real spare[kCylinders];
+
+  /// Cylinder k, or as many from there as T has lanes.
+  template <class T>
+  [[nodiscard, gnu::always_inline]] CylinderGas<T> at(std::uint32_t k) const noexcept {
+    CylinderGas<T> gas;
+    const auto take = [k](const Real* column, T& x) { std::memcpy(&x, column + k, sizeof x); };
+    each(*this, gas, take), each_area(*this, gas, take);
+    return gas;
+  }
+  template <class T>
+  [[gnu::always_inline]] void put(std::uint32_t k, const CylinderGas<T>& gas) noexcept {
+    each(*this, gas, [k](Real* column, const T& x) { std::memcpy(column + k, &x, sizeof x); });
+  }
+
+  /// Not among what a step always leaves: most ports are closed.
+  template <class T>
+  [[gnu::always_inline]] void put_areas(std::uint32_t k, const CylinderGas<T>& gas) noexcept {
+    each_area(*this, gas, [k](Real* column, const T& x) { std::memcpy(column + k, &x, sizeof x); });
+  }
+  void copy(std::uint32_t from, std::uint32_t to) noexcept {
+    put(to, at<Real>(from)), put_areas(to, at<Real>(from));
+    pressure_before_Pa[to] = pressure_before_Pa[from], spare[to] = spare[from];
+  }
+
+ private:
+  template <class Columns, class Gas, class Visit>
+  [[gnu::always_inline]] static void each(Columns& column, Gas& gas, const Visit& visit) noexcept {
+    visit(column.mass_kg, gas.contents.mass_kg), visit(column.mass_rest_kg, gas.contents.mass_rest_kg);
+    visit(column.energy_J, gas.contents.energy_J), visit(column.energy_rest_J, gas.contents.energy_rest_J);
+    visit(column.burned_kg, gas.contents.burned_kg), visit(column.burned_rest_kg, gas.contents.burned_rest_kg);
+    visit(column.pressure_Pa, gas.point.pressure_Pa), visit(column.temperature_K, gas.point.temperature_K);
+    visit(column.burned_ratio, gas.point.burned_ratio), visit(column.gas_ratio, gas.point.gas_ratio);
+    visit(column.volume_m3, gas.volume_m3), visit(column.wall_heat_W, gas.wall_heat_W);
+  }
+  template <class Columns, class Gas, class Visit>
+  [[gnu::always_inline]] static void each_area(Columns& column, Gas& gas, const Visit& visit) noexcept {
+    visit(column.area_m2[kIntake], gas.area_m2[kIntake]), visit(column.area_m2[kExhaust], gas.area_m2[kExhaust]);
+  }
 };
 
 /// A manifold.

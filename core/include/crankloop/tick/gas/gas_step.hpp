@@ -1,23 +1,16 @@
-// The gas of an engine over one tick: cylinders, then manifolds. docs/model.md "Gas".
+// The gas of an engine over one tick. docs/model.md "Gas".
 //
-// What belongs here: the order of it, what is shown. What does not: a cylinder's step (cylinder_gas.hpp), a manifold's
-// (manifold.hpp), fuel (combustion.hpp), inputs (gas_inputs.hpp), where pistons and valves stand (gas_places.hpp).
+// What belongs here: the order of it. What does not: the cylinders' step (gas_cylinders.hpp), a manifold's
+// (manifold.hpp), inputs (gas_inputs.hpp), where pistons and valves stand (gas_places.hpp).
 //
 //     inputs -> port areas from the valves' lifts -> in steps of at most 5 deg: cylinders, manifolds -> what is shown
 #pragma once
 
 #include <cstdint>
 
-#include <crankloop/output.hpp>
-#include <crankloop/state.hpp>
-#include <crankloop/tables/tables.hpp>
-#include <crankloop/tick/checked.hpp>
-#include <crankloop/tick/gas/gas_abreast.hpp>
-#include <crankloop/tick/gas/gas_cycle.hpp>
+#include <crankloop/tick/gas/gas_cylinders.hpp>
 #include <crankloop/tick/gas/gas_inputs.hpp>
-#include <crankloop/tick/gas/gas_places.hpp>
 #include <crankloop/tick/gas/gas_start.hpp>
-#include <crankloop/tick/gas/manifold.hpp>
 #include <crankloop/tick/valve/valve.hpp>
 
 namespace crankloop::detail {
@@ -29,9 +22,7 @@ template <class Real, class S>
 class GasStep {
   using N = Needs<S>;
   static constexpr std::uint32_t kCylinders = S::cylinders.capacity;
-  struct Areas {
-    Real of[kCylinders][kPorts];
-  };
+  using Areas = PortAreas<Real, kCylinders>;
 
  public:
   GasStep(const Tables<Real, S>& tables, State<Real, S>& state, Output<Real, S>& out) noexcept
@@ -43,47 +34,31 @@ class GasStep {
                                                  Real& work_J) noexcept {
     std::uint32_t faults = take_gas_inputs<Real, S>(input, state_);
     Areas end;
-    read_areas(end, [this](std::uint32_t t, std::uint32_t k) { return out_.valve[t][k].lift_m; });
-    work_J = Real{0};
-    for (std::uint32_t k = 0; k < cylinders(); ++k) {
-      CylinderGasOutput<Real>& shown = out_.cylinder_gas[k];
-      shown.flow_kg_s[kIntake] = shown.flow_kg_s[kExhaust] = shown.wall_heat_W = Real{0};
-      if constexpr (S::valve_gas) state_.cylinder_gas[k].pressure_before_Pa = state_.cylinder_gas[k].point.pressure_Pa;
-    }
+    read_areas(tables_, end, [this](std::uint32_t t, std::uint32_t k) { return out_.valve[t][k].lift_m; });
+    CylinderGases<Real, kCylinders>& gases = state_.cylinder_gas;
+    if constexpr (S::valve_gas) std::memcpy(gases.pressure_before_Pa, gases.pressure_Pa, sizeof gases.pressure_Pa);
     if (jumped) {
       fill_cylinders(tables_, state_);
+      std::memcpy(gases.area_m2, end.of, sizeof end.of);
       for (std::uint32_t k = 0; k < cylinders(); ++k) {
-        for (int port = 0; port < kPorts; ++port) state_.cylinder_gas[k].area_m2[port] = end.of[k][port];
-        show(state_.cylinder_gas[k], &out_.cylinder_gas[k]);
+        const Real shown[7] = {gases.pressure_Pa[k], gases.temperature_K[k], gases.mass_kg[k], gases.burned_ratio[k]};
+        show(shown, &out_.cylinder_gas[k]);
       }
     } else {
-      faults |= run_steps(input, end, static_cast<std::int64_t>(turned.units()), work_J);
+      faults |= run_steps(input, end, static_cast<std::int64_t>(turned.units()));
     }
     show_manifolds();
+    work_J = work_J_;
     return faults;
   }
 
  private:
   [[nodiscard]] std::uint32_t cylinders() const noexcept { return count<S>(tables_.drive->cylinders); }
-  [[nodiscard]] std::uint32_t trains() const noexcept {
-    return S::trains.exact ? S::trains.capacity : tables_.drive->trains;
-  }
 
-  /// Of the lifts that `lift_of(train, cylinder)` answers.
-  template <class LiftOf>
-  void read_areas(Areas& areas, const LiftOf& lift_of) const noexcept {
-    areas = {};
-    for (std::uint32_t t = 0; t < trains(); ++t) {
-      const GasPortCurve<Real>& curve = tables_.gas_ports[t];
-      for (std::uint32_t k = 0; k < cylinders(); ++k) {
-        areas.of[k][curve.port] += port_area_m2(curve, lift_of(t, k));
-      }
-    }
-  }
   /// As the cams have them where the engine had a phase in this tick.
   void read_cam_areas(std::uint64_t phase, Areas& areas) const noexcept {
     const std::uint64_t back = state_.phase.units() - phase;
-    read_areas(areas, [this, back](std::uint32_t t, std::uint32_t k) {
+    read_areas(tables_, areas, [this, back](std::uint32_t t, std::uint32_t k) {
       const LiftCurve<Real>& curve = tables_.lift_curves[t];
       return curve.read(curve.cell(cam_phase(state_, t) - back, k)).lift_m;
     });
@@ -91,33 +66,24 @@ class GasStep {
 
   // ---- the steps ----------------------------------------------------------------------------------------------------
 
-  /// What all cylinders of a step share.
-  struct Step {
-    std::uint64_t phase;  ///< of the engine, at its end
-    std::int64_t turned;
-    GasDrive<Real> drive;
-    GasBeyond<Real> beyond[kPorts];
-  };
-
-  [[nodiscard]] std::uint32_t run_steps(const Input<Real, S>& input, const Areas& end, std::int64_t turned,
-                                        Real& work_J) noexcept {
+  [[nodiscard]] std::uint32_t run_steps(const Input<Real, S>& input, const Areas& end, std::int64_t turned) noexcept {
     const std::uint64_t way =
         turned < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(turned) : static_cast<std::uint64_t>(turned);
-    Step step;
+    EngineGasStep<Real> step;
     step.drive.stirring_m_s = stirring_m_s(tables_.gas_cylinders->walls, state_.speed_rad_s);
     step.drive.least_kg_m3 = tables_.gas_cylinders->least_kg_m3;
     step.drive.step_s = tables_.drive->tick_s;
     step.turned = turned;
-    if (__builtin_expect(way > kGasStep, 0)) return run_parts(input, step, way, end, work_J);
+    if (__builtin_expect(way > kGasStep, 0)) return run_parts(input, step, way, end);
     step.phase = state_.phase.units();
     step.drive.area_per_m3 = most_area_per_m3(step.drive.step_s);
-    return run_step(input, step, end, work_J);
+    return run_step(input, step, end);
   }
 
   /// A tick in equal parts. Between its ends port areas are as the cams have them, and what the valves are off their
   /// cams goes in a straight line: a straight line of areas alone would be 1 % off in charge at 36 deg.
-  [[nodiscard, gnu::noinline]] std::uint32_t run_parts(const Input<Real, S>& input, Step& step, std::uint64_t way,
-                                                       const Areas& end, Real& work_J) noexcept {
+  [[nodiscard, gnu::noinline]] std::uint32_t run_parts(const Input<Real, S>& input, EngineGasStep<Real>& step,
+                                                       std::uint64_t way, const Areas& end) noexcept {
     int parts = 2;
     while (parts < kMaxGasSteps && way > static_cast<std::uint64_t>(parts) * kGasStep) ++parts;
     constexpr std::uint32_t kPerParts_32[kMaxGasSteps + 1] = {
@@ -134,12 +100,13 @@ class GasStep {
       }
     };
     each_port([&](std::uint32_t k, int port) {
-      off_at_begin.of[k][port] = state_.cylinder_gas[k].area_m2[port] - off_at_begin.of[k][port];
-      off_at_end.of[k][port] = end.of[k][port] - off_at_end.of[k][port];
+      off_at_begin.of[port][k] = state_.cylinder_gas.area_m2[port][k] - off_at_begin.of[port][k];
+      off_at_end.of[port][k] = end.of[port][k] - off_at_end.of[port][k];
     });
     const std::uint64_t each = part_of(step.turned, kPerParts_32[parts]);
     step.drive.step_s *= kPerParts[parts];
     step.drive.area_per_m3 = most_area_per_m3(step.drive.step_s);
+    CylinderGasOutput<Real> shown[kCylinders] = {};
     std::uint32_t faults = 0;
     for (int i = 1; i < parts; ++i, from = step.phase) {
       step.phase = from + each;
@@ -147,29 +114,49 @@ class GasStep {
       read_cam_areas(step.phase, areas);
       const Real done = static_cast<Real>(i) * kPerParts[parts];
       each_port([&](std::uint32_t k, int port) {
-        const Real begin = off_at_begin.of[k][port];
-        const Real area = areas.of[k][port] + (begin + (off_at_end.of[k][port] - begin) * done);
-        areas.of[k][port] = area > 0 ? area : Real{0};
+        const Real begin = off_at_begin.of[port][k];
+        const Real area = areas.of[port][k] + (begin + (off_at_end.of[port][k] - begin) * done);
+        areas.of[port][k] = area > 0 ? area : Real{0};
       });
-      faults |= run_step(input, step, areas, work_J);
+      faults |= run_step(input, step, areas);
+      add_shown(shown);
     }
     step.phase = state_.phase.units();
     step.turned = static_cast<std::int64_t>(step.phase - from);
-    return faults | run_step(input, step, end, work_J);
+    faults |= run_step(input, step, end);
+    add_shown(shown);
+    for (std::uint32_t k = 0; k < cylinders(); ++k) {
+      CylinderGasOutput<Real>& all = out_.cylinder_gas[k];
+      for (int port = 0; port < kPorts; ++port) all.flow_kg_s[port] = shown[k].flow_kg_s[port];
+      all.wall_heat_W = shown[k].wall_heat_W;
+    }
+    return faults;
+  }
+  /// What a step shows of flow and heat.
+  void add_shown(CylinderGasOutput<Real> (&sum)[kCylinders]) const noexcept {
+    for (std::uint32_t k = 0; k < cylinders(); ++k) {
+      const CylinderGasOutput<Real>& last = out_.cylinder_gas[k];
+      for (int port = 0; port < kPorts; ++port) sum[k].flow_kg_s[port] += last.flow_kg_s[port];
+      sum[k].wall_heat_W += last.wall_heat_W;
+    }
   }
 
-  [[nodiscard]] std::uint32_t run_step(const Input<Real, S>& input, Step& step, const Areas& areas,
-                                       Real& work_J) noexcept {
-    see_manifolds(step);
-    const std::uint32_t faults = step_cylinders(input, step, areas, work_J);
+  [[nodiscard]] std::uint32_t run_step(const Input<Real, S>& input, EngineGasStep<Real>& step,
+                                       const Areas& areas) noexcept {
+    see_manifolds(step, areas);
+    const std::uint32_t faults = GasCylindersStep<Real, S>(tables_, state_, out_, work_J_).run(input, step, areas);
     return faults | step_manifolds(step);
   }
 
-  [[gnu::always_inline]] void see_manifolds(Step& step) const noexcept {
+  [[gnu::always_inline]] void see_manifolds(EngineGasStep<Real>& step,
+                                            [[maybe_unused]] const Areas& areas) const noexcept {
     for (int port = 0; port < kPorts; ++port) {
+      step.taken_kg[port] = Real{0};
       if constexpr (N::manifolds) {
-        step.beyond[port] =
-            seen_from_ports(state_.manifold[port], tables_.gas_manifolds->per_volume_m3[port], step.drive.step_s);
+        std::uint32_t open = 0;
+        for (std::uint32_t k = 0; k < cylinders(); ++k) open += bits_of(areas.of[port][k]) != 0 ? 1u : 0u;
+        step.beyond[port] = seen_from_ports(state_.manifold[port], tables_.gas_manifolds->per_volume_m3[port],
+                                            static_cast<Real>(open), most_m3(), step.drive.step_s);
       } else {
         const GivenGas<Real>& given = state_.given_gas[port];
         constexpr Real kNoLimit_m2 = static_cast<Real>(1e9);
@@ -179,131 +166,21 @@ class GasStep {
       }
     }
   }
-
-  [[nodiscard]] std::uint32_t step_cylinders(const Input<Real, S>& input, Step& step, const Areas& areas,
-                                             Real& work_J) noexcept {
-    const Drive<Real>& drive = *tables_.drive;
-    Real volume_m3[kCylinders];
-    [[maybe_unused]] CycleWay way[kCylinders];
-    volume_m3[0] = Real{0}, way[0] = {};  // for compilers, which do not know that there is a mechanism
-    const std::uint32_t mechanisms = kCylinders == 1 ? 1 : drive.mechanisms;
-    const std::uint8_t* next = drive.by_mechanism.cylinder;
-    for (std::uint32_t m = 0; m < mechanisms; ++m) {
-      const Real volume = gas_volume_m3(tables_, step.phase, m);
-      const std::uint8_t* const end = drive.by_mechanism.cylinder + drive.by_mechanism.end[m];
-      const std::uint64_t own = step.phase - drive.firing_phase[m];
-      for (; next != end; ++next) {
-        volume_m3[*next] = volume;
-        if constexpr (N::burn || S::gas_results)
-          way[*next] = {own + (std::uint64_t{drive.turn_of[*next]} << 63), step.turned};
-      }
-    }
-    std::uint32_t faults = 0;
-    std::uint32_t k = 0;
-#if CRANKLOOP_ABREAST
-    if constexpr (sizeof(Real) == 4 && kCylinders >= 4) {
-      for (; k + 4 <= cylinders(); k += 4) {
-        CylinderGasNow<Four> now;
-        load_abreast(&state_.cylinder_gas[k], now);
-        faults |= step_block<Four>(input, step, areas, way + k, k, load<Four>(volume_m3 + k), now, work_J);
-      }
-    }
-#endif
-    for (; k < cylinders(); ++k) {
-      faults |= step_block<Real>(input, step, areas, way + k, k, volume_m3[k], state_.cylinder_gas[k], work_J);
-    }
-    return faults;
-  }
-
-  /// Steps cylinder `first`, or as many from there abreast as T has lanes.
-  template <class T>
-  [[nodiscard, gnu::always_inline]] std::uint32_t step_block(const Input<Real, S>& input, Step& step,
-                                                             const Areas& areas, const CycleWay* way,
-                                                             std::uint32_t first, const T& volume_m3,
-                                                             CylinderGasNow<T>& now, Real& work_J) noexcept {
-    constexpr int kLanes = kLanesIn<T>;
+  /// Of a cylinder.
+  [[nodiscard]] Real most_m3() const noexcept {
     const GasCylinders<Real>& table = *tables_.gas_cylinders;
-    const Real per_tick_s = tables_.drive->per_tick_s;
-    CylinderGas<Real>* const gas = &state_.cylinder_gas[first];
-    CylinderGasOutput<Real>* const shown = &out_.cylinder_gas[first];
-    std::uint32_t faults = 0;
-    [[maybe_unused]] std::uint32_t ends = 0;  // one bit of each lane
-    if constexpr (N::burn || S::gas_results) {
-      for (int i = 0; i < kLanes; ++i) ends |= std::uint32_t{way[i].passes_end()} << i;
-    }
-    T fuel_kg{};
-    GasFuel<Real> fuel{};
-    if constexpr (N::burn) {
-      for (int i = 0; i < kLanes; ++i) {
-        const auto k = first + static_cast<std::uint32_t>(i);
-        put_lane(fuel_kg, i, burn_on_way(tables_, state_, input, k, way[i], (ends >> i & 1u) != 0, faults));
-      }
-      fuel = {tables_.burn->energy_J_kg, tables_.burn->burned_kg_kg};
-    }
-    const T before_m3 = now.volume_m3;
-    [[maybe_unused]] T enthalpy_J{};
-    [[maybe_unused]] std::uint32_t intake_shut = 0;
-    const auto flow = [&](int i, const ClosedStep<T>& closed, GasGain<T>& gain) __attribute__((always_inline))->Real {
-      const auto& to_m2 = areas.of[first + static_cast<std::uint32_t>(i)];
-      if (!any_port_open(gas[i], to_m2)) return Real{0};
-      const bool intake_was_open = gas[i].area_m2[kIntake] > 0;
-      GasGain<Real> own = gain.of_lane(i);
-      Real own_J{};
-      const Real flow_work_J = flow_through_ports(
-          gas[i], closed.of_lane(i), own, to_m2, step.beyond, step.drive, [&](int port, const PortStep<Real>& through) {
-            if constexpr (N::manifolds) give_and_take(state_.manifold[port], step.beyond[port], through);
-            if constexpr (S::gas_results)
-              record_flow(state_.gas_record[first + static_cast<std::uint32_t>(i)], port, through);
-            shown[i].flow_kg_s[port] += through.mass_kg * per_tick_s;
-            own_J += through.enthalpy_J;
-          });
-      gain.put(i, own);
-      if constexpr (S::gas_results) {
-        put_lane(enthalpy_J, i, own_J);
-        if (intake_was_open && !(gas[i].area_m2[kIntake] > 0)) intake_shut |= 1u << i;
-      }
-      return flow_work_J;
-    };
-    const CylinderStep<T> done = step_gas<T>(now, volume_m3, fuel_kg, fuel, table.walls, step.drive, flow);
-    const T least_kg = step.drive.least_kg_m3 * volume_m3;
-    if constexpr (kLanes > 1) store_abreast(now, gas);
-    show(now, shown);
-    if (__builtin_expect(!all_hold(is_well<T>(now.point, now.contents.mass_kg, least_kg)), 0)) {
-      for (int i = 0; i < kLanes; ++i) {
-        if (put_right(gas[i], lane(done.closed.per_volume_m3, i), lane(least_kg, i))) faults |= kFaultGas;
-        show(gas[i], shown + i);
-      }
-    }
-    const T crank_J = done.work_J - table.crankcase_Pa * (volume_m3 - before_m3);
-    const T wall_heat_W = done.closed.wall_heat_J * per_tick_s;
-    Real sum_J = work_J;
-    for (int i = 0; i < kLanes; ++i) {
-      sum_J += lane(crank_J, i);
-      shown[i].wall_heat_W += lane(wall_heat_W, i);
-    }
-    work_J = sum_J;
-    if constexpr (S::gas_results) {
-      const T gained_J = done.gained_J(enthalpy_J);
-      for (int i = 0; i < kLanes; ++i) {
-        const auto k = first + static_cast<std::uint32_t>(i);
-        GasRecord<Real>& record = state_.gas_record[k];
-        record_step(record, gas[i].point.pressure_Pa, lane(done.work_J, i), lane(done.closed.wall_heat_J, i),
-                    lane(gained_J, i), lane(fuel_kg, i), way[i]);
-        if ((intake_shut >> i & 1u) != 0) record_trapped(record, gas[i].contents);
-        if ((ends >> i & 1u) != 0) end_cycle(tables_, state_, out_, k);
-      }
-    }
-    return faults;
+    return table.clearance_m3 + Real{1} / table.per_swept_m3;
   }
 
-  [[nodiscard]] std::uint32_t step_manifolds(const Step& step) noexcept {
+  [[nodiscard]] std::uint32_t step_manifolds(const EngineGasStep<Real>& step) noexcept {
     bool put_back = false;
     if constexpr (N::manifolds) {
       const GasManifolds<Real>& table = *tables_.gas_manifolds;
       const Real areas[kPorts] = {throttle_m2(), table.outlet_m2};
       for (int port = 0; port < kPorts; ++port) {
-        const Real in_kg = step_manifold(state_.manifold[port], step.beyond[port], table.outside[port], areas[port],
-                                         table.per_volume_m3[port], table.least_kg[port], step.drive.step_s, put_back);
+        const Real in_kg =
+            step_manifold(state_.manifold[port], step.beyond[port], step.taken_kg[port], table.outside[port],
+                          areas[port], table.per_volume_m3[port], table.least_kg[port], step.drive.step_s, put_back);
         outside_kg_[port] += in_kg;
       }
     }
@@ -339,6 +216,7 @@ class GasStep {
   const Tables<Real, S>& tables_;
   State<Real, S>& state_;
   Output<Real, S>& out_;
+  Real work_J_ = Real{0};
   Real outside_kg_[kPorts] = {};  ///< into the manifolds from outside, in this tick
 };
 

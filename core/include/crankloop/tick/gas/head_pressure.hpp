@@ -28,8 +28,7 @@ inline void push_heads(const Tables<Real, S>& tables, const State<Real, S>& stat
   if constexpr (S::valve_gas) {
     const std::uint32_t cylinders = S::cylinders.exact ? S::cylinders.capacity : tables.drive->cylinders;
     for (std::uint32_t k = 0; k < cylinders; ++k) {
-      const CylinderGas<Real>& gas = state.cylinder_gas[k];
-      const Real end_Pa = 2 * gas.point.pressure_Pa - gas.pressure_before_Pa;
+      const Real end_Pa = 2 * state.cylinder_gas.pressure_Pa[k] - state.cylinder_gas.pressure_before_Pa[k];
       at_end_Pa[k] = end_Pa > 0 ? end_Pa : Real{0};
     }
   }

@@ -10,6 +10,8 @@
 // x_c = 1 - (2/(g+1))^(g/(g-1)), psi_c = sqrt(g) (2/(g+1))^((g+1)/(2(g-1))).
 #pragma once
 
+#include <type_traits>
+
 #include <crankloop/tables/gas_tables.hpp>
 #include <crankloop/tick/gas/gas_properties.hpp>
 
@@ -23,8 +25,9 @@ template <class Real>
 inline constexpr Real kPerChokedDrop = static_cast<Real>(1 / 0.46488669399358847);
 
 /// psi_c / sqrt(R T): choked flow per area and Pa.
-template <class Real>
-[[nodiscard]] inline Real choked_per_Pa(Real temperature_K) noexcept {
+template <class T>
+[[nodiscard, gnu::always_inline]] inline T choked_per_Pa(const T& temperature_K) noexcept {
+  using Real = NumberOf<T>;
   return kChokedFlow<Real> / square_root(kGasConstant<Real> * temperature_K);
 }
 
@@ -45,23 +48,52 @@ template <class Real>
           most_area_m2};
 }
 
-/// Flow into the near side, and how it answers to that side's pressure.
-template <class Real>
-struct Orifice {
-  Real flow_kg_s_m2;  ///< per area, signed
-  Real share_per_Pa;  ///< by which share the flow falls per Pa that the near side comes nearer
+/// As an opening has it: of lanes, each has its own.
+template <class T>
+using BeyondOf = std::conditional_t<kLanesIn<T> == 1, const GasBeyond<T>&, GasBeyond<T>>;
 
-  [[nodiscard]] static Orifice at(Real near_Pa, Real near_K, const GasBeyond<Real>& far) noexcept {
-    const bool out = near_Pa > far.pressure_Pa;
-    const Real up_Pa = out ? near_Pa : far.pressure_Pa;
-    const Real drop_Pa = magnitude(near_Pa - far.pressure_Pa);
-    const Real choked = up_Pa * (out ? choked_per_Pa(near_K) : far.choked_per_Pa);
-    const Real s = drop_Pa / up_Pa * kPerChokedDrop<Real>;
-    if (!(s < 1)) return {out ? -choked : choked, out ? Real{1} / near_Pa : Real{0}};
-    if (!(drop_Pa > 0)) return {Real{0}, Real{0}};
-    const Real left = Real{2} - s;
-    const Real flow = choked * square_root(s * left);
-    return {out ? -flow : flow, (Real{1} - s) / (drop_Pa * left)};
+/// What is beyond one of two ports.
+template <class T, class Holds>
+[[nodiscard, gnu::always_inline]] inline BeyondOf<T> beyond_port(const GasBeyond<NumberOf<T>> (&far)[kPorts],
+                                                                 const Holds& exhaust) noexcept {
+  if constexpr (kLanesIn<T> == 1) {
+    return far[exhaust ? kExhaust : kIntake];
+  } else {
+    const auto& e = far[kExhaust];
+    const auto& i = far[kIntake];
+    const auto of = [&exhaust](auto a, auto b) { return pick(exhaust, spread<T>(a), spread<T>(b)); };
+    return {of(e.pressure_Pa, i.pressure_Pa),
+            of(e.choked_per_Pa, i.choked_per_Pa),
+            of(e.specific_work_J_kg, i.specific_work_J_kg),
+            of(e.enthalpy_J_kg, i.enthalpy_J_kg),
+            of(e.burned_ratio, i.burned_ratio),
+            of(e.response_Pa_kg, i.response_Pa_kg),
+            T{}};
+  }
+}
+
+/// Flow into the near side at one moment, per area and signed, and its slope: by how much less flows per Pa that the
+/// near side comes nearer.
+template <class T>
+struct Orifice {
+  T flow_kg_s_m2;
+  T slope_kg_s_m2_Pa;
+
+  [[nodiscard, gnu::always_inline]] static Orifice at(const T& near_Pa, const T& near_K,
+                                                      const GasBeyond<T>& far) noexcept {
+    using Real = NumberOf<T>;
+    return branch<T>(
+        near_Pa >= far.pressure_Pa, [&](auto out) __attribute__((always_inline))->Orifice {
+          const T up_Pa = pick(out, near_Pa, far.pressure_Pa);
+          const T per_Pa = either<T>(
+              out, [&] { return choked_per_Pa(near_K); }, [&] { return far.choked_per_Pa; });
+          const T s = magnitude(near_Pa - far.pressure_Pa) / up_Pa * kPerChokedDrop<Real>;
+          const T until_choked = s < Real{1} ? s : spread<T>(1);
+          const T root = square_root(until_choked * (Real{2} - until_choked));
+          const T steep = kPerChokedDrop<Real> * (Real{1} - until_choked) / root;
+          const T least = where(out, spread<T>(1));  // choked flow out falls with the near pressure
+          return {negative_where(out, up_Pa * per_Pa * root), per_Pa * (steep > least ? steep : least)};
+        });
   }
 };
 

@@ -1,7 +1,7 @@
-// What flows through one open port in a step. docs/model.md "Gas".
+// What flows through an opening in a step. docs/model.md "Gas".
 //
-// What belongs here: one opening between a near side that answers and a far side. What does not: two ports at once
-// (port_overlap.hpp), the heat that goes with the flow (cylinder_gas.hpp).
+// What belongs here: one opening between a near side that answers and a far side. What does not: two at once
+// (port_overlap.hpp), the heat that goes with the flow (exchange.hpp).
 //
 // For a small difference D of pressures the flow grows as sqrt(D): its slope has no bound, and an explicit step
 // overshoots however short it is. Here a part theta of the step is implicit, in closed form because the orifice's flow
@@ -13,110 +13,126 @@
 namespace crankloop::detail {
 
 /// The near side as it would stand at the step's end if nothing flowed, and how far its pressure moves per kg.
-template <class Real>
+template <class T>
 struct GasNear {
-  Real pressure_Pa;
-  Real temperature_K;
-  Real per_kg_out_Pa;
+  T pressure_Pa;
+  T temperature_K;
+  T per_kg_out_Pa;
 };
+
+/// Effective areas at both ends of a step, what is behind, and how far the near pressure moves per kg that comes in.
+template <class T>
+struct Opening {
+  T from_m2, to_m2;
+  BeyondOf<T> far;
+  T per_kg_in_Pa;
+};
+
 /// Flow into the near side, kg/s, such that it is the orifice's flow at the pressures that it leads to over `time_s`.
 /// Neither pressure passes the other, whatever the time.
-template <class Real>
-[[nodiscard]] inline Real implicit_flow(Real area_m2, const GasNear<Real>& near, Real in_Pa_kg,
-                                        const GasBeyond<Real>& far, Real far_Pa, Real time_s) noexcept {
-  const Real drop_Pa = far_Pa - near.pressure_Pa;
+///
+/// With w = v A psi_c / sqrt(R T1), in pressures so that no area is too small to square: choked, v is the pressure
+/// upstream; else v^2 = D (2 P + e D) / x_c, D = d - k v: P the far pressure, e = -1/x_c inwards, 2 - 1/x_c outwards.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline T implicit_flow(const Opening<T>& at, const GasNear<T>& near, const T& far_Pa,
+                                                         const T& time_s) noexcept {
+  using Real = NumberOf<T>;
   constexpr Real kPer = kPerChokedDrop<Real>;
-  if (drop_Pa > 0) {
-    const Real choked = area_m2 * far.choked_per_Pa * far_Pa;
-    const Real scale = kPer / far_Pa;
-    const Real s = drop_Pa * scale;
-    const Real q = choked * (in_Pa_kg + far.response_Pa_kg) * time_s * scale;
-    if (s - q >= 1) return choked;
-    const Real square = s * (Real{2} - s);
-    const Real root = square_root(q * q + square);
-    const Real along = q * (Real{1} - s);
-    return s < 1 ? choked * square / (along + root) : choked * (root - along) / (Real{1} + q * q);
-  }
-  const Real d = -drop_Pa;
-  if (!(d > 0)) return Real{0};
-  const Real per_Pa = area_m2 * choked_per_Pa(near.temperature_K);
-  const Real own = near.per_kg_out_Pa * time_s;
-  const Real others = far.response_Pa_kg * time_s;
-  // Flow goes with p / sqrt(T), which falls slower than p: 0.87.
-  const Real choked = per_Pa * near.pressure_Pa / (Real{1} + static_cast<Real>(0.87) * per_Pa * own);
-  if ((near.pressure_Pa - own * choked) * (Real{1} - kChokedDrop<Real>) >= far_Pa + others * choked) return -choked;
-  // w = v times per_Pa: v^2 = D (2 P + e2 D) / x_c, D = d - k2 v. In pressures, so that no area is too small to square.
-  const Real k2 = per_Pa * (own + others);
-  constexpr Real e2 = Real{2} - kPer;
-  const Real half = kPer * k2 * (far_Pa + e2 * d);
-  const Real square = kPer * d * (2 * far_Pa + e2 * d);
-  const Real inner = half * half + (Real{1} - e2 * kPer * (k2 * k2)) * square;
-  const Real v = square / (half + square_root(inner > 0 ? inner : Real{0}));
-  return -per_Pa * (v >= 0 && v * k2 <= d ? v : d / k2);
+  return branch<T>(
+      near.pressure_Pa >= far_Pa, [&](auto out) __attribute__((always_inline)) {
+        const T d = magnitude(far_Pa - near.pressure_Pa);
+        const T per_Pa = at.to_m2 * either<T>(
+                                        out, [&] { return choked_per_Pa(near.temperature_K); },
+                                        [&] { return at.far.choked_per_Pa; });
+        const T reach = per_Pa * time_s;
+        const T k = reach * (pick(out, near.per_kg_out_Pa, at.per_kg_in_Pa) + at.far.response_Pa_kg);
+        // The pressure upstream falls by what flows out; flow goes with p / sqrt(T), which falls slower: 0.87.
+        const T begin_Pa = pick(out, near.pressure_Pa, far_Pa), falls = where(out, reach * near.per_kg_out_Pa);
+        const T up_Pa = short_cut<T>(
+            none_of(out), [&] { return begin_Pa; },
+            [&] { return begin_Pa / (Real{1} + static_cast<Real>(0.87) * falls); });
+        const auto unchoked = [&]() __attribute__((always_inline)) {
+          const T e = where(out, spread<T>(2)) - kPer;
+          const T half = kPer * k * (far_Pa + e * d);
+          const T square = kPer * d * (Real{2} * far_Pa + e * d);
+          const T lead = Real{1} - kPer * e * (k * k);
+          const T inner = half * half + lead * square;
+          const T root = square_root(inner > Real{0} ? inner : T{});
+          T above = square, below = half + root;
+          if (const auto digits_lost = half < Real{0}; any(digits_lost))
+            above = pick(digits_lost, root - half, above), below = pick(digits_lost, lead, below);
+          return above / (below + static_cast<Real>(1e-30));
+        };
+        const T v = either<T>(
+            d - k * up_Pa >= kChokedDrop<Real> * (begin_Pa - falls * up_Pa), [&] { return up_Pa; }, unchoked);
+        return negative_where(out, per_Pa * v);
+      });
 }
 
-/// A port's effective areas at both ends of a step.
-template <class Real>
-struct PortAreas {
-  Real from_m2, to_m2;
+/// What an opening gets through in a step before its implicit part does.
+template <class T>
+struct EarlyFlow {
+  T flow_kg_s_m2;  ///< at the step's begin
+  T per_kg_Pa;     ///< by which a kg of it moves the near pressure
+  T stiffness;     ///< of the step
 
-  [[nodiscard]] constexpr bool open() const noexcept { return from_m2 + to_m2 > 0; }
+  /// `begin` is how the near side stood before the step.
+  [[nodiscard, gnu::always_inline]] static EarlyFlow of(const Opening<T>& at, const GasPoint<T>& begin,
+                                                        const GasNear<T>& near, NumberOf<T> step_s) noexcept {
+    using Real = NumberOf<T>;
+    const Orifice<T> flow = Orifice<T>::at(begin.pressure_Pa, begin.temperature_K, at.far);
+    const T per_kg_Pa = pick(flow.flow_kg_s_m2 > Real{0}, at.per_kg_in_Pa, near.per_kg_out_Pa);
+    const T mean_m2 = (at.from_m2 + at.to_m2) * static_cast<Real>(0.5);
+    return {flow.flow_kg_s_m2, per_kg_Pa, per_kg_Pa * step_s * mean_m2 * flow.slope_kg_s_m2_Pa};
+  }
+
+  /// Whether there is flow, and a part of it is small enough and does not by itself take the pressures past one
+  /// another.
+  [[nodiscard, gnu::always_inline]] auto may_be(const T& part_kg, const T& near_Pa,
+                                                const GasBeyond<T>& far) const noexcept {
+    using Real = NumberOf<T>;
+    const T near_part_Pa = part_kg * per_kg_Pa;
+    const T far_part_Pa = part_kg * far.response_Pa_kg;
+    const T apart_Pa = near_Pa - far.pressure_Pa;
+    const T after_Pa = apart_Pa + (near_part_Pa + far_part_Pa);
+    constexpr Real kMost = static_cast<Real>(0.25);
+    return both_hold(
+        both_hold(flow_kg_s_m2 != Real{0}, apart_Pa * after_Pa >= Real{0}),
+        both_hold(magnitude(near_part_Pa) <= kMost * near_Pa, magnitude(far_part_Pa) <= kMost * far.pressure_Pa));
+  }
 };
 
-/// Into the cylinder in the step, and by how much that moves its pressure.
-template <class Real>
+/// The share of a step that is explicit.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline T explicit_share(const T& stiffness) noexcept {
+  using Real = NumberOf<T>;
+  return Real{3} / (Real{6} + stiffness);
+}
+
+/// Into the near side in the step, and by how much a kg moves its pressure.
+template <class T>
 struct PortFlow {
-  Real mass_kg = 0;
-  Real per_kg_Pa = 0;
+  T mass_kg, per_kg_Pa;
+
+  [[nodiscard, gnu::always_inline]] static PortFlow of(const T& mass_kg, const Opening<T>& at,
+                                                       const GasNear<T>& near) noexcept {
+    return {mass_kg, pick(mass_kg > NumberOf<T>{0}, at.per_kg_in_Pa, near.per_kg_out_Pa)};
+  }
 };
 
-/// The explicit part of a step: with theta, the part that is left to be implicit.
-template <class Real>
-[[nodiscard]] constexpr Real implicit_share(Real stiffness) noexcept {
-  return (Real{3} + stiffness) / (Real{6} + stiffness);
-}
-
-/// Whether an explicit part is small enough, and does not by itself take the pressures past one another.
-template <class Real>
-[[nodiscard]] constexpr bool may_be_explicit(Real part_kg, Real per_kg_Pa, Real near_Pa,
-                                             const GasBeyond<Real>& far) noexcept {
-  const Real near_part_Pa = part_kg * per_kg_Pa;
-  const Real far_part_Pa = part_kg * far.response_Pa_kg;
-  const Real apart_Pa = near_Pa - far.pressure_Pa;
-  const Real after_Pa = apart_Pa + (near_part_Pa + far_part_Pa);
-  return apart_Pa * after_Pa >= 0 && magnitude(near_part_Pa) <= near_Pa / 4 &&
-         magnitude(far_part_Pa) <= far.pressure_Pa / 4;
-}
-
-/// One port of a cylinder. `begin` is how the cylinder stood before the step, `near` as it would end.
-template <class Real>
-[[nodiscard, gnu::always_inline]] inline PortFlow<Real> one_port_flow(const PortAreas<Real>& area,
-                                                                      const GasPoint<Real>& begin, GasNear<Real> near,
-                                                                      Real in_Pa_kg, const GasBeyond<Real>& far,
-                                                                      Real step_s) noexcept {
-  const Orifice<Real> at = Orifice<Real>::at(begin.pressure_Pa, begin.temperature_K, far);
-  Real share = Real{1};
-  Real explicit_kg{};
-  Real far_Pa = far.pressure_Pa;
-  if (at.flow_kg_s_m2 != Real{0}) {
-    const Real per_kg_Pa = at.flow_kg_s_m2 > 0 ? in_Pa_kg : near.per_kg_out_Pa;
-    const Real mean_m2 = (area.from_m2 + area.to_m2) / 2;
-    const Real theta = implicit_share(step_s * per_kg_Pa * mean_m2 * magnitude(at.flow_kg_s_m2) * at.share_per_Pa);
-    const Real part_kg = (Real{1} - theta) * step_s * area.from_m2 * at.flow_kg_s_m2;
-    if (may_be_explicit(part_kg, per_kg_Pa, near.pressure_Pa, far)) {
-      share = theta;
-      explicit_kg = part_kg;
-      near.pressure_Pa += part_kg * per_kg_Pa;
-      far_Pa -= part_kg * far.response_Pa_kg;
-    }
-  }
-  PortFlow<Real> flow{explicit_kg, in_Pa_kg};
-  if (area.to_m2 > 0) {
-    const Real time_s = share * step_s;
-    flow.mass_kg += time_s * implicit_flow(area.to_m2, near, in_Pa_kg, far, far_Pa, time_s);
-  }
-  if (!(flow.mass_kg > 0)) flow.per_kg_Pa = near.per_kg_out_Pa;
-  return flow;
+/// Of one opening. `begin` is how the near side stood before the step.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline PortFlow<T> one_port_flow(const Opening<T>& at, const GasPoint<T>& begin,
+                                                                   GasNear<T> near, NumberOf<T> step_s) noexcept {
+  const EarlyFlow<T> early = EarlyFlow<T>::of(at, begin, near, step_s);
+  const T part_s = explicit_share(early.stiffness) * step_s;
+  const T all_kg = part_s * at.from_m2 * early.flow_kg_s_m2;
+  const auto may = early.may_be(all_kg, near.pressure_Pa, at.far);
+  const T part_kg = where(may, all_kg);
+  const T time_s = step_s - where(may, part_s);
+  near.pressure_Pa += part_kg * early.per_kg_Pa;
+  const T far_Pa = at.far.pressure_Pa - part_kg * at.far.response_Pa_kg;
+  return PortFlow<T>::of(part_kg + time_s * implicit_flow(at, near, far_Pa, time_s), at, near);
 }
 
 }  // namespace crankloop::detail

@@ -9,112 +9,101 @@
 
 namespace crankloop::detail {
 
-/// Flow through one of them at a pressure p1 of the cylinder, the manifold's own answer taken from the try before.
-template <class Real>
-class OverlapPort {
- public:
-  OverlapPort(Real area_m2, Real near_choked_per_Pa, Real near_Pa_kg, Real in_Pa_kg, const GasBeyond<Real>& far,
-              Real far_Pa, Real time_s) noexcept
-      : out_{area_m2 * near_choked_per_Pa},
-        in_{area_m2 * far.choked_per_Pa},
-        out_Pa_kg_{near_Pa_kg},
-        in_Pa_kg_{in_Pa_kg},
-        far_Pa_{far_Pa},
-        far_time_{far.response_Pa_kg * time_s} {}
+/// Flow through one of two at a pressure p1 of the cylinder, the manifold's own answer taken from the try before.
+template <class T>
+struct OverlapPort {
+  using Real = NumberOf<T>;
 
-  void look(Real p1) noexcept {
-    const Real apart_Pa = far_Pa_ - p1;
-    const Real drop_Pa = magnitude(apart_Pa) * damping_;
-    const bool in = apart_Pa > 0;
-    const Real up_Pa = in ? far_Pa_ : p1;
-    const Real per_Pa = in ? in_ : out_;
-    const Real s = drop_Pa / up_Pa * kPerChokedDrop<Real>;
-    per_kg_Pa_ = in ? in_Pa_kg_ : out_Pa_kg_;
-    Real conductance, slope;
-    if (s < 1) {
-      const Real left = Real{2} - s;
-      const Real f = s * left;
-      const Real by_s = per_Pa * kPerChokedDrop<Real>;
-      conductance = by_s * left / square_root(f + static_cast<Real>(1e-10));
-      slope = by_s * (Real{1} - s) / square_root(f + static_cast<Real>(4.3e-4));  // no slope is without bound
-    } else {
-      conductance = per_Pa * up_Pa / drop_Pa;
-      slope = in ? Real{0} : per_Pa;
-    }
-    flow_ = conductance * (in ? drop_Pa : -drop_Pa);
-    damping_ = Real{1} / (Real{1} + far_time_ * conductance);
-    conductance_ = conductance * damping_;
-    slope_ = slope * damping_;
+  T out, in;            ///< A psi_c / sqrt(R T1)
+  T out_Pa_s, in_Pa_s;  ///< how far a flow moves p1
+  T far_Pa, far_Pa_s;
+  T damping = spread<T>(1);
+  T conductance{}, moves_Pa_s{}, flow_kg_s{}, slope{};
+
+  [[gnu::always_inline]] void look(const T& p1, bool for_slope) noexcept {
+    const T apart_Pa = far_Pa - p1;
+    const T drop_Pa = magnitude(apart_Pa) * damping;
+    const auto inwards = apart_Pa > Real{0};
+    const T up_Pa = pick(inwards, far_Pa, p1);
+    const T per_Pa = pick(inwards, in, out);
+    moves_Pa_s = pick(inwards, in_Pa_s, out_Pa_s);
+    const T s = drop_Pa / up_Pa * kPerChokedDrop<Real>;
+    const T left = Real{2} - s;
+    const T f = s * left;
+    const T by_s = per_Pa * kPerChokedDrop<Real>;
+    const auto chokes = s >= Real{1};
+    const T passes = either<T>(
+        chokes, [&] { return per_Pa * up_Pa / drop_Pa; },
+        [&] { return by_s * left / square_root(f + static_cast<Real>(1e-10)); });
+    damping = Real{1} / (Real{1} + far_Pa_s * passes);
+    conductance = passes * damping;
+    if (!for_slope) return;
+    const T flow = passes * drop_Pa;
+    flow_kg_s = pick(inwards, flow, -flow);
+    // No slope is without bound.
+    slope = damping * either<T>(
+                          chokes, [&] { return pick(inwards, T{}, per_Pa); },
+                          [&] { return by_s * (Real{1} - s) / square_root(f + static_cast<Real>(4.3e-4)); });
   }
-
-  [[nodiscard]] Real flow_kg_s() const noexcept { return flow_; }
-  [[nodiscard]] Real slope() const noexcept { return slope_; }
-  [[nodiscard]] Real conductance() const noexcept { return conductance_; }
-  [[nodiscard]] Real per_kg_Pa() const noexcept { return per_kg_Pa_; }
-  [[nodiscard]] Real far_Pa() const noexcept { return far_Pa_; }
-
- private:
-  Real out_, in_, out_Pa_kg_, in_Pa_kg_, far_Pa_, far_time_;
-  Real damping_ = Real{1}, flow_{}, slope_{}, conductance_{}, per_kg_Pa_{};
 };
 
-/// Both ports. Kept apart: few ticks have an overlap.
-template <class Real>
-[[gnu::noinline]] void two_port_flow(const PortAreas<Real> (&area)[2], const GasPoint<Real>& begin, GasNear<Real> near,
-                                     const Real (&in_Pa_kg)[2], const GasBeyond<Real> (&far)[2], Real step_s,
-                                     PortFlow<Real> (&flow)[2]) noexcept {
-  Orifice<Real> at[2];
-  Real per_kg_Pa[2], stiffness{};
-  bool both = true;
-  for (int i = 0; i < 2; ++i) {
-    at[i] = Orifice<Real>::at(begin.pressure_Pa, begin.temperature_K, far[i]);
-    per_kg_Pa[i] = at[i].flow_kg_s_m2 > 0 ? in_Pa_kg[i] : near.per_kg_out_Pa;
-    const Real mean_flow = (area[i].from_m2 + area[i].to_m2) / 2 * magnitude(at[i].flow_kg_s_m2);
-    both = both && mean_flow > 0;
-    stiffness += step_s * per_kg_Pa[i] * mean_flow * at[i].share_per_Pa;
+/// Of both ports the implicit flow in kg/s over `time_s`, from what the larger alone would let through.
+template <class T>
+[[gnu::always_inline]] inline void implicit_flows(const Opening<T> (&at)[2], const GasNear<T>& near,
+                                                  const T (&far_Pa)[2], const T& time_s, const T& alone_kg_s,
+                                                  T (&flow_kg_s)[2]) noexcept {
+  using Real = NumberOf<T>;
+  const T pc = near.pressure_Pa;
+  const T near_per_Pa = choked_per_Pa(near.temperature_K);
+  const T low_far = far_Pa[0] < far_Pa[1] ? far_Pa[0] : far_Pa[1];
+  const T high_far = far_Pa[0] < far_Pa[1] ? far_Pa[1] : far_Pa[0];
+  const T low = pc < low_far ? pc : low_far;
+  const T high = pc > high_far ? pc : high_far;
+  const auto port = [&](int i) __attribute__((always_inline)) {
+    OverlapPort<T> one;
+    one.out = at[i].to_m2 * near_per_Pa, one.in = at[i].to_m2 * at[i].far.choked_per_Pa;
+    one.out_Pa_s = time_s * near.per_kg_out_Pa, one.in_Pa_s = time_s * at[i].per_kg_in_Pa;
+    one.far_Pa = far_Pa[i], one.far_Pa_s = time_s * at[i].far.response_Pa_kg;
+    return one;
+  };
+  OverlapPort<T> a = port(0), b = port(1);
+  T p1 = pc + time_s * alone_kg_s * pick(alone_kg_s > Real{0}, at[0].per_kg_in_Pa, near.per_kg_out_Pa);
+  const auto look = [&](bool for_slope) __attribute__((always_inline)) {
+    p1 = p1 < low ? low : p1;
+    p1 = p1 > high ? high : p1;
+    a.look(p1, for_slope), b.look(p1, for_slope);
+  };
+  for (int turn = 0; turn < 2; ++turn) {
+    look(true);
+    const T residual = p1 - pc - a.moves_Pa_s * a.flow_kg_s - b.moves_Pa_s * b.flow_kg_s;
+    p1 -= residual / (Real{1} + a.moves_Pa_s * a.slope + b.moves_Pa_s * b.slope);
   }
-  Real theta = both ? implicit_share(stiffness) : Real{1};
-  Real explicit_kg[2] = {};
-  for (int i = 0; i < 2; ++i) {
-    explicit_kg[i] = (Real{1} - theta) * step_s * area[i].from_m2 * at[i].flow_kg_s_m2;
-    both = both && may_be_explicit(explicit_kg[i], per_kg_Pa[i], near.pressure_Pa, far[i]);
-  }
-  if (!both) theta = Real{1}, explicit_kg[0] = explicit_kg[1] = Real{0};
-  Real far_Pa[2];
-  for (int i = 0; i < 2; ++i) {
-    near.pressure_Pa += explicit_kg[i] * per_kg_Pa[i];
-    far_Pa[i] = far[i].pressure_Pa - explicit_kg[i] * far[i].response_Pa_kg;
-  }
-  const Real time_s = theta * step_s;
-  const int larger = area[1].to_m2 > area[0].to_m2 ? 1 : 0;
-  const Real alone = implicit_flow(area[larger].to_m2, near, in_Pa_kg[larger], far[larger], far_Pa[larger], time_s);
-  const Real pc = near.pressure_Pa;
-  Real p1 = pc + time_s * alone * (alone > 0 ? in_Pa_kg[larger] : near.per_kg_out_Pa);
-  const Real low_far = far_Pa[0] < far_Pa[1] ? far_Pa[0] : far_Pa[1];
-  const Real high_far = far_Pa[0] < far_Pa[1] ? far_Pa[1] : far_Pa[0];
-  const Real low = pc < low_far ? pc : low_far;
-  const Real high = pc > high_far ? pc : high_far;
-  const Real near_per_Pa = choked_per_Pa(near.temperature_K);
-  OverlapPort<Real> port[2] = {
-      {area[0].to_m2, near_per_Pa, near.per_kg_out_Pa, in_Pa_kg[0], far[0], far_Pa[0], time_s},
-      {area[1].to_m2, near_per_Pa, near.per_kg_out_Pa, in_Pa_kg[1], far[1], far_Pa[1], time_s}};
-  for (int turn = 0; turn < 3; ++turn) {
-    p1 = p1 < low ? low : p1 > high ? high : p1;
-    Real pull_Pa{}, weight = Real{1}, residual = p1 - pc, slope = Real{1};
-    for (OverlapPort<Real>& one : port) {
-      one.look(p1);
-      const Real k = time_s * one.per_kg_Pa();
-      pull_Pa += k * one.conductance() * (one.far_Pa() - pc);
-      weight += k * one.conductance();
-      residual -= k * one.flow_kg_s();
-      slope += k * one.slope();
-    }
-    p1 = turn < 2 ? p1 - residual / slope : pc + pull_Pa / weight;
-  }
-  for (int i = 0; i < 2; ++i) {
-    const Real mass_kg = explicit_kg[i] + time_s * port[i].conductance() * (port[i].far_Pa() - p1);
-    flow[i] = {mass_kg, mass_kg > 0 ? in_Pa_kg[i] : near.per_kg_out_Pa};
-  }
+  look(false);
+  const T pull_a = a.moves_Pa_s * a.conductance, pull_b = b.moves_Pa_s * b.conductance;
+  p1 = pc + (pull_a * (a.far_Pa - pc) + pull_b * (b.far_Pa - pc)) / (Real{1} + pull_a + pull_b);
+  flow_kg_s[0] = a.conductance * (a.far_Pa - p1);
+  flow_kg_s[1] = b.conductance * (b.far_Pa - p1);
+}
+
+/// `at[0]` is the larger port.
+template <class T>
+[[gnu::always_inline]] inline void two_port_flow(const Opening<T> (&at)[2], const GasPoint<T>& begin, GasNear<T> near,
+                                                 NumberOf<T> step_s, PortFlow<T> (&flow)[2]) noexcept {
+  const EarlyFlow<T> a = EarlyFlow<T>::of(at[0], begin, near, step_s), b = EarlyFlow<T>::of(at[1], begin, near, step_s);
+  const T part_s = explicit_share(a.stiffness + b.stiffness) * step_s;
+  const T all_a_kg = part_s * at[0].from_m2 * a.flow_kg_s_m2, all_b_kg = part_s * at[1].from_m2 * b.flow_kg_s_m2;
+  const auto may =
+      both_hold(a.may_be(all_a_kg, near.pressure_Pa, at[0].far), b.may_be(all_b_kg, near.pressure_Pa, at[1].far));
+  const T a_kg = where(may, all_a_kg), b_kg = where(may, all_b_kg);
+  const T time_s = step_s - where(may, part_s);
+  near.pressure_Pa += a_kg * a.per_kg_Pa;
+  near.pressure_Pa += b_kg * b.per_kg_Pa;
+  const T far_Pa[2] = {at[0].far.pressure_Pa - a_kg * at[0].far.response_Pa_kg,
+                       at[1].far.pressure_Pa - b_kg * at[1].far.response_Pa_kg};
+  T flow_kg_s[2];
+  implicit_flows(at, near, far_Pa, time_s, implicit_flow(at[0], near, far_Pa[0], time_s), flow_kg_s);
+  flow[0] = PortFlow<T>::of(a_kg + time_s * flow_kg_s[0], at[0], near);
+  flow[1] = PortFlow<T>::of(b_kg + time_s * flow_kg_s[1], at[1], near);
 }
 
 }  // namespace crankloop::detail

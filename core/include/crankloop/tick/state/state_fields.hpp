@@ -119,33 +119,46 @@ struct StateFields {
   static constexpr Real kMaxGas_J = static_cast<Real>(1e13);
   static constexpr Real kLeastOfGas = static_cast<Real>(1e-18);  ///< m^3 and kg
 
-  template <class AContents, class APoint, class Visitor>
-  static constexpr void contents(AContents& c, APoint& p, Visitor& v) noexcept {
-    v.number(c.mass_kg, kLeastOfGas, kMaxGas_kg);
-    v.number(c.mass_rest_kg, -kMaxGas_kg, kMaxGas_kg);
-    v.number(c.energy_J, kLeastOfGas, kMaxGas_J);
-    v.number(c.energy_rest_J, -kMaxGas_J, kMaxGas_J);
-    v.number(c.burned_kg, Real{0}, kMaxGas_kg);
-    v.number(c.burned_rest_kg, -kMaxGas_kg, kMaxGas_kg);
-    v.number(p.pressure_Pa, static_cast<Real>(1e-6), static_cast<Real>(1e12));
-    v.number(p.temperature_K, static_cast<Real>(kLeastGas_K / 2), static_cast<Real>(kMaxGas_K * 2));
-    v.number(p.burned_ratio, Real{0}, Real{1});
-    v.number(p.gas_ratio, static_cast<Real>(0.01), Real{1});
+  template <class AReal, class Visitor>
+  static constexpr void contents(AReal& kg, AReal& kg_rest, AReal& J, AReal& J_rest, AReal& burned_kg,
+                                 AReal& burned_rest_kg, Visitor& v) noexcept {
+    v.number(kg, kLeastOfGas, kMaxGas_kg);
+    v.number(kg_rest, -kMaxGas_kg, kMaxGas_kg);
+    v.number(J, kLeastOfGas, kMaxGas_J);
+    v.number(J_rest, -kMaxGas_J, kMaxGas_J);
+    v.number(burned_kg, Real{0}, kMaxGas_kg);
+    v.number(burned_rest_kg, -kMaxGas_kg, kMaxGas_kg);
+  }
+  template <class AReal, class Visitor>
+  static constexpr void point(AReal& pressure_Pa, AReal& temperature_K, AReal& burned_ratio, AReal& gas_ratio,
+                              Visitor& v) noexcept {
+    v.number(pressure_Pa, static_cast<Real>(1e-6), static_cast<Real>(1e12));
+    v.number(temperature_K, static_cast<Real>(kLeastGas_K / 2), static_cast<Real>(kMaxGas_K * 2));
+    v.number(burned_ratio, Real{0}, Real{1});
+    v.number(gas_ratio, static_cast<Real>(0.01), Real{1});
   }
   template <class AState, class Visitor>
   static constexpr void visit_gas(AState& s, Visitor& v) noexcept {
     using N = Needs<S>;
     const auto numbers = [&v](Real most, auto&... x) { (v.number(x, -most, most), ...); };
     v.group("state.gas");
-    for (auto& gas : s.cylinder_gas) {
-      contents(gas.contents, gas.point, v);
-      v.number(gas.volume_m3, Real{0}, Real{100});
-      for (auto& area : gas.area_m2) v.number(area, Real{0}, Real{100});
-      numbers(kMaxGas_J, gas.wall_heat_W, gas.pressure_before_Pa);
-      v.spare(gas.spare);
+    for (std::uint32_t k = 0; k < S::cylinders.capacity; ++k) {
+      auto& gas = s.cylinder_gas;
+      contents(gas.mass_kg[k], gas.mass_rest_kg[k], gas.energy_J[k], gas.energy_rest_J[k], gas.burned_kg[k],
+               gas.burned_rest_kg[k], v);
+      point(gas.pressure_Pa[k], gas.temperature_K[k], gas.burned_ratio[k], gas.gas_ratio[k], v);
+      v.number(gas.volume_m3[k], Real{0}, Real{100});
+      for (auto& area : gas.area_m2) v.number(area[k], Real{0}, Real{100});
+      numbers(kMaxGas_J, gas.wall_heat_W[k], gas.pressure_before_Pa[k]);
+      v.spare(gas.spare[k]);
     }
     if constexpr (N::manifolds) {
-      for (auto& manifold : s.manifold) contents(manifold.contents, manifold.point, v);
+      for (auto& manifold : s.manifold) {
+        auto& c = manifold.contents;
+        auto& p = manifold.point;
+        contents(c.mass_kg, c.mass_rest_kg, c.energy_J, c.energy_rest_J, c.burned_kg, c.burned_rest_kg, v);
+        point(p.pressure_Pa, p.temperature_K, p.burned_ratio, p.gas_ratio, v);
+      }
       v.number(s.throttle_ratio, Real{0}, Real{1});
       v.spare(s.spare_of_manifolds);
     } else {

@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include <crankloop/assert.hpp>
+#include <crankloop/tick/valve/lane_records.hpp>
 #include <crankloop/tick/valve/valves_at_hand.hpp>
 
 #if CRANKLOOP_ABREAST

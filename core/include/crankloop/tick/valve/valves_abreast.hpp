@@ -10,6 +10,7 @@
 #include <crankloop/assert.hpp>
 #include <crankloop/tick/lanes.hpp>
 #include <crankloop/tick/valve/cam_ticks.hpp>
+#include <crankloop/tick/valve/lane_records.hpp>
 #include <crankloop/tick/valve/valve.hpp>
 #include <crankloop/tick/valve/valves_work.hpp>
 

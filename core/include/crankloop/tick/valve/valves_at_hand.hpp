@@ -139,7 +139,7 @@ struct ValvesAtHand {
   }
   [[nodiscard]] Gas gas_on(std::uint32_t v) const noexcept {
     if constexpr (Needs<S>::gas && S::valve_gas) {
-      const Real from_Pa = state.cylinder_gas[cylinder(v)].point.pressure_Pa;
+      const Real from_Pa = state.cylinder_gas.pressure_Pa[cylinder(v)];
       return {(from_Pa - behind_head_Pa(v)) * motion(v).body.head_area_m2, gas_now_N(v)};
     } else if constexpr (S::valve_gas) {
       return {state.valve_gas_N[v], gas_now_N(v)};

@@ -1,0 +1,188 @@
+// One step of the gas of all cylinders: four abreast where they can, then one by one, with the same bits.
+//
+// What belongs here: what goes into a cylinder's step, where what it did goes. What does not: the step
+// (cylinder_gas.hpp), the tick (gas_step.hpp).
+//
+//     prepare: volumes, fuel -> flow: the step -> sums: manifolds, work, results -> show
+#pragma once
+
+#include <cstdint>
+
+#include <crankloop/output.hpp>
+#include <crankloop/state.hpp>
+#include <crankloop/tables/tables.hpp>
+#include <crankloop/tick/gas/cylinder_gas.hpp>
+#include <crankloop/tick/gas/gas_cycle.hpp>
+#include <crankloop/tick/gas/gas_places.hpp>
+#include <crankloop/tick/gas/gas_shown.hpp>
+#include <crankloop/tick/gas/manifold.hpp>
+
+namespace crankloop::detail {
+
+/// What the cylinders of an engine share in a step.
+template <class Real>
+struct EngineGasStep {
+  std::uint64_t phase;  ///< of the engine, at its end
+  std::int64_t turned;
+  GasDrive<Real> drive;
+  GasBeyond<Real> beyond[kPorts];  ///< as it stands at the step's begin, whatever order cylinders go in
+  Real taken_kg[kPorts];           ///< from there
+};
+
+template <class Real, class S>
+class GasCylindersStep {
+  using N = Needs<S>;
+  static constexpr std::uint32_t kCylinders = S::cylinders.capacity;
+
+ public:
+  GasCylindersStep(const Tables<Real, S>& tables, State<Real, S>& state, Output<Real, S>& out, Real& work_J) noexcept
+      : tables_{tables}, state_{state}, out_{out}, work_J_{work_J} {}
+
+  /// Answers fault bits.
+  [[nodiscard, gnu::always_inline]] std::uint32_t run(const Input<Real, S>& input, EngineGasStep<Real>& step,
+                                                      const PortAreas<Real, kCylinders>& areas) noexcept {
+    Real volume_m3[kCylinders];
+    [[maybe_unused]] CycleWay way[kCylinders];
+    prepare(step, volume_m3, way);
+    std::uint32_t faults = 0;
+    const std::uint32_t cylinders = count<S>(tables_.drive->cylinders);
+    std::uint32_t k = 0;
+#if CRANKLOOP_ABREAST
+    if constexpr (sizeof(Real) == 4 && kCylinders >= 4) {
+      for (; k + 4 <= cylinders; k += 4) faults |= run_block<Four>(input, step, areas, way + k, k, volume_m3 + k);
+    }
+#endif
+    for (; k < cylinders; ++k) faults |= run_block<Real>(input, step, areas, way + k, k, volume_m3 + k);
+    return faults;
+  }
+
+ private:
+  [[gnu::always_inline]] void prepare(const EngineGasStep<Real>& step, Real (&volume_m3)[kCylinders],
+                                      [[maybe_unused]] CycleWay (&way)[kCylinders]) noexcept {
+    const Drive<Real>& drive = *tables_.drive;
+    volume_m3[0] = Real{0}, way[0] = {};  // for compilers, which do not know that there is a mechanism
+    const std::uint32_t mechanisms = kCylinders == 1 ? 1 : drive.mechanisms;
+    const std::uint8_t* next = drive.by_mechanism.cylinder;
+    for (std::uint32_t m = 0; m < mechanisms; ++m) {
+      const Real volume = gas_volume_m3(tables_, step.phase, m);
+      [[maybe_unused]] const std::uint8_t* first = next;
+      const std::uint8_t* const end = drive.by_mechanism.cylinder + drive.by_mechanism.end[m];
+      const std::uint64_t own = step.phase - drive.firing_phase[m];
+      for (; next != end; ++next) {
+        volume_m3[*next] = volume;
+        if constexpr (N::burn || S::gas_results)
+          way[*next] = {own + (std::uint64_t{drive.turn_of[*next]} << 63), step.turned};
+      }
+      if constexpr (N::burn || S::gas_results) {
+        if (__builtin_expect(CycleWay{own, step.turned}.passes_dead_centre(), 0)) {
+          for (; first != end; ++first) ends_ |= std::uint32_t{way[*first].passes_end()} << *first;
+        }
+      }
+    }
+  }
+
+  /// Steps cylinder `k`, or as many from there abreast as T has lanes.
+  template <class T>
+  [[nodiscard, gnu::always_inline]] std::uint32_t run_block(const Input<Real, S>& input, EngineGasStep<Real>& step,
+                                                            const PortAreas<Real, kCylinders>& areas,
+                                                            const CycleWay* way, std::uint32_t k,
+                                                            const Real* volumes_m3) noexcept {
+    constexpr int kLanes = kLanesIn<T>;
+    const GasCylinders<Real>& table = *tables_.gas_cylinders;
+    std::uint32_t faults = 0;
+    [[maybe_unused]] const std::uint32_t ends = ends_ >> k;  // one bit of each lane
+    T fuel_kg{};
+    GasFuel<Real> fuel{};
+    if constexpr (N::burn) {
+      for (int i = 0; i < kLanes; ++i) {
+        put_lane(fuel_kg, i,
+                 burn_on_way(tables_, state_, input, k + static_cast<std::uint32_t>(i), way[i], (ends >> i & 1u) != 0,
+                             faults));
+      }
+      fuel = {tables_.burn->energy_J_kg, tables_.burn->burned_kg_kg};
+    }
+    CylinderGas<T> gas = state_.cylinder_gas.template at<T>(k);
+    const T volume_m3 = load<T>(volumes_m3), before_m3 = gas.volume_m3;
+    [[maybe_unused]] const T intake_was_m2 = gas.area_m2[kIntake];
+    const T to_m2[kPorts] = {load<T>(areas.of[kIntake] + k), load<T>(areas.of[kExhaust] + k)};
+    const CylinderStep<T> done =
+        step_gas<T>(gas, volume_m3, fuel_kg, fuel, table.walls, step.drive, to_m2, step.beyond);
+    state_.cylinder_gas.put(k, gas);
+    const Real per_tick_s = tables_.drive->per_tick_s;
+    T shown[7] = {gas.point.pressure_Pa,
+                  gas.point.temperature_K,
+                  gas.contents.mass_kg,
+                  gas.point.burned_ratio,
+                  T{},
+                  T{},
+                  done.closed.wall_heat_J * per_tick_s};
+    if (done.flows) {
+      state_.cylinder_gas.put_areas(k, gas);
+      for (int port = 0; port < kPorts; ++port) shown[4 + port] = done.through[port].mass_kg * per_tick_s;
+      if constexpr (N::manifolds) take_from_manifolds(step, done.through);
+    }
+    show(shown, &out_.cylinder_gas[k]);
+    const T least_kg = step.drive.least_kg_m3 * volume_m3;
+    if (__builtin_expect(!all(is_well<T>(gas.point, gas.contents.mass_kg, least_kg)), 0)) {
+      for (int i = 0; i < kLanes; ++i) {
+        faults |= put_cylinder_right(k + static_cast<std::uint32_t>(i), lane(done.closed.per_volume_m3, i),
+                                     lane(least_kg, i));
+      }
+    }
+    const T crank_J = done.work_J - table.crankcase_Pa * (volume_m3 - before_m3);
+    Real work_J = work_J_;
+    for (int i = 0; i < kLanes; ++i) work_J += lane(crank_J, i);
+    work_J_ = work_J;
+    if constexpr (S::gas_results) {
+      std::uint32_t intake_shut = 0;
+      if (done.flows)
+        intake_shut = holding(both_hold(intake_was_m2 > Real{0}, none_of(gas.area_m2[kIntake] > Real{0})));
+      const T gained_J = done.gained_J();
+      record_step<T>(&state_.gas_record[k], done, fuel_kg, way);
+      for (int i = 0; i < kLanes; ++i) {
+        const std::uint32_t one = k + static_cast<std::uint32_t>(i);
+        GasRecord<Real>& record = state_.gas_record[one];
+        record_end(record, state_.cylinder_gas.pressure_Pa[one], lane(gained_J, i), way[i]);
+        if ((intake_shut >> i & 1u) != 0) record_trapped(record, state_.cylinder_gas.template at<Real>(one).contents);
+        if ((ends >> i & 1u) != 0) end_cycle(tables_, state_, out_, one);
+      }
+    }
+    return faults;
+  }
+
+  [[gnu::cold, gnu::noinline]] std::uint32_t put_cylinder_right(std::uint32_t k, Real per_volume_m3,
+                                                                Real least_kg) noexcept {
+    CylinderGas<Real> gas = state_.cylinder_gas.template at<Real>(k);
+    const bool put_back = put_right(gas, per_volume_m3, least_kg);
+    state_.cylinder_gas.put(k, gas);
+    CylinderGasOutput<Real>& shown = out_.cylinder_gas[k];
+    shown.pressure_Pa = gas.point.pressure_Pa, shown.temperature_K = gas.point.temperature_K;
+    shown.mass_kg = gas.contents.mass_kg, shown.burned_ratio = gas.point.burned_ratio;
+    return put_back ? std::uint32_t{kFaultGas} : 0;
+  }
+
+  /// The very numbers that the cylinders gained, so that nothing is lost.
+  template <class T>
+  [[gnu::always_inline]] void take_from_manifolds(EngineGasStep<Real>& step,
+                                                  const PortStep<T> (&through)[kPorts]) noexcept {
+    for (int port = 0; port < kPorts; ++port) {
+      const PortStep<T>& all = through[port];
+      const std::uint32_t flowing = holding(all.mass_kg != Real{0});
+      if (flowing == 0) continue;
+      GasContents<Real>& contents = state_.manifold[port].contents;
+      for (int i = 0; i < kLanesIn<T>; ++i) {
+        if ((flowing >> i & 1u) == 0) continue;
+        contents.add(-lane(all.mass_kg, i), -lane(all.enthalpy_J, i), -lane(all.burned_kg, i));
+        step.taken_kg[port] += lane(all.mass_kg, i);
+      }
+    }
+  }
+
+  const Tables<Real, S>& tables_;
+  State<Real, S>& state_;
+  Output<Real, S>& out_;
+  std::uint32_t ends_ = 0;  ///< one bit of each cylinder whose cycle does
+  Real& work_J_;            ///< of all cylinders on the crank, against the crankcase's pressure
+};
+
+}  // namespace crankloop::detail
