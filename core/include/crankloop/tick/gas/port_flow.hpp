@@ -95,10 +95,10 @@ struct EarlyFlow {
     const T far_part_Pa = part_kg * far.response_Pa_kg;
     const T apart_Pa = near_Pa - far.pressure_Pa;
     const T after_Pa = apart_Pa + (near_part_Pa + far_part_Pa);
-    constexpr Real kMost = static_cast<Real>(0.25);
+    constexpr Real kMax = static_cast<Real>(0.25);
     return both_hold(
         both_hold(flow_kg_s_m2 != Real{0}, apart_Pa * after_Pa >= Real{0}),
-        both_hold(magnitude(near_part_Pa) <= kMost * near_Pa, magnitude(far_part_Pa) <= kMost * far.pressure_Pa));
+        both_hold(magnitude(near_part_Pa) <= kMax * near_Pa, magnitude(far_part_Pa) <= kMax * far.pressure_Pa));
   }
 };
 

@@ -53,8 +53,8 @@ template <class T>
   using Bit = BitsOf<Real>;
   constexpr int kFractionBits = sizeof(Real) == 4 ? 23 : 52;
   constexpr Bit kBias = sizeof(Real) == 4 ? 127 : 1023;
-  constexpr Real kMost = static_cast<Real>(0x1.fffffep79);
-  const T least = T{} + Real{1}, most = T{} + kMost;
+  constexpr Real kMax = static_cast<Real>(0x1.fffffep79);
+  const T least = T{} + Real{1}, most = T{} + kMax;
   u = u > least ? u : least;  // what is not a number: 1
   u = u < most ? u : most;
   BitsOf<T> bits;
