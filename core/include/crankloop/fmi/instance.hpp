@@ -278,6 +278,7 @@ class Instance {
     kept_.faults |= faults;
     if (kept_.fault_ticks < kMaxWhole) ++kept_.fault_ticks;
   }
+
   /// What tells one FMU from another: tables, scene, arithmetic, version, tick, and every variable's name in its place.
   void make_token() noexcept {
     detail::Crc32 names;

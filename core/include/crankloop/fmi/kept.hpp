@@ -126,8 +126,7 @@ struct Kept {
     }
   }
 
-  // ---- as bytes, least significant first: "CLFM", form, size, token, the fields, the outputs, the engine, CRC-32
-  // ------
+  // ---- as bytes, least significant first: "CLFM", form, size, token, fields, outputs, engine, CRC-32 ----
 
   static constexpr std::uint32_t kForm = 1;
   static constexpr std::size_t kHeaderBytes = 28;
