@@ -2,9 +2,8 @@
 // place that knows of it.
 //
 // What belongs here: loading, storing, transposing, choosing such numbers. What does not: records of them
-// (valve/lane_records.hpp), what is computed with them: the same
-// inline functions as with one (valve.hpp, gas/cylinder_gas.hpp), of + - * / sqrt and comparisons alone, so a lane has
-// the bits that it has by itself.
+// (valve/lane_records.hpp), what is computed with them: the same inline functions as with one (valve.hpp,
+// gas/cylinder_gas.hpp), of + - * / sqrt and comparisons alone, so a lane has the bits that it has by itself.
 #pragma once
 
 #include <cstdint>
@@ -69,8 +68,10 @@ template <class T>
 [[nodiscard, gnu::always_inline]] inline T spread(NumberOf<T> x) noexcept {
   if constexpr (kLanesIn<T> == 1) {
     return x;
-  } else {
+  } else if constexpr (kLanesIn<T> == 4) {
     return T{x, x, x, x};
+  } else {
+    return T{x, x, x, x, x, x, x, x};
   }
 }
 
@@ -82,7 +83,7 @@ template <class T>
 /// One bit for each lane.
 [[nodiscard]] constexpr std::uint32_t holding(bool holds) noexcept { return holds ? 1 : 0; }
 
-/// One of two. Of lanes, each its own, bit by bit: the other is never seen, be it no number.
+/// One of two. Of lanes each its own: the other is never seen, be it no number.
 template <class T, class Holds>
 [[nodiscard, gnu::always_inline]] inline T pick(const Holds& holds, const T& then, const T& otherwise) noexcept {
   if constexpr (kLanesIn<T> == 1) {
@@ -156,6 +157,7 @@ template <>
 struct LaneTypes<Four> {
   using Number = float;
   using Bits = std::uint32_t __attribute__((vector_size(16)));
+  using Halves = std::int16_t __attribute__((vector_size(16)));
 };
 [[nodiscard, gnu::always_inline]] inline Four square_root(const Four& x) noexcept {
 #if defined(__SSE2__)
@@ -192,8 +194,12 @@ using EightBits = std::int32_t __attribute__((vector_size(32)));
   return reinterpret_cast<Eight>(reinterpret_cast<EightBits>(x) & 0x7FFF'FFFF);
 }
 template <>
+inline constexpr int kLanesIn<Eight> = 8;
+template <>
 struct LaneTypes<Eight> {
   using Number = float;
+  using Bits = std::uint32_t __attribute__((vector_size(32)));
+  using Halves = std::int16_t __attribute__((vector_size(32)));
 };
 using WidestLanes = Eight;
 #else
@@ -209,24 +215,18 @@ template <class Lanes>
   return load<Lanes>(static_cast<const float*>(__builtin_assume_aligned(from, 16)));
 }
 
-/// As many 32-bit words as lanes.
-template <class Lanes>
-struct Words;
-template <>
-struct Words<Four> {
-  using Bits = std::uint32_t __attribute__((vector_size(16)));
-};
-#if defined(__AVX__)
-template <>
-struct Words<Eight> {
-  using Bits = std::uint32_t __attribute__((vector_size(32)));
-};
-#endif
-template <class Lanes>
-[[nodiscard, gnu::always_inline]] inline typename Words<Lanes>::Bits load_words(const std::uint32_t* from) noexcept {
-  typename Words<Lanes>::Bits x;
-  std::memcpy(&x, from, sizeof x);
+template <class Lanes, bool Aligned = false>
+[[nodiscard, gnu::always_inline]] inline BitsOf<Lanes> load_words(const std::uint32_t* from) noexcept {
+  BitsOf<Lanes> x;
+  std::memcpy(&x, Aligned ? __builtin_assume_aligned(from, 16) : from, sizeof x);
   return x;
+}
+/// The smaller of two words each, no less than -2^15 and less than 2^15: of halves, which every processor compares.
+template <class Lanes, class Bits>
+[[nodiscard, gnu::always_inline]] inline Bits smaller(const Bits& a, const Bits& b) noexcept {
+  using Halves = typename LaneTypes<Lanes>::Halves;
+  const auto x = reinterpret_cast<Halves>(a), y = reinterpret_cast<Halves>(b);
+  return reinterpret_cast<Bits>(x < y ? x : y);
 }
 
 /// One bit for each lane in which a comparison holds.

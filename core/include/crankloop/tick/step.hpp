@@ -119,7 +119,7 @@ template <class Real, class S>
   } else {
     if constexpr (N::crank_dynamics)
       faults = run_turned_by_forces(tables, state, out, crank, input);
-    else if constexpr (N::elastic_valves)
+    else if constexpr (N::elastic_valves && !kHasLanes)
       run_mechanisms_apart(tables, state, out, crank);
     else
       run_mechanisms(tables, state, out, crank);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 
 #include <crankloop/faults.hpp>
 #include <crankloop/input.hpp>
@@ -53,6 +54,10 @@ template <class Real, class S>
     state.pressure_Pa[k] = now_Pa;
   };
   if (all_within_positive(input.pressure_Pa, cylinders, kMax_Pa)) {
+    if constexpr (S::cylinders.exact && !Needs<S>::given_work) {  // in few words, of a length that the compiler knows
+      std::memcpy(state.pressure_Pa, input.pressure_Pa, sizeof input.pressure_Pa);
+      return;
+    }
     for (std::uint32_t k = 0; k < cylinders; ++k) take(k, input.pressure_Pa[k]);
     return;
   }

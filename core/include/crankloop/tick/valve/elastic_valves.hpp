@@ -37,14 +37,13 @@ class ElasticValves {
 
   /// Puts every valve where its cam stands, at rest. The gas comes with the first tick.
   [[gnu::cold]] void start() noexcept {
-    valves_.find_cams();
+    place_all(valves_);
     valves_.for_each([&](std::uint32_t v) {
       const std::uint64_t since_opening =
           cam_phase(valves_.state, valves_.train(v)) - valves_.curve(v).opens[valves_.cylinder(v)];
       const Placed<Real> placed = in_equilibrium(
           valves_.motion(v), valves_.curve(v).read(valves_.curve(v).cell(since_opening)).lift_m, valves_.gas_now_N(v));
-      valves_.state.valve_lift_m[v] = placed.state.lift_m;
-      valves_.state.valve_velocity_m_s[v] = placed.state.velocity_m_s;
+      valves_.set_state(v, placed.state);
       valves_.set_regime(v, placed.regime);
       if constexpr (Needs<S>::valve_gas_held) valves_.state.valve_gas_N[v] = valves_.gas_now_N(v);
     });
@@ -53,14 +52,14 @@ class ElasticValves {
 
   /// Works out anew what a tick remembers beside the state.
   [[gnu::cold, gnu::noinline]] void remember() noexcept {
-    valves_.find_cams();
+    place_all(valves_);
     valves_.work.moving = 0;
+    if constexpr (Valves::kMoversFirst) valves_.work.movers = 0;
     valves_.work.skip_deg = valves_.work.far_deg = Real{kDegreesPerTurn + 1};
     valves_.for_each([&](std::uint32_t v) {
       valves_.set_cam(v, valves_.curve(v).read(valves_.curve(v).cell(cam_phase(valves_.state, valves_.train(v)) -
                                                                      valves_.curve(v).opens[valves_.cylinder(v)])));
-      valves_.work.moving |= Bits{1} << v;
-      valves_.set_regime(v, valves_.state.valve_regime[v]);
+      set_moving(valves_, v);
       if (valves_.curve(v).skip_deg < valves_.work.skip_deg) valves_.work.skip_deg = valves_.curve(v).skip_deg;
       if (valves_.motion(v).widest_step_deg < valves_.work.far_deg)
         valves_.work.far_deg = valves_.motion(v).widest_step_deg;
@@ -74,9 +73,11 @@ class ElasticValves {
     if (jumped) start();
     for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g) begin(cams, g);
     Before before;
-    const Bits doubtful = Round(valves_).run(cams, before);
+    Round round(valves_);
+    const Bits doubtful = round.run(cams, before);
     ChangeBudget budget{valves_.tables.valve_motions[0].most_changes, false};
     if (doubtful != 0) look_by_turns(doubtful, cams, before, budget);
+    round.leave();
     CRANKLOOP_ASSERT(budget.left <= valves_.tables.valve_motions[0].most_changes);
     if constexpr (S::valve_results) {
       for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g) end_cycles(cams, g);
@@ -88,13 +89,16 @@ class ElasticValves {
   void begin(const CamTicks<Real, S>& cams, std::uint32_t group) noexcept {
     CRANKLOOP_ASSERT(group < kCamGroups<S>);
     const CamTick<Real>& tick = cams[group];
-    CRANKLOOP_ASSERT(magnitude(tick.cam.deg) <= Real{kDegreesPerTurn / 2});
-    valves_.far = valves_.far || magnitude(tick.cam.deg) >= valves_.work.far_deg;
-    if (magnitude(tick.cam.deg) >= valves_.work.skip_deg || !valves_.work.clear[group].holds(angle_of_cams(tick)))
+    const Real deg = magnitude(tick.cam.deg);
+    CRANKLOOP_ASSERT(deg <= Real{kDegreesPerTurn / 2});
+    CRANKLOOP_ASSERT(valves_.work.far_deg <= valves_.work.skip_deg);
+    const bool far = deg >= valves_.work.far_deg;
+    valves_.far = valves_.far || far;
+    if ((far && deg >= valves_.work.skip_deg) || !valves_.work.clear[group].holds(angle_of_cams(tick)))
       wake(tick, group);
     Real& before_deg = valves_.state.cam_turned_deg[group];
     if (tick.cam.deg == before_deg) return;
-    const bool jumps = magnitude(tick.cam.deg - before_deg) > static_cast<Real>(kSpeedJump) * magnitude(tick.cam.deg);
+    const bool jumps = magnitude(tick.cam.deg - before_deg) > static_cast<Real>(kSpeedJump) * deg;
     before_deg = tick.cam.deg;
     if (jumps) ask_all(tick, group);
   }
@@ -122,7 +126,7 @@ class ElasticValves {
       const CamWindow near = near_window(valves_.curve(v), static_cast<std::uint32_t>(opens >> 32));
       if (may_skip || near.holds(angle)) {
         valves_.set_cam(v, valves_.curve(v).read(valves_.curve(v).cell(tick.phase_before() - opens)));
-        valves_.work.moving |= Bits{1} << v;
+        set_moving(valves_, v);
       } else {
         clear.keep_off(near, angle);
       }
@@ -134,7 +138,7 @@ class ElasticValves {
   [[gnu::cold, gnu::noinline]] void ask_all(const CamTick<Real>& tick, std::uint32_t group) noexcept {
     valves_.for_each_of(group, [&](std::uint32_t v) {
       if ((valves_.work.moving >> v & 1) == 0) return;
-      const ValveState<Real> s{valves_.state.valve_lift_m[v], valves_.state.valve_velocity_m_s[v]};
+      const ValveState<Real> s = valves_.state_of(v);
       const std::uint32_t before = contacts_of(valves_.state.valve_regime[v]);
       const std::uint32_t regime = asked(valves_.motion(v), s, valves_.cam(v), tick.cam.deg_per_s);
       if (regime == before) return;
@@ -165,17 +169,16 @@ class ElasticValves {
 
   void look(std::uint32_t v, const CamTick<Real>& tick, const Before& before, ChangeBudget& budget) noexcept {
     const typename Valves::Gas gas = valves_.gas_on(v);
-    const Lift<Real> from{before.cam_lift_m[v], before.cam_per_deg_m[v]};
+    const std::uint32_t lane = valves_.lane_of(v);
+    const Lift<Real> from{before.cam_lift_m[lane], before.cam_per_deg_m[lane]};
     const Lift<Real> to = valves_.cam(v);
-    const Placed<Real> start{{before.lift_m[v], before.velocity_m_s[v]}, valves_.state.valve_regime[v]};
-    const Stepped<Real> step{{valves_.state.valve_lift_m[v], valves_.state.valve_velocity_m_s[v]},
-                             before.increment_m[v]};
+    const Placed<Real> start{{before.lift_m[lane], before.velocity_m_s[lane]}, valves_.state.valve_regime[v]};
+    const Stepped<Real> step{valves_.state_of(v), before.increment_m[lane]};
     const std::uint64_t at = tick.phase - valves_.curve(v).opens[valves_.cylinder(v)];
     const Placed<Real> end =
         valves_.changes(v, budget).run(start, step, valves_.span(v, tick, from, to, gas), at, tick.turned);
     CRANKLOOP_ASSERT(is_finite(end.state.lift_m) && is_finite(end.state.velocity_m_s));
-    valves_.state.valve_lift_m[v] = end.state.lift_m;
-    valves_.state.valve_velocity_m_s[v] = end.state.velocity_m_s;
+    valves_.set_state(v, end.state);
     if (end.regime != start.regime) valves_.set_regime(v, end.regime);
     valves_.set_known(v);
     const Real compression_m = to.lift_m - end.state.lift_m;

@@ -35,13 +35,13 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>> {
  public:
   using Before = BeforeStep<float, group::ValvesState<float, S>::kLanes>;
 
-  /// `far`: lanes that are looked at whatever their guards say.
-  LaneBlocks(Valves& valves, const CamTicks<float, S>& cams, Bits far, Before& before) noexcept
-      : valves_{valves}, work_{valves.work}, state_{valves.state}, out_{valves.out}, before_{before}, far_{far} {
+  LaneBlocks(Valves& valves, const CamTicks<float, S>& cams, Before& before) noexcept
+      : valves_{valves}, work_{valves.work}, state_{valves.state}, out_{valves.out}, before_{before} {
     if constexpr (S::cam_phasing) {
-      for (std::uint32_t t = 0; t < valves_.trains(); ++t) tick_.set(t * Valves::kPerTrain, Valves::kPerTrain, cams[t]);
+      for (std::uint32_t lane = 0; lane < valves_.trains() * Valves::kPerTrain; ++lane)
+        tick_.set(lane, cams[Valves::train(valves_.valve_in(lane))]);
     } else {
-      tick_.set(0, 1, cams[0]);
+      tick_.set(0, cams[0]);
     }
     if constexpr (S::valve_gas && !kGasInBlocks<S>) {
       valves_.for_each([&](std::uint32_t v) {
@@ -51,12 +51,14 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>> {
     }
   }
 
-  /// Steps blocks from lane `first` on, as far as they fill `lanes` of them; answers how many it has stepped. State and
-  /// output are left as if all were sure.
-  [[nodiscard, gnu::always_inline]] std::uint32_t step(std::uint32_t first, std::uint32_t lanes) noexcept {
+  /// Steps blocks from lane `first` on, for `lanes` that move; a block that is worth it takes lanes at rest in, of
+  /// which there are so many that all have `room`. Answers how many lanes it has stepped. State and output are left as
+  /// if all were sure.
+  [[nodiscard, gnu::always_inline]] std::uint32_t step(std::uint32_t first, std::uint32_t lanes,
+                                                       std::uint32_t room) noexcept {
     std::uint32_t done = 0;
-    step_as<WidestLanes>(first, lanes, done);
-    if constexpr (!std::is_same_v<WidestLanes, Four>) step_as<Four>(first, lanes, done);
+    step_as<WidestLanes>(first, lanes, room, done);
+    if constexpr (!std::is_same_v<WidestLanes, Four>) step_as<Four>(first, lanes, room, done);
     return done;
   }
 
@@ -66,12 +68,42 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>> {
   [[nodiscard]] Bits eventful() const noexcept { return eventful_; }
   /// and one for each that enlarged some of those.
   [[nodiscard]] Bits enlarged() const noexcept { return enlarged_; }
+  /// A bit for each that is at rest, where such are left alone.
+  [[nodiscard]] Bits still() const noexcept { return still_; }
 
  private:
   template <class Lanes>
-  [[gnu::always_inline]] void step_as(std::uint32_t first, std::uint32_t lanes, std::uint32_t& done) noexcept {
+  [[gnu::always_inline]] void step_as(std::uint32_t first, std::uint32_t lanes, std::uint32_t room,
+                                      std::uint32_t& done) noexcept {
     constexpr auto kWidth = static_cast<std::uint32_t>(kLanesOf<Lanes>);
-    for (; done + kWidth <= lanes; done += kWidth) step_block<Lanes>(first + done);
+    constexpr std::uint32_t kWorth = kWidth == 8 ? 6 : 2;  // movers: fewer take longer abreast than in other ways
+    for (; done + kWorth <= lanes && done + kWidth <= room; done += kWidth) step_block<Lanes>(first + done);
+  }
+
+  /// Of the lanes' own numbers.
+  template <class Lanes>
+  [[nodiscard, gnu::always_inline]] static Lanes held(const float* from) noexcept {
+    return AbreastWork<S>::kBlocksAligned ? load_aligned<Lanes>(from) : load<Lanes>(from);
+  }
+
+  template <class Lanes>
+  [[nodiscard, gnu::always_inline]] ValveState<Lanes> states_at(std::uint32_t first) const noexcept {
+    if constexpr (Valves::kMoversFirst)
+      return {held<Lanes>(&work_.lift_m[first]), held<Lanes>(&work_.velocity_m_s[first])};
+    else
+      return {load<Lanes>(&state_.valve_lift_m[first]), load<Lanes>(&state_.valve_velocity_m_s[first])};
+  }
+  template <class Lanes>
+  [[gnu::always_inline]] void keep_states(std::uint32_t first, const ValvesOf<Lanes>& valves,
+                                          const ValveState<Lanes>& s) noexcept {
+    if constexpr (Valves::kMoversFirst) {
+      store<Lanes>(&work_.lift_m[first], s.lift_m), store<Lanes>(&work_.velocity_m_s[first], s.velocity_m_s);
+      valves.store(s.lift_m, state_.valve_lift_m), valves.store(s.velocity_m_s, state_.valve_velocity_m_s);
+    } else {
+      store<Lanes>(&state_.valve_lift_m[first], s.lift_m);
+      store<Lanes>(&state_.valve_velocity_m_s[first], s.velocity_m_s);
+      static_cast<void>(valves);
+    }
   }
 
   template <class Lanes>
@@ -97,9 +129,10 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>> {
     CRANKLOOP_ASSERT(first + kLanesOf<Lanes> <= AbreastWork<S>::kRoom);
     const auto regime = regimes_at<Lanes>(work_, first);
     const auto gas = gas_at<Lanes>(first);
-    const ValveState<Lanes> start{load<Lanes>(&state_.valve_lift_m[first]),
-                                  load<Lanes>(&state_.valve_velocity_m_s[first])};
-    const Lift<Lanes> from{load<Lanes>(&work_.cam_lift_m[first]), load<Lanes>(&work_.cam_per_deg_m[first])};
+    static_assert(sizeof out_.valve[0][0] == 4 * sizeof(float));
+    const ValvesOf<Lanes> valves(valves_, first);
+    const ValveState<Lanes> start = states_at<Lanes>(first);
+    const Lift<Lanes> from{held<Lanes>(&work_.cam_lift_m[first]), held<Lanes>(&work_.cam_per_deg_m[first])};
     const Lanes deg_per_s = tick_.template of<Lanes>(tick_.deg_per_s, first);
     LanesPlace<Lanes> place;
     const Lift<Lanes> to = read_lanes<Lanes>(work_, first, tick_, place);
@@ -114,16 +147,15 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>> {
     const ValveState<Lanes> end{still ? rest : step.state.lift_m, still ? Lanes{} : step.state.velocity_m_s};
     const Contacting<Lanes> at{to.lift_m - end.lift_m, deg_per_s * to.per_deg_m - end.velocity_m_s};
     const Lanes accelerates = acceleration(regime.acceleration, end, at.compression_m, at.compression_speed_m_s, gas);
-    store<Lanes>(&state_.valve_lift_m[first], end.lift_m);
-    store<Lanes>(&state_.valve_velocity_m_s[first], end.velocity_m_s);
+    keep_states(first, valves, end);
     store<Lanes>(&work_.cam_lift_m[first], to.lift_m);
     store<Lanes>(&work_.cam_per_deg_m[first], to.per_deg_m);
-    const Lanes theory = to.lift_m > Lanes{} ? to.lift_m : Lanes{};
-    static_assert(sizeof out_.valve[0][0] == 4 * sizeof(float));
-    store_lanes(theory, end.lift_m, end.velocity_m_s, accelerates, &out_.valve[0][0].theoretical_lift_m + 4 * first);
-    if constexpr (S::valve_forces) show_forces(first, end, at, accelerates, place);
-    constexpr std::uint32_t kBlock = (1u << kLanesOf<Lanes>)-1;
-    const std::uint32_t looked_at = failing(sure) | (static_cast<std::uint32_t>(far_ >> first) & kBlock);
+    const Lanes theory = larger(to.lift_m, Lanes{});
+    store_lanes(theory, end.lift_m, end.velocity_m_s, accelerates,
+                RowsOf<4, Lanes>(valves, &out_.valve[0][0].theoretical_lift_m).at);
+    if constexpr (S::valve_forces) show_forces(first, valves, end, at, accelerates, place);
+    if constexpr (Valves::kMoversFirst) still_ |= Bits{holding(still)} << first;
+    const std::uint32_t looked_at = failing(sure);
     std::uint32_t asking = looked_at;
     if constexpr (S::valve_results) {
       const Lanes from_m_s = deg_per_s * from.per_deg_m;
@@ -153,25 +185,12 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>> {
   }
 
   template <class Lanes>
-  [[nodiscard, gnu::always_inline]] static Lanes larger(const Lanes& a, const Lanes& b) noexcept {
-    return a > b ? a : b;
-  }
-  template <class Lanes>
   [[nodiscard, gnu::always_inline]] auto outside_lobe(std::uint32_t first,
                                                       const LanesPlace<Lanes>& place) const noexcept {
-    typename Words<Lanes>::Bits degrees;
+    BitsOf<Lanes> degrees;
     std::memcpy(&degrees, &work_.degrees[first], sizeof degrees);
     return load_words<Lanes>(place.segment) == degrees;
   }
-  /// Raises each lane's number to x; answers in which it does.
-  template <class Lanes>
-  [[nodiscard, gnu::always_inline]] static auto enlarges(float* number, const Lanes& x) noexcept {
-    const Lanes before = load<Lanes>(number);
-    const auto more = x > before;
-    store<Lanes>(number, more ? x : before);
-    return more;
-  }
-
   /// Compression of the train, and its speed.
   template <class Lanes>
   struct Contacting {
@@ -193,11 +212,12 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>> {
 
   /// As show_forces() of one valve does.
   template <class Lanes>
-  [[gnu::always_inline]] void show_forces(std::uint32_t first, const ValveState<Lanes>& end,
-                                          const Contacting<Lanes>& at, const Lanes& accelerates,
-                                          const LanesPlace<Lanes>& place) noexcept {
-    using Words32 = typename Words<Lanes>::Bits;
-    const Words32 regime = load_words<Lanes>(&state_.valve_regime[first]);
+  [[gnu::always_inline]] void show_forces(std::uint32_t first, const ValvesOf<Lanes>& valves,
+                                          const ValveState<Lanes>& end, const Contacting<Lanes>& at,
+                                          const Lanes& accelerates, const LanesPlace<Lanes>& place) noexcept {
+    using Words32 = BitsOf<Lanes>;
+    Words32 regime;
+    for (std::uint32_t i = 0; i < kLanesOf<Lanes>; ++i) regime[i] = state_.valve_regime[valves.valve[i]];
     const auto pushing = [](auto on, const Lanes& force_N) { return (on & (force_N > Lanes{})) ? force_N : Lanes{}; };
     const Lanes train_N =
         pushing((regime & kTrainOn) != 0, load<Lanes>(&work_.train_N_m[first]) * at.compression_m +
@@ -210,14 +230,14 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>> {
     Lanes cam_N{};
     for (std::uint32_t left = holding(train_N > Lanes{}); left != 0; left &= left - 1) {
       const std::uint32_t i = trailing_zeros(left);
-      const LiftCurve<float>& curve = valves_.curve(first + i);
+      const LiftCurve<float>& curve = valves_.curve(static_cast<std::uint32_t>(valves.valve[i]));
       if (place.segment[i] < curve.segments)
         cam_N[i] = train_N[i] * value(curve.rocker_ratio[place.segment[i]], static_cast<float>(place.u[i]));
     }
     const Words32 contacts = (regime & (kTrainOn | kSeatOn)) | (regime >> 1 & kSeatOn);  // kQuiet is on its seat
     static_assert(sizeof out_.valve_forces[0][0] == 6 * sizeof(float));
     store_lanes({train_N, seat_N, tip_N, cam_N, at.compression_m, reinterpret_cast<Lanes>(contacts)},
-                reinterpret_cast<float*>(&out_.valve_forces[0][0]) + 6 * first);
+                RowsOf<6, Lanes>(valves, &out_.valve_forces[0][0].train_N).at);
   }
 
   Valves& valves_;
@@ -226,9 +246,8 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>> {
   Output<float, S>& out_;
   Before& before_;
   LanesTick<S> tick_;
-  Bits far_;
   Bits doubtful_ = 0;
-  Bits eventful_ = 0, enlarged_ = 0;
+  Bits eventful_ = 0, enlarged_ = 0, still_ = 0;
 };
 
 }  // namespace crankloop::detail

@@ -8,12 +8,19 @@
 #include <type_traits>
 
 #include <crankloop/tick/valve/lane_blocks.hpp>
+#include <crankloop/tick/valve/movers.hpp>
 #include <crankloop/tick/valve/valves_at_hand.hpp>
 
 namespace crankloop::detail {
 
+/// Valves that are left alone once the tick is over.
+template <class Bits>
+struct LeavingLanes {
+  Bits leaving = 0;
+};
+
 template <class Real, class S>
-class ValveRound {
+class ValveRound : If<ValvesAtHand<Real, S>::kMoversFirst, LeavingLanes<ValveBits<S>>> {
   using Valves = ValvesAtHand<Real, S>;
   using Gas = typename Valves::Gas;
   using Bits = typename Valves::Bits;
@@ -25,12 +32,21 @@ class ValveRound {
 
   /// Steps all that move. Answers which of them have guards that fail; what was before them is in `before`.
   [[nodiscard, gnu::always_inline]] Bits run(const CamTicks<Real, S>& cams, Before& before) noexcept {
-    return Valves::kAbreast ? step_abreast(cams, before) : step_those(valves_.work.moving, cams, before);
+    if (Valves::kAbreast && !valves_.far) return step_abreast(cams, before);
+    return step_those(valves_.work.moving, cams, before);
+  }
+
+  /// Valves at rest with their cams away are left alone from the next tick on: their lanes are others' then, so not
+  /// before the round's last word on any.
+  void leave() noexcept {
+    if constexpr (Valves::kMoversFirst) {
+      if (this->leaving != 0) leave_alone(valves_, this->leaving);
+    }
   }
 
  private:
   /// Those of some valves; answers which of them have guards that fail.
-  [[nodiscard]] Bits step_those(Bits which, const CamTicks<Real, S>& cams, Before& before) noexcept {
+  [[nodiscard, gnu::noinline]] Bits step_those(Bits which, const CamTicks<Real, S>& cams, Before& before) noexcept {
     Bits doubtful = 0;
     for (Bits left = which; left != 0; left &= left - 1) {
       const std::uint32_t v = trailing_zeros(left);
@@ -45,7 +61,7 @@ class ValveRound {
     const Cell cell = valves_.cell(v, tick.phase);
     const Gas gas = valves_.gas_on(v);
     const RegimeStep<Real>& regime = valves_.regime_of(v);
-    const ValveState<Real> start{valves_.state.valve_lift_m[v], valves_.state.valve_velocity_m_s[v]};
+    const ValveState<Real> start = valves_.state_of(v);
     if (cell.degree >= valves_.curve(v).segments && swings_alone(v, start, regime, tick, gas))
       return swing(v, start, regime, cell, gas, before);
     const Lift<Real> from = valves_.cam(v);
@@ -61,11 +77,10 @@ class ValveRound {
       compression_m = to.lift_m - end.lift_m;
       compression_speed_m_s = tick.cam.deg_per_s * to.per_deg_m - end.velocity_m_s;
     }
-    valves_.state.valve_lift_m[v] = end.lift_m;
-    valves_.state.valve_velocity_m_s[v] = end.velocity_m_s;
+    valves_.set_state(v, end);
     valves_.set_cam(v, to);
     if (!sure) {
-      before.keep(v, start, step.increment_m, from);
+      before.keep(valves_.lane_of(v), start, step.increment_m, from);
       return false;
     }
     const Real acceleration_m_s2 = acceleration(regime.acceleration, end, compression_m, compression_speed_m_s, gas);
@@ -73,7 +88,7 @@ class ValveRound {
       valves_.note(v, start, end, from, to, tick, gas, acceleration_m_s2);
       valves_.set_known(v);
     }
-    if (still) leave_alone(v, cell);
+    if (still) may_leave(v, cell);
     valves_.show(v, end, cell, {to.lift_m, compression_m, compression_speed_m_s, acceleration_m_s2}, gas);
     return true;
   }
@@ -117,16 +132,14 @@ class ValveRound {
       const Real increment_m = more(regime.lift);
       end = {start.lift_m + increment_m, start.velocity_m_s + more(regime.velocity)};
       if (S::valve_gas && !holds(regime.train, outside_m - end.lift_m, end.velocity_m_s)) {
-        before.keep(v, start, increment_m, valves_.cam(v));
+        before.keep(valves_.lane_of(v), start, increment_m, valves_.cam(v));
         valves_.set_cam(v, {outside_m, Real{0}});
-        valves_.state.valve_lift_m[v] = end.lift_m;
-        valves_.state.valve_velocity_m_s[v] = end.velocity_m_s;
+        valves_.set_state(v, end);
         return false;
       }
-      if (put_to_rest(v, regime, gas, end)) leave_alone(v, cell);
+      if (put_to_rest(v, regime, gas, end)) may_leave(v, cell);
     }
-    valves_.state.valve_lift_m[v] = end.lift_m;
-    valves_.state.valve_velocity_m_s[v] = end.velocity_m_s;
+    valves_.set_state(v, end);
     valves_.set_cam(v, {outside_m, Real{0}});
     const ForceRow<Real>& f = regime.acceleration;
     const Real acceleration_m_s2 = gas.rest(f) + f.lift * end.lift_m + f.velocity * end.velocity_m_s;
@@ -165,64 +178,66 @@ class ValveRound {
     return true;
   }
 
-  /// With its cam away a valve at rest is left alone from the next tick on.
-  void leave_alone(std::uint32_t v, Cell cell) noexcept {
-    if constexpr (!S::valve_gas && !Valves::kAbreast) {
+  /// One at rest: is its cam away?
+  void may_leave([[maybe_unused]] std::uint32_t v, [[maybe_unused]] Cell cell) noexcept {
+    if constexpr (!S::valve_gas) {
       if (valves_.curve(v).may_touch(cell) || (S::valve_forces && cell.degree < valves_.curve(v).segments)) return;
-      valves_.work.moving &= ~(Bits{1} << v);
-      for (CamWindow& clear : valves_.work.clear) clear = {};  // found anew with the next tick
+      if constexpr (Valves::kMoversFirst) {
+        this->leaving |= Bits{1} << v;
+      } else {
+        leave_alone(valves_, Bits{1} << v);
+      }
     }
-    (void)v, (void)cell;
   }
 
   /// Into a lane's record, what it did in its block.
   void note(std::uint32_t v, const CamTick<Real>& tick, const Before& before) noexcept {
     const Gas gas = valves_.gas_on(v);
-    const ValveState<Real> start{before.lift_m[v], before.velocity_m_s[v]};
-    const ValveState<Real> end{valves_.state.valve_lift_m[v], valves_.state.valve_velocity_m_s[v]};
+    const std::uint32_t lane = valves_.lane_of(v);
+    const ValveState<Real> start{before.lift_m[lane], before.velocity_m_s[lane]};
+    const ValveState<Real> end = valves_.state_of(v);
     const Real acceleration_m_s2 = (&valves_.out.valve[0][0])[v].acceleration_m_s2;
     if (valves_.cell(v, tick.phase).degree >= valves_.curve(v).segments &&
         swings_alone(v, start, valves_.regime_of(v), tick, gas)) {
       valves_.state.record[valves_.train(v)][valves_.cylinder(v)].rest(end, acceleration_m_s2);
     } else {
-      valves_.note(v, start, end, {before.cam_lift_m[v], before.cam_per_deg_m[v]}, valves_.cam(v), tick, gas,
+      valves_.note(v, start, end, {before.cam_lift_m[lane], before.cam_per_deg_m[lane]}, valves_.cam(v), tick, gas,
                    acceleration_m_s2);
     }
     if constexpr (Needs<S>::valve_gas_held) valves_.state.valve_gas_N[v] = gas.to_N;
     valves_.set_known(v);
   }
 
-  /// Plain steps in blocks of lanes, each a valve by its number; what fills no block one by one. Answers which have
-  /// guards that fail.
-  [[nodiscard]] Bits step_abreast([[maybe_unused]] const CamTicks<Real, S>& cams,
-                                  [[maybe_unused]] Before& before) noexcept {
+  /// Plain steps in blocks of lanes; what fills no block one by one. Answers which have guards that fail.
+  [[nodiscard, gnu::always_inline]] Bits step_abreast([[maybe_unused]] const CamTicks<Real, S>& cams,
+                                                      [[maybe_unused]] Before& before) noexcept {
     Bits doubtful = 0;
 #if CRANKLOOP_ABREAST
     if constexpr (Valves::kAbreast) {
-      Bits far = 0;
-      if (valves_.far) {
-        valves_.for_each([&](std::uint32_t v) { far |= Bits{is_far(v, cams[valves_.train(v)])} << v; });
+      LaneBlocks<S> blocks(valves_, cams, before);
+      const std::uint32_t cylinders = count<S>(valves_.tables.drive->cylinders);
+      const auto step_row = [&](std::uint32_t first, std::uint32_t lanes, std::uint32_t room)
+          __attribute__((always_inline)) {
+        const std::uint32_t done = blocks.step(first, lanes, room);
+        const Bits rest = done < lanes ? ((Bits{1} << (lanes - done)) - 1) << (first + done) : 0;
+        if (rest != 0) doubtful |= step_those(valves_.valves_in(rest), cams, before);
+      };
+      if constexpr (Valves::kMoversFirst) {
+        step_row(0, valves_.work.movers, valves_.trains() * cylinders);
+      } else if (cylinders == Valves::kPerTrain) {  // then the lanes of all trains are in a row
+        step_row(0, valves_.trains() * cylinders, valves_.trains() * cylinders);
+      } else {
+        for (std::uint32_t t = 0; t < valves_.trains(); ++t) step_row(t * Valves::kPerTrain, cylinders, cylinders);
       }
-      LaneBlocks<S> blocks(valves_, cams, far, before);
-      const bool in_a_row =
-          count<S>(valves_.tables.drive->cylinders) == Valves::kPerTrain;  // then the lanes of all trains are
-      const std::uint32_t row =
-          in_a_row ? valves_.trains() * Valves::kPerTrain : count<S>(valves_.tables.drive->cylinders);
-      for (std::uint32_t first = 0; first < valves_.trains() * Valves::kPerTrain;
-           first += in_a_row ? row : Valves::kPerTrain) {
-        const std::uint32_t done = blocks.step(first, row);
-        const Bits rest = done < row ? ((Bits{1} << (row - done)) - 1) << (first + done) : 0;
-        if (rest != 0) doubtful |= step_those(rest, cams, before);
-      }
-      doubtful |= blocks.doubtful();
+      doubtful |= valves_.valves_in(blocks.doubtful());
       if constexpr (S::valve_results) {
-        for (Bits left = blocks.enlarged() & ~(blocks.eventful() | doubtful); left != 0; left &= left - 1)
-          valves_.keep_largest(trailing_zeros(left));
-        for (Bits left = blocks.eventful() & ~doubtful; left != 0; left &= left - 1) {
-          const std::uint32_t v = trailing_zeros(left);
-          note(v, cams[valves_.train(v)], before);
-        }
+        valves_.for_movers(blocks.enlarged() & ~(blocks.eventful() | blocks.doubtful()),
+                           [&](std::uint32_t v) { valves_.keep_largest(v); });
+        valves_.for_movers(blocks.eventful() & ~blocks.doubtful(),
+                           [&](std::uint32_t v) { note(v, cams[valves_.train(v)], before); });
       }
+      valves_.for_movers(blocks.still() & ~blocks.doubtful(),
+                         [&](std::uint32_t v) { may_leave(v, valves_.cell(v, cams[valves_.train(v)].phase)); });
     }
 #endif
     return doubtful;

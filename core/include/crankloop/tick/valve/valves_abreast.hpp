@@ -50,11 +50,10 @@ template <class Lanes, class Work>
 
 /// A lane is in this regime from now on.
 template <class Work>
-inline void set_lane(Work& w, std::size_t lane, const RegimeStep<float>& regime) noexcept {
-  float numbers[sizeof w.regime / sizeof w.regime[0]];
-  static_assert(sizeof numbers == offsetof(RegimeStep<float>, calm_m));
-  std::memcpy(numbers, &regime, sizeof numbers);
-  for (std::size_t i = 0; i < sizeof numbers / sizeof(float); ++i) w.regime[i][lane] = numbers[i];
+[[gnu::noinline]] inline void set_lane(Work& w, std::size_t lane, const RegimeStep<float>& regime) noexcept {
+  static_assert(sizeof w.regime / sizeof w.regime[0] * sizeof(float) == offsetof(RegimeStep<float>, calm_m));
+  const char* from = reinterpret_cast<const char*>(&regime);
+  for (auto& numbers : w.regime) std::memcpy(&numbers[lane], from, sizeof(float)), from += sizeof(float);
 }
 
 /// What a lane has of its valve's body.
@@ -71,14 +70,17 @@ inline void set_body_of_lane(AbreastWork<S>& w, std::size_t lane, const ValveMot
   (void)w, (void)lane, (void)motion;
 }
 
+/// Flipped in parts of a degree: the comparison of signed words, which every processor has, then orders them.
+inline constexpr std::uint32_t kSignBit = 0x8000'0000u;
+
 /// What a lane has of its cam.
 template <class Work>
 inline void set_cam_of_lane(Work& w, std::size_t lane, const LiftCurve<float>& curve, std::uint32_t opens) noexcept {
   const Cell cell = LiftCurve<float>::cell(std::uint64_t{opens} << 32);
   w.curve[lane] = curve.at;
-  w.degrees[lane] = static_cast<std::int32_t>(curve.segments);
-  w.opens_degree[lane] = static_cast<std::int32_t>(cell.degree);
-  w.opens_into[lane] = cell.into;
+  w.degrees[lane] = curve.segments;
+  w.opens_degree[lane] = cell.degree;
+  w.opens_into[lane] = cell.into ^ kSignBit;
 }
 
 /// How the lanes' cams turn in a tick: all alike, or each by itself where phasers turn them.
@@ -88,26 +90,48 @@ struct LanesTick {
   float deg[kRoom], deg_per_s[kRoom];
   std::uint32_t degree[kRoom], into[kRoom];  ///< where the train's cams stand, as AbreastWork has the lobes' beginnings
 
-  void set(std::size_t first, std::size_t lanes, const CamTick<float>& tick) noexcept {
-    CRANKLOOP_ASSERT(first + lanes <= kRoom);
+  void set(std::size_t lane, const CamTick<float>& tick) noexcept {
+    CRANKLOOP_ASSERT(lane < kRoom);
     const Cell cell = LiftCurve<float>::cell(tick.phase);
-    for (std::size_t i = first; i < first + lanes; ++i) {
-      deg[i] = tick.cam.deg, deg_per_s[i] = tick.cam.deg_per_s;
-      degree[i] = cell.degree, into[i] = cell.into;
-    }
+    deg[lane] = tick.cam.deg, deg_per_s[lane] = tick.cam.deg_per_s;
+    degree[lane] = cell.degree, into[lane] = cell.into ^ kSignBit;
   }
   template <class Lanes>
   [[nodiscard, gnu::always_inline]] static Lanes of(const float (&x)[kRoom], std::size_t first) noexcept {
     if constexpr (S::cam_phasing) return load<Lanes>(x + first);
     (void)first;
-    return Lanes{} + x[0];
+    return spread<Lanes>(x[0]);
   }
   template <class Lanes>
-  [[nodiscard, gnu::always_inline]] static typename Words<Lanes>::Bits words(const std::uint32_t (&x)[kRoom],
-                                                                             std::size_t first) noexcept {
+  [[nodiscard, gnu::always_inline]] static BitsOf<Lanes> words(const std::uint32_t (&x)[kRoom],
+                                                               std::size_t first) noexcept {
     if constexpr (S::cam_phasing) return load_words<Lanes>(x + first);
     (void)first;
-    return typename Words<Lanes>::Bits{} + x[0];
+    return BitsOf<Lanes>{} + x[0];
+  }
+};
+
+/// The valves of a block of lanes.
+template <class Lanes>
+struct ValvesOf {
+  std::size_t valve[kLanesOf<Lanes>];
+
+  template <class Valves>
+  [[gnu::always_inline]] ValvesOf(const Valves& valves, std::size_t first) noexcept {
+    for (std::size_t i = 0; i < kLanesOf<Lanes>; ++i) valve[i] = valves.valve_in(first + i);
+  }
+  /// A number of each.
+  [[gnu::always_inline]] void store(const Lanes& x, float* to) const noexcept {
+    for (int i = 0; i < kLanesOf<Lanes>; ++i) to[valve[i]] = x[i];
+  }
+};
+/// Where each of them has its floats, a row of so many for each valve.
+template <std::size_t Floats, class Lanes>
+struct RowsOf {
+  float* at[kLanesOf<Lanes>];
+
+  [[gnu::always_inline]] RowsOf(const ValvesOf<Lanes>& of, float* base) noexcept {
+    for (int i = 0; i < kLanesOf<Lanes>; ++i) at[i] = base + Floats * of.valve[i];
   }
 };
 
@@ -124,21 +148,17 @@ template <class Lanes, class S>
 [[nodiscard, gnu::always_inline]] inline Lift<Lanes> read_lanes(const AbreastWork<S>& w, std::size_t first,
                                                                 const LanesTick<S>& tick,
                                                                 LanesPlace<Lanes>& place) noexcept {
-  using Words32 = typename Words<Lanes>::Bits;
+  using Words32 = BitsOf<Lanes>;
   using Signed = decltype(Lanes{} < Lanes{});
-  const auto load_signed = [first](const std::int32_t* from) {
-    Signed x;
-    std::memcpy(&x, from + first, sizeof x);
-    return x;
-  };
+  const auto words = [&](const std::uint32_t* from) { return load_words<Lanes, AbreastWork<S>::kBlocksAligned>(from); };
   const Words32 cams_into = tick.template words<Lanes>(tick.into, first);
-  const Words32 opens_into = load_words<Lanes>(&w.opens_into[first]);
+  const Words32 opens_into = words(&w.opens_into[first]);
   const Words32 into = cams_into - opens_into;
   Signed degree = reinterpret_cast<Signed>(tick.template words<Lanes>(tick.degree, first)) -
-                  load_signed(w.opens_degree) + reinterpret_cast<Signed>(cams_into < opens_into);
+                  reinterpret_cast<Signed>(words(&w.opens_degree[first])) +
+                  (reinterpret_cast<Signed>(cams_into) < reinterpret_cast<Signed>(opens_into));
   degree += (degree < 0) & kDegreesPerTurn;
-  const Signed last = load_signed(w.degrees);
-  degree = degree < last ? degree : last;
+  degree = smaller<Lanes>(degree, reinterpret_cast<Signed>(words(&w.degrees[first])));
   std::memcpy(place.segment, &degree, sizeof place.segment);
   CRANKLOOP_ASSERT(place.segment[0] <= std::uint32_t{kDegreesPerTurn});
   const float* from[kLanesOf<Lanes>];

@@ -27,6 +27,7 @@ struct ValvesAtHand {
   using Changes = ValveChanges<Real, Gas, Record>;
   using Bits = ValveBits<S>;
   static constexpr bool kAbreast = CRANKLOOP_ABREAST != 0 && kMayGoAbreast<Real, S>;
+  static constexpr bool kMoversFirst = kAbreast && !S::valve_gas;
   static constexpr std::uint32_t kPerTrain = S::cylinders.capacity;
   static constexpr std::uint32_t kMaxValves = S::trains.capacity * kPerTrain;
 
@@ -40,6 +41,33 @@ struct ValvesAtHand {
 
   [[nodiscard]] static constexpr std::uint32_t train(std::uint32_t v) noexcept { return v / kPerTrain; }
   [[nodiscard]] static constexpr std::uint32_t cylinder(std::uint32_t v) noexcept { return v % kPerTrain; }
+  /// Where what a valve has in lanes is, and what was before its step.
+  [[nodiscard]] std::uint32_t lane_of(std::uint32_t v) const noexcept {
+    if constexpr (kMoversFirst) return work.lane[v];
+    return v;
+  }
+  [[nodiscard]] std::uint32_t valve_in(std::size_t lane) const noexcept {
+    if constexpr (kMoversFirst) return work.valve[lane];
+    return static_cast<std::uint32_t>(lane);
+  }
+  /// The valves of some lanes, but for those at rest: such fill a block, and stay at rest in it.
+  template <class Call>
+  void for_movers(Bits lanes, const Call& call) const noexcept {
+    for (Bits left = lanes; left != 0; left &= left - 1) {
+      const std::uint32_t lane = trailing_zeros(left);
+      if constexpr (kMoversFirst) {
+        if (lane >= work.movers) return;
+      }
+      call(valve_in(lane));
+    }
+  }
+  /// Lanes' bits as bits of the valves in them.
+  [[nodiscard]] Bits valves_in(Bits lanes) const noexcept {
+    if constexpr (!kMoversFirst) return lanes;
+    Bits valves = 0;
+    for (Bits left = lanes; left != 0; left &= left - 1) valves |= Bits{1} << valve_in(trailing_zeros(left));
+    return valves;
+  }
   [[nodiscard]] const ValveMotion<Real>& motion(std::uint32_t v) const noexcept {
     return tables.valve_motions[train(v)];
   }
@@ -79,24 +107,31 @@ struct ValvesAtHand {
 
   [[nodiscard]] Lift<Real> cam(std::uint32_t v) const noexcept {
     if constexpr (kMayGoAbreast<Real, S>) {
-      return {work.cam_lift_m[v], work.cam_per_deg_m[v]};
+      return {work.cam_lift_m[lane_of(v)], work.cam_per_deg_m[lane_of(v)]};
     } else {
       return {work.valve[v].cam_lift_m, work.valve[v].cam_per_deg_m};
     }
   }
   void set_cam(std::uint32_t v, const Lift<Real>& lift) noexcept {
     if constexpr (kMayGoAbreast<Real, S>) {
-      work.cam_lift_m[v] = lift.lift_m, work.cam_per_deg_m[v] = lift.per_deg_m;
+      work.cam_lift_m[lane_of(v)] = lift.lift_m, work.cam_per_deg_m[lane_of(v)] = lift.per_deg_m;
     } else {
       work.valve[v].cam_lift_m = lift.lift_m, work.valve[v].cam_per_deg_m = lift.per_deg_m;
     }
+  }
+  [[nodiscard]] ValveState<Real> state_of(std::uint32_t v) const noexcept {
+    return {state.valve_lift_m[v], state.valve_velocity_m_s[v]};
+  }
+  void set_state(std::uint32_t v, const ValveState<Real>& s) noexcept {
+    state.valve_lift_m[v] = s.lift_m, state.valve_velocity_m_s[v] = s.velocity_m_s;
+    if constexpr (kMoversFirst) work.lift_m[lane_of(v)] = s.lift_m, work.velocity_m_s[lane_of(v)] = s.velocity_m_s;
   }
   void set_regime(std::uint32_t v, std::uint32_t regime) noexcept {
     CRANKLOOP_ASSERT(v < kMaxValves && regime < std::uint32_t{kRegimes});
     state.valve_regime[v] = regime;
     if constexpr (!kMayGoAbreast<Real, S>) work.valve[v].regime = &motion(v).whole[regime];
 #if CRANKLOOP_ABREAST
-    if constexpr (kAbreast) set_lane(work, v, motion(v).whole[regime]);
+    if constexpr (kAbreast) set_lane(work, lane_of(v), motion(v).whole[regime]);
 #endif
     set_known(v);
   }
@@ -105,15 +140,17 @@ struct ValvesAtHand {
     if constexpr (kAbreast && S::valve_results) {
       const detail::ValveRecord<Real>& record = state.record[train(v)][cylinder(v)];
       const auto largest = record.largest();
-      work.largest_lift_m[v] = largest.lift_m, work.largest_speed_m_s[v] = largest.speed_m_s;
-      work.largest_acceleration_m_s2[v] = largest.acceleration_m_s2;
-      work.eventless_to_m[v] = record.eventless_to_m(contacts_of(state.valve_regime[v]));
+      const std::uint32_t lane = lane_of(v);
+      work.largest_lift_m[lane] = largest.lift_m, work.largest_speed_m_s[lane] = largest.speed_m_s;
+      work.largest_acceleration_m_s2[lane] = largest.acceleration_m_s2;
+      work.eventless_to_m[lane] = record.eventless_to_m(contacts_of(state.valve_regime[v]));
     }
   }
   /// Of a lane, into its valve's record.
   void keep_largest(std::uint32_t v) noexcept {
+    const std::uint32_t lane = lane_of(v);
     state.record[train(v)][cylinder(v)].set_largest(
-        {work.largest_lift_m[v], work.largest_speed_m_s[v], work.largest_acceleration_m_s2[v]});
+        {work.largest_lift_m[lane], work.largest_speed_m_s[lane], work.largest_acceleration_m_s2[lane]});
   }
   [[nodiscard]] const RegimeStep<Real>& regime_of(std::uint32_t v) const noexcept {
     if constexpr (kMayGoAbreast<Real, S>)
@@ -146,19 +183,6 @@ struct ValvesAtHand {
     }
     (void)v;
     return {};
-  }
-
-  /// Where each valve's cam is in the tables.
-  void find_cams() noexcept {
-    for_each([&](std::uint32_t v) {
-      const LiftCurve<Real>& curve = tables.lift_curves[train(v)];
-      const auto opens = static_cast<std::uint32_t>(curve.opens[cylinder(v)] >> 32);
-      if constexpr (!kMayGoAbreast<Real, S>) work.valve[v].curve = &curve, work.valve[v].opens = opens;
-#if CRANKLOOP_ABREAST
-      if constexpr (kAbreast) set_cam_of_lane(work, v, curve, opens), set_body_of_lane(work, v, motion(v));
-#endif
-      (void)opens;
-    });
   }
 
   [[gnu::always_inline]] void show(std::uint32_t v, const ValveState<Real>& end, Cell cell, const Moment<Real>& at,

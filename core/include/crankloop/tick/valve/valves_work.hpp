@@ -74,18 +74,29 @@ struct RecordLanes {
   float eventless_to_m[kLaneRoom<S>] = {};
 };
 
+/// and where valves come to rest: those that move come first, in any order. (Where gas moves all of them, a lane is a
+/// valve's number.)
+template <class S>
+struct MoverLanes {
+  float lift_m[kLaneRoom<S>] = {}, velocity_m_s[kLaneRoom<S>] = {};  ///< copies of the state
+  std::uint32_t valve[kLaneRoom<S>] = {};                            ///< the valve in each lane,
+  std::uint32_t lane[kLaneRoom<S>] = {};                             ///< and the lane of each valve
+  std::uint32_t movers = 0;                                          ///< lanes whose valves move
+};
+
 /// What lanes need side by side (tick/valve/valves_abreast.hpp).
 template <class S>
 struct alignas(16) AbreastWork : If<S::valve_gas, GasLanes<S>>,
                                  If<S::valve_forces, ForceLanes<S>>,
-                                 If<S::valve_results, RecordLanes<S>> {
+                                 If<S::valve_results, RecordLanes<S>>,
+                                 If<!S::valve_gas, MoverLanes<S>> {
   static constexpr std::size_t kRoom = kLaneRoom<S>;
-  static constexpr bool kBlocksAligned = S::cylinders.exact || S::cylinders.capacity % 4 == 0;
-  float regime[32][kRoom] = {};                 ///< numbers of each lane's RegimeStep, up to calm_m
+  static constexpr bool kBlocksAligned = !S::valve_gas || S::cylinders.exact || S::cylinders.capacity % 4 == 0;
+  alignas(16) float regime[32][kRoom] = {};     ///< numbers of each lane's RegimeStep, up to calm_m
   const LiftSegment<float>* curve[kRoom] = {};  ///< of its cam's lift, one for each degree of the lobe and one outside
-  std::int32_t degrees[kRoom] = {};             ///< of its lobe
-  std::int32_t opens_degree[kRoom] = {};        ///< of the train's cams: where its lobe begins,
-  std::uint32_t opens_into[kRoom] = {};         ///< and where in that degree, 2^32 = all of it
+  std::uint32_t degrees[kRoom] = {};            ///< of its lobe
+  std::uint32_t opens_degree[kRoom] = {};       ///< of the train's cams: where its lobe begins,
+  std::uint32_t opens_into[kRoom] = {};         ///< and where in that degree, kSignBit flipped
   float cam_lift_m[kRoom] = {};                 ///< at the tick's end,
   float cam_per_deg_m[kRoom] = {};              ///< and its slope
 };
