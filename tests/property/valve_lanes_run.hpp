@@ -114,6 +114,7 @@ std::vector<LanesRun> all_runs(double tick_s) {
           {"sixteen of sixteen cylinders", bits_of<tick_test::Lanes<Unit, 16, 4, false, false>>(16, 4, tick_s)},
           {"phased cams", bits_of<tick_test::Lanes<Unit, 4, 2, true, true>>(4, 2, tick_s)},
           told<Unit, 4, 2, true, true, false>("phased cams, forces and results", 4, 2, tick_s),
+          told<Unit, 16, 4, false, false, false>("seven of sixteen cylinders, forces and results", 7, 3, tick_s),
           told<Unit, 4, 2, true, false, true>("four cylinders under gas", 4, 2, tick_s),
           told<Unit, 6, 3, true, true, true>("six phased cylinders under gas", 6, 3, tick_s),
           told<Unit, 8, 2, false, false, true>("five of eight cylinders under gas", 5, 2, tick_s)};

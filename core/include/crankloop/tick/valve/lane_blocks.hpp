@@ -35,8 +35,9 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>> {
  public:
   using Before = BeforeStep<float, group::ValvesState<float, S>::kLanes>;
 
-  LaneBlocks(Valves& valves, const CamTicks<float, S>& cams, Before& before) noexcept
-      : valves_{valves}, work_{valves.work}, state_{valves.state}, out_{valves.out}, before_{before} {
+  /// `far`: lanes that are looked at whatever their guards say.
+  LaneBlocks(Valves& valves, const CamTicks<float, S>& cams, Bits far, Before& before) noexcept
+      : valves_{valves}, work_{valves.work}, state_{valves.state}, out_{valves.out}, before_{before}, far_{far} {
     if constexpr (S::cam_phasing) {
       for (std::uint32_t lane = 0; lane < valves_.trains() * Valves::kPerTrain; ++lane)
         tick_.set(lane, cams[Valves::train(valves_.valve_in(lane))]);
@@ -155,7 +156,8 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>> {
                 RowsOf<4, Lanes>(valves, &out_.valve[0][0].theoretical_lift_m).at);
     if constexpr (S::valve_forces) show_forces(first, valves, end, at, accelerates, place);
     if constexpr (Valves::kMoversFirst) still_ |= Bits{holding(still)} << first;
-    const std::uint32_t looked_at = failing(sure);
+    std::uint32_t looked_at = failing(sure);
+    if (far_ != 0) looked_at |= static_cast<std::uint32_t>(far_ >> first) & ((1u << kLanesOf<Lanes>)-1);
     std::uint32_t asking = looked_at;
     if constexpr (S::valve_results) {
       const Lanes from_m_s = deg_per_s * from.per_deg_m;
@@ -245,6 +247,7 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>> {
   State<float, S>& state_;
   Output<float, S>& out_;
   Before& before_;
+  Bits far_;
   LanesTick<S> tick_;
   Bits doubtful_ = 0;
   Bits eventful_ = 0, enlarged_ = 0, still_ = 0;

@@ -32,8 +32,7 @@ class ValveRound : If<ValvesAtHand<Real, S>::kMoversFirst, LeavingLanes<ValveBit
 
   /// Steps all that move. Answers which of them have guards that fail; what was before them is in `before`.
   [[nodiscard, gnu::always_inline]] Bits run(const CamTicks<Real, S>& cams, Before& before) noexcept {
-    if (Valves::kAbreast && !valves_.far) return step_abreast(cams, before);
-    return step_those(valves_.work.moving, cams, before);
+    return Valves::kAbreast ? step_abreast(cams, before) : step_those(valves_.work.moving, cams, before);
   }
 
   /// Valves at rest with their cams away are left alone from the next tick on: their lanes are others' then, so not
@@ -46,7 +45,7 @@ class ValveRound : If<ValvesAtHand<Real, S>::kMoversFirst, LeavingLanes<ValveBit
 
  private:
   /// Those of some valves; answers which of them have guards that fail.
-  [[nodiscard, gnu::noinline]] Bits step_those(Bits which, const CamTicks<Real, S>& cams, Before& before) noexcept {
+  [[nodiscard]] Bits step_those(Bits which, const CamTicks<Real, S>& cams, Before& before) noexcept {
     Bits doubtful = 0;
     for (Bits left = which; left != 0; left &= left - 1) {
       const std::uint32_t v = trailing_zeros(left);
@@ -214,7 +213,12 @@ class ValveRound : If<ValvesAtHand<Real, S>::kMoversFirst, LeavingLanes<ValveBit
     Bits doubtful = 0;
 #if CRANKLOOP_ABREAST
     if constexpr (Valves::kAbreast) {
-      LaneBlocks<S> blocks(valves_, cams, before);
+      Bits far = 0;
+      for (Bits left = valves_.far ? valves_.work.moving : 0; left != 0; left &= left - 1) {
+        const std::uint32_t v = trailing_zeros(left);
+        far |= Bits{is_far(v, cams[valves_.train(v)])} << valves_.lane_of(v);
+      }
+      LaneBlocks<S> blocks(valves_, cams, far, before);
       const std::uint32_t cylinders = count<S>(valves_.tables.drive->cylinders);
       const auto step_row = [&](std::uint32_t first, std::uint32_t lanes, std::uint32_t room)
           __attribute__((always_inline)) {

@@ -42,14 +42,15 @@ struct CamClearance {
   }
 };
 
-/// Whether a scene's valves may be stepped abreast. By processor, not by the compiler's flags: a layout depends on it.
+/// Whether a scene's valves may be stepped abreast: enough for a block. By processor, not by the compiler's flags: a
+/// layout depends on it.
 #if defined(__x86_64__) || defined(__aarch64__)
 inline constexpr bool kHasLanes = true;
 #else
 inline constexpr bool kHasLanes = false;
 #endif
 template <class Real, class S>
-inline constexpr bool kMayGoAbreast = kHasLanes && sizeof(Real) == 4;
+inline constexpr bool kMayGoAbreast = kHasLanes && sizeof(Real) == 4 && S::trains.capacity* S::cylinders.capacity >= 4;
 
 template <class S>
 inline constexpr std::size_t kLaneRoom = (group::ValvesState<float, S>::kLanes + 7) / 8 * 8;
