@@ -386,6 +386,17 @@ TEST(ValveForces, AtTheCamAreTheRockerRatioTimesTheTrains) {
   }
 }
 
+TEST(ValveForces, AtTheCamBeginWithTheTrains) {
+  Rig<double> rig(ohc_125_train(), {50e-6, {}}, 90);
+  int gentle = 0;
+  for (int i = 0; i < 40000; ++i) {  // a turn of the cam, so slow that the train begins with less than a newton
+    const auto& force = rig.step(rad_s_of_rpm(60)).valve_forces[0][0];
+    EXPECT_EQ(force.cam_N > 0, force.train_N > 0) << force.train_N;
+    gentle += force.train_N > 0 && force.train_N < 1 ? 1 : 0;
+  }
+  EXPECT_GT(gentle, 0);
+}
+
 // ---- hostile valves
 // --------------------------------------------------------------------------------------------------------
 
