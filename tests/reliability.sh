@@ -181,8 +181,8 @@ without a reason, or a reason without a branch, fails the command.
 
 ## Mutants
 
-Single-point changes of core, drawn from a seed: a comparison, + - * /, a constant, a condition, a negation, a statement that is left out. The
-valve's tick is not among them. Each is judged by the library's own unit, property and interface tests that come by its place. A mutant that none
+Single-point changes of core, drawn from a seed: a comparison, + - * /, a constant, a condition, a negation, a statement that is left out. Lanes,
+FMUs and the C interface are not among them. Each is judged by the library's own unit, property and interface tests that come by its place, with assertions. A mutant that none
 of them notices is an equivalent, which no test could tell, or survives; tests/mutants/survivors.conf has the reason of each.
 
 TEXT
@@ -191,6 +191,11 @@ TEXT
   # shellcheck disable=SC2016  # code in Markdown
   sed -n 's/^\(core[^ ]*\)  \(.*[^ ]\)  |  \(.*\): \(equivalent\|survives\): /- \1, `\3`, \2: \4: /p' "$logs/mutants.log"
   cat <<'TEXT'
+
+The valve's tick by itself, `tests/mutants.sh --only tick/valve/`, first judged on 2026-11-23: of 60 (1240 places, seed 1) 42 were noticed. Tests that were written for eight of the
+other 18 notice them now, each tried by hand (valve_stretch_test.cpp, `ValveGroups.ForcesAreThoseOfWhereValveAndCamStand`, `ValveForces.AtTheCamBeginWithTheTrains`); 5 were equivalents; 5 survive: 50 of
+55, where 90 % are asked. The golden runs hold the bits of those five; the judge does not ask them, since
+they would notice anything. An assertion fell over in that run without any mutant: `trigger_wheel.hpp` held that a wheel never turns round at a tick's very end.
 
 ## What fuzzing and stress found
 
