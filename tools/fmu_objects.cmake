@@ -7,7 +7,7 @@ set(fmu_dir ${crankloop_BINARY_DIR}/lib/crankloop)
 string(TOLOWER "${CMAKE_SYSTEM_PROCESSOR}-${CMAKE_SYSTEM_NAME}" fmu_platform)
 
 get_target_property(core_sources crankloop SOURCES)
-list(FILTER core_sources EXCLUDE REGEX "/c/crankloop|[.]h$")
+list(FILTER core_sources EXCLUDE REGEX "^cmake/|/c/crankloop|[.]h$")  # what is of the C interface
 list(FILTER core_sources EXCLUDE REGEX "^src/tick/(measured_motion|torque_by_pressure|torque_by_table)")
 list(TRANSFORM core_sources PREPEND ${crankloop_SOURCE_DIR}/core/)
 add_library(crankloop_fmu_core OBJECT ${core_sources})
@@ -56,7 +56,7 @@ file(GLOB_RECURSE library_headers RELATIVE ${crankloop_SOURCE_DIR}/core/include 
 file(GLOB_RECURSE core_headers RELATIVE ${crankloop_SOURCE_DIR}/core/src CONFIGURE_DEPENDS ${crankloop_SOURCE_DIR}/core/src/*.hpp)
 file(GLOB reader_headers RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS crankloop/engine_file/*.hpp)
 list(APPEND reader_headers crankloop/error.hpp crankloop/fmu/engine_source.hpp crankloop/fmu/stored_zip.hpp
-  crankloop/number.hpp crankloop/table_file.hpp crankloop/text_file.hpp crankloop/valve/valve_tick_limit.hpp crankloop/words.hpp)
+  crankloop/number.hpp crankloop/table_file.hpp crankloop/text_file.hpp crankloop/units.hpp crankloop/valve/valve_tick_limit.hpp crankloop/words.hpp)
 set(packed_core ${core_sources} ${core_headers})
 list(TRANSFORM packed_core REPLACE "^${crankloop_SOURCE_DIR}/core/src/" "")
 set(packed_reader ${reader_sources} crankloop/fmu/exports.cpp ${reader_headers})

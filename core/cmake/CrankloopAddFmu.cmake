@@ -43,7 +43,10 @@ function(crankloop_gcc_flags result target)
   get_target_property(flags ${target} COMPILE_OPTIONS)
   list(FILTER flags EXCLUDE REGEX "^[$-]W|<NOT:")  # warnings, and what is another compiler's
   list(TRANSFORM flags REPLACE "^[$]<[$]<CXX_COMPILER_ID:GNU>:(.*)>$" "\\1")
-  list(PREPEND flags -std=c++17 -O2 -fvisibility=hidden)
+  if(NOT flags MATCHES "(^|;)-O")
+    list(PREPEND flags -O2)
+  endif()
+  list(PREPEND flags -std=c++17 -fvisibility=hidden)
   list(JOIN flags " " flags)
   set(${result} "${flags}" PARENT_SCOPE)
 endfunction()
@@ -69,7 +72,7 @@ endfunction()
 
 # NAME_fmi2.fmu and NAME_fmi3.fmu in the current binary folder. The files beside the shared objects are written by a program
 # that is compiled with the scene: when cross-compiling, it needs an emulator.
-function(crankloop_add_fmu name dir program)
+function(crankloop_add_fmu name dir program optimization)
   crankloop_fmu_platform(folder_of_2 folder_of_3 suffix)
   set(templates "${CMAKE_CURRENT_FUNCTION_LIST_DIR}")
   crankloop_include_dir(include_dir)
@@ -84,6 +87,7 @@ function(crankloop_add_fmu name dir program)
   add_library(${name}_fmu MODULE "${dir}/${name}.cpp" "${dir}/${name}_fmu.cpp" "${dir}/${name}_tables.hpp.made")
   target_include_directories(${name}_fmu PRIVATE "${dir}" "${include_dir}")  # headers alone: nothing of the library
   crankloop_house_flags(${name}_fmu)
+  crankloop_optimization(${name}_fmu ${optimization})
   crankloop_fmu_link(${name}_fmu ${name})
   add_dependencies(${name}_fmu ${name})  # its tables are made once
 

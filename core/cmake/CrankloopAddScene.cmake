@@ -1,5 +1,5 @@
 # crankloop_add_scene(NAME SCENE_HEADER ENGINE_FILE [TICK_US 100] [REAL float|double] [SCENE Type]
-#                     [INTEGRATOR rk4|exponential] [ACCURACY_UM 0.1] [WITH_C] [WITH_FMU])
+#                     [INTEGRATOR rk4|exponential] [ACCURACY_UM 0.1] [OPTIMIZATION -O3] [WITH_C] [WITH_FMU])
 #
 # Makes the static library NAME: one engine for real time, its tables as constant data and its tick compiled with the
 # house flags. A program links NAME and includes "NAME.hpp", where namespace NAME has Engine, Input, Output, State.
@@ -11,6 +11,8 @@
 #   SCENE         the scene's type; default the header's name in CamelCase: my_scene.hpp has MyScene
 #   INTEGRATOR    of elastic valves: Runge-Kutta of fourth order, or the exact exponential of each contact regime; default rk4
 #   ACCURACY_UM   class of the valves' lift error in micrometres, 0.01 to 10: it sets the fine steps near contact changes; default 0.1
+#   OPTIMIZATION  -O0 to -O3, -Os, -Og or -Oz for the scene's library, whatever the project's build type; "project": as the
+#                 project compiles its own code; default the variable CRANKLOOP_SCENE_OPTIMIZATION, or -O3 without it
 #   WITH_C        also "NAME.h" for C99: NAME_create(), NAME_step(), NAME_read(), with structs of what the scene has
 #   WITH_FMU      also NAME_fmi2.fmu and NAME_fmi3.fmu, for any simulator that imports FMI 2.0 or 3.0: docs/fmi.md
 #
@@ -21,7 +23,7 @@ include("${CMAKE_CURRENT_LIST_DIR}/CrankloopHouseFlags.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/CrankloopAddFmu.cmake")
 
 function(crankloop_add_scene name scene_header engine_file)
-  cmake_parse_arguments(PARSE_ARGV 3 arg "WITH_C;WITH_FMU" "TICK_US;REAL;SCENE;INTEGRATOR;ACCURACY_UM" "")
+  cmake_parse_arguments(PARSE_ARGV 3 arg "WITH_C;WITH_FMU" "TICK_US;REAL;SCENE;INTEGRATOR;ACCURACY_UM;OPTIMIZATION" "")
   if(arg_UNPARSED_ARGUMENTS OR arg_KEYWORDS_MISSING_VALUES)
     message(FATAL_ERROR "crankloop_add_scene(${name}): not understood: ${arg_UNPARSED_ARGUMENTS} ${arg_KEYWORDS_MISSING_VALUES}")
   endif()
@@ -41,6 +43,15 @@ function(crankloop_add_scene name scene_header engine_file)
   endif()
   if(NOT DEFINED arg_ACCURACY_UM)
     set(arg_ACCURACY_UM 0.1)
+  endif()
+  if(NOT DEFINED arg_OPTIMIZATION)
+    set(arg_OPTIMIZATION -O3)
+    if(DEFINED CRANKLOOP_SCENE_OPTIMIZATION)
+      set(arg_OPTIMIZATION "${CRANKLOOP_SCENE_OPTIMIZATION}")
+    endif()
+  endif()
+  if(NOT arg_OPTIMIZATION MATCHES "^(-O[0123sgz]|project)$")
+    message(FATAL_ERROR "crankloop_add_scene(${name}): OPTIMIZATION is -O0 to -O3, -Os, -Og, -Oz or project, not '${arg_OPTIMIZATION}'")
   endif()
   if(NOT DEFINED arg_SCENE)
     crankloop_camel_case(arg_SCENE "${scene_header}")
@@ -83,13 +94,15 @@ function(crankloop_add_scene name scene_header engine_file)
     add_dependencies(${name} crankloop_host_program)
   endif()
   crankloop_house_flags(${name})
+  crankloop_optimization(${name} ${arg_OPTIMIZATION})
   if(arg_WITH_C)
     crankloop_c_interface(${name} ${name} SCENE "${arg_SCENE}" REAL ${arg_REAL} TICK ", ${arg_TICK_US} us per step"
       FORM "crankloop::c::CompiledIn<${name}::Real, ${name}::Engine>" FORM_HEADER "${name}.hpp" INCLUDES "${dir}"
       HEADER_DIR "${dir}" HEADER "${name}.h" SOURCE "${dir}/${name}_c.cpp")
+    target_sources(${name} PRIVATE "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/engine_c_words.cpp")
   endif()
   if(arg_WITH_FMU)
-    crankloop_add_fmu("${name}" "${dir}" "${program}")
+    crankloop_add_fmu("${name}" "${dir}" "${program}" ${arg_OPTIMIZATION})
   endif()
 endfunction()
 

@@ -3,6 +3,7 @@
 #
 #   crankloop_numerics(TARGET)       same bits everywhere: every target of crankloop's own, tests and program included
 #   crankloop_house_flags(TARGET)    the above, and small code without exceptions: the library and every scene
+#   crankloop_optimization(TARGET LEVEL)  -O3 or another level, whatever the build type; "project": the build type's
 #   crankloop_warnings(TARGET)       what crankloop's own builds (CRANKLOOP_DEVELOPER) treat as errors; nothing for anyone else
 
 if(NOT CMAKE_CXX_COMPILER_LOADED)
@@ -46,6 +47,12 @@ function(crankloop_house_flags target)
     -fno-threadsafe-statics
     -ffunction-sections   # what a firmware image does not use,
     -fdata-sections)      # its linker can leave out
+endfunction()
+
+function(crankloop_optimization target level)
+  if(NOT level STREQUAL project)
+    target_compile_options(${target} PRIVATE ${level})  # behind the build type's, and the last one counts
+  endif()
 endfunction()
 
 function(crankloop_warnings target)

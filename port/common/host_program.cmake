@@ -3,6 +3,9 @@
 # CRANKLOOP_PROGRAM names one.
 set(CRANKLOOP_HOST_TOOLS "${PROJECT_BINARY_DIR}/host-tools" CACHE PATH "Where the program of the building machine is built")
 cmake_host_system_information(RESULT crankloop_host_jobs QUERY NUMBER_OF_LOGICAL_CORES)
+if(crankloop_host_jobs LESS 1)  # where there is no /proc to read it from
+  set(crankloop_host_jobs 1)
+endif()
 
 add_custom_target(crankloop_host_program
   COMMAND ${CMAKE_COMMAND} -E env --unset=CXX --unset=CXXFLAGS --unset=LDFLAGS --unset=CMAKE_TOOLCHAIN_FILE

@@ -177,6 +177,8 @@ SharedBlock SharedBlock::open(const std::string& path) {
   return block;
 }
 
+bool SharedBlock::is_whole() const noexcept { return has_magic() && is_block_sized(file_); }
+
 SharedBlock::SharedBlock(SharedBlock&& other) noexcept
     : path_{std::move(other.path_)},
       file_{std::exchange(other.file_, -1)},

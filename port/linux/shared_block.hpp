@@ -105,9 +105,10 @@ class SharedBlockError : public std::runtime_error {
 
 /// A block mapped into this process, for as long as the object lives.
 ///
-/// Anybody who may write to the file may truncate it, and whoever touches the page then gets SIGBUS. Such a block
-/// becomes memory of this process alone, all zero: its magic is gone, which tells both sides that they have lost it.
-/// The signal's handler stays for the life of the process; a SIGBUS from elsewhere ends the process as ever.
+/// Anybody who may write to the file may truncate it. Truncated to nothing, whoever touches the page gets SIGBUS: the
+/// block then becomes memory of this process alone, all zero, and its magic is gone, which tells both sides that they
+/// have lost it. Truncated to less than a block, the page stays, zeros in the place of what is gone: is_whole() sees
+/// that. The signal's handler stays for the life of the process; a SIGBUS from elsewhere ends the process as ever.
 class SharedBlock {
  public:
   /// Live's side: a new file, mode 0660 less the umask, removed at the end. A block that a killed run left behind is
@@ -126,6 +127,11 @@ class SharedBlock {
 
   /// The creator says that it has ended, and removes the file.
   ~SharedBlock();
+
+  /// Whether nobody has overwritten the block, by its first word: a load. False too of one truncated to nothing.
+  [[nodiscard]] bool has_magic() const noexcept { return block_->magic.load(std::memory_order_acquire) == kLiveMagic; }
+  /// And whether its file is as large as ever: a system call, which waits for nothing.
+  [[nodiscard]] bool is_whole() const noexcept;
 
   [[nodiscard]] LiveBlock& operator*() const noexcept { return *block_; }
   [[nodiscard]] LiveBlock* operator->() const noexcept { return block_; }

@@ -53,7 +53,6 @@ TEST_F(BadCommandLine, IsToldWithTheUsageOfItsCommand) {
   kinematics({"--rpm", "1e9"}, "out of range");
   kinematics({"--rmp", "2000"}, "did you mean --rpm?");
   kinematics({"--rpm", "2000", "--method", "tabel"}, "did you mean table?");
-  kinematics({"--rpm", "2000", "--csv", kSample}, "--csv would overwrite the input file");
   expect_usage({"masses"}, {"--type, --bore-mm, --speed-rpm are missing", "usage: crankloop masses"});
   expect_usage({"map", kSample, "--throttle", "0:1:3"}, {"--rpm is missing"});
 }
@@ -83,6 +82,24 @@ TEST_F(BadCommandLine, CarriesNoControlCodesToTheTerminal) {
     EXPECT_EQ(answer.error,
               "crankloop: word " + std::to_string(words.size()) + " of the command line has a control character\n");
   }
+}
+
+TEST_F(BadCommandLine, ShowsANewlineOfAPackedFilesNameAsWhatItIs) {
+  std::filesystem::create_directory(folder_ / "packed");
+  const auto refusal_of = [&](const std::string& name) {
+    write("packed/" + name, "one");
+    const Answer answer = run({"pack", folder_ / "packed", "-o", folder_ / "packed.fmu"});
+    std::filesystem::remove(folder_ / ("packed/" + name));
+    EXPECT_EQ(answer.status, kBadInput);
+    return answer.error;
+  };
+  EXPECT_EQ(refusal_of("two\nlines\x1b[31m.txt"), "two\\x0Alines\\x1B[31m.txt: names in an archive are ASCII\n");
+  EXPECT_EQ(refusal_of("caf\xC3\xA9"), "caf\xC3\xA9: names in an archive are ASCII\n");
+  EXPECT_EQ(refusal_of("caf\xE9"), "caf\\xE9: names in an archive are ASCII\n") << "no UTF-8";
+  std::filesystem::create_directory(folder_ / "packed/a\nfolder");
+  std::filesystem::create_symlink("nowhere", folder_ / "packed/a\nfolder/link");
+  expect_refusal(run({"pack", folder_ / "packed", "-o", folder_ / "packed.fmu"}),
+                 (folder_ / "packed/a\\x0Afolder/link"), {"cannot be read"});
 }
 
 TEST_F(BadCommandLine, OfValvesIsToldWithTheUsageOfItsCommand) {
@@ -218,6 +235,35 @@ TEST_F(Output, OfAProgramThatASignalEndsIsTakenAway) {
     EXPECT_EQ(unfinished(), std::vector<std::string>{}) << number;
     EXPECT_EQ(contents(folder_ / "r.csv"), "precious\n");
   }
+}
+
+TEST_F(Output, OfAnFmuThatASignalEndsLeavesNothingAtAnyMoment) {
+  std::filesystem::create_directory(folder_ / "temporary");
+  ASSERT_EQ(setenv("TMPDIR", (folder_ / "temporary").c_str(), 1), 0);
+  const auto pack = [&] { return start({"fmu", kSample, "-o", folder_ / "engine.fmu"}, folder_ / "stdout"); };
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  (void)status_of(pack());
+  const auto whole = Clock::now() - begin;
+  std::filesystem::remove(folder_ / "engine.fmu");
+  constexpr int kMoments = 12;  // of each signal
+  int ended_by_it = 0;
+  for (int moment = 0; moment < kMoments; ++moment) {
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGKILL}) {
+      const pid_t child = pack();
+      std::this_thread::sleep_for(whole * (2 * moment + 1) / (2 * kMoments));
+      kill(child, number);
+      ended_by_it += status_of(child) == -number ? 1 : 0;
+      EXPECT_TRUE(std::filesystem::is_empty(folder_ / "temporary")) << number << " at moment " << moment;
+      if (number != SIGKILL) {
+        EXPECT_EQ(unfinished(), std::vector<std::string>{}) << number;
+      }
+      for (const std::string& name : unfinished()) std::filesystem::remove(folder_ / name);
+      std::filesystem::remove(folder_ / "engine.fmu");
+    }
+  }
+  EXPECT_GT(ended_by_it, kMoments) << "most of them have to come while it runs";
+  unsetenv("TMPDIR");
 }
 
 TEST_F(Output, BeyondTheLargestFileAllowedIsAFailureThatLeavesNothing) {

@@ -7,8 +7,8 @@
 set -eu
 cd "$1"
 
-layers='report engine_file signals valve run engine_report redline map free live fmu'
-for_all='arguments csv error machine number output_file progress results run_limits summary table_file text_file tick_probe units with_real words free_orders'
+layers='report engine_file signals valve run engine_report redline map free live fmu new'
+for_all='arguments csv error files_in_use machine number output_file progress results run_limits summary table_file text_file tick_probe units with_real words free_orders'
 
 bad=0
 refuse() {

@@ -280,10 +280,14 @@ TEST_F(Live, EndsWithItsFiguresAndALineWhenItsBlockIsTakenAway) {
   const auto truncate = [&] {
     std::filesystem::resize_file(block_path(), 0);
   };  // its pages are gone: who touches them gets SIGBUS
+  const auto shorten = [&] {
+    std::filesystem::resize_file(block_path(), 100);
+  };  // its page stays, and the magic with it
   const auto overwrite = [&] {
     std::ofstream(block_path()) << std::string(kLiveBlockBytes, '\0');
   };  // as `cp` would: truncated, then as large again
-  for (const std::function<void()>& take_away : {std::function<void()>(truncate), std::function<void()>(overwrite)}) {
+  for (const std::function<void()>& take_away :
+       {std::function<void()>(truncate), std::function<void()>(shorten), std::function<void()>(overwrite)}) {
     Process engine(live({"--seconds", "600", "--from-rpm", "1000", "--shared", block_path()}), in_folder("live.txt"));
     {
       const std::optional<SharedBlock> block = open_running();

@@ -48,6 +48,7 @@ const std::vector<std::vector<std::string>> kEngines = {
     {"--cylinders", "4", "--bore-mm", "95", "--stroke-mm", "115", "--type", "diesel", "--rated-rpm", "2000"},
     {"--cylinders", "6", "--bore-mm", "130", "--stroke-mm", "150", "--type", "tractor"},
     {"--cylinders", "2", "--bore-mm", "80", "--stroke-mm", "60", "--firing-order", "1-2", "--bank-angles-deg", "0,90"},
+    {"--cylinders", "4", "--bore-mm", "67", "--stroke-mm", "42.5", "--rated-rpm", "13500", "--compression-ratio", "12"},
 };
 
 TEST_F(NewEngine, SaysOfEachLineWhetherItIsGivenOrAssumed) {
@@ -91,6 +92,99 @@ TEST_F(NewEngine, StartsAndFindsItsRatedSpeedAtFullLoad) {
   }
 }
 
+/// Of the net work of the gas, friction takes a twelfth in a truck's diesel and a quarter in a small engine that turns
+/// fast: Heywood (1988), section 13.2.
+TEST_F(NewEngine, HasAMechanicalEfficiencyThatEnginesHave) {
+  const std::vector<std::vector<std::string>> kinds = {{"--valves", "4"},
+                                                       {"--valves", "2"},
+                                                       {"--boost", "1.6"},
+                                                       {"--type", "diesel"},
+                                                       {"--type", "diesel", "--boost", "2.2"},
+                                                       {"--type", "tractor", "--valves", "2"}};
+  const char* const orders[] = {"1",
+                                "1-2",
+                                "1-3-2",
+                                "1-3-4-2",
+                                "1-2-4-5-3",
+                                "1-5-3-6-2-4",
+                                "1-3-5-7-2-4-6",
+                                "1-6-2-5-8-3-7-4",
+                                "1-3-5-7-9-2-4-6-8",
+                                "1-6-5-10-2-7-3-8-4-9",
+                                "1-2-3-4-5-6-7-8-9-10-11",
+                                "1-7-5-11-3-9-6-12-2-8-4-10"};
+  std::size_t cylinders = 0;
+  for (const double cm3 : {50.0, 230.0, 500.0, 1200.0, 2500.0}) {
+    const std::string bore_mm = std::to_string(10 * std::cbrt(4 * cm3 / M_PI));  // the stroke is equal
+    for (const std::vector<std::string>& kind : kinds) {
+      const char* const order = orders[cylinders++ % 12];
+      std::vector<std::string> options{"--cylinders",    std::to_string((cylinders - 1) % 12 + 1),
+                                       "--bore-mm",      bore_mm,
+                                       "--stroke-mm",    bore_mm,
+                                       "--firing-order", order};
+      options.insert(options.end(), kind.begin(), kind.end());
+      const std::string text = made(options);
+      const double krpm = value_of(text, "rated_rpm") / 1000;
+      const double lost_kPa = value_of(text, "constant_kPa") + krpm * value_of(text, "linear_kPa_per_1000rpm") +
+                              krpm * krpm * value_of(text, "quadratic_kPa_per_1000rpm2");
+      const double efficiency = 1 - lost_kPa / value_of(text, "net_mep_kPa");
+      EXPECT_GE(efficiency, 0.75) << cm3 << " cm3, " << kind[1];
+      EXPECT_LE(efficiency, 0.92) << cm3 << " cm3, " << kind[1];
+    }
+  }
+}
+
+/// 250 cm3 motocross engines have 28 to 32 kW there.
+TEST_F(NewEngine, OfASmallSingleThatTurnsFastHasPower) {
+  made({"--cylinders", "1", "--bore-mm", "76", "--stroke-mm", "50.7", "--rated-rpm", "12000"});
+  for (const std::string& line : lines_of(output({"balance"}))) {
+    if (line.rfind("brake_power_kW,", 0) != 0) continue;
+    EXPECT_GT(std::stod(line.substr(15)), 20);
+    EXPECT_LT(std::stod(line.substr(15)), 32);
+    return;
+  }
+  FAIL() << "no brake_power_kW";
+}
+
+TEST_F(NewEngine, LandsItsValvesGentlyAndFloatsThemWellAboveRatedSpeed) {
+  for (const auto& options : kEngines) {
+    const double rated_rpm = value_of(made(options), "rated_rpm");
+    const auto valve = [&](double share) {
+      return output({"valve", "--train", "intake", "--rpm", std::to_string(share * rated_rpm)});
+    };
+    EXPECT_LT(value_of(valve(1), "seating_speed"), 0.5) << options[3] << " mm";
+    EXPECT_EQ(value_of(valve(1.15), "separations"), 0) << options[3] << " mm";
+    EXPECT_GT(value_of(valve(1.4), "separations"), 0) << options[3] << " mm";
+  }
+}
+
+TEST_F(NewEngine, TakesTwoValvesOrFour) {
+  const std::vector<std::string> three{"--cylinders", "3", "--bore-mm", "74", "--stroke-mm", "77"};
+  const std::string four_valves = made(three);
+  std::vector<std::string> options = three;
+  options.insert(options.end(), {"--valves", "2"});
+  const std::string two_valves = made(options);
+  EXPECT_EQ(value_of(four_valves, "per_cylinder"), 2);
+  EXPECT_EQ(value_of(two_valves, "per_cylinder"), 1);
+  EXPECT_GT(value_of(two_valves, "valve_g"), value_of(four_valves, "valve_g"));
+  EXPECT_LT(value_of(two_valves, "net_mep_kPa"), value_of(four_valves, "net_mep_kPa"));
+}
+
+TEST_F(NewEngine, SaysItsCrankshaftAsShowDoes) {
+  const std::string text = made({"--cylinders", "2", "--bore-mm", "90", "--stroke-mm", "70", "--firing-angles-deg",
+                                 "0,270", "--bank-angles-deg", "0,90"});
+  EXPECT_NE(text.find("firing_angles_deg = 0,270"), std::string::npos);
+  EXPECT_EQ(text.find("firing_order"), std::string::npos);
+  // Both throws stand at bank - firing: 0 and 90 - 270 = 180 deg.
+  const std::string words[] = {"#   throw 2 at 180 deg: cylinder 2 (bank 90 deg)",
+                               "# Fires 1-2, at 0, 270 deg: 270, 450 deg apart.", "# No two rods share a crank pin"};
+  const std::string shown = output({"show"});
+  for (const std::string& line : words) {
+    EXPECT_NE(text.find(line), std::string::npos) << line;
+    EXPECT_NE(shown.find(line), std::string::npos) << line;
+  }
+}
+
 TEST_F(NewEngine, RefusesWhatMakesNoEngine) {
   const std::vector<std::string> four{"new", "--cylinders", "4", "--bore-mm", "95", "--stroke-mm", "115"};
   const auto refused = [&](std::vector<std::string> words, const std::vector<std::string>& more, const char* fragment) {
@@ -104,7 +198,11 @@ TEST_F(NewEngine, RefusesWhatMakesNoEngine) {
   refused({"new"}, {}, "crankloop new: --cylinders, --bore-mm, --stroke-mm are missing");
   refused(four, {"--rod-length-mm", "50"}, "crankloop new: rod_length_mm: 50 is too short");
   refused(four, {"--firing-order", "1-3-4"}, "crankloop new: firing_order: cylinder 2 does not fire");
-  refused(four, {"--bank-angles-deg", "0,0,90,90"}, "--firing-order is missing");
+  refused(four, {"--bank-angles-deg", "0,0,90,90"}, "--firing-order is missing, or --firing-angles-deg");
+  refused(four, {"--firing-order", "1-3-4-2", "--firing-angles-deg", "0,540,180,360"}, "one says the other");
+  refused(four, {"--firing-angles-deg", "0,540,180"}, "crankloop new: firing_angles_deg");
+  refused(four, {"--net-mep-kPa", "-900"}, "--net-mep-kPa");
+  refused(four, {"--net-mep-kPa", "90000"}, "crankloop new: net_mep_kPa");
   refused(four, {"--name", "a # b"}, "--name");
   refused({"new", "--cylinders", "7", "--bore-mm", "95", "--stroke-mm", "115"}, {}, "--firing-order is missing");
 }

@@ -13,7 +13,7 @@ passed=0 failed=0
 
 # build_and_run NAME COMPILER FLAGS: leaves what it answers in NAME.txt.
 build_and_run() {
-  cmake -S "$here/same_bits" -B "$out/$1" -DCMAKE_BUILD_TYPE=None "-DCMAKE_CXX_COMPILER=$2" -DCMAKE_CXX_FLAGS=-O1 "-DSAME_BITS_FLAGS=$(echo "$3" | tr ' ' ';')" &&
+  cmake -S "$here/same_bits" -B "$out/$1" -DCMAKE_BUILD_TYPE=None "-DCMAKE_CXX_COMPILER=$2" -DCMAKE_CXX_FLAGS=-O1 -DCRANKLOOP_SCENE_OPTIMIZATION=project "-DSAME_BITS_FLAGS=$(echo "$3" | tr ' ' ';')" &&
     cmake --build "$out/$1" --parallel "$jobs" &&
     "$out/$1/same_bits" "$engines"/*.ini >"$out/$1.txt" || return 1
   for engine in "$engines"/*.ini; do

@@ -53,6 +53,7 @@ if ! project engine "$(has 4 2 2)"; then
 fi
 for word in float class co_await std restrict; do refuses "C++ uses '$word' itself" $word "$(has 4 2 2)"; done
 refuses "must be an identifier" my-engine "$(has 4 2 2)"
+refuses "OPTIMIZATION is -O0 to -O3, -Os, -Og, -Oz or project, not 'fast'" engine "$(has 4 2 2)" -DCRANKLOOP_SCENE_OPTIMIZATION=fast
 refuses "does not run here (it does not exist); crankloop 0" engine "$(has 4 2 2)" -DCRANKLOOP_PROGRAM=/no/such/program
 languages=C
 refuses "project(asks LANGUAGES C CXX)" engine "$(has 4 2 2)"

@@ -1,6 +1,7 @@
 // What an FMU says of itself: the rules of FMI 2.0 and 3.0 that importers check, each of which has cost somebody a
 // rejected FMU.
 #include <cmath>
+#include <cstring>
 #include <set>
 #include <tuple>
 
@@ -224,7 +225,8 @@ TEST_P(DescriptionOf, ItsHeadIsThatOfItsVersion) {
   const Element& experiment = root.child("DefaultExperiment");
   const double steps = std::stod(experiment["stepSize"]) / tick_s;
   EXPECT_NEAR(steps, std::round(steps), 1e-9) << "the default step is whole ticks";
-  EXPECT_GE(steps, 1);
+  EXPECT_GE(steps * tick_s, 1e-3 * (1 - 1e-9)) << "and the shortest of a millisecond";
+  EXPECT_LT(steps * tick_s, 1e-3 + tick_s * (1 - 1e-9));
   EXPECT_LT(std::stod(experiment["startTime"]), std::stod(experiment["stopTime"]));
   std::vector<std::string> categories;
   for (const Element& e : root.child("LogCategories").children) categories.push_back(e["name"]);
@@ -251,6 +253,69 @@ TEST_P(DescriptionOf, TheArchiveHoldsWhatTheVersionAsksFor) {
     for (const char* place : {CRANKLOOP_SOURCE_DIR, FMU_DIR})
       EXPECT_EQ(content.find(place), std::string::npos) << name << " names a place of the building machine";
   }
+}
+
+/// HTML's entities as what they stand for.
+std::string unescaped(std::string text) {
+  const std::pair<const char*, const char*> entities[] = {
+      {"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&amp;", "&"}};
+  for (const auto& [entity, letter] : entities) {
+    for (std::size_t at = 0; (at = text.find(entity, at)) != std::string::npos; ++at)
+      text.replace(at, std::strlen(entity), letter);
+  }
+  return text;
+}
+
+TEST_P(DescriptionOf, ItsPageHasARowForEveryVariableAndEveryFault) {
+  const std::string page = unescaped(archive_.files.at("documentation/index.html"));
+  std::size_t at = 0;
+  for (const VariableOfFmu& v : model_.variables) {
+    const bool ranged = v.attributes.count("min") != 0;
+    const std::string range = ranged ? v.attributes.at("min") + " to " + v.attributes.at("max") : "";
+    const std::string row = "<tr><td>" + v.name + "</td><td>" + v.unit + "</td><td>" + v.causality + "</td><td>" +
+                            range + "</td><td>" + v.attributes.at("description") + "</td></tr>";
+    at = page.find(row, at);
+    ASSERT_NE(at, std::string::npos) << row << " is not there, or not in its order";
+  }
+  const std::pair<std::uint32_t, const char*> faults[] = {
+      {crankloop::kFaultNotReady, "not ready"}, {crankloop::kFaultSpeed, "speed"}, {crankloop::kFaultGas, "gas"}};
+  for (const auto& [bit, name] : faults) {
+    const std::string row = "<tr><td>" + std::to_string(bit) + "</td><td>" + name + "</td></tr>";
+    EXPECT_NE(page.find(row, at), std::string::npos) << row;
+  }
+  EXPECT_EQ(page.find("<td>0</td>", at), std::string::npos) << "a fault has a bit";
+}
+
+// Both say how the sources are compiled: a file for people, and one for importers.
+TEST_P(DescriptionOf, ItsReadMeCompilesWhatItsBuildDescriptionNames) {
+  const std::string& command = archive_.files.at("sources/README.txt");
+  EXPECT_NE(command.find("    g++ "), std::string::npos);
+  EXPECT_NE(command.find(" -shared -fPIC"), std::string::npos);
+  EXPECT_NE(command.find(" -o " + model_.identifier + ".so\n"), std::string::npos);
+  EXPECT_NE(command.find(model_.identifier + ".dll"), std::string::npos);
+  if (model_.version == 2) return;
+  const Element root = fmu::XmlReader(archive_.files.at("sources/buildDescription.xml")).document();
+  const Element& build = root.child("BuildConfiguration");
+  EXPECT_EQ(root["fmiVersion"], "3.0");
+  EXPECT_EQ(build["modelIdentifier"], model_.identifier);
+  const Element& set = build.child("SourceFileSet");
+  EXPECT_EQ(set["language"], "C++17");
+  EXPECT_NE(command.find("g++ " + set["compilerOptions"] + " "), std::string::npos);
+  std::size_t files = 0;
+  for (const Element& e : set.children) {
+    const std::string name = e["name"];
+    if (e.name == "SourceFile") {
+      ++files;
+      EXPECT_EQ(archive_.files.count("sources/" + name), 1u) << name;
+      EXPECT_NE(command.find(" " + name + " "), std::string::npos) << name;
+    } else if (e.name == "PreprocessorDefinition") {
+      EXPECT_NE(command.find(" -D" + name + "=" + e["value"] + " "), std::string::npos) << name;
+    } else {
+      EXPECT_EQ(e.name, "IncludeDirectory");
+      EXPECT_NE(command.find(" -I" + name + " "), std::string::npos) << name;
+    }
+  }
+  EXPECT_GT(files, 0u);
 }
 
 FMU_INSTANTIATE_DESCRIBED(DescriptionOf);

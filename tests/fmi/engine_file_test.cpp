@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -91,6 +92,7 @@ TEST_F(EngineFileFmu, HasTheBitsOfTheCompiledScene) {
       Unit a(packed);
       Unit b(compiled);
       for (Unit* unit : {&a, &b}) {
+        if (free) unit->set("start.speed_rad_s", 0);
         ASSERT_NO_FATAL_FAILURE(unit->start());
         unit->set("load_ratio", 0.7);
         unit->set(free ? "starter" : "speed_rad_s", free ? 1 : 150);
@@ -138,6 +140,47 @@ TEST_F(EngineFileFmu, PrintsTheRowsOfRun) {
     }
     EXPECT_EQ(rows, 800);
   }
+}
+
+/// The rated speed in the file, by hand, and what `run --free` tells of the same start. These files' [machine] takes
+/// the rated torque at the rated speed.
+TEST_F(EngineFileFmu, ShowsAnEngineThatRunsInASimulationThatSetsNothing) {
+  const std::map<std::string, double> rated_rpm{{"diesel_495", 2000}, {"ohc_125", 7000}, {"diesel_495_gas", 2000}};
+  const auto start_of = [](const Fmu& fmu, const char* name) {
+    return std::stod(fmu.model.variables.at(fmu.model.by_name.at(name)).start);
+  };
+  for (const auto& [engine, rpm] : rated_rpm) {
+    SCOPED_TRACE(engine);
+    const double rad_s = rpm * std::acos(-1.0) / 30;
+    const Fmu given(made(sample(engine), "--crank speed"));
+    EXPECT_NEAR(start_of(given, "speed_rad_s"), rad_s, 1e-9 * rad_s);
+    Unit turned(given);
+    ASSERT_NO_FATAL_FAILURE(turned.start());
+    double torque_Nm = 0;
+    for (int k = 0; k < 600; ++k) {
+      ASSERT_NO_FATAL_FAILURE(turned.step(k * 1e-3, 1e-3));
+      torque_Nm += turned.get("mean_torque_Nm") / 600;
+    }
+    EXPECT_GT(torque_Nm, 5) << "it is fired";
+
+    const Fmu free(made(sample(engine), "--crank torque"));
+    EXPECT_NEAR(start_of(free, "start.speed_rad_s"), rad_s, 1e-9 * rad_s);
+    Unit unit(free);
+    ASSERT_NO_FATAL_FAILURE(unit.start());
+    for (int k = 0; k < 1000; ++k) ASSERT_NO_FATAL_FAILURE(unit.step(k * 1e-3, 1e-3));
+    const double end_rpm = unit.get("speed_rad_s") * 30 / std::acos(-1.0);
+    EXPECT_NEAR(end_rpm, rpm, 0.1 * rpm) << "fuel and load hold it near its rated speed";
+    const std::string said = run("run '" + sample(engine) + "' --free --from-rpm " + std::to_string(rpm) +
+                                 " --seconds 1 --tick-us 100 --real double");
+    const auto at = said.find("speed_at_end = ");
+    ASSERT_NE(at, std::string::npos) << said;
+    EXPECT_NEAR(end_rpm, std::stod(said.substr(at + 15)), 1e-5 * rpm);
+    EXPECT_EQ(unit.get("fault_ticks"), 0);
+  }
+  const std::string said =
+      run("fmu '" + sample("four_2000") + "' --crank torque -o '" + path("without_machine.fmu") + "'");
+  EXPECT_NE(said.find("four_2000.ini: warning: there is no [machine]"), std::string::npos) << said;
+  EXPECT_EQ(said[0], '0');
 }
 
 TEST_F(EngineFileFmu, OfAnEngineThatBreathesHasTheCycleThatRunTellsOf) {

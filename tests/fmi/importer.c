@@ -166,6 +166,11 @@ int unit_begin(struct unit* unit) {
 /* What both versions call alike. */
 #define BOTH(name, arguments) return TWO(unit) ? (int)CALL2(unit, name) arguments : (int)CALL3(unit, name) arguments
 int unit_start(struct unit* unit) { BOTH(ExitInitializationMode, (unit->handle)); }
+int unit_log(struct unit* unit, bool on, const char* category) {
+  const size_t n = category == NULL ? 0 : 1;
+  return TWO(unit) ? (int)CALL2(unit, SetDebugLogging)(unit->handle, on, n, &category)
+                   : (int)CALL3(unit, SetDebugLogging)(unit->handle, on, n, &category);
+}
 int unit_terminate(struct unit* unit) { BOTH(Terminate, (unit->handle)); }
 int unit_reset(struct unit* unit) { BOTH(Reset, (unit->handle)); }
 

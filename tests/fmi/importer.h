@@ -4,6 +4,7 @@
 #ifndef IMPORTER_H
 #define IMPORTER_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -30,6 +31,7 @@ const char* importer_message(void);
 int unit_setup(struct unit* unit, double start_s); /* FMI 2; in FMI 3 remembered for the next */
 int unit_begin(struct unit* unit);
 int unit_start(struct unit* unit);
+int unit_log(struct unit* unit, bool on, const char* category); /* NULL: every category */
 int unit_terminate(struct unit* unit);
 int unit_reset(struct unit* unit);
 int unit_step(struct unit* unit, double time_s, double step_s);

@@ -2,6 +2,7 @@
 // order that do no harm.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <random>
 
@@ -173,6 +174,66 @@ TYPED_TEST(ScenesFmu, RefusesADamagedStateAndOneOfAnotherFmu) {
     ASSERT_NO_FATAL_FAILURE(foreign.start());
     EXPECT_EQ(unit.restore(foreign.saved()), UNIT_ERROR);
   });
+}
+
+// With the right checksums, of which the engine's stands before the whole's: all that is read back is finite, at once
+// and later. 10^5 forgeries over scenes and versions with CRANKLOOP_LONG_TESTS=1 in the environment.
+TYPED_TEST(ScenesFmu, ForgedInAnyNumberIsRefusedOrStepsOnInFiniteNumbers) {
+  const int forgeries = std::getenv("CRANKLOOP_LONG_TESTS") != nullptr ? 5'600 : 30;
+  int taken = 0;
+  this->in_both_versions([&](const Fmu& fmu) {
+    Unit unit(fmu);
+    ASSERT_NO_FATAL_FAILURE(unit.start());
+    const double step_s = 10 * TypeParam::kTick_s;
+    double time_s = 0;
+    const auto advance = [&](long steps) {
+      for (long k = 0; k < steps; ++k) {
+        this->set_inputs(fmu, unit, k, step_s);
+        if (unit_step(unit.unit, time_s, step_s) != UNIT_OK) return;  // its ticks are forged too
+        time_s += step_s;
+      }
+    };
+    const auto expect_finite = [&](const char* when) {
+      const std::vector<double> values = unit.all();
+      for (const auto& v : fmu.model.variables) {
+        if (v.causality == "input" || v.causality == "parameter") continue;  // the importer's own
+        ASSERT_TRUE(std::isfinite(values[v.reference])) << v.name << " " << when;
+      }
+    };
+    advance(300);
+    const auto good = unit.saved();
+    const unsigned char head[] = {'C', 'L', 'S', 'T'};
+    const auto engine = std::search(good.begin(), good.end(), std::begin(head), std::end(head)) - good.begin();
+    std::mt19937_64 random(29);
+    for (int i = 0; i < forgeries; ++i) {
+      SCOPED_TRACE("forgery " + std::to_string(i));
+      auto bytes = good;
+      const double numbers[] = {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e308, -1e300, 1e18, -1e9, 1e-18, 5e-324, 0, 3};
+      const double number = numbers[random() % std::size(numbers)];
+      const auto narrow = static_cast<float>(number);
+      const std::uint64_t word = random() % 3 == 0 ? random() : random() % 4;
+      const std::size_t at = 32 + random() % ((good.size() - 48) / 4) * 4;  // behind the stage: state_test.cpp
+      const std::uint64_t kind = random() % 3;
+      if (kind == 0) std::memcpy(&bytes[at], &number, sizeof number);
+      if (kind == 1) std::memcpy(&bytes[at], &narrow, sizeof narrow);
+      if (kind == 2) std::memcpy(&bytes[at], &word, random() % 2 == 0 ? 4 : 8);
+      const auto seal = [&bytes](std::size_t from, std::size_t end) {
+        const std::uint32_t crc = crankloop::detail::crc32_of(bytes.data() + from, end - from);
+        std::memcpy(&bytes[end], &crc, sizeof crc);
+      };
+      seal(static_cast<std::size_t>(engine), bytes.size() - 8);
+      seal(0, bytes.size() - 4);
+      if (unit.restore(bytes) != UNIT_OK) continue;
+      ++taken;
+      ASSERT_NO_FATAL_FAILURE(expect_finite("at once"));
+      const std::uint32_t time = 0;
+      ASSERT_EQ(unit_get_real(unit.unit, &time, 1, &time_s), UNIT_OK);
+      advance(20);
+      ASSERT_NO_FATAL_FAILURE(expect_finite("later"));
+    }
+  });
+  EXPECT_GT(taken, forgeries / 4);
+  std::printf("[ figures  ] of %d forged states %d are accepted, and finite\n", 2 * forgeries, taken);
 }
 
 TYPED_TEST(ScenesFmu, RunsInterleavedAsItRunsAlone) {
@@ -363,7 +424,9 @@ TEST_P(Ticks, AreNotRunTwiceByAStepThatIsRepeated) {
   EXPECT_EQ(unit_step(unit_.unit, 2e-3, 1e-3), UNIT_ERROR);
   EXPECT_EQ(unit_step(unit_.unit, 1e-3, 0), UNIT_ERROR);
   EXPECT_EQ(unit_step(unit_.unit, 1e-3, 1e7 * kTick_s * 1.01), UNIT_ERROR);
-  EXPECT_NE(std::string(importer_message()).find("ticks"), std::string::npos);
+  const std::string message = importer_message();
+  EXPECT_EQ(message.find("fmi" + std::to_string(GetParam()) + "DoStep: "), 0u) << message;
+  EXPECT_NE(message.find("ticks"), std::string::npos);
   EXPECT_EQ(ticks(), 16);
   EXPECT_EQ(unit_.get("time"), 1e-3);
 }
@@ -403,6 +466,34 @@ TEST(FreeRunningFmu, RefusesAStartThatNoEngineHas) {
   EXPECT_NE(std::string(importer_message()).find("start.crank_deg"), std::string::npos);
   unit.set("start.crank_deg", 720);  // and may be mended
   EXPECT_EQ(unit_start(unit.unit), UNIT_OK) << importer_message();
+}
+
+TEST(FaultsOfAnFmu, AreLoggedByTheCategoryThatIsSwitchedOn) {
+  for (const int version : {2, 3}) {
+    SCOPED_TRACE(version);
+    const Fmu fmu(path_of("four_pistons", version));
+    Unit unit(fmu);
+    ASSERT_NO_FATAL_FAILURE(unit.start());
+    const auto said_of_faults = [&] {
+      unit.set("speed_rad_s", 100);
+      const double before_s = unit.get("time");
+      unit.step(before_s, 1e-3);
+      (void)importer_message();
+      unit.set("speed_rad_s", std::nan(""));
+      unit.step(unit.get("time"), 1e-3);
+      return std::string(importer_message());
+    };
+    EXPECT_EQ(said_of_faults(), "") << "off at first";
+    EXPECT_EQ(unit_log(unit.unit, true, "logStatusError"), UNIT_OK);
+    EXPECT_EQ(said_of_faults(), "") << "another category";
+    EXPECT_EQ(unit_log(unit.unit, true, "logFaults"), UNIT_OK);
+    EXPECT_NE(said_of_faults().find("fault bits 0x2 "), std::string::npos);
+    EXPECT_EQ(unit_log(unit.unit, false, nullptr), UNIT_OK);
+    EXPECT_EQ(said_of_faults(), "");
+    EXPECT_EQ(unit_log(unit.unit, true, nullptr), UNIT_OK);
+    EXPECT_NE(said_of_faults(), "");
+    EXPECT_EQ(unit_log(unit.unit, true, "logNothing"), UNIT_ERROR);
+  }
 }
 
 // The names say what the fields are: the list is not compared with itself.

@@ -19,6 +19,11 @@ struct OnlyValves : Scene {
   static constexpr bool valve_results = true;
 };
 
+/// It has no valves, and its tables the fingerprint of a definition that may have some.
+struct NoValves : Scene {
+  [[maybe_unused]] static constexpr Count cylinders = up_to<2>;  // its tables are built, and none of it runs
+};
+
 template <class Enum>
 Enum one_of(fuzz::Bytes& bytes, Enum usual) {
   const auto how = bytes.take<std::uint8_t>();
@@ -29,7 +34,9 @@ ValveTrain train_of(fuzz::Bytes& bytes) {
   ValveTrain train = fuzz::some_train();
   Cam& cam = train.cam;
   cam.source = one_of(bytes, cam.source);
-  cam.exponent_count = bytes.take<std::uint8_t>() < 200 ? 4 : bytes.take<std::int8_t>();
+  const auto how = bytes.take<std::uint8_t>();
+  cam.exponent_count = how < 200 ? 4 : how < 228 ? bytes.take<std::int8_t>() : bytes.take<std::int32_t>();
+  if (cam.source != CamSource::polynomial) cam.point_count = bytes.take<std::int32_t>();  // and no rows
   for (double* x : {&cam.max_lift_m, &cam.half_angle_deg, &cam.exponents[0], &cam.exponents[1], &cam.exponents[2],
                     &cam.exponents[3], &cam.full_lift_deg, &cam.phase_rate_deg_s}) {
     *x = bytes.number(*x);
@@ -58,6 +65,7 @@ ValveTrain train_of(fuzz::Bytes& bytes) {
 template <class Real>
 void set_up_and_step(const std::uint8_t* data, std::size_t size) {
   static TableStorage<Real, OnlyValves> tables;
+  static TableStorage<Real, NoValves> without_valves;
   static Engine<Real, OnlyValves> engine;
   fuzz::Bytes bytes(data, size);
   EngineDefinition definition = fuzz::some_engine();
@@ -78,7 +86,14 @@ void set_up_and_step(const std::uint8_t* data, std::size_t size) {
   }
   definition.trains[0] = train_of(bytes);
   definition.trains[1] = train_of(bytes);
+  const Status bare = without_valves.build(definition, options);
+  fuzz::must(bare.ok() || support::is_field(bare.field), "a refusal names a field of the library");
   Status status = tables.build(definition, options);
+  if (status.ok()) {
+    fuzz::must(bare.ok(), "what a scene with valves accepts, one without does");
+    fuzz::must(tables.tables().drive->fingerprint == without_valves.tables().drive->fingerprint,
+               "the fingerprint is the definition's, whatever the scene");
+  }
   if (status.ok()) status = engine.init(tables.tables(), Phase{bytes.take<std::uint64_t>()});
   if (!status.ok()) {
     fuzz::must(support::is_field(status.field), "a refusal names a field of the library");

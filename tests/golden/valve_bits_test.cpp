@@ -50,14 +50,12 @@ class Fnv {
                          s.train.least_m, s.seat.sign, s.seat.lag_s, s.seat.least_m, s.rest_m, s.rest_m_s}) {
       add(x);
     }
+    const MiddleStep<Real>& m = s.middle;
+    for (const Real x : {m.lift_by_lift, m.lift_by_slope, m.velocity_by_lift, m.velocity_by_slope}) add(x);
   }
   template <class Real>
   void add(const RegimeSeries<Real>& s) {
     for (const Real x : {s.rest, s.gas, s.stiffness, s.damping, s.lift, s.lift_speed}) add(x);
-  }
-  template <class Real>
-  void add(const MiddleStep<Real>& s) {
-    for (const Real x : {s.lift_by_lift, s.lift_by_slope, s.velocity_by_lift, s.velocity_by_slope}) add(x);
   }
   [[nodiscard]] std::uint64_t value() const { return hash_; }
 
@@ -128,10 +126,10 @@ std::uint64_t hash_of_tables(const Tables<Real, TwoValves>& tables) {
     const ValveMotion<Real>& m = tables.valve_motions[t];
     const ValveBody<Real>& b = m.body;
     for (const Real x :
-         {b.mass_kg,     b.train_N_m,      b.train_Ns_m,         b.seat_N_m,     b.seat_Ns_m,      b.spring_N_m,
-          b.guide_Ns_m,  b.preload_N,      b.seat_compression_m, b.head_area_m2, b.rocker_mass_kg, m.tick_s,
-          m.fine_step_s, m.per_parts,      m.widest_step_deg,    m.train_lag_s,  m.seat_lag_s,     m.per_seat_N_m,
-          m.quiet_m,     m.per_seat_rate_s}) {
+         {b.mass_kg,      b.train_N_m, b.train_Ns_m,         b.seat_N_m,        b.seat_Ns_m,      b.spring_N_m,
+          b.guide_Ns_m,   b.preload_N, b.seat_compression_m, b.head_area_m2,    b.rocker_mass_kg, m.tick_s,
+          m.fine_step_s,  m.per_parts, m.cubic_deg,          m.widest_step_deg, m.train_lag_s,    m.seat_lag_s,
+          m.per_seat_N_m, m.quiet_m,   m.per_seat_rate_s}) {
       fnv.add(x);
     }
     fnv.add(m.parts);
@@ -139,7 +137,6 @@ std::uint64_t hash_of_tables(const Tables<Real, TwoValves>& tables) {
     for (const RegimeStep<Real>& step : m.whole) fnv.add(step);
     for (const RegimeStep<Real>& step : m.fine) fnv.add(step);
     for (const RegimeSeries<Real>& series : m.series) fnv.add(series);
-    for (const MiddleStep<Real>& middle : m.middle) fnv.add(middle);
   }
   return fnv.value();
 }

@@ -1,6 +1,7 @@
 // Runs the tests that judge mutants. With CRANKLOOP_MUTANT_REACH=FILE in the environment it writes, for each test,
 // "NAME MILLISECONDS NUMBER...": its processor time, and the places that a mutant may change and that the test came by.
-// What ran before the first test has the name "-".
+// What ran before the first test has the name "-". Places in shared objects count for the test that unloads them.
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
@@ -15,7 +16,14 @@ namespace {
 
 class Reach : public ::testing::EmptyTestEventListener {
  public:
-  explicit Reach(const char* path) : file_{path} { write("-"); }
+  explicit Reach(const std::string& path) : file_{path}, of_objects_{path + ".objects"} {
+    ::setenv("CRANKLOOP_MUTANT_REACH_OF_OBJECTS", of_objects_.c_str(), 1);
+    write("-");
+  }
+  ~Reach() override {
+    ::unsetenv("CRANKLOOP_MUTANT_REACH_OF_OBJECTS");
+    std::remove(of_objects_.c_str());
+  }
 
  private:
   void OnTestStart(const ::testing::TestInfo&) override { start_ = std::clock(); }
@@ -23,6 +31,9 @@ class Reach : public ::testing::EmptyTestEventListener {
     write(std::string(test.test_suite_name()) + "." + test.name());
   }
   void write(const std::string& name) {
+    int of_object = 0;
+    for (std::ifstream objects(of_objects_); objects >> of_object;) mutant::reached[of_object] = true;
+    std::remove(of_objects_.c_str());
     file_ << name << ' ' << (std::clock() - start_) / (CLOCKS_PER_SEC / 1000);
     for (int number = 0; number < mutant::kMax; ++number) {
       if (mutant::reached[number]) file_ << ' ' << number;
@@ -32,6 +43,7 @@ class Reach : public ::testing::EmptyTestEventListener {
   }
 
   std::ofstream file_;
+  std::string of_objects_;
   std::clock_t start_ = std::clock();
 };
 

@@ -9,6 +9,7 @@
 //     x = y;         if (mutant::kept<7>()) x = y;
 #pragma once
 
+#include <cstdio>
 #include <cstdlib>
 
 namespace mutant {
@@ -16,6 +17,21 @@ namespace mutant {
 inline constexpr int kMax = 20000;
 inline bool reached[kMax];
 inline const int chosen = std::getenv("CRANKLOOP_MUTANT") != nullptr ? std::atoi(std::getenv("CRANKLOOP_MUTANT")) : -1;
+
+/// A shared object has places of its own, which the tests that load it do not see: when it is unloaded it appends them
+/// to the file that CRANKLOOP_MUTANT_REACH_OF_OBJECTS names.
+struct WriteWhenUnloaded {
+  ~WriteWhenUnloaded() {
+    const char* const path = std::getenv("CRANKLOOP_MUTANT_REACH_OF_OBJECTS");
+    std::FILE* const file = path != nullptr ? std::fopen(path, "a") : nullptr;
+    if (file == nullptr) return;
+    for (int number = 0; number < kMax; ++number) {
+      if (reached[number]) std::fprintf(file, "%d\n", number);
+    }
+    std::fclose(file);
+  }
+};
+inline const WriteWhenUnloaded write_when_unloaded;
 
 inline bool reach(int number) noexcept {
   reached[number] = true;

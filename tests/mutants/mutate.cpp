@@ -1,14 +1,15 @@
-// mutate CHECKOUT OUT SEED COUNT ONLY [LEFT_OUT]
+// mutate CHECKOUT OUT SEED COUNT LEFT_OUT AREA=REGEX...
 //
-// Copies core of a checkout to the folder OUT, with COUNT single-point changes written into it that mutant.hpp can
-// switch on, drawn from SEED, in files that the regular expression ONLY finds. Prints for each
-// "NUMBER<TAB>FILE:LINE<TAB>CHANGE<TAB>CODE". The lines FILE:LINE that LEFT_OUT names stay as they are, and the others
-// keep their numbers: where a change did not compile.
+// Copies core of a checkout to the folder OUT, with single-point changes written into it that mutant.hpp can switch on:
+// COUNT of each area, drawn from SEED, in files whose paths have the area's regular expression. A file belongs to the
+// first area that finds it. Prints "NUMBER<TAB>AREA<TAB>FILE:LINE<TAB>CHANGE<TAB>CODE" for each change, the areas by
+// turns, and to stderr "AREA<TAB>PLACES". The lines FILE:LINE in the file LEFT_OUT stay as they are, and the others
+// keep their numbers: there a change did not compile.
 //
 // What is changed: comparisons, + - * /, constants (one more, twice, a tenth), conditions, negations, statements that
-// are left out. What is not: lanes, FMUs, the C interface, what templates are made of, assertions, enumerators, and
-// constants that the compiler itself needs. A change is drawn by what it changes and where it stands, not by how many
-// there are: an edit of one line leaves the others of a sample as they were.
+// are left out. What is not: lanes, the C interface, FMUs but in the area "fmi", what templates are made of,
+// assertions, enumerators, and constants that the compiler itself needs. A change is drawn by what it changes and where
+// it stands, not by how many there are: an edit of one line leaves the others of a sample as they were.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -29,10 +30,11 @@ namespace {
 namespace fs = std::filesystem;
 using Lines = std::vector<std::string>;
 
-// Lanes, which are left out of the build; FMUs, whose tests load them as shared objects (tests/fmi); and the C
-// interface, of which the build generates the greater part.
+// Lanes, which are left out of the build; and the C interface, of which the build generates the greater part.
 constexpr const char* kOutside =
-    "(/lanes?[a-z_]*[.]hpp|abreast[.]hpp|crankloop/variables[.]hpp|/(fmi|c)/[a-z0-9_]*[.](hpp|inc|cpp))$";
+    "(/lanes?[a-z_]*[.]hpp|abreast[.]hpp|crankloop/variables[.]hpp|/c/[a-z0-9_]*[.](hpp|inc|cpp))$";
+// FMUs, whose tests load them as shared objects (tests/fmi): changed only where the area of this name asks for them.
+constexpr const char* kFmi = "fmi";
 
 /// Replaces `length` characters at a place of a line.
 struct Edit {
@@ -47,6 +49,14 @@ struct Mutant {
   std::vector<Edit> edits;
   std::string file;
   std::uint64_t key = 0;
+  std::size_t area = 0;
+  std::size_t turn = 0;  ///< how many of its area are before it
+};
+/// Files that are judged together.
+struct Area {
+  std::string name;
+  std::regex files;
+  std::size_t places = 0;
 };
 
 [[noreturn]] void fail(const std::string& message) {
@@ -152,7 +162,9 @@ class Finder {
     // The same change of the same text counts up: its number within the file is its place.
     const std::string what = file_ + "|" + trimmed(lines_[line_]) + "|" + change;
     const std::uint64_t key = hash_of(seed_ + "|" + what + "|" + std::to_string(times_[what]++));
-    found_.push_back({line_, change, std::move(edits), file_, key});
+    Mutant mutant;
+    mutant.line = line_, mutant.change = change, mutant.edits = std::move(edits), mutant.file = file_, mutant.key = key;
+    found_.push_back(std::move(mutant));
   }
   /// One of some, drawn by place.
   std::size_t choice(std::size_t column, std::size_t of) const {
@@ -277,19 +289,48 @@ std::string edited(Lines lines, std::vector<Edit> edits) {
   return text;
 }
 
+std::vector<Area> read_areas(char** first, char** last) {
+  std::vector<Area> areas;
+  for (; first != last; ++first) {
+    const std::string area = *first;
+    const std::size_t equals = area.find('=');
+    if (equals == std::string::npos) fail("no AREA=REGEX: " + area);
+    areas.push_back({area.substr(0, equals), std::regex(area.substr(equals + 1))});
+  }
+  return areas;
+}
+
+/// The first area that finds a file, or their number.
+std::size_t area_of(const std::string& file, const std::vector<Area>& areas) {
+  if (file.substr(file.size() - 2) == ".h" || std::regex_search(file, std::regex(kOutside))) return areas.size();
+  const bool fmi = file.find("/fmi/") != std::string::npos;
+  std::size_t area = 0;
+  while (area < areas.size() && ((fmi && areas[area].name != kFmi) || !std::regex_search(file, areas[area].files)))
+    ++area;
+  return area;
+}
+
+/// COUNT of each area, the areas by turns.
+std::vector<Mutant> drawn(std::vector<Mutant> mutants, std::size_t count, std::vector<Area>& areas) {
+  std::sort(mutants.begin(), mutants.end(), [](const Mutant& a, const Mutant& b) { return a.key < b.key; });
+  for (Mutant& mutant : mutants) mutant.turn = areas[mutant.area].places++;
+  const auto beyond = [&](const Mutant& mutant) { return mutant.turn >= count; };
+  mutants.erase(std::remove_if(mutants.begin(), mutants.end(), beyond), mutants.end());
+  std::stable_sort(mutants.begin(), mutants.end(), [](const Mutant& a, const Mutant& b) { return a.turn < b.turn; });
+  return mutants;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 6 && argc != 7) fail("usage: mutate CHECKOUT OUT SEED COUNT ONLY [LEFT_OUT]");
+  if (argc < 7) fail("usage: mutate CHECKOUT OUT SEED COUNT LEFT_OUT AREA=REGEX...");
   const fs::path checkout = argv[1];
   const fs::path out = argv[2];
   const std::string seed = argv[3];
   const auto count = static_cast<std::size_t>(std::strtoul(argv[4], nullptr, 10));
-  const std::regex only(argv[5]);
   std::set<std::string> left_out;
-  if (argc == 7) {
-    for (const std::string& line : read_lines(argv[6])) left_out.insert(line);
-  }
+  for (const std::string& line : read_lines(argv[5])) left_out.insert(line);
+  std::vector<Area> areas = read_areas(argv + 6, argv + argc);
 
   std::vector<std::string> files;  // of core, by their paths in the checkout
   std::string all_code;
@@ -305,15 +346,15 @@ int main(int argc, char** argv) {
 
   std::vector<Mutant> mutants;
   for (const std::string& file : files) {
-    if (file.substr(file.size() - 2) == ".h" || std::regex_search(file, std::regex(kOutside)) ||
-        !std::regex_search(file, only))
-      continue;
-    for (Mutant& mutant : Finder(file, read_lines(checkout / file), all_code, seed).find())
+    const std::size_t area = area_of(file, areas);
+    if (area == areas.size()) continue;
+    for (Mutant& mutant : Finder(file, read_lines(checkout / file), all_code, seed).find()) {
+      mutant.area = area;
       mutants.push_back(std::move(mutant));
+    }
   }
-  std::fprintf(stderr, "%zu places\n", mutants.size());
-  std::sort(mutants.begin(), mutants.end(), [](const Mutant& a, const Mutant& b) { return a.key < b.key; });
-  mutants.resize(std::min(count, mutants.size()));
+  mutants = drawn(std::move(mutants), count, areas);
+  for (const Area& area : areas) std::fprintf(stderr, "%s\t%zu\n", area.name.c_str(), area.places);
 
   std::map<std::string, std::vector<Edit>> edits;
   for (std::size_t number = 0; number < mutants.size(); ++number) {
@@ -324,7 +365,8 @@ int main(int argc, char** argv) {
         edit.text.replace(at, 1, std::to_string(number));
       edits[mutant.file].push_back(edit);
     }
-    std::printf("%zu\t%s:%zu\t%s\t%s\n", number, mutant.file.c_str(), mutant.line + 1, mutant.change.c_str(),
+    std::printf("%zu\t%s\t%s:%zu\t%s\t%s\n", number, areas[mutant.area].name.c_str(), mutant.file.c_str(),
+                mutant.line + 1, mutant.change.c_str(),
                 trimmed(read_lines(checkout / mutant.file)[mutant.line]).c_str());
   }
   for (const std::string& file : files) {

@@ -194,7 +194,7 @@ TYPED_TEST(FaultInjection, OfAnyBitsInEveryInputLeavesEveryOutputFinite) {
 }
 
 TYPED_TEST(FaultInjection, OfASingleBitOfTheStateIsDetectedByAScrubOrStaysFinite) {
-  // The scrub of docs/contract.md "Bits that flip": save, load into the same engine.
+  // The scrub of docs/contract.md "Flipped bits": save, load into the same engine.
   using Real = TypeParam;
   constexpr int kFlips = 1500;
   const auto engine = started_four<Real, S>();

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -26,6 +27,8 @@ using support::ElasticBreathingFour;
 using support::four_2000;
 using support::GasReference;
 using tick_test::RealName;
+
+using namespace std::string_literals;
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kSwept_m3 = kPi / 4 * 0.086 * 0.086 * 0.086;
@@ -151,7 +154,7 @@ TYPED_TEST(GasEngine, IsAsGoodBehindAClosedThrottle) {
 TEST(GasOrifice, DiffersLittleFromSaintVenants) {
   const EngineDefinition definition = four_2000();
   GasReference ellipse(definition, rad_s(3000), definition.gas.throttle_m2);
-  GasReference exact(definition, rad_s(3000), definition.gas.throttle_m2, GasReference::Orifice::saint_venant);
+  GasReference exact(definition, rad_s(3000), definition.gas.throttle_m2, support::OrificeLaw::saint_venant);
   double peak_Pa = 0, worst_Pa = 0;
   for (int i = 0; i < 80'000; ++i) {
     ellipse.step(1e-6), exact.step(1e-6);
@@ -239,19 +242,9 @@ struct SpringOfGas : BreathingFour {
   static constexpr Combustion combustion = Combustion::none;
 };
 
-/// Valves that let nothing through, walls that take nothing: a spring.
-[[nodiscard]] EngineDefinition closed_engine() {
-  EngineDefinition engine = four_2000();
-  engine.gas.wall_heat_ratio = 0;
-  for (PortOfTrain& port : engine.gas.ports) {
-    for (double& flow : port.flow_ratio) flow = 0;
-  }
-  return engine;
-}
-
 TYPED_TEST(GasEngine, TurnsItsCrankByWhatTheGasLoses) {
   using Real = TypeParam;
-  Breathing<Real, SpringOfGas> run(closed_engine(), 100e-6);
+  Breathing<Real, SpringOfGas> run(support::sealed(four_2000()), 100e-6);
   ASSERT_TRUE(accepted(run.engine.restore(turning_at(run.engine.state(), static_cast<Real>(rad_s(1000))))));
   const auto energy_J = [&run] {
     const auto& state = run.engine.state();
@@ -277,7 +270,7 @@ TYPED_TEST(GasEngine, TurnsItsCrankByWhatTheGasLoses) {
 
 TYPED_TEST(GasEngine, GivesBackWhatItCompresses) {
   using Real = TypeParam;
-  const auto run = breathing<Real, BreathingFour>(closed_engine(), 50e-6, 2000);
+  const auto run = breathing<Real, BreathingFour>(support::sealed(four_2000()), 50e-6, 2000);
   for (Real& fuel : run->in.fuel_kg) fuel = Real{0};
   run_cycles(*run, 3, 2000, 50e-6);
   EXPECT_NEAR(static_cast<double>(run->engine.output().gas_cycle[0].net_mep_Pa), 0, 1);
@@ -437,13 +430,9 @@ TYPED_TEST(GasEngine, HasACylinderAbreastAsByItself) {  // in float four go abre
     four->in.fuel_kg[0] = one->in.fuel_kg[0] = static_cast<Real>(tick % 3 * 20e-6);
     const auto& a = four->step();
     const auto& b = one->step();
-    ASSERT_EQ(a.cylinder_gas[0].pressure_Pa, b.cylinder_gas[0].pressure_Pa) << tick;
-    ASSERT_EQ(a.cylinder_gas[0].temperature_K, b.cylinder_gas[0].temperature_K) << tick;
-    ASSERT_EQ(a.cylinder_gas[0].mass_kg, b.cylinder_gas[0].mass_kg) << tick;
-    ASSERT_EQ(a.cylinder_gas[0].burned_ratio, b.cylinder_gas[0].burned_ratio) << tick;
-    ASSERT_EQ(a.cylinder_gas[0].wall_heat_W, b.cylinder_gas[0].wall_heat_W) << tick;
-    ASSERT_EQ(a.gas_cycle[0].net_mep_Pa, b.gas_cycle[0].net_mep_Pa) << tick;
-    ASSERT_EQ(a.gas_cycle[0].energy_defect_J, b.gas_cycle[0].energy_defect_J) << tick;
+    // Numbers all the way, and no padding.
+    ASSERT_EQ(std::memcmp(&a.cylinder_gas[0], &b.cylinder_gas[0], sizeof a.cylinder_gas[0]), 0) << tick;
+    ASSERT_EQ(std::memcmp(&a.gas_cycle[0], &b.gas_cycle[0], sizeof a.gas_cycle[0]), 0) << tick;
   }
 }
 
@@ -468,9 +457,18 @@ TYPED_TEST(GasEngine, StaysANumberWhateverComesIn) {  // CRANKLOOP_LONG_TESTS=1:
     gas.outlet_m2 = wide(1e-8, 10);
     gas.ambient_Pa = wide(1e3, 1e7), gas.ambient_K = wide(150, 3000), gas.exhaust_K = wide(150, 3000);
     gas.wall_K = wide(150, 2000), gas.wall_heat_ratio = random.between(0, 1) < 0.3 ? 0 : wide(0.01, 100);
-    gas.heating_value_J_kg = wide(1e5, 2e8), gas.air_fuel_ratio = wide(1, 100), gas.fuel_kg = wide(1e-9, 0.01);
+    gas.air_fuel_ratio = wide(1, 100), gas.fuel_kg = wide(1e-9, 0.01);
+    const double hottest_J_kg = kMaxMixtureHeat_J_kg * (1 + gas.air_fuel_ratio) / gas.combustion_efficiency;
+    gas.heating_value_J_kg = std::fmin(2e8, wide(1e5, hottest_J_kg));
     for (PortOfTrain& port : gas.ports) port.seat_diameter_m = wide(1e-4, 1);
     const double tick_s = wide(1e-6, 2e-3);
+    // Manifolds that are too small for the tick are refused: then the smallest that are not.
+    for (double* volume_m3 : {&gas.intake_m3, &gas.exhaust_m3}) {
+      const auto storage = std::make_unique<TableStorage<Real, BreathingFour>>();
+      while (storage->build(definition, {tick_s, {}}).field ==
+             (volume_m3 == &gas.intake_m3 ? "gas.intake_m3"s : "gas.exhaust_m3"s))
+        *volume_m3 *= 1.5;
+    }
     const auto run = breathing<Real, BreathingFour>(definition, tick_s, 0);
     for (int tick = 0; tick < 300; ++tick) {
       const Real odd[] = {std::numeric_limits<Real>::quiet_NaN(), std::numeric_limits<Real>::infinity(), Real{-1},

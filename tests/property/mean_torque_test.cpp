@@ -411,6 +411,42 @@ TYPED_TEST(MeanTorque, OfSixteenCylindersThatFireTogetherDoesNotOverflowItsCount
   }
 }
 
+/// What docs/contract.md says that scenes may differ by, of the torque that the largest cylinder pressure has on a full
+/// lever: with a load ratio, and with forces.
+template <class Real>
+constexpr double kApartByLoad = sizeof(Real) == 4 ? 3e-7 : 1e-12;
+constexpr double kApartByForces = 1e-5;
+
+TYPED_TEST(MeanTorque, OfScenesThatAskForMoreDiffersByLessThanTheContractSays) {
+  // With a load ratio the gas torque is two curves instead of one; with forces the torque at the tick, and at a crawl
+  // the mean, is the sum of the cylinders'.
+  using Real = TypeParam;
+  double worst = 0;
+  double worst_forces = 0;
+  for (const EngineDefinition& engine : {single_495(), diesel_495(), uneven_v4()}) {
+    const double scale_Nm = WorkOracle(engine, 1).gas_torque_scale_Nm();
+    for (const auto& [rpm, tick_s] : {std::pair{2000.0, 100e-6}, {400.0, 20e-6}, {0.001, 20e-6}, {3000.0, 1e-3}}) {
+      FullTables<Real> tables;
+      ASSERT_TRUE(accepted(tables.build(engine, tick_s)));
+      Running<Real, MeanByTable> plain(tables);
+      Running<Real, MeanByLoad> load(tables);
+      Running<Real, MeanWithForces> forces(tables);
+      for (int i = 0; i < std::min(15'000.0, 120 / rpm / tick_s); ++i) {
+        const auto torque = [&](auto& run) {
+          using Engine = std::decay_t<decltype(run.engine)>;
+          return static_cast<double>(run.engine.step(at_speed<Engine>(rpm * kRpm)).mean_torque_Nm) / scale_Nm;
+        };
+        const double of_plain = torque(plain);
+        worst = std::max(worst, std::fabs(torque(load) - of_plain));
+        worst_forces = std::max(worst_forces, std::fabs(torque(forces) - of_plain));
+      }
+    }
+  }
+  std::printf("with a load ratio %.1e, with forces %.1e of the torque scale\n", worst, worst_forces);
+  EXPECT_LT(worst, kApartByLoad<Real>);
+  EXPECT_LT(worst_forces, kApartByForces);
+}
+
 TYPED_TEST(MeanTorque, AtStandstillIsTheTorqueThere) {
   using Real = TypeParam;
   FullTables<Real> tables;

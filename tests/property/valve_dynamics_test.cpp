@@ -23,7 +23,7 @@ constexpr double kUm = 1e-6;
 
 const char* name_of(Integrator integrator) { return integrator == Integrator::rk4 ? "rk4" : "exponential"; }
 
-/// A cycle and a half from rest, from several places on the base circle: the largest |lift - reference|.
+/// Some cycles from rest, from several places on the base circle: the largest |lift - reference|.
 template <class Real>
 double worst_of_shifts(const ValveTrain& train, double rpm, const TickOptions& options, int shifts,
                        double cycles = 1.5) {
@@ -73,34 +73,42 @@ void PrintTo(const Case& c, std::ostream* out) {
   *out << c.rpm << " rpm, " << c.tick_us << " us, " << name_of(c.integrator);
 }
 
+/// Beyond this speed the valve is still in the air when its cam comes again: each cycle begins with the error of the
+/// one before, which grows for some ten cycles and then no more.
+constexpr double kSettles_rpm = 9000;
+constexpr double kCyclesToSettle = 12;
+
 class ValveAgainstAConvergedReferenceAt : public testing::TestWithParam<Case> {};
 
 // Bounds: 0.005 um in smooth running at short ticks. Where the valve bounces, one bounce magnifies the error of the one
-// before; at 100 us a tick of the cam is as wide as 4 degrees, which a cubic follows to some hundredths of a
-// micrometre.
+// before, over twelve cycles up to five times that of the first; at 100 us a tick of the cam is as wide as 4 degrees,
+// which a cubic follows to some hundredths of a micrometre.
 INSTANTIATE_TEST_SUITE_P(
     OfTheOneTwentyFive, ValveAgainstAConvergedReferenceAt,
     testing::Values(Case{2000, 100, Integrator::rk4, 0.005, 0.005}, Case{6000, 10, Integrator::rk4, 0.005, 0.005},
                     Case{6000, 20, Integrator::rk4, 0.005, 0.005},
                     Case{6000, 20, Integrator::exponential, 0.005, 0.005},
                     Case{6000, 100, Integrator::rk4, 0.007, 0.007}, Case{7000, 100, Integrator::rk4, 0.02, 0.02},
-                    Case{8500, 50, Integrator::rk4, 0.01, 0.01}, Case{12000, 10, Integrator::rk4, 0.04, 0.06},
-                    Case{12000, 10, Integrator::exponential, 0.04, 0.06}, Case{12000, 20, Integrator::rk4, 0.35, 0.35},
-                    Case{12000, 100, Integrator::rk4, 0.35, 0.35}, Case{14000, 10, Integrator::rk4, 0.1, 0.1},
+                    Case{8500, 50, Integrator::rk4, 0.01, 0.01}, Case{12000, 10, Integrator::rk4, 0.05, 0.25},
+                    Case{12000, 10, Integrator::exponential, 0.06, 0.25}, Case{12000, 20, Integrator::rk4, 0.7, 0.7},
+                    Case{12000, 100, Integrator::rk4, 0.7, 0.7}, Case{14000, 10, Integrator::rk4, 0.1, 0.1},
                     Case{14000, 10, Integrator::exponential, 0.1, 0.1},
-                    Case{14000, 100, Integrator::exponential, 0.5, 0.5}),
+                    Case{14000, 100, Integrator::exponential, 0.7, 0.7}),
     name_of_case);
 
 TEST_P(ValveAgainstAConvergedReferenceAt, KeepsItsLift) {
   const Case c = GetParam();
   const TickOptions options{c.tick_us * 1e-6, {c.integrator}};
-  const double in_double = worst_of_shifts<double>(ohc_125_train(), c.rpm, options, 5) / kUm;
-  const double in_float = worst_of_shifts<float>(ohc_125_train(), c.rpm, options, 5) / kUm;
+  const bool rests = c.rpm < kSettles_rpm;
+  const int shifts = rests ? 5 : 2;
+  const double cycles = rests ? 1.5 : kCyclesToSettle;
+  const double in_double = worst_of_shifts<double>(ohc_125_train(), c.rpm, options, shifts, cycles) / kUm;
+  const double in_float = worst_of_shifts<float>(ohc_125_train(), c.rpm, options, shifts, cycles) / kUm;
   std::printf("[ figures  ] %5.0f rpm, %3.0f us, %-11s: double %.4f um, float %.4f um\n", c.rpm, c.tick_us,
               name_of(c.integrator), in_double, in_float);
   EXPECT_LE(in_double, c.double_um);
   EXPECT_LE(in_float, c.float_um);
-  EXPECT_LE(in_float, in_double + 0.05);
+  EXPECT_LE(in_float, in_double + (rests ? 0.05 : 0.2));
 }
 
 TEST(ValveAgainstAConvergedReference, KeepsItsAccuracyClassFromFineToCoarse) {
@@ -112,6 +120,30 @@ TEST(ValveAgainstAConvergedReference, KeepsItsAccuracyClassFromFineToCoarse) {
     std::printf("[ figures  ] class %5.2f um: %.4f um at 7000 rpm, %.4f um at 12000 rpm\n", class_um, smooth, bouncing);
     EXPECT_LE(smooth, class_um);
     EXPECT_LE(bouncing, 10 * class_um) << "bounce magnifies errors";
+  }
+}
+
+TEST(ValveAgainstAConvergedReference, KeepsItsClassInTheWidestTicksThatAreOneStep) {
+  // A heavy valve, whose train swings so slowly that 130 us are one step: 3.3 of the 3.4 cam degrees that such a step
+  // may be wide. The cubic through its ends misses the lift by 0.7 um there, with a sign that changes from tick to
+  // tick; less damping sums more of that up.
+  for (const double damping_ratio : {0.1, 0.05, 0.01}) {
+    ValveTrain train = ohc_125_train();
+    train.valve.valve_kg = 0.08;
+    train.valve.spring_N_m *= 2;
+    train.valve.spring_preload_N *= 3;
+    train.valve.train_damping_ratio = damping_ratio;
+    for (const double tick_s : {100e-6, 120e-6, 130e-6}) {
+      SideBySide<double> both(train, {tick_s, {}}, 180);
+      const double deg = 8400 * 3 * tick_s;
+      ASSERT_GT(deg, both.rig.motion().cubic_deg);
+      ASSERT_LT(deg, both.rig.motion().widest_step_deg);
+      const double speed = rad_s_of_rpm(8400);
+      const double worst = both.worst_over(both.rig.ticks_per_cycle(speed) * 3 / 4, speed) / kUm;
+      std::printf("[ figures  ] damping ratio %.2f, %.0f us, %.2f cam degrees a tick: %.4f um\n", damping_ratio,
+                  tick_s * 1e6, deg, worst);
+      EXPECT_LE(worst, 0.02);
+    }
   }
 }
 
@@ -137,6 +169,23 @@ TEST(ValveAgainstAConvergedReference, FollowsASpeedThatChangesInEveryTick) {
     std::printf("[ figures  ] 5000 rpm +-%.0f at random in every tick: %.4f um\n", spread_rpm, worst / kUm);
     EXPECT_LE(worst, (spread_rpm > 1000 ? 1.0 : 0.1) * kUm) << random.trace(0);
   }
+}
+
+TEST(ValveAgainstAConvergedReference, FollowsSpeedsThatJumpUnderAStrongDamper) {
+  // A critically damped train: a jump of the cam's speed breaks or closes it as the tick begins, and it may be as
+  // before when the tick ends.
+  ValveTrain train = ohc_125_train();
+  train.valve.train_damping_ratio = 1;
+  Random random;
+  SideBySide<double> both(train, {50e-6, {}}, 90);
+  double worst = 0;
+  double rpm = 0;
+  for (int i = 0; i < 2000; ++i) {
+    if (i % 4 == 0) rpm = 3000 + random.between(-500, 500);
+    worst = std::max(worst, both.step(rad_s_of_rpm(rpm)));
+  }
+  std::printf("[ figures  ] 3000 rpm +-500 in jumps, critically damped: %.4f um\n", worst / kUm);
+  EXPECT_LE(worst, 0.01 * kUm) << random.trace(0);
 }
 
 TEST(ValveAgainstAConvergedReference, CranksFromRestToSpeedAndStops) {

@@ -102,9 +102,14 @@ TYPED_TEST(ValveGroups, ChangeNoBitOfTheMotionUnderGas) {
 TYPED_TEST(ValveGroups, ForcesAreThoseOfWhereValveAndCamStand) {
   using S = Asked<Airless, true, false>;
   Rig<TypeParam, S> rig(four_with_valves(), 50e-6);
+  constexpr int kCycles = 7;
+  constexpr int kTicks = kCycles * 424;  // of 1.7 deg
   int away = 0;
-  for (int tick = 0; tick < 3000; ++tick) {
-    const auto& out = rig.step(Phase::from_cycles(1.7 / 720 * tick), 0);
+  int openings[2][4] = {};
+  bool was_open[2][4] = {};
+  Phase crank;
+  for (int tick = 0; tick < kTicks; ++tick, crank += Phase::from_cycles(1.0 / 424)) {
+    const auto& out = rig.step(crank, 0);
     ASSERT_EQ(out.faults, 0u);
     for (std::uint32_t t = 0; t < 2; ++t) {
       const auto& curve = rig.tables->tables().lift_curves[t];
@@ -114,10 +119,17 @@ TYPED_TEST(ValveGroups, ForcesAreThoseOfWhereValveAndCamStand) {
         ASSERT_EQ(f.train_compression_m, curve.read(cell).lift_m - out.valve[t][k].lift_m) << t << k << ' ' << tick;
         ASSERT_EQ(f.cam_N > 0, f.train_N > 0 && cell.degree < curve.segments) << t << k << ' ' << tick;
         away += cell.degree >= curve.segments ? 1 : 0;
+        const bool open = out.valve[t][k].lift_m > static_cast<TypeParam>(1e-3);
+        openings[t][k] += open && !was_open[t][k] ? 1 : 0;
+        was_open[t][k] = open;
       }
     }
   }
   EXPECT_GT(away, 3000);
+  for (const auto& train : openings) {
+    for (const int times : train)
+      EXPECT_NEAR(times, kCycles, 1) << "once in a cycle, but where the run begins and ends";
+  }
 }
 
 }  // namespace

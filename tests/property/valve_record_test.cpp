@@ -153,25 +153,28 @@ TEST(ValveRecord, ReportsAValveThatIsStillInTheAirAtTheEndOfItsCycle) {
   train.valve.spring_preload_N = 20;
   train.valve.spring_N_m = 4e3;
   const ValveLift lift = lift_of(train);
-  const double opens_deg = lift.opens_rad() / kRadPerDeg;
-  const double middle =
-      (lift.closes_rad() / kRadPerDeg - opens_deg) / 2 + 180;  // of the base circle, from the start of the lobe
-  Rig<double> rig(train, {20e-6, {}}, 100);
-  const double speed = rad_s_of_rpm(6000);
-  int told = 0;
-  for (int i = 0; i < 4 * rig.ticks_per_cycle(speed); ++i) {
-    const ValveCycle<double> c = rig.step(speed).valve_cycle[0][0];
-    if (c.largest_lift_m == 0 || told != 0) continue;
-    ++told;
-    std::printf("[ figures  ] float from %.2f for %.2f deg, gap %.2f mm; the cycle ends at %.2f\n",
-                c.separation_start_deg, c.separation_duration_deg, c.separation_clearance_m * 1e3, middle);
-    EXPECT_EQ(c.off_seat_at_end, 1u);
-    EXPECT_GE(c.separations, 1u);
-    // Float that goes on when the cycle ends is told up to there, and no further.
-    EXPECT_NEAR(c.separation_start_deg + c.separation_duration_deg, middle, 0.5);
-    EXPECT_EQ(c.seating_speed_m_s, 0);
+  const double lobe_deg = lift.closes_rad() / kRadPerDeg - lift.opens_rad() / kRadPerDeg;
+  for (const bool forward : {true, false}) {
+    SCOPED_TRACE(forward ? "forward" : "backward");
+    // The middle of the base circle, from the start of the lobe: behind the lobe, or before it when turning backward.
+    const double middle_deg = forward ? lobe_deg / 2 + 180 : lobe_deg / 2 - 180;
+    Rig<double> rig(train, {20e-6, {}}, 100);
+    const double speed = rad_s_of_rpm(forward ? 6000 : -6000);
+    int told = 0;
+    for (int i = 0; i < 4 * rig.ticks_per_cycle(speed); ++i) {
+      const ValveCycle<double> c = rig.step(speed).valve_cycle[0][0];
+      if (c.largest_lift_m == 0 || told != 0) continue;
+      ++told;
+      std::printf("[ figures  ] float from %.2f for %.2f deg, gap %.2f mm; the cycle ends at %.2f\n",
+                  c.separation_start_deg, c.separation_duration_deg, c.separation_clearance_m * 1e3, middle_deg);
+      EXPECT_EQ(c.off_seat_at_end, 1u);
+      EXPECT_GE(c.separations, 1u);
+      // Float that goes on when the cycle ends is told up to there, and no further.
+      EXPECT_NEAR(c.separation_duration_deg, std::fabs(middle_deg - c.separation_start_deg), 0.5);
+      EXPECT_EQ(c.seating_speed_m_s, 0);
+    }
+    EXPECT_EQ(told, 1);
   }
-  EXPECT_EQ(told, 1);
 }
 
 TEST(ValveRecord, NeverTakesCompressionForFloatNorBounceForSeparation) {

@@ -1,18 +1,11 @@
 // One cylinder of the gas by itself, for tests of its step: a volume, ports to given gas, heat or none.
 #pragma once
 
-#include <cmath>
-
 #include <crankloop/tick/gas/cylinder_gas.hpp>
 
-namespace crankloop::support {
+#include "support/gas_equations.hpp"
 
-inline constexpr double kGasR = 287.1;  // of docs/model.md "Gas", as are the next two
-inline constexpr double kGasB = 0.205;
-[[nodiscard]] inline double gas_a(double burned_ratio) { return 646 + 93 * burned_ratio; }
-[[nodiscard]] inline double gas_energy(double temperature_K, double burned_ratio) {
-  return gas_a(burned_ratio) * temperature_K + kGasB / 2 * temperature_K * temperature_K;
-}
+namespace crankloop::support {
 
 template <class Real>
 struct GasBench {
@@ -34,7 +27,16 @@ struct GasBench {
   void given(int port, double pressure_Pa, double temperature_K, double burned_ratio) {
     const detail::GasPoint<Real> point{static_cast<Real>(pressure_Pa), static_cast<Real>(temperature_K),
                                        static_cast<Real>(burned_ratio), Real{}};
-    beyond[port] = detail::beyond(point, Real{0}, static_cast<Real>(1e30));
+    beyond[port] = detail::beyond(point, Real{0});
+  }
+  /// A manifold of a volume behind a port, whose own pressure the step reckons with. `took_kg` is what the cylinder
+  /// took of it in the step before.
+  void manifold(int port, const GasSeen& seen, double volume_m3, double took_kg) {
+    given(port, seen.p, seen.t, seen.x);
+    const double g = kGasR / (gas_a(seen.x) + kGasB * seen.t);
+    const double response_Pa_kg = (1 + g) * kGasR * seen.t / volume_m3;
+    beyond[port].response_Pa_kg = static_cast<Real>(response_Pa_kg);
+    beyond[port].as_was_Pa = static_cast<Real>(-response_Pa_kg * took_kg);
   }
   detail::CylinderStep<Real> step(double step_s, double volume_m3, double intake_m2 = 0, double exhaust_m2 = 0,
                                   double fuel_kg = 0) {
@@ -48,13 +50,5 @@ struct GasBench {
   [[nodiscard]] double pressure_Pa() const { return static_cast<double>(gas.point.pressure_Pa); }
   [[nodiscard]] double temperature_K() const { return static_cast<double>(gas.point.temperature_K); }
 };
-
-/// Saint-Venant and Wantzel: flow per area, kg/(s m2), ratio of specific heats 1.36.
-[[nodiscard]] inline double saint_venant(double up_Pa, double down_Pa, double up_K) {
-  const double g = 1.36;
-  const double ratio = std::fmax(down_Pa / up_Pa, std::pow(2 / (g + 1), g / (g - 1)));
-  return up_Pa / std::sqrt(kGasR * up_K) *
-         std::sqrt(2 * g / (g - 1) * (std::pow(ratio, 2 / g) - std::pow(ratio, (g + 1) / g)));
-}
 
 }  // namespace crankloop::support

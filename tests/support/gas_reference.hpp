@@ -12,47 +12,64 @@
 
 #include <crankloop/define/engine_definition.hpp>
 
+#include "support/gas_equations.hpp"
+#include "support/units.hpp"
+
 namespace crankloop::support {
 
 class GasReference {
  public:
-  struct Volume {
-    double m, u, b;
-  };
-  enum class Orifice { ellipse, saint_venant };
-
   GasReference(const EngineDefinition& engine, double speed_rad_s, double throttle_ratio_m2,
-               Orifice orifice = Orifice::ellipse)
+               OrificeLaw orifice = OrificeLaw::ellipse)
       : e_{engine},
         w_{speed_rad_s},
         throttle_m2_{throttle_ratio_m2},
         orifice_{orifice},
+        walls_{engine, speed_rad_s},
         n_{static_cast<std::size_t>(engine.layout.cylinders)} {
     const Gas& g = e_.gas;
     const double r = e_.crank.crank_radius_m, bore = e_.crank.bore_m;
     area_ = kPi / 4 * bore * bore;
     swept_ = area_ * 2 * r;
     clearance_ = swept_ / (e_.crank.compression_ratio - 1);
-    intake() = filled(g.ambient_Pa, g.ambient_K, 0, g.intake_m3);
-    exhaust() = filled(g.ambient_Pa, g.exhaust_K, 1, g.exhaust_m3);
-    for (std::size_t k = 0; k < n_; ++k) y_[k] = filled(g.ambient_Pa, g.ambient_K, 0, volume(own_deg(k)));
+    intake() = gas_filled(g.ambient_Pa, g.ambient_K, 0, g.intake_m3);
+    const double back_Pa = g.back_Pa > 0 ? g.back_Pa : g.ambient_Pa;
+    exhaust() = gas_filled(back_Pa, g.ambient_K, 0, g.exhaust_m3);
+    outlet_ = {back_Pa, g.ambient_K, 0};
+    for (std::size_t k = 0; k < n_; ++k) y_[k] = gas_filled(g.ambient_Pa, g.ambient_K, 0, volume(own_deg(k)));
     for (int t = 0; t < 2; ++t) solve_cam(e_.trains[t].cam, cam_[static_cast<std::size_t>(t)]);
     fuel_.assign(n_, 0.0);
   }
 
+  /// Manifolds that nothing changes, as a scene with Manifold::given has them.
+  void hold_manifolds(const GasSeen& in, const GasSeen& out) {
+    held_ = true;
+    intake() = gas_filled(in.p, in.t, in.x, e_.gas.intake_m3);
+    exhaust() = gas_filled(out.p, out.t, out.x, e_.gas.exhaust_m3);
+  }
+  /// At rest, where the crank stands at `deg`; cylinders anew from the intake manifold.
+  void start_at(double deg) {
+    deg_ = deg;
+    const GasSeen in = gas_seen(intake(), e_.gas.intake_m3);
+    for (std::size_t k = 0; k < n_; ++k) y_[k] = gas_filled(in.p, in.t, in.x, volume(own_deg(k)));
+  }
+  void turn_at(double speed_rad_s) { w_ = speed_rad_s, walls_ = WallHeat(e_, speed_rad_s); }
+
   /// Fourth order, except where a valve or a burn begins.
   void step(double h) {
-    std::array<std::vector<Volume>, 4> k;
+    std::array<std::vector<GasVolume>, 4> k;
     // Fuel of a cycle, by the air there at -90 deg; the same in all stages.
     for (std::size_t c = 0; c < n_; ++c) {
       const double from = own_deg(c), to = wrapped(from + w_ * h * 180 / kPi);
       if (from < -90 && to >= -90) fuel_[c] = std::fmin(e_.gas.fuel_kg, (y_[c].m - y_[c].b) / e_.gas.air_fuel_ratio);
       if (from > 0 && to < 0) fuel_[c] = 0;
     }
-    const std::vector<Volume> from = y_;
+    const std::vector<GasVolume> from = y_;
+    const GasSeen out = gas_seen(exhaust(), e_.gas.exhaust_m3);
+    if (out.p > outlet_.p) outlet_.t = out.t, outlet_.x = out.x;
     const double angle = deg_;
     const double part[] = {0, 0.5, 0.5, 1};
-    double work[4] = {};
+    double work[4] = {}, air[4] = {};
     for (std::size_t i = 0; i < 4; ++i) {
       if (i > 0) {
         for (std::size_t v = 0; v < y_.size(); ++v) {
@@ -62,7 +79,7 @@ class GasReference {
       }
       deg_ = angle + part[i] * h * w_ * 180 / kPi;
       k[i].resize(y_.size());
-      slopes(k[i], work[i]);
+      slopes(k[i], work[i], air[i]);
     }
     const auto mean = [&](double a, double b, double c, double d) { return h / 6 * (a + 2 * b + 2 * c + d); };
     for (std::size_t v = 0; v < y_.size(); ++v) {
@@ -72,38 +89,51 @@ class GasReference {
     }
     deg_ = angle + h * w_ * 180 / kPi;
     work_J_ += mean(work[0], work[1], work[2], work[3]);
+    air_kg_ += mean(air[0], air[1], air[2], air[3]);
   }
 
-  [[nodiscard]] double pressure(std::size_t k) const { return pressure_of(y_[k], volume(own_deg(k))); }
-  [[nodiscard]] double temperature(std::size_t k) const { return temperature_of(y_[k]); }
+  [[nodiscard]] double pressure(std::size_t k) const { return gas_seen(y_[k], volume(own_deg(k))).p; }
+  [[nodiscard]] double temperature(std::size_t k) const { return gas_seen(y_[k], volume(own_deg(k))).t; }
   [[nodiscard]] double mass(std::size_t k) const { return y_[k].m; }
   [[nodiscard]] double burned(std::size_t k) const { return y_[k].b; }
-  [[nodiscard]] double intake_Pa() const { return pressure_of(y_[n_], e_.gas.intake_m3); }
+  [[nodiscard]] double intake_Pa() const { return gas_seen(y_[n_], e_.gas.intake_m3).p; }
+  [[nodiscard]] GasSeen exhaust_gas() const { return gas_seen(y_[n_ + 1], e_.gas.exhaust_m3); }
   [[nodiscard]] double work_J() const { return work_J_; }  ///< of cylinder 1 on its piston
+  [[nodiscard]] double air_kg() const { return air_kg_; }  ///< into cylinder 1 through its intake
   [[nodiscard]] double own_deg(std::size_t k) const { return wrapped(deg_ - e_.layout.firing_deg[k]); }
 
- private:
-  static constexpr double kPi = 3.14159265358979323846, kR = 287.1, kB = 0.205;
+  [[nodiscard]] double volume(double deg) const { return clearance_ + area_ * displacement(deg); }
+  /// Effective, of a train's valves in the cylinder that fires at 0.
+  [[nodiscard]] double area_of(std::size_t train, double deg) const {
+    const Cam& cam = e_.trains[train].cam;
+    const double u = std::fabs(wrapped(deg - cam.full_lift_deg)) / 2 / cam.half_angle_deg;
+    if (u >= 1) return 0;
+    double lift = 1;
+    for (std::size_t i = 0; i < 4; ++i) lift += cam_[train][i] * std::pow(u, cam.exponents[i]);
+    lift *= cam.max_lift_m;
+    if (lift <= 1e-6) return 0;
+    const PortOfTrain& port = e_.gas.ports[train];
+    const double d = port.seat_diameter_m, x = lift / d;
+    double alpha = port.flow_ratio[port.flow_count - 1];
+    for (int i = 1; i < port.flow_count; ++i) {
+      if (x <= port.flow_lift_ratio[i]) {
+        const double part = (x - port.flow_lift_ratio[i - 1]) / (port.flow_lift_ratio[i] - port.flow_lift_ratio[i - 1]);
+        alpha = port.flow_ratio[i - 1] + part * (port.flow_ratio[i] - port.flow_ratio[i - 1]);
+        break;
+      }
+    }
+    return e_.trains[train].valve.per_cylinder * kPi / 4 * d * d * alpha;
+  }
 
+ private:
   static double wrapped(double deg) { return deg - 720 * std::floor((deg + 360) / 720); }
-  static double a(const Volume& v) { return 646 + 93 * v.b / v.m; }
-  static double temperature_of(const Volume& v) {
-    const double x = a(v);
-    return (-x + std::sqrt(x * x + 2 * kB * v.u / v.m)) / kB;
-  }
-  static double pressure_of(const Volume& v, double volume) { return v.m * kR * temperature_of(v) / volume; }
-  static Volume filled(double p, double t, double x, double volume) {
-    const double m = p * volume / (kR * t);
-    return {m, m * ((646 + 93 * x) * t + kB / 2 * t * t), m * x};
-  }
-  Volume& intake() { return y_.size() < n_ + 2 ? (y_.resize(n_ + 2), y_[n_]) : y_[n_]; }
-  Volume& exhaust() { return y_[n_ + 1]; }
+  GasVolume& intake() { return y_.size() < n_ + 2 ? (y_.resize(n_ + 2), y_[n_]) : y_[n_]; }
+  GasVolume& exhaust() { return y_[n_ + 1]; }
 
   [[nodiscard]] double displacement(double deg) const {
     const double r = e_.crank.crank_radius_m, l = e_.crank.rod_length_m, s = std::sin(deg * kPi / 180);
     return r + l - r * std::cos(deg * kPi / 180) - std::sqrt(l * l - r * r * s * s);
   }
-  [[nodiscard]] double volume(double deg) const { return clearance_ + area_ * displacement(deg); }
   [[nodiscard]] double volume_slope(double deg) const {  // by radians
     const double r = e_.crank.crank_radius_m, l = e_.crank.rod_length_m, s = std::sin(deg * kPi / 180),
                  c = std::cos(deg * kPi / 180);
@@ -129,98 +159,40 @@ class GasReference {
     }
     for (std::size_t i = 0; i < 4; ++i) c[i] = m[i][4] / m[i][i];
   }
-  [[nodiscard]] double area_of(std::size_t train, double deg) const {
-    const Cam& cam = e_.trains[train].cam;
-    const double u = std::fabs(wrapped(deg - cam.full_lift_deg)) / 2 / cam.half_angle_deg;
-    if (u >= 1) return 0;
-    double lift = 1;
-    for (std::size_t i = 0; i < 4; ++i) lift += cam_[train][i] * std::pow(u, cam.exponents[i]);
-    lift *= cam.max_lift_m;
-    if (lift <= 1e-6) return 0;
-    const PortOfTrain& port = e_.gas.ports[train];
-    const double d = port.seat_diameter_m, x = lift / d;
-    double alpha = port.flow_ratio[port.flow_count - 1];
-    for (int i = 1; i < port.flow_count; ++i) {
-      if (x <= port.flow_lift_ratio[i]) {
-        const double part = (x - port.flow_lift_ratio[i - 1]) / (port.flow_lift_ratio[i] - port.flow_lift_ratio[i - 1]);
-        alpha = port.flow_ratio[i - 1] + part * (port.flow_ratio[i] - port.flow_ratio[i - 1]);
-        break;
-      }
-    }
-    return e_.trains[train].valve.per_cylinder * kPi / 4 * d * d * alpha;
-  }
-
-  struct Gas_ {
-    double p, t, x;
-  };
-  /// From 1 to 2 where positive; adds what it moves.
-  void flow(double area, const Gas_& one, const Gas_& two, Volume& from, Volume& to) const {
-    if (area == 0 || one.p == two.p) return;
-    const bool forward = one.p > two.p;
-    const Gas_& up = forward ? one : two;
-    const double down = forward ? two.p : one.p;
-    double psi;
-    if (orifice_ == Orifice::ellipse) {
-      const double s = std::fmin(1, (up.p - down) / (0.46488669399358847 * up.p));
-      psi = 0.6778852870696124 * std::sqrt(s * (2 - s));
-    } else {
-      const double g = 1.36, ratio = std::fmax(down / up.p, std::pow(2 / (g + 1), g / (g - 1)));
-      psi = std::sqrt(2 * g / (g - 1) * (std::pow(ratio, 2 / g) - std::pow(ratio, (g + 1) / g)));
-    }
-    const double w = (forward ? 1 : -1) * area * up.p / std::sqrt(kR * up.t) * psi;
-    const double h = (646 + 93 * up.x) * up.t + kB / 2 * up.t * up.t + kR * up.t;
-    from.m -= w, from.u -= w * h, from.b -= w * up.x;
-    to.m += w, to.u += w * h, to.b += w * up.x;
-  }
-  static double wiebe(double s, double m) {
-    if (s <= 0) return 0;
-    if (s >= 1) return 1;
-    return (1 - std::exp(-6.908 * std::pow(s, m + 1))) / (1 - std::exp(-6.908));
-  }
-  [[nodiscard]] double burn_slope(double deg) const {  // by degrees
-    const double s = (deg - e_.gas.burn_start_deg) / e_.gas.burn_duration_deg, m = e_.gas.wiebe_m;
-    if (s <= 0 || s >= 1) return 0;
-    return 6.908 * (m + 1) * std::pow(s, m) * std::exp(-6.908 * std::pow(s, m + 1)) / (1 - std::exp(-6.908)) /
-           e_.gas.burn_duration_deg;
-  }
-
-  void slopes(std::vector<Volume>& dy, double& work) const {
+  void slopes(std::vector<GasVolume>& dy, double& work, double& air) const {
     const Gas& g = e_.gas;
-    for (Volume& v : dy) v = {0, 0, 0};
-    const auto gas = [](const Volume& v, double volume) {
-      return Gas_{pressure_of(v, volume), temperature_of(v), v.b / v.m};
-    };
-    const Gas_ in = gas(y_[n_], g.intake_m3), ex = gas(y_[n_ + 1], g.exhaust_m3);
-    Volume outside{};
-    flow(throttle_m2_, {g.ambient_Pa, g.ambient_K, 0}, in, outside, dy[n_]);
-    flow(g.outlet_m2, ex, {g.ambient_Pa, g.exhaust_K, 1}, dy[n_ + 1], outside);
-    const double l = g.air_fuel_ratio;
-    const auto e298 = [](double x) { return (646 + 93 * x) * 298.15 + kB / 2 * 298.15 * 298.15; };
-    const double q = g.combustion_efficiency * g.heating_value_J_kg + (1 + l) * e298(1) - l * e298(0);
-    const double piston = 2 * e_.crank.crank_radius_m * std::fabs(w_) / kPi;
-    const double c = 130 * g.wall_heat_ratio * std::pow(piston + 1.4, 0.8) * std::pow(swept_ / 2, -0.06) * 1e-4;
+    for (GasVolume& v : dy) v = {0, 0, 0};
+    const GasSeen in = gas_seen(y_[n_], g.intake_m3), ex = gas_seen(y_[n_ + 1], g.exhaust_m3);
+    GasVolume outside{};
+    gas_flow(orifice_, throttle_m2_, {g.ambient_Pa, g.ambient_K, 0}, in, outside, dy[n_]);
+    gas_flow(orifice_, g.outlet_m2, ex, outlet_, dy[n_ + 1], outside);
+    const double q = fuel_energy_J_kg(g);
     for (std::size_t k = 0; k < n_; ++k) {
       const double deg = own_deg(k), v = volume(deg);
-      const Gas_ at = gas(y_[k], v);
-      flow(area_of(0, deg), in, at, dy[n_], dy[k]);
-      flow(area_of(1, deg), at, ex, dy[k], dy[n_ + 1]);
-      const double fuel = fuel_[k] * burn_slope(deg) * w_ * 180 / kPi;
-      const double wall =
-          c * std::pow(at.p, 0.8) * std::pow(at.t, -0.4) * (2 * area_ + 4 * v / e_.crank.bore_m) * (at.t - g.wall_K);
+      const GasSeen at = gas_seen(y_[k], v);
+      gas_flow(orifice_, area_of(0, deg), in, at, dy[n_], dy[k]);
+      if (k == 0) air = dy[k].m - dy[k].b;
+      gas_flow(orifice_, area_of(1, deg), at, ex, dy[k], dy[n_ + 1]);
+      const double burn = wiebe_slope((deg - g.burn_start_deg) / g.burn_duration_deg, g.wiebe_m) / g.burn_duration_deg;
+      const double fuel = fuel_[k] * burn * w_ * 180 / kPi;
       const double power = at.p * volume_slope(deg) * w_;
       dy[k].m += fuel;
-      dy[k].u += q * fuel - wall - power;
-      dy[k].b += (1 + l) * fuel;
+      dy[k].u += q * fuel - walls_.W(at, v) - power;
+      dy[k].b += (1 + g.air_fuel_ratio) * fuel;
       if (k == 0) work = power;
     }
+    if (held_) dy[n_] = dy[n_ + 1] = {0, 0, 0};
   }
 
   EngineDefinition e_;
   double w_, throttle_m2_;
-  Orifice orifice_;
+  OrificeLaw orifice_;
+  WallHeat walls_;
   std::size_t n_;
-  double area_, swept_, clearance_, deg_ = 0, work_J_ = 0;
-  std::vector<Volume> y_;
+  bool held_ = false;
+  double area_, swept_, clearance_, deg_ = 0, work_J_ = 0, air_kg_ = 0;
+  std::vector<GasVolume> y_;
+  GasSeen outlet_{};  ///< what flows back
   std::vector<double> fuel_;
   std::array<std::array<double, 4>, 2> cam_{};
 };

@@ -55,7 +55,7 @@ ValveMotion<double> valve_motion() {
   m.per_fine_step_s = 1e5;
   m.parts = 1;
   m.per_parts = 1;
-  m.widest_step_deg = 360;
+  m.cubic_deg = m.widest_step_deg = 360;
   return m;
 }
 using NoGas = NoGasForce<double>;

@@ -64,6 +64,46 @@ TEST(BalanceCommand, GivesTheSheetsPowerAtTheCouplingAndTheEfficiencyAssumed) {
   EXPECT_NEAR(b["brake_power_kW"] / b["power_kW"], (809.7 - 162) / 809.7, 1e-6);
 }
 
+/// The acceleration's harmonics from the position's, a sum over the turn: (r + l) cos ... of the mechanism, each times
+/// n^2.
+TEST(BalanceCommand, ShowsTheThirdAndFifthOrdersThatAPinOffsetMakes) {
+  const support::TemporaryFolder folder;
+  std::string text = contents(CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini");
+  const std::string none = "pin_offset_mm = 0";
+  const std::size_t at = text.find(none);
+  ASSERT_NE(at, std::string::npos);
+  std::ofstream(folder / "offset.ini") << text.replace(at, none.size(), "pin_offset_mm = 6");
+  const auto values_of = [](const std::string& path) {
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(kBalance.run(Arguments(kBalance, {path, "--rpm", "7000"})), kSuccess);
+    std::map<std::string, double> values;
+    for (const std::string& row : split_at(testing::internal::GetCapturedStdout(), '\n')) {
+      const std::vector<std::string> cells = split_at(row, ',');
+      if (cells.at(1) != "value") values[cells.at(0)] = std::stod(cells.at(1));
+    }
+    return values;
+  };
+  std::map<std::string, double> found = values_of(folder / "offset.ini");
+  const double r_m = 57.8e-3 / 2, l_m = 101e-3, e_m = 6e-3, w = 7000 * support::kPi / 30;
+  const double mass_kg = found.at("reciprocating_mass_kg");
+  for (const auto& [order, name] :
+       std::map<int, std::string>{{1, "first"}, {3, "third"}, {4, "fourth"}, {5, "fifth"}}) {
+    double cosine_m = 0, sine_m = 0;
+    constexpr int kSteps = 360;
+    for (int i = 0; i < kSteps; ++i) {
+      const double a = 2 * support::kPi * i / kSteps;
+      const double side_m = r_m * std::sin(a) - e_m;
+      const double pin_m = r_m * std::cos(a) + std::sqrt(l_m * l_m - side_m * side_m);  // above the crank's axis
+      cosine_m += 2.0 / kSteps * pin_m * std::cos(order * a);
+      sine_m += 2.0 / kSteps * pin_m * std::sin(order * a);
+    }
+    const double force_N = mass_kg * order * order * w * w * std::hypot(cosine_m, sine_m);
+    EXPECT_NEAR(found.at("free_force_" + name + "_N"), force_N, 1e-6 * force_N + 1e-9) << name;
+  }
+  EXPECT_EQ(values_of(CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini").count("free_force_third_N"), 0u)
+      << "without an offset there is none";
+}
+
 TEST(BalanceCommand, AtLoadRatioZeroIsTheMotoredEngine) {
   const EngineDefinition engine = diesel();
   const double motored_kPa =

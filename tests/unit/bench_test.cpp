@@ -353,6 +353,23 @@ TEST(BenchTrueLift, IsTheReferencesMotionAtAnyAngle) {
   }
 }
 
+/// A valve that floats has not come to rest when its cam comes again: the error of the first cycle is not all.
+TEST(BenchTrueLift, GoesOnUntilTheErrorOfABouncingValveHasSettled) {
+  const ValveTrain train = ohc_125_train();
+  EXPECT_EQ(TrueLift(train, kSmooth_rpm).cycles(), 1);
+  EXPECT_EQ(TrueLift(train, kSwitching_rpm).cycles(), 1);
+  const TrueLift truth(train, kBouncing_rpm);
+  EXPECT_EQ(truth.cycles(), 12);
+  ValveLift lift;
+  ASSERT_TRUE(accepted(lift.init(train.cam, train.rocker)));
+  valve_reference::Reference reference(valve_reference::SingleMass(train.valve, train.rocker, lift.largest_lift_m()),
+                                       valve_reference::TurnedCam(lift));
+  const double later_deg = 20 + 5 * 360.0;  // the sixth cycle
+  reference.advance((later_deg + 180) / (kBouncing_rpm * 3), -180, later_deg);
+  EXPECT_NEAR(truth.lift_m(later_deg), reference.y, 1e-10);
+  EXPECT_GT(std::fabs(truth.lift_m(later_deg) - truth.lift_m(20)), 1e-6) << "the first cycle is another";
+}
+
 TEST(BenchPlainValve, ItsMatrixIsItsTextbookStepInTheRegimeThatItWasMadeFor) {
   const LibraryValve<double, LoneElastic> valve(ValveRun{kSmooth_rpm, 10e-6});
   const PlainBody<double> body = plain_body(valve.tables().valve_motions[0].body);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -155,6 +156,44 @@ TEST_F(BreathingRun, TurnsFreelyToTheSpeedWhereItsFrictionTakesWhatItMakes) {
   // What left the gas turned the crank: the books close but for friction's trapezoids.
   EXPECT_LT(std::fabs(line(summary, "energy_defect").first), 1e-4);
   EXPECT_EQ(line(summary, "faulty_ticks").first, 0);
+}
+
+/// Four times the fuel that the air can burn.
+TEST_F(BreathingRun, OfTooMuchFuelBurnsWhatThereIsAirForAndHasNoFault) {
+  const std::string summary = run({kEngines + "diesel_495_gas.ini", "--rpm", "2000", "--fuel-mg", "180"});
+  EXPECT_EQ(line(summary, "faulty_ticks").first, 0) << summary;
+  EXPECT_LT(line(summary, "excess_air_ratio").first, 0.3);
+}
+
+/// An intake of 1.2 m3 behind a closed throttle is still being emptied after 500 cycles.
+TEST_F(BreathingRun, SaysThatItHasNotSettled) {
+  std::string text = contents(kFour);
+  text.replace(text.find("intake_volume_cm3 = 3000"), 24, "intake_volume_cm3 = 1.2e6");
+  std::ofstream(path("large.ini")) << text;
+  const std::string summary = run({path("large.ini"), "--rpm", "6000", "--throttle", "0", "--fuel-mg", "60"});
+  EXPECT_NE(summary.find("not settled: net mep moved by "), std::string::npos) << summary;
+  const std::string settled = run({kFour, "--rpm", "6000", "--throttle", "0", "--fuel-mg", "60"});
+  EXPECT_EQ(settled.find("not settled"), std::string::npos) << settled;
+}
+
+/// 10 000 rpm are 6 deg in 100 us and 120 deg in 2 ms.
+TEST_F(BreathingRun, WarnsOfATickThatTurnsTheCrankTooFar) {
+  EXPECT_EQ(status_of("'" + kFour + "' --rpm 10000 --tick-us 2000"), 0);
+  EXPECT_NE(contents(path("err")).find("turns the crank by 120 deg at 10000 rpm"), std::string::npos)
+      << contents(path("err"));
+  EXPECT_NE(contents(path("err")).find("off by some 14 %; take --tick-us 666 or less"), std::string::npos);
+  EXPECT_EQ(status_of("'" + kFour + "' --rpm 6000 --tick-us 1000"), 0);
+  EXPECT_EQ(contents(path("err")).find("turns the crank"), std::string::npos) << "36 deg, in eight steps";
+}
+
+TEST_F(BreathingRun, IsRefusedWithAManifoldThatIsTooSmallForTheTick) {
+  std::string text = contents(kFour);
+  text.replace(text.find("intake_volume_cm3 = 3000"), 24, "intake_volume_cm3 = 1");
+  std::ofstream(path("tiny.ini")) << text;
+  EXPECT_NE(status_of("'" + path("tiny.ini") + "' --rpm 2000"), 0);
+  EXPECT_NE(contents(path("err")).find("intake_volume_cm3: too small for a tick of 100 us"), std::string::npos)
+      << contents(path("err"));
+  EXPECT_EQ(status_of("'" + path("tiny.ini") + "' --rpm 2000 --tick-us 10"), 0);
 }
 
 TEST_F(BreathingRun, OfOneCylinderCutTurnsMoreSlowly) {

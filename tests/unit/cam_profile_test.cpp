@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "support/differences.hpp"
+#include "support/measured_cam.hpp"
 #include "support/status.hpp"
 #include "support/units.hpp"
 #include "support/valve_trains.hpp"
@@ -18,20 +19,16 @@
 namespace crankloop {
 namespace {
 
+using support::Measured;
 using support::ohc_125_cam;
 using support::polynomial_cam;
+using support::profile_of;
 using support::Random;
 using support::refuses;
 using support::slope_of;
 
 using support::kPi;
 using support::kRadPerDeg;
-
-CamProfile profile_of(const Cam& cam) {
-  CamProfile profile;
-  EXPECT_TRUE(accepted(profile.init(cam)));
-  return profile;
-}
 
 // ---- polynomial -----------------------------------------------------------------------------------------------------
 
@@ -120,51 +117,6 @@ TEST(CamPolynomial, IsExactlyZeroFromTheEndsOfItsLobeOn) {
 }
 
 // ---- measured tables ------------------------------------------------------------------------------------------------
-
-/// A cam measured from `from_deg` to `to_deg`, with what the instrument adds.
-struct Measured {
-  std::vector<CamPoint> points;
-
-  Measured(const CamProfile& cam, double from_deg, double to_deg, double step_deg) {
-    for (int i = 0; from_deg + i * step_deg <= to_deg + 1e-9; ++i) {
-      const double deg = from_deg + i * step_deg;
-      points.push_back({deg, cam.at(deg * kRadPerDeg).lift_m});
-    }
-  }
-  Measured& rounded_to(double unit_m) {
-    for (CamPoint& point : points) point.lift_m = std::round(point.lift_m / unit_m) * unit_m;
-    return *this;
-  }
-  Measured& off_by_up_to(double noise_m, Random& random) {
-    for (CamPoint& point : points) point.lift_m += random.between(-noise_m, noise_m);
-    return *this;
-  }
-  /// Normal noise of standard deviation sigma: the sum of twelve uniform numbers has variance 1.
-  Measured& off_by_normal(double sigma_m, Random& random) {
-    for (CamPoint& point : points) {
-      double sum = -6;
-      for (int i = 0; i < 12; ++i) sum += random.between(0, 1);
-      point.lift_m += sigma_m * sum;
-    }
-    return *this;
-  }
-  [[nodiscard]] Cam cam(double smoothing_m) const {
-    Cam cam;
-    cam.source = CamSource::table;
-    cam.points = points.data();
-    cam.point_count = static_cast<int>(points.size());
-    cam.smoothing_m = smoothing_m;
-    return cam;
-  }
-  [[nodiscard]] double residual_m(const CamProfile& smooth) const {
-    double largest = 0;
-    for (const CamPoint& point : points) {
-      largest = std::max(largest,
-                         std::fabs(point.lift_m - smooth.at((point.cam_deg - smooth.peak_deg()) * kRadPerDeg).lift_m));
-    }
-    return largest;
-  }
-};
 
 /// How far a smoothed cam is from the true one, and what its second derivative does on the way.
 struct Comparison {
@@ -306,6 +258,17 @@ TEST_F(SmoothedCam, IsTheSameHoweverFarItsRowsGoOnAlongTheBaseCircle) {
     EXPECT_EQ(smooth.closes_rad(), whole.closes_rad()) << beyond_deg;
     for (double phi = -1.4; phi < 1.4; phi += 0.01)
       EXPECT_EQ(smooth.at(phi).lift_m, whole.at(phi).lift_m) << beyond_deg << ", " << phi;
+  }
+}
+
+TEST_F(SmoothedCam, BeginsAtMostThreeSegmentsBeforeATableThatEndsAtItsFeet) {
+  for (const double end_deg : {68.0, 70.0, 72.0}) {
+    const Measured table(truth, -end_deg, end_deg, 1);
+    const CamProfile smooth = profile_of(table.cam(100e-6));
+    // 160 segments between 10 deg of margin to either side, or to the ends of the table and three segments beyond.
+    const double beyond_deg = 3 * 2 * end_deg / 154;
+    EXPECT_GE(smooth.opens_rad() / kRadPerDeg + smooth.peak_deg(), -end_deg - beyond_deg - 1e-9) << end_deg;
+    EXPECT_LE(smooth.closes_rad() / kRadPerDeg + smooth.peak_deg(), end_deg + beyond_deg + 1e-9) << end_deg;
   }
 }
 

@@ -86,6 +86,10 @@ TEST(CrankDefinition, RefusesARodThatTheCrankCannotCarryRound) {
     }
     crank.rod_length_m = touching_m * (1 + 1.01e-9);
     EXPECT_TRUE(accepted(validate(crank))) << offset;
+    crank.rod_length_m = touching_m * (1 + 1e-9);
+    EXPECT_TRUE(refuses(validate(crank), Reason::rod_too_short, "crank.rod_length_m")) << "by a billionth, not more";
+    crank.rod_length_m = std::nextafter(crank.rod_length_m, 1);
+    EXPECT_TRUE(accepted(validate(crank))) << offset;
   }
 }
 
@@ -454,6 +458,158 @@ TEST(GasDefinition, SaysWhichFieldIsWrong) {
   EXPECT_TRUE(accepted(validate(unread)));
 }
 
+TEST(GasDefinition, KeepsEveryRangeThatItsCommentsState) {
+  EngineDefinition good = support::four_2000();
+  good.gas.throttle_closed_m2 = 0;
+  good.gas.air_fuel_ratio = 100, good.gas.combustion_efficiency = 0.5;
+  good.gas.burn_start_deg = -90;
+  good.gas.second_ratio = 0;
+  const struct {
+    double Gas::*member;
+    const char* field;
+    double least, most;
+    bool positive = false;
+  } rules[] = {{&Gas::intake_m3, "gas.intake_m3", 1e-9, 100, true},
+               {&Gas::exhaust_m3, "gas.exhaust_m3", 1e-9, 100, true},
+               {&Gas::throttle_m2, "gas.throttle_m2", 1e-9, 10, true},
+               {&Gas::outlet_m2, "gas.outlet_m2", 1e-9, 10, true},
+               {&Gas::ambient_Pa, "gas.ambient_Pa", 1e3, 1e7},
+               {&Gas::ambient_K, "gas.ambient_K", 150, 3000},
+               {&Gas::exhaust_K, "gas.exhaust_K", 150, 3000},
+               {&Gas::wall_K, "gas.wall_K", 150, 2000},
+               {&Gas::wall_heat_ratio, "gas.wall_heat_ratio", 0, 100},
+               {&Gas::fuel_kg, "gas.fuel_kg", 0, 0.01},
+               {&Gas::heating_value_J_kg, "gas.heating_value_J_kg", 0, 2e8},
+               {&Gas::combustion_efficiency, "gas.combustion_efficiency", 0, 1},
+               {&Gas::air_fuel_ratio, "gas.air_fuel_ratio", 1, 100},
+               {&Gas::latch_deg, "gas.latch_deg", -180, -90},
+               {&Gas::burn_start_deg, "gas.burn_start_deg", -90, 60},
+               {&Gas::burn_duration_deg, "gas.burn_duration_deg", 5, 150},
+               {&Gas::wiebe_m, "gas.wiebe_m", 0, 10},
+               {&Gas::second_ratio, "gas.second_ratio", 0, 1},
+               {&Gas::second_m, "gas.second_m", 0, 10},
+               {&Gas::second_duration_ratio, "gas.second_duration_ratio", 0.1, 10}};
+  for (const auto& rule : rules) {
+    const auto with = [&](double value) {
+      EngineDefinition engine = good;
+      engine.gas.*rule.member = value;
+      if (rule.member == &Gas::air_fuel_ratio) engine.gas.heating_value_J_kg = 1e6;
+      if (rule.member == &Gas::second_ratio) engine.gas.second_duration_ratio = 1;
+      return validate(engine);
+    };
+    for (const double bad : {kNaN, kInfinity, -kInfinity})
+      EXPECT_TRUE(refuses(with(bad), Reason::not_finite, rule.field)) << bad;
+    EXPECT_TRUE(accepted(with(rule.least))) << rule.field;
+    EXPECT_TRUE(accepted(with(rule.most))) << rule.field;
+    EXPECT_TRUE(refuses(with(std::nextafter(rule.least, -1e9)), Reason::out_of_range, rule.field));
+    EXPECT_TRUE(refuses(with(std::nextafter(rule.most, 1e9)), Reason::out_of_range, rule.field));
+    if (rule.positive) {
+      EXPECT_TRUE(refuses(with(0), Reason::not_positive, rule.field));
+    }
+  }
+  good.gas.throttle_closed_m2 = good.gas.throttle_m2;
+  EXPECT_TRUE(accepted(validate(good))) << "a throttle that shuts nothing";
+  good.gas.throttle_closed_m2 = std::nextafter(good.gas.throttle_m2, 1);
+  EXPECT_TRUE(refuses(validate(good), Reason::inconsistent, "gas.throttle_closed_m2"));
+  good.gas.throttle_closed_m2 = -1e-9;
+  EXPECT_TRUE(refuses(validate(good), Reason::negative, "gas.throttle_closed_m2"));
+}
+
+TEST(GasDefinition, HasABackPressureOrThatOfTheAmbient) {
+  EngineDefinition engine = support::four_2000();
+  engine.gas.ambient_Pa = 95e3;
+  EXPECT_EQ(engine.gas.behind_outlet_Pa(), 95e3);
+  for (const double good : {0.0, 1e3, 130e3, 1e7}) {
+    engine.gas.back_Pa = good;
+    EXPECT_TRUE(accepted(validate(engine))) << good;
+    EXPECT_EQ(engine.gas.behind_outlet_Pa(), good > 0 ? good : 95e3);
+  }
+  const struct {
+    double back_Pa;
+    Reason reason;
+  } refused[] = {{999, Reason::out_of_range},      {std::nextafter(1e7, 1e9), Reason::out_of_range},
+                 {-1e5, Reason::negative},         {kNaN, Reason::not_finite},
+                 {-kInfinity, Reason::not_finite}, {kInfinity, Reason::not_finite}};
+  for (const auto& bad : refused) {
+    engine.gas.back_Pa = bad.back_Pa;
+    EXPECT_TRUE(refuses(validate(engine), bad.reason, "gas.back_Pa")) << bad.back_Pa;
+  }
+}
+
+TEST(GasDefinition, HasABurnThatEndsBy150Degrees) {
+  EngineDefinition engine = support::four_2000();
+  Gas& gas = engine.gas;
+  gas.burn_start_deg = -10, gas.burn_duration_deg = 80;
+  gas.second_ratio = 0.2, gas.second_duration_ratio = 2;
+  EXPECT_TRUE(accepted(validate(engine))) << "from -10 for 160 deg";
+  gas.burn_duration_deg = std::nextafter(80.0, 100);
+  EXPECT_TRUE(refuses(validate(engine), Reason::inconsistent, "gas.burn_duration_deg"));
+  gas.second_duration_ratio = 0.5;
+  EXPECT_TRUE(accepted(validate(engine))) << "the first law is the longer one";
+  gas.second_ratio = 0, gas.second_duration_ratio = 10;
+  EXPECT_TRUE(accepted(validate(engine))) << "no fuel burns by the second";
+}
+
+TEST(GasDefinition, HasCurvesFrom0WithSharesOf0To1) {
+  const EngineDefinition good = support::four_2000();
+  const auto refused_row = [&good](const auto& spoil, Reason reason, const char* field, int index) {
+    EngineDefinition engine = good;
+    spoil(engine.gas);
+    return reason == Reason::ok ? accepted(validate(engine)) : refuses(validate(engine), reason, field, index);
+  };
+  // Of a port the train is named, of the throttle the row.
+  EXPECT_TRUE(refused_row([](Gas& g) { g.ports[1].flow_ratio[9] = 1; }, Reason::ok, "", 0));
+  EXPECT_TRUE(refused_row([](Gas& g) { g.ports[1].flow_ratio[9] = std::nextafter(1.0, 2); }, Reason::out_of_range,
+                          "gas.flow_lift_ratio", 1));
+  EXPECT_TRUE(
+      refused_row([](Gas& g) { g.ports[0].flow_ratio[3] = -1e-300; }, Reason::out_of_range, "gas.flow_lift_ratio", 0));
+  EXPECT_TRUE(refused_row([](Gas& g) { g.ports[1].flow_lift_ratio[9] = std::nextafter(0.5, 1); }, Reason::out_of_range,
+                          "gas.flow_lift_ratio", 1));
+  EXPECT_TRUE(refused_row([](Gas& g) { g.ports[1].flow_lift_ratio[0] = 1e-300; }, Reason::inconsistent,
+                          "gas.flow_lift_ratio", 1));
+  EXPECT_TRUE(refused_row([](Gas& g) { g.ports[0].flow_count = kMaxFlowPoints + 1; }, Reason::too_many_points,
+                          "gas.flow_lift_ratio", 0));
+  EXPECT_TRUE(refused_row([](Gas& g) { g.ports[0].flow_count = 1; }, Reason::too_few_points, "gas.flow_lift_ratio", 0));
+  EXPECT_TRUE(refused_row([](Gas& g) { g.ports[0].flow_count = 2; }, Reason::ok, "", 0));
+  EXPECT_TRUE(refused_row([](Gas& g) { g.throttle_area_ratio[2] = std::nextafter(1.0, 2); }, Reason::out_of_range,
+                          "gas.throttle_ratio", 2));
+  EXPECT_TRUE(refused_row([](Gas& g) { g.throttle_ratio[0] = 1e-300; }, Reason::inconsistent, "gas.throttle_ratio", 0));
+  EXPECT_TRUE(refused_row([](Gas& g) { g.throttle_ratio[2] = 0.2; }, Reason::not_increasing, "gas.throttle_ratio", 2));
+  EXPECT_TRUE(refused_row([](Gas& g) { g.throttle_ratio[3] = std::nextafter(1.0, 2); }, Reason::out_of_range,
+                          "gas.throttle_ratio", 3));
+  EXPECT_TRUE(refused_row([](Gas& g) { g.throttle_ratio[3] = std::nextafter(1.0, 0); }, Reason::inconsistent,
+                          "gas.throttle_ratio", 3));
+  const auto full = [](Gas& g) {
+    g.throttle_count = kMaxFlowPoints;
+    for (int i = 0; i < kMaxFlowPoints; ++i) g.throttle_ratio[i] = i / 15.0, g.throttle_area_ratio[i] = 1;
+  };
+  EXPECT_TRUE(refused_row(full, Reason::ok, "", 0));
+}
+
+TEST(GasDefinition, AcceptsEveryFuelAndRefusesAMixtureHotterThanAny) {
+  const auto answer = [](double heating_value_J_kg, double air_fuel_ratio, double efficiency = 1) {
+    EngineDefinition engine = support::four_2000();
+    engine.gas.heating_value_J_kg = heating_value_J_kg;
+    engine.gas.air_fuel_ratio = air_fuel_ratio;
+    engine.gas.combustion_efficiency = efficiency;
+    return validate(engine);
+  };
+  const struct {
+    const char* name;
+    double lower_J_kg, air_fuel_ratio;
+  } fuels[] = {{"petrol", 43e6, 14.6},      {"diesel", 42.5e6, 14.5},     {"methane", 50e6, 17.2},
+               {"propane", 46.4e6, 15.7},   {"hydrogen", 120e6, 34.3},    {"methanol", 19.9e6, 6.45},
+               {"ethanol", 26.8e6, 9},      {"ammonia", 18.6e6, 6.05},    {"carbon monoxide", 10.1e6, 2.46},
+               {"acetylene", 48.2e6, 13.3}, {"nitromethane", 11.3e6, 1.7}};
+  for (const auto& fuel : fuels) EXPECT_TRUE(accepted(answer(fuel.lower_J_kg, fuel.air_fuel_ratio))) << fuel.name;
+  EXPECT_TRUE(refuses(answer(43e6, 1.46, 0.97), Reason::too_much_heat, "gas.air_fuel_ratio"))
+      << "14.6 mistyped: 17 MJ per kg of mixture";
+  EXPECT_TRUE(refuses(answer(200e6, 14.6), Reason::too_much_heat, "gas.air_fuel_ratio"));
+  EXPECT_TRUE(accepted(answer(10e6, 1))) << "5 MJ/kg of mixture";
+  EXPECT_TRUE(refuses(answer(std::nextafter(10e6, 1e9), 1), Reason::too_much_heat, "gas.air_fuel_ratio"));
+  EXPECT_TRUE(accepted(answer(40e6, 1, 0.25))) << "what does not burn releases nothing";
+}
+
 TEST(PressureDefinition, RefusesASourceThatIsNone) {
   Pressure pressure = wiebe_pressure();
   for (const int number : {5, 6, 128, 255}) {
@@ -484,7 +640,7 @@ TEST(EngineDefinition, IsRefusedForItsFirstBadPart) {
 
 TEST(Reasons, EachHaveTheirOwnWords) {
   std::vector<std::string> phrases;
-  for (int i = 0; i <= static_cast<int>(Reason::unknown_name); ++i) {
+  for (int i = 0; i <= static_cast<int>(Reason::too_much_heat); ++i) {
     const std::string phrase = describe(static_cast<Reason>(i));
     EXPECT_FALSE(phrase.empty());
     for (const std::string& earlier : phrases) EXPECT_NE(phrase, earlier);

@@ -131,6 +131,9 @@ TEST_F(EngineFileTest, GasThatCannotBeIsRefusedAtItsLine) {
       {"0.2:0.06", "0.2", "entry 2: '0.2' is no pair"},
       {"0.2:0.06", "0.2:1.06", "entry 2: 1.06"},
       {"throttle_closed_mm2 = 6", "throttle_closed_mm2 = 2000", "throttle_closed_mm2: 2000 is more than"},
+      {"burn_start_deg = -18", "air_fuel_ratio = 1.46",
+       "air_fuel_ratio: 1.46 with heating_value_MJ_per_kg = 43 releases 16.9553 MJ per kg of mixture; allowed: up to "
+       "5"},
       {"port = intake", "port = inlet", "port: 'inlet' is not one of intake, exhaust"},
   };
   for (const auto& one : cases) {
@@ -387,11 +390,15 @@ TEST_F(EngineFileTest, WhatATickCostsItsValvesIsShown) {
     rate = valve_reference::SingleMass(train.definition.valve, train.definition.rocker, 8.5e-3).fastest();
     const std::string line = "# a valve of train intake takes " +
                              std::to_string(static_cast<int>(std::ceil(100e-6 * rate))) +
-                             " fine steps in the worst tick of 100 us; ";
+                             " fine steps in the worst tick of 100 us and keeps its class of 0.1 um up to ";
     const std::string shown = show(engine);
     const std::size_t at = shown.find(line);
     EXPECT_NE(at, std::string::npos) << line;
-    return at == std::string::npos ? std::string() : shown.substr(at + line.size());
+    if (at == std::string::npos) return std::string();
+    const std::string after = shown.substr(at + line.size());
+    // A cubic follows some two degrees of this cam to 0.1 um, in each fine step.
+    EXPECT_NEAR(std::stod(after) * 300e-6, 2 * std::ceil(100e-6 * rate), 0.1 * std::ceil(100e-6 * rate)) << after;
+    return after.substr(after.find("rpm; ") + 5);
   };
   double rate = 0;
   EXPECT_EQ(shown_of(single, rate).find("no tick is too long for it\n"), 0u);

@@ -196,7 +196,7 @@ TEST_F(FreeRunCommand, SaysHowManyEdgesItHadNoRoomFor) {
   const std::string summary = run({kSample, "--free", "--from-rpm", "20000", "--tick-us", "2000", "--seconds", "0.02"});
   EXPECT_EQ(line(summary, "crank_edges_lost").first, line(summary, "crank_edges").first - 10 * 32);
   EXPECT_NEAR(line(summary, "crank_edges").first, line(summary, "turned").first * 116, 8);
-  EXPECT_EQ(line(summary, "faulty_ticks").first, 10);
+  EXPECT_NE(summary.find("\nfaulty_ticks = 10  # trigger edges\n"), std::string::npos) << summary;
 }
 
 TEST_F(FreeRunCommand, AReportHasThePartsThatThereAre) {

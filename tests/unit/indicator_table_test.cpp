@@ -13,6 +13,7 @@
 
 #include "support/indicator_diagrams.hpp"
 #include "support/random.hpp"
+#include "tabulate/monotone_cubic.hpp"
 
 namespace crankloop {
 
@@ -136,6 +137,17 @@ TEST(AngleTable, HasTheSlopesOfFritschAndButlandAtUnevenlySpacedPoints) {
     EXPECT_NEAR(got, want, std::fabs(s2) * (12 * d / h2 / 2 + 6 * kAngleRounding_deg / d))
         << random.trace(0) << ", row " << i;
   }
+}
+
+TEST(MonotoneSlope, IsInTheUnitsOfItsPointsHoweverSmall) {
+  const auto slope = [](double unit) {
+    return detail::monotone_slope({0, 0}, {1, 2 * unit}, {3, 5 * unit});  // secants 2 and 1.5, widths 1 and 2
+  };
+  EXPECT_NEAR(slope(1), 9 / (5 / 2.0 + 4 / 1.5), 1e-15);
+  for (const double unit : {1e-3, 1e-9, 1e9, -1e-6})
+    EXPECT_NEAR(slope(unit), unit * slope(1), 1e-15 * std::fabs(unit)) << unit;
+  EXPECT_EQ(detail::monotone_slope({0, 0}, {1, 1e-9}, {2, 0}), 0) << "a peak";
+  EXPECT_EQ(detail::monotone_slope({0, 0}, {1, 0}, {2, 1}), 0) << "the end of a level";
 }
 
 TEST(AngleTable, OfASmoothCurveIsThatCurveToTheSquareOfItsSpacing) {

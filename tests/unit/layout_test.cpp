@@ -139,6 +139,22 @@ TEST(LayoutDefinition, RefusesPinNumbersWithAGapOrBeyondTheCylinders) {
   EXPECT_TRUE(refuses(validate(layout), Reason::out_of_range, "layout.pin", 2));
 }
 
+TEST(LayoutDefinition, TakesForAPinsPlaceTheMiddleOfItsRods) {
+  Layout layout;
+  layout.cylinders = 3;
+  layout.pin = {0, 1, 1};
+  layout.position_m = {0.02, 0, 0.06};
+  EXPECT_TRUE(accepted(validate(layout))) << "0.02 and 0.03";
+  layout.position_m = {0.02, 0.06, 0};
+  EXPECT_TRUE(accepted(validate(layout))) << "in whichever order they are listed";
+  layout.position_m = {0.02, 0, 0.04};
+  EXPECT_TRUE(accepted(validate(layout))) << "at one place";
+  for (const double other_m : {0.039, -0.06}) {
+    layout.position_m = {0.02, 0, other_m};
+    EXPECT_TRUE(refuses(validate(layout), Reason::inconsistent, "layout.pin")) << other_m;
+  }
+}
+
 TEST(LayoutDefinition, RefusesPinsThatAreNotNumberedAlongTheShaft) {
   Layout layout = inline_four();
   layout.pin = {0, 1, 3, 2};

@@ -202,6 +202,65 @@ TEST_F(LiftCommand, NamesTheRowOfAMeasuredCamThatIsWrong) {
   EXPECT_EQ(refusal(engine), csv + ":2002: 2001 rows; at most 2000 are allowed");
 }
 
+TEST_F(LiftCommand, ChoosesTheSmoothingOfAMeasuredCamByItself) {
+  write("cam.csv", cam_rows(-180, 180));
+  const std::string engine =
+      write("auto.ini", with_line(measured_125("cam.csv", 1), "smoothing_um", "smoothing_um = auto"));
+  const auto by_itself = rows(engine);
+  EXPECT_NE(summary_.find("smoothing = 1 um  # chosen by auto"), std::string::npos) << summary_;
+  EXPECT_EQ(by_itself, rows(write("measured.ini", measured_125("cam.csv", 1)))) << "rounded to 1 um";
+  EXPECT_NE(summary_.find("smoothing = 1 um\n"), std::string::npos) << summary_;
+
+  // What is shown is a number, and gives the same definition.
+  const EngineFile chosen = read_engine_file(engine, {});
+  EXPECT_EQ(chosen.definition().trains[0].cam.smoothing_m, 1e-6);
+  const std::string shown = show(chosen);
+  EXPECT_NE(shown.find("smoothing_um = 1  "), std::string::npos) << shown;
+  EXPECT_NE(shown.find("; chosen by auto"), std::string::npos) << shown;
+  EXPECT_EQ(read_engine_text(shown, engine, {}).definition().trains[0].cam.smoothing_m, 1e-6);
+
+  EXPECT_NE(refusal(write("auto.ini", with_line(measured_125("cam.csv", 1), "smoothing_um", "smoothing_um = Auto")))
+                .find("'Auto' is not a number; the word auto is allowed too"),
+            std::string::npos);
+  write("polynomial.ini", with_line(contents(kOhc125), "max_lift_mm", "max_lift_mm = 6.301099\nsmoothing_um = auto"));
+  EXPECT_NE(show(read_engine_file(folder_ / "polynomial.ini", {})).find("smoothing_um = auto"), std::string::npos)
+      << "not used, and nothing to choose it by";
+}
+
+TEST_F(LiftCommand, NamesTheSmallestSmoothingAndTheRowThatIsToBlame) {
+  const std::string csv = folder_ / "cam.csv";
+  const std::string given = cam_rows(-180, 180);
+  const std::size_t row = given.find("\n-30,") + 5;
+  const double misread_mm = std::stod(given.substr(row)) + 0.05;
+  write("cam.csv", with_line(given, "-30,", "-30," + std::to_string(misread_mm)));
+  const std::string engine = write("measured.ini", measured_125("cam.csv", 1));
+  const std::string message = refusal(engine);
+  EXPECT_NE(message.find("-30 deg (" + csv + ":152)"), std::string::npos) << message;
+  const std::string words = "smallest possible: ";
+  const std::size_t at = message.find(words);
+  ASSERT_NE(at, std::string::npos) << message;
+  const double smallest_um = std::stod(message.substr(at + words.size()));
+  const auto is_smoothed = [&](double smoothing_um) {
+    const EngineFile file = read_engine_file(write("other.ini", measured_125("cam.csv", smoothing_um)), {});
+    CamProfile cam;
+    return cam.init(file.train("intake").definition.cam).ok();
+  };
+  EXPECT_TRUE(is_smoothed(smallest_um));
+  EXPECT_FALSE(is_smoothed(0.96 * smallest_um));
+  const std::string lies = " lies ";
+  EXPECT_NEAR(std::stod(message.substr(message.find(lies) + lies.size())), smallest_um, 0.03 * smallest_um);
+
+  write("cam.csv", with_line(given, "-30,", "-30,40"));
+  EXPECT_NE(refusal(engine).find("no smooth lobe comes within 1000 um of every row; look at that of -30 deg"),
+            std::string::npos)
+      << refusal(engine);
+  write("cam.csv", cam_rows(-60, 180));
+  const std::string cut =
+      refusal(write("auto.ini", with_line(measured_125("cam.csv", 1), "smoothing_um", "smoothing_um = auto")));
+  EXPECT_EQ(cut.compare(0, csv.size() + 3, csv + ":2:"), 0) << cut;
+  EXPECT_NE(cut.find("no row on this side comes down to 50 um"), std::string::npos) << cut;
+}
+
 TEST_F(LiftCommand, AllowsNoRockerInertiaToATrainOfConstantRatio) {
   const std::string train =
       "[cam a]\nsource = polynomial\nmax_lift_mm = 6\nhalf_angle_deg = 74\nexponents = 2,10,18\nfull_lift_at_crank_deg "

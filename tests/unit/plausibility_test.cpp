@@ -3,14 +3,20 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include <crankloop/tabulate/indicator_diagram.hpp>
 
+#include "crankloop/number.hpp"
 #include "support/bad_input.hpp"
+#include "support/measured_cam.hpp"
+#include "support/valve_trains.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -52,9 +58,139 @@ class Unusual : public bad_input::BadInput {
   const Engine bare_ = sample_.without("rod_ratio");  // it would have to change with stroke and rod
 };
 
+/// Engines that `new` makes of real ones have none either: tests/contract/real_engines_test.cpp.
 TEST_F(Unusual, NothingIsInTheSampleEngines) {
-  EXPECT_TRUE(warnings(sample_).empty());
-  EXPECT_TRUE(warnings(Engine(bad_input::contents(CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini"))).empty());
+  for (const char* name : {"diesel_495", "diesel_495_gas", "four_2000", "ohc_125", "ohc_125_gas"}) {
+    const std::vector<std::string> told =
+        warnings_about(read_engine_file(CRANKLOOP_SOURCE_DIR "/tools/engines/" + std::string(name) + ".ini", {}));
+    EXPECT_TRUE(told.empty()) << told[0];
+  }
+}
+
+/// One value in another unit, or otherwise off by what people get wrong; `told`: whether a warning names its key.
+struct WrongUnit {
+  const char* file;
+  const char* line;  ///< as the file has it, up to where it becomes wrong
+  const char* wrong;
+  const char* what;
+  bool told = true;
+};
+
+constexpr WrongUnit kWrongUnits[] = {
+    {"diesel_495", "rated_rpm", "33.3", "rev/s"},
+    {"diesel_495", "rated_rpm", "209.4", "rad/s"},
+    {"diesel_495", "bore_mm", "0.095", "m"},
+    {"diesel_495", "bore_mm", "9.5", "cm"},
+    {"diesel_495", "bore_mm", "3.74", "in"},
+    {"diesel_495", "stroke_mm", "11.5", "cm"},
+    {"diesel_495", "rod_length_mm", "2100", "0.1 mm"},
+    {"diesel_495", "piston_g", "0.81", "kg"},
+    {"diesel_495", "rod_small_end_g", "0.505", "kg"},
+    {"diesel_495", "rod_big_end_g", "1.382", "kg"},
+    {"diesel_495", "crank_inertia_kg_m2", "299", "g m2"},
+    {"diesel_495", "crank_inertia_kg_m2", "5000", "kg cm2"},
+    {"diesel_495", "crank_inertia_kg_m2", "11.9", "lb ft2"},
+    {"diesel_495", "cylinder_spacing_mm", "0.12", "m"},
+    {"diesel_495", "crankcase_kPa", "1", "bar"},
+    {"diesel_495", "intake_kPa", "0.98", "bar"},
+    {"diesel_495", "intake_kPa", "14.2", "psi"},
+    {"diesel_495", "exhaust_kPa", "1.05", "bar"},
+    {"diesel_495", "net_mep_kPa", "8.097", "bar"},
+    {"diesel_495", "net_mep_kPa", "10", "bar, rounded"},
+    {"diesel_495", "net_mep_kPa", "117.4", "psi"},
+    {"diesel_495", "constant_kPa", "0.9", "bar"},
+    {"diesel_495", "constant_kPa", "9700", "10 Pa"},
+    {"diesel_495", "linear_kPa_per_1000rpm", "0.26", "bar"},
+    {"diesel_495", "quadratic_Nm_per_1000rpm2", "4.2e-5", "of rpm squared"},
+    {"diesel_495", "stall_Nm", "0.42", "kNm"},
+    {"diesel_495", "no_load_rpm", "6.3", "rev/s"},
+    {"diesel_495", "max_lift_mm", "0.0072", "m"},
+    {"diesel_495", "base_circle_mm", "0.016", "m"},
+    {"diesel_495", "clearance_mm", "0.0003", "m"},
+    {"diesel_495", "clearance_mm", "0.012", "in", false},  // as small as a bucket's
+    {"diesel_495", "valve_g", "0.48", "kg"},
+    {"diesel_495", "spring_g", "0.09", "kg"},
+    {"diesel_495", "spring_N_per_mm", "15000", "N/m"},
+    {"diesel_495", "spring_N_per_mm", "0.025", "kN/mm"},
+    {"diesel_495", "spring_preload_N", "0.32", "kN"},
+    {"diesel_495", "train_N_per_mm", "7e6", "N/m"},
+    {"diesel_495", "train_N_per_mm", "7", "kN/mm"},
+    {"diesel_495", "seat_N_per_mm", "50", "kN/mm"},
+    {"diesel_495", "train_damping_ratio", "8", "per cent"},
+    {"diesel_495", "full_lift_at_crank_deg", "106", "from the other dead centre"},
+    {"diesel_495", "start_of_combustion_deg", "-0.1", "rad", false},  // a late start
+    {"four_2000", "intake_volume_cm3", "3", "L"},
+    {"four_2000", "throttle_mm2", "16", "cm2"},
+    {"four_2000", "outlet_mm2", "12", "cm2"},
+    {"four_2000", "fuel_mg", "0.03", "g"},
+    {"four_2000", "fuel_mg", "100", "of all four cylinders"},
+    {"four_2000", "max_lift_mm", "0.95", "cm"},
+    {"four_2000", "seat_diameter_mm", "3.3", "cm"},
+    {"ohc_125", "valve_g", "0.033", "kg"},
+};
+static_assert(std::size(kWrongUnits) == 50);
+
+TEST_F(Unusual, AValueInAnotherUnitIsTold) {
+  int told_of = 0;
+  for (const WrongUnit& wrong : kWrongUnits) {
+    const std::string path = CRANKLOOP_SOURCE_DIR "/tools/engines/" + std::string(wrong.file) + ".ini";
+    const Engine right(bad_input::contents(path));
+    const Engine engine = (std::string(wrong.file) == "diesel_495" ? bare_ : right).with(wrong.line, wrong.wrong);
+    bool told = false;
+    for (const std::string& line : warnings(engine)) {
+      // On the value's line, or on that of what it is measured with.
+      told = told || line.find(":" + std::to_string(engine.line_of(wrong.line)) + ": warning: ") != std::string::npos ||
+             line.find(wrong.line) != std::string::npos;
+    }
+    EXPECT_EQ(told, wrong.told) << wrong.file << ": " << wrong.line << " = " << wrong.wrong << ", " << wrong.what;
+    told_of += told ? 1 : 0;
+  }
+  EXPECT_GE(told_of, 45);
+}
+
+TEST_F(Unusual, OneWrongLengthIsToldOnceAndNotOfAllThatIsMeasuredByIt) {
+  EXPECT_EQ(warnings(bare_.with("bore_mm", "9.5")).size(), 1u);
+  EXPECT_EQ(warnings(bare_.with("stroke_mm", "11.5")).size(), 1u);
+  EXPECT_EQ(warnings(sample_.with("rated_rpm", "209.4")).size(), 1u);
+}
+
+TEST_F(Unusual, LengthsInMetresAreToldOnce) {
+  const Engine metres = bare_.with("bore_mm", "0.095")
+                            .with("stroke_mm", "0.115")
+                            .with("rod_length_mm", "0.21")
+                            .with("cylinder_spacing_mm", "0.12")
+                            .with("base_circle_mm", "0.016");
+  expect_only(metres, "bore_mm",
+              "all lengths look like metres: bore_mm = 0.095, stroke_mm = 0.115, rod_length_mm = 0.21");
+  // What is no length is measured by the engine that is meant.
+  EXPECT_EQ(warnings(metres.with("valve_g", "0.48")).size(), 2u);
+}
+
+TEST_F(Unusual, ARangeIsToldInTheUnitOfTheFileForAnEngineOfThisSize) {
+  // 0.008 to 1.5 times 3.2605 L to the power of 4/3, 4.835; a bore of 95 mm.
+  expect_only(sample_.with("crank_inertia_kg_m2", "299"), "crank_inertia_kg_m2",
+              "crank_inertia_kg_m2 = 299 is unusual; usual: 0.039 to 7.3 kg m^2 for this displacement");
+  expect_only(sample_.with("base_circle_mm", "0.016"), "base_circle_mm",
+              "base_circle_mm = 0.016 is unusual; usual: 4.8 to 76 mm for this bore");
+  expect_only(sample_.with("net_mep_kPa", "10"), "net_mep_kPa", "net_mep_kPa = 10 is unusual; usual: 150 to 4000 kPa");
+}
+
+TEST_F(Unusual, FullLiftOnTheOtherTurnIsTold) {
+  expect_only(sample_.with("full_lift_at_crank_deg", "106"), "full_lift_at_crank_deg",
+              "full_lift_at_crank_deg = 106 is unusual; usual: 380 to 560 deg for an intake valve");
+  EXPECT_TRUE(warnings(sample_.with("full_lift_at_crank_deg", "-254")).empty());  // 466 a cycle earlier
+}
+
+/// 499.6 cm3 of air at 25 deg C and 100 kPa, 0.9 of it in the cylinder: 525 mg, by 14.6 for 36 mg of fuel.
+TEST_F(Unusual, AMixtureThatNoSparkLightsIsTold) {
+  const Engine four(bad_input::contents(CRANKLOOP_SOURCE_DIR "/tools/engines/four_2000.ini"));
+  EXPECT_TRUE(warnings(four.with("fuel_mg", "50")).empty());  // 0.72
+  expect_only(four.with("fuel_mg", "53"), "fuel_mg", "fuel_mg = 53 gives a lambda of about 0.68");
+  EXPECT_TRUE(warnings(four.with("fuel_mg", "18.5")).empty());
+  expect_only(four.with("fuel_mg", "17.5"), "fuel_mg", "gives a lambda of about 2.1");
+  EXPECT_TRUE(warnings(four.with("fuel_mg", "0")).empty());  // motored
+  const Engine diesel(bad_input::contents(CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495_gas.ini"));
+  EXPECT_TRUE(warnings(diesel.with("fuel_mg", "10")).empty());
 }
 
 TEST_F(Unusual, ShapeOfACylinderIsToldOutsideItsBounds) {
@@ -71,13 +207,21 @@ TEST_F(Unusual, ShapeOfACylinderIsToldOutsideItsBounds) {
   expect_only(bare_.with("rod_length_mm", "127"), "rod_length_mm", "0.452756");
 }
 
+/// The rest of the engine would have to grow and shrink along: what is said of the bore itself.
 TEST_F(Unusual, SizeIsToldOutsideItsBounds) {
+  const auto told_of_bore = [&](const Engine& engine) {
+    std::string of_bore;
+    for (const std::string& line : warnings(engine)) {
+      if (line.find("warning: bore_mm") != std::string::npos) of_bore += line;
+    }
+    return of_bore;
+  };
   const Engine model =
       bare_.with("bore_mm", "9.9").with("stroke_mm", "10").with("rod_length_mm", "20").with("piston_g", "1.5");
   expect_only(model, "bore_mm", "bore_mm = 9.9 is unusual; usual: 10 to 1200 mm");
-  EXPECT_TRUE(warnings(model.with("bore_mm", "10.1")).empty());
+  EXPECT_EQ(told_of_bore(model.with("bore_mm", "10.1")), "");
   const Engine ship = bare_.with("stroke_mm", "3000").with("rod_length_mm", "4500").with("piston_g", "2e6");
-  EXPECT_TRUE(warnings(ship.with("bore_mm", "1199")).empty());
+  EXPECT_EQ(told_of_bore(ship.with("bore_mm", "1199")), "");
   expect_only(ship.with("bore_mm", "1201"), "bore_mm", "bore_mm = 1201");
 }
 
@@ -110,6 +254,48 @@ TEST_F(Unusual, AMotoredTraceThatPeaksLongBeforeDeadCentreIsTold) {
   EXPECT_TRUE(warnings(measured(-2.5, true)).empty());
   expect_only(measured(-3.5, true), "file = trace.csv",
               "the motored pressure is largest 3.5 deg before top dead centre");
+}
+
+/// The 125 with its intake cam measured to whole micrometres every `step_deg`: its lift above `clearance_mm`.
+class MeasuredCam : public Unusual {
+ protected:
+  Engine with_cam(double clearance_mm, double step_deg, const std::string& smoothing_um) const {
+    const support::Measured table(support::profile_of(support::ohc_125_cam()), -180, 179.9, step_deg);
+    std::ostringstream rows;
+    rows << "cam_deg,lift_mm\n";
+    for (const CamPoint& row : table.points)
+      rows << row.cam_deg << ',' << std::max(0.0, std::round(row.lift_m * 1e6) / 1e3 - clearance_mm) << '\n';
+    write("cam.csv", rows.str());
+    return Engine(bad_input::contents(CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini"))
+        .changed("source = polynomial", "source = table\nfile = cam.csv\nsmoothing_um = " + smoothing_um)
+        .without("max_lift_mm")
+        .without("half_angle_deg")
+        .without("exponents");
+  }
+};
+
+TEST_F(MeasuredCam, AValvesLiftLessItsClearanceIsTold) {
+  for (const double step_deg : {0.2, 0.5, 1.0, 2.0, 5.0}) {
+    for (const double clearance_mm : {0.1, 0.2, 0.4}) {
+      if (step_deg == 5) continue;  // too coarse to tell
+      expect_only(with_cam(clearance_mm, step_deg, "200"), "file", "Is it a valve's lift less its clearance?");
+    }
+    for (const char* smoothing_um : {"auto", "1", "50"}) {
+      const std::vector<std::string> told = warnings(with_cam(0, step_deg, smoothing_um));
+      EXPECT_TRUE(told.empty()) << step_deg << ": " << told[0];
+    }
+  }
+}
+
+TEST_F(MeasuredCam, AMisreadRowThatRaisesTheSmoothingIsTold) {
+  const Engine engine = with_cam(0, 1, "auto");
+  std::vector<std::string> rows = bad_input::lines_of(bad_input::contents(folder_ / "cam.csv"));
+  ASSERT_EQ(rows[151].compare(0, 4, "-30,"), 0);
+  rows[151] = "-30," + shortest(std::stod(rows[151].substr(4)) + 0.1);
+  std::string table;
+  for (const std::string& row : rows) table += row + "\n";
+  write("cam.csv", table);
+  expect_only(engine, "smoothing_um", "the row of -30 deg (" + (folder_ / "cam.csv") + ":152)");
 }
 
 TEST_F(Unusual, WarningsStandOnStderrAndInTheReportUnlessSilenced) {

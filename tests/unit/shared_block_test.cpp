@@ -345,6 +345,21 @@ TEST_F(SharedBlockFile, ThatIsTruncatedUnderItsOwnersLosesItsMagicAndNobodysLife
   EXPECT_EQ(live->magic, 0u);
 }
 
+TEST_F(SharedBlockFile, IsNotWholeOnceItIsShorterByAByteOrItsMagicIsGone) {
+  for (const ::off_t size : {0, 1, 100, 200, 255}) {
+    const SharedBlock live = create_at(path());
+    const SharedBlock controller = SharedBlock::open(path());
+    EXPECT_TRUE(live.is_whole() && controller.is_whole());
+    ASSERT_EQ(::truncate(path().c_str(), size), 0);
+    EXPECT_FALSE(live.is_whole()) << size;
+    EXPECT_FALSE(controller.is_whole()) << size;
+    EXPECT_EQ(live.has_magic(), size >= 4) << size << ": its page stays, zeros in the place of what is gone";
+  }
+  const SharedBlock live = create_at(path());
+  live->magic = 0;
+  EXPECT_FALSE(live.is_whole());
+}
+
 TEST_F(SharedBlockFile, IsNotOpenedBeforeItIsReady) {
   put(std::string(256, '\0'));
   EXPECT_EQ(refusal_of(SharedBlock::open, path()), path() + ": is not ready yet");

@@ -90,6 +90,58 @@ TEST(StressTrials, OfEightyCasesFindNothing) {
   EXPECT_GT(tally.compared, 3);
 }
 
+TEST(StressCases, OfSmoothCamsRunBelowFloat) {
+  std::set<CamShape> shapes;
+  for (std::uint64_t i = 0; i < 60; ++i) {
+    const StressCase one(kSeed, i, StressKind::smooth);
+    EXPECT_TRUE(accepted(validate(one.train))) << one.text();
+    EXPECT_EQ(one.text(), StressCase(kSeed, i, StressKind::smooth).text());
+    shapes.insert(one.shape);
+    EXPECT_GE(one.train.valve.train_damping_ratio, 0.05);
+    for (int e = 0; one.shape == CamShape::polynomial && e < one.train.cam.exponent_count; ++e)
+      EXPECT_EQ(std::fmod(one.train.cam.exponents[e], 2), 0) << one.text();
+  }
+  EXPECT_EQ(shapes, (std::set<CamShape>{CamShape::sample, CamShape::polynomial}));
+}
+
+TEST(StressTrials, CountThoseThatLanded) {
+  StressTrials trials;
+  StressTally any;
+  StressTally smooth;
+  for (int i = 0; i < 20; ++i) {
+    const StressCase one(kSeed, static_cast<std::uint64_t>(i));
+    any.add(i, one, trials.run(one, true));
+  }
+  for (int i = 0; i < 12; ++i) {
+    const StressCase one(kSeed, static_cast<std::uint64_t>(i), StressKind::smooth);
+    smooth.add(i, one, trials.run(one, true));
+  }
+  EXPECT_EQ(static_cast<std::size_t>(any.landed), any.of_class_landed.size());
+  EXPECT_GT(any.landed, 0);
+  EXPECT_LT(any.landed, any.compared / 2) << "most end before they land, or stand";
+  EXPECT_GT(smooth.landed, smooth.compared / 4);
+  EXPECT_LE(quantile(smooth.of_class, 0.9), 1) << "below float an error is not magnified";
+  EXPECT_NE(text_of(any, {}).find("landed = " + std::to_string(any.landed)), std::string::npos);
+}
+
+TEST(StressTrials, AValveThatStandsHasNotLandedAndOneThatPassesItsLobeHas) {
+  StressTrials trials;
+  int landed = 0;
+  for (std::uint64_t i = 0; landed < 3 && i < 60; ++i) {
+    StressCase one(kSeed, i, StressKind::smooth);
+    one.options.tick_s = 100e-6;
+    one.speed_rpm = 3000;  // 0.9 deg of the cam in a tick
+    if (one.shape != CamShape::sample) continue;
+    const TrialResult result = trials.run(one, true);
+    if (!result.compared) continue;
+    StressCase standing(kSeed, i, StressKind::smooth);
+    standing.speed_rpm = 0;
+    EXPECT_FALSE(trials.run(standing, true).landed) << standing.text();
+    landed += result.landed ? 1 : 0;
+  }
+  EXPECT_EQ(landed, 3);
+}
+
 TEST(StressTrials, FollowTheCamThroughStepsOfManyDegrees) {
   // Fine steps of 5 to 30 cam degrees: the cubic through their ends misses the lift between, by up to nine times what
   // is allowed.

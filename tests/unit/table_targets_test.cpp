@@ -2,20 +2,27 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
+#include <limits>
 #include <memory>
 #include <vector>
 
 #include <crankloop/tabulate/elementary.hpp>
+#include <crankloop/tabulate/indicator_diagram.hpp>
 #include <crankloop/tabulate/tabulate.hpp>
 #include <crankloop/tabulate/valve_lift.hpp>
 
 #include "support/both_reals.hpp"
+#include "support/four_2000.hpp"
 #include "support/status.hpp"
 #include "support/test_engines.hpp"
 #include "support/test_valves.hpp"
+#include "support/units.hpp"
+#include "tabulate/gas_quantities.hpp"
 
 namespace crankloop {
 
@@ -143,6 +150,84 @@ TYPED_TEST(TableTargetsOf, WhatCannotBeTabulatedAreNotFilled) {
   EXPECT_EQ(drive.cylinders, 0u) << "nothing is written by a refusal";
 }
 
+TYPED_TEST(TableTargetsOf, AnEngineWithoutAValveInItsSceneAreNotFilledFromATrainThatIsNone) {
+  // No section of a train is built; their fingerprint is the definition's all the same.
+  using Real = TypeParam;
+  Drive<Real> drive{};
+  TableTargets<Real> targets;
+  targets.drive = &drive;
+  EngineDefinition good = single_495();
+  good.train_count = 2;
+  good.trains[0] = good.trains[1] = valve_test::ohc_125_train();
+  for (const int count : {-1, 0, 1, 9, 2'000'000'000}) {
+    EngineDefinition engine = good;
+    engine.trains[1].cam.exponent_count = count;
+    EXPECT_TRUE(refuses(tabulate(engine, {100e-6, {}}, targets),
+                        count < 2 ? Reason::too_few_points : Reason::too_many_points, "cam.exponents", 1))
+        << count;
+    engine = good;
+    engine.trains[1].cam.source = CamSource::table;
+    engine.trains[1].cam.smoothing_m = 1e-6;
+    engine.trains[1].cam.point_count = count;  // and no rows
+    EXPECT_TRUE(refuses(tabulate(engine, {100e-6, {}}, targets), Reason::too_few_points, "cam.points", 1)) << count;
+  }
+  EngineDefinition engine = good;
+  engine.trains[0].valve.seat_N_m = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(refuses(tabulate(engine, {100e-6, {}}, targets), Reason::not_finite, "valve.seat_N_m", 0));
+  TickOptions options;
+  options.valves.accuracy_m = 0;
+  EXPECT_TRUE(refuses(tabulate(good, options, targets), Reason::out_of_range, "options.valves.accuracy_m"));
+  options = {};
+  options.valves.integrator = static_cast<Integrator>(2);
+  EXPECT_TRUE(refuses(tabulate(good, options, targets), Reason::out_of_range, "options.valves.integrator"));
+  EXPECT_EQ(drive.cylinders, 0u) << "nothing is written by a refusal";
+  good.train_count = 0;
+  EXPECT_TRUE(accepted(tabulate(good, options, targets))) << "without a train nothing is stepped by it";
+  EXPECT_EQ(drive.cylinders, 1u);
+}
+
+TYPED_TEST(TableTargetsOf, ARockerHaveTheFingerprintOfWhatItsKindUses) {
+  using Real = TypeParam;
+  const auto fingerprint = [](const auto& change, RockerKind kind) {
+    EngineDefinition engine = single_495();
+    engine.train_count = 1;
+    engine.trains[0] = valve_test::ohc_125_train();
+    engine.trains[0].rocker.kind = kind;
+    change(engine.trains[0].rocker);
+    Drive<Real> drive{};
+    TableTargets<Real> targets;
+    targets.drive = &drive;
+    EXPECT_TRUE(accepted(tabulate(engine, {100e-6, {}}, targets)));
+    return drive.fingerprint;
+  };
+  const auto nothing = [](Rocker&) {};
+  const auto pad = [](Rocker& rocker) {
+    rocker.pivot_to_pad_m *= 1.01, rocker.pivot_to_cam_m *= 1.01, rocker.pad_radius_m *= 1.01;
+    rocker.screw_ball_m *= 1.01, rocker.stem_above_pivot_m *= 1.01, rocker.cam_turns = CamTurns::away_from_pivot;
+  };
+  const auto ratio = [](Rocker& rocker) { rocker.ratio = 1.01; };
+  EXPECT_EQ(fingerprint(nothing, RockerKind::ratio), fingerprint(pad, RockerKind::ratio));
+  EXPECT_NE(fingerprint(nothing, RockerKind::ratio), fingerprint(ratio, RockerKind::ratio));
+  EXPECT_EQ(fingerprint(nothing, RockerKind::circular_pad), fingerprint(ratio, RockerKind::circular_pad));
+  EXPECT_NE(fingerprint(nothing, RockerKind::circular_pad), fingerprint(pad, RockerKind::circular_pad));
+}
+
+TYPED_TEST(TableTargetsOf, AnEngineWithGasExchangeHaveAnotherFingerprintForEachNumberOfValves) {
+  using Real = TypeParam;
+  const auto fingerprint = [](int per_cylinder, PressureSource source) {
+    EngineDefinition engine = support::four_2000();
+    engine.trains[1].valve.per_cylinder = per_cylinder;
+    engine.pressure.source = source;
+    Drive<Real> drive{};
+    TableTargets<Real> targets;
+    targets.drive = &drive;
+    EXPECT_TRUE(accepted(tabulate(engine, {100e-6, {}}, targets)));
+    return drive.fingerprint;
+  };
+  EXPECT_NE(fingerprint(1, PressureSource::gas), fingerprint(2, PressureSource::gas)) << "twice the port's area";
+  EXPECT_EQ(fingerprint(1, PressureSource::none), fingerprint(2, PressureSource::none)) << "one valve stands for both";
+}
+
 TYPED_TEST(TableTargetsOf, AnEngineWhoseHeatIsGivenHaveAnotherFingerprintForEachHeat) {
   using Real = TypeParam;
   const auto fingerprint = [](bool heat_given, double heat_J) {
@@ -228,7 +313,25 @@ TYPED_TEST(TableTargetsOf, ALobeNameTheDegreesThatReachAClosedValveAndOneToEithe
     ASSERT_LT(last + 1, static_cast<int>(curve.segments));
     EXPECT_EQ(curve.touch_from, static_cast<std::uint32_t>(first - 1)) << clearance_m;
     EXPECT_EQ(curve.touch_degrees, static_cast<std::uint32_t>(last - first + 3)) << clearance_m;
+    EXPECT_EQ(curve.skip_deg, static_cast<Real>(last - first + 3)) << clearance_m;
   }
+}
+
+TYPED_TEST(TableTargetsOf, ALobeThatNeverReachesItsValveNameNoDegree) {
+  using Real = TypeParam;
+  EngineDefinition engine = single_495();
+  engine.train_count = 1;
+  engine.trains[0] = valve_test::ohc_125_train();
+  engine.trains[0].rocker.kind = RockerKind::ratio;
+  engine.trains[0].rocker.clearance_m = 10e-3;  // of a lobe of 5.9 mm
+  LiftCurve<Real> curve{};
+  const auto segments = std::make_unique<LiftSegment<Real>[]>(kDegreesPerTurn);
+  const auto ratios = std::make_unique<Segment<Real>[]>(kDegreesPerTurn);
+  TableTargets<Real> targets;
+  targets.lift_curves = &curve, targets.lift_segments = segments.get(), targets.rocker_ratios = ratios.get();
+  ASSERT_TRUE(accepted(tabulate(engine, {100e-6, {}}, targets)));
+  EXPECT_EQ(curve.touch_degrees, 0u);
+  EXPECT_GT(curve.skip_deg, Real{360}) << "further than any cam angle is from it";
 }
 
 TYPED_TEST(TableTargetsOf, AGridThatExactlyFitsAreFilledAsWithRoomToSpare) {
@@ -256,6 +359,95 @@ TYPED_TEST(TableTargetsOf, AGridThatExactlyFitsAreFilledAsWithRoomToSpare) {
   EXPECT_GT(short_of_one.pressure_error_Pa, spare.pressure_error_Pa);
 }
 
+TYPED_TEST(TableTargetsOf, AGridAreDividedWhereOneParabolaLessWouldMissTheDiagramAndNowhereElse) {
+  using Real = TypeParam;
+  EngineDefinition engine = single_495();
+  engine.pressure.wiebe.combustion_duration_deg = 15;  // as steep as knocking
+  GasGrid grid{};
+  const auto segments = std::make_unique<Segment<Real>[]>(kMaxGasSegments);
+  TableTargets<Real> targets;
+  targets.gas_grid = &grid;
+  targets.pressure_full = segments.get();
+  targets.gas_capacity = kMaxGasSegments;
+  ASSERT_TRUE(accepted(tabulate(engine, {100e-6, {}}, targets)));
+  IndicatorDiagram diagram;
+  ASSERT_TRUE(accepted(diagram.init(engine.crank, engine.pressure)));
+  const double tolerance_Pa = 1e-5 * diagram.peak_Pa();
+  const double rounding_Pa = (sizeof(Real) == 4 ? 1e-6 : 1e-14) * diagram.peak_Pa();
+  const int divisions[] = {1, 2, 5, 10, 20};
+  int divided = 0;
+  for (int degree = 0; degree < kDegreesPerCycle; ++degree) {
+    const int n = grid.first[degree + 1] - grid.first[degree];
+    const int* const division = std::find(std::begin(divisions), std::end(divisions), n);
+    ASSERT_NE(division, std::end(divisions)) << degree;
+    double error_Pa = 0;
+    for (int i = 0; i <= 60; ++i) {
+      const double u = i / 60.0;
+      const int segment = grid.first[degree] + std::min(n - 1, i * n / 60);
+      error_Pa = std::max(
+          error_Pa,
+          std::fabs(static_cast<double>(value(segments[static_cast<std::size_t>(segment)], static_cast<Real>(u))) -
+                    diagram.full_Pa(degree + u)));
+    }
+    // An undivided degree is judged at ten places, between which it may be a little further off.
+    if (n < 20) {
+      EXPECT_LE(error_Pa, 1.05 * tolerance_Pa + rounding_Pa) << degree;
+    }
+    if (n == 1) continue;
+    ++divided;
+    // Parabolas through both ends and the middle of the next coarser segments.
+    const int coarser = *(division - 1);
+    double missed_Pa = 0;
+    for (int s = 0; s < coarser; ++s) {
+      for (const auto part : {&IndicatorDiagram::full_Pa, &IndicatorDiagram::heat_Pa}) {
+        const auto at = [&](double t) { return (diagram.*part)(degree + (s + t) / coarser); };
+        const double rise_Pa = at(1) - at(0);
+        double bulge_Pa = 4 * at(0.5) - 2 * (at(0) + at(1));
+        bulge_Pa = std::clamp(bulge_Pa, -std::fabs(rise_Pa), std::fabs(rise_Pa));  // as monotone as the diagram
+        for (double t = 0.05; t < 1; t += 0.05) {
+          const double parabola_Pa = at(0) + rise_Pa * t + bulge_Pa * t * (1 - t);
+          missed_Pa = std::max(missed_Pa, std::fabs(parabola_Pa - at(t)));
+        }
+      }
+    }
+    EXPECT_GE(missed_Pa, 0.95 * tolerance_Pa - rounding_Pa) << degree << " in " << n;
+  }
+  EXPECT_GE(divided, 10);
+  EXPECT_LT(divided, 200) << "most of a cycle needs no division";
+}
+
+TYPED_TEST(TableTargetsOf, ACutCylinderLacksTheTorqueOfItsOwnCycleWheneverItFires) {
+  using Real = TypeParam;
+  const auto torques = [](const std::vector<double>& firing_deg) {
+    const auto segments = std::make_unique<IntegratedSegment<Real>[]>(kMaxGasSegments);
+    GasGrid grid{};
+    GasTorque<Real> torque{};
+    TableTargets<Real> targets;
+    targets.cut_grid = &grid;
+    targets.cut_torque = &torque;
+    targets.cut_heat = segments.get();
+    targets.gas_capacity = kMaxGasSegments;
+    EXPECT_TRUE(accepted(tabulate(with_cylinders(single_495(), firing_deg), {100e-6, {}}, targets)));
+    std::vector<Real> at_degrees;
+    for (int degree = 0; degree < kDegreesPerCycle; ++degree)
+      at_degrees.push_back(value(segments[grid.first[degree]].slope, Real{0}));
+    return at_degrees;
+  };
+  const std::vector<Real> alone = torques({0});
+  EXPECT_EQ(torques({90, 450}), alone);
+  EXPECT_GT(alone[20], Real{100}) << "Nm, soon after firing";
+  EXPECT_EQ(alone[300], Real{0}) << "nothing is left of the heat in the exhaust stroke";
+}
+
+TEST(SineWithinADegree, IsThatOfTheStandardLibraryToRounding) {
+  for (int i = 0; i <= 1000; ++i) {
+    const double rad = i / 1000.0 * (elementary::kPi / 180);
+    const elementary::SinCos found = sin_cos_within_a_degree(i / 1000.0);
+    EXPECT_NEAR(found.sin, std::sin(rad), 4e-16 * rad) << i;
+    EXPECT_NEAR(found.cos, std::cos(rad), 2.3e-16) << i;
+  }
+}
+
 TYPED_TEST(TableTargetsOf, MotionsWithoutLiftsAreFilledAsWithThem) {
   using Real = TypeParam;
   EngineDefinition engine = single_495();
@@ -274,7 +466,40 @@ TYPED_TEST(TableTargetsOf, MotionsWithoutLiftsAreFilledAsWithThem) {
   ASSERT_TRUE(accepted(tabulate(engine, {100e-6, {}}, targets)));
   EXPECT_GT(alone.body.mass_kg, Real{0});
   EXPECT_EQ(alone.whole[kTrainOn].lift.lift, with_lift.whole[kTrainOn].lift.lift);
+  EXPECT_EQ(alone.cubic_deg, with_lift.cubic_deg);
   EXPECT_EQ(alone.widest_step_deg, with_lift.widest_step_deg);
+}
+
+TYPED_TEST(TableTargetsOf, AValveTakesNoStepOverWhichACubicWouldMissItsLift) {
+  // Through lift and slope at the ends of a step the cubic misses h^4 / 384 of the fourth derivative; three times the
+  // width that misses a tenth of the accuracy misses 8.1 times the accuracy, at the sharpest place of the lobe; less
+  // where the derivative falls within the step.
+  using Real = TypeParam;
+  for (const double last_exponent : {20.0, 26.0, 40.0}) {
+    EngineDefinition engine = single_495();
+    engine.train_count = 1;
+    engine.trains[0] = valve_test::ohc_125_train();
+    engine.trains[0].cam.exponents[3] = last_exponent;
+    engine.trains[0].rocker.kind = RockerKind::ratio;
+    ValveMotion<Real> motion{};
+    TableTargets<Real> targets;
+    targets.valve_motions = &motion;
+    TickOptions options;
+    options.valves.accuracy_m = 0.01e-6;
+    ASSERT_TRUE(accepted(tabulate(engine, options, targets)));
+    ValveLift lift;
+    ASSERT_TRUE(accepted(lift.init(engine.trains[0].cam, engine.trains[0].rocker)));
+    const double width = static_cast<double>(motion.widest_step_deg) * support::kRadPerDeg;
+    double missed_m = 0;
+    for (double from = lift.opens_rad() - width; from < lift.closes_rad(); from += width / 50) {
+      const LiftPose a = lift.at(from);
+      const LiftPose b = lift.at(from + width);
+      const double middle_m = (a.lift_m + b.lift_m) / 2 + width * (a.per_rad_m - b.per_rad_m) / 8;
+      missed_m = std::max(missed_m, std::fabs(middle_m - lift.at(from + width / 2).lift_m));
+    }
+    EXPECT_LE(missed_m, 1.05 * 8.1 * options.valves.accuracy_m) << last_exponent;
+    EXPECT_GE(missed_m, 0.6 * 8.1 * options.valves.accuracy_m) << last_exponent;
+  }
 }
 
 TYPED_TEST(TableTargetsOf, ValvesTellTheFineStepsOfTheWorstTickAndRefuseTooMany) {
@@ -291,6 +516,25 @@ TYPED_TEST(TableTargetsOf, ValvesTellTheFineStepsOfTheWorstTickAndRefuseTooMany)
       << "42 900 rad/s on the seat, 100 us: five fine steps for each of eight valves";
   EXPECT_EQ(report.valve_changes, 4 + 5);
   EXPECT_EQ(motions[1].most_changes, 9u);
+  // In a fine step of the widest tick that keeps the class, the cubic through its ends misses the lift by less than
+  // that, but not by far less: the bound takes the lift's largest fourth derivative for that of the whole step.
+  const ValveLift lift = valve_test::lift_of(engine.trains[0]);
+  const double wide_rad = report.valve_class_deg / 5 * support::kRadPerDeg;
+  ASSERT_GT(report.valve_class_deg, 1);
+  double missed_m = 0;
+  for (double from_rad = lift.opens_rad(); from_rad + wide_rad < lift.closes_rad(); from_rad += wide_rad / 8) {
+    const LiftPose from = lift.at(from_rad), middle = lift.at(from_rad + wide_rad / 2),
+                   to = lift.at(from_rad + wide_rad);
+    const double cubic_m = (from.lift_m + to.lift_m) / 2 + wide_rad * (from.per_rad_m - to.per_rad_m) / 8;
+    missed_m = std::fmax(missed_m, std::fabs(middle.lift_m - cubic_m));
+  }
+  EXPECT_LT(missed_m, 0.1e-6);
+  EXPECT_GT(missed_m, 0.02e-6);
+  EngineDefinition valveless = engine;
+  valveless.train_count = 0;
+  ASSERT_TRUE(accepted(tabulate(valveless, {100e-6, {}}, targets, &report)));
+  EXPECT_EQ(report.valve_fine_steps, 0);
+  EXPECT_EQ(report.valve_changes, 4);
   // Sixteen cylinders with four trains as stiff as a valve can be: each by itself would do, all together would take
   // some ms for a tick of 0.1 ms.
   std::vector<double> firing_deg;

@@ -37,13 +37,15 @@ TEST(SpeedRange, HasRoundStepsAndAtMostSixty) {
 TEST(Redline, AnOnsetIsTheFirstWholeSpeedThatHasIt) {
   const EngineFile file = read_engine_file(kOhc125, {});
   const LoneValve valve(file, "intake");
-  const Sweep sweep = sweep_speeds(valve, speed_range(2000, 11000), 1, {});
-  ASSERT_TRUE(sweep.separation.found && sweep.bounce.found);
+  const Sweep sweep = sweep_speeds(valve, speed_range(2000, 11000), 1, {}, {1e-6, 0.5, 0});
+  ASSERT_TRUE(sweep.separation.found && sweep.bounce.found && sweep.seating.found);
   EXPECT_FALSE(sweep.separation.at_the_start);
   EXPECT_EQ(run<double>(valve, sweep.separation.speed_rpm).results.separations, 1u);
   EXPECT_EQ(run<double>(valve, sweep.separation.speed_rpm - 1).results.separations, 0u);
   EXPECT_EQ(run<double>(valve, sweep.bounce.speed_rpm).results.bounces, 1u);
   EXPECT_EQ(run<double>(valve, sweep.bounce.speed_rpm - 1).results.bounces, 0u);
+  EXPECT_GT(run<double>(valve, sweep.seating.speed_rpm).results.seating_speed_m_s, 0.5);
+  EXPECT_LE(run<double>(valve, sweep.seating.speed_rpm - 1).results.seating_speed_m_s, 0.5);
 }
 
 /// The valve of the 125 lifts off its seat by micrometres long before it bounces in earnest.
@@ -51,11 +53,11 @@ TEST(Redline, ABounceCountsFromTheHeightThatIsAskedFor) {
   const EngineFile file = read_engine_file(kOhc125, {});
   const LoneValve valve(file, "intake");
   const auto onset_rpm = [&](double least_m) {
-    return sweep_speeds(valve, speed_range(2000, 11000), 1, {}, least_m).bounce.speed_rpm;
+    return sweep_speeds(valve, speed_range(2000, 11000), 1, {}, {least_m, 0.5, 0}).bounce.speed_rpm;
   };
   const int of_any_rpm = onset_rpm(1e-6);
   const int of_high_rpm = onset_rpm(100e-6);
-  EXPECT_EQ(of_any_rpm, sweep_speeds(valve, speed_range(2000, 11000), 1, {}).bounce.speed_rpm);
+  EXPECT_EQ(onset_rpm(50e-6), sweep_speeds(valve, speed_range(2000, 11000), 1, {}).bounce.speed_rpm);
   EXPECT_GT(of_high_rpm, of_any_rpm + 1000);
   ValveLoop<double> loop(valve, kRedlineTick_s, {});
   const auto height_m = [&](int rpm) {
@@ -68,7 +70,7 @@ TEST(Redline, ABounceCountsFromTheHeightThatIsAskedFor) {
 TEST(Redline, AnOnsetOutsideTheRangeIsToldAsSuch) {
   const EngineFile file = read_engine_file(kOhc125, {});
   const LoneValve valve(file, "intake");
-  const Sweep sweep = sweep_speeds(valve, speed_range(7000, 7100), 1, {});
+  const Sweep sweep = sweep_speeds(valve, speed_range(7000, 7100), 1, {}, {1e-6, 0.5, 0});
   EXPECT_FALSE(sweep.separation.found);
   EXPECT_TRUE(sweep.bounce.found && sweep.bounce.at_the_start);
   EXPECT_EQ(sweep.bounce.speed_rpm, 7000);
@@ -158,18 +160,17 @@ class ValveCommands : public testing::Test {
 
 TEST_F(ValveCommands, TheSummaryNamesEverythingWithItsUnit) {
   const auto found = lines(run(kValve, {kOhc125, "--train", "intake", "--rpm", "7000"}));
-  const std::map<std::string, std::string> units{{"max_theoretical_lift_mm", "mm"},
-                                                 {"max_lift_mm", "mm"},
-                                                 {"opening_delay_deg", "deg"},
+  const std::map<std::string, std::string> units{{"max_theoretical_lift", "mm"},
+                                                 {"max_lift", "mm"},
+                                                 {"opening_delay", "deg"},
                                                  {"separations", "#"},
-                                                 {"separation_max_gap_mm", "mm"},
-                                                 {"separation_start_deg", "deg"},
-                                                 {"separation_duration_deg", "deg"},
-                                                 {"seating_speed_m_s", "m/s"},
+                                                 {"separation_max_gap", "mm"},
+                                                 {"separation_duration", "deg"},
+                                                 {"seating_speed", "m/s"},
                                                  {"bounces", "#"},
-                                                 {"bounce_height_mm", "mm"},
-                                                 {"natural_frequency_Hz", "Hz"},
-                                                 {"seat_frequency_Hz", "Hz"},
+                                                 {"bounce_height", "mm"},
+                                                 {"natural_frequency", "Hz"},
+                                                 {"seat_frequency", "Hz"},
                                                  {"sub_steps", "#"},
                                                  {"events", "#"},
                                                  {"periodic", "#"}};
@@ -177,10 +178,23 @@ TEST_F(ValveCommands, TheSummaryNamesEverythingWithItsUnit) {
     ASSERT_TRUE(found.count(name)) << name;
     EXPECT_EQ(found.at(name).second, unit) << name;
   }
-  EXPECT_EQ(found.at("max_lift_mm").first.substr(0, 6), "7.7850");
+  EXPECT_EQ(found.at("max_lift").first, "7.78509");
   EXPECT_EQ(found.at("periodic").first, "yes");
   // sqrt(k / M) by hand: 11765 + 40 N/mm on 33 + 20 g and the rocker's share.
-  EXPECT_NEAR(std::stod(found.at("natural_frequency_Hz").first), 2216, 1);
+  EXPECT_NEAR(std::stod(found.at("natural_frequency").first), 2216, 1);
+}
+
+TEST_F(ValveCommands, AValveInTheAirHasNoOpeningDelay) {
+  // At 16 000 rpm the valve has not come down when its cam lifts it again: neither 0 deg late nor any.
+  const std::string told = run(kValve, {kOhc125, "--train", "intake", "--rpm", "16000"});
+  EXPECT_NE(told.find("opening_delay = none  # it was in the air before its cam lifted it\n"), std::string::npos)
+      << told;
+  const ChangedFile wide(kOhc125, "clearance_mm", "clearance_mm = 9");  // more than the cam lifts
+  const std::string shut = run(kValve, {wide.path(), "--train", "intake", "--rpm", "7000"});
+  EXPECT_NE(shut.find("opening_delay = none  # it does not rise by 0.1 mm\n"), std::string::npos) << shut;
+  EXPECT_NE(shut.find("separation_start = none\n"), std::string::npos) << shut;
+  run(kValve, {kOhc125, "--train", "intake", "--rpm", "16000", "--plot", path("v.svg")});
+  EXPECT_NE(contents(path("v.svg")).find("no opening delay"), std::string::npos);
 }
 
 TEST_F(ValveCommands, TheCsvHasARowForEveryTickOfACycle) {
@@ -273,13 +287,13 @@ TEST_F(ValveCommands, APlotTellsSeparationFromBounceFromCompression) {
   EXPECT_GT(span_in(gap_at_7000, "on the train").second, 50);  // compressed by its force, 0.7 kN on 11765 N/mm
   EXPECT_LT(span_in(gap_at_7000, "on the train").second, 70);
   const double contact_um = 205.8 / 100e6 * 1e6;  // delta_0: the closed valve lies that far below the seat's contact
-  EXPECT_NEAR(span_in(description_of(at_7000, "Seating, closer"), "bounce").second, um(found.at("bounce_height_mm")),
+  EXPECT_NEAR(span_in(description_of(at_7000, "Seating, closer"), "bounce").second, um(found.at("bounce_height")),
               kDigits * 20 + 0.1);
   EXPECT_LT(span_in(description_of(at_7000, "Seating, closer"), "on the seat").first, -contact_um);
   EXPECT_EQ(span_in(description_of(at_7000, "Seating, closer"), "seat contact"), std::make_pair(0.0, 0.0));
 
   const support::Markup at_12000 = picture("12000", found);
-  const double widest_um = um(found.at("separation_max_gap_mm"));
+  const double widest_um = um(found.at("separation_max_gap"));
   EXPECT_GT(widest_um, 1000);
   EXPECT_NEAR(span_in(description_of(at_12000, "Train lift less valve lift"), "separation").first, -widest_um,
               kDigits * widest_um);
@@ -389,15 +403,15 @@ TEST_F(ValveCommands, ATrainThatLacksAPartIsTold) {
 TEST_F(ValveCommands, ARedlineTellsBothOnsetsAndWritesItsTableAndPage) {
   const auto found = lines(run(kRedline, {kOhc125, "--train", "intake", "--from", "8000", "--to", "9500", "--vary",
                                           "spring", "--csv", path("r.csv"), "--report", path("r.html")}));
-  EXPECT_EQ(found.at("separation_onset_rpm").second, "rpm");
-  EXPECT_NEAR(std::stod(found.at("separation_onset_rpm").first), 8500,
+  EXPECT_EQ(found.at("separation_onset").second, "rpm");
+  EXPECT_NEAR(std::stod(found.at("separation_onset").first), 8500,
               300);  // spec of the train: floats only from about 8500
   const std::vector<std::string> rows = split_at(contents(path("r.csv")), '\n');
   EXPECT_EQ(rows[0].substr(0, 17), "factor,speed_rpm,");
   EXPECT_EQ(rows.size(), 1u + 7 * 61);
   // Compared at the sweep's first speed above the onset as given, in steps of 25 rpm: not where the motion is
   // aperiodic.
-  const double onset_rpm = std::stod(found.at("separation_onset_rpm").first);
+  const double onset_rpm = std::stod(found.at("separation_onset").first);
   const double compared_rpm = 25 * (std::floor(onset_rpm / 25) + 1);
   const std::string table =
       run(kRedline, {kOhc125, "--train", "intake", "--from", "8000", "--to", "9500", "--vary", "spring"});
@@ -406,6 +420,58 @@ TEST_F(ValveCommands, ARedlineTellsBothOnsetsAndWritesItsTableAndPage) {
   const std::string page = contents(path("r.html"));
   EXPECT_NE(page.find("<svg"), std::string::npos);
   EXPECT_NE(page.find("spring_N_per_mm"), std::string::npos);
+}
+
+/// A hundredth of the preload: the valve flies through its spring.
+TEST_F(ValveCommands, ARedlineLeavesOutLiftsThatNoSpringAllows) {
+  const ChangedFile weak(kOhc125, "spring_preload_N", "spring_preload_N = 2");
+  const std::vector<std::string> words = {weak.path(), "--train", "intake", "--from", "6000", "--to", "15000"};
+  const auto with = [&words](const std::vector<std::string>& more) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  const std::string text = run(kRedline, with({"--csv", path("r.csv"), "--report", path("r.html")}));
+  const std::size_t said = text.find("# left out: ");
+  ASSERT_NE(said, std::string::npos) << text;
+  const EngineFile file = read_engine_file(weak.path(), {});
+  const LoneValve valve(file, "intake");
+  const double most_mm = 1.5 * 7.815;  // the sample's theoretical lift: README.md
+  int left_out = 0;
+  for (const std::string& row : split_at(contents(path("r.csv")), '\n')) {
+    if (row.empty() || row[0] == 'f') continue;
+    const std::vector<std::string> cells = split_at(row, ',');
+    ASSERT_EQ(std::count(row.begin(), row.end(), ','), 10) << row;
+    const double lift_mm = 1e3 * program::run<double>(valve, std::stod(cells[1])).results.largest_lift_m;
+    EXPECT_EQ(cells[2].empty(), lift_mm > most_mm) << row << ": " << lift_mm;
+    if (!cells[2].empty()) continue;
+    ++left_out;
+    for (std::size_t i = 2; i < cells.size(); ++i) EXPECT_EQ(cells[i], "") << row;
+  }
+  EXPECT_GT(left_out, 0);
+  EXPECT_EQ(text.compare(said, 14, "# left out: " + std::to_string(left_out).substr(0, 2)), 0) << text.substr(said, 60);
+  EXPECT_NE(contents(path("r.html")).find("1.5 times the theoretical lift"), std::string::npos);
+  EXPECT_NE(text.find("  -  "), std::string::npos) << "a masked cell of the table";
+
+  // A stated coil bind masks more, and one below the lift of the cam is a mistake.
+  const std::string bound = run(kRedline, with({"--coil-bind-mm", "8.5"}));
+  EXPECT_NE(bound.find("beyond 8.5 mm, where its spring binds"), std::string::npos) << bound;
+  EXPECT_NE(refusal(kRedline, with({"--coil-bind-mm", "7.5"})).find("--coil-bind-mm must be above"), std::string::npos);
+}
+
+TEST_F(ValveCommands, ARedlineTellsWhereTheValveMeetsItsSeatTooFast) {
+  const std::vector<std::string> words = {kOhc125, "--train", "intake", "--from", "4000", "--to", "8000"};
+  const auto found = lines(run(kRedline, words));
+  EXPECT_EQ(found.at("seating_limit").second, "rpm");
+  const EngineFile file = read_engine_file(kOhc125, {});
+  const LoneValve valve(file, "intake");
+  const double rpm = std::stod(found.at("seating_limit").first);
+  EXPECT_GT(program::run<double>(valve, rpm).results.seating_speed_m_s, 0.5);
+  EXPECT_LE(program::run<double>(valve, rpm - 1).results.seating_speed_m_s, 0.5);
+  EXPECT_EQ(found.at("bounce_onset").first, "none") << "micrometres are no bounce";
+  std::vector<std::string> slower = words;
+  slower.insert(slower.end(), {"--seating-m-s", "0.7"});
+  EXPECT_GT(std::stod(lines(run(kRedline, slower)).at("seating_limit").first), rpm + 500);
 }
 
 TEST_F(ValveCommands, ARedlineRefusesWhatMakesNoSense) {

@@ -146,6 +146,14 @@ TEST(CamDefinition, OfATableNamesTheRowThatIsWrong) {
   EXPECT_TRUE(refuses(with(), Reason::out_of_range, "cam.points"));
   points.assign(good.begin(), good.begin() + 7);
   EXPECT_TRUE(refuses(with(), Reason::too_few_points, "cam.points"));
+  points.assign(good.begin(), good.begin() + 8);
+  EXPECT_TRUE(accepted(with()));
+  for (const double end_deg : {180.0, 180.001}) {
+    points = good;
+    points.front().cam_deg = -180;
+    points.back().cam_deg = end_deg;
+    EXPECT_EQ(with().ok(), end_deg == 180) << "a turn, and not more";
+  }
   points.clear();
   for (int i = 0; i <= kMaxCamPoints; ++i) points.push_back({i * 0.1, 0});
   EXPECT_TRUE(refuses(with(), Reason::too_many_points, "cam.points"));

@@ -1,7 +1,6 @@
 #include "arguments.hpp"
 
 #include <cmath>
-#include <filesystem>
 #include <limits>
 
 #include "error.hpp"
@@ -21,14 +20,6 @@ const Option& known_option(const Command& command, std::string_view name) {
   const std::string guess = suggestion(name, names);
   const std::string all = names.empty() ? "; this command has none" : "; options: " + join(names);
   throw UsageError("unknown option " + in_quotes(name) + (guess.empty() ? all : guess));
-}
-
-/// Whether writing to one would write over the other. Devices may be named as often as one likes.
-bool is_same_file(const std::string& a, const std::string& b) {
-  std::error_code error;
-  if (std::filesystem::exists(a, error) && !std::filesystem::is_regular_file(a, error)) return false;
-  return std::filesystem::equivalent(a, b, error) ||
-         std::filesystem::weakly_canonical(a, error) == std::filesystem::weakly_canonical(b, error);
 }
 
 }  // namespace
@@ -73,7 +64,6 @@ Arguments::Arguments(const Command& command, const std::vector<std::string>& wor
   if (files_.size() < command.files) throw UsageError("a file name is missing");
   if (files_.size() > command.files) throw UsageError("unexpected argument " + in_quotes(files_[command.files]));
   require(command);
-  refuse_overwriting();
 }
 
 void Arguments::require(const Command& command) const {
@@ -82,21 +72,6 @@ void Arguments::require(const Command& command) const {
     if (option.is_required && !has(option.name)) missing.emplace_back(option.name);
   }
   if (!missing.empty()) throw UsageError(join(missing) + (missing.size() == 1 ? " is missing" : " are missing"));
-}
-
-void Arguments::refuse_overwriting() const {
-  for (const auto& [name, given] : given_) {
-    if (given.option->kind != Option::Kind::text) continue;
-    for (const std::string& file : files_) {
-      if (is_same_file(given.text, file)) throw UsageError(name + " would overwrite the input file " + file);
-    }
-    for (const auto& [other_name, other] : given_) {
-      const bool both_named = other.option->kind == Option::Kind::text && name < other_name;
-      if (both_named && is_same_file(given.text, other.text)) {
-        throw UsageError(name + " and " + other_name + " name the same file");
-      }
-    }
-  }
 }
 
 void Arguments::set(const Option& option, std::string_view value, bool by_user) {

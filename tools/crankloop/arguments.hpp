@@ -88,8 +88,7 @@ struct Command {
 class Arguments {
  public:
   /// Throws UsageError for an option that is unknown, doubled, without its value, with a value out of its range, for
-  /// files that are missing or too many, for all required options that are missing, and for an output that would
-  /// overwrite an input or another output.
+  /// files that are missing or too many, and for all required options that are missing.
   Arguments(const Command& command, const std::vector<std::string>& words);
 
   [[nodiscard]] const std::string& file(std::size_t index = 0) const { return files_.at(index); }
@@ -112,7 +111,6 @@ class Arguments {
   };
   void set(const Option& option, std::string_view value, bool by_user);
   void require(const Command& command) const;
-  void refuse_overwriting() const;
   [[nodiscard]] const Given& get(std::string_view option) const;
 
   std::vector<std::string> files_;

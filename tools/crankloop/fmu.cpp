@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <system_error>
 
-#include <unistd.h>
 #include <crankloop/fmi/description.hpp>
 #include <crankloop/scenes.hpp>
 
@@ -68,26 +67,6 @@ void add_sources(std::vector<ZipEntry>& entries, fmi::SourceBuild build, bool tw
   if (!two) entries.push_back({"sources/buildDescription.xml", build.description()});
 }
 
-/// A folder that is gone with its object.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string path = (fs::temp_directory_path() / "crankloop-fmu-XXXXXX").string();
-    if (::mkdtemp(path.data()) == nullptr) throw OutputError("no temporary folder can be made");
-    path_ = path;
-  }
-  ~TemporaryFolder() {
-    std::error_code error;
-    fs::remove_all(path_, error);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] std::string path() const { return path_.string(); }
-
- private:
-  fs::path path_;
-};
-
 /// The output's name as a C identifier: what the FMU and its binary are called.
 std::string identifier_of(const std::string& path) {
   std::string name = fs::path(path).stem().string();
@@ -97,13 +76,37 @@ std::string identifier_of(const std::string& path) {
   return name.empty() || (name[0] >= '0' && name[0] <= '9') ? "_" + name : name;
 }
 
+/// The engine file that is packed.
+struct Packed {
+  const EngineFile& engine;
+  double tick_us;
+};
+
+/// The FMU's own supply, of resources that are not unpacked anywhere: nothing is left behind, however the program ends.
+template <class Real, class Scene>
+class PackedSupply : public FileSupply<Real, Scene> {
+ public:
+  static inline const Packed* packed = nullptr;  ///< an instance makes its supply itself and passes on a path alone
+
+  bool open(const char* /*resources*/, fmi::Message& why) noexcept {
+    return this->open_source(why, [] { return std::make_unique<EngineSource>(packed->engine, packed->tick_us); });
+  }
+};
+
 /// What the FMU tells of itself, worked out by the code that it runs.
 template <class Real, class Scene>
-std::vector<ZipEntry> described(const std::string& resources, fmi::Version version, const fmi::Title& title) {
-  using Supply = FileSupply<Real, Scene>;
+std::vector<ZipEntry> described(const Packed& packed, fmi::Version version, const fmi::Title& title) {
+  using Supply = PackedSupply<Real, Scene>;
+  Supply::packed = &packed;
   const auto instance = std::make_unique<fmi::Instance<Supply>>();
   fmi::Message why;
-  if (!instance->open(resources.c_str(), why)) throw InputError(why.text);
+  if (!instance->open("", why)) {
+    const double tick_s = millionths(packed.tick_us);
+    const auto storage = std::make_unique<TableStorage<Real, Scene, kMaxGasSegments>>();
+    const Status refused = storage->build(packed.engine.definition(), {tick_s});
+    if (!refused.ok()) throw explain_tabulate(packed.engine, refused, tick_s);  // by the lines of the user's file
+    throw InputError(why.text);
+  }
   fmi::Description<Supply> description(*instance, title);
   return {{"modelDescription.xml", description.model(version)}, {"documentation/index.html", description.page()}};
 }
@@ -116,23 +119,24 @@ int run_fmu(const Arguments& arguments) {
   const std::string& crank = arguments.text("--crank");
   const std::string& output = arguments.text("--output");
   const bool two = arguments.text("--fmi") == "2";
-  std::vector<ZipEntry> resources = resources_of(engine, tick_us);
-  const TemporaryFolder folder;
-  for (const ZipEntry& entry : resources) {
-    Output file((fs::path(folder.path()) / entry.name).string());
-    file.write(entry.bytes);
-    file.finish();
+  const DrivenMachine& machine = engine.definition().machine;
+  if (crank == "torque" && machine.constant_Nm == 0 && machine.linear_Nm_s == 0 && machine.quadratic_Nm_s2 == 0) {
+    tell_warnings(arguments, {engine.path() + ": warning: there is no [machine] to load the engine, which speeds up "
+                                              "at full load until external_torque_Nm is set"});
   }
+  std::vector<ZipEntry> resources = resources_of(engine, tick_us);
+  Output out(output);
+  const Packed packed{engine, tick_us};
   const fmi::Title title{identifier_of(output), engine.name()};
   const auto version = two ? fmi::Version::two : fmi::Version::three;
   std::vector<ZipEntry> entries = with_real(real, [&](auto zero) {
     using Real = decltype(zero);
     if (breathes(engine.definition())) {
-      return crank == "speed" ? described<Real, scenes::Breathing>(folder.path(), version, title)
-                              : described<Real, scenes::BreathingFree>(folder.path(), version, title);
+      return crank == "speed" ? described<Real, scenes::Breathing>(packed, version, title)
+                              : described<Real, scenes::BreathingFree>(packed, version, title);
     }
-    return crank == "speed" ? described<Real, scenes::Whole>(folder.path(), version, title)
-                            : described<Real, scenes::FreeRunning>(folder.path(), version, title);
+    return crank == "speed" ? described<Real, scenes::Whole>(packed, version, title)
+                            : described<Real, scenes::FreeRunning>(packed, version, title);
   });
   for (ZipEntry& entry : resources) entries.push_back({"resources/" + entry.name, entry.bytes});
   const std::string gas = breathes(engine.definition()) ? "gas_" : "";
@@ -149,7 +153,6 @@ int run_fmu(const Arguments& arguments) {
   entries.push_back({"documentation/licenses/license.txt", kLicense});
   sort_as_fmu(entries);
 
-  Output out(output);
   out.write(stored_zip(entries));
   out.finish();
   return kSuccess;

@@ -26,7 +26,7 @@ void write_lift(CsvWriter& csv, const ValveLift& lift, double step_deg) {
   });
 }
 
-std::string summary(const ValveLift& lift, CamSource source) {
+std::string summary(const ValveLift& lift, const TrainOfFile& train) {
   double least_ratio = lift.at(0).rocker_ratio;
   double most_ratio = least_ratio;
   for (int tenth = -1800; tenth < 1800; ++tenth) {
@@ -34,14 +34,15 @@ std::string summary(const ValveLift& lift, CamSource source) {
     least_ratio = std::min(least_ratio, ratio);
     most_ratio = std::max(most_ratio, ratio);
   }
-  Summary s(Summary::Digits::all);
+  Summary s;
   s.line("max_theoretical_lift", lift.largest_lift_m() * 1e3, "mm");
   s.line("lobe_begin", lift.opens_rad() * kDegPerRad, "deg");
   s.line("lobe_end", lift.closes_rad() * kDegPerRad, "deg");
   s.line("rocker_ratio_least", least_ratio);
   s.line("rocker_ratio_most", most_ratio);
   s.line("smallest_cam_radius", lift.smallest_radius_m() * 1e3, "mm");
-  if (source != CamSource::table) return s.text();
+  if (train.definition.cam.source != CamSource::table) return s.text();
+  s.line("smoothing", train.definition.cam.smoothing_m * 1e6, "um", train.rows ? "chosen by auto" : "");
   s.line("smoothing_residual", lift.cam().residual_m() * 1e6, "um");
   s.line("table_peak", lift.cam().peak_deg(), "deg");
   return s.text();
@@ -63,7 +64,7 @@ int run_lift(const Arguments& arguments) {
   CsvWriter csv(out, {"cam_deg", "rocker_angle_deg", "lift_mm", "lift_mm_per_rad", "lift_mm_per_rad2", "rocker_ratio"});
   write_lift(csv, *lift, arguments.number("--step-deg"));
   out.finish();
-  if (arguments.has("--csv")) print(summary(*lift, train.definition.cam.source));
+  if (arguments.has("--csv")) print(summary(*lift, train));
   return kSuccess;
 }
 

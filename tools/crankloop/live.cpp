@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "engine_file/plausibility.hpp"
 #include "error.hpp"
+#include "files_in_use.hpp"
 #include "live/live_loop.hpp"
 #include "live/live_summary.hpp"
 #include "number.hpp"
@@ -66,13 +67,13 @@ int run_live_command(const Arguments& arguments) {
 
   const auto figures = std::make_unique<LiveFigures>();
   try {
-    port::LiveBlock alone;
-    alone.magic = port::kLiveMagic;
     std::optional<port::SharedBlock> shared;
-    if (shares)
+    if (shares) {
+      claim_output(arguments.text("--shared"));
       shared.emplace(port::SharedBlock::create(arguments.text("--shared"), request.tick_s, cylinders_of(file),
                                                breathes(file.definition())));
-    with_real(real, [&](auto zero) { run_live<decltype(zero)>(file, request, shares ? **shared : alone, *figures); });
+    }
+    with_real(real, [&](auto zero) { run_live<decltype(zero)>(file, request, shares ? &*shared : nullptr, *figures); });
   } catch (const port::SharedBlockError& refused) {
     throw InputError(refused.what());
   }

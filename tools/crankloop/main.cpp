@@ -13,6 +13,7 @@
 #include "engine_file/engine_file_keys.hpp"
 #include "engine_file/trigger_patterns.hpp"
 #include "error.hpp"
+#include "files_in_use.hpp"
 #include "output_file.hpp"
 #include "words.hpp"
 
@@ -70,6 +71,8 @@ std::string help() {
       "  FILE:LINE: what is wrong, what is allowed         for each error of an engine file, up to 20; for the first "
       "one of a table\n"
       "  crankloop COMMAND: what is wrong, what is allowed  for an option, with the command's usage below\n"
+      "An output that is a file the command reads, under any of its names, or the same file as another output, is bad "
+      "input too.\n"
       "Output that cannot be written, and any other failure, is a line crankloop: ... and exit status 1.\n";
   return text;
 }
@@ -152,6 +155,7 @@ int main(int count, char** words) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   Output::remove_unfinished_at_signals();
+  watch_files_in_use();
   occupy_closed_standard_files();
   try {
     return run(std::vector<std::string>(words + (count > 0 ? 1 : 0), words + count));

@@ -75,8 +75,9 @@ std::string summary(const EngineMap& map) {
   add(
       "largest_volumetric_efficiency", [](const MapPoint& p) { return p.gas.cycle.volumetric_efficiency; }, "");
   double faulty_ticks = 0;
-  for (const MapPoint& point : map.points) faulty_ticks += point.faulty_ticks;
-  s.line("faulty_ticks", faulty_ticks);
+  std::uint32_t faults = 0;
+  for (const MapPoint& point : map.points) faulty_ticks += point.faulty_ticks, faults |= point.faults;
+  s.faulty_ticks(static_cast<std::uint64_t>(faulty_ticks), faults);
   return s.text();
 }
 
@@ -94,6 +95,8 @@ int run_map_command(const Arguments& arguments) {
   }
   const double tick_s = millionths(arguments.number("--tick-us"));
   require_trains(file, tick_s);
+  require_manifolds(file, tick_s);
+  (void)tell_warnings(arguments, warnings_about_gas(file, std::max(speed_rpm.from, speed_rpm.to), tick_s));
   EngineMap map{file, {speed_rpm, throttle_ratio, fuel_and_spark(arguments, file), tick_s}, ""};
   map.command_line = "crankloop map " + shell_word(arguments.file()) + " --rpm " + arguments.text("--rpm") +
                      " --throttle " + arguments.text("--throttle") + " --fuel-mg " +

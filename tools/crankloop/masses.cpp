@@ -20,7 +20,7 @@ int run_masses(const Arguments& arguments) {
                           : type == "diesel" ? EngineKind::diesel
                                              : EngineKind::tractor_diesel;
   const FirstDesign design = first_design(kind, arguments.number("--bore-mm") / 1000, arguments.number("--speed-rpm"));
-  Summary s(Summary::Digits::all);
+  Summary s;
   add_interval(s, "piston_group", design.piston_kg, 1000, "g");
   add_interval(s, "rod", design.rod_kg, 1000, "g");
   add_interval(s, "rod_share_at_piston_pin_inline", design.pin_share_inline, 1, "");

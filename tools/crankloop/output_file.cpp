@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "error.hpp"
+#include "files_in_use.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -24,11 +25,19 @@ namespace {
 constexpr std::size_t kBufferBytes = 65536;
 constexpr int kMaxNames = 100;
 
-/// Where a name leads: renaming onto a symbolic link would replace the link, not the file.
-std::string behind_links(const std::string& path) {
+/// Where a name leads, also where nothing is there yet: renaming onto a symbolic link would replace the link, not the
+/// file. What is there but has no path (/dev/stdout of a pipe) keeps its name; a link of a ring is left for stat() to
+/// refuse.
+std::string behind_links(const std::string& name) {
+  constexpr int kMaxLinks = 40;  // the kernel's own limit
   std::error_code error;
-  const std::filesystem::path real = std::filesystem::canonical(path, error);
-  return error ? path : real.string();
+  std::filesystem::path path = std::filesystem::canonical(name, error);
+  if (!error) return path.string();
+  path = name;
+  if (std::filesystem::exists(path, error)) return name;
+  for (int i = 0; i < kMaxLinks && std::filesystem::is_symlink(path, error); ++i)
+    path = path.parent_path() / std::filesystem::read_symlink(path, error);
+  return path.string();
 }
 
 // ---- unfinished files and signals -----------------------------------------------------------------------------------
@@ -143,13 +152,16 @@ void Output::remove_unfinished_at_signals() {
 }
 
 Output::Output(const std::string& path) {
+  if (path == "-") claim_output(path);
   if (path.empty() || path == "-") {
     file_ = STDOUT_FILENO;
     return;
   }
   path_ = behind_links(path);
+  claim_output(path_);
   struct stat old {};
   const bool exists = ::stat(path_.c_str(), &old) == 0;
+  if (!exists && errno != ENOENT) fail("cannot be created");
   if (exists && !S_ISREG(old.st_mode)) {
     file_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
     if (file_ < 0) fail("cannot be written");
@@ -212,6 +224,7 @@ void Output::flush() {
 }
 
 void Output::finish() {
+  if (!temporary_.empty()) demand_unread(path_);
   flush();
   const int locked =
       temporary_.empty() ? -1 : ::fcntl(file_, F_DUPFD_CLOEXEC, 0);  // the lock lasts until the file has its name

@@ -10,12 +10,14 @@ namespace crankloop::program {
 
 /// Buffered output. A file is written beside its place under another name and renamed by finish(), so that an error on
 /// the way leaves the old file, or none, but never half of one. What is no file (/dev/null, a pipe) is written to
-/// directly.
+/// directly. A symbolic link stays: the file that it names is replaced, or made where there is none.
+///
+/// A file that the command reads, or that is another of its outputs, is refused by InputError (files_in_use.hpp).
 ///
 /// The other name is the path's with .unfinished-PID-N behind it, its file locked (flock) as long as its writer lives.
 /// What a writer left that was killed is removed by the next one to the same path.
 ///
-/// Every failure throws OutputError; what was not finished is discarded.
+/// Every other failure throws OutputError; what was not finished is discarded.
 class Output {
  public:
   /// "" and "-" are standard output.

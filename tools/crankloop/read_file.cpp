@@ -74,15 +74,35 @@ std::string why_not_read(int file) {
   return S_ISREG(found.st_mode) ? "" : kIsNotRegular;
 }
 
+FileReadObserver read_observer = nullptr;
+
+/// Closed with the object.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) noexcept : number_{number} {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  operator int() const noexcept { return number_; }  // NOLINT: what the system calls take
+
+ private:
+  int number_;
+};
+
 }  // namespace
+
+void observe_files_read(FileReadObserver observer) { read_observer = observer; }
 
 FileBytes read_file(const std::string& path, std::size_t most_bytes) {
   FileBytes result;
   // Without O_NONBLOCK a FIFO would hold us here until somebody writes to it.
   constexpr int kFlags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
-  const int file = path.find('\0') == std::string::npos ? ::open(path.c_str(), kFlags) : (errno = ENOENT, -1);
+  const Descriptor file(path.find('\0') == std::string::npos ? ::open(path.c_str(), kFlags) : (errno = ENOENT, -1));
   int error = file < 0 ? errno : 0;
   if (file >= 0) result.problem = why_not_read(file);
+  if (file >= 0 && result.ok() && read_observer != nullptr) read_observer(path, file);
   while (result.ok() && error == 0 && result.bytes.size() <= most_bytes) {
     char chunk[16384];
     const ssize_t count = ::read(file, chunk, sizeof chunk);
@@ -90,8 +110,6 @@ FileBytes read_file(const std::string& path, std::size_t most_bytes) {
     if (count > 0) result.bytes.append(chunk, static_cast<std::size_t>(count));
     if (count < 0 && errno != EINTR) error = errno;
   }
-  if (file >= 0) ::close(file);
-
   if (error != 0) {
     result.problem = cannot_be_read(error);
   } else if (result.bytes.size() > most_bytes) {

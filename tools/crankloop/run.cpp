@@ -25,6 +25,7 @@
 #include "run/run_trace.hpp"
 #include "run/run_valves.hpp"
 #include "summary.hpp"
+#include "valve/valve_accuracy.hpp"
 #include "valve/valve_tick_limit.hpp"
 #include "with_real.hpp"
 #include "words.hpp"
@@ -109,7 +110,7 @@ void add_valves(Summary& s, const std::string& train, const ValveFigures& f) {
     add_peak(s, "largest_" + train + "_" + kind.name, f.of[index_of(quantity)].largest, kind.per_si, kind.unit);
   };
   s.line(train + "_max_lift", cycle.largest_lift_m * 1e3, "mm");
-  s.line(train + "_opening_delay", cycle.opening_delay_deg, "deg", "of cam angle, at 0.1 mm of lift");
+  add_opening_delay(s, train + "_opening_delay", cycle);
   s.line(train + "_separations", cycle.separations);
   s.line(train + "_separation_max_gap", cycle.separation_clearance_m * 1e3, "mm");
   s.line(train + "_seating_speed", cycle.seating_speed_m_s, "m/s");
@@ -148,7 +149,12 @@ std::string summary_text(const Engines& engine, const Request& request, const Ru
   s.line("tick", request.operation.tick_s * 1e6, "us");
   s.line("deg_per_tick", f.deg_per_tick, "deg");
   s.line("cycles", static_cast<double>(f.cycles));
-  s.line("ticks", f.ticks, "", "after " + std::to_string(f.settling_ticks) + " to settle");
+  // Not settled: a thousandth of 500 kPa a cycle.
+  s.line("ticks", f.ticks, "",
+         "after " + std::to_string(f.settling_ticks) + " to settle" +
+             (f.unsettled_Pa > 500
+                  ? ", not settled: net mep moved by " + brief(f.unsettled_Pa / 1e3) + " kPa in the last cycle of those"
+                  : ""));
   s.line("mean_torque", f.mean_torque_Nm, "Nm");
   if (engine.has_gas()) {
     s.line("power", f.power_W / 1e3, "kW", "indicated: friction is not subtracted");
@@ -187,13 +193,13 @@ std::string summary_text(const Engines& engine, const Request& request, const Ru
   for (std::size_t t = 0; t < f.valves.size(); ++t) add_valves(s, trains[t], f.valves[t]);
   if (!engine.breathes()) {
     s.line("table_gas_segments", f.tables.gas_segments);
-    s.line("table_pressure_error", f.tables.pressure_error_Pa, "Pa");
+    s.line("table_pressure_error", f.tables.pressure_error_Pa / 1e3, "kPa");
   }
   if (f.tables.valve_fine_steps > 0) {
     s.line("valve_fine_steps_worst_tick", f.tables.valve_fine_steps);
     s.line("valve_changes_located", f.tables.valve_changes);
   }
-  s.line("faulty_ticks", f.faulty_ticks);
+  s.faulty_ticks(f.faulty_ticks, f.faults);
   s.line("wall_time_per_tick", wall_time_per_tick_ns, "ns",
          "this machine: median of " + std::to_string(FixedStepLoop<float>::kBatches) + " batches of " +
              std::to_string(FixedStepLoop<float>::kBatchTicks) + " steps, nothing recorded");
@@ -267,11 +273,16 @@ int run_run(const Arguments& arguments) {
   const EngineDefinition& definition = file.definition();
   require_heat_to_scale(arguments, file);
   const GasOrder gas = gas_order(arguments, file, 1);
+  require_manifolds(file, millionths(arguments.number("--tick-us")));
   if (arguments.has("--free")) return run_free_by(arguments, file, gas, std::move(warnings));
   const Operation operation{speed_rpm(arguments, file), millionths(arguments.number("--tick-us")),
                             arguments.number("--load-ratio"), gas};
-  const Request request{operation, arguments.whole_number("--cycles"), arguments.text("--real"), std::move(warnings)};
+  for (std::string& line : tell_warnings(arguments, warnings_about_gas(file, operation.speed_rpm, operation.tick_s)))
+    warnings.push_back(std::move(line));
   require_trains(file, operation.tick_s);
+  for (std::string& line : tell_warnings(arguments, warnings_about_valves(file, operation.speed_rpm, operation.tick_s)))
+    warnings.push_back(std::move(line));
+  const Request request{operation, arguments.whole_number("--cycles"), arguments.text("--real"), std::move(warnings)};
   ExactEngine exact;
   if (const Status refused = exact.init(definition); !refused.ok()) throw file.explain(refused);
   const Engines engine{file, exact};

@@ -34,20 +34,11 @@ std::string show_section(const SectionValues& section, const std::string& engine
     line += value.key->kind == Kind::path ? path_for_everywhere(value.text, engine_path) : format_value(value);
     line.resize(std::max(kCommentColumn, line.size() + 2), ' ');
     line += std::string("# ") + value.key->meaning;
+    if (value.automatic) line += "; chosen by auto";
     if (!value.used) line += std::string("; not used: only with ") + value.key->only_if;
     text += line + "\n";
   }
   return text;
-}
-
-/// As comments: what the layout became.
-std::string show_crankshaft(const Layout& layout) {
-  if (layout.cylinders < 2) return "";
-  std::string text;
-  for (const std::string& line : throws_in_words(layout)) text += (text.empty() ? "# " : "#   ") + line + "\n";
-  text += "# " + firing_in_words(layout) + "\n";
-  const std::string hint = shared_pins_hint(layout);
-  return hint.empty() ? text : text + "# " + hint + "\n";
 }
 
 int run_show(const Arguments& arguments) {
@@ -64,7 +55,7 @@ std::string show(const EngineFile& engine) {
   std::string text = "# A complete engine definition: every default is filled in.\n";
   for (const SectionValues& section : engine.sections()) {
     text += show_section(section, engine.path());
-    if (section.kind == "layout") text += show_crankshaft(engine.definition().layout);
+    if (section.kind == "layout") text += crankshaft_comments(engine.definition().layout);
   }
   if (engine.has("crank") && !engine.has("masses")) {
     text += "\n# There is no [masses] section, and it has no defaults: no forces.\n";

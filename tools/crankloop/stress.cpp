@@ -12,13 +12,17 @@
 namespace crankloop::program {
 namespace {
 
+StressKind kind_of(const Arguments& arguments) {
+  return arguments.has("--smooth") ? StressKind::smooth : StressKind::any;
+}
+
 int run_one(const Arguments& arguments) {
   const int number = arguments.whole_number("--case");
   const StressCase drawn(static_cast<std::uint64_t>(arguments.whole_number("--seed")),
-                         static_cast<std::uint64_t>(number));
+                         static_cast<std::uint64_t>(number), kind_of(arguments));
   StressTrials trials;
   const TrialResult result = trials.run(drawn, true);
-  Summary s(Summary::Digits::all);
+  Summary s;
   s.line("case", drawn.text());
   s.line("verdict", name_of(result.verdict));
   if (!result.refusal.ok()) {
@@ -27,6 +31,7 @@ int run_one(const Arguments& arguments) {
   if (!result.trouble.empty()) s.line("trouble", result.trouble);
   s.line("ticks", result.ticks);
   s.line("over_event_budget", result.over_budget ? "yes" : "no");
+  s.line("landed", result.landed ? "yes" : "no");
   s.line("judged_again", result.judged_again ? "yes" : "no");
   s.line("error_of_class", result.of_class);
   s.line("error_of_allowed", result.of_allowed);
@@ -46,16 +51,17 @@ int run_stress(const Arguments& arguments) {
     StressTrials trials;
     Progress progress("stressing", tally.cases, Progress::kLogPeriod_ns);
     for (int number = 0; number < tally.cases; ++number) {
-      const StressCase drawn(static_cast<std::uint64_t>(tally.seed), static_cast<std::uint64_t>(number));
+      const StressCase drawn(static_cast<std::uint64_t>(tally.seed), static_cast<std::uint64_t>(number),
+                             kind_of(arguments));
       tally.add(number, drawn, trials.run(drawn, number % tally.compare_every == 0));
       progress.long_step();
     }
   }
   const std::vector<StabilityPoint> map = stability_map();
   if (page) {
-    const std::string command_line = "crankloop stress --seed " + std::to_string(tally.seed) + " --cases " +
-                                     std::to_string(tally.cases) + " --reference-every " +
-                                     std::to_string(tally.compare_every);
+    const std::string command_line =
+        "crankloop stress --seed " + std::to_string(tally.seed) + " --cases " + std::to_string(tally.cases) +
+        " --reference-every " + std::to_string(tally.compare_every) + (arguments.has("--smooth") ? " --smooth" : "");
     page->write(report::to_html(stress_page(tally, map, command_line)));
     page->finish();
   }
@@ -69,6 +75,8 @@ constexpr Option kOptions[] = {
     whole_number("--case", "N", from(0).up_to(100000000), "only this one, with all that is told of it"),
     whole_number("--reference-every", "N", from(1).up_to(100000000),
                  "every Nth case is compared with the converged reference too, which costs most of the time", "10"),
+    flag("--smooth",
+         "only smooth cams, damped and below float: the error of the steps, which no kink and no bounce magnifies"),
     text("--report", "F.html", "file for the counts and the map of stability, which any browser shows"),
 };
 
@@ -76,7 +84,7 @@ constexpr Option kOptions[] = {
 
 const Command kStress{"stress",
                       "random valve trains at random operating points: refused, or bounded and accurate",
-                      "[--seed N] [--cases N] [--case N] [--reference-every N] [--report F.html]",
+                      "[--seed N] [--cases N] [--case N] [--reference-every N] [--smooth] [--report F.html]",
                       "crankloop stress --seed 7 --cases 2000 --report stress.html",
                       0,
                       kOptions,

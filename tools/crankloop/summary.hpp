@@ -1,10 +1,14 @@
-// The lines that a command prints: "name = value unit  # remark".
+// The lines that a command prints: "name = value unit  # remark". Numbers have 6 digits, enough to read and none of
+// float's noise, and the unit stands behind them alone, not in the name too.
 //
 // What belongs here: their look. What does not: which figures a command has, and where they go (results.hpp).
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <type_traits>
+
+#include <crankloop/faults.hpp>
 
 #include "number.hpp"
 
@@ -12,12 +16,6 @@ namespace crankloop::program {
 
 class Summary {
  public:
-  enum class Digits {
-    six,  ///< enough to read, and none of float's noise
-    all,  ///< as in CSV: 12 for double, 9 for float
-  };
-  explicit Summary(Digits digits = Digits::six) : digits_{digits} {}
-
   void remark(const std::string& text) { text_ += "# " + text + "\n"; }
   void line(const std::string& name, const std::string& value, const std::string& unit = "",
             const std::string& remark = "") {
@@ -28,15 +26,18 @@ class Summary {
     if constexpr (std::is_integral_v<Number>) {
       line(name, std::to_string(value), unit, remark);
     } else {
-      line(name, digits_ == Digits::six ? brief(static_cast<double>(value)) : significant(value), unit, remark);
+      line(name, brief(static_cast<double>(value)), unit, remark);
     }
+  }
+  /// Ticks with a fault, and which faults those were.
+  void faulty_ticks(std::uint64_t ticks, std::uint32_t faults) {
+    line("faulty_ticks", ticks, "", faults == 0 ? "" : crankloop::describe(faults).text);
   }
   void text(const std::string& more) { text_ += more; }  ///< whole lines of another form
 
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
 
  private:
-  Digits digits_;
   std::string text_;
 };
 

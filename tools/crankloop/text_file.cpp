@@ -1,5 +1,6 @@
 #include "text_file.hpp"
 
+#include <algorithm>
 #include <string_view>
 
 #include "error.hpp"
@@ -38,6 +39,19 @@ std::string why_not_text(std::string_view whole, std::string_view from_bad_byte)
 }
 
 }  // namespace
+
+std::string printable(const std::string& name) {
+  constexpr const char* kDigits = "0123456789ABCDEF";
+  std::string shown;
+  for (std::string_view left = name; !left.empty();) {
+    const std::size_t length = left[0] == '\t' ? 0 : character_length(left);
+    const auto byte = static_cast<unsigned char>(left[0]);
+    shown += length > 0 ? std::string(left.substr(0, length))
+                        : std::string("\\x") + kDigits[byte >> 4] + kDigits[byte & 15u];
+    left.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return shown;
+}
 
 std::vector<std::string> split_lines(const std::string& bytes, const std::string& path) {
   std::string_view rest = bytes;

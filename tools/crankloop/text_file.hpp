@@ -21,6 +21,15 @@ struct FileBytes {
 /// is read: pipes and devices may never end, wait for others, or do something when they are read.
 [[nodiscard]] FileBytes read_file(const std::string& path, std::size_t most_bytes);
 
+/// Calls `observer` with the path and the descriptor of every file that read_file() opens from now on, before it reads
+/// the first byte; what the observer throws, read_file() throws. Null: none, as before the first call. Not on Windows.
+/// A process calls it before it has other threads.
+using FileReadObserver = void (*)(const std::string& path, int descriptor);
+void observe_files_read(FileReadObserver observer);
+
+/// A file's name for a message: every control character, and every byte that is not UTF-8, as \xNN.
+[[nodiscard]] std::string printable(const std::string& name);
+
 /// Paths here are UTF-8 on every system: the folder of a file, and a file by the name that one in the folder gives it.
 [[nodiscard]] std::string folder_of(const std::string& path);
 [[nodiscard]] std::string in_folder(const std::string& folder, const std::string& name);

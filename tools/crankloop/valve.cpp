@@ -14,6 +14,7 @@
 #include "summary.hpp"
 #include "units.hpp"
 #include "valve/textbook_valve.hpp"
+#include "valve/valve_accuracy.hpp"
 #include "valve/valve_loop.hpp"
 #include "valve/valve_plot.hpp"
 #include "with_real.hpp"
@@ -66,34 +67,36 @@ std::string summary(const LoneValve& valve, const Request& request, const ValveL
   const auto real = [](double value) { return static_cast<Real>(value); };
   const detail::ValveBody<double> body = valve.body();
   const bool separated = cycle.separations > 0;
-  Summary s(Summary::Digits::all);
-  // Names carry the unit too: they are those of the CSV columns.
+  Summary s;
   s.remark("valve train " + title(valve, request) + ", " + circumstances(request));
   s.remark("cam angle: 0 at full theoretical lift; " + gas_remark(valve));
-  s.line("max_theoretical_lift_mm", real(valve.lift().largest_lift_m() * 1e3), "mm");
-  s.line("max_lift_mm", cycle.largest_lift_m * real(1e3), "mm");
-  s.line("max_velocity_m_s", cycle.largest_speed_m_s, "m/s");
-  s.line("max_acceleration_m_s2", cycle.largest_acceleration_m_s2, "m/s^2");
-  s.line("opening_delay_deg", cycle.opening_delay_deg, "deg", "of cam angle, at 0.1 mm of lift");
+  s.line("max_theoretical_lift", real(valve.lift().largest_lift_m() * 1e3), "mm");
+  s.line("max_lift", cycle.largest_lift_m * real(1e3), "mm");
+  s.line("max_velocity", cycle.largest_speed_m_s, "m/s");
+  s.line("max_acceleration", cycle.largest_acceleration_m_s2, "m/s^2");
+  add_opening_delay(s, "opening_delay", cycle);
   s.line("separations", cycle.separations, "", "of at least 1 um");
-  s.line("separation_max_gap_mm", cycle.separation_clearance_m * real(1e3), "mm");
-  s.line("separation_start_deg",
-         separated ? real(valve.cam_deg(static_cast<double>(cycle.separation_start_deg))) : Real{0}, "deg",
-         separated ? "cam angle, of the largest" : "none");
-  s.line("separation_duration_deg", cycle.separation_duration_deg, "deg");
-  s.line("seating_speed_m_s", cycle.seating_speed_m_s, "m/s");
+  s.line("separation_max_gap", cycle.separation_clearance_m * real(1e3), "mm");
+  if (separated) {
+    s.line("separation_start", valve.cam_deg(static_cast<double>(cycle.separation_start_deg)), "deg",
+           "cam angle, of the largest");
+  } else {
+    s.line("separation_start", "none");
+  }
+  s.line("separation_duration", cycle.separation_duration_deg, "deg");
+  s.line("seating_speed", cycle.seating_speed_m_s, "m/s");
   s.line("bounces", cycle.bounces, "", "of at least 1 um");
-  s.line("bounce_height_mm", cycle.bounce_height_m * real(1e3), "mm");
+  s.line("bounce_height", cycle.bounce_height_m * real(1e3), "mm");
   if (cycle.off_seat_at_end != 0) s.remark("the valve is still off its seat in the middle of the base circle");
-  s.line("natural_frequency_Hz", real(open_frequency_rad_s(body) / (2 * kPi)), "Hz", "open, on the train");
-  s.line("seat_frequency_Hz", real(seated_frequency_rad_s(body) / (2 * kPi)), "Hz", "on train and seat");
+  s.line("natural_frequency", real(open_frequency_rad_s(body) / (2 * kPi)), "Hz", "open, on the train");
+  s.line("seat_frequency", real(seated_frequency_rad_s(body) / (2 * kPi)), "Hz", "on train and seat");
   const std::uint32_t parts = loop.motion().parts;
   s.line("sub_steps", request.method.textbook ? TextbookValve<Real>::steps(loop.motion()) : parts, "",
          request.method.textbook ? "in each tick" : "in a tick, near contact changes; 1 elsewhere");
   s.line("events", cycle.contact_changes, "", "contact changes in the cycle");
   if ((loop.faults() & kFaultEventBudget) != 0)
     s.remark("some ticks had more contact changes than are located: take a shorter --tick-us");
-  s.line("cycle_difference_um", real(change_m * 1e6), "um", "of lift, largest between two consecutive cycles");
+  s.line("cycle_difference", real(change_m * 1e6), "um", "of lift, largest between two consecutive cycles");
   s.line("periodic", change_m <= kPeriodicWithin_m ? "yes" : "no", "", "yes: they agree within 1 um");
   return s.text();
 }
@@ -144,6 +147,8 @@ int run_valve(const Arguments& arguments) {
   if (request.speed_rpm == 0) throw UsageError("--rpm 0: the cam would never turn");
   const std::string name = train_name(arguments, file);
   const LoneValve valve(file, name);
+  if (!request.method.textbook)
+    tell_warnings(arguments, beyond_class(valve, request.speed_rpm, request.tick_s, stepping));
   Results results(arguments, {"--csv", "--plot"});
   with_real(request.real, [&](auto zero) { run<decltype(zero)>(valve, request, results); });
   return kSuccess;

@@ -13,7 +13,8 @@ inline constexpr double kMaxExternalTorque_Nm = 1e8;
 
 inline constexpr double kLeastManifold_Pa = 1e3, kMaxManifold_Pa = 1e7;
 inline constexpr double kLeastManifold_K = 150, kMaxManifold_K = 3000;
-inline constexpr double kMaxFuel_kg = 0.01;  ///< of a cylinder's cycle
+inline constexpr double kMaxFuel_kg = 0.01;     ///< of a cylinder's cycle
+inline constexpr double kLeastFuel_kg = 1e-12;  ///< less is none
 
 // The groups of inputs, each a base of Input where the scene asks for it.
 namespace group {
@@ -60,7 +61,7 @@ struct ThrottleInput {
 /// Of each cylinder, read where its cycle takes its fuel (Gas::latch_deg). A burn has to end by 150 deg.
 template <class Real, class S>
 struct CombustionInput {
-  Real fuel_kg[S::cylinders.capacity] = {};            ///< per cycle; 0 to 0.01
+  Real fuel_kg[S::cylinders.capacity] = {};            ///< per cycle; 0 to 0.01, less than 1e-12 is none
   Real burn_start_deg[S::cylinders.capacity] = {};     ///< after firing top dead centre, -90 to 60
   Real burn_duration_deg[S::cylinders.capacity] = {};  ///< of the first law; 5 to 150
 

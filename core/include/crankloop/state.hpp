@@ -88,6 +88,8 @@ struct CylinderGasState {
 template <class Real>
 struct ManifoldState {
   detail::ManifoldGas<Real> manifold[kPorts];  ///< kIntake, kExhaust
+  Real taken_kg_s[kPorts];                     ///< by the cylinders, in the last step
+  detail::OutletGas<Real> outlet;              ///< what flows back
   Real throttle_ratio;                         ///< last good
   Real spare_of_manifolds;
 };

@@ -39,6 +39,8 @@ enum class Reason : std::uint8_t {
   not_created,      ///< memory that holds no object
   already_created,  ///< memory that holds one
   unknown_name,     ///< no input or output of the engine has this name
+  // of definitions again; numbers keep their meaning from version to version
+  too_much_heat,  ///< more heat per kilogram of mixture than any fuel releases
 };
 
 /// The answer of init, tabulate and validate. Trivially copyable; `field` points to a string literal.
@@ -56,7 +58,69 @@ struct [[nodiscard]] Status {
   return {reason, index, field};
 }
 
-/// A short English phrase for the reason, e.g. "must be greater than zero".
-[[nodiscard]] const char* describe(Reason reason) noexcept;
+/// A short English phrase for the reason, e.g. "must be greater than zero". Defined here, so that firmware which links
+/// a scene's library alone has it too; what does not call it has none of its text.
+[[nodiscard]] inline const char* describe(Reason reason) noexcept {
+  switch (reason) {
+    case Reason::ok:
+      return "ok";
+    case Reason::not_finite:
+      return "must be a finite number";
+    case Reason::not_positive:
+      return "must be greater than zero";
+    case Reason::negative:
+      return "must not be negative";
+    case Reason::out_of_range:
+      return "is out of range";
+    case Reason::rod_too_short:
+      return "must be longer than crank radius plus pin offset, by more than a billionth of them, or the crank cannot "
+             "turn";
+    case Reason::inconsistent:
+      return "contradicts another value";
+    case Reason::not_a_permutation:
+      return "must name every cylinder once";
+    case Reason::too_few_points:
+      return "has too few points";
+    case Reason::too_many_points:
+      return "has too many points";
+    case Reason::not_increasing:
+      return "must rise from row to row";
+    case Reason::not_one_period:
+      return "must span one period of 720 deg";
+    case Reason::not_a_cycle:
+      return "must rise, fall, rise and fall between the dead-centre volumes";
+    case Reason::no_solution:
+      return "cannot be met";
+    case Reason::pressure_too_high:
+      return "makes a cylinder pressure above 1000 bar";
+    case Reason::missing_table:
+      return "is missing";
+    case Reason::other_tables:
+      return "belongs to other tables";
+    case Reason::contracting_build:
+      return "fuses multiply and add: compile the scene with -ffp-contract=off";
+    case Reason::wrong_size:
+      return "has the wrong size";
+    case Reason::damaged:
+      return "is damaged";
+    case Reason::other_version:
+      return "is of another version";
+    case Reason::other_scene:
+      return "belongs to another scene or scalar";
+    case Reason::null_pointer:
+      return "is null";
+    case Reason::misaligned:
+      return "is not aligned";
+    case Reason::not_created:
+      return "was not created";
+    case Reason::already_created:
+      return "was created already";
+    case Reason::unknown_name:
+      return "names no input or output of this engine";
+    case Reason::too_much_heat:
+      return "releases more heat per kilogram of mixture than any fuel does";
+  }
+  return "unknown reason";
+}
 
 }  // namespace crankloop

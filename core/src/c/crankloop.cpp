@@ -1,4 +1,4 @@
-// What all engines of the C interface share: version, answers in words, definitions.
+// What all engines of the C interface share: version, definitions. Answers in words: core/cmake/engine_c_words.cpp.
 #include <crankloop/crankloop.h>
 
 #include <cstddef>
@@ -33,37 +33,6 @@ template <class Change>
 }  // namespace
 
 std::uint32_t crankloop_version() { return CRANKLOOP_VERSION; }
-
-const char* crankloop_describe(std::int32_t reason) {
-  const bool known = reason >= 0 && reason <= CRANKLOOP_UNKNOWN_NAME;
-  return known ? describe(static_cast<Reason>(reason)) : "unknown reason";
-}
-
-std::size_t crankloop_status_text(crankloop_status status, char* text, std::size_t room) {
-  if (text == nullptr) room = 0;
-  std::size_t length = 0;
-  const auto add = [&](char letter) {
-    if (length + 1 < room) text[length] = letter;
-    ++length;
-  };
-  const auto add_all = [&](const char* words) {
-    while (words != nullptr && *words != '\0') add(*words++);
-  };
-  add_all(status.field);
-  if (status.index >= 0) {
-    char digits[10];
-    int count = 0;
-    for (std::int32_t rest = status.index; rest > 0 || count == 0; rest /= 10)
-      digits[count++] = static_cast<char>('0' + rest % 10);
-    add('[');
-    while (count > 0) add(digits[--count]);
-    add(']');
-  }
-  if (length > 0) add(' ');
-  add_all(crankloop_describe(status.reason));
-  if (room > 0) text[length < room ? length : room - 1] = '\0';
-  return length;
-}
 
 crankloop_status crankloop_definition_defaults(crankloop_definition* definition, std::size_t size) {
   return c::as_c(c::give(definition, size, c::as_c(EngineDefinition{})));

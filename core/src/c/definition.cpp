@@ -26,10 +26,11 @@ inline constexpr TriggerPattern kLast<TriggerPattern> = TriggerPattern::edges;
 template <>
 inline constexpr Integrator kLast<Integrator> = Integrator::exponential;
 
-/// Copies one field to C, or from C. An enumerator that C++ does not have is the answer of the latter.
+/// Copies one field to C, or from C. The answer of the latter is the first enumerator that C++ does not have, of those
+/// that are read.
 struct ToC {
   template <class Field, class C>
-  void operator()(const char*, const Field& field, C& c) noexcept {
+  void operator()(bool, const char*, const Field& field, C& c) noexcept {
     if constexpr (std::is_pointer_v<Field>) {
       c = reinterpret_cast<C>(field);
     } else {
@@ -41,14 +42,15 @@ struct FromC {
   Status status{};
 
   template <class Field, class C>
-  void operator()(const char* name, Field& field, const C& c) noexcept {
+  void operator()(bool read, const char* name, Field& field, const C& c) noexcept {
     if constexpr (std::is_pointer_v<Field>) {
       field = reinterpret_cast<Field>(c);
     } else if constexpr (std::is_same_v<Field, bool>) {
       field = c != 0;
     } else {
       if constexpr (std::is_enum_v<Field>) {
-        if ((c < 0 || c > static_cast<int>(kLast<Field>)) && status.ok()) status = refuse(name, Reason::out_of_range);
+        const bool known = !read || (c >= 0 && c <= static_cast<int>(kLast<Field>));
+        if (!known && status.ok()) status = refuse(name, Reason::out_of_range);
       }
       field = static_cast<Field>(c);
     }
@@ -56,18 +58,23 @@ struct FromC {
 };
 
 /// A field and its C form: one number or pointer, or all those of a list or a part, whose C form has the same names.
+/// What the definition does not read is copied, too.
 template <class Copy>
 struct EachNumber {
   Copy& copy;
 
   template <class Field, class C>
-  void operator()(int, const char* name, Field& field, C& c) noexcept {
+  void operator()(int read, const char* name, Field& field, C& c) noexcept {
     if constexpr (std::is_array_v<C>) {
-      for (std::size_t i = 0; i < std::extent_v<C>; ++i) (*this)(1, name, field[i], c[i]);
+      for (std::size_t i = 0; i < std::extent_v<C>; ++i)
+        (*this)(static_cast<int>(i) < read ? 1 : 0, name, field[i], c[i]);
     } else if constexpr (std::is_class_v<C>) {
-      std::remove_const_t<Field>::each_field(*this, field, c);
+      const auto part = [this, read](int read_of_part, const char* of_part, auto& from, auto& to) {
+        (*this)(read > 0 ? read_of_part : 0, of_part, from, to);
+      };
+      std::remove_const_t<Field>::each_field(part, field, c);
     } else {
-      copy(name, field, c);
+      copy(read > 0, name, field, c);
     }
   }
 };
@@ -76,15 +83,15 @@ template <class Copy, class Cpp, class C>
 void each_field(Copy& copy, Cpp& definition, C& c) noexcept {
   EachNumber<Copy>{copy}(1, "", definition, c);
   if constexpr (std::is_same_v<std::remove_const_t<Cpp>, EngineDefinition>) {
-    copy("trigger_count", definition.trigger_count, c.trigger_count);
-    EachNumber<Copy>{copy}(1, "", definition.triggers, c.triggers);
+    copy(true, "trigger_count", definition.trigger_count, c.trigger_count);
+    EachNumber<Copy>{copy}(definition.trigger_count, "", definition.triggers, c.triggers);
   }
 }
 template <class Copy, class Cpp, class C>
 void each_option(Copy& copy, Cpp& options, C& c) noexcept {
-  copy("options.tick_s", options.tick_s, c.tick_s);
-  copy("options.valves.integrator", options.valves.integrator, c.valve_integrator);
-  copy("options.valves.accuracy_m", options.valves.accuracy_m, c.valve_accuracy_m);
+  copy(true, "options.tick_s", options.tick_s, c.tick_s);
+  copy(true, "options.valves.integrator", options.valves.integrator, c.valve_integrator);
+  copy(true, "options.valves.accuracy_m", options.valves.accuracy_m, c.valve_accuracy_m);
 }
 
 // Rows are read where they are.
@@ -96,7 +103,7 @@ static_assert(sizeof(crankloop_cam_point) == sizeof(CamPoint) &&
 static_assert(CRANKLOOP_MAX_TRIGGER_WHEELS == kMaxTriggerWheels && CRANKLOOP_MAX_TOOTH_GAPS == kMaxToothGaps);
 static_assert(CRANKLOOP_MAX_CYLINDERS == kMaxCylinders && CRANKLOOP_MAX_TRAINS == kMaxTrains &&
               CRANKLOOP_MAX_CAM_EXPONENTS == kMaxCamExponents);
-static_assert(CRANKLOOP_UNKNOWN_NAME == static_cast<int>(Reason::unknown_name) &&
+static_assert(CRANKLOOP_TOO_MUCH_HEAT == static_cast<int>(Reason::too_much_heat) &&
               CRANKLOOP_ROD_TOO_SHORT == static_cast<int>(Reason::rod_too_short) &&
               CRANKLOOP_NO_SOLUTION == static_cast<int>(Reason::no_solution) &&
               CRANKLOOP_CONTRACTING_BUILD == static_cast<int>(Reason::contracting_build));
@@ -121,7 +128,9 @@ crankloop_definition as_c(const EngineDefinition& definition) noexcept {
 Status from_c(const crankloop_definition& c, EngineDefinition& definition) noexcept {
   FromC copy;
   each_field(copy, definition, c);
-  return copy.status;
+  FromC check;  // which fields are read is known now
+  each_field(check, definition, c);
+  return check.status;
 }
 crankloop_options as_c(const TickOptions& options) noexcept {
   crankloop_options c{};

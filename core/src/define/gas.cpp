@@ -51,6 +51,8 @@ Status validate(const Gas& gas, int trains) noexcept {
       validate_curve(gas.throttle_count, gas.throttle_ratio, gas.throttle_area_ratio, 1, "gas.throttle_ratio"),
       positive(gas.outlet_m2, "gas.outlet_m2", 10),
       between(gas.ambient_Pa, "gas.ambient_Pa", 1e3, 1e7),
+      between(gas.behind_outlet_Pa(), "gas.back_Pa", 1e3, 1e7),
+      not_negative(gas.back_Pa, "gas.back_Pa", 1e7),
       between(gas.ambient_K, "gas.ambient_K", 150, 3000),
       between(gas.exhaust_K, "gas.exhaust_K", 150, 3000),
       between(gas.wall_K, "gas.wall_K", 150, 2000),
@@ -71,6 +73,8 @@ Status validate(const Gas& gas, int trains) noexcept {
   if (gas.throttle_closed_m2 > gas.throttle_m2) return refuse("gas.throttle_closed_m2", Reason::inconsistent);
   if (gas.throttle_ratio[gas.throttle_count - 1] != 1)
     return refuse("gas.throttle_ratio", Reason::inconsistent, gas.throttle_count - 1);
+  const double mixture_J_kg = gas.combustion_efficiency * gas.heating_value_J_kg / (1 + gas.air_fuel_ratio);
+  if (mixture_J_kg > kMaxMixtureHeat_J_kg) return refuse("gas.air_fuel_ratio", Reason::too_much_heat);
   if (gas.burn_start_deg + gas.burn_duration_deg * gas.span_ratio() > kLatestBurn_deg)
     return refuse("gas.burn_duration_deg", Reason::inconsistent);
   if (trains < 1) return refuse("train_count", Reason::inconsistent);  // gas that no valve lets in

@@ -29,67 +29,6 @@ constexpr double kHeaviest_kg = 1e4;
 
 }  // namespace
 
-const char* describe(Reason reason) noexcept {
-  switch (reason) {
-    case Reason::ok:
-      return "ok";
-    case Reason::not_finite:
-      return "must be a finite number";
-    case Reason::not_positive:
-      return "must be greater than zero";
-    case Reason::negative:
-      return "must not be negative";
-    case Reason::out_of_range:
-      return "is out of range";
-    case Reason::rod_too_short:
-      return "must be longer than crank radius plus pin offset, by more than a billionth of them, or the crank cannot "
-             "turn";
-    case Reason::inconsistent:
-      return "contradicts another value";
-    case Reason::not_a_permutation:
-      return "must name every cylinder once";
-    case Reason::too_few_points:
-      return "has too few points";
-    case Reason::too_many_points:
-      return "has too many points";
-    case Reason::not_increasing:
-      return "must rise from row to row";
-    case Reason::not_one_period:
-      return "must span one period of 720 deg";
-    case Reason::not_a_cycle:
-      return "must rise, fall, rise and fall between the dead-centre volumes";
-    case Reason::no_solution:
-      return "cannot be met";
-    case Reason::pressure_too_high:
-      return "makes a cylinder pressure above 1000 bar";
-    case Reason::missing_table:
-      return "is missing";
-    case Reason::other_tables:
-      return "belongs to other tables";
-    case Reason::contracting_build:
-      return "fuses multiply and add: compile the scene with -ffp-contract=off";
-    case Reason::wrong_size:
-      return "has the wrong size";
-    case Reason::damaged:
-      return "is damaged";
-    case Reason::other_version:
-      return "is of another version";
-    case Reason::other_scene:
-      return "belongs to another scene or scalar";
-    case Reason::null_pointer:
-      return "is null";
-    case Reason::misaligned:
-      return "is not aligned";
-    case Reason::not_created:
-      return "was not created";
-    case Reason::already_created:
-      return "was created already";
-    case Reason::unknown_name:
-      return "names no input or output of this engine";
-  }
-  return "unknown reason";
-}
-
 Status validate(const Crank& crank) noexcept {
   const Status answers[] = {
       positive(crank.bore_m, "crank.bore_m", 2),
@@ -315,6 +254,10 @@ Status validate(const EngineDefinition& engine) noexcept {
                             validate(engine.starter)};
   if (engine.train_count < 0 || engine.train_count > kMaxTrains) return refuse("train_count", Reason::out_of_range);
   if (const Status refused = first_refusal(answers); !refused.ok()) return refused;
+  for (int t = 0; t < engine.train_count; ++t) {
+    if (const Status refused = validate(engine.trains[t]); !refused.ok())
+      return refuse(refused.field, refused.reason, t);
+  }
   // No rod has a negative moment of inertia: J_rod = dI + m_rod l_pin l_crank.
   const Masses& m = engine.masses;
   const double rod_kg = m.rod_small_end_kg + m.rod_big_end_kg;

@@ -31,6 +31,7 @@ constexpr double kWidestLobeDeg = 350;
 constexpr double kLeastStiffness =
     0.1;  // per row in a segment: halves a wave of four segments, so no spike follows a single row
 constexpr double kMaxStiffness = 1e9;
+constexpr double kStiffnessStep = 4;  ///< of the search from above
 
 class Smoothing {
  public:
@@ -38,8 +39,7 @@ class Smoothing {
 
   Status place() noexcept;
   void gather() noexcept;
-  [[nodiscard]] bool keeps_to_rows(double stiffness) noexcept;
-  [[nodiscard]] double residual_m() const noexcept;
+  [[nodiscard]] CamResidual residual(double stiffness) noexcept;
   [[nodiscard]] double least_stiffness() const noexcept { return least_stiffness_; }
 
  private:
@@ -156,46 +156,59 @@ bool Smoothing::trim() noexcept {
   return begin < peak || end - 1 > peak;
 }
 
-bool Smoothing::keeps_to_rows(double stiffness) noexcept {
+/// Of the lobe of this stiffness, which is left in lobe_.
+CamResidual Smoothing::residual(double stiffness) noexcept {
   lobe_.begin = 0;
   lobe_.end = weights_;
   do {
     solve(stiffness);
   } while (trim());
-  return residual_m() <= cam_.smoothing_m;
-}
-
-double Smoothing::residual_m() const noexcept {
-  double largest = 0;
+  CamResidual largest{};
   for (int row = 0; row < cam_.point_count; ++row) {
     const double off = cam_.points[row].lift_m - lobe_.at(cam_.points[row].cam_deg * kRadPerDegree).lift_m;
-    if (off > largest) largest = off;
-    if (-off > largest) largest = -off;
+    if (magnitude(off) > magnitude(largest.off_m)) largest = {off, row};
   }
   return largest;
 }
 
 }  // namespace
 
+Status closest_lobe(const Cam& cam, LobeSpline& lobe, CamResidual& closest) noexcept {
+  Smoothing smoothing{cam, lobe};
+  if (const Status refused = smoothing.place(); !refused.ok()) return refused;
+  smoothing.gather();
+  double stiffness = kMaxStiffness;
+  closest = smoothing.residual(stiffness);
+  while (stiffness >= smoothing.least_stiffness()) {
+    stiffness /= kStiffnessStep;
+    const CamResidual next = smoothing.residual(stiffness);
+    if (magnitude(next.off_m) < magnitude(closest.off_m)) closest = next;
+  }
+  return {};
+}
+
 Status smooth_cam(const Cam& cam, LobeSpline& lobe, double& residual_m) noexcept {
   Smoothing smoothing{cam, lobe};
   if (const Status refused = smoothing.place(); !refused.ok()) return refused;
   smoothing.gather();
+  const auto keeps_to_rows = [&](double stiffness) {
+    residual_m = magnitude(smoothing.residual(stiffness).off_m);
+    return residual_m <= cam.smoothing_m;
+  };
   // From above, because a loose spline follows the noise and a lobe that was trimmed to it may miss rows that a stiffer
   // one keeps.
   double low = kMaxStiffness;
   double high = low;
-  while (!smoothing.keeps_to_rows(low)) {
+  while (!keeps_to_rows(low)) {
     if (low < smoothing.least_stiffness()) return refuse("cam.smoothing_m", Reason::no_solution);
     high = low;
-    low /= 4;
+    low /= kStiffnessStep;
   }
   while (high > low * 1.02) {
     const double middle = square_root(low * high);
-    (smoothing.keeps_to_rows(middle) ? low : high) = middle;
+    (keeps_to_rows(middle) ? low : high) = middle;
   }
-  if (!smoothing.keeps_to_rows(low)) return refuse("cam.smoothing_m", Reason::no_solution);
-  residual_m = smoothing.residual_m();
+  if (!keeps_to_rows(low)) return refuse("cam.smoothing_m", Reason::no_solution);
   return {};
 }
 

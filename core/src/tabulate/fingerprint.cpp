@@ -40,6 +40,14 @@ struct AddRead {
   }
 };
 
+/// A rocker with the defaults for what its kind does not use; all of it counts.
+void add_rocker(AddRead& add, const Rocker& rocker) noexcept {
+  Rocker used;
+  Rocker::each_field([](int read, const char*, const auto& from, auto& to) { to = read > 0 ? from : to; }, rocker,
+                     used);
+  Rocker::each_field([&add](int, const char*, const auto& field) { add(1, "", field); }, used);
+}
+
 }  // namespace
 
 std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& options, const TableReport& report,
@@ -71,7 +79,12 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
   if (train_count > 0) {
     add(1, "", options.valves.integrator);
     f.add(options.valves.accuracy_m);
-    add(train_count, "", trains);
+    for (int t = 0; t < train_count; ++t) {
+      const auto& [cam, rocker, valve] = trains[t];
+      add(1, "", cam);
+      add_rocker(add, rocker);
+      add(1, "", valve);
+    }
   }
   // What came later counts only where there is any of it: engines without have the fingerprint they always had.
   if (report.cut_doublings > 0) f.add(report.cut_doublings);
@@ -89,6 +102,7 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
     Gas read = gas;
     for (int t = train_count; t < kMaxTrains; ++t) read.ports[t] = {};
     add(1, "", read);
+    for (int t = 0; t < train_count; ++t) f.add(trains[t].valve.per_cylinder);  // the port's area counts them
   }
   return f.value();
 }

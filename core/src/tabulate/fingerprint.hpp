@@ -31,7 +31,7 @@ class Fingerprint {
   std::uint64_t hash_ = 0xCBF29CE484222325u;
 };
 
-inline constexpr int kTableFormat = 7;  ///< counts up whenever the same definition gives other tables
+inline constexpr int kTableFormat = 8;  ///< counts up whenever the same definition gives other tables
 
 /// Same definition, tick, stepping of the valves, scalar, accuracy of the gas grid and table format: same fingerprint,
 /// whichever sections are built and wherever. Trigger wheels do not count: a state holds nothing of them, so it goes on

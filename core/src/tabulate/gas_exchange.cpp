@@ -1,7 +1,9 @@
 #include "gas_exchange.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 
 #include <crankloop/tabulate/elementary.hpp>
 #include <crankloop/tabulate/mechanism.hpp>
@@ -33,9 +35,7 @@ namespace {
   const double area = bore_area_m2(crank);
   const double swept = swept_volume_m3(crank);
   GasCylinders<double> c{};
-  // Hohenberg's C holds the exponent of the volume, of half the swept one at all angles.
-  c.walls = {130e-4 * gas.wall_heat_ratio * elementary::pow(swept / 2, -0.06), 2 * area, 4 / crank.bore_m, gas.wall_K,
-             mean_piston_speed_m_s(crank, 1)};
+  c.walls = {130e-4 * gas.wall_heat_ratio, 2 * area, 4 / crank.bore_m, gas.wall_K, mean_piston_speed_m_s(crank, 1)};
   c.clearance_m3 = clearance_volume_m3(crank);
   c.bore_area_m2 = area;
   c.crankcase_Pa = engine.pressure.crankcase_Pa;
@@ -61,20 +61,41 @@ namespace {
   return curve;
 }
 
-[[nodiscard]] GasManifolds<double> manifolds_of(const EngineDefinition& engine) noexcept {
+/// How many times a manifold's openings could let its volume through in a tick, at 1000 m/s: that to the outside, and
+/// the valves of as many cylinders as open at a time.
+[[nodiscard]] double volumes_in_a_tick(const EngineDefinition& engine, double tick_s, std::uint32_t port) noexcept {
   const Gas& gas = engine.gas;
-  constexpr double kNoLimit_m2 = 1e9;
-  const auto outside = [&gas](double temperature_K, double burned_ratio) {
-    return beyond(GasPoint<double>{gas.ambient_Pa, temperature_K, burned_ratio, 0}, 0.0, kNoLimit_m2);
-  };
+  double valves_m2 = 0;
+  for (int t = 0; t < engine.train_count; ++t) {
+    const GasPortCurve<double> curve = port_of(engine, t);
+    if (curve.port == port) valves_m2 += *std::max_element(std::begin(curve.area_m2), std::end(curve.area_m2));
+  }
+  const double open = 1 + (engine.layout.cylinders - 1) / 3.0;
+  const double outside_m2 = port == kIntake ? gas.throttle_m2 : gas.outlet_m2;
+  return (outside_m2 + open * valves_m2) * kFlowSpeed_m_s * tick_s / (port == kIntake ? gas.intake_m3 : gas.exhaust_m3);
+}
+
+/// Steps of a tick that a small manifold needs.
+[[nodiscard]] std::uint32_t parts_of(const EngineDefinition& engine, double tick_s) noexcept {
+  constexpr double kVolumesInAStep = 1.3;
+  const double share =
+      std::max(volumes_in_a_tick(engine, tick_s, kIntake), volumes_in_a_tick(engine, tick_s, kExhaust));
+  std::uint32_t parts = 1;
+  while (parts < kMaxGasSteps && share > parts * kVolumesInAStep) ++parts;
+  return parts;
+}
+
+[[nodiscard]] GasManifolds<double> manifolds_of(const EngineDefinition& engine, double tick_s) noexcept {
+  const Gas& gas = engine.gas;
   const double volumes[kPorts] = {gas.intake_m3, gas.exhaust_m3};
   GasManifolds<double> m{};
+  m.parts = parts_of(engine, tick_s);
   for (int i = 0; i < kPorts; ++i) {
     m.per_volume_m3[i] = 1 / volumes[i];
     m.least_kg[i] = least_kg_m3(engine) * volumes[i];
   }
-  m.outside[kIntake] = outside(gas.ambient_K, 0);
-  m.outside[kExhaust] = outside(gas.exhaust_K, 1);
+  const double pressure_Pa[kPorts] = {gas.ambient_Pa, gas.behind_outlet_Pa()};
+  for (int i = 0; i < kPorts; ++i) m.outside[i] = beyond(GasPoint<double>{pressure_Pa[i], gas.ambient_K, 0, 0}, 0.0);
   m.outlet_m2 = gas.outlet_m2;
   for (int i = 0; i <= kThrottleSteps; ++i) {
     const double share = between_rows(gas.throttle_ratio, gas.throttle_area_ratio, gas.throttle_count,
@@ -118,8 +139,16 @@ namespace {
 
 }  // namespace
 
+Status validate_manifolds(const EngineDefinition& engine, double tick_s) noexcept {
+  constexpr double kMostVolumes = 80;
+  if (engine.pressure.source != PressureSource::gas) return {};
+  if (volumes_in_a_tick(engine, tick_s, kIntake) > kMostVolumes) return refuse("gas.intake_m3", Reason::inconsistent);
+  if (volumes_in_a_tick(engine, tick_s, kExhaust) > kMostVolumes) return refuse("gas.exhaust_m3", Reason::inconsistent);
+  return {};
+}
+
 template <class Real>
-void fill_gas_exchange(const EngineDefinition& engine, const TableTargets<Real>& targets) noexcept {
+void fill_gas_exchange(const EngineDefinition& engine, double tick_s, const TableTargets<Real>& targets) noexcept {
   const bool breathes = engine.pressure.source == PressureSource::gas;
   const auto fill = [breathes, &engine](auto* target, const auto& make) {
     if (target == nullptr) return;
@@ -127,14 +156,14 @@ void fill_gas_exchange(const EngineDefinition& engine, const TableTargets<Real>&
     if (breathes) round_into(make(engine), *target);
   };
   fill(targets.gas_cylinders, cylinders_of);
-  fill(targets.gas_manifolds, manifolds_of);
+  fill(targets.gas_manifolds, [tick_s](const EngineDefinition& e) { return manifolds_of(e, tick_s); });
   fill(targets.burn, burn_of);
   if (targets.gas_ports == nullptr) return;
   for (int t = 0; t < engine.train_count; ++t)
     fill(targets.gas_ports + t, [t](const EngineDefinition& e) { return port_of(e, t); });
 }
 
-template void fill_gas_exchange(const EngineDefinition&, const TableTargets<float>&) noexcept;
-template void fill_gas_exchange(const EngineDefinition&, const TableTargets<double>&) noexcept;
+template void fill_gas_exchange(const EngineDefinition&, double, const TableTargets<float>&) noexcept;
+template void fill_gas_exchange(const EngineDefinition&, double, const TableTargets<double>&) noexcept;
 
 }  // namespace crankloop::detail

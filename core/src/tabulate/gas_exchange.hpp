@@ -5,8 +5,12 @@
 
 namespace crankloop::detail {
 
+/// Refuses manifolds that are too small for the tick: whose openings could let through more than 80 times their volume
+/// in one. `engine` is valid else.
+Status validate_manifolds(const EngineDefinition& engine, double tick_s) noexcept;
+
 /// Fills cylinders, ports, manifolds and burn of an engine that breathes; of another, zeros. `engine` is valid.
 template <class Real>
-void fill_gas_exchange(const EngineDefinition& engine, const TableTargets<Real>& targets) noexcept;
+void fill_gas_exchange(const EngineDefinition& engine, double tick_s, const TableTargets<Real>& targets) noexcept;
 
 }  // namespace crankloop::detail

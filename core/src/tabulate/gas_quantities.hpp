@@ -32,12 +32,13 @@ struct Places {
 };
 
 /// By Taylor's series: the first dropped terms are below 1e-18.
-[[nodiscard]] elementary::SinCos sin_cos_within_a_degree(double part_of_degree) noexcept {
+[[nodiscard]] inline elementary::SinCos sin_cos_within_a_degree(double part_of_degree) noexcept {
   const double a = part_of_degree * kRadPerDegree;
   const double x = a * a;
   return {a * (1 - x / 6 * (1 - x / 20 * (1 - x / 42))), 1 - x / 2 * (1 - x / 12 * (1 - x / 30))};
 }
-[[nodiscard]] elementary::SinCos sin_cos_of_sum(const elementary::SinCos& a, const elementary::SinCos& b) noexcept {
+[[nodiscard]] inline elementary::SinCos sin_cos_of_sum(const elementary::SinCos& a,
+                                                       const elementary::SinCos& b) noexcept {
   return {a.sin * b.cos + a.cos * b.sin, a.cos * b.cos - a.sin * b.sin};
 }
 

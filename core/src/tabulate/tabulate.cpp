@@ -143,6 +143,12 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
   if (!(options.tick_s >= 1e-6 && options.tick_s <= 2e-3)) return refuse("options.tick_s", Reason::out_of_range);
   if (const Status refused = validate(targets); !refused.ok()) return refused;
   if (const Status refused = validate(engine); !refused.ok()) return refused;
+  if (engine.train_count > 0) {
+    if (const Status refused = validate(options.valves); !refused.ok()) return refused;
+  }
+  if (targets.gas_manifolds != nullptr) {
+    if (const Status refused = detail::validate_manifolds(engine, options.tick_s); !refused.ok()) return refused;
+  }
   IndicatorDiagram diagram;
   if (const Status refused = diagram.init(engine.crank, engine.pressure); !refused.ok()) return refused;
 
@@ -161,7 +167,7 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
   }
   fill_mechanism(engine, targets);
   detail::fill_gas(engine, diagram, targets, found);
-  detail::fill_gas_exchange(engine, targets);
+  detail::fill_gas_exchange(engine, options.tick_s, targets);
   detail::fill_triggers(engine, targets);
   if (targets.drive != nullptr) {
     fill_drive(engine, options, *targets.drive);

@@ -57,10 +57,9 @@ struct DegreeQuintic {
   [[nodiscard]] double fourth_derivative(double u) const noexcept { return 24 * c[4] + 120 * c[5] * u; }
 };
 
-/// Cam degrees over which the cubic through a step's ends will do for the lift: three times those over which it misses
-/// it by at most a tenth of the accuracy, h^4 / 384 times its largest fourth derivative. What it misses has both signs
-/// from step to step, and the valve's inertia does the rest: docs/decisions/0014-valve-records.md has the figures.
-[[nodiscard]] double widest_step_deg(const ValveLift& lift, double accuracy_m) noexcept {
+/// Cam degrees over which the cubic through a step's ends misses the lift by at most a tenth of the accuracy, h^4 / 384
+/// times its largest fourth derivative.
+[[nodiscard]] double tenth_of_class_deg(const ValveLift& lift, double accuracy_m) noexcept {
   double largest = 0;
   for (int i = 0; i < lobe_degrees(lift); ++i) {
     const DegreeQuintic quintic(lift, i);
@@ -71,8 +70,18 @@ struct DegreeQuintic {
     }
   }
   const double allowed = 384 * accuracy_m / 10;
-  const double width = 3 * square_root(square_root(allowed / largest));
-  return width < kDegreesPerTurn ? width : kDegreesPerTurn;
+  return square_root(square_root(allowed / largest));
+}
+
+/// The cubic misses as much as the class at 1.78 times that width. Up to 3 times it, where it would miss 8 classes, the
+/// quintic through the middle too keeps the class: docs/decisions/0014-valve-records.md has the figures.
+void set_widths(double tenth_of_class_deg, ValveMotion<double>& motion) noexcept {
+  const auto times = [&](double ratio) {
+    const double deg = ratio * tenth_of_class_deg;
+    return deg < kDegreesPerTurn ? deg : kDegreesPerTurn;
+  };
+  motion.cubic_deg = times(1.75);
+  motion.widest_step_deg = times(3);
 }
 
 /// Whether the lift comes near enough in a degree to touch a closed valve.
@@ -144,24 +153,27 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
   ValveMotion<double> motions[kMaxTrains];
   int fine_steps = 0;
   std::uint32_t most_parts = 0;
+  double class_deg = kDegreesPerTurn;
   for (int t = 0; t < engine.train_count; ++t) {
     const ValveTrain& train = engine.trains[t];
     ValveLift lift;
     if (const Status refused = lift.init(train.cam, train.rocker); !refused.ok()) return of_train(refused, t);
     if (targets.valve_motions == nullptr) continue;
-    if (const Status refused = validate(train.valve); !refused.ok()) return of_train(refused, t);
     const double lever = lift.lever_m() > 0 ? lift.lever_m() : 1;
     if (const Status refused = motion_of(valve_body(train.valve, lever), options.tick_s, options.valves, motions[t]);
         !refused.ok()) {
       return of_train(refused, t);
     }
-    motions[t].widest_step_deg = widest_step_deg(lift, options.valves.accuracy_m);
+    set_widths(tenth_of_class_deg(lift, options.valves.accuracy_m), motions[t]);
     find_calm(motions[t], train.rocker.clearance_m);
     fine_steps += static_cast<int>(motions[t].parts) * engine.layout.cylinders;
     if (fine_steps > kMaxFineStepsOfEngine) return refuse("options.tick_s", Reason::out_of_range, t);
     if (motions[t].parts > most_parts) most_parts = motions[t].parts;
+    const double keeps_deg = motions[t].cubic_deg * motions[t].parts;
+    if (keeps_deg < class_deg) class_deg = keeps_deg;
   }
   report.valve_fine_steps = fine_steps;
+  report.valve_class_deg = targets.valve_motions != nullptr ? class_deg : 0;
   report.valve_changes = targets.valve_motions != nullptr ? static_cast<int>(kChangesBesideParts + most_parts) : 0;
   for (int t = 0; t < engine.train_count; ++t) {
     const ValveTrain& train = engine.trains[t];

@@ -228,13 +228,17 @@ ValveState<double> exact_motion(const ValveBody<double>& body, std::uint32_t reg
   return state;
 }
 
-Status motion_of(const ValveBody<double>& body, double tick_s, const ValveStepping& stepping,
-                 ValveMotion<double>& motion) noexcept {
+Status validate(const ValveStepping& stepping) noexcept {
   if (!(stepping.accuracy_m >= 0.01e-6 && stepping.accuracy_m <= 10e-6))
     return refuse("options.valves.accuracy_m", Reason::out_of_range);
-  if (stepping.integrator != Integrator::rk4 && stepping.integrator != Integrator::exponential) {
+  if (stepping.integrator != Integrator::rk4 && stepping.integrator != Integrator::exponential)
     return refuse("options.valves.integrator", Reason::out_of_range);  // a number that names no integrator
-  }
+  return {};
+}
+
+Status motion_of(const ValveBody<double>& body, double tick_s, const ValveStepping& stepping,
+                 ValveMotion<double>& motion) noexcept {
+  if (const Status refused = validate(stepping); !refused.ok()) return refused;
   if (!(body.mass_kg <= kHeaviest_kg)) return refuse("valve.rocker_inertia_kg_m2", Reason::out_of_range);
   if (!(tick_s > 0 && tick_s <= longest_tick_s(body, stepping))) return refuse("options.tick_s", Reason::out_of_range);
   const double fastest = fastest_rate_per_s(body);
@@ -249,7 +253,7 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
   motion.parts = static_cast<std::uint32_t>(parts);
   motion.per_parts_32 = per_n_32(parts);
   motion.most_changes = kChangesBesideParts + motion.parts;
-  motion.widest_step_deg = kDegreesPerTurn;
+  motion.cubic_deg = motion.widest_step_deg = kDegreesPerTurn;
   motion.train_lag_s = body.train_Ns_m / body.train_N_m;
   motion.seat_lag_s = body.seat_Ns_m / body.seat_N_m;
   motion.per_seat_N_m = 1 / (body.seat_N_m + body.spring_N_m);
@@ -273,6 +277,12 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
     step.seat = {1, third_s, kOffMargin_m + body.seat_compression_m};
     if (train_is_on(contacts)) step.train = {1, motion.train_lag_s + third_s, kTrainMargin_m};
     if (seat_is_on(contacts)) step.seat = {-1, motion.seat_lag_s + third_s, -body.seat_compression_m};
+    if (train_is_on(contacts)) {
+      const auto propagate = propagator(contacts, step_s);
+      const ValveState<double> by_lift = propagate({0, 0}, StepDrive{0, 0, 0, 0, 0, 0, 1, 0});
+      const ValveState<double> by_slope = propagate({0, 0}, StepDrive{0, 0, 0, 0, 0, 0, 0, 1});
+      step.middle = {by_lift.lift_m, by_slope.lift_m, by_lift.velocity_m_s, by_slope.velocity_m_s};
+    }
     return step;
   };
   const auto may_rest = [&](RegimeStep<double>& step) {
@@ -282,12 +292,6 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
   for (std::uint32_t regime = 0; regime < 4; ++regime) {
     motion.fine[regime] = regime_step(regime, motion.fine_step_s);
     motion.series[regime] = series_of(body, regime, motion.fine_step_s);
-  }
-  for (std::uint32_t seat = 0; seat < 2; ++seat) {
-    const auto propagate = propagator(kTrainOn | (seat != 0 ? kSeatOn : 0), motion.fine_step_s);
-    const ValveState<double> by_lift = propagate({0, 0}, StepDrive{0, 0, 0, 0, 0, 0, 1, 0});
-    const ValveState<double> by_slope = propagate({0, 0}, StepDrive{0, 0, 0, 0, 0, 0, 0, 1});
-    motion.middle[seat] = {by_lift.lift_m, by_slope.lift_m, by_lift.velocity_m_s, by_slope.velocity_m_s};
   }
   may_rest(motion.fine[kSeatOn]);
   motion.fine[kQuiet] = motion.fine[kSeatOn];

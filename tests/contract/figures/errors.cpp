@@ -186,10 +186,10 @@ int main(int count, char** words) {
   std::printf("| largest error | float | double |\n| --- | --- | --- |\n");
   row("piston displacement, velocity, acceleration; of r, r w, r w^2", motion_errors<float>().largest(),
       motion_errors<double>().largest());
-  row("pressure of the 495 diesel", pressure_error_Pa<float>(diesel) / 1e5, pressure_error_Pa<double>(diesel) / 1e5,
-      " bar");
-  row("pressure of a trace that rises 11.6 bar per degree", pressure_error_Pa<float>(steep) / 1e5,
-      pressure_error_Pa<double>(steep) / 1e5, " bar");
+  row("pressure of the 495 diesel", pressure_error_Pa<float>(diesel) / 1e3, pressure_error_Pa<double>(diesel) / 1e3,
+      " kPa");
+  row("pressure of a trace that rises 1160 kPa per degree", pressure_error_Pa<float>(steep) / 1e3,
+      pressure_error_Pa<double>(steep) / 1e3, " kPa");
   const TorqueErrors in_float = torque_errors<float>(diesel);
   const TorqueErrors in_double = torque_errors<double>(diesel);
   row("torque of the 495 diesel at the tick; of its largest", in_float.at_tick, in_double.at_tick);

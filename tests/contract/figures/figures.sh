@@ -8,6 +8,8 @@
 #   figures.sh BUILD_DIR check README PERFORMANCE  whether they state the errors and the RAM that are measured now
 #   figures.sh BUILD_DIR                errors and scenes
 #
+# What the documents show of the program's output: printed.sh.
+#
 # Builds into BUILD_DIR; CXX names another compiler than c++. Instructions need valgrind, stack needs GCC: else a dash.
 set -eu
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)

@@ -86,4 +86,13 @@ std::string shared_pins_hint(const Layout& layout) {
          brief(full_turn(layout.throw_deg(a + 1))) + " deg.";
 }
 
+std::string crankshaft_comments(const Layout& layout) {
+  if (layout.cylinders < 2) return "";
+  std::string text;
+  for (const std::string& line : throws_in_words(layout)) text += (text.empty() ? "# " : "#   ") + line + "\n";
+  text += "# " + firing_in_words(layout) + "\n";
+  const std::string hint = shared_pins_hint(layout);
+  return hint.empty() ? text : text + "# " + hint + "\n";
+}
+
 }  // namespace crankloop::program

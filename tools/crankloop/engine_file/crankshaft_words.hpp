@@ -28,4 +28,7 @@ struct CrankThrow {
 /// angle.
 [[nodiscard]] std::string shared_pins_hint(const Layout& layout);
 
+/// All three as comments of an engine file; "" of one cylinder.
+[[nodiscard]] std::string crankshaft_comments(const Layout& layout);
+
 }  // namespace crankloop::program

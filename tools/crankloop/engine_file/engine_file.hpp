@@ -8,10 +8,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <crankloop/define/engine_definition.hpp>
+#include <crankloop/tabulate/cam_profile.hpp>
 
 #include "../error.hpp"
 #include "engine_file_values.hpp"
@@ -31,6 +33,7 @@ struct TrainOfFile {
   std::vector<CamPoint> points;  ///< definition.cam points here
   std::vector<int> point_lines;
   std::string points_path;
+  std::optional<CamRows> rows;  ///< of a cam whose smoothing_um is auto
 
   [[nodiscard]] bool complete() const noexcept { return has_cam && has_rocker && has_valve; }
 };
@@ -91,7 +94,8 @@ class EngineFile {
   void build_trains();
   void build_triggers();
   [[nodiscard]] int train_with_phaser(const SectionValues& trigger) const;
-  void read_cam(const SectionValues& cam, TrainOfFile& train);
+  void read_cam(SectionValues& cam, TrainOfFile& train);
+  [[nodiscard]] InputError explain_cam(const Status& status, const TrainOfFile& train, const SectionValues& cam) const;
   [[nodiscard]] const TrainOfFile* train_to_blame(const Key& key, int index) const;
 
   std::string path_;

@@ -29,6 +29,15 @@ std::string motored_gives_work(const SectionValues& pressure) {
          shortest(pressure.number("compression_exponent")) + ", or 0 for that + 0.03";
 }
 
+std::string too_much_heat(const SectionValues& gas) {
+  const double ratio = gas.number("air_fuel_ratio");
+  const double heat_MJ_kg = gas.number("combustion_efficiency") * gas.number("heating_value_MJ_per_kg") / (1 + ratio);
+  return "air_fuel_ratio: " + shortest(ratio) +
+         " with heating_value_MJ_per_kg = " + shortest(gas.number("heating_value_MJ_per_kg")) + " releases " +
+         brief(heat_MJ_kg) + " MJ per kg of mixture; allowed: up to " + brief(kMaxMixtureHeat_J_kg / 1e6) +
+         ", and no fuel has more (petrol 2.8, hydrogen 3.4)";
+}
+
 }  // namespace
 
 std::string in_words(const SectionValues& home, const Key& key, Reason reason, const std::string& refusal) {
@@ -70,6 +79,7 @@ InputError EngineFile::explain(const Status& status) const {
   if (status.reason == Reason::inconsistent && field == "pressure.wiebe.motored_expansion_exponent") {
     return InputError(path_, home->line_of(key->name), motored_gives_work(*home));
   }
+  if (status.reason == Reason::too_much_heat) return InputError(path_, home->line_of(key->name), too_much_heat(*home));
   const std::string whose = status.index >= 0 ? "(cylinder " + std::to_string(status.index + 1) + ") " : "";
   return InputError(path_, home->line_of(key->name),
                     in_words(*home, *key, status.reason, whose + describe(status.reason)));

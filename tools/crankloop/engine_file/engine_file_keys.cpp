@@ -119,9 +119,10 @@ constexpr Key kKeys[] = {
     {"gas", "throttle_closed_mm2", Kind::number, kMm2, "gas.throttle_closed_m2", from(0).up_to(1e7), "", defaults, "12", "", "", "effective area, closed; at most the open one"},
     {"gas", "throttle_curve", Kind::pairs, kNoUnit, "", from(0).up_to(1), "", defaults, "0:0,0.2:0.06,0.5:0.3,1:1", "", "", "share of the area between closed and open, by the throttle ratio 0 to 1; straight lines"},
     {"gas", "outlet_mm2", Kind::number, kMm2, "gas.outlet_m2", above(0).up_to(1e7), "", defaults, "1200", "", "", "effective area of the exhaust system, as one orifice"},
-    {"gas", "ambient_kPa", Kind::number, kKPa, "gas.ambient_Pa", from(1).up_to(10000), "", defaults, "100", "", "", "absolute"},
+    {"gas", "ambient_kPa", Kind::number, kKPa, "gas.ambient_Pa", from(1).up_to(10000), "", defaults, "100", "", "", "absolute, before the throttle"},
+    {"gas", "back_kPa", Kind::number, kKPa, "gas.back_Pa", from(0).up_to(10000), "", defaults, "0", "", "", "absolute, behind the outlet; 0: as ambient_kPa"},
     {"gas", "ambient_C", Kind::number, kCelsius, "", from(-123.15).up_to(2726.85), "", defaults, "25", "", "", "of the air before the throttle"},
-    {"gas", "exhaust_C", Kind::number, kCelsius, "", from(-123.15).up_to(2726.85), "", defaults, "500", "", "", "of gas that may flow back from the outlet"},
+    {"gas", "exhaust_C", Kind::number, kCelsius, "", from(-123.15).up_to(2726.85), "", defaults, "500", "", "", "of a scene whose exhaust manifold is given: what it starts with"},
     {"gas", "wall_C", Kind::number, kCelsius, "", from(-123.15).up_to(1726.85), "", defaults, "150", "", "", "mean temperature of the cylinder's walls"},
     {"gas", "wall_heat_factor", Kind::number, kNoUnit, "gas.wall_heat_ratio", from(0).up_to(100), "", defaults, "1", "", "", "k_w, of Hohenberg's heat transfer; 0: adiabatic"},
     {"gas", "fuel_mg", Kind::number, kMg, "gas.fuel_kg", from(0).up_to(10000), "", defaults, "30", "", "", "fuel per cylinder and cycle; 0: motored"},
@@ -154,7 +155,7 @@ constexpr Key kKeys[] = {
     {"cam", "full_lift_at_crank_deg", Kind::number, kDeg, "", from(-720).up_to(720), "", required, "", "", "", "engine angle of full theoretical lift in cylinder 1's cycle"},
     {"cam", "phase_rate_deg_per_s", Kind::number, kDegPerS, "cam.phase_rate_deg_s", from(0).up_to(100000), "", defaults, "0", "", "", "cam phaser's rate limit in crank degrees; 0: fixed cam"},
     {"cam", "file", Kind::path, kNoUnit, "", kAny, "", required, "", kCamTable, "", "CSV with header cam_deg,lift_mm; relative to the engine file"},
-    {"cam", "smoothing_um", Kind::number, kUm, "cam.smoothing_m", above(0).up_to(1000), "", required, "", kCamTable, "", "largest residual that smoothing may leave"},
+    {"cam", "smoothing_um", Kind::number, kUm, "cam.smoothing_m", above(0).up_to(1000), "auto", required, "", kCamTable, "", "largest residual that smoothing may leave; auto: by the scatter of the rows"},
 
     {"rocker", "ratio", Kind::number, kNoUnit, "rocker.ratio", above(0).up_to(10), "", required, "", "", "train:constant ratio", "direct (1) or constant-ratio train, instead of the geometry"},
     {"rocker", "pivot_to_pad_mm", Kind::number, kMm, "rocker.pivot_to_pad_m", above(0).up_to(1000), "", required, "", "", "train:geometry", "l_a"},
@@ -300,7 +301,7 @@ std::string Key::allowed() const {
     case Kind::whole_number:
       return "whole number; " + describe(range, unit_in_words(unit.name));
     case Kind::number:
-      return describe(range, unit_in_words(unit.name));
+      return describe(range, unit_in_words(unit.name)) + (choices[0] == '\0' ? "" : std::string(", or ") + choices);
     case Kind::text:
     case Kind::path:
       break;

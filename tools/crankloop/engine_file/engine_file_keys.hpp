@@ -43,7 +43,7 @@ struct Key {
   const char*
       field;  ///< of the definition, that it is by itself: "crank.bore_m"; "" where more than a unit lies between them
   Range range;
-  const char* choices;  ///< "wiebe|angle_table"; only Kind::choice
+  const char* choices;  ///< "wiebe|angle_table"; of a Kind::number, the word that may stand in its place: "auto"
   Presence presence;
   const char* fallback;  ///< as it would stand in the file; only Presence::with_default
   const char* only_if;   ///< "source=wiebe": with another source the key is checked, but not used; "" always

@@ -24,7 +24,8 @@ void fill(const SectionValues& values, Part& part) {
         if constexpr (kHasFields<Field>) {
           fill(values, field);
         } else if constexpr (std::is_same_v<Field, double> || std::is_same_v<Field, int>) {
-          if (const Value* value = values.of_field(name)) field = static_cast<Field>(value->si());
+          if (const Value* value = values.of_field(name); value != nullptr && !value->is_open())
+            field = static_cast<Field>(value->si());
         }
       },
       part);

@@ -14,6 +14,9 @@ namespace {
 
 constexpr TableFormat kCamTable{"cam_deg", "lift_mm", from(-360).up_to(360), from(-100).up_to(100)};
 
+/// Of few digits, as a file would say it.
+double micrometres(double metres) { return parse_number(brief(metres * 1e6)).value; }
+
 TrainOfFile& named(std::vector<TrainOfFile>& trains, const std::string& name) {
   const auto found =
       std::find_if(trains.begin(), trains.end(), [&name](const TrainOfFile& one) { return one.name == name; });
@@ -68,7 +71,7 @@ void EngineFile::build_trains() {
   const auto accept = [this](const Status& status, const TrainOfFile& train) {
     if (!status.ok()) throw explain(status, train);
   };
-  for (const SectionValues& section : sections_) {
+  for (SectionValues& section : sections_) {
     if (section.kind != "cam" && section.kind != "rocker" && section.kind != "valve") continue;
     TrainOfFile& train = named(trains_, section.name);
     if (section.kind == "cam") {
@@ -99,7 +102,7 @@ void EngineFile::build_trains() {
   }
 }
 
-void EngineFile::read_cam(const SectionValues& cam, TrainOfFile& train) {
+void EngineFile::read_cam(SectionValues& cam, TrainOfFile& train) {
   train.points_path = in_folder(folder_of(path_), cam.text("file"));
   for (const TableRow& row : read_table(train.points_path, kCamTable, path_, cam.line_of("file"))) {
     if (!train.points.empty() && row.at <= train.points.back().cam_deg) {
@@ -117,6 +120,12 @@ void EngineFile::read_cam(const SectionValues& cam, TrainOfFile& train) {
   }
   train.definition.cam.points = train.points.data();
   train.definition.cam.point_count = static_cast<int>(train.points.size());
+  if (!cam.find("smoothing_um")->is_open()) return;
+  train.rows.emplace();
+  if (const Status refused = survey_rows(train.definition.cam, *train.rows); !refused.ok())
+    throw explain(refused, train);
+  cam.choose("smoothing_um", micrometres(train.rows->automatic_m));
+  train.definition.cam.smoothing_m = cam.si("smoothing_um");
 }
 
 const TrainOfFile& EngineFile::train(const std::string& name) const {
@@ -144,6 +153,21 @@ const TrainOfFile* EngineFile::train_to_blame(const Key& key, int index) const {
 
 namespace {
 
+/// Not less than the value.
+std::string three_digits_up(double value) {
+  double digit = 1;  // not by pow(), which would ask an FMU's users for a younger glibc
+  while (digit * 1000 <= value) digit *= 10;
+  while (digit > 1e-30 && digit * 100 > value) digit /= 10;
+  return brief(std::ceil(value / digit) * digit);
+}
+
+/// "-30 deg (cam.csv:152)"
+std::string row_in_words(const TrainOfFile& train, int row) {
+  const auto i = static_cast<std::size_t>(row);
+  return brief(train.points[i].cam_deg) + " deg (" + train.points_path + ":" + std::to_string(train.point_lines[i]) +
+         ")";
+}
+
 /// What ValveLift found of the geometry; empty for anything else.
 std::string geometry_in_words(std::string_view field, const std::string& at) {
   if (field == "rocker.base_circle_m")
@@ -161,6 +185,44 @@ std::string geometry_in_words(std::string_view field, const std::string& at) {
 
 }  // namespace
 
+/// About the rows of a measured cam, or how closely they are to be followed.
+InputError EngineFile::explain_cam(const Status& status, const TrainOfFile& train, const SectionValues& cam) const {
+  const bool has_row = status.index >= 0 && static_cast<std::size_t>(status.index) < train.point_lines.size();
+  const int line = has_row ? train.point_lines[static_cast<std::size_t>(status.index)] : train.point_lines.back();
+  const Value& smoothing = *cam.find("smoothing_um");
+  CamRows rows;
+  const Status survey = survey_rows(train.definition.cam, rows);
+  const bool follows = survey.ok();
+  if (status.reason == Reason::no_solution) {
+    const std::string refused =
+        "smoothing_um: " + (smoothing.is_open() ? "auto" : shortest(smoothing.numbers[0])) + " has no solution: ";
+    if (!follows) {
+      return InputError(path_, smoothing.line,
+                        refused + "no smooth lobe comes within 1000 um of every row; look at that of " +
+                            row_in_words(train, std::max(survey.index, 0)));
+    }
+    return InputError(path_, smoothing.line,
+                      refused + "no smooth lobe comes that close to every row; smallest possible: " +
+                          three_digits_up(rows.smallest_m * 1e6) + ", for which the row of " +
+                          row_in_words(train, rows.worst_row) + " lies " +
+                          three_digits_up(std::abs(rows.worst_off_m) * 1e6) + " um " +
+                          (rows.worst_off_m > 0 ? "above" : "below") + " the lobe; allow more, or correct that row");
+  }
+  std::string message = "the cam " + std::string(describe(status.reason));
+  if (status.reason == Reason::too_few_points)
+    message = std::to_string(train.points.size()) + " rows are too few for a cam";
+  if (status.reason == Reason::inconsistent) {
+    message = "the lobe must rise from the base circle and return to it within the table; ";
+    message += smoothing.is_open() ? "no row on this side comes down to 50 um"
+                                   : "smoothing_um (" + shortest(smoothing.numbers[0]) +
+                                         ") is the lift that still counts as base circle";
+    if (follows) message += "; smallest possible: " + three_digits_up(rows.smallest_m * 1e6);
+  }
+  if (status.reason == Reason::out_of_range && !has_row)
+    message = "the rows must lie within one turn of 360 deg, and the lobe within 330 deg of it";
+  return InputError(train.points_path, line, message);
+}
+
 InputError EngineFile::explain(const Status& status, const TrainOfFile& train, double cam_deg) const {
   const Key* key = key_of_field(status.field);
   const SectionValues* home = key == nullptr ? nullptr : find(key->section + (" " + train.name));
@@ -168,20 +230,8 @@ InputError EngineFile::explain(const Status& status, const TrainOfFile& train, d
     return InputError(path_ + ": valve train " + train.name + ": " + status.field + " " + describe(status.reason));
 
   const std::string_view field = status.field;
-  if (field == "cam.points" && !train.point_lines.empty()) {
-    const bool has_row = status.index >= 0 && static_cast<std::size_t>(status.index) < train.point_lines.size();
-    const int line = has_row ? train.point_lines[static_cast<std::size_t>(status.index)] : train.point_lines.back();
-    std::string message = "the cam " + std::string(describe(status.reason));
-    if (status.reason == Reason::too_few_points)
-      message = std::to_string(train.points.size()) + " rows are too few for a cam";
-    if (status.reason == Reason::inconsistent) {
-      message = "the lobe must rise from the base circle and return to it within the table; smoothing_um (" +
-                shortest(home->number("smoothing_um")) + ") is the lift that still counts as base circle";
-    }
-    if (status.reason == Reason::out_of_range && !has_row)
-      message = "the rows must lie within one turn of 360 deg, and the lobe within 330 deg of it";
-    return InputError(train.points_path, line, message);
-  }
+  const bool of_rows = field == "cam.points" || (field == "cam.smoothing_m" && status.reason == Reason::no_solution);
+  if (of_rows && !train.point_lines.empty()) return explain_cam(status, train, *home);
   if (status.reason == Reason::inconsistent) {
     const std::string words =
         geometry_in_words(field, " at " + brief(cam_deg) + " deg of the flat follower's cam angle");
@@ -190,8 +240,6 @@ InputError EngineFile::explain(const Status& status, const TrainOfFile& train, d
   std::string refusal = field == "cam.exponents" && status.reason == Reason::not_increasing
                             ? "must rise by at least 0.1"
                             : describe(status.reason);
-  if (field == "cam.smoothing_m")
-    refusal += ": no smooth lobe comes that close to every row; allow more, or look for a faulty row";
   return InputError(path_, home->line_of(key->name), in_words(*home, *key, status.reason, refusal));
 }
 

@@ -18,7 +18,8 @@ constexpr std::size_t kLongestList = 64;  // no key needs more; keeps a hostile 
 double number_in_range(const Key& key, std::string_view text, const std::string& path, int line,
                        const std::string& where) {
   const ParsedNumber number = parse_number(text, key.range, unit_in_words(key.unit.name));
-  if (!number.ok()) throw InputError(path, line, std::string(key.name) + ": " + where + number.problem);
+  const std::string word = key.choices[0] == '\0' ? "" : std::string("; the word ") + key.choices + " is allowed too";
+  if (!number.ok()) throw InputError(path, line, std::string(key.name) + ": " + where + number.problem + word);
   return number.value;
 }
 
@@ -70,6 +71,10 @@ Value parse_value(const Key& key, std::string_view text, const std::string& path
       break;
     case Kind::whole_number:
     case Kind::number:
+      if (!text.empty() && text == key.choices) {
+        value.text = key.choices;
+        break;
+      }
       value.numbers.push_back(number_in_range(key, text, path, line, ""));
       if (key.kind == Kind::whole_number && value.numbers[0] != std::floor(value.numbers[0])) {
         throw InputError(
@@ -150,6 +155,15 @@ const Value& SectionValues::at(std::string_view key) const {
 int SectionValues::line_of(std::string_view key) const {
   const Value* value = find(key);
   return value != nullptr && value->line > 0 ? value->line : std::max(line, 1);
+}
+
+void SectionValues::choose(std::string_view key, double number) {
+  for (Value& value : values) {
+    if (key != value.key->name || !value.is_open()) continue;
+    value.text.clear();
+    value.numbers = {number};
+    value.automatic = true;
+  }
 }
 
 void SectionValues::derive(std::string_view key, Value value) {

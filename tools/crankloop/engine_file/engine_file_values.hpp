@@ -17,10 +17,13 @@ struct Value {
   const Key* key = nullptr;
   int line = 0;                          ///< 0: a default or derived
   bool used = true;                      ///< false: belongs to a form or source that is not chosen
-  std::string text;                      ///< choice, text, path
+  std::string text;                      ///< choice, text, path, the word in place of a number
   std::vector<double> numbers;           ///< number, whole_number (one each), numbers, pairs (two each)
   std::vector<std::vector<int>> groups;  ///< firing_order (one group), pin_groups; cylinders counted from 1
+  bool automatic = false;                ///< a number that the program chose where the file has a word
 
+  /// Of a number for which the file has a word, such as auto: its number has yet to be found.
+  [[nodiscard]] bool is_open() const noexcept { return key->kind == Kind::number && numbers.empty(); }
   [[nodiscard]] double si() const {
     return numbers.at(0) * key->unit.times / key->unit.over;
   }  ///< angles stay in degrees
@@ -51,6 +54,9 @@ struct SectionValues {
 
   /// Line to blame for a key: its own if it is in the file, otherwise the section's.
   [[nodiscard]] int line_of(std::string_view key) const;
+
+  /// Gives an open number its value.
+  void choose(std::string_view key, double number);
 
   /// Fills in what follows from other keys, for `show`; keeps the table's order.
   void derive(std::string_view key, Value value);

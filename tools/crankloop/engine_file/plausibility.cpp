@@ -11,6 +11,9 @@
 #include <crankloop/tabulate/mechanism.hpp>
 
 #include "../units.hpp"
+#include "../words.hpp"
+#include "lobe_feet.hpp"
+#include "usual_ranges.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -31,6 +34,8 @@ constexpr double kMaxPeakLeadDeg = 3;
 constexpr double kPeakSearchDeg = 40;
 constexpr double kPeakStepDeg = 0.1;
 
+bool within(Interval usual, double value) { return value >= usual.least && value <= usual.most; }
+
 class Warnings {
  public:
   explicit Warnings(const EngineFile& engine) : engine_{engine} {}
@@ -40,11 +45,13 @@ class Warnings {
     lines_.push_back(engine_.path() + (line > 0 ? ":" + std::to_string(line) : "") + ": warning: " + text);
   }
 
-  void add_unless(Interval usual, double value, int line, const std::string& what, const char* unit,
+  /// Whether it is usual.
+  bool add_unless(Interval usual, double value, int line, const std::string& what, const char* unit,
                   const std::string& remark = "") {
-    if (value >= usual.least && value <= usual.most) return;
+    if (within(usual, value)) return true;
     add(line, what + " = " + brief(value) + " is unusual; usual: " + brief(usual.least) + " to " + brief(usual.most) +
                   unit + remark);
+    return false;
   }
 
   [[nodiscard]] const std::vector<std::string>& lines() const noexcept { return lines_; }
@@ -54,13 +61,156 @@ class Warnings {
   std::vector<std::string> lines_;
 };
 
-void look_at_crank(const EngineFile& engine, Warnings& warnings) {
+/// Bore, stroke and rod a thousand times too small.
+bool lengths_look_like_metres(const SectionValues& crank) {
+  return crank.number("bore_mm") < kBoreMm.most / 1e3 && crank.number("stroke_mm") < 4 &&
+         crank.number("rod_length_mm") < 10;
+}
+
+/// Tells what is wrong with them, and returns those that are not.
+EngineSize look_at_crank(const EngineFile& engine, Warnings& warnings) {
   const SectionValues& crank = engine.section("crank");
-  warnings.add_unless(kBoreMm, crank.number("bore_mm"), crank.line_of("bore_mm"), "bore_mm", " mm");
-  warnings.add_unless(kBorePerStroke, crank.number("bore_mm") / crank.number("stroke_mm"), crank.line_of("bore_mm"),
-                      "bore_mm / stroke_mm", "");
-  warnings.add_unless(kRodRatio, engine.definition().crank.rod_ratio(), crank.line_of("rod_length_mm"),
-                      "stroke_mm / 2 / rod_length_mm", "");
+  const double bore_mm = crank.number("bore_mm");
+  const double stroke_mm = crank.number("stroke_mm");
+  EngineSize size;
+  size.cylinders = engine.definition().layout.cylinders;
+  if (lengths_look_like_metres(crank)) {
+    warnings.add(crank.line_of("bore_mm"),
+                 "all lengths look like metres: bore_mm = " + brief(bore_mm) + ", stroke_mm = " + brief(stroke_mm) +
+                     ", rod_length_mm = " + brief(crank.number("rod_length_mm")) + "; the file takes mm");
+    size.bore_mm = bore_mm * 1e3;
+    size.stroke_mm = stroke_mm * 1e3;
+    return size;
+  }
+  // Each is told alone: the next is measured by it.
+  if (!warnings.add_unless(kBoreMm, bore_mm, crank.line_of("bore_mm"), "bore_mm", " mm")) return size;
+  size.bore_mm = bore_mm;
+  if (!warnings.add_unless(kBorePerStroke, bore_mm / stroke_mm, crank.line_of("bore_mm"), "bore_mm / stroke_mm", ""))
+    return size;
+  size.stroke_mm = stroke_mm;
+  if (warnings.add_unless(kRodRatio, engine.definition().crank.rod_ratio(), crank.line_of("rod_length_mm"),
+                          "stroke_mm / 2 / rod_length_mm", ""))
+    size.rod_mm = crank.number("rod_length_mm");
+  return size;
+}
+
+/// To two digits: how wide a range is, is no exact thing.
+std::string about(double value) {
+  if (value == 0) return "0";
+  const double digit = std::pow(10, std::floor(std::log10(std::abs(value))) - 1);
+  return brief(std::round(value / digit) * digit);
+}
+
+void look_at_value(const Value& value, const EngineSize& size, Warnings& warnings) {
+  const UsualRange* const range = usual_range_of(*value.key);
+  if (range == nullptr || value.line == 0 || !value.used) return;
+  const std::optional<double> per = size.of(range->per);
+  const double given = value.numbers.at(0);
+  if (!per || (range->zero && given == 0) || within(range->usual, given / *per)) return;
+  const std::string unit = unit_in_words(value.key->unit.name);
+  warnings.add(value.line, std::string(value.key->name) + " = " + brief(given) + " is unusual; usual: " +
+                               about(range->usual.least * *per) + " to " + about(range->usual.most * *per) +
+                               (unit.empty() ? "" : " " + unit) + in_words(range->per));
+}
+
+/// Each value beside engines of this size.
+void look_at_values(const EngineFile& engine, EngineSize size, bool metres, Warnings& warnings) {
+  if (engine.has("engine") && size.stroke_mm) {
+    const double piston_m_s = engine.rated_rpm() / *size.of(Per::piston_speed);
+    const Value* const rated = engine.section("engine").find("rated_rpm");
+    if (within(usual_range_of(*rated->key)->usual, piston_m_s)) size.rated_krpm = engine.rated_rpm() / 1e3;
+  }
+  for (const SectionValues& section : engine.sections()) {
+    for (const Value& value : section.values) {
+      if (!metres || value.key->unit.name != std::string_view("mm")) look_at_value(value, size, warnings);
+    }
+  }
+}
+
+/// In degrees of cylinder 1's cycle, whose gas exchange has its dead centre at 360.
+constexpr Interval kIntakeFullLiftDeg{380, 560};
+constexpr Interval kExhaustFullLiftDeg{160, 340};
+
+void look_at_cams(const EngineFile& engine, Warnings& warnings) {
+  for (const SectionValues& cam : engine.sections()) {
+    if (cam.kind != "cam") continue;
+    const std::string valve = "valve " + cam.name;
+    const std::string port =
+        engine.has(valve) && engine.section(valve).has("port") ? engine.section(valve).text("port") : cam.name;
+    const bool intake = port == "intake";
+    if (!intake && port != "exhaust") continue;
+    const double given_deg = cam.number("full_lift_at_crank_deg");
+    const double deg = given_deg - 720 * std::floor(given_deg / 720);
+    const Interval usual = intake ? kIntakeFullLiftDeg : kExhaustFullLiftDeg;
+    if (within(usual, deg)) continue;
+    warnings.add(cam.line_of("full_lift_at_crank_deg"),
+                 "full_lift_at_crank_deg = " + brief(given_deg) + " is unusual; usual: " + brief(usual.least) + " to " +
+                     brief(usual.most) + " deg for " + (intake ? "an intake" : "an exhaust") +
+                     " valve: 0 is the firing top dead centre, 360 that of gas exchange");
+  }
+}
+
+/// A row that a lobe misses by more than this, and by more than the scatter of the rows explains, was misread.
+constexpr double kMisread_m = 5e-6;
+constexpr double kMisreadSigmas = 5;
+
+void look_at_misread_rows(const SectionValues& cam, const TrainOfFile& train, Warnings& warnings) {
+  if (!train.rows) return;
+  const CamRows& rows = *train.rows;
+  if (rows.smallest_m < std::max({kMisread_m, kMisreadSigmas * rows.scatter_m, rows.unit_m})) return;
+  const auto row = static_cast<std::size_t>(rows.worst_row);
+  warnings.add(cam.line_of("smoothing_um"),
+               "smoothing_um = auto becomes " + brief(cam.number("smoothing_um")) + " for the sake of the row of " +
+                   brief(train.points[row].cam_deg) + " deg (" + train.points_path + ":" +
+                   std::to_string(train.point_lines[row]) + "), which lies " + about(std::abs(rows.worst_off_m) * 1e6) +
+                   " um off every smooth lobe, where the rows scatter by " + about(rows.scatter_m * 1e6) +
+                   " um: is it misread?");
+}
+
+/// Of a cam's largest speed: ramps begin with up to a tenth of it, a lift less a clearance of 0.1 mm with a fifth.
+constexpr double kMaxFirstSpeed = 0.15;
+
+/// A table that leaves the base circle with a step of its speed, and comes back with one.
+void look_at_feet(const SectionValues& cam, const TrainOfFile& train, Warnings& warnings) {
+  const LobeFeet feet = lobe_feet(train.points, train.definition.cam.smoothing_m);
+  if (feet.step_m_deg <= kMaxFirstSpeed * feet.largest_m_deg) return;
+  warnings.add(cam.line_of("file"), train.points_path + ":" + std::to_string(train.point_lines[feet.first_row]) +
+                                        ": the lift leaves the base circle with a step of its speed to " +
+                                        about(feet.step_m_deg * 1e6) + " um/deg, " +
+                                        about(100 * feet.step_m_deg / feet.largest_m_deg) +
+                                        " % of the largest, and comes back with one; usual: less than 10 %. Is it a "
+                                        "valve's lift less its clearance? The table takes the cam's lift, ramps "
+                                        "included, and clearance_mm the clearance");
+}
+
+void look_at_measured_cams(const EngineFile& engine, Warnings& warnings) {
+  for (const TrainOfFile& train : engine.trains()) {
+    if (!train.has_cam || train.definition.cam.source != CamSource::table) continue;
+    const SectionValues& cam = engine.section("cam " + train.name);
+    look_at_misread_rows(cam, train, warnings);
+    look_at_feet(cam, train, warnings);
+  }
+}
+
+constexpr Interval kLambdaWithSpark{0.7, 2};
+constexpr double kAirConstant = 287.1;  ///< J/(kg K)
+constexpr double kFilling = 0.9;        ///< of the displacement with ambient air, at an open throttle
+constexpr double kZeroCelsius_K = 273.15;
+
+/// Of fuel in a cylinder full of air; a diesel, whose fuel burns by two laws, has more air.
+void look_at_mixture(const EngineFile& engine, const EngineSize& size, Warnings& warnings) {
+  if (engine.definition().pressure.source != PressureSource::gas || !engine.has("gas")) return;
+  const SectionValues& gas = engine.section("gas");
+  const std::optional<double> cylinder_cm3 = size.of(Per::cylinder);
+  if (!cylinder_cm3 || !gas.has("fuel_mg") || gas.number("fuel_mg") == 0 || gas.number("second_share") > 0) return;
+  const double density_kg_m3 =
+      gas.number("ambient_kPa") * 1e3 / (kAirConstant * (gas.number("ambient_C") + kZeroCelsius_K));
+  const double lambda =
+      kFilling * density_kg_m3 * *cylinder_cm3 / (gas.number("fuel_mg") * gas.number("air_fuel_ratio"));
+  if (within(kLambdaWithSpark, lambda)) return;
+  warnings.add(gas.line_of("fuel_mg"), "fuel_mg = " + brief(gas.number("fuel_mg")) + " gives a lambda of about " +
+                                           about(lambda) + " in a cylinder full of air; usual with spark ignition: " +
+                                           brief(kLambdaWithSpark.least) + " to " + brief(kLambdaWithSpark.most));
 }
 
 /// Of any kind of engine: the file does not say which it is.
@@ -112,11 +262,18 @@ void look_at_diagram(const EngineFile& engine, Warnings& warnings) {
 
 std::vector<std::string> warnings_about(const EngineFile& engine) {
   Warnings warnings(engine);
+  EngineSize size;
+  bool metres = false;
   if (engine.has("crank")) {
-    look_at_crank(engine, warnings);
-    if (engine.has("masses") && engine.has("engine")) look_at_piston(engine, warnings);
+    metres = lengths_look_like_metres(engine.section("crank"));
+    size = look_at_crank(engine, warnings);
+    if (engine.has("masses") && engine.has("engine") && size.bore_mm && !metres) look_at_piston(engine, warnings);
     look_at_diagram(engine, warnings);
   }
+  look_at_values(engine, size, metres, warnings);
+  look_at_cams(engine, warnings);
+  look_at_measured_cams(engine, warnings);
+  look_at_mixture(engine, size, warnings);
   return warnings.lines();
 }
 

@@ -1,7 +1,27 @@
+// Wheels in use, from the tables of public decoders, read edge by edge:
+//   rusEFI, github.com/rusefi/rusefi firmware/controllers/trigger/decoders/trigger_*.cpp
+//   Speeduino, github.com/noisymime/speeduino speeduino/decoders.cpp
+//   Ardu-Stim, github.com/speeduino/Ardu-Stim ardustim/ardustim/wheel_defs.h, a generator of their signals
+// Where they differ:
+//   chrysler-ngc-4   Ardu-Stim's crank signal is rusEFI's inverted: wide tooth, 15 teeth, wide gap, 16 teeth. Its cam
+//                    comes 11 deg earlier.
+//   ford-st170       All have the cam's teeth at 0, 90, 270, 450, 630 deg. rusEFI assumes that they are 10 deg wide;
+//                    Ardu-Stim has 29 to 34 deg.
+//   gm-ls-24x        rusEFI, Speeduino and Ardu-Stim agree on all rising edges; rusEFI has narrow teeth of 5 deg too.
+//   mazda-miata-nb   Crank: all agree. Cam: rusEFI's shape of the variable cam, which is measured. Speeduino only
+//                    counts its teeth; Ardu-Stim has teeth of 10 deg at 0, 340, 360 deg, an older shape of rusEFI
+//                    teeth of 20 deg at 0, 340, 380 deg.
+//   mazda-miata-na   Ardu-Stim has the wide cam tooth 10 deg later, in steps of 5 deg.
+//   mitsubishi-4b11  rusEFI's order was the other way round until its pull request 4645 compared it with a running
+//                    engine.
+//   nissan-sr20-360  Windows of 8, 2, 2, 2 slots of 2 deg. Other Nissan discs have windows of other widths.
+//   subaru-6-7       rusEFI's cam, which has the manual's angles since its pull request 2789. Ardu-Stim has the same
+//                    groups, 3, 1, 2, 1, with teeth 6 deg apart instead of 15.
+//
 // The 36-2-2-2 wheel of Subaru, which others use too, has two gaps with a single tooth between them and one gap by
 // itself. Teeth and gaps in the sense of rotation, from the first tooth after that pair: 13, gap, 16, gap, 1, gap on
-// four-cylinder engines, and 19, gap, 10, gap, 1, gap on six-cylinder ones; so they stand in the decoders of Speeduino
-// (its wiki, "Subaru 36-2-2-2") and, the former, of rusEFI.
+// four-cylinder engines, and 19, gap, 10, gap, 1, gap on six-cylinder ones (all three sources). Cylinder 1 is at top
+// dead centre at the fourth tooth after the single gap, and a cam tooth passes 45 deg before (VEMS).
 #include "trigger_patterns.hpp"
 
 #include <string_view>
@@ -20,22 +40,22 @@ constexpr std::array<WheelPair, kWheelPairs> kPairs{{
      "Chrysler, Dodge 4-cylinder NGC (36+2-2 and 7 teeth); cam 114 deg after crank", RUSEFI_DECODER("chrysler")},
     {"ford-st170", "36-1", "0+10 90+10x4/180", "Ford Focus ST170, SVT (5 cam teeth)",
      RUSEFI_DECODER("ford") ", wiki.speeduino.com decoders/ST170"},
-    {"gm-ls-24x", "0+12 24+3x5/15 90+12 114+3x3/15 150+12x2/15 189+3x2/15 210+12x3/15 264+3 270+12 294+3 300+12x4/15",
-     "0+360", "General Motors LS1, LS6 (24 coded teeth); cam 357 deg after crank",
+    {"gm-ls-24x", "0+3 6+12x5/15 90+3 96+12x3/15 150+3x2/15 171+12x2/15 210+3x3/15 246+12 270+3 276+12 300+3x4/15",
+     "0+360", "General Motors LS1, LS6 (24 coded teeth); cam 348 deg after crank",
      RUSEFI_DECODER("gm") ", speeduino.com/wiki/index.php/GM_24X"},
     {"honda-k", "0+4 20+4x12/30", "0+30x4/180 595+14", "Honda K series (12+1 and 4+1 teeth)", RUSEFI_DECODER("honda")},
     {"mazda-miata-na", "0+70x2/180", "0+72 360+143",
      "Mazda MX-5 NA, and like it Mitsubishi 4G63: one sensor disc; cam 164 deg after crank", RUSEFI_DECODER("mazda")},
-    {"mazda-miata-nb", "0+4 70+4 180+4 250+4", "0+20 340+20 380+20", "Mazda MX-5 NB", RUSEFI_DECODER("mazda")},
-    {"mitsubishi-4b11", "17(2)16(1)", "0+360", "Mitsubishi 4B11 (36-2-1 and half a moon)",
-     RUSEFI_DECODER("mitsubishi") ", github.com/rusefi/rusefi/issues/4013"},
+    {"mazda-miata-nb", "0+4 70+4 180+4 250+4", "0+35 316+38 375+20", "Mazda MX-5 NB", RUSEFI_DECODER("mazda")},
+    {"mitsubishi-4b11", "16(2)17(1)", "0+360", "Mitsubishi 4B11 (36-2-1 and half a moon)",
+     RUSEFI_DECODER("mitsubishi") ", github.com/rusefi/rusefi/pull/4645"},
     {"nissan-sr20-360", "180", "0+16 192+4x3/180", "Nissan SR20, disc of 360 slots on the cam",
      RUSEFI_DECODER("nissan")},
     {"subaru-36-2-2-2", "13(2)16(2)1(2)", "0+10x2/180",
-     "Subaru four-cylinder from 1999 (2 cam teeth, their width assumed)",
+     "Subaru four-cylinder from 1999 (2 cam teeth, their width assumed); cam 135 deg after crank",
      "vems.hu/wiki InputTrigger/SubaruThirtySixMinusTwoMinusTwoMinusTwo"},
-    {"subaru-6-7", "0+5 32+5 87+5 180+5 212+5 267+5", "0+5 157+5 318+5 341+5 359+5 513+5 695+5",
-     "Subaru EJ to 1998 (6 crank and 7 cam teeth); cam 41 deg before crank", RUSEFI_DECODER("subaru")},
+    {"subaru-6-7", "0+5 32+5 87+5 180+5 212+5 267+5", "0+5 165+5 330+5 345+5 360+5 525+5 705+5",
+     "Subaru EJ to 1998 (6 crank and 7 cam teeth); cam 48 deg before crank", RUSEFI_DECODER("subaru")},
     {"toyota-2jz-vvti", "36-2", "0+3x3/240", "Toyota 2JZ-GE VVT-i (3 cam teeth); cam 96 deg after crank",
      RUSEFI_DECODER("toyota") ", thedeltaecho.wordpress.com/2010/03/14/2jz-ge-cam-crank-signals"},
 }};

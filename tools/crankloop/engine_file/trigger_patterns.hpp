@@ -12,7 +12,7 @@
 
 namespace crankloop::program {
 
-/// A crank and a cam wheel that belong together. Either is teeth and gaps, 36-1 or 17(2)16(1), or a list of teeth in
+/// A crank and a cam wheel that belong together. Either is teeth and gaps, 36-1 or 16(2)17(1), or a list of teeth in
 /// crank degrees after the first one's rising edge: 0+140 is one of 140 deg, 0+5x16/10 are 16 of 5 deg, 10 deg from
 /// rise to rise.
 struct WheelPair {

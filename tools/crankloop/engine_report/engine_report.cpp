@@ -52,7 +52,7 @@ std::vector<report::Fact> facts(const ReportInput& input) {
                     "intake manifold at " + report::format_number(input.figures.gas.intake_Pa / 1e3, 3) + " kPa"});
   }
   list.push_back(peak_fact("Largest torque", trace, trace.torque_Nm, 1, "Nm"));
-  if (has_gas(input)) list.push_back(peak_fact("Peak pressure", trace, trace[Quantity::pressure], 1e-5, "bar"));
+  if (has_gas(input)) list.push_back(peak_fact("Peak pressure", trace, trace[Quantity::pressure], 1e-3, "kPa"));
   list.push_back(magnitude_fact("Largest side force", trace, trace[Quantity::side_force], 1e-3, "kN"));
   list.push_back(magnitude_fact("Largest rod force", trace, trace[Quantity::rod_force], 1e-3, "kN"));
   list.push_back(peak_fact("Largest crank pin load", trace, trace[Quantity::crank_pin_load], 1e-3, "kN"));

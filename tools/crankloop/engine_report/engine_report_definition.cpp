@@ -202,7 +202,9 @@ report::Section accuracy_section(const ReportInput& input) {
       number_text(input.operation.tick_s * 1e6) + " \u00B5s (" + number_text(f.deg_per_tick) + " deg), " +
       std::to_string(f.ticks) + " ticks recorded over " + std::to_string(f.cycles) +
       (f.cycles == 1 ? " cycle" : " cycles") + " after " + std::to_string(f.settling_ticks) + " to settle. " +
-      (f.faulty_ticks == 0 ? "No tick raised a fault." : std::to_string(f.faulty_ticks) + " ticks raised a fault."));
+      (f.faulty_ticks == 0
+           ? "No tick raised a fault."
+           : std::to_string(f.faulty_ticks) + " ticks raised a fault: " + crankloop::describe(f.faults).text + "."));
   list.items.push_back("Curves, their extremes and the tables come from the same loop at a tick of " +
                        number_text(input.trace.tick_s * 1e6) + " \u00B5s, so that every " +
                        number_text(input.trace.spacing_deg) + " deg of a cycle are there to be drawn.");

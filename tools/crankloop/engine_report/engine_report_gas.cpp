@@ -9,18 +9,18 @@ namespace {
 using report::Plot;
 using report::Section;
 
-constexpr double kBar = 1e-5;
+constexpr double kKilo = 1e-3;
 
 /// The ports' pressures, and that of the cylinder as far as it is of their size.
 Plot pressures(const ReportInput& input) {
   const Trace& trace = input.trace;
-  Plot plot = plot_over_angle(input, "Pressure on both sides of the valves", axis_of("Pressure, absolute", "bar"),
-                              {over_angle(trace, "cylinder", trace[Quantity::pressure], kBar),
-                               over_angle(trace, "intake manifold", trace.gas.manifold_Pa[kIntake], kBar),
-                               over_angle(trace, "exhaust manifold", trace.gas.manifold_Pa[kExhaust], kBar)});
+  Plot plot = plot_over_angle(input, "Pressure on both sides of the valves", axis_of("Pressure, absolute", "kPa"),
+                              {over_angle(trace, "cylinder", trace[Quantity::pressure], kKilo),
+                               over_angle(trace, "intake manifold", trace.gas.manifold_Pa[kIntake], kKilo),
+                               over_angle(trace, "exhaust manifold", trace.gas.manifold_Pa[kExhaust], kKilo)});
   const double most_Pa =
       std::max(span_of(trace.gas.manifold_Pa[kIntake]).high, span_of(trace.gas.manifold_Pa[kExhaust]).high);
-  plot.y.range = report::Range{0, 2 * most_Pa * kBar};
+  plot.y.range = report::Range{0, 2 * most_Pa * kKilo};
   plot.caption = "Of cylinder 1. Blow-down and compression go beyond the frame.";
   return plot;
 }
@@ -50,7 +50,7 @@ report::Table cycle_table(const ReportInput& input) {
   row("Fuel burned", c.fuel_kg * 1e6, "mg");
   row("Heat of combustion", c.heat_J, "J");
   row("Heat to the walls", c.wall_heat_J, "J");
-  row("Exhaust temperature, net enthalpy over net mass", c.exhaust_K, "K");
+  row("Temperature of what flows out through the exhaust valve", c.exhaust_K, "K");
   row("Intake manifold, mean pressure", input.figures.gas.intake_Pa / 1e3, "kPa");
   row("Exhaust manifold, mean pressure", input.figures.gas.exhaust_Pa / 1e3, "kPa");
   row("Exhaust manifold, mean temperature", input.figures.gas.exhaust_manifold_K, "K");

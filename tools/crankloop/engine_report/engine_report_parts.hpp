@@ -67,7 +67,7 @@ using report::plot_of;
 [[nodiscard]] std::vector<report::Series> loop_by_strokes(const ReportInput& input, const std::vector<double>& x,
                                                           const std::vector<double>& y);
 
-/// "69.6 bar at 9.5 deg" on the point of a loop that belongs to entry i of the trace.
+/// "6960 kPa at 9.5 deg" on the point of a loop that belongs to entry i of the trace.
 [[nodiscard]] report::Marker loop_marker(const Trace& trace, const std::vector<double>& x, const std::vector<double>& y,
                                          std::size_t i, const std::string& unit, std::size_t series);
 

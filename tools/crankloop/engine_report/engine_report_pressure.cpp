@@ -13,7 +13,6 @@ using report::Paragraph;
 using report::Plot;
 using report::Section;
 
-constexpr double kBar = 1e-5;
 constexpr double kKilo = 1e-3;
 constexpr double kUsualGamma = 1.33;  ///< ratio of specific heats of burning gas
 
@@ -28,10 +27,10 @@ std::vector<double> volume_cm3(const ReportInput& input) {
 report::Range widened(Span span) { return {0.88 * span.low, 1.13 * span.high}; }
 
 /// Twice the largest pressure of the second half of the exhaust stroke and of the intake stroke.
-double exchange_top(const ReportInput& input, const std::vector<double>& pressure_bar) {
+double exchange_top(const ReportInput& input, const std::vector<double>& pressure_kPa) {
   double most = 0;
-  for (std::size_t i = 0; i < pressure_bar.size(); ++i) {
-    if (input.trace.crank_deg[i] > 270 && input.trace.crank_deg[i] < 540) most = std::max(most, pressure_bar[i]);
+  for (std::size_t i = 0; i < pressure_kPa.size(); ++i) {
+    if (input.trace.crank_deg[i] > 270 && input.trace.crank_deg[i] < 540) most = std::max(most, pressure_kPa[i]);
   }
   return 2 * most;
 }
@@ -82,14 +81,14 @@ void add_heat_release(Section& section, const ReportInput& input, const std::vec
 report::Section pressure_section(const ReportInput& input) {
   const Trace& trace = input.trace;
   const std::vector<double> volume = volume_cm3(input);
-  const std::vector<double> pressure = scaled(trace[Quantity::pressure], kBar);
+  const std::vector<double> pressure = scaled(trace[Quantity::pressure], kKilo);
   const std::size_t peak = index_of_largest(pressure);
 
   Section section{"pressure", "Cylinder pressure and work", {}};
   section.blocks.push_back(Paragraph{pressure_remark(input), true});
   Plot over_crank =
-      plot_over_angle(input, "Pressure over the crank angle", axis_of("Cylinder pressure, absolute", "bar"),
-                      {over_angle(trace, "", trace[Quantity::pressure], kBar)});
+      plot_over_angle(input, "Pressure over the crank angle", axis_of("Cylinder pressure, absolute", "kPa"),
+                      {over_angle(trace, "", trace[Quantity::pressure], kKilo)});
   over_crank.markers = {largest_marker(over_crank, 0)};
   section.blocks.push_back(std::move(over_crank));
 
@@ -97,10 +96,10 @@ report::Section pressure_section(const ReportInput& input) {
   loop.title = "Pressure over the volume";
   loop.x = axis_of("Cylinder volume", "cm\u00B3");
   loop.x.include_zero = true;
-  loop.y = axis_of("Cylinder pressure, absolute", "bar");
+  loop.y = axis_of("Cylinder pressure, absolute", "kPa");
   loop.y.include_zero = true;
   loop.series = loop_by_strokes(input, volume, pressure);
-  loop.markers = {loop_marker(trace, volume, pressure, peak, "bar", 0)};
+  loop.markers = {loop_marker(trace, volume, pressure, peak, "kPa", 0)};
   loop.caption = "Its area is the indicated work: net IMEP " + number_text(input.summary.net_mep_Pa * kKilo) +
                  " kPa, gross (over the " + "closed 360 deg) " + number_text(input.summary.gross_mep_Pa * kKilo) +
                  " kPa.";
@@ -125,7 +124,7 @@ report::Section pressure_section(const ReportInput& input) {
   add_heat_release(section, input, volume_m3);
   section.blocks.push_back(table_over_angle(
       trace, "Table: pressure and volume of one cylinder",
-      {{"Pressure", "bar", &trace[Quantity::pressure], kBar}, {"Volume", "cm\u00B3", &volume_m3, 1e6}}));
+      {{"Pressure", "kPa", &trace[Quantity::pressure], kKilo}, {"Volume", "cm\u00B3", &volume_m3, 1e6}}));
   return section;
 }
 

@@ -270,8 +270,9 @@ report::Table results_table(const std::vector<Train>& trains) {
   row("Largest speed", "m/s", [](const Train&, const Cycle& c) { return number_text(c.largest_speed_m_s, 4); });
   row("Largest acceleration", "m/s\u00B2",
       [](const Train&, const Cycle& c) { return number_text(c.largest_acceleration_m_s2, 4); });
-  row("Opening delay at 0.1 mm, cam angle", "deg",
-      [](const Train&, const Cycle& c) { return number_text(c.opening_delay_deg, 3); });
+  row("Opening delay at 0.1 mm, cam angle", "deg", [](const Train&, const Cycle& c) {
+    return has_opening_delay(c) ? number_text(c.opening_delay_deg, 3) : std::string("\u2013");
+  });
   row("Separations", "", [](const Train&, const Cycle& c) { return std::to_string(c.separations); });
   row("Largest gap", "\u00B5m",
       [](const Train&, const Cycle& c) { return number_text(c.separation_clearance_m * kMicro, 3); });

@@ -51,6 +51,21 @@ std::string as_identifier(std::string name) {
   return name.empty() || (name[0] >= '0' && name[0] <= '9') ? "_" + name : name;
 }
 
+/// Of the bytes of resources: engine.ini, and the tables that the engine reads.
+std::uint64_t identity_of(const std::string& engine_ini, const EngineFile& engine) {
+  std::string tables;
+  for (const SectionValues& section : engine.sections()) {
+    for (const Value& value : section.values) {
+      if (value.used && value.key->kind == Kind::path)
+        tables += bytes_of(in_folder(folder_of(engine.path()), value.text), kMaxTableBytes);
+    }
+  }
+  const auto crc = [](const std::string& bytes) {
+    return std::uint64_t{detail::crc32_of(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size())};
+  };
+  return crc(engine_ini) << 32 | crc(tables);
+}
+
 }  // namespace
 
 EngineSource::EngineSource(const std::string& folder)
@@ -60,14 +75,26 @@ EngineSource::EngineSource(const std::string& folder)
   const ParsedNumber tick_us = parse_number(trim(split(tick, '\n')[0]), kTicks_us, "us");
   if (!tick_us.ok()) throw InputError(tick_path, 1, tick_us.problem);
   tick_s_ = millionths(tick_us.value);
+  identity_ = identity_of(bytes_of(path_, kMaxEngineFileBytes), file_);
+  collect_numbers();
+}
 
-  const std::string engine = bytes_of(path_, kMaxEngineFileBytes);
-  std::string tables;
+EngineSource::EngineSource(const EngineFile& engine, double tick_us)
+    : path_(engine.path()),
+      file_(read_engine_text(
+          text_of(engine, [](const SectionValues&, const Value& value) { return format_value(value); }), path_,
+          needed())),
+      tick_s_(millionths(tick_us)) {
+  for (const ZipEntry& entry : resources_of(engine, tick_us)) {
+    if (entry.name == kEngineName) identity_ = identity_of(entry.bytes, file_);
+  }
+  collect_numbers();
+}
+
+void EngineSource::collect_numbers() {
   for (const SectionValues& section : file_.sections()) {
     const std::string part = section.name.empty() ? section.kind : section.kind + "." + as_identifier(section.name);
     for (const Value& value : section.values) {
-      if (value.used && value.key->kind == Kind::path)
-        tables += bytes_of(in_folder(folder, value.text), kMaxTableBytes);
       if (!is_parameter(section, value)) continue;
       const std::string_view unit = value.key->unit.name;
       std::string name = "engine." + part + "." + value.key->name;
@@ -77,10 +104,6 @@ EngineSource::EngineSource(const std::string& folder)
                           value.numbers.at(0)});
     }
   }
-  const auto crc = [](const std::string& bytes) {
-    return std::uint64_t{detail::crc32_of(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size())};
-  };
-  identity_ = crc(engine) << 32 | crc(tables);
 }
 
 EngineFile EngineSource::with(const double* values) const {

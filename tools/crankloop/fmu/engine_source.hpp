@@ -15,6 +15,7 @@
 #include <crankloop/tabulate/tabulate.hpp>
 
 #include "../engine_file/engine_file.hpp"
+#include "../units.hpp"
 #include "../valve/valve_tick_limit.hpp"
 #include "stored_zip.hpp"
 
@@ -32,10 +33,15 @@ struct EngineNumber {
 
 class EngineSource {
  public:
-  /// Throws InputError.
+  /// From an FMU's resources. Throws InputError.
   explicit EngineSource(const std::string& folder);
 
+  /// The same from an engine file, as it will be from resources_of(engine, tick_us), which are not written anywhere.
+  /// Lines of messages are those of the resources.
+  EngineSource(const EngineFile& engine, double tick_us);
+
   [[nodiscard]] const std::vector<EngineNumber>& numbers() const noexcept { return numbers_; }
+  [[nodiscard]] const EngineFile& file() const noexcept { return file_; }
   [[nodiscard]] double tick_s() const noexcept { return tick_s_; }
   [[nodiscard]] std::uint64_t identity() const noexcept { return identity_; }  ///< of all bytes it was made from
 
@@ -43,6 +49,8 @@ class EngineSource {
   [[nodiscard]] EngineFile with(const double* values) const;
 
  private:
+  void collect_numbers();
+
   std::string path_;
   EngineFile file_;
   std::vector<EngineNumber> numbers_;
@@ -64,14 +72,7 @@ class FileSupply {
 
   bool open(const char* resources, fmi::Message& why) noexcept {
     if (resources == nullptr) return why.say("the folder of resources is missing"), false;
-    const bool good = told(why, [&] {
-      source_ = std::make_unique<EngineSource>(resources);
-      if (parameters() > kMaxParameters) throw InputError("the engine file has more numbers than an FMU has room for");
-      storage_ = std::make_unique<Storage>();
-    });
-    if (!good) return false;
-    for (std::size_t i = 0; i < parameters(); ++i) values_[i] = parameter_default(i);
-    return make_tables(values_, why);
+    return open_source(why, [resources] { return std::make_unique<EngineSource>(resources); });
   }
   [[nodiscard]] EngineShape shape() const noexcept { return detail::shape_of<Real, Scene>(storage_->tables()); }
   [[nodiscard]] double tick_s() const noexcept { return source_->tick_s(); }
@@ -85,10 +86,42 @@ class FileSupply {
   }
   [[nodiscard]] double parameter_default(std::size_t i) const noexcept { return source_->numbers()[i].value; }
 
+  /// Of an engine that runs, in a simulation that sets nothing: at its rated speed or the fastest that the tick allows,
+  /// with the file's fuel and burn, throttle and load ratio full, against the file's own machine.
+  void set_start_values(Input<double, Scene>& in, double& speed_rad_s) const noexcept {
+    const double limit_rad_s = shape().speed_limit_rad_s;
+    const double rated_rad_s = source_->file().rated_rpm() * kRad_sPerRpm;
+    const double rad_s = rated_rad_s < limit_rad_s ? rated_rad_s : limit_rad_s;
+    if constexpr (Scene::crank == CrankGiven::speed) in.speed_rad_s = rad_s;
+    if constexpr (detail::Needs<Scene>::crank_dynamics) speed_rad_s = rad_s;
+    if constexpr (detail::Needs<Scene>::burn_input) {
+      const Gas& gas = source_->file().definition().gas;
+      for (std::uint32_t k = 0; k < Scene::cylinders.capacity; ++k) {
+        in.fuel_kg[k] = gas.fuel_kg;
+        in.burn_start_deg[k] = gas.burn_start_deg;
+        in.burn_duration_deg[k] = gas.burn_duration_deg;
+      }
+    }
+  }
+
   [[nodiscard]] const Tables<Real, Scene>* build(const double* values, fmi::Message& why) noexcept {
     bool as_built = built_;
     for (std::size_t i = 0; i < parameters(); ++i) as_built = as_built && values[i] == values_[i];
     return as_built || make_tables(values, why) ? &storage_->tables() : nullptr;
+  }
+
+ protected:
+  /// `make_source()` returns a unique_ptr to an EngineSource.
+  template <class MakeSource>
+  bool open_source(fmi::Message& why, const MakeSource& make_source) noexcept {
+    const bool good = told(why, [&] {
+      source_ = make_source();
+      if (parameters() > kMaxParameters) throw InputError("the engine file has more numbers than an FMU has room for");
+      storage_ = std::make_unique<Storage>();
+    });
+    if (!good) return false;
+    for (std::size_t i = 0; i < parameters(); ++i) values_[i] = parameter_default(i);
+    return make_tables(values_, why);
   }
 
  private:

@@ -53,9 +53,9 @@ std::string stored_zip(const std::vector<ZipEntry>& entries) {
   for (const ZipEntry& entry : entries) {
     const auto is_ascii = [](char c) { return c >= ' ' && c <= '~'; };
     if (!std::all_of(entry.name.begin(), entry.name.end(), is_ascii) || entry.name.size() > kMaxEntries)
-      throw InputError(entry.name + ": names in an archive are ASCII");
+      throw InputError(printable(entry.name) + ": names in an archive are ASCII");
     if (archive.size() + entry.bytes.size() + directory.size() > kMaxBytes - 4 * kMaxEntries)
-      throw InputError(entry.name + ": an archive holds at most 4 GiB");
+      throw InputError(printable(entry.name) + ": an archive holds at most 4 GiB");
     put(directory, kCentralHeader, 4);
     put(directory, kVersion, 2);  // made by it, on no system in particular
     put_common(directory, entry);
@@ -98,7 +98,7 @@ std::vector<ZipEntry> files_below(const std::string& folder) {
       if (item.is_directory()) continue;
       const std::string path = item.path().string();
       const FileBytes file = read_file(path, kMaxFileBytes);
-      if (!file.ok()) throw InputError(path + ": " + file.problem);
+      if (!file.ok()) throw InputError(printable(path) + ": " + file.problem);
       entries.push_back({fs::relative(item.path(), folder).generic_string(), file.bytes});
     }
   } catch (const fs::filesystem_error& error) {

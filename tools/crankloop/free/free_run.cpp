@@ -105,6 +105,7 @@ FreeFigures run_ticks(const EngineFile& file, const EngineDefinition& definition
     figures.largest_speed_rad_s = std::max(figures.largest_speed_rad_s, std::fabs(now.speed_rad_s));
     figures.reversals += before_rad_s * now.speed_rad_s < 0 ? 1 : 0;
     figures.faulty_ticks += out.faults != 0 ? 1 : 0;
+    figures.faults |= out.faults;
     if constexpr (detail::Needs<S>::gas) {
       figures.gas.intake_Pa = static_cast<double>(out.manifold[kIntake].pressure_Pa);
       figures.gas.exhaust_Pa = static_cast<double>(out.manifold[kExhaust].pressure_Pa);
@@ -186,7 +187,7 @@ std::string summary_text(const EngineFile& file, const FreeRequest& request, con
     s.line(signal.name + "_edges_lost", signal.lost, "",
            signal.lost > 0 ? "more in a tick than there is room for: take a shorter --tick-us" : "");
   }
-  s.line("faulty_ticks", f.faulty_ticks);
+  s.faulty_ticks(f.faulty_ticks, f.faults);
   return s.text();
 }
 

@@ -36,6 +36,7 @@ struct SignalFigures {
 struct FreeFigures {
   std::uint64_t ticks = 0;
   std::uint64_t faulty_ticks = 0;
+  std::uint32_t faults = 0;     ///< all fault bits that occurred
   std::uint64_t reversals = 0;  ///< of the sense of rotation
   FreeState end;
   double largest_speed_rad_s = 0;  ///< whatever its sense

@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -126,7 +127,9 @@ struct ThreadCounts {
 namespace {
 
 template <class Real, class S>
-void run_scene(const EngineFile& file, const LiveRequest& request, port::LiveBlock& block, LiveFigures& figures) {
+void run_scene(const EngineFile& file, const LiveRequest& request, port::SharedBlock* shared, LiveFigures& figures) {
+  port::LiveBlock alone;
+  port::LiveBlock& block = shared != nullptr ? **shared : alone;
   const port::StopSignal stop;
   FreeEngine<Real, S> engine(file, request);
   port::WatchedInputs inputs(block.inputs, request.at_start, request.patience_ns);
@@ -146,7 +149,11 @@ void run_scene(const EngineFile& file, const LiveRequest& request, port::LiveBlo
   const ThreadCounts counts_before = ThreadCounts::now();  // the clock has been read once: its page is there
   const std::int64_t start_ns = periodic.due_ns();
   const port::PeriodicTally& tally = periodic.tally();
-  const auto is_ours = [&block] { return block.magic.load(std::memory_order_relaxed) == port::kLiveMagic; };
+  const auto ticks_per_ms = static_cast<std::uint64_t>(std::max<std::int64_t>(1, 1000000 / request.tick_ns));
+  const auto is_ours = [&] {
+    if (shared == nullptr) return true;
+    return shared->has_magic() && (tally.ticks % ticks_per_ms != 0 || shared->is_whole());
+  };
   while (tally.ticks < request.ticks && !stop.received() && is_ours()) {
     figures.begin.add(periodic.begin());
     const LiveInputs in = inputs.at(periodic.begun_ns());
@@ -174,7 +181,7 @@ void run_scene(const EngineFile& file, const LiveRequest& request, port::LiveBlo
 
   figures.tally = tally;
   figures.wall_s = static_cast<double>(port::now_ns() - start_ns) * 1e-9;
-  figures.lost_block = !is_ours();
+  figures.lost_block = shared != nullptr && !shared->is_whole();
   figures.stopped = tally.ticks < request.ticks && !figures.lost_block;
   figures.page_faults = counts_after.page_faults - counts_before.page_faults;
   figures.preemptions = counts_after.preemptions - counts_before.preemptions;
@@ -193,15 +200,15 @@ void run_scene(const EngineFile& file, const LiveRequest& request, port::LiveBlo
 }  // namespace
 
 template <class Real>
-void run_live(const EngineFile& file, const LiveRequest& request, port::LiveBlock& block, LiveFigures& figures) {
+void run_live(const EngineFile& file, const LiveRequest& request, port::SharedBlock* shared, LiveFigures& figures) {
   if (breathes(file.definition())) {
-    run_scene<Real, scenes::BreathingFree>(file, request, block, figures);
+    run_scene<Real, scenes::BreathingFree>(file, request, shared, figures);
   } else {
-    run_scene<Real, scenes::FreeRunning>(file, request, block, figures);
+    run_scene<Real, scenes::FreeRunning>(file, request, shared, figures);
   }
 }
 
-template void run_live<float>(const EngineFile&, const LiveRequest&, port::LiveBlock&, LiveFigures&);
-template void run_live<double>(const EngineFile&, const LiveRequest&, port::LiveBlock&, LiveFigures&);
+template void run_live<float>(const EngineFile&, const LiveRequest&, port::SharedBlock*, LiveFigures&);
+template void run_live<double>(const EngineFile&, const LiveRequest&, port::SharedBlock*, LiveFigures&);
 
 }  // namespace crankloop::program

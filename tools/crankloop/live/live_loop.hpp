@@ -57,12 +57,13 @@ struct LiveFigures {
 };
 
 /// Builds the engine, runs it and fills `figures`, which is all zero before. Inputs come from the block and outputs go
-/// there, each tick. SIGINT, SIGTERM and SIGHUP end the run early, and so does a block whose magic is gone. In the loop
-/// nothing is allocated, printed or waited for but the clock.
+/// there, each tick; without a block the inputs stay those of the request. SIGINT, SIGTERM and SIGHUP end the run
+/// early, and so does a block that is no longer whole: its magic is looked at before each tick, its file's size every
+/// millisecond and at the end. In the loop nothing is allocated, printed or waited for but the clock.
 ///
 /// The definition is valid. Throws InputError where it is no engine that can turn freely, and UsageError where the
 /// start is beyond the tick's speed limit or the processor asked for is not to be had; before the first tick, both.
 template <class Real>
-void run_live(const EngineFile& file, const LiveRequest& request, port::LiveBlock& block, LiveFigures& figures);
+void run_live(const EngineFile& file, const LiveRequest& request, port::SharedBlock* shared, LiveFigures& figures);
 
 }  // namespace crankloop::program

@@ -99,7 +99,7 @@ void add_times(Summary& s, std::int64_t tick_ns, const LiveFigures& f) {
   const auto tick = static_cast<double>(tick_ns);
   s.line("tick", tick / 1e3, "us");
   s.line("ticks", f.tally.ticks);
-  s.line("wall_time", significant(f.wall_s), "s");
+  s.line("wall_time", f.wall_s, "s");
   s.line("late_ticks", f.tally.late);
   s.line("missed_deadlines", f.tally.missed);
   s.line("longest_backlog", static_cast<double>(f.tally.longest_backlog_ns) / tick, "ticks");

@@ -27,6 +27,7 @@ MapPoint run_point(const EngineDefinition& definition, const MapRequest& request
   point.power_W = brake.power_W;
   point.gas = figures.gas;
   point.faulty_ticks = static_cast<double>(figures.faulty_ticks);
+  point.faults = figures.faults;
   return point;
 }
 

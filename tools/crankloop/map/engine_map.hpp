@@ -39,6 +39,7 @@ struct MapPoint {
   double power_W = 0;          ///< of the brake torque
   GasFigures gas;
   double faulty_ticks = 0;
+  std::uint32_t faults = 0;  ///< all fault bits that occurred
 };
 
 struct EngineMap {

@@ -16,7 +16,7 @@ struct Redline {
   const Influence* influence;  ///< null: nothing is varied
   std::vector<Sweep> sweeps;   ///< by factor; without an influence one, of factor 1
   std::string command_line;
-  double least_bounce_m = 1e-6;  ///< what counts as a bounce
+  RedlineLimits limits;
 
   [[nodiscard]] const Sweep& as_given() const noexcept {
     for (const Sweep& sweep : sweeps) {
@@ -44,6 +44,9 @@ struct Redline {
     return i;
   }
 };
+
+/// "left out: 3 of 61 results, from 13000 rpm on, in which the valve flies beyond 11.7 mm: ..."; empty where none is.
+[[nodiscard]] std::string masked_in_words(const Redline& redline);
 
 /// "8513 rpm", "at or below 500 rpm", "none up to 15000 rpm".
 [[nodiscard]] std::string text_of(const Onset& onset, const SpeedRange& range);

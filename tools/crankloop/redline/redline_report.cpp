@@ -1,4 +1,6 @@
 // The page of `crankloop redline`: float and bounce over speed, and the influence of what was varied.
+#include <limits>
+
 #include "../number.hpp"
 #include "../units.hpp"
 #include "redline.hpp"
@@ -21,7 +23,7 @@ report::Series over_speed(const Sweep& sweep, const std::string& name, Value val
   series.name = name;
   for (const SpeedResult& result : sweep.at) {
     series.x.push_back(result.speed_rpm);
-    series.y.push_back(value(result));
+    series.y.push_back(result.is_possible ? value(result) : std::numeric_limits<double>::quiet_NaN());
     if (result.speed_rpm > to_rpm) break;
   }
   return series;
@@ -76,8 +78,10 @@ Section speed_section(const Redline& redline) {
   bounce.caption = "Lift-offs after the valve has first met its seat.";
   section.blocks.push_back(std::move(gap));
   section.blocks.push_back(std::move(bounce));
-  section.blocks.push_back(
-      plot_over_speed(redline, "Seating", axis_of("Speed at the first contact with the seat", "m/s"), seating_m_s));
+  Plot seating =
+      plot_over_speed(redline, "Seating", axis_of("Speed at the first contact with the seat", "m/s"), seating_m_s);
+  if (redline.influence == nullptr) mark(seating, redline.as_given().seating, "limit from");
+  section.blocks.push_back(std::move(seating));
   section.blocks.push_back(
       plot_over_speed(redline, "Largest force between cam and follower", axis_of("Force", "kN"), cam_kN));
   section.blocks.push_back(
@@ -104,11 +108,13 @@ Section onset_section(const Redline& redline) {
   };
   series("separation", &Sweep::separation);
   series("bounce", &Sweep::bounce);
+  series("seating speed", &Sweep::seating);
   if (!plot.series.empty()) section.blocks.push_back(std::move(plot));
-  report::Table table{"", {{"Factor", ""}, {"Separation from", ""}, {"Bounce from", ""}}, {}, false};
+  report::Table table{
+      "", {{"Factor", ""}, {"Separation from", ""}, {"Bounce from", ""}, {"Seating too fast from", ""}}, {}, false};
   for (const Sweep& sweep : redline.sweeps) {
-    table.rows.push_back(
-        {brief(sweep.factor), text_of(sweep.separation, redline.range), text_of(sweep.bounce, redline.range)});
+    table.rows.push_back({brief(sweep.factor), text_of(sweep.separation, redline.range),
+                          text_of(sweep.bounce, redline.range), text_of(sweep.seating, redline.range)});
   }
   section.blocks.push_back(std::move(table));
   return section;
@@ -123,11 +129,17 @@ Section method_section(const Redline& redline) {
                        " \u00B5s (rk4); the last cycle counts.");
   list.items.push_back(
       "The sweep goes in steps of " + std::to_string(redline.range.step_rpm) +
-      " rpm. An onset is narrowed down to 1 rpm between the first speed that has a separation of at least 1 \u00B5m, "
-      "or a "
+      " rpm. An onset is narrowed down to 1 rpm between the first speed that has a separation of at least 1 \u00B5m, a "
       "bounce of at least " +
-      brief(redline.least_bounce_m * 1e6) +
-      " \u00B5m, and the speed before it. What comes and goes between two speeds of the sweep is not seen.");
+      brief(redline.limits.bounce_m * 1e6) + " \u00B5m, or a seating speed above " + brief(redline.limits.seating_m_s) +
+      " m/s, and the speed before it. What comes and goes between two speeds of the sweep is not seen.");
+  list.items.push_back(
+      "A stiff train lifts its valve off the seat by micrometres at any speed; a bounce of 50 \u00B5m and a seating "
+      "speed of 0.5 m/s are what seats and heads are usually kept below.");
+  if (std::string masked = masked_in_words(redline); !masked.empty()) {
+    masked[0] = 'L';
+    list.items.push_back(masked + ".");
+  }
   list.items.push_back("The single-mass model opens its contact only at the cam, and knows no surge of the spring.");
   if (redline.influence != nullptr) list.items.push_back("Damping ratios are held while mass or stiffness are varied.");
   section.blocks.push_back(std::move(list));
@@ -152,6 +164,7 @@ report::Page redline_page(const Redline& redline) {
   page.facts = {
       onset("Separation from", given.separation, "float"),
       onset("Bounce from", given.bounce, "after seating"),
+      onset("Seating too fast from", given.seating, "above the limit"),
       {"Natural frequency", report::format_number(open_frequency_rad_s(body) * kTurnsPerRad, 4), "Hz",
        "open, on the train"},
       {"Seated", report::format_number(seated_frequency_rad_s(body) * kTurnsPerRad, 4), "Hz", "on train and seat"},

@@ -19,7 +19,7 @@ double tick_for(const LoneValve& valve) {
 }
 
 SpeedResult run_at(ValveLoop<double>& loop, const LoneValve& valve, int speed_rpm) {
-  SpeedResult result{speed_rpm, {}, 0, 0};
+  SpeedResult result{speed_rpm, {}, 0, 0, true};
   result.cycle = run_cycles<double>(loop, valve, speed_rpm, kRedlineCycles, [&](const ValveTickOutput<double>& out) {
     result.train_N = std::max(result.train_N, out.forces.train_N);
     result.cam_N = std::max(result.cam_N, out.forces.cam_N);
@@ -52,13 +52,15 @@ SpeedRange speed_range(int from_rpm, int to_rpm) noexcept {
 }
 
 Sweep sweep_speeds(const LoneValve& valve, const SpeedRange& range, double factor,
-                   const std::function<void()>& after_speed, double least_bounce_m) {
+                   const std::function<void()>& after_speed, const RedlineLimits& limits) {
   Sweep sweep;
   sweep.factor = factor;
   sweep.tick_s = tick_for(valve);
+  sweep.max_lift_m = limits.lift_m > 0 ? limits.lift_m : kMaxLiftRatio * valve.lift().largest_lift_m();
   ValveLoop<double> loop(valve, sweep.tick_s, {});
   const auto run = [&](int speed_rpm) {
-    const SpeedResult result = run_at(loop, valve, speed_rpm);
+    SpeedResult result = run_at(loop, valve, speed_rpm);
+    result.is_possible = result.cycle.largest_lift_m <= sweep.max_lift_m;
     if (after_speed) after_speed();
     return result;
   };
@@ -67,8 +69,10 @@ Sweep sweep_speeds(const LoneValve& valve, const SpeedRange& range, double facto
   sweep.separation = onset_of(
       sweep.at, [](const SpeedResult& r) { return r.cycle.separations > 0; }, run);
   sweep.bounce = onset_of(
-      sweep.at, [=](const SpeedResult& r) { return r.cycle.bounces > 0 && r.cycle.bounce_height_m >= least_bounce_m; },
+      sweep.at, [&](const SpeedResult& r) { return r.cycle.bounces > 0 && r.cycle.bounce_height_m >= limits.bounce_m; },
       run);
+  sweep.seating = onset_of(
+      sweep.at, [&](const SpeedResult& r) { return r.cycle.seating_speed_m_s > limits.seating_m_s; }, run);
   return sweep;
 }
 

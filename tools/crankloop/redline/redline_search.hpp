@@ -23,12 +23,21 @@ struct SpeedRange {
 };
 [[nodiscard]] SpeedRange speed_range(int from_rpm, int to_rpm) noexcept;
 
+/// What an engineer allows a valve.
+struct RedlineLimits {
+  double bounce_m = 50e-6;   ///< the least that counts as a bounce
+  double seating_m_s = 0.5;  ///< seats and heads are made for less
+  double lift_m = 0;         ///< where the spring binds; 0: kMaxLiftRatio times the theoretical lift
+};
+inline constexpr double kMaxLiftRatio = 1.5;  ///< no spring has room for more
+
 /// What the valve does in a cycle at one speed; forces are the largest of the ticks.
 struct SpeedResult {
   int speed_rpm;
   ValveCycle<double> cycle;
   double train_N;
   double cam_N;
+  bool is_possible;  ///< false: the valve flies further than its spring has room, which the model does not know
 };
 
 /// The lowest speed of the sweep's range at which something happens, to 1 rpm.
@@ -42,15 +51,17 @@ struct Sweep {
   double factor = 1;  ///< of the quantity that is varied
   double tick_s = 0;
   std::vector<SpeedResult> at;
+  double max_lift_m = 0;  ///< of what is possible
   Onset separation;
   Onset bounce;
+  Onset seating;  ///< faster than the limit
 };
 
-/// Sweeps the range and narrows both onsets down: between the first speed of the sweep that has any separation of
-/// at least 1 um (or bounce of at least `least_bounce_m`) and the one before. What comes and goes between two speeds of
-/// the sweep is not seen. `after_speed` is called after each speed that was run.
+/// Sweeps the range and narrows the onsets down: between the first speed of the sweep that has a separation of at least
+/// 1 um (a bounce of at least limits.bounce_m, a seating speed above limits.seating_m_s) and the one before. What comes
+/// and goes between two speeds of the sweep is not seen. `after_speed` is called after each speed that was run.
 [[nodiscard]] Sweep sweep_speeds(const LoneValve& valve, const SpeedRange& range, double factor,
-                                 const std::function<void()>& after_speed, double least_bounce_m = 1e-6);
+                                 const std::function<void()>& after_speed, const RedlineLimits& limits = {});
 
 /// What may be varied: its name as an option, and the keys that are multiplied.
 struct Influence {

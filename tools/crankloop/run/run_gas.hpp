@@ -14,6 +14,7 @@
 #include <crankloop/scenes.hpp>
 
 #include "../csv.hpp"
+#include "../engine_file/engine_file.hpp"
 #include "../engine_file/gas_order.hpp"
 #include "../summary.hpp"
 #include "run_quantities.hpp"
@@ -114,6 +115,12 @@ void add_order(Summary& s, const GasOrder& order);
 
 /// The lines that tell of the gas, from pumping_mep to wall_heat.
 void add_gas(Summary& s, const GasCycle<double>& cycle);
+
+/// Refuses an engine that breathes whose manifolds are too small for a tick.
+void require_manifolds(const EngineFile& engine, double tick_s);
+
+/// What is to be said of a tick that turns the crank of an engine that breathes too far: nothing, or a line.
+[[nodiscard]] std::vector<std::string> warnings_about_gas(const EngineFile& engine, double speed_rpm, double tick_s);
 
 /// Cycles that an engine runs before it is recorded: the gas in its manifolds has been changed many times over. One for
 /// an engine with a diagram.

@@ -60,9 +60,23 @@ FixedStepLoop<Real, S>::FixedStepLoop(const EngineDefinition& definition, const 
   settling_ticks_ = static_cast<std::uint64_t>(std::ceil(settling_cycles * ticks_per_cycle() - kHairOfATick));
   const Phase settling{settling_ticks_ * turned.units()};
   require(engine_.init(tables_->tables(), phase_at(start_deg) - settling));
+  double before_Pa = 0;  // of the cycle before the last
   for (std::uint64_t i = 0; i < settling_ticks_; ++i) {
     engine_.step(input_);
+    if constexpr (detail::Needs<S>::gas) {
+      if (static_cast<double>(settling_ticks_ - i) >= ticks_per_cycle()) before_Pa = cycle_mep_Pa();
+    }
     if (after_tick) after_tick();
+  }
+  if constexpr (detail::Needs<S>::gas) unsettled_Pa_ = std::fabs(cycle_mep_Pa() - before_Pa);
+}
+
+template <class Real, class S>
+double FixedStepLoop<Real, S>::cycle_mep_Pa() const noexcept {
+  if constexpr (detail::Needs<S>::gas) {
+    return mean_cycle(engine_.output().gas_cycle, engine_.tables()->drive->cylinders).net_mep_Pa;
+  } else {
+    return 0;
   }
 }
 
@@ -97,6 +111,7 @@ RunFigures run_cycles(FixedStepLoop<Real, S>& loop, const EngineDefinition& defi
   f.cycles = cycles;
   f.ticks = static_cast<std::uint64_t>(std::max(1.0, std::ceil(span - kHairOfATick)));
   f.settling_ticks = loop.settling_ticks();
+  f.unsettled_Pa = loop.unsettled_Pa();
   f.deg_per_tick = loop.deg_per_tick();
   f.tables = loop.tables();
   f.valves.resize(static_cast<std::size_t>(definition.train_count));

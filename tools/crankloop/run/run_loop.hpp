@@ -54,6 +54,8 @@ class FixedStepLoop {
   [[nodiscard]] double deg_per_tick() const noexcept { return deg_per_tick_; }
   [[nodiscard]] double ticks_per_cycle() const noexcept { return 720 / deg_per_tick_; }
   [[nodiscard]] std::uint64_t settling_ticks() const noexcept { return settling_ticks_; }
+  /// Of an engine that breathes: by how much its net mean pressure still moved in the last of them.
+  [[nodiscard]] double unsettled_Pa() const noexcept { return unsettled_Pa_; }
   [[nodiscard]] const TableReport& tables() const noexcept { return report_; }
 
   /// Wall time of step() on this machine: the median of kBatches batches of kBatchTicks. The engine runs on meanwhile.
@@ -62,6 +64,8 @@ class FixedStepLoop {
   static constexpr int kBatchTicks = 2000;
 
  private:
+  [[nodiscard]] double cycle_mep_Pa() const noexcept;  ///< of the last whole cycle, mean over the cylinders
+
   // Room for the finest gas grid there is: the program has memory.
   using Tables = TableStorage<Real, S, kMaxGasSegments>;
 
@@ -71,6 +75,7 @@ class FixedStepLoop {
   typename Engine::Input input_;
   double deg_per_tick_ = 0;
   std::uint64_t settling_ticks_ = 0;
+  double unsettled_Pa_ = 0;
 };
 
 /// A value and where it was met.
@@ -101,6 +106,7 @@ struct RunFigures {
   int cycles = 0;
   std::uint64_t ticks = 0;  ///< recorded: as many as it takes to cover the cycles
   std::uint64_t settling_ticks = 0;
+  double unsettled_Pa = 0;  ///< FixedStepLoop::unsettled_Pa()
   double deg_per_tick = 0;
   double mean_torque_Nm = 0;  ///< work over the cycles divided by their angle
   double power_W = 0;         ///< indicated

@@ -233,8 +233,10 @@ std::string count(std::uint32_t number, const char* one) {
 }
 
 std::string motion_in_words(const ValveCycle<double>& c) {
-  return "Largest lift " + number_text(c.largest_lift_m * kMilli, 5) + " mm, opening delay " +
-         number_text(c.opening_delay_deg, 4) + " cam deg, seating at " + number_text(c.seating_speed_m_s, 3) + " m/s";
+  const std::string delay =
+      has_opening_delay(c) ? "opening delay " + number_text(c.opening_delay_deg, 4) + " cam deg" : "no opening delay";
+  return "Largest lift " + number_text(c.largest_lift_m * kMilli, 5) + " mm, " + delay + ", seating at " +
+         number_text(c.seating_speed_m_s, 3) + " m/s";
 }
 
 std::string flight_in_words(const ValveCycle<double>& c) {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include <crankloop/tabulate/tabulate.hpp>
 #include <crankloop/tabulate/valve_lift.hpp>
 
 #include "../number.hpp"
@@ -49,6 +50,20 @@ void require_trains(const EngineFile& file, double tick_s, const ValveStepping& 
   }
 }
 
+double class_deg(const ValveTrain& train, double tick_s, const ValveStepping& stepping) {
+  EngineDefinition definition;
+  definition.crank = {0.05, 0.025, 0.1};  // any: it does not matter to the valve
+  definition.masses.piston_kg = 1;
+  definition.train_count = 1;
+  definition.trains[0] = train;
+  detail::ValveMotion<double> motion;
+  TableTargets<double> targets;
+  targets.valve_motions = &motion;
+  TableReport report;
+  const Status refused = tabulate(definition, {tick_s, stepping}, targets, &report);
+  return refused.ok() ? report.valve_class_deg : 360;  // what runs the valve says why it is refused
+}
+
 std::vector<std::string> ticks_in_words(const EngineFile& file) {
   constexpr double kUsualTick_s = 100e-6;
   std::vector<std::string> lines;
@@ -61,7 +76,9 @@ std::vector<std::string> ticks_in_words(const EngineFile& file) {
     std::string line = "a valve of train " + train.name + " takes ";
     if (detail::ValveMotion<double> motion; motion_of(body, kUsualTick_s, {}, motion).ok()) {
       line += std::to_string(motion.parts) + (motion.parts == 1 ? " step" : " fine steps") + " in the worst tick of " +
-              brief(kUsualTick_s * 1e6) + " us; ";
+              brief(kUsualTick_s * 1e6) + " us and keeps its class of " + brief(ValveStepping{}.accuracy_m * 1e6) +
+              " um up to " + brief(std::floor(class_deg(train.definition, kUsualTick_s, {}) / (3 * kUsualTick_s))) +
+              " rpm; ";
     }
     if (longest_us < kLongestTick_s * 1e6) {
       line += std::to_string(kMaxFineSteps) + " is the most, in a tick of " + brief(longest_us) + " us";

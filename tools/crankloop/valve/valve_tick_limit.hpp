@@ -29,6 +29,9 @@ void require_trains(const EngineFile& file, double tick_s, const ValveStepping& 
 /// What the length of a tick means for each train: steps of a valve in the worst tick, and the longest tick.
 [[nodiscard]] std::vector<std::string> ticks_in_words(const EngineFile& file);
 
+/// Cam degrees of a tick up to which a train's valve keeps its class, by what tabulate reports; 360: always.
+[[nodiscard]] double class_deg(const ValveTrain& train, double tick_s, const ValveStepping& stepping);
+
 /// Longest tick that every train of a definition allows, at most 2 ms.
 [[nodiscard]] double longest_tick_of(const EngineDefinition& definition);
 

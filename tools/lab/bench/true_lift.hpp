@@ -1,4 +1,4 @@
-// A valve's true lift over one cycle that begins at rest in the middle of the cam's base circle.
+// A valve's true lift over the cycles that follow a start at rest in the middle of the cam's base circle.
 //
 // What belongs here: the reference's motion, kept so densely that it answers at any angle. What does not: how it is
 // integrated
@@ -28,14 +28,21 @@ class TrueLift {
  public:
   TrueLift(const ValveTrain& train, double engine_rpm);
 
-  /// At a cam angle from full lift, -180 to 180 deg. The quintic through neighbouring moments of the reference errs by
-  /// 1e-6 um.
+  /// At a cam angle from the first full lift, -180 deg to half a turn after the last. The quintic through neighbouring
+  /// moments of the reference errs by 1e-6 um.
   [[nodiscard]] double lift_m(double cam_deg) const noexcept;
+
+  /// 1 where the valve comes to rest before its cam comes again: then each cycle is the first. Else kCyclesToSettle: a
+  /// valve that is in the air begins its cycle with the error of the one before, which grows until bounces take as much
+  /// from it as they add.
+  [[nodiscard]] int cycles() const noexcept { return cycles_; }
+  static constexpr int kCyclesToSettle = 12;
 
   [[nodiscard]] int contact_changes() const noexcept { return changes_; }
 
  private:
   std::vector<valve_reference::Moment> moments_;
+  int cycles_ = 1;
   int changes_ = 0;
   double deg_per_s_ = 0;
 };

@@ -25,10 +25,13 @@ double largest_error_um(Valve& valve, const ValveRun& run, const TrueLift& truth
   const double deg_per_step = 360 * run.step_s / run.cycle_s();
   for (int shift = 0; shift < kShifts; ++shift) {
     valve.start(phase_at_cam_deg(-180 + deg_per_step * (shift + 0.5) / kShifts, full_lift_deg));
-    const int steps = run.steps_per_cycle() - 1;
+    const int steps = truth.cycles() * run.steps_per_cycle() - 1;
+    double cam_deg = cam_deg_from_full_lift(valve.phase().units(), full_lift_deg);
     for (int i = 0; i < steps; ++i) {
+      const double before_deg = cam_deg_from_full_lift(valve.phase().units(), full_lift_deg);
       valve.step();
-      const double cam_deg = cam_deg_from_full_lift(valve.phase().units(), full_lift_deg);
+      const double moved_deg = cam_deg_from_full_lift(valve.phase().units(), full_lift_deg) - before_deg;
+      cam_deg += moved_deg < 0 ? moved_deg + 360 : moved_deg;
       const double error_m = std::fabs(valve.lift_m() - truth.lift_m(cam_deg));
       if (!(error_m <= kBlownUp_m)) return std::numeric_limits<double>::quiet_NaN();
       largest_m = std::max(largest_m, error_m);

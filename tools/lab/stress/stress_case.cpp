@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <crankloop/tabulate/valve_lift.hpp>
+
 #include "../reference/ohc_125.hpp"
+#include "../reference/valve_reference.hpp"
 #include "crankloop/number.hpp"
 #include "crankloop/units.hpp"
 
@@ -29,12 +32,14 @@ double Draws::between(double low, double high) noexcept {
 
 double Draws::logarithmic(double low, double high) noexcept { return low * std::pow(high / low, between(0, 1)); }
 
-StressCase::StressCase(std::uint64_t seed, std::uint64_t number) {
+StressCase::StressCase(std::uint64_t seed, std::uint64_t number, StressKind drawn) {
   Draws mix(seed);
   Draws draw(mix.bits() ^ number * 0xD134'2543'DE82'EF95u);
   draw_cam(draw);
+  if (drawn == StressKind::smooth) make_smooth(draw);
   draw_valve(draw);
   draw_operation(draw);
+  if (drawn == StressKind::smooth) make_calm(draw);
   own_seed = draw.bits();
 }
 
@@ -102,6 +107,44 @@ void StressCase::draw_operation(Draws& draw) {
   const double before_deg = draw.between(0, 20) * (speed_rpm < 0 ? -1 : 1);
   const double near_deg = train.cam.full_lift_deg + 2 * (feet_deg[draw.bits() % 3] - before_deg);
   start_deg = draw.one_in(2) ? draw.between(0, 720) : near_deg - 720 * std::floor(near_deg / 720);
+}
+
+/// Whole even exponents in place of others: u^2.3 has no third derivative at the nose, a table none at its knots.
+void StressCase::make_smooth(Draws& draw) {
+  if (shape == CamShape::sample) return;
+  shape = CamShape::polynomial;
+  rows.clear();
+  Cam& cam = train.cam;
+  cam.source = CamSource::polynomial;
+  cam.points = nullptr;
+  cam.point_count = 0;
+  cam.half_angle_deg = draw.between(50, 90);
+  cam.exponent_count = 4;
+  double exponent = 2;
+  for (int i = 0; i < cam.exponent_count; ++i, exponent += 2 * static_cast<double>(2 + draw.bits() % 3))
+    cam.exponents[i] = exponent;
+}
+
+/// A speed below float, from 5 to 20 cam degrees before the lobe. A train that is refused stays as it was drawn.
+void StressCase::make_calm(Draws& draw) {
+  train.valve.train_damping_ratio = draw.between(0.05, 0.5);
+  train.valve.seat_damping_ratio = draw.between(0.05, 0.5);
+  ValveLift lift;
+  if (!lift.init(train.cam, train.rocker).ok()) return;
+  const valve_reference::SingleMass mass(train.valve, train.rocker, lift.largest_lift_m());
+  double separates_rad_s = 1e9;
+  for (double deg = -90; deg < 90; deg += 0.5) {
+    const LiftPose pose = lift.at(deg * kRadPerDeg);
+    if (pose.lift_m <= 0 || pose.per_rad2_m >= 0) continue;
+    const double spring_m_s2 = (mass.P + mass.k_s * pose.lift_m) / mass.M;
+    separates_rad_s = std::min(separates_rad_s, std::sqrt(spring_m_s2 / -pose.per_rad2_m));
+  }
+  const double backwards = std::signbit(speed_rpm) ? -1 : 1;
+  speed_rpm = draw.between(0.2, 0.8) * separates_rad_s * 2 * 30 / kPi;
+  speed_rpm = backwards * std::min({speed_rpm, 30'000.0, 0.999 * 60 / options.tick_s});
+  const double before_deg =
+      train.cam.full_lift_deg - backwards * 2 * (lift.closes_rad() / kRadPerDeg + draw.between(5, 20));
+  start_deg = before_deg - 720 * std::floor(before_deg / 720);
 }
 
 double StressCase::speed_rad_s() const noexcept { return speed_rpm * kPi / 30; }

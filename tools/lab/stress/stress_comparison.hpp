@@ -51,6 +51,7 @@ class Comparison {
     for (valve_reference::Reference& one : all_) {
       if (open_m > mass.delta) {
         one.y = open_m, one.regime = kTrainOn;
+        seated_ = false;
       } else if (Y > pushed_m) {
         one.y = pushed_m, one.regime = kTrainOn | kSeatOn;
       }
@@ -83,11 +84,16 @@ class Comparison {
     starts_ = false;
     cam_deg_ = cam_deg;
     magnified_m_ = resting ? 0 : std::max(magnified_m_, apart_m);
+    const bool seated = (exact.regime & kSeatOn) != 0;
+    landed_ = landed_ || (seated && !seated_);
+    seated_ = seated;
     const double error_m = std::fabs(lift_m - exact.y);
     of_class_ = std::max(of_class_, error_m / (accuracy_m_ + kForgotten_m));
     of_allowed_ = std::max(of_allowed_, error_m / (kMagnified * (accuracy_m_ + magnified_m_) + kForgotten_m));
   }
 
+  /// Whether the valve came back to its seat.
+  [[nodiscard]] bool landed() const { return landed_; }
   [[nodiscard]] double of_class() const { return of_class_; }
   [[nodiscard]] double of_allowed() const { return of_allowed_; }
 
@@ -133,6 +139,8 @@ class Comparison {
   Draws draw_;
   std::vector<valve_reference::Reference> all_;  ///< the exact one, then the copies
   bool starts_ = true;
+  bool seated_ = true;
+  bool landed_ = false;
   double magnified_m_ = 0;
   double of_class_ = 0;
   double of_allowed_ = 0;

@@ -64,12 +64,14 @@ Section accuracy_section(const StressTally& tally) {
   Plot plot = plot_of("Errors in order", axis("Per cent of the comparisons"), axis("Error's ratio"));
   plot.y.include_zero = false;
   plot.y.logarithmic = true;
-  plot.series.resize(2);
+  plot.series.resize(3);
   plot.series[0].name = "to the accuracy asked for";
   plot.series[1].name = "to what the rule allows";
+  plot.series[2].name = "to the accuracy asked for, of those that landed";
   for (int percent = 1; percent <= 100; ++percent) {
-    const double values[] = {quantile(tally.of_class, percent / 100.0), quantile(tally.of_allowed, percent / 100.0)};
-    for (std::size_t i = 0; i < 2; ++i) {
+    const double values[] = {quantile(tally.of_class, percent / 100.0), quantile(tally.of_allowed, percent / 100.0),
+                             quantile(tally.of_class_landed, percent / 100.0)};
+    for (std::size_t i = 0; i < 3; ++i) {
       plot.series[i].x.push_back(percent);
       plot.series[i].y.push_back(std::max(1e-6, values[i]));
     }
@@ -91,6 +93,10 @@ Section counts_section(const StressTally& tally) {
 }
 
 }  // namespace
+
+int beyond_class(const std::vector<double>& of_class) {
+  return static_cast<int>(std::count_if(of_class.begin(), of_class.end(), [](double error) { return error > 1; }));
+}
 
 void StressTally::add(int number, const StressCase& drawn, const TrialResult& result) {
   const auto fail = [&](int& counter) {
@@ -120,6 +126,10 @@ void StressTally::add(int number, const StressCase& drawn, const TrialResult& re
   ++compared;
   judged_again += result.judged_again ? 1 : 0;
   of_class.push_back(result.of_class);
+  if (result.landed) {
+    ++landed;
+    of_class_landed.push_back(result.of_class);
+  }
   if (!result.over_budget) of_allowed.push_back(result.of_allowed);
 }
 
@@ -159,7 +169,7 @@ double worst_error(const std::vector<StabilityPoint>& map) {
 }
 
 std::string text_of(const StressTally& tally, const std::vector<StabilityPoint>& map) {
-  Summary s(Summary::Digits::all);
+  Summary s;
   s.line("seed", tally.seed);
   s.line("cases", tally.cases);
   for (const auto& [reason, times] : tally.refused) s.line("refused", times, "", reason);
@@ -168,10 +178,14 @@ std::string text_of(const StressTally& tally, const std::vector<StabilityPoint>&
   s.line("ticks", tally.ticks);
   s.line("over_event_budget", tally.over_budget);
   s.line("compared", tally.compared);
+  s.line("landed", tally.landed, "", "of those compared");
   s.line("judged_again", tally.judged_again);
+  s.line("beyond_class", beyond_class(tally.of_class));
+  s.line("beyond_class_landed", beyond_class(tally.of_class_landed));
   for (const double part : {0.5, 0.9, 0.99, 1.0}) {
     const std::string percent = std::to_string(static_cast<int>(std::lround(100 * part)));
     s.line("error_of_class_p" + percent, quantile(tally.of_class, part));
+    s.line("error_of_class_landed_p" + percent, quantile(tally.of_class_landed, part));
     s.line("error_of_allowed_p" + percent, quantile(tally.of_allowed, part));
   }
   if (!map.empty()) s.line("stability_limit_error", worst_error(map));
@@ -198,7 +212,7 @@ report::Page stress_page(const StressTally& tally, const std::vector<StabilityPo
   fact("Ran", tally.ran,
        std::to_string(tally.all_cycles) + " through " + std::to_string(kStressCycles) + " cycles, the others for " +
            std::to_string(kMaxTicks) + " ticks");
-  fact("Compared", tally.compared, "with the converged reference");
+  fact("Compared", tally.compared, "with the converged reference; " + std::to_string(tally.landed) + " of them landed");
   fact("Diverged", tally.diverged, "");
   fact("Inaccurate", tally.inaccurate, "");
   fact("Refused but could run", tally.wrongly_refused, "");

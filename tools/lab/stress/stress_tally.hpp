@@ -29,18 +29,23 @@ struct StressTally {
   int all_cycles = 0;
   int over_budget = 0;
   int compared = 0;
+  int landed = 0;  ///< of those compared
   int judged_again = 0;
   int wrongly_refused = 0;
   int diverged = 0;
   int inaccurate = 0;
   std::int64_t ticks = 0;
-  std::vector<double> of_class;    ///< of every comparison
+  std::vector<double> of_class;  ///< of every comparison
+  std::vector<double> of_class_landed;
   std::vector<double> of_allowed;  ///< of every comparison, but for those over the event budget
   std::vector<StressFailure> failures;
 
   void add(int number, const StressCase& drawn, const TrialResult& result);
   [[nodiscard]] int refusals() const;
 };
+
+/// How many are more than the accuracy asked for.
+[[nodiscard]] int beyond_class(const std::vector<double>& of_class);
 
 /// The value that this part of them does not exceed, 0 to 1; 0 of none.
 [[nodiscard]] double quantile(std::vector<double> values, double part);

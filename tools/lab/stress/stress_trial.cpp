@@ -133,6 +133,7 @@ void run_ticks(Rig<Real>& rig, const StressCase& drawn, int copies, TrialResult&
   if (!energy.cycle(kMaxChangesInACycle)) return diverged(result.ticks, "more energy than the train can have given");
   if (compared_ticks == 0) return;
   result.compared = true;
+  result.landed = comparison.landed();
   result.of_class = comparison.of_class();
   result.of_allowed = comparison.of_allowed();
   if (result.of_allowed > 1 && !result.over_budget) {

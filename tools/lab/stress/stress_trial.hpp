@@ -44,6 +44,7 @@ struct TrialResult {
   bool all_cycles = false;   ///< reached kStressCycles
   bool over_budget = false;  ///< more contact changes in a tick than are located
   bool compared = false;
+  bool landed = false;        ///< while it was compared
   bool judged_again = false;  ///< with kMoreCopies
   double of_class = 0;        ///< largest error over the accuracy asked for
   double of_allowed = 0;      ///< largest error over what the rule allows

@@ -41,9 +41,11 @@ struct EngineDefinition {
   }
 };
 
-/// Validates every part and what they demand of one another, in the order above; the first refusal is returned. Valve
-/// trains are validated where their lift and motion are worked out (tabulate). About a trigger wheel, `index` is its
-/// number.
+/// Validates every part and what the parts demand of one another; the first refusal is returned. A part is validated
+/// whether a scene needs it or not: tables carry the fingerprint of the whole definition. Not read, and not validated:
+/// trains and wheels beyond their counts, rows that no source uses, gas where the pressure has another source. About a
+/// valve train or a trigger wheel, `index` is its number. Whether the rocker's geometry closes is found where the lift
+/// is worked out (tabulate).
 Status validate(const EngineDefinition& engine) noexcept;
 
 }  // namespace crankloop

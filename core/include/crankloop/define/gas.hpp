@@ -51,16 +51,17 @@ struct Gas {
   double throttle_area_ratio[kMaxFlowPoints] = {0, 0.06, 0.3, 1};  ///< 0 to 1
   double outlet_m2 = 1200e-6;                                      ///< exhaust system as one orifice; > 0, at most 10
   double ambient_Pa = 100e3;                                       ///< 1e3 to 1e7
-  double ambient_K = 298.15;                                       ///< 150 to 3000
-  double exhaust_K = 773.15;  ///< of gas that may flow back from the outlet; 150 to 3000
+  double back_Pa = 0;         ///< behind the outlet; 1e3 to 1e7, or 0: as ambient_Pa
+  double ambient_K = 298.15;  ///< 150 to 3000
+  double exhaust_K = 773.15;  ///< of a given exhaust manifold, at first; 150 to 3000
   // walls
   double wall_K = 423.15;      ///< 150 to 2000
   double wall_heat_ratio = 1;  ///< k_w; 0 = adiabatic; 0 to 100
   // combustion
-  double fuel_kg = 30e-6;               ///< per cycle and cylinder; 0 to 0.01
+  double fuel_kg = 30e-6;               ///< per cycle and cylinder; 0 to 0.01, less than 1e-12 is none
   double heating_value_J_kg = 43e6;     ///< lower; 0 to 2e8
   double combustion_efficiency = 0.97;  ///< 0 to 1
-  double air_fuel_ratio = 14.6;         ///< L, stoichiometric, by mass; 1 to 100
+  double air_fuel_ratio = 14.6;         ///< L, stoichiometric, by mass; 1 to 100; kMaxMixtureHeat_J_kg bounds it too
   double latch_deg = -90;               ///< where a cylinder takes its cycle's fuel and burn; -180 to -90
   double burn_start_deg = -18;          ///< -90 to 60
   double burn_duration_deg = 50;        ///< 5 to 150; the burn ends by 150 deg
@@ -69,6 +70,9 @@ struct Gas {
   double second_m = 1;               ///< 0 to 10
   double second_duration_ratio = 3;  ///< of its duration to the first's; 0.1 to 10
   PortOfTrain ports[kMaxTrains];
+
+  /// Behind the outlet.
+  [[nodiscard]] constexpr double behind_outlet_Pa() const noexcept { return back_Pa > 0 ? back_Pa : ambient_Pa; }
 
   /// The whole burn's duration, by that of the first law.
   [[nodiscard]] constexpr double span_ratio() const noexcept {
@@ -86,6 +90,7 @@ struct Gas {
     CRANKLOOP_FIELD(self.throttle_count, gas, throttle_area_ratio);
     CRANKLOOP_FIELD(1, gas, outlet_m2);
     CRANKLOOP_FIELD(1, gas, ambient_Pa);
+    CRANKLOOP_FIELD(1, gas, back_Pa);
     CRANKLOOP_FIELD(1, gas, ambient_K);
     CRANKLOOP_FIELD(1, gas, exhaust_K);
     CRANKLOOP_FIELD(1, gas, wall_K);
@@ -105,10 +110,14 @@ struct Gas {
   }
 };
 
+/// Most heat of a burn per kilogram of stoichiometric mixture, combustion_efficiency heating_value / (1 + L): more than
+/// any fuel has. Petrol 2.8e6, hydrogen 3.4e6, nitromethane 4.2e6.
+inline constexpr double kMaxMixtureHeat_J_kg = 5e6;
+
 /// Where a burn must have ended, before the exhaust opens.
 inline constexpr double kLatestBurn_deg = 150;
 
-/// Field names "gas.*", of ports "valve.*" with the train in `index`, where the tables read them: `trains` of them.
+/// Field names "gas.*", of ports too, with the train in `index`, where the tables read them: `trains` of them.
 Status validate(const Gas& gas, int trains) noexcept;
 
 }  // namespace crankloop

@@ -80,17 +80,18 @@ struct Rocker {
 
   template <class Visit, class Self, class... Others>
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    const int of_ratio = self.kind == RockerKind::ratio ? 1 : 0;
     CRANKLOOP_FIELD(1, rocker, kind);
-    CRANKLOOP_FIELD(1, rocker, cam_turns);
+    CRANKLOOP_FIELD(1 - of_ratio, rocker, cam_turns);
     CRANKLOOP_FIELD(1, rocker, base_circle_m);
     CRANKLOOP_FIELD(1, rocker, clearance_m);
-    CRANKLOOP_FIELD(1, rocker, ratio);
-    CRANKLOOP_FIELD(1, rocker, pivot_to_pad_m);
-    CRANKLOOP_FIELD(1, rocker, pivot_to_cam_m);
-    CRANKLOOP_FIELD(1, rocker, pad_radius_m);
+    CRANKLOOP_FIELD(of_ratio, rocker, ratio);
+    CRANKLOOP_FIELD(1 - of_ratio, rocker, pivot_to_pad_m);
+    CRANKLOOP_FIELD(1 - of_ratio, rocker, pivot_to_cam_m);
+    CRANKLOOP_FIELD(1 - of_ratio, rocker, pad_radius_m);
     CRANKLOOP_FIELD(1, rocker, pivot_to_screw_m);
-    CRANKLOOP_FIELD(1, rocker, screw_ball_m);
-    CRANKLOOP_FIELD(1, rocker, stem_above_pivot_m);
+    CRANKLOOP_FIELD(1 - of_ratio, rocker, screw_ball_m);
+    CRANKLOOP_FIELD(1 - of_ratio, rocker, stem_above_pivot_m);
   }
 };
 

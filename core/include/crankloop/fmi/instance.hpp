@@ -8,8 +8,9 @@
 //     static constexpr std::size_t kMaxParameters      engine numbers that may be set before the start
 //     bool open(const char* resources, Message& why)    once; from then on the following answer
 //     EngineShape shape() const;  double tick_s() const;  std::uint64_t identity() const;  std::size_t parameters()
-//     const Variable parameter(std::size_t) const;  double parameter_default(std::size_t) const const Tables<Real,
-//     Scene>* build(const double* parameters, Message& why)      null: refused
+//     const Variable parameter(std::size_t) const;  double parameter_default(std::size_t) const
+//     void set_start_values(Input<double, Scene>&, double& speed_rad_s) const    other than 0 and Input's own
+//     const Tables<Real, Scene>* build(const double* parameters, Message& why)   null: refused
 //
 // Nothing is allocated here: an instance lies in one piece of memory, a stored state in another.
 #pragma once
@@ -154,6 +155,7 @@ class Instance {
     engine_ = Engine<Real, S>{};
     kept_ = Kept<Supply>{};
     Input<double, S> in;
+    supply_.set_start_values(in, kept_.start_speed_rad_s);
     each_input<S>([to = kept_.inputs](const Variable&, auto& value) mutable { *to++ = as_number(value); }, in, shape_);
     for (std::size_t i = 0; i < supply_.parameters(); ++i) kept_.parameters[i] = supply_.parameter_default(i);
   }

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include <crankloop/engine.hpp>
 #include <crankloop/tick/state/saved_state.hpp>
@@ -51,6 +52,10 @@ inline constexpr std::uint32_t kEdgesShown = 8;
 /// Whole numbers are signed in FMI 2: counts go on at 0 behind this one.
 inline constexpr std::uint32_t kMaxWhole = 0x7FFF'FFFF;
 
+[[nodiscard]] inline bool finite(double x) noexcept {
+  return detail::within(x, -std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
+}
+
 /// A trigger wheel's signal since the start; edges newest first.
 struct WheelShown {
   struct Edge {
@@ -71,11 +76,14 @@ struct WheelShown {
       edge[0] = {begin_s + static_cast<double>(signal.edge[e].time_s), signal.edge[e].level};
     }
   }
-};
 
-[[nodiscard]] inline bool finite(double x) noexcept {
-  return detail::within(x, -std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
-}
+  /// Whether it is what note() can leave.
+  [[nodiscard]] bool is_one() const noexcept {
+    bool good = level <= 1 && edges <= kMaxWhole;
+    for (const Edge& e : edge) good = good && finite(e.time_s) && e.rises <= 1;
+    return good;
+  }
+};
 
 /// What a stored state has besides the engine; and both as bytes.
 template <class Supply>
@@ -175,10 +183,16 @@ struct Kept {
     if (!check(bytes, token, why)) return false;
     StateReader from(bytes + kHeaderBytes);
     visit(*this, [&from](auto& x) { from.take(x); });
-    if (stage > Stage::terminated || !finite(start_s) || !finite(time_s)) return why.say("the state is damaged"), false;
+    bool good = stage <= Stage::terminated && finite(start_s) && finite(time_s) && fault_ticks <= kMaxWhole;
+    for (const WheelShown& w : wheels) good = good && w.is_one();
     [[maybe_unused]] State<Real, S> unused{};
-    each_output<S>([&from](const Variable&, auto& x) { from.take(x); }, unused, output, kLargest);
-    return true;
+    const auto take = [&from, &good](const Variable&, auto& x) {
+      from.take(x);
+      if constexpr (std::is_floating_point_v<std::remove_reference_t<decltype(x)>>)
+        good = good && finite(static_cast<double>(x));
+    };
+    each_output<S>(take, unused, output, kLargest);
+    return good || (why.say("the state is damaged"), false);
   }
   /// The engine, which has tables already; false where it is refused.
   [[nodiscard]] static bool read(const unsigned char* bytes, Engine<Real, S>& engine) noexcept {

@@ -27,6 +27,7 @@ struct SceneSupply {
   [[nodiscard]] std::size_t parameters() const noexcept { return 0; }
   [[nodiscard]] Variable parameter(std::size_t) const noexcept { return real("", ""); }
   [[nodiscard]] double parameter_default(std::size_t) const noexcept { return 0; }
+  void set_start_values(Input<double, Scene>&, double&) const noexcept {}
   [[nodiscard]] const Tables<Real, Scene>* build(const double*, Message&) const noexcept { return tables; }
 
   const Tables<Real, Scene>* tables = nullptr;

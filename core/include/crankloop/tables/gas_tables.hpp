@@ -21,7 +21,7 @@ namespace crankloop::detail {
 /// What a cylinder's walls take: tick/gas/wall_heat.hpp.
 template <class Real>
 struct GasWalls {
-  Real heat_factor;  ///< 130 k_w V_m^-0.06 1e-4; 0 = adiabatic
+  Real heat_factor;  ///< 130 k_w 1e-4; 0 = adiabatic
   Real area_m2;      ///< 2 A_p
   Real area_per_m3;  ///< 4 / bore
   Real temperature_K;
@@ -61,16 +61,20 @@ struct GasBeyond {
   Real enthalpy_J_kg;
   Real burned_ratio;
   Real response_Pa_kg;  ///< how far its own pressure falls per kg that leaves it; 0: given
-  Real most_area_m2;    ///< a larger opening is as good as this one: it would empty the volume in a step
+  Real end_Pa;          ///< its pressure at the step's end if nothing flows through ports
+  Real as_was_Pa;       ///< by how much that moves if all flows through them stay as they were
 };
 
+inline constexpr int kMaxGasSteps = 8;  ///< of a tick
 inline constexpr int kThrottleSteps = 100;
 /// Intake and exhaust manifold, throttle and outlet.
 template <class Real>
 struct GasManifolds {
+  std::uint32_t parts;  ///< of a tick, at least: more than 1 for small manifolds
+  std::uint32_t spare;
   Real per_volume_m3[kPorts];       ///< 1 / V
   Real least_kg[kPorts];            ///< as least_kg_m3
-  GasBeyond<Real> outside[kPorts];  ///< before the throttle; behind the outlet
+  GasBeyond<Real> outside[kPorts];  ///< before the throttle; behind the outlet, where nothing has flowed out yet
   Real outlet_m2;
   Real throttle_m2[kThrottleSteps + 1];  ///< over the throttle ratio, 0 to 1
 };

@@ -78,6 +78,14 @@ struct ContactGuard {
   Number sign, lag_s, least_m;
 };
 
+/// What a step that the train is on all through adds, for each m by which the cam's lift in its middle is above the
+/// cubic through its ends, and of slope there by the part of the step: where a step is wide, the lift is the quintic
+/// through both ends and the middle. 0 where the train is off.
+template <class Number>
+struct MiddleStep {
+  Number lift_by_lift, lift_by_slope, velocity_by_lift, velocity_by_slope;
+};
+
 /// A step in a contact regime.
 template <class Number>
 struct RegimeStep {
@@ -85,7 +93,8 @@ struct RegimeStep {
   ForceRow<Number> acceleration;
   ContactGuard<Number> train, seat;
   Number rest_m,
-      rest_m_s;   ///< nearer to its rest, and slower, the valve is put there; 0 where a contact may change meanwhile
+      rest_m_s;  ///< nearer to its rest, and slower, the valve is put there; 0 where a contact may change meanwhile
+  MiddleStep<Number> middle;
   Number calm_m;  ///< with its cam on the base circle a valve that swings by less is sure to pass the guards; 0 where
                   ///< none is
 };
@@ -95,13 +104,6 @@ struct RegimeStep {
 template <class Real>
 struct RegimeSeries {
   Real rest, gas, stiffness, damping, lift, lift_speed;
-};
-
-/// What a fine step adds, for each m by which the cam's lift in its middle is above the cubic through its ends, and of
-/// slope there by the part of the step: where a step is wide, the lift is the quintic through both ends and the middle.
-template <class Number>
-struct MiddleStep {
-  Number lift_by_lift, lift_by_slope, velocity_by_lift, velocity_by_slope;
 };
 
 /// All that one valve train's motion reads.
@@ -116,7 +118,8 @@ struct ValveMotion {
   std::uint32_t per_parts_32;  ///< 2^32 / parts; unused for 1
   std::uint32_t
       most_changes;      ///< contact changes that a tick locates over all valves: 4 and the most parts of any train
-  Real widest_step_deg;  ///< cam degrees up to which the cubic through the ends of a step will do for the lift
+  Real cubic_deg;        ///< cam degrees up to which the cubic through the ends of a step will do for the lift,
+  Real widest_step_deg;  ///< and those up to which a tick may be one step, with the lift in its middle
   Real train_lag_s,
       seat_lag_s;     ///< b / k, b_z / k_z: a contact's force over its stiffness is depth + lag times the depth's speed
   Real per_seat_N_m;  ///< 1 / (k_z + k_s): how far each N of gas force presses a closed valve into its seat
@@ -125,7 +128,6 @@ struct ValveMotion {
   RegimeStep<Real> whole[kRegimes];  ///< over a tick
   RegimeStep<Real> fine[kRegimes];   ///< over a fine step
   RegimeSeries<Real> series[kSeatOn + kTrainOn + 1];
-  MiddleStep<Real> middle[2];  ///< of a fine step that the train is on all through: seat off, on
 };
 
 }  // namespace detail

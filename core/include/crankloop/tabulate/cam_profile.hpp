@@ -34,6 +34,23 @@ struct LobeSpline {
   [[nodiscard]] double closes_rad() const noexcept { return first_rad + (end + 5) * knot_rad; }
 };
 
+/// What the rows of a table say of themselves: how far they scatter, and how closely a smooth lobe follows them.
+struct CamRows {
+  double scatter_m = 0;    ///< standard deviation of a row, by the median of what lies between each and its neighbours
+  double unit_m = 0;       ///< 1, 2 or 5 times a power of ten of which all lifts are whole multiples; 0: of none
+  double smallest_m = 0;   ///< least smoothing_m that is not refused, to 1 %
+  int worst_row = 0;       ///< which the closest lobe misses most
+  double worst_off_m = 0;  ///< that row's lift less the lobe's; smallest_m or a little less, with its sign
+  double automatic_m = 0;  ///< for cam.smoothing_m: unit_m of rows that are only rounded, else five times the scatter;
+                           ///< at least 1.5 smallest_m; two digits
+};
+
+/// Reads all of a table but cam.smoothing_m. Refuses what validate() refuses of the rest, a cam that is no table
+/// (inconsistent "cam.source"), a table that does not come down to 50 um on both sides of its peak (inconsistent
+/// "cam.points", its first or last row), and one to which no lobe keeps within 1 mm (no_solution "cam.smoothing_m", the
+/// row). Some ten milliseconds, 50 kB of stack. Method: docs/model.md "Cam".
+Status survey_rows(const Cam& cam, CamRows& rows) noexcept;
+
 /// 2.3 kB. Construction of a polynomial takes some microseconds, smoothing a table of 1 deg rows a millisecond and 27
 /// kB of stack.
 class CamProfile {

@@ -46,17 +46,17 @@ CRANKLOOP_MEMBERS_OF(ValveBody, mass, train, train_damping, seat, seat_damping, 
 CRANKLOOP_MEMBERS_OF(StepRow, rest, gas, gas_rise, gap, rise, from, to, lift, velocity)
 CRANKLOOP_MEMBERS_OF(ForceRow, rest, gas, lift, velocity, gap, gap_speed)
 CRANKLOOP_MEMBERS_OF(ContactGuard, sign, lag, least)
-CRANKLOOP_MEMBERS_OF(RegimeStep, lift, velocity, acceleration, train, seat, rest, rest_speed, calm)
-CRANKLOOP_MEMBERS_OF(RegimeSeries, rest, gas, stiffness, damping, lift, lift_speed)
 CRANKLOOP_MEMBERS_OF(MiddleStep, lift_by_lift, lift_by_slope, velocity_by_lift, velocity_by_slope)
-CRANKLOOP_MEMBERS_OF(ValveMotion, body, tick, fine, per_fine, per_parts, parts, per_parts_32, changes, widest,
-                     train_lag, seat_lag, per_seat, quiet, seat_rate, whole_steps, fine_steps, series, middle)
+CRANKLOOP_MEMBERS_OF(RegimeStep, lift, velocity, acceleration, train, seat, rest, rest_speed, middle, calm)
+CRANKLOOP_MEMBERS_OF(RegimeSeries, rest, gas, stiffness, damping, lift, lift_speed)
+CRANKLOOP_MEMBERS_OF(ValveMotion, body, tick, fine, per_fine, per_parts, parts, per_parts_32, changes, cubic, widest,
+                     train_lag, seat_lag, per_seat, quiet, seat_rate, whole_steps, fine_steps, series)
 CRANKLOOP_MEMBERS_OF(GasWalls, factor, area, per_volume, temperature, piston)
 CRANKLOOP_MEMBERS_OF(GasCylinders, walls, clearance, bore_area, crankcase, least, per_swept, per_charge, ambient,
                      ambient_temperature, exhaust_temperature)
 CRANKLOOP_MEMBERS_OF(GasPortCurve, port, per_step, area)
-CRANKLOOP_MEMBERS_OF(GasBeyond, pressure, choked, specific_work, enthalpy, burned, response, most_area)
-CRANKLOOP_MEMBERS_OF(GasManifolds, per_volume, least, outside, outlet, throttle)
+CRANKLOOP_MEMBERS_OF(GasBeyond, pressure, choked, specific_work, enthalpy, burned, response, end, others)
+CRANKLOOP_MEMBERS_OF(GasManifolds, parts, spare, per_volume, least, outside, outlet, throttle)
 CRANKLOOP_MEMBERS_OF(BurnTable, latch, energy, heat, burned, air_fuel, per_air_fuel, span, fuel, start, duration, burnt)
 CRANKLOOP_MEMBERS(TriggerTrack, edges, edge_count, on_crank, starts, train, inverted, edges_before)
 CRANKLOOP_MEMBERS(TriggerWheels, wheel, count)

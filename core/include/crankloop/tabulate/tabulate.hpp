@@ -43,9 +43,12 @@ struct TableReport {
                                ///< undivided degree, 40 of another (float: 60)
   int cut_segments = 0;        ///< segments of the grid of one cylinder's heat torque
   int cut_doublings = 0;
-  int valve_fine_steps = 0;  ///< of all elastic valves in the worst tick, when contacts may change in all of them; at
-                             ///< most kMaxFineStepsOfEngine
-  int valve_changes = 0;     ///< contact changes that a tick locates
+  int valve_fine_steps = 0;    ///< of all elastic valves in the worst tick, when contacts may change in all of them; at
+                               ///< most kMaxFineStepsOfEngine
+  int valve_changes = 0;       ///< contact changes that a tick locates
+  double valve_class_deg = 0;  ///< cam degrees of a tick up to which all elastic valves keep their accuracy class, 360
+                               ///< if always; in ticks that turn a cam further, a fine step holds more of its lift than
+                               ///< a cubic follows
 };
 
 /// Fills the targets. Validates the definition first; nothing is written when it refuses.

@@ -27,6 +27,10 @@ struct ValveStepping {
                                ///< above nothing is gained
 };
 
+/// Refuses an accuracy out of range ("options.valves.accuracy_m") and a number that names no integrator
+/// ("options.valves.integrator").
+Status validate(const ValveStepping& stepping) noexcept;
+
 /// Most fine steps of a valve in a tick; a tick that would need more is refused.
 inline constexpr int kMaxFineSteps = 512;
 /// Contact changes that a tick locates over all valves: these and one for each fine step of a valve.
@@ -46,10 +50,8 @@ inline constexpr int kMaxFineStepsOfEngine = 4096;
 [[nodiscard]] double longest_tick_s(const detail::ValveBody<double>& body, const ValveStepping& stepping) noexcept;
 
 /// Fine steps and records for a tick of one train by itself. Refuses a tick that needs more than kMaxFineSteps
-/// ("options.tick_s": see longest_tick_s), an accuracy out of range ("options.valves.accuracy_m"), a number that names
-/// no integrator
-/// ("options.valves.integrator"), a mass beyond 1e9 kg, which a lever of nearly nothing makes
-/// ("valve.rocker_inertia_kg_m2"). O(fine steps).
+/// ("options.tick_s": see longest_tick_s), what validate() refuses of the stepping, and a mass beyond 1e9 kg, which a
+/// lever of nearly nothing makes ("valve.rocker_inertia_kg_m2"). O(fine steps).
 Status motion_of(const detail::ValveBody<double>& body, double tick_s, const ValveStepping& stepping,
                  detail::ValveMotion<double>& motion) noexcept;
 

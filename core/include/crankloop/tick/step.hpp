@@ -168,8 +168,11 @@ template <class Real, class S>
       if (of_valve >= std::uint32_t{detail::kRegimes}) return refuse("state.valve", Reason::out_of_range);
   }
   state_ = state;
-  if constexpr (detail::Needs<S>::elastic_valves)
-    detail::ElasticValves<Real, S>(*tables_, state_, *this, output_).remember();
+  if constexpr (detail::Needs<S>::elastic_valves) {
+    detail::ElasticValves<Real, S> valves(*tables_, state_, *this, output_);
+    valves.remember();
+    if constexpr (detail::Needs<S>::crank_dynamics) valves.start_turning();
+  }
   return {};
 }
 

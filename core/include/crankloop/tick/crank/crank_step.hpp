@@ -4,11 +4,12 @@
 // (tick/crank/torque_step.hpp), torques of friction and starter (crank_friction.hpp, starter.hpp).
 //
 // The state is the reduced speed u = w sqrt(J_eff): u^2 / 2 is the kinetic energy, so work changes it without a term in
-// dJ/da, and an energy balance is kept to rounding. A tick is half of the friction, then gas, load and starter over the
-// angle turned, then the other half of the friction: second order, and friction can stop the crank but never turn it
-// back; where it is less than what pushes, a crank that slows down goes through standstill. The angle is predicted from
-// the speed and its rate; when the tick's other end is known too, a better value is (the cubic through both), and what
-// lacks is turned in the next tick: without friction the method is then of third order, at the price of one number.
+// dJ/da, and the energy balance of all but friction is kept to rounding. A tick is half of the friction, then gas, load
+// and starter over the angle turned, then the other half of the friction: second order, and friction can stop the crank
+// but never turn it back; where it is less than what pushes, a crank that slows down goes through standstill. The angle
+// is predicted from the speed and its rate; when the tick's other end is known too, a better value is (the cubic
+// through both), and what lacks is turned in the next tick: without friction the method is then of third order, at the
+// price of one number.
 #pragma once
 
 #include <cstdint>

@@ -47,12 +47,19 @@ struct CycleWay {
   }
 };
 
-/// Takes a cycle's fuel: no more burns than there is air for. What is out of range, or a burn that would not end in
-/// time, is that of the cycle before. Answers fault bits.
+/// What the air in a cylinder can burn.
 template <class Real>
-[[gnu::noinline]] std::uint32_t take_fuel(CylinderBurn<Real>& burn, const BurnTable<Real>& table,
-                                          const GasContents<Real>& gas, const BurnOrder<Real>& order,
-                                          bool cut) noexcept {
+[[nodiscard]] constexpr Real fuel_for_air_kg(const BurnTable<Real>& table, const Real& mass_kg,
+                                             const Real& burned_kg) noexcept {
+  const Real air_kg = mass_kg > burned_kg ? mass_kg - burned_kg : Real{0};
+  return air_kg * table.per_air_fuel_ratio;
+}
+
+/// Takes a cycle's fuel: no more burns than there is air for, less than kLeastFuel_kg is none. What is out of range, or
+/// a burn that would not end in time, is that of the cycle before. Answers fault bits.
+template <class Real>
+[[gnu::noinline]] std::uint32_t take_fuel(CylinderBurn<Real>& burn, const BurnTable<Real>& table, const Real& mass_kg,
+                                          const Real& burned_kg, const BurnOrder<Real>& order, bool cut) noexcept {
   constexpr Real kLatest_deg = static_cast<Real>(150.001);  // kLatestBurn_deg, and rounding
   std::uint32_t faults = 0;
   (void)checked(order.fuel_kg, within_positive(order.fuel_kg, static_cast<Real>(kMaxFuel_kg)), burn.asked_kg,
@@ -65,9 +72,9 @@ template <class Real>
     faults |= kFaultBurn;
   }
   burn.per_deg = Real{1} / (burn.duration_deg * table.span_ratio);
-  const Real air_kg = gas.mass_kg > gas.burned_kg ? gas.mass_kg - gas.burned_kg : Real{0};
-  const Real most_kg = air_kg * table.per_air_fuel_ratio;
-  const Real fuel_kg = cut ? Real{0} : burn.asked_kg;
+  const Real most_kg = fuel_for_air_kg(table, mass_kg, burned_kg);
+  const bool burns = !cut && burn.asked_kg >= static_cast<Real>(kLeastFuel_kg);
+  const Real fuel_kg = burns ? burn.asked_kg : Real{0};
   burn.fuel_kg = fuel_kg < most_kg ? fuel_kg : most_kg;
   burn.excess_air_ratio = fuel_kg > 0 ? most_kg / fuel_kg : Real{0};
   burn.burnt_ratio = Real{0};
@@ -75,10 +82,11 @@ template <class Real>
   return faults;
 }
 
-/// Fuel that burns on the way. What has burned does not burn again where the crank turns back.
+/// Fuel that burns on the way: what is due, no more than there is air for. What has burned does not burn again where
+/// the crank turns back; what found no air burns where it finds some.
 template <class Real>
-[[nodiscard]] inline Real burnt_kg(CylinderBurn<Real>& burn, const BurnTable<Real>& table,
-                                   const CycleWay& way) noexcept {
+[[nodiscard]] inline Real burnt_kg(CylinderBurn<Real>& burn, const BurnTable<Real>& table, const Real& mass_kg,
+                                   const Real& burned_kg, const CycleWay& way) noexcept {
   if (!(burn.fuel_kg > 0)) return Real{0};
   const Real s = (way.deg<Real>() - burn.start_deg) * burn.per_deg;
   if (!(s > 0)) return Real{0};
@@ -89,7 +97,13 @@ template <class Real>
     burnt = table.burnt[row] + (table.burnt[row + 1] - table.burnt[row]) * (place - static_cast<Real>(row));
   }
   if (!(burnt > burn.burnt_ratio)) return Real{0};
-  const Real fuel_kg = burn.fuel_kg * (burnt - burn.burnt_ratio);
+  Real fuel_kg = burn.fuel_kg * (burnt - burn.burnt_ratio);
+  const Real most_kg = fuel_for_air_kg(table, mass_kg, burned_kg);
+  if (fuel_kg > most_kg) {
+    fuel_kg = most_kg;
+    const Real reached = burn.burnt_ratio + most_kg / burn.fuel_kg;
+    if (reached < burnt) burnt = reached;  // more by rounding alone
+  }
   burn.burnt_ratio = burnt;
   if (!(s < 1)) burn.fuel_kg = Real{0};
   return fuel_kg;

@@ -99,6 +99,18 @@ struct CylinderStep {
   }
 };
 
+/// A step whose gas had to be put back, by one lane: what is no number in it, or more than any engine's, was nothing.
+/// Neither the crank nor a manifold nor a cycle's results keep it.
+template <class T>
+[[nodiscard, gnu::cold, gnu::noinline]] CylinderStep<T> without_nonsense(CylinderStep<T> step, int i) noexcept {
+  using Real = NumberOf<T>;
+  constexpr Real kMax = static_cast<Real>(1e12);  // J, kg
+  const auto hold = [i](T& x) { put_lane(x, i, within(lane(x, i), -kMax, kMax) ? lane(x, i) : Real{0}); };
+  hold(step.closed.heat_J), hold(step.closed.wall_heat_J), hold(step.work_J);
+  for (PortStep<T>& port : step.through) hold(port.mass_kg), hold(port.enthalpy_J), hold(port.burned_kg);
+  return step;
+}
+
 /// Lanes that have a port open at either end of a step. No area is negative: one that is not 0 has a bit set.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline auto any_open(const T& a, const T& b, const T& c, const T& d) noexcept {
@@ -132,7 +144,7 @@ template <class T, class Holds>
   const FlowingGas<T> before{gas.contents.mass_kg + gain.mass_kg, gas.contents.energy_J + gain.energy_J,
                              gas.contents.burned_kg + gain.burned_kg, specific_work_J_kg};
   const GasNear<T> near{before.mass_kg * specific_work_J_kg * closed.per_volume_m3, closed.temperature_K,
-                        response * specific_work_J_kg};
+                        response * specific_work_J_kg, closed.gas_ratio / (Real{1} + closed.gas_ratio)};
   const T intake_m2 = gas.area_m2[kIntake] + to_m2[kIntake], exhaust_m2 = gas.area_m2[kExhaust] + to_m2[kExhaust];
   const auto exhaust = exhaust_m2 > intake_m2;
   const auto both = both_hold(intake_m2 > Real{0}, exhaust_m2 > Real{0});
@@ -193,8 +205,7 @@ template <class T>
     const T own_m2 = volume_m3 * drive.area_per_m3;
     T limited_m2[kPorts];
     for (int port = 0; port < kPorts; ++port) {
-      const T most_m2 = own_m2 < far[port].most_area_m2 ? own_m2 : spread<T>(far[port].most_area_m2);
-      limited_m2[port] = to_m2[port] < most_m2 ? to_m2[port] : most_m2;
+      limited_m2[port] = to_m2[port] < own_m2 ? to_m2[port] : own_m2;
     }
     work_J += flow_through_ports(open, gas, closed, limited_m2, far, drive.step_s, gain, through);
     for (int port = 0; port < kPorts; ++port) gas.area_m2[port] = limited_m2[port];

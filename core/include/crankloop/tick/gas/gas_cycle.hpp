@@ -33,13 +33,15 @@ template <class Real, class S>
   const BurnTable<Real>& table = *tables.burn;
   CylinderBurn<Real>& burn = state.burn[cylinder];
   if (ends && !way.forward()) end_burn(burn);
+  const auto& gas = state.cylinder_gas;
+  const Real &mass_kg = gas.mass_kg[cylinder], &burned_kg = gas.burned_kg[cylinder];
   if (burn.taken == 0 && way.passes_forward(table.latch_phase)) {
     bool cut = false;
     if constexpr (Needs<S>::gas_cut) cut = (input.cut_cylinders >> cylinder & 1u) != 0;
     const BurnOrder<Real> order = burn_order(tables, input, cylinder);
-    faults |= take_fuel(burn, table, state.cylinder_gas.template at<Real>(cylinder).contents, order, cut);
+    faults |= take_fuel(burn, table, mass_kg, burned_kg, order, cut);
   }
-  const Real fuel_kg = burnt_kg(burn, table, way);
+  const Real fuel_kg = burnt_kg(burn, table, mass_kg, burned_kg, way);
   if (ends && way.forward()) end_burn(burn);
   return fuel_kg;
 }

@@ -105,9 +105,19 @@ class GasCylindersStep {
     const T volume_m3 = load<T>(volumes_m3), before_m3 = gas.volume_m3;
     [[maybe_unused]] const T intake_was_m2 = gas.area_m2[kIntake];
     const T to_m2[kPorts] = {load<T>(areas.of[kIntake] + k), load<T>(areas.of[kExhaust] + k)};
-    const CylinderStep<T> done =
-        step_gas<T>(gas, volume_m3, fuel_kg, fuel, table.walls, step.drive, to_m2, step.beyond);
+    CylinderStep<T> done = step_gas<T>(gas, volume_m3, fuel_kg, fuel, table.walls, step.drive, to_m2, step.beyond);
     state_.cylinder_gas.put(k, gas);
+    if (done.flows) state_.cylinder_gas.put_areas(k, gas);
+    const T least_kg = step.drive.least_kg_m3 * volume_m3;
+    if (__builtin_expect(!all(is_well<T>(gas.point, gas.contents.mass_kg, least_kg)), 0)) {
+      for (int i = 0; i < kLanes; ++i) {
+        const Real per_volume_m3 = lane(done.closed.per_volume_m3, i);
+        if (!put_cylinder_right(k + static_cast<std::uint32_t>(i), per_volume_m3, lane(least_kg, i))) continue;
+        faults |= kFaultGas;
+        done = without_nonsense<T>(done, i);
+      }
+      gas = state_.cylinder_gas.template at<T>(k);
+    }
     const Real per_tick_s = tables_.drive->per_tick_s;
     T shown[7] = {gas.point.pressure_Pa,
                   gas.point.temperature_K,
@@ -117,18 +127,10 @@ class GasCylindersStep {
                   T{},
                   done.closed.wall_heat_J * per_tick_s};
     if (done.flows) {
-      state_.cylinder_gas.put_areas(k, gas);
       for (int port = 0; port < kPorts; ++port) shown[4 + port] = done.through[port].mass_kg * per_tick_s;
       if constexpr (N::manifolds) take_from_manifolds(step, done.through);
     }
     show(shown, &out_.cylinder_gas[k]);
-    const T least_kg = step.drive.least_kg_m3 * volume_m3;
-    if (__builtin_expect(!all(is_well<T>(gas.point, gas.contents.mass_kg, least_kg)), 0)) {
-      for (int i = 0; i < kLanes; ++i) {
-        faults |= put_cylinder_right(k + static_cast<std::uint32_t>(i), lane(done.closed.per_volume_m3, i),
-                                     lane(least_kg, i));
-      }
-    }
     const T crank_J = done.work_J - table.crankcase_Pa * (volume_m3 - before_m3);
     Real work_J = work_J_;
     for (int i = 0; i < kLanes; ++i) work_J += lane(crank_J, i);
@@ -143,22 +145,29 @@ class GasCylindersStep {
         const std::uint32_t one = k + static_cast<std::uint32_t>(i);
         GasRecord<Real>& record = state_.gas_record[one];
         record_end(record, state_.cylinder_gas.pressure_Pa[one], lane(gained_J, i), way[i]);
-        if ((intake_shut >> i & 1u) != 0) record_trapped(record, state_.cylinder_gas.template at<Real>(one).contents);
+        if ((intake_shut >> i & 1u) != 0 && before_burn(one, way[i]))
+          record_trapped(record, state_.cylinder_gas.template at<Real>(one).contents);
         if ((ends >> i & 1u) != 0) end_cycle(tables_, state_, out_, one);
       }
     }
     return faults;
   }
 
-  [[gnu::cold, gnu::noinline]] std::uint32_t put_cylinder_right(std::uint32_t k, Real per_volume_m3,
-                                                                Real least_kg) noexcept {
+  [[gnu::cold, gnu::noinline]] bool put_cylinder_right(std::uint32_t k, Real per_volume_m3, Real least_kg) noexcept {
     CylinderGas<Real> gas = state_.cylinder_gas.template at<Real>(k);
     const bool put_back = put_right(gas, per_volume_m3, least_kg);
     state_.cylinder_gas.put(k, gas);
-    CylinderGasOutput<Real>& shown = out_.cylinder_gas[k];
-    shown.pressure_Pa = gas.point.pressure_Pa, shown.temperature_K = gas.point.temperature_K;
-    shown.mass_kg = gas.contents.mass_kg, shown.burned_ratio = gas.point.burned_ratio;
-    return put_back ? std::uint32_t{kFaultGas} : 0;
+    return put_back;
+  }
+
+  /// Of a cylinder before firing dead centre, none of whose fuel has burned.
+  [[nodiscard]] bool before_burn([[maybe_unused]] std::uint32_t k, const CycleWay& way) const noexcept {
+    if (way.to >> 63 == 0) return false;
+    if constexpr (N::burn) {
+      return state_.burn[k].taken == 0 || !(state_.burn[k].burnt_ratio > 0);
+    } else {
+      return true;
+    }
   }
 
   /// The very numbers that the cylinders gained, so that nothing is lost.

@@ -20,16 +20,16 @@ struct GasCycle {
   Real pumping_mep_Pa;  ///< that from 180 to 540 deg; negative: a loss
   Real peak_Pa;
   Real peak_deg;    ///< after firing top dead centre
-  Real trapped_kg;  ///< when the intake closed
+  Real trapped_kg;  ///< when the intake last closed before firing dead centre and before any fuel burned; 0: it did not
   Real trapped_air_kg;
   Real residual_ratio;         ///< burned share of it
   Real volumetric_efficiency;  ///< air through the intake over what the swept volume holds of ambient air
-  Real exhaust_K;              ///< of the gas through the exhaust, by its mean enthalpy
-  Real fuel_kg;                ///< that burned
-  Real excess_air_ratio;       ///< lambda: air there, over air that the cycle's fuel wanted; 0: no fuel
-  Real heat_J;                 ///< of combustion
-  Real wall_heat_J;            ///< to the walls
-  Real energy_defect_J;        ///< what the first law lacks: rounding, and gas that was put back (kFaultGas)
+  Real exhaust_K;  ///< of the gas that flows out through the exhaust, by its mean enthalpy; 0: less than 1e-12 kg
+  Real fuel_kg;    ///< that burned
+  Real excess_air_ratio;  ///< lambda: air there, over air that the cycle's fuel wanted; 0: no fuel
+  Real heat_J;            ///< of combustion
+  Real wall_heat_J;       ///< to the walls
+  Real energy_defect_J;   ///< what the first law lacks: rounding, and gas that was put back (kFaultGas)
 };
 
 namespace detail {
@@ -40,7 +40,7 @@ struct GasRecord {
   // Rows of four, which lanes add to at once.
   Real work_J, pumping_J, fuel_kg, wall_heat_J;
   Real air_kg;                                    ///< through the intake
-  Real exhaust_kg, exhaust_J, exhaust_burned_kg;  ///< through the exhaust
+  Real exhaust_kg, exhaust_J, exhaust_burned_kg;  ///< out through the exhaust
   Real peak_Pa, peak_deg, trapped_kg, trapped_air_kg;
   Real begin_J, begin_rest_J;    ///< internal energy
   Real gained_J, gained_rest_J;  ///< what the first law adds to it
@@ -86,7 +86,7 @@ template <class T>
     record.wall_heat_J += step.closed.wall_heat_J;
     if (!step.flows) return;
     if (in.mass_kg != T{0}) record.air_kg += in.mass_kg - in.burned_kg;
-    if (out.mass_kg == T{0}) return;
+    if (!(out.mass_kg < T{0})) return;
     record.exhaust_kg -= out.mass_kg;
     record.exhaust_J -= out.enthalpy_J;
     record.exhaust_burned_kg -= out.burned_kg;
@@ -96,7 +96,10 @@ template <class T>
       if (way[i].in_gas_exchange()) put_lane(pumping_J, i, lane(step.work_J, i));
     }
     add_row(records, 0, step.work_J, pumping_J, fuel_kg, step.closed.wall_heat_J);
-    if (step.flows) add_row(records, 1, in.mass_kg - in.burned_kg, -out.mass_kg, -out.enthalpy_J, -out.burned_kg);
+    if (step.flows) {
+      const PortStep<T> leaves = where(out.mass_kg < NumberOf<T>{0}, out);
+      add_row(records, 1, in.mass_kg - in.burned_kg, -leaves.mass_kg, -leaves.enthalpy_J, -leaves.burned_kg);
+    }
   }
 }
 
@@ -126,9 +129,11 @@ template <class Real>
   c.trapped_kg = r.trapped_kg, c.trapped_air_kg = r.trapped_air_kg;
   c.residual_ratio = r.trapped_kg > 0 ? (r.trapped_kg - r.trapped_air_kg) / r.trapped_kg : Real{0};
   c.volumetric_efficiency = r.air_kg * table.per_full_charge;
-  if (r.exhaust_kg > 0) {
+  if (r.exhaust_kg >= static_cast<Real>(1e-12)) {  // of less, a mean is no number
     const Real per_kg = Real{1} / r.exhaust_kg;
-    c.exhaust_K = temperature_of_enthalpy_K(r.exhaust_J * per_kg, r.exhaust_burned_kg * per_kg);
+    const Real burned_ratio = r.exhaust_burned_kg * per_kg;  // rounding may leave more, or less than none
+    c.exhaust_K = temperature_of_enthalpy_K(r.exhaust_J * per_kg,
+                                            burned_ratio > 0 ? (burned_ratio < 1 ? burned_ratio : Real{1}) : Real{0});
   }
   c.fuel_kg = r.fuel_kg;
   c.excess_air_ratio = excess_air_ratio;

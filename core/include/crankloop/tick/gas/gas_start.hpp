@@ -44,6 +44,7 @@ template <class Real, class S>
   if constexpr (Needs<S>::manifolds) {
     for (int port = 0; port < kPorts; ++port) {
       const GasBeyond<Real>& outside = tables.gas_manifolds->outside[port];
+      state.outlet = {tables.gas_cylinders->ambient_K, Real{0}};
       const Real per_volume_m3 = tables.gas_manifolds->per_volume_m3[port];
       ManifoldGas<Real>& manifold = state.manifold[port];
       manifold.contents = contents_of(outside.pressure_Pa, outside.specific_work_J_kg * kPerGasConstant<Real>,

@@ -77,6 +77,12 @@ struct ManifoldGas {
   GasPoint<Real> point;
 };
 
+/// What last flowed out of the exhaust: what flows back. Air, before anything has.
+template <class Real>
+struct OutletGas {
+  Real temperature_K, burned_ratio;
+};
+
 /// A cylinder's fuel and burn.
 template <class Real>
 struct CylinderBurn {

@@ -15,8 +15,7 @@
 
 namespace crankloop::detail {
 
-/// A tick that turns the crank further is cut into equal steps.
-inline constexpr int kMaxGasSteps = 8;
+/// A tick that turns the crank further is cut into equal steps, at most kMaxGasSteps.
 inline constexpr std::uint64_t kGasStep = ~std::uint64_t{0} / 144;  ///< 5 deg
 template <class Real, class S>
 class GasStep {
@@ -74,17 +73,25 @@ class GasStep {
     step.drive.least_kg_m3 = tables_.gas_cylinders->least_kg_m3;
     step.drive.step_s = tables_.drive->tick_s;
     step.turned = turned;
-    if (__builtin_expect(way > kGasStep, 0)) return run_parts(input, step, way, end);
+    if (__builtin_expect(way > kGasStep || least_parts() > 1, 0)) return run_parts(input, step, way, end);
     step.phase = state_.phase.units();
     step.drive.area_per_m3 = most_area_per_m3(step.drive.step_s);
     return run_step(input, step, end);
   }
 
+  /// Of a tick, for small manifolds.
+  [[nodiscard]] int least_parts() const noexcept {
+    if constexpr (N::manifolds) {
+      return static_cast<int>(tables_.gas_manifolds->parts);
+    } else {
+      return 1;
+    }
+  }
   /// A tick in equal parts. Between its ends port areas are as the cams have them, and what the valves are off their
   /// cams goes in a straight line: a straight line of areas alone would be 1 % off in charge at 36 deg.
   [[nodiscard, gnu::noinline]] std::uint32_t run_parts(const Input<Real, S>& input, EngineGasStep<Real>& step,
                                                        std::uint64_t way, const Areas& end) noexcept {
-    int parts = 2;
+    int parts = least_parts() > 2 ? least_parts() : 2;
     while (parts < kMaxGasSteps && way > static_cast<std::uint64_t>(parts) * kGasStep) ++parts;
     constexpr std::uint32_t kPerParts_32[kMaxGasSteps + 1] = {
         0, 0, 0x8000'0000u, 0x5555'5555u, 0x4000'0000u, 0x3333'3333u, 0x2AAA'AAABu, 0x2492'4925u, 0x2000'0000u};
@@ -150,19 +157,22 @@ class GasStep {
 
   [[gnu::always_inline]] void see_manifolds(EngineGasStep<Real>& step,
                                             [[maybe_unused]] const Areas& areas) const noexcept {
+    [[maybe_unused]] Real outside_m2[kPorts] = {};
+    if constexpr (N::manifolds)
+      outside_m2[kIntake] = throttle_m2(), outside_m2[kExhaust] = tables_.gas_manifolds->outlet_m2;
     for (int port = 0; port < kPorts; ++port) {
       step.taken_kg[port] = Real{0};
       if constexpr (N::manifolds) {
         std::uint32_t open = 0;
         for (std::uint32_t k = 0; k < cylinders(); ++k) open += bits_of(areas.of[port][k]) != 0 ? 1u : 0u;
-        step.beyond[port] = seen_from_ports(state_.manifold[port], tables_.gas_manifolds->per_volume_m3[port],
-                                            static_cast<Real>(open), most_m3(), step.drive.step_s);
+        step.beyond[port] =
+            seen_from_ports(state_.manifold[port], tables_.gas_manifolds->outside[port], outside_m2[port],
+                            tables_.gas_manifolds->per_volume_m3[port], state_.taken_kg_s[port],
+                            static_cast<Real>(open), most_m3(), step.drive.step_s);
       } else {
         const GivenGas<Real>& given = state_.given_gas[port];
-        constexpr Real kNoLimit_m2 = static_cast<Real>(1e9);
         step.beyond[port] =
-            beyond(GasPoint<Real>{given.pressure_Pa, given.temperature_K, static_cast<Real>(port), Real{0}}, Real{0},
-                   kNoLimit_m2);
+            beyond(GasPoint<Real>{given.pressure_Pa, given.temperature_K, static_cast<Real>(port), Real{0}}, Real{0});
       }
     }
   }
@@ -172,21 +182,43 @@ class GasStep {
     return table.clearance_m3 + Real{1} / table.per_swept_m3;
   }
 
-  [[nodiscard]] std::uint32_t step_manifolds(const EngineGasStep<Real>& step) noexcept {
+  [[nodiscard]] std::uint32_t step_manifolds([[maybe_unused]] const EngineGasStep<Real>& step) noexcept {
     bool put_back = false;
     if constexpr (N::manifolds) {
       const GasManifolds<Real>& table = *tables_.gas_manifolds;
-      const Real areas[kPorts] = {throttle_m2(), table.outlet_m2};
-      for (int port = 0; port < kPorts; ++port) {
-        const Real in_kg =
-            step_manifold(state_.manifold[port], step.beyond[port], step.taken_kg[port], table.outside[port],
-                          areas[port], table.per_volume_m3[port], table.least_kg[port], step.drive.step_s, put_back);
-        outside_kg_[port] += in_kg;
-      }
+      const GasBeyond<Real>& behind = table.outside[kExhaust];
+      (void)exchange_with(table.outside[kIntake], kIntake, throttle_m2(), left(kIntake, step), step, put_back);
+      const GasPoint<Real> before = state_.manifold[kExhaust].point;
+      const GasNear<Real> near = left(kExhaust, step);
+      const bool flows_back = near.pressure_Pa < behind.pressure_Pa;
+      const Real in_kg = exchange_with(flows_back ? behind_outlet(behind.pressure_Pa) : behind, kExhaust,
+                                       table.outlet_m2, near, step, put_back);
+      if (in_kg < 0) state_.outlet = {before.temperature_K, before.burned_ratio};
     }
-    (void)step;
     return put_back ? std::uint32_t{kFaultGas} : 0;
   }
+  /// A manifold as the cylinders left it.
+  [[nodiscard]] GasNear<Real> left(int port, const EngineGasStep<Real>& step) noexcept {
+    state_.taken_kg_s[port] = step.taken_kg[port] / step.drive.step_s;
+    return left_by_cylinders(state_.manifold[port], step.beyond[port], step.taken_kg[port],
+                             tables_.gas_manifolds->per_volume_m3[port]);
+  }
+  /// Through throttle or outlet; answers the mass that came in.
+  [[gnu::noinline]] Real exchange_with(const GasBeyond<Real>& outside, int port, Real area_m2,
+                                       const GasNear<Real>& near, const EngineGasStep<Real>& step,
+                                       bool& put_back) noexcept {
+    const GasManifolds<Real>& table = *tables_.gas_manifolds;
+    const Real in_kg = step_manifold(state_.manifold[port], near, step.beyond[port], outside, area_m2,
+                                     table.per_volume_m3[port], table.least_kg[port], step.drive.step_s, put_back);
+    outside_kg_[port] += in_kg;
+    return in_kg;
+  }
+  /// What flows back through it.
+  [[nodiscard]] GasBeyond<Real> behind_outlet(Real pressure_Pa) const noexcept {
+    const OutletGas<Real>& gas = state_.outlet;
+    return beyond(GasPoint<Real>{pressure_Pa, gas.temperature_K, gas.burned_ratio, Real{0}}, Real{0});
+  }
+
   [[nodiscard]] Real throttle_m2() const noexcept {
     if constexpr (N::manifolds) {
       const GasManifolds<Real>& table = *tables_.gas_manifolds;

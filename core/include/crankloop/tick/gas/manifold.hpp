@@ -17,25 +17,51 @@ template <class Real>
 /// All see it as it stands then. One that let its own flow alone move that pressure would be wrong to first order: what
 /// it takes the throttle brings meanwhile. It need not, while they together could not empty it: each brings its own
 /// pressure to the manifold's, so the manifold overshoots by open most_m3 / V, and settles where that is small. Of a
-/// small manifold each reckons with a flow like its own in the others.
+/// small manifold each reckons with flows through the others as in the last step, with changes like its own in them,
+/// and with what the opening to the outside answers to it within the step: that is z = h k Y stiff, Y its flow per
+/// difference of pressures.
 template <class Real>
-[[nodiscard]] inline GasBeyond<Real> seen_from_ports(const ManifoldGas<Real>& manifold, Real per_volume_m3, Real open,
+[[nodiscard]] inline GasBeyond<Real> seen_from_ports(const ManifoldGas<Real>& manifold, const GasBeyond<Real>& outside,
+                                                     Real area_m2, Real per_volume_m3, Real taken_kg_s, Real open,
                                                      Real most_m3, Real step_s) noexcept {
   const Real reckons = open - Real{1} / (2 * most_m3 * per_volume_m3);
-  const Real response = reckons > 0 ? reckons * response_Pa_kg(manifold, per_volume_m3) : Real{0};
-  return beyond(manifold.point, response, most_area_per_m3(step_s) / per_volume_m3);
+  GasBeyond<Real> seen = beyond(manifold.point, Real{0});
+  if (!(reckons > 0)) return seen;
+  const bool in = outside.pressure_Pa > manifold.point.pressure_Pa;
+  const Real up_Pa = in ? outside.pressure_Pa : manifold.point.pressure_Pa;
+  const Real apart_Pa = outside.pressure_Pa - manifold.point.pressure_Pa;
+  const Real s = magnitude(apart_Pa) / up_Pa * kPerChokedDrop<Real>;
+  const Real per_Pa = area_m2 * (in ? outside.choked_per_Pa : seen.choked_per_Pa);
+  const Real flow_Pa =
+      s < 1 ? kPerChokedDrop<Real> * (Real{2} - s) / square_root(s * (Real{2} - s) + static_cast<Real>(4.3e-4))
+            : up_Pa / magnitude(apart_Pa);
+  const Real own_Pa_kg = response_Pa_kg(manifold, per_volume_m3);
+  const Real z = step_s * per_Pa * flow_Pa *
+                 (in ? (Real{1} + manifold.point.gas_ratio) * per_volume_m3 * outside.specific_work_J_kg : own_Pa_kg);
+  const Real per_answer = Real{1} / (Real{1} + z);
+  seen.response_Pa_kg = reckons * own_Pa_kg * per_answer;
+  const Real share = reckons / open * per_answer;
+  seen.end_Pa += apart_Pa * z * share;
+  seen.as_was_Pa = -(step_s * taken_kg_s * own_Pa_kg) * share;
+  return seen;
 }
 
-/// After the cylinders, which have taken some: an opening to the outside. Answers the mass that came in.
+/// As the cylinders left it, which have taken some.
 template <class Real>
-inline Real step_manifold(ManifoldGas<Real>& manifold, const GasBeyond<Real>& seen, Real taken_kg,
-                          const GasBeyond<Real>& outside, Real area_m2, Real per_volume_m3, Real least_kg, Real step_s,
-                          bool& put_back) noexcept {
+[[nodiscard]] inline GasNear<Real> left_by_cylinders(const ManifoldGas<Real>& manifold, const GasBeyond<Real>& seen,
+                                                     Real taken_kg, Real per_volume_m3) noexcept {
   const Real per_kg_Pa = response_Pa_kg(manifold, per_volume_m3);
   const Real left_Pa = seen.pressure_Pa - per_kg_Pa * taken_kg, least_Pa = seen.pressure_Pa / 4;
-  const GasNear<Real> near{left_Pa > least_Pa ? left_Pa : least_Pa, manifold.point.temperature_K, per_kg_Pa};
-  const Real area = area_m2 < seen.most_area_m2 ? area_m2 : seen.most_area_m2;
-  const Opening<Real> opening{area, area, outside,
+  return {left_Pa > least_Pa ? left_Pa : least_Pa, manifold.point.temperature_K, per_kg_Pa,
+          manifold.point.gas_ratio / (Real{1} + manifold.point.gas_ratio)};
+}
+
+/// After the cylinders: an opening to the outside. Answers the mass that came in.
+template <class Real>
+inline Real step_manifold(ManifoldGas<Real>& manifold, const GasNear<Real>& near, const GasBeyond<Real>& seen,
+                          const GasBeyond<Real>& outside, Real area_m2, Real per_volume_m3, Real least_kg, Real step_s,
+                          bool& put_back) noexcept {
+  const Opening<Real> opening{area_m2, area_m2, outside,
                               (Real{1} + manifold.point.gas_ratio) * per_volume_m3 * outside.specific_work_J_kg};
   const Real mass_kg = step_s * implicit_flow(opening, near, outside.pressure_Pa, step_s);
   GasContents<Real>& gas = manifold.contents;

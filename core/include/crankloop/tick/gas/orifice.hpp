@@ -39,13 +39,12 @@ template <class Real>
 }
 
 template <class Real>
-[[nodiscard]] inline GasBeyond<Real> beyond(const GasPoint<Real>& gas, Real response_Pa_kg,
-                                            Real most_area_m2) noexcept {
+[[nodiscard]] inline GasBeyond<Real> beyond(const GasPoint<Real>& gas, Real response_Pa_kg) noexcept {
   const Real specific_work_J_kg = kGasConstant<Real> * gas.temperature_K;
   return {gas.pressure_Pa,    choked_per_Pa(gas.temperature_K),
           specific_work_J_kg, energy_J_kg(gas.temperature_K, gas.burned_ratio) + specific_work_J_kg,
           gas.burned_ratio,   response_Pa_kg,
-          most_area_m2};
+          gas.pressure_Pa,    Real{0}};
 }
 
 /// As an opening has it: of lanes, each has its own.
@@ -68,7 +67,8 @@ template <class T, class Holds>
             of(e.enthalpy_J_kg, i.enthalpy_J_kg),
             of(e.burned_ratio, i.burned_ratio),
             of(e.response_Pa_kg, i.response_Pa_kg),
-            T{}};
+            of(e.end_Pa, i.end_Pa),
+            of(e.as_was_Pa, i.as_was_Pa)};
   }
 }
 

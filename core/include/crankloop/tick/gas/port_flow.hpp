@@ -18,6 +18,13 @@ struct GasNear {
   T pressure_Pa;
   T temperature_K;
   T per_kg_out_Pa;
+  T cooling;  ///< of the rest's temperature where some flows out, per fall of its pressure, both as shares: G / (1 + G)
+
+  /// After a flow that moved its pressure.
+  [[gnu::always_inline]] void move(const T& by_Pa) noexcept {
+    temperature_K += where(by_Pa < NumberOf<T>{0}, cooling * temperature_K * (by_Pa / pressure_Pa));
+    pressure_Pa += by_Pa;
+  }
 };
 
 /// Effective areas at both ends of a step, what is behind, and how far the near pressure moves per kg that comes in.
@@ -32,7 +39,8 @@ struct Opening {
 /// Neither pressure passes the other, whatever the time.
 ///
 /// With w = v A psi_c / sqrt(R T1), in pressures so that no area is too small to square: choked, v is the pressure
-/// upstream; else v^2 = D (2 P + e D) / x_c, D = d - k v: P the far pressure, e = -1/x_c inwards, 2 - 1/x_c outwards.
+/// upstream; else x_c v^2 = D (2 P - D / x_c), where D = d - k v is what is left of the difference and P = p1 - u v of
+/// the pressure upstream.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline T implicit_flow(const Opening<T>& at, const GasNear<T>& near, const T& far_Pa,
                                                          const T& time_s) noexcept {
@@ -45,26 +53,35 @@ template <class T>
                                         out, [&] { return choked_per_Pa(near.temperature_K); },
                                         [&] { return at.far.choked_per_Pa; });
         const T reach = per_Pa * time_s;
-        const T k = reach * (pick(out, near.per_kg_out_Pa, at.per_kg_in_Pa) + at.far.response_Pa_kg);
-        // The pressure upstream falls by what flows out; flow goes with p / sqrt(T), which falls slower: 0.87.
-        const T begin_Pa = pick(out, near.pressure_Pa, far_Pa), falls = where(out, reach * near.per_kg_out_Pa);
-        const T up_Pa = short_cut<T>(
-            none_of(out), [&] { return begin_Pa; },
-            [&] { return begin_Pa / (Real{1} + static_cast<Real>(0.87) * falls); });
+        const T near_falls = reach * pick(out, near.per_kg_out_Pa, at.per_kg_in_Pa);
+        const T far_falls = reach * at.far.response_Pa_kg;
+        const T k = near_falls + far_falls;
+        const T begin_Pa = pick(out, near.pressure_Pa, far_Pa), u = pick(out, near_falls, far_falls);
+        // What flows out leaves the rest cooler, and so flows faster.
+        const T cooling = where(out, near.cooling);
+        const T choked_Pa = begin_Pa / (Real{1} + u - static_cast<Real>(0.5) * cooling * u);
         const auto unchoked = [&]() __attribute__((always_inline)) {
-          const T e = where(out, spread<T>(2)) - kPer;
-          const T half = kPer * k * (far_Pa + e * d);
-          const T square = kPer * d * (Real{2} * far_Pa + e * d);
-          const T lead = Real{1} - kPer * e * (k * k);
+          const T e0 = Real{2} * begin_Pa - kPer * d;
+          const T e1 = kPer * k - Real{2} * u;
+          const T lead = kChokedDrop<Real> + k * e1;
+          const T half = static_cast<Real>(0.5) * (k * e0 - d * e1);
+          const T square = d * e0;
           const T inner = half * half + lead * square;
           const T root = square_root(inner > Real{0} ? inner : T{});
           T above = square, below = half + root;
           if (const auto digits_lost = half < Real{0}; any(digits_lost))
             above = pick(digits_lost, root - half, above), below = pick(digits_lost, lead, below);
-          return above / (below + static_cast<Real>(1e-30));
+          const T v = above / (below + static_cast<Real>(1e-30));
+          // That is at the temperature of before: one step of Newton's method, from a slope that is the root.
+          return short_cut<T>(
+              none_of(out), [&] { return v; },
+              [&] {
+                const T cooler = kChokedDrop<Real> * cooling * u * v / begin_Pa;
+                return v + cooler * (v * v) / (Real{2} * root - cooler * v + static_cast<Real>(1e-30));
+              });
         };
         const T v = either<T>(
-            d - k * up_Pa >= kChokedDrop<Real> * (begin_Pa - falls * up_Pa), [&] { return up_Pa; }, unchoked);
+            d - k * choked_Pa >= kChokedDrop<Real> * (begin_Pa - u * choked_Pa), [&] { return choked_Pa; }, unchoked);
         return negative_where(out, per_Pa * v);
       });
 }
@@ -102,6 +119,19 @@ struct EarlyFlow {
   }
 };
 
+/// A manifold at the end of a step in which `part_kg` of an opening flows before its implicit part. Where flows are
+/// `calm`, all through other ports stay as they were, but for what this one changes, which was `as_was_kg`.
+template <class T, class Holds>
+[[nodiscard, gnu::always_inline]] inline T left_Pa(const GasBeyond<T>& far, const T& part_kg, const Holds& calm,
+                                                   const T& as_was_kg) noexcept {
+  using Real = NumberOf<T>;
+  const T least_Pa = static_cast<Real>(0.25) * far.pressure_Pa, most_Pa = Real{4} * far.pressure_Pa;
+  const T moved_Pa = where(calm, far.as_was_Pa + far.response_Pa_kg * as_was_kg);
+  const T left = far.end_Pa + (moved_Pa - far.response_Pa_kg * part_kg);
+  const T held = left > least_Pa ? left : least_Pa;
+  return held < most_Pa ? held : most_Pa;
+}
+
 /// The share of a step that is explicit.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline T explicit_share(const T& stiffness) noexcept {
@@ -130,8 +160,8 @@ template <class T>
   const auto may = early.may_be(all_kg, near.pressure_Pa, at.far);
   const T part_kg = where(may, all_kg);
   const T time_s = step_s - where(may, part_s);
-  near.pressure_Pa += part_kg * early.per_kg_Pa;
-  const T far_Pa = at.far.pressure_Pa - part_kg * at.far.response_Pa_kg;
+  near.move(part_kg * early.per_kg_Pa);
+  const T far_Pa = left_Pa<T>(at.far, part_kg, may, step_s * at.from_m2 * early.flow_kg_s_m2);
   return PortFlow<T>::of(part_kg + time_s * implicit_flow(at, near, far_Pa, time_s), at, near);
 }
 

@@ -96,10 +96,10 @@ template <class T>
       both_hold(a.may_be(all_a_kg, near.pressure_Pa, at[0].far), b.may_be(all_b_kg, near.pressure_Pa, at[1].far));
   const T a_kg = where(may, all_a_kg), b_kg = where(may, all_b_kg);
   const T time_s = step_s - where(may, part_s);
-  near.pressure_Pa += a_kg * a.per_kg_Pa;
-  near.pressure_Pa += b_kg * b.per_kg_Pa;
-  const T far_Pa[2] = {at[0].far.pressure_Pa - a_kg * at[0].far.response_Pa_kg,
-                       at[1].far.pressure_Pa - b_kg * at[1].far.response_Pa_kg};
+  near.move(a_kg * a.per_kg_Pa);
+  near.move(b_kg * b.per_kg_Pa);
+  const T far_Pa[2] = {left_Pa<T>(at[0].far, a_kg, may, step_s * at[0].from_m2 * a.flow_kg_s_m2),
+                       left_Pa<T>(at[1].far, b_kg, may, step_s * at[1].from_m2 * b.flow_kg_s_m2)};
   T flow_kg_s[2];
   implicit_flows(at, near, far_Pa, time_s, implicit_flow(at[0], near, far_Pa[0], time_s), flow_kg_s);
   flow[0] = PortFlow<T>::of(a_kg + time_s * flow_kg_s[0], at[0], near);

@@ -12,7 +12,7 @@
 //           16   the fields, the tables' fingerprint first
 //       size-4   CRC-32 of all before it
 //
-// Least significant byte first; floating point as its IEEE 754 bits. Only comparisons and copies are made here, so it
+// Least significant byte first; floating point as its IEEE 754 bits. Numbers are only copied and compared here, so it
 // may be compiled with a user's own flags.
 #pragma once
 
@@ -24,13 +24,14 @@
 #include <crankloop/engine.hpp>
 #include <crankloop/status.hpp>
 #include <crankloop/tick/checked.hpp>
+#include <crankloop/tick/state/gas_agrees.hpp>
 #include <crankloop/tick/state/saved_bytes.hpp>
 #include <crankloop/tick/state/state_fields.hpp>
 
 namespace crankloop {
 
 /// Counts up whenever a release changes the fields or their form.
-inline constexpr std::uint32_t kSavedStateForm = 4;
+inline constexpr std::uint32_t kSavedStateForm = 5;
 
 namespace detail {
 
@@ -90,8 +91,8 @@ Status save_state(const Engine<Real, S>& engine, unsigned char* bytes, std::size
 }
 
 /// Goes on from saved bytes, with the same bits; `size` must be kSavedStateBytes. Refuses bytes that are damaged, of
-/// another version, scene, scalar or other tables, and numbers that no step could compute with; the engine is then as
-/// it was. Takes a State on the stack. O(state).
+/// another version, scene, scalar or other tables, and numbers that no step could compute with or that do not fit one
+/// another; the engine is then as it was. Takes a State on the stack. O(state).
 template <class Real, class S>
 Status load_state(const unsigned char* bytes, std::size_t size, Engine<Real, S>& engine) noexcept {
   constexpr std::size_t all = kSavedStateBytes<Real, S>;
@@ -120,6 +121,9 @@ Status load_state(const unsigned char* bytes, std::size_t size, Engine<Real, S>&
   if (!read.status().ok()) return read.status();
   const Real limit = engine.tables()->drive->speed_limit_rad_s;
   if (!detail::within(state.speed_rad_s, -limit, limit)) return refuse("state.drive", Reason::out_of_range);
+  if constexpr (detail::Needs<S>::gas) {
+    if (!detail::gas_agrees(state, *engine.tables())) return refuse("state.gas", Reason::inconsistent);
+  }
   return engine.restore(state);
 }
 

@@ -113,11 +113,12 @@ struct StateFields {
     v.number(x.part, -kMaxWork, kMaxWork);
   }
 
-  // Gas: no cylinder holds a thousand tons, and no step makes more of what is within these ranges than a number.
+  // Gas: no cylinder holds a thousand tons. How these numbers fit one another: tick/state/gas_agrees.hpp.
 
   static constexpr Real kMaxGas_kg = static_cast<Real>(1e6);
   static constexpr Real kMaxGas_J = static_cast<Real>(1e13);
-  static constexpr Real kLeastOfGas = static_cast<Real>(1e-18);  ///< m^3 and kg
+  static constexpr Real kMaxGas_kg_s = static_cast<Real>(1e21);  ///< 12 times 1e12 kg, a step's bound, in 1/8 us
+  static constexpr Real kLeastOfGas = static_cast<Real>(1e-36);  ///< kg and J
 
   template <class AReal, class Visitor>
   static constexpr void contents(AReal& kg, AReal& kg_rest, AReal& J, AReal& J_rest, AReal& burned_kg,
@@ -135,7 +136,7 @@ struct StateFields {
     v.number(pressure_Pa, static_cast<Real>(1e-6), static_cast<Real>(1e12));
     v.number(temperature_K, static_cast<Real>(kLeastGas_K / 2), static_cast<Real>(kMaxGas_K * 2));
     v.number(burned_ratio, Real{0}, Real{1});
-    v.number(gas_ratio, static_cast<Real>(0.01), Real{1});
+    v.number(gas_ratio, static_cast<Real>(0.14), static_cast<Real>(0.45));
   }
   template <class AState, class Visitor>
   static constexpr void visit_gas(AState& s, Visitor& v) noexcept {
@@ -149,7 +150,8 @@ struct StateFields {
       point(gas.pressure_Pa[k], gas.temperature_K[k], gas.burned_ratio[k], gas.gas_ratio[k], v);
       v.number(gas.volume_m3[k], Real{0}, Real{100});
       for (auto& area : gas.area_m2) v.number(area[k], Real{0}, Real{100});
-      numbers(kMaxGas_J, gas.wall_heat_W[k], gas.pressure_before_Pa[k]);
+      numbers(kMaxGas_J, gas.wall_heat_W[k]);
+      v.number(gas.pressure_before_Pa[k], Real{0}, static_cast<Real>(1e12));
       v.spare(gas.spare[k]);
     }
     if constexpr (N::manifolds) {
@@ -159,6 +161,9 @@ struct StateFields {
         contents(c.mass_kg, c.mass_rest_kg, c.energy_J, c.energy_rest_J, c.burned_kg, c.burned_rest_kg, v);
         point(p.pressure_Pa, p.temperature_K, p.burned_ratio, p.gas_ratio, v);
       }
+      numbers(kMaxGas_kg_s, s.taken_kg_s[kIntake], s.taken_kg_s[kExhaust]);
+      v.number(s.outlet.temperature_K, static_cast<Real>(kLeastGas_K / 2), static_cast<Real>(kMaxGas_K * 2));
+      v.number(s.outlet.burned_ratio, Real{0}, Real{1});
       v.number(s.throttle_ratio, Real{0}, Real{1});
       v.spare(s.spare_of_manifolds);
     } else {

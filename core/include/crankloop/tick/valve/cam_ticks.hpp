@@ -21,6 +21,9 @@ struct CamTick {
   std::int64_t turned;  ///< the same units
   CamTurn<Real> cam;
 
+  [[nodiscard]] constexpr std::uint64_t phase_in_middle() const noexcept {
+    return phase - static_cast<std::uint64_t>(turned / 2);
+  }
   [[nodiscard]] constexpr std::uint64_t phase_before() const noexcept {
     return phase - static_cast<std::uint64_t>(turned);
   }

@@ -55,7 +55,7 @@ class ElasticValves {
     place_all(valves_);
     valves_.work.moving = 0;
     if constexpr (Valves::kMoversFirst) valves_.work.movers = 0;
-    valves_.work.skip_deg = valves_.work.far_deg = Real{kDegreesPerTurn + 1};
+    valves_.work.skip_deg = valves_.work.far_deg = valves_.work.wide_deg = Real{kDegreesPerTurn + 1};
     valves_.for_each([&](std::uint32_t v) {
       valves_.set_cam(v, valves_.curve(v).read(valves_.curve(v).cell(cam_phase(valves_.state, valves_.train(v)) -
                                                                      valves_.curve(v).opens[valves_.cylinder(v)])));
@@ -63,9 +63,31 @@ class ElasticValves {
       if (valves_.curve(v).skip_deg < valves_.work.skip_deg) valves_.work.skip_deg = valves_.curve(v).skip_deg;
       if (valves_.motion(v).widest_step_deg < valves_.work.far_deg)
         valves_.work.far_deg = valves_.motion(v).widest_step_deg;
+      if (valves_.motion(v).cubic_deg < valves_.work.wide_deg) valves_.work.wide_deg = valves_.motion(v).cubic_deg;
     });
     if (valves_.work.skip_deg < valves_.work.far_deg) valves_.work.far_deg = valves_.work.skip_deg;
+    if (valves_.work.far_deg < valves_.work.wide_deg) valves_.work.wide_deg = valves_.work.far_deg;
     for (std::uint32_t g = 0; g < kCamGroups<S>; ++g) valves_.work.clear[g] = valves_.work.no_end[g] = {};
+  }
+
+  /// Before the first tick of a crank that turns already: valves that their cams carry move with them. Another speed
+  /// before the first tick starts them anew.
+  [[gnu::cold, gnu::noinline]] void start_turning() noexcept {
+    State<Real, S>& state = valves_.state;
+    if (state.ticks != 0) return;
+    const Drive<Real>& drive = *valves_.tables.drive;
+    const Real deg = state.speed_rad_s * drive.cycles_per_tick_per_rad_s * Real{kDegreesPerTurn};
+    if (state.cam_turned_deg[0] == deg) return;
+    if (state.cam_turned_deg[0] != 0) start();
+    for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g) state.cam_turned_deg[g] = deg;
+    valves_.for_each([&](std::uint32_t v) {
+      const Cell cell = valves_.cell(v, cam_phase(state, valves_.train(v)));
+      const Placed<Real> carried =
+          carried_along(valves_.motion(v), {valves_.state_of(v), state.valve_regime[v]}, valves_.cam(v),
+                        valves_.curve(v).curvature(cell), deg * drive.per_tick_s);
+      valves_.set_state(v, carried.state);
+      valves_.set_regime(v, carried.regime);
+    });
   }
 
   /// Answers fault bits.
@@ -91,10 +113,10 @@ class ElasticValves {
     const CamTick<Real>& tick = cams[group];
     const Real deg = magnitude(tick.cam.deg);
     CRANKLOOP_ASSERT(deg <= Real{kDegreesPerTurn / 2});
-    CRANKLOOP_ASSERT(valves_.work.far_deg <= valves_.work.skip_deg);
-    const bool far = deg >= valves_.work.far_deg;
-    valves_.far = valves_.far || far;
-    if ((far && deg >= valves_.work.skip_deg) || !valves_.work.clear[group].holds(angle_of_cams(tick)))
+    CRANKLOOP_ASSERT(valves_.work.wide_deg <= valves_.work.far_deg && valves_.work.far_deg <= valves_.work.skip_deg);
+    const bool wide = deg >= valves_.work.wide_deg;
+    if (wide) valves_.wide = true, valves_.far = valves_.far || deg >= valves_.work.far_deg;
+    if ((wide && deg >= valves_.work.skip_deg) || !valves_.work.clear[group].holds(angle_of_cams(tick)))
       wake(tick, group);
     Real& before_deg = valves_.state.cam_turned_deg[group];
     if (tick.cam.deg == before_deg) return;

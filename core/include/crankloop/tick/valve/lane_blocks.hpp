@@ -18,17 +18,9 @@
 #if CRANKLOOP_ABREAST
 namespace crankloop::detail {
 
-/// Gas forces of lanes over a tick, where they are not worked out in their blocks.
-template <class S>
-struct GasOfLanes {
-  float from_N[kLaneRoom<S>], to_N[kLaneRoom<S>];
-};
-/// A block's valves are then of one train, their cylinders side by side.
-template <class S>
-inline constexpr bool kGasInBlocks = Needs<S>::valve_gas_held&& S::cylinders.capacity % kLanesOf<WidestLanes> == 0;
-
-template <class S>
-class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>> {
+/// `Wide`: the lift in the tick's middle counts. A class of its own, for it needs registers that the other uses.
+template <class S, bool Wide>
+class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide, MiddleOfLanes<S>> {
   using Valves = ValvesAtHand<float, S>;
   using Bits = typename Valves::Bits;
 
@@ -40,9 +32,9 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>> {
       : valves_{valves}, work_{valves.work}, state_{valves.state}, out_{valves.out}, before_{before}, far_{far} {
     if constexpr (S::cam_phasing) {
       for (std::uint32_t lane = 0; lane < valves_.trains() * Valves::kPerTrain; ++lane)
-        tick_.set(lane, cams[Valves::train(valves_.valve_in(lane))]);
+        set_tick(lane, cams[Valves::train(valves_.valve_in(lane))]);
     } else {
-      tick_.set(0, cams[0]);
+      set_tick(0, cams[0]);
     }
     if constexpr (S::valve_gas && !kGasInBlocks<S>) {
       valves_.for_each([&](std::uint32_t v) {
@@ -73,6 +65,11 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>> {
   [[nodiscard]] Bits still() const noexcept { return still_; }
 
  private:
+  void set_tick(std::uint32_t lane, const CamTick<float>& tick) noexcept {
+    tick_.set(lane, tick);
+    if constexpr (Wide) this->middle.set(lane, {tick.phase_in_middle(), tick.turned, tick.cam});
+  }
+
   template <class Lanes>
   [[gnu::always_inline]] void step_as(std::uint32_t first, std::uint32_t lanes, std::uint32_t room,
                                       std::uint32_t& done) noexcept {
@@ -137,7 +134,12 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>> {
     const Lanes deg_per_s = tick_.template of<Lanes>(tick_.deg_per_s, first);
     LanesPlace<Lanes> place;
     const Lift<Lanes> to = read_lanes<Lanes>(work_, first, tick_, place);
-    const Stepped<Lanes> step = stepped(regime, start, from, to, tick_.template of<Lanes>(tick_.deg, first), gas);
+    const Lanes deg = tick_.template of<Lanes>(tick_.deg, first);
+    Stepped<Lanes> step = stepped(regime, start, from, to, deg, gas);
+    if constexpr (Wide) {
+      LanesPlace<Lanes> there;
+      step = with_middle(step, regime.middle, from, read_lanes<Lanes>(work_, first, this->middle, there), to, deg);
+    }
     const Contacting<Lanes> stepped_to{to.lift_m - step.state.lift_m,
                                        deg_per_s * to.per_deg_m - step.state.velocity_m_s};
     const auto sure = holds(regime.train, stepped_to.compression_m, stepped_to.compression_speed_m_s) &

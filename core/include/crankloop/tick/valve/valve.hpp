@@ -112,6 +112,23 @@ template <class Held, class Number, class Real, class Gas>
   return {{s.lift_m + increment_m, s.velocity_m_s + more(regime.velocity)}, increment_m};
 }
 
+/// The same with what the cam's lift in the middle of a wide step, over which the cubic through its ends does not do,
+/// adds to it.
+template <class Held, class Number, class Real>
+[[nodiscard]] constexpr Stepped<Number> with_middle(const Stepped<Number>& end, const MiddleStep<Held>& by,
+                                                    const Lift<Number>& from, const Lift<Number>& middle,
+                                                    const Lift<Number>& to, Real deg) noexcept {
+  const Number from_slope = deg * from.per_deg_m;
+  const Number to_slope = deg * to.per_deg_m;
+  const Number rise = to.lift_m - from.lift_m;
+  const Number more_m = middle.lift_m - from.lift_m - (rise / 2 + (from_slope - to_slope) / 8);
+  const Number more_slope_m = deg * middle.per_deg_m - (6 * rise - (from_slope + to_slope)) / 4;
+  const Number higher_m = by.lift_by_lift * more_m + by.lift_by_slope * more_slope_m;
+  return {{end.state.lift_m + higher_m,
+           end.state.velocity_m_s + (by.velocity_by_lift * more_m + by.velocity_by_slope * more_slope_m)},
+          end.increment_m + higher_m};
+}
+
 /// y'' by the forces of a regime; the gas force as at the end of its step.
 template <class Held, class Number, class Gas>
 [[nodiscard]] constexpr Number acceleration(const ForceRow<Held>& f, const ValveState<Number>& s, Number compression_m,
@@ -170,6 +187,26 @@ template <class Real>
     return {{(b.train_N_m * lift_m - down_N) / (b.train_N_m + b.spring_N_m), Real{0}}, kTrainOn};
   }
   return {{(b.train_N_m * lift_m - gas_N) / (b.train_N_m + b.seat_N_m + b.spring_N_m), Real{0}}, kTrainOn | kSeatOn};
+}
+
+/// A valve in equilibrium whose cam turns, as it moves when it has long been carried by that cam: at the cam's speed by
+/// the stiffnesses, and off its seat deflected by inertia and guide too. Where the train would have to pull it, it is
+/// free.
+template <class Real>
+[[nodiscard]] constexpr Placed<Real> carried_along(const ValveMotion<Real>& m, const Placed<Real>& valve,
+                                                   const Lift<Real>& cam, Real per_deg2_m, Real deg_per_s) noexcept {
+  if ((valve.regime & kTrainOn) == 0) return valve;
+  const ValveBody<Real>& b = m.body;
+  const bool seated = (valve.regime & kSeatOn) != 0;
+  const Real stiffness_N_m = b.train_N_m + b.spring_N_m + (seated ? b.seat_N_m : Real{0});
+  const Real cam_m_s = deg_per_s * cam.per_deg_m;
+  const Real share = b.train_N_m / stiffness_N_m;
+  const Real velocity_m_s = share * cam_m_s;
+  const Real back_N = b.mass_kg * share * (per_deg2_m * (deg_per_s * deg_per_s)) + b.guide_Ns_m * velocity_m_s;
+  const Real lift_m = seated ? valve.state.lift_m : valve.state.lift_m - back_N / stiffness_N_m;
+  const bool carried = lift_m < cam.lift_m;
+  const ValveState<Real> s{carried ? lift_m : cam.lift_m, carried ? velocity_m_s : cam_m_s};
+  return {s, asked(m, s, cam, deg_per_s)};
 }
 
 /// The swing of a valve on its seat about the place where it would rest.

@@ -42,8 +42,7 @@ class ValveChanges {
     CRANKLOOP_ASSERT(start.regime < std::uint32_t{kRegimes});
     CRANKLOOP_ASSERT(is_finite(start.state.lift_m) && is_finite(start.state.velocity_m_s));
     CRANKLOOP_ASSERT(motion_.parts >= 1);
-    if (motion_.parts > 1 || magnitude(tick.cam.deg) > motion_.widest_step_deg)
-      return by_fine_steps(start, tick, to, turned);
+    if (motion_.parts > 1 || magnitude(tick.cam.deg) > motion_.cubic_deg) return by_fine_steps(start, tick, to, turned);
     const std::uint32_t regime = asked_at_start(start, tick);
     if (regime != start.regime)
       end = stepped(motion_.fine[regime], start.state, tick.from, tick.to, tick.cam.deg, tick.gas);
@@ -84,7 +83,7 @@ class ValveChanges {
     std::uint64_t at = to - static_cast<std::uint64_t>(turned);
     Span<Real, Gas> step{tick.from,          tick.to, {tick.cam.deg * motion_.per_parts, tick.cam.deg_per_s}, tick.gas,
                          tick.since_opening, Real{0}};
-    const bool narrow = magnitude(step.cam.deg) <= motion_.widest_step_deg;
+    const bool narrow = magnitude(step.cam.deg) <= motion_.cubic_deg;
     bool was_sure = narrow && sure(valve.regime, valve.state, step.from, step.cam);
     for (std::uint32_t i = 1; i <= motion_.parts; ++i) {
       CRANKLOOP_ASSERT(valve.regime < kQuiet);
@@ -99,8 +98,8 @@ class ValveChanges {
         valve.state = end.state;
       } else {
         if (!narrow)
-          add_middle(motion_, curve_, valve.regime, step,
-                     at - static_cast<std::uint64_t>(static_cast<std::int64_t>(part) / 2), end);
+          end = with_middle_of(motion_.fine[valve.regime], curve_, step,
+                               at - static_cast<std::uint64_t>(static_cast<std::int64_t>(part) / 2), end);
         valve = checked(valve, end, step);
       }
       was_sure = narrow && is_sure;
@@ -145,7 +144,7 @@ class ValveChanges {
     if (now != start.regime && budget_.left != 0) return through_changes(start, end, now, lift, step);
     note(start, end.state, step, motion_.fine_step_s);
     if (now != start.regime) {
-      budget_.exceeded = true;
+      if (!is_slight(motion_, start.regime ^ now, end.state, step.to)) budget_.exceeded = true;
       note_change(start.regime, now, end.state, step, 1);
     }
     return {end.state, now};
@@ -189,7 +188,8 @@ class ValveChanges {
       end = by_series(motion_, valve.regime, valve.state, lift, left, step.gas.between(1 - left, 2 - left));
       now = asked(motion_, end.state, step.to, step.cam.deg_per_s);
     } while (budget_.left != 0 && now != valve.regime && left > 0);
-    if (now != valve.regime && left > 0) budget_.exceeded = true;
+    if (now != valve.regime && left > 0 && !is_slight(motion_, valve.regime ^ now, end.state, step.to))
+      budget_.exceeded = true;
     CRANKLOOP_ASSERT(left >= 0 && now < kQuiet);
     CRANKLOOP_ASSERT(is_finite(end.state.lift_m) && is_finite(end.state.velocity_m_s));
     note_stretch(valve, end.state, lift, 1 - left, left, step);

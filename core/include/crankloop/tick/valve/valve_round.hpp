@@ -32,7 +32,8 @@ class ValveRound : If<ValvesAtHand<Real, S>::kMoversFirst, LeavingLanes<ValveBit
 
   /// Steps all that move. Answers which of them have guards that fail; what was before them is in `before`.
   [[nodiscard, gnu::always_inline]] Bits run(const CamTicks<Real, S>& cams, Before& before) noexcept {
-    return Valves::kAbreast ? step_abreast(cams, before) : step_those(valves_.work.moving, cams, before);
+    if constexpr (Valves::kAbreast) return valves_.wide ? step_wide(cams, before) : step_abreast<false>(cams, before);
+    return step_those(valves_.work.moving, cams, before);
   }
 
   /// Valves at rest with their cams away are left alone from the next tick on: their lanes are others' then, so not
@@ -65,7 +66,8 @@ class ValveRound : If<ValvesAtHand<Real, S>::kMoversFirst, LeavingLanes<ValveBit
       return swing(v, start, regime, cell, gas, before);
     const Lift<Real> from = valves_.cam(v);
     const Lift<Real> to = valves_.curve(v).read(cell);
-    const Stepped<Real> step = stepped(regime, start, from, to, tick.cam.deg, gas);
+    Stepped<Real> step = stepped(regime, start, from, to, tick.cam.deg, gas);
+    if (valves_.wide) step = valves_.with_middle_of_tick(v, tick, step, to);
     ValveState<Real> end = step.state;
     Real compression_m = to.lift_m - end.lift_m;
     Real compression_speed_m_s = tick.cam.deg_per_s * to.per_deg_m - end.velocity_m_s;
@@ -92,7 +94,7 @@ class ValveRound : If<ValvesAtHand<Real, S>::kMoversFirst, LeavingLanes<ValveBit
     return true;
   }
 
-  /// Too far for the guards: the tick may pass over a lobe, or hold more of the lift than a cubic.
+  /// Too far for the guards: the tick may pass over a lobe, or hold more of the lift than its ends and its middle tell.
   [[nodiscard]] bool is_far(std::uint32_t v, const CamTick<Real>& tick) const noexcept {
     const Real deg = magnitude(tick.cam.deg);
     return deg >= valves_.curve(v).skip_deg ||
@@ -208,6 +210,7 @@ class ValveRound : If<ValvesAtHand<Real, S>::kMoversFirst, LeavingLanes<ValveBit
   }
 
   /// Plain steps in blocks of lanes; what fills no block one by one. Answers which have guards that fail.
+  template <bool Wide>
   [[nodiscard, gnu::always_inline]] Bits step_abreast([[maybe_unused]] const CamTicks<Real, S>& cams,
                                                       [[maybe_unused]] Before& before) noexcept {
     Bits doubtful = 0;
@@ -218,7 +221,7 @@ class ValveRound : If<ValvesAtHand<Real, S>::kMoversFirst, LeavingLanes<ValveBit
         const std::uint32_t v = trailing_zeros(left);
         far |= Bits{is_far(v, cams[valves_.train(v)])} << valves_.lane_of(v);
       }
-      LaneBlocks<S> blocks(valves_, cams, far, before);
+      LaneBlocks<S, Wide> blocks(valves_, cams, far, before);
       const std::uint32_t cylinders = count<S>(valves_.tables.drive->cylinders);
       const auto step_row = [&](std::uint32_t first, std::uint32_t lanes, std::uint32_t room)
           __attribute__((always_inline)) {
@@ -245,6 +248,10 @@ class ValveRound : If<ValvesAtHand<Real, S>::kMoversFirst, LeavingLanes<ValveBit
     }
 #endif
     return doubtful;
+  }
+
+  [[nodiscard, gnu::noinline]] Bits step_wide(const CamTicks<Real, S>& cams, Before& before) noexcept {
+    return step_abreast<true>(cams, before);
   }
 
   Valves& valves_;

@@ -100,25 +100,21 @@ template <class Real, class Gas>
   return s;
 }
 
-/// What the cam's lift in the middle of a wide fine step, over which the cubic through its ends does not do, adds to
-/// it.
+/// A wide fine step with what the cam's lift in its middle adds.
 template <class Real, class Gas>
-[[gnu::cold, gnu::noinline]] void add_middle(const ValveMotion<Real>& motion, const LiftCurve<Real>& curve,
-                                             std::uint32_t regime, const Span<Real, Gas>& step, std::uint64_t middle,
-                                             Stepped<Real>& end) noexcept {
-  CRANKLOOP_ASSERT(regime < kQuiet);
-  if ((regime & kTrainOn) == 0) return;
-  const MiddleStep<Real>& by = motion.middle[regime >> 1];
-  const Lift<Real> lift = curve.read(LiftCurve<Real>::cell(middle));
-  const Real from_slope = step.cam.deg * step.from.per_deg_m;
-  const Real to_slope = step.cam.deg * step.to.per_deg_m;
-  const Real rise = step.to.lift_m - step.from.lift_m;
-  const Real more_m = lift.lift_m - step.from.lift_m - (rise / 2 + (from_slope - to_slope) / 8);
-  const Real more_slope_m = step.cam.deg * lift.per_deg_m - (6 * rise - (from_slope + to_slope)) / 4;
-  const Real higher_m = by.lift_by_lift * more_m + by.lift_by_slope * more_slope_m;
-  end.state.lift_m += higher_m;
-  end.state.velocity_m_s += by.velocity_by_lift * more_m + by.velocity_by_slope * more_slope_m;
-  end.increment_m += higher_m;
+[[nodiscard, gnu::cold, gnu::noinline]] Stepped<Real> with_middle_of(const RegimeStep<Real>& regime,
+                                                                     const LiftCurve<Real>& curve,
+                                                                     const Span<Real, Gas>& step, std::uint64_t middle,
+                                                                     const Stepped<Real>& end) noexcept {
+  return with_middle(end, regime.middle, step.from, curve.read(LiftCurve<Real>::cell(middle)), step.to, step.cam.deg);
+}
+
+/// Whether a change of the train's contact may as well be taken at a step's end: it is nearer to its place there than a
+/// valve need be to be put at rest. Without lash a closed valve's train touches and leaves by less than that.
+template <class Real>
+[[nodiscard]] constexpr bool is_slight(const ValveMotion<Real>& motion, std::uint32_t changed,
+                                       const ValveState<Real>& end, const Lift<Real>& cam) noexcept {
+  return changed == kTrainOn && magnitude(cam.lift_m - end.lift_m) < motion.fine[kSeatOn].rest_m;
 }
 
 /// A contact that changes and changes back within a stretch: what tells of it turns round beyond zero.

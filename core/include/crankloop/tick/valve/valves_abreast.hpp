@@ -45,6 +45,8 @@ template <class Lanes, class Work>
   for (ContactGuard<Held>* guard : {&r.train, &r.seat})
     guard->sign = next(), guard->lag_s = next(), guard->least_m = next();
   r.rest_m = next(), r.rest_m_s = next();
+  MiddleStep<Held>& m = r.middle;
+  m.lift_by_lift = next(), m.lift_by_slope = next(), m.velocity_by_lift = next(), m.velocity_by_slope = next();
   return r;
 }
 
@@ -109,6 +111,21 @@ struct LanesTick {
     (void)first;
     return BitsOf<Lanes>{} + x[0];
   }
+};
+
+/// Gas forces of lanes over a tick, where they are not worked out in their blocks.
+template <class S>
+struct GasOfLanes {
+  float from_N[kLaneRoom<S>], to_N[kLaneRoom<S>];
+};
+/// A block's valves are then of one train, their cylinders side by side.
+template <class S>
+inline constexpr bool kGasInBlocks = Needs<S>::valve_gas_held&& S::cylinders.capacity % kLanesOf<WidestLanes> == 0;
+
+/// Where lanes' cams stand in the middle of a wide tick.
+template <class S>
+struct MiddleOfLanes {
+  LanesTick<S> middle;
 };
 
 /// The valves of a block of lanes.

@@ -36,7 +36,8 @@ struct ValvesAtHand {
   ValvesWork<Real, S>& work;
   Output<Real, S>& out;
   const Real* pressure_Pa;  ///< of each cylinder, where the scene has valve_gas; none at the start
-  bool far = false;         ///< the cams have turned so far in this tick that some valve's guards may not tell
+  bool wide = false;        ///< the cams have turned so far in this tick that the lift in its middle counts,
+  bool far = false;         ///< or that some valve's guards may not tell
   NoRecord<Real> no_record{};
 
   [[nodiscard]] static constexpr std::uint32_t train(std::uint32_t v) noexcept { return v / kPerTrain; }
@@ -118,6 +119,13 @@ struct ValvesAtHand {
     } else {
       work.valve[v].cam_lift_m = lift.lift_m, work.valve[v].cam_per_deg_m = lift.per_deg_m;
     }
+  }
+  /// A step of a wide tick with what the lift in its middle adds. By values: else the steps of all ticks would go
+  /// through memory.
+  [[nodiscard, gnu::noinline]] Stepped<Real> with_middle_of_tick(std::uint32_t v, const CamTick<Real>& tick,
+                                                                 Stepped<Real> step, Lift<Real> to) const noexcept {
+    const Lift<Real> middle = curve(v).read(cell(v, tick.phase_in_middle()));
+    return with_middle(step, regime_of(v).middle, cam(v), middle, to, tick.cam.deg);
   }
   [[nodiscard]] ValveState<Real> state_of(std::uint32_t v) const noexcept {
     return {state.valve_lift_m[v], state.valve_velocity_m_s[v]};

@@ -93,7 +93,7 @@ struct alignas(16) AbreastWork : If<S::valve_gas, GasLanes<S>>,
                                  If<!S::valve_gas, MoverLanes<S>> {
   static constexpr std::size_t kRoom = kLaneRoom<S>;
   static constexpr bool kBlocksAligned = !S::valve_gas || S::cylinders.exact || S::cylinders.capacity % 4 == 0;
-  alignas(16) float regime[32][kRoom] = {};     ///< numbers of each lane's RegimeStep, up to calm_m
+  alignas(16) float regime[36][kRoom] = {};     ///< numbers of each lane's RegimeStep, up to calm_m
   const LiftSegment<float>* curve[kRoom] = {};  ///< of its cam's lift, one for each degree of the lobe and one outside
   std::uint32_t degrees[kRoom] = {};            ///< of its lobe
   std::uint32_t opens_degree[kRoom] = {};       ///< of the train's cams: where its lobe begins,
@@ -123,7 +123,8 @@ using ValveBits = std::conditional_t<(S::trains.capacity * S::cylinders.capacity
 template <class Real, class S>
 struct ValvesWork : std::conditional_t<kMayGoAbreast<Real, S>, AbreastWork<S>, OneByOneWork<Real, S>> {
   Real skip_deg = 0;        ///< a tick that turns some cam so far may pass over all of its lobe that counts;
-  Real far_deg = 0;         ///< over more than the cubic through its ends tells
+  Real far_deg = 0;         ///< over more than the lift at its ends and in its middle tells;
+  Real wide_deg = 0;        ///< over more than the cubic through its ends tells
   ValveBits<S> moving = 0;  ///< those that are not at rest with their cams away
   CamWindow clear[kCamGroups<S>] = {};   ///< of these cams' turn: none of a valve at rest comes near there,
   CamWindow no_end[kCamGroups<S>] = {};  ///< and none of any valve ends its cycle

@@ -1,0 +1,67 @@
+// Whether the gas of a saved state is one: its numbers, each within its limits, must also fit one another and the
+// engine.
+//
+// What belongs here: what no limit of a single field can say. What does not: those limits
+// (tick/state/state_fields.hpp).
+//
+// Contents of another energy per kilogram, or of another pressure than their mass, temperature and volume have, would
+// lead a step to numbers without bound. The factors are wider than any rounding, so a user's own flags do not matter.
+#pragma once
+
+#include <cstdint>
+
+#include <crankloop/state.hpp>
+#include <crankloop/tables/tables.hpp>
+#include <crankloop/tick/checked.hpp>
+
+namespace crankloop::detail {
+
+/// Of a cylinder or a manifold. e / T is 666 to 1354 J/(kg K) from 100 to 6000 K, R T = p V / m; what a carried sum
+/// leaves out is less than its last digit.
+template <class Real>
+[[nodiscard]] inline bool gas_agrees(const GasContents<Real>& gas, const GasPoint<Real>& point,
+                                     Real volume_m3) noexcept {
+  const auto c = [](double x) { return static_cast<Real>(x); };
+  const Real heat_kg_K = gas.mass_kg * point.temperature_K;
+  const Real ideal_J = c(287.1) * heat_kg_K;
+  const Real rest = c(1e-3);
+  return within(gas.energy_J, c(600) * heat_kg_K, c(1500) * heat_kg_K) &&
+         within(point.pressure_Pa * volume_m3, c(0.9) * ideal_J, c(1.1) * ideal_J) &&
+         gas.burned_kg <= c(1.001) * gas.mass_kg && within(gas.mass_rest_kg, -rest * gas.mass_kg, rest * gas.mass_kg) &&
+         within(gas.burned_rest_kg, -rest * gas.mass_kg, rest * gas.mass_kg) &&
+         within(gas.energy_rest_J, -rest * gas.energy_J, rest * gas.energy_J);
+}
+
+/// What a cycle's end divides, and multiplies by numbers of the engine.
+template <class Real>
+[[nodiscard]] inline bool record_agrees(const GasRecord<Real>& r, const GasCylinders<Real>& table) noexcept {
+  constexpr Real kMax = static_cast<Real>(1e20);  // Pa, and of volumetric efficiency
+  return within(r.trapped_air_kg, -r.trapped_kg, r.trapped_kg) && within(r.work_J * table.per_swept_m3, -kMax, kMax) &&
+         within(r.pumping_J * table.per_swept_m3, -kMax, kMax) && within(r.air_kg * table.per_full_charge, -kMax, kMax);
+}
+
+/// Of all cylinders that the scene has room for, and the manifolds.
+template <class Real, class S>
+[[nodiscard]] bool gas_agrees(const State<Real, S>& state, const Tables<Real, S>& tables) noexcept {
+  const GasCylinders<Real>& table = *tables.gas_cylinders;
+  const Real swept_m3 = Real{1} / table.per_swept_m3;
+  for (std::uint32_t k = 0; k < S::cylinders.capacity; ++k) {
+    const CylinderGas<Real> gas = state.cylinder_gas.template at<Real>(k);
+    const Real least_m3 = static_cast<Real>(0.99) * table.clearance_m3;
+    if (!within(gas.volume_m3, least_m3, static_cast<Real>(1.01) * (table.clearance_m3 + swept_m3))) return false;
+    if (!gas_agrees(gas.contents, gas.point, gas.volume_m3)) return false;
+    if constexpr (S::gas_results) {
+      if (!record_agrees(state.gas_record[k], table)) return false;
+    }
+  }
+  if constexpr (Needs<S>::manifolds) {
+    for (int port = 0; port < kPorts; ++port) {
+      const ManifoldGas<Real>& manifold = state.manifold[port];
+      if (!gas_agrees(manifold.contents, manifold.point, Real{1} / tables.gas_manifolds->per_volume_m3[port]))
+        return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace crankloop::detail

@@ -1,0 +1,111 @@
+#include "files_in_use.hpp"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "error.hpp"
+#include "text_file.hpp"
+
+namespace crankloop::program {
+namespace {
+
+/// A regular file, whatever its names are.
+struct FileIdentity {
+  dev_t device;
+  ino_t number;
+
+  friend bool operator==(const FileIdentity& a, const FileIdentity& b) {
+    return a.device == b.device && a.number == b.number;
+  }
+};
+
+using MaybeFile = std::optional<FileIdentity>;
+
+MaybeFile identity_of(const struct stat& found) {
+  return S_ISREG(found.st_mode) ? MaybeFile{{found.st_dev, found.st_ino}} : std::nullopt;
+}
+MaybeFile file_at(const std::string& path) {
+  struct stat found {};
+  return ::stat(path.c_str(), &found) == 0 ? identity_of(found) : std::nullopt;
+}
+MaybeFile open_file(int descriptor) {
+  struct stat found {};
+  return ::fstat(descriptor, &found) == 0 ? identity_of(found) : std::nullopt;
+}
+
+/// One path of a file that does not exist yet, whatever folder it is named from.
+std::string place_of(const std::string& path) {
+  if (path == "-") return path;
+  std::error_code error;
+  const std::filesystem::path whole = std::filesystem::absolute(path, error);
+  const std::filesystem::path folder = std::filesystem::weakly_canonical(whole.parent_path(), error);
+  return (folder / whole.filename()).string();
+}
+
+struct Used {
+  std::string path;  ///< as the user knows it
+  std::string place;
+  MaybeFile file;
+};
+
+bool watching = false;
+std::vector<Used> files_read;
+std::vector<Used> outputs;
+
+/// The stream of this process that goes to a file, in words; null for none.
+const char* stream_into(const MaybeFile& file) {
+  if (file && file == open_file(STDOUT_FILENO)) return "standard output";
+  return file && file == open_file(STDERR_FILENO) ? "stderr" : nullptr;
+}
+
+void note_file_read(const std::string& path, int descriptor) {
+  const MaybeFile file = open_file(descriptor);
+  if (const char* stream = stream_into(file)) {
+    throw InputError(
+        path + ": this command reads it, and " + stream +
+        " goes there; if that was by >, the shell has emptied the file already; send the output elsewhere");
+  }
+  files_read.push_back({path, "", file});
+}
+
+}  // namespace
+
+void watch_files_in_use() {
+  watching = true;
+  observe_files_read(note_file_read);
+}
+
+void demand_unread(const std::string& path) {
+  const MaybeFile file = file_at(path);
+  if (!watching || !file) return;
+  for (const Used& input : files_read) {
+    if (input.file == file) {
+      const std::string other = input.path == path ? "" : "is the same file as " + input.path + "; ";
+      throw InputError(path + ": " + other + "this command reads it; write to another file");
+    }
+  }
+}
+
+void claim_output(const std::string& path) {
+  if (!watching) return;
+  Used output{path, place_of(path), path == "-" ? std::nullopt : file_at(path)};
+  if (path != "-") {
+    std::error_code error;                                             // a ring of links is no device either
+    if (!output.file && std::filesystem::exists(path, error)) return;  // a device or a pipe
+    demand_unread(path);
+    if (const char* stream = stream_into(output.file))
+      throw InputError(path + ": " + stream + " goes there too; write to another file");
+  }
+  for (const Used& other : outputs) {
+    if (other.place == output.place || (output.file && output.file == other.file))
+      throw InputError(path + ": named for two outputs, here and as " + other.path + "; each needs a file of its own");
+  }
+  outputs.push_back(std::move(output));
+}
+
+}  // namespace crankloop::program

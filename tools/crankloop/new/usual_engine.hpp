@@ -1,0 +1,85 @@
+// What is usual for an engine of a type and size: what `crankloop new` assumes where nothing is given.
+//
+// What belongs here: figures with their source. What does not: the engine file that is made of them (new.cpp).
+//
+// Twelve engines that were built stand beside these figures in tests/contract/real_engines_test.cpp.
+#pragma once
+
+#include <array>
+
+namespace crankloop::program {
+
+enum class EngineType { spark_ignition, diesel, tractor };
+
+struct EngineDesign {
+  EngineType type = EngineType::spark_ignition;
+  bool four_valves = true;    ///< of a cylinder; else two
+  double pressure_ratio = 1;  ///< intake by ambient at full load; 1: naturally aspirated
+};
+
+struct Combustion {
+  double compression_ratio;
+  double start_deg;
+  double duration_deg;
+  double wiebe_m;
+  double compression_exponent;
+  double expansion_exponent;
+  double exhaust_opens_deg;
+};
+
+/// m/s at rated speed. Heywood, Internal Combustion Engine Fundamentals (1988), section 2.2.
+[[nodiscard]] double usual_piston_speed_m_s(const EngineDesign& design) noexcept;
+
+[[nodiscard]] const Combustion& usual_combustion(const EngineDesign& design) noexcept;
+
+/// Net indicated mean effective pressure at full load and rated speed, from published power of production engines and
+/// the friction below. Spark-ignition engines that are built to turn faster breathe better: 900 kPa + 25 kPa s/m times
+/// their mean piston speed. Diesels have 900 kPa. Two valves: 0.87 and 0.93 of that. By the pressure ratio.
+[[nodiscard]] double usual_net_mep_kPa(const EngineDesign& design, double piston_speed_m_s) noexcept;
+
+/// Coefficients of friction as an engine file has them.
+struct Friction {
+  double constant_kPa;
+  double linear_kPa_per_1000rpm;
+  double quadratic_kPa_per_1000rpm2;
+
+  [[nodiscard]] double at_kPa(double krpm) const noexcept {
+    return constant_kPa + krpm * (linear_kPa_per_1000rpm + krpm * quadratic_kPa_per_1000rpm2);
+  }
+};
+
+/// Chen and Flynn, SAE 650733: by peak pressure and mean piston speed c_m, without pumping,
+///     40 kPa + 0.005 p_max + 9 kPa s/m c_m + 0.09 kPa s^2/m^2 c_m^2.
+/// Their own coefficients, of one diesel of 1965, are 14 kPa, 0.005, 16 kPa s/m and 0; these are usual in engine
+/// simulation since.
+[[nodiscard]] Friction usual_friction(double peak_pressure_kPa, double stroke_mm) noexcept;
+
+/// Of one cylinder, by the bore's cube. Pistons alone have 0.40 to 0.60 g/cm^3 in spark-ignition engines and 0.8 to 1.1
+/// in diesels (MAHLE, Pistons and Engine Testing, 2nd ed., main dimensions of light-alloy pistons); rings and pin add
+/// 0.3 to 0.5 of that.
+[[nodiscard]] double usual_piston_g(const EngineDesign& design, double bore_mm) noexcept;
+[[nodiscard]] double usual_rod_g(const EngineDesign& design, double bore_mm) noexcept;
+inline constexpr double kRodShareAtPin = 0.27;  ///< of its mass that moves with the piston
+
+/// Crankshaft with flywheel, by displacement: 0.05 kg m^2 in a litre with spark ignition (0.075 to 0.13 kg m^2 of 1.0
+/// to 2.7 L, US EPA's ALPHA engine maps), 0.12 in diesels (0.41 + 0.27 per litre above 5 L, European Commission's
+/// VECTO), times displacement to the power of 4/3.
+[[nodiscard]] double usual_inertia_kg_m2(const EngineDesign& design, double displacement_L) noexcept;
+
+/// A cam over a bucket, its ramps part of the lobe: where six conditions hold at the lobe's end, the lift grows there
+/// with the sixth power of the angle. 1 mm of 8.5 lasts 240 crank degrees.
+inline constexpr std::array<double, 6> kCamExponents{2, 6, 10, 14, 18, 22};
+inline constexpr double kCamHalfAngleDeg = 90;
+
+[[nodiscard]] double usual_lift_mm(const EngineDesign& design, double bore_mm) noexcept;
+/// With bucket; intake.
+[[nodiscard]] double usual_valve_g(const EngineDesign& design, double bore_mm) noexcept;
+
+/// y'' of the cam at full lift, by lift and half angle squared.
+[[nodiscard]] double cam_nose_factor() noexcept;
+
+/// Lift at which the cam ends with this speed; at most `most_mm`. The cam turns at cam_rad_s.
+[[nodiscard]] double clearance_for_speed_mm(double lift_mm, double cam_rad_s, double speed_m_s,
+                                            double most_mm) noexcept;
+
+}  // namespace crankloop::program
