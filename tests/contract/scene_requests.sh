@@ -17,7 +17,23 @@ struct AsksScene : crankloop::Scene {
   static constexpr auto valves = crankloop::ValveModel::following;
   static constexpr auto trains = crankloop::exactly<TRAINS>;
 };
+struct Elastic : crankloop::Scene {
+  static constexpr auto cylinders = crankloop::exactly<4>;
+  static constexpr auto valves = crankloop::ValveModel::elastic;
+  static constexpr auto trains = crankloop::exactly<2>;
+};
+struct Breathes : Elastic {
+  static constexpr auto valves = crankloop::ValveModel::following;
+  static constexpr auto pressure = crankloop::PressureGiven::by_gas;
+};
+struct Forces : crankloop::Scene {
+  static constexpr auto cylinders = crankloop::exactly<4>;
+  static constexpr bool forces = true;
+  static constexpr bool rod_inertia = false;
+};
 HPP
+engine_file=$engines/diesel_495.ini
+scene=AsksScene
 
 # project NAME OPTION...: configures and builds a project with a scene of that name; what was said goes to said.
 project() {
@@ -28,7 +44,7 @@ project() {
 cmake_minimum_required(VERSION 3.22)
 project(asks LANGUAGES $languages)
 find_package(crankloop 0.2 REQUIRED)
-crankloop_add_scene($name asks_scene.hpp "$engines/diesel_495.ini")
+crankloop_add_scene($name asks_scene.hpp "$engine_file" SCENE $scene)
 CMAKE
   { cmake -S "$work" -B "$work/build" "-DCMAKE_PREFIX_PATH=$prefix" "-DCMAKE_CXX_COMPILER=$compiler" "$@" &&
     cmake --build "$work/build"; } >"$work/said" 2>&1
@@ -37,7 +53,7 @@ refuses() {  # refuses WORDS NAME OPTION...
   words=$1
   shift
   if project "$@"; then
-    echo "builds: $*"
+    echo "builds: $* ($scene, $engine_file)"
     failures=$((failures + 1))
   elif ! tr '\n' ' ' <"$work/said" | tr -s ' ' | grep -qF "$words"; then
     echo "$* is not refused with: $words"
@@ -65,4 +81,21 @@ refuses "does not run here (1); crankloop 0" engine "$(has 4 2 2)" -DCRANKLOOP_P
 refuses "those of the engine file's [layout]" engine "$(has 3 2 2)"
 refuses "valve trains, each a [cam NAME], a [rocker NAME] " engine "$(has 4 3 2)"
 refuses "[trigger NAME] sections" engine "$(has 4 2 1)"
+
+# with_scene SCENE FILE: the next project's.
+with_scene() { scene=$1 engine_file=$2; }
+with_scene Elastic "$engines/diesel_495.ini"
+project engine "$(has 4 2 2)" || { cat "$work/said" && failures=1; }
+with_scene Elastic "$engines/four_2000.ini"
+refuses 'needs `valve_gas = true`' engine "$(has 4 2 2)"
+with_scene Breathes "$engines/four_2000.ini"
+project engine "$(has 4 2 2)" || { cat "$work/said" && failures=1; }
+with_scene Breathes "$engines/diesel_495.ini"
+refuses 'gas exchange needs `source = gas` in' engine "$(has 4 2 2)"
+with_scene Forces "$engines/diesel_495.ini"
+project engine "$(has 4 2 2)" || { cat "$work/said" && failures=1; }
+sed 's/^rod_small_end_g.*/rod_g = 1887/; s/^rod_big_end_g.*/rod_com_to_crank_mm = 56.2\
+rod_inertia_kg_mm2 = 15000/' "$engines/diesel_495.ini" >"$work/rod.ini"
+with_scene Forces "$work/rod.ini"
+refuses 'needs `rod_inertia = true`' engine "$(has 4 2 2)"
 exit $((failures > 0))

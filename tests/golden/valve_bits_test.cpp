@@ -50,8 +50,7 @@ class Fnv {
                          s.train.least_m, s.seat.sign, s.seat.lag_s, s.seat.least_m, s.rest_m, s.rest_m_s}) {
       add(x);
     }
-    const MiddleStep<Real>& m = s.middle;
-    for (const Real x : {m.lift_by_lift, m.lift_by_slope, m.velocity_by_lift, m.velocity_by_slope}) add(x);
+    for (const Real x : {s.middle.lift, s.middle.velocity}) add(x);
   }
   template <class Real>
   void add(const RegimeSeries<Real>& s) {

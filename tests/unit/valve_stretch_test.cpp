@@ -121,19 +121,17 @@ struct Lobe {
 TEST(Stretch, OfManyDegreesTakesWhatTheLiftInItsMiddleIsOffItsCubic) {
   const Lobe lobe;
   RegimeStep<double> regime{};
-  regime.middle = {2, 3, 5, 7};
+  regime.middle = {2, 5};
   Span<double, NoGasForce<double>> step{};
   step.cam.deg = 1.4;
   step.from = lobe.read(0.25), step.to = lobe.read(1.65);
   const Cubic<double> through(step.from.lift_m, 1.4 * step.from.per_deg_m, step.to.lift_m, 1.4 * step.to.per_deg_m);
   const double more_m = lobe.read(0.95).lift_m - through.at(0.5).value;
-  const double more_slope_m = 1.4 * lobe.read(0.95).per_deg_m - through.at(0.5).slope;
   ASSERT_GT(std::fabs(more_m), 1e-6);
-  ASSERT_GT(std::fabs(more_slope_m), 1e-6);
   const Stepped<double> end = with_middle_of(regime, lobe.curve, step, Lobe::phase(0.95), {{1, 10}, 100});
-  EXPECT_NEAR(end.state.lift_m, 1 + 2 * more_m + 3 * more_slope_m, 1e-12);
-  EXPECT_NEAR(end.state.velocity_m_s, 10 + 5 * more_m + 7 * more_slope_m, 1e-12);
-  EXPECT_NEAR(end.increment_m, 100 + 2 * more_m + 3 * more_slope_m, 1e-12);
+  EXPECT_NEAR(end.state.lift_m, 1 + 2 * more_m, 1e-12);
+  EXPECT_NEAR(end.state.velocity_m_s, 10 + 5 * more_m, 1e-12);
+  EXPECT_NEAR(end.increment_m, 100 + 2 * more_m, 1e-12);
 }
 
 }  // namespace

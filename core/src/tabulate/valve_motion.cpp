@@ -216,8 +216,8 @@ ValveState<double> exact_motion(const ValveBody<double>& body, std::uint32_t reg
     double slope = y[1];
     for (int k = 0; k + 2 <= kExactOrder; ++k) {
       double push_N = k < 2 ? force[k] : 0;
-      if (k < 6) push_N += l.train_N_m * lift.c[k];
-      if (k < 5) push_N += l.train_Ns_m / h * (k + 1) * lift.c[k + 1];
+      if (k < 5) push_N += l.train_N_m * lift.c[k];
+      if (k < 4) push_N += l.train_Ns_m / h * (k + 1) * lift.c[k + 1];
       const double pull_N = l.stiffness_N_m * y[k] + l.damping_Ns_m / h * (k + 1) * y[k + 1];
       y[k + 2] = (push_N - pull_N) * per_force / ((k + 1) * (k + 2));
       sum += y[k + 2];
@@ -278,10 +278,8 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
     if (train_is_on(contacts)) step.train = {1, motion.train_lag_s + third_s, kTrainMargin_m};
     if (seat_is_on(contacts)) step.seat = {-1, motion.seat_lag_s + third_s, -body.seat_compression_m};
     if (train_is_on(contacts)) {
-      const auto propagate = propagator(contacts, step_s);
-      const ValveState<double> by_lift = propagate({0, 0}, StepDrive{0, 0, 0, 0, 0, 0, 1, 0});
-      const ValveState<double> by_slope = propagate({0, 0}, StepDrive{0, 0, 0, 0, 0, 0, 0, 1});
-      step.middle = {by_lift.lift_m, by_slope.lift_m, by_lift.velocity_m_s, by_slope.velocity_m_s};
+      const ValveState<double> by_middle = propagator(contacts, step_s)({0, 0}, StepDrive{0, 0, 0, 0, 0, 0, 1});
+      step.middle = {by_middle.lift_m, by_middle.velocity_m_s};
     }
     return step;
   };

@@ -78,12 +78,12 @@ struct ContactGuard {
   Number sign, lag_s, least_m;
 };
 
-/// What a step that the train is on all through adds, for each m by which the cam's lift in its middle is above the
-/// cubic through its ends, and of slope there by the part of the step: where a step is wide, the lift is the quintic
-/// through both ends and the middle. 0 where the train is off.
+/// What a step with the train's contact closed throughout adds for each m by which the cam's lift in the middle of the
+/// step lies above the cubic through its ends: in a wide step the lift is the quartic through both ends and the middle.
+/// 0 where the contact is open.
 template <class Number>
 struct MiddleStep {
-  Number lift_by_lift, lift_by_slope, velocity_by_lift, velocity_by_slope;
+  Number lift, velocity;
 };
 
 /// A step in a contact regime.

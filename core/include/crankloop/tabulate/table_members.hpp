@@ -46,7 +46,7 @@ CRANKLOOP_MEMBERS_OF(ValveBody, mass, train, train_damping, seat, seat_damping, 
 CRANKLOOP_MEMBERS_OF(StepRow, rest, gas, gas_rise, gap, rise, from, to, lift, velocity)
 CRANKLOOP_MEMBERS_OF(ForceRow, rest, gas, lift, velocity, gap, gap_speed)
 CRANKLOOP_MEMBERS_OF(ContactGuard, sign, lag, least)
-CRANKLOOP_MEMBERS_OF(MiddleStep, lift_by_lift, lift_by_slope, velocity_by_lift, velocity_by_slope)
+CRANKLOOP_MEMBERS_OF(MiddleStep, lift, velocity)
 CRANKLOOP_MEMBERS_OF(RegimeStep, lift, velocity, acceleration, train, seat, rest, rest_speed, middle, calm)
 CRANKLOOP_MEMBERS_OF(RegimeSeries, rest, gas, stiffness, damping, lift, lift_speed)
 CRANKLOOP_MEMBERS_OF(ValveMotion, body, tick, fine, per_fine, per_parts, parts, per_parts_32, changes, cubic, widest,

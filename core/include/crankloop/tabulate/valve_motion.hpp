@@ -63,23 +63,22 @@ void find_calm(detail::ValveMotion<double>& motion, double lash_m) noexcept;
 [[nodiscard]] detail::ValveMotion<float> rounded(const detail::ValveMotion<double>& motion) noexcept;
 
 /// What drives a step: the cam's lift as the cubic with this level at the start, this rise and these slopes by the part
-/// of the step, and in its middle so much more of lift and of slope as tables/valve_tables.hpp, MiddleStep, has it; and
-/// a force that rises evenly.
+/// of the step, and in its middle so much more of lift as tables/valve_tables.hpp, MiddleStep, has it; and a force that
+/// rises evenly.
 struct StepDrive {
   double level_m = 0, rise_m = 0, from_m = 0, to_m = 0;
   double force_N = 0, force_rise_N = 0;
-  double middle_m = 0, middle_slope_m = 0;
+  double middle_m = 0;
 
   /// The lift's polynomial about the part x of the step.
   struct Piece {
-    double c[6];
+    double c[5];
   };
   [[nodiscard]] constexpr Piece about(double x) const noexcept {
-    Piece p{{level_m, from_m, 3 * rise_m - 2 * from_m - to_m + 16 * middle_m - 8 * middle_slope_m,
-             from_m + to_m - 2 * rise_m - 32 * middle_m + 32 * middle_slope_m, 16 * middle_m - 40 * middle_slope_m,
-             16 * middle_slope_m}};
-    for (int i = 0; i < 5; ++i) {
-      for (int j = 4; j >= i; --j) p.c[j] += x * p.c[j + 1];  // Horner's scheme, again and again
+    Piece p{{level_m, from_m, 3 * rise_m - 2 * from_m - to_m + 16 * middle_m,
+             from_m + to_m - 2 * rise_m - 32 * middle_m, 16 * middle_m}};
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 3; j >= i; --j) p.c[j] += x * p.c[j + 1];  // Horner's scheme, again and again
     }
     return p;
   }

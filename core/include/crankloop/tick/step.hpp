@@ -10,6 +10,7 @@
 
 #include <crankloop/assert.hpp>
 #include <crankloop/engine.hpp>
+#include <crankloop/tables/scene_fits.hpp>
 #include <crankloop/tick/checked.hpp>
 #include <crankloop/tick/crank/crank_inputs.hpp>
 #include <crankloop/tick/crank/mechanisms_step.hpp>
@@ -26,40 +27,9 @@ template <class Real, class S>
   output_ = Output{};
   if (build_contracts<Real>()) return refuse("build", Reason::contracting_build);
   if (!complete(tables)) return refuse("tables", Reason::missing_table);
-  const detail::Drive<Real>& drive = *tables.drive;
-  const std::uint32_t capacity = S::cylinders.capacity;
-  if (drive.cylinders < 1 || drive.cylinders > capacity || (S::cylinders.exact && drive.cylinders != capacity)) {
-    return refuse("tables.cylinders", Reason::out_of_range);
-  }
-  if constexpr (detail::Needs<S>::body && !S::rod_inertia) {
-    if (tables.body->rod_inertia_correction_kg_m2 != Real{0}) return refuse("scene.rod_inertia", Reason::inconsistent);
-  }
-  if constexpr (detail::Needs<S>::crank_dynamics) {
-    const bool enough = tables.crank_dynamics->least_kg_m2 >= static_cast<Real>(detail::kLeastInertia_kg_m2);
-    if (!enough) return refuse("masses.crank_inertia_kg_m2", Reason::not_positive);
-  }
-  if constexpr (detail::Needs<S>::any_valves) {
-    if (drive.trains > S::trains.capacity || (S::trains.exact && drive.trains != S::trains.capacity)) {
-      return refuse("tables.trains", Reason::out_of_range);
-    }
-  }
-  if constexpr (detail::Needs<S>::elastic_valves && !S::valve_gas) {
-    for (std::uint32_t t = 0; t < drive.trains; ++t) {
-      if (tables.valve_motions[t].body.head_area_m2 != Real{0})
-        return refuse("scene.valve_gas", Reason::inconsistent, static_cast<std::int32_t>(t));
-    }
-  }
-  if constexpr (detail::Needs<S>::any_triggers) {
-    const std::uint32_t wheels = tables.triggers->count;
-    if (wheels > S::triggers.capacity || (S::triggers.exact && wheels != S::triggers.capacity)) {
-      return refuse("tables.triggers", Reason::out_of_range);
-    }
-  }
-  if constexpr (detail::Needs<S>::gas) {
-    if (!(tables.gas_cylinders->clearance_m3 > 0)) return refuse("pressure.source", Reason::inconsistent);
-  }
+  if (const Status refused = detail::scene_fits(tables); !refused.ok()) return refused;
   tables_ = &tables;
-  state_.fingerprint = drive.fingerprint;
+  state_.fingerprint = tables.drive->fingerprint;
   state_.phase = start;
   if constexpr (detail::Needs<S>::input_pressure) {
     for (Real& pressure : state_.pressure_Pa) pressure = tables.body->crankcase_Pa;

@@ -138,7 +138,8 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide,
     Stepped<Lanes> step = stepped(regime, start, from, to, deg, gas);
     if constexpr (Wide) {
       LanesPlace<Lanes> there;
-      step = with_middle(step, regime.middle, from, read_lanes<Lanes>(work_, first, this->middle, there), to, deg);
+      const Lanes middle_m = read_lanes<Lanes>(work_, first, this->middle, there).lift_m;
+      step = with_middle(step, regime.middle, from, middle_m, to, deg);
     }
     const Contacting<Lanes> stepped_to{to.lift_m - step.state.lift_m,
                                        deg_per_s * to.per_deg_m - step.state.velocity_m_s};

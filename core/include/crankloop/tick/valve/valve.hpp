@@ -116,17 +116,12 @@ template <class Held, class Number, class Real, class Gas>
 /// adds to it.
 template <class Held, class Number, class Real>
 [[nodiscard]] constexpr Stepped<Number> with_middle(const Stepped<Number>& end, const MiddleStep<Held>& by,
-                                                    const Lift<Number>& from, const Lift<Number>& middle,
-                                                    const Lift<Number>& to, Real deg) noexcept {
-  const Number from_slope = deg * from.per_deg_m;
-  const Number to_slope = deg * to.per_deg_m;
-  const Number rise = to.lift_m - from.lift_m;
-  const Number more_m = middle.lift_m - from.lift_m - (rise / 2 + (from_slope - to_slope) / 8);
-  const Number more_slope_m = deg * middle.per_deg_m - (6 * rise - (from_slope + to_slope)) / 4;
-  const Number higher_m = by.lift_by_lift * more_m + by.lift_by_slope * more_slope_m;
-  return {{end.state.lift_m + higher_m,
-           end.state.velocity_m_s + (by.velocity_by_lift * more_m + by.velocity_by_slope * more_slope_m)},
-          end.increment_m + higher_m};
+                                                    const Lift<Number>& from, Number middle_m, const Lift<Number>& to,
+                                                    Real deg) noexcept {
+  const Number cubic_m = (to.lift_m - from.lift_m) / 2 + deg * (from.per_deg_m - to.per_deg_m) / 8;
+  const Number more_m = middle_m - from.lift_m - cubic_m;
+  const Number higher_m = by.lift * more_m;
+  return {{end.state.lift_m + higher_m, end.state.velocity_m_s + by.velocity * more_m}, end.increment_m + higher_m};
 }
 
 /// y'' by the forces of a regime; the gas force as at the end of its step.

@@ -106,7 +106,8 @@ template <class Real, class Gas>
                                                                      const LiftCurve<Real>& curve,
                                                                      const Span<Real, Gas>& step, std::uint64_t middle,
                                                                      const Stepped<Real>& end) noexcept {
-  return with_middle(end, regime.middle, step.from, curve.read(LiftCurve<Real>::cell(middle)), step.to, step.cam.deg);
+  return with_middle(end, regime.middle, step.from, curve.read(LiftCurve<Real>::cell(middle)).lift_m, step.to,
+                     step.cam.deg);
 }
 
 /// Whether a change of the train's contact may as well be taken at a step's end: it is nearer to its place there than a

@@ -45,8 +45,7 @@ template <class Lanes, class Work>
   for (ContactGuard<Held>* guard : {&r.train, &r.seat})
     guard->sign = next(), guard->lag_s = next(), guard->least_m = next();
   r.rest_m = next(), r.rest_m_s = next();
-  MiddleStep<Held>& m = r.middle;
-  m.lift_by_lift = next(), m.lift_by_slope = next(), m.velocity_by_lift = next(), m.velocity_by_slope = next();
+  r.middle.lift = next(), r.middle.velocity = next();
   return r;
 }
 

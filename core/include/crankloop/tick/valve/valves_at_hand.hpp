@@ -124,8 +124,8 @@ struct ValvesAtHand {
   /// through memory.
   [[nodiscard, gnu::noinline]] Stepped<Real> with_middle_of_tick(std::uint32_t v, const CamTick<Real>& tick,
                                                                  Stepped<Real> step, Lift<Real> to) const noexcept {
-    const Lift<Real> middle = curve(v).read(cell(v, tick.phase_in_middle()));
-    return with_middle(step, regime_of(v).middle, cam(v), middle, to, tick.cam.deg);
+    const Real middle_m = curve(v).read(cell(v, tick.phase_in_middle())).lift_m;
+    return with_middle(step, regime_of(v).middle, cam(v), middle_m, to, tick.cam.deg);
   }
   [[nodiscard]] ValveState<Real> state_of(std::uint32_t v) const noexcept {
     return {state.valve_lift_m[v], state.valve_velocity_m_s[v]};

@@ -93,7 +93,7 @@ struct alignas(16) AbreastWork : If<S::valve_gas, GasLanes<S>>,
                                  If<!S::valve_gas, MoverLanes<S>> {
   static constexpr std::size_t kRoom = kLaneRoom<S>;
   static constexpr bool kBlocksAligned = !S::valve_gas || S::cylinders.exact || S::cylinders.capacity % 4 == 0;
-  alignas(16) float regime[36][kRoom] = {};     ///< numbers of each lane's RegimeStep, up to calm_m
+  alignas(16) float regime[34][kRoom] = {};     ///< numbers of each lane's RegimeStep, up to calm_m
   const LiftSegment<float>* curve[kRoom] = {};  ///< of its cam's lift, one for each degree of the lobe and one outside
   std::uint32_t degrees[kRoom] = {};            ///< of its lobe
   std::uint32_t opens_degree[kRoom] = {};       ///< of the train's cams: where its lobe begins,

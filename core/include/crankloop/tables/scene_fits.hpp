@@ -1,0 +1,56 @@
+// Whether tables are those of an engine that a scene can step: asked by init() at run time, and of tables in flash by
+// the compiler (core/cmake/scene.cpp.in).
+#pragma once
+
+#include <cstdint>
+
+#include <crankloop/scene.hpp>
+#include <crankloop/status.hpp>
+#include <crankloop/tables/tables.hpp>
+
+namespace crankloop::detail {
+
+[[nodiscard]] constexpr bool fits(Count capacity, std::uint32_t given) noexcept {
+  return capacity.exact ? given == capacity.capacity : given <= capacity.capacity;
+}
+
+/// The first thing that the scene lacks for these complete tables, or the tables for the scene.
+template <class Real, class S>
+[[nodiscard]] constexpr Status scene_fits(const Tables<Real, S>& tables) noexcept {
+  using N = Needs<S>;
+  const Drive<Real>& drive = *tables.drive;
+  if (drive.cylinders < 1 || !fits(S::cylinders, drive.cylinders))
+    return refuse("tables.cylinders", Reason::out_of_range);
+  if constexpr (N::body && !S::rod_inertia) {
+    if (tables.body->rod_inertia_correction_kg_m2 != Real{0}) return refuse("scene.rod_inertia", Reason::inconsistent);
+  }
+  if constexpr (N::crank_dynamics) {
+    const bool enough = tables.crank_dynamics->least_kg_m2 >= static_cast<Real>(kLeastInertia_kg_m2);
+    if (!enough) return refuse("masses.crank_inertia_kg_m2", Reason::not_positive);
+  }
+  if constexpr (N::any_valves) {
+    if (!fits(S::trains, drive.trains)) return refuse("tables.trains", Reason::out_of_range);
+  }
+  if constexpr (N::elastic_valves && !S::valve_gas) {
+    for (std::uint32_t t = 0; t < drive.trains; ++t) {
+      if (tables.valve_motions[t].body.head_area_m2 != Real{0})
+        return refuse("scene.valve_gas", Reason::inconsistent, static_cast<std::int32_t>(t));
+    }
+  }
+  if constexpr (N::any_triggers) {
+    if (!fits(S::triggers, tables.triggers->count)) return refuse("tables.triggers", Reason::out_of_range);
+  }
+  if constexpr (N::gas) {
+    if (!(tables.gas_cylinders->clearance_m3 > 0)) return refuse("pressure.source", Reason::inconsistent);
+  }
+  return {};
+}
+
+/// For static_assert, whose message is no variable: whether a refusal is of this field.
+[[nodiscard]] constexpr bool is_of(const Status& refused, const char* field) noexcept {
+  const char* of = refused.field;
+  for (; *of != 0 && *of == *field; ++of) ++field;
+  return !refused.ok() && *of == *field;
+}
+
+}  // namespace crankloop::detail
