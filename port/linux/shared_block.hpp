@@ -23,9 +23,10 @@ struct LiveInputs {
   std::uint32_t starter = 0;        ///< not 0: engaged
   std::uint32_t cut_cylinders = 0;  ///< bit k: cylinder k, counted from 0, does not fire
   // of an engine that breathes
-  double throttle_ratio = 0;  ///< 0 = closed, 1 = wide open
-  double fuel_kg = 0;         ///< per cylinder and cycle
-  double burn_start_deg = 0;  ///< after firing top dead centre
+  double throttle_ratio = 0;    ///< 0 = closed, 1 = wide open
+  double fuel_kg = 0;           ///< per cylinder and cycle
+  double burn_start_deg = 0;    ///< after firing top dead centre
+  double excess_air_ratio = 0;  ///< lambda; above 0, the air in each cylinder says how much fuel, and not fuel_kg
 };
 
 /// Bits of LiveOutputs::flags.
@@ -72,7 +73,7 @@ struct alignas(64) LiveBlock {
 };
 
 inline constexpr std::uint32_t kLiveMagic = 0x4C4B5243;  ///< the bytes "CRKL" where the lowest comes first
-inline constexpr std::uint32_t kLiveVersion = 2;         ///< another layout has another number
+inline constexpr std::uint32_t kLiveVersion = 3;         ///< another layout has another number
 inline constexpr std::size_t kLiveBlockBytes = 256;
 
 static_assert(sizeof(double) == 8 && sizeof(LiveBlock) == kLiveBlockBytes);
@@ -86,8 +87,8 @@ static_assert(sizeof(SequenceLocked<LiveInputs>) == 8 + sizeof(LiveInputs),
 static_assert(offsetof(LiveInputs, external_torque_Nm) == 8 && offsetof(LiveInputs, starter) == 16 &&
               offsetof(LiveInputs, cut_cylinders) == 20);
 static_assert(offsetof(LiveInputs, throttle_ratio) == 24 && offsetof(LiveInputs, fuel_kg) == 32 &&
-              offsetof(LiveInputs, burn_start_deg) == 40);
-static_assert(sizeof(LiveInputs) == 48 && sizeof(LiveOutputs) == 120);
+              offsetof(LiveInputs, burn_start_deg) == 40 && offsetof(LiveInputs, excess_air_ratio) == 48);
+static_assert(sizeof(LiveInputs) == 56 && sizeof(LiveOutputs) == 120);
 static_assert(offsetof(LiveOutputs, time_s) == 8 && offsetof(LiveOutputs, speed_rad_s) == 16);
 static_assert(offsetof(LiveOutputs, acceleration_rad_s2) == 24 && offsetof(LiveOutputs, crank_deg) == 32);
 static_assert(offsetof(LiveOutputs, torque_Nm) == 40 && offsetof(LiveOutputs, mean_torque_Nm) == 48);

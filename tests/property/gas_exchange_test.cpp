@@ -66,6 +66,7 @@ TYPED_TEST(GasExchange, FollowsItsEquationsHoweverItTurns) {
   const Motion motions[] = {{"part-open throttle", 3000, 0.35, part_m2, 3e-3, 20e-6, 80, 1e-4},
                             {"backwards", -3000, 1, 1600e-6, 3e-3, 0, 80, 1e-4},
                             {"backwards, part-open throttle", -1500, 0.35, part_m2, 2e-3, 0, 80, 1e-4},
+                            {"rich, part-open throttle", 3000, 0.35, part_m2, 3e-3, 60e-6, 150, 1e-4},
                             {"small manifolds", 3000, 1, 1600e-6, 0.3e-3, 20e-6, 540, 6e-4}};
   for (const Motion& motion : motions) follow<TypeParam>(motion);
 }

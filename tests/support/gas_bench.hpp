@@ -9,8 +9,8 @@ namespace crankloop::support {
 
 template <class Real>
 struct GasBench {
-  detail::GasFuel<Real> fuel{};
-  detail::GasWalls<Real> walls{};  // adiabatic
+  double fuel_J_kg = 0, fuel_burned_kg_kg = 0;  ///< what a kilogram of fuel brings
+  detail::GasWalls<Real> walls{};               // adiabatic
   detail::CylinderGas<Real> gas{};
   detail::GasBeyond<Real> beyond[2]{};
   Real mass_kg[2]{};  ///< through each port in the last step
@@ -43,7 +43,8 @@ struct GasBench {
     const auto real = [](double x) { return static_cast<Real>(x); };
     const detail::GasDrive<Real> drive{real(step_s), real(1.4), detail::most_area_per_m3(real(step_s)), real(1e-12)};
     const Real to_m2[] = {real(intake_m2), real(exhaust_m2)};
-    const auto done = detail::step_gas<Real>(gas, real(volume_m3), real(fuel_kg), fuel, walls, drive, to_m2, beyond);
+    const detail::GasFuel<Real> fuel{real(fuel_kg), real(fuel_J_kg * fuel_kg), real(fuel_burned_kg_kg * fuel_kg)};
+    const auto done = detail::step_gas<Real>(gas, real(volume_m3), fuel, walls, drive, to_m2, beyond);
     for (int port = 0; port < 2; ++port) mass_kg[port] = done.through[port].mass_kg;
     return done;
   }

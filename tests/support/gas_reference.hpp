@@ -38,7 +38,7 @@ class GasReference {
     outlet_ = {back_Pa, g.ambient_K, 0};
     for (std::size_t k = 0; k < n_; ++k) y_[k] = gas_filled(g.ambient_Pa, g.ambient_K, 0, volume(own_deg(k)));
     for (int t = 0; t < 2; ++t) solve_cam(e_.trains[t].cam, cam_[static_cast<std::size_t>(t)]);
-    fuel_.assign(n_, 0.0);
+    fuel_.assign(n_, 0.0), burning_.assign(n_, 1.0);
   }
 
   /// Manifolds that nothing changes, as a scene with Manifold::given has them.
@@ -61,7 +61,12 @@ class GasReference {
     // Fuel of a cycle, by the air there at -90 deg; the same in all stages.
     for (std::size_t c = 0; c < n_; ++c) {
       const double from = own_deg(c), to = wrapped(from + w_ * h * 180 / kPi);
-      if (from < -90 && to >= -90) fuel_[c] = std::fmin(e_.gas.fuel_kg, (y_[c].m - y_[c].b) / e_.gas.air_fuel_ratio);
+      if (from < -90 && to >= -90) {
+        const double most_kg = (y_[c].m - y_[c].b) / e_.gas.air_fuel_ratio;
+        const double asked_kg = e_.gas.excess_air_ratio > 0 ? most_kg / e_.gas.excess_air_ratio : e_.gas.fuel_kg;
+        fuel_[c] = std::fmin(asked_kg, 4 * most_kg);
+        burning_[c] = std::fmin(1, most_kg / fuel_[c]);
+      }
       if (from > 0 && to < 0) fuel_[c] = 0;
     }
     const std::vector<GasVolume> from = y_;
@@ -177,8 +182,9 @@ class GasReference {
       const double fuel = fuel_[k] * burn * w_ * 180 / kPi;
       const double power = at.p * volume_slope(deg) * w_;
       dy[k].m += fuel;
-      dy[k].u += q * fuel - walls_.W(at, v) - power;
-      dy[k].b += (1 + g.air_fuel_ratio) * fuel;
+      const double r = burning_[k];  // of rich fuel; the rest becomes burned gas of 25 C
+      dy[k].u += (r * q + (1 - r) * gas_energy(298.15, 1)) * fuel - walls_.W(at, v) - power;
+      dy[k].b += (1 + r * g.air_fuel_ratio) * fuel;
       if (k == 0) work = power;
     }
     if (held_) dy[n_] = dy[n_ + 1] = {0, 0, 0};
@@ -192,8 +198,8 @@ class GasReference {
   bool held_ = false;
   double area_, swept_, clearance_, deg_ = 0, work_J_ = 0, air_kg_ = 0;
   std::vector<GasVolume> y_;
-  GasSeen outlet_{};  ///< what flows back
-  std::vector<double> fuel_;
+  GasSeen outlet_{};                    ///< what flows back
+  std::vector<double> fuel_, burning_;  ///< of a cycle: all of it, the share that its air burns
   std::array<std::array<double, 4>, 2> cam_{};
 };
 

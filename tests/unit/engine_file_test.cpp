@@ -101,6 +101,7 @@ TEST_F(EngineFileTest, AnEngineMayBreathe) {
   const EngineDefinition read_from = read_engine_file(kBreathing, {}).definition();
   EngineDefinition expected = support::four_2000();
   expected.gas.throttle_closed_m2 = 6e-6;  // so that it idles
+  expected.gas.excess_air_ratio = 1;
   EXPECT_EQ(read_from.pressure.source, PressureSource::gas);
   ExpectSame{}(1, "", read_from.gas, expected.gas);
   ExpectSame{}(1, "", read_from.crank, expected.crank);

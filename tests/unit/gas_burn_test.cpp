@@ -153,18 +153,25 @@ TYPED_TEST(GasBurn, FollowsTheLawsOfItsDefinition) {
 TYPED_TEST(GasBurn, BurnsNoMoreThanThereIsAirFor) {
   EngineDefinition definition = sealed_one();
   definition.gas.air_fuel_ratio = 15;
-  MeasuredRun<TypeParam> run(definition, 200);  // from the cycle's begin at 360 on, its results are shown
-  run.turn(600);
-  const double air_kg = run.mass_kg();  // all of it
-  give_fuel(run, 1e-3);
-  run.turn(1090);
-  const auto& out = run.engine.output();
-  EXPECT_NEAR(run.mass_kg() - air_kg, air_kg / 15, kRounding_kg);
-  EXPECT_NEAR(static_cast<double>(out.cylinder_gas[0].burned_ratio), 1, 1e-6);
-  EXPECT_NEAR(static_cast<double>(out.gas_cycle[0].excess_air_ratio), air_kg / 15 / 1e-3, 1e-6);
-  run.turn(1810);  // the next cycle has no air
-  EXPECT_NEAR(static_cast<double>(run.engine.output().gas_cycle[0].excess_air_ratio), 0, 1e-6);
-  EXPECT_NEAR(run.mass_kg() - air_kg, air_kg / 15, kRounding_kg);
+  for (const double rich : {1.0, 1.25, 2.0, 4.0, 20.0}) {
+    MeasuredRun<TypeParam> run(definition, 200);  // from the cycle's begin at 360 on, its results are shown
+    run.turn(600);
+    const double air_kg = run.mass_kg();  // all of it
+    const double asked_kg = rich * air_kg / 15, counts_kg = std::fmin(rich, 4) * air_kg / 15;
+    give_fuel(run, asked_kg);
+    run.turn(1090);
+    const auto& cycle = run.engine.output().gas_cycle[0];
+    EXPECT_NEAR(run.mass_kg() - air_kg, counts_kg, 2 * kRounding_kg);
+    EXPECT_NEAR(static_cast<double>(run.engine.output().cylinder_gas[0].burned_ratio), 1, 1e-6);
+    EXPECT_NEAR(static_cast<double>(cycle.excess_air_ratio), 1 / rich, 1e-6);
+    EXPECT_NEAR(static_cast<double>(cycle.fuel_kg), counts_kg, 1e-6 * counts_kg);
+    const double heat_J = air_kg / 15 * 0.97 * 43e6;
+    EXPECT_NEAR(static_cast<double>(cycle.heat_J), heat_J, 2e-6 * heat_J);
+    EXPECT_NEAR(static_cast<double>(cycle.energy_defect_J), 0, 1e-6 * heat_J);
+    run.turn(1810);  // the next cycle has no air
+    EXPECT_NEAR(static_cast<double>(run.engine.output().gas_cycle[0].excess_air_ratio), 0, 1e-6);
+    EXPECT_NEAR(run.mass_kg() - air_kg, counts_kg, 2 * kRounding_kg);
+  }
 }
 
 TYPED_TEST(GasBurn, BurnsNothingInACycleThatIsCutWhereItTakesItsFuel) {
@@ -210,7 +217,7 @@ void expect_answers(const EngineDefinition& definition, const Asked& asked) {
         << asked.fuel_kg << " kg from " << asked.start_deg << " over " << asked.duration_deg << " at " << deg;
   }
   const double fuel_kg = bad_fuel ? definition.gas.fuel_kg : asked.fuel_kg;
-  EXPECT_NEAR(run.mass_kg() - before_kg, std::fmin(fuel_kg, before_kg / 14.6), kRounding_kg);
+  EXPECT_NEAR(run.mass_kg() - before_kg, std::fmin(fuel_kg, 4 * before_kg / 14.6), 2 * kRounding_kg);
 }
 
 TYPED_TEST(GasBurn, KeepsTheRangesOfFuelAndBurn) {
@@ -244,6 +251,70 @@ TYPED_TEST(GasBurn, GoesOnAsTheLastGoodCycleWasAsked) {
   EXPECT_EQ(run.to(1355).faults, std::uint32_t{kFaultBurn});
   run.turn(1540);
   EXPECT_NEAR(run.mass_kg() - before_kg, 14e-6, kRounding_kg);
+}
+
+// ---- fuel by air ----------------------------------------------------------------------------------------------------
+
+/// Fuel that burned in the cycle after the next latch, of a cylinder that holds `air_kg` of it.
+TYPED_TEST(GasBurn, TakesItsFuelByTheAirThatIsThere) {
+  using Real = TypeParam;
+  for (const double lambda : {0.8, 1.0, 1.25, 3.0}) {
+    MeasuredRun<Real> run(sealed_one(), 200);
+    run.turn(620);
+    const double air_kg = run.mass_kg();
+    run.in.excess_air_ratio[0] = static_cast<Real>(lambda);  // and 30 mg, which do not count then
+    run.turn(640);
+    run.in.excess_air_ratio[0] = Real{50};  // comes too late
+    run.turn(1090);
+    const auto& cycle = run.engine.output().gas_cycle[0];
+    EXPECT_NEAR(static_cast<double>(cycle.excess_air_ratio), lambda, 1e-6 * lambda);
+    EXPECT_NEAR(run.mass_kg() - air_kg, air_kg / 14.6 / lambda, kRounding_kg) << lambda;
+    // Half of the air is left where it was twice what was asked for; the next cycle takes its fuel by that.
+    run.in.excess_air_ratio[0] = static_cast<Real>(lambda);
+    const double left_kg = air_kg * (1 - 1 / std::fmax(lambda, 1)), before_kg = run.mass_kg();
+    run.turn(1540);
+    EXPECT_NEAR(run.mass_kg() - before_kg, left_kg / 14.6 / lambda, 2 * kRounding_kg) << lambda;
+  }
+}
+
+TYPED_TEST(GasBurn, TakesItsFuelByTheAirThatItsDefinitionAsksFor) {
+  EngineDefinition definition = sealed_one();
+  definition.gas.excess_air_ratio = 1.5;  // and fuel_kg stays at its default, which is not read then
+  MeasuredRun<TypeParam> run(definition, 600);
+  const double air_kg = run.mass_kg();
+  run.in.excess_air_ratio[0] = TypeParam{-1};  // bad: as defined
+  run.turn(625);
+  EXPECT_EQ(run.to(635).faults, std::uint32_t{kFaultBurn});
+  run.turn(820);
+  EXPECT_NEAR(run.mass_kg() - air_kg, air_kg / 14.6 / 1.5, kRounding_kg);
+}
+
+TYPED_TEST(GasBurn, KeepsTheRangesOfFuelByAir) {
+  using Real = TypeParam;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  struct Case {
+    double fuel_kg, excess_air_ratio;
+    bool good;
+  };
+  for (const Case& asked : {Case{0, 100, true}, Case{0, 100.1, false}, Case{0, -0.1, false}, Case{0, nan, false},
+                            Case{30e-6, 2, true}, Case{1e-6, 0, true}, Case{0, 1e-30, true}, Case{0, 0, true}}) {
+    MeasuredRun<Real> run(sealed_one(), 600);
+    give_fuel(run, 0);
+    run.in.excess_air_ratio[0] = Real{4};
+    run.turn(820);  // a cycle whose lambda holds where the next one's is bad
+    const double before_kg = run.mass_kg();
+    run.turn(1340);
+    give_fuel(run, asked.fuel_kg);
+    run.in.excess_air_ratio[0] = static_cast<Real>(asked.excess_air_ratio);
+    EXPECT_EQ(run.to(1355).faults, asked.good ? 0u : std::uint32_t{kFaultBurn})
+        << asked.fuel_kg << " " << asked.excess_air_ratio;
+    run.turn(1540);
+    const double air_kg = before_kg / (1 + 1 / 14.6 / 4) * (1 - 1.0 / 4);  // what the first cycle left
+    const double lambda = asked.good ? asked.excess_air_ratio : 4;
+    const double wanted_kg = lambda > 0 ? air_kg / 14.6 / std::fmax(lambda, kLeastBurning_ratio) : asked.fuel_kg;
+    EXPECT_NEAR(run.mass_kg() - before_kg, wanted_kg, 2 * kRounding_kg)
+        << asked.fuel_kg << " " << asked.excess_air_ratio;
+  }
 }
 
 }  // namespace

@@ -98,6 +98,73 @@ TYPED_TEST(GasInputs, FillsCylindersFromTheIntakeThatIsGiven) {
   }
 }
 
+// ---- what is outside the manifolds ----------------------------------------------------------------------------------
+
+struct WithBoundaries : BreathingFour {
+  static constexpr bool boundaries = true;
+};
+
+/// One of the inputs that say what is outside.
+template <class Real>
+struct OfBoundary {
+  Real group::BoundaryInput<Real>::*input;
+  int port;
+  bool temperature;
+  double least, most, as_defined;
+};
+
+TYPED_TEST(GasInputs, TakesBoundariesWithinTheirRangesAndThoseOfTheDefinitionForZero) {
+  using Real = TypeParam;
+  using In = group::BoundaryInput<Real>;
+  EngineDefinition definition = four_2000();
+  definition.gas.ambient_Pa = 95e3, definition.gas.ambient_K = 280, definition.gas.back_Pa = 104e3;
+  const OfBoundary<Real> all[] = {{&In::ambient_Pa, kIntake, false, 1e3, 1e7, 95e3},
+                                  {&In::ambient_K, kIntake, true, 150, 3000, 280},
+                                  {&In::back_Pa, kExhaust, false, 1e3, 1e7, 104e3}};
+  for (const OfBoundary<Real>& one : all) {
+    Breathing<Real, WithBoundaries> run(definition, 50e-6);
+    const auto& given = run.engine.state().given_gas[one.port];
+    const auto taken = [&] { return one.temperature ? given.temperature_K : given.pressure_Pa; };
+    const Real least = static_cast<Real>(one.least), most = static_cast<Real>(one.most);
+    Real last = static_cast<Real>(one.as_defined);
+    EXPECT_EQ(taken(), last);
+    for (const Real x : {Real{0}, least, next_to(least, 0), most, next_to(most, 1e9), Real{-1}, Real{0}, Real{2000},
+                         std::numeric_limits<Real>::quiet_NaN(), std::numeric_limits<Real>::infinity()}) {
+      run.in.*one.input = x;
+      const bool good = x == 0 || (x >= least && x <= most);
+      if (good) last = x == 0 ? static_cast<Real>(one.as_defined) : x;
+      EXPECT_EQ(run.step().faults, good ? 0u : std::uint32_t{kFaultManifold}) << x;
+      EXPECT_EQ(taken(), last) << x;
+    }
+  }
+}
+
+/// The same engine, defined at the boundaries that the other is given.
+TYPED_TEST(GasInputs, BreathesFromItsBoundariesAsAnEngineThatIsDefinedThere) {
+  using Real = TypeParam;
+  EngineDefinition there = four_2000();
+  there.gas.ambient_Pa = 160e3, there.gas.ambient_K = 330, there.gas.back_Pa = 120e3;
+  Breathing<Real, BreathingFour> defined(there, 100e-6);
+  Breathing<Real, WithBoundaries> given(four_2000(), 100e-6);
+  given.in.ambient_Pa = Real{160e3}, given.in.ambient_K = Real{330}, given.in.back_Pa = Real{120e3};
+  defined.in.speed_rad_s = given.in.speed_rad_s = Real{300};
+  for (int tick = 0; tick < 6000; ++tick) (void)defined.step(), (void)given.step();  // 14 cycles
+  const auto& wanted = defined.engine.output();
+  const auto& out = given.engine.output();
+  EXPECT_EQ(out.faults, 0u);
+  for (int port = 0; port < kPorts; ++port) {
+    const double wanted_Pa = static_cast<double>(wanted.manifold[port].pressure_Pa);
+    EXPECT_NEAR(static_cast<double>(out.manifold[port].pressure_Pa), wanted_Pa, 1e-4 * wanted_Pa) << port;
+    EXPECT_GT(wanted_Pa, port == kIntake ? 140e3 : 120e3) << port;
+  }
+  const auto charge_kg = [](const auto& of) { return static_cast<double>(of.gas_cycle[2].trapped_air_kg); };
+  EXPECT_NEAR(charge_kg(out) / charge_kg(wanted), 1, 1e-4);
+  Breathing<Real, BreathingFour> sea_level(four_2000(), 100e-6);
+  sea_level.in.speed_rad_s = Real{300};
+  for (int tick = 0; tick < 6000; ++tick) (void)sea_level.step();
+  EXPECT_GT(charge_kg(out) / charge_kg(sea_level.engine.output()), 1.35);
+}
+
 // ---- the throttle ---------------------------------------------------------------------------------------------------
 
 /// A manifold filled anew.

@@ -169,7 +169,7 @@ TYPED_TEST(
 TYPED_TEST(GasStep, BurnsAtConstantVolume) {
   using Real = TypeParam;
   GasBench<Real> bench(20e5, 700, 0.05, 55e-6);
-  bench.fuel = {static_cast<Real>(42.3e6), static_cast<Real>(15.6)};
+  bench.fuel_J_kg = 42.3e6, bench.fuel_burned_kg_kg = 15.6;
   const double before_J = static_cast<double>(bench.gas.contents.energy_J),
                before_kg = static_cast<double>(bench.gas.contents.mass_kg);
   double burned_kg = static_cast<double>(bench.gas.contents.burned_kg);
@@ -177,8 +177,8 @@ TYPED_TEST(GasStep, BurnsAtConstantVolume) {
   const Real part = static_cast<Real>(30e-6 / kSteps / 2);
   for (int i = 0; i < kSteps; ++i) (void)bench.step(1e-4, 55e-6, 0, 0, static_cast<double>(part));
   const double fuel_kg = static_cast<double>(part) * kSteps;
-  const double m = before_kg + fuel_kg, u = before_J + fuel_kg * static_cast<double>(bench.fuel.energy_J_kg);
-  burned_kg += fuel_kg * static_cast<double>(bench.fuel.burned_kg_kg);
+  const double m = before_kg + fuel_kg, u = before_J + fuel_kg * bench.fuel_J_kg;
+  burned_kg += fuel_kg * bench.fuel_burned_kg_kg;
   const double rounding = static_cast<double>(std::numeric_limits<Real>::epsilon());
   EXPECT_NEAR(static_cast<double>(bench.gas.contents.energy_J), u, u * rounding);
   EXPECT_NEAR(static_cast<double>(bench.gas.contents.mass_kg), m, m * rounding);
@@ -295,7 +295,7 @@ TYPED_TEST(GasStep, StandsWhateverItsPortsDo) {
     const double step_s = wide(1e-6, 2e-3), step_deg = random.between(-34, 34);
     const double widest_m2 = wide(1e-3, 1e3) * 1e-3 * std::pow(scale, 2.0 / 3);
     GasBench<Real> bench(wide(1e3, 1e7), wide(200, 2500), random.between(0, 1), scale * volume_m3(0));
-    bench.fuel = {real(44e6), real(15.6)};
+    bench.fuel_J_kg = 44e6, bench.fuel_burned_kg_kg = 15.6;
     bench.walls = {real(130e-4), real(0.0116 * std::pow(scale, 2.0 / 3)), real(46.5 / std::cbrt(scale)), real(423),
                    real(0.027)};
     for (int port = 0; port < 2; ++port) bench.given(port, wide(1e3, 1e7), wide(200, 2500), random.between(0, 1));

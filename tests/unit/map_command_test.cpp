@@ -67,6 +67,60 @@ TEST_F(MapCommand, HasAtEachPointWhatARunOfThatPointHas) {
   }
 }
 
+/// A diesel is governed by its fuel: more of it, more torque and less air over.
+TEST_F(MapCommand, IsOverFuelWhereFuelIsAGrid) {
+  const std::string diesel = CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495_gas.ini", csv = path("fuel.csv");
+  const std::string summary =
+      map({diesel, "--rpm", "1500:1500:1", "--fuel-mg", "20:40:3", "--csv", csv, "--report", path("fuel.html")});
+  EXPECT_EQ(line(summary, "throttle").first, 1);
+  EXPECT_NE(summary.find("at 1500 rpm, fuel 40 mg"), std::string::npos) << summary;
+  EXPECT_NE(contents(path("fuel.html")).find("varied fuel"), std::string::npos);
+  const std::vector<std::string> lines = split_at(contents(csv), '\n');
+  ASSERT_EQ(lines.size(), 4u);
+  EXPECT_EQ(lines[0].rfind("speed_rpm,fuel_mg,torque_Nm,", 0), 0u) << lines[0];
+  double before_Nm = 0;
+  for (std::size_t row = 1; row < lines.size(); ++row) {
+    const std::vector<std::string> cells = split_at(lines[row], ',');
+    const std::string fuel_mg = std::to_string(10 + 10 * row);
+    EXPECT_EQ(std::stod(cells[1]), std::stod(fuel_mg));
+    const double torque_Nm = std::stod(cells[2]);
+    EXPECT_GT(torque_Nm, before_Nm);
+    before_Nm = torque_Nm;
+    const std::string point = run({diesel, "--rpm", "1500", "--fuel-mg", fuel_mg, "--cycles", "1"});
+    EXPECT_NEAR(torque_Nm, line(point, "mean_torque").first, 1e-5 * torque_Nm);
+  }
+}
+
+TEST_F(MapCommand, TakesItsFuelByTheAirAtEachPoint) {
+  const std::string csv = path("air.csv");
+  map({kFour, "--rpm", "2000:2000:1", "--throttle", "0.05:1:3", "--csv", csv});
+  const std::vector<std::string> lines = split_at(contents(csv), '\n');
+  const std::vector<std::string> names = split_at(lines[0], ',');
+  const auto column = [&](const std::string& row, const char* name) {
+    const auto at = std::find(names.begin(), names.end(), name) - names.begin();
+    return std::stod(split_at(row, ',').at(static_cast<std::size_t>(at)));
+  };
+  for (std::size_t row = 1; row < 4; ++row) {
+    EXPECT_NEAR(column(lines[row], "excess_air_ratio"), 1, 1e-5);
+    const double air_mg = column(lines[row], "trapped_air_mg");
+    EXPECT_NEAR(column(lines[row], "fuel_burned_mg") * 14.6 / air_mg, 1, 0.01) << air_mg;
+  }
+}
+
+TEST_F(MapCommand, IsOverThrottleOrFuelAndNotBoth) {
+  const auto refuses = [](std::vector<std::string> words, const std::string& why) {
+    words.insert(words.begin(), {kFour, "--rpm", "1000:2000:2"});
+    const std::string told = refusal(words);
+    EXPECT_NE(told.find(why), std::string::npos) << told;
+  };
+  refuses({}, "give FROM:TO:N as --throttle or as --fuel-mg");
+  refuses({"--throttle", "0.5", "--fuel-mg", "20"}, "give FROM:TO:N as --throttle or as --fuel-mg");
+  refuses({"--throttle", "0:1:3", "--fuel-mg", "10:20:2"}, "--throttle and --fuel-mg are both FROM:TO:N");
+  refuses({"--throttle", "0:1:3", "--fuel-mg", "10", "--lambda", "1"}, "give one of them");
+  refuses({"--throttle", "2", "--fuel-mg", "10:20:2"}, "--throttle: 2 is out of range");
+  refuses({"--throttle", "0:1:3", "--fuel-mg", "-1"}, "--fuel-mg: ");
+}
+
 TEST_F(MapCommand, IsTheSameHoweverItsPointsAreShared) {
   const std::vector<std::string> words{kFour, "--rpm", "2000:4000:3", "--throttle", "0.2:1:4", "--csv"};
   const auto once = [&](const char* name) {

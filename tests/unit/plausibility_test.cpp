@@ -122,8 +122,8 @@ constexpr WrongUnit kWrongUnits[] = {
     {"four_2000", "intake_volume_cm3", "3", "L"},
     {"four_2000", "throttle_mm2", "16", "cm2"},
     {"four_2000", "outlet_mm2", "12", "cm2"},
-    {"four_2000", "fuel_mg", "0.03", "g"},
-    {"four_2000", "fuel_mg", "100", "of all four cylinders"},
+    {"diesel_495_gas", "fuel_mg", "0.036", "g"},
+    {"four_2000", "excess_air_ratio", "14.6", "air-fuel ratio"},
     {"four_2000", "max_lift_mm", "0.95", "cm"},
     {"four_2000", "seat_diameter_mm", "3.3", "cm"},
     {"ohc_125", "valve_g", "0.033", "kg"},
@@ -183,7 +183,12 @@ TEST_F(Unusual, FullLiftOnTheOtherTurnIsTold) {
 
 /// 499.6 cm3 of air at 25 deg C and 100 kPa, 0.9 of it in the cylinder: 525 mg, by 14.6 for 36 mg of fuel.
 TEST_F(Unusual, AMixtureThatNoSparkLightsIsTold) {
-  const Engine four(bad_input::contents(CRANKLOOP_SOURCE_DIR "/tools/engines/four_2000.ini"));
+  const Engine by_air(bad_input::contents(CRANKLOOP_SOURCE_DIR "/tools/engines/four_2000.ini"));
+  EXPECT_TRUE(warnings(by_air.with("excess_air_ratio", "0.75")).empty());
+  expect_only(by_air.with("excess_air_ratio", "0.65"), "excess_air_ratio",
+              "excess_air_ratio = 0.65; usual with spark ignition: 0.7 to 2");
+  expect_only(by_air.with("excess_air_ratio", "2.1"), "excess_air_ratio", "usual with spark ignition: 0.7 to 2");
+  const Engine four = by_air.changed("excess_air_ratio", "fuel_mg = 30");
   EXPECT_TRUE(warnings(four.with("fuel_mg", "50")).empty());  // 0.72
   expect_only(four.with("fuel_mg", "53"), "fuel_mg", "fuel_mg = 53 gives a lambda of about 0.68");
   EXPECT_TRUE(warnings(four.with("fuel_mg", "18.5")).empty());

@@ -70,7 +70,7 @@ TEST_F(SharedBlockFile, HasItsNumbersWhereTheDocumentSays) {
   const SharedBlock block = create_at(path());
   EXPECT_EQ(bytes_of(path()).size(), 256u);
   EXPECT_EQ(at<std::uint32_t>(0), 0x4C4B5243u);
-  EXPECT_EQ(at<std::uint32_t>(4), 2u);
+  EXPECT_EQ(at<std::uint32_t>(4), 3u);
   EXPECT_EQ(at<std::uint32_t>(8), 256u);
   EXPECT_EQ(at<std::uint32_t>(12), 0u);
   EXPECT_EQ(at<double>(16), kTick_s);
@@ -87,6 +87,7 @@ TEST_F(SharedBlockFile, HasItsNumbersWhereTheDocumentSays) {
   in.throttle_ratio = 0.75;
   in.fuel_kg = 6;
   in.burn_start_deg = 7;
+  in.excess_air_ratio = 8;
   block->inputs.write(in);
   EXPECT_EQ(at<std::uint32_t>(64), 2u);
   EXPECT_EQ(at<double>(72), 0.25);
@@ -96,6 +97,7 @@ TEST_F(SharedBlockFile, HasItsNumbersWhereTheDocumentSays) {
   EXPECT_EQ(at<double>(96), 0.75);
   EXPECT_EQ(at<double>(104), 6);
   EXPECT_EQ(at<double>(112), 7);
+  EXPECT_EQ(at<double>(120), 8);
 
   LiveOutputs out;
   out.ticks = 1;
@@ -158,6 +160,7 @@ TEST(LiveBlock, IsTheTableOfTheDocument) {
       {"throttle_ratio", kInputs + offsetof(LiveInputs, throttle_ratio)},
       {"fuel_kg", kInputs + offsetof(LiveInputs, fuel_kg)},
       {"burn_start_deg", kInputs + offsetof(LiveInputs, burn_start_deg)},
+      {"excess_air_ratio", kInputs + offsetof(LiveInputs, excess_air_ratio)},
       {"ticks", kOutputs + offsetof(LiveOutputs, ticks)},
       {"time_s", kOutputs + offsetof(LiveOutputs, time_s)},
       {"speed_rad_s", kOutputs + offsetof(LiveOutputs, speed_rad_s)},
@@ -242,10 +245,12 @@ TEST_F(SharedBlockFile, IsRefusedWhereItIsOfAnotherVersion) {
     const SharedBlock live = create_at(path());
     bytes = bytes_of(path());
   }
-  bytes[4] = 3;
-  put(bytes);
-  EXPECT_EQ(refusal_of(create_at, path()), path() + ": exists and is no block of this version of crankloop");
-  EXPECT_EQ(refusal_of(SharedBlock::open, path()), path() + ": is no block of this version of crankloop");
+  for (const char version : {'\2', '\4'}) {
+    bytes[4] = version;
+    put(bytes);
+    EXPECT_EQ(refusal_of(create_at, path()), path() + ": exists and is no block of this version of crankloop");
+    EXPECT_EQ(refusal_of(SharedBlock::open, path()), path() + ": is no block of this version of crankloop");
+  }
 }
 
 TEST_F(SharedBlockFile, IsRefusedWhereAnotherProcessRunsOnIt) {

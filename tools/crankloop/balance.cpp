@@ -166,17 +166,24 @@ int run_balance(const Arguments& arguments) {
 }
 
 constexpr Option kOptions[] = {
-    kSpeed, kLoadRatio, kThrottle, kFuel, kBurnStart, text("--csv", "F", "file for the table; else standard output"),
+    kSpeed,
+    kLoadRatio,
+    kThrottle,
+    kFuel,
+    kLambda,
+    kBurnStart,
+    text("--csv", "F", "file for the table; else standard output"),
 };
 
 }  // namespace
 
-const Command kBalance{"balance",
-                       "torque harmonics, free forces and moments, bearing loads of the whole engine",
-                       "FILE [--rpm N] [--load-ratio Q] [--throttle R] [--fuel-mg M] [--burn-start-deg A] [--csv F]",
-                       "crankloop balance diesel_495.ini --rpm 2000",
-                       1,
-                       kOptions,
-                       run_balance};
+const Command kBalance{
+    "balance",
+    "torque harmonics, free forces and moments, bearing loads of the whole engine",
+    "FILE [--rpm N] [--load-ratio Q] [--throttle R] [--lambda L | --fuel-mg M] [--burn-start-deg A] [--csv F]",
+    "crankloop balance diesel_495.ini --rpm 2000",
+    1,
+    kOptions,
+    run_balance};
 
 }  // namespace crankloop::program

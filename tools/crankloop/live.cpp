@@ -40,6 +40,7 @@ LiveRequest request_of(const Arguments& arguments, const EngineFile& file) {
   request.at_start.load_ratio = arguments.number("--load-ratio");
   request.at_start.throttle_ratio = gas.throttle_ratio;
   request.at_start.fuel_kg = gas.fuel_kg;
+  request.at_start.excess_air_ratio = gas.excess_air_ratio;
   request.at_start.burn_start_deg = gas.burn_start_deg;
   request.burn_duration_deg = gas.burn_duration_deg;
   request.at_start.external_torque_Nm = arguments.number("--external-torque-Nm");
@@ -99,6 +100,7 @@ constexpr Option kOptions[] = {
            "0 = motored, 1 = the pressure diagram as it is; until a controller says", "0"),
     kThrottle,
     kFuel,
+    kLambda,
     kBurnStart,
     number("--external-torque-Nm", "L", from(-1e8).up_to(1e8), "load on the crankshaft in Nm; until a controller says",
            "0"),

@@ -1,4 +1,5 @@
-// `crankloop map FILE`: torque, air charge and mean pressures of an engine that breathes over speed and throttle.
+// `crankloop map FILE`: torque, air charge and mean pressures of an engine that breathes over speed, and over throttle
+// or fuel.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -22,12 +23,18 @@ namespace {
 
 constexpr double kMaxPoints = 10000;
 
+constexpr const char* kSpeeds = "--rpm";
+
 /// "800:6000:14"
 Grid grid(const Arguments& arguments, const char* option, Range range) {
   const auto parts = split(arguments.text(option), ':');
-  if (parts.size() != 3)
-    throw UsageError(std::string(option) + ": give FROM:TO:N, like " +
-                     (option == std::string("--rpm") ? "800:6000:14" : "0:1:11"));
+  if (parts.size() != 3) {
+    const std::string name = option;
+    throw UsageError(name + ": give FROM:TO:N, like " +
+                     (name == kSpeeds          ? "800:6000:14"
+                      : name == kThrottle.name ? "0:1:11"
+                                               : "10:60:6"));
+  }
   double numbers[3] = {};
   for (std::size_t i = 0; i < 3; ++i) {
     const ParsedNumber number = parse_number(parts[i], i < 2 ? range : from(1).up_to(1000), "");
@@ -42,13 +49,38 @@ Grid grid(const Arguments& arguments, const char* option, Range range) {
   return {numbers[0], numbers[1], static_cast<int>(numbers[2])};
 }
 
+double one_number(const Arguments& arguments, const Option& option) {
+  const ParsedNumber number = parse_number(arguments.text(option.name), option.range, "");
+  if (!number.ok()) throw UsageError(std::string(option.name) + ": " + number.problem);
+  return number.value;
+}
+
+bool is_grid(const Arguments& arguments, const Option& option) {
+  return arguments.text_or_empty(option.name).find(':') != std::string::npos;
+}
+
+/// Sets what the map varies beside the speed, and what holds everywhere.
+void set_loads(MapRequest& request, const Arguments& arguments, const EngineFile& file) {
+  const bool over_throttle = is_grid(arguments, kThrottle), over_fuel = is_grid(arguments, kFuel);
+  if (over_throttle == over_fuel)
+    throw UsageError(over_fuel ? "--throttle and --fuel-mg are both FROM:TO:N: a map is over one of them"
+                               : "give FROM:TO:N as --throttle or as --fuel-mg: a map is over one of them");
+  const Option& varied = over_fuel ? kFuel : kThrottle;
+  request.axis = over_fuel ? &kFuelAxis : &kThrottleAxis;
+  request.load = grid(arguments, varied.name, varied.range);
+  request.gas = lambda_and_spark(arguments, file);
+  if (over_fuel) request.gas.excess_air_ratio = 0;
+  if (!over_fuel && arguments.has(kFuel.name)) set_fuel_mg(request.gas, one_number(arguments, kFuel));
+  if (!over_throttle && arguments.has(kThrottle.name)) request.gas.throttle_ratio = one_number(arguments, kThrottle);
+}
+
 void write_csv(Output& out, const EngineMap& map) {
-  std::vector<std::string> header{"speed_rpm", "throttle"};
+  std::vector<std::string> header{"speed_rpm", map.request.axis->column};
   for (const MapColumn& column : kMapColumnList) header.emplace_back(column.name);
   CsvWriter csv(out, header);
   for (const MapPoint& point : map.points) {
     csv.cell(point.speed_rpm);
-    csv.cell(point.throttle_ratio);
+    csv.cell(point.load);
     for (const MapColumn& column : kMapColumnList) csv.cell(static_cast<float>(column.value(point)));
     csv.end_row();
   }
@@ -56,15 +88,19 @@ void write_csv(Output& out, const EngineMap& map) {
 
 std::string summary(const EngineMap& map) {
   Summary s;
-  s.remark(map.file.name() + " over speed and throttle, fixed-step loop in float");
+  s.remark(map.file.name() + " over speed and " + map.request.axis->word + ", fixed-step loop in float");
   s.remark(pressure_in_short(map.file));
   s.line("points", static_cast<double>(map.points.size()));
-  s.line("fuel", map.request.gas.fuel_kg * 1e6, "mg", "per cylinder and cycle");
+  if (map.request.axis == &kFuelAxis) {
+    s.line("throttle", map.request.gas.throttle_ratio);
+  } else {
+    add_fuel(s, map.request.gas);
+  }
   s.line("burn_start", map.request.gas.burn_start_deg, "deg");
   const auto add = [&](const char* name, double (*value)(const MapPoint&), const char* unit) {
     const MapPoint& most = *std::max_element(map.points.begin(), map.points.end(),
                                              [&](const MapPoint& a, const MapPoint& b) { return value(a) < value(b); });
-    s.line(name, value(most), unit, "at " + brief(most.speed_rpm) + " rpm, throttle " + brief(most.throttle_ratio));
+    s.line(name, value(most), unit, map.place_of(most));
   };
   add(
       "largest_brake_torque", [](const MapPoint& p) { return p.brake_torque_Nm; }, "Nm");
@@ -82,26 +118,29 @@ std::string summary(const EngineMap& map) {
 }
 
 int run_map_command(const Arguments& arguments) {
-  const Grid speed_rpm = grid(arguments, "--rpm", above(0).up_to(100000));
-  const Grid throttle_ratio = grid(arguments, "--throttle", from(0).up_to(1));
-  const double count = static_cast<double>(speed_rpm.count) * throttle_ratio.count;
+  MapRequest request;
+  request.speed_rpm = grid(arguments, kSpeeds, above(0).up_to(100000));
+  const EngineFile file = read_engine(arguments, {"engine", "crank", "masses"});
+  set_loads(request, arguments, file);
+  const double count = static_cast<double>(request.speed_rpm.count) * request.load.count;
   if (count > kMaxPoints)
     throw UsageError("a map of " + brief(count) + " points; at most " + brief(kMaxPoints) + " are allowed");
-  const EngineFile file = read_engine(arguments, {"engine", "crank", "masses"});
   if (!breathes(file.definition())) {
     throw InputError(
         file.path() +
-        " has no [pressure] source = gas: without it nothing depends on the throttle; take `crankloop run`");
+        " has no [pressure] source = gas: without it nothing depends on throttle or fuel; take `crankloop run`");
   }
-  const double tick_s = millionths(arguments.number("--tick-us"));
-  require_trains(file, tick_s);
-  require_manifolds(file, tick_s);
-  (void)tell_warnings(arguments, warnings_about_gas(file, std::max(speed_rpm.from, speed_rpm.to), tick_s));
-  EngineMap map{file, {speed_rpm, throttle_ratio, fuel_and_spark(arguments, file), tick_s}, ""};
-  map.command_line = "crankloop map " + shell_word(arguments.file()) + " --rpm " + arguments.text("--rpm") +
-                     " --throttle " + arguments.text("--throttle") + " --fuel-mg " +
-                     brief(map.request.gas.fuel_kg * 1e6) + " --burn-start-deg " +
-                     shortest(map.request.gas.burn_start_deg) + " --tick-us " + shortest(arguments.number("--tick-us"));
+  request.tick_s = millionths(arguments.number("--tick-us"));
+  require_trains(file, request.tick_s);
+  require_manifolds(file, request.tick_s);
+  (void)tell_warnings(arguments, warnings_about_gas(file, request.speed_rpm.to, request.tick_s));
+  const bool over_fuel = request.axis == &kFuelAxis;
+  EngineMap map{file, request, ""};
+  map.command_line =
+      "crankloop map " + shell_word(arguments.file()) + " --rpm " + arguments.text(kSpeeds) + " --throttle " +
+      (over_fuel ? shortest(request.gas.throttle_ratio) : arguments.text("--throttle")) + " " +
+      (over_fuel ? "--fuel-mg " + arguments.text("--fuel-mg") : fuel_option(request.gas)) + " --burn-start-deg " +
+      shortest(request.gas.burn_start_deg) + " --tick-us " + shortest(arguments.number("--tick-us"));
   Results results(arguments, {"--csv", "--report"});
   {
     Progress progress("mapping", count, Progress::kLogPeriod_ns);
@@ -115,8 +154,11 @@ int run_map_command(const Arguments& arguments) {
 
 constexpr Option kOptions[] = {
     required(text("--rpm", "FROM:TO:N", "engine speeds in rpm, N of them evenly spaced")),
-    required(text("--throttle", "FROM:TO:N", "throttle ratios, likewise: 0 closed, 1 wide open")),
-    kFuel,
+    text(kThrottle.name, "R|FROM:TO:N",
+         "throttle ratios, N of them evenly spaced: 0 closed, 1 wide open; or one, 1 by default"),
+    text(kFuel.name, "M|FROM:TO:N",
+         "fuel per cylinder and cycle in mg, N values evenly spaced; or one, the file's by default"),
+    kLambda,
     kBurnStart,
     kTick,
     text("--csv", "F", "file for a row per point; - is standard output, the summary then goes to stderr"),
@@ -126,9 +168,10 @@ constexpr Option kOptions[] = {
 }  // namespace
 
 const Command kMap{"map",
-                   "torque, air charge and mean pressures of an engine that breathes, over speed and throttle",
-                   "FILE --rpm FROM:TO:N --throttle FROM:TO:N [--fuel-mg M] [--burn-start-deg A] [--tick-us T] "
-                   "[--csv F] [--report F.html]",
+                   "torque, air charge and mean pressures of an engine that breathes, over speed and throttle or fuel",
+                   "FILE --rpm FROM:TO:N --throttle FROM:TO:N [--lambda L | --fuel-mg M] [--burn-start-deg A] "
+                   "[--tick-us T] [--csv F] [--report F.html]\n"
+                   "       FILE --rpm FROM:TO:N --fuel-mg FROM:TO:N [--throttle R] [...]",
                    "crankloop map four_2000.ini --rpm 1000:6000:6 --throttle 0:1:6 --csv map.csv --report map.html",
                    1,
                    kOptions,

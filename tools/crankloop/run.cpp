@@ -306,6 +306,7 @@ constexpr Option kOptions[] = {
     kLoadRatio,
     kThrottle,
     kFuel,
+    kLambda,
     kBurnStart,
     text("--csv", "F", "file for a row per tick; - is standard output, the summary then goes to stderr"),
     text("--report", "F.html", "file for the report, which any browser shows"),
@@ -326,7 +327,7 @@ const Command kRun{
     "run",
     "the fixed-step loop: torque, power, peak forces, time per tick; or an engine that runs free; CSV and report",
     "FILE [--rpm N] [--cycles N] [--tick-us T] [--real R] [--load-ratio Q] [--csv F] [--report F.html] [--vcd F]\n"
-    "       [--throttle R] [--fuel-mg M] [--burn-start-deg A]\n"
+    "       [--throttle R] [--lambda L | --fuel-mg M] [--burn-start-deg A]\n"
     "       crankloop run FILE --free [--from-rpm N] [--seconds S] [--machine-Nm L] [--starter] [--cut K,..] [...]",
     "crankloop run diesel_495.ini --rpm 2000 --csv run.csv --report report.html",
     1,

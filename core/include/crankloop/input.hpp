@@ -15,6 +15,9 @@ inline constexpr double kLeastManifold_Pa = 1e3, kMaxManifold_Pa = 1e7;
 inline constexpr double kLeastManifold_K = 150, kMaxManifold_K = 3000;
 inline constexpr double kMaxFuel_kg = 0.01;     ///< of a cylinder's cycle
 inline constexpr double kLeastFuel_kg = 1e-12;  ///< less is none
+inline constexpr double kMaxExcessAir_ratio = 100;
+/// No engine runs on more than four times the fuel that its air burns: the rest of such a cycle's fuel does not count.
+inline constexpr double kLeastBurning_ratio = 0.25;
 
 // The groups of inputs, each a base of Input where the scene asks for it.
 namespace group {
@@ -58,10 +61,20 @@ template <class Real>
 struct ThrottleInput {
   Real throttle_ratio = 1;  ///< 0 = closed, 1 = wide open
 };
+/// What is outside the manifolds, absolute; each 1e3 to 1e7 Pa, 150 to 3000 K, or 0: as defined, whatever the others
+/// are.
+template <class Real>
+struct BoundaryInput {
+  Real ambient_Pa = 0;  ///< before the throttle
+  Real ambient_K = 0;   ///< before the throttle
+  Real back_Pa = 0;     ///< behind the outlet
+};
 /// Of each cylinder, read where its cycle takes its fuel (Gas::latch_deg). A burn has to end by 150 deg.
 template <class Real, class S>
 struct CombustionInput {
-  Real fuel_kg[S::cylinders.capacity] = {};            ///< per cycle; 0 to 0.01, less than 1e-12 is none
+  Real fuel_kg[S::cylinders.capacity] = {};  ///< per cycle; 0 to 0.01, less than 1e-12 is none
+  /// Lambda. Above 0 the cycle gets as much fuel as the air in its cylinder asks for, instead of fuel_kg; 0 to 100.
+  Real excess_air_ratio[S::cylinders.capacity] = {};
   Real burn_start_deg[S::cylinders.capacity] = {};     ///< after firing top dead centre, -90 to 60
   Real burn_duration_deg[S::cylinders.capacity] = {};  ///< of the first law; 5 to 150
 
@@ -93,6 +106,7 @@ struct Input : group::CrankInput<Real, S>,
                detail::If<detail::Needs<S>::cut || detail::Needs<S>::gas_cut, group::CylinderCutInput>,
                detail::If<detail::Needs<S>::gas && !detail::Needs<S>::manifolds, group::GivenManifoldInput<Real>>,
                detail::If<detail::Needs<S>::manifolds, group::ThrottleInput<Real>>,
+               detail::If<S::boundaries, group::BoundaryInput<Real>>,
                detail::If<detail::Needs<S>::burn_input, group::CombustionInput<Real, S>> {};
 
 }  // namespace crankloop

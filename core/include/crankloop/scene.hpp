@@ -45,7 +45,7 @@ enum class Manifold : std::uint8_t {
 enum class Combustion : std::uint8_t {
   none,      ///< motored
   by_table,  ///< fuel and burn of the definition
-  by_input,  ///< Input::fuel_kg, burn_start_deg, burn_duration_deg, taken once in a cycle
+  by_input,  ///< Input::fuel_kg or excess_air_ratio, burn_start_deg, burn_duration_deg, taken once in a cycle
 };
 
 enum class ValveModel : std::uint8_t {
@@ -67,6 +67,8 @@ struct Scene {
   static constexpr PressureGiven pressure = PressureGiven::none;
   static constexpr Manifold manifold = Manifold::given;  ///< of PressureGiven::by_gas, as are the next two
   static constexpr Combustion combustion = Combustion::none;
+  static constexpr bool boundaries =
+      false;  ///< Input::ambient_Pa, ambient_K, back_Pa: boost, altitude, a silencer; needs Manifold::throttle
   static constexpr bool gas_results = false;  ///< per-cycle results: mean pressures, charge, heat
   static constexpr bool load_ratio = false;   ///< Input::load_ratio scales the heat of a pressure table; else full load
   static constexpr bool rod_inertia =
@@ -104,6 +106,7 @@ struct Needs {
   static constexpr bool table_pressure = S::pressure == PressureGiven::by_table;
   static constexpr bool gas = S::pressure == PressureGiven::by_gas;
   static constexpr bool manifolds = gas && S::manifold == Manifold::throttle;
+  static constexpr bool given_gas = gas && (!manifolds || S::boundaries);  ///< by inputs, each tick
   static constexpr bool burn = gas && S::combustion != Combustion::none;
   static constexpr bool burn_input = gas && S::combustion == Combustion::by_input;
   static constexpr bool gas_cut = burn && S::cylinder_cut;
@@ -156,6 +159,7 @@ struct CheckedScene {
   static_assert(S::pressure == PressureGiven::by_gas ||
                     (S::manifold == Manifold::given && S::combustion == Combustion::none && !S::gas_results),
                 "manifold, combustion and gas_results are of gas: set pressure = by_gas");
+  static_assert(!S::boundaries || Needs<S>::manifolds, "boundaries are outside the manifolds: set manifold = throttle");
   static_assert(!S::starter || S::crank == CrankGiven::torque,
                 "a starter needs a crank that is turned by forces: set crank = torque");
   static_assert(S::valves == ValveModel::none || (S::trains.capacity >= 1 && S::trains.capacity <= kMaxTrains),

@@ -74,6 +74,7 @@ struct FreeRunning : Scene {
 struct Breathing : Whole {
   static constexpr PressureGiven pressure = PressureGiven::by_gas;
   static constexpr Manifold manifold = Manifold::throttle;
+  static constexpr bool boundaries = true;
   static constexpr Combustion combustion = Combustion::by_input;
   static constexpr bool gas_results = true;
   static constexpr bool load_ratio = false;
@@ -83,6 +84,7 @@ struct Breathing : Whole {
 struct BreathingFree : FreeRunning {
   static constexpr PressureGiven pressure = PressureGiven::by_gas;
   static constexpr Manifold manifold = Manifold::throttle;
+  static constexpr bool boundaries = true;
   static constexpr Combustion combustion = Combustion::by_input;
   static constexpr bool gas_results = true;
   static constexpr bool load_ratio = false;

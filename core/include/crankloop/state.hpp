@@ -94,8 +94,8 @@ struct ManifoldState {
   Real spare_of_manifolds;
 };
 template <class Real>
-struct GivenManifoldState {
-  detail::GivenGas<Real> given_gas[kPorts];
+struct GivenGasState {
+  detail::GivenGas<Real> given_gas[kPorts];  ///< beyond the ports, or beyond throttle and outlet: last good
 };
 template <class Real, class S>
 struct BurnState {
@@ -124,7 +124,7 @@ struct State : group::StateCore<Real>,
                detail::If<S::valve_results, group::ValveRecords<Real, S>>,
                detail::If<detail::Needs<S>::gas, group::CylinderGasState<Real, S>>,
                detail::If<detail::Needs<S>::manifolds, group::ManifoldState<Real>>,
-               detail::If<detail::Needs<S>::gas && !detail::Needs<S>::manifolds, group::GivenManifoldState<Real>>,
+               detail::If<detail::Needs<S>::given_gas, group::GivenGasState<Real>>,
                detail::If<detail::Needs<S>::burn, group::BurnState<Real, S>>,
                detail::If<S::gas_results, group::GasRecords<Real, S>>,
                detail::If<S::bad_input_count, group::BadInputsState> {};

@@ -72,12 +72,22 @@ constexpr void each_input(Visit&& visit, AnInput& in, [[maybe_unused]] const Eng
   if constexpr (detail::Needs<S>::manifolds) {
     visit(real("throttle_ratio", "0 closed, 1 wide open").within(0, 1), in.throttle_ratio);
   }
+  if constexpr (S::boundaries) {
+    visit(real("ambient_Pa", "Absolute pressure before the throttle; 0: as defined").within(0, kMaxManifold_Pa),
+          in.ambient_Pa);
+    visit(real("ambient_K", "Temperature before the throttle; 0: as defined").within(0, kMaxManifold_K), in.ambient_K);
+    visit(real("back_Pa", "Absolute pressure behind the outlet; 0: as defined").within(0, kMaxManifold_Pa), in.back_Pa);
+  }
   if constexpr (detail::Needs<S>::burn_input) {
     constexpr Variable fuel =
         real("fuel_kg[#]", "Fuel of a cylinder's cycle, taken 90 deg before its firing dead centre");
     constexpr Variable start = real("burn_start_deg[#]", "Where it begins to burn, after firing top dead centre");
     constexpr Variable duration = real("burn_duration_deg[#]", "How long its first law burns; all by 150 deg");
+    constexpr Variable excess_air =
+        real("excess_air_ratio[#]", "Lambda: above 0 the cylinder's air says how much fuel, instead of fuel_kg");
     for (std::uint32_t k = 0; k < shape.cylinders; ++k) visit(fuel.at(k).within(0, kMaxFuel_kg), in.fuel_kg[k]);
+    for (std::uint32_t k = 0; k < shape.cylinders; ++k)
+      visit(excess_air.at(k).within(0, kMaxExcessAir_ratio), in.excess_air_ratio[k]);
     for (std::uint32_t k = 0; k < shape.cylinders; ++k) visit(start.at(k).within(-90, 60), in.burn_start_deg[k]);
     for (std::uint32_t k = 0; k < shape.cylinders; ++k) visit(duration.at(k).within(5, 150), in.burn_duration_deg[k]);
   }

@@ -58,6 +58,7 @@ Status validate(const Gas& gas, int trains) noexcept {
       between(gas.wall_K, "gas.wall_K", 150, 2000),
       between(gas.wall_heat_ratio, "gas.wall_heat_ratio", 0, 100),
       between(gas.fuel_kg, "gas.fuel_kg", 0, 0.01),
+      between(gas.excess_air_ratio, "gas.excess_air_ratio", 0, 100),
       between(gas.heating_value_J_kg, "gas.heating_value_J_kg", 0, 2e8),
       between(gas.combustion_efficiency, "gas.combustion_efficiency", 0, 1),
       between(gas.air_fuel_ratio, "gas.air_fuel_ratio", 1, 100),

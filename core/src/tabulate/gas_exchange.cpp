@@ -121,11 +121,13 @@ namespace {
   b.latch_phase = phase_units(gas.latch_deg + 720);
   b.heat_J_kg = gas.combustion_efficiency * gas.heating_value_J_kg;
   b.energy_J_kg = b.heat_J_kg + (1 + air) * energy_J_kg(kMeasured_K, 1.0) - air * energy_J_kg(kMeasured_K, 0.0);
+  b.burning_J_kg = b.energy_J_kg - energy_J_kg(kMeasured_K, 1.0);
   b.burned_kg_kg = 1 + air;
   b.air_fuel_ratio = air;
   b.per_air_fuel_ratio = 1 / air;
   b.span_ratio = gas.span_ratio();
-  b.fuel_kg = gas.fuel_kg;
+  b.fuel_kg = gas.excess_air_ratio > 0 ? 0 : gas.fuel_kg;
+  b.excess_air_ratio = gas.excess_air_ratio;
   b.burn_start_deg = gas.burn_start_deg;
   b.burn_duration_deg = gas.burn_duration_deg;
   for (int i = 0; i <= kBurnSteps; ++i) {

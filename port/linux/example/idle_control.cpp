@@ -79,12 +79,10 @@ class IdleControl {
   double integral_ = gains_.begin;
 };
 
-/// Fuel for the air that the last cycles had, and a rich mixture until there was one. Late spark: the engine makes less
-/// of its air, so that the throttle stands where it can move both ways.
-void feed(LiveInputs& in, const LiveOutputs& out) noexcept {
-  constexpr double kAirPerFuel = 14.6;
-  constexpr double kFirst_kg = 20e-6;
-  in.fuel_kg = out.trapped_air_kg > 0 ? out.trapped_air_kg / kAirPerFuel : kFirst_kg;
+/// Fuel by the air in each cylinder. Late spark: the engine makes less of its air, so that the throttle stands where it
+/// can move both ways.
+void feed(LiveInputs& in) noexcept {
+  in.excess_air_ratio = 1;
   in.burn_start_deg = 10;
 }
 
@@ -158,7 +156,7 @@ int control(const SharedBlock& block, double target_rad_s, double seconds) {
     in.starter = engaged ? 1 : 0;
     const double ratio = idle.ratio(smooth.rad_s(), kPeriod_s);
     (breathes ? in.throttle_ratio : in.load_ratio) = ratio;
-    if (breathes) feed(in, out);
+    if (breathes) feed(in);
     block->inputs.write(in);  // every period, changed or not: the sign of life
 
     if (running_after_s < 0 && smooth.rad_s() > 0.9 * target_rad_s) running_after_s = period * kPeriod_s;

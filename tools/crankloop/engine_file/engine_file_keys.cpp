@@ -126,6 +126,7 @@ constexpr Key kKeys[] = {
     {"gas", "wall_C", Kind::number, kCelsius, "", from(-123.15).up_to(1726.85), "", defaults, "150", "", "", "mean temperature of the cylinder's walls"},
     {"gas", "wall_heat_factor", Kind::number, kNoUnit, "gas.wall_heat_ratio", from(0).up_to(100), "", defaults, "1", "", "", "k_w, of Hohenberg's heat transfer; 0: adiabatic"},
     {"gas", "fuel_mg", Kind::number, kMg, "gas.fuel_kg", from(0).up_to(10000), "", defaults, "30", "", "", "fuel per cylinder and cycle; 0: motored"},
+    {"gas", "excess_air_ratio", Kind::number, kNoUnit, "gas.excess_air_ratio", from(0).up_to(100), "", defaults, "0", "", "", "lambda: fuel by the air in each cylinder, instead of fuel_mg; 0: fuel_mg"},
     {"gas", "heating_value_MJ_per_kg", Kind::number, kMJPerKg, "gas.heating_value_J_kg", from(0).up_to(200), "", defaults, "43", "", "", "lower"},
     {"gas", "combustion_efficiency", Kind::number, kNoUnit, "gas.combustion_efficiency", from(0).up_to(1), "", defaults, "0.97", "", "", "share of the fuel's heat that is released"},
     {"gas", "air_fuel_ratio", Kind::number, kNoUnit, "gas.air_fuel_ratio", from(1).up_to(100), "", defaults, "14.6", "", "", "stoichiometric, by mass"},

@@ -15,14 +15,16 @@ namespace crankloop::program {
 
 struct GasOrder {
   double throttle_ratio = 1;
-  double fuel_kg = 0;  ///< per cylinder and cycle
+  double fuel_kg = 0;           ///< per cylinder and cycle
+  double excess_air_ratio = 0;  ///< lambda; above 0, it says how much fuel
   double burn_start_deg = 0;
   double burn_duration_deg = 0;
 };
 
 /// As the engine is defined.
 [[nodiscard]] inline GasOrder gas_order(const Gas& gas) {
-  return {1, gas.fuel_kg, gas.burn_start_deg, gas.burn_duration_deg};
+  return {1, gas.excess_air_ratio > 0 ? 0 : gas.fuel_kg, gas.excess_air_ratio, gas.burn_start_deg,
+          gas.burn_duration_deg};
 }
 
 template <class Real, class S>
@@ -30,6 +32,7 @@ void tell(Input<Real, S>& in, const GasOrder& order) noexcept {
   in.throttle_ratio = static_cast<Real>(order.throttle_ratio);
   for (std::uint32_t k = 0; k < S::cylinders.capacity; ++k) {
     in.fuel_kg[k] = static_cast<Real>(order.fuel_kg);
+    in.excess_air_ratio[k] = static_cast<Real>(order.excess_air_ratio);
     in.burn_start_deg[k] = static_cast<Real>(order.burn_start_deg);
     in.burn_duration_deg[k] = static_cast<Real>(order.burn_duration_deg);
   }
@@ -43,9 +46,18 @@ inline constexpr Option kThrottle =
     number("--throttle", "R", from(0).up_to(1),
            "of an engine that breathes: 0 closed, 1 wide open; run: 1 unless told, live: 0");
 inline constexpr Option kFuel = number("--fuel-mg", "M", from(0).up_to(kMaxFuel_kg * 1e6),
-                                       "its fuel per cylinder and cycle in mg; default the file's fuel_mg");
+                                       "its fuel per cylinder and cycle in mg; default the file's");
+inline constexpr Option kLambda =
+    number("--lambda", "L", above(0).up_to(kMaxExcessAir_ratio),
+           "its excess-air ratio: fuel by the air in each cylinder, instead of --fuel-mg; default the file's");
 inline constexpr Option kBurnStart =
     number("--burn-start-deg", "A", from(-90).up_to(60), "where its burn begins, firing TDC = 0; default the file's");
+
+/// The file's, with the lambda and the burn that the command line says; throws UsageError where it says the fuel too.
+[[nodiscard]] GasOrder lambda_and_spark(const Arguments& arguments, const EngineFile& engine);
+
+/// As many milligrams of fuel, whatever the air.
+void set_fuel_mg(GasOrder& order, double fuel_mg);
 
 /// The file's, with the fuel and burn that the command line says.
 [[nodiscard]] GasOrder fuel_and_spark(const Arguments& arguments, const EngineFile& engine);
@@ -54,7 +66,9 @@ inline constexpr Option kBurnStart =
 /// and for --load-ratio where it does.
 [[nodiscard]] GasOrder gas_order(const Arguments& arguments, const EngineFile& engine, double throttle_unless_told);
 
-/// "--throttle 1 --fuel-mg 30 --burn-start-deg -18".
+/// "--lambda 1", or "--fuel-mg 30".
+[[nodiscard]] std::string fuel_option(const GasOrder& order);
+/// "--throttle 1 --lambda 1 --burn-start-deg -18".
 [[nodiscard]] std::string options_of(const GasOrder& order);
 
 }  // namespace crankloop::program

@@ -202,15 +202,22 @@ void look_at_mixture(const EngineFile& engine, const EngineSize& size, Warnings&
   if (engine.definition().pressure.source != PressureSource::gas || !engine.has("gas")) return;
   const SectionValues& gas = engine.section("gas");
   const std::optional<double> cylinder_cm3 = size.of(Per::cylinder);
-  if (!cylinder_cm3 || !gas.has("fuel_mg") || gas.number("fuel_mg") == 0 || gas.number("second_share") > 0) return;
+  if (gas.number("second_share") > 0) return;
+  const std::string usual =
+      "usual with spark ignition: " + brief(kLambdaWithSpark.least) + " to " + brief(kLambdaWithSpark.most);
+  if (const double asked = gas.number("excess_air_ratio"); asked > 0) {
+    if (!within(kLambdaWithSpark, asked))
+      warnings.add(gas.line_of("excess_air_ratio"), "excess_air_ratio = " + brief(asked) + "; " + usual);
+    return;
+  }
+  if (!cylinder_cm3 || gas.number("fuel_mg") == 0) return;
   const double density_kg_m3 =
       gas.number("ambient_kPa") * 1e3 / (kAirConstant * (gas.number("ambient_C") + kZeroCelsius_K));
   const double lambda =
       kFilling * density_kg_m3 * *cylinder_cm3 / (gas.number("fuel_mg") * gas.number("air_fuel_ratio"));
   if (within(kLambdaWithSpark, lambda)) return;
   warnings.add(gas.line_of("fuel_mg"), "fuel_mg = " + brief(gas.number("fuel_mg")) + " gives a lambda of about " +
-                                           about(lambda) + " in a cylinder full of air; usual with spark ignition: " +
-                                           brief(kLambdaWithSpark.least) + " to " + brief(kLambdaWithSpark.most));
+                                           about(lambda) + " in a cylinder full of air; " + usual);
 }
 
 /// Of any kind of engine: the file does not say which it is.

@@ -8,9 +8,17 @@ namespace {
 constexpr double kKilo = 1e-3;
 using report::number_text;
 
+std::string fuel_in_words(const GasOrder& gas, bool varied) {
+  if (varied) return "varied fuel";
+  if (gas.excess_air_ratio > 0)
+    return "fuel by the air in each cylinder at lambda " + number_text(gas.excess_air_ratio);
+  return number_text(gas.fuel_kg * 1e6) + " mg of fuel per cylinder and cycle";
+}
+
 }  // namespace
 
-std::string pressure_in_words(const EngineFile& file, double load_ratio, const GasOrder& gas, const char* throttle) {
+std::string pressure_in_words(const EngineFile& file, double load_ratio, const GasOrder& gas,
+                              double GasOrder::*varied) {
   const Pressure& p = file.definition().pressure;
   const std::string load = load_ratio == 1 ? ""
                                            : " Load ratio " + number_text(load_ratio) +
@@ -23,10 +31,9 @@ std::string pressure_in_words(const EngineFile& file, double load_ratio, const G
     case PressureSource::gas:
       return "The cylinder pressure is not given: it follows from what the cylinders hold, by gas exchange through the "
              "valves as they move, compression, heat release and wall heat. Throttle " +
-             (throttle != nullptr ? throttle : number_text(gas.throttle_ratio)) + ", " +
-             number_text(gas.fuel_kg * 1e6) + " mg of fuel per cylinder and cycle, burning from " +
-             number_text(gas.burn_start_deg) + " deg for " +
-             number_text(gas.burn_duration_deg * file.definition().gas.span_ratio()) +
+             (varied == &GasOrder::throttle_ratio ? "varied" : number_text(gas.throttle_ratio)) + ", " +
+             fuel_in_words(gas, varied == &GasOrder::fuel_kg) + ", burning from " + number_text(gas.burn_start_deg) +
+             " deg for " + number_text(gas.burn_duration_deg * file.definition().gas.span_ratio()) +
              " deg. Not modelled: pressure waves in pipes and the tuning they bring, fuel evaporation, two zones, "
              "dissociation, crevices and blow-by, swirl, cycle-to-cycle variation, turbochargers, layers of backflow "
              "in "

@@ -9,9 +9,9 @@
 namespace crankloop::program {
 
 /// Synthesised and how, from which table, or none; and what a load ratio makes of it. Of an engine that breathes: what
-/// it was told (`throttle`: its word, where it is no number), and what is not modelled.
+/// it was told (but for what a map varies), and what is not modelled.
 [[nodiscard]] std::string pressure_in_words(const EngineFile& file, double load_ratio, const GasOrder& gas,
-                                            const char* throttle = nullptr);
+                                            double GasOrder::*varied = nullptr);
 
 /// The same in a line of a summary.
 [[nodiscard]] std::string pressure_in_short(const EngineFile& file);

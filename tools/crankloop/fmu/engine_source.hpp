@@ -94,10 +94,13 @@ class FileSupply {
     const double rad_s = rated_rad_s < limit_rad_s ? rated_rad_s : limit_rad_s;
     if constexpr (Scene::crank == CrankGiven::speed) in.speed_rad_s = rad_s;
     if constexpr (detail::Needs<Scene>::crank_dynamics) speed_rad_s = rad_s;
+    const Gas& gas = source_->file().definition().gas;
+    if constexpr (Scene::boundaries)
+      in.ambient_Pa = gas.ambient_Pa, in.ambient_K = gas.ambient_K, in.back_Pa = gas.behind_outlet_Pa();
     if constexpr (detail::Needs<Scene>::burn_input) {
-      const Gas& gas = source_->file().definition().gas;
       for (std::uint32_t k = 0; k < Scene::cylinders.capacity; ++k) {
-        in.fuel_kg[k] = gas.fuel_kg;
+        in.fuel_kg[k] = gas.excess_air_ratio > 0 ? 0 : gas.fuel_kg;
+        in.excess_air_ratio[k] = gas.excess_air_ratio;
         in.burn_start_deg[k] = gas.burn_start_deg;
         in.burn_duration_deg[k] = gas.burn_duration_deg;
       }

@@ -71,6 +71,7 @@ class FreeEngine {
       input.throttle_ratio = as<Real>(in.throttle_ratio);
       for (std::size_t k = 0; k < cylinders_; ++k) {
         input.fuel_kg[k] = as<Real>(in.fuel_kg);
+        input.excess_air_ratio[k] = as<Real>(in.excess_air_ratio);
         input.burn_start_deg[k] = as<Real>(in.burn_start_deg);
         input.burn_duration_deg[k] = static_cast<Real>(burn_duration_deg_);
       }

@@ -8,17 +8,18 @@
 
 #include <crankloop/tabulate/summary.hpp>
 
+#include "../number.hpp"
 #include "../run/run_loop.hpp"
 
 namespace crankloop::program {
 namespace {
 
-MapPoint run_point(const EngineDefinition& definition, const MapRequest& request, int speed, int throttle) {
+MapPoint run_point(const EngineDefinition& definition, const MapRequest& request, int speed, int load) {
   MapPoint point;
   point.speed_rpm = request.speed_rpm.at(speed);
-  point.throttle_ratio = request.throttle_ratio.at(throttle);
+  point.load = request.load.at(load);
   Operation operation{point.speed_rpm, request.tick_s, 1, request.gas};
-  operation.gas.throttle_ratio = point.throttle_ratio;
+  operation.gas.*request.axis->varied = point.load / request.axis->per_si;
   FixedStepLoop<float, scenes::Breathing> loop(definition, operation);
   const RunFigures figures = run_cycles<float, scenes::Breathing>(loop, definition, operation, 1);
   const BrakeFigures brake = brake_figures(definition, figures.mean_torque_Nm, operation.speed_rad_s());
@@ -43,6 +44,7 @@ const MapColumn kMapColumnList[kMapColumns] = {
     {"trapped_air_mg", "Air charge of a cylinder", "mg",
      [](const MapPoint& p) { return p.gas.cycle.trapped_air_kg * 1e6; }},
     {"volumetric_efficiency", nullptr, "", [](const MapPoint& p) { return p.gas.cycle.volumetric_efficiency; }},
+    {"fuel_burned_mg", nullptr, "mg", [](const MapPoint& p) { return p.gas.cycle.fuel_kg * 1e6; }},
     {"residual_ratio", "Residual gas", "", [](const MapPoint& p) { return p.gas.cycle.residual_ratio; }},
     {"excess_air_ratio", nullptr, "", [](const MapPoint& p) { return p.gas.cycle.excess_air_ratio; }},
     {"exhaust_temperature_K", nullptr, "K", [](const MapPoint& p) { return p.gas.cycle.exhaust_K; }},
@@ -53,10 +55,16 @@ const MapColumn kMapColumnList[kMapColumns] = {
     {"faulty_ticks", nullptr, "", [](const MapPoint& p) { return p.faulty_ticks; }},
 };
 
+std::string EngineMap::place_of(const MapPoint& point) const {
+  const MapAxis& axis = *request.axis;
+  return "at " + brief(point.speed_rpm) + " rpm, " + axis.word + " " + brief(point.load) +
+         (*axis.unit != '\0' ? " " + std::string(axis.unit) : "");
+}
+
 void run_map(EngineMap& map, const std::function<void()>& after_point) {
   const MapRequest& request = map.request;
-  const int throttles = request.throttle_ratio.count;
-  const int count = request.speed_rpm.count * throttles;
+  const int loads = request.load.count;
+  const int count = request.speed_rpm.count * loads;
   map.points.resize(static_cast<std::size_t>(count));
   std::atomic<int> next{0};
   std::mutex one_at_a_time;
@@ -64,8 +72,7 @@ void run_map(EngineMap& map, const std::function<void()>& after_point) {
   const auto work = [&] {
     for (int i = next++; i < count; i = next++) {
       try {
-        map.points[static_cast<std::size_t>(i)] =
-            run_point(map.file.definition(), request, i / throttles, i % throttles);
+        map.points[static_cast<std::size_t>(i)] = run_point(map.file.definition(), request, i / loads, i % loads);
       } catch (...) {
         const std::lock_guard<std::mutex> lock(one_at_a_time);
         refused = std::current_exception();

@@ -24,16 +24,29 @@ struct Grid {
   [[nodiscard]] double step() const noexcept { return count > 1 ? (to - from) / (count - 1) : 1; }
 };
 
+/// What a map varies beside the speed.
+struct MapAxis {
+  const char* column;  ///< of the CSV file, as in its header
+  const char* word;    ///< "throttle"
+  const char* title;
+  const char* unit;  ///< of its numbers
+  double GasOrder::*varied;
+  double per_si;
+};
+inline constexpr MapAxis kThrottleAxis{"throttle", "throttle", "Throttle", "", &GasOrder::throttle_ratio, 1};
+inline constexpr MapAxis kFuelAxis{"fuel_mg", "fuel", "Fuel of a cylinder's cycle", "mg", &GasOrder::fuel_kg, 1e6};
+
 struct MapRequest {
   Grid speed_rpm;
-  Grid throttle_ratio;
-  GasOrder gas;  ///< all but the throttle
+  const MapAxis* axis = &kThrottleAxis;
+  Grid load;     ///< in the axis's unit
+  GasOrder gas;  ///< all that is not varied
   double tick_s = 100e-6;
 };
 
 struct MapPoint {
   double speed_rpm = 0;
-  double throttle_ratio = 0;
+  double load = 0;             ///< throttle or fuel, in its axis's unit
   double torque_Nm = 0;        ///< indicated, all cylinders
   double brake_torque_Nm = 0;  ///< less the file's [friction]
   double power_W = 0;          ///< of the brake torque
@@ -46,7 +59,10 @@ struct EngineMap {
   const EngineFile& file;
   MapRequest request;
   std::string command_line;
-  std::vector<MapPoint> points{};  ///< speed by speed, each with all throttles
+  std::vector<MapPoint> points{};  ///< speed by speed, each with all throttles or all fuels
+
+  /// "at 3000 rpm, throttle 0.5"
+  [[nodiscard]] std::string place_of(const MapPoint& point) const;
 };
 
 /// All points, on as many threads as there are processors; the same whatever their number. `after_point` is called
@@ -60,7 +76,7 @@ struct MapColumn {
   const char* unit;
   double (*value)(const MapPoint&);
 };
-inline constexpr std::size_t kMapColumns = 14;
+inline constexpr std::size_t kMapColumns = 15;
 extern const MapColumn kMapColumnList[kMapColumns];
 
 [[nodiscard]] report::Page map_page(const EngineMap& map);

@@ -24,13 +24,14 @@ std::vector<double> levels_of(double low, double high) {
 
 Plot heat_map(const EngineMap& map, const MapColumn& column) {
   const Grid& speed = map.request.speed_rpm;
-  const Grid& throttle = map.request.throttle_ratio;
+  const Grid& load = map.request.load;
   Plot plot = report::plot_of(std::string(column.title) + (*column.unit != '\0' ? ", " + std::string(column.unit) : ""),
-                              report::axis_of("Engine speed", "rpm"), report::axis_of("Throttle", ""));
+                              report::axis_of("Engine speed", "rpm"),
+                              report::axis_of(map.request.axis->title, map.request.axis->unit));
   plot.cell_x = speed.step();
-  plot.cell_y = throttle.step();
+  plot.cell_y = load.step();
   plot.x.range = report::Range{speed.from - plot.cell_x / 2, speed.to + plot.cell_x / 2};
-  plot.y.range = report::Range{throttle.from - plot.cell_y / 2, throttle.to + plot.cell_y / 2};
+  plot.y.range = report::Range{load.from - plot.cell_y / 2, load.to + plot.cell_y / 2};
   double low = column.value(map.points.front());
   double high = low;
   for (const MapPoint& point : map.points) {
@@ -49,7 +50,7 @@ Plot heat_map(const EngineMap& map, const MapColumn& column) {
       const bool here = value >= bounds[level] && (value < bounds[level + 1] || level + 1 == levels);
       if (!here) continue;
       series.x.push_back(point.speed_rpm);
-      series.y.push_back(point.throttle_ratio);
+      series.y.push_back(point.load);
     }
     if (!series.x.empty()) plot.series.push_back(std::move(series));
   }
@@ -60,30 +61,30 @@ Plot heat_map(const EngineMap& map, const MapColumn& column) {
 
 report::Page map_page(const EngineMap& map) {
   const auto number = [](double value) { return report::format_number(value, 4); };
-  const auto where = [&](const MapPoint& p) {
-    return "at " + number(p.speed_rpm) + " rpm, throttle " + report::number_text(p.throttle_ratio);
-  };
   const auto most = [&](double (*value)(const MapPoint&)) {
     return *std::max_element(map.points.begin(), map.points.end(),
                              [&](const MapPoint& a, const MapPoint& b) { return value(a) < value(b); });
   };
   report::Page page;
-  page.title = map.file.name() + " over speed and throttle";
-  page.subtitle = std::to_string(map.request.speed_rpm.count) + " speeds, " +
-                  std::to_string(map.request.throttle_ratio.count) + " throttles, each until it has settled.";
+  const MapAxis& axis = *map.request.axis;
+  page.title = map.file.name() + " over speed and " + axis.word;
+  page.subtitle = std::to_string(map.request.speed_rpm.count) + " speeds, " + std::to_string(map.request.load.count) +
+                  " values of " + axis.word + ", each until it has settled.";
   const MapPoint torque = most([](const MapPoint& p) { return p.brake_torque_Nm; });
   const MapPoint power = most([](const MapPoint& p) { return p.power_W; });
   const MapPoint charge = most([](const MapPoint& p) { return p.gas.cycle.volumetric_efficiency; });
-  page.facts = {{"Largest brake torque", number(torque.brake_torque_Nm), "Nm", where(torque)},
-                {"Largest brake power", number(power.power_W / 1e3), "kW", where(power)},
-                {"Largest volumetric efficiency", number(charge.gas.cycle.volumetric_efficiency), "", where(charge)}};
+  page.facts = {
+      {"Largest brake torque", number(torque.brake_torque_Nm), "Nm", map.place_of(torque)},
+      {"Largest brake power", number(power.power_W / 1e3), "kW", map.place_of(power)},
+      {"Largest volumetric efficiency", number(charge.gas.cycle.volumetric_efficiency), "", map.place_of(charge)}};
 
-  Section maps{"maps", "Over speed and throttle", {}};
-  maps.blocks.push_back(report::Paragraph{pressure_in_words(map.file, 1, map.request.gas, "varied"), true});
+  Section maps{"maps", std::string("Over speed and ") + axis.word, {}};
+  maps.blocks.push_back(
+      report::Paragraph{pressure_in_words(map.file, 1, map.request.gas, map.request.axis->varied), true});
   for (const MapColumn& column : kMapColumnList) {
     if (column.title != nullptr) maps.blocks.push_back(heat_map(map, column));
   }
-  report::Table table{"Table: all points", {{"Speed", "rpm"}, {"Throttle", ""}}, {}, true};
+  report::Table table{"Table: all points", {{"Speed", "rpm"}, {axis.title, axis.unit}}, {}, true};
   for (const MapColumn& column : kMapColumnList) {
     std::string title = column.name;
     if (const std::string unit = std::string("_") + column.unit; *column.unit != '\0' && title.size() > unit.size())
@@ -92,7 +93,7 @@ report::Page map_page(const EngineMap& map) {
     table.columns.push_back({title, column.unit});
   }
   for (const MapPoint& point : map.points) {
-    std::vector<std::string> row{number(point.speed_rpm), report::format_fixed(point.throttle_ratio, 3)};
+    std::vector<std::string> row{number(point.speed_rpm), report::format_fixed(point.load, 3)};
     for (const MapColumn& column : kMapColumnList) row.push_back(number(column.value(point)));
     table.rows.push_back(std::move(row));
   }
@@ -107,8 +108,9 @@ report::Page map_page(const EngineMap& map) {
                        std::to_string(cycles_to_settle(map.file.definition())) +
                        " cycles to settle and one that counts.");
   list.items.push_back(
-      "Fuel and start of the burn are the same everywhere: no more fuel burns than there is air for, and no point has "
-      "the spark that is best for it.");
+      std::string("The burn starts at the same angle everywhere: no point has the spark that is best for it. ") +
+      (map.request.gas.excess_air_ratio > 0 ? "Fuel goes by the air in each cylinder."
+                                            : "No more fuel burns than there is air for."));
   list.items.push_back(map.file.definition().friction.any()
                            ? "Brake torque: less friction, by the file's [friction]."
                            : "Brake torque is the indicated one: the file has no [friction].");

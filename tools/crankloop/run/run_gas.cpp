@@ -10,6 +10,12 @@
 
 namespace crankloop::program {
 
+namespace {
+
+constexpr double kRichestThatIgnites = 0.5;  // lambda; gasoline's limit in air is about 0.4, an engine misfires before
+
+}  // namespace
+
 void add_gas_columns(std::vector<std::string>& columns, std::size_t cylinders) {
   for (std::size_t k = 1; k <= cylinders; ++k) {
     for (const GasQuantityKind& kind : kGasQuantityKinds)
@@ -22,9 +28,17 @@ void add_gas_columns(std::vector<std::string>& columns, std::size_t cylinders) {
   columns.insert(columns.end(), {"throttle_g_s", "outlet_g_s"});
 }
 
+void add_fuel(Summary& s, const GasOrder& order) {
+  if (order.excess_air_ratio > 0) {
+    s.line("lambda", order.excess_air_ratio, "", "as asked for: fuel by the air in each cylinder");
+  } else {
+    s.line("fuel", order.fuel_kg * 1e6, "mg", "per cylinder and cycle");
+  }
+}
+
 void add_order(Summary& s, const GasOrder& order) {
   s.line("throttle", order.throttle_ratio);
-  s.line("fuel", order.fuel_kg * 1e6, "mg", "per cylinder and cycle");
+  add_fuel(s, order);
   s.line("burn_start", order.burn_start_deg, "deg");
 }
 
@@ -32,10 +46,12 @@ void add_gas(Summary& s, const GasCycle<double>& cycle) {
   s.line("pumping_mep", cycle.pumping_mep_Pa / 1e3, "kPa", "from 180 to 540 deg; negative: a loss");
   s.line("volumetric_efficiency", cycle.volumetric_efficiency, "", "air through the intake, by the ambient's density");
   s.line("trapped_air", cycle.trapped_air_kg * 1e6, "mg",
-         cycle.trapped_kg > 0 ? "in a cylinder when its intake closed"
-                              : "the intake did not close before the burn");
+         cycle.trapped_kg > 0 ? "in a cylinder when its intake closed" : "the intake did not close before the burn");
   s.line("residual_ratio", cycle.residual_ratio, "", "burned gas of all that was trapped");
-  s.line("excess_air_ratio", cycle.excess_air_ratio, "", "lambda; 0: no fuel");
+  s.line("fuel_burned", cycle.fuel_kg * 1e6, "mg", "of a cylinder's cycle");
+  const bool too_rich = cycle.excess_air_ratio > 0 && cycle.excess_air_ratio < kRichestThatIgnites;
+  s.line("excess_air_ratio", cycle.excess_air_ratio, "",
+         too_rich ? "lambda: so rich a mixture does not ignite; --lambda gives fuel by the air" : "lambda; 0: no fuel");
   s.line("exhaust_temperature", cycle.exhaust_K, "K", "of what flows out through the exhaust valve");
   s.line("heat", cycle.heat_J, "J", "of combustion, of a cylinder's cycle");
   s.line("wall_heat", cycle.wall_heat_J, "J");

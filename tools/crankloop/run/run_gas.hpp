@@ -110,7 +110,9 @@ struct GasFigures {
   double exhaust_manifold_K = 0;
 };
 
-/// The lines of a summary that tell what the engine was told: throttle, fuel, burn_start.
+/// The line of a summary that tells how much fuel was asked for: fuel, or lambda.
+void add_fuel(Summary& s, const GasOrder& order);
+/// The lines that tell what the engine was told: throttle, fuel or lambda, burn_start.
 void add_order(Summary& s, const GasOrder& order);
 
 /// The lines that tell of the gas, from pumping_mep to wall_heat.

@@ -58,7 +58,8 @@ struct Gas {
   double wall_K = 423.15;      ///< 150 to 2000
   double wall_heat_ratio = 1;  ///< k_w; 0 = adiabatic; 0 to 100
   // combustion
-  double fuel_kg = 30e-6;               ///< per cycle and cylinder; 0 to 0.01, less than 1e-12 is none
+  double fuel_kg = 30e-6;       ///< per cycle and cylinder; 0 to 0.01, less than 1e-12 is none
+  double excess_air_ratio = 0;  ///< lambda: fuel by the air in the cylinder, instead of fuel_kg; 0 to 100, 0: fuel_kg
   double heating_value_J_kg = 43e6;     ///< lower; 0 to 2e8
   double combustion_efficiency = 0.97;  ///< 0 to 1
   double air_fuel_ratio = 14.6;         ///< L, stoichiometric, by mass; 1 to 100; kMaxMixtureHeat_J_kg bounds it too
@@ -95,7 +96,8 @@ struct Gas {
     CRANKLOOP_FIELD(1, gas, exhaust_K);
     CRANKLOOP_FIELD(1, gas, wall_K);
     CRANKLOOP_FIELD(1, gas, wall_heat_ratio);
-    CRANKLOOP_FIELD(1, gas, fuel_kg);
+    CRANKLOOP_FIELD(self.excess_air_ratio > 0 ? 0 : 1, gas, fuel_kg);
+    CRANKLOOP_FIELD(1, gas, excess_air_ratio);
     CRANKLOOP_FIELD(1, gas, heating_value_J_kg);
     CRANKLOOP_FIELD(1, gas, combustion_efficiency);
     CRANKLOOP_FIELD(1, gas, air_fuel_ratio);

@@ -86,11 +86,13 @@ struct BurnTable {
   std::uint64_t latch_phase;  ///< of the cylinder's own cycle
   Real energy_J_kg;           ///< q_f: heat, and the energies of what burns and what comes of it
   Real heat_J_kg;             ///< combustion efficiency times lower heating value
+  Real burning_J_kg;          ///< what of energy_J_kg fuel that finds no air lacks
   Real burned_kg_kg;          ///< 1 + L
   Real air_fuel_ratio;        ///< L
   Real per_air_fuel_ratio;
   Real span_ratio;  ///< the whole burn's duration by that of the first law
-  Real fuel_kg;     ///< as defined
+  Real fuel_kg;     ///< as defined, as are the next three
+  Real excess_air_ratio;
   Real burn_start_deg;
   Real burn_duration_deg;
   Real burnt[kBurnSteps + 1];

@@ -57,7 +57,8 @@ CRANKLOOP_MEMBERS_OF(GasCylinders, walls, clearance, bore_area, crankcase, least
 CRANKLOOP_MEMBERS_OF(GasPortCurve, port, per_step, area)
 CRANKLOOP_MEMBERS_OF(GasBeyond, pressure, choked, specific_work, enthalpy, burned, response, end, others)
 CRANKLOOP_MEMBERS_OF(GasManifolds, parts, spare, per_volume, least, outside, outlet, throttle)
-CRANKLOOP_MEMBERS_OF(BurnTable, latch, energy, heat, burned, air_fuel, per_air_fuel, span, fuel, start, duration, burnt)
+CRANKLOOP_MEMBERS_OF(BurnTable, latch, energy, heat, burning, burned, air_fuel, per_air_fuel, span, fuel, excess_air,
+                     start, duration, burnt)
 CRANKLOOP_MEMBERS(TriggerTrack, edges, edge_count, on_crank, starts, train, inverted, edges_before)
 CRANKLOOP_MEMBERS(TriggerWheels, wheel, count)
 

@@ -22,11 +22,12 @@ struct GasDrive {
   Real least_kg_m3;   ///< a cylinder never holds less
 };
 
-/// What fuel brings, per kg.
-template <class Real>
+/// What a step's fuel adds to the sums of a cylinder.
+template <class T>
 struct GasFuel {
-  Real energy_J_kg;   ///< q_f: heat, and the energies of what burns and what comes of it
-  Real burned_kg_kg;  ///< 1 + L
+  T mass_kg;
+  T energy_J;  ///< heat, and the energies of what burns and what comes of it
+  T burned_kg;
 };
 
 template <class T>
@@ -192,13 +193,13 @@ template <class T, class Holds>
 /// Steps a cylinder, or several abreast. Contents that no engine holds are still to be put right.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline CylinderStep<T> step_gas(
-    CylinderGas<T>& gas, const T& volume_m3, const T& fuel_kg, const GasFuel<NumberOf<T>>& fuel,
-    const GasWalls<NumberOf<T>>& walls, const GasDrive<NumberOf<T>>& drive, const T (&to_m2)[kPorts],
+    CylinderGas<T>& gas, const T& volume_m3, const GasFuel<T>& fuel, const GasWalls<NumberOf<T>>& walls,
+    const GasDrive<NumberOf<T>>& drive, const T (&to_m2)[kPorts],
     const GasBeyond<NumberOf<T>> (&far)[kPorts]) noexcept {
-  const ClosedStep<T> closed = ClosedStep<T>::of(gas, volume_m3, fuel.energy_J_kg * fuel_kg, walls, drive);
+  const ClosedStep<T> closed = ClosedStep<T>::of(gas, volume_m3, fuel.energy_J, walls, drive);
   T work_J = closed.work_J;
   PortStep<T> through[kPorts] = {};
-  GasGain<T> gain{fuel_kg, closed.heat_J - closed.wall_heat_J - closed.work_J, fuel.burned_kg_kg * fuel_kg};
+  GasGain<T> gain{fuel.mass_kg, closed.heat_J - closed.wall_heat_J - closed.work_J, fuel.burned_kg};
   const auto open = any_open(gas.area_m2[kIntake], gas.area_m2[kExhaust], to_m2[kIntake], to_m2[kExhaust]);
   const bool flows = any(open);
   if (flows) {

@@ -18,18 +18,20 @@ template <class Real, class S>
                                                 [[maybe_unused]] std::uint32_t cylinder) noexcept {
   if constexpr (Needs<S>::burn_input) {
     (void)tables;
-    return {input.fuel_kg[cylinder], input.burn_start_deg[cylinder], input.burn_duration_deg[cylinder]};
+    return {input.fuel_kg[cylinder], input.excess_air_ratio[cylinder], input.burn_start_deg[cylinder],
+            input.burn_duration_deg[cylinder]};
   } else {
-    return {tables.burn->fuel_kg, tables.burn->burn_start_deg, tables.burn->burn_duration_deg};
+    const BurnTable<Real>& table = *tables.burn;
+    return {table.fuel_kg, table.excess_air_ratio, table.burn_start_deg, table.burn_duration_deg};
   }
 }
 
 /// Fuel that burns on the way of a cylinder: where that passes latch_deg, of a new cycle. `ends`: it passes a cycle's
 /// end.
 template <class Real, class S>
-[[nodiscard]] inline Real burn_on_way(const Tables<Real, S>& tables, State<Real, S>& state, const Input<Real, S>& input,
-                                      std::uint32_t cylinder, const CycleWay& way, bool ends,
-                                      std::uint32_t& faults) noexcept {
+[[nodiscard]] inline GasFuel<Real> burn_on_way(const Tables<Real, S>& tables, State<Real, S>& state,
+                                               const Input<Real, S>& input, std::uint32_t cylinder, const CycleWay& way,
+                                               bool ends, std::uint32_t& faults) noexcept {
   const BurnTable<Real>& table = *tables.burn;
   CylinderBurn<Real>& burn = state.burn[cylinder];
   if (ends && !way.forward()) end_burn(burn);
@@ -41,9 +43,9 @@ template <class Real, class S>
     const BurnOrder<Real> order = burn_order(tables, input, cylinder);
     faults |= take_fuel(burn, table, mass_kg, burned_kg, order, cut);
   }
-  const Real fuel_kg = burnt_kg(burn, table, mass_kg, burned_kg, way);
+  const GasFuel<Real> fuel = burnt_fuel(burn, table, mass_kg, burned_kg, way);
   if (ends && way.forward()) end_burn(burn);
-  return fuel_kg;
+  return fuel;
 }
 
 /// Shows a cycle that was recorded from its begin, and begins the next.
@@ -55,7 +57,8 @@ template <class Real, class S>
   if (record.whole != 0) {
     Real heat_J_kg{}, excess_air_ratio{};
     if constexpr (Needs<S>::burn) {
-      heat_J_kg = tables.burn->heat_J_kg, excess_air_ratio = state.burn[cylinder].excess_air_ratio;
+      const CylinderBurn<Real>& burn = state.burn[cylinder];
+      heat_J_kg = tables.burn->heat_J_kg * burning_ratio(burn), excess_air_ratio = burn.excess_air_ratio;
     }
     out.gas_cycle[cylinder] = finished(record, gas, *tables.gas_cylinders, heat_J_kg, excess_air_ratio);
   }

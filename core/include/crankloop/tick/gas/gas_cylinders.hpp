@@ -91,21 +91,21 @@ class GasCylindersStep {
     const GasCylinders<Real>& table = *tables_.gas_cylinders;
     std::uint32_t faults = 0;
     [[maybe_unused]] const std::uint32_t ends = ends_ >> k;  // one bit of each lane
-    T fuel_kg{};
-    GasFuel<Real> fuel{};
+    GasFuel<T> fuel{};
     if constexpr (N::burn) {
       for (int i = 0; i < kLanes; ++i) {
-        put_lane(fuel_kg, i,
-                 burn_on_way(tables_, state_, input, k + static_cast<std::uint32_t>(i), way[i], (ends >> i & 1u) != 0,
-                             faults));
+        const GasFuel<Real> one = burn_on_way(tables_, state_, input, k + static_cast<std::uint32_t>(i), way[i],
+                                              (ends >> i & 1u) != 0, faults);
+        put_lane(fuel.mass_kg, i, one.mass_kg);
+        put_lane(fuel.energy_J, i, one.energy_J);
+        put_lane(fuel.burned_kg, i, one.burned_kg);
       }
-      fuel = {tables_.burn->energy_J_kg, tables_.burn->burned_kg_kg};
     }
     CylinderGas<T> gas = state_.cylinder_gas.template at<T>(k);
     const T volume_m3 = load<T>(volumes_m3), before_m3 = gas.volume_m3;
     [[maybe_unused]] const T intake_was_m2 = gas.area_m2[kIntake];
     const T to_m2[kPorts] = {load<T>(areas.of[kIntake] + k), load<T>(areas.of[kExhaust] + k)};
-    CylinderStep<T> done = step_gas<T>(gas, volume_m3, fuel_kg, fuel, table.walls, step.drive, to_m2, step.beyond);
+    CylinderStep<T> done = step_gas<T>(gas, volume_m3, fuel, table.walls, step.drive, to_m2, step.beyond);
     state_.cylinder_gas.put(k, gas);
     if (done.flows) state_.cylinder_gas.put_areas(k, gas);
     const T least_kg = step.drive.least_kg_m3 * volume_m3;
@@ -140,7 +140,7 @@ class GasCylindersStep {
       if (done.flows)
         intake_shut = holding(both_hold(intake_was_m2 > Real{0}, none_of(gas.area_m2[kIntake] > Real{0})));
       const T gained_J = done.gained_J();
-      record_step<T>(&state_.gas_record[k], done, fuel_kg, way);
+      record_step<T>(&state_.gas_record[k], done, fuel.mass_kg, way);
       for (int i = 0; i < kLanes; ++i) {
         const std::uint32_t one = k + static_cast<std::uint32_t>(i);
         GasRecord<Real>& record = state_.gas_record[one];

@@ -1,5 +1,5 @@
-// The inputs of an engine's gas, checked each tick: throttle, or what is in the manifolds. Fuel and burn are checked
-// where a cycle takes them (combustion.hpp).
+// The inputs of an engine's gas, checked each tick: throttle and what is outside, or what is in the manifolds. Fuel and
+// burn are checked where a cycle takes them (combustion.hpp).
 #pragma once
 
 #include <crankloop/input.hpp>
@@ -15,7 +15,11 @@ template <class Real, class S>
                                     [[maybe_unused]] State<Real, S>& state) noexcept {
   if constexpr (Needs<S>::manifolds) {
     state.throttle_ratio = Real{1};
-  } else {
+  }
+  if constexpr (S::boundaries) {
+    for (int port = 0; port < kPorts; ++port)
+      state.given_gas[port] = {tables.gas_manifolds->outside[port].pressure_Pa, tables.gas_cylinders->ambient_K};
+  } else if constexpr (Needs<S>::given_gas) {
     const GasCylinders<Real>& table = *tables.gas_cylinders;
     state.given_gas[kIntake] = {table.ambient_Pa, table.ambient_K};
     state.given_gas[kExhaust] = {table.ambient_Pa, table.exhaust_K};
@@ -24,14 +28,16 @@ template <class Real, class S>
     const BurnTable<Real>& table = *tables.burn;
     for (CylinderBurn<Real>& burn : state.burn) {
       burn = {};
-      burn.asked_kg = table.fuel_kg, burn.start_deg = table.burn_start_deg, burn.duration_deg = table.burn_duration_deg;
+      burn.asked_kg = table.fuel_kg, burn.asked_excess_air_ratio = table.excess_air_ratio;
+      burn.start_deg = table.burn_start_deg, burn.duration_deg = table.burn_duration_deg;
     }
   }
 }
 
 /// Answers fault bits.
 template <class Real, class S>
-[[nodiscard]] inline std::uint32_t take_gas_inputs([[maybe_unused]] const Input<Real, S>& input,
+[[nodiscard]] inline std::uint32_t take_gas_inputs([[maybe_unused]] const Tables<Real, S>& tables,
+                                                   [[maybe_unused]] const Input<Real, S>& input,
                                                    [[maybe_unused]] State<Real, S>& state) noexcept {
   std::uint32_t faults = 0;
   [[maybe_unused]] const auto take = [&faults](Real x, Real least, Real most, Real& last, Fault fault) {
@@ -39,14 +45,23 @@ template <class Real, class S>
   };
   if constexpr (Needs<S>::manifolds) {
     take(input.throttle_ratio, Real{0}, Real{1}, state.throttle_ratio, kFaultManifold);
-  } else if constexpr (Needs<S>::gas) {
+  }
+  if constexpr (Needs<S>::given_gas) {
     const auto real = [](double x) { return static_cast<Real>(x); };
     const auto given = [&](Real pressure_Pa, Real temperature_K, GivenGas<Real>& last) {
       take(pressure_Pa, real(kLeastManifold_Pa), real(kMaxManifold_Pa), last.pressure_Pa, kFaultManifold);
       take(temperature_K, real(kLeastManifold_K), real(kMaxManifold_K), last.temperature_K, kFaultManifold);
     };
-    given(input.intake_Pa, input.intake_K, state.given_gas[kIntake]);
-    given(input.exhaust_Pa, input.exhaust_K, state.given_gas[kExhaust]);
+    if constexpr (S::boundaries) {
+      const GasBeyond<Real>* const defined = tables.gas_manifolds->outside;
+      const auto or_defined = [](Real x, Real as_defined) { return x == 0 ? as_defined : x; };
+      const Real ambient_K = or_defined(input.ambient_K, tables.gas_cylinders->ambient_K);
+      given(or_defined(input.ambient_Pa, defined[kIntake].pressure_Pa), ambient_K, state.given_gas[kIntake]);
+      given(or_defined(input.back_Pa, defined[kExhaust].pressure_Pa), ambient_K, state.given_gas[kExhaust]);
+    } else {
+      given(input.intake_Pa, input.intake_K, state.given_gas[kIntake]);
+      given(input.exhaust_Pa, input.exhaust_K, state.given_gas[kExhaust]);
+    }
   }
   return faults;
 }

@@ -25,7 +25,7 @@ struct GasCycle {
   Real residual_ratio;         ///< burned share of it
   Real volumetric_efficiency;  ///< air through the intake over what the swept volume holds of ambient air
   Real exhaust_K;  ///< of the gas that flows out through the exhaust, by its mean enthalpy; 0: less than 1e-12 kg
-  Real fuel_kg;    ///< that burned
+  Real fuel_kg;    ///< that burned, and what is too much for the air beside it
   Real excess_air_ratio;  ///< lambda: air there, over air that the cycle's fuel wanted; 0: no fuel
   Real heat_J;            ///< of combustion
   Real wall_heat_J;       ///< to the walls

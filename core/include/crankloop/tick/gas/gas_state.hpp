@@ -91,16 +91,17 @@ struct CylinderBurn {
   Real start_deg, duration_deg;
   Real per_deg;  ///< 1 / the whole burn's duration
   Real excess_air_ratio;
-  Real asked_kg;  ///< fuel: last good
-  Real spare_number;
-  std::uint32_t taken;  ///< 1: this cycle has its fuel
+  Real asked_kg;                ///< fuel: last good
+  Real asked_excess_air_ratio;  ///< the same; above 0, it says how much fuel
+  std::uint32_t taken;          ///< 1: this cycle has its fuel
   std::uint32_t spare;
 };
 
 /// A cycle's fuel and burn, as asked for.
 template <class Real>
 struct BurnOrder {
-  Real fuel_kg, start_deg, duration_deg;
+  Real fuel_kg, excess_air_ratio;  ///< above 0, this says how much fuel
+  Real start_deg, duration_deg;
 };
 
 /// What is given of a manifold: last good.

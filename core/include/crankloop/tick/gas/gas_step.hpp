@@ -7,6 +7,8 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
+#include <type_traits>
 
 #include <crankloop/tick/gas/gas_cylinders.hpp>
 #include <crankloop/tick/gas/gas_inputs.hpp>
@@ -31,7 +33,10 @@ class GasStep {
   /// the crankcase's pressure.
   [[nodiscard, gnu::noinline]] std::uint32_t run(const Input<Real, S>& input, Phase turned, bool jumped,
                                                  Real& work_J) noexcept {
-    std::uint32_t faults = take_gas_inputs<Real, S>(input, state_);
+    std::uint32_t faults = take_gas_inputs<Real, S>(tables_, input, state_);
+    if constexpr (S::boundaries) {
+      for (int port = 0; port < kPorts; ++port) boundary_[port] = given(port, Real{0});
+    }
     Areas end;
     read_areas(tables_, end, [this](std::uint32_t t, std::uint32_t k) { return out_.valve[t][k].lift_m; });
     CylinderGases<Real, kCylinders>& gases = state_.cylinder_gas;
@@ -165,16 +170,26 @@ class GasStep {
       if constexpr (N::manifolds) {
         std::uint32_t open = 0;
         for (std::uint32_t k = 0; k < cylinders(); ++k) open += bits_of(areas.of[port][k]) != 0 ? 1u : 0u;
-        step.beyond[port] =
-            seen_from_ports(state_.manifold[port], tables_.gas_manifolds->outside[port], outside_m2[port],
-                            tables_.gas_manifolds->per_volume_m3[port], state_.taken_kg_s[port],
-                            static_cast<Real>(open), most_m3(), step.drive.step_s);
+        step.beyond[port] = seen_from_ports(state_.manifold[port], outside(port), outside_m2[port],
+                                            tables_.gas_manifolds->per_volume_m3[port], state_.taken_kg_s[port],
+                                            static_cast<Real>(open), most_m3(), step.drive.step_s);
       } else {
-        const GivenGas<Real>& given = state_.given_gas[port];
-        step.beyond[port] =
-            beyond(GasPoint<Real>{given.pressure_Pa, given.temperature_K, static_cast<Real>(port), Real{0}}, Real{0});
+        step.beyond[port] = given(port, static_cast<Real>(port));
       }
     }
+  }
+  /// Before the throttle, behind the outlet.
+  [[nodiscard]] const GasBeyond<Real>& outside(int port) const noexcept {
+    if constexpr (S::boundaries) {
+      return boundary_[port];
+    } else {
+      return tables_.gas_manifolds->outside[port];
+    }
+  }
+  /// As inputs have it.
+  [[nodiscard]] GasBeyond<Real> given(int port, Real burned_ratio) const noexcept {
+    const GivenGas<Real>& gas = state_.given_gas[port];
+    return beyond(GasPoint<Real>{gas.pressure_Pa, gas.temperature_K, burned_ratio, Real{0}}, Real{0});
   }
   /// Of a cylinder.
   [[nodiscard]] Real most_m3() const noexcept {
@@ -186,8 +201,8 @@ class GasStep {
     bool put_back = false;
     if constexpr (N::manifolds) {
       const GasManifolds<Real>& table = *tables_.gas_manifolds;
-      const GasBeyond<Real>& behind = table.outside[kExhaust];
-      (void)exchange_with(table.outside[kIntake], kIntake, throttle_m2(), left(kIntake, step), step, put_back);
+      const GasBeyond<Real>& behind = outside(kExhaust);
+      (void)exchange_with(outside(kIntake), kIntake, throttle_m2(), left(kIntake, step), step, put_back);
       const GasPoint<Real> before = state_.manifold[kExhaust].point;
       const GasNear<Real> near = left(kExhaust, step);
       const bool flows_back = near.pressure_Pa < behind.pressure_Pa;
@@ -249,6 +264,7 @@ class GasStep {
   State<Real, S>& state_;
   Output<Real, S>& out_;
   Real work_J_ = Real{0};
+  std::conditional_t<S::boundaries, GasBeyond<Real>[kPorts], char> boundary_;
   Real outside_kg_[kPorts] = {};  ///< into the manifolds from outside, in this tick
 };
 

@@ -166,7 +166,8 @@ struct StateFields {
       v.number(s.outlet.burned_ratio, Real{0}, Real{1});
       v.number(s.throttle_ratio, Real{0}, Real{1});
       v.spare(s.spare_of_manifolds);
-    } else {
+    }
+    if constexpr (N::given_gas) {
       for (auto& given : s.given_gas) {
         v.number(given.pressure_Pa, static_cast<Real>(kLeastManifold_Pa), static_cast<Real>(kMaxManifold_Pa));
         v.number(given.temperature_K, static_cast<Real>(kLeastManifold_K), static_cast<Real>(kMaxManifold_K));
@@ -182,7 +183,7 @@ struct StateFields {
         v.number(burn.per_deg, Real{0}, Real{1});
         v.number(burn.excess_air_ratio, Real{0}, kMaxNoted);
         v.number(burn.asked_kg, Real{0}, static_cast<Real>(kMaxFuel_kg));
-        v.spare(burn.spare_number);
+        v.number(burn.asked_excess_air_ratio, Real{0}, static_cast<Real>(kMaxExcessAir_ratio));
         v.word(burn.taken, 1u);
         v.spare(burn.spare);
       }
