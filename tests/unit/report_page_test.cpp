@@ -207,6 +207,46 @@ TEST(ReportPage, FillsShortRowsAndDropsSurplusCells) {
             2u * (2 + 2 * 2) + (5 + 5));  // two narrow tables of two rows, a wide one of one row, each with its head
 }
 
+/// What holds in print alone.
+std::string print_style(const std::string& html) {
+  const std::size_t at = html.find("@media print {");
+  return html.substr(at, html.find("\n}\n", at) - at);
+}
+
+/// The tables of a run over the crank angle fill dozens of pages: those that the reader has opened are printed.
+TEST(ReportPage, PrintsOnlyTheTablesThatAreOpen) {
+  const std::string html = to_html(sample_page());
+  EXPECT_EQ(html.find("<details open"), std::string::npos);
+  EXPECT_EQ(html.find("details-content"), std::string::npos);
+  EXPECT_NE(print_style(html).find(".table:has(> details:not([open])) { display: none; }"), std::string::npos);
+}
+
+/// Key figures in N columns: where one would be left over, the first is two wide.
+TEST(ReportPage, LeavesNoTileAloneInTheLastRow) {
+  const std::string html = to_html(sample_page());
+  const std::string columns = ".facts { grid-template-columns: repeat(";
+  std::set<int> widths;
+  for (std::size_t at = html.find(columns); at != std::string::npos; at = html.find(columns, at + 1)) {
+    const int n = std::atoi(html.c_str() + at + columns.size());
+    const std::string rule =
+        ".facts > :first-child:nth-last-child(" + std::to_string(n) + "n + 1) { grid-column: span 2; }";
+    EXPECT_LT(html.find(rule, at), html.find("@media", at)) << n;
+    widths.insert(n);
+  }
+  EXPECT_EQ(widths, (std::set<int>{2, 4, 6}));
+}
+
+TEST(ReportPage, PutsATableBesideTheLastPlot) {
+  Page page = sample_page();
+  const Table narrow = std::get<Table>(page.sections[0].blocks[3]);
+  page.sections[1].blocks = {plot_of({pressure_trace()}), narrow};
+  const std::string html = to_html(page);
+  const std::size_t row = html.find("<div class=\"row\">", html.find("id=\"forces\""));
+  EXPECT_LT(row, html.find("<figure"));
+  EXPECT_EQ(html.find("<div class=\"row\">", row + 1), std::string::npos);
+  EXPECT_LT(html.find("<div class=\"table\">", row), html.find("</section>", row));
+}
+
 TEST(ReportPage, EscapesEveryTextItIsGiven) {
   const std::string evil = "</style><script>\"&'";
   Page page;
