@@ -59,6 +59,7 @@ struct MapColumn {
   const char* title;  ///< of the drawing; nullptr: not drawn
   const char* unit;
   double (*value)(const MapPoint&);
+  bool is_share = false;  ///< pages show it in per cent
 };
 inline constexpr std::size_t kMapColumns = 14;
 extern const MapColumn kMapColumnList[kMapColumns];

@@ -43,9 +43,10 @@ Polyline places_along(const Curve& curve) {
 
 }  // namespace
 
-/// Length of curves and overlap with other labels under a box, as a penalty in user units.
+/// Length of curves and zero lines, and overlap with other labels under a box, as a penalty in user units.
 double Drawing::hidden_by(const Box& box) const {
   double penalty = 0;
+  for (const Polyline& line : zero_lines_) penalty += length_inside(box, line[0], line[1]);
   for (const Curve& curve : curves_) {
     for (const Polyline& line : curve.lines) {
       for (std::size_t i = 1; i < line.size(); ++i) penalty += length_inside(box, line[i - 1], line[i]);
@@ -61,7 +62,7 @@ double Drawing::outside_frame(const Box& box) const {
          std::max(0.0, frame_.top + 1 - box.top) + std::max(0.0, box.bottom - frame_.bottom + 2);
 }
 
-/// Every marker gets its label at the best of eight places around it, at three distances.
+/// Every marker gets its label at the best place around it: as near as curves, zero lines and other labels allow.
 void Drawing::place_markers() {
   for (const Marker& marker : plot_.markers) {
     if (!visible(marker)) continue;
@@ -74,21 +75,18 @@ void Drawing::place_markers() {
     Label best;
     double least = std::numeric_limits<double>::infinity();
     const bool high = dot.y < (frame_.top + frame_.bottom) / 2;
+    const double beside = 0.26 * kTypeSize;
     double order = 0;
-    for (const double away : {10.0, 22.0, 34.0}) {  // farther, where curves are in the way
+    for (double away = 10; away <= 82; away += 12) {  // farther, where lines are in the way
       const double above = -away;
       const double below = away + 0.76 * kTypeSize;
-      const double beside = 0.26 * kTypeSize;
       for (const double dy : {high ? above : below, beside, high ? below : above}) {
-        for (const int side : {0, 1, -1}) {
-          if (side == 0 && dy == beside) continue;
-          const Anchor anchor = side == 0 ? Anchor::middle : side > 0 ? Anchor::start : Anchor::end;
-          const Label label{{dot.x + side * (dy == beside ? away : 6), dot.y + dy},
-                            anchor,
-                            marker.label,
-                            colour_of(marker.series)};
+        for (const double dx : {0.0, 6.0, -6.0, away, -away}) {
+          if (dy == beside && std::abs(dx) < away) continue;
+          const Anchor anchor = dx == 0 ? Anchor::middle : dx > 0 ? Anchor::start : Anchor::end;
+          const Label label{{dot.x + dx, dot.y + dy}, anchor, marker.label, colour_of(marker.series)};
           const Box box = box_of(label);
-          const double penalty = hidden_by(grown(box, 3)) + 20 * outside_frame(box) + order++;
+          const double penalty = 20 * hidden_by(grown(box, 3)) + 100 * outside_frame(box) + order++;
           if (penalty < least) {
             least = penalty;
             best = label;
@@ -136,6 +134,9 @@ double Drawing::clarity(const Label& label, std::size_t own) const {
   for (const Box& other : taken_) {
     if (overlap_area(grown(box, 4), other) > 0) return 0;
   }
+  for (const Polyline& line : zero_lines_) {
+    if (distance(box, line[0], line[1]) < 1) return 0;
+  }
   double own_distance = 40;
   double other_distance = 40;
   for (std::size_t i = 0; i < curves_.size(); ++i) {
@@ -152,9 +153,7 @@ double Drawing::clarity(const Label& label, std::size_t own) const {
     for (const Point& point : curves_[i].points) nearest = std::min(nearest, distance(box, point, point));
     if (nearest < 2) return 0;
   }
-  const double zero = plot_.y.logarithmic ? -1 : to_y_(0);
-  const double crossed_zero = zero > box.top && zero < box.bottom ? 8 : 0;
-  return other_distance - own_distance - 4 - crossed_zero;
+  return other_distance - own_distance - 4;
 }
 
 }  // namespace crankloop::report

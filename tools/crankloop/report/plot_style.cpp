@@ -43,7 +43,12 @@ std::string_view plot_style() {
 .plot .dashed { stroke-dasharray: 6 5; }
 .plot .area { fill: var(--c); fill-opacity: 0.12; }
 .plot .dot { stroke: var(--c); stroke-width: 7px; stroke-linecap: round; }
-.plot .bar, .plot .cell { fill: var(--c); }
+.plot .bar { fill: var(--c); }
+.plot .contour { stroke-linecap: round; }
+.plot .node { stroke: #000000; stroke-opacity: 0.3; stroke-width: 3px; stroke-linecap: round; }
+.plot .height { stroke-width: 5px; stroke-linejoin: round; paint-order: stroke; }
+.plot path.on-dark { stroke: #ffffff; } .plot path.on-light { stroke: #000000; }
+.plot text.on-dark { fill: #ffffff; } .plot text.on-light { fill: #000000; }
 .plot .hair { stroke: var(--axis); }
 .plot .key[role] { cursor: pointer; }
 @media screen { .plot .off { display: none; } .plot .faint { opacity: 0.4; } }
