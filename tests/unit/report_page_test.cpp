@@ -91,6 +91,19 @@ TEST(ReportColours, AShadeOfTheRampIsStrongerThanTheOneBefore) {
   }
 }
 
+/// In print without colour too: no two shades of the ramp have the same dashes.
+TEST(ReportColours, AShadeOfTheRampHasDashesOfItsOwn) {
+  const std::string style{plot_style()};
+  std::set<std::string> dashes;
+  for (int i = 1; i <= kRamp; ++i) {
+    const std::string rule = ".plot .curve.r" + std::to_string(i) + " { stroke-dasharray: ";
+    const std::size_t at = style.find(rule);
+    dashes.insert(at == std::string::npos ? "none"
+                                          : style.substr(at + rule.size(), style.find('}', at) - at - rule.size()));
+  }
+  EXPECT_EQ(dashes.size(), static_cast<std::size_t>(kRamp));
+}
+
 /// One palette for both themes: more is lighter, step by step.
 TEST(ReportColours, AHeatMapGetsLighterWithItsValue) {
   double before = -1;

@@ -27,7 +27,7 @@ struct Label {
   Point at{};  // on the baseline
   Anchor anchor = Anchor::start;
   std::string text{};
-  int colour = 0;
+  int colour = 0;   // 0: ink
   int series = -1;  // whose name it is
 };
 
@@ -81,7 +81,11 @@ class Drawing {
   // drawing_labels.cpp
   double hidden_by(const Box& box) const;
   double outside_frame(const Box& box) const;
+  void place_beside(Point dot, Label label);
   void place_markers();
+  Point end_of(const Polyline& line) const;
+  void place_ends();
+  bool end_together() const;
   bool place_names();
   double clarity(const Label& label, std::size_t own) const;
 
@@ -119,6 +123,8 @@ class Drawing {
   std::vector<LegendEntry> legend_{};
   std::vector<Label> labels_{};
   std::vector<Box> taken_{};
+  std::vector<Polyline> leaders_{};  // from the end of a curve to its name
+  bool ends_together_ = false;       // the curves': within a quarter of the frame's width
   std::string out_{};
 };
 

@@ -59,8 +59,19 @@ void Drawing::make_scales() {
     }
   }
   x_ = make_scale(x_axis, x, kXIntervals);
+  ends_together_ = plot_.names_at_ends && end_together();
   y_of_data_ = y_ = make_scale(y_axis, y, kYIntervals);
   empty_ = x.low > x.high;
+}
+
+bool Drawing::end_together() const {
+  Range ends{kLargest, -kLargest};
+  for (const Series& series : plot_.series) {
+    if (series.x.empty()) continue;
+    const double end = std::min(series.x.back(), x_.range.high);
+    ends = {std::min(ends.low, end), std::max(ends.high, end)};
+  }
+  return ends.high - ends.low < (x_.range.high - x_.range.low) / 4;
 }
 
 void Drawing::make_layout(bool legend) {
@@ -83,6 +94,11 @@ void Drawing::make_layout(bool legend) {
   for (const Tick& tick : y_.ticks) widest = std::max(widest, text_width(tick.label));
   frame_.left = std::max(34.0, widest + 12);
   frame_.right = kWidth - std::max(8.0, x_.ticks.empty() ? 0 : text_width(x_.ticks.back().label) / 2 + 2);
+  if (ends_together_) {
+    double names = 0;
+    for (const Series& series : plot_.series) names = std::max(names, 1.1 * text_width(series.name));
+    frame_.right = kWidth - 28 - names;
+  }
   if (has_field()) {
     double key = 0;
     for (const Tick& tick : levels_.ticks) key = std::max(key, text_width(tick.label));
@@ -112,6 +128,7 @@ void Drawing::make_headroom() {
   if (plot_.y.range || plot_.y.logarithmic) return;
   const double need = 32 / (frame_.bottom - frame_.top);
   Range range = y_.range;
+  if (plot_.names_at_ends && !ends_together_) range.high += 0.3 * (range.high - range.low);
   for (const Marker& marker : plot_.markers) {
     if (marker.label.empty() || !visible(marker)) continue;
     const double middle = (y_.range.low + y_.range.high) / 2;

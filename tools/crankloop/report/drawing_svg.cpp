@@ -111,6 +111,7 @@ void Drawing::write() {
   }
   if (empty_)
     text("tick", {(frame_.left + frame_.right) / 2, (frame_.top + frame_.bottom) / 2}, Anchor::middle, "no data");
+  for (const Polyline& leader : leaders_) path("leader", path_of(leader));
   for (const Label& label : labels_) {
     if (label.series >= 0) out_ += "<g class=\"key\" data-s=\"" + std::to_string(label.series) + "\">";
     text("name", label.at, label.anchor, label.text, label.colour);

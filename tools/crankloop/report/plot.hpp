@@ -25,7 +25,7 @@ enum class Draw : std::uint8_t { line, step, bar, points, line_and_points };
 struct Style {
   Draw draw = Draw::line;
   int colour = 0;  ///< 1 to kColours; 0 = by position in the plot, dashed from the (kColours + 1)th on
-  int ramp = 0;    ///< 1 to kRamp: a shade of one hue instead, for curves of a rising parameter
+  int ramp = 0;    ///< 1 to kRamp: shade of one hue and dashes instead, for curves of a rising parameter
   bool bold = false;
   bool dashed = false;
   bool closed = false;  ///< joins the last point to the first: a loop
@@ -81,7 +81,8 @@ struct Plot {
   std::vector<Series> series{};
   std::vector<Band> bands{};
   std::vector<Marker> markers{};
-  Field field{};  ///< absent without values; below the series
+  bool names_at_ends = false;  ///< each series' name where its line ends, for a family of curves; else see to_svg()
+  Field field{};               ///< absent without values; below the series
 };
 
 [[nodiscard]] inline Axis axis_of(const std::string& title, const std::string& unit) {
