@@ -54,8 +54,11 @@ report::Page map_page(const EngineMap& map) {
   };
   report::Page page;
   page.title = map.file.name() + " over speed and throttle";
-  page.subtitle = std::to_string(map.request.speed_rpm.count) + " speeds, " +
-                  std::to_string(map.request.throttle_ratio.count) + " throttles, each until it has settled.";
+  const auto counted = [](int count, const std::string& what) {
+    return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
+  };
+  page.subtitle = counted(map.request.speed_rpm.count, "speed") + ", " +
+                  counted(map.request.throttle_ratio.count, "throttle position") + ", each until it has settled.";
   const MapPoint torque = most([](const MapPoint& p) { return p.brake_torque_Nm; });
   const MapPoint power = most([](const MapPoint& p) { return p.power_W; });
   const MapPoint charge = most([](const MapPoint& p) { return p.gas.cycle.volumetric_efficiency; });

@@ -113,13 +113,17 @@ footer {
   .facts { gap: 1.2rem 1rem; }
   .facts .value { font-size: 1.45rem; }
 }
-@page { margin: 16mm 14mm; }
+@page { margin: 12mm 14mm; }
 @media print {
   :root { --paper: #ffffff; color-scheme: light; }
   body { padding: 0; max-width: none; font-size: 10pt; }
   nav, .read-out { display: none; }
-  section { margin-top: 2rem; }
-  .row { grid-template-columns: 1fr 1fr; gap: 1.6rem 1.8rem; }
+  section { margin-top: 1.4rem; }
+  h2 { margin-bottom: 0.8rem; padding-top: 0.7rem; }
+  h3 { margin-bottom: 0.3rem; }
+  .row { grid-template-columns: 1fr 1fr; gap: 1.1rem 1.8rem; margin-bottom: 1.1rem; }
+  figcaption { margin-top: 0.2rem; font-size: 8.5pt; }
+  .table { margin-bottom: 1.1rem; }
   .scroll { overflow: visible; }
   table { font-size: 8.5pt; }
   figure, tr, .facts, .row .table { break-inside: avoid; }
