@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -75,6 +76,13 @@ class Drawing {
   void write_field();
   void write_contour(double level, const Polyline& ends);
   void write_heat_key();
+  struct HeatCorner {
+    Point at;
+    double value;
+  };
+  using HeatCell = std::array<HeatCorner, 4>;
+  HeatCell heat_cell(std::size_t i, std::size_t j) const;
+  static Polyline area_of_cell(double level, const HeatCell& cell, Polyline& contour);
   std::string area_above(double level, Polyline& contour) const;
   std::string heat_at(double level) const;
 

@@ -63,61 +63,61 @@ std::string Drawing::heat_at(double level) const {
   return heat_colour((level - levels_.range.low) / (levels_.range.high - levels_.range.low));
 }
 
-/// Where the field, straight between neighbours of the lattice, is at least `level`; the ends of its edge's pieces.
-std::string Drawing::area_above(double level, Polyline& contour) const {
+/// The part of a cell of the lattice, around which its four corners and values stand, that is at least `level`; the
+/// pieces of the contour in it end where one such part does.
+Polyline Drawing::area_of_cell(double level, const HeatCell& cell, Polyline& contour) {
+  Polyline area;
+  std::vector<std::size_t> leaves;  // where the edge of the area goes into the cell
+  for (std::size_t k = 0; k < 4; ++k) {
+    const HeatCorner& a = cell[k];
+    const HeatCorner& b = cell[(k + 1) % 4];
+    if (a.value >= level) area.push_back(a.at);
+    if ((a.value >= level) == (b.value >= level)) continue;
+    if (a.value >= level) leaves.push_back(area.size());
+    const double part = (level - a.value) / (b.value - a.value);
+    area.push_back({a.at.x + part * (b.at.x - a.at.x), a.at.y + part * (b.at.y - a.at.y)});
+  }
+  for (const std::size_t k : leaves) {
+    contour.push_back(area[k]);
+    contour.push_back(area[(k + 1) % area.size()]);
+  }
+  return area;
+}
+
+/// Its corners in order.
+Drawing::HeatCell Drawing::heat_cell(std::size_t i, std::size_t j) const {
   const Field& field = plot_.field;
+  const auto corner = [&](std::size_t x, std::size_t y) {
+    return HeatCorner{{to_x_(field.x[x]), to_y_(field.y[y])}, field.values[x * field.y.size() + y]};
+  };
+  return {corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)};
+}
+
+/// Where the field, straight between neighbours of the lattice, is at least `level`; the contour as pairs of ends.
+std::string Drawing::area_above(double level, Polyline& contour) const {
   std::string d;
   const auto close = [&d](const Polyline& area) {
     for (std::size_t k = 0; k < area.size(); ++k)
       d += (k == 0 ? 'M' : k == 1 ? 'L' : ' ') + coordinate(area[k].x) + ' ' + coordinate(area[k].y);
-    d += 'Z';
+    if (!area.empty()) d += 'Z';
   };
-  const auto value = [&](std::size_t i, std::size_t j) { return field.values[i * field.y.size() + j]; };
-  for (std::size_t j = 0; j + 1 < field.y.size(); ++j) {
-    std::size_t whole = 0;  // cells before i, side by side, that lie above as a whole: one rectangle
-    for (std::size_t i = 0; i < field.x.size(); ++i) {
-      const auto corner = [&](std::size_t k) {
-        return std::make_pair(i + (k == 1 || k == 2 ? 1 : 0), j + (k >= 2 && k < 4 ? 1 : 0));
-      };
-      const auto place = [&](std::pair<std::size_t, std::size_t> at) {
-        return Point{to_x_(field.x[at.first]), to_y_(field.y[at.second])};
-      };
-      std::array<double, 5> v{};
-      bool above = i + 1 < field.x.size();
-      const bool inside = above;
-      for (std::size_t k = 0; inside && k < 5; ++k) {
-        v[k] = value(corner(k % 4).first, corner(k % 4).second);
-        above = above && v[k] >= level;
-      }
-      if (above) {
-        ++whole;
+  for (std::size_t j = 0; j + 1 < plot_.field.y.size(); ++j) {
+    Polyline whole;  // cells side by side that lie above as a whole: one rectangle
+    for (std::size_t i = 0; i + 1 < plot_.field.x.size(); ++i) {
+      const HeatCell cell = heat_cell(i, j);
+      const auto known = [](const HeatCorner& corner) { return std::abs(corner.value) < kLargest; };
+      const bool drawn = std::all_of(cell.begin(), cell.end(), known);
+      const Polyline area = drawn ? area_of_cell(level, cell, contour) : Polyline{};
+      const auto above = [level](const HeatCorner& corner) { return corner.value >= level; };
+      if (drawn && std::all_of(cell.begin(), cell.end(), above)) {
+        whole = whole.empty() ? area : Polyline{whole[0], area[1], area[2], whole[3]};
         continue;
       }
-      if (whole > 0) {
-        const Point from = place({i - whole, j});
-        const Point to = place({i, j + 1});
-        close({from, {to.x, from.y}, to, {from.x, to.y}});
-      }
-      whole = 0;
-      if (!inside || !std::all_of(v.begin(), v.end(), [](double one) { return std::abs(one) < kLargest; })) continue;
-      Polyline area;
-      std::vector<std::size_t> leaves;  // where the edge of the area goes through the cell
-      for (std::size_t k = 0; k < 4; ++k) {
-        const Point a = place(corner(k));
-        const Point b = place(corner((k + 1) % 4));
-        if (v[k] >= level) area.push_back(a);
-        if ((v[k] >= level) == (v[k + 1] >= level)) continue;
-        if (v[k] >= level) leaves.push_back(area.size());
-        const double part = (level - v[k]) / (v[k + 1] - v[k]);
-        area.push_back({a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)});
-      }
-      if (area.empty()) continue;
+      close(whole);
+      whole.clear();
       close(area);
-      for (const std::size_t k : leaves) {
-        contour.push_back(area[k]);
-        contour.push_back(area[(k + 1) % area.size()]);
-      }
     }
+    close(whole);
   }
   return d;
 }

@@ -26,10 +26,8 @@ body {
 }
 h1, h2, h3 { line-height: 1.2; font-weight: 600; text-wrap: balance; }
 h1 { margin: 0; font-size: clamp(1.75rem, 1.3rem + 2vw, 2.6rem); letter-spacing: -0.015em; }
-h2 {
-  margin: 0 0 1.25rem; padding-top: 1.1rem; border-top: 1px solid var(--rule); font-size: 1.45rem;
-  letter-spacing: -0.01em;
-}
+h2 { margin: 0 0 1.25rem; padding-top: 1.1rem; border-top: 1px solid var(--rule); font-size: 1.45rem; }
+h2 { letter-spacing: -0.01em; }
 h3 { margin: 0 0 0.75rem; font-size: 1.02rem; }
 p, ul { margin: 0 0 1.1rem; max-width: 42rem; }
 ul { padding-left: 1.2rem; }
@@ -68,8 +66,7 @@ section { margin-top: 3.6rem; }
 h2, .figure { scroll-margin-top: 5rem; }
 .note { padding: 0.1rem 0 0.1rem 1rem; border-left: 3px solid var(--accent); }
 .row {
-  display: grid; grid-template-columns: minmax(0, 1fr); gap: 2.8rem clamp(1.8rem, 4vw, 3rem);
-  margin: 0 0 2.4rem;
+  display: grid; grid-template-columns: minmax(0, 1fr); gap: 2.8rem clamp(1.8rem, 4vw, 3rem); margin: 0 0 2.4rem;
 }
 p + .row, ul + .row { margin-top: 2rem; }
 @media (min-width: 48rem) { .row { grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); } }
@@ -85,8 +82,7 @@ table { border-collapse: collapse; font-size: 0.92rem; line-height: 1.35; }
 .row table { width: 100%; }
 caption { padding-bottom: 0.6rem; font-weight: 600; font-size: 1.02rem; text-align: left; }
 th, td {
-  padding: 0.38rem 0.9rem 0.38rem 0; text-align: left; vertical-align: baseline;
-  border-bottom: 1px solid var(--rule);
+  padding: 0.38rem 0.9rem 0.38rem 0; text-align: left; vertical-align: baseline; border-bottom: 1px solid var(--rule);
 }
 th:last-child, td:last-child { padding-right: 0; }
 thead th { color: var(--muted); font-weight: 500; vertical-align: bottom; border-bottom-color: var(--axis); }
@@ -103,8 +99,7 @@ details caption { position: absolute; width: 1px; height: 1px; overflow: hidden;
   pointer-events: none;
 }
 footer {
-  margin-top: 4rem; padding-top: 1.1rem; border-top: 1px solid var(--rule); color: var(--muted);
-  font-size: 0.9rem;
+  margin-top: 4rem; padding-top: 1.1rem; border-top: 1px solid var(--rule); color: var(--muted); font-size: 0.9rem;
 }
 @media (max-width: 30rem) {
   body { padding-top: 2rem; }
@@ -119,11 +114,9 @@ footer {
   body { padding: 0; max-width: none; font-size: 10pt; }
   nav, .read-out { display: none; }
   section { margin-top: 1.4rem; }
-  h2 { margin-bottom: 0.8rem; padding-top: 0.7rem; }
-  h3 { margin-bottom: 0.3rem; }
+  h2 { margin-bottom: 0.8rem; padding-top: 0.7rem; } h3 { margin-bottom: 0.3rem; }
   .row { grid-template-columns: 1fr 1fr; gap: 1.1rem 1.8rem; margin-bottom: 1.1rem; }
-  figcaption { margin-top: 0.2rem; font-size: 8.5pt; }
-  .table { margin-bottom: 1.1rem; }
+  figcaption { margin-top: 0.2rem; font-size: 8.5pt; } .table { margin-bottom: 1.1rem; }
   .scroll { overflow: visible; }
   table { font-size: 8.5pt; }
   figure, tr, .facts, .row .table { break-inside: avoid; }
