@@ -131,7 +131,7 @@ class Drawing {
   std::vector<LegendEntry> legend_{};
   std::vector<Label> labels_{};
   std::vector<Box> taken_{};
-  std::vector<Polyline> leaders_{};  // from the end of a curve to its name
+  std::vector<Polyline> leaders_{};  // from the end of a curve or from a dot to its label
   bool ends_together_ = false;       // the curves': within a quarter of the frame's width
   std::string out_{};
 };

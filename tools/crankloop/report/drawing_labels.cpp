@@ -62,7 +62,8 @@ double Drawing::outside_frame(const Box& box) const {
          std::max(0.0, frame_.top + 1 - box.top) + std::max(0.0, box.bottom - frame_.bottom + 2);
 }
 
-/// At the best place around a dot: as near as curves, zero lines and other labels allow, and then taken.
+/// At the best place around a dot: as near as curves, zero lines and other labels allow, with a thin line if that is
+/// far.
 void Drawing::place_beside(Point dot, Label label) {
   Label best;
   double least = std::numeric_limits<double>::infinity();
@@ -85,7 +86,10 @@ void Drawing::place_beside(Point dot, Label label) {
       }
     }
   }
-  taken_.push_back(box_of(best));
+  const Box box = box_of(best);
+  const Point near{std::clamp(dot.x, box.left, box.right), std::clamp(dot.y, box.top, box.bottom)};
+  if (std::hypot(near.x - dot.x, near.y - dot.y) > 20) leaders_.push_back({dot, near});
+  taken_.push_back(box);
   labels_.push_back(best);
 }
 

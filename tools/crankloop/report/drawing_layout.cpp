@@ -76,6 +76,7 @@ bool Drawing::end_together() const {
 
 void Drawing::make_layout(bool legend) {
   labels_.clear();
+  leaders_.clear();
   taken_.clear();
   legend_.clear();
   height_ = kHeight;
