@@ -132,25 +132,33 @@ TEST_F(MapCommand, IsTheSameHoweverItsPointsAreShared) {
   EXPECT_EQ(once("one.csv"), once("two.csv"));
 }
 
-TEST_F(MapCommand, ColoursEachPointOnceInEachHeatMap) {
+TEST_F(MapCommand, DrawsAHeatMapOfEachResultWithItsPointsAndContours) {
   const std::string summary =
       map({kFour, "--rpm", "1000:5000:5", "--throttle", "0:1:4", "--tick-us", "200", "--report", path("map.html")});
-  const support::Markup page = support::read(contents(path("map.html")));
-  const std::size_t maps = page.all("svg").size();
-  EXPECT_EQ(maps, 6u);
-  std::size_t cells = 0;
-  std::size_t keys = 0;
-  for (const auto& rectangle : page.all("rect")) {
-    if (rectangle.attributes.at("class").rfind("cell ", 0) != 0) continue;
-    (rectangle.attributes.at("width") == "14" ? keys : cells) += 1;
-  }
-  EXPECT_EQ(cells, maps * 5 * 4);
-  EXPECT_GE(keys, 2 * maps);
-  EXPECT_LE(keys, 7 * maps);
   const std::string text = contents(path("map.html"));
+  const support::Markup page = support::read(text);
+  EXPECT_EQ(page.fault, "");
+  EXPECT_EQ(page.all("svg").size(), 6u);
+  std::size_t maps = 0;
+  for (const auto& group : page.all("g")) {
+    const auto field = group.attributes.find("data-field");
+    if (field == group.attributes.end()) continue;
+    EXPECT_EQ(split_at(field->second, ' ').size(), 5u * 4) << group.attributes.at("data-name");
+    ++maps;
+  }
+  EXPECT_EQ(maps, 6u);
+  EXPECT_GE(page.of_class("contour").size(), 3 * maps);
+  EXPECT_NE(text.find("data-name=\"Residual gas\" data-unit=\"%\""), std::string::npos);
   EXPECT_NE(text.find("Not modelled: pressure waves"), std::string::npos);
   EXPECT_EQ(line(summary, "points").first, 20);
   EXPECT_EQ(line(summary, "faulty_ticks").first, 0);
+}
+
+TEST_F(MapCommand, DrawsALonePointToo) {
+  map({kFour, "--rpm", "2000:2000:1", "--throttle", "1:1:1", "--tick-us", "200", "--report", path("map.html")});
+  const support::Markup page = support::read(contents(path("map.html")));
+  EXPECT_EQ(page.fault, "");
+  EXPECT_EQ(page.all("svg").size(), 6u);
 }
 
 TEST_F(MapCommand, RefusesWhatIsNoMap) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "support/drawing_geometry.hpp"
 #include "support/markup.hpp"
 #include "support/run_command.hpp"
 #include "support/units.hpp"
@@ -88,6 +89,15 @@ TEST_F(ReportOfThe495, HasOneMeanTorqueAtEverySpeed) {
   std::string loads = description("Largest loads");
   loads = loads.substr(loads.find("rod, pulled"));
   EXPECT_NEAR(std::stod(loads.substr(loads.find(" to ") + 4)), pulled_kN, 0.005 * pulled_kN) << loads;
+}
+
+TEST_F(ReportOfThe495, PutsNoLabelAcrossACurveOrAnAxis) {
+  EXPECT_EQ(support::labels_in_the_way(page()), std::vector<std::string>{});
+}
+
+TEST_F(ReportOfThe495, GivesSharesAsPerCent) {
+  const std::string page = contents(path("report.html"));
+  EXPECT_NE(page.find("mechanical efficiency 80.0 %"), std::string::npos);
 }
 
 TEST_F(ReportOfThe495, PutsRemarksUnderTheSectionThatFollowsThem) {

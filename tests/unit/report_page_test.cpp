@@ -30,6 +30,16 @@ using support::read;
 
 using Rgb = std::array<double, 3>;
 
+/// Of "#440154": sRGB to linear light, IEC 61966-2-1.
+Rgb linear(const std::string& colour) {
+  Rgb rgb{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double c = static_cast<double>(std::strtol(colour.substr(1 + 2 * i, 2).c_str(), nullptr, 16)) / 255;
+    rgb[i] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  }
+  return rgb;
+}
+
 /// The colour variables of one theme.
 std::map<std::string, Rgb> colours(bool dark) {
   const std::string style{plot_style()};
@@ -39,13 +49,7 @@ std::map<std::string, Rgb> colours(bool dark) {
   const std::size_t end = dark ? style.find("\n}", media) : media;
   while ((at = style.find("--", at)) < end) {
     const std::size_t colon = style.find(':', at);
-    const std::string value = style.substr(colon + 2, 7);
-    Rgb rgb{};
-    for (std::size_t i = 0; i < 3; ++i) {  // sRGB to linear light, IEC 61966-2-1
-      const double c = static_cast<double>(std::strtol(value.substr(1 + 2 * i, 2).c_str(), nullptr, 16)) / 255;
-      rgb[i] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-    }
-    found[style.substr(at + 2, colon - at - 2)] = rgb;
+    found[style.substr(at + 2, colon - at - 2)] = linear(style.substr(colon + 2, 7));
     at = colon;
   }
   return found;
@@ -85,6 +89,32 @@ TEST(ReportColours, AShadeOfTheRampIsStrongerThanTheOneBefore) {
       before = 1.12 * here;
     }
   }
+}
+
+/// In print without colour too: no two shades of the ramp have the same dashes.
+TEST(ReportColours, AShadeOfTheRampHasDashesOfItsOwn) {
+  const std::string style{plot_style()};
+  std::set<std::string> dashes;
+  for (int i = 1; i <= kRamp; ++i) {
+    const std::string rule = ".plot .curve.r" + std::to_string(i) + " { stroke-dasharray: ";
+    const std::size_t at = style.find(rule);
+    dashes.insert(at == std::string::npos ? "none"
+                                          : style.substr(at + rule.size(), style.find('}', at) - at - rule.size()));
+  }
+  EXPECT_EQ(dashes.size(), static_cast<std::size_t>(kRamp));
+}
+
+/// One palette for both themes: more is lighter, step by step.
+TEST(ReportColours, AHeatMapGetsLighterWithItsValue) {
+  double before = -1;
+  for (int i = 0; i <= 40; ++i) {
+    const Rgb here = linear(heat_colour(i / 40.0));
+    const double luminance = 0.2126 * here[0] + 0.7152 * here[1] + 0.0722 * here[2];
+    EXPECT_GT(luminance, before) << i;
+    before = luminance;
+  }
+  EXPECT_EQ(heat_colour(-1), heat_colour(0));
+  EXPECT_EQ(heat_colour(2), heat_colour(1));
 }
 
 TEST(ReportColours, CurvesDifferForColourBlindReadersToo) {
@@ -207,6 +237,46 @@ TEST(ReportPage, FillsShortRowsAndDropsSurplusCells) {
             2u * (2 + 2 * 2) + (5 + 5));  // two narrow tables of two rows, a wide one of one row, each with its head
 }
 
+/// What holds in print alone.
+std::string print_style(const std::string& html) {
+  const std::size_t at = html.find("@media print {");
+  return html.substr(at, html.find("\n}\n", at) - at);
+}
+
+/// The tables of a run over the crank angle fill dozens of pages: those that the reader has opened are printed.
+TEST(ReportPage, PrintsOnlyTheTablesThatAreOpen) {
+  const std::string html = to_html(sample_page());
+  EXPECT_EQ(html.find("<details open"), std::string::npos);
+  EXPECT_EQ(html.find("details-content"), std::string::npos);
+  EXPECT_NE(print_style(html).find(".table:has(> details:not([open])) { display: none; }"), std::string::npos);
+}
+
+/// Key figures in N columns: where one would be left over, the first is two wide.
+TEST(ReportPage, LeavesNoTileAloneInTheLastRow) {
+  const std::string html = to_html(sample_page());
+  const std::string columns = ".facts { grid-template-columns: repeat(";
+  std::set<int> widths;
+  for (std::size_t at = html.find(columns); at != std::string::npos; at = html.find(columns, at + 1)) {
+    const int n = std::atoi(html.c_str() + at + columns.size());
+    const std::string rule =
+        ".facts > :first-child:nth-last-child(" + std::to_string(n) + "n + 1) { grid-column: span 2; }";
+    EXPECT_LT(html.find(rule, at), html.find("@media", at)) << n;
+    widths.insert(n);
+  }
+  EXPECT_EQ(widths, (std::set<int>{2, 4, 6}));
+}
+
+TEST(ReportPage, PutsATableBesideTheLastPlot) {
+  Page page = sample_page();
+  const Table narrow = std::get<Table>(page.sections[0].blocks[3]);
+  page.sections[1].blocks = {plot_of({pressure_trace()}), narrow};
+  const std::string html = to_html(page);
+  const std::size_t row = html.find("<div class=\"row\">", html.find("id=\"forces\""));
+  EXPECT_LT(row, html.find("<figure"));
+  EXPECT_EQ(html.find("<div class=\"row\">", row + 1), std::string::npos);
+  EXPECT_LT(html.find("<div class=\"table\">", row), html.find("</section>", row));
+}
+
 TEST(ReportPage, EscapesEveryTextItIsGiven) {
   const std::string evil = "</style><script>\"&'";
   Page page;
@@ -256,7 +326,7 @@ TEST(ReportScript, IsTheOnlyOneThatThePolicyAllows) {
 
 TEST(ReportScript, IsShortAndPlainXml) {
   const std::string script{read_out_script()};
-  EXPECT_LE(std::count(script.begin(), script.end(), '\n'), 120);
+  EXPECT_LE(std::count(script.begin(), script.end(), '\n'), 130);
   EXPECT_EQ(script.find_first_of("<&"), std::string::npos);
 }
 

@@ -7,12 +7,15 @@
 #include <limits>
 #include <locale>
 #include <random>
+#include <set>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "crankloop/report/plot.hpp"
 #include "crankloop/report/thinning.hpp"
+#include "support/drawing_geometry.hpp"
 #include "support/markup.hpp"
 #include "support/report_plots.hpp"
 #include "support/units.hpp"
@@ -36,19 +39,10 @@ TEST(MarkupReader, RefusesWhatTheOtherTestsRelyOnItToRefuse) {
   }
 }
 
-/// All points of a path of absolute M and L, in order.
+/// All points of a path, in order.
 std::vector<Point> points_of(const std::string& d) {
   std::vector<Point> points;
-  const char* at = d.c_str();
-  while (*at != '\0') {
-    if (*at == 'M' || *at == 'L' || *at == ' ') ++at;
-    char* end = nullptr;
-    const double x = std::strtod(at, &end);
-    const double y = std::strtod(end, &end);
-    if (end == at) break;
-    points.push_back({x, y});
-    at = end;
-  }
+  for (const Polyline& line : support::lines_of(d)) points.insert(points.end(), line.begin(), line.end());
   return points;
 }
 
@@ -468,6 +462,83 @@ TEST(ReportPlot, NamesStandBesideCurvesThatLeaveRoomAndInALegendOtherwise) {
   sum.name = "sum";
   const Markup on_top = read(to_svg(plot_of({gas, sum})));
   EXPECT_EQ(on_top.of_class("legend").size(), 2u);
+}
+
+/// Loops within loops around zero, as bearing loads are: the label of the largest stands clear of all of them.
+TEST(ReportPlot, KeepsLabelsOffCurvesAndZeroLines) {
+  for (int turns = 1; turns <= 3; ++turns) {
+    for (int at_deg = 0; at_deg < 360; at_deg += 15) {
+      Series loop;
+      loop.style.closed = true;
+      for (int i = 0; i < 720; ++i) {
+        const double a = i * kPi / 360;
+        const double r = 3 + std::cos(turns * a);
+        loop.x.push_back(r * std::cos(a));
+        loop.y.push_back(r * std::sin(a));
+      }
+      Plot plot = plot_of({loop});
+      plot.x.range = Range{-9.4, 9.4};
+      plot.y.range = Range{-5.5, 5.5};
+      const auto i = static_cast<std::size_t>(2 * at_deg);
+      plot.markers = {{loop.x[i], loop.y[i], "23.5 kN", 0}};
+      EXPECT_EQ(support::labels_in_the_way(read(to_svg(plot))), std::vector<std::string>{}) << turns << ' ' << at_deg;
+    }
+  }
+}
+
+/// z = x + 10 y over 4 by 3 points.
+Plot plane() {
+  Plot plot = plot_of({});
+  plot.field = {"height", "m", {0, 1, 2, 3}, {0, 1, 2}, {}};
+  for (const double x : plot.field.x) {
+    for (const double y : plot.field.y) plot.field.values.push_back(x + 10 * y);
+  }
+  plot.x.range = Range{0, 3};
+  plot.y.range = Range{0, 2};
+  return plot;
+}
+
+TEST(ReportHeatMap, HasStepsOfColourAndContoursWhereTheValuesAre) {
+  const Plot plot = plane();
+  const std::string svg = to_svg(plot);
+  expect_sound(svg);
+  const Markup markup = read(svg);
+  std::set<std::string> colours;
+  for (const Element& area : markup.of_class("heat")) colours.insert(area.attributes.at("style"));
+  EXPECT_GE(colours.size(), static_cast<std::size_t>(kHeatSteps));
+  EXPECT_LE(colours.size(), 3u * kHeatSteps);
+
+  // Contours at multiples of 5 (0 only touches a corner), straight, and where x + 10 y is theirs.
+  const auto contours = markup.of_class("contour");
+  ASSERT_EQ(contours.size(), 4u);
+  std::istringstream scales(markup.elements[0].attributes.at("data-x") + ' ' +
+                            markup.elements[0].attributes.at("data-y"));
+  double n[8];
+  for (double& one : n) scales >> one;
+  for (std::size_t k = 0; k < contours.size(); ++k) {
+    for (const Point& point : points_of(contours[k].attributes.at("d"))) {
+      const double x = n[0] + (point.x - n[2]) / (n[3] - n[2]) * (n[1] - n[0]);
+      const double y = n[4] + (point.y - n[6]) / (n[7] - n[6]) * (n[5] - n[4]);
+      EXPECT_NEAR(x + 10 * y, 5 * static_cast<double>(k + 1), 0.01);
+    }
+  }
+  const auto heights = markup.of_class("height");
+  ASSERT_EQ(heights.size(), 4u);
+  EXPECT_EQ(heights[1].text, "10");
+  EXPECT_NE(markup.all("desc")[0].text.find("height: from 0 to 23.0 m"), std::string::npos)
+      << markup.all("desc")[0].text;
+}
+
+TEST(ReportHeatMap, DrawsAnything) {
+  for (const double value : {0.0, 7.0, -1e-9, 1e9, kNan, kInfinity}) {
+    Plot plot = plane();
+    plot.field.values.assign(12, value);
+    expect_sound(to_svg(plot));
+    plot.field.values[5] = 3;
+    expect_sound(to_svg(plot));
+    plot.field.values[6] = kNan;
+    expect_sound(to_svg(plot));
+  }
 }
 
 TEST(ReportPlot, EscapesEveryTextItIsGiven) {

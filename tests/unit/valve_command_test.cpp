@@ -18,6 +18,7 @@
 #include "crankloop/commands.hpp"
 #include "crankloop/error.hpp"
 #include "crankloop/redline/redline_search.hpp"
+#include "support/drawing_geometry.hpp"
 #include "support/markup.hpp"
 #include "support/valve_runs.hpp"
 
@@ -420,6 +421,20 @@ TEST_F(ValveCommands, ARedlineTellsBothOnsetsAndWritesItsTableAndPage) {
   const std::string page = contents(path("r.html"));
   EXPECT_NE(page.find("<svg"), std::string::npos);
   EXPECT_NE(page.find("spring_N_per_mm"), std::string::npos);
+}
+
+TEST_F(ValveCommands, ARedlineNamesItsCurvesAtTheirEndsAndCutsThemWhereTheValveFloats) {
+  for (const char* what : {"spring", "damping"}) {  // ends apart, and together
+    run(kRedline, {kOhc125, "--train", "intake", "--vary", what, "--csv", path("r.csv"), "--report", path("r.html")});
+    const support::Markup page = support::read(contents(path("r.html")));
+    EXPECT_EQ(support::labels_in_the_way(page), std::vector<std::string>{}) << what;
+    EXPECT_EQ(page.of_class("leader").size(), 6u * 7);
+    for (const support::Element& one : page.all("desc")) {
+      if (one.text.find("Lift over") == 0) {
+        EXPECT_EQ(one.text.find("to 8."), std::string::npos) << one.text;  // of 7.815 mm
+      }
+    }
+  }
 }
 
 /// A hundredth of the preload: the valve flies through its spring.

@@ -39,7 +39,7 @@ std::vector<report::Fact> facts(const ReportInput& input) {
           brake_figures(input.exact.definition(), input.figures.mean_torque_Nm, input.operation.speed_rad_s());
       list.push_back({"Brake power", report::format_number(brake.power_W / 1e3, 4), "kW",
                       report::format_number(brake.torque_Nm, 4) + " Nm, mechanical efficiency " +
-                          report::format_fixed(brake.efficiency_ratio, 3)});
+                          report::format_fixed(100 * brake.efficiency_ratio, 1) + " %"});
     }
     list.push_back({"Net IMEP", report::format_number(input.figures.net_mep_Pa / 1e3, 4), "kPa",
                     "gross " + report::format_number(input.summary.gross_mep_Pa / 1e3, 4) + " kPa"});
@@ -47,7 +47,7 @@ std::vector<report::Fact> facts(const ReportInput& input) {
   if (breathes(input)) {
     const GasCycle<double>& cycle = input.figures.gas.cycle;
     list.push_back({"Air charge", report::format_number(cycle.trapped_air_kg * 1e6, 4), "mg",
-                    "volumetric efficiency " + report::format_fixed(cycle.volumetric_efficiency, 3)});
+                    "volumetric efficiency " + report::format_fixed(100 * cycle.volumetric_efficiency, 1) + " %"});
     list.push_back({"Pumping loss", report::format_number(-cycle.pumping_mep_Pa / 1e3, 3), "kPa",
                     "intake manifold at " + report::format_number(input.figures.gas.intake_Pa / 1e3, 3) + " kPa"});
   }

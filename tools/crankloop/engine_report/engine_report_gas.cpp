@@ -43,9 +43,9 @@ report::Table cycle_table(const ReportInput& input) {
   };
   row("Net IMEP", c.net_mep_Pa / 1e3, "kPa");
   row("Pumping mean pressure", c.pumping_mep_Pa / 1e3, "kPa");
-  row("Volumetric efficiency", c.volumetric_efficiency, "");
+  row("Volumetric efficiency", 100 * c.volumetric_efficiency, "%");
   row("Trapped air", c.trapped_air_kg * 1e6, "mg");
-  row("Residual gas, of all that is trapped", c.residual_ratio, "");
+  row("Residual gas, of all that is trapped", 100 * c.residual_ratio, "%");
   row("Excess air ratio", c.excess_air_ratio, "");
   row("Fuel burned", c.fuel_kg * 1e6, "mg");
   row("Heat of combustion", c.heat_J, "J");

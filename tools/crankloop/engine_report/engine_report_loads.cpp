@@ -59,9 +59,9 @@ Plot polar(const std::string& title, const std::string& x, const std::string& y,
   report::Series centre{"", {0}, {0}, {}};
   centre.style.draw = report::Draw::points;
   centre.style.colour = 6;
-  plot.markers.push_back({loop.x[peak], loop.y[peak],
-                          report::format_number(load[peak] * kKilo, 3) + " kN at " + angle_text(trace.crank_deg[peak]),
-                          0});
+  const std::string largest = report::format_number(load[peak] * kKilo, 3) + " kN";
+  plot.markers.push_back({loop.x[peak], loop.y[peak], largest, 0});
+  plot.caption = "Largest " + largest + ", at " + angle_text(trace.crank_deg[peak]) + ".";
   plot.series = {std::move(loop), std::move(centre)};
   use_equal_scales(plot);
   return plot;
@@ -103,7 +103,7 @@ report::Section bearing_section(const ReportInput& input) {
   Plot loop =
       polar("Crank pin load of cylinder 1, polar", "Radial, toward the crank centre", "Tangential, with the rotation",
             trace[Quantity::pin_radial], trace[Quantity::pin_tangential], trace);
-  loop.caption = "The load as a vector; one unit is equally long on both axes. Dot: no load.";
+  loop.caption += " The load as a vector; one unit is equally long on both axes. Grey dot: no load.";
   section.blocks.push_back(std::move(loop));
   Plot pin = with_extremes(plot_over_angle(input, "Crank pin load of cylinder 1", force_axis("Load"),
                                            {over_angle(trace, "", trace.pin_load_N[first_pin], kKilo)}));

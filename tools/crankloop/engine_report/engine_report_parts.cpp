@@ -176,7 +176,7 @@ void use_equal_scales(report::Plot& plot) {
     for (const double value : series.x) x = {std::min(x.low, value), std::max(x.high, value)};
     for (const double value : series.y) y = {std::min(y.low, value), std::max(y.high, value)};
   }
-  constexpr double kMargin = 1.2;
+  constexpr double kMargin = 1.35;  // room for a label beside the loop
   const double height = kMargin * std::max({y.high - y.low, (x.high - x.low) / kFrameRatio, 1e-9});
   const double width = height * kFrameRatio;
   const auto around = [](report::Range range, double span) {

@@ -90,7 +90,7 @@ Plot close_up(const ReportInput& input) {
   mean.y.push_back(mean.y.back());
   Plot plot = plot_of("The fixed step close up", crank_axis(), axis_of("Engine torque", "Nm"));
   plot.x.tick_step = 0;
-  plot.x.range = window;
+  plot.x.range = report::Range{window.low, window.high + input.figures.deg_per_tick / 2};  // the last dot whole
   plot.series = {std::move(fine), std::move(mean), std::move(points)};
   plot.caption = "What a controller gets at a tick of " + number_text(input.operation.tick_s * 1e6) +
                  " \u00B5s, one tick every " + number_text(input.figures.deg_per_tick) +

@@ -207,8 +207,8 @@ std::vector<report::Fact> facts(const FreeReportInput& input) {
   list.push_back(
       {"Energy defect", report::format_number(std::fabs(f.energy.missing_ratio()), 2), "", "of the largest energy"});
   for (const SignalFigures& signal : f.signals) {
-    list.push_back(
-        {"Edges of " + signal.name, std::to_string(signal.edges), "", std::to_string(signal.lost) + " lost"});
+    list.push_back({"Edges of " + signal.name, report::format_fixed(static_cast<double>(signal.edges), 0), "",
+                    std::to_string(signal.lost) + " lost"});
   }
   return list;
 }

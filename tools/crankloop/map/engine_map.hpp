@@ -26,15 +26,18 @@ struct Grid {
 
 /// What a map varies beside the speed.
 struct MapAxis {
-  const char* column;  ///< of the CSV file, as in its header
-  const char* word;    ///< "throttle"
+  const char* column;     ///< of the CSV file, as in its header
+  const char* word;       ///< "throttle"
+  const char* positions;  ///< what a value is: "throttle position"
   const char* title;
   const char* unit;  ///< of its numbers
   double GasOrder::*varied;
   double per_si;
 };
-inline constexpr MapAxis kThrottleAxis{"throttle", "throttle", "Throttle", "", &GasOrder::throttle_ratio, 1};
-inline constexpr MapAxis kFuelAxis{"fuel_mg", "fuel", "Fuel of a cylinder's cycle", "mg", &GasOrder::fuel_kg, 1e6};
+inline constexpr MapAxis kThrottleAxis{
+    "throttle", "throttle", "throttle position", "Throttle", "", &GasOrder::throttle_ratio, 1};
+inline constexpr MapAxis kFuelAxis{"fuel_mg",          "fuel", "fuel setting", "Fuel of a cylinder's cycle", "mg",
+                                   &GasOrder::fuel_kg, 1e6};
 
 struct MapRequest {
   Grid speed_rpm;
@@ -75,6 +78,7 @@ struct MapColumn {
   const char* title;  ///< of the drawing; nullptr: not drawn
   const char* unit;
   double (*value)(const MapPoint&);
+  bool is_share = false;  ///< pages show it in per cent
 };
 inline constexpr std::size_t kMapColumns = 15;
 extern const MapColumn kMapColumnList[kMapColumns];

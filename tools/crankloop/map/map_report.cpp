@@ -10,50 +10,35 @@ namespace {
 using report::Plot;
 using report::Section;
 
-/// Bounds of at most kRamp levels, at round numbers.
-std::vector<double> levels_of(double low, double high) {
-  report::Scale scale;
-  for (int intervals = report::kRamp; intervals >= 2; --intervals) {
-    scale = report::make_scale({}, {low, high}, intervals);
-    if (scale.ticks.size() <= std::size_t{report::kRamp} + 1) break;
-  }
-  std::vector<double> bounds;
-  for (const report::Tick& tick : scale.ticks) bounds.push_back(tick.value);
-  return bounds;
+std::string unit_of(const MapColumn& column) { return column.is_share ? "%" : column.unit; }
+
+double shown(const MapColumn& column, const MapPoint& point) {
+  return (column.is_share ? 100 : 1) * column.value(point);
+}
+
+/// A grid's values; around a lone one, so that it has an area.
+std::vector<double> lattice(const Grid& grid) {
+  if (grid.count == 1) return {grid.from - grid.step() / 2, grid.from + grid.step() / 2};
+  std::vector<double> at;
+  for (int i = 0; i < grid.count; ++i) at.push_back(grid.at(i));
+  return at;
 }
 
 Plot heat_map(const EngineMap& map, const MapColumn& column) {
-  const Grid& speed = map.request.speed_rpm;
-  const Grid& load = map.request.load;
-  Plot plot = report::plot_of(std::string(column.title) + (*column.unit != '\0' ? ", " + std::string(column.unit) : ""),
-                              report::axis_of("Engine speed", "rpm"),
+  const int loads = map.request.load.count;
+  Plot plot = report::plot_of(column.title, report::axis_of("Engine speed", "rpm"),
                               report::axis_of(map.request.axis->title, map.request.axis->unit));
-  plot.cell_x = speed.step();
-  plot.cell_y = load.step();
-  plot.x.range = report::Range{speed.from - plot.cell_x / 2, speed.to + plot.cell_x / 2};
-  plot.y.range = report::Range{load.from - plot.cell_y / 2, load.to + plot.cell_y / 2};
-  double low = column.value(map.points.front());
-  double high = low;
-  for (const MapPoint& point : map.points) {
-    low = std::min(low, column.value(point));
-    high = std::max(high, column.value(point));
-  }
-  const std::vector<double> bounds = levels_of(low, high);
-  const std::size_t levels = bounds.size() - 1;
-  for (std::size_t level = 0; level < levels; ++level) {
-    report::Series series;
-    series.name = report::number_text(bounds[level]) + " to " + report::number_text(bounds[level + 1]);
-    series.style.draw = report::Draw::cells;
-    series.style.ramp = levels > 1 ? 1 + static_cast<int>(level * (report::kRamp - 1) / (levels - 1)) : report::kRamp;
-    for (const MapPoint& point : map.points) {
-      const double value = column.value(point);
-      const bool here = value >= bounds[level] && (value < bounds[level + 1] || level + 1 == levels);
-      if (!here) continue;
-      series.x.push_back(point.speed_rpm);
-      series.y.push_back(point.load);
+  report::Field& field = plot.field;
+  field = {column.title, unit_of(column), lattice(map.request.speed_rpm), lattice(map.request.load), {}};
+  for (std::size_t i = 0; i < field.x.size(); ++i) {
+    for (std::size_t j = 0; j < field.y.size(); ++j) {
+      const int speed = std::min(static_cast<int>(i), map.request.speed_rpm.count - 1);
+      const int load = std::min(static_cast<int>(j), loads - 1);
+      field.values.push_back(shown(column, map.points[static_cast<std::size_t>(speed * loads + load)]));
     }
-    if (!series.x.empty()) plot.series.push_back(std::move(series));
   }
+  plot.x.range = report::Range{field.x.front(), field.x.back()};
+  plot.y.range = report::Range{field.y.front(), field.y.back()};
   return plot;
 }
 
@@ -68,15 +53,18 @@ report::Page map_page(const EngineMap& map) {
   report::Page page;
   const MapAxis& axis = *map.request.axis;
   page.title = map.file.name() + " over speed and " + axis.word;
-  page.subtitle = std::to_string(map.request.speed_rpm.count) + " speeds, " + std::to_string(map.request.load.count) +
-                  " values of " + axis.word + ", each until it has settled.";
+  const auto counted = [](int count, const std::string& what) {
+    return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
+  };
+  page.subtitle = counted(map.request.speed_rpm.count, "speed") + ", " +
+                  counted(map.request.load.count, axis.positions) + ", each until it has settled.";
   const MapPoint torque = most([](const MapPoint& p) { return p.brake_torque_Nm; });
   const MapPoint power = most([](const MapPoint& p) { return p.power_W; });
   const MapPoint charge = most([](const MapPoint& p) { return p.gas.cycle.volumetric_efficiency; });
-  page.facts = {
-      {"Largest brake torque", number(torque.brake_torque_Nm), "Nm", map.place_of(torque)},
-      {"Largest brake power", number(power.power_W / 1e3), "kW", map.place_of(power)},
-      {"Largest volumetric efficiency", number(charge.gas.cycle.volumetric_efficiency), "", map.place_of(charge)}};
+  page.facts = {{"Largest brake torque", number(torque.brake_torque_Nm), "Nm", map.place_of(torque)},
+                {"Largest brake power", number(power.power_W / 1e3), "kW", map.place_of(power)},
+                {"Largest volumetric efficiency", number(100 * charge.gas.cycle.volumetric_efficiency), "%",
+                 map.place_of(charge)}};
 
   Section maps{"maps", std::string("Over speed and ") + axis.word, {}};
   maps.blocks.push_back(
@@ -90,11 +78,11 @@ report::Page map_page(const EngineMap& map) {
     if (const std::string unit = std::string("_") + column.unit; *column.unit != '\0' && title.size() > unit.size())
       title.resize(title.size() - unit.size());
     std::replace(title.begin(), title.end(), '_', ' ');
-    table.columns.push_back({title, column.unit});
+    table.columns.push_back({title, unit_of(column)});
   }
   for (const MapPoint& point : map.points) {
     std::vector<std::string> row{number(point.speed_rpm), report::format_fixed(point.load, 3)};
-    for (const MapColumn& column : kMapColumnList) row.push_back(number(column.value(point)));
+    for (const MapColumn& column : kMapColumnList) row.push_back(number(shown(column, point)));
     table.rows.push_back(std::move(row));
   }
   maps.blocks.push_back(std::move(table));

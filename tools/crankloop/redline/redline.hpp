@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -25,13 +26,26 @@ struct Redline {
     return sweeps.front();
   }
 
-  /// Where plots end: shortly above the highest onset of separation; beyond, the motion is chance.
+  /// Where a curve ends: shortly above the onset of separation; beyond, the motion is chance.
+  [[nodiscard]] double shown_to_rpm(const Sweep& sweep) const {
+    if (!sweep.separation.found) return range.to_rpm;
+    return std::clamp(1.15 * sweep.separation.speed_rpm, range.from_rpm + 1.0, 1.0 * range.to_rpm);
+  }
+
+  /// Where plots end.
   [[nodiscard]] double shown_to_rpm() const {
-    double onset_rpm = 0;
+    double last_rpm = range.from_rpm + 1.0;
+    for (const Sweep& sweep : sweeps) last_rpm = std::max(last_rpm, shown_to_rpm(sweep));
+    return last_rpm;
+  }
+
+  /// Where they begin: of several trains well below the first onset, so that their curves do not crowd.
+  [[nodiscard]] double shown_from_rpm() const {
+    double onset_rpm = range.to_rpm;
     for (const Sweep& sweep : sweeps) {
-      if (sweep.separation.found) onset_rpm = std::max<double>(onset_rpm, sweep.separation.speed_rpm);
+      if (sweep.separation.found) onset_rpm = std::min<double>(onset_rpm, sweep.separation.speed_rpm);
     }
-    return onset_rpm == 0 ? range.to_rpm : std::clamp(1.15 * onset_rpm, range.from_rpm + 1.0, 1.0 * range.to_rpm);
+    return influence == nullptr ? range.from_rpm : std::max(1.0 * range.from_rpm, std::floor(onset_rpm / 2e3) * 1e3);
   }
 
   /// The speed of the sweeps at which they are compared: the first above the onset of separation as given, where the

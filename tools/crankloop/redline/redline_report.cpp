@@ -1,6 +1,4 @@
 // The page of `crankloop redline`: float and bounce over speed, and the influence of what was varied.
-#include <limits>
-
 #include "../number.hpp"
 #include "../units.hpp"
 #include "redline.hpp"
@@ -17,13 +15,14 @@ using report::Section;
 
 using Value = double (*)(const SpeedResult&);
 
-/// With one speed beyond where the plot ends.
+/// Up to one speed beyond where the curve ends, or to the last before the first lift that no spring allows.
 report::Series over_speed(const Sweep& sweep, const std::string& name, Value value, double to_rpm) {
   report::Series series;
   series.name = name;
   for (const SpeedResult& result : sweep.at) {
+    if (!result.is_possible) break;
     series.x.push_back(result.speed_rpm);
-    series.y.push_back(result.is_possible ? value(result) : std::numeric_limits<double>::quiet_NaN());
+    series.y.push_back(value(result));
     if (result.speed_rpm > to_rpm) break;
   }
   return series;
@@ -35,11 +34,12 @@ std::string factor_name(const Sweep& sweep) { return "\u00D7 " + brief(sweep.fac
 Plot plot_over_speed(const Redline& redline, const std::string& title, const Axis& y, Value value) {
   Plot plot = plot_of(title, axis_of("Engine speed", "rpm"), y);
   plot.y.include_zero = true;
-  plot.x.range = report::Range{static_cast<double>(redline.range.from_rpm), redline.shown_to_rpm()};
+  plot.x.range = report::Range{redline.shown_from_rpm(), redline.shown_to_rpm()};
   for (const Sweep& sweep : redline.sweeps) {
     plot.series.push_back(
-        over_speed(sweep, redline.influence != nullptr ? factor_name(sweep) : "", value, redline.shown_to_rpm()));
+        over_speed(sweep, redline.influence != nullptr ? factor_name(sweep) : "", value, redline.shown_to_rpm(sweep)));
     if (redline.influence == nullptr) continue;
+    plot.names_at_ends = true;
     plot.series.back().style.ramp = static_cast<int>(plot.series.size());
     plot.series.back().style.bold = sweep.factor == 1;
   }
@@ -64,9 +64,10 @@ Section speed_section(const Redline& redline) {
   Section section{
       "speed", redline.influence != nullptr ? std::string(redline.influence->title) + " and speed" : "Over speed", {}};
   if (redline.influence != nullptr) {
-    section.blocks.push_back(
-        Paragraph{"Each curve is the train with " + std::string(redline.influence->keys) +
-                  " times its factor, the larger the stronger; \u00D7 1, bold, is the train as its file gives it."});
+    section.blocks.push_back(Paragraph{
+        "Each curve is the train with " + std::string(redline.influence->keys) +
+        " times its factor; \u00D7 1, bold, is the train as its file gives it. A curve ends shortly above the speed at "
+        "which its valve leaves the train: beyond, the motion is chance."});
   }
   Plot gap = plot_over_speed(redline, "Separation", axis_of("Largest gap between train and valve", "mm"), gap_mm);
   Plot bounce = plot_over_speed(redline, "Bounce", axis_of("Largest height above the seat", "mm"), bounce_mm);

@@ -43,9 +43,10 @@ Polyline places_along(const Curve& curve) {
 
 }  // namespace
 
-/// Length of curves and overlap with other labels under a box, as a penalty in user units.
+/// Length of curves and zero lines, and overlap with other labels under a box, as a penalty in user units.
 double Drawing::hidden_by(const Box& box) const {
   double penalty = 0;
+  for (const Polyline& line : zero_lines_) penalty += length_inside(box, line[0], line[1]);
   for (const Curve& curve : curves_) {
     for (const Polyline& line : curve.lines) {
       for (std::size_t i = 1; i < line.size(); ++i) penalty += length_inside(box, line[i - 1], line[i]);
@@ -61,7 +62,37 @@ double Drawing::outside_frame(const Box& box) const {
          std::max(0.0, frame_.top + 1 - box.top) + std::max(0.0, box.bottom - frame_.bottom + 2);
 }
 
-/// Every marker gets its label at the best of eight places around it, at three distances.
+/// At the best place around a dot: as near as curves, zero lines and other labels allow, with a thin line if that is
+/// far.
+void Drawing::place_beside(Point dot, Label label) {
+  Label best;
+  double least = std::numeric_limits<double>::infinity();
+  const bool high = dot.y < (frame_.top + frame_.bottom) / 2;
+  const double beside = 0.26 * kTypeSize;
+  double order = 0;
+  for (double away = 10; away <= 82; away += 12) {  // farther, where lines are in the way
+    const double above = -away;
+    const double below = away + 0.76 * kTypeSize;
+    for (const double dy : {high ? above : below, beside, high ? below : above}) {
+      for (const double dx : {0.0, 6.0, -6.0, away, -away}) {
+        if (dy == beside && std::abs(dx) < away) continue;
+        label.at = {dot.x + dx, dot.y + dy};
+        label.anchor = dx == 0 ? Anchor::middle : dx > 0 ? Anchor::start : Anchor::end;
+        const Box box = box_of(label);
+        const double penalty = 20 * hidden_by(grown(box, 3)) + 100 * outside_frame(box) + order++;
+        if (penalty >= least) continue;
+        least = penalty;
+        best = label;
+      }
+    }
+  }
+  const Box box = box_of(best);
+  const Point near{std::clamp(dot.x, box.left, box.right), std::clamp(dot.y, box.top, box.bottom)};
+  if (std::hypot(near.x - dot.x, near.y - dot.y) > 20) leaders_.push_back({dot, near});
+  taken_.push_back(box);
+  labels_.push_back(best);
+}
+
 void Drawing::place_markers() {
   for (const Marker& marker : plot_.markers) {
     if (!visible(marker)) continue;
@@ -70,34 +101,74 @@ void Drawing::place_markers() {
   }
   for (const Marker& marker : plot_.markers) {
     if (!visible(marker) || marker.label.empty()) continue;
-    const Point dot{to_x_(marker.x), to_y_(marker.y)};
-    Label best;
-    double least = std::numeric_limits<double>::infinity();
-    const bool high = dot.y < (frame_.top + frame_.bottom) / 2;
-    double order = 0;
-    for (const double away : {10.0, 22.0, 34.0}) {  // farther, where curves are in the way
-      const double above = -away;
-      const double below = away + 0.76 * kTypeSize;
-      const double beside = 0.26 * kTypeSize;
-      for (const double dy : {high ? above : below, beside, high ? below : above}) {
-        for (const int side : {0, 1, -1}) {
-          if (side == 0 && dy == beside) continue;
-          const Anchor anchor = side == 0 ? Anchor::middle : side > 0 ? Anchor::start : Anchor::end;
-          const Label label{{dot.x + side * (dy == beside ? away : 6), dot.y + dy},
-                            anchor,
-                            marker.label,
-                            colour_of(marker.series)};
+    place_beside({to_x_(marker.x), to_y_(marker.y)}, {{}, Anchor::start, marker.label, colour_of(marker.series)});
+  }
+}
+
+/// Where a curve leaves the frame, or ends in it.
+Point Drawing::end_of(const Polyline& line) const {
+  Point end = line.front();
+  for (std::size_t k = 1; k < line.size(); ++k) {
+    const Point a = line[k - 1];
+    const Point b = line[k];
+    if (b.x <= frame_.right && b.y >= frame_.top) {
+      end = b;
+      continue;
+    }
+    const double over_right = b.x > frame_.right ? (frame_.right - a.x) / (b.x - a.x) : 1;
+    const double over_top = b.y < frame_.top ? (frame_.top - a.y) / (b.y - a.y) : 1;
+    const double part = std::clamp(std::min(over_right, over_top), 0.0, 1.0);
+    return {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)};
+  }
+  return end;
+}
+
+/// The names of a family of curves where they end, in ink, each with a thin line to its curve: in a column beside the
+/// frame if the curves end near each other, else above their ends.
+void Drawing::place_ends() {
+  std::vector<std::pair<Point, std::size_t>> ends;
+  for (std::size_t i = 0; i < curves_.size(); ++i) {
+    if (!curves_[i].lines.empty()) ends.emplace_back(end_of(curves_[i].lines.back()), i);
+  }
+  const auto by_height = [](const auto& a, const auto& b) { return a.first.y < b.first.y; };
+  const auto by_width = [](const auto& a, const auto& b) { return a.first.x < b.first.x; };
+  if (ends_together_) {
+    std::stable_sort(ends.begin(), ends.end(), by_height);
+  } else {
+    std::stable_sort(ends.begin(), ends.end(), by_width);
+  }
+  constexpr double kPitch = 20;
+  double y = frame_.top;  // of the next free line of the column
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    const auto& [end, i] = ends[k];
+    Label label{{}, Anchor::start, curves_[i].name, 0, static_cast<int>(i)};
+    if (ends_together_) {
+      const double last = frame_.bottom - kPitch * static_cast<double>(ends.size() - 1 - k);
+      y = std::min(std::max(y, end.y), last);
+      label.at = {frame_.right + 26, y + 0.26 * kTypeSize};
+      leaders_.push_back({end, {frame_.right + 22, y}});
+      y += kPitch;
+    } else {
+      double least = std::numeric_limits<double>::infinity();
+      Label best;
+      double order = 0;
+      for (double away = 8; away <= 112; away += 8) {
+        for (const Anchor anchor : {Anchor::middle, Anchor::end, Anchor::start}) {
+          label.at = {end.x, end.y - away};
+          label.anchor = anchor;
           const Box box = box_of(label);
-          const double penalty = hidden_by(grown(box, 3)) + 20 * outside_frame(box) + order++;
-          if (penalty < least) {
-            least = penalty;
-            best = label;
-          }
+          const double penalty = 20 * hidden_by(grown(box, 2)) + 100 * outside_frame(box) + order++;
+          if (penalty >= least) continue;
+          least = penalty;
+          best = label;
         }
       }
+      label = best;
+      leaders_.push_back({end, {end.x, label.at.y + 4}});
+      taken_.push_back({end.x - 3, label.at.y, end.x + 3, end.y});
     }
-    taken_.push_back(box_of(best));
-    labels_.push_back(best);
+    taken_.push_back(box_of(label));
+    labels_.push_back(label);
   }
 }
 
@@ -136,6 +207,9 @@ double Drawing::clarity(const Label& label, std::size_t own) const {
   for (const Box& other : taken_) {
     if (overlap_area(grown(box, 4), other) > 0) return 0;
   }
+  for (const Polyline& line : zero_lines_) {
+    if (distance(box, line[0], line[1]) < 1) return 0;
+  }
   double own_distance = 40;
   double other_distance = 40;
   for (std::size_t i = 0; i < curves_.size(); ++i) {
@@ -152,9 +226,7 @@ double Drawing::clarity(const Label& label, std::size_t own) const {
     for (const Point& point : curves_[i].points) nearest = std::min(nearest, distance(box, point, point));
     if (nearest < 2) return 0;
   }
-  const double zero = plot_.y.logarithmic ? -1 : to_y_(0);
-  const double crossed_zero = zero > box.top && zero < box.bottom ? 8 : 0;
-  return other_distance - own_distance - 4 - crossed_zero;
+  return other_distance - own_distance - 4;
 }
 
 }  // namespace crankloop::report

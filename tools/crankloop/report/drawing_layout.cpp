@@ -37,6 +37,11 @@ void Drawing::make_scales() {
     }
   }
   for (const Marker& marker : plot_.markers) include(marker.x, marker.y);
+  if (has_field()) {
+    include(plot_.field.x.front(), plot_.field.y.front());
+    include(plot_.field.x.back(), plot_.field.y.back());
+    make_levels();
+  }
 
   Axis x_axis = plot_.x;
   Axis y_axis = plot_.y;
@@ -54,12 +59,24 @@ void Drawing::make_scales() {
     }
   }
   x_ = make_scale(x_axis, x, kXIntervals);
+  ends_together_ = plot_.names_at_ends && end_together();
   y_of_data_ = y_ = make_scale(y_axis, y, kYIntervals);
   empty_ = x.low > x.high;
 }
 
+bool Drawing::end_together() const {
+  Range ends{kLargest, -kLargest};
+  for (const Series& series : plot_.series) {
+    if (series.x.empty()) continue;
+    const double end = std::min(series.x.back(), x_.range.high);
+    ends = {std::min(ends.low, end), std::max(ends.high, end)};
+  }
+  return ends.high - ends.low < (x_.range.high - x_.range.low) / 4;
+}
+
 void Drawing::make_layout(bool legend) {
   labels_.clear();
+  leaders_.clear();
   taken_.clear();
   legend_.clear();
   height_ = kHeight;
@@ -78,11 +95,32 @@ void Drawing::make_layout(bool legend) {
   for (const Tick& tick : y_.ticks) widest = std::max(widest, text_width(tick.label));
   frame_.left = std::max(34.0, widest + 12);
   frame_.right = kWidth - std::max(8.0, x_.ticks.empty() ? 0 : text_width(x_.ticks.back().label) / 2 + 2);
+  if (ends_together_) {
+    double names = 0;
+    for (const Series& series : plot_.series) names = std::max(names, 1.1 * text_width(series.name));
+    frame_.right = kWidth - 28 - names;
+  }
+  if (has_field()) {
+    double key = 0;
+    for (const Tick& tick : levels_.ticks) key = std::max(key, text_width(tick.label));
+    frame_.right = kWidth - kHeatKey - key;
+  }
   to_x_ = Mapping{x_.range, plot_.x.logarithmic, frame_.left, frame_.right};
   to_y_ = Mapping{y_.range, plot_.y.logarithmic, frame_.bottom, frame_.top};
   thin_labels(x_, to_x_, Direction::across);
   thin_labels(y_, to_y_, Direction::up);
+  make_zero_lines();
   make_curves();
+}
+
+/// Zero stands out when values of both signs are seen, and under curves that start from it.
+void Drawing::make_zero_lines() {
+  zero_lines_.clear();
+  if (empty_) return;
+  if (!plot_.y.logarithmic && y_.range.low <= 0 && y_.range.high > 0)
+    zero_lines_.push_back({{frame_.left, to_y_(0)}, {frame_.right, to_y_(0)}});
+  if (!plot_.x.logarithmic && x_.range.low < 0 && x_.range.high > 0)
+    zero_lines_.push_back({{to_x_(0), frame_.top}, {to_x_(0), frame_.bottom}});
 }
 
 /// Room for a label between a marked extreme and the frame: the scale then ends there and not on a tick.
@@ -91,6 +129,7 @@ void Drawing::make_headroom() {
   if (plot_.y.range || plot_.y.logarithmic) return;
   const double need = 32 / (frame_.bottom - frame_.top);
   Range range = y_.range;
+  if (plot_.names_at_ends && !ends_together_) range.high += 0.3 * (range.high - range.low);
   for (const Marker& marker : plot_.markers) {
     if (marker.label.empty() || !visible(marker)) continue;
     const double middle = (y_.range.low + y_.range.high) / 2;
@@ -147,8 +186,6 @@ void Drawing::make_curves() {
     curve.dashed = series.style.dashed || (series.style.colour == 0 && series.style.ramp == 0 && i >= kColours);
     if (is_bar(series)) {
       make_bars(series, bars_before++, bar_series, curve);
-    } else if (has_cells(series)) {
-      make_cells(series, curve);
     } else {
       make_lines(series, curve);
     }
@@ -169,15 +206,6 @@ void Drawing::make_bars(const Series& series, std::size_t position, std::size_t 
     const double left = to_x_(series.x[i]) + width * (static_cast<double>(position) - static_cast<double>(of) / 2);
     const double end = to_y_(series.y[i]);
     curve.bars.push_back({left, std::min(end, baseline()), left + width, std::max(end, baseline())});
-  }
-}
-
-void Drawing::make_cells(const Series& series, Curve& curve) const {
-  for (std::size_t i = 0; i < size_of(series); ++i) {
-    const double x = series.x[i];
-    const double y = series.y[i];
-    curve.bars.push_back({to_x_(x - plot_.cell_x / 2), to_y_(y + plot_.cell_y / 2), to_x_(x + plot_.cell_x / 2),
-                          to_y_(y - plot_.cell_y / 2)});
   }
 }
 

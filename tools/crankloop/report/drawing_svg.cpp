@@ -28,10 +28,6 @@ std::string line_class(const Curve& curve) {
          colour_class(curve);
 }
 
-std::string rectangle_class(const Curve& curve) {
-  return (curve.style.draw == Draw::cells ? "cell" : "bar") + colour_class(curve);
-}
-
 /// For the page's script: a scale as "low high from to", in the user units that stand for it.
 std::string scale_of(const char* name, const Mapping& map, const std::string& unit) {
   return std::string(" data-") + name + "=\"" + program::brief(map.range.low) + ' ' + program::brief(map.range.high) +
@@ -64,6 +60,10 @@ std::string Drawing::description() const {
            (unit.empty() ? "" : ' ' + unit);
   };
   std::string text = plot_.y.title + " over " + plot_.x.title + ' ' + interval(x_.range, plot_.x.unit) + '.';
+  if (has_field()) {
+    const auto [low, high] = std::minmax_element(plot_.field.values.begin(), plot_.field.values.end());
+    text += ' ' + plot_.field.name + ": " + interval({*low, *high}, plot_.field.unit) + '.';
+  }
   for (const Series& series : plot_.series) {
     Range range{kLargest, -kLargest};
     for (std::size_t i = 0; i < size_of(series); ++i) {
@@ -85,7 +85,8 @@ void Drawing::write() {
   out_ = "<svg class=\"plot\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + coordinate(kWidth) + ' ' +
          coordinate(height_) + "\" " +
          (fixed_ ? size : scale_of("x", to_x_, plot_.x.unit).substr(1) + scale_of("y", to_y_, plot_.y.unit) + ' ') +
-         "role=\"img\" aria-labelledby=\"" + id + "-title " + id + "-desc\">\n";
+         (has_field() ? "data-name-y=\"" + escape(plot_.y.title) + "\" " : "") + "role=\"img\" aria-labelledby=\"" +
+         id + "-title " + id + "-desc\">\n";
   out_ += "<title id=\"" + id + "-title\">" + escape(plot_.title) + "</title>\n";
   out_ += "<desc id=\"" + id + "-desc\">" + escape(description()) + "</desc>\n";
   if (clipped) {
@@ -95,6 +96,7 @@ void Drawing::write() {
   }
   write_bands();
   write_axes();
+  if (has_field()) write_field();
   out_ += clipped ? "<g clip-path=\"url(#" + id + "-clip)\">\n" : "<g>\n";
   for (std::size_t i = 0; i < curves_.size(); ++i) {
     out_ += "<g data-s=\"" + std::to_string(i) + "\" data-zero=\"" + coordinate(baseline()) + "\"" +
@@ -109,6 +111,7 @@ void Drawing::write() {
   }
   if (empty_)
     text("tick", {(frame_.left + frame_.right) / 2, (frame_.top + frame_.bottom) / 2}, Anchor::middle, "no data");
+  for (const Polyline& leader : leaders_) path("leader", path_of(leader));
   for (const Label& label : labels_) {
     if (label.series >= 0) out_ += "<g class=\"key\" data-s=\"" + std::to_string(label.series) + "\">";
     text("name", label.at, label.anchor, label.text, label.colour);
@@ -119,8 +122,8 @@ void Drawing::write() {
     const std::string colour = colour_class(curve);
     out_ += "<g class=\"key\" data-s=\"" + std::to_string(index) + "\">\n";
     const double middle = at.y - 0.33 * kTypeSize;
-    if (curve.style.draw == Draw::bar || curve.style.draw == Draw::cells)
-      rectangle(rectangle_class(curve), {at.x, middle - 6, at.x + 14, middle + 6});
+    if (curve.style.draw == Draw::bar)
+      rectangle("bar" + colour, {at.x, middle - 6, at.x + 14, middle + 6});
     else if (curve.style.draw != Draw::points)
       path(line_class(curve), move(at.x, middle) + "h20");
     if (curve.style.draw == Draw::points || curve.style.draw == Draw::line_and_points)
@@ -161,11 +164,9 @@ void Drawing::write_axes() {
   if (!fine.empty()) path("grid fine", fine);
   path("grid", grid);
   if (!plot_.x.bare) path("axis", move(frame_.left, frame_.bottom) + width + marks);
-  // Zero stands out when values of both signs are seen, and under curves that start from it.
   std::string zero;
-  if (!plot_.y.logarithmic && y_.range.low <= 0 && y_.range.high > 0) zero += move(frame_.left, to_y_(0)) + width;
-  if (!plot_.x.logarithmic && x_.range.low < 0 && x_.range.high > 0) zero += move(to_x_(0), frame_.top) + height;
-  if (!zero.empty() && !empty_) path("zero", zero);
+  for (const Polyline& line : zero_lines_) zero += path_of(line);
+  if (!zero.empty()) path("zero", zero);
 
   for (const Tick& tick : y_.ticks) {
     if (!tick.label.empty())
@@ -195,7 +196,7 @@ void Drawing::write_curve(const Curve& curve) {
   if (!area.empty()) path("area" + colour, area);
   if (!d.empty()) path(line_class(curve), d);
   if (!dots.empty()) path("dot" + colour, dots);
-  for (const Box& bar : curve.bars) rectangle(rectangle_class(curve), bar);
+  for (const Box& bar : curve.bars) rectangle("bar" + colour, bar);
 }
 
 }  // namespace crankloop::report

@@ -10,7 +10,8 @@
 namespace crankloop::report {
 namespace {
 
-constexpr std::size_t kNarrowColumns = 4;  // a table of so many columns shares its row with another
+constexpr std::size_t kHalfColumns = 5;    // a table of so many columns takes half the width of a desk's page
+constexpr std::size_t kNarrowColumns = 4;  // one of more may have to be scrolled on a phone
 
 constexpr const char* kStyle = R"css(
 :root { color-scheme: light dark; }
@@ -25,10 +26,8 @@ body {
 }
 h1, h2, h3 { line-height: 1.2; font-weight: 600; text-wrap: balance; }
 h1 { margin: 0; font-size: clamp(1.75rem, 1.3rem + 2vw, 2.6rem); letter-spacing: -0.015em; }
-h2 {
-  margin: 0 0 1.25rem; padding-top: 1.1rem; border-top: 1px solid var(--rule); font-size: 1.45rem;
-  letter-spacing: -0.01em;
-}
+h2 { margin: 0 0 1.25rem; padding-top: 1.1rem; border-top: 1px solid var(--rule); font-size: 1.45rem; }
+h2 { letter-spacing: -0.01em; }
 h3 { margin: 0 0 0.75rem; font-size: 1.02rem; }
 p, ul { margin: 0 0 1.1rem; max-width: 42rem; }
 ul { padding-left: 1.2rem; }
@@ -43,9 +42,19 @@ nav ul {
 }
 nav li { margin: 0; }
 nav a { display: inline-block; padding: 0.25rem 0; }
-.facts {
-  display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 9.4rem), 1fr));
-  gap: 1.6rem 1.5rem; margin: 2.4rem 0 0;
+.facts { display: grid; gap: 1.6rem 1.5rem; margin: 2.4rem 0 0; }
+/* The first tile is twice as wide where the last one would stand alone in its row. */
+@media (max-width: 39.99rem) {
+  .facts { grid-template-columns: repeat(2, minmax(0, 1fr)); }
+  .facts > :first-child:nth-last-child(2n + 1) { grid-column: span 2; }
+}
+@media (min-width: 40rem) and (max-width: 63.99rem) {
+  .facts { grid-template-columns: repeat(4, minmax(0, 1fr)); }
+  .facts > :first-child:nth-last-child(4n + 1) { grid-column: span 2; }
+}
+@media (min-width: 64rem) {
+  .facts { grid-template-columns: repeat(6, minmax(0, 1fr)); }
+  .facts > :first-child:nth-last-child(6n + 1) { grid-column: span 2; }
 }
 .facts div { padding-top: 0.7rem; border-top: 2px solid var(--ink); }
 .facts dt { color: var(--muted); font-size: 0.9rem; line-height: 1.35; }
@@ -57,11 +66,11 @@ section { margin-top: 3.6rem; }
 h2, .figure { scroll-margin-top: 5rem; }
 .note { padding: 0.1rem 0 0.1rem 1rem; border-left: 3px solid var(--accent); }
 .row {
-  display: grid; grid-template-columns: minmax(0, 1fr); gap: 2.8rem clamp(1.8rem, 4vw, 3rem);
-  margin: 0 0 2.4rem;
+  display: grid; grid-template-columns: minmax(0, 1fr); gap: 2.8rem clamp(1.8rem, 4vw, 3rem); margin: 0 0 2.4rem;
 }
 p + .row, ul + .row { margin-top: 2rem; }
 @media (min-width: 48rem) { .row { grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); } }
+@media (min-width: 64rem) { .row:has(> :nth-child(3):last-child) { grid-template-columns: repeat(3, minmax(0, 1fr)); } }
 .row > * { min-width: 0; }
 figure { margin: 0; }
 figcaption { margin-top: 0.6rem; color: var(--muted); font-size: 0.9rem; line-height: 1.45; }
@@ -73,8 +82,7 @@ table { border-collapse: collapse; font-size: 0.92rem; line-height: 1.35; }
 .row table { width: 100%; }
 caption { padding-bottom: 0.6rem; font-weight: 600; font-size: 1.02rem; text-align: left; }
 th, td {
-  padding: 0.38rem 0.9rem 0.38rem 0; text-align: left; vertical-align: baseline;
-  border-bottom: 1px solid var(--rule);
+  padding: 0.38rem 0.9rem 0.38rem 0; text-align: left; vertical-align: baseline; border-bottom: 1px solid var(--rule);
 }
 th:last-child, td:last-child { padding-right: 0; }
 thead th { color: var(--muted); font-weight: 500; vertical-align: bottom; border-bottom-color: var(--axis); }
@@ -82,6 +90,7 @@ tbody th { font-weight: 400; }
 th.number, td.number { text-align: right; }
 td.number, tbody th.number { white-space: nowrap; }
 thead .unit { display: block; font-weight: 400; }
+.table:has(> details) { margin: 0 0 0.6rem; }
 summary { padding: 0.4rem 0; cursor: pointer; font-weight: 600; }
 details caption { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); padding: 0; }
 .read-out {
@@ -90,29 +99,30 @@ details caption { position: absolute; width: 1px; height: 1px; overflow: hidden;
   pointer-events: none;
 }
 footer {
-  margin-top: 4rem; padding-top: 1.1rem; border-top: 1px solid var(--rule); color: var(--muted);
-  font-size: 0.9rem;
+  margin-top: 4rem; padding-top: 1.1rem; border-top: 1px solid var(--rule); color: var(--muted); font-size: 0.9rem;
 }
 @media (max-width: 30rem) {
   body { padding-top: 2rem; }
   section { margin-top: 2.8rem; }
   nav ul { flex-wrap: nowrap; overflow-x: auto; white-space: nowrap; }
-  .facts { grid-template-columns: 1fr 1fr; gap: 1.2rem 1rem; }
+  .facts { gap: 1.2rem 1rem; }
   .facts .value { font-size: 1.45rem; }
 }
-@page { margin: 16mm 14mm; }
+@page { margin: 12mm 14mm; }
 @media print {
   :root { --paper: #ffffff; color-scheme: light; }
   body { padding: 0; max-width: none; font-size: 10pt; }
   nav, .read-out { display: none; }
-  section { margin-top: 2rem; }
-  .row { grid-template-columns: 1fr 1fr; gap: 1.6rem 1.8rem; }
+  section { margin-top: 1.4rem; }
+  h2 { margin-bottom: 0.8rem; padding-top: 0.7rem; } h3 { margin-bottom: 0.3rem; }
+  .row { grid-template-columns: 1fr 1fr; gap: 1.1rem 1.8rem; margin-bottom: 1.1rem; }
+  figcaption { margin-top: 0.2rem; font-size: 8.5pt; } .table { margin-bottom: 1.1rem; }
   .scroll { overflow: visible; }
   table { font-size: 8.5pt; }
   figure, tr, .facts, .row .table { break-inside: avoid; }
   h2, h3, caption { break-after: avoid; }
   .plot .hair { display: none; }
-  details::details-content { content-visibility: visible; height: auto; }
+  .table:has(> details:not([open])) { display: none; }
   .plot * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
 }
 )css";
@@ -197,28 +207,23 @@ class Document {
     out_ += "</dl>\n";
   }
 
-  static bool is_narrow_table(const Block& block) {
+  static bool takes_half(const Block& block) {
     const auto* table = std::get_if<Table>(&block);
-    return table != nullptr && !table->folded && table->columns.size() <= kNarrowColumns;
-  }
-
-  /// Blocks of one kind that may share a row; 0 = always a row of its own.
-  static int row_kind(const Block& block) {
-    if (std::holds_alternative<Plot>(block)) return 1;
-    return is_narrow_table(block) ? 2 : 0;
+    if (table != nullptr) return !table->folded && table->columns.size() <= kHalfColumns;
+    return std::holds_alternative<Plot>(block);
   }
 
   void section(const Section& section, const std::string& id) {
     out_ += "<section aria-labelledby=\"" + id + "\">\n<h2 id=\"" + id + "\">" + escape(section.title) + "</h2>\n";
-    int row = 0;
+    bool row = false;
     for (const Block& block : section.blocks) {
-      const int kind = row_kind(block);
-      if (row != kind && row != 0) out_ += "</div>\n";
-      if (row != kind && kind != 0) out_ += "<div class=\"row\">\n";
-      row = kind;
+      const bool half = takes_half(block);
+      if (row && !half) out_ += "</div>\n";
+      if (!row && half) out_ += "<div class=\"row\">\n";
+      row = half;
       std::visit([this](const auto& content) { write(content); }, block);
     }
-    if (row != 0) out_ += "</div>\n";
+    if (row) out_ += "</div>\n";
     out_ += "</section>\n";
   }
 

@@ -35,10 +35,10 @@ struct Table {
   std::string caption{};
   std::vector<Column> columns{};
   std::vector<std::vector<std::string>> rows{};
-  bool folded = false;  ///< behind its caption until the reader opens it; printed open
+  bool folded = false;  ///< behind its caption until the reader opens it; printed only if it is open
 };
 
-/// Neighbouring plots share a row where there is room, and so do neighbouring tables of up to four columns.
+/// Neighbouring plots and tables of up to five columns share rows where there is room.
 using Block = std::variant<Paragraph, List, Table, Plot>;
 
 struct Section {

@@ -11,12 +11,16 @@ Drawn Drawing::draw() {
   make_scales();
   const auto named =
       std::count_if(plot_.series.begin(), plot_.series.end(), [](const Series& s) { return !s.name.empty(); });
-  const bool rectangles =
-      std::any_of(plot_.series.begin(), plot_.series.end(), [](const Series& s) { return is_bar(s) || has_cells(s); });
+  const bool bars = std::any_of(plot_.series.begin(), plot_.series.end(), is_bar);
   make_layout(false);
   place_markers();
+  if (plot_.names_at_ends) {
+    place_ends();
+    write();
+    return {std::move(out_), kWidth, height_};
+  }
   // Beside the curves is better than a legend, but only few names find a place there.
-  if (named > 1 && (rectangles || plot_.series.size() > 6 || !place_names())) {
+  if (named > 1 && (bars || plot_.series.size() > 6 || !place_names())) {
     make_layout(true);
     place_markers();
   }

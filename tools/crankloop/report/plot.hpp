@@ -1,4 +1,4 @@
-// A plot as inline SVG: curves, loops, steps, bars, heat maps over labelled axes, from plain numbers.
+// A plot as inline SVG: curves, loops, steps, bars and heat maps over labelled axes, from plain numbers.
 //
 // What belongs here: what a plot is made of, and the colours of both themes, because a colour that is legible on paper
 // is not on a dark screen. What does not: engines (the caller names every quantity and its unit), pages (page.hpp),
@@ -20,12 +20,12 @@
 
 namespace crankloop::report {
 
-enum class Draw : std::uint8_t { line, step, bar, points, line_and_points, cells };
+enum class Draw : std::uint8_t { line, step, bar, points, line_and_points };
 
 struct Style {
   Draw draw = Draw::line;
   int colour = 0;  ///< 1 to kColours; 0 = by position in the plot, dashed from the (kColours + 1)th on
-  int ramp = 0;    ///< 1 to kRamp: a shade of one hue instead, for curves of a rising parameter
+  int ramp = 0;    ///< 1 to kRamp: shade of one hue and dashes instead, for curves of a rising parameter
   bool bold = false;
   bool dashed = false;
   bool closed = false;  ///< joins the last point to the first: a loop
@@ -58,6 +58,20 @@ struct Marker {
   std::size_t series = 0;
 };
 
+/// A quantity over a lattice of x and y: colours in at least kHeatSteps steps, contours with their values, a key.
+struct Field {
+  std::string name{};
+  std::string unit{};
+  std::vector<double> x{};  ///< ascending, two or more
+  std::vector<double> y{};
+  std::vector<double> values{};  ///< at the first x those of all y, then at the next; what is not finite stays blank
+};
+
+inline constexpr int kHeatSteps = 20;
+
+/// A colour of the heat maps, "#440154": 0 the smallest value, 1 the largest; lighter is more, in either theme.
+[[nodiscard]] std::string heat_colour(double part);
+
 struct Plot {
   std::string id{};  ///< for links; page.hpp makes it valid and unique
   std::string title{};
@@ -67,8 +81,8 @@ struct Plot {
   std::vector<Series> series{};
   std::vector<Band> bands{};
   std::vector<Marker> markers{};
-  double cell_x = 1;  ///< of Draw::cells, in units of the axes: a rectangle around each point, as in a heat map
-  double cell_y = 1;
+  bool names_at_ends = false;  ///< each series' name where its line ends, for a family of curves; else see to_svg()
+  Field field{};               ///< absent without values; below the series
 };
 
 [[nodiscard]] inline Axis axis_of(const std::string& title, const std::string& unit) {

@@ -29,7 +29,7 @@ std::string_view plot_style() {
 .plot .band-name { font-size: 0.88em; }
 .plot .legend { fill: var(--ink); }
 .plot .name {
-  fill: var(--c); stroke: var(--paper); stroke-width: 4px; stroke-linejoin: round;
+  fill: var(--c, var(--ink)); stroke: var(--paper); stroke-width: 4px; stroke-linejoin: round;
   paint-order: stroke; font-weight: 600;
 }
 .plot path { fill: none; stroke-width: 1px; vector-effect: non-scaling-stroke; }
@@ -41,9 +41,18 @@ std::string_view plot_style() {
 .plot .curve { stroke: var(--c); stroke-width: 2px; stroke-linejoin: round; stroke-linecap: round; }
 .plot .bold { stroke-width: 4px; }
 .plot .dashed { stroke-dasharray: 6 5; }
+.plot .curve.r1 { stroke-dasharray: 0 5; } .plot .curve.r2 { stroke-dasharray: 4 6; }
+.plot .curve.r3 { stroke-dasharray: 10 6; } .plot .curve.r5 { stroke-dasharray: 14 6 0 6; }
+.plot .curve.r6 { stroke-dasharray: 14 6 0 5 0 6; } .plot .curve.r7 { stroke-dasharray: 5 6 0 6; }
 .plot .area { fill: var(--c); fill-opacity: 0.12; }
 .plot .dot { stroke: var(--c); stroke-width: 7px; stroke-linecap: round; }
-.plot .bar, .plot .cell { fill: var(--c); }
+.plot .bar { fill: var(--c); }
+.plot .contour { stroke-linecap: round; }
+.plot .node { stroke: #000000; stroke-opacity: 0.3; stroke-width: 3px; stroke-linecap: round; }
+.plot .height { stroke-width: 5px; stroke-linejoin: round; paint-order: stroke; }
+.plot path.on-dark { stroke: #ffffff; } .plot path.on-light { stroke: #000000; }
+.plot text.on-dark { fill: #ffffff; } .plot text.on-light { fill: #000000; }
+.plot .leader { stroke: var(--muted); }
 .plot .hair { stroke: var(--axis); }
 .plot .key[role] { cursor: pointer; }
 @media screen { .plot .off { display: none; } .plot .faint { opacity: 0.4; } }
@@ -53,7 +62,7 @@ std::string_view plot_style() {
 .r5 { --c: var(--ramp-5); } .r6 { --c: var(--ramp-6); } .r7 { --c: var(--ramp-7); }
 @container (max-width: 380px) {
   .plot { font-size: 17px; }
-  .plot .curve { stroke-width: 1.75px; }
+  .plot .curve:not(.bold) { stroke-width: 1.75px; }
   .plot .dot { stroke-width: 6px; }
 }
 @container (min-width: 450px) { .plot { font-size: 14px; } }

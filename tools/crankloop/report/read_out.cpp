@@ -58,6 +58,16 @@ std::string_view read_out_script() {
     });
     return found;
   }
+  function height(field, x, y) {  // of a heat map, straight between the points of its lattice
+    function list(name) { return field.getAttribute(name).split(' ').map(Number); }
+    function cell(at, u) {  // which one, and how far into it
+      for (var i = 0; at.length - 2 > i; ++i) if ((at[i + 1] - u) * (at[1] - at[0]) >= 0) break;
+      return [i, (u - at[i]) / (at[i + 1] - at[i])];
+    }
+    var v = list('data-field'), ys = list('data-at-y'), i = cell(list('data-at-x'), x), j = cell(ys, y);
+    var at = i[0] * ys.length + j[0], next = at + ys.length;
+    return (1 - i[1]) * ((1 - j[1]) * v[at] + j[1] * v[at + 1]) + i[1] * ((1 - j[1]) * v[next] + j[1] * v[next + 1]);
+  }
   function nearest(all, y, to) {
     return all.filter(function (h) { return h >= to.low - 2 ? to.high + 2 >= h : false; })
       .sort(function (a, b) { return Math.abs(a - y) - Math.abs(b - y); })[0];
@@ -77,6 +87,12 @@ std::string_view read_out_script() {
       if (h === undefined) return;
       var name = series.getAttribute('data-name');
       lines.push((name ? name + '  ' : '') + say(toY(h), toY, svg.getAttribute('data-unit-y')));
+    });
+    svg.querySelectorAll('g[data-field]').forEach(function (field) {
+      var v = height(field, x, y);
+      if (!isFinite(v)) return;
+      lines.push(svg.getAttribute('data-name-y') + '  ' + say(toY(y), toY, svg.getAttribute('data-unit-y')));
+      lines.push(field.getAttribute('data-name') + '  ' + say(v, { span: 0 }, field.getAttribute('data-unit')));
     });
     if (!lines.length) return hide(svg);
     if (!svg.hair) {

@@ -9,6 +9,6 @@ namespace crankloop::report {
 [[nodiscard]] std::string_view read_out_script();
 
 /// Its SHA-256 in base64: the page's content security policy allows no other script.
-inline constexpr const char* kReadOutHash = "z3gKXbK6PxAQobTpkk5wknVzoAvAHWk5xfbWFUMxYrw=";
+inline constexpr const char* kReadOutHash = "zPfch7zSTPj0ROh/n+1y4PhJWIdbiJX7GGB5h5OmHpc=";
 
 }  // namespace crankloop::report
