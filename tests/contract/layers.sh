@@ -1,8 +1,9 @@
 #!/bin/sh
 # layers.sh CHECKOUT: no file of a lower layer includes one of a higher one.
 #
-# Core knows nothing of ports, tools and tests. The program's folders stand in the order below, each on those
-# before it; files beside the folders are either for all of them or one for each command, and a command may include all.
+# Core includes itself and the standard library. port/c and port/fmi stand on core and know nothing of each other. The
+# program's folders stand in the order below, each on those before it; files beside the folders are either for all of
+# them or one for each command, and a command may include all.
 # The laboratory may include all but commands, of which only bench and stress include it.
 set -eu
 cd "$1"
@@ -25,9 +26,30 @@ place_of() {
 }
 # includes_in FOLDER...: lines "file included", the included as written.
 includes_in() { grep -rHE '^#include ["<]' "$@" --include='*.[hc]pp' --include='*.h' --include='*.in[cl]' | sed -E 's/:#include ["<]([^">]+)[">].*/ \1/'; }
-
-for folder in port tools tests lab gtest; do
-  if grep -rnE "^#include [\"<](\.\./)*$folder/" core; then refuse core "$folder" "is no part of it"; fi
+# stands_on FOLDER ROOT...: what FOLDER includes is its own, of one of the roots, or of the standard library.
+stands_on() {
+  folder=$1
+  shift
+  while read -r file included; do
+    found=
+    for root in "${file%/*}" "$@"; do
+      [ ! -f "$root/$included" ] || { found=$root/$included && break; }
+    done
+    case $found in *../*) found=$(realpath --relative-to=. "$found") ;; esac
+    case $found:$included in
+      "$folder"/* | core/*) ;;
+      ?*:* | :*/*) refuse "$file" "$included" "$folder does not stand on" ;;
+    esac
+  done <<END
+$(includes_in "$folder")
+END
+}
+stands_on core core/include core/src
+stands_on port/c port/c/include core/include
+stands_on port/fmi port/fmi/include core/include
+elsewhere='^[^#]*(port|tools|tests)/'  # in what CMake reads
+for file in $(grep -rlE "$elsewhere" core --include=CMakeLists.txt --include='*.cmake'); do
+  refuse "$file" "$(grep -nE -m 1 "$elsewhere" "$file")" 'core does not stand on'
 done
 
 found=$(includes_in tools)

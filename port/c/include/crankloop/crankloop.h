@@ -19,6 +19,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <crankloop/version.h>
+
 #if defined(__GNUC__)
 #define CRANKLOOP_API __attribute__((visibility("default")))
 #define CRANKLOOP_ALIGNED(bytes) __attribute__((aligned(bytes))) /* no less than its type asks for */
@@ -30,11 +32,6 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-#define CRANKLOOP_VERSION_MAJOR 0
-#define CRANKLOOP_VERSION_MINOR 2
-#define CRANKLOOP_VERSION_PATCH 0
-#define CRANKLOOP_VERSION (CRANKLOOP_VERSION_MAJOR << 16 | CRANKLOOP_VERSION_MINOR << 8 | CRANKLOOP_VERSION_PATCH)
 
 /* The version of the library that was linked; compare with CRANKLOOP_VERSION, that of the header. */
 CRANKLOOP_API uint32_t crankloop_version(void);

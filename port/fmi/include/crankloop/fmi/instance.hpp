@@ -19,7 +19,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include <crankloop/crankloop.h>  // the version
+#include <crankloop/version.h>
 
 #include <crankloop/fmi/kept.hpp>
 #include <crankloop/variable_values.hpp>

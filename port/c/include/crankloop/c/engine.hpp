@@ -1,5 +1,5 @@
 // The C interface of one engine: what each of its calls does, whatever the scene and the arithmetic are. The functions
-// themselves, and the header that declares them, are made from core/cmake/engine_c.cpp.in and engine_c.h.in.
+// themselves, and the header that declares them, are made from port/c/engine_c.cpp.in and engine_c.h.in.
 //
 // What belongs here: checks, copies, step_many(). What does not: which inputs and outputs there are (variables.hpp),
 // where tables come from, which is the Form's:

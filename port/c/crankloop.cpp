@@ -1,4 +1,4 @@
-// What all engines of the C interface share: version, definitions. Answers in words: core/cmake/engine_c_words.cpp.
+// What all engines of the C interface share: version, definitions. Answers in words: port/c/engine_c_words.cpp.
 #include <crankloop/crankloop.h>
 
 #include <cstddef>
@@ -11,7 +11,7 @@ using namespace crankloop;
 static_assert(CRANKLOOP_VERSION_MAJOR == CRANKLOOP_PROJECT_MAJOR &&
                   CRANKLOOP_VERSION_MINOR == CRANKLOOP_PROJECT_MINOR &&
                   CRANKLOOP_VERSION_PATCH == CRANKLOOP_PROJECT_PATCH,
-              "crankloop.h: the version is not the project's");
+              "version.h: the version is not the project's");
 
 namespace {
 

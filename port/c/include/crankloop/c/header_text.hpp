@@ -1,5 +1,5 @@
 // What the C header of an engine has to say of its scene, as text in an object file: the build reads it there, so that
-// it works for any target machine, and fills core/cmake/engine_c.h.in with it. Structs are made from the list of
+// it works for any target machine, and fills port/c/engine_c.h.in with it. Structs are made from the list of
 // variables.
 //
 // What belongs here: how C declares a variable. What does not: which there are (variables.hpp).
@@ -81,7 +81,7 @@ template <class Real, class S>
   return members;
 }
 
-/// " name=00000012" for each fact, then the structs; core/cmake/engine_c.cmake reads it. CMake takes ; [ and ] in a way
+/// " name=00000012" for each fact, then the structs; port/c/engine_c.cmake reads it. CMake takes ; [ and ] in a way
 /// of its own, and a line's end would end the text: written $ < > and |.
 class HeaderText {
  public:

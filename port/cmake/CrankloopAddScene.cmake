@@ -19,9 +19,6 @@
 # The tables are made by the command-line program, on the machine that builds: built along (by add_subdirectory, also
 # when cross-compiling), installed with the library, CRANKLOOP_PROGRAM, or found on the PATH; it must be of this version.
 
-include("${CMAKE_CURRENT_LIST_DIR}/CrankloopHouseFlags.cmake")
-include("${CMAKE_CURRENT_LIST_DIR}/CrankloopAddFmu.cmake")
-
 function(crankloop_add_scene name scene_header engine_file)
   cmake_parse_arguments(PARSE_ARGV 3 arg "WITH_C;WITH_FMU" "TICK_US;REAL;SCENE;INTEGRATOR;ACCURACY_UM;OPTIMIZATION" "")
   if(arg_UNPARSED_ARGUMENTS OR arg_KEYWORDS_MISSING_VALUES)
@@ -85,7 +82,7 @@ function(crankloop_add_scene name scene_header engine_file)
   set(SCENE_TYPE "${arg_SCENE}")
   set(SCENE_REAL "${arg_REAL}")
   set(SCENE_TICK_US "${arg_TICK_US}")
-  configure_file("${CMAKE_CURRENT_FUNCTION_LIST_DIR}/scene.hpp.in" "${dir}/${name}.hpp" @ONLY)
+  crankloop_write_scene_header("${dir}/${name}.hpp")
   configure_file("${CMAKE_CURRENT_FUNCTION_LIST_DIR}/scene.cpp.in" "${dir}/${name}.cpp" @ONLY)
   add_library(${name} STATIC "${dir}/${name}.cpp" "${dir}/${name}.hpp" "${tables}.made")
   target_include_directories(${name} PUBLIC "${dir}")
@@ -96,53 +93,16 @@ function(crankloop_add_scene name scene_header engine_file)
   crankloop_house_flags(${name})
   crankloop_optimization(${name} ${arg_OPTIMIZATION})
   if(arg_WITH_C)
-    crankloop_c_interface(${name} ${name} SCENE "${arg_SCENE}" REAL ${arg_REAL} TICK ", ${arg_TICK_US} us per step"
-      FORM "crankloop::c::CompiledIn<${name}::Real, ${name}::Engine>" FORM_HEADER "${name}.hpp" INCLUDES "${dir}"
-      HEADER_DIR "${dir}" HEADER "${name}.h" SOURCE "${dir}/${name}_c.cpp")
-    target_sources(${name} PRIVATE "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/engine_c_words.cpp")
+    crankloop_scene_in_c(${name} "${dir}" "${arg_SCENE}" ${arg_REAL} "${arg_TICK_US}")
   endif()
   if(arg_WITH_FMU)
     crankloop_add_fmu("${name}" "${dir}" "${program}" ${arg_OPTIMIZATION})
   endif()
 endfunction()
 
-# The C interface of an engine: HEADER and SOURCE, which target TARGET compiles. FORM is where it has its tables from, a
-# C++ type of FORM_HEADER (crankloop/c/engine.hpp). Only the compiler knows what a scene has and how large its engine is:
-# it says so in an object file that is read, not run, so that cross-compiling is no different.
-function(crankloop_c_interface target name)
-  cmake_parse_arguments(PARSE_ARGV 2 arg "" "SCENE;REAL;TICK;FORM;FORM_HEADER;HEADER_DIR;HEADER;SOURCE" "INCLUDES")
-  set(templates "${CMAKE_CURRENT_FUNCTION_LIST_DIR}")
-  set(NAME "${name}")
-  set(FORM "${arg_FORM}")
-  set(FORM_HEADER "${arg_FORM_HEADER}")
-  set(out "${arg_HEADER_DIR}/${arg_HEADER}")
-  configure_file("${templates}/engine_c_facts.cpp.in" "${CMAKE_CURRENT_BINARY_DIR}/crankloop_c/${name}_facts.cpp" @ONLY)
-  add_library(${name}_facts OBJECT "${CMAKE_CURRENT_BINARY_DIR}/crankloop_c/${name}_facts.cpp")
-  target_include_directories(${name}_facts PRIVATE ${arg_INCLUDES})
-  target_link_libraries(${name}_facts PRIVATE crankloop::headers)
-  crankloop_house_flags(${name}_facts)
-  add_custom_command(
-    OUTPUT "${out}" "${arg_SOURCE}"
-    COMMAND "${CMAKE_COMMAND}" -D "FACTS=$<TARGET_OBJECTS:${name}_facts>" -D "NAME=${name}" -D "SCENE=${arg_SCENE}"
-      -D "REAL=${arg_REAL}" -D "TICK=${arg_TICK}" -D "FORM=${arg_FORM}" -D "FORM_HEADER=${arg_FORM_HEADER}"
-      -D "HEADER=${arg_HEADER}" -D "OUT=${out}" -D "SOURCE=${arg_SOURCE}" -P "${templates}/engine_c.cmake"
-    DEPENDS ${name}_facts "$<TARGET_OBJECTS:${name}_facts>" "${templates}/engine_c.cmake" "${templates}/engine_c.h.in"
-      "${templates}/engine_c.cpp.in"
-    COMMENT "C interface of ${name}"
-    VERBATIM)
-  target_sources(${target} PRIVATE "${arg_SOURCE}" "${out}")
-  add_custom_target(${name}_c DEPENDS "${out}" "${arg_SOURCE}")  # made once, also where two targets compile them
-  add_dependencies(${target} ${name}_c)
-endfunction()
-
-# Where the library's headers are, in its source tree or installed.
-function(crankloop_include_dir result)
-  cmake_path(APPEND CMAKE_CURRENT_FUNCTION_LIST_DIR ../include OUTPUT_VARIABLE include_dir)
-  if(NOT EXISTS "${include_dir}/crankloop")
-    get_target_property(include_dir crankloop::headers INTERFACE_INCLUDE_DIRECTORIES)
-  endif()
-  cmake_path(NORMAL_PATH include_dir)
-  set(${result} "${include_dir}" PARENT_SCOPE)
+# The header of the scene that SCENE_NAME and the like describe.
+function(crankloop_write_scene_header file)
+  configure_file("${CMAKE_CURRENT_FUNCTION_LIST_DIR}/scene.hpp.in" "${file}" @ONLY)
 endfunction()
 
 # path/to/my_scene.hpp -> MyScene
