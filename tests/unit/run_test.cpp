@@ -17,11 +17,11 @@
 #include <crankloop/tabulate/mechanism.hpp>
 #include <crankloop/tabulate/summary.hpp>
 
-#include "crankloop/commands.hpp"
-#include "crankloop/error.hpp"
-#include "crankloop/run/run_accuracy.hpp"
-#include "crankloop/run/run_loop.hpp"
-#include "crankloop/run/run_trace.hpp"
+#include "crankloop/command_line/commands.hpp"
+#include "crankloop/files/error.hpp"
+#include "crankloop/loops/run_accuracy.hpp"
+#include "crankloop/loops/run_loop.hpp"
+#include "crankloop/loops/run_trace.hpp"
 #include "support/both_reals.hpp"
 #include "support/run_command.hpp"
 #include "support/status.hpp"
