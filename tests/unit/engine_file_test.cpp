@@ -25,7 +25,7 @@
 #include "crankloop/files/text_file.hpp"
 #include "lab/reference/valve_reference.hpp"
 #include "support/engine_files.hpp"
-#include "support/four_2000.hpp"
+#include "support/engines.hpp"
 #include "support/status.hpp"
 #include "support/units.hpp"
 
