@@ -1,7 +1,8 @@
 #!/bin/sh
 # coverage.sh [--report]
-# Which branches of core the host tests take, by clang++ and llvm-cov. Every branch that they do not take must have its
-# reason in tests/coverage_exceptions.conf, and every reason there a branch: else the exit status is 1.
+# Which branches of core and of the C interface the host tests take, by clang++ and llvm-cov. Every branch that they do
+# not take must have its reason in tests/coverage_exceptions.conf, and every reason there a branch: else the exit status
+# is 1.
 #
 #   tests/coverage.sh           builds the tests in build/coverage, runs them, reports
 #   tests/coverage.sh --report  reports of the last run, and of what was built for it
@@ -54,9 +55,9 @@ done >"$profile/shown" 2>"$profile/shown.log"
 # "    52|   8|code" and behind such lines "  |  Branch (52:7): [True: 8, False: 0]"; the counts of a template's instantiations come one
 # after the other.
 awk '
-  /^\/.*:$/ { file = $0; sub(/:$/, "", file); sub(/.*\/core\//, "core/", file) }
-  file !~ /^core\/(include|src)\// { next }
-  file ~ /crankloop\/(fmi\/|variables\.hpp)/ { next }  # shared objects that tests/fmi loads: not these programs
+  /^\/.*:$/ { file = $0; sub(/:$/, "", file); sub(/.*\/core\//, "core/", file); sub(/.*\/port\/c\//, "port/c/", file) }
+  file !~ /^(core\/(include|src)|port\/c)\// { next }
+  file ~ /crankloop\/variables\.hpp/ { next }  # shared objects that tests/fmi loads: not these programs
   match($0, /^ *[0-9]+\| *[0-9.]+[kMGTE]?\|/) {
     split($0, column, "|")
     line = file ":" column[1] + 0

@@ -73,13 +73,13 @@ program_of() { case $1 in behaviour) echo judge ;; *) echo "judge_$1" ;; esac; }
 made=
 while [ -z "$made" ]; do
   # shellcheck disable=SC2086  # a list of words
-  "$build/mutate/mutate" . "$build/core" "$seed" "$drawn" "$build/left_out" $areas >"$build/mutants" 2>"$build/places"
-  quietly cmake -S tests/mutants -B "$build/judge" -DMUTATED="$build/core" -DCMAKE_RUNTIME_OUTPUT_DIRECTORY="$build/judge"
+  "$build/mutate/mutate" . "$build/mutated" "$seed" "$drawn" "$build/left_out" $areas >"$build/mutants" 2>"$build/places"
+  quietly cmake -S tests/mutants -B "$build/judge" -DMUTATED="$build/mutated" -DCMAKE_RUNTIME_OUTPUT_DIRECTORY="$build/judge"
   made=true
   for target in core $(for judge in $judges; do program_of "$judge"; done); do
     cmake --build "$build/judge" --target "$target" --parallel "$jobs" >"$build/build.log" 2>&1 && continue
     cut -f 3 "$build/mutants" | sort -u >"$build/changed"
-    sed -n 's|^[^ ]*/\(core/[a-z_/.]*:[0-9]*\)[:,].*|\1|p' "$build/build.log" | sort -u | comm -12 "$build/changed" - >"$build/refused"
+    sed -n 's#^[^ ]*/\(\(core\|port/fmi\)/[a-z_0-9/.]*:[0-9]*\)[:,].*#\1#p' "$build/build.log" | sort -u | comm -12 "$build/changed" - >"$build/refused"
     [ -s "$build/refused" ] || { tail -n 40 "$build/build.log" >&2 && exit 1; }
     cat "$build/refused" >>"$build/left_out"
     made=
@@ -89,8 +89,8 @@ done
 
 # ---- which tests reach which place -----------------------------------------------------------------------------------
 
-# Not those that take seconds to do again what others do. CProgram's runs a program that is not built here.
-slow='*LastsThroughLongStandstill*:*IsTheSameAfterManyCycles*:Soak*:FaultInjection*:ValveOfAnyDesign*:ValveTicks.FromOne*:CProgram*'
+# Not those that take seconds to do again what others do.
+slow='*LastsThroughLongStandstill*:*IsTheSameAfterManyCycles*:Soak*:FaultInjection*:ValveOfAnyDesign*:ValveTicks.FromOne*'
 slow=$slow':Versions/Ticks.AreNeitherLost*'
 for judge in $judges; do
   program=$build/judge/$(program_of "$judge")

@@ -2,7 +2,7 @@
 // test: it asserts nothing, the sanitizer's findings are read line by line.
 #include <cstdio>
 
-#include "support/four_with_valves.hpp"
+#include "support/kept_engines.hpp"
 
 int main() {
   using namespace crankloop;

@@ -173,7 +173,7 @@ TEXT
     sed -n '2,9p' "$logs/numerical.log"
     printf -- '- and %d lines more\n' "$(($(wc -l <"$logs/numerical.log") - 9))"
   fi
-  printf '\n## Branches of core that the host tests take\n\n'
+  printf '\n## Branches of core and of the C interface that the host tests take\n\n'
   command_of coverage
   sed -n 's/^\([a-z_]* = .*\)/- \1/p' "$logs/coverage.log"
   cat <<'TEXT'
@@ -185,7 +185,7 @@ without a reason, or a reason without a branch, fails the command.
 
 Single-point changes of core, drawn from a seed: a comparison, + - * /, a constant, a condition, a negation, a statement that is left out. Lanes
 and the C interface are not among them. The areas gas, trigger and valve are those folders of core/include/crankloop/tick; tabulate is set-up, with the checks of
-definitions; fmi is core/include/crankloop/fmi.
+definitions; fmi is port/fmi/include/crankloop/fmi.
 
 Tests of behaviour judge first: the library's own unit, property and interface tests, for fmi those of tests/fmi, with assertions, and of them only those that
 reach the mutant's place. The command fails when they notice less than 90 % of an area's mutants that are no equivalents. The golden tests judge what is left. They
@@ -196,8 +196,8 @@ TEXT
   command_of mutants
   sed -n 's/^\([a-z]* = .*\)/- \1/p' "$logs/mutants.log"
   # shellcheck disable=SC2016  # code in Markdown
-  sed -n 's/^by golden bits alone: \(core[^ ]*\)  \([^|]*[^ |]\)  |  \(.*\)/- \1, `\3`, \2: by golden bits alone/p
-    s/^\(core[^ ]*\)  \([^|]*[^ |]\)  |  \(.*\): \(equivalent\|survives\): /- \1, `\3`, \2: \4: /p' "$logs/mutants.log"
+  sed -n 's/^by golden bits alone: \(core[^ ]*\|port[^ ]*\)  \([^|]*[^ |]\)  |  \(.*\)/- \1, `\3`, \2: by golden bits alone/p
+    s/^\(core[^ ]*\|port[^ ]*\)  \([^|]*[^ |]\)  |  \(.*\): \(equivalent\|survives\): /- \1, `\3`, \2: \4: /p' "$logs/mutants.log"
   cat <<'TEXT'
 
 ## What fuzzing and stress found

@@ -16,7 +16,7 @@
 
 #include <crankloop/crankloop.hpp>
 
-#include "c/definition.hpp"
+#include "port/c/definition.hpp"
 
 namespace crankloop::c_api {
 

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "support/limit_definitions.hpp"
+#include "support/status.hpp"
 
 namespace crankloop::c_api {
 namespace {

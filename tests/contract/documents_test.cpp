@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "crankloop/valve/valve_loop.hpp"
+#include "crankloop/loops/valve_loop.hpp"
 #include "support/markup.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/units.hpp"

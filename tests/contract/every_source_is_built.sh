@@ -14,7 +14,8 @@ sources_listed() {
   done
 }
 sources_listed core/src core/CMakeLists.txt core '*.cpp'
-for part in crankloop lab; do sources_listed tools/$part 'tools/CMakeLists.txt tools/fmu_objects.cmake' tools '*.cpp'; done
+sources_listed port/c port/c/CMakeLists.txt port/c '*.cpp'
+for part in crankloop lab; do sources_listed tools/$part tools/CMakeLists.txt tools '*.cpp'; done
 for kind in unit property golden contract; do sources_listed "tests/$kind" tests/CMakeLists.txt "tests/$kind" '*_test.cpp'; done
 sources_listed tests/fmi tests/fmi/CMakeLists.txt tests/fmi '*_test.cpp'
 [ "$bad" -eq 0 ]

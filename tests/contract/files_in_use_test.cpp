@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "crankloop/commands.hpp"
+#include "crankloop/command_line/commands.hpp"
 #include "support/bad_input.hpp"
 
 namespace crankloop::bad_input {

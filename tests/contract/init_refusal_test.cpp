@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "support/both_reals.hpp"
-#include "support/four_with_valves.hpp"
+#include "support/kept_engines.hpp"
 #include "support/status.hpp"
 
 namespace crankloop {

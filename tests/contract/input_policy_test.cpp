@@ -10,7 +10,7 @@
 #include <crankloop/tick/state/saved_state.hpp>
 
 #include "support/both_reals.hpp"
-#include "support/four_with_valves.hpp"
+#include "support/kept_engines.hpp"
 #include "support/random.hpp"
 #include "support/status.hpp"
 #include "support/units.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "crankloop/commands.hpp"
+#include "crankloop/command_line/commands.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace crankloop::program {

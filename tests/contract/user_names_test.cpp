@@ -7,8 +7,8 @@
 #include <crankloop/crankloop.hpp>
 #include <crankloop/tick/step.hpp>
 
+#include "support/engines.hpp"
 #include "support/status.hpp"
-#include "support/test_engines.hpp"
 
 using namespace crankloop;
 
@@ -31,7 +31,7 @@ int unknown(Cell) { return 2; }
 
 TEST(UserNames, AreTheUsers) {
   const auto storage = std::make_unique<TableStorage<float, Torque>>();
-  ASSERT_TRUE(accepted(storage->build(tick_test::diesel_495(), {100e-6})));
+  ASSERT_TRUE(accepted(storage->build(support::diesel_495(), {100e-6})));
   Engine<float, Torque> engine;
   ASSERT_TRUE(accepted(engine.init(storage->tables())));
   Engine<float, Torque>::Input input;

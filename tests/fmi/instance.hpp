@@ -17,7 +17,7 @@
 #include "engines.hpp"
 #include "four_pistons_fmu.hpp"
 #include "scenes.hpp"
-#include "support/test_engines.hpp"
+#include "support/engines.hpp"
 #include "support/trigger_wheels.hpp"
 
 namespace fmu {
@@ -55,7 +55,7 @@ struct BoreSupply {
   [[nodiscard]] double parameter_default(std::size_t) const noexcept { return kBore_m; }
   void set_start_values(crankloop::Input<double, Scene>&, double&) const noexcept {}
   [[nodiscard]] const crankloop::Tables<Real, Scene>* build(const double* parameters, Message& why) noexcept {
-    crankloop::EngineDefinition engine = crankloop::tick_test::diesel_495();
+    crankloop::EngineDefinition engine = crankloop::support::diesel_495();
     engine.crank.bore_m = parameters[0];
     engine.friction = {60e3, 100, 0.5};
     engine.machine = {1, 0.01, 1e-3, 0.02};

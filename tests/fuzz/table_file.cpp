@@ -1,6 +1,6 @@
 // Any bytes as a diagram's or a cam's table: refused with one line, or rows that are finite and in range, and lead to a
 // refusal or to a finite diagram.
-#include "crankloop/table_file.hpp"
+#include "crankloop/files/table_file.hpp"
 
 #include <cmath>
 #include <vector>
@@ -9,7 +9,7 @@
 #include <crankloop/tabulate/cam_profile.hpp>
 #include <crankloop/tabulate/indicator_diagram.hpp>
 
-#include "crankloop/error.hpp"
+#include "crankloop/files/error.hpp"
 #include "fuzz.hpp"
 
 using namespace crankloop;

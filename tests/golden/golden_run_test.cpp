@@ -20,7 +20,7 @@
 #include <crankloop/tick/step.hpp>
 
 #include "crankloop/engine_file/engine_file.hpp"
-#include "support/four_2000.hpp"
+#include "support/engines.hpp"
 #include "support/gas_engine.hpp"
 #include "support/golden.hpp"
 #include "support/output_fields.hpp"

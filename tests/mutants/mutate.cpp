@@ -1,10 +1,10 @@
 // mutate CHECKOUT OUT SEED COUNT LEFT_OUT AREA=REGEX...
 //
-// Copies core of a checkout to the folder OUT, with single-point changes written into it that mutant.hpp can switch on:
-// COUNT of each area, drawn from SEED, in files whose paths have the area's regular expression. A file belongs to the
-// first area that finds it. Prints "NUMBER<TAB>AREA<TAB>FILE:LINE<TAB>CHANGE<TAB>CODE" for each change, the areas by
-// turns, and to stderr "AREA<TAB>PLACES". The lines FILE:LINE in the file LEFT_OUT stay as they are, and the others
-// keep their numbers: there a change did not compile.
+// Copies core and port/fmi of a checkout to the folder OUT, with single-point changes written into them that mutant.hpp
+// can switch on: COUNT of each area, drawn from SEED, in files whose paths have the area's regular expression. A file
+// belongs to the first area that finds it. Prints "NUMBER<TAB>AREA<TAB>FILE:LINE<TAB>CHANGE<TAB>CODE" for each change,
+// the areas by turns, and to stderr "AREA<TAB>PLACES". The lines FILE:LINE in the file LEFT_OUT stay as they are, and
+// the others keep their numbers: there a change did not compile.
 //
 // What is changed: comparisons, + - * /, constants (one more, twice, a tenth), conditions, negations, statements that
 // are left out. What is not: lanes, the C interface, FMUs but in the area "fmi", what templates are made of,
@@ -30,9 +30,8 @@ namespace {
 namespace fs = std::filesystem;
 using Lines = std::vector<std::string>;
 
-// Lanes, which are left out of the build; and the C interface, of which the build generates the greater part.
-constexpr const char* kOutside =
-    "(/lanes?[a-z_]*[.]hpp|abreast[.]hpp|crankloop/variables[.]hpp|/c/[a-z0-9_]*[.](hpp|inc|cpp))$";
+// Lanes, which are left out of the build; and the list of variables, by which others are built.
+constexpr const char* kOutside = "(/lanes?[a-z_]*[.]hpp|abreast[.]hpp|crankloop/variables[.]hpp)$";
 // FMUs, whose tests load them as shared objects (tests/fmi): changed only where the area of this name asks for them.
 constexpr const char* kFmi = "fmi";
 
@@ -332,14 +331,14 @@ int main(int argc, char** argv) {
   for (const std::string& line : read_lines(argv[5])) left_out.insert(line);
   std::vector<Area> areas = read_areas(argv + 6, argv + argc);
 
-  std::vector<std::string> files;  // of core, by their paths in the checkout
+  std::vector<std::string> files;  // what is copied, by their paths in the checkout
   std::string all_code;
-  for (const char* folder : {"core", "tests"}) {
+  for (const auto& folder : {std::string("core"), std::string("port/fmi"), std::string("tests")}) {
     for (const auto& entry : fs::recursive_directory_iterator(checkout / folder)) {
       const std::string extension = entry.path().extension().string();
       if (extension != ".cpp" && extension != ".hpp" && extension != ".inc" && extension != ".h") continue;
       for (const std::string& line : code_of(read_lines(entry.path()))) all_code += line + "\n";
-      if (*folder == 'c') files.push_back(fs::relative(entry.path(), checkout).generic_string());
+      if (folder != "tests") files.push_back(fs::relative(entry.path(), checkout).generic_string());
     }
   }
   std::sort(files.begin(), files.end());
@@ -372,7 +371,7 @@ int main(int argc, char** argv) {
   for (const std::string& file : files) {
     // Files that stay as they are keep their time, so that what is built of them stays built.
     const std::string text = edited(read_lines(checkout / file), edits[file]);
-    const fs::path to = out / fs::relative(file, "core");
+    const fs::path to = out / file;
     std::ifstream before(to);
     if (before && std::string(std::istreambuf_iterator<char>(before), {}) == text) continue;
     fs::create_directories(to.parent_path());

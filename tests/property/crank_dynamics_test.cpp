@@ -8,13 +8,13 @@
 #include <limits>
 #include <vector>
 
+#include "support/engines.hpp"
 #include "support/lagrange.hpp"
 #include "support/motored_cycle.hpp"
 #include "support/newton_euler.hpp"
 #include "support/ripple_theory.hpp"
-#include "support/test_engines.hpp"
+#include "support/running.hpp"
 #include "support/tick_oracle.hpp"
-#include "support/turned_engine.hpp"
 #include "support/work_oracle.hpp"
 
 namespace crankloop {

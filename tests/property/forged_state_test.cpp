@@ -21,10 +21,9 @@
 #include <crankloop/scenes.hpp>
 
 #include "support/both_reals.hpp"
-#include "support/four_2000.hpp"
+#include "support/engines.hpp"
 #include "support/random.hpp"
 #include "support/status.hpp"
-#include "support/test_engines.hpp"
 #include "support/test_valves.hpp"
 #include "support/trigger_wheels.hpp"
 #include "target/hostile.hpp"
@@ -95,7 +94,7 @@ class FieldList {
 
 template <class S>
 EngineDefinition engine_of() {
-  using tick_test::diesel_495;
+  using support::diesel_495;
   EngineDefinition engine = detail::Needs<S>::gas ? support::four_2000() : diesel_495();
   if (!detail::Needs<S>::gas) {
     engine.train_count = 1;

@@ -12,8 +12,8 @@
 
 #include <crankloop/scenes.hpp>
 
+#include "support/running.hpp"
 #include "support/trigger_wheels.hpp"
-#include "support/turned_engine.hpp"
 #include "support/work_oracle.hpp"
 
 namespace crankloop {

@@ -11,10 +11,10 @@
 #include <limits>
 #include <vector>
 
+#include "support/engines.hpp"
 #include "support/random.hpp"
 #include "support/running.hpp"
 #include "support/status.hpp"
-#include "support/test_engines.hpp"
 #include "support/work_oracle.hpp"
 
 namespace crankloop {

@@ -14,9 +14,9 @@
 #include <crankloop/tabulate/tabulate.hpp>
 #include <crankloop/tick/step.hpp>
 
+#include "support/engines.hpp"
 #include "support/random.hpp"
 #include "support/status.hpp"
-#include "support/test_engines.hpp"
 #include "support/test_valves.hpp"
 #include "support/units.hpp"
 
@@ -25,7 +25,7 @@ namespace crankloop::valve_lanes {
 inline EngineDefinition engine_of(int cylinders, int trains, bool gas) {
   std::vector<double> firing_deg;
   for (int k = 0; k < cylinders; ++k) firing_deg.push_back(720.0 * k / cylinders);
-  EngineDefinition engine = tick_test::with_cylinders(valve_test::engine_with(valve_test::ohc_125_train()), firing_deg);
+  EngineDefinition engine = support::with_cylinders(valve_test::engine_with(valve_test::ohc_125_train()), firing_deg);
   engine.train_count = trains;
   for (int t = 0; t < trains; ++t) {
     engine.trains[t] = valve_test::ohc_125_train();

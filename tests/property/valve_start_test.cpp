@@ -9,9 +9,9 @@
 #include <crankloop/scenes.hpp>
 
 #include "support/both_reals.hpp"
-#include "support/four_2000.hpp"
+#include "support/engines.hpp"
+#include "support/running.hpp"
 #include "support/test_valves.hpp"
-#include "support/turned_engine.hpp"
 
 namespace crankloop {
 namespace {

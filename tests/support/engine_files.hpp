@@ -12,7 +12,7 @@
 #include <crankloop/define/engine_definition.hpp>
 
 #include "crankloop/engine_file/engine_file.hpp"
-#include "crankloop/error.hpp"
+#include "crankloop/files/error.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace crankloop::program {

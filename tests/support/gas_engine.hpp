@@ -9,7 +9,7 @@
 #include <crankloop/tabulate/tabulate.hpp>
 #include <crankloop/tick/step.hpp>
 
-#include "support/four_2000.hpp"
+#include "support/engines.hpp"
 #include "support/running.hpp"
 #include "support/status.hpp"
 

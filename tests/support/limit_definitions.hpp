@@ -16,7 +16,7 @@
 
 #include <crankloop/define/engine_definition.hpp>
 
-#include "support/four_2000.hpp"
+#include "support/engines.hpp"
 #include "support/random.hpp"
 #include "support/valve_trains.hpp"
 

@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "crankloop/commands.hpp"
-#include "crankloop/error.hpp"
+#include "crankloop/command_line/commands.hpp"
+#include "crankloop/files/error.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace crankloop::program {

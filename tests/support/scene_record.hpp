@@ -12,9 +12,9 @@
 
 #include <gtest/gtest.h>
 
+#include "support/engines.hpp"
 #include "support/output_numbers.hpp"
 #include "support/running.hpp"
-#include "support/test_engines.hpp"
 
 namespace crankloop::tick_test {
 

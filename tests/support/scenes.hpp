@@ -1,8 +1,8 @@
 // The scenes that tests run, by what they are about. Not here: those that a project is built with
 // (contract/*/scenes.hpp, target/scenes.hpp), as a user writes them.
 //
-// What belongs here: scenes. What does not: tables and engines of them (running.hpp, turned_engine.hpp,
-// test_valves.hpp), definitions (test_engines.hpp).
+// What belongs here: scenes. What does not: tables and engines of them (running.hpp,
+// kept_engines.hpp, test_valves.hpp), definitions (engines.hpp).
 #pragma once
 
 #include <cstdint>

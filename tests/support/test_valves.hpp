@@ -1,4 +1,4 @@
-// Elastic valves under test: the train of the 125 cm^3 engine, and an engine of one cylinder that runs it tick by tick.
+// Elastic valves under test: an engine of one cylinder that runs a train tick by tick.
 //
 // What belongs here: definitions, and a rig that runs them. What does not: what to expect
 // (support/valve_reference.hpp).
@@ -15,9 +15,9 @@
 #include <crankloop/tabulate/tabulate.hpp>
 #include <crankloop/tick/step.hpp>
 
+#include "support/engines.hpp"
 #include "support/running.hpp"
 #include "support/status.hpp"
-#include "support/test_engines.hpp"
 #include "support/units.hpp"
 #include "support/valve_reference.hpp"
 #include "support/valve_trains.hpp"
@@ -26,36 +26,12 @@ namespace crankloop::valve_test {
 
 using support::kPi;
 using support::kRadPerDeg;
+using support::ohc_125_train;
+using support::ohc_125_valve;
 
-/// The valve of the 125 cm^3 engine [Li 2017], with what its print leaves open as docs/model.md assumes it.
-inline Valve ohc_125_valve() {
-  Valve valve;
-  valve.valve_kg = 0.033;
-  valve.spring_kg = 0.06;
-  valve.rocker_inertia_kg_m2 = 8.12e-6;
-  valve.spring_N_m = 40e3;
-  valve.spring_preload_N = 205.8;
-  valve.train_N_m = 1000 / 0.085e-3;
-  valve.train_damping_ratio = 0.10;
-  valve.guide_damping_ratio = 0.003;
-  valve.seat_N_m = 1e8;
-  valve.seat_damping_ratio = 0.10;
-  return valve;
-}
-
-/// Its whole train; full lift at 450 deg of the crank, half way through the intake stroke.
-inline ValveTrain ohc_125_train() {
-  ValveTrain train;
-  train.cam = support::ohc_125_cam();
-  train.cam.full_lift_deg = 450;
-  train.rocker = support::ohc_125_rocker();
-  train.valve = ohc_125_valve();
-  return train;
-}
-
-/// One cylinder with this train; its crank mechanism does not matter.
+/// One cylinder with a train; its crank mechanism does not matter.
 inline EngineDefinition engine_with(const ValveTrain& train) {
-  EngineDefinition engine = tick_test::without_gas(tick_test::single_495());
+  EngineDefinition engine = support::without_gas(support::single_495());
   engine.masses.rod_inertia_correction_kg_m2 = 0;
   engine.train_count = 1;
   engine.trains[0] = train;

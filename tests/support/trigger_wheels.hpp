@@ -10,7 +10,7 @@
 
 #include <crankloop/define/engine_definition.hpp>
 
-#include "support/test_engines.hpp"
+#include "support/engines.hpp"
 
 namespace crankloop::tick_test {
 

@@ -10,7 +10,7 @@
 #include <functional>
 #include <vector>
 
-#include "crankloop/valve/textbook_valve.hpp"
+#include "crankloop/loops/textbook_valve.hpp"
 #include "lab/reference/valve_reference.hpp"
 
 namespace crankloop::valve_test {

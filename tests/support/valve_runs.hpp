@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "crankloop/valve/valve_loop.hpp"
+#include "crankloop/loops/valve_loop.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace crankloop::program {

@@ -35,6 +35,32 @@ inline Rocker ohc_125_rocker(CamTurns turns = CamTurns::toward_pivot) {
   return rocker;
 }
 
+/// The valve of the 125 cm^3 engine [Li 2017], with what its print leaves open as docs/model.md assumes it.
+inline Valve ohc_125_valve() {
+  Valve valve;
+  valve.valve_kg = 0.033;
+  valve.spring_kg = 0.06;
+  valve.rocker_inertia_kg_m2 = 8.12e-6;
+  valve.spring_N_m = 40e3;
+  valve.spring_preload_N = 205.8;
+  valve.train_N_m = 1000 / 0.085e-3;
+  valve.train_damping_ratio = 0.10;
+  valve.guide_damping_ratio = 0.003;
+  valve.seat_N_m = 1e8;
+  valve.seat_damping_ratio = 0.10;
+  return valve;
+}
+
+/// The whole train of the 125 cm^3 engine; full lift at 450 deg of the crank, half way through the intake stroke.
+inline ValveTrain ohc_125_train() {
+  ValveTrain train;
+  train.cam = ohc_125_cam();
+  train.cam.full_lift_deg = 450;
+  train.rocker = ohc_125_rocker();
+  train.valve = ohc_125_valve();
+  return train;
+}
+
 inline Rocker direct_rocker(double base_circle_m, double clearance_m, double ratio = 1) {
   Rocker rocker;
   rocker.kind = RockerKind::ratio;

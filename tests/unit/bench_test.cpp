@@ -18,7 +18,7 @@
 #include <crankloop/tabulate/mechanism.hpp>
 
 #include "crankloop/engine_file/engine_file.hpp"
-#include "crankloop/error.hpp"
+#include "crankloop/files/error.hpp"
 #include "lab/bench/bench_report.hpp"
 #include "lab/bench/engines.hpp"
 #include "lab/bench/groups.hpp"

@@ -7,9 +7,9 @@
 #include <limits>
 #include <vector>
 
+#include "support/engines.hpp"
 #include "support/running.hpp"
 #include "support/status.hpp"
-#include "support/test_engines.hpp"
 
 namespace crankloop {
 namespace {

@@ -15,13 +15,13 @@
 #include <crankloop/tabulate/summary.hpp>
 #include <crankloop/tick/state/saved_state.hpp>
 
+#include "support/engines.hpp"
 #include "support/output_fields.hpp"
 #include "support/random.hpp"
+#include "support/running.hpp"
 #include "support/status.hpp"
-#include "support/test_engines.hpp"
 #include "support/test_valves.hpp"
 #include "support/tick_oracle.hpp"
-#include "support/turned_engine.hpp"
 #include "support/work_oracle.hpp"
 
 namespace crankloop {

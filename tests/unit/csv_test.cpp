@@ -1,5 +1,5 @@
 // How results look on paper, and what becomes of them when something goes wrong on the way.
-#include "crankloop/csv.hpp"
+#include "crankloop/files/csv.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -13,10 +13,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "crankloop/error.hpp"
-#include "crankloop/number.hpp"
-#include "crankloop/summary.hpp"
-#include "crankloop/words.hpp"
+#include "crankloop/command_line/summary.hpp"
+#include "crankloop/files/error.hpp"
+#include "crankloop/files/number.hpp"
+#include "crankloop/files/words.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace crankloop::program {

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "support/engines.hpp"
-#include "support/four_2000.hpp"
 #include "support/status.hpp"
 
 namespace crankloop {

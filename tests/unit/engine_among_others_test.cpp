@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "support/diesel_engine.hpp"
+#include "support/kept_engines.hpp"
 #include "support/output_numbers.hpp"
 #include "support/status.hpp"
 #include "support/tick_oracle.hpp"

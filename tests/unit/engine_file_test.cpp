@@ -21,11 +21,11 @@
 #include <utility>
 #include <vector>
 
-#include "crankloop/error.hpp"
-#include "crankloop/text_file.hpp"
+#include "crankloop/files/error.hpp"
+#include "crankloop/files/text_file.hpp"
 #include "lab/reference/valve_reference.hpp"
 #include "support/engine_files.hpp"
-#include "support/four_2000.hpp"
+#include "support/engines.hpp"
 #include "support/status.hpp"
 #include "support/units.hpp"
 

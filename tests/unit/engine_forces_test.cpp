@@ -6,7 +6,7 @@
 
 #include <crankloop/tabulate/summary.hpp>
 
-#include "support/diesel_engine.hpp"
+#include "support/kept_engines.hpp"
 #include "support/random.hpp"
 #include "support/status.hpp"
 #include "support/tick_oracle.hpp"

@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "support/diesel_engine.hpp"
+#include "support/kept_engines.hpp"
 #include "support/output_numbers.hpp"
 #include "support/random.hpp"
 #include "support/status.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "crankloop/engine_file/engine_file.hpp"
-#include "crankloop/number.hpp"
+#include "crankloop/files/number.hpp"
 #include "support/ripple_theory.hpp"
 #include "support/run_command.hpp"
 #include "support/units.hpp"

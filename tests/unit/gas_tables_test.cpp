@@ -11,10 +11,9 @@
 #include <crankloop/tabulate/tabulate.hpp>
 
 #include "support/both_reals.hpp"
-#include "support/four_2000.hpp"
+#include "support/engines.hpp"
 #include "support/gas_bench.hpp"
 #include "support/status.hpp"
-#include "support/test_engines.hpp"
 #include "support/units.hpp"
 
 namespace crankloop {

@@ -13,9 +13,9 @@
 
 #include <crankloop/tabulate/valve_lift.hpp>
 
-#include "crankloop/commands.hpp"
+#include "crankloop/command_line/commands.hpp"
 #include "crankloop/engine_file/engine_file.hpp"
-#include "crankloop/error.hpp"
+#include "crankloop/files/error.hpp"
 #include "support/status.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/units.hpp"

@@ -13,7 +13,7 @@
 
 #include <crankloop/tabulate/indicator_diagram.hpp>
 
-#include "crankloop/number.hpp"
+#include "crankloop/files/number.hpp"
 #include "support/bad_input.hpp"
 #include "support/measured_cam.hpp"
 #include "support/valve_trains.hpp"

@@ -1,5 +1,5 @@
 // How far a long command is, where nobody looks at a terminal: a line now and then in the log.
-#include "crankloop/progress.hpp"
+#include "crankloop/command_line/progress.hpp"
 
 #include <gtest/gtest.h>
 

@@ -17,15 +17,15 @@
 #include <crankloop/tabulate/mechanism.hpp>
 #include <crankloop/tabulate/summary.hpp>
 
-#include "crankloop/commands.hpp"
-#include "crankloop/error.hpp"
-#include "crankloop/run/run_accuracy.hpp"
-#include "crankloop/run/run_loop.hpp"
-#include "crankloop/run/run_trace.hpp"
+#include "crankloop/command_line/commands.hpp"
+#include "crankloop/files/error.hpp"
+#include "crankloop/loops/run_accuracy.hpp"
+#include "crankloop/loops/run_loop.hpp"
+#include "crankloop/loops/run_trace.hpp"
 #include "support/both_reals.hpp"
+#include "support/engines.hpp"
 #include "support/run_command.hpp"
 #include "support/status.hpp"
-#include "support/test_engines.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -41,7 +41,7 @@ struct Case {
 
 /// Three cylinders with a pin offset and a rod that is no two masses: no term is zero.
 EngineDefinition uneven_three() {
-  EngineDefinition engine = tick_test::with_cylinders(tick_test::single_495(), {0, 480, 240});
+  EngineDefinition engine = support::with_cylinders(support::single_495(), {0, 480, 240});
   engine.crank.pin_offset_m = 0.006;
   return engine;
 }
@@ -49,16 +49,16 @@ EngineDefinition uneven_three() {
 /// Operation{rpm, tick in s, load ratio}: whole and broken numbers of ticks per cycle, the extremes of tick and speed.
 std::vector<Case> cases() {
   return {
-      {"495, 600 ticks a cycle", tick_test::diesel_495(), {2000, 100e-6, 1}, 2},
-      {"495, 571.43 ticks a cycle", tick_test::diesel_495(), {2100, 100e-6, 1}, 3},
-      {"495, half load", tick_test::diesel_495(), {2000, 100e-6, 0.5}, 1},
-      {"495, motored, a tick of 2 ms", tick_test::diesel_495(), {1234.5, 2e-3, 0}, 5},
-      {"495, 6 ticks a cycle", tick_test::diesel_495(), {10000, 2e-3, 1}, 4},
-      {"495, a crawl", tick_test::diesel_495(), {1, 2e-3, 1}, 1},
+      {"495, 600 ticks a cycle", support::diesel_495(), {2000, 100e-6, 1}, 2},
+      {"495, 571.43 ticks a cycle", support::diesel_495(), {2100, 100e-6, 1}, 3},
+      {"495, half load", support::diesel_495(), {2000, 100e-6, 0.5}, 1},
+      {"495, motored, a tick of 2 ms", support::diesel_495(), {1234.5, 2e-3, 0}, 5},
+      {"495, 6 ticks a cycle", support::diesel_495(), {10000, 2e-3, 1}, 4},
+      {"495, a crawl", support::diesel_495(), {1, 2e-3, 1}, 1},
       {"three with offset, 300 ticks a cycle", uneven_three(), {4000, 100e-6, 1}, 2},
       {"three with offset, 10 us", uneven_three(), {6000, 10e-6, 1}, 2},
       {"three with offset, 4.3 ticks a cycle", uneven_three(), {9300, 3e-3 / 2, 1.5}, 50},
-      {"inertia only", tick_test::without_gas(uneven_three()), {5000, 100e-6, 1}, 2},
+      {"inertia only", support::without_gas(uneven_three()), {5000, 100e-6, 1}, 2},
   };
 }
 
@@ -174,7 +174,7 @@ TYPED_TEST(RunIn, MeanTorquePowerAndImepAreThoseOfTheExactCycle) {
 }
 
 TYPED_TEST(RunIn, AnImepGivenInTheFileIsMetToOneTenThousandth) {
-  const EngineDefinition engine = tick_test::diesel_495();  // 809.7 kPa
+  const EngineDefinition engine = support::diesel_495();  // 809.7 kPa
   const Operation operation{2000, 100e-6, 1};
   FixedStepLoop<TypeParam> loop(engine, operation);
   EXPECT_NEAR(run_cycles<TypeParam>(loop, engine, operation, 2).net_mep_Pa, 809.7e3, 1e-4 * 809.7e3);
@@ -235,13 +235,13 @@ TYPED_TEST(RunIn, ARunBeginsAtFiringTdcAndCoversItsCyclesWhateverTheTick) {
 }
 
 TYPED_TEST(RunIn, RefusesASpeedBeyondOneRevolutionPerTickInsteadOfStandingStill) {
-  const EngineDefinition engine = tick_test::diesel_495();
+  const EngineDefinition engine = support::diesel_495();
   EXPECT_THROW((FixedStepLoop<TypeParam>(engine, {40000, 2e-3, 1})), UsageError);
   EXPECT_NO_THROW((FixedStepLoop<TypeParam>(engine, {29000, 2e-3, 1})));
 }
 
 TYPED_TEST(RunIn, RefusesARunThatWouldNotEnd) {
-  const EngineDefinition engine = tick_test::diesel_495();
+  const EngineDefinition engine = support::diesel_495();
   EXPECT_THROW((FixedStepLoop<TypeParam>(engine, {0.001, 10e-6, 1})), UsageError);
   const Operation operation{2000, 100e-6, 1};
   FixedStepLoop<TypeParam> loop(engine, operation);
@@ -249,7 +249,7 @@ TYPED_TEST(RunIn, RefusesARunThatWouldNotEnd) {
 }
 
 TYPED_TEST(RunIn, MeasuresWhatATickCosts) {
-  FixedStepLoop<TypeParam> loop(tick_test::diesel_495(), {2000, 100e-6, 1});
+  FixedStepLoop<TypeParam> loop(support::diesel_495(), {2000, 100e-6, 1});
   const double per_tick_ns = loop.wall_time_per_tick_ns();
   EXPECT_GT(per_tick_ns, 1);    // less is no clock
   EXPECT_LT(per_tick_ns, 1e5);  // sanitizers and a busy machine included
@@ -309,10 +309,10 @@ TYPED_TEST(RunIn, ATraceIsOneCycleFromCylinderOnesFiring) {
 }
 
 TYPED_TEST(RunIn, ATraceIsCoarserWhereItsTicksWouldBeTooShortAndSkipsTicksAtACrawl) {
-  const Trace fastest = record_trace<TypeParam>(tick_test::single_495(), {100000, 100e-6, 1});
+  const Trace fastest = record_trace<TypeParam>(support::single_495(), {100000, 100e-6, 1});
   EXPECT_EQ(fastest.spacing_deg, 1);  // 0.6 deg is the least at 1 us
   EXPECT_EQ(fastest.crank_deg.size(), 721u);
-  const Trace slowest = record_trace<TypeParam>(tick_test::single_495(), {1, 100e-6, 1});
+  const Trace slowest = record_trace<TypeParam>(support::single_495(), {1, 100e-6, 1});
   EXPECT_EQ(slowest.spacing_deg, 0.25);
   EXPECT_LE(slowest.tick_s, 2e-3);
   EXPECT_EQ(slowest.crank_deg.size(), 2881u);

@@ -8,7 +8,7 @@
 
 #include <crankloop/tabulate/valve_lift.hpp>
 
-#include "crankloop/commands.hpp"
+#include "crankloop/command_line/commands.hpp"
 #include "lab/stress/stability_map.hpp"
 #include "lab/stress/stress_case.hpp"
 #include "lab/stress/stress_tally.hpp"

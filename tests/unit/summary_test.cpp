@@ -8,16 +8,16 @@
 
 #include <crankloop/tabulate/mechanism.hpp>
 
+#include "support/engines.hpp"
 #include "support/status.hpp"
-#include "support/test_engines.hpp"
 #include "support/units.hpp"
 
 namespace crankloop {
 namespace {
 
+using support::diesel_495;
 using support::refuses;
-using tick_test::diesel_495;
-using tick_test::single_495;
+using support::single_495;
 
 TEST(ExactEngine, RefusesWhatItsDefinitionAndItsDiagramRefuse) {
   ExactEngine exact;

@@ -17,9 +17,8 @@
 #include <crankloop/tabulate/valve_lift.hpp>
 
 #include "support/both_reals.hpp"
-#include "support/four_2000.hpp"
+#include "support/engines.hpp"
 #include "support/status.hpp"
-#include "support/test_engines.hpp"
 #include "support/test_valves.hpp"
 #include "support/units.hpp"
 #include "tabulate/gas_quantities.hpp"

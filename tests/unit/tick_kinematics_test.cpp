@@ -10,10 +10,10 @@
 #include <cstdio>
 #include <vector>
 
+#include "support/engines.hpp"
 #include "support/random.hpp"
 #include "support/running.hpp"
 #include "support/status.hpp"
-#include "support/test_engines.hpp"
 #include "support/tick_oracle.hpp"
 
 namespace crankloop {

@@ -15,11 +15,11 @@
 
 #include <crankloop/tabulate/indicator_diagram.hpp>
 
+#include "support/engines.hpp"
 #include "support/pressure_traces.hpp"
 #include "support/random.hpp"
 #include "support/running.hpp"
 #include "support/status.hpp"
-#include "support/test_engines.hpp"
 
 namespace crankloop {
 namespace {

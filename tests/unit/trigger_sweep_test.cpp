@@ -11,9 +11,9 @@
 #include <crankloop/tick/step.hpp>
 
 #include "support/both_reals.hpp"
+#include "support/engines.hpp"
 #include "support/random.hpp"
 #include "support/status.hpp"
-#include "support/test_engines.hpp"
 #include "support/test_valves.hpp"
 #include "support/trigger_wheels.hpp"
 #include "support/units.hpp"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "crankloop/valve/valve_accuracy.hpp"
-#include "crankloop/valve/valve_tick_limit.hpp"
+#include "crankloop/loops/valve_accuracy.hpp"
+#include "crankloop/loops/valve_tick_limit.hpp"
 #include "support/random.hpp"
 #include "support/test_valves.hpp"
 #include "support/valve_runs.hpp"

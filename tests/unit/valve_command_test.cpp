@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
-#include "crankloop/commands.hpp"
-#include "crankloop/error.hpp"
-#include "crankloop/redline/redline_search.hpp"
+#include "crankloop/command_line/commands.hpp"
+#include "crankloop/commands/redline/redline_search.hpp"
+#include "crankloop/files/error.hpp"
 #include "support/drawing_geometry.hpp"
 #include "support/markup.hpp"
 #include "support/valve_runs.hpp"

@@ -8,8 +8,8 @@
 
 #include <crankloop/tabulate/indicator_diagram.hpp>
 
-#include "crankloop/run/run_loop.hpp"
-#include "crankloop/run/run_trace.hpp"
+#include "crankloop/loops/run_loop.hpp"
+#include "crankloop/loops/run_trace.hpp"
 #include "support/both_reals.hpp"
 #include "support/status.hpp"
 #include "support/units.hpp"

@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <memory>
 
-#include "crankloop/valve/textbook_valve.hpp"
+#include "crankloop/loops/textbook_valve.hpp"
 #include "support/status.hpp"
 #include "support/test_valves.hpp"
 

@@ -1,7 +1,7 @@
 // The VCD writer, read back by a reader of its own: whitespace-separated tokens, as IEEE 1364 has them.
 #include "crankloop/signals/vcd.hpp"
 
-#include "crankloop/run/run_signals.hpp"
+#include "crankloop/commands/run/run_signals.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

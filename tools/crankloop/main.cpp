@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "commands.hpp"
+#include "command_line/commands.hpp"
 #include "engine_file/engine_file_keys.hpp"
 #include "engine_file/trigger_patterns.hpp"
-#include "error.hpp"
-#include "files_in_use.hpp"
-#include "output_file.hpp"
-#include "words.hpp"
+#include "files/error.hpp"
+#include "files/files_in_use.hpp"
+#include "files/output_file.hpp"
+#include "files/words.hpp"
 
 #ifndef CRANKLOOP_VERSION
 #define CRANKLOOP_VERSION "0.0.0"

@@ -13,8 +13,8 @@
 #include <crankloop/tabulate/mechanism.hpp>
 #include <crankloop/tabulate/tabulate.hpp>
 
+#include "support/engines.hpp"
 #include "support/random.hpp"
-#include "support/test_engines.hpp"
 #include "support/units.hpp"
 
 namespace {
@@ -66,7 +66,7 @@ std::vector<DiagramPoint> rows_of(const Case& c, const Crank& crank) {
 }
 
 int tabulated(const Case& c) {
-  EngineDefinition engine = tick_test::single_495();
+  EngineDefinition engine = support::single_495();
   engine.crank.pin_offset_m = 0.005;
   engine.layout.cylinders = kMaxCylinders;
   for (std::size_t k = 0; k < std::size_t{kMaxCylinders}; ++k) {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "../number.hpp"
-#include "../words.hpp"
+#include "../files/number.hpp"
+#include "../files/words.hpp"
 #include "engine_file_parts.hpp"
 
 namespace crankloop::program {

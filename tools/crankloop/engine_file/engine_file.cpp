@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "../table_file.hpp"
-#include "../text_file.hpp"
-#include "../words.hpp"
+#include "../files/table_file.hpp"
+#include "../files/text_file.hpp"
+#include "../files/words.hpp"
 #include "engine_file_parts.hpp"
 #include "problems.hpp"
 

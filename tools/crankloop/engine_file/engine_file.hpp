@@ -15,7 +15,7 @@
 #include <crankloop/define/engine_definition.hpp>
 #include <crankloop/tabulate/cam_profile.hpp>
 
-#include "../error.hpp"
+#include "../files/error.hpp"
 #include "engine_file_values.hpp"
 
 namespace crankloop::program {

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include <c/definition.hpp>
+#include "port/c/definition.hpp"
 
 #include "engine_file.hpp"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "../words.hpp"
+#include "../files/words.hpp"
 #include "engine_file.hpp"
 #include "engine_file_parts.hpp"
 

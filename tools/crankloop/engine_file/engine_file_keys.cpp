@@ -7,7 +7,7 @@
 #include <crankloop/define/engine_definition.hpp>
 #include <crankloop/variable.hpp>
 
-#include "../words.hpp"
+#include "../files/words.hpp"
 
 namespace crankloop::program {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "../error.hpp"
+#include "../files/error.hpp"
 
 namespace crankloop::program {
 

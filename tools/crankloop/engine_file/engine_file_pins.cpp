@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "../error.hpp"
+#include "../files/error.hpp"
 #include "engine_file_parts.hpp"
 
 namespace crankloop::program {

@@ -3,8 +3,8 @@
 #include <map>
 #include <utility>
 
-#include "../error.hpp"
-#include "../words.hpp"
+#include "../files/error.hpp"
+#include "../files/words.hpp"
 #include "engine_file_values.hpp"
 #include "problems.hpp"
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../table_file.hpp"
-#include "../text_file.hpp"
-#include "../words.hpp"
+#include "../files/table_file.hpp"
+#include "../files/text_file.hpp"
+#include "../files/words.hpp"
 #include "engine_file.hpp"
 #include "engine_file_parts.hpp"
 

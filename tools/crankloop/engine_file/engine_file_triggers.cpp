@@ -1,7 +1,7 @@
 // Trigger wheels of an engine file: [trigger NAME] as a definition, and what is wrong with one in words.
 #include <algorithm>
 
-#include "../words.hpp"
+#include "../files/words.hpp"
 #include "engine_file.hpp"
 #include "engine_file_parts.hpp"
 #include "trigger_patterns.hpp"

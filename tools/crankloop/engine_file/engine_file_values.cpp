@@ -7,8 +7,8 @@
 
 #include <crankloop/define/layout.hpp>
 
-#include "../error.hpp"
-#include "../words.hpp"
+#include "../files/error.hpp"
+#include "../files/words.hpp"
 
 namespace crankloop::program {
 namespace {

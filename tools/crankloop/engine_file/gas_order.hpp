@@ -1,15 +1,12 @@
 // What an engine that breathes is told, the same for all its cylinders: throttle, fuel, spark.
 //
-// What belongs here: the order, its way into a step's input, its options. What does not: what becomes of it (run/,
-// free/, live/).
+// What belongs here: the order, its way into a step's input. What does not: its options (command_line/gas_options.hpp),
+// what becomes of it (loops/, commands/).
 #pragma once
 
-#include <string>
+#include <cstdint>
 
 #include <crankloop/scenes.hpp>
-
-#include "../arguments.hpp"
-#include "engine_file.hpp"
 
 namespace crankloop::program {
 
@@ -41,34 +38,5 @@ void tell(Input<Real, S>& in, const GasOrder& order) noexcept {
 [[nodiscard]] inline bool breathes(const EngineDefinition& engine) noexcept {
   return engine.pressure.source == PressureSource::gas;
 }
-
-inline constexpr Option kThrottle =
-    number("--throttle", "R", from(0).up_to(1),
-           "of an engine that breathes: 0 closed, 1 wide open; run: 1 unless told, live: 0");
-inline constexpr Option kFuel = number("--fuel-mg", "M", from(0).up_to(kMaxFuel_kg * 1e6),
-                                       "its fuel per cylinder and cycle in mg; default the file's");
-inline constexpr Option kLambda =
-    number("--lambda", "L", above(0).up_to(kMaxExcessAir_ratio),
-           "its excess-air ratio: fuel by the air in each cylinder, instead of --fuel-mg; default the file's");
-inline constexpr Option kBurnStart =
-    number("--burn-start-deg", "A", from(-90).up_to(60), "where its burn begins, firing TDC = 0; default the file's");
-
-/// The file's, with the lambda and the burn that the command line says; throws UsageError where it says the fuel too.
-[[nodiscard]] GasOrder lambda_and_spark(const Arguments& arguments, const EngineFile& engine);
-
-/// As many milligrams of fuel, whatever the air.
-void set_fuel_mg(GasOrder& order, double fuel_mg);
-
-/// The file's, with the fuel and burn that the command line says.
-[[nodiscard]] GasOrder fuel_and_spark(const Arguments& arguments, const EngineFile& engine);
-
-/// The same, with the throttle. Throws UsageError for such options where the engine does not breathe,
-/// and for --load-ratio where it does.
-[[nodiscard]] GasOrder gas_order(const Arguments& arguments, const EngineFile& engine, double throttle_unless_told);
-
-/// "--lambda 1", or "--fuel-mg 30".
-[[nodiscard]] std::string fuel_option(const GasOrder& order);
-/// "--throttle 1 --lambda 1 --burn-start-deg -18".
-[[nodiscard]] std::string options_of(const GasOrder& order);
 
 }  // namespace crankloop::program

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <utility>
 
-#include "../error.hpp"
-#include "../words.hpp"
+#include "../files/error.hpp"
+#include "../files/words.hpp"
 #include "problems.hpp"
 
 namespace crankloop::program {

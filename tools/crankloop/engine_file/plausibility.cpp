@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <utility>
 
@@ -10,8 +9,8 @@
 #include <crankloop/tabulate/indicator_diagram.hpp>
 #include <crankloop/tabulate/mechanism.hpp>
 
-#include "../units.hpp"
-#include "../words.hpp"
+#include "../files/units.hpp"
+#include "../files/words.hpp"
 #include "lobe_feet.hpp"
 #include "usual_ranges.hpp"
 
@@ -291,20 +290,6 @@ std::vector<std::string> warnings_about_running_free(const EngineFile& engine, c
       definition.friction.any() || machine.constant_Nm != 0 || machine.linear_Nm_s != 0 || machine.quadratic_Nm_s2 != 0;
   if (!held) warnings.add(0, "nothing holds back an engine that runs free without [friction] and [machine]");
   return warnings.lines();
-}
-
-std::vector<std::string> tell_warnings(const Arguments& arguments, std::vector<std::string> warnings) {
-  if (arguments.has(kNoWarnings.name)) return {};
-  for (const std::string& line : warnings) std::fprintf(stderr, "%s\n", line.c_str());
-  return warnings;
-}
-
-EngineFile read_engine(const Arguments& arguments, const std::vector<std::string>& needed_sections,
-                       std::vector<std::string>* warnings) {
-  EngineFile engine = read_engine_file(arguments.file(), needed_sections);
-  std::vector<std::string> told = tell_warnings(arguments, warnings_about(engine));
-  if (warnings != nullptr) *warnings = std::move(told);
-  return engine;
 }
 
 void demand_a_diagram(const EngineFile& engine) {

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "../arguments.hpp"
 #include "engine_file.hpp"
 
 namespace crankloop::program {
@@ -17,13 +16,6 @@ namespace crankloop::program {
 /// The same of an engine whose gas makes its speed; `definition` is the file's, with the load it is to run with.
 [[nodiscard]] std::vector<std::string> warnings_about_running_free(const EngineFile& engine,
                                                                    const EngineDefinition& definition);
-
-/// Tells them on stderr and returns them, for a report; with --no-warnings there are none.
-std::vector<std::string> tell_warnings(const Arguments& arguments, std::vector<std::string> warnings);
-
-/// The engine of a command's file, its warnings told, and kept where asked for; else as read_engine_file().
-[[nodiscard]] EngineFile read_engine(const Arguments& arguments, const std::vector<std::string>& needed_sections,
-                                     std::vector<std::string>* warnings = nullptr);
 
 /// Refuses an engine that breathes: what this command shows of the gas comes from a diagram.
 void demand_a_diagram(const EngineFile& engine);

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "../error.hpp"
-#include "../words.hpp"
+#include "../files/error.hpp"
+#include "../files/words.hpp"
 
 namespace crankloop::program {
 

@@ -26,7 +26,7 @@
 
 #include <string_view>
 
-#include "../words.hpp"
+#include "../files/words.hpp"
 
 namespace crankloop::program {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "../units.hpp"
+#include "../files/units.hpp"
 
 namespace crankloop::program {
 namespace {

@@ -10,10 +10,10 @@
 #include <crankloop/tabulate/summary.hpp>
 
 #include "../engine_file/engine_file.hpp"
+#include "../loops/run_accuracy.hpp"
+#include "../loops/run_loop.hpp"
+#include "../loops/run_trace.hpp"
 #include "../report/page.hpp"
-#include "../run/run_accuracy.hpp"
-#include "../run/run_loop.hpp"
-#include "../run/run_trace.hpp"
 
 namespace crankloop::program {
 

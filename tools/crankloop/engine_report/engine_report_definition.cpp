@@ -5,8 +5,8 @@
 
 #include <crankloop/tabulate/mechanism.hpp>
 
-#include "../number.hpp"
-#include "../words.hpp"
+#include "../files/number.hpp"
+#include "../files/words.hpp"
 #include "engine_report_parts.hpp"
 
 namespace crankloop::program {

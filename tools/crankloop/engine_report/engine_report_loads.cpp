@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "../free_orders.hpp"
 #include "engine_report_parts.hpp"
+#include "free_orders.hpp"
 
 namespace crankloop::program {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "../number.hpp"
+#include "../files/number.hpp"
 #include "drawing.hpp"
 
 namespace crankloop::report {

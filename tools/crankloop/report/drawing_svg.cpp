@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <string>
 
-#include "../number.hpp"
+#include "../files/number.hpp"
 #include "drawing.hpp"
 
 namespace crankloop::report {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "../engine_file/engine_file.hpp"
-#include "../output_file.hpp"
+#include "../files/output_file.hpp"
 #include "vcd.hpp"
 
 namespace crankloop::program {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "../number.hpp"
+#include "../files/number.hpp"
 
 namespace crankloop::program {
 namespace {

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "../output_file.hpp"
+#include "../files/output_file.hpp"
 
 namespace crankloop::program {
 

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "../../crankloop/units.hpp"  // constants only
+#include "../../crankloop/files/units.hpp"  // constants only
 
 namespace crankloop::program::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <map>
 
-#include "crankloop/number.hpp"
+#include "crankloop/files/number.hpp"
 #include "groups.hpp"
 
 namespace crankloop::program::bench {

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "crankloop/error.hpp"
-#include "crankloop/words.hpp"
+#include "crankloop/files/error.hpp"
+#include "crankloop/files/words.hpp"
 #include "groups.hpp"
 #include "tick_engines.hpp"
 

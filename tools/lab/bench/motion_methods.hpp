@@ -19,7 +19,7 @@
 #include <crankloop/define/crank.hpp>
 #include <crankloop/tabulate/tabulate.hpp>
 
-#include "crankloop/units.hpp"
+#include "crankloop/files/units.hpp"
 
 namespace crankloop::program::bench {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "crankloop/progress.hpp"
+#include "crankloop/command_line/progress.hpp"
 
 namespace crankloop::program::bench {
 

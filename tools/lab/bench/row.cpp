@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "crankloop/csv.hpp"
-#include "crankloop/number.hpp"
+#include "crankloop/files/csv.hpp"
+#include "crankloop/files/number.hpp"
 
 namespace crankloop::program::bench {
 namespace {

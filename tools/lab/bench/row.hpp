@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "crankloop/output_file.hpp"
+#include "crankloop/files/output_file.hpp"
 
 namespace crankloop::program::bench {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "crankloop/number.hpp"
+#include "crankloop/files/number.hpp"
 #include "groups.hpp"
 #include "port/linux/stopwatch.hpp"
 #include "tick_engines.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "crankloop/number.hpp"
+#include "crankloop/files/number.hpp"
 #include "groups.hpp"
 #include "peers.hpp"
 #include "true_lift.hpp"

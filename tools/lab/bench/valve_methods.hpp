@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "crankloop/units.hpp"
+#include "crankloop/files/units.hpp"
 #include "engines.hpp"
 #include "plain_valve.hpp"
 #include "race.hpp"

@@ -16,7 +16,7 @@
 #include <crankloop/define/valve_train.hpp>
 #include <crankloop/tabulate/valve_lift.hpp>
 
-#include "crankloop/units.hpp"
+#include "crankloop/files/units.hpp"
 
 namespace crankloop::valve_reference {
 

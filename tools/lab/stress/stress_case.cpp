@@ -7,8 +7,8 @@
 
 #include "../reference/ohc_125.hpp"
 #include "../reference/valve_reference.hpp"
-#include "crankloop/number.hpp"
-#include "crankloop/units.hpp"
+#include "crankloop/files/number.hpp"
+#include "crankloop/files/units.hpp"
 
 namespace crankloop::program {
 namespace {

@@ -13,7 +13,7 @@
 #include <crankloop/tick/valve/valve.hpp>
 
 #include "../reference/valve_reference.hpp"
-#include "crankloop/units.hpp"
+#include "crankloop/files/units.hpp"
 #include "stress_case.hpp"
 
 namespace crankloop::program {

@@ -9,7 +9,7 @@
 #include <crankloop/tabulate/valve_lift.hpp>
 
 #include "../reference/valve_reference.hpp"
-#include "crankloop/units.hpp"
+#include "crankloop/files/units.hpp"
 
 namespace crankloop::program {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crankloop/number.hpp"
-#include "crankloop/summary.hpp"
+#include "crankloop/command_line/summary.hpp"
+#include "crankloop/files/number.hpp"
 #include "stress_comparison.hpp"
 
 namespace crankloop::program {

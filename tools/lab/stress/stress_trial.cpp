@@ -10,8 +10,8 @@
 #include <crankloop/tick/step.hpp>
 
 #include "../reference/valve_reference.hpp"
-#include "crankloop/number.hpp"
-#include "crankloop/units.hpp"
+#include "crankloop/files/number.hpp"
+#include "crankloop/files/units.hpp"
 #include "stress_comparison.hpp"
 #include "stress_energy.hpp"
 

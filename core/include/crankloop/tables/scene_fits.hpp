@@ -1,5 +1,5 @@
 // Whether tables are those of an engine that a scene can step: asked by init() at run time, and of tables in flash by
-// the compiler (core/cmake/scene.cpp.in).
+// the compiler (port/cmake/scene.cpp.in).
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,24 @@
+#include "engine_argument.hpp"
+
+#include <cstdio>
+#include <utility>
+
+#include "../engine_file/plausibility.hpp"
+
+namespace crankloop::program {
+
+std::vector<std::string> tell_warnings(const Arguments& arguments, std::vector<std::string> warnings) {
+  if (arguments.has(kNoWarnings.name)) return {};
+  for (const std::string& line : warnings) std::fprintf(stderr, "%s\n", line.c_str());
+  return warnings;
+}
+
+EngineFile read_engine(const Arguments& arguments, const std::vector<std::string>& needed_sections,
+                       std::vector<std::string>* warnings) {
+  EngineFile engine = read_engine_file(arguments.file(), needed_sections);
+  std::vector<std::string> told = tell_warnings(arguments, warnings_about(engine));
+  if (warnings != nullptr) *warnings = std::move(told);
+  return engine;
+}
+
+}  // namespace crankloop::program

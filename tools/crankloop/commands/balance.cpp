@@ -1,0 +1,189 @@
+// `crankloop balance FILE --rpm N`: what the whole engine does to its mounts, bearings and driveline.
+#include <algorithm>
+#include <string>
+
+#include <crankloop/tabulate/summary.hpp>
+
+#include "../command_line/commands.hpp"
+#include "../command_line/engine_argument.hpp"
+#include "../command_line/gas_options.hpp"
+#include "../command_line/operating_point.hpp"
+#include "../engine_report/free_orders.hpp"
+#include "../files/csv.hpp"
+#include "../files/units.hpp"
+#include "../loops/run_trace.hpp"
+#include "../loops/tick_probe.hpp"
+
+namespace crankloop::program {
+namespace {
+
+/// A component's amplitude and phase; no phase of what balances.
+void write_wave(CsvWriter& csv, const std::string& name, const char* unit, double cosine, double sine, double noise) {
+  const Wave wave = wave_of(cosine, sine);
+  csv.row(name + "_" + unit, wave.amplitude);
+  csv.row(name + "_phase_deg", wave.amplitude > noise ? wave.phase_deg : 0);
+}
+
+/// Amplitudes over a turn at speed w.
+class TurningWriter {
+ public:
+  TurningWriter(CsvWriter& csv, const EngineDefinition& definition, double speed_rad_s)
+      : csv_{csv},
+        w2_{speed_rad_s * speed_rad_s},
+        noise_N_{1e-9 * definition.masses.reciprocating_kg() * definition.crank.crank_radius_m * w2_} {}
+
+  void write(const std::string& name, const detail::RotatingVector<double>& t) {
+    csv_.row("free_force_" + name + "_N", peak_force_kg_m(t) * w2_);
+    component("free_force_" + name + "_up", "N", t.up_cos, t.up_sin);
+    component("free_force_" + name + "_lateral", "N", t.lateral_cos, t.lateral_sin);
+    csv_.row("free_moment_" + name + "_Nm", peak_moment_kg_m2(t) * w2_);
+    component("free_moment_" + name + "_pitch", "Nm", t.pitch_cos, t.pitch_sin);
+    component("free_moment_" + name + "_yaw", "Nm", t.yaw_cos, t.yaw_sin);
+  }
+
+ private:
+  void component(const std::string& name, const char* unit, double cosine, double sine) {
+    write_wave(csv_, name, unit, cosine * w2_, sine * w2_, noise_N_);
+  }
+
+  CsvWriter& csv_;
+  double w2_;
+  double noise_N_;
+};
+
+struct Range {
+  double least = 0;
+  double most = 0;
+  void take(double value) { least = std::min(least, value), most = std::max(most, value); }
+};
+
+/// Largest loads of every crank pin and main journal over the cycle; the journals' also by direction in the block.
+struct BearingRanges {
+  Range pins[kMaxCylinders];
+  Range journals[kMaxCylinders + 1];
+  Range up[kMaxCylinders + 1];
+  Range lateral[kMaxCylinders + 1];
+};
+
+BearingRanges bearings_by_angle(const EngineDefinition& definition, double speed, double load_ratio) {
+  TickProbe<double> probe(definition);
+  BearingRanges r;
+  const std::uint32_t count = bearings_of(definition).pins;
+  for_each_angle(0.5, 720, [&](double deg) {
+    const auto& out = probe.at(deg, speed, load_ratio);
+    for (std::uint32_t i = 0; i < count; ++i) r.pins[i].take(out.pin_load_N[i]);
+    for (std::uint32_t j = 0; j <= count; ++j) {
+      r.journals[j].take(out.journal_load_N[j]);
+      const BlockLoad load = in_block(definition, deg, out.journal_along_N[j], out.journal_across_N[j]);
+      r.up[j].take(load.up_N);
+      r.lateral[j].take(load.lateral_N);
+    }
+  });
+  return r;
+}
+
+/// Of an engine that breathes, from a cycle that it ran.
+BearingRanges bearings_of_trace(const Trace& trace) {
+  BearingRanges r;
+  const auto take = [](Range& range, const std::vector<double>& values) {
+    for (const double value : values) range.take(value);
+  };
+  for (std::size_t i = 0; i < trace.pin_load_N.size(); ++i) take(r.pins[i], trace.pin_load_N[i]);
+  for (std::size_t j = 0; j < trace.journal_load_N.size(); ++j) {
+    take(r.journals[j], trace.journal_load_N[j]);
+    take(r.up[j], trace.journal_up_N[j]);
+    take(r.lateral[j], trace.journal_lateral_N[j]);
+  }
+  return r;
+}
+
+void write_bearings(CsvWriter& csv, std::uint32_t count, const BearingRanges& r) {
+  for (std::uint32_t i = 0; i < count; ++i)
+    csv.row("crank_pin_" + std::to_string(i + 1) + "_largest_load_N", r.pins[i].most);
+  for (std::uint32_t j = 0; j <= count; ++j) {
+    const std::string journal = "main_journal_" + std::to_string(j + 1) + "_";
+    csv.row(journal + "largest_load_N", r.journals[j].most);
+    csv.row(journal + "largest_up_N", r.up[j].most);
+    csv.row(journal + "largest_down_N", -r.up[j].least);
+    csv.row(journal + "largest_lateral_N", r.lateral[j].most);
+    csv.row(journal + "smallest_lateral_N", r.lateral[j].least);
+  }
+}
+
+int run_balance(const Arguments& arguments) {
+  const EngineFile engine = read_engine(arguments, {"engine", "crank", "masses"});
+  const EngineDefinition& definition = engine.definition();
+  const double rpm = speed_rpm(arguments, engine);
+  const double speed = rpm * kRad_sPerRpm;
+  require_heat_to_scale(arguments, engine);
+  ExactEngine exact;
+  if (const Status refused = exact.init(definition); !refused.ok()) throw engine.explain(refused);
+  const double load_ratio = arguments.number("--load-ratio");
+  const GasOrder gas = gas_order(arguments, engine, 1);
+  CycleSummary cycle;
+  BearingRanges bearings;
+  if (breathes(definition)) {
+    if (rpm <= 0) throw UsageError("--rpm: an engine that breathes is run forward");
+    const Trace trace = record_trace<double, scenes::Breathing>(definition, {rpm, 0, 1, gas});
+    cycle = summarise(definition, speed, trace);
+    bearings = bearings_of_trace(trace);
+  } else {
+    cycle = summarise(exact, speed, load_ratio);
+    bearings = bearings_by_angle(definition, speed, load_ratio);
+  }
+
+  Output out(arguments.text_or_empty("--csv"));
+  CsvWriter csv(out, {"name", "value"});
+  csv.row("speed_rpm", rpm);
+  csv.row("reciprocating_mass_kg", definition.masses.reciprocating_kg());
+  csv.row("mean_piston_speed_m_s", mean_piston_speed_m_s(definition.crank, speed));
+  csv.row("net_mep_kPa", cycle.net_mep_Pa / 1000);
+  csv.row("gross_mep_kPa", cycle.gross_mep_Pa / 1000);
+  csv.row("power_kW", cycle.power_W / 1000);
+  if (definition.friction.any()) {
+    csv.row("friction_mep_kPa", cycle.brake.friction_mep_Pa / 1000);
+    csv.row("brake_torque_Nm", cycle.brake.torque_Nm);
+    csv.row("brake_power_kW", cycle.brake.power_W / 1000);
+    csv.row("mechanical_efficiency_ratio", cycle.brake.efficiency_ratio);
+  }
+  csv.row("mean_torque_Nm", cycle.mean_torque_Nm);
+  csv.row("largest_torque_Nm", cycle.largest_torque_Nm);
+  csv.row("largest_torque_deg", cycle.largest_torque_deg);
+  csv.row("smallest_torque_Nm", cycle.smallest_torque_Nm);
+  csv.row("smallest_torque_deg", cycle.smallest_torque_deg);
+  csv.row("torque_fluctuation_ratio", cycle.fluctuation_ratio);
+  for (const Harmonic& h : cycle.harmonics) {
+    const double noise_Nm = 1e-9 * (cycle.largest_torque_Nm - cycle.smallest_torque_Nm);
+    write_wave(csv, "torque_order_" + shortest(h.order), "Nm", h.cosine_Nm, h.sine_Nm, noise_Nm);
+  }
+  TurningWriter turning(csv, definition, speed);
+  for (const FreeOrder& order : free_orders(definition.crank))
+    turning.write(order.name, reciprocating_order(definition, order.order));
+  turning.write("rotating", balance_of(definition).rotating);
+  write_bearings(csv, bearings_of(definition).pins, bearings);
+  out.finish();
+  return kSuccess;
+}
+
+constexpr Option kOptions[] = {
+    kSpeed,
+    kLoadRatio,
+    kThrottle,
+    kFuel,
+    kLambda,
+    kBurnStart,
+    text("--csv", "F", "file for the table; else standard output"),
+};
+
+}  // namespace
+
+const Command kBalance{
+    "balance",
+    "torque harmonics, free forces and moments, bearing loads of the whole engine",
+    "FILE [--rpm N] [--load-ratio Q] [--throttle R] [--lambda L | --fuel-mg M] [--burn-start-deg A] [--csv F]",
+    "crankloop balance diesel_495.ini --rpm 2000",
+    1,
+    kOptions,
+    run_balance};
+
+}  // namespace crankloop::program

@@ -1,0 +1,22 @@
+// What `crankloop live` tells of a run: the machine, how well it kept time, what the engine did.
+//
+// What belongs here: lines and rows. What does not: how the figures come about (live_loop.hpp).
+#pragma once
+
+#include <string>
+
+#include "../../engine_file/engine_file.hpp"
+#include "../../files/output_file.hpp"
+#include "live_loop.hpp"
+
+namespace crankloop::program {
+
+/// Lines "name = value unit", remarks after '#'. `real`: arithmetic of the tick; `shared`: there was a block that a
+/// controller could write to.
+[[nodiscard]] std::string live_summary(const EngineFile& file, const LiveRequest& request, const std::string& real,
+                                       bool shared, const LiveFigures& figures);
+
+/// CSV: a row per bucket that counted anything.
+void write_live_histogram(Output& out, const LiveFigures& figures);
+
+}  // namespace crankloop::program

@@ -1,0 +1,182 @@
+// `crankloop map FILE`: torque, air charge and mean pressures of an engine that breathes over speed, and over throttle
+// or fuel.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "../../command_line/commands.hpp"
+#include "../../command_line/engine_argument.hpp"
+#include "../../command_line/gas_options.hpp"
+#include "../../command_line/operating_point.hpp"
+#include "../../command_line/progress.hpp"
+#include "../../command_line/results.hpp"
+#include "../../command_line/summary.hpp"
+#include "../../engine_file/plausibility.hpp"
+#include "../../engine_file/pressure_words.hpp"
+#include "../../files/csv.hpp"
+#include "../../files/error.hpp"
+#include "../../files/number.hpp"
+#include "../../files/words.hpp"
+#include "../../loops/valve_tick_limit.hpp"
+#include "engine_map.hpp"
+
+namespace crankloop::program {
+namespace {
+
+constexpr double kMaxPoints = 10000;
+
+constexpr const char* kSpeeds = "--rpm";
+
+/// "800:6000:14"
+Grid grid(const Arguments& arguments, const char* option, Range range) {
+  const auto parts = split(arguments.text(option), ':');
+  if (parts.size() != 3) {
+    const std::string name = option;
+    throw UsageError(name + ": give FROM:TO:N, like " +
+                     (name == kSpeeds          ? "800:6000:14"
+                      : name == kThrottle.name ? "0:1:11"
+                                               : "10:60:6"));
+  }
+  double numbers[3] = {};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ParsedNumber number = parse_number(parts[i], i < 2 ? range : from(1).up_to(1000), "");
+    if (!number.ok()) throw UsageError(std::string(option) + ": " + number.problem);
+    numbers[i] = number.value;
+  }
+  if (numbers[2] != std::floor(numbers[2]))
+    throw UsageError(std::string(option) + ": " + in_quotes(parts[2]) + " is not a whole number");
+  if (numbers[2] == 1 ? numbers[0] != numbers[1] : numbers[0] >= numbers[1]) {
+    throw UsageError(std::string(option) + ": FROM must be less than TO, or the same with N = 1");
+  }
+  return {numbers[0], numbers[1], static_cast<int>(numbers[2])};
+}
+
+double one_number(const Arguments& arguments, const Option& option) {
+  const ParsedNumber number = parse_number(arguments.text(option.name), option.range, "");
+  if (!number.ok()) throw UsageError(std::string(option.name) + ": " + number.problem);
+  return number.value;
+}
+
+bool is_grid(const Arguments& arguments, const Option& option) {
+  return arguments.text_or_empty(option.name).find(':') != std::string::npos;
+}
+
+/// Sets what the map varies beside the speed, and what holds everywhere.
+void set_loads(MapRequest& request, const Arguments& arguments, const EngineFile& file) {
+  const bool over_throttle = is_grid(arguments, kThrottle), over_fuel = is_grid(arguments, kFuel);
+  if (over_throttle == over_fuel)
+    throw UsageError(over_fuel ? "--throttle and --fuel-mg are both FROM:TO:N: a map is over one of them"
+                               : "give FROM:TO:N as --throttle or as --fuel-mg: a map is over one of them");
+  const Option& varied = over_fuel ? kFuel : kThrottle;
+  request.axis = over_fuel ? &kFuelAxis : &kThrottleAxis;
+  request.load = grid(arguments, varied.name, varied.range);
+  request.gas = lambda_and_spark(arguments, file);
+  if (over_fuel) request.gas.excess_air_ratio = 0;
+  if (!over_fuel && arguments.has(kFuel.name)) set_fuel_mg(request.gas, one_number(arguments, kFuel));
+  if (!over_throttle && arguments.has(kThrottle.name)) request.gas.throttle_ratio = one_number(arguments, kThrottle);
+}
+
+void write_csv(Output& out, const EngineMap& map) {
+  std::vector<std::string> header{"speed_rpm", map.request.axis->column};
+  for (const MapColumn& column : kMapColumnList) header.emplace_back(column.name);
+  CsvWriter csv(out, header);
+  for (const MapPoint& point : map.points) {
+    csv.cell(point.speed_rpm);
+    csv.cell(point.load);
+    for (const MapColumn& column : kMapColumnList) csv.cell(static_cast<float>(column.value(point)));
+    csv.end_row();
+  }
+}
+
+std::string summary(const EngineMap& map) {
+  Summary s;
+  s.remark(map.file.name() + " over speed and " + map.request.axis->word + ", fixed-step loop in float");
+  s.remark(pressure_in_short(map.file));
+  s.line("points", static_cast<double>(map.points.size()));
+  if (map.request.axis == &kFuelAxis) {
+    s.line("throttle", map.request.gas.throttle_ratio);
+  } else {
+    add_fuel(s, map.request.gas);
+  }
+  s.line("burn_start", map.request.gas.burn_start_deg, "deg");
+  const auto add = [&](const char* name, double (*value)(const MapPoint&), const char* unit) {
+    const MapPoint& most = *std::max_element(map.points.begin(), map.points.end(),
+                                             [&](const MapPoint& a, const MapPoint& b) { return value(a) < value(b); });
+    s.line(name, value(most), unit, map.place_of(most));
+  };
+  add(
+      "largest_brake_torque", [](const MapPoint& p) { return p.brake_torque_Nm; }, "Nm");
+  add(
+      "largest_brake_power", [](const MapPoint& p) { return p.power_W / 1e3; }, "kW");
+  add(
+      "largest_net_mep", [](const MapPoint& p) { return p.gas.cycle.net_mep_Pa / 1e3; }, "kPa");
+  add(
+      "largest_volumetric_efficiency", [](const MapPoint& p) { return p.gas.cycle.volumetric_efficiency; }, "");
+  double faulty_ticks = 0;
+  std::uint32_t faults = 0;
+  for (const MapPoint& point : map.points) faulty_ticks += point.faulty_ticks, faults |= point.faults;
+  s.faulty_ticks(static_cast<std::uint64_t>(faulty_ticks), faults);
+  return s.text();
+}
+
+int run_map_command(const Arguments& arguments) {
+  MapRequest request;
+  request.speed_rpm = grid(arguments, kSpeeds, above(0).up_to(100000));
+  const EngineFile file = read_engine(arguments, {"engine", "crank", "masses"});
+  set_loads(request, arguments, file);
+  const double count = static_cast<double>(request.speed_rpm.count) * request.load.count;
+  if (count > kMaxPoints)
+    throw UsageError("a map of " + brief(count) + " points; at most " + brief(kMaxPoints) + " are allowed");
+  if (!breathes(file.definition())) {
+    throw InputError(
+        file.path() +
+        " has no [pressure] source = gas: without it nothing depends on throttle or fuel; take `crankloop run`");
+  }
+  request.tick_s = millionths(arguments.number("--tick-us"));
+  require_trains(file, request.tick_s);
+  require_manifolds(file, request.tick_s);
+  (void)tell_warnings(arguments, warnings_about_gas(file, request.speed_rpm.to, request.tick_s));
+  const bool over_fuel = request.axis == &kFuelAxis;
+  EngineMap map{file, request, ""};
+  map.command_line =
+      "crankloop map " + shell_word(arguments.file()) + " --rpm " + arguments.text(kSpeeds) + " --throttle " +
+      (over_fuel ? shortest(request.gas.throttle_ratio) : arguments.text("--throttle")) + " " +
+      (over_fuel ? "--fuel-mg " + arguments.text("--fuel-mg") : fuel_option(request.gas)) + " --burn-start-deg " +
+      shortest(request.gas.burn_start_deg) + " --tick-us " + shortest(arguments.number("--tick-us"));
+  Results results(arguments, {"--csv", "--report"});
+  {
+    Progress progress("mapping", count, Progress::kLogPeriod_ns);
+    run_map(map, [&progress] { progress.long_step(); });
+  }
+  if (Output* csv = results["--csv"]) write_csv(*csv, map);
+  if (Output* page = results["--report"]) page->write(report::to_html(map_page(map)));
+  results.finish(summary(map));
+  return kSuccess;
+}
+
+constexpr Option kOptions[] = {
+    required(text("--rpm", "FROM:TO:N", "engine speeds in rpm, N of them evenly spaced")),
+    text(kThrottle.name, "R|FROM:TO:N",
+         "throttle ratios, N of them evenly spaced: 0 closed, 1 wide open; or one, 1 by default"),
+    text(kFuel.name, "M|FROM:TO:N",
+         "fuel per cylinder and cycle in mg, N values evenly spaced; or one, the file's by default"),
+    kLambda,
+    kBurnStart,
+    kTick,
+    text("--csv", "F", "file for a row per point; - is standard output, the summary then goes to stderr"),
+    text("--report", "F.html", "file for the heat maps, which any browser shows"),
+};
+
+}  // namespace
+
+const Command kMap{"map",
+                   "torque, air charge and mean pressures of an engine that breathes, over speed and throttle or fuel",
+                   "FILE --rpm FROM:TO:N --throttle FROM:TO:N [--lambda L | --fuel-mg M] [--burn-start-deg A] "
+                   "[--tick-us T] [--csv F] [--report F.html]\n"
+                   "       FILE --rpm FROM:TO:N --fuel-mg FROM:TO:N [--throttle R] [...]",
+                   "crankloop map four_2000.ini --rpm 1000:6000:6 --throttle 0:1:6 --csv map.csv --report map.html",
+                   1,
+                   kOptions,
+                   run_map_command};
+
+}  // namespace crankloop::program

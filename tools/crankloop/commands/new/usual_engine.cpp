@@ -1,0 +1,121 @@
+#include "usual_engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <crankloop/tabulate/cam_profile.hpp>
+
+#include "../../files/units.hpp"
+
+namespace crankloop::program {
+namespace {
+
+constexpr Combustion kSparkIgnition{10, -18, 55, 2, 1.32, 1.27, 130};
+constexpr Combustion kSparkIgnitionBoosted{9.5, -10, 60, 2, 1.32, 1.27, 130};  // later: knock
+constexpr Combustion kDiesel{18, -6, 60, 0.9, 1.35, 1.28, 135};
+constexpr Combustion kDieselBoosted{16, -6, 60, 0.9, 1.35, 1.28, 135};
+
+constexpr double kFrictionConstant_kPa = 40;
+constexpr double kFrictionOfPeak = 0.005;
+constexpr double kFrictionLinear_kPa_s_m = 9;
+constexpr double kFrictionQuadratic_kPa_s2_m2 = 0.09;
+
+/// g/cm^3 of the bore's cube.
+constexpr double kPistonSpark = 0.68;
+constexpr double kPistonDiesel = 1.2;
+constexpr double kPistonTractor = 1.4;
+constexpr double kRodSpark = 0.7;
+constexpr double kRodDiesel = 1.5;
+constexpr double kRodTractor = 1.9;
+constexpr double kBoostedMass = 1.15;  ///< of pistons, pins and rods for higher peak pressures
+
+constexpr double kValveKgAt95Mm = 0.15;      ///< two valves, with bucket
+constexpr double kFourValveMassShare = 0.6;  ///< of each of four: heads of 0.38 bores instead of 0.45, cubed
+
+bool is_spark(const EngineDesign& design) { return design.type == EngineType::spark_ignition; }
+bool is_boosted(const EngineDesign& design) { return design.pressure_ratio > 1; }
+double cubed(double bore_mm) { return bore_mm * bore_mm * bore_mm / 1e3; }
+
+/// The lobe at u, the part of its half angle: lift by full lift, and its slope.
+struct LobePoint {
+  double lift;
+  double slope;
+};
+LobePoint lobe_at(double u) {
+  double coefficients[kCamExponents.size()];
+  cam_coefficients(kCamExponents.data(), static_cast<int>(kCamExponents.size()), coefficients);
+  LobePoint point{1, 0};
+  for (std::size_t i = 0; i < kCamExponents.size(); ++i) {
+    point.lift += coefficients[i] * std::pow(u, kCamExponents[i]);
+    point.slope += coefficients[i] * kCamExponents[i] * std::pow(u, kCamExponents[i] - 1);
+  }
+  return point;
+}
+
+}  // namespace
+
+double usual_piston_speed_m_s(const EngineDesign& design) noexcept {
+  if (design.type == EngineType::tractor) return 9;
+  if (!is_spark(design)) return 11;
+  return design.four_valves ? 15 : 13;
+}
+
+const Combustion& usual_combustion(const EngineDesign& design) noexcept {
+  if (is_spark(design)) return is_boosted(design) ? kSparkIgnitionBoosted : kSparkIgnition;
+  return is_boosted(design) ? kDieselBoosted : kDiesel;
+}
+
+double usual_net_mep_kPa(const EngineDesign& design, double piston_speed_m_s) noexcept {
+  const double four_valves_kPa = is_spark(design) ? 900 + 25 * piston_speed_m_s : 900;
+  const double two_valves = is_spark(design) ? 0.87 : 0.93;
+  return four_valves_kPa * (design.four_valves ? 1 : two_valves) * design.pressure_ratio;
+}
+
+Friction usual_friction(double peak_pressure_kPa, double stroke_mm) noexcept {
+  const double piston_m_s_per_1000rpm = stroke_mm / 30;
+  return {kFrictionConstant_kPa + kFrictionOfPeak * peak_pressure_kPa, kFrictionLinear_kPa_s_m * piston_m_s_per_1000rpm,
+          kFrictionQuadratic_kPa_s2_m2 * piston_m_s_per_1000rpm * piston_m_s_per_1000rpm};
+}
+
+double usual_piston_g(const EngineDesign& design, double bore_mm) noexcept {
+  const double natural = is_spark(design)                    ? kPistonSpark
+                         : design.type == EngineType::diesel ? kPistonDiesel
+                                                             : kPistonTractor;
+  return natural * (is_boosted(design) ? kBoostedMass : 1) * cubed(bore_mm);
+}
+
+double usual_rod_g(const EngineDesign& design, double bore_mm) noexcept {
+  const double natural = is_spark(design) ? kRodSpark : design.type == EngineType::diesel ? kRodDiesel : kRodTractor;
+  return natural * (is_boosted(design) ? kBoostedMass : 1) * cubed(bore_mm);
+}
+
+double usual_inertia_kg_m2(const EngineDesign& design, double displacement_L) noexcept {
+  return (is_spark(design) ? 0.05 : 0.12) * std::pow(displacement_L, 4.0 / 3);
+}
+
+double usual_lift_mm(const EngineDesign& design, double bore_mm) noexcept {
+  return (design.four_valves ? 0.1 : 0.115) * bore_mm;
+}
+
+double usual_valve_g(const EngineDesign& design, double bore_mm) noexcept {
+  return kValveKgAt95Mm * 1e3 * (design.four_valves ? kFourValveMassShare : 1) * std::pow(bore_mm / 95, 3);
+}
+
+double cam_nose_factor() noexcept {
+  double coefficients[kCamExponents.size()];
+  cam_coefficients(kCamExponents.data(), static_cast<int>(kCamExponents.size()), coefficients);
+  return -2 * coefficients[0];  // the exponent 2 alone bends there
+}
+
+double clearance_for_speed_mm(double lift_mm, double cam_rad_s, double speed_m_s, double most_mm) noexcept {
+  const double slope_per_speed = kCamHalfAngleDeg * kRadPerDeg / (lift_mm / 1e3 * cam_rad_s);
+  double slow = 1;     // the lobe's end
+  double fast = 0.75;  // its flank
+  for (int i = 0; i < 60; ++i) {
+    const double u = (slow + fast) / 2;
+    (-lobe_at(u).slope < speed_m_s * slope_per_speed ? slow : fast) = u;
+  }
+  return std::min(lift_mm * std::max(lobe_at(slow).lift, 0.0), most_mm);
+}
+
+}  // namespace crankloop::program

@@ -1,0 +1,290 @@
+// `crankloop redline FILE`: up to which speed a valve keeps to its cam and to its seat, and what moves
+// that speed.
+#include "redline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "../../command_line/commands.hpp"
+#include "../../command_line/engine_argument.hpp"
+#include "../../command_line/operating_point.hpp"
+#include "../../command_line/progress.hpp"
+#include "../../command_line/results.hpp"
+#include "../../command_line/summary.hpp"
+#include "../../engine_file/gas_order.hpp"
+#include "../../files/csv.hpp"
+#include "../../files/units.hpp"
+#include "../../files/words.hpp"
+#include "../../loops/valve_accuracy.hpp"
+
+namespace crankloop::program {
+namespace {
+
+/// How a result of one speed is written, as a column of table and CSV alike.
+struct ResultColumn {
+  const char* name;
+  int digits;  ///< significant ones in the table
+  double (*value)(const SpeedResult&);
+};
+constexpr ResultColumn kColumns[] = {
+    {"max_lift_mm", 6, [](const SpeedResult& r) { return r.cycle.largest_lift_m * 1e3; }},
+    {"separations", 6, [](const SpeedResult& r) { return static_cast<double>(r.cycle.separations); }},
+    {"separation_max_gap_mm", 4, [](const SpeedResult& r) { return r.cycle.separation_clearance_m * 1e3; }},
+    {"seating_speed_m_s", 4, [](const SpeedResult& r) { return r.cycle.seating_speed_m_s; }},
+    {"bounces", 6, [](const SpeedResult& r) { return static_cast<double>(r.cycle.bounces); }},
+    {"bounce_height_mm", 4, [](const SpeedResult& r) { return r.cycle.bounce_height_m * 1e3; }},
+    {"max_acceleration_m_s2", 5, [](const SpeedResult& r) { return r.cycle.largest_acceleration_m_s2; }},
+    {"max_train_force_N", 5, [](const SpeedResult& r) { return r.train_N; }},
+    {"max_cam_force_N", 5, [](const SpeedResult& r) { return r.cam_N; }},
+};
+
+std::string digits(double value, int significant_digits) {
+  char buffer[40];
+  std::snprintf(buffer, sizeof buffer, "%.*g", significant_digits, value);
+  return buffer;
+}
+
+/// Rows of text under a header, right-aligned in columns.
+class TextTable {
+ public:
+  void row(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
+
+  [[nodiscard]] std::string text() const {
+    std::vector<std::size_t> width(rows_.front().size(), 0);
+    for (const auto& row : rows_) {
+      for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
+    }
+    std::string text;
+    for (const auto& row : rows_) {
+      std::string line;
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        line += (i > 0 ? "  " : "") + std::string(width[i] - row[i].size(), ' ') + row[i];
+      }
+      text += line + "\n";
+    }
+    return text;
+  }
+
+ private:
+  std::vector<std::vector<std::string>> rows_;
+};
+
+constexpr const char* kMasked = "-";
+
+std::string table_of_speeds(const Sweep& sweep) {
+  TextTable table;
+  std::vector<std::string> header{"speed_rpm"};
+  for (const ResultColumn& column : kColumns) header.emplace_back(column.name);
+  table.row(header);
+  for (const SpeedResult& result : sweep.at) {
+    std::vector<std::string> cells{std::to_string(result.speed_rpm)};
+    for (const ResultColumn& column : kColumns)
+      cells.push_back(result.is_possible ? digits(column.value(result), column.digits) : kMasked);
+    table.row(cells);
+  }
+  return table.text();
+}
+
+std::string cell_of(const Onset& onset, const SpeedRange& range) {
+  if (!onset.found) return ">" + std::to_string(range.to_rpm);
+  return (onset.at_the_start ? "<=" : "") + std::to_string(onset.speed_rpm);
+}
+
+std::string table_of_factors(const Redline& redline) {
+  TextTable table;
+  std::vector<std::string> header{"factor", "separation_onset_rpm", "bounce_onset_rpm", "seating_limit_rpm"};
+  for (const ResultColumn& column : kColumns) header.emplace_back(column.name);
+  table.row(header);
+  for (const Sweep& sweep : redline.sweeps) {
+    std::vector<std::string> cells{digits(sweep.factor, 6), cell_of(sweep.separation, redline.range),
+                                   cell_of(sweep.bounce, redline.range), cell_of(sweep.seating, redline.range)};
+    const SpeedResult& result = sweep.at[redline.compared_at()];
+    for (const ResultColumn& column : kColumns)
+      cells.push_back(result.is_possible ? digits(column.value(result), column.digits) : kMasked);
+    table.row(cells);
+  }
+  return table.text();
+}
+
+void add_onset(Summary& s, const char* name, const Onset& onset, const SpeedRange& range) {
+  if (!onset.found) return s.line(name, "none", "", "up to " + std::to_string(range.to_rpm) + " rpm");
+  s.line(name, onset.speed_rpm, "rpm", onset.at_the_start ? "or below: it is there at the lowest speed" : "");
+}
+
+std::string summary(const Redline& redline) {
+  const Sweep& given = redline.as_given();
+  const detail::ValveBody<double> body = redline.valve.body();
+  Summary s;
+  s.remark("valve train " + redline.valve.train().name + ", " + std::to_string(redline.range.from_rpm) + " to " +
+           std::to_string(redline.range.to_rpm) + " rpm of the engine every " + std::to_string(redline.range.step_rpm) +
+           "; double, rk4, tick " + brief(given.tick_s * 1e6) + " us, cycle " + std::to_string(kRedlineCycles) +
+           " from rest");
+  s.remark("onset: the lowest speed with a separation of at least 1 um, a bounce of at least " +
+           brief(redline.limits.bounce_m * 1e6) + " um, or a seating speed above " + brief(redline.limits.seating_m_s) +
+           " m/s; to 1 rpm, from the first speed of the sweep that has any");
+  if (const std::string masked = masked_in_words(redline); !masked.empty()) s.remark(masked);
+  if (breathes(redline.valve.file().definition()))
+    s.remark("no gas force on the head: that of an engine that breathes is in `crankloop run`");
+  add_onset(s, "separation_onset", given.separation, redline.range);
+  add_onset(s, "bounce_onset", given.bounce, redline.range);
+  add_onset(s, "seating_limit", given.seating, redline.range);
+  s.line("natural_frequency", open_frequency_rad_s(body) * kTurnsPerRad, "Hz", "open, on the train");
+  s.line("seat_frequency", seated_frequency_rad_s(body) * kTurnsPerRad, "Hz", "on train and seat");
+  s.text("\n");
+  if (redline.influence == nullptr) return s.text() + table_of_speeds(given);
+  s.remark(std::string("influence of ") + redline.influence->keys + ", times factor; from max_lift_mm on at " +
+           std::to_string(redline.as_given().at[redline.compared_at()].speed_rpm) +
+           " rpm, just above the onset as given");
+  return s.text() + table_of_factors(redline);
+}
+
+void write_csv(Output& out, const Redline& redline) {
+  std::vector<std::string> header{"factor", "speed_rpm"};
+  for (const ResultColumn& column : kColumns) header.emplace_back(column.name);
+  CsvWriter csv(out, header);
+  for (const Sweep& sweep : redline.sweeps) {
+    for (const SpeedResult& result : sweep.at) {
+      csv.cell(sweep.factor);
+      csv.cell(result.speed_rpm);
+      for (const ResultColumn& column : kColumns) {
+        if (result.is_possible) {
+          csv.cell(column.value(result));
+        } else {
+          csv.cell("");
+        }
+      }
+      csv.end_row();
+    }
+  }
+}
+
+/// Speeds that a sweep runs, about: the sweep's own and two bisections.
+double speeds_of(const SpeedRange& range) {
+  return (range.to_rpm - range.from_rpm) / range.step_rpm + 1 + 2 * std::log2(std::max(range.step_rpm, 1));
+}
+
+/// The valve of a factor; one that leaves the ranges of an engine file is the user's error.
+LoneValve varied_valve(const LoneValve& valve, const Influence& influence, double factor) {
+  const Valve other = varied(valve.valve(), influence.option, factor);
+  if (validate(other).ok()) return valve.with(other);
+  throw InputError(valve.file().path() + ": " + brief(factor) + " times " + influence.keys + " of [valve " +
+                   valve.train().name + "] is out of range");
+}
+
+const Influence* influence_of(const Arguments& arguments) {
+  if (!arguments.has("--vary")) return nullptr;
+  for (const Influence& influence : kInfluences) {
+    if (arguments.text("--vary") == influence.option) return &influence;
+  }
+  return nullptr;
+}
+
+void refuse_nothing_to_vary(const LoneValve& valve, const std::string& option) {
+  const Valve& v = valve.valve();
+  const bool nothing =
+      (option == "spring" && v.spring_N_m == 0) ||
+      (option == "damping" && v.train_damping_ratio == 0 && v.guide_damping_ratio == 0 && v.seat_damping_ratio == 0);
+  if (nothing)
+    throw InputError(valve.file().path() + ": [valve " + valve.train().name + "]: --vary " + option +
+                     " has nothing to vary: it is 0");
+}
+
+RedlineLimits limits_of(const Arguments& arguments, const LoneValve& valve) {
+  RedlineLimits limits{millionths(arguments.number("--bounce-um")), arguments.number("--seating-m-s"), 0};
+  if (!arguments.has("--coil-bind-mm")) return limits;
+  limits.lift_m = arguments.number("--coil-bind-mm") / 1e3;
+  const double lift_m = valve.lift().largest_lift_m();
+  if (limits.lift_m <= lift_m)
+    throw UsageError("--coil-bind-mm must be above the largest theoretical lift, " + brief(lift_m * 1e3) + " mm");
+  return limits;
+}
+
+int run_redline(const Arguments& arguments) {
+  const SpeedRange range = speed_range(arguments.whole_number("--from"), arguments.whole_number("--to"));
+  if (range.from_rpm >= range.to_rpm) throw UsageError("--from must be less than --to");
+  const EngineFile file = read_engine(arguments, {});
+  const std::string name = train_name(arguments, file);
+  const LoneValve valve(file, name);
+  Results results(arguments, {"--csv", "--report"});
+  Redline redline{valve, range, influence_of(arguments), {}, "", limits_of(arguments, valve)};
+  redline.command_line = "crankloop redline " + shell_word(arguments.file()) + " --train " + name + " --from " +
+                         std::to_string(range.from_rpm) + " --to " + std::to_string(range.to_rpm) + " --bounce-um " +
+                         shortest(arguments.number("--bounce-um")) + " --seating-m-s " +
+                         shortest(arguments.number("--seating-m-s"));
+  if (arguments.has("--coil-bind-mm"))
+    redline.command_line += " --coil-bind-mm " + shortest(arguments.number("--coil-bind-mm"));
+  {
+    const std::size_t sweeps = redline.influence != nullptr ? std::size(kInfluenceFactors) : 1;
+    Progress progress("searching", static_cast<double>(sweeps) * speeds_of(range));
+    const auto after_speed = [&progress] { progress.long_step(); };
+    if (redline.influence == nullptr) {
+      redline.sweeps.push_back(sweep_speeds(valve, range, 1, after_speed, redline.limits));
+    } else {
+      redline.command_line += std::string(" --vary ") + redline.influence->option;
+      refuse_nothing_to_vary(valve, redline.influence->option);
+      for (const double factor : kInfluenceFactors) {
+        redline.sweeps.push_back(
+            sweep_speeds(varied_valve(valve, *redline.influence, factor), range, factor, after_speed, redline.limits));
+      }
+    }
+  }
+  tell_warnings(arguments, beyond_class(valve, range.to_rpm, redline.sweeps.front().tick_s));
+  if (Output* csv = results["--csv"]) write_csv(*csv, redline);
+  if (Output* page = results["--report"]) page->write(report::to_html(redline_page(redline)));
+  results.finish(summary(redline));
+  return kSuccess;
+}
+
+constexpr Option kOptions[] = {
+    text("--train", "NAME",
+         "valve train: the NAME of its [cam NAME], [rocker NAME] and [valve NAME]; default the only one of the file"),
+    whole_number("--from", "N", from(1).up_to(100000), "lowest engine speed in rpm", "500"),
+    whole_number("--to", "N", from(1).up_to(100000), "highest engine speed in rpm", "15000"),
+    number("--bounce-um", "H", from(1).up_to(1000), "least height of what counts as a bounce in its onset", "50"),
+    number("--seating-m-s", "V", above(0).up_to(100), "largest speed at which the valve may meet its seat", "0.5"),
+    number("--coil-bind-mm", "L", above(0).up_to(1000),
+           "valve lift at which the spring binds: results beyond are left out; default 1.5 times the theoretical lift"),
+    choice(
+        "--vary", "train|mass|spring|preload|damping",
+        "sweeps again with this times 0.5, 0.7, 0.85, 1, 1.2, 1.5, 2; mass: all that moves, damping: all three ratios"),
+    text("--csv", "F", "file for a row per factor and speed; - is standard output, the rest then goes to stderr"),
+    text("--report", "F.html", "file for the plots, which any browser shows"),
+};
+
+}  // namespace
+
+std::string masked_in_words(const Redline& redline) {
+  std::size_t masked = 0;
+  std::size_t all = 0;
+  int first_rpm = 0;
+  for (const Sweep& sweep : redline.sweeps) {
+    all += sweep.at.size();
+    for (const SpeedResult& result : sweep.at) {
+      if (result.is_possible) continue;
+      first_rpm = masked++ == 0 ? result.speed_rpm : std::min(first_rpm, result.speed_rpm);
+    }
+  }
+  if (masked == 0) return "";
+  return "left out: " + std::to_string(masked) + " of " + std::to_string(all) + " results, from " +
+         std::to_string(first_rpm) + " rpm on, in which the valve flies beyond " +
+         brief(redline.as_given().max_lift_m * 1e3) + " mm" +
+         (redline.limits.lift_m > 0 ? ", where its spring binds"
+                                    : ": 1.5 times the theoretical lift, for which no spring has room");
+}
+
+std::string text_of(const Onset& onset, const SpeedRange& range) {
+  if (!onset.found) return "none up to " + std::to_string(range.to_rpm) + " rpm";
+  return (onset.at_the_start ? "at or below " : "") + std::to_string(onset.speed_rpm) + " rpm";
+}
+
+const Command kRedline{"redline",
+                       "the speeds at which a valve begins to float and to bounce, and what moves them",
+                       "FILE [--train NAME] [--from N] [--to N] [--bounce-um H] [--seating-m-s V] [--coil-bind-mm L] "
+                       "[--vary P] [--csv F] [--report F.html]",
+                       "crankloop redline ohc_125.ini --train intake --vary spring --report redline.html",
+                       1,
+                       kOptions,
+                       run_redline};
+
+}  // namespace crankloop::program

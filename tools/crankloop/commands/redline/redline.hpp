@@ -1,0 +1,70 @@
+// What `redline` found, for its text, CSV and page.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "../../report/page.hpp"
+#include "redline_search.hpp"
+
+namespace crankloop::program {
+
+struct Redline {
+  const LoneValve& valve;
+  SpeedRange range;
+  const Influence* influence;  ///< null: nothing is varied
+  std::vector<Sweep> sweeps;   ///< by factor; without an influence one, of factor 1
+  std::string command_line;
+  RedlineLimits limits;
+
+  [[nodiscard]] const Sweep& as_given() const noexcept {
+    for (const Sweep& sweep : sweeps) {
+      if (sweep.factor == 1) return sweep;
+    }
+    return sweeps.front();
+  }
+
+  /// Where a curve ends: shortly above the onset of separation; beyond, the motion is chance.
+  [[nodiscard]] double shown_to_rpm(const Sweep& sweep) const {
+    if (!sweep.separation.found) return range.to_rpm;
+    return std::clamp(1.15 * sweep.separation.speed_rpm, range.from_rpm + 1.0, 1.0 * range.to_rpm);
+  }
+
+  /// Where plots end.
+  [[nodiscard]] double shown_to_rpm() const {
+    double last_rpm = range.from_rpm + 1.0;
+    for (const Sweep& sweep : sweeps) last_rpm = std::max(last_rpm, shown_to_rpm(sweep));
+    return last_rpm;
+  }
+
+  /// Where they begin: of several trains well below the first onset, so that their curves do not crowd.
+  [[nodiscard]] double shown_from_rpm() const {
+    double onset_rpm = range.to_rpm;
+    for (const Sweep& sweep : sweeps) {
+      if (sweep.separation.found) onset_rpm = std::min<double>(onset_rpm, sweep.separation.speed_rpm);
+    }
+    return influence == nullptr ? range.from_rpm : std::max(1.0 * range.from_rpm, std::floor(onset_rpm / 2e3) * 1e3);
+  }
+
+  /// The speed of the sweeps at which they are compared: the first above the onset of separation as given, where the
+  /// motion still repeats itself; far above it what a factor does is chance. The highest where there is no onset.
+  [[nodiscard]] std::size_t compared_at() const {
+    const std::vector<SpeedResult>& at = as_given().at;
+    std::size_t i = 0;
+    while (i + 1 < at.size() && !(as_given().separation.found && at[i].speed_rpm > as_given().separation.speed_rpm))
+      ++i;
+    return i;
+  }
+};
+
+/// "left out: 3 of 61 results, from 13000 rpm on, in which the valve flies beyond 11.7 mm: ..."; empty where none is.
+[[nodiscard]] std::string masked_in_words(const Redline& redline);
+
+/// "8513 rpm", "at or below 500 rpm", "none up to 15000 rpm".
+[[nodiscard]] std::string text_of(const Onset& onset, const SpeedRange& range);
+
+[[nodiscard]] report::Page redline_page(const Redline& redline);
+
+}  // namespace crankloop::program

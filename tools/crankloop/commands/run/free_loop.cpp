@@ -1,0 +1,67 @@
+#include "free_loop.hpp"
+
+#include <cmath>
+
+#include "../../files/units.hpp"
+#include "../../loops/run_limits.hpp"
+#include "../../loops/valve_tick_limit.hpp"
+
+namespace crankloop::program {
+
+std::uint64_t FreeOperation::ticks() const noexcept {
+  constexpr double kHairOfATick = 1e-6;  // 2 s are 20000 ticks of 100 us, however the quotient is rounded
+  return static_cast<std::uint64_t>(std::ceil(seconds / tick_s - kHairOfATick));
+}
+
+double in_cycle_deg(double angle_deg) noexcept {
+  const double deg = angle_deg - 720 * std::floor(angle_deg / 720);
+  return deg < 720 ? deg : 0;
+}
+
+template <class Real, class S>
+FreeLoop<Real, S>::FreeLoop(const EngineFile& file, const EngineDefinition& definition, const FreeOperation& operation)
+    : tick_s_{operation.tick_s} {
+  require_ticks(operation.seconds / tick_s_, tick_s_, "or fewer --seconds");
+  Status status = tables_->build(definition, {tick_s_});
+  if (!status.ok()) throw explain_tabulate(file, status, tick_s_, {});
+  require_speed(operation.from_rpm, static_cast<double>(tables_->tables().drive->speed_limit_rad_s), tick_s_);
+  status = engine_.init(tables_->tables());
+  if (!status.ok()) throw file.explain(status);
+  const double speed_rad_s = operation.from_rpm / kRpmPerRad_s;
+  status = engine_.restore(turning_at<Real, S>(engine_.state(), static_cast<Real>(speed_rad_s)));
+  if (!status.ok()) throw file.explain(status);
+  if constexpr (detail::Needs<S>::gas) {
+    tell(input_, operation.gas);
+  } else {
+    input_.load_ratio = static_cast<Real>(operation.load_ratio);
+  }
+  input_.starter = operation.starter ? 1 : 0;
+  input_.cut_cylinders = operation.cut_cylinders;
+  state_.speed_rad_s = static_cast<double>(engine_.state().speed_rad_s);
+}
+
+template <class Real, class S>
+const typename FreeLoop<Real, S>::Output& FreeLoop<Real, S>::step() noexcept {
+  before_ = state_;
+  const std::uint64_t phase_before = engine_.state().phase.units();
+  const Output& out = engine_.step(input_);
+  const std::uint64_t phase = out.crank.units();
+  const bool forward = static_cast<std::int64_t>(phase - phase_before) >= 0;
+  if (forward && phase < phase_before) ++cycles_;
+  if (!forward && phase > phase_before) --cycles_;
+  ++ticks_;
+  state_.time_s = static_cast<double>(ticks_) * tick_s_;
+  state_.angle_deg = static_cast<double>(cycles_) * 720 + static_cast<double>(phase) * kDegPerUnit;
+  state_.speed_rad_s = static_cast<double>(out.speed_rad_s);
+  state_.acceleration_rad_s2 = static_cast<double>(out.acceleration_rad_s2);
+  state_.torque_Nm = static_cast<double>(out.torque_Nm);
+  state_.work_J += static_cast<double>(out.mean_torque_Nm) * (state_.angle_deg - before_.angle_deg) * kRadPerDeg;
+  return out;
+}
+
+template class FreeLoop<float, scenes::FreeRunning>;
+template class FreeLoop<double, scenes::FreeRunning>;
+template class FreeLoop<float, scenes::BreathingFree>;
+template class FreeLoop<double, scenes::BreathingFree>;
+
+}  // namespace crankloop::program

@@ -1,0 +1,77 @@
+// The engine turned by its own gas, as a controller's test bench runs it: `crankloop run --free`.
+//
+// What belongs here: stepping, and what a tick has come to, in double. What does not: what a run makes of it
+// (free_cycles.hpp, free_energy.hpp), files (free_run.cpp).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include <crankloop/crankloop.hpp>
+#include <crankloop/scenes.hpp>
+
+#include "../../engine_file/engine_file.hpp"
+#include "../../engine_file/gas_order.hpp"
+#include "../../files/units.hpp"
+
+namespace crankloop::program {
+
+/// How the engine is let run. All of it holds for the whole run.
+struct FreeOperation {
+  double tick_s = 100e-6;
+  double load_ratio = 1;
+  double from_rpm = 0;  ///< negative = backwards
+  double seconds = 2;
+  bool starter = false;
+  std::uint32_t cut_cylinders = 0;  ///< bit k: cylinder k does not fire
+  GasOrder gas{};                   ///< of an engine that breathes, instead of the load ratio
+
+  [[nodiscard]] std::uint64_t ticks() const noexcept;  ///< as many as it takes to cover the time
+};
+
+/// The crank at the end of a tick, and what has passed since the run began at cylinder 1's firing top dead centre.
+struct FreeState {
+  double time_s = 0;
+  double angle_deg = 0;  ///< turned, without end: backwards it falls
+  double speed_rad_s = 0;
+  double acceleration_rad_s2 = 0;
+  double torque_Nm = 0;  ///< of gas and masses, as in crankloop::Torque
+  double work_J = 0;     ///< of that torque
+
+  [[nodiscard]] double speed_rpm() const noexcept { return speed_rad_s * kRpmPerRad_s; }
+};
+
+/// `angle_deg` within the cycle, 0 to below 720.
+[[nodiscard]] double in_cycle_deg(double angle_deg) noexcept;
+
+/// S is FreeRunning, or BreathingFree for an engine that breathes.
+template <class Real, class S = scenes::FreeRunning>
+class FreeLoop {
+ public:
+  using Engine = crankloop::Engine<Real, S>;
+  using Output = typename Engine::Output;
+
+  /// `definition` is the file's, perhaps with another load. Throws UsageError for a speed beyond one revolution per
+  /// tick or too many ticks, InputError for an engine that cannot run free.
+  FreeLoop(const EngineFile& file, const EngineDefinition& definition, const FreeOperation& operation);
+
+  const Output& step() noexcept;
+
+  [[nodiscard]] const Output& output() const noexcept { return engine_.output(); }
+  [[nodiscard]] const FreeState& state() const noexcept { return state_; }
+  [[nodiscard]] const FreeState& before() const noexcept { return before_; }  ///< the last tick
+
+ private:
+  using Tables = TableStorage<Real, S, kMaxGasSegments>;  // the program has memory
+
+  std::unique_ptr<Tables> tables_ = std::make_unique<Tables>();
+  Engine engine_;
+  typename Engine::Input input_;
+  double tick_s_;
+  std::uint64_t ticks_ = 0;
+  std::int64_t cycles_ = 0;
+  FreeState state_;
+  FreeState before_;
+};
+
+}  // namespace crankloop::program

@@ -1,0 +1,91 @@
+#include "free_request.hpp"
+
+#include <string>
+#include <utility>
+
+#include "../../command_line/engine_argument.hpp"
+#include "../../command_line/gas_options.hpp"
+#include "../../engine_file/plausibility.hpp"
+#include "../../files/error.hpp"
+#include "../../files/number.hpp"
+#include "../../files/words.hpp"
+#include "free_run.hpp"
+
+namespace crankloop::program {
+namespace {
+
+/// "1,3": cylinders as the engine file counts them, from 1.
+std::uint32_t cut_cylinders(const std::string& text, const Layout& layout) {
+  std::uint32_t cut = 0;
+  for (const std::string_view one : split(text, ',')) {
+    const ParsedNumber number = parse_number(one, from(1).up_to(layout.cylinders), "");
+    if (!number.ok()) throw UsageError("--cut: " + number.problem);
+    const auto cylinder = static_cast<std::uint32_t>(number.value);
+    if (static_cast<double>(cylinder) != number.value)
+      throw UsageError("--cut: " + in_quotes(one) + " is not a whole number");
+    cut |= 1u << (cylinder - 1);
+  }
+  return cut;
+}
+
+/// The file's engine, with the brake that the command line says.
+EngineDefinition loaded(const EngineFile& file, const Arguments& arguments) {
+  EngineDefinition definition = file.definition();
+  if (arguments.has("--machine-Nm"))
+    definition.machine = {arguments.number("--machine-Nm"), 0, 0, definition.machine.inertia_kg_m2};
+  return definition;
+}
+
+std::string command_line(const Arguments& arguments, const EngineFile& file, const GasOrder& gas) {
+  std::string text = "crankloop run " + shell_word(arguments.file()) + " --free";
+  for (const char* number : {"--from-rpm", "--seconds", "--tick-us", "--load-ratio", "--machine-Nm"}) {
+    if (number == std::string_view("--machine-Nm") && !arguments.has(number)) continue;  // the file's brake
+    if (number == std::string_view("--load-ratio") && breathes(file.definition())) continue;
+    text += std::string(" ") + number + " " + shortest(arguments.number(number));
+  }
+  if (breathes(file.definition())) text += " " + options_of(gas);
+  if (arguments.has("--starter")) text += " --starter";
+  if (arguments.has("--cut")) text += " --cut " + arguments.text("--cut");
+  return text + " --real " + arguments.text("--real");
+}
+
+}  // namespace
+
+void require_options_that_fit(const Arguments& arguments) {
+  const bool free = arguments.has("--free");
+  for (const char* option : {"--machine-Nm", "--starter", "--from-rpm", "--seconds", "--cut"}) {
+    if (!free && arguments.has(option)) throw UsageError(std::string(option) + " is for a run with --free");
+  }
+  if (free && arguments.has("--rpm"))
+    throw UsageError("--rpm is for a run at constant speed; with --free the speed begins at --from-rpm");
+  if (free && arguments.has("--cycles"))
+    throw UsageError("--cycles is for a run at constant speed; with --free take --seconds");
+}
+
+int run_free_by(const Arguments& arguments, const EngineFile& file, const GasOrder& gas,
+                std::vector<std::string> warnings) {
+  const EngineDefinition definition = loaded(file, arguments);
+  if (arguments.has("--starter") && definition.starter.stall_Nm == 0) {
+    throw InputError(file.path() +
+                     ": there is no [starter] with a torque, so --starter has nothing to turn the crank with");
+  }
+  FreeRequest request;
+  request.operation.tick_s = millionths(arguments.number("--tick-us"));
+  request.operation.load_ratio = arguments.number("--load-ratio");
+  request.operation.from_rpm = arguments.number("--from-rpm");
+  request.operation.seconds = arguments.number("--seconds");
+  request.operation.gas = gas;
+  request.operation.starter = arguments.has("--starter");
+  if (arguments.has("--cut"))
+    request.operation.cut_cylinders = cut_cylinders(arguments.text("--cut"), definition.layout);
+  request.real = arguments.text("--real");
+  request.command_line = command_line(arguments, file, gas);
+  for (std::string& line : tell_warnings(arguments, warnings_about_running_free(file, definition)))
+    warnings.push_back(std::move(line));
+  request.warnings = std::move(warnings);
+  Results results(arguments, {"--csv", "--report", "--vcd"});
+  run_free(file, definition, request, results);
+  return kSuccess;
+}
+
+}  // namespace crankloop::program

@@ -1,0 +1,338 @@
+// `crankloop run FILE`: the fixed-step loop over some cycles, its figures, its ticks as CSV, its report. With --free:
+// free_request.cpp.
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <crankloop/tabulate/mechanism.hpp>
+#include <crankloop/tabulate/summary.hpp>
+
+#include "../../command_line/commands.hpp"
+#include "../../command_line/engine_argument.hpp"
+#include "../../command_line/gas_options.hpp"
+#include "../../command_line/operating_point.hpp"
+#include "../../command_line/progress.hpp"
+#include "../../command_line/results.hpp"
+#include "../../command_line/summary.hpp"
+#include "../../command_line/with_real.hpp"
+#include "../../engine_file/plausibility.hpp"
+#include "../../engine_file/pressure_words.hpp"
+#include "../../engine_report/engine_report.hpp"
+#include "../../files/csv.hpp"
+#include "../../files/words.hpp"
+#include "../../loops/run_accuracy.hpp"
+#include "../../loops/run_loop.hpp"
+#include "../../loops/run_trace.hpp"
+#include "../../loops/run_valves.hpp"
+#include "../../loops/valve_accuracy.hpp"
+#include "../../loops/valve_tick_limit.hpp"
+#include "free_request.hpp"
+#include "run_signals.hpp"
+
+namespace crankloop::program {
+namespace {
+
+std::vector<std::string> csv_header(int cylinders, const std::vector<std::string>& trains, bool gas) {
+  std::vector<std::string> header{"time_s", "crank_deg", "speed_rpm", "torque_Nm", "mean_torque_Nm"};
+  for (int k = 1; k <= cylinders; ++k) {
+    for (std::size_t i = 0; i < kCsvQuantities; ++i) {
+      header.push_back("c" + std::to_string(k) + "_" + kQuantityKinds[i].name + "_" + kQuantityKinds[i].suffix);
+    }
+  }
+  for (int k = 1; k <= cylinders; ++k) {
+    for (const std::string& train : trains) {
+      const std::string valve = "c" + std::to_string(k) + "_" + train + "_";
+      for (const ValveQuantityKind& kind : kValveQuantityKinds) header.push_back(valve + kind.name + "_" + kind.suffix);
+      header.push_back(valve + "regime");
+    }
+  }
+  if (gas) add_gas_columns(header, static_cast<std::size_t>(cylinders));
+  return header;
+}
+
+template <class Real, class S>
+void write_row(CsvWriter& csv, const EngineDefinition& definition, const Operation& operation, std::uint64_t tick,
+               double crank_deg, const WholeOutput<Real, S>& out) {
+  const Layout& layout = definition.layout;
+  csv.cell(static_cast<double>(tick) * operation.tick_s);
+  csv.cell(crank_deg);
+  csv.cell(operation.speed_rpm);
+  csv.cell(out.torque_Nm);
+  csv.cell(out.mean_torque_Nm);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
+    const QuantityValues<Real> values = values_of(out, layout, k);
+    for (std::size_t i = 0; i < kCsvQuantities; ++i) csv.cell(values[i] * static_cast<Real>(kQuantityKinds[i].per_si));
+  }
+  for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
+    for (std::size_t t = 0; t < static_cast<std::size_t>(definition.train_count); ++t) {
+      const auto values = values_of(out, t, k);
+      for (std::size_t i = 0; i < kValveQuantities; ++i)
+        csv.cell(values[i] * static_cast<Real>(kValveQuantityKinds[i].per_si));
+      csv.cell(static_cast<int>(out.valve_forces[t][k].regime));
+    }
+  }
+  if constexpr (detail::Needs<S>::gas) write_gas(csv, out, static_cast<std::size_t>(layout.cylinders));
+  csv.end_row();
+}
+
+/// What the user asked for, but for the files.
+struct Request {
+  Operation operation;
+  int cycles;
+  std::string real;
+  std::vector<std::string> warnings;  ///< told, for the report
+};
+
+struct Engines {
+  const EngineFile& file;
+  const ExactEngine& exact;
+
+  [[nodiscard]] bool has_gas() const noexcept { return exact.definition().pressure.source != PressureSource::none; }
+  [[nodiscard]] bool breathes() const noexcept { return program::breathes(exact.definition()); }
+};
+
+void add_peak(Summary& s, const std::string& name, Peak peak, double per_si, const std::string& unit) {
+  s.line(name, peak.value * per_si, unit);
+  s.line(name + "_at", std::round(peak.at_deg * 1e3) / 1e3, "deg");
+}
+
+void add_peaks(Summary& s, const std::string& name, const Peaks& peaks, double per_si, const std::string& unit) {
+  add_peak(s, "largest_" + name, peaks.largest, per_si, unit);
+  add_peak(s, "smallest_" + name, peaks.smallest, per_si, unit);
+}
+
+/// The worst of a train's valves in their last whole cycle, and peaks over the ticks.
+void add_valves(Summary& s, const std::string& train, const ValveFigures& f) {
+  const ValveCycle<double>& cycle = f.last_cycle;
+  const auto peak = [&](ValveQuantity quantity) {
+    const ValveQuantityKind& kind = kValveQuantityKinds[index_of(quantity)];
+    add_peak(s, "largest_" + train + "_" + kind.name, f.of[index_of(quantity)].largest, kind.per_si, kind.unit);
+  };
+  s.line(train + "_max_lift", cycle.largest_lift_m * 1e3, "mm");
+  add_opening_delay(s, train + "_opening_delay", cycle);
+  s.line(train + "_separations", cycle.separations);
+  s.line(train + "_separation_max_gap", cycle.separation_clearance_m * 1e3, "mm");
+  s.line(train + "_seating_speed", cycle.seating_speed_m_s, "m/s");
+  s.line(train + "_bounces", cycle.bounces);
+  s.line(train + "_bounce_height", cycle.bounce_height_m * 1e3, "mm");
+  peak(ValveQuantity::train_force);
+  peak(ValveQuantity::seat_force);
+  peak(ValveQuantity::cam_force);
+}
+
+void add_brake(Summary& s, const EngineDefinition& definition, double indicated_Nm, double speed_rad_s) {
+  const BrakeFigures brake = brake_figures(definition, indicated_Nm, speed_rad_s);
+  s.line("friction_mep", brake.friction_mep_Pa / 1e3, "kPa", "of [friction] at this speed");
+  s.line("brake_torque", brake.torque_Nm, "Nm");
+  s.line("brake_power", brake.power_W / 1e3, "kW",
+         brief(brake.power_W / 1e3 / definition.layout.cylinders) + " kW a cylinder");
+  if (brake.efficiency_ratio > 0) s.line("mechanical_efficiency", brake.efficiency_ratio);
+}
+
+std::string summary_text(const Engines& engine, const Request& request, const RunFigures& f,
+                         const CycleSummary& summary, double wall_time_per_tick_ns) {
+  const EngineDefinition& definition = engine.exact.definition();
+  const double speed = request.operation.speed_rad_s();
+  Summary s;
+  s.remark(engine.file.name() + ", fixed-step loop in " + request.real +
+           (engine.has_gas() ? "" : ", no pressure source: inertia only"));
+  s.remark(pressure_in_short(engine.file));
+  s.remark("angles: torque and journals from cylinder 1's firing TDC, all else from that of the cylinder itself");
+  s.remark("largest and smallest are over the ticks, every " + brief(f.deg_per_tick) + " deg");
+  s.line("speed", request.operation.speed_rpm, "rpm");
+  if (engine.breathes()) {
+    add_order(s, request.operation.gas);
+  } else if (engine.has_gas()) {
+    s.line("load_ratio", request.operation.load_ratio);
+  }
+  s.line("tick", request.operation.tick_s * 1e6, "us");
+  s.line("deg_per_tick", f.deg_per_tick, "deg");
+  s.line("cycles", static_cast<double>(f.cycles));
+  // Not settled: a thousandth of 500 kPa a cycle.
+  s.line("ticks", f.ticks, "",
+         "after " + std::to_string(f.settling_ticks) + " to settle" +
+             (f.unsettled_Pa > 500
+                  ? ", not settled: net mep moved by " + brief(f.unsettled_Pa / 1e3) + " kPa in the last cycle of those"
+                  : ""));
+  s.line("mean_torque", f.mean_torque_Nm, "Nm");
+  if (engine.has_gas()) {
+    s.line("power", f.power_W / 1e3, "kW", "indicated: friction is not subtracted");
+    if (definition.friction.any()) add_brake(s, definition, f.mean_torque_Nm, speed);
+    s.line("net_mep", f.net_mep_Pa / 1e3, "kPa");
+    if (engine.breathes()) {
+      add_gas(s, f.gas.cycle);
+      s.line("energy_defect", f.gas.cycle.energy_defect_J, "J", "of a cylinder's cycle, the largest: rounding");
+      s.line("intake_pressure", f.gas.intake_Pa / 1e3, "kPa", "in the manifold, mean");
+      s.line("exhaust_pressure", f.gas.exhaust_Pa / 1e3, "kPa", "likewise");
+      s.line("exhaust_manifold_temperature", f.gas.exhaust_manifold_K, "K", "mean: what a probe would read");
+    } else {
+      s.line("net_mep_exact", summary.net_mep_Pa / 1e3, "kPa", "loop integral of p dV");
+      s.line("gross_mep_exact", summary.gross_mep_Pa / 1e3, "kPa", "over the closed 360 deg");
+    }
+  }
+  add_peaks(s, "torque", f.torque, 1, "Nm");
+  for (const Quantity quantity : {Quantity::pressure, Quantity::gas_force}) {
+    const QuantityKind& kind = kQuantityKinds[index_of(quantity)];
+    if (engine.has_gas())
+      add_peak(s, std::string("largest_") + kind.name, f.of[index_of(quantity)].largest, kind.per_si, kind.unit);
+  }
+  for (const Quantity quantity : {Quantity::inertia_force, Quantity::total_force, Quantity::side_force,
+                                  Quantity::rod_force, Quantity::tangential_force, Quantity::radial_force}) {
+    const QuantityKind& kind = kQuantityKinds[index_of(quantity)];
+    add_peaks(s, kind.name, f.of[index_of(quantity)], kind.per_si, kind.unit);
+  }
+  add_peak(s, "largest_crank_pin_load", f.of[index_of(Quantity::crank_pin_load)].largest, 1, "N");
+  add_peak(s, "largest_main_journal_load", f.journal_load.largest, 1, "N");
+  add_peaks(s, "velocity", f.of[index_of(Quantity::velocity)], 1, "m/s");
+  add_peaks(s, "acceleration", f.of[index_of(Quantity::acceleration)], 1, "m/s^2");
+  s.line("mean_piston_speed", mean_piston_speed_m_s(definition.crank, speed), "m/s");
+  s.line("stroke", dead_centres(definition.crank).stroke_m * 1e3, "mm", "true one, with the pin offset");
+  s.line("swept_volume", swept_volume_m3(definition.crank) * 1e6, "cm^3", "one cylinder");
+  const std::vector<std::string> trains = names_of_trains(engine.file);
+  for (std::size_t t = 0; t < f.valves.size(); ++t) add_valves(s, trains[t], f.valves[t]);
+  if (!engine.breathes()) {
+    s.line("table_gas_segments", f.tables.gas_segments);
+    s.line("table_pressure_error", f.tables.pressure_error_Pa / 1e3, "kPa");
+  }
+  if (f.tables.valve_fine_steps > 0) {
+    s.line("valve_fine_steps_worst_tick", f.tables.valve_fine_steps);
+    s.line("valve_changes_located", f.tables.valve_changes);
+  }
+  s.faulty_ticks(f.faulty_ticks, f.faults);
+  s.line("wall_time_per_tick", wall_time_per_tick_ns, "ns",
+         "this machine: median of " + std::to_string(FixedStepLoop<float>::kBatches) + " batches of " +
+             std::to_string(FixedStepLoop<float>::kBatchTicks) + " steps, nothing recorded");
+  return s.text();
+}
+
+std::string command_line(const Arguments& arguments, const Request& request, bool breathes) {
+  return "crankloop run " + shell_word(arguments.file()) + " --rpm " + shortest(request.operation.speed_rpm) +
+         " --tick-us " + shortest(arguments.number("--tick-us")) + " --cycles " + std::to_string(request.cycles) +
+         " --real " + request.real + " " +
+         (breathes ? options_of(request.operation.gas) : "--load-ratio " + shortest(request.operation.load_ratio));
+}
+
+template <class Real, class S>
+void run(const Engines& engine, const Request& request, const Arguments& arguments) {
+  const EngineDefinition& definition = engine.exact.definition();
+  const Operation& operation = request.operation;
+  Progress progress("running", (request.cycles + cycles_to_settle(definition)) * 720 /
+                                   (operation.speed_rad_s() * kDegPerRad * operation.tick_s));
+  FixedStepLoop<Real, S> loop(definition, operation, 0, [&progress] { progress.step(); });
+
+  Results results(arguments, {"--csv", "--report", "--vcd"});
+  if (Output* vcd = results["--vcd"]) write_signals(engine.file, operation, request.cycles, *vcd);
+  std::optional<CsvWriter> csv;
+  if (Output* file = results["--csv"])
+    csv.emplace(*file, csv_header(definition.layout.cylinders, names_of_trains(engine.file), engine.breathes()));
+
+  Trace trace;
+  if (results["--report"] != nullptr) trace = record_trace<Real, S>(definition, operation);
+  CycleSummary summary{};
+  if (!engine.breathes()) {
+    summary = summarise(engine.exact, operation.speed_rad_s(), operation.load_ratio);
+  } else if (results["--report"] != nullptr) {
+    summary = summarise(definition, operation.speed_rad_s(), trace);
+  }
+  const CloseUpWindow window = close_up_window(summary.largest_torque_deg, loop.deg_per_tick());
+  std::vector<CloseUpTick> close_up;
+  const OnTick<Real, S> on_tick = [&](std::uint64_t tick, double crank_deg, const WholeOutput<Real, S>& out) {
+    if (csv) write_row<Real, S>(*csv, definition, operation, tick, crank_deg, out);
+    if (static_cast<double>(tick) <= loop.ticks_per_cycle() && window.contains(crank_deg)) {
+      close_up.push_back({crank_deg, static_cast<double>(out.torque_Nm), static_cast<double>(out.mean_torque_Nm)});
+    }
+    progress.step();
+  };
+  const RunFigures figures = run_cycles<Real, S>(loop, definition, operation, request.cycles, on_tick);
+  const double wall_time_per_tick_ns = loop.wall_time_per_tick_ns();
+
+  if (Output* page = results["--report"]) {
+    const Accuracy accuracy = engine.breathes() ? Accuracy{} : measure_accuracy<Real>(engine.exact, operation);
+    const ReportInput input{engine.file,
+                            engine.exact,
+                            summary,
+                            operation,
+                            figures,
+                            trace,
+                            accuracy,
+                            close_up,
+                            request.real,
+                            command_line(arguments, request, engine.breathes()),
+                            wall_time_per_tick_ns,
+                            request.warnings};
+    page->write(report::to_html(engine_report(input)));
+  }
+  results.finish(summary_text(engine, request, figures, summary, wall_time_per_tick_ns));
+}
+
+int run_run(const Arguments& arguments) {
+  require_options_that_fit(arguments);
+  std::vector<std::string> warnings;
+  const EngineFile file = read_engine(arguments, {"engine", "crank", "masses"}, &warnings);
+  const EngineDefinition& definition = file.definition();
+  require_heat_to_scale(arguments, file);
+  const GasOrder gas = gas_order(arguments, file, 1);
+  require_manifolds(file, millionths(arguments.number("--tick-us")));
+  if (arguments.has("--free")) return run_free_by(arguments, file, gas, std::move(warnings));
+  const Operation operation{speed_rpm(arguments, file), millionths(arguments.number("--tick-us")),
+                            arguments.number("--load-ratio"), gas};
+  for (std::string& line : tell_warnings(arguments, warnings_about_gas(file, operation.speed_rpm, operation.tick_s)))
+    warnings.push_back(std::move(line));
+  require_trains(file, operation.tick_s);
+  for (std::string& line : tell_warnings(arguments, warnings_about_valves(file, operation.speed_rpm, operation.tick_s)))
+    warnings.push_back(std::move(line));
+  const Request request{operation, arguments.whole_number("--cycles"), arguments.text("--real"), std::move(warnings)};
+  ExactEngine exact;
+  if (const Status refused = exact.init(definition); !refused.ok()) throw file.explain(refused);
+  const Engines engine{file, exact};
+  with_real(request.real, [&](auto zero) {
+    using Real = decltype(zero);
+    if (engine.breathes()) {
+      run<Real, scenes::Breathing>(engine, request, arguments);
+    } else {
+      run<Real, scenes::Whole>(engine, request, arguments);
+    }
+  });
+  return kSuccess;
+}
+
+constexpr Option kOptions[] = {
+    number("--rpm", "N", above(0).up_to(100000), "engine speed in rpm; default the file's rated_rpm"),
+    kTick,
+    whole_number("--cycles", "N", from(1).up_to(1000000),
+                 "cycles of 720 deg to record, after one to settle; of an engine that breathes after more", "2"),
+    choice("--real", "float|double", "arithmetic of the tick, and digits of the CSV", "float"),
+    kLoadRatio,
+    kThrottle,
+    kFuel,
+    kLambda,
+    kBurnStart,
+    text("--csv", "F", "file for a row per tick; - is standard output, the summary then goes to stderr"),
+    text("--report", "F.html", "file for the report, which any browser shows"),
+    text("--vcd", "F", "file for the trigger wheels' signals, a value change dump as GTKWave and PulseView open it"),
+    flag("--free",
+         "the engine turns by its own gas against friction and load, instead of at one speed; for the options below"),
+    number("--from-rpm", "N", from(-100000).up_to(100000), "speed to begin with, backwards if negative", "0"),
+    number("--seconds", "S", above(0).up_to(1e6), "how long", "2"),
+    number("--machine-Nm", "L", from(0).up_to(1e7),
+           "a brake of constant torque instead of that of the file's [machine], whose inertia stays"),
+    flag("--starter", "the file's [starter] turns the crank too; it free-wheels where the engine is faster"),
+    text("--cut", "K,..", "cylinders that do not fire, like 1,3"),
+};
+
+}  // namespace
+
+const Command kRun{
+    "run",
+    "the fixed-step loop: torque, power, peak forces, time per tick; or an engine that runs free; CSV and report",
+    "FILE [--rpm N] [--cycles N] [--tick-us T] [--real R] [--load-ratio Q] [--csv F] [--report F.html] [--vcd F]\n"
+    "       [--throttle R] [--lambda L | --fuel-mg M] [--burn-start-deg A]\n"
+    "       crankloop run FILE --free [--from-rpm N] [--seconds S] [--machine-Nm L] [--starter] [--cut K,..] [...]",
+    "crankloop run diesel_495.ini --rpm 2000 --csv run.csv --report report.html",
+    1,
+    kOptions,
+    run_run};
+
+}  // namespace crankloop::program

@@ -1,0 +1,93 @@
+// `crankloop stress`: random valve trains at random operating points, each refused for a reason or run within bounds.
+#include <optional>
+#include <string>
+
+#include "../command_line/commands.hpp"
+#include "../command_line/progress.hpp"
+#include "../command_line/summary.hpp"
+#include "../files/error.hpp"
+#include "../files/output_file.hpp"
+#include "lab/stress/stress_tally.hpp"
+
+namespace crankloop::program {
+namespace {
+
+StressKind kind_of(const Arguments& arguments) {
+  return arguments.has("--smooth") ? StressKind::smooth : StressKind::any;
+}
+
+int run_one(const Arguments& arguments) {
+  const int number = arguments.whole_number("--case");
+  const StressCase drawn(static_cast<std::uint64_t>(arguments.whole_number("--seed")),
+                         static_cast<std::uint64_t>(number), kind_of(arguments));
+  StressTrials trials;
+  const TrialResult result = trials.run(drawn, true);
+  Summary s;
+  s.line("case", drawn.text());
+  s.line("verdict", name_of(result.verdict));
+  if (!result.refusal.ok()) {
+    s.line("reason", std::string(result.refusal.field) + " " + describe(result.refusal.reason));
+  }
+  if (!result.trouble.empty()) s.line("trouble", result.trouble);
+  s.line("ticks", result.ticks);
+  s.line("over_event_budget", result.over_budget ? "yes" : "no");
+  s.line("landed", result.landed ? "yes" : "no");
+  s.line("judged_again", result.judged_again ? "yes" : "no");
+  s.line("error_of_class", result.of_class);
+  s.line("error_of_allowed", result.of_allowed);
+  print(s.text());
+  return result.verdict == Verdict::refused || result.verdict == Verdict::ran ? kSuccess : kFailure;
+}
+
+int run_stress(const Arguments& arguments) {
+  if (arguments.has("--case")) return run_one(arguments);
+  StressTally tally;
+  tally.seed = arguments.whole_number("--seed");
+  tally.cases = arguments.whole_number("--cases");
+  tally.compare_every = arguments.whole_number("--reference-every");
+  std::optional<Output> page;
+  if (arguments.has("--report")) page.emplace(arguments.text("--report"));
+  {
+    StressTrials trials;
+    Progress progress("stressing", tally.cases, Progress::kLogPeriod_ns);
+    for (int number = 0; number < tally.cases; ++number) {
+      const StressCase drawn(static_cast<std::uint64_t>(tally.seed), static_cast<std::uint64_t>(number),
+                             kind_of(arguments));
+      tally.add(number, drawn, trials.run(drawn, number % tally.compare_every == 0));
+      progress.long_step();
+    }
+  }
+  const std::vector<StabilityPoint> map = stability_map();
+  if (page) {
+    const std::string command_line =
+        "crankloop stress --seed " + std::to_string(tally.seed) + " --cases " + std::to_string(tally.cases) +
+        " --reference-every " + std::to_string(tally.compare_every) + (arguments.has("--smooth") ? " --smooth" : "");
+    page->write(report::to_html(stress_page(tally, map, command_line)));
+    page->finish();
+  }
+  print(text_of(tally, map));
+  return tally.failures.empty() && worst_error(map) <= kLargestStabilityError ? kSuccess : kFailure;
+}
+
+constexpr Option kOptions[] = {
+    whole_number("--seed", "N", from(0).up_to(2147483647), "what the cases are drawn from", "1"),
+    whole_number("--cases", "N", from(1).up_to(100000000), "how many", "1000"),
+    whole_number("--case", "N", from(0).up_to(100000000), "only this one, with all that is told of it"),
+    whole_number("--reference-every", "N", from(1).up_to(100000000),
+                 "every Nth case is compared with the converged reference too, which costs most of the time", "10"),
+    flag("--smooth",
+         "only smooth cams, damped and below float: the error of the steps, which no kink and no bounce magnifies"),
+    text("--report", "F.html", "file for the counts and the map of stability, which any browser shows"),
+};
+
+}  // namespace
+
+const Command kStress{"stress",
+                      "random valve trains at random operating points: refused, or bounded and accurate",
+                      "[--seed N] [--cases N] [--case N] [--reference-every N] [--smooth] [--report F.html]",
+                      "crankloop stress --seed 7 --cases 2000 --report stress.html",
+                      0,
+                      kOptions,
+                      run_stress};
+
+}  // namespace crankloop::program

@@ -1,0 +1,186 @@
+// `crankloop valve FILE`: one elastic valve at constant speed, tick by tick, and what it does in a
+// cycle.
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "../../command_line/commands.hpp"
+#include "../../command_line/engine_argument.hpp"
+#include "../../command_line/operating_point.hpp"
+#include "../../command_line/progress.hpp"
+#include "../../command_line/results.hpp"
+#include "../../command_line/summary.hpp"
+#include "../../command_line/with_real.hpp"
+#include "../../engine_file/gas_order.hpp"
+#include "../../files/csv.hpp"
+#include "../../files/units.hpp"
+#include "../../loops/textbook_valve.hpp"
+#include "../../loops/valve_accuracy.hpp"
+#include "../../loops/valve_loop.hpp"
+#include "valve_plot.hpp"
+
+namespace crankloop::program {
+namespace {
+
+constexpr double kPeriodicWithin_m = 1e-6;
+constexpr double kMaxTicksDrawn = 2e6;  // of 100 bytes
+
+struct Request {
+  double speed_rpm;
+  double tick_s;
+  int cycles;
+  std::string integrator;
+  ValveMethod method;
+  std::string real;
+};
+
+template <class Real>
+void write_row(CsvWriter& csv, const LoneValve& valve, const ValveTickOutput<Real>& out) {
+  const auto real = [](double value) { return static_cast<Real>(value); };
+  const ValveMotionOutput<Real>& m = out.motion;
+  const ValveForcesOutput<Real>& f = out.forces;
+  csv.row(out.cam_deg, m.theoretical_lift_m * real(1e3), real(valve.lift().at(out.cam_deg * kRadPerDeg).rocker_ratio),
+          m.lift_m * real(1e3), m.velocity_m_s, m.acceleration_m_s2, f.train_N, f.seat_N, f.cam_N,
+          f.train_compression_m * real(1e3), static_cast<int>(f.regime));
+}
+
+std::string title(const LoneValve& valve, const Request& request) {
+  return valve.train().name + " at " + brief(request.speed_rpm) + " rpm of the engine";
+}
+
+std::string circumstances(const Request& request) {
+  return "tick " + brief(request.tick_s * 1e6) + " us, " + request.integrator + ", " + request.real + ", cycle " +
+         std::to_string(request.cycles);
+}
+
+std::string gas_remark(const LoneValve& valve) {
+  if (!(valve.valve().head_area_m2 > 0)) return "no gas force: head_area_mm2 is 0";
+  if (breathes(valve.file().definition())) return "no gas force: that of an engine that breathes is in `crankloop run`";
+  if (valve.definition().pressure.source == PressureSource::none)
+    return "no gas force: the file has no [pressure] source";
+  return "with the gas force on the head, full load";
+}
+
+template <class Real>
+std::string summary(const LoneValve& valve, const Request& request, const ValveLoop<Real>& loop,
+                    const ValveCycle<Real>& cycle, double change_m) {
+  const auto real = [](double value) { return static_cast<Real>(value); };
+  const detail::ValveBody<double> body = valve.body();
+  const bool separated = cycle.separations > 0;
+  Summary s;
+  s.remark("valve train " + title(valve, request) + ", " + circumstances(request));
+  s.remark("cam angle: 0 at full theoretical lift; " + gas_remark(valve));
+  s.line("max_theoretical_lift", real(valve.lift().largest_lift_m() * 1e3), "mm");
+  s.line("max_lift", cycle.largest_lift_m * real(1e3), "mm");
+  s.line("max_velocity", cycle.largest_speed_m_s, "m/s");
+  s.line("max_acceleration", cycle.largest_acceleration_m_s2, "m/s^2");
+  add_opening_delay(s, "opening_delay", cycle);
+  s.line("separations", cycle.separations, "", "of at least 1 um");
+  s.line("separation_max_gap", cycle.separation_clearance_m * real(1e3), "mm");
+  if (separated) {
+    s.line("separation_start", valve.cam_deg(static_cast<double>(cycle.separation_start_deg)), "deg",
+           "cam angle, of the largest");
+  } else {
+    s.line("separation_start", "none");
+  }
+  s.line("separation_duration", cycle.separation_duration_deg, "deg");
+  s.line("seating_speed", cycle.seating_speed_m_s, "m/s");
+  s.line("bounces", cycle.bounces, "", "of at least 1 um");
+  s.line("bounce_height", cycle.bounce_height_m * real(1e3), "mm");
+  if (cycle.off_seat_at_end != 0) s.remark("the valve is still off its seat in the middle of the base circle");
+  s.line("natural_frequency", real(open_frequency_rad_s(body) / (2 * kPi)), "Hz", "open, on the train");
+  s.line("seat_frequency", real(seated_frequency_rad_s(body) / (2 * kPi)), "Hz", "on train and seat");
+  const std::uint32_t parts = loop.motion().parts;
+  s.line("sub_steps", request.method.textbook ? TextbookValve<Real>::steps(loop.motion()) : parts, "",
+         request.method.textbook ? "in each tick" : "in a tick, near contact changes; 1 elsewhere");
+  s.line("events", cycle.contact_changes, "", "contact changes in the cycle");
+  if ((loop.faults() & kFaultEventBudget) != 0)
+    s.remark("some ticks had more contact changes than are located: take a shorter --tick-us");
+  s.line("cycle_difference", real(change_m * 1e6), "um", "of lift, largest between two consecutive cycles");
+  s.line("periodic", change_m <= kPeriodicWithin_m ? "yes" : "no", "", "yes: they agree within 1 um");
+  return s.text();
+}
+
+template <class Real>
+void run(const LoneValve& valve, const Request& request, Results& results) {
+  ValveLoop<Real> loop(valve, request.tick_s, request.method);
+  const double ticks = ticks_per_cycle(request.speed_rpm, request.tick_s);
+  Output* plot = results["--plot"];
+  if (plot != nullptr && ticks > kMaxTicksDrawn) {
+    throw UsageError("--plot: a cycle of " + brief(ticks) + " ticks, at most " + brief(kMaxTicksDrawn) +
+                     " can be drawn: take a longer --tick-us");
+  }
+  Progress progress("running", (2.0 * request.cycles + 2) * ticks);
+  const auto after_tick = [&progress] { progress.step(); };
+  std::optional<CsvWriter> csv;
+  if (Output* file = results["--csv"]) {
+    csv.emplace(*file, std::vector<std::string>{"cam_deg", "theoretical_lift_mm", "rocker_ratio", "lift_mm",
+                                                "velocity_m_s", "acceleration_m_s2", "train_force_N", "seat_force_N",
+                                                "cam_force_N", "train_compression_mm", "regime"});
+  }
+  ValveCycleTrace trace;
+  const OnValveTick<Real> on_tick = [&](const ValveTickOutput<Real>& out) {
+    if (csv) write_row(*csv, valve, out);
+    if (plot != nullptr) trace.ticks.push_back(in_double(out));
+  };
+  const ValveCycle<Real> cycle = run_cycles<Real>(loop, valve, request.speed_rpm, request.cycles, on_tick, after_tick);
+  const double change_m = largest_change_of_lift_m<Real>(valve, request.speed_rpm, request.tick_s, request.method,
+                                                         request.cycles, after_tick);
+  if (plot != nullptr) {
+    trace.cycle = in_double(cycle);
+    trace.seat_contact_m = valve.body().preload_N / valve.body().seat_N_m;
+    const std::string remark = std::filesystem::path(valve.file().path()).filename().string() + ", " +
+                               circumstances(request) + "; " + gas_remark(valve);
+    plot->write(report::to_svg_file(valve_sheet(trace, "Valve train " + title(valve, request), remark)));
+  }
+  results.finish(summary(valve, request, loop, cycle, change_m));
+}
+
+int run_valve(const Arguments& arguments) {
+  const EngineFile file = read_engine(arguments, {});
+  const std::string& integrator = arguments.text("--integrator");
+  const ValveStepping stepping{integrator == "exponential" ? Integrator::exponential : Integrator::rk4,
+                               millionths(arguments.number("--accuracy-um"))};
+  const Request request{speed_rpm(arguments, file),           millionths(arguments.number("--tick-us")),
+                        arguments.whole_number("--cycles"),   integrator,
+                        {stepping, integrator == "textbook"}, arguments.text("--real")};
+  if (request.speed_rpm == 0) throw UsageError("--rpm 0: the cam would never turn");
+  const std::string name = train_name(arguments, file);
+  const LoneValve valve(file, name);
+  if (!request.method.textbook)
+    tell_warnings(arguments, beyond_class(valve, request.speed_rpm, request.tick_s, stepping));
+  Results results(arguments, {"--csv", "--plot"});
+  with_real(request.real, [&](auto zero) { run<decltype(zero)>(valve, request, results); });
+  return kSuccess;
+}
+
+constexpr Option kOptions[] = {
+    text("--train", "NAME",
+         "valve train: the NAME of its [cam NAME], [rocker NAME] and [valve NAME]; default the only one of the file"),
+    kSpeed,
+    number("--tick-us", "T", from(1).up_to(2000), "length of a tick in us; finer than elsewhere, to show each bounce",
+           "20"),
+    whole_number("--cycles", "N", from(1).up_to(1000000), "cycles to run from rest; the last is shown", "4"),
+    choice("--integrator", "rk4|exponential|textbook",
+           "of the tick; textbook: four stages, contact changes not located", "rk4"),
+    number("--accuracy-um", "A", from(0.01).up_to(10), "class of lift error: finer ones take finer sub-steps", "0.1"),
+    choice("--real", "float|double", "arithmetic of the tick, and digits of the result", "double"),
+    text("--csv", "F",
+         "file for a row per tick of the last cycle; - is standard output, the summary then goes to stderr"),
+    text("--plot", "F.svg",
+         "file for a picture of the last cycle, which any browser shows: lift, gap, forces, seating"),
+};
+
+}  // namespace
+
+const Command kValve{
+    "valve",
+    "one elastic valve at constant speed: lift, forces, float and bounce",
+    "FILE [--train NAME] [--rpm N] [--tick-us T] [--cycles N] [--integrator I] [--accuracy-um A] [--real R] [--csv F] "
+    "[--plot F.svg]",
+    "crankloop valve ohc_125.ini --train intake --rpm 7000 --csv valve.csv --plot valve.svg",
+    1,
+    kOptions,
+    run_valve};
+
+}  // namespace crankloop::program

@@ -1,0 +1,98 @@
+#include "run_gas.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <crankloop/tabulate/mechanism.hpp>
+#include <crankloop/tabulate/tabulate.hpp>
+
+#include "../files/number.hpp"
+
+namespace crankloop::program {
+
+namespace {
+
+constexpr double kRichestThatIgnites = 0.5;  // lambda; gasoline's limit in air is about 0.4, an engine misfires before
+
+}  // namespace
+
+void add_gas_columns(std::vector<std::string>& columns, std::size_t cylinders) {
+  for (std::size_t k = 1; k <= cylinders; ++k) {
+    for (const GasQuantityKind& kind : kGasQuantityKinds)
+      columns.push_back("c" + std::to_string(k) + "_" + kind.name + "_" + kind.suffix);
+  }
+  for (const char* manifold : {"intake", "exhaust"}) {
+    for (const char* what : {"_manifold_kPa", "_manifold_K", "_manifold_burned_ratio"})
+      columns.push_back(std::string(manifold) + what);
+  }
+  columns.insert(columns.end(), {"throttle_g_s", "outlet_g_s"});
+}
+
+void add_fuel(Summary& s, const GasOrder& order) {
+  if (order.excess_air_ratio > 0) {
+    s.line("lambda", order.excess_air_ratio, "", "as asked for: fuel by the air in each cylinder");
+  } else {
+    s.line("fuel", order.fuel_kg * 1e6, "mg", "per cylinder and cycle");
+  }
+}
+
+void add_order(Summary& s, const GasOrder& order) {
+  s.line("throttle", order.throttle_ratio);
+  add_fuel(s, order);
+  s.line("burn_start", order.burn_start_deg, "deg");
+}
+
+void add_gas(Summary& s, const GasCycle<double>& cycle) {
+  s.line("pumping_mep", cycle.pumping_mep_Pa / 1e3, "kPa", "from 180 to 540 deg; negative: a loss");
+  s.line("volumetric_efficiency", cycle.volumetric_efficiency, "", "air through the intake, by the ambient's density");
+  s.line("trapped_air", cycle.trapped_air_kg * 1e6, "mg",
+         cycle.trapped_kg > 0 ? "in a cylinder when its intake closed" : "the intake did not close before the burn");
+  s.line("residual_ratio", cycle.residual_ratio, "", "burned gas of all that was trapped");
+  s.line("fuel_burned", cycle.fuel_kg * 1e6, "mg", "of a cylinder's cycle");
+  const bool too_rich = cycle.excess_air_ratio > 0 && cycle.excess_air_ratio < kRichestThatIgnites;
+  s.line("excess_air_ratio", cycle.excess_air_ratio, "",
+         too_rich ? "lambda: so rich a mixture does not ignite; --lambda gives fuel by the air" : "lambda; 0: no fuel");
+  s.line("exhaust_temperature", cycle.exhaust_K, "K", "of what flows out through the exhaust valve");
+  s.line("heat", cycle.heat_J, "J", "of combustion, of a cylinder's cycle");
+  s.line("wall_heat", cycle.wall_heat_J, "J");
+}
+
+void require_manifolds(const EngineFile& engine, double tick_s) {
+  if (!breathes(engine.definition())) return;
+  detail::GasManifolds<float> manifolds{};
+  TableTargets<float> only{};
+  only.gas_manifolds = &manifolds;
+  const Status refused = tabulate(engine.definition(), {tick_s, {}}, only);
+  const std::string field = refused.field;
+  if (refused.reason != Reason::inconsistent || (field != "gas.intake_m3" && field != "gas.exhaust_m3")) return;
+  const std::string key = field == "gas.intake_m3" ? "intake_volume_cm3" : "exhaust_volume_cm3";
+  throw InputError(engine.path(), engine.section("gas").line_of(key),
+                   key + ": too small for a tick of " + brief(tick_s * 1e6) +
+                       " us: throttle, outlet and valves could let through more than 80 times this volume in one; "
+                       "take a shorter --tick-us");
+}
+
+std::vector<std::string> warnings_about_gas(const EngineFile& engine, double speed_rpm, double tick_s) {
+  constexpr double kFollowed_deg = 40;       // eight steps of 5 deg
+  constexpr double kPercent_per_deg = 0.12;  // measured: 5 % at 42 deg, 14 % at 120
+  const double deg = speed_rpm * 6 * tick_s;
+  if (!breathes(engine.definition()) || !(deg > kFollowed_deg)) return {};
+  return {engine.path() + ": warning: a tick turns the crank by " + brief(deg) + " deg at " + brief(speed_rpm) +
+          " rpm, and gas follows in eight steps of at most 5 deg: net_mep may be off by some " +
+          brief(std::round(kPercent_per_deg * deg)) + " %; take --tick-us " +
+          brief(std::floor(kFollowed_deg / (speed_rpm * 6) * 1e6)) + " or less"};
+}
+
+int cycles_to_settle(const EngineDefinition& engine) noexcept {
+  if (!breathes(engine)) return 1;
+  // A cycle draws its swept volume out of a manifold, less what it leaves: with eight volumes of it drawn, 1e-3 of what
+  // was there is left. Residual gas and walls follow within some cycles.
+  constexpr double kChanges = 8;
+  constexpr double kAfter = 6;
+  constexpr double kMax = 500;
+  const double volume_m3 = std::max(engine.gas.intake_m3, engine.gas.exhaust_m3);
+  const double swept_m3 = swept_volume_m3(engine.crank) * engine.layout.cylinders;
+  return static_cast<int>(std::min(kMax, std::ceil(kAfter + kChanges * volume_m3 / swept_m3)));
+}
+
+}  // namespace crankloop::program

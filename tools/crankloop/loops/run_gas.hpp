@@ -1,0 +1,131 @@
+// The gas of an engine that breathes, as `run` shows it: the quantities of a cylinder, what a cycle came to.
+//
+// What belongs here: the list, once, for CSV columns and plots; figures over all cylinders. What does not: what is done
+// with them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <crankloop/define/engine_definition.hpp>
+#include <crankloop/scenes.hpp>
+
+#include "../command_line/summary.hpp"
+#include "../engine_file/engine_file.hpp"
+#include "../engine_file/gas_order.hpp"
+#include "../files/csv.hpp"
+#include "run_quantities.hpp"
+
+namespace crankloop::program {
+
+/// In the order of the CSV columns.
+enum class GasQuantity : std::uint8_t {
+  pressure,
+  temperature,
+  mass,
+  burned_ratio,
+  intake_flow,
+  exhaust_flow,
+  wall_heat,
+};
+inline constexpr std::size_t kGasQuantities = 7;
+
+[[nodiscard]] constexpr std::size_t index_of(GasQuantity quantity) noexcept {
+  return static_cast<std::size_t>(quantity);
+}
+
+using GasQuantityKind = KindOf<GasQuantity>;
+inline constexpr GasQuantityKind kGasQuantityKinds[kGasQuantities] = {
+    {GasQuantity::pressure, "gas_pressure", "kPa", "kPa", 1e-3},
+    {GasQuantity::temperature, "temperature", "K", "K", 1},
+    {GasQuantity::mass, "mass", "mg", "mg", 1e6},
+    {GasQuantity::burned_ratio, "burned", "ratio", "", 1},
+    {GasQuantity::intake_flow, "intake_flow", "g_s", "g/s", 1e3},
+    {GasQuantity::exhaust_flow, "exhaust_flow", "g_s", "g/s", 1e3},
+    {GasQuantity::wall_heat, "wall_heat", "W", "W", 1},
+};
+
+/// In SI, in the order of GasQuantity; flows are positive into the cylinder.
+template <class Real>
+[[nodiscard]] std::array<Real, kGasQuantities> values_of(const CylinderGasOutput<Real>& gas) noexcept {
+  return {gas.pressure_Pa,        gas.temperature_K,       gas.mass_kg,    gas.burned_ratio,
+          gas.flow_kg_s[kIntake], gas.flow_kg_s[kExhaust], gas.wall_heat_W};
+}
+
+/// Columns of a CSV file, and their cells of a tick: the cylinders, then the manifolds.
+void add_gas_columns(std::vector<std::string>& columns, std::size_t cylinders);
+template <class Real, class S>
+void write_gas(CsvWriter& csv, const crankloop::Output<Real, S>& out, std::size_t cylinders) {
+  for (std::size_t k = 0; k < cylinders; ++k) {
+    const auto values = values_of(out.cylinder_gas[k]);
+    for (std::size_t i = 0; i < kGasQuantities; ++i)
+      csv.cell(values[i] * static_cast<Real>(kGasQuantityKinds[i].per_si));
+  }
+  for (const ManifoldOutput<Real>& manifold : out.manifold) {
+    csv.cell(manifold.pressure_Pa * static_cast<Real>(1e-3));
+    csv.cell(manifold.temperature_K);
+    csv.cell(manifold.burned_ratio);
+  }
+  csv.cell(out.throttle_kg_s * static_cast<Real>(1e3));
+  csv.cell(out.outlet_kg_s * static_cast<Real>(1e3));
+}
+
+/// Means over the cylinders' last whole cycles, but the energy defect: that of the largest magnitude.
+template <class Real, std::size_t Capacity>
+[[nodiscard]] GasCycle<double> mean_cycle(const GasCycle<Real> (&cycles)[Capacity], std::size_t cylinders) noexcept {
+  GasCycle<double> mean{};
+  for (std::size_t k = 0; k < cylinders; ++k) {
+    const GasCycle<Real>& c = cycles[k];
+    const auto add = [&](double GasCycle<double>::*to, Real value) {
+      mean.*to += static_cast<double>(value) / static_cast<double>(cylinders);
+    };
+    add(&GasCycle<double>::net_mep_Pa, c.net_mep_Pa);
+    add(&GasCycle<double>::pumping_mep_Pa, c.pumping_mep_Pa);
+    add(&GasCycle<double>::peak_Pa, c.peak_Pa);
+    add(&GasCycle<double>::peak_deg, c.peak_deg);
+    add(&GasCycle<double>::trapped_kg, c.trapped_kg);
+    add(&GasCycle<double>::trapped_air_kg, c.trapped_air_kg);
+    add(&GasCycle<double>::residual_ratio, c.residual_ratio);
+    add(&GasCycle<double>::volumetric_efficiency, c.volumetric_efficiency);
+    add(&GasCycle<double>::exhaust_K, c.exhaust_K);
+    add(&GasCycle<double>::fuel_kg, c.fuel_kg);
+    add(&GasCycle<double>::excess_air_ratio, c.excess_air_ratio);
+    add(&GasCycle<double>::heat_J, c.heat_J);
+    add(&GasCycle<double>::wall_heat_J, c.wall_heat_J);
+    const auto defect_J = static_cast<double>(c.energy_defect_J);
+    const double magnitude_J = defect_J < 0 ? -defect_J : defect_J;
+    if (magnitude_J > mean.energy_defect_J) mean.energy_defect_J = magnitude_J;
+  }
+  return mean;
+}
+
+/// What the gas came to in a run.
+struct GasFigures {
+  GasCycle<double> cycle{};  ///< mean_cycle at the end
+  double intake_Pa = 0;      ///< of the manifold, mean over the ticks
+  double exhaust_Pa = 0;
+  double exhaust_manifold_K = 0;
+};
+
+/// The line of a summary that tells how much fuel was asked for: fuel, or lambda.
+void add_fuel(Summary& s, const GasOrder& order);
+/// The lines that tell what the engine was told: throttle, fuel or lambda, burn_start.
+void add_order(Summary& s, const GasOrder& order);
+
+/// The lines that tell of the gas, from pumping_mep to wall_heat.
+void add_gas(Summary& s, const GasCycle<double>& cycle);
+
+/// Refuses an engine that breathes whose manifolds are too small for a tick.
+void require_manifolds(const EngineFile& engine, double tick_s);
+
+/// What is to be said of a tick that turns the crank of an engine that breathes too far: nothing, or a line.
+[[nodiscard]] std::vector<std::string> warnings_about_gas(const EngineFile& engine, double speed_rpm, double tick_s);
+
+/// Cycles that an engine runs before it is recorded: the gas in its manifolds has been changed many times over. One for
+/// an engine with a diagram.
+[[nodiscard]] int cycles_to_settle(const EngineDefinition& engine) noexcept;
+
+}  // namespace crankloop::program
