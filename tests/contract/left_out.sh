@@ -41,10 +41,10 @@ gas_and_mass='torque_grid gas_torque_full gas_full inertia_torque'
   holds TriggerSignals triggers trigger_tracks trigger_edges
 }
 for scene in PistonMotion TorqueOnly ForcesAndTorque; do has_code $scene no '[Vv]alve|[Ll]ift|[Cc]am|[Rr]ocker|Contact'; done
-has_code ValveLift no 'ValveChanges|ValveMotion|valve_motion|Elastic|elastic|Contact|Record'
+has_code ValveLift no 'EventLocator|ValveMotion|valve_motion|Elastic|elastic|Contact|Record'
 has_code ValveDynamics no 'pressure|gas_|ValveRecord|rod_|body'
 has_code ValveLift yes 'lift'
-has_code ValveDynamics yes 'ValveChanges'
+has_code ValveDynamics yes 'EventLocator'
 has_code WholeEngine yes 'ValveRecord'
 for scene in PistonMotion TorqueOnly ForcesAndTorque ValveLift ValveDynamics WholeEngine; do has_code $scene no '[Tt]rigger|Sweep|Pace'; done
 has_code TriggerSignals no '[Vv]alve|[Ll]ift|Bent|[Tt]orque'

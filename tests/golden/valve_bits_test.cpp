@@ -132,7 +132,7 @@ std::uint64_t hash_of_tables(const Tables<Real, TwoValves>& tables) {
       fnv.add(x);
     }
     fnv.add(m.parts);
-    fnv.add(m.most_changes);
+    fnv.add(m.event_budget);
     for (const RegimeStep<Real>& step : m.whole) fnv.add(step);
     for (const RegimeStep<Real>& step : m.fine) fnv.add(step);
     for (const RegimeSeries<Real>& series : m.series) fnv.add(series);

@@ -54,7 +54,7 @@ void measure_hostile(std::uint32_t ticks) noexcept {
 }
 
 /// What bounds the loops of a tick, for worst_tick: counts of the engine, from its tables, and the tick's budget of
-/// contact changes.
+/// events.
 template <class Tables>
 void print_limits(const Tables& tables) noexcept {
   using Needs = crankloop::detail::Needs<under_test::Scene>;
@@ -65,14 +65,14 @@ void print_limits(const Tables& tables) noexcept {
   port::Line() << "limit valves " << trains * tables.drive->cylinders;
   std::uint32_t pins = 0;
   std::uint32_t fine_steps = 0;  // 0: a tick is one, and none goes by several
-  std::uint32_t changes = 0;
+  std::uint32_t events = 0;
   if constexpr (under_test::Scene::bearing_loads) pins = tables.bearings->pins;
   if constexpr (Needs::elastic_valves) {
     for (std::uint32_t t = 0; t < tables.drive->trains; ++t) {
       const std::uint32_t parts = tables.valve_motions[t].parts;
       if (parts > 1 && parts > fine_steps) fine_steps = parts;
     }
-    changes = tables.valve_motions[0].most_changes;
+    events = tables.valve_motions[0].event_budget;
   }
   std::uint32_t wheels = 0;
   if constexpr (Needs::any_triggers) wheels = tables.triggers->count;
@@ -80,7 +80,7 @@ void print_limits(const Tables& tables) noexcept {
   port::Line() << "limit edges " << under_test::Scene::trigger_edges;
   port::Line() << "limit pins " << pins;
   port::Line() << "limit fine_steps " << fine_steps;
-  port::Line() << "limit changes " << changes;
+  port::Line() << "limit events " << events;
 }
 
 }  // namespace

@@ -22,7 +22,7 @@
 #include <crankloop/tick/state/saved_bytes.hpp>
 #include <crankloop/tick/trigger/trigger_wheel.hpp>
 #include <crankloop/tick/valve/cubic.hpp>
-#include <crankloop/tick/valve/valve_changes.hpp>
+#include <crankloop/tick/valve/event_location.hpp>
 #include <crankloop/tick/valve/valves_work.hpp>
 #include <tabulate/curve_fit.hpp>
 #include <tabulate/monotone_cubic.hpp>
@@ -59,13 +59,13 @@ ValveMotion<double> valve_motion() {
   return m;
 }
 using NoGas = NoGasForce<double>;
-using Changes = ValveChanges<double, NoGas, NoRecord<double>>;
+using Locator = EventLocator<double, NoGas, NoRecord<double>>;
 
-void run_valve(const Placed<double>& start, const ValveMotion<double>& motion) {
+void run_valve(const ValveInRegime<double>& start, const ValveMotion<double>& motion) {
   LiftCurve<double> curve{};
-  ChangeBudget budget{4, false};
+  EventBudget budget{4, false};
   NoRecord<double> none;
-  use(Changes(motion, curve, budget, none).run(start, {start.state, 0}, {{}, {}, {}, {}, 0, 0}, 0, 0));
+  use(Locator(motion, curve, budget, none).run(start, {start.state, 0}, {{}, {}, {}, {}, 0, 0}, 0, 0));
 }
 
 // A crank of 1 kg m^2 that stands, without friction.
@@ -148,13 +148,13 @@ const Asked kAsked[] = {
      [] {
        use(by_series(valve_motion(), kQuiet, {0, 0}, {0, 0, 0, 0}, 1.0, NoGas{}));
      }},
-    {"BeyondTheEndOfAStretch", "x >= 0 && x <= 1",
+    {"BeyondTheEndOfASegment", "x >= 0 && x <= 1",
      [] {
-       Stretch<double> stretch{};
-       stretch.d_s = 1;
-       use(stretch.at(1.5));
+       SmoothSegment<double> segment{};
+       segment.d_s = 1;
+       use(segment.at(1.5));
      }},
-    {"AStretchOfNoTime", "d_s > 0", [] { use(Stretch<double>{}.at(0.5)); }},
+    {"ASegmentOfNoTime", "d_s > 0", [] { use(SmoothSegment<double>{}.at(0.5)); }},
     {"APieceOfNothing", "x > 0 && x <= 1", [] { Cubic<double>(0, 0, 1, 0).shrink(0); }},
     {"AnOpeningThatHasNoMoment", "from < kOpened_m",
      [] {

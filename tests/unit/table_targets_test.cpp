@@ -514,7 +514,7 @@ TYPED_TEST(TableTargetsOf, ValvesTellTheFineStepsOfTheWorstTickAndRefuseTooMany)
   EXPECT_EQ(report.valve_fine_steps, 8 * 5)
       << "42 900 rad/s on the seat, 100 us: five fine steps for each of eight valves";
   EXPECT_EQ(report.valve_changes, 4 + 5);
-  EXPECT_EQ(motions[1].most_changes, 9u);
+  EXPECT_EQ(motions[1].event_budget, 9u);
   // In a fine step of the widest tick that keeps the class, the cubic through its ends misses the lift by less than
   // that, but not by far less: the bound takes the lift's largest fourth derivative for that of the whole step.
   const ValveLift lift = valve_test::lift_of(engine.trains[0]);

@@ -218,8 +218,8 @@ TEST(ValveRecord, WhoseGuardsHoldAtBothEndsHasNoContactThatChangesBetween) {
           speed_deg_s * cam.from.per_deg_m * random.whole(0, 1) + random.between(-1, 1) * scale_m * 4e4};
       const RegimeStep<double>& record = motion.whole[regime];
       const auto holds = [&](const ValveState<double>& s, const Lift<double>& at) {
-        return detail::holds(record.train, at.lift_m - s.lift_m, speed_deg_s * at.per_deg_m - s.velocity_m_s) &&
-               detail::holds(record.seat, s.lift_m, s.velocity_m_s);
+        return detail::passes(record.train, at.lift_m - s.lift_m, speed_deg_s * at.per_deg_m - s.velocity_m_s) &&
+               detail::passes(record.seat, s.lift_m, s.velocity_m_s);
       };
       const ValveState<double> after =
           detail::stepped(record, before, cam.from, cam.to, cam.deg, detail::NoGasForce<double>{}).state;
@@ -243,7 +243,8 @@ TEST(ValveRecord, WhoseGuardsHoldAtBothEndsHasNoContactThatChangesBetween) {
         const CamStep::At at = cam.at(x);
         least_compression_m = std::min(
             {least_compression_m, std::fabs(at.lift_m - s.lift_m), std::fabs(body.seat_compression_m - s.lift_m)});
-        ASSERT_EQ(detail::asked(motion, s, Lift<double>{at.lift_m, at.slope_m / cam.deg}, speed_deg_s), regime)
+        ASSERT_EQ(detail::required_contacts(motion, s, Lift<double>{at.lift_m, at.slope_m / cam.deg}, speed_deg_s),
+                  regime)
             << random.trace(draw) << ", tick " << tick_s << ", at " << x;
       }
       near += least_compression_m < 1e-6 ? 1 : 0;
@@ -318,7 +319,7 @@ TEST(Contacts, HoldOnlyWhileBothTheGapAndTheForceArePositive) {
   b.seat_compression_m = 2e-6, b.mass_kg = 0.06;
   const ValveMotion<double> motion = motion_for(b, 20e-6);
   const auto regime = [&](double y, double v, double Y, double Yd) {
-    return detail::asked(motion, ValveState<double>{y, v}, Lift<double>{Y, Yd}, 1.0);
+    return detail::required_contacts(motion, ValveState<double>{y, v}, Lift<double>{Y, Yd}, 1.0);
   };
   EXPECT_EQ(regime(0, 0, -50e-6, 0), kSeatOn) << "closed, lash open";
   EXPECT_EQ(regime(0, 0, 1e-6, 0), kSeatOn | kTrainOn) << "the train presses";
@@ -448,8 +449,8 @@ TYPED_TEST(ValveEnergy, OfAnUndampedValveDoesNotGrow) {
 }
 
 TEST(ValveCalm, NeverFailsAGuardHoweverItSwings) {
-  // On its seat, its cam on the base circle: a swing below calm_m, from any place and speed that it may have, through
-  // many ticks of exact motion.
+  // On its seat, its cam on the base circle: a swing below decoupled_m, from any place and speed that it may have,
+  // through many ticks of exact motion.
   Random random;
   int swings = 0;
   for (int draw = 0; draw < 400; ++draw) {
@@ -463,22 +464,24 @@ TEST(ValveCalm, NeverFailsAGuardHoweverItSwings) {
     ValveMotion<double> motion{};
     const ValveBody<double> body = body_of(train);
     if (!motion_of(body, tick_s, {}, motion).ok()) continue;
-    find_calm(motion, lash_m);
+    find_decoupled(motion, lash_m);
     const Lift<double> cam{-lash_m, 0};
-    for (const std::uint32_t regime : {0u, kTrainOn, kTrainOn | kSeatOn}) EXPECT_EQ(motion.whole[regime].calm_m, 0);
+    for (const std::uint32_t regime : {0u, kTrainOn, kTrainOn | kSeatOn})
+      EXPECT_EQ(motion.whole[regime].decoupled_m, 0);
     for (const std::uint32_t regime : {kSeatOn, kQuiet}) {
       const RegimeStep<double>& step = motion.whole[regime];
-      if (step.calm_m == 0) continue;
+      if (step.decoupled_m == 0) continue;
       ++swings;
       const double share = random.between(-1, 1);
       const double sign = random.coin() ? 1 : -1;
-      ValveState<double> s{share * step.calm_m, sign * (1 - std::fabs(share)) * step.calm_m / motion.per_seat_rate_s};
+      ValveState<double> s{share * step.decoupled_m,
+                           sign * (1 - std::fabs(share)) * step.decoupled_m / motion.per_seat_rate_s};
       for (int tick = 0; tick < 200; ++tick) {
         s = exact_motion(body, kSeatOn, tick_s, s, {});
-        ASSERT_TRUE(detail::holds(step.train, cam.lift_m - s.lift_m, -s.velocity_m_s))
+        ASSERT_TRUE(detail::passes(step.train, cam.lift_m - s.lift_m, -s.velocity_m_s))
             << random.trace(draw) << ", regime " << regime;
-        ASSERT_TRUE(detail::holds(step.seat, s.lift_m, s.velocity_m_s)) << random.trace(draw) << ", regime " << regime;
-        ASSERT_EQ(detail::asked(motion, s, cam, 0.0), kSeatOn) << random.trace(draw);
+        ASSERT_TRUE(detail::passes(step.seat, s.lift_m, s.velocity_m_s)) << random.trace(draw) << ", regime " << regime;
+        ASSERT_EQ(detail::required_contacts(motion, s, cam, 0.0), kSeatOn) << random.trace(draw);
       }
     }
   }

@@ -165,7 +165,7 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
       return of_train(refused, t);
     }
     set_widths(tenth_of_class_deg(lift, options.valves.accuracy_m), motions[t]);
-    find_calm(motions[t], train.rocker.clearance_m);
+    find_decoupled(motions[t], train.rocker.clearance_m);
     fine_steps += static_cast<int>(motions[t].parts) * engine.layout.cylinders;
     if (fine_steps > kMaxFineStepsOfEngine) return refuse("options.tick_s", Reason::out_of_range, t);
     if (motions[t].parts > most_parts) most_parts = motions[t].parts;
@@ -174,7 +174,7 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
   }
   report.valve_fine_steps = fine_steps;
   report.valve_class_deg = targets.valve_motions != nullptr ? class_deg : 0;
-  report.valve_changes = targets.valve_motions != nullptr ? static_cast<int>(kChangesBesideParts + most_parts) : 0;
+  report.valve_changes = targets.valve_motions != nullptr ? static_cast<int>(kEventsBesideParts + most_parts) : 0;
   for (int t = 0; t < engine.train_count; ++t) {
     const ValveTrain& train = engine.trains[t];
     if (targets.lift_curves != nullptr) {
@@ -185,7 +185,7 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
                 targets.lift_segments + first, targets.rocker_ratios + first);
     }
     if (targets.valve_motions != nullptr) {
-      motions[t].most_changes = kChangesBesideParts + most_parts;
+      motions[t].event_budget = kEventsBesideParts + most_parts;
       if constexpr (std::is_same_v<Real, float>) {
         targets.valve_motions[t] = crankloop::rounded(motions[t]);
       } else {

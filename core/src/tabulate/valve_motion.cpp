@@ -56,10 +56,10 @@ constexpr double kHeaviest_kg = 1e9;
 
 constexpr double kOffMargin_m = 1e-8;    ///< a contact that is off is sure to stay so beyond this
 constexpr double kTrainMargin_m = 1e-6;  ///< one by the train that is on: what the cubic misses
-constexpr double kNever_m = 1e30;        ///< nothing is beyond this: the contacts are asked in every tick
+constexpr double kNever_m = 1e30;        ///< nothing is beyond this: the guard fails in every tick
 constexpr double kRest_m = 1e-9;
-constexpr double kMaxCalm_m = 1e-5;  ///< what swings more has results to record
-constexpr double kCalmMargin = 0.9;  ///< for rounding
+constexpr double kMaxCalm_m = 1e-5;       ///< what swings more has results to record
+constexpr double kDecoupledMargin = 0.9;  ///< for rounding
 
 /// 1, 2, 3 ... parts so that each is at most `longest`.
 [[nodiscard]] int parts_of(double whole, double longest) noexcept {
@@ -252,7 +252,7 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
   motion.per_parts = 1.0 / parts;
   motion.parts = static_cast<std::uint32_t>(parts);
   motion.per_parts_32 = per_n_32(parts);
-  motion.most_changes = kChangesBesideParts + motion.parts;
+  motion.event_budget = kEventsBesideParts + motion.parts;
   motion.cubic_deg = motion.widest_step_deg = kDegreesPerTurn;
   motion.train_lag_s = body.train_Ns_m / body.train_N_m;
   motion.seat_lag_s = body.seat_Ns_m / body.seat_N_m;
@@ -296,8 +296,8 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
   for (std::uint32_t regime = 0; regime < 4; ++regime) {
     motion.whole[regime] = parts == 1 ? motion.fine[regime] : regime_step(regime, tick_s);
     // On a seat whose vibration is faster than a tick nothing can be told of the way, nor on a train whose is.
-    const bool tells = !seat_is_on(regime) && (regime == 0 || tick_s * open_rate_per_s(body) <= kWholeStepRate);
-    if (parts > 1 && !tells) motion.whole[regime].seat.least_m = kNever_m;
+    const bool may_pass = !seat_is_on(regime) && (regime == 0 || tick_s * open_rate_per_s(body) <= kWholeStepRate);
+    if (parts > 1 && !may_pass) motion.whole[regime].seat.least_m = kNever_m;
   }
   RegimeStep<double>& quiet = motion.whole[kQuiet];
   quiet = regime_step(kSeatOn, tick_s);
@@ -307,7 +307,7 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
   return {};
 }
 
-void find_calm(ValveMotion<double>& motion, double lash_m) noexcept {
+void find_decoupled(ValveMotion<double>& motion, double lash_m) noexcept {
   const double per_s = 1 / motion.per_seat_rate_s;
   for (const std::uint32_t regime : {kSeatOn, kQuiet}) {
     RegimeStep<double>& step = motion.whole[regime];
@@ -315,11 +315,11 @@ void find_calm(ValveMotion<double>& motion, double lash_m) noexcept {
     const auto most = [per_s](const ContactGuard<double>& guard, double depth_m) {
       return (depth_m - guard.least_m) / (1 + guard.lag_s * per_s);
     };
-    double calm_m = motion.quiet_m / 2;  // under gas the rest moves as well
+    double decoupled_m = motion.quiet_m / 2;  // under gas the rest moves as well
     for (const double limit_m : {most(step.train, lash_m), most(step.seat, 0), kMaxCalm_m}) {
-      if (limit_m < calm_m) calm_m = limit_m;
+      if (limit_m < decoupled_m) decoupled_m = limit_m;
     }
-    step.calm_m = calm_m > 0 ? kCalmMargin * calm_m : 0;
+    step.decoupled_m = decoupled_m > 0 ? kDecoupledMargin * decoupled_m : 0;
   }
 }
 

@@ -1,7 +1,7 @@
 // The valve's motion as textbooks and [Li 2017, 4.9-4.13] compute it: the reference that the tick is compared with.
 //
 // What belongs here: classical four-stage Runge-Kutta with the cam looked up in every stage and contact tested there.
-// What does not: the tick (crankloop/tick/valve/valve_changes.hpp), which locates contact changes. This one finds them
+// What does not: the tick (crankloop/tick/valve/event_location.hpp), which locates contact changes. This one finds them
 // where a step happens to end, so its order falls from 4 to about 1 as soon as there are any.
 #pragma once
 
@@ -90,7 +90,7 @@ class TextbookValve {
     return kStepsOfFineStep * motion.parts;
   }
 
-  void advance(detail::Placed<Real>& valve, const CamSpan& cam, Real gas_N,
+  void advance(detail::ValveInRegime<Real>& valve, const CamSpan& cam, Real gas_N,
                detail::ValveRecord<Real>& record) const noexcept {
     const std::uint32_t count = steps(motion_);
     const Real step_deg = cam.turned_deg<Real>() / static_cast<Real>(count);
@@ -113,7 +113,7 @@ class TextbookValve {
                    textbook_acceleration(motion_.body, valve.state, end, gas_N), step_s_, valve.regime},
                   motion_.body.seat_compression_m, [&](Real part) { return from_deg + part * step_deg; });
       from_deg += step_deg;
-      if (regime != valve.regime) record.change(valve.regime, regime, valve.state.velocity_m_s, from_deg);
+      if (regime != valve.regime) record.event(valve.regime, regime, valve.state.velocity_m_s, from_deg);
       valve.regime = regime;
     }
   }

@@ -95,7 +95,7 @@ class ValveLoop {
 
   /// The textbook's valve, and what the engine would hold for it.
   struct Textbook {
-    detail::Placed<Real> valve;
+    detail::ValveInRegime<Real> valve;
     detail::ValveRecord<Real> record;
     ValveCycle<Real> cycle;
     Real cam_deg_s;

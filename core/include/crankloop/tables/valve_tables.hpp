@@ -23,8 +23,8 @@ inline constexpr std::uint32_t kSeatOn = 2;
 
 namespace detail {
 
-/// On the seat, swinging by less than could leave it or reach the train: a regime of its own, which needs no fine steps
-/// however stiff the seat.
+/// On the seat, oscillating by less than could leave it or reach the train: a regime of its own, which needs no fine
+/// steps however stiff the seat.
 inline constexpr std::uint32_t kQuiet = 4;
 inline constexpr int kRegimes = 5;
 
@@ -68,11 +68,12 @@ struct ForceRow {
   Number rest, gas, lift, velocity, gap, gap_speed;
 };
 
-/// A contact is sure to have stayed as it is all through a step where, at its end, sign * place - lag_s |place's speed|
-/// > least_m. The place is the gap, or the lift: how far the preload presses the seat in is part of least_m. The lag is
-/// a third of the step, which bounds the cubic within it (the inner Bezier ordinates lie a third of the slope from the
-/// ends; the other end is that of the step before), for a contact that is on and b / k more, which makes the force's
-/// sign that of the depth. A guard that fails costs time, never correctness: the contacts are asked then.
+/// A contact's guard passes where, at the step's end, sign * place - lag_s |place's speed| > least_m: then the contact
+/// has stayed as it is all through the step. The place is the gap, or the lift: how far the preload presses the seat in
+/// is part of least_m. The lag is a third of the step, which bounds the cubic within it (the inner Bezier ordinates lie
+/// a third of the slope from the ends; the other end is that of the step before), for a contact that is on and b / k
+/// more, which makes the force's sign that of the depth. A guard that fails costs time, never correctness: event
+/// location checks the contacts then.
 template <class Number>
 struct ContactGuard {
   Number sign, lag_s, least_m;
@@ -95,8 +96,8 @@ struct RegimeStep {
   Number rest_m,
       rest_m_s;  ///< nearer to its rest, and slower, the valve is put there; 0 where a contact may change meanwhile
   MiddleStep<Number> middle;
-  Number calm_m;  ///< with its cam on the base circle a valve that swings by less is sure to pass the guards; 0 where
-                  ///< none is
+  Number decoupled_m;  ///< with its cam on the base circle, a valve that oscillates by less passes its guards; 0
+                       ///< where none does
 };
 
 /// The same regime's equation of motion by the part of a fine step: y'' = rest + lift Y + lift_speed Y' - stiffness y -
@@ -112,19 +113,17 @@ struct ValveMotion {
   ValveBody<Real> body;
   Real tick_s;
   Real fine_step_s, per_fine_step_s;
-  Real per_parts;  ///< 1 / parts
-  std::uint32_t
-      parts;  ///< fine steps of a tick in which a contact may change: so short that a change in them can be located
+  Real per_parts;       ///< 1 / parts
+  std::uint32_t parts;  ///< fine steps of a tick whose guards fail: so short that an event in them can be located
   std::uint32_t per_parts_32;  ///< 2^32 / parts; unused for 1
-  std::uint32_t
-      most_changes;      ///< contact changes that a tick locates over all valves: 4 and the most parts of any train
-  Real cubic_deg;        ///< cam degrees up to which the cubic through the ends of a step will do for the lift,
-  Real widest_step_deg;  ///< and those up to which a tick may be one step, with the lift in its middle
+  std::uint32_t event_budget;  ///< events that a tick locates over all valves: 4 and the most parts of any train
+  Real cubic_deg;              ///< cam degrees up to which the cubic through the ends of a step will do for the lift,
+  Real widest_step_deg;        ///< and those up to which a tick may be one step, with the lift in its middle
   Real train_lag_s,
       seat_lag_s;     ///< b / k, b_z / k_z: a contact's force over its stiffness is depth + lag times the depth's speed
   Real per_seat_N_m;  ///< 1 / (k_z + k_s): how far each N of gas force presses a closed valve into its seat
-  Real quiet_m;       ///< a swing on the seat of less than this leaves no contact
-  Real per_seat_rate_s;              ///< 1 / rate on the seat: times the velocity, what that adds to a swing
+  Real quiet_m;       ///< an oscillation on the seat of less than this changes no contact
+  Real per_seat_rate_s;              ///< 1 / rate on the seat: times the velocity, what that adds to the amplitude
   RegimeStep<Real> whole[kRegimes];  ///< over a tick
   RegimeStep<Real> fine[kRegimes];   ///< over a fine step
   RegimeSeries<Real> series[kSeatOn + kTrainOn + 1];

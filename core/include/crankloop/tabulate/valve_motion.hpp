@@ -34,7 +34,7 @@ Status validate(const ValveStepping& stepping) noexcept;
 /// Most fine steps of a valve in a tick; a tick that would need more is refused.
 inline constexpr int kMaxFineSteps = 512;
 /// Contact changes that a tick locates over all valves: these and one for each fine step of a valve.
-inline constexpr std::uint32_t kChangesBesideParts = 4;
+inline constexpr std::uint32_t kEventsBesideParts = 4;
 /// And of all valves of an engine together.
 inline constexpr int kMaxFineStepsOfEngine = 4096;
 
@@ -55,9 +55,9 @@ inline constexpr int kMaxFineStepsOfEngine = 4096;
 Status motion_of(const detail::ValveBody<double>& body, double tick_s, const ValveStepping& stepping,
                  detail::ValveMotion<double>& motion) noexcept;
 
-/// Sets calm_m: what a valve may swing on its seat while its cam, which leaves `lash_m` open there, is on its base
-/// circle, without a guard of its whole step that fails.
-void find_calm(detail::ValveMotion<double>& motion, double lash_m) noexcept;
+/// Sets decoupled_m: by how much a valve may oscillate on its seat while its cam, which leaves `lash_m` open there, is
+/// on its base circle, without a guard of its whole step that fails.
+void find_decoupled(detail::ValveMotion<double>& motion, double lash_m) noexcept;
 
 /// The same in the tick's own scalar.
 [[nodiscard]] detail::ValveMotion<float> rounded(const detail::ValveMotion<double>& motion) noexcept;

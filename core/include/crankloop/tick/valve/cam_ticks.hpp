@@ -1,4 +1,5 @@
-// Where the cams stand at a tick's end, how far they turned in it, and the phasers that turn them against the crank.
+// The cams over a tick: where they stand at its end, how far they turned, and the phasers that turn them against the
+// crank.
 //
 // What belongs here: cams as a whole. What does not: their lift (lift_curve.hpp), the valves (elastic_valves.hpp).
 #pragma once
@@ -55,14 +56,14 @@ class CamTicks {
                                 kFaultCamPhase, faults);
     const auto wanted =
         static_cast<std::int64_t>(Phase::from_cycles(target * static_cast<Real>(1.0 / kDegreesPerCycle)).units());
-    const auto most = static_cast<std::int64_t>(curve.most_phase_per_tick);
-    std::int64_t later = wanted - static_cast<std::int64_t>(state.cam_phase[t]);
-    if (later > most) later = most;
-    if (later < -most) later = -most;
+    const auto max_step = static_cast<std::int64_t>(curve.most_phase_per_tick);
+    std::int64_t retard = wanted - static_cast<std::int64_t>(state.cam_phase[t]);
+    if (retard > max_step) retard = max_step;
+    if (retard < -max_step) retard = -max_step;
     CRANKLOOP_ASSERT(t < kCamGroups<S>);
-    CRANKLOOP_ASSERT(later >= -most && later <= most);
-    state.cam_phase[t] += static_cast<std::uint64_t>(later);
-    set(t, cam_phase(state, t), turned_ - static_cast<std::uint64_t>(later));
+    CRANKLOOP_ASSERT(retard >= -max_step && retard <= max_step);
+    state.cam_phase[t] += static_cast<std::uint64_t>(retard);
+    set(t, cam_phase(state, t), turned_ - static_cast<std::uint64_t>(retard));
   }
 
   [[nodiscard]] const CamTick<Real>& operator[](std::uint32_t train) const noexcept {

@@ -1,4 +1,4 @@
-// A cubic over a step: its values, where it turns, where it reaches 0.
+// A cubic over a step: values, extremum, root.
 #pragma once
 
 #include <crankloop/assert.hpp>
@@ -7,7 +7,7 @@
 namespace crankloop::detail {
 
 /// A cubic by the part of a step. Where one has no slope its places are infinite or no numbers, as IEEE has it, and end
-/// as 1: asking first would cost a kilobyte of code on a Cortex-M4F, so the sanitizer is told that this is meant.
+/// as 1: testing first would cost a kilobyte of code on a Cortex-M4F, so the sanitizer is told to expect it.
 template <class Real>
 struct Cubic {
   Real c[4];
@@ -39,7 +39,7 @@ struct Cubic {
 
   /// Where its slope passes 0 within 0 to 1: by the slopes at both ends, and one step of Newton's method. 1 where it
   /// does not.
-  [[nodiscard]] __attribute__((no_sanitize("float-divide-by-zero"))) constexpr Real turn() const noexcept {
+  [[nodiscard]] __attribute__((no_sanitize("float-divide-by-zero"))) constexpr Real extremum() const noexcept {
     const Real x = c[1] / (c[1] - (c[1] + 2 * c[2] + 3 * c[3]));
     if (!(x > 0 && x < 1)) return 1;
     const Real better = x - at(x).slope / (2 * c[2] + 6 * x * c[3]);
@@ -54,9 +54,9 @@ struct Cubic {
     c[3] *= x * x * x;
   }
 
-  /// Where it reaches 0 within 0 to 1, its value at 1 given; `again`: where it comes back to 0 after having left it.
-  /// The root of the quadratic through both values and the first slope, in the form that does not cancel, and one step
-  /// of Newton's method.
+  /// Where it reaches 0 within 0 to 1, its value at 1 given; `again`: it starts at 0, and the root is where it comes
+  /// back. The root of the quadratic through both values and the first slope, in the form that does not cancel, and one
+  /// step of Newton's method.
   [[nodiscard]] __attribute__((no_sanitize("float-divide-by-zero"))) Real root(bool again, Real to) const noexcept {
     const Real sum = c[1] + 2 * c[0];
     const Real square = square_root(sum * sum - 4 * c[0] * to);
@@ -64,7 +64,7 @@ struct Cubic {
     if (!(x >= 0 && x <= 1)) x = 1;
     const At now = at(x);
     x -= now.value / now.slope;
-    return x < 1 ? (x > 0 ? x : Real{0}) : Real{1};  // what is not a number ends as 1
+    return x < 1 ? (x > 0 ? x : Real{0}) : Real{1};  // NaN ends as 1
   }
 };
 

@@ -1,32 +1,32 @@
 // The elastic valves of an engine over one tick.
 //
-// What belongs here: which valves move, who may spend the budget, when a cycle ends. What does not: the round over them
-// (valve_round.hpp), a step in which contacts change (valve_changes.hpp).
+// What belongs here: which valves are active, which may spend the event budget, when a cycle ends. What does not: the
+// plain steps (plain_steps.hpp), steps with events (event_location.hpp).
 //
-//     wake those whose cams come near -> plain step of each that moves, its guards asked
-//     -> a look at those whose guards fail, by turns
+//     activate valves whose cams come near -> plain step of each active valve, with its guards
+//     -> event location where a guard fails
 //
-// A valve that moves takes one step in its contact regime, whatever that is: its record of constants has the
-// difference. Where the guards say that no contact can have changed meanwhile, that is its tick. One at rest whose cam
-// is away is not visited at all.
+// An active valve takes one step in its contact regime; the regime's record of constants makes the difference. If both
+// guards pass, no contact can have changed meanwhile, and that is its tick. A valve at rest whose cam is away is not
+// active, and costs nothing.
 #pragma once
 
 #include <cstdint>
 
 #include <crankloop/assert.hpp>
-#include <crankloop/tick/valve/valve_round.hpp>
+#include <crankloop/tick/valve/plain_steps.hpp>
 
 namespace crankloop::detail {
 
-/// From tick to tick the damper's force may change by as much of the cam's speed as this without a look at the
+/// The cam's speed may change by this ratio from tick to tick before the dampers' forces require a check of the
 /// contacts.
 inline constexpr double kSpeedJump = 0.02;
 
 template <class Real, class S>
 class ElasticValves {
-  using Valves = ValvesAtHand<Real, S>;
-  using Round = ValveRound<Real, S>;
-  using Before = typename Round::Before;
+  using Valves = ValveAccess<Real, S>;
+  using Steps = PlainSteps<Real, S>;
+  using Before = typename Steps::Before;
   using Bits = typename Valves::Bits;
 
  public:
@@ -41,7 +41,7 @@ class ElasticValves {
     valves_.for_each([&](std::uint32_t v) {
       const std::uint64_t since_opening =
           cam_phase(valves_.state, valves_.train(v)) - valves_.curve(v).opens[valves_.cylinder(v)];
-      const Placed<Real> placed = in_equilibrium(
+      const ValveInRegime<Real> placed = in_equilibrium(
           valves_.motion(v), valves_.curve(v).read(valves_.curve(v).cell(since_opening)).lift_m, valves_.gas_now_N(v));
       valves_.set_state(v, placed.state);
       valves_.set_regime(v, placed.regime);
@@ -50,28 +50,28 @@ class ElasticValves {
     remember();
   }
 
-  /// Works out anew what a tick remembers beside the state.
+  /// Derives again what a tick remembers beside the state.
   [[gnu::cold, gnu::noinline]] void remember() noexcept {
     place_all(valves_);
-    valves_.work.moving = 0;
-    if constexpr (Valves::kMoversFirst) valves_.work.movers = 0;
-    valves_.work.skip_deg = valves_.work.far_deg = valves_.work.wide_deg = Real{kDegreesPerTurn + 1};
+    valves_.work.active = 0;
+    if constexpr (Valves::kActiveFirst) valves_.work.active_lanes = 0;
+    valves_.work.skip_deg = valves_.work.guard_range_deg = valves_.work.wide_deg = Real{kDegreesPerTurn + 1};
     valves_.for_each([&](std::uint32_t v) {
       valves_.set_cam(v, valves_.curve(v).read(valves_.curve(v).cell(cam_phase(valves_.state, valves_.train(v)) -
                                                                      valves_.curve(v).opens[valves_.cylinder(v)])));
-      set_moving(valves_, v);
+      activate(valves_, v);
       if (valves_.curve(v).skip_deg < valves_.work.skip_deg) valves_.work.skip_deg = valves_.curve(v).skip_deg;
-      if (valves_.motion(v).widest_step_deg < valves_.work.far_deg)
-        valves_.work.far_deg = valves_.motion(v).widest_step_deg;
+      if (valves_.motion(v).widest_step_deg < valves_.work.guard_range_deg)
+        valves_.work.guard_range_deg = valves_.motion(v).widest_step_deg;
       if (valves_.motion(v).cubic_deg < valves_.work.wide_deg) valves_.work.wide_deg = valves_.motion(v).cubic_deg;
     });
-    if (valves_.work.skip_deg < valves_.work.far_deg) valves_.work.far_deg = valves_.work.skip_deg;
-    if (valves_.work.far_deg < valves_.work.wide_deg) valves_.work.wide_deg = valves_.work.far_deg;
+    if (valves_.work.skip_deg < valves_.work.guard_range_deg) valves_.work.guard_range_deg = valves_.work.skip_deg;
+    if (valves_.work.guard_range_deg < valves_.work.wide_deg) valves_.work.wide_deg = valves_.work.guard_range_deg;
     for (std::uint32_t g = 0; g < kCamGroups<S>; ++g) valves_.work.clear[g] = valves_.work.no_end[g] = {};
   }
 
-  /// Before the first tick of a crank that turns already: valves that their cams carry move with them. Another speed
-  /// before the first tick starts them anew.
+  /// For a crank that turns before its first tick: valves that their cams carry move with them. Another speed before
+  /// the first tick starts the valves again.
   [[gnu::cold, gnu::noinline]] void start_turning() noexcept {
     State<Real, S>& state = valves_.state;
     if (state.ticks != 0) return;
@@ -82,7 +82,7 @@ class ElasticValves {
     for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g) state.cam_turned_deg[g] = deg;
     valves_.for_each([&](std::uint32_t v) {
       const Cell cell = valves_.cell(v, cam_phase(state, valves_.train(v)));
-      const Placed<Real> carried =
+      const ValveInRegime<Real> carried =
           carried_along(valves_.motion(v), {valves_.state_of(v), state.valve_regime[v]}, valves_.cam(v),
                         valves_.curve(v).curvature(cell), deg * drive.per_tick_s);
       valves_.set_state(v, carried.state);
@@ -90,17 +90,17 @@ class ElasticValves {
     });
   }
 
-  /// Answers fault bits.
+  /// Returns fault bits.
   [[nodiscard, gnu::always_inline]] std::uint32_t run(const CamTicks<Real, S>& cams, bool jumped) noexcept {
     if (jumped) start();
-    for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g) begin(cams, g);
+    for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g) begin_tick(cams, g);
     Before before;
-    Round round(valves_);
-    const Bits doubtful = round.run(cams, before);
-    ChangeBudget budget{valves_.tables.valve_motions[0].most_changes, false};
-    if (doubtful != 0) look_by_turns(doubtful, cams, before, budget);
-    round.leave();
-    CRANKLOOP_ASSERT(budget.left <= valves_.tables.valve_motions[0].most_changes);
+    Steps steps(valves_);
+    const Bits failed = steps.run(cams, before);
+    EventBudget budget{valves_.tables.valve_motions[0].event_budget, false};
+    if (failed != 0) locate_events_in_turn(failed, cams, before, budget);
+    steps.deactivate_resting();
+    CRANKLOOP_ASSERT(budget.left <= valves_.tables.valve_motions[0].event_budget);
     if constexpr (S::valve_results) {
       for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g) end_cycles(cams, g);
     }
@@ -108,47 +108,48 @@ class ElasticValves {
   }
 
  private:
-  void begin(const CamTicks<Real, S>& cams, std::uint32_t group) noexcept {
+  void begin_tick(const CamTicks<Real, S>& cams, std::uint32_t group) noexcept {
     CRANKLOOP_ASSERT(group < kCamGroups<S>);
     const CamTick<Real>& tick = cams[group];
     const Real deg = magnitude(tick.cam.deg);
     CRANKLOOP_ASSERT(deg <= Real{kDegreesPerTurn / 2});
-    CRANKLOOP_ASSERT(valves_.work.wide_deg <= valves_.work.far_deg && valves_.work.far_deg <= valves_.work.skip_deg);
+    CRANKLOOP_ASSERT(valves_.work.wide_deg <= valves_.work.guard_range_deg &&
+                     valves_.work.guard_range_deg <= valves_.work.skip_deg);
     const bool wide = deg >= valves_.work.wide_deg;
-    if (wide) valves_.wide = true, valves_.far = valves_.far || deg >= valves_.work.far_deg;
+    if (wide) valves_.wide = true, valves_.beyond_guards = valves_.beyond_guards || deg >= valves_.work.guard_range_deg;
     if ((wide && deg >= valves_.work.skip_deg) || !valves_.work.clear[group].holds(angle_of_cams(tick)))
-      wake(tick, group);
+      activate_near(tick, group);
     Real& before_deg = valves_.state.cam_turned_deg[group];
     if (tick.cam.deg == before_deg) return;
     const bool jumps = magnitude(tick.cam.deg - before_deg) > static_cast<Real>(kSpeedJump) * deg;
     before_deg = tick.cam.deg;
-    if (jumps) ask_all(tick, group);
+    if (jumps) recheck_contacts(tick, group);
   }
 
   [[nodiscard]] static constexpr std::uint32_t angle_of_cams(const CamTick<Real>& tick) noexcept {
     return static_cast<std::uint32_t>(tick.phase >> 32);
   }
 
-  /// Where the train may touch a closed valve; for scenes that show the gap, where it changes.
+  /// Where the train may touch a closed valve; in scenes with forces, where its gap changes.
   [[nodiscard]] static CamWindow near_window(const LiftCurve<Real>& curve, std::uint32_t opens) noexcept {
     constexpr std::uint32_t kUnitsPerDegree = 0xFFFF'FFFFu / kDegreesPerTurn;
     if (S::valve_forces && curve.touch_degrees < curve.segments) return {opens, curve.segments * kUnitsPerDegree};
     return {opens + curve.touch_from * kUnitsPerDegree, curve.touch_degrees * kUnitsPerDegree};
   }
 
-  /// Valves at rest whose cams have come near move again, from where their cams stood before the tick; and the part of
-  /// the turn is found in which the others may be left alone.
-  [[gnu::cold, gnu::noinline]] void wake(const CamTick<Real>& tick, std::uint32_t group) noexcept {
+  /// Activates valves whose cams have come near, from where their cams stood before the tick; and finds the part of the
+  /// turn in which the others may stay inactive.
+  [[gnu::cold, gnu::noinline]] void activate_near(const CamTick<Real>& tick, std::uint32_t group) noexcept {
     const std::uint32_t angle = angle_of_cams(tick);
     const bool may_skip = magnitude(tick.cam.deg) >= valves_.work.skip_deg;
     CamClearance clear;
     valves_.for_each_of(group, [&](std::uint32_t v) {
-      if ((valves_.work.moving >> v & 1) != 0) return;
+      if ((valves_.work.active >> v & 1) != 0) return;
       const std::uint64_t opens = valves_.curve(v).opens[valves_.cylinder(v)];
       const CamWindow near = near_window(valves_.curve(v), static_cast<std::uint32_t>(opens >> 32));
       if (may_skip || near.holds(angle)) {
         valves_.set_cam(v, valves_.curve(v).read(valves_.curve(v).cell(tick.phase_before() - opens)));
-        set_moving(valves_, v);
+        activate(valves_, v);
       } else {
         clear.keep_off(near, angle);
       }
@@ -157,59 +158,59 @@ class ElasticValves {
   }
 
   /// The cams' speed has jumped, and with it the dampers' forces.
-  [[gnu::cold, gnu::noinline]] void ask_all(const CamTick<Real>& tick, std::uint32_t group) noexcept {
+  [[gnu::cold, gnu::noinline]] void recheck_contacts(const CamTick<Real>& tick, std::uint32_t group) noexcept {
     valves_.for_each_of(group, [&](std::uint32_t v) {
-      if ((valves_.work.moving >> v & 1) == 0) return;
+      if ((valves_.work.active >> v & 1) == 0) return;
       const ValveState<Real> s = valves_.state_of(v);
       const std::uint32_t before = contacts_of(valves_.state.valve_regime[v]);
-      const std::uint32_t regime = asked(valves_.motion(v), s, valves_.cam(v), tick.cam.deg_per_s);
+      const std::uint32_t regime = required_contacts(valves_.motion(v), s, valves_.cam(v), tick.cam.deg_per_s);
       if (regime == before) return;
       valves_.set_regime(v, regime);
       if constexpr (S::valve_results) {
         const Real deg = valves_.curve(v).degrees(tick.phase_before() - valves_.curve(v).opens[valves_.cylinder(v)]);
-        valves_.state.record[valves_.train(v)][valves_.cylinder(v)].change(before, regime, s.velocity_m_s, deg);
-        valves_.set_known(v);
+        valves_.state.record[valves_.train(v)][valves_.cylinder(v)].event(before, regime, s.velocity_m_s, deg);
+        valves_.load_record(v);
       }
     });
   }
 
-  // ---- those whose guards fail ------------------------------------------------------------------------------------
+  // ---- event location ---------------------------------------------------------------------------------------------
 
-  /// Another valve first in every tick: who comes first may spend the budget.
-  [[gnu::noinline]] void look_by_turns(Bits doubtful, const CamTicks<Real, S>& cams, const Before& before,
-                                       ChangeBudget& budget) noexcept {
+  /// Another valve comes first in every tick: the first may spend the budget.
+  [[gnu::noinline]] void locate_events_in_turn(Bits failed, const CamTicks<Real, S>& cams, const Before& before,
+                                               EventBudget& budget) noexcept {
     const std::uint32_t first = static_cast<std::uint32_t>(valves_.state.ticks) % Valves::kMaxValves;
     constexpr Bits kAll = (Bits{1} << (Valves::kMaxValves - 1) << 1) - 1;
-    const Bits from_first = doubtful >> first | (doubtful << (Valves::kMaxValves - 1 - first) << 1 & kAll);
+    const Bits from_first = failed >> first | (failed << (Valves::kMaxValves - 1 - first) << 1 & kAll);
     for (Bits left = from_first; left != 0; left &= left - 1) {
       const std::uint32_t v = first + trailing_zeros(left);
       const std::uint32_t valve = v < Valves::kMaxValves ? v : v - Valves::kMaxValves;
-      CRANKLOOP_ASSERT((doubtful >> valve & 1) != 0);
-      look(valve, cams[valves_.train(valve)], before, budget);
+      CRANKLOOP_ASSERT((failed >> valve & 1) != 0);
+      locate_events(valve, cams[valves_.train(valve)], before, budget);
     }
   }
 
-  void look(std::uint32_t v, const CamTick<Real>& tick, const Before& before, ChangeBudget& budget) noexcept {
+  void locate_events(std::uint32_t v, const CamTick<Real>& tick, const Before& before, EventBudget& budget) noexcept {
     const typename Valves::Gas gas = valves_.gas_on(v);
     const std::uint32_t lane = valves_.lane_of(v);
     const Lift<Real> from{before.cam_lift_m[lane], before.cam_per_deg_m[lane]};
     const Lift<Real> to = valves_.cam(v);
-    const Placed<Real> start{{before.lift_m[lane], before.velocity_m_s[lane]}, valves_.state.valve_regime[v]};
+    const ValveInRegime<Real> start{{before.lift_m[lane], before.velocity_m_s[lane]}, valves_.state.valve_regime[v]};
     const Stepped<Real> step{valves_.state_of(v), before.increment_m[lane]};
     const std::uint64_t at = tick.phase - valves_.curve(v).opens[valves_.cylinder(v)];
-    const Placed<Real> end =
-        valves_.changes(v, budget).run(start, step, valves_.span(v, tick, from, to, gas), at, tick.turned);
+    const ValveInRegime<Real> end =
+        valves_.event_locator(v, budget).run(start, step, valves_.span(v, tick, from, to, gas), at, tick.turned);
     CRANKLOOP_ASSERT(is_finite(end.state.lift_m) && is_finite(end.state.velocity_m_s));
     valves_.set_state(v, end.state);
     if (end.regime != start.regime) valves_.set_regime(v, end.regime);
-    valves_.set_known(v);
+    valves_.load_record(v);
     const Real compression_m = to.lift_m - end.state.lift_m;
     const Real compression_speed_m_s = tick.cam.deg_per_s * to.per_deg_m - end.state.velocity_m_s;
     const ForceRow<Real>& force = valves_.motion(v).whole[end.regime].acceleration;
-    valves_.show(v, end.state, valves_.cell(v, tick.phase),
-                 {to.lift_m, compression_m, compression_speed_m_s,
-                  acceleration(force, end.state, compression_m, compression_speed_m_s, gas)},
-                 gas);
+    valves_.write_output(v, end.state, valves_.cell(v, tick.phase),
+                         {to.lift_m, compression_m, compression_speed_m_s,
+                          acceleration(force, end.state, compression_m, compression_speed_m_s, gas)},
+                         gas);
   }
 
   // ---- after the steps --------------------------------------------------------------------------------------------
@@ -230,7 +231,7 @@ class ElasticValves {
       valves_.out.valve_cycle[valves_.train(v)][valves_.cylinder(v)] =
           valves_.state.record[valves_.train(v)][valves_.cylinder(v)].finish(
               end_deg, contacts_of(valves_.state.valve_regime[v]));
-      valves_.set_known(v);
+      valves_.load_record(v);
     });
     valves_.work.no_end[group] = clear.about(angle_of_cams(tick));
   }

@@ -1,10 +1,10 @@
 // The plain step of an engine's valves in blocks of lanes.
 //
-// What belongs here: a block's step, what it shows of forces, which of its lanes ask for more. What does not: what
-// lanes have side by side (valves_abreast.hpp), the arithmetic of a step (valve.hpp), lanes whose guards fail
-// (valve_changes.hpp), which valves an engine has (elastic_valves.hpp).
+// What belongs here: a block's step, its forces, which of its lanes need more than that. What does not: what lanes have
+// side by side (valve_lanes.hpp), the arithmetic of a step (valve.hpp), lanes whose guards fail (event_location.hpp),
+// which valves an engine has (elastic_valves.hpp).
 //
-// A resting valve is zeros under its regime's constants: it stays at rest, and needs no exception.
+// A valve at rest is all zeros under its regime's constants: it stays at rest without an exception.
 #pragma once
 
 #include <cstdint>
@@ -13,23 +13,28 @@
 
 #include <crankloop/assert.hpp>
 #include <crankloop/tick/valve/lane_records.hpp>
-#include <crankloop/tick/valve/valves_at_hand.hpp>
+#include <crankloop/tick/valve/valve_access.hpp>
 
 #if CRANKLOOP_ABREAST
 namespace crankloop::detail {
 
-/// `Wide`: the lift in the tick's middle counts. A class of its own, for it needs registers that the other uses.
+/// `Wide`: the lift in the tick's middle counts. Its own class, for it needs registers that the other uses.
 template <class S, bool Wide>
 class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide, MiddleOfLanes<S>> {
-  using Valves = ValvesAtHand<float, S>;
+  using Valves = ValveAccess<float, S>;
   using Bits = typename Valves::Bits;
 
  public:
   using Before = BeforeStep<float, group::ValvesState<float, S>::kLanes>;
 
-  /// `far`: lanes that are looked at whatever their guards say.
-  LaneBlocks(Valves& valves, const CamTicks<float, S>& cams, Bits far, Before& before) noexcept
-      : valves_{valves}, work_{valves.work}, state_{valves.state}, out_{valves.out}, before_{before}, far_{far} {
+  /// `beyond_guards`: lanes whose guards do not count.
+  LaneBlocks(Valves& valves, const CamTicks<float, S>& cams, Bits beyond_guards, Before& before) noexcept
+      : valves_{valves},
+        work_{valves.work},
+        state_{valves.state},
+        out_{valves.out},
+        before_{before},
+        beyond_guards_{beyond_guards} {
     if constexpr (S::cam_phasing) {
       for (std::uint32_t lane = 0; lane < valves_.trains() * Valves::kPerTrain; ++lane)
         set_tick(lane, cams[Valves::train(valves_.valve_in(lane))]);
@@ -44,9 +49,8 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide,
     }
   }
 
-  /// Steps blocks from lane `first` on, for `lanes` that move; a block that is worth it takes lanes at rest in, of
-  /// which there are so many that all have `room`. Answers how many lanes it has stepped. State and output are left as
-  /// if all were sure.
+  /// Steps blocks from lane `first` on, of which `lanes` are active. A block that is worth it includes inactive lanes,
+  /// as far as there is `room`. Returns how many lanes it has stepped. State and output are as if all guards passed.
   [[nodiscard, gnu::always_inline]] std::uint32_t step(std::uint32_t first, std::uint32_t lanes,
                                                        std::uint32_t room) noexcept {
     std::uint32_t done = 0;
@@ -55,14 +59,14 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide,
     return done;
   }
 
-  /// A bit for each lane stepped whose guards fail.
-  [[nodiscard]] Bits doubtful() const noexcept { return doubtful_; }
-  /// One for each whose record may have more of the step than its largest values,
-  [[nodiscard]] Bits eventful() const noexcept { return eventful_; }
-  /// and one for each that enlarged some of those.
-  [[nodiscard]] Bits enlarged() const noexcept { return enlarged_; }
-  /// A bit for each that is at rest, where such are left alone.
-  [[nodiscard]] Bits still() const noexcept { return still_; }
+  /// Bits of lanes whose guards fail,
+  [[nodiscard]] Bits failed() const noexcept { return failed_; }
+  /// of lanes whose record needs more of the step than its maxima,
+  [[nodiscard]] Bits to_record() const noexcept { return to_record_; }
+  /// of lanes that raised a maximum,
+  [[nodiscard]] Bits raised() const noexcept { return raised_; }
+  /// and of lanes at rest, where valves come to rest.
+  [[nodiscard]] Bits at_rest() const noexcept { return at_rest_; }
 
  private:
   void set_tick(std::uint32_t lane, const CamTick<float>& tick) noexcept {
@@ -74,19 +78,19 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide,
   [[gnu::always_inline]] void step_as(std::uint32_t first, std::uint32_t lanes, std::uint32_t room,
                                       std::uint32_t& done) noexcept {
     constexpr auto kWidth = static_cast<std::uint32_t>(kLanesOf<Lanes>);
-    constexpr std::uint32_t kWorth = kWidth == 8 ? 6 : 2;  // movers: fewer take longer abreast than in other ways
+    constexpr std::uint32_t kWorth = kWidth == 8 ? 6 : 2;  // active lanes that are worth a block
     for (; done + kWorth <= lanes && done + kWidth <= room; done += kWidth) step_block<Lanes>(first + done);
   }
 
-  /// Of the lanes' own numbers.
+  /// A number of each lane.
   template <class Lanes>
   [[nodiscard, gnu::always_inline]] static Lanes held(const float* from) noexcept {
-    return AbreastWork<S>::kBlocksAligned ? load_aligned<Lanes>(from) : load<Lanes>(from);
+    return VectorLanes<S>::kBlocksAligned ? load_aligned<Lanes>(from) : load<Lanes>(from);
   }
 
   template <class Lanes>
   [[nodiscard, gnu::always_inline]] ValveState<Lanes> states_at(std::uint32_t first) const noexcept {
-    if constexpr (Valves::kMoversFirst)
+    if constexpr (Valves::kActiveFirst)
       return {held<Lanes>(&work_.lift_m[first]), held<Lanes>(&work_.velocity_m_s[first])};
     else
       return {load<Lanes>(&state_.valve_lift_m[first]), load<Lanes>(&state_.valve_velocity_m_s[first])};
@@ -94,7 +98,7 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide,
   template <class Lanes>
   [[gnu::always_inline]] void keep_states(std::uint32_t first, const ValvesOf<Lanes>& valves,
                                           const ValveState<Lanes>& s) noexcept {
-    if constexpr (Valves::kMoversFirst) {
+    if constexpr (Valves::kActiveFirst) {
       store<Lanes>(&work_.lift_m[first], s.lift_m), store<Lanes>(&work_.velocity_m_s[first], s.velocity_m_s);
       valves.store(s.lift_m, state_.valve_lift_m), valves.store(s.velocity_m_s, state_.valve_velocity_m_s);
     } else {
@@ -124,7 +128,7 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide,
 
   template <class Lanes>
   [[gnu::always_inline]] void step_block(std::uint32_t first) noexcept {
-    CRANKLOOP_ASSERT(first + kLanesOf<Lanes> <= AbreastWork<S>::kRoom);
+    CRANKLOOP_ASSERT(first + kLanesOf<Lanes> <= kLaneRoom<S>);
     const auto regime = regimes_at<Lanes>(work_, first);
     const auto gas = gas_at<Lanes>(first);
     static_assert(sizeof out_.valve[0][0] == 4 * sizeof(float));
@@ -143,12 +147,12 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide,
     }
     const Contacting<Lanes> stepped_to{to.lift_m - step.state.lift_m,
                                        deg_per_s * to.per_deg_m - step.state.velocity_m_s};
-    const auto sure = holds(regime.train, stepped_to.compression_m, stepped_to.compression_speed_m_s) &
-                      holds(regime.seat, step.state.lift_m, step.state.velocity_m_s);
+    const auto pass = passes(regime.train, stepped_to.compression_m, stepped_to.compression_speed_m_s) &
+                      passes(regime.seat, step.state.lift_m, step.state.velocity_m_s);
     const Lanes rest = resting_m<Lanes>(gas, first);
-    const auto still =
+    const auto at_rest =
         (magnitude(step.state.lift_m - rest) < regime.rest_m) & (magnitude(step.state.velocity_m_s) < regime.rest_m_s);
-    const ValveState<Lanes> end{still ? rest : step.state.lift_m, still ? Lanes{} : step.state.velocity_m_s};
+    const ValveState<Lanes> end{at_rest ? rest : step.state.lift_m, at_rest ? Lanes{} : step.state.velocity_m_s};
     const Contacting<Lanes> at{to.lift_m - end.lift_m, deg_per_s * to.per_deg_m - end.velocity_m_s};
     const Lanes accelerates = acceleration(regime.acceleration, end, at.compression_m, at.compression_speed_m_s, gas);
     keep_states(first, valves, end);
@@ -157,31 +161,31 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide,
     const Lanes theory = larger(to.lift_m, Lanes{});
     store_lanes(theory, end.lift_m, end.velocity_m_s, accelerates,
                 RowsOf<4, Lanes>(valves, &out_.valve[0][0].theoretical_lift_m).at);
-    if constexpr (S::valve_forces) show_forces(first, valves, end, at, accelerates, place);
-    if constexpr (Valves::kMoversFirst) still_ |= Bits{holding(still)} << first;
-    std::uint32_t looked_at = failing(sure);
-    if (far_ != 0) looked_at |= static_cast<std::uint32_t>(far_ >> first) & ((1u << kLanesOf<Lanes>)-1);
-    std::uint32_t asking = looked_at;
+    if constexpr (S::valve_forces) write_forces(first, valves, end, at, accelerates, place);
+    if constexpr (Valves::kActiveFirst) at_rest_ |= Bits{holding(at_rest)} << first;
+    std::uint32_t failed = failing(pass);
+    if (beyond_guards_ != 0)
+      failed |= static_cast<std::uint32_t>(beyond_guards_ >> first) & ((1u << kLanesOf<Lanes>)-1);
+    std::uint32_t unfinished = failed;
     if constexpr (S::valve_results) {
       const Lanes from_m_s = deg_per_s * from.per_deg_m;
       const Lanes began = acceleration(regime.acceleration, start, from.lift_m - start.lift_m,
                                        from_m_s - start.velocity_m_s, gas.before());
       const auto closing = (from_m_s > Lanes{}) & (deg_per_s * to.per_deg_m <= Lanes{});
       const auto peaks = (start.velocity_m_s > Lanes{}) & (end.velocity_m_s < Lanes{});
-      const auto lifted = larger(theory, end.lift_m) >= load<Lanes>(&work_.eventless_to_m[first]);
-      const auto grows =
-          enlarges(&work_.largest_lift_m[first], larger(start.lift_m, end.lift_m)) |
-          enlarges(&work_.largest_speed_m_s[first], magnitude(end.velocity_m_s)) |
-          enlarges(&work_.largest_acceleration_m_s2[first], larger(magnitude(began), magnitude(accelerates)));
-      // Of one that swings on its seat alone, the step's start counts for nothing: not told apart here.
-      const std::uint32_t eventful = holding(closing | peaks | lifted | (grows & outside_lobe<Lanes>(first, place)));
-      eventful_ |= Bits{eventful} << first;
-      enlarged_ |= Bits{holding(grows)} << first;
-      asking |= eventful;
+      const auto lifted = larger(theory, end.lift_m) >= load<Lanes>(&work_.only_maxima_below_m[first]);
+      const auto raised = raise(&work_.max_lift_m[first], larger(start.lift_m, end.lift_m)) |
+                          raise(&work_.max_speed_m_s[first], magnitude(end.velocity_m_s)) |
+                          raise(&work_.max_acceleration_m_s2[first], larger(magnitude(began), magnitude(accelerates)));
+      // The start of a decoupled valve's step does not count: record() sees to that.
+      const std::uint32_t to_record = holding(closing | peaks | lifted | (raised & outside_lobe<Lanes>(first, place)));
+      to_record_ |= Bits{to_record} << first;
+      raised_ |= Bits{holding(raised)} << first;
+      unfinished |= to_record;
     }
-    if constexpr (Needs<S>::valve_gas_held) keep_gas(first, gas.to_N, asking);
-    if (asking == 0) return;
-    doubtful_ |= Bits{looked_at} << first;
+    if constexpr (Needs<S>::valve_gas_held) keep_gas(first, gas.to_N, unfinished);
+    if (unfinished == 0) return;
+    failed_ |= Bits{failed} << first;
     store<Lanes>(&before_.lift_m[first], start.lift_m);
     store<Lanes>(&before_.velocity_m_s[first], start.velocity_m_s);
     store<Lanes>(&before_.increment_m[first], step.increment_m);
@@ -202,24 +206,24 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide,
     Lanes compression_m, compression_speed_m_s;
   };
 
-  /// The force with which the next tick begins; lanes that `ask` for more than this step still need it as it was.
+  /// The gas force at the start of the next tick. Lanes that are `unfinished` still need that of this one.
   template <class Lanes>
-  [[gnu::always_inline]] void keep_gas(std::uint32_t first, const Lanes& force_N, std::uint32_t ask) noexcept {
+  [[gnu::always_inline]] void keep_gas(std::uint32_t first, const Lanes& force_N, std::uint32_t unfinished) noexcept {
     float* const held = &state_.valve_gas_N[first];
-    if (ask == 0) {
+    if (unfinished == 0) {
       store<Lanes>(held, force_N);
       return;
     }
     for (std::uint32_t i = 0; i < kLanesOf<Lanes>; ++i) {
-      if ((ask >> i & 1) == 0) held[i] = force_N[i];
+      if ((unfinished >> i & 1) == 0) held[i] = force_N[i];
     }
   }
 
-  /// As show_forces() of one valve does.
+  /// As write_forces() of one valve.
   template <class Lanes>
-  [[gnu::always_inline]] void show_forces(std::uint32_t first, const ValvesOf<Lanes>& valves,
-                                          const ValveState<Lanes>& end, const Contacting<Lanes>& at,
-                                          const Lanes& accelerates, const LanesPlace<Lanes>& place) noexcept {
+  [[gnu::always_inline]] void write_forces(std::uint32_t first, const ValvesOf<Lanes>& valves,
+                                           const ValveState<Lanes>& end, const Contacting<Lanes>& at,
+                                           const Lanes& accelerates, const LanesPlace<Lanes>& place) noexcept {
     using Words32 = BitsOf<Lanes>;
     Words32 regime;
     for (std::uint32_t i = 0; i < kLanesOf<Lanes>; ++i) regime[i] = state_.valve_regime[valves.valve[i]];
@@ -246,14 +250,14 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide,
   }
 
   Valves& valves_;
-  ValvesWorkOf<float, S>& work_;  ///< of the valves, as are the next two
+  ValvesWorkOf<float, S>& work_;
   State<float, S>& state_;
   Output<float, S>& out_;
   Before& before_;
-  Bits far_;
+  Bits beyond_guards_;
   LanesTick<S> tick_;
-  Bits doubtful_ = 0;
-  Bits eventful_ = 0, enlarged_ = 0, still_ = 0;
+  Bits failed_ = 0;
+  Bits to_record_ = 0, raised_ = 0, at_rest_ = 0;
 };
 
 }  // namespace crankloop::detail

@@ -1,4 +1,4 @@
-// Lanes to records and back: numbers that stand lane by lane in memory, largest values.
+// Between lanes and memory: rows of numbers for each lane, maxima.
 #pragma once
 
 #include <cstring>
@@ -12,9 +12,9 @@ template <class Lanes>
 [[nodiscard, gnu::always_inline]] inline Lanes larger(const Lanes& a, const Lanes& b) noexcept {
   return a > b ? a : b;
 }
-/// Raises each lane's number to x; answers in which it does.
+/// Raises each lane's number to x, and returns in which lanes that changed it.
 template <class Lanes>
-[[nodiscard, gnu::always_inline]] inline auto enlarges(float* number, const Lanes& x) noexcept {
+[[nodiscard, gnu::always_inline]] inline auto raise(float* number, const Lanes& x) noexcept {
   const Lanes before = load<Lanes>(number);
   const auto more = x > before;
   store<Lanes>(number, more ? x : before);

@@ -1,7 +1,8 @@
-// One elastic valve: a step in a contact regime, and which regime its contacts ask for. docs/model.md "Valve".
+// One elastic valve: its step in a contact regime, the guards of that step, and which contacts its state requires.
+// docs/model.md "Valve".
 //
-// What belongs here: what holds at one moment, and over one step in which no contact changes. What does not: a step in
-// which one does (valve_changes.hpp), the valves of an engine (elastic_valves.hpp).
+// What belongs here: what holds at one moment, and over one step without an event. What does not: a step with events
+// (event_location.hpp), the valves of an engine (elastic_valves.hpp).
 #pragma once
 
 #include <cstdint>
@@ -20,15 +21,15 @@ struct ValveState {
   Real velocity_m_s;
 };
 
-/// A state, and the regime in which it is.
+/// A valve's state and its contact regime.
 template <class Real>
-struct Placed {
+struct ValveInRegime {
   ValveState<Real> state;
   std::uint32_t regime;
 };
 
-/// What a step leads to, and what it added to the lift before that was rounded: the difference of two lifts has too few
-/// bits left.
+/// The result of a step, and what it added to the lift before rounding: the difference of two lifts has too few bits
+/// left.
 template <class Number>
 struct Stepped {
   ValveState<Number> state;
@@ -66,7 +67,7 @@ struct GasForce {
   /// A coefficient times the force at the step's start, and times what it rises from there.
   [[nodiscard]] constexpr Number at_start(Number coefficient) const noexcept { return coefficient * from_N; }
   [[nodiscard]] constexpr Number risen(Number coefficient) const noexcept { return coefficient * (to_N - from_N); }
-  /// Where it holds a closed valve.
+  /// Where it holds a closed valve at the step's end, and where at its start.
   [[nodiscard]] constexpr Number resting_m(Number per_seat_N_m) const noexcept { return -to_N * per_seat_N_m; }
   [[nodiscard]] constexpr Number rested_m(Number per_seat_N_m) const noexcept { return -from_N * per_seat_N_m; }
   /// Held as it is at the step's start.
@@ -76,7 +77,7 @@ struct GasForce {
   }
 };
 
-/// That of a scene without it.
+/// The gas force of a scene without gas on the heads.
 template <class Number>
 struct NoGasForce {
   static constexpr int from_N = 0, to_N = 0;
@@ -112,8 +113,7 @@ template <class Held, class Number, class Real, class Gas>
   return {{s.lift_m + increment_m, s.velocity_m_s + more(regime.velocity)}, increment_m};
 }
 
-/// The same with what the cam's lift in the middle of a wide step, over which the cubic through its ends does not do,
-/// adds to it.
+/// Adds to a wide step what the cam's lift in its middle differs from the cubic through its ends.
 template <class Held, class Number, class Real>
 [[nodiscard]] constexpr Stepped<Number> with_middle(const Stepped<Number>& end, const MiddleStep<Held>& by,
                                                     const Lift<Number>& from, Number middle_m, const Lift<Number>& to,
@@ -132,12 +132,13 @@ template <class Held, class Number, class Gas>
          (f.gap * compression_m + f.gap_speed * compression_speed_m_s);
 }
 
+/// A guard: it passes where the contact cannot have changed during the step.
 template <class Held, class Number>
-[[nodiscard]] constexpr auto holds(const ContactGuard<Held>& g, Number place_m, Number speed_m_s) noexcept {
+[[nodiscard]] constexpr auto passes(const ContactGuard<Held>& g, Number place_m, Number speed_m_s) noexcept {
   return g.sign * place_m - g.lag_s * magnitude(speed_m_s) > g.least_m;
 }
 
-/// What was before a step, of the valves whose guards it fails: for the look at their contacts.
+/// Where steps started, by lane: event location goes back there if a guard fails.
 template <class Real, std::size_t Lanes>
 struct BeforeStep {
   Real lift_m[Lanes], velocity_m_s[Lanes], increment_m[Lanes], cam_lift_m[Lanes], cam_per_deg_m[Lanes];
@@ -148,10 +149,10 @@ struct BeforeStep {
   }
 };
 
-/// Which contacts push: those whose depth and whose force are both positive.
+/// The contacts that a state requires: those whose depth and whose force are both positive.
 template <class Real>
-[[nodiscard]] constexpr std::uint32_t asked(const ValveMotion<Real>& m, const ValveState<Real>& s,
-                                            const Lift<Real>& lift, Real deg_per_s) noexcept {
+[[nodiscard]] constexpr std::uint32_t required_contacts(const ValveMotion<Real>& m, const ValveState<Real>& s,
+                                                        const Lift<Real>& lift, Real deg_per_s) noexcept {
   const Real train_m = lift.lift_m - s.lift_m;
   const Real seat_m = m.body.seat_compression_m - s.lift_m;
   const bool train = train_m > 0 && train_m + m.train_lag_s * (deg_per_s * lift.per_deg_m - s.velocity_m_s) > 0;
@@ -159,14 +160,14 @@ template <class Real>
   return (train ? kTrainOn : 0u) | (seat ? kSeatOn : 0u);
 }
 
-/// No valve gets so far: one that does is put back.
-inline constexpr double kFarthest_m = 1;
+/// No valve lifts so far: one that does is reset to equilibrium.
+inline constexpr double kMaxLift_m = 1;
 
 /// A valve at rest where its cam stands. Decided by forces, at the places where a contact begins: on a soft seat a
 /// difference of lifts would be less than their rounding. Without a spring the division by its rate has no meaning, and
 /// is not used.
 template <class Real>
-[[nodiscard]] __attribute__((no_sanitize("float-divide-by-zero"))) constexpr Placed<Real> in_equilibrium(
+[[nodiscard]] __attribute__((no_sanitize("float-divide-by-zero"))) constexpr ValveInRegime<Real> in_equilibrium(
     const ValveMotion<Real>& m, Real lift_m, Real gas_N) noexcept {
   const ValveBody<Real>& b = m.body;
   CRANKLOOP_ASSERT(b.train_N_m > 0 && b.seat_N_m > 0);
@@ -174,8 +175,8 @@ template <class Real>
   const Real down_N = b.preload_N + gas_N;
   const Real just_off_N = down_N + b.spring_N_m * b.seat_compression_m;  // what holds it down where the seat ends
   const bool sucked_open = just_off_N < 0;
-  const Real off_seat_m = down_N + b.spring_N_m * static_cast<Real>(kFarthest_m) < 0 ? static_cast<Real>(kFarthest_m)
-                                                                                     : -down_N / b.spring_N_m;
+  const Real off_seat_m = down_N + b.spring_N_m * static_cast<Real>(kMaxLift_m) < 0 ? static_cast<Real>(kMaxLift_m)
+                                                                                    : -down_N / b.spring_N_m;
   const Real alone_m = sucked_open ? off_seat_m : -gas_N * m.per_seat_N_m;
   if (!(lift_m > alone_m)) return {{alone_m, Real{0}}, sucked_open ? 0u : kSeatOn};
   if (b.train_N_m * (lift_m - b.seat_compression_m) > just_off_N) {
@@ -184,12 +185,13 @@ template <class Real>
   return {{(b.train_N_m * lift_m - gas_N) / (b.train_N_m + b.seat_N_m + b.spring_N_m), Real{0}}, kTrainOn | kSeatOn};
 }
 
-/// A valve in equilibrium whose cam turns, as it moves when it has long been carried by that cam: at the cam's speed by
-/// the stiffnesses, and off its seat deflected by inertia and guide too. Where the train would have to pull it, it is
-/// free.
+/// A valve in equilibrium whose cam turns, in the motion of one that its cam has carried for long: at the cam's speed
+/// by the stiffnesses, and off its seat deflected by inertia and guide too. Where the train would have to pull, the
+/// valve is free.
 template <class Real>
-[[nodiscard]] constexpr Placed<Real> carried_along(const ValveMotion<Real>& m, const Placed<Real>& valve,
-                                                   const Lift<Real>& cam, Real per_deg2_m, Real deg_per_s) noexcept {
+[[nodiscard]] constexpr ValveInRegime<Real> carried_along(const ValveMotion<Real>& m, const ValveInRegime<Real>& valve,
+                                                          const Lift<Real>& cam, Real per_deg2_m,
+                                                          Real deg_per_s) noexcept {
   if ((valve.regime & kTrainOn) == 0) return valve;
   const ValveBody<Real>& b = m.body;
   const bool seated = (valve.regime & kSeatOn) != 0;
@@ -201,12 +203,13 @@ template <class Real>
   const Real lift_m = seated ? valve.state.lift_m : valve.state.lift_m - back_N / stiffness_N_m;
   const bool carried = lift_m < cam.lift_m;
   const ValveState<Real> s{carried ? lift_m : cam.lift_m, carried ? velocity_m_s : cam_m_s};
-  return {s, asked(m, s, cam, deg_per_s)};
+  return {s, required_contacts(m, s, cam, deg_per_s)};
 }
 
-/// The swing of a valve on its seat about the place where it would rest.
+/// A bound of the amplitude with which a valve oscillates on its seat about the place where it would rest.
 template <class Real>
-[[nodiscard]] constexpr Real swing_m(const ValveMotion<Real>& m, const ValveState<Real>& s, Real resting_m) noexcept {
+[[nodiscard]] constexpr Real seated_amplitude_m(const ValveMotion<Real>& m, const ValveState<Real>& s,
+                                                Real resting_m) noexcept {
   return magnitude(s.lift_m - resting_m) + magnitude(s.velocity_m_s) * m.per_seat_rate_s;
 }
 

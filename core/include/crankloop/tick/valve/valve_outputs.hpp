@@ -1,4 +1,4 @@
-// What a tick shows of an elastic valve.
+// The output of an elastic valve.
 #pragma once
 
 #include <crankloop/output.hpp>
@@ -6,15 +6,15 @@
 
 namespace crankloop::detail {
 
-/// A valve's cam and contacts at a tick's end.
+/// A valve's cam, train and acceleration at a tick's end.
 template <class Real>
 struct Moment {
   Real cam_lift_m, compression_m, compression_speed_m_s, acceleration_m_s2;
 };
 
 template <class Real>
-[[gnu::always_inline]] inline void show_motion(ValveMotionOutput<Real>& shown, const ValveState<Real>& s,
-                                               const Moment<Real>& at) noexcept {
+[[gnu::always_inline]] inline void write_motion(ValveMotionOutput<Real>& shown, const ValveState<Real>& s,
+                                                const Moment<Real>& at) noexcept {
   shown.theoretical_lift_m = at.cam_lift_m > 0 ? at.cam_lift_m : Real{0};
   shown.lift_m = s.lift_m;
   shown.velocity_m_s = s.velocity_m_s;
@@ -22,9 +22,9 @@ template <class Real>
 }
 
 template <class Real>
-[[gnu::always_inline]] inline void show_forces(ValveForcesOutput<Real>& shown, const ValveBody<Real>& b,
-                                               const LiftCurve<Real>& curve, const Placed<Real>& valve, Cell cell,
-                                               const Moment<Real>& at) noexcept {
+[[gnu::always_inline]] inline void write_forces(ValveForcesOutput<Real>& shown, const ValveBody<Real>& b,
+                                                const LiftCurve<Real>& curve, const ValveInRegime<Real>& valve,
+                                                Cell cell, const Moment<Real>& at) noexcept {
   const auto pushing = [](bool on, Real force_N) { return on && force_N > 0 ? force_N : Real{0}; };
   const std::uint32_t contacts = contacts_of(valve.regime);
   shown.train_N =

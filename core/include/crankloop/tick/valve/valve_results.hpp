@@ -1,8 +1,8 @@
-// What a valve did in a cycle: lift, float, seating, bounce. Traced in the solver, step by step, not in the samples
-// that a tick shows.
+// What a valve did in a cycle: lift, float, seating, bounce. Recorded in the solver, step by step, not from the samples
+// that a tick outputs.
 //
 // What belongs here: the record of a cycle and its rules (docs/model.md "Separation and bounce"). What does not: the
-// motion (valve_changes.hpp).
+// motion (event_location.hpp).
 #pragma once
 
 #include <cstdint>
@@ -26,8 +26,8 @@ struct ValveCycle {
   Real separation_duration_deg;    ///< of that one
   Real seating_speed_m_s;          ///< at the first contact with the seat
   Real bounce_height_m;            ///< largest lift above the seat's contact after a lift-off from it
-  std::uint32_t separations;       ///< with a gap of at least kLeastSeparation_m
-  std::uint32_t bounces;           ///< lift-offs that rise by at least kLeastSeparation_m
+  std::uint32_t separations;       ///< with a gap of at least kMinSeparation_m
+  std::uint32_t bounces;           ///< lift-offs that rise by at least kMinSeparation_m
   std::uint32_t contact_changes;
   std::uint32_t off_seat_at_end;  ///< 1: still off its seat in the middle of the base circle
 };
@@ -55,10 +55,10 @@ class ValveRecord {
   friend struct detail::StateFields;  // to save it: tick/state/state_fields.hpp
 
  public:
-  static constexpr Real kLeastSeparation_m = static_cast<Real>(1e-6);
+  static constexpr Real kMinSeparation_m = static_cast<Real>(1e-6);
   static constexpr Real kOpened_m = static_cast<Real>(0.1e-3);
 
-  /// deg_at(part of the step): cam degrees since the start of the lobe. It is seldom asked.
+  /// deg_at(fraction of the step): cam degrees since the start of the lobe. Seldom called.
   template <class DegAt>
   constexpr void step(const ObservedStep<Real>& s, Real seat_contact_m, const DegAt& deg_at) noexcept {
     const Real lift = peak(s.from.lift_m, s.from.velocity_m_s, s.to.lift_m, s.to.velocity_m_s, s.step_s);
@@ -67,7 +67,7 @@ class ValveRecord {
     raise(cycle_.largest_acceleration_m_s2,
           magnitude(s.acceleration_from_m_s2));  // a damper's force begins with a jump
     raise(cycle_.largest_acceleration_m_s2, magnitude(s.acceleration_to_m_s2));
-    note_opening(s, deg_at);
+    record_opening(s, deg_at);
     if (s.theory_speed_from_m_s > 0 && s.theory_speed_to_m_s <= 0 && s.theory_to_m > 0) flags_ |= kClosing;
     if (stage_ == Stage::seated && (s.regime & kSeatOn) == 0) {
       raise(excursion_m_, lift - seat_contact_m);
@@ -86,27 +86,27 @@ class ValveRecord {
     raise(cycle_.largest_acceleration_m_s2, magnitude(acceleration_m_s2));
   }
 
-  /// The largest values so far.
-  struct Largest {
+  /// The maxima so far.
+  struct Maxima {
     Real lift_m, speed_m_s, acceleration_m_s2;
   };
-  [[nodiscard]] constexpr Largest largest() const noexcept {
+  [[nodiscard]] constexpr Maxima maxima() const noexcept {
     return {cycle_.largest_lift_m, cycle_.largest_speed_m_s, cycle_.largest_acceleration_m_s2};
   }
-  constexpr void set_largest(const Largest& x) noexcept {
+  constexpr void set_maxima(const Maxima& x) noexcept {
     cycle_.largest_lift_m = x.lift_m, cycle_.largest_speed_m_s = x.speed_m_s;
     cycle_.largest_acceleration_m_s2 = x.acceleration_m_s2;
   }
-  /// In these contacts, and while neither its cam nor a valve is lifted so far, only they change.
-  [[nodiscard]] constexpr Real eventless_to_m(std::uint32_t contacts) const noexcept {
+  /// In these contacts, and while neither cam nor valve lifts so far, a step changes nothing but the maxima.
+  [[nodiscard]] constexpr Real only_maxima_below_m(std::uint32_t contacts) const noexcept {
     constexpr Real kAny = static_cast<Real>(1e30);
     if (stage_ == Stage::closed) return kOpened_m;
     const bool flies = stage_ == Stage::open ? contacts == 0 : (contacts & kSeatOn) == 0;
     return flies ? -kAny : kAny;
   }
 
-  /// The regime changed at `at_deg`.
-  constexpr void change(std::uint32_t before, std::uint32_t after, Real velocity_m_s, Real at_deg) noexcept {
+  /// An event: contacts changed at `at_deg`.
+  constexpr void event(std::uint32_t before, std::uint32_t after, Real velocity_m_s, Real at_deg) noexcept {
     ++cycle_.contact_changes;
     if (is(kSeparated) && after != 0) end_separation(at_deg);
     const bool landed = (after & ~before & kSeatOn) != 0;
@@ -174,9 +174,9 @@ class ValveRecord {
   }
 
   /// The valve opens where it stands at 0.1 mm or above once the cam has passed that. One that was up before its cam
-  /// has no delay to tell: it is still in the air from the cycle before.
+  /// has no delay: it is still in the air from the cycle before.
   template <class DegAt>
-  constexpr void note_opening(const ObservedStep<Real>& s, const DegAt& deg_at) noexcept {
+  constexpr void record_opening(const ObservedStep<Real>& s, const DegAt& deg_at) noexcept {
     if (stage_ != Stage::closed) return;
     if (!is(kTheoryOpened) && s.theory_from_m < kOpened_m && s.theory_to_m >= kOpened_m) {
       flags_ |= kTheoryOpened;
@@ -185,7 +185,7 @@ class ValveRecord {
     }
     if (!is(kTheoryOpened) || s.to.lift_m < kOpened_m) return;
     stage_ = Stage::open;
-    if (s.from.lift_m >= kOpened_m) return;  // it was open before its cam was: no delay to tell
+    if (s.from.lift_m >= kOpened_m) return;  // it was open before its cam was: no delay
     cycle_.opening_delay_deg =
         magnitude(deg_at(part_opened(s.from.lift_m, s.from.velocity_m_s, s.to.lift_m, s.to.velocity_m_s, s.step_s)) -
                   theory_opened_deg_);
@@ -194,7 +194,7 @@ class ValveRecord {
   constexpr void end_separation(Real at_deg) noexcept {
     CRANKLOOP_ASSERT(is(kSeparated));
     flags_ &= ~kSeparated;
-    if (excursion_m_ < kLeastSeparation_m) return;
+    if (excursion_m_ < kMinSeparation_m) return;
     ++cycle_.separations;
     if (excursion_m_ <= cycle_.separation_clearance_m) return;
     cycle_.separation_clearance_m = excursion_m_;
@@ -203,7 +203,7 @@ class ValveRecord {
   }
 
   constexpr void end_hop() noexcept {
-    if (excursion_m_ >= kLeastSeparation_m) {
+    if (excursion_m_ >= kMinSeparation_m) {
       ++cycle_.bounces;
       raise(cycle_.bounce_height_m, excursion_m_);
     }
@@ -218,7 +218,7 @@ class ValveRecord {
   std::uint32_t flags_ = 0;
 };
 
-/// A record that takes no notes: scenes without results.
+/// In scenes without results.
 template <class Real>
 struct NoRecord {};
 

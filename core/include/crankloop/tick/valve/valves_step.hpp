@@ -1,6 +1,6 @@
 // All elastic or cam-following valves of an engine over one tick.
 //
-// What belongs here: phasers, then valves of either kind; those that follow their cams. What does not: those that swing
+// What belongs here: phasers, then valves of either kind; those that follow their cams. What does not: elastic ones
 // (elastic_valves.hpp).
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace crankloop::detail {
 
-/// A valve that follows its cam, but for the clearance.
+/// A valve that follows its cam, less the clearance.
 template <class Real>
 [[nodiscard, gnu::always_inline]] constexpr ValveMotionOutput<Real> following(const LiftCurve<Real>& curve,
                                                                               const Cell& cell,
@@ -26,8 +26,8 @@ template <class Real>
           curve.curvature(cell) * (cam.deg_per_s * cam.deg_per_s)};
 }
 
-/// One tick, in which the engine turned; `jumped`: a measured phase jumped, so valves start anew where their cams
-/// stand. Pressures are those of each cylinder, where the scene has valve_gas. Answers fault bits.
+/// One tick, in which the engine turned; `jumped`: a measured phase jumped, so valves start again where their cams
+/// stand. Pressures are those of each cylinder, where the scene has valve_gas. Returns fault bits.
 template <class Real, class S>
 [[nodiscard, gnu::always_inline]] inline std::uint32_t run_valves(const Tables<Real, S>& tables, State<Real, S>& state,
                                                                   ValvesWorkOf<Real, S>& work, Output<Real, S>& out,

@@ -42,18 +42,20 @@ struct CamClearance {
   }
 };
 
-/// Whether a scene's valves may be stepped abreast: enough for a block. By processor, not by the compiler's flags: a
-/// layout depends on it.
+/// Whether a scene's valves have the layout for lanes: enough valves for a block. By processor, not by the compiler's
+/// flags, for the size of an engine depends on it.
 #if defined(__x86_64__) || defined(__aarch64__)
 inline constexpr bool kHasLanes = true;
 #else
 inline constexpr bool kHasLanes = false;
 #endif
 template <class Real, class S>
-inline constexpr bool kMayGoAbreast = kHasLanes && sizeof(Real) == 4 && S::trains.capacity* S::cylinders.capacity >= 4;
+inline constexpr bool kLaneLayout = kHasLanes && sizeof(Real) == 4 && S::trains.capacity* S::cylinders.capacity >= 4;
 
-template <class S>
-inline constexpr std::size_t kLaneRoom = (group::ValvesState<float, S>::kLanes + 7) / 8 * 8;
+/// Lanes of an engine: one for each valve, in whole blocks where the layout is for vectors.
+template <class S, class Real = float>
+inline constexpr std::size_t kLaneRoom = kLaneLayout<Real, S> ? (group::ValvesState<float, S>::kLanes + 7) / 8 * 8
+                                                              : group::ValvesState<Real, S>::kLanes;
 
 /// What lanes need side by side of their valves' bodies, where gas pushes them,
 template <class S>
@@ -67,67 +69,55 @@ struct ForceLanes {
   float preload_N[kLaneRoom<S>] = {}, seat_N_m[kLaneRoom<S>] = {}, seat_Ns_m[kLaneRoom<S>] = {};
   float rocker_mass_kg[kLaneRoom<S>] = {};
 };
-/// and of their records: the largest values, and ValveRecord::eventless_to_m().
+/// and of their records: the maxima, and ValveRecord::only_maxima_below_m();
 template <class S>
 struct RecordLanes {
-  float largest_lift_m[kLaneRoom<S>] = {}, largest_speed_m_s[kLaneRoom<S>] = {};
-  float largest_acceleration_m_s2[kLaneRoom<S>] = {};
-  float eventless_to_m[kLaneRoom<S>] = {};
+  float max_lift_m[kLaneRoom<S>] = {}, max_speed_m_s[kLaneRoom<S>] = {};
+  float max_acceleration_m_s2[kLaneRoom<S>] = {};
+  float only_maxima_below_m[kLaneRoom<S>] = {};
 };
 
-/// and where valves come to rest: those that move come first, in any order. (Where gas moves all of them, a lane is a
+/// and where valves come to rest: active ones come first, in any order. (Under gas all stay active, and a lane is a
 /// valve's number.)
 template <class S>
-struct MoverLanes {
+struct LanesInUse {
   float lift_m[kLaneRoom<S>] = {}, velocity_m_s[kLaneRoom<S>] = {};  ///< copies of the state
   std::uint32_t valve[kLaneRoom<S>] = {};                            ///< the valve in each lane,
   std::uint32_t lane[kLaneRoom<S>] = {};                             ///< and the lane of each valve
-  std::uint32_t movers = 0;                                          ///< lanes whose valves move
+  std::uint32_t active_lanes = 0;                                    ///< lanes of active valves: the first ones
 };
 
-/// What lanes need side by side (tick/valve/valves_abreast.hpp).
+/// What vectors of lanes read besides, so that a block loads it side by side (tick/valve/valve_lanes.hpp).
 template <class S>
-struct alignas(16) AbreastWork : If<S::valve_gas, GasLanes<S>>,
+struct alignas(16) VectorLanes : If<S::valve_gas, GasLanes<S>>,
                                  If<S::valve_forces, ForceLanes<S>>,
                                  If<S::valve_results, RecordLanes<S>>,
-                                 If<!S::valve_gas, MoverLanes<S>> {
-  static constexpr std::size_t kRoom = kLaneRoom<S>;
+                                 If<!S::valve_gas, LanesInUse<S>> {
   static constexpr bool kBlocksAligned = !S::valve_gas || S::cylinders.exact || S::cylinders.capacity % 4 == 0;
-  alignas(16) float regime[34][kRoom] = {};     ///< numbers of each lane's RegimeStep, up to calm_m
-  const LiftSegment<float>* curve[kRoom] = {};  ///< of its cam's lift, one for each degree of the lobe and one outside
-  std::uint32_t degrees[kRoom] = {};            ///< of its lobe
-  std::uint32_t opens_degree[kRoom] = {};       ///< of the train's cams: where its lobe begins,
-  std::uint32_t opens_into[kRoom] = {};         ///< and where in that degree, kSignBit flipped
-  float cam_lift_m[kRoom] = {};                 ///< at the tick's end,
-  float cam_per_deg_m[kRoom] = {};              ///< and its slope
-};
-
-/// What a valve that goes by itself has at hand.
-template <class Real>
-struct ValveWork {
-  const LiftCurve<Real>* curve;
-  const RegimeStep<Real>* regime;  ///< of its tick
-  std::uint32_t opens;             ///< where its lobe begins, high word
-  Real cam_lift_m, cam_per_deg_m;  ///< at the tick's end, if it moves: its cam's lift and the slope of it
-};
-template <class Real, class S>
-struct OneByOneWork {
-  ValveWork<Real> valve[group::ValvesState<Real, S>::kLanes] = {};
+  alignas(16) float constants[34][kLaneRoom<S>] = {};  ///< numbers of each lane's RegimeStep, up to decoupled_m
+  std::uint32_t degrees[kLaneRoom<S>] = {};            ///< of its lobe
+  std::uint32_t opens_degree[kLaneRoom<S>] = {};       ///< of the train's cams: where its lobe begins,
+  std::uint32_t opens_into[kLaneRoom<S>] = {};         ///< and where in that degree, kSignBit flipped
 };
 
 /// A bit for each valve of an engine, by its number.
 template <class S>
 using ValveBits = std::conditional_t<(S::trains.capacity * S::cylinders.capacity > 32), std::uint64_t, std::uint32_t>;
 
-/// What a tick of elastic valves remembers beside the state, all of it worked out from that.
+/// What a tick of elastic valves remembers beside the state, all of it derived from that: of each valve, by its lane.
 template <class Real, class S>
-struct ValvesWork : std::conditional_t<kMayGoAbreast<Real, S>, AbreastWork<S>, OneByOneWork<Real, S>> {
-  Real skip_deg = 0;        ///< a tick that turns some cam so far may pass over all of its lobe that counts;
-  Real far_deg = 0;         ///< over more than the lift at its ends and in its middle tells;
-  Real wide_deg = 0;        ///< over more than the cubic through its ends tells
-  ValveBits<S> moving = 0;  ///< those that are not at rest with their cams away
-  CamWindow clear[kCamGroups<S>] = {};   ///< of these cams' turn: none of a valve at rest comes near there,
-  CamWindow no_end[kCamGroups<S>] = {};  ///< and none of any valve ends its cycle
+struct ValvesWork : If<kLaneLayout<Real, S>, VectorLanes<S>> {
+  static constexpr std::size_t kLanes = kLaneRoom<S, Real>;
+  alignas(kLaneLayout<Real, S> ? 16 : alignof(Real)) Real cam_lift_m[kLanes] = {};  ///< at the tick's end,
+  Real cam_per_deg_m[kLanes] = {};                                                  ///< and its slope; while active
+  const LiftCurve<Real>* curve[kLanes] = {};
+  const RegimeStep<Real>* regime[kLanes] = {};  ///< of its tick
+  Real skip_deg = 0;                            ///< a tick that turns the cams so far may pass over some lobe;
+  Real guard_range_deg = 0;  ///< it is beyond some guards' range: the lift at its ends and in its middle does not do;
+  Real wide_deg = 0;         ///< it is wide: the cubic through some lift's ends does not do
+  ValveBits<S> active = 0;   ///< valves that are not at rest with their cams away
+  CamWindow clear[kCamGroups<S>] = {};   ///< of these cams' turn: where none of an inactive valve comes near,
+  CamWindow no_end[kCamGroups<S>] = {};  ///< and where no valve's cycle ends
 };
 
 template <class Real, class S>

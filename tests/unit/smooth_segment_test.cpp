@@ -1,4 +1,4 @@
-// Where in a stretch of a valve's motion a contact changes: the places of a cubic against bisection, and what tells of
+// Where in a segment of a valve's motion a contact changes: the places of a cubic against bisection, and what tells of
 // a contact against what it is made of.
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <random>
 
-#include <crankloop/tick/valve/valve_stretch.hpp>
+#include <crankloop/tick/valve/smooth_segment.hpp>
 
 namespace crankloop::detail {
 namespace {
@@ -80,20 +80,20 @@ TEST(Cubic, TurnsWhereItsSlopeIsZero) {
     if (!(f.c[1] * f.at(1).slope < 0)) continue;
     const double turn = bisected(0, 1, [&f](double x) { return f.at(x).slope; });
     if (std::fabs(2 * f.c[2] + 6 * turn * f.c[3]) < 1) continue;
-    largest = std::max(largest, std::fabs(f.turn() - turn));
+    largest = std::max(largest, std::fabs(f.extremum() - turn));
     ++found;
   }
   EXPECT_GT(found, 2000);
   EXPECT_LT(largest, 2e-3);
 }
 
-TEST(Stretch, TellsOfAContactByItsForceWhereItIsAndByItsDepthWhereItIsNot) {
-  Stretch<double> s{};
+TEST(SmoothSegment, TellsOfAContactByItsForceWhereItIsAndByItsDepthWhereItIsNot) {
+  SmoothSegment<double> s{};
   s.d_s = 2e-5;
   const Contact<double> c{{-3e-6, 5e-6}, {0.3, 0.7}, {1e4, -2e4}};
   const double lag_s = 4e-6;
   const auto through = [&](const Contact<double>& of, bool is_on, double lag) {
-    const Cubic<double> f = s.switching(of, is_on, lag_s);
+    const Cubic<double> f = s.event_function(of, is_on, lag_s);
     for (int end = 0; end < 2; ++end) {
       EXPECT_NEAR(f.at(end).value, of.depth_m[end] + lag * of.speed_m_s[end], 1e-20);
       EXPECT_NEAR(f.at(end).slope, s.d_s * (of.speed_m_s[end] + lag * of.rate_m_s2[end]), 1e-18);
@@ -118,7 +118,7 @@ struct Lobe {
   [[nodiscard]] Lift<double> read(double deg) const { return curve.read(LiftCurve<double>::cell(phase(deg))); }
 };
 
-TEST(Stretch, OfManyDegreesTakesWhatTheLiftInItsMiddleIsOffItsCubic) {
+TEST(SmoothSegment, OfManyDegreesTakesWhatTheLiftInItsMiddleIsOffItsCubic) {
   const Lobe lobe;
   RegimeStep<double> regime{};
   regime.middle = {2, 5};

@@ -1,7 +1,8 @@
-// A stretch of a valve's motion in one regime: where in it a contact changes, the state there, and how it goes on.
+// A smooth segment of a valve's motion, all in one regime: where in it an event lies, the state there, and how the
+// motion goes on.
 //
-// What belongs here: one stretch, without a thought of what led to it. What does not: which stretches a tick has, and
-// what it may spend on them (valve_changes.hpp).
+// What belongs here: one segment by itself. What does not: which segments a tick has, and what it may spend on them
+// (event_location.hpp).
 #pragma once
 
 #include <cstdint>
@@ -22,7 +23,7 @@ struct Span {
   Real later_deg;               ///< cam degrees that have passed since
 };
 
-/// A contact's depth, with its speed and the rate of that, at both ends of a stretch.
+/// A contact's depth, its speed and its acceleration at both ends of a segment.
 template <class Real>
 struct Contact {
   Real depth_m[2], speed_m_s[2], rate_m_s2[2];
@@ -30,22 +31,23 @@ struct Contact {
 
 /// Part of a fine step between two states of one regime.
 template <class Real>
-struct Stretch {
+struct SmoothSegment {
   Real d_s;
   ValveState<Real> from, to;
   Real increment_m;
   Real acceleration[2];
   Contact<Real> train, seat;
 
-  /// What changes its sign where a contact does, by the part of the stretch. One that is on ends where its force
-  /// does. One that is off begins where its depth becomes positive; or, there already, where its force does.
-  [[nodiscard]] Cubic<Real> switching(const Contact<Real>& c, bool is_on, Real lag_s) const noexcept {
+  /// The event function of a contact over the segment, 0 to 1: it changes sign where the contact does. A contact that
+  /// is on ends where its force does. One that is off begins where its depth becomes positive or, if it is already,
+  /// where its force does.
+  [[nodiscard]] Cubic<Real> event_function(const Contact<Real>& c, bool is_on, Real lag_s) const noexcept {
     const Real lag = !is_on && c.depth_m[0] <= 0 ? Real{0} : lag_s;
     return Cubic<Real>(c.depth_m[0] + lag * c.speed_m_s[0], d_s * (c.speed_m_s[0] + lag * c.rate_m_s2[0]),
                        c.depth_m[1] + lag * c.speed_m_s[1], d_s * (c.speed_m_s[1] + lag * c.rate_m_s2[1]));
   }
 
-  /// The state at a part of it: the quintic through states and accelerations at both ends.
+  /// The state at a fraction of it: the quintic through states and accelerations at both ends.
   [[nodiscard]] ValveState<Real> at(Real x) const noexcept {
     CRANKLOOP_ASSERT(x >= 0 && x <= 1);
     CRANKLOOP_ASSERT(d_s > 0);
@@ -73,15 +75,15 @@ struct Stretch {
 
 /// The rest of a fine step, `left` of it, from the origin of `lift`.
 template <class Real, class Gas>
-[[nodiscard]] inline Stretch<Real> stretch_of(const ValveMotion<Real>& motion, const Placed<Real>& valve,
-                                              const Stepped<Real>& end, const Cubic<Real>& lift, Real left,
-                                              const Span<Real, Gas>& step) noexcept {
+[[nodiscard]] inline SmoothSegment<Real> segment_of(const ValveMotion<Real>& motion, const ValveInRegime<Real>& valve,
+                                                    const Stepped<Real>& end, const Cubic<Real>& lift, Real left,
+                                                    const Span<Real, Gas>& step) noexcept {
   CRANKLOOP_ASSERT(left > 0 && left <= 1);
   CRANKLOOP_ASSERT(valve.regime < std::uint32_t{kRegimes});
   const Real per_s = motion.per_fine_step_s;
   const ForceRow<Real>& force = motion.fine[valve.regime].acceleration;
   const Gas gas = step.gas.between(1 - left, 1);
-  Stretch<Real> s;
+  SmoothSegment<Real> s;
   s.d_s = left * motion.fine_step_s;
   s.from = valve.state, s.to = end.state, s.increment_m = end.increment_m;
   Contact<Real>& train = s.train;
@@ -110,37 +112,38 @@ template <class Real, class Gas>
                      step.cam.deg);
 }
 
-/// Whether a change of the train's contact may as well be taken at a step's end: it is nearer to its place there than a
-/// valve need be to be put at rest. Without lash a closed valve's train touches and leaves by less than that.
+/// Whether an event of the train's contact may as well count at the step's end: the gap there is less than the distance
+/// at which a valve is taken to be at rest. Without lash a closed valve's train touches and leaves by less than that.
 template <class Real>
-[[nodiscard]] constexpr bool is_slight(const ValveMotion<Real>& motion, std::uint32_t changed,
-                                       const ValveState<Real>& end, const Lift<Real>& cam) noexcept {
-  return changed == kTrainOn && magnitude(cam.lift_m - end.lift_m) < motion.fine[kSeatOn].rest_m;
+[[nodiscard]] constexpr bool is_negligible(const ValveMotion<Real>& motion, std::uint32_t contact,
+                                           const ValveState<Real>& end, const Lift<Real>& cam) noexcept {
+  return contact == kTrainOn && magnitude(cam.lift_m - end.lift_m) < motion.fine[kSeatOn].rest_m;
 }
 
-/// A contact that changes and changes back within a stretch: what tells of it turns round beyond zero.
+/// A contact that changes and changes back within a segment: its event function has an extremum beyond zero.
 template <class Real>
-[[nodiscard]] inline std::uint32_t passing_change(const ValveMotion<Real>& motion, const Stretch<Real>& s,
-                                                  std::uint32_t regime) noexcept {
-  const auto passes = [&](const Contact<Real>& c, bool is_on, Real lag_s) {
-    const Cubic<Real> f = s.switching(c, is_on, lag_s);
+[[nodiscard]] inline std::uint32_t grazing_event(const ValveMotion<Real>& motion, const SmoothSegment<Real>& s,
+                                                 std::uint32_t regime) noexcept {
+  const auto grazes = [&](const Contact<Real>& c, bool is_on, Real lag_s) {
+    const Cubic<Real> f = s.event_function(c, is_on, lag_s);
     const Real sign = is_on ? Real{1} : Real{-1};
-    return sign * f.c[1] < 0 && sign * (f.c[1] + 2 * f.c[2] + 3 * f.c[3]) > 0 && sign * f.at(f.turn()).value < 0;
+    return sign * f.c[1] < 0 && sign * (f.c[1] + 2 * f.c[2] + 3 * f.c[3]) > 0 && sign * f.at(f.extremum()).value < 0;
   };
-  if (passes(s.train, (regime & kTrainOn) != 0, motion.train_lag_s)) return kTrainOn;
-  return passes(s.seat, (regime & kSeatOn) != 0, motion.seat_lag_s) ? kSeatOn : 0u;
+  if (grazes(s.train, (regime & kTrainOn) != 0, motion.train_lag_s)) return kTrainOn;
+  return grazes(s.seat, (regime & kSeatOn) != 0, motion.seat_lag_s) ? kSeatOn : 0u;
 }
 
-/// The part of a stretch after which a contact changes; `again`: it has changed at the stretch's start.
+/// The fraction of a segment at which a contact's event lies; `again`: the segment starts with an event of this
+/// contact.
 template <class Real>
-[[nodiscard]] inline Real place_of(const Stretch<Real>& s, const Contact<Real>& c, bool is_on, bool again,
-                                   Real lag_s) noexcept {
-  Cubic<Real> f = s.switching(c, is_on, lag_s);
+[[nodiscard]] inline Real event_fraction(const SmoothSegment<Real>& s, const Contact<Real>& c, bool is_on, bool again,
+                                         Real lag_s) noexcept {
+  Cubic<Real> f = s.event_function(c, is_on, lag_s);
   const Real last = f.c[0] + f.c[1] + f.c[2] + f.c[3];
   if (again || (f.c[0] > 0) != (last > 0)) return f.root(again, last);
-  const Real turn = f.turn();  // it changes back before the end
-  f.shrink(turn);
-  return turn * f.root(false, f.at(1).value);
+  const Real extremum = f.extremum();  // a grazing event: it changes back before the end
+  f.shrink(extremum);
+  return extremum * f.root(false, f.at(1).value);
 }
 
 /// The motion from the origin of the lift's cubic on, over the part x of a fine step: derivatives by the equation of

@@ -1,6 +1,6 @@
-// Several valves at once, one in each lane: what lanes have side by side, and how it is read.
+// Several valves at once, one in each lane: what lanes hold side by side, and how it is read.
 //
-// What belongs here: a lane's regime, its body, its cam. What does not: the plain step of a block of lanes
+// What belongs here: a lane's regime, body and cam. What does not: the plain step of a block of lanes
 // (lane_blocks.hpp), the arithmetic of a step (valve.hpp), which valves an engine has (elastic_valves.hpp).
 #pragma once
 
@@ -17,7 +17,7 @@
 #if CRANKLOOP_ABREAST
 namespace crankloop::detail {
 
-/// A number of each lane, read where it is used: a regime's would not all find a register.
+/// A number of each lane, read where it is used: a regime has more of them than there are registers.
 template <class Lanes, bool Aligned>
 struct InMemory {
   const float* at;
@@ -34,7 +34,7 @@ template <class Lanes, class Work>
 [[nodiscard, gnu::always_inline]] inline auto regimes_at(const Work& w, std::size_t first) noexcept {
   using Held = InMemory<Lanes, Work::kBlocksAligned>;
   int number = 0;
-  const auto next = [&] { return Held{&w.regime[number++][first]}; };
+  const auto next = [&] { return Held{&w.constants[number++][first]}; };
   RegimeStep<Held> r;
   for (StepRow<Held>* row : {&r.lift, &r.velocity}) {
     row->rest = next(), row->gas = next(), row->gas_rise = next(), row->gap = next(), row->rise = next();
@@ -49,17 +49,17 @@ template <class Lanes, class Work>
   return r;
 }
 
-/// A lane is in this regime from now on.
+/// Loads a lane with a regime's constants.
 template <class Work>
 [[gnu::noinline]] inline void set_lane(Work& w, std::size_t lane, const RegimeStep<float>& regime) noexcept {
-  static_assert(sizeof w.regime / sizeof w.regime[0] * sizeof(float) == offsetof(RegimeStep<float>, calm_m));
+  static_assert(sizeof w.constants / sizeof w.constants[0] * sizeof(float) == offsetof(RegimeStep<float>, decoupled_m));
   const char* from = reinterpret_cast<const char*>(&regime);
-  for (auto& numbers : w.regime) std::memcpy(&numbers[lane], from, sizeof(float)), from += sizeof(float);
+  for (auto& numbers : w.constants) std::memcpy(&numbers[lane], from, sizeof(float)), from += sizeof(float);
 }
 
-/// What a lane has of its valve's body.
+/// Loads a lane with what it needs of its valve's body.
 template <class S>
-inline void set_body_of_lane(AbreastWork<S>& w, std::size_t lane, const ValveMotion<float>& motion) noexcept {
+inline void set_body_of_lane(ValvesWork<float, S>& w, std::size_t lane, const ValveMotion<float>& motion) noexcept {
   if constexpr (S::valve_gas)
     w.head_area_m2[lane] = motion.body.head_area_m2, w.per_seat_N_m[lane] = motion.per_seat_N_m;
   if constexpr (S::valve_forces) {
@@ -71,25 +71,24 @@ inline void set_body_of_lane(AbreastWork<S>& w, std::size_t lane, const ValveMot
   (void)w, (void)lane, (void)motion;
 }
 
-/// Flipped in parts of a degree: the comparison of signed words, which every processor has, then orders them.
+/// Flipped in fractions of a degree, so that the comparison of signed words, which every processor has, orders them.
 inline constexpr std::uint32_t kSignBit = 0x8000'0000u;
 
-/// What a lane has of its cam.
+/// Loads a lane with what it needs of its cam.
 template <class Work>
-inline void set_cam_of_lane(Work& w, std::size_t lane, const LiftCurve<float>& curve, std::uint32_t opens) noexcept {
-  const Cell cell = LiftCurve<float>::cell(std::uint64_t{opens} << 32);
-  w.curve[lane] = curve.at;
+inline void set_cam_of_lane(Work& w, std::size_t lane, const LiftCurve<float>& curve, std::uint32_t cylinder) noexcept {
+  const Cell cell = LiftCurve<float>::cell(curve.opens[cylinder]);
   w.degrees[lane] = curve.segments;
   w.opens_degree[lane] = cell.degree;
   w.opens_into[lane] = cell.into ^ kSignBit;
 }
 
-/// How the lanes' cams turn in a tick: all alike, or each by itself where phasers turn them.
+/// How the lanes' cams turn in a tick: all alike, or each its own way where phasers turn them.
 template <class S>
 struct LanesTick {
-  static constexpr std::size_t kRoom = S::cam_phasing ? AbreastWork<S>::kRoom : 1;
+  static constexpr std::size_t kRoom = S::cam_phasing ? kLaneRoom<S> : 1;
   float deg[kRoom], deg_per_s[kRoom];
-  std::uint32_t degree[kRoom], into[kRoom];  ///< where the train's cams stand, as AbreastWork has the lobes' beginnings
+  std::uint32_t degree[kRoom], into[kRoom];  ///< where the train's cams stand, as VectorLanes has where lobes begin
 
   void set(std::size_t lane, const CamTick<float>& tick) noexcept {
     CRANKLOOP_ASSERT(lane < kRoom);
@@ -112,12 +111,12 @@ struct LanesTick {
   }
 };
 
-/// Gas forces of lanes over a tick, where they are not worked out in their blocks.
+/// Gas forces of lanes over a tick, where blocks do not compute them.
 template <class S>
 struct GasOfLanes {
   float from_N[kLaneRoom<S>], to_N[kLaneRoom<S>];
 };
-/// A block's valves are then of one train, their cylinders side by side.
+/// Whether blocks compute them: then a block's valves are of one train, their cylinders side by side.
 template <class S>
 inline constexpr bool kGasInBlocks = Needs<S>::valve_gas_held&& S::cylinders.capacity % kLanesOf<WidestLanes> == 0;
 
@@ -141,7 +140,7 @@ struct ValvesOf {
     for (int i = 0; i < kLanesOf<Lanes>; ++i) to[valve[i]] = x[i];
   }
 };
-/// Where each of them has its floats, a row of so many for each valve.
+/// Where each valve has its row of floats.
 template <std::size_t Floats, class Lanes>
 struct RowsOf {
   float* at[kLanesOf<Lanes>];
@@ -154,19 +153,19 @@ struct RowsOf {
 /// Where each lane's cam stands: a segment of its lift, and how far into it.
 template <class Lanes>
 struct LanesPlace {
-  std::uint32_t segment[kLanesOf<Lanes>];  ///< that of outside the lobe is its last
+  std::uint32_t segment[kLanesOf<Lanes>];  ///< outside the lobe the last one
   Lanes u;
 };
 
-/// The lift of each lane's cam: bit for bit that of LiftCurve::read at LiftCurve::cell. Its angle is the cams' less
-/// that of the lobe's beginning, so its place among the degrees is too, but for a borrow and for a turn.
+/// The lift of each lane's cam: bit for bit that of LiftCurve::read at LiftCurve::cell. A cam's angle is the train's
+/// less that where its lobe begins; so is its degree, except for a borrow and a turn.
 template <class Lanes, class S>
-[[nodiscard, gnu::always_inline]] inline Lift<Lanes> read_lanes(const AbreastWork<S>& w, std::size_t first,
+[[nodiscard, gnu::always_inline]] inline Lift<Lanes> read_lanes(const ValvesWork<float, S>& w, std::size_t first,
                                                                 const LanesTick<S>& tick,
                                                                 LanesPlace<Lanes>& place) noexcept {
   using Words32 = BitsOf<Lanes>;
   using Signed = decltype(Lanes{} < Lanes{});
-  const auto words = [&](const std::uint32_t* from) { return load_words<Lanes, AbreastWork<S>::kBlocksAligned>(from); };
+  const auto words = [&](const std::uint32_t* from) { return load_words<Lanes, VectorLanes<S>::kBlocksAligned>(from); };
   const Words32 cams_into = tick.template words<Lanes>(tick.into, first);
   const Words32 opens_into = words(&w.opens_into[first]);
   const Words32 into = cams_into - opens_into;
@@ -178,7 +177,8 @@ template <class Lanes, class S>
   std::memcpy(place.segment, &degree, sizeof place.segment);
   CRANKLOOP_ASSERT(place.segment[0] <= std::uint32_t{kDegreesPerTurn});
   const float* from[kLanesOf<Lanes>];
-  for (int i = 0; i < kLanesOf<Lanes>; ++i) from[i] = w.curve[first + static_cast<std::size_t>(i)][place.segment[i]].c;
+  for (int i = 0; i < kLanesOf<Lanes>; ++i)
+    from[i] = w.curve[first + static_cast<std::size_t>(i)]->at[place.segment[i]].c;
   Lanes c[6];
   load_lanes(from, c);
   const Lanes u = place.u = __builtin_convertvector(reinterpret_cast<Signed>(into >> 8), Lanes) * 0x1p-24F;

@@ -1,7 +1,7 @@
-// What a tick has at hand of each elastic valve: its tables, its state, where its cam stood, what is shown of it.
+// Access to each elastic valve in a tick: its tables, its state, where its cam stood, its output, its record.
 //
-// What belongs here: where things lie, whether valves go abreast or one by one. What does not: what is done with them
-// (valve_round.hpp, elastic_valves.hpp).
+// What belongs here: where things lie. What does not: what is done with them
+// (plain_steps.hpp, elastic_valves.hpp).
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,22 @@
 #include <crankloop/tables/tables.hpp>
 #include <crankloop/tick/gas/head_pressure.hpp>
 #include <crankloop/tick/valve/cam_ticks.hpp>
-#include <crankloop/tick/valve/valve_changes.hpp>
+#include <crankloop/tick/valve/event_location.hpp>
+#include <crankloop/tick/valve/valve_lanes.hpp>
 #include <crankloop/tick/valve/valve_outputs.hpp>
-#include <crankloop/tick/valve/valves_abreast.hpp>
 #include <crankloop/tick/valve/valves_work.hpp>
 
 namespace crankloop::detail {
 
 /// Valves are numbered train by train: v = train times the scene's cylinders + cylinder.
 template <class Real, class S>
-struct ValvesAtHand {
+struct ValveAccess {
   using Gas = std::conditional_t<S::valve_gas, GasForce<Real>, NoGasForce<Real>>;
   using Record = std::conditional_t<S::valve_results, ValveRecord<Real>, NoRecord<Real>>;
-  using Changes = ValveChanges<Real, Gas, Record>;
+  using Locator = EventLocator<Real, Gas, Record>;
   using Bits = ValveBits<S>;
-  static constexpr bool kAbreast = CRANKLOOP_ABREAST != 0 && kMayGoAbreast<Real, S>;
-  static constexpr bool kMoversFirst = kAbreast && !S::valve_gas;
+  static constexpr bool kInLanes = CRANKLOOP_ABREAST != 0 && kLaneLayout<Real, S>;
+  static constexpr bool kActiveFirst = kInLanes && !S::valve_gas;
   static constexpr std::uint32_t kPerTrain = S::cylinders.capacity;
   static constexpr std::uint32_t kMaxValves = S::trains.capacity * kPerTrain;
 
@@ -35,36 +35,36 @@ struct ValvesAtHand {
   State<Real, S>& state;
   ValvesWork<Real, S>& work;
   Output<Real, S>& out;
-  const Real* pressure_Pa;  ///< of each cylinder, where the scene has valve_gas; none at the start
-  bool wide = false;        ///< the cams have turned so far in this tick that the lift in its middle counts,
-  bool far = false;         ///< or that some valve's guards may not tell
+  const Real* pressure_Pa;     ///< of each cylinder, where the scene has valve_gas; none at the start
+  bool wide = false;           ///< the cams turn so far in this tick that the lift in its middle counts,
+  bool beyond_guards = false;  ///< or even beyond some guards' range
   NoRecord<Real> no_record{};
 
   [[nodiscard]] static constexpr std::uint32_t train(std::uint32_t v) noexcept { return v / kPerTrain; }
   [[nodiscard]] static constexpr std::uint32_t cylinder(std::uint32_t v) noexcept { return v % kPerTrain; }
-  /// Where what a valve has in lanes is, and what was before its step.
+  /// The lane of a valve, in all arrays by lane.
   [[nodiscard]] std::uint32_t lane_of(std::uint32_t v) const noexcept {
-    if constexpr (kMoversFirst) return work.lane[v];
+    if constexpr (kActiveFirst) return work.lane[v];
     return v;
   }
   [[nodiscard]] std::uint32_t valve_in(std::size_t lane) const noexcept {
-    if constexpr (kMoversFirst) return work.valve[lane];
+    if constexpr (kActiveFirst) return work.valve[lane];
     return static_cast<std::uint32_t>(lane);
   }
-  /// The valves of some lanes, but for those at rest: such fill a block, and stay at rest in it.
+  /// Calls for the valve of each of some lanes, if it is active: others only fill a block, and stay at rest in it.
   template <class Call>
-  void for_movers(Bits lanes, const Call& call) const noexcept {
+  void for_active(Bits lanes, const Call& call) const noexcept {
     for (Bits left = lanes; left != 0; left &= left - 1) {
       const std::uint32_t lane = trailing_zeros(left);
-      if constexpr (kMoversFirst) {
-        if (lane >= work.movers) return;
+      if constexpr (kActiveFirst) {
+        if (lane >= work.active_lanes) return;
       }
       call(valve_in(lane));
     }
   }
   /// Lanes' bits as bits of the valves in them.
   [[nodiscard]] Bits valves_in(Bits lanes) const noexcept {
-    if constexpr (!kMoversFirst) return lanes;
+    if constexpr (!kActiveFirst) return lanes;
     Bits valves = 0;
     for (Bits left = lanes; left != 0; left &= left - 1) valves |= Bits{1} << valve_in(trailing_zeros(left));
     return valves;
@@ -72,19 +72,10 @@ struct ValvesAtHand {
   [[nodiscard]] const ValveMotion<Real>& motion(std::uint32_t v) const noexcept {
     return tables.valve_motions[train(v)];
   }
-  [[nodiscard]] const LiftCurve<Real>& curve(std::uint32_t v) const noexcept {
-    if constexpr (kMayGoAbreast<Real, S>)
-      return tables.lift_curves[train(v)];
-    else
-      return *work.valve[v].curve;
-  }
+  [[nodiscard]] const LiftCurve<Real>& curve(std::uint32_t v) const noexcept { return *work.curve[lane_of(v)]; }
   /// Where a valve's cam stands.
   [[nodiscard]] Cell cell(std::uint32_t v, std::uint64_t phase) const noexcept {
-    if constexpr (kMayGoAbreast<Real, S> || sizeof(Real) != 4) {
-      return curve(v).cell(phase, cylinder(v));
-    } else {
-      return LiftCurve<Real>::cell(units_from<Real>(phase, std::uint64_t{work.valve[v].opens} << 32));
-    }
+    return curve(v).cell(phase, cylinder(v));
   }
   [[nodiscard]] std::uint32_t trains() const noexcept {
     return S::trains.exact ? S::trains.capacity : tables.drive->trains;
@@ -107,20 +98,12 @@ struct ValvesAtHand {
   }
 
   [[nodiscard]] Lift<Real> cam(std::uint32_t v) const noexcept {
-    if constexpr (kMayGoAbreast<Real, S>) {
-      return {work.cam_lift_m[lane_of(v)], work.cam_per_deg_m[lane_of(v)]};
-    } else {
-      return {work.valve[v].cam_lift_m, work.valve[v].cam_per_deg_m};
-    }
+    return {work.cam_lift_m[lane_of(v)], work.cam_per_deg_m[lane_of(v)]};
   }
   void set_cam(std::uint32_t v, const Lift<Real>& lift) noexcept {
-    if constexpr (kMayGoAbreast<Real, S>) {
-      work.cam_lift_m[lane_of(v)] = lift.lift_m, work.cam_per_deg_m[lane_of(v)] = lift.per_deg_m;
-    } else {
-      work.valve[v].cam_lift_m = lift.lift_m, work.valve[v].cam_per_deg_m = lift.per_deg_m;
-    }
+    work.cam_lift_m[lane_of(v)] = lift.lift_m, work.cam_per_deg_m[lane_of(v)] = lift.per_deg_m;
   }
-  /// A step of a wide tick with what the lift in its middle adds. By values: else the steps of all ticks would go
+  /// Adds what the lift in the middle of a wide tick contributes. By values: else the steps of all ticks would go
   /// through memory.
   [[nodiscard, gnu::noinline]] Stepped<Real> with_middle_of_tick(std::uint32_t v, const CamTick<Real>& tick,
                                                                  Stepped<Real> step, Lift<Real> to) const noexcept {
@@ -132,42 +115,38 @@ struct ValvesAtHand {
   }
   void set_state(std::uint32_t v, const ValveState<Real>& s) noexcept {
     state.valve_lift_m[v] = s.lift_m, state.valve_velocity_m_s[v] = s.velocity_m_s;
-    if constexpr (kMoversFirst) work.lift_m[lane_of(v)] = s.lift_m, work.velocity_m_s[lane_of(v)] = s.velocity_m_s;
+    if constexpr (kActiveFirst) work.lift_m[lane_of(v)] = s.lift_m, work.velocity_m_s[lane_of(v)] = s.velocity_m_s;
   }
   void set_regime(std::uint32_t v, std::uint32_t regime) noexcept {
     CRANKLOOP_ASSERT(v < kMaxValves && regime < std::uint32_t{kRegimes});
     state.valve_regime[v] = regime;
-    if constexpr (!kMayGoAbreast<Real, S>) work.valve[v].regime = &motion(v).whole[regime];
+    const RegimeStep<Real>& step = motion(v).whole[regime];
+    work.regime[lane_of(v)] = &step;
 #if CRANKLOOP_ABREAST
-    if constexpr (kAbreast) set_lane(work, lane_of(v), motion(v).whole[regime]);
+    if constexpr (kInLanes) set_lane(work, lane_of(v), step);
 #endif
-    set_known(v);
+    load_record(v);
   }
-  /// Lanes know what the valve's record has.
-  void set_known([[maybe_unused]] std::uint32_t v) noexcept {
-    if constexpr (kAbreast && S::valve_results) {
+  /// Loads what its lane needs of a valve's record.
+  void load_record([[maybe_unused]] std::uint32_t v) noexcept {
+    if constexpr (kInLanes && S::valve_results) {
       const detail::ValveRecord<Real>& record = state.record[train(v)][cylinder(v)];
-      const auto largest = record.largest();
+      const auto maxima = record.maxima();
       const std::uint32_t lane = lane_of(v);
-      work.largest_lift_m[lane] = largest.lift_m, work.largest_speed_m_s[lane] = largest.speed_m_s;
-      work.largest_acceleration_m_s2[lane] = largest.acceleration_m_s2;
-      work.eventless_to_m[lane] = record.eventless_to_m(contacts_of(state.valve_regime[v]));
+      work.max_lift_m[lane] = maxima.lift_m, work.max_speed_m_s[lane] = maxima.speed_m_s;
+      work.max_acceleration_m_s2[lane] = maxima.acceleration_m_s2;
+      work.only_maxima_below_m[lane] = record.only_maxima_below_m(contacts_of(state.valve_regime[v]));
     }
   }
-  /// Of a lane, into its valve's record.
-  void keep_largest(std::uint32_t v) noexcept {
+  /// Stores a lane's maxima in its valve's record.
+  void store_maxima(std::uint32_t v) noexcept {
     const std::uint32_t lane = lane_of(v);
-    state.record[train(v)][cylinder(v)].set_largest(
-        {work.largest_lift_m[lane], work.largest_speed_m_s[lane], work.largest_acceleration_m_s2[lane]});
+    state.record[train(v)][cylinder(v)].set_maxima(
+        {work.max_lift_m[lane], work.max_speed_m_s[lane], work.max_acceleration_m_s2[lane]});
   }
-  [[nodiscard]] const RegimeStep<Real>& regime_of(std::uint32_t v) const noexcept {
-    if constexpr (kMayGoAbreast<Real, S>)
-      return motion(v).whole[state.valve_regime[v]];
-    else
-      return *work.valve[v].regime;
-  }
+  [[nodiscard]] const RegimeStep<Real>& regime_of(std::uint32_t v) const noexcept { return *work.regime[lane_of(v)]; }
 
-  /// On the head's other side.
+  /// The pressure behind the head.
   [[nodiscard]] Real behind_head_Pa([[maybe_unused]] std::uint32_t v) const noexcept {
     if constexpr (Needs<S>::gas) {
       return port_pressure_Pa(tables, state, train(v));
@@ -193,19 +172,19 @@ struct ValvesAtHand {
     return {};
   }
 
-  [[gnu::always_inline]] void show(std::uint32_t v, const ValveState<Real>& end, Cell cell, const Moment<Real>& at,
-                                   const Gas& gas) noexcept {
+  [[gnu::always_inline]] void write_output(std::uint32_t v, const ValveState<Real>& end, Cell cell,
+                                           const Moment<Real>& at, const Gas& gas) noexcept {
     if constexpr (Needs<S>::valve_gas_held) state.valve_gas_N[v] = gas.to_N;
-    show_motion((&out.valve[0][0])[v], end, at);
+    write_motion((&out.valve[0][0])[v], end, at);
     if constexpr (S::valve_forces)
-      show_forces((&out.valve_forces[0][0])[v], motion(v).body, curve(v), {end, state.valve_regime[v]}, cell, at);
+      write_forces((&out.valve_forces[0][0])[v], motion(v).body, curve(v), {end, state.valve_regime[v]}, cell, at);
     (void)cell, (void)gas;
   }
 
-  /// Into the record of its cycle: a plain step, its gas force, and its acceleration at the end as shown.
-  [[gnu::always_inline]] void note(std::uint32_t v, const ValveState<Real>& start, const ValveState<Real>& end,
-                                   const Lift<Real>& from, const Lift<Real>& to, const CamTick<Real>& tick,
-                                   const Gas& gas, Real acceleration_m_s2) noexcept {
+  /// Records a plain step in the valve's cycle.
+  [[gnu::always_inline]] void record(std::uint32_t v, const ValveState<Real>& start, const ValveState<Real>& end,
+                                     const Lift<Real>& from, const Lift<Real>& to, const CamTick<Real>& tick,
+                                     const Gas& gas, Real acceleration_m_s2) noexcept {
     const Real from_m_s = tick.cam.deg_per_s * from.per_deg_m;
     const Real started_m_s2 = acceleration(regime_of(v).acceleration, start, from.lift_m - start.lift_m,
                                            from_m_s - start.velocity_m_s, gas.before());
@@ -220,11 +199,11 @@ struct ValvesAtHand {
     return curve(v).degrees(tick.phase_before() - curve(v).opens[cylinder(v)]) + part * tick.cam.deg;
   }
 
-  [[nodiscard]] Changes changes(std::uint32_t v, ChangeBudget& budget) noexcept {
+  [[nodiscard]] Locator event_locator(std::uint32_t v, EventBudget& budget) noexcept {
     if constexpr (S::valve_results) {
-      return Changes(motion(v), curve(v), budget, state.record[train(v)][cylinder(v)]);
+      return Locator(motion(v), curve(v), budget, state.record[train(v)][cylinder(v)]);
     } else {
-      return Changes(motion(v), curve(v), budget, no_record);
+      return Locator(motion(v), curve(v), budget, no_record);
     }
   }
   [[nodiscard]] Span<Real, Gas> span(std::uint32_t v, const CamTick<Real>& tick, const Lift<Real>& from,

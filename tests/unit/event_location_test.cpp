@@ -1,7 +1,7 @@
 // A tick in which contacts change, by itself: against the law of motion in steps so short that they need not know where
 // a contact changes.
 #include <crankloop/tabulate/valve_motion.hpp>
-#include <crankloop/tick/valve/valve_changes.hpp>
+#include <crankloop/tick/valve/event_location.hpp>
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ using support::Random;
 
 using Gas = detail::GasForce<double>;
 using Span = detail::Span<double, Gas>;
-using Changes = detail::ValveChanges<double, Gas, detail::NoRecord<double>>;
+using Locator = detail::EventLocator<double, Gas, detail::NoRecord<double>>;
 
 /// The cubic between a cam's lifts and slopes at both ends of a step, by the handbook's formulas.
 CamAt cam_within(const Span& step, double x, double step_s) {
@@ -37,7 +37,7 @@ CamAt cam_within(const Span& step, double x, double step_s) {
   return {lift, slope / step_s};
 }
 
-/// The textbook's four stages, many times over the step; each asks the contacts, and the gas force rises evenly.
+/// The textbook's four stages, many times over the step; each checks the contacts, and the gas force rises evenly.
 struct Brute {
   ValveState<double> end;
   int changes = 0;
@@ -97,7 +97,7 @@ Draw drawn(Random& random, const SingleMass& mass, double tick_s) {
   return draw;
 }
 
-TEST(ValveChanges, LeadWhereTheLawOfMotionDoesUnderGasThatRisesWithinTheTick) {
+TEST(EventLocator, LeadsWhereTheLawOfMotionDoesUnderGasThatRisesWithinTheTick) {
   const ValveTrain train = ohc_125_train();
   const SingleMass mass(train.valve, train.rocker, lift_of(train).largest_lift_m());
   constexpr double kTick_s = 10e-6;
@@ -114,17 +114,17 @@ TEST(ValveChanges, LeadWhereTheLawOfMotionDoesUnderGasThatRisesWithinTheTick) {
                                     [&draw](double x) { return cam_within(draw.step, x, kTick_s); });
     if (truth.changes == 0) continue;
     ++(truth.changes == 1 ? once : more);
-    detail::ChangeBudget budget{motion.most_changes, false};
-    const std::uint32_t regime = detail::asked(motion, draw.start, draw.step.from, draw.step.cam.deg_per_s);
+    detail::EventBudget budget{motion.event_budget, false};
+    const std::uint32_t regime = detail::required_contacts(motion, draw.start, draw.step.from, draw.step.cam.deg_per_s);
     const auto plain =
         stepped(motion.fine[regime], draw.start, draw.step.from, draw.step.to, draw.step.cam.deg, draw.step.gas);
     detail::NoRecord<double> record;
     const auto end =
-        Changes(motion, curve, budget, record).run({draw.start, regime}, plain, draw.step, 0, std::int64_t{1} << 50);
+        Locator(motion, curve, budget, record).run({draw.start, regime}, plain, draw.step, 0, std::int64_t{1} << 50);
     off_m.push_back(std::fabs(end.state.lift_m - truth.end.lift_m));
     off_m_s.push_back(std::fabs(end.state.velocity_m_s - truth.end.velocity_m_s));
     EXPECT_FALSE(budget.exceeded) << random.trace(i);
-    const auto paid = static_cast<int>(motion.most_changes - budget.left);
+    const auto paid = static_cast<int>(motion.event_budget - budget.left);
     paid_otherwise += paid != truth.changes ? 1 : 0;
   }
   EXPECT_LT(paid_otherwise, (once + more) / 25)
@@ -147,7 +147,7 @@ TEST(ValveChanges, LeadWhereTheLawOfMotionDoesUnderGasThatRisesWithinTheTick) {
   EXPECT_LT(of_rank(off_m_s, 1), 20e-3);
 }
 
-TEST(ValveChanges, AreAllFoundInTheFineStepsOfALongTick) {
+TEST(EventLocator, FindsAllEventsInTheFineStepsOfALongTick) {
   // On the flanks of the lobe the valve flies along its train, a tenth of a micrometre from it: it touches and leaves
   // it within a fine step, or several times in a tick.
   const ValveTrain train = ohc_125_train();
@@ -180,12 +180,12 @@ TEST(ValveChanges, AreAllFoundInTheFineStepsOfALongTick) {
       const detail::Lift<double> lift = at(x, from_deg);
       return CamAt{lift.lift_m, lift.per_deg_m * deg_per_s};
     });
-    detail::ChangeBudget budget{100, false};
+    detail::EventBudget budget{100, false};
     detail::NoRecord<double> record;
-    const std::uint32_t regime = detail::asked(motion, start, step.from, deg_per_s);
+    const std::uint32_t regime = detail::required_contacts(motion, start, step.from, deg_per_s);
     const std::uint64_t to = static_cast<std::uint64_t>((from_deg + deg) / 360 * 0x1p64);
     const auto turned = static_cast<std::int64_t>(deg / 360 * 0x1p64);
-    const auto end = Changes(motion, curve, budget, record).run({start, regime}, {}, step, to, turned);
+    const auto end = Locator(motion, curve, budget, record).run({start, regime}, {}, step, to, turned);
     changes += truth.changes;
     const auto paid = static_cast<int>(100 - budget.left);
     told_otherwise += paid != truth.changes ? 1 : 0;
@@ -198,9 +198,9 @@ TEST(ValveChanges, AreAllFoundInTheFineStepsOfALongTick) {
   EXPECT_LT(off_m, 0.1e-6);
 }
 
-/// A contact at both ends of a stretch, by what it is made of: the cam's lift less the valve's, or the seat's place
+/// A contact at both ends of a segment, by what it is made of: the cam's lift less the valve's, or the seat's place
 /// less the valve's, with the first two derivatives by time.
-TEST(Stretch, HasDepthSpeedAndRateOfBothContactsAtBothEnds) {
+TEST(SmoothSegment, HasDepthSpeedAndRateOfBothContactsAtBothEnds) {
   const ValveTrain train = ohc_125_train();
   const SingleMass mass(train.valve, train.rocker, lift_of(train).largest_lift_m());
   const detail::ValveMotion<double> motion = motion_for(body_of(train), 10e-6);
@@ -219,7 +219,7 @@ TEST(Stretch, HasDepthSpeedAndRateOfBothContactsAtBothEnds) {
     const ValveState<double> from{random.between(0, 1e-3), random.between(-2, 2)};
     const ValveState<double> to{random.between(0, 1e-3), random.between(-2, 2)};
     for (const std::uint32_t regime : {0u, kTrainOn, kSeatOn, kTrainOn | kSeatOn}) {
-      const auto s = detail::stretch_of(motion, {from, regime}, {to, to.lift_m - from.lift_m}, lift, left, step);
+      const auto s = detail::segment_of(motion, {from, regime}, {to, to.lift_m - from.lift_m}, lift, left, step);
       for (int end = 0; end < 2; ++end) {
         const ValveState<double>& valve = end == 0 ? from : to;
         const double x = end == 0 ? 1 - left : 1;  // of the whole step

@@ -1,0 +1,254 @@
+// Event location: a valve's tick in which a contact may change. Each event is located, and the step split there.
+//
+// What belongs here: the path of a valve whose guards fail. What does not: the step itself (valve.hpp), which valves
+// there are and who may spend the event budget (elastic_valves.hpp).
+//
+//     tick   |-------------------------------|    one step; its guards fail:
+//            |-------|-------|-------|-------|    fine steps, so short that cubics locate an event
+//                                                  (the tick itself where it is short enough)
+//                         x                       there: the state by the quintic through both ends,
+//                         |--|                    on from it by a Taylor series in the new regime
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include <crankloop/assert.hpp>
+#include <crankloop/tick/valve/smooth_segment.hpp>
+#include <crankloop/tick/valve/valve.hpp>
+#include <crankloop/tick/valve/valve_results.hpp>
+
+namespace crankloop::detail {
+
+/// Events that may still be located in this tick, over all valves. The next one counts at the end of its fine step.
+struct EventBudget {
+  std::uint32_t left;
+  bool exceeded;
+};
+
+template <class Real, class Gas, class Record>
+class EventLocator {
+ public:
+  EventLocator(const ValveMotion<Real>& motion, const LiftCurve<Real>& curve, EventBudget& budget,
+               Record& record) noexcept
+      : motion_{motion}, curve_{curve}, budget_{budget}, record_{record} {}
+
+  /// A tick of a valve whose guards fail; `end` is where its regime's step led. The cam's speed may have changed the
+  /// damper's force since the tick before, so the contacts are checked at the start too. The cam stands at `to`,
+  /// `turned` units on. O(parts + events).
+  [[nodiscard]] ValveInRegime<Real> run(const ValveInRegime<Real>& start, Stepped<Real> end,
+                                        const Span<Real, Gas>& tick, std::uint64_t to,
+                                        std::int64_t turned) const noexcept {
+    CRANKLOOP_ASSERT(start.regime < std::uint32_t{kRegimes});
+    CRANKLOOP_ASSERT(is_finite(start.state.lift_m) && is_finite(start.state.velocity_m_s));
+    CRANKLOOP_ASSERT(motion_.parts >= 1);
+    if (motion_.parts > 1 || magnitude(tick.cam.deg) > motion_.cubic_deg) return by_fine_steps(start, tick, to, turned);
+    const std::uint32_t regime = contacts_at_start(start, tick);
+    if (regime != start.regime)
+      end = stepped(motion_.fine[regime], start.state, tick.from, tick.to, tick.cam.deg, tick.gas);
+    return finish_step({start.state, regime}, end, tick);
+  }
+
+  /// Records a step without an event.
+  void record_step(const ValveInRegime<Real>& from, const ValveState<Real>& to, const Span<Real, Gas>& span,
+                   Real step_s) const noexcept {
+    if constexpr (kRecorded) {
+      record_part(from.regime, from.state, to, {span.from.lift_m, span.cam.deg_per_s * span.from.per_deg_m},
+                  {span.to.lift_m, span.cam.deg_per_s * span.to.per_deg_m}, span, 0, 1, step_s);
+    }
+  }
+
+ private:
+  static constexpr bool kRecorded = !std::is_same_v<Record, NoRecord<Real>>;
+
+  [[nodiscard]] std::uint32_t contacts_at_start(const ValveInRegime<Real>& start,
+                                                const Span<Real, Gas>& tick) const noexcept {
+    const std::uint32_t regime = required_contacts(motion_, start.state, tick.from, tick.cam.deg_per_s);
+    record_event(contacts_of(start.regime), regime, start.state, tick, 0);
+    return regime;
+  }
+
+  /// Fine steps all through the tick.
+  [[nodiscard, gnu::noinline]] ValveInRegime<Real> by_fine_steps(ValveInRegime<Real> valve, const Span<Real, Gas>& tick,
+                                                                 std::uint64_t to, std::int64_t turned) const noexcept {
+    const bool open = tick.from.lift_m > 0 || tick.to.lift_m > 0;
+    const bool may_skip = magnitude(tick.cam.deg) >= curve_.skip_deg;
+    const bool seated = valve.regime == kSeatOn || valve.regime == kQuiet;
+    if (seated && !open && !may_skip && valve.state.lift_m == 0 && valve.state.velocity_m_s == 0 &&
+        tick.gas.from_N == 0 && tick.gas.to_N == 0) {
+      return valve;  // at rest, the cam away at both ends
+    }
+    valve.regime = contacts_at_start(valve, tick);
+    const std::uint64_t part =
+        motion_.parts > 1 ? part_of(turned, motion_.per_parts_32) : static_cast<std::uint64_t>(turned);
+    std::uint64_t at = to - static_cast<std::uint64_t>(turned);
+    Span<Real, Gas> step{tick.from,          tick.to, {tick.cam.deg * motion_.per_parts, tick.cam.deg_per_s}, tick.gas,
+                         tick.since_opening, Real{0}};
+    const bool narrow = magnitude(step.cam.deg) <= motion_.cubic_deg;
+    bool passed = narrow && guards_pass(valve.regime, valve.state, step.from, step.cam);
+    for (std::uint32_t i = 1; i <= motion_.parts; ++i) {
+      CRANKLOOP_ASSERT(valve.regime < kQuiet);
+      at += part;
+      step.to = i == motion_.parts ? tick.to : curve_.read(LiftCurve<Real>::cell(at));
+      step.gas =
+          tick.gas.between(static_cast<Real>(i - 1) * motion_.per_parts, static_cast<Real>(i) * motion_.per_parts);
+      Stepped<Real> end = stepped(motion_.fine[valve.regime], valve.state, step.from, step.to, step.cam.deg, step.gas);
+      const bool pass = guards_pass(valve.regime, end.state, step.to, step.cam);
+      if (pass && passed) {
+        record_step(valve, end.state, step, motion_.fine_step_s);
+        valve.state = end.state;
+      } else {
+        if (!narrow)
+          end = with_middle_of(motion_.fine[valve.regime], curve_, step,
+                               at - static_cast<std::uint64_t>(static_cast<std::int64_t>(part) / 2), end);
+        valve = finish_step(valve, end, step);
+      }
+      passed = narrow && pass;
+      step.from = step.to;
+      step.later_deg += step.cam.deg;
+    }
+    constexpr std::uint64_t kRounding = std::uint64_t{1} << 44;  // up to 2^31 in each of up to 4096 parts
+    CRANKLOOP_ASSERT(to - at + kRounding <= 2 * kRounding);
+    const Real resting_m = tick.gas.resting_m(motion_.per_seat_N_m);
+    const Real up_m = resting_m > 0 ? resting_m : Real{0};
+    if (valve.regime == kSeatOn && up_m + seated_amplitude_m(motion_, valve.state, resting_m) < motion_.quiet_m) {
+      valve.regime = kQuiet;
+      const RegimeStep<Real>& quiet = motion_.whole[kQuiet];
+      if (magnitude(valve.state.lift_m - resting_m) < quiet.rest_m &&
+          magnitude(valve.state.velocity_m_s) < quiet.rest_m_s) {
+        valve.state = {resting_m, Real{0}};
+      }
+    }
+    return valve;
+  }
+
+  /// Whether both guards of a fine step pass at one of its ends.
+  [[nodiscard]] bool guards_pass(std::uint32_t regime, const ValveState<Real>& s, const Lift<Real>& cam,
+                                 const CamTurn<Real>& turn) const noexcept {
+    const RegimeStep<Real>& r = motion_.fine[regime];
+    return passes(r.train, cam.lift_m - s.lift_m, turn.deg_per_s * cam.per_deg_m - s.velocity_m_s) &&
+           passes(r.seat, s.lift_m, s.velocity_m_s);
+  }
+
+  /// A fine step, checked for events: most often there is none.
+  [[nodiscard, gnu::noinline]] ValveInRegime<Real> finish_step(const ValveInRegime<Real>& start,
+                                                               const Stepped<Real>& end,
+                                                               const Span<Real, Gas>& step) const noexcept {
+    CRANKLOOP_ASSERT(start.regime < kQuiet);
+    if (!(magnitude(end.state.lift_m) < static_cast<Real>(kMaxLift_m))) {  // too far, or NaN
+      budget_.exceeded = true;
+      return in_equilibrium(motion_, step.to.lift_m, static_cast<Real>(step.gas.to_N));
+    }
+    std::uint32_t now = required_contacts(motion_, end.state, step.to, step.cam.deg_per_s);
+    const Cubic<Real> lift(step.from.lift_m, step.cam.deg * step.from.per_deg_m, step.to.lift_m,
+                           step.cam.deg * step.to.per_deg_m);
+    if (now == start.regime) now ^= grazing_event(motion_, segment_of(motion_, start, end, lift, Real{1}, step), now);
+    if (now != start.regime && budget_.left != 0) return step_through_events(start, end, now, lift, step);
+    record_step(start, end.state, step, motion_.fine_step_s);
+    if (now != start.regime) {
+      if (!is_negligible(motion_, start.regime ^ now, end.state, step.to)) budget_.exceeded = true;
+      record_event(start.regime, now, end.state, step, 1);
+    }
+    return {end.state, now};
+  }
+
+  /// A fine step from event to event. Each round takes one of the budget, of which some is left.
+  [[nodiscard, gnu::noinline]] ValveInRegime<Real> step_through_events(ValveInRegime<Real> valve, Stepped<Real> end,
+                                                                       std::uint32_t now, Cubic<Real> lift,
+                                                                       const Span<Real, Gas>& step) const noexcept {
+    Real left = 1;
+    std::uint32_t last = 0;
+    do {
+      CRANKLOOP_ASSERT(budget_.left != 0);
+      CRANKLOOP_ASSERT(left > 0 && left <= 1);
+      --budget_.left;
+      const std::uint32_t changes = now ^ valve.regime;
+      CRANKLOOP_ASSERT(changes != 0 && changes < kQuiet);
+      const SmoothSegment<Real> s = segment_of(motion_, valve, end, lift, left, step);
+      Real x = 1;
+      std::uint32_t event = 0;
+      if ((changes & kTrainOn) != 0) {
+        x = event_fraction(s, s.train, (valve.regime & kTrainOn) != 0, last == kTrainOn, motion_.train_lag_s);
+        event = kTrainOn;
+      }
+      if ((changes & kSeatOn) != 0) {
+        const Real at = event_fraction(s, s.seat, (valve.regime & kSeatOn) != 0, last == kSeatOn, motion_.seat_lag_s);
+        if (event == 0 || at < x) x = at, event = kSeatOn;
+      }
+      const ValveState<Real> there = s.at(x);
+      CRANKLOOP_ASSERT(event == kTrainOn || event == kSeatOn);
+      CRANKLOOP_ASSERT(x >= 0 && x <= 1);
+      CRANKLOOP_ASSERT(is_finite(there.lift_m) && is_finite(there.velocity_m_s));
+      const Real passed = x * left;
+      record_segment(valve, there, lift, 1 - left, passed, step);
+      lift.shift(passed);
+      left -= passed;
+      record_event(valve.regime, valve.regime ^ event, there, step, 1 - left);
+      valve = {there, valve.regime ^ event};
+      last = event;
+      end = by_series(motion_, valve.regime, valve.state, lift, left, step.gas.between(1 - left, 2 - left));
+      now = required_contacts(motion_, end.state, step.to, step.cam.deg_per_s);
+    } while (budget_.left != 0 && now != valve.regime && left > 0);
+    if (now != valve.regime && left > 0 && !is_negligible(motion_, valve.regime ^ now, end.state, step.to))
+      budget_.exceeded = true;
+    CRANKLOOP_ASSERT(left >= 0 && now < kQuiet);
+    CRANKLOOP_ASSERT(is_finite(end.state.lift_m) && is_finite(end.state.velocity_m_s));
+    record_segment(valve, end.state, lift, 1 - left, left, step);
+    record_event(valve.regime, now, end.state, step, 1);
+    return {end.state, now};
+  }
+
+  // ---- the record of a cycle --------------------------------------------------------------------------------------
+
+  /// Cam degrees since the start of the lobe at a fraction of a span.
+  [[nodiscard]] Real deg_at(const Span<Real, Gas>& span, Real fraction) const noexcept {
+    return curve_.degrees(span.since_opening) + span.later_deg + fraction * span.cam.deg;
+  }
+
+  /// A cam's lift and its speed at one moment.
+  struct Theory {
+    Real lift_m, speed_m_s;
+  };
+
+  void record_part(std::uint32_t regime, const ValveState<Real>& from, const ValveState<Real>& to,
+                   const Theory& theory_from, const Theory& theory_to, const Span<Real, Gas>& span, Real from_fraction,
+                   Real to_fraction, Real step_s) const noexcept {
+    const ForceRow<Real>& force = motion_.fine[regime].acceleration;
+    const Gas gas = span.gas.between(from_fraction, to_fraction);
+    const auto accelerates = [&](const ValveState<Real>& s, const Theory& at, const Gas& by) {
+      return acceleration(force, s, at.lift_m - s.lift_m, at.speed_m_s - s.velocity_m_s, by);
+    };
+    record_.step({from, to, theory_from.lift_m, theory_to.lift_m, theory_from.speed_m_s, theory_to.speed_m_s,
+                  accelerates(from, theory_from, gas.between(0, 0)), accelerates(to, theory_to, gas), step_s,
+                  contacts_of(regime)},
+                 motion_.body.seat_compression_m,
+                 [&](Real part) { return deg_at(span, from_fraction + part * (to_fraction - from_fraction)); });
+  }
+
+  /// From the origin of `lift`, which is at `from_fraction` of the step, over `fraction` of it.
+  void record_segment(const ValveInRegime<Real>& from, const ValveState<Real>& to, const Cubic<Real>& lift,
+                      Real from_fraction, Real fraction, const Span<Real, Gas>& step) const noexcept {
+    if constexpr (kRecorded) {
+      const auto theory = [&](Real x) {
+        const typename Cubic<Real>::At at = lift.at(x);
+        return Theory{at.value, at.slope * motion_.per_fine_step_s};
+      };
+      record_part(from.regime, from.state, to, theory(0), theory(fraction), step, from_fraction,
+                  from_fraction + fraction, fraction * motion_.fine_step_s);
+    }
+  }
+
+  void record_event(std::uint32_t before, std::uint32_t after, const ValveState<Real>& s, const Span<Real, Gas>& span,
+                    Real fraction) const noexcept {
+    if constexpr (kRecorded) {
+      if (before != after) record_.event(before, after, s.velocity_m_s, deg_at(span, fraction));
+    }
+  }
+
+  const ValveMotion<Real>& motion_;
+  const LiftCurve<Real>& curve_;
+  EventBudget& budget_;
+  Record& record_;
+};
+
+}  // namespace crankloop::detail
