@@ -385,6 +385,31 @@ TYPED_TEST(GasEngine, MovesItsElasticValvesAsWithTicksOfTwoMicroseconds) {
   EXPECT_LT(worst_m, 0.1e-6);
 }
 
+struct ForcesBreathingFour : ElasticBreathingFour {
+  static constexpr bool valve_forces = true;
+};
+
+/// Of a valve without lash that gas presses into its seat the train takes a part: the cam's base circle carries that.
+TYPED_TEST(GasEngine, LoadsTheBaseCirclesOfCamsWhoseTrainsAClosedValveMeets) {
+  using Real = TypeParam;
+  EngineDefinition definition = four_2000();
+  definition.trains[0].rocker.ratio = 1.25;
+  const auto run = breathing<Real, ForcesBreathingFour>(definition, 100e-6, 3000);
+  int closed_and_loaded = 0;
+  for (int tick = 0; tick < 1000; ++tick) {
+    const auto& out = run->step();
+    for (std::size_t k = 0; k < 4; ++k) {
+      for (std::size_t t = 0; t < 2; ++t) {
+        const auto& force = out.valve_forces[t][k];
+        const double train_N = static_cast<double>(force.train_N), ratio = t == 0 ? 1.25 : 1;
+        ASSERT_NEAR(static_cast<double>(force.cam_N), ratio * train_N, 1e-6 * train_N) << tick << ' ' << t << k;
+        closed_and_loaded += out.valve[t][k].lift_m < 0 && train_N > 300 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(closed_and_loaded, 100);
+}
+
 TYPED_TEST(GasEngine, LetsNothingThroughAClosedValve) {
   using Real = TypeParam;
   const auto run = breathing<Real, ElasticBreathingFour>(four_2000(), 100e-6, 7000);

@@ -117,7 +117,7 @@ TYPED_TEST(ValveGroups, ForcesAreThoseOfWhereValveAndCamStand) {
         const auto& f = out.valve_forces[t][k];
         const auto cell = curve.cell(detail::cam_phase(rig.engine.state(), t), k);
         ASSERT_EQ(f.train_compression_m, curve.read(cell).lift_m - out.valve[t][k].lift_m) << t << k << ' ' << tick;
-        ASSERT_EQ(f.cam_N > 0, f.train_N > 0 && cell.degree < curve.segments) << t << k << ' ' << tick;
+        ASSERT_EQ(f.cam_N > 0, f.train_N > 0) << t << k << ' ' << tick;
         away += cell.degree >= curve.segments ? 1 : 0;
         const bool open = out.valve[t][k].lift_m > static_cast<TypeParam>(1e-3);
         openings[t][k] += open && !was_open[t][k] ? 1 : 0;

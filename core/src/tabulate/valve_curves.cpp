@@ -113,6 +113,7 @@ void fill_lift(const Cam& cam, const Rocker& rocker, const Layout& layout, const
   if (degrees < kDegreesPerTurn) {
     segments[degrees] = {{static_cast<Real>(-rocker.clearance_m)}};
     ratios[degrees] = {};
+    ratios[degrees].c[0] = static_cast<Real>(lift.at(angle(degrees + 1)).rocker_ratio);  // the base circle's
   }
   curve.at = segments;
   curve.rocker_ratio = ratios;

@@ -35,7 +35,7 @@ struct LiftSegment {
 template <class Real>
 struct LiftCurve {
   const LiftSegment<Real>* at;
-  const Segment<Real>* rocker_ratio;   ///< cam force per valve force, same cells
+  const Segment<Real>* rocker_ratio;   ///< cam force per valve force, in the cells of `at`
   std::uint64_t opens[kMaxCylinders];  ///< per cylinder: engine phase at which its lobe starts; 2^64 = 360 cam deg
   std::uint64_t most_phase_per_tick;   ///< how far a phaser moves the cam in a tick, phase units; 0 = fixed cam
   std::uint32_t segments;              ///< cam degrees of the lobe
@@ -73,6 +73,12 @@ struct LiftCurve {
       value = c[i] + u * value;
     }
     return {value, slope};
+  }
+
+  /// Cam force per valve force, on the base circle too: a closed valve may be pressed onto its train.
+  [[nodiscard]] constexpr Real rocker_ratio_at(Cell cell) const noexcept {
+    const bool on_lobe = cell.degree < segments;
+    return value(rocker_ratio[on_lobe ? cell.degree : segments], fraction<Real>(cell));
   }
 
   /// Second derivative by the cam angle, m per squared degree.

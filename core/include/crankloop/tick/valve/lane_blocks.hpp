@@ -240,8 +240,7 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide,
     for (std::uint32_t left = holding(train_N > Lanes{}); left != 0; left &= left - 1) {
       const std::uint32_t i = trailing_zeros(left);
       const LiftCurve<float>& curve = valves_.curve(static_cast<std::uint32_t>(valves.valve[i]));
-      if (place.segment[i] < curve.segments)
-        cam_N[i] = train_N[i] * value(curve.rocker_ratio[place.segment[i]], static_cast<float>(place.u[i]));
+      cam_N[i] = train_N[i] * value(curve.rocker_ratio[place.segment[i]], static_cast<float>(place.u[i]));
     }
     const Words32 contacts = (regime & (kTrainOn | kSeatOn)) | (regime >> 1 & kSeatOn);  // kQuiet is on its seat
     static_assert(sizeof out_.valve_forces[0][0] == 6 * sizeof(float));

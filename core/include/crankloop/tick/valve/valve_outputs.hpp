@@ -32,8 +32,7 @@ template <class Real>
   shown.seat_N = pushing((contacts & kSeatOn) != 0,
                          b.preload_N - (b.seat_N_m * valve.state.lift_m + b.seat_Ns_m * valve.state.velocity_m_s));
   shown.tip_N = shown.train_N - b.rocker_mass_kg * at.acceleration_m_s2;
-  const bool pushed = shown.train_N > 0 && cell.degree < curve.segments;
-  shown.cam_N = pushed ? shown.train_N * value(curve.rocker_ratio[cell.degree], fraction<Real>(cell)) : Real{0};
+  shown.cam_N = shown.train_N > 0 ? shown.train_N * curve.rocker_ratio_at(cell) : Real{0};
   shown.train_compression_m = at.compression_m;
   shown.regime = contacts;
 }
