@@ -59,7 +59,7 @@ template <class S>
     crc.add(static_cast<std::uint32_t>(S::manifold));
     crc.add(static_cast<std::uint32_t>(S::combustion));
     crc.add(std::uint32_t{S::gas_results});
-    if (S::boundaries) crc.add(1u);
+    if (S::boundaries) crc.add(std::uint32_t{1});
   }
   return crc.value();
 }
