@@ -13,15 +13,15 @@ namespace crankloop::detail {
 
 /// Gives a valve a lane and loads what it needs there from tables and state, except its cam's lift.
 template <class Real, class S>
-[[gnu::cold]] void place(ValveAccess<Real, S>& valves, std::uint32_t v, [[maybe_unused]] std::uint32_t lane) noexcept {
+[[gnu::cold]] void place(ValveAccess<Real, S>& valves, std::uint32_t v, std::uint32_t lane) noexcept {
   const LiftCurve<Real>& curve = valves.tables.lift_curves[valves.train(v)];
-  [[maybe_unused]] const auto opens = static_cast<std::uint32_t>(curve.opens[valves.cylinder(v)] >> 32);
-  if constexpr (!kLaneLayout<Real, S>) valves.work.valve[v].curve = &curve, valves.work.valve[v].opens = opens;
+  valves.work.curve[lane] = &curve;
 #if CRANKLOOP_ABREAST
   if constexpr (ValveAccess<Real, S>::kInLanes) {
-    CRANKLOOP_ASSERT(lane < LaneWork<S>::kRoom);
+    CRANKLOOP_ASSERT(lane < kLaneRoom<S>);
     if constexpr (!S::valve_gas) valves.work.valve[lane] = v, valves.work.lane[v] = lane;
-    set_cam_of_lane(valves.work, lane, curve, opens), set_body_of_lane(valves.work, lane, valves.motion(v));
+    set_cam_of_lane(valves.work, lane, curve, valves.cylinder(v)),
+        set_body_of_lane(valves.work, lane, valves.motion(v));
   }
 #endif
   valves.set_regime(v, valves.state.valve_regime[v]);

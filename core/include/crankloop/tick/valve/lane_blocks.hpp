@@ -85,7 +85,7 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide,
   /// A number of each lane.
   template <class Lanes>
   [[nodiscard, gnu::always_inline]] static Lanes held(const float* from) noexcept {
-    return LaneWork<S>::kBlocksAligned ? load_aligned<Lanes>(from) : load<Lanes>(from);
+    return VectorLanes<S>::kBlocksAligned ? load_aligned<Lanes>(from) : load<Lanes>(from);
   }
 
   template <class Lanes>
@@ -128,7 +128,7 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide,
 
   template <class Lanes>
   [[gnu::always_inline]] void step_block(std::uint32_t first) noexcept {
-    CRANKLOOP_ASSERT(first + kLanesOf<Lanes> <= LaneWork<S>::kRoom);
+    CRANKLOOP_ASSERT(first + kLanesOf<Lanes> <= kLaneRoom<S>);
     const auto regime = regimes_at<Lanes>(work_, first);
     const auto gas = gas_at<Lanes>(first);
     static_assert(sizeof out_.valve[0][0] == 4 * sizeof(float));

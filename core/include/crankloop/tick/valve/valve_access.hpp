@@ -72,19 +72,10 @@ struct ValveAccess {
   [[nodiscard]] const ValveMotion<Real>& motion(std::uint32_t v) const noexcept {
     return tables.valve_motions[train(v)];
   }
-  [[nodiscard]] const LiftCurve<Real>& curve(std::uint32_t v) const noexcept {
-    if constexpr (kLaneLayout<Real, S>)
-      return tables.lift_curves[train(v)];
-    else
-      return *work.valve[v].curve;
-  }
+  [[nodiscard]] const LiftCurve<Real>& curve(std::uint32_t v) const noexcept { return *work.curve[lane_of(v)]; }
   /// Where a valve's cam stands.
   [[nodiscard]] Cell cell(std::uint32_t v, std::uint64_t phase) const noexcept {
-    if constexpr (kLaneLayout<Real, S> || sizeof(Real) != 4) {
-      return curve(v).cell(phase, cylinder(v));
-    } else {
-      return LiftCurve<Real>::cell(units_from<Real>(phase, std::uint64_t{work.valve[v].opens} << 32));
-    }
+    return curve(v).cell(phase, cylinder(v));
   }
   [[nodiscard]] std::uint32_t trains() const noexcept {
     return S::trains.exact ? S::trains.capacity : tables.drive->trains;
@@ -107,18 +98,10 @@ struct ValveAccess {
   }
 
   [[nodiscard]] Lift<Real> cam(std::uint32_t v) const noexcept {
-    if constexpr (kLaneLayout<Real, S>) {
-      return {work.cam_lift_m[lane_of(v)], work.cam_per_deg_m[lane_of(v)]};
-    } else {
-      return {work.valve[v].cam_lift_m, work.valve[v].cam_per_deg_m};
-    }
+    return {work.cam_lift_m[lane_of(v)], work.cam_per_deg_m[lane_of(v)]};
   }
   void set_cam(std::uint32_t v, const Lift<Real>& lift) noexcept {
-    if constexpr (kLaneLayout<Real, S>) {
-      work.cam_lift_m[lane_of(v)] = lift.lift_m, work.cam_per_deg_m[lane_of(v)] = lift.per_deg_m;
-    } else {
-      work.valve[v].cam_lift_m = lift.lift_m, work.valve[v].cam_per_deg_m = lift.per_deg_m;
-    }
+    work.cam_lift_m[lane_of(v)] = lift.lift_m, work.cam_per_deg_m[lane_of(v)] = lift.per_deg_m;
   }
   /// Adds what the lift in the middle of a wide tick contributes. By values: else the steps of all ticks would go
   /// through memory.
@@ -137,9 +120,10 @@ struct ValveAccess {
   void set_regime(std::uint32_t v, std::uint32_t regime) noexcept {
     CRANKLOOP_ASSERT(v < kMaxValves && regime < std::uint32_t{kRegimes});
     state.valve_regime[v] = regime;
-    if constexpr (!kLaneLayout<Real, S>) work.valve[v].regime = &motion(v).whole[regime];
+    const RegimeStep<Real>& step = motion(v).whole[regime];
+    work.regime[lane_of(v)] = &step;
 #if CRANKLOOP_ABREAST
-    if constexpr (kInLanes) set_lane(work, lane_of(v), motion(v).whole[regime]);
+    if constexpr (kInLanes) set_lane(work, lane_of(v), step);
 #endif
     load_record(v);
   }
@@ -160,12 +144,7 @@ struct ValveAccess {
     state.record[train(v)][cylinder(v)].set_maxima(
         {work.max_lift_m[lane], work.max_speed_m_s[lane], work.max_acceleration_m_s2[lane]});
   }
-  [[nodiscard]] const RegimeStep<Real>& regime_of(std::uint32_t v) const noexcept {
-    if constexpr (kLaneLayout<Real, S>)
-      return motion(v).whole[state.valve_regime[v]];
-    else
-      return *work.valve[v].regime;
-  }
+  [[nodiscard]] const RegimeStep<Real>& regime_of(std::uint32_t v) const noexcept { return *work.regime[lane_of(v)]; }
 
   /// The pressure behind the head.
   [[nodiscard]] Real behind_head_Pa([[maybe_unused]] std::uint32_t v) const noexcept {

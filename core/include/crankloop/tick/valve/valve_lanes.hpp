@@ -34,7 +34,7 @@ template <class Lanes, class Work>
 [[nodiscard, gnu::always_inline]] inline auto regimes_at(const Work& w, std::size_t first) noexcept {
   using Held = InMemory<Lanes, Work::kBlocksAligned>;
   int number = 0;
-  const auto next = [&] { return Held{&w.regime[number++][first]}; };
+  const auto next = [&] { return Held{&w.constants[number++][first]}; };
   RegimeStep<Held> r;
   for (StepRow<Held>* row : {&r.lift, &r.velocity}) {
     row->rest = next(), row->gas = next(), row->gas_rise = next(), row->gap = next(), row->rise = next();
@@ -52,14 +52,14 @@ template <class Lanes, class Work>
 /// Loads a lane with a regime's constants.
 template <class Work>
 [[gnu::noinline]] inline void set_lane(Work& w, std::size_t lane, const RegimeStep<float>& regime) noexcept {
-  static_assert(sizeof w.regime / sizeof w.regime[0] * sizeof(float) == offsetof(RegimeStep<float>, decoupled_m));
+  static_assert(sizeof w.constants / sizeof w.constants[0] * sizeof(float) == offsetof(RegimeStep<float>, decoupled_m));
   const char* from = reinterpret_cast<const char*>(&regime);
-  for (auto& numbers : w.regime) std::memcpy(&numbers[lane], from, sizeof(float)), from += sizeof(float);
+  for (auto& numbers : w.constants) std::memcpy(&numbers[lane], from, sizeof(float)), from += sizeof(float);
 }
 
 /// Loads a lane with what it needs of its valve's body.
 template <class S>
-inline void set_body_of_lane(LaneWork<S>& w, std::size_t lane, const ValveMotion<float>& motion) noexcept {
+inline void set_body_of_lane(ValvesWork<float, S>& w, std::size_t lane, const ValveMotion<float>& motion) noexcept {
   if constexpr (S::valve_gas)
     w.head_area_m2[lane] = motion.body.head_area_m2, w.per_seat_N_m[lane] = motion.per_seat_N_m;
   if constexpr (S::valve_forces) {
@@ -76,9 +76,8 @@ inline constexpr std::uint32_t kSignBit = 0x8000'0000u;
 
 /// Loads a lane with what it needs of its cam.
 template <class Work>
-inline void set_cam_of_lane(Work& w, std::size_t lane, const LiftCurve<float>& curve, std::uint32_t opens) noexcept {
-  const Cell cell = LiftCurve<float>::cell(std::uint64_t{opens} << 32);
-  w.curve[lane] = curve.at;
+inline void set_cam_of_lane(Work& w, std::size_t lane, const LiftCurve<float>& curve, std::uint32_t cylinder) noexcept {
+  const Cell cell = LiftCurve<float>::cell(curve.opens[cylinder]);
   w.degrees[lane] = curve.segments;
   w.opens_degree[lane] = cell.degree;
   w.opens_into[lane] = cell.into ^ kSignBit;
@@ -87,9 +86,9 @@ inline void set_cam_of_lane(Work& w, std::size_t lane, const LiftCurve<float>& c
 /// How the lanes' cams turn in a tick: all alike, or each its own way where phasers turn them.
 template <class S>
 struct LanesTick {
-  static constexpr std::size_t kRoom = S::cam_phasing ? LaneWork<S>::kRoom : 1;
+  static constexpr std::size_t kRoom = S::cam_phasing ? kLaneRoom<S> : 1;
   float deg[kRoom], deg_per_s[kRoom];
-  std::uint32_t degree[kRoom], into[kRoom];  ///< where the train's cams stand, as LaneWork has where lobes begin
+  std::uint32_t degree[kRoom], into[kRoom];  ///< where the train's cams stand, as VectorLanes has where lobes begin
 
   void set(std::size_t lane, const CamTick<float>& tick) noexcept {
     CRANKLOOP_ASSERT(lane < kRoom);
@@ -161,12 +160,12 @@ struct LanesPlace {
 /// The lift of each lane's cam: bit for bit that of LiftCurve::read at LiftCurve::cell. A cam's angle is the train's
 /// less that where its lobe begins; so is its degree, except for a borrow and a turn.
 template <class Lanes, class S>
-[[nodiscard, gnu::always_inline]] inline Lift<Lanes> read_lanes(const LaneWork<S>& w, std::size_t first,
+[[nodiscard, gnu::always_inline]] inline Lift<Lanes> read_lanes(const ValvesWork<float, S>& w, std::size_t first,
                                                                 const LanesTick<S>& tick,
                                                                 LanesPlace<Lanes>& place) noexcept {
   using Words32 = BitsOf<Lanes>;
   using Signed = decltype(Lanes{} < Lanes{});
-  const auto words = [&](const std::uint32_t* from) { return load_words<Lanes, LaneWork<S>::kBlocksAligned>(from); };
+  const auto words = [&](const std::uint32_t* from) { return load_words<Lanes, VectorLanes<S>::kBlocksAligned>(from); };
   const Words32 cams_into = tick.template words<Lanes>(tick.into, first);
   const Words32 opens_into = words(&w.opens_into[first]);
   const Words32 into = cams_into - opens_into;
@@ -178,7 +177,8 @@ template <class Lanes, class S>
   std::memcpy(place.segment, &degree, sizeof place.segment);
   CRANKLOOP_ASSERT(place.segment[0] <= std::uint32_t{kDegreesPerTurn});
   const float* from[kLanesOf<Lanes>];
-  for (int i = 0; i < kLanesOf<Lanes>; ++i) from[i] = w.curve[first + static_cast<std::size_t>(i)][place.segment[i]].c;
+  for (int i = 0; i < kLanesOf<Lanes>; ++i)
+    from[i] = w.curve[first + static_cast<std::size_t>(i)]->at[place.segment[i]].c;
   Lanes c[6];
   load_lanes(from, c);
   const Lanes u = place.u = __builtin_convertvector(reinterpret_cast<Signed>(into >> 8), Lanes) * 0x1p-24F;

@@ -52,8 +52,10 @@ inline constexpr bool kHasLanes = false;
 template <class Real, class S>
 inline constexpr bool kLaneLayout = kHasLanes && sizeof(Real) == 4 && S::trains.capacity* S::cylinders.capacity >= 4;
 
-template <class S>
-inline constexpr std::size_t kLaneRoom = (group::ValvesState<float, S>::kLanes + 7) / 8 * 8;
+/// Lanes of an engine: one for each valve, in whole blocks where the layout is for vectors.
+template <class S, class Real = float>
+inline constexpr std::size_t kLaneRoom = kLaneLayout<Real, S> ? (group::ValvesState<float, S>::kLanes + 7) / 8 * 8
+                                                              : group::ValvesState<Real, S>::kLanes;
 
 /// What lanes need side by side of their valves' bodies, where gas pushes them,
 template <class S>
@@ -85,44 +87,32 @@ struct LanesInUse {
   std::uint32_t active_lanes = 0;                                    ///< lanes of active valves: the first ones
 };
 
-/// What lanes need side by side (tick/valve/valve_lanes.hpp).
+/// What vectors of lanes read besides, so that a block loads it side by side (tick/valve/valve_lanes.hpp).
 template <class S>
-struct alignas(16) LaneWork : If<S::valve_gas, GasLanes<S>>,
-                              If<S::valve_forces, ForceLanes<S>>,
-                              If<S::valve_results, RecordLanes<S>>,
-                              If<!S::valve_gas, LanesInUse<S>> {
-  static constexpr std::size_t kRoom = kLaneRoom<S>;
+struct alignas(16) VectorLanes : If<S::valve_gas, GasLanes<S>>,
+                                 If<S::valve_forces, ForceLanes<S>>,
+                                 If<S::valve_results, RecordLanes<S>>,
+                                 If<!S::valve_gas, LanesInUse<S>> {
   static constexpr bool kBlocksAligned = !S::valve_gas || S::cylinders.exact || S::cylinders.capacity % 4 == 0;
-  alignas(16) float regime[34][kRoom] = {};     ///< numbers of each lane's RegimeStep, up to decoupled_m
-  const LiftSegment<float>* curve[kRoom] = {};  ///< of its cam's lift, one for each degree of the lobe and one outside
-  std::uint32_t degrees[kRoom] = {};            ///< of its lobe
-  std::uint32_t opens_degree[kRoom] = {};       ///< of the train's cams: where its lobe begins,
-  std::uint32_t opens_into[kRoom] = {};         ///< and where in that degree, kSignBit flipped
-  float cam_lift_m[kRoom] = {};                 ///< at the tick's end,
-  float cam_per_deg_m[kRoom] = {};              ///< and its slope
-};
-
-/// What a valve needs that is stepped by itself.
-template <class Real>
-struct ValveWork {
-  const LiftCurve<Real>* curve;
-  const RegimeStep<Real>* regime;  ///< of its tick
-  std::uint32_t opens;             ///< where its lobe begins, high word
-  Real cam_lift_m, cam_per_deg_m;  ///< its cam's lift at the tick's end and its slope, if it is active
-};
-template <class Real, class S>
-struct ScalarWork {
-  ValveWork<Real> valve[group::ValvesState<Real, S>::kLanes] = {};
+  alignas(16) float constants[34][kLaneRoom<S>] = {};  ///< numbers of each lane's RegimeStep, up to decoupled_m
+  std::uint32_t degrees[kLaneRoom<S>] = {};            ///< of its lobe
+  std::uint32_t opens_degree[kLaneRoom<S>] = {};       ///< of the train's cams: where its lobe begins,
+  std::uint32_t opens_into[kLaneRoom<S>] = {};         ///< and where in that degree, kSignBit flipped
 };
 
 /// A bit for each valve of an engine, by its number.
 template <class S>
 using ValveBits = std::conditional_t<(S::trains.capacity * S::cylinders.capacity > 32), std::uint64_t, std::uint32_t>;
 
-/// What a tick of elastic valves remembers beside the state, all of it worked out from that.
+/// What a tick of elastic valves remembers beside the state, all of it derived from that: of each valve, by its lane.
 template <class Real, class S>
-struct ValvesWork : std::conditional_t<kLaneLayout<Real, S>, LaneWork<S>, ScalarWork<Real, S>> {
-  Real skip_deg = 0;         ///< a tick that turns the cams so far may pass over some lobe;
+struct ValvesWork : If<kLaneLayout<Real, S>, VectorLanes<S>> {
+  static constexpr std::size_t kLanes = kLaneRoom<S, Real>;
+  alignas(kLaneLayout<Real, S> ? 16 : alignof(Real)) Real cam_lift_m[kLanes] = {};  ///< at the tick's end,
+  Real cam_per_deg_m[kLanes] = {};                                                  ///< and its slope; while active
+  const LiftCurve<Real>* curve[kLanes] = {};
+  const RegimeStep<Real>* regime[kLanes] = {};  ///< of its tick
+  Real skip_deg = 0;                            ///< a tick that turns the cams so far may pass over some lobe;
   Real guard_range_deg = 0;  ///< it is beyond some guards' range: the lift at its ends and in its middle does not do;
   Real wide_deg = 0;         ///< it is wide: the cubic through some lift's ends does not do
   ValveBits<S> active = 0;   ///< valves that are not at rest with their cams away
