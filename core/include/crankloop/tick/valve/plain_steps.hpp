@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <type_traits>
 
-#include <crankloop/tick/valve/active_valves.hpp>
 #include <crankloop/tick/valve/lane_blocks.hpp>
 #include <crankloop/tick/valve/valve_access.hpp>
 
