@@ -243,8 +243,7 @@ struct ValveAccess {
   }
 };
 
-// ---- lanes: active valves have the first ones, so that blocks hold no others
-// ------------------------------------------
+// ---- lanes: active valves have the first ones, so that blocks hold no others -------------------------------------
 
 /// Gives a valve a lane and loads what it needs there from tables and state, except its cam's lift.
 template <class Real, class S>
@@ -296,7 +295,6 @@ void deactivate(ValveAccess<Real, S>& valves, ValveBits<S> which) noexcept {
     for (ValveBits<S> left = which; left != 0; left &= left - 1)
       swap_lanes(valves, valves.lane_of(trailing_zeros(left)), --valves.work.active_lanes);
   }
-  for (CamWindow& clear : valves.work.clear) clear = {};  // to be found again in the next tick
 }
 
 }  // namespace crankloop::detail

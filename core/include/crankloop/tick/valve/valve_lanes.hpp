@@ -158,6 +158,7 @@ inline constexpr std::uint32_t kSignBit = 0x8000'0000u;
 template <class Work>
 inline void set_cam_of_lane(Work& w, std::size_t lane, const LiftCurve<float>& curve, std::uint32_t cylinder) noexcept {
   const Cell cell = LiftCurve<float>::cell(curve.opens[cylinder]);
+  w.segments[lane] = curve.at;
   w.degrees[lane] = curve.segments;
   w.opens_degree[lane] = cell.degree;
   w.opens_into[lane] = cell.into ^ kSignBit;
@@ -258,7 +259,7 @@ template <class Lanes, class S>
   CRANKLOOP_ASSERT(place.segment[0] <= std::uint32_t{kDegreesPerTurn});
   const float* from[kLanesOf<Lanes>];
   for (int i = 0; i < kLanesOf<Lanes>; ++i)
-    from[i] = w.curve[first + static_cast<std::size_t>(i)]->at[place.segment[i]].c;
+    from[i] = w.segments[first + static_cast<std::size_t>(i)][place.segment[i]].c;
   Lanes c[6];
   load_lanes(from, c);
   const Lanes u = place.u = __builtin_convertvector(reinterpret_cast<Signed>(into >> 8), Lanes) * 0x1p-24F;
