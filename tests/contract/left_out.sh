@@ -37,7 +37,7 @@ gas_and_mass='torque_grid gas_torque_full gas_full inertia_torque'
   holds TorqueOnly $gas_and_mass
   holds ForcesAndTorque $gas_and_mass gas_grid body motion lean pressure_full
   holds ValveLift lift_curves lift_segments rocker_ratios
-  holds ValveDynamics lift_curves lift_segments rocker_ratios valve_motions
+  holds ValveDynamics lift_curves lift_segments rocker_ratios valve_motions near_cams
   holds TriggerSignals triggers trigger_tracks trigger_edges
 }
 for scene in PistonMotion TorqueOnly ForcesAndTorque; do has_code $scene no '[Vv]alve|[Ll]ift|[Cc]am|[Rr]ocker|Contact'; done

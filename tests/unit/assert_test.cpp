@@ -21,8 +21,8 @@
 #include <crankloop/tick/crank/starter.hpp>
 #include <crankloop/tick/state/saved_bytes.hpp>
 #include <crankloop/tick/trigger/trigger_wheel.hpp>
-#include <crankloop/tick/valve/cubic.hpp>
 #include <crankloop/tick/valve/event_location.hpp>
+#include <crankloop/tick/valve/smooth_segment.hpp>
 #include <crankloop/tick/valve/valves_work.hpp>
 #include <tabulate/curve_fit.hpp>
 #include <tabulate/monotone_cubic.hpp>

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <vector>
 
 #include <crankloop/tabulate/elementary.hpp>
@@ -18,6 +19,7 @@
 
 #include "support/both_reals.hpp"
 #include "support/engines.hpp"
+#include "support/random.hpp"
 #include "support/status.hpp"
 #include "support/test_valves.hpp"
 #include "support/units.hpp"
@@ -331,6 +333,46 @@ TYPED_TEST(TableTargetsOf, ALobeThatNeverReachesItsValveNameNoDegree) {
   ASSERT_TRUE(accepted(tabulate(engine, {100e-6, {}}, targets)));
   EXPECT_EQ(curve.touch_degrees, 0u);
   EXPECT_GT(curve.skip_deg, Real{360}) << "further than any cam angle is from it";
+}
+
+TYPED_TEST(TableTargetsOf, CamDegreesNameEveryPlaceWhereACamIsNearOrEndsItsCycle) {
+  using Real = TypeParam;
+  using detail::CamDegrees;
+  EngineDefinition engine = single_495();
+  engine.train_count = 1;
+  engine.trains[0] = valve_test::ohc_125_train();
+  support::Random random;
+  for (const double clearance_m : {0.0, 20e-6, 300e-6}) {
+    engine.trains[0].rocker.clearance_m = clearance_m;
+    engine.trains[0].cam.full_lift_deg = random.between(0, 360);
+    LiftCurve<Real> curve{};
+    CamDegrees near{}, lobe{}, ends{};
+    const auto segments = std::make_unique<LiftSegment<Real>[]>(kDegreesPerTurn);
+    const auto ratios = std::make_unique<Segment<Real>[]>(kDegreesPerTurn);
+    TableTargets<Real> targets;
+    targets.near_cams = &near, targets.near_lobes = &lobe, targets.cycle_ends = &ends;
+    EXPECT_TRUE(refuses(tabulate(engine, {100e-6, {}}, targets), Reason::missing_table, "targets.lift_curves"));
+    targets.lift_curves = &curve, targets.lift_segments = segments.get(), targets.rocker_ratios = ratios.get();
+    ASSERT_TRUE(accepted(tabulate(engine, {100e-6, {}}, targets)));
+    for (int draw = 0; draw < 100000; ++draw) {
+      const std::uint64_t phase = random.bits();
+      const double turned_deg = random.between(-kCycleEndMargin_deg, kCycleEndMargin_deg);
+      const auto turned = static_cast<std::uint64_t>(static_cast<std::int64_t>(turned_deg / 360 * 0x1p64));
+      const Cell cell = curve.cell(phase, 0);
+      const std::uint32_t degree = LiftCurve<Real>::cell(phase).degree;
+      const bool may_touch = cell.degree - curve.touch_from < curve.touch_degrees;
+      ASSERT_GE(near.cylinders[degree], may_touch ? 1 : 0) << random.trace(draw);
+      ASSERT_GE(lobe.cylinders[degree], may_touch || cell.degree < curve.segments ? 1 : 0) << random.trace(draw);
+      const std::uint64_t since = phase - curve.opens[0];
+      ASSERT_GE(ends.cylinders[degree], curve.passes_base_circle(since - turned, since) ? 1 : 0) << random.trace(draw);
+    }
+    const auto marked = [](const CamDegrees& of) {
+      return std::accumulate(std::begin(of.cylinders), std::end(of.cylinders), 0u);
+    };
+    EXPECT_EQ(marked(near), std::min(curve.touch_degrees + 1, std::uint32_t{kDegreesPerTurn}));
+    EXPECT_LE(marked(lobe), std::max(marked(near), curve.segments + 1));
+    EXPECT_EQ(marked(ends), 2u * kCycleEndMargin_deg + 3);
+  }
 }
 
 TYPED_TEST(TableTargetsOf, AGridThatExactlyFitsAreFilledAsWithRoomToSpare) {

@@ -503,39 +503,6 @@ TEST(ValveCalm, HasThePlainStepsBitsWithoutItsCam) {
   EXPECT_EQ(step.acceleration.gap_speed, 0);
 }
 
-TEST(CamWindow, HoldsAWayThatStaysInsideAndNoOther) {
-  Random random;
-  int held = 0;
-  for (int draw = 0; draw < 100000; ++draw) {
-    const std::uint64_t end = random.bits();
-    const auto turned = static_cast<std::int64_t>(random.bits()) >> random.whole(1, 40);
-    const detail::CamWindow window{static_cast<std::uint32_t>(random.bits()),
-                                   static_cast<std::uint32_t>(random.bits()) >> random.whole(0, 8)};
-    if (!window.holds_all_of(static_cast<std::uint32_t>(end >> 32), turned)) continue;
-    ++held;
-    const std::uint64_t begin = end - static_cast<std::uint64_t>(turned);
-    for (int i = 0; i <= 16; ++i) {
-      const auto at = begin + static_cast<std::uint64_t>(turned / 16 * i);
-      ASSERT_TRUE(window.holds(static_cast<std::uint32_t>(at >> 32))) << random.trace(draw);
-    }
-  }
-  EXPECT_GT(held, 10000);
-  const detail::CamWindow whole{0, 0xFFFF'FFFFu};
-  EXPECT_FALSE(whole.holds_all_of(10, std::int64_t{20} << 32));  // over the border at 0
-  EXPECT_TRUE(whole.holds_all_of(30, std::int64_t{20} << 32));
-}
-
-TEST(CamClearance, IsAsWideAsItsNeighboursAllow) {
-  detail::CamClearance clear;
-  clear.keep_off({1000, 100}, 2000);
-  clear.keep_off({5000, 1}, 2000);
-  clear.keep_off({6000, 1}, 2000);
-  const detail::CamWindow about = clear.about(2000);
-  EXPECT_EQ(about.from, 1100u);
-  EXPECT_EQ(about.from + about.width, 5000u);
-  EXPECT_TRUE(about.holds(2000));
-}
-
 TEST(ValveRounding, ToFloatMakesNoStepGrow) {
   // What a step makes of (y, v) must have a determinant of at most 1, whatever the train: else an undamped valve gains
   // energy.

@@ -115,6 +115,7 @@ struct Needs {
   static constexpr bool work = S::mean_torque || crank_dynamics;  ///< of a tick, as a difference of integrals
   static constexpr bool any_valves = S::valves != ValveModel::none;
   static constexpr bool elastic_valves = S::valves == ValveModel::elastic;
+  static constexpr bool valves_rest = elastic_valves && !S::valve_gas;  ///< under gas they never do, or not for long
   static constexpr bool cylinder_pressure = S::forces || (elastic_valves && S::valve_gas && !gas);
   static constexpr bool input_pressure = S::pressure == PressureGiven::by_input && (any_torque || cylinder_pressure);
   /// With forces asked for, the torque at the tick is their sum; without, it is read from torque curves.

@@ -80,6 +80,8 @@ template <class Real>
   if ((t.cut_torque != nullptr) != (t.cut_heat != nullptr)) return refuse("targets.cut_heat", Reason::missing_table);
   const bool all_of_lift = t.lift_segments != nullptr && t.rocker_ratios != nullptr;
   if (t.lift_curves != nullptr && !all_of_lift) return refuse("targets.lift_segments", Reason::missing_table);
+  if ((t.near_cams != nullptr || t.near_lobes != nullptr || t.cycle_ends != nullptr) && t.lift_curves == nullptr)
+    return refuse("targets.lift_curves", Reason::missing_table);
   if ((t.gas_torque_heat != nullptr) != (t.gas_heat != nullptr))
     return refuse("targets.gas_heat", Reason::missing_table);
   if (t.triggers != nullptr && t.trigger_tracks == nullptr)

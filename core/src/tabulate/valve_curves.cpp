@@ -141,6 +141,39 @@ void fill_lift(const Cam& cam, const Rocker& rocker, const Layout& layout, const
   curve.outside_m = static_cast<Real>(0 - rocker.clearance_m);  // not -0, which its row of the lift does not give
 }
 
+/// Sets the bits of degrees in which the train's cams may stand while a cylinder's cam is in some degrees of its own
+/// turn, `from` counted from where the lobe opens. One degree more, for a lobe opens anywhere within one.
+template <class Real>
+void mark(const LiftCurve<Real>& curve, int cylinders, std::uint32_t from, std::uint32_t degrees,
+          CamDegrees& to) noexcept {
+  if (degrees == 0) return;
+  for (int k = 0; k < cylinders; ++k) {
+    const std::uint32_t first = LiftCurve<Real>::cell(curve.opens[k]).degree + from;
+    for (std::uint32_t i = 0; i <= degrees; ++i)
+      to.cylinders[(first + i) % kDegreesPerTurn] |= static_cast<std::uint16_t>(1u << k);
+  }
+}
+
+template <class Real>
+void fill_cam_degrees(const LiftCurve<Real>& curve, int cylinders, int train,
+                      const TableTargets<Real>& targets) noexcept {
+  if (targets.near_cams != nullptr) {
+    targets.near_cams[train] = {};
+    mark(curve, cylinders, curve.touch_from, curve.touch_degrees, targets.near_cams[train]);
+  }
+  if (targets.near_lobes != nullptr) {
+    targets.near_lobes[train] = {};
+    mark(curve, cylinders, curve.touch_from, curve.touch_degrees, targets.near_lobes[train]);
+    mark(curve, cylinders, 0, curve.segments, targets.near_lobes[train]);
+  }
+  if (targets.cycle_ends != nullptr) {
+    constexpr std::uint32_t kMargin = kCycleEndMargin_deg + 1;  // and a degree for rounding
+    const std::uint32_t middle = LiftCurve<Real>::cell(curve.base_middle()).degree;
+    targets.cycle_ends[train] = {};
+    mark(curve, cylinders, middle + kDegreesPerTurn - kMargin, 2 * kMargin, targets.cycle_ends[train]);
+  }
+}
+
 }  // namespace
 
 template <class Real>
@@ -184,6 +217,7 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
       const std::ptrdiff_t first = t * kDegreesPerTurn;
       fill_lift(train.cam, train.rocker, engine.layout, lift, options.tick_s, targets.lift_curves[t],
                 targets.lift_segments + first, targets.rocker_ratios + first);
+      fill_cam_degrees(targets.lift_curves[t], engine.layout.cylinders, t, targets);
     }
     if (targets.valve_motions != nullptr) {
       motions[t].event_budget = kEventsBesideParts + most_parts;

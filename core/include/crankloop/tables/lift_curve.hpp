@@ -39,7 +39,8 @@ struct LiftCurve {
   std::uint64_t opens[kMaxCylinders];  ///< per cylinder: engine phase at which its lobe starts; 2^64 = 360 cam deg
   std::uint64_t most_phase_per_tick;   ///< how far a phaser moves the cam in a tick, phase units; 0 = fixed cam
   std::uint32_t segments;              ///< cam degrees of the lobe
-  std::uint32_t touch_from;            ///< first degree of it in which the train may touch a closed valve,
+  std::uint32_t touch_from;            ///< first degree of it in which the train may touch a closed valve: where the
+                                       ///< lobe leaves no kLeastLash open,
   std::uint32_t touch_degrees;         ///< and how many from there
   Real skip_deg;   ///< a tick that turns the cam so far may pass over all of them; more than any turn where there are
                    ///< none
@@ -110,9 +111,16 @@ struct LiftCurve {
     constexpr std::int64_t kNear = std::int64_t{1} << 62;  // crossing zero there, not half a turn away
     return (before < 0) != (after < 0) && after < kNear && after > -kNear;
   }
-
-  /// False where the lobe is not, or leaves kLeastLash open: a closed valve is not touched there.
-  [[nodiscard]] constexpr bool may_touch(Cell cell) const noexcept { return cell.degree - touch_from < touch_degrees; }
 };
+
+/// Where something holds for a train's valves: a bit for each cylinder, by the degree of the turn at which the train's
+/// cams stand.
+struct CamDegrees {
+  std::uint16_t cylinders[kDegreesPerTurn];
+};
+static_assert(kMaxCylinders <= 16);
+
+/// A tick that turns the cams by no more than this ends a valve's cycle only where CamDegrees say so.
+inline constexpr int kCycleEndMargin_deg = 4;
 
 }  // namespace crankloop::detail

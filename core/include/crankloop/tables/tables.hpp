@@ -64,6 +64,10 @@ enum class SectionRows : std::uint8_t { one, gas_grid, torque_grid, cut_grid, tr
   BEHIND(rocker_ratios, Segment<Real>, lobes, N::any_valves)                                       \
   SECTION(lift_curves, LiftCurve<Real>, trains, N::any_valves)                                     \
   SECTION(valve_motions, ValveMotion<Real>, trains, N::elastic_valves)                             \
+  /* where a valve at rest becomes active: its cam near; with forces also where its gap changes */ \
+  SECTION(near_cams, CamDegrees, trains, N::valves_rest && !S::valve_forces)                       \
+  SECTION(near_lobes, CamDegrees, trains, N::valves_rest&& S::valve_forces)                        \
+  SECTION(cycle_ends, CamDegrees, trains, S::valve_results) /* within kCycleEndMargin_deg */       \
   BEHIND(trigger_edges, std::uint32_t, edges, N::any_triggers)                                     \
   BEHIND(trigger_tracks, TriggerTrack, wheels, N::any_triggers)                                    \
   SECTION(triggers, TriggerWheels, one, N::any_triggers)                                           \

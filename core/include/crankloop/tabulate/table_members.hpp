@@ -41,6 +41,7 @@ CRANKLOOP_MEMBERS_OF(RotatingVector, up_cos, up_sin, lateral_cos, lateral_sin, p
 CRANKLOOP_MEMBERS_OF(Balance, first, second, rotating, cosine)
 CRANKLOOP_MEMBERS_OF(LiftSegment, c)
 CRANKLOOP_MEMBERS_OF(LiftCurve, at, rocker_ratio, opens, most_phase, segments, touch_from, touch_degrees, leap, outside)
+CRANKLOOP_MEMBERS(CamDegrees, cylinders)
 CRANKLOOP_MEMBERS_OF(ValveBody, mass, train, train_damping, seat, seat_damping, spring, guide, preload,
                      seat_compression, head_area, rocker_mass, per_mass)
 CRANKLOOP_MEMBERS_OF(StepRow, rest, gas, gas_rise, gap, rise, from, to, lift, velocity)

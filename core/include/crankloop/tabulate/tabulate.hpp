@@ -24,7 +24,8 @@ inline constexpr std::size_t kMaxGasSegments = 20 * kDegreesPerCycle;
 
 /// Where to build each section; null = leave it out. Pressures go with a gas_grid, gas torques with a torque_grid,
 /// cut_torque with a cut_grid; each has room for `gas_capacity` segments. A gas torque goes with its segments, lift
-/// curves with theirs and their rocker ratios (kDegreesPerTurn rows per train of the definition), triggers with tracks
+/// curves with theirs and their rocker ratios (kDegreesPerTurn rows per train of the definition), near_cams, near_lobes
+/// and cycle_ends with lift curves, triggers with tracks
 /// and edges (kMaxTriggerEdges rows per wheel).
 template <class Real>
 struct TableTargets : detail::part::Targets<Real, detail::part::AllSections> {

@@ -2,7 +2,7 @@
 // place that knows of it.
 //
 // What belongs here: loading, storing, transposing, choosing such numbers. What does not: records of them
-// (valve/lane_records.hpp), what is computed with them: the same inline functions as with one (valve.hpp,
+// (valve/valve_lanes.hpp), what is computed with them: the same inline functions as with one (valve.hpp,
 // gas/cylinder_gas.hpp), of + - * / sqrt and comparisons alone, so a lane has the bits that it has by itself.
 #pragma once
 
@@ -166,24 +166,20 @@ struct LaneTypes<Four> {
   return Four{square_root(x[0]), square_root(x[1]), square_root(x[2]), square_root(x[3])};
 #endif
 }
-[[gnu::always_inline]] inline void transpose(Four (&x)[4]) noexcept {
+/// Some lanes of two registers in a row.
+template <int... I>
+[[nodiscard, gnu::always_inline]] inline Four shuffled(const Four& a, const Four& b) noexcept {
 #if defined(__clang__) || __GNUC__ >= 12
-  const Four low[2] = {__builtin_shufflevector(x[0], x[1], 0, 4, 1, 5),
-                       __builtin_shufflevector(x[2], x[3], 0, 4, 1, 5)};
-  const Four high[2] = {__builtin_shufflevector(x[0], x[1], 2, 6, 3, 7),
-                        __builtin_shufflevector(x[2], x[3], 2, 6, 3, 7)};
-  x[0] = __builtin_shufflevector(low[0], low[1], 0, 1, 4, 5),
-  x[1] = __builtin_shufflevector(low[0], low[1], 2, 3, 6, 7);
-  x[2] = __builtin_shufflevector(high[0], high[1], 0, 1, 4, 5),
-  x[3] = __builtin_shufflevector(high[0], high[1], 2, 3, 6, 7);
+  return __builtin_shufflevector(a, b, I...);
 #else
-  for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < i; ++j) {
-      const float held = x[i][j];
-      x[i][j] = x[j][i], x[j][i] = held;
-    }
-  }
+  return __builtin_shuffle(a, b, FourBits{I...});
 #endif
+}
+[[gnu::always_inline]] inline void transpose(Four (&x)[4]) noexcept {
+  const Four low[2] = {shuffled<0, 4, 1, 5>(x[0], x[1]), shuffled<0, 4, 1, 5>(x[2], x[3])};
+  const Four high[2] = {shuffled<2, 6, 3, 7>(x[0], x[1]), shuffled<2, 6, 3, 7>(x[2], x[3])};
+  x[0] = shuffled<0, 1, 4, 5>(low[0], low[1]), x[1] = shuffled<2, 3, 6, 7>(low[0], low[1]);
+  x[2] = shuffled<0, 1, 4, 5>(high[0], high[1]), x[3] = shuffled<2, 3, 6, 7>(high[0], high[1]);
 }
 
 /// As many as a register holds: the compiler's target, so no layout may depend on it.

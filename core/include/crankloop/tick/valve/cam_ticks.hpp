@@ -22,6 +22,8 @@ struct CamTick {
   std::int64_t turned;  ///< the same units
   CamTurn<Real> cam;
 
+  /// Of the cams' turn, 0 to 359.
+  [[nodiscard]] constexpr std::uint32_t degree() const noexcept { return LiftCurve<Real>::cell(phase).degree; }
   [[nodiscard]] constexpr std::uint64_t phase_in_middle() const noexcept {
     return phase - static_cast<std::uint64_t>(turned / 2);
   }

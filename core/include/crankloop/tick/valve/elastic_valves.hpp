@@ -56,6 +56,7 @@ class ElasticValves {
     valves_.work.active = 0;
     if constexpr (Valves::kActiveFirst) valves_.work.active_lanes = 0;
     valves_.work.skip_deg = valves_.work.guard_range_deg = valves_.work.wide_deg = Real{kDegreesPerTurn + 1};
+    for (std::uint32_t& degree : valves_.work.degree) degree = kDegreesPerTurn;  // none: the next tick enters one
     valves_.for_each([&](std::uint32_t v) {
       valves_.set_cam(v, valves_.curve(v).read(valves_.curve(v).cell(cam_phase(valves_.state, valves_.train(v)) -
                                                                      valves_.curve(v).opens[valves_.cylinder(v)])));
@@ -67,7 +68,6 @@ class ElasticValves {
     });
     if (valves_.work.skip_deg < valves_.work.guard_range_deg) valves_.work.guard_range_deg = valves_.work.skip_deg;
     if (valves_.work.guard_range_deg < valves_.work.wide_deg) valves_.work.wide_deg = valves_.work.guard_range_deg;
-    for (std::uint32_t g = 0; g < kCamGroups<S>; ++g) valves_.work.clear[g] = valves_.work.no_end[g] = {};
   }
 
   /// For a crank that turns before its first tick: valves that their cams carry move with them. Another speed before
@@ -93,7 +93,10 @@ class ElasticValves {
   /// Returns fault bits.
   [[nodiscard, gnu::always_inline]] std::uint32_t run(const CamTicks<Real, S>& cams, bool jumped) noexcept {
     if (jumped) start();
-    for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g) begin_tick(cams, g);
+    bool entered = false;
+    for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g) entered |= begin_tick(cams[g], g);
+    if (kByDegree && entered) enter_degrees(cams);
+    for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g) check_speed(cams[g], g);
     Before before;
     Steps steps(valves_);
     const Bits failed = steps.run(cams, before);
@@ -102,59 +105,84 @@ class ElasticValves {
     steps.deactivate_resting();
     CRANKLOOP_ASSERT(budget.left <= valves_.tables.valve_motions[0].event_budget);
     if constexpr (S::valve_results) {
-      for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g) end_cycles(cams, g);
+      end_cycles(cams);
     }
     return budget.exceeded ? std::uint32_t{kFaultEventBudget} : 0;
   }
 
  private:
-  void begin_tick(const CamTicks<Real, S>& cams, std::uint32_t group) noexcept {
+  static constexpr bool kByDegree = Needs<S>::valves_rest || S::valve_results;
+
+  /// Whether cams enter another degree of their turn.
+  [[nodiscard]] bool begin_tick(const CamTick<Real>& tick, std::uint32_t group) noexcept {
     CRANKLOOP_ASSERT(group < kCamGroups<S>);
-    const CamTick<Real>& tick = cams[group];
-    const Real deg = magnitude(tick.cam.deg);
-    CRANKLOOP_ASSERT(deg <= Real{kDegreesPerTurn / 2});
     CRANKLOOP_ASSERT(valves_.work.wide_deg <= valves_.work.guard_range_deg &&
                      valves_.work.guard_range_deg <= valves_.work.skip_deg);
-    const bool wide = deg >= valves_.work.wide_deg;
-    if (wide) valves_.wide = true, valves_.beyond_guards = valves_.beyond_guards || deg >= valves_.work.guard_range_deg;
-    if ((wide && deg >= valves_.work.skip_deg) || !valves_.work.clear[group].holds(angle_of_cams(tick)))
-      activate_near(tick, group);
+    const Real deg = magnitude(tick.cam.deg);
+    CRANKLOOP_ASSERT(deg <= Real{kDegreesPerTurn / 2});
+    if (deg >= valves_.work.wide_deg)
+      valves_.wide = true, valves_.beyond_guards = valves_.beyond_guards || deg >= valves_.work.guard_range_deg;
+    const std::uint32_t before = valves_.work.degree[group];
+    valves_.work.degree[group] = tick.degree();
+    return tick.degree() != before;
+  }
+
+  /// Looks up which cams are near and whose cycles may end, and activates valves whose cams have come near. In a tick
+  /// that turns the cams too far for the tables, all are and may.
+  [[gnu::always_inline]] void enter_degrees(const CamTicks<Real, S>& cams) noexcept {
+    if constexpr (Needs<S>::valves_rest) {
+      const bool may_skip = valves_.beyond_guards && turns_by(cams, valves_.work.skip_deg);
+      const Bits near = may_skip ? all_valves() : valves_at(near_degrees(), cams);
+      valves_.work.near = near;
+      const Bits newly_near = near & ~valves_.work.active;
+      if (newly_near != 0) activate_all(newly_near, cams);
+    }
+    if constexpr (S::valve_results)
+      valves_.work.ending =
+          turns_by(cams, Real{kCycleEndMargin_deg}) ? all_valves() : valves_at(valves_.tables.cycle_ends, cams);
+  }
+  [[nodiscard]] bool turns_by(const CamTicks<Real, S>& cams, Real deg) const noexcept {
+    for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g)
+      if (magnitude(cams[g].cam.deg) >= deg) return true;
+    return false;
+  }
+
+  /// Whether the cams' speed jumps.
+  void check_speed(const CamTick<Real>& tick, std::uint32_t group) noexcept {
+    CRANKLOOP_ASSERT(group < kCamGroups<S>);
     Real& before_deg = valves_.state.cam_turned_deg[group];
     if (tick.cam.deg == before_deg) return;
-    const bool jumps = magnitude(tick.cam.deg - before_deg) > static_cast<Real>(kSpeedJump) * deg;
+    const bool jumps = magnitude(tick.cam.deg - before_deg) > static_cast<Real>(kSpeedJump) * magnitude(tick.cam.deg);
     before_deg = tick.cam.deg;
     if (jumps) recheck_contacts(tick, group);
   }
 
-  [[nodiscard]] static constexpr std::uint32_t angle_of_cams(const CamTick<Real>& tick) noexcept {
-    return static_cast<std::uint32_t>(tick.phase >> 32);
+  /// Valves that have their bit at the degrees where their cams stand.
+  [[nodiscard]] Bits valves_at(const CamDegrees* of_train, const CamTicks<Real, S>& cams) const noexcept {
+    Bits valves = 0;
+    for (std::uint32_t t = 0; t < valves_.trains(); ++t)
+      valves |= Bits{of_train[t].cylinders[cams[t].degree()]} << t * Valves::kPerTrain;
+    return valves;
+  }
+  [[nodiscard, gnu::cold, gnu::noinline]] Bits all_valves() const noexcept {
+    Bits valves = 0;
+    valves_.for_each([&](std::uint32_t v) { valves |= Bits{1} << v; });
+    return valves;
+  }
+  [[nodiscard]] const CamDegrees* near_degrees() const noexcept {
+    if constexpr (S::valve_forces)
+      return valves_.tables.near_lobes;
+    else
+      return valves_.tables.near_cams;
   }
 
-  /// Where the train may touch a closed valve; in scenes with forces, where its gap changes.
-  [[nodiscard]] static CamWindow near_window(const LiftCurve<Real>& curve, std::uint32_t opens) noexcept {
-    constexpr std::uint32_t kUnitsPerDegree = 0xFFFF'FFFFu / kDegreesPerTurn;
-    if (S::valve_forces && curve.touch_degrees < curve.segments) return {opens, curve.segments * kUnitsPerDegree};
-    return {opens + curve.touch_from * kUnitsPerDegree, curve.touch_degrees * kUnitsPerDegree};
-  }
-
-  /// Activates valves whose cams have come near, from where their cams stood before the tick; and finds the part of the
-  /// turn in which the others may stay inactive.
-  [[gnu::cold, gnu::noinline]] void activate_near(const CamTick<Real>& tick, std::uint32_t group) noexcept {
-    const std::uint32_t angle = angle_of_cams(tick);
-    const bool may_skip = magnitude(tick.cam.deg) >= valves_.work.skip_deg;
-    CamClearance clear;
-    valves_.for_each_of(group, [&](std::uint32_t v) {
-      if ((valves_.work.active >> v & 1) != 0) return;
-      const std::uint64_t opens = valves_.curve(v).opens[valves_.cylinder(v)];
-      const CamWindow near = near_window(valves_.curve(v), static_cast<std::uint32_t>(opens >> 32));
-      if (may_skip || near.holds(angle)) {
-        valves_.set_cam(v, valves_.curve(v).read(valves_.curve(v).cell(tick.phase_before() - opens)));
-        activate(valves_, v);
-      } else {
-        clear.keep_off(near, angle);
-      }
-    });
-    valves_.work.clear[group] = clear.about(angle);
+  /// Activates valves, from where their cams stood before the tick.
+  [[gnu::cold, gnu::noinline]] void activate_all(Bits which, const CamTicks<Real, S>& cams) noexcept {
+    for (Bits left = which; left != 0; left &= left - 1) {
+      const std::uint32_t v = trailing_zeros(left);
+      valves_.set_cam(v, valves_.curve(v).read(valves_.cell(v, cams[valves_.train(v)].phase_before())));
+      activate(valves_, v);
+    }
   }
 
   /// The cams' speed has jumped, and with it the dampers' forces.
@@ -216,15 +244,13 @@ class ElasticValves {
   // ---- after the steps --------------------------------------------------------------------------------------------
 
   /// A valve's cycle ends where its cam passes the middle of the base circle.
-  void end_cycles(const CamTicks<Real, S>& cams, std::uint32_t group) noexcept {
-    const CamTick<Real>& tick = cams[group];
-    if (valves_.work.no_end[group].holds_all_of(angle_of_cams(tick), tick.turned)) return;
-    CamClearance clear;
-    valves_.for_each_of(group, [&](std::uint32_t v) {
+  void end_cycles(const CamTicks<Real, S>& cams) noexcept {
+    for (Bits left = valves_.work.ending; left != 0; left &= left - 1) {
+      const std::uint32_t v = trailing_zeros(left);
+      const CamTick<Real>& tick = cams[valves_.train(v)];
       const LiftCurve<Real>& lift = valves_.curve(v);
       const std::uint64_t opens = lift.opens[valves_.cylinder(v)];
-      clear.keep_off({static_cast<std::uint32_t>((opens + lift.base_middle()) >> 32), 0}, angle_of_cams(tick));
-      if (!lift.passes_base_circle(tick.phase_before() - opens, tick.phase - opens)) return;
+      if (!lift.passes_base_circle(tick.phase_before() - opens, tick.phase - opens)) continue;
       // In cam degrees since the start of the lobe: after it, or before it when turning backwards.
       const auto lobe_deg = static_cast<Real>(static_cast<std::int32_t>(lift.segments));
       const Real end_deg = (tick.cam.deg < 0 ? lobe_deg - Real{kDegreesPerTurn} : lobe_deg + Real{kDegreesPerTurn}) / 2;
@@ -232,8 +258,7 @@ class ElasticValves {
           valves_.state.record[valves_.train(v)][valves_.cylinder(v)].finish(
               end_deg, contacts_of(valves_.state.valve_regime[v]));
       valves_.load_record(v);
-    });
-    valves_.work.no_end[group] = clear.about(angle_of_cams(tick));
+    }
   }
 
   Valves valves_;

@@ -12,8 +12,8 @@
 #include <type_traits>
 
 #include <crankloop/assert.hpp>
-#include <crankloop/tick/valve/lane_records.hpp>
 #include <crankloop/tick/valve/valve_access.hpp>
+#include <crankloop/tick/valve/valve_lanes.hpp>
 
 #if CRANKLOOP_ABREAST
 namespace crankloop::detail {

@@ -7,20 +7,13 @@
 #include <cstdint>
 #include <type_traits>
 
-#include <crankloop/tick/valve/active_valves.hpp>
 #include <crankloop/tick/valve/lane_blocks.hpp>
 #include <crankloop/tick/valve/valve_access.hpp>
 
 namespace crankloop::detail {
 
-/// Valves to deactivate after the tick.
-template <class Bits>
-struct DeactivatingValves {
-  Bits deactivating = 0;
-};
-
 template <class Real, class S>
-class PlainSteps : If<ValveAccess<Real, S>::kActiveFirst, DeactivatingValves<ValveBits<S>>> {
+class PlainSteps {
   using Valves = ValveAccess<Real, S>;
   using Gas = typename Valves::Gas;
   using Bits = typename Valves::Bits;
@@ -38,8 +31,8 @@ class PlainSteps : If<ValveAccess<Real, S>::kActiveFirst, DeactivatingValves<Val
 
   /// Deactivates valves at rest whose cams are away. At the end of the tick: it hands their lanes to others.
   void deactivate_resting() noexcept {
-    if constexpr (Valves::kActiveFirst) {
-      if (this->deactivating != 0) deactivate(valves_, this->deactivating);
+    if constexpr (Needs<S>::valves_rest) {
+      if (resting_ != 0) deactivate(valves_, resting_ & ~valves_.work.near);
     }
   }
 
@@ -89,7 +82,7 @@ class PlainSteps : If<ValveAccess<Real, S>::kActiveFirst, DeactivatingValves<Val
       valves_.record(v, start, end, from, to, tick, gas, acceleration_m_s2);
       valves_.load_record(v);
     }
-    if (at_rest) may_deactivate(v, cell);
+    if (at_rest) resting_ |= Bits{1} << v;
     valves_.write_output(v, end, cell, {to.lift_m, compression_m, compression_speed_m_s, acceleration_m_s2}, gas);
     return true;
   }
@@ -140,7 +133,7 @@ class PlainSteps : If<ValveAccess<Real, S>::kActiveFirst, DeactivatingValves<Val
         valves_.set_state(v, end);
         return false;
       }
-      if (snap_to_rest(v, regime, gas, end)) may_deactivate(v, cell);
+      if (snap_to_rest(v, regime, gas, end)) resting_ |= Bits{1} << v;
     }
     valves_.set_state(v, end);
     valves_.set_cam(v, {outside_m, Real{0}});
@@ -179,18 +172,6 @@ class PlainSteps : If<ValveAccess<Real, S>::kActiveFirst, DeactivatingValves<Val
     if (!(magnitude(s.lift_m - resting_m) < regime.rest_m && magnitude(s.velocity_m_s) < regime.rest_m_s)) return false;
     s = {resting_m, Real{0}};
     return true;
-  }
-
-  /// Deactivates a valve at rest after this tick if its cam is away.
-  void may_deactivate([[maybe_unused]] std::uint32_t v, [[maybe_unused]] Cell cell) noexcept {
-    if constexpr (!S::valve_gas) {
-      if (valves_.curve(v).may_touch(cell) || (S::valve_forces && cell.degree < valves_.curve(v).segments)) return;
-      if constexpr (Valves::kActiveFirst) {
-        this->deactivating |= Bits{1} << v;
-      } else {
-        deactivate(valves_, Bits{1} << v);
-      }
-    }
   }
 
   /// Records what a lane's valve did in its block.
@@ -245,8 +226,7 @@ class PlainSteps : If<ValveAccess<Real, S>::kActiveFirst, DeactivatingValves<Val
         valves_.for_active(blocks.to_record() & ~blocks.failed(),
                            [&](std::uint32_t v) { record(v, cams[valves_.train(v)], before); });
       }
-      valves_.for_active(blocks.at_rest() & ~blocks.failed(),
-                         [&](std::uint32_t v) { may_deactivate(v, valves_.cell(v, cams[valves_.train(v)].phase)); });
+      valves_.for_active(blocks.at_rest() & ~blocks.failed(), [&](std::uint32_t v) { resting_ |= Bits{1} << v; });
     }
 #endif
     return failed;
@@ -257,6 +237,7 @@ class PlainSteps : If<ValveAccess<Real, S>::kActiveFirst, DeactivatingValves<Val
   }
 
   Valves& valves_;
+  Bits resting_ = 0;  ///< valves that the tick has left at rest
 };
 
 }  // namespace crankloop::detail

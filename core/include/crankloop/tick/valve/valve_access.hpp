@@ -1,7 +1,7 @@
-// Access to each elastic valve in a tick: its tables, its state, where its cam stood, its output, its record.
+// Access to each elastic valve in a tick: its tables, its state, where its cam stood, its output, its record, its lane.
 //
-// What belongs here: where things lie. What does not: what is done with them
-// (plain_steps.hpp, elastic_valves.hpp).
+// What belongs here: where things lie, and which valves are active. What does not: what is done with valves
+// (plain_steps.hpp, event_location.hpp), and when (elastic_valves.hpp).
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,40 @@
 #include <crankloop/tick/valve/cam_ticks.hpp>
 #include <crankloop/tick/valve/event_location.hpp>
 #include <crankloop/tick/valve/valve_lanes.hpp>
-#include <crankloop/tick/valve/valve_outputs.hpp>
 #include <crankloop/tick/valve/valves_work.hpp>
 
 namespace crankloop::detail {
+
+/// A valve's cam, train and acceleration at a tick's end.
+template <class Real>
+struct Moment {
+  Real cam_lift_m, compression_m, compression_speed_m_s, acceleration_m_s2;
+};
+
+template <class Real>
+[[gnu::always_inline]] inline void write_motion(ValveMotionOutput<Real>& shown, const ValveState<Real>& s,
+                                                const Moment<Real>& at) noexcept {
+  shown.theoretical_lift_m = at.cam_lift_m > 0 ? at.cam_lift_m : Real{0};
+  shown.lift_m = s.lift_m;
+  shown.velocity_m_s = s.velocity_m_s;
+  shown.acceleration_m_s2 = at.acceleration_m_s2;
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void write_forces(ValveForcesOutput<Real>& shown, const ValveBody<Real>& b,
+                                                const LiftCurve<Real>& curve, const ValveInRegime<Real>& valve,
+                                                Cell cell, const Moment<Real>& at) noexcept {
+  const auto pushing = [](bool on, Real force_N) { return on && force_N > 0 ? force_N : Real{0}; };
+  const std::uint32_t contacts = contacts_of(valve.regime);
+  shown.train_N =
+      pushing((contacts & kTrainOn) != 0, b.train_N_m * at.compression_m + b.train_Ns_m * at.compression_speed_m_s);
+  shown.seat_N = pushing((contacts & kSeatOn) != 0,
+                         b.preload_N - (b.seat_N_m * valve.state.lift_m + b.seat_Ns_m * valve.state.velocity_m_s));
+  shown.tip_N = shown.train_N - b.rocker_mass_kg * at.acceleration_m_s2;
+  shown.cam_N = shown.train_N > 0 ? shown.train_N * curve.rocker_ratio_at(cell) : Real{0};
+  shown.train_compression_m = at.compression_m;
+  shown.regime = contacts;
+}
 
 /// Valves are numbered train by train: v = train times the scene's cylinders + cylinder.
 template <class Real, class S>
@@ -211,5 +241,59 @@ struct ValveAccess {
     return {from, to, tick.cam, gas, tick.phase_before() - curve(v).opens[cylinder(v)], Real{0}};
   }
 };
+
+// ---- lanes: active valves have the first ones, so that blocks hold no others -------------------------------------
+
+/// Gives a valve a lane and loads what it needs there from tables and state, except its cam's lift.
+template <class Real, class S>
+[[gnu::cold]] void place(ValveAccess<Real, S>& valves, std::uint32_t v, std::uint32_t lane) noexcept {
+  const LiftCurve<Real>& curve = valves.tables.lift_curves[valves.train(v)];
+  valves.work.curve[lane] = &curve;
+#if CRANKLOOP_ABREAST
+  if constexpr (ValveAccess<Real, S>::kInLanes) {
+    CRANKLOOP_ASSERT(lane < kLaneRoom<S>);
+    if constexpr (!S::valve_gas) valves.work.valve[lane] = v, valves.work.lane[v] = lane;
+    set_cam_of_lane(valves.work, lane, curve, valves.cylinder(v)),
+        set_body_of_lane(valves.work, lane, valves.motion(v));
+  }
+#endif
+  valves.set_regime(v, valves.state.valve_regime[v]);
+  valves.set_state(v, valves.state_of(v));
+}
+
+template <class Real, class S>
+[[gnu::cold]] void place_all(ValveAccess<Real, S>& valves) noexcept {
+  std::uint32_t next = 0;
+  valves.for_each([&](std::uint32_t v) { place(valves, v, ValveAccess<Real, S>::kActiveFirst ? next++ : v); });
+}
+
+/// Exchanges the valves of two lanes.
+template <class Real, class S>
+[[gnu::noinline]] void swap_lanes(ValveAccess<Real, S>& valves, std::uint32_t a, std::uint32_t b) noexcept {
+  if (a == b) return;
+  const std::uint32_t in_a = valves.valve_in(a), in_b = valves.valve_in(b);
+  const Lift<Real> cam_a = valves.cam(in_a), cam_b = valves.cam(in_b);
+  place(valves, in_a, b), place(valves, in_b, a);
+  valves.set_cam(in_a, cam_a), valves.set_cam(in_b, cam_b);
+}
+
+/// A valve takes part from now on.
+template <class Real, class S>
+void activate(ValveAccess<Real, S>& valves, std::uint32_t v) noexcept {
+  CRANKLOOP_ASSERT((valves.work.active >> v & 1) == 0);
+  valves.work.active |= ValveBits<S>{1} << v;
+  if constexpr (ValveAccess<Real, S>::kActiveFirst) swap_lanes(valves, valves.lane_of(v), valves.work.active_lanes++);
+}
+
+/// Valves at rest whose cams are away take part no longer.
+template <class Real, class S>
+void deactivate(ValveAccess<Real, S>& valves, ValveBits<S> which) noexcept {
+  CRANKLOOP_ASSERT((valves.work.active & which) == which);
+  valves.work.active &= ~which;
+  if constexpr (ValveAccess<Real, S>::kActiveFirst) {
+    for (ValveBits<S> left = which; left != 0; left &= left - 1)
+      swap_lanes(valves, valves.lane_of(trailing_zeros(left)), --valves.work.active_lanes);
+  }
+}
 
 }  // namespace crankloop::detail

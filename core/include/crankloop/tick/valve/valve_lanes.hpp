@@ -1,21 +1,101 @@
 // Several valves at once, one in each lane: what lanes hold side by side, and how it is read.
 //
-// What belongs here: a lane's regime, body and cam. What does not: the plain step of a block of lanes
-// (lane_blocks.hpp), the arithmetic of a step (valve.hpp), which valves an engine has (elastic_valves.hpp).
+// What belongs here: a lane's regime, body and cam, rows of numbers for each lane. What does not: the plain step of a
+// block of lanes (lane_blocks.hpp), the arithmetic of a step (valve.hpp), which valves an engine has
+// (elastic_valves.hpp).
 #pragma once
 
 #include <cstddef>
+#include <cstring>
 #include <initializer_list>
 
 #include <crankloop/assert.hpp>
 #include <crankloop/tick/lanes.hpp>
 #include <crankloop/tick/valve/cam_ticks.hpp>
-#include <crankloop/tick/valve/lane_records.hpp>
 #include <crankloop/tick/valve/valve.hpp>
 #include <crankloop/tick/valve/valves_work.hpp>
 
 #if CRANKLOOP_ABREAST
 namespace crankloop::detail {
+
+// ---- between lanes and memory ------------------------------------------------------------------------------------
+
+template <class Lanes>
+[[nodiscard, gnu::always_inline]] inline Lanes larger(const Lanes& a, const Lanes& b) noexcept {
+  return a > b ? a : b;
+}
+/// Raises each lane's number to x, and returns in which lanes that changed it.
+template <class Lanes>
+[[nodiscard, gnu::always_inline]] inline auto raise(float* number, const Lanes& x) noexcept {
+  const Lanes before = load<Lanes>(number);
+  const auto more = x > before;
+  store<Lanes>(number, more ? x : before);
+  return more;
+}
+
+/// Rows of two, four or six numbers for each of four lanes, from and to registers of one number of each lane.
+[[gnu::always_inline]] inline void store_lanes(const Four& a, const Four& b, float* const (&to)[4]) noexcept {
+  using Two = double __attribute__((vector_size(16)));
+  const Two low = reinterpret_cast<Two>(shuffled<0, 4, 1, 5>(a, b)),
+            high = reinterpret_cast<Two>(shuffled<2, 6, 3, 7>(a, b));
+  const double pairs[4] = {low[0], low[1], high[0], high[1]};
+  for (int i = 0; i < 4; ++i) std::memcpy(to[i], &pairs[i], sizeof pairs[i]);
+}
+[[gnu::always_inline]] inline void load_lanes(const float* const (&from)[4], Four& a, Four& b) noexcept {
+  using Two = double __attribute__((vector_size(16)));
+  double pairs[4];
+  for (int i = 0; i < 4; ++i) std::memcpy(&pairs[i], from[i], sizeof pairs[i]);
+  const Four low = reinterpret_cast<Four>(Two{pairs[0], pairs[1]}),
+             high = reinterpret_cast<Four>(Two{pairs[2], pairs[3]});
+  a = shuffled<0, 2, 4, 6>(low, high), b = shuffled<1, 3, 5, 7>(low, high);
+}
+[[gnu::always_inline]] inline void store_lanes(const Four& a, const Four& b, const Four& c, const Four& d,
+                                               float* const (&to)[4]) noexcept {
+  Four x[4] = {a, b, c, d};
+  transpose(x);
+  for (int i = 0; i < 4; ++i) store<Four>(to[i], x[i]);
+}
+[[gnu::always_inline]] inline void store_lanes(const Four (&x)[6], float* const (&to)[4]) noexcept {
+  store_lanes(x[0], x[1], x[2], x[3], to);
+  store_lanes(x[4], x[5], {to[0] + 4, to[1] + 4, to[2] + 4, to[3] + 4});
+}
+[[gnu::always_inline]] inline void load_lanes(const float* const (&from)[4], Four (&x)[6]) noexcept {
+  Four y[4] = {load<Four>(from[0]), load<Four>(from[1]), load<Four>(from[2]), load<Four>(from[3])};
+  transpose(y);
+  for (int i = 0; i < 4; ++i) x[i] = y[i];
+  load_lanes({from[0] + 4, from[1] + 4, from[2] + 4, from[3] + 4}, x[4], x[5]);
+}
+#if defined(__AVX__)
+[[nodiscard, gnu::always_inline]] inline Eight joined(const Four& low, const Four& high) noexcept {
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+[[nodiscard, gnu::always_inline]] inline Four half(const Eight& x, int which) noexcept {
+  Four f;
+  std::memcpy(&f, reinterpret_cast<const char*>(&x) + which * 16, sizeof f);
+  return f;
+}
+[[gnu::always_inline]] inline void load_lanes(const float* const (&from)[8], Eight (&x)[6]) noexcept {
+  Four low[6], high[6];
+  load_lanes({from[0], from[1], from[2], from[3]}, low);
+  load_lanes({from[4], from[5], from[6], from[7]}, high);
+  for (int i = 0; i < 6; ++i) x[i] = joined(low[i], high[i]);
+}
+[[gnu::always_inline]] inline void store_lanes(const Eight& a, const Eight& b, float* const (&to)[8]) noexcept {
+  store_lanes(half(a, 0), half(b, 0), {to[0], to[1], to[2], to[3]});
+  store_lanes(half(a, 1), half(b, 1), {to[4], to[5], to[6], to[7]});
+}
+[[gnu::always_inline]] inline void store_lanes(const Eight& a, const Eight& b, const Eight& c, const Eight& d,
+                                               float* const (&to)[8]) noexcept {
+  store_lanes(half(a, 0), half(b, 0), half(c, 0), half(d, 0), {to[0], to[1], to[2], to[3]});
+  store_lanes(half(a, 1), half(b, 1), half(c, 1), half(d, 1), {to[4], to[5], to[6], to[7]});
+}
+[[gnu::always_inline]] inline void store_lanes(const Eight (&x)[6], float* const (&to)[8]) noexcept {
+  store_lanes(x[0], x[1], x[2], x[3], to);
+  store_lanes(x[4], x[5], {to[0] + 4, to[1] + 4, to[2] + 4, to[3] + 4, to[4] + 4, to[5] + 4, to[6] + 4, to[7] + 4});
+}
+#endif
+
+// ---- what lanes hold ---------------------------------------------------------------------------------------------
 
 /// A number of each lane, read where it is used: a regime has more of them than there are registers.
 template <class Lanes, bool Aligned>
@@ -78,6 +158,7 @@ inline constexpr std::uint32_t kSignBit = 0x8000'0000u;
 template <class Work>
 inline void set_cam_of_lane(Work& w, std::size_t lane, const LiftCurve<float>& curve, std::uint32_t cylinder) noexcept {
   const Cell cell = LiftCurve<float>::cell(curve.opens[cylinder]);
+  w.segments[lane] = curve.at;
   w.degrees[lane] = curve.segments;
   w.opens_degree[lane] = cell.degree;
   w.opens_into[lane] = cell.into ^ kSignBit;
@@ -178,7 +259,7 @@ template <class Lanes, class S>
   CRANKLOOP_ASSERT(place.segment[0] <= std::uint32_t{kDegreesPerTurn});
   const float* from[kLanesOf<Lanes>];
   for (int i = 0; i < kLanesOf<Lanes>; ++i)
-    from[i] = w.curve[first + static_cast<std::size_t>(i)]->at[place.segment[i]].c;
+    from[i] = w.segments[first + static_cast<std::size_t>(i)][place.segment[i]].c;
   Lanes c[6];
   load_lanes(from, c);
   const Lanes u = place.u = __builtin_convertvector(reinterpret_cast<Signed>(into >> 8), Lanes) * 0x1p-24F;

@@ -12,36 +12,6 @@
 
 namespace crankloop::detail {
 
-/// Part of a cam's turn; 2^32 = 360 cam degrees.
-struct CamWindow {
-  std::uint32_t from = 0;
-  std::uint32_t width = 0;
-  [[nodiscard]] constexpr bool holds(std::uint32_t angle) const noexcept { return angle - from < width; }
-  /// All of the way to an angle, `turned` on from where it began: a whole turn is 2^64 there.
-  [[nodiscard]] constexpr bool holds_all_of(std::uint32_t to, std::int64_t turned) const noexcept {
-    const std::int64_t end = to - from;  // no less than 0
-    const std::int64_t begin = end - (turned >> 32);
-    return end < width && begin > 1 && begin + 1 < width;  // of the low words' rounding
-  }
-};
-
-/// The widest window about an angle that keeps off others.
-struct CamClearance {
-  std::uint32_t ahead = 0x7FFF'FFFF;
-  std::uint32_t behind = 0x7FFF'FFFF;
-
-  constexpr void keep_off(const CamWindow& other, std::uint32_t angle) noexcept {
-    const std::uint32_t to = other.from - angle;
-    const std::uint32_t since = angle - (other.from + other.width);
-    ahead = to < ahead ? to : ahead;
-    behind = since < behind ? since : behind;
-  }
-  [[nodiscard]] constexpr CamWindow about(std::uint32_t angle) const noexcept {
-    CRANKLOOP_ASSERT(ahead <= 0x7FFF'FFFF && behind <= 0x7FFF'FFFF);
-    return {angle - behind, behind + ahead};
-  }
-};
-
 /// Whether a scene's valves have the layout for lanes: enough valves for a block. By processor, not by the compiler's
 /// flags, for the size of an engine depends on it.
 #if defined(__x86_64__) || defined(__aarch64__)
@@ -94,10 +64,11 @@ struct alignas(16) VectorLanes : If<S::valve_gas, GasLanes<S>>,
                                  If<S::valve_results, RecordLanes<S>>,
                                  If<!S::valve_gas, LanesInUse<S>> {
   static constexpr bool kBlocksAligned = !S::valve_gas || S::cylinders.exact || S::cylinders.capacity % 4 == 0;
-  alignas(16) float constants[34][kLaneRoom<S>] = {};  ///< numbers of each lane's RegimeStep, up to decoupled_m
-  std::uint32_t degrees[kLaneRoom<S>] = {};            ///< of its lobe
-  std::uint32_t opens_degree[kLaneRoom<S>] = {};       ///< of the train's cams: where its lobe begins,
-  std::uint32_t opens_into[kLaneRoom<S>] = {};         ///< and where in that degree, kSignBit flipped
+  alignas(16) float constants[34][kLaneRoom<S>] = {};     ///< numbers of each lane's RegimeStep, up to decoupled_m
+  const LiftSegment<float>* segments[kLaneRoom<S>] = {};  ///< of its cam's lift
+  std::uint32_t degrees[kLaneRoom<S>] = {};               ///< of its lobe
+  std::uint32_t opens_degree[kLaneRoom<S>] = {};          ///< of the train's cams: where its lobe begins,
+  std::uint32_t opens_into[kLaneRoom<S>] = {};            ///< and where in that degree, kSignBit flipped
 };
 
 /// A bit for each valve of an engine, by its number.
@@ -116,8 +87,9 @@ struct ValvesWork : If<kLaneLayout<Real, S>, VectorLanes<S>> {
   Real guard_range_deg = 0;  ///< it is beyond some guards' range: the lift at its ends and in its middle does not do;
   Real wide_deg = 0;         ///< it is wide: the cubic through some lift's ends does not do
   ValveBits<S> active = 0;   ///< valves that are not at rest with their cams away
-  CamWindow clear[kCamGroups<S>] = {};   ///< of these cams' turn: where none of an inactive valve comes near,
-  CamWindow no_end[kCamGroups<S>] = {};  ///< and where no valve's cycle ends
+  ValveBits<S> near = 0;     ///< valves whose cams are near where these cams stand,
+  ValveBits<S> ending = 0;   ///< and those whose cycle may end there
+  std::uint32_t degree[kCamGroups<S>] = {};  ///< of the cams that turn alike; `near` and `ending` are of these
 };
 
 template <class Real, class S>
