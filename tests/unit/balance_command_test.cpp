@@ -115,7 +115,7 @@ TEST(BalanceCommand, AtLoadRatioZeroIsTheMotoredEngine) {
   EXPECT_NEAR(b["net_mep_kPa"], motored_kPa, 1e-3);
   EXPECT_LT(b["brake_power_kW"], b["power_kW"]);
   EXPECT_EQ(b["mechanical_efficiency_ratio"], 0) << "nothing is indicated to be lost";
-  EXPECT_LT(b["main_journal_3_largest_down_N"], balance()["main_journal_3_largest_down_N"] / 1.2);
+  EXPECT_LT(b["main_journal_3_max_down_N"], balance()["main_journal_3_max_down_N"] / 1.2);
 }
 
 TEST(BalanceCommand, GivesAmplitudeAndPhaseOfForcesAndTorque) {
@@ -151,12 +151,12 @@ TEST(BalanceCommand, GivesTheMainBearingsLoadsOnTheBlock) {
   std::map<std::string, double> b = balance();
   for (int j = 1; j <= 5; ++j) {
     const std::string journal = "main_journal_" + std::to_string(j) + "_";
-    const double largest = b[journal + "largest_load_N"];
-    const double down = b[journal + "largest_down_N"];
-    const double aside = std::max(b[journal + "largest_lateral_N"], -b[journal + "smallest_lateral_N"]);
-    EXPECT_GT(down, b[journal + "largest_up_N"]) << "gas pushes the crankshaft down";
+    const double largest = b[journal + "max_load_N"];
+    const double down = b[journal + "max_down_N"];
+    const double aside = std::max(b[journal + "max_lateral_N"], -b[journal + "min_lateral_N"]);
+    EXPECT_GT(down, b[journal + "max_up_N"]) << "gas pushes the crankshaft down";
     EXPECT_LE(down, largest);
-    EXPECT_GE(std::hypot(std::max(down, b[journal + "largest_up_N"]), aside), largest * (1 - 1e-9));
+    EXPECT_GE(std::hypot(std::max(down, b[journal + "max_up_N"]), aside), largest * (1 - 1e-9));
   }
 }
 

@@ -86,7 +86,7 @@ TEST_F(BreathingRun, TellsWhatItsTicksAddUpTo) {
   EXPECT_NEAR(line(summary, "net_mep").first, work / kStroke_mm, kOfSums * work / kStroke_mm);
   EXPECT_NEAR(line(summary, "trapped_air").first, trapped_mg, kOfSums * trapped_mg);
   EXPECT_NEAR(line(summary, "wall_heat").first, wall_J, kOfSums * wall_J);
-  EXPECT_NEAR(line(summary, "largest_pressure").first, peak_kPa, 1e-5 * peak_kPa);
+  EXPECT_NEAR(line(summary, "max_pressure").first, peak_kPa, 1e-5 * peak_kPa);
   // Wide open at low speed some fresh gas is pushed back, and comes in again: what came in on balance is air.
   const double ambient_mg = 100e3 / 287.1 / 298.15 * kSwept_mm3 * 1e-9 * 1e6;
   EXPECT_NEAR(line(summary, "volumetric_efficiency").first, in_mg / ambient_mg, 0.01);
@@ -132,7 +132,7 @@ TEST_F(BreathingRun, MakesTheMostTorqueWherePressurePeaksSomeTwelveDegreesLate) 
     const double mep_kPa = at("net_mep", kFour, 2000, options);
     if (mep_kPa <= best_mep_kPa) continue;
     best_mep_kPa = mep_kPa;
-    best_peak_deg = at("largest_pressure_at", kFour, 2000, options);
+    best_peak_deg = at("max_pressure_at", kFour, 2000, options);
   }
   EXPECT_GT(best_peak_deg, 8);  // Heywood, Internal Combustion Engine Fundamentals, section 9.1: about 16
   EXPECT_LT(best_peak_deg, 18);
@@ -278,8 +278,8 @@ TEST_F(BreathingRun, HasTheBalanceOfTheCycleThatItRuns) {
   EXPECT_GT(row("torque_order_2_Nm"), 0.5 * torque_Nm);
   for (const char* order : {"0.5", "1", "1.5", "3"})
     EXPECT_LT(row("torque_order_" + std::string(order) + "_Nm"), 0.01 * torque_Nm) << order;
-  const double pin_N = line(summary, "largest_crank_pin_load").first;
-  EXPECT_NEAR(row("crank_pin_1_largest_load_N"), pin_N, 2e-3 * pin_N);
+  const double pin_N = line(summary, "max_crank_pin_load").first;
+  EXPECT_NEAR(row("crank_pin_1_max_load_N"), pin_N, 2e-3 * pin_N);
 }
 
 TEST_F(BreathingRun, RefusesWhatItsEngineDoesNotHave) {
@@ -291,11 +291,11 @@ TEST_F(BreathingRun, RefusesWhatItsEngineDoesNotHave) {
       EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
     }
   };
-  refused({kFour, "--load-ratio", "1"}, "breathes (source = gas) and has no diagram to scale");
+  refused({kFour, "--load-ratio", "1"}, "has gas exchange (source = gas), no diagram to scale");
   refused({kFour, "--lambda", "1", "--fuel-mg", "9"}, "--fuel-mg and --lambda both say how much fuel");
-  refused({kFour, "--free", "--load-ratio", "1"}, "breathes (source = gas) and has no diagram to scale");
+  refused({kFour, "--free", "--load-ratio", "1"}, "has gas exchange (source = gas), no diagram to scale");
   for (const char* option : {"--throttle", "--fuel-mg", "--lambda", "--burn-start-deg"})
-    refused({kSample, option, "0.5"}, std::string(option) + ": " + kSample + " has its pressure from a diagram");
+    refused({kSample, option, "0.5"}, std::string(option) + ": " + kSample + " has no gas exchange");
   std::string slow = contents(kFour);
   slow.replace(slow.find("burn_duration_deg = 50"), 22, "burn_duration_deg = 95");
   std::ofstream(path("slow.ini")) << slow;

@@ -128,7 +128,7 @@ TEST_F(LiftCommand, TabulatesTheTrainOfThe125OverATurnOfItsCam) {
   }
   EXPECT_NEAR(table[180][2], 7.815, 0.0005);
   EXPECT_NE(summary_.find("max_theoretical_lift = 7.815"), std::string::npos) << summary_;
-  EXPECT_NE(summary_.find("smallest_cam_radius = 5.869"), std::string::npos) << summary_;
+  EXPECT_NE(summary_.find("min_cam_radius = 5.869"), std::string::npos) << summary_;
   EXPECT_EQ(summary_.find("smoothing"), std::string::npos) << summary_;
 }
 

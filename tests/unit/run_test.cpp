@@ -352,10 +352,9 @@ TEST_F(RunCommand, PrintsThe495AtItsRatedSpeed) {
   EXPECT_EQ(line(summary, "faulty_ticks").first, 0);
   EXPECT_EQ(line(summary, "ticks").first, 1200);
   for (const char* name :
-       {"largest_torque", "smallest_torque", "largest_pressure", "largest_gas_force", "largest_inertia_force",
-        "smallest_inertia_force", "largest_side_force", "smallest_side_force", "largest_rod_force",
-        "largest_radial_force", "smallest_radial_force", "largest_tangential_force", "smallest_tangential_force",
-        "largest_crank_pin_load", "largest_main_journal_load"}) {
+       {"max_torque", "min_torque", "max_pressure", "max_gas_force", "max_inertia_force", "min_inertia_force",
+        "max_side_force", "min_side_force", "max_rod_force", "max_radial_force", "min_radial_force",
+        "max_tangential_force", "min_tangential_force", "max_crank_pin_load", "max_main_journal_load"}) {
     EXPECT_FALSE(std::isnan(line(summary, name).first)) << name;
     EXPECT_FALSE(std::isnan(line(summary, std::string(name) + "_at").first)) << name;
   }
@@ -365,7 +364,7 @@ TEST_F(RunCommand, SaysThatAnEngineWithoutPressureHasInertiaOnly) {
   const std::string summary = run({engine_without_pressure(), "--report", path("report.html")});
   EXPECT_NE(summary.find("inertia only"), std::string::npos);
   EXPECT_TRUE(std::isnan(line(summary, "power").first));
-  EXPECT_TRUE(std::isnan(line(summary, "largest_pressure").first));
+  EXPECT_TRUE(std::isnan(line(summary, "max_pressure").first));
   EXPECT_NEAR(line(summary, "mean_torque").first, 0, 1e-3);
   const std::string page = contents(path("report.html"));
   EXPECT_NE(page.find("There is no pressure source"), std::string::npos);

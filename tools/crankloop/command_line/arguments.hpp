@@ -52,7 +52,7 @@ struct Option {
 }
 
 /// Of every command that takes an engine file, besides its own.
-inline constexpr Option kNoWarnings = flag("--no-warnings", "says nothing of values that are allowed but unusual");
+inline constexpr Option kNoWarnings = flag("--no-warnings", "suppress plausibility warnings");
 
 class Arguments;
 

@@ -33,13 +33,13 @@ GasOrder gas_order(const Arguments& arguments, const EngineFile& engine, double 
     for (const Option& option : {kThrottle, kFuel, kLambda, kBurnStart}) {
       if (!arguments.has(option.name)) continue;
       throw UsageError(std::string(option.name) + ": " + engine.path() +
-                       " has its pressure from a diagram, or none; only [pressure] source = gas takes it");
+                       " has no gas exchange; the option needs [pressure] source = gas");
     }
     return {};
   }
   if (arguments.has("--load-ratio")) {
     throw UsageError("--load-ratio: " + engine.path() +
-                     " breathes (source = gas) and has no diagram to scale; take --throttle and --lambda or --fuel-mg");
+                     " has gas exchange (source = gas), no diagram to scale; use --throttle and --lambda or --fuel-mg");
   }
   GasOrder order = fuel_and_spark(arguments, engine);
   order.throttle_ratio = arguments.has(kThrottle.name) ? arguments.number(kThrottle.name) : throttle_unless_told;

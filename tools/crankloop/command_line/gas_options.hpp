@@ -13,14 +13,14 @@ namespace crankloop::program {
 
 inline constexpr Option kThrottle =
     number("--throttle", "R", from(0).up_to(1),
-           "of an engine that breathes: 0 closed, 1 wide open; run: 1 unless told, live: 0");
+           "throttle of an engine with gas exchange: 0 closed, 1 wide open; default 1 (live: 0)");
 inline constexpr Option kFuel = number("--fuel-mg", "M", from(0).up_to(kMaxFuel_kg * 1e6),
-                                       "its fuel per cylinder and cycle in mg; default the file's");
+                                       "fuel per cylinder and cycle in mg, with gas exchange; default the file's");
 inline constexpr Option kLambda =
     number("--lambda", "L", above(0).up_to(kMaxExcessAir_ratio),
-           "its excess-air ratio: fuel by the air in each cylinder, instead of --fuel-mg; default the file's");
+           "excess-air ratio: fuel follows the air in each cylinder, instead of --fuel-mg; default the file's");
 inline constexpr Option kBurnStart =
-    number("--burn-start-deg", "A", from(-90).up_to(60), "where its burn begins, firing TDC = 0; default the file's");
+    number("--burn-start-deg", "A", from(-90).up_to(60), "start of the burn, firing TDC = 0; default the file's");
 
 /// The file's, with the lambda and the burn that the command line says; throws UsageError where it says the fuel too.
 [[nodiscard]] GasOrder lambda_and_spark(const Arguments& arguments, const EngineFile& engine);

@@ -99,14 +99,14 @@ BearingRanges bearings_of_trace(const Trace& trace) {
 
 void write_bearings(CsvWriter& csv, std::uint32_t count, const BearingRanges& r) {
   for (std::uint32_t i = 0; i < count; ++i)
-    csv.row("crank_pin_" + std::to_string(i + 1) + "_largest_load_N", r.pins[i].most);
+    csv.row("crank_pin_" + std::to_string(i + 1) + "_max_load_N", r.pins[i].most);
   for (std::uint32_t j = 0; j <= count; ++j) {
     const std::string journal = "main_journal_" + std::to_string(j + 1) + "_";
-    csv.row(journal + "largest_load_N", r.journals[j].most);
-    csv.row(journal + "largest_up_N", r.up[j].most);
-    csv.row(journal + "largest_down_N", -r.up[j].least);
-    csv.row(journal + "largest_lateral_N", r.lateral[j].most);
-    csv.row(journal + "smallest_lateral_N", r.lateral[j].least);
+    csv.row(journal + "max_load_N", r.journals[j].most);
+    csv.row(journal + "max_up_N", r.up[j].most);
+    csv.row(journal + "max_down_N", -r.up[j].least);
+    csv.row(journal + "max_lateral_N", r.lateral[j].most);
+    csv.row(journal + "min_lateral_N", r.lateral[j].least);
   }
 }
 
@@ -123,7 +123,7 @@ int run_balance(const Arguments& arguments) {
   CycleSummary cycle;
   BearingRanges bearings;
   if (breathes(definition)) {
-    if (rpm <= 0) throw UsageError("--rpm: an engine that breathes is run forward");
+    if (rpm <= 0) throw UsageError("--rpm: an engine with gas exchange runs forward only; the speed must be above 0");
     const Trace trace = record_trace<double, scenes::Breathing>(definition, {rpm, 0, 1, gas});
     cycle = summarise(definition, speed, trace);
     bearings = bearings_of_trace(trace);
@@ -147,10 +147,10 @@ int run_balance(const Arguments& arguments) {
     csv.row("mechanical_efficiency_ratio", cycle.brake.efficiency_ratio);
   }
   csv.row("mean_torque_Nm", cycle.mean_torque_Nm);
-  csv.row("largest_torque_Nm", cycle.largest_torque_Nm);
-  csv.row("largest_torque_deg", cycle.largest_torque_deg);
-  csv.row("smallest_torque_Nm", cycle.smallest_torque_Nm);
-  csv.row("smallest_torque_deg", cycle.smallest_torque_deg);
+  csv.row("max_torque_Nm", cycle.largest_torque_Nm);
+  csv.row("max_torque_deg", cycle.largest_torque_deg);
+  csv.row("min_torque_Nm", cycle.smallest_torque_Nm);
+  csv.row("min_torque_deg", cycle.smallest_torque_deg);
   csv.row("torque_fluctuation_ratio", cycle.fluctuation_ratio);
   for (const Harmonic& h : cycle.harmonics) {
     const double noise_Nm = 1e-9 * (cycle.largest_torque_Nm - cycle.smallest_torque_Nm);

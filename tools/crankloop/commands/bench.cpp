@@ -63,11 +63,11 @@ constexpr Option kOptions[] = {
          "file for an array of objects, one per contestant and setting; - is standard output, the rest then goes to "
          "stderr"),
     text("--csv", "F", "the same as a table"),
-    text("--report", "F.html", "file for the work-precision diagrams, which any browser shows"),
+    text("--report", "F.html", "HTML file with the work-precision diagrams; opens in any browser"),
     text("--plot", "F.svg", "file for the diagrams alone, as a picture"),
     flag("--quick", "half a minute instead of some minutes; the figures scatter more"),
-    flag("--errors", "errors only, nothing is timed: the same figures everywhere"),
-    text("--kernel", "NAME", "only runs one contestant, for an instruction counter; a wrong name lists them"),
+    flag("--errors", "errors only, no timing: the same figures on every machine"),
+    text("--kernel", "NAME", "runs one contestant only, for an instruction counter; an unknown name lists them"),
     whole_number("--ticks", "N", from(0).up_to(1000000000), "how many ticks --kernel runs", "1000"),
 };
 

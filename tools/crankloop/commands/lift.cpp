@@ -40,7 +40,7 @@ std::string summary(const ValveLift& lift, const TrainOfFile& train) {
   s.line("lobe_end", lift.closes_rad() * kDegPerRad, "deg");
   s.line("rocker_ratio_least", least_ratio);
   s.line("rocker_ratio_most", most_ratio);
-  s.line("smallest_cam_radius", lift.smallest_radius_m() * 1e3, "mm");
+  s.line("min_cam_radius", lift.smallest_radius_m() * 1e3, "mm");
   if (train.definition.cam.source != CamSource::table) return s.text();
   s.line("smoothing", train.definition.cam.smoothing_m * 1e6, "um", train.rows ? "chosen by auto" : "");
   s.line("smoothing_residual", lift.cam().residual_m() * 1e6, "um");

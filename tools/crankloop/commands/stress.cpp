@@ -70,14 +70,14 @@ int run_stress(const Arguments& arguments) {
 }
 
 constexpr Option kOptions[] = {
-    whole_number("--seed", "N", from(0).up_to(2147483647), "what the cases are drawn from", "1"),
-    whole_number("--cases", "N", from(1).up_to(100000000), "how many", "1000"),
-    whole_number("--case", "N", from(0).up_to(100000000), "only this one, with all that is told of it"),
+    whole_number("--seed", "N", from(0).up_to(2147483647), "seed of the random cases", "1"),
+    whole_number("--cases", "N", from(1).up_to(100000000), "number of cases", "1000"),
+    whole_number("--case", "N", from(0).up_to(100000000), "runs this case only and prints all details"),
     whole_number("--reference-every", "N", from(1).up_to(100000000),
                  "every Nth case is compared with the converged reference too, which costs most of the time", "10"),
     flag("--smooth",
          "only smooth cams, damped and below float: the error of the steps, which no kink and no bounce magnifies"),
-    text("--report", "F.html", "file for the counts and the map of stability, which any browser shows"),
+    text("--report", "F.html", "HTML file with the counts and the map of stability; opens in any browser"),
 };
 
 }  // namespace

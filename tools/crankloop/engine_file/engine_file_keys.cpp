@@ -50,12 +50,12 @@ constexpr const char* kPolynomial = "source=polynomial";
 constexpr const char* kCamTable = "source=table";
 
 constexpr SectionKind kSections[] = {
-    {"engine", false, "what it is called and rated"},
+    {"engine", false, "name and rated speed"},
     {"crank", false, "geometry of the crank mechanism; all cylinders are alike"},
     {"masses", false, "moving masses of one cylinder, and the crankshaft"},
     {"layout", false, "cylinders around and along the crankshaft; absent: one cylinder"},
-    {"pressure", false, "where the cylinder pressure comes from; absent: source = none"},
-    {"gas", false, "manifolds, walls and combustion of an engine that breathes ([pressure] source = gas)"},
+    {"pressure", false, "source of the cylinder pressure; absent: source = none"},
+    {"gas", false, "manifolds, walls and combustion of an engine with gas exchange ([pressure] source = gas)"},
     {"friction", false, "mean effective pressure of friction; absent: none"},
     {"machine", false, "the driven machine, a passive brake on the crankshaft; absent: none"},
     {"starter", false, "as seen from the crankshaft; absent: none"},
@@ -67,7 +67,7 @@ constexpr SectionKind kSections[] = {
 
 // clang-format off
 constexpr Key kKeys[] = {
-    {"engine", "name", Kind::text, kNoUnit, "", kAny, "", required, "", "", "", "what reports call the engine; free text"},
+    {"engine", "name", Kind::text, kNoUnit, "", kAny, "", required, "", "", "", "name of the engine in reports; free text"},
     {"engine", "rated_rpm", Kind::number, kRpm, "", above(0).up_to(100000), "", required, "", "", "", "rated engine speed"},
 
     {"crank", "bore_mm", Kind::number, kMm, "crank.bore_m", above(0).up_to(2000), "", required, "", "", "", "bore"},
@@ -98,7 +98,7 @@ constexpr Key kKeys[] = {
     {"layout", "crank_throws_deg", Kind::numbers, kDeg, "", from(-720).up_to(720), "", optional, "", "", "", "direction of each throw at engine angle 0; must agree with bank - firing angle"},
     {"layout", "shared_pins", Kind::pin_groups, kNoUnit, "", kAny, "", optional, "", "", "", "cylinders on one crank pin; absent: those with equal position and throw"},
 
-    {"pressure", "source", Kind::choice, kNoUnit, "", kAny, "wiebe|angle_table|volume_table|gas|none", required, "", "", "", "what the diagram comes from"},
+    {"pressure", "source", Kind::choice, kNoUnit, "", kAny, "wiebe|angle_table|volume_table|gas|none", required, "", "", "", "source of the diagram"},
     {"pressure", "crankcase_kPa", Kind::number, kKPa, "pressure.crankcase_Pa", above(0).up_to(10000), "", defaults, "100", "", "", "on the piston's other side"},
     {"pressure", "intake_kPa", Kind::number, kKPa, "pressure.wiebe.intake_Pa", above(0).up_to(10000), "", defaults, "98", kWiebe, "", "intake plenum"},
     {"pressure", "exhaust_kPa", Kind::number, kKPa, "pressure.wiebe.exhaust_Pa", above(0).up_to(10000), "", defaults, "105", kWiebe, "", "exhaust back pressure"},
@@ -122,11 +122,11 @@ constexpr Key kKeys[] = {
     {"gas", "ambient_kPa", Kind::number, kKPa, "gas.ambient_Pa", from(1).up_to(10000), "", defaults, "100", "", "", "absolute, before the throttle"},
     {"gas", "back_kPa", Kind::number, kKPa, "gas.back_Pa", from(0).up_to(10000), "", defaults, "0", "", "", "absolute, behind the outlet; 0: as ambient_kPa"},
     {"gas", "ambient_C", Kind::number, kCelsius, "", from(-123.15).up_to(2726.85), "", defaults, "25", "", "", "of the air before the throttle"},
-    {"gas", "exhaust_C", Kind::number, kCelsius, "", from(-123.15).up_to(2726.85), "", defaults, "500", "", "", "of a scene whose exhaust manifold is given: what it starts with"},
+    {"gas", "exhaust_C", Kind::number, kCelsius, "", from(-123.15).up_to(2726.85), "", defaults, "500", "", "", "initial value for a scene whose exhaust manifold is given"},
     {"gas", "wall_C", Kind::number, kCelsius, "", from(-123.15).up_to(1726.85), "", defaults, "150", "", "", "mean temperature of the cylinder's walls"},
     {"gas", "wall_heat_factor", Kind::number, kNoUnit, "gas.wall_heat_ratio", from(0).up_to(100), "", defaults, "1", "", "", "k_w, of Hohenberg's heat transfer; 0: adiabatic"},
     {"gas", "fuel_mg", Kind::number, kMg, "gas.fuel_kg", from(0).up_to(10000), "", defaults, "30", "", "", "fuel per cylinder and cycle; 0: motored"},
-    {"gas", "excess_air_ratio", Kind::number, kNoUnit, "gas.excess_air_ratio", from(0).up_to(100), "", defaults, "0", "", "", "lambda: fuel by the air in each cylinder, instead of fuel_mg; 0: fuel_mg"},
+    {"gas", "excess_air_ratio", Kind::number, kNoUnit, "gas.excess_air_ratio", from(0).up_to(100), "", defaults, "0", "", "", "lambda: fuel follows the air in each cylinder, instead of fuel_mg; 0: fuel_mg"},
     {"gas", "heating_value_MJ_per_kg", Kind::number, kMJPerKg, "gas.heating_value_J_kg", from(0).up_to(200), "", defaults, "43", "", "", "lower"},
     {"gas", "combustion_efficiency", Kind::number, kNoUnit, "gas.combustion_efficiency", from(0).up_to(1), "", defaults, "0.97", "", "", "share of the fuel's heat that is released"},
     {"gas", "air_fuel_ratio", Kind::number, kNoUnit, "gas.air_fuel_ratio", from(1).up_to(100), "", defaults, "14.6", "", "", "stoichiometric, by mass"},
@@ -149,9 +149,9 @@ constexpr Key kKeys[] = {
     {"starter", "stall_Nm", Kind::number, kNm, "starter.stall_Nm", from(0).up_to(1e7), "", defaults, "0", "", "", "torque at standstill; 0: no starter"},
     {"starter", "no_load_rpm", Kind::number, kRpmAsRadS, "starter.no_load_rad_s", from(0).up_to(95000), "", defaults, "0", "", "", "crank speed at which it gives none; above 0 where there is a starter"},
 
-    {"cam", "source", Kind::choice, kNoUnit, "", kAny, "polynomial|table", required, "", "", "", "what the lift comes from"},
+    {"cam", "source", Kind::choice, kNoUnit, "", kAny, "polynomial|table", required, "", "", "", "source of the lift"},
     {"cam", "max_lift_mm", Kind::number, kMm, "cam.max_lift_m", above(0).up_to(100), "", required, "", kPolynomial, "", "largest lift of the flat follower"},
-    {"cam", "half_angle_deg", Kind::number, kDeg, "cam.half_angle_deg", from(10).up_to(180), "", required, "", kPolynomial, "", "from the lobe's begin to full lift, cam angle"},
+    {"cam", "half_angle_deg", Kind::number, kDeg, "cam.half_angle_deg", from(10).up_to(180), "", required, "", kPolynomial, "", "from the start of the lobe to full lift, cam angle"},
     {"cam", "exponents", Kind::numbers, kNoUnit, "", from(2).up_to(100), "", required, "", kPolynomial, "", "rising; coefficients from y = y' = ... = 0 at the lobe's end"},
     {"cam", "full_lift_at_crank_deg", Kind::number, kDeg, "", from(-720).up_to(720), "", required, "", "", "", "engine angle of full theoretical lift in cylinder 1's cycle"},
     {"cam", "phase_rate_deg_per_s", Kind::number, kDegPerS, "cam.phase_rate_deg_s", from(0).up_to(100000), "", defaults, "0", "", "", "cam phaser's rate limit in crank degrees; 0: fixed cam"},

@@ -288,7 +288,7 @@ std::vector<std::string> warnings_about_running_free(const EngineFile& engine, c
   const DrivenMachine& machine = definition.machine;
   const bool held =
       definition.friction.any() || machine.constant_Nm != 0 || machine.linear_Nm_s != 0 || machine.quadratic_Nm_s2 != 0;
-  if (!held) warnings.add(0, "nothing holds back an engine that runs free without [friction] and [machine]");
+  if (!held) warnings.add(0, "a free-running engine without [friction] and [machine] has nothing to limit its speed");
   return warnings.lines();
 }
 
@@ -297,7 +297,7 @@ void demand_a_diagram(const EngineFile& engine) {
   throw InputError(
       engine.path(), engine.section("pressure").line_of("source"),
       "source: this command takes the pressure from a diagram, and gas has none; `crankloop run --csv` has "
-      "the forces of an engine that breathes");
+      "the forces of an engine with gas exchange");
 }
 
 }  // namespace crankloop::program

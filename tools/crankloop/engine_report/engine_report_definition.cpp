@@ -92,7 +92,7 @@ Table section_table(const SectionValues& values, const std::vector<std::string>&
 Table derived_table(const ReportInput& input) {
   const EngineDefinition& d = input.exact.definition();
   const DeadCentres centres = dead_centres(d.crank);
-  Table table{"What follows from it", {{"Quantity", "", false}, {"Value", ""}, {"Unit", "", false}}, {}, false};
+  Table table{"Derived quantities", {{"Quantity", "", false}, {"Value", ""}, {"Unit", "", false}}, {}, false};
   const auto row = [&](const char* name, double value, const char* unit) {
     table.rows.push_back({name, number_text(value, 6), unit});
   };
@@ -122,19 +122,18 @@ List assumptions(const ReportInput& input) {
       "inertia (" +
       number_text(d.masses.crank_inertia_kg_m2) + " kg m\u00B2) decides how much; no figure here depends on it.");
   list.items.push_back(
-      "Piston, rod and crankshaft are rigid and without clearance; nothing rubs. Power and mean effective pressure are "
-      "indicated ones.");
+      "Piston, rod and crankshaft are rigid, without clearance or friction. Power and mean effective pressure are "
+      "indicated.");
   list.items.push_back(d.masses.rod_inertia_correction_kg_m2 == 0
                            ? "The rod is two masses at its ends, without inertia correction (dI = 0)."
                            : "The rod is a rigid body: two masses at its ends and the inertia correction dI, whose "
                              "couple is in every force.");
   list.items.push_back(breathes(input)
-                           ? "All cylinders are alike; what they do differs by the pressure in the manifolds as their "
-                             "valves open. Curves are of cylinder 1."
-                           : "All cylinders are alike, and have the same pressure at the same crank angle of their "
-                             "own.");
+                           ? "All cylinders are alike; they differ only by the manifold pressure while their valves "
+                             "are open. Curves are of cylinder 1."
+                           : "All cylinders are alike: they have the same pressure at the same angle of their cycles.");
   if (has_gas(input))
-    list.items.push_back("Below the piston stands the constant crankcase pressure of " +
+    list.items.push_back("The pressure below the piston is constant, the crankcase pressure of " +
                          number_text(d.pressure.crankcase_Pa * kKilo) + " kPa.");
   if (input.file.section("crank").has("rod_ratio")) {
     const SectionValues& crank = input.file.section("crank");
@@ -193,7 +192,7 @@ Table deviation_table(const ReportInput& input) {
 
 report::Section accuracy_section(const ReportInput& input) {
   const RunFigures& f = input.figures;
-  Section section{"made", "How these figures were made", {}};
+  Section section{"made", "Method", {}};
   section.blocks.push_back(Paragraph{"Command: " + input.command_line});
   List list;
   list.items.push_back(
@@ -206,10 +205,10 @@ report::Section accuracy_section(const ReportInput& input) {
            ? "No tick raised a fault."
            : std::to_string(f.faulty_ticks) + " ticks raised a fault: " + crankloop::describe(f.faults).text + "."));
   list.items.push_back("Curves, their extremes and the tables come from the same loop at a tick of " +
-                       number_text(input.trace.tick_s * 1e6) + " \u00B5s, so that every " +
-                       number_text(input.trace.spacing_deg) + " deg of a cycle are there to be drawn.");
+                       number_text(input.trace.tick_s * 1e6) + " \u00B5s, one point every " +
+                       number_text(input.trace.spacing_deg) + " deg of a cycle.");
   list.items.push_back(
-      "Where a cycle is no whole number of ticks, the last one counts by the work of its part inside the cycle.");
+      "Where a cycle is not a whole number of ticks, only the part of the last tick inside the cycle counts.");
   if (breathes(input)) {
     list.items.push_back("Net IMEP: " + number_text(f.net_mep_Pa * kKilo, 5) + " kPa from the loop's torque, " +
                          number_text(input.summary.net_mep_Pa * kKilo, 5) +
@@ -222,7 +221,7 @@ report::Section accuracy_section(const ReportInput& input) {
                          " kPa of the diagram.");
   }
   list.items.push_back("A tick takes " + number_text(input.wall_time_per_tick_ns, 3) +
-                       " ns on the machine that made this page (" + percent_of_tick(input) +
+                       " ns on the machine that wrote this page (" + percent_of_tick(input) +
                        " of the tick), with every output of every cylinder.");
   if (breathes(input)) {
     list.items.push_back("Free forces' largest values are computed in double from the equations, without tables.");
@@ -245,7 +244,7 @@ report::Section definition_section(const ReportInput& input) {
   section.blocks.push_back(assumptions(input));
   const std::vector<std::string> lines = lines_of(input.file.path());
   const std::string about = remarks_in(lines, 0, next_header(lines, 0));
-  if (!about.empty()) section.blocks.push_back(Paragraph{"The engine file says: " + about});
+  if (!about.empty()) section.blocks.push_back(Paragraph{"From the engine file: " + about});
   for (const SectionValues& values : input.file.sections()) {
     const std::string remarks = values.line > 0 ? remarks_about(lines, values.line) : "";
     if (!remarks.empty()) section.blocks.push_back(Paragraph{values.title() + ": " + remarks});

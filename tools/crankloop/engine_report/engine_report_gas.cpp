@@ -45,16 +45,16 @@ report::Table cycle_table(const ReportInput& input) {
   row("Pumping mean pressure", c.pumping_mep_Pa / 1e3, "kPa");
   row("Volumetric efficiency", 100 * c.volumetric_efficiency, "%");
   row("Trapped air", c.trapped_air_kg * 1e6, "mg");
-  row("Residual gas, of all that is trapped", 100 * c.residual_ratio, "%");
+  row("Residual gas, share of the trapped mass", 100 * c.residual_ratio, "%");
   row("Excess air ratio", c.excess_air_ratio, "");
   row("Fuel burned", c.fuel_kg * 1e6, "mg");
   row("Heat of combustion", c.heat_J, "J");
   row("Heat to the walls", c.wall_heat_J, "J");
-  row("Temperature of what flows out through the exhaust valve", c.exhaust_K, "K");
+  row("Temperature of the gas that leaves through the exhaust valve", c.exhaust_K, "K");
   row("Intake manifold, mean pressure", input.figures.gas.intake_Pa / 1e3, "kPa");
   row("Exhaust manifold, mean pressure", input.figures.gas.exhaust_Pa / 1e3, "kPa");
   row("Exhaust manifold, mean temperature", input.figures.gas.exhaust_manifold_K, "K");
-  row("What the first law lacks", c.energy_defect_J, "J");
+  row("Energy balance error", c.energy_defect_J, "J");
   return table;
 }
 

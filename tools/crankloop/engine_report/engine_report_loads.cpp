@@ -93,11 +93,9 @@ report::Section bearing_section(const ReportInput& input) {
   const Layout& layout = input.exact.definition().layout;
   Section section{"bearings", "Crank pin and main journals", {}};
   section.blocks.push_back(Paragraph{
-      "Loads turn with the crankshaft: their loops show where pin and journal wear; in the frame of the block, where "
-      "the bearing's shells do. The pin carries the rod "
-      "force and the rod "
-      "big end's centrifugal force; journals carry the throws beside them, each taken as simply supported "
-      "between its two."});
+      "In the frame of the crankshaft, the loops show where pin and journal wear; in the frame of the block, where "
+      "the bearing shells wear. The pin carries the rod force and the centrifugal force of the rod's big end; journals "
+      "carry the throws beside them. Each throw is taken as simply supported between its two journals."});
 
   const std::size_t first_pin = layout.pin[0];
   Plot loop =
@@ -179,9 +177,9 @@ report::Section balance_section(const ReportInput& input) {
       input.exact.definition().masses.reciprocating_kg() * input.exact.definition().crank.crank_radius_m * w2;
   Section section{"balance", "Free forces and moments", {}};
   section.blocks.push_back(Paragraph{
-      "What the moving masses do to the mounts; gas forces close inside the engine. Moments are about the middle of "
-      "the "
-      "crankshaft. Counterweights are not part of the definition, so rotating masses are not balanced here."});
+      "Forces and moments of the moving masses on the mounts; gas forces balance inside the engine. Moments are about "
+      "the middle of the crankshaft. Counterweights are not part of the definition, so rotating masses are not "
+      "balanced here."});
   report::Table table{
       "Largest over a turn", {{"", "", false}, {"Force", "N"}, {"Relative", "%"}, {"Moment", "Nm"}}, {}, false};
   const auto row = [&](const std::string& name, const detail::RotatingVector<double>& t) {

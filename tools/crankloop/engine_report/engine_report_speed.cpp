@@ -55,9 +55,10 @@ report::Section speed_section(const ReportInput& input) {
     }
   }
   loads.caption =
-      "Of cylinder 1, magnitudes. Gas alone at low speed; the masses, with its square, take from it and then "
-      "lead.";
-  torque.caption = "The diagram is the same at every speed, and so is the mean; what masses add has none.";
+      "Of cylinder 1, magnitudes. Gas dominates at low speed. Inertia forces grow with the square of the speed: "
+      "they first reduce the loads and then dominate them.";
+  torque.caption =
+      "The pressure diagram and the mean torque are the same at every speed: the mean torque of the masses is zero.";
   report::Section section{"over-speed", "Loads over the speed", {}};
   section.blocks.push_back(std::move(loads));
   section.blocks.push_back(std::move(torque));

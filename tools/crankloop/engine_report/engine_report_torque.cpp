@@ -92,9 +92,9 @@ Plot close_up(const ReportInput& input) {
   plot.x.tick_step = 0;
   plot.x.range = report::Range{window.low, window.high + input.figures.deg_per_tick / 2};  // the last dot whole
   plot.series = {std::move(fine), std::move(mean), std::move(points)};
-  plot.caption = "What a controller gets at a tick of " + number_text(input.operation.tick_s * 1e6) +
+  plot.caption = "The torque that a controller gets at a tick of " + number_text(input.operation.tick_s * 1e6) +
                  " \u00B5s, one tick every " + number_text(input.figures.deg_per_tick) +
-                 " deg: the torque at the tick, and its mean over the tick (work done divided by angle turned), which "
+                 " deg: its value at the tick, and its mean over the tick (work done divided by angle turned), which "
                  "does not alias.";
   return plot;
 }

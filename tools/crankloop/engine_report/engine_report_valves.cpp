@@ -163,7 +163,8 @@ Plot lift_plot(const ReportInput& input, const std::vector<Train>& trains) {
   }
   Plot plot = plot_over_angle(input, "Valve lift", axis_of("Lift", "mm"), std::move(curves));
   for (std::size_t t = 0; t < trains.size(); ++t) plot.markers.push_back(largest_marker(plot, 2 * t));
-  plot.caption = "Dashed: what cam and rocker alone would give. The valve stays below it by what the train yields.";
+  plot.caption =
+      "Dashed: theoretical lift of cam and rocker. The valve stays below it by the compression of the train.";
   return with_short_labels(std::move(plot));
 }
 
@@ -276,7 +277,7 @@ report::Table results_table(const std::vector<Train>& trains) {
   row("Separations", "", [](const Train&, const Cycle& c) { return std::to_string(c.separations); });
   row("Largest gap", "\u00B5m",
       [](const Train&, const Cycle& c) { return number_text(c.separation_clearance_m * kMicro, 3); });
-  row("its begin, crank angle", "deg", [](const Train& t, const Cycle& c) {
+  row("its start, crank angle", "deg", [](const Train& t, const Cycle& c) {
     return c.separations > 0 ? report::format_fixed(crank_deg(t, c.separation_start_deg), 1) : std::string("\u2013");
   });
   row("its duration, crank angle", "deg", [](const Train&, const Cycle& c) {
@@ -315,7 +316,7 @@ std::string verdict(const std::vector<Train>& trains) {
   for (const Train& train : trains) {
     if (train.trace.cycle.separations > 0) floating += (floating.empty() ? "" : ", ") + train.name;
   }
-  return floating.empty() ? "At this speed every valve keeps to its cam."
+  return floating.empty() ? "At this speed every valve follows its cam."
                           : "At this speed the valve leaves its train: " + floating + ".";
 }
 
@@ -327,8 +328,8 @@ report::Section valve_section(const ReportInput& input) {
   section.blocks.push_back(
       Paragraph{"The valves of cylinder 1. Each is one elastic mass between train and seat, stepped in time; it may "
                 "leave its train (separation, float) "
-                "and lift off its seat again (bounce). Either counts from 1 \u00B5m. The single mass knows no surge of "
-                "the spring. " +
+                "and lift off its seat again (bounce). Either counts from 1 \u00B5m. Spring surge is not "
+                "modelled. " +
                 verdict(trains)});
   section.blocks.push_back(lift_plot(input, trains));
   section.blocks.push_back(timing_plot(input, trains));

@@ -30,7 +30,7 @@ void add_gas_columns(std::vector<std::string>& columns, std::size_t cylinders) {
 
 void add_fuel(Summary& s, const GasOrder& order) {
   if (order.excess_air_ratio > 0) {
-    s.line("lambda", order.excess_air_ratio, "", "as asked for: fuel by the air in each cylinder");
+    s.line("lambda", order.excess_air_ratio, "", "requested: fuel follows the air in each cylinder");
   } else {
     s.line("fuel", order.fuel_kg * 1e6, "mg", "per cylinder and cycle");
   }
@@ -51,8 +51,9 @@ void add_gas(Summary& s, const GasCycle<double>& cycle) {
   s.line("fuel_burned", cycle.fuel_kg * 1e6, "mg", "of a cylinder's cycle");
   const bool too_rich = cycle.excess_air_ratio > 0 && cycle.excess_air_ratio < kRichestThatIgnites;
   s.line("excess_air_ratio", cycle.excess_air_ratio, "",
-         too_rich ? "lambda: so rich a mixture does not ignite; --lambda gives fuel by the air" : "lambda; 0: no fuel");
-  s.line("exhaust_temperature", cycle.exhaust_K, "K", "of what flows out through the exhaust valve");
+         too_rich ? "lambda: so rich a mixture does not ignite; with --lambda fuel follows the air"
+                  : "lambda; 0: no fuel");
+  s.line("exhaust_temperature", cycle.exhaust_K, "K", "of the gas that leaves through the exhaust valve");
   s.line("heat", cycle.heat_J, "J", "of combustion, of a cylinder's cycle");
   s.line("wall_heat", cycle.wall_heat_J, "J");
 }

@@ -160,7 +160,7 @@ int run_fmu(const Arguments& arguments) {
 
 constexpr Option kOptions[] = {
     choice("--fmi", "2|3", "version of FMI", "3"),
-    choice("--crank", "speed|torque", "what is given: the crank's speed, or the load that it turns against", "speed"),
+    choice("--crank", "speed|torque", "input of the FMU: crank speed, or load torque", "speed"),
     number("--tick-us", "T", from(1).up_to(2000), "tick length in microseconds", "100"),
     choice("--real", "float|double", "arithmetic of the tick", "double"),
     required(text("--output", "FILE.fmu", "the FMU to write; -o for short")),

@@ -33,7 +33,7 @@ LiveRequest request_of(const Arguments& arguments, const EngineFile& file) {
   request.tick_ns = std::llround(tick_us * 1e3);
   request.tick_s = millionths(tick_us);
   if (std::abs(tick_us * 1e3 - static_cast<double>(request.tick_ns)) > 1e-6) {
-    throw UsageError("--tick-us " + shortest(tick_us) + " is no whole number of nanoseconds, which the clock counts");
+    throw UsageError("--tick-us " + shortest(tick_us) + " is not a whole number of nanoseconds, the unit of the clock");
   }
   request.ticks = static_cast<std::uint64_t>(std::max(1.0, std::round(arguments.number("--seconds") / request.tick_s)));
   request.start_rad_s = arguments.number("--from-rpm") * kRad_sPerRpm;
@@ -92,24 +92,25 @@ int run_live_command(const Arguments& arguments) {
 }
 
 constexpr Option kOptions[] = {
-    number("--tick-us", "T", from(1).up_to(2000), "length of a tick in us; longer than elsewhere: most systems keep it",
-           "1000"),
-    number("--seconds", "S", above(0).up_to(1000000), "how long; Ctrl-C ends it earlier, with its figures", "10"),
+    number("--tick-us", "T", from(1).up_to(2000),
+           "length of a tick in us; longer than in other commands: most systems meet it", "1000"),
+    number("--seconds", "S", above(0).up_to(1000000), "duration; Ctrl-C stops the run early and prints its summary",
+           "10"),
     text("--shared", "PATH", "block of memory shared with a controller, such as /dev/shm/engine: docs/live.md"),
     number("--silent-ms", "N", above(0).up_to(100000),
-           "a controller that does not write for N ms is gone: no fuel, no load, no starter", "100"),
+           "timeout of the controller: after N ms without a write, fuel, load and starter are off", "100"),
     number("--load-ratio", "Q", from(0).up_to(2),
-           "0 = motored, 1 = the pressure diagram as it is; until a controller says", "0"),
+           "0 = motored, 1 = the pressure diagram as it is; until a controller sets it", "0"),
     kThrottle,
     kFuel,
     kLambda,
     kBurnStart,
-    number("--external-torque-Nm", "L", from(-1e8).up_to(1e8), "load on the crankshaft in Nm; until a controller says",
-           "0"),
-    flag("--starter", "starter engaged; until a controller says"),
+    number("--external-torque-Nm", "L", from(-1e8).up_to(1e8),
+           "load on the crankshaft in Nm; until a controller sets it", "0"),
+    flag("--starter", "starter engaged; until a controller sets it"),
     number("--from-rpm", "N", from(-100000).up_to(100000), "speed at the start in rpm", "0"),
     choice("--real", "float|double", "arithmetic of the tick", "float"),
-    whole_number("--cpu", "N", from(0).up_to(1023), "the only processor to run on, counted from 0; without it any"),
+    whole_number("--cpu", "N", from(0).up_to(1023), "processor to run on, counted from 0; default any"),
     whole_number("--priority", "P", from(0).up_to(99),
                  "SCHED_FIFO priority, where allowed; 0 leaves the scheduler as it is", "80"),
     text("--histogram", "F", "CSV file for the histograms of wake-up latency and of times"),

@@ -138,7 +138,7 @@ std::string live_summary(const EngineFile& file, const LiveRequest& request, con
       "a tick is late if it began a whole tick or more after it was due, missed if it was not done when the next was "
       "due");
   add_times(s, request.tick_ns, f);
-  s.remark("wake-up latency, ticks; a bar grows with the logarithm");
+  s.remark("histogram of the wake-up latency, in ticks; bars are logarithmic");
   add_picture(s, f.begin);
   s.remark("the engine");
   add_engine(s, f);

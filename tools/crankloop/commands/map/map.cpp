@@ -1,5 +1,5 @@
-// `crankloop map FILE`: torque, air charge and mean pressures of an engine that breathes over speed, and over throttle
-// or fuel.
+// `crankloop map FILE`: torque, air charge and mean pressures of an engine with gas exchange over speed, and over
+// throttle or fuel.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -105,13 +105,13 @@ std::string summary(const EngineMap& map) {
     s.line(name, value(most), unit, map.place_of(most));
   };
   add(
-      "largest_brake_torque", [](const MapPoint& p) { return p.brake_torque_Nm; }, "Nm");
+      "max_brake_torque", [](const MapPoint& p) { return p.brake_torque_Nm; }, "Nm");
   add(
-      "largest_brake_power", [](const MapPoint& p) { return p.power_W / 1e3; }, "kW");
+      "max_brake_power", [](const MapPoint& p) { return p.power_W / 1e3; }, "kW");
   add(
-      "largest_net_mep", [](const MapPoint& p) { return p.gas.cycle.net_mep_Pa / 1e3; }, "kPa");
+      "max_net_mep", [](const MapPoint& p) { return p.gas.cycle.net_mep_Pa / 1e3; }, "kPa");
   add(
-      "largest_volumetric_efficiency", [](const MapPoint& p) { return p.gas.cycle.volumetric_efficiency; }, "");
+      "max_volumetric_efficiency", [](const MapPoint& p) { return p.gas.cycle.volumetric_efficiency; }, "");
   double faulty_ticks = 0;
   std::uint32_t faults = 0;
   for (const MapPoint& point : map.points) faulty_ticks += point.faulty_ticks, faults |= point.faults;
@@ -130,7 +130,7 @@ int run_map_command(const Arguments& arguments) {
   if (!breathes(file.definition())) {
     throw InputError(
         file.path() +
-        " has no [pressure] source = gas: without it nothing depends on throttle or fuel; take `crankloop run`");
+        " has no [pressure] source = gas: without it nothing depends on throttle or fuel; use `crankloop run`");
   }
   request.tick_s = millionths(arguments.number("--tick-us"));
   require_trains(file, request.tick_s);
@@ -164,19 +164,20 @@ constexpr Option kOptions[] = {
     kBurnStart,
     kTick,
     text("--csv", "F", "file for a row per point; - is standard output, the summary then goes to stderr"),
-    text("--report", "F.html", "file for the heat maps, which any browser shows"),
+    text("--report", "F.html", "HTML file with the heat maps; opens in any browser"),
 };
 
 }  // namespace
 
-const Command kMap{"map",
-                   "torque, air charge and mean pressures of an engine that breathes, over speed and throttle or fuel",
-                   "FILE --rpm FROM:TO:N --throttle FROM:TO:N [--lambda L | --fuel-mg M] [--burn-start-deg A] "
-                   "[--tick-us T] [--csv F] [--report F.html]\n"
-                   "       FILE --rpm FROM:TO:N --fuel-mg FROM:TO:N [--throttle R] [...]",
-                   "crankloop map four_2000.ini --rpm 1000:6000:6 --throttle 0:1:6 --csv map.csv --report map.html",
-                   1,
-                   kOptions,
-                   run_map_command};
+const Command kMap{
+    "map",
+    "torque, air charge and mean pressures of an engine with gas exchange, over speed and throttle or fuel",
+    "FILE --rpm FROM:TO:N --throttle FROM:TO:N [--lambda L | --fuel-mg M] [--burn-start-deg A] "
+    "[--tick-us T] [--csv F] [--report F.html]\n"
+    "       FILE --rpm FROM:TO:N --fuel-mg FROM:TO:N [--throttle R] [...]",
+    "crankloop map four_2000.ini --rpm 1000:6000:6 --throttle 0:1:6 --csv map.csv --report map.html",
+    1,
+    kOptions,
+    run_map_command};
 
 }  // namespace crankloop::program

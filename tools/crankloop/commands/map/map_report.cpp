@@ -88,20 +88,20 @@ report::Page map_page(const EngineMap& map) {
   maps.blocks.push_back(std::move(table));
   page.sections.push_back(std::move(maps));
 
-  Section method{"method", "How this was found", {}};
+  Section method{"method", "Method", {}};
   method.blocks.push_back(report::Paragraph{"Command: " + map.command_line});
   report::List list;
   list.items.push_back("Each point is run at constant speed in ticks of " +
                        report::number_text(map.request.tick_s * 1e6) + " \u00B5s, in float, for " +
                        std::to_string(cycles_to_settle(map.file.definition())) +
-                       " cycles to settle and one that counts.");
+                       " cycles to settle and one for the result.");
   list.items.push_back(
-      std::string("The burn starts at the same angle everywhere: no point has the spark that is best for it. ") +
-      (map.request.gas.excess_air_ratio > 0 ? "Fuel goes by the air in each cylinder."
-                                            : "No more fuel burns than there is air for."));
+      std::string("The burn starts at the same angle everywhere: the spark timing is not optimised. ") +
+      (map.request.gas.excess_air_ratio > 0 ? "Fuel follows the air in each cylinder."
+                                            : "Fuel burns only as far as there is air for it."));
   list.items.push_back(map.file.definition().friction.any()
-                           ? "Brake torque: less friction, by the file's [friction]."
-                           : "Brake torque is the indicated one: the file has no [friction].");
+                           ? "Brake torque is the indicated torque less the file's [friction]."
+                           : "Brake torque is the indicated torque: the file has no [friction].");
   method.blocks.push_back(std::move(list));
   page.sections.push_back(std::move(method));
   page.footer = "Made by crankloop from " + map.file.path() + ".";

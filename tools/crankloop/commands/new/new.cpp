@@ -124,12 +124,13 @@ void add_masses_and_layout(Draft& draft, const Arguments& arguments, const Numbe
   const bool banked = arguments.has("--bank-angles-deg");
   const bool ordered = arguments.has("--firing-order");
   if (arguments.has("--firing-angles-deg")) {
-    if (ordered) throw UsageError("--firing-order or --firing-angles-deg: one says the other");
+    if (ordered) throw UsageError("--firing-order and --firing-angles-deg exclude each other; give one");
     draft.line("firing_angles_deg", arguments.text("--firing-angles-deg"), "given");
   } else {
     const std::string usual_order = banked ? "" : usual_firing_order(n.cylinders);
     if (!ordered && usual_order.empty())
-      throw UsageError("--firing-order is missing, or --firing-angles-deg: there is no usual one for these cylinders");
+      throw UsageError(
+          "--firing-order or --firing-angles-deg is missing: there is no usual firing order for these cylinders");
     draft.line("firing_order", ordered ? arguments.text("--firing-order") : usual_order,
                ordered ? "given" : "assumed: the usual one");
   }
@@ -288,14 +289,14 @@ int run_new(const Arguments& arguments) {
   add_train(rest, "exhaust", 262, n);
   add_triggers(rest);
   const std::string text =
-      "# An engine file from a few numbers, by `crankloop new`. What stood on its command line is \"given\"; all else "
-      "is\n"
-      "# \"assumed\" and says why: replace it by what you know. Angles are crank degrees, 0 at cylinder 1's firing "
+      "# An engine file from a few numbers, by `crankloop new`. Values from its command line are marked \"given\",\n"
+      "# all others \"assumed\", with the reason: replace them by what you know. Angles are crank degrees, 0 at "
+      "cylinder 1's firing "
       "TDC.\n" +
       crank.text() + body.text() + crankshaft_comments(half_way.definition().layout) + gas.text() + rest.text();
   const EngineFile engine = read_draft(text);
   if (engine.name() != arguments.text("--name"))
-    throw UsageError("--name: a blank and # begin a comment in an engine file");
+    throw UsageError("--name: a blank followed by # starts a comment in an engine file");
   tell_warnings(arguments, warnings_about(engine));
   print(text);
   return kSuccess;
@@ -308,7 +309,7 @@ constexpr Option kOptions[] = {
     choice("--type", "si|diesel|tractor", "spark ignition, car and truck diesel, or tractor diesel", "si"),
     choice("--valves", "2|4", "valves of a cylinder", "4"),
     number("--boost", "R", from(1).up_to(5), "pressure in the intake by ambient, at full load", "1"),
-    text("--name", "TEXT", "what reports call it", "new engine"),
+    text("--name", "TEXT", "name of the engine in reports", "new engine"),
     number("--rated-rpm", "N", above(0).up_to(100000), "rated speed in rpm"),
     number("--compression-ratio", "E", above(1).up_to(100), "geometric"),
     number("--rod-length-mm", "L", above(0).up_to(10000), "pin to pin, in mm"),

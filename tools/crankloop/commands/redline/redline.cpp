@@ -125,7 +125,7 @@ std::string summary(const Redline& redline) {
            " m/s; to 1 rpm, from the first speed of the sweep that has any");
   if (const std::string masked = masked_in_words(redline); !masked.empty()) s.remark(masked);
   if (breathes(redline.valve.file().definition()))
-    s.remark("no gas force on the head: that of an engine that breathes is in `crankloop run`");
+    s.remark("no gas force on the head: for an engine with gas exchange use `crankloop run`");
   add_onset(s, "separation_onset", given.separation, redline.range);
   add_onset(s, "bounce_onset", given.bounce, redline.range);
   add_onset(s, "seating_limit", given.seating, redline.range);
@@ -241,15 +241,15 @@ constexpr Option kOptions[] = {
          "valve train: the NAME of its [cam NAME], [rocker NAME] and [valve NAME]; default the only one of the file"),
     whole_number("--from", "N", from(1).up_to(100000), "lowest engine speed in rpm", "500"),
     whole_number("--to", "N", from(1).up_to(100000), "highest engine speed in rpm", "15000"),
-    number("--bounce-um", "H", from(1).up_to(1000), "least height of what counts as a bounce in its onset", "50"),
-    number("--seating-m-s", "V", above(0).up_to(100), "largest speed at which the valve may meet its seat", "0.5"),
+    number("--bounce-um", "H", from(1).up_to(1000), "minimum height of a bounce for its onset", "50"),
+    number("--seating-m-s", "V", above(0).up_to(100), "highest permissible seating speed", "0.5"),
     number("--coil-bind-mm", "L", above(0).up_to(1000),
            "valve lift at which the spring binds: results beyond are left out; default 1.5 times the theoretical lift"),
-    choice(
-        "--vary", "train|mass|spring|preload|damping",
-        "sweeps again with this times 0.5, 0.7, 0.85, 1, 1.2, 1.5, 2; mass: all that moves, damping: all three ratios"),
+    choice("--vary", "train|mass|spring|preload|damping",
+           "repeats the sweep with this times 0.5, 0.7, 0.85, 1, 1.2, 1.5, 2; mass: all that moves, damping: all three "
+           "ratios"),
     text("--csv", "F", "file for a row per factor and speed; - is standard output, the rest then goes to stderr"),
-    text("--report", "F.html", "file for the plots, which any browser shows"),
+    text("--report", "F.html", "HTML file with the plots; opens in any browser"),
 };
 
 }  // namespace
@@ -279,7 +279,7 @@ std::string text_of(const Onset& onset, const SpeedRange& range) {
 }
 
 const Command kRedline{"redline",
-                       "the speeds at which a valve begins to float and to bounce, and what moves them",
+                       "the speeds at which a valve starts to float and to bounce, and what influences them",
                        "FILE [--train NAME] [--from N] [--to N] [--bounce-um H] [--seating-m-s V] [--coil-bind-mm L] "
                        "[--vary P] [--csv F] [--report F.html]",
                        "crankloop redline ohc_125.ini --train intake --vary spring --report redline.html",

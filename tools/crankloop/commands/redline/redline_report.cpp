@@ -67,7 +67,7 @@ Section speed_section(const Redline& redline) {
     section.blocks.push_back(Paragraph{
         "Each curve is the train with " + std::string(redline.influence->keys) +
         " times its factor; \u00D7 1, bold, is the train as its file gives it. A curve ends shortly above the speed at "
-        "which its valve leaves the train: beyond, the motion is chance."});
+        "which its valve leaves the train: beyond, the motion is chaotic."});
   }
   Plot gap = plot_over_speed(redline, "Separation", axis_of("Largest gap between train and valve", "mm"), gap_mm);
   Plot bounce = plot_over_speed(redline, "Bounce", axis_of("Largest height above the seat", "mm"), bounce_mm);
@@ -75,8 +75,8 @@ Section speed_section(const Redline& redline) {
     mark(gap, redline.as_given().separation, "from");
     mark(bounce, redline.as_given().bounce, "from");
   }
-  gap.caption = "The train carries nothing and the valve flies on: float.";
-  bounce.caption = "Lift-offs after the valve has first met its seat.";
+  gap.caption = "The train carries no force and the valve is in free flight: float.";
+  bounce.caption = "Lift-offs after the first contact with the seat.";
   section.blocks.push_back(std::move(gap));
   section.blocks.push_back(std::move(bounce));
   Plot seating =
@@ -122,27 +122,27 @@ Section onset_section(const Redline& redline) {
 }
 
 Section method_section(const Redline& redline) {
-  Section section{"method", "How this was found", {}};
+  Section section{"method", "Method", {}};
   section.blocks.push_back(Paragraph{"Command: " + redline.command_line});
   report::List list;
   list.items.push_back("Each speed is run in double for " + std::to_string(kRedlineCycles) +
                        " cycles from rest, in ticks of " + brief(redline.as_given().tick_s * 1e6) +
-                       " \u00B5s (rk4); the last cycle counts.");
+                       " \u00B5s (rk4); the last cycle gives the result.");
   list.items.push_back(
       "The sweep goes in steps of " + std::to_string(redline.range.step_rpm) +
       " rpm. An onset is narrowed down to 1 rpm between the first speed that has a separation of at least 1 \u00B5m, a "
       "bounce of at least " +
       brief(redline.limits.bounce_m * 1e6) + " \u00B5m, or a seating speed above " + brief(redline.limits.seating_m_s) +
-      " m/s, and the speed before it. What comes and goes between two speeds of the sweep is not seen.");
+      " m/s, and the speed before it. An effect that comes and goes between two speeds of the sweep is not detected.");
   list.items.push_back(
-      "A stiff train lifts its valve off the seat by micrometres at any speed; a bounce of 50 \u00B5m and a seating "
-      "speed of 0.5 m/s are what seats and heads are usually kept below.");
+      "A stiff train lifts its valve off the seat by micrometres at any speed; usual limits for seats and heads are a "
+      "bounce of 50 \u00B5m and a seating speed of 0.5 m/s.");
   if (std::string masked = masked_in_words(redline); !masked.empty()) {
     masked[0] = 'L';
     list.items.push_back(masked + ".");
   }
-  list.items.push_back("The single-mass model opens its contact only at the cam, and knows no surge of the spring.");
-  if (redline.influence != nullptr) list.items.push_back("Damping ratios are held while mass or stiffness are varied.");
+  list.items.push_back("The single-mass model opens its contact only at the cam; spring surge is not modelled.");
+  if (redline.influence != nullptr) list.items.push_back("Damping ratios stay constant while mass or stiffness vary.");
   section.blocks.push_back(std::move(list));
   return section;
 }

@@ -167,7 +167,7 @@ std::string summary_text(const EngineFile& file, const FreeRequest& request, con
   }
   s.line("turned", f.end.angle_deg / 360, "rev");
   s.line("speed_at_end", f.end.speed_rpm(), "rpm");
-  s.line("largest_speed", f.largest_speed_rad_s * kRpmPerRad_s, "rpm");
+  s.line("max_speed", f.largest_speed_rad_s * kRpmPerRad_s, "rpm");
   s.line("reversals", f.reversals);
   add_cycle(s, f);
   if (breathes(file.definition())) {
@@ -185,7 +185,7 @@ std::string summary_text(const EngineFile& file, const FreeRequest& request, con
   for (const SignalFigures& signal : f.signals) {
     s.line(signal.name + "_edges", signal.edges);
     s.line(signal.name + "_edges_lost", signal.lost, "",
-           signal.lost > 0 ? "more in a tick than there is room for: take a shorter --tick-us" : "");
+           signal.lost > 0 ? "more edges in a tick than it can record: use a shorter --tick-us" : "");
   }
   s.faulty_ticks(f.faulty_ticks, f.faults);
   return s.text();

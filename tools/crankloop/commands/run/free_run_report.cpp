@@ -116,10 +116,10 @@ Section harmonic_section(const FreeReportInput& input) {
   Plot torque = plot_of("Torque", cycle_axis(1), axis_of("Torque", "Nm"));
   torque.series.push_back(over_cycles(input.figures.cycles, input.figures.cycles.size() - 1, torque_Nm));
   torque.series.back().name = "gas and masses";
-  torque.series.push_back(level_line("its mean", last_cycle(input).mean_torque_Nm(), false));
+  torque.series.push_back(level_line("mean", last_cycle(input).mean_torque_Nm(), false));
   torque.series.push_back(level_line("friction and load", input.figures.friction_Nm + input.figures.load_Nm, true));
   torque.caption =
-      "Friction and load at the cycle's mean speed. What lies between them and the mean torque changes the speed from "
+      "Friction and load at the cycle's mean speed. Their difference from the mean torque changes the speed from "
       "cycle to cycle.";
   section.blocks.push_back(std::move(torque));
   section.blocks.push_back(std::move(table));
@@ -135,29 +135,31 @@ Section energy_section(const FreeReportInput& input) {
   table.rows.push_back({"Starter", number(energy.starter_J), ""});
   table.rows.push_back({"Friction", "", number(energy.friction_J)});
   table.rows.push_back({"Load", "", number(energy.load_J)});
-  table.rows.push_back({"Kept by the moving masses", "", number(energy.kinetic_J)});
+  table.rows.push_back({"Change in kinetic energy", "", number(energy.kinetic_J)});
   section.blocks.push_back(std::move(table));
   section.blocks.push_back(Paragraph{
-      "In less out: " + report::format_number(energy.missing_ratio(), 2) + " of the largest. The gas's work is " +
-      (breathes(input.definition) ? "the loop's torque over the angle turned, less that of the masses"
-                                  : "that of the exact engine over the angle turned") +
-      ", the masses' energy that of the mechanism's geometry, the others their power at the ticks" +
-      (breathes(input.definition) ? "." : ": none is what the loop itself counts.")});
+      "Energy balance error: " + report::format_number(energy.missing_ratio(), 2) +
+      " of the largest energy. The work of the gas is " +
+      (breathes(input.definition) ? "the torque of the loop integrated over the angle, less the part of the masses"
+                                  : "the exact engine's torque integrated over the angle") +
+      "; the kinetic energy follows from the geometry, the energies of starter, friction and load from their power at "
+      "the ticks" +
+      (breathes(input.definition) ? "." : ". All are computed independently of the simulation loop.")});
   return section;
 }
 
 Section method_section(const FreeReportInput& input) {
-  Section section{"method", "How this was found", {}};
+  Section section{"method", "Method", {}};
   section.blocks.push_back(Paragraph{"Command: " + input.request.command_line});
   report::List list;
-  list.items.push_back("The crank is turned by gas, masses, friction, load and starter in ticks of " +
+  list.items.push_back("Gas, masses, friction, load and starter turn the crank in ticks of " +
                        shortest(input.request.operation.tick_s * 1e6) + " \u00B5s, in " + input.request.real + ".");
   list.items.push_back(
-      "Between ticks the angle is the cubic over time that has angle and speed of both; the ripple is read from it "
-      "each half degree.");
+      "Between ticks the angle is a cubic over time through angle and speed of both ticks; the ripple is read from "
+      "it every half degree.");
   list.items.push_back(
-      "Harmonics are amplitudes of the speed over the crank angle, without what it drifts from the cycle's begin to "
-      "its end.");
+      "Harmonics are amplitudes of the speed over the crank angle, without its drift from the start to the end of "
+      "the cycle.");
   section.blocks.push_back(std::move(list));
   return section;
 }
@@ -171,7 +173,7 @@ Section assumption_section(const FreeReportInput& input) {
                        number(d.masses.crank_inertia_kg_m2 + d.machine.inertia_kg_m2) +
                        " kg m\u00B2 turn with the crank, pistons and rods move with it.");
   list.items.push_back(d.friction.any() ? "Friction is a mean effective pressure over the speed, even over the cycle."
-                                        : "Nothing rubs: the file has no [friction].");
+                                        : "There is no friction: the file has no [friction].");
   list.items.push_back(breathes(d) ? "All cylinders are alike; cranking and warming up have no combustion of their own."
                                    : "All cylinders are alike and every cycle has the same diagram at any speed, "
                                      "scaled by the load ratio; cranking and warming up have no combustion of their "
@@ -204,8 +206,8 @@ std::vector<report::Fact> facts(const FreeReportInput& input) {
     list.push_back({"Mean torque", number(cycle.mean_torque_Nm()), "Nm", "of the last cycle, indicated"});
     list.push_back({"Friction", number(f.friction_Nm), "Nm", "load " + number(f.load_Nm) + " Nm"});
   }
-  list.push_back(
-      {"Energy defect", report::format_number(std::fabs(f.energy.missing_ratio()), 2), "", "of the largest energy"});
+  list.push_back({"Energy balance error", report::format_number(std::fabs(f.energy.missing_ratio()), 2), "",
+                  "of the largest energy"});
   for (const SignalFigures& signal : f.signals) {
     list.push_back({"Edges of " + signal.name, report::format_fixed(static_cast<double>(signal.edges), 0), "",
                     std::to_string(signal.lost) + " lost"});

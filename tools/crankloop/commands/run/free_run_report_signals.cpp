@@ -50,9 +50,9 @@ Plot signal_plot(const std::string& title, const FreeCycle& cycle, std::size_t w
 /// The time from tooth to tooth: in a whole cycle of many teeth the only thing that can be read is where there is none.
 Plot tooth_time_plot(const std::string& name, const FreeCycle& cycle, std::size_t wheel) {
   Plot one = plot_of(name + ", from tooth to tooth", axis_of("Time in the cycle", "ms"),
-                     axis_of("Time since the tooth before", "ms"));
+                     axis_of("Time since the last tooth", "ms"));
   one.y.include_zero = true;
-  one.caption = "From rising edge to rising edge: a gap stands out, and in between the speed's ripple.";
+  one.caption = "From rising edge to rising edge: gaps stand out; between them the ripple of the speed shows.";
   Series series;
   series.style.draw = report::Draw::step;
   double before_s = -1;

@@ -99,8 +99,8 @@ void add_peak(Summary& s, const std::string& name, Peak peak, double per_si, con
 }
 
 void add_peaks(Summary& s, const std::string& name, const Peaks& peaks, double per_si, const std::string& unit) {
-  add_peak(s, "largest_" + name, peaks.largest, per_si, unit);
-  add_peak(s, "smallest_" + name, peaks.smallest, per_si, unit);
+  add_peak(s, "max_" + name, peaks.largest, per_si, unit);
+  add_peak(s, "min_" + name, peaks.smallest, per_si, unit);
 }
 
 /// The worst of a train's valves in their last whole cycle, and peaks over the ticks.
@@ -108,7 +108,7 @@ void add_valves(Summary& s, const std::string& train, const ValveFigures& f) {
   const ValveCycle<double>& cycle = f.last_cycle;
   const auto peak = [&](ValveQuantity quantity) {
     const ValveQuantityKind& kind = kValveQuantityKinds[index_of(quantity)];
-    add_peak(s, "largest_" + train + "_" + kind.name, f.of[index_of(quantity)].largest, kind.per_si, kind.unit);
+    add_peak(s, "max_" + train + "_" + kind.name, f.of[index_of(quantity)].largest, kind.per_si, kind.unit);
   };
   s.line(train + "_max_lift", cycle.largest_lift_m * 1e3, "mm");
   add_opening_delay(s, train + "_opening_delay", cycle);
@@ -165,8 +165,8 @@ std::string summary_text(const Engines& engine, const Request& request, const Ru
       add_gas(s, f.gas.cycle);
       s.line("energy_defect", f.gas.cycle.energy_defect_J, "J", "of a cylinder's cycle, the largest: rounding");
       s.line("intake_pressure", f.gas.intake_Pa / 1e3, "kPa", "in the manifold, mean");
-      s.line("exhaust_pressure", f.gas.exhaust_Pa / 1e3, "kPa", "likewise");
-      s.line("exhaust_manifold_temperature", f.gas.exhaust_manifold_K, "K", "mean: what a probe would read");
+      s.line("exhaust_pressure", f.gas.exhaust_Pa / 1e3, "kPa", "in the manifold, mean");
+      s.line("exhaust_manifold_temperature", f.gas.exhaust_manifold_K, "K", "mean, as a probe reads it");
     } else {
       s.line("net_mep_exact", summary.net_mep_Pa / 1e3, "kPa", "loop integral of p dV");
       s.line("gross_mep_exact", summary.gross_mep_Pa / 1e3, "kPa", "over the closed 360 deg");
@@ -176,15 +176,15 @@ std::string summary_text(const Engines& engine, const Request& request, const Ru
   for (const Quantity quantity : {Quantity::pressure, Quantity::gas_force}) {
     const QuantityKind& kind = kQuantityKinds[index_of(quantity)];
     if (engine.has_gas())
-      add_peak(s, std::string("largest_") + kind.name, f.of[index_of(quantity)].largest, kind.per_si, kind.unit);
+      add_peak(s, std::string("max_") + kind.name, f.of[index_of(quantity)].largest, kind.per_si, kind.unit);
   }
   for (const Quantity quantity : {Quantity::inertia_force, Quantity::total_force, Quantity::side_force,
                                   Quantity::rod_force, Quantity::tangential_force, Quantity::radial_force}) {
     const QuantityKind& kind = kQuantityKinds[index_of(quantity)];
     add_peaks(s, kind.name, f.of[index_of(quantity)], kind.per_si, kind.unit);
   }
-  add_peak(s, "largest_crank_pin_load", f.of[index_of(Quantity::crank_pin_load)].largest, 1, "N");
-  add_peak(s, "largest_main_journal_load", f.journal_load.largest, 1, "N");
+  add_peak(s, "max_crank_pin_load", f.of[index_of(Quantity::crank_pin_load)].largest, 1, "N");
+  add_peak(s, "max_main_journal_load", f.journal_load.largest, 1, "N");
   add_peaks(s, "velocity", f.of[index_of(Quantity::velocity)], 1, "m/s");
   add_peaks(s, "acceleration", f.of[index_of(Quantity::acceleration)], 1, "m/s^2");
   s.line("mean_piston_speed", mean_piston_speed_m_s(definition.crank, speed), "m/s");
@@ -302,7 +302,7 @@ constexpr Option kOptions[] = {
     number("--rpm", "N", above(0).up_to(100000), "engine speed in rpm; default the file's rated_rpm"),
     kTick,
     whole_number("--cycles", "N", from(1).up_to(1000000),
-                 "cycles of 720 deg to record, after one to settle; of an engine that breathes after more", "2"),
+                 "cycles of 720 deg to record, after one to settle (more with gas exchange)", "2"),
     choice("--real", "float|double", "arithmetic of the tick, and digits of the CSV", "float"),
     kLoadRatio,
     kThrottle,
@@ -310,12 +310,11 @@ constexpr Option kOptions[] = {
     kLambda,
     kBurnStart,
     text("--csv", "F", "file for a row per tick; - is standard output, the summary then goes to stderr"),
-    text("--report", "F.html", "file for the report, which any browser shows"),
+    text("--report", "F.html", "HTML file with the report; opens in any browser"),
     text("--vcd", "F", "file for the trigger wheels' signals, a value change dump as GTKWave and PulseView open it"),
-    flag("--free",
-         "the engine turns by its own gas against friction and load, instead of at one speed; for the options below"),
-    number("--from-rpm", "N", from(-100000).up_to(100000), "speed to begin with, backwards if negative", "0"),
-    number("--seconds", "S", above(0).up_to(1e6), "how long", "2"),
+    flag("--free", "free-running: gas, friction and load set the speed; needed by the options below"),
+    number("--from-rpm", "N", from(-100000).up_to(100000), "initial speed, backwards if negative", "0"),
+    number("--seconds", "S", above(0).up_to(1e6), "duration", "2"),
     number("--machine-Nm", "L", from(0).up_to(1e7),
            "a brake of constant torque instead of that of the file's [machine], whose inertia stays"),
     flag("--starter", "the file's [starter] turns the crank too; it free-wheels where the engine is faster"),
@@ -326,7 +325,7 @@ constexpr Option kOptions[] = {
 
 const Command kRun{
     "run",
-    "the fixed-step loop: torque, power, peak forces, time per tick; or an engine that runs free; CSV and report",
+    "the fixed-step loop: torque, power, peak forces, time per tick; or a free-running engine; CSV and report",
     "FILE [--rpm N] [--cycles N] [--tick-us T] [--real R] [--load-ratio Q] [--csv F] [--report F.html] [--vcd F]\n"
     "       [--throttle R] [--lambda L | --fuel-mg M] [--burn-start-deg A]\n"
     "       crankloop run FILE --free [--from-rpm N] [--seconds S] [--machine-Nm L] [--starter] [--cut K,..] [...]",

@@ -55,7 +55,7 @@ std::string circumstances(const Request& request) {
 
 std::string gas_remark(const LoneValve& valve) {
   if (!(valve.valve().head_area_m2 > 0)) return "no gas force: head_area_mm2 is 0";
-  if (breathes(valve.file().definition())) return "no gas force: that of an engine that breathes is in `crankloop run`";
+  if (breathes(valve.file().definition())) return "no gas force: for an engine with gas exchange use `crankloop run`";
   if (valve.definition().pressure.source == PressureSource::none)
     return "no gas force: the file has no [pressure] source";
   return "with the gas force on the head, full load";
@@ -158,8 +158,8 @@ constexpr Option kOptions[] = {
     text("--train", "NAME",
          "valve train: the NAME of its [cam NAME], [rocker NAME] and [valve NAME]; default the only one of the file"),
     kSpeed,
-    number("--tick-us", "T", from(1).up_to(2000), "length of a tick in us; finer than elsewhere, to show each bounce",
-           "20"),
+    number("--tick-us", "T", from(1).up_to(2000),
+           "length of a tick in us; finer than in other commands, to show each bounce", "20"),
     whole_number("--cycles", "N", from(1).up_to(1000000), "cycles to run from rest; the last is shown", "4"),
     choice("--integrator", "rk4|exponential|textbook",
            "of the tick; textbook: four stages, contact changes not located", "rk4"),
@@ -168,7 +168,7 @@ constexpr Option kOptions[] = {
     text("--csv", "F",
          "file for a row per tick of the last cycle; - is standard output, the summary then goes to stderr"),
     text("--plot", "F.svg",
-         "file for a picture of the last cycle, which any browser shows: lift, gap, forces, seating"),
+         "SVG file with a picture of the last cycle: lift, gap, forces, seating; opens in any browser"),
 };
 
 }  // namespace
