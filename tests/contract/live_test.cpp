@@ -329,7 +329,7 @@ TEST_F(Live, RefusesWhatCannotBeRunInOneLineAndAUsage) {
   std::ofstream(block_path()) << "somebody's notes\n";
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"--tick-us", "3000"}, "crankloop live: --tick-us: 3000 is out of range; allowed: 1 to 2000\n"},
-      {{"--tick-us", "33.33333"}, "crankloop live: --tick-us 33.33333 is no whole number of nanoseconds"},
+      {{"--tick-us", "33.33333"}, "crankloop live: --tick-us 33.33333 is not a whole number of nanoseconds"},
       {{"--seconds", "0"}, "crankloop live: --seconds: 0 is out of range; allowed: above 0"},
       {{"--from-rpm", "61000"}, "crankloop live: --from-rpm 61000 is too fast for this tick"},
       {{"--cpu", "1023", "--seconds", "0.01"}, "crankloop live: --cpu 1023: Invalid argument"},

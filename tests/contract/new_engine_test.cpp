@@ -198,13 +198,14 @@ TEST_F(NewEngine, RefusesWhatMakesNoEngine) {
   refused({"new"}, {}, "crankloop new: --cylinders, --bore-mm, --stroke-mm are missing");
   refused(four, {"--rod-length-mm", "50"}, "crankloop new: rod_length_mm: 50 is too short");
   refused(four, {"--firing-order", "1-3-4"}, "crankloop new: firing_order: cylinder 2 does not fire");
-  refused(four, {"--bank-angles-deg", "0,0,90,90"}, "--firing-order is missing, or --firing-angles-deg");
-  refused(four, {"--firing-order", "1-3-4-2", "--firing-angles-deg", "0,540,180,360"}, "one says the other");
+  refused(four, {"--bank-angles-deg", "0,0,90,90"}, "--firing-order or --firing-angles-deg is missing");
+  refused(four, {"--firing-order", "1-3-4-2", "--firing-angles-deg", "0,540,180,360"}, "exclude each other");
   refused(four, {"--firing-angles-deg", "0,540,180"}, "crankloop new: firing_angles_deg");
   refused(four, {"--net-mep-kPa", "-900"}, "--net-mep-kPa");
   refused(four, {"--net-mep-kPa", "90000"}, "crankloop new: net_mep_kPa");
   refused(four, {"--name", "a # b"}, "--name");
-  refused({"new", "--cylinders", "7", "--bore-mm", "95", "--stroke-mm", "115"}, {}, "--firing-order is missing");
+  refused({"new", "--cylinders", "7", "--bore-mm", "95", "--stroke-mm", "115"}, {},
+          "--firing-order or --firing-angles-deg is missing");
 }
 
 }  // namespace

@@ -295,7 +295,7 @@ TEST_F(BreathingRun, RefusesWhatItsEngineDoesNotHave) {
   refused({kFour, "--lambda", "1", "--fuel-mg", "9"}, "--fuel-mg and --lambda both say how much fuel");
   refused({kFour, "--free", "--load-ratio", "1"}, "has gas exchange (source = gas), no diagram to scale");
   for (const char* option : {"--throttle", "--fuel-mg", "--lambda", "--burn-start-deg"})
-    refused({kSample, option, "0.5"}, std::string(option) + ": " + kSample + " has its pressure from a diagram");
+    refused({kSample, option, "0.5"}, std::string(option) + ": " + kSample + " has no gas exchange");
   std::string slow = contents(kFour);
   slow.replace(slow.find("burn_duration_deg = 50"), 22, "burn_duration_deg = 95");
   std::ofstream(path("slow.ini")) << slow;

@@ -331,7 +331,7 @@ TEST_F(Unusual, AnEngineThatNothingHoldsBackIsToldWhereItRunsFree) {
   std::string text = sample_.text();
   const auto from = text.find("[friction]");
   write("engine.ini", text.erase(from, text.find("[starter]") - from));
-  const std::string warning = path_ + ": warning: nothing holds back an engine";
+  const std::string warning = path_ + ": warning: a free-running engine without [friction]";
   const std::vector<std::string> free{"run", path_, "--free", "--seconds", "0.05"};
   EXPECT_EQ(run(free).error.compare(0, warning.size(), warning), 0) << run(free).error;
   std::vector<std::string> braked = free;

@@ -105,7 +105,7 @@ TEST_F(ReportOfThe495, PutsRemarksUnderTheSectionThatFollowsThem) {
   EXPECT_NE(page.find("[friction]: What turns and brakes the crankshaft besides the gas"), std::string::npos);
   EXPECT_NE(page.find("[cam intake]: Valve trains: nothing of them is in the sheet."), std::string::npos);
   EXPECT_NE(page.find("[pressure]: The sheet&#39;s indicator diagram is not printed."), std::string::npos);
-  EXPECT_NE(page.find("The engine file says: The 495 diesel: four-cylinder"), std::string::npos);
+  EXPECT_NE(page.find("From the engine file: The 495 diesel: four-cylinder"), std::string::npos);
   for (const char* folded : {"<summary>[crank]</summary>", "<summary>[valve exhaust]</summary>"})
     EXPECT_NE(page.find(folded), std::string::npos) << folded;
 }

@@ -352,10 +352,9 @@ TEST_F(RunCommand, PrintsThe495AtItsRatedSpeed) {
   EXPECT_EQ(line(summary, "faulty_ticks").first, 0);
   EXPECT_EQ(line(summary, "ticks").first, 1200);
   for (const char* name :
-       {"max_torque", "min_torque", "max_pressure", "max_gas_force", "max_inertia_force",
-        "min_inertia_force", "max_side_force", "min_side_force", "max_rod_force",
-        "max_radial_force", "min_radial_force", "max_tangential_force", "min_tangential_force",
-        "max_crank_pin_load", "max_main_journal_load"}) {
+       {"max_torque", "min_torque", "max_pressure", "max_gas_force", "max_inertia_force", "min_inertia_force",
+        "max_side_force", "min_side_force", "max_rod_force", "max_radial_force", "min_radial_force",
+        "max_tangential_force", "min_tangential_force", "max_crank_pin_load", "max_main_journal_load"}) {
     EXPECT_FALSE(std::isnan(line(summary, name).first)) << name;
     EXPECT_FALSE(std::isnan(line(summary, std::string(name) + "_at").first)) << name;
   }

@@ -67,18 +67,17 @@ std::string help() {
   text += in_column("--version") + "prints the version\n";
   text += "\nexample: " + std::string(commands().front()->example) + "\n";
   text +=
-      "\nBad input ends before anything is written, with exit status 2 and on stderr:\n"
+      "\nBad input stops the program before it writes anything, with exit status 2 and on stderr:\n"
       "  FILE:LINE: what is wrong, what is allowed         for each error of an engine file, up to 20; for the first "
       "one of a table\n"
       "  crankloop COMMAND: what is wrong, what is allowed  for an option, with the command's usage below\n"
-      "An output that is a file the command reads, under any of its names, or the same file as another output, is bad "
-      "input too.\n"
-      "Output that cannot be written, and any other failure, is a line crankloop: ... and exit status 1.\n";
+      "An output must be neither a file that the command reads nor the file of another output, under any name.\n"
+      "If output cannot be written, or on any other failure: a line crankloop: ... and exit status 1.\n";
   return text;
 }
 
 std::string engine_file_help() {
-  return "An engine file is plain text: [section] headers, key = value lines, # comments. Units stand in the keys.\n"
+  return "An engine file is plain text: [section] headers, key = value lines, # comments. Keys include their units.\n"
          "Angles are crank degrees, 0 at cylinder 1's firing TDC. At most 1 MiB; ASCII or UTF-8.\n\n" +
          describe_all_keys();
 }

@@ -131,10 +131,9 @@ List assumptions(const ReportInput& input) {
   list.items.push_back(breathes(input)
                            ? "All cylinders are alike; they differ only by the manifold pressure while their valves "
                              "are open. Curves are of cylinder 1."
-                           : "All cylinders are alike, and have the same pressure at the same crank angle of each."
-                             "");
+                           : "All cylinders are alike: they have the same pressure at the same angle of their cycles.");
   if (has_gas(input))
-    list.items.push_back("Below the piston stands the constant crankcase pressure of " +
+    list.items.push_back("The pressure below the piston is constant, the crankcase pressure of " +
                          number_text(d.pressure.crankcase_Pa * kKilo) + " kPa.");
   if (input.file.section("crank").has("rod_ratio")) {
     const SectionValues& crank = input.file.section("crank");
@@ -245,7 +244,7 @@ report::Section definition_section(const ReportInput& input) {
   section.blocks.push_back(assumptions(input));
   const std::vector<std::string> lines = lines_of(input.file.path());
   const std::string about = remarks_in(lines, 0, next_header(lines, 0));
-  if (!about.empty()) section.blocks.push_back(Paragraph{"The engine file says: " + about});
+  if (!about.empty()) section.blocks.push_back(Paragraph{"From the engine file: " + about});
   for (const SectionValues& values : input.file.sections()) {
     const std::string remarks = values.line > 0 ? remarks_about(lines, values.line) : "";
     if (!remarks.empty()) section.blocks.push_back(Paragraph{values.title() + ": " + remarks});

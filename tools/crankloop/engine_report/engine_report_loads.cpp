@@ -178,7 +178,8 @@ report::Section balance_section(const ReportInput& input) {
   Section section{"balance", "Free forces and moments", {}};
   section.blocks.push_back(Paragraph{
       "Forces and moments of the moving masses on the mounts; gas forces balance inside the engine. Moments are about "
-      "the middle of the crankshaft. Counterweights are not part of the definition, so rotating masses are not balanced here."});
+      "the middle of the crankshaft. Counterweights are not part of the definition, so rotating masses are not "
+      "balanced here."});
   report::Table table{
       "Largest over a turn", {{"", "", false}, {"Force", "N"}, {"Relative", "%"}, {"Moment", "Nm"}}, {}, false};
   const auto row = [&](const std::string& name, const detail::RotatingVector<double>& t) {

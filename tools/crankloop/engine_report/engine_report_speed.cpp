@@ -57,7 +57,8 @@ report::Section speed_section(const ReportInput& input) {
   loads.caption =
       "Of cylinder 1, magnitudes. Gas dominates at low speed. Inertia forces grow with the square of the speed: "
       "they first reduce the loads and then dominate them.";
-  torque.caption = "The pressure diagram and the mean torque are the same at every speed: the mean torque of the masses is zero.";
+  torque.caption =
+      "The pressure diagram and the mean torque are the same at every speed: the mean torque of the masses is zero.";
   report::Section section{"over-speed", "Loads over the speed", {}};
   section.blocks.push_back(std::move(loads));
   section.blocks.push_back(std::move(torque));

@@ -163,7 +163,8 @@ Plot lift_plot(const ReportInput& input, const std::vector<Train>& trains) {
   }
   Plot plot = plot_over_angle(input, "Valve lift", axis_of("Lift", "mm"), std::move(curves));
   for (std::size_t t = 0; t < trains.size(); ++t) plot.markers.push_back(largest_marker(plot, 2 * t));
-  plot.caption = "Dashed: theoretical lift of cam and rocker. The valve stays below it by the compression of the train.";
+  plot.caption =
+      "Dashed: theoretical lift of cam and rocker. The valve stays below it by the compression of the train.";
   return with_short_labels(std::move(plot));
 }
 

@@ -51,7 +51,8 @@ void add_gas(Summary& s, const GasCycle<double>& cycle) {
   s.line("fuel_burned", cycle.fuel_kg * 1e6, "mg", "of a cylinder's cycle");
   const bool too_rich = cycle.excess_air_ratio > 0 && cycle.excess_air_ratio < kRichestThatIgnites;
   s.line("excess_air_ratio", cycle.excess_air_ratio, "",
-         too_rich ? "lambda: so rich a mixture does not ignite; with --lambda fuel follows the air" : "lambda; 0: no fuel");
+         too_rich ? "lambda: so rich a mixture does not ignite; with --lambda fuel follows the air"
+                  : "lambda; 0: no fuel");
   s.line("exhaust_temperature", cycle.exhaust_K, "K", "of the gas that leaves through the exhaust valve");
   s.line("heat", cycle.heat_J, "J", "of combustion, of a cylinder's cycle");
   s.line("wall_heat", cycle.wall_heat_J, "J");

@@ -92,9 +92,10 @@ int run_live_command(const Arguments& arguments) {
 }
 
 constexpr Option kOptions[] = {
-    number("--tick-us", "T", from(1).up_to(2000), "length of a tick in us; longer than in other commands: most systems meet it",
-           "1000"),
-    number("--seconds", "S", above(0).up_to(1000000), "duration; Ctrl-C stops the run early and prints its summary", "10"),
+    number("--tick-us", "T", from(1).up_to(2000),
+           "length of a tick in us; longer than in other commands: most systems meet it", "1000"),
+    number("--seconds", "S", above(0).up_to(1000000), "duration; Ctrl-C stops the run early and prints its summary",
+           "10"),
     text("--shared", "PATH", "block of memory shared with a controller, such as /dev/shm/engine: docs/live.md"),
     number("--silent-ms", "N", above(0).up_to(100000),
            "timeout of the controller: after N ms without a write, fuel, load and starter are off", "100"),
@@ -104,8 +105,8 @@ constexpr Option kOptions[] = {
     kFuel,
     kLambda,
     kBurnStart,
-    number("--external-torque-Nm", "L", from(-1e8).up_to(1e8), "load on the crankshaft in Nm; until a controller sets it",
-           "0"),
+    number("--external-torque-Nm", "L", from(-1e8).up_to(1e8),
+           "load on the crankshaft in Nm; until a controller sets it", "0"),
     flag("--starter", "starter engaged; until a controller sets it"),
     number("--from-rpm", "N", from(-100000).up_to(100000), "speed at the start in rpm", "0"),
     choice("--real", "float|double", "arithmetic of the tick", "float"),

@@ -1,5 +1,5 @@
-// `crankloop map FILE`: torque, air charge and mean pressures of an engine with gas exchange over speed, and over throttle
-// or fuel.
+// `crankloop map FILE`: torque, air charge and mean pressures of an engine with gas exchange over speed, and over
+// throttle or fuel.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -169,14 +169,15 @@ constexpr Option kOptions[] = {
 
 }  // namespace
 
-const Command kMap{"map",
-                   "torque, air charge and mean pressures of an engine with gas exchange, over speed and throttle or fuel",
-                   "FILE --rpm FROM:TO:N --throttle FROM:TO:N [--lambda L | --fuel-mg M] [--burn-start-deg A] "
-                   "[--tick-us T] [--csv F] [--report F.html]\n"
-                   "       FILE --rpm FROM:TO:N --fuel-mg FROM:TO:N [--throttle R] [...]",
-                   "crankloop map four_2000.ini --rpm 1000:6000:6 --throttle 0:1:6 --csv map.csv --report map.html",
-                   1,
-                   kOptions,
-                   run_map_command};
+const Command kMap{
+    "map",
+    "torque, air charge and mean pressures of an engine with gas exchange, over speed and throttle or fuel",
+    "FILE --rpm FROM:TO:N --throttle FROM:TO:N [--lambda L | --fuel-mg M] [--burn-start-deg A] "
+    "[--tick-us T] [--csv F] [--report F.html]\n"
+    "       FILE --rpm FROM:TO:N --fuel-mg FROM:TO:N [--throttle R] [...]",
+    "crankloop map four_2000.ini --rpm 1000:6000:6 --throttle 0:1:6 --csv map.csv --report map.html",
+    1,
+    kOptions,
+    run_map_command};
 
 }  // namespace crankloop::program

@@ -129,7 +129,8 @@ void add_masses_and_layout(Draft& draft, const Arguments& arguments, const Numbe
   } else {
     const std::string usual_order = banked ? "" : usual_firing_order(n.cylinders);
     if (!ordered && usual_order.empty())
-      throw UsageError("give --firing-order or --firing-angles-deg: there is no usual firing order for these cylinders");
+      throw UsageError(
+          "--firing-order or --firing-angles-deg is missing: there is no usual firing order for these cylinders");
     draft.line("firing_order", ordered ? arguments.text("--firing-order") : usual_order,
                ordered ? "given" : "assumed: the usual one");
   }
@@ -288,9 +289,9 @@ int run_new(const Arguments& arguments) {
   add_train(rest, "exhaust", 262, n);
   add_triggers(rest);
   const std::string text =
-      "# An engine file from a few numbers, by `crankloop new`. What stood on its command line is \"given\"; all else "
-      "is\n"
-      "# \"assumed\" and says why: replace it by what you know. Angles are crank degrees, 0 at cylinder 1's firing "
+      "# An engine file from a few numbers, by `crankloop new`. Values from its command line are marked \"given\",\n"
+      "# all others \"assumed\", with the reason: replace them by what you know. Angles are crank degrees, 0 at "
+      "cylinder 1's firing "
       "TDC.\n" +
       crank.text() + body.text() + crankshaft_comments(half_way.definition().layout) + gas.text() + rest.text();
   const EngineFile engine = read_draft(text);

@@ -245,9 +245,9 @@ constexpr Option kOptions[] = {
     number("--seating-m-s", "V", above(0).up_to(100), "highest permissible seating speed", "0.5"),
     number("--coil-bind-mm", "L", above(0).up_to(1000),
            "valve lift at which the spring binds: results beyond are left out; default 1.5 times the theoretical lift"),
-    choice(
-        "--vary", "train|mass|spring|preload|damping",
-        "repeats the sweep with this times 0.5, 0.7, 0.85, 1, 1.2, 1.5, 2; mass: all that moves, damping: all three ratios"),
+    choice("--vary", "train|mass|spring|preload|damping",
+           "repeats the sweep with this times 0.5, 0.7, 0.85, 1, 1.2, 1.5, 2; mass: all that moves, damping: all three "
+           "ratios"),
     text("--csv", "F", "file for a row per factor and speed; - is standard output, the rest then goes to stderr"),
     text("--report", "F.html", "HTML file with the plots; opens in any browser"),
 };

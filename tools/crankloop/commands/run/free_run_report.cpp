@@ -138,10 +138,12 @@ Section energy_section(const FreeReportInput& input) {
   table.rows.push_back({"Change in kinetic energy", "", number(energy.kinetic_J)});
   section.blocks.push_back(std::move(table));
   section.blocks.push_back(Paragraph{
-      "Energy balance error: " + report::format_number(energy.missing_ratio(), 2) + " of the largest energy. The work of the gas is " +
+      "Energy balance error: " + report::format_number(energy.missing_ratio(), 2) +
+      " of the largest energy. The work of the gas is " +
       (breathes(input.definition) ? "the torque of the loop integrated over the angle, less the part of the masses"
                                   : "the exact engine's torque integrated over the angle") +
-      "; the kinetic energy follows from the geometry, all other energies from their power at the ticks" +
+      "; the kinetic energy follows from the geometry, the energies of starter, friction and load from their power at "
+      "the ticks" +
       (breathes(input.definition) ? "." : ". All are computed independently of the simulation loop.")});
   return section;
 }
@@ -204,8 +206,8 @@ std::vector<report::Fact> facts(const FreeReportInput& input) {
     list.push_back({"Mean torque", number(cycle.mean_torque_Nm()), "Nm", "of the last cycle, indicated"});
     list.push_back({"Friction", number(f.friction_Nm), "Nm", "load " + number(f.load_Nm) + " Nm"});
   }
-  list.push_back(
-      {"Energy balance error", report::format_number(std::fabs(f.energy.missing_ratio()), 2), "", "of the largest energy"});
+  list.push_back({"Energy balance error", report::format_number(std::fabs(f.energy.missing_ratio()), 2), "",
+                  "of the largest energy"});
   for (const SignalFigures& signal : f.signals) {
     list.push_back({"Edges of " + signal.name, report::format_fixed(static_cast<double>(signal.edges), 0), "",
                     std::to_string(signal.lost) + " lost"});
