@@ -72,7 +72,7 @@ scenes() {
     scene_row "piston motion, $real" "PistonMotion_$real"
     scene_row "mean torque from measured phase and pressures, $real" "TorqueSensor_$real"
     scene_row "motion, forces, torque, $real" "ForcesAndTorque_$real"
-    scene_row "an engine that breathes: throttle, fuel and burn in, torque out, 8 cam-following valves, $real" "Breathing_$real"
+    scene_row "engine with gas exchange: throttle, fuel and burn in, torque out, 8 cam-following valves, $real" "Breathing_$real"
     scene_row "everything, $real" "Everything_$real"
     scene_row "everything, up to 16 cylinders, $real" "EverythingUpTo16_$real"
   done
