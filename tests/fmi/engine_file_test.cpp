@@ -191,6 +191,7 @@ TEST_F(EngineFileFmu, OfAnEngineThatBreathesHasTheCycleThatRunTellsOf) {
   for (int k = 1; k <= 4; ++k) {
     const std::string of = "[" + std::to_string(k) + "]";
     unit.set("fuel_kg" + of, 12e-6);
+    unit.set("excess_air_ratio" + of, 0);
     unit.set("burn_start_deg" + of, -18);
     unit.set("burn_duration_deg" + of, 50);
   }

@@ -59,6 +59,9 @@ inline double input_at(const std::string& name, long k, double step_s) {
   if (name == "cut_cylinders") return static_cast<double>(k / 100 % 4);
   if (name == "throttle_ratio") return bad ? -1 : 0.5 - 0.5 * std::cos(second * 2);
   if (name.compare(0, 7, "fuel_kg") == 0) return bad ? nothing : 1e-5 * static_cast<double>(k / 50 % 4);
+  if (name.compare(0, 16, "excess_air_ratio") == 0) return bad ? -1 : static_cast<double>(k / 80 % 3);
+  if (name == "ambient_Pa" || name == "back_Pa") return bad ? 1 : k % 3 == 0 ? 0 : 1e5 + 2e4 * std::sin(second);
+  if (name == "ambient_K") return bad ? nothing : k % 5 == 0 ? 0 : 290;
   if (name.compare(0, 10, "burn_start") == 0) return k % 700 == 699 ? 61 : -20 + 30 * std::sin(second);
   if (name.compare(0, 13, "burn_duration") == 0) return 50;
   ADD_FAILURE() << "no input " << name;

@@ -302,7 +302,7 @@ TEST_F(BreathingRun, RefusesWhatItsEngineDoesNotHave) {
   std::string both = contents(kFour);
   both.insert(both.find("excess_air_ratio"), "fuel_mg = 30\n");
   std::ofstream(path("both.ini")) << both;
-  refused({path("both.ini")}, "excess_air_ratio: says how much fuel, as fuel_mg does: give one of them");
+  refused({path("both.ini")}, "exclude each other; give either fuel_mg, or excess_air_ratio");
   refused({path("slow.ini"), "--burn-start-deg", "60"}, "the burn would end at 155 deg; it must end by 150 deg");
 }
 

@@ -45,8 +45,6 @@ Gas build_gas(const SectionValues& values, const std::string& path) {
                " is more than throttle_mm2 = " + shortest(values.number("throttle_mm2")),
            path);
   }
-  if (gas.excess_air_ratio > 0 && values.find("fuel_mg")->line != 0)
-    refuse(values, "excess_air_ratio", "says how much fuel, as fuel_mg does: give one of them", path);
   const double end_deg = gas.burn_start_deg + gas.burn_duration_deg * gas.span_ratio();
   if (end_deg > kLatestBurn_deg) {
     refuse(values, "burn_duration_deg",

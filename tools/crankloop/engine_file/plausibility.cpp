@@ -204,7 +204,8 @@ void look_at_mixture(const EngineFile& engine, const EngineSize& size, Warnings&
   if (gas.number("second_share") > 0) return;
   const std::string usual =
       "usual with spark ignition: " + brief(kLambdaWithSpark.least) + " to " + brief(kLambdaWithSpark.most);
-  if (const double asked = gas.number("excess_air_ratio"); asked > 0) {
+  if (gas.has("excess_air_ratio")) {
+    const double asked = gas.number("excess_air_ratio");
     if (!within(kLambdaWithSpark, asked))
       warnings.add(gas.line_of("excess_air_ratio"), "excess_air_ratio = " + brief(asked) + "; " + usual);
     return;
