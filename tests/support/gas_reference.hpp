@@ -65,7 +65,7 @@ class GasReference {
         const double most_kg = (y_[c].m - y_[c].b) / e_.gas.air_fuel_ratio;
         const double asked_kg = e_.gas.excess_air_ratio > 0 ? most_kg / e_.gas.excess_air_ratio : e_.gas.fuel_kg;
         fuel_[c] = std::fmin(asked_kg, 4 * most_kg);
-        burning_[c] = std::fmin(1, most_kg / fuel_[c]);
+        burning_[c] = fuel_[c] > most_kg ? most_kg / fuel_[c] : 1;
       }
       if (from > 0 && to < 0) fuel_[c] = 0;
     }
