@@ -12,7 +12,7 @@
 #include <crankloop/engine.hpp>
 #include <crankloop/tables/scene_fits.hpp>
 #include <crankloop/tick/checked.hpp>
-#include <crankloop/tick/crank/crank_inputs.hpp>
+#include <crankloop/tick/crank/crank_turn.hpp>
 #include <crankloop/tick/crank/mechanisms_step.hpp>
 #include <crankloop/tick/gas/gas_step.hpp>
 #include <crankloop/tick/trigger/triggers_step.hpp>

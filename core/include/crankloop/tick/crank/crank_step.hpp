@@ -19,11 +19,19 @@
 #include <crankloop/state.hpp>
 #include <crankloop/tables/tables.hpp>
 #include <crankloop/tick/crank/crank_friction.hpp>
-#include <crankloop/tick/crank/crank_rate.hpp>
 #include <crankloop/tick/crank/starter.hpp>
 #include <crankloop/tick/one_instruction.hpp>
 
 namespace crankloop::detail {
+
+/// What a tick has come to.
+template <class Real>
+struct CrankArrival {
+  Real gas_work_J;           ///< over the angle turned
+  Real gas_Nm;               ///< at its end, as are the next two
+  Real inertia_kg_m2;        ///< J_eff
+  Real inertia_slope_kg_m2;  ///< torque of masses per w^2
+};
 
 template <class Real>
 class CrankStep {
@@ -60,10 +68,11 @@ class CrankStep {
     }
     const Real per_root = state_.per_root_inertia;
     ahead_ = state_.reduced_speed + tick_s * (push_Nm * per_root);
-    start_ = {speed_rad_s_, acceleration_rad_s2(push_Nm)};
-    const Real gain_rad_s = start_.acceleration_rad_s2 * tick_s;
+    start_rad_s_ = speed_rad_s_;
+    start_rad_s2_ = acceleration_rad_s2(push_Nm);
+    const Real gain_rad_s = start_rad_s2_ * tick_s;
     const Real share = starter_.share_of_gain(speed_rad_s_, tick_s, per_root * per_root);
-    predicted_rad_s_ = held_to_limit(start_.speed_rad_s + gain_rad_s / 2 * share);
+    predicted_rad_s_ = held_to_limit(start_rad_s_ + gain_rad_s / 2 * share);
     mean_rad_s_ = limited(predicted_rad_s_ + state_.lag_rad_s, drive_.speed_limit_rad_s);
     CRANKLOOP_ASSERT(magnitude(mean_rad_s_) <= drive_.speed_limit_rad_s);
     return Phase::from_cycles(mean_rad_s_ * drive_.cycles_per_tick_per_rad_s);
@@ -80,8 +89,7 @@ class CrankStep {
     state_.inertia_slope_kg_m2 = at.inertia_slope_kg_m2;
     gas_Nm_ = at.gas_Nm;
     if (held_) return;
-    const Real starter_J =
-        starter_.work_J(start_.speed_rad_s, start_.acceleration_rad_s2 * drive_.tick_s, mean_rad_s_, drive_.tick_s);
+    const Real starter_J = starter_.work_J(start_rad_s_, start_rad_s2_ * drive_.tick_s, mean_rad_s_, drive_.tick_s);
     gain(at.gas_work_J + starter_J - state_.external_torque_Nm * turned_rad());
     const Real reached_rad_s = state_.reduced_speed * per_root;
     speed_rad_s_ = held_to_limit(reached_rad_s);
@@ -137,8 +145,8 @@ class CrankStep {
   /// Mean speed of the cubic angle that has speed and acceleration of the tick's both ends, friction apart.
   [[nodiscard]] Real cubic_rad_s() const noexcept {
     const Real end_rad_s2 = acceleration_rad_s2(gas_Nm_ + starter_.torque_Nm(speed_rad_s_) - state_.external_torque_Nm);
-    return (start_.speed_rad_s + speed_rad_s_) / 2 +
-           drive_.tick_s * static_cast<Real>(1.0 / 12) * (start_.acceleration_rad_s2 - end_rad_s2);
+    return (start_rad_s_ + speed_rad_s_) / 2 +
+           drive_.tick_s * static_cast<Real>(1.0 / 12) * (start_rad_s2_ - end_rad_s2);
   }
 
   void set_reduced(Real reduced_speed) noexcept {
@@ -201,7 +209,7 @@ class CrankStep {
   }
   void turn_friction_round() noexcept {
     const Real per_root = state_.per_root_inertia;
-    const Real impulse_Nms = friction_.impulse_of_turning_Nms(sense_of(before_), start_.speed_rad_s, speed_rad_s_,
+    const Real impulse_Nms = friction_.impulse_of_turning_Nms(sense_of(before_), start_rad_s_, speed_rad_s_,
                                                               per_root * per_root, drive_.tick_s);
     const Real sense = before_ > 0 ? Real{1} : Real{-1};
     const Real change = sense * (impulse_Nms * per_root);
@@ -245,12 +253,13 @@ class CrankStep {
   Real speed_before_rad_s_;
   CrankFriction<Real> friction_;
   Starter<Real> starter_{};
-  CrankRate<Real> start_{};  ///< after the first half of the friction
-  Real predicted_rad_s_{};   ///< mean speed by the start alone
-  Real mean_rad_s_{};        ///< of the angle turned
-  Real ahead_{};             ///< u at the tick's end by the forces at its start: only its sign counts
-  Real before_{};            ///< u at the tick's begin
-  Real friction_s_{};        ///< time that is left for friction
+  Real start_rad_s_{};  ///< after the first half of the friction
+  Real start_rad_s2_{};
+  Real predicted_rad_s_{};  ///< mean speed by the start alone
+  Real mean_rad_s_{};       ///< of the angle turned
+  Real ahead_{};            ///< u at the tick's end by the forces at its start: only its sign counts
+  Real before_{};           ///< u at the tick's begin
+  Real friction_s_{};       ///< time that is left for friction
   Real gas_before_Nm_{};
   Real gas_Nm_{};      ///< at the end of the tick
   bool held_ = false;  ///< by friction, at standstill

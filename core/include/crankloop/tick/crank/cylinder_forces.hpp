@@ -7,7 +7,6 @@
 
 #include <crankloop/output.hpp>
 #include <crankloop/tables/tables.hpp>
-#include <crankloop/tick/crank/crank_rate.hpp>
 #include <crankloop/tick/one_instruction.hpp>
 
 namespace crankloop {
@@ -26,6 +25,13 @@ struct Pose {
 };
 
 namespace detail {
+
+/// How the crank turns where its speed changes.
+template <class Real>
+struct CrankRate {
+  Real speed_rad_s;
+  Real acceleration_rad_s2;
+};
 
 /// Forces of the cylinders of one mechanism at a speed w, constant or with its rate: what their pressures do not change
 /// is worked out once. With RodInertia the couple dM = dI d2b/dt2 is in every force, as in docs/model.md.

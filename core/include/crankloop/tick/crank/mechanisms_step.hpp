@@ -20,6 +20,22 @@
 
 namespace crankloop::detail {
 
+/// Where forces turn the crank: mean torque of the gas over a cycle as it is at the tick; 0 of given pressures, which
+/// are no cycle.
+template <class Real, class S>
+[[nodiscard]] Real mean_gas_Nm([[maybe_unused]] const Tables<Real, S>& tables, [[maybe_unused]] Real load_ratio,
+                               [[maybe_unused]] std::uint32_t cut_cylinders) noexcept {
+  if constexpr (Needs<S>::gas_torque && Needs<S>::load) {
+    Real heat_Nm = tables.gas_torque_heat->mean_Nm;
+    if constexpr (Needs<S>::cut) heat_Nm -= CutHeat<Real, S>(tables, cut_cylinders).mean_Nm();
+    return tables.gas_torque_motored->mean_Nm + load_ratio * heat_Nm;
+  } else if constexpr (Needs<S>::gas_torque) {
+    return tables.gas_torque_full->mean_Nm;
+  } else {
+    return Real{};
+  }
+}
+
 /// What is read once per mechanism, and what its cylinders show.
 template <class Real, class S>
 struct MechanismsStep {

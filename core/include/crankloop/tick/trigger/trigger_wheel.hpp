@@ -13,12 +13,26 @@
 #include <cstdint>
 
 #include <crankloop/assert.hpp>
+#include <crankloop/phase.hpp>
 #include <crankloop/tables/trigger_tables.hpp>
 #include <crankloop/tick/one_instruction.hpp>
-#include <crankloop/tick/trigger/crank_path.hpp>
 #include <crankloop/tick/trigger/trigger_output.hpp>
 
 namespace crankloop::detail {
+
+/// With s = 0 at the tick's begin and 1 at its end,
+///
+///     angle(s) = begin + turned s + bend s (s - 1)
+///
+/// At a constant speed the bend is 0. Where the speed changes evenly from w0 to w1 it is (w1 - w0) tick / 2 as an
+/// angle, and the crank may turn round on the way: at s = (1 - turned/bend) / 2.
+template <class Real>
+struct CrankPath {
+  Phase begin;
+  Phase turned;      ///< signed: less than a crank revolution either way
+  bool jumped;       ///< nobody knows how it got there: a measured phase leapt
+  Real bend_cycles;  ///< in cycles of 720 deg
+};
 
 /// The last edge at or before an angle: at most 10 comparisons, one or two for evenly spaced teeth.
 [[nodiscard]] inline std::uint32_t edge_behind(const TriggerTrack& wheel, std::uint32_t angle) noexcept {

@@ -8,7 +8,6 @@
 #include <crankloop/state.hpp>
 #include <crankloop/tables/tables.hpp>
 #include <crankloop/tick/crank/crank_turn.hpp>
-#include <crankloop/tick/trigger/crank_path.hpp>
 #include <crankloop/tick/trigger/trigger_wheel.hpp>
 
 namespace crankloop::detail {
