@@ -1,7 +1,7 @@
 #!/bin/sh
 # costs.sh CONF print   what every scene costs on a target, by running its images of costs.cpp in the emulator
-# costs.sh CONF write   the same, into the target's part of docs/performance.md
-# costs.sh CONF check   fails when a figure has grown by more than 2 % over docs/performance.md, or is there and measured no more; last line:
+# costs.sh CONF write   the same, into the target's page of docs/measurements
+# costs.sh CONF check   fails when a figure has grown by more than 2 % over that page, or is there and measured no more; last line:
 #                       "N passed, M failed". With another compiler or emulator than recorded there it compares no figures, but tells
 #                       how they differ, and unless it fails, its exit status is 77, "skipped"
 #
@@ -12,10 +12,8 @@ here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
 conf=$1
 # shellcheck disable=SC1090  # made by CMake
 . "$1"
-: "${target:?}" "${title:?}" "${compiler:?}" "${size:?}" "${emulator:?}" "${build_type:?}" "${images:?}" "${engines:?}" "${performance:?}"
+: "${target:?}" "${title:?}" "${compiler:?}" "${size:?}" "${emulator:?}" "${build_type:?}" "${images:?}" "${engines:?}" "${page:?}"
 what=$2
-begin="<!-- costs of $target, written by tests/target/costs.sh; do not edit -->"
-end="<!-- end of costs of $target -->"
 
 # section_bytes ENGINE PATTERN: bytes of the library's sections whose names match.
 section_bytes() { "$size" -A "$images/lib$1.a" | awk -v pattern="$2" '$1 ~ pattern { sum += $2 } END { print sum + 0 }'; }
@@ -55,15 +53,15 @@ versions() {
 }
 
 print_costs() {
-  echo "$begin"
-  echo "### $title"
+  echo "# $title"
+  echo
+  echo "Written by tests/target/costs.sh; [performance.md](../performance.md#on-targets) has what the columns mean."
   echo
   echo "$(versions)."
   echo
   echo "| scene | tick, us | idle, mean / worst | rated, mean / worst | redline, mean / worst | hostile | bound, any input | code | tables | RAM | stack, bound | stack, painted |"
   echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
   for engine in $engines; do row "$engine"; done
-  echo "$end"
 }
 
 measured=$images/costs.md
@@ -71,22 +69,15 @@ print_costs >"$measured"
 
 case $what in
   print) cat "$measured" ;;
-  write)
-    grep -qxF "$begin" "$performance" || printf '\n%s\n%s\n' "$begin" "$end" >>"$performance"
-    awk -v begin="$begin" -v end="$end" -v measured="$measured" '
-      $0 == begin { while ((getline line < measured) > 0) print line; skip = 1 }
-      !skip { print }
-      $0 == end { skip = 0 }' "$performance" >"$performance.new"
-    mv "$performance.new" "$performance"
-    ;;
+  write) cp "$measured" "$page" ;;
   check)
-    awk -v begin="$begin" -v end="$end" -v versions="$(versions)." '
+    committed=$page
+    [ -f "$page" ] || committed=/dev/null  # a new target has none yet
+    awk -v committed_page="$committed" -v page="$page" -v versions="$(versions)." '
       # Rows by scene and tick; the figures of both files in the same order.
-      FNR == 1 { ++file }
-      $0 == begin { inside = 1 }
-      $0 == end { inside = 0 }
-      inside && file == 1 && $0 == versions { same_versions = 1 }
-      inside && /^\| [A-Z]/ {
+      { file = FILENAME == committed_page ? 1 : 2 }
+      file == 1 && $0 == versions { same_versions = 1 }
+      /^\| [A-Z]/ {
         split($0, cell, " *[|] *")
         key = cell[2] ", " cell[3] " us"
         line = $0
@@ -110,10 +101,10 @@ case $what in
       }
       END {
         for (key in committed) { print key ": committed, but measured no more"; ++failed }
-        if (not_compared) print not_compared " rows not compared: docs/performance.md records another compiler or emulator than " versions
+        if (not_compared) print not_compared " rows not compared: " page " records another compiler or emulator than " versions
         print passed + 0 " passed, " failed + 0 " failed"
         exit (failed ? 1 : not_compared ? 77 : !passed)
-      }' "$performance" "$measured"
+      }' "$committed" "$measured"
     ;;
   *) sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
 esac
