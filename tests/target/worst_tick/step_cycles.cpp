@@ -4,7 +4,8 @@
 //   qemu-system-arm ... -plugin step_cycles.so,listing=LISTING,root=ROOT
 //
 // LISTING is objdump's of the image, ROOT names the step as for worst_tick. The image calls crankloop_measures() where
-// the steps to be counted begin, and again where they end; then follows a line
+// the steps to be counted begin, and again where they end; one without that function has all its steps counted until it
+// ends. Then follows a line
 //
 //   cycles MEAN WORST MEAN_5 WORST_5 STEPS INSTRUCTIONS
 //
@@ -29,6 +30,8 @@ struct qemu_plugin_insn;
 using Translated = void (*)(std::uint64_t id, qemu_plugin_tb* block);
 using Executed = void (*)(unsigned processor, void* data);
 using Accessed = void (*)(unsigned processor, std::uint32_t info, std::uint64_t address, void* data);
+using Ended = void (*)(std::uint64_t id, void* data);
+void qemu_plugin_register_atexit_cb(std::uint64_t id, Ended callback, void* data);
 void qemu_plugin_register_vcpu_tb_trans_cb(std::uint64_t id, Translated callback);
 void qemu_plugin_register_vcpu_tb_exec_cb(qemu_plugin_tb* block, Executed callback, int flags, void* data);
 void qemu_plugin_register_vcpu_mem_cb(qemu_plugin_insn* insn, Accessed callback, int flags, int which, void* data);
@@ -47,6 +50,7 @@ namespace worst_tick {
 namespace {
 
 constexpr std::uint64_t kRam = 0x20000000;  // Armv7-M's memory map: code below it
+constexpr const char* kMeasures = "crankloop_measures";
 constexpr int kNoRegisters = 0, kReads = 1;
 
 /// Instructions that QEMU translated in one piece: all of them run, or none.
@@ -64,7 +68,9 @@ struct Sum {
 class Counter {
  public:
   Counter(Program program, std::string root) : program_{std::move(program)}, root_{std::move(root)} {
+    measuring_ = true;
     for (const auto& [begin, function] : program_) {
+      if (function.name == kMeasures) measuring_ = false;
       const auto& code = function.instructions;
       for (std::size_t i = 0; i < code.size(); ++i) {
         const bool last = i + 1 == code.size() || code[i + 1].follows_data;
@@ -80,7 +86,7 @@ class Counter {
     const auto function = program_.find(piece.begin);
     if (function != program_.end()) {
       piece.steps = matches(function->second.name, root_);
-      piece.measures = function->second.name == "crankloop_measures";
+      piece.measures = function->second.name == kMeasures;
     }
     for (std::size_t i = 0; i < n; ++i) {
       const auto address = static_cast<std::uint32_t>(qemu_plugin_insn_vaddr(qemu_plugin_tb_get_insn(block, i)));
@@ -123,6 +129,14 @@ class Counter {
     if (address < kRam) step_.flash_words += static_cast<std::int64_t>((size + 3) / 4);
   }
 
+  /// What was measured, if anything.
+  void tell() const {
+    if (measuring_ && steps_ > 0)
+      std::fprintf(stderr, "cycles %lld %lld %lld %lld %lld %lld\n", mean(sum_), static_cast<long long>(worst_),
+                   mean(sum_waiting_), static_cast<long long>(worst_waiting_), static_cast<long long>(steps_),
+                   static_cast<long long>(instructions_));
+  }
+
   [[noreturn]] static void give_up(const std::string& why) {
     std::fprintf(stderr, "step_cycles: %s\n", why.c_str());
     std::_Exit(1);
@@ -156,10 +170,7 @@ class Counter {
   }
 
   void toggle() {
-    if (measuring_ && steps_ > 0)
-      std::fprintf(stderr, "cycles %lld %lld %lld %lld %lld %lld\n", mean(sum_), static_cast<long long>(worst_),
-                   mean(sum_waiting_), static_cast<long long>(worst_waiting_), static_cast<long long>(steps_),
-                   static_cast<long long>(instructions_));
+    tell();
     measuring_ = !measuring_;
     steps_ = sum_ = sum_waiting_ = worst_ = worst_waiting_ = instructions_ = 0;
   }
@@ -204,6 +215,8 @@ int qemu_plugin_install(std::uint64_t id, const void*, int count, char** argumen
   std::ifstream in(listing);
   if (!in || root.empty()) worst_tick::Counter::give_up("needs listing=FILE,root=NAME");
   worst_tick::counter = new worst_tick::Counter(worst_tick::read_listing(in), root);
+  qemu_plugin_register_atexit_cb(
+      id, [](std::uint64_t, void*) { worst_tick::counter->tell(); }, nullptr);
   qemu_plugin_register_vcpu_tb_trans_cb(id, worst_tick::on_translation);
   return 0;
 }
