@@ -13,9 +13,9 @@
 //
 // At wait states, code and constant data come from a flash that reads 32 bits at a time, without cache and prefetch:
 // each word of code costs the wait states when its first instruction comes, each word of data when it is loaded; a
-// branch that is taken waits for the fetch that is under way, and once more for the word in which it arrives. RAM has
-// no wait states. A load counts as one from flash unless its base is the stack pointer; counters that see addresses
-// take those.
+// branch that is taken waits for the fetch that is under way, the only one ahead, and once more for the word in which
+// it arrives. RAM has no wait states. A load counts as one from flash unless its base is the stack pointer; counters
+// that see addresses take those.
 #pragma once
 
 #include <cstdint>
