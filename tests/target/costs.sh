@@ -78,7 +78,7 @@ cycle_row() {
 # cycle_table WAIT_STATES COLUMN WHICH: after the rows of all engines.
 cycle_table() {
   printf '\nCycles, %s wait states: %s\n\n' "$1" "$3"
-  echo "| scene | tick, us | mean / worst | hostile | bound, any input | % of the tick at $core_mhz MHz, mean / worst / bound | least tick for the bound, us |"
+  echo "| scene | tick, us | mean / worst | hostile | bound, any input | % of the tick at $core_mhz MHz, mean / worst / bound | bound, us at $core_mhz MHz |"
   echo "| --- | --- | --- | --- | --- | --- | --- |"
   for engine in $engines; do cycle_row "$engine" "$2"; done
 }
