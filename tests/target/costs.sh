@@ -12,7 +12,7 @@ here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
 conf=$1
 # shellcheck disable=SC1090  # made by CMake
 . "$1"
-: "${target:?}" "${title:?}" "${compiler:?}" "${size:?}" "${emulator:?}" "${build_type:?}" "${images:?}" "${engines:?}" "${page:?}"
+: "${title:?}" "${compiler:?}" "${size:?}" "${emulator:?}" "${build_type:?}" "${images:?}" "${engines:?}" "${page:?}"
 what=$2
 
 # section_bytes ENGINE PATTERN: bytes of the library's sections whose names match.
