@@ -29,7 +29,7 @@ for engine in Forces Torque; do
   printf '%s\n' 'node: { title: "step" label: "Engine::step(Input)\nfile\n40 bytes (static)" }' >"$folder/${engine}_20us.dir/step.ci"
 done
 cat >"$folder/costs.conf" <<END
-target=none title='No target' compiler='$folder/g++' size='$folder/size' emulator='"$folder/qemu-none"' build_type=-O3 images='$folder'
+title='No target' compiler='$folder/g++' size='$folder/size' emulator='"$folder/qemu-none"' build_type=-O3 images='$folder'
 engines='Torque_20us Forces_20us' worst_tick= cycles_of= step_cycles= page='$folder/none.md'
 END
 

@@ -12,7 +12,7 @@ here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
 conf=$1
 # shellcheck disable=SC1090  # made by CMake
 . "$1"
-: "${target:?}" "${title:?}" "${compiler:?}" "${size:?}" "${emulator:?}" "${build_type:?}" "${images:?}" "${engines:?}" "${page:?}"
+: "${title:?}" "${compiler:?}" "${size:?}" "${emulator:?}" "${build_type:?}" "${images:?}" "${engines:?}" "${page:?}"
 [ -z "${cycles_of:=}" ] || : "${step_cycles:?}"
 what=$2
 core_mhz=180  # at which cycles are set against the tick
