@@ -4,9 +4,11 @@
 // What does not: what is done with them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 
 #include <crankloop/scenes.hpp>
 
@@ -40,13 +42,9 @@ enum class Quantity : std::uint8_t {
   pin_radial,
   pin_tangential,
 };
-inline constexpr std::size_t kCsvQuantities = 14;
-inline constexpr std::size_t kQuantities = 19;
-
-template <class Real>
-using QuantityValues = std::array<Real, kQuantities>;
 
 [[nodiscard]] constexpr std::size_t index_of(Quantity quantity) noexcept { return static_cast<std::size_t>(quantity); }
+inline constexpr std::size_t kCsvQuantities = index_of(Quantity::rod_angle);
 
 /// How a quantity is written: value in SI times `per_si`, in a unit that stands in CSV names as `suffix`.
 template <class Quantity>
@@ -59,7 +57,7 @@ struct KindOf {
 };
 using QuantityKind = KindOf<Quantity>;
 
-inline constexpr QuantityKind kQuantityKinds[kQuantities] = {
+inline constexpr QuantityKind kQuantityKinds[] = {
     {Quantity::pressure, "pressure", "kPa", "kPa", 1e-3},
     {Quantity::displacement, "displacement", "mm", "mm", 1e3},
     {Quantity::velocity, "velocity", "m_s", "m/s", 1},
@@ -80,6 +78,20 @@ inline constexpr QuantityKind kQuantityKinds[kQuantities] = {
     {Quantity::pin_radial, "pin_radial", "N", "N", 1},
     {Quantity::pin_tangential, "pin_tangential", "N", "N", 1},
 };
+inline constexpr std::size_t kQuantities = std::size(kQuantityKinds);
+
+template <class Kinds>
+[[nodiscard]] constexpr bool in_order(const Kinds& kinds) noexcept {
+  std::size_t i = 0;
+  for (const auto& kind : kinds) {
+    if (index_of(kind.quantity) != i++) return false;
+  }
+  return true;
+}
+static_assert(in_order(kQuantityKinds), "each Quantity has its row, in the order of the enumeration");
+
+template <class Real>
+using QuantityValues = std::array<Real, kQuantities>;
 
 /// In SI, in the order of Quantity. Crank pin values are those of the whole pin, with all its rods.
 template <class Real, class S>
@@ -88,25 +100,29 @@ template <class Real, class S>
   const std::size_t k = cylinder;
   const std::size_t pin = layout.pin[k];
   const CylinderForces<Real>& f = out.cylinder[k];
-  return {f.pressure_Pa,
-          out.displacement_m[k],
-          out.velocity_m_s[k],
-          out.acceleration_m_s2[k],
-          f.gas_force_N,
-          f.inertia_force_N,
-          f.total_force_N,
-          f.side_force_N,
-          f.rod_force_N,
-          f.radial_force_N,
-          f.tangential_force_N,
-          f.torque_Nm,
-          f.tilting_moment_Nm,
-          out.pin_load_N[pin],
-          out.rod_angle_rad[k],
-          out.rod_speed_rad_s[k],
-          out.rod_acceleration_rad_s2[k],
-          out.pin_radial_N[pin],
-          out.pin_tangential_N[pin]};
+  const Real values[] = {f.pressure_Pa,
+                         out.displacement_m[k],
+                         out.velocity_m_s[k],
+                         out.acceleration_m_s2[k],
+                         f.gas_force_N,
+                         f.inertia_force_N,
+                         f.total_force_N,
+                         f.side_force_N,
+                         f.rod_force_N,
+                         f.radial_force_N,
+                         f.tangential_force_N,
+                         f.torque_Nm,
+                         f.tilting_moment_Nm,
+                         out.pin_load_N[pin],
+                         out.rod_angle_rad[k],
+                         out.rod_speed_rad_s[k],
+                         out.rod_acceleration_rad_s2[k],
+                         out.pin_radial_N[pin],
+                         out.pin_tangential_N[pin]};
+  static_assert(std::size(values) == kQuantities, "each Quantity has its value, in the order of the enumeration");
+  QuantityValues<Real> all;
+  std::copy(std::begin(values), std::end(values), all.begin());
+  return all;
 }
 
 }  // namespace crankloop::program
