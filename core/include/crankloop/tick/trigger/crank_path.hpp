@@ -9,7 +9,7 @@
 
 namespace crankloop::detail {
 
-/// With s = 0 at the tick's begin and 1 at its end,
+/// With s = 0 at the tick's start and 1 at its end,
 ///
 ///     angle(s) = begin + turned s + bend s (s - 1)
 ///
