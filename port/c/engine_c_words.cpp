@@ -1,6 +1,6 @@
 // Refusals of the C interface in words.
 //
-// A source of its own in the host's library and in every scene's that has a C interface: each archive holds it as a
+// A separate source in the host's library and in every scene's that has a C interface: each archive holds it as a
 // member of its own, of which a program links one, and none where it prints no refusal.
 #include <crankloop/crankloop.h>
 

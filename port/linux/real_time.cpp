@@ -34,7 +34,7 @@ RealTime::RealTime(const RealTimeWish& wish) noexcept : before_{::sched_getsched
   if (wish.cpu >= 0) cpu_error_ = run_only_on(wish.cpu);
   touch_stack();
   if (::mlockall(MCL_CURRENT) != 0) memory_error_ = errno;
-  // Under the usual scheduler Linux may wake a sleeper 50 us late to save power, unless told otherwise; under
+  // Under the usual scheduler Linux may wake a sleeper 50 us late to save power, by default; under
   // SCHED_FIFO it does not.
   ::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
   if (wish.priority > 0) {

@@ -1,4 +1,4 @@
-// What a process asks of Linux so that it is woken in time: priority, memory that stays, a processor of its own.
+// What a process requests from Linux so that it wakes in time: priority, memory that stays, a processor of its own.
 //
 // What belongs here: asking, and telling what was refused. What does not: the loop (periodic.hpp).
 #pragma once

@@ -15,7 +15,7 @@ namespace crankloop::port {
 /// The writer makes the sequence number odd, writes the words, and makes it even again, two more than before. Who reads
 /// the same even number before and after the words has words of one write; otherwise they are torn and thrown away.
 ///
-/// Every word is an atomic of its own, so a torn read is no data race. A word is stored with release and loaded with
+/// Every word is a separate atomic, so a torn read is no data race. A word is stored with release and loaded with
 /// acquire: whoever loads a word of a write also sees the odd number stored before it, and so never accepts it as a
 /// part of the write before. The same is often written with fences, which the thread sanitizer does not understand; on
 /// x86 both are plain moves.

@@ -126,7 +126,7 @@ int create_file(const std::string& path) {
     return create_file(path);
   }
   if (file.descriptor() < 0) refuse(path, "cannot be created", errno);
-  // Locked until this process ends, however it does: that tells a running block from a left-over one. In the moment
+  // Locked until this process ends, however it does: that distinguishes a running block from a stale one. In the moment
   // before, another process may have taken it for one that its maker died over.
   const bool taken = ::flock(file.descriptor(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   if (taken || !is_at(file.descriptor(), path)) return create_file(path);

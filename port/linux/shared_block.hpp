@@ -22,11 +22,11 @@ struct LiveInputs {
   double external_torque_Nm = 0;    ///< brake torque on the crankshaft, positive against forward rotation
   std::uint32_t starter = 0;        ///< not 0: engaged
   std::uint32_t cut_cylinders = 0;  ///< bit k: cylinder k, counted from 0, does not fire
-  // of an engine that breathes
+  // of an engine with gas exchange
   double throttle_ratio = 0;    ///< 0 = closed, 1 = wide open
   double fuel_kg = 0;           ///< per cylinder and cycle
   double burn_start_deg = 0;    ///< after firing top dead centre
-  double excess_air_ratio = 0;  ///< lambda; above 0, the air in each cylinder says how much fuel, and not fuel_kg
+  double excess_air_ratio = 0;  ///< lambda; above 0, the air in each cylinder sets the fuel, not fuel_kg
 };
 
 /// Bits of LiveOutputs::flags.
@@ -52,7 +52,7 @@ struct LiveOutputs {
   std::uint32_t torn_inputs = 0;       ///< ticks that found inputs half written and used the last whole ones
   std::uint64_t late_ticks = 0;        ///< ticks that began a whole tick or more after their time
   std::uint64_t missed_deadlines = 0;  ///< ticks that were not done when the next one was due
-  double intake_Pa = 0;                ///< in the manifold of an engine that breathes
+  double intake_Pa = 0;                ///< in the manifold of an engine with gas exchange
   double trapped_air_kg = 0;           ///< of its cylinders' last whole cycles, mean
 };
 
@@ -126,7 +126,7 @@ class SharedBlock {
   SharedBlock(const SharedBlock&) = delete;
   SharedBlock& operator=(const SharedBlock&) = delete;
 
-  /// The creator says that it has ended, and removes the file.
+  /// The creator reports that it has ended, and removes the file.
   ~SharedBlock();
 
   /// Whether nobody has overwritten the block, by its first word: a load. False too of one truncated to nothing.

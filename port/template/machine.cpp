@@ -1,4 +1,4 @@
-// What the images ask of the machine: port/common/machine.hpp says what each function promises.
+// What the images need from the machine: port/common/machine.hpp states what each function does.
 #include "port/common/machine.hpp"
 
 extern "C" std::uint32_t crankloop_stack_low[];

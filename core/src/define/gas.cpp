@@ -78,7 +78,7 @@ Status validate(const Gas& gas, int trains) noexcept {
   if (mixture_J_kg > kMaxMixtureHeat_J_kg) return refuse("gas.air_fuel_ratio", Reason::too_much_heat);
   if (gas.burn_start_deg + gas.burn_duration_deg * gas.span_ratio() > kLatestBurn_deg)
     return refuse("gas.burn_duration_deg", Reason::inconsistent);
-  if (trains < 1) return refuse("train_count", Reason::inconsistent);  // gas that no valve lets in
+  if (trains < 1) return refuse("train_count", Reason::inconsistent);  // no valve admits gas
   for (int t = 0; t < trains; ++t) {
     if (const Status refused = validate_port(gas.ports[t], t); !refused.ok()) return refused;
   }

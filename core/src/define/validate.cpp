@@ -91,7 +91,7 @@ Status set_firing_order(const int* order, int cylinders, Layout& layout) noexcep
 }
 
 void share_pins_by_position(Layout& layout) noexcept {
-  if (layout.cylinders < 1 || layout.cylinders > kMaxCylinders) return;  // validate() says so
+  if (layout.cylinders < 1 || layout.cylinders > kMaxCylinders) return;  // validate() refuses it
   const auto n = static_cast<std::size_t>(layout.cylinders);
   // The pin of a cylinder is named by its first sharer, then pins are numbered by position.
   std::array<std::size_t, kMaxCylinders> leader{};

@@ -1,6 +1,6 @@
 // How the elementary functions are made.
 //
-// Speed hardly counts here (set-up time; the last two are for what is asked millions of times); sameness and brevity
+// Speed hardly counts here (set-up time; the last two are for what is called millions of times); sameness and brevity
 // do. So there are only five series: sine and cosine, atan, exp, and atanh for log. Each is a plain Taylor polynomial,
 // whose coefficients are visibly right and whose first dropped term is stated. What rounding would take away where it
 // shows in the result is carried in a second double: hence little over 0.5 ulp.
@@ -193,7 +193,7 @@ double exponential(Pair x) {
 Pair logarithm(double x) {
   CRANKLOOP_ASSERT(x > 0 && x < kInfinity);
   int exponent = 0;
-  if (x < 0x1p-1022) {  // subnormal: its exponent bits say nothing
+  if (x < 0x1p-1022) {  // subnormal: its exponent bits are zero
     x *= 0x1p+54;
     exponent = -54;
   }

@@ -104,7 +104,7 @@ template <class Real, class Quantity>
   return result;
 }
 
-/// What a quantity is along one degree, each place asked once: all divisions are judged by the same samples.
+/// What a quantity is along one degree, each place computed once: all divisions are judged by the same samples.
 template <class Real, class Quantity>
 class Samples {
  public:
@@ -163,7 +163,7 @@ struct Chosen {
 };
 
 /// Divides each degree into the fewest segments that keep the parts from `first` on within the tolerance; the tolerance
-/// is doubled until they all fit. A larger tolerance asks for no finer division, so each is judged at most once; and a
+/// is doubled until they all fit. A larger tolerance needs no finer division, so each is judged at most once; and a
 /// quantity that repeats within the cycle has the same errors in each of its periods.
 template <class Real, class Quantity>
 [[nodiscard]] Chosen choose_grid(GasGrid& grid, const Quantity& quantity, Part first, int capacity,

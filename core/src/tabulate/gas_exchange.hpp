@@ -9,7 +9,7 @@ namespace crankloop::detail {
 /// in one. `engine` is valid else.
 Status validate_manifolds(const EngineDefinition& engine, double tick_s) noexcept;
 
-/// Fills cylinders, ports, manifolds and burn of an engine that breathes; of another, zeros. `engine` is valid.
+/// Fills cylinders, ports, manifolds and burn of an engine with gas exchange; of another, zeros. `engine` is valid.
 template <class Real>
 void fill_gas_exchange(const EngineDefinition& engine, double tick_s, const TableTargets<Real>& targets) noexcept;
 

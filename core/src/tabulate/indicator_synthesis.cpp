@@ -46,7 +46,7 @@ Status IndicatorDiagram::init_wiebe() noexcept {
     fired_ = heat_J_ > 0 ? 1 : 0;
     return {};
   }
-  // The loop integral is linear in the heat: two of them tell what heat gives the mean effective pressure.
+  // The loop integral is linear in the heat: two of them give the heat for the mean effective pressure.
   const auto loop_J = [this](const auto& pressure_Pa) {
     return detail::integrate(
         0, 720, 7200, [&](double deg) { return pressure_Pa(deg) * area_m2_ * slope_m(deg) * detail::kRadPerDegree; });
@@ -57,7 +57,7 @@ Status IndicatorDiagram::init_wiebe() noexcept {
   heat_J_ = (asked_J - polytropes_J) / loop_J([this](double deg) { return released_Pa(deg); });
   fired_ = 1;
   if (heat_J_ >= 0) return {};
-  // The polytropes alone do more: what is asked for lies between them and the motored diagram.
+  // The polytropes alone do more: the requested value lies between them and the motored diagram.
   const double motored_J = loop_J([this](double deg) { return unfired_Pa(motored_, deg); });
   heat_J_ = 0;
   fired_ = (asked_J - motored_J) / (polytropes_J - motored_J);

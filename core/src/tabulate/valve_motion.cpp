@@ -35,7 +35,7 @@ namespace {
 }
 
 /// Fastest rate times fine step: up to here a quintic through the ends of a step knows where in it a contact changes,
-/// to 0.1 um in sixth order. Finer classes take steps of fourth root, as the error of Runge-Kutta's method asks for
+/// to 0.1 um in sixth order. Finer classes take steps of fourth root, as the error of Runge-Kutta's method requires
 /// too.
 [[nodiscard]] double fine_step_rate(double accuracy_m) noexcept {
   const double ratio = square_root(square_root(accuracy_m / 0.1e-6));
@@ -44,7 +44,7 @@ namespace {
 /// The same of a step of Runge-Kutta's method: at 0.1 its own error, 0.1^4 / 120 of a swing for each radian, is far
 /// below the class.
 constexpr double kRungeKuttaRate = 0.1;
-/// Rate of the open valve times tick: beyond it the cubic between a tick's ends says too little about the motion
+/// Rate of the open valve times tick: beyond it the cubic between a tick's ends is too coarse for the motion
 /// between.
 constexpr double kWholeStepRate = 1.5;
 /// Rate times part of an exact step: its series ends with 0.5^21 / 21!.
@@ -295,7 +295,7 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
   motion.fine[kQuiet] = motion.fine[kSeatOn];
   for (std::uint32_t regime = 0; regime < 4; ++regime) {
     motion.whole[regime] = parts == 1 ? motion.fine[regime] : regime_step(regime, tick_s);
-    // On a seat whose vibration is faster than a tick nothing can be told of the way, nor on a train whose is.
+    // On a seat whose vibration is faster than a tick nothing is known of the path, nor on a train whose is.
     const bool may_pass = !seat_is_on(regime) && (regime == 0 || tick_s * open_rate_per_s(body) <= kWholeStepRate);
     if (parts > 1 && !may_pass) motion.whole[regime].seat.least_m = kNever_m;
   }

@@ -1,5 +1,5 @@
 // A controller for `crankloop live`: starts the engine and holds its idle speed, by the load ratio alone; by the
-// throttle where the engine breathes. An example to begin from.
+// throttle, with gas exchange. An example to start from.
 //
 //   crankloop live diesel_495.ini --shared /dev/shm/engine --seconds 12 &
 //   idle_control /dev/shm/engine --seconds 10
@@ -7,7 +7,7 @@
 //   crankloop live four_2000.ini --shared /dev/shm/engine --seconds 12 &
 //   idle_control /dev/shm/engine --seconds 10 --target-rpm 1200
 //
-//   --target-rpm N   idle speed, 800 unless told      --seconds S   how long, 10 unless told
+//   --target-rpm N   idle speed, default 800          --seconds S   how long, default 10
 //
 // Prints how well the speed was held in the second half of its time. docs/live.md walks through it.
 #include <algorithm>

@@ -12,7 +12,7 @@ namespace crankloop::program {
 /// Tells them on stderr and returns them, for a report; with --no-warnings there are none.
 std::vector<std::string> tell_warnings(const Arguments& arguments, std::vector<std::string> warnings);
 
-/// The engine of a command's file, its warnings told, and kept where asked for; else as read_engine_file().
+/// The engine of a command's file, its warnings printed, and kept on request; else as read_engine_file().
 [[nodiscard]] EngineFile read_engine(const Arguments& arguments, const std::vector<std::string>& needed_sections,
                                      std::vector<std::string>* warnings = nullptr);
 

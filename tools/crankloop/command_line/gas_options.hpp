@@ -1,4 +1,4 @@
-// What an engine that breathes is told on the command line: throttle, fuel, spark.
+// The inputs of an engine with gas exchange on the command line: throttle, fuel, spark.
 #pragma once
 
 #include <string>
@@ -22,16 +22,16 @@ inline constexpr Option kLambda =
 inline constexpr Option kBurnStart =
     number("--burn-start-deg", "A", from(-90).up_to(60), "start of the burn, firing TDC = 0; default the file's");
 
-/// The file's, with the lambda and the burn that the command line says; throws UsageError where it says the fuel too.
+/// The file's, with the lambda and the burn of the command line; throws UsageError where that has the fuel too.
 [[nodiscard]] GasOrder lambda_and_spark(const Arguments& arguments, const EngineFile& engine);
 
 /// As many milligrams of fuel, whatever the air.
 void set_fuel_mg(GasOrder& order, double fuel_mg);
 
-/// The file's, with the fuel and burn that the command line says.
+/// The file's, with the fuel and burn of the command line.
 [[nodiscard]] GasOrder fuel_and_spark(const Arguments& arguments, const EngineFile& engine);
 
-/// The same, with the throttle. Throws UsageError for such options where the engine does not breathe,
+/// The same, with the throttle. Throws UsageError for such options where the engine has no gas exchange,
 /// and for --load-ratio where it does.
 [[nodiscard]] GasOrder gas_order(const Arguments& arguments, const EngineFile& engine, double throttle_unless_told);
 

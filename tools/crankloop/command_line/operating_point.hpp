@@ -1,4 +1,4 @@
-// Options that say where an engine is looked at: speed, load, tick, valve train. Those that the file or custom answers
+// Options for the operating point of an engine: speed, load, tick, valve train. Those that the file or custom answers
 // may be left out.
 #pragma once
 

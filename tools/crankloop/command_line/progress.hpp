@@ -1,7 +1,7 @@
-// A line that tells how far a long command is.
+// A line that shows the progress of a long command.
 //
 // What belongs here: when and where it is shown. On a terminal: on stderr once a second has passed, over and over in
-// one line, erased at the end. Where stderr is none, as in a log: a line every ten seconds, if the command asks for it.
+// one line, erased at the end. Where stderr is none, as in a log: a line every ten seconds, if the command requests it.
 // What does not: what the command does.
 #pragma once
 

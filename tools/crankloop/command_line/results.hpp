@@ -13,7 +13,7 @@
 
 namespace crankloop::program {
 
-/// Opened before anything is computed: a place that cannot be written to is told at once, not after minutes.
+/// Opened before anything is computed: a place that cannot be written to is reported at once, not after minutes.
 ///
 ///     Results results(arguments, {"--csv", "--report"});
 ///     if (Output* csv = results["--csv"]) write(*csv);
@@ -22,10 +22,10 @@ class Results {
  public:
   Results(const Arguments& arguments, std::initializer_list<const char*> options);
 
-  /// Null where the user did not ask for it.
+  /// Null where the user did not request it.
   [[nodiscard]] Output* operator[](const std::string& option);
 
-  /// All files appear, and the summary is told: on standard output, or on stderr where a file has taken that.
+  /// All files appear, and the summary is printed: on standard output, or on stderr where a file has taken that.
   void finish(const std::string& summary);
 
  private:

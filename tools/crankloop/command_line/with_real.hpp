@@ -1,4 +1,4 @@
-// The arithmetic of the tick, as --real says it.
+// The arithmetic of the tick, as given by --real.
 #pragma once
 
 #include <string>

@@ -82,7 +82,7 @@ BearingRanges bearings_by_angle(const EngineDefinition& definition, double speed
   return r;
 }
 
-/// Of an engine that breathes, from a cycle that it ran.
+/// Of an engine with gas exchange, from a cycle that it ran.
 BearingRanges bearings_of_trace(const Trace& trace) {
   BearingRanges r;
   const auto take = [](Range& range, const std::vector<double>& values) {

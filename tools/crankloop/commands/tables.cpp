@@ -129,7 +129,7 @@ bool print_section(Printer& p, const Stores<Real>& s, const TableReport& report,
   constexpr bool kOfGas =
       std::is_same_v<Section, detail::section::gas_cylinders> || std::is_same_v<Section, detail::section::gas_ports> ||
       std::is_same_v<Section, detail::section::gas_manifolds> || std::is_same_v<Section, detail::section::burn>;
-  if (kOfGas && !(s.gas_cylinders.clearance_m3 > 0)) return false;  // an engine that does not breathe
+  if (kOfGas && !(s.gas_cylinders.clearance_m3 > 0)) return false;  // an engine without gas exchange
   const std::string name = Section::kName;
   const std::string object = "\nconstexpr crankloop::detail::section::" + name + "::Record<" + real + "> " + name;
   if (std::is_same_v<Section, detail::section::triggers> && s.triggers.count == 0) {

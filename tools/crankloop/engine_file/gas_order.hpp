@@ -1,4 +1,4 @@
-// What an engine that breathes is told, the same for all its cylinders: throttle, fuel, spark.
+// The inputs of an engine with gas exchange, the same for all its cylinders: throttle, fuel, spark.
 //
 // What belongs here: the order, its way into a step's input. What does not: its options (command_line/gas_options.hpp),
 // what becomes of it (loops/, commands/).
@@ -13,7 +13,7 @@ namespace crankloop::program {
 struct GasOrder {
   double throttle_ratio = 1;
   double fuel_kg = 0;           ///< per cylinder and cycle
-  double excess_air_ratio = 0;  ///< lambda; above 0, it says how much fuel
+  double excess_air_ratio = 0;  ///< lambda; above 0, it sets the fuel
   double burn_start_deg = 0;
   double burn_duration_deg = 0;
 };

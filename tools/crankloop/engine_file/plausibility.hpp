@@ -1,4 +1,4 @@
-// What an engine file may say and hardly means: warnings, after which the command goes on.
+// Allowed but unlikely values in an engine file: warnings, after which the command continues.
 //
 // What belongs here: bounds of the usual. What does not: bounds of the possible (validate(), engine_file_keys.cpp).
 #pragma once
@@ -17,7 +17,7 @@ namespace crankloop::program {
 [[nodiscard]] std::vector<std::string> warnings_about_running_free(const EngineFile& engine,
                                                                    const EngineDefinition& definition);
 
-/// Refuses an engine that breathes: what this command shows of the gas comes from a diagram.
+/// Refuses an engine with gas exchange: what this command shows of the gas comes from a diagram.
 void demand_a_diagram(const EngineFile& engine);
 
 }  // namespace crankloop::program

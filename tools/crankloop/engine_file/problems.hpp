@@ -1,4 +1,4 @@
-// Errors of an engine file that do not follow from one another, told together.
+// Independent errors of an engine file, reported together.
 //
 //     Problems problems;
 //     for (const Line& line : lines) problems.of([&] { read(line); });

@@ -1,4 +1,4 @@
-// Section of the engine report: gas exchange of an engine that breathes.
+// Section of the engine report: gas exchange.
 #include <algorithm>
 
 #include "engine_report_parts.hpp"

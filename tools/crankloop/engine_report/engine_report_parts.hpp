@@ -16,7 +16,7 @@ namespace crankloop::program {
 // The sections, in the order of the page. Those that need gas pressure are left out where there is none.
 [[nodiscard]] report::Section torque_section(const ReportInput& input);
 [[nodiscard]] report::Section pressure_section(const ReportInput& input);
-[[nodiscard]] report::Section gas_section(const ReportInput& input);  ///< of an engine that breathes
+[[nodiscard]] report::Section gas_section(const ReportInput& input);  ///< of an engine with gas exchange
 [[nodiscard]] report::Section motion_section(const ReportInput& input);
 [[nodiscard]] report::Section force_section(const ReportInput& input);
 [[nodiscard]] report::Section force_per_area_section(const ReportInput& input);

@@ -59,7 +59,7 @@ struct ParsedNumber {
 /// 0.1e-6, where 0.1 / 1e6 and 0.1 * 1e-6 may be the one beside it. From 1e-4 to 1e9; outside rounded twice.
 [[nodiscard]] double millionths(double value);
 
-/// 6 significant digits: for messages that tell a computed number.
+/// 6 significant digits: for messages with a computed number.
 [[nodiscard]] std::string brief(double value);
 
 /// 12 significant digits for double and 9 for float: what CSV files hold.

@@ -1,4 +1,4 @@
-// The gas of an engine that breathes, as `run` shows it: the quantities of a cylinder, what a cycle came to.
+// The gas of an engine with gas exchange, as `run` shows it: the quantities of a cylinder, a cycle's results.
 //
 // What belongs here: the list, once, for CSV columns and plots; figures over all cylinders. What does not: what is done
 // with them.
@@ -110,18 +110,18 @@ struct GasFigures {
   double exhaust_manifold_K = 0;
 };
 
-/// The line of a summary that tells how much fuel was asked for: fuel, or lambda.
+/// The line of a summary with the requested fuel: fuel, or lambda.
 void add_fuel(Summary& s, const GasOrder& order);
-/// The lines that tell what the engine was told: throttle, fuel or lambda, burn_start.
+/// The lines that show the engine's inputs: throttle, fuel or lambda, burn_start.
 void add_order(Summary& s, const GasOrder& order);
 
-/// The lines that tell of the gas, from pumping_mep to wall_heat.
+/// The lines about the gas, from pumping_mep to wall_heat.
 void add_gas(Summary& s, const GasCycle<double>& cycle);
 
-/// Refuses an engine that breathes whose manifolds are too small for a tick.
+/// Refuses an engine with gas exchange whose manifolds are too small for a tick.
 void require_manifolds(const EngineFile& engine, double tick_s);
 
-/// What is to be said of a tick that turns the crank of an engine that breathes too far: nothing, or a line.
+/// The warning about a tick that turns the crank of an engine with gas exchange too far: nothing, or a line.
 [[nodiscard]] std::vector<std::string> warnings_about_gas(const EngineFile& engine, double speed_rpm, double tick_s);
 
 /// Cycles that an engine runs before it is recorded: the gas in its manifolds has been changed many times over. One for

@@ -1,4 +1,4 @@
-// What no run may ask for: more than a revolution per tick, more ticks than anyone waits for.
+// What no run may request: more than a revolution per tick, too many ticks to wait for.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@ namespace crankloop::program {
 /// Most ticks of a run: some minutes for four cylinders.
 inline constexpr double kMaxTicks = 1e9;
 
-/// Throws UsageError for more ticks than that; `remedy` says what else would help: "fewer --cycles".
+/// Throws UsageError for more ticks than that; `remedy` states what else would help: "fewer --cycles".
 void require_ticks(double ticks, double tick_s, const std::string& remedy);
 
 /// Throws UsageError for a speed, in either sense, beyond the limit of the tables that were made for this tick.

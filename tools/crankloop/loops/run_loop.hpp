@@ -54,7 +54,7 @@ class FixedStepLoop {
   [[nodiscard]] double deg_per_tick() const noexcept { return deg_per_tick_; }
   [[nodiscard]] double ticks_per_cycle() const noexcept { return 720 / deg_per_tick_; }
   [[nodiscard]] std::uint64_t settling_ticks() const noexcept { return settling_ticks_; }
-  /// Of an engine that breathes: by how much its net mean pressure still moved in the last of them.
+  /// Of an engine with gas exchange: by how much its net mean pressure still moved in the last of them.
   [[nodiscard]] double unsettled_Pa() const noexcept { return unsettled_Pa_; }
   [[nodiscard]] const TableReport& tables() const noexcept { return report_; }
 
@@ -115,7 +115,7 @@ struct RunFigures {
   std::array<Peaks, kQuantities> of;  ///< over all cylinders; where: the cylinder's own crank angle
   Peaks journal_load;                 ///< over all main journals; where: engine angle
   std::vector<ValveFigures> valves;   ///< per valve train
-  GasFigures gas;                     ///< of an engine that breathes
+  GasFigures gas;                     ///< of an engine with gas exchange
   std::uint64_t faulty_ticks = 0;
   std::uint32_t faults = 0;  ///< all fault bits that occurred
   TableReport tables;

@@ -31,7 +31,7 @@ struct ValveTrace {
   }
 };
 
-/// The gas of cylinder 1 and of the manifolds; empty vectors where the engine does not breathe.
+/// The gas of cylinder 1 and of the manifolds; empty vectors where the engine has no gas exchange.
 struct GasTrace {
   std::array<std::vector<double>, kGasQuantities> of;
   std::array<std::vector<double>, kPorts> manifold_Pa;
@@ -61,7 +61,7 @@ struct Trace {
   FreeForceTrace second;
   FreeForceTrace rotating;
   std::vector<ValveTrace> valves;  ///< per valve train
-  GasTrace gas;                    ///< of an engine that breathes
+  GasTrace gas;                    ///< of an engine with gas exchange
 
   [[nodiscard]] const std::vector<double>& operator[](Quantity quantity) const noexcept {
     return of[index_of(quantity)];

@@ -1,4 +1,4 @@
-// The tick asked at one angle: what the fixed-step loop gives there, without running a loop.
+// The tick evaluated at one angle: what the fixed-step loop gives there, without running a loop.
 #pragma once
 
 #include <memory>

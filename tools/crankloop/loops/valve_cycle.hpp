@@ -28,7 +28,7 @@ template <class Real>
           c.off_seat_at_end};
 }
 
-/// Whether the valve opened after its cam said so. One that was up already has no delay, and ValveCycle's is 0.
+/// Whether the valve opened after its cam did. One that was up already has no delay, and ValveCycle's is 0.
 template <class Real>
 [[nodiscard]] bool has_opening_delay(const ValveCycle<Real>& c) noexcept {
   return c.opening_delay_deg > 0;

@@ -65,7 +65,7 @@ LoneValve::LoneValve(const EngineFile& file, const std::string& name) : file_{fi
   }
   if (file.has("crank")) {
     definition_.crank = file.definition().crank;
-    // Of an engine that breathes, one valve alone does not know the gas.
+    // Of an engine with gas exchange, one valve alone does not know the gas.
     if (train_.definition.valve.head_area_m2 > 0 && !breathes(file.definition()))
       definition_.pressure = file.definition().pressure;
   } else {

@@ -68,7 +68,7 @@ struct ValveTickOutput {
   ValveForcesOutput<Real> forces;
 };
 
-/// The loop of one train. Copying it copies where the valve is: both go on by themselves.
+/// The loop of one train. Copying it copies the valve's position: both then run independently.
 template <class Real>
 class ValveLoop {
  public:

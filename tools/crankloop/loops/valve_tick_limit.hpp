@@ -1,4 +1,4 @@
-// What a user is told whose tick is too long for a valve train.
+// The message to a user whose tick is too long for a valve train.
 //
 // What belongs here: the message with the longest tick possible. What does not: the rule
 // (crankloop/tabulate/valve_motion.hpp).
@@ -22,7 +22,7 @@ namespace crankloop::program {
 [[nodiscard]] InputError explain_tabulate(const EngineFile& file, const Status& refused, double tick_s,
                                           const ValveStepping& stepping = {});
 
-/// Throws what explain_tabulate() says where a train of the file does not go with a tick, or its geometry does not
+/// Throws explain_tabulate()'s message where a train of the file does not go with a tick, or its geometry does not
 /// close.
 void require_trains(const EngineFile& file, double tick_s, const ValveStepping& stepping = {});
 

@@ -39,7 +39,7 @@ enum class Verdict { refused, ran, wrongly_refused, diverged, inaccurate };
 struct TrialResult {
   Verdict verdict = Verdict::ran;
   Status refusal{};
-  std::string trouble;  ///< what went wrong, empty where nothing did
+  std::string trouble;  ///< what failed; empty where nothing did
   int ticks = 0;
   bool all_cycles = false;   ///< reached kStressCycles
   bool over_budget = false;  ///< more contact changes in a tick than are located

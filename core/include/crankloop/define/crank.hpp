@@ -9,7 +9,7 @@
 
 namespace crankloop {
 
-/// Slider-crank of one cylinder; all cylinders of an engine are alike.
+/// Slider-crank of one cylinder; all cylinders of an engine are the same.
 ///
 ///              |  head                  a: crank angle, 0 with the throw parallel to the cylinder axis to the head
 ///         _____|_____                   b: rod angle from the cylinder axis

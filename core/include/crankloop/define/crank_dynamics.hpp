@@ -1,8 +1,8 @@
 // What acts on the crankshaft besides gas and masses: friction, the driven machine, the starter.
 //
-// What belongs here: what a scene that integrates the speed (CrankGiven::torque) needs to know beyond the engine
+// What belongs here: what a scene that integrates the speed (CrankGiven::torque) needs beyond the engine
 // itself. What does not: what changes from tick to tick (Input::external_torque_Nm, Input::starter). Equations:
-// docs/model.md "Crank dynamics". All zero: there is none of it.
+// docs/model.md "Crank dynamics". All zero: none.
 #pragma once
 
 #include <crankloop/define/field.hpp>
@@ -11,8 +11,8 @@
 namespace crankloop {
 
 /// Friction of the engine as a mean effective pressure over the crank speed w: constant + linear |w| + quadratic w^2.
-/// As a torque it is that pressure times the swept volume of all cylinders / (4 pi). It opposes the rotation whatever
-/// its sense, and holds at standstill.
+/// As a torque it is that pressure times the swept volume of all cylinders / (4 pi). It opposes the rotation in either
+/// direction, and holds at standstill.
 struct Friction {
   double constant_Pa = 0;      ///< 0 to 1e7
   double linear_Pa_s = 0;      ///< per rad/s; 0 to 1e6

@@ -1,6 +1,6 @@
-// The gas of an engine that breathes through its valves: manifolds, ports, walls, combustion.
+// The gas of an engine with gas exchange through its valves: manifolds, ports, walls, combustion.
 //
-// What belongs here: what a scene with PressureGiven::by_gas needs to know beyond the engine itself. What does not:
+// What belongs here: what a scene with PressureGiven::by_gas needs beyond the engine itself. What does not:
 // what changes from tick to tick (throttle, fuel, spark: input.hpp). Equations: docs/model.md "Gas".
 #pragma once
 
@@ -16,9 +16,9 @@ enum class GasPort : std::uint8_t { none, intake, exhaust };
 
 inline constexpr int kMaxFlowPoints = 16;
 
-/// What a valve train opens. All valves of it are alike (Valve::per_cylinder).
+/// What a valve train opens. All its valves are the same (Valve::per_cylinder).
 struct PortOfTrain {
-  GasPort port = GasPort::none;  ///< a train of an engine that breathes needs one
+  GasPort port = GasPort::none;  ///< a train of an engine with gas exchange needs one
   double seat_diameter_m = 0;    ///< D, inner; > 0, at most 1
   /// Flow coefficient times geometric area over pi/4 D^2, by the lift over D: discharge, curtain and port in one
   /// measured curve. Straight lines between, from 0 at 0; beyond the last the last. Lift ratios rising, 0 to 0.5; flow

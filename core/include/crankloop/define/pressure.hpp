@@ -22,7 +22,7 @@ enum class PressureSource : std::uint8_t {
                  ///< PressureGiven::by_gas
 };
 
-/// How far from 0 an angle table may lie: there a double still tells angles 1e-10 deg apart, beyond 1e9 deg no longer
+/// How far from 0 an angle table may lie: there a double resolves 1e-10 deg, beyond 1e9 deg not even
 /// 1e-7.
 inline constexpr double kMaxDiagramAngle_deg = 1e6;
 

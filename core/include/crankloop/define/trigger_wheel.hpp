@@ -59,7 +59,7 @@ struct TriggerWheel {
                 ///< below 720, rising, within one turn of the shaft; the caller keeps them alive while tabulating
   int edge_count = 0;  ///< even, 2 to kMaxTriggerEdges
 
-  bool inverted = false;  ///< the signal is 0 where it says 1 above
+  bool inverted = false;  ///< the signal is 0 where the rules above give 1
 
   template <class Visit, class Self, class... Others>
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {

@@ -28,7 +28,7 @@ struct GasWalls {
   Real piston_m;  ///< mean piston speed per rad/s: stroke / pi
 };
 
-/// The cylinders, all alike. Zero in an engine that does not breathe.
+/// The cylinders, all the same. Zero in an engine without gas exchange.
 template <class Real>
 struct GasCylinders {
   GasWalls<Real> walls;

@@ -120,7 +120,7 @@ struct CamDegrees {
 };
 static_assert(kMaxCylinders <= 16);
 
-/// A tick that turns the cams by no more than this ends a valve's cycle only where CamDegrees say so.
+/// A tick that turns the cams by no more than this ends a valve's cycle only where CamDegrees mark it.
 inline constexpr int kCycleEndMargin_deg = 4;
 
 }  // namespace crankloop::detail

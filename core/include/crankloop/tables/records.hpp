@@ -38,7 +38,7 @@ struct Drive {
   std::uint32_t trains;  ///< valve trains of each cylinder
 };
 
-/// Lengths and masses of one cylinder as the force equations use them. All cylinders are alike.
+/// Lengths and masses of one cylinder as the force equations use them. All cylinders are the same.
 template <class Real>
 struct Body {
   Real crank_radius_m;
@@ -59,7 +59,7 @@ struct MotionSegment {
   Segment<Real> slope;                 ///< dx/da, m/rad
   Segment<Real> acceleration;          ///< d2x/da2, m/rad^2
 };
-/// How a rod leans on its piston and its crank pin.
+/// The rod's angle at its piston and its crank pin.
 template <class Real>
 struct LeanSegment {
   Segment<Real> tilt;    ///< tan b

@@ -1,4 +1,4 @@
-// Whether tables are those of an engine that a scene can step: asked by init() at run time, and of tables in flash by
+// Whether tables are those of an engine that a scene can step: checked by init() at run time, for tables in flash by
 // the compiler (port/cmake/scene.cpp.in).
 #pragma once
 

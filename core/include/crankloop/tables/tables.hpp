@@ -22,7 +22,7 @@ namespace crankloop::detail {
 enum class SectionRows : std::uint8_t { one, gas_grid, torque_grid, cut_grid, trains, lobes, wheels, edges };
 
 // The list of sections: all that knows of every section is made from it. To add one, add its line here, fill it in
-// tabulate and, where its record is new, say in tabulate/table_members.hpp how many members that has.
+// tabulate and, where its record is new, state in tabulate/table_members.hpp how many members it has.
 //
 // A line: name, record, how many of them, in which scenes S (N = Needs<S>). SECTION is read by the tick through Tables;
 // what is BEHIND the section after it is reached through pointers in that one's records. A macro, because nothing else
@@ -73,7 +73,7 @@ enum class SectionRows : std::uint8_t { one, gas_grid, torque_grid, cut_grid, tr
   SECTION(triggers, TriggerWheels, one, N::any_triggers)                                           \
   SECTION(drive, Drive<Real>, one, true)
 
-/// What the list says of each section, as a type of its name.
+/// What the list holds about each section, as a type of its name.
 namespace section {
 #define CRANKLOOP_SECTION(name, Type, rows, condition, read)                                         \
   struct name {                                                                                      \

@@ -34,7 +34,7 @@ struct LobeSpline {
   [[nodiscard]] double closes_rad() const noexcept { return first_rad + (end + 5) * knot_rad; }
 };
 
-/// What the rows of a table say of themselves: how far they scatter, and how closely a smooth lobe follows them.
+/// What the rows of a table show: how far they scatter, and how closely a smooth lobe follows them.
 struct CamRows {
   double scatter_m = 0;    ///< standard deviation of a row, by the median of what lies between each and its neighbours
   double unit_m = 0;       ///< 1, 2 or 5 times a power of ten of which all lifts are whole multiples; 0: of none
@@ -56,7 +56,7 @@ Status survey_rows(const Cam& cam, CamRows& rows) noexcept;
 class CamProfile {
  public:
   /// Refuses what validate() refuses, and a table that has no lobe ("cam.points", with the row) or cannot be smoothed
-  /// to the residual asked for ("cam.smoothing_m").
+  /// to the requested residual ("cam.smoothing_m").
   Status init(const Cam& cam) noexcept;
 
   /// At phi, 0 at full lift, not wrapped; all zero outside the lobe.

@@ -4,7 +4,7 @@
 // engines, or that a tick calls (a tick needs none of these).
 //
 // C libraries differ from machine to machine in the last bits of sin, cos, atan, exp, log and pow, and so would
-// tables made with them. These are + - * / and sqrt alone; all they ask for is -ffp-contract=off (a house flag).
+// tables made with them. These are + - * / and sqrt alone; all they need is -ffp-contract=off (a house flag).
 //
 //     function     accurate for                   ulp: stated, found   otherwise
 //     sin, cos     |angle| <= kLargestAngle_rad        0.58   0.566    beyond: as for angle 0; infinity, NaN: NaN
@@ -22,7 +22,7 @@
 // "stated".
 //
 // Signs are exact: f(-x) is -f(x) for the odd functions, zeros included. Every NaN returned is the same one. The
-// processor must round to nearest and keep subnormal numbers during set-up, as it does unless told otherwise. No
+// processor must round to nearest and keep subnormal numbers during set-up, as it does by default. No
 // state, no tables but four arctangents.
 #pragma once
 

@@ -122,12 +122,12 @@ class IndicatorDiagram {
   double burnt_[kBurnPanels + 1] =
       {};                 ///< Wiebe: integral of V^(n2 - 1) dx_b up to each panel of the cube root of the burn's part
   double first_deg_ = 0;  ///< table: angle of row 0
-  // Angles of a volume table's rows, unless it has too many: then each is worked out when it is asked for.
+  // Angles of a volume table's rows, unless it has too many: then each is computed when it is needed.
   static constexpr int kMaxKeptRows = 1536;
   bool rows_kept_ = false;
   double row_deg_[kMaxKeptRows] = {};
-  // The interval asked for last in each degree, modulo kIntervals, so that sweeps, also those of several cylinders in
-  // turn, do not look for the same rows again and again.
+  // The interval used last in each degree, modulo kIntervals, so that sweeps, also those of several cylinders in
+  // turn, do not search for the same rows repeatedly.
   static constexpr unsigned kIntervals = 64;
   mutable Interval intervals_[kIntervals] = {};
 };

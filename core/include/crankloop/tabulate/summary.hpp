@@ -29,7 +29,7 @@ struct PinLoad {
   double tangential_N;
 };
 
-/// A definition ready to be asked at any crank angle: the exact counterpart of the tick.
+/// A definition that can be evaluated at any crank angle: the exact counterpart of the tick.
 class ExactEngine {
  public:
   Status init(const EngineDefinition& engine) noexcept;

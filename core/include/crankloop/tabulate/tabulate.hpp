@@ -56,7 +56,7 @@ struct TableReport {
 ///
 /// Accuracy: docs/model.md "Tables". A grid divides a degree into 1, 2, 5, 10 or 20 segments, the fewest that keep the
 /// pressure within 1e-5 of its peak (the torque: of the peak pressure on the crank radius), or 20; where the capacity
-/// does not suffice the bound is doubled until it does. The report tells what is left. Float and double; O(segments),
+/// does not suffice the bound is doubled until it does. The report gives the error left. Float and double; O(segments),
 /// some 100 ms on a desktop.
 template <class Real>
 Status tabulate(const EngineDefinition& engine, const TickOptions& options, const TableTargets<Real>& targets,

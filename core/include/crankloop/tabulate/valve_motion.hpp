@@ -23,7 +23,7 @@ enum class Integrator : std::uint8_t {
 /// How finely a valve is stepped.
 struct ValveStepping {
   Integrator integrator = Integrator::rk4;
-  double accuracy_m = 0.1e-6;  ///< class of lift error asked for, 0.01e-6 to 10e-6: below 0.1e-6 all steps are finer,
+  double accuracy_m = 0.1e-6;  ///< class of lift error requested, 0.01e-6 to 10e-6: below 0.1e-6 all steps are finer,
                                ///< above nothing is gained
 };
 
@@ -49,7 +49,7 @@ inline constexpr int kMaxFineStepsOfEngine = 4096;
 /// Longest tick for which motion_of() answers, in s.
 [[nodiscard]] double longest_tick_s(const detail::ValveBody<double>& body, const ValveStepping& stepping) noexcept;
 
-/// Fine steps and records for a tick of one train by itself. Refuses a tick that needs more than kMaxFineSteps
+/// Fine steps and records for a tick of one train alone. Refuses a tick that needs more than kMaxFineSteps
 /// ("options.tick_s": see longest_tick_s), what validate() refuses of the stepping, and a mass beyond 1e9 kg, which a
 /// lever of nearly nothing makes ("valve.rocker_inertia_kg_m2"). O(fine steps).
 Status motion_of(const detail::ValveBody<double>& body, double tick_s, const ValveStepping& stepping,

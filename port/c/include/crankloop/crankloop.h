@@ -3,7 +3,7 @@
  *     definition  ->  tables  ->  engine: step, read
  *     (a struct)      (set-up)    (real time)
  *
- * This header has what all engines share: definitions, options, answers. An engine has a header of its own, made from
+ * This header has what all engines share: definitions, options, answers. Each engine has its own header, made from
  * the list of its inputs and outputs: crankloop_whole_f.h and crankloop_whole_d.h (crank speed given, all outputs,
  * float and double), crankloop_free_f.h and crankloop_free_d.h (crank turned by forces, with starter and trigger
  * wheels), each of 1 to 16 cylinders; and NAME.h of crankloop_add_scene(NAME ... WITH_C), smaller and faster.

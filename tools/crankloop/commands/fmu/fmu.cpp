@@ -93,7 +93,7 @@ class PackedSupply : public FileSupply<Real, Scene> {
   }
 };
 
-/// What the FMU tells of itself, worked out by the code that it runs.
+/// The FMU's description, computed by the code that it runs.
 template <class Real, class Scene>
 std::vector<ZipEntry> described(const Packed& packed, fmi::Version version, const fmi::Title& title) {
   using Supply = PackedSupply<Real, Scene>;

@@ -21,7 +21,7 @@ struct LiveRequest {
   std::uint64_t ticks = 0;
   double start_rad_s = 0;
   port::LiveInputs at_start;     ///< until a controller writes its own
-  double burn_duration_deg = 0;  ///< of an engine that breathes; no input
+  double burn_duration_deg = 0;  ///< of an engine with gas exchange; no input
   std::int64_t patience_ns = 0;  ///< a controller that does not write for so long has fallen silent
   port::RealTimeWish real_time;
 };
@@ -48,7 +48,7 @@ struct LiveFigures {
   std::uint64_t faulty_ticks = 0;
   std::uint32_t faults = 0;  ///< all fault bits that occurred
 
-  double intake_Pa = 0;       ///< at the end, of an engine that breathes
+  double intake_Pa = 0;       ///< at the end, of an engine with gas exchange
   double trapped_air_kg = 0;  ///< likewise
 
   bool controller_seen = false;

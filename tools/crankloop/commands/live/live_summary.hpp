@@ -1,4 +1,4 @@
-// What `crankloop live` tells of a run: the machine, how well it kept time, what the engine did.
+// What `crankloop live` reports about a run: the machine, how well it kept time, what the engine did.
 //
 // What belongs here: lines and rows. What does not: how the figures come about (live_loop.hpp).
 #pragma once

@@ -1,4 +1,4 @@
-// An engine that breathes over speed and throttle: each point run until it has settled, on all processors.
+// An engine with gas exchange over speed and throttle: each point run until it has settled, on all processors.
 //
 // What belongs here: the points and their run. What does not: words, files (map.cpp), drawing (map_report.cpp).
 #pragma once

@@ -1,7 +1,7 @@
 // The books of a free run: what gas and starter put in, what friction and load took out, what the moving masses kept.
 //
 // What belongs here: energies by ways that the tick does not go: the gas's from the exact engine's torque over the
-// angle (where the engine breathes: from the loop's torque, less that of the masses), the masses' from the mechanism's
+// angle (with gas exchange: from the loop's torque, less that of the masses), the masses' from the mechanism's
 // geometry, friction, load and starter by their power over time. What does not: the tick's own energy
 // (crankloop::CrankStep).
 #pragma once

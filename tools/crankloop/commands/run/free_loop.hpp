@@ -24,7 +24,7 @@ struct FreeOperation {
   double seconds = 2;
   bool starter = false;
   std::uint32_t cut_cylinders = 0;  ///< bit k: cylinder k does not fire
-  GasOrder gas{};                   ///< of an engine that breathes, instead of the load ratio
+  GasOrder gas{};                   ///< of an engine with gas exchange, instead of the load ratio
 
   [[nodiscard]] std::uint64_t ticks() const noexcept;  ///< as many as it takes to cover the time
 };
@@ -44,7 +44,7 @@ struct FreeState {
 /// `angle_deg` within the cycle, 0 to below 720.
 [[nodiscard]] double in_cycle_deg(double angle_deg) noexcept;
 
-/// S is FreeRunning, or BreathingFree for an engine that breathes.
+/// S is FreeRunning, or BreathingFree for an engine with gas exchange.
 template <class Real, class S = scenes::FreeRunning>
 class FreeLoop {
  public:

@@ -28,7 +28,7 @@ std::uint32_t cut_cylinders(const std::string& text, const Layout& layout) {
   return cut;
 }
 
-/// The file's engine, with the brake that the command line says.
+/// The file's engine, with the brake of the command line.
 EngineDefinition loaded(const EngineFile& file, const Arguments& arguments) {
   EngineDefinition definition = file.definition();
   if (arguments.has("--machine-Nm"))

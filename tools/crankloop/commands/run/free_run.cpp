@@ -19,7 +19,7 @@ namespace {
 template <class Real, class S>
 using FreeOutput = typename FreeLoop<Real, S>::Output;
 
-/// A row per tick. Edges stand in one cell: their times since the run's begin, blanks between.
+/// A row per tick. Edges stand in one cell: their times since the run's start, blanks between.
 template <class Real, class S>
 class TickTable {
  public:

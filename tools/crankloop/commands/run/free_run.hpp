@@ -1,7 +1,7 @@
 // `crankloop run FILE --free`: the engine turned by its own gas over some seconds, its figures, its ticks as CSV, its
 // report, its signals.
 //
-// What belongs here: what such a run is asked for, and what it amounts to. What does not: options (run.cpp).
+// What belongs here: the request for such a run, and its results. What does not: options (run.cpp).
 #pragma once
 
 #include <cstdint>
@@ -46,11 +46,11 @@ struct FreeFigures {
   double friction_Nm = 0;         ///< at the last cycle's mean speed, as is the load
   double load_Nm = 0;
   std::vector<SignalFigures> signals;
-  GasFigures gas;          ///< of an engine that breathes; pressures at the end
+  GasFigures gas;          ///< of an engine with gas exchange; pressures at the end
   Overview intake_kPa{0};  ///< likewise
 };
 
-/// Runs, writes --csv, --report and --vcd of the results, and tells the summary. `definition` is the file's, with the
+/// Runs, writes --csv, --report and --vcd of the results, and prints the summary. `definition` is the file's, with the
 /// load it is to run with.
 void run_free(const EngineFile& file, const EngineDefinition& definition, const FreeRequest& request, Results& results);
 

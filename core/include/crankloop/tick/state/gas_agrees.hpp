@@ -1,7 +1,7 @@
 // Whether the gas of a saved state is one: its numbers, each within its limits, must also fit one another and the
 // engine.
 //
-// What belongs here: what no limit of a single field can say. What does not: those limits
+// What belongs here: what no limit of a single field can check. What does not: those limits
 // (tick/state/state_fields.hpp).
 //
 // Contents of another energy per kilogram, or of another pressure than their mass, temperature and volume have, would

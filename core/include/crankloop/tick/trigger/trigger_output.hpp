@@ -11,7 +11,7 @@ namespace crankloop {
 
 template <class Real>
 struct TriggerEdge {
-  Real time_s;          ///< since the tick's begin, 0 to the tick; never before the edge that is listed before it
+  Real time_s;          ///< since the tick's start, 0 to the tick; never before the preceding listed edge
   std::uint32_t level;  ///< of the signal after it: 1 = it rose, 0 = it fell
 };
 

@@ -1,4 +1,4 @@
-// The edges of one trigger wheel in one tick, from the angle turned. Nothing is remembered from tick to tick: the level
+// The edges of one trigger wheel in one tick, from the angle turned. Nothing is kept from tick to tick: the level
 // follows from the phase, and an edge at angle e belongs to the tick in which the wheel came from below e to e or
 // beyond it, or from there to below e. Phases are integers and so are edges: none is lost or counted twice, however
 // ticks follow one another.
@@ -20,7 +20,7 @@
 
 namespace crankloop::detail {
 
-/// With s = 0 at the tick's begin and 1 at its end,
+/// With s = 0 at the start of the tick and 1 at its end,
 ///
 ///     angle(s) = begin + turned s + bend s (s - 1)
 ///

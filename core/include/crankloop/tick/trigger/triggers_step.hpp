@@ -21,7 +21,7 @@ template <class Real>
 struct SpeedBefore {
   Real speed_rad_s;
 };
-/// What wheels are told of the state before the tick; nothing where no wheel asks.
+/// What wheels receive of the state before the tick; nothing where no wheel needs it.
 template <class Real, class S>
 struct BeforeTick : If<Needs<S>::any_triggers && S::cam_phasing, CamsBefore<S>>,
                     If<Needs<S>::any_triggers && Needs<S>::crank_dynamics, SpeedBefore<Real>> {

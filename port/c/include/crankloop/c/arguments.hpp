@@ -75,7 +75,7 @@ struct LiveWord {
   }
 };
 
-/// An Object in the caller's memory. Object::live_in(memory) tells whether there is one.
+/// An Object in the caller's memory. Object::live_in(memory): whether there is one.
 template <class Object>
 struct Held {
   [[nodiscard]] static Status in(const void* memory, const char* name) noexcept {

@@ -1,4 +1,4 @@
-// What the C header of an engine has to say of its scene, as text in an object file: the build reads it there, so that
+// What the C header of an engine states about its scene, as text in an object file: the build reads it there, so that
 // it works for any target machine, and fills port/c/engine_c.h.in with it. Structs are made from the list of
 // variables.
 //

@@ -1,4 +1,4 @@
-// The files of an FMU that tell of it: modelDescription.xml of FMI 2.0 and 3.0, buildDescription.xml, and a page for
+// The files that describe an FMU: modelDescription.xml of FMI 2.0 and 3.0, buildDescription.xml, and a page for
 // people. Made from the variables of an instance, so that they cannot differ from what get and set do.
 //
 // What belongs here: how the formats spell a variable. What does not: which there are (variables.hpp,
@@ -108,7 +108,7 @@ struct SourceBuild {
   }
 };
 
-/// The files that tell of the variables, one function each.
+/// The files that describe the variables, one function each.
 template <class Supply>
 class Description {
  public:
@@ -260,7 +260,7 @@ class Description {
     return xml + "  </UnitDefinitions>\n";
   }
 
-  /// What both versions say of a variable in the same words.
+  /// What both versions write about a variable in the same words.
   [[nodiscard]] static std::string common(std::uint32_t reference, Role role, const Variable& variable) {
     std::string xml = attribute("name", name_of(variable)) + attribute("valueReference", std::to_string(reference)) +
                       attribute("description", variable.meaning) + attribute("causality", causality(role)) +

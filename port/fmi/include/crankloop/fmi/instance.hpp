@@ -43,7 +43,7 @@ class Instance {
   using Real = typename Supply::Real;
   using S = typename Supply::Scene;
 
-  /// Once, in new memory. False: `why` says what is wrong with the resources.
+  /// Once, in new memory. False: `why` states what is wrong with the resources.
   bool open(const char* resources, Message& why) noexcept {
     if (!supply_.open(resources, why)) return false;
     shape_ = supply_.shape();
@@ -127,7 +127,7 @@ class Instance {
     std::memcpy(reinterpret_cast<unsigned char*>(this) + slots_[reference].offset, &value, sizeof value);
   }
 
-  // ---- life cycle: false is a refusal, nothing has changed, `why` says it -------------------------------------
+  // ---- life cycle: false is a refusal, nothing changed, `why` has the reason ---------------------------------
 
   bool set_start(double start_s, Message& why) noexcept {
     if (!finite(start_s)) return why.say("the start time is not finite"), false;
@@ -161,7 +161,7 @@ class Instance {
   }
 
   /// Advances to time_s + step_s by whole ticks. Tick k ends at start + k tick, however the importer divides the time,
-  /// and whatever its sums round to: a thousandth of a tick is forgiven. False: refused, say_why_no_step() tells why.
+  /// and whatever its sums round to: a thousandth of a tick is tolerated. False: refused, see say_why_no_step().
   [[gnu::always_inline]] bool step(double time_s, double step_s) noexcept {
     constexpr double kForgiven = 1e-3;
     const double end_s = time_s + step_s;
@@ -281,7 +281,7 @@ class Instance {
     if (kept_.fault_ticks < kMaxWhole) ++kept_.fault_ticks;
   }
 
-  /// What tells one FMU from another: tables, scene, arithmetic, version, tick, and every variable's name in its place.
+  /// What identifies an FMU: tables, scene, arithmetic, version, tick, and every variable's name in its place.
   void make_token() noexcept {
     detail::Crc32 names;
     each([&names](Role role, const Variable& variable, auto&) {

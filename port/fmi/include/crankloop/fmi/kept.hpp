@@ -33,7 +33,7 @@ struct Message {
   }
 };
 
-/// What tells one FMU from another.
+/// What distinguishes one FMU from another.
 using Token = std::uint32_t[4];
 
 /// A token as FMI writes it: "{8-4-4-4-12}" of hexadecimal digits.

@@ -1,4 +1,4 @@
-// Where an FMU of crankloop_add_scene has its tables from: they are compiled in (fmi/instance.hpp says what a supply
+// Where an FMU of crankloop_add_scene gets its tables: they are compiled in (fmi/instance.hpp: what a supply
 // is).
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace crankloop::fmi {
 
-/// Of an engine of crankloop_add_scene: Made says which, Real, Scene, Engine and kTick_s.
+/// Of an engine of crankloop_add_scene: Made defines Real, Scene, Engine and kTick_s.
 template <class Made>
 struct SceneSupply {
   using Real = typename Made::Real;

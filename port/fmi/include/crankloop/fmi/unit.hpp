@@ -3,7 +3,7 @@
 // What belongs here: which call is allowed when, and what a refused one answers. What does not: the model
 // (fmi/instance.hpp), the functions' names and types (fmi/fmi2_exports.inc, fmi/fmi3_exports.inc).
 //
-// A refused call says why by the importer's logger, answers error, and changes nothing.
+// A refused call logs the reason by the importer's logger, returns error, and changes nothing.
 #pragma once
 
 #include <cstdlib>
@@ -90,7 +90,7 @@ class Unit {
     return call(*unit);
   }
 
-  /// What is refused is told with the function's name.
+  /// A refusal is reported with the function's name.
   [[gnu::noinline]] Answer refuse(const char* why) const noexcept {
     Message message;
     message.say("%s: %s", function_, why);
@@ -140,7 +140,7 @@ class Unit {
     }
     return kOk;
   }
-  /// Of a type that no variable has: nothing can be read or set but nothing.
+  /// Of a type that no variable has: only an empty list can be read or set.
   Answer none_of_type(std::size_t count) const noexcept {
     return count == 0 ? kOk : refuse("no variable has this type");
   }
@@ -254,7 +254,7 @@ class Unit {
     return *state != nullptr ? kOk : refuse("there is no memory for a state");
   }
 
-  /// Whether the function may be called at this stage; says so if not.
+  /// Whether the function may be called at this stage; reports if not.
   [[nodiscard]] bool allows(std::uint32_t stages) const noexcept {
     return (stages & in(instance.stage())) != 0 || (refuse_now(), false);
   }
