@@ -1,7 +1,10 @@
-// What no run may ask for: more than a revolution per tick, more ticks than anyone waits for.
+// What no run may ask for: more than a revolution per tick, a speed the engine cannot have, more ticks than anyone
+// waits for.
 #pragma once
 
 #include <string>
+
+#include <crankloop/define/crank.hpp>
 
 namespace crankloop::program {
 
@@ -12,6 +15,6 @@ inline constexpr double kMaxTicks = 1e9;
 void require_ticks(double ticks, double tick_s, const std::string& remedy);
 
 /// Throws UsageError for a speed, in either sense, beyond the limit of the tables that were made for this tick.
-void require_speed(double speed_rpm, double limit_rad_s, double tick_s);
+void require_speed(double speed_rpm, double limit_rad_s, double tick_s, const Crank& crank);
 
 }  // namespace crankloop::program
