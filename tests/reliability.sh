@@ -1,12 +1,12 @@
 #!/bin/sh
 # reliability.sh [--long | --page]
-# Writes docs/reliability.md: what was tried to break crankloop, and what came of it.
+# Writes docs/reliability.md: what was tried to break crankloop, and the results.
 #
-# Runs what has no log in build/reliability yet, so that a run of hours need not be repeated for another: delete a log
-# to renew its figures. --long is for those hours: 100 000 random cases, 10^8 hostile inputs, 10^9 ticks of soak, 6
-# minutes of each fuzz target, the whole suite under the sanitizers. Needs the presets release, check, sanitize and
-# coverage (clang++, llvm-cov), and builds them; clang++-19 for its numerical sanitizer. --page runs nothing: the page
-# from the logs there are.
+# Runs each command that has no log in build/reliability yet; delete a log to renew its figures. Beside each log stands
+# the commit it was measured at. --long takes hours: 100 000 random cases, 10^8 hostile inputs, 10^9 ticks of soak, 6
+# minutes of each fuzz target, the whole suite under the sanitizers. Builds the presets release, check, sanitize and
+# coverage (needs clang++ and llvm-cov), and runs the numerical sanitizer where there is clang++-19. --page runs
+# nothing: it writes the page from the existing logs.
 set -eu
 CDPATH='' cd -- "$(dirname -- "$0")/.."
 logs=build/reliability
@@ -26,7 +26,7 @@ fi
 
 build() { cmake --preset "$1" >"$logs/build.log" 2>&1 && cmake --build --preset "$@" >>"$logs/build.log" 2>&1; }
 
-# keep NAME PRESET TARGET command...: runs the command unless its log is there; what fails shows in the page.
+# keep NAME PRESET TARGET command...: runs the command unless its log exists; the page shows failures.
 keep() {
   log=$logs/$1.log
   [ ! -s "$log" ] || return 0
@@ -34,6 +34,7 @@ keep() {
   shift 3
   { printf '%s\n' "$*" && "$@"; } >"$log.part" 2>&1 || echo "failed: $*" >&2
   mv "$log.part" "$log"
+  git log -1 --format='%h' >"${log%.log}.commit"
 }
 
 if [ "${1:-}" != --page ]; then
@@ -60,28 +61,55 @@ fi
 
 # ---- the page --------------------------------------------------------------------------------------------------------
 
-command_of() { printf '    %s\n\n' "$(head -n 1 "$logs/$1.log")"; }
-# figures LOG: its "[ figures  ]" lines as a list, with the test's scalar.
+# at NAME: when and at which commit NAME was measured.
+at() {
+  printf 'Measured on %s' "$(date -r "$logs/$1.log" +%Y-%m-%d)"
+  [ ! -s "$logs/$1.commit" ] || printf ' at %s' "$(cat "$logs/$1.commit")"
+}
+command_of() { printf '    %s\n\n%s.\n\n' "$(head -n 1 "$logs/$1.log")" "$(at "$1")"; }
+# faults: the "of N detected D, recovered within a cycle R, finite F" lines of the log as a table, float / double.
+faults() {
+  awk '
+    BEGIN { print "| fault | injected | detected | recovered within a cycle | finite |\n| --- | --- | --- | --- | --- |" }
+    /^\[ figures  \] .*: of [0-9]* detected [0-9]*, / {
+      name = $0; sub(/^\[ figures  \] */, "", name); sub(/: of .*/, "", name)
+      line = $0; sub(/.*: of /, "", line); gsub(/[^0-9]+/, " ", line); split(line, n, " ")
+      if (!(name in count)) order[++rows] = name
+      count[name]++
+      for (i = 1; i <= 4; ++i) cell[name, i] = count[name] == 1 || cell[name, i] == n[i] ? n[i] : cell[name, i] " / " n[i]
+    }
+    END { for (r = 1; r <= rows; ++r) { name = order[r]
+      printf "| %s | %s | %s | %s | %s |\n", name, cell[name, 1], cell[name, 2], cell[name, 3], cell[name, 4] } }' "$logs/faults.log"
+}
+# figures LOG: its other "[ figures  ]" lines as a list, with the test's scalar.
 figures() {
   awk '
     /^\[ RUN / { real = $0 ~ /\/Float/ ? "float" : $0 ~ /\/Double/ ? "double" : "" }
+    /^\[ figures  \] .*: of [0-9]* detected [0-9]*, / { next }
     /^\[ figures  \]/ { sub(/^\[ figures  \] */, ""); print "- " (real != "" ? real ": " : "") $0 }
-    /^\[  FAILED  \]/ && !told[$0]++ { print "- **" $0 "**" }' "$logs/$1.log"
+    /^\[  FAILED  \]/ && !seen[$0]++ { print "- **" $0 "**" }' "$logs/$1.log"
 }
 
 {
   cat <<'TEXT'
 # Reliability
 
-What was tried to break crankloop, and what came of it. This page is written by tests/reliability.sh from the logs of the commands it names;
-docs/contract.md says what is promised.
+What was tried to break crankloop, and the results. docs/contract.md states what is promised. tests/reliability.sh writes this page from the logs of the
+commands below.
+
+Each section names the date and the commit of its figures; `git log COMMIT.. -- core port` lists what has changed since. File names and line numbers are
+those of that commit.
 
 ## What runs when
 
-`tools/check --all`, which every change has to pass, runs each proof once, where it costs least; `tools/check --long` runs what proves least for its time,
-before a release and after a change of core. `tools/check --list` names the parts.
+| command | when | what |
+| --- | --- | --- |
+| `tools/check --all` | before every change | each proof once, where it costs least |
+| `tools/check --long` | before a release, and after a change of core | what proves least for its time |
 
-| proof | every change, `--all` | `--long` |
+`tools/check --list` lists the parts, named in brackets here:
+
+| proof | `--all` | `--long` |
 | --- | --- | --- |
 | host tests, assertions and lanes on | all, g++ -O2, test sources -O1 (`host`, `slow`) | under the thread sanitizer (`thread`) |
 | address and undefined-behaviour sanitizers, assertions on, clang++ -O1 | unit and golden tests (`sanitize`); fuzz targets, 15 s each (`fuzz`) | the rest, and FMUs with their importer (`sanitize_rest`) |
@@ -95,16 +123,19 @@ before a release and after a change of core. `tools/check --list` names the part
 
 ## Random valve trains
 
-Each of these cases is a valve train and an operating point drawn from a seed (tools/lab/stress/stress_case.hpp has the ranges). It is
-refused at set-up for a reason that is worked out anew, or runs through 20 cycles, at most 40 000 ticks, in finite numbers and within a bound
-on its energy; every tenth is compared with the converged reference (tools/lab/stress/stress_trial.hpp has the rules).
-`--case N` runs one of them again.
+Each case is a valve train and an operating point, drawn from a seed (ranges: tools/lab/stress/stress_case.hpp). The test fails unless the case is either
+
+- refused at set-up, for a reason confirmed by an independent calculation, or
+- run through 20 cycles or 40 000 ticks, with finite outputs and energy below a bound.
+
+Every tenth case is compared with the converged reference (rules: tools/lab/stress/stress_trial.hpp).
 
 TEXT
   # shellcheck disable=SC2016  # the shell of who repeats it expands it
   run=$(sed -n 's/ --seed [0-9]*/ --seed $seed/p;q' "$logs/stress-1.log")
   # shellcheck disable=SC2046  # a list of numbers
   printf '    for seed in%s; do %s; done\n\n' "$(printf ' %s' $(sed -n 's/^seed = //p' "$logs"/stress-[0-9]*.log | sort -n))" "$run"
+  printf '%s. Counts are sums over the runs, errors the largest of all runs.\n\n' "$(at stress-1)"
   awk -F ' = ' '
     FNR == 1 { ++runs; next }
     / = / && $1 != "failure" && $1 != "seed" {
@@ -118,31 +149,41 @@ TEXT
       print "| figure | of " runs " runs |\n| --- | --- |"
       for (i = 1; i <= count; ++i) printf "| %s | " (order[i] ~ /error/ ? "%.3g" : "%.0f") " |\n", order[i], figure[order[i]]
     }' "$logs"/stress-[0-9]*.log
-  grep -h '^failure' "$logs"/stress-[0-9]*.log | sed 's/^failure = /- /' || true
+  if cat "$logs"/stress-[0-9]*.log | grep -q '^failure'; then
+    printf '\nFailures:\n\n'
+    grep -h '^failure' "$logs"/stress-[0-9]*.log | sed 's/^failure = /- /'
+  fi
   cat <<'TEXT'
 
-Counts are of all runs together, errors the largest of any. `error_of_class` is the largest error of a case over the accuracy asked for,
-`error_of_allowed` over what the rule allows; p99 is what 99 of 100 comparisons stay below. `landed` counts the comparisons in which
-the valve came back to its seat: the others end before, or stand. `--smooth` draws damped trains with smooth cams below float, whose error is that of
-the steps alone. `judged_again` is how often copies of the
-reference were too few to judge by and more of them did. `stability_limit_error` is the largest distance of the measured from the
-theoretical longest stable step, as a part of it, at 41 damping ratios from 0 to 2; `--report` draws the map.
+- `error_of_class`: the largest error of a case, divided by the requested accuracy. `error_of_allowed`: the same, divided by what the rule allows. p99: 99 of
+  100 comparisons stay below this value.
+- `judged_again`: comparisons repeated with more disturbed copies of the reference, because the first copies were too few.
+- `landed`: comparisons in which the valve returned to its seat. In the others it does not before the comparison ends.
+- `stability_limit_error`: the largest relative difference between the measured and the theoretical longest stable step, at 41 damping ratios from 0 to 2.
+
+`--case N` runs one case again. `--smooth` draws damped trains with smooth cams below valve float, so that the error is that of the steps alone. `--report` plots the results.
 
 ## Faults in a running engine
 
-Four cylinders, eight elastic valves, a measured crank at 6000 rpm; one engine is hurt at a random tick, another runs beside it.
+Two engines run side by side: four cylinders, eight elastic valves, a measured crank at 6000 rpm. One of them receives a fault at a random tick. Detected: a fault bit is set
+(for bits of the state: `save_state`, then `load_state` refuses). Recovered: all outputs are bit-equal to those of the other engine one cycle later.
 
 TEXT
   command_of faults
+  printf 'A single number applies to float and double; otherwise float / double.\n\n'
+  faults
+  printf '\n'
   figures faults
-  printf '\n## Soak\n\nUp and down through the speeds again and again: the same bits in each drive, and no denormal number in any state.\n'
-  printf 'tools/check slow runs 10^7 ticks; with CRANKLOOP_LONG_TESTS=1 in the environment it is 10^9.\n\n'
+  printf '\n## Soak\n\nSpeed sweeps up and down, repeated. Each sweep must give the same bits, and no state may hold a denormal number.\n'
+  # shellcheck disable=SC2016  # code in Markdown
+  printf '`tools/check slow` runs 10^7 ticks, CRANKLOOP_LONG_TESTS=1 10^9.\n\n'
   command_of soak
   figures soak
   printf '\n## Edges of tables\n\n'
   command_of edges
   figures edges
-  printf '\n## Fuzzing\n\nAny bytes, under the address and undefined-behaviour sanitizers; 0 findings, or the part of tools/check fails.\n\n'
+  # shellcheck disable=SC2016  # code in Markdown
+  printf '\n## Fuzzing\n\nArbitrary bytes, under the address and undefined-behaviour sanitizers. Any finding fails `tools/check fuzz`.\n\n'
   command_of fuzz
   for log in "$logs"/fuzz-*.log; do
     name=${log##*/fuzz-}
@@ -151,46 +192,46 @@ TEXT
   tail -n 1 "$logs/fuzz.log" | sed 's/^/- targets: /'
   printf '\n## Sanitizers\n\n'
   cat <<'TEXT'
-Address and undefined behaviour (float-cast-overflow and float-divide-by-zero among it), and threads; any finding fails a test. What has
-no line here was not run for this page.
+Address and undefined behaviour (with float-cast-overflow and float-divide-by-zero), and threads. Any finding fails a test.
 
 TEXT
   if [ -s "$logs/long.log" ]; then
-    printf '`tools/check --long` on %s:\n\n' "$(date -r "$logs/long.log" +%Y-%m-%d)"
+    # shellcheck disable=SC2016  # code in Markdown
+    printf '`tools/check --long`. %s:\n\n' "$(at long)"
     awk '/^-- / { title = substr($0, 4) } /^   [0-9]+ passed/ { sub(/^ */, ""); sub(/;.*/, ""); print "- " title ": " $0 }' "$logs/long.log"
   fi
   printf -- '- %s: %s\n' "$(head -n 1 "$logs/threads.log")" "$(sed -n 's/^\[  \([A-Z]*\)  \] /\1 /p' "$logs/threads.log" | head -n 1)"
   if [ -s "$logs/numerical.log" ]; then
     cat <<'TEXT'
 
-The numerical sanitizer (clang 19) runs the tick in float with a double beside every number, and names each line where the two part by more
-than 2^-10 of the number. It cannot pass or fail: a gap of a micrometre between two lifts of millimetres, a force made of it, and
-anything that goes through zero have lost digits, by nature. What that amounts to in the outputs is the error of the lift in float,
-which the stress test and docs/performance.md measure. The lines that it names most often, of all that it names:
+The numerical sanitizer (clang 19) runs the tick in float, computes each number in double as well, and names each line where the two differ by more than 2^-10.
+It cannot pass or fail: differences of nearly equal lifts, and values near zero, must lose digits. The effect on the outputs is the error of the lift in float, which the stress
+test and docs/performance.md measure. The lines it names most often:
 
 TEXT
     command_of numerical
     sed -n '2,9p' "$logs/numerical.log"
-    printf -- '- and %d lines more\n' "$(($(wc -l <"$logs/numerical.log") - 9))"
+    printf -- '- and %d more lines\n' "$(($(wc -l <"$logs/numerical.log") - 9))"
   fi
-  printf '\n## Branches of core and of the C interface that the host tests take\n\n'
+  printf '\n## Branch coverage by the host tests\n\n'
   command_of coverage
   sed -n 's/^\([a-z_]* = .*\)/- \1/p' "$logs/coverage.log"
   cat <<'TEXT'
 
-The command lists each branch that is not taken, with its line. tests/coverage_exceptions.conf has the reason of each; a branch
-without a reason, or a reason without a branch, fails the command.
+The command lists each branch not taken. tests/coverage_exceptions.conf gives the reason for each; a branch
+without a reason, or a reason without a branch, is a failure.
 
 ## Mutants
 
-Single-point changes of core, drawn from a seed: a comparison, + - * /, a constant, a condition, a negation, a statement that is left out. Lanes
-and the C interface are not among them. The areas gas, trigger and valve are those folders of core/include/crankloop/tick; tabulate is set-up, with the checks of
-definitions; fmi is port/fmi/include/crankloop/fmi.
+A mutant is a single-point change of core, drawn from a seed: a comparison, an operator (+ - * /), a constant, a condition, a negation, or a statement left out.
+The areas gas, trigger and valve are folders of core/include/crankloop/tick; tabulate is set-up with the checks of definitions; fmi is
+port/fmi/include/crankloop/fmi. Lanes and the C interface have no mutants.
 
-Tests of behaviour judge first: the library's own unit, property and interface tests, for fmi those of tests/fmi, with assertions, and of them only those that
-reach the mutant's place. The command fails when they notice less than 90 % of an area's mutants that are no equivalents. The golden tests judge what is left. They
-hold the bits of every output, so they notice almost anything, but the next change that is meant to move bits renews them: what they alone notice is counted apart.
-A mutant that no test notices is an equivalent, which no test could tell, or survives; tests/mutants/survivors.conf has the reason of each.
+1. Tests of behaviour judge first: unit, property and interface tests, for fmi those of tests/fmi, with assertions, and only those that reach the changed line. The
+   command fails when they detect less than 90 % of an area's mutants, not counting equivalents.
+2. The golden tests judge the rest. They hold the bits of every output and so detect nearly everything, but any intended change of bits renews them: what they alone
+   detect is counted separately.
+3. A mutant that no test detects is either an equivalent, which no test can detect, or survives. tests/mutants/survivors.conf gives the reason for each.
 
 TEXT
   command_of mutants
@@ -200,20 +241,20 @@ TEXT
     s/^\(core[^ ]*\|port[^ ]*\)  \([^|]*[^ |]\)  |  \(.*\): \(equivalent\|survives\): /- \1, `\3`, \2: \4: /p' "$logs/mutants.log"
   cat <<'TEXT'
 
-## What fuzzing and stress found
+## Faults found by fuzzing and stress tests, and corrected
 
-- A definition could hold a positive number so small that its reciprocal is infinite: a seat of 5e-312 N/m, a lever of 5e-313 m. What must be
-  greater than zero is now at least 1e-9.
-- A source or kind beyond the last enumerator was taken for the last one in C++ definitions.
-- A number that names no integrator was taken for Runge-Kutta.
-- Four knocked copies of the reference are too few to tell chaos from error once in some ten thousand comparisons (seed 2, case 9730: 37 times
-  the accuracy asked for, 1.09 times what its own four copies excuse, 0.29 to 0.98 times what six other draws of four do): 32 judge again.
-- A valve that trembled on a soft seat by more than its lash was taken for quiet, and stepped over its train: up to 120 um off.
-- The accuracy class was promised for any valve; with Runge-Kutta it holds for vibrations of up to 0.24 mm (docs/contract.md).
+- A definition could hold a positive number whose reciprocal is infinite: a seat of 5e-312 N/m, a lever of 5e-313 m. Where a field must be greater than zero, the minimum is
+  now 1e-9.
+- A source or kind beyond the last enumerator was treated as the last one in C++ definitions.
+- An unknown integrator number was treated as Runge-Kutta.
+- Four disturbed copies of the reference are too few to distinguish chaos from error about once in 10 000 comparisons (seed 2, case 9730: 37 times
+  the requested accuracy; 1.09 times what its own four copies allow, 0.29 to 0.98 times what six other draws of four allow). Such a case is now judged again with 32 copies.
+- A valve that oscillated on a soft seat by more than its clearance was treated as quiet, and its contact with the train was missed: up to 120 um of error.
+- The accuracy class was promised for any valve; with Runge-Kutta it holds for vibrations of up to 0.24 mm (tools/lab/stress/stress_comparison.hpp).
 
 ## Known gaps
 
-- Flipped bits of a running state are found only where the caller checks it (docs/contract.md "Flipped bits").
+- Memory faults in a running state are found only if the caller checks for them (docs/contract.md, "Flipped bits").
 TEXT
 } >docs/reliability.md
 echo "docs/reliability.md is written from $logs"

@@ -42,7 +42,7 @@ std::uint32_t counter() noexcept {
   return 0xFFFFFFFFu - timer->value;  // upwards
 }
 
-// CHANGE: counts to instructions, or to cycles on a board (performance.md then says cycles). Here 1024 ns an
+// CHANGE: counts to instructions, or to cycles on a board (docs/measurements then says cycles). Here 1024 ns an
 // instruction, 20.48 counts.
 std::uint32_t instructions_between(std::uint32_t from, std::uint32_t to) noexcept {
   return static_cast<std::uint32_t>((std::uint64_t{to - from} * 25 + 256) / 512);

@@ -71,7 +71,7 @@ static_assert(keeps_its_promises<PistonMotion>() && keeps_its_promises<TorqueOnl
 
 // ---- sizes ----------------------------------------------------------------------------------------------------------
 
-// The promises of README.md and docs/performance.md, on a machine with pointers of eight bytes.
+// The promises of README.md and docs/measurements/host.md, on a machine with pointers of eight bytes.
 static_assert(sizeof(Engine<float, TorqueOnly>) <= 128);
 static_assert(sizeof(Engine<float, ValveDynamics>) <= 1904);  // where a processor has no lanes 1.4 kB less
 static_assert(sizeof(Engine<float, WholeEngine>) <= 3840);    // 1.4 kB less

@@ -68,12 +68,14 @@ void measure(const Speed& speed) noexcept {
   std::uint64_t sum = 0;
   std::uint32_t worst = 0;
   std::uint32_t faults = 0;
+  crankloop_measures();
   for (std::uint32_t i = 0; i < ticks; ++i) {
     const std::uint32_t cost = cost_of_turn() - counting;
     sum += cost;
     if (cost > worst) worst = cost;
     faults |= engine.output().faults;
   }
+  crankloop_measures();
   port::Line() << "instructions " << speed.name << " " << static_cast<std::uint32_t>((sum + ticks / 2) / ticks) << " "
                << worst;
   if (faults != 0) port::Line() << "faults " << faults;

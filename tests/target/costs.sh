@@ -1,7 +1,7 @@
 #!/bin/sh
 # costs.sh CONF print   what every scene costs on a target, by running its images of costs.cpp in the emulator
-# costs.sh CONF write   the same, into the target's part of docs/performance.md
-# costs.sh CONF check   fails when a figure has grown by more than 2 % over docs/performance.md, or is there and measured no more; last line:
+# costs.sh CONF write   the same, into the target's page of docs/measurements
+# costs.sh CONF check   fails when a figure has grown by more than 2 % over that page, or is there and measured no more; last line:
 #                       "N passed, M failed". With another compiler or emulator than recorded there it compares no figures, but tells
 #                       how they differ, and unless it fails, its exit status is 77, "skipped"
 #
@@ -12,21 +12,28 @@ here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
 conf=$1
 # shellcheck disable=SC1090  # made by CMake
 . "$1"
-: "${target:?}" "${title:?}" "${compiler:?}" "${size:?}" "${emulator:?}" "${build_type:?}" "${images:?}" "${engines:?}" "${performance:?}"
+: "${target:?}" "${title:?}" "${compiler:?}" "${size:?}" "${emulator:?}" "${build_type:?}" "${images:?}" "${engines:?}" "${page:?}"
+[ -z "${cycles_of:=}" ] || : "${step_cycles:?}"
 what=$2
-begin="<!-- costs of $target, written by tests/target/costs.sh; do not edit -->"
-end="<!-- end of costs of $target -->"
+core_mhz=180  # at which cycles are set against the tick
 
 # section_bytes ENGINE PATTERN: bytes of the library's sections whose names match.
 section_bytes() { "$size" -A "$images/lib$1.a" | awk -v pattern="$2" '$1 ~ pattern { sum += $2 } END { print sum + 0 }'; }
 
 row() {
   log=$images/costs_$1.txt
-  eval "$emulator \"\$images/costs_\$1\"" </dev/null >"$log" 2>&1 || { cat "$log" >&2 && return 1; }  # a command with its arguments, each quoted
+  counter=
+  if [ -n "$cycles_of" ]; then
+    "${size%size}objdump" -d --no-show-raw-insn "$images/costs_$1" >"$images/costs_$1.listing"
+    # shellcheck disable=SC2016  # for eval
+    counter='-plugin "$step_cycles,listing=$images/costs_$1.listing,root=6EngineI*4stepE"'
+  fi
+  eval "$emulator \"\$images/costs_\$1\" $counter" </dev/null >"$log" 2>&1 || { cat "$log" >&2 && return 1; }  # a command with its arguments, each quoted
   stack=$(find "$images" -path "*/$1.dir/*.ci" -exec awk -v root='::step[(]' -f "$here/worst_stack.awk" {} +) || return 1
-  bound=$("$here/any_input.sh" "$conf" "$images/costs_$1" "$log") || return 1
+  bounds=$("$here/any_input.sh" "$conf" "$images/costs_$1" "$log") || return 1
+  echo "bounds $bounds" >>"$log"
   awk -v scene="${1%_*}" -v tick="${1##*_}" -v code="$(section_bytes "$1" '^\\.text')" \
-    -v tables="$(section_bytes "$1" '^\\.(s?rodata|data\\.rel\\.ro)')" -v stack="$stack" -v bound="$bound" '
+    -v tables="$(section_bytes "$1" '^\\.(s?rodata|data\\.rel\\.ro)')" -v stack="$stack" -v bound="${bounds%% *}" '
     { sub(/\r$/, "") }
     $1 == "instructions" { mean[$2] = $3; worst[$2] = $4 }
     $1 == "hostile" { hostile = $2 }
@@ -44,6 +51,38 @@ row() {
     }' "$log"
 }
 
+# cycle_row ENGINE COLUMN: from the log that row() has made; COLUMN is that of the means.
+cycle_row() {
+  awk -v scene="${1%_*}" -v tick="${1##*_}" -v column="$2" -v mhz="$core_mhz" '
+    { sub(/\r$/, "") }
+    $1 == "cycles" { mean = $column; worst = $(column + 1); instructions = $7; counted = 1 }
+    $1 == "instructions" || $1 == "hostile" {
+      name = $1 == "hostile" ? $1 : $2
+      off = ($1 == "hostile" ? $2 : $4) - instructions  # the call, with what stands between the readings of the counter
+      if (!counted || off < 0 || off > 5) { print scene ", " name ": the counts of instructions differ by " off > "/dev/stderr"; bad = 1 }
+      if (name == "hostile") hostile = worst
+      else { if (mean > most_mean) most_mean = mean; if (worst > most_worst) most_worst = worst }
+      counted = 0
+    }
+    $1 == "bounds" { instruction_bound = $2; bound = $(column / 2 + 2) }
+    END {
+      if (most_worst > bound || hostile > bound) { print scene ": took more cycles than its bound of " bound > "/dev/stderr"; bad = 1 }
+      if (bound < instruction_bound) { print scene ": " bound " cycles are fewer than the instructions" > "/dev/stderr"; bad = 1 }
+      if (bad || !most_mean || !hostile) exit 1
+      share = 100 / (mhz * tick)
+      printf "| %s | %d | %d / %d | %d | %d | %.1f / %.1f / %.1f | %d |\n", scene, tick, most_mean, most_worst, hostile, bound,
+        most_mean * share, most_worst * share, bound * share, int((bound + mhz - 1) / mhz)
+    }' "$images/costs_$1.txt"
+}
+
+# cycle_table WAIT_STATES COLUMN WHICH: after the rows of all engines.
+cycle_table() {
+  printf '\nCycles, %s wait states: %s\n\n' "$1" "$3"
+  echo "| scene | tick, us | mean / worst | hostile | bound, any input | % of the tick at $core_mhz MHz, mean / worst / bound | bound, us at $core_mhz MHz |"
+  echo "| --- | --- | --- | --- | --- | --- | --- |"
+  for engine in $engines; do cycle_row "$engine" "$2"; done
+}
+
 # The compiler and the emulator that the figures hold for.
 # shellcheck disable=SC2119,SC2120  # the arguments are those that eval sets
 versions() {
@@ -55,15 +94,19 @@ versions() {
 }
 
 print_costs() {
-  echo "$begin"
-  echo "### $title"
+  echo "# $title"
+  echo
+  echo "Written by tests/target/costs.sh; [performance.md](../performance.md#on-targets) has what the columns mean."
   echo
   echo "$(versions)."
   echo
   echo "| scene | tick, us | idle, mean / worst | rated, mean / worst | redline, mean / worst | hostile | bound, any input | code | tables | RAM | stack, bound | stack, painted |"
   echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
   for engine in $engines; do row "$engine"; done
-  echo "$end"
+  if [ -n "$cycles_of" ]; then
+    cycle_table 0 2 "by tests/target/worst_tick/costs.hpp, from the core's manual; mean and worst of the dearest of the three speeds."
+    cycle_table 5 4 "code and tables in a flash that reads 32 bits at a time, without cache and prefetch. Most boards are faster."
+  fi
 }
 
 measured=$images/costs.md
@@ -71,24 +114,19 @@ print_costs >"$measured"
 
 case $what in
   print) cat "$measured" ;;
-  write)
-    grep -qxF "$begin" "$performance" || printf '\n%s\n%s\n' "$begin" "$end" >>"$performance"
-    awk -v begin="$begin" -v end="$end" -v measured="$measured" '
-      $0 == begin { while ((getline line < measured) > 0) print line; skip = 1 }
-      !skip { print }
-      $0 == end { skip = 0 }' "$performance" >"$performance.new"
-    mv "$performance.new" "$performance"
-    ;;
+  write) cp "$measured" "$page" ;;
   check)
-    awk -v begin="$begin" -v end="$end" -v versions="$(versions)." '
+    committed=$page
+    [ -f "$page" ] || committed=/dev/null  # a new target has none yet
+    awk -v committed_page="$committed" -v page="$page" -v versions="$(versions)." '
       # Rows by scene and tick; the figures of both files in the same order.
-      FNR == 1 { ++file }
-      $0 == begin { inside = 1 }
-      $0 == end { inside = 0 }
-      inside && file == 1 && $0 == versions { same_versions = 1 }
-      inside && /^\| [A-Z]/ {
+      { file = FILENAME == committed_page ? 1 : 2 }
+      FNR == 1 { unit = "" }
+      file == 1 && $0 == versions { same_versions = 1 }
+      /^Cycles, / { unit = ", cycles at " $2 " wait states" }
+      /^\| [A-Z]/ {
         split($0, cell, " *[|] *")
-        key = cell[2] ", " cell[3] " us"
+        key = cell[2] ", " cell[3] " us" unit
         line = $0
         sub(/^\| [^|]*\|[^|]*\|/, "", line)
         gsub(/[|\/]/, " ", line)
@@ -110,10 +148,10 @@ case $what in
       }
       END {
         for (key in committed) { print key ": committed, but measured no more"; ++failed }
-        if (not_compared) print not_compared " rows not compared: docs/performance.md records another compiler or emulator than " versions
+        if (not_compared) print not_compared " rows not compared: " page " records another compiler or emulator than " versions
         print passed + 0 " passed, " failed + 0 " failed"
         exit (failed ? 1 : not_compared ? 77 : !passed)
-      }' "$performance" "$measured"
+      }' "$committed" "$measured"
     ;;
   *) sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
 esac

@@ -15,6 +15,7 @@ for engine in "$@"; do
   eval "$emulator \"\$image\"" </dev/null >"$log" 2>&1 || { cat "$log" >&2 && exit 1; }
   worst=$(tr -d '\r' <"$log" | sed -n 's/^hostile //p')
   bound=$("$here/any_input.sh" "$conf" "$image" "$log")
+  bound=${bound%% *}
   echo "$engine: worst tick $worst instructions, bound $bound"
   if [ "${worst:-0}" -gt 0 ] && [ "$worst" -le "$bound" ]; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
 done

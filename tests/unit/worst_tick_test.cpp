@@ -24,7 +24,7 @@ class Lines : public Sources {
 
 /// The bound of the function at `root`. `places` says "ADDRESS LINE" of those instructions whose line matters.
 std::int64_t bound(const std::string& listing, const std::string& places, const std::string& bounds,
-                   const Numbers& limits = {}, std::uint32_t root = 0x10) {
+                   const Numbers& limits = {}, const Costs& costs = InstructionCosts()) {
   std::istringstream code(listing), bounds_file(bounds), place_list(places);
   std::ostringstream addr2line;
   for (std::string address, line; place_list >> address >> line;)
@@ -35,7 +35,7 @@ std::int64_t bound(const std::string& listing, const std::string& places, const 
   Lines sources({"for (int i = 0; i < cylinders; ++i) {", "  if (far(i)) locate(i);", "}",
                  "for (int i = 0; i < cylinders; ++i) once(i);", "while (true)"});
   const Bounds all(bounds_file, limits, sources);
-  return LongestPath(program, all, root).bound();
+  return LongestPath(program, all, costs, 0x10).bound();
 }
 
 std::string refusal(const std::string& listing, const std::string& places = "", const std::string& bounds = "") {
@@ -258,6 +258,148 @@ TEST(WorstTick, RefusesToRunIntoData) {
   EXPECT_EQ(refusal("00000010 <step>:\n      10:\tadds\tr1, #1\n      12:\tbeq.n\t18 <step+0x8>\n      "
                     "14:\t.word\t0x3f800000\n      18:\tbx\tlr\n"),
             "no refusal, but 3");
+}
+
+// ---- cycles of a Cortex-M4
+// -------------------------------------------------------------------------------------------
+
+/// Cycles of a step that is these instructions and a return, which takes 1 + 3.
+std::int64_t cycles(const std::vector<std::string>& instructions, std::int64_t wait_states = 0,
+                    std::uint32_t size = 4) {
+  std::ostringstream listing;
+  listing << "00000010 <step>:\n" << std::hex;
+  std::uint32_t address = 0x10;
+  for (const std::string& instruction : instructions) {
+    listing << "      " << address << ":\t" << instruction << "\n";
+    address += size;
+  }
+  listing << "      " << address << ":\tbx\tlr\n      " << address + 2 << ":\tnop\n";
+  return bound(listing.str(), "", "", {}, CortexM4Costs(wait_states)) - (wait_states == 0 ? 4 : 0);
+}
+
+struct Cycles {
+  const char* instruction;
+  std::int64_t cycles;
+};
+
+TEST(CortexM4Cycles, AreTheManuals) {
+  const Cycles table[] = {{"adds\tr0, r1", 1},
+                          {"addeq\tr0, r1, r2", 1},
+                          {"lslscs\tr0, r1", 1},
+                          {"mul.w\tr0, r1, r2", 1},
+                          {"umull\tr0, r1, r2, r3", 1},
+                          {"mla\tr0, r1, r2, r3", 2},
+                          {"mls\tr0, r1, r2, r3", 2},
+                          {"udiv\tr0, r1, r2", 12},
+                          {"sdiv\tr0, r1, r2", 12},
+                          {"itte\teq", 1},
+                          {"ldr.w\tr0, [r1, #4]", 2},
+                          {"ldrb.w\tr0, [r1, r2]", 2},
+                          {"str\tr0, [r1, #0]", 2},
+                          {"ldrd\tr0, r1, [r2, #8]", 3},
+                          {"strd\tr0, r1, [r2, #8]", 3},
+                          {"ldmia.w\tr0, {r1, r2, sl}", 4},
+                          {"stmdb\tsp!, {r4, r5, r6, fp, lr}", 6},
+                          {"push\t{r4, lr}", 3},
+                          {"pop\t{r4, r5, r6}", 4},
+                          {"vadd.f32\ts0, s1, s2", 1},
+                          {"vmulgt.f32\ts0, s1, s2", 1},
+                          {"vcvt.f32.s32\ts0, s1", 1},
+                          {"vmla.f32\ts0, s1, s2", 3},
+                          {"vfma.f32\ts0, s1, s2", 3},
+                          {"vnmls.f32\ts0, s1, s2", 3},
+                          {"vdiv.f32\ts0, s1, s2", 14},
+                          {"vsqrt.f32\ts0, s1", 14},
+                          {"vldr\ts0, [r1, #4]", 2},
+                          {"vldr\td0, [r1, #4]", 3},
+                          {"vstr\ts0, [r1, #4]", 2},
+                          {"vldmia\tr1!, {s4-s7}", 5},
+                          {"vldmia\tr1!, {s4}", 2},
+                          {"vpush\t{d8-d15}", 17},
+                          {"vpop\t{d8-d9}", 5},
+                          {"vmov.f32\ts0, #112", 1},
+                          {"vmov.f32\ts0, s1", 1},
+                          {"vmov\tr0, s1", 2},
+                          {"vmov\ts1, sl", 2},
+                          {"vmov\tr0, r1, d4", 2},
+                          {"vmrs\tAPSR_nzcv, fpscr", 1}};
+  for (const Cycles& row : table) EXPECT_EQ(cycles({row.instruction}), row.cycles) << row.instruction;
+}
+
+TEST(CortexM4Cycles, AreOneMoreWhereTheNextInstructionUsesAFloatingPointResult) {
+  EXPECT_EQ(cycles({"vmul.f32\ts0, s1, s2", "vadd.f32\ts3, s0, s4"}), 1 + 1 + 1);
+  EXPECT_EQ(cycles({"vmul.f32\ts0, s1, s2", "vadd.f32\ts3, s10, s4"}), 1 + 1);
+  EXPECT_EQ(cycles({"vmul.f32\ts0, s1, s2", "movs\tr0, #0", "vadd.f32\ts3, s0, s4"}), 1 + 1 + 1);
+  EXPECT_EQ(cycles({"vdiv.f32\ts9, s1, s2", "vstr\ts9, [r0]"}), 14 + 1 + 2);
+  EXPECT_EQ(cycles({"vadd.f32\ts9, s1, s2", "vstmia\tr0!, {s8-s11}"}), 1 + 1 + 5);
+  EXPECT_EQ(cycles({"vadd.f32\ts9, s1, s2", "vmov\tr0, r1, d4"}), 1 + 1 + 2);
+  EXPECT_EQ(cycles({"vadd.f32\ts0, s1, s2", "it\tgt", "vmovgt.f32\ts3, s4"}), 1 + 1 + 1 + 1) << "IT may be folded";
+  EXPECT_EQ(cycles({"vcmpe.f32\ts0, s1", "vmrs\tAPSR_nzcv, fpscr"}), 1 + 1 + 1);
+  EXPECT_EQ(cycles({"vldr\ts0, [r0]", "vadd.f32\ts3, s0, s4"}), 2 + 1) << "a load is no arithmetic";
+}
+
+TEST(CortexM4Cycles, AreThreeMoreWhereABranchIsTaken) {
+  const std::string listing =
+      "00000010 <step>:\n"
+      "      10:\tpush\t{r4, lr}\n"
+      "      12:\tcbz\tr0, 18 <step+0x8>\n"
+      "      14:\tadds\tr0, #1\n"
+      "      16:\tadds\tr0, #1\n"
+      "      18:\tbl\t30 <callee>\n"
+      "      1c:\tpop\t{r4, pc}\n"
+      "00000030 <callee>:\n"
+      "      30:\tb.n\t34 <callee+0x4>\n"
+      "      32:\tnop\n"
+      "      34:\tbx\tlr\n";
+  // push 3, cbz taken 1 + 3 (not taken with two additions 3), bl 1 + 3, b 1 + 3, bx 1 + 3, pop of two 3 + 3.
+  EXPECT_EQ(bound(listing, "", "", {}, CortexM4Costs(0)), 3 + 4 + 4 + 4 + 4 + 6);
+}
+
+TEST(CortexM4Cycles, OfALoopCountItsBackEdgesAsTaken) {
+  const std::string bounds = "loop | engine.hpp | i < cylinders; ++i) { | 4 | .\n";
+  // The detour: 14 and one more of the division before what may use it, the additions, two branches taken; the last
+  // test is not.
+  EXPECT_EQ(bound(kLoop, "1a 1", bounds, {}, CortexM4Costs(0)), 1 + 4 * (1 + 4 + 14 + 1 + 4 + 2 + 1) + 3 * 3 + 4);
+}
+
+TEST(CortexM4Cycles, AtWaitStatesCountFetchesAndLoadsFromFlash) {
+  const std::int64_t bx = 4 + 5 * (1 + 2);  // in a word of its own; the fetch under way, that of where it arrives
+  EXPECT_EQ(cycles({}, 5), bx);
+  EXPECT_EQ(cycles({"add.w\tr0, r1, r2"}, 5), 1 + 5 + bx);
+  EXPECT_EQ(cycles({"adds\tr0, r1", "adds\tr0, r1"}, 5, 2), 1 + 5 + 1 + bx) << "two in a word";
+  EXPECT_EQ(cycles({"ldr.w\tr0, [r1, #4]"}, 5), 2 + 5 + 5 + bx);
+  EXPECT_EQ(cycles({"vldmia\tr1!, {s4-s7}"}, 5), 5 + 5 + 4 * 5 + bx);
+  EXPECT_EQ(cycles({"ldr.w\tr0, [pc, #4]"}, 5), 2 + 5 + 5 + bx);
+  EXPECT_EQ(cycles({"ldr.w\tr0, [sp, #4]"}, 5), 2 + 5 + bx) << "the stack is RAM";
+  EXPECT_EQ(cycles({"ldmia.w\tsp!, {r4, r5}"}, 5), 3 + 5 + bx);
+  EXPECT_EQ(cycles({"str.w\tr0, [r1, #4]"}, 5), 2 + 5 + bx) << "so is what is written";
+}
+
+TEST(CortexM4Cycles, OfAnInstructionThatTheManualDoesNotListAreRefused) {
+  const auto refused = [](const std::string& instruction) {
+    try {
+      return std::to_string(cycles({instruction}));
+    } catch (const Refusal& refusal) {
+      return std::string(refusal.what());
+    }
+  };
+  EXPECT_EQ(refused("vrintz.f32\ts0, s1"), "10: no cycles are known of vrintz.f32 s0, s1");
+  EXPECT_EQ(refused("addxx\tr0, r1"), "10: no cycles are known of addxx r0, r1");
+  EXPECT_EQ(refused("push\t{r4-r7}"), "10: a list that is not read: push {r4-r7}");
+}
+
+TEST(CortexM4Cycles, OfAFunctionWithoutBoundsAreThoseOfItsDearestInstruction) {
+  const std::string listing =
+      "00000010 <step>:\n"
+      "      10:\tb.n\t20 <memset>\n"
+      "      12:\tnop\n"
+      "00000020 <memset>:\n"
+      "      20:\tstrd\tr1, r1, [r0]\n"
+      "      24:\tbne.n\t20 <memset>\n"
+      "      26:\tbx\tlr\n"
+      "      28:\tnop\n";
+  EXPECT_EQ(bound(listing, "", "call | memset | 10 | .\n", {}, CortexM4Costs(0)), 4 + 10 * 4);
+  EXPECT_EQ(bound(listing, "", "call | memset | 10 | .\n"), 1 + 10);
 }
 
 }  // namespace

@@ -60,11 +60,18 @@ std::string help() {
   std::string text =
       "crankloop: an engine's mechanics at a fixed time step\n\nusage: crankloop COMMAND [FILE] [--option "
       "value]...\n\n";
-  for (const Command* command : commands()) text += in_column(command->name) + command->summary + "\n";
+  const auto list = [&text](bool for_developers) {
+    for (const Command* command : commands()) {
+      if (command->for_developers == for_developers) text += in_column(command->name) + command->summary + "\n";
+    }
+  };
+  list(false);
   text += in_column("help COMMAND") + "usage, options and an example of a command\n";
   text += in_column("help engine-file") + "sections, keys, units and ranges of an engine file\n";
   text += in_column("help patterns") + "trigger wheels in use, by name, with their sources\n";
   text += in_column("--version") + "prints the version\n";
+  text += "\nfor developers:\n";
+  list(true);
   text += "\nexample: " + std::string(commands().front()->example) + "\n";
   text +=
       "\nBad input stops the program before it writes anything, with exit status 2 and on stderr:\n"

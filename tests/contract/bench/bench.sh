@@ -1,11 +1,11 @@
 #!/bin/sh
 # What of the benchmark is committed: a gate that no noisy clock moves, of instructions and errors; and what
-# docs/performance.md says of it.
+# docs/measurements/benchmark.md says of it.
 #
 #   bench.sh BUILD_DIR check   fails when a kernel takes over 2 % more instructions than instructions.txt says, or an error has grown by
 #                              over 2 % from errors.csv; last line: "N passed, M failed"
-#   bench.sh BUILD_DIR renew   writes both anew
-#   bench.sh BUILD_DIR performance FILE PICTURE   rewrites the benchmark's part of docs/performance.md, and its diagrams
+#   bench.sh BUILD_DIR renew   writes both anew, and into the documents
+#   bench.sh BUILD_DIR performance   writes docs/measurements/benchmark.md, its diagrams, and what docs/performance.md says of it
 #
 # Builds the release program into BUILD_DIR; CXX names another compiler than c++. Instructions are compared only where
 # compiler and processor family are those of instructions.txt; errors everywhere: they are the same on every machine,
@@ -95,14 +95,7 @@ check() {
   [ "$failed" -eq 0 ]
 }
 
-# ---- docs/performance.md ---------------------------------------------------------------------------------------------
-
-# goals CSV: asked and reached.
-goals() {
-  echo "| asked of the library, float | asked | reached | met | its error |"
-  echo "| --- | --- | --- | --- | --- |"
-  awk -F , '$1 == "ratios" { printf "| %s | %s | %.3g | %s | %.2g %s |\n", $2, $10, $11, $12, $8, $9 }' "$1" | tr ';' ','
-}
+# ---- docs/measurements/benchmark.md ----------------------------------------------------------------------------------
 
 # rows CSV HEADING AWK_CONDITION: contestant, real, setting, time, error.
 rows() {
@@ -129,36 +122,36 @@ kernels() {
   awk '!/^#/ { print "| " $1 " | " $2 " |" }' "$here/instructions.txt"
 }
 
-# Rewrites FILE's lines between "<!-- bench begin" and "<!-- bench end", and the picture.
 # shellcheck disable=SC2016  # fields of awk
 performance() {
   csv=$build_dir/bench.csv
-  "$crankloop" bench --csv "$csv" --plot "$2" >"$build_dir/bench.txt"
+  checkout=$here/../../..
+  "$crankloop" bench --csv "$csv" --plot "$checkout/docs/images/bench.svg" >"$build_dir/bench.txt"
   {
+    echo "# Run time against error"
+    printf '\nWritten by `tests/contract/bench/bench.sh BUILD_DIR performance`; '
+    echo "[performance.md](../performance.md#beside-plain-code) has what is compared and how."
+    printf '\n![Work-precision diagrams](../images/bench.svg)\n'
     printf '\nMeasured on: %s.\n\n' "$(sed -n '1s/^# //p' "$build_dir/bench.txt")"
-    goals "$csv"
-    echo && rows "$csv" "x, v and a of a piston" '$1 == "kinematics"'
+    rows "$csv" "x, v and a of a piston" '$1 == "kinematics"'
     echo && rows "$csv" "one valve, a cam cycle" '$1 == "valve" && ($4 ~ /; (1|10|20|100) us(; tolerance.*)?$/)'
     echo && distributions "$csv"
     echo && rows "$csv" "a longer tick" '$1 == "growth"'
     echo && rows "$csv" "asked for more and more" '$1 == "skips"'
     echo && echo "Instructions, counted by callgrind; $(head -n 1 "$here/instructions.txt" | cut -c 3-):"
     echo && kernels
-    echo
-  } >"$build_dir/performance.txt"
-  awk -v part="$build_dir/performance.txt" '
-    /^<!-- bench begin/ { print; while ((getline line < part) > 0) print line; inside = 1 }
-    /^<!-- bench end/ { inside = 0; found = 1 }
-    !inside { print }
-    END { exit !found }' "$1" >"$build_dir/performance.md" && cp "$build_dir/performance.md" "$1"
+  } >"$build_dir/benchmark.md"
+  cp "$build_dir/benchmark.md" "$checkout/docs/measurements/benchmark.md"
+  "$here/../figures/performance.sh" "$checkout" renew
 }
 
 case $what in
   check) check ;;
-  performance) performance "$3" "$4" ;;
+  performance) performance ;;
   renew)
     errors >"$build_dir/errors.csv" && cp "$build_dir/errors.csv" "$here/errors.csv"
     count_all >"$build_dir/instructions.txt" && cp "$build_dir/instructions.txt" "$here/instructions.txt"
+    [ ! -e "$here/../figures/performance.sh" ] || "$here/../figures/performance.sh" "$here/../../.." renew
     ;;
   *) sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
 esac

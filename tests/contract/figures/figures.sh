@@ -3,9 +3,9 @@
 #
 #   figures.sh BUILD_DIR errors         largest errors against exact equations: the same everywhere
 #   figures.sh BUILD_DIR scenes         flash, RAM, stack, instructions and time of each scene
-#   figures.sh BUILD_DIR performance FILE  rewrites the part of docs/performance.md between the marks of this machine
+#   figures.sh BUILD_DIR performance    writes docs/measurements/host.md, and what docs/performance.md says of it
 #   figures.sh BUILD_DIR decisions      what docs/decisions/0002 to 0006 state
-#   figures.sh BUILD_DIR check README PERFORMANCE  whether they state the errors and the RAM that are measured now
+#   figures.sh BUILD_DIR check README HOST  whether they state the errors and the RAM that are measured now
 #   figures.sh BUILD_DIR                errors and scenes
 #
 # What the documents show of the program's output: printed.sh.
@@ -80,7 +80,7 @@ scenes() {
   echo "$(measured_on), load $(cut -d ' ' -f 1 /proc/loadavg)"
 }
 
-# ---- docs/performance.md ---------------------------------------------------------------------------------------------
+# ---- docs/measurements/host.md ---------------------------------------------------------------------------------------
 
 example_rows() {  # example_rows REAL
   scene_row "kinematics only" "PistonMotion_$1"
@@ -91,9 +91,11 @@ example_rows() {  # example_rows REAL
   scene_row "the whole engine" "WholeEngine_$1"
 }
 
-# Rewrites FILE's lines between "<!-- host begin" and "<!-- host end"; other machines' parts stay as they are.
+# shellcheck disable=SC2016  # code in Markdown
 performance() {
   {
+    printf '# Scenes on a host\n\nWritten by `tests/contract/figures/figures.sh BUILD_DIR performance`; '
+    echo "[performance.md](../performance.md#a-scene) has what the columns mean."
     echo
     echo "Float:"
     echo
@@ -106,12 +108,9 @@ performance() {
     example_rows double
     echo
     echo "Measured on: $(measured_on)."
-    echo
-  } >performance.txt
-  awk '/^<!-- host begin/ { print; while ((getline line < "performance.txt") > 0) print line; inside = 1 }
-       /^<!-- host end/ { inside = 0; found = 1 }
-       !inside { print }
-       END { exit !found }' "$1" >performance.md && cp performance.md "$1"
+  } >host.md
+  cp host.md "$here/../../../docs/measurements/host.md"
+  "$here/performance.sh" "$here/../../.." renew
 }
 
 # ---- decisions -------------------------------------------------------------------------------------------------------
@@ -142,8 +141,8 @@ states_ram() {
   done
 }
 
-# Every measured row of errors stands in the README, and so does the RAM of every scene that it and docs/performance.md
-# name.
+# Every measured row of errors stands in the README, and so does the RAM of every scene that it and
+# docs/measurements/host.md name.
 check() {
   bad=0
   ./errors "$engine" >errors.txt
@@ -162,7 +161,7 @@ case $what in
   errors) ./errors "$engine" ;;
   scenes) scenes ;;
   decisions) decisions ;;
-  performance) performance "$(absolute "$3")" ;;
+  performance) performance ;;
   check) check "$(absolute "$3")" "$(absolute "$4")" ;;
   '')
     ./errors "$engine"

@@ -1,6 +1,6 @@
 // Seven scenes of a four-cylinder engine with two valve trains and two trigger wheels, from the smallest to the whole:
-// examples of what a scene says, what the contract tests audit, and, but for the wheels, what docs/performance.md
-// measures.
+// examples of what a scene says, what the contract tests audit, and, but for the wheels, what
+// docs/measurements/host.md measures.
 //
 // What belongs here: one scene per kind of use. What does not: variants of them (figures/scenes.hpp), the ready-made
 // ones (scenes.hpp).

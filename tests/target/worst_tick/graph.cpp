@@ -44,13 +44,16 @@ class Builder {
     std::map<std::size_t, std::size_t> block_of;  // by its first instruction
     for (const std::size_t begin : leaders) block_of.emplace(begin, block_of.size());
     for (auto leader = leaders.begin(); leader != leaders.end(); ++leader) {
-      Block block{*leader, std::next(leader) == leaders.end() ? code.size() : *std::next(leader), {}, false, {}};
+      Block block{*leader, std::next(leader) == leaders.end() ? code.size() : *std::next(leader), {}, false, {}, {}};
       for (std::size_t i = block.begin; i < block.end; ++i) {
         if (flows[i].calls) block.callees.push_back(flows[i].target);
       }
       const Flow& last = flows[block.end - 1];
       block.returns = last.returns;
-      if (last.jumps && within(last.target)) block.next.push_back(block_of[index_[last.target]]);
+      if (last.jumps && within(last.target)) {
+        block.branch_to = index_[last.target];
+        block.next.push_back(block_of[*block.branch_to]);
+      }
       if (last.jumps && !within(last.target))
         block.callees.push_back(last.target), block.returns = true;  // calls as its last act
       const bool into_data = block.end == code.size() || code[block.end].follows_data;

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "listing.hpp"
@@ -17,7 +18,11 @@ struct Block {
   std::size_t begin, end;         ///< instructions of the function
   std::vector<std::size_t> next;  ///< blocks
   bool returns = false;
-  std::vector<std::uint32_t> callees;  ///< their addresses
+  std::vector<std::uint32_t> callees;    ///< their addresses
+  std::optional<std::size_t> branch_to;  ///< the instruction of the function to which its last one may branch
+
+  /// Whether it goes to another block by a branch.
+  [[nodiscard]] bool branches(const Block& other) const { return branch_to == other.begin; }
 };
 
 /// All that can reach the back edges to `header` without passing it.

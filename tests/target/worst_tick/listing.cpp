@@ -40,6 +40,7 @@ Program read_listing(std::istream& listing) {
   Program program;
   Function* function = nullptr;
   bool after_data = false;
+  Instruction* before = nullptr;
   for (std::string line; std::getline(listing, line);) {
     const std::string name = function_name(line);
     Instruction instruction;
@@ -48,9 +49,14 @@ Program read_listing(std::istream& listing) {
       function->name = name;
       after_data = false;
     } else if (function != nullptr && read_instruction(line, instruction)) {
+      if (before != nullptr && instruction.address - before->address == 2) before->size = 2;
+      before = nullptr;
       instruction.follows_data = after_data;
       after_data = instruction.mnemonic.empty();
-      if (!after_data) function->instructions.push_back(instruction);
+      if (!after_data) {
+        function->instructions.push_back(instruction);
+        before = &function->instructions.back();
+      }
     }
   }
   return program;
@@ -76,6 +82,16 @@ void read_places(std::istream& places, Program& program) {
       instruction.calls.assign(all.begin() + 1, all.end());
     }
   }
+}
+
+bool matches(const std::string& name, const std::string& pattern) {
+  std::istringstream parts(pattern);
+  std::size_t at = 0;
+  for (std::string part; std::getline(parts, part, '*'); at += part.size()) {
+    at = name.find(part, at);
+    if (at == std::string::npos) return false;
+  }
+  return true;
 }
 
 std::string hex(std::uint32_t address) {

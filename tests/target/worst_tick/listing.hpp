@@ -27,6 +27,7 @@ struct Instruction {
   std::uint32_t address = 0;
   std::string mnemonic;  ///< lower case, without .n or .w
   std::string operands;
+  std::uint32_t size = 4;     ///< bytes
   Place place;                ///< of the innermost function, where it was inlined
   std::vector<Place> calls;   ///< the calls that were inlined around that, from inside out
   bool follows_data = false;  ///< rather than the instruction before it
@@ -45,6 +46,9 @@ using Program = std::map<std::uint32_t, Function>;
 
 /// Adds places from what `addr2line -a -i` answers for addresses of the program.
 void read_places(std::istream& places, Program& program);
+
+/// Whether a name has all parts of a pattern in their order: `6EngineI*4stepE` has two.
+[[nodiscard]] bool matches(const std::string& name, const std::string& pattern);
 
 /// An address in hexadecimal, for messages.
 [[nodiscard]] std::string hex(std::uint32_t address);

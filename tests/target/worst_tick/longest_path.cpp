@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mixture.hpp"
+#include "thumb.hpp"
 
 namespace worst_tick {
 namespace {
@@ -11,14 +12,33 @@ constexpr std::size_t kReturn = static_cast<std::size_t>(-1);
 
 }  // namespace
 
-LongestPath::LongestPath(const Program& program, const Bounds& bounds, std::uint32_t root)
-    : program_{program}, bounds_{bounds}, root_{root} {
+LongestPath::LongestPath(const Program& program, const Bounds& bounds, const Costs& costs, std::uint32_t root)
+    : program_{program}, bounds_{bounds}, costs_{costs}, root_{root} {
   std::vector<std::uint32_t> callers;
   add(root, callers);
 }
 
 std::size_t LongestPath::budget(const std::string& name) const {
   return static_cast<std::size_t>(std::distance(bounds_.budgets().begin(), bounds_.budgets().find(name)));
+}
+
+/// Of an instruction of a function, with the call if it is one.
+std::int64_t LongestPath::cost(const Function& function, std::size_t index) const {
+  const auto& code = function.instructions;
+  const bool last = index + 1 == code.size() || code[index + 1].follows_data;
+  return costs_.going_on(code[index], last ? nullptr : &code[index + 1]) +
+         (flow_of(code[index]).calls ? costs_.leaving() : 0);
+}
+
+/// A function of which only the number of instructions is known: each as dear as its dearest.
+Path LongestPath::given(const Function& function, std::int64_t instructions) const {
+  std::int64_t dearest = 1;
+  for (std::size_t i = 0; i < function.instructions.size(); ++i) {
+    const Flow flow = flow_of(function.instructions[i]);
+    const bool leaves = flow.jumps || flow.returns;
+    dearest = std::max(dearest, cost(function, i) + (leaves ? costs_.leaving() : 0));
+  }
+  return {instructions * dearest, {}, true};
 }
 
 void LongestPath::add(std::uint32_t address, std::vector<std::uint32_t>& callers) {
@@ -30,8 +50,9 @@ void LongestPath::add(std::uint32_t address, std::vector<std::uint32_t>& callers
   callers.push_back(address);
   Body body{graph_of(function), {}, {}};
   for (const Block& block : body.graph.blocks) {
-    Path path{static_cast<std::int64_t>(block.end - block.begin), {}, true};
+    Path path;
     for (std::size_t i = block.begin; i < block.end; ++i) {
+      path.length += cost(function, i);
       const std::string spends = bounds_.spends(function.instructions[i]);
       if (!spends.empty()) path.spend(budget(spends));
     }
@@ -69,14 +90,17 @@ LongestPath::Ways LongestPath::ways(const Body& body, const std::vector<Path>& b
       continue;
     }
     const Path after = before[b].then(blocks[b]);
-    for (const std::size_t next : body.graph.blocks[b].next) reach(next, after);
-    if (body.graph.blocks[b].returns) reach(kReturn, after);
+    const Path left = after.longer_by(costs_.leaving());
+    const Block& block = body.graph.blocks[b];
+    for (const std::size_t next : block.next) reach(next, block.branches(body.graph.blocks[next]) ? left : after);
+    if (block.returns) reach(kReturn, left);
   }
   return all;
 }
 
 Path LongestPath::longest(std::uint32_t address, const Prices& prices) {
-  if (const auto given = bounds_.instructions(program_.at(address).name)) return {*given, {}, true};
+  const Function& function = program_.at(address);
+  if (const auto instructions = bounds_.instructions(function.name)) return given(function, *instructions);
   const auto known = known_.find(address);
   if (known != known_.end()) return known->second;
   const Body& body = bodies_.at(address);

@@ -1,4 +1,4 @@
-// The longest path through a function and all that it calls, in instructions.
+// The longest path through a function and all that it calls, in instructions or cycles.
 //
 // What belongs here: the search. What does not: structure (graph.hpp), how often loops run (bounds.hpp).
 //
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "bounds.hpp"
+#include "costs.hpp"
 #include "graph.hpp"
 #include "listing.hpp"
 #include "path.hpp"
@@ -22,15 +23,15 @@ namespace worst_tick {
 class LongestPath {
  public:
   /// Refuses recursion, calls of what is not in the program, and what graph_of() and Bounds refuse.
-  LongestPath(const Program& program, const Bounds& bounds, std::uint32_t root);
+  LongestPath(const Program& program, const Bounds& bounds, const Costs& costs, std::uint32_t root);
 
-  /// The most instructions from the root's first to its return, both counted.
+  /// The most from the root's first instruction to its return, both counted.
   [[nodiscard]] std::int64_t bound();
 
  private:
   struct Body {
     Graph graph;
-    std::vector<Path> blocks;              ///< without what they call
+    std::vector<Path> blocks;              ///< without what they call, and without leaving them
     std::vector<Bounds::Repeats> repeats;  ///< per loop
   };
   /// Longest ways through a loop, or a whole function, from its first block.
@@ -45,9 +46,12 @@ class LongestPath {
                           const std::vector<bool>& within, const std::map<std::size_t, Ways>& inner,
                           const Prices& prices) const;
   [[nodiscard]] std::size_t budget(const std::string& name) const;
+  [[nodiscard]] Path given(const Function& function, std::int64_t instructions) const;
+  [[nodiscard]] std::int64_t cost(const Function& function, std::size_t index) const;
 
   const Program& program_;
   const Bounds& bounds_;
+  const Costs& costs_;
   std::uint32_t root_;
   std::map<std::uint32_t, Body> bodies_;
   std::map<std::uint32_t, Path> known_;  ///< at the prices asked for

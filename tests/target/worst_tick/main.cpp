@@ -1,6 +1,6 @@
-// worst_tick LISTING PLACES LIMITS BOUNDS ROOT: the most instructions that the functions whose names match ROOT take,
-// with all that they call, whatever their input. It reads machine code, so it holds for this image only, but for every
-// path through it.
+// worst_tick LISTING PLACES LIMITS BOUNDS ROOT [cortex-m4]: the most instructions that the functions whose names match
+// ROOT take, with all that they call, whatever their input. With cortex-m4, after that, the most cycles at zero wait
+// states and at 5 (costs.hpp). It reads machine code, so it holds for this image only, but for every path through it.
 //
 //   LISTING   objdump -d --no-show-raw-insn of the image
 //   PLACES    addr2line -a -i of the listing's addresses
@@ -17,6 +17,7 @@
 #include <string>
 
 #include "bounds.hpp"
+#include "costs.hpp"
 #include "listing.hpp"
 #include "longest_path.hpp"
 
@@ -57,30 +58,31 @@ class SourceFiles : public Sources {
   return limits;
 }
 
-/// Whether a name has all parts of a pattern in their order: `6EngineI*4stepE` has two.
-[[nodiscard]] bool matches(const std::string& name, const std::string& pattern) {
-  std::istringstream parts(pattern);
-  std::size_t at = 0;
-  for (std::string part; std::getline(parts, part, '*'); at += part.size()) {
-    at = name.find(part, at);
-    if (at == std::string::npos) return false;
+/// The most of any function whose name matches.
+[[nodiscard]] std::int64_t worst(const Program& program, const Bounds& bounds, const Costs& costs,
+                                 const std::string& pattern) {
+  std::int64_t most = 0;
+  for (const auto& [address, function] : program) {
+    if (matches(function.name, pattern)) most = std::max(most, LongestPath(program, bounds, costs, address).bound());
   }
-  return true;
+  if (most == 0) throw Refusal("no function matches " + pattern);
+  return most;
 }
 
-int run(char** argument) {
+int run(int count, char** argument) {
   std::ifstream listing = opened(argument[1]), places = opened(argument[2]), limits = opened(argument[3]),
                 bounds_file = opened(argument[4]);
   Program program = read_listing(listing);
   read_places(places, program);
   SourceFiles sources;
   const Bounds bounds(bounds_file, limits_in(limits), sources);
-  std::int64_t worst = 0;
-  for (const auto& [address, function] : program) {
-    if (matches(function.name, argument[5])) worst = std::max(worst, LongestPath(program, bounds, address).bound());
+  std::cout << worst(program, bounds, InstructionCosts(), argument[5]);
+  if (count > 6) {
+    if (std::string(argument[6]) != "cortex-m4") throw Refusal(std::string("no cycles are known of ") + argument[6]);
+    for (const std::int64_t wait_states : {std::int64_t{0}, kCortexM4FlashWaitStates})
+      std::cout << ' ' << worst(program, bounds, CortexM4Costs(wait_states), argument[5]);
   }
-  if (worst == 0) throw Refusal(std::string("no function matches ") + argument[5]);
-  std::cout << worst << '\n';
+  std::cout << '\n';
   return 0;
 }
 
@@ -88,12 +90,12 @@ int run(char** argument) {
 }  // namespace worst_tick
 
 int main(int count, char** argument) {
-  if (count != 6) {
-    std::cerr << "worst_tick LISTING PLACES LIMITS BOUNDS ROOT\n";
+  if (count != 6 && count != 7) {
+    std::cerr << "worst_tick LISTING PLACES LIMITS BOUNDS ROOT [cortex-m4]\n";
     return 2;
   }
   try {
-    return worst_tick::run(argument);
+    return worst_tick::run(count, argument);
   } catch (const worst_tick::Refusal& refusal) {
     std::cerr << "worst_tick: " << refusal.what() << '\n';
     return 1;

@@ -53,7 +53,7 @@ void Mixture::enter(const Column& column) {
 }
 
 bool Mixture::add(const Path& path) {
-  Column column{static_cast<double>(path.instructions), std::vector<double>(rows_, 0)};
+  Column column{static_cast<double>(path.length), std::vector<double>(rows_, 0)};
   for (std::size_t i = 0; i < path.spent.size(); ++i) column.entries[i] = static_cast<double>(path.spent[i]);
   column.entries[rows_ - 1] = 1;
   if (gain(column) < kNothing * column.length) return false;

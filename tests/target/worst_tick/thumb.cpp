@@ -13,7 +13,7 @@ const std::set<std::string> kConditions = {"eq", "ne", "cs", "hs", "cc", "lo", "
 [[nodiscard]] bool is(const std::string& mnemonic, const std::string& name, bool& conditional) {
   if (mnemonic.compare(0, name.size(), name) != 0) return false;
   const std::string rest = mnemonic.substr(name.size());
-  conditional = kConditions.count(rest) != 0;
+  conditional = is_condition(rest);
   return rest.empty() || conditional;
 }
 
@@ -47,6 +47,8 @@ const std::set<std::string> kConditions = {"eq", "ne", "cs", "hs", "cc", "lo", "
 }
 
 }  // namespace
+
+bool is_condition(const std::string& text) { return kConditions.count(text) != 0; }
 
 Flow flow_of(const Instruction& i) {
   const std::string& m = i.mnemonic;

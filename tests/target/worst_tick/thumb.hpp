@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "listing.hpp"
 
@@ -17,6 +18,9 @@ struct Flow {
   bool returns = false;  ///< to the caller
   std::uint32_t target = 0;
 };
+
+/// Whether "eq", "ne", ...
+[[nodiscard]] bool is_condition(const std::string& text);
 
 /// Refuses what it does not know where it leads: calls and jumps by registers, jump tables, traps.
 [[nodiscard]] Flow flow_of(const Instruction& instruction);

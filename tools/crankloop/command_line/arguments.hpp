@@ -78,6 +78,7 @@ struct Command {
   std::size_t files;    ///< how many file names it takes
   Options options;
   int (*run)(const Arguments&);  ///< returns an ExitStatus; throws the types of error.hpp
+  bool for_developers = false;   ///< of crankloop: listed last
 };
 
 /// Its own, and those of all that are like it.

@@ -80,6 +80,7 @@ const Command kBench{
     "crankloop bench --quick --report bench.html",
     0,
     kOptions,
-    run_bench};
+    run_bench,
+    true};
 
 }  // namespace crankloop::program

@@ -28,6 +28,7 @@ const Command kPack{"pack",
                     "crankloop pack my_engine_fmu -o my_engine.fmu",
                     1,
                     kOptions,
-                    run_pack};
+                    run_pack,
+                    true};
 
 }  // namespace crankloop::program

@@ -88,6 +88,7 @@ const Command kStress{"stress",
                       "crankloop stress --seed 7 --cases 2000 --report stress.html",
                       0,
                       kOptions,
-                      run_stress};
+                      run_stress,
+                      true};
 
 }  // namespace crankloop::program

@@ -1,4 +1,4 @@
-// The benchmark as a page: work-precision diagrams, whole ticks, what was asked and what was reached.
+// The benchmark as a page: work-precision diagrams, whole ticks, ratios.
 //
 // What belongs here: which rows make which plot. What does not: drawing (report/), measuring.
 #pragma once

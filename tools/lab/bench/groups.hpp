@@ -38,7 +38,7 @@ inline constexpr double kRedline_rpm = 7500;
 /// Races of all groups together, for the progress that is told.
 inline constexpr int kRaces = 9;
 
-/// What was asked of the library against what the rows of all groups say.
+/// Times and errors of the other contestants to the library's, each beside the error of the library.
 [[nodiscard]] std::vector<Row> ratio_rows(const std::vector<Row>& rows);
 
 }  // namespace crankloop::program::bench

@@ -40,13 +40,6 @@ std::string short_number(double value) {
   return text;
 }
 
-/// "at least 10"
-std::string asked_text(const Goal& goal) { return (goal.at_least ? "at least " : "at most ") + shortest(goal.asked); }
-
-std::string goal_text(const Goal& goal) {
-  return "reached " + short_number(goal.reached) + ", asked " + asked_text(goal) + (goal.met() ? "" : "  NOT MET");
-}
-
 std::string padded(std::string text, std::size_t width) {
   text.resize(std::max(width, text.size()), ' ');
   return text;
@@ -55,9 +48,11 @@ std::string padded(std::string text, std::size_t width) {
 std::string line_of(const Row& row, std::size_t names, std::size_t settings) {
   std::string line =
       "  " + padded(row.contestant, names) + "  " + padded(row.real, 6) + "  " + padded(row.setting, settings) + "  ";
-  if (row.goal) return line + goal_text(*row.goal);
-  if (std::isfinite(row.ns_median))
+  if (row.ratio) {
+    line += padded(short_number(*row.ratio), 8);
+  } else if (std::isfinite(row.ns_median)) {
     line += padded(short_number(row.ns_median) + " +- " + short_number(row.ns_spread / 2) + " ns per " + row.per, 40);
+  }
   if (!row.error_unit.empty()) line += "  error " + short_number(row.error) + " " + row.error_unit;
   return line;
 }
@@ -74,10 +69,7 @@ std::string to_json(const std::vector<Row>& rows) {
             ", \"per\": " + quoted(row.per) + ", \"ns_median\": " + number_or_null(row.ns_median) +
             ", \"ns_spread\": " + number_or_null(row.ns_spread) + ", \"error\": " + number_or_null(row.error) +
             ", \"error_unit\": " + quoted(row.error_unit);
-    if (row.goal) {
-      text += ", \"asked\": " + quoted(asked_text(*row.goal)) + ", \"reached\": " + number_or_null(row.goal->reached) +
-              ", \"met\": " + (row.goal->met() ? "true" : "false");
-    }
+    if (row.ratio) text += ", \"ratio\": " + number_or_null(*row.ratio);
     text += "}";
     separator = ",\n";
   }
@@ -106,18 +98,15 @@ void write_csv(Output& out, const std::vector<Row>& rows) {
     std::replace(text.begin(), text.end(), ',', ';');
     return text;
   };
-  CsvWriter csv(out, {"group", "contestant", "real", "setting", "per", "ns_median", "ns_spread", "error", "error_unit",
-                      "asked", "reached", "met"});
+  CsvWriter csv(
+      out, {"group", "contestant", "real", "setting", "per", "ns_median", "ns_spread", "error", "error_unit", "ratio"});
   for (const Row& row : rows) {
     const auto number = [](double value) {
       return std::isfinite(value) ? significant(static_cast<float>(value)) : std::string();
     };
     csv.row(cell(row.group), cell(row.contestant), row.real, cell(row.setting), row.per, number(row.ns_median),
             number(row.ns_spread), number(row.error), cell(row.error_unit),
-            row.goal ? asked_text(*row.goal) : std::string(), row.goal ? number(row.goal->reached) : std::string(),
-            !row.goal         ? ""
-            : row.goal->met() ? "yes"
-                              : "no");
+            row.ratio ? number(*row.ratio) : std::string());
   }
 }
 

@@ -13,15 +13,6 @@
 
 namespace crankloop::program::bench {
 
-/// What was asked of a ratio or a time, and what was reached.
-struct Goal {
-  double asked;
-  double reached;
-  bool at_least;  ///< else at most
-
-  [[nodiscard]] bool met() const noexcept { return at_least ? reached >= asked : reached <= asked; }
-};
-
 struct Row {
   std::string group;  ///< "kinematics", "valve", ...
   std::string contestant;
@@ -33,10 +24,10 @@ struct Row {
   double error =
       std::numeric_limits<double>::quiet_NaN();  ///< largest; not a number: none was measured, or the motion blew up
   std::string error_unit{};
-  std::optional<Goal> goal{};
+  std::optional<double> ratio{};  ///< of a row of "ratios"; its time and error are the library's
 };
 
-/// An array of objects. What is no number is null; "asked" and "reached" stand only where there is a goal.
+/// An array of objects. What is no number is null; "ratio" stands only in ratios.
 [[nodiscard]] std::string to_json(const std::vector<Row>& rows);
 
 /// For people: a table per group, in lines of plain text.
