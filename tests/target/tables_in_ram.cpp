@@ -12,7 +12,7 @@ namespace {
 /// fingerprint tells.
 crankloop::EngineDefinition ohc_125() noexcept {
   crankloop::EngineDefinition engine;
-  engine.crank = {52.4 / 1e3, 28.9 / 1e3, 101 / 1e3, 0, 9.2};
+  engine.crank = {52.4 / 1e3, 28.9 / 1e3, 101 / 1e3, 0, 9.2, 15000 / (1e3 / 104.71975511965977)};
   engine.masses = {0.120, 0.035, 0.110, 0, 0, 0.003};
   engine.pressure.source = crankloop::PressureSource::wiebe;
   engine.pressure.crankcase_Pa = 100e3;

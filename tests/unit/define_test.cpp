@@ -102,6 +102,15 @@ TEST(CrankDefinition, RefusesACompressionRatioThatLeavesNoCylinder) {
   }
 }
 
+TEST(CrankDefinition, RefusesAMaximumSpeedThatIsNone) {
+  for (const Bad& bad : {Bad{-1, Reason::negative}, Bad{10472.5, Reason::out_of_range}, Bad{kNaN, Reason::not_finite},
+                         Bad{kInfinity, Reason::not_finite}}) {
+    Crank crank = support::diesel_495_crank();
+    crank.max_speed_rad_s = bad.value;
+    EXPECT_TRUE(refuses(validate(crank), bad.reason, "crank.max_speed_rad_s")) << bad.value;
+  }
+}
+
 TEST(CrankDefinition, RodRatioIsCrankRadiusPerRodLength) {
   EXPECT_NEAR(support::diesel_495_crank().rod_ratio(), 0.2738, 0.00005);  // [495]
 }

@@ -23,6 +23,7 @@
 
 #include "crankloop/files/error.hpp"
 #include "crankloop/files/text_file.hpp"
+#include "crankloop/loops/valve_loop.hpp"
 #include "lab/reference/valve_reference.hpp"
 #include "support/engine_files.hpp"
 #include "support/engines.hpp"
@@ -422,6 +423,12 @@ TEST_F(EngineFileTest, WhatTheLibraryRefusesIsToldAtTheLineOfTheKey) {
   // A key that stands at its default has no line of its own: the section's header is to blame.
   EXPECT_EQ(engine.explain({Reason::no_solution, -1, "crank.pin_offset_m"}).what(),
             path + ":4: pin_offset_mm: 0 cannot be met");
+}
+
+TEST_F(EngineFileTest, TheSpeedThatAnEngineCanHaveLimitsItsTicksButNotALoneValve) {
+  const EngineFile engine = read_engine_file(CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini", {"engine", "crank"});
+  EXPECT_NEAR(engine.definition().crank.max_speed_rad_s, 500 * support::kPi, 1e-9);  // 15 000 rpm
+  EXPECT_EQ(LoneValve(engine, "intake").definition().crank.max_speed_rad_s, 0);
 }
 
 TEST_F(EngineFileTest, FrictionLoadAndStarterAreReadInTheirUnitsOrAbsent) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -235,6 +236,57 @@ TYPED_TEST(EngineOf, TheSpeedLimitItselfIsGoodInBothDirectionsAndTurnsTheCrankIt
       EXPECT_TRUE(all_finite(all_numbers<Real>(run.engine.output())));
     }
   }
+}
+
+TYPED_TEST(EngineOf, ASpeedBeyondTheEnginesMaximumIsABadInput) {
+  using Real = TypeParam;
+  EngineDefinition engine = diesel_495();
+  engine.crank.max_speed_rad_s = 300;
+  FullTables<Real> tables;
+  ASSERT_TRUE(accepted(tables.build(engine, kTick_s)));
+  EXPECT_EQ(tables.drive().speed_limit_rad_s, Real{300});
+  Running<Real, Everything> run(tables);
+  typename Engine<Real, Everything>::Input in;
+  in.speed_rad_s = Real{-300};
+  EXPECT_EQ(run.engine.step(in).faults, 0u);
+  in.speed_rad_s = std::nextafter(Real{300}, Real{301});
+  EXPECT_EQ(run.engine.step(in).faults, kFaultSpeed);
+}
+
+TYPED_TEST(EngineOf, TheLowestOfTickOptionsAndEngineLimitsTheSpeed) {
+  using Real = TypeParam;
+  EngineDefinition engine = diesel_495();
+  const auto limit_rad_s = [&engine](double tick_s, double option_rad_s) {
+    const auto tables = std::make_unique<TableStorage<Real, Everything>>();
+    TickOptions options{tick_s};
+    options.max_speed_rad_s = option_rad_s;
+    EXPECT_TRUE(accepted(tables->build(engine, options)));
+    return static_cast<double>(tables->tables().drive->speed_limit_rad_s);
+  };
+  const double by_tick_rad_s = limit_rad_s(2e-3, 0);
+  EXPECT_NEAR(by_tick_rad_s, 2 * kPi / 2e-3, 1);
+  EXPECT_EQ(limit_rad_s(2e-3, 5000), by_tick_rad_s) << "a tick never turns the crank by more than a revolution";
+  EXPECT_EQ(limit_rad_s(2e-3, 800), 800);
+  engine.crank.max_speed_rad_s = 300;
+  EXPECT_EQ(limit_rad_s(2e-3, 0), 300);
+  EXPECT_EQ(limit_rad_s(2e-3, 800), 800) << "options come first";
+  for (const double bad_rad_s : {-1.0, 10473.0, std::numeric_limits<double>::quiet_NaN()}) {
+    const auto tables = std::make_unique<TableStorage<Real, Everything>>();
+    TickOptions options{1e-3};
+    options.max_speed_rad_s = bad_rad_s;
+    EXPECT_TRUE(support::refuses(tables->build(engine, options), Reason::out_of_range, "options.max_speed_rad_s"))
+        << bad_rad_s;
+  }
+}
+
+TYPED_TEST(EngineOf, TablesForAnotherMaximumSpeedHaveAnotherFingerprint) {
+  using Real = TypeParam;
+  EngineDefinition engine = diesel_495();
+  FullTables<Real> any, limited;
+  ASSERT_TRUE(accepted(any.build(engine, kTick_s)));
+  engine.crank.max_speed_rad_s = 300;
+  ASSERT_TRUE(accepted(limited.build(engine, kTick_s)));
+  EXPECT_NE(any.drive().fingerprint, limited.drive().fingerprint);
 }
 
 TYPED_TEST(EngineOf, ABadPressureFallsBackForItsOwnCylinderOnly) {

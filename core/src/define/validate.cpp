@@ -36,6 +36,7 @@ Status validate(const Crank& crank) noexcept {
       positive(crank.rod_length_m, "crank.rod_length_m", 10),
       between(crank.pin_offset_m, "crank.pin_offset_m", -2, 2),
       between(crank.compression_ratio, "crank.compression_ratio", 1, 100),
+      not_negative(crank.max_speed_rad_s, "crank.max_speed_rad_s", kMaxSpeed_rad_s),
   };
   if (const Status refused = first_refusal(answers); !refused.ok()) return refused;
   if (crank.compression_ratio <= 1) return refuse("crank.compression_ratio", Reason::out_of_range);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include <crankloop/limits.hpp>
 #include <crankloop/tabulate/mechanism.hpp>
 
 #include "curve_fit.hpp"
@@ -34,11 +35,13 @@ namespace {
 
 }  // namespace
 
-double speed_limit_rad_s(double tick_s) noexcept {
-  constexpr double kFastest_rad_s = 10472;  // 100 000 rpm
+double speed_limit_rad_s(const EngineDefinition& engine, const TickOptions& options) noexcept {
+  double limit_rad_s = kMaxSpeed_rad_s;
   // At most one revolution per tick, less a hair, so that rounding cannot take the phase increment to half a cycle.
-  const double one_turn_rad_s = 0.4999 * kRadPerCycle / tick_s;
-  return one_turn_rad_s < kFastest_rad_s ? one_turn_rad_s : kFastest_rad_s;
+  const double one_turn_rad_s = 0.4999 * kRadPerCycle / options.tick_s;
+  if (one_turn_rad_s < limit_rad_s) limit_rad_s = one_turn_rad_s;
+  const double given_rad_s = options.max_speed_rad_s != 0 ? options.max_speed_rad_s : engine.crank.max_speed_rad_s;
+  return given_rad_s != 0 && given_rad_s < limit_rad_s ? given_rad_s : limit_rad_s;
 }
 
 template <class Real>
@@ -62,7 +65,7 @@ CrankDynamics<Real> crank_dynamics_of(const EngineDefinition& engine, const Tick
           to_real(machine.quadratic_Nm_s2 + friction.quadratic_Pa_s2 * per_Pa),
           to_real(starter.stall_Nm),
           to_real(starter.stall_Nm > 0 ? starter.stall_Nm / starter.no_load_rad_s : 0),
-          to_real(2 * speed_limit_rad_s(options.tick_s) / options.tick_s)};
+          to_real(2 * speed_limit_rad_s(engine, options) / options.tick_s)};
 }
 
 template CrankDynamics<float> crank_dynamics_of(const EngineDefinition&, const TickOptions&) noexcept;

@@ -9,7 +9,7 @@
 namespace crankloop::detail {
 
 /// Beyond it a given speed is refused, and an integrated one held.
-[[nodiscard]] double speed_limit_rad_s(double tick_s) noexcept;
+[[nodiscard]] double speed_limit_rad_s(const EngineDefinition& engine, const TickOptions& options) noexcept;
 
 /// `engine` and `options` are valid.
 template <class Real>

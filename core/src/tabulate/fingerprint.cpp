@@ -88,6 +88,7 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
   }
   // What came later counts only where there is any of it: engines without have the fingerprint they always had.
   if (report.cut_doublings > 0) f.add(report.cut_doublings);
+  if (options.max_speed_rad_s != 0) f.add(options.max_speed_rad_s);
   bool any = false;
   const auto look = [&any](int, const char*, double x) { any = any || x != 0; };
   Friction::each_field(look, friction);

@@ -36,7 +36,7 @@ void fill_drive(const EngineDefinition& engine, const TickOptions& options, Driv
   drive.trains = static_cast<std::uint32_t>(engine.train_count);
   drive.cycles_per_tick_per_rad_s = static_cast<Real>(options.tick_s / kRadPerCycle);
   drive.rad_s_per_cycle_per_tick = static_cast<Real>(kRadPerCycle / options.tick_s);
-  drive.speed_limit_rad_s = static_cast<Real>(detail::speed_limit_rad_s(options.tick_s));
+  drive.speed_limit_rad_s = static_cast<Real>(detail::speed_limit_rad_s(engine, options));
   const Layout& layout = engine.layout;
   drive.cylinders = static_cast<std::uint32_t>(layout.cylinders);
   double mechanism_deg[kMaxCylinders] = {};
@@ -143,6 +143,8 @@ template <class Real>
 Status tabulate(const EngineDefinition& engine, const TickOptions& options, const TableTargets<Real>& targets,
                 TableReport* report) noexcept {
   if (!(options.tick_s >= 1e-6 && options.tick_s <= 2e-3)) return refuse("options.tick_s", Reason::out_of_range);
+  if (!(options.max_speed_rad_s >= 0 && options.max_speed_rad_s <= kMaxSpeed_rad_s))
+    return refuse("options.max_speed_rad_s", Reason::out_of_range);
   if (const Status refused = validate(targets); !refused.ok()) return refused;
   if (const Status refused = validate(engine); !refused.ok()) return refused;
   if (engine.train_count > 0) {

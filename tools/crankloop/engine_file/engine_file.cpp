@@ -119,6 +119,8 @@ void EngineFile::build_definition() {
     if (!status.ok()) throw explain(status);
   };
   definition_.crank = build_crank(section("crank"), path_);
+  if (const SectionValues* engine = find("engine"); engine != nullptr && engine->has("max_rpm"))
+    definition_.crank.max_speed_rad_s = engine->si("max_rpm");
   accept(validate(definition_.crank));
   if (const SectionValues* masses = find("masses")) {
     definition_.masses = build_masses(*masses, definition_.crank, path_);

@@ -69,6 +69,7 @@ constexpr SectionKind kSections[] = {
 constexpr Key kKeys[] = {
     {"engine", "name", Kind::text, kNoUnit, "", kAny, "", required, "", "", "", "name of the engine in reports; free text"},
     {"engine", "rated_rpm", Kind::number, kRpm, "", above(0).up_to(100000), "", required, "", "", "", "rated engine speed"},
+    {"engine", "max_rpm", Kind::number, kRpmAsRadS, "", above(0).up_to(100000), "", optional, "", "", "", "the highest speed the engine can have; a tick refuses a faster one. Without it the tick's length alone limits the speed"},
 
     {"crank", "bore_mm", Kind::number, kMm, "crank.bore_m", above(0).up_to(2000), "", required, "", "", "", "bore"},
     {"crank", "stroke_mm", Kind::number, kMm, "", above(0).up_to(4000), "", required, "", "", "", "2 r; with a pin offset the true stroke is longer"},
@@ -202,6 +203,7 @@ struct Follows {
 };
 constexpr Follows kFollows[] = {
     {"crank.crank_radius_m", "crank", "stroke_mm"},
+    {"crank.max_speed_rad_s", "engine", "max_rpm"},
     {"masses.rod_inertia_correction_kg_m2", "masses", "rod_inertia_kg_mm2"},
     {"layout.firing_deg", "layout", "firing_angles_deg"},
     {"layout.bank_deg", "layout", "bank_angles_deg"},

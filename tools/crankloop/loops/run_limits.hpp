@@ -1,7 +1,9 @@
-// What no run may request: more than a revolution per tick, too many ticks to wait for.
+// What no run may request: more than a revolution per tick, a speed the engine cannot have, too many ticks to wait for.
 #pragma once
 
 #include <string>
+
+#include <crankloop/define/crank.hpp>
 
 namespace crankloop::program {
 
@@ -12,6 +14,6 @@ inline constexpr double kMaxTicks = 1e9;
 void require_ticks(double ticks, double tick_s, const std::string& remedy);
 
 /// Throws UsageError for a speed, in either sense, beyond the limit of the tables that were made for this tick.
-void require_speed(double speed_rpm, double limit_rad_s, double tick_s);
+void require_speed(double speed_rpm, double limit_rad_s, double tick_s, const Crank& crank);
 
 }  // namespace crankloop::program

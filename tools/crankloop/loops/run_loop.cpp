@@ -47,7 +47,7 @@ FixedStepLoop<Real, S>::FixedStepLoop(const EngineDefinition& definition, const 
   } else {
     input_.load_ratio = static_cast<Real>(operation.load_ratio);
   }
-  require_speed(operation.speed_rpm, static_cast<double>(drive.speed_limit_rad_s), operation.tick_s);
+  require_speed(operation.speed_rpm, static_cast<double>(drive.speed_limit_rad_s), operation.tick_s, definition.crank);
   const int settling_cycles = cycles_to_settle(definition);
   require_ticks(settling_cycles * 720 / (operation.speed_rad_s() * kDegPerRad * operation.tick_s), operation.tick_s,
                 kFewerTicks);

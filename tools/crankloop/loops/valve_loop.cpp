@@ -65,6 +65,7 @@ LoneValve::LoneValve(const EngineFile& file, const std::string& name) : file_{fi
   }
   if (file.has("crank")) {
     definition_.crank = file.definition().crank;
+    definition_.crank.max_speed_rad_s = 0;  // how fast the engine can turn is what one wants to find out
     // Of an engine with gas exchange, one valve alone does not know the gas.
     if (train_.definition.valve.head_area_m2 > 0 && !breathes(file.definition()))
       definition_.pressure = file.definition().pressure;

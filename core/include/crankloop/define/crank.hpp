@@ -29,6 +29,8 @@ struct Crank {
   double pin_offset_m = 0;    ///< e
   double compression_ratio =
       2;  ///< (V_c + V_d) / V_c; > 1, at most 100. Only pressure sources that know the volume use it
+  double max_speed_rad_s = 0;  ///< the highest speed the engine can have, either way; at most kMaxSpeed_rad_s. 0: the
+                               ///< limit of the tick alone
 
   [[nodiscard]] constexpr double rod_ratio() const noexcept {
     return crank_radius_m / rod_length_m;
@@ -47,6 +49,7 @@ struct Crank {
     CRANKLOOP_FIELD(1, crank, rod_length_m);
     CRANKLOOP_FIELD(1, crank, pin_offset_m);
     CRANKLOOP_FIELD(1, crank, compression_ratio);
+    CRANKLOOP_FIELD(1, crank, max_speed_rad_s);
   }
 };
 

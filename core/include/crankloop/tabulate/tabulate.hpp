@@ -15,8 +15,10 @@ namespace crankloop {
 
 /// How the engine will be stepped.
 struct TickOptions {
-  double tick_s = 100e-6;  ///< 1e-6 to 2e-3
-  ValveStepping valves{};  ///< integrator and accuracy of elastic valves
+  double tick_s = 100e-6;      ///< 1e-6 to 2e-3
+  ValveStepping valves{};      ///< integrator and accuracy of elastic valves
+  double max_speed_rad_s = 0;  ///< beyond it a speed is refused as an input; 0 = that of the definition. At most
+                               ///< kMaxSpeed_rad_s; a tick turns the crank by one revolution at most, whatever it is
 };
 
 /// Most segments of a grid: 20 in every degree.

@@ -112,6 +112,7 @@ typedef struct crankloop_crank {
   double rod_length_m;
   double pin_offset_m;
   double compression_ratio;
+  double max_speed_rad_s; /* the highest speed the engine can have; 0 = the limit of the tick alone */
 } crankloop_crank;
 
 typedef struct crankloop_masses {
@@ -297,6 +298,7 @@ typedef struct crankloop_options {
   double tick_s;
   double valve_accuracy_m;
   int32_t valve_integrator; /* CRANKLOOP_INTEGRATOR_... */
+  double max_speed_rad_s;   /* beyond it a speed is refused as an input; 0 = that of the definition */
 } crankloop_options;
 
 CRANKLOOP_API crankloop_status crankloop_options_defaults(crankloop_options* options, size_t size);

@@ -15,6 +15,7 @@
 #include "../../files/error.hpp"
 #include "../../files/number.hpp"
 #include "../../files/units.hpp"
+#include "../../loops/run_limits.hpp"
 #include "../../loops/valve_tick_limit.hpp"
 #include "port/linux/stop_signal.hpp"
 #include "port/linux/stopwatch.hpp"
@@ -55,12 +56,8 @@ class FreeEngine {
     if (!built.ok()) throw explain_tabulate(file, built, request.tick_s, {});
     const Status ready = engine_.init(tables_->tables());
     if (!ready.ok()) throw file.explain(ready);
-    const auto limit_rad_s = static_cast<double>(tables_->tables().drive->speed_limit_rad_s);
-    if (std::abs(request.start_rad_s) > limit_rad_s) {
-      throw UsageError("--from-rpm " + brief(request.start_rad_s * kRpmPerRad_s) +
-                       " is too fast for this tick: at most one revolution per tick, here " +
-                       brief(std::floor(limit_rad_s * kRpmPerRad_s)) + " rpm");
-    }
+    require_speed(request.start_rad_s * kRpmPerRad_s, static_cast<double>(tables_->tables().drive->speed_limit_rad_s),
+                  request.tick_s, file.definition().crank);
     const Status turning = engine_.restore(turning_at(engine_.state(), static_cast<Real>(request.start_rad_s)));
     if (!turning.ok()) throw file.explain(turning);
   }

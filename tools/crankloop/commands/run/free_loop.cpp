@@ -24,7 +24,8 @@ FreeLoop<Real, S>::FreeLoop(const EngineFile& file, const EngineDefinition& defi
   require_ticks(operation.seconds / tick_s_, tick_s_, "or fewer --seconds");
   Status status = tables_->build(definition, {tick_s_});
   if (!status.ok()) throw explain_tabulate(file, status, tick_s_, {});
-  require_speed(operation.from_rpm, static_cast<double>(tables_->tables().drive->speed_limit_rad_s), tick_s_);
+  require_speed(operation.from_rpm, static_cast<double>(tables_->tables().drive->speed_limit_rad_s), tick_s_,
+                definition.crank);
   status = engine_.init(tables_->tables());
   if (!status.ok()) throw file.explain(status);
   const double speed_rad_s = operation.from_rpm / kRpmPerRad_s;
