@@ -425,7 +425,8 @@ TYPED_TEST(MeanTorque, OfScenesThatAskForMoreDiffersByLessThanTheContractSays) {
   double worst_forces = 0;
   for (const EngineDefinition& engine : {single_495(), diesel_495(), uneven_v4()}) {
     const double scale_Nm = WorkOracle(engine, 1).gas_torque_scale_Nm();
-    for (const auto& [rpm, tick_s] : {std::pair{2000.0, 100e-6}, {400.0, 20e-6}, {0.001, 20e-6}, {3000.0, 1e-3}}) {
+    for (const auto& [at_rpm, tick_s] : {std::pair{2000.0, 100e-6}, {400.0, 20e-6}, {0.001, 20e-6}, {3000.0, 1e-3}}) {
+      const double rpm = at_rpm;  // which a lambda may hold
       FullTables<Real> tables;
       ASSERT_TRUE(accepted(tables.build(engine, tick_s)));
       Running<Real, MeanByTable> plain(tables);
