@@ -60,7 +60,13 @@ struct GivenManifolds : scenes::Breathing {
 using Scenes =
     testing::Types<scenes::Whole, scenes::Breathing, MeasuredBreathing, GivenManifolds, scenes::FreeRunning,
                    scenes::BreathingFree, scenes::MeasuredMotion, scenes::TorqueByTable, scenes::TorqueByPressure>;
-TYPED_TEST_SUITE(VariablesOf, Scenes);
+struct NumberOfScene {
+  template <class S>
+  static std::string GetName(int i) {
+    return std::to_string(i);
+  }
+};
+TYPED_TEST_SUITE(VariablesOf, Scenes, NumberOfScene);
 
 TYPED_TEST(VariablesOf, AStepsOutputAreAllOfItsNumbers) {
   using S = TypeParam;

@@ -430,7 +430,7 @@ TEST_P(Ticks, AreNotRunTwiceByAStepThatIsRepeated) {
   EXPECT_EQ(ticks(), 16);
   EXPECT_EQ(unit_.get("time"), 1e-3);
 }
-INSTANTIATE_TEST_SUITE_P(Versions, Ticks, testing::Values(2, 3));
+INSTANTIATE_TEST_SUITE_P(Versions, Ticks, testing::Values(2, 3), testing::PrintToStringParamName());
 
 // ---- the story of an engine ------------------------------------------------------------------------------------
 

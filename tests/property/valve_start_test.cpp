@@ -34,7 +34,7 @@ EngineDefinition coasting_125() {
 
 template <class Real>
 class ValveStart : public testing::Test {};
-TYPED_TEST_SUITE(ValveStart, tick_test::BothReals);
+TYPED_TEST_SUITE(ValveStart, tick_test::BothReals, tick_test::RealName);
 
 /// The largest difference of the lift, from a start at 3000 rpm or so until 40 cam degrees on, from that of the same
 /// valve turned at this speed for the three cycles before.
