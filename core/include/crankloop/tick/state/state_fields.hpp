@@ -179,7 +179,7 @@ struct StateFields {
         v.number(burn.fuel_kg, Real{0}, static_cast<Real>(kMaxFuel_kg));
         v.number(burn.burnt_ratio, Real{0}, Real{1});
         v.number(burn.start_deg, Real{-90}, Real{60});
-        v.number(burn.duration_deg, Real{0}, Real{150});
+        v.number(burn.duration_deg, Real{5}, Real{150});
         v.number(burn.per_deg, Real{0}, Real{1});
         v.number(burn.excess_air_ratio, Real{0}, kMaxNoted);
         v.number(burn.asked_kg, Real{0}, static_cast<Real>(kMaxFuel_kg));
