@@ -429,6 +429,9 @@ TEST_F(EngineFileTest, TheSpeedThatAnEngineCanHaveLimitsItsTicksButNotALoneValve
   const EngineFile engine = read_engine_file(CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini", {"engine", "crank"});
   EXPECT_NEAR(engine.definition().crank.max_speed_rad_s, 500 * support::kPi, 1e-9);  // 15 000 rpm
   EXPECT_EQ(LoneValve(engine, "intake").definition().crank.max_speed_rad_s, 0);
+  const std::string text = contents(CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini");
+  EXPECT_NE(refusal(replaced(text, "max_rpm = 15000", "max_rpm = 1500")).find("max_rpm: must not be less than rated"),
+            std::string::npos);
 }
 
 TEST_F(EngineFileTest, FrictionLoadAndStarterAreReadInTheirUnitsOrAbsent) {

@@ -40,7 +40,10 @@ double speed_limit_rad_s(const EngineDefinition& engine, const TickOptions& opti
   // At most one revolution per tick, less a hair, so that rounding cannot take the phase increment to half a cycle.
   const double one_turn_rad_s = 0.4999 * kRadPerCycle / options.tick_s;
   if (one_turn_rad_s < limit_rad_s) limit_rad_s = one_turn_rad_s;
-  const double given_rad_s = options.max_speed_rad_s != 0 ? options.max_speed_rad_s : engine.crank.max_speed_rad_s;
+  // The highest speed itself is a good input, however its caller rounds it to float.
+  constexpr double kRounding = 1 + 1e-6;
+  const double given_rad_s =
+      kRounding * (options.max_speed_rad_s != 0 ? options.max_speed_rad_s : engine.crank.max_speed_rad_s);
   return given_rad_s != 0 && given_rad_s < limit_rad_s ? given_rad_s : limit_rad_s;
 }
 

@@ -41,7 +41,7 @@ awk -v errors=$bench/errors.csv -v instructions=$bench/instructions.txt '
     print
   }' $measurements/benchmark.md >"$work/benchmark.md"
 
-# row FILE CONTESTANT REAL SETTING: of the benchmark, "time|error".
+# row CONTESTANT REAL SETTING: of the benchmark, "time|error", and "|worst" where there is one.
 row() {
   awk -v contestant="$1" -v real="$2" -v setting="$3" '
     { n = split($0, cell, / \| /) }

@@ -119,8 +119,11 @@ void EngineFile::build_definition() {
     if (!status.ok()) throw explain(status);
   };
   definition_.crank = build_crank(section("crank"), path_);
-  if (const SectionValues* engine = find("engine"); engine != nullptr && engine->has("max_rpm"))
+  if (const SectionValues* engine = find("engine"); engine != nullptr && engine->has("max_rpm")) {
+    if (engine->number("max_rpm") < engine->number("rated_rpm"))
+      throw InputError(path_, engine->line_of("max_rpm"), "max_rpm: must not be less than rated_rpm");
     definition_.crank.max_speed_rad_s = engine->si("max_rpm");
+  }
   accept(validate(definition_.crank));
   if (const SectionValues* masses = find("masses")) {
     definition_.masses = build_masses(*masses, definition_.crank, path_);
