@@ -11,6 +11,7 @@ Status validate_manifolds(const EngineDefinition& engine, double tick_s) noexcep
 
 /// Fills cylinders, ports, manifolds and burn of an engine with gas exchange; of another, zeros. `engine` is valid.
 template <class Real>
-void fill_gas_exchange(const EngineDefinition& engine, double tick_s, const TableTargets<Real>& targets) noexcept;
+void fill_gas_exchange(const EngineDefinition& engine, const TickOptions& options,
+                       const TableTargets<Real>& targets) noexcept;
 
 }  // namespace crankloop::detail

@@ -18,6 +18,9 @@ inline constexpr int kExhaust = 1;
 
 namespace crankloop::detail {
 
+inline constexpr int kMaxGasSteps = 8;     ///< of a tick
+inline constexpr double kGasStep_deg = 5;  ///< a tick that turns the crank further is cut into equal steps
+
 /// What a cylinder's walls take: tick/gas/wall_heat.hpp.
 template <class Real>
 struct GasWalls {
@@ -41,6 +44,8 @@ struct GasCylinders {
   Real ambient_Pa;       ///< what an engine starts with
   Real ambient_K;
   Real exhaust_K;
+  std::uint32_t max_steps;  ///< of a tick, at its speed limit: 1 to kMaxGasSteps
+  std::uint32_t spare;
 };
 
 /// Effective area of the valves of one train over their lift.
@@ -65,7 +70,6 @@ struct GasBeyond {
   Real as_was_Pa;       ///< by how much that moves if all flows through them stay as they were
 };
 
-inline constexpr int kMaxGasSteps = 8;  ///< of a tick
 inline constexpr int kThrottleSteps = 100;
 /// Intake and exhaust manifold, throttle and outlet.
 template <class Real>

@@ -24,6 +24,7 @@ struct TriggerTrack {
   std::uint64_t starts;        ///< engine phase at which the wheel stands at its first edge, its phaser at rest
   std::uint32_t train;         ///< whose phaser moves it; kNoTrain
   std::uint32_t inverted;      ///< 1: what rises falls
+  std::uint32_t max_edges;     ///< that a tick passes one way at most, at the speed limit
   std::uint16_t edges_before[kTriggerParts + 1];  ///< per part, and at the end of all
 };
 
