@@ -187,8 +187,9 @@ ValveTickOutput<Real> ValveLoop<Real>::output() const noexcept {
   const Contacts<Real> c(body, valve, lift);
   ValveTickOutput<Real> out{};
   out.cam_deg = cam_deg;
-  out.motion = {std::max(lift.lift_m, Real{0}), valve.lift_m, valve.velocity_m_s,
-                textbook_acceleration(body, valve, lift, textbook_.gas_N)};
+  out.motion = {{std::max(lift.lift_m, Real{0})},
+                {valve.lift_m, valve.velocity_m_s},
+                {textbook_acceleration(body, valve, lift, textbook_.gas_N)}};
   out.forces.train_N = c.train_force_N();
   out.forces.seat_N = c.seat_force_N();
   out.forces.tip_N = out.forces.train_N - body.rocker_mass_kg * out.motion.acceleration_m_s2;

@@ -22,6 +22,8 @@ namespace crankloop::program {
 struct OneValve : Scene {
   static constexpr PressureGiven pressure = PressureGiven::by_table;
   static constexpr ValveModel valves = ValveModel::elastic;
+  static constexpr bool theoretical_lift = true;
+  static constexpr bool valve_acceleration = true;
   static constexpr bool valve_forces = true;
   static constexpr bool valve_results = true;
   static constexpr bool valve_gas = true;
@@ -64,7 +66,7 @@ struct ValveMethod {
 template <class Real>
 struct ValveTickOutput {
   double cam_deg;
-  ValveMotionOutput<Real> motion;
+  ValveMotionOutput<Real, OneValve> motion;
   ValveForcesOutput<Real> forces;
 };
 

@@ -35,7 +35,7 @@ struct PlainPiston {
 /// Per cylinder and train.
 template <class Real>
 struct PlainValve {
-  Real theoretical_lift_m, lift_m, velocity_m_s, acceleration_m_s2;
+  Real lift_m, velocity_m_s;
 };
 
 template <class Real>

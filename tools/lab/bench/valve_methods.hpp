@@ -49,10 +49,7 @@ class LibraryValve {
   void restore(const typename Engine<Real, S>::State& state) noexcept { (void)engine_.restore(state); }
 
   [[nodiscard]] Phase phase() const noexcept { return engine_.state().phase; }
-  [[nodiscard]] double lift_m() const noexcept {
-    const auto& valve = engine_.output().valve[0][0];
-    return static_cast<double>(S::valves == ValveModel::elastic ? valve.lift_m : valve.theoretical_lift_m);
-  }
+  [[nodiscard]] double lift_m() const noexcept { return static_cast<double>(engine_.output().valve[0][0].lift_m); }
   [[nodiscard]] const Tables<Real, S>& tables() const noexcept { return tables_->tables(); }
 
  private:

@@ -23,6 +23,8 @@ using valve_reference::SingleMass;
 /// One cylinder's one valve, everything that is told of it.
 struct StressedValve : Scene {
   static constexpr ValveModel valves = ValveModel::elastic;
+  static constexpr bool theoretical_lift = true;
+  static constexpr bool valve_acceleration = true;
   static constexpr bool valve_forces = true;
   static constexpr bool valve_results = true;
 };

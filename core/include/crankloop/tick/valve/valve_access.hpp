@@ -24,13 +24,13 @@ struct Moment {
   Real cam_lift_m, compression_m, compression_speed_m_s, acceleration_m_s2;
 };
 
-template <class Real>
-[[gnu::always_inline]] inline void write_motion(ValveMotionOutput<Real>& shown, const ValveState<Real>& s,
+template <class Real, class S>
+[[gnu::always_inline]] inline void write_motion(ValveMotionOutput<Real, S>& shown, const ValveState<Real>& s,
                                                 const Moment<Real>& at) noexcept {
-  shown.theoretical_lift_m = at.cam_lift_m > 0 ? at.cam_lift_m : Real{0};
+  if constexpr (S::theoretical_lift) shown.theoretical_lift_m = at.cam_lift_m > 0 ? at.cam_lift_m : Real{0};
   shown.lift_m = s.lift_m;
   shown.velocity_m_s = s.velocity_m_s;
-  shown.acceleration_m_s2 = at.acceleration_m_s2;
+  if constexpr (S::valve_acceleration) shown.acceleration_m_s2 = at.acceleration_m_s2;
 }
 
 template <class Real>
