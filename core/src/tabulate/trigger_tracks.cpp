@@ -7,14 +7,14 @@
 namespace crankloop::detail {
 namespace {
 
-/// A part of a turn, 0 to below 1, to the nearest of 2^32 equal parts. The rules keep edges too far apart for two to
-/// become one, or for the last to become a whole turn.
+/// A fraction of a turn, 0 to below 1, rounded to the nearest of 2^32 equal parts. Validated edges are so far apart
+/// that no two become equal and the last does not become a whole turn.
 [[nodiscard]] std::uint32_t turn_units(double turns) noexcept {
   CRANKLOOP_ASSERT(turns >= 0 && turns * 4294967296.0 + 0.5 < 4294967296.0);
   return static_cast<std::uint32_t>(turns * 4294967296.0 + 0.5);
 }
 
-/// Angles of a wheel's edges, the first at 0; answers their number.
+/// Fills the angles of a wheel's edges, the first at 0; returns their number.
 std::uint32_t fill_edges(const TriggerWheel& wheel, std::uint32_t* edges) noexcept {
   std::uint32_t count = 0;
   if (wheel.pattern == TriggerPattern::edges) {
