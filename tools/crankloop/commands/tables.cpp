@@ -186,8 +186,8 @@ void print_header(Output& out, const EngineFile& engine, const Arguments& argume
          (has_valves ? "; valves: " + arguments.text("--integrator") + ", " +
                            shortest(arguments.number("--accuracy-um")) + " um"
                      : "") +
-         ".\n// Made by `crankloop tables`; do not edit. Each section is an object of its own: what a scene does not "
-         "read is not linked.\n"
+         ".\n// Made by `crankloop tables`; do not edit. Each section is a separate object: sections that a scene "
+         "does not read are not linked.\n"
          "#pragma once\n\n#include <crankloop/tables/tables.hpp>\n\nnamespace " +
          name_space + " {\n");
   print_sections(p, *stores, real, report);

@@ -59,7 +59,8 @@ PortOfTrain build_port(const SectionValues& valve, const std::string& path) {
   if (valve.has("seat_diameter_mm")) port.seat_diameter_m = valve.si("seat_diameter_mm");
   if (!valve.has("flow_over_lift_ratio")) return port;
   port.flow_count = fill_rows(valve, "flow_over_lift_ratio", 0.5, path, port.flow_lift_ratio, port.flow_ratio);
-  if (port.flow_ratio[0] != 0) refuse(valve, "flow_over_lift_ratio", "must be 0 at 0: a closed valve is closed", path);
+  if (port.flow_ratio[0] != 0)
+    refuse(valve, "flow_over_lift_ratio", "must be 0 at 0: a closed valve has no flow", path);
   return port;
 }
 

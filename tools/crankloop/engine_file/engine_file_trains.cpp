@@ -198,12 +198,12 @@ InputError EngineFile::explain_cam(const Status& status, const TrainOfFile& trai
         "smoothing_um: " + (smoothing.is_open() ? "auto" : shortest(smoothing.numbers[0])) + " has no solution: ";
     if (!follows) {
       return InputError(path_, smoothing.line,
-                        refused + "no smooth lobe comes within 1000 um of every row; look at that of " +
+                        refused + "no smooth lobe comes within 1000 um of every row; check the row at " +
                             row_in_words(train, std::max(survey.index, 0)));
     }
     return InputError(path_, smoothing.line,
                       refused + "no smooth lobe comes that close to every row; smallest possible: " +
-                          three_digits_up(rows.smallest_m * 1e6) + ", for which the row of " +
+                          three_digits_up(rows.smallest_m * 1e6) + ", for which the row at " +
                           row_in_words(train, rows.worst_row) + " lies " +
                           three_digits_up(std::abs(rows.worst_off_m) * 1e6) + " um " +
                           (rows.worst_off_m > 0 ? "above" : "below") + " the lobe; allow more, or correct that row");

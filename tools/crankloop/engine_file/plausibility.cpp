@@ -159,11 +159,11 @@ void look_at_misread_rows(const SectionValues& cam, const TrainOfFile& train, Wa
   if (rows.smallest_m < std::max({kMisread_m, kMisreadSigmas * rows.scatter_m, rows.unit_m})) return;
   const auto row = static_cast<std::size_t>(rows.worst_row);
   warnings.add(cam.line_of("smoothing_um"),
-               "smoothing_um = auto becomes " + brief(cam.number("smoothing_um")) + " for the sake of the row of " +
+               "smoothing_um = auto becomes " + brief(cam.number("smoothing_um")) + " because of the row at " +
                    brief(train.points[row].cam_deg) + " deg (" + train.points_path + ":" +
                    std::to_string(train.point_lines[row]) + "), which lies " + about(std::abs(rows.worst_off_m) * 1e6) +
                    " um off every smooth lobe, where the rows scatter by " + about(rows.scatter_m * 1e6) +
-                   " um: is it misread?");
+                   " um: was it misread?");
 }
 
 /// Of a cam's largest speed: ramps begin with up to a tenth of it, a lift less a clearance of 0.1 mm with a fifth.
@@ -174,10 +174,10 @@ void look_at_feet(const SectionValues& cam, const TrainOfFile& train, Warnings& 
   const LobeFeet feet = lobe_feet(train.points, train.definition.cam.smoothing_m);
   if (feet.step_m_deg <= kMaxFirstSpeed * feet.largest_m_deg) return;
   warnings.add(cam.line_of("file"), train.points_path + ":" + std::to_string(train.point_lines[feet.first_row]) +
-                                        ": the lift leaves the base circle with a step of its speed to " +
+                                        ": the lift leaves the base circle with a step in speed to " +
                                         about(feet.step_m_deg * 1e6) + " um/deg, " +
                                         about(100 * feet.step_m_deg / feet.largest_m_deg) +
-                                        " % of the largest, and comes back with one; usual: less than 10 %. Is it a "
+                                        " % of the largest, and returns with one; usual: less than 10 %. Is it a "
                                         "valve's lift less its clearance? The table takes the cam's lift, ramps "
                                         "included, and clearance_mm the clearance");
 }

@@ -112,13 +112,13 @@ void add_masses_and_layout(Draft& draft, const Arguments& arguments, const Numbe
   const double rod_g = usual_rod_g(n.design, n.bore_mm);
   draft.section("masses");
   draft.number("piston_g", "--piston-g", usual_piston_g(n.design, n.bore_mm),
-               "with rings and pin, by the bore's cube, as today's");
+               "with rings and pin, proportional to bore cubed, as in current engines");
   draft.assume("rod_small_end_g", to_three_digits(rod_g * kRodShareAtPin),
-               shortest(kRodShareAtPin) + " of the rod, whose mass goes by the bore's cube");
+               shortest(kRodShareAtPin) + " of the rod, whose mass is proportional to bore cubed");
   draft.assume("rod_big_end_g", to_three_digits(rod_g * (1 - kRodShareAtPin)), "the rest of it");
   draft.assume("crank_pin_equivalent_g", 0, "balanced by the webs; adds to the centrifugal force only");
   draft.number("crank_inertia_kg_m2", "--crank-inertia-kg-m2", usual_inertia_kg_m2(n.design, n.displacement_L),
-               "by displacement to the power of 4/3; flywheel included");
+               "proportional to displacement to the power of 4/3; flywheel included");
   draft.section("layout");
   draft.line("cylinders", std::to_string(n.cylinders), "given");
   const bool banked = arguments.has("--bank-angles-deg");
@@ -172,8 +172,10 @@ void add_what_turns_it(Draft& draft, const IndicatorDiagram& diagram, Numbers& n
   draft.assume("constant_kPa", friction.constant_kPa,
                "Chen and Flynn (SAE 650733), without pumping; " + brief(to_three_digits(diagram.peak_Pa() / 1e5)) +
                    " bar peak pressure");
-  draft.assume("linear_kPa_per_1000rpm", friction.linear_kPa_per_1000rpm, "the same, by mean piston speed");
-  draft.assume("quadratic_kPa_per_1000rpm2", friction.quadratic_kPa_per_1000rpm2, "the same, by its square");
+  draft.assume("linear_kPa_per_1000rpm", friction.linear_kPa_per_1000rpm,
+               "the same, proportional to mean piston speed");
+  draft.assume("quadratic_kPa_per_1000rpm2", friction.quadratic_kPa_per_1000rpm2,
+               "the same, proportional to its square");
   draft.section("machine");
   draft.assume("quadratic_Nm_per_1000rpm2", to_three_digits(n.brake_Nm / (krpm * krpm)),
                "a brake that takes full load at rated speed, " + brief(to_three_digits(n.brake_Nm)) + " Nm, " +
@@ -213,14 +215,14 @@ void add_train(Draft& draft, const char* name, double full_lift_deg, const Numbe
   draft.section((std::string("valve ") + name).c_str());
   draft.assume("per_cylinder", n.design.four_valves ? 2 : 1,
                n.design.four_valves ? "two of each kind" : "one of each kind");
-  draft.assume("valve_g", valve_g, "with bucket; by the bore's cube");
+  draft.assume("valve_g", valve_g, "with bucket; proportional to bore cubed");
   draft.assume("spring_g", spring_g, "0.6 of that");
   draft.assume("rocker_inertia_kg_mm2", 0, "no rocker");
   draft.assume("spring_N_per_mm", to_three_digits((1 - kPreloadShare) * kSpringMargin * nose_N / lift_mm),
-               "holds at full lift " + shortest(kSpringMargin) + " times what rated speed asks for");
+               shortest(kSpringMargin) + " times the force needed at rated speed and full lift");
   draft.assume("spring_preload_N", to_three_digits(kPreloadShare * kSpringMargin * nose_N), "of the same spring");
   draft.assume("train_N_per_mm", train_N_per_mm,
-               "swings at " + shortest(kTrainOrders) + " times the cam's rated frequency");
+               "natural frequency " + shortest(kTrainOrders) + " times the cam's at rated speed");
   draft.assume("train_damping_ratio", 0.08, "usual");
   draft.assume("guide_damping_ratio", 0.003, "usual");
   draft.assume("seat_N_per_mm", to_three_digits(8 * train_N_per_mm), "8 times the train");
