@@ -86,8 +86,8 @@ std::vector<std::string> warnings_about_gas(const EngineFile& engine, double spe
 
 int cycles_to_settle(const EngineDefinition& engine) noexcept {
   if (!breathes(engine)) return 1;
-  // A cycle draws its swept volume out of a manifold, less what it leaves: with eight volumes of it drawn, 1e-3 of what
-  // was there is left. Residual gas and walls follow within some cycles.
+  // Each cycle draws its swept volume out of a manifold. After eight manifold volumes 1e-3 of the initial gas is left.
+  // Residual gas and walls settle within some cycles.
   constexpr double kChanges = 8;
   constexpr double kAfter = 6;
   constexpr double kMax = 500;
