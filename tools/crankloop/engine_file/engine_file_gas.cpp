@@ -1,4 +1,4 @@
-// The gas of an engine file: [gas], and what its valves open.
+// The gas of an engine file: [gas], and the ports of its valves.
 #include <cstddef>
 #include <vector>
 
@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kCelsiusInKelvin = 273.15;
 
-/// Rows of a curve from 0 on, rising; at most as many as there is room for.
+/// Copies the rows of a curve: increasing from 0, at most as many as there is room for.
 int fill_rows(const SectionValues& values, const char* key, double last, const std::string& path,
               double (&at)[kMaxFlowPoints], double (&value)[kMaxFlowPoints]) {
   const std::vector<double>& numbers = values.numbers(key);
