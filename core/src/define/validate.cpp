@@ -161,8 +161,7 @@ Status validate(const Layout& layout) noexcept {
       }
     }
   }
-  if (pins_used != (2u << last_pin) - 1u)
-    return refuse("layout.pin", Reason::inconsistent);  // a gap in the pin numbers
+  if (pins_used != (2u << last_pin) - 1u) return refuse("layout.pin", Reason::inconsistent);  // pin numbers with a gap
   for (std::size_t pin = 1; pin <= last_pin; ++pin) {
     if (pin_position_m(layout, pin) < pin_position_m(layout, pin - 1))
       return refuse("layout.pin", Reason::inconsistent);

@@ -118,16 +118,15 @@ void fill_lift(const Cam& cam, const Rocker& rocker, const Layout& layout, const
   }
   curve.at = segments;
   curve.rocker_ratio = ratios;
-  // A cam turns 360 deg in the engine's 720. The lobe starts before full lift by its opening side.
+  // A cam turns 360 deg in the engine's 720. opens_rad() is the start of the lobe relative to full lift.
   double opens_deg = cam.full_lift_deg + 2 * lift.opens_rad() / kRadPerDegree;
   while (opens_deg < 0) opens_deg += kDegreesPerCycle;
   while (opens_deg >= kDegreesPerCycle) opens_deg -= kDegreesPerCycle;
   for (int k = 0; k < kMaxCylinders; ++k) {
     const auto i = static_cast<std::size_t>(k);
     curve.opens[i] = k < layout.cylinders ? phase_units(layout.firing_deg[i]) + phase_units(opens_deg) : 0;
-    if constexpr (sizeof(Real) == 4)
-      curve.opens[i] = (curve.opens[i] + 0x8000'0000u) >>
-                       32 << 32;  // rounds by 8e-8 cam degrees, so that a tick need not read the low word
+    // float rounds by 8e-8 cam degrees, so that a tick need not read the low word.
+    if constexpr (sizeof(Real) == 4) curve.opens[i] = (curve.opens[i] + 0x8000'0000u) >> 32 << 32;
   }
   first = first > 0 ? first - 1 : 0;  // a margin of one degree at either end
   last = last + 1 < degrees ? last + 1 : degrees - 1;

@@ -41,8 +41,8 @@ namespace {
   const double ratio = square_root(square_root(accuracy_m / 0.1e-6));
   return ratio < 1 ? ratio : 1;
 }
-/// Runge-Kutta steps per fine step, as a fraction of its rate: at 0.1 the method's error, 0.1^4 / 120 of an amplitude
-/// per radian, is far below the class.
+/// Limit of fastest rate times Runge-Kutta step, relative to fine_step_rate(): at 0.1 the method's error, 0.1^4 / 120
+/// of an amplitude per radian, is far below the class.
 constexpr double kRungeKuttaRate = 0.1;
 /// Limit of the open valve's rate times tick: above it the cubic between a tick's ends does not represent the motion.
 constexpr double kWholeStepRate = 1.5;
