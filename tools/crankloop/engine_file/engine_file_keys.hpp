@@ -47,8 +47,7 @@ struct Key {
   Presence presence;
   const char* fallback;  ///< as in a file; only Presence::with_default
   const char* only_if;   ///< "source=wiebe": with another source the key is checked, but not used; "" always
-  const char*
-      form;  ///< "rod:ends": one of two alternative forms, of which exactly one must be given; "" no alternative
+  const char* form;      ///< "rod:ends": one of two forms, of which exactly one must be given; "" no other form
   const char* meaning;
   const char* usual = "";  ///< "0.7 to 3"; only for help
 
