@@ -80,12 +80,29 @@ void print_limits(const Tables& tables) noexcept {
     events = tables.valve_motions[0].event_budget;
   }
   std::uint32_t wheels = 0;
-  if constexpr (Needs::any_triggers) wheels = tables.triggers->count;
+  std::uint32_t edges = 0;          // of a wheel in a tick
+  std::uint32_t edge_searches = 0;  // rounds of a bisection
+  if constexpr (Needs::any_triggers) {
+    wheels = tables.triggers->count;
+    for (std::uint32_t i = 0; i < wheels; ++i) {
+      const crankloop::detail::TriggerTrack& wheel = tables.triggers->wheel[i];
+      const std::uint32_t passed = Needs::crank_dynamics ? 2 * wheel.max_edges : wheel.max_edges;
+      if (passed > edges) edges = passed;
+      for (int part = 0; part < crankloop::detail::kTriggerParts; ++part)
+        while ((wheel.edges_before[part + 1] - wheel.edges_before[part]) >> edge_searches != 0) ++edge_searches;
+    }
+    if (edges > under_test::Scene::trigger_edges) edges = under_test::Scene::trigger_edges;
+  }
   port::Line() << "limit wheels " << wheels;
-  port::Line() << "limit edges " << under_test::Scene::trigger_edges;
+  port::Line() << "limit edges " << edges;
+  port::Line() << "limit edge_searches " << edge_searches;
   port::Line() << "limit pins " << pins;
   port::Line() << "limit fine_steps " << fine_steps;
   port::Line() << "limit events " << events;
+  std::uint32_t gas_steps = 1;
+  if constexpr (Needs::gas) gas_steps = tables.gas_cylinders->max_steps;
+  port::Line() << "limit gas_steps " << gas_steps;
+  port::Line() << "limit split_ticks " << (gas_steps > 1 ? 1u : 0u);
 }
 
 }  // namespace

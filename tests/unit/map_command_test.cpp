@@ -175,8 +175,8 @@ TEST_F(MapCommand, RefusesWhatIsNoMap) {
   refuses("1000:500000:2", "1:1:1", "--rpm: 500000 is out of range");
   EXPECT_NE(refusal({kSample, "--rpm", "1000:2000:2", "--throttle", "0:1:2"}).find("has no [pressure] source = gas"),
             std::string::npos);
-  EXPECT_NE(refusal({kFour, "--rpm", "70000:80000:2", "--throttle", "1:1:1", "--tick-us", "2000"})
-                .find("at most one revolution per tick"),
+  EXPECT_NE(refusal({kFour, "--rpm", "8000:10000:2", "--throttle", "1:1:1"})
+                .find("10000 rpm is beyond the engine's max_rpm of 9000"),
             std::string::npos);
 }
 

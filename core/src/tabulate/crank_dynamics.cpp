@@ -47,6 +47,11 @@ double speed_limit_rad_s(const EngineDefinition& engine, const TickOptions& opti
   return given_rad_s != 0 && given_rad_s < limit_rad_s ? given_rad_s : limit_rad_s;
 }
 
+double widest_turn_deg(const EngineDefinition& engine, const TickOptions& options) noexcept {
+  constexpr double kRounding = 1 + 1e-6;  // of the limit and of the angle, in float
+  return kRounding * speed_limit_rad_s(engine, options) * options.tick_s / kRadPerDegree;
+}
+
 template <class Real>
 CrankDynamics<Real> crank_dynamics_of(const EngineDefinition& engine, const TickOptions& options) noexcept {
   const Masses& masses = engine.masses;

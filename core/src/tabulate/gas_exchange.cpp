@@ -9,6 +9,7 @@
 #include <crankloop/tabulate/mechanism.hpp>
 #include <crankloop/tick/gas/orifice.hpp>
 
+#include "crank_dynamics.hpp"
 #include "phase_units.hpp"
 #include "rounding.hpp"
 
@@ -27,25 +28,6 @@ namespace {
   constexpr double kShare = 1e-3;
   constexpr double kCold_K = 300;
   return kShare * engine.pressure.crankcase_Pa / (kGasConstant<double> * kCold_K);
-}
-
-[[nodiscard]] GasCylinders<double> cylinders_of(const EngineDefinition& engine) noexcept {
-  const Crank& crank = engine.crank;
-  const Gas& gas = engine.gas;
-  const double area = bore_area_m2(crank);
-  const double swept = swept_volume_m3(crank);
-  GasCylinders<double> c{};
-  c.walls = {130e-4 * gas.wall_heat_ratio, 2 * area, 4 / crank.bore_m, gas.wall_K, mean_piston_speed_m_s(crank, 1)};
-  c.clearance_m3 = clearance_volume_m3(crank);
-  c.bore_area_m2 = area;
-  c.crankcase_Pa = engine.pressure.crankcase_Pa;
-  c.least_kg_m3 = least_kg_m3(engine);
-  c.per_swept_m3 = 1 / swept;
-  c.per_full_charge = kGasConstant<double> * gas.ambient_K / (gas.ambient_Pa * swept);
-  c.ambient_Pa = gas.ambient_Pa;
-  c.ambient_K = gas.ambient_K;
-  c.exhaust_K = gas.exhaust_K;
-  return c;
 }
 
 [[nodiscard]] GasPortCurve<double> port_of(const EngineDefinition& engine, int train) noexcept {
@@ -83,6 +65,34 @@ namespace {
   std::uint32_t parts = 1;
   while (parts < kMaxGasSteps && share > parts * kVolumesInAStep) ++parts;
   return parts;
+}
+
+/// Steps of a tick at most: as many as the widest turn or a small manifold needs.
+[[nodiscard]] std::uint32_t max_steps_of(const EngineDefinition& engine, const TickOptions& options) noexcept {
+  const double steps = widest_turn_deg(engine, options) / kGasStep_deg;
+  std::uint32_t parts = parts_of(engine, options.tick_s);
+  while (parts < kMaxGasSteps && steps > parts) ++parts;
+  return parts;
+}
+
+[[nodiscard]] GasCylinders<double> cylinders_of(const EngineDefinition& engine, const TickOptions& options) noexcept {
+  const Crank& crank = engine.crank;
+  const Gas& gas = engine.gas;
+  const double area = bore_area_m2(crank);
+  const double swept = swept_volume_m3(crank);
+  GasCylinders<double> c{};
+  c.walls = {130e-4 * gas.wall_heat_ratio, 2 * area, 4 / crank.bore_m, gas.wall_K, mean_piston_speed_m_s(crank, 1)};
+  c.clearance_m3 = clearance_volume_m3(crank);
+  c.bore_area_m2 = area;
+  c.crankcase_Pa = engine.pressure.crankcase_Pa;
+  c.least_kg_m3 = least_kg_m3(engine);
+  c.per_swept_m3 = 1 / swept;
+  c.per_full_charge = kGasConstant<double> * gas.ambient_K / (gas.ambient_Pa * swept);
+  c.ambient_Pa = gas.ambient_Pa;
+  c.ambient_K = gas.ambient_K;
+  c.exhaust_K = gas.exhaust_K;
+  c.max_steps = max_steps_of(engine, options);
+  return c;
 }
 
 [[nodiscard]] GasManifolds<double> manifolds_of(const EngineDefinition& engine, double tick_s) noexcept {
@@ -150,22 +160,23 @@ Status validate_manifolds(const EngineDefinition& engine, double tick_s) noexcep
 }
 
 template <class Real>
-void fill_gas_exchange(const EngineDefinition& engine, double tick_s, const TableTargets<Real>& targets) noexcept {
+void fill_gas_exchange(const EngineDefinition& engine, const TickOptions& options,
+                       const TableTargets<Real>& targets) noexcept {
   const bool breathes = engine.pressure.source == PressureSource::gas;
   const auto fill = [breathes, &engine](auto* target, const auto& make) {
     if (target == nullptr) return;
     *target = {};
     if (breathes) round_into(make(engine), *target);
   };
-  fill(targets.gas_cylinders, cylinders_of);
-  fill(targets.gas_manifolds, [tick_s](const EngineDefinition& e) { return manifolds_of(e, tick_s); });
+  fill(targets.gas_cylinders, [&options](const EngineDefinition& e) { return cylinders_of(e, options); });
+  fill(targets.gas_manifolds, [&options](const EngineDefinition& e) { return manifolds_of(e, options.tick_s); });
   fill(targets.burn, burn_of);
   if (targets.gas_ports == nullptr) return;
   for (int t = 0; t < engine.train_count; ++t)
     fill(targets.gas_ports + t, [t](const EngineDefinition& e) { return port_of(e, t); });
 }
 
-template void fill_gas_exchange(const EngineDefinition&, double, const TableTargets<float>&) noexcept;
-template void fill_gas_exchange(const EngineDefinition&, double, const TableTargets<double>&) noexcept;
+template void fill_gas_exchange(const EngineDefinition&, const TickOptions&, const TableTargets<float>&) noexcept;
+template void fill_gas_exchange(const EngineDefinition&, const TickOptions&, const TableTargets<double>&) noexcept;
 
 }  // namespace crankloop::detail

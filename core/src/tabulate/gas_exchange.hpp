@@ -11,6 +11,7 @@ Status validate_manifolds(const EngineDefinition& engine, double tick_s) noexcep
 
 /// Fills cylinders, ports, manifolds and burn; with zeros for an engine without gas exchange. `engine` must be valid.
 template <class Real>
-void fill_gas_exchange(const EngineDefinition& engine, double tick_s, const TableTargets<Real>& targets) noexcept;
+void fill_gas_exchange(const EngineDefinition& engine, const TickOptions& options,
+                       const TableTargets<Real>& targets) noexcept;
 
 }  // namespace crankloop::detail

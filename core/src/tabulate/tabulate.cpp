@@ -171,8 +171,8 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
   }
   fill_mechanism(engine, targets);
   detail::fill_gas(engine, diagram, targets, found);
-  detail::fill_gas_exchange(engine, options.tick_s, targets);
-  detail::fill_triggers(engine, targets);
+  detail::fill_gas_exchange(engine, options, targets);
+  detail::fill_triggers(engine, options, targets);
   if (targets.drive != nullptr) {
     fill_drive(engine, options, *targets.drive);
     targets.drive->fingerprint = detail::fingerprint_of(engine, options, found, static_cast<int>(sizeof(Real)));

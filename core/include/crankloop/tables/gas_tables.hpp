@@ -18,6 +18,9 @@ inline constexpr int kExhaust = 1;
 
 namespace crankloop::detail {
 
+inline constexpr int kMaxGasSteps = 8;     ///< per tick
+inline constexpr double kGasStep_deg = 5;  ///< a tick that turns the crank further has several equal steps
+
 /// Heat transfer to a cylinder's walls: tick/gas/wall_heat.hpp.
 template <class Real>
 struct GasWalls {
@@ -41,6 +44,8 @@ struct GasCylinders {
   Real ambient_Pa;       ///< initial state of the gas, with the next two
   Real ambient_K;
   Real exhaust_K;
+  std::uint32_t max_steps;  ///< per tick, at the speed limit: 1 to kMaxGasSteps
+  std::uint32_t spare;
 };
 
 /// Effective area of the valves of one train over their lift.
@@ -65,7 +70,6 @@ struct GasBeyond {
   Real as_was_Pa;       ///< change of end_Pa if all flows through the ports stay as in the last step
 };
 
-inline constexpr int kMaxGasSteps = 8;  ///< per tick
 inline constexpr int kThrottleSteps = 100;
 /// Intake and exhaust manifold, throttle and outlet.
 template <class Real>

@@ -24,6 +24,7 @@ struct TriggerTrack {
   std::uint64_t starts;        ///< engine phase of the wheel's first edge, phaser at zero
   std::uint32_t train;         ///< the train whose phaser moves the wheel, or kNoTrain
   std::uint32_t inverted;      ///< 1: the signal is inverted
+  std::uint32_t max_edges;     ///< maximum number of edges that a tick passes in one direction, at the speed limit
   std::uint16_t edges_before[kTriggerParts + 1];  ///< per part, and in total
 };
 

@@ -13,6 +13,7 @@
 
 #include <crankloop/assert.hpp>
 #include <crankloop/phase.hpp>
+#include <crankloop/scene.hpp>
 #include <crankloop/tables/trigger_tables.hpp>
 #include <crankloop/tick/one_instruction.hpp>
 #include <crankloop/tick/trigger/trigger_output.hpp>
@@ -114,6 +115,9 @@ class TriggerTick {
     out_.edge_count = 0;
   }
 
+  /// Whether there were more edges than it lists.
+  [[nodiscard]] bool out_of_room() const noexcept { return out_of_room_; }
+
   /// After a jump of the phase: sets the level and lists no edges.
   void leap(std::uint64_t to) noexcept { stand_at(edge_behind(wheel_, angle(to))); }
 
@@ -178,10 +182,10 @@ class TriggerTick {
     pace.prepare(sweep.span);
     const std::uint32_t step = sweep.forward ? 1 : wheel_.edge_count - 1;  // to the next edge, modulo their number
     std::uint32_t edge = sweep.forward ? wrapped(before_first + 1) : last;
-    const std::uint32_t room = out_.edge_count < S::trigger_edges ? S::trigger_edges - out_.edge_count : 0;
+    const std::uint32_t most = max_listed();
+    const std::uint32_t room = out_.edge_count < most ? most - out_.edge_count : 0;
     const std::uint32_t listed = passed < room ? passed : room;
-    TriggerEdge<Real>* entry = out_.edge + (S::trigger_edges - room);  // at the end if an earlier sweep has filled the
-                                                                       // list
+    TriggerEdge<Real>* entry = out_.edge + (most - room);  // at the end if an earlier sweep has filled the list
     CRANKLOOP_ASSERT(entry + listed <= out_.edge + S::trigger_edges);
     for (std::uint32_t i = 0; i < listed; ++i, ++entry, edge = wrapped(edge + step)) {
       const std::uint64_t distance = sweep.forward ? at(edge) - sweep.from : sweep.from - at(edge);
@@ -190,7 +194,14 @@ class TriggerTick {
       entry->level = level_beyond(wheel_, edge) ^ (sweep.forward ? 0u : 1u);
     }
     out_.edge_count += passed;
+    if (passed > room) out_of_room_ = true;
     stand_at(sweep.forward ? last : before_first);
+  }
+
+  /// Of a tick; a crank that turns round may pass its edges twice.
+  [[nodiscard]] std::uint32_t max_listed() const noexcept {
+    const std::uint32_t passed = Needs<S>::crank_dynamics ? 2 * wheel_.max_edges : wheel_.max_edges;
+    return passed < S::trigger_edges ? passed : S::trigger_edges;
   }
 
   [[nodiscard]] std::uint64_t at(std::uint32_t edge) const noexcept { return std::uint64_t{wheel_.edges[edge]} << 32; }
@@ -208,6 +219,7 @@ class TriggerTick {
   Real tick_s_;
   TriggerSignal<Real, S>& out_;
   Real latest_{0};  ///< time of the edge listed last, as a fraction of the tick
+  bool out_of_room_ = false;
 };
 
 }  // namespace crankloop::detail

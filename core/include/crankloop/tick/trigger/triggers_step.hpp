@@ -57,7 +57,7 @@ struct TriggersStep {
       } else {
         tick.turn(sweep_of(wheel));
       }
-      if (signal.edge_count > S::trigger_edges) faults |= kFaultTriggerEdges;
+      if (tick.out_of_room()) faults |= kFaultTriggerEdges;
     }
     return faults;
   }
