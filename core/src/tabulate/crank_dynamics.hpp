@@ -11,7 +11,7 @@ namespace crankloop::detail {
 /// A tick refuses a higher input speed and limits an integrated speed to it.
 [[nodiscard]] double speed_limit_rad_s(const EngineDefinition& engine, const TickOptions& options) noexcept;
 
-/// What a tick turns the crank by at most, either way, with what rounding adds.
+/// Largest rotation of the crank in a tick, in either direction, including rounding.
 [[nodiscard]] double widest_turn_deg(const EngineDefinition& engine, const TickOptions& options) noexcept;
 
 /// `engine` and `options` are valid.

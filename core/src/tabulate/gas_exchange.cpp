@@ -67,7 +67,7 @@ namespace {
   return parts;
 }
 
-/// Steps of a tick at most: as many as the widest turn or a small manifold needs.
+/// Maximum number of gas steps per tick, for the largest rotation of the crank or a small manifold.
 [[nodiscard]] std::uint32_t max_steps_of(const EngineDefinition& engine, const TickOptions& options) noexcept {
   const double steps = widest_turn_deg(engine, options) / kGasStep_deg;
   std::uint32_t parts = parts_of(engine, options.tick_s);

@@ -198,7 +198,7 @@ class TriggerTick {
     stand_at(sweep.forward ? last : before_first);
   }
 
-  /// Of a tick; a crank that turns round may pass its edges twice.
+  /// Per tick; a crank that reverses may pass its edges twice.
   [[nodiscard]] std::uint32_t max_listed() const noexcept {
     const std::uint32_t passed = Needs<S>::crank_dynamics ? 2 * wheel_.max_edges : wheel_.max_edges;
     return passed < S::trigger_edges ? passed : S::trigger_edges;
