@@ -300,7 +300,7 @@ TEST_F(MeasuredCam, AMisreadRowThatRaisesTheSmoothingIsTold) {
   std::string table;
   for (const std::string& row : rows) table += row + "\n";
   write("cam.csv", table);
-  expect_only(engine, "smoothing_um", "the row of -30 deg (" + (folder_ / "cam.csv") + ":152)");
+  expect_only(engine, "smoothing_um", "the row at -30 deg (" + (folder_ / "cam.csv") + ":152)");
 }
 
 TEST_F(Unusual, WarningsStandOnStderrAndInTheReportUnlessSilenced) {

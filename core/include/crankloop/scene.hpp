@@ -1,7 +1,6 @@
-// The scene: what one use of the model needs. What it does not ask for costs no code, no RAM, no flash and no time.
+// The scene: what one use of the model needs. What it leaves out costs no code, no RAM, no flash and no time.
 //
-// What belongs here: the questions a scene answers and what follows from the answers. What does not: the data (tables,
-// output).
+// What belongs here: the settings of a scene and what follows from them. What does not: the data (tables, output).
 #pragma once
 
 #include <cstdint>
@@ -54,7 +53,7 @@ enum class ValveModel : std::uint8_t {
   elastic,    ///< a mass between train and seat, advanced in time: float and bounce
 };
 
-/// Derive from this and redefine what you need; the defaults ask for nothing.
+/// Derive from this and redefine what you need; the defaults leave everything out.
 ///
 ///     struct MyScene : crankloop::Scene {
 ///       static constexpr auto cylinders = crankloop::exactly<4>;
@@ -102,7 +101,7 @@ struct Scene {
 
 namespace detail {
 
-/// What a scene's answers imply.
+/// What a scene's settings imply.
 template <class S>
 struct Needs {
   static constexpr bool table_pressure = S::pressure == PressureGiven::by_table;

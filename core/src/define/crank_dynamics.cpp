@@ -1,4 +1,4 @@
-// The rules that friction, driven machine and starter keep; field names as in the engine file.
+// Validation of friction, driven machine and starter; field names as in the engine file.
 #include <crankloop/define/crank_dynamics.hpp>
 
 #include "rules.hpp"

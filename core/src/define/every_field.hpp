@@ -1,4 +1,4 @@
-// Whether the list beside a struct of the definition has all of its fields.
+// Compile-time check that each_field() of a definition's struct lists all of its fields.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ template <class Struct, std::size_t... I>
 inline constexpr bool
     kTakes<Struct, std::index_sequence<I...>, std::void_t<decltype(Struct{(void(I), Anything{})...})>> = true;
 
-/// As many values as an aggregate takes: its fields, all entries of its C arrays.
+/// Number of initialisers that an aggregate takes: its fields, and every entry of its C arrays.
 template <class Struct, std::size_t N = 0>
 [[nodiscard]] constexpr std::size_t values_taken() noexcept {
   if constexpr (kTakes<Struct, std::make_index_sequence<N + 1>>) {

@@ -1,4 +1,4 @@
-// The rules that an engine's gas keeps; field names as in the engine file.
+// Validation of an engine's gas; field names as in the engine file.
 #include <crankloop/define/gas.hpp>
 
 #include "rules.hpp"
@@ -36,7 +36,7 @@ namespace {
       validate_curve(port.flow_count, port.flow_lift_ratio, port.flow_ratio, 0.5, "gas.flow_lift_ratio");
   if (!curve.ok()) return of_train(curve);
   if (port.flow_ratio[0] != 0)
-    return refuse("gas.flow_lift_ratio", Reason::inconsistent, train);  // a closed valve is closed
+    return refuse("gas.flow_lift_ratio", Reason::inconsistent, train);  // a closed valve has no flow
   return {};
 }
 

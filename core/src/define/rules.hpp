@@ -1,4 +1,4 @@
-// The rules that single numbers of a definition keep.
+// Range checks of single numbers of a definition.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@ inline constexpr double kLargest = 1.7976931348623157e308;
 
 [[nodiscard]] inline bool finite(double x) noexcept { return x >= -kLargest && x <= kLargest; }
 
-/// Least of what must be greater than zero, in SI units: its reciprocal, and products of several, stay numbers in float
-/// too. A seat of 5e-312 N/m, which no file means, would be pressed in by an infinity.
+/// Smallest permitted value of a positive quantity, in SI units: its reciprocal, and products of several, stay finite
+/// in float too. A seat stiffness of 5e-312 N/m, for example, would give an infinite compression.
 inline constexpr double kLeastPositive = 1e-9;
 
 [[nodiscard]] inline Status positive(double x, const char* field, double most) noexcept {
@@ -35,12 +35,12 @@ inline constexpr double kLeastPositive = 1e-9;
   return {};
 }
 
-/// 0, which leaves something out, or what is greater than zero.
+/// Accepts 0 (left out) and positive numbers.
 [[nodiscard]] inline Status none_or_positive(double x, const char* field, double most) noexcept {
   return x == 0 ? Status{} : positive(x, field, most);
 }
 
-/// The first of several answers that is not ok.
+/// The first status that is not ok.
 template <std::size_t N>
 [[nodiscard]] Status first_refusal(const Status (&answers)[N]) noexcept {
   for (const Status& answer : answers) {

@@ -1,4 +1,4 @@
-// The rules that a trigger wheel keeps; field names as in the engine file.
+// Validation of a trigger wheel; field names as in the engine file.
 #include <crankloop/define/trigger_wheel.hpp>
 
 #include "rules.hpp"
@@ -10,7 +10,7 @@ using detail::first_refusal;
 
 namespace {
 
-/// Edges nearer than this, in crank degrees, are one: far above what the tables round to.
+/// Smallest permitted distance between edges in crank degrees, far above the rounding of the tables.
 constexpr double kLeastApartDeg = 1e-3;
 
 [[nodiscard]] Status from_0_to_below_720(double deg, const char* field, int index) noexcept {
@@ -56,7 +56,7 @@ constexpr double kLeastApartDeg = 1e-3;
 Status validate(const TriggerWheel& wheel) noexcept {
   const bool on_crank = wheel.shaft == TriggerShaft::crank;
   if (!on_crank && wheel.shaft != TriggerShaft::cam)
-    return refuse("trigger.shaft", Reason::out_of_range);  // a number that names neither
+    return refuse("trigger.shaft", Reason::out_of_range);  // an undefined shaft
   if (wheel.train < -1 || wheel.train >= kMaxTrains) return refuse("trigger.train", Reason::out_of_range);
   if (on_crank && wheel.train != -1)
     return refuse("trigger.train", Reason::inconsistent);  // no phaser moves the crankshaft
@@ -66,7 +66,7 @@ Status validate(const TriggerWheel& wheel) noexcept {
     case TriggerPattern::edges:
       return validate_edges(wheel);
   }
-  return refuse("trigger.pattern", Reason::out_of_range);  // a number that names no pattern
+  return refuse("trigger.pattern", Reason::out_of_range);  // an undefined pattern
 }
 
 }  // namespace crankloop

@@ -1,4 +1,4 @@
-// The rules that a definition keeps; field names as in the engine file.
+// Validation of a definition; field names as in the engine file.
 #include <crankloop/define/engine_definition.hpp>
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kHeaviest_kg = 1e4;
 
-/// Whether two angles in degrees point the same way. Angles beyond 1e6 deg point nowhere.
+/// Whether two angles in degrees are equal modulo 360; false if they differ by 1e6 deg or more.
 [[nodiscard]] bool same_direction(double a_deg, double b_deg) noexcept {
   constexpr double kSameAngleDeg = 1e-6;
   const double d = a_deg - b_deg;
@@ -80,7 +80,7 @@ Status set_firing_order(const int* order, int cylinders, Layout& layout) noexcep
     }
     seen |= 1u << cylinder;
   }
-  // Angle 0 is cylinder 1's firing, wherever the order starts.
+  // Angle 0 is where cylinder 1 fires, whichever cylinder the order starts with.
   int first = 0;
   while (order[first] != 1) ++first;
   layout.cylinders = cylinders;
@@ -94,7 +94,7 @@ Status set_firing_order(const int* order, int cylinders, Layout& layout) noexcep
 void share_pins_by_position(Layout& layout) noexcept {
   if (layout.cylinders < 1 || layout.cylinders > kMaxCylinders) return;  // validate() refuses it
   const auto n = static_cast<std::size_t>(layout.cylinders);
-  // The pin of a cylinder is named by its first sharer, then pins are numbered by position.
+  // The first cylinder on a pin identifies the pin; then pins are numbered by position.
   std::array<std::size_t, kMaxCylinders> leader{};
   for (std::size_t k = 0; k < n; ++k) {
     leader[k] = k;
@@ -120,8 +120,8 @@ void share_pins_by_position(Layout& layout) noexcept {
 
 namespace {
 
-/// Middle of the rods on a pin, which has at least one: the first one's place and the mean distance from it, exact for
-/// equal places.
+/// Mean position of the rods on a pin, which has at least one, as the first rod's position plus the mean distance from
+/// it: exact for equal positions.
 [[nodiscard]] double pin_position_m(const Layout& layout, std::size_t pin) noexcept {
   double first = 0;
   double beyond = 0;
@@ -161,7 +161,7 @@ Status validate(const Layout& layout) noexcept {
       }
     }
   }
-  if (pins_used != (2u << last_pin) - 1u) return refuse("layout.pin", Reason::inconsistent);  // a gap in the numbers
+  if (pins_used != (2u << last_pin) - 1u) return refuse("layout.pin", Reason::inconsistent);  // pin numbers with a gap
   for (std::size_t pin = 1; pin <= last_pin; ++pin) {
     if (pin_position_m(layout, pin) < pin_position_m(layout, pin - 1))
       return refuse("layout.pin", Reason::inconsistent);
@@ -190,7 +190,8 @@ namespace {
     return refuse("pressure.wiebe.combustion_duration_deg", Reason::inconsistent);
   }
   if (w.motored_exponent() < w.compression_exponent)
-    return refuse("pressure.wiebe.motored_expansion_exponent", Reason::inconsistent);  // work from nothing
+    return refuse("pressure.wiebe.motored_expansion_exponent",
+                  Reason::inconsistent);  // the motored cycle would gain energy
   return {};
 }
 
@@ -219,8 +220,8 @@ constexpr int kMaxPoints = 1 << 20;
       return refuse("pressure.points", Reason::out_of_range, i);
     if (i > 0 && at <= pressure.points[i - 1].at) return refuse("pressure.points", Reason::not_increasing, i);
   }
-  // One period, and no hole in it: the rows span at most 720 deg, and what is left to close the circle is no wider than
-  // 60 deg.
+  // One period without a gap: the rows span at most 720 deg, and at most 60 deg are missing between the last row and
+  // the first.
   const double span = pressure.points[pressure.point_count - 1].at - pressure.points[0].at;
   constexpr double kWidestGapDeg = 60;
   if (span > 720 + 1e-9 || span < 720 - kWidestGapDeg) return refuse("pressure.points", Reason::not_one_period);
@@ -241,11 +242,11 @@ Status validate(const Pressure& pressure, const Crank& crank) noexcept {
     case PressureSource::angle_table:
       return validate_angles(pressure);
     case PressureSource::volume_table:
-      (void)crank;  // the volumes are checked against the dead centres where they are turned into angles:
-                    // tabulate/indicator_diagram.hpp
+      (void)crank;  // tabulate/indicator_diagram.hpp checks the volumes against the dead centres when it converts them
+                    // to angles
       return validate_points(pressure, kLeastVolumePoints);
   }
-  return refuse("pressure.source", Reason::out_of_range);  // a number that names no source
+  return refuse("pressure.source", Reason::out_of_range);  // an undefined source
 }
 
 Status validate(const EngineDefinition& engine) noexcept {

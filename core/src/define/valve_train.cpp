@@ -1,4 +1,4 @@
-// The rules that a valve train keeps; field names as in the engine file.
+// Validation of a valve train; field names as in the engine file.
 #include <crankloop/define/valve_train.hpp>
 
 #include "rules.hpp"
@@ -24,7 +24,7 @@ constexpr int kLeastCamPoints = 8;
   if (cam.exponent_count > kMaxCamExponents) return refuse("cam.exponents", Reason::too_many_points);
   for (int i = 0; i < cam.exponent_count; ++i) {
     if (const Status refused = between(cam.exponents[i], "cam.exponents", 2, 100, i); !refused.ok()) return refused;
-    // Closer ones leave nothing but rounding: the coefficients hold 1 / (p_j - p_i).
+    // With closer exponents only rounding errors remain: the coefficients contain 1 / (p_j - p_i).
     if (i > 0 && cam.exponents[i] < cam.exponents[i - 1] + 0.1)
       return refuse("cam.exponents", Reason::not_increasing, i);
   }
@@ -61,7 +61,7 @@ constexpr int kLeastCamPoints = 8;
     case CamTurns::away_from_pivot:
       return {};
   }
-  return refuse("rocker.cam_turns", Reason::out_of_range);  // a number that names neither
+  return refuse("rocker.cam_turns", Reason::out_of_range);  // an undefined direction
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ Status validate(const Rocker& rocker) noexcept {
     case RockerKind::circular_pad:
       return validate_pad(rocker);
   }
-  return refuse("rocker.kind", Reason::out_of_range);  // a number that names no kind
+  return refuse("rocker.kind", Reason::out_of_range);  // an undefined kind
 }
 
 Status validate(const Valve& valve) noexcept {

@@ -19,7 +19,7 @@ static_assert(values_listed<EngineDefinition>() + 2 + kMaxTriggerWheels == value
 
 namespace {
 
-/// Adds what the tables read: numbers, entries of lists, all of a part.
+/// Adds the fields that the tables depend on: numbers, entries of lists, whole parts.
 struct AddRead {
   Fingerprint& f;
 
@@ -40,7 +40,7 @@ struct AddRead {
   }
 };
 
-/// A rocker with the defaults for what its kind does not use; all of it counts.
+/// Adds all fields of a rocker, with the default for those that its kind does not use.
 void add_rocker(AddRead& add, const Rocker& rocker) noexcept {
   Rocker used;
   Rocker::each_field([](int read, const char*, const auto& from, auto& to) { to = read > 0 ? from : to; }, rocker,
@@ -52,7 +52,7 @@ void add_rocker(AddRead& add, const Rocker& rocker) noexcept {
 
 std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& options, const TableReport& report,
                              int scalar_bytes) noexcept {
-  // A part that is added to the definition has to be named here, and then to count.
+  // A new part of the definition must be named here, and then added below.
   const auto& [crank, masses, layout, pressure, train_count, trains, friction, load, starter, trigger_count, triggers,
                gas] = engine;
   Fingerprint f;
@@ -86,7 +86,7 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
       add(1, "", valve);
     }
   }
-  // What came later counts only where there is any of it: engines without have the fingerprint they always had.
+  // Parts of later releases are added only if they are in use: other engines keep the fingerprint of earlier releases.
   if (report.cut_doublings > 0) f.add(report.cut_doublings);
   if (options.max_speed_rad_s != 0) f.add(options.max_speed_rad_s);
   bool any = false;

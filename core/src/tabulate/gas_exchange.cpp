@@ -16,7 +16,7 @@
 namespace crankloop::detail {
 namespace {
 
-/// By straight lines through a definition's rows, beyond the last the last.
+/// Linear interpolation between a definition's rows; constant beyond the last.
 [[nodiscard]] double between_rows(const double* at, const double* value, int count, double x) noexcept {
   for (int i = 1; i < count; ++i) {
     if (x <= at[i]) return value[i - 1] + (value[i] - value[i - 1]) * (x - at[i - 1]) / (at[i] - at[i - 1]);
@@ -43,8 +43,8 @@ namespace {
   return curve;
 }
 
-/// How many times a manifold's openings could let its volume through in a tick, at 1000 m/s: that to the outside, and
-/// the valves of as many cylinders as open at a time.
+/// Manifold volumes that can flow through its openings in a tick at 1000 m/s. Openings: the one to the outside, and the
+/// valves of as many cylinders as are open at a time.
 [[nodiscard]] double volumes_in_a_tick(const EngineDefinition& engine, double tick_s, std::uint32_t port) noexcept {
   const Gas& gas = engine.gas;
   double valves_m2 = 0;
@@ -57,7 +57,7 @@ namespace {
   return (outside_m2 + open * valves_m2) * kFlowSpeed_m_s * tick_s / (port == kIntake ? gas.intake_m3 : gas.exhaust_m3);
 }
 
-/// Steps of a tick that a small manifold needs.
+/// Gas steps per tick; more than one for a small manifold.
 [[nodiscard]] std::uint32_t parts_of(const EngineDefinition& engine, double tick_s) noexcept {
   constexpr double kVolumesInAStep = 1.3;
   const double share =
@@ -67,7 +67,7 @@ namespace {
   return parts;
 }
 
-/// Steps of a tick at most: as many as the widest turn or a small manifold needs.
+/// Maximum number of gas steps per tick, for the largest rotation of the crank or a small manifold.
 [[nodiscard]] std::uint32_t max_steps_of(const EngineDefinition& engine, const TickOptions& options) noexcept {
   const double steps = widest_turn_deg(engine, options) / kGasStep_deg;
   std::uint32_t parts = parts_of(engine, options.tick_s);
@@ -125,7 +125,7 @@ namespace {
 [[nodiscard]] BurnTable<double> burn_of(const EngineDefinition& engine) noexcept {
   const Gas& gas = engine.gas;
   const double air = gas.air_fuel_ratio;
-  // Heating values are measured at 25 C, the gas's energies counted from 0 K.
+  // Heating values refer to 25 C, the energies of the gas to 0 K.
   constexpr double kMeasured_K = 298.15;
   BurnTable<double> b{};
   b.latch_phase = phase_units(gas.latch_deg + 720);

@@ -8,14 +8,14 @@
 namespace crankloop::detail {
 namespace {
 
-/// A part of a turn, 0 to below 1, to the nearest of 2^32 equal parts. The rules keep edges too far apart for two to
-/// become one, or for the last to become a whole turn.
+/// A fraction of a turn, 0 to below 1, rounded to the nearest of 2^32 equal parts. Validated edges are so far apart
+/// that no two become equal and the last does not become a whole turn.
 [[nodiscard]] std::uint32_t turn_units(double turns) noexcept {
   CRANKLOOP_ASSERT(turns >= 0 && turns * 4294967296.0 + 0.5 < 4294967296.0);
   return static_cast<std::uint32_t>(turns * 4294967296.0 + 0.5);
 }
 
-/// Angles of a wheel's edges, the first at 0; answers their number.
+/// Fills the angles of a wheel's edges, the first at 0; returns their number.
 std::uint32_t fill_edges(const TriggerWheel& wheel, std::uint32_t* edges) noexcept {
   std::uint32_t count = 0;
   if (wheel.pattern == TriggerPattern::edges) {
@@ -51,13 +51,13 @@ void fill_parts(TriggerTrack& track) noexcept {
   track.edges_before[kTriggerParts] = static_cast<std::uint16_t>(track.edge_count);
 }
 
-/// How many edges lie at most in a part of the wheel that is turned by `turns`, one end of it left out.
+/// Maximum number of edges that the wheel passes when it turns by `turns`, one end excluded.
 [[nodiscard]] std::uint32_t max_edges_in(const TriggerTrack& track, double turns) noexcept {
   if (turns >= 1) return track.edge_count;
   const double units = turns * 4294967296.0;
   std::uint32_t most = 1;
   std::uint32_t behind =
-      0;  // of the last edge, the first that is less than `units` behind it; beyond the count a turn on
+      0;  // the first edge less than `units` behind the last; an index of edge_count or more is one turn later
   for (std::uint32_t last = 0; last < 2 * track.edge_count; ++last) {
     const auto place = [&track](std::uint32_t edge) {
       const bool next_turn = edge >= track.edge_count;
@@ -70,7 +70,7 @@ void fill_parts(TriggerTrack& track) noexcept {
   return most;
 }
 
-/// How far a tick turns a wheel at most, in turns of it: crank and phaser together.
+/// Largest rotation of a wheel in a tick, in turns of the wheel: crank and phaser together.
 [[nodiscard]] double widest_turns(const EngineDefinition& engine, const TickOptions& options,
                                   const TriggerWheel& wheel) noexcept {
   const double crank_deg = widest_turn_deg(engine, options);

@@ -195,7 +195,7 @@ constexpr Key kKeys[] = {
 };
 // clang-format on
 
-/// Fields that follow from a key, which is none of them by itself.
+/// Fields that are computed from a key of another name.
 struct Follows {
   const char* field;
   const char* section;
@@ -232,7 +232,7 @@ constexpr Follows kFollows[] = {
     {"gas.flow_ratio", "valve", "flow_over_lift_ratio"},
 };
 
-/// Looks for a field by its name.
+/// Finds a field by its name.
 struct Find {
   std::string_view name;
   bool found = false;
@@ -260,7 +260,7 @@ constexpr bool fields_exist() {
 }
 static_assert(fields_exist(), "a key is that of a field that the definition does not have");
 
-/// ", or heat_J": what may be given instead, where there is a choice.
+/// ", or heat_J": alternatives to a key.
 std::string other_ways(const Key& key) {
   if (key.form[0] == '\0') return "";
   const std::string_view choice = split(key.form, ':')[0];

@@ -1,4 +1,4 @@
-// From a section's values to the parts of an EngineDefinition; used by engine_file.cpp only.
+// Conversion of a section's values to the parts of an EngineDefinition; used only by engine_file.cpp.
 //
 // What belongs here: rules that need more than one key, but no other file. What does not: single keys
 // (engine_file_section.cpp).
@@ -15,7 +15,7 @@
 
 namespace crankloop::program {
 
-/// Puts the values whose keys are fields of this part into them; other fields stay as they are.
+/// Copies values into the fields of this part that have a key; other fields stay unchanged.
 template <class Part>
 void fill(const SectionValues& values, Part& part) {
   Part::each_field(
@@ -51,7 +51,7 @@ void fill(const SectionValues& values, Part& part) {
 [[nodiscard]] Rocker build_rocker(const SectionValues& values);
 
 /// All but the train whose phaser moves it and the list of edges, which is put into `edges_deg`; empty where the wheel
-/// has teeth and gaps. Throws InputError for a pattern that names no wheel.
+/// has teeth and gaps. Throws InputError for an unknown pattern.
 [[nodiscard]] TriggerWheel build_trigger(const SectionValues& values, const std::string& path,
                                          std::vector<double>& edges_deg);
 

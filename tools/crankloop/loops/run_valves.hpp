@@ -1,7 +1,7 @@
-// The quantities of one valve that `run` shows, and what a run of some cycles found of a valve train.
+// The quantities of one valve that `run` shows, and the results of a valve train over some cycles.
 //
-// What belongs here: the list, once, for CSV columns, peaks and plots; results over all cylinders. What does not: what
-// is done with them.
+// What belongs here: the list, once, for CSV columns, peaks and plots; results over all cylinders. What does not: their
+// use.
 #pragma once
 
 #include <array>

@@ -19,7 +19,8 @@ template class crankloop::Engine<double, crankloop::program::OneValve>;
 namespace crankloop::program {
 namespace {
 
-/// Of a tick: less than this beyond a cycle is rounding of the phase increment, and no reason for another tick.
+/// Fraction of a tick: a cycle's end that is closer than this is not worth another tick, because the phase increment is
+/// rounded.
 constexpr double kHairOfATick = 1e-3;
 constexpr double kShortestTick_s = 1e-6;
 
@@ -65,8 +66,8 @@ LoneValve::LoneValve(const EngineFile& file, const std::string& name) : file_{fi
   }
   if (file.has("crank")) {
     definition_.crank = file.definition().crank;
-    definition_.crank.max_speed_rad_s = 0;  // how fast the engine can turn is what one wants to find out
-    // Of an engine with gas exchange, one valve alone does not know the gas.
+    definition_.crank.max_speed_rad_s = 0;  // no limit: the sweep goes beyond the engine's maximum Without gas force
+                                            // for an engine with gas exchange: a single valve has no cylinder pressure.
     if (train_.definition.valve.head_area_m2 > 0 && !breathes(file.definition()))
       definition_.pressure = file.definition().pressure;
   } else {
@@ -159,7 +160,7 @@ void ValveLoop<Real>::step() noexcept {
   ++ticks_;
 }
 
-/// The engine has gone on and counts the angle; its valve is not looked at.
+/// The engine only counts the angle; its valve is not used.
 template <class Real>
 void ValveLoop<Real>::textbook_step(Phase before, Phase after) noexcept {
   const CamSpan cam{since_opening(before), since_opening(after)};

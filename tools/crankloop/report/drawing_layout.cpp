@@ -86,7 +86,8 @@ void Drawing::make_layout(bool legend) {
   const bool band_names =
       std::any_of(plot_.bands.begin(), plot_.bands.end(), [](const Band& band) { return !band.label.empty(); });
   if (band_names) frame_.top += 24;
-  if (frame_.bottom - frame_.top < 200) {  // a long legend makes the drawing higher, not the curves flatter
+  if (frame_.bottom - frame_.top <
+      200) {  // a long legend increases the drawing's height instead of compressing the curves
     height_ += 200 - (frame_.bottom - frame_.top);
     frame_.bottom = frame_.top + 200;
   }
@@ -113,7 +114,7 @@ void Drawing::make_layout(bool legend) {
   make_curves();
 }
 
-/// Zero stands out when values of both signs are seen, and under curves that start from it.
+/// Zero gets a line if values have both signs, and under curves that start at zero.
 void Drawing::make_zero_lines() {
   zero_lines_.clear();
   if (empty_) return;
@@ -225,7 +226,7 @@ void Drawing::make_lines(const Series& series, Curve& curve) const {
   if (pieces.back().empty()) pieces.pop_back();
   if (series.style.closed && pieces.size() == 1 && pieces[0].size() > 2) pieces[0].push_back(pieces[0][0]);
 
-  std::set<std::pair<int, int>> occupied;  // by marks, in half user units: a second one there would not be seen
+  std::set<std::pair<int, int>> occupied;  // by marks, in half user units: a second one there would be invisible
   for (const Polyline& piece : pieces) {
     if (!marks && piece.size() > 1) curve.lines.push_back(decimate(piece, kTolerance));
     if (series.style.draw == Draw::line_and_points && piece.size() > 1)

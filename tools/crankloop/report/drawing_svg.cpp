@@ -1,4 +1,4 @@
-// The <svg> element of a drawing whose places are settled.
+// The <svg> element of a drawing after layout.
 #include <algorithm>
 #include <string>
 
@@ -28,7 +28,7 @@ std::string line_class(const Curve& curve) {
          colour_class(curve);
 }
 
-/// For the page's script: a scale as "low high from to", in the user units that stand for it.
+/// A scale for the page's script: "low high from to", the latter two in user units.
 std::string scale_of(const char* name, const Mapping& map, const std::string& unit) {
   return std::string(" data-") + name + "=\"" + program::brief(map.range.low) + ' ' + program::brief(map.range.high) +
          ' ' + coordinate(map.from) + ' ' + coordinate(map.to) + (map.logarithmic ? " log" : "") + "\"" +
@@ -142,8 +142,8 @@ void Drawing::write_bands() {
     const double right = std::clamp(to_x_(band.to), frame_.left, frame_.right);
     if (right <= left) continue;
     if (count++ % 2 == 0)
-      rectangle("band", {left, band_top_, right, frame_.bottom});  // every other one: enough to tell them apart
-    if (0.88 * text_width(band.label) > right - left) continue;    // its type is that much smaller
+      rectangle("band", {left, band_top_, right, frame_.bottom});  // every other one, so that they are distinguishable
+    if (0.88 * text_width(band.label) > right - left) continue;    // the font is smaller by this factor
     text("band-name", {(left + right) / 2, band_top_ + 17}, Anchor::middle, band.label);
   }
 }

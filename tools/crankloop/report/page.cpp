@@ -10,8 +10,8 @@
 namespace crankloop::report {
 namespace {
 
-constexpr std::size_t kHalfColumns = 5;    // a table of so many columns takes half the width of a desk's page
-constexpr std::size_t kNarrowColumns = 4;  // one of more may have to be scrolled on a phone
+constexpr std::size_t kHalfColumns = 5;  // a table with up to this many columns takes half the width of a desktop page
+constexpr std::size_t kNarrowColumns = 4;  // a wider table may have to be scrolled on a phone
 
 constexpr const char* kStyle = R"css(
 :root { color-scheme: light dark; }
@@ -161,8 +161,8 @@ class Document {
   }
 
  private:
-  /// Letters, digits and dashes, beginning with a letter, and not yet used on this page, nor with a suffix of
-  /// plot.hpp's.
+  /// An id of letters, digits and dashes that starts with a letter and is unique on this page, also with the suffixes
+  /// of plot.hpp.
   std::string unique_id(const std::string& wish) {
     std::string id;
     for (const char c : wish) {
@@ -251,7 +251,7 @@ class Document {
     const std::string caption = escape(table.caption);
     out_ += "<div class=\"table\">\n";
     if (table.folded) out_ += "<details>\n<summary>" + caption + "</summary>\n";
-    // A reader without a mouse must be able to scroll a wide table: a region that takes the focus.
+    // A wide table must be scrollable without a mouse: make it a region that takes the focus.
     const bool wide = table.columns.size() > kNarrowColumns;
     out_ += "<div class=\"scroll\"";
     if (wide) out_ += " role=\"region\" tabindex=\"0\" aria-labelledby=\"" + id + '"';

@@ -1,4 +1,4 @@
-// The look of every drawing, and the colours of both themes.
+// The style sheet of all drawings, with the colours of both themes.
 #include "plot.hpp"
 
 namespace crankloop::report {

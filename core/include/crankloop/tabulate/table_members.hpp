@@ -1,8 +1,8 @@
-// The members of each record of the tables, for who goes through a whole table: to print it, to round it.
+// The members of each record of the tables, for code that visits a whole table: to print it, to round it.
 //
 // What belongs here: members(record), all of them as a tuple of references. By structured binding, so that a record
-// whose member is forgotten here does not compile: no member can be silently zero in flash. What does not: what they
-// mean (tables/records.hpp and beside it).
+// whose member is forgotten here does not compile: no member can be silently zero in flash. What does not: their
+// meaning (tables/records.hpp and the headers beside it).
 #pragma once
 
 #include <tuple>

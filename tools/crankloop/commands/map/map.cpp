@@ -61,7 +61,7 @@ bool is_grid(const Arguments& arguments, const Option& option) {
   return arguments.text_or_empty(option.name).find(':') != std::string::npos;
 }
 
-/// Sets what the map varies beside the speed, and what holds everywhere.
+/// Sets the quantity that the map varies besides the speed, and the constant ones.
 void set_loads(MapRequest& request, const Arguments& arguments, const EngineFile& file) {
   const bool over_throttle = is_grid(arguments, kThrottle), over_fuel = is_grid(arguments, kFuel);
   if (over_throttle == over_fuel)

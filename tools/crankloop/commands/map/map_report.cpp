@@ -16,7 +16,7 @@ double shown(const MapColumn& column, const MapPoint& point) {
   return (column.is_share ? 100 : 1) * column.value(point);
 }
 
-/// A grid's values; around a lone one, so that it has an area.
+/// A grid's values; a single value is widened to a range, so that the map has an area.
 std::vector<double> lattice(const Grid& grid) {
   if (grid.count == 1) return {grid.from - grid.step() / 2, grid.from + grid.step() / 2};
   std::vector<double> at;
