@@ -13,7 +13,7 @@ enum class Reason : std::uint8_t {
   not_finite,         ///< a NaN or an infinity
   not_positive,       ///< must be > 0
   negative,           ///< must be >= 0
-  out_of_range,       ///< outside the range that the field's comment states
+  out_of_range,       ///< outside the range that the list of fields states
   rod_too_short,      ///< the rod must be longer than crank radius + |pin offset|, by a billionth of that, or the crank
                       ///< cannot turn
   inconsistent,       ///< contradicts another field

@@ -19,12 +19,12 @@ namespace crankloop::program {
 template <class Part>
 void fill(const SectionValues& values, Part& part) {
   Part::each_field(
-      [&values](int, std::string_view name, auto& field) {
+      [&values](const ListedField& listed, auto& field) {
         using Field = std::remove_reference_t<decltype(field)>;
         if constexpr (kHasFields<Field>) {
           fill(values, field);
         } else if constexpr (std::is_same_v<Field, double> || std::is_same_v<Field, int>) {
-          if (const Value* value = values.of_field(name); value != nullptr && !value->is_open())
+          if (const Value* value = values.of_field(listed.name); value != nullptr && !value->is_open())
             field = static_cast<Field>(value->si());
         }
       },

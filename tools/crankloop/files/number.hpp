@@ -3,37 +3,12 @@
 // What belongs here: digits and ranges. What does not: which key or option a number belongs to.
 #pragma once
 
-#include <limits>
 #include <string>
 #include <string_view>
 
+#include <crankloop/define/range.hpp>
+
 namespace crankloop::program {
-
-/// Permitted range of a number: above(0).up_to(2000), from(0).below(720).
-struct Range {
-  double least = -std::numeric_limits<double>::infinity();
-  double most = std::numeric_limits<double>::infinity();
-  bool without_least = false;
-  bool without_most = false;
-
-  [[nodiscard]] constexpr Range up_to(double limit) const noexcept { return {least, limit, without_least, false}; }
-  [[nodiscard]] constexpr Range below(double limit) const noexcept { return {least, limit, without_least, true}; }
-  [[nodiscard]] constexpr bool contains(double value) const noexcept {
-    return (without_least ? value > least : value >= least) && (without_most ? value < most : value <= most);
-  }
-};
-
-[[nodiscard]] constexpr Range above(double limit) noexcept {
-  Range range;
-  range.least = limit;
-  range.without_least = true;
-  return range;
-}
-[[nodiscard]] constexpr Range from(double limit) noexcept {
-  Range range;
-  range.least = limit;
-  return range;
-}
 
 /// "above 0, at most 2000 mm", "0 to 100", "0 to below 720 deg"; empty for a range without limits.
 [[nodiscard]] std::string describe(const Range& range, std::string_view unit);
