@@ -92,6 +92,7 @@ void each_option(Copy& copy, Cpp& options, C& c) noexcept {
   copy(true, "options.tick_s", options.tick_s, c.tick_s);
   copy(true, "options.valves.integrator", options.valves.integrator, c.valve_integrator);
   copy(true, "options.valves.accuracy_m", options.valves.accuracy_m, c.valve_accuracy_m);
+  copy(true, "options.valves.event_budget", options.valves.event_budget, c.valve_event_budget);
   copy(true, "options.max_speed_rad_s", options.max_speed_rad_s, c.max_speed_rad_s);
 }
 

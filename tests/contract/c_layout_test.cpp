@@ -173,6 +173,7 @@ constexpr Place kPlaces[] = {
     CRANKLOOP_AT(crankloop_options, tick_s, 0),
     CRANKLOOP_AT(crankloop_options, valve_accuracy_m, 8),
     CRANKLOOP_AT(crankloop_options, valve_integrator, 16),
+    CRANKLOOP_AT(crankloop_options, valve_event_budget, 20),
     CRANKLOOP_AT(crankloop_options, max_speed_rad_s, 24),
 
     CRANKLOOP_SIZE(crankloop_column, 48),

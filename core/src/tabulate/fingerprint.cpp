@@ -89,6 +89,7 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
   // Parts of later releases are added only if they are in use: other engines keep the fingerprint of earlier releases.
   if (report.cut_doublings > 0) f.add(report.cut_doublings);
   if (options.max_speed_rad_s != 0) f.add(options.max_speed_rad_s);
+  if (train_count > 0 && options.valves.event_budget != 0) f.add(options.valves.event_budget);
   bool any = false;
   const auto look = [&any](const ListedField&, double x) { any = any || x != 0; };
   Friction::each_field(look, friction);

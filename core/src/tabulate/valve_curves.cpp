@@ -7,6 +7,7 @@
 #include <crankloop/tabulate/valve_lift.hpp>
 #include <crankloop/tick/one_instruction.hpp>
 
+#include "crank_dynamics.hpp"
 #include "curve_fit.hpp"
 #include "phase_units.hpp"
 
@@ -174,6 +175,30 @@ void fill_cam_degrees(const LiftCurve<Real>& curve, int cylinders, int train,
   }
 }
 
+/// Whether all valves of a train may need their fine steps in one tick: where it is too long for a step of an open
+/// valve, or turns the cams further than one step can follow.
+[[nodiscard]] bool all_by_fine_steps(const ValveMotion<double>& motion, double most_cam_deg) noexcept {
+  return most_cam_deg > motion.widest_step_deg || motion.whole[kTrainOn].seat.least_m > 1;
+}
+
+/// Units that a tick may spend on events unless the options say otherwise. In each train one valve goes by fine steps
+/// and has events, or two have none; where all valves may need their fine steps, all of these too. A train alone has
+/// enough for two events.
+[[nodiscard]] std::uint32_t usual_event_budget(const EngineDefinition& engine, const TickOptions& options,
+                                               const ValveMotion<double>* motions) noexcept {
+  const double most_cam_deg = widest_turn_deg(engine, options) / 2;
+  std::uint32_t units = 0;
+  std::uint32_t least = 0;
+  for (int t = 0; t < engine.train_count; ++t) {
+    const std::uint32_t parts = motions[t].parts;
+    units += 2 * parts + 1;
+    if (all_by_fine_steps(motions[t], most_cam_deg))
+      units += static_cast<std::uint32_t>(engine.layout.cylinders) * parts;
+    if (event_units_of_one(parts) > least) least = event_units_of_one(parts);
+  }
+  return units > least ? units : least;
+}
+
 }  // namespace
 
 template <class Real>
@@ -186,7 +211,6 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
   };
   ValveMotion<double> motions[kMaxTrains];
   int fine_steps = 0;
-  std::uint32_t most_parts = 0;
   double class_deg = kDegreesPerTurn;
   for (int t = 0; t < engine.train_count; ++t) {
     const ValveTrain& train = engine.trains[t];
@@ -202,13 +226,20 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
     find_decoupled(motions[t], train.rocker.clearance_m);
     fine_steps += static_cast<int>(motions[t].parts) * engine.layout.cylinders;
     if (fine_steps > kMaxFineStepsOfEngine) return refuse("options.tick_s", Reason::out_of_range, t);
-    if (motions[t].parts > most_parts) most_parts = motions[t].parts;
+    if (options.valves.event_budget != 0 &&
+        options.valves.event_budget < static_cast<int>(motions[t].parts + kUnitsOfEvent))
+      return refuse("options.valves.event_budget", Reason::out_of_range, t);
     const double keeps_deg = motions[t].cubic_deg * motions[t].parts;
     if (keeps_deg < class_deg) class_deg = keeps_deg;
   }
   report.valve_fine_steps = fine_steps;
   report.valve_class_deg = targets.valve_motions != nullptr ? class_deg : 0;
-  report.valve_changes = targets.valve_motions != nullptr ? static_cast<int>(kEventsBesideParts + most_parts) : 0;
+  std::uint32_t event_budget = 0;
+  if (targets.valve_motions != nullptr && engine.train_count > 0) {
+    event_budget = options.valves.event_budget != 0 ? static_cast<std::uint32_t>(options.valves.event_budget)
+                                                    : usual_event_budget(engine, options, motions);
+  }
+  report.event_budget = static_cast<int>(event_budget);
   for (int t = 0; t < engine.train_count; ++t) {
     const ValveTrain& train = engine.trains[t];
     if (targets.lift_curves != nullptr) {
@@ -220,7 +251,7 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
       fill_cam_degrees(targets.lift_curves[t], engine.layout.cylinders, t, targets);
     }
     if (targets.valve_motions != nullptr) {
-      motions[t].event_budget = kEventsBesideParts + most_parts;
+      motions[t].event_budget = event_budget;
       if constexpr (std::is_same_v<Real, float>) {
         targets.valve_motions[t] = crankloop::rounded(motions[t]);
       } else {

@@ -231,6 +231,8 @@ ValveState<double> exact_motion(const ValveBody<double>& body, std::uint32_t reg
 Status validate(const ValveStepping& stepping) noexcept {
   if (!(stepping.accuracy_m >= 0.01e-6 && stepping.accuracy_m <= 10e-6))
     return refuse("options.valves.accuracy_m", Reason::out_of_range);
+  if (!(stepping.event_budget >= 0 && stepping.event_budget <= kMaxEventBudget))
+    return refuse("options.valves.event_budget", Reason::out_of_range);
   if (stepping.integrator != Integrator::rk4 && stepping.integrator != Integrator::exponential)
     return refuse("options.valves.integrator", Reason::out_of_range);  // an undefined integrator
   return {};
@@ -252,7 +254,7 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
   motion.per_parts = 1.0 / parts;
   motion.parts = static_cast<std::uint32_t>(parts);
   motion.per_parts_32 = per_n_32(parts);
-  motion.event_budget = kEventsBesideParts + motion.parts;
+  motion.event_budget = event_units_of_one(motion.parts);
   motion.cubic_deg = motion.widest_step_deg = kDegreesPerTurn;
   motion.train_lag_s = body.train_Ns_m / body.train_N_m;
   motion.seat_lag_s = body.seat_Ns_m / body.seat_N_m;

@@ -174,7 +174,8 @@ void print_header(Output& out, const EngineFile& engine, const Arguments& argume
   const TickOptions options{
       millionths(arguments.number("--tick-us")),
       {arguments.text("--integrator") == "exponential" ? Integrator::exponential : Integrator::rk4,
-       millionths(arguments.number("--accuracy-um"))},
+       millionths(arguments.number("--accuracy-um")),
+       arguments.has("--event-budget") ? arguments.whole_number("--event-budget") : 0},
       arguments.has("--max-rpm") ? arguments.number("--max-rpm") / kRpmPerRad_s : 0};
   const Status status = tabulate(engine.definition(), options, stores->targets(), &report);
   if (!status.ok()) throw explain_tabulate(engine, status, options.tick_s, options.valves);
@@ -220,6 +221,8 @@ constexpr Option kOptions[] = {
     choice("--real", "float|double", "arithmetic of the tick", "float"),
     choice("--integrator", "rk4|exponential", "of elastic valves", "rk4"),
     number("--accuracy-um", "A", from(0.01).up_to(10), "class of valve lift error: sets the sub-steps", "0.1"),
+    whole_number("--event-budget", "N", from(3).up_to(kMaxEventBudget),
+                 "work for valve events in a tick, else by the engine"),
     number("--max-rpm", "N", above(0).up_to(100000), "the highest speed the engine can have, else the file's max_rpm"),
     {"--namespace", Option::Kind::text, "NAME", "C++ namespace of the tables", "crankloop_tables"},
     text("--output", "F", "file for the header, -o for short; else standard output"),
@@ -227,13 +230,13 @@ constexpr Option kOptions[] = {
 
 }  // namespace
 
-const Command kTables{
-    "tables",
-    "the tables as a C++ header, for firmware",
-    "FILE [--tick-us T] [--real R] [--integrator I] [--accuracy-um A] [--max-rpm N] [--namespace NAME] [--output F]",
-    "crankloop tables diesel_495.ini --tick-us 100 --real float > diesel_495_tables.hpp",
-    1,
-    kOptions,
-    run_tables};
+const Command kTables{"tables",
+                      "the tables as a C++ header, for firmware",
+                      "FILE [--tick-us T] [--real R] [--integrator I] [--accuracy-um A] [--event-budget N] [--max-rpm "
+                      "N] [--namespace NAME] [--output F]",
+                      "crankloop tables diesel_495.ini --tick-us 100 --real float > diesel_495_tables.hpp",
+                      1,
+                      kOptions,
+                      run_tables};
 
 }  // namespace crankloop::program

@@ -27,6 +27,9 @@ namespace detail {
 inline constexpr std::uint32_t kQuiet = 4;
 inline constexpr int kRegimes = 5;
 
+/// Units of the event budget that an event takes; a fine step takes one.
+inline constexpr std::uint32_t kUnitsOfEvent = 2;
+
 [[nodiscard]] constexpr std::uint32_t contacts_of(std::uint32_t regime) noexcept {
   return regime == kQuiet ? kSeatOn : regime;
 }
@@ -114,7 +117,7 @@ struct ValveMotion {
   Real per_parts;              ///< 1 / parts
   std::uint32_t parts;         ///< fine steps of a tick in which a guard fails, short enough to locate an event
   std::uint32_t per_parts_32;  ///< 2^32 / parts; unused for 1
-  std::uint32_t event_budget;  ///< events that a tick locates over all valves: 4 plus the largest `parts` of any train
+  std::uint32_t event_budget;  ///< units that a tick may spend on events over all valves (EventBudget)
   Real cubic_deg;        ///< largest step in cam degrees over which the cubic through its ends represents the lift
   Real widest_step_deg;  ///< largest tick in cam degrees that may be one step, with the lift in its middle
   Real train_lag_s,

@@ -48,7 +48,7 @@ struct TableReport {
   int cut_doublings = 0;
   int valve_fine_steps = 0;    ///< of all elastic valves in the worst tick, in which a guard of every valve fails; at
                                ///< most kMaxFineStepsOfEngine
-  int valve_changes = 0;       ///< maximum number of contact changes that a tick locates
+  int event_budget = 0;        ///< units of work that a tick may spend on events, over all elastic valves
   double valve_class_deg = 0;  ///< cam degrees of a tick up to which all elastic valves keep their accuracy class, 360
                                ///< if always; in longer ticks a cubic does not represent the cam's lift over a fine
                                ///< step

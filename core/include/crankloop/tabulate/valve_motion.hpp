@@ -25,16 +25,21 @@ struct ValveStepping {
   Integrator integrator = Integrator::rk4;
   double accuracy_m = 0.1e-6;  ///< requested class of lift error, 0.01e-6 to 10e-6: below 0.1e-6 all steps are finer,
                                ///< above it none is coarser
+  int event_budget = 0;  ///< units of work for events in a tick, over all valves (docs/contract.md, "Event budget"):
+                         ///< a fine step takes 1, an event 2. 0: by the engine; else enough for the fine
+                         ///< steps of any valve and an event, at most kMaxEventBudget
 };
 
-/// Refuses an accuracy out of range ("options.valves.accuracy_m") and an undefined integrator
-/// ("options.valves.integrator").
+/// Refuses an accuracy or a budget out of range ("options.valves.accuracy_m", "options.valves.event_budget") and an
+/// undefined integrator ("options.valves.integrator").
 Status validate(const ValveStepping& stepping) noexcept;
 
 /// Maximum number of fine steps of a valve in a tick; a tick that would need more is refused.
 inline constexpr int kMaxFineSteps = 512;
-/// Contact changes that a tick locates over all valves: this number plus one for each fine step of a valve.
-inline constexpr std::uint32_t kEventsBesideParts = 4;
+/// Event budget of a valve alone with so many fine steps in a tick.
+[[nodiscard]] constexpr std::uint32_t event_units_of_one(std::uint32_t parts) noexcept { return 2 * parts + 3; }
+/// Largest event budget: more than every fine step of an engine and an event in each second one need.
+inline constexpr int kMaxEventBudget = 8192;
 /// Maximum number of fine steps of all valves of an engine in a tick.
 inline constexpr int kMaxFineStepsOfEngine = 4096;
 

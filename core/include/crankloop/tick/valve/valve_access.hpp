@@ -119,12 +119,9 @@ struct ValveAccess {
       for (std::uint32_t k = 0; k < count<S>(tables.drive->cylinders); ++k) call(t * kPerTrain + k);
     }
   }
-  /// Those whose cams turn alike.
-  template <class Call>
-  void for_each_of(std::uint32_t group, const Call& call) const noexcept {
-    for_each([&](std::uint32_t v) {
-      if (!S::cam_phasing || train(v) == group) call(v);
-    });
+  /// Bits of those whose cams turn alike.
+  [[nodiscard]] static constexpr Bits of_group(std::uint32_t group) noexcept {
+    return S::cam_phasing ? ((Bits{1} << kPerTrain) - 1) << group * kPerTrain : ~Bits{0};
   }
 
   [[nodiscard]] Lift<Real> cam(std::uint32_t v) const noexcept {
