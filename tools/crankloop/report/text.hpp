@@ -27,7 +27,7 @@ namespace crankloop::report {
 // ---- for drawings ----
 
 /// The largest type in user units: what margins and label places are computed for.
-inline constexpr double kTypeSize = 17;
+inline constexpr double kTypeSize = 19;
 
 /// Width in user units at kTypeSize, by the widest of the usual system fonts (DejaVu Sans); others are up to a fifth
 /// narrower.
