@@ -15,7 +15,7 @@ units='m|m2|m3|m_s|m_s2|rad|rad_s|rad_s2|deg|deg_s|deg_per_s|rpm|s|kg|kg_m|kg_m2
 allowed='
 compression_exponent expansion_exponent motored_expansion_exponent motored_exponent kMotoredLoss exponents  # of power laws
 coefficients a0 a1 a2 a4 a6 order                  # of polynomials and Fourier series; coefficients of what they multiply
-at value least most                                # degree or m^3, Pa or m: as the row, the quantity or the range says
+at value least most limit                          # degree or m^3, Pa or m: as the row, the quantity or the range says
 ratio volumetric_efficiency combustion_efficiency   # its own unit
 per_crank_radius per_rod_length                    # 1/m
 rad_s_per_cycle_per_tick                           # named by its unit

@@ -116,8 +116,8 @@ report::Section bearing_section(const ReportInput& input) {
                             trace.journal_along_N[journal], trace.journal_across_N[journal], trace);
   section.blocks.push_back(std::move(journal_loop));
   section.blocks.push_back(polar("Main " + numbered("bearing", journal) + ", the same load on the block, polar",
-                                 "Lateral, a quarter turn on from up with the rotation", "Up",
-                                 trace.journal_lateral_N[journal], trace.journal_up_N[journal], trace));
+                                 "Lateral, 90 deg from up with the rotation", "Up", trace.journal_lateral_N[journal],
+                                 trace.journal_up_N[journal], trace));
   std::vector<std::size_t> order(trace.journal_load_N.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

@@ -194,7 +194,7 @@ void Drawing::write_heat_key() {
   }
   for (const Tick& tick : levels_.ticks)
     text("tick", {left + 20, to_y(tick.value) + 0.34 * kTypeSize}, Anchor::start, tick.label);
-  text("axis-title", {kWidth, 16}, Anchor::end, with_unit(plot_.field.name, plot_.field.unit, levels_.exponent));
+  text("axis-title", {kWidth, 17}, Anchor::end, with_unit(plot_.field.name, plot_.field.unit, levels_.exponent));
 }
 
 }  // namespace crankloop::report

@@ -137,7 +137,7 @@ void Drawing::place_ends() {
   } else {
     std::stable_sort(ends.begin(), ends.end(), by_width);
   }
-  constexpr double kPitch = 20;
+  constexpr double kPitch = 22;
   double y = frame_.top;  // of the next free line of the column
   for (std::size_t k = 0; k < ends.size(); ++k) {
     const auto& [end, i] = ends[k];

@@ -143,8 +143,8 @@ void Drawing::write_bands() {
     if (right <= left) continue;
     if (count++ % 2 == 0)
       rectangle("band", {left, band_top_, right, frame_.bottom});  // every other one, so that they are distinguishable
-    if (0.88 * text_width(band.label) > right - left) continue;    // the font is smaller by this factor
-    text("band-name", {(left + right) / 2, band_top_ + 17}, Anchor::middle, band.label);
+    if (0.8 * text_width(band.label) > right - left) continue;    // the font is smaller by this factor
+    text("band-name", {(left + right) / 2, band_top_ + 18}, Anchor::middle, band.label);
   }
 }
 
@@ -173,9 +173,9 @@ void Drawing::write_axes() {
       text("tick", {frame_.left - 8, to_y_(tick.value) + 0.34 * kTypeSize}, Anchor::end, tick.label);
   }
   for (const Tick& tick : x_.ticks) {
-    if (!tick.label.empty()) text("tick", {to_x_(tick.value), frame_.bottom + 22}, Anchor::middle, tick.label);
+    if (!tick.label.empty()) text("tick", {to_x_(tick.value), frame_.bottom + 23}, Anchor::middle, tick.label);
   }
-  text("axis-title", {0, 16}, Anchor::start, with_unit(plot_.y.title, plot_.y.unit, y_.exponent));
+  text("axis-title", {0, 17}, Anchor::start, with_unit(plot_.y.title, plot_.y.unit, y_.exponent));
   text("axis-title", {frame_.right, height_ - 6}, Anchor::end, with_unit(plot_.x.title, plot_.x.unit, x_.exponent));
 }
 

@@ -87,6 +87,7 @@ th, td {
 th:last-child, td:last-child { padding-right: 0; }
 thead th { color: var(--muted); font-weight: 500; vertical-align: bottom; border-bottom-color: var(--axis); }
 tbody th { font-weight: 400; }
+.row .scroll[role] tbody th { white-space: nowrap; }
 th.number, td.number { text-align: right; }
 td.number, tbody th.number { white-space: nowrap; }
 thead .unit { display: block; font-weight: 400; }
@@ -118,7 +119,7 @@ footer {
   .row { grid-template-columns: 1fr 1fr; gap: 1.1rem 1.8rem; margin-bottom: 1.1rem; }
   figcaption { margin-top: 0.2rem; font-size: 8.5pt; } .table { margin-bottom: 1.1rem; }
   .scroll { overflow: visible; }
-  table { font-size: 8.5pt; }
+  table { font-size: 8.5pt; } .row :is(th, td):not(:last-child) { padding-right: 0.5rem; }
   figure, tr, .facts, .row .table { break-inside: avoid; }
   h2, h3, caption { break-after: avoid; }
   .plot .hair { display: none; }

@@ -5,7 +5,7 @@
 // how it is drawn (drawing.hpp), scales and ticks (scale.hpp), thinning of curves (thinning.hpp).
 //
 // A drawing is 520 user units wide and scales with its column, 330 px on a phone and about 550 px on a desk.
-// plot_style() therefore sets the type between 17 units (11 px on that phone) and 13 (14 px); margins and label places
+// plot_style() therefore sets the type between 19 units (12 px on that phone) and 13 (14 px); margins and label places
 // are computed for the largest. Equal input gives equal bytes.
 #pragma once
 

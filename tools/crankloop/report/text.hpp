@@ -27,7 +27,7 @@ namespace crankloop::report {
 // ---- for drawings ----
 
 /// The largest font size in user units; margins and label positions are computed for it.
-inline constexpr double kTypeSize = 17;
+inline constexpr double kTypeSize = 19;
 
 /// Width in user units at kTypeSize, by the widest of the usual system fonts (DejaVu Sans); others are up to a fifth
 /// narrower.

@@ -21,7 +21,6 @@ struct Grid {
   int count = 1;
 
   [[nodiscard]] double at(int i) const noexcept { return count > 1 ? from + (to - from) * i / (count - 1) : from; }
-  [[nodiscard]] double step() const noexcept { return count > 1 ? (to - from) / (count - 1) : 1; }
 };
 
 /// The quantity that a map varies besides the speed.

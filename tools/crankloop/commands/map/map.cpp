@@ -164,7 +164,7 @@ constexpr Option kOptions[] = {
     kBurnStart,
     kTick,
     text("--csv", "F", "file for a row per point; - is standard output, the summary then goes to stderr"),
-    text("--report", "F.html", "HTML file with the heat maps; opens in any browser"),
+    text("--report", "F.html", "HTML file with heat maps, or curves where N is 1; opens in any browser"),
 };
 
 }  // namespace
