@@ -50,7 +50,7 @@ void measure_hostile(std::uint32_t ticks) noexcept {
   std::uint32_t worst = 0;
   crankloop_measures();
   for (std::uint32_t i = 0; i < ticks; ++i) {
-    target_check::hurt<Real, under_test::Scene>(input, random);
+    target_check::hurt<Real, under_test::Scene>(input, random, engine.tables()->drive->speed_limit_rad_s);
     const std::uint32_t cost = cost_of_step() - counting;
     if (cost > worst) worst = cost;
   }
