@@ -50,7 +50,7 @@ void measure_hostile(std::uint32_t ticks) noexcept {
   std::uint32_t worst = 0;
   crankloop_measures();
   for (std::uint32_t i = 0; i < ticks; ++i) {
-    target_check::hurt<Real, under_test::Scene>(input, random);
+    target_check::hurt<Real, under_test::Scene>(input, random, engine.tables()->drive->speed_limit_rad_s);
     const std::uint32_t cost = cost_of_step() - counting;
     if (cost > worst) worst = cost;
   }
@@ -97,6 +97,25 @@ std::uint32_t most_activations(const Tables& tables) noexcept {
     all += most;
   }
   return all;
+}
+
+/// How many cylinders come to the same angle of their cycles in one tick at most.
+template <class Drive>
+std::uint32_t cycles_at_once(const Drive& drive) noexcept {
+  const std::uint64_t turn =
+      crankloop::Phase::from_cycles(drive.speed_limit_rad_s * drive.cycles_per_tick_per_rad_s).units();
+  const auto fires = [&drive](std::uint32_t k) {
+    return drive.firing_phase[drive.mechanism_of[k]] + (std::uint64_t{drive.turn_of[k]} << 63);
+  };
+  std::uint32_t most = 0;
+  for (std::uint32_t first = 0; first < drive.cylinders; ++first) {
+    std::uint32_t count = 0;
+    for (std::uint32_t k = 0; k < drive.cylinders; ++k) {
+      if (fires(k) - fires(first) <= turn) ++count;
+    }
+    if (count > most) most = count;
+  }
+  return most;
 }
 
 /// What bounds the loops of a tick, for worst_tick: counts of the engine, from its tables, and the tick's budget of
@@ -154,6 +173,7 @@ void print_limits(const Tables& tables) noexcept {
   if constexpr (Needs::gas) gas_steps = tables.gas_cylinders->max_steps;
   port::Line() << "limit gas_steps " << gas_steps;
   port::Line() << "limit split_ticks " << (gas_steps > 1 ? 1u : 0u);
+  port::Line() << "limit cycles_at_once " << cycles_at_once(*tables.drive);
 }
 
 }  // namespace
