@@ -65,6 +65,8 @@ template <std::uint32_t Cylinders, std::uint32_t Trains>
 struct ExactValveKinematics : Sized<Cylinders, Trains> {
   static constexpr CrankGiven crank = CrankGiven::phase;
   static constexpr ValveModel valves = ValveModel::following;
+  static constexpr bool theoretical_lift = true;
+  static constexpr bool valve_acceleration = true;
   static constexpr bool cam_phasing = true;
 };
 template <std::uint32_t Cylinders, std::uint32_t Trains>
