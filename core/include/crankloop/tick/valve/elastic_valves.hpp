@@ -161,7 +161,8 @@ class ElasticValves {
   [[nodiscard]] Bits valves_at(const CamDegrees* of_train, const CamTicks<Real, S>& cams) const noexcept {
     Bits valves = 0;
     for (std::uint32_t t = 0; t < valves_.trains(); ++t)
-      valves |= Bits{of_train[t].cylinders[cams[t].degree()]} << t * Valves::kPerTrain;
+      valves |= Bits{of_train[t].cylinders[S::cam_phasing ? cams[t].degree() : valves_.work.degree[0]]}
+                << t * Valves::kPerTrain;
     return valves;
   }
   [[nodiscard, gnu::cold, gnu::noinline]] Bits all_valves() const noexcept {
