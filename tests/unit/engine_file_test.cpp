@@ -101,7 +101,8 @@ constexpr const char* kBreathing = CRANKLOOP_SOURCE_DIR "/tools/engines/four_200
 TEST_F(EngineFileTest, AnEngineMayBreathe) {
   const EngineDefinition read_from = read_engine_file(kBreathing, {}).definition();
   EngineDefinition expected = support::four_2000();
-  expected.gas.throttle_closed_m2 = 6e-6;  // so that it idles
+  expected.crank.max_speed_rad_s = 300 * support::kPi;  // 9000 rpm
+  expected.gas.throttle_closed_m2 = 6e-6;               // so that it idles
   expected.gas.excess_air_ratio = 1;
   EXPECT_EQ(read_from.pressure.source, PressureSource::gas);
   ExpectSame{}({1, ""}, read_from.gas, expected.gas);
