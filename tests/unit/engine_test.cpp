@@ -287,7 +287,7 @@ TYPED_TEST(EngineOf, TheEnginesMaximumIsAGoodInputHoweverItIsRounded) {
     ASSERT_TRUE(accepted(tables.build(engine, kTick_s)));
     Running<Real, Everything> run(tables);
     typename Engine<Real, Everything>::Input in;
-    in.speed_rad_s = Real{std::nextafter(static_cast<float>(rpm * (kPi / 30)), 1e9F)};
+    in.speed_rad_s = static_cast<Real>(std::nextafter(static_cast<float>(rpm * (kPi / 30)), 1e9F));
     EXPECT_EQ(run.engine.step(in).faults, 0u) << rpm;
   }
 }
