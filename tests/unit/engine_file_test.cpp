@@ -103,6 +103,7 @@ TEST_F(EngineFileTest, AnEngineMayBreathe) {
   EngineDefinition expected = support::four_2000();
   expected.gas.throttle_closed_m2 = 6e-6;  // so that it idles
   expected.gas.excess_air_ratio = 1;
+  expected.crank.max_speed_rad_s = 300 * support::kPi;  // 9000 rpm
   EXPECT_EQ(read_from.pressure.source, PressureSource::gas);
   ExpectSame{}(1, "", read_from.gas, expected.gas);
   ExpectSame{}(1, "", read_from.crank, expected.crank);
