@@ -64,27 +64,27 @@ struct EachNumber {
   Copy& copy;
 
   template <class Field, class C>
-  void operator()(int read, const char* name, Field& field, C& c) noexcept {
+  void operator()(const ListedField& listed, Field& field, C& c) noexcept {
     if constexpr (std::is_array_v<C>) {
       for (std::size_t i = 0; i < std::extent_v<C>; ++i)
-        (*this)(static_cast<int>(i) < read ? 1 : 0, name, field[i], c[i]);
+        (*this)({static_cast<int>(i) < listed.read ? 1 : 0, listed.name}, field[i], c[i]);
     } else if constexpr (std::is_class_v<C>) {
-      const auto part = [this, read](int read_of_part, const char* of_part, auto& from, auto& to) {
-        (*this)(read > 0 ? read_of_part : 0, of_part, from, to);
+      const auto part = [this, read = listed.read > 0](const ListedField& of_part, auto& from, auto& to) {
+        (*this)({read ? of_part.read : 0, of_part.name}, from, to);
       };
       std::remove_const_t<Field>::each_field(part, field, c);
     } else {
-      copy(read > 0, name, field, c);
+      copy(listed.read > 0, listed.name, field, c);
     }
   }
 };
 /// All of a definition but its gas, which no ready-made engine has.
 template <class Copy, class Cpp, class C>
 void each_field(Copy& copy, Cpp& definition, C& c) noexcept {
-  EachNumber<Copy>{copy}(1, "", definition, c);
+  EachNumber<Copy>{copy}({1, ""}, definition, c);
   if constexpr (std::is_same_v<std::remove_const_t<Cpp>, EngineDefinition>) {
     copy(true, "trigger_count", definition.trigger_count, c.trigger_count);
-    EachNumber<Copy>{copy}(definition.trigger_count, "", definition.triggers, c.triggers);
+    EachNumber<Copy>{copy}({definition.trigger_count, ""}, definition.triggers, c.triggers);
   }
 }
 template <class Copy, class Cpp, class C>
@@ -92,6 +92,7 @@ void each_option(Copy& copy, Cpp& options, C& c) noexcept {
   copy(true, "options.tick_s", options.tick_s, c.tick_s);
   copy(true, "options.valves.integrator", options.valves.integrator, c.valve_integrator);
   copy(true, "options.valves.accuracy_m", options.valves.accuracy_m, c.valve_accuracy_m);
+  copy(true, "options.valves.event_budget", options.valves.event_budget, c.valve_event_budget);
   copy(true, "options.max_speed_rad_s", options.max_speed_rad_s, c.max_speed_rad_s);
 }
 

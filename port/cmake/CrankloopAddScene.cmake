@@ -1,6 +1,6 @@
 # crankloop_add_scene(NAME SCENE_HEADER ENGINE_FILE [TICK_US 100] [REAL float|double] [SCENE Type]
-#                     [INTEGRATOR rk4|exponential] [ACCURACY_UM 0.1] [MAX_RPM 9000] [OPTIMIZATION -O3]
-#                     [WITH_C] [WITH_FMU])
+#                     [INTEGRATOR rk4|exponential] [ACCURACY_UM 0.1] [EVENT_BUDGET 6] [MAX_RPM 9000]
+#                     [OPTIMIZATION -O3] [WITH_C] [WITH_FMU])
 #
 # Makes the static library NAME: one engine for real time, its tables as constant data and its tick compiled with the
 # house flags. A program links NAME and includes "NAME.hpp", where namespace NAME has Engine, Input, Output, State.
@@ -12,6 +12,7 @@
 #   SCENE         the scene's type; default the header's name in CamelCase: my_scene.hpp has MyScene
 #   INTEGRATOR    of elastic valves: Runge-Kutta of fourth order, or the exact exponential of each contact regime; default rk4
 #   ACCURACY_UM   class of the valves' lift error in micrometres, 0.01 to 10: it sets the fine steps near contact changes; default 0.1
+#   EVENT_BUDGET  units of work for valve events in a tick, which bound its time: a fine step takes 1, an event 2; default: enough for every valve at once
 #   MAX_RPM       the highest speed the engine can have: a step refuses a faster one; default max_rpm of the engine file,
 #                 and without it one revolution per tick or 100 000 rpm
 #   OPTIMIZATION  -O0 to -O3, -Os, -Og or -Oz for the scene's library, whatever the project's build type; "project": as the
@@ -23,7 +24,7 @@
 # when cross-compiling), installed with the library, CRANKLOOP_PROGRAM, or found on the PATH; it must be of this version.
 
 function(crankloop_add_scene name scene_header engine_file)
-  cmake_parse_arguments(PARSE_ARGV 3 arg "WITH_C;WITH_FMU" "TICK_US;REAL;SCENE;INTEGRATOR;ACCURACY_UM;MAX_RPM;OPTIMIZATION" "")
+  cmake_parse_arguments(PARSE_ARGV 3 arg "WITH_C;WITH_FMU" "TICK_US;REAL;SCENE;INTEGRATOR;ACCURACY_UM;EVENT_BUDGET;MAX_RPM;OPTIMIZATION" "")
   if(arg_UNPARSED_ARGUMENTS OR arg_KEYWORDS_MISSING_VALUES)
     message(FATAL_ERROR "crankloop_add_scene(${name}): not understood: ${arg_UNPARSED_ARGUMENTS} ${arg_KEYWORDS_MISSING_VALUES}")
   endif()
@@ -64,9 +65,12 @@ function(crankloop_add_scene name scene_header engine_file)
     endif()
   endforeach()
 
-  set(max_rpm "")
+  set(limits "")
+  if(DEFINED arg_EVENT_BUDGET)
+    list(APPEND limits --event-budget "${arg_EVENT_BUDGET}")
+  endif()
   if(DEFINED arg_MAX_RPM)
-    set(max_rpm --max-rpm "${arg_MAX_RPM}")
+    list(APPEND limits --max-rpm "${arg_MAX_RPM}")
   endif()
 
   set(dir "${CMAKE_CURRENT_BINARY_DIR}/crankloop_scenes/${name}")
@@ -79,7 +83,7 @@ function(crankloop_add_scene name scene_header engine_file)
     OUTPUT "${tables}.made"
     BYPRODUCTS "${tables}"
     COMMAND "${program}" tables "${engine_file}" --tick-us "${arg_TICK_US}" --real "${arg_REAL}"
-      --integrator "${arg_INTEGRATOR}" --accuracy-um "${arg_ACCURACY_UM}" ${max_rpm} --output "${tables}.made"
+      --integrator "${arg_INTEGRATOR}" --accuracy-um "${arg_ACCURACY_UM}" ${limits} --output "${tables}.made"
     COMMAND "${CMAKE_COMMAND}" -E copy_if_different "${tables}.made" "${tables}"
     DEPENDS "${program}" "${engine_file}" ${pressure_tables}
     COMMENT "Tables of ${name}"

@@ -61,6 +61,10 @@ refuses 'valve forces, results and gas force need elastic valves' "$engine_of" "
 refuses 'valve forces, results and gas force need elastic valves' "$engine_of" "$elastic static constexpr bool valve_results $yes" \
   "static constexpr bool valve_results $yes"
 refuses 'cam_phasing needs valves' "$engine_of" "$following static constexpr bool cam_phasing $yes" "static constexpr bool cam_phasing $yes"
+for answer in theoretical_lift valve_acceleration; do
+  refuses 'theoretical_lift and valve_acceleration need valves' "$engine_of" "$following static constexpr bool $answer $yes" \
+    "static constexpr bool $answer $yes"
+done
 refuses 'valve_gas needs a pressure' "$engine_of" "$elastic $by_input static constexpr bool valve_gas $yes" \
   "$elastic static constexpr bool valve_gas $yes"
 
@@ -74,6 +78,10 @@ float f(Engine<float, S>& engine, Engine<float, S>::Input& in) { @ }'
 refuses "no member named .torque_Nm" "$motion" 'return engine.step(in).velocity_m_s[0];' 'return engine.step(in).torque_Nm;'
 refuses "no member named .cylinder" "$motion" 'return engine.step(in).displacement_m[0];' 'return engine.step(in).cylinder[0].gas_force_N;'
 refuses "no member named .valve" "$motion" 'return engine.step(in).acceleration_m_s2[0];' 'return engine.step(in).valve[0][0].lift_m;'
+moves='struct S : Scene { static constexpr auto valves = ValveModel::elastic; };
+float f(Engine<float, S>& engine, Engine<float, S>::Input& in) { return engine.step(in).valve[0][0].@; }'
+refuses "no member named .theoretical_lift_m" "$moves" 'lift_m' 'theoretical_lift_m'
+refuses "no member named .acceleration_m_s2" "$moves" 'velocity_m_s' 'acceleration_m_s2'
 refuses "no member named .trigger" "$motion" 'return engine.step(in).acceleration_m_s2[0];' 'return engine.step(in).trigger[0].edge[0].time_s;'
 refuses "no member named .load_ratio" "$motion" 'in.speed_rad_s = 1; return engine.step(in).velocity_m_s[0];' \
   'in.load_ratio = 1; return engine.step(in).velocity_m_s[0];'

@@ -15,12 +15,12 @@ units='m|m2|m3|m_s|m_s2|rad|rad_s|rad_s2|deg|deg_s|deg_per_s|rpm|s|kg|kg_m|kg_m2
 allowed='
 compression_exponent expansion_exponent motored_expansion_exponent motored_exponent kMotoredLoss exponents  # of power laws
 coefficients a0 a1 a2 a4 a6 order                  # of polynomials and Fourier series; coefficients of what they multiply
-at value least most                                # degree or m^3, Pa or m: as the row, the quantity or the range says
+at value least most limit                          # degree or m^3, Pa or m: as the row, the quantity or the range says
 ratio volumetric_efficiency combustion_efficiency   # its own unit
 per_crank_radius per_rod_length                    # 1/m
 rad_s_per_cycle_per_tick                           # named by its unit
 up_cos up_sin lateral_cos lateral_sin pitch_cos pitch_sin yaw_cos yaw_sin  # amplitudes per w^2: kg m and kg m^2
-trigger                                            # signals, whose times have their unit
+trigger valve                                      # signals and motions, whose members have their unit
 throw_cos throw_sin quantum # numbers
 reduced_speed reduced_rest per_root_inertia  # sqrt(J) and 1/sqrt(kg m2)
 amplitude cosine sine wave_of                      # of a wave of any unit

@@ -25,6 +25,8 @@ struct TriggerWheels : crankloop::Scene {
 struct BouncingValve : crankloop::Scene {
   static constexpr auto valves = crankloop::ValveModel::elastic;
   static constexpr auto trains = crankloop::up_to<2>;
+  static constexpr bool theoretical_lift = true;
+  static constexpr bool valve_acceleration = true;
   static constexpr bool valve_forces = true;
   static constexpr bool valve_results = true;
 };

@@ -15,6 +15,8 @@ struct OnlyValves : Scene {
   static constexpr Count cylinders = up_to<2>;
   static constexpr ValveModel valves = ValveModel::elastic;
   static constexpr Count trains = up_to<2>;
+  static constexpr bool theoretical_lift = true;
+  static constexpr bool valve_acceleration = true;
   static constexpr bool valve_forces = true;
   static constexpr bool valve_results = true;
 };

@@ -27,6 +27,8 @@ struct Everything : Scene {
   static constexpr bool bearing_loads = true;
   static constexpr bool free_forces = true;
   static constexpr ValveModel valves = ValveModel::elastic;
+  static constexpr bool theoretical_lift = true;
+  static constexpr bool valve_acceleration = true;
   static constexpr bool valve_forces = true;
   static constexpr bool valve_results = true;
   static constexpr bool valve_gas = true;

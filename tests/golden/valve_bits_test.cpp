@@ -154,7 +154,7 @@ std::uint64_t hash_of_run(const Tables<Real, TwoValves>& tables) {
     in.cam_phase_deg[0] = tick / 1000 % 2 == 0 ? Real{0} : Real{-20};
     const auto& out = engine->step(in);
     for (int t = 0; t < 2; ++t) {
-      const ValveMotionOutput<Real>& v = out.valve[t][0];
+      const ValveMotionOutput<Real, TwoValves>& v = out.valve[t][0];
       const ValveForcesOutput<Real>& f = out.valve_forces[t][0];
       for (const Real x : {v.theoretical_lift_m, v.lift_m, v.velocity_m_s, v.acceleration_m_s2, f.train_N, f.seat_N,
                            f.tip_N, f.cam_N, f.train_compression_m})

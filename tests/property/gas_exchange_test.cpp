@@ -12,6 +12,7 @@
 namespace crankloop {
 namespace {
 
+using detail::GasCylinders;
 using support::Breathing;
 using support::BreathingFour;
 using support::ElasticBreathingFour;
@@ -148,9 +149,22 @@ struct Means {
   }
 };
 
-/// Two cycles in ticks of `deg`, against as many short ticks as each has steps.
+/// Tables of an engine whose ticks have no more steps than that.
 template <class Real, class S>
-[[nodiscard]] Apart whole_and_parts(double rpm, int parts, double deg) {
+struct LimitedSteps {
+  GasCylinders<Real> cylinders;
+  Tables<Real, S> tables;
+
+  LimitedSteps(const Tables<Real, S>& from, int max_steps) : cylinders{*from.gas_cylinders}, tables{from} {
+    if (max_steps > 0) cylinders.max_steps = static_cast<std::uint32_t>(max_steps);
+    tables.gas_cylinders = &cylinders;
+  }
+};
+
+/// Two cycles in ticks of `deg`, against as many short ticks as each has steps. `limited`: to that number, and the
+/// short ones to one.
+template <class Real, class S>
+[[nodiscard]] Apart whole_and_parts(double rpm, int parts, double deg, bool limited = false) {
   const double tick_s = deg / 6 / std::fabs(rpm);
   const auto make = [rpm](double s) {
     auto run = std::make_unique<Breathing<Real, S>>(four_2000(), s);
@@ -158,6 +172,10 @@ template <class Real, class S>
     return run;
   };
   const auto whole = make(tick_s), part = make(tick_s / parts);
+  const LimitedSteps<Real, S> whole_tables(whole->storage.tables(), limited ? parts : 0);
+  const LimitedSteps<Real, S> part_tables(part->storage.tables(), limited ? 1 : 0);
+  EXPECT_TRUE(accepted(whole->engine.init(whole_tables.tables)));
+  EXPECT_TRUE(accepted(part->engine.init(part_tables.tables)));
   for (int tick = 0; tick < 800; ++tick) (void)part->step();
   auto state = part->engine.state();  // both go on from there, however valves stood at first
   state.fingerprint = whole->engine.state().fingerprint;
@@ -208,6 +226,16 @@ TYPED_TEST(GasExchange, CutsLongTicksIntoStepsOfShortOnes) {  // steps of at mos
   for (int parts = 2; parts <= 8; ++parts)
     expect_same(6000, parts, 5 * parts - 0.6), expect_same(6000, parts, 5 * parts - 4.4);
   expect_same(-6000, 6, 29);
+}
+
+TYPED_TEST(GasExchange, CutsTicksIntoNoMoreStepsThanTheirTablesSay) {  // whatever turned them further than they know
+  const double rounding = sizeof(TypeParam) == 4 ? 1e-5 : 1e-9;
+  for (const int parts : {1, 2, 3, 7}) {
+    const Apart apart = whole_and_parts<TypeParam, BreathingFour>(6000, parts, 5 * parts + 2, true);
+    EXPECT_LT(apart.pressure_Pa, 50e5 * rounding) << parts;
+    EXPECT_LT(apart.mass_kg, 5e-4 * rounding) << parts;
+    EXPECT_LT(apart.flow_kg_s, 0.5 * rounding) << parts;
+  }
 }
 
 TYPED_TEST(GasExchange, CutsLongTicksOfElasticValves) {  // what valves are off their cams goes in a straight line

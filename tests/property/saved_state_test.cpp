@@ -366,10 +366,11 @@ TYPED_TEST(SavedState, IsWrittenLeastSignificantByteFirstAsDocumented) {
   EXPECT_EQ(speed, rig.one.state().speed_rad_s);
 }
 
-/// A state that no step leaves, by way of restore(), which trusts its caller, and bytes that are whole in themselves.
+/// A state that no step leaves, behind the engine's back, since restore() looks at some of it, and bytes that are whole
+/// in themselves.
 template <class Real, class S>
 [[nodiscard]] Status loaded(Rig<Real, S>& rig, const State<Real, S>& bad) {
-  EXPECT_TRUE(accepted(rig.one.restore(bad)));
+  const_cast<State<Real, S>&>(rig.one.state()) = bad;
   return Refuser<Real, S>(rig.other)(saved(rig.one));
 }
 

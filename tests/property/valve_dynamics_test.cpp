@@ -450,13 +450,14 @@ TEST(ValveForces, AtTheCamBeginWithTheTrains) {
 // --------------------------------------------------------------------------------------------------------
 
 TEST(ValveEventBudget, WhenExceededIsFlaggedAndSharedByTurns) {
-  // Eight valves that open and close together: 5 changes of the 8 in a tick are located, the others taken at its end.
+  // Eight valves that open and close together: the events of 5 of the 8 are located, the others taken at the tick's end.
   // Who comes first, turns: no valve is always among the others. Beside them one alone, which always has its changes
   // located.
   EngineDefinition all = tick_test::with_cylinders(engine_with(ohc_125_train()), {0, 0, 0, 0});
   all.train_count = 2;
   all.trains[1] = all.trains[0];
-  const TickOptions options{20e-6, {}};
+  TickOptions options{20e-6, {}};
+  options.valves.event_budget = 15;
   Rig<double, tick_test::Elastic<4, 2>> rig(all, options, 90);
   Rig<double> alone(ohc_125_train(), options, 90);
   const double speed = rad_s_of_rpm(7000);

@@ -65,23 +65,23 @@ inline constexpr const char* kOneCylinder =
 /// Every field of two definitions, with the rows that tables have.
 struct ExpectSame {
   template <class Field>
-  void operator()(int read, const char* name, const Field& a, const Field& b) const {
+  void operator()(const ListedField& listed, const Field& a, const Field& b) const {
     if constexpr (std::is_same_v<Field, const DiagramPoint*> || std::is_same_v<Field, const CamPoint*>) {
-      for (int i = 0; i < read; ++i) {
+      for (int i = 0; i < listed.read; ++i) {
         const auto& [a_at, a_value] = a[i];
         const auto& [b_at, b_value] = b[i];
-        EXPECT_EQ(a_at, b_at) << name << " row " << i;
-        EXPECT_EQ(a_value, b_value) << name << " row " << i;
+        EXPECT_EQ(a_at, b_at) << listed.name << " row " << i;
+        EXPECT_EQ(a_value, b_value) << listed.name << " row " << i;
       }
     } else if constexpr (std::is_array_v<Field>) {
-      for (std::size_t i = 0; i < std::extent_v<Field>; ++i) (*this)(1, name, a[i], b[i]);
+      for (std::size_t i = 0; i < std::extent_v<Field>; ++i) (*this)(listed, a[i], b[i]);
     } else if constexpr (kHasFields<Field>) {
       Field::each_field(*this, a, b);
     } else {
-      EXPECT_EQ(a, b) << name;
+      EXPECT_EQ(a, b) << listed.name;
     }
   }
 };
-inline void expect_same(const EngineDefinition& a, const EngineDefinition& b) { ExpectSame{}(1, "", a, b); }
+inline void expect_same(const EngineDefinition& a, const EngineDefinition& b) { ExpectSame{}({1, ""}, a, b); }
 
 }  // namespace crankloop::program

@@ -13,20 +13,20 @@ namespace crankloop::support {
 class FieldNames {
  public:
   FieldNames() {
-    (*this)(1, "", EngineDefinition{});
-    (*this)(1, "", Gas{});
-    (*this)(1, "", TriggerWheel{});
+    (*this)({1, ""}, EngineDefinition{});
+    (*this)({1, ""}, Gas{});
+    (*this)({1, ""}, TriggerWheel{});
     names_.insert("trigger_count");
   }
   template <class Field>
-  void operator()(int, const std::string& name, const Field& field) {
+  void operator()(const ListedField& listed, const Field& field) {
     if constexpr (kHasFields<Field>) {
       Field::each_field(*this, field);
     } else if constexpr (std::is_array_v<Field>) {
-      names_.insert(name);
-      (*this)(1, name, field[0]);
+      names_.insert(listed.name);
+      (*this)(listed, field[0]);
     } else {
-      names_.insert(name);
+      names_.insert(listed.name);
     }
   }
 

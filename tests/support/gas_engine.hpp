@@ -28,6 +28,8 @@ struct BreathingFour : Scene {
 };
 struct ElasticBreathingFour : BreathingFour {
   static constexpr ValveModel valves = ValveModel::elastic;
+  static constexpr bool theoretical_lift = true;
+  static constexpr bool valve_acceleration = true;
   static constexpr bool valve_gas = true;
 };
 /// A cylinder whose crank and manifolds a test holds in its hands.

@@ -27,8 +27,8 @@ namespace crankloop::support {
 template <class Visit, class Self, class... Others>
 void each_part(Visit& visit, Self& definition, Others&... others) {
   EngineDefinition::each_field(visit, definition, others...);
-  visit(1, "trigger_count", definition.trigger_count, others.trigger_count...);
-  visit(definition.trigger_count, "triggers", definition.triggers, others.triggers...);
+  visit(ListedField{1, "trigger_count"}, definition.trigger_count, others.trigger_count...);
+  visit(ListedField{definition.trigger_count, "triggers"}, definition.triggers, others.triggers...);
 }
 
 template <class T>
@@ -42,12 +42,13 @@ class Spoil {
   Spoil(Random& random, int one_in) : random_{random}, one_in_{one_in} {}
 
   template <class Field>
-  void operator()(int read, const char*, Field& field) {
+  void operator()(const ListedField& listed, Field& field) {
     if constexpr (kIsList<Field>) {
-      for (std::size_t i = 0; i < std::size(field) && static_cast<int>(i) < read; ++i) (*this)(1, "", field[i]);
+      for (std::size_t i = 0; i < std::size(field) && static_cast<int>(i) < listed.read; ++i)
+        (*this)({1, ""}, field[i]);
     } else if constexpr (kHasFields<Field>) {
-      if (read > 0) Field::each_field(*this, field);
-    } else if (read > 0 && random_.whole(1, one_in_) == 1) {
+      if (listed.read > 0) Field::each_field(*this, field);
+    } else if (listed.read > 0 && random_.whole(1, one_in_) == 1) {
       spoil(field);
     }
   }
@@ -116,7 +117,7 @@ class LimitDefinition {
     }
     Spoil spoil(random, 90);
     each_part(spoil, d);
-    if (d.pressure.source == PressureSource::gas) spoil(1, "", d.gas);
+    if (d.pressure.source == PressureSource::gas) spoil({1, ""}, d.gas);
   }
   LimitDefinition(const LimitDefinition&) = delete;
   LimitDefinition& operator=(const LimitDefinition&) = delete;
@@ -132,13 +133,15 @@ class LimitDefinition {
 /// Copies what is read of a definition and nothing else: from `from` to `to`, by what `self` says.
 struct CopyRead {
   template <class Self, class From, class To>
-  void operator()(int read, std::string_view name, const Self& self, const From& from, To& to) {
+  void operator()(const ListedField& listed, const Self& self, const From& from, To& to) {
     if constexpr (std::is_array_v<From> || kIsList<From>) {
-      for (std::size_t i = 0; i < std::size(from) && static_cast<int>(i) < read; ++i)
-        (*this)(1, name, self[i], from[i], to[i]);
+      for (std::size_t i = 0; i < std::size(from) && static_cast<int>(i) < listed.read; ++i)
+        (*this)({1, listed.name}, self[i], from[i], to[i]);
     } else if constexpr (kHasFields<Self>) {
-      if (read > 0) Self::each_field(*this, self, from, to);
-    } else if (read > 0 || name == "valve.per_cylinder") {  // which only gas reads, but validate() of any train
+      if (listed.read > 0) Self::each_field(*this, self, from, to);
+    } else if (listed.read > 0 ||
+               listed.name ==
+                   std::string_view("valve.per_cylinder")) {  // which only gas reads, but validate() of any train
       to = from;
     }
   }
@@ -153,7 +156,7 @@ inline EngineDefinition in_memory_of(unsigned char filling, const EngineDefiniti
   each_part(copy, from, from, to);
   if (from.pressure.source == PressureSource::gas) {
     Gas gas = from.gas;
-    copy(1, "", gas, gas, to.gas);
+    copy({1, ""}, gas, gas, to.gas);
     for (int t = from.train_count > 0 ? from.train_count : 0; t < kMaxTrains; ++t)
       std::memset(static_cast<void*>(&to.gas.ports[t]), filling, sizeof to.gas.ports[t]);
   }

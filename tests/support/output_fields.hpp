@@ -79,11 +79,11 @@ void each_output(const Output<Real, S>& out, const Used& used, const F& f) {
     for (std::size_t t = 0; t < used.trains; ++t) {
       for (std::size_t k = 0; k < used.cylinders; ++k) {
         const std::size_t i = 16 * t + k;
-        const ValveMotionOutput<Real>& v = out.valve[t][k];
-        f("theoretical_lift_m", i, v.theoretical_lift_m);
+        const ValveMotionOutput<Real, S>& v = out.valve[t][k];
+        if constexpr (S::theoretical_lift) f("theoretical_lift_m", i, v.theoretical_lift_m);
         f("lift_m", i, v.lift_m);
         f("valve_velocity_m_s", i, v.velocity_m_s);
-        f("valve_acceleration_m_s2", i, v.acceleration_m_s2);
+        if constexpr (S::valve_acceleration) f("valve_acceleration_m_s2", i, v.acceleration_m_s2);
         if constexpr (S::valve_forces) {
           const ValveForcesOutput<Real>& force = out.valve_forces[t][k];
           f("train_N", i, force.train_N);

@@ -65,11 +65,15 @@ template <std::uint32_t Cylinders, std::uint32_t Trains>
 struct ExactValveKinematics : Sized<Cylinders, Trains> {
   static constexpr CrankGiven crank = CrankGiven::phase;
   static constexpr ValveModel valves = ValveModel::following;
+  static constexpr bool theoretical_lift = true;
+  static constexpr bool valve_acceleration = true;
   static constexpr bool cam_phasing = true;
 };
 template <std::uint32_t Cylinders, std::uint32_t Trains>
 struct ExactValveDynamics : Sized<Cylinders, Trains> {
   static constexpr ValveModel valves = ValveModel::elastic;
+  static constexpr bool theoretical_lift = true;
+  static constexpr bool valve_acceleration = true;
   static constexpr bool valve_forces = true;
   static constexpr bool valve_results = true;
 };
@@ -154,6 +158,8 @@ struct FourWithValves : Elastic<4, 2, true, true> {
   static constexpr bool torque = true;
   static constexpr bool mean_torque = true;
   static constexpr bool forces = true;
+  static constexpr bool theoretical_lift = true;
+  static constexpr bool valve_acceleration = true;
   static constexpr bool valve_forces = true;
 };
 /// Given the angle, and the pressures.
@@ -178,8 +184,10 @@ struct Airless : MeasuredFourWithValves {
   static constexpr PressureGiven pressure = PressureGiven::by_table;
   static constexpr bool valve_gas = false;
 };
-template <class Base, bool Forces, bool Results>
+template <class Base, bool Forces, bool Results, bool TheoreticalLift = false, bool Acceleration = false>
 struct Asked : Base {
+  static constexpr bool theoretical_lift = TheoreticalLift;
+  static constexpr bool valve_acceleration = Acceleration;
   static constexpr bool valve_forces = Forces;
   static constexpr bool valve_results = Results;
 };
@@ -189,6 +197,8 @@ struct Asked : Base {
 /// One valve, all that can be told of it.
 struct OneValve : Scene {
   static constexpr ValveModel valves = ValveModel::elastic;
+  static constexpr bool theoretical_lift = true;
+  static constexpr bool valve_acceleration = true;
   static constexpr bool valve_forces = true;
   static constexpr bool valve_results = true;
 };
@@ -209,6 +219,8 @@ struct TwoValves : Scene {
   static constexpr PressureGiven pressure = PressureGiven::by_table;
   static constexpr ValveModel valves = ValveModel::elastic;
   static constexpr Count trains = exactly<2>;
+  static constexpr bool theoretical_lift = true;
+  static constexpr bool valve_acceleration = true;
   static constexpr bool valve_forces = true;
   static constexpr bool valve_results = true;
   static constexpr bool valve_gas = true;
@@ -224,6 +236,8 @@ struct MeasuredWithValves : Scene {
   static constexpr bool mean_torque = true;
   static constexpr bool forces = true;
   static constexpr ValveModel valves = ValveModel::elastic;
+  static constexpr bool theoretical_lift = true;
+  static constexpr bool valve_acceleration = true;
   static constexpr bool valve_forces = true;
   static constexpr bool valve_results = true;
   static constexpr bool valve_gas = true;
@@ -243,6 +257,8 @@ struct Lanes : Scene {
 template <class Base, bool Gas>
 struct ToldLanes : Base {
   static constexpr PressureGiven pressure = Gas ? PressureGiven::by_input : PressureGiven::by_table;
+  static constexpr bool theoretical_lift = true;
+  static constexpr bool valve_acceleration = true;
   static constexpr bool valve_forces = true;
   static constexpr bool valve_results = true;
   static constexpr bool valve_gas = Gas;

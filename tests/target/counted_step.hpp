@@ -50,12 +50,72 @@ void measure_hostile(std::uint32_t ticks) noexcept {
   std::uint32_t worst = 0;
   crankloop_measures();
   for (std::uint32_t i = 0; i < ticks; ++i) {
-    target_check::hurt<Real, under_test::Scene>(input, random);
+    target_check::hurt<Real, under_test::Scene>(input, random, engine.tables()->drive->speed_limit_rad_s);
     const std::uint32_t cost = cost_of_step() - counting;
     if (cost > worst) worst = cost;
   }
   crankloop_measures();
   port::Line() << "hostile " << worst;
+}
+
+/// What a tick turns a train's cams by at most, with what rounding adds.
+template <class Tables>
+Real widest_cam_turn_deg(const Tables& tables, std::uint32_t train) noexcept {
+  constexpr auto kDegreesPerRadian = static_cast<Real>(57.29577951308232);
+  constexpr auto kDegreesPerUnit = static_cast<Real>(360 / 18446744073709551616.0);
+  const Real by_crank_deg = tables.drive->speed_limit_rad_s * tables.drive->tick_s * kDegreesPerRadian / 2;
+  const Real by_phaser_deg = under_test::Scene::cam_phasing
+                                 ? static_cast<Real>(tables.lift_curves[train].most_phase_per_tick) * kDegreesPerUnit
+                                 : Real{0};
+  return (by_crank_deg + by_phaser_deg) * static_cast<Real>(1 + 1e-5);
+}
+
+/// Valves whose cams come near in one tick, at most: those that the degree at its end has and that at its start has
+/// not. Valves whose cams are near are active.
+template <class Tables>
+std::uint32_t most_activations(const Tables& tables) noexcept {
+  constexpr bool kOfLobes = under_test::Scene::valve_forces;
+  std::uint32_t all = 0;
+  for (std::uint32_t t = 0; t < tables.drive->trains; ++t) {
+    const Real turn_deg = widest_cam_turn_deg(tables, t);
+    std::uint32_t most = turn_deg < tables.lift_curves[t].skip_deg ? 0 : tables.drive->cylinders;
+    const int degrees = turn_deg < Real{crankloop::kDegreesPerTurn} ? static_cast<int>(turn_deg) + 1 : 0;
+    const auto near = [&](int degree) {
+      const int wrapped = (degree + crankloop::kDegreesPerTurn) % crankloop::kDegreesPerTurn;
+      if constexpr (kOfLobes)
+        return std::uint32_t{tables.near_lobes[t].cylinders[wrapped]};
+      else
+        return std::uint32_t{tables.near_cams[t].cylinders[wrapped]};
+    };
+    for (int degree = 0; degree < crankloop::kDegreesPerTurn; ++degree) {
+      for (int turned = -degrees; turned <= degrees; ++turned) {
+        std::uint32_t come = 0;
+        for (std::uint32_t left = near(degree + turned) & ~near(degree); left != 0; left &= left - 1) ++come;
+        if (come > most) most = come;
+      }
+    }
+    all += most;
+  }
+  return all;
+}
+
+/// How many cylinders come to the same angle of their cycles in one tick at most.
+template <class Drive>
+std::uint32_t cycles_at_once(const Drive& drive) noexcept {
+  const std::uint64_t turn =
+      crankloop::Phase::from_cycles(drive.speed_limit_rad_s * drive.cycles_per_tick_per_rad_s).units();
+  const auto fires = [&drive](std::uint32_t k) {
+    return drive.firing_phase[drive.mechanism_of[k]] + (std::uint64_t{drive.turn_of[k]} << 63);
+  };
+  std::uint32_t most = 0;
+  for (std::uint32_t first = 0; first < drive.cylinders; ++first) {
+    std::uint32_t count = 0;
+    for (std::uint32_t k = 0; k < drive.cylinders; ++k) {
+      if (fires(k) - fires(first) <= turn) ++count;
+    }
+    if (count > most) most = count;
+  }
+  return most;
 }
 
 /// What bounds the loops of a tick, for worst_tick: counts of the engine, from its tables, and the tick's budget of
@@ -71,21 +131,49 @@ void print_limits(const Tables& tables) noexcept {
   std::uint32_t pins = 0;
   std::uint32_t fine_steps = 0;  // 0: a tick is one, and none goes by several
   std::uint32_t events = 0;
+  std::uint32_t wide_ticks = 0;  // 1: a tick may turn the cams further than the cubic through its ends can follow,
+  std::uint32_t wide_steps = 0;  // or even a fine step of one
   if constexpr (under_test::Scene::bearing_loads) pins = tables.bearings->pins;
   if constexpr (Needs::elastic_valves) {
     for (std::uint32_t t = 0; t < tables.drive->trains; ++t) {
       const std::uint32_t parts = tables.valve_motions[t].parts;
       if (parts > 1 && parts > fine_steps) fine_steps = parts;
+      const Real turn_deg = widest_cam_turn_deg(tables, t);
+      if (turn_deg >= tables.valve_motions[t].cubic_deg) wide_ticks = 1;
+      if (turn_deg * tables.valve_motions[t].per_parts >= tables.valve_motions[t].cubic_deg) wide_steps = 1;
     }
     events = tables.valve_motions[0].event_budget;
   }
   std::uint32_t wheels = 0;
-  if constexpr (Needs::any_triggers) wheels = tables.triggers->count;
+  std::uint32_t edges = 0;          // of a wheel in a tick
+  std::uint32_t edge_searches = 0;  // rounds of a bisection
+  if constexpr (Needs::any_triggers) {
+    wheels = tables.triggers->count;
+    for (std::uint32_t i = 0; i < wheels; ++i) {
+      const crankloop::detail::TriggerTrack& wheel = tables.triggers->wheel[i];
+      const std::uint32_t passed = Needs::crank_dynamics ? 2 * wheel.max_edges : wheel.max_edges;
+      if (passed > edges) edges = passed;
+      for (int part = 0; part < crankloop::detail::kTriggerParts; ++part)
+        while ((wheel.edges_before[part + 1] - wheel.edges_before[part]) >> edge_searches != 0) ++edge_searches;
+    }
+    if (edges > under_test::Scene::trigger_edges) edges = under_test::Scene::trigger_edges;
+  }
   port::Line() << "limit wheels " << wheels;
-  port::Line() << "limit edges " << under_test::Scene::trigger_edges;
+  port::Line() << "limit edges " << edges;
+  port::Line() << "limit edge_searches " << edge_searches;
   port::Line() << "limit pins " << pins;
   port::Line() << "limit fine_steps " << fine_steps;
   port::Line() << "limit events " << events;
+  std::uint32_t activations = 0;
+  if constexpr (Needs::valves_rest) activations = most_activations(tables);
+  port::Line() << "limit activations " << activations;
+  port::Line() << "limit wide_ticks " << wide_ticks;
+  port::Line() << "limit wide_steps " << wide_steps;
+  std::uint32_t gas_steps = 1;
+  if constexpr (Needs::gas) gas_steps = tables.gas_cylinders->max_steps;
+  port::Line() << "limit gas_steps " << gas_steps;
+  port::Line() << "limit split_ticks " << (gas_steps > 1 ? 1u : 0u);
+  port::Line() << "limit cycles_at_once " << cycles_at_once(*tables.drive);
 }
 
 }  // namespace

@@ -25,11 +25,12 @@ template <class Real>
   return largest * (static_cast<Real>(static_cast<std::int32_t>(bits >> 40) - (1 << 23)) / static_cast<Real>(1 << 23));
 }
 
-/// Every number of the input at once.
+/// Every number of the input at once. A faster crank than `fastest_rad_s` is refused.
 template <class Real, class S>
-void hurt(crankloop::Input<Real, S>& in, Random& random) noexcept {
+void hurt(crankloop::Input<Real, S>& in, Random& random, Real fastest_rad_s = Real{10'000}) noexcept {
+  (void)fastest_rad_s;
   if constexpr (S::crank == crankloop::CrankGiven::speed) {
-    in.speed_rad_s = hostile<Real>(random, 10'000);
+    in.speed_rad_s = hostile<Real>(random, fastest_rad_s);
   } else if constexpr (S::crank == crankloop::CrankGiven::torque) {
     in.external_torque_Nm = hostile<Real>(random, static_cast<Real>(crankloop::kMaxExternalTorque_Nm));
   } else {

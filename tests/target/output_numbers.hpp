@@ -39,10 +39,12 @@ void each(Sink& sink, const crankloop::FreeForce<Real>& force) {
   const auto& [up, lateral, pitch, yaw] = force;
   for (const Real x : {up, lateral, pitch, yaw}) sink.add(x);
 }
-template <class Sink, class Real>
-void each(Sink& sink, const crankloop::ValveMotionOutput<Real>& motion) {
-  const auto& [theory, lift, velocity, acceleration] = motion;
-  for (const Real x : {theory, lift, velocity, acceleration}) sink.add(x);
+template <class Sink, class Real, class S>
+void each(Sink& sink, const crankloop::ValveMotionOutput<Real, S>& motion) {
+  if constexpr (S::theoretical_lift) sink.add(motion.theoretical_lift_m);
+  const auto& [lift, velocity] = static_cast<const crankloop::group::LiftAndVelocity<Real>&>(motion);
+  sink.add(lift), sink.add(velocity);
+  if constexpr (S::valve_acceleration) sink.add(motion.acceleration_m_s2);
 }
 template <class Sink, class Real>
 void each(Sink& sink, const crankloop::ValveForcesOutput<Real>& forces) {

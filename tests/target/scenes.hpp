@@ -103,10 +103,19 @@ struct Everything : Forces {
   static constexpr bool free_forces = true;
   static constexpr auto valves = crankloop::ValveModel::elastic;
   static constexpr auto trains = crankloop::up_to<2>;
+  static constexpr bool theoretical_lift = true;
+  static constexpr bool valve_acceleration = true;
   static constexpr bool valve_forces = true;
   static constexpr bool valve_results = true;
   static constexpr bool valve_gas = true;
   static constexpr bool cam_phasing = true;
+};
+
+/// The same scene with all that it can show of its valves' motion.
+template <class S>
+struct ShowingValves : S {
+  static constexpr bool theoretical_lift = S::valves != crankloop::ValveModel::none;
+  static constexpr bool valve_acceleration = theoretical_lift;
 };
 
 /// The same scene for the 125, which has one cylinder and one train: an exact scene takes no other number.

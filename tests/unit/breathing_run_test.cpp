@@ -198,12 +198,12 @@ TEST_F(BreathingRun, SaysThatItHasNotSettled) {
   EXPECT_EQ(settled.find("not settled"), std::string::npos) << settled;
 }
 
-/// 10 000 rpm are 6 deg in 100 us and 120 deg in 2 ms.
+/// 8000 rpm are 4.8 deg in 100 us and 96 deg in 2 ms.
 TEST_F(BreathingRun, WarnsOfATickThatTurnsTheCrankTooFar) {
-  EXPECT_EQ(status_of("'" + kFour + "' --rpm 10000 --tick-us 2000"), 0);
-  EXPECT_NE(contents(path("err")).find("turns the crank by 120 deg at 10000 rpm"), std::string::npos)
+  EXPECT_EQ(status_of("'" + kFour + "' --rpm 8000 --tick-us 2000"), 0);
+  EXPECT_NE(contents(path("err")).find("turns the crank by 96 deg at 8000 rpm"), std::string::npos)
       << contents(path("err"));
-  EXPECT_NE(contents(path("err")).find("off by some 14 %; take --tick-us 666 or less"), std::string::npos);
+  EXPECT_NE(contents(path("err")).find("off by some 12 %; take --tick-us 833 or less"), std::string::npos);
   EXPECT_EQ(status_of("'" + kFour + "' --rpm 6000 --tick-us 1000"), 0);
   EXPECT_EQ(contents(path("err")).find("turns the crank"), std::string::npos) << "36 deg, in eight steps";
 }

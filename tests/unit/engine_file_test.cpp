@@ -37,14 +37,14 @@ namespace {
 class FieldsWithoutKey {
  public:
   template <class Field>
-  void operator()(int, const std::string& name, const Field& field) {
+  void operator()(const ListedField& listed, const Field& field) {
     if constexpr (kHasFields<Field>) {
       Field::each_field(*this, field);
     } else if constexpr (std::is_same_v<Field, ValveTrain[kMaxTrains]> ||
                          std::is_same_v<Field, PortOfTrain[kMaxTrains]>) {
-      (*this)(1, name, field[0]);
-    } else if (key_of_field(name) == nullptr) {
-      names_.push_back(name);
+      (*this)(listed, field[0]);
+    } else if (key_of_field(listed.name) == nullptr) {
+      names_.push_back(listed.name);
     }
   }
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
@@ -55,8 +55,8 @@ class FieldsWithoutKey {
 
 TEST_F(EngineFileTest, EveryFieldOfADefinitionHasItsKeyOrFollowsFromOthers) {
   FieldsWithoutKey without;
-  without(1, "", EngineDefinition{});
-  without(1, "", Gas{});
+  without({1, ""}, EngineDefinition{});
+  without({1, ""}, Gas{});
   EXPECT_EQ(without.names(), (std::vector<std::string>{"pressure.wiebe.heat_given", "train_count", "gas.latch_deg"}));
 }
 
@@ -65,13 +65,13 @@ class DefaultOf {
  public:
   explicit DefaultOf(std::string_view name) : name_{name} {}
   template <class Field>
-  void operator()(int, std::string_view here, const Field& field) {
+  void operator()(const ListedField& here, const Field& field) {
     if constexpr (std::is_array_v<Field>) {
-      (*this)(1, here, field[0]);
+      (*this)(here, field[0]);
     } else if constexpr (kHasFields<Field>) {
       Field::each_field(*this, field);
     } else if constexpr (std::is_same_v<Field, double> || std::is_same_v<Field, int>) {
-      if (here == name_) value = static_cast<double>(field);
+      if (name_ == here.name) value = static_cast<double>(field);
     }
   }
   double value = std::numeric_limits<double>::quiet_NaN();
@@ -101,11 +101,13 @@ constexpr const char* kBreathing = CRANKLOOP_SOURCE_DIR "/tools/engines/four_200
 TEST_F(EngineFileTest, AnEngineMayBreathe) {
   const EngineDefinition read_from = read_engine_file(kBreathing, {}).definition();
   EngineDefinition expected = support::four_2000();
-  expected.gas.throttle_closed_m2 = 6e-6;  // so that it idles
+  expected.crank.max_speed_rad_s = 300 * support::kPi;  // 9000 rpm
+  expected.gas.throttle_closed_m2 = 6e-6;               // so that it idles
   expected.gas.excess_air_ratio = 1;
+  expected.crank.max_speed_rad_s = 300 * support::kPi;  // 9000 rpm
   EXPECT_EQ(read_from.pressure.source, PressureSource::gas);
-  ExpectSame{}(1, "", read_from.gas, expected.gas);
-  ExpectSame{}(1, "", read_from.crank, expected.crank);
+  ExpectSame{}({1, ""}, read_from.gas, expected.gas);
+  ExpectSame{}({1, ""}, read_from.crank, expected.crank);
 }
 
 TEST_F(EngineFileTest, CurvesOfTheGasAreRowsOfPairs) {

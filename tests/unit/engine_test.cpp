@@ -238,6 +238,24 @@ TYPED_TEST(EngineOf, TheSpeedLimitItselfIsGoodInBothDirectionsAndTurnsTheCrankIt
   }
 }
 
+/// A bad input's tick would turn the crank by it.
+TYPED_TEST(EngineOf, AStateBeyondTheSpeedLimitIsRefused) {
+  using Real = TypeParam;
+  FullTables<Real> tables;
+  ASSERT_TRUE(accepted(tables.build(diesel_495(), 100e-6)));
+  Running<Real, Everything> run(tables);
+  const Real limit = tables.drive().speed_limit_rad_s;
+  auto state = run.engine.state();
+  for (const Real good : {limit, -limit}) {
+    state.speed_rad_s = good;
+    EXPECT_TRUE(accepted(run.engine.restore(state)));
+  }
+  for (const Real bad : {std::nextafter(limit, 2 * limit), -2 * limit, std::numeric_limits<Real>::quiet_NaN()}) {
+    state.speed_rad_s = bad;
+    EXPECT_TRUE(support::refuses(run.engine.restore(state), Reason::out_of_range, "state.speed_rad_s")) << bad;
+  }
+}
+
 TYPED_TEST(EngineOf, ASpeedBeyondTheEnginesMaximumIsABadInput) {
   using Real = TypeParam;
   EngineDefinition engine = diesel_495();

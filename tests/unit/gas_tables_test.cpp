@@ -39,7 +39,8 @@ struct GasSections {
 template <class Real>
 class GasTablesOf : public ::testing::Test {
  protected:
-  static std::unique_ptr<GasSections<Real>> filled(const EngineDefinition& engine) {
+  static std::unique_ptr<GasSections<Real>> filled(const EngineDefinition& engine,
+                                                   const TickOptions& options = {100e-6, {}}) {
     auto sections = std::make_unique<GasSections<Real>>();
     std::memset(static_cast<void*>(sections.get()), 0xA5, sizeof *sections);
     TableTargets<Real> targets;
@@ -47,7 +48,7 @@ class GasTablesOf : public ::testing::Test {
     targets.gas_manifolds = &sections->manifolds;
     targets.gas_ports = sections->ports;
     targets.burn = &sections->burn;
-    EXPECT_TRUE(accepted(tabulate(engine, {100e-6, {}}, targets)));
+    EXPECT_TRUE(accepted(tabulate(engine, options, targets)));
     return sections;
   }
   /// To rounding: once into Real, and some operations in double before.
@@ -82,6 +83,26 @@ TYPED_TEST(GasTablesOf, TheCylindersHaveTheirVolumesAndWalls) {
   this->expect_is(c.ambient_Pa, 93e3);
   this->expect_is(c.ambient_K, 281);
   this->expect_is(c.exhaust_K, 655);
+}
+
+/// 6 deg per 1000 rpm and millisecond, in steps of 5; without a highest speed 100 000 rpm or a revolution.
+TYPED_TEST(GasTablesOf, ATickHasNoMoreStepsThanItsHighestSpeedNeeds) {
+  const struct {
+    double rpm, tick_s;
+    std::uint32_t steps;
+  } cases[] = {{9000, 20e-6, 1}, {8300, 100e-6, 1}, {8400, 100e-6, 2}, {9000, 500e-6, 6},
+               {9000, 1e-3, 8},  {0, 20e-6, 3},     {0, 40e-6, 5},     {0, 2e-3, 8}};
+  EngineDefinition engine = support::four_2000();
+  for (const auto& at : cases) {
+    engine.crank.max_speed_rad_s = at.rpm * kPi / 30;
+    EXPECT_EQ(this->filled(engine, {at.tick_s, {}})->cylinders.max_steps, at.steps) << at.rpm << ", " << at.tick_s;
+  }
+  EXPECT_EQ(this->filled(engine, {500e-6, {}, 4000 * kPi / 30})->cylinders.max_steps, 3u) << "12 deg";
+  engine.crank.max_speed_rad_s = 1000 * kPi / 30;  // 0.6 deg, but a small manifold
+  engine.gas.exhaust_m3 = 100e-6;
+  const auto tables = this->filled(engine);
+  EXPECT_GT(tables->manifolds.parts, 1u);
+  EXPECT_EQ(tables->cylinders.max_steps, tables->manifolds.parts);
 }
 
 TYPED_TEST(GasTablesOf, PortsOpenByStraightLinesBetweenTheirRowsForEveryValve) {

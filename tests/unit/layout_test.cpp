@@ -99,13 +99,14 @@ TEST(LayoutDefinition, RefusesAnAngleOrPlaceThatIsNoneAndNamesTheCylinder) {
     std::array<double, kMaxCylinders> Layout::*member;
     const char* field;
     double too_low, too_high;
-  } fields[] = {{&Layout::firing_deg, "layout.firing_deg", -1e-9, 720},
-                {&Layout::bank_deg, "layout.bank_deg", -360.5, 360.5},
-                {&Layout::position_m, "layout.position_m", -100.5, 100.5}};
+    Reason if_low;
+  } fields[] = {{&Layout::firing_deg, "layout.firing_deg", -1e-9, 720, Reason::negative},
+                {&Layout::bank_deg, "layout.bank_deg", -360.5, 360.5, Reason::out_of_range},
+                {&Layout::position_m, "layout.position_m", -100.5, 100.5, Reason::out_of_range}};
   for (const auto& field : fields) {
     for (const Bad& bad :
          {Bad{kNaN, Reason::not_finite}, Bad{kInfinity, Reason::not_finite}, Bad{-kInfinity, Reason::not_finite},
-          Bad{field.too_low, Reason::out_of_range}, Bad{field.too_high, Reason::out_of_range}}) {
+          Bad{field.too_low, field.if_low}, Bad{field.too_high, Reason::out_of_range}}) {
       Layout layout = inline_four();
       (layout.*field.member)[2] = bad.value;
       EXPECT_TRUE(refuses(validate(layout), bad.reason, field.field, 2)) << bad.value;

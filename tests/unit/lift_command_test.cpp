@@ -251,7 +251,7 @@ TEST_F(LiftCommand, NamesTheSmallestSmoothingAndTheRowThatIsToBlame) {
   EXPECT_NEAR(std::stod(message.substr(message.find(lies) + lies.size())), smallest_um, 0.03 * smallest_um);
 
   write("cam.csv", with_line(given, "-30,", "-30,40"));
-  EXPECT_NE(refusal(engine).find("no smooth lobe comes within 1000 um of every row; look at that of -30 deg"),
+  EXPECT_NE(refusal(engine).find("no smooth lobe comes within 1000 um of every row; check the row at -30 deg"),
             std::string::npos)
       << refusal(engine);
   write("cam.csv", cam_rows(-60, 180));

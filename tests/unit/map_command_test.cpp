@@ -154,6 +154,35 @@ TEST_F(MapCommand, DrawsAHeatMapOfEachResultWithItsPointsAndContours) {
   EXPECT_EQ(line(summary, "faulty_ticks").first, 0);
 }
 
+/// The words of data-x, "0 1 FROM TO": the range of an axis.
+std::string range_of_x(const support::Element& svg) {
+  const std::vector<std::string> words = split_at(svg.attributes.at("data-x"), ' ');
+  return words.at(0) + ' ' + words.at(1);
+}
+
+TEST_F(MapCommand, DrawsCurvesWhereThereIsOneSpeedOrOneThrottle) {
+  const struct {
+    const char* rpm;
+    const char* throttle;
+    const char* range;
+    const char* title;
+    std::size_t points;
+  } cases[] = {{"2000:2000:1", "0:1:3", "0 1", "over throttle at 2000 rpm", 3},
+               {"1000:2000:2", "0.5:0.5:1", "1000 2000", "over speed at throttle 0.5", 2}};
+  for (const auto& one : cases) {
+    map({kFour, "--rpm", one.rpm, "--throttle", one.throttle, "--tick-us", "200", "--report", path("map.html")});
+    const std::string text = contents(path("map.html"));
+    const support::Markup page = support::read(text);
+    EXPECT_EQ(page.fault, "");
+    EXPECT_NE(text.find(std::string("<h1>four-cylinder 2000 ") + one.title), std::string::npos);
+    const auto drawings = page.all("svg");
+    EXPECT_EQ(drawings.size(), 6u);
+    for (const support::Element& svg : drawings) EXPECT_EQ(range_of_x(svg), one.range);
+    for (const support::Element& dots : page.of_class("dot"))
+      EXPECT_EQ(split_at(dots.attributes.at("d"), 'M').size(), 1 + one.points);
+  }
+}
+
 TEST_F(MapCommand, DrawsALonePointToo) {
   map({kFour, "--rpm", "2000:2000:1", "--throttle", "1:1:1", "--tick-us", "200", "--report", path("map.html")});
   const support::Markup page = support::read(contents(path("map.html")));
@@ -175,8 +204,8 @@ TEST_F(MapCommand, RefusesWhatIsNoMap) {
   refuses("1000:500000:2", "1:1:1", "--rpm: 500000 is out of range");
   EXPECT_NE(refusal({kSample, "--rpm", "1000:2000:2", "--throttle", "0:1:2"}).find("has no [pressure] source = gas"),
             std::string::npos);
-  EXPECT_NE(refusal({kFour, "--rpm", "70000:80000:2", "--throttle", "1:1:1", "--tick-us", "2000"})
-                .find("at most one revolution per tick"),
+  EXPECT_NE(refusal({kFour, "--rpm", "8000:10000:2", "--throttle", "1:1:1"})
+                .find("10000 rpm is beyond the engine's max_rpm of 9000"),
             std::string::npos);
 }
 

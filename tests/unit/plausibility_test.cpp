@@ -300,7 +300,7 @@ TEST_F(MeasuredCam, AMisreadRowThatRaisesTheSmoothingIsTold) {
   std::string table;
   for (const std::string& row : rows) table += row + "\n";
   write("cam.csv", table);
-  expect_only(engine, "smoothing_um", "the row of -30 deg (" + (folder_ / "cam.csv") + ":152)");
+  expect_only(engine, "smoothing_um", "the row at -30 deg (" + (folder_ / "cam.csv") + ":152)");
 }
 
 TEST_F(Unusual, WarningsStandOnStderrAndInTheReportUnlessSilenced) {
@@ -315,7 +315,7 @@ TEST_F(Unusual, WarningsStandOnStderrAndInTheReportUnlessSilenced) {
        {std::vector<std::string>{"run", "--cycles", "1"}, {"run", "--free", "--from-rpm", "900", "--seconds", "0.2"}}) {
     const bad_input::Answer told = answer(words, "");
     EXPECT_EQ(told.status, 0);
-    EXPECT_NE(told.error.find(path_ + ":12: warning: " + warning), std::string::npos) << told.error;
+    EXPECT_NE(told.error.find(path_ + ":13: warning: " + warning), std::string::npos) << told.error;
     EXPECT_EQ(told.out.find("warning"), std::string::npos);
     EXPECT_NE(bad_input::contents(folder_ / "report.html").find(warning), std::string::npos);
     const bad_input::Answer silent = answer(words, "--no-warnings");

@@ -153,8 +153,8 @@ TEST(StressTrials, FollowTheCamThroughStepsOfManyDegrees) {
   }
 }
 
-TEST(StressTrials, AreInaccurateWhereTheMotionIsAnothers) {
-  // A valve that the reference takes for a heavier one: the error is no rounding, and nothing magnifies it.
+TEST(StressTrials, AreInaccurateAgainstAReferenceOfAnotherMass) {
+  // The reference has a heavier valve: the error is not rounding, and the motion does not amplify it.
   StressTrials trials;
   int found = 0;
   int looked_at = 0;
@@ -169,9 +169,9 @@ TEST(StressTrials, AreInaccurateWhereTheMotionIsAnothers) {
   EXPECT_GE(found, 3);
 }
 
-TEST(StressTrials, AskMoreCopiesBeforeTheyBlameChaos) {
-  // An undamped seat that the valve bounces on twenty times, and a reference heavier by two thousandths, so that the
-  // engine is off by more than four copies excuse: with thirty-two it is one among them.
+TEST(StressTrials, CompareAgainWithMoreCopiesBeforeACaseIsInaccurate) {
+  // The valve bounces twenty times on an undamped seat, and the reference is heavier by two thousandths, so that the
+  // error exceeds what four copies permit; thirty-two copies permit it.
   StressTrials trials;
   StressCase drawn(2, 9730);
   drawn.reference_mass_ratio = 1.002;

@@ -1,7 +1,9 @@
 // Trigger wheels: what a definition may hold, where the edges are, and what a tick tells of them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -81,7 +83,7 @@ TEST(TriggerWheelRules, RefuseATurnThatIsTooShortForItsTeethAndGaps) {
 TEST(TriggerWheelRules, RefuseAnglesAndWidthsOutOfRange) {
   constexpr auto crank = TriggerShaft::crank;
   EXPECT_TRUE(refuses(validate(toothed(crank, 60, {}, 720)), Reason::out_of_range, "trigger.first_tooth_deg"));
-  EXPECT_TRUE(refuses(validate(toothed(crank, 60, {}, -1)), Reason::out_of_range, "trigger.first_tooth_deg"));
+  EXPECT_TRUE(refuses(validate(toothed(crank, 60, {}, -1)), Reason::negative, "trigger.first_tooth_deg"));
   EXPECT_TRUE(refuses(validate(toothed(crank, 60, {}, std::nan(""))), Reason::not_finite, "trigger.first_tooth_deg"));
   EXPECT_TRUE(refuses(validate(toothed(crank, 60, {}, 0, 0.009)), Reason::out_of_range, "trigger.tooth_ratio"));
   EXPECT_TRUE(refuses(validate(toothed(crank, 60, {}, 0, 1)), Reason::out_of_range, "trigger.tooth_ratio"));
@@ -124,10 +126,10 @@ TEST(TriggerWheelRules, RefuseAPhaserOnTheCrankOrOfATrainThatIsNotThere) {
 
 TEST(TriggerWheelRules, RefuseNumbersThatNoWheelHas) {
   TriggerWheel wheel = toothed(TriggerShaft::cam, 4, {}, 0);
-  for (const int gaps : {-1, kMaxToothGaps + 1}) {
-    wheel.gap_count = gaps;
-    EXPECT_TRUE(refuses(validate(wheel), Reason::out_of_range, "trigger.gap_count")) << gaps;
-  }
+  wheel.gap_count = -1;
+  EXPECT_TRUE(refuses(validate(wheel), Reason::negative, "trigger.gap_count"));
+  wheel.gap_count = kMaxToothGaps + 1;
+  EXPECT_TRUE(refuses(validate(wheel), Reason::out_of_range, "trigger.gap_count"));
   wheel.gap_count = 0;
   for (const int train : {-2, int{kMaxTrains}}) {
     wheel.train = train;
@@ -181,6 +183,49 @@ TEST(TriggerTables, AreRefusedWithoutThemOrWithMoreThanTheSceneHasRoomFor) {
   EXPECT_TRUE(refuses(engine.init(tables), Reason::out_of_range, "tables.triggers"));
   tables.triggers = nullptr;
   EXPECT_TRUE(refuses(engine.init(tables), Reason::missing_table, "tables"));
+}
+
+/// Of `n` edges in a turn: the most that lie less than `width_deg` behind any of them, itself among them.
+std::uint32_t most_within(const std::vector<long double>& edges_deg, long double turn_deg, long double width_deg) {
+  std::ptrdiff_t most = 0;
+  for (const long double top : edges_deg) {
+    most = std::max(most, std::count_if(edges_deg.begin(), edges_deg.end(), [&](long double edge) {
+                      return std::fmod(top - edge + turn_deg, turn_deg) < width_deg;
+                    }));
+  }
+  return static_cast<std::uint32_t>(most);
+}
+
+TEST(TriggerTables, KnowHowManyEdgesATickPassesAtMost) {
+  const std::vector<DrawnWheel> wheels = drawn_wheels();
+  EngineDefinition engine = with_wheels(diesel_495(), wheels);
+  for (const double rpm : {100.0, 1717.0, 5000.0, 28000.0}) {  // in 2 ms 1.2, 20.604, 60 and 336 deg
+    engine.crank.max_speed_rad_s = rpm * support::kPi / 30;
+    const auto rigged = rig<double, MeasuredWheels>(engine, 2e-3);
+    for (std::size_t i = 0; i < wheels.size(); ++i) {
+      const long double turn_deg = static_cast<long double>(wheels[i].turn_deg());
+      const long double width_deg = static_cast<long double>(rpm) * 0.012L * (1 + 2e-6L);
+      EXPECT_EQ(rigged->storage.tables().triggers->wheel[i].max_edges,
+                most_within(wheels[i].edges_deg(), turn_deg, width_deg))
+          << wheels[i].name << " at " << rpm;
+    }
+  }
+}
+
+/// An edge every degree of the crank; the crank turns 12.12 deg in the tick, the phaser 40.
+TEST(TriggerTables, CountWhatAPhaserAddsToTheEdgesOfATick) {
+  EngineDefinition engine = single_495();
+  engine.crank.max_speed_rad_s = 1010 * support::kPi / 30;
+  engine.train_count = 1;
+  engine.trains[0] = valve_test::ohc_125_train();
+  engine.trains[0].cam.phase_rate_deg_s = 2e4;
+  engine.trigger_count = 1;
+  engine.triggers[0] = toothed(TriggerShaft::cam, 360, {}, 0);
+  for (const bool phased : {false, true}) {
+    engine.triggers[0].train = phased ? 0 : -1;
+    const auto rigged = rig<double, FinelyPhasedWheel>(engine, 2e-3);
+    EXPECT_EQ(rigged->storage.tables().triggers->wheel[0].max_edges, phased ? 53u : 13u);
+  }
 }
 
 TEST(TriggerTables, HaveTheEdgesOfTheDrawing) {
@@ -343,6 +388,25 @@ TYPED_TEST(TriggerTickOf, ListsTheFirstEdgesAndCountsAllWhereThereAreMoreThanRoo
   }
   in.speed_rad_s = static_cast<Real>(-100 * support::kPi / 30);  // 0.6 deg: one edge, or two
   EXPECT_EQ(rigged->engine.step(in).faults, 0u) << "the next tick knows nothing of it";
+}
+
+/// 1.32 deg with an edge every half, and tables that know of one.
+TYPED_TEST(TriggerTickOf, ListsNoMoreEdgesThanItsTablesSay) {
+  using Real = TypeParam;
+  const auto rigged = rig<Real, DrivenWheels>(one_wheel(toothed(TriggerShaft::crank, 360, {}, 0)), 1e-3);
+  auto tables = rigged->storage.tables();
+  TriggerTrack track = tables.triggers->wheel[0];
+  track.max_edges = 1;
+  const TriggerWheels wheels{&track, 1};
+  tables.triggers = &wheels;
+  ASSERT_TRUE(accepted(rigged->engine.init(tables, Phase{kDegree / 4})));
+  typename Engine<Real, DrivenWheels>::Input in;
+  in.speed_rad_s = static_cast<Real>(220 * support::kPi / 30);
+  const auto& out = rigged->engine.step(in);
+  EXPECT_EQ(out.faults, kFaultTriggerEdges);
+  EXPECT_EQ(out.trigger[0].edge_count, 3u);  // at 0.5, 1 and 1.5 deg: as many as the scene has room for
+  EXPECT_NEAR(static_cast<double>(out.trigger[0].edge[0].time_s), 1e-3 * 0.25 / 1.32, 1e-9);
+  EXPECT_EQ(out.trigger[0].edge[1].time_s, Real{0}) << "not listed";
 }
 
 TYPED_TEST(TriggerTickOf, TellsTheLevelButNoEdgesOfALeap) {

@@ -67,7 +67,7 @@ void expect_rules(const Part& good, const std::vector<Rule<Part>>& rules) {
   }
 }
 
-TEST(CamDefinition, KeepsEveryRangeThatItsCommentsState) {
+TEST(CamDefinition, KeepsEveryRangeThatIsListed) {
   expect_rules<Cam>(ohc_125_cam(), {{&Cam::max_lift_m, "cam.max_lift_m", kLeastPositive, true, 0.1},
                                     {&Cam::half_angle_deg, "cam.half_angle_deg", 10, true, 180},
                                     {&Cam::full_lift_deg, "cam.full_lift_deg", 0, true, std::nextafter(720.0, 0)},
@@ -164,7 +164,7 @@ TEST(CamDefinition, OfATableNamesTheRowThatIsWrong) {
   EXPECT_TRUE(refuses(validate(none), Reason::too_few_points, "cam.points"));
 }
 
-TEST(RockerDefinition, KeepsEveryRangeThatItsCommentsState) {
+TEST(RockerDefinition, KeepsEveryRangeThatIsListed) {
   expect_rules<Rocker>(ohc_125_rocker(),
                        {{&Rocker::base_circle_m, "rocker.base_circle_m", kLeastPositive, true, 1},
                         {&Rocker::clearance_m, "rocker.clearance_m", 0, true, 0.01},
@@ -186,7 +186,7 @@ TEST(RockerDefinition, OfAConstantRatioNeedsNoGeometry) {
   EXPECT_TRUE(refuses(validate(rocker), Reason::out_of_range, "rocker.pivot_to_screw_m"));
 }
 
-TEST(ValveDefinition, KeepsEveryRangeThatItsCommentsState) {
+TEST(ValveDefinition, KeepsEveryRangeThatIsListed) {
   expect_rules<Valve>(ohc_125_valve(), {{&Valve::valve_kg, "valve.valve_kg", kLeastPositive, true, 100},
                                         {&Valve::spring_kg, "valve.spring_kg", 0, true, 100},
                                         {&Valve::rocker_inertia_kg_m2, "valve.rocker_inertia_kg_m2", 0, true, 100},

@@ -1,12 +1,12 @@
-// Fault bits of a step: what was wrong with the input, and what the engine did about it.
+// Fault bits of a step: bad inputs, limits that the step reached, and what it did about them.
 #pragma once
 
 #include <cstdint>
 
 namespace crankloop {
 
-/// Or-ed into Output::faults for the tick in which it happened; 0 = all well. The output is defined and finite whatever
-/// the bits.
+/// Bits of Output::faults, set in the tick in which the fault occurs; 0 = no fault. The output is defined and finite
+/// with any fault.
 enum Fault : std::uint32_t {
   kFaultNotReady = 1u << 0,   ///< no tables, or init refused them: outputs are zero
   kFaultSpeed = 1u << 1,      ///< speed not finite or beyond the limit: the last good one was used
@@ -16,20 +16,20 @@ enum Fault : std::uint32_t {
                               ///< good one, the mean torque that at the tick
   kFaultCamPhase = 1u << 5,   ///< a cam phase target not finite or outside -180 to 180 deg: the last good one was used
   kFaultEventBudget =
-      1u << 6,  ///< more contact changes in a tick than are located: the rest is taken at the end of a fine step
+      1u << 6,  ///< more contact changes in a tick than are located: the others were applied at the end of a fine step
   kFaultExternalTorque = 1u << 7,  ///< external torque not finite or outside +-1e8 Nm: the last good one was used
-  kFaultOverspeed = 1u << 8,       ///< the forces would turn the crank faster than the speed limit: it was held there
+  kFaultOverspeed = 1u << 8,     ///< the torque would turn the crank faster than the speed limit: the speed was limited
   kFaultTriggerEdges = 1u << 9,  ///< more edges of a trigger wheel in a tick than the scene has room for: the first are
                                  ///< listed, all are counted
   kFaultGas =
-      1u << 10,  ///< the gas of a cylinder or manifold had too little mass, or was too cold or too hot: it was put back
+      1u << 10,  ///< the gas of a cylinder or manifold had too little mass, or was too cold or too hot: it was limited
   kFaultManifold = 1u << 11,  ///< throttle, or pressure or temperature of a manifold, not finite or out of range: the
                               ///< last good one was used
   kFaultBurn = 1u << 12,  ///< fuel, burn start or duration not finite or out of range, or a burn that ends after 150
-                          ///< deg: the last good one
+                          ///< deg: the last good ones were used
 };
 
-/// Those that an input causes: the scene's bad_input_count counts ticks with any of them.
+/// Faults of inputs: the scene's bad_input_count counts ticks with any of them.
 inline constexpr std::uint32_t kInputFaults = kFaultSpeed | kFaultLoadRatio | kFaultPressure | kFaultPhaseJump |
                                               kFaultCamPhase | kFaultExternalTorque | kFaultManifold | kFaultBurn;
 
@@ -38,7 +38,7 @@ struct FaultText {
   char text[192] = {};
 };
 
-/// Null where no fault has that bit. A switch, so that the compiler misses a fault that is not named.
+/// Null if no fault has that bit. A switch, so that the compiler warns about a fault without a name.
 [[nodiscard]] constexpr const char* name_of(Fault fault) noexcept {
   switch (fault) {
     case kFaultNotReady:
@@ -71,7 +71,7 @@ struct FaultText {
   return nullptr;
 }
 
-/// Names each bit that is set, "none" where none is; bits that no fault has are "unknown".
+/// Names each bit that is set; "none" for 0, "unknown" for bits of no fault.
 [[nodiscard]] constexpr FaultText describe(std::uint32_t faults) noexcept {
   FaultText words;
   unsigned length = 0;

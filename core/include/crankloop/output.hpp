@@ -40,14 +40,29 @@ struct FreeForce {
   Real yaw_Nm;    ///< sum of position times force lateral
 };
 
-/// Motion of one valve (of all that are alike in a cylinder and train).
+namespace group {
+
 template <class Real>
-struct ValveMotionOutput {
+struct TheoreticalLift {
   Real theoretical_lift_m;  ///< of the cam, not below 0
-  Real lift_m;              ///< from the closed, preloaded valve
+};
+template <class Real>
+struct LiftAndVelocity {
+  Real lift_m;  ///< from the closed, preloaded valve
   Real velocity_m_s;
+};
+template <class Real>
+struct ValveAcceleration {
   Real acceleration_m_s2;
 };
+
+}  // namespace group
+
+/// Motion of one valve (of all that are alike in a cylinder and train).
+template <class Real, class S>
+struct ValveMotionOutput : detail::If<S::theoretical_lift, group::TheoreticalLift<Real>>,
+                           group::LiftAndVelocity<Real>,
+                           detail::If<S::valve_acceleration, group::ValveAcceleration<Real>> {};
 
 /// Forces of one elastic valve.
 template <class Real>
@@ -149,7 +164,7 @@ struct FreeForces {
 /// [train][cylinder]
 template <class Real, class S>
 struct Valves {
-  ValveMotionOutput<Real> valve[S::trains.capacity][S::cylinders.capacity];
+  ValveMotionOutput<Real, S> valve[S::trains.capacity][S::cylinders.capacity];
 };
 
 template <class Real, class S>

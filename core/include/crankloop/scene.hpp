@@ -1,7 +1,6 @@
-// The scene: what one use of the model needs. What it does not ask for costs no code, no RAM, no flash and no time.
+// The scene: what one use of the model needs. What it leaves out costs no code, no RAM, no flash and no time.
 //
-// What belongs here: the questions a scene answers and what follows from the answers. What does not: the data (tables,
-// output).
+// What belongs here: the settings of a scene and what follows from them. What does not: the data (tables, output).
 #pragma once
 
 #include <cstdint>
@@ -54,7 +53,7 @@ enum class ValveModel : std::uint8_t {
   elastic,    ///< a mass between train and seat, advanced in time: float and bounce
 };
 
-/// Derive from this and redefine what you need; the defaults ask for nothing.
+/// Derive from this and redefine what you need; the defaults leave everything out.
 ///
 ///     struct MyScene : crankloop::Scene {
 ///       static constexpr auto cylinders = crankloop::exactly<4>;
@@ -81,8 +80,10 @@ struct Scene {
   static constexpr bool bearing_loads = false;  ///< crank pins and main journals; needs forces
   static constexpr bool free_forces = false;    ///< free forces and moments of first and second order
   static constexpr ValveModel valves = ValveModel::none;
-  static constexpr Count trains = exactly<1>;   ///< valve trains per cylinder, where there are valves
-  static constexpr bool valve_forces = false;   ///< forces at train, seat, stem tip and cam; elastic valves
+  static constexpr Count trains = exactly<1>;        ///< valve trains per cylinder, where there are valves
+  static constexpr bool theoretical_lift = false;    ///< of each cam at its valve
+  static constexpr bool valve_acceleration = false;  ///< of each valve
+  static constexpr bool valve_forces = false;        ///< forces at train, seat, stem tip and cam; elastic valves
   static constexpr bool valve_results = false;  ///< per-cycle results: float, bounce, seating speed; elastic valves
   static constexpr bool valve_gas =
       false;  ///< cylinder pressure on the valve heads; a train with a head area demands it
@@ -100,7 +101,7 @@ struct Scene {
 
 namespace detail {
 
-/// What a scene's answers imply.
+/// What a scene's settings imply.
 template <class S>
 struct Needs {
   static constexpr bool table_pressure = S::pressure == PressureGiven::by_table;
@@ -168,6 +169,8 @@ struct CheckedScene {
   static_assert(S::valves == ValveModel::elastic || (!S::valve_forces && !S::valve_results && !S::valve_gas),
                 "valve forces, results and gas force need elastic valves");
   static_assert(S::valves != ValveModel::none || !S::cam_phasing, "cam_phasing needs valves");
+  static_assert(S::valves != ValveModel::none || (!S::theoretical_lift && !S::valve_acceleration),
+                "theoretical_lift and valve_acceleration need valves");
   static_assert(!S::valve_gas || S::pressure != PressureGiven::none, "valve_gas needs a pressure");
   static_assert(S::triggers.capacity <= kMaxTriggerWheels, "an engine has at most 8 trigger wheels");
   static_assert(S::trigger_edges >= 1 && S::trigger_edges <= 2 * kMaxTriggerEdges,

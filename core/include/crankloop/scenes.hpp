@@ -23,6 +23,8 @@ struct Whole : Scene {
   static constexpr bool free_forces = true;
   static constexpr ValveModel valves = ValveModel::elastic;
   static constexpr Count trains = up_to<kMaxTrains>;
+  static constexpr bool theoretical_lift = true;
+  static constexpr bool valve_acceleration = true;
   static constexpr bool valve_forces = true;
   static constexpr bool valve_results = true;
   static constexpr bool valve_gas = true;
@@ -90,6 +92,8 @@ struct BreathingFree : FreeRunning {
   static constexpr bool load_ratio = false;
   static constexpr ValveModel valves = ValveModel::elastic;
   static constexpr Count trains = up_to<kMaxTrains>;
+  static constexpr bool theoretical_lift = true;
+  static constexpr bool valve_acceleration = true;
   static constexpr bool valve_gas = true;
 };
 

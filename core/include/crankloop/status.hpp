@@ -1,7 +1,6 @@
-// What a call that may refuse answers: fine, or which field and why.
+// The result of a call that may refuse: ok, or the field and the reason.
 //
-// What belongs here: the answer itself. What does not: message texts with file names and lines (they belong to the
-// program).
+// What belongs here: field and reason. What does not: messages with file names and lines (they belong to the program).
 #pragma once
 
 #include <cstdint>
@@ -14,7 +13,7 @@ enum class Reason : std::uint8_t {
   not_finite,         ///< a NaN or an infinity
   not_positive,       ///< must be > 0
   negative,           ///< must be >= 0
-  out_of_range,       ///< outside the range that the field's comment states
+  out_of_range,       ///< outside the range that the list of fields states
   rod_too_short,      ///< the rod must be longer than crank radius + |pin offset|, by a billionth of that, or the crank
                       ///< cannot turn
   inconsistent,       ///< contradicts another field
@@ -24,26 +23,26 @@ enum class Reason : std::uint8_t {
   not_increasing,     ///< table rows must be in rising order
   not_one_period,     ///< rows must span one 720 deg period (a closing row may stand at its end)
   not_a_cycle,        ///< volumes must rise, fall, rise and fall between the dead-centre volumes
-  no_solution,        ///< what was asked for cannot be met
+  no_solution,        ///< the requested value cannot be reached
   pressure_too_high,  ///< the diagram that follows from it exceeds kMaxPressure_Pa
-  missing_table,      ///< the scene needs a table that is not there
+  missing_table,      ///< the scene needs a table that is missing
   other_tables,       ///< a state belongs to other tables
   contracting_build,  ///< the build fuses a*b+c and so could not keep its bits
   wrong_size,         ///< fewer or more bytes than it must have
-  damaged,            ///< bytes that are no saved state, or not as they were written
-  other_version,      ///< written by a version of the library that saves states in another form
+  damaged,            ///< bytes that are not a saved state, or were changed
+  other_version,      ///< written by a version of the library with another format of saved states
   other_scene,        ///< a state of another scene or scalar
   // of the C interface
-  null_pointer,     ///< an argument that must be there is not
-  misaligned,       ///< memory at an address that its object cannot have
+  null_pointer,     ///< a required argument is null
+  misaligned,       ///< memory that is not aligned for its object
   not_created,      ///< memory that holds no object
-  already_created,  ///< memory that holds one
+  already_created,  ///< memory that holds an object already
   unknown_name,     ///< no input or output of the engine has this name
   // of definitions again; numbers keep their meaning from version to version
   too_much_heat,  ///< more heat per kilogram of mixture than any fuel releases
 };
 
-/// The answer of init, tabulate and validate. Trivially copyable; `field` points to a string literal.
+/// The result of init, tabulate and validate. Trivially copyable; `field` points to a string literal.
 ///
 /// A definition's fields are named as the engine file names them without unit, e.g. "crank.rod_length_m".
 struct [[nodiscard]] Status {
@@ -59,7 +58,7 @@ struct [[nodiscard]] Status {
 }
 
 /// A short English phrase for the reason, e.g. "must be greater than zero". Defined here, so that firmware which links
-/// a scene's library alone has it too; what does not call it has none of its text.
+/// only a scene's library has it too; firmware that does not call it contains none of its text.
 [[nodiscard]] inline const char* describe(Reason reason) noexcept {
   switch (reason) {
     case Reason::ok:

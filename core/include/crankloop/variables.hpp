@@ -229,10 +229,12 @@ constexpr void each_output(Visit&& visit, AState& state, AnOutput& out, [[maybe_
   if constexpr (detail::Needs<S>::any_valves) {
     each_valve([&out](const auto& show, std::uint32_t t, std::uint32_t k) {
       auto& v = out.valve[t][k];
-      show(real("valve[#,#].theoretical_lift_m", "Lift of the cam at the valve, not below 0"), v.theoretical_lift_m);
+      if constexpr (S::theoretical_lift)
+        show(real("valve[#,#].theoretical_lift_m", "Lift of the cam at the valve, not below 0"), v.theoretical_lift_m);
       show(real("valve[#,#].lift_m", "Lift from the closed, preloaded valve"), v.lift_m);
       show(real("valve[#,#].velocity_m_s", "Velocity of the valve"), v.velocity_m_s);
-      show(real("valve[#,#].acceleration_m_s2", "Acceleration of the valve"), v.acceleration_m_s2);
+      if constexpr (S::valve_acceleration)
+        show(real("valve[#,#].acceleration_m_s2", "Acceleration of the valve"), v.acceleration_m_s2);
     });
   }
   if constexpr (S::valve_forces) {

@@ -1,4 +1,4 @@
-// The rules that a definition keeps; field names as in the engine file.
+// Validation of a definition; field names as in the engine file.
 #include <crankloop/define/engine_definition.hpp>
 
 #include <cstddef>
@@ -7,17 +7,14 @@
 
 namespace crankloop {
 
-using detail::between;
 using detail::finite;
 using detail::first_refusal;
-using detail::not_negative;
-using detail::positive;
+using detail::in_range;
+using detail::out_of_range;
 
 namespace {
 
-constexpr double kHeaviest_kg = 1e4;
-
-/// Whether two angles in degrees point the same way. Angles beyond 1e6 deg point nowhere.
+/// Whether two angles in degrees are equal modulo 360; false if they differ by 1e6 deg or more.
 [[nodiscard]] bool same_direction(double a_deg, double b_deg) noexcept {
   constexpr double kSameAngleDeg = 1e-6;
   const double d = a_deg - b_deg;
@@ -30,16 +27,7 @@ constexpr double kHeaviest_kg = 1e4;
 }  // namespace
 
 Status validate(const Crank& crank) noexcept {
-  const Status answers[] = {
-      positive(crank.bore_m, "crank.bore_m", 2),
-      positive(crank.crank_radius_m, "crank.crank_radius_m", 2),
-      positive(crank.rod_length_m, "crank.rod_length_m", 10),
-      between(crank.pin_offset_m, "crank.pin_offset_m", -2, 2),
-      between(crank.compression_ratio, "crank.compression_ratio", 1, 100),
-      not_negative(crank.max_speed_rad_s, "crank.max_speed_rad_s", kMaxSpeed_rad_s),
-  };
-  if (const Status refused = first_refusal(answers); !refused.ok()) return refused;
-  if (crank.compression_ratio <= 1) return refuse("crank.compression_ratio", Reason::out_of_range);
+  if (const Status refused = out_of_range(crank); !refused.ok()) return refused;
   if (crank.rod_length_m <= crank.least_rod_length_m()) return refuse("crank.rod_length_m", Reason::rod_too_short);
   return {};
 }
@@ -58,16 +46,8 @@ void reduce_throw(const CrankThrow& crank_throw, const Crank& crank, Masses& mas
 }
 
 Status validate(const Masses& masses) noexcept {
-  const Status answers[] = {
-      not_negative(masses.piston_kg, "masses.piston_kg", kHeaviest_kg),
-      not_negative(masses.rod_small_end_kg, "masses.rod_small_end_kg", kHeaviest_kg),
-      not_negative(masses.rod_big_end_kg, "masses.rod_big_end_kg", kHeaviest_kg),
-      between(masses.rod_inertia_correction_kg_m2, "masses.rod_inertia_correction_kg_m2", -1e6, 1e6),
-      not_negative(masses.crank_pin_equivalent_kg, "masses.crank_pin_equivalent_kg", kHeaviest_kg),
-      not_negative(masses.crank_inertia_kg_m2, "masses.crank_inertia_kg_m2", 1e6),
-      positive(masses.reciprocating_kg(), "masses.piston_kg", 2 * kHeaviest_kg),
-  };
-  return first_refusal(answers);
+  if (const Status refused = out_of_range(masses); !refused.ok()) return refused;
+  return in_range(masses.reciprocating_kg(), "masses.piston_kg", above(0));
 }
 
 Status set_firing_order(const int* order, int cylinders, Layout& layout) noexcept {
@@ -80,7 +60,7 @@ Status set_firing_order(const int* order, int cylinders, Layout& layout) noexcep
     }
     seen |= 1u << cylinder;
   }
-  // Angle 0 is cylinder 1's firing, wherever the order starts.
+  // Angle 0 is where cylinder 1 fires, whichever cylinder the order starts with.
   int first = 0;
   while (order[first] != 1) ++first;
   layout.cylinders = cylinders;
@@ -94,7 +74,7 @@ Status set_firing_order(const int* order, int cylinders, Layout& layout) noexcep
 void share_pins_by_position(Layout& layout) noexcept {
   if (layout.cylinders < 1 || layout.cylinders > kMaxCylinders) return;  // validate() refuses it
   const auto n = static_cast<std::size_t>(layout.cylinders);
-  // The pin of a cylinder is named by its first sharer, then pins are numbered by position.
+  // The first cylinder on a pin identifies the pin; then pins are numbered by position.
   std::array<std::size_t, kMaxCylinders> leader{};
   for (std::size_t k = 0; k < n; ++k) {
     leader[k] = k;
@@ -120,8 +100,8 @@ void share_pins_by_position(Layout& layout) noexcept {
 
 namespace {
 
-/// Middle of the rods on a pin, which has at least one: the first one's place and the mean distance from it, exact for
-/// equal places.
+/// Mean position of the rods on a pin, which has at least one, as the first rod's position plus the mean distance from
+/// it: exact for equal positions.
 [[nodiscard]] double pin_position_m(const Layout& layout, std::size_t pin) noexcept {
   double first = 0;
   double beyond = 0;
@@ -138,19 +118,12 @@ namespace {
 }  // namespace
 
 Status validate(const Layout& layout) noexcept {
-  if (layout.cylinders < 1 || layout.cylinders > kMaxCylinders) return refuse("layout.cylinders", Reason::out_of_range);
+  if (const Status refused = out_of_range(layout); !refused.ok()) return refused;
   const auto n = static_cast<std::size_t>(layout.cylinders);
   std::uint8_t last_pin = 0;
   unsigned pins_used = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const int index = static_cast<int>(k);
-    const Status answers[] = {
-        between(layout.firing_deg[k], "layout.firing_deg", 0, 720, index),
-        between(layout.bank_deg[k], "layout.bank_deg", -360, 360, index),
-        between(layout.position_m[k], "layout.position_m", -100, 100, index),
-    };
-    if (const Status refused = first_refusal(answers); !refused.ok()) return refused;
-    if (layout.firing_deg[k] >= 720) return refuse("layout.firing_deg", Reason::out_of_range, index);
     if (layout.pin[k] >= n) return refuse("layout.pin", Reason::out_of_range, index);
     pins_used |= 1u << layout.pin[k];
     if (layout.pin[k] > last_pin) last_pin = layout.pin[k];
@@ -161,7 +134,7 @@ Status validate(const Layout& layout) noexcept {
       }
     }
   }
-  if (pins_used != (2u << last_pin) - 1u) return refuse("layout.pin", Reason::inconsistent);  // a gap in the numbers
+  if (pins_used != (2u << last_pin) - 1u) return refuse("layout.pin", Reason::inconsistent);  // pin numbers with a gap
   for (std::size_t pin = 1; pin <= last_pin; ++pin) {
     if (pin_position_m(layout, pin) < pin_position_m(layout, pin - 1))
       return refuse("layout.pin", Reason::inconsistent);
@@ -172,25 +145,13 @@ Status validate(const Layout& layout) noexcept {
 namespace {
 
 [[nodiscard]] Status validate_wiebe(const WiebeDiagram& w) noexcept {
-  const Status answers[] = {
-      positive(w.intake_Pa, "pressure.wiebe.intake_Pa", 1e7),
-      positive(w.exhaust_Pa, "pressure.wiebe.exhaust_Pa", 1e7),
-      between(w.start_of_combustion_deg, "pressure.wiebe.start_of_combustion_deg", -90, 90),
-      between(w.combustion_duration_deg, "pressure.wiebe.combustion_duration_deg", 1, 150),
-      between(w.wiebe_m, "pressure.wiebe.wiebe_m", 0, 10),
-      between(w.compression_exponent, "pressure.wiebe.compression_exponent", 1, 2),
-      between(w.expansion_exponent, "pressure.wiebe.expansion_exponent", 1.0001, 2),
-      between(w.motored_expansion_exponent, "pressure.wiebe.motored_expansion_exponent", 0, 3),
-      between(w.exhaust_valve_opens_deg, "pressure.wiebe.exhaust_valve_opens_deg", 30, 179),
-      w.heat_given ? not_negative(w.heat_J, "pressure.wiebe.heat_J", 1e9)
-                   : between(w.net_mep_Pa, "pressure.wiebe.net_mep_Pa", -1e7, kMaxPressure_Pa),
-  };
-  if (const Status refused = first_refusal(answers); !refused.ok()) return refused;
+  if (const Status refused = out_of_range(w); !refused.ok()) return refused;
   if (w.start_of_combustion_deg + w.combustion_duration_deg > w.exhaust_valve_opens_deg) {
     return refuse("pressure.wiebe.combustion_duration_deg", Reason::inconsistent);
   }
   if (w.motored_exponent() < w.compression_exponent)
-    return refuse("pressure.wiebe.motored_expansion_exponent", Reason::inconsistent);  // work from nothing
+    return refuse("pressure.wiebe.motored_expansion_exponent",
+                  Reason::inconsistent);  // the motored cycle would gain energy
   return {};
 }
 
@@ -205,7 +166,8 @@ constexpr int kMaxPoints = 1 << 20;
   for (int i = 0; i < pressure.point_count; ++i) {
     const DiagramPoint& point = pressure.points[i];
     if (!finite(point.at)) return refuse("pressure.points", Reason::not_finite, i);
-    if (const Status refused = between(point.pressure_Pa, "pressure.points", 0, kMaxPressure_Pa, i); !refused.ok())
+    if (const Status refused = in_range(point.pressure_Pa, "pressure.points", from(0).up_to(kMaxPressure_Pa), i);
+        !refused.ok())
       return refused;
   }
   return {};
@@ -219,8 +181,8 @@ constexpr int kMaxPoints = 1 << 20;
       return refuse("pressure.points", Reason::out_of_range, i);
     if (i > 0 && at <= pressure.points[i - 1].at) return refuse("pressure.points", Reason::not_increasing, i);
   }
-  // One period, and no hole in it: the rows span at most 720 deg, and what is left to close the circle is no wider than
-  // 60 deg.
+  // One period without a gap: the rows span at most 720 deg, and at most 60 deg are missing between the last row and
+  // the first.
   const double span = pressure.points[pressure.point_count - 1].at - pressure.points[0].at;
   constexpr double kWidestGapDeg = 60;
   if (span > 720 + 1e-9 || span < 720 - kWidestGapDeg) return refuse("pressure.points", Reason::not_one_period);
@@ -230,8 +192,7 @@ constexpr int kMaxPoints = 1 << 20;
 }  // namespace
 
 Status validate(const Pressure& pressure, const Crank& crank) noexcept {
-  if (const Status refused = positive(pressure.crankcase_Pa, "pressure.crankcase_Pa", 1e7); !refused.ok())
-    return refused;
+  if (const Status refused = out_of_range(pressure); !refused.ok()) return refused;
   switch (pressure.source) {
     case PressureSource::none:
     case PressureSource::gas:
@@ -241,11 +202,11 @@ Status validate(const Pressure& pressure, const Crank& crank) noexcept {
     case PressureSource::angle_table:
       return validate_angles(pressure);
     case PressureSource::volume_table:
-      (void)crank;  // the volumes are checked against the dead centres where they are turned into angles:
-                    // tabulate/indicator_diagram.hpp
+      (void)crank;  // tabulate/indicator_diagram.hpp checks the volumes against the dead centres when it converts them
+                    // to angles
       return validate_points(pressure, kLeastVolumePoints);
   }
-  return refuse("pressure.source", Reason::out_of_range);  // a number that names no source
+  return refuse("pressure.source", Reason::out_of_range);  // an undefined source
 }
 
 Status validate(const EngineDefinition& engine) noexcept {

@@ -13,7 +13,7 @@ namespace crankloop {
 using namespace detail;
 namespace {
 
-/// cos and sin of an angle in degrees, exact at multiples of 90: balanced engines balance to the last bit.
+/// cos and sin of an angle in degrees, exact at multiples of 90, so that forces of a balanced engine cancel exactly.
 struct Direction {
   double cosine;
   double sine;
@@ -39,14 +39,14 @@ struct Direction {
   return (least + most) / 2;
 }
 
-/// d2x/da2 per crank radius has the part cosine cos(order a) + sine sin(order a).
+/// One order of d2x/da2 per crank radius: cosine cos(order a) + sine sin(order a).
 struct Part {
   double cosine;
   double sine;
 };
 /// From the exact displacement, by the trapezoidal rule: its error falls like (lambda / 2)^kSamples, to rounding for
-/// any rod that is not within a thousandth of the shortest possible. The second derivative of a harmonic is -order^2 of
-/// it.
+/// any rod that is not within a thousandth of the shortest possible. The second derivative of a harmonic is -order^2
+/// times the harmonic.
 [[nodiscard]] Part acceleration_part(const Crank& crank, int order) noexcept {
   constexpr int kSamples = 512;
   const bool in_line = crank.pin_offset_m == 0;  // then x = r (1 - cos a) + an even function of sin a
@@ -76,8 +76,8 @@ void add(RotatingVector<double>& t, double arm_m, double up_cos, double up_sin, 
   t.yaw_sin += arm_m * lateral_sin;
 }
 
-/// Half the major axis of the ellipse (ac cos + as sin, bc cos + bs sin): the vector is a forward and a backward
-/// circle.
+/// Half the major axis of the ellipse (ac cos + as sin, bc cos + bs sin): the vector is the sum of a forward and a
+/// backward rotating one.
 [[nodiscard]] double peak(double ac, double as, double bc, double bs) noexcept {
   const double forward = square_root((ac + bs) * (ac + bs) + (as - bc) * (as - bc)) / 2;
   const double backward = square_root((ac - bs) * (ac - bs) + (as + bc) * (as + bc)) / 2;
@@ -111,7 +111,7 @@ Bearings<double> bearings_of(const EngineDefinition& engine) noexcept {
 }
 
 BlockLoad in_block(const EngineDefinition& engine, double engine_deg, double along_N, double across_N) noexcept {
-  int cylinder = 0;  // of pin 0: validated, there is one
+  int cylinder = 0;  // of pin 0: a valid layout has one
   while (cylinder + 1 < engine.layout.cylinders && engine.layout.pin[static_cast<std::size_t>(cylinder)] != 0)
     ++cylinder;
   const Direction first_throw = direction(engine_deg + engine.layout.throw_deg(cylinder));
@@ -148,8 +148,8 @@ Balance<double> balance_of(const EngineDefinition& engine) noexcept {
   for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) rods_on[layout.pin[k]] += 1;
   for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
     const double arm = layout.position_m[k] - middle;
-    // Centrifugal, along the throw at A + bank - firing: the big end in the cylinder's own plane, and its part of the
-    // pin.
+    // Centrifugal force along the throw at A + bank - firing: the big end in the plane of its cylinder, and its share
+    // of the crank pin.
     const Direction throw_at = direction(layout.throw_deg(static_cast<int>(k)));
     const double kg_m =
         (engine.masses.rod_big_end_kg + engine.masses.crank_pin_equivalent_kg / rods_on[layout.pin[k]]) * r;

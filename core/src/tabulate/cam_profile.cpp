@@ -80,7 +80,8 @@ CamLift CamProfile::polynomial(double phi_rad) const noexcept {
 
 Status CamProfile::init_table(const Cam& cam) noexcept {
   if (const Status refused = detail::smooth_cam(cam, spline_, residual_m_); !refused.ok()) return refused;
-  // The smooth curve's own peak becomes phi = 0: rows are often a little off, and the rocker counts from full lift.
+  // The peak of the smooth curve becomes phi = 0: the angles of a table are often slightly off, and rocker angles start
+  // at full lift.
   const double peak_rad = detail::peak_of(spline_);
   peak_deg_ = peak_rad / detail::kRadPerDegree;
   spline_.first_rad -= peak_rad;

@@ -1,6 +1,6 @@
-// How far the rows of a measured cam scatter, and how closely a smooth lobe can follow them: docs/model.md "Cam".
+// Scatter of a measured cam's rows, and how closely a smooth lobe can fit them: docs/model.md "Cam".
 //
-// What belongs here: a residual for cam.smoothing_m, from the rows alone. What does not: the lobe (cam_smoothing.cpp).
+// What belongs here: a proposal for cam.smoothing_m from the rows. What does not: the lobe (cam_smoothing.cpp).
 #include <crankloop/assert.hpp>
 #include <crankloop/tabulate/cam_profile.hpp>
 #include <crankloop/tick/one_instruction.hpp>
@@ -16,19 +16,20 @@ using detail::closest_lobe;
 using detail::magnitude;
 using detail::square_root;
 
-constexpr int kNeighbours = 3;              ///< on each side
-constexpr double kLobe = 0.01;              ///< of the largest lift: the feet, where y'' changes most, are left out
-constexpr double kMedianOfNormal = 0.6745;  ///< of the absolute value, in standard deviations
+constexpr int kNeighbours = 3;  ///< on each side
+constexpr double kLobe = 0.01;  ///< share of the largest lift: leaves out the ends of the lobe, where y'' changes most
+constexpr double kMedianOfNormal = 0.6745;  ///< median of the absolute value, in standard deviations
 constexpr double kSigmas = 5;
 constexpr double kRoundingSigmas = 0.5;    ///< rounding alone scatters by 1 / sqrt(12) of its unit
-constexpr double kRoundingResidual = 0.6;  ///< and takes a lift at most half a unit away
-constexpr double kAboveSmallest = 1.5;     ///< a lobe that only just keeps follows every row
+constexpr double kRoundingResidual = 0.6;  ///< and changes a lift by at most half a unit
+constexpr double kAboveSmallest = 1.5;     ///< with less, the lobe follows every row
 constexpr double kFinestUnit_m = 1e-8;
 constexpr double kCoarsestUnit_m = 1e-4;
-constexpr double kWholeMultiple = 1e-4;   ///< what decimals in binary and metres for millimetres leave, in units
-constexpr double kLargestBase_m = 50e-6;  ///< of a row that may still be base circle, where no smoothing_m is given
+constexpr double kWholeMultiple = 1e-4;   ///< rounding of decimal fractions and of the conversion from millimetres, in
+                                          ///< units
+constexpr double kLargestBase_m = 50e-6;  ///< largest lift of a row on the base circle, without a given smoothing_m
 constexpr double kLargestSmoothing_m = 1e-3;
-constexpr double kTolerance = 1.01;  ///< of smallest_m
+constexpr double kTolerance = 1.01;  ///< relative, of smallest_m
 constexpr int kMaxTrials = 60;
 
 struct Lobe {
@@ -37,7 +38,7 @@ struct Lobe {
   int peak;
 };
 
-/// The rows above a lift, on both sides of the largest.
+/// The rows around the largest lift that are above a share of it.
 Lobe rows_above(const Cam& cam, double share_of_peak) noexcept {
   int peak = 0;
   for (int i = 1; i < cam.point_count; ++i) {
@@ -51,8 +52,8 @@ Lobe rows_above(const Cam& cam, double share_of_peak) noexcept {
   return {first, last, peak};
 }
 
-/// A row less the polynomial through its neighbours, as a standard deviation of one row: rows of scatter sigma leave
-/// sigma sqrt(1 + sum w^2), w the weights of Lagrange's polynomial.
+/// Deviation of a row from the polynomial through its neighbours, scaled to the standard deviation of one row: rows of
+/// scatter sigma deviate by sigma sqrt(1 + sum w^2), w the weights of Lagrange's polynomial.
 double off_neighbours_m(const CamPoint* row) noexcept {
   double off_m = row->lift_m;
   double variance = 1;
@@ -125,7 +126,7 @@ class Trial {
  public:
   explicit Trial(const Cam& cam) noexcept : cam_{cam} {}
 
-  /// Whether a lobe keeps to it.
+  /// Whether a lobe fits within it.
   bool keeps(double smoothing_m) noexcept {
     cam_.smoothing_m = smoothing_m;
     refused_ = closest_lobe(cam_, lobe_, closest_);
@@ -141,7 +142,7 @@ class Trial {
   Status refused_;
 };
 
-/// The least lift on either side of the peak: what must count as base circle.
+/// The larger of the smallest lifts on both sides of the peak: rows up to it count as base circle.
 Status find_base(const Cam& cam, double& base_m) noexcept {
   const int peak = rows_above(cam, 1).peak;
   base_m = 0;
@@ -156,7 +157,7 @@ Status find_base(const Cam& cam, double& base_m) noexcept {
   return {};
 }
 
-/// The least residual that is kept: up from `from_m`, then down to within kTolerance.
+/// The smallest residual that a lobe keeps: searched upward from `from_m`, then by bisection to within kTolerance.
 Status find_smallest(Trial& trial, double from_m, CamRows& rows) noexcept {
   double low_m = from_m;
   double high_m = from_m;
@@ -200,7 +201,7 @@ Status survey_rows(const Cam& cam, CamRows& rows) noexcept {
   const double for_scatter_m = only_rounded ? rows.unit_m : kSigmas * rows.scatter_m;
   const double least_m = kAboveSmallest * rows.smallest_m;
   rows.automatic_m = two_digits_up(for_scatter_m > least_m ? for_scatter_m : least_m);
-  // A trimmed lobe may miss rows with more allowance that it kept with less.
+  // A trimmed lobe may fail at a larger residual although it fitted at a smaller one.
   for (int round = 0; round < kMaxTrials && !trial.keeps(rows.automatic_m); ++round)
     rows.automatic_m = two_digits_up(kTolerance * rows.automatic_m);
   return {};

@@ -3,9 +3,9 @@
 //
 //     sum over rows (y(row) - lift)^2  +  stiffness * sum (third differences of c)^2
 //
-// with the largest stiffness that keeps every row within the residual allowed. Third differences stand for the jerk:
-// what is made small is what rounding and noise blow up. (Fourth differences left two to three times the error of y''
-// at the feet of the lobe.)
+// with the largest stiffness that keeps every row within the permitted residual. Third differences represent the jerk,
+// which rounding and noise amplify most. (Fourth differences gave two to three times the error of y'' at the ends of
+// the lobe.)
 //
 //     weights       0 0 0 c c c c c c c c c c 0 0 0     The spline begins and ends with whole basis functions,
 //     lift          ______....--''''--....________      so four derivatives are zero there; c >= 0 keeps the lift from
@@ -24,12 +24,13 @@ namespace crankloop::detail {
 namespace {
 
 constexpr int kMax = LobeSpline::kMaxWeights;
-constexpr int kFewestSegments = 160;  // about one a degree: also a coarse table is smoothed, not interpolated
+constexpr int kFewestSegments = 160;  // about one per degree, so that a coarse table is smoothed too and not
+                                      // interpolated
 constexpr int kMaxSegments = kMax + kBasis - 1;
-constexpr double kMarginDeg = 10;  // base circle to either side of the rows that rise, in which the lobe may begin
+constexpr double kMarginDeg = 10;  // base circle on either side of the lifted rows, in which the lobe may begin
 constexpr double kWidestLobeDeg = 350;
 constexpr double kLeastStiffness =
-    0.1;  // per row in a segment: halves a wave of four segments, so no spike follows a single row
+    0.1;  // per row in a segment: halves a wave of four segments, so that the spline does not follow a single row
 constexpr double kMaxStiffness = 1e9;
 constexpr double kStiffnessStep = 4;  ///< of the search from above
 
@@ -58,7 +59,7 @@ class Smoothing {
   double factor_[kMax][kBasis];  ///< Cholesky factor, transposed
 };
 
-/// Where the lobe may lie, and its knots.
+/// Sets the range of the lobe and its knots.
 Status Smoothing::place() noexcept {
   const CamPoint* row = cam_.points;
   const int last = cam_.point_count - 1;
@@ -82,7 +83,8 @@ Status Smoothing::place() noexcept {
   int segments = rows;
   if (segments < kFewestSegments) segments = kFewestSegments;
   if (segments > kMaxSegments) segments = kMaxSegments;
-  // Where the table ends, the base circle goes on: three more segments let the lobe begin there as softly as elsewhere.
+  // The base circle continues beyond the table's ends: three more segments let a lobe begin there as smoothly as
+  // elsewhere.
   const double beyond = 3 * (row[right].cam_deg - row[left].cam_deg) / (segments - 6);
   if (from < row[0].cam_deg - beyond) from = row[0].cam_deg - beyond;
   if (to > row[last].cam_deg + beyond) to = row[last].cam_deg + beyond;
@@ -94,7 +96,7 @@ Status Smoothing::place() noexcept {
   return {};
 }
 
-/// The rows' share of the normal equations.
+/// Adds the rows to the normal equations.
 void Smoothing::gather() noexcept {
   for (int i = 0; i < kMax; ++i) {
     right_[i] = 0;
@@ -114,8 +116,8 @@ void Smoothing::gather() noexcept {
   }
 }
 
-/// The lobe's weights by Cholesky's method; O(weights). The matrix is positive definite because the differences reach
-/// across both ends.
+/// Computes the lobe's weights by Cholesky's method; O(weights). The matrix is positive definite because the
+/// differences extend beyond both ends.
 void Smoothing::solve(double stiffness) noexcept {
   CRANKLOOP_ASSERT(lobe_.begin >= 0 && lobe_.begin < lobe_.end && lobe_.end <= kMax);
   constexpr double kThirdDifferences[kBasis] = {20, -15, 6, -1, 0, 0};  // D'D of D = (1, -3, 3, -1)
@@ -140,8 +142,8 @@ void Smoothing::solve(double stiffness) noexcept {
   }
 }
 
-/// Takes the outermost weight that is not above 0 out of the lobe on either side of the peak, with those outside it.
-/// True if there was one. One at a time, because the next ones often recover.
+/// On each side of the peak, removes the outermost weight that is not above 0 and the weights outside it. True if there
+/// was one. Only one at a time, because the next ones often become positive.
 bool Smoothing::trim() noexcept {
   int peak = lobe_.begin;
   for (int i = lobe_.begin; i < lobe_.end; ++i) {
@@ -156,7 +158,7 @@ bool Smoothing::trim() noexcept {
   return begin < peak || end - 1 > peak;
 }
 
-/// Of the lobe of this stiffness, which is left in lobe_.
+/// Residual of the lobe with this stiffness, which stays in lobe_.
 CamResidual Smoothing::residual(double stiffness) noexcept {
   lobe_.begin = 0;
   lobe_.end = weights_;
@@ -195,8 +197,8 @@ Status smooth_cam(const Cam& cam, LobeSpline& lobe, double& residual_m) noexcept
     residual_m = magnitude(smoothing.residual(stiffness).off_m);
     return residual_m <= cam.smoothing_m;
   };
-  // From above, because a loose spline follows the noise and a lobe that was trimmed to it may miss rows that a stiffer
-  // one keeps.
+  // From the stiffest downward, because a soft spline follows the noise, and a lobe trimmed to noise may fail at rows
+  // that a stiffer one fits.
   double low = kMaxStiffness;
   double high = low;
   while (!keeps_to_rows(low)) {

@@ -6,7 +6,7 @@
 
 namespace crankloop::detail {
 
-/// The row that a lobe misses most, and the row's lift less the lobe's.
+/// The row with the largest deviation, and its lift less the lobe's.
 struct CamResidual {
   double off_m;
   int row;
@@ -15,11 +15,11 @@ struct CamResidual {
 /// The smoothest lobe whose distance from every row is at most cam.smoothing_m, angles as in the table. `residual_m`:
 /// the largest distance. Refuses a table without a lobe that begins and ends on the base circle (inconsistent
 /// "cam.points", the row), a lobe of nearly a turn (out_of_range "cam.points"), and a residual that no lobe keeps
-/// (no_solution "cam.smoothing_m"). 27 kB of stack, some milliseconds.
+/// (no_solution "cam.smoothing_m"). Takes 27 kB of stack and some milliseconds.
 Status smooth_cam(const Cam& cam, LobeSpline& lobe, double& residual_m) noexcept;
 
-/// What the closest of the lobes that smooth_cam() tries leaves: it refuses a cam.smoothing_m below that. Refuses what
-/// smooth_cam() refuses of "cam.points".
+/// The residual of the closest lobe that smooth_cam() tries; smooth_cam() refuses a smaller cam.smoothing_m. Refuses
+/// what smooth_cam() refuses of "cam.points".
 Status closest_lobe(const Cam& cam, LobeSpline& lobe, CamResidual& closest) noexcept;
 
 /// Angle of largest lift.

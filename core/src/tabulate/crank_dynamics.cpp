@@ -21,7 +21,7 @@ namespace {
   return sum;
 }
 
-/// J_eff where it is smallest, or 0 where that is too small a part of its largest.
+/// Smallest J_eff; 0 if its ratio to the largest is too small.
 [[nodiscard]] double least_inertia_kg_m2(const EngineDefinition& engine, double turning_kg_m2) noexcept {
   double least = turning_kg_m2 + moving_kg_m2(engine, 0);
   double most = least;
@@ -37,14 +37,19 @@ namespace {
 
 double speed_limit_rad_s(const EngineDefinition& engine, const TickOptions& options) noexcept {
   double limit_rad_s = kMaxSpeed_rad_s;
-  // At most one revolution per tick, less a hair, so that rounding cannot take the phase increment to half a cycle.
+  // Slightly less than one revolution per tick, so that rounding cannot raise the phase increment to half a cycle.
   const double one_turn_rad_s = 0.4999 * kRadPerCycle / options.tick_s;
   if (one_turn_rad_s < limit_rad_s) limit_rad_s = one_turn_rad_s;
-  // The highest speed itself is a good input, however its caller rounds it to float.
+  // The maximum speed itself is a valid input, also when a caller rounds it to float.
   constexpr double kRounding = 1 + 1e-6;
   const double given_rad_s =
       kRounding * (options.max_speed_rad_s != 0 ? options.max_speed_rad_s : engine.crank.max_speed_rad_s);
   return given_rad_s != 0 && given_rad_s < limit_rad_s ? given_rad_s : limit_rad_s;
+}
+
+double widest_turn_deg(const EngineDefinition& engine, const TickOptions& options) noexcept {
+  constexpr double kRounding = 1 + 1e-6;  // of the limit and of the angle, in float
+  return kRounding * speed_limit_rad_s(engine, options) * options.tick_s / kRadPerDegree;
 }
 
 template <class Real>
@@ -57,8 +62,8 @@ CrankDynamics<Real> crank_dynamics_of(const EngineDefinition& engine, const Tick
   const double cylinders = engine.layout.cylinders;
   const double turning =
       masses.crank_inertia_kg_m2 + machine.inertia_kg_m2 + cylinders * masses.rod_big_end_kg * radius * radius;
-  // Work of a mean effective pressure over a cycle is the pressure times the swept volume; its mean torque is that work
-  // / (4 pi).
+  // The work of a mean effective pressure over a cycle is the pressure times the swept volume; the mean torque is that
+  // work / (4 pi).
   const double per_Pa = cylinders * swept_volume_m3(engine.crank) / kRadPerCycle;
   const auto to_real = [](double x) { return static_cast<Real>(x); };
   return {to_real(turning),

@@ -1,4 +1,4 @@
-// From a function of the crank angle to the segments of a curve.
+// Fits the segments of a curve to a function of the crank angle.
 //
 // What belongs here: interpolation, rounding, integer bases. What does not: which function (tabulate.cpp,
 // gas_curves.cpp).
@@ -37,11 +37,11 @@ template <std::size_t N>
   return p;
 }
 
-/// Where a segment is interpolated, as parts of its half width from its middle.
+/// Nodes of a segment's interpolation, as fractions of its half width from its middle.
 ///
-/// Cubic: Chebyshev's nodes; the error is the same at both ends, so neighbours meet. Quadratic: Chebyshev's +-0.866
-/// would leave an error of opposite sign at the ends, and twice the error as a step from degree to degree; +-0.922
-/// makes the inner error a fifth larger and the step three fifths of that (docs/decisions/0003-curves.md).
+/// Cubic: Chebyshev's nodes; the error is equal at both ends, so that neighbours meet. Quadratic: Chebyshev's +-0.866
+/// would give errors of opposite sign at the ends, and a step of twice the error from degree to degree; with +-0.922
+/// the inner error is a fifth larger and the step three fifths of that (docs/decisions/0003-curves.md).
 template <class Real>
 struct Nodes;
 template <>
@@ -64,13 +64,13 @@ template <class Real>
   return s;
 }
 
-/// Node i of the interpolation on [from, to], parts of a degree.
+/// Node i of the interpolation on [from, to], fractions of a degree.
 template <class Real>
 [[nodiscard]] double node(std::size_t i, double from, double to) noexcept {
   return (from + to) / 2 + (to - from) / 2 * Nodes<Real>::at[i];
 }
 
-/// Fits f(u) on [from, to], parts of a degree.
+/// Fits f(u) on [from, to], fractions of a degree.
 template <class Real, class Function>
 [[nodiscard]] Polynomial<kCoefficients<Real>> fitted(double from, double to, const Function& f) noexcept {
   double u[kCoefficients<Real>];
@@ -82,13 +82,13 @@ template <class Real, class Function>
   return through(u, y);
 }
 
-/// f(angle in rad) within a degree.
+/// Fits f(angle in rad) within a degree.
 template <class Real, class Function>
 [[nodiscard]] Polynomial<kCoefficients<Real>> fitted_at(int degree, const Function& f) noexcept {
   return fitted<Real>(0, 1, [&](double u) { return f((degree + u) * kRadPerDegree); });
 }
 
-/// Fills a curve from f(angle in rad) over a turn; `part` is where a degree's segment lies in its record.
+/// Fills a curve from f(angle in rad) over a turn; `part` is the member of the record that holds the segment.
 template <class Record, class Real, class Function>
 void fill(Revolution<Record>& curve, Segment<Real> Record::*part, const Function& f) noexcept {
   for (int degree = 0; degree < kDegreesPerTurn; ++degree)
@@ -99,7 +99,7 @@ void fill(Curve<Real>& curve, const Function& f) noexcept {
   for (int degree = 0; degree < kDegreesPerTurn; ++degree) curve.at[degree] = rounded<Real>(fitted_at<Real>(degree, f));
 }
 
-/// The same of f, and of its known antiderivative F(angle).
+/// Fills the curve of f and that of its known antiderivative F(angle).
 template <class Record, class Real, class Function, class Antiderivative>
 void fill(Revolution<Record>& curve, IntegralSegment<Real> Record::*integral, Segment<Real> Record::*part,
           const Function& f, const Antiderivative& F) noexcept {
@@ -113,8 +113,8 @@ void fill(Revolution<Record>& curve, IntegralSegment<Real> Record::*integral, Se
   }
 }
 
-/// The unit in which float counts integrals up to `range` in a signed 32-bit count: a power of two, so that multiplying
-/// by it is exact. double keeps the integral itself.
+/// The unit of integrals up to `range` as signed 32-bit counts in float: a power of two, so that a product with it is
+/// exact. double stores the integral itself.
 template <class Real>
 [[nodiscard]] double quantum_for(double range) noexcept {
   if (sizeof(Real) > 4) return 1;

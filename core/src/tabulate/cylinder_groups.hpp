@@ -1,4 +1,4 @@
-// Cylinders in the groups that a tick takes together.
+// Cylinders in the groups that a tick computes together.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace crankloop::detail {
 
-/// `group_of` each cylinder, all less than `groups`.
+/// Sorts cylinders by `group_of`, whose values are less than `groups`.
 [[nodiscard]] inline CylinderGroups grouped(const std::uint8_t (&group_of)[kMaxCylinders], std::uint32_t cylinders,
                                             std::uint32_t groups) noexcept {
   CylinderGroups by{};

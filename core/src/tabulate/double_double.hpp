@@ -1,15 +1,15 @@
-// A number in two doubles, for what a single rounding would take away.
+// Numbers in two doubles, with twice the precision of one.
 //
 // What belongs here: sums, products, quotients and roots of such pairs. What does not: functions (elementary.cpp).
 //
-// Every operation is + - * / or sqrt, as there.
+// Every operation is + - * / or sqrt, as in elementary.cpp.
 #pragma once
 
 #include <cmath>
 
 namespace crankloop::elementary {
 
-/// The unevaluated sum hi + lo, where hi is that sum rounded to double. Operations on pairs are right to about
+/// The unevaluated sum hi + lo, where hi is that sum rounded to double. Operations on pairs are accurate to about
 /// 2^-102.
 struct Pair {
   double hi;

@@ -1,9 +1,9 @@
-// How the elementary functions are made.
+// Implementation of the elementary functions.
 //
-// Speed hardly counts here (set-up time; the last two are for what is called millions of times); sameness and brevity
-// do. So there are only five series: sine and cosine, atan, exp, and atanh for log. Each is a plain Taylor polynomial,
-// whose coefficients are visibly right and whose first dropped term is stated. What rounding would take away where it
-// shows in the result is carried in a second double: hence little over 0.5 ulp.
+// At set-up time equal bits and short code matter more than speed (quick_atan2 and FixedPower are for calls by the
+// million). There are only five series: sine, cosine, atan, exp, and atanh for log. Each is a Taylor polynomial with
+// readable coefficients; its comment states the first dropped term. A second double carries the rounding errors that
+// would show in the result: therefore errors are little over 0.5 ulp.
 //
 // Every operation is + - * / or sqrt, which IEEE 754 rounds in one way only (to nearest), as long as the compiler
 // neither fuses (-ffp-contract=off, a house flag) nor reorders nor widens them (build_check.hpp).
@@ -27,7 +27,8 @@ static_assert(std::numeric_limits<double>::is_iec559 && sizeof(double) == sizeof
               "needs IEEE 754 binary64");
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();  // this one always: the hardware's own differ in sign
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();  // always this one: processors produce NaNs of
+                                                                   // different sign
 
 // ---- Bits -----------------------------------------------------------------------------------------------------------
 
@@ -69,18 +70,18 @@ template <std::size_t I = 0, std::size_t N>
 // ---- Sine and cosine ------------------------------------------------------------------------------------------------
 
 constexpr Pair kHalfPi{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
-constexpr double kHalfPiRest = -0x1.f1976b7ed8fbcp-110;  // pi/2 - kHalfPi; what it leaves is below 2^-163
+constexpr double kHalfPiRest = -0x1.f1976b7ed8fbcp-110;  // pi/2 - kHalfPi; the remainder is below 2^-163
 constexpr double kTwoOverPi = 0x1.45f306dc9c883p-1;
 
 struct Reduced {
   Pair angle;    ///< within pi/4 + 2^-20
-  int quadrant;  ///< of which only the last two bits matter
+  int quadrant;  ///< only the last two bits matter
 };
 
 /// x = quarter_turns pi/2 + angle, x >= 0.
 ///
-/// No double up to 2^31 is nearer than 2^-60.5 to a multiple of pi/2 (all were tried: one beside 29 pi/2 is nearest).
-/// pi/2 to 163 bits, in three doubles, leaves the angle wrong by less than 2^-129, so even there by 2^-68 of itself.
+/// No double up to 2^31 is nearer than 2^-60.5 to a multiple of pi/2 (found by trying all; the nearest is beside 29
+/// pi/2). With pi/2 to 163 bits, in three doubles, the angle's error is below 2^-129, so at most 2^-68 of the angle.
 Reduced reduce(double x) {
   CRANKLOOP_ASSERT(x >= 0);
   if (x > kLargestAngle_rad) return {{0.0, 0.0}, 0};
@@ -93,8 +94,8 @@ Reduced reduce(double x) {
   return {sum(b.hi, ((a.lo + b.lo) - second.lo) - n * kHalfPiRest), static_cast<int>(quarter_turns & 3)};
 }
 
-/// Of an angle within pi/4 and its square. Taylor to r^17; the first dropped term, r^19/19!, is below 2^-62 of the
-/// sine. r - r^3/6 is carried in full.
+/// Sine of an angle r within pi/4, with its square. Taylor to r^17; the first dropped term, r^19/19!, is below 2^-62 of
+/// the sine. r - r^3/6 is carried in full.
 Pair sine_series(Pair r, Pair square) {
   static constexpr double kTerms[] = {
       1.0 / 120.0,        -1.0 / 5040.0,          1.0 / 362880.0,         -1.0 / 39916800.0,
@@ -105,8 +106,8 @@ Pair sine_series(Pair r, Pair square) {
   return quick_sum(head.hi, head.lo + tail);
 }
 
-/// Of the angle's square. Taylor to r^18; the first dropped term, r^20/20!, is below 2^-67 of the cosine. 1 - r^2/2 is
-/// carried in full.
+/// Cosine from the angle's square. Taylor to r^18; the first dropped term, r^20/20!, is below 2^-67 of the cosine. 1 -
+/// r^2/2 is carried in full.
 Pair cosine_series(Pair square) {
   static constexpr double kTerms[] = {
       1.0 / 24.0,        -1.0 / 720.0,         1.0 / 40320.0,          -1.0 / 3628800.0,
@@ -160,12 +161,13 @@ double direction(Pair y, Pair x, bool mirrored) {
   return (mirrored ? add(kHalfPi, angle) : subtract(kHalfPi, angle)).hi;
 }
 
-/// The other short side of a right triangle whose longest is 1, 0 <= x <= 1: sqrt((1 - x)(1 + x)), true near 1 too.
+/// The other leg of a right triangle with hypotenuse 1, 0 <= x <= 1: sqrt((1 - x)(1 + x)), accurate near 1 too.
 Pair other_leg(double x) { return square_root(multiply(sum(1.0, -x), sum(1.0, x))); }
 
 // ---- Exponential and logarithm --------------------------------------------------------------------------------------
 
-constexpr double kLn2Hi = 0x1.62e42fefa3800p-1;   // the first 42 bits of ln 2: times an exponent of 11 bits is exact
+constexpr double kLn2Hi = 0x1.62e42fefa3800p-1;   // the first 42 bits of ln 2: the product with an exponent of 11 bits
+                                                  // is exact
 constexpr double kLn2Lo = 0x1.ef35793c76730p-45;  // the rest, to 2^-98
 constexpr double kOneOverLn2 = 0x1.71547652b82fep+0;
 
@@ -185,7 +187,7 @@ double exponential(Pair x) {
   const Pair square = multiply(r, r);
   const Pair head = add({1.0, 0.0}, add(r, {0.5 * square.hi, 0.5 * square.lo}));
   const double tail = r.hi * square.hi * polynomial(kTerms, r.hi);
-  // 2^k in two halves: 2^1024 is no double, and 2^-1074 would lose the bits that the product still has.
+  // 2^k as a product of two powers: 2^1024 overflows a double, and 2^-1074 would lose bits of the result.
   return quick_sum(head.hi, head.lo + tail).hi * power_of_two(k / 2) * power_of_two(k - k / 2);
 }
 
@@ -305,7 +307,7 @@ double pow(double x, double y) noexcept {
   if (y == 0.0 || x == 1.0) return 1.0;
   if (is_nan(y) || !(x >= 0.0)) return kNaN;
   if (x == 0.0 || x == kInfinity) return (x == 0.0) == (y > 0.0) ? 0.0 : kInfinity;
-  // |ln x| > 2^-54 here, so the largest y that does not yet give 0 or infinity is below 2^64.
+  // |ln x| > 2^-54 here, so any y of 2^64 or more gives 0 or infinity.
   const double bounded = magnitude(y) < 0x1p+64 ? y : flip_sign_if(y < 0.0, 0x1p+64);
   const Pair ln_x = logarithm(x);
   return exponential(add(product(bounded, ln_x.hi), {bounded * ln_x.lo, 0.0}));

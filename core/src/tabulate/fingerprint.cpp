@@ -13,46 +13,46 @@ static_assert(kListsEveryField<Crank> && kListsEveryField<Masses> && kListsEvery
                   kListsEveryField<PortOfTrain> && kListsEveryField<Gas> && kListsEveryField<Friction> &&
                   kListsEveryField<DrivenMachine> && kListsEveryField<Starter> && kListsEveryField<ToothGap> &&
                   kListsEveryField<TriggerWheel>,
-              "a field that its struct's each_field() lacks would be missing in the tables' fingerprint, or in C");
+              "each_field() lists every field, for the tables' fingerprint and for C, and the range of every number");
 static_assert(values_listed<EngineDefinition>() + 2 + kMaxTriggerWheels == values_taken<EngineDefinition>(),
               "all but the gas and the trigger wheels are listed");
 
 namespace {
 
-/// Adds what the tables read: numbers, entries of lists, all of a part.
+/// Adds the fields that the tables depend on: numbers, entries of lists, whole parts.
 struct AddRead {
   Fingerprint& f;
 
   template <class Field>
-  void operator()(int read, const char*, const Field& field) noexcept {
+  void operator()(const ListedField& listed, const Field& field) noexcept {
     if constexpr (std::is_pointer_v<Field> || std::is_array_v<Field>) {
-      for (int i = 0; i < read; ++i) (*this)(1, "", field[i]);
+      for (int i = 0; i < listed.read; ++i) (*this)({1, ""}, field[i]);
     } else if constexpr (std::is_same_v<Field, DiagramPoint> || std::is_same_v<Field, CamPoint>) {
       const auto& [at, value] = field;
       f.add(at), f.add(value);
     } else if constexpr (std::is_class_v<Field>) {
-      if (read > 0) Field::each_field(*this, field);
+      if (listed.read > 0) Field::each_field(*this, field);
     } else if constexpr (std::is_enum_v<Field>) {
-      if (read > 0) f.add(static_cast<int>(field));
+      if (listed.read > 0) f.add(static_cast<int>(field));
     } else {
-      if (read > 0) f.add(field);
+      if (listed.read > 0) f.add(field);
     }
   }
 };
 
-/// A rocker with the defaults for what its kind does not use; all of it counts.
+/// Adds all fields of a rocker, with the default for those that its kind does not use.
 void add_rocker(AddRead& add, const Rocker& rocker) noexcept {
   Rocker used;
-  Rocker::each_field([](int read, const char*, const auto& from, auto& to) { to = read > 0 ? from : to; }, rocker,
-                     used);
-  Rocker::each_field([&add](int, const char*, const auto& field) { add(1, "", field); }, used);
+  Rocker::each_field([](const ListedField& listed, const auto& from, auto& to) { to = listed.read > 0 ? from : to; },
+                     rocker, used);
+  Rocker::each_field([&add](const ListedField&, const auto& field) { add({1, ""}, field); }, used);
 }
 
 }  // namespace
 
 std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& options, const TableReport& report,
                              int scalar_bytes) noexcept {
-  // A part that is added to the definition has to be named here, and then to count.
+  // A new part of the definition must be named here, and then added below.
   const auto& [crank, masses, layout, pressure, train_count, trains, friction, load, starter, trigger_count, triggers,
                gas] = engine;
   Fingerprint f;
@@ -62,12 +62,12 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
   f.add(options.tick_s);
   f.add(report.tolerance_doublings);
   f.add(report.torque_doublings);
-  add(1, "", crank);
-  add(1, "", masses);
+  add({1, ""}, crank);
+  add({1, ""}, masses);
   f.add(layout.cylinders);
   for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
     Layout::each_field(
-        [&f, k](int, const char*, const auto& field) {
+        [&f, k](const ListedField&, const auto& field) {
           if constexpr (!std::is_arithmetic_v<std::remove_reference_t<decltype(field)>>) f.add(+field[k]);
         },
         layout);
@@ -75,34 +75,35 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
   Pressure diagram = pressure;
   if (diagram.source == PressureSource::none || diagram.source == PressureSource::gas) diagram.point_count = 0;
   diagram.wiebe.motored_expansion_exponent = diagram.wiebe.motored_exponent();
-  add(1, "", diagram);
+  add({1, ""}, diagram);
   if (train_count > 0) {
-    add(1, "", options.valves.integrator);
+    add({1, ""}, options.valves.integrator);
     f.add(options.valves.accuracy_m);
     for (int t = 0; t < train_count; ++t) {
       const auto& [cam, rocker, valve] = trains[t];
-      add(1, "", cam);
+      add({1, ""}, cam);
       add_rocker(add, rocker);
-      add(1, "", valve);
+      add({1, ""}, valve);
     }
   }
-  // What came later counts only where there is any of it: engines without have the fingerprint they always had.
+  // Parts of later releases are added only if they are in use: other engines keep the fingerprint of earlier releases.
   if (report.cut_doublings > 0) f.add(report.cut_doublings);
   if (options.max_speed_rad_s != 0) f.add(options.max_speed_rad_s);
+  if (train_count > 0 && options.valves.event_budget != 0) f.add(options.valves.event_budget);
   bool any = false;
-  const auto look = [&any](int, const char*, double x) { any = any || x != 0; };
+  const auto look = [&any](const ListedField&, double x) { any = any || x != 0; };
   Friction::each_field(look, friction);
   DrivenMachine::each_field(look, load);
   Starter::each_field(look, starter);
   if (any) {
-    add(1, "", friction);
-    add(1, "", load);
-    add(1, "", starter);
+    add({1, ""}, friction);
+    add({1, ""}, load);
+    add({1, ""}, starter);
   }
   if (pressure.source == PressureSource::gas) {
     Gas read = gas;
     for (int t = train_count; t < kMaxTrains; ++t) read.ports[t] = {};
-    add(1, "", read);
+    add({1, ""}, read);
     for (int t = 0; t < train_count; ++t) f.add(trains[t].valve.per_cylinder);  // the port's area counts them
   }
   return f.value();

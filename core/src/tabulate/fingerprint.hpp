@@ -1,4 +1,4 @@
-// One number that stands for a definition and a tick length.
+// Hash of a definition and its tick options.
 #pragma once
 
 #include <cstdint>
@@ -31,11 +31,11 @@ class Fingerprint {
   std::uint64_t hash_ = 0xCBF29CE484222325u;
 };
 
-inline constexpr int kTableFormat = 8;  ///< counts up whenever the same definition gives other tables
+inline constexpr int kTableFormat = 8;  ///< incremented whenever the same definition gives other tables
 
-/// Same definition, tick, stepping of the valves, scalar, accuracy of the gas grid and table format: same fingerprint,
-/// whichever sections are built and wherever. Trigger wheels do not count: a state holds nothing of them, so it goes on
-/// with others.
+/// Equal for equal definition, tick, options of the valves' steps, scalar, accuracy of the gas grid and table format,
+/// on every machine and for any choice of sections. Trigger wheels are left out: a state holds nothing of them and
+/// stays valid with others.
 [[nodiscard]] std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& options,
                                            const TableReport& report, int scalar_bytes) noexcept;
 

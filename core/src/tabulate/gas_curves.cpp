@@ -12,24 +12,25 @@ namespace {
 
 constexpr std::size_t kDivisionCount = 5;
 constexpr int kDivisions[kDivisionCount] = {
-    1, 2, 5, 10, 20};  // of a degree; 0.1 deg data has its points on the borders of 10 and 20
+    1, 2, 5, 10, 20};  // segments of a degree; data at 0.1 deg has its points on the borders of 10 and 20
 static_assert(kFinest == kDivisions[kDivisionCount - 1]);
-constexpr double kTolerance = 1e-5;  // of the peak pressure, and of the torque that it has on the crank radius
-constexpr int kMaxDoublings = 20;    // of the tolerance: beyond the peak pressure, so one segment a degree
+constexpr double kTolerance = 1e-5;  // of the peak pressure, and of its torque at a lever of the crank radius
+constexpr int kMaxDoublings = 20;  // of the tolerance: then it exceeds the peak pressure, so one segment per degree is
+                                   // enough
 
 [[nodiscard]] double size(double x) noexcept { return x < 0 ? -x : x; }
 [[nodiscard]] double larger(double a, double b) noexcept { return a < b ? b : a; }
 
-/// How a quantity becomes segments: from its values at which places of a segment, and by what polynomial.
+/// Fit of a segment to a quantity: the angles of its values, and the polynomial.
 template <class Real, class Quantity>
 struct Fit;
 
-/// A pressure goes through both ends, so that the curve has no steps, with the curvature that meets the middle, limited
-/// to what keeps the segment monotone where the diagram is: no overshoot between given points.
+/// A pressure segment passes through both ends, so that the curve has no steps, and through the middle. Where the
+/// diagram is monotone, the curvature is limited so that the segment is too: no overshoot between given points.
 template <class Real>
 struct Fit<Real, CylinderPressure> {
   static constexpr std::size_t kPlaces = kPressurePlaces;
-  static constexpr int kSamplesPerFinest = 3;  // apart from the places, where there is little or no error
+  static constexpr int kSamplesPerFinest = 3;  // between the fitted angles, where the error is small or zero
 
   [[nodiscard]] static double place(std::size_t i, double from, double to) noexcept {
     const double places[kPlaces] = {from, from + 0.25 * (to - from), (from + to) / 2, from + 0.75 * (to - from), to};
@@ -63,7 +64,7 @@ template <class Real>
 struct Fit<Real, EngineTorque> {
   static constexpr std::size_t kPlaces = kCoefficients<Real>;
   static constexpr int kSamplesPerFinest =
-      sizeof(Real) > 4 ? 2 : 3;  // a cubic is off most at its ends and in the middle, a quadratic at thirds
+      sizeof(Real) > 4 ? 2 : 3;  // a cubic has its largest errors at the ends and in the middle, a quadratic at thirds
 
   [[nodiscard]] static double place(std::size_t i, double from, double to) noexcept { return node<Real>(i, from, to); }
   [[nodiscard]] static Polynomial<kCoefficients<Real>> fitted(const double (&places)[kPlaces],
@@ -72,7 +73,7 @@ struct Fit<Real, EngineTorque> {
   }
 };
 
-/// One degree in up to kFinest equal segments of all parts.
+/// One degree in up to kFinest equal segments of all parts (full, motored, heat).
 template <class Real>
 struct Degree {
   int segments;
@@ -104,7 +105,7 @@ template <class Real, class Quantity>
   return result;
 }
 
-/// What a quantity is along one degree, each place computed once: all divisions are judged by the same samples.
+/// Samples of a quantity within one degree, each computed once; all divisions are checked against them.
 template <class Real, class Quantity>
 class Samples {
  public:
@@ -112,7 +113,7 @@ class Samples {
 
   /// Largest error of any of the parts from `first` on.
   [[nodiscard]] double largest_error(const Degree<Real>& divided, Part first) noexcept {
-    const int step = divided.segments == 1 ? kFirstStep : 1;  // most degrees need no division, and no more samples
+    const int step = divided.segments == 1 ? kFirstStep : 1;  // most degrees need no division and so no more samples
     if (step != found_step_) find(step);
     const int per_segment = kCount / divided.segments;
     double largest = 0;
@@ -151,20 +152,20 @@ class Samples {
 
   const Quantity& quantity_;
   int degree_;
-  int found_step_ = 0;  ///< its multiples are there; 0: none
+  int found_step_ = 0;  ///< samples at its multiples exist; 0: none
   AllParts exact_[std::size_t{kCount} + 1];
 };
 
-/// What a grid came to.
+/// Result of choose_grid().
 struct Chosen {
   int segments;
   int doublings;  ///< of the tolerance
-  double error;   ///< largest of those divisions that have a finer one
+  double error;   ///< largest error of degrees that are not divided most finely
 };
 
 /// Divides each degree into the fewest segments that keep the parts from `first` on within the tolerance; the tolerance
-/// is doubled until they all fit. A larger tolerance needs no finer division, so each is judged at most once; and a
-/// quantity that repeats within the cycle has the same errors in each of its periods.
+/// is doubled until they all fit. A larger tolerance never needs a finer division, so each division is checked at most
+/// once. A quantity with a shorter period than the cycle is checked over one period.
 template <class Real, class Quantity>
 [[nodiscard]] Chosen choose_grid(GasGrid& grid, const Quantity& quantity, Part first, int capacity,
                                  double tolerance) noexcept {
@@ -196,8 +197,8 @@ template <class Real, class Quantity>
   return chosen;
 }
 
-/// Calls store(segment index, its parts) for every segment of the grid. Answers the largest error of the finest
-/// division.
+/// Calls store(segment index, its parts) for every segment of the grid. Returns the largest error of the most finely
+/// divided degrees.
 template <class Real, class Quantity, class Store>
 double fill_grid(const GasGrid& grid, const Quantity& quantity, Part first, const Store& store) noexcept {
   double largest = 0;
@@ -220,18 +221,18 @@ void for_each_segment(const GasGrid& grid, const Visit& visit) noexcept {
   }
 }
 
-/// A gas torque and its segments, where the caller wants them.
+/// A gas torque and its segments; null if the caller does not need them.
 template <class Real>
 struct TorqueTarget {
   GasTorque<Real>* torque = nullptr;
   IntegratedSegment<Real>* segments = nullptr;
 };
 
-/// Fills a gas torque from its segments' slopes: their integrals; cannot fail.
+/// Fills a gas torque from its segments' slopes: bases of the integrals, quantum and mean.
 template <class Real>
 void fill_work(const GasGrid& grid, const TorqueTarget<Real>& target) noexcept {
   IntegratedSegment<Real>* segments = target.segments;
-  // The work of a segment is that of its own rounded polynomial, so that work and torque belong together to rounding.
+  // The work of a segment is the integral of its rounded polynomial, so that work and torque agree to rounding.
   const auto work_J = [&](const Segment<Real>& s, double u) {
     double sum = 0;
     for (int i = kCurveDegree<Real>; i >= 0; --i) sum = static_cast<double>(s.c[i]) / (i + 1) + u * sum;
@@ -243,9 +244,9 @@ void fill_work(const GasGrid& grid, const TorqueTarget<Real>& target) noexcept {
     cycle_J += work_J(slope, to) - work_J(slope, from);
   });
   const double mean = cycle_J / kRadPerCycle;
-  // Work less that of the mean torque repeats from cycle to cycle. First its range, then the counts.
-  // The tick adds a segment's integral from the whole degree's start, where a steep segment's polynomial may be far
-  // away: the base is what is missing to it.
+  // Work less that of the mean torque is periodic. The first pass finds its range, the second sets the bases. The tick
+  // integrates a segment from the start of its degree, also where the segment starts later: the base contains the
+  // difference.
   const auto for_each_base = [&](const auto& visit) {
     double done_J = 0;
     for_each_segment(grid, [&](int index, int degree, double from, double to) {
@@ -311,7 +312,7 @@ void fill_torques(const EngineTorque& engine, double peak_Pa, const TableTargets
   report.torque_error_Nm = larger(chosen.error, finest_Nm);
 }
 
-/// What a cylinder that does not fire lacks: the torque of its heat, over its own cycle.
+/// Fills the torque that a cylinder loses when it does not fire: that of its heat, over its own cycle.
 template <class Real>
 void fill_cut(const EngineDefinition& engine, const IndicatorDiagram& diagram, double peak_Pa,
               const TableTargets<Real>& targets, TableReport& report) noexcept {

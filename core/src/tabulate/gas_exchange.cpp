@@ -9,13 +9,14 @@
 #include <crankloop/tabulate/mechanism.hpp>
 #include <crankloop/tick/gas/orifice.hpp>
 
+#include "crank_dynamics.hpp"
 #include "phase_units.hpp"
 #include "rounding.hpp"
 
 namespace crankloop::detail {
 namespace {
 
-/// By straight lines through a definition's rows, beyond the last the last.
+/// Linear interpolation between a definition's rows; constant beyond the last.
 [[nodiscard]] double between_rows(const double* at, const double* value, int count, double x) noexcept {
   for (int i = 1; i < count; ++i) {
     if (x <= at[i]) return value[i - 1] + (value[i] - value[i - 1]) * (x - at[i - 1]) / (at[i] - at[i - 1]);
@@ -27,25 +28,6 @@ namespace {
   constexpr double kShare = 1e-3;
   constexpr double kCold_K = 300;
   return kShare * engine.pressure.crankcase_Pa / (kGasConstant<double> * kCold_K);
-}
-
-[[nodiscard]] GasCylinders<double> cylinders_of(const EngineDefinition& engine) noexcept {
-  const Crank& crank = engine.crank;
-  const Gas& gas = engine.gas;
-  const double area = bore_area_m2(crank);
-  const double swept = swept_volume_m3(crank);
-  GasCylinders<double> c{};
-  c.walls = {130e-4 * gas.wall_heat_ratio, 2 * area, 4 / crank.bore_m, gas.wall_K, mean_piston_speed_m_s(crank, 1)};
-  c.clearance_m3 = clearance_volume_m3(crank);
-  c.bore_area_m2 = area;
-  c.crankcase_Pa = engine.pressure.crankcase_Pa;
-  c.least_kg_m3 = least_kg_m3(engine);
-  c.per_swept_m3 = 1 / swept;
-  c.per_full_charge = kGasConstant<double> * gas.ambient_K / (gas.ambient_Pa * swept);
-  c.ambient_Pa = gas.ambient_Pa;
-  c.ambient_K = gas.ambient_K;
-  c.exhaust_K = gas.exhaust_K;
-  return c;
 }
 
 [[nodiscard]] GasPortCurve<double> port_of(const EngineDefinition& engine, int train) noexcept {
@@ -61,8 +43,8 @@ namespace {
   return curve;
 }
 
-/// How many times a manifold's openings could let its volume through in a tick, at 1000 m/s: that to the outside, and
-/// the valves of as many cylinders as open at a time.
+/// Manifold volumes that can flow through its openings in a tick at 1000 m/s. Openings: the one to the outside, and the
+/// valves of as many cylinders as are open at a time.
 [[nodiscard]] double volumes_in_a_tick(const EngineDefinition& engine, double tick_s, std::uint32_t port) noexcept {
   const Gas& gas = engine.gas;
   double valves_m2 = 0;
@@ -75,7 +57,7 @@ namespace {
   return (outside_m2 + open * valves_m2) * kFlowSpeed_m_s * tick_s / (port == kIntake ? gas.intake_m3 : gas.exhaust_m3);
 }
 
-/// Steps of a tick that a small manifold needs.
+/// Gas steps per tick; more than one for a small manifold.
 [[nodiscard]] std::uint32_t parts_of(const EngineDefinition& engine, double tick_s) noexcept {
   constexpr double kVolumesInAStep = 1.3;
   const double share =
@@ -83,6 +65,34 @@ namespace {
   std::uint32_t parts = 1;
   while (parts < kMaxGasSteps && share > parts * kVolumesInAStep) ++parts;
   return parts;
+}
+
+/// Maximum number of gas steps per tick, for the largest rotation of the crank or a small manifold.
+[[nodiscard]] std::uint32_t max_steps_of(const EngineDefinition& engine, const TickOptions& options) noexcept {
+  const double steps = widest_turn_deg(engine, options) / kGasStep_deg;
+  std::uint32_t parts = parts_of(engine, options.tick_s);
+  while (parts < kMaxGasSteps && steps > parts) ++parts;
+  return parts;
+}
+
+[[nodiscard]] GasCylinders<double> cylinders_of(const EngineDefinition& engine, const TickOptions& options) noexcept {
+  const Crank& crank = engine.crank;
+  const Gas& gas = engine.gas;
+  const double area = bore_area_m2(crank);
+  const double swept = swept_volume_m3(crank);
+  GasCylinders<double> c{};
+  c.walls = {130e-4 * gas.wall_heat_ratio, 2 * area, 4 / crank.bore_m, gas.wall_K, mean_piston_speed_m_s(crank, 1)};
+  c.clearance_m3 = clearance_volume_m3(crank);
+  c.bore_area_m2 = area;
+  c.crankcase_Pa = engine.pressure.crankcase_Pa;
+  c.least_kg_m3 = least_kg_m3(engine);
+  c.per_swept_m3 = 1 / swept;
+  c.per_full_charge = kGasConstant<double> * gas.ambient_K / (gas.ambient_Pa * swept);
+  c.ambient_Pa = gas.ambient_Pa;
+  c.ambient_K = gas.ambient_K;
+  c.exhaust_K = gas.exhaust_K;
+  c.max_steps = max_steps_of(engine, options);
+  return c;
 }
 
 [[nodiscard]] GasManifolds<double> manifolds_of(const EngineDefinition& engine, double tick_s) noexcept {
@@ -115,7 +125,7 @@ namespace {
 [[nodiscard]] BurnTable<double> burn_of(const EngineDefinition& engine) noexcept {
   const Gas& gas = engine.gas;
   const double air = gas.air_fuel_ratio;
-  // Heating values are measured at 25 C, the gas's energies counted from 0 K.
+  // Heating values refer to 25 C, the energies of the gas to 0 K.
   constexpr double kMeasured_K = 298.15;
   BurnTable<double> b{};
   b.latch_phase = phase_units(gas.latch_deg + 720);
@@ -150,22 +160,23 @@ Status validate_manifolds(const EngineDefinition& engine, double tick_s) noexcep
 }
 
 template <class Real>
-void fill_gas_exchange(const EngineDefinition& engine, double tick_s, const TableTargets<Real>& targets) noexcept {
+void fill_gas_exchange(const EngineDefinition& engine, const TickOptions& options,
+                       const TableTargets<Real>& targets) noexcept {
   const bool breathes = engine.pressure.source == PressureSource::gas;
   const auto fill = [breathes, &engine](auto* target, const auto& make) {
     if (target == nullptr) return;
     *target = {};
     if (breathes) round_into(make(engine), *target);
   };
-  fill(targets.gas_cylinders, cylinders_of);
-  fill(targets.gas_manifolds, [tick_s](const EngineDefinition& e) { return manifolds_of(e, tick_s); });
+  fill(targets.gas_cylinders, [&options](const EngineDefinition& e) { return cylinders_of(e, options); });
+  fill(targets.gas_manifolds, [&options](const EngineDefinition& e) { return manifolds_of(e, options.tick_s); });
   fill(targets.burn, burn_of);
   if (targets.gas_ports == nullptr) return;
   for (int t = 0; t < engine.train_count; ++t)
     fill(targets.gas_ports + t, [t](const EngineDefinition& e) { return port_of(e, t); });
 }
 
-template void fill_gas_exchange(const EngineDefinition&, double, const TableTargets<float>&) noexcept;
-template void fill_gas_exchange(const EngineDefinition&, double, const TableTargets<double>&) noexcept;
+template void fill_gas_exchange(const EngineDefinition&, const TickOptions&, const TableTargets<float>&) noexcept;
+template void fill_gas_exchange(const EngineDefinition&, const TickOptions&, const TableTargets<double>&) noexcept;
 
 }  // namespace crankloop::detail

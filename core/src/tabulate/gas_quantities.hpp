@@ -1,6 +1,8 @@
-// What is tabulated of an indicator diagram: pressure of one cylinder, gas torque of all, anywhere in the cycle.
+// The quantities that are tabulated from an indicator diagram: pressure of one cylinder, gas torque of all, at any
+// angle.
 //
-// What belongs here: their exact values at the places of a degree. What does not: grids and curves (gas_curves.cpp).
+// What belongs here: their exact values at several angles of a degree. What does not: grids and curves
+// (gas_curves.cpp).
 #pragma once
 
 #include <array>
@@ -14,14 +16,14 @@ namespace crankloop::detail {
 
 inline constexpr int kFinest = 20;  ///< segments of a degree
 
-/// What the curves that share a grid are at one angle: pressures in Pa or torques in Nm, in this order everywhere.
+/// Values of the curves that share a grid at one angle: pressures in Pa or torques in Nm, in this order everywhere.
 enum Part { kFull, kMotored, kHeat };
 inline constexpr int kParts = 3;
 using AllParts = std::array<double, kParts>;
 
 inline constexpr std::size_t kPressurePlaces = 5;  // of a segment: ends and quarters
 
-/// Places within one degree, as parts of it, and what is found there.
+/// Angles within one degree, as fractions of it, and the values there.
 struct Places {
   static constexpr std::size_t kMax = kFinest * kPressurePlaces;
   std::size_t count = 0;
@@ -69,8 +71,8 @@ class EngineTorque {
     }
   }
 
-  /// Cylinder by cylinder, so that each passes the degree from row to row. No sine is worked out for a place of a
-  /// cylinder: they are sums.
+  /// The outer loop is over cylinders, so that each goes through the diagram's rows in order. Addition theorems give
+  /// the sines of a cylinder's angles.
   void find(int degree, Places& places) const noexcept {
     const elementary::SinCos start = elementary::sin_cos(degree * kRadPerDegree);
     elementary::SinCos engine_angles[Places::kMax];
@@ -89,13 +91,13 @@ class EngineTorque {
         AllParts& sum = places.found[i];
         sum[kFull] += (p.full_Pa - back_Pa) * lever_m3;
         sum[kMotored] += (p.motored_Pa - back_Pa) * lever_m3;
-        sum[kHeat] += p.heat_Pa * lever_m3;  // the heat comes on top of the motored pressure
+        sum[kHeat] += p.heat_Pa * lever_m3;  // the heat adds to the motored pressure
       }
     }
   }
 
-  /// Whole degrees after which the torque repeats, because each cylinder then stands where another stood: 720 /
-  /// cylinders of an evenly firing engine, if that is a whole number.
+  /// Period of the torque in whole degrees, after which the cylinders have exchanged their angles: 720 / cylinders of
+  /// an evenly firing engine, if that is a whole number.
   [[nodiscard]] int period_deg() const noexcept {
     for (int deg = 1; deg < kDegreesPerCycle; ++deg) {
       if (kDegreesPerCycle % deg == 0 && repeats_after(deg)) return deg;
@@ -103,7 +105,7 @@ class EngineTorque {
     return kDegreesPerCycle;
   }
 
-  /// Of a pressure on one piston, with the crank radius as its lever.
+  /// Torque of a pressure on one piston at a lever of the crank radius.
   [[nodiscard]] double scale_Nm(double pressure_Pa) const noexcept {
     return pressure_Pa * area_m2_ * engine_.crank.crank_radius_m;
   }
@@ -128,7 +130,7 @@ class EngineTorque {
   const IndicatorDiagram& diagram_;
   ExactStroke stroke_;
   double area_m2_;
-  elementary::SinCos phases_[kMaxCylinders];  ///< of each cylinder behind the engine
+  elementary::SinCos phases_[kMaxCylinders];  ///< of each cylinder relative to the engine
 };
 
 }  // namespace crankloop::detail

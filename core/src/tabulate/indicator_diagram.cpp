@@ -19,7 +19,7 @@ namespace {
 constexpr double kDegPerRad = 180 / kPi;
 constexpr double kMotoredExhaustRampDeg = 10;
 
-/// An angle reduced to [0, 720); 0 for one beyond 1e9 deg or that is no number.
+/// An angle reduced to [0, 720); 0 for angles beyond 1e9 deg and NaN.
 [[nodiscard]] inline double into_cycle(double deg) noexcept {
   if (deg >= 0 && deg < 720) return deg;
   if (!(deg > -1e9 && deg < 1e9)) return 0;
@@ -62,9 +62,9 @@ Status IndicatorDiagram::init_source() noexcept {
   return {};
 }
 
-/// Rows have been checked and the curve stays between them: only a synthesised diagram can be refused here.
+/// Rows are checked and the curve stays within their range, so only a synthesised diagram can be refused here.
 Status IndicatorDiagram::find_peak() noexcept {
-  const auto too_high = [](double p) { return !(p <= kMaxPressure_Pa); };  // also where it is no number
+  const auto too_high = [](double p) { return !(p <= kMaxPressure_Pa); };  // true for NaN too
   for (int i = 0; i < 10 * 720; ++i) {
     const double deg = i / 10.0;
     const double p = full_Pa(deg);
@@ -96,7 +96,7 @@ IndicatorDiagram::Pressures IndicatorDiagram::pressures(double crank_deg, double
   return pressures_where(crank_deg, [&] { return displacement_m; });
 }
 
-/// Asks for the piston's displacement only where it is needed.
+/// Computes the piston's displacement only where it is needed.
 template <class Displacement>
 IndicatorDiagram::Pressures IndicatorDiagram::pressures_where(double crank_deg,
                                                               const Displacement& displacement_m) const noexcept {
@@ -151,7 +151,7 @@ Status IndicatorDiagram::init_volumes() noexcept {
     if (points[i].at == points[i - 1].at) return refused(Reason::not_a_cycle, i);
     const bool rising = points[i].at > points[i - 1].at;
     if (rising == (stroke % 2 == 0)) continue;
-    // The volume turns round: that must be at a dead centre.
+    // The volume reverses: that must be at a dead centre.
     const double turn = clearance_m3_ + (stroke % 2 == 0 ? swept : 0);
     const double off = points[i - 1].at - turn;
     if (++stroke > 3 || off > volume_tolerance || off < -volume_tolerance) return refused(Reason::not_a_cycle, i);
@@ -188,7 +188,7 @@ void IndicatorDiagram::init_motored() noexcept {
       motored_expansion_Pa(bdc_deg_, exact_stroke(crank_, bdc_deg_ * detail::kRadPerDegree).displacement_m);
 }
 
-/// Row i with its angle; rows go round: row(-1) is the last one, a cycle earlier.
+/// Row i with its angle. Rows are periodic: row(-1) is the last row, a cycle earlier.
 IndicatorDiagram::Row IndicatorDiagram::row(int i) const noexcept {
   double turn_deg = 0;
   if (i < 0) i += rows_, turn_deg = -720;
@@ -208,7 +208,7 @@ double IndicatorDiagram::volume_row_deg(int i) const noexcept {
 /// The last row at or before an angle that lies in [first row, first row + 720).
 int IndicatorDiagram::row_before(double at_deg) const noexcept {
   const auto last_in = [](int low, int high,
-                          const auto& is_before) {  // of low to high - 1, low if it is none of those after it
+                          const auto& is_before) {  // the last of low to high - 1 that is before, else low
     CRANKLOOP_ASSERT(low >= 0);
     while (high - low > 1) {
       const int middle = low + (high - low) / 2;
@@ -220,7 +220,7 @@ int IndicatorDiagram::row_before(double at_deg) const noexcept {
   if (pressure_.source == PressureSource::angle_table)
     return last_in(0, rows_, [&](int i) { return points[i].at <= at_deg; });
   if (rows_kept_) return last_in(0, rows_, [&](int i) { return row_deg_[i] <= at_deg; });
-  // Volumes rise or fall within a stroke, and one volume takes far less than an angle for each row on the way.
+  // Within a stroke volumes are monotone, and one volume costs far less than an angle for each row of the search.
   const double turns_deg[] = {bdc_deg_, tdc_deg_ + 360, bdc_deg_ + 360};
   int stroke = 0;
   while (stroke < 3 && at_deg >= turns_deg[stroke]) ++stroke;
@@ -239,7 +239,7 @@ IndicatorDiagram::Interval IndicatorDiagram::interval_around(double at_deg) cons
   int before = row_before(at_deg);
   detail::Point from = point(before);
   detail::Point to = point(before + 1);
-  // The angles decide: rounding of a volume may have put a row on the other side.
+  // Correct the search by angles: rounding of the volume may have chosen a neighbouring row.
   while (before > 0 && from.x > at_deg) to = from, from = point(--before);
   while (before + 1 < rows_ && to.x <= at_deg) from = to, to = point(++before + 1);
   Interval interval{from.x, to.x, {}};
@@ -255,8 +255,8 @@ double IndicatorDiagram::table_Pa(double crank_deg) const noexcept {
   return detail::cubic_value(interval.c, (at_deg - interval.from_deg) / (interval.to_deg - interval.from_deg));
 }
 
-/// Without combustion the expansion retraces the compression, volume for volume, less the loss, and the exhaust stroke
-/// has no blow-down. `fired_Pa` is the table's pressure at the angle.
+/// Without combustion the expansion has the compression's pressure at equal volume, less the loss, and the exhaust
+/// stroke has no blow-down. `fired_Pa` is the table's pressure at the angle.
 template <class Displacement>
 double IndicatorDiagram::table_motored_Pa(double crank_deg, const Displacement& displacement_m,
                                           double fired_Pa) const noexcept {
@@ -272,7 +272,7 @@ double IndicatorDiagram::table_motored_Pa(double crank_deg, const Displacement& 
   return motored_bottom_Pa_ + ramp * (exhaust - motored_bottom_Pa_);
 }
 
-/// On the way down from firing top dead centre.
+/// Motored pressure in the expansion stroke.
 double IndicatorDiagram::motored_expansion_Pa(double crank_deg, double displacement_m) const noexcept {
   const double compression_deg =
       crank_angle_up_rad(crank_, crank_deg * detail::kRadPerDegree, displacement_m) * kDegPerRad + 360;

@@ -20,7 +20,7 @@ constexpr double kBlowDown = 5;             // e-foldings of the blow-down from 
   return kWiebeEfficiency * (m + 1) * s_m * elementary::exp(-kWiebeEfficiency * s_m * s);
 }
 
-/// The blow-down's course: 1 at exhaust opening, 0 at bottom dead centre.
+/// Relative pressure in the blow-down: 1 at exhaust opening, 0 at bottom dead centre.
 [[nodiscard]] double blow_down(double from_opening_ratio) noexcept {
   const double rest = elementary::exp(-kBlowDown);
   return (elementary::exp(-kBlowDown * from_opening_ratio) - rest) / (1 - rest);
@@ -46,7 +46,7 @@ Status IndicatorDiagram::init_wiebe() noexcept {
     fired_ = heat_J_ > 0 ? 1 : 0;
     return {};
   }
-  // The loop integral is linear in the heat: two of them give the heat for the mean effective pressure.
+  // The loop integral is linear in the heat: two integrals give the heat for the mean effective pressure.
   const auto loop_J = [this](const auto& pressure_Pa) {
     return detail::integrate(
         0, 720, 7200, [&](double deg) { return pressure_Pa(deg) * area_m2_ * slope_m(deg) * detail::kRadPerDegree; });
@@ -57,7 +57,7 @@ Status IndicatorDiagram::init_wiebe() noexcept {
   heat_J_ = (asked_J - polytropes_J) / loop_J([this](double deg) { return released_Pa(deg); });
   fired_ = 1;
   if (heat_J_ >= 0) return {};
-  // The polytropes alone do more: the requested value lies between them and the motored diagram.
+  // The polytropes alone give more: the requested value lies between them and the motored diagram.
   const double motored_J = loop_J([this](double deg) { return unfired_Pa(motored_, deg); });
   heat_J_ = 0;
   fired_ = (asked_J - motored_J) / (polytropes_J - motored_J);
@@ -78,15 +78,15 @@ double IndicatorDiagram::Unfired::expanded_Pa(double volume_m3) const noexcept {
   return from_Pa * elementary::pow(from_m3 / volume_m3, exponent);
 }
 
-/// Integral of V^(n2 - 1) dx_b from the start of combustion. Panels are equal in the cube root u of its part s: s^m ds
-/// is smooth in u for any m.
+/// Integral of V^(n2 - 1) dx_b from the start of combustion. Panels are equal in the cube root u of the fraction s of
+/// the duration: s^m ds is smooth in u for any m.
 double IndicatorDiagram::burn_integral(double since_start_deg) const noexcept {
   const double part = since_start_deg / pressure_.wiebe.combustion_duration_deg;
   if (part <= 0) return 0;
   if (part >= 1) return burnt_[kBurnPanels];
   const double u = elementary::pow(part, 1.0 / 3);
   const int panel = static_cast<int>(u * kBurnPanels);
-  CRANKLOOP_ASSERT(panel >= 0 && panel <= kBurnPanels);  // a root that rounds to 1 has a last panel of no width
+  CRANKLOOP_ASSERT(panel >= 0 && panel <= kBurnPanels);  // if the root rounds to 1, the last panel has no width
   return burnt_[panel] + burn_panel(static_cast<double>(panel) / kBurnPanels, u);
 }
 

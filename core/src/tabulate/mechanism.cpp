@@ -66,8 +66,7 @@ Pose<double> second_order_pose(const Crank& crank, double crank_rad) noexcept {
 }
 
 double crank_angle_rad(const Crank& crank, double displacement_m, bool downward) noexcept {
-  // Triangle crank centre - crank pin - piston pin: the side from the centre to the piston pin is known, so is every
-  // angle.
+  // Triangle of crank centre, crank pin and piston pin: all sides are known, so all angles are.
   const double r = crank.crank_radius_m;
   const double l = crank.rod_length_m;
   const double e = crank.pin_offset_m;
@@ -158,8 +157,8 @@ Extremes extremes(const Crank& crank, PoseMember quantity, PoseFunction pose) no
   }
   const auto sharpen = [&](const Extreme& coarse, double sign) {
     Extreme fine = refine(crank, quantity, pose, sign, coarse.at_rad - kStep, coarse.at_rad + kStep);
-    // A smooth extreme is flat: the search finds its angle to the square root of rounding only, so a whole degree that
-    // is as good wins.
+    // A smooth extreme is flat: the search finds its angle only to the square root of rounding, so prefer a whole
+    // degree with an equal value.
     if (sign * fine.value <= sign * coarse.value) fine = coarse;
     if (fine.at_rad < 0) fine.at_rad += 2 * kPi;
     if (fine.at_rad >= 2 * kPi) fine.at_rad -= 2 * kPi;

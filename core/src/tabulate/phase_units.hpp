@@ -1,11 +1,11 @@
-// Degrees as phase units.
+// Conversion of degrees to phase units.
 #pragma once
 
 #include <cstdint>
 
 namespace crankloop::detail {
 
-/// An angle in degrees, in [0, 720), as phase units, to the last bit of its division by 720.
+/// Converts an angle in degrees, in [0, 720), to phase units, exactly but for the rounding of deg / 720.
 [[nodiscard]] inline std::uint64_t phase_units(double deg) noexcept {
   constexpr double kTwoTo32 = 4294967296.0;
   const double words = deg / 720 * kTwoTo32;

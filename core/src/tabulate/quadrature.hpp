@@ -19,7 +19,7 @@ template <class Function>
                  kWeightOuter * (f(middle - kOuter * half) + f(middle + kOuter * half)));
 }
 
-/// Integral over [low, high] in equal panels.
+/// Integral over [low, high], by gauss5() in equal panels.
 template <class Function>
 [[nodiscard]] double integrate(double low, double high, int panels, const Function& f) noexcept {
   CRANKLOOP_ASSERT(panels >= 1);

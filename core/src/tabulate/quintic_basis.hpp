@@ -5,7 +5,7 @@ namespace crankloop::detail {
 
 inline constexpr int kBasis = 6;
 
-/// Values, and derivatives by the fraction of the segment; the oldest function, which ends with this segment, first.
+/// Values, and derivatives by the fraction of the segment; first the function that ends with this segment.
 struct QuinticBasis {
   double value[kBasis];
   double slope[kBasis];

@@ -1,4 +1,4 @@
-// A record of the tables from double to the tick's scalar.
+// Conversion of a table record from double to the tick's scalar.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ void round_members(const From& from, const To& to, std::index_sequence<I...>) no
   (round_into(std::get<I>(from), std::get<I>(to)), ...);
 }
 
-/// Every member rounded; integers as they are.
+/// Rounds every member; copies integers.
 template <class From, class To>
 void round_into(const From& from, To& to) noexcept {
   if constexpr (std::is_arithmetic_v<From>) {

@@ -12,7 +12,7 @@ using namespace detail;
 using elementary::kPi;
 
 namespace {
-constexpr double kNoMean = 1e-9;  // of the torque's range: below it the mean is rounding
+constexpr double kNoMean = 1e-9;  // of the torque's range: a smaller mean is a rounding error
 }  // namespace
 
 Body<double> body_of(const EngineDefinition& engine) noexcept {
@@ -95,7 +95,7 @@ void add_torques(CycleSummary& s, int samples, TorqueAt torque_Nm, const void* o
     const double torque = torque_Nm(of, deg);
     if (i == 0 || torque > s.largest_torque_Nm) s.largest_torque_Nm = torque, s.largest_torque_deg = deg;
     if (i == 0 || torque < s.smallest_torque_Nm) s.smallest_torque_Nm = torque, s.smallest_torque_deg = deg;
-    // cos and sin of multiples of half the angle, by rotation: 24 orders from one pair.
+    // cos and sin of multiples of half the angle by rotation: all orders from one pair.
     const double c1 = elementary::cos(deg / 2 * detail::kRadPerDegree);
     const double s1 = elementary::sin(deg / 2 * detail::kRadPerDegree);
     double c = c1;
@@ -137,7 +137,7 @@ CycleSummary summarise(const ExactEngine& engine, double speed_rad_s, double loa
   const double closed_J = loop_J(bdc_deg - 360, bdc_deg);
   s.gross_mep_Pa = closed_J / swept;
   s.net_mep_Pa = (closed_J + loop_J(bdc_deg, bdc_deg + 360)) / swept;
-  // Inertia does no work over a cycle, so the mean torque is the gas's.
+  // Inertia does no work over a cycle, so the mean torque is that of the gas.
   s.mean_torque_Nm = s.net_mep_Pa * swept * definition.layout.cylinders / (4 * kPi);
   s.power_W = s.mean_torque_Nm * speed_rad_s;
   s.brake = brake_figures(definition, s.mean_torque_Nm, speed_rad_s);

@@ -63,7 +63,7 @@ void fill_drive(const EngineDefinition& engine, const TickOptions& options, Driv
   drive.by_mechanism = detail::grouped(drive.mechanism_of, drive.cylinders, drive.mechanisms);
 }
 
-/// The gas sections belong together.
+/// Refuses targets that lack a section which another of them needs.
 template <class Real>
 [[nodiscard]] Status validate(const TableTargets<Real>& t) noexcept {
   const bool pressure = t.pressure_full != nullptr || t.pressure_motored != nullptr || t.pressure_heat != nullptr;
@@ -114,8 +114,8 @@ void fill_mechanism(const EngineDefinition& engine, const TableTargets<Real>& t)
   }
   if (t.rod_curvature != nullptr) detail::fill(*t.rod_curvature, quantity(&Pose<double>::rod_curvature));
   if (t.inertia_torque != nullptr) {
-    // Kinetic energy of piston and rod beyond the big end is 1/2 w^2 (m_j x'^2 + dI b'^2); the torque takes it from the
-    // crank.
+    // The kinetic energy of piston and rod without the big end is 1/2 w^2 (m_j x'^2 + dI b'^2); the torque on the crank
+    // is minus its derivative.
     const double m = engine.masses.reciprocating_kg();
     const double inertia = engine.masses.rod_inertia_correction_kg_m2;
     const auto of_all = [&](double angle, const auto& of_one) {
@@ -171,8 +171,8 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
   }
   fill_mechanism(engine, targets);
   detail::fill_gas(engine, diagram, targets, found);
-  detail::fill_gas_exchange(engine, options.tick_s, targets);
-  detail::fill_triggers(engine, targets);
+  detail::fill_gas_exchange(engine, options, targets);
+  detail::fill_triggers(engine, options, targets);
   if (targets.drive != nullptr) {
     fill_drive(engine, options, *targets.drive);
     targets.drive->fingerprint = detail::fingerprint_of(engine, options, found, static_cast<int>(sizeof(Real)));

@@ -2,19 +2,20 @@
 
 #include <cstddef>
 
+#include "crank_dynamics.hpp"
 #include "phase_units.hpp"
 
 namespace crankloop::detail {
 namespace {
 
-/// A part of a turn, 0 to below 1, to the nearest of 2^32 equal parts. The rules keep edges too far apart for two to
-/// become one, or for the last to become a whole turn.
+/// A fraction of a turn, 0 to below 1, rounded to the nearest of 2^32 equal parts. Validated edges are so far apart
+/// that no two become equal and the last does not become a whole turn.
 [[nodiscard]] std::uint32_t turn_units(double turns) noexcept {
   CRANKLOOP_ASSERT(turns >= 0 && turns * 4294967296.0 + 0.5 < 4294967296.0);
   return static_cast<std::uint32_t>(turns * 4294967296.0 + 0.5);
 }
 
-/// Angles of a wheel's edges, the first at 0; answers their number.
+/// Fills the angles of a wheel's edges, the first at 0; returns their number.
 std::uint32_t fill_edges(const TriggerWheel& wheel, std::uint32_t* edges) noexcept {
   std::uint32_t count = 0;
   if (wheel.pattern == TriggerPattern::edges) {
@@ -50,10 +51,39 @@ void fill_parts(TriggerTrack& track) noexcept {
   track.edges_before[kTriggerParts] = static_cast<std::uint16_t>(track.edge_count);
 }
 
+/// Maximum number of edges that the wheel passes when it turns by `turns`, one end excluded.
+[[nodiscard]] std::uint32_t max_edges_in(const TriggerTrack& track, double turns) noexcept {
+  if (turns >= 1) return track.edge_count;
+  const double units = turns * 4294967296.0;
+  std::uint32_t most = 1;
+  std::uint32_t behind =
+      0;  // the first edge less than `units` behind the last; an index of edge_count or more is one turn later
+  for (std::uint32_t last = 0; last < 2 * track.edge_count; ++last) {
+    const auto place = [&track](std::uint32_t edge) {
+      const bool next_turn = edge >= track.edge_count;
+      return static_cast<double>(track.edges[next_turn ? edge - track.edge_count : edge]) +
+             (next_turn ? 4294967296.0 : 0);
+    };
+    while (place(last) - place(behind) >= units) ++behind;
+    if (last - behind + 1 > most) most = last - behind + 1;
+  }
+  return most;
+}
+
+/// Largest rotation of a wheel in a tick, in turns of the wheel: crank and phaser together.
+[[nodiscard]] double widest_turns(const EngineDefinition& engine, const TickOptions& options,
+                                  const TriggerWheel& wheel) noexcept {
+  const double crank_deg = widest_turn_deg(engine, options);
+  const bool phased = wheel.train >= 0 && wheel.train < engine.train_count;
+  const double phaser_deg = phased ? engine.trains[wheel.train].cam.phase_rate_deg_s * options.tick_s : 0;
+  return wheel.shaft == TriggerShaft::crank ? crank_deg / kDegreesPerTurn : (crank_deg + phaser_deg) / kDegreesPerCycle;
+}
+
 }  // namespace
 
 template <class Real>
-void fill_triggers(const EngineDefinition& engine, const TableTargets<Real>& targets) noexcept {
+void fill_triggers(const EngineDefinition& engine, const TickOptions& options,
+                   const TableTargets<Real>& targets) noexcept {
   if (targets.triggers == nullptr) return;
   const auto count = static_cast<std::uint32_t>(engine.trigger_count);
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -69,11 +99,12 @@ void fill_triggers(const EngineDefinition& engine, const TableTargets<Real>& tar
     track.train = wheel.train >= 0 ? static_cast<std::uint32_t>(wheel.train) : kNoTrain;
     track.inverted = wheel.inverted ? 1 : 0;
     fill_parts(track);
+    track.max_edges = max_edges_in(track, widest_turns(engine, options, wheel));
   }
   *targets.triggers = {targets.trigger_tracks, count};
 }
 
-template void fill_triggers(const EngineDefinition&, const TableTargets<float>&) noexcept;
-template void fill_triggers(const EngineDefinition&, const TableTargets<double>&) noexcept;
+template void fill_triggers(const EngineDefinition&, const TickOptions&, const TableTargets<float>&) noexcept;
+template void fill_triggers(const EngineDefinition&, const TickOptions&, const TableTargets<double>&) noexcept;
 
 }  // namespace crankloop::detail

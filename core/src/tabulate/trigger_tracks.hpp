@@ -5,8 +5,9 @@
 
 namespace crankloop::detail {
 
-/// Fills the trigger targets that are there, from a valid definition.
+/// Fills the trigger targets that are not null, from a valid definition.
 template <class Real>
-void fill_triggers(const EngineDefinition& engine, const TableTargets<Real>& targets) noexcept;
+void fill_triggers(const EngineDefinition& engine, const TickOptions& options,
+                   const TableTargets<Real>& targets) noexcept;
 
 }  // namespace crankloop::detail

@@ -25,7 +25,7 @@ struct Knot {
   return {pose.lift_m, pose.per_rad_m * kRadPerDegree, pose.per_rad2_m * (kRadPerDegree * kRadPerDegree)};
 }
 
-/// Degrees of the lobe, the last one perhaps only begun.
+/// Degrees of the lobe, including a fraction at its end.
 [[nodiscard]] int lobe_degrees(const ValveLift& lift) noexcept {
   const double degrees = (lift.closes_rad() - lift.opens_rad()) / kRadPerDegree;
   const int whole = static_cast<int>(degrees);
@@ -33,7 +33,7 @@ struct Knot {
   return begun < kDegreesPerTurn ? begun : kDegreesPerTurn;
 }
 
-/// One degree of the lift, Y(u) = c[0] + u (c[1] + ...): through lift, slope and curvature at its ends.
+/// One degree of the lift, Y(u) = c[0] + u (c[1] + ...), with the lift's values, slopes and curvatures at both ends.
 struct DegreeQuintic {
   double c[6];
 
@@ -57,8 +57,8 @@ struct DegreeQuintic {
   [[nodiscard]] double fourth_derivative(double u) const noexcept { return 24 * c[4] + 120 * c[5] * u; }
 };
 
-/// Cam degrees over which the cubic through a step's ends misses the lift by at most a tenth of the accuracy, h^4 / 384
-/// times its largest fourth derivative.
+/// Cam degrees over which the error of the cubic through a step's ends, h^4 / 384 times the lift's largest fourth
+/// derivative, is at most a tenth of the accuracy.
 [[nodiscard]] double tenth_of_class_deg(const ValveLift& lift, double accuracy_m) noexcept {
   double largest = 0;
   for (int i = 0; i < lobe_degrees(lift); ++i) {
@@ -73,8 +73,9 @@ struct DegreeQuintic {
   return square_root(square_root(allowed / largest));
 }
 
-/// The cubic misses as much as the class at 1.78 times that width. Up to 3 times it, where it would miss 8 classes, the
-/// quintic through the middle too keeps the class: docs/decisions/0014-valve-records.md has the figures.
+/// The cubic's error reaches the accuracy class at 1.78 times that width. With the lift in the middle of the step the
+/// error stays within the class up to 3 times the width, where the cubic's would be 8 classes:
+/// docs/decisions/0014-valve-records.md has the figures.
 void set_widths(double tenth_of_class_deg, ValveMotion<double>& motion) noexcept {
   const auto times = [&](double ratio) {
     const double deg = ratio * tenth_of_class_deg;
@@ -84,9 +85,9 @@ void set_widths(double tenth_of_class_deg, ValveMotion<double>& motion) noexcept
   motion.widest_step_deg = times(3);
 }
 
-/// Whether the lift comes near enough in a degree to touch a closed valve.
+/// Whether the train can touch a closed valve in a degree.
 [[nodiscard]] bool touches(const DegreeQuintic& quintic) noexcept {
-  constexpr int kLooks = 16;  // the cam is smooth: what it rises between two looks is far below the degrees to spare
+  constexpr int kLooks = 16;  // the cam is smooth: its rise between two samples is small against the margin of a degree
   for (int look = 0; look <= kLooks; ++look) {
     if (quintic.value(static_cast<double>(look) / kLooks) > -kLeastLash) return true;
   }
@@ -113,24 +114,23 @@ void fill_lift(const Cam& cam, const Rocker& rocker, const Layout& layout, const
   if (degrees < kDegreesPerTurn) {
     segments[degrees] = {{static_cast<Real>(-rocker.clearance_m)}};
     ratios[degrees] = {};
-    ratios[degrees].c[0] = static_cast<Real>(lift.at(angle(degrees + 1)).rocker_ratio);  // the base circle's
+    ratios[degrees].c[0] = static_cast<Real>(lift.at(angle(degrees + 1)).rocker_ratio);  // on the base circle
   }
   curve.at = segments;
   curve.rocker_ratio = ratios;
-  // A cam turns 360 deg in the engine's 720: the phase of full lift less the lobe's rise.
+  // A cam turns 360 deg in the engine's 720. opens_rad() is the start of the lobe relative to full lift.
   double opens_deg = cam.full_lift_deg + 2 * lift.opens_rad() / kRadPerDegree;
   while (opens_deg < 0) opens_deg += kDegreesPerCycle;
   while (opens_deg >= kDegreesPerCycle) opens_deg -= kDegreesPerCycle;
   for (int k = 0; k < kMaxCylinders; ++k) {
     const auto i = static_cast<std::size_t>(k);
     curve.opens[i] = k < layout.cylinders ? phase_units(layout.firing_deg[i]) + phase_units(opens_deg) : 0;
-    if constexpr (sizeof(Real) == 4)
-      curve.opens[i] =
-          (curve.opens[i] + 0x8000'0000u) >> 32 << 32;  // 8e-8 cam degrees: so a tick need not read its low word
+    // float rounds by 8e-8 cam degrees, so that a tick need not read the low word.
+    if constexpr (sizeof(Real) == 4) curve.opens[i] = (curve.opens[i] + 0x8000'0000u) >> 32 << 32;
   }
-  first = first > 0 ? first - 1 : 0;  // a degree to spare at either end
+  first = first > 0 ? first - 1 : 0;  // a margin of one degree at either end
   last = last + 1 < degrees ? last + 1 : degrees - 1;
-  if (rocker.clearance_m < kLeastLash) first = 0, last = kDegreesPerTurn - 1;  // also where the lobe is not
+  if (rocker.clearance_m < kLeastLash) first = 0, last = kDegreesPerTurn - 1;  // on the base circle too
   curve.touch_from = static_cast<std::uint32_t>(first);
   curve.touch_degrees = static_cast<std::uint32_t>(last >= first ? last - first + 1 : 0);
   curve.skip_deg =
@@ -138,11 +138,11 @@ void fill_lift(const Cam& cam, const Rocker& rocker, const Layout& layout, const
   const double most_deg = cam.phase_rate_deg_s * tick_s;
   curve.most_phase_per_tick = most_deg < kDegreesPerTurn ? phase_units(most_deg) : phase_units(kDegreesPerTurn);
   curve.segments = static_cast<std::uint32_t>(degrees);
-  curve.outside_m = static_cast<Real>(0 - rocker.clearance_m);  // not -0, which its row of the lift does not give
+  curve.outside_m = static_cast<Real>(0 - rocker.clearance_m);  // not -0: the table's row gives +0
 }
 
-/// Sets the bits of degrees in which the train's cams may stand while a cylinder's cam is in some degrees of its own
-/// turn, `from` counted from where the lobe opens. One degree more, for a lobe opens anywhere within one.
+/// Marks the degrees of the train's cam angle in which a cylinder's cam may be in a range of its own turn, `from`
+/// counted from the start of its lobe. One degree more, because a lobe may start anywhere within a degree.
 template <class Real>
 void mark(const LiftCurve<Real>& curve, int cylinders, std::uint32_t from, std::uint32_t degrees,
           CamDegrees& to) noexcept {
@@ -186,7 +186,6 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
   };
   ValveMotion<double> motions[kMaxTrains];
   int fine_steps = 0;
-  std::uint32_t most_parts = 0;
   double class_deg = kDegreesPerTurn;
   for (int t = 0; t < engine.train_count; ++t) {
     const ValveTrain& train = engine.trains[t];
@@ -202,25 +201,33 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
     find_decoupled(motions[t], train.rocker.clearance_m);
     fine_steps += static_cast<int>(motions[t].parts) * engine.layout.cylinders;
     if (fine_steps > kMaxFineStepsOfEngine) return refuse("options.tick_s", Reason::out_of_range, t);
-    if (motions[t].parts > most_parts) most_parts = motions[t].parts;
+    if (options.valves.event_budget != 0 &&
+        options.valves.event_budget < static_cast<int>(motions[t].parts + kUnitsOfEvent))
+      return refuse("options.valves.event_budget", Reason::out_of_range, t);
     const double keeps_deg = motions[t].cubic_deg * motions[t].parts;
     if (keeps_deg < class_deg) class_deg = keeps_deg;
   }
   report.valve_fine_steps = fine_steps;
   report.valve_class_deg = targets.valve_motions != nullptr ? class_deg : 0;
-  report.valve_changes = targets.valve_motions != nullptr ? static_cast<int>(kEventsBesideParts + most_parts) : 0;
+  std::uint32_t event_budget = 0;
+  const int valves = engine.train_count * engine.layout.cylinders;
+  if (targets.valve_motions != nullptr && engine.train_count > 0) {
+    event_budget = options.valves.event_budget != 0 ? static_cast<std::uint32_t>(options.valves.event_budget)
+                                                    : usual_event_budget(fine_steps, valves);
+  }
+  report.event_budget = static_cast<int>(event_budget);
   for (int t = 0; t < engine.train_count; ++t) {
     const ValveTrain& train = engine.trains[t];
     if (targets.lift_curves != nullptr) {
       ValveLift lift;
-      static_cast<void>(lift.init(train.cam, train.rocker));  // it was accepted above
+      static_cast<void>(lift.init(train.cam, train.rocker));  // accepted above
       const std::ptrdiff_t first = t * kDegreesPerTurn;
       fill_lift(train.cam, train.rocker, engine.layout, lift, options.tick_s, targets.lift_curves[t],
                 targets.lift_segments + first, targets.rocker_ratios + first);
       fill_cam_degrees(targets.lift_curves[t], engine.layout.cylinders, t, targets);
     }
     if (targets.valve_motions != nullptr) {
-      motions[t].event_budget = kEventsBesideParts + most_parts;
+      motions[t].event_budget = event_budget;
       if constexpr (std::is_same_v<Real, float>) {
         targets.valve_motions[t] = crankloop::rounded(motions[t]);
       } else {

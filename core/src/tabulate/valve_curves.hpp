@@ -5,8 +5,8 @@
 
 namespace crankloop::detail {
 
-/// Fills the valve targets that are there. Every train is worked out before the first is written, so a refusal leaves
-/// the targets as they were; it carries the train in `index`.
+/// Fills the valve targets that are not null. All trains are computed before the first is written, so a refusal leaves
+/// the targets unchanged; its `index` is the train.
 template <class Real>
 Status fill_valves(const EngineDefinition& engine, const TickOptions& options, const TableTargets<Real>& targets,
                    TableReport& report) noexcept;

@@ -1,5 +1,5 @@
-// Derivation in docs/model.md "Rocker". Derivatives by phi_r come out short because turning the cam by dphi_r lifts the
-// contact along its normal by y' dphi_r, and the pad centre turns about the pivot on the arm l_a sin J':
+// Derivation in docs/model.md "Rocker". Derivatives by phi_r are short: turning the cam by dphi_r moves the contact
+// along its normal by y' dphi_r, and the pad centre turns about the pivot with the lever l_a sin J':
 //
 //     dW/dphi_r = y' / (l_a sin J')        dY/dphi_r = l_b cos psi dW/dphi_r = i y'
 #include <crankloop/tabulate/valve_lift.hpp>
@@ -20,7 +20,7 @@ namespace {
 constexpr double kDegPerRad = 180 / kPi;
 constexpr int kScan = 720;  // steps over the lobe; at most half a degree
 
-/// An angle reduced to [0, 2 pi); no number and one beyond 1e15 turns answer 0.
+/// An angle reduced to [0, 2 pi); 0 for NaN and angles beyond 1e15 turns.
 [[nodiscard]] double into_turn(double rad) noexcept {
   if (rad >= 0 && rad < 2 * kPi) return rad;
   const double turns = rad / (2 * kPi);
@@ -62,8 +62,8 @@ Status ValveLift::init(const Cam& cam, const Rocker& rocker) noexcept {
   return {};
 }
 
-/// Whether a quantity of the contact is above 0 over the whole lobe. Its smallest value stands at failed_at_deg_
-/// afterwards.
+/// Whether a quantity of the contact is above 0 over the whole lobe. Sets failed_at_deg_ to the angle of its smallest
+/// value.
 template <class Quantity>
 bool ValveLift::stays_positive(const Quantity& quantity, double& smallest) noexcept {
   const double step = (cam_.closes_rad() - cam_.opens_rad()) / kScan;
@@ -100,8 +100,8 @@ Status ValveLift::check_contacts() noexcept {
   double smallest = 0;
   if (!stays_positive([](const Contact& c) { return c.triangle; }, smallest))
     return refuse("rocker.pivot_to_pad_m", Reason::inconsistent);
-  // The triangle closes, so what W and K are counted from is known; as long as these are 0, contact() answers with W
-  // and K themselves.
+  // The triangle closes, so the reference angles of W and K can be computed: while they are still 0, contact() returns
+  // W and K themselves.
   const double full_lift_rad = contact(0).cam_rad;
   rocker_at_rest_rad_ = contact(cam_.opens_rad()).pose.rocker_rad;
   cam_angle_at_full_lift_rad_ = rocker_.cam_turns == CamTurns::toward_pivot ? -full_lift_rad : full_lift_rad;
@@ -126,8 +126,8 @@ ValveLift::Contact ValveLift::pad_contact(const CamLift& y, double phi_rad) cons
   const double l_b = rocker_.pivot_to_screw_m;
   const double toward = rocker_.cam_turns == CamTurns::toward_pivot ? 1 : -1;
 
-  // Triangle pivot O, pad centre A, cam centre Oc, by its sides; the angles by their tangents, good to rounding however
-  // flat it is.
+  // Triangle of pivot O, pad centre A and cam centre Oc from its sides; angles from their tangents, accurate to
+  // rounding however flat the triangle is.
   const double height = rocker_.base_circle_m + rocker_.pad_radius_m + y.lift_m;
   const double R = square_root(height * height + y.per_rad_m * y.per_rad_m);
   const double area4_squared = (l_a + l_c - R) * (l_a + l_c + R) * (R - l_a + l_c) * (R + l_a - l_c);
@@ -148,8 +148,8 @@ ValveLift::Contact ValveLift::pad_contact(const CamLift& y, double phi_rad) cons
   const double psi = screw_at_rest_rad_ - turned;
   c.cos_screw = elementary::cos(psi);
 
-  // The pad centre runs on a contour `offset` beyond the cam's. dR/dphi = y' offset_radius / R, dK/dR = -cot J / R,
-  // dJ/dR = -cot K / R.
+  // The pad centre moves on a contour outside the cam's by the pad's radius. dR/dphi = y' offset_radius / R, dK/dR =
+  // -cot J / R, dJ/dR = -cot K / R.
   const double offset_radius = c.radius_m + rocker_.pad_radius_m;
   const double arm = l_a * c.sin_pressure;
   c.cam_per_phi = 2 * arm * offset_radius / area4;
@@ -172,8 +172,8 @@ LiftPose ValveLift::at(double cam_rad) const noexcept {
   const double since_opening = into_turn(cam_rad - opens_rad_);
   if (!(since_opening > 0 && since_opening < closes_rad_ - opens_rad_)) return outside_;
   const double wanted = opens_rad_ + since_opening;
-  // phi_r rises with phi (check_contacts), so the root stays between `low` and `high`. Newton's step is taken where it
-  // stays there too and is less than half the step before; otherwise half the interval is.
+  // phi_r increases with phi (check_contacts), so the root stays between `low` and `high`. Newton's method, with
+  // bisection where its step leaves that interval or is more than half the step before.
   double low = cam_.opens_rad();
   double high = cam_.closes_rad();
   double phi = low + since_opening;

@@ -13,7 +13,7 @@ namespace crankloop {
 using namespace detail;
 namespace {
 
-/// Fastest rate of a regime: its frequency, or beyond critical damping the faster of its two decay rates.
+/// Fastest rate of a regime: its natural frequency, or above critical damping the faster of its two decay rates.
 [[nodiscard]] double rate_per_s(double stiffness_N_m, double damping_Ns_m, double mass_kg) noexcept {
   const double frequency = square_root(stiffness_N_m / mass_kg);
   const double ratio = damping_Ns_m / (2 * mass_kg * frequency);
@@ -34,42 +34,42 @@ namespace {
   return fastest;
 }
 
-/// Fastest rate times fine step: up to here a quintic through the ends of a step knows where in it a contact changes,
-/// to 0.1 um in sixth order. Finer classes take steps of fourth root, as the error of Runge-Kutta's method requires
-/// too.
+/// Limit of fastest rate times fine step. Up to it the quintic through a step's ends locates a contact change to 0.1
+/// um, in sixth order. For a finer class the step shrinks with the fourth root of the class, as the error of
+/// Runge-Kutta's method requires too.
 [[nodiscard]] double fine_step_rate(double accuracy_m) noexcept {
   const double ratio = square_root(square_root(accuracy_m / 0.1e-6));
   return ratio < 1 ? ratio : 1;
 }
-/// The same of a step of Runge-Kutta's method: at 0.1 its own error, 0.1^4 / 120 of a swing for each radian, is far
-/// below the class.
+/// Limit of fastest rate times Runge-Kutta step, relative to fine_step_rate(): at 0.1 the method's error, 0.1^4 / 120
+/// of an amplitude per radian, is far below the class.
 constexpr double kRungeKuttaRate = 0.1;
-/// Rate of the open valve times tick: beyond it the cubic between a tick's ends is too coarse for the motion
-/// between.
+/// Limit of the open valve's rate times tick: above it the cubic between a tick's ends does not represent the motion.
 constexpr double kWholeStepRate = 1.5;
-/// Rate times part of an exact step: its series ends with 0.5^21 / 21!.
+/// Limit of rate times part of an exact step: the first dropped term of its series is 0.5^21 / 21!.
 constexpr double kExactRate = 0.5;
 constexpr int kExactOrder = 20;
 
-/// A rocker's inertia over the square of a lever that hardly is one may be any mass.
+/// Limit of the mass: a rocker's inertia divided by the square of a tiny lever may be any number.
 constexpr double kHeaviest_kg = 1e9;
 
-constexpr double kOffMargin_m = 1e-8;    ///< a contact that is off is sure to stay so beyond this
-constexpr double kTrainMargin_m = 1e-6;  ///< one by the train that is on: what the cubic misses
-constexpr double kNever_m = 1e30;        ///< nothing is beyond this: the guard fails in every tick
+constexpr double kOffMargin_m = 1e-8;    ///< an open contact whose distance stays above this stays open
+constexpr double kTrainMargin_m = 1e-6;  ///< of a closed train contact: error of the cubic
+constexpr double kNever_m = 1e30;        ///< no distance exceeds this: the guard fails in every tick
 constexpr double kRest_m = 1e-9;
-constexpr double kMaxCalm_m = 1e-5;       ///< what swings more has results to record
+constexpr double kMaxCalm_m = 1e-5;       ///< a larger oscillation has results to record
 constexpr double kDecoupledMargin = 0.9;  ///< for rounding
 
-/// 1, 2, 3 ... parts so that each is at most `longest`.
+/// Number of equal parts of which none is longer than `longest`; at most 1000000.
 [[nodiscard]] int parts_of(double whole, double longest) noexcept {
   CRANKLOOP_ASSERT(whole > 0 && longest > 0);
-  const double ratio = whole / longest * (1 - 1e-12);  // what is a whole number but for rounding needs no part more
+  const double ratio = whole / longest * (1 - 1e-12);  // a ratio that rounding lifted above a whole number needs no
+                                                       // additional part
   if (!(ratio < 1e6)) return 1000000;
   return static_cast<int>(ratio) + 1;
 }
 
-/// 2^32 / n for part_of(); a whole has no parts.
+/// 2^32 / n for part_of(); 0 for n = 1, where it is not used.
 [[nodiscard]] std::uint32_t per_n_32(int n) noexcept {
   CRANKLOOP_ASSERT(n >= 1);
   return n == 1 ? 0 : static_cast<std::uint32_t>(0x1p32 / n + 0.5);
@@ -89,14 +89,14 @@ struct Linear {
         train_Ns_m{train_is_on(regime) ? b.train_Ns_m : 0} {}
 };
 
-/// A preloaded seat carries the preload.
+/// The spring's preload, unless the seat carries it.
 [[nodiscard]] double rest_N(const ValveBody<double>& body, std::uint32_t regime) noexcept {
   return seat_is_on(regime) ? 0 : -body.preload_N;
 }
 
-/// Both rows of a step in a regime: its columns are what the step adds to unit vectors. The diagonal is lowered by a
-/// rounding, so that no error of the last bit makes an undamped valve's energy grow. propagate(state, drive) gives the
-/// state after.
+/// Computes both rows of a step in a regime from the steps of unit vectors. Lowers the diagonal by one rounding, so
+/// that no error in the last bit increases an undamped valve's energy. propagate(state, drive) returns the state after
+/// the step.
 template <class Propagate>
 void fill_rows(const Propagate& propagate, double rest_N, RegimeStep<double>& step) noexcept {
   using State = ValveState<double>;
@@ -129,7 +129,7 @@ void fill_rows(const Propagate& propagate, double rest_N, RegimeStep<double>& st
           train_is_on(regime) ? b.train_Ns_m * b.per_mass : 0};
 }
 
-/// By the part of a fine step of h seconds.
+/// With time as the fraction of a fine step of h seconds.
 [[nodiscard]] RegimeSeries<double> series_of(const ValveBody<double>& b, std::uint32_t regime, double h) noexcept {
   const Linear l(b, regime);
   const double per = h * h / b.mass_kg;
@@ -137,7 +137,7 @@ void fill_rows(const Propagate& propagate, double rest_N, RegimeStep<double>& st
           l.train_Ns_m * per / h};
 }
 
-/// The next float toward minus infinity, or toward plus.
+/// The next float toward minus infinity if `down`, else toward plus infinity.
 [[nodiscard]] float neighbour(float x, bool down) noexcept {
   if (x == 0) return down ? -0x1p-149F : 0x1p-149F;
   std::uint32_t bits;
@@ -147,8 +147,8 @@ void fill_rows(const Propagate& propagate, double rest_N, RegimeStep<double>& st
   return x;
 }
 
-/// What a step makes of (y, v) has determinant (1 + yy)(1 + vv) - yv vy, yy and vy without the gap's share. Rounding
-/// must not make it more than 1: an undamped valve's energy would grow.
+/// Limits the determinant (1 + yy)(1 + vv) - yv vy of a step's matrix on (y, v), yy and vy without the gap's share, to
+/// 1: if rounding raised it, an undamped valve's energy would grow.
 void never_grow(RegimeStep<float>& step) noexcept {
   for (;;) {
     const double yy = 1 + static_cast<double>(step.lift.lift) - static_cast<double>(step.lift.gap);
@@ -205,7 +205,7 @@ ValveState<double> exact_motion(const ValveBody<double>& body, std::uint32_t reg
   const double h = d_s * w;
   const double per_force = h * h / body.mass_kg;
   for (int i = 0; i < n; ++i) {
-    // The lift and the force about the start of this part, by the part of it.
+    // Lift and force as polynomials in the fraction of this part.
     const double x = i * w;
     StepDrive::Piece lift = drive.about(x);
     double scale = 1;
@@ -231,8 +231,10 @@ ValveState<double> exact_motion(const ValveBody<double>& body, std::uint32_t reg
 Status validate(const ValveStepping& stepping) noexcept {
   if (!(stepping.accuracy_m >= 0.01e-6 && stepping.accuracy_m <= 10e-6))
     return refuse("options.valves.accuracy_m", Reason::out_of_range);
+  if (!(stepping.event_budget >= 0 && stepping.event_budget <= kMaxEventBudget))
+    return refuse("options.valves.event_budget", Reason::out_of_range);
   if (stepping.integrator != Integrator::rk4 && stepping.integrator != Integrator::exponential)
-    return refuse("options.valves.integrator", Reason::out_of_range);  // a number that names no integrator
+    return refuse("options.valves.integrator", Reason::out_of_range);  // an undefined integrator
   return {};
 }
 
@@ -252,12 +254,13 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
   motion.per_parts = 1.0 / parts;
   motion.parts = static_cast<std::uint32_t>(parts);
   motion.per_parts_32 = per_n_32(parts);
-  motion.event_budget = kEventsBesideParts + motion.parts;
+  motion.event_budget = usual_event_budget(parts, 1);
   motion.cubic_deg = motion.widest_step_deg = kDegreesPerTurn;
   motion.train_lag_s = body.train_Ns_m / body.train_N_m;
   motion.seat_lag_s = body.seat_Ns_m / body.seat_N_m;
   motion.per_seat_N_m = 1 / (body.seat_N_m + body.spring_N_m);
-  // A swing A on the seat presses with at least k_z (delta_0 - A) - b_z A w > 0 while A (1 + 2 zeta) < delta_0.
+  // An oscillation of amplitude A on the seat keeps a force of at least k_z (delta_0 - A) - b_z A w, positive for A (1
+  // + 2 zeta) < delta_0.
   motion.quiet_m = 0.8 * body.seat_compression_m / (1 + body.seat_Ns_m / square_root(body.seat_N_m * body.mass_kg));
   motion.per_seat_rate_s = 1 / square_root((body.seat_N_m + body.spring_N_m) / body.mass_kg);
 
@@ -295,7 +298,7 @@ Status motion_of(const ValveBody<double>& body, double tick_s, const ValveSteppi
   motion.fine[kQuiet] = motion.fine[kSeatOn];
   for (std::uint32_t regime = 0; regime < 4; ++regime) {
     motion.whole[regime] = parts == 1 ? motion.fine[regime] : regime_step(regime, tick_s);
-    // On a seat whose vibration is faster than a tick nothing is known of the path, nor on a train whose is.
+    // With a vibration on seat or train faster than the tick, the ends of the tick say nothing about the path between.
     const bool may_pass = !seat_is_on(regime) && (regime == 0 || tick_s * open_rate_per_s(body) <= kWholeStepRate);
     if (parts > 1 && !may_pass) motion.whole[regime].seat.least_m = kNever_m;
   }
@@ -311,11 +314,11 @@ void find_decoupled(ValveMotion<double>& motion, double lash_m) noexcept {
   const double per_s = 1 / motion.per_seat_rate_s;
   for (const std::uint32_t regime : {kSeatOn, kQuiet}) {
     RegimeStep<double>& step = motion.whole[regime];
-    // A swing A is never further from its rest than A, nor faster than A times its rate.
+    // An oscillation of amplitude A is never further from rest than A, nor faster than A times its rate.
     const auto most = [per_s](const ContactGuard<double>& guard, double depth_m) {
       return (depth_m - guard.least_m) / (1 + guard.lag_s * per_s);
     };
-    double decoupled_m = motion.quiet_m / 2;  // under gas the rest moves as well
+    double decoupled_m = motion.quiet_m / 2;  // gas force moves the rest position too
     for (const double limit_m : {most(step.train, lash_m), most(step.seat, 0), kMaxCalm_m}) {
       if (limit_m < decoupled_m) decoupled_m = limit_m;
     }

@@ -137,7 +137,7 @@ performance() {
     echo && rows "$csv" "one valve, a cam cycle" '$1 == "valve" && ($4 ~ /; (1|10|20|100) us(; tolerance.*)?$/)'
     echo && distributions "$csv"
     echo && rows "$csv" "a longer tick" '$1 == "growth"'
-    echo && rows "$csv" "asked for more and more" '$1 == "skips"'
+    echo && rows "$csv" "more and more outputs" '$1 == "skips"'
     echo && echo "Instructions, counted by callgrind; $(head -n 1 "$here/instructions.txt" | cut -c 3-):"
     echo && kernels
   } >"$build_dir/benchmark.md"

@@ -40,6 +40,8 @@ struct ElasticValves : crankloop::Scene {
   static constexpr bool load_ratio = true;
   static constexpr auto valves = crankloop::ValveModel::elastic;
   static constexpr auto trains = crankloop::up_to<crankloop::kMaxTrains>;
+  static constexpr bool theoretical_lift = true;
+  static constexpr bool valve_acceleration = true;
   static constexpr bool valve_forces = true;
   static constexpr bool valve_results = true;
   static constexpr bool valve_gas = true;

@@ -59,6 +59,8 @@ struct WholeEngine : ForcesAndTorque {
   static constexpr bool free_forces = true;
   static constexpr auto valves = crankloop::ValveModel::elastic;
   static constexpr auto trains = crankloop::exactly<2>;
+  static constexpr bool theoretical_lift = true;
+  static constexpr bool valve_acceleration = true;
   static constexpr bool valve_forces = true;
   static constexpr bool valve_results = true;
   static constexpr bool valve_gas = true;

@@ -19,12 +19,18 @@ namespace {
   return all;
 }
 
-/// "WHAT spends NAME" -> WHAT, NAME; NAME is empty where nothing is spent.
-[[nodiscard]] std::pair<std::string, std::string> split_spends(const std::string& cell) {
+/// "WHAT spends NAME" or "WHAT spends N NAME" -> WHAT and what it spends.
+[[nodiscard]] std::pair<std::string, Spending> split_spends(const std::string& cell) {
   const std::string word = " spends ";
   const std::size_t at = cell.find(word);
-  if (at == std::string::npos) return {cell, ""};
-  return {trimmed(cell.substr(0, at)), trimmed(cell.substr(at + word.size()))};
+  if (at == std::string::npos) return {cell, {}};
+  Spending spends{trimmed(cell.substr(at + word.size()))};
+  const std::size_t space = spends.budget.find(' ');
+  if (space != std::string::npos && spends.budget.find_first_not_of("0123456789") == space) {
+    spends.number = std::stol(spends.budget);
+    spends.budget = trimmed(spends.budget.substr(space));
+  }
+  return {trimmed(cell.substr(0, at)), spends};
 }
 
 constexpr std::string_view kEach = " each";
@@ -57,7 +63,7 @@ Bounds::Bounds(std::istream& file, const Numbers& limits, Sources& sources) : so
     const std::vector<std::string> cell = cells(line);
     if (cell.size() == 5 && cell[0] == "loop") {
       auto [rounds, spends] = split_spends(cell[3]);
-      const bool each = !spends.empty() && ends_in_each(rounds);
+      const bool each = !spends.budget.empty() && ends_in_each(rounds);
       if (each) rounds.resize(rounds.size() - kEach.size());
       loops_.push_back({cell[1], cell[2], number(rounds, limits), spends, each});
     } else if (cell.size() == 5 && cell[0] == "code") {
@@ -73,10 +79,11 @@ Bounds::Bounds(std::istream& file, const Numbers& limits, Sources& sources) : so
     }
   }
   for (const LoopBound& loop : loops_) {
-    if (!loop.spends.empty() && budgets_.count(loop.spends) == 0) throw Refusal("no budget of " + loop.spends);
+    if (!loop.spends.budget.empty() && budgets_.count(loop.spends.budget) == 0)
+      throw Refusal("no budget of " + loop.spends.budget);
   }
   for (const Expense& expense : expenses_) {
-    if (budgets_.count(expense.spends) == 0) throw Refusal("no budget of " + expense.spends);
+    if (budgets_.count(expense.spends.budget) == 0) throw Refusal("no budget of " + expense.spends.budget);
   }
 }
 
@@ -172,7 +179,7 @@ Bounds::Repeats Bounds::repeats(const Function& function, const Graph& graph, st
       !alone && std::any_of(own.begin(), own.end(), [&](const Test& test) { return test.block == header; });
   const std::int64_t rounds = own[0].bound->rounds;
   if (tests_first) return {rounds, own[0].bound->spends, false};
-  if (rounds == 0) return {std::nullopt, "", false};
+  if (rounds == 0) return {std::nullopt, {}, false};
   return {rounds - 1, own[0].bound->spends, own[0].bound->first_too};
 }
 
@@ -182,7 +189,7 @@ std::optional<std::int64_t> Bounds::instructions(const std::string& function) co
   return found->second;
 }
 
-std::string Bounds::spends(const Instruction& instruction) const {
+Spending Bounds::spends(const Instruction& instruction) const {
   for (const Expense& expense : expenses_) {
     const auto stems_from = [&](const Place& place) {
       return is_of(place, expense.file) && sources_.line(place).find(expense.text) != std::string::npos;
@@ -194,7 +201,7 @@ std::string Bounds::spends(const Instruction& instruction) const {
       return expense.spends;
     }
   }
-  return "";
+  return {};
 }
 
 }  // namespace worst_tick

@@ -7,7 +7,8 @@
 // number may be a name that the image tells (a limit of its tables). A reason follows each.
 //
 //     loop | FILE | TEXT | ROUNDS | why                a loop runs its body at most ROUNDS times
-//     loop | FILE | TEXT | ROUNDS spends NAME | why    likewise, and whenever it begins anew it spends one of a budget
+//     loop | FILE | TEXT | ROUNDS spends NAME | why    likewise, and whenever it begins anew it spends one of a budget;
+//                                                      "spends N NAME": N of it, here and below
 //     loop | FILE | TEXT | ROUNDS each spends NAME | why    likewise, its first round too, where it is sure to have one
 //     code | FILE | TEXT | INSTRUCTION spends NAME | why   so does that line's instruction, or what was
 //                                                      inlined there: a mnemonic, its type left out or not, then
@@ -30,15 +31,22 @@ namespace worst_tick {
 
 using Numbers = std::map<std::string, std::int64_t>;
 
+/// How much of which budget; of none where the name is empty.
+struct Spending {
+  std::string budget;
+  std::int64_t number = 1;
+};
+
 struct LoopBound {
   std::string file, text;
   std::int64_t rounds;
-  std::string spends;  ///< empty: nothing
+  Spending spends;
   bool first_too;      ///< the first round spends as well
 };
 
 struct Expense {
-  std::string file, text, mnemonic, operands, spends;
+  std::string file, text, mnemonic, operands;
+  Spending spends;
 };
 
 /// Where the text of a source line comes from: the disk, or a test.
@@ -56,13 +64,13 @@ class Bounds {
   /// How often a loop's back edges are taken at most, each time that it is entered; nothing if it is never entered.
   struct Repeats {
     std::optional<std::int64_t> most;
-    std::string spends;
-    bool first_too;  ///< whoever enters it spends one besides
+    Spending spends;
+    bool first_too;  ///< whoever enters it spends as much besides
   };
   [[nodiscard]] Repeats repeats(const Function& function, const Graph& graph, std::size_t loop) const;
 
-  /// What an instruction spends one of; empty: nothing.
-  [[nodiscard]] std::string spends(const Instruction& instruction) const;
+  /// What an instruction spends.
+  [[nodiscard]] Spending spends(const Instruction& instruction) const;
 
   [[nodiscard]] const Numbers& budgets() const { return budgets_; }
 

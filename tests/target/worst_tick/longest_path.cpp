@@ -53,8 +53,8 @@ void LongestPath::add(std::uint32_t address, std::vector<std::uint32_t>& callers
     Path path;
     for (std::size_t i = block.begin; i < block.end; ++i) {
       path.length += cost(function, i);
-      const std::string spends = bounds_.spends(function.instructions[i]);
-      if (!spends.empty()) path.spend(budget(spends));
+      const Spending spends = bounds_.spends(function.instructions[i]);
+      if (!spends.budget.empty()) path.spend(budget(spends.budget), spends.number);
     }
     body.blocks.push_back(path);
   }
@@ -117,13 +117,13 @@ Path LongestPath::longest(std::uint32_t address, const Prices& prices) {
       through.out.clear();  // never entered
     } else if (through.again.exists) {
       Path round = through.again;
-      if (!repeats.spends.empty()) round.spend(budget(repeats.spends));
+      if (!repeats.spends.budget.empty()) round.spend(budget(repeats.spends.budget), repeats.spends.number);
       if (round.worth(prices) > 0) {
         for (auto& [block, path] : through.out) path = path.then(round, *repeats.most);
       }
     }
     if (repeats.first_too) {
-      for (auto& [block, path] : through.out) path.spend(budget(repeats.spends));
+      for (auto& [block, path] : through.out) path.spend(budget(repeats.spends.budget), repeats.spends.number);
     }
     loops[loop.header] = through;
   }

@@ -1,6 +1,6 @@
 // The command line of one subcommand: declared as data, checked before the command runs.
 //
-// What belongs here: options and their values. What does not: what they do.
+// What belongs here: options and their values. What does not: their effect.
 #pragma once
 
 #include <cstddef>
@@ -19,11 +19,11 @@ struct Option {
 
   const char* name;  ///< "--rpm"
   Kind kind;
-  const char* value;               ///< what usage calls the value, "N"; for a choice "table|exact|approx"
+  const char* value;               ///< name of the value in the usage line, "N"; for a choice "table|exact|approx"
   const char* meaning;             ///< half a line, with the unit
-  const char* fallback = nullptr;  ///< the value where the option is not given; nullptr: none
+  const char* fallback = nullptr;  ///< the value if the option is not given; nullptr: none
   Range range{};
-  bool is_required = false;  ///< the command does nothing without it
+  bool is_required = false;  ///< the command cannot run without it
 };
 
 [[nodiscard]] constexpr Option flag(const char* name, const char* meaning) noexcept {
@@ -51,7 +51,7 @@ struct Option {
   return option;
 }
 
-/// Of every command that takes an engine file, besides its own.
+/// Common options of all commands that take an engine file.
 inline constexpr Option kNoWarnings = flag("--no-warnings", "suppress plausibility warnings");
 
 class Arguments;
@@ -64,7 +64,7 @@ struct Options {
   constexpr Options() noexcept = default;
   template <std::size_t N>
   constexpr Options(const Option (&options)[N]) noexcept
-      : first{options}, count{N} {}  // NOLINT: an array is what it is
+      : first{options}, count{N} {}  // NOLINT: converts from any array of options
 
   [[nodiscard]] constexpr const Option* begin() const noexcept { return first; }
   [[nodiscard]] constexpr const Option* end() const noexcept { return first + count; }
@@ -74,14 +74,14 @@ struct Command {
   const char* name;
   const char* summary;  ///< one line, shown in the list of commands
   const char* usage;    ///< what follows the name: "FILE --rpm N [--csv F]"
-  const char* example;  ///< a whole line that works from the folder of the sample engines
+  const char* example;  ///< a complete command line that works in the folder of the sample engines
   std::size_t files;    ///< how many file names it takes
   Options options;
   int (*run)(const Arguments&);  ///< returns an ExitStatus; throws the types of error.hpp
   bool for_developers = false;   ///< of crankloop: listed last
 };
 
-/// Its own, and those of all that are like it.
+/// The command's own options and the common ones.
 [[nodiscard]] std::vector<Option> options_of(const Command& command);
 
 /// What the user asked for, as `--name value`, `--name=value`, `--flag`, and files in between; `--` ends the options,

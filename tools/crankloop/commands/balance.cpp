@@ -1,4 +1,4 @@
-// `crankloop balance FILE --rpm N`: what the whole engine does to its mounts, bearings and driveline.
+// `crankloop balance FILE --rpm N`: free forces, bearing loads and torque harmonics of the whole engine.
 #include <algorithm>
 #include <string>
 
@@ -17,7 +17,7 @@
 namespace crankloop::program {
 namespace {
 
-/// A component's amplitude and phase; no phase of what balances.
+/// A component's amplitude and phase; a balanced component has no phase.
 void write_wave(CsvWriter& csv, const std::string& name, const char* unit, double cosine, double sine, double noise) {
   const Wave wave = wave_of(cosine, sine);
   csv.row(name + "_" + unit, wave.amplitude);
@@ -82,7 +82,7 @@ BearingRanges bearings_by_angle(const EngineDefinition& definition, double speed
   return r;
 }
 
-/// Of an engine with gas exchange, from a cycle that it ran.
+/// For an engine with gas exchange, from a recorded cycle.
 BearingRanges bearings_of_trace(const Trace& trace) {
   BearingRanges r;
   const auto take = [](Range& range, const std::vector<double>& values) {

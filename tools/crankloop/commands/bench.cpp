@@ -25,7 +25,7 @@ std::vector<Row> measure(bench::Effort effort) {
        {bench::kinematics_rows, bench::valve_rows, bench::tick_rows, bench::growth_rows, bench::skip_rows}) {
     for (Row& row : group(effort)) rows.push_back(std::move(row));
   }
-  if (effort.rounds == 0) return rows;  // ratios are of times
+  if (effort.rounds == 0) return rows;  // ratios compare times
   for (Row& row : bench::ratio_rows(rows)) rows.push_back(std::move(row));
   return rows;
 }

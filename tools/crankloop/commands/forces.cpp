@@ -17,7 +17,7 @@
 namespace crankloop::program {
 namespace {
 
-/// Where it is asked.
+/// Cylinder and operating point.
 struct Point {
   int cylinder;
   double speed_rad_s;

@@ -19,8 +19,8 @@ void write_lift(CsvWriter& csv, const ValveLift& lift, double step_deg) {
   for_each_angle(step_deg, 360, [&](double since_first_row) {
     const double cam_deg = since_first_row - 180;
     const LiftPose pose = lift.at(cam_deg / kDegPerRad);
-    // The valve waits while the lash is open; the train, whose derivatives these are, does not: its speed there is that
-    // of the impact.
+    // The valve is at rest while the lash is open. These derivatives are those of the train, whose speed at the end of
+    // the lash is the impact speed.
     csv.row(cam_deg, pose.rocker_rad * kDegPerRad, std::max(pose.lift_m, 0.0) * 1e3, pose.per_rad_m * 1e3,
             pose.per_rad2_m * 1e3, pose.rocker_ratio);
   });

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t kCommentColumn = 40;
 
-/// A relative file is written out in full, so that what is shown can be read again from any folder; unless the folder's
-/// own name would not survive in an engine file.
+/// Relative paths are made absolute, so that the output can be read from any folder; unless an engine file cannot hold
+/// the folder's name.
 std::string path_for_everywhere(const std::string& written, const std::string& engine_path) {
   std::error_code error;
   const std::filesystem::path folder = std::filesystem::path(engine_path).parent_path();

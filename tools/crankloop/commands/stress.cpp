@@ -74,10 +74,9 @@ constexpr Option kOptions[] = {
     whole_number("--cases", "N", from(1).up_to(100000000), "number of cases", "1000"),
     whole_number("--case", "N", from(0).up_to(100000000), "runs this case only and prints all details"),
     whole_number("--reference-every", "N", from(1).up_to(100000000),
-                 "every Nth case is compared with the converged reference too, which costs most of the time", "10"),
-    flag("--smooth",
-         "only smooth cams, damped and below float: the error of the steps, which no kink and no bounce magnifies"),
-    text("--report", "F.html", "HTML file with the counts and the map of stability; opens in any browser"),
+                 "every Nth case is also compared with the converged reference, which takes most of the time", "10"),
+    flag("--smooth", "only damped trains with smooth cams at speeds without float: the error of the steps alone"),
+    text("--report", "F.html", "HTML file with the counts and the stability map; opens in any browser"),
 };
 
 }  // namespace

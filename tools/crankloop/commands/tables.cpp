@@ -32,7 +32,7 @@ class Printer {
 
   void text(const std::string& s) { out_.write(s); }
 
-  /// A number, an array, the place of what was printed before, or a record by all its members.
+  /// A number, an array, a pointer to data printed before, or a record member by member.
   template <class Item>
   void print(const Item& item) {
     if constexpr (std::is_floating_point_v<Item>) {
@@ -63,7 +63,7 @@ class Printer {
     }
   }
 
-  /// What points to `item` from now on is printed as `place`.
+  /// From now on pointers to `item` are printed as `place`.
   void remember(const void* item, const std::string& place) { places_[item] = place; }
 
  private:
@@ -89,8 +89,8 @@ struct Piece {
   std::size_t count;
 };
 
-/// The rows in use of a section that has several: in one piece, or in one per train or wheel, without the room that
-/// tabulate leaves between them.
+/// The rows in use of a section that has several: in one piece, or in one per train or wheel without the unused rows
+/// between them.
 template <class Section, class Real, class Record>
 std::vector<Piece<Record>> pieces_of(const Stores<Real>& s, const TableReport& report, const Record* rows) {
   const auto segments = [rows](int count) {
@@ -122,8 +122,8 @@ std::vector<Piece<Record>> pieces_of(const Stores<Real>& s, const TableReport& r
   return pieces;
 }
 
-/// One section as an object of its name, or as an array of it. Trains and wheels that an engine does not have are one
-/// of zeros that no tick reads, so that a scene with room for them goes with it. False where a section has no rows.
+/// Prints a section as an object or array of its name. If the engine has no trains or wheels, prints one of zeros that
+/// no tick reads, so that scenes with room for them compile. False if a section has no rows.
 template <class Section, class Real>
 bool print_section(Printer& p, const Stores<Real>& s, const TableReport& report, const std::string& real) {
   constexpr bool kOne = Section::kRows == detail::SectionRows::one;
@@ -174,7 +174,8 @@ void print_header(Output& out, const EngineFile& engine, const Arguments& argume
   const TickOptions options{
       millionths(arguments.number("--tick-us")),
       {arguments.text("--integrator") == "exponential" ? Integrator::exponential : Integrator::rk4,
-       millionths(arguments.number("--accuracy-um"))},
+       millionths(arguments.number("--accuracy-um")),
+       arguments.has("--event-budget") ? arguments.whole_number("--event-budget") : 0},
       arguments.has("--max-rpm") ? arguments.number("--max-rpm") / kRpmPerRad_s : 0};
   const Status status = tabulate(engine.definition(), options, stores->targets(), &report);
   if (!status.ok()) throw explain_tabulate(engine, status, options.tick_s, options.valves);
@@ -186,8 +187,8 @@ void print_header(Output& out, const EngineFile& engine, const Arguments& argume
          (has_valves ? "; valves: " + arguments.text("--integrator") + ", " +
                            shortest(arguments.number("--accuracy-um")) + " um"
                      : "") +
-         ".\n// Made by `crankloop tables`; do not edit. Each section is an object of its own: what a scene does not "
-         "read is not linked.\n"
+         ".\n// Made by `crankloop tables`; do not edit. Each section is a separate object: sections that a scene "
+         "does not read are not linked.\n"
          "#pragma once\n\n#include <crankloop/tables/tables.hpp>\n\nnamespace " +
          name_space + " {\n");
   print_sections(p, *stores, real, report);
@@ -220,6 +221,8 @@ constexpr Option kOptions[] = {
     choice("--real", "float|double", "arithmetic of the tick", "float"),
     choice("--integrator", "rk4|exponential", "of elastic valves", "rk4"),
     number("--accuracy-um", "A", from(0.01).up_to(10), "class of valve lift error: sets the sub-steps", "0.1"),
+    whole_number("--event-budget", "N", from(3).up_to(kMaxEventBudget),
+                 "work for valve events in a tick, else by the engine"),
     number("--max-rpm", "N", above(0).up_to(100000), "the highest speed the engine can have, else the file's max_rpm"),
     {"--namespace", Option::Kind::text, "NAME", "C++ namespace of the tables", "crankloop_tables"},
     text("--output", "F", "file for the header, -o for short; else standard output"),
@@ -227,13 +230,13 @@ constexpr Option kOptions[] = {
 
 }  // namespace
 
-const Command kTables{
-    "tables",
-    "the tables as a C++ header, for firmware",
-    "FILE [--tick-us T] [--real R] [--integrator I] [--accuracy-um A] [--max-rpm N] [--namespace NAME] [--output F]",
-    "crankloop tables diesel_495.ini --tick-us 100 --real float > diesel_495_tables.hpp",
-    1,
-    kOptions,
-    run_tables};
+const Command kTables{"tables",
+                      "the tables as a C++ header, for firmware",
+                      "FILE [--tick-us T] [--real R] [--integrator I] [--accuracy-um A] [--event-budget N] [--max-rpm "
+                      "N] [--namespace NAME] [--output F]",
+                      "crankloop tables diesel_495.ini --tick-us 100 --real float > diesel_495_tables.hpp",
+                      1,
+                      kOptions,
+                      run_tables};
 
 }  // namespace crankloop::program

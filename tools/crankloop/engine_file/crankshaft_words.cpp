@@ -70,7 +70,7 @@ std::string firing_in_words(const Layout& layout) {
 std::string shared_pins_hint(const Layout& layout) {
   if (static_cast<int>(throws_of(layout).size()) < layout.cylinders) return "";
   std::vector<std::string> pairs;
-  int a = -1;  // the first two neighbours whose banks stand at an angle
+  int a = -1;  // the first two neighbours with banks at an angle
   for (int k = 0; k + 1 < layout.cylinders; ++k) {
     if (!at_an_angle(layout, k, k + 1)) continue;
     if (a < 0) a = k;

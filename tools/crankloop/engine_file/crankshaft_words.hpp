@@ -1,6 +1,6 @@
-// A layout as its crankshaft: which throws there are, which cylinders run on each, who fires when.
+// A layout as a crankshaft in words: throws, the cylinders on each, firing order.
 //
-// What belongs here: words about it, for `show` and reports. What does not: how it is built (engine_file_layout.cpp,
+// What belongs here: its description for `show` and reports. What does not: how it is built (engine_file_layout.cpp,
 // engine_file_pins.cpp).
 #pragma once
 
@@ -18,17 +18,16 @@ struct CrankThrow {
 };
 [[nodiscard]] std::vector<CrankThrow> throws_of(const Layout& layout);
 
-/// How many throws and where they point, then a line for each of them.
+/// The number of throws and their directions, then a line for each throw.
 [[nodiscard]] std::vector<std::string> throws_in_words(const Layout& layout);
 
 /// "Fires 1, 3, 4, 2, at 0, 180, 360, 540 deg: 180, 180, 180, 180 deg apart."
 [[nodiscard]] std::string firing_in_words(const Layout& layout);
 
-/// What to write where rods of two banks should run on one pin; "" where some do, and where no two banks stand at an
-/// angle.
+/// How to define rods of two banks on one pin; "" if some share a pin, and if no two banks are at an angle.
 [[nodiscard]] std::string shared_pins_hint(const Layout& layout);
 
-/// All three as comments of an engine file; "" of one cylinder.
+/// All three as comments of an engine file; "" for one cylinder.
 [[nodiscard]] std::string crankshaft_comments(const Layout& layout);
 
 }  // namespace crankloop::program

@@ -23,7 +23,7 @@ std::string title_of(const SectionValues& section) {
   return section.name.empty() ? section.kind : section.kind + " " + section.name;
 }
 
-/// Known kinds, named where they must be, none twice.
+/// Checks the headers: known kinds, names where required, no duplicates.
 void check_header(const IniSection& section, std::map<std::string, int>& first_lines, const std::string& path) {
   const SectionKind* kind = find_section_kind(section.kind);
   if (kind == nullptr) {
@@ -141,10 +141,10 @@ void EngineFile::build_definition() {
   for (const Status& status :
        {validate(definition_.friction), validate(definition_.machine), validate(definition_.starter)})
     accept(status);
-  if (has("masses")) accept(validate(definition_));  // what the parts demand of one another
+  if (has("masses")) accept(validate(definition_));  // rules between the parts
 }
 
-/// The ports are those of the trains, already.
+/// Needs the trains, to which the ports belong.
 void EngineFile::build_gas_exchange() {
   Gas gas = build_gas(section("gas"), path_);
   int number = 0;
@@ -171,7 +171,7 @@ void EngineFile::read_diagram(const SectionValues& pressure) {
   points_path_ = in_folder(folder_of(path_), pressure.text("file"));
   for (const TableRow& row :
        read_table(points_path_, over_angle ? kAngleTable : kVolumeTable, path_, pressure.line_of("file"))) {
-    // Core refuses this too, but a Status counts rows only up to 32767 and knows no values.
+    // Core refuses this too, but without the row's line and value.
     if (over_angle && !points_.empty() && row.at <= points_.back().at) {
       throw InputError(points_path_, row.line,
                        "crank_deg: " + shortest(row.at) + " follows " + shortest(points_.back().at) +

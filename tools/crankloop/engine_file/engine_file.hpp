@@ -4,7 +4,7 @@
 //     const Status status = tabulate(engine.definition(), ...);
 //     if (!status.ok()) throw engine.explain(status);
 //
-// What belongs here: what commands ask of an engine file. What does not: its keys (engine_file_keys.cpp).
+// What belongs here: an engine file's interface for commands. What does not: its keys (engine_file_keys.cpp).
 #pragma once
 
 #include <cstddef>
@@ -41,7 +41,7 @@ struct TrainOfFile {
 /// A trigger wheel of the file, beside its definition.
 struct TriggerOfFile {
   std::string name;
-  std::vector<double> edges_deg;  ///< where it is given by them, its definition points here
+  std::vector<double> edges_deg;  ///< if the wheel is given by edges, its definition points here
 };
 
 class EngineFile {
@@ -66,20 +66,20 @@ class EngineFile {
   /// The NAME of every [trigger], in the order of definition().triggers.
   [[nodiscard]] const std::vector<TriggerOfFile>& triggers() const noexcept { return triggers_; }
 
-  /// One of the trains; a name that the file does not have is the user's error.
+  /// One of the trains; throws InputError for an unknown name.
   [[nodiscard]] const TrainOfFile& train(const std::string& name) const;
 
   /// Titles are written as in the brackets: "masses", "cam intake".
   [[nodiscard]] bool has(const std::string& title) const noexcept { return find(title) != nullptr; }
   [[nodiscard]] const SectionValues& section(const std::string& title) const;
 
-  /// All that is known, in the order of `show`: the file's sections, and those that are all default.
+  /// All sections in the order of `show`: those of the file, and those with defaults only.
   [[nodiscard]] const std::vector<SectionValues>& sections() const noexcept { return sections_; }
 
-  /// The message for what core refused, at the line of the key that is to blame.
+  /// The message for a refusal by core, at the line of the key that caused it.
   [[nodiscard]] InputError explain(const Status& status) const;
 
-  /// The message for what core refused about a valve train; `cam_deg`: where on the cam, for what ValveLift finds.
+  /// The message for a refusal of a valve train by core; `cam_deg`: the cam angle of a refusal by ValveLift.
   [[nodiscard]] InputError explain(const Status& status, const TrainOfFile& train, double cam_deg = 0) const;
 
  private:
@@ -108,14 +108,13 @@ class EngineFile {
   std::vector<TriggerOfFile> triggers_;
 };
 
-/// The file that would say all of this with nothing left to defaults. Reading it gives the same definition, and showing
-/// that the same text.
+/// A complete file without defaults. Reading it gives the same definition, and showing that the same text.
 [[nodiscard]] std::string show(const EngineFile& engine);
 
-/// Reads and validates everything in the file, and demands the sections that the command needs; throws InputError.
+/// Reads and validates everything in the file; throws InputError, also if a section that the command needs is missing.
 [[nodiscard]] EngineFile read_engine_file(const std::string& path, const std::vector<std::string>& needed_sections);
 
-/// The same of a text that stands for the file: messages name `path`, and files that it names are looked for beside it.
+/// Reads a text instead of the file: messages name `path`, and relative paths start at its folder.
 [[nodiscard]] EngineFile read_engine_text(const std::string& text, const std::string& path,
                                           const std::vector<std::string>& needed_sections);
 

@@ -1,4 +1,4 @@
-// The gas of an engine file: [gas], and what its valves open.
+// The gas of an engine file: [gas], and the ports of its valves.
 #include <cstddef>
 #include <vector>
 
@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kCelsiusInKelvin = 273.15;
 
-/// Rows of a curve from 0 on, rising; at most as many as there is room for.
+/// Copies the rows of a curve: increasing from 0, at most as many as there is room for.
 int fill_rows(const SectionValues& values, const char* key, double last, const std::string& path,
               double (&at)[kMaxFlowPoints], double (&value)[kMaxFlowPoints]) {
   const std::vector<double>& numbers = values.numbers(key);
@@ -59,7 +59,8 @@ PortOfTrain build_port(const SectionValues& valve, const std::string& path) {
   if (valve.has("seat_diameter_mm")) port.seat_diameter_m = valve.si("seat_diameter_mm");
   if (!valve.has("flow_over_lift_ratio")) return port;
   port.flow_count = fill_rows(valve, "flow_over_lift_ratio", 0.5, path, port.flow_lift_ratio, port.flow_ratio);
-  if (port.flow_ratio[0] != 0) refuse(valve, "flow_over_lift_ratio", "must be 0 at 0: a closed valve is closed", path);
+  if (port.flow_ratio[0] != 0)
+    refuse(valve, "flow_over_lift_ratio", "must be 0 at 0: a closed valve has no flow", path);
   return port;
 }
 

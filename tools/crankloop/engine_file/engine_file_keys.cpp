@@ -1,6 +1,7 @@
 #include "engine_file_keys.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 #include <type_traits>
 
@@ -40,6 +41,7 @@ constexpr Unit kNmPerSpeed{"Nm_per_1000rpm", 1, kRadSPer1000Rpm};
 constexpr Unit kNmPerSpeed2{"Nm_per_1000rpm2", 1, kRadSPer1000Rpm* kRadSPer1000Rpm};
 
 constexpr Range kAny{};
+constexpr Range kOfField{};  // the one that core lists, in the key's unit
 constexpr Presence required = Presence::required;
 constexpr Presence optional = Presence::optional;
 constexpr Presence defaults = Presence::with_default;
@@ -66,31 +68,31 @@ constexpr SectionKind kSections[] = {
 };
 
 // clang-format off
-constexpr Key kKeys[] = {
+constexpr Key kRows[] = {
     {"engine", "name", Kind::text, kNoUnit, "", kAny, "", required, "", "", "", "name of the engine in reports; free text"},
     {"engine", "rated_rpm", Kind::number, kRpm, "", above(0).up_to(100000), "", required, "", "", "", "rated engine speed"},
     {"engine", "max_rpm", Kind::number, kRpmAsRadS, "", above(0).up_to(100000), "", optional, "", "", "", "the highest speed the engine can have; a tick refuses a faster one. Without it the tick's length alone limits the speed"},
 
-    {"crank", "bore_mm", Kind::number, kMm, "crank.bore_m", above(0).up_to(2000), "", required, "", "", "", "bore"},
+    {"crank", "bore_mm", Kind::number, kMm, "crank.bore_m", kOfField, "", required, "", "", "", "bore"},
     {"crank", "stroke_mm", Kind::number, kMm, "", above(0).up_to(4000), "", required, "", "", "", "2 r; with a pin offset the true stroke is longer"},
-    {"crank", "rod_length_mm", Kind::number, kMm, "crank.rod_length_m", above(0).up_to(10000), "", required, "", "", "", "l, pin to pin"},
+    {"crank", "rod_length_mm", Kind::number, kMm, "crank.rod_length_m", kOfField, "", required, "", "", "", "l, pin to pin"},
     {"crank", "rod_ratio", Kind::number, kNoUnit, "", above(0).below(1), "", optional, "", "", "", "lambda; sets l = r / lambda where a source rounds it, within 0.1 % of rod_length_mm", "0.2 to 0.35"},
-    {"crank", "pin_offset_mm", Kind::number, kMm, "crank.pin_offset_m", from(-2000).up_to(2000), "", defaults, "0", "", "", "e; above 0: the axis lies on the side to which the pin moves after TDC"},
-    {"crank", "compression_ratio", Kind::number, kNoUnit, "crank.compression_ratio", above(1).up_to(100), "", required, "", "", "", "(clearance + displacement) / clearance volume", "8 to 12 with spark ignition, 14 to 22 in diesels"},
+    {"crank", "pin_offset_mm", Kind::number, kMm, "crank.pin_offset_m", kOfField, "", defaults, "0", "", "", "e; above 0: the axis lies on the side to which the pin moves after TDC"},
+    {"crank", "compression_ratio", Kind::number, kNoUnit, "crank.compression_ratio", kOfField, "", required, "", "", "", "(clearance + displacement) / clearance volume", "8 to 12 with spark ignition, 14 to 22 in diesels"},
 
-    {"masses", "piston_g", Kind::number, kG, "masses.piston_kg", from(0).up_to(5e6), "", required, "", "", "", "piston with rings and pin"},
-    {"masses", "rod_small_end_g", Kind::number, kG, "masses.rod_small_end_kg", from(0).up_to(5e6), "", required, "", "", "rod:two ends", "rod's share that moves with the piston"},
-    {"masses", "rod_big_end_g", Kind::number, kG, "masses.rod_big_end_kg", from(0).up_to(5e6), "", required, "", "", "rod:two ends", "rod's share that turns with the crank pin"},
+    {"masses", "piston_g", Kind::number, kG, "masses.piston_kg", kOfField, "", required, "", "", "", "piston with rings and pin"},
+    {"masses", "rod_small_end_g", Kind::number, kG, "masses.rod_small_end_kg", kOfField, "", required, "", "", "rod:two ends", "rod's share that moves with the piston"},
+    {"masses", "rod_big_end_g", Kind::number, kG, "masses.rod_big_end_kg", kOfField, "", required, "", "", "rod:two ends", "rod's share that turns with the crank pin"},
     {"masses", "rod_g", Kind::number, kG, "", from(0).up_to(5e6), "", required, "", "", "rod:whole rod", "whole rod, instead of its two ends"},
     {"masses", "rod_com_to_crank_mm", Kind::number, kMm, "", from(0).up_to(10000), "", required, "", "", "rod:whole rod", "rod's centre of mass from the crank pin"},
     {"masses", "rod_inertia_kg_mm2", Kind::number, kKgMm2, "", from(0).up_to(1e11), "", optional, "", "", "rod:whole rod", "about the centre of mass; absent: two-mass rod (0 is a value, not absence)"},
-    {"masses", "crank_pin_equivalent_g", Kind::number, kG, "masses.crank_pin_equivalent_kg", from(0).up_to(5e6), "", defaults, "0", "", "throw:reduced", "m_k, pin and webs reduced to the crank radius"},
+    {"masses", "crank_pin_equivalent_g", Kind::number, kG, "masses.crank_pin_equivalent_kg", kOfField, "", defaults, "0", "", "throw:reduced", "m_k, pin and webs reduced to the crank radius"},
     {"masses", "crank_pin_g", Kind::number, kG, "", from(0).up_to(5e6), "", required, "", "", "throw:pin and webs", "crank pin between its webs, instead of m_k"},
     {"masses", "crank_web_g", Kind::number, kG, "", from(0).up_to(5e6), "", required, "", "", "throw:pin and webs", "one of the two webs"},
     {"masses", "crank_web_radius_mm", Kind::number, kMm, "", from(0).up_to(2000), "", required, "", "", "throw:pin and webs", "a web's centre of mass from the crankshaft's axis, toward the pin"},
-    {"masses", "crank_inertia_kg_m2", Kind::number, kKgM2, "masses.crank_inertia_kg_m2", from(0).up_to(1e6), "", required, "", "", "", "whole crankshaft with flywheel"},
+    {"masses", "crank_inertia_kg_m2", Kind::number, kKgM2, "masses.crank_inertia_kg_m2", kOfField, "", required, "", "", "", "whole crankshaft with flywheel"},
 
-    {"layout", "cylinders", Kind::whole_number, kNoUnit, "layout.cylinders", from(1).up_to(kMaxCylinders), "", defaults, "1", "", "", "number of cylinders"},
+    {"layout", "cylinders", Kind::whole_number, kNoUnit, "layout.cylinders", kOfField, "", defaults, "1", "", "", "number of cylinders"},
     {"layout", "firing_order", Kind::firing_order, kNoUnit, "", kAny, "", optional, "", "", "firing:order", "even firing over 720 deg"},
     {"layout", "firing_angles_deg", Kind::numbers, kDeg, "", from(0).below(720), "", optional, "", "", "firing:angles", "engine angle of each cylinder's firing TDC"},
     {"layout", "bank_angles_deg", Kind::numbers, kDeg, "", from(-360).up_to(360), "", optional, "", "", "", "cylinder axis from the vertical, in the sense of rotation; absent: all 0"},
@@ -100,90 +102,90 @@ constexpr Key kKeys[] = {
     {"layout", "shared_pins", Kind::pin_groups, kNoUnit, "", kAny, "", optional, "", "", "", "cylinders on one crank pin; absent: those with equal position and throw"},
 
     {"pressure", "source", Kind::choice, kNoUnit, "", kAny, "wiebe|angle_table|volume_table|gas|none", required, "", "", "", "source of the diagram"},
-    {"pressure", "crankcase_kPa", Kind::number, kKPa, "pressure.crankcase_Pa", above(0).up_to(10000), "", defaults, "100", "", "", "on the piston's other side"},
-    {"pressure", "intake_kPa", Kind::number, kKPa, "pressure.wiebe.intake_Pa", above(0).up_to(10000), "", defaults, "98", kWiebe, "", "intake plenum"},
-    {"pressure", "exhaust_kPa", Kind::number, kKPa, "pressure.wiebe.exhaust_Pa", above(0).up_to(10000), "", defaults, "105", kWiebe, "", "exhaust back pressure"},
-    {"pressure", "start_of_combustion_deg", Kind::number, kDeg, "pressure.wiebe.start_of_combustion_deg", from(-90).up_to(90), "", defaults, "-6", kWiebe, "", "crank angle, firing TDC = 0", "-25 to 0"},
-    {"pressure", "combustion_duration_deg", Kind::number, kDeg, "pressure.wiebe.combustion_duration_deg", from(1).up_to(150), "", defaults, "60", kWiebe, "", "must end before the exhaust valve opens", "40 to 80"},
-    {"pressure", "wiebe_m", Kind::number, kNoUnit, "pressure.wiebe.wiebe_m", from(0).up_to(10), "", defaults, "0.9", kWiebe, "", "form exponent of the heat release", "0.7 to 3"},
-    {"pressure", "compression_exponent", Kind::number, kNoUnit, "pressure.wiebe.compression_exponent", from(1).up_to(2), "", defaults, "1.35", kWiebe, "", "n1, polytropic", "1.3 to 1.4"},
-    {"pressure", "expansion_exponent", Kind::number, kNoUnit, "pressure.wiebe.expansion_exponent", from(1.0001).up_to(2), "", defaults, "1.28", kWiebe, "", "n2, polytropic", "1.25 to 1.35"},
-    {"pressure", "motored_expansion_exponent", Kind::number, kNoUnit, "pressure.wiebe.motored_expansion_exponent", from(0).up_to(3), "", defaults, "0", kWiebe, "", "of a cylinder that does not fire, at least n1; 0: n1 + 0.03"},
-    {"pressure", "exhaust_valve_opens_deg", Kind::number, kDeg, "pressure.wiebe.exhaust_valve_opens_deg", from(30).up_to(179), "", defaults, "135", kWiebe, "", "crank angle, firing TDC = 0", "110 to 145"},
-    {"pressure", "net_mep_kPa", Kind::number, kKPa, "pressure.wiebe.net_mep_Pa", from(-10000).up_to(100000), "", required, "", kWiebe, "heat:net IMEP", "net IMEP over 720 deg, at least the motored one; heat is scaled to meet it"},
-    {"pressure", "heat_J", Kind::number, kJ, "pressure.wiebe.heat_J", from(0).up_to(1e9), "", required, "", kWiebe, "heat:heat", "heat per cylinder and cycle, instead of net_mep_kPa; 0: motored"},
+    {"pressure", "crankcase_kPa", Kind::number, kKPa, "pressure.crankcase_Pa", kOfField, "", defaults, "100", "", "", "on the piston's other side"},
+    {"pressure", "intake_kPa", Kind::number, kKPa, "pressure.wiebe.intake_Pa", kOfField, "", defaults, "98", kWiebe, "", "intake plenum"},
+    {"pressure", "exhaust_kPa", Kind::number, kKPa, "pressure.wiebe.exhaust_Pa", kOfField, "", defaults, "105", kWiebe, "", "exhaust back pressure"},
+    {"pressure", "start_of_combustion_deg", Kind::number, kDeg, "pressure.wiebe.start_of_combustion_deg", kOfField, "", defaults, "-6", kWiebe, "", "crank angle, firing TDC = 0", "-25 to 0"},
+    {"pressure", "combustion_duration_deg", Kind::number, kDeg, "pressure.wiebe.combustion_duration_deg", kOfField, "", defaults, "60", kWiebe, "", "must end before the exhaust valve opens", "40 to 80"},
+    {"pressure", "wiebe_m", Kind::number, kNoUnit, "pressure.wiebe.wiebe_m", kOfField, "", defaults, "0.9", kWiebe, "", "form exponent of the heat release", "0.7 to 3"},
+    {"pressure", "compression_exponent", Kind::number, kNoUnit, "pressure.wiebe.compression_exponent", kOfField, "", defaults, "1.35", kWiebe, "", "n1, polytropic", "1.3 to 1.4"},
+    {"pressure", "expansion_exponent", Kind::number, kNoUnit, "pressure.wiebe.expansion_exponent", kOfField, "", defaults, "1.28", kWiebe, "", "n2, polytropic", "1.25 to 1.35"},
+    {"pressure", "motored_expansion_exponent", Kind::number, kNoUnit, "pressure.wiebe.motored_expansion_exponent", kOfField, "", defaults, "0", kWiebe, "", "of a cylinder that does not fire, at least n1; 0: n1 + 0.03"},
+    {"pressure", "exhaust_valve_opens_deg", Kind::number, kDeg, "pressure.wiebe.exhaust_valve_opens_deg", kOfField, "", defaults, "135", kWiebe, "", "crank angle, firing TDC = 0", "110 to 145"},
+    {"pressure", "net_mep_kPa", Kind::number, kKPa, "pressure.wiebe.net_mep_Pa", kOfField, "", required, "", kWiebe, "heat:net IMEP", "net IMEP over 720 deg, at least the motored one; heat is scaled to meet it"},
+    {"pressure", "heat_J", Kind::number, kJ, "pressure.wiebe.heat_J", kOfField, "", required, "", kWiebe, "heat:heat", "heat per cylinder and cycle, instead of net_mep_kPa; 0: motored"},
     {"pressure", "file", Kind::path, kNoUnit, "", kAny, "", required, "", kTables, "", "CSV with header crank_deg,pressure_kPa or volume_cm3,pressure_kPa; relative to the engine file"},
 
-    {"gas", "intake_volume_cm3", Kind::number, kCm3, "gas.intake_m3", above(0).up_to(1e8), "", defaults, "3000", "", "", "of the intake manifold"},
-    {"gas", "exhaust_volume_cm3", Kind::number, kCm3, "gas.exhaust_m3", above(0).up_to(1e8), "", defaults, "2500", "", "", "of the exhaust manifold"},
-    {"gas", "throttle_mm2", Kind::number, kMm2, "gas.throttle_m2", above(0).up_to(1e7), "", defaults, "1600", "", "", "effective area of the throttle, wide open"},
-    {"gas", "throttle_closed_mm2", Kind::number, kMm2, "gas.throttle_closed_m2", from(0).up_to(1e7), "", defaults, "12", "", "", "effective area, closed; at most the open one"},
+    {"gas", "intake_volume_cm3", Kind::number, kCm3, "gas.intake_m3", kOfField, "", defaults, "3000", "", "", "of the intake manifold"},
+    {"gas", "exhaust_volume_cm3", Kind::number, kCm3, "gas.exhaust_m3", kOfField, "", defaults, "2500", "", "", "of the exhaust manifold"},
+    {"gas", "throttle_mm2", Kind::number, kMm2, "gas.throttle_m2", kOfField, "", defaults, "1600", "", "", "effective area of the throttle, wide open"},
+    {"gas", "throttle_closed_mm2", Kind::number, kMm2, "gas.throttle_closed_m2", kOfField, "", defaults, "12", "", "", "effective area, closed; at most the open one"},
     {"gas", "throttle_curve", Kind::pairs, kNoUnit, "", from(0).up_to(1), "", defaults, "0:0,0.2:0.06,0.5:0.3,1:1", "", "", "share of the area between closed and open, by the throttle ratio 0 to 1; straight lines"},
-    {"gas", "outlet_mm2", Kind::number, kMm2, "gas.outlet_m2", above(0).up_to(1e7), "", defaults, "1200", "", "", "effective area of the exhaust system, as one orifice"},
-    {"gas", "ambient_kPa", Kind::number, kKPa, "gas.ambient_Pa", from(1).up_to(10000), "", defaults, "100", "", "", "absolute, before the throttle"},
-    {"gas", "back_kPa", Kind::number, kKPa, "gas.back_Pa", from(0).up_to(10000), "", defaults, "0", "", "", "absolute, behind the outlet; 0: as ambient_kPa"},
+    {"gas", "outlet_mm2", Kind::number, kMm2, "gas.outlet_m2", kOfField, "", defaults, "1200", "", "", "effective area of the exhaust system, as one orifice"},
+    {"gas", "ambient_kPa", Kind::number, kKPa, "gas.ambient_Pa", kOfField, "", defaults, "100", "", "", "absolute, before the throttle"},
+    {"gas", "back_kPa", Kind::number, kKPa, "gas.back_Pa", kOfField, "", defaults, "0", "", "", "absolute, behind the outlet; 0: as ambient_kPa"},
     {"gas", "ambient_C", Kind::number, kCelsius, "", from(-123.15).up_to(2726.85), "", defaults, "25", "", "", "of the air before the throttle"},
     {"gas", "exhaust_C", Kind::number, kCelsius, "", from(-123.15).up_to(2726.85), "", defaults, "500", "", "", "initial value for a scene whose exhaust manifold is given"},
     {"gas", "wall_C", Kind::number, kCelsius, "", from(-123.15).up_to(1726.85), "", defaults, "150", "", "", "mean temperature of the cylinder's walls"},
-    {"gas", "wall_heat_factor", Kind::number, kNoUnit, "gas.wall_heat_ratio", from(0).up_to(100), "", defaults, "1", "", "", "k_w, of Hohenberg's heat transfer; 0: adiabatic"},
-    {"gas", "fuel_mg", Kind::number, kMg, "gas.fuel_kg", from(0).up_to(10000), "", defaults, "30", "", "fuel:amount", "fuel per cylinder and cycle; 0: motored"},
+    {"gas", "wall_heat_factor", Kind::number, kNoUnit, "gas.wall_heat_ratio", kOfField, "", defaults, "1", "", "", "k_w, of Hohenberg's heat transfer; 0: adiabatic"},
+    {"gas", "fuel_mg", Kind::number, kMg, "gas.fuel_kg", kOfField, "", defaults, "30", "", "fuel:amount", "fuel per cylinder and cycle; 0: motored"},
     {"gas", "excess_air_ratio", Kind::number, kNoUnit, "gas.excess_air_ratio", above(0).up_to(100), "", optional, "", "", "fuel:lambda", "lambda: fuel by the air in each cylinder"},
-    {"gas", "heating_value_MJ_per_kg", Kind::number, kMJPerKg, "gas.heating_value_J_kg", from(0).up_to(200), "", defaults, "43", "", "", "lower"},
-    {"gas", "combustion_efficiency", Kind::number, kNoUnit, "gas.combustion_efficiency", from(0).up_to(1), "", defaults, "0.97", "", "", "share of the fuel's heat that is released"},
-    {"gas", "air_fuel_ratio", Kind::number, kNoUnit, "gas.air_fuel_ratio", from(1).up_to(100), "", defaults, "14.6", "", "", "stoichiometric, by mass"},
-    {"gas", "burn_start_deg", Kind::number, kDeg, "gas.burn_start_deg", from(-90).up_to(60), "", defaults, "-18", "", "", "crank angle, firing TDC = 0"},
-    {"gas", "burn_duration_deg", Kind::number, kDeg, "gas.burn_duration_deg", from(5).up_to(150), "", defaults, "50", "", "", "must end by 150 deg"},
-    {"gas", "wiebe_m", Kind::number, kNoUnit, "gas.wiebe_m", from(0).up_to(10), "", defaults, "2", "", "", "form exponent of the heat release"},
-    {"gas", "second_share", Kind::number, kNoUnit, "gas.second_ratio", from(0).up_to(1), "", defaults, "0", "", "", "share of the fuel that burns by a second law from the same start (diesel)"},
-    {"gas", "second_m", Kind::number, kNoUnit, "gas.second_m", from(0).up_to(10), "", defaults, "1", "", "", "its form exponent"},
-    {"gas", "second_duration_ratio", Kind::number, kNoUnit, "gas.second_duration_ratio", from(0.1).up_to(10), "", defaults, "3", "", "", "its duration by that of the first"},
+    {"gas", "heating_value_MJ_per_kg", Kind::number, kMJPerKg, "gas.heating_value_J_kg", kOfField, "", defaults, "43", "", "", "lower"},
+    {"gas", "combustion_efficiency", Kind::number, kNoUnit, "gas.combustion_efficiency", kOfField, "", defaults, "0.97", "", "", "share of the fuel's heat that is released"},
+    {"gas", "air_fuel_ratio", Kind::number, kNoUnit, "gas.air_fuel_ratio", kOfField, "", defaults, "14.6", "", "", "stoichiometric, by mass"},
+    {"gas", "burn_start_deg", Kind::number, kDeg, "gas.burn_start_deg", kOfField, "", defaults, "-18", "", "", "crank angle, firing TDC = 0"},
+    {"gas", "burn_duration_deg", Kind::number, kDeg, "gas.burn_duration_deg", kOfField, "", defaults, "50", "", "", "must end by 150 deg"},
+    {"gas", "wiebe_m", Kind::number, kNoUnit, "gas.wiebe_m", kOfField, "", defaults, "2", "", "", "form exponent of the heat release"},
+    {"gas", "second_share", Kind::number, kNoUnit, "gas.second_ratio", kOfField, "", defaults, "0", "", "", "share of the fuel that burns by a second law from the same start (diesel)"},
+    {"gas", "second_m", Kind::number, kNoUnit, "gas.second_m", kOfField, "", defaults, "1", "", "", "its form exponent"},
+    {"gas", "second_duration_ratio", Kind::number, kNoUnit, "gas.second_duration_ratio", kOfField, "", defaults, "3", "", "", "its duration by that of the first"},
 
-    {"friction", "constant_kPa", Kind::number, kKPa, "friction.constant_Pa", from(0).up_to(10000), "", defaults, "0", "", "", "at any speed; holds at standstill"},
+    {"friction", "constant_kPa", Kind::number, kKPa, "friction.constant_Pa", kOfField, "", defaults, "0", "", "", "at any speed; holds at standstill"},
     {"friction", "linear_kPa_per_1000rpm", Kind::number, kKPaPerSpeed, "friction.linear_Pa_s", from(0).up_to(1e5), "", defaults, "0", "", "", "times the speed in 1000 rpm"},
     {"friction", "quadratic_kPa_per_1000rpm2", Kind::number, kKPaPerSpeed2, "friction.quadratic_Pa_s2", from(0).up_to(1e7), "", defaults, "0", "", "", "times its square"},
 
-    {"machine", "constant_Nm", Kind::number, kNm, "machine.constant_Nm", from(0).up_to(1e7), "", defaults, "0", "", "", "at any speed; holds at standstill"},
+    {"machine", "constant_Nm", Kind::number, kNm, "machine.constant_Nm", kOfField, "", defaults, "0", "", "", "at any speed; holds at standstill"},
     {"machine", "linear_Nm_per_1000rpm", Kind::number, kNmPerSpeed, "machine.linear_Nm_s", from(0).up_to(1e8), "", defaults, "0", "", "", "times the speed in 1000 rpm"},
     {"machine", "quadratic_Nm_per_1000rpm2", Kind::number, kNmPerSpeed2, "machine.quadratic_Nm_s2", from(0).up_to(1e10), "", defaults, "0", "", "", "times its square: fan, propeller, water brake"},
-    {"machine", "inertia_kg_m2", Kind::number, kKgM2, "machine.inertia_kg_m2", from(0).up_to(1e6), "", defaults, "0", "", "", "turns with the crankshaft"},
+    {"machine", "inertia_kg_m2", Kind::number, kKgM2, "machine.inertia_kg_m2", kOfField, "", defaults, "0", "", "", "turns with the crankshaft"},
 
-    {"starter", "stall_Nm", Kind::number, kNm, "starter.stall_Nm", from(0).up_to(1e7), "", defaults, "0", "", "", "torque at standstill; 0: no starter"},
+    {"starter", "stall_Nm", Kind::number, kNm, "starter.stall_Nm", kOfField, "", defaults, "0", "", "", "torque at standstill; 0: no starter"},
     {"starter", "no_load_rpm", Kind::number, kRpmAsRadS, "starter.no_load_rad_s", from(0).up_to(95000), "", defaults, "0", "", "", "crank speed at which it gives none; above 0 where there is a starter"},
 
     {"cam", "source", Kind::choice, kNoUnit, "", kAny, "polynomial|table", required, "", "", "", "source of the lift"},
-    {"cam", "max_lift_mm", Kind::number, kMm, "cam.max_lift_m", above(0).up_to(100), "", required, "", kPolynomial, "", "largest lift of the flat follower"},
-    {"cam", "half_angle_deg", Kind::number, kDeg, "cam.half_angle_deg", from(10).up_to(180), "", required, "", kPolynomial, "", "from the start of the lobe to full lift, cam angle"},
+    {"cam", "max_lift_mm", Kind::number, kMm, "cam.max_lift_m", kOfField, "", required, "", kPolynomial, "", "largest lift of the flat follower"},
+    {"cam", "half_angle_deg", Kind::number, kDeg, "cam.half_angle_deg", kOfField, "", required, "", kPolynomial, "", "from the start of the lobe to full lift, cam angle"},
     {"cam", "exponents", Kind::numbers, kNoUnit, "", from(2).up_to(100), "", required, "", kPolynomial, "", "rising; coefficients from y = y' = ... = 0 at the lobe's end"},
     {"cam", "full_lift_at_crank_deg", Kind::number, kDeg, "", from(-720).up_to(720), "", required, "", "", "", "engine angle of full theoretical lift in cylinder 1's cycle"},
-    {"cam", "phase_rate_deg_per_s", Kind::number, kDegPerS, "cam.phase_rate_deg_s", from(0).up_to(100000), "", defaults, "0", "", "", "cam phaser's rate limit in crank degrees; 0: fixed cam"},
+    {"cam", "phase_rate_deg_per_s", Kind::number, kDegPerS, "cam.phase_rate_deg_s", kOfField, "", defaults, "0", "", "", "cam phaser's rate limit in crank degrees; 0: fixed cam"},
     {"cam", "file", Kind::path, kNoUnit, "", kAny, "", required, "", kCamTable, "", "CSV with header cam_deg,lift_mm; relative to the engine file"},
-    {"cam", "smoothing_um", Kind::number, kUm, "cam.smoothing_m", above(0).up_to(1000), "auto", required, "", kCamTable, "", "largest residual that smoothing may leave; auto: by the scatter of the rows"},
+    {"cam", "smoothing_um", Kind::number, kUm, "cam.smoothing_m", kOfField, "auto", required, "", kCamTable, "", "largest residual that smoothing may leave; auto: by the scatter of the rows"},
 
-    {"rocker", "ratio", Kind::number, kNoUnit, "rocker.ratio", above(0).up_to(10), "", required, "", "", "train:constant ratio", "direct (1) or constant-ratio train, instead of the geometry"},
-    {"rocker", "pivot_to_pad_mm", Kind::number, kMm, "rocker.pivot_to_pad_m", above(0).up_to(1000), "", required, "", "", "train:geometry", "l_a"},
-    {"rocker", "pivot_to_cam_mm", Kind::number, kMm, "rocker.pivot_to_cam_m", above(0).up_to(1000), "", required, "", "", "train:geometry", "l_c"},
-    {"rocker", "base_circle_mm", Kind::number, kMm, "rocker.base_circle_m", above(0).up_to(1000), "", required, "", "", "", "r_0, radius"},
-    {"rocker", "pad_radius_mm", Kind::number, kMm, "rocker.pad_radius_m", above(0).up_to(10000), "", required, "", "", "train:geometry", "r_s"},
-    {"rocker", "pivot_to_screw_mm", Kind::number, kMm, "rocker.pivot_to_screw_m", above(0).up_to(1000), "", required, "", "", "train:geometry", "l_b"},
-    {"rocker", "screw_ball_mm", Kind::number, kMm, "rocker.screw_ball_m", from(0).up_to(1000), "", required, "", "", "train:geometry", "rho, radius"},
-    {"rocker", "stem_above_pivot_mm", Kind::number, kMm, "rocker.stem_above_pivot_m", from(-1000).up_to(1000), "", required, "", "", "train:geometry", "z"},
-    {"rocker", "clearance_mm", Kind::number, kMm, "rocker.clearance_m", from(0).up_to(10), "", required, "", "", "", "at base circle"},
+    {"rocker", "ratio", Kind::number, kNoUnit, "rocker.ratio", kOfField, "", required, "", "", "train:constant ratio", "direct (1) or constant-ratio train, instead of the geometry"},
+    {"rocker", "pivot_to_pad_mm", Kind::number, kMm, "rocker.pivot_to_pad_m", kOfField, "", required, "", "", "train:geometry", "l_a"},
+    {"rocker", "pivot_to_cam_mm", Kind::number, kMm, "rocker.pivot_to_cam_m", kOfField, "", required, "", "", "train:geometry", "l_c"},
+    {"rocker", "base_circle_mm", Kind::number, kMm, "rocker.base_circle_m", kOfField, "", required, "", "", "", "r_0, radius"},
+    {"rocker", "pad_radius_mm", Kind::number, kMm, "rocker.pad_radius_m", kOfField, "", required, "", "", "train:geometry", "r_s"},
+    {"rocker", "pivot_to_screw_mm", Kind::number, kMm, "rocker.pivot_to_screw_m", kOfField, "", required, "", "", "train:geometry", "l_b"},
+    {"rocker", "screw_ball_mm", Kind::number, kMm, "rocker.screw_ball_m", kOfField, "", required, "", "", "train:geometry", "rho, radius"},
+    {"rocker", "stem_above_pivot_mm", Kind::number, kMm, "rocker.stem_above_pivot_m", kOfField, "", required, "", "", "train:geometry", "z"},
+    {"rocker", "clearance_mm", Kind::number, kMm, "rocker.clearance_m", kOfField, "", required, "", "", "", "at base circle"},
     {"rocker", "cam_turns", Kind::choice, kNoUnit, "", kAny, "toward_pivot|away_from_pivot", required, "", "", "train:geometry", "sense of the cam's rotation"},
 
     {"valve", "per_cylinder", Kind::whole_number, kNoUnit, "valve.per_cylinder", from(1).up_to(8), "", required, "", "", "", "how many of them a cylinder has"},
-    {"valve", "valve_g", Kind::number, kG, "valve.valve_kg", above(0).up_to(1e5), "", required, "", "", "", "valve, retainer, collets"},
-    {"valve", "spring_g", Kind::number, kG, "valve.spring_kg", from(0).up_to(1e5), "", required, "", "", "", "spring; a third of it moves"},
-    {"valve", "rocker_inertia_kg_mm2", Kind::number, kKgMm2, "valve.rocker_inertia_kg_m2", from(0).up_to(1e8), "", required, "", "", "", "about the pivot"},
-    {"valve", "spring_N_per_mm", Kind::number, kNPerMm, "valve.spring_N_m", from(0).up_to(1e6), "", required, "", "", "", "spring rate"},
-    {"valve", "spring_preload_N", Kind::number, kN, "valve.spring_preload_N", above(0).up_to(1e6), "", required, "", "", "", "spring force on the closed valve"},
-    {"valve", "train_N_per_mm", Kind::number, kNPerMm, "valve.train_N_m", above(0).up_to(1e9), "", required, "", "", "", "stiffness from rocker to camshaft"},
-    {"valve", "train_damping_ratio", Kind::number, kNoUnit, "valve.train_damping_ratio", from(0).up_to(10), "", required, "", "", "", "b = 2 zeta sqrt(k M)"},
-    {"valve", "guide_damping_ratio", Kind::number, kNoUnit, "valve.guide_damping_ratio", from(0).up_to(10), "", required, "", "", "", "c = 2 zeta sqrt(k M)"},
-    {"valve", "seat_N_per_mm", Kind::number, kNPerMm, "valve.seat_N_m", above(0).up_to(1e9), "", required, "", "", "", "stiffness of the seat"},
-    {"valve", "seat_damping_ratio", Kind::number, kNoUnit, "valve.seat_damping_ratio", from(0).up_to(10), "", required, "", "", "", "b_z = 2 zeta sqrt(k_z M)"},
-    {"valve", "head_area_mm2", Kind::number, kMm2, "valve.head_area_m2", from(0).up_to(1e6), "", defaults, "0", "", "", "gas force on the valve head; 0: none"},
+    {"valve", "valve_g", Kind::number, kG, "valve.valve_kg", kOfField, "", required, "", "", "", "valve, retainer, collets"},
+    {"valve", "spring_g", Kind::number, kG, "valve.spring_kg", kOfField, "", required, "", "", "", "spring; a third of it moves"},
+    {"valve", "rocker_inertia_kg_mm2", Kind::number, kKgMm2, "valve.rocker_inertia_kg_m2", kOfField, "", required, "", "", "", "about the pivot"},
+    {"valve", "spring_N_per_mm", Kind::number, kNPerMm, "valve.spring_N_m", kOfField, "", required, "", "", "", "spring rate"},
+    {"valve", "spring_preload_N", Kind::number, kN, "valve.spring_preload_N", kOfField, "", required, "", "", "", "spring force on the closed valve"},
+    {"valve", "train_N_per_mm", Kind::number, kNPerMm, "valve.train_N_m", kOfField, "", required, "", "", "", "stiffness from rocker to camshaft"},
+    {"valve", "train_damping_ratio", Kind::number, kNoUnit, "valve.train_damping_ratio", kOfField, "", required, "", "", "", "b = 2 zeta sqrt(k M)"},
+    {"valve", "guide_damping_ratio", Kind::number, kNoUnit, "valve.guide_damping_ratio", kOfField, "", required, "", "", "", "c = 2 zeta sqrt(k M)"},
+    {"valve", "seat_N_per_mm", Kind::number, kNPerMm, "valve.seat_N_m", kOfField, "", required, "", "", "", "stiffness of the seat"},
+    {"valve", "seat_damping_ratio", Kind::number, kNoUnit, "valve.seat_damping_ratio", kOfField, "", required, "", "", "", "b_z = 2 zeta sqrt(k_z M)"},
+    {"valve", "head_area_mm2", Kind::number, kMm2, "valve.head_area_m2", kOfField, "", defaults, "0", "", "", "gas force on the valve head; 0: none"},
     {"valve", "port", Kind::choice, kNoUnit, "", kAny, "intake|exhaust", optional, "", "", "", "what it opens; needed with [pressure] source = gas"},
-    {"valve", "seat_diameter_mm", Kind::number, kMm, "gas.seat_diameter_m", above(0).up_to(1000), "", optional, "", "", "", "inner; needed with [pressure] source = gas"},
+    {"valve", "seat_diameter_mm", Kind::number, kMm, "gas.seat_diameter_m", kOfField, "", optional, "", "", "", "inner; needed with [pressure] source = gas"},
     {"valve", "flow_over_lift_ratio", Kind::pairs, kNoUnit, "", from(0).up_to(1), "", optional, "", "", "", "instead of a usual valve's: flow coefficient times area over that of the seat, by lift over its diameter, 0 to 0.5"},
 
     {"trigger", "on", Kind::text, kNoUnit, "", kAny, "", required, "", "", "", "crank, cam, or cam NAME for one that the phaser of [cam NAME] moves"},
@@ -194,6 +196,47 @@ constexpr Key kKeys[] = {
     {"trigger", "inverted", Kind::choice, kNoUnit, "", kAny, "no|yes", defaults, "no", "", "", "whether a tooth pulls the signal down"},
 };
 // clang-format on
+
+/// Looks for a field by its name.
+struct Find {
+  std::string_view name;
+  bool found = false;
+  Range range{};
+
+  template <class Field>
+  constexpr void operator()(const ListedField& here, const Field& field) {
+    if constexpr (std::is_array_v<Field>) {
+      (*this)(here, field[0]);
+    } else if constexpr (kHasFields<Field>) {
+      Field::each_field(*this, field);
+    } else if (name == here.name) {
+      found = true;
+      range = here.range;
+    }
+  }
+};
+/// The range of the key's field, in the key's unit. Throws, which does not compile, where there is no such field.
+constexpr Range range_of_field(const Key& key) {
+  const EngineDefinition definition{};
+  Find find{key.field};
+  EngineDefinition::each_field(find, definition);
+  Gas::each_field(find, definition.gas);
+  if (!find.found) throw "a key is that of a field that the definition does not have";
+  const auto in_file = [&key](double si) { return si * key.unit.over / key.unit.times; };
+  return {in_file(find.range.least), in_file(find.range.most), find.range.without_least, find.range.without_most};
+}
+constexpr auto keys_with_ranges() {
+  std::array<Key, std::size(kRows)> keys{};
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    Key& key = keys[i] = kRows[i];
+    if (key.field[0] == '\0') continue;
+    const Range range = range_of_field(key);
+    if (key.range.most > range.most && key.range.least < range.least) key.range = range;
+    if (key.range.most > range.most || key.range.least < range.least) throw "a key takes more than its field does";
+  }
+  return keys;
+}
+constexpr auto kKeys = keys_with_ranges();
 
 /// Fields that follow from a key, which is none of them by itself.
 struct Follows {
@@ -231,34 +274,6 @@ constexpr Follows kFollows[] = {
     {"gas.flow_lift_ratio", "valve", "flow_over_lift_ratio"},
     {"gas.flow_ratio", "valve", "flow_over_lift_ratio"},
 };
-
-/// Looks for a field by its name.
-struct Find {
-  std::string_view name;
-  bool found = false;
-
-  template <class Field>
-  constexpr void operator()(int, std::string_view here, const Field& field) {
-    if constexpr (std::is_array_v<Field>) {
-      (*this)(1, here, field[0]);
-    } else if constexpr (kHasFields<Field>) {
-      Field::each_field(*this, field);
-    } else {
-      found = found || here == name;
-    }
-  }
-};
-constexpr bool fields_exist() {
-  const EngineDefinition definition{};
-  for (const Key& key : kKeys) {
-    Find find{key.field};
-    EngineDefinition::each_field(find, definition);
-    Gas::each_field(find, definition.gas);
-    if (key.field[0] != '\0' && !find.found) return false;
-  }
-  return true;
-}
-static_assert(fields_exist(), "a key is that of a field that the definition does not have");
 
 /// ", or heat_J": what may be given instead, where there is a choice.
 std::string other_ways(const Key& key) {

@@ -1,6 +1,6 @@
 // Every key of the engine file: one table that drives reading, checking, `show` and `help engine-file`.
 //
-// What belongs here: what may stand in an engine file. What does not: how it becomes an EngineDefinition
+// What belongs here: the contents of an engine file. What does not: conversion to an EngineDefinition
 // (engine_file_parts.hpp).
 #pragma once
 
@@ -24,30 +24,30 @@ enum class Kind {
   pin_groups,    ///< 1-2,3-4
 };
 
-/// How a value in the file becomes SI: value * times / over. One of the two is 1, so that 95 mm is the double nearest
-/// to 0.095 m.
+/// Conversion of a value in the file to SI: value * times / over. One of the two is 1, so that 95 mm is the double
+/// nearest to 0.095 m.
 struct Unit {
-  const char* name = "";  ///< as it ends the key, "mm"; empty where the key has none
+  const char* name = "";  ///< suffix of the key, "mm"; empty if the key has none
   double times = 1;
   double over = 1;
 };
 
 enum class Presence { required, optional, with_default };
 
-/// One key. A row of the table reads: section, key, what it holds, whether it must be there, when it counts, meaning.
+/// One key. A row of the table: section, key, kind of value, whether it is required, when it is used, meaning.
 struct Key {
   const char* section;
   const char* name;
   Kind kind;
   Unit unit;
   const char*
-      field;  ///< of the definition, that it is by itself: "crank.bore_m"; "" where more than a unit lies between them
+      field;  ///< the field of the definition that differs from it only by a unit: "crank.bore_m"; "" if there is none
   Range range;
-  const char* choices;  ///< "wiebe|angle_table"; of a Kind::number, the word that may stand in its place: "auto"
+  const char* choices;  ///< "wiebe|angle_table"; of a Kind::number, a word that may replace it: "auto"
   Presence presence;
-  const char* fallback;  ///< as it would stand in the file; only Presence::with_default
+  const char* fallback;  ///< as in a file; only Presence::with_default
   const char* only_if;   ///< "source=wiebe": with another source the key is checked, but not used; "" always
-  const char* form;      ///< "rod:ends": one of two ways to say the same thing, given exactly one way; "" no other way
+  const char* form;      ///< "rod:ends": one of two forms, of which exactly one must be given; "" no other form
   const char* meaning;
   const char* usual = "";  ///< "0.7 to 3"; only for help
 
@@ -68,7 +68,8 @@ struct SectionKind {
 [[nodiscard]] std::vector<const Key*> keys_of(const std::string& section);
 [[nodiscard]] const Key* find_key(const std::string& section, const std::string& name);
 
-/// The key that a Status's field is by itself or follows from: stroke_mm for "crank.crank_radius_m"; nullptr: none.
+/// The key of a Status's field, or the key from which the field is computed: stroke_mm for "crank.crank_radius_m";
+/// nullptr: none.
 [[nodiscard]] const Key* key_of_field(std::string_view field);
 
 /// Sections that have a key of this name: "bore_mm belongs to [crank]".

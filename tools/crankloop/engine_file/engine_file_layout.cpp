@@ -1,4 +1,4 @@
-// build_layout(): who fires when, and which way the throws then point.
+// build_layout(): firing angles, and the directions of the throws that follow from them.
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +8,7 @@
 namespace crankloop::program {
 namespace {
 
-/// Throws farther apart than this are not the same throw written with fewer digits (102.86 for 720 / 7).
+/// Tolerance of a given throw, which may be rounded (102.86 for 720 / 7).
 constexpr double kThrowToleranceDeg = 0.01;
 
 void set_banks(SectionValues& values, const std::string& path, Layout& layout) {
@@ -59,7 +59,8 @@ void set_firing(SectionValues& values, const std::string& path, Layout& layout) 
   if (!status.ok()) refuse(values, "firing_order", describe(status.reason), path);
 }
 
-/// A throw points to where its piston is at the top when its cylinder fires: it is no choice, and given it is a check.
+/// A cylinder fires with its piston at the top, which determines the direction of its throw: given directions are only
+/// checked.
 void check_throws(SectionValues& values, const std::string& path, const Layout& layout) {
   if (!values.has("crank_throws_deg")) {
     Value throws;

@@ -15,7 +15,7 @@ std::string rod_length_too_short(const SectionValues& crank) {
 
 namespace {
 
-/// A source that prints both rounds both; farther apart than this they are two rods, and one of them is not meant.
+/// Tolerance between two values of the rod ratio from a source that rounds both; a larger difference is an error.
 constexpr double kMaxRodDisagreement = 1e-3;
 
 void require_that_rod_and_ratio_agree(const SectionValues& values, const Crank& drawn, const std::string& path) {
@@ -39,8 +39,7 @@ Crank build_crank(const SectionValues& values, const std::string& path) {
   }
   if (values.has("rod_ratio")) {
     require_that_rod_and_ratio_agree(values, crank, path);
-    // Everything that knows a rod length then knows this one, so that motion, masses and energies agree with one
-    // another.
+    // All code then uses this rod length, so that motion, masses and energies are consistent.
     crank.rod_length_m = crank.crank_radius_m / values.si("rod_ratio");
   }
   return crank;
@@ -65,7 +64,7 @@ Masses build_masses(const SectionValues& values, const Crank& crank, const std::
     if (values.has("rod_inertia_kg_mm2")) rod.inertia_kg_m2 = values.si("rod_inertia_kg_mm2");
     lump_rod(rod, crank, masses);
     if (!values.has("rod_inertia_kg_mm2"))
-      masses.rod_inertia_correction_kg_m2 = 0;  // not weighed: two-mass rod, not a point mass
+      masses.rod_inertia_correction_kg_m2 = 0;  // inertia not given: two-mass rod, not a point mass
   }
   if (!(masses.reciprocating_kg() > 0)) {
     throw InputError(path, values.line_of("piston_g"),

@@ -1,4 +1,4 @@
-// From a section's values to the parts of an EngineDefinition; used by engine_file.cpp only.
+// Conversion of a section's values to the parts of an EngineDefinition; used only by engine_file.cpp.
 //
 // What belongs here: rules that need more than one key, but no other file. What does not: single keys
 // (engine_file_section.cpp).
@@ -15,16 +15,16 @@
 
 namespace crankloop::program {
 
-/// Puts the values whose keys are fields of this part into them; other fields stay as they are.
+/// Copies values into the fields of this part that have a key; other fields stay unchanged.
 template <class Part>
 void fill(const SectionValues& values, Part& part) {
   Part::each_field(
-      [&values](int, std::string_view name, auto& field) {
+      [&values](const ListedField& listed, auto& field) {
         using Field = std::remove_reference_t<decltype(field)>;
         if constexpr (kHasFields<Field>) {
           fill(values, field);
         } else if constexpr (std::is_same_v<Field, double> || std::is_same_v<Field, int>) {
-          if (const Value* value = values.of_field(name); value != nullptr && !value->is_open())
+          if (const Value* value = values.of_field(listed.name); value != nullptr && !value->is_open())
             field = static_cast<Field>(value->si());
         }
       },
@@ -51,7 +51,7 @@ void fill(const SectionValues& values, Part& part) {
 [[nodiscard]] Rocker build_rocker(const SectionValues& values);
 
 /// All but the train whose phaser moves it and the list of edges, which is put into `edges_deg`; empty where the wheel
-/// has teeth and gaps. Throws InputError for a pattern that names no wheel.
+/// has teeth and gaps. Throws InputError for an unknown pattern.
 [[nodiscard]] TriggerWheel build_trigger(const SectionValues& values, const std::string& path,
                                          std::vector<double>& edges_deg);
 

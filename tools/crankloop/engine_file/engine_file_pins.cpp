@@ -1,4 +1,4 @@
-// place_cylinders(): where cylinders stand along the crankshaft, and which of them share a crank pin.
+// place_cylinders(): positions of cylinders along the crankshaft, and shared crank pins.
 #include <algorithm>
 #include <limits>
 
@@ -43,7 +43,8 @@ Groups given_groups(const SectionValues& values, const std::string& path, const 
   return groups;
 }
 
-/// For each cylinder the lowest cylinder on its pin, both counted from 0: the pin's name until pins are numbered.
+/// For each cylinder the lowest cylinder on its pin, both counted from 0; it identifies the pin until pins are
+/// numbered.
 std::vector<std::size_t> leaders(const Groups& groups, std::size_t cylinders) {
   std::vector<std::size_t> leader(cylinders);
   for (std::size_t k = 0; k < cylinders; ++k) leader[k] = k;
@@ -83,7 +84,7 @@ void number_pins(const SectionValues& values, const std::vector<std::size_t>& le
     std::size_t leader;
     double begin_m;
     double end_m;
-    double middle_m;  ///< of its rods: what "along the shaft" means in core
+    double middle_m;  ///< mean position of its rods, by which core orders the pins
   };
   std::vector<Pin> pins;
   for (std::size_t k = 0; k < leader.size(); ++k) {
@@ -94,7 +95,7 @@ void number_pins(const SectionValues& values, const std::vector<std::size_t>& le
       if (leader[other] != k) continue;
       pin.begin_m = std::min(pin.begin_m, layout.position_m[other]);
       pin.end_m = std::max(pin.end_m, layout.position_m[other]);
-      pin.middle_m += layout.position_m[other] - layout.position_m[k];  // exact where all stand at one place
+      pin.middle_m += layout.position_m[other] - layout.position_m[k];  // exact if all have the same position
       ++rods;
     }
     pin.middle_m = layout.position_m[k] + pin.middle_m / rods;

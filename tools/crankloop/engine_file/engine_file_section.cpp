@@ -1,4 +1,4 @@
-// resolve_section(): from what stands under a header to the section's complete values.
+// resolve_section(): completes the values of a section from its lines.
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -22,11 +22,11 @@ const Key& known_key(const IniSection& section, const IniEntry& entry, const std
   throw InputError(path, entry.line, "unknown key " + in_quotes(entry.key) + " in " + section.title() + help);
 }
 
-/// What a section says, and what of it could not be read.
+/// The values of a section, and the keys that could not be read.
 struct Given {
   SectionValues values;
-  std::vector<const Key*> bad;  ///< there, but without a value
-  bool guessing = false;        ///< what else is needed depends on what could not be read
+  std::vector<const Key*> bad;  ///< present, but without a valid value
+  bool guessing = false;        ///< the set of required keys depends on a value that could not be read
 };
 
 Value read_entry(const IniSection& section, const IniEntry& entry, const SectionValues& before,
@@ -77,7 +77,7 @@ std::string required_keys(const std::string& section, std::string_view form) {
   return join(names, " and ");
 }
 
-/// What to call a choice between forms, and which of its forms the file uses.
+/// A choice between forms: its name, and the form that the file uses.
 struct FormInUse {
   const Value* first_given = nullptr;
   std::vector<std::string> forms;  ///< all of them, in the order of the table
@@ -85,7 +85,7 @@ struct FormInUse {
   bool needed = false;
 };
 
-/// The form that counts where the file says nothing: one whose every key has a default; else "".
+/// The default form: one whose keys all have defaults; else "".
 std::string form_by_default(const std::string& section, const std::vector<std::string>& forms) {
   for (const std::string& form : forms) {
     const std::vector<const Key*> keys = keys_of(section);
@@ -97,7 +97,7 @@ std::string form_by_default(const std::string& section, const std::vector<std::s
   return "";
 }
 
-/// Refuses a file that says the same thing in two ways, and one that says it in none.
+/// Refuses a file with two forms of the same quantity, and one without any.
 std::map<std::string, FormInUse> forms_in_use(const SectionValues& values, const std::string& path) {
   std::map<std::string, FormInUse> choices;
   for (const Key* key : keys_of(values.kind)) {
@@ -163,7 +163,7 @@ SectionValues resolve_section(const IniSection& section, const std::string& path
                            allowed + ")" +
                            (key->only_if[0] == '\0' ? "" : std::string(", needed with ") + key->only_if));
     });
-    if (key->kind == Kind::choice) break;  // what else is needed depends on it
+    if (key->kind == Kind::choice) break;  // the set of required keys depends on it
   }
   problems.refuse(path);
   values.values = std::move(complete);

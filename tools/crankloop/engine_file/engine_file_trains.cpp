@@ -1,5 +1,5 @@
-// Valve trains of an engine file: [cam NAME], [rocker NAME] and [valve NAME] as definitions, and what core refuses
-// about them in words.
+// Valve trains of an engine file: [cam NAME], [rocker NAME] and [valve NAME] as definitions, and messages for core's
+// refusals.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr TableFormat kCamTable{"cam_deg", "lift_mm", from(-360).up_to(360), from(-100).up_to(100)};
 
-/// Of few digits, as a file would say it.
+/// A number with few digits, as in a file.
 double micrometres(double metres) { return parse_number(brief(metres * 1e6)).value; }
 
 TrainOfFile& named(std::vector<TrainOfFile>& trains, const std::string& name) {
@@ -141,7 +141,7 @@ const TrainOfFile& EngineFile::train(const std::string& name) const {
                                     : "; there are: " + join(names)));
 }
 
-/// The train that a Status about a whole definition means, by its number among the complete ones.
+/// The train of a Status, by its index among the complete trains.
 const TrainOfFile* EngineFile::train_to_blame(const Key& key, int index) const {
   if (!find_section_kind(key.section)->named) return nullptr;
   int number = 0;
@@ -155,7 +155,7 @@ namespace {
 
 /// Not less than the value.
 std::string three_digits_up(double value) {
-  double digit = 1;  // not by pow(), which would ask an FMU's users for a younger glibc
+  double digit = 1;  // not by pow(), which would make an FMU require a newer glibc
   while (digit * 1000 <= value) digit *= 10;
   while (digit > 1e-30 && digit * 100 > value) digit /= 10;
   return brief(std::ceil(value / digit) * digit);
@@ -168,7 +168,7 @@ std::string row_in_words(const TrainOfFile& train, int row) {
          ")";
 }
 
-/// What ValveLift found of the geometry; empty for anything else.
+/// The message for a geometry that ValveLift refused; empty for other refusals.
 std::string geometry_in_words(std::string_view field, const std::string& at) {
   if (field == "rocker.base_circle_m")
     return "base_circle_mm: the cam is undercut" + at + "; a larger base circle or a blunter lift is needed";
@@ -185,7 +185,7 @@ std::string geometry_in_words(std::string_view field, const std::string& at) {
 
 }  // namespace
 
-/// About the rows of a measured cam, or how closely they are to be followed.
+/// The message for a refusal of a measured cam's rows or of its smoothing.
 InputError EngineFile::explain_cam(const Status& status, const TrainOfFile& train, const SectionValues& cam) const {
   const bool has_row = status.index >= 0 && static_cast<std::size_t>(status.index) < train.point_lines.size();
   const int line = has_row ? train.point_lines[static_cast<std::size_t>(status.index)] : train.point_lines.back();
@@ -198,12 +198,12 @@ InputError EngineFile::explain_cam(const Status& status, const TrainOfFile& trai
         "smoothing_um: " + (smoothing.is_open() ? "auto" : shortest(smoothing.numbers[0])) + " has no solution: ";
     if (!follows) {
       return InputError(path_, smoothing.line,
-                        refused + "no smooth lobe comes within 1000 um of every row; look at that of " +
+                        refused + "no smooth lobe comes within 1000 um of every row; check the row at " +
                             row_in_words(train, std::max(survey.index, 0)));
     }
     return InputError(path_, smoothing.line,
                       refused + "no smooth lobe comes that close to every row; smallest possible: " +
-                          three_digits_up(rows.smallest_m * 1e6) + ", for which the row of " +
+                          three_digits_up(rows.smallest_m * 1e6) + ", for which the row at " +
                           row_in_words(train, rows.worst_row) + " lies " +
                           three_digits_up(std::abs(rows.worst_off_m) * 1e6) + " um " +
                           (rows.worst_off_m > 0 ? "above" : "below") + " the lobe; allow more, or correct that row");

@@ -1,4 +1,4 @@
-// Trigger wheels of an engine file: [trigger NAME] as a definition, and what is wrong with one in words.
+// Trigger wheels of an engine file: [trigger NAME] as a definition, and messages for its errors.
 #include <algorithm>
 
 #include "../files/words.hpp"
@@ -9,7 +9,7 @@
 namespace crankloop::program {
 namespace {
 
-/// What validate() found of an edge list.
+/// The message for an edge list that validate() refused.
 std::string edges_in_words(const TriggerWheel& wheel, const std::vector<double>& edges_deg, const Status& status) {
   const std::string turn = wheel.shaft == TriggerShaft::crank ? "360" : "720";
   const auto entry = static_cast<std::size_t>(std::max(status.index, 0));
@@ -82,7 +82,7 @@ void EngineFile::build_triggers() {
     const int train = train_with_phaser(section);
     triggers_.push_back({section.name, {}});
     std::vector<double>& edges_deg =
-        triggers_.back().edges_deg;  // keeps its place when the list of triggers grows or moves
+        triggers_.back().edges_deg;  // its data stays in place when the list of triggers grows or moves
     TriggerWheel wheel = build_trigger(section, path_, edges_deg);
     wheel.train = train;
     if (!edges_deg.empty()) wheel.pattern = TriggerPattern::edges;

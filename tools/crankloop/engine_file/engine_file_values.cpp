@@ -13,7 +13,7 @@
 namespace crankloop::program {
 namespace {
 
-constexpr std::size_t kLongestList = 64;  // no key needs more; keeps a hostile line from becoming a hostile message
+constexpr std::size_t kLongestList = 64;  // no key needs more; limits the length of messages about hostile files
 
 double number_in_range(const Key& key, std::string_view text, const std::string& path, int line,
                        const std::string& where) {
@@ -55,7 +55,7 @@ std::string choice_of(const Key& key, std::string_view text, const std::string& 
 Value parse_value(const Key& key, std::string_view text, const std::string& path, int line) {
   Value value{&key, line, true, "", {}, {}};
   const bool free_text = key.kind == Kind::text || key.kind == Kind::path;
-  if (!free_text) text = trim(text.substr(0, text.find('#')));  // "95# bore": only free text may hold a #
+  if (!free_text) text = trim(text.substr(0, text.find('#')));  // "95# bore": only free text may contain a #
   if (text.empty()) {
     const std::string allowed = key.allowed();
     throw InputError(path, line,

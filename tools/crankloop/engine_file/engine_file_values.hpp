@@ -1,7 +1,6 @@
 // The values of one section: typed, in range, with defaults filled in, each with the line it came from.
 //
-// What belongs here: what can be said of one section alone. What does not: what sections demand of one another
-// (engine_file_parts.hpp).
+// What belongs here: rules within one section. What does not: rules between sections (engine_file_parts.hpp).
 #pragma once
 
 #include <string>
@@ -22,17 +21,17 @@ struct Value {
   std::vector<std::vector<int>> groups;  ///< firing_order (one group), pin_groups; cylinders counted from 1
   bool automatic = false;                ///< a number that the program chose where the file has a word
 
-  /// Of a number for which the file has a word, such as auto: its number has yet to be found.
+  /// True for a number that the file replaces by a word, such as auto, until it is computed.
   [[nodiscard]] bool is_open() const noexcept { return key->kind == Kind::number && numbers.empty(); }
   [[nodiscard]] double si() const {
     return numbers.at(0) * key->unit.times / key->unit.over;
   }  ///< angles stay in degrees
 };
 
-/// Reads what stands behind `key =`; throws InputError at path:line.
+/// Reads the text after `key =`; throws InputError at path:line.
 [[nodiscard]] Value parse_value(const Key& key, std::string_view text, const std::string& path, int line);
 
-/// As it would stand in the file; parse_value() of it gives the same value back, bit for bit.
+/// The value as text for a file; parse_value() returns the same value, bit for bit.
 [[nodiscard]] std::string format_value(const Value& value);
 
 struct SectionValues {
@@ -52,7 +51,7 @@ struct SectionValues {
   [[nodiscard]] double si(std::string_view key) const { return at(key).si(); }
   [[nodiscard]] const std::vector<double>& numbers(std::string_view key) const { return at(key).numbers; }
 
-  /// Line to blame for a key: its own if it is in the file, otherwise the section's.
+  /// Line for messages about a key: its own if it is in the file, otherwise the section's.
   [[nodiscard]] int line_of(std::string_view key) const;
 
   /// Gives an open number its value.
@@ -63,7 +62,7 @@ struct SectionValues {
 
  private:
   [[nodiscard]] const Value& at(
-      std::string_view key) const;  ///< throws std::logic_error: asking for what may be absent is a defect
+      std::string_view key) const;  ///< throws std::logic_error if it is absent: a defect of the caller
 };
 
 [[nodiscard]] SectionValues resolve_section(const IniSection& section, const std::string& path);

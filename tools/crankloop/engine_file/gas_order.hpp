@@ -1,7 +1,7 @@
 // The inputs of an engine with gas exchange, the same for all its cylinders: throttle, fuel, spark.
 //
-// What belongs here: the order, its way into a step's input. What does not: its options (command_line/gas_options.hpp),
-// what becomes of it (loops/, commands/).
+// What belongs here: the values, and copying them into a step's input. What does not: their options
+// (command_line/gas_options.hpp), runs (loops/, commands/).
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@ namespace crankloop::program {
 struct GasOrder {
   double throttle_ratio = 1;
   double fuel_kg = 0;           ///< per cylinder and cycle
-  double excess_air_ratio = 0;  ///< lambda; above 0, it sets the fuel
+  double excess_air_ratio = 0;  ///< lambda; if above 0, it determines the fuel
   double burn_start_deg = 0;
   double burn_duration_deg = 0;
 };
 
-/// As the engine is defined.
+/// The values of the definition.
 [[nodiscard]] inline GasOrder gas_order(const Gas& gas) {
   return {1, gas.excess_air_ratio > 0 ? 0 : gas.fuel_kg, gas.excess_air_ratio, gas.burn_start_deg,
           gas.burn_duration_deg};

@@ -18,7 +18,8 @@ bool is_word(std::string_view text) {
   return !text.empty() && text.find_first_not_of(kWordCharacters) == std::string_view::npos;
 }
 
-/// A comment starts at a # that begins the line or follows a blank: a name may be "V8 no.#2", and a path may hold one.
+/// A comment starts at a # at the start of the line or after a blank, because names ("V8 no.#2") and paths may contain
+/// a #.
 std::string_view without_comment(std::string_view line) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (line[i] == '#' && (i == 0 || line[i - 1] == ' ' || line[i - 1] == '\t')) return line.substr(0, i);
@@ -63,7 +64,7 @@ IniEntry parse_entry(std::string_view text, const std::string& path, int line) {
 IniText parse_ini(const std::vector<std::string>& lines, const std::string& path) {
   IniText ini;
   Problems problems;
-  bool any_header = false;  // also a bad one, under which keys may stand
+  bool any_header = false;  // also an invalid one, which keys may follow
   ini.last_line = std::max(1, static_cast<int>(lines.size()));
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const int line = static_cast<int>(i) + 1;
@@ -77,7 +78,7 @@ IniText parse_ini(const std::vector<std::string>& lines, const std::string& path
       }
       IniEntry entry = parse_entry(text, path, line);
       if (!any_header) {
-        any_header = true;  // told once
+        any_header = true;  // report it only once
         throw InputError(path, line,
                          "key '" + entry.key + "' stands before the first section; write [section] above it");
       }

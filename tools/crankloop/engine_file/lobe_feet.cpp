@@ -6,7 +6,7 @@
 namespace crankloop::program {
 namespace {
 
-constexpr double kFootDeg = 2.5;  ///< and three rows at least; those of coarser rows tell nothing
+constexpr double kFootDeg = 2.5;  ///< and at least three rows; coarser rows give no slope
 constexpr double kMaxBase_m = 20e-6;
 constexpr std::size_t kMinRows = 12;
 constexpr double kMinLobeDeg = 20;
@@ -15,8 +15,8 @@ double determinant(const double* a, const double* b, const double* c) {
   return a[0] * (b[1] * c[2] - b[2] * c[1]) - b[0] * (a[1] * c[2] - a[2] * c[1]) + c[0] * (a[1] * b[2] - a[2] * b[1]);
 }
 
-/// Where the parabola through the first rows of a foot meets the base circle; 0 where it does not. Rows are counted by
-/// `step` from `first`: 1 at the lobe's beginning, -1 at its end.
+/// Slope of the parabola through the first rows of the lobe where it meets the base circle; 0 if it does not. Rows are
+/// counted by `step` from `first`: 1 at the lobe's start, -1 at its end.
 double step_m_deg(const std::vector<CamPoint>& rows, std::size_t first, int step) {
   const auto row = [&](int i) { return rows[first + static_cast<std::size_t>(step * i)]; };
   const double unit_deg = std::abs(row(1).cam_deg - row(0).cam_deg);

@@ -1,6 +1,6 @@
-// How a measured cam leaves its base circle and comes back to it.
+// Slope of a measured cam's lift at both ends of the lobe.
 //
-// What belongs here: what the rows show of it. What does not: whether that is usual (plausibility.cpp).
+// What belongs here: slopes from the rows. What does not: whether they are usual (plausibility.cpp).
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace crankloop::program {
 /// Speeds of the lift in m per cam degree, all 0 where rows are too few, or more than 2.5 deg apart.
 struct LobeFeet {
   std::size_t first_row = 0;  ///< of the lobe
-  double step_m_deg = 0;      ///< where the lift leaves 0, or comes back to it: the smaller of both
+  double step_m_deg = 0;      ///< where the lift leaves 0 or returns to it: the smaller of both
   double largest_m_deg = 0;   ///< from row to row, anywhere
 };
 

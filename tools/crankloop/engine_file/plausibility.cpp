@@ -20,15 +20,15 @@ namespace {
 constexpr Interval kBoreMm{10, 1200};
 constexpr Interval kBorePerStroke{0.3, 2};
 constexpr Interval kRodRatio{0.15, 0.45};
-constexpr double kMassFactor = 10;  ///< of the table of first designs, either way
+constexpr double kMassFactor = 10;  ///< permitted factor between a mass and the table of first designs, both ways
 
 /// Heywood, Internal Combustion Engine Fundamentals (1988), section 9.2: 1.3 +- 0.05 with spark ignition; diesels
-/// reach 1.4. Angles 5 deg off move it by 0.11.
+/// reach 1.4. An angle error of 5 deg changes it by 0.11.
 constexpr Interval kCompressionExponent{1.25, 1.45};
 constexpr double kCompressionFromDeg = -90;
 constexpr double kCompressionToDeg = -30;
 
-/// Losses put the motored peak up to a degree or so before dead centre; more is an error of the angles.
+/// Losses shift the motored peak to about one degree before dead centre; more is an error of the angles.
 constexpr double kMaxPeakLeadDeg = 3;
 constexpr double kPeakSearchDeg = 40;
 constexpr double kPeakStepDeg = 0.1;
@@ -39,7 +39,7 @@ class Warnings {
  public:
   explicit Warnings(const EngineFile& engine) : engine_{engine} {}
 
-  /// Line 0: of the whole file.
+  /// Line 0: for the whole file.
   void add(int line, const std::string& text) {
     lines_.push_back(engine_.path() + (line > 0 ? ":" + std::to_string(line) : "") + ": warning: " + text);
   }
@@ -66,7 +66,7 @@ bool lengths_look_like_metres(const SectionValues& crank) {
          crank.number("rod_length_mm") < 10;
 }
 
-/// Tells what is wrong with them, and returns those that are not.
+/// Warns about unusual sizes, and returns the others.
 EngineSize look_at_crank(const EngineFile& engine, Warnings& warnings) {
   const SectionValues& crank = engine.section("crank");
   const double bore_mm = crank.number("bore_mm");
@@ -81,7 +81,7 @@ EngineSize look_at_crank(const EngineFile& engine, Warnings& warnings) {
     size.stroke_mm = stroke_mm * 1e3;
     return size;
   }
-  // Each is told alone: the next is measured by it.
+  // Only one warning at a time, because the next size is compared with this one.
   if (!warnings.add_unless(kBoreMm, bore_mm, crank.line_of("bore_mm"), "bore_mm", " mm")) return size;
   size.bore_mm = bore_mm;
   if (!warnings.add_unless(kBorePerStroke, bore_mm / stroke_mm, crank.line_of("bore_mm"), "bore_mm / stroke_mm", ""))
@@ -93,7 +93,7 @@ EngineSize look_at_crank(const EngineFile& engine, Warnings& warnings) {
   return size;
 }
 
-/// To two digits: how wide a range is, is no exact thing.
+/// Rounded to two digits, because the range is approximate.
 std::string about(double value) {
   if (value == 0) return "0";
   const double digit = std::pow(10, std::floor(std::log10(std::abs(value))) - 1);
@@ -112,7 +112,7 @@ void look_at_value(const Value& value, const EngineSize& size, Warnings& warning
                                (unit.empty() ? "" : " " + unit) + in_words(range->per));
 }
 
-/// Each value beside engines of this size.
+/// Compares each value with engines of this size.
 void look_at_values(const EngineFile& engine, EngineSize size, bool metres, Warnings& warnings) {
   if (engine.has("engine") && size.stroke_mm) {
     const double piston_m_s = engine.rated_rpm() / *size.of(Per::piston_speed);
@@ -126,7 +126,7 @@ void look_at_values(const EngineFile& engine, EngineSize size, bool metres, Warn
   }
 }
 
-/// In degrees of cylinder 1's cycle, whose gas exchange has its dead centre at 360.
+/// In degrees of cylinder 1's cycle, with the dead centre of gas exchange at 360.
 constexpr Interval kIntakeFullLiftDeg{380, 560};
 constexpr Interval kExhaustFullLiftDeg{160, 340};
 
@@ -149,7 +149,7 @@ void look_at_cams(const EngineFile& engine, Warnings& warnings) {
   }
 }
 
-/// A row that a lobe misses by more than this, and by more than the scatter of the rows explains, was misread.
+/// A row is suspicious if its deviation from the lobe exceeds this and a multiple of the rows' scatter.
 constexpr double kMisread_m = 5e-6;
 constexpr double kMisreadSigmas = 5;
 
@@ -159,25 +159,25 @@ void look_at_misread_rows(const SectionValues& cam, const TrainOfFile& train, Wa
   if (rows.smallest_m < std::max({kMisread_m, kMisreadSigmas * rows.scatter_m, rows.unit_m})) return;
   const auto row = static_cast<std::size_t>(rows.worst_row);
   warnings.add(cam.line_of("smoothing_um"),
-               "smoothing_um = auto becomes " + brief(cam.number("smoothing_um")) + " for the sake of the row of " +
+               "smoothing_um = auto becomes " + brief(cam.number("smoothing_um")) + " because of the row at " +
                    brief(train.points[row].cam_deg) + " deg (" + train.points_path + ":" +
                    std::to_string(train.point_lines[row]) + "), which lies " + about(std::abs(rows.worst_off_m) * 1e6) +
                    " um off every smooth lobe, where the rows scatter by " + about(rows.scatter_m * 1e6) +
-                   " um: is it misread?");
+                   " um: was it misread?");
 }
 
 /// Of a cam's largest speed: ramps begin with up to a tenth of it, a lift less a clearance of 0.1 mm with a fifth.
 constexpr double kMaxFirstSpeed = 0.15;
 
-/// A table that leaves the base circle with a step of its speed, and comes back with one.
+/// Warns about a lift that leaves the base circle and returns to it with a step in speed.
 void look_at_feet(const SectionValues& cam, const TrainOfFile& train, Warnings& warnings) {
   const LobeFeet feet = lobe_feet(train.points, train.definition.cam.smoothing_m);
   if (feet.step_m_deg <= kMaxFirstSpeed * feet.largest_m_deg) return;
   warnings.add(cam.line_of("file"), train.points_path + ":" + std::to_string(train.point_lines[feet.first_row]) +
-                                        ": the lift leaves the base circle with a step of its speed to " +
+                                        ": the lift leaves the base circle with a step in speed to " +
                                         about(feet.step_m_deg * 1e6) + " um/deg, " +
                                         about(100 * feet.step_m_deg / feet.largest_m_deg) +
-                                        " % of the largest, and comes back with one; usual: less than 10 %. Is it a "
+                                        " % of the largest, and returns with one; usual: less than 10 %. Is it a "
                                         "valve's lift less its clearance? The table takes the cam's lift, ramps "
                                         "included, and clearance_mm the clearance");
 }
@@ -193,10 +193,11 @@ void look_at_measured_cams(const EngineFile& engine, Warnings& warnings) {
 
 constexpr Interval kLambdaWithSpark{0.7, 2};
 constexpr double kAirConstant = 287.1;  ///< J/(kg K)
-constexpr double kFilling = 0.9;        ///< of the displacement with ambient air, at an open throttle
+constexpr double kFilling = 0.9;        ///< volumetric efficiency at an open throttle
 constexpr double kZeroCelsius_K = 273.15;
 
-/// Of fuel in a cylinder full of air; a diesel, whose fuel burns by two laws, has more air.
+/// Warns about an unusual lambda, given or in a full cylinder. Not for a diesel, whose fuel burns by two Wiebe
+/// functions: it has more air.
 void look_at_mixture(const EngineFile& engine, const EngineSize& size, Warnings& warnings) {
   if (engine.definition().pressure.source != PressureSource::gas || !engine.has("gas")) return;
   const SectionValues& gas = engine.section("gas");
@@ -220,7 +221,7 @@ void look_at_mixture(const EngineFile& engine, const EngineSize& size, Warnings&
                                            about(lambda) + " in a cylinder full of air; " + usual);
 }
 
-/// Of any kind of engine: the file does not say which it is.
+/// Over all kinds of engines, because the file does not state the kind.
 void look_at_piston(const EngineFile& engine, Warnings& warnings) {
   const double bore_m = engine.definition().crank.bore_m;
   Interval usual_kg = first_design(EngineKind::diesel, bore_m, engine.rated_rpm()).piston_kg;
@@ -239,7 +240,7 @@ void look_at_diagram(const EngineFile& engine, Warnings& warnings) {
   const auto diagram = std::make_unique<IndicatorDiagram>();  // large
   if (d.pressure.source == PressureSource::none || d.pressure.source == PressureSource::gas ||
       !diagram->init(d.crank, d.pressure).ok())
-    return;  // refused by whoever runs it
+    return;  // the run refuses it
   const SectionValues& pressure = engine.section("pressure");
   const bool is_table = pressure.has("file");
   const int line = pressure.line_of(is_table ? "file" : "compression_exponent");

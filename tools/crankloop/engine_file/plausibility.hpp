@@ -1,6 +1,6 @@
 // Allowed but unlikely values in an engine file: warnings, after which the command continues.
 //
-// What belongs here: bounds of the usual. What does not: bounds of the possible (validate(), engine_file_keys.cpp).
+// What belongs here: usual ranges. What does not: permitted ranges (validate(), engine_file_keys.cpp).
 #pragma once
 
 #include <string>
@@ -13,11 +13,11 @@ namespace crankloop::program {
 /// One line each: "FILE:LINE: warning: what is unusual; what is usual".
 [[nodiscard]] std::vector<std::string> warnings_about(const EngineFile& engine);
 
-/// The same of an engine whose gas makes its speed; `definition` is the file's, with the load it is to run with.
+/// Warnings for a free-running engine; `definition` is the file's with the load of the run.
 [[nodiscard]] std::vector<std::string> warnings_about_running_free(const EngineFile& engine,
                                                                    const EngineDefinition& definition);
 
-/// Refuses an engine with gas exchange: what this command shows of the gas comes from a diagram.
+/// Refuses an engine with gas exchange, for commands that need a pressure diagram.
 void demand_a_diagram(const EngineFile& engine);
 
 }  // namespace crankloop::program

@@ -1,4 +1,4 @@
-// Where an engine's cylinder pressure comes from, in words: what reports and summaries must not leave open.
+// The source of an engine's cylinder pressure in words, for reports and summaries.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace crankloop::program {
 
-/// Synthesised and how, from which table, or none; and what a load ratio makes of it. Of an engine that breathes: what
-/// it was told (but for what a map varies), and what is not modelled.
+/// How the pressure is synthesised, or the name of its table, or that there is none; and the effect of a load ratio.
+/// For an engine with gas exchange: its settings, without the one that a map varies, and what is not modelled.
 [[nodiscard]] std::string pressure_in_words(const EngineFile& file, double load_ratio, const GasOrder& gas,
                                             double GasOrder::*varied = nullptr);
 
-/// The same in a line of a summary.
+/// The source in one line, for a summary.
 [[nodiscard]] std::string pressure_in_short(const EngineFile& file);
 
 }  // namespace crankloop::program

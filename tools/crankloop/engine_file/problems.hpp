@@ -17,7 +17,7 @@ namespace crankloop::program {
 
 class Problems {
  public:
-  /// Whether it ran to its end; an InputError that it throws is kept, also one of several lines.
+  /// Runs it; false if it throws an InputError, which is recorded, also one of several lines.
   template <class Work>
   bool of(Work&& work) {
     try {
@@ -29,7 +29,7 @@ class Problems {
     return false;
   }
 
-  /// Throws what was kept, if anything was.
+  /// Throws the recorded errors, if there are any.
   void refuse(const std::string& path) {
     if (lines_.empty()) return;
     if (lines_.size() > kMaxLines) {

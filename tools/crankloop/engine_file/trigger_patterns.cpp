@@ -1,4 +1,4 @@
-// Wheels in use, from the tables of public decoders, read edge by edge:
+// Wheels of production engines, from the tables of public decoders, edge by edge:
 //   rusEFI, github.com/rusefi/rusefi firmware/controllers/trigger/decoders/trigger_*.cpp
 //   Speeduino, github.com/noisymime/speeduino speeduino/decoders.cpp
 //   Ardu-Stim, github.com/speeduino/Ardu-Stim ardustim/ardustim/wheel_defs.h, a generator of their signals
@@ -62,7 +62,7 @@ constexpr std::array<WheelPair, kWheelPairs> kPairs{{
 
 #undef RUSEFI_DECODER
 
-/// A pattern's own text, read from left to right.
+/// Parser of a pattern's text.
 class PatternText {
  public:
   explicit PatternText(std::string_view text) : rest_{text} {}
@@ -89,7 +89,7 @@ class PatternText {
 
 void add_gap(TriggerWheel& wheel, ToothGap gap) {
   if (wheel.gap_count < kMaxToothGaps) wheel.gaps[wheel.gap_count] = gap;
-  ++wheel.gap_count;  // one too many is refused by validate()
+  ++wheel.gap_count;  // validate() refuses too many
   wheel.places += gap.teeth + gap.missing;
 }
 

@@ -1,7 +1,6 @@
-// What `pattern = TEXT` of a trigger wheel means: teeth and gaps, or the NAME of a pair of wheels that engines in use
-// have.
+// Patterns of trigger wheels, `pattern = TEXT`: teeth and gaps, or the NAME of a pair of wheels of production engines.
 //
-// What belongs here: the shape of a wheel. What does not: where it stands and what moves it (engine_file_triggers.cpp).
+// What belongs here: the shape of a wheel. What does not: its angle and shaft (engine_file_triggers.cpp).
 #pragma once
 
 #include <array>
@@ -25,8 +24,8 @@ struct WheelPair {
 inline constexpr std::size_t kWheelPairs = 12;
 [[nodiscard]] const std::array<WheelPair, kWheelPairs>& wheel_pairs();
 
-/// Fills in the wheel of this text, of a pair the one of wheel.shaft; `edges_deg` where it is a list, else empty.
-/// False: no wheel.
+/// Fills in the wheel of this text, of a pair the one on wheel.shaft; `edges_deg` if it is a list, else empty. False if
+/// the text is not a pattern.
 [[nodiscard]] bool read_pattern(const std::string& text, TriggerWheel& wheel, std::vector<double>& edges_deg);
 
 /// What `crankloop help patterns` prints.

@@ -10,8 +10,8 @@ namespace {
 
 constexpr bool kOrZero = true;
 
-/// Wide enough for engines of 50 cm3 to a ship's, narrow enough for a factor of 10 wherever engines of one size differ
-/// by less: the samples and the engines of docs/model.md "What `crankloop new` assumes" lie well inside.
+/// Wide enough for engines from 50 cm3 to ship engines, narrow enough to detect a factor of 10 wherever engines of one
+/// size differ by less. The samples and the engines of docs/model.md "What `crankloop new` assumes" are well inside.
 // clang-format off
 constexpr UsualRange kRanges[] = {
     {"engine", "rated_rpm", Per::piston_speed, {2, 32}},

@@ -1,7 +1,7 @@
-// The usual range of each key of the engine file, in the unit of the file: what a value in another unit falls out of.
+// The usual range of each key of the engine file, in the file's unit: a value in a wrong unit lies outside.
 //
-// What belongs here: the table, and what its ranges are measured by. What does not: what follows from several keys
-// (plausibility.cpp); what is possible at all (engine_file_keys.cpp).
+// What belongs here: the table and its reference quantities. What does not: checks of several keys (plausibility.cpp),
+// permitted ranges (engine_file_keys.cpp).
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace crankloop::program {
 
-/// What engines of all sizes have in common is a value by one of these.
+/// Reference quantity of a range: the ratio to it is similar in engines of all sizes.
 enum class Per {
   one,
   piston_speed,      ///< rpm at a mean piston speed of 1 m/s
@@ -28,8 +28,8 @@ enum class Per {
   displacement,      ///< of all cylinders, in cm^3
   litre,             ///< of all cylinders
   inertia,           ///< displacement in litres to the power of 4/3
-  litre_per_speed,   ///< displacement in litres by rated speed in 1000 rpm
-  litre_per_speed2,  ///< by its square
+  litre_per_speed,   ///< displacement in litres / rated speed in 1000 rpm
+  litre_per_speed2,  ///< displacement in litres / its square
 };
 
 struct UsualRange {
@@ -37,13 +37,13 @@ struct UsualRange {
   const char* key;
   Per per;
   Interval usual;
-  bool zero = false;  ///< says "none", and is usual
+  bool zero = false;  ///< 0 means "none" and is usual too
 };
 
 /// nullptr: any value is usual.
 [[nodiscard]] const UsualRange* usual_range_of(const Key& key) noexcept;
 
-/// What the engine has of it; nothing where its own size is missing or unusual, so that one wrong length is told once.
+/// Sizes of the engine. A missing or unusual size has no value, so that one wrong length causes only one warning.
 struct EngineSize {
   std::optional<double> bore_mm;
   std::optional<double> stroke_mm;
@@ -54,7 +54,7 @@ struct EngineSize {
   [[nodiscard]] std::optional<double> of(Per per) const;
 };
 
-/// " for this bore"; "" where the range is one for all.
+/// " for this bore"; "" if the range is the same for all engines.
 [[nodiscard]] const char* in_words(Per per) noexcept;
 
 }  // namespace crankloop::program

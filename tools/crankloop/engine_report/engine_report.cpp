@@ -19,7 +19,7 @@ report::Fact peak_fact(const std::string& name, const Trace& trace, const std::v
   return {name, report::format_number(values[at] * factor, 4), unit, "at " + angle_text(trace.crank_deg[at])};
 }
 
-/// The largest magnitude, whatever its sign.
+/// The largest magnitude.
 report::Fact magnitude_fact(const std::string& name, const Trace& trace, const std::vector<double>& values,
                             double factor, const std::string& unit) {
   const Span span = span_of(values);
@@ -104,7 +104,8 @@ report::Page engine_report(const ReportInput& input) {
   if (breathes(input)) page.sections.push_back(gas_section(input));
   page.sections.push_back(motion_section(input));
   page.sections.push_back(force_section(input));
-  if (!breathes(input)) page.sections.push_back(force_per_area_section(input));  // the page has enough of them
+  if (!breathes(input))
+    page.sections.push_back(force_per_area_section(input));  // the page has enough sections without it
   page.sections.push_back(bearing_section(input));
   if (!breathes(input)) page.sections.push_back(speed_section(input));
   page.sections.push_back(balance_section(input));
@@ -113,7 +114,7 @@ report::Page engine_report(const ReportInput& input) {
   page.sections.push_back(accuracy_section(input));
   page.sections.push_back(definition_section(input));
 
-  // What must not be overlooked stands before the first curve.
+  // Notes and warnings come before the first curve.
   std::vector<report::Block>& first = page.sections.front().blocks;
   first.insert(
       first.begin(),

@@ -1,7 +1,7 @@
 // The report of `crankloop run`: definition and results of one engine as a page.
 //
-// What belongs here: what stands on the page and in which order. What does not: how it is drawn (report/), how it is
-// computed (run_loop.hpp, run_trace.hpp, run_accuracy.hpp).
+// What belongs here: the contents of the page and their order. What does not: how they are drawn (report/), how they
+// are computed (run_loop.hpp, run_trace.hpp, run_accuracy.hpp).
 #pragma once
 
 #include <string>
@@ -17,15 +17,15 @@
 
 namespace crankloop::program {
 
-/// A tick of the run as asked for, kept for the close-up of the fixed step.
+/// A tick of the requested run, recorded for the close-up of the fixed step.
 struct CloseUpTick {
   double crank_deg;
   double torque_Nm;
   double mean_torque_Nm;
 };
 
-/// The angles that the close-up shows: 40 ticks around the largest torque; empty where ticks are too close to be told
-/// apart.
+/// The angles that the close-up shows: 40 ticks around the largest torque; empty if ticks are too close to be
+/// distinguished.
 struct CloseUpWindow {
   double from_deg = 0;
   double to_deg = 0;
@@ -33,7 +33,7 @@ struct CloseUpWindow {
 };
 [[nodiscard]] CloseUpWindow close_up_window(double largest_torque_deg, double deg_per_tick) noexcept;
 
-/// All that the page is made of; held by the caller.
+/// The input of the page; held by the caller.
 struct ReportInput {
   const EngineFile& file;
   const ExactEngine& exact;
@@ -46,7 +46,7 @@ struct ReportInput {
   std::string real;          ///< "float" or "double"
   std::string command_line;  ///< with every option filled in
   double wall_time_per_tick_ns = 0;
-  std::vector<std::string> warnings;  ///< each stands at the page's head
+  std::vector<std::string> warnings;  ///< each is shown at the top of the page
 };
 
 [[nodiscard]] report::Page engine_report(const ReportInput& input);

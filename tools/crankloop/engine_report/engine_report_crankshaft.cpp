@@ -1,4 +1,4 @@
-// The report's section about the crankshaft: its throws and the banks from the end, and who fires when.
+// Section of the engine report: the crankshaft, its throws and banks seen along the axis, and the firing order.
 #include <cmath>
 #include <map>
 #include <utility>
@@ -16,7 +16,7 @@ using report::Section;
 
 constexpr double kBankLength = 1.6;  ///< of a throw's
 
-/// From the shaft's axis outward; up is up, and rotation is to the right of it.
+/// Coordinates from the shaft's axis outward, up positive, rotation to the right.
 report::Series ray(const std::string& name, double direction_deg, double from, double to) {
   const double direction_rad = direction_deg / kDegPerRad;
   report::Series series;

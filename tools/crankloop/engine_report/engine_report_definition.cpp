@@ -1,4 +1,4 @@
-// Sections of the engine report: how its figures were made and how exact they are, and the whole definition.
+// Sections of the engine report: how its figures were computed and how accurate they are, and the whole definition.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -29,7 +29,7 @@ std::vector<std::string> lines_of(const std::string& path) {
   return lines;
 }
 
-/// What stands behind '#' on a line of the engine file, counted from 1; empty where there is none.
+/// The comment after '#' on a line of the engine file, counted from 1; empty if there is none.
 std::string remark_on(const std::vector<std::string>& lines, int line) {
   if (line < 1 || static_cast<std::size_t>(line) > lines.size()) return "";
   const std::string& text = lines[static_cast<std::size_t>(line) - 1];
@@ -42,7 +42,7 @@ bool is_comment_or_blank(const std::string& line) {
   return text.empty() || text.front() == '#';
 }
 
-/// Whole-line comments from one line to another as one text. Keys that are commented out are no remarks.
+/// Whole-line comments in a range of lines as one text, without keys that are commented out.
 std::string remarks_in(const std::vector<std::string>& lines, std::size_t from, std::size_t to) {
   std::string remarks;
   for (std::size_t i = from; i < to; ++i) {
@@ -61,10 +61,10 @@ std::size_t next_header(const std::vector<std::string>& lines, std::size_t from)
   return from;
 }
 
-/// What a section's comments say: those before its header, after the last key of the section before, and its own.
+/// The comments of a section: those between the previous section's last key and its header, and those inside it.
 std::string remarks_about(const std::vector<std::string>& lines, int header_line) {
   const auto header = static_cast<std::size_t>(header_line - 1);
-  if (header >= lines.size()) return "";  // it has changed meanwhile
+  if (header >= lines.size()) return "";  // the file has changed meanwhile
   std::size_t from = header;
   while (from > 0 && is_comment_or_blank(lines[from - 1])) --from;
   if (from == 0) from = header;  // the file's own
@@ -77,7 +77,7 @@ std::string remarks_about(const std::vector<std::string>& lines, int header_line
 
 // ---- Definition ----
 
-/// Lines as they would stand in a complete file: they wrap on a phone, and can be copied.
+/// Lines as in a complete engine file: they wrap on a phone, and can be copied.
 Table section_table(const SectionValues& values, const std::vector<std::string>& lines) {
   Table table{values.title(), {{"Key and value", "", false}, {"Meaning, and the file's remark", "", false}}, {}, true};
   for (const Value& value : values.values) {

@@ -11,7 +11,7 @@ using report::Section;
 
 constexpr double kKilo = 1e-3;
 
-/// The ports' pressures, and that of the cylinder as far as it is of their size.
+/// Range of the ports' pressures; the cylinder's pressure is cut to it.
 Plot pressures(const ReportInput& input) {
   const Trace& trace = input.trace;
   Plot plot = plot_over_angle(input, "Pressure on both sides of the valves", axis_of("Pressure, absolute", "kPa"),

@@ -24,9 +24,10 @@ double mean_of(const std::vector<double>& values) {  // without the last, which 
   return std::accumulate(values.begin(), values.end() - 1, 0.0) / static_cast<double>(values.size() - 1);
 }
 
-constexpr double kNoise = 1e-5;  // of one cylinder's first order: what rounding leaves of forces that balance
+constexpr double kNoise = 1e-5;  // relative to one cylinder's first order: rounding errors of balanced forces
 
-/// From the first cylinder to the last, at least 1 m so that a single cylinder has a moment to compare rounding with.
+/// Distance from the first cylinder to the last, at least 1 m so that the moment of a single cylinder can be compared
+/// with rounding.
 double length_of(const Layout& layout) {
   const auto [low, high] = std::minmax_element(layout.position_m.begin(), layout.position_m.begin() + layout.cylinders);
   return std::max(*high - *low, 1.0);
@@ -71,7 +72,7 @@ std::string numbered(const char* what, std::size_t index) {
   return std::string(what) + " " + std::to_string(index + 1);
 }
 
-/// Which cylinders' rods a crank pin carries: "1" or "1, 2".
+/// The cylinders on a crank pin: "1" or "1, 2".
 std::string rods_on(const Layout& layout, std::size_t pin) {
   std::string text;
   for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
@@ -115,8 +116,8 @@ report::Section bearing_section(const ReportInput& input) {
                             trace.journal_along_N[journal], trace.journal_across_N[journal], trace);
   section.blocks.push_back(std::move(journal_loop));
   section.blocks.push_back(polar("Main " + numbered("bearing", journal) + ", the same load on the block, polar",
-                                 "Lateral, a quarter turn on from up with the rotation", "Up",
-                                 trace.journal_lateral_N[journal], trace.journal_up_N[journal], trace));
+                                 "Lateral, 90 deg from up with the rotation", "Up", trace.journal_lateral_N[journal],
+                                 trace.journal_up_N[journal], trace));
   std::vector<std::size_t> order(trace.journal_load_N.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

@@ -13,8 +13,8 @@ namespace {
 constexpr double kRowDeg = 10;
 constexpr int kTableDigits = 5;
 
-// Width over height of the frame that plot.hpp leaves to curves without legend and bands, by a hair's breadth: depends
-// on labels.
+// Approximate ratio of width to height of plot.hpp's frame without legend and bands; the exact ratio depends on the
+// labels.
 constexpr double kFrameRatio = 1.7;
 
 constexpr double kEqualPeaks =

@@ -1,4 +1,4 @@
-// What the sections of the engine report share: angle axis, strokes, curves, tables over the crank angle.
+// Shared parts of the engine report's sections: angle axis, strokes, curves, tables over the crank angle.
 //
 // What belongs here: building blocks of the page. What does not: what a section shows (engine_report_*.cpp).
 #pragma once
@@ -34,7 +34,7 @@ namespace crankloop::program {
 
 [[nodiscard]] inline bool breathes(const ReportInput& input) { return breathes(input.exact.definition()); }
 
-/// What every report says of its pressure: synthesised, from which table, or none.
+/// The source of the pressure in words: synthesised, the name of a table, or none.
 [[nodiscard]] inline std::string pressure_remark(const ReportInput& input) {
   return pressure_in_words(input.file, input.operation.load_ratio, input.operation.gas);
 }
@@ -43,7 +43,7 @@ using report::axis_of;
 using report::number_text;
 using report::plot_of;
 
-/// 0 to 720 deg, 0 = firing top dead centre of cylinder 1: the convention stands at the axis.
+/// 0 to 720 deg, 0 = firing top dead centre of cylinder 1: the axis title states the convention.
 [[nodiscard]] report::Axis crank_axis();
 
 /// Power, exhaust, intake and compression of cylinder 1, between its true dead centres.

@@ -23,7 +23,7 @@ std::vector<double> volume_cm3(const ReportInput& input) {
   return volume;
 }
 
-/// A little room around data on a logarithmic axis, so that no tick stands in the corner.
+/// A margin around data on a logarithmic axis, so that no tick is in the corner.
 report::Range widened(Span span) { return {0.88 * span.low, 1.13 * span.high}; }
 
 /// Twice the largest pressure of the second half of the exhaust stroke and of the intake stroke.
@@ -35,8 +35,8 @@ double exchange_top(const ReportInput& input, const std::vector<double>& pressur
   return 2 * most;
 }
 
-/// What the gas takes up, from pressure and volume alone: dQ = g/(g-1) p dV + 1/(g-1) V dp (Heywood, Internal
-/// Combustion Engine Fundamentals, 1988, section 9.2.2). From shortly before combustion until the exhaust valve opens.
+/// Apparent heat release from pressure and volume: dQ = g/(g-1) p dV + 1/(g-1) V dp (Heywood, Internal Combustion
+/// Engine Fundamentals, 1988, section 9.2.2). From shortly before combustion until the exhaust valve opens.
 void add_heat_release(Section& section, const ReportInput& input, const std::vector<double>& volume_m3) {
   const Pressure& p = input.exact.definition().pressure;
   const bool synthesised = p.source == PressureSource::wiebe;

@@ -1,4 +1,4 @@
-// Section of the engine report: how loads change with the speed, at the run's load ratio.
+// Section of the engine report: loads over the speed, at the run's load ratio.
 #include <algorithm>
 #include <cmath>
 

@@ -62,7 +62,8 @@ Plot harmonics(const ReportInput& input) {
 
 Plot close_up(const ReportInput& input) {
   const std::vector<CloseUpTick>& ticks = input.close_up;
-  // The run counts engine angles, the page those from cylinder 1's firing TDC: the same unless a layout says otherwise.
+  // The run counts engine angles, the page those from cylinder 1's firing TDC: they differ only if the layout shifts
+  // cylinder 1.
   const double first_deg = input.exact.definition().layout.firing_deg[0];
   const double shift = ticks.back().crank_deg < first_deg ? 720 - first_deg : -first_deg;
   const report::Range window{ticks.front().crank_deg - input.figures.deg_per_tick + shift,
@@ -90,7 +91,7 @@ Plot close_up(const ReportInput& input) {
   mean.y.push_back(mean.y.back());
   Plot plot = plot_of("The fixed step close up", crank_axis(), axis_of("Engine torque", "Nm"));
   plot.x.tick_step = 0;
-  plot.x.range = report::Range{window.low, window.high + input.figures.deg_per_tick / 2};  // the last dot whole
+  plot.x.range = report::Range{window.low, window.high + input.figures.deg_per_tick / 2};  // do not clip the last dot
   plot.series = {std::move(fine), std::move(mean), std::move(points)};
   plot.caption = "The torque that a controller gets at a tick of " + number_text(input.operation.tick_s * 1e6) +
                  " \u00B5s, one tick every " + number_text(input.figures.deg_per_tick) +

@@ -1,4 +1,4 @@
-// Section of the engine report: the valve trains of cylinder 1, theory and what the elastic train makes of it.
+// Section of the engine report: the valve trains of cylinder 1, theoretical and elastic motion.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,21 +23,21 @@ constexpr double kMilli = 1e3;
 constexpr double kMicro = 1e6;
 constexpr double kKilo = 1e-3;
 constexpr int kTheoryColour = 6;
-constexpr double kHighBounce_m = 0.5e-3;  // takes longer than those that an engine is run with
+constexpr double kHighBounce_m = 0.5e-3;  // higher and longer than in an engine in service
 
-/// What the report says of one train of cylinder 1.
+/// The data of one train of cylinder 1.
 struct Train {
   std::string name;
   const ValveTrace& trace;
   std::size_t full_lift;  ///< entry of the trace with the largest theoretical lift
   double lobe_begin_deg;  ///< crank angle at which the lobe begins, in [0, 720)
   double largest_theory_m;
-  double seat_contact_m;  ///< lift at which the valve meets its seat
+  double seat_contact_m;  ///< lift at which the valve touches its seat
   double open_Hz;
   double seated_Hz;
 };
 
-/// The crank angle, on cylinder 1's axis, of what the tick counts in cam degrees from the start of the lobe.
+/// Converts cam degrees from the start of the lobe, as the tick counts them, to the crank angle of cylinder 1.
 double crank_deg(const Train& train, double since_opening_deg) {
   const double deg = std::fmod(train.lobe_begin_deg + 2 * since_opening_deg, 720);
   return deg < 0 ? deg + 720 : deg;
@@ -69,7 +69,7 @@ std::vector<std::size_t> entries_of_lobe(const Train& train) {
   return entries;
 }
 
-/// Where the valve first meets its seat behind full lift, as a place in entries_of_lobe(); their count if it does not.
+/// Index in entries_of_lobe() at which the valve first touches its seat after full lift; their count if it does not.
 std::size_t seating_place(const Train& train, const std::vector<std::size_t>& entries) {
   std::size_t i = entries.size() / 2;
   while (i < entries.size() && (train.trace.regime[entries[i]] & kSeatOn) == 0) ++i;
@@ -83,7 +83,7 @@ Series curve(const ReportInput& input, const Train& train, ValveQuantity quantit
   return series;
 }
 
-/// Where theory leaves 1 mm of lift behind, or half of a smaller valve's: the crank angles of opening and closing.
+/// Crank angles of opening and closing: where the theoretical lift passes 1 mm, or half of a smaller valve's lift.
 struct Timing {
   double opens_deg;
   double closes_deg;
@@ -145,7 +145,7 @@ Plot timing_plot(const ReportInput& input, const std::vector<Train>& trains) {
   return plot;
 }
 
-/// Several marked curves share a plot: their labels tell the values alone.
+/// Labels of several marked curves in one plot contain only the values.
 Plot with_short_labels(Plot plot) {
   for (report::Marker& marker : plot.markers)
     marker.label.resize(std::min(marker.label.size(), marker.label.find(" at ")));
@@ -190,7 +190,7 @@ Plot force_plot(const ReportInput& input, const Train& train) {
   return with_short_labels(std::move(plot));
 }
 
-/// How far the train is compressed, or the valve has flown off it.
+/// Compression of the train, or the gap between train and valve.
 Plot gap_plot(const ReportInput& input, const Train& train) {
   Plot plot =
       plot_over_angle(input, "Between train and valve, " + train.name, axis_of("Train lift less valve lift", "\u00B5m"),
@@ -215,7 +215,7 @@ Plot gap_plot(const ReportInput& input, const Train& train) {
   return plot;
 }
 
-/// From shortly before the valve seats until it has come to rest.
+/// The seating: from shortly before contact until the valve is at rest.
 Plot seating_plot(const ReportInput& input, const Train& train) {
   constexpr double kBefore_deg = 3;
   const double behind_deg = train.trace.cycle.bounce_height_m < kHighBounce_m ? 45 : 180;

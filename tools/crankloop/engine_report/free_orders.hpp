@@ -1,4 +1,4 @@
-// The orders of free forces that are shown: all that count.
+// The orders of free forces that are shown: all significant ones.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ struct FreeOrder {
   const char* name;
 };
 
-/// Without a pin offset odd orders above the first are none.
+/// Without a pin offset there are no odd orders above the first.
 inline std::vector<FreeOrder> free_orders(const Crank& crank) {
   if (crank.pin_offset_m == 0) return {{1, "first"}, {2, "second"}, {4, "fourth"}, {6, "sixth"}};
   return {{1, "first"}, {2, "second"}, {3, "third"}, {4, "fourth"}, {5, "fifth"}, {6, "sixth"}};

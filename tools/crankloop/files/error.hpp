@@ -1,7 +1,6 @@
-// The ways in which a command ends early, one exception type each.
+// Exception types for the ways in which a command ends early.
 //
-// What belongs here: carrying one line to the user and the exit status behind it. What does not: wording (it stands
-// where the error is found).
+// What belongs here: message and exit status. What does not: wording (it is where the error is found).
 #pragma once
 
 #include <stdexcept>
@@ -11,8 +10,8 @@ namespace crankloop::program {
 
 enum ExitStatus : int {
   kSuccess = 0,
-  kFailure = 1,   ///< the program's or the machine's fault: full disk, closed pipe, a defect
-  kBadInput = 2,  ///< the user's: an option, an engine file, a table
+  kFailure = 1,   ///< an error of the program or the machine: full disk, closed pipe, a defect
+  kBadInput = 2,  ///< an error of the user: an option, an engine file, a table
 };
 
 /// Bad input. The message is a line "FILE:LINE: what is wrong, what is allowed", of an engine file up to 20.
@@ -35,7 +34,7 @@ class OutputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Whoever read our output has gone (`| head`): nothing is left to say, and nobody to say it to.
+/// The reader of the output has closed it (`| head`): ends without a message.
 class ReaderGone : public OutputError {
  public:
   ReaderGone() : OutputError("standard output was closed by its reader") {}

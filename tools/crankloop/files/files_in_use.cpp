@@ -14,7 +14,7 @@
 namespace crankloop::program {
 namespace {
 
-/// A regular file, whatever its names are.
+/// Identity of a regular file, independent of its names.
 struct FileIdentity {
   dev_t device;
   ino_t number;
@@ -38,7 +38,7 @@ MaybeFile open_file(int descriptor) {
   return ::fstat(descriptor, &found) == 0 ? identity_of(found) : std::nullopt;
 }
 
-/// One path of a file that does not exist yet, whatever folder it is named from.
+/// Absolute path of a file that does not exist yet.
 std::string place_of(const std::string& path) {
   if (path == "-") return path;
   std::error_code error;
@@ -95,7 +95,7 @@ void claim_output(const std::string& path) {
   if (!watching) return;
   Used output{path, place_of(path), path == "-" ? std::nullopt : file_at(path)};
   if (path != "-") {
-    std::error_code error;                                             // a ring of links is no device either
+    std::error_code error;                                             // a loop of links is not a device either
     if (!output.file && std::filesystem::exists(path, error)) return;  // a device or a pipe
     demand_unread(path);
     if (const char* stream = stream_into(output.file))

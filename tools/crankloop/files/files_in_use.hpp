@@ -8,8 +8,8 @@
 
 namespace crankloop::program {
 
-/// From now on, for the one command of this process, files are the same when they are the same on the disk: by another
-/// path, through a symbolic link, or as a hard link. Without this call the functions below allow everything.
+/// Enables the checks for this process's command. Two files are the same if they are the same on the disk: also by
+/// another path, a symbolic link or a hard link. Without this call the functions below allow everything.
 ///
 /// Reading a file to which standard output or stderr goes throws InputError: `> FILE` has emptied it by then, and
 /// `>> FILE` would append to it.
@@ -17,10 +17,10 @@ void watch_files_in_use();
 
 /// Before an output is opened. `path` is that of a file, made or to be made, or "-" for standard output. Throws
 /// InputError where the command has read the file, where another output has claimed it, or where standard output or
-/// stderr goes there. What is no regular file, such as /dev/null, may be claimed at any time.
+/// stderr goes there. Anything but a regular file, such as /dev/null, may always be claimed.
 void claim_output(const std::string& path);
 
-/// Once more before the output appears at `path`, for what was read after claim_output(). Throws InputError.
+/// Checks again before the output appears at `path`, against files read after claim_output(). Throws InputError.
 void demand_unread(const std::string& path);
 
 }  // namespace crankloop::program

@@ -58,7 +58,7 @@ ParsedNumber parse_number(std::string_view text) {
   if (starts_like_infinity_or_nan(digits)) return {0, in_quotes(text) + " is not a finite number"};
   if (digits.empty() || !(is_digit(digits[0]) || digits[0] == '.')) return {0, why_not_a_number(text, text)};
 
-  // from_chars, unlike strtod, knows no locale; it does not take a plus sign, so it gets the digits alone.
+  // from_chars, unlike strtod, ignores the locale. It does not accept a plus sign, so it gets only the digits.
   double value = 0;
   const auto [rest, error] =
       std::from_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general);

@@ -1,44 +1,19 @@
-// Numbers as text: one strict reader and three writers for files, options and CSV alike, whatever the machine's locale.
+// Numbers as text: one strict reader and three writers for files, options and CSV, independent of the locale.
 //
 // What belongs here: digits and ranges. What does not: which key or option a number belongs to.
 #pragma once
 
-#include <limits>
 #include <string>
 #include <string_view>
 
+#include <crankloop/define/range.hpp>
+
 namespace crankloop::program {
-
-/// What a number may be. Built as it reads: above(0).up_to(2000), from(0).below(720).
-struct Range {
-  double least = -std::numeric_limits<double>::infinity();
-  double most = std::numeric_limits<double>::infinity();
-  bool without_least = false;
-  bool without_most = false;
-
-  [[nodiscard]] constexpr Range up_to(double limit) const noexcept { return {least, limit, without_least, false}; }
-  [[nodiscard]] constexpr Range below(double limit) const noexcept { return {least, limit, without_least, true}; }
-  [[nodiscard]] constexpr bool contains(double value) const noexcept {
-    return (without_least ? value > least : value >= least) && (without_most ? value < most : value <= most);
-  }
-};
-
-[[nodiscard]] constexpr Range above(double limit) noexcept {
-  Range range;
-  range.least = limit;
-  range.without_least = true;
-  return range;
-}
-[[nodiscard]] constexpr Range from(double limit) noexcept {
-  Range range;
-  range.least = limit;
-  return range;
-}
 
 /// "above 0, at most 2000 mm", "0 to 100", "0 to below 720 deg"; empty for a range without limits.
 [[nodiscard]] std::string describe(const Range& range, std::string_view unit);
 
-/// A number or the reason why the text is none, e.g. "'9,5' is not a number (the decimal sign is a point)".
+/// A number or the reason why the text is not one, e.g. "'9,5' is not a number (the decimal sign is a point)".
 struct ParsedNumber {
   double value = 0;
   std::string problem;  ///< empty: value is a finite number
@@ -55,14 +30,14 @@ struct ParsedNumber {
 /// The fewest digits that read back as the same double. Negative zero is written as 0, here and below.
 [[nodiscard]] std::string shortest(double value);
 
-/// A number of micrometres or microseconds in SI, as its decimals say: 0.1 gives the double that C++ code writes as
-/// 0.1e-6, where 0.1 / 1e6 and 0.1 * 1e-6 may be the one beside it. From 1e-4 to 1e9; outside rounded twice.
+/// Converts micrometres or microseconds to SI, correctly rounded: 0.1 gives the double 0.1e-6, where 0.1 / 1e6 and 0.1
+/// * 1e-6 may be its neighbour. From 1e-4 to 1e9; outside it rounds twice.
 [[nodiscard]] double millionths(double value);
 
 /// 6 significant digits: for messages with a computed number.
 [[nodiscard]] std::string brief(double value);
 
-/// 12 significant digits for double and 9 for float: what CSV files hold.
+/// 12 significant digits for double and 9 for float, as in CSV files.
 [[nodiscard]] std::string significant(double value);
 [[nodiscard]] std::string significant(float value);
 

@@ -25,9 +25,8 @@ namespace {
 constexpr std::size_t kBufferBytes = 65536;
 constexpr int kMaxNames = 100;
 
-/// Where a name leads, also where nothing is there yet: renaming onto a symbolic link would replace the link, not the
-/// file. What is there but has no path (/dev/stdout of a pipe) keeps its name; a link of a ring is left for stat() to
-/// refuse.
+/// Resolves symbolic links, also those to a missing file: renaming onto a link would replace the link, not the file. A
+/// target without a path (/dev/stdout of a pipe) keeps its name; a loop of links is left to stat(), which refuses it.
 std::string behind_links(const std::string& name) {
   constexpr int kMaxLinks = 40;  // the kernel's own limit
   std::error_code error;
@@ -44,8 +43,8 @@ std::string behind_links(const std::string& name) {
 
 constexpr std::string_view kUnfinished = ".unfinished-";
 
-/// Paths that a signal's handler may read at any moment: a place's path changes only while it is not armed. A longer
-/// path, or one file more at a time than there are places, is left to the next run.
+/// Paths that a signal handler may read at any moment: a slot's path changes only while the slot is not armed. A longer
+/// path, or a file without a free slot, is left to the next run.
 struct UnfinishedPlace {
   std::atomic<bool> taken{false};
   std::atomic<bool> armed{false};
@@ -73,7 +72,7 @@ void disarm(const std::string& path) {
   }
 }
 
-/// No signal comes while one lives: a file is made and known to the handler, or neither.
+/// Blocks signals during its lifetime, so that creating a file and arming its slot are atomic.
 class SignalsHeld {
  public:
   SignalsHeld() noexcept {
@@ -89,8 +88,7 @@ class SignalsHeld {
   sigset_t before_{};
 };
 
-/// Calls nothing but what POSIX lists as async-signal-safe. The signal comes again, and then does what it does by
-/// default.
+/// Calls only functions that POSIX lists as async-signal-safe. Then raises the signal again with its default action.
 extern "C" void remove_unfinished_and_end(int signal_number) {
   for (const UnfinishedPlace& place : unfinished_places) {
     if (place.armed) ::unlink(place.path.data());
@@ -99,7 +97,7 @@ extern "C" void remove_unfinished_and_end(int signal_number) {
   std::raise(signal_number);
 }
 
-// ---- what killed runs left ------------------------------------------------------------------------------------------
+// ---- files left by killed runs --------------------------------------------------------------------------------------
 
 /// Whether `name` is `start` and two numbers with a dash between, as create_unfinished() makes it.
 bool is_unfinished(std::string_view name, std::string_view start) {
@@ -112,7 +110,7 @@ bool is_unfinished(std::string_view name, std::string_view start) {
   return dash != std::string_view::npos && is_number(numbers.substr(0, dash)) && is_number(numbers.substr(dash + 1));
 }
 
-/// Unless its writer lives: then it is locked.
+/// Removes a left-over file, unless its writer is still running and holds its lock.
 void remove_if_left_over(const std::string& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (file < 0) return;
@@ -126,17 +124,16 @@ void remove_left_overs(const std::string& path) {
   const std::filesystem::path whole(path);
   const std::string start = whole.filename().string() + std::string(kUnfinished);
   const std::filesystem::path folder = whole.has_parent_path() ? whole.parent_path() : std::filesystem::path(".");
-  std::error_code error;  // a folder that cannot be listed is no reason not to write into it
+  std::error_code error;  // a folder that cannot be listed may still be writable
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     if (is_unfinished(entry->path().filename().string(), start)) remove_if_left_over(entry->path().string());
   }
 }
 
-/// Marks a new file as that of a living writer. False where another run took it for a left-over in the moment before,
-/// and removes it.
+/// Locks a new file. False if another run has taken it for a left-over just before, and removes it.
 bool claim(int file) {
   if (::flock(file, LOCK_EX | LOCK_NB) != 0)
-    return errno != EWOULDBLOCK;  // a file system without locks has no left-overs removed either
+    return errno != EWOULDBLOCK;  // without locks in the file system, left-overs are not removed either
   struct stat found {};
   return ::fstat(file, &found) == 0 && found.st_nlink > 0;
 }
@@ -174,7 +171,7 @@ Output::Output(const std::string& path) {
 }
 
 void Output::create_unfinished() {
-  // More than one attempt only where several outputs go to one path, or something else has the name.
+  // More than one attempt only if several outputs go to one path, or the name is taken.
   for (int attempt = 0; attempt < kMaxNames; ++attempt) {
     const SignalsHeld held;
     temporary_ = path_ + std::string(kUnfinished) + std::to_string(::getpid()) + "-" + std::to_string(attempt);

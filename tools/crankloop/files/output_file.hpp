@@ -1,4 +1,4 @@
-// Where results go: standard output, or a file that appears complete or not at all.
+// Output to standard output, or to a file that appears complete or not at all.
 //
 // What belongs here: bytes and their errors. What does not: their format (csv.hpp).
 #pragma once
@@ -8,23 +8,23 @@
 
 namespace crankloop::program {
 
-/// Buffered output. A file is written beside its place under another name and renamed by finish(), so that an error on
-/// the way leaves the old file, or none, but never half of one. What is no file (/dev/null, a pipe) is written to
-/// directly. A symbolic link stays: the file that it names is replaced, or made where there is none.
+/// Buffered output. A file is written under a temporary name in the same folder and renamed by finish(), so that an
+/// error leaves the old file or none, never a partial one. Devices and pipes are written directly. A symbolic link
+/// stays: its target is replaced or created.
 ///
 /// A file that the command reads, or that is another of its outputs, is refused by InputError (files_in_use.hpp).
 ///
-/// The other name is the path's with .unfinished-PID-N behind it, its file locked (flock) as long as its writer lives.
-/// What a writer left that was killed is removed by the next one to the same path.
+/// The temporary name is the path with .unfinished-PID-N appended; its file is locked (flock) while its writer runs.
+/// The next writer to the same path removes a file that a killed writer left.
 ///
-/// Every other failure throws OutputError; what was not finished is discarded.
+/// Every other failure throws OutputError; unfinished output is discarded.
 class Output {
  public:
   /// "" and "-" are standard output.
   explicit Output(const std::string& path);
   static Output standard() { return Output(""); }
 
-  /// From now on a signal that ends the program removes its unfinished files first. Signals that are ignored stay so
+  /// Installs handlers: a signal that ends the program removes its unfinished files first. Ignored signals stay ignored
   /// (nohup).
   static void remove_unfinished_at_signals();
 
@@ -49,7 +49,7 @@ class Output {
   std::string buffer_;
 };
 
-/// To standard output, whole.
+/// Writes a whole text to standard output.
 void print(std::string_view text);
 
 }  // namespace crankloop::program

@@ -1,4 +1,4 @@
-// read_file(), by what the system offers: of all that reads engine files this alone asks it for more than C++ has.
+// read_file(), the only part of reading engine files that needs more of the system than C++ has.
 #include <cerrno>
 #include <cstring>
 
@@ -28,7 +28,7 @@ constexpr const char* kIsNotRegular = "is no regular file; pipes and devices are
 
 #if defined(_WIN32)
 
-/// Why a file is not read; "" where it is, or where opening it will tell.
+/// Why a file cannot be read; "" if it can, or if only opening it shows.
 std::string why_not_read(const std::filesystem::path& path) {
   std::error_code error;
   const auto type = std::filesystem::status(path, error).type();
@@ -65,8 +65,8 @@ FileBytes read_file(const std::string& path, std::size_t most_bytes) {
 
 #else
 
-/// Why an open file is not read; "" where it is. Asked of the open file, not of its path, under which another may stand
-/// by then.
+/// Why an open file cannot be read; "" if it can. Checks the open file, not its path, which may name another file by
+/// then.
 std::string why_not_read(int file) {
   struct stat found {};
   if (::fstat(file, &found) != 0) return cannot_be_read(errno);
@@ -97,7 +97,7 @@ void observe_files_read(FileReadObserver observer) { read_observer = observer; }
 
 FileBytes read_file(const std::string& path, std::size_t most_bytes) {
   FileBytes result;
-  // Without O_NONBLOCK a FIFO would hold us here until somebody writes to it.
+  // Without O_NONBLOCK opening a FIFO would block until another process writes to it.
   constexpr int kFlags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
   const Descriptor file(path.find('\0') == std::string::npos ? ::open(path.c_str(), kFlags) : (errno = ENOENT, -1));
   int error = file < 0 ? errno : 0;

@@ -22,13 +22,13 @@ constexpr std::uint32_t kLocalHeader = 0x04034B50;
 constexpr std::uint32_t kCentralHeader = 0x02014B50;
 constexpr std::uint32_t kEndOfCentral = 0x06054B50;
 constexpr std::uint32_t kVersion = 10;        // 1.0: nothing but stored files
-constexpr std::uint32_t kFirstDate = 0x0021;  // 1980-01-01, the earliest there is; the time is 0
+constexpr std::uint32_t kFirstDate = 0x0021;  // 1980-01-01, the earliest possible; the time is 0
 
 void put(std::string& to, std::uint32_t value, int bytes) {
   for (int i = 0; i < bytes; ++i) to += static_cast<char>(value >> (8 * i) & 0xFFu);
 }
 
-/// What the header before a file and its entry in the directory have in common.
+/// Common part of a file's header and its entry in the directory.
 void put_common(std::string& to, const ZipEntry& entry) {
   const auto* bytes = reinterpret_cast<const unsigned char*>(entry.bytes.data());
   const auto size = static_cast<std::uint32_t>(entry.bytes.size());
@@ -57,7 +57,7 @@ std::string stored_zip(const std::vector<ZipEntry>& entries) {
     if (archive.size() + entry.bytes.size() + directory.size() > kMaxBytes - 4 * kMaxEntries)
       throw InputError(printable(entry.name) + ": an archive holds at most 4 GiB");
     put(directory, kCentralHeader, 4);
-    put(directory, kVersion, 2);  // made by it, on no system in particular
+    put(directory, kVersion, 2);  // version and system that made it: none in particular
     put_common(directory, entry);
     put(directory, 0, 2);  // comment
     put(directory, 0, 2);  // disk

@@ -1,6 +1,6 @@
-// A ZIP archive without compression: the same bytes from the same files, on any machine and day.
+// A ZIP archive without compression: the same files give the same bytes, on any machine and day.
 //
-// What belongs here: the archive's form. What does not: which files are in it.
+// What belongs here: the archive's format. What does not: the choice of files.
 #pragma once
 
 #include <string>
@@ -20,8 +20,8 @@ struct ZipEntry {
 /// modelDescription.xml first, where importers look, all others sorted.
 void sort_as_fmu(std::vector<ZipEntry>& entries);
 
-/// Every file below a folder, in no order. Throws InputError for a folder that cannot be read, and for what is neither
-/// file nor folder.
+/// Every file below a folder, in no order. Throws InputError for a folder that cannot be read, and for an entry that is
+/// neither file nor folder.
 [[nodiscard]] std::vector<ZipEntry> files_below(const std::string& folder);
 
 }  // namespace crankloop::program

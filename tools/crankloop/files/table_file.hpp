@@ -1,6 +1,6 @@
 // Two columns of numbers from a CSV file: a pressure diagram, a cam.
 //
-// What belongs here: rows with their line numbers. What does not: what a diagram demands of them (core's validate()).
+// What belongs here: rows with their line numbers. What does not: requirements of a diagram (core's validate()).
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ struct TableRow {
   int line;
 };
 
-/// What a table's header row must say, and what its numbers may be.
+/// Header row and permitted numbers of a table.
 struct TableFormat {
   const char* first;   ///< "crank_deg"
   const char* second;  ///< "pressure_kPa"
@@ -27,9 +27,8 @@ struct TableFormat {
 /// Rows of `first,second` under that header; blank lines and lines that start with # are skipped. At most 8 MiB, some
 /// 500 000 rows: a cycle every 0.0015 deg.
 ///
-/// A file that cannot be read is reported where it is named (named_in:named_at), what stands in it at its own line. Its
-/// text is not quoted: the path comes from an engine file, which may come from anybody, and what it leads to may be
-/// nobody else's business.
+/// A file that cannot be read is reported at the line that names it (named_in:named_at), errors in it at their own
+/// line. Messages do not quote its text: an engine file from an untrusted source could name a confidential file.
 [[nodiscard]] std::vector<TableRow> read_table(const std::string& path, const TableFormat& format,
                                                const std::string& named_in, int named_at);
 

@@ -8,8 +8,8 @@
 namespace crankloop::program {
 namespace {
 
-/// Length of the UTF-8 character at the start of `text`, 0 where there is none: overlong forms, surrogates and control
-/// characters (C0 but tab, DEL, C1) are none.
+/// Length of the UTF-8 character at the start of `text`; 0 if there is none, and for overlong forms, surrogates and
+/// control characters (C0 but tab, DEL, C1).
 std::size_t character_length(std::string_view text) {
   const auto byte = [text](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const auto follows = [byte](std::size_t i) { return (byte(i) & 0xC0u) == 0x80u; };

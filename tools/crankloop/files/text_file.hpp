@@ -9,7 +9,7 @@
 
 namespace crankloop::program {
 
-/// The bytes of a file, or why there are none.
+/// The bytes of a file, or why it cannot be read.
 struct FileBytes {
   std::string bytes;
   std::string problem;  ///< "cannot be read: No such file or directory"; empty when all is well
@@ -18,19 +18,20 @@ struct FileBytes {
 };
 
 /// `most_bytes` is a whole number of MiB. A file that is larger is a problem, an empty one is not. Only a regular file
-/// is read: pipes and devices may never end, wait for others, or do something when they are read.
+/// is read: pipes and devices may be endless, block, or have side effects when they are read.
 [[nodiscard]] FileBytes read_file(const std::string& path, std::size_t most_bytes);
 
 /// Calls `observer` with the path and the descriptor of every file that read_file() opens from now on, before it reads
 /// the first byte; what the observer throws, read_file() throws. Null: none, as before the first call. Not on Windows.
-/// A process calls it before it has other threads.
+/// Call it before other threads are started.
 using FileReadObserver = void (*)(const std::string& path, int descriptor);
 void observe_files_read(FileReadObserver observer);
 
 /// A file's name for a message: every control character, and every byte that is not UTF-8, as \xNN.
 [[nodiscard]] std::string printable(const std::string& name);
 
-/// Paths here are UTF-8 on every system: the folder of a file, and a file by the name that one in the folder gives it.
+/// Paths here are UTF-8 on every system. The folder of a file, and the path of a file that another file in the folder
+/// names.
 [[nodiscard]] std::string folder_of(const std::string& path);
 [[nodiscard]] std::string in_folder(const std::string& folder, const std::string& name);
 

@@ -36,7 +36,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return steps[a.size()][b.size()];
 }
 
-/// "bore" of "bore_mm": the unit is what people forget.
+/// "bore" of "bore_mm": users often forget the unit.
 bool is_leading_part(std::string_view given, std::string_view known) {
   return given.size() >= 3 && known.size() > given.size() && known.compare(0, given.size(), given) == 0;
 }
@@ -92,7 +92,7 @@ std::string unit_in_words(std::string_view unit) {
 }
 
 namespace {
-/// Names of 0.1 that have another one now.
+/// Names of version 0.1 that have changed.
 constexpr std::pair<std::string_view, std::string_view> kRenamed[] = {
     {"load", "machine"}, {"--load-Nm", "--machine-Nm"}, {"--load-Nm", "--external-torque-Nm"}};
 }  // namespace

@@ -1,4 +1,4 @@
-// Small text helpers of the readers: cutting, quoting, and guessing what a misspelt word was meant to be.
+// Text helpers of the readers: splitting, quoting, and suggestions for misspelt words.
 #pragma once
 
 #include <string>
@@ -13,16 +13,16 @@ namespace crankloop::program {
 /// Trimmed parts between separators; "1,,2" has an empty one in the middle, "" is one empty part.
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
 
-/// In single quotes, cut after 40 bytes, so that no message runs away with a line of the file.
+/// In single quotes, cut after 40 bytes, so that a long line does not flood a message.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
-/// As a word that any shell reads back: in single quotes where it has to be.
+/// Quoted for a shell: in single quotes if necessary.
 [[nodiscard]] std::string shell_word(std::string_view text);
 
 /// "a, b, c".
 [[nodiscard]] std::string join(const std::vector<std::string>& words, const char* separator = ", ");
 
-/// A unit as a key spells it, for reading: "kg mm^2" for "kg_mm2", "N/mm" for "N_per_mm".
+/// The unit of a key in readable form: "kg mm^2" for "kg_mm2", "N/mm" for "N_per_mm".
 [[nodiscard]] std::string unit_in_words(std::string_view unit);
 
 /// "; did you mean bore_mm?" if one of the known words is close to the given one, otherwise "".

@@ -11,7 +11,7 @@
 namespace crankloop::program {
 namespace {
 
-constexpr int kAngles = 7919;  // a prime: no two angles of a cycle lie at the same part of a degree
+constexpr int kAngles = 7919;  // a prime: no two angles of a cycle have the same fraction of a degree
 constexpr double kShortestTick_s = 1e-6;
 
 double own_angle(const Layout& layout, std::size_t cylinder, double engine_deg) {
@@ -35,8 +35,7 @@ WholeOutput<double> exact_output(const ExactEngine& engine, double engine_deg, d
   const detail::Bearings<double> bearings = bearings_of(definition);
   WholeOutput<double> out{};
   for (std::size_t k = 0; k < static_cast<std::size_t>(definition.layout.cylinders); ++k) {
-    const Pose<double> pose =
-        exact_pose(definition.crank, own_angle(definition.layout, k, engine_deg) / kDegPerRad);
+    const Pose<double> pose = exact_pose(definition.crank, own_angle(definition.layout, k, engine_deg) / kDegPerRad);
     out.displacement_m[k] = pose.displacement_m;
     out.velocity_m_s[k] = pose.slope_m * speed_rad_s;
     out.acceleration_m_s2[k] = pose.acceleration_m * speed_rad_s * speed_rad_s;

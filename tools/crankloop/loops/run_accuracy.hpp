@@ -1,4 +1,4 @@
-// How far the fixed-step loop is from the exact engine: measured for the engine, speed and arithmetic at hand.
+// Error of the fixed-step loop against the exact engine, measured for one engine, speed and arithmetic.
 //
 // What belongs here: the comparison. What does not: accuracy that holds for every engine (docs/model.md "Tables", the
 // tests).
@@ -16,7 +16,7 @@ namespace crankloop::program {
 /// Largest difference of a quantity between loop and exact engine, SI.
 struct Deviation {
   double largest = 0;
-  double at_deg = 0;  ///< where: the cylinder's own crank angle; of the engine's torque the engine angle
+  double at_deg = 0;  ///< its crank angle: of the cylinder, for the engine's torque of the engine
   double peak = 0;    ///< largest magnitude of the exact quantity, to compare with
 
   void take(double loop, double exact, double deg) noexcept;
@@ -29,13 +29,13 @@ struct Accuracy {
   Deviation torque;
 };
 
-/// What a step's output should be at an engine angle: kinematics, rod motion, forces, torque and crank pins of every
+/// The exact output of a step at an engine angle: kinematics, rod motion, forces, torque and crank pins of every
 /// cylinder. Journals, free forces and mean torque are left zero.
 [[nodiscard]] WholeOutput<double> exact_output(const ExactEngine& engine, double engine_deg, double speed_rad_s,
                                                double load_ratio);
 
-/// Runs the loop for one cycle, about 0.09 deg apart at angles that fall evenly on all parts of a degree, so that
-/// neither the best nor the worst places of the tables are favoured.
+/// Runs the loop for one cycle, about 0.09 deg apart at angles spread evenly over the fraction of a degree, so that
+/// neither the best nor the worst points of the tables are favoured.
 template <class Real>
 Accuracy measure_accuracy(const ExactEngine& engine, const Operation& operation);
 

@@ -44,10 +44,10 @@ void add_order(Summary& s, const GasOrder& order) {
 
 void add_gas(Summary& s, const GasCycle<double>& cycle) {
   s.line("pumping_mep", cycle.pumping_mep_Pa / 1e3, "kPa", "from 180 to 540 deg; negative: a loss");
-  s.line("volumetric_efficiency", cycle.volumetric_efficiency, "", "air through the intake, by the ambient's density");
+  s.line("volumetric_efficiency", cycle.volumetric_efficiency, "", "air through the intake at ambient density");
   s.line("trapped_air", cycle.trapped_air_kg * 1e6, "mg",
          cycle.trapped_kg > 0 ? "in a cylinder when its intake closed" : "the intake did not close before the burn");
-  s.line("residual_ratio", cycle.residual_ratio, "", "burned gas of all that was trapped");
+  s.line("residual_ratio", cycle.residual_ratio, "", "burned share of the trapped mass");
   s.line("fuel_burned", cycle.fuel_kg * 1e6, "mg", "of a cylinder's cycle");
   const bool too_rich = cycle.excess_air_ratio > 0 && cycle.excess_air_ratio < kRichestThatIgnites;
   s.line("excess_air_ratio", cycle.excess_air_ratio, "",
@@ -86,8 +86,8 @@ std::vector<std::string> warnings_about_gas(const EngineFile& engine, double spe
 
 int cycles_to_settle(const EngineDefinition& engine) noexcept {
   if (!breathes(engine)) return 1;
-  // A cycle draws its swept volume out of a manifold, less what it leaves: with eight volumes of it drawn, 1e-3 of what
-  // was there is left. Residual gas and walls follow within some cycles.
+  // Each cycle draws its swept volume out of a manifold. After eight manifold volumes 1e-3 of the initial gas is left.
+  // Residual gas and walls settle within some cycles.
   constexpr double kChanges = 8;
   constexpr double kAfter = 6;
   constexpr double kMax = 500;

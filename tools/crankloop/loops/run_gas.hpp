@@ -1,7 +1,6 @@
 // The gas of an engine with gas exchange, as `run` shows it: the quantities of a cylinder, a cycle's results.
 //
-// What belongs here: the list, once, for CSV columns and plots; figures over all cylinders. What does not: what is done
-// with them.
+// What belongs here: the list, once, for CSV columns and plots; figures over all cylinders. What does not: their use.
 #pragma once
 
 #include <array>
@@ -55,7 +54,7 @@ template <class Real>
           gas.flow_kg_s[kIntake], gas.flow_kg_s[kExhaust], gas.wall_heat_W};
 }
 
-/// Columns of a CSV file, and their cells of a tick: the cylinders, then the manifolds.
+/// Columns of a CSV file, and their cells for a tick: the cylinders, then the manifolds.
 void add_gas_columns(std::vector<std::string>& columns, std::size_t cylinders);
 template <class Real, class S>
 void write_gas(CsvWriter& csv, const crankloop::Output<Real, S>& out, std::size_t cylinders) {
@@ -73,7 +72,7 @@ void write_gas(CsvWriter& csv, const crankloop::Output<Real, S>& out, std::size_
   csv.cell(out.outlet_kg_s * static_cast<Real>(1e3));
 }
 
-/// Means over the cylinders' last whole cycles, but the energy defect: that of the largest magnitude.
+/// Means over the cylinders' last whole cycles; for the energy defect, the one of largest magnitude.
 template <class Real, std::size_t Capacity>
 [[nodiscard]] GasCycle<double> mean_cycle(const GasCycle<Real> (&cycles)[Capacity], std::size_t cylinders) noexcept {
   GasCycle<double> mean{};
@@ -102,7 +101,7 @@ template <class Real, std::size_t Capacity>
   return mean;
 }
 
-/// What the gas came to in a run.
+/// Results of the gas in a run.
 struct GasFigures {
   GasCycle<double> cycle{};  ///< mean_cycle at the end
   double intake_Pa = 0;      ///< of the manifold, mean over the ticks
@@ -121,11 +120,11 @@ void add_gas(Summary& s, const GasCycle<double>& cycle);
 /// Refuses an engine with gas exchange whose manifolds are too small for a tick.
 void require_manifolds(const EngineFile& engine, double tick_s);
 
-/// The warning about a tick that turns the crank of an engine with gas exchange too far: nothing, or a line.
+/// A warning if a tick turns the crank of an engine with gas exchange too far; else empty.
 [[nodiscard]] std::vector<std::string> warnings_about_gas(const EngineFile& engine, double speed_rpm, double tick_s);
 
-/// Cycles that an engine runs before it is recorded: the gas in its manifolds has been changed many times over. One for
-/// an engine with a diagram.
+/// Number of cycles before recording starts: long enough to replace the gas in the manifolds many times. One for an
+/// engine with a diagram.
 [[nodiscard]] int cycles_to_settle(const EngineDefinition& engine) noexcept;
 
 }  // namespace crankloop::program

@@ -1,4 +1,4 @@
-// What no run may request: more than a revolution per tick, a speed the engine cannot have, too many ticks to wait for.
+// Limits of a run: one revolution per tick, the engine's maximum speed, number of ticks.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace crankloop::program {
 
-/// Most ticks of a run: some minutes for four cylinders.
+/// Maximum number of ticks of a run: some minutes for four cylinders.
 inline constexpr double kMaxTicks = 1e9;
 
-/// Throws UsageError for more ticks than that; `remedy` states what else would help: "fewer --cycles".
+/// Throws UsageError for more ticks than that; `remedy` names another remedy: "fewer --cycles".
 void require_ticks(double ticks, double tick_s, const std::string& remedy);
 
 /// Throws UsageError for a speed, in either sense, beyond the limit of the tables that were made for this tick.

@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kRadPerCycle = 4 * kPi;
 
-/// Of a tick: less than this beyond the last cycle is rounding of the phase increment, and no reason for another tick.
+/// Fraction of a tick: a cycle's end that is closer than this is not worth another tick, because the phase increment is
+/// rounded.
 constexpr double kHairOfATick = 1e-3;
 constexpr const char* kFewerTicks = "fewer --cycles or a higher --rpm";
 
@@ -52,7 +53,7 @@ FixedStepLoop<Real, S>::FixedStepLoop(const EngineDefinition& definition, const 
   require_ticks(settling_cycles * 720 / (operation.speed_rad_s() * kDegPerRad * operation.tick_s), operation.tick_s,
                 kFewerTicks);
 
-  // At constant speed all ticks turn the crank equally far: one tells how far.
+  // At constant speed all ticks turn the crank equally far: one tick gives the angle.
   require(engine_.init(tables_->tables()));
   engine_.step(input_);
   const Phase turned = engine_.state().phase;

@@ -1,7 +1,7 @@
-// The engine in the fixed-step loop, as firmware runs it, and what a run of some cycles amounts to.
+// The engine in the fixed-step loop, as firmware runs it, and the results of a run of some cycles.
 //
-// What belongs here: stepping at one speed, and figures gathered tick by tick: memory does not grow with the run.
-// What does not: files (run.cpp), curves over the angle (run_trace.hpp), the exact engine (run_accuracy.hpp).
+// What belongs here: stepping at one speed, and results updated tick by tick, so that memory does not grow with the
+// run. What does not: files (run.cpp), curves over the angle (run_trace.hpp), the exact engine (run_accuracy.hpp).
 #pragma once
 
 #include <array>
@@ -26,14 +26,14 @@ struct Operation {
   double speed_rpm = 0;
   double tick_s = 100e-6;
   double load_ratio = 1;  ///< of an engine with a diagram
-  GasOrder gas{};         ///< of one that breathes
+  GasOrder gas{};         ///< of an engine with gas exchange
 
   [[nodiscard]] double speed_rad_s() const noexcept { return speed_rpm * kPi / 30; }
 };
 
 /// Engine, tables and input. After construction cycles_to_settle() have been run, which lets any state settle, and the
-/// engine stands at `start_deg`: whatever the tick, a recorded run begins there. S is Whole, or Breathing for an engine
-/// that breathes.
+/// engine is at `start_deg`: a recorded run begins there for any tick length. S is Whole, or Breathing for an engine
+/// with gas exchange.
 template <class Real, class S = scenes::Whole>
 class FixedStepLoop {
  public:
@@ -54,7 +54,7 @@ class FixedStepLoop {
   [[nodiscard]] double deg_per_tick() const noexcept { return deg_per_tick_; }
   [[nodiscard]] double ticks_per_cycle() const noexcept { return 720 / deg_per_tick_; }
   [[nodiscard]] std::uint64_t settling_ticks() const noexcept { return settling_ticks_; }
-  /// Of an engine with gas exchange: by how much its net mean pressure still moved in the last of them.
+  /// For an engine with gas exchange: change of its net mean pressure in the last settling cycle.
   [[nodiscard]] double unsettled_Pa() const noexcept { return unsettled_Pa_; }
   [[nodiscard]] const TableReport& tables() const noexcept { return report_; }
 
@@ -66,7 +66,7 @@ class FixedStepLoop {
  private:
   [[nodiscard]] double cycle_mep_Pa() const noexcept;  ///< of the last whole cycle, mean over the cylinders
 
-  // Room for the finest gas grid there is: the program has memory.
+  // Room for the finest possible gas grid: the program has enough memory.
   using Tables = TableStorage<Real, S, kMaxGasSegments>;
 
   std::unique_ptr<Tables> tables_ = std::make_unique<Tables>();
@@ -78,7 +78,7 @@ class FixedStepLoop {
   double unsettled_Pa_ = 0;
 };
 
-/// A value and where it was met.
+/// A value and its angle.
 struct Peak {
   double value = 0;
   double at_deg = 0;
@@ -101,10 +101,10 @@ struct ValveFigures {
   ValveCycle<double> last_cycle{};         ///< the worst of the cylinders' last whole cycles
 };
 
-/// What the loop met in the recorded cycles. SI.
+/// Results of the recorded cycles in SI units.
 struct RunFigures {
   int cycles = 0;
-  std::uint64_t ticks = 0;  ///< recorded: as many as it takes to cover the cycles
+  std::uint64_t ticks = 0;  ///< recorded: the number that covers the cycles
   std::uint64_t settling_ticks = 0;
   double unsettled_Pa = 0;  ///< FixedStepLoop::unsettled_Pa()
   double deg_per_tick = 0;
@@ -124,11 +124,11 @@ struct RunFigures {
 template <class Real, class S = scenes::Whole>
 using OnTick = typename FixedStepLoop<Real, S>::OnTick;
 
-/// Runs `cycles` cycles from where the loop stands and gathers the figures.
+/// Runs `cycles` cycles from the loop's current angle and collects the results.
 ///
-/// A cycle is in general no whole number of ticks. The last tick then reaches beyond the last cycle; the work of its
-/// part inside is that of the parabola through the torques at both its ends with its mean torque. Peaks are those of
-/// the ticks: what lies between two is not seen. Throws UsageError where the run would take more than kMaxTicks.
+/// A cycle is in general not a whole number of ticks. The last tick then extends beyond the last cycle; the work of its
+/// part inside is that of the parabola with its mean torque and the torques at both ends. Peaks are those at the ticks,
+/// not between them. Throws UsageError where the run would take more than kMaxTicks.
 template <class Real, class S>
 RunFigures run_cycles(FixedStepLoop<Real, S>& loop, const EngineDefinition& definition, const Operation& operation,
                       int cycles, const OnTick<Real, S>& on_tick = {});

@@ -1,7 +1,7 @@
-// The quantities of one cylinder that `run` shows: name, unit, and where they stand in the output of a step.
+// The quantities of one cylinder that `run` shows: name, unit, and member of a step's output.
 //
-// What belongs here: the list, once, for CSV columns, peaks, plots and the comparison with the exact engine.
-// What does not: what is done with them.
+// What belongs here: the list, once, for CSV columns, peaks, plots and the comparison with the exact engine. What does
+// not: their use.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +46,7 @@ enum class Quantity : std::uint8_t {
 [[nodiscard]] constexpr std::size_t index_of(Quantity quantity) noexcept { return static_cast<std::size_t>(quantity); }
 inline constexpr std::size_t kCsvQuantities = index_of(Quantity::rod_angle);
 
-/// How a quantity is written: value in SI times `per_si`, in a unit that stands in CSV names as `suffix`.
+/// Output format of a quantity: value in SI times `per_si`; `suffix` is the unit in CSV names.
 template <class Quantity>
 struct KindOf {
   Quantity quantity;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kSpacingDeg = 0.25;
 constexpr double kShortestTick_s = 1e-6;
 
-/// A tick of which a whole number makes a spacing that divides 10 deg.
+/// A tick of which a whole number gives a spacing that divides 10 deg.
 struct Pace {
   double spacing_deg;
   int ticks;

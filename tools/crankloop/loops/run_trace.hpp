@@ -1,4 +1,4 @@
-// Curves over one cycle, as the fixed-step loop gives them at a tick short enough to draw.
+// Curves over one cycle, recorded from the fixed-step loop at a tick short enough to draw.
 //
 // What belongs here: recording. What does not: drawing (engine_report.hpp), figures of a run (run_loop.hpp).
 #pragma once
@@ -73,8 +73,8 @@ struct Trace {
 template <class Real, class S = scenes::Whole>
 Trace record_trace(const EngineDefinition& definition, const Operation& operation);
 
-/// What summarise() says of an engine with a diagram, from a cycle that was recorded: pressures and torques as they
-/// came.
+/// The summary that summarise() computes for an engine with a diagram, from the pressures and torques of a recorded
+/// cycle.
 [[nodiscard]] CycleSummary summarise(const EngineDefinition& definition, double speed_rad_s, const Trace& trace);
 
 }  // namespace crankloop::program

@@ -1,7 +1,7 @@
-// The quantities of one valve that `run` shows, and what a run of some cycles found of a valve train.
+// The quantities of one valve that `run` shows, and the results of a valve train over some cycles.
 //
-// What belongs here: the list, once, for CSV columns, peaks and plots; results over all cylinders. What does not: what
-// is done with them.
+// What belongs here: the list, once, for CSV columns, peaks and plots; results over all cylinders. What does not: their
+// use.
 #pragma once
 
 #include <array>
@@ -51,7 +51,7 @@ inline constexpr ValveQuantityKind kValveQuantityKinds[kValveQuantities] = {
 template <class Real, class S>
 [[nodiscard]] std::array<Real, kValveQuantities> values_of(const crankloop::Output<Real, S>& out, std::size_t train,
                                                            std::size_t cylinder) noexcept {
-  const ValveMotionOutput<Real>& m = out.valve[train][cylinder];
+  const ValveMotionOutput<Real, S>& m = out.valve[train][cylinder];
   const ValveForcesOutput<Real>& f = out.valve_forces[train][cylinder];
   return {m.theoretical_lift_m, m.lift_m, m.velocity_m_s, m.acceleration_m_s2, f.train_N, f.seat_N, f.cam_N,
           f.train_compression_m};

@@ -1,8 +1,8 @@
 // The valve's motion as textbooks and [Li 2017, 4.9-4.13] compute it: the reference that the tick is compared with.
 //
 // What belongs here: classical four-stage Runge-Kutta with the cam looked up in every stage and contact tested there.
-// What does not: the tick (crankloop/tick/valve/event_location.hpp), which locates contact changes. This one finds them
-// where a step happens to end, so its order falls from 4 to about 1 as soon as there are any.
+// What does not: the tick (crankloop/tick/valve/event_location.hpp), which locates contact changes. This one detects
+// them only at the end of a step, so its order falls from 4 to about 1 when there are any.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ struct LiftNow {
   Real speed_m_s;
 };
 
-/// What both contacts would push with, and how deep they are: each acts while both are positive.
+/// Force and depth of both contacts: a contact acts while its force and depth are positive.
 template <class Real>
 struct Contacts {
   Real compression_m, train_N;
@@ -63,8 +63,8 @@ template <class Real>
 
 /// The classical four stages for y'' = f(half, y, v), where half is 0, 1 or 2 halves of the step d from its begin.
 ///
-/// One of two in this repository, each an oracle of its own: this one for the tick (tests hold it against the library's
-/// step), the other for the benchmark's plain code (lab/bench/plain_valve.hpp), which must not know the library.
+/// One of two independent references in this repository: this one for the tick (tests compare it with the library's
+/// step), the other for the benchmark's plain code (lab/bench/plain_valve.hpp), which must not use the library.
 template <class Real, class Acceleration>
 [[nodiscard]] detail::ValveState<Real> textbook_step(const Acceleration& f, Real d,
                                                      const detail::ValveState<Real>& s) noexcept {

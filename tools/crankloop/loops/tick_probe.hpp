@@ -1,4 +1,4 @@
-// The tick evaluated at one angle: what the fixed-step loop gives there, without running a loop.
+// Evaluates the tick at one angle, as the fixed-step loop would, without running a loop.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ class TickProbe {
  public:
   explicit TickProbe(const EngineDefinition& definition)
       : tables_{std::make_unique<TableStorage<Real, scenes::Whole>>()} {
-    EngineDefinition without_valves = definition;  // which need time to move, not an angle
+    EngineDefinition without_valves = definition;  // their motion depends on time, not only on the angle
     without_valves.train_count = 0;
     without_valves.trigger_count = 0;  // a wheel may turn with a valve train's cam
     const Status status = tables_->build(without_valves, {kTick_s});

@@ -1,7 +1,7 @@
-// Whether elastic valves keep their accuracy class in ticks of a length at a speed, and by how much they miss it.
+// Whether elastic valves keep their accuracy class at a tick length and speed, and by how much they exceed it.
 //
-// What belongs here: ticks that turn a cam so far that its lift is not followed to the class. What does not: ticks that
-// are refused (valve_tick_limit.hpp).
+// What belongs here: ticks that turn a cam too far for the class. What does not: ticks that are refused
+// (valve_tick_limit.hpp).
 #pragma once
 
 #include <string>
@@ -12,13 +12,13 @@
 
 namespace crankloop::program {
 
-/// By how much the lift is off at most in a cycle from rest, in m: against the same valve in ticks a sixteenth as long,
-/// 16 times, beginning in different parts of a tick. Where the motion itself magnifies errors this is one sample of
-/// them. For speeds other than 0, within one revolution per tick.
+/// Largest error of the lift in a cycle from rest, in m: compared with the same valve in ticks a sixteenth as long, for
+/// 16 starts in different parts of a tick. If the motion itself amplifies errors, this is one sample of them. For
+/// speeds other than 0, within one revolution per tick.
 [[nodiscard]] double expected_error_m(const LoneValve& valve, double speed_rpm, double tick_s,
                                       const ValveStepping& stepping);
 
-/// A warning where a valve is expected to miss its class; else none.
+/// A warning if a valve is expected to exceed its class; else none.
 [[nodiscard]] std::vector<std::string> beyond_class(const LoneValve& valve, double speed_rpm, double tick_s,
                                                     const ValveStepping& stepping = {});
 

@@ -1,4 +1,4 @@
-// The results of one lobe of a valve, whatever the arithmetic of the tick that found them.
+// The results of one lobe of a valve, independent of the tick's arithmetic.
 #pragma once
 
 #include <string>
@@ -28,7 +28,8 @@ template <class Real>
           c.off_seat_at_end};
 }
 
-/// Whether the valve opened after its cam did. One that was up already has no delay, and ValveCycle's is 0.
+/// Whether the valve opened after its cam did. A valve that was off its seat already has no delay; ValveCycle's is 0
+/// then.
 template <class Real>
 [[nodiscard]] bool has_opening_delay(const ValveCycle<Real>& c) noexcept {
   return c.opening_delay_deg > 0;
@@ -38,7 +39,7 @@ template <class Real>
 void add_opening_delay(Summary& s, const std::string& name, const ValveCycle<Real>& c) {
   if (has_opening_delay(c)) return s.line(name, c.opening_delay_deg, "deg", "of cam angle, at 0.1 mm of lift");
   s.line(name, "none", "",
-         c.largest_lift_m < Real(0.1e-3) ? "it does not rise by 0.1 mm" : "it was in the air before its cam lifted it");
+         c.largest_lift_m < Real(0.1e-3) ? "it does not rise by 0.1 mm" : "off its seat before its cam lifted it");
 }
 
 }  // namespace crankloop::program

@@ -19,7 +19,8 @@ template class crankloop::Engine<double, crankloop::program::OneValve>;
 namespace crankloop::program {
 namespace {
 
-/// Of a tick: less than this beyond a cycle is rounding of the phase increment, and no reason for another tick.
+/// Fraction of a tick: a cycle's end that is closer than this is not worth another tick, because the phase increment is
+/// rounded.
 constexpr double kHairOfATick = 1e-3;
 constexpr double kShortestTick_s = 1e-6;
 
@@ -65,8 +66,8 @@ LoneValve::LoneValve(const EngineFile& file, const std::string& name) : file_{fi
   }
   if (file.has("crank")) {
     definition_.crank = file.definition().crank;
-    definition_.crank.max_speed_rad_s = 0;  // how fast the engine can turn is what one wants to find out
-    // Of an engine with gas exchange, one valve alone does not know the gas.
+    definition_.crank.max_speed_rad_s = 0;  // no limit: the sweep goes beyond the engine's maximum Without gas force
+                                            // for an engine with gas exchange: a single valve has no cylinder pressure.
     if (train_.definition.valve.head_area_m2 > 0 && !breathes(file.definition()))
       definition_.pressure = file.definition().pressure;
   } else {
@@ -159,7 +160,7 @@ void ValveLoop<Real>::step() noexcept {
   ++ticks_;
 }
 
-/// The engine has gone on and counts the angle; its valve is not looked at.
+/// The engine only counts the angle; its valve is not used.
 template <class Real>
 void ValveLoop<Real>::textbook_step(Phase before, Phase after) noexcept {
   const CamSpan cam{since_opening(before), since_opening(after)};
@@ -187,8 +188,9 @@ ValveTickOutput<Real> ValveLoop<Real>::output() const noexcept {
   const Contacts<Real> c(body, valve, lift);
   ValveTickOutput<Real> out{};
   out.cam_deg = cam_deg;
-  out.motion = {std::max(lift.lift_m, Real{0}), valve.lift_m, valve.velocity_m_s,
-                textbook_acceleration(body, valve, lift, textbook_.gas_N)};
+  out.motion = {{std::max(lift.lift_m, Real{0})},
+                {valve.lift_m, valve.velocity_m_s},
+                {textbook_acceleration(body, valve, lift, textbook_.gas_N)}};
   out.forces.train_N = c.train_force_N();
   out.forces.seat_N = c.seat_force_N();
   out.forces.tip_N = out.forces.train_N - body.rocker_mass_kg * out.motion.acceleration_m_s2;

@@ -18,10 +18,12 @@
 
 namespace crankloop::program {
 
-/// One cylinder's one train; a head area brings the cylinder's pressure in.
+/// One train of one cylinder; with a head area the cylinder's pressure acts on the valve.
 struct OneValve : Scene {
   static constexpr PressureGiven pressure = PressureGiven::by_table;
   static constexpr ValveModel valves = ValveModel::elastic;
+  static constexpr bool theoretical_lift = true;
+  static constexpr bool valve_acceleration = true;
   static constexpr bool valve_forces = true;
   static constexpr bool valve_results = true;
   static constexpr bool valve_gas = true;
@@ -64,7 +66,7 @@ struct ValveMethod {
 template <class Real>
 struct ValveTickOutput {
   double cam_deg;
-  ValveMotionOutput<Real> motion;
+  ValveMotionOutput<Real, OneValve> motion;
   ValveForcesOutput<Real> forces;
 };
 
@@ -93,7 +95,7 @@ class ValveLoop {
   using OneEngine = Engine<Real, OneValve>;
   using Storage = TableStorage<Real, OneValve, kMaxGasSegments>;
 
-  /// The textbook's valve, and what the engine would hold for it.
+  /// The textbook's valve and its state.
   struct Textbook {
     detail::ValveInRegime<Real> valve;
     detail::ValveRecord<Real> record;
@@ -139,7 +141,7 @@ template <class Real>
 double largest_change_of_lift_m(const LoneValve& valve, double speed_rpm, double tick_s, const ValveMethod& method,
                                 int cycles, const std::function<void()>& after_tick = {});
 
-/// Ticks of one cycle, a broken number.
+/// Ticks of one cycle, not a whole number.
 [[nodiscard]] double ticks_per_cycle(double speed_rpm, double tick_s) noexcept;
 
 }  // namespace crankloop::program

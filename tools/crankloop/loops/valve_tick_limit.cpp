@@ -52,7 +52,7 @@ void require_trains(const EngineFile& file, double tick_s, const ValveStepping& 
 
 double class_deg(const ValveTrain& train, double tick_s, const ValveStepping& stepping) {
   EngineDefinition definition;
-  definition.crank = {0.05, 0.025, 0.1};  // any: it does not matter to the valve
+  definition.crank = {0.05, 0.025, 0.1};  // any: the valve does not depend on it
   definition.masses.piston_kg = 1;
   definition.train_count = 1;
   definition.trains[0] = train;
@@ -61,7 +61,7 @@ double class_deg(const ValveTrain& train, double tick_s, const ValveStepping& st
   targets.valve_motions = &motion;
   TableReport report;
   const Status refused = tabulate(definition, {tick_s, stepping}, targets, &report);
-  return refused.ok() ? report.valve_class_deg : 360;  // what runs the valve says why it is refused
+  return refused.ok() ? report.valve_class_deg : 360;  // the run reports the reason of the refusal
 }
 
 std::vector<std::string> ticks_in_words(const EngineFile& file) {

@@ -17,19 +17,19 @@ namespace crankloop::program {
 [[nodiscard]] InputError tick_too_long(const EngineFile& file, const TrainOfFile& train, const Valve& valve,
                                        double tick_s, const ValveStepping& stepping);
 
-/// The message for what tabulate refused of the file's definition: a tick too long for one of its trains, a train's
-/// geometry with the angle, or what else the file can explain.
+/// The message for a refusal by tabulate: a tick too long for a train, a train's geometry with the angle, or any other
+/// field of the file.
 [[nodiscard]] InputError explain_tabulate(const EngineFile& file, const Status& refused, double tick_s,
                                           const ValveStepping& stepping = {});
 
-/// Throws explain_tabulate()'s message where a train of the file does not go with a tick, or its geometry does not
+/// Throws explain_tabulate()'s message if a tick is too long for a train of the file, or a train's geometry does not
 /// close.
 void require_trains(const EngineFile& file, double tick_s, const ValveStepping& stepping = {});
 
-/// What the length of a tick means for each train: steps of a valve in the worst tick, and the longest tick.
+/// Effect of the tick's length on each train: steps of a valve in the worst tick, and the longest tick.
 [[nodiscard]] std::vector<std::string> ticks_in_words(const EngineFile& file);
 
-/// Cam degrees of a tick up to which a train's valve keeps its class, by what tabulate reports; 360: always.
+/// Cam degrees of a tick up to which a train's valve keeps its class, from tabulate's report; 360: always.
 [[nodiscard]] double class_deg(const ValveTrain& train, double tick_s, const ValveStepping& stepping);
 
 /// Longest tick that every train of a definition allows, at most 2 ms.

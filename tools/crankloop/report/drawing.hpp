@@ -1,6 +1,6 @@
-// One plot on its way to an <svg> element: scales, frame, curves, labels, in this order, and then the text of it.
+// Builds the <svg> element of one plot: scales, frame, curves, labels, in this order, then its text.
 //
-// What belongs here: what the three steps share. What does not: their rules (drawing_layout.cpp, drawing_field.cpp,
+// What belongs here: data that the steps share. What does not: their rules (drawing_layout.cpp, drawing_field.cpp,
 // drawing_labels.cpp, drawing_svg.cpp), scales (scale.hpp), thinning (thinning.hpp).
 #pragma once
 
@@ -34,7 +34,7 @@ struct Label {
 
 [[nodiscard]] Box box_of(const Label& label);
 
-/// What is drawn of one series, in user units.
+/// The drawn part of one series, in user units.
 struct Curve {
   std::string name{};
   Style style{};

@@ -17,7 +17,7 @@ using Rgb = std::array<int, 3>;
 constexpr Rgb kPalette[] = {{68, 1, 84},    {72, 40, 120},  {62, 73, 137},  {49, 104, 142}, {38, 130, 142},
                             {31, 158, 137}, {53, 183, 121}, {110, 206, 88}, {181, 222, 43}, {253, 231, 37}};
 constexpr double kLastColour = 9;
-constexpr double kDark = 0.45;  // up to here white stands out, beyond it black
+constexpr double kDark = 0.45;  // up to this value white text is legible, above it black
 
 std::string list_of(const std::vector<double>& values) {
   std::string text;
@@ -41,7 +41,7 @@ std::string heat_colour(double part) {
   return colour;
 }
 
-/// Contours at round values, and between two as many steps of colour as let the values cover kHeatSteps of them.
+/// Chooses contours at round values, and the colour steps between them so that the values cover kHeatSteps steps.
 void Drawing::make_levels() {
   Range range{kLargest, -kLargest};
   for (const double value : plot_.field.values) {
@@ -63,11 +63,11 @@ std::string Drawing::heat_at(double level) const {
   return heat_colour((level - levels_.range.low) / (levels_.range.high - levels_.range.low));
 }
 
-/// The part of a cell of the lattice, around which its four corners and values stand, that is at least `level`; the
-/// pieces of the contour in it end where one such part does.
+/// The part of a lattice cell, given by its four corners and values, in which the field is at least `level`, and the
+/// pieces of the contour in the cell.
 Polyline Drawing::area_of_cell(double level, const HeatCell& cell, Polyline& contour) {
   Polyline area;
-  std::vector<std::size_t> leaves;  // where the edge of the area goes into the cell
+  std::vector<std::size_t> leaves;  // where the edge of the area enters the cell
   for (std::size_t k = 0; k < 4; ++k) {
     const HeatCorner& a = cell[k];
     const HeatCorner& b = cell[(k + 1) % 4];
@@ -93,7 +93,8 @@ Drawing::HeatCell Drawing::heat_cell(std::size_t i, std::size_t j) const {
   return {corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)};
 }
 
-/// Where the field, straight between neighbours of the lattice, is at least `level`; the contour as pairs of ends.
+/// The area in which the field, linear between neighbours of the lattice, is at least `level`; the contour as pairs of
+/// ends.
 std::string Drawing::area_above(double level, Polyline& contour) const {
   std::string d;
   const auto close = [&d](const Polyline& area) {
@@ -151,7 +152,7 @@ void Drawing::write_field() {
   write_heat_key();
 }
 
-/// The line, of pieces that each have two ends, and its value on it, where no other contour's value is near.
+/// Draws a contour from its pieces and writes its value on it, away from other contours' values.
 void Drawing::write_contour(double level, const Polyline& ends) {
   if (ends.empty()) return;
   std::string d;
@@ -193,7 +194,7 @@ void Drawing::write_heat_key() {
   }
   for (const Tick& tick : levels_.ticks)
     text("tick", {left + 20, to_y(tick.value) + 0.34 * kTypeSize}, Anchor::start, tick.label);
-  text("axis-title", {kWidth, 16}, Anchor::end, with_unit(plot_.field.name, plot_.field.unit, levels_.exponent));
+  text("axis-title", {kWidth, 17}, Anchor::end, with_unit(plot_.field.name, plot_.field.unit, levels_.exponent));
 }
 
 }  // namespace crankloop::report

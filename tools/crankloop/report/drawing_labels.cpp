@@ -1,4 +1,4 @@
-// Where a drawing's labels stand: markers' beside their dots, names beside their curves.
+// Placement of labels: markers' beside their dots, names beside their curves.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,7 +17,7 @@ Box box_of(const Label& label) {
 
 namespace {
 
-/// Points along a curve at which its name may stand: every 12 units, or 150 of them if it is longer than that.
+/// Candidate points for a name along a curve: every 12 units, at most 150.
 Polyline places_along(const Curve& curve) {
   double length = 0;
   for (const Polyline& line : curve.lines) {
@@ -62,15 +62,15 @@ double Drawing::outside_frame(const Box& box) const {
          std::max(0.0, frame_.top + 1 - box.top) + std::max(0.0, box.bottom - frame_.bottom + 2);
 }
 
-/// At the best place around a dot: as near as curves, zero lines and other labels allow, with a thin line if that is
-/// far.
+/// Places a label around a dot, as near as curves, zero lines and other labels allow, with a thin line if it is far
+/// away.
 void Drawing::place_beside(Point dot, Label label) {
   Label best;
   double least = std::numeric_limits<double>::infinity();
   const bool high = dot.y < (frame_.top + frame_.bottom) / 2;
   const double beside = 0.26 * kTypeSize;
   double order = 0;
-  for (double away = 10; away <= 82; away += 12) {  // farther, where lines are in the way
+  for (double away = 10; away <= 82; away += 12) {  // farther away if lines are in the way
     const double above = -away;
     const double below = away + 0.76 * kTypeSize;
     for (const double dy : {high ? above : below, beside, high ? below : above}) {
@@ -123,8 +123,8 @@ Point Drawing::end_of(const Polyline& line) const {
   return end;
 }
 
-/// The names of a family of curves where they end, in ink, each with a thin line to its curve: in a column beside the
-/// frame if the curves end near each other, else above their ends.
+/// Places the names of a family of curves at their ends, in ink, each with a thin line to its curve: in a column beside
+/// the frame if the curves end near each other, else above the ends.
 void Drawing::place_ends() {
   std::vector<std::pair<Point, std::size_t>> ends;
   for (std::size_t i = 0; i < curves_.size(); ++i) {
@@ -137,7 +137,7 @@ void Drawing::place_ends() {
   } else {
     std::stable_sort(ends.begin(), ends.end(), by_width);
   }
-  constexpr double kPitch = 20;
+  constexpr double kPitch = 22;
   double y = frame_.top;  // of the next free line of the column
   for (std::size_t k = 0; k < ends.size(); ++k) {
     const auto& [end, i] = ends[k];
@@ -199,8 +199,8 @@ bool Drawing::place_names() {
   return true;
 }
 
-/// How much nearer a name is to its own curve than to any other, in user units, at most 40; <= 0 where it must not
-/// stand.
+/// How much nearer a name is to its own curve than to any other, in user units, at most 40; <= 0 where a name must not
+/// be placed.
 double Drawing::clarity(const Label& label, std::size_t own) const {
   const Box box = box_of(label);
   if (outside_frame(box) > 0) return 0;

@@ -11,11 +11,11 @@ namespace crankloop::report {
 
 namespace {
 
-constexpr double kHeight = 350;
+constexpr double kHeight = 360;
 constexpr double kTolerance = 0.1;  // of decimate(): with the rounding of coordinates, curves are true to 0.21 units
 constexpr int kXIntervals = 7;
 constexpr int kYIntervals = 6;
-constexpr double kLegendRow = 23;
+constexpr double kLegendRow = 25;
 
 double legend_width(const Series& series) { return kSwatch + text_width(series.name) + 16; }
 
@@ -80,20 +80,20 @@ void Drawing::make_layout(bool legend) {
   taken_.clear();
   legend_.clear();
   height_ = kHeight;
-  frame_ = {0, 31, 0, kHeight - 50};
+  frame_ = {0, 36, 0, kHeight - 54};
   if (legend) make_legend();
   band_top_ = frame_.top;
   const bool band_names =
       std::any_of(plot_.bands.begin(), plot_.bands.end(), [](const Band& band) { return !band.label.empty(); });
-  if (band_names) frame_.top += 24;
-  if (frame_.bottom - frame_.top < 200) {  // a long legend makes the drawing higher, not the curves flatter
+  if (band_names) frame_.top += 26;
+  if (frame_.bottom - frame_.top < 200) {  // a long legend increases the drawing, not compresses the curves
     height_ += 200 - (frame_.bottom - frame_.top);
     frame_.bottom = frame_.top + 200;
   }
   make_headroom();
   double widest = 0;
   for (const Tick& tick : y_.ticks) widest = std::max(widest, text_width(tick.label));
-  frame_.left = std::max(34.0, widest + 12);
+  frame_.left = plot_.y.bare ? 8 : std::max(34.0, widest + 12);
   frame_.right = kWidth - std::max(8.0, x_.ticks.empty() ? 0 : text_width(x_.ticks.back().label) / 2 + 2);
   if (ends_together_) {
     double names = 0;
@@ -113,7 +113,7 @@ void Drawing::make_layout(bool legend) {
   make_curves();
 }
 
-/// Zero stands out when values of both signs are seen, and under curves that start from it.
+/// Zero gets a line if values have both signs, and under curves that start at zero.
 void Drawing::make_zero_lines() {
   zero_lines_.clear();
   if (empty_) return;
@@ -127,7 +127,7 @@ void Drawing::make_zero_lines() {
 void Drawing::make_headroom() {
   y_ = y_of_data_;
   if (plot_.y.range || plot_.y.logarithmic) return;
-  const double need = 32 / (frame_.bottom - frame_.top);
+  const double need = 35 / (frame_.bottom - frame_.top);
   Range range = y_.range;
   if (plot_.names_at_ends && !ends_together_) range.high += 0.3 * (range.high - range.low);
   for (const Marker& marker : plot_.markers) {
@@ -159,13 +159,13 @@ void Drawing::make_legend() {
   const auto most = std::max<std::size_t>(1, static_cast<std::size_t>(room / pitch));
   const std::size_t rows = (named.size() + most - 1) / most;
   const std::size_t columns = one_row ? named.size() : (named.size() + rows - 1) / rows;
-  Point at{0, frame_.top + 13};
+  Point at{0, frame_.top + 8};
   for (std::size_t i = 0; i < named.size(); ++i) {
     if (i > 0 && i % columns == 0) at = {0, at.y + kLegendRow};
     legend_.push_back({at, named[i]});
     at.x += one_row ? legend_width(plot_.series[named[i]]) : pitch;
   }
-  frame_.top = at.y + 18;
+  frame_.top = at.y + 20;
 }
 
 int Drawing::colour_of(std::size_t index) const {
@@ -225,7 +225,7 @@ void Drawing::make_lines(const Series& series, Curve& curve) const {
   if (pieces.back().empty()) pieces.pop_back();
   if (series.style.closed && pieces.size() == 1 && pieces[0].size() > 2) pieces[0].push_back(pieces[0][0]);
 
-  std::set<std::pair<int, int>> occupied;  // by marks, in half user units: a second one there would not be seen
+  std::set<std::pair<int, int>> occupied;  // by marks, in half user units: a second one there would be invisible
   for (const Polyline& piece : pieces) {
     if (!marks && piece.size() > 1) curve.lines.push_back(decimate(piece, kTolerance));
     if (series.style.draw == Draw::line_and_points && piece.size() > 1)

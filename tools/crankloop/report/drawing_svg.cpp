@@ -1,4 +1,4 @@
-// The <svg> element of a drawing whose places are settled.
+// The <svg> element of a drawing after layout.
 #include <algorithm>
 #include <string>
 
@@ -28,7 +28,7 @@ std::string line_class(const Curve& curve) {
          colour_class(curve);
 }
 
-/// For the page's script: a scale as "low high from to", in the user units that stand for it.
+/// A scale for the page's script: "low high from to", the latter two in user units.
 std::string scale_of(const char* name, const Mapping& map, const std::string& unit) {
   return std::string(" data-") + name + "=\"" + program::brief(map.range.low) + ' ' + program::brief(map.range.high) +
          ' ' + coordinate(map.from) + ' ' + coordinate(map.to) + (map.logarithmic ? " log" : "") + "\"" +
@@ -142,9 +142,9 @@ void Drawing::write_bands() {
     const double right = std::clamp(to_x_(band.to), frame_.left, frame_.right);
     if (right <= left) continue;
     if (count++ % 2 == 0)
-      rectangle("band", {left, band_top_, right, frame_.bottom});  // every other one: enough to tell them apart
-    if (0.88 * text_width(band.label) > right - left) continue;    // its type is that much smaller
-    text("band-name", {(left + right) / 2, band_top_ + 17}, Anchor::middle, band.label);
+      rectangle("band", {left, band_top_, right, frame_.bottom});  // every other one, so that they are distinguishable
+    if (0.8 * text_width(band.label) > right - left) continue;    // the font is smaller by this factor
+    text("band-name", {(left + right) / 2, band_top_ + 18}, Anchor::middle, band.label);
   }
 }
 
@@ -173,9 +173,9 @@ void Drawing::write_axes() {
       text("tick", {frame_.left - 8, to_y_(tick.value) + 0.34 * kTypeSize}, Anchor::end, tick.label);
   }
   for (const Tick& tick : x_.ticks) {
-    if (!tick.label.empty()) text("tick", {to_x_(tick.value), frame_.bottom + 22}, Anchor::middle, tick.label);
+    if (!tick.label.empty()) text("tick", {to_x_(tick.value), frame_.bottom + 23}, Anchor::middle, tick.label);
   }
-  text("axis-title", {0, 16}, Anchor::start, with_unit(plot_.y.title, plot_.y.unit, y_.exponent));
+  text("axis-title", {0, 17}, Anchor::start, with_unit(plot_.y.title, plot_.y.unit, y_.exponent));
   text("axis-title", {frame_.right, height_ - 6}, Anchor::end, with_unit(plot_.x.title, plot_.x.unit, x_.exponent));
 }
 

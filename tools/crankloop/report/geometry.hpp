@@ -27,7 +27,7 @@ struct Box {
 /// Length of the part of a segment inside a box (Liang and Barsky's clipping).
 [[nodiscard]] double length_inside(const Box& box, Point a, Point b);
 
-/// Of a point, or of a box (0 where they meet), from the segment a b.
+/// Distance of a point, or of a box (0 if they intersect), from the segment a b.
 [[nodiscard]] double distance(Point p, Point a, Point b);
 [[nodiscard]] double distance(const Box& box, Point a, Point b);
 

@@ -10,8 +10,8 @@
 namespace crankloop::report {
 namespace {
 
-constexpr std::size_t kHalfColumns = 5;    // a table of so many columns takes half the width of a desk's page
-constexpr std::size_t kNarrowColumns = 4;  // one of more may have to be scrolled on a phone
+constexpr std::size_t kHalfColumns = 5;  // a table with up to this many columns takes half the width of a desktop page
+constexpr std::size_t kNarrowColumns = 4;  // a wider table may have to be scrolled on a phone
 
 constexpr const char* kStyle = R"css(
 :root { color-scheme: light dark; }
@@ -87,6 +87,7 @@ th, td {
 th:last-child, td:last-child { padding-right: 0; }
 thead th { color: var(--muted); font-weight: 500; vertical-align: bottom; border-bottom-color: var(--axis); }
 tbody th { font-weight: 400; }
+.row .scroll[role] tbody th { white-space: nowrap; }
 th.number, td.number { text-align: right; }
 td.number, tbody th.number { white-space: nowrap; }
 thead .unit { display: block; font-weight: 400; }
@@ -118,7 +119,7 @@ footer {
   .row { grid-template-columns: 1fr 1fr; gap: 1.1rem 1.8rem; margin-bottom: 1.1rem; }
   figcaption { margin-top: 0.2rem; font-size: 8.5pt; } .table { margin-bottom: 1.1rem; }
   .scroll { overflow: visible; }
-  table { font-size: 8.5pt; }
+  table { font-size: 8.5pt; } .row :is(th, td):not(:last-child) { padding-right: 0.5rem; }
   figure, tr, .facts, .row .table { break-inside: avoid; }
   h2, h3, caption { break-after: avoid; }
   .plot .hair { display: none; }
@@ -161,8 +162,8 @@ class Document {
   }
 
  private:
-  /// Letters, digits and dashes, beginning with a letter, and not yet used on this page, nor with a suffix of
-  /// plot.hpp's.
+  /// An id of letters, digits and dashes that starts with a letter and is unique on this page, also with the suffixes
+  /// of plot.hpp.
   std::string unique_id(const std::string& wish) {
     std::string id;
     for (const char c : wish) {
@@ -251,7 +252,7 @@ class Document {
     const std::string caption = escape(table.caption);
     out_ += "<div class=\"table\">\n";
     if (table.folded) out_ += "<details>\n<summary>" + caption + "</summary>\n";
-    // A reader without a mouse must be able to scroll a wide table: a region that takes the focus.
+    // A wide table must be scrollable without a mouse: make it a region that takes the focus.
     const bool wide = table.columns.size() > kNarrowColumns;
     out_ += "<div class=\"scroll\"";
     if (wide) out_ += " role=\"region\" tabindex=\"0\" aria-labelledby=\"" + id + '"';

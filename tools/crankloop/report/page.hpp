@@ -2,8 +2,8 @@
 //
 // What belongs here: the order and look of a page. What does not: drawing (plot.hpp), engines, files.
 //
-// The page needs no network (its content security policy forbids it) and no script: the one it has, read_out.hpp, only
-// tells values under the pointer. It follows the reader's light or dark theme, has one column on a phone and two on a
+// The page needs no network (its content security policy forbids it) and no script: its only script, read_out.hpp,
+// shows values under the pointer. It follows the reader's light or dark theme, has one column on a phone and two on a
 // desk, and prints light. It is well-formed XML too, which makes it testable.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace crankloop::report {
 
 struct Paragraph {
   std::string text{};
-  bool note = false;  ///< set apart: an assumption or a warning that must not be overlooked
+  bool note = false;  ///< highlighted: an assumption or a warning
 };
 
 struct List {
@@ -35,7 +35,7 @@ struct Table {
   std::string caption{};
   std::vector<Column> columns{};
   std::vector<std::vector<std::string>> rows{};
-  bool folded = false;  ///< behind its caption until the reader opens it; printed only if it is open
+  bool folded = false;  ///< hidden until the reader opens it; printed only if it is open
 };
 
 /// Neighbouring plots and tables of up to five columns share rows where there is room.
@@ -64,7 +64,7 @@ struct Page {
   std::string language = "en";
 };
 
-/// What must not be overlooked: notes, before all else of the first section.
+/// Notes at the top of the first section.
 void put_first(Page& page, const std::vector<std::string>& notes);
 
 /// The whole file. All text is escaped; ids are made valid and unique.

@@ -19,7 +19,7 @@ Drawn Drawing::draw() {
     write();
     return {std::move(out_), kWidth, height_};
   }
-  // Beside the curves is better than a legend, but only few names find a place there.
+  // Names beside the curves are better than a legend, but only few names fit there.
   if (named > 1 && (bars || plot_.series.size() > 6 || !place_names())) {
     make_layout(true);
     place_markers();

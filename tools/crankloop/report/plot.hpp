@@ -1,11 +1,11 @@
 // A plot as inline SVG: curves, loops, steps, bars and heat maps over labelled axes, from plain numbers.
 //
-// What belongs here: what a plot is made of, and the colours of both themes, because a colour that is legible on paper
-// is not on a dark screen. What does not: engines (the caller names every quantity and its unit), pages (page.hpp),
-// files; how it is drawn (drawing.hpp), scales and ticks (scale.hpp), thinning of curves (thinning.hpp).
+// What belongs here: the parts of a plot, and the colours of both themes, because a colour that is legible on paper is
+// not on a dark screen. What does not: engines (the caller names every quantity and its unit), pages (page.hpp), files;
+// how it is drawn (drawing.hpp), scales and ticks (scale.hpp), thinning of curves (thinning.hpp).
 //
 // A drawing is 520 user units wide and scales with its column, 330 px on a phone and about 550 px on a desk.
-// plot_style() therefore sets the type between 17 units (11 px on that phone) and 13 (14 px); margins and label places
+// plot_style() therefore sets the type between 19 units (12 px on that phone) and 13 (14 px); margins and label places
 // are computed for the largest. Equal input gives equal bytes.
 #pragma once
 
@@ -39,7 +39,7 @@ inline constexpr int kRamp = 7;
 struct Series {
   std::string name{};
   std::vector<double> x{};
-  std::vector<double> y{};  ///< if lengths differ, the surplus is ignored
+  std::vector<double> y{};  ///< surplus values of the longer vector are ignored
   Style style{};
 };
 
@@ -64,7 +64,7 @@ struct Field {
   std::string unit{};
   std::vector<double> x{};  ///< ascending, two or more
   std::vector<double> y{};
-  std::vector<double> values{};  ///< at the first x those of all y, then at the next; what is not finite stays blank
+  std::vector<double> values{};  ///< x by x, each with all y; values that are not finite stay blank
 };
 
 inline constexpr int kHeatSteps = 20;
@@ -101,7 +101,7 @@ struct Plot {
 }
 
 /// The <svg> element, with <title> and a <desc> that says each series' range. Two or more named series are labelled
-/// beside their curves where every name finds a free place nearer to its own curve than to others, else in a legend.
+/// beside their curves if every name fits nearer to its own curve than to others, else in a legend.
 [[nodiscard]] std::string to_svg(const Plot& plot);
 
 /// A drawing of fixed size, for one that encloses it: sheet.hpp.
@@ -115,7 +115,7 @@ struct Drawn {
 /// CSS of the drawings and the colour variables of the light and dark theme; once per page.
 [[nodiscard]] std::string_view plot_style();
 
-/// Moves a plot of one x range down by `zero`, and draws a dashed line of that name where y is 0 then.
+/// Shifts a plot down by `zero` and draws a named dashed line at the new y = 0.
 void count_from(Plot& plot, double zero, const std::string& name, int colour);
 
 }  // namespace crankloop::report

@@ -1,4 +1,4 @@
-// The look of every drawing, and the colours of both themes.
+// The style sheet of all drawings, with the colours of both themes.
 #include "plot.hpp"
 
 namespace crankloop::report {
@@ -26,7 +26,7 @@ std::string_view plot_style() {
 .plot { display: block; width: 100%; height: auto; font-size: 16px; font-variant-numeric: tabular-nums; }
 .plot text { fill: var(--muted); }
 .plot .axis-title { fill: var(--ink); }
-.plot .band-name { font-size: 0.88em; }
+.plot .band-name { font-size: 0.8em; }
 .plot .legend { fill: var(--ink); }
 .plot .name {
   fill: var(--c, var(--ink)); stroke: var(--paper); stroke-width: 4px; stroke-linejoin: round;
@@ -60,8 +60,9 @@ std::string_view plot_style() {
 .c4 { --c: var(--series-4); } .c5 { --c: var(--series-5); } .c6 { --c: var(--series-6); }
 .r1 { --c: var(--ramp-1); } .r2 { --c: var(--ramp-2); } .r3 { --c: var(--ramp-3); } .r4 { --c: var(--ramp-4); }
 .r5 { --c: var(--ramp-5); } .r6 { --c: var(--ramp-6); } .r7 { --c: var(--ramp-7); }
+@container (max-width: 450px) { .plot { font-size: 17px; } }
 @container (max-width: 380px) {
-  .plot { font-size: 17px; }
+  .plot { font-size: 19px; }
   .plot .curve:not(.bold) { stroke-width: 1.75px; }
   .plot .dot { stroke-width: 6px; }
 }

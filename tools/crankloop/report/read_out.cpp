@@ -1,6 +1,6 @@
-// The only script of a page: what a plot says where the pointer is, and curves that a click on their names hides. It
-// reads the drawing itself: the curves' coordinates, and the scales in data-x and data-y. Without it, and in print, all
-// is there as drawn. No "<" and no "&": the page is well-formed XML.
+// The only script of a page: it shows a plot's values under the pointer, and hides curves when their names are clicked.
+// It reads the drawing: the curves' coordinates, and the scales in data-x and data-y. Without it, and in print, the
+// drawing is complete. No "<" and no "&": the page is well-formed XML.
 #include "read_out.hpp"
 
 namespace crankloop::report {

@@ -1,11 +1,11 @@
-// The page's script: read-outs under the pointer, curves that a click on their names hides.
+// The page's script: values under the pointer, and curves that can be hidden by a click on their names.
 #pragma once
 
 #include <string_view>
 
 namespace crankloop::report {
 
-/// What stands between <script> and </script>.
+/// The text between <script> and </script>.
 [[nodiscard]] std::string_view read_out_script();
 
 /// Its SHA-256 in base64: the page's content security policy allows no other script.

@@ -10,7 +10,7 @@ namespace crankloop::report {
 
 namespace {
 
-constexpr double kSmallest = 1e-200;  // below it a linear axis has nothing to show but zero
+constexpr double kSmallest = 1e-200;  // a smaller range is drawn as zero
 
 /// 1, 2 or 5 times a power of ten, not below `step`.
 double nice_step(double step) {
@@ -39,7 +39,7 @@ Scale linear_scale(const Axis& axis, Range data, int intervals) {
   range = {std::clamp(range.low, -kLargest, kLargest), std::clamp(range.high, -kLargest, kLargest)};
   if (axis.include_zero && !given) range = {std::min(range.low, 0.0), std::max(range.high, 0.0)};
   const double size = std::max(std::abs(range.low), std::abs(range.high));
-  // Rounding noise around a constant is no shape: a span below 1e-9 of the value is drawn as constant.
+  // A span below 1e-9 of the value is rounding noise and drawn as constant.
   if (range.high - range.low <= 1e-9 * size || size < kSmallest) {
     const double margin = size < kSmallest ? 1 : 0.1 * size;
     range = {range.low - margin, range.high + margin};
@@ -72,7 +72,7 @@ Scale logarithmic_scale(const Axis& axis, Range data) {
   const auto decade = [](int n) { return std::pow(10.0, n); };
   int low = static_cast<int>(std::floor(std::log10(range.low) + 1e-9));
   int high = static_cast<int>(std::floor(std::log10(range.high) - 1e-9));
-  if (!given) {  // round out to 1, 2 or 5 times a power of ten; a constant gets its decade
+  if (!given) {  // round out to 1, 2 or 5 times a power of ten; a constant gets the decade around it
     Range rounded{decade(low), decade(high + 1)};
     for (const int factor : {2, 5}) {
       if (factor * decade(low) <= range.low * (1 + 1e-9)) rounded.low = factor * decade(low);
@@ -122,7 +122,7 @@ double Mapping::operator()(double value) const {
   const double low = logarithmic ? std::log10(range.low) : range.low;
   const double high = logarithmic ? std::log10(range.high) : range.high;
   const double at = ((logarithmic ? std::log10(value) : value) - low) / (high - low);
-  return std::clamp(from + at * (to - from), -1e5, 1e5);  // what lies far outside a given range keeps its direction
+  return std::clamp(from + at * (to - from), -1e5, 1e5);  // a value far outside a given range keeps its direction
 }
 
 void thin_labels(Scale& scale, const Mapping& map, Direction direction) {

@@ -1,7 +1,6 @@
 // Scales: from the range of data to an axis with ticks and their labels.
 //
-// What belongs here: which numbers stand on an axis, and where a value lies along it. What does not: lines
-// (drawing.hpp).
+// What belongs here: the numbers on an axis, and the position of a value along it. What does not: lines (drawing.hpp).
 #pragma once
 
 #include <cstdint>
@@ -22,7 +21,7 @@ struct Axis {
   bool logarithmic = false;      ///< values <= 0 are then missing values
   double tick_step = 0;          ///< e.g. 90 for crank degrees; 0 = chosen as 1, 2 or 5 times a power of ten
   bool include_zero = false;     ///< bars always include it
-  bool bare = false;             ///< no ticks: of a drawing that is no graph
+  bool bare = false;             ///< no ticks: for drawings that are not graphs
   std::optional<Range> range{};  ///< absent = the data, rounded out to whole ticks
 };
 
@@ -35,20 +34,20 @@ struct Tick {
 struct Scale {
   Range range{};              ///< low < high, finite; positive if logarithmic
   std::vector<Tick> ticks{};  ///< ascending, inside the range
-  int exponent = 0;           ///< labels show value / 10^exponent, and the axis title says so
+  int exponent = 0;           ///< labels show value / 10^exponent; the axis title contains it
 };
 
-/// A scale over `data` with about `intervals` steps. Ends on ticks unless axis.range says otherwise. Any data will do:
+/// A scale over `data` with about `intervals` steps. Ends on ticks unless axis.range says otherwise. Accepts any data:
 /// an empty or constant range is widened, a tick_step that would give over 60 ticks is ignored.
 [[nodiscard]] Scale make_scale(const Axis& axis, Range data, int intervals);
 
-/// Beyond it a value counts as missing, so that no difference or step overflows.
+/// A value beyond this limit counts as missing, so that no difference or step overflows.
 inline constexpr double kLargest = 1e200;
 
-/// Whether the value has a place on the axis.
+/// Whether the axis can show the value.
 [[nodiscard]] bool drawable(double value, const Axis& axis);
 
-/// Where a value of an axis lies on the drawing.
+/// The position of an axis value on the drawing.
 struct Mapping {
   Range range;
   bool logarithmic;
@@ -60,7 +59,7 @@ struct Mapping {
 
 enum class Direction : std::uint8_t { across, up };
 
-/// Leaves only every k-th label, k as small as keeps them apart.
+/// Leaves only every k-th label, with the smallest k at which labels do not touch.
 void thin_labels(Scale& scale, const Mapping& map, Direction direction);
 
 /// An axis title: "Force, 10^3 N".

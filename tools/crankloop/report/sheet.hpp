@@ -1,6 +1,6 @@
 // Several plots as one SVG file: a heading, and the plots in columns below it.
 //
-// What belongs here: the order and look of such a file. What does not: drawing (plot.hpp), engines, writing files.
+// What belongs here: the layout of such a file. What does not: drawing (plot.hpp), engines, writing files.
 //
 // The file needs no script, no font and no network, follows the reader's light or dark theme, and prints light.
 #pragma once

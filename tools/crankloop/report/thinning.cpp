@@ -51,7 +51,8 @@ std::vector<Point> decimate(const std::vector<Point>& points, double tolerance) 
     list->erase(std::unique(list->begin(), list->end()), list->end());
   }
 
-  // Douglas-Peucker between each two pins, with a stack of its own: noise of any length must not exhaust the program's.
+  // Douglas-Peucker between each two fixed points, with an explicit stack: noise of any length must not exhaust the
+  // call stack.
   std::vector<bool> keep(thinned.size(), false);
   std::vector<std::pair<std::size_t, std::size_t>> open;
   std::size_t from = 0;

@@ -1,7 +1,7 @@
-// The signals of an engine's trigger wheels, tick by tick, as a file that viewers of logic signals open.
+// Writes the signals of an engine's trigger wheels tick by tick to a file for logic signal viewers.
 //
-// What belongs here: wheels, edges and times. What does not: the file's format (vcd.hpp), what turns the crank
-// (run_signals.hpp, free_run.hpp).
+// What belongs here: wheels, edges and times. What does not: the file's format (vcd.hpp), the run (run_signals.hpp,
+// free_run.hpp).
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ template <class Signal>
   return signal.edge_count < kRoom ? signal.edge_count : kRoom;
 }
 
-/// The level as the tick began: each edge turned it over.
+/// The level at the start of the tick: every edge has inverted it.
 template <class Signal>
 [[nodiscard]] constexpr bool level_before(const Signal& signal) noexcept {
   return ((signal.level ^ signal.edge_count) & 1u) != 0;
@@ -39,7 +39,7 @@ class SignalDump {
   /// Throws InputError for a file without wheels.
   SignalDump(const EngineFile& engine, Output& out, const std::vector<std::string>& numbers);
 
-  /// The edges of a tick that ends at `end_s`; before the first, the levels to begin with.
+  /// Writes the edges of a tick that ends at `end_s`; before the first tick, the initial levels.
   template <class Output>
   void tick(double end_s, double tick_s, const Output& out) {
     const double begin_s = end_s - tick_s;
@@ -49,13 +49,13 @@ class SignalDump {
       for (std::uint32_t e = 0; e < listed_edges(signal); ++e) {
         vcd_.level(w, begin_s + static_cast<double>(signal.edge[e].time_s), signal.edge[e].level != 0);
       }
-      vcd_.level(w, end_s, signal.level != 0);  // says something new only where edges are lost
+      vcd_.level(w, end_s, signal.level != 0);  // has an effect only if edges were lost
     }
     begun_ = true;
     vcd_.write_until(end_s);
   }
 
-  /// Before the tick that begins then is told.
+  /// Call it before the tick that starts at this time is written.
   void number(std::size_t which, double time_s, double value) { vcd_.number(which, time_s, value); }
   void finish(double end_s) { vcd_.finish(end_s); }
 

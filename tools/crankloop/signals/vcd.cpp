@@ -46,7 +46,7 @@ VcdFile::VcdFile(Output& out, const std::string& module, const std::vector<std::
 std::int64_t VcdFile::nanoseconds(double time_s) { return std::llround(time_s * 1e9); }
 
 void VcdFile::note(Change change) {
-  change.time_ns = std::max(change.time_ns, written_ns_);  // the file's times only rise
+  change.time_ns = std::max(change.time_ns, written_ns_);  // times in the file never decrease
   noted_.push_back(change);
 }
 

@@ -1,4 +1,5 @@
-// Signals over time as a value change dump (IEEE 1364, clause 18): what GTKWave, PulseView and logic analysers open.
+// Signals over time as a value change dump (IEEE 1364, clause 18): the format of GTKWave, PulseView and logic
+// analysers.
 //
 //     VcdFile vcd(out, "crankloop", {{"crank"}, {"cam"}}, {{"speed_rpm"}});
 //     vcd.level(0, time_s, true);       // in any order within a tick
@@ -22,16 +23,16 @@ namespace crankloop::program {
 /// their first change.
 class VcdFile {
  public:
-  /// Names of wires (one bit) and of real variables; what is not a letter, digit or underscore in them becomes an
-  /// underscore.
+  /// Names of wires (one bit) and of real variables; other characters than letters, digits and underscores become
+  /// underscores.
   VcdFile(Output& out, const std::string& module, const std::vector<std::string>& wires,
           const std::vector<std::string>& numbers);
 
-  /// A change, at or after the time that was written last.
+  /// Records a change, at or after the time written last.
   void level(std::size_t wire, double time_s, bool high) { note({nanoseconds(time_s), wire, high ? 1.0 : 0.0}); }
   void number(std::size_t which, double time_s, double value) { note({nanoseconds(time_s), wires_ + which, value}); }
 
-  /// Writes what was noted up to this time, in the order of time; what is noted at one time, in the order of noting.
+  /// Writes the changes recorded up to this time in order of time, changes of equal time in the order of recording.
   void write_until(double time_s);
 
   /// Writes the rest, and the end of the recording. The caller finishes the Output.
@@ -58,7 +59,7 @@ class VcdFile {
   std::size_t wires_;
   std::vector<Variable> variables_;
   std::vector<Change> noted_;
-  std::int64_t written_ns_ = -1;  ///< the time that stands in the file last
+  std::int64_t written_ns_ = -1;  ///< the last time in the file
 };
 
 }  // namespace crankloop::program

@@ -1,7 +1,7 @@
-// A whole engine's tick as plain code: what ratios are told against.
+// A whole engine's tick as plain code, the reference of the ratios.
 //
-// What belongs here: what such an engine is given and gives. What does not: its code (baseline.inl), timing (tick.cpp).
-// No header of crankloop's: see plain_valve.hpp.
+// What belongs here: inputs and outputs of such an engine. What does not: its code (baseline.inl), timing (tick.cpp).
+// It includes no header of crankloop: see plain_valve.hpp.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace crankloop::program::bench {
 
-/// How the pistons' motion is found.
+/// Method of the pistons' motion.
 enum class PlainPistons { libm, linear_tables };
 
 /// All that the plain engine needs; angles in degrees of the crank.
@@ -35,7 +35,7 @@ struct PlainPiston {
 /// Per cylinder and train.
 template <class Real>
 struct PlainValve {
-  Real theoretical_lift_m, lift_m, velocity_m_s, acceleration_m_s2;
+  Real lift_m, velocity_m_s;
 };
 
 template <class Real>
@@ -54,7 +54,7 @@ class PlainEngine {
 /// Compiled with the flags of the rest.
 template <class Real>
 [[nodiscard]] std::unique_ptr<PlainEngine<Real>> plain_engine(PlainPistons pistons, const PlainEngineData& data);
-/// Compiled without the flags that keep the library's bits: what the plain code would gain.
+/// Compiled without the flags that keep the library's bits, to show what plain code gains by that.
 template <class Real>
 [[nodiscard]] std::unique_ptr<PlainEngine<Real>> plain_engine_of_usual_flags(PlainPistons pistons,
                                                                              const PlainEngineData& data);

@@ -153,8 +153,7 @@ class PlainEngineOf final : public PlainEngine<Real> {
     };
     moving.valve = textbook_step(f, tick_s_, moving.valve, moving.acceleration_m_s2, middle, end);
     moving.acceleration_m_s2 = f(moving.valve.lift_m, moving.valve.velocity_m_s, end);
-    out = {end.lift_m > 0 ? end.lift_m : Real{0}, moving.valve.lift_m, moving.valve.velocity_m_s,
-           moving.acceleration_m_s2};
+    out = {moving.valve.lift_m, moving.valve.velocity_m_s};
   }
 
   /// 2^64 units are 720 deg.

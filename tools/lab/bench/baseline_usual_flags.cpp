@@ -1,4 +1,4 @@
-// The plain engine, compiled with the flags a user would take.
+// The plain engine, compiled with the usual flags of a user.
 #include "baseline.inl"
 
 namespace crankloop::program::bench {

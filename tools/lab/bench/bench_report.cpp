@@ -30,7 +30,7 @@ Axis axis(const char* title, const char* unit, bool logarithmic) {
 
 std::string digits(double value, int count = 3) { return report::format_number(value, count); }
 
-/// Rows are written in ASCII; a page has the signs.
+/// Rows are in ASCII; a page uses the typographic signs.
 std::string with_signs(std::string text) {
   const std::pair<const char*, const char*> signs[] = {{" us", " \u00B5s"}, {" um", " \u00B5m"}, {"^2", "\u00B2"}};
   for (const auto& [plain, sign] : signs) {
@@ -56,7 +56,7 @@ Rows where(const Rows& rows, const std::function<bool(const Row&)>& wanted) {
 
 constexpr const char* kLibm = "libm";
 constexpr const char* kHigherDegrees = "degree 3 to 5";
-/// Else what stands together is not a line.
+/// False for a row of several methods, whose points are not joined by a line.
 bool is_one_method(const std::string& name) { return name != kLibm && name != kHigherDegrees; }
 
 /// One line per method in the order of its settings, and the front. `line_of` names the line of a row, "" leaves it
@@ -115,7 +115,7 @@ Section kinematics_section(const Rows& rows) {
   return section;
 }
 
-/// Accuracy classes are a second knob: a line has one. Other people's solvers are in the table of all rows.
+/// Each accuracy class has its own line. Other solvers are in the table of all rows.
 std::string method_line(const Row& row) {
   const bool peer = starts_with(row.contestant, "odeint") || starts_with(row.contestant, "GSL");
   return peer || row.setting.find("class") != std::string::npos ? std::string() : row.contestant;
@@ -162,7 +162,7 @@ std::string valves_text(const Row& row) {
   return row.setting.substr(from, row.setting.find(", ", from) - from);
 }
 
-/// Mean and, where it was measured, the distribution of each row that stands for a mean.
+/// Mean and, if measured, the distribution of each row.
 Table distribution_table(const char* caption, const char* engine, std::string (*engine_text)(const Row&),
                          const Rows& ticks) {
   Table table{caption,

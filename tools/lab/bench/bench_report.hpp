@@ -1,6 +1,6 @@
 // The benchmark as a page: work-precision diagrams, whole ticks, ratios.
 //
-// What belongs here: which rows make which plot. What does not: drawing (report/), measuring.
+// What belongs here: assignment of rows to plots. What does not: drawing (report/), measuring.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ struct Work {
   double error;
 };
 
-/// Those that no other beats in both, by rising time.
+/// The Pareto front: points that no other beats in both, by increasing time.
 [[nodiscard]] std::vector<Work> pareto_front(std::vector<Work> points);
 
 }  // namespace crankloop::program::bench

@@ -1,6 +1,6 @@
-// The engines that the benchmark runs, by struct, so that the program needs no file for it.
+// The engines of the benchmark as structs, so that the program needs no files.
 //
-// What belongs here: definitions. What does not: what is measured on them. tests/unit/bench_test.cpp holds them against
+// What belongs here: definitions. What does not: measurements. tests/unit/bench_test.cpp compares them with
 // tools/engines.
 #pragma once
 

@@ -30,15 +30,15 @@ inline constexpr double kRedline_rpm = 7500;
 /// Whole ticks of the library and of plain code, mean, median, 99.9 % and worst; engines of 1 to 12 cylinders with 0 to
 /// 4 valves each.
 [[nodiscard]] std::vector<Row> tick_rows(const Effort& effort);
-/// The same engine in longer ticks: what sub-steps cost.
+/// The same engine in longer ticks: the cost of sub-steps.
 [[nodiscard]] std::vector<Row> growth_rows(const Effort& effort);
-/// The same engine asked for more and more: what it saves to leave something out.
+/// The same engine with more and more outputs: the savings of leaving some out.
 [[nodiscard]] std::vector<Row> skip_rows(const Effort& effort);
 
-/// Races of all groups together, for the progress that is told.
+/// Number of races of all groups, for the progress display.
 inline constexpr int kRaces = 9;
 
-/// Times and errors of the other contestants to the library's, each beside the error of the library.
+/// Ratios of the other contestants' times and errors to the library's, each with the library's error.
 [[nodiscard]] std::vector<Row> ratio_rows(const std::vector<Row>& rows);
 
 }  // namespace crankloop::program::bench

@@ -1,8 +1,9 @@
-// Ways to a piston's displacement, velocity and acceleration from a crank phase: formulas, and tables of all kinds.
+// Methods for a piston's displacement, velocity and acceleration from a crank phase: formulas and several kinds of
+// tables.
 //
-// What belongs here: the contestants' code, each as one would write it who wants it quick. What does not: timing and
-// errors (kinematics.cpp). A pin offset is left out in all of them, as numbers of other authors leave it out.
-// Derivatives are by the crank angle; the speed enters at the end, alike for all.
+// What belongs here: the contestants' code, each written for speed. What does not: timing and errors (kinematics.cpp).
+// All leave out a pin offset, as published numbers do. Derivatives are by the crank angle; the speed is multiplied at
+// the end, in the same way for all.
 //
 //     s = sin a, c = cos a, q = cos b = sqrt(1 - (lambda s)^2), lambda = r / l
 //     x = r (1 - c) + l (1 - q),  dx/da = r (s + lambda s c / q),
@@ -23,7 +24,7 @@
 
 namespace crankloop::program::bench {
 
-/// x, v, a; of a table's knots and of the exact poses: x, dx/da, d2x/da2.
+/// x, v, a; for a table's knots and for exact poses: x, dx/da, d2x/da2.
 template <class Real>
 struct Motion {
   Real x, v, a;
@@ -33,7 +34,7 @@ inline constexpr long double kTwoPi = 2 * kWidePi;
 inline constexpr double kRadPerUnit =
     static_cast<double>(2 * kTwoPi / 18446744073709551616.0L);  ///< 2^64 phase units are 720 deg
 
-/// The crank angle from -pi to pi: the top bit of a phase only tells the crank's turns apart.
+/// The crank angle from -pi to pi: the top bit of a phase only distinguishes the two crank turns of a cycle.
 template <class Real>
 [[nodiscard]] inline Real turn_rad(std::uint64_t phase) noexcept {
   return static_cast<Real>(static_cast<double>(static_cast<std::int64_t>(phase << 1)) * (kRadPerUnit / 2));
@@ -88,8 +89,8 @@ class TextbookMotion {
   Real r_, l_, lambda_;
 };
 
-/// Where a phase lies among N equal segments of a crank turn: one multiplication, in double a second one for the bits
-/// that float has not.
+/// Segment of a phase among N equal segments of a crank turn, and the fraction: one multiplication, in double a second
+/// one for the additional bits.
 template <class Real, std::uint32_t N>
 struct Place {
   std::uint32_t index;
@@ -151,7 +152,7 @@ class LinearTable {
   std::vector<Motion<Real>> at_;
 };
 
-/// N polynomials of a degree for each of the three, through Chebyshev's points: within a hair of the best there are.
+/// N polynomials of a degree for each of the three, through Chebyshev's points: nearly the best approximation.
 template <class Real, std::uint32_t N, std::size_t Degree>
 class PolynomialTable {
  public:
@@ -211,7 +212,7 @@ class PolynomialTable {
   std::vector<Segment> at_;
 };
 
-/// The library's tables, read as its tick reads them.
+/// The library's tables, evaluated as in its tick.
 template <class Real>
 class LibraryMotion {
  public:

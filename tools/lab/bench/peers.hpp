@@ -1,8 +1,8 @@
-// Other people's solvers on the valve problem, where they are installed: Boost.odeint (libboost-dev) and GSL
-// (libgsl-dev). Never needed.
+// Other solvers on the valve problem, if they are installed: Boost.odeint (libboost-dev) and GSL (libgsl-dev). Both are
+// optional.
 //
-// What belongs here: what they all are given, the equation and a tick. What does not: the solvers (peers_odeint.cpp,
-// peers_gsl.cpp).
+// What belongs here: the equation and the tick, which all of them receive. What does not: the solvers
+// (peers_odeint.cpp, peers_gsl.cpp).
 #pragma once
 
 #include <functional>
@@ -14,8 +14,8 @@
 
 namespace crankloop::program::bench {
 
-/// The 125's valve from tick to tick, in double, with the library's cam. A solver does as it likes within a tick, whose
-/// end it has to meet.
+/// The 125's valve from tick to tick, in double, with the library's cam. A solver chooses its steps within a tick, and
+/// must end at the tick's end.
 class PeerValve : public PlainLoop<double, CurveCam<double>> {
  public:
   virtual ~PeerValve() = default;
@@ -54,7 +54,7 @@ struct Peer {
   std::function<std::shared_ptr<PeerValve>(const ValveRun&)> make;
 };
 
-/// Those that this program was built with.
+/// The solvers that this program was built with.
 [[nodiscard]] std::vector<Peer> peers();
 
 void add_odeint(std::vector<Peer>& peers);

@@ -37,8 +37,7 @@ class Controlled final : public PeerValve {
  private:
   void advance(PlainState<double>& state) noexcept override {
     State x{state.lift_m, state.velocity_m_s};
-    // Absolute tolerances of a lift in m would be far too wide: this one is the error allowed of a millimetre and of a
-    // m/s.
+    // An absolute tolerance would be far too wide for a lift in m: this one is relative to a millimetre and to a m/s.
     odeint::integrate_adaptive(
         odeint::make_controlled<odeint::runge_kutta_dopri5<State>>(tolerance_ * 1e-3, tolerance_),
         [this](const State& at, State& slope, double t) {

@@ -1,8 +1,8 @@
-// A valve as one writes it who has read the equations and wants them quick: what the library is compared with.
+// A valve in plain code, written from the equations for speed, which the library is compared with.
 //
 // What belongs here: the single mass, its textbook step and the same step as one matrix. What does not: cams and loops
-// (valve_methods.hpp, baseline.inl). No header of crankloop's: this is also compiled with other flags than the
-// library's, and every function is inlined, so that the linker cannot take one flavour for another.
+// (valve_methods.hpp, baseline.inl). It includes no header of crankloop: this file is also compiled with other flags
+// than the library's. Every function is inlined, so that the linker cannot mix the versions.
 #pragma once
 
 namespace crankloop::program::bench {
@@ -42,7 +42,7 @@ struct PlainCam {
 inline constexpr unsigned kPlainTrain = 1;  ///< bits of a contact regime
 inline constexpr unsigned kPlainSeat = 2;
 
-/// A contact carries while both its gap and its force are positive.
+/// A contact carries force while its gap and its force are positive.
 template <class Real>
 BENCH_INLINE unsigned plain_regime(const PlainBody<Real>& b, PlainState<Real> s, PlainCam<Real> cam) noexcept {
   const Real gap = cam.lift_m - s.lift_m;
@@ -52,7 +52,7 @@ BENCH_INLINE unsigned plain_regime(const PlainBody<Real>& b, PlainState<Real> s,
   return (train ? kPlainTrain : 0u) | (seat ? kPlainSeat : 0u);
 }
 
-/// y'' with the contacts as they are at this moment.
+/// y'' with the current contacts.
 template <class Real>
 BENCH_INLINE Real plain_acceleration(const PlainBody<Real>& b, Real per_mass, Real y, Real v,
                                      PlainCam<Real> cam) noexcept {
@@ -88,8 +88,8 @@ BENCH_INLINE PlainState<Real> textbook_step(const Acceleration& f, Real h, Plain
   return {y + h / 6 * (v + 2 * (v2 + v3) + v4), v + h / 6 * (k1 + 2 * (k2 + k3) + k4)};
 }
 
-/// The same step in a regime that stays as it is, multiplied out: a matrix on the state, the lift and its slope by the
-/// part of the step at both ends, and one. The lift in the middle is that of the cubic through the ends.
+/// The same step in a constant regime, multiplied out: a matrix on the state, on the lift and its slope over the step
+/// at both ends, and on 1. The lift in the middle is that of the cubic through the ends.
 template <class Real>
 struct PlainMatrix {
   Real y[7];
@@ -104,7 +104,7 @@ struct PlainMatrix {
   }
 };
 
-/// Column by column, by sending unit vectors through the textbook step. Rounded to Real in the end.
+/// Column by column from the textbook step of unit vectors, then rounded to Real.
 template <class Real>
 [[nodiscard]] inline PlainMatrix<Real> plain_matrix(const PlainBody<double>& b, unsigned regime, double h) noexcept {
   const auto column = [&](PlainState<double> s, PlainCam<double> from, PlainCam<double> to, double constant) {

@@ -50,7 +50,7 @@ std::vector<Timing> race(const std::vector<Contestant>& contestants, const Effor
     return std::max(0.0, static_cast<double>(port::thread_ns() - begin) - clock_ns);
   };
 
-  // The warm-up: caches, and how many batches fill a turn.
+  // The warm-up fills caches and measures how many batches fill a turn.
   std::vector<int> batches;
   for (const Contestant& one : contestants) {
     turn_ns(one, 1);

@@ -1,7 +1,6 @@
-// Timing contestants against one another: in one process, in turns, so that whatever slows the machine slows all of
-// them.
+// Times contestants in one process and in turns, so that a slow-down of the machine affects all of them.
 //
-// What belongs here: rounds, medians, the clock's own cost. What does not: what is timed.
+// What belongs here: rounds, medians, the cost of reading the clock. What does not: the contestants.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +12,13 @@
 
 namespace crankloop::program::bench {
 
-/// Makes the compiler believe that the value is read: neither it nor what led to it can be left out.
+/// Makes the compiler assume that the value is read, so that it cannot remove its computation.
 template <class T>
 inline void keep(const T& value) noexcept {
   asm volatile("" : : "m"(value) : "memory");
 }
 
-/// Something to be timed. A batch is a whole number of what repeats itself (a cycle of the engine), so that batches
-/// cost alike.
+/// A function to time. A batch is a whole number of periods (engine cycles), so that all batches cost the same.
 struct Contestant {
   std::function<void()> batch;
   double operations;  ///< of one batch: the time is divided by them
@@ -28,12 +26,12 @@ struct Contestant {
 
 struct Effort {
   int rounds;                    ///< after one to warm up
-  double round_ns;               ///< a contestant's turn lasts at least that long: as many batches as it takes
+  double round_ns;               ///< minimum time of a contestant's turn, which has as many batches as needed
   Progress* progress = nullptr;  ///< a long step of it is a round
 };
 inline constexpr Effort kQuick{15, 100e3};
 inline constexpr Effort kFull{101, 400e3};
-inline constexpr Effort kErrorsOnly{0, 0};  ///< times are then no numbers
+inline constexpr Effort kErrorsOnly{0, 0};  ///< times are then NaN
 
 /// Of one operation.
 struct Timing {
@@ -41,20 +39,20 @@ struct Timing {
   double spread_ns;  ///< between the quartiles
 };
 
-/// Every contestant has its turn in every round, in another order each time. Timed by what this thread ran, so that
-/// being put aside for another program does not count.
+/// Every contestant has a turn in every round, each time in another order. Measures this thread's processor time, so
+/// that preemption does not count.
 [[nodiscard]] std::vector<Timing> race(const std::vector<Contestant>& contestants, const Effort& effort);
 
 using Clock = std::int64_t() noexcept;
 
-/// What a pair of readings of a clock costs, by the middle half of many.
+/// Cost of two readings of the clock: mean of the middle half of many.
 [[nodiscard]] double clock_cost_ns(Clock& clock);
 
-/// Of a sample, which must not be empty: it is put in order.
+/// Of a sample, which must not be empty; sorts it.
 [[nodiscard]] double quantile(std::vector<double>& sample, double part);
 [[nodiscard]] Timing timing_of(std::vector<double>& sample);
 
-/// The mean of a sample's middle half: as hardy as the median, and finer than a clock that ticks every 10 ns.
+/// The mean of a sample's middle half: as robust as the median, and finer than a clock with a resolution of 10 ns.
 [[nodiscard]] double middle_mean(std::vector<double>& sample);
 
 }  // namespace crankloop::program::bench

@@ -1,6 +1,6 @@
-// The group "ratios": how the library's time and error stand to those of the other contestants.
+// The group "ratios": times and errors of the other contestants relative to the library's.
 //
-// What belongs here: which rows make a ratio. What does not: measuring.
+// What belongs here: the pairs of rows. What does not: measuring.
 #include "groups.hpp"
 
 namespace crankloop::program::bench {

@@ -1,6 +1,6 @@
-// What the benchmark says: one row per contestant and setting, its time and its error side by side.
+// Results of the benchmark: one row per contestant and setting, with its time and its error.
 //
-// What belongs here: rows and how they are written. What does not: measuring (race.hpp), what is compared (the groups).
+// What belongs here: rows and their output formats. What does not: measuring (race.hpp), contestants (the groups).
 #pragma once
 
 #include <limits>
@@ -20,14 +20,13 @@ struct Row {
   std::string setting;  ///< "12000 rpm, 10 us"
   std::string per;      ///< what the time is of: "evaluation", "cam cycle", "tick"
   double ns_median = 0;
-  double ns_spread = 0;  ///< between the quartiles of the rounds
-  double error =
-      std::numeric_limits<double>::quiet_NaN();  ///< largest; not a number: none was measured, or the motion blew up
+  double ns_spread = 0;                                     ///< between the quartiles of the rounds
+  double error = std::numeric_limits<double>::quiet_NaN();  ///< largest; NaN: not measured, or the motion diverged
   std::string error_unit{};
-  std::optional<double> ratio{};  ///< of a row of "ratios"; its time and error are the library's
+  std::optional<double> ratio{};  ///< of a row of "ratios", whose time and error are the library's
 };
 
-/// An array of objects. What is no number is null; "ratio" stands only in ratios.
+/// An array of objects. NaN is null; only rows of "ratios" have "ratio".
 [[nodiscard]] std::string to_json(const std::vector<Row>& rows);
 
 /// For people: a table per group, in lines of plain text.

@@ -1,7 +1,7 @@
 // The scenes that the benchmark runs, compiled one per source file with the library's own flags, as crankloop_add_scene
 // does it.
 //
-// What belongs here: which questions each scene asks. What does not: engines (engines.hpp), timing.
+// What belongs here: the settings of each scene. What does not: engines (engines.hpp), timing.
 #pragma once
 
 #include <crankloop/engine.hpp>
@@ -23,7 +23,7 @@ struct FourTorque : Scene {
   static constexpr PressureGiven pressure = PressureGiven::by_input;
   static constexpr bool torque = true;
 };
-/// And how the pistons move.
+/// And the pistons' motion.
 struct FourMotion : FourTorque {
   static constexpr bool kinematics = true;
 };
@@ -32,7 +32,7 @@ struct FourForces : FourMotion {
   static constexpr bool forces = true;
 };
 
-/// The whole tick that ratios are told of: pistons, torque, valves; `Trains` different ones per cylinder.
+/// The whole tick of the ratios: pistons, torque, valves; `Trains` different ones per cylinder.
 template <std::uint32_t Trains>
 struct FourElastic : FourMotion {
   static constexpr ValveModel valves = ValveModel::elastic;
@@ -46,7 +46,7 @@ struct FourFollowing : FourElastic<Trains> {
 struct FourTorqueElastic : FourElastic<2> {
   static constexpr bool kinematics = false;
 };
-/// What the valves' forces and the record of each cycle cost on top.
+/// With the valves' forces and the record of each cycle.
 struct FourElasticForces : FourElastic<2> {
   static constexpr bool valve_forces = true;
 };

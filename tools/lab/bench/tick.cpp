@@ -79,7 +79,7 @@ class Group {
     one.cycle = [run, ticks = one.ticks] {
       for (int i = 0; i < ticks; ++i) run->tick();
     };
-    // The first cycle ends whatever the start left; the valves then rest before every lobe, as the true ones do.
+    // The effect of the start ends with the first cycle; the valves then rest before every lobe, as in the reference.
     one.cycle();
     OutputCheck check(definition, operation.engine_rpm);
     for (int i = 0; i < one.ticks; ++i) {
@@ -91,8 +91,8 @@ class Group {
     cases_.push_back(std::move(one));
   }
 
-  /// Every tick of the cycle by the middle half of repeated cycles: what another program does to one of them is not the
-  /// tick's.
+  /// Each tick of the cycle, from the middle half of repeated cycles, so that disturbance by another program does not
+  /// count.
   static void add_profile(const Case& one, const Effort& effort, std::vector<Row>& all) {
     const double clock_ns = clock_cost_ns(port::now_ns);
     const int cycles = effort.rounds;
@@ -158,7 +158,7 @@ void add_main(Group& group) {
   group.plain<Real>("libm + textbook RK4", PlainPistons::libm, false, pistons, operation, valves_of(0));
 }
 
-/// One valve from 50 deg of cam before full lift to 50 deg after it: its train holds it all the while, so that no
+/// One valve from 50 deg of cam before full lift to 50 deg after it: in contact with its train throughout, so that no
 /// contact change is near.
 void add_held_valve(double tick_us, std::vector<Row>& rows, std::vector<Contestant>& contestants) {
   constexpr double kArc_deg = 50;

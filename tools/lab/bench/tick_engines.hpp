@@ -1,8 +1,7 @@
 // Whole engines under the benchmark: the library's in any scene, and the plain one, at constant speed and given
 // pressures.
 //
-// What belongs here: making them, stepping them, how far their outputs are off. What does not: which are compared
-// (tick.cpp).
+// What belongs here: construction, steps, errors of their outputs. What does not: the comparison (tick.cpp).
 #pragma once
 
 #include <algorithm>
@@ -38,12 +37,12 @@ class OutputCheck {
  public:
   OutputCheck(const EngineDefinition& definition, double engine_rpm);
 
-  /// Takes note of how far a tick's outputs are off.
+  /// Records the errors of a tick's outputs.
   void torque(std::uint64_t phase, double torque_Nm) noexcept;
   void lift(std::uint64_t phase, int cylinder, int train, double lift_m) noexcept;
 
   [[nodiscard]] double largest_lift_error_um() const noexcept { return lift_error_m_ * 1e6; }
-  /// Of the largest torque of one cylinder: those of many may cancel.
+  /// Relative to the largest torque of one cylinder, because torques of several may cancel.
   [[nodiscard]] double largest_torque_error() const noexcept { return torque_error_Nm_ / largest_torque_Nm_; }
 
  private:
@@ -90,7 +89,7 @@ class LibraryEngine {
 
 [[nodiscard]] PlainEngineData plain_data(const EngineDefinition& definition, const Operation& operation);
 
-/// The plain engine under the same calls.
+/// The plain engine with the same interface.
 template <class Real>
 class PlainEngineRun {
  public:

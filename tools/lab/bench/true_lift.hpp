@@ -1,8 +1,7 @@
 // A valve's true lift over the cycles that follow a start at rest in the middle of the cam's base circle.
 //
-// What belongs here: the reference's motion, kept so densely that it answers at any angle. What does not: how it is
-// integrated
-// (../reference/valve_reference.hpp).
+// What belongs here: the reference's motion, stored densely enough to evaluate it at any angle. What does not: how it
+// is integrated (../reference/valve_reference.hpp).
 #pragma once
 
 #include <cstdint>
@@ -29,12 +28,12 @@ class TrueLift {
   TrueLift(const ValveTrain& train, double engine_rpm);
 
   /// At a cam angle from the first full lift, -180 deg to half a turn after the last. The quintic through neighbouring
-  /// moments of the reference errs by 1e-6 um.
+  /// points of the reference has an error of 1e-6 um.
   [[nodiscard]] double lift_m(double cam_deg) const noexcept;
 
-  /// 1 where the valve comes to rest before its cam comes again: then each cycle is the first. Else kCyclesToSettle: a
-  /// valve that is in the air begins its cycle with the error of the one before, which grows until bounces take as much
-  /// from it as they add.
+  /// 1 if the valve comes to rest before its next lobe: then all cycles are equal to the first. Else kCyclesToSettle: a
+  /// valve off its seat starts its cycle with the error of the cycle before, which grows until bounces remove as much
+  /// of it as they add.
   [[nodiscard]] int cycles() const noexcept { return cycles_; }
   static constexpr int kCyclesToSettle = 12;
 
@@ -47,8 +46,8 @@ class TrueLift {
   double deg_per_s_ = 0;
 };
 
-/// That of the 125's intake train (engines.hpp), worked out once for each speed. Trains that differ in phase only have
-/// the same.
+/// The motion of the 125's intake train (engines.hpp), computed once for each speed. Trains that differ only in phase
+/// have the same.
 [[nodiscard]] const TrueLift& true_lift_of_ohc_125(double engine_rpm);
 
 }  // namespace crankloop::program::bench

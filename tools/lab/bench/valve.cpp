@@ -13,9 +13,10 @@
 namespace crankloop::program::bench {
 namespace {
 
-/// Where ticks fall on the cam changes what a method misses: the error is the worst of so many shifts of the grid.
+/// The error depends on the position of the ticks on the cam: this many shifts of the grid are tried, and the worst
+/// counts.
 constexpr int kShifts = 6;
-/// A lift that is off by more than a valve is long: the method is beyond its stability limit.
+/// A lift error larger than a valve: the method is beyond its stability limit.
 constexpr double kBlownUp_m = 20e-3;
 
 template <class Valve>
@@ -44,7 +45,7 @@ class Group {
  public:
   explicit Group(double engine_rpm) : engine_rpm_{engine_rpm}, truth_{true_lift_of_ohc_125(engine_rpm)} {}
 
-  /// Leaves out what blows up: the rows go to the stability limit.
+  /// Leaves out diverging settings, so that rows end at the stability limit.
   template <class Valve>
   void add(const char* contestant, const char* real, const ValveRun& run, const std::string& setting) {
     add(std::make_shared<Valve>(run), contestant, real, run, setting);
@@ -89,7 +90,7 @@ class Group {
     }
   }
 
-  /// Other people's solvers, where there are any.
+  /// Other solvers, if there are any.
   void add_peers() {
     for (const Peer& peer : peers()) {
       for (const double tick_us : {5.0, 10.0, 20.0}) {

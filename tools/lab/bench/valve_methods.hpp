@@ -1,7 +1,7 @@
-// Ways to step one valve over a cam's turn: the textbook's, the same as matrices, and the library's tick.
+// Methods to step one valve over a cam's turn: the textbook's, the same as matrices, and the library's tick.
 //
 // What belongs here: the contestants, all with the same calls: start(phase), step(), phase(), lift_m(). What does not:
-// errors and times (valve.cpp). Whoever steps looks its cam up itself: that is part of the work.
+// errors and times (valve.cpp). Every method looks up its cam itself, because that is part of the cost.
 #pragma once
 
 #include <cmath>
@@ -49,10 +49,7 @@ class LibraryValve {
   void restore(const typename Engine<Real, S>::State& state) noexcept { (void)engine_.restore(state); }
 
   [[nodiscard]] Phase phase() const noexcept { return engine_.state().phase; }
-  [[nodiscard]] double lift_m() const noexcept {
-    const auto& valve = engine_.output().valve[0][0];
-    return static_cast<double>(S::valves == ValveModel::elastic ? valve.lift_m : valve.theoretical_lift_m);
-  }
+  [[nodiscard]] double lift_m() const noexcept { return static_cast<double>(engine_.output().valve[0][0].lift_m); }
   [[nodiscard]] const Tables<Real, S>& tables() const noexcept { return tables_->tables(); }
 
  private:
@@ -109,7 +106,7 @@ class LinearCam {
           b.spring_N_m, b.guide_Ns_m, b.preload_N,  b.seat_compression_m};
 }
 
-/// The 125's valve on its own: what a plain loop around it needs to know.
+/// The 125's valve alone, with the data that a plain loop needs.
 template <class Real, class Cam>
 class PlainLoop {
  public:
@@ -141,7 +138,7 @@ class PlainLoop {
   PlainCam<Real> cam_now_{};
 };
 
-/// Runge-Kutta as textbooks have it; the step before has done the first stage of this one.
+/// Textbook Runge-Kutta; the step before provides the first stage.
 template <class Real, class Cam>
 class TextbookValveLoop : public PlainLoop<Real, Cam> {
  public:
@@ -174,7 +171,7 @@ class TextbookValveLoop : public PlainLoop<Real, Cam> {
   Real k1_ = 0;  ///< of the next step
 };
 
-/// One matrix per regime, the regime as it is at the step's start.
+/// One matrix per regime; the regime is that at the step's start.
 template <class Real, class Cam>
 class MatrixValveLoop : public PlainLoop<Real, Cam> {
  public:

@@ -1,8 +1,8 @@
-// The shape of the 125 cm^3 overhead-cam engine's valve train, for what runs it without a file:
+// The geometry of the 125 cm^3 overhead-cam engine's valve train, for code that runs it without a file:
 // tools/engines/ohc_125.ini [Li 2017].
 //
-// What belongs here: its cam and its rocker's geometry. What does not: clearance, phase and valve, which whoever runs
-// it chooses.
+// What belongs here: its cam and its rocker's geometry. What does not: clearance, phase and valve, which the user of
+// this header chooses.
 #pragma once
 
 #include <crankloop/define/valve_train.hpp>

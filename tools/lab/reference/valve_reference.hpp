@@ -1,8 +1,9 @@
-// A valve's true motion, by other means than the library's: implicit Gauss collocation of order ten on the exact cam,
-// contact changes bisected to rounding, steps so short that the method's error is below rounding. Written from
-// docs/model.md, without the library's step code. Tests, the benchmark and the stress test measure errors against it.
+// A valve's reference motion, by other methods than the library's: implicit Gauss collocation of order ten on the exact
+// cam, contact changes located by bisection to rounding, steps short enough that the method's error is below rounding.
+// Written from docs/model.md, without the library's step code. Tests, the benchmark and the stress test measure errors
+// against it.
 //
-// What belongs here: the reference. What does not: the valves it is run on, what a cycle amounts to
+// What belongs here: the reference. What does not: the valves it is run on, results of a cycle
 // (tests/support/valve_reference.hpp).
 #pragma once
 
@@ -59,7 +60,7 @@ struct SingleMass {
   }
 };
 
-/// What acts on a valve at a moment.
+/// The forces on a valve at one time.
 struct Acting {
   double train_N, seat_N;
   bool train, seat;
@@ -103,11 +104,11 @@ struct TurnedCam {
 
 /// A moment of the reference's motion.
 struct Moment {
-  double t, cam_deg;  ///< cam_deg counts on beyond 180
+  double t, cam_deg;  ///< cam_deg continues beyond 180
   double y, v;
-  double a, a_after;  ///< acceleration before and after it: different where a damper's force jumps
+  double a, a_after;  ///< acceleration just before and after: they differ where a damper's force jumps
   double Y, Yd;
-  std::uint32_t regime;  ///< before it: of the piece that ends here
+  std::uint32_t regime;  ///< of the piece that ends here
 };
 
 class Reference {
@@ -126,11 +127,11 @@ class Reference {
   std::uint32_t regime = 2;
   int changes = 0;
   double train_Ns = 0, seat_Ns = 0,
-         spring_Ns = 0;  ///< impulses since the start, of the train, the seat, and of all else
+         spring_Ns = 0;  ///< impulses since the start: of the train, the seat, and all other forces
   bool keep_moments = false;
   std::vector<Moment> moments;
 
-  /// The cam turns evenly from one angle to the other in `span_s`.
+  /// Advances by `span_s`, with the cam turning at constant speed from one angle to the other.
   void advance(double span_s, double from_deg, double to_deg) {
     const double per_s = (to_deg - from_deg) / span_s;
     if (rests(from_deg, to_deg)) {
@@ -140,7 +141,7 @@ class Reference {
     }
     std::vector<double> ends{1};
     for (const double edge : cam_.edges_deg) {
-      if (to_deg == from_deg) break;  // a cam that stands passes no edge
+      if (to_deg == from_deg) break;  // a cam at rest passes no edge
       for (double turn = std::floor((std::min(from_deg, to_deg) - edge) / 360) * 360; turn < 720; turn += 360) {
         const double part = (edge + turn - from_deg) / (to_deg - from_deg);
         if (part > 0 && part < 1) ends.push_back(part);
@@ -174,8 +175,8 @@ class Reference {
   }
 
  private:
-  /// Closed, still to 1e-20 m, and the lash open all the while (by its ends: callers advance by less than the base
-  /// circle).
+  /// Whether the valve is closed and at rest to 1e-20 m, and the lash stays open (checked at both ends: callers advance
+  /// by less than the base circle).
   [[nodiscard]] bool rests(double from_deg, double to_deg) const {
     if (keep_moments || gas_N != 0 || regime != 2 || std::fabs(y) > 1e-20 || std::fabs(v) > 1e-16) return false;
     return std::fabs(to_deg - from_deg) < 10 && cam_.at(from_deg).lift_m < -1e-8 && cam_.at(to_deg).lift_m < -1e-8;
@@ -268,7 +269,7 @@ class Reference {
     }
   }
 
-  /// A short stretch: whole if no contact changes, else up to the change and on.
+  /// A short span: in one step if no contact changes, else in two, to the change and from it.
   void piece(double h, double from_deg, double per_s) {
     for (int guard = 0; guard < 1000 && h > 0; ++guard) {
       const Trial whole = collocate(h, from_deg, per_s);

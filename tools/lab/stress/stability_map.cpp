@@ -8,7 +8,7 @@
 namespace crankloop::program {
 namespace {
 
-/// A free valve on its spring, which is the whole stiffness: 1 rad/s, and the guide has the damping.
+/// A free valve on its spring: 1 rad/s, damped by the guide.
 detail::ValveBody<double> oscillator(double damping_ratio) {
   detail::ValveBody<double> body{};
   body.mass_kg = body.per_mass = body.spring_N_m = 1;
@@ -16,10 +16,10 @@ detail::ValveBody<double> oscillator(double damping_ratio) {
   return body;
 }
 
-/// The last step length up to which `stable` holds, coming from below; `high` is not stable.
+/// The longest step up to which `stable` holds, searched upward; `high` is not stable.
 template <class Stable>
 double limit(double low, double high, const Stable& stable) {
-  for (double at = low; at < high; at += 0.02) {  // the first crossing, should there be others
+  for (double at = low; at < high; at += 0.02) {  // the first change, if there are several
     if (!stable(at)) {
       high = at;
       break;
@@ -33,7 +33,7 @@ double limit(double low, double high, const Stable& stable) {
   return low;
 }
 
-/// 2000 steps from rest at 1 and from speed 1: no larger at the end than at the start.
+/// Whether 2000 steps from lift 1 and from velocity 1 do not grow.
 bool stays_bounded(double damping_ratio, double step_s) {
   const detail::ValveBody<double> body = oscillator(damping_ratio);
   const detail::ValveState<double> starts[] = {{1, 0}, {0, 1}};
@@ -73,7 +73,7 @@ std::vector<StabilityPoint> stability_map() {
   std::vector<StabilityPoint> map;
   for (int i = 0; i <= 40; ++i) {
     const double zeta = i * 0.05;
-    // An undamped step shrinks by 1 - (w d)^6 / 144 only: below 0.5 there is nothing to look for.
+    // An undamped step shrinks by 1 - (w d)^6 / 144 only: below 0.5 growth would not be detected.
     map.push_back({zeta, limit(0.5, 4, [&](double d) { return stays_bounded(zeta, d); }),
                    limit(0.5, 4, [&](double d) { return theory_is_stable(zeta, d); }), longest_used(zeta)});
   }

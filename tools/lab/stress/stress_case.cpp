@@ -100,7 +100,7 @@ void StressCase::draw_operation(Draws& draw) {
   speed_rpm = std::min(speed_rpm, 0.999 * 60 / options.tick_s);  // the tick's speed limit: a crank revolution
   if (draw.one_in(2)) speed_rpm = -speed_rpm;
   // Half of all cases begin anywhere. The others within 20 cam degrees before full lift, or before one of the lobe's
-  // feet, so that few ticks suffice for something to happen.
+  // feet, so that events occur within few ticks.
   double half_lobe_deg = train.cam.half_angle_deg;
   if (shape == CamShape::dwell) half_lobe_deg = flank_deg_ + dwell_deg_ / 2;
   const double feet_deg[] = {-half_lobe_deg, 0, half_lobe_deg};
@@ -125,7 +125,7 @@ void StressCase::make_smooth(Draws& draw) {
     cam.exponents[i] = exponent;
 }
 
-/// A speed below float, from 5 to 20 cam degrees before the lobe. A train that is refused stays as it was drawn.
+/// A speed below float, from 5 to 20 cam degrees before the lobe. A refused train stays unchanged.
 void StressCase::make_calm(Draws& draw) {
   train.valve.train_damping_ratio = draw.between(0.05, 0.5);
   train.valve.seat_damping_ratio = draw.between(0.05, 0.5);

@@ -1,7 +1,7 @@
-// One random valve train and the operating point it is run at: a function of a seed and a number, so that any case can
-// be had again alone.
+// One random valve train and its operating point: a function of a seed and a number, so that any case can be repeated
+// alone.
 //
-// What belongs here: what is drawn, and from which ranges. What does not: running it (stress_trial.hpp).
+// What belongs here: the random values and their ranges. What does not: running a case (stress_trial.hpp).
 #pragma once
 
 #include <cstdint>
@@ -20,16 +20,17 @@ class Draws {
 
   std::uint64_t bits() noexcept;
   double between(double low, double high) noexcept;
-  double logarithmic(double low, double high) noexcept;  ///< 0 < low < high; as many draws in every octave
+  double logarithmic(double low, double high) noexcept;  ///< 0 < low < high; every octave is equally likely
   bool one_in(std::uint64_t n) noexcept { return bits() % n == 0; }
 
  private:
   std::uint64_t state_;
 };
 
-/// Which cases are drawn: all of the table below, or only those whose error is that of the steps alone. Their cams have
-/// derivatives of every order over the lobe, train and seat are damped, and the speed is 0.2 to 0.8 of that at which a
-/// rigid train would separate; they begin before the lobe. So no kink of the lift and no bounce magnifies an error.
+/// Which cases are drawn: all of the table below, or only smooth ones, whose error is that of the steps alone. Their
+/// cams have derivatives of every order over the lobe, train and seat are damped, the speed is 0.2 to 0.8 of that at
+/// which a rigid train would separate, and they begin before the lobe. So no kink of the lift and no bounce amplifies
+/// an error.
 enum class StressKind : std::uint8_t { any, smooth };
 
 enum class CamShape : std::uint8_t { sample, polynomial, dwell };
@@ -59,17 +60,17 @@ struct StressCase {
   TickOptions options;
   bool in_float = false;
   double speed_rpm = 0;
-  double start_deg = 0;             ///< of the engine: anywhere, or where train or seat are about to be met
-  std::uint64_t own_seed = 0;       ///< for what the trial draws
-  double reference_mass_ratio = 1;  ///< other than 1: the reference is another valve, to show that the rule sees it
+  double start_deg = 0;             ///< of the engine: anywhere, or shortly before contact with train or seat
+  std::uint64_t own_seed = 0;       ///< seed of the random numbers in the trial
+  double reference_mass_ratio = 1;  ///< other than 1: the reference has another mass, to test that the rule detects it
 
   [[nodiscard]] double speed_rad_s() const noexcept;
 
-  /// Smallest radius of curvature of the cam's contour as it was drawn, by formulas of its own: 0 or less cannot be
-  /// ground.
+  /// Smallest radius of curvature of the cam's contour, by formulas independent of the library: a cam with 0 or less
+  /// cannot be ground.
   [[nodiscard]] double smallest_radius_m() const;
 
-  /// One line: everything that matters for a look at it.
+  /// The case in one line.
   [[nodiscard]] std::string text() const;
 
  private:

@@ -1,7 +1,8 @@
-// An engine's valve against the converged reference, and against copies of that which are knocked off their course: how
-// large an error may be that the motion magnifies.
+// Compares an engine's valve with the converged reference. Disturbed copies of the reference show how much the motion
+// amplifies an error, and so how large an error may be.
 //
-// What belongs here: the reference, the copies, the two errors. What does not: the rule in words (stress_trial.hpp).
+// What belongs here: the reference, the copies, the two errors. What does not: the statement of the rule
+// (stress_trial.hpp).
 #pragma once
 
 #include <algorithm>
@@ -19,17 +20,17 @@
 namespace crankloop::program {
 
 inline constexpr int kCopies = 4;
-/// So many where kCopies excuse too little: the engine is then like one more copy that luck has put among the far ones,
-/// and in ten thousand comparisons luck comes up.
+/// Number of copies for a second comparison, if an error exceeds what kCopies allow. The engine is like one more copy;
+/// with four, in ten thousand comparisons some engine deviates more than all of its copies by chance.
 inline constexpr int kMoreCopies = 32;
 inline constexpr double kMagnified = 3;
 
-/// Amplitude of the vibration for which an accuracy class is made. Fourth-order Runge-Kutta with w d = x is off by
-/// x^5/120 of the amplitude in a step, 2 pi x^4/120 in a period, and the class a takes x^4 = 0.3^4 a/0.1 um: together a
-/// times the amplitude over 0.24 mm.
+/// Amplitude of the vibration for which an accuracy class is made. Fourth-order Runge-Kutta with w d = x has an error
+/// of x^5/120 of the amplitude per step, 2 pi x^4/120 per period, and class a has x^4 = 0.3^4 a/0.1 um: together a
+/// times the amplitude / 0.24 mm.
 inline constexpr double kClassAmplitude_m = 0.24e-3;
 
-/// The reference and its knocked copies, in step with an engine.
+/// The reference and its disturbed copies, stepped together with an engine.
 class Comparison {
  public:
   /// `fine_s` and `rounding` of the engine's steps; rounding 0 for double.
@@ -44,7 +45,7 @@ class Comparison {
         draw_{drawn.own_seed} {
     const valve_reference::TurnedCam cam(lift);
     all_.assign(1 + static_cast<std::size_t>(copies), valve_reference::Reference(mass, cam));
-    // At rest where the cam stands, as the engine begins.
+    // At rest at the cam's angle, as the engine starts.
     const double Y = lift.at(cam_deg * kPi / 180).lift_m;
     const double open_m = (mass.k * Y - mass.P) / (mass.k + mass.k_s);
     const double pushed_m = mass.k * Y / (mass.k + mass.k_z + mass.k_s);
@@ -58,7 +59,7 @@ class Comparison {
     }
   }
 
-  /// A tick in which the cam turned on to `cam_deg`, and the lift that the engine has after it.
+  /// Steps a tick in which the cam turns to `cam_deg`; `lift_m` is the engine's lift after it.
   void tick(double cam_deg, double lift_m, bool asleep) {
     double turned = cam_deg - cam_deg_;
     turned -= 360 * std::floor(turned / 360 + 0.5);
@@ -74,7 +75,7 @@ class Comparison {
         apart_m = std::max(apart_m, std::fabs(one.y - exact.y));
         if (one.changes != before.changes) {
           const std::uint32_t seen = one.regime ^ before.regime;
-          const std::uint32_t changed = seen != 0 ? seen : kTrainOn | kSeatOn;  // came and went within the tick
+          const std::uint32_t changed = seen != 0 ? seen : kTrainOn | kSeatOn;  // opened and closed within the tick
           knock(one, changed, std::fabs(before.v_m_s) > std::fabs(one.v) ? before.v_m_s : one.v, turned / tick_s_);
         }
         round(one);
@@ -92,13 +93,13 @@ class Comparison {
     of_allowed_ = std::max(of_allowed_, error_m / (kMagnified * (accuracy_m_ + magnified_m_) + kForgotten_m));
   }
 
-  /// Whether the valve came back to its seat.
+  /// Whether the valve returned to its seat.
   [[nodiscard]] bool landed() const { return landed_; }
   [[nodiscard]] double of_class() const { return of_class_; }
   [[nodiscard]] double of_allowed() const { return of_allowed_; }
 
  private:
-  static constexpr double kForgotten_m = 2e-9;  ///< what a valve that goes to sleep forgets, and the lift's table
+  static constexpr double kForgotten_m = 2e-9;  ///< error when a valve is set to rest, and error of the lift's table
 
   struct Touch {
     double v_m_s;
@@ -106,8 +107,8 @@ class Comparison {
     int changes;
   };
 
-  /// By the accuracy asked for, or by what that is worth in a vibration as wide as the speed at a contact makes one.
-  /// The cam that starts to turn under an open valve is such a contact too.
+  /// Disturbs a copy by the requested accuracy, scaled up for a vibration whose amplitude follows from the speed at the
+  /// contact. The start of the cam's rotation under an open valve counts as a contact too.
   void knock(valve_reference::Reference& one, std::uint32_t contacts, double v_m_s, double cam_deg_per_s) {
     if (contacts == 0) return;
     const valve_reference::SingleMass& m = one.mass();
@@ -122,7 +123,7 @@ class Comparison {
     one.y += draw_.one_in(2) ? knock_m : -knock_m;
   }
 
-  /// What rounding of lift, speed and the gap times the stiffness does in the fine steps of a tick: a random walk.
+  /// Adds the effect of rounding lift, speed and gap times stiffness in the fine steps of a tick: a random walk.
   void round(valve_reference::Reference& one) {
     if (rounding_ == 0 || one.regime == kSeatOn) return;
     const double lift_m = rounding_ * std::fabs(one.y);
@@ -137,7 +138,7 @@ class Comparison {
   double speed_per_lift_;
   double cam_deg_;
   Draws draw_;
-  std::vector<valve_reference::Reference> all_;  ///< the exact one, then the copies
+  std::vector<valve_reference::Reference> all_;  ///< the reference, then its copies
   bool starts_ = true;
   bool seated_ = true;
   bool landed_ = false;

@@ -1,6 +1,6 @@
-// The most energy that a train can have given its valve: what a stress test calls bounded.
+// Upper bound of the energy that a train can transfer to its valve; the stress test checks it.
 //
-// What belongs here: the bound and what it is made of. What does not: who breaks it (stress_trial.cpp).
+// What belongs here: the bound and its terms. What does not: the check (stress_trial.cpp).
 #pragma once
 
 #include <algorithm>
@@ -13,11 +13,11 @@
 
 namespace crankloop::program {
 
-/// What the tables of a train say of it, found by looking at its lift.
+/// Extremes of a train's lift curve, sampled.
 struct LiftFacts {
   double largest_m = 0;
   double fastest_per_rad_m = 0;
-  double variation_per_rad_m = 0;  ///< of the slope over a turn: all its rises and falls
+  double variation_per_rad_m = 0;  ///< total variation of the slope over a turn
 
   explicit LiftFacts(const ValveLift& lift) : largest_m{lift.largest_lift_m()} {
     double before = 0;
@@ -30,7 +30,7 @@ struct LiftFacts {
   }
 };
 
-/// sqrt(2 E / M) of a valve against the most that a train can have given it.
+/// Compares sqrt(2 E / M) of a valve with the bound.
 class EnergyBound {
  public:
   EnergyBound(const valve_reference::SingleMass& mass, const LiftFacts& lift, double cam_rad_s)
@@ -44,14 +44,14 @@ class EnergyBound {
 
   void tick(double y_m, double v_m_s) { reached_J_ = std::max(reached_J_, energy_J(y_m, v_m_s)); }
 
-  /// True while the cycle that ended kept the bound.
+  /// Call at the end of a cycle: true if it kept the bound.
   bool cycle(double contact_changes) {
     allowed_m_s_ += turned_m_s_ + 2 * fastest_m_s_ * contact_changes;
     return std::sqrt(2 * reached_J_ / mass_.M) <= 2 * allowed_m_s_;
   }
 
  private:
-  /// Motion, spring and seat, from the closed valve.
+  /// Kinetic energy, spring and seat; 0 for the closed valve.
   [[nodiscard]] double energy_J(double y, double v) const {
     const double sink = std::max(0.0, mass_.delta - y);
     return mass_.M * v * v / 2 + mass_.k_s * y * y / 2 + mass_.P * y +

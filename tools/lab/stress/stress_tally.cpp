@@ -25,9 +25,9 @@ report::Axis axis(const char* title) {
 Section stability_section(const std::vector<StabilityPoint>& map) {
   Section section{"stability", "Stability", {}};
   section.blocks.push_back(Paragraph{
-      "How long a Runge-Kutta step may be before the motion grows: frequency times step, against the damping ratio. "
-      "Measured by running the library's step 2000 times; theory is where its amplification reaches 1. The library "
-      "itself never takes a step longer than the lowest curve, that of the coarsest accuracy class."});
+      "The longest Runge-Kutta step at which the motion does not grow: frequency times step over the damping ratio. "
+      "Measured: 2000 steps of the library. Theory: the amplification factor is 1. The library "
+      "never takes a step longer than the lowest curve, which is that of the coarsest accuracy class."});
   Plot plot = plot_of("Limit of frequency times step", axis("Damping ratio"), axis("Frequency times step"));
   plot.series.resize(3);
   plot.series[0].name = "theory";
@@ -51,23 +51,24 @@ Section stability_section(const std::vector<StabilityPoint>& map) {
   return section;
 }
 
-/// Which part of the comparisons stays below which error.
+/// Distribution of the errors.
 Section accuracy_section(const StressTally& tally) {
   Section section{"accuracy", "Accuracy", {}};
   section.blocks.push_back(Paragraph{
-      "Largest error of the lift of each case that was compared: over the accuracy asked for, and over what the rule "
-      "allows, which is " +
+      "Largest error of the lift of each compared case, relative to the requested accuracy and to the permitted "
+      "error. The permitted error is " +
       brief(kMagnified) +
-      " times the accuracy and as much as copies of the reference, knocked by the accuracy at each " +
-      "contact change, get off their course. Where " + std::to_string(kCopies) + " copies excuse too little, " +
-      std::to_string(kMoreCopies) + " judge again: " + std::to_string(tally.judged_again) + " times."});
-  Plot plot = plot_of("Errors in order", axis("Per cent of the comparisons"), axis("Error's ratio"));
+      " times the sum of the accuracy and the largest deviation of copies of the reference, which are disturbed by " +
+      "the accuracy at each contact change. A case that exceeds it with " + std::to_string(kCopies) +
+      " copies is compared again with " + std::to_string(kMoreCopies) + ": " + std::to_string(tally.judged_again) +
+      " times."});
+  Plot plot = plot_of("Distribution of the errors", axis("Per cent of the comparisons"), axis("Relative error"));
   plot.y.include_zero = false;
   plot.y.logarithmic = true;
   plot.series.resize(3);
-  plot.series[0].name = "to the accuracy asked for";
-  plot.series[1].name = "to what the rule allows";
-  plot.series[2].name = "to the accuracy asked for, of those that landed";
+  plot.series[0].name = "to the requested accuracy";
+  plot.series[1].name = "to the permitted error";
+  plot.series[2].name = "to the requested accuracy, cases that landed";
   for (int percent = 1; percent <= 100; ++percent) {
     const double values[] = {quantile(tally.of_class, percent / 100.0), quantile(tally.of_allowed, percent / 100.0),
                              quantile(tally.of_class_landed, percent / 100.0)};
@@ -204,11 +205,11 @@ report::Page stress_page(const StressTally& tally, const std::vector<StabilityPo
                          const std::string& command_line) {
   report::Page page;
   page.title = "Stress test of elastic valves";
-  page.subtitle = std::to_string(tally.cases) + " random valve trains and operating points, by " + command_line;
+  page.subtitle = std::to_string(tally.cases) + " random valve trains and operating points: " + command_line;
   const auto fact = [&](const char* name, int value, const std::string& note) {
     page.facts.push_back({name, std::to_string(value), "", note});
   };
-  fact("Refused", tally.refusals(), "at set-up, rightly");
+  fact("Refused", tally.refusals(), "at set-up, for a valid reason");
   fact("Ran", tally.ran,
        std::to_string(tally.all_cycles) + " through " + std::to_string(kStressCycles) + " cycles, the others for " +
            std::to_string(kMaxTicks) + " ticks");

@@ -1,6 +1,6 @@
-// What a stress test counted.
+// Results of a stress test.
 //
-// What belongs here: counts and what is made of them. What does not: single trials (stress_trial.hpp).
+// What belongs here: counts, quantiles, their report. What does not: single trials (stress_trial.hpp).
 #pragma once
 
 #include <cstdint>
@@ -37,17 +37,17 @@ struct StressTally {
   std::int64_t ticks = 0;
   std::vector<double> of_class;  ///< of every comparison
   std::vector<double> of_class_landed;
-  std::vector<double> of_allowed;  ///< of every comparison, but for those over the event budget
+  std::vector<double> of_allowed;  ///< of every comparison within the event budget
   std::vector<StressFailure> failures;
 
   void add(int number, const StressCase& drawn, const TrialResult& result);
   [[nodiscard]] int refusals() const;
 };
 
-/// How many are more than the accuracy asked for.
+/// How many errors exceed the requested accuracy.
 [[nodiscard]] int beyond_class(const std::vector<double>& of_class);
 
-/// The value that this part of them does not exceed, 0 to 1; 0 of none.
+/// The value that the fraction `part` of them (0 to 1) does not exceed; 0 without values.
 [[nodiscard]] double quantile(std::vector<double> values, double part);
 
 /// "refused but could run".

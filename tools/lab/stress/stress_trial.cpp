@@ -20,9 +20,11 @@ namespace {
 
 using valve_reference::SingleMass;
 
-/// One cylinder's one valve, everything that is told of it.
+/// One cylinder with one valve and all its outputs.
 struct StressedValve : Scene {
   static constexpr ValveModel valves = ValveModel::elastic;
+  static constexpr bool theoretical_lift = true;
+  static constexpr bool valve_acceleration = true;
   static constexpr bool valve_forces = true;
   static constexpr bool valve_results = true;
 };
@@ -43,12 +45,12 @@ Phase phase_at(double deg) {
 }
 
 /// Fine steps that a tick needs by docs/decisions/0014: the fastest rate times a fine step at most 1 for 0.1 um and
-/// coarser classes, less by the fourth root for finer ones.
+/// coarser classes, and smaller by the fourth root for finer ones.
 double fine_steps_needed(const SingleMass& mass, const TickOptions& options) {
   return options.tick_s * mass.fastest() / std::min(1.0, std::pow(options.valves.accuracy_m / 0.1e-6, 0.25));
 }
 
-/// Whether a refused case could have run, by what this file works out by itself.
+/// Whether a refused case could have run, computed independently of the library.
 bool could_run(const StressCase& drawn, const Status& refused) {
   if (refused.field == std::string_view("rocker.base_circle_m")) {
     // Smoothing bends a table's contour by some hundredths of the base circle.
@@ -72,7 +74,7 @@ double cam_deg_at(Phase engine, double full_lift_deg) {
   return static_cast<double>(static_cast<long double>(of_cam) * (360.0L / 18446744073709551616.0L));
 }
 
-/// How far a comparison goes: whole ticks of the reference's steps.
+/// Number of ticks to compare, limited by the reference's steps.
 int ticks_to_compare(const SingleMass& mass, const TickOptions& options, double cam_rad_s, double ticks_per_cycle) {
   const double turned_deg = std::fabs(cam_rad_s) * options.tick_s / kRadPerDeg;
   const double steps_per_tick = std::max({1.0, options.tick_s * mass.fastest() / 0.4, turned_deg / 0.25});
@@ -83,7 +85,7 @@ int ticks_to_compare(const SingleMass& mass, const TickOptions& options, double 
 template <class Real>
 void run_ticks(Rig<Real>& rig, const StressCase& drawn, int copies, TrialResult& result) {
   ValveLift lift;
-  static_cast<void>(lift.init(drawn.train.cam, drawn.train.rocker));  // build() took it
+  static_cast<void>(lift.init(drawn.train.cam, drawn.train.rocker));  // build() accepted it
   const SingleMass mass(drawn.train.valve, drawn.train.rocker, lift.largest_lift_m());
   typename Engine<Real, StressedValve>::Input in;
   in.speed_rad_s = static_cast<Real>(drawn.speed_rad_s());
@@ -113,7 +115,7 @@ void run_ticks(Rig<Real>& rig, const StressCase& drawn, int copies, TrialResult&
     const auto& valve = out.valve[0][0];
     const auto& force = out.valve_forces[0][0];
     if ((out.faults & ~std::uint32_t{kFaultEventBudget}) != 0)
-      return diverged(tick, "a fault other than the event budget's");
+      return diverged(tick, "a fault other than the event budget");
     result.over_budget = result.over_budget || out.faults != 0;
     for (const Real x : {valve.lift_m, valve.velocity_m_s, valve.acceleration_m_s2, valve.theoretical_lift_m,
                          force.train_N, force.seat_N, force.tip_N, force.cam_N, force.train_compression_m}) {
@@ -122,15 +124,15 @@ void run_ticks(Rig<Real>& rig, const StressCase& drawn, int copies, TrialResult&
     energy.tick(static_cast<double>(valve.lift_m), static_cast<double>(valve.velocity_m_s));
     if (curve.passes_base_circle(before, engine.state().phase.units() - curve.opens[0]) &&
         !energy.cycle(out.valve_cycle[0][0].contact_changes)) {
-      return diverged(tick, "more energy than the train can have given");
+      return diverged(tick, "more energy than the train can supply");
     }
     if (tick < compared_ticks) {
       comparison.tick(cam_deg_at(engine.state().phase, full_lift_deg), static_cast<double>(valve.lift_m),
                       engine.state().valve_lift_m[0] == 0 && engine.state().valve_velocity_m_s[0] == 0);
     }
   }
-  constexpr double kMaxChangesInACycle = 1000;  // of the cycle that has not ended
-  if (!energy.cycle(kMaxChangesInACycle)) return diverged(result.ticks, "more energy than the train can have given");
+  constexpr double kMaxChangesInACycle = 1000;  // for the cycle that has not ended
+  if (!energy.cycle(kMaxChangesInACycle)) return diverged(result.ticks, "more energy than the train can supply");
   if (compared_ticks == 0) return;
   result.compared = true;
   result.landed = comparison.landed();
@@ -138,12 +140,12 @@ void run_ticks(Rig<Real>& rig, const StressCase& drawn, int copies, TrialResult&
   result.of_allowed = comparison.of_allowed();
   if (result.of_allowed > 1 && !result.over_budget) {
     result.verdict = Verdict::inaccurate;
-    result.trouble = brief(result.of_class) + " times the accuracy asked for, " + brief(result.of_allowed) +
-                     " times what the motion magnifies it to";
+    result.trouble = brief(result.of_class) + " times the requested accuracy, " + brief(result.of_allowed) +
+                     " times the permitted error";
   }
 }
 
-/// Compared with the reference and so many copies of it; not at all with 0.
+/// Runs a case; compares it with the reference and this many copies, not at all if 0.
 template <class Real>
 TrialResult run_in(Rig<Real>& rig, const StressCase& drawn, int copies) {
   TrialResult result;

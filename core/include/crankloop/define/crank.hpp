@@ -5,6 +5,7 @@
 #pragma once
 
 #include <crankloop/define/field.hpp>
+#include <crankloop/limits.hpp>
 #include <crankloop/status.hpp>
 
 namespace crankloop {
@@ -23,14 +24,12 @@ namespace crankloop {
 ///        r   \ |
 ///             \|
 struct Crank {
-  double bore_m = 0;          ///< > 0, at most 2
-  double crank_radius_m = 0;  ///< r, half the nominal stroke; > 0, at most 2
-  double rod_length_m = 0;    ///< l > least_rod_length_m(), at most 10
-  double pin_offset_m = 0;    ///< e
-  double compression_ratio =
-      2;  ///< (V_c + V_d) / V_c; > 1, at most 100. Only pressure sources that know the volume use it
-  double max_speed_rad_s = 0;  ///< the highest speed the engine can have, either way; at most kMaxSpeed_rad_s. 0: the
-                               ///< limit of the tick alone
+  double bore_m = 0;
+  double crank_radius_m = 0;     ///< r, half the nominal stroke
+  double rod_length_m = 0;       ///< l > least_rod_length_m()
+  double pin_offset_m = 0;       ///< e
+  double compression_ratio = 2;  ///< (V_c + V_d) / V_c; only pressure sources that know the volume use it
+  double max_speed_rad_s = 0;    ///< the highest speed the engine can have, either way; 0: the limit of the tick alone
 
   [[nodiscard]] constexpr double rod_ratio() const noexcept {
     return crank_radius_m / rod_length_m;
@@ -44,16 +43,16 @@ struct Crank {
 
   template <class Visit, class Self, class... Others>
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
-    CRANKLOOP_FIELD(1, crank, bore_m);
-    CRANKLOOP_FIELD(1, crank, crank_radius_m);
-    CRANKLOOP_FIELD(1, crank, rod_length_m);
-    CRANKLOOP_FIELD(1, crank, pin_offset_m);
-    CRANKLOOP_FIELD(1, crank, compression_ratio);
-    CRANKLOOP_FIELD(1, crank, max_speed_rad_s);
+    CRANKLOOP_NUMBER(1, crank, bore_m, above(0).up_to(2));
+    CRANKLOOP_NUMBER(1, crank, crank_radius_m, above(0).up_to(2));
+    CRANKLOOP_NUMBER(1, crank, rod_length_m, above(0).up_to(10));
+    CRANKLOOP_NUMBER(1, crank, pin_offset_m, from(-2).up_to(2));
+    CRANKLOOP_NUMBER(1, crank, compression_ratio, above(1).up_to(100));
+    CRANKLOOP_NUMBER(1, crank, max_speed_rad_s, from(0).up_to(kMaxSpeed_rad_s));
   }
 };
 
-/// Field names "crank.*". Refuses a mechanism that cannot turn.
+/// Field names "crank.*". It also refuses a mechanism that cannot turn.
 Status validate(const Crank& crank) noexcept;
 
 }  // namespace crankloop

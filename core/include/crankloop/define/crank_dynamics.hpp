@@ -14,9 +14,9 @@ namespace crankloop {
 /// As a torque it is that pressure times the swept volume of all cylinders / (4 pi). It opposes the rotation in either
 /// direction, and holds at standstill.
 struct Friction {
-  double constant_Pa = 0;      ///< 0 to 1e7
-  double linear_Pa_s = 0;      ///< per rad/s; 0 to 1e6
-  double quadratic_Pa_s2 = 0;  ///< per (rad/s)^2; 0 to 1e6
+  double constant_Pa = 0;
+  double linear_Pa_s = 0;      ///< per rad/s
+  double quadratic_Pa_s2 = 0;  ///< per (rad/s)^2
 
   [[nodiscard]] constexpr bool any() const noexcept {
     return constant_Pa != 0 || linear_Pa_s != 0 || quadratic_Pa_s2 != 0;
@@ -24,39 +24,39 @@ struct Friction {
 
   template <class Visit, class Self, class... Others>
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
-    CRANKLOOP_FIELD(1, friction, constant_Pa);
-    CRANKLOOP_FIELD(1, friction, linear_Pa_s);
-    CRANKLOOP_FIELD(1, friction, quadratic_Pa_s2);
+    CRANKLOOP_NUMBER(1, friction, constant_Pa, from(0).up_to(1e7));
+    CRANKLOOP_NUMBER(1, friction, linear_Pa_s, from(0).up_to(1e6));
+    CRANKLOOP_NUMBER(1, friction, quadratic_Pa_s2, from(0).up_to(1e6));
   }
 };
 
 /// The driven machine as a passive brake: its torque opposes the rotation like friction does. What may also drive is
 /// Input::external_torque_Nm.
 struct DrivenMachine {
-  double constant_Nm = 0;      ///< 0 to 1e7
-  double linear_Nm_s = 0;      ///< per rad/s; 0 to 1e6
-  double quadratic_Nm_s2 = 0;  ///< per (rad/s)^2; 0 to 1e6
-  double inertia_kg_m2 = 0;    ///< turns with the crankshaft, seen from it; 0 to 1e6
+  double constant_Nm = 0;
+  double linear_Nm_s = 0;      ///< per rad/s
+  double quadratic_Nm_s2 = 0;  ///< per (rad/s)^2
+  double inertia_kg_m2 = 0;    ///< turns with the crankshaft, seen from it
 
   template <class Visit, class Self, class... Others>
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
-    CRANKLOOP_FIELD(1, machine, constant_Nm);
-    CRANKLOOP_FIELD(1, machine, linear_Nm_s);
-    CRANKLOOP_FIELD(1, machine, quadratic_Nm_s2);
-    CRANKLOOP_FIELD(1, machine, inertia_kg_m2);
+    CRANKLOOP_NUMBER(1, machine, constant_Nm, from(0).up_to(1e7));
+    CRANKLOOP_NUMBER(1, machine, linear_Nm_s, from(0).up_to(1e6));
+    CRANKLOOP_NUMBER(1, machine, quadratic_Nm_s2, from(0).up_to(1e6));
+    CRANKLOOP_NUMBER(1, machine, inertia_kg_m2, from(0).up_to(1e6));
   }
 };
 
 /// A starter, seen from the crankshaft: its torque falls in a straight line from standstill to the no-load speed.
 /// Above, it free-wheels; the crank turning backwards meets the stall torque.
 struct Starter {
-  double stall_Nm = 0;       ///< 0 (no starter) to 1e7
-  double no_load_rad_s = 0;  ///< > 0 where there is a stall torque, at most 1e4
+  double stall_Nm = 0;       ///< 0: no starter
+  double no_load_rad_s = 0;  ///< > 0 where there is a stall torque
 
   template <class Visit, class Self, class... Others>
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
-    CRANKLOOP_FIELD(1, starter, stall_Nm);
-    CRANKLOOP_FIELD(1, starter, no_load_rad_s);
+    CRANKLOOP_NUMBER(1, starter, stall_Nm, from(0).up_to(1e7));
+    CRANKLOOP_NUMBER(1, starter, no_load_rad_s, from(0).up_to(1e4));
   }
 };
 

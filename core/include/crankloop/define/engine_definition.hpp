@@ -43,9 +43,9 @@ struct EngineDefinition {
 
 /// Validates every part and what the parts demand of one another; the first refusal is returned. A part is validated
 /// whether a scene needs it or not: tables carry the fingerprint of the whole definition. Not read, and not validated:
-/// trains and wheels beyond their counts, rows that no source uses, gas where the pressure has another source. About a
-/// valve train or a trigger wheel, `index` is its number. Whether the rocker's geometry closes is found where the lift
-/// is worked out (tabulate).
+/// trains and wheels beyond their counts, rows that no source uses, gas where the pressure has another source, fuel_kg
+/// where excess_air_ratio sets the fuel. About a valve train or a trigger wheel, `index` is its number. Whether the
+/// rocker's geometry closes is found where the lift is worked out (tabulate).
 Status validate(const EngineDefinition& engine) noexcept;
 
 }  // namespace crankloop

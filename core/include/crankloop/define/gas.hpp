@@ -19,10 +19,9 @@ inline constexpr int kMaxFlowPoints = 16;
 /// What a valve train opens. All its valves are the same (Valve::per_cylinder).
 struct PortOfTrain {
   GasPort port = GasPort::none;  ///< a train of an engine with gas exchange needs one
-  double seat_diameter_m = 0;    ///< D, inner; > 0, at most 1
+  double seat_diameter_m = 0;    ///< D, inner
   /// Flow coefficient times geometric area over pi/4 D^2, by the lift over D: discharge, curtain and port in one
-  /// measured curve. Straight lines between, from 0 at 0; beyond the last the last. Lift ratios rising, 0 to 0.5; flow
-  /// ratios 0 to 1.
+  /// measured curve. Straight lines between, from 0 at 0; beyond the last the last. Lift ratios rise.
   int flow_count = 10;  ///< 2 to kMaxFlowPoints
   double flow_lift_ratio[kMaxFlowPoints] = {0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5};
   double flow_ratio[kMaxFlowPoints] = {0, 0.14, 0.27, 0.385, 0.47, 0.52, 0.555, 0.575, 0.59, 0.6};
@@ -31,45 +30,45 @@ struct PortOfTrain {
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
     const bool any = self.port != GasPort::none;
     CRANKLOOP_FIELD(1, gas, port);
-    CRANKLOOP_FIELD(any ? 1 : 0, gas, seat_diameter_m);
+    CRANKLOOP_NUMBER(any ? 1 : 0, gas, seat_diameter_m, above(0).up_to(1));
     CRANKLOOP_FIELD(any ? 1 : 0, gas, flow_count);
-    CRANKLOOP_FIELD(any ? self.flow_count : 0, gas, flow_lift_ratio);
-    CRANKLOOP_FIELD(any ? self.flow_count : 0, gas, flow_ratio);
+    CRANKLOOP_NUMBER(any ? self.flow_count : 0, gas, flow_lift_ratio, from(0).up_to(0.5));
+    CRANKLOOP_NUMBER(any ? self.flow_count : 0, gas, flow_ratio, from(0).up_to(1));
   }
 };
 
 /// All pressures are absolute.
 struct Gas {
   // manifolds, for scenes with a throttle
-  double intake_m3 = 3000e-6;         ///< > 0, at most 100
-  double exhaust_m3 = 2500e-6;        ///< > 0, at most 100
-  double throttle_m2 = 1600e-6;       ///< effective area wide open; > 0, at most 10
+  double intake_m3 = 3000e-6;
+  double exhaust_m3 = 2500e-6;
+  double throttle_m2 = 1600e-6;       ///< effective area wide open
   double throttle_closed_m2 = 12e-6;  ///< 0 to the open one
   int throttle_count =
       4;  ///< 2 to kMaxFlowPoints: share of the area between closed and open, by the throttle ratio, straight lines
-  double throttle_ratio[kMaxFlowPoints] = {0, 0.2, 0.5, 1};        ///< rising from 0 to 1
-  double throttle_area_ratio[kMaxFlowPoints] = {0, 0.06, 0.3, 1};  ///< 0 to 1
-  double outlet_m2 = 1200e-6;                                      ///< exhaust system as one orifice; > 0, at most 10
-  double ambient_Pa = 100e3;                                       ///< 1e3 to 1e7
-  double back_Pa = 0;         ///< behind the outlet; 1e3 to 1e7, or 0: as ambient_Pa
-  double ambient_K = 298.15;  ///< 150 to 3000
-  double exhaust_K = 773.15;  ///< of a given exhaust manifold, at first; 150 to 3000
+  double throttle_ratio[kMaxFlowPoints] = {0, 0.2, 0.5, 1};  ///< rising from 0 to 1
+  double throttle_area_ratio[kMaxFlowPoints] = {0, 0.06, 0.3, 1};
+  double outlet_m2 = 1200e-6;  ///< exhaust system as one orifice
+  double ambient_Pa = 100e3;
+  double back_Pa = 0;  ///< behind the outlet; at least 1e3, or 0: as ambient_Pa
+  double ambient_K = 298.15;
+  double exhaust_K = 773.15;  ///< of a given exhaust manifold, at first
   // walls
-  double wall_K = 423.15;      ///< 150 to 2000
-  double wall_heat_ratio = 1;  ///< k_w; 0 = adiabatic; 0 to 100
+  double wall_K = 423.15;
+  double wall_heat_ratio = 1;  ///< k_w; 0 = adiabatic
   // combustion
-  double fuel_kg = 30e-6;       ///< per cycle and cylinder; 0 to 0.01, less than 1e-12 is none
-  double excess_air_ratio = 0;  ///< lambda: fuel by the air in the cylinder, instead of fuel_kg; 0 to 100, 0: fuel_kg
-  double heating_value_J_kg = 43e6;     ///< lower; 0 to 2e8
-  double combustion_efficiency = 0.97;  ///< 0 to 1
-  double air_fuel_ratio = 14.6;         ///< L, stoichiometric, by mass; 1 to 100; kMaxMixtureHeat_J_kg bounds it too
-  double latch_deg = -90;               ///< where a cylinder takes its cycle's fuel and burn; -180 to -90
-  double burn_start_deg = -18;          ///< -90 to 60
-  double burn_duration_deg = 50;        ///< 5 to 150; the burn ends by 150 deg
-  double wiebe_m = 2;                   ///< 0 to 10
-  double second_ratio = 0;           ///< of the fuel that burns by a second law, from the same start (diesel); 0 to 1
-  double second_m = 1;               ///< 0 to 10
-  double second_duration_ratio = 3;  ///< of its duration to the first's; 0.1 to 10
+  double fuel_kg = 30e-6;            ///< per cycle and cylinder; less than 1e-12 is none
+  double excess_air_ratio = 0;       ///< lambda: fuel by the air in the cylinder, instead of fuel_kg; 0: fuel_kg
+  double heating_value_J_kg = 43e6;  ///< lower
+  double combustion_efficiency = 0.97;
+  double air_fuel_ratio = 14.6;  ///< L, stoichiometric, by mass; kMaxMixtureHeat_J_kg bounds it too
+  double latch_deg = -90;        ///< where a cylinder takes its cycle's fuel and burn
+  double burn_start_deg = -18;
+  double burn_duration_deg = 50;  ///< the burn ends by 150 deg
+  double wiebe_m = 2;
+  double second_ratio = 0;  ///< of the fuel that burns by a second law, from the same start (diesel)
+  double second_m = 1;
+  double second_duration_ratio = 3;  ///< of its duration to the first's
   PortOfTrain ports[kMaxTrains];
 
   /// Behind the outlet.
@@ -82,32 +81,32 @@ struct Gas {
 
   template <class Visit, class Self, class... Others>
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
-    CRANKLOOP_FIELD(1, gas, intake_m3);
-    CRANKLOOP_FIELD(1, gas, exhaust_m3);
-    CRANKLOOP_FIELD(1, gas, throttle_m2);
-    CRANKLOOP_FIELD(1, gas, throttle_closed_m2);
+    CRANKLOOP_NUMBER(1, gas, intake_m3, above(0).up_to(100));
+    CRANKLOOP_NUMBER(1, gas, exhaust_m3, above(0).up_to(100));
+    CRANKLOOP_NUMBER(1, gas, throttle_m2, above(0).up_to(10));
+    CRANKLOOP_NUMBER(1, gas, throttle_closed_m2, from(0).up_to(10));
     CRANKLOOP_FIELD(1, gas, throttle_count);
-    CRANKLOOP_FIELD(self.throttle_count, gas, throttle_ratio);
-    CRANKLOOP_FIELD(self.throttle_count, gas, throttle_area_ratio);
-    CRANKLOOP_FIELD(1, gas, outlet_m2);
-    CRANKLOOP_FIELD(1, gas, ambient_Pa);
-    CRANKLOOP_FIELD(1, gas, back_Pa);
-    CRANKLOOP_FIELD(1, gas, ambient_K);
-    CRANKLOOP_FIELD(1, gas, exhaust_K);
-    CRANKLOOP_FIELD(1, gas, wall_K);
-    CRANKLOOP_FIELD(1, gas, wall_heat_ratio);
-    CRANKLOOP_FIELD(self.excess_air_ratio > 0 ? 0 : 1, gas, fuel_kg);
-    CRANKLOOP_FIELD(1, gas, excess_air_ratio);
-    CRANKLOOP_FIELD(1, gas, heating_value_J_kg);
-    CRANKLOOP_FIELD(1, gas, combustion_efficiency);
-    CRANKLOOP_FIELD(1, gas, air_fuel_ratio);
-    CRANKLOOP_FIELD(1, gas, latch_deg);
-    CRANKLOOP_FIELD(1, gas, burn_start_deg);
-    CRANKLOOP_FIELD(1, gas, burn_duration_deg);
-    CRANKLOOP_FIELD(1, gas, wiebe_m);
-    CRANKLOOP_FIELD(1, gas, second_ratio);
-    CRANKLOOP_FIELD(1, gas, second_m);
-    CRANKLOOP_FIELD(1, gas, second_duration_ratio);
+    CRANKLOOP_NUMBER(self.throttle_count, gas, throttle_ratio, from(0).up_to(1));
+    CRANKLOOP_NUMBER(self.throttle_count, gas, throttle_area_ratio, from(0).up_to(1));
+    CRANKLOOP_NUMBER(1, gas, outlet_m2, above(0).up_to(10));
+    CRANKLOOP_NUMBER(1, gas, ambient_Pa, from(1e3).up_to(1e7));
+    CRANKLOOP_NUMBER(1, gas, back_Pa, from(0).up_to(1e7));
+    CRANKLOOP_NUMBER(1, gas, ambient_K, from(150).up_to(3000));
+    CRANKLOOP_NUMBER(1, gas, exhaust_K, from(150).up_to(3000));
+    CRANKLOOP_NUMBER(1, gas, wall_K, from(150).up_to(2000));
+    CRANKLOOP_NUMBER(1, gas, wall_heat_ratio, from(0).up_to(100));
+    CRANKLOOP_NUMBER(self.excess_air_ratio > 0 ? 0 : 1, gas, fuel_kg, from(0).up_to(0.01));
+    CRANKLOOP_NUMBER(1, gas, excess_air_ratio, from(0).up_to(100));
+    CRANKLOOP_NUMBER(1, gas, heating_value_J_kg, from(0).up_to(2e8));
+    CRANKLOOP_NUMBER(1, gas, combustion_efficiency, from(0).up_to(1));
+    CRANKLOOP_NUMBER(1, gas, air_fuel_ratio, from(1).up_to(100));
+    CRANKLOOP_NUMBER(1, gas, latch_deg, from(-180).up_to(-90));
+    CRANKLOOP_NUMBER(1, gas, burn_start_deg, from(-90).up_to(60));
+    CRANKLOOP_NUMBER(1, gas, burn_duration_deg, from(5).up_to(150));
+    CRANKLOOP_NUMBER(1, gas, wiebe_m, from(0).up_to(10));
+    CRANKLOOP_NUMBER(1, gas, second_ratio, from(0).up_to(1));
+    CRANKLOOP_NUMBER(1, gas, second_m, from(0).up_to(10));
+    CRANKLOOP_NUMBER(1, gas, second_duration_ratio, from(0.1).up_to(10));
     CRANKLOOP_PART(kMaxTrains, ports);
   }
 };

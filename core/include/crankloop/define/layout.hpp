@@ -19,8 +19,8 @@ namespace crankloop {
 /// Engine angle A is 0 at cylinder 1's firing top dead centre when firing_deg[0] = 0; cylinder k's own crank angle is A
 /// - firing_deg[k].
 struct Layout {
-  int cylinders = 1;                               ///< 1 to 16
-  std::array<double, kMaxCylinders> firing_deg{};  ///< engine angle at which the cylinder's own angle is 0, in [0, 720)
+  int cylinders = 1;
+  std::array<double, kMaxCylinders> firing_deg{};  ///< engine angle at which the cylinder's own angle is 0
   std::array<double, kMaxCylinders> bank_deg{};  ///< cylinder axis from the vertical, positive in the sense of rotation
   std::array<double, kMaxCylinders> position_m{};  ///< along the crankshaft
   std::array<std::uint8_t, kMaxCylinders> pin{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
@@ -33,10 +33,10 @@ struct Layout {
 
   template <class Visit, class Self, class... Others>
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
-    CRANKLOOP_FIELD(1, layout, cylinders);
-    CRANKLOOP_FIELD(self.cylinders, layout, firing_deg);
-    CRANKLOOP_FIELD(self.cylinders, layout, bank_deg);
-    CRANKLOOP_FIELD(self.cylinders, layout, position_m);
+    CRANKLOOP_NUMBER(1, layout, cylinders, from(1).up_to(kMaxCylinders));
+    CRANKLOOP_NUMBER(self.cylinders, layout, firing_deg, from(0).below(720));
+    CRANKLOOP_NUMBER(self.cylinders, layout, bank_deg, from(-360).up_to(360));
+    CRANKLOOP_NUMBER(self.cylinders, layout, position_m, from(-100).up_to(100));
     CRANKLOOP_FIELD(self.cylinders, layout, pin);
   }
 };

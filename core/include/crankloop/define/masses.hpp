@@ -38,12 +38,12 @@ struct Masses {
 
   template <class Visit, class Self, class... Others>
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
-    CRANKLOOP_FIELD(1, masses, piston_kg);
-    CRANKLOOP_FIELD(1, masses, rod_small_end_kg);
-    CRANKLOOP_FIELD(1, masses, rod_big_end_kg);
-    CRANKLOOP_FIELD(1, masses, rod_inertia_correction_kg_m2);
-    CRANKLOOP_FIELD(1, masses, crank_pin_equivalent_kg);
-    CRANKLOOP_FIELD(1, masses, crank_inertia_kg_m2);
+    CRANKLOOP_NUMBER(1, masses, piston_kg, from(0).up_to(1e4));
+    CRANKLOOP_NUMBER(1, masses, rod_small_end_kg, from(0).up_to(1e4));
+    CRANKLOOP_NUMBER(1, masses, rod_big_end_kg, from(0).up_to(1e4));
+    CRANKLOOP_NUMBER(1, masses, rod_inertia_correction_kg_m2, from(-1e6).up_to(1e6));
+    CRANKLOOP_NUMBER(1, masses, crank_pin_equivalent_kg, from(0).up_to(1e4));
+    CRANKLOOP_NUMBER(1, masses, crank_inertia_kg_m2, from(0).up_to(1e6));
   }
 };
 

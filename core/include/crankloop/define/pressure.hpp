@@ -39,19 +39,18 @@ inline constexpr double kMotoredLoss = 0.03;
 
 /// Synthesised four-stroke diagram. Angles in degrees of the cylinder's own crank angle, firing at 0.
 struct WiebeDiagram {
-  double intake_Pa = 98e3;              ///< plenum, from gas-exchange top dead centre to bottom dead centre
-  double exhaust_Pa = 105e3;            ///< back pressure
-  double start_of_combustion_deg = -6;  ///< -90 to 90
-  double combustion_duration_deg = 60;  ///< 1 to 150; must end before the exhaust valve opens
-  double wiebe_m = 0.9;                 ///< form exponent, 0 to 10
-  double compression_exponent = 1.35;   ///< n1, 1 to 2
-  double expansion_exponent = 1.28;     ///< n2, 1.0001 to 2
-  double motored_expansion_exponent =
-      0;  ///< of a cylinder that does not fire: at least n1, at most 3; 0 = n1 + kMotoredLoss
-  double exhaust_valve_opens_deg = 135;  ///< 30 to 179
-  bool heat_given = false;               ///< true: heat_J is used; false: heat is scaled to net_mep_Pa
-  double net_mep_Pa = 0;  ///< indicated mean effective pressure over 720 deg at load ratio 1; from the motored one on
-  double heat_J = 0;      ///< heat released per cycle and cylinder at load ratio 1; 0 = motored
+  double intake_Pa = 98e3;    ///< plenum, from gas-exchange top dead centre to bottom dead centre
+  double exhaust_Pa = 105e3;  ///< back pressure
+  double start_of_combustion_deg = -6;
+  double combustion_duration_deg = 60;    ///< must end before the exhaust valve opens
+  double wiebe_m = 0.9;                   ///< form exponent
+  double compression_exponent = 1.35;     ///< n1
+  double expansion_exponent = 1.28;       ///< n2
+  double motored_expansion_exponent = 0;  ///< of a cylinder that does not fire: at least n1; 0 = n1 + kMotoredLoss
+  double exhaust_valve_opens_deg = 135;
+  bool heat_given = false;  ///< true: heat_J is used; false: heat is scaled to net_mep_Pa
+  double net_mep_Pa = 0;    ///< indicated mean effective pressure over 720 deg at load ratio 1; from the motored one on
+  double heat_J = 0;        ///< heat released per cycle and cylinder at load ratio 1; 0 = motored
 
   [[nodiscard]] constexpr double motored_exponent() const noexcept {
     return motored_expansion_exponent > 0 ? motored_expansion_exponent : compression_exponent + kMotoredLoss;
@@ -59,17 +58,17 @@ struct WiebeDiagram {
 
   template <class Visit, class Self, class... Others>
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
-    CRANKLOOP_FIELD(1, pressure.wiebe, intake_Pa);
-    CRANKLOOP_FIELD(1, pressure.wiebe, exhaust_Pa);
-    CRANKLOOP_FIELD(1, pressure.wiebe, start_of_combustion_deg);
-    CRANKLOOP_FIELD(1, pressure.wiebe, combustion_duration_deg);
-    CRANKLOOP_FIELD(1, pressure.wiebe, wiebe_m);
-    CRANKLOOP_FIELD(1, pressure.wiebe, compression_exponent);
-    CRANKLOOP_FIELD(1, pressure.wiebe, expansion_exponent);
-    CRANKLOOP_FIELD(1, pressure.wiebe, motored_expansion_exponent);
-    CRANKLOOP_FIELD(1, pressure.wiebe, exhaust_valve_opens_deg);
-    CRANKLOOP_FIELD(self.heat_given ? 0 : 1, pressure.wiebe, net_mep_Pa);
-    CRANKLOOP_FIELD(self.heat_given ? 1 : 0, pressure.wiebe, heat_J);
+    CRANKLOOP_NUMBER(1, pressure.wiebe, intake_Pa, above(0).up_to(1e7));
+    CRANKLOOP_NUMBER(1, pressure.wiebe, exhaust_Pa, above(0).up_to(1e7));
+    CRANKLOOP_NUMBER(1, pressure.wiebe, start_of_combustion_deg, from(-90).up_to(90));
+    CRANKLOOP_NUMBER(1, pressure.wiebe, combustion_duration_deg, from(1).up_to(150));
+    CRANKLOOP_NUMBER(1, pressure.wiebe, wiebe_m, from(0).up_to(10));
+    CRANKLOOP_NUMBER(1, pressure.wiebe, compression_exponent, from(1).up_to(2));
+    CRANKLOOP_NUMBER(1, pressure.wiebe, expansion_exponent, from(1.0001).up_to(2));
+    CRANKLOOP_NUMBER(1, pressure.wiebe, motored_expansion_exponent, from(0).up_to(3));
+    CRANKLOOP_NUMBER(1, pressure.wiebe, exhaust_valve_opens_deg, from(30).up_to(179));
+    CRANKLOOP_NUMBER(self.heat_given ? 0 : 1, pressure.wiebe, net_mep_Pa, from(-1e7).up_to(kMaxPressure_Pa));
+    CRANKLOOP_NUMBER(self.heat_given ? 1 : 0, pressure.wiebe, heat_J, from(0).up_to(1e9));
     CRANKLOOP_FIELD(1, pressure.wiebe, heat_given);
   }
 };
@@ -89,7 +88,7 @@ struct Pressure {
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
     const bool synthesised = self.source == PressureSource::wiebe;
     CRANKLOOP_FIELD(1, pressure, source);
-    CRANKLOOP_FIELD(1, pressure, crankcase_Pa);
+    CRANKLOOP_NUMBER(1, pressure, crankcase_Pa, above(0).up_to(1e7));
     CRANKLOOP_PART(synthesised ? 1 : 0, wiebe);
     CRANKLOOP_FIELD(synthesised ? 0 : 1, pressure, point_count);
     CRANKLOOP_FIELD(synthesised ? 0 : self.point_count, pressure, points);

@@ -47,12 +47,11 @@ struct TriggerWheel {
   int train = -1;  ///< cam: the valve train whose phaser moves the wheel too, counted from 0; -1 = none does
   TriggerPattern pattern = TriggerPattern::teeth;
   // teeth
-  int places = 0;     ///< teeth and missing ones in a turn of the shaft, 1 to 360
-  int gap_count = 0;  ///< 0 to 8; the places that are left after the last gap have teeth
+  int places = 0;     ///< teeth and missing ones in a turn of the shaft
+  int gap_count = 0;  ///< the places that are left after the last gap have teeth
   ToothGap gaps[kMaxToothGaps] = {};
-  double first_tooth_deg =
-      0;  ///< crank angle after cylinder 1's firing top dead centre of tooth 1's rising edge; 0 to below 720
-  double tooth_ratio = 0.5;  ///< width of a tooth per distance from place to place; 0.01 to 0.99
+  double first_tooth_deg = 0;  ///< crank angle after cylinder 1's firing top dead centre of tooth 1's rising edge
+  double tooth_ratio = 0.5;    ///< width of a tooth per distance from place to place
   // edges
   const double* edges_deg =
       nullptr;  ///< rise, fall, rise, ... in crank degrees after cylinder 1's firing top dead centre: the first 0 to
@@ -65,13 +64,13 @@ struct TriggerWheel {
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
     const bool teeth = self.pattern == TriggerPattern::teeth;
     CRANKLOOP_FIELD(1, trigger, shaft);
-    CRANKLOOP_FIELD(1, trigger, train);
+    CRANKLOOP_NUMBER(1, trigger, train, from(-1).below(kMaxTrains));
     CRANKLOOP_FIELD(1, trigger, pattern);
-    CRANKLOOP_FIELD(teeth ? 1 : 0, trigger, places);
-    CRANKLOOP_FIELD(teeth ? 1 : 0, trigger, gap_count);
+    CRANKLOOP_NUMBER(teeth ? 1 : 0, trigger, places, from(1).up_to(kMaxToothPlaces));
+    CRANKLOOP_NUMBER(teeth ? 1 : 0, trigger, gap_count, from(0).up_to(kMaxToothGaps));
     CRANKLOOP_FIELD(teeth ? self.gap_count : 0, trigger, gaps);
-    CRANKLOOP_FIELD(1, trigger, first_tooth_deg);
-    CRANKLOOP_FIELD(teeth ? 1 : 0, trigger, tooth_ratio);
+    CRANKLOOP_NUMBER(teeth ? 1 : 0, trigger, first_tooth_deg, from(0).below(720));
+    CRANKLOOP_NUMBER(teeth ? 1 : 0, trigger, tooth_ratio, from(0.01).up_to(0.99));
     CRANKLOOP_FIELD(teeth ? 0 : self.edge_count, trigger, edges_deg);
     CRANKLOOP_FIELD(teeth ? 0 : 1, trigger, edge_count);
     CRANKLOOP_FIELD(1, trigger, inverted);

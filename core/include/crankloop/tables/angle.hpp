@@ -1,4 +1,4 @@
-// Where a mechanism stands in its cycle, and integrals read there.
+// The angle of a crank mechanism in its cycle, and integrals evaluated at it.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace crankloop::detail {
 
-/// Where a mechanism stands: its cell in the 720 deg of its own cycle.
+/// Angle of a mechanism in its own 720 deg cycle.
 template <class Real>
 struct Angle {
   Cell cell;
@@ -30,8 +30,8 @@ struct Angle {
   }
 };
 
-/// From where a cylinder fires, or its lobe opens. float reads the top word alone, and its tables' phases have no more
-/// (Drive::firing_phase, LiftCurve::opens).
+/// Phase since `start`, where a cylinder fires or its lobe opens. float takes only the top 32 bits: the start phases in
+/// its tables (Drive::firing_phase, LiftCurve::opens) have no lower ones.
 template <class Real>
 [[nodiscard]] constexpr std::uint64_t units_from(std::uint64_t phase, std::uint64_t start) noexcept {
   if constexpr (sizeof(Real) == 4) {
@@ -47,7 +47,7 @@ template <class Real>
   return {cell, fraction<Real>(cell)};
 }
 
-/// Where a mechanism stands in its crank turn: the same degree and fraction, for what needs no more.
+/// Angle of a mechanism in its crank turn, for curves that repeat every turn.
 template <class Real>
 struct TurnAngle {
   std::uint32_t degree;

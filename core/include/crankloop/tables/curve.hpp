@@ -14,8 +14,8 @@
 
 namespace crankloop::detail {
 
-/// Quadratic in float errs by 2.6e-7 of r w^2, twice float's own rounding, cubic in double by 7.1e-10
-/// (docs/decisions/0003-curves.md).
+/// Error of the acceleration in units of r w^2: 2.6e-7 for the quadratic in float, twice the rounding of float,
+/// and 7.1e-10 for the cubic in double (docs/decisions/0003-curves.md).
 template <class Real>
 inline constexpr int kCurveDegree = sizeof(Real) == 4 ? 2 : 3;
 
@@ -26,8 +26,8 @@ struct Segment {
   Real c[kCurveDegree<Real> + 1];
 };
 
-/// A segment's integral with what it starts from, as a polynomial of its own, so one degree higher: as exact as the
-/// integral, and read as any curve.
+/// A segment's integral including its value at the degree's start: a polynomial of one degree more, evaluated like any
+/// curve.
 template <class Real>
 struct IntegralSegment {
   Real c[kCurveDegree<Real> + 2];
@@ -48,7 +48,7 @@ template <class Real>
   return detail::polynomial(s.c, u);
 }
 
-/// Integral over the angle from the degree's start to u, of the curve less `mean`; radians.
+/// Integral of (curve - mean) over the angle in radians, from the degree's start to u.
 template <class Real>
 [[nodiscard]] constexpr Real integral(const Segment<Real>& s, Real u, Real mean) noexcept {
   constexpr Real kPerDegree = static_cast<Real>(kRadPerDegree);
@@ -59,18 +59,19 @@ template <class Real>
 
 /// The integral up to a degree's start. In float an integer count of `quantum`, so that the difference of two large
 /// integrals is exact: a tick's work is a hundred-thousandth of a cycle's, and float holds seven digits. Unsigned, so
-/// that sums over cylinders may wrap.
+/// that a sum over cylinders may wrap around.
 template <class Real>
 using IntegralBase = std::conditional_t<sizeof(Real) == 4, std::uint32_t, double>;
 
-/// A curve's segment with its integral: value by `slope`, integral = base * quantum + integral(slope, u, mean).
+/// Segment of a curve and of its integral: `slope` gives the curve, base * quantum + integral(slope, u, mean) the
+/// integral.
 template <class Real>
 struct IntegratedSegment {
   IntegralBase<Real> base;
   Segment<Real> slope;
 };
 
-/// An integral at one angle, or a sum of such.
+/// An integral at one angle, or a sum of several.
 template <class Real>
 struct Integral {
   IntegralBase<Real> base{};
@@ -98,7 +99,7 @@ template <class Real>
   return signed_value<Real>(static_cast<IntegralBase<Real>>(to.base - from.base)) * quantum + (to.part - from.part);
 }
 
-/// One crank revolution of a curve, or of several that are read together and so lie side by side.
+/// One crank revolution of a curve, or of several curves that are read together and therefore stored together.
 template <class Record>
 struct Revolution {
   Record at[kDegreesPerTurn];

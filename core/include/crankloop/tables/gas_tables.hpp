@@ -1,7 +1,7 @@
-// What the gas of an engine reads, made at set-up.
+// Tables of gas exchange and combustion, filled at set-up.
 //
-// What belongs here: constants and curves of walls, ports, manifolds and combustion. What does not: how they are made
-// (tabulate/gas_exchange.cpp), how a step uses them (tick/gas/).
+// What belongs here: constants and curves of walls, ports, manifolds and combustion. What does not: how they are
+// computed (tabulate/gas_exchange.cpp), how a step uses them (tick/gas/).
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace crankloop {
 
-inline constexpr int kPorts = 2;  ///< of a cylinder
+inline constexpr int kPorts = 2;  ///< per cylinder
 inline constexpr int kIntake = 0;
 inline constexpr int kExhaust = 1;
 
@@ -18,7 +18,10 @@ inline constexpr int kExhaust = 1;
 
 namespace crankloop::detail {
 
-/// What a cylinder's walls take: tick/gas/wall_heat.hpp.
+inline constexpr int kMaxGasSteps = 8;     ///< per tick
+inline constexpr double kGasStep_deg = 5;  ///< a tick that turns the crank further has several equal steps
+
+/// Heat transfer to a cylinder's walls: tick/gas/wall_heat.hpp.
 template <class Real>
 struct GasWalls {
   Real heat_factor;  ///< 130 k_w 1e-4; 0 = adiabatic
@@ -28,23 +31,25 @@ struct GasWalls {
   Real piston_m;  ///< mean piston speed per rad/s: stroke / pi
 };
 
-/// The cylinders, all the same. Zero in an engine without gas exchange.
+/// Constants of a cylinder; all cylinders have the same. Zero in an engine without gas exchange.
 template <class Real>
 struct GasCylinders {
   GasWalls<Real> walls;
   Real clearance_m3;
   Real bore_area_m2;
   Real crankcase_Pa;
-  Real least_kg_m3;      ///< a cylinder never holds less per volume: a thousandth of crankcase pressure at 300 K
+  Real least_kg_m3;      ///< lower limit of the density: a thousandth of crankcase pressure at 300 K
   Real per_swept_m3;     ///< 1 / swept volume
   Real per_full_charge;  ///< 1 / (swept volume times density of ambient air), 1/kg
-  Real ambient_Pa;       ///< what an engine starts with
+  Real ambient_Pa;       ///< initial state of the gas, with the next two
   Real ambient_K;
   Real exhaust_K;
+  std::uint32_t max_steps;  ///< per tick, at the speed limit: 1 to kMaxGasSteps
+  std::uint32_t spare;
 };
 
 /// Effective area of the valves of one train over their lift.
-inline constexpr int kFlowSteps = 40;  ///< of 1/80 of the seat's diameter each
+inline constexpr int kFlowSteps = 40;  ///< each 1/80 of the seat's diameter
 template <class Real>
 struct GasPortCurve {
   std::uint32_t port;  ///< kIntake or kExhaust
@@ -52,7 +57,7 @@ struct GasPortCurve {
   Real area_m2[kFlowSteps + 1];
 };
 
-/// The gas on the far side of a port or throttle: a manifold as it stands in a step, or what is given.
+/// The gas on the far side of a port or throttle: a manifold in the current step, or a given reservoir.
 template <class Real>
 struct GasBeyond {
   Real pressure_Pa;
@@ -60,38 +65,37 @@ struct GasBeyond {
   Real specific_work_J_kg;  ///< R T
   Real enthalpy_J_kg;
   Real burned_ratio;
-  Real response_Pa_kg;  ///< how far its own pressure falls per kg that leaves it; 0: given
-  Real end_Pa;          ///< its pressure at the step's end if nothing flows through ports
-  Real as_was_Pa;       ///< by how much that moves if all flows through them stay as they were
+  Real response_Pa_kg;  ///< its pressure drop per kg that leaves; 0 for a given reservoir
+  Real end_Pa;          ///< its pressure at the step's end if no gas flows through the ports
+  Real as_was_Pa;       ///< change of end_Pa if all flows through the ports stay as in the last step
 };
 
-inline constexpr int kMaxGasSteps = 8;  ///< of a tick
 inline constexpr int kThrottleSteps = 100;
 /// Intake and exhaust manifold, throttle and outlet.
 template <class Real>
 struct GasManifolds {
-  std::uint32_t parts;  ///< of a tick, at least: more than 1 for small manifolds
+  std::uint32_t parts;  ///< minimum number of gas steps per tick: more than 1 for small manifolds
   std::uint32_t spare;
   Real per_volume_m3[kPorts];       ///< 1 / V
-  Real least_kg[kPorts];            ///< as least_kg_m3
-  GasBeyond<Real> outside[kPorts];  ///< before the throttle; behind the outlet, where nothing has flowed out yet
+  Real least_kg[kPorts];            ///< lower limit of the mass: least_kg_m3 times the volume
+  GasBeyond<Real> outside[kPorts];  ///< upstream of the throttle; downstream of the outlet, before any exhaust has left
   Real outlet_m2;
   Real throttle_m2[kThrottleSteps + 1];  ///< over the throttle ratio, 0 to 1
 };
 
 inline constexpr int kBurnSteps = 512;
-/// Share of the fuel that has burned, over the part of the burn.
+/// Burned fraction of the fuel over the fraction of the burn duration.
 template <class Real>
 struct BurnTable {
-  std::uint64_t latch_phase;  ///< of the cylinder's own cycle
-  Real energy_J_kg;           ///< q_f: heat, and the energies of what burns and what comes of it
+  std::uint64_t latch_phase;  ///< where a cycle's fuel command is latched, in the cylinder's own cycle
+  Real energy_J_kg;           ///< q_f: heat released plus energy of the products less that of the air, at 25 C
   Real heat_J_kg;             ///< combustion efficiency times lower heating value
-  Real burning_J_kg;          ///< what of energy_J_kg fuel that finds no air lacks
+  Real burning_J_kg;          ///< share of energy_J_kg that fuel without air does not release
   Real burned_kg_kg;          ///< 1 + L
   Real air_fuel_ratio;        ///< L
   Real per_air_fuel_ratio;
-  Real span_ratio;  ///< the whole burn's duration by that of the first law
-  Real fuel_kg;     ///< as defined, as are the next three
+  Real span_ratio;  ///< duration of the whole burn / that of the first Wiebe function
+  Real fuel_kg;     ///< from the definition, with the next three
   Real excess_air_ratio;
   Real burn_start_deg;
   Real burn_duration_deg;

@@ -1,7 +1,7 @@
 // Theoretical valve lift over the cam angle: one quintic per cam degree of the lobe, a constant outside.
 //
-// What belongs here: how the lift is stored and read. What does not: how it is made (tabulate/), what the valve does
-// with it (valve.hpp).
+// What belongs here: how the lift is stored and read. What does not: how it is computed (tabulate/), the valve's motion
+// (valve.hpp).
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,14 @@
 
 namespace crankloop::detail {
 
-/// Unclipped train lift and its slope by the cam angle in degrees; negative lift = lash open.
+/// Lift of the train, not clipped (negative while the lash is open), and its derivative by the cam angle in degrees.
 template <class Real>
 struct Lift {
   Real lift_m;
   Real per_deg_m;
 };
 
-/// Lash that keeps a closed valve from being touched whatever it does on its seat, in m.
+/// Lash in m beyond which the train cannot touch a closed valve, however the valve oscillates on its seat.
 inline constexpr double kLeastLash = 1e-6;
 
 /// Y(u) = c[0] + u (c[1] + ...), u = fraction of the cam degree. Through lift, slope and curvature at both ends, so all
@@ -37,25 +37,24 @@ struct LiftCurve {
   const LiftSegment<Real>* at;
   const Segment<Real>* rocker_ratio;   ///< cam force per valve force, in the cells of `at`
   std::uint64_t opens[kMaxCylinders];  ///< per cylinder: engine phase at which its lobe starts; 2^64 = 360 cam deg
-  std::uint64_t most_phase_per_tick;   ///< how far a phaser moves the cam in a tick, phase units; 0 = fixed cam
+  std::uint64_t most_phase_per_tick;   ///< largest movement of the phaser in a tick, phase units; 0 = fixed cam
   std::uint32_t segments;              ///< cam degrees of the lobe
-  std::uint32_t touch_from;            ///< first degree of it in which the train may touch a closed valve: where the
-                                       ///< lobe leaves no kLeastLash open,
-  std::uint32_t touch_degrees;         ///< and how many from there
-  Real skip_deg;   ///< a tick that turns the cam so far may pass over all of them; more than any turn where there are
-                   ///< none
+  std::uint32_t touch_from;  ///< first degree of the lobe in which the train may touch a closed valve: its lash is less
+                             ///< than kLeastLash
+  std::uint32_t touch_degrees;  ///< number of such degrees
+  Real skip_deg;   ///< cam travel at which one tick may skip all of them; more than a turn if there are none
   Real outside_m;  ///< lift outside the lobe: minus the clearance
 
-  /// Rows of `at` and of `rocker_ratio`: one more than the lobe has degrees, unless that is all: what holds outside.
+  /// Rows of `at` and of `rocker_ratio`: one per degree of the lobe, and one for the base circle if there is any.
   [[nodiscard]] constexpr std::uint32_t rows() const noexcept {
     return segments < std::uint32_t{kDegreesPerTurn} ? segments + 1 : segments;
   }
 
-  /// Where a cam stands: `degree` of its turn, counted from the start of the lobe.
+  /// Cam angle, counted from the start of the lobe.
   [[nodiscard]] static constexpr Cell cell(std::uint64_t since_opening) noexcept {
     return cell_of<Real>(since_opening, 360);
   }
-  /// The same of a cylinder's cam by the train's phase.
+  /// Angle of a cylinder's cam at the train's phase.
   [[nodiscard]] constexpr Cell cell(std::uint64_t phase, std::uint32_t cylinder) const noexcept {
     CRANKLOOP_ASSERT(cylinder < std::uint32_t{kMaxCylinders});
     return cell(detail::units_from<Real>(phase, opens[cylinder]));
@@ -82,7 +81,7 @@ struct LiftCurve {
     return value(rocker_ratio[on_lobe ? cell.degree : segments], fraction<Real>(cell));
   }
 
-  /// Second derivative by the cam angle, m per squared degree.
+  /// Second derivative by the cam angle in m/deg^2.
   [[nodiscard]] constexpr Real curvature(Cell cell) const noexcept {
     if (cell.degree >= segments) return Real{0};
     const Real u = fraction<Real>(cell);
@@ -98,13 +97,13 @@ struct LiftCurve {
     return static_cast<Real>(before ? degree - kDegreesPerTurn : degree) + fraction<Real>(place);
   }
 
-  /// The middle of the base circle, since the lobe opens.
+  /// The middle of the base circle, counted from the start of the lobe.
   [[nodiscard]] constexpr std::uint64_t base_middle() const noexcept {
     CRANKLOOP_ASSERT(segments <= std::uint32_t{kDegreesPerTurn});
     return (std::uint64_t{segments} + kDegreesPerTurn) * (~std::uint64_t{0} / (2 * kDegreesPerTurn));
   }
 
-  /// Whether the cam passes the middle of its base circle from one phase to the other: there a cycle ends.
+  /// Whether the cam passes the middle of its base circle, where a cycle ends, between two phases.
   [[nodiscard]] constexpr bool passes_base_circle(std::uint64_t from, std::uint64_t to) const noexcept {
     const auto before = static_cast<std::int64_t>(from - base_middle());
     const auto after = static_cast<std::int64_t>(to - base_middle());
@@ -113,14 +112,13 @@ struct LiftCurve {
   }
 };
 
-/// Where something holds for a train's valves: a bit for each cylinder, by the degree of the turn at which the train's
-/// cams stand.
+/// A property of a train's valves over the cam angle: for each degree of the train's cam turn, one bit per cylinder.
 struct CamDegrees {
   std::uint16_t cylinders[kDegreesPerTurn];
 };
 static_assert(kMaxCylinders <= 16);
 
-/// A tick that turns the cams by no more than this ends a valve's cycle only where CamDegrees mark it.
+/// A tick that turns the cams by at most this angle can end a valve's cycle only in degrees that `cycle_ends` marks.
 inline constexpr int kCycleEndMargin_deg = 4;
 
 }  // namespace crankloop::detail

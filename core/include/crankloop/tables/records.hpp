@@ -1,4 +1,4 @@
-// What most sections of the tables are made of: plain records.
+// The records of most sections of the tables: plain structs.
 //
 // What belongs here: their members and what they mean. What does not: which sections there are (tables/tables.hpp), how
 // they are filled (tabulate/), curves (tables/curve.hpp), valves (tables/valve_tables.hpp, tables/lift_curve.hpp),
@@ -12,7 +12,7 @@
 
 namespace crankloop::detail {
 
-/// Cylinders in groups: those of group g are cylinder[end[g - 1]], or [0] of the first, to cylinder[end[g] - 1].
+/// Cylinders by group: group g has cylinder[end[g - 1]] (the first group: cylinder[0]) to cylinder[end[g] - 1].
 struct CylinderGroups {
   std::uint8_t cylinder[kMaxCylinders];
   std::uint8_t end[kMaxCylinders];
@@ -21,14 +21,14 @@ struct CylinderGroups {
 /// Time and cylinder arrangement; every scene has it.
 template <class Real>
 struct Drive {
-  std::uint64_t fingerprint;  ///< of all sections: a state belongs to its tables
+  std::uint64_t fingerprint;  ///< of all sections: a state is valid only with its own tables
   Real tick_s;
   Real per_tick_s;                 ///< 1 / tick
   Real cycles_per_tick_per_rad_s;  ///< tick / (4 pi): speed to phase increment
   Real rad_s_per_cycle_per_tick;   ///< 4 pi / tick
   Real speed_limit_rad_s;          ///< beyond it an input is refused; at most one revolution per tick
   std::uint32_t cylinders;
-  std::uint32_t mechanisms;  ///< cylinders with different crank angles; the others share their look-ups
+  std::uint32_t mechanisms;  ///< number of different crank angles; cylinders with equal ones share look-ups
   std::uint64_t firing_phase[kMaxCylinders];  ///< per mechanism: phase units at which its own crank angle is 0; in
                                               ///< float whole 2^32
   std::uint8_t mechanism_of[kMaxCylinders];   ///< per cylinder
@@ -84,7 +84,7 @@ struct Bearings {
   Real throw_sin[kMaxCylinders];
 };
 
-/// One vector that turns with the engine: value = (cos, sin) amplitudes of cos(order A), sin(order A), per w^2.
+/// A force and its moment at one order, per w^2: amplitudes of cos(order A) and sin(order A) at engine angle A.
 template <class Real>
 struct RotatingVector {
   Real up_cos, up_sin, lateral_cos, lateral_sin;  ///< kg m
@@ -101,7 +101,7 @@ struct Balance {
 };
 
 /// Gas torque of all cylinders over the cycle, on a GasGrid; its integral is the work less that of the mean torque, so
-/// it repeats.
+/// it is periodic.
 template <class Real>
 struct GasTorque {
   const IntegratedSegment<Real>* at;
@@ -109,22 +109,23 @@ struct GasTorque {
   Real mean_Nm;
 };
 
-/// What moves the crank besides gas and the pistons' masses, for scenes that integrate its speed w: docs/model.md
+/// Constant inertia, friction, load and starter of the crank, for scenes that integrate its speed w: docs/model.md
 /// "Crank dynamics".
 template <class Real>
 struct CrankDynamics {
   Real turning_kg_m2;  ///< the part of J_eff that does not change with the angle: crankshaft, driven machine, the rods'
                        ///< big ends
-  Real least_kg_m2;    ///< J_eff where it is smallest; 0 where that is less than kLeastInertia_ratio of its largest
+  Real least_kg_m2;    ///< smallest J_eff; 0 if it is less than kLeastInertia_ratio of the largest
   Real drag_Nm;        ///< friction and brake: constant, per |w| and per w^2
   Real drag_Nm_s;
   Real drag_Nm_s2;
   Real starter_stall_Nm;
   Real starter_slope_Nm_s;  ///< stall torque / no-load speed
-  Real most_rad_s2;         ///< from one speed limit to the other in a tick: no acceleration is larger
+  Real most_rad_s2;         ///< largest acceleration: from one speed limit to the other in a tick
 };
 
-/// Least J_eff that is integrated, and least part of its largest: float keeps the difference of the two that make it.
+/// Smallest J_eff that is integrated, absolute and relative to the largest: float still resolves the difference of its
+/// two terms.
 inline constexpr double kLeastInertia_kg_m2 = 1e-9;
 inline constexpr double kLeastInertia_ratio = 1e-3;
 

@@ -1,5 +1,5 @@
-// Whether tables are those of an engine that a scene can step: checked by init() at run time, for tables in flash by
-// the compiler (port/cmake/scene.cpp.in).
+// Checks that a scene can step the engine of some tables: init() at run time, the compiler for tables in flash
+// (port/cmake/scene.cpp.in).
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace crankloop::detail {
   return capacity.exact ? given == capacity.capacity : given <= capacity.capacity;
 }
 
-/// The first thing that the scene lacks for these complete tables, or the tables for the scene.
+/// Refuses complete tables that do not fit the scene, with the first mismatch.
 template <class Real, class S>
 [[nodiscard]] constexpr Status scene_fits(const Tables<Real, S>& tables) noexcept {
   using N = Needs<S>;
@@ -46,7 +46,7 @@ template <class Real, class S>
   return {};
 }
 
-/// For static_assert, whose message is no variable: whether a refusal is of this field.
+/// Whether a refusal is of this field: for static_assert, whose message must be a literal.
 [[nodiscard]] constexpr bool is_of(const Status& refused, const char* field) noexcept {
   const char* of = refused.field;
   for (; *of != 0 && *of == *field; ++of) ++field;

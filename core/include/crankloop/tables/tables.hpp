@@ -1,8 +1,9 @@
-// What the tick reads: plain data, made by tabulate in RAM or printed by the program as constexpr arrays for flash.
+// The tables that a tick reads: plain data, built by tabulate in RAM or printed by the program as constexpr arrays for
+// flash.
 //
-// What belongs here: the list of sections, and the view of them that a scene takes. What does not: what a section is
-// made of (tables/records.hpp and beside it), how it is filled (tabulate/). One object per section, so that what a
-// scene does not reference is not linked.
+// What belongs here: the list of sections, and the sections of a scene. What does not: their records
+// (tables/records.hpp and the headers beside it), how they are filled (tabulate/). One object per section, so that the
+// linker drops sections that a scene does not reference.
 #pragma once
 
 #include <cstddef>
@@ -21,12 +22,12 @@ namespace crankloop::detail {
 /// How many records a section has.
 enum class SectionRows : std::uint8_t { one, gas_grid, torque_grid, cut_grid, trains, lobes, wheels, edges };
 
-// The list of sections: all that knows of every section is made from it. To add one, add its line here, fill it in
-// tabulate and, where its record is new, state in tabulate/table_members.hpp how many members it has.
+// The list of sections. All code that handles every section is generated from it. To add one, add its line here, fill
+// it in tabulate and, where its record is new, state in tabulate/table_members.hpp how many members it has.
 //
-// A line: name, record, how many of them, in which scenes S (N = Needs<S>). SECTION is read by the tick through Tables;
-// what is BEHIND the section after it is reached through pointers in that one's records. A macro, because nothing else
-// in C++17 names a member in one place.
+// A line: name, record, number of records, which scenes S need it (N = Needs<S>). The tick reads a SECTION through
+// Tables; it reaches one that is BEHIND the next section through pointers in that section's records. A macro, because
+// C++17 has no other way to name a member in one place.
 #define CRANKLOOP_SECTIONS(SECTION, BEHIND)                                                        \
   SECTION(body, Body<Real>, one, N::body)                                                          \
   /* slope dx/da in m/rad, integral x in m: for torque and work of given pressures */              \
@@ -73,7 +74,7 @@ enum class SectionRows : std::uint8_t { one, gas_grid, torque_grid, cut_grid, tr
   SECTION(triggers, TriggerWheels, one, N::any_triggers)                                           \
   SECTION(drive, Drive<Real>, one, true)
 
-/// What the list holds about each section, as a type of its name.
+/// The entries of the list as types, each named like its section.
 namespace section {
 #define CRANKLOOP_SECTION(name, Type, rows, condition, read)                                         \
   struct name {                                                                                      \
@@ -114,7 +115,7 @@ using AllSections = List<void CRANKLOOP_SECTIONS(CRANKLOOP_SECTION_NAME, CRANKLO
 template <class S, class Section>
 inline constexpr bool kReadBy = Section::kRead&& Section::template needed<S>();
 
-/// False where a scene reads the section and it is not there.
+/// False if the scene reads the section and it is missing.
 template <class S, class Section, class Tables>
 [[nodiscard]] constexpr bool there(const Tables& tables) noexcept {
   if constexpr (kReadBy<S, Section>) {
@@ -133,7 +134,8 @@ constexpr void visit_each(Visit& visit, List<void, Each...>) {
   (visit(Each{}), ...);
 }
 
-// Holders of addresses, one base per section: of all that is read, of all, of what a scene reads.
+// Structs of addresses, one base per section. Read: sections that a tick reads; Targets: all sections; Needed: those of
+// a scene.
 template <class Real, class All>
 struct Read;
 template <class Real, class... Each>
@@ -150,7 +152,7 @@ struct Needed<Real, S, List<void, Each...>>
     : If<kReadBy<S, Each>, typename Each::template Address<const typename Each::template Record<Real>>>... {};
 }  // namespace part
 
-/// Calls visit(section::NAME{}) for each section of the list, in its order.
+/// Calls visit(section::NAME{}) for each section in the order of the list.
 template <class Visit>
 constexpr void sections(Visit&& visit) {
   part::visit_each(visit, part::AllSections{});
@@ -166,12 +168,12 @@ constexpr void sections(Visit&& visit) {
 
 namespace crankloop {
 
-/// All sections that a tick may read, by address; null where there is none. constexpr in flash, so only what a Tables
-/// takes from it is linked.
+/// Addresses of all sections that a tick may read; null if missing. constexpr in flash, so that only sections that a
+/// Tables takes from it are linked.
 template <class Real>
 struct Sections : detail::part::Read<Real, detail::part::AllSections> {};
 
-/// The sections a scene reads, and no others.
+/// The sections that a scene reads, and no others.
 template <class Real, class S>
 struct Tables : detail::part::Needed<Real, S, detail::part::AllSections> {
   constexpr Tables() = default;
@@ -182,7 +184,7 @@ struct Tables : detail::part::Needed<Real, S, detail::part::AllSections> {
   }
 };
 
-/// True when every section the scene reads is there.
+/// True if no section that the scene reads is missing.
 template <class Real, class S>
 [[nodiscard]] constexpr bool complete(const Tables<Real, S>& tables) noexcept {
   return detail::part::all_there<S>(tables, detail::part::AllSections{});

@@ -1,15 +1,14 @@
-// What an elastic valve's tick reads, made at set-up: one record of constants for each contact regime.
+// Tables of elastic valves, filled at set-up: one record of constants for each contact regime.
 //
-// What belongs here: the constants and what they stand for. What does not: how they are made
-// (tabulate/valve_motion.hpp), how a step uses them (valve.hpp), the lift (lift_curve.hpp).
+// What belongs here: the constants and their meaning. What does not: how they are computed (tabulate/valve_motion.hpp),
+// how a step uses them (valve.hpp), the lift (lift_curve.hpp).
 //
 //         cam, rocker                 M y'' = F_train + F_seat - k_s y - P_s0 - c y' - F_gas
-//             |  Y(t)                 gap g = Y - y:          F_train = k g + b g'     while both g and it are positive
-//            k, b                     seat's compression s = delta_0 - y: F_seat = k_z s - b_z y' while both are
-//            positive
-//             |                                               (else 0)
+//             |  Y(t)                 train: gap g = Y - y,                  F_train = k g + b g'
+//            k, b                     seat: compression s = delta_0 - y,     F_seat = k_z s - b_z y'
+//             |                       each force acts while it and its g or s are positive, and is 0 otherwise
 //           [ M ]  y                  Each of the four regimes (train on or off, seat on or off) is linear: a step
-//           /   \                     adds to (y, y') a constant matrix times what drives it, whatever its length.
+//           /   \                     of any length adds to (y, y') a constant matrix times its inputs.
 //     spring     seat k_z, b_z
 #pragma once
 
@@ -23,10 +22,13 @@ inline constexpr std::uint32_t kSeatOn = 2;
 
 namespace detail {
 
-/// On the seat, oscillating by less than could leave it or reach the train: a regime of its own, which needs no fine
-/// steps however stiff the seat.
+/// On the seat, with an oscillation too small to leave it or to reach the train: a separate regime, which needs no fine
+/// steps however stiff the seat is.
 inline constexpr std::uint32_t kQuiet = 4;
 inline constexpr int kRegimes = 5;
+
+/// Units of the event budget that an event takes; a fine step takes one.
+inline constexpr std::uint32_t kUnitsOfEvent = 2;
 
 [[nodiscard]] constexpr std::uint32_t contacts_of(std::uint32_t regime) noexcept {
   return regime == kQuiet ? kSeatOn : regime;
@@ -49,39 +51,38 @@ struct ValveBody {
   Real per_mass;        ///< 1 / M
 };
 
-/// What a step adds to the lift, or to the velocity, is this times what drives it: increments, because in float a
-/// matrix near one would lose the stiffness of a short step to rounding; and by the gap and the cam's rise instead of
-/// the cam's lift, because a lift times the train's stiffness is a large number that the valve's own nearly cancels.
-/// The cam's lift over a step is the cubic through its ends.
+/// Row of a step's matrix: the step adds this row times its inputs to the lift or to the velocity. It is an increment,
+/// because in float a matrix near identity would lose the stiffness of a short step to rounding. Its inputs are the gap
+/// and the cam's rise instead of the cam's lift, because the cam's lift times the train's stiffness is a large number
+/// that the valve's lift nearly cancels. The cam's lift over a step is the cubic through its ends.
 template <class Number>
 struct StepRow {
-  Number rest;            ///< of the spring's preload, where the seat does not carry it
-  Number gas, gas_rise;   ///< of each N of gas force at the step's start, and of each N that it rises evenly to the end
-  Number gap;             ///< of the gap at the start
-  Number rise, from, to;  ///< of the cam's rise, and of its slopes at start and end by the part of the step, 0 to 1
-  Number lift, velocity;  ///< of the valve's state at the start
+  Number rest;            ///< spring preload, unless the seat carries it
+  Number gas, gas_rise;   ///< per N of gas force at the start, and per N of its linear rise to the end
+  Number gap;             ///< per m of gap at the start
+  Number rise, from, to;  ///< per m of the cam's rise, and of its slopes at start and end over the step (0 to 1)
+  Number lift, velocity;  ///< factors of the valve's state at the start
 };
 
-/// The acceleration at one moment is this times (1, gas force, lift, velocity, gap, gap's speed).
+/// The acceleration is this row times (1, gas force, lift, velocity, gap, gap's speed).
 template <class Number>
 struct ForceRow {
   Number rest, gas, lift, velocity, gap, gap_speed;
 };
 
-/// A contact's guard passes where, at the step's end, sign * place - lag_s |place's speed| > least_m: then the contact
-/// has stayed as it is all through the step. The place is the gap, or the lift: how far the preload presses the seat in
-/// is part of least_m. The lag is a third of the step, which bounds the cubic within it (the inner Bezier ordinates lie
-/// a third of the slope from the ends; the other end is that of the step before), for a contact that is on and b / k
-/// more, which makes the force's sign that of the depth. A guard that fails costs time, never correctness: event
-/// location checks the contacts then.
+/// A contact's guard passes if sign * x - lag_s |x'| > least_m at the step's end: the contact has then not changed
+/// during the step. x is the gap (train) or the lift (seat; least_m includes the seat's compression by the preload).
+/// The lag is a third of the step, which bounds the cubic within the step (its inner Bezier ordinates lie a third of
+/// the slope from the ends; the guard of the step before checked the start). For a closed contact the lag is longer by
+/// b / k, so that the force is positive too. A failed guard costs time, never correctness: event location then checks
+/// the contacts.
 template <class Number>
 struct ContactGuard {
   Number sign, lag_s, least_m;
 };
 
-/// What a step with the train's contact closed throughout adds for each m by which the cam's lift in the middle of the
-/// step lies above the cubic through its ends: in a wide step the lift is the quartic through both ends and the middle.
-/// 0 where the contact is open.
+/// What a step in contact with the train adds per m by which the cam's lift in the middle of the step exceeds the cubic
+/// through its ends: in a wide step the lift is the quartic through both ends and the middle. 0 without contact.
 template <class Number>
 struct MiddleStep {
   Number lift, velocity;
@@ -94,36 +95,36 @@ struct RegimeStep {
   ForceRow<Number> acceleration;
   ContactGuard<Number> train, seat;
   Number rest_m,
-      rest_m_s;  ///< nearer to its rest, and slower, the valve is put there; 0 where a contact may change meanwhile
+      rest_m_s;  ///< a valve closer to its rest position and slower than this is set to rest; 0 in regimes without rest
   MiddleStep<Number> middle;
-  Number decoupled_m;  ///< with its cam on the base circle, a valve that oscillates by less passes its guards; 0
-                       ///< where none does
+  Number decoupled_m;  ///< a valve that oscillates by less passes its guards while its cam is on the base circle; 0 if
+                       ///< the guards always fail
 };
 
-/// The same regime's equation of motion by the part of a fine step: y'' = rest + lift Y + lift_speed Y' - stiffness y -
-/// damping y' + gas F.
+/// Equation of motion in a regime, time in fine steps: y'' = rest + lift Y + lift_speed Y' - stiffness y - damping y' +
+/// gas F.
 template <class Real>
 struct RegimeSeries {
   Real rest, gas, stiffness, damping, lift, lift_speed;
 };
 
-/// All that one valve train's motion reads.
+/// Constants of one valve train's motion.
 template <class Real>
 struct ValveMotion {
   ValveBody<Real> body;
   Real tick_s;
   Real fine_step_s, per_fine_step_s;
-  Real per_parts;       ///< 1 / parts
-  std::uint32_t parts;  ///< fine steps of a tick whose guards fail: so short that an event in them can be located
+  Real per_parts;              ///< 1 / parts
+  std::uint32_t parts;         ///< fine steps of a tick in which a guard fails, short enough to locate an event
   std::uint32_t per_parts_32;  ///< 2^32 / parts; unused for 1
-  std::uint32_t event_budget;  ///< events that a tick locates over all valves: 4 and the most parts of any train
-  Real cubic_deg;              ///< cam degrees up to which the cubic through the ends of a step will do for the lift,
-  Real widest_step_deg;        ///< and those up to which a tick may be one step, with the lift in its middle
+  std::uint32_t event_budget;  ///< units that a tick may spend on events over all valves (EventBudget)
+  Real cubic_deg;        ///< largest step in cam degrees over which the cubic through its ends represents the lift
+  Real widest_step_deg;  ///< largest tick in cam degrees that may be one step, with the lift in its middle
   Real train_lag_s,
-      seat_lag_s;     ///< b / k, b_z / k_z: a contact's force over its stiffness is depth + lag times the depth's speed
-  Real per_seat_N_m;  ///< 1 / (k_z + k_s): how far each N of gas force presses a closed valve into its seat
-  Real quiet_m;       ///< an oscillation on the seat of less than this changes no contact
-  Real per_seat_rate_s;              ///< 1 / rate on the seat: times the velocity, what that adds to the amplitude
+      seat_lag_s;                    ///< b / k, b_z / k_z: contact force / stiffness = depth + lag * speed of the depth
+  Real per_seat_N_m;                 ///< 1 / (k_z + k_s): compression of the seat per N of gas force on a closed valve
+  Real quiet_m;                      ///< an oscillation on the seat of smaller amplitude changes no contact
+  Real per_seat_rate_s;              ///< 1 / angular frequency on the seat: converts a velocity to an amplitude
   RegimeStep<Real> whole[kRegimes];  ///< over a tick
   RegimeStep<Real> fine[kRegimes];   ///< over a fine step
   RegimeSeries<Real> series[kSeatOn + kTrainOn + 1];

@@ -1,4 +1,4 @@
-// A cam as the lift of a flat follower over the cam angle, whatever it was given as: docs/model.md "Cam".
+// A cam, polynomial or table, as the lift of a flat follower over the cam angle: docs/model.md "Cam".
 //
 // What belongs here: y(phi) and its derivatives at set-up time, in double. What does not: the rocker
 // (tabulate/valve_lift.hpp).
@@ -34,25 +34,25 @@ struct LobeSpline {
   [[nodiscard]] double closes_rad() const noexcept { return first_rad + (end + 5) * knot_rad; }
 };
 
-/// What the rows of a table show: how far they scatter, and how closely a smooth lobe follows them.
+/// Scatter of a table's rows, and how closely a smooth lobe fits them.
 struct CamRows {
-  double scatter_m = 0;    ///< standard deviation of a row, by the median of what lies between each and its neighbours
-  double unit_m = 0;       ///< 1, 2 or 5 times a power of ten of which all lifts are whole multiples; 0: of none
+  double scatter_m = 0;    ///< standard deviation of a row, from the median deviation of the rows from their neighbours
+  double unit_m = 0;       ///< resolution of the lifts: 1, 2 or 5 times a power of ten; 0 if they have none
   double smallest_m = 0;   ///< least smoothing_m that is not refused, to 1 %
-  int worst_row = 0;       ///< which the closest lobe misses most
+  int worst_row = 0;       ///< row with the largest deviation from the closest lobe
   double worst_off_m = 0;  ///< that row's lift less the lobe's; smallest_m or a little less, with its sign
-  double automatic_m = 0;  ///< for cam.smoothing_m: unit_m of rows that are only rounded, else five times the scatter;
-                           ///< at least 1.5 smallest_m; two digits
+  double automatic_m = 0;  ///< proposed cam.smoothing_m: unit_m for rows that are only rounded, else five times the
+                           ///< scatter; at least 1.5 smallest_m; two digits
 };
 
-/// Reads all of a table but cam.smoothing_m. Refuses what validate() refuses of the rest, a cam that is no table
-/// (inconsistent "cam.source"), a table that does not come down to 50 um on both sides of its peak (inconsistent
-/// "cam.points", its first or last row), and one to which no lobe keeps within 1 mm (no_solution "cam.smoothing_m", the
-/// row). Some ten milliseconds, 50 kB of stack. Method: docs/model.md "Cam".
+/// Analyses a table; cam.smoothing_m is not read. Refuses what validate() refuses of the other fields, a cam that is
+/// not a table (inconsistent "cam.source"), a table that does not fall to 50 um on both sides of its peak (inconsistent
+/// "cam.points", its first or last row), and one that no lobe fits within 1 mm (no_solution "cam.smoothing_m", the
+/// row). Takes some ten milliseconds and 50 kB of stack. Method: docs/model.md "Cam".
 Status survey_rows(const Cam& cam, CamRows& rows) noexcept;
 
-/// 2.3 kB. Construction of a polynomial takes some microseconds, smoothing a table of 1 deg rows a millisecond and 27
-/// kB of stack.
+/// Size 2.3 kB. init() takes some microseconds for a polynomial; for a table of 1 deg rows a millisecond and 27 kB of
+/// stack.
 class CamProfile {
  public:
   /// Refuses what validate() refuses, and a table that has no lobe ("cam.points", with the row) or cannot be smoothed

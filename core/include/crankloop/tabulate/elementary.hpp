@@ -1,10 +1,10 @@
 // Elementary functions for set-up time, with the same bits on every machine.
 //
-// What belongs here: what tabulate needs of <cmath> beyond sqrt, in double. What does not: anything that is about
-// engines, or that a tick calls (a tick needs none of these).
+// What belongs here: the functions of <cmath> that tabulate needs beyond sqrt, in double. What does not: anything
+// specific to engines, anything that a tick calls (a tick needs none of these).
 //
-// C libraries differ from machine to machine in the last bits of sin, cos, atan, exp, log and pow, and so would
-// tables made with them. These are + - * / and sqrt alone; all they need is -ffp-contract=off (a house flag).
+// C libraries differ from machine to machine in the last bits of sin, cos, atan, exp, log and pow, and so would tables
+// made with them. These functions use only + - * / and sqrt; all they need is -ffp-contract=off (a house flag).
 //
 //     function     accurate for                   ulp: stated, found   otherwise
 //     sin, cos     |angle| <= kLargestAngle_rad        0.58   0.566    beyond: as for angle 0; infinity, NaN: NaN
@@ -30,14 +30,14 @@ namespace crankloop::elementary {
 
 inline constexpr double kPi = 3.14159265358979323846;
 
-/// 2^31: beyond 340 million revolutions an angle's sine is not worked out (one bit of such an angle is already 0.5e-6
-/// rad).
+/// 2^31: the sine of an angle beyond 340 million revolutions is not computed (one bit of such an angle is already
+/// 0.5e-6 rad).
 inline constexpr double kLargestAngle_rad = 2147483648.0;
 
 [[nodiscard]] double sin(double angle_rad) noexcept;
 [[nodiscard]] double cos(double angle_rad) noexcept;
 
-/// Both, to the same bits, for little more than one of them.
+/// Sine and cosine with the same bits as above, at little more than the cost of one.
 struct SinCos {
   double sin;
   double cos;
@@ -58,7 +58,8 @@ struct SinCos {
 /// std::atan2.
 [[nodiscard]] double atan2(double y, double x) noexcept;
 
-/// The same for x >= 0, not both 0, their ratio a double: to 4 ulp, for a seventh of the work.
+/// atan2 for x >= 0, x and y not both 0, and a ratio in the range of double: accurate to 4 ulp, at a seventh of the
+/// cost.
 [[nodiscard]] double quick_atan2(double y, double x) noexcept;
 
 [[nodiscard]] double exp(double x) noexcept;
@@ -71,10 +72,10 @@ struct SinCos {
 /// instead.
 [[nodiscard]] double pow(double x, double y) noexcept;
 
-/// One power, from -1 to 1, of many numbers: to 4 ulp, for a fifteenth of the work.
+/// A fixed power from -1 to 1 of many numbers: accurate to 4 ulp, at a fifteenth of the cost.
 class FixedPower {
  public:
-  FixedPower() = default;  ///< answers 0
+  FixedPower() = default;  ///< returns 0
   explicit FixedPower(double power) noexcept;
   /// x from 1 to below 128; others: NaN.
   [[nodiscard]] double operator()(double x) const noexcept;
@@ -83,9 +84,9 @@ class FixedPower {
   static constexpr int kOctaves = 7;
   static constexpr int kParts = 32;  ///< of an octave
   static constexpr int kTerms = 9;
-  double octaves_[kOctaves] = {};  ///< powers of where they begin
-  double parts_[kParts] = {};      ///< of their middles
-  double terms_[kTerms] = {};      ///< of (1 + t)^power
+  double octaves_[kOctaves] = {};  ///< powers of their lower ends
+  double parts_[kParts] = {};      ///< powers of their midpoints
+  double terms_[kTerms] = {};      ///< binomial coefficients of (1 + t)^power
 };
 
 }  // namespace crankloop::elementary

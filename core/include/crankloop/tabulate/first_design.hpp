@@ -1,4 +1,4 @@
-// Masses for a first design, before anything is drawn: [KShM table 2.1].
+// Estimated masses for a first design: [KShM table 2.1].
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,9 @@ struct FirstDesign {
   Interval pin_share_v;       ///< the same in a V engine
 };
 
-/// m' = m / A in kg/m^2 is a multiple of the bore in mm, by kind and rated speed: 4500 rpm divides spark-ignition
-/// engines, 3000 rpm car and truck diesels (at the border: the faster row), tractor diesels have one row. bore > 0.
+/// m' = m / A in kg/m^2 is proportional to the bore in mm; the factor depends on kind and rated speed. Spark-ignition
+/// engines have another row from 4500 rpm on, car and truck diesels from 3000 rpm on; tractor diesels have one row.
+/// bore > 0.
 [[nodiscard]] FirstDesign first_design(EngineKind kind, double bore_m, double speed_rpm) noexcept;
 
 }  // namespace crankloop

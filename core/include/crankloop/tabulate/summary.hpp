@@ -1,5 +1,4 @@
-// What an engine does at one speed, at set-up time, exactly: mean effective pressures, power, torque harmonics,
-// balance.
+// Exact figures of an engine at one speed, at set-up time: mean effective pressures, power, torque harmonics, balance.
 //
 // What belongs here: figures of a whole cycle at constant speed, in double. What does not: anything per tick.
 #pragma once
@@ -40,7 +39,7 @@ class ExactEngine {
   /// Torque of all cylinders at engine angle A.
   [[nodiscard]] double torque_Nm(double engine_deg, double speed_rad_s, double load_ratio = 1) const noexcept;
 
-  /// Load of the crank pin that carries cylinder k, all its rods: radial toward the crank centre, tangential with the
+  /// Load on the crank pin of cylinder k from all its rods: radial toward the crank centre, tangential with the
   /// rotation.
   [[nodiscard]] PinLoad pin_load(int cylinder, double engine_deg, double speed_rad_s,
                                  double load_ratio = 1) const noexcept;
@@ -74,12 +73,12 @@ struct Harmonic {
 
 inline constexpr int kHarmonics = 24;  ///< orders 0.5, 1, 1.5 ... 12
 
-/// What friction leaves of an indicated torque: for the coupling, before the driven machine's own brake.
+/// Brake figures at the coupling: indicated torque less friction, before the driven machine's load.
 struct BrakeFigures {
   double friction_mep_Pa;
   double torque_Nm;
   double power_W;
-  double efficiency_ratio;  ///< mechanical: of the indicated power; 0 where that is not positive
+  double efficiency_ratio;  ///< mechanical efficiency: power_W / indicated power; 0 if that is not positive
 };
 [[nodiscard]] BrakeFigures brake_figures(const EngineDefinition& engine, double indicated_Nm,
                                          double speed_rad_s) noexcept;
@@ -99,17 +98,17 @@ struct CycleSummary {
   Harmonic harmonics[kHarmonics];
 };
 
-/// 7200 torques of every cylinder: some 100 ms on a desktop. Speed in rad/s, load ratio as in Input.
+/// Evaluates 7200 torques of every cylinder: about 100 ms on a desktop. Speed in rad/s, load ratio as in Input.
 [[nodiscard]] CycleSummary summarise(const ExactEngine& engine, double speed_rad_s, double load_ratio = 1) noexcept;
 
 /// Torque of the engine `of` at an engine angle of 0 to 720 deg.
 using TorqueAt = double (*)(const void* of, double engine_deg);
-/// Extremes, fluctuation and harmonics of a cycle's torque, from so many samples of it, into a summary that has the
-/// mean: of an engine whose torque no formula gives.
+/// Adds extremes, fluctuation and harmonics of a cycle's torque, from `samples` samples, to a summary that has the
+/// mean: for an engine whose torque has no closed form.
 void add_torques(CycleSummary& summary, int samples, TorqueAt torque_Nm, const void* of) noexcept;
 
 /// Harmonic `order` of the reciprocating masses' free force and its moment, of the exact motion: docs/model.md
-/// "Balance". Orders 1, 2, 4 and 6 are all that counts; 3 and 5 come from a pin offset.
+/// "Balance". Only orders 1, 2, 4 and 6 matter, and 3 and 5 with a pin offset.
 [[nodiscard]] detail::RotatingVector<double> reciprocating_order(const EngineDefinition& engine, int order) noexcept;
 
 /// Free forces and moments about the middle of the crankshaft, without the cosine curve: docs/model.md "Balance".
@@ -122,12 +121,13 @@ void add_torques(CycleSummary& summary, int samples, TorqueAt torque_Nm, const v
 /// Crank pins, their throws and masses.
 [[nodiscard]] detail::Bearings<double> bearings_of(const EngineDefinition& engine) noexcept;
 
-/// A main journal's load as the block has it. Up is bank angle 0, lateral a quarter turn on in the sense of rotation.
+/// A main journal's load in the block's coordinates. Up is bank angle 0, lateral is 90 deg further in the sense of
+/// rotation.
 struct BlockLoad {
   double up_N;
   double lateral_N;
 };
-/// From journal_along_N and journal_across_N, which turn with the crank, at engine angle A.
+/// Converts journal_along_N and journal_across_N, which rotate with the crank, at engine angle A.
 [[nodiscard]] BlockLoad in_block(const EngineDefinition& engine, double engine_deg, double along_N,
                                  double across_N) noexcept;
 

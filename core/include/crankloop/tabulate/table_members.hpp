@@ -1,8 +1,8 @@
-// The members of each record of the tables, for who goes through a whole table: to print it, to round it.
+// The members of each record of the tables, for code that visits a whole table: to print it, to round it.
 //
 // What belongs here: members(record), all of them as a tuple of references. By structured binding, so that a record
-// whose member is forgotten here does not compile: no member can be silently zero in flash. What does not: what they
-// mean (tables/records.hpp and beside it).
+// whose member is forgotten here does not compile: no member can be silently zero in flash. What does not: their
+// meaning (tables/records.hpp and the headers beside it).
 #pragma once
 
 #include <tuple>
@@ -54,13 +54,13 @@ CRANKLOOP_MEMBERS_OF(ValveMotion, body, tick, fine, per_fine, per_parts, parts, 
                      train_lag, seat_lag, per_seat, quiet, seat_rate, whole_steps, fine_steps, series)
 CRANKLOOP_MEMBERS_OF(GasWalls, factor, area, per_volume, temperature, piston)
 CRANKLOOP_MEMBERS_OF(GasCylinders, walls, clearance, bore_area, crankcase, least, per_swept, per_charge, ambient,
-                     ambient_temperature, exhaust_temperature)
+                     ambient_temperature, exhaust_temperature, steps, spare)
 CRANKLOOP_MEMBERS_OF(GasPortCurve, port, per_step, area)
 CRANKLOOP_MEMBERS_OF(GasBeyond, pressure, choked, specific_work, enthalpy, burned, response, end, others)
 CRANKLOOP_MEMBERS_OF(GasManifolds, parts, spare, per_volume, least, outside, outlet, throttle)
 CRANKLOOP_MEMBERS_OF(BurnTable, latch, energy, heat, burning, burned, air_fuel, per_air_fuel, span, fuel, excess_air,
                      start, duration, burnt)
-CRANKLOOP_MEMBERS(TriggerTrack, edges, edge_count, on_crank, starts, train, inverted, edges_before)
+CRANKLOOP_MEMBERS(TriggerTrack, edges, edge_count, on_crank, starts, train, inverted, max_edges, edges_before)
 CRANKLOOP_MEMBERS(TriggerWheels, wheel, count)
 
 #undef CRANKLOOP_TIED

@@ -13,59 +13,59 @@
 
 namespace crankloop {
 
-/// How the engine will be stepped.
+/// Options of the tick.
 struct TickOptions {
   double tick_s = 100e-6;      ///< 1e-6 to 2e-3
   ValveStepping valves{};      ///< integrator and accuracy of elastic valves
-  double max_speed_rad_s = 0;  ///< beyond it a speed is refused as an input; 0 = that of the definition. At most
-                               ///< kMaxSpeed_rad_s; a tick turns the crank by one revolution at most, whatever it is
+  double max_speed_rad_s = 0;  ///< a tick refuses a higher speed as input; 0 = maximum of the definition. At most
+                               ///< kMaxSpeed_rad_s; independently of it, a tick turns the crank by at most one
+                               ///< revolution
 };
 
-/// Most segments of a grid: 20 in every degree.
+/// Maximum number of segments of a grid: 20 in every degree.
 inline constexpr std::size_t kMaxGasSegments = 20 * kDegreesPerCycle;
 
-/// Where to build each section; null = leave it out. Pressures go with a gas_grid, gas torques with a torque_grid,
-/// cut_torque with a cut_grid; each has room for `gas_capacity` segments. A gas torque goes with its segments, lift
-/// curves with theirs and their rocker ratios (kDegreesPerTurn rows per train of the definition), near_cams, near_lobes
-/// and cycle_ends with lift curves, triggers with tracks
-/// and edges (kMaxTriggerEdges rows per wheel).
+/// Where to build each section; null = leave it out. Pressures need a gas_grid, gas torques a torque_grid, cut_torque a
+/// cut_grid; each has room for `gas_capacity` segments. A gas torque needs its segments, lift curves their segments and
+/// rocker ratios (kDegreesPerTurn rows per train of the definition), near_cams, near_lobes and cycle_ends need lift
+/// curves, triggers need tracks and edges (kMaxTriggerEdges rows per wheel).
 template <class Real>
 struct TableTargets : detail::part::Targets<Real, detail::part::AllSections> {
   int gas_capacity = 0;  ///< at least 720 where there is a grid
 };
 
-/// What tabulate found.
+/// Sizes and errors of the tables.
 struct TableReport {
   int gas_segments = 0;          ///< segments of the pressures' grid
   int tolerance_doublings = 0;   ///< how often the pressure's tolerance was doubled to fit the capacity
-  double pressure_error_Pa = 0;  ///< largest error of full, motored and heat pressure against the diagram, at 10 places
-                                 ///< of an undivided degree, 60 of another
+  double pressure_error_Pa = 0;  ///< largest error of full, motored and heat pressure against the diagram, at 10 angles
+                                 ///< of an undivided degree, 60 of a divided one
   int torque_segments = 0;       ///< segments of the gas torques' grid
   int torque_doublings = 0;
-  double torque_error_Nm = 0;  ///< largest error of full, motored and heat torque of all cylinders, at 10 places of an
-                               ///< undivided degree, 40 of another (float: 60)
+  double torque_error_Nm = 0;  ///< largest error of full, motored and heat torque of all cylinders, at 10 angles of an
+                               ///< undivided degree, 40 of a divided one (float: 60)
   int cut_segments = 0;        ///< segments of the grid of one cylinder's heat torque
   int cut_doublings = 0;
-  int valve_fine_steps = 0;    ///< of all elastic valves in the worst tick, when contacts may change in all of them; at
+  int valve_fine_steps = 0;    ///< of all elastic valves in the worst tick, in which a guard of every valve fails; at
                                ///< most kMaxFineStepsOfEngine
-  int valve_changes = 0;       ///< contact changes that a tick locates
+  int event_budget = 0;        ///< units of work that a tick may spend on events, over all elastic valves
   double valve_class_deg = 0;  ///< cam degrees of a tick up to which all elastic valves keep their accuracy class, 360
-                               ///< if always; in ticks that turn a cam further, a fine step holds more of its lift than
-                               ///< a cubic follows
+                               ///< if always; in longer ticks a cubic does not represent the cam's lift over a fine
+                               ///< step
 };
 
 /// Fills the targets. Validates the definition first; nothing is written when it refuses.
 ///
 /// Accuracy: docs/model.md "Tables". A grid divides a degree into 1, 2, 5, 10 or 20 segments, the fewest that keep the
-/// pressure within 1e-5 of its peak (the torque: of the peak pressure on the crank radius), or 20; where the capacity
-/// does not suffice the bound is doubled until it does. The report gives the error left. Float and double; O(segments),
-/// some 100 ms on a desktop.
+/// pressure within 1e-5 of its peak (the torque: of the peak pressure on the crank radius), or 20; if the capacity is
+/// too small, the bound is doubled until the segments fit. The report gives the remaining error. Float and double;
+/// O(segments), about 100 ms on a desktop.
 template <class Real>
 Status tabulate(const EngineDefinition& engine, const TickOptions& options, const TableTargets<Real>& targets,
                 TableReport* report = nullptr) noexcept;
 
 namespace detail::part {
-/// Rows of a section where an engine has at most so many trains and wheels, a grid so many segments.
+/// Maximum number of rows of a section, for numbers of trains, wheels and grid segments.
 [[nodiscard]] constexpr std::size_t most_rows(SectionRows rows, std::size_t trains, std::size_t wheels,
                                               std::size_t gas_segments) noexcept {
   switch (rows) {
@@ -128,7 +128,7 @@ struct Stores<Real, Room, List<void, Each...>>
 };
 }  // namespace detail::part
 
-/// What a tick may read of the sections that were built.
+/// The built sections that a tick may read.
 template <class Real>
 [[nodiscard]] constexpr Sections<Real> sections_of(const TableTargets<Real>& built) noexcept {
   Sections<Real> all;
@@ -156,8 +156,8 @@ class TableStorage {
   TableStorage(const TableStorage&) = delete;
   TableStorage& operator=(const TableStorage&) = delete;
 
-  /// Tabulates; after a refusal the old tables are gone and tables() is refused by init. No engine may run on them
-  /// meanwhile, and every engine that did must be initialised anew.
+  /// Builds the tables. After a refusal the old tables are lost and init refuses tables(). No engine may run on them
+  /// during the call, and every engine that used them must be initialised again.
   Status build(const EngineDefinition& engine, const TickOptions& options, TableReport* report = nullptr) noexcept {
     tables_ = {};
     if constexpr (detail::Needs<S>::any_valves) {

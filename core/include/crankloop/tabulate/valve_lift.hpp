@@ -1,6 +1,6 @@
-// Theoretical valve lift over the cam angle, cam to rocker to valve, exact to its definition: docs/model.md "Rocker".
+// Theoretical valve lift over the cam angle, from cam and rocker, exactly as defined: docs/model.md "Rocker".
 //
-// What belongs here: kinematics at set-up time, in double. What does not: the tick's table of it, and the valve's own
+// What belongs here: kinematics at set-up time, in double. What does not: its table for the tick, and the valve's
 // motion.
 #pragma once
 
@@ -19,8 +19,8 @@ struct LiftPose {
   double rocker_rad;    ///< W, 0 for a constant ratio
 };
 
-/// phi_r counts the cam's own turn from full lift, negative while opening. The flat follower's angle phi, in which a
-/// cam is drawn, differs from it by the pad's share: equal steps of one are not equal steps of the other.
+/// phi_r is the cam's rotation from full lift, negative while opening. Cam drawings use the flat follower's angle phi.
+/// The pad makes the difference between the two: equal steps of one are not equal steps of the other.
 class ValveLift {
  public:
   /// Refuses what validate() and CamProfile refuse, and with Reason::inconsistent and the angle in failed_at_deg()
@@ -30,7 +30,7 @@ class ValveLift {
   ///   "rocker.pivot_to_screw_m"    the screw's ball would stand more than 90 deg above or below the pivot
   Status init(const Cam& cam, const Rocker& rocker) noexcept;
 
-  /// Where init found the geometry worst, as flat follower's cam angle.
+  /// Flat follower's cam angle at which init found the worst geometry.
   [[nodiscard]] double failed_at_deg() const noexcept { return failed_at_deg_; }
 
   /// At cam angle phi_r, any value (wrapped). Exact to rounding: phi is found by Newton's method, derivatives are
@@ -44,11 +44,11 @@ class ValveLift {
 
   [[nodiscard]] double largest_lift_m() const noexcept { return at(0).lift_m; }
 
-  /// l_v, the valve's lever on the rocker: I_rocker / l_v^2 moves with the valve. 0 for a constant ratio without
-  /// `pivot_to_screw`.
+  /// l_v, the rocker's lever at the valve: the rocker adds the mass I_rocker / l_v^2 to the valve. 0 for a constant
+  /// ratio without `pivot_to_screw`.
   [[nodiscard]] double lever_m() const noexcept { return lever_m_; }
 
-  /// The contour's smallest radius of curvature over the lobe, and where, as flat follower's cam angle.
+  /// The contour's smallest radius of curvature over the lobe, and its flat follower's cam angle.
   [[nodiscard]] double smallest_radius_m() const noexcept { return smallest_radius_m_; }
   [[nodiscard]] double smallest_radius_at_deg() const noexcept { return smallest_radius_at_deg_; }
 

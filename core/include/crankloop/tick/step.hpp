@@ -137,6 +137,10 @@ template <class Real, class S>
     for (const std::uint32_t of_valve : state.valve_regime)
       if (of_valve >= std::uint32_t{detail::kRegimes}) return refuse("state.valve", Reason::out_of_range);
   }
+  if constexpr (S::crank == CrankGiven::speed) {  // a bad input's tick turns by it
+    if (!detail::within_magnitude(state.speed_rad_s, tables_->drive->speed_limit_rad_s))
+      return refuse("state.speed_rad_s", Reason::out_of_range);
+  }
   state_ = state;
   if constexpr (detail::Needs<S>::elastic_valves) {
     detail::ElasticValves<Real, S> valves(*tables_, state_, *this, output_);

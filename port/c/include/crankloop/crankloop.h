@@ -297,8 +297,9 @@ enum { CRANKLOOP_INTEGRATOR_RK4, CRANKLOOP_INTEGRATOR_EXPONENTIAL };
 typedef struct crankloop_options {
   double tick_s;
   double valve_accuracy_m;
-  int32_t valve_integrator; /* CRANKLOOP_INTEGRATOR_... */
-  double max_speed_rad_s;   /* beyond it a speed is refused as an input; 0 = that of the definition */
+  int32_t valve_integrator;   /* CRANKLOOP_INTEGRATOR_... */
+  int32_t valve_event_budget; /* units of work for events in a tick; 0 = by the engine */
+  double max_speed_rad_s;     /* beyond it a speed is refused as an input; 0 = that of the definition */
 } crankloop_options;
 
 CRANKLOOP_API crankloop_status crankloop_options_defaults(crankloop_options* options, size_t size);

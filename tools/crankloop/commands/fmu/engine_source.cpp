@@ -15,7 +15,7 @@ constexpr const char* kEngineName = "engine.ini";
 constexpr const char* kTickName = "tick_us.txt";
 constexpr std::size_t kMaxTableBytes = std::size_t{64} << 20;
 constexpr Range kTicks_us = from(1).up_to(2000);
-/// No constant: an object that is loaded runs no constructor of ours.
+/// A function, not a constant: a loaded object must not run constructors of this code.
 std::vector<std::string> needed() { return {"engine", "crank", "masses"}; }
 
 std::string bytes_of(const std::string& path, std::size_t most) {
@@ -24,7 +24,7 @@ std::string bytes_of(const std::string& path, std::size_t most) {
   return std::move(file.bytes);
 }
 
-/// Whether it may be set: a number that decides nothing but itself.
+/// Whether a parameter may be set: a number that determines no other structure.
 bool is_parameter(const SectionValues& section, const Value& value) {
   return value.used && value.key->kind == Kind::number && section.kind != "engine";
 }
@@ -42,7 +42,7 @@ std::string text_of(const EngineFile& engine, const WordOf& word_of) {
   return text;
 }
 
-/// A name of the user's as a part of a variable's: letters, digits and _.
+/// A user's name as part of a variable's name: letters, digits and _.
 std::string as_identifier(std::string name) {
   for (char& c : name) {
     const bool good = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
@@ -51,7 +51,7 @@ std::string as_identifier(std::string name) {
   return name.empty() || (name[0] >= '0' && name[0] <= '9') ? "_" + name : name;
 }
 
-/// Of the bytes of resources: engine.ini, and the tables that the engine reads.
+/// Hash of the resources' bytes: engine.ini, and the tables that the engine reads.
 std::uint64_t identity_of(const std::string& engine_ini, const EngineFile& engine) {
   std::string tables;
   for (const SectionValues& section : engine.sections()) {
@@ -99,7 +99,7 @@ void EngineSource::collect_numbers() {
       const std::string_view unit = value.key->unit.name;
       std::string name = "engine." + part + "." + value.key->name;
       const auto taken = [&name](const EngineNumber& other) { return other.name == name; };
-      while (std::any_of(numbers_.begin(), numbers_.end(), taken)) name += "_";  // names that differ by blanks alone
+      while (std::any_of(numbers_.begin(), numbers_.end(), taken)) name += "_";  // names that differ only in blanks
       numbers_.push_back({name, value.key, unit.empty() ? &detail::kNoUnit : &detail::unit_of("_" + std::string(unit)),
                           value.numbers.at(0)});
     }

@@ -3,7 +3,7 @@
 //     resources/engine.ini    complete, as `crankloop show` has it; the tables it names beside it
 //     resources/tick_us.txt   the tick
 //
-// What belongs here: the file and its numbers. What does not: what FMI makes of them (crankloop/fmi/instance.hpp).
+// What belongs here: the file and its numbers. What does not: their use by FMI (crankloop/fmi/instance.hpp).
 #pragma once
 
 #include <cstdint>
@@ -36,14 +36,14 @@ class EngineSource {
   /// From an FMU's resources. Throws InputError.
   explicit EngineSource(const std::string& folder);
 
-  /// The same from an engine file, as it will be from resources_of(engine, tick_us), which are not written anywhere.
-  /// Lines of messages are those of the resources.
+  /// From an engine file, equal to the source from resources_of(engine, tick_us), without writing them. Lines of
+  /// messages are those of the resources.
   EngineSource(const EngineFile& engine, double tick_us);
 
   [[nodiscard]] const std::vector<EngineNumber>& numbers() const noexcept { return numbers_; }
   [[nodiscard]] const EngineFile& file() const noexcept { return file_; }
   [[nodiscard]] double tick_s() const noexcept { return tick_s_; }
-  [[nodiscard]] std::uint64_t identity() const noexcept { return identity_; }  ///< of all bytes it was made from
+  [[nodiscard]] std::uint64_t identity() const noexcept { return identity_; }  ///< hash of all bytes it was read from
 
   /// The engine with other numbers, one for each of numbers(). Throws InputError at the line of the file.
   [[nodiscard]] EngineFile with(const double* values) const;
@@ -61,8 +61,8 @@ class EngineSource {
 /// The resources of an FMU of this engine.
 [[nodiscard]] std::vector<ZipEntry> resources_of(const EngineFile& engine, double tick_us);
 
-/// Where an FMU of `crankloop fmu` has its tables from: made from the engine file, once when it is instantiated, and
-/// again at the start where a parameter was set (crankloop/fmi/instance.hpp says what a supply is).
+/// Supplies the tables of an FMU of `crankloop fmu`: built from the engine file when it is instantiated, and again at
+/// the start if a parameter was set (crankloop/fmi/instance.hpp defines a supply).
 template <class AReal, class AScene>
 class FileSupply {
  public:
@@ -86,8 +86,8 @@ class FileSupply {
   }
   [[nodiscard]] double parameter_default(std::size_t i) const noexcept { return source_->numbers()[i].value; }
 
-  /// Of an engine that runs, in a simulation that sets nothing: at its rated speed or the fastest that the tick allows,
-  /// with the file's fuel and burn, throttle and load ratio full, against the file's own machine.
+  /// Start values of a running engine, for a simulation that sets nothing: its rated speed or the fastest that the tick
+  /// allows, the file's fuel and burn, full throttle and load ratio, the file's own machine.
   void set_start_values(Input<double, Scene>& in, double& speed_rad_s) const noexcept {
     const double limit_rad_s = shape().speed_limit_rad_s;
     const double rated_rad_s = source_->file().rated_rpm() * kRad_sPerRpm;
@@ -142,7 +142,7 @@ class FileSupply {
   }
   bool make_tables(const double* values, fmi::Message& why) noexcept {
     return told(why, [&] {
-      const EngineFile engine = source_->with(values);  // where it refuses, the old tables are kept
+      const EngineFile engine = source_->with(values);  // after a refusal the old tables are kept
       built_ = false;
       const Status refused = storage_->build(engine.definition(), {source_->tick_s()});
       if (!refused.ok()) throw explain_tabulate(engine, refused, source_->tick_s());

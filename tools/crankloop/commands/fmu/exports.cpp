@@ -12,7 +12,7 @@ using ExportedSupply = program::FileSupply<CRANKLOOP_FMU_REAL, scenes::CRANKLOOP
 #include <crankloop/fmi/fmi3_exports.inc>
 
 #ifdef __GLIBCXX__
-// What the C++ library keeps for exceptions when there is no memory left: its own copy goes with this object.
+// The C++ library's emergency memory for exceptions: this object has its own copy.
 namespace __gnu_cxx {
 void __freeres();
 }  // namespace __gnu_cxx

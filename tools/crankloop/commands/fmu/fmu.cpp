@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxObjectBytes = std::size_t{256} << 20;
 
-/// What was built, or installed, beside the program for FMUs to bring along: ../lib/crankloop from its folder.
+/// The folder of the files that FMUs contain, built or installed with the program: ../lib/crankloop.
 fs::path prebuilt() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
@@ -53,7 +53,7 @@ void add_binaries(std::vector<ZipEntry>& entries, const std::string& object, con
   add(two ? "win64" : "x86_64-windows", ".dll", false);
 }
 
-/// What the binaries were compiled from, and the command.
+/// The sources of the binaries, and the command.
 void add_sources(std::vector<ZipEntry>& entries, fmi::SourceBuild build, bool two) {
   const fs::path folder = prebuilt() / "fmu_sources";
   std::error_code error;
@@ -67,7 +67,7 @@ void add_sources(std::vector<ZipEntry>& entries, fmi::SourceBuild build, bool tw
   if (!two) entries.push_back({"sources/buildDescription.xml", build.description()});
 }
 
-/// The output's name as a C identifier: what the FMU and its binary are called.
+/// The output's name as a C identifier: the name of the FMU and its binary.
 std::string identifier_of(const std::string& path) {
   std::string name = fs::path(path).stem().string();
   for (char& c : name) {
@@ -82,11 +82,12 @@ struct Packed {
   double tick_us;
 };
 
-/// The FMU's own supply, of resources that are not unpacked anywhere: nothing is left behind, however the program ends.
+/// The FMU's supply from resources in memory: no temporary files, however the program ends.
 template <class Real, class Scene>
 class PackedSupply : public FileSupply<Real, Scene> {
  public:
-  static inline const Packed* packed = nullptr;  ///< an instance makes its supply itself and passes on a path alone
+  static inline const Packed* packed = nullptr;  ///< static, because an instance constructs its supply and passes it
+                                                 ///< only a path
 
   bool open(const char* /*resources*/, fmi::Message& why) noexcept {
     return this->open_source(why, [] { return std::make_unique<EngineSource>(packed->engine, packed->tick_us); });

@@ -1,5 +1,5 @@
-// What an FMU's shared object would ask of glibc younger than 2.17, for no other reason than that the compiler's static
-// libraries were built beside a younger one: here in the object itself, so that it is loaded on older systems too.
+// Symbols that an FMU's shared object would need from glibc after 2.17 only because the compiler's static libraries
+// were built with a later one. They are defined here, so that the object loads on older systems too.
 // tests/fmi/object.sh has the list of what it may ask for.
 #ifdef __linux__
 #include <cerrno>
@@ -16,14 +16,14 @@
 #if defined(__GLIBC__) && (defined(__x86_64__) || defined(__aarch64__))
 extern "C" {
 
-// glibc 2.32: whether the C++ library may count without locks. Never.
+// glibc 2.32: whether the C++ library may count references without locks. Never.
 extern char __libc_single_threaded;
 char __libc_single_threaded = 0;
 
-// glibc 2.33: before it was a macro of its header. On these processors the kernel's struct is the library's.
+// glibc 2.33: before, it was a macro of its header. On these processors the kernel's struct is the library's.
 int fstat(int file, struct stat* found) noexcept { return static_cast<int>(::syscall(SYS_fstat, file, found)); }
 
-// glibc 2.34: before it was in a library of its own, as were all of threads but their mutexes.
+// glibc 2.34: before, it was in a separate library, like all thread functions but mutexes.
 int pthread_once(pthread_once_t* once, void (*work)()) {
   static pthread_mutex_t mutex = PTHREAD_RECURSIVE_MUTEX_INITIALIZER_NP;  // work may come by another
   pthread_mutex_lock(&mutex);
@@ -32,11 +32,11 @@ int pthread_once(pthread_once_t* once, void (*work)()) {
   pthread_mutex_unlock(&mutex);
   return 0;
 }
-// Asked for, never called: that it is there means that there may be threads.
+// Referenced, never called: its presence tells the C++ library that there may be threads.
 int __pthread_key_create(pthread_key_t*, void (*)(void*)) { return EAGAIN; }
 
 #ifdef DLFO_STRUCT_HAS_EH_DBASE
-// glibc 2.35: where exceptions have their tables, by an address of code. As compilers before it found them.
+// glibc 2.35: finds the exception tables of a code address. This is the way of earlier compilers.
 int _dl_find_object(void* code, dl_find_object* found) noexcept {
   struct Wanted {
     std::uintptr_t code;

@@ -27,8 +27,7 @@ namespace {
 using port::LiveInputs;
 using port::LiveOutputs;
 
-/// A controller's number may be any: what the type cannot hold becomes infinite, which the engine refuses as it does
-/// infinity.
+/// A controller may write any number: one beyond the type's range becomes infinite, which the engine refuses.
 template <class Real>
 Real as(double value) noexcept {
   constexpr auto kMax = static_cast<double>(std::numeric_limits<Real>::max());
@@ -108,7 +107,7 @@ class FreeEngine {
   Engine engine_;
 };
 
-/// What the kernel counts of this thread.
+/// The kernel's counters of this thread.
 struct ThreadCounts {
   std::int64_t page_faults = 0;
   std::int64_t preemptions = 0;
@@ -144,7 +143,8 @@ void run_scene(const EngineFile& file, const LiveRequest& request, port::SharedB
 
   block.state.store(port::LiveState::running, std::memory_order_release);
   port::Periodic periodic(request.tick_ns);
-  const ThreadCounts counts_before = ThreadCounts::now();  // the clock has been read once: its page is there
+  const ThreadCounts counts_before = ThreadCounts::now();  // after the first reading of the clock, so that its page is
+                                                           // mapped
   const std::int64_t start_ns = periodic.due_ns();
   const port::PeriodicTally& tally = periodic.tally();
   const auto ticks_per_ms = static_cast<std::uint64_t>(std::max<std::int64_t>(1, 1000000 / request.tick_ns));

@@ -1,7 +1,7 @@
-// The engine against the machine's clock, turned by its own torque, with a controller at its side if there is one.
+// The engine in real time against the machine's clock, with free crank and an optional controller.
 //
-// What belongs here: one run, and what it measures. What does not: when a tick is due (port/linux/periodic.hpp), words
-// and files (live.cpp).
+// What belongs here: one run and its measurements. What does not: timing of the ticks (port/linux/periodic.hpp),
+// messages and files (live.cpp).
 #pragma once
 
 #include <cstdint>
@@ -20,17 +20,16 @@ struct LiveRequest {
   std::int64_t tick_ns = 0;  ///< the same
   std::uint64_t ticks = 0;
   double start_rad_s = 0;
-  port::LiveInputs at_start;     ///< until a controller writes its own
+  port::LiveInputs at_start;     ///< until a controller writes inputs
   double burn_duration_deg = 0;  ///< of an engine with gas exchange; no input
-  std::int64_t patience_ns = 0;  ///< a controller that does not write for so long has fallen silent
+  std::int64_t patience_ns = 0;  ///< timeout of the controller
   port::RealTimeWish real_time;
 };
 
-/// Some 60 KB: not for a stack.
+/// About 60 kB: do not put it on a stack.
 struct LiveFigures {
   port::PeriodicTally tally;
-  port::LatencyHistogram
-      begin;  ///< how long after it was due a tick began: wake-up, and what ticks before it left behind
+  port::LatencyHistogram begin;  ///< delay of a tick's start: wake-up latency, and overrun of the ticks before
   port::LatencyHistogram model;  ///< the engine's step alone
   port::LatencyHistogram work;  ///< from the beginning to the end: inputs, step, outputs, and the clock's four readings
   double wall_s = 0;            ///< from the first tick's time to the last one's end
@@ -39,8 +38,8 @@ struct LiveFigures {
 
   std::int64_t page_faults = 0;  ///< in the loop, of this thread
   std::int64_t preemptions = 0;  ///< in the loop: how often the processor was taken from it
-  int memory_error = 0;          ///< errno's; 0: locked
-  int priority_error = 0;        ///< errno's; 0: as wished
+  int memory_error = 0;          ///< errno; 0: locked
+  int priority_error = 0;        ///< errno; 0: as requested
 
   double speed_rad_s = 0;       ///< at the end
   double mean_speed_rad_s = 0;  ///< over the ticks, as the two below
@@ -58,11 +57,11 @@ struct LiveFigures {
 
 /// Builds the engine, runs it and fills `figures`, which is all zero before. Inputs come from the block and outputs go
 /// there, each tick; without a block the inputs stay those of the request. SIGINT, SIGTERM and SIGHUP end the run
-/// early, and so does a block that is no longer whole: its magic is looked at before each tick, its file's size every
-/// millisecond and at the end. In the loop nothing is allocated, printed or waited for but the clock.
+/// early, and so does a block that is no longer whole: its magic is checked before each tick, its file's size every
+/// millisecond and at the end. The loop allocates and prints nothing and waits only for the clock.
 ///
-/// The definition is valid. Throws InputError where it is no engine that can turn freely, and UsageError where the
-/// start is beyond the tick's speed limit or the processor asked for is not to be had; before the first tick, both.
+/// The definition is valid. Before the first tick, throws InputError for an engine that cannot turn freely, and
+/// UsageError if the start is beyond the tick's speed limit or the requested processor is not available.
 template <class Real>
 void run_live(const EngineFile& file, const LiveRequest& request, port::SharedBlock* shared, LiveFigures& figures);
 

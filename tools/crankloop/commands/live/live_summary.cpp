@@ -29,8 +29,8 @@ std::string first_line(const char* path) {
   return line;
 }
 
-/// "Linux 6.1.0, PREEMPT_RT": what kind of kernel it is, by its own words. How a PREEMPT_DYNAMIC one was started stands
-/// in a file that only root reads; the mode in force is in brackets.
+/// "Linux 6.1.0, PREEMPT_RT": release and preemption model of the kernel. For PREEMPT_DYNAMIC the mode is in a file
+/// that only root can read; the active mode is in brackets.
 std::string kernel() {
   utsname names{};
   if (::uname(&names) != 0) return "unknown kernel";
@@ -42,7 +42,7 @@ std::string kernel() {
   return std::string(names.sysname) + " " + names.release + ", " + preemption + (mode.empty() ? "" : " " + mode);
 }
 
-// ---- what is told ---------------------------------------------------------------------------------------------------
+// ---- the summary ----------------------------------------------------------------------------------------------------
 
 struct Quantile {
   const char* name;
@@ -56,7 +56,7 @@ void add_quantiles(Summary& s, const std::string& name, const LatencyHistogram& 
   }
 }
 
-/// A row per octave, its bar as long as the logarithm of its count: a single tick is still seen beside a million.
+/// A row per octave, its bar as long as the logarithm of its count: a single tick is still visible beside a million.
 void add_picture(Summary& s, const LatencyHistogram& times) {
   constexpr std::size_t kOctaves = 64;
   std::array<std::uint64_t, kOctaves> counts{};

@@ -1,6 +1,6 @@
-// What `crankloop live` reports about a run: the machine, how well it kept time, what the engine did.
+// The summary of `crankloop live`: the machine, its timing, the engine's results.
 //
-// What belongs here: lines and rows. What does not: how the figures come about (live_loop.hpp).
+// What belongs here: lines and rows. What does not: measurement (live_loop.hpp).
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ namespace crankloop::program {
 [[nodiscard]] std::string live_summary(const EngineFile& file, const LiveRequest& request, const std::string& real,
                                        bool shared, const LiveFigures& figures);
 
-/// CSV: a row per bucket that counted anything.
+/// CSV: a row per bucket that is not empty.
 void write_live_histogram(Output& out, const LiveFigures& figures);
 
 }  // namespace crankloop::program

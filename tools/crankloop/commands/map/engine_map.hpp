@@ -21,10 +21,9 @@ struct Grid {
   int count = 1;
 
   [[nodiscard]] double at(int i) const noexcept { return count > 1 ? from + (to - from) * i / (count - 1) : from; }
-  [[nodiscard]] double step() const noexcept { return count > 1 ? (to - from) / (count - 1) : 1; }
 };
 
-/// What a map varies beside the speed.
+/// The quantity that a map varies besides the speed.
 struct MapAxis {
   const char* column;     ///< of the CSV file, as in its header
   const char* word;       ///< "throttle"
@@ -68,8 +67,8 @@ struct EngineMap {
   [[nodiscard]] std::string place_of(const MapPoint& point) const;
 };
 
-/// All points, on as many threads as there are processors; the same whatever their number. `after_point` is called
-/// after each, by one thread at a time. Throws what a run throws, as a speed beyond one revolution per tick.
+/// All points, on one thread per processor; results do not depend on their number. `after_point` is called after each,
+/// by one thread at a time. Throws what a run throws, as a speed beyond one revolution per tick.
 void run_map(EngineMap& map, const std::function<void()>& after_point);
 
 /// How a result is named, in CSV and drawings.

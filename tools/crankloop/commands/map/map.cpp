@@ -61,7 +61,7 @@ bool is_grid(const Arguments& arguments, const Option& option) {
   return arguments.text_or_empty(option.name).find(':') != std::string::npos;
 }
 
-/// Sets what the map varies beside the speed, and what holds everywhere.
+/// Sets the quantity that the map varies besides the speed, and the constant ones.
 void set_loads(MapRequest& request, const Arguments& arguments, const EngineFile& file) {
   const bool over_throttle = is_grid(arguments, kThrottle), over_fuel = is_grid(arguments, kFuel);
   if (over_throttle == over_fuel)
@@ -164,7 +164,7 @@ constexpr Option kOptions[] = {
     kBurnStart,
     kTick,
     text("--csv", "F", "file for a row per point; - is standard output, the summary then goes to stderr"),
-    text("--report", "F.html", "HTML file with the heat maps; opens in any browser"),
+    text("--report", "F.html", "HTML file with heat maps, or curves where N is 1; opens in any browser"),
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The page of `crankloop map`: a heat map of each result over speed and throttle.
+// The page of `crankloop map`: a heat map of each result over speed and throttle, a curve where one of them is fixed.
 #include <algorithm>
 
 #include "../../engine_file/pressure_words.hpp"
@@ -16,30 +16,50 @@ double shown(const MapColumn& column, const MapPoint& point) {
   return (column.is_share ? 100 : 1) * column.value(point);
 }
 
-/// A grid's values; around a lone one, so that it has an area.
-std::vector<double> lattice(const Grid& grid) {
-  if (grid.count == 1) return {grid.from - grid.step() / 2, grid.from + grid.step() / 2};
-  std::vector<double> at;
-  for (int i = 0; i < grid.count; ++i) at.push_back(grid.at(i));
-  return at;
+std::vector<double> values_of(const Grid& grid) {
+  std::vector<double> values;
+  for (int i = 0; i < grid.count; ++i) values.push_back(grid.at(i));
+  return values;
+}
+
+report::Axis speed_axis() { return report::axis_of("Engine speed", "rpm"); }
+report::Axis load_axis(const EngineMap& map) {
+  return report::axis_of(map.request.axis->title, map.request.axis->unit);
 }
 
 Plot heat_map(const EngineMap& map, const MapColumn& column) {
-  const int loads = map.request.load.count;
-  Plot plot = report::plot_of(column.title, report::axis_of("Engine speed", "rpm"),
-                              report::axis_of(map.request.axis->title, map.request.axis->unit));
+  Plot plot = report::plot_of(column.title, speed_axis(), load_axis(map));
   report::Field& field = plot.field;
-  field = {column.title, unit_of(column), lattice(map.request.speed_rpm), lattice(map.request.load), {}};
-  for (std::size_t i = 0; i < field.x.size(); ++i) {
-    for (std::size_t j = 0; j < field.y.size(); ++j) {
-      const int speed = std::min(static_cast<int>(i), map.request.speed_rpm.count - 1);
-      const int load = std::min(static_cast<int>(j), loads - 1);
-      field.values.push_back(shown(column, map.points[static_cast<std::size_t>(speed * loads + load)]));
-    }
-  }
+  field = {column.title, unit_of(column), values_of(map.request.speed_rpm), values_of(map.request.load), {}};
+  for (const MapPoint& point : map.points) field.values.push_back(shown(column, point));
   plot.x.range = report::Range{field.x.front(), field.x.back()};
   plot.y.range = report::Range{field.y.front(), field.y.back()};
   return plot;
+}
+
+/// Over the load where there is but one speed, else over the speed.
+Plot curve(const EngineMap& map, const MapColumn& column) {
+  const bool over_load = map.request.speed_rpm.count == 1 && map.request.load.count > 1;
+  Plot plot = report::plot_of(column.title, over_load ? load_axis(map) : speed_axis(),
+                              report::axis_of(column.title, unit_of(column)));
+  report::Series& series = plot.series.emplace_back();
+  series.style.draw = report::Draw::line_and_points;
+  for (const MapPoint& point : map.points) {
+    series.x.push_back(over_load ? point.load : point.speed_rpm);
+    series.y.push_back(shown(column, point));
+  }
+  return plot;
+}
+
+/// "over throttle at 2000 rpm".
+std::string over_what(const EngineMap& map) {
+  const MapRequest& request = map.request;
+  const std::string load = std::string(request.axis->word);
+  const std::string speed = report::number_text(request.speed_rpm.from) + " rpm";
+  const std::string unit = *request.axis->unit == '\0' ? "" : std::string(" ") + request.axis->unit;
+  const std::string one_load = load + ' ' + report::number_text(request.load.from) + unit;
+  if (request.speed_rpm.count > 1) return "over speed " + (request.load.count > 1 ? "and " + load : "at " + one_load);
+  return request.load.count > 1 ? "over " + load + " at " + speed : "at " + speed + " and " + one_load;
 }
 
 }  // namespace
@@ -52,7 +72,7 @@ report::Page map_page(const EngineMap& map) {
   };
   report::Page page;
   const MapAxis& axis = *map.request.axis;
-  page.title = map.file.name() + " over speed and " + axis.word;
+  page.title = map.file.name() + ' ' + over_what(map);
   const auto counted = [](int count, const std::string& what) {
     return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
   };
@@ -66,11 +86,12 @@ report::Page map_page(const EngineMap& map) {
                 {"Largest volumetric efficiency", number(100 * charge.gas.cycle.volumetric_efficiency), "%",
                  map.place_of(charge)}};
 
-  Section maps{"maps", std::string("Over speed and ") + axis.word, {}};
+  const bool is_field = map.request.speed_rpm.count > 1 && map.request.load.count > 1;
+  Section maps{"maps", "Results " + over_what(map), {}};
   maps.blocks.push_back(
       report::Paragraph{pressure_in_words(map.file, 1, map.request.gas, map.request.axis->varied), true});
   for (const MapColumn& column : kMapColumnList) {
-    if (column.title != nullptr) maps.blocks.push_back(heat_map(map, column));
+    if (column.title != nullptr) maps.blocks.push_back(is_field ? heat_map(map, column) : curve(map, column));
   }
   report::Table table{"Table: all points", {{"Speed", "rpm"}, {axis.title, axis.unit}}, {}, true};
   for (const MapColumn& column : kMapColumnList) {

@@ -1,7 +1,7 @@
 // `crankloop new`: a complete engine file from a few numbers.
 //
-// What belongs here: the file, line by line. What does not: what is usual, and its sources (usual_engine.hpp); what
-// an engine file may say (engine_file/).
+// What belongs here: the file, line by line. What does not: usual values and their sources (usual_engine.hpp), the
+// format of engine files (engine_file/).
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -24,12 +24,14 @@ namespace {
 
 constexpr double kRodRatio = 0.28;
 constexpr double kStarterNmPerLitre =
-    280;  ///< of one cylinder; more of them share the work of compression: by the root of their number
-constexpr double kCamEndsWith_m_s = 0.2;  ///< at rated speed: the valve lands with what its train adds to that
+    280;  ///< for one cylinder; divided by the root of the number of cylinders, which share the compression work
+constexpr double kCamEndsWith_m_s = 0.2;  ///< at rated speed; the valve's seating speed is this plus the train's
+                                          ///< vibration
 constexpr double kMostClearancePerLift = 0.008;
-constexpr double kSpringMargin = 1.9;  ///< spring force at full lift by what the nose takes from it at rated speed
-constexpr double kPreloadShare = 0.4;  ///< of that force on the closed valve
-constexpr double kTrainOrders = 40;    ///< natural frequency of the train by the cam's; the samples have 35 and 38
+constexpr double kSpringMargin = 1.9;  ///< spring force at full lift / inertia force at the nose at rated speed
+constexpr double kPreloadShare = 0.4;  ///< preload / spring force at full lift
+constexpr double kTrainOrders = 40;    ///< natural frequency of the train / rotation frequency of the cam; the sample
+                                       ///< engines have 35 and 38
 
 double to_three_digits(double value) {
   if (value == 0) return 0;
@@ -42,7 +44,7 @@ const char* usual_firing_order(int cylinders) {
   return cylinders <= 8 ? kOrders[cylinders - 1] : "";
 }
 
-/// The file as it grows: each line says where its value comes from.
+/// Writes the file: each line states the source of its value.
 class Draft {
  public:
   explicit Draft(const Arguments& arguments) : arguments_{arguments} {}
@@ -55,7 +57,7 @@ class Draft {
   }
   void assume(const char* key, double value, const std::string& why) { line(key, shortest(value), "assumed: " + why); }
 
-  /// The option's value where it is given; else what is assumed, to three digits.
+  /// The option's value if it is given; else the assumed one, to three digits.
   double number(const char* key, const char* option, double usual, const std::string& why) {
     if (!arguments_.has(option)) {
       usual = to_three_digits(usual);
@@ -74,7 +76,7 @@ class Draft {
   std::string text_;
 };
 
-/// What sections need of one another.
+/// Values that several sections use.
 struct Numbers {
   EngineDesign design;
   int cylinders = 0;
@@ -112,13 +114,13 @@ void add_masses_and_layout(Draft& draft, const Arguments& arguments, const Numbe
   const double rod_g = usual_rod_g(n.design, n.bore_mm);
   draft.section("masses");
   draft.number("piston_g", "--piston-g", usual_piston_g(n.design, n.bore_mm),
-               "with rings and pin, by the bore's cube, as today's");
+               "with rings and pin, proportional to bore cubed, as in current engines");
   draft.assume("rod_small_end_g", to_three_digits(rod_g * kRodShareAtPin),
-               shortest(kRodShareAtPin) + " of the rod, whose mass goes by the bore's cube");
+               shortest(kRodShareAtPin) + " of the rod, whose mass is proportional to bore cubed");
   draft.assume("rod_big_end_g", to_three_digits(rod_g * (1 - kRodShareAtPin)), "the rest of it");
   draft.assume("crank_pin_equivalent_g", 0, "balanced by the webs; adds to the centrifugal force only");
   draft.number("crank_inertia_kg_m2", "--crank-inertia-kg-m2", usual_inertia_kg_m2(n.design, n.displacement_L),
-               "by displacement to the power of 4/3; flywheel included");
+               "proportional to displacement to the power of 4/3; flywheel included");
   draft.section("layout");
   draft.line("cylinders", std::to_string(n.cylinders), "given");
   const bool banked = arguments.has("--bank-angles-deg");
@@ -161,7 +163,7 @@ void add_pressure(Draft& draft, Numbers& n) {
                                    " valves; pumping is subtracted, friction is not");
 }
 
-/// `diagram` is what the file's sections up to here make of the gas.
+/// `diagram` follows from the sections written so far.
 void add_what_turns_it(Draft& draft, const IndicatorDiagram& diagram, Numbers& n) {
   const double krpm = n.rated_rpm / 1000;
   Friction friction = usual_friction(diagram.peak_Pa() / 1e3, n.stroke_mm);
@@ -172,8 +174,10 @@ void add_what_turns_it(Draft& draft, const IndicatorDiagram& diagram, Numbers& n
   draft.assume("constant_kPa", friction.constant_kPa,
                "Chen and Flynn (SAE 650733), without pumping; " + brief(to_three_digits(diagram.peak_Pa() / 1e5)) +
                    " bar peak pressure");
-  draft.assume("linear_kPa_per_1000rpm", friction.linear_kPa_per_1000rpm, "the same, by mean piston speed");
-  draft.assume("quadratic_kPa_per_1000rpm2", friction.quadratic_kPa_per_1000rpm2, "the same, by its square");
+  draft.assume("linear_kPa_per_1000rpm", friction.linear_kPa_per_1000rpm,
+               "the same, proportional to mean piston speed");
+  draft.assume("quadratic_kPa_per_1000rpm2", friction.quadratic_kPa_per_1000rpm2,
+               "the same, proportional to its square");
   draft.section("machine");
   draft.assume("quadratic_Nm_per_1000rpm2", to_three_digits(n.brake_Nm / (krpm * krpm)),
                "a brake that takes full load at rated speed, " + brief(to_three_digits(n.brake_Nm)) + " Nm, " +
@@ -184,8 +188,8 @@ void add_what_turns_it(Draft& draft, const IndicatorDiagram& diagram, Numbers& n
   draft.assume("no_load_rpm", 400, "usual");
 }
 
-/// A direct train: a bucket between cam and valve. The spring holds it to the cam up to about 1.3 times the rated
-/// speed, by Newton's law at the nose.
+/// A direct train: a bucket between cam and valve. The spring keeps it in contact up to about 1.3 times the rated
+/// speed, from the inertia force at the nose.
 void add_train(Draft& draft, const char* name, double full_lift_deg, const Numbers& n) {
   const double lift_mm = to_three_digits(usual_lift_mm(n.design, n.bore_mm));
   const double valve_g = to_three_digits(usual_valve_g(n.design, n.bore_mm));
@@ -213,14 +217,14 @@ void add_train(Draft& draft, const char* name, double full_lift_deg, const Numbe
   draft.section((std::string("valve ") + name).c_str());
   draft.assume("per_cylinder", n.design.four_valves ? 2 : 1,
                n.design.four_valves ? "two of each kind" : "one of each kind");
-  draft.assume("valve_g", valve_g, "with bucket; by the bore's cube");
+  draft.assume("valve_g", valve_g, "with bucket; proportional to bore cubed");
   draft.assume("spring_g", spring_g, "0.6 of that");
   draft.assume("rocker_inertia_kg_mm2", 0, "no rocker");
   draft.assume("spring_N_per_mm", to_three_digits((1 - kPreloadShare) * kSpringMargin * nose_N / lift_mm),
-               "holds at full lift " + shortest(kSpringMargin) + " times what rated speed asks for");
+               shortest(kSpringMargin) + " times the force needed at rated speed and full lift");
   draft.assume("spring_preload_N", to_three_digits(kPreloadShare * kSpringMargin * nose_N), "of the same spring");
   draft.assume("train_N_per_mm", train_N_per_mm,
-               "swings at " + shortest(kTrainOrders) + " times the cam's rated frequency");
+               "natural frequency " + shortest(kTrainOrders) + " times the cam's at rated speed");
   draft.assume("train_damping_ratio", 0.08, "usual");
   draft.assume("guide_damping_ratio", 0.003, "usual");
   draft.assume("seat_N_per_mm", to_three_digits(8 * train_N_per_mm), "8 times the train");
@@ -240,7 +244,8 @@ void add_triggers(Draft& draft) {
 
 constexpr const char* kCommand = "crankloop new";
 
-/// Without the lines of a file that nobody has seen: "crankloop new: firing_order: cylinder 2 does not fire".
+/// Removes line numbers, because the user does not have the file: "crankloop new: firing_order: cylinder 2 does not
+/// fire".
 InputError without_lines(const InputError& error) {
   const std::string name = kCommand;
   std::string told = error.what();
@@ -259,7 +264,7 @@ EngineFile read_draft(const std::string& text) {
   }
 }
 
-/// Of the sections that the friction follows from.
+/// The diagram from the sections that friction depends on.
 std::unique_ptr<IndicatorDiagram> diagram_of(const EngineFile& engine) {
   auto diagram = std::make_unique<IndicatorDiagram>();  // large
   const EngineDefinition& d = engine.definition();

@@ -36,7 +36,7 @@ bool is_spark(const EngineDesign& design) { return design.type == EngineType::sp
 bool is_boosted(const EngineDesign& design) { return design.pressure_ratio > 1; }
 double cubed(double bore_mm) { return bore_mm * bore_mm * bore_mm / 1e3; }
 
-/// The lobe at u, the part of its half angle: lift by full lift, and its slope.
+/// The lobe at the fraction u of its half angle: lift / full lift, and its slope.
 struct LobePoint {
   double lift;
   double slope;
@@ -104,7 +104,7 @@ double usual_valve_g(const EngineDesign& design, double bore_mm) noexcept {
 double cam_nose_factor() noexcept {
   double coefficients[kCamExponents.size()];
   cam_coefficients(kCamExponents.data(), static_cast<int>(kCamExponents.size()), coefficients);
-  return -2 * coefficients[0];  // the exponent 2 alone bends there
+  return -2 * coefficients[0];  // only the exponent 2 has curvature there
 }
 
 double clearance_for_speed_mm(double lift_mm, double cam_rad_s, double speed_m_s, double most_mm) noexcept {

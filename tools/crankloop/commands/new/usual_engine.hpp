@@ -1,8 +1,8 @@
-// What is usual for an engine of a type and size: what `crankloop new` assumes where nothing is given.
+// Usual values for an engine of a type and size, which `crankloop new` assumes if an option is not given.
 //
-// What belongs here: figures with their source. What does not: the engine file that is made of them (new.cpp).
+// What belongs here: figures with their source. What does not: the engine file (new.cpp).
 //
-// Twelve engines that were built stand beside these figures in tests/contract/real_engines_test.cpp.
+// tests/contract/real_engines_test.cpp compares these figures with twelve production engines.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ enum class EngineType { spark_ignition, diesel, tractor };
 struct EngineDesign {
   EngineType type = EngineType::spark_ignition;
   bool four_valves = true;    ///< of a cylinder; else two
-  double pressure_ratio = 1;  ///< intake by ambient at full load; 1: naturally aspirated
+  double pressure_ratio = 1;  ///< intake / ambient pressure at full load; 1: naturally aspirated
 };
 
 struct Combustion {
@@ -34,7 +34,8 @@ struct Combustion {
 
 /// Net indicated mean effective pressure at full load and rated speed, from published power of production engines and
 /// the friction below. Spark-ignition engines that are built to turn faster breathe better: 900 kPa + 25 kPa s/m times
-/// their mean piston speed. Diesels have 900 kPa. Two valves: 0.87 and 0.93 of that. By the pressure ratio.
+/// their mean piston speed. Diesels have 900 kPa. With two valves: 0.87 and 0.93 of that. Proportional to the pressure
+/// ratio.
 [[nodiscard]] double usual_net_mep_kPa(const EngineDesign& design, double piston_speed_m_s) noexcept;
 
 /// Coefficients of friction as an engine file has them.
@@ -54,9 +55,9 @@ struct Friction {
 /// simulation since.
 [[nodiscard]] Friction usual_friction(double peak_pressure_kPa, double stroke_mm) noexcept;
 
-/// Of one cylinder, by the bore's cube. Pistons alone have 0.40 to 0.60 g/cm^3 in spark-ignition engines and 0.8 to 1.1
-/// in diesels (MAHLE, Pistons and Engine Testing, 2nd ed., main dimensions of light-alloy pistons); rings and pin add
-/// 0.3 to 0.5 of that.
+/// For one cylinder, proportional to bore cubed. Pistons alone have 0.40 to 0.60 g/cm^3 in spark-ignition engines and
+/// 0.8 to 1.1 in diesels (MAHLE, Pistons and Engine Testing, 2nd ed., main dimensions of light-alloy pistons); rings
+/// and pin add 0.3 to 0.5 of that.
 [[nodiscard]] double usual_piston_g(const EngineDesign& design, double bore_mm) noexcept;
 [[nodiscard]] double usual_rod_g(const EngineDesign& design, double bore_mm) noexcept;
 inline constexpr double kRodShareAtPin = 0.27;  ///< of its mass that moves with the piston
@@ -66,16 +67,16 @@ inline constexpr double kRodShareAtPin = 0.27;  ///< of its mass that moves with
 /// VECTO), times displacement to the power of 4/3.
 [[nodiscard]] double usual_inertia_kg_m2(const EngineDesign& design, double displacement_L) noexcept;
 
-/// A cam over a bucket, its ramps part of the lobe: where six conditions hold at the lobe's end, the lift grows there
-/// with the sixth power of the angle. 1 mm of 8.5 lasts 240 crank degrees.
+/// A cam on a bucket tappet, ramps included in the lobe: six conditions at the lobe's end make the lift grow there with
+/// the sixth power of the angle. 1 mm of 8.5 lasts 240 crank degrees.
 inline constexpr std::array<double, 6> kCamExponents{2, 6, 10, 14, 18, 22};
 inline constexpr double kCamHalfAngleDeg = 90;
 
 [[nodiscard]] double usual_lift_mm(const EngineDesign& design, double bore_mm) noexcept;
-/// With bucket; intake.
+/// An intake valve with its bucket.
 [[nodiscard]] double usual_valve_g(const EngineDesign& design, double bore_mm) noexcept;
 
-/// y'' of the cam at full lift, by lift and half angle squared.
+/// y'' of the cam at full lift, in lift / half angle squared.
 [[nodiscard]] double cam_nose_factor() noexcept;
 
 /// Lift at which the cam ends with this speed; at most `most_mm`. The cam turns at cam_rad_s.

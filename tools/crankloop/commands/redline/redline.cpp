@@ -1,5 +1,4 @@
-// `crankloop redline FILE`: up to which speed a valve keeps to its cam and to its seat, and what moves
-// that speed.
+// `crankloop redline FILE`: the speeds at which a valve starts to float and to bounce, and the influence of its train.
 #include "redline.hpp"
 
 #include <algorithm>
@@ -21,7 +20,7 @@
 namespace crankloop::program {
 namespace {
 
-/// How a result of one speed is written, as a column of table and CSV alike.
+/// Column of a result, in table and CSV.
 struct ResultColumn {
   const char* name;
   int digits;  ///< significant ones in the table
@@ -159,12 +158,12 @@ void write_csv(Output& out, const Redline& redline) {
   }
 }
 
-/// Speeds that a sweep runs, about: the sweep's own and two bisections.
+/// Approximate number of speeds of a sweep: its own and two bisections.
 double speeds_of(const SpeedRange& range) {
   return (range.to_rpm - range.from_rpm) / range.step_rpm + 1 + 2 * std::log2(std::max(range.step_rpm, 1));
 }
 
-/// The valve of a factor; one that leaves the ranges of an engine file is the user's error.
+/// The valve with a factor. Throws for a value outside the ranges of an engine file.
 LoneValve varied_valve(const LoneValve& valve, const Influence& influence, double factor) {
   const Valve other = varied(valve.valve(), influence.option, factor);
   if (validate(other).ok()) return valve.with(other);

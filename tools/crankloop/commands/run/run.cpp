@@ -198,7 +198,7 @@ std::string summary_text(const Engines& engine, const Request& request, const Ru
   }
   if (f.tables.valve_fine_steps > 0) {
     s.line("valve_fine_steps_worst_tick", f.tables.valve_fine_steps);
-    s.line("valve_changes_located", f.tables.valve_changes);
+    s.line("event_budget", f.tables.event_budget);
   }
   s.faulty_ticks(f.faulty_ticks, f.faults);
   s.line("wall_time_per_tick", wall_time_per_tick_ns, "ns",

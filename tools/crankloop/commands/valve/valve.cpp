@@ -37,7 +37,7 @@ struct Request {
 template <class Real>
 void write_row(CsvWriter& csv, const LoneValve& valve, const ValveTickOutput<Real>& out) {
   const auto real = [](double value) { return static_cast<Real>(value); };
-  const ValveMotionOutput<Real>& m = out.motion;
+  const ValveMotionOutput<Real, OneValve>& m = out.motion;
   const ValveForcesOutput<Real>& f = out.forces;
   csv.row(out.cam_deg, m.theoretical_lift_m * real(1e3), real(valve.lift().at(out.cam_deg * kRadPerDeg).rocker_ratio),
           m.lift_m * real(1e3), m.velocity_m_s, m.acceleration_m_s2, f.train_N, f.seat_N, f.cam_N,

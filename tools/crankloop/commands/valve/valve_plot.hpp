@@ -28,10 +28,10 @@ struct ValveCycleTrace {
 template <class Real>
 [[nodiscard]] ValveTickOutput<double> in_double(const ValveTickOutput<Real>& out) noexcept {
   const auto wide = [](Real x) { return static_cast<double>(x); };
-  const ValveMotionOutput<Real>& m = out.motion;
+  const ValveMotionOutput<Real, OneValve>& m = out.motion;
   const ValveForcesOutput<Real>& f = out.forces;
   return {out.cam_deg,
-          {wide(m.theoretical_lift_m), wide(m.lift_m), wide(m.velocity_m_s), wide(m.acceleration_m_s2)},
+          {{wide(m.theoretical_lift_m)}, {wide(m.lift_m), wide(m.velocity_m_s)}, {wide(m.acceleration_m_s2)}},
           {wide(f.train_N), wide(f.seat_N), wide(f.tip_N), wide(f.cam_N), wide(f.train_compression_m), f.regime}};
 }
 

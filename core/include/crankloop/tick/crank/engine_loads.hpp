@@ -42,15 +42,7 @@ void load_bearings(const Tables<Real, S>& tables, const State<Real, S>& state, O
   // of pin 0.
   Real along_before{};
   Real across_before{};
-  const std::uint8_t* k = b.by_pin.cylinder;
-  for (std::uint32_t i = 0; i < b.pins; ++i) {
-    CRANKLOOP_ASSERT(k != b.by_pin.cylinder + b.by_pin.end[i]);  // every pin has a rod
-    Real radial = out.cylinder[*k].radial_force_N;
-    Real tangential = out.cylinder[*k].tangential_force_N;
-    for (const std::uint8_t* const end = b.by_pin.cylinder + b.by_pin.end[i]; ++k != end;) {
-      radial += out.cylinder[*k].radial_force_N;
-      tangential += out.cylinder[*k].tangential_force_N;
-    }
+  const auto load_pin = [&](std::uint32_t i, Real radial, Real tangential) __attribute__((always_inline)) {
     const Real throw_outward = b.throw_kg_m[i] * w2 - radial;
     Real throw_tangential = tangential;
     radial -= b.rods_kg_m[i] * w2;
@@ -66,20 +58,38 @@ void load_bearings(const Tables<Real, S>& tables, const State<Real, S>& state, O
     load_journal(out, i, along_before + half_along, across_before + half_across);
     along_before = half_along;
     across_before = half_across;
+  };
+  const std::uint8_t* k = b.by_pin.cylinder;
+  if (b.pins == tables.drive->cylinders) {  // each has one rod: without the loop over a pin's rods
+    for (std::uint32_t i = 0; i < b.pins; ++i) {
+      const CylinderForces<Real>& rod = out.cylinder[k[i]];
+      load_pin(i, rod.radial_force_N, rod.tangential_force_N);
+    }
+  } else {
+    for (std::uint32_t i = 0; i < b.pins; ++i) {
+      const std::uint8_t* const end = b.by_pin.cylinder + b.by_pin.end[i];
+      CRANKLOOP_ASSERT(k != end);  // every pin has a rod
+      Real radial = out.cylinder[*k].radial_force_N;
+      Real tangential = out.cylinder[*k].tangential_force_N;
+      while (++k != end) {
+        radial += out.cylinder[*k].radial_force_N;
+        tangential += out.cylinder[*k].tangential_force_N;
+      }
+      load_pin(i, radial, tangential);
+    }
   }
   load_journal(out, b.pins, along_before, across_before);
 }
 
-/// Of the speed and the angle alone.
+/// Of the speed and the crank's angle alone, degree `degree` and fraction `u` of its turn.
 template <class Real, class S>
-void balance_engine(const Tables<Real, S>& tables, const State<Real, S>& state, Output<Real, S>& out) noexcept {
+void balance_engine(const Tables<Real, S>& tables, const State<Real, S>& state, Output<Real, S>& out,
+                    std::uint32_t degree, Real u) noexcept {
   const Balance<Real>& b = *tables.balance;
   const Real w2 = state.speed_rad_s * state.speed_rad_s;
-  const Angle<Real> a = angle_of<Real>(state.phase.units(), 0);
-  const std::uint32_t degree = a.turn_degree();
   const std::uint32_t quarter_back = degree >= 90 ? degree - 90 : degree + 270;
-  const Real cosine = value(b.cosine.at[degree], a.u);
-  const Real sine = value(b.cosine.at[quarter_back], a.u);
+  const Real cosine = value(b.cosine.at[degree], u);
+  const Real sine = value(b.cosine.at[quarter_back], u);
   out.first = turned_by(b.first, cosine * w2, sine * w2);
   out.rotating = turned_by(b.rotating, cosine * w2, sine * w2);
   out.second = turned_by(b.second, (2 * cosine * cosine - 1) * w2, 2 * sine * cosine * w2);

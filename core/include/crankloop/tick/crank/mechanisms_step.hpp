@@ -187,14 +187,14 @@ inline void run_mechanisms(const Tables<Real, S>& tables, State<Real, S>& state,
   TorqueStep<Real, S> torque(tables, state, out);
   std::uint32_t cut_cylinders = 0;
   if constexpr (Needs<S>::cut) cut_cylinders = crank.cut_cylinders;
-  torque.read_torque(cut_cylinders);
+  [[maybe_unused]] const auto at = torque.read_torque(cut_cylinders);
   torque.move_crank(crank);
   if constexpr (MechanismsStep<Real, S>::kNeeded) MechanismsStep<Real, S>{torque}.run(crank, cut_cylinders);
   if constexpr (S::bearing_loads) load_bearings(tables, state, out);
   torque.show_torque();
   torque.average_torque(crank);
   torque.remember_work();
-  if constexpr (S::free_forces) balance_engine(tables, state, out);
+  if constexpr (S::free_forces) balance_engine(tables, state, out, at.turn_degree(), at.u);
 }
 
 /// The same as a call of its own: its stack is free again when the valves need theirs.

@@ -46,9 +46,10 @@ struct TorqueStep : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
     return S::cylinders.capacity == 1 ? 1 : tables.drive->mechanisms;
   }
 
-  /// Torque of tables: they hold that of all cylinders together. Forces add up to it by themselves.
-  void read_torque([[maybe_unused]] std::uint32_t cut_cylinders) noexcept {
-    [[maybe_unused]] const auto at = [&] {
+  /// Torque of tables: they hold that of all cylinders together. Forces add up to it by themselves. Returns where the
+  /// crank stands.
+  auto read_torque([[maybe_unused]] std::uint32_t cut_cylinders) noexcept {
+    const auto at = [&] {
       if constexpr (N::gas_torque) {
         return angle_of<Real>(state.phase.units(), 0);
       } else {
@@ -79,6 +80,7 @@ struct TorqueStep : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
       }
       if constexpr (!S::forces || N::crank_dynamics) torque_Nm += gas_Nm;
     }
+    return at;
   }
 
   /// Gas torque by a curve, with its work in gas[which].

@@ -103,13 +103,14 @@ struct CylinderStep {
 /// A step whose gas had to be put back, by one lane: what is no number in it, or more than any engine's, was nothing.
 /// Neither the crank nor a manifold nor a cycle's results keep it.
 template <class T>
-[[nodiscard, gnu::cold, gnu::noinline]] CylinderStep<T> without_nonsense(CylinderStep<T> step, int i) noexcept {
+[[gnu::always_inline]] inline void drop_nonsense(CylinderStep<T>& step, int i) noexcept {
   using Real = NumberOf<T>;
   constexpr Real kMax = static_cast<Real>(1e12);  // J, kg
-  const auto hold = [i](T& x) { put_lane(x, i, within(lane(x, i), -kMax, kMax) ? lane(x, i) : Real{0}); };
+  const auto hold = [i](T & x) __attribute__((always_inline)) {
+    put_lane(x, i, within_magnitude(lane(x, i), kMax) ? lane(x, i) : Real{0});
+  };
   hold(step.closed.heat_J), hold(step.closed.wall_heat_J), hold(step.work_J);
   for (PortStep<T>& port : step.through) hold(port.mass_kg), hold(port.enthalpy_J), hold(port.burned_kg);
-  return step;
 }
 
 /// Lanes that have a port open at either end of a step. No area is negative: one that is not 0 has a bit set.

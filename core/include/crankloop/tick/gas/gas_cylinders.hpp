@@ -136,7 +136,7 @@ class GasCylindersStep {
         const Real per_volume_m3 = lane(done.closed.per_volume_m3, i);
         if (!put_cylinder_right(k + static_cast<std::uint32_t>(i), per_volume_m3, lane(least_kg, i))) continue;
         faults |= kFaultGas;
-        done = without_nonsense<T>(done, i);
+        drop_nonsense<T>(done, i);
       }
       gas = state_.cylinder_gas.template at<T>(k);
     }

@@ -46,7 +46,7 @@ struct PortAreas {
 template <class Real, class S, class LiftOf>
 inline void read_areas(const Tables<Real, S>& tables, PortAreas<Real, S::cylinders.capacity>& areas,
                        const LiftOf& lift_of) noexcept {
-  areas = {};
+  for (std::uint32_t k = 0; k < S::cylinders.capacity; ++k) areas.of[kIntake][k] = areas.of[kExhaust][k] = Real{0};
   const std::uint32_t trains = S::trains.exact ? S::trains.capacity : tables.drive->trains;
   for (std::uint32_t t = 0; t < trains; ++t) {
     const GasPortCurve<Real>& curve = tables.gas_ports[t];

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include <crankloop/assert.hpp>
 #include <crankloop/tick/gas/gas_cylinders.hpp>
 #include <crankloop/tick/gas/gas_inputs.hpp>
 #include <crankloop/tick/gas/gas_start.hpp>
@@ -17,8 +18,9 @@
 
 namespace crankloop::detail {
 
-/// A tick that turns the crank further is cut into equal steps, at most kMaxGasSteps.
-inline constexpr std::uint64_t kGasStep = ~std::uint64_t{0} / 144;  ///< 5 deg
+/// A tick that turns the crank further is cut into equal steps, at most as many as the tables say.
+inline constexpr std::uint64_t kGasStep = ~std::uint64_t{0} / 144;  ///< kGasStep_deg
+static_assert(144 * kGasStep_deg == kDegreesPerCycle);
 template <class Real, class S>
 class GasStep {
   using N = Needs<S>;
@@ -78,7 +80,8 @@ class GasStep {
     step.drive.least_kg_m3 = tables_.gas_cylinders->least_kg_m3;
     step.drive.step_s = tables_.drive->tick_s;
     step.turned = turned;
-    if (__builtin_expect(way > kGasStep || least_parts() > 1, 0)) return run_parts(input, step, way, end);
+    if (__builtin_expect(way > kGasStep || least_parts() > 1, 0) && max_parts() > 1)
+      return run_parts(input, step, way, end);
     step.phase = state_.phase.units();
     step.drive.area_per_m3 = most_area_per_m3(step.drive.step_s);
     return run_step(input, step, end);
@@ -92,12 +95,16 @@ class GasStep {
       return 1;
     }
   }
+  /// Of a tick of this engine, whatever input and state.
+  [[nodiscard]] int max_parts() const noexcept { return static_cast<int>(tables_.gas_cylinders->max_steps); }
   /// A tick in equal parts. Between its ends port areas are as the cams have them, and what the valves are off their
   /// cams goes in a straight line: a straight line of areas alone would be 1 % off in charge at 36 deg.
   [[nodiscard, gnu::noinline]] std::uint32_t run_parts(const Input<Real, S>& input, EngineGasStep<Real>& step,
                                                        std::uint64_t way, const Areas& end) noexcept {
     int parts = least_parts() > 2 ? least_parts() : 2;
-    while (parts < kMaxGasSteps && way > static_cast<std::uint64_t>(parts) * kGasStep) ++parts;
+    const int max = max_parts();
+    CRANKLOOP_ASSERT(max >= parts && max <= kMaxGasSteps);
+    while (parts < max && way > static_cast<std::uint64_t>(parts) * kGasStep) ++parts;
     constexpr std::uint32_t kPerParts_32[kMaxGasSteps + 1] = {
         0, 0, 0x8000'0000u, 0x5555'5555u, 0x4000'0000u, 0x3333'3333u, 0x2AAA'AAABu, 0x2492'4925u, 0x2000'0000u};
     constexpr Real kPerParts[kMaxGasSteps + 1] = {1,           1,           Real{1} / 2, Real{1} / 3, Real{1} / 4,

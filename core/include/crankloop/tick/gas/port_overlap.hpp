@@ -29,21 +29,28 @@ struct OverlapPort {
     moves_Pa_s = pick(inwards, in_Pa_s, out_Pa_s);
     const T s = drop_Pa / up_Pa * kPerChokedDrop<Real>;
     const T left = Real{2} - s;
-    const T f = s * left;
-    const T by_s = per_Pa * kPerChokedDrop<Real>;
     const auto chokes = s >= Real{1};
-    const T passes = either<T>(
-        chokes, [&] { return per_Pa * up_Pa / drop_Pa; },
-        [&] { return by_s * left / square_root(f + static_cast<Real>(1e-10)); });
-    damping = Real{1} / (Real{1} + far_Pa_s * passes);
-    conductance = passes * damping;
+    // The flow per drop is `top` over `root`.
+    const T by_s = per_Pa * kPerChokedDrop<Real>;
+    const T top = either<T>(
+        chokes, [&] { return per_Pa * up_Pa; }, [&] { return by_s * left; });
+    const T root = either<T>(
+        chokes, [&] { return drop_Pa; }, [&] { return square_root(s * left + static_cast<Real>(1e-10)); });
+    const T per_both = Real{1} / (root + far_Pa_s * top);
+    damping = root * per_both;
+    conductance = top * per_both;
     if (!for_slope) return;
-    const T flow = passes * drop_Pa;
+    // An ellipse: where it does not choke, the flow is `root` of the choked one.
+    const T choked_kg_s = per_Pa * up_Pa;
+    const T flow = either<T>(
+        chokes, [&] { return choked_kg_s; }, [&] { return choked_kg_s * root; });
     flow_kg_s = pick(inwards, flow, -flow);
-    // No slope is without bound.
-    slope = damping * either<T>(
-                          chokes, [&] { return pick(inwards, T{}, per_Pa); },
-                          [&] { return by_s * (Real{1} - s) / square_root(f + static_cast<Real>(4.3e-4)); });
+    slope = either<T>(
+        chokes, [&] { return damping * pick(inwards, T{}, per_Pa); },
+        [&] {
+          const T held = root * static_cast<Real>(1 / 0.02);  // no slope is without bound
+          return by_s * (Real{1} - s) * per_both * (held < Real{1} ? held : spread<T>(1));
+        });
   }
 };
 

@@ -1,11 +1,11 @@
-// Whether the gas of a saved state is one: its numbers, each within its limits, must also fit one another and the
+// Checks that the numbers of a saved state's gas, each within its limits, also agree with one another and with the
 // engine.
 //
-// What belongs here: what no limit of a single field can check. What does not: those limits
+// What belongs here: checks of several fields together. What does not: limits of single fields
 // (tick/state/state_fields.hpp).
 //
-// Contents of another energy per kilogram, or of another pressure than their mass, temperature and volume have, would
-// lead a step to numbers without bound. The factors are wider than any rounding, so a user's own flags do not matter.
+// If energy or pressure contradicted mass, temperature and volume, a step could compute numbers without bound. The
+// factors allow for more than any rounding, so the code may be compiled with a user's own flags.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@
 
 namespace crankloop::detail {
 
-/// Of a cylinder or a manifold. e / T is 666 to 1354 J/(kg K) from 100 to 6000 K, R T = p V / m; what a carried sum
-/// leaves out is less than its last digit.
+/// Checks a cylinder or a manifold. e / T is 666 to 1354 J/(kg K) from 100 to 6000 K, R T = p V / m; the rest of a
+/// compensated sum is less than its last digit.
 template <class Real>
 [[nodiscard]] inline bool gas_agrees(const GasContents<Real>& gas, const GasPoint<Real>& point,
                                      Real volume_m3) noexcept {
@@ -32,7 +32,7 @@ template <class Real>
          within(gas.energy_rest_J, -rest * gas.energy_J, rest * gas.energy_J);
 }
 
-/// What a cycle's end divides, and multiplies by numbers of the engine.
+/// Checks the sums that a cycle's end divides by one another and multiplies by constants of the engine.
 template <class Real>
 [[nodiscard]] inline bool record_agrees(const GasRecord<Real>& r, const GasCylinders<Real>& table) noexcept {
   constexpr Real kMax = static_cast<Real>(1e20);  // Pa, and of volumetric efficiency
@@ -40,7 +40,7 @@ template <class Real>
          within(r.pumping_J * table.per_swept_m3, -kMax, kMax) && within(r.air_kg * table.per_full_charge, -kMax, kMax);
 }
 
-/// Of all cylinders that the scene has room for, and the manifolds.
+/// Checks all cylinders of the scene's capacity and the manifolds.
 template <class Real, class S>
 [[nodiscard]] bool gas_agrees(const State<Real, S>& state, const Tables<Real, S>& tables) noexcept {
   const GasCylinders<Real>& table = *tables.gas_cylinders;

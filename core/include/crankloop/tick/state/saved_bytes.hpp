@@ -1,7 +1,7 @@
 // Numbers as bytes, least significant first, and their checksum.
 //
 // What belongs here: how one field is written and read back. What does not: which fields (tick/state/state_fields.hpp),
-// what stands before and behind them (tick/state/saved_state.hpp).
+// header and checksum (tick/state/saved_state.hpp).
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,8 @@
 
 namespace crankloop::detail {
 
-/// CRC-32 of IEEE 802.3, half a byte at a time: any change within 32 bits in a row shows, so any changed byte.
+/// CRC-32 of IEEE 802.3, half a byte at a time. It detects any change confined to 32 successive bits, so any changed
+/// byte.
 class Crc32 {
  public:
   constexpr void add(unsigned char byte) noexcept {
@@ -65,7 +66,7 @@ void set_bits(T& x, std::uint64_t bits) noexcept {
 [[nodiscard]] inline std::uint64_t word_of(const Phase& x) noexcept { return x.units(); }
 inline void set_bits(Phase& x, std::uint64_t bits) noexcept { x = Phase{bits}; }
 
-/// Writes fields one behind the other.
+/// Writes fields one after the other.
 class StateWriter {
  public:
   explicit StateWriter(unsigned char* at) noexcept : at_{at} {}
@@ -100,7 +101,7 @@ class StateWriter {
   unsigned char* at_;
 };
 
-/// Reads them back; the first field that is out of its range is the answer.
+/// Reads fields back; status() is that of the first field out of its range.
 class StateReader {
  public:
   explicit StateReader(const unsigned char* at) noexcept : at_{at} {}

@@ -1,18 +1,18 @@
-// A state as bytes that outlive the program: written field by field, the same on every machine, and refused when
-// anything is wrong.
+// Saves a state as bytes and loads it again. The bytes are written field by field, are the same on every machine, and
+// are checked when they are loaded.
 //
-// What belongs here: the form of the bytes. What does not: the fields (tick/state/state_fields.hpp). Where the bytes
-// are kept is the caller's affair. A snapshot within one program needs none of this: copy engine.state().
+// What belongs here: the format of the bytes. What does not: the fields (tick/state/state_fields.hpp), where the caller
+// stores the bytes. For a snapshot within one program, copy engine.state() instead.
 //
 //     offset 0   "CLST"
-//            4   form of the bytes, 16 bits: kSavedStateForm
+//            4   format version, 16 bits: kSavedStateForm
 //            6   size of the scalar, 16 bits: 4 or 8
-//            8   scene, 32 bits: CRC-32 of its answers
-//           12   size of all, 32 bits
+//            8   scene, 32 bits: CRC-32 of its settings
+//           12   total size in bytes, 32 bits
 //           16   the fields, the tables' fingerprint first
-//       size-4   CRC-32 of all before it
+//       size-4   CRC-32 of all preceding bytes
 //
-// Least significant byte first; floating point as its IEEE 754 bits. Numbers are only copied and compared here, so it
+// Least significant byte first; floating point as its IEEE 754 bits. The code only copies and compares numbers, so it
 // may be compiled with a user's own flags.
 #pragma once
 
@@ -30,7 +30,7 @@
 
 namespace crankloop {
 
-/// Counts up whenever a release changes the fields or their form.
+/// Incremented whenever a release changes the fields or their format.
 inline constexpr std::uint32_t kSavedStateForm = 5;
 
 namespace detail {
@@ -38,7 +38,7 @@ namespace detail {
 inline constexpr std::size_t kSavedHeaderBytes = 16;
 inline constexpr std::size_t kSavedChecksumBytes = 4;
 
-/// What a scene answers, as a number: the same fields mean something else under other answers.
+/// A scene's settings as a number: with other settings the same fields mean something else.
 template <class S>
 [[nodiscard]] constexpr std::uint32_t scene_code() noexcept {
   Crc32 crc;
@@ -51,7 +51,7 @@ template <class S>
                             S::valve_gas, S::cam_phasing, S::bad_input_count}) {
     crc.add(std::uint32_t{answer});
   }
-  if (S::starter || S::cylinder_cut) {  // scenes without them keep the code they always had
+  if (S::starter || S::cylinder_cut) {  // scenes without them keep the code of earlier releases
     crc.add(std::uint32_t{S::starter});
     crc.add(std::uint32_t{S::cylinder_cut});
   }
@@ -66,12 +66,12 @@ template <class S>
 
 }  // namespace detail
 
-/// Size of a saved state in bytes: of the scene, not of the engine.
+/// Size of a saved state in bytes; it depends on the scene, not on the engine.
 template <class Real, class S>
 inline constexpr std::size_t kSavedStateBytes = detail::kSavedHeaderBytes + detail::count_fields<Real, S>().in_bytes
                                                 + detail::kSavedChecksumBytes;
 
-/// Writes the engine's state; `size` is the room there is, at least kSavedStateBytes. Refuses an engine that is not
+/// Writes the engine's state; `size` is that of the buffer, at least kSavedStateBytes. Refuses an engine that is not
 /// ready. O(state).
 template <class Real, class S>
 Status save_state(const Engine<Real, S>& engine, unsigned char* bytes, std::size_t size) noexcept {
@@ -91,9 +91,9 @@ Status save_state(const Engine<Real, S>& engine, unsigned char* bytes, std::size
   return {};
 }
 
-/// Goes on from saved bytes, with the same bits; `size` must be kSavedStateBytes. Refuses bytes that are damaged, of
-/// another version, scene, scalar or other tables, and numbers that no step could compute with or that do not fit one
-/// another; the engine is then as it was. Takes a State on the stack. O(state).
+/// Restores a saved state: the engine continues with the same bits. `size` must be kSavedStateBytes. Refuses bytes that
+/// are damaged or from another version, scene, scalar or other tables, and numbers that a step could not compute with
+/// or that contradict one another; the engine then stays unchanged. Takes a State on the stack. O(state).
 template <class Real, class S>
 Status load_state(const unsigned char* bytes, std::size_t size, Engine<Real, S>& engine) noexcept {
   constexpr std::size_t all = kSavedStateBytes<Real, S>;

@@ -1,10 +1,10 @@
-// Every field of a state, named once: how many bytes it takes, how it is written, what it may be when it is read back.
+// The list of a state's fields. Size, saving and loading with range checks are all generated from it.
 //
-// What belongs here: the fields' order and their ranges. What does not: the form of the bytes
+// What belongs here: the fields' order and their ranges. What does not: the format of the bytes
 // (tick/state/saved_state.hpp).
 //
-// The ranges are wider than any engine's: they keep out what a step could not compute with. Within them no index leaves
-// its table, no conversion its integer, and no number becomes infinite.
+// The ranges are wider than those of any engine: they exclude numbers that a step could not compute with. Within them
+// no index leaves its table, no conversion overflows, and no number becomes infinite.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ namespace crankloop::detail {
 
 /// visit(state, v) calls, for every field in its order,
 ///
-///     v.group(name)               what the fields that follow are called in a Status
+///     v.group(name)               name of the fields that follow in a Status
 ///     v.number(x, least, most)    a Real
 ///     v.sum(x, most)              counted part of an integral: an integer that may wrap, or a double up to `most`
 ///     v.wide(x), v.phase(x)       any 64 bits
@@ -35,7 +35,7 @@ struct StateFields {
     v.wide(s.fingerprint);
     v.phase(s.phase);
     v.wide(s.ticks);
-    v.number(s.speed_rad_s, Real{-20000}, Real{20000});  // the tables know their own limit
+    v.number(s.speed_rad_s, Real{-20000}, Real{20000});  // load_state() checks the tables' own limit
     v.number(s.load_ratio, Real{0}, Real{2});
     if constexpr (N::input_pressure) {
       v.group("state.pressure");
@@ -90,20 +90,21 @@ struct StateFields {
 
  private:
   static constexpr Real kMaxPressure_Pa = static_cast<Real>(crankloop::kMaxPressure_Pa);
-  static constexpr Real kMaxWork =
-      static_cast<Real>(1e15);  ///< J and Nm; the largest engine that can be defined has 1e10
-  static constexpr Real kMaxLag_rad_s = static_cast<Real>(1e5);  ///< some speed limits
+  static constexpr Real kMaxWork = static_cast<Real>(1e15);  ///< J and Nm; the largest engine that can be defined has
+                                                             ///< 1e10
+  static constexpr Real kMaxLag_rad_s = static_cast<Real>(1e5);  ///< several times the speed limit
   static constexpr Real kMaxExternalTorque_Nm = static_cast<Real>(crankloop::kMaxExternalTorque_Nm);
-  static constexpr Real kMaxInertia_kg_m2 =
-      static_cast<Real>(1e9);  ///< J_eff of the largest engine that can be defined has 1e8
-  static constexpr Real kMaxReducedSpeed = static_cast<Real>(1e9);  ///< sqrt(J): that times the speed limit
-  static constexpr Real kLeastPerRoot =
-      static_cast<Real>(1e-5);  ///< 1/sqrt(kg m^2): of that inertia, and of kLeastInertia_kg_m2
+  static constexpr Real kMaxInertia_kg_m2 = static_cast<Real>(1e9);  ///< J_eff of the largest engine that can be
+                                                                     ///< defined has 1e8
+  static constexpr Real kMaxReducedSpeed = static_cast<Real>(1e9);   ///< sqrt(J) times the speed limit
+  static constexpr Real kLeastPerRoot = static_cast<Real>(1e-5);     ///< 1/sqrt(kg m^2), for kMaxInertia_kg_m2;
+                                                                     ///< kMaxPerRoot for kLeastInertia_kg_m2
   static constexpr Real kMaxPerRoot = static_cast<Real>(1e5);
   static constexpr Real kMaxLift_m = static_cast<Real>(1e6);
   static constexpr Real kMaxSpeed_m_s = static_cast<Real>(1e6);
   static constexpr Real kMaxGas_N = static_cast<Real>(1e9);   ///< 1e8 Pa on a bore of 2 m
-  static constexpr Real kMaxNoted = static_cast<Real>(1e18);  ///< of what is only compared, subtracted and shown
+  static constexpr Real kMaxNoted = static_cast<Real>(1e18);  ///< of numbers that are only compared, subtracted and
+                                                              ///< output
   static constexpr std::uint64_t kMaxCamPhase = std::uint64_t{1} << 62;  ///< 180 deg of 720
   static constexpr std::uint32_t kAny = ~std::uint32_t{0};
 
@@ -113,11 +114,11 @@ struct StateFields {
     v.number(x.part, -kMaxWork, kMaxWork);
   }
 
-  // Gas: no cylinder holds a thousand tons. How these numbers fit one another: tick/state/gas_agrees.hpp.
+  // Gas: no cylinder holds a thousand tons. tick/state/gas_agrees.hpp checks that these numbers agree with one another.
 
   static constexpr Real kMaxGas_kg = static_cast<Real>(1e6);
   static constexpr Real kMaxGas_J = static_cast<Real>(1e13);
-  static constexpr Real kMaxGas_kg_s = static_cast<Real>(1e21);  ///< 12 times 1e12 kg, a step's bound, in 1/8 us
+  static constexpr Real kMaxGas_kg_s = static_cast<Real>(1e21);  ///< a step's bound, 12 times 1e12 kg, in 1/8 us
   static constexpr Real kLeastOfGas = static_cast<Real>(1e-36);  ///< kg and J
 
   template <class AReal, class Visitor>
@@ -215,7 +216,7 @@ struct StateFields {
   }
 };
 
-/// Bytes that the visited fields take in memory, spare ones included, and in a file, without them.
+/// Bytes of the visited fields: in memory with the spare ones, in a file without them.
 struct CountFields {
   std::size_t in_memory = 0;
   std::size_t in_bytes = 0;

@@ -11,8 +11,8 @@ namespace crankloop {
 
 template <class Real>
 struct TriggerEdge {
-  Real time_s;          ///< since the tick's start, 0 to the tick; never before the preceding listed edge
-  std::uint32_t level;  ///< of the signal after it: 1 = it rose, 0 = it fell
+  Real time_s;          ///< since the tick's start, 0 to the tick's length; never before the edge listed before it
+  std::uint32_t level;  ///< of the signal after the edge: 1 = rising edge, 0 = falling edge
 };
 
 /// One wheel.
@@ -21,7 +21,7 @@ struct TriggerSignal {
   std::uint32_t level;       ///< 0 or 1, at the end of the tick
   std::uint32_t edge_count;  ///< in this tick; with more than S::trigger_edges the first of them are listed, and
                              ///< kFaultTriggerEdges is set
-  TriggerEdge<Real> edge[S::trigger_edges];  ///< in the order of time; beyond edge_count without meaning
+  TriggerEdge<Real> edge[S::trigger_edges];  ///< in order of time; entries beyond edge_count are undefined
 };
 
 namespace group {

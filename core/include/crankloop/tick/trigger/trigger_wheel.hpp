@@ -1,9 +1,8 @@
-// The edges of one trigger wheel in one tick, from the angle turned. Nothing is kept from tick to tick: the level
-// follows from the phase, and an edge at angle e belongs to the tick in which the wheel came from below e to e or
-// beyond it, or from there to below e. Phases are integers and so are edges: none is lost or counted twice, however
-// ticks follow one another.
+// The edges of one trigger wheel in one tick, from the angle turned. Nothing is stored between ticks. The level follows
+// from the phase. An edge at angle e belongs to the tick in which the wheel turns from below e to e or beyond, or back
+// to below e. Phases and edges are integers, so no sequence of ticks loses an edge or counts it twice.
 //
-// What belongs here: one wheel. What does not: the round over all of them (triggers_step.hpp).
+// What belongs here: one wheel. What does not: the loop over all wheels (triggers_step.hpp).
 //
 //                 bottom            top
 //     ---|----------o------|---------o--------->  angle      forward: bottom < e <= top rise and fall as drawn;
@@ -14,6 +13,7 @@
 
 #include <crankloop/assert.hpp>
 #include <crankloop/phase.hpp>
+#include <crankloop/scene.hpp>
 #include <crankloop/tables/trigger_tables.hpp>
 #include <crankloop/tick/one_instruction.hpp>
 #include <crankloop/tick/trigger/trigger_output.hpp>
@@ -24,17 +24,17 @@ namespace crankloop::detail {
 ///
 ///     angle(s) = begin + turned s + bend s (s - 1)
 ///
-/// At a constant speed the bend is 0. Where the speed changes evenly from w0 to w1 it is (w1 - w0) tick / 2 as an
-/// angle, and the crank may turn round on the way: at s = (1 - turned/bend) / 2.
+/// At a constant speed the bend is 0. If the speed changes linearly from w0 to w1, the bend is (w1 - w0) tick / 2 as an
+/// angle, and the crank may reverse in the tick: at s = (1 - turned/bend) / 2.
 template <class Real>
 struct CrankPath {
   Phase begin;
   Phase turned;      ///< signed: less than a crank revolution either way
-  bool jumped;       ///< nobody knows how it got there: a measured phase leapt
+  bool jumped;       ///< a measured phase jumped: the path is unknown
   Real bend_cycles;  ///< in cycles of 720 deg
 };
 
-/// The last edge at or before an angle: at most 10 comparisons, one or two for evenly spaced teeth.
+/// The last edge at or before an angle. At most 10 comparisons; one or two for evenly spaced teeth.
 [[nodiscard]] inline std::uint32_t edge_behind(const TriggerTrack& wheel, std::uint32_t angle) noexcept {
   static_assert(kTriggerParts == 1 << 7);
   CRANKLOOP_ASSERT(wheel.edge_count >= 2 && wheel.edges[0] == 0);
@@ -50,15 +50,15 @@ struct CrankPath {
     }
   }
   CRANKLOOP_ASSERT(low >= 1 && low <= wheel.edge_count && wheel.edges[low - 1] <= angle);
-  return low - 1;  // the first edge is at 0: there is one
+  return low - 1;  // the first edge is at 0, so there always is one
 }
 
-/// The signal beyond an edge, as the shaft turns forward.
+/// Level of the signal after an edge in forward rotation.
 [[nodiscard]] inline std::uint32_t level_beyond(const TriggerTrack& wheel, std::uint32_t edge) noexcept {
   return (~edge & 1u) ^ wheel.inverted;
 }
 
-/// Units (2^64 = 1) as a number, without their last two bits.
+/// Converts units (2^64 = 1) to a ratio; drops their last two bits.
 template <class Real>
 [[nodiscard]] constexpr Real ratio_of(std::uint64_t units) noexcept {
   constexpr Real two_to_minus_31 = static_cast<Real>(1.0 / 2147483648.0);
@@ -67,8 +67,7 @@ template <class Real>
   return (static_cast<Real>(high) + static_cast<Real>(low) * two_to_minus_31) * two_to_minus_31;
 }
 
-/// Part of a tick in which the wheel turns one way: where it begins, how far it goes (less than a turn), in units of
-/// 2^-64 turns.
+/// Part of a tick in which the wheel turns in one direction: start and span (less than a turn) in units of 2^-64 turns.
 struct Sweep {
   std::uint64_t from;
   std::uint64_t span;
@@ -77,8 +76,8 @@ struct Sweep {
   [[nodiscard]] std::uint64_t to() const noexcept { return forward ? from + span : from - span; }
 };
 
-/// When a wheel has gone a distance: d = slope (s - since) + bend (s - since)^2, in turns, with nothing negative but
-/// the bend.
+/// Time at which a wheel has turned by a distance d = slope (s - since) + bend (s - since)^2 in turns. Only the bend
+/// may be negative.
 template <class Real>
 struct BentPace {
   Real since;
@@ -87,15 +86,15 @@ struct BentPace {
 
   void prepare(std::uint64_t) const noexcept {}
 
-  /// By the root's form that does not cancel; a wheel that turns round or sets off has slope 0 there.
+  /// The form of the root without cancellation. After a reversal the slope is 0.
   [[nodiscard]] Real ratio_at(Real distance) const noexcept {
-    const Real square = slope * slope + 4 * bend * distance;  // of the speed there
+    const Real square = slope * slope + 4 * bend * distance;  // square of the speed at the edge
     const Real speeds = slope + (square > 0 ? square_root(square) : Real{0});
     return speeds > 0 ? since + 2 * distance / speeds : since;
   }
 };
 
-/// The same at a constant speed; the division waits until there is an edge.
+/// The time at a constant speed. Divides only when there is an edge.
 template <class Real>
 struct EvenPace {
   Real per_span{};
@@ -107,7 +106,7 @@ struct EvenPace {
   [[nodiscard]] Real ratio_at(Real distance) const noexcept { return distance * per_span; }
 };
 
-/// One wheel's signal in the making.
+/// Computes one wheel's signal.
 template <class Real, class S>
 class TriggerTick {
  public:
@@ -116,13 +115,16 @@ class TriggerTick {
     out_.edge_count = 0;
   }
 
-  /// Nobody knows how it got there: the level, and no edges.
+  /// Whether there were more edges than it lists.
+  [[nodiscard]] bool out_of_room() const noexcept { return out_of_room_; }
+
+  /// After a jump of the phase: sets the level and lists no edges.
   void leap(std::uint64_t to) noexcept { stand_at(edge_behind(wheel_, angle(to))); }
 
-  /// At a constant speed.
+  /// Turns the wheel at a constant speed.
   void turn(const Sweep& sweep) noexcept { pass(sweep, EvenPace<Real>{}); }
 
-  /// At a speed that changes evenly. `bend` as in CrankPath, but in turns of this wheel.
+  /// Turns the wheel at a linearly changing speed. `bend` as in CrankPath, but in turns of this wheel.
   void turn(const Sweep& sweep, Real bend) noexcept {
     const Real turned = sweep.forward ? ratio_of<Real>(sweep.span) : -ratio_of<Real>(sweep.span);
     const Real slope = turned - bend;
@@ -140,16 +142,15 @@ class TriggerTick {
 
   void stand_at(std::uint32_t edge) noexcept { out_.level = level_beyond(wheel_, edge); }
 
-  /// Out to the turning point and back from it, each a sweep. The turning point is rounded, but one and the same for
-  /// both.
+  /// Two sweeps: to the point of reversal and back. Both use the same rounded point.
   void turn_round(const Sweep& tick, Real slope, Real bend) noexcept {
-    constexpr Real kMax = static_cast<Real>(0.999);  // of a turn; half of one at the speed limit
+    constexpr Real kMax = static_cast<Real>(0.999);  // turns; at the speed limit it is half a turn
     CRANKLOOP_ASSERT(bend != 0);
     const Real since = slope / (-2 * bend);
-    CRANKLOOP_ASSERT(since >= 0 && since <= 1);  // it is rounded
+    CRANKLOOP_ASSERT(since >= 0 && since <= 1);  // 1 included: it is rounded
     const Real reach = magnitude(slope) * since / 2;
     const bool outward = slope > 0;
-    const bool ends_beyond = tick.forward == outward;  // beyond where it began, as it went out
+    const bool ends_beyond = tick.forward == outward;  // beyond the start, in the direction of the first sweep
     std::uint64_t out = Phase::from_cycles(reach < kMax ? reach : kMax).units();
     if (ends_beyond && out < tick.span) out = tick.span;
     const Sweep there{tick.from, out, outward};
@@ -165,13 +166,13 @@ class TriggerTick {
     const std::uint32_t last = edge_behind(wheel_, angle(top));
     if (top - at(last) < sweep.span) {
       list(sweep, last, pace);
-    } else {  // it lies at the bottom, or below
+    } else {  // the edge lies at the bottom or below
       stand_at(last);
     }
   }
 
-  /// Counts the edges of a sweep up to its last, lists as many as there is room for, and stands at its end. A call of
-  /// its own, so that its registers are not those of a sweep without edges.
+  /// Counts the edges of a sweep up to `last`, lists as many as there is room for, and sets the level at the sweep's
+  /// end. Not inlined, so that a sweep without edges does not save its registers.
   template <class Pace>
   [[gnu::noinline]] void list(const Sweep& sweep, std::uint32_t last, Pace pace) noexcept {
     const std::uint64_t bottom = sweep.forward ? sweep.from : sweep.to();
@@ -181,10 +182,10 @@ class TriggerTick {
     pace.prepare(sweep.span);
     const std::uint32_t step = sweep.forward ? 1 : wheel_.edge_count - 1;  // to the next edge, modulo their number
     std::uint32_t edge = sweep.forward ? wrapped(before_first + 1) : last;
-    const std::uint32_t room = out_.edge_count < S::trigger_edges ? S::trigger_edges - out_.edge_count : 0;
+    const std::uint32_t most = max_listed();
+    const std::uint32_t room = out_.edge_count < most ? most - out_.edge_count : 0;
     const std::uint32_t listed = passed < room ? passed : room;
-    TriggerEdge<Real>* entry =
-        out_.edge + (S::trigger_edges - room);  // not beyond the end, where a sweep before this one has filled them
+    TriggerEdge<Real>* entry = out_.edge + (most - room);  // at the end if an earlier sweep has filled the list
     CRANKLOOP_ASSERT(entry + listed <= out_.edge + S::trigger_edges);
     for (std::uint32_t i = 0; i < listed; ++i, ++entry, edge = wrapped(edge + step)) {
       const std::uint64_t distance = sweep.forward ? at(edge) - sweep.from : sweep.from - at(edge);
@@ -193,7 +194,14 @@ class TriggerTick {
       entry->level = level_beyond(wheel_, edge) ^ (sweep.forward ? 0u : 1u);
     }
     out_.edge_count += passed;
+    if (passed > room) out_of_room_ = true;
     stand_at(sweep.forward ? last : before_first);
+  }
+
+  /// Per tick; a crank that reverses may pass its edges twice.
+  [[nodiscard]] std::uint32_t max_listed() const noexcept {
+    const std::uint32_t passed = Needs<S>::crank_dynamics ? 2 * wheel_.max_edges : wheel_.max_edges;
+    return passed < S::trigger_edges ? passed : S::trigger_edges;
   }
 
   [[nodiscard]] std::uint64_t at(std::uint32_t edge) const noexcept { return std::uint64_t{wheel_.edges[edge]} << 32; }
@@ -201,7 +209,7 @@ class TriggerTick {
     return edge < wheel_.edge_count ? edge : edge - wheel_.edge_count;
   }
 
-  /// Rounding neither turns two edges round nor puts one beyond the tick.
+  /// Limits the time, so that rounding neither swaps two edges nor puts one beyond the tick.
   void later(Real ratio) noexcept {
     CRANKLOOP_ASSERT(latest_ >= 0 && latest_ <= 1);
     if (ratio > latest_) latest_ = ratio < 1 ? ratio : Real{1};
@@ -210,7 +218,8 @@ class TriggerTick {
   const TriggerTrack& wheel_;
   Real tick_s_;
   TriggerSignal<Real, S>& out_;
-  Real latest_{0};  ///< part of the tick until the edge listed last
+  Real latest_{0};  ///< time of the edge listed last, as a fraction of the tick
+  bool out_of_room_ = false;
 };
 
 }  // namespace crankloop::detail

@@ -12,7 +12,7 @@
 
 namespace crankloop::detail {
 
-/// Where the phasers stood before the tick; after it, the state knows.
+/// Positions of the phasers before the tick; the state holds those after it.
 template <class S>
 struct CamsBefore {
   std::uint64_t cam_phase[S::trains.capacity];
@@ -21,7 +21,7 @@ template <class Real>
 struct SpeedBefore {
   Real speed_rad_s;
 };
-/// What wheels receive of the state before the tick; nothing where no wheel needs it.
+/// What the wheels need of the state before the tick; empty if they need nothing.
 template <class Real, class S>
 struct BeforeTick : If<Needs<S>::any_triggers && S::cam_phasing, CamsBefore<S>>,
                     If<Needs<S>::any_triggers && Needs<S>::crank_dynamics, SpeedBefore<Real>> {
@@ -57,25 +57,25 @@ struct TriggersStep {
       } else {
         tick.turn(sweep_of(wheel));
       }
-      if (signal.edge_count > S::trigger_edges) faults |= kFaultTriggerEdges;
+      if (tick.out_of_room()) faults |= kFaultTriggerEdges;
     }
     return faults;
   }
 
  private:
-  /// Phase units (2^64 = 720 deg) in units of the wheel's turn. A sum: a shift by a variable is a call on some
-  /// processors.
+  /// Converts phase units (2^64 = 720 deg) to units of the wheel's turn. By a sum, because a shift by a variable is a
+  /// library call on some processors.
   [[nodiscard]] static std::uint64_t in_turns(const TriggerTrack& wheel, std::uint64_t phase) noexcept {
     return wheel.on_crank != 0 ? phase + phase : phase;
   }
 
-  /// Where a wheel stands, in units of 2^-64 turns since its first edge.
+  /// Angle of a wheel since its first edge in units of 2^-64 turns.
   [[nodiscard]] static std::uint64_t on_wheel(const TriggerTrack& wheel, Phase crank, std::uint64_t phaser) noexcept {
     return in_turns(wheel, crank.units() - phaser - wheel.starts);
   }
 
-  /// A phaser moves its wheel back, evenly over the tick. Crank and phaser may each go half a cycle, and so more
-  /// together than a signed number of units holds.
+  /// A phaser retards its wheel at a constant rate over the tick. Crank and phaser may each turn by half a cycle; their
+  /// sum overflows a signed number of units.
   [[nodiscard]] Sweep sweep_of(const TriggerTrack& wheel) const noexcept {
     const std::uint64_t stood = phaser_before(wheel);
     const auto crank = static_cast<std::int64_t>(path.turned.units());
@@ -101,7 +101,7 @@ struct TriggersStep {
   }
 };
 
-/// Answers fault bits.
+/// Returns fault bits.
 template <class Real, class S>
 [[nodiscard]] std::uint32_t read_triggers(const Tables<Real, S>& tables, const State<Real, S>& state,
                                           Output<Real, S>& out, const BeforeTick<Real, S>& before,

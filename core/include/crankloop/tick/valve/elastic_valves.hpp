@@ -95,8 +95,8 @@ class ElasticValves {
     if (jumped) start();
     bool entered = false;
     for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g) entered |= begin_tick(cams[g], g);
-    if (kByDegree && entered) enter_degrees(cams);
     for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g) check_speed(cams[g], g);
+    if (kByDegree && entered) enter_degrees(cams);
     Before before;
     Steps steps(valves_);
     const Bits failed = steps.run(cams, before);
@@ -161,7 +161,8 @@ class ElasticValves {
   [[nodiscard]] Bits valves_at(const CamDegrees* of_train, const CamTicks<Real, S>& cams) const noexcept {
     Bits valves = 0;
     for (std::uint32_t t = 0; t < valves_.trains(); ++t)
-      valves |= Bits{of_train[t].cylinders[cams[t].degree()]} << t * Valves::kPerTrain;
+      valves |= Bits{of_train[t].cylinders[S::cam_phasing ? cams[t].degree() : valves_.work.degree[0]]}
+                << t * Valves::kPerTrain;
     return valves;
   }
   [[nodiscard, gnu::cold, gnu::noinline]] Bits all_valves() const noexcept {
@@ -187,19 +188,19 @@ class ElasticValves {
 
   /// The cams' speed has jumped, and with it the dampers' forces.
   [[gnu::cold, gnu::noinline]] void recheck_contacts(const CamTick<Real>& tick, std::uint32_t group) noexcept {
-    valves_.for_each_of(group, [&](std::uint32_t v) {
-      if ((valves_.work.active >> v & 1) == 0) return;
+    for (Bits left = valves_.work.active & valves_.of_group(group); left != 0; left &= left - 1) {
+      const std::uint32_t v = trailing_zeros(left);
       const ValveState<Real> s = valves_.state_of(v);
       const std::uint32_t before = contacts_of(valves_.state.valve_regime[v]);
       const std::uint32_t regime = required_contacts(valves_.motion(v), s, valves_.cam(v), tick.cam.deg_per_s);
-      if (regime == before) return;
+      if (regime == before) continue;
       valves_.set_regime(v, regime);
       if constexpr (S::valve_results) {
         const Real deg = valves_.curve(v).degrees(tick.phase_before() - valves_.curve(v).opens[valves_.cylinder(v)]);
         valves_.state.record[valves_.train(v)][valves_.cylinder(v)].event(before, regime, s.velocity_m_s, deg);
         valves_.load_record(v);
       }
-    });
+    }
   }
 
   // ---- event location ---------------------------------------------------------------------------------------------
@@ -226,8 +227,12 @@ class ElasticValves {
     const ValveInRegime<Real> start{{before.lift_m[lane], before.velocity_m_s[lane]}, valves_.state.valve_regime[v]};
     const Stepped<Real> step{valves_.state_of(v), before.increment_m[lane]};
     const std::uint64_t at = tick.phase - valves_.curve(v).opens[valves_.cylinder(v)];
-    const ValveInRegime<Real> end =
-        valves_.event_locator(v, budget).run(start, step, valves_.span(v, tick, from, to, gas), at, tick.turned);
+    const Span<Real, typename Valves::Gas> span = valves_.span(v, tick, from, to, gas);
+    const auto locator = valves_.event_locator(v, budget);
+    const std::uint32_t parts = valves_.motion(v).parts;
+    const ValveInRegime<Real> end = (parts > 1 || valves_.wide) && locator.rests(start, span) ? start
+                                    : budget.spend(parts) ? locator.run(start, step, span, at, tick.turned)
+                                                          : locator.beyond_budget(start, step, span);
     CRANKLOOP_ASSERT(is_finite(end.state.lift_m) && is_finite(end.state.velocity_m_s));
     valves_.set_state(v, end.state);
     if (end.regime != start.regime) valves_.set_regime(v, end.regime);

@@ -20,10 +20,17 @@
 
 namespace crankloop::detail {
 
-/// Events that may still be located in this tick, over all valves. The next one counts at the end of its fine step.
+/// What event location may still spend in this tick, over all valves, in units: a fine step is one (a tick that is not
+/// divided counts as one), an event located in it kUnitsOfEvent more. An event beyond it counts at the end of its step.
 struct EventBudget {
   std::uint32_t left;
   bool exceeded;
+
+  [[nodiscard]] bool spend(std::uint32_t units) noexcept {
+    if (left < units) return false;
+    left -= units;
+    return true;
+  }
 };
 
 template <class Real, class Gas, class Record>
@@ -33,9 +40,9 @@ class EventLocator {
                Record& record) noexcept
       : motion_{motion}, curve_{curve}, budget_{budget}, record_{record} {}
 
-  /// A tick of a valve whose guards fail; `end` is where its regime's step led. The cam's speed may have changed the
-  /// damper's force since the tick before, so the contacts are checked at the start too. The cam stands at `to`,
-  /// `turned` units on. O(parts + events).
+  /// A tick of a valve whose guards fail, its fine steps paid for; `end` is where its regime's step led. The cam's
+  /// speed may have changed the damper's force since the tick before, so the contacts are checked at the start too. The
+  /// cam stands at `to`, `turned` units on. O(parts + events).
   [[nodiscard]] ValveInRegime<Real> run(const ValveInRegime<Real>& start, Stepped<Real> end,
                                         const Span<Real, Gas>& tick, std::uint64_t to,
                                         std::int64_t turned) const noexcept {
@@ -47,6 +54,33 @@ class EventLocator {
     if (regime != start.regime)
       end = stepped(motion_.fine[regime], start.state, tick.from, tick.to, tick.cam.deg, tick.gas);
     return finish_step({start.state, regime}, end, tick);
+  }
+
+  /// The tick in one step, for want of budget: contacts change at its end. One that begins is as deep as after a fine
+  /// step: deeper in a stiff seat the valve would gain energy that it never had.
+  [[nodiscard]] ValveInRegime<Real> beyond_budget(const ValveInRegime<Real>& start, const Stepped<Real>& end,
+                                                  const Span<Real, Gas>& tick) const noexcept {
+    budget_.exceeded = true;
+    ValveState<Real> s = end.state;
+    if (is_too_far(s)) return in_equilibrium(motion_, tick.to.lift_m, static_cast<Real>(tick.gas.to_N));
+    const std::uint32_t before = contacts_of(start.regime);
+    const std::uint32_t now = required_contacts(motion_, s, tick.to, tick.cam.deg_per_s);
+    const std::uint32_t begin = now & ~before;
+    if (begin != 0) {
+      const Real contact_m = (begin & kSeatOn) != 0 ? motion_.body.seat_compression_m : tick.to.lift_m;
+      s.lift_m = contact_m + (s.lift_m - contact_m) * motion_.per_parts;
+    }
+    record_step(start, s, tick, motion_.tick_s);
+    record_event(before, now, s, tick, 1);
+    return {s, now};
+  }
+
+  /// Whether a valve is at rest and stays so, its cam away all through the tick.
+  [[nodiscard]] bool rests(const ValveInRegime<Real>& valve, const Span<Real, Gas>& tick) const noexcept {
+    const bool open = tick.from.lift_m > 0 || tick.to.lift_m > 0;
+    const bool may_skip = magnitude(tick.cam.deg) >= curve_.skip_deg;
+    return contacts_of(valve.regime) == kSeatOn && !open && !may_skip && valve.state.lift_m == 0 &&
+           valve.state.velocity_m_s == 0 && tick.gas.from_N == 0 && tick.gas.to_N == 0;
   }
 
   /// Records a step without an event.
@@ -68,16 +102,14 @@ class EventLocator {
     return regime;
   }
 
+  /// No valve gets so far; nor is one that is no number anywhere.
+  [[nodiscard]] static bool is_too_far(const ValveState<Real>& s) noexcept {
+    return !(magnitude(s.lift_m) < static_cast<Real>(kMaxLift_m));
+  }
+
   /// Fine steps all through the tick.
   [[nodiscard, gnu::noinline]] ValveInRegime<Real> by_fine_steps(ValveInRegime<Real> valve, const Span<Real, Gas>& tick,
                                                                  std::uint64_t to, std::int64_t turned) const noexcept {
-    const bool open = tick.from.lift_m > 0 || tick.to.lift_m > 0;
-    const bool may_skip = magnitude(tick.cam.deg) >= curve_.skip_deg;
-    const bool seated = valve.regime == kSeatOn || valve.regime == kQuiet;
-    if (seated && !open && !may_skip && valve.state.lift_m == 0 && valve.state.velocity_m_s == 0 &&
-        tick.gas.from_N == 0 && tick.gas.to_N == 0) {
-      return valve;  // at rest, the cam away at both ends
-    }
     valve.regime = contacts_at_start(valve, tick);
     const std::uint64_t part =
         motion_.parts > 1 ? part_of(turned, motion_.per_parts_32) : static_cast<std::uint64_t>(turned);
@@ -130,65 +162,97 @@ class EventLocator {
            passes(r.seat, s.lift_m, s.velocity_m_s);
   }
 
+  /// Whether a contact may change and change back within a fine step: its event function (SmoothSegment) then has an
+  /// extremum there. By its slopes at both ends, which where a contact is on matter only if it fails its guard.
+  [[nodiscard]] bool may_graze(std::uint32_t regime, const ValveState<Real>& from, const ValveState<Real>& to,
+                               const Span<Real, Gas>& step) const noexcept {
+    const Real gap_m[] = {step.from.lift_m - from.lift_m, step.to.lift_m - to.lift_m};
+    const Real gap_m_s[] = {step.cam.deg_per_s * step.from.per_deg_m - from.velocity_m_s,
+                            step.cam.deg_per_s * step.to.per_deg_m - to.velocity_m_s};
+    const RegimeStep<Real>& r = motion_.fine[regime];
+    const bool train = (regime & kTrainOn) != 0;
+    const bool seat = (regime & kSeatOn) != 0;
+    if (!train && (gap_m[0] > 0 || (gap_m_s[0] > 0 && gap_m_s[1] < 0))) return true;
+    if (!seat && (from.lift_m < motion_.body.seat_compression_m || (from.velocity_m_s < 0 && to.velocity_m_s > 0)))
+      return true;
+    const bool train_fails = train && !(passes(r.train, gap_m[0], gap_m_s[0]) && passes(r.train, gap_m[1], gap_m_s[1]));
+    const bool seat_fails =
+        seat && !(passes(r.seat, from.lift_m, from.velocity_m_s) && passes(r.seat, to.lift_m, to.velocity_m_s));
+    if (!train_fails && !seat_fails) return false;
+    const Real from_m_s2 = acceleration(r.acceleration, from, gap_m[0], gap_m_s[0], step.gas.between(0, 0));
+    const Real to_m_s2 = acceleration(r.acceleration, to, gap_m[1], gap_m_s[1], step.gas);
+    if (seat_fails && from.velocity_m_s + motion_.seat_lag_s * from_m_s2 > 0 &&
+        to.velocity_m_s + motion_.seat_lag_s * to_m_s2 < 0)
+      return true;
+    if (!train_fails) return false;
+    const Real lag_s = motion_.train_lag_s * motion_.per_fine_step_s * motion_.per_fine_step_s;
+    const Real rise_m = step.to.lift_m - step.from.lift_m;
+    const Real slope_m[] = {step.cam.deg * step.from.per_deg_m, step.cam.deg * step.to.per_deg_m};
+    return gap_m_s[0] + lag_s * (6 * rise_m - 4 * slope_m[0] - 2 * slope_m[1]) < motion_.train_lag_s * from_m_s2 &&
+           gap_m_s[1] + lag_s * (2 * slope_m[0] + 4 * slope_m[1] - 6 * rise_m) > motion_.train_lag_s * to_m_s2;
+  }
+
   /// A fine step, checked for events: most often there is none.
-  [[nodiscard, gnu::noinline]] ValveInRegime<Real> finish_step(const ValveInRegime<Real>& start,
-                                                               const Stepped<Real>& end,
-                                                               const Span<Real, Gas>& step) const noexcept {
+  [[nodiscard]] ValveInRegime<Real> finish_step(const ValveInRegime<Real>& start, const Stepped<Real>& end,
+                                                const Span<Real, Gas>& step) const noexcept {
     CRANKLOOP_ASSERT(start.regime < kQuiet);
-    if (!(magnitude(end.state.lift_m) < static_cast<Real>(kMaxLift_m))) {  // too far, or NaN
+    if (is_too_far(end.state)) {
       budget_.exceeded = true;
       return in_equilibrium(motion_, step.to.lift_m, static_cast<Real>(step.gas.to_N));
     }
-    std::uint32_t now = required_contacts(motion_, end.state, step.to, step.cam.deg_per_s);
-    const Cubic<Real> lift(step.from.lift_m, step.cam.deg * step.from.per_deg_m, step.to.lift_m,
-                           step.cam.deg * step.to.per_deg_m);
-    if (now == start.regime) now ^= grazing_event(motion_, segment_of(motion_, start, end, lift, Real{1}, step), now);
-    if (now != start.regime && budget_.left != 0) return step_through_events(start, end, now, lift, step);
+    const std::uint32_t now = required_contacts(motion_, end.state, step.to, step.cam.deg_per_s);
+    const bool grazes = now == start.regime && may_graze(now, start.state, end.state, step);
+    if ((now != start.regime || grazes) && budget_.spend(kUnitsOfEvent))
+      return step_through_events(start, end, now, step);
+    if (grazes || (now != start.regime && !is_negligible(motion_, start.regime ^ now, end.state, step.to)))
+      budget_.exceeded = true;
     record_step(start, end.state, step, motion_.fine_step_s);
-    if (now != start.regime) {
-      if (!is_negligible(motion_, start.regime ^ now, end.state, step.to)) budget_.exceeded = true;
-      record_event(start.regime, now, end.state, step, 1);
-    }
+    record_event(start.regime, now, end.state, step, 1);
     return {end.state, now};
   }
 
-  /// A fine step from event to event. Each round takes one of the budget, of which some is left.
-  [[nodiscard, gnu::noinline]] ValveInRegime<Real> step_through_events(ValveInRegime<Real> valve, Stepped<Real> end,
-                                                                       std::uint32_t now, Cubic<Real> lift,
+  /// A fine step from event to event, if there are any. Each is paid for before it is located, the first by the caller.
+  [[nodiscard, gnu::noinline]] ValveInRegime<Real> step_through_events(const ValveInRegime<Real>& start,
+                                                                       const Stepped<Real>& first_end,
+                                                                       std::uint32_t now,
                                                                        const Span<Real, Gas>& step) const noexcept {
+    ValveInRegime<Real> valve = start;
+    Stepped<Real> end = first_end;
+    Cubic<Real> lift(step.from.lift_m, step.cam.deg * step.from.per_deg_m, step.to.lift_m,
+                     step.cam.deg * step.to.per_deg_m);
+    SmoothSegment<Real> s = segment_of(motion_, valve, end, lift, Real{1}, step);
+    if (now == valve.regime) now ^= grazing_event(motion_, s, now);
     Real left = 1;
     std::uint32_t last = 0;
-    do {
-      CRANKLOOP_ASSERT(budget_.left != 0);
-      CRANKLOOP_ASSERT(left > 0 && left <= 1);
-      --budget_.left;
-      const std::uint32_t changes = now ^ valve.regime;
-      CRANKLOOP_ASSERT(changes != 0 && changes < kQuiet);
-      const SmoothSegment<Real> s = segment_of(motion_, valve, end, lift, left, step);
-      Real x = 1;
-      std::uint32_t event = 0;
-      if ((changes & kTrainOn) != 0) {
-        x = event_fraction(s, s.train, (valve.regime & kTrainOn) != 0, last == kTrainOn, motion_.train_lag_s);
-        event = kTrainOn;
-      }
-      if ((changes & kSeatOn) != 0) {
-        const Real at = event_fraction(s, s.seat, (valve.regime & kSeatOn) != 0, last == kSeatOn, motion_.seat_lag_s);
-        if (event == 0 || at < x) x = at, event = kSeatOn;
-      }
-      const ValveState<Real> there = s.at(x);
-      CRANKLOOP_ASSERT(event == kTrainOn || event == kSeatOn);
-      CRANKLOOP_ASSERT(x >= 0 && x <= 1);
-      CRANKLOOP_ASSERT(is_finite(there.lift_m) && is_finite(there.velocity_m_s));
-      const Real passed = x * left;
-      record_segment(valve, there, lift, 1 - left, passed, step);
-      lift.shift(passed);
-      left -= passed;
-      record_event(valve.regime, valve.regime ^ event, there, step, 1 - left);
-      valve = {there, valve.regime ^ event};
-      last = event;
-      end = by_series(motion_, valve.regime, valve.state, lift, left, step.gas.between(1 - left, 2 - left));
-      now = required_contacts(motion_, end.state, step.to, step.cam.deg_per_s);
-    } while (budget_.left != 0 && now != valve.regime && left > 0);
+    if (now != valve.regime) do {
+        CRANKLOOP_ASSERT(left > 0 && left <= 1);
+        if (last != 0) s = segment_of(motion_, valve, end, lift, left, step);
+        const std::uint32_t changes = now ^ valve.regime;
+        CRANKLOOP_ASSERT(changes != 0 && changes < kQuiet);
+        Real x = 1;
+        std::uint32_t event = 0;
+        if ((changes & kTrainOn) != 0) {
+          x = event_fraction(s, s.train, (valve.regime & kTrainOn) != 0, last == kTrainOn, motion_.train_lag_s);
+          event = kTrainOn;
+        }
+        if ((changes & kSeatOn) != 0) {
+          const Real at = event_fraction(s, s.seat, (valve.regime & kSeatOn) != 0, last == kSeatOn, motion_.seat_lag_s);
+          if (event == 0 || at < x) x = at, event = kSeatOn;
+        }
+        const ValveState<Real> there = s.at(x);
+        CRANKLOOP_ASSERT(event == kTrainOn || event == kSeatOn);
+        CRANKLOOP_ASSERT(x >= 0 && x <= 1);
+        CRANKLOOP_ASSERT(is_finite(there.lift_m) && is_finite(there.velocity_m_s));
+        const Real passed = x * left;
+        record_segment(valve, there, lift, 1 - left, passed, step);
+        lift.shift(passed);
+        left -= passed;
+        record_event(valve.regime, valve.regime ^ event, there, step, 1 - left);
+        valve = {there, valve.regime ^ event};
+        last = event;
+        end = by_series(motion_, valve.regime, valve.state, lift, left, step.gas.between(1 - left, 2 - left));
+        now = required_contacts(motion_, end.state, step.to, step.cam.deg_per_s);
+      } while (now != valve.regime && left > 0 && budget_.spend(kUnitsOfEvent));
     if (now != valve.regime && left > 0 && !is_negligible(motion_, valve.regime ^ now, end.state, step.to))
       budget_.exceeded = true;
     CRANKLOOP_ASSERT(left >= 0 && now < kQuiet);

@@ -131,7 +131,6 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide,
     CRANKLOOP_ASSERT(first + kLanesOf<Lanes> <= kLaneRoom<S>);
     const auto regime = regimes_at<Lanes>(work_, first);
     const auto gas = gas_at<Lanes>(first);
-    static_assert(sizeof out_.valve[0][0] == 4 * sizeof(float));
     const ValvesOf<Lanes> valves(valves_, first);
     const ValveState<Lanes> start = states_at<Lanes>(first);
     const Lift<Lanes> from{held<Lanes>(&work_.cam_lift_m[first]), held<Lanes>(&work_.cam_per_deg_m[first])};
@@ -159,8 +158,7 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide,
     store<Lanes>(&work_.cam_lift_m[first], to.lift_m);
     store<Lanes>(&work_.cam_per_deg_m[first], to.per_deg_m);
     const Lanes theory = larger(to.lift_m, Lanes{});
-    store_lanes(theory, end.lift_m, end.velocity_m_s, accelerates,
-                RowsOf<4, Lanes>(valves, &out_.valve[0][0].theoretical_lift_m).at);
+    write_motion(valves, end, theory, accelerates);
     if constexpr (S::valve_forces) write_forces(first, valves, end, at, accelerates, place);
     if constexpr (Valves::kActiveFirst) at_rest_ |= Bits{holding(at_rest)} << first;
     std::uint32_t failed = failing(pass);
@@ -216,6 +214,26 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide,
     }
     for (std::uint32_t i = 0; i < kLanesOf<Lanes>; ++i) {
       if ((unfinished >> i & 1) == 0) held[i] = force_N[i];
+    }
+  }
+
+  /// As write_motion() of one valve.
+  template <class Lanes>
+  [[gnu::always_inline]] void write_motion(const ValvesOf<Lanes>& valves, const ValveState<Lanes>& end,
+                                           [[maybe_unused]] const Lanes& theory,
+                                           [[maybe_unused]] const Lanes& accelerates) noexcept {
+    ValveMotionOutput<float, S>* const shown = &out_.valve[0][0];
+    constexpr std::size_t kFloats = 2 + (S::theoretical_lift ? 1 : 0) + (S::valve_acceleration ? 1 : 0);
+    static_assert(sizeof *shown == kFloats * sizeof(float));
+    if constexpr (kFloats == 4) {
+      store_lanes(theory, end.lift_m, end.velocity_m_s, accelerates,
+                  RowsOf<4, Lanes>(valves, &shown->theoretical_lift_m).at);
+    } else {
+      store_lanes(end.lift_m, end.velocity_m_s, RowsOf<kFloats, Lanes>(valves, &shown->lift_m).at);
+      for (int i = 0; i < kLanesOf<Lanes>; ++i) {
+        if constexpr (S::theoretical_lift) shown[valves.valve[i]].theoretical_lift_m = theory[i];
+        if constexpr (S::valve_acceleration) shown[valves.valve[i]].acceleration_m_s2 = accelerates[i];
+      }
     }
   }
 

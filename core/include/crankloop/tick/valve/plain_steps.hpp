@@ -180,12 +180,14 @@ class PlainSteps {
     const std::uint32_t lane = valves_.lane_of(v);
     const ValveState<Real> start{before.lift_m[lane], before.velocity_m_s[lane]};
     const ValveState<Real> end = valves_.state_of(v);
-    const Real acceleration_m_s2 = (&valves_.out.valve[0][0])[v].acceleration_m_s2;
+    const Lift<Real> to = valves_.cam(v);
+    const Real acceleration_m_s2 = acceleration(valves_.regime_of(v).acceleration, end, to.lift_m - end.lift_m,
+                                                tick.cam.deg_per_s * to.per_deg_m - end.velocity_m_s, gas);
     if (valves_.cell(v, tick.phase).degree >= valves_.curve(v).segments &&
         is_decoupled(v, start, valves_.regime_of(v), tick, gas)) {
       valves_.state.record[valves_.train(v)][valves_.cylinder(v)].rest(end, acceleration_m_s2);
     } else {
-      valves_.record(v, start, end, {before.cam_lift_m[lane], before.cam_per_deg_m[lane]}, valves_.cam(v), tick, gas,
+      valves_.record(v, start, end, {before.cam_lift_m[lane], before.cam_per_deg_m[lane]}, to, tick, gas,
                      acceleration_m_s2);
     }
     if constexpr (Needs<S>::valve_gas_held) valves_.state.valve_gas_N[v] = gas.to_N;

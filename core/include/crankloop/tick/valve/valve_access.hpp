@@ -24,13 +24,13 @@ struct Moment {
   Real cam_lift_m, compression_m, compression_speed_m_s, acceleration_m_s2;
 };
 
-template <class Real>
-[[gnu::always_inline]] inline void write_motion(ValveMotionOutput<Real>& shown, const ValveState<Real>& s,
+template <class Real, class S>
+[[gnu::always_inline]] inline void write_motion(ValveMotionOutput<Real, S>& shown, const ValveState<Real>& s,
                                                 const Moment<Real>& at) noexcept {
-  shown.theoretical_lift_m = at.cam_lift_m > 0 ? at.cam_lift_m : Real{0};
+  if constexpr (S::theoretical_lift) shown.theoretical_lift_m = at.cam_lift_m > 0 ? at.cam_lift_m : Real{0};
   shown.lift_m = s.lift_m;
   shown.velocity_m_s = s.velocity_m_s;
-  shown.acceleration_m_s2 = at.acceleration_m_s2;
+  if constexpr (S::valve_acceleration) shown.acceleration_m_s2 = at.acceleration_m_s2;
 }
 
 template <class Real>
@@ -119,12 +119,9 @@ struct ValveAccess {
       for (std::uint32_t k = 0; k < count<S>(tables.drive->cylinders); ++k) call(t * kPerTrain + k);
     }
   }
-  /// Those whose cams turn alike.
-  template <class Call>
-  void for_each_of(std::uint32_t group, const Call& call) const noexcept {
-    for_each([&](std::uint32_t v) {
-      if (!S::cam_phasing || train(v) == group) call(v);
-    });
+  /// Bits of those whose cams turn alike.
+  [[nodiscard]] static constexpr Bits of_group(std::uint32_t group) noexcept {
+    return S::cam_phasing ? ((Bits{1} << kPerTrain) - 1) << group * kPerTrain : ~Bits{0};
   }
 
   [[nodiscard]] Lift<Real> cam(std::uint32_t v) const noexcept {

@@ -16,14 +16,19 @@
 namespace crankloop::detail {
 
 /// A valve that follows its cam, less the clearance.
-template <class Real>
-[[nodiscard, gnu::always_inline]] constexpr ValveMotionOutput<Real> following(const LiftCurve<Real>& curve,
-                                                                              const Cell& cell,
-                                                                              const CamTurn<Real>& cam) noexcept {
+template <class Real, class S>
+[[nodiscard, gnu::always_inline]] constexpr ValveMotionOutput<Real, S> following(const LiftCurve<Real>& curve,
+                                                                                 const Cell& cell,
+                                                                                 const CamTurn<Real>& cam) noexcept {
+  ValveMotionOutput<Real, S> shown{};
   const Lift<Real> lift = curve.read(cell);
-  if (!(lift.lift_m > 0)) return {};
-  return {lift.lift_m, lift.lift_m, lift.per_deg_m * cam.deg_per_s,
-          curve.curvature(cell) * (cam.deg_per_s * cam.deg_per_s)};
+  if (!(lift.lift_m > 0)) return shown;
+  shown.lift_m = lift.lift_m;
+  shown.velocity_m_s = lift.per_deg_m * cam.deg_per_s;
+  if constexpr (S::theoretical_lift) shown.theoretical_lift_m = lift.lift_m;
+  if constexpr (S::valve_acceleration)
+    shown.acceleration_m_s2 = curve.curvature(cell) * (cam.deg_per_s * cam.deg_per_s);
+  return shown;
 }
 
 /// One tick, in which the engine turned; `jumped`: a measured phase jumped, so valves start again where their cams
@@ -47,7 +52,7 @@ template <class Real, class S>
     for (std::uint32_t t = 0; t < trains; ++t) {
       const LiftCurve<Real>& curve = tables.lift_curves[t];
       for (std::uint32_t k = 0; k < count<S>(tables.drive->cylinders); ++k) {
-        out.valve[t][k] = following(curve, curve.cell(cams[t].phase, k), cams[t].cam);
+        out.valve[t][k] = following<Real, S>(curve, curve.cell(cams[t].phase, k), cams[t].cam);
       }
     }
   }

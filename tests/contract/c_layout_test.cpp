@@ -1,0 +1,205 @@
+// Where the fields of the C interface stand: a program that was compiled with an earlier header of this minor version
+// reads and writes them there.
+#include <crankloop/crankloop.h>
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+
+namespace crankloop {
+namespace {
+
+struct Place {
+  const char* name;
+  std::size_t is;
+  std::size_t was;
+};
+#define CRANKLOOP_SIZE(STRUCT, BYTES) \
+  { "sizeof(" #STRUCT ")", sizeof(STRUCT), BYTES }
+#define CRANKLOOP_AT(STRUCT, FIELD, BYTES) \
+  { #STRUCT "." #FIELD, offsetof(STRUCT, FIELD), BYTES }
+
+/// By the rules of the usual 64-bit machines: a number stands at a multiple of its size, a struct ends at a multiple of
+/// its largest number.
+constexpr Place kPlaces[] = {
+    // clang-format off
+    CRANKLOOP_SIZE(crankloop_status, 16),
+    CRANKLOOP_AT(crankloop_status, reason, 0),
+    CRANKLOOP_AT(crankloop_status, index, 4),
+    CRANKLOOP_AT(crankloop_status, field, 8),
+
+    CRANKLOOP_SIZE(crankloop_crank, 48),
+    CRANKLOOP_AT(crankloop_crank, bore_m, 0),
+    CRANKLOOP_AT(crankloop_crank, crank_radius_m, 8),
+    CRANKLOOP_AT(crankloop_crank, rod_length_m, 16),
+    CRANKLOOP_AT(crankloop_crank, pin_offset_m, 24),
+    CRANKLOOP_AT(crankloop_crank, compression_ratio, 32),
+    CRANKLOOP_AT(crankloop_crank, max_speed_rad_s, 40),
+
+    CRANKLOOP_SIZE(crankloop_masses, 48),
+    CRANKLOOP_AT(crankloop_masses, piston_kg, 0),
+    CRANKLOOP_AT(crankloop_masses, rod_small_end_kg, 8),
+    CRANKLOOP_AT(crankloop_masses, rod_big_end_kg, 16),
+    CRANKLOOP_AT(crankloop_masses, rod_inertia_correction_kg_m2, 24),
+    CRANKLOOP_AT(crankloop_masses, crank_pin_equivalent_kg, 32),
+    CRANKLOOP_AT(crankloop_masses, crank_inertia_kg_m2, 40),
+
+    CRANKLOOP_SIZE(crankloop_layout, 408),
+    CRANKLOOP_AT(crankloop_layout, firing_deg, 0),
+    CRANKLOOP_AT(crankloop_layout, bank_deg, 128),
+    CRANKLOOP_AT(crankloop_layout, position_m, 256),
+    CRANKLOOP_AT(crankloop_layout, pin, 384),
+    CRANKLOOP_AT(crankloop_layout, cylinders, 400),
+
+    CRANKLOOP_SIZE(crankloop_diagram_point, 16),
+    CRANKLOOP_AT(crankloop_diagram_point, at, 0),
+    CRANKLOOP_AT(crankloop_diagram_point, pressure_Pa, 8),
+
+    CRANKLOOP_SIZE(crankloop_wiebe, 96),
+    CRANKLOOP_AT(crankloop_wiebe, intake_Pa, 0),
+    CRANKLOOP_AT(crankloop_wiebe, exhaust_Pa, 8),
+    CRANKLOOP_AT(crankloop_wiebe, start_of_combustion_deg, 16),
+    CRANKLOOP_AT(crankloop_wiebe, combustion_duration_deg, 24),
+    CRANKLOOP_AT(crankloop_wiebe, wiebe_m, 32),
+    CRANKLOOP_AT(crankloop_wiebe, compression_exponent, 40),
+    CRANKLOOP_AT(crankloop_wiebe, expansion_exponent, 48),
+    CRANKLOOP_AT(crankloop_wiebe, motored_expansion_exponent, 56),
+    CRANKLOOP_AT(crankloop_wiebe, exhaust_valve_opens_deg, 64),
+    CRANKLOOP_AT(crankloop_wiebe, net_mep_Pa, 72),
+    CRANKLOOP_AT(crankloop_wiebe, heat_J, 80),
+    CRANKLOOP_AT(crankloop_wiebe, heat_given, 88),
+
+    CRANKLOOP_SIZE(crankloop_pressure, 120),
+    CRANKLOOP_AT(crankloop_pressure, source, 0),
+    CRANKLOOP_AT(crankloop_pressure, point_count, 4),
+    CRANKLOOP_AT(crankloop_pressure, points, 8),
+    CRANKLOOP_AT(crankloop_pressure, crankcase_Pa, 16),
+    CRANKLOOP_AT(crankloop_pressure, wiebe, 24),
+
+    CRANKLOOP_SIZE(crankloop_cam_point, 16),
+    CRANKLOOP_AT(crankloop_cam_point, cam_deg, 0),
+    CRANKLOOP_AT(crankloop_cam_point, lift_m, 8),
+
+    CRANKLOOP_SIZE(crankloop_cam, 128),
+    CRANKLOOP_AT(crankloop_cam, source, 0),
+    CRANKLOOP_AT(crankloop_cam, exponent_count, 4),
+    CRANKLOOP_AT(crankloop_cam, max_lift_m, 8),
+    CRANKLOOP_AT(crankloop_cam, half_angle_deg, 16),
+    CRANKLOOP_AT(crankloop_cam, exponents, 24),
+    CRANKLOOP_AT(crankloop_cam, points, 88),
+    CRANKLOOP_AT(crankloop_cam, point_count, 96),
+    CRANKLOOP_AT(crankloop_cam, smoothing_m, 104),
+    CRANKLOOP_AT(crankloop_cam, full_lift_deg, 112),
+    CRANKLOOP_AT(crankloop_cam, phase_rate_deg_s, 120),
+
+    CRANKLOOP_SIZE(crankloop_rocker, 80),
+    CRANKLOOP_AT(crankloop_rocker, kind, 0),
+    CRANKLOOP_AT(crankloop_rocker, cam_turns, 4),
+    CRANKLOOP_AT(crankloop_rocker, base_circle_m, 8),
+    CRANKLOOP_AT(crankloop_rocker, clearance_m, 16),
+    CRANKLOOP_AT(crankloop_rocker, ratio, 24),
+    CRANKLOOP_AT(crankloop_rocker, pivot_to_pad_m, 32),
+    CRANKLOOP_AT(crankloop_rocker, pivot_to_cam_m, 40),
+    CRANKLOOP_AT(crankloop_rocker, pad_radius_m, 48),
+    CRANKLOOP_AT(crankloop_rocker, pivot_to_screw_m, 56),
+    CRANKLOOP_AT(crankloop_rocker, screw_ball_m, 64),
+    CRANKLOOP_AT(crankloop_rocker, stem_above_pivot_m, 72),
+
+    CRANKLOOP_SIZE(crankloop_valve, 96),
+    CRANKLOOP_AT(crankloop_valve, per_cylinder, 0),
+    CRANKLOOP_AT(crankloop_valve, valve_kg, 8),
+    CRANKLOOP_AT(crankloop_valve, spring_kg, 16),
+    CRANKLOOP_AT(crankloop_valve, rocker_inertia_kg_m2, 24),
+    CRANKLOOP_AT(crankloop_valve, spring_N_m, 32),
+    CRANKLOOP_AT(crankloop_valve, spring_preload_N, 40),
+    CRANKLOOP_AT(crankloop_valve, train_N_m, 48),
+    CRANKLOOP_AT(crankloop_valve, train_damping_ratio, 56),
+    CRANKLOOP_AT(crankloop_valve, guide_damping_ratio, 64),
+    CRANKLOOP_AT(crankloop_valve, seat_N_m, 72),
+    CRANKLOOP_AT(crankloop_valve, seat_damping_ratio, 80),
+    CRANKLOOP_AT(crankloop_valve, head_area_m2, 88),
+
+    CRANKLOOP_SIZE(crankloop_valve_train, 304),
+    CRANKLOOP_AT(crankloop_valve_train, cam, 0),
+    CRANKLOOP_AT(crankloop_valve_train, rocker, 128),
+    CRANKLOOP_AT(crankloop_valve_train, valve, 208),
+
+    CRANKLOOP_SIZE(crankloop_friction, 24),
+    CRANKLOOP_AT(crankloop_friction, constant_Pa, 0),
+    CRANKLOOP_AT(crankloop_friction, linear_Pa_s, 8),
+    CRANKLOOP_AT(crankloop_friction, quadratic_Pa_s2, 16),
+
+    CRANKLOOP_SIZE(crankloop_machine, 32),
+    CRANKLOOP_AT(crankloop_machine, constant_Nm, 0),
+    CRANKLOOP_AT(crankloop_machine, linear_Nm_s, 8),
+    CRANKLOOP_AT(crankloop_machine, quadratic_Nm_s2, 16),
+    CRANKLOOP_AT(crankloop_machine, inertia_kg_m2, 24),
+
+    CRANKLOOP_SIZE(crankloop_starter, 16),
+    CRANKLOOP_AT(crankloop_starter, stall_Nm, 0),
+    CRANKLOOP_AT(crankloop_starter, no_load_rad_s, 8),
+
+    CRANKLOOP_SIZE(crankloop_tooth_gap, 8),
+    CRANKLOOP_AT(crankloop_tooth_gap, teeth, 0),
+    CRANKLOOP_AT(crankloop_tooth_gap, missing, 4),
+
+    CRANKLOOP_SIZE(crankloop_trigger_wheel, 120),
+    CRANKLOOP_AT(crankloop_trigger_wheel, shaft, 0),
+    CRANKLOOP_AT(crankloop_trigger_wheel, train, 4),
+    CRANKLOOP_AT(crankloop_trigger_wheel, pattern, 8),
+    CRANKLOOP_AT(crankloop_trigger_wheel, places, 12),
+    CRANKLOOP_AT(crankloop_trigger_wheel, gap_count, 16),
+    CRANKLOOP_AT(crankloop_trigger_wheel, edge_count, 20),
+    CRANKLOOP_AT(crankloop_trigger_wheel, gaps, 24),
+    CRANKLOOP_AT(crankloop_trigger_wheel, first_tooth_deg, 88),
+    CRANKLOOP_AT(crankloop_trigger_wheel, tooth_ratio, 96),
+    CRANKLOOP_AT(crankloop_trigger_wheel, edges_deg, 104),
+    CRANKLOOP_AT(crankloop_trigger_wheel, inverted, 112),
+
+    CRANKLOOP_SIZE(crankloop_definition, 2888),
+    CRANKLOOP_AT(crankloop_definition, crank, 0),
+    CRANKLOOP_AT(crankloop_definition, masses, 48),
+    CRANKLOOP_AT(crankloop_definition, layout, 96),
+    CRANKLOOP_AT(crankloop_definition, pressure, 504),
+    CRANKLOOP_AT(crankloop_definition, train_count, 624),
+    CRANKLOOP_AT(crankloop_definition, trains, 632),
+    CRANKLOOP_AT(crankloop_definition, friction, 1848),
+    CRANKLOOP_AT(crankloop_definition, machine, 1872),
+    CRANKLOOP_AT(crankloop_definition, starter, 1904),
+    CRANKLOOP_AT(crankloop_definition, trigger_count, 1920),
+    CRANKLOOP_AT(crankloop_definition, triggers, 1928),
+
+    CRANKLOOP_SIZE(crankloop_options, 32),
+    CRANKLOOP_AT(crankloop_options, tick_s, 0),
+    CRANKLOOP_AT(crankloop_options, valve_accuracy_m, 8),
+    CRANKLOOP_AT(crankloop_options, valve_integrator, 16),
+    CRANKLOOP_AT(crankloop_options, valve_event_budget, 20),
+    CRANKLOOP_AT(crankloop_options, max_speed_rad_s, 24),
+
+    CRANKLOOP_SIZE(crankloop_column, 48),
+    CRANKLOOP_AT(crankloop_column, name, 0),
+    CRANKLOOP_AT(crankloop_column, values, 8),
+    CRANKLOOP_AT(crankloop_column, count, 16),
+    CRANKLOOP_AT(crankloop_column, stride, 24),
+    CRANKLOOP_AT(crankloop_column, at, 32),
+    CRANKLOOP_AT(crankloop_column, storage, 40),
+    CRANKLOOP_AT(crankloop_column, is_input, 44),
+    // clang-format on
+};
+#undef CRANKLOOP_SIZE
+#undef CRANKLOOP_AT
+
+constexpr const char* kWhatToDo =
+    " has moved: programs compiled with an earlier header of this minor version would read something else there. "
+    "Append "
+    "a new field to crankloop_definition or crankloop_options, and its row here; or raise the minor version "
+    "(version.h, "
+    "CMakeLists.txt), which gives the shared library another name, and then write the new places here.";
+
+TEST(CLayout, StaysAsItIsWithinAMinorVersion) {
+  if (sizeof(void*) != 8 || alignof(double) != 8) GTEST_SKIP() << "the places are those of 64 bits";
+  for (const Place& place : kPlaces) EXPECT_EQ(place.is, place.was) << place.name << kWhatToDo;
+}
+
+}  // namespace
+}  // namespace crankloop
