@@ -99,6 +99,24 @@ std::uint32_t most_activations(const Tables& tables) noexcept {
   return all;
 }
 
+/// Valves whose cycles may end in one tick, at most.
+template <class Tables>
+std::uint32_t most_endings(const Tables& tables) noexcept {
+  std::uint32_t all = 0;
+  for (std::uint32_t t = 0; t < tables.drive->trains; ++t) {
+    if (widest_cam_turn_deg(tables, t) >= Real{crankloop::detail::kCycleEndMargin_deg})
+      return tables.drive->trains * tables.drive->cylinders;
+    std::uint32_t most = 0;
+    for (const std::uint32_t cylinders : tables.cycle_ends[t].cylinders) {
+      std::uint32_t end = 0;
+      for (std::uint32_t left = cylinders; left != 0; left &= left - 1) ++end;
+      if (end > most) most = end;
+    }
+    all += most;
+  }
+  return all;
+}
+
 /// How many cylinders come to the same angle of their cycles in one tick at most.
 template <class Drive>
 std::uint32_t cycles_at_once(const Drive& drive) noexcept {
@@ -167,6 +185,9 @@ void print_limits(const Tables& tables) noexcept {
   std::uint32_t activations = 0;
   if constexpr (Needs::valves_rest) activations = most_activations(tables);
   port::Line() << "limit activations " << activations;
+  std::uint32_t endings = 0;
+  if constexpr (under_test::Scene::valve_results) endings = most_endings(tables);
+  port::Line() << "limit endings " << endings;
   port::Line() << "limit wide_ticks " << wide_ticks;
   port::Line() << "limit wide_steps " << wide_steps;
   std::uint32_t gas_steps = 1;

@@ -27,8 +27,10 @@ namespace detail {
 inline constexpr std::uint32_t kQuiet = 4;
 inline constexpr int kRegimes = 5;
 
-/// Units of the event budget that an event takes; a fine step takes one.
+/// Units of the event budget that an event takes, and one more where both contacts change or one only grazes; a fine
+/// step takes one.
 inline constexpr std::uint32_t kUnitsOfEvent = 2;
+inline constexpr std::uint32_t kUnitsOfSearch = 1;
 
 [[nodiscard]] constexpr std::uint32_t contacts_of(std::uint32_t regime) noexcept {
   return regime == kQuiet ? kSeatOn : regime;

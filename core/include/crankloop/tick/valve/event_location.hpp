@@ -229,15 +229,15 @@ class EventLocator {
         if (last != 0) s = segment_of(motion_, valve, end, lift, left, step);
         const std::uint32_t changes = now ^ valve.regime;
         CRANKLOOP_ASSERT(changes != 0 && changes < kQuiet);
-        Real x = 1;
-        std::uint32_t event = 0;
-        if ((changes & kTrainOn) != 0) {
-          x = event_fraction(s, s.train, (valve.regime & kTrainOn) != 0, last == kTrainOn, motion_.train_lag_s);
-          event = kTrainOn;
-        }
-        if ((changes & kSeatOn) != 0) {
-          const Real at = event_fraction(s, s.seat, (valve.regime & kSeatOn) != 0, last == kSeatOn, motion_.seat_lag_s);
-          if (event == 0 || at < x) x = at, event = kSeatOn;
+        std::uint32_t event = (changes & kTrainOn) != 0 ? kTrainOn : kSeatOn;
+        Real x = fraction_of(event, s, valve.regime, last);
+        if (changes == (kTrainOn | kSeatOn)) {
+          if (budget_.spend(kUnitsOfSearch)) {
+            const Real at = fraction_of(kSeatOn, s, valve.regime, last);
+            if (at < x) x = at, event = kSeatOn;
+          } else {
+            budget_.exceeded = true;
+          }
         }
         const ValveState<Real> there = s.at(x);
         CRANKLOOP_ASSERT(event == kTrainOn || event == kSeatOn);
@@ -260,6 +260,19 @@ class EventLocator {
     record_segment(valve, end.state, lift, 1 - left, left, step);
     record_event(valve.regime, now, end.state, step, 1);
     return {end.state, now};
+  }
+
+  /// Where in a segment a contact's event lies; `last` is the one at its start.
+  [[nodiscard, gnu::noinline]] Real fraction_of(std::uint32_t contact, const SmoothSegment<Real>& s,
+                                                std::uint32_t regime, std::uint32_t last) const noexcept {
+    const bool of_train = contact == kTrainOn;
+    const Cubic<Real> f = s.event_function(of_train ? s.train : s.seat, (regime & contact) != 0,
+                                           of_train ? motion_.train_lag_s : motion_.seat_lag_s);
+    const Real end = f.c[0] + f.c[1] + f.c[2] + f.c[3];
+    if (last == contact || (f.c[0] > 0) != (end > 0)) return f.root(last == contact, end);
+    if (budget_.spend(kUnitsOfSearch)) return grazing_fraction(f);
+    budget_.exceeded = true;
+    return 1;
   }
 
   // ---- the record of a cycle --------------------------------------------------------------------------------------

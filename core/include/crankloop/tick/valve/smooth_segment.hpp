@@ -195,15 +195,10 @@ template <class Real>
   return grazes(s.seat, (regime & kSeatOn) != 0, motion.seat_lag_s) ? kSeatOn : 0u;
 }
 
-/// The fraction of a segment at which a contact's event lies; `again`: the segment starts with an event of this
-/// contact.
+/// Where an event function that has the same sign at both ends first changes it: before its extremum.
 template <class Real>
-[[nodiscard]] inline Real event_fraction(const SmoothSegment<Real>& s, const Contact<Real>& c, bool is_on, bool again,
-                                         Real lag_s) noexcept {
-  Cubic<Real> f = s.event_function(c, is_on, lag_s);
-  const Real last = f.c[0] + f.c[1] + f.c[2] + f.c[3];
-  if (again || (f.c[0] > 0) != (last > 0)) return f.root(again, last);
-  const Real extremum = f.extremum();  // a grazing event: it changes back before the end
+[[nodiscard]] inline Real grazing_fraction(Cubic<Real> f) noexcept {
+  const Real extremum = f.extremum();
   f.shrink(extremum);
   return extremum * f.root(false, f.at(1).value);
 }
