@@ -12,7 +12,7 @@
 #   SCENE         the scene's type; default the header's name in CamelCase: my_scene.hpp has MyScene
 #   INTEGRATOR    of elastic valves: Runge-Kutta of fourth order, or the exact exponential of each contact regime; default rk4
 #   ACCURACY_UM   class of the valves' lift error in micrometres, 0.01 to 10: it sets the fine steps near contact changes; default 0.1
-#   EVENT_BUDGET  units of work for valve events in a tick, which bound its time: a fine step takes 1, an event 2; default: enough for every valve at once
+#   EVENT_BUDGET  units of work for valve events in a tick, which bound its time: a fine step takes 1, an event 2 or 3; default: enough for every valve at once
 #   MAX_RPM       the highest speed the engine can have: a step refuses a faster one; default max_rpm of the engine file,
 #                 and without it one revolution per tick or 100 000 rpm
 #   OPTIMIZATION  -O0 to -O3, -Os, -Og or -Oz for the scene's library, whatever the project's build type; "project": as the

@@ -8,5 +8,5 @@ struct ModelCycles {
   std::uint32_t mean, worst;
 };
 // arm-none-eabi-g++ 12.2.1 -O3
-constexpr ModelCycles kModelCycles{2104, 8359};
-constexpr ModelCycles kModelCyclesAt5{8253, 33254};
+constexpr ModelCycles kModelCycles{2078, 8499};
+constexpr ModelCycles kModelCyclesAt5{8176, 33664};
