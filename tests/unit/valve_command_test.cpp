@@ -208,8 +208,11 @@ TEST_F(ValveCommands, TheStaticRedlineIsThatOfTheTrainsForceBalance) {
   EXPECT_NE(contents(path("v.svg")).find("; no spring margin: the valve never opens"), std::string::npos);
   EXPECT_NE(run(kShow, {wide.path()}).find("\n# static redline of train intake: none, its valve never opens\n"),
             std::string::npos);
-  const std::string redline = run(kRedline, {wide.path(), "--train", "intake", "--from", "7000", "--to", "7001"});
+  const std::string redline =
+      run(kRedline, {wide.path(), "--train", "intake", "--from", "7000", "--to", "7001", "--csv", path("r.csv")});
   EXPECT_NE(redline.find("\nstatic_redline = none  # the valve never opens\n"), std::string::npos) << redline;
+  EXPECT_EQ(redline.find("left out"), std::string::npos) << redline;
+  EXPECT_EQ(split_at(contents(path("r.csv")), '\n').back(), "1,7001,0,0,0,0,0,0,0,0,0,");
 }
 
 TEST_F(ValveCommands, AValveInTheAirHasNoOpeningDelay) {

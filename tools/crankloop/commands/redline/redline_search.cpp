@@ -57,7 +57,7 @@ Sweep sweep_speeds(const LoneValve& valve, const SpeedRange& range, double facto
   Sweep sweep;
   sweep.factor = factor;
   sweep.tick_s = tick_for(valve);
-  sweep.max_lift_m = limits.lift_m > 0 ? limits.lift_m : kMaxLiftRatio * valve.lift().largest_lift_m();
+  sweep.max_lift_m = limits.lift_m > 0 ? limits.lift_m : kMaxLiftRatio * std::max(0.0, valve.lift().largest_lift_m());
   sweep.rigid = valve.static_redline();
   ValveLoop<double> loop(valve, sweep.tick_s, {});
   const auto run = [&](int speed_rpm) {
