@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "crankloop/commands/redline/redline_search.hpp"
 #include "crankloop/loops/valve_loop.hpp"
 #include "support/markup.hpp"
 #include "support/temporary_folder.hpp"
@@ -153,6 +154,40 @@ TEST_F(SeparationAndBounce, TellsWhereARigidTrainWouldFloat) {
     if (engine_rpm < onset_rpm) onset_rpm = engine_rpm, onset_deg = deg;
   }
   expect_told("that is at " + rounded("%.0f", onset_rpm) + " rpm and " + rounded("%.1f", onset_deg) + " deg here");
+  const StaticRedline redline = valve.static_redline();
+  EXPECT_NEAR(redline.crank_rad_s * 30 / kPi, onset_rpm, 0.01);
+  expect_told("is " + rounded("%.2f", redline.margin(7000 * kPi / 30)) + " times what slows rigid parts down");
+}
+
+TEST_F(SeparationAndBounce, TellsWhatTheGuidesDampingTakesOffTheOnset) {
+  const EngineFile file = read_engine_file(folder_ / "ohc_125.ini", {});
+  const LoneValve valve(file, "intake");
+  Valve free = valve.valve();
+  free.guide_damping_ratio = 0;
+  const auto onset_rpm = [](const LoneValve& of) {
+    return sweep_speeds(of, speed_range(8500, 9060), 1, {}).separation.speed_rpm;
+  };
+  const double below = 1 - onset_rpm(valve) / (valve.static_redline().crank_rad_s * 30 / support::kPi);
+  expect_told(rounded("%.1f", 100 * below) + " % below it");
+  const std::string without = std::to_string(onset_rpm(valve.with(free))) + " rpm";
+  expect_told("without it the onset is " + without);
+  EXPECT_NE(contents(kSource / "docs/model.md").find("the guide's damping, " + without + " without it;"),
+            std::string::npos)
+      << without;
+}
+
+TEST_F(SeparationAndBounce, TellsHowFarATrainThatRingsIsBelowItsStaticRedline) {
+  const EngineFile file = read_engine_file(kSource / "tools/engines/diesel_495.ini", {});
+  const LoneValve valve(file, "intake");
+  const int onset_rpm = sweep_speeds(valve, speed_range(2000, 2500), 1, {}).separation.speed_rpm;
+  expect_told("at " + std::to_string(onset_rpm) + " rpm of " +
+              rounded("%.0f", valve.static_redline().crank_rad_s * 30 / support::kPi));
+  Valve damped = valve.valve();
+  damped.train_damping_ratio = 0.5;
+  const int damped_rpm = sweep_speeds(valve.with(damped), speed_range(3700, 4100), 1, {}).separation.speed_rpm;
+  EXPECT_NE(contents(kSource / "docs/model.md").find(std::to_string(damped_rpm) + " rpm with a damping ratio of 0.5"),
+            std::string::npos)
+      << damped_rpm;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -172,6 +173,8 @@ TEST_F(ValveCommands, TheSummaryNamesEverythingWithItsUnit) {
                                                  {"bounce_height", "mm"},
                                                  {"natural_frequency", "Hz"},
                                                  {"seat_frequency", "Hz"},
+                                                 {"spring_margin", "#"},
+                                                 {"static_redline", "rpm"},
                                                  {"sub_steps", "#"},
                                                  {"events", "#"},
                                                  {"periodic", "#"}};
@@ -185,11 +188,37 @@ TEST_F(ValveCommands, TheSummaryNamesEverythingWithItsUnit) {
   EXPECT_NEAR(std::stod(found.at("natural_frequency").first), 2216, 1);
 }
 
+TEST_F(ValveCommands, TheStaticRedlineIsThatOfTheTrainsForceBalance) {
+  // By hand, from differences of the lift at 24.6 deg: tests/unit/spring_margin_test.cpp.
+  constexpr double kStatic_rpm = 8954.39;
+  const std::string told = run(kValve, {kOhc125, "--train", "intake", "--rpm", "-7000", "--plot", path("v.svg")});
+  const auto found = lines(told);
+  EXPECT_EQ(found.at("static_redline").first, "8954.39");
+  EXPECT_NEAR(std::stod(found.at("spring_margin").first), std::pow(kStatic_rpm / 7000, 2), 1e-5);
+  EXPECT_NE(told.find("# least of rigid parts, at 24.6 deg:"), std::string::npos) << told;
+  EXPECT_NE(contents(path("v.svg")).find("; spring margin at least 1.64, at 24.6\u00B0"), std::string::npos);
+  const std::string shown = run(kShow, {kOhc125});
+  EXPECT_NE(shown.find("\n# static redline of train intake: 8954.39 rpm, at 24.6 cam deg from full lift;"),
+            std::string::npos)
+      << shown;
+
+  const ChangedFile wide(kOhc125, "clearance_mm", "clearance_mm = 9");  // more than the cam lifts
+  const std::string shut = run(kValve, {wide.path(), "--train", "intake", "--rpm", "7000", "--plot", path("v.svg")});
+  EXPECT_NE(shut.find("\nspring_margin = none  # the valve never opens\nstatic_redline = none\n"), std::string::npos);
+  EXPECT_NE(contents(path("v.svg")).find("; no spring margin: the valve never opens"), std::string::npos);
+  EXPECT_NE(run(kShow, {wide.path()}).find("\n# static redline of train intake: none, its valve never opens\n"),
+            std::string::npos);
+  const std::string redline =
+      run(kRedline, {wide.path(), "--train", "intake", "--from", "7000", "--to", "7001", "--csv", path("r.csv")});
+  EXPECT_NE(redline.find("\nstatic_redline = none  # the valve never opens\n"), std::string::npos) << redline;
+  EXPECT_EQ(redline.find("left out"), std::string::npos) << redline;
+  EXPECT_EQ(split_at(contents(path("r.csv")), '\n').back(), "1,7001,0,0,0,0,0,0,0,0,0,");
+}
+
 TEST_F(ValveCommands, AValveInTheAirHasNoOpeningDelay) {
   // At 16 000 rpm the valve has not come down when its cam lifts it again: neither 0 deg late nor any.
   const std::string told = run(kValve, {kOhc125, "--train", "intake", "--rpm", "16000"});
-  EXPECT_NE(told.find("opening_delay = none  # off its seat before its cam lifted it\n"), std::string::npos)
-      << told;
+  EXPECT_NE(told.find("opening_delay = none  # off its seat before its cam lifted it\n"), std::string::npos) << told;
   const ChangedFile wide(kOhc125, "clearance_mm", "clearance_mm = 9");  // more than the cam lifts
   const std::string shut = run(kValve, {wide.path(), "--train", "intake", "--rpm", "7000"});
   EXPECT_NE(shut.find("opening_delay = none  # it does not rise by 0.1 mm\n"), std::string::npos) << shut;
@@ -437,6 +466,42 @@ TEST_F(ValveCommands, ARedlineNamesItsCurvesAtTheirEndsAndCutsThemWhereTheValveF
   }
 }
 
+TEST_F(ValveCommands, ARedlineTellsTheStaticOneBesideTheOnset) {
+  const std::vector<std::string> range{"--train", "intake", "--from", "8500", "--to", "9060"};
+  const auto told = [&](const std::string& file, const std::vector<std::string>& more) {
+    std::vector<std::string> words{file};
+    words.insert(words.end(), range.begin(), range.end());
+    words.insert(words.end(), more.begin(), more.end());
+    return run(kRedline, words);
+  };
+  const std::string above = told(kOhc125, {"--csv", path("r.csv")});
+  EXPECT_NE(above.find("\nstatic_redline = 8954.39 rpm  # of rigid parts without damping, at 24.6 deg; 4.6 % above the "
+                       "onset: vibration, "),
+            std::string::npos)
+      << above;
+  const std::vector<std::string> rows = split_at(contents(path("r.csv")), '\n');
+  EXPECT_EQ(split_at(rows[0], ',').back(), "spring_margin");
+  for (std::size_t row = 1; row < rows.size(); ++row) {
+    const std::vector<std::string> cells = split_at(rows[row], ',');
+    EXPECT_NEAR(std::stod(cells.back()), std::pow(8954.387 / std::stod(cells[1]), 2), 1e-6) << rows[row];
+  }
+  // Critically damped, and free in its guide: the vibration that is left loads the train.
+  const ChangedFile damped(kOhc125, "train_damping_ratio", "train_damping_ratio = 1");
+  const ChangedFile free(damped.path().c_str(), "guide_damping_ratio", "guide_damping_ratio = 0");
+  const std::string below = told(free.path(), {});
+  EXPECT_NE(below.find(" % below the onset: vibration loads the train"), std::string::npos) << below;
+
+  // As 1 / sqrt(mass), whatever the train's stiffness and damping.
+  told(kOhc125, {"--vary", "mass", "--report", path("r.html")});
+  const std::string page = contents(path("r.html"));
+  for (const double factor : {0.5, 0.7, 0.85, 1.0, 1.2, 1.5, 2.0}) {
+    char rpm[40];
+    std::snprintf(rpm, sizeof rpm, "%.0f rpm", 8954.387 / std::sqrt(factor));
+    EXPECT_NE(page.find(rpm), std::string::npos) << factor << ": " << rpm;
+  }
+  EXPECT_NE(page.find("static redline"), std::string::npos);
+}
+
 /// A hundredth of the preload: the valve flies through its spring.
 TEST_F(ValveCommands, ARedlineLeavesOutLiftsThatNoSpringAllows) {
   const ChangedFile weak(kOhc125, "spring_preload_N", "spring_preload_N = 2");
@@ -456,7 +521,7 @@ TEST_F(ValveCommands, ARedlineLeavesOutLiftsThatNoSpringAllows) {
   for (const std::string& row : split_at(contents(path("r.csv")), '\n')) {
     if (row.empty() || row[0] == 'f') continue;
     const std::vector<std::string> cells = split_at(row, ',');
-    ASSERT_EQ(std::count(row.begin(), row.end(), ','), 10) << row;
+    ASSERT_EQ(std::count(row.begin(), row.end(), ','), 11) << row;
     const double lift_mm = 1e3 * program::run<double>(valve, std::stod(cells[1])).results.largest_lift_m;
     EXPECT_EQ(cells[2].empty(), lift_mm > most_mm) << row << ": " << lift_mm;
     if (!cells[2].empty()) continue;

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include <crankloop/assert.hpp>
+#include <crankloop/tabulate/spring_margin.hpp>
 #include <crankloop/tabulate/valve_lift.hpp>
 #include <crankloop/tick/one_instruction.hpp>
 
@@ -174,6 +175,15 @@ void fill_cam_degrees(const LiftCurve<Real>& curve, int cylinders, int train,
   }
 }
 
+/// Keeps the lowest static redline of the trains.
+void record_redline(const StaticRedline& of_train, int train, TableReport& report) noexcept {
+  if (!(of_train.crank_rad_s > 0)) return;
+  if (report.static_redline_train >= 0 && of_train.crank_rad_s >= report.static_redline_rad_s) return;
+  report.static_redline_rad_s = of_train.crank_rad_s;
+  report.static_redline_deg = of_train.cam_deg;
+  report.static_redline_train = train;
+}
+
 }  // namespace
 
 template <class Real>
@@ -206,6 +216,7 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
       return refuse("options.valves.event_budget", Reason::out_of_range, t);
     const double keeps_deg = motions[t].cubic_deg * motions[t].parts;
     if (keeps_deg < class_deg) class_deg = keeps_deg;
+    record_redline(static_redline(lift, motions[t].body), t, report);
   }
   report.valve_fine_steps = fine_steps;
   report.valve_class_deg = targets.valve_motions != nullptr ? class_deg : 0;

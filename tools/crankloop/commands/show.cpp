@@ -1,12 +1,19 @@
 // `crankloop show FILE`: the complete definition as an engine file.
 #include <algorithm>
 #include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <crankloop/tabulate/spring_margin.hpp>
+#include <crankloop/tabulate/valve_motion.hpp>
 
 #include "../command_line/commands.hpp"
 #include "../command_line/engine_argument.hpp"
 #include "../engine_file/crankshaft_words.hpp"
 #include "../files/error.hpp"
 #include "../files/output_file.hpp"
+#include "../files/units.hpp"
 #include "../files/words.hpp"
 #include "../loops/valve_tick_limit.hpp"
 
@@ -41,6 +48,26 @@ std::string show_section(const SectionValues& section, const std::string& engine
   return text;
 }
 
+/// By spring and mass alone: where each train's valve would float if nothing gave way.
+std::vector<std::string> redlines_in_words(const EngineFile& file) {
+  std::vector<std::string> lines;
+  for (const TrainOfFile& train : file.trains()) {
+    const auto lift = std::make_unique<ValveLift>();
+    if (!train.complete() || !lift->init(train.definition.cam, train.definition.rocker).ok()) continue;
+    const double lever_m = lift->lever_m() > 0 ? lift->lever_m() : 1;
+    const StaticRedline redline = static_redline(*lift, valve_body(train.definition.valve, lever_m));
+    std::string line = "static redline of train " + train.name + ": ";
+    if (redline.crank_rad_s > 0) {
+      line += brief(redline.crank_rad_s * kRpmPerRad_s) + " rpm, at " + brief(redline.cam_deg) +
+              " cam deg from full lift; rigid parts without damping";
+    } else {
+      line += "none, its valve never opens";
+    }
+    lines.push_back(line);
+  }
+  return lines;
+}
+
 int run_show(const Arguments& arguments) {
   const EngineFile engine = read_engine(arguments, {});
   Output out = Output::standard();
@@ -61,6 +88,7 @@ std::string show(const EngineFile& engine) {
     text += "\n# There is no [masses] section, and it has no defaults: no forces.\n";
   }
   for (const std::string& line : ticks_in_words(engine)) text += "\n# " + line + "\n";
+  for (const std::string& line : redlines_in_words(engine)) text += "\n# " + line + "\n";
   return text;
 }
 

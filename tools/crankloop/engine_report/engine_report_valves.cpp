@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include <crankloop/tabulate/spring_margin.hpp>
 #include <crankloop/tabulate/valve_lift.hpp>
 #include <crankloop/tabulate/valve_motion.hpp>
 
@@ -35,6 +36,9 @@ struct Train {
   double seat_contact_m;  ///< lift at which the valve touches its seat
   double open_Hz;
   double seated_Hz;
+  StaticRedline rigid;
+  double spring_margin;  ///< least, at the speed of the run
+  double margin_at_deg;  ///< its crank angle
 };
 
 /// Converts cam degrees from the start of the lobe, as the tick counts them, to the crank angle of cylinder 1.
@@ -53,10 +57,12 @@ std::vector<Train> trains_of(const ReportInput& input) {
     if (!lift->init(train.cam, train.rocker).ok()) continue;  // the loop has accepted it
     const detail::ValveBody<double> body = valve_body(train.valve, lift->lever_m() > 0 ? lift->lever_m() : 1);
     const ValveTrace& trace = input.trace.valves[t];
+    const StaticRedline rigid = static_redline(*lift, body);
     trains.push_back({names[t], trace, index_of_largest(trace[ValveQuantity::theoretical_lift]),
                       train.cam.full_lift_deg + 2 * lift->opens_rad() * kDegPerRad, lift->largest_lift_m(),
                       body.preload_N / body.seat_N_m, open_frequency_rad_s(body) * kTurnsPerRad,
-                      seated_frequency_rad_s(body) * kTurnsPerRad});
+                      seated_frequency_rad_s(body) * kTurnsPerRad, rigid, rigid.margin(input.operation.speed_rad_s()),
+                      std::fmod(train.cam.full_lift_deg + 2 * rigid.cam_deg + 720, 720)});
   }
   return trains;
 }
@@ -293,6 +299,15 @@ report::Table results_table(const std::vector<Train>& trains) {
       [&](const Train& t, const Cycle&) { return largest(t, ValveQuantity::train_force); });
   row("Largest force of the seat", "N",
       [&](const Train& t, const Cycle&) { return largest(t, ValveQuantity::seat_force); });
+  row("Least spring margin, rigid parts", "", [](const Train& t, const Cycle&) {
+    return std::isfinite(t.spring_margin) ? number_text(t.spring_margin, 3) : std::string("\u2013");
+  });
+  row("its place, crank angle", "deg", [](const Train& t, const Cycle&) {
+    return std::isfinite(t.spring_margin) ? report::format_fixed(t.margin_at_deg, 1) : std::string("\u2013");
+  });
+  row("Static redline", "rpm", [](const Train& t, const Cycle&) {
+    return t.rigid.crank_rad_s > 0 ? number_text(t.rigid.crank_rad_s * kRpmPerRad_s, 4) : std::string("\u2013");
+  });
   row("Natural frequency, open", "Hz", [](const Train& t, const Cycle&) { return number_text(t.open_Hz, 4); });
   row("Natural frequency, on the seat", "Hz", [](const Train& t, const Cycle&) { return number_text(t.seated_Hz, 4); });
   return table;

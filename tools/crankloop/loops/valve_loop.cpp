@@ -93,6 +93,8 @@ detail::ValveBody<double> LoneValve::body() const noexcept {
   return valve_body(valve(), lift_->lever_m() > 0 ? lift_->lever_m() : 1);
 }
 
+StaticRedline LoneValve::static_redline() const noexcept { return crankloop::static_redline(lift(), body()); }
+
 double LoneValve::cam_deg(double since_opening_deg) const noexcept {
   return since_opening_deg + lift_->opens_rad() * kDegPerRad;
 }

@@ -11,6 +11,7 @@
 
 #include <crankloop/engine.hpp>
 #include <crankloop/tabulate/indicator_diagram.hpp>
+#include <crankloop/tabulate/spring_margin.hpp>
 #include <crankloop/tabulate/tabulate.hpp>
 #include <crankloop/tabulate/valve_lift.hpp>
 
@@ -45,6 +46,7 @@ class LoneValve {
   [[nodiscard]] const Valve& valve() const noexcept { return definition_.trains[0].valve; }
   [[nodiscard]] const ValveLift& lift() const noexcept { return *lift_; }
   [[nodiscard]] detail::ValveBody<double> body() const noexcept;
+  [[nodiscard]] StaticRedline static_redline() const noexcept;
 
   /// Cam angle from full lift of what the tick counts from the start of the lobe.
   [[nodiscard]] double cam_deg(double since_opening_deg) const noexcept;

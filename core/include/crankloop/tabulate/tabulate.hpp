@@ -52,6 +52,10 @@ struct TableReport {
   double valve_class_deg = 0;  ///< cam degrees of a tick up to which all elastic valves keep their accuracy class, 360
                                ///< if always; in longer ticks a cubic does not represent the cam's lift over a fine
                                ///< step
+  double static_redline_rad_s = 0;  ///< lowest of all elastic valves' trains, speed of the crank
+                                    ///< (tabulate/spring_margin.hpp); 0: no train, no elastic valve, or none opens
+  double static_redline_deg = 0;    ///< where on that train's lobe: cam degrees from full lift
+  int static_redline_train = -1;    ///< which train; -1: none
 };
 
 /// Fills the targets. Validates the definition first; nothing is written when it refuses.

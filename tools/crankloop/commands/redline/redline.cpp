@@ -36,6 +36,7 @@ constexpr ResultColumn kColumns[] = {
     {"max_acceleration_m_s2", 5, [](const SpeedResult& r) { return r.cycle.largest_acceleration_m_s2; }},
     {"max_train_force_N", 5, [](const SpeedResult& r) { return r.train_N; }},
     {"max_cam_force_N", 5, [](const SpeedResult& r) { return r.cam_N; }},
+    {"spring_margin", 4, [](const SpeedResult& r) { return r.spring_margin; }},
 };
 
 std::string digits(double value, int significant_digits) {
@@ -71,6 +72,11 @@ class TextTable {
 
 constexpr const char* kMasked = "-";
 
+/// Whether a column has a value: not beyond what the spring allows, nor the margin of a valve that never opens.
+bool is_shown(const SpeedResult& result, const ResultColumn& column) {
+  return result.is_possible && std::isfinite(column.value(result));
+}
+
 std::string table_of_speeds(const Sweep& sweep) {
   TextTable table;
   std::vector<std::string> header{"speed_rpm"};
@@ -79,7 +85,7 @@ std::string table_of_speeds(const Sweep& sweep) {
   for (const SpeedResult& result : sweep.at) {
     std::vector<std::string> cells{std::to_string(result.speed_rpm)};
     for (const ResultColumn& column : kColumns)
-      cells.push_back(result.is_possible ? digits(column.value(result), column.digits) : kMasked);
+      cells.push_back(is_shown(result, column) ? digits(column.value(result), column.digits) : kMasked);
     table.row(cells);
   }
   return table.text();
@@ -90,17 +96,23 @@ std::string cell_of(const Onset& onset, const SpeedRange& range) {
   return (onset.at_the_start ? "<=" : "") + std::to_string(onset.speed_rpm);
 }
 
+std::string cell_of(const StaticRedline& rigid) {
+  return rigid.crank_rad_s > 0 ? digits(rigid.crank_rad_s * kRpmPerRad_s, 6) : "none";
+}
+
 std::string table_of_factors(const Redline& redline) {
   TextTable table;
-  std::vector<std::string> header{"factor", "separation_onset_rpm", "bounce_onset_rpm", "seating_limit_rpm"};
+  std::vector<std::string> header{"factor", "separation_onset_rpm", "bounce_onset_rpm", "seating_limit_rpm",
+                                  "static_redline_rpm"};
   for (const ResultColumn& column : kColumns) header.emplace_back(column.name);
   table.row(header);
   for (const Sweep& sweep : redline.sweeps) {
     std::vector<std::string> cells{digits(sweep.factor, 6), cell_of(sweep.separation, redline.range),
-                                   cell_of(sweep.bounce, redline.range), cell_of(sweep.seating, redline.range)};
+                                   cell_of(sweep.bounce, redline.range), cell_of(sweep.seating, redline.range),
+                                   cell_of(sweep.rigid)};
     const SpeedResult& result = sweep.at[redline.compared_at()];
     for (const ResultColumn& column : kColumns)
-      cells.push_back(result.is_possible ? digits(column.value(result), column.digits) : kMasked);
+      cells.push_back(is_shown(result, column) ? digits(column.value(result), column.digits) : kMasked);
     table.row(cells);
   }
   return table.text();
@@ -128,6 +140,7 @@ std::string summary(const Redline& redline) {
   add_onset(s, "separation_onset", given.separation, redline.range);
   add_onset(s, "bounce_onset", given.bounce, redline.range);
   add_onset(s, "seating_limit", given.seating, redline.range);
+  s.line("static_redline", cell_of(given.rigid), given.rigid.crank_rad_s > 0 ? "rpm" : "", static_in_words(redline));
   s.line("natural_frequency", open_frequency_rad_s(body) * kTurnsPerRad, "Hz", "open, on the train");
   s.line("seat_frequency", seated_frequency_rad_s(body) * kTurnsPerRad, "Hz", "on train and seat");
   s.text("\n");
@@ -147,7 +160,7 @@ void write_csv(Output& out, const Redline& redline) {
       csv.cell(sweep.factor);
       csv.cell(result.speed_rpm);
       for (const ResultColumn& column : kColumns) {
-        if (result.is_possible) {
+        if (is_shown(result, column)) {
           csv.cell(column.value(result));
         } else {
           csv.cell("");
@@ -270,6 +283,24 @@ std::string masked_in_words(const Redline& redline) {
          brief(redline.as_given().max_lift_m * 1e3) + " mm" +
          (redline.limits.lift_m > 0 ? ", where its spring binds"
                                     : ": 1.5 times the theoretical lift, for which no spring has room");
+}
+
+std::string static_in_words(const Redline& redline) {
+  const Sweep& given = redline.as_given();
+  if (!(given.rigid.crank_rad_s > 0)) return "the valve never opens";
+  const std::string rigid = "of rigid parts without damping, at " + brief(given.rigid.cam_deg) + " deg";
+  if (!given.separation.found || given.separation.at_the_start) return rigid;
+  const double above = given.rigid.crank_rad_s * kRpmPerRad_s / given.separation.speed_rpm - 1;
+  char percent[40];
+  std::snprintf(percent, sizeof percent, "%.1f %%", 100 * std::abs(above));
+  return rigid + "; " + percent +
+         (above > 0 ? " above the onset: vibration, and while closing the guide's damping, unload the train earlier"
+                    : " below the onset: vibration loads the train where the margin is least");
+}
+
+std::string text_of(const StaticRedline& rigid) {
+  if (!(rigid.crank_rad_s > 0)) return "none";
+  return std::to_string(std::lround(rigid.crank_rad_s * kRpmPerRad_s)) + " rpm";
 }
 
 std::string text_of(const Onset& onset, const SpeedRange& range) {

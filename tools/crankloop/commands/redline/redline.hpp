@@ -65,6 +65,12 @@ struct Redline {
 /// "8513 rpm", "at or below 500 rpm", "none up to 15000 rpm".
 [[nodiscard]] std::string text_of(const Onset& onset, const SpeedRange& range);
 
+/// "8954 rpm", "none".
+[[nodiscard]] std::string text_of(const StaticRedline& rigid);
+
+/// Where the static redline of the train as given stands, beside its onset of separation, and why.
+[[nodiscard]] std::string static_in_words(const Redline& redline);
+
 [[nodiscard]] report::Page redline_page(const Redline& redline);
 
 }  // namespace crankloop::program

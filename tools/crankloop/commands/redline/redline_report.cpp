@@ -110,12 +110,28 @@ Section onset_section(const Redline& redline) {
   series("separation", &Sweep::separation);
   series("bounce", &Sweep::bounce);
   series("seating speed", &Sweep::seating);
+  report::Series rigid;
+  rigid.name = "static redline";
+  rigid.style.draw = report::Draw::line_and_points;
+  for (const Sweep& sweep : redline.sweeps) {
+    if (!(sweep.rigid.crank_rad_s > 0)) continue;
+    rigid.x.push_back(sweep.factor);
+    rigid.y.push_back(sweep.rigid.crank_rad_s * kRpmPerRad_s);
+  }
+  if (!rigid.x.empty()) plot.series.push_back(std::move(rigid));
   if (!plot.series.empty()) section.blocks.push_back(std::move(plot));
-  report::Table table{
-      "", {{"Factor", ""}, {"Separation from", ""}, {"Bounce from", ""}, {"Seating too fast from", ""}}, {}, false};
+  report::Table table{"",
+                      {{"Factor", ""},
+                       {"Separation from", ""},
+                       {"Bounce from", ""},
+                       {"Seating too fast from", ""},
+                       {"Static redline", ""}},
+                      {},
+                      false};
   for (const Sweep& sweep : redline.sweeps) {
     table.rows.push_back({brief(sweep.factor), text_of(sweep.separation, redline.range),
-                          text_of(sweep.bounce, redline.range), text_of(sweep.seating, redline.range)});
+                          text_of(sweep.bounce, redline.range), text_of(sweep.seating, redline.range),
+                          text_of(sweep.rigid)});
   }
   section.blocks.push_back(std::move(table));
   return section;
@@ -142,6 +158,9 @@ Section method_section(const Redline& redline) {
     list.items.push_back(masked + ".");
   }
   list.items.push_back("The single-mass model opens its contact only at the cam; spring surge is not modelled.");
+  list.items.push_back(
+      "The static redline is the speed at which the spring can just slow the valve down as the cam asks, " +
+      static_in_words(redline) + ".");
   if (redline.influence != nullptr) list.items.push_back("Damping ratios stay constant while mass or stiffness vary.");
   section.blocks.push_back(std::move(list));
   return section;
@@ -166,6 +185,9 @@ report::Page redline_page(const Redline& redline) {
       onset("Separation from", given.separation, "float"),
       onset("Bounce from", given.bounce, "after seating"),
       onset("Seating too fast from", given.seating, "above the limit"),
+      {"Static redline",
+       given.rigid.crank_rad_s > 0 ? report::format_number(given.rigid.crank_rad_s * kRpmPerRad_s, 4) : "none",
+       given.rigid.crank_rad_s > 0 ? "rpm" : "", "spring margin 1, rigid parts"},
       {"Natural frequency", report::format_number(open_frequency_rad_s(body) * kTurnsPerRad, 4), "Hz",
        "open, on the train"},
       {"Seated", report::format_number(seated_frequency_rad_s(body) * kTurnsPerRad, 4), "Hz", "on train and seat"},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../../files/units.hpp"
 #include "../../loops/valve_tick_limit.hpp"
 
 namespace crankloop::program {
@@ -19,7 +20,7 @@ double tick_for(const LoneValve& valve) {
 }
 
 SpeedResult run_at(ValveLoop<double>& loop, const LoneValve& valve, int speed_rpm) {
-  SpeedResult result{speed_rpm, {}, 0, 0, true};
+  SpeedResult result{speed_rpm, {}, 0, 0, 0, true};
   result.cycle = run_cycles<double>(loop, valve, speed_rpm, kRedlineCycles, [&](const ValveTickOutput<double>& out) {
     result.train_N = std::max(result.train_N, out.forces.train_N);
     result.cam_N = std::max(result.cam_N, out.forces.cam_N);
@@ -56,10 +57,12 @@ Sweep sweep_speeds(const LoneValve& valve, const SpeedRange& range, double facto
   Sweep sweep;
   sweep.factor = factor;
   sweep.tick_s = tick_for(valve);
-  sweep.max_lift_m = limits.lift_m > 0 ? limits.lift_m : kMaxLiftRatio * valve.lift().largest_lift_m();
+  sweep.max_lift_m = limits.lift_m > 0 ? limits.lift_m : kMaxLiftRatio * std::max(0.0, valve.lift().largest_lift_m());
+  sweep.rigid = valve.static_redline();
   ValveLoop<double> loop(valve, sweep.tick_s, {});
   const auto run = [&](int speed_rpm) {
     SpeedResult result = run_at(loop, valve, speed_rpm);
+    result.spring_margin = sweep.rigid.margin(speed_rpm * kRad_sPerRpm);
     result.is_possible = result.cycle.largest_lift_m <= sweep.max_lift_m;
     if (after_speed) after_speed();
     return result;

@@ -37,7 +37,8 @@ struct SpeedResult {
   ValveCycle<double> cycle;
   double train_N;
   double cam_N;
-  bool is_possible;  ///< false: the valve flies further than its spring has room, which the model does not know
+  double spring_margin;  ///< least of rigid parts; infinite where the valve never opens
+  bool is_possible;      ///< false: the valve flies further than its spring has room, which the model does not know
 };
 
 /// The lowest speed of the sweep's range at which something happens, to 1 rpm.
@@ -52,6 +53,7 @@ struct Sweep {
   double tick_s = 0;
   std::vector<SpeedResult> at;
   double max_lift_m = 0;  ///< of what is possible
+  StaticRedline rigid;
   Onset separation;
   Onset bounce;
   Onset seating;  ///< faster than the limit

@@ -61,6 +61,19 @@ std::string gas_remark(const LoneValve& valve) {
   return "with the gas force on the head, full load";
 }
 
+/// Of rigid parts: it does not depend on the run.
+void add_margin(Summary& s, const LoneValve& valve, double speed_rpm) {
+  const StaticRedline redline = valve.static_redline();
+  if (!(redline.crank_rad_s > 0)) {
+    s.line("spring_margin", "none", "", "the valve never opens");
+    s.line("static_redline", "none");
+    return;
+  }
+  s.line("spring_margin", redline.margin(speed_rpm * kRad_sPerRpm), "",
+         "least of rigid parts, at " + brief(redline.cam_deg) + " deg: below 1 the valve leaves its train");
+  s.line("static_redline", redline.crank_rad_s * kRpmPerRad_s, "rpm", "spring margin 1; no elasticity, damping or gas");
+}
+
 template <class Real>
 std::string summary(const LoneValve& valve, const Request& request, const ValveLoop<Real>& loop,
                     const ValveCycle<Real>& cycle, double change_m) {
@@ -90,6 +103,7 @@ std::string summary(const LoneValve& valve, const Request& request, const ValveL
   if (cycle.off_seat_at_end != 0) s.remark("the valve is still off its seat in the middle of the base circle");
   s.line("natural_frequency", real(open_frequency_rad_s(body) / (2 * kPi)), "Hz", "open, on the train");
   s.line("seat_frequency", real(seated_frequency_rad_s(body) / (2 * kPi)), "Hz", "on train and seat");
+  add_margin(s, valve, request.speed_rpm);
   const std::uint32_t parts = loop.motion().parts;
   s.line("sub_steps", request.method.textbook ? TextbookValve<Real>::steps(loop.motion()) : parts, "",
          request.method.textbook ? "in each tick" : "in a tick, near contact changes; 1 elsewhere");
@@ -128,6 +142,8 @@ void run(const LoneValve& valve, const Request& request, Results& results) {
                                                          request.cycles, after_tick);
   if (plot != nullptr) {
     trace.cycle = in_double(cycle);
+    trace.redline = valve.static_redline();
+    trace.speed_rad_s = request.speed_rpm * kRad_sPerRpm;
     trace.seat_contact_m = valve.body().preload_N / valve.body().seat_N_m;
     const std::string remark = std::filesystem::path(valve.file().path()).filename().string() + ", " +
                                circumstances(request) + "; " + gas_remark(valve);

@@ -247,6 +247,12 @@ std::string flight_in_words(const ValveCycle<double>& c) {
   return text + (c.off_seat_at_end != 0 ? "; still off its seat in the middle of the base circle" : "");
 }
 
+std::string margin_in_words(const ValveCycleTrace& trace) {
+  if (!(trace.redline.crank_rad_s > 0)) return "no spring margin: the valve never opens";
+  return "spring margin at least " + number_text(trace.redline.margin(trace.speed_rad_s), 3) + ", at " +
+         number_text(trace.redline.cam_deg, 3) + "\u00B0";
+}
+
 }  // namespace
 
 report::Sheet valve_sheet(const ValveCycleTrace& trace, const std::string& title, const std::string& remark) {
@@ -254,7 +260,7 @@ report::Sheet valve_sheet(const ValveCycleTrace& trace, const std::string& title
   const Part part = moving_part(s);
   report::Sheet sheet;
   sheet.title = title;
-  sheet.remarks = {remark, motion_in_words(s.cycle), flight_in_words(s.cycle)};
+  sheet.remarks = {remark, motion_in_words(s.cycle) + "; " + margin_in_words(trace), flight_in_words(s.cycle)};
   sheet.plots = {lift_plot(s, part), force_plot(s, part), gap_plot(s, part)};
   if (s.seated < s.ticks.size()) sheet.plots.push_back(seating_plot(s));
   return sheet;

@@ -17,6 +17,8 @@ namespace crankloop::program {
 struct ValveCycleTrace {
   std::vector<ValveTickOutput<double>> ticks{};
   ValveCycle<double> cycle{};
+  StaticRedline redline{};
+  double speed_rad_s = 0;  ///< of the crank
   double seat_contact_m =
       0;  ///< lift at which the valve meets its seat: closed, its spring presses the seat below that
 };
