@@ -450,9 +450,9 @@ TEST(ValveForces, AtTheCamBeginWithTheTrains) {
 // --------------------------------------------------------------------------------------------------------
 
 TEST(ValveEventBudget, WhenExceededIsFlaggedAndSharedByTurns) {
-  // Eight valves that open and close together: the events of 5 of the 8 are located, the others taken at the tick's end.
-  // Who comes first, turns: no valve is always among the others. Beside them one alone, which always has its changes
-  // located.
+  // Eight valves that open and close together: the events of 5 of the 8 are located, the others taken at the tick's
+  // end. Who comes first, turns: no valve is always among the others. Beside them one alone, which always has its
+  // changes located.
   EngineDefinition all = tick_test::with_cylinders(engine_with(ohc_125_train()), {0, 0, 0, 0});
   all.train_count = 2;
   all.trains[1] = all.trains[0];

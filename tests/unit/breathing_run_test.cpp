@@ -258,6 +258,37 @@ TEST_F(BreathingRun, DrawsItsGasExchangeOnAPageOfTheUsualSize) {
               12);
 }
 
+/// Intake valves of the sample by theory, as `lift` has them (lift_command_test.cpp sums those by hand); the elastic
+/// ones, on a stiff train, are within a per cent.
+TEST_F(BreathingRun, ShowsTheFlowAreaOfItsValves) {
+  run({kFour, "--rpm", "3000", "--report", path("report.html")});
+  const std::string text = contents(path("report.html"));
+  const auto intake = [&text](const std::string& row) {
+    const std::size_t at = text.find(row + "</th>");
+    EXPECT_NE(at, std::string::npos) << row;
+    if (at == std::string::npos) return 0.0;
+    const std::size_t cell = text.find("<td class=\"number\">", text.find("<td", at) + 1);  // behind the unit
+    std::string digits;
+    for (const char c : text.substr(cell + 19, 24)) {
+      if (c == '<') break;
+      if ((c >= '0' && c <= '9') || c == '.') digits += c;  // without the thin space between thousands
+    }
+    return std::stod(digits);
+  };
+  EXPECT_EQ(support::read(text).fault, "");
+  EXPECT_NE(text.find(">Flow area of one valve<"), std::string::npos);
+  EXPECT_NE(text.find("Assumed, intake: seat_width_mm = 1.32, seat_angle_deg = 45"), std::string::npos);
+  EXPECT_EQ(intake("Valves in a cylinder"), 2);
+  EXPECT_NEAR(intake("Open period of theory, crank angle"), 256, 0.05);
+  const double theory = intake("Integral of the area, theory");
+  const double elastic = intake("Integral of the area");
+  EXPECT_NEAR(elastic, theory, 0.01 * theory);
+  EXPECT_LT(elastic, theory);
+  EXPECT_NEAR(intake("Mean area while open") * intake("Open period"), elastic, 1e-3 * elastic);
+  EXPECT_NEAR(intake("Mean gas speed"), 5808.8 * 8.6 / (2 * intake("Mean area while open")), 0.02);
+  EXPECT_NEAR(intake("Inlet Mach index Z"), 5808.8 * 8.6 / (2 * intake("Mean effective area")) / 346.2, 1e-3);
+}
+
 TEST_F(BreathingRun, HasTheBalanceOfTheCycleThatItRuns) {
   testing::internal::CaptureStdout();
   EXPECT_EQ(kBalance.run(Arguments(kBalance, {kFour, "--rpm", "3000", "--throttle", "0.3"})), kSuccess);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -78,6 +79,13 @@ class LiftCommand : public testing::Test {
     return rows;
   }
 
+  void rows_with_flow(const std::string& file) {
+    testing::internal::CaptureStdout();
+    const int status = kLift.run(Arguments(kLift, {file, "--train", "intake", "--csv", folder_ / "flow.csv"}));
+    summary_ = testing::internal::GetCapturedStdout();
+    EXPECT_EQ(status, kSuccess);
+  }
+
   std::string refusal(const std::string& file, const std::string& train = "intake") const {
     try {
       static_cast<void>(kLift.run(Arguments(kLift, {file, "--train", train, "--csv", folder_ / "none.csv"})));
@@ -130,6 +138,73 @@ TEST_F(LiftCommand, TabulatesTheTrainOfThe125OverATurnOfItsCam) {
   EXPECT_NE(summary_.find("max_theoretical_lift = 7.815"), std::string::npos) << summary_;
   EXPECT_NE(summary_.find("min_cam_radius = 5.869"), std::string::npos) << summary_;
   EXPECT_EQ(summary_.find("smoothing"), std::string::npos) << summary_;
+}
+
+/// The sample of two litres: valves of 33 mm, of which a cylinder has two.
+TEST_F(LiftCommand, TellsTheFlowAreaWhereTheFileHasADiameterOfTheValve) {
+  constexpr const char* kFour = CRANKLOOP_SOURCE_DIR "/tools/engines/four_2000.ini";
+  const std::string csv = folder_ / "flow.csv";
+  testing::internal::CaptureStdout();
+  ASSERT_EQ(kLift.run(Arguments(kLift, {kFour, "--train", "intake", "--csv", csv, "--step-deg", "0.1"})), kSuccess);
+  const std::string summary = testing::internal::GetCapturedStdout();
+  std::ifstream table(csv);
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(line,
+            "cam_deg,rocker_angle_deg,lift_mm,lift_mm_per_rad,lift_mm_per_rad2,rocker_ratio,flow_area_mm2,"
+            "effective_area_mm2");
+  double geometric = 0;
+  double effective = 0;
+  double largest = 0;
+  while (std::getline(table, line)) {
+    std::istringstream cells(line);
+    std::vector<double> row;
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
+    ASSERT_EQ(row.size(), 8u) << line;
+    geometric += 0.2 * row[6];  // 0.1 deg of the cam are 0.2 of the crank
+    effective += 0.2 * row[7];
+    largest = std::max(largest, row[6]);
+  }
+  EXPECT_NEAR(largest, std::acos(-1.0) / 4 * (33 * 33 - 6.6 * 6.6), 1e-6);  // the port's, less the stem
+  const auto value = [&summary](const std::string& name) {
+    const std::size_t at = summary.find("\n" + name + " = ");
+    EXPECT_NE(at, std::string::npos) << name << " is not in\n" << summary;
+    return at == std::string::npos ? 0 : std::stod(summary.substr(at + name.size() + 4));
+  };
+  EXPECT_NEAR(value("theoretical_open_period"), 256, 1e-3);  // 4 times the half angle
+  EXPECT_NEAR(value("theoretical_flow_area_integral"), geometric, 1e-5 * geometric);
+  EXPECT_NEAR(value("theoretical_effective_area_integral"), effective, 1e-5 * effective);
+  EXPECT_NEAR(value("theoretical_flow_area_mean"), geometric / 256, 1e-5 * geometric);
+  EXPECT_NEAR(value("theoretical_effective_area_mean"), effective / 256, 1e-5 * effective);
+  EXPECT_NEAR(value("area_per_displacement"), 2e-6 * (geometric / 256) / 499.56e-6, 1e-4);
+  EXPECT_NEAR(value("mean_gas_speed"), 5808.8 * 17.2 / (2 * geometric / 256), 1e-2);
+  EXPECT_NEAR(value("inlet_mach_index"), 5808.8 * 17.2 / (2 * effective / 256) / 346.2, 1e-4);
+  EXPECT_NE(summary.find("# flow area: of one valve, over the crank angle; assumed: seat_width_mm = 1.32, "
+                         "seat_angle_deg = 45, port_diameter_mm = 33, stem_diameter_mm = 6.6, flow coefficients of a "
+                         "usual valve\n"),
+            std::string::npos)
+      << summary;
+}
+
+TEST_F(LiftCommand, TellsWhyItHasNoFlowArea) {
+  rows(kOhc125);
+  EXPECT_NE(summary_.find("# no flow area: [valve intake] has neither seat_diameter_mm nor head_diameter_mm\n"),
+            std::string::npos)
+      << summary_;
+  EXPECT_EQ(summary_.find("flow_area"), std::string::npos) << summary_;
+}
+
+/// An exhaust has no inlet Mach index, and without [crank] there is no piston.
+TEST_F(LiftCommand, LeavesOutWhatTheFileDoesNotTell) {
+  const std::string seat = "per_cylinder = 1\nhead_diameter_mm = 26\nport = exhaust";
+  const std::string text = with_line(contents(kOhc125), "per_cylinder", seat);
+  rows_with_flow(write("exhaust.ini", text));
+  EXPECT_NE(summary_.find("mean_gas_speed"), std::string::npos) << summary_;
+  EXPECT_EQ(summary_.find("inlet_mach_index"), std::string::npos) << summary_;
+  const std::size_t cam = text.find("[cam intake]");
+  rows_with_flow(write("train.ini", text.substr(cam, text.find("[trigger") - cam)));
+  EXPECT_NE(summary_.find("theoretical_flow_area_mean"), std::string::npos) << summary_;
+  EXPECT_EQ(summary_.find("area_per_displacement"), std::string::npos) << summary_;
 }
 
 TEST_F(LiftCommand, EndsAt180DegWhateverTheStep) {

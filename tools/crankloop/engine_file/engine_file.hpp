@@ -17,6 +17,7 @@
 
 #include "../files/error.hpp"
 #include "engine_file_values.hpp"
+#include "port_geometry.hpp"
 
 namespace crankloop::program {
 
@@ -27,6 +28,8 @@ struct TrainOfFile {
   std::string name;
   ValveTrain definition;  ///< parts that the file lacks are all zero
   PortOfTrain port;
+  bool has_flow_curve = false;           ///< of the file; else the curve is that of a usual valve
+  std::optional<PortGeometry> geometry;  ///< of the port, where the file has a diameter of the seat or the head
   bool has_cam = false;
   bool has_rocker = false;
   bool has_valve = false;

@@ -186,6 +186,11 @@ constexpr Key kRows[] = {
     {"valve", "head_area_mm2", Kind::number, kMm2, "valve.head_area_m2", kOfField, "", defaults, "0", "", "", "gas force on the valve head; 0: none"},
     {"valve", "port", Kind::choice, kNoUnit, "", kAny, "intake|exhaust", optional, "", "", "", "what it opens; needed with [pressure] source = gas"},
     {"valve", "seat_diameter_mm", Kind::number, kMm, "gas.seat_diameter_m", kOfField, "", optional, "", "", "", "inner; needed with [pressure] source = gas"},
+    {"valve", "head_diameter_mm", Kind::number, kMm, "", above(0).up_to(1000), "", optional, "", "", "", "D_v, outer diameter of the seat, for the flow area; absent: seat_diameter_mm and twice seat_width_mm"},
+    {"valve", "seat_width_mm", Kind::number, kMm, "", above(0).up_to(100), "", optional, "", "", "", "s, outer less inner radius of the seat; absent: of the two diameters, or 0.04 of the inner one"},
+    {"valve", "seat_angle_deg", Kind::number, kDeg, "", from(1).up_to(89), "", optional, "", "", "", "beta, from the plane of the head; absent: 45"},
+    {"valve", "port_diameter_mm", Kind::number, kMm, "", above(0).up_to(1000), "", optional, "", "", "", "D_p, behind the seat; absent: the seat's inner diameter"},
+    {"valve", "stem_diameter_mm", Kind::number, kMm, "", from(0).up_to(1000), "", optional, "", "", "", "D_s; absent: 0.2 of the seat's inner diameter"},
     {"valve", "flow_over_lift_ratio", Kind::pairs, kNoUnit, "", from(0).up_to(1), "", optional, "", "", "", "instead of a usual valve's: flow coefficient times area over that of the seat, by lift over its diameter, 0 to 0.5"},
 
     {"trigger", "on", Kind::text, kNoUnit, "", kAny, "", required, "", "", "", "crank, cam, or cam NAME for one that the phaser of [cam NAME] moves"},

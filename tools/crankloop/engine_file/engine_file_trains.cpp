@@ -87,6 +87,8 @@ void EngineFile::build_trains() {
       train.has_valve = true;
       fill(section, train.definition.valve);
       train.port = build_port(section, path_);
+      train.has_flow_curve = section.has("flow_over_lift_ratio");
+      train.geometry = build_port_geometry(section, path_);
       accept(validate(train.definition.valve), train);
     }
   }

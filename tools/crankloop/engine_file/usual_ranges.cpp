@@ -95,6 +95,11 @@ constexpr UsualRange kRanges[] = {
     {"valve", "seat_damping_ratio", Per::one, {0.003, 1}, kOrZero},
     {"valve", "head_area_mm2", Per::bore2, {1, 50}, kOrZero},
     {"valve", "seat_diameter_mm", Per::bore, {0.15, 0.65}},
+    {"valve", "head_diameter_mm", Per::bore, {0.16, 0.7}},
+    {"valve", "seat_width_mm", Per::bore, {0.005, 0.06}},
+    {"valve", "seat_angle_deg", Per::one, {20, 60}},
+    {"valve", "port_diameter_mm", Per::bore, {0.13, 0.7}},
+    {"valve", "stem_diameter_mm", Per::bore, {0.02, 0.2}, kOrZero},
 };
 // clang-format on
 

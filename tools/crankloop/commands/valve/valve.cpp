@@ -14,6 +14,7 @@
 #include "../../engine_file/gas_order.hpp"
 #include "../../files/csv.hpp"
 #include "../../files/units.hpp"
+#include "../../loops/flow_lines.hpp"
 #include "../../loops/textbook_valve.hpp"
 #include "../../loops/valve_accuracy.hpp"
 #include "../../loops/valve_loop.hpp"
@@ -34,14 +35,31 @@ struct Request {
   std::string real;
 };
 
+/// The flow area where the file has the valve's dimensions.
+struct Flow {
+  std::optional<FlowArea> area{};
+  FlowIntegrals theory{};
+  FlowIntegrals elastic{};
+};
+
 template <class Real>
-void write_row(CsvWriter& csv, const LoneValve& valve, const ValveTickOutput<Real>& out) {
+void write_row(CsvWriter& csv, const LoneValve& valve, const Flow& flow, const ValveTickOutput<Real>& out) {
   const auto real = [](double value) { return static_cast<Real>(value); };
   const ValveMotionOutput<Real, OneValve>& m = out.motion;
   const ValveForcesOutput<Real>& f = out.forces;
-  csv.row(out.cam_deg, m.theoretical_lift_m * real(1e3), real(valve.lift().at(out.cam_deg * kRadPerDeg).rocker_ratio),
-          m.lift_m * real(1e3), m.velocity_m_s, m.acceleration_m_s2, f.train_N, f.seat_N, f.cam_N,
-          f.train_compression_m * real(1e3), static_cast<int>(f.regime));
+  csv.cell(out.cam_deg);
+  for (const Real value :
+       {m.theoretical_lift_m * real(1e3), real(valve.lift().at(out.cam_deg * kRadPerDeg).rocker_ratio),
+        m.lift_m * real(1e3), m.velocity_m_s, m.acceleration_m_s2, f.train_N, f.seat_N, f.cam_N,
+        f.train_compression_m * real(1e3)})
+    csv.cell(value);
+  csv.cell(static_cast<int>(f.regime));
+  if (flow.area) {
+    const double lift_m = static_cast<double>(m.lift_m);
+    csv.cell(real(flow.area->geometric_m2(lift_m) * 1e6));
+    csv.cell(real(flow.area->effective_m2(lift_m) * 1e6));
+  }
+  csv.end_row();
 }
 
 std::string title(const LoneValve& valve, const Request& request) {
@@ -76,7 +94,7 @@ void add_margin(Summary& s, const LoneValve& valve, double speed_rpm) {
 
 template <class Real>
 std::string summary(const LoneValve& valve, const Request& request, const ValveLoop<Real>& loop,
-                    const ValveCycle<Real>& cycle, double change_m) {
+                    const ValveCycle<Real>& cycle, double change_m, const Flow& flow) {
   const auto real = [](double value) { return static_cast<Real>(value); };
   const detail::ValveBody<double> body = valve.body();
   const bool separated = cycle.separations > 0;
@@ -112,6 +130,11 @@ std::string summary(const LoneValve& valve, const Request& request, const ValveL
     s.remark("some ticks had more contact changes than are located: take a shorter --tick-us");
   s.line("cycle_difference", real(change_m * 1e6), "um", "of lift, largest between two consecutive cycles");
   s.line("periodic", change_m <= kPeriodicWithin_m ? "yes" : "no", "", "yes: they agree within 1 um");
+  s.remark(flow_remark(valve.train()));
+  if (!flow.area) return s.text();
+  add_flow(s, "theoretical_", flow.theory);
+  add_flow(s, "", flow.elastic);
+  add_flow_figures(s, flow.elastic, valve.file(), valve.train(), request.speed_rpm);
   return s.text();
 }
 
@@ -124,32 +147,41 @@ void run(const LoneValve& valve, const Request& request, Results& results) {
     throw UsageError("--plot: a cycle of " + brief(ticks) + " ticks, at most " + brief(kMaxTicksDrawn) +
                      " can be drawn: take a longer --tick-us");
   }
+  Flow flow;
+  if ((flow.area = flow_area_of(valve.train()))) flow.theory = theoretical_flow(*flow.area, valve.lift());
   Progress progress("running", (2.0 * request.cycles + 2) * ticks);
   const auto after_tick = [&progress] { progress.step(); };
   std::optional<CsvWriter> csv;
   if (Output* file = results["--csv"]) {
-    csv.emplace(*file, std::vector<std::string>{"cam_deg", "theoretical_lift_mm", "rocker_ratio", "lift_mm",
-                                                "velocity_m_s", "acceleration_m_s2", "train_force_N", "seat_force_N",
-                                                "cam_force_N", "train_compression_mm", "regime"});
+    std::vector<std::string> columns{"cam_deg",      "theoretical_lift_mm",  "rocker_ratio",  "lift_mm",
+                                     "velocity_m_s", "acceleration_m_s2",    "train_force_N", "seat_force_N",
+                                     "cam_force_N",  "train_compression_mm", "regime"};
+    if (flow.area) columns.insert(columns.end(), {"flow_area_mm2", "effective_area_mm2"});
+    csv.emplace(*file, columns);
   }
+  const double seat_contact_m = valve.body().preload_N / valve.body().seat_N_m;
+  std::optional<FlowSum> sum;
+  if (flow.area) sum.emplace(*flow.area, seat_contact_m, 2 * std::abs(loop.deg_per_tick(request.speed_rpm)));
   ValveCycleTrace trace;
   const OnValveTick<Real> on_tick = [&](const ValveTickOutput<Real>& out) {
-    if (csv) write_row(*csv, valve, out);
+    if (csv) write_row(*csv, valve, flow, out);
+    if (sum) sum->add(static_cast<double>(out.motion.lift_m));
     if (plot != nullptr) trace.ticks.push_back(in_double(out));
   };
   const ValveCycle<Real> cycle = run_cycles<Real>(loop, valve, request.speed_rpm, request.cycles, on_tick, after_tick);
+  if (sum) flow.elastic = sum->largest();
   const double change_m = largest_change_of_lift_m<Real>(valve, request.speed_rpm, request.tick_s, request.method,
                                                          request.cycles, after_tick);
   if (plot != nullptr) {
     trace.cycle = in_double(cycle);
     trace.redline = valve.static_redline();
     trace.speed_rad_s = request.speed_rpm * kRad_sPerRpm;
-    trace.seat_contact_m = valve.body().preload_N / valve.body().seat_N_m;
+    trace.seat_contact_m = seat_contact_m;
     const std::string remark = std::filesystem::path(valve.file().path()).filename().string() + ", " +
                                circumstances(request) + "; " + gas_remark(valve);
     plot->write(report::to_svg_file(valve_sheet(trace, "Valve train " + title(valve, request), remark)));
   }
-  results.finish(summary(valve, request, loop, cycle, change_m));
+  results.finish(summary(valve, request, loop, cycle, change_m, flow));
 }
 
 int run_valve(const Arguments& arguments) {
