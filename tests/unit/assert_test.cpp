@@ -156,7 +156,7 @@ const Asked kAsked[] = {
      }},
     {"ASegmentOfNoTime", "d_s > 0", [] { use(SmoothSegment<double>{}.at(0.5)); }},
     {"APieceOfNothing", "x > 0 && x <= 1", [] { Cubic<double>(0, 0, 1, 0).shrink(0); }},
-    {"AnOpeningThatHasNoMoment", "from < kOpened_m",
+    {"AnOpeningThatHasNoMoment", "from < kOpened_m && to >= kOpened_m",
      [] {
        ValveRecord<double> record;
        // The theory passes 0.1 mm, and the valve is there at both ends: no moment at which it opened.

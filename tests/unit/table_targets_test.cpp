@@ -555,9 +555,9 @@ TYPED_TEST(TableTargetsOf, ValvesTellTheFineStepsOfTheWorstTickAndRefuseTooMany)
   ASSERT_TRUE(accepted(tabulate(engine, {100e-6, {}}, targets, &report)));
   EXPECT_EQ(report.valve_fine_steps, 8 * 5)
       << "42 900 rad/s on the seat, 100 us: five fine steps for each of eight valves";
-  EXPECT_EQ(report.event_budget, 2 * 8 * 5 + 8 * 2 * 2)
-      << "every fine step, an event in every second one and two more for each valve";
-  EXPECT_EQ(motions[1].event_budget, 112u);
+  EXPECT_EQ(report.event_budget, 8 * 5 + 2 * 2 * (8 * 5 + 8))
+      << "every fine step, two events in each and two more of each valve";
+  EXPECT_EQ(motions[1].event_budget, 232u);
   // In a fine step of the widest tick that keeps the class, the cubic through its ends misses the lift by less than
   // that, but not by far less: the bound takes the lift's largest fourth derivative for that of the whole step.
   const ValveLift lift = valve_test::lift_of(engine.trains[0]);

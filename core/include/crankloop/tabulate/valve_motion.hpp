@@ -36,13 +36,13 @@ Status validate(const ValveStepping& stepping) noexcept;
 
 /// Maximum number of fine steps of a valve in a tick; a tick that would need more is refused.
 inline constexpr int kMaxFineSteps = 512;
-/// Event budget unless the options give one: for every valve all its fine steps, an event in every second one and two
-/// more.
+/// Event budget unless the options give one: for every valve all its fine steps, two events in each and two more.
 [[nodiscard]] constexpr std::uint32_t usual_event_budget(int fine_steps, int valves) noexcept {
-  return 2 * static_cast<std::uint32_t>(fine_steps) + 2 * detail::kUnitsOfEvent * static_cast<std::uint32_t>(valves);
+  const auto steps = static_cast<std::uint32_t>(fine_steps);
+  return steps + 2 * detail::kUnitsOfEvent * (steps + static_cast<std::uint32_t>(valves));
 }
 /// Largest event budget, beyond the usual one of the largest engine.
-inline constexpr int kMaxEventBudget = 16384;
+inline constexpr int kMaxEventBudget = 32768;
 /// Maximum number of fine steps of all valves of an engine in a tick.
 inline constexpr int kMaxFineStepsOfEngine = 4096;
 
