@@ -59,6 +59,17 @@ class RunCommand : public testing::Test {
     return path("bare.ini");
   }
 
+  /// The sample with another highest speed.
+  [[nodiscard]] std::string engine_up_to(const std::string& rpm) const {
+    std::string text = contents(kSample);
+    const std::string limit = "max_rpm = 3000 ";
+    const std::size_t at = text.find(limit);
+    EXPECT_NE(at, std::string::npos);
+    if (at != std::string::npos) text.replace(at, limit.size(), "max_rpm = " + rpm + " ");
+    std::ofstream(path("fast.ini")) << text;
+    return path("fast.ini");
+  }
+
   /// Runs in this process and returns what it printed.
   static std::string run(const std::vector<std::string>& words) {
     testing::internal::CaptureStdout();

@@ -101,7 +101,7 @@ static void all_outputs() {
   all_of_it::Input cpp_in;
   long edges = 0;
   for (int tick = 0; tick < 1500; ++tick) {
-    in.speed_rad_s = cpp_in.speed_rad_s = 420 - 0.5 * tick;
+    in.speed_rad_s = cpp_in.speed_rad_s = 300 - 0.4 * tick;
     in.load_ratio = cpp_in.load_ratio = tick % 5 * 0.25;
     in.cam_phase_deg[1] = cpp_in.cam_phase_deg[1] = tick % 3;
     const auto& shown = cpp.step(cpp_in);
