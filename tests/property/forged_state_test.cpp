@@ -283,12 +283,10 @@ TYPED_TEST(ForgedState, WithinItsLimitsIsRefusedOrStepsOnInFiniteNumbers) {
 
 // ---- gas: each number is within its limits, and does not fit the others --------------------------------------------
 
-template <class Real>
-class ForgedGas : public ::testing::Test {
+template <class Real, class S>
+class ForgedGasIn : public ::testing::Test {
  protected:
-  using S = scenes::Breathing;
-
-  ForgedGas() {
+  ForgedGasIn() {
     EXPECT_TRUE(accepted(storage_->build(engine_of<S>(), {100e-6, {}})));
     EXPECT_TRUE(accepted(engine_->init(storage_->tables())));
     typename Engine<Real, S>::Input in;
@@ -315,6 +313,8 @@ class ForgedGas : public ::testing::Test {
   std::unique_ptr<TableStorage<Real, S>> storage_ = std::make_unique<TableStorage<Real, S>>();
   std::unique_ptr<Engine<Real, S>> engine_ = std::make_unique<Engine<Real, S>>();
 };
+template <class Real>
+class ForgedGas : public ForgedGasIn<Real, scenes::Breathing> {};
 TYPED_TEST_SUITE(ForgedGas, tick_test::BothReals, tick_test::RealName);
 
 TYPED_TEST(ForgedGas, OfOtherHeatPressureOrVolumeThanItsMassIsRefused) {
@@ -351,6 +351,38 @@ TYPED_TEST(ForgedGas, OfOtherHeatPressureOrVolumeThanItsMassIsRefused) {
   EXPECT_TRUE(this->refused([](auto& s) { s.manifold[kIntake].contents.mass_kg *= 3; }));
   EXPECT_TRUE(this->refused([](auto& s) { s.manifold[kExhaust].contents.energy_J /= 3; }));
   EXPECT_TRUE(this->refused([](auto& s) { s.manifold[kIntake].point.pressure_Pa *= 3; }));
+}
+
+struct FollowingFromGiven : BreathingFromGiven {
+  static constexpr CrankGiven crank = CrankGiven::speed;
+};
+using ForgedPorts = ForgedGasIn<double, FollowingFromGiven>;
+
+TEST_F(ForgedPorts, OpenWhereTheirCamsHaveThemClosedAreRefused) {
+  int closed = 0;
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    for (const int port : {kIntake, kExhaust}) {
+      const bool is_closed = engine_->state().cylinder_gas.area_m2[port][k] == 0;
+      closed += is_closed ? 1 : 0;
+      const auto open = [&](auto& s) { s.cylinder_gas.area_m2[port][k] = 1e-5; };
+      if (is_closed)
+        EXPECT_TRUE(refused(open)) << k << ", " << port;
+      else
+        EXPECT_TRUE(accepted(load(open))) << k << ", " << port;
+    }
+  }
+  EXPECT_GE(closed, 4);
+  EXPECT_LE(closed, 6);
+}
+
+/// Every state of a run is taken back, its cams' ramps among them.
+TEST_F(ForgedPorts, AsARunLeavesThemAreAccepted) {
+  Engine<double, FollowingFromGiven>::Input in;
+  for (int tick = 0; tick < 2000; ++tick) {
+    in.speed_rad_s = tick % 500 < 300 ? 300 : -700;
+    engine_->step(in);
+    ASSERT_TRUE(accepted(load([](auto&) {}))) << tick;
+  }
 }
 
 TYPED_TEST(ForgedGas, OfARecordThatNoCycleLeavesIsRefused) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include <crankloop/tick/gas/gas_places.hpp>
 #include <crankloop/tick/valve/valves_step.hpp>
 
 #include "hostile.hpp"
@@ -117,6 +118,43 @@ std::uint32_t most_endings(const Tables& tables) noexcept {
   return all;
 }
 
+/// Cylinders that have a valve open anywhere in one tick at most, and both ports: all, unless valves follow their cams.
+struct OpenCylinders {
+  std::uint32_t breathing, overlaps;
+};
+template <class Tables>
+OpenCylinders most_open(const Tables& tables) noexcept {
+  constexpr int kTurn = crankloop::kDegreesPerTurn;
+  constexpr int kSamples = 8;  // of a degree: a ramp leaves the base circle in one
+  using crankloop::detail::kClosedLift_m;
+  const std::uint32_t cylinders = tables.drive->cylinders;
+  OpenCylinders most{0, 0};
+  for (int degree = 0; degree < kTurn; ++degree) {
+    OpenCylinders open{0, 0};
+    for (std::uint32_t k = 0; k < cylinders; ++k) {
+      std::uint32_t ports = 0;
+      for (std::uint32_t t = 0; t < tables.drive->trains; ++t) {
+        const Real turn_deg = widest_cam_turn_deg(tables, t);
+        if (crankloop::detail::Needs<under_test::Scene>::elastic_valves || under_test::Scene::cam_phasing ||
+            turn_deg >= 90)
+          return {cylinders, cylinders};
+        const auto& curve = tables.lift_curves[t];
+        for (int at = 0; at <= (static_cast<int>(turn_deg) + 2) * kSamples; ++at) {
+          const Real cycles = (static_cast<Real>(degree) + static_cast<Real>(at) / kSamples) / kTurn;
+          const std::uint64_t phase = crankloop::Phase::from_cycles(cycles).units();
+          if (curve.read(curve.cell(phase, k)).lift_m > static_cast<Real>(kClosedLift_m / 2))
+            ports |= 1u << tables.gas_ports[t].port;
+        }
+      }
+      open.breathing += ports != 0 ? 1 : 0;
+      open.overlaps += ports == 3 ? 1 : 0;
+    }
+    if (open.breathing > most.breathing) most.breathing = open.breathing;
+    if (open.overlaps > most.overlaps) most.overlaps = open.overlaps;
+  }
+  return most;
+}
+
 /// How many cylinders come to the same angle of their cycles in one tick at most.
 template <class Drive>
 std::uint32_t cycles_at_once(const Drive& drive) noexcept {
@@ -192,6 +230,10 @@ void print_limits(const Tables& tables) noexcept {
   port::Line() << "limit wide_steps " << wide_steps;
   std::uint32_t gas_steps = 1;
   if constexpr (Needs::gas) gas_steps = tables.gas_cylinders->max_steps;
+  OpenCylinders open{0, 0};
+  if constexpr (Needs::gas) open = most_open(tables);
+  port::Line() << "limit breathing " << open.breathing;
+  port::Line() << "limit overlaps " << open.overlaps;
   port::Line() << "limit gas_steps " << gas_steps;
   port::Line() << "limit split_ticks " << (gas_steps > 1 ? 1u : 0u);
   port::Line() << "limit cycles_at_once " << cycles_at_once(*tables.drive);

@@ -110,9 +110,9 @@ class GasStep {
     constexpr Real kPerParts[kMaxGasSteps + 1] = {1,           1,           Real{1} / 2, Real{1} / 3, Real{1} / 4,
                                                   Real{1} / 5, Real{1} / 6, Real{1} / 7, Real{1} / 8};
     std::uint64_t from = state_.phase.units() - static_cast<std::uint64_t>(step.turned);
-    Areas areas, off_at_begin, off_at_end;
+    Areas areas, off_at_begin, off_at_end{};
     read_cam_areas(from, off_at_begin);
-    read_cam_areas(state_.phase.units(), off_at_end);
+    if constexpr (N::elastic_valves) read_cam_areas(state_.phase.units(), off_at_end);
     const auto each_port = [this](const auto& visit) {
       for (std::uint32_t k = 0; k < cylinders(); ++k) {
         for (int port = 0; port < kPorts; ++port) visit(k, port);
@@ -120,7 +120,7 @@ class GasStep {
     };
     each_port([&](std::uint32_t k, int port) {
       off_at_begin.of[port][k] = state_.cylinder_gas.area_m2[port][k] - off_at_begin.of[port][k];
-      off_at_end.of[port][k] = end.of[port][k] - off_at_end.of[port][k];
+      if constexpr (N::elastic_valves) off_at_end.of[port][k] = end.of[port][k] - off_at_end.of[port][k];
     });
     const std::uint64_t each = part_of(step.turned, kPerParts_32[parts]);
     step.drive.step_s *= kPerParts[parts];

@@ -13,6 +13,8 @@
 #include <crankloop/state.hpp>
 #include <crankloop/tables/tables.hpp>
 #include <crankloop/tick/checked.hpp>
+#include <crankloop/tick/gas/gas_places.hpp>
+#include <crankloop/tick/valve/cam_ticks.hpp>
 
 namespace crankloop::detail {
 
@@ -40,11 +42,28 @@ template <class Real>
          within(r.pumping_J * table.per_swept_m3, -kMax, kMax) && within(r.air_kg * table.per_full_charge, -kMax, kMax);
 }
 
+/// Checks that the ports of valves that follow their cams are closed where these have them closed: the time of a tick
+/// rests on how many cylinders can be in valve overlap.
+template <class Real, class S>
+[[nodiscard]] bool ports_agree(const State<Real, S>& state, const Tables<Real, S>& tables) noexcept {
+  PortAreas<Real, S::cylinders.capacity> by_cams;
+  read_areas(tables, by_cams, [&](std::uint32_t t, std::uint32_t k) {
+    const LiftCurve<Real>& curve = tables.lift_curves[t];
+    return curve.read(curve.cell(cam_phase(state, t), k)).lift_m;
+  });
+  for (std::uint32_t k = 0; k < S::cylinders.capacity; ++k) {
+    for (int port = 0; port < kPorts; ++port)
+      if (by_cams.of[port][k] == 0 && state.cylinder_gas.area_m2[port][k] != 0) return false;
+  }
+  return true;
+}
+
 /// Checks all cylinders of the scene's capacity and the manifolds.
 template <class Real, class S>
 [[nodiscard]] bool gas_agrees(const State<Real, S>& state, const Tables<Real, S>& tables) noexcept {
   const GasCylinders<Real>& table = *tables.gas_cylinders;
   const Real swept_m3 = Real{1} / table.per_swept_m3;
+  if (!Needs<S>::elastic_valves && !ports_agree(state, tables)) return false;
   for (std::uint32_t k = 0; k < S::cylinders.capacity; ++k) {
     const CylinderGas<Real> gas = state.cylinder_gas.template at<Real>(k);
     const Real least_m3 = static_cast<Real>(0.99) * table.clearance_m3;
