@@ -140,7 +140,8 @@ OpenCylinders most_open(const Tables& tables) noexcept {
           return {cylinders, cylinders};
         const auto& curve = tables.lift_curves[t];
         for (int at = 0; at <= (static_cast<int>(turn_deg) + 2) * kSamples; ++at) {
-          const Real cycles = (static_cast<Real>(degree) + static_cast<Real>(at) / kSamples) / kTurn;
+          const int sample = (degree * kSamples + at) % (kTurn * kSamples);
+          const Real cycles = static_cast<Real>(sample) / static_cast<Real>(kTurn * kSamples);
           const std::uint64_t phase = crankloop::Phase::from_cycles(cycles).units();
           if (curve.read(curve.cell(phase, k)).lift_m > static_cast<Real>(kClosedLift_m / 2))
             ports |= 1u << tables.gas_ports[t].port;

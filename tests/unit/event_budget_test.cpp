@@ -1,13 +1,11 @@
 // The budget that a tick has for events of elastic valves: how large it is, and what becomes of a tick beyond it.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <memory>
-#include <utility>
 
 #include <crankloop/tabulate/tabulate.hpp>
 #include <crankloop/tick/step.hpp>
