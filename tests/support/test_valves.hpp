@@ -163,10 +163,7 @@ class SideBySide {
   double cam_deg_;
 };
 
-inline detail::ValveBody<double> body_of(const ValveTrain& train) {
-  const ValveLift lift = lift_of(train);
-  return valve_body(train.valve, lift.lever_m() > 0 ? lift.lever_m() : 1);
-}
+inline detail::ValveBody<double> body_of(const ValveTrain& train) { return valve_body(train.valve, lift_of(train)); }
 
 inline detail::ValveMotion<double> motion_for(const detail::ValveBody<double>& body, double tick_s,
                                               Integrator integrator = Integrator::rk4) {

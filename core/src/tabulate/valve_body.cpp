@@ -1,3 +1,4 @@
+#include <crankloop/tabulate/valve_lift.hpp>
 #include <crankloop/tabulate/valve_motion.hpp>
 #include <crankloop/tick/one_instruction.hpp>
 
@@ -20,6 +21,10 @@ ValveBody<double> valve_body(const Valve& valve, double lever_m) noexcept {
   b.head_area_m2 = valve.head_area_m2;
   b.per_mass = 1 / b.mass_kg;
   return b;
+}
+
+ValveBody<double> valve_body(const Valve& valve, const ValveLift& lift) noexcept {
+  return valve_body(valve, lift.lever_m() > 0 ? lift.lever_m() : 1);
 }
 
 double open_frequency_rad_s(const ValveBody<double>& body) noexcept {

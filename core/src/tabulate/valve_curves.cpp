@@ -202,8 +202,7 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
     ValveLift lift;
     if (const Status refused = lift.init(train.cam, train.rocker); !refused.ok()) return of_train(refused, t);
     if (targets.valve_motions == nullptr) continue;
-    const double lever = lift.lever_m() > 0 ? lift.lever_m() : 1;
-    if (const Status refused = motion_of(valve_body(train.valve, lever), options.tick_s, options.valves, motions[t]);
+    if (const Status refused = motion_of(valve_body(train.valve, lift), options.tick_s, options.valves, motions[t]);
         !refused.ok()) {
       return of_train(refused, t);
     }

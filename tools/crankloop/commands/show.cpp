@@ -54,8 +54,7 @@ std::vector<std::string> redlines_in_words(const EngineFile& file) {
   for (const TrainOfFile& train : file.trains()) {
     const auto lift = std::make_unique<ValveLift>();
     if (!train.complete() || !lift->init(train.definition.cam, train.definition.rocker).ok()) continue;
-    const double lever_m = lift->lever_m() > 0 ? lift->lever_m() : 1;
-    const StaticRedline redline = static_redline(*lift, valve_body(train.definition.valve, lever_m));
+    const StaticRedline redline = static_redline(*lift, valve_body(train.definition.valve, *lift));
     std::string line = "static redline of train " + train.name + ": ";
     if (redline.crank_rad_s > 0) {
       line += brief(redline.crank_rad_s * kRpmPerRad_s) + " rpm, at " + brief(redline.cam_deg) +

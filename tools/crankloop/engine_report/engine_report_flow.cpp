@@ -30,7 +30,7 @@ struct TrainFlow {
 
 /// Open where the valve is off its seat, as in the other results.
 double seat_contact_m(const Valve& valve, const ValveLift& lift) {
-  const detail::ValveBody<double> body = valve_body(valve, lift.lever_m() > 0 ? lift.lever_m() : 1);
+  const detail::ValveBody<double> body = valve_body(valve, lift);
   return body.preload_N / body.seat_N_m;
 }
 

@@ -55,7 +55,7 @@ std::vector<Train> trains_of(const ReportInput& input) {
   for (std::size_t t = 0; t < input.trace.valves.size(); ++t) {
     const ValveTrain& train = definition.trains[t];
     if (!lift->init(train.cam, train.rocker).ok()) continue;  // the loop has accepted it
-    const detail::ValveBody<double> body = valve_body(train.valve, lift->lever_m() > 0 ? lift->lever_m() : 1);
+    const detail::ValveBody<double> body = valve_body(train.valve, *lift);
     const ValveTrace& trace = input.trace.valves[t];
     const StaticRedline rigid = static_redline(*lift, body);
     trains.push_back({names[t], trace, index_of_largest(trace[ValveQuantity::theoretical_lift]),

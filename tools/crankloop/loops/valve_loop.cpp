@@ -89,9 +89,7 @@ LoneValve LoneValve::with(const Valve& valve) const {
   return other;
 }
 
-detail::ValveBody<double> LoneValve::body() const noexcept {
-  return valve_body(valve(), lift_->lever_m() > 0 ? lift_->lever_m() : 1);
-}
+detail::ValveBody<double> LoneValve::body() const noexcept { return valve_body(valve(), *lift_); }
 
 StaticRedline LoneValve::static_redline() const noexcept { return crankloop::static_redline(lift(), body()); }
 

@@ -17,10 +17,6 @@ namespace {
 
 constexpr double kLongestTick_s = 2e-3;  // of any engine
 
-detail::ValveBody<double> body_of(const Valve& valve, const ValveLift& lift) {
-  return valve_body(valve, lift.lever_m() > 0 ? lift.lever_m() : 1);
-}
-
 }  // namespace
 
 InputError tick_too_long(const EngineFile& file, const TrainOfFile& train, const Valve& valve, double tick_s,
@@ -30,7 +26,7 @@ InputError tick_too_long(const EngineFile& file, const TrainOfFile& train, const
     return file.explain(refused, train, lift->failed_at_deg());
   }
   const double longest_us =
-      std::floor(longest_tick_s(body_of(valve, *lift), stepping) * 1e7) / 10;  // down, so that it is accepted
+      std::floor(longest_tick_s(valve_body(valve, *lift), stepping) * 1e7) / 10;  // down, so that it is accepted
   return InputError(file.path() + ": a tick of " + brief(tick_s * 1e6) + " us would take more than " +
                     std::to_string(kMaxFineSteps) + " steps of the valve train " + train.name + " at an accuracy of " +
                     brief(stepping.accuracy_m * 1e6) + " um; the longest tick possible is " + brief(longest_us) +
@@ -44,7 +40,7 @@ void require_trains(const EngineFile& file, double tick_s, const ValveStepping& 
     if (const Status refused = lift->init(train.definition.cam, train.definition.rocker); !refused.ok()) {
       throw file.explain(refused, train, lift->failed_at_deg());
     }
-    if (tick_s > longest_tick_s(body_of(train.definition.valve, *lift), stepping)) {
+    if (tick_s > longest_tick_s(valve_body(train.definition.valve, *lift), stepping)) {
       throw tick_too_long(file, train, train.definition.valve, tick_s, stepping);
     }
   }
@@ -71,7 +67,7 @@ std::vector<std::string> ticks_in_words(const EngineFile& file) {
     if (!train.complete()) continue;
     const auto lift = std::make_unique<ValveLift>();
     if (!lift->init(train.definition.cam, train.definition.rocker).ok()) continue;
-    const detail::ValveBody<double> body = body_of(train.definition.valve, *lift);
+    const detail::ValveBody<double> body = valve_body(train.definition.valve, *lift);
     const double longest_us = std::floor(longest_tick_s(body, {}) * 1e6);
     std::string line = "a valve of train " + train.name + " takes ";
     if (detail::ValveMotion<double> motion; motion_of(body, kUsualTick_s, {}, motion).ok()) {
@@ -96,7 +92,7 @@ double longest_tick_of(const EngineDefinition& definition) {
   for (int t = 0; t < definition.train_count; ++t) {
     const ValveTrain& train = definition.trains[t];
     if (!lift->init(train.cam, train.rocker).ok()) continue;
-    const double of_valve_s = longest_tick_s(body_of(train.valve, *lift), {});
+    const double of_valve_s = longest_tick_s(valve_body(train.valve, *lift), {});
     const double valves = definition.train_count * definition.layout.cylinders;
     longest_s = std::min({longest_s, of_valve_s, of_valve_s * (kMaxFineStepsOfEngine / valves - 1) / kMaxFineSteps});
   }
@@ -111,7 +107,7 @@ InputError explain_tabulate(const EngineFile& file, const Status& refused, doubl
     if (refused.field == std::string_view("options.tick_s")) {
       const auto own = std::make_unique<ValveLift>();
       if (own->init(train.definition.cam, train.definition.rocker).ok() &&
-          tick_s <= longest_tick_s(body_of(train.definition.valve, *own), stepping)) {
+          tick_s <= longest_tick_s(valve_body(train.definition.valve, *own), stepping)) {
         return InputError(file.path() + ": a tick of " + brief(tick_s * 1e6) + " us would take more than " +
                           std::to_string(kMaxFineStepsOfEngine) + " steps of all valves together: take a shorter one");
       }

@@ -6,6 +6,7 @@
 
 #include <crankloop/define/valve_train.hpp>
 #include <crankloop/status.hpp>
+#include <crankloop/tables/valve_tables.hpp>
 #include <crankloop/tabulate/cam_profile.hpp>
 
 namespace crankloop {
@@ -85,5 +86,9 @@ class ValveLift {
   double smallest_radius_m_ = 0;
   double smallest_radius_at_deg_ = 0;
 };
+
+/// Constants of the single-mass model (docs/model.md "Valve") with the rocker's lever of an accepted lift; without a
+/// lever the valve has no rocker's inertia.
+[[nodiscard]] detail::ValveBody<double> valve_body(const Valve& valve, const ValveLift& lift) noexcept;
 
 }  // namespace crankloop
