@@ -19,6 +19,7 @@ const std::vector<const Command*>& commands();
 
 extern const Command kBalance;
 extern const Command kBench;
+extern const Command kCam;
 extern const Command kFmu;
 extern const Command kForces;
 extern const Command kKinematics;

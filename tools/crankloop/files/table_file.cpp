@@ -25,14 +25,8 @@ double column(std::string_view text, const char* name, const Range& range, const
   return number.value;
 }
 
-}  // namespace
-
-std::vector<TableRow> read_table(const std::string& path, const TableFormat& format, const std::string& named_in,
-                                 int named_at) {
-  const FileBytes file = read_file(path, kMaxTableBytes);
-  if (!file.ok()) throw InputError(named_in, named_at, "file: " + path + " " + file.problem);
-  const std::vector<std::string> lines = split_lines(file.bytes, path);
-
+std::vector<TableRow> rows_of(const std::string& bytes, const TableFormat& format, const std::string& path) {
+  const std::vector<std::string> lines = split_lines(bytes, path);
   std::vector<TableRow> rows;
   bool header_seen = false;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -58,6 +52,21 @@ std::vector<TableRow> read_table(const std::string& path, const TableFormat& for
     throw InputError(path, 1, "the file is empty; it needs the header row " + header + " and rows under it");
   if (rows.empty()) throw InputError(path, static_cast<int>(lines.size()), "no rows stand under the header " + header);
   return rows;
+}
+
+}  // namespace
+
+std::vector<TableRow> read_table(const std::string& path, const TableFormat& format, const std::string& named_in,
+                                 int named_at) {
+  const FileBytes file = read_file(path, kMaxTableBytes);
+  if (!file.ok()) throw InputError(named_in, named_at, "file: " + path + " " + file.problem);
+  return rows_of(file.bytes, format, path);
+}
+
+std::vector<TableRow> read_table(const std::string& path, const TableFormat& format) {
+  const FileBytes file = read_file(path, kMaxTableBytes);
+  if (!file.ok()) throw InputError(path + ": " + file.problem);
+  return rows_of(file.bytes, format, path);
 }
 
 }  // namespace crankloop::program

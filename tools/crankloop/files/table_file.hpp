@@ -32,4 +32,7 @@ struct TableFormat {
 [[nodiscard]] std::vector<TableRow> read_table(const std::string& path, const TableFormat& format,
                                                const std::string& named_in, int named_at);
 
+/// Of a table that the command line names.
+[[nodiscard]] std::vector<TableRow> read_table(const std::string& path, const TableFormat& format);
+
 }  // namespace crankloop::program

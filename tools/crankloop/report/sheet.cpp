@@ -46,6 +46,12 @@ std::string to_svg_file(const Sheet& sheet) {
   for (const std::string& remark : sheet.remarks) body += text("remark", kMargin, y += kRemark, remark);
   y += kBetweenRows + 12;
   double right = 0;
+  if (!sheet.picture.svg.empty()) {
+    body +=
+        "<g transform=\"translate(" + units(kMargin) + ' ' + units(y - kName) + ")\">\n" + sheet.picture.svg + "</g>\n";
+    right = kMargin + sheet.picture.width;
+    y += sheet.picture.height + kBetweenRows;
+  }
   for (std::size_t first = 0; first < sheet.plots.size(); first += columns) {
     double x = kMargin;
     double highest = 0;
@@ -68,6 +74,7 @@ std::string to_svg_file(const Sheet& sheet) {
   svg += "<title id=\"sheet-title\">" + escape(sheet.title) + "</title>\n<style>\n";
   svg += plot_style();
   svg += kStyle;
+  svg += sheet.picture.style;
   svg += "</style>\n<rect class=\"paper\" width=\"" + width + "\" height=\"" + height + "\"/>\n";
   return svg + body + "</svg>\n";
 }

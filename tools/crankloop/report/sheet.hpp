@@ -12,10 +12,19 @@
 
 namespace crankloop::report {
 
+/// A drawing of the caller's own, in the sheet's type and colours.
+struct Picture {
+  std::string svg{};    ///< elements, from 0, 0 to width, height in user units
+  std::string style{};  ///< CSS for its classes
+  double width = 0;
+  double height = 0;
+};
+
 struct Sheet {
   std::string title{};
   std::vector<std::string>
       remarks{};              ///< a line each below the title; it is not broken: about 60 characters per column
+  Picture picture{};          ///< above the plots; absent without svg
   std::vector<Plot> plots{};  ///< row by row; captions are not shown, ids given anew
   int columns = 2;
 };
