@@ -383,7 +383,10 @@ constexpr const char* kPictureStyle = R"css(
 .mech .contact { fill: var(--series-2); stroke: var(--paper); }
 .mech .bar-of-scale { stroke: var(--ink); stroke-width: 1.5px; }
 .mech text { font-variant-numeric: tabular-nums; }
-.mech .mark { fill: var(--ink); font-size: 15px; stroke: var(--paper); stroke-width: 4px; paint-order: stroke; stroke-linejoin: round; }
+.mech .mark {
+  fill: var(--ink); font-size: 15px; stroke: var(--paper); stroke-width: 4px; stroke-linejoin: round;
+  paint-order: stroke;
+}
 .mech .figure-name { fill: var(--muted); font-size: 15px; }
 .mech .figure-value { fill: var(--ink); font-size: 17px; font-weight: 600; }
 )css";
