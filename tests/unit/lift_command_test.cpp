@@ -17,6 +17,7 @@
 #include "crankloop/command_line/commands.hpp"
 #include "crankloop/engine_file/engine_file.hpp"
 #include "crankloop/files/error.hpp"
+#include "support/markup.hpp"
 #include "support/status.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/units.hpp"
@@ -184,6 +185,69 @@ TEST_F(LiftCommand, TellsTheFlowAreaWhereTheFileHasADiameterOfTheValve) {
                          "usual valve\n"),
             std::string::npos)
       << summary;
+}
+
+/// Speeds per second against differences of the rows, a step of 0.05 deg at 7000 / 2 rpm.
+TEST_F(LiftCommand, TellsVelocityAndAccelerationPerSecondAtASpeed) {
+  const std::string csv = folder_ / "speeds.csv";
+  testing::internal::CaptureStdout();
+  ASSERT_EQ(kLift.run(Arguments(kLift, {kOhc125, "--csv", csv, "--rpm", "7000", "--step-deg", "0.05"})), kSuccess);
+  const std::string summary = testing::internal::GetCapturedStdout();
+  std::ifstream table(csv);
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(line,
+            "cam_deg,rocker_angle_deg,lift_mm,lift_mm_per_rad,lift_mm_per_rad2,rocker_ratio,velocity_m_s,"
+            "acceleration_m_s2");
+  std::vector<std::vector<double>> rows;
+  while (std::getline(table, line)) {
+    std::istringstream cells(line);
+    rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(std::stod(cell));
+  }
+  constexpr double kStep_s = 0.05 / (7000.0 / 2 / 60 * 360);
+  double fastest = 0;
+  double hardest = 0;
+  double slowest = 0;
+  for (std::size_t i = 1; i + 1 < rows.size(); ++i) {
+    fastest = std::max(fastest, std::abs(rows[i][6]));
+    hardest = std::max(hardest, rows[i][7]);
+    slowest = std::min(slowest, rows[i][7]);
+    if (rows[i - 1][2] <= 0 || rows[i + 1][2] <= 0) continue;  // lift_mm is clipped
+    const double before = rows[i - 1][2];
+    const double behind = rows[i + 1][2];
+    ASSERT_NEAR(rows[i][6], (behind - before) / 1e3 / (2 * kStep_s), 1e-4) << rows[i][0];
+    ASSERT_NEAR(rows[i][7], (behind - 2 * rows[i][2] + before) / 1e3 / (kStep_s * kStep_s), 1) << rows[i][0];
+  }
+  const auto value = [&summary](const std::string& name) {
+    const std::size_t at = summary.find("\n" + name + " = ");
+    return at == std::string::npos ? 0 : std::stod(summary.substr(at + name.size() + 4));
+  };
+  EXPECT_NEAR(value("max_theoretical_velocity"), fastest, 1e-4);
+  EXPECT_NEAR(value("max_theoretical_acceleration"), hardest, 0.5);
+  EXPECT_NEAR(value("min_theoretical_acceleration"), slowest, 0.5);
+}
+
+TEST_F(LiftCommand, DrawsLiftAndItsDerivativesInBothUnits) {
+  const auto drawn = [this](const std::vector<std::string>& words) {
+    std::vector<std::string> all = {"--train", "intake", "--plot", folder_ / "lift.svg"};
+    all.insert(all.end(), words.begin(), words.end());
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(kLift.run(Arguments(kLift, all)), kSuccess);
+    testing::internal::GetCapturedStdout();
+    const std::string svg = contents(folder_ / "lift.svg");
+    EXPECT_EQ(support::read(svg).fault, "");
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+    return svg;
+  };
+  const auto has = [](const std::string& svg, const char* part) { return svg.find(part) != std::string::npos; };
+  const std::string plain = drawn({kOhc125});
+  EXPECT_TRUE(has(plain, "Velocity, mm/rad") && has(plain, "38.4 mm/rad\u00B2") && !has(plain, "m/s"));
+  EXPECT_FALSE(has(plain, "Flow area"));
+  const std::string at_speed = drawn({kOhc125, "--rpm", "7000"});
+  EXPECT_TRUE(has(at_speed, "Velocity, m/s") && has(at_speed, "5154 m/s\u00B2, 38.4 mm/rad\u00B2"));
+  EXPECT_TRUE(has(at_speed, "Jerk, mm/ms\u00B3"));
+  EXPECT_TRUE(has(drawn({CRANKLOOP_SOURCE_DIR "/tools/engines/four_2000.ini"}), "Flow area of one valve"));
 }
 
 TEST_F(LiftCommand, TellsWhyItHasNoFlowArea) {

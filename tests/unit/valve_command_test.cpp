@@ -347,6 +347,25 @@ std::pair<double, double> span_in(std::string description, const std::string& na
   return span;
 }
 
+/// The area's largest value is the port's less the stem, the lift's at 6000 rpm lets it through; the effective one is
+/// that of the CSV.
+TEST_F(ValveCommands, APlotShowsTheFlowAreaWhereTheFileHasADiameterOfTheValve) {
+  constexpr const char* kFour = CRANKLOOP_SOURCE_DIR "/tools/engines/four_2000.ini";
+  run(kValve, {kFour, "--train", "intake", "--rpm", "6000", "--csv", path("v.csv"), "--plot", path("v.svg")});
+  const support::Markup markup = support::read(contents(path("v.svg")));
+  EXPECT_EQ(markup.of_class("plot").size(), 5u);
+  const std::string area = description_of(markup, "Flow area of one valve");
+  EXPECT_NEAR(span_in(area, "geometric").second, std::acos(-1.0) / 4 * (33 * 33 - 6.6 * 6.6), 0.5);  // three digits
+  std::ifstream table(path("v.csv"));
+  std::string row;
+  std::getline(table, row);
+  double largest = 0;
+  while (std::getline(table, row)) largest = std::max(largest, std::stod(row.substr(row.rfind(',') + 1)));
+  EXPECT_NEAR(span_in(area, "effective").second, largest, 0.5);
+  run(kValve, {kOhc125, "--train", "intake", "--rpm", "7000", "--plot", path("v.svg")});
+  EXPECT_EQ(description_of(support::read(contents(path("v.svg"))), "Flow area of one valve"), "");
+}
+
 TEST_F(ValveCommands, APlotTellsSeparationFromBounceFromCompression) {
   constexpr double kDigits = 0.005;  // descriptions have three digits
   const auto picture = [&](const char* rpm, std::map<std::string, std::pair<std::string, std::string>>& found) {

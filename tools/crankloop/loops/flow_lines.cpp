@@ -34,6 +34,13 @@ std::string flow_remark(const TrainOfFile& train) {
   return "flow area: of one valve, over the crank angle" + (assumed.empty() ? "" : "; assumed: " + assumed);
 }
 
+void add_flow_remarks(std::vector<std::string>& remarks, const TrainOfFile& train) {
+  const std::string assumed = assumed_of(train);
+  if (assumed.empty()) return;
+  remarks.push_back("Assumed for the flow area of one valve:");
+  remarks.push_back(assumed);
+}
+
 void add_flow(Summary& s, const std::string& prefix, const FlowIntegrals& flow) {
   s.line(prefix + "open_period", flow.open_deg, "deg", "crank angle");
   s.line(prefix + "flow_area_integral", flow.geometric_m2_deg * kMm2PerM2, "mm^2 deg", "least geometric area");

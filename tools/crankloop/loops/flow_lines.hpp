@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "../command_line/summary.hpp"
 #include "../engine_file/engine_file.hpp"
@@ -23,6 +24,9 @@ namespace crankloop::program {
 
 /// What is assumed, or why there is no flow area.
 [[nodiscard]] std::string flow_remark(const TrainOfFile& train);
+
+/// The same as lines of a picture that shows a flow area; none where nothing is assumed.
+void add_flow_remarks(std::vector<std::string>& remarks, const TrainOfFile& train);
 
 /// Open period, integrals and means; names start with `prefix`.
 void add_flow(Summary& s, const std::string& prefix, const FlowIntegrals& flow);

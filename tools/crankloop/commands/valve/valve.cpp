@@ -177,9 +177,12 @@ void run(const LoneValve& valve, const Request& request, Results& results) {
     trace.redline = valve.static_redline();
     trace.speed_rad_s = request.speed_rpm * kRad_sPerRpm;
     trace.seat_contact_m = seat_contact_m;
+    trace.area = flow.area;
     const std::string remark = std::filesystem::path(valve.file().path()).filename().string() + ", " +
                                circumstances(request) + "; " + gas_remark(valve);
-    plot->write(report::to_svg_file(valve_sheet(trace, "Valve train " + title(valve, request), remark)));
+    report::Sheet sheet = valve_sheet(trace, "Valve train " + title(valve, request), remark);
+    if (flow.area) add_flow_remarks(sheet.remarks, valve.train());
+    plot->write(report::to_svg_file(sheet));
   }
   results.finish(summary(valve, request, loop, cycle, change_m, flow));
 }
@@ -216,7 +219,7 @@ constexpr Option kOptions[] = {
     text("--csv", "F",
          "file for a row per tick of the last cycle; - is standard output, the summary then goes to stderr"),
     text("--plot", "F.svg",
-         "SVG file with a picture of the last cycle: lift, gap, forces, seating; opens in any browser"),
+         "SVG file with a picture of the last cycle: lift, gap, forces, seating, flow area; opens in any browser"),
 };
 
 }  // namespace

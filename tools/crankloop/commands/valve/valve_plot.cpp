@@ -103,7 +103,8 @@ Part seating_part(const Shown& s) {
   return part;
 }
 
-Series curve(const Shown& s, Part part, const char* name, int colour, Value value) {
+template <class OfTick>
+Series curve(const Shown& s, Part part, const char* name, int colour, const OfTick& value) {
   Series series;
   series.name = name;
   series.style.colour = colour;
@@ -212,6 +213,19 @@ Plot force_plot(const Shown& s, Part part) {
   return plot;
 }
 
+Plot area_plot(const Shown& s, Part part, const FlowArea& area) {
+  constexpr double kMm2PerM2 = 1e6;
+  Plot plot = plot_over_cam(s, part, "Flow area of one valve", "Area", "mm\u00B2");
+  const auto geometric = [&](double lift_m) { return area.geometric_m2(lift_m) * kMm2PerM2; };
+  const auto effective = [&](double lift_m) { return area.effective_m2(lift_m) * kMm2PerM2; };
+  plot.series = {
+      curve(s, part, "geometric", 1, [&](const Tick& t) { return geometric(t.motion.lift_m); }),
+      curve(s, part, "effective", 2, [&](const Tick& t) { return effective(t.motion.lift_m); }),
+      curve(s, part, "theory", kTheoryColour, [&](const Tick& t) { return geometric(t.motion.theoretical_lift_m); })};
+  plot.series[2].style.dashed = true;
+  return plot;
+}
+
 Plot seating_plot(const Shown& s) {
   const Part part = seating_part(s);
   Plot plot = plot_over_cam(s, part, "Seating, closer", "Lift above the seat's contact", "\u00B5m");
@@ -263,6 +277,7 @@ report::Sheet valve_sheet(const ValveCycleTrace& trace, const std::string& title
   sheet.remarks = {remark, motion_in_words(s.cycle) + "; " + margin_in_words(trace), flight_in_words(s.cycle)};
   sheet.plots = {lift_plot(s, part), force_plot(s, part), gap_plot(s, part)};
   if (s.seated < s.ticks.size()) sheet.plots.push_back(seating_plot(s));
+  if (trace.area) sheet.plots.push_back(area_plot(s, part, *trace.area));
   return sheet;
 }
 

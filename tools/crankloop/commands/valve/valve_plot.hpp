@@ -4,9 +4,11 @@
 // drawing (report/).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "../../loops/flow_area.hpp"
 #include "../../loops/valve_cycle.hpp"
 #include "../../loops/valve_loop.hpp"
 #include "../../report/sheet.hpp"
@@ -21,9 +23,11 @@ struct ValveCycleTrace {
   double speed_rad_s = 0;  ///< of the crank
   double seat_contact_m =
       0;  ///< lift at which the valve meets its seat: closed, its spring presses the seat below that
+  std::optional<FlowArea> area{};  ///< none: the file has no diameter of the valve
 };
 
-/// Lift, gap and forces over the cam angle, and a closer look at the seating where the valve does seat.
+/// Lift, gap and forces over the cam angle, the flow area where its dimensions are known, and a closer look at the
+/// seating where the valve does seat.
 [[nodiscard]] report::Sheet valve_sheet(const ValveCycleTrace& trace, const std::string& title,
                                         const std::string& remark);
 
