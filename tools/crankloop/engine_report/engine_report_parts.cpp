@@ -183,6 +183,7 @@ void use_equal_scales(report::Plot& plot) {
     const double middle = (range.low + range.high) / 2;
     return report::Range{middle - span / 2, middle + span / 2};
   };
+  plot.equal_scales = true;
   plot.x.range = around(x, width);
   plot.y.range = around(y, height);
   const double decade = std::pow(10, std::floor(std::log10(height / 3)));

@@ -9,6 +9,7 @@
 #include <crankloop/tabulate/valve_lift.hpp>
 #include <crankloop/tabulate/valve_motion.hpp>
 
+#include "../loops/lift_jerk.hpp"
 #include "engine_report_parts.hpp"
 
 namespace crankloop::program {
@@ -26,6 +27,13 @@ constexpr double kKilo = 1e-3;
 constexpr int kTheoryColour = 6;
 constexpr double kHighBounce_m = 0.5e-3;  // higher and longer than in an engine in service
 
+/// Motion of rigid parts at the speed of the run, over the trace's angles; 0 while the lash is open.
+struct Theory {
+  std::vector<double> velocity_m_s{};
+  std::vector<double> acceleration_m_s2{};
+  std::vector<double> jerk_m_s3{};
+};
+
 /// The data of one train of cylinder 1.
 struct Train {
   std::string name;
@@ -39,12 +47,29 @@ struct Train {
   StaticRedline rigid;
   double spring_margin;  ///< least, at the speed of the run
   double margin_at_deg;  ///< its crank angle
+  Theory theory;
+  double cam_rad_s;
+  double least_radius_m;  ///< of the cam's curvature
 };
 
 /// Converts cam degrees from the start of the lobe, as the tick counts them, to the crank angle of cylinder 1.
 double crank_deg(const Train& train, double since_opening_deg) {
   const double deg = std::fmod(train.lobe_begin_deg + 2 * since_opening_deg, 720);
   return deg < 0 ? deg + 720 : deg;
+}
+
+Theory theory_of(const ReportInput& input, const ValveLift& lift, double full_lift_deg) {
+  const double cam_rad_s = input.operation.speed_rad_s() / 2;
+  Theory theory;
+  for (const double crank_deg : input.trace.crank_deg) {
+    const double cam_rad = (crank_deg - full_lift_deg) / 2 * kRadPerDeg;
+    const LiftPose pose = lift.at(cam_rad);
+    const bool open = pose.lift_m > 0;
+    theory.velocity_m_s.push_back(open ? pose.per_rad_m * cam_rad_s : 0);
+    theory.acceleration_m_s2.push_back(open ? pose.per_rad2_m * cam_rad_s * cam_rad_s : 0);
+    theory.jerk_m_s3.push_back(open ? lift_jerk_m(lift, cam_rad) * cam_rad_s * cam_rad_s * cam_rad_s : 0);
+  }
+  return theory;
 }
 
 std::vector<Train> trains_of(const ReportInput& input) {
@@ -62,7 +87,9 @@ std::vector<Train> trains_of(const ReportInput& input) {
                       train.cam.full_lift_deg + 2 * lift->opens_rad() * kDegPerRad, lift->largest_lift_m(),
                       body.preload_N / body.seat_N_m, open_frequency_rad_s(body) * kTurnsPerRad,
                       seated_frequency_rad_s(body) * kTurnsPerRad, rigid, rigid.margin(input.operation.speed_rad_s()),
-                      std::fmod(train.cam.full_lift_deg + 2 * rigid.cam_deg + 720, 720)});
+                      std::fmod(train.cam.full_lift_deg + 2 * rigid.cam_deg + 720, 720),
+                      theory_of(input, *lift, train.cam.full_lift_deg), std::abs(input.operation.speed_rad_s()) / 2,
+                      lift->smallest_radius_m()});
   }
   return trains;
 }
@@ -184,6 +211,34 @@ Plot one_each(const ReportInput& input, const std::vector<Train>& trains, const 
   return plot_over_angle(input, title, axis, std::move(curves));
 }
 
+/// A motion of the valves, with that of rigid parts dashed.
+Plot with_theory(const ReportInput& input, const std::vector<Train>& trains, Plot plot,
+                 std::vector<double> Theory::*theory, double factor) {
+  if (trains.size() == 1) plot.series[0].name = trains[0].name;
+  for (std::size_t t = 0; t < trains.size(); ++t) {
+    Series rigid = over_angle(input.trace, t == 0 ? "theory" : "", trains[t].theory.*theory, factor);
+    rigid.style.colour = kTheoryColour;
+    rigid.style.dashed = true;
+    plot.series.push_back(std::move(rigid));
+  }
+  plot.caption = "Dashed: of rigid parts, by cam and rocker.";
+  return plot;
+}
+
+Plot jerk_plot(const ReportInput& input, const std::vector<Train>& trains) {
+  constexpr double kMmPerMs3 = 1e-6;
+  std::vector<Series> curves;
+  for (std::size_t t = 0; t < trains.size(); ++t) {
+    curves.push_back(
+        over_angle(input.trace, trains.size() == 1 ? "" : trains[t].name, trains[t].theory.jerk_m_s3, kMmPerMs3));
+    curves.back().style.colour = static_cast<int>(t) + 1;
+  }
+  Plot plot = plot_over_angle(input, "Jerk of the theoretical lift", axis_of("Jerk", "mm/ms\u00B3"), std::move(curves));
+  plot.caption =
+      "Of rigid parts, while the lash is closed: what excites the train. The elastic valve's own follows its contacts.";
+  return plot;
+}
+
 Plot force_plot(const ReportInput& input, const Train& train) {
   Plot plot = plot_over_angle(input, "Forces of the " + train.name + " valve", axis_of("Force", "kN"),
                               {curve(input, train, ValveQuantity::cam_force, kKilo, "cam", 0),
@@ -277,6 +332,20 @@ report::Table results_table(const std::vector<Train>& trains) {
   row("Largest speed", "m/s", [](const Train&, const Cycle& c) { return number_text(c.largest_speed_m_s, 4); });
   row("Largest acceleration", "m/s\u00B2",
       [](const Train&, const Cycle& c) { return number_text(c.largest_acceleration_m_s2, 4); });
+  const auto theory = [&](const char* name, const char* unit, const char* unit_per_rad, int order, const auto& value) {
+    row(name, unit, [&](const Train& t, const Cycle&) { return number_text(value(t.theory), 4); });
+    row("per cam angle", unit_per_rad, [&](const Train& t, const Cycle&) {
+      return number_text(value(t.theory) / std::pow(t.cam_rad_s, order) * kMilli, 4);
+    });
+  };
+  theory("Largest theoretical speed", "m/s", "mm/rad", 1,
+         [](const Theory& t) { return std::max(span_of(t.velocity_m_s).high, -span_of(t.velocity_m_s).low); });
+  theory("Largest theoretical acceleration", "m/s\u00B2", "mm/rad\u00B2", 2,
+         [](const Theory& t) { return span_of(t.acceleration_m_s2).high; });
+  theory("Least theoretical acceleration", "m/s\u00B2", "mm/rad\u00B2", 2,
+         [](const Theory& t) { return span_of(t.acceleration_m_s2).low; });
+  row("Least radius of the cam's curvature", "mm",
+      [](const Train& t, const Cycle&) { return number_text(t.least_radius_m * kMilli, 4); });
   row("Opening delay at 0.1 mm, cam angle", "deg", [](const Train&, const Cycle& c) {
     return has_opening_delay(c) ? number_text(c.opening_delay_deg, 3) : std::string("\u2013");
   });
@@ -348,10 +417,17 @@ report::Section valve_section(const ReportInput& input) {
                 verdict(trains)});
   section.blocks.push_back(lift_plot(input, trains));
   section.blocks.push_back(timing_plot(input, trains));
-  section.blocks.push_back(with_short_labels(with_extremes(
-      one_each(input, trains, "Valve velocity", axis_of("Velocity", "m/s"), ValveQuantity::velocity, 1))));
-  section.blocks.push_back(one_each(input, trains, "Valve acceleration", axis_of("Acceleration", "km/s\u00B2"),
-                                    ValveQuantity::acceleration, kKilo));
+  section.blocks.push_back(
+      with_theory(input, trains,
+                  with_short_labels(with_extremes(one_each(input, trains, "Valve velocity", axis_of("Velocity", "m/s"),
+                                                           ValveQuantity::velocity, 1))),
+                  &Theory::velocity_m_s, 1));
+  section.blocks.push_back(
+      with_theory(input, trains,
+                  one_each(input, trains, "Valve acceleration", axis_of("Acceleration", "km/s\u00B2"),
+                           ValveQuantity::acceleration, kKilo),
+                  &Theory::acceleration_m_s2, kKilo));
+  section.blocks.push_back(jerk_plot(input, trains));
   for (const Train& train : trains) section.blocks.push_back(force_plot(input, train));
   for (const Train& train : trains) section.blocks.push_back(gap_plot(input, train));
   for (const Train& train : trains) {

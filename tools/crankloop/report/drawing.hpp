@@ -61,6 +61,7 @@ class Drawing {
   void make_scales();
   void make_layout(bool legend);
   void make_headroom();
+  void make_equal();
   void make_legend();
   void make_zero_lines();
   void make_curves();

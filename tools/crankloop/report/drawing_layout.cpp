@@ -105,12 +105,29 @@ void Drawing::make_layout(bool legend) {
     for (const Tick& tick : levels_.ticks) key = std::max(key, text_width(tick.label));
     frame_.right = kWidth - kHeatKey - key;
   }
+  if (plot_.equal_scales) make_equal();
   to_x_ = Mapping{x_.range, plot_.x.logarithmic, frame_.left, frame_.right};
   to_y_ = Mapping{y_.range, plot_.y.logarithmic, frame_.bottom, frame_.top};
   thin_labels(x_, to_x_, Direction::across);
   thin_labels(y_, to_y_, Direction::up);
   make_zero_lines();
   make_curves();
+}
+
+/// Widens one range about its middle until a unit is as long as on the other axis.
+void Drawing::make_equal() {
+  if (!plot_.x.range || !plot_.y.range) return;
+  const auto span = [](const Range& range) { return range.high - range.low; };
+  const double width = frame_.right - frame_.left;
+  const double height = frame_.bottom - frame_.top;
+  const double unit = std::min(width / span(*plot_.x.range), height / span(*plot_.y.range));
+  const auto widened = [](Axis axis, double length, int intervals) {
+    const double middle = (axis.range->low + axis.range->high) / 2;
+    axis.range = Range{middle - length / 2, middle + length / 2};
+    return make_scale(axis, *axis.range, intervals);
+  };
+  x_ = widened(plot_.x, width / unit, kXIntervals);
+  y_ = widened(plot_.y, height / unit, kYIntervals);
 }
 
 /// Zero gets a line if values have both signs, and under curves that start at zero.

@@ -82,6 +82,7 @@ struct Plot {
   std::vector<Band> bands{};
   std::vector<Marker> markers{};
   bool names_at_ends = false;  ///< each series' name where its line ends, for a family of curves; else see to_svg()
+  bool equal_scales = false;   ///< a unit is equally long on both axes, whose ranges are given and may be widened
   Field field{};               ///< absent without values; below the series
 };
 
