@@ -164,6 +164,22 @@ TEST_F(CamCommand, CountsAWantedLiftFromItsPeak) {
   EXPECT_LT(line(printed, "deviation_from_wanted").first, 5);  // its rows are rounded to 1 nm
 }
 
+TEST_F(CamCommand, TakesAWantedLiftWithoutLashToo) {
+  std::string raised = "cam_deg,lift_mm\n";
+  for (const auto& row : rows(kWanted125, "cam_deg,lift_mm"))
+    raised += std::to_string(row[0]) + "," + std::to_string(row[1] + 0.05) + "\n";
+  run(kCam, {kOhc125, "--wanted", kWanted125, "--table", in("signed.csv")});
+  run(kCam, {kOhc125, "--wanted", write("raised.csv", raised), "--zero-lash", "--table", in("raised_cam.csv")});
+  const auto expected = rows(in("signed.csv"), "cam_deg,lift_mm");
+  const auto found = rows(in("raised_cam.csv"), "cam_deg,lift_mm");
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i][0], expected[i][0]);
+    EXPECT_NEAR(found[i][1], expected[i][1], 1e-6);
+  }
+  EXPECT_NE(refusal({kOhc125, "--zero-lash"}).find("give --wanted"), std::string::npos);
+}
+
 TEST_F(CamCommand, DesignsForAConstantRatioToo) {
   const std::string engine =
       write("direct.ini", "[rocker intake]\nratio = 1.6\nbase_circle_mm = 18\nclearance_mm = 0.05\n");
@@ -213,8 +229,12 @@ TEST_F(CamCommand, RefusesALiftThatLeavesTheBaseCircleWithAStepInSpeed) {
 }
 
 TEST_F(CamCommand, DrawsCamPadAndRockerAtAnyAngle) {
+  std::string away = contents(kOhc125);
+  away.replace(away.find("toward_pivot"), 12, "away_from_pivot");
+  write("away.ini", away);
   for (const char* at : {"-30", "0", "170", "-360"}) {
-    run(kCam, {kOhc125, "--svg", in("cam.svg"), "--at", at});
+    const std::string engine = std::string(at) == "0" ? in("away.ini") : std::string(kOhc125);
+    run(kCam, {engine, "--svg", in("cam.svg"), "--at", at});
     const std::string svg = contents(in("cam.svg"));
     const support::Markup markup = support::read(svg);
     EXPECT_EQ(markup.fault, "") << at;

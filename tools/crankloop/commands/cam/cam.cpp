@@ -50,8 +50,8 @@ CamOfTrain cam_of_file(const EngineFile& file, const TrainOfFile& train) {
   return result;
 }
 
-CamOfTrain cam_for(const std::string& wanted, const TrainOfFile& train, double step_deg) {
-  CamOfTrain result{train, cam_for_lift(wanted, train.definition.rocker, step_deg)};
+CamOfTrain cam_for(const std::string& wanted, const TrainOfFile& train, const WantedOptions& options) {
+  CamOfTrain result{train, cam_for_lift(wanted, train.definition.rocker, options)};
   result.cam.source = CamSource::table;
   result.cam.points = result.wanted->points.data();
   result.cam.point_count = static_cast<int>(result.wanted->points.size());
@@ -156,8 +156,11 @@ int run_cam(const Arguments& arguments) {
   if (!train.has_rocker)
     throw InputError(file.path() + ": section [rocker " + train.name + "] is missing; this command needs it");
   const double step_deg = arguments.number("--step-deg");
+  if (arguments.has("--zero-lash") && !arguments.has("--wanted"))
+    throw UsageError("--zero-lash says how a wanted lift is counted; give --wanted");
+  const WantedOptions options{step_deg, arguments.has("--zero-lash")};
   const CamOfTrain cam =
-      arguments.has("--wanted") ? cam_for(arguments.text("--wanted"), train, step_deg) : cam_of_file(file, train);
+      arguments.has("--wanted") ? cam_for(arguments.text("--wanted"), train, options) : cam_of_file(file, train);
   if (arguments.has("--smoothing") && !cam.is_table())
     throw UsageError("--smoothing: the cam of train " + train.name + " is no table, so nothing is smoothed");
   if (arguments.has("--table") && !cam.wanted && 360 / step_deg > kMaxCamPoints)
@@ -181,6 +184,7 @@ constexpr Option kOptions[] = {
     number("--at", "DEG", from(-360).up_to(360), "cam angle of the picture from full lift", "0"),
     text("--wanted", "LIFT.csv",
          "design the cam for this valve lift: cam_deg,lift_mm from minus the clearance on the base circle"),
+    flag("--zero-lash", "the wanted lift is that without clearance: 0 on the base circle, its ramps above"),
     text("--table", "F", "file for the flat follower's lift, which an engine file reads as a cam: cam_deg,lift_mm"),
     text("--smoothing", "F.svg", "picture of a measured table before and after smoothing"),
 };
@@ -190,7 +194,7 @@ constexpr Option kOptions[] = {
 const Command kCam{"cam",
                    "the ground profile of a cam, with its picture; the cam for a wanted valve lift",
                    "FILE [--train NAME] [--step-deg D] [--csv F] [--svg F.svg] [--at DEG] [--wanted LIFT.csv] "
-                   "[--table F] [--smoothing F.svg]",
+                   "[--zero-lash] [--table F] [--smoothing F.svg]",
                    "crankloop cam ohc_125.ini --train intake --csv cam.csv --svg cam.svg --at -30",
                    1,
                    kOptions,

@@ -30,7 +30,8 @@ struct Wanted {
   std::vector<int> lines{};
 };
 
-Wanted read_wanted(const std::string& path) {
+/// Above the base circle by `from_base_m`: 0 for the train's lift, the clearance for one without lash.
+Wanted read_wanted(const std::string& path, double from_base_m) {
   Wanted wanted{path};
   for (const TableRow& row : read_table(path, kWantedTable)) {
     if (!wanted.rows.empty() && row.at <= wanted.rows.back().cam_deg) {
@@ -38,7 +39,7 @@ Wanted read_wanted(const std::string& path) {
                        "cam_deg: " + shortest(row.at) + " follows " + shortest(wanted.rows.back().cam_deg) +
                            "; angles must rise from row to row");
     }
-    wanted.rows.push_back({row.at, row.value / 1e3});
+    wanted.rows.push_back({row.at, row.value / 1e3 - from_base_m});
     wanted.lines.push_back(row.line);
   }
   if (wanted.rows.size() > kMaxCamPoints) {
@@ -203,11 +204,11 @@ class Inverse {
 
 }  // namespace
 
-WantedCam cam_for_lift(const std::string& path, const Rocker& rocker, double step_deg) {
-  const Wanted wanted = read_wanted(path);
+WantedCam cam_for_lift(const std::string& path, const Rocker& rocker, const WantedOptions& options) {
+  const Wanted wanted = read_wanted(path, options.zero_lash ? rocker.clearance_m : 0);
   require_base_circle(wanted, rocker.clearance_m);
   WantedCam result;
-  result.points = Inverse(wanted, rocker, result).table(step_deg);
+  result.points = Inverse(wanted, rocker, result).table(options.step_deg);
   result.rows = wanted.rows;
   return result;
 }

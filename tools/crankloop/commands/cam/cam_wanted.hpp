@@ -21,10 +21,14 @@ struct WantedCam {
   double peak_deg = 0;             ///< cam angle of the wanted lift's peak in its file, here 0
 };
 
-/// Rows every `step_deg` of the flat follower's angle. Throws InputError, with the angle, where no cam of this rocker
-/// gives the lift: a step where it leaves its clearance, a screw or pad out of reach, a contour that turns back or is
-/// undercut.
-[[nodiscard]] WantedCam cam_for_lift(const std::string& path, const Rocker& rocker, double step_deg);
+struct WantedOptions {
+  double step_deg = 1;     ///< between rows of the cam's table, of the flat follower's angle
+  bool zero_lash = false;  ///< the wanted lift is that without clearance: 0 on the base circle
+};
+
+/// Throws InputError, with the angle, where no cam of this rocker gives the lift: a step where it leaves its clearance,
+/// a screw or pad out of reach, a contour that turns back or is undercut.
+[[nodiscard]] WantedCam cam_for_lift(const std::string& path, const Rocker& rocker, const WantedOptions& options);
 
 /// Chooses smoothing_m by the scatter of the rows, as an engine file with `smoothing_um = auto` does.
 Status choose_smoothing(Cam& table) noexcept;
