@@ -55,13 +55,14 @@ CamOfTrain cam_for(const std::string& wanted, const TrainOfFile& train, const Wa
   result.cam.source = CamSource::table;
   result.cam.points = result.wanted->points.data();
   result.cam.point_count = static_cast<int>(result.wanted->points.size());
-  const auto accept = [&](const Status& refused) {
+  const auto accept = [&](const Status& refused, const std::string& where) {
     if (refused.ok()) return;
-    throw InputError(wanted + ": the table of its cam is refused: " + refused.field + " " + describe(refused.reason) +
-                     "; try a smaller --step-deg");
+    throw InputError(wanted + ": the table of its cam is refused" + where + ": " + refused.field + " " +
+                     describe(refused.reason) + "; try another --step-deg");
   };
-  accept(choose_smoothing(result.cam));
-  accept(result.lift->init(result.cam, result.rocker()));
+  accept(choose_smoothing(result.cam), "");
+  const Status of_lift = result.lift->init(result.cam, result.rocker());
+  accept(of_lift, " at " + brief(result.lift->failed_at_deg()) + " deg of the flat follower's angle");
   return result;
 }
 
