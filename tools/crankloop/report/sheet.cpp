@@ -16,8 +16,8 @@ constexpr double kRemark = 24;
 constexpr double kName = 30;  // of a plot, above it
 
 constexpr const char* kStyle = R"css(
-:root { color-scheme: light dark; font-family: system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue",
-  "Noto Sans", "Liberation Sans", Arial, sans-serif; }
+:root { max-width: 100%; height: auto; color-scheme: light dark; font-family: system-ui, -apple-system, "Segoe UI",
+  Roboto, "Helvetica Neue", "Noto Sans", "Liberation Sans", Arial, sans-serif; }
 .paper { fill: var(--paper); }
 .sheet-title { fill: var(--ink); font-size: 25px; font-weight: 600; }
 .remark { fill: var(--muted); font-size: 16px; }
