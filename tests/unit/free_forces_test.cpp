@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "crankloop/engine_file/engine_file.hpp"
 #include "crankloop/loops/free_forces.hpp"
 #include "support/run_command.hpp"
+#include "support/temporary_folder.hpp"
 #include "support/units.hpp"
 
 namespace crankloop::program {
@@ -195,6 +198,48 @@ TEST(FootForces, OfACommandAreThoseOfTorqueAndFreeForce) {
   EXPECT_EQ(found.count("residual_force_first_N"), 0u) << "the file has no balancers";
   EXPECT_EQ(balance({kOhc, "--rpm", "7000", "--no-warnings"}).count("mount_front_plus_max_up_N"), 0u);
   EXPECT_THROW(kBalance.run(Arguments(kBalance, {kOhc, "--rpm", "7000", "--mount-width-mm", "300"})), UsageError);
+}
+
+/// In the report and in `show`, which reads back as the same file. The single's first order with its rotating mass, by
+/// hand: 155 g and 110 g at 28.9 mm.
+TEST(Balancers, StandInTheReportAndInShow) {
+  const support::TemporaryFolder folder;
+  const std::string file = folder / "balanced.ini";
+  std::ofstream(file) << contents(kOhc) << "\n[counterweight web]\nmass_g = 100\nradius_mm = 28.9\nposition_mm = 0\n";
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(kRun.run(Arguments(kRun, {file, "--rpm", "7000", "--report", folder / "r.html"})), kSuccess);
+  testing::internal::GetCapturedStdout();
+  const std::string page = contents(folder / "r.html");
+  const std::size_t at = page.find("With counterweights and balance shafts");
+  ASSERT_NE(at, std::string::npos);
+  const double w2 = std::pow(7000 * kPi / 30, 2);
+  char alone[16], left[16];
+  std::snprintf(alone, sizeof alone, "%.1f", (0.155 + 0.110) * 0.0289 * w2);
+  std::snprintf(left, sizeof left, "%.1f", (0.155 + 0.110 - 0.100) * 0.0289 * w2);
+  EXPECT_LT(page.find(alone, at), page.find("Second order", at)) << alone;
+  EXPECT_LT(page.find(left, at), page.find("Second order", at)) << left;
+  const EngineFile read = read_engine_file(file, {});
+  const EngineFile again = read_engine_text(show(read), file, {});
+  ASSERT_EQ(again.balancers().size(), 1u);
+  EXPECT_EQ(again.balancers()[0].angle_deg, 180) << "the default, shown";
+  EXPECT_EQ(again.balancers()[0].unbalance_kg_m, read.balancers()[0].unbalance_kg_m);
+}
+
+TEST(Balancers, ThatAreWrongAreRefusedAtTheirLines) {
+  const auto refusal = [](const std::string& section) {
+    try {
+      static_cast<void>(read_engine_text(std::string(kTwin) + section, "twin.ini", {}));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string shaft = "[balance_shaft 1]\nmass_g = 1\nradius_mm = 1\nangle_deg = 0\nposition_mm = 0\n";
+  EXPECT_NE(refusal(shaft + "turns = 3\ndirection = with\n").find("turns"), std::string::npos);
+  EXPECT_NE(refusal(shaft + "turns = 1\ndirection = back\n").find("with, against"), std::string::npos)
+      << refusal(shaft + "turns = 1\ndirection = back\n");
+  EXPECT_NE(refusal(shaft + "turns = 1\n").find("direction"), std::string::npos);
+  EXPECT_NE(refusal("[counterweight]\nmass_g = 1\n").find("needs a name"), std::string::npos);
 }
 
 }  // namespace

@@ -211,7 +211,7 @@ report::Section balance_section(const ReportInput& input) {
   section.blocks.push_back(Paragraph{
       "Forces and moments of the moving masses on the mounts; gas forces balance inside the engine. Moments are about "
       "the middle of the crankshaft. They are the engine's without counterweights and balance shafts" +
-      std::string(input.file.balancers().empty() ? ", of which the file has none." : "; the last table has both.")});
+      std::string(input.file.balancers().empty() ? ", of which the file has none." : "; a table below has these.")});
   report::Table table{
       "Largest over a turn", {{"", "", false}, {"Force", "N"}, {"Relative", "%"}, {"Moment", "Nm"}}, {}, false};
   const auto row = [&](const std::string& name, const detail::RotatingVector<double>& t) {
