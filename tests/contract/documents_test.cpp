@@ -12,6 +12,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "crankloop/commands/redline/redline_search.hpp"
@@ -188,6 +189,73 @@ TEST_F(SeparationAndBounce, TellsHowFarATrainThatRingsIsBelowItsStaticRedline) {
   EXPECT_NE(contents(kSource / "docs/model.md").find(std::to_string(damped_rpm) + " rpm with a damping ratio of 0.5"),
             std::string::npos)
       << damped_rpm;
+}
+
+/// M y'' = k (Y - y) + b (Y' - y') + F_seat - k_s y - P_s0 - c y' with a train that pulls as well as it pushes, by
+/// Runge-Kutta steps of 0.5 us over the lobe, from rest.
+double largest_lift_of_a_pulling_train_mm(const LoneValve& valve, double speed_rpm) {
+  const detail::ValveBody<double> body = valve.body();
+  const double cam_rad_s = speed_rpm * support::kPi / 60;
+  const auto slopes = [&](double cam_rad, double y, double v) {
+    const LiftPose pose = valve.lift().at(cam_rad);
+    const double train_N = body.train_N_m * (pose.lift_m - y) + body.train_Ns_m * (pose.per_rad_m * cam_rad_s - v);
+    const double sink_m = body.preload_N / body.seat_N_m - y;
+    const double seat_N = sink_m > 0 ? std::max(0.0, body.seat_N_m * sink_m - body.seat_Ns_m * v) : 0.0;
+    return std::array<double, 2>{
+        v, (train_N + seat_N - body.spring_N_m * y - body.preload_N - body.guide_Ns_m * v) / body.mass_kg};
+  };
+  constexpr double kStep_s = 0.5e-6;
+  double y = 0, v = 0, most_m = 0;
+  for (double t = -2.2 / cam_rad_s; t < 1.0 / cam_rad_s; t += kStep_s) {
+    const auto at = [&](double later_s, const std::array<double, 2>& slope) {
+      return slopes((t + later_s) * cam_rad_s, y + later_s * slope[0], v + later_s * slope[1]);
+    };
+    const std::array<double, 2> k1 = slopes(t * cam_rad_s, y, v);
+    const std::array<double, 2> k2 = at(kStep_s / 2, k1);
+    const std::array<double, 2> k3 = at(kStep_s / 2, k2);
+    const std::array<double, 2> k4 = at(kStep_s, k3);
+    y += kStep_s / 6 * (k1[0] + 2 * k2[0] + 2 * k3[0] + k4[0]);
+    v += kStep_s / 6 * (k1[1] + 2 * k2[1] + 2 * k3[1] + k4[1]);
+    most_m = std::max(most_m, y);
+  }
+  return most_m * 1e3;
+}
+
+TEST_F(SeparationAndBounce, TellsTheLiftOfATrainThatCanPull) {
+  const EngineFile file = read_engine_file(folder_ / "ohc_125.ini", {});
+  const LoneValve valve(file, "intake");
+  expect_told("gives " + rounded("%.4f", largest_lift_of_a_pulling_train_mm(valve, 7000)) + " mm at 7000 rpm and " +
+              rounded("%.4f", largest_lift_of_a_pulling_train_mm(valve, 12000)) + " mm at 12000 rpm");
+}
+
+/// 20.85 m/s over the cam's speed, and the lobe's width at that slope.
+TEST_F(SeparationAndBounce, TellsWhatThePublishedSpeedWouldMean) {
+  const EngineFile file = read_engine_file(folder_ / "ohc_125.ini", {});
+  const LoneValve valve(file, "intake");
+  const double mm_per_rad = 20.85 / (12000 * support::kPi / 60) * 1e3;
+  const double lobe_deg = (valve.lift().closes_rad() - valve.lift().opens_rad()) * 180 / support::kPi;
+  expect_told("is " + rounded("%.0f", mm_per_rad) + " mm per radian of the cam");
+  expect_told("within " + rounded("%.0f", 7.815 / mm_per_rad * 180 / support::kPi) + " of the " +
+              rounded("%.0f", lobe_deg) + " degrees");
+}
+
+/// The table's figures are those that the commands above it print.
+TEST_F(SeparationAndBounce, TellsItsFiguresBesideTheThesis) {
+  const auto printed = [&](int rpm, const std::string& name) {
+    const std::string text =
+        output_of("crankloop valve ohc_125.ini --train intake --tick-us 5 --rpm " + std::to_string(rpm));
+    const std::size_t at = text.find("\n" + name + " = ");
+    EXPECT_NE(at, std::string::npos) << name;
+    return std::stod(text.substr(at + name.size() + 4));
+  };
+  for (const auto& [name, sign] : {std::pair<const char*, double>{"opening_velocity", 1}, {"closing_velocity", -1}}) {
+    expect_told("| " + rounded("%.2f", sign * printed(7000, name)) + " m/s at 7000 rpm, " +
+                rounded("%.2f", sign * printed(12000, name)) + " m/s at 12000 rpm |");
+  }
+  expect_told("| " + rounded("%.4f", printed(7000, "max_lift")) + " mm |");
+  expect_told("| " + rounded("%.4f", printed(12000, "max_lift")) + " mm |");
+  expect_told("| " + rounded("%.3f", printed(7000, "opening_delay")) + " and " +
+              rounded("%.3f", printed(12000, "opening_delay")) + " cam deg late |");
 }
 
 }  // namespace

@@ -197,11 +197,11 @@ TEST_F(FilesInUse, ThatALinkNamesAreMadeBehindIt) {
   fs::create_directory(in("results"));
   fs::create_symlink("results/k.csv", in("first.csv"));
   fs::create_symlink("first.csv", in("second.csv"));
-  EXPECT_EQ(run({"kinematics", in("diesel_495.ini"), "--csv", in("second.csv")}).status, 0);
+  EXPECT_EQ(run({"forces", in("diesel_495.ini"), "--csv", in("second.csv")}).status, 0);
   EXPECT_TRUE(fs::is_symlink(in("second.csv")) && fs::is_symlink(in("first.csv")));
-  EXPECT_EQ(contents(in("results/k.csv")), run({"kinematics", in("diesel_495.ini")}).out);
+  EXPECT_EQ(contents(in("results/k.csv")), run({"forces", in("diesel_495.ini")}).out);
 
-  const std::string to_a_pipe = std::string("'") + CRANKLOOP_PROGRAM + "' kinematics '" + in("diesel_495.ini") +
+  const std::string to_a_pipe = std::string("'") + CRANKLOOP_PROGRAM + "' forces '" + in("diesel_495.ini") +
                                 "' --csv /dev/stdout | cat >'" + in("piped.csv") + "'";
   EXPECT_EQ(std::system(to_a_pipe.c_str()), 0);
   EXPECT_EQ(contents(in("piped.csv")), contents(in("results/k.csv"))) << "a link of the kernel's, to what has no path";
@@ -210,7 +210,7 @@ TEST_F(FilesInUse, ThatALinkNamesAreMadeBehindIt) {
   fs::create_symlink("ring_a.csv", in("ring_b.csv"));
   fs::create_symlink("nowhere/k.csv", in("lost.csv"));
   for (const std::string name : {"ring_a.csv", "lost.csv"}) {
-    const Answer answer = run({"kinematics", in("diesel_495.ini"), "--csv", in(name)});
+    const Answer answer = run({"forces", in("diesel_495.ini"), "--csv", in(name)});
     EXPECT_EQ(answer.status, kFailure);
     EXPECT_NE(answer.error.find(" cannot be created: "), std::string::npos) << answer.error;
     EXPECT_TRUE(fs::is_symlink(in(name))) << name;

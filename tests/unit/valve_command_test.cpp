@@ -409,6 +409,45 @@ TEST_F(ValveCommands, APlotOfAValveThatNeverSeatsOrNeverOpensIsStillOne) {
   EXPECT_GE(plots(soft.path(), "20000"), 3u);
 }
 
+/// Rigid parts by differences of the lift that `lift` prints, the valve's by differences of its rows, either way round.
+TEST_F(ValveCommands, TheSummaryHasSpeedsOfOpeningAndClosingBesideThoseOfRigidParts) {
+  const auto column = [&](const char* name, std::size_t at) {
+    std::vector<double> values;
+    std::istringstream rows(contents(path(name)));
+    std::string row;
+    std::getline(rows, row);
+    while (std::getline(rows, row)) values.push_back(std::stod(split_at(row, ',').at(at)));
+    return values;
+  };
+  run(kLift, {kOhc125, "--train", "intake", "--step-deg", "0.1", "--csv", path("lift.csv")});
+  const std::vector<double> lift_mm = column("lift.csv", 2);
+  for (const double rpm : {7000.0, -7000.0}) {
+    const std::string text = run(kValve, {kOhc125, "--train", "intake", "--rpm", std::to_string(rpm), "--tick-us", "2",
+                                          "--csv", path("valve.csv")});
+    double rigid_most = 0, rigid_least = 0, most = 0, least = 0;
+    const double row_s = 0.1 / (6 * rpm / 2);  // of 0.1 cam deg; backwards it is negative
+    for (std::size_t i = 0; i + 1 < lift_mm.size(); ++i) {
+      if (lift_mm[i] < 0.01) continue;
+      const double speed_m_s = (lift_mm[i + 1] - lift_mm[i]) / 1e3 / row_s;
+      rigid_most = std::max(rigid_most, speed_m_s), rigid_least = std::min(rigid_least, speed_m_s);
+    }
+    const std::vector<double> elastic_mm = column("valve.csv", 3);
+    for (std::size_t i = 0; i + 1 < elastic_mm.size(); ++i) {
+      const double speed_m_s = (elastic_mm[i + 1] - elastic_mm[i]) / 1e3 / 2e-6;
+      most = std::max(most, speed_m_s), least = std::min(least, speed_m_s);
+    }
+    const auto found = lines(text);
+    EXPECT_NEAR(std::stod(found.at("opening_velocity").first), most, 2e-3 * most) << rpm;
+    EXPECT_NEAR(std::stod(found.at("closing_velocity").first), least, -2e-3 * least) << rpm;
+    const auto of_rigid_parts = [&](const std::string& name) {
+      const std::string words = "# of rigid parts ";
+      return std::stod(text.substr(text.find(words, text.find(name)) + words.size()));
+    };
+    EXPECT_NEAR(of_rigid_parts("opening_velocity"), rigid_most, 2e-3 * rigid_most) << rpm;
+    EXPECT_NEAR(of_rigid_parts("closing_velocity"), rigid_least, -2e-3 * rigid_least) << rpm;
+  }
+}
+
 TEST_F(ValveCommands, APlotThatCannotBeWrittenLeavesNothingBehind) {
   const std::vector<std::string> words{kOhc125, "--train", "intake", "--rpm", "7000"};
   const auto refused = [&](std::vector<std::string> outputs) {

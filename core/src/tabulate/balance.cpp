@@ -28,17 +28,6 @@ struct Direction {
   return {elementary::cos(deg * detail::kRadPerDegree), elementary::sin(deg * detail::kRadPerDegree)};
 }
 
-/// Middle of the crankshaft: half way between its first and last throw.
-[[nodiscard]] double middle_m(const Layout& layout) noexcept {
-  double least = layout.position_m[0];
-  double most = layout.position_m[0];
-  for (std::size_t k = 1; k < static_cast<std::size_t>(layout.cylinders); ++k) {
-    if (layout.position_m[k] < least) least = layout.position_m[k];
-    if (layout.position_m[k] > most) most = layout.position_m[k];
-  }
-  return (least + most) / 2;
-}
-
 /// One order of d2x/da2 per crank radius: cosine cos(order a) + sine sin(order a).
 struct Part {
   double cosine;
@@ -86,6 +75,16 @@ void add(RotatingVector<double>& t, double arm_m, double up_cos, double up_sin, 
 
 }  // namespace
 
+double crankshaft_middle_m(const Layout& layout) noexcept {
+  double least = layout.position_m[0];
+  double most = layout.position_m[0];
+  for (std::size_t k = 1; k < static_cast<std::size_t>(layout.cylinders); ++k) {
+    if (layout.position_m[k] < least) least = layout.position_m[k];
+    if (layout.position_m[k] > most) most = layout.position_m[k];
+  }
+  return (least + most) / 2;
+}
+
 Bearings<double> bearings_of(const EngineDefinition& engine) noexcept {
   const Layout& layout = engine.layout;
   const double r = engine.crank.crank_radius_m;
@@ -122,7 +121,7 @@ BlockLoad in_block(const EngineDefinition& engine, double engine_deg, double alo
 RotatingVector<double> reciprocating_order(const EngineDefinition& engine, int order) noexcept {
   const Layout& layout = engine.layout;
   const double reciprocating = engine.masses.reciprocating_kg() * engine.crank.crank_radius_m;
-  const double middle = middle_m(layout);
+  const double middle = crankshaft_middle_m(layout);
   const Part part = acceleration_part(engine.crank, order);
   RotatingVector<double> t{};
   for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
@@ -140,7 +139,7 @@ RotatingVector<double> reciprocating_order(const EngineDefinition& engine, int o
 Balance<double> balance_of(const EngineDefinition& engine) noexcept {
   const Layout& layout = engine.layout;
   const double r = engine.crank.crank_radius_m;
-  const double middle = middle_m(layout);
+  const double middle = crankshaft_middle_m(layout);
   Balance<double> b{};
   b.first = reciprocating_order(engine, 1);
   b.second = reciprocating_order(engine, 2);

@@ -12,5 +12,9 @@ printf 'not ready\nspeed, load ratio\n' | cmp - faults.txt || fail "faults does 
 "$crankloop" run "$folder/measured.ini" --cycles 1 >measured.txt 2>warnings.txt
 [ ! -s warnings.txt ] || fail "measured.ini: $(cat warnings.txt)"
 awk '$1 == "net_mep_exact" { found = $3 > 800 && $3 < 820 } END { exit !found }' measured.txt || fail "$(cat measured.txt)"
+"$crankloop" balance "$folder/balanced.ini" --mount-width-mm 250 --mount-length-mm 300 >balance.csv
+awk -F, '$1 == "bare_force_first_N" { bare = $2 } $1 == "residual_force_first_N" { left = $2 } /^mount_/ { ++mounts }
+  END { exit !(bare > 13450 && bare < 13550 && left < 1e-6 && mounts == 16) }' balance.csv || fail "balanced.ini: $(cat balance.csv)"
+
 "$crankloop" lift "$folder/own_cam.ini" --csv lift.csv >lift.txt
 awk '$1 == "max_theoretical_lift" { found = $3 > 10.45 && $3 < 10.55 } END { exit !found }' lift.txt || fail "$(cat lift.txt)"

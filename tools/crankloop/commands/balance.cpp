@@ -1,6 +1,9 @@
-// `crankloop balance FILE --rpm N`: free forces, bearing loads and torque harmonics of the whole engine.
+// `crankloop balance FILE --rpm N`: free forces, mounts, bearing loads and torque harmonics of the whole engine.
 #include <algorithm>
+#include <cstddef>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <crankloop/tabulate/summary.hpp>
 
@@ -11,6 +14,7 @@
 #include "../engine_report/free_orders.hpp"
 #include "../files/csv.hpp"
 #include "../files/units.hpp"
+#include "../loops/free_forces.hpp"
 #include "../loops/run_trace.hpp"
 #include "../loops/tick_probe.hpp"
 
@@ -32,13 +36,25 @@ class TurningWriter {
         w2_{speed_rad_s * speed_rad_s},
         noise_N_{1e-9 * definition.masses.reciprocating_kg() * definition.crank.crank_radius_m * w2_} {}
 
-  void write(const std::string& name, const detail::RotatingVector<double>& t) {
+  void write(const std::string& name, const TurningForce& t) {
     csv_.row("free_force_" + name + "_N", peak_force_kg_m(t) * w2_);
     component("free_force_" + name + "_up", "N", t.up_cos, t.up_sin);
     component("free_force_" + name + "_lateral", "N", t.lateral_cos, t.lateral_sin);
     csv_.row("free_moment_" + name + "_Nm", peak_moment_kg_m2(t) * w2_);
     component("free_moment_" + name + "_pitch", "Nm", t.pitch_cos, t.pitch_sin);
     component("free_moment_" + name + "_yaw", "Nm", t.yaw_cos, t.yaw_sin);
+  }
+
+  /// An order of the engine alone, and what its balancers leave of it.
+  void write_residual(const EngineDefinition& definition, const std::vector<Balancer>& balancers,
+                      const FreeOrder& order) {
+    const TurningForce bare = free_force(definition, {}, order.order);
+    const TurningForce left = free_force(definition, balancers, order.order);
+    const std::string name = std::string("_") + order.name + "_";
+    csv_.row("bare_force" + name + "N", peak_force_kg_m(bare) * w2_);
+    csv_.row("residual_force" + name + "N", peak_force_kg_m(left) * w2_);
+    csv_.row("bare_moment" + name + "Nm", peak_moment_kg_m2(bare) * w2_);
+    csv_.row("residual_moment" + name + "Nm", peak_moment_kg_m2(left) * w2_);
   }
 
  private:
@@ -110,7 +126,65 @@ void write_bearings(CsvWriter& csv, std::uint32_t count, const BearingRanges& r)
   }
 }
 
+/// What each foot presses on its mount over the cycle.
+class MountRanges {
+ public:
+  MountRanges(const EngineFile& engine, const Mounts& mounts, double speed_rad_s)
+      : free_(engine.definition(), engine.balancers()), mounts_{mounts}, speed_rad_s_{speed_rad_s} {}
+
+  void take(double engine_deg, double tilting_Nm) {
+    const FreeLoad load = free_.at(engine_deg, speed_rad_s_);
+    for (std::size_t i = 0; i < kFeet; ++i) {
+      const FootForce force = foot_force(mounts_, kFeetOf[i], load, tilting_Nm);
+      up_[i].take(force.up_N);
+      lateral_[i].take(force.lateral_N);
+    }
+  }
+  void write(CsvWriter& csv) const {
+    for (std::size_t i = 0; i < kFeet; ++i) {
+      const std::string mount = std::string("mount_") + kFeetOf[i].name + "_";
+      csv.row(mount + "max_up_N", up_[i].most);
+      csv.row(mount + "max_down_N", -up_[i].least);
+      csv.row(mount + "max_lateral_N", lateral_[i].most);
+      csv.row(mount + "min_lateral_N", lateral_[i].least);
+    }
+  }
+
+ private:
+  FreeForces free_;
+  Mounts mounts_;
+  double speed_rad_s_;
+  Range up_[kFeet];
+  Range lateral_[kFeet];
+};
+
+/// None where the options do not say where the feet are.
+std::optional<Mounts> mounts_of(const Arguments& arguments) {
+  if (arguments.has("--mount-width-mm") != arguments.has("--mount-length-mm"))
+    throw UsageError("--mount-width-mm and --mount-length-mm belong together; give both");
+  if (!arguments.has("--mount-width-mm")) return {};
+  return Mounts{arguments.number("--mount-width-mm") / 1e3, arguments.number("--mount-length-mm") / 1e3};
+}
+
+MountRanges mounts_by_angle(MountRanges ranges, const EngineDefinition& definition, double speed, double load_ratio) {
+  TickProbe<double> probe(definition);
+  for_each_angle(0.5, 720, [&](double deg) {
+    const auto& out = probe.at(deg, speed, load_ratio);
+    double tilting_Nm = 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(definition.layout.cylinders); ++k)
+      tilting_Nm += out.cylinder[k].tilting_moment_Nm;
+    ranges.take(deg, tilting_Nm);
+  });
+  return ranges;
+}
+
+MountRanges mounts_of_trace(MountRanges ranges, const Trace& trace) {
+  for (std::size_t i = 0; i < trace.crank_deg.size(); ++i) ranges.take(trace.crank_deg[i], trace.tilting_moment_Nm[i]);
+  return ranges;
+}
+
 int run_balance(const Arguments& arguments) {
+  const std::optional<Mounts> mounts = mounts_of(arguments);
   const EngineFile engine = read_engine(arguments, {"engine", "crank", "masses"});
   const EngineDefinition& definition = engine.definition();
   const double rpm = speed_rpm(arguments, engine);
@@ -122,14 +196,18 @@ int run_balance(const Arguments& arguments) {
   const GasOrder gas = gas_order(arguments, engine, 1);
   CycleSummary cycle;
   BearingRanges bearings;
+  std::optional<MountRanges> feet;
+  if (mounts) feet.emplace(engine, *mounts, speed);
   if (breathes(definition)) {
     if (rpm <= 0) throw UsageError("--rpm: an engine with gas exchange runs forward only; the speed must be above 0");
     const Trace trace = record_trace<double, scenes::Breathing>(definition, {rpm, 0, 1, gas});
     cycle = summarise(definition, speed, trace);
     bearings = bearings_of_trace(trace);
+    if (feet) feet = mounts_of_trace(*feet, trace);
   } else {
     cycle = summarise(exact, speed, load_ratio);
     bearings = bearings_by_angle(definition, speed, load_ratio);
+    if (feet) feet = mounts_by_angle(*feet, definition, speed, load_ratio);
   }
 
   Output out(arguments.text_or_empty("--csv"));
@@ -160,7 +238,12 @@ int run_balance(const Arguments& arguments) {
   for (const FreeOrder& order : free_orders(definition.crank))
     turning.write(order.name, reciprocating_order(definition, order.order));
   turning.write("rotating", balance_of(definition).rotating);
+  if (!engine.balancers().empty()) {
+    for (const FreeOrder& order : free_orders(definition.crank))
+      turning.write_residual(definition, engine.balancers(), order);
+  }
   write_bearings(csv, bearings_of(definition).pins, bearings);
+  if (feet) feet->write(csv);
   out.finish();
   return kSuccess;
 }
@@ -172,18 +255,21 @@ constexpr Option kOptions[] = {
     kFuel,
     kLambda,
     kBurnStart,
+    number("--mount-width-mm", "B", above(0).up_to(1e5),
+           "between the left and right feet of four about the middle of the crankshaft: their forces, without weight"),
+    number("--mount-length-mm", "L", above(0).up_to(1e5), "between the front and rear feet"),
     text("--csv", "F", "file for the table; else standard output"),
 };
 
 }  // namespace
 
-const Command kBalance{
-    "balance",
-    "torque harmonics, free forces and moments, bearing loads of the whole engine",
-    "FILE [--rpm N] [--load-ratio Q] [--throttle R] [--lambda L | --fuel-mg M] [--burn-start-deg A] [--csv F]",
-    "crankloop balance diesel_495.ini --rpm 2000",
-    1,
-    kOptions,
-    run_balance};
+const Command kBalance{"balance",
+                       "torque harmonics, free forces and moments, bearing loads of the whole engine",
+                       "FILE [--rpm N] [--load-ratio Q] [--throttle R] [--lambda L | --fuel-mg M] [--burn-start-deg A]"
+                       " [--mount-width-mm B --mount-length-mm L] [--csv F]",
+                       "crankloop balance diesel_495.ini --rpm 2000",
+                       1,
+                       kOptions,
+                       run_balance};
 
 }  // namespace crankloop::program

@@ -16,6 +16,7 @@
 #include <crankloop/tabulate/cam_profile.hpp>
 
 #include "../files/error.hpp"
+#include "balancer.hpp"
 #include "engine_file_values.hpp"
 #include "port_geometry.hpp"
 
@@ -69,6 +70,9 @@ class EngineFile {
   /// The NAME of every [trigger], in the order of definition().triggers.
   [[nodiscard]] const std::vector<TriggerOfFile>& triggers() const noexcept { return triggers_; }
 
+  /// Counterweights and balance shafts, which are no part of the definition.
+  [[nodiscard]] const std::vector<Balancer>& balancers() const noexcept { return balancers_; }
+
   /// One of the trains; throws InputError for an unknown name.
   [[nodiscard]] const TrainOfFile& train(const std::string& name) const;
 
@@ -109,6 +113,7 @@ class EngineFile {
   std::string points_path_;
   std::vector<TrainOfFile> trains_;
   std::vector<TriggerOfFile> triggers_;
+  std::vector<Balancer> balancers_;
 };
 
 /// A complete file without defaults. Reading it gives the same definition, and showing that the same text.

@@ -65,6 +65,8 @@ constexpr SectionKind kSections[] = {
     {"rocker", true, "what carries the cam's lift to the valve of the same NAME"},
     {"valve", true, "the valve of the same NAME, for its dynamics"},
     {"trigger", true, "a trigger wheel: what a crank or cam sensor sees"},
+    {"counterweight", true, "a mass on the crankshaft, for `balance` and reports; no part of the tick"},
+    {"balance_shaft", true, "an unbalanced shaft that the crankshaft drives, for `balance` and reports; no part of the tick"},
 };
 
 // clang-format off
@@ -199,6 +201,18 @@ constexpr Key kRows[] = {
     {"trigger", "tooth_ratio", Kind::number, kNoUnit, "", from(0.01).up_to(0.99), "", defaults, "0.5", "", "edges:teeth", "width of a tooth per distance from tooth to tooth"},
     {"trigger", "edges_deg", Kind::numbers, kDeg, "", from(0).up_to(1440), "", required, "", "", "edges:list", "instead of a pattern: rise, fall, rise, ... by engine angle, within one turn of the shaft (cam: 720 deg)"},
     {"trigger", "inverted", Kind::choice, kNoUnit, "", kAny, "no|yes", defaults, "no", "", "", "whether a tooth pulls the signal down"},
+
+    {"counterweight", "mass_g", Kind::number, kG, "", above(0).up_to(1e7), "", required, "", "", "", "of the weight"},
+    {"counterweight", "radius_mm", Kind::number, kMm, "", above(0).up_to(1e4), "", required, "", "", "", "of its centre of mass from the crankshaft's axis"},
+    {"counterweight", "angle_deg", Kind::number, kDeg, "", from(-360).up_to(360), "", defaults, "180", "", "", "from cylinder 1's crank pin, in the sense of rotation; 180: opposite"},
+    {"counterweight", "position_mm", Kind::number, kMm, "", from(-1e5).up_to(1e5), "", required, "", "", "", "along the crankshaft, on the scale of cylinder_positions_mm"},
+
+    {"balance_shaft", "mass_g", Kind::number, kG, "", above(0).up_to(1e7), "", required, "", "", "", "of its unbalance"},
+    {"balance_shaft", "radius_mm", Kind::number, kMm, "", above(0).up_to(1e4), "", required, "", "", "", "of the unbalance's centre of mass from the shaft's axis"},
+    {"balance_shaft", "turns", Kind::whole_number, kNoUnit, "", from(1).up_to(2), "", required, "", "", "", "of the shaft per turn of the crankshaft"},
+    {"balance_shaft", "direction", Kind::choice, kNoUnit, "", kAny, "with|against", required, "", "", "", "of its rotation: with the crankshaft's or against it"},
+    {"balance_shaft", "angle_deg", Kind::number, kDeg, "", from(-360).up_to(360), "", required, "", "", "", "of the unbalance at engine angle 0, from up in the crankshaft's sense of rotation"},
+    {"balance_shaft", "position_mm", Kind::number, kMm, "", from(-1e5).up_to(1e5), "", required, "", "", "", "along the crankshaft, on the scale of cylinder_positions_mm"},
 };
 // clang-format on
 

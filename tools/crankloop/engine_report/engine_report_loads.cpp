@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "../loops/free_forces.hpp"
 #include "engine_report_parts.hpp"
 #include "free_orders.hpp"
 
@@ -170,6 +171,36 @@ report::Section bearing_section(const ReportInput& input) {
   return section;
 }
 
+namespace {
+
+/// Order by order, what counterweights and balance shafts leave.
+void add_residual(const ReportInput& input, double w2, Section& section) {
+  const EngineDefinition& definition = input.exact.definition();
+  report::Table table{
+      "With counterweights and balance shafts, largest over a turn",
+      {{"", "", false}, {"Force alone", "N"}, {"Force left", "N"}, {"Moment alone", "Nm"}, {"Moment left", "Nm"}},
+      {},
+      false};
+  for (const FreeOrder& order : free_orders(definition.crank)) {
+    const TurningForce bare = free_force(definition, {}, order.order);
+    const TurningForce left = free_force(definition, input.file.balancers(), order.order);
+    std::string name = order.name;
+    name[0] = static_cast<char>(name[0] - 'a' + 'A');
+    table.rows.push_back({name + " order", report::format_fixed(peak_force_kg_m(bare) * w2, 1),
+                          report::format_fixed(peak_force_kg_m(left) * w2, 1),
+                          report::format_fixed(peak_moment_kg_m2(bare) * w2, 1),
+                          report::format_fixed(peak_moment_kg_m2(left) * w2, 1)});
+  }
+  section.blocks.push_back(std::move(table));
+  std::string list;
+  for (const Balancer& balancer : input.file.balancers()) list += (list.empty() ? "" : ", ") + balancer.title;
+  section.blocks.push_back(Paragraph{"The first order with the rotating masses. " + list +
+                                     " of the file; they act on the mounts and are "
+                                     "no part of the bearing loads above."});
+}
+
+}  // namespace
+
 report::Section balance_section(const ReportInput& input) {
   const Trace& trace = input.trace;
   const EngineDefinition& definition = input.exact.definition();
@@ -179,8 +210,8 @@ report::Section balance_section(const ReportInput& input) {
   Section section{"balance", "Free forces and moments", {}};
   section.blocks.push_back(Paragraph{
       "Forces and moments of the moving masses on the mounts; gas forces balance inside the engine. Moments are about "
-      "the middle of the crankshaft. Counterweights are not part of the definition, so rotating masses are not "
-      "balanced here."});
+      "the middle of the crankshaft. They are the engine's without counterweights and balance shafts" +
+      std::string(input.file.balancers().empty() ? ", of which the file has none." : "; a table below has these.")});
   report::Table table{
       "Largest over a turn", {{"", "", false}, {"Force", "N"}, {"Relative", "%"}, {"Moment", "Nm"}}, {}, false};
   const auto row = [&](const std::string& name, const detail::RotatingVector<double>& t) {
@@ -212,6 +243,7 @@ report::Section balance_section(const ReportInput& input) {
   section.blocks.push_back(
       Paragraph{"Relative to the first order of one cylinder: reciprocating mass times r \u03C9\u00B2, " +
                 number_text(unit_N, 5) + " N. Orders are per crank turn: harmonics of the exact motion."});
+  if (!input.file.balancers().empty()) add_residual(input, w2, section);
   if (!waves.rows.empty()) {
     section.blocks.push_back(std::move(waves));
     section.blocks.push_back(

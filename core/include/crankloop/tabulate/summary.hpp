@@ -107,6 +107,10 @@ using TorqueAt = double (*)(const void* of, double engine_deg);
 /// mean: for an engine whose torque has no closed form.
 void add_torques(CycleSummary& summary, int samples, TorqueAt torque_Nm, const void* of) noexcept;
 
+/// Middle of the crankshaft, about which moments are: half way between its first and last throw, as
+/// Layout::position_m.
+[[nodiscard]] double crankshaft_middle_m(const Layout& layout) noexcept;
+
 /// Harmonic `order` of the reciprocating masses' free force and its moment, of the exact motion: docs/model.md
 /// "Balance". Only orders 1, 2, 4 and 6 matter, and 3 and 5 with a pin offset.
 [[nodiscard]] detail::RotatingVector<double> reciprocating_order(const EngineDefinition& engine, int order) noexcept;

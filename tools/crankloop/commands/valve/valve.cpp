@@ -1,5 +1,6 @@
 // `crankloop valve FILE`: one elastic valve at constant speed, tick by tick, and what it does in a
 // cycle.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -92,9 +93,43 @@ void add_margin(Summary& s, const LoneValve& valve, double speed_rpm) {
   s.line("static_redline", redline.crank_rad_s * kRpmPerRad_s, "rpm", "spring margin 1; no elasticity, damping or gas");
 }
 
+/// Largest and smallest speed and acceleration of a valve's lift, m/s and m/s^2.
+struct MotionRange {
+  double opening_m_s = 0;
+  double closing_m_s = 0;
+  double rise_m_s2 = 0;
+  double fall_m_s2 = 0;
+
+  void take(double velocity_m_s, double acceleration_m_s2) {
+    opening_m_s = std::max(opening_m_s, velocity_m_s);
+    closing_m_s = std::min(closing_m_s, velocity_m_s);
+    rise_m_s2 = std::max(rise_m_s2, acceleration_m_s2);
+    fall_m_s2 = std::min(fall_m_s2, acceleration_m_s2);
+  }
+};
+
+/// Of rigid parts: what the cam gives where its lash is closed. The cam speed has a sign.
+MotionRange rigid_range(const ValveLift& lift, double cam_rad_s) {
+  MotionRange range;
+  for (int i = -18000; i < 18000; ++i) {
+    const LiftPose pose = lift.at(i * 0.01 * kRadPerDeg);
+    if (pose.lift_m > 0) range.take(pose.per_rad_m * cam_rad_s, pose.per_rad2_m * cam_rad_s * cam_rad_s);
+  }
+  return range;
+}
+
+void add_motion(Summary& s, const MotionRange& elastic, const MotionRange& rigid) {
+  const auto line = [&s](const char* name, double of_valve, double of_rigid, const char* unit) {
+    s.line(name, of_valve, unit, "of rigid parts " + brief(of_rigid));
+  };
+  line("opening_velocity", elastic.opening_m_s, rigid.opening_m_s, "m/s");
+  line("closing_velocity", elastic.closing_m_s, rigid.closing_m_s, "m/s");
+  line("least_acceleration", elastic.fall_m_s2, rigid.fall_m_s2, "m/s^2");
+}
+
 template <class Real>
 std::string summary(const LoneValve& valve, const Request& request, const ValveLoop<Real>& loop,
-                    const ValveCycle<Real>& cycle, double change_m, const Flow& flow) {
+                    const ValveCycle<Real>& cycle, double change_m, const Flow& flow, const MotionRange& motion) {
   const auto real = [](double value) { return static_cast<Real>(value); };
   const detail::ValveBody<double> body = valve.body();
   const bool separated = cycle.separations > 0;
@@ -104,7 +139,10 @@ std::string summary(const LoneValve& valve, const Request& request, const ValveL
   s.line("max_theoretical_lift", real(valve.lift().largest_lift_m() * 1e3), "mm");
   s.line("max_lift", cycle.largest_lift_m * real(1e3), "mm");
   s.line("max_velocity", cycle.largest_speed_m_s, "m/s");
-  s.line("max_acceleration", cycle.largest_acceleration_m_s2, "m/s^2");
+  const double cam_rad_s = loop.deg_per_tick(request.speed_rpm) * kRadPerDeg / request.tick_s;
+  const MotionRange rigid = rigid_range(valve.lift(), cam_rad_s);
+  s.line("max_acceleration", cycle.largest_acceleration_m_s2, "m/s^2", "of rigid parts " + brief(rigid.rise_m_s2));
+  add_motion(s, motion, rigid);
   add_opening_delay(s, "opening_delay", cycle);
   s.line("separations", cycle.separations, "", "of at least 1 um");
   s.line("separation_max_gap", cycle.separation_clearance_m * real(1e3), "mm");
@@ -163,8 +201,10 @@ void run(const LoneValve& valve, const Request& request, Results& results) {
   std::optional<FlowSum> sum;
   if (flow.area) sum.emplace(*flow.area, seat_contact_m, 2 * std::abs(loop.deg_per_tick(request.speed_rpm)));
   ValveCycleTrace trace;
+  MotionRange motion;
   const OnValveTick<Real> on_tick = [&](const ValveTickOutput<Real>& out) {
     if (csv) write_row(*csv, valve, flow, out);
+    motion.take(static_cast<double>(out.motion.velocity_m_s), static_cast<double>(out.motion.acceleration_m_s2));
     if (sum) sum->add(static_cast<double>(out.motion.lift_m));
     if (plot != nullptr) trace.ticks.push_back(in_double(out));
   };
@@ -184,7 +224,7 @@ void run(const LoneValve& valve, const Request& request, Results& results) {
     if (flow.area) add_flow_remarks(sheet.remarks, valve.train());
     plot->write(report::to_svg_file(sheet));
   }
-  results.finish(summary(valve, request, loop, cycle, change_m, flow));
+  results.finish(summary(valve, request, loop, cycle, change_m, flow, motion));
 }
 
 int run_valve(const Arguments& arguments) {
