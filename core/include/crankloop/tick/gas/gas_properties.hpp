@@ -130,7 +130,7 @@ template <class T>
 
 /// Where they are not, puts contents back there; answers whether it did. `at` has contents and their point.
 template <class Gas, class Real>
-[[nodiscard, gnu::cold, gnu::noinline]] bool put_right(Gas& at, Real per_volume_m3, Real least_kg) noexcept {
+[[nodiscard, gnu::always_inline]] inline bool put_right(Gas& at, Real per_volume_m3, Real least_kg) noexcept {
   GasContents<Real>& gas = at.contents;
   const GasPoint<Real> point = at.point;
   if (is_well(point, gas.mass_kg, least_kg)) return false;

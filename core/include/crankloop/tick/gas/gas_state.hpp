@@ -35,19 +35,18 @@ struct CylinderGases {
   template <class T>
   [[nodiscard, gnu::always_inline]] CylinderGas<T> at(std::uint32_t k) const noexcept {
     CylinderGas<T> gas;
-    const auto take = [k](const Real* column, T& x) { std::memcpy(&x, column + k, sizeof x); };
-    each(*this, gas, take), each_area(*this, gas, take);
+    each(*this, gas, Take{k}), each_area(*this, gas, Take{k});
     return gas;
   }
   template <class T>
   [[gnu::always_inline]] void put(std::uint32_t k, const CylinderGas<T>& gas) noexcept {
-    each(*this, gas, [k](Real* column, const T& x) { std::memcpy(column + k, &x, sizeof x); });
+    each(*this, gas, Put{k});
   }
 
   /// Not among what a step always leaves: most ports are closed.
   template <class T>
   [[gnu::always_inline]] void put_areas(std::uint32_t k, const CylinderGas<T>& gas) noexcept {
-    each_area(*this, gas, [k](Real* column, const T& x) { std::memcpy(column + k, &x, sizeof x); });
+    each_area(*this, gas, Put{k});
   }
   void copy(std::uint32_t from, std::uint32_t to) noexcept {
     put(to, at<Real>(from)), put_areas(to, at<Real>(from));
@@ -55,6 +54,30 @@ struct CylinderGases {
   }
 
  private:
+  // A number by its index: by its address, GCC keeps a pointer into each column on the stack from load to store.
+  struct Take {
+    std::uint32_t k;
+    template <class T>
+    [[gnu::always_inline]] void operator()(const Real (&column)[kCylinders], T& x) const noexcept {
+      if constexpr (kLanesIn<T> == 1) {
+        x = column[k];
+      } else {
+        std::memcpy(&x, column + k, sizeof x);
+      }
+    }
+  };
+  struct Put {
+    std::uint32_t k;
+    template <class T>
+    [[gnu::always_inline]] void operator()(Real (&column)[kCylinders], const T& x) const noexcept {
+      if constexpr (kLanesIn<T> == 1) {
+        column[k] = x;
+      } else {
+        std::memcpy(column + k, &x, sizeof x);
+      }
+    }
+  };
+
   template <class Columns, class Gas, class Visit>
   [[gnu::always_inline]] static void each(Columns& column, Gas& gas, const Visit& visit) noexcept {
     visit(column.mass_kg, gas.contents.mass_kg), visit(column.mass_rest_kg, gas.contents.mass_rest_kg);
