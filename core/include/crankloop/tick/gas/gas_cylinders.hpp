@@ -131,8 +131,10 @@ class GasCylindersStep {
     state_.cylinder_gas.put(k, gas);
     if (done.flows) state_.cylinder_gas.put_areas(k, gas);
     const T least_kg = step.drive.least_kg_m3 * volume_m3;
-    if (__builtin_expect(!all(is_well<T>(gas.point, gas.contents.mass_kg, least_kg)), 0)) {
+    const auto well = is_well<T>(gas.point, gas.contents.mass_kg, least_kg);
+    if (__builtin_expect(!all(well), 0)) {
       for (int i = 0; i < kLanes; ++i) {
+        if ((holding(well) >> i & 1u) != 0) continue;
         const Real per_volume_m3 = lane(done.closed.per_volume_m3, i);
         if (!put_cylinder_right(k + static_cast<std::uint32_t>(i), per_volume_m3, lane(least_kg, i))) continue;
         faults |= kFaultGas;
@@ -177,8 +179,8 @@ class GasCylindersStep {
 
   [[gnu::cold, gnu::noinline]] bool put_cylinder_right(std::uint32_t k, Real per_volume_m3, Real least_kg) noexcept {
     CylinderGas<Real> gas = state_.cylinder_gas.template at<Real>(k);
-    const bool put_back = put_right(gas, per_volume_m3, least_kg);
-    state_.cylinder_gas.put(k, gas);
+    const bool put_back = put_right(gas.contents, gas.point, per_volume_m3, least_kg);
+    state_.cylinder_gas.put(k, gas.contents, gas.point);
     return put_back;
   }
 

@@ -43,6 +43,10 @@ struct CylinderGases {
     each(*this, gas, Put{k});
   }
 
+  void put(std::uint32_t k, const GasContents<Real>& contents, const GasPoint<Real>& point) noexcept {
+    each_of_gas(*this, contents, point, Put{k});
+  }
+
   /// Not among what a step always leaves: most ports are closed.
   template <class T>
   [[gnu::always_inline]] void put_areas(std::uint32_t k, const CylinderGas<T>& gas) noexcept {
@@ -80,12 +84,17 @@ struct CylinderGases {
 
   template <class Columns, class Gas, class Visit>
   [[gnu::always_inline]] static void each(Columns& column, Gas& gas, const Visit& visit) noexcept {
-    visit(column.mass_kg, gas.contents.mass_kg), visit(column.mass_rest_kg, gas.contents.mass_rest_kg);
-    visit(column.energy_J, gas.contents.energy_J), visit(column.energy_rest_J, gas.contents.energy_rest_J);
-    visit(column.burned_kg, gas.contents.burned_kg), visit(column.burned_rest_kg, gas.contents.burned_rest_kg);
-    visit(column.pressure_Pa, gas.point.pressure_Pa), visit(column.temperature_K, gas.point.temperature_K);
-    visit(column.burned_ratio, gas.point.burned_ratio), visit(column.gas_ratio, gas.point.gas_ratio);
+    each_of_gas(column, gas.contents, gas.point, visit);
     visit(column.volume_m3, gas.volume_m3), visit(column.wall_heat_W, gas.wall_heat_W);
+  }
+  template <class Columns, class Contents, class Point, class Visit>
+  [[gnu::always_inline]] static void each_of_gas(Columns& column, Contents& contents, Point& point,
+                                                 const Visit& visit) noexcept {
+    visit(column.mass_kg, contents.mass_kg), visit(column.mass_rest_kg, contents.mass_rest_kg);
+    visit(column.energy_J, contents.energy_J), visit(column.energy_rest_J, contents.energy_rest_J);
+    visit(column.burned_kg, contents.burned_kg), visit(column.burned_rest_kg, contents.burned_rest_kg);
+    visit(column.pressure_Pa, point.pressure_Pa), visit(column.temperature_K, point.temperature_K);
+    visit(column.burned_ratio, point.burned_ratio), visit(column.gas_ratio, point.gas_ratio);
   }
   template <class Columns, class Gas, class Visit>
   [[gnu::always_inline]] static void each_area(Columns& column, Gas& gas, const Visit& visit) noexcept {
