@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "counted_step.hpp"
+#include "worst_search.hpp"
 
 namespace {
 
@@ -108,7 +108,7 @@ std::uint32_t painted_stack() noexcept {
 
 int main() {
   for (const Speed& speed : kSpeeds) measure(speed);
-  measure_hostile(5000);
+  search_worst();
   print_limits(*engine.tables());
   port::Line() << "ram " << static_cast<std::uint32_t>(sizeof engine);
   port::Line() << "painted_stack " << painted_stack();

@@ -36,18 +36,18 @@ row() {
     -v tables="$(section_bytes "$1" '^\\.(s?rodata|data\\.rel\\.ro)')" -v stack="$stack" -v bound="${bounds%% *}" '
     { sub(/\r$/, "") }
     $1 == "instructions" { mean[$2] = $3; worst[$2] = $4 }
-    $1 == "hostile" { hostile = $2 }
+    $1 == "searched" { searched = $2 }
     $1 == "ram" { ram = $2 }
     $1 == "painted_stack" { painted = $2 }
     $1 == "faults" { print scene " sets fault bits: " $2 > "/dev/stderr"; bad = 1 }
     END {
       if (painted + 0 > stack + 0) { print scene ": painting finds more stack than the call graph" > "/dev/stderr"; bad = 1 }
-      most = hostile + 0
+      most = searched + 0
       for (speed in worst) if (worst[speed] + 0 > most) most = worst[speed] + 0
       if (bound != "-" && most > bound + 0) { print scene ": took " most " instructions, more than its bound of " bound > "/dev/stderr"; bad = 1 }
-      if (bad || !("redline" in worst) || hostile == "" || painted == "") exit 1
+      if (bad || !("redline" in worst) || searched == "" || painted == "") exit 1
       print "| " scene " | " tick + 0 " | " mean["idle"] " / " worst["idle"] " | " mean["rated"] " / " worst["rated"] " | " mean["redline"] " / " \
-        worst["redline"] " | " hostile " | " bound " | " code " | " tables " | " ram " | " stack " | " painted " |"
+        worst["redline"] " | " searched " | " bound " | " code " | " tables " | " ram " | " stack " | " painted " |"
     }' "$log"
 }
 
@@ -56,21 +56,21 @@ cycle_row() {
   awk -v scene="${1%_*}" -v tick="${1##*_}" -v column="$2" -v mhz="$core_mhz" '
     { sub(/\r$/, "") }
     $1 == "cycles" { mean = $column; worst = $(column + 1); instructions = $7; counted = 1 }
-    $1 == "instructions" || $1 == "hostile" {
-      name = $1 == "hostile" ? $1 : $2
-      off = ($1 == "hostile" ? $2 : $4) - instructions  # the call, with what stands between the readings of the counter
+    $1 == "instructions" || $1 == "searched" {
+      name = $1 == "searched" ? $1 : $2
+      off = ($1 == "searched" ? $2 : $4) - instructions  # the call, with what stands between the readings of the counter
       if (!counted || off < 0 || off > 5) { print scene ", " name ": the counts of instructions differ by " off > "/dev/stderr"; bad = 1 }
-      if (name == "hostile") hostile = worst
+      if (name == "searched") searched = worst
       else { if (mean > most_mean) most_mean = mean; if (worst > most_worst) most_worst = worst }
       counted = 0
     }
     $1 == "bounds" { instruction_bound = $2; bound = $(column / 2 + 2) }
     END {
-      if (most_worst > bound || hostile > bound) { print scene ": took more cycles than its bound of " bound > "/dev/stderr"; bad = 1 }
+      if (most_worst > bound || searched > bound) { print scene ": took more cycles than its bound of " bound > "/dev/stderr"; bad = 1 }
       if (bound < instruction_bound) { print scene ": " bound " cycles are fewer than the instructions" > "/dev/stderr"; bad = 1 }
-      if (bad || !most_mean || !hostile) exit 1
+      if (bad || !most_mean || !searched) exit 1
       share = 100 / (mhz * tick)
-      printf "| %s | %d | %d / %d | %d | %d | %.1f / %.1f / %.1f | %d |\n", scene, tick, most_mean, most_worst, hostile, bound,
+      printf "| %s | %d | %d / %d | %d | %d | %.1f / %.1f / %.1f | %d |\n", scene, tick, most_mean, most_worst, searched, bound,
         most_mean * share, most_worst * share, bound * share, int((bound + mhz - 1) / mhz)
     }' "$images/costs_$1.txt"
 }
@@ -78,7 +78,7 @@ cycle_row() {
 # cycle_table WAIT_STATES COLUMN WHICH: after the rows of all engines.
 cycle_table() {
   printf '\nCycles, %s wait states: %s\n\n' "$1" "$3"
-  echo "| scene | tick, us | mean / worst | hostile | bound, any input | % of the tick at $core_mhz MHz, mean / worst / bound | bound, us at $core_mhz MHz |"
+  echo "| scene | tick, us | mean / worst | searched | bound, any input | % of the tick at $core_mhz MHz, mean / worst / bound | bound, us at $core_mhz MHz |"
   echo "| --- | --- | --- | --- | --- | --- | --- |"
   for engine in $engines; do cycle_row "$engine" "$2"; done
 }
@@ -100,7 +100,7 @@ print_costs() {
   echo
   echo "$(versions)."
   echo
-  echo "| scene | tick, us | idle, mean / worst | rated, mean / worst | redline, mean / worst | hostile | bound, any input | code | tables | RAM | stack, bound | stack, painted |"
+  echo "| scene | tick, us | idle, mean / worst | rated, mean / worst | redline, mean / worst | searched | bound, any input | code | tables | RAM | stack, bound | stack, painted |"
   echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
   for engine in $engines; do row "$engine"; done
   if [ -n "$cycles_of" ]; then

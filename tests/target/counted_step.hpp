@@ -1,8 +1,8 @@
 // One engine, and what its steps cost by the emulator's counter: for images that measure. Needs COSTS_ENGINE and
 // COSTS_ENGINE_HEADER defined.
 //
-// What belongs here: the engine under test, counting one step, hostile input, what bounds its loops. What does not:
-// operating speeds and stack (costs.cpp).
+// What belongs here: the engine under test, counting one step, what bounds its loops. What does not: operating
+// speeds and stack (costs.cpp), the search for the dearest tick (worst_search.hpp).
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,6 @@
 #include <crankloop/tick/gas/gas_places.hpp>
 #include <crankloop/tick/valve/valves_step.hpp>
 
-#include "hostile.hpp"
 #include "port/common/machine.hpp"
 #include "port/common/text.hpp"
 
@@ -43,21 +42,6 @@ std::uint32_t cost_of_counting() noexcept {
 
 /// Called where the ticks begin whose cycles worst_tick/step_cycles.cpp counts, and where they end.
 extern "C" [[gnu::noinline]] void crankloop_measures() noexcept { asm volatile("" ::: "memory"); }
-
-/// The worst of many ticks whose inputs are meant to hurt.
-void measure_hostile(std::uint32_t ticks) noexcept {
-  target_check::Random random(495);
-  const std::uint32_t counting = cost_of_counting();
-  std::uint32_t worst = 0;
-  crankloop_measures();
-  for (std::uint32_t i = 0; i < ticks; ++i) {
-    target_check::hurt<Real, under_test::Scene>(input, random, engine.tables()->drive->speed_limit_rad_s);
-    const std::uint32_t cost = cost_of_step() - counting;
-    if (cost > worst) worst = cost;
-  }
-  crankloop_measures();
-  port::Line() << "hostile " << worst;
-}
 
 /// What a tick turns a train's cams by at most, with what rounding adds.
 template <class Tables>

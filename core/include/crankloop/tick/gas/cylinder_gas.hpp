@@ -86,16 +86,16 @@ struct ClosedStep {
   }
 };
 
-/// What a step did.
+/// What a step did, beside what went through its ports: an array of its own, or GCC copies it from one place in memory
+/// to another.
 template <class T>
 struct CylinderStep {
   ClosedStep<T> closed;
-  PortStep<T> through[kPorts];  ///< each port, 0 where it is closed
-  T work_J;                     ///< on the piston, absolute
-  bool flows;                   ///< through any
+  T work_J;    ///< on the piston, absolute
+  bool flows;  ///< through any port
 
   /// What the first law adds to the internal energy.
-  [[nodiscard, gnu::always_inline]] T gained_J() const noexcept {
+  [[nodiscard, gnu::always_inline]] T gained_J(const PortStep<T> (&through)[kPorts]) const noexcept {
     return (closed.heat_J - closed.wall_heat_J - work_J) + (through[kIntake].enthalpy_J + through[kExhaust].enthalpy_J);
   }
 };
@@ -103,14 +103,14 @@ struct CylinderStep {
 /// A step whose gas had to be put back, by one lane: what is no number in it, or more than any engine's, was nothing.
 /// Neither the crank nor a manifold nor a cycle's results keep it.
 template <class T>
-[[gnu::always_inline]] inline void drop_nonsense(CylinderStep<T>& step, int i) noexcept {
+[[gnu::always_inline]] inline void drop_nonsense(CylinderStep<T>& step, PortStep<T> (&through)[kPorts], int i) noexcept {
   using Real = NumberOf<T>;
   constexpr Real kMax = static_cast<Real>(1e12);  // J, kg
   const auto hold = [i](T & x) __attribute__((always_inline)) {
     put_lane(x, i, within_magnitude(lane(x, i), kMax) ? lane(x, i) : Real{0});
   };
   hold(step.closed.heat_J), hold(step.closed.wall_heat_J), hold(step.work_J);
-  for (PortStep<T>& port : step.through) hold(port.mass_kg), hold(port.enthalpy_J), hold(port.burned_kg);
+  for (PortStep<T>& port : through) hold(port.mass_kg), hold(port.enthalpy_J), hold(port.burned_kg);
 }
 
 /// Lanes that have a port open at either end of a step. No area is negative: one that is not 0 has a bit set.
@@ -196,10 +196,10 @@ template <class T>
 [[nodiscard, gnu::always_inline]] inline CylinderStep<T> step_gas(
     CylinderGas<T>& gas, const T& volume_m3, const GasFuel<T>& fuel, const GasWalls<NumberOf<T>>& walls,
     const GasDrive<NumberOf<T>>& drive, const T (&to_m2)[kPorts],
-    const GasBeyond<NumberOf<T>> (&far)[kPorts]) noexcept {
+    const GasBeyond<NumberOf<T>> (&far)[kPorts], PortStep<T> (&through)[kPorts]) noexcept {
   const ClosedStep<T> closed = ClosedStep<T>::of(gas, volume_m3, fuel.energy_J, walls, drive);
   T work_J = closed.work_J;
-  PortStep<T> through[kPorts] = {};
+  through[kIntake] = through[kExhaust] = PortStep<T>{};
   GasGain<T> gain{fuel.mass_kg, closed.heat_J - closed.wall_heat_J - closed.work_J, fuel.burned_kg};
   const auto open = any_open(gas.area_m2[kIntake], gas.area_m2[kExhaust], to_m2[kIntake], to_m2[kExhaust]);
   const bool flows = any(open);
@@ -217,7 +217,7 @@ template <class T>
   gas.contents.add(gain.mass_kg, gain.energy_J, gain.burned_kg);
   gas.volume_m3 = volume_m3;
   gas.point = point_of<T>(gas.contents, closed.per_volume_m3);
-  return {closed, {through[kIntake], through[kExhaust]}, work_J, flows};
+  return {closed, work_J, flows};
 }
 
 }  // namespace crankloop::detail

@@ -127,16 +127,19 @@ class GasCylindersStep {
     const T volume_m3 = load<T>(volumes_m3), before_m3 = gas.volume_m3;
     [[maybe_unused]] const T intake_was_m2 = gas.area_m2[kIntake];
     const T to_m2[kPorts] = {load<T>(areas.of[kIntake] + k), load<T>(areas.of[kExhaust] + k)};
-    CylinderStep<T> done = step_gas<T>(gas, volume_m3, fuel, table.walls, step.drive, to_m2, step.beyond);
+    PortStep<T> through[kPorts];
+    CylinderStep<T> done = step_gas<T>(gas, volume_m3, fuel, table.walls, step.drive, to_m2, step.beyond, through);
     state_.cylinder_gas.put(k, gas);
     if (done.flows) state_.cylinder_gas.put_areas(k, gas);
     const T least_kg = step.drive.least_kg_m3 * volume_m3;
-    if (__builtin_expect(!all(is_well<T>(gas.point, gas.contents.mass_kg, least_kg)), 0)) {
+    const auto well = is_well<T>(gas.point, gas.contents.mass_kg, least_kg);
+    if (__builtin_expect(!all(well), 0)) {
       for (int i = 0; i < kLanes; ++i) {
+        if ((holding(well) >> i & 1u) != 0) continue;
         const Real per_volume_m3 = lane(done.closed.per_volume_m3, i);
         if (!put_cylinder_right(k + static_cast<std::uint32_t>(i), per_volume_m3, lane(least_kg, i))) continue;
         faults |= kFaultGas;
-        drop_nonsense<T>(done, i);
+        drop_nonsense<T>(done, through, i);
       }
       gas = state_.cylinder_gas.template at<T>(k);
     }
@@ -149,8 +152,8 @@ class GasCylindersStep {
                   T{},
                   done.closed.wall_heat_J * per_tick_s};
     if (done.flows) {
-      for (int port = 0; port < kPorts; ++port) shown[4 + port] = done.through[port].mass_kg * per_tick_s;
-      if constexpr (N::manifolds) take_from_manifolds(step, done.through);
+      for (int port = 0; port < kPorts; ++port) shown[4 + port] = through[port].mass_kg * per_tick_s;
+      if constexpr (N::manifolds) take_from_manifolds(step, through);
     }
     show(shown, &out_.cylinder_gas[k]);
     const T crank_J = done.work_J - table.crankcase_Pa * (volume_m3 - before_m3);
@@ -161,8 +164,8 @@ class GasCylindersStep {
       std::uint32_t intake_shut = 0;
       if (done.flows)
         intake_shut = holding(both_hold(intake_was_m2 > Real{0}, none_of(gas.area_m2[kIntake] > Real{0})));
-      const T gained_J = done.gained_J();
-      record_step<T>(&state_.gas_record[k], done, fuel.mass_kg, way);
+      const T gained_J = done.gained_J(through);
+      record_step<T>(&state_.gas_record[k], done, through, fuel.mass_kg, way);
       for (int i = 0; i < kLanes; ++i) {
         const std::uint32_t one = k + static_cast<std::uint32_t>(i);
         GasRecord<Real>& record = state_.gas_record[one];
@@ -177,8 +180,8 @@ class GasCylindersStep {
 
   [[gnu::cold, gnu::noinline]] bool put_cylinder_right(std::uint32_t k, Real per_volume_m3, Real least_kg) noexcept {
     CylinderGas<Real> gas = state_.cylinder_gas.template at<Real>(k);
-    const bool put_back = put_right(gas, per_volume_m3, least_kg);
-    state_.cylinder_gas.put(k, gas);
+    const bool put_back = put_right(gas.contents, gas.point, per_volume_m3, least_kg);
+    state_.cylinder_gas.put(k, gas.contents, gas.point);
     return put_back;
   }
 

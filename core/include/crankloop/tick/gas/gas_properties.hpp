@@ -128,12 +128,10 @@ template <class T>
   }
 }
 
-/// Where they are not, puts contents back there; answers whether it did. `at` has contents and their point.
-template <class Gas, class Real>
-[[nodiscard, gnu::cold, gnu::noinline]] bool put_right(Gas& at, Real per_volume_m3, Real least_kg) noexcept {
-  GasContents<Real>& gas = at.contents;
-  const GasPoint<Real> point = at.point;
-  if (is_well(point, gas.mass_kg, least_kg)) return false;
+/// Puts contents that are not well back there, and their point; answers false where they were off by rounding alone.
+template <class Real>
+[[nodiscard, gnu::always_inline]] inline bool put_right(GasContents<Real>& gas, GasPoint<Real>& point,
+                                                        Real per_volume_m3, Real least_kg) noexcept {
   constexpr Real kLeast_K = static_cast<Real>(kLeastGas_K);
   constexpr Real kMax_K = static_cast<Real>(kMaxGas_K);
   const auto held = [](Real x, Real least, Real most) {
@@ -153,7 +151,7 @@ template <class Gas, class Real>
     gas.burned_kg = ratio > Real{0} ? gas.mass_kg : Real{0};
     gas.burned_rest_kg = Real{0};
   }
-  at.point = point_of(gas, per_volume_m3);
+  point = point_of(gas, per_volume_m3);
   return off;
 }
 

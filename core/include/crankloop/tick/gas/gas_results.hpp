@@ -80,9 +80,10 @@ inline void begin_cycle(GasRecord<Real>& record, const GasContents<Real>& gas) n
 /// What any step of a cylinder, or of lanes, did.
 template <class T>
 [[gnu::always_inline]] inline void record_step(GasRecord<NumberOf<T>>* records, const CylinderStep<T>& step,
-                                               const T& fuel_kg, const CycleWay* way) noexcept {
-  const PortStep<T>& in = step.through[kIntake];
-  const PortStep<T>& out = step.through[kExhaust];
+                                               const PortStep<T> (&through)[kPorts], const T& fuel_kg,
+                                               const CycleWay* way) noexcept {
+  const PortStep<T>& in = through[kIntake];
+  const PortStep<T>& out = through[kExhaust];
   if constexpr (kLanesIn<T> == 1) {
     GasRecord<T>& record = *records;
     record.work_J += step.work_J;

@@ -35,19 +35,22 @@ struct CylinderGases {
   template <class T>
   [[nodiscard, gnu::always_inline]] CylinderGas<T> at(std::uint32_t k) const noexcept {
     CylinderGas<T> gas;
-    const auto take = [k](const Real* column, T& x) { std::memcpy(&x, column + k, sizeof x); };
-    each(*this, gas, take), each_area(*this, gas, take);
+    each(*this, gas, Take{k}), each_area(*this, gas, Take{k});
     return gas;
   }
   template <class T>
   [[gnu::always_inline]] void put(std::uint32_t k, const CylinderGas<T>& gas) noexcept {
-    each(*this, gas, [k](Real* column, const T& x) { std::memcpy(column + k, &x, sizeof x); });
+    each(*this, gas, Put{k});
+  }
+
+  void put(std::uint32_t k, const GasContents<Real>& contents, const GasPoint<Real>& point) noexcept {
+    each_of_gas(*this, contents, point, Put{k});
   }
 
   /// Not among what a step always leaves: most ports are closed.
   template <class T>
   [[gnu::always_inline]] void put_areas(std::uint32_t k, const CylinderGas<T>& gas) noexcept {
-    each_area(*this, gas, [k](Real* column, const T& x) { std::memcpy(column + k, &x, sizeof x); });
+    each_area(*this, gas, Put{k});
   }
   void copy(std::uint32_t from, std::uint32_t to) noexcept {
     put(to, at<Real>(from)), put_areas(to, at<Real>(from));
@@ -55,14 +58,43 @@ struct CylinderGases {
   }
 
  private:
+  // A number by its index: by its address, GCC keeps a pointer into each column on the stack from load to store.
+  struct Take {
+    std::uint32_t k;
+    template <class T>
+    [[gnu::always_inline]] void operator()(const Real (&column)[kCylinders], T& x) const noexcept {
+      if constexpr (kLanesIn<T> == 1) {
+        x = column[k];
+      } else {
+        std::memcpy(&x, column + k, sizeof x);
+      }
+    }
+  };
+  struct Put {
+    std::uint32_t k;
+    template <class T>
+    [[gnu::always_inline]] void operator()(Real (&column)[kCylinders], const T& x) const noexcept {
+      if constexpr (kLanesIn<T> == 1) {
+        column[k] = x;
+      } else {
+        std::memcpy(column + k, &x, sizeof x);
+      }
+    }
+  };
+
   template <class Columns, class Gas, class Visit>
   [[gnu::always_inline]] static void each(Columns& column, Gas& gas, const Visit& visit) noexcept {
-    visit(column.mass_kg, gas.contents.mass_kg), visit(column.mass_rest_kg, gas.contents.mass_rest_kg);
-    visit(column.energy_J, gas.contents.energy_J), visit(column.energy_rest_J, gas.contents.energy_rest_J);
-    visit(column.burned_kg, gas.contents.burned_kg), visit(column.burned_rest_kg, gas.contents.burned_rest_kg);
-    visit(column.pressure_Pa, gas.point.pressure_Pa), visit(column.temperature_K, gas.point.temperature_K);
-    visit(column.burned_ratio, gas.point.burned_ratio), visit(column.gas_ratio, gas.point.gas_ratio);
+    each_of_gas(column, gas.contents, gas.point, visit);
     visit(column.volume_m3, gas.volume_m3), visit(column.wall_heat_W, gas.wall_heat_W);
+  }
+  template <class Columns, class Contents, class Point, class Visit>
+  [[gnu::always_inline]] static void each_of_gas(Columns& column, Contents& contents, Point& point,
+                                                 const Visit& visit) noexcept {
+    visit(column.mass_kg, contents.mass_kg), visit(column.mass_rest_kg, contents.mass_rest_kg);
+    visit(column.energy_J, contents.energy_J), visit(column.energy_rest_J, contents.energy_rest_J);
+    visit(column.burned_kg, contents.burned_kg), visit(column.burned_rest_kg, contents.burned_rest_kg);
+    visit(column.pressure_Pa, point.pressure_Pa), visit(column.temperature_K, point.temperature_K);
+    visit(column.burned_ratio, point.burned_ratio), visit(column.gas_ratio, point.gas_ratio);
   }
   template <class Columns, class Gas, class Visit>
   [[gnu::always_inline]] static void each_area(Columns& column, Gas& gas, const Visit& visit) noexcept {

@@ -70,7 +70,7 @@ inline Real step_manifold(ManifoldGas<Real>& manifold, const GasNear<Real>& near
   gas.add(step.mass_kg, step.enthalpy_J, step.burned_kg);
   manifold.point = point_of(gas, per_volume_m3);
   if (__builtin_expect(!is_well(manifold.point, gas.mass_kg, least_kg), 0))
-    put_back = put_right(manifold, per_volume_m3, least_kg) || put_back;
+    put_back = put_right(gas, manifold.point, per_volume_m3, least_kg) || put_back;
   return step.mass_kg;
 }
 
