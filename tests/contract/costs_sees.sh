@@ -23,7 +23,7 @@ case $1 in *Forces*) step=300 ;; *) step=100 ;; esac
 printf 'instructions idle %d %d\n' $step $((step + 1))
 printf 'instructions rated %d %d\n' $step $((step + 1))
 printf 'instructions redline %d %d\n' $step $((step + 1))
-printf 'hostile %d\nram 64\npainted_stack 32\n' $((step + 2))
+printf 'searched %d\nram 64\npainted_stack 32\n' $((step + 2))
 END
 for engine in Forces Torque; do
   printf '%s\n' 'node: { title: "step" label: "Engine::step(Input)\nfile\n40 bytes (static)" }' >"$folder/${engine}_20us.dir/step.ci"
@@ -71,7 +71,7 @@ for name in idle rated redline; do
   printf 'instructions %s %d %d\n' $name $step $((step + 1))
 done
 printf 'cycles %d %d %d %d 10 %d\n' $((step * 3)) $((step * 3 + 5)) $((step * 10)) $((step * 10 + 5)) $((step - 1))
-printf 'hostile %d\nram 64\npainted_stack 32\n' $((step + 2))
+printf 'searched %d\nram 64\npainted_stack 32\n' $((step + 2))
 END
 script objdump </dev/null
 script addr2line </dev/null

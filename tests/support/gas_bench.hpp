@@ -13,7 +13,7 @@ struct GasBench {
   detail::GasWalls<Real> walls{};               // adiabatic
   detail::CylinderGas<Real> gas{};
   detail::GasBeyond<Real> beyond[2]{};
-  Real mass_kg[2]{};  ///< through each port in the last step
+  detail::PortStep<Real> through[2]{};  ///< each port in the last step
 
   GasBench(double pressure_Pa, double temperature_K, double burned_ratio, double volume_m3) {
     gas.contents = detail::contents_of<Real>(static_cast<Real>(pressure_Pa), static_cast<Real>(temperature_K),
@@ -44,9 +44,7 @@ struct GasBench {
     const detail::GasDrive<Real> drive{real(step_s), real(1.4), detail::most_area_per_m3(real(step_s)), real(1e-12)};
     const Real to_m2[] = {real(intake_m2), real(exhaust_m2)};
     const detail::GasFuel<Real> fuel{real(fuel_kg), real(fuel_J_kg * fuel_kg), real(fuel_burned_kg_kg * fuel_kg)};
-    const auto done = detail::step_gas<Real>(gas, real(volume_m3), fuel, walls, drive, to_m2, beyond);
-    for (int port = 0; port < 2; ++port) mass_kg[port] = done.through[port].mass_kg;
-    return done;
+    return detail::step_gas<Real>(gas, real(volume_m3), fuel, walls, drive, to_m2, beyond, through);
   }
   [[nodiscard]] double pressure_Pa() const { return static_cast<double>(gas.point.pressure_Pa); }
   [[nodiscard]] double temperature_K() const { return static_cast<double>(gas.point.temperature_K); }

@@ -1,7 +1,7 @@
 // Many ticks with input that is meant to hurt: the worst of them has to stay below the bound for any input. hostile.sh
 // compares. Needs HOSTILE_TICKS, and what counted_step.hpp needs.
-#include "counted_step.hpp"
 #include "hostile.hpp"
+#include "counted_step.hpp"
 
 namespace {
 

@@ -102,10 +102,17 @@ class WorstSearch {
       const std::uint64_t bits = random_.next();
       const auto part = static_cast<Real>(static_cast<std::int32_t>(bits >> 32)) * static_cast<Real>(5e-11);  // +-10 %
       switch (all ? 0 : bits & 7) {
-        case 0: number[i] = hostile[i]; break;
-        case 1: number[i] += part * number[i]; break;
-        case 2: number[i] = -number[i]; break;
-        default: break;
+        case 0:
+          number[i] = hostile[i];
+          break;
+        case 1:
+          number[i] += part * number[i];
+          break;
+        case 2:
+          number[i] = -number[i];
+          break;
+        default:
+          break;
       }
     }
     const Input last = in;

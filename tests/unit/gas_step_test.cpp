@@ -252,7 +252,7 @@ template <class Real>
   for (int i = 0; i < 40'000; ++i) {
     (void)bench.step(1e-4, 500e-6, area, area);
     if (i < 20'000) continue;
-    through -= static_cast<double>(bench.mass_kg[1]) / (20'000 * 1e-4);
+    through -= static_cast<double>(bench.through[1].mass_kg) / (20'000 * 1e-4);
     least = std::fmin(least, bench.pressure_Pa()), most = std::fmax(most, bench.pressure_Pa());
   }
   pressure_Pa = (least + most) / 2;

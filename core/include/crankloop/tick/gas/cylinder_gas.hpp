@@ -103,7 +103,8 @@ struct CylinderStep {
 /// A step whose gas had to be put back, by one lane: what is no number in it, or more than any engine's, was nothing.
 /// Neither the crank nor a manifold nor a cycle's results keep it.
 template <class T>
-[[gnu::always_inline]] inline void drop_nonsense(CylinderStep<T>& step, PortStep<T> (&through)[kPorts], int i) noexcept {
+[[gnu::always_inline]] inline void drop_nonsense(CylinderStep<T>& step, PortStep<T> (&through)[kPorts],
+                                                 int i) noexcept {
   using Real = NumberOf<T>;
   constexpr Real kMax = static_cast<Real>(1e12);  // J, kg
   const auto hold = [i](T & x) __attribute__((always_inline)) {
@@ -195,8 +196,8 @@ template <class T, class Holds>
 template <class T>
 [[nodiscard, gnu::always_inline]] inline CylinderStep<T> step_gas(
     CylinderGas<T>& gas, const T& volume_m3, const GasFuel<T>& fuel, const GasWalls<NumberOf<T>>& walls,
-    const GasDrive<NumberOf<T>>& drive, const T (&to_m2)[kPorts],
-    const GasBeyond<NumberOf<T>> (&far)[kPorts], PortStep<T> (&through)[kPorts]) noexcept {
+    const GasDrive<NumberOf<T>>& drive, const T (&to_m2)[kPorts], const GasBeyond<NumberOf<T>> (&far)[kPorts],
+    PortStep<T> (&through)[kPorts]) noexcept {
   const ClosedStep<T> closed = ClosedStep<T>::of(gas, volume_m3, fuel.energy_J, walls, drive);
   T work_J = closed.work_J;
   through[kIntake] = through[kExhaust] = PortStep<T>{};
