@@ -16,6 +16,7 @@
 #include "../../files/csv.hpp"
 #include "../../files/units.hpp"
 #include "../../loops/flow_lines.hpp"
+#include "../../loops/surge_force.hpp"
 #include "../../loops/textbook_valve.hpp"
 #include "../../loops/valve_accuracy.hpp"
 #include "../../loops/valve_loop.hpp"
@@ -93,6 +94,26 @@ void add_margin(Summary& s, const LoneValve& valve, double speed_rpm) {
   s.line("static_redline", redline.crank_rad_s * kRpmPerRad_s, "rpm", "spring margin 1; no elasticity, damping or gas");
 }
 
+/// Of the spring's own motion, which the valve's has no part of.
+void add_surge(Summary& s, const LoneValve& valve, double speed_rpm) {
+  const double cam_rad_s = speed_rpm * kRad_sPerRpm / 2;
+  const SpringSurgeCycle surge = surge_over_cycle(valve.lift(), valve.valve(), cam_rad_s);
+  if (!(surge.frequency_Hz > 0)) {
+    s.line("spring_frequency", "none", "", "spring_g is 0");
+    return;
+  }
+  s.line("spring_frequency", surge.frequency_Hz, "Hz",
+         "first of the spring itself, " + brief(surge.frequency_Hz / std::abs(cam_rad_s * kTurnsPerRad)) +
+             " times the cam's turns");
+  if (!(surge.largest_N > 0)) {
+    s.line("spring_surge_force", "none", "", "the cam turns too slowly");
+    return;
+  }
+  s.line("spring_surge_force", surge.largest_N, "N",
+         "largest, of its first three modes driven by the theoretical lift; damping ratio " +
+             brief(kSurgeDampingRatio) + " assumed; the valve's motion is without it");
+}
+
 /// Largest and smallest speed and acceleration of a valve's lift, m/s and m/s^2.
 struct MotionRange {
   double opening_m_s = 0;
@@ -160,6 +181,7 @@ std::string summary(const LoneValve& valve, const Request& request, const ValveL
   s.line("natural_frequency", real(open_frequency_rad_s(body) / (2 * kPi)), "Hz", "open, on the train");
   s.line("seat_frequency", real(seated_frequency_rad_s(body) / (2 * kPi)), "Hz", "on train and seat");
   add_margin(s, valve, request.speed_rpm);
+  add_surge(s, valve, request.speed_rpm);
   const std::uint32_t parts = loop.motion().parts;
   s.line("sub_steps", request.method.textbook ? TextbookValve<Real>::steps(loop.motion()) : parts, "",
          request.method.textbook ? "in each tick" : "in a tick, near contact changes; 1 elsewhere");

@@ -1,0 +1,59 @@
+// Set-up of a spring's surge: its modes between a fixed end and one that moves with the valve, over a tick.
+//
+// What belongs here: frequencies, the step of each mode, what the modes take out of the moving mass. What does not: the
+// valve's own step (tabulate/valve_motion.hpp).
+//
+//     u(x, t) = y x / l + sum q_n sin(n pi x / l)
+//     q_n'' + 2 z w_n q_n' + w_n^2 q_n = 2 (-1)^n / (n pi) y'',      w_n = n pi sqrt(k_s / m_s)
+//     force on the valve, toward its seat, beyond k_s y + P_0:       F_q = k_s sum n pi (-1)^n q_n
+#pragma once
+
+#include <crankloop/status.hpp>
+
+namespace crankloop {
+
+/// Most modes of one spring.
+inline constexpr int kMaxSpringModes = 3;
+/// Longest tick in s that an undamped mode is stepped with: in longer ones its amplitude grows on a stiff seat.
+inline constexpr double kLongestUndampedTick_s = 20e-6;
+
+/// A helical spring with one end fixed.
+struct SurgingSpring {
+  double rate_N_m = 0;       ///< k_s, above 0
+  double active_kg = 0;      ///< m_s, above 0: mass of the active coils
+  double damping_ratio = 0;  ///< z, 0 to less than 1, of every mode
+  int modes = 0;             ///< 0 to kMaxSpringModes
+};
+
+/// A mode of a spring over a tick. Its step is exact for an acceleration of the valve that stays the same over the
+/// tick: q += of_q.q q + of_q.v q' + of_q.drive y'', q' likewise by of_v. Increments, as those of the valve's step.
+struct SpringMode {
+  struct Row {
+    double q, v, drive;
+  };
+  double rate_rad_s;     ///< w_n
+  Row of_q, of_v;        ///< what a tick adds to q and to q'
+  double valve_N_m;      ///< per m of q: force on the valve, toward its seat
+  double fixed_end_N_m;  ///< per m of q: force on the fixed end, away from the valve
+  double moving_kg;      ///< 2 m_s / (pi n)^2: what the mode takes out of the moving mass m_s / 3
+};
+
+/// All modes of a spring.
+struct SpringSurge {
+  int modes = 0;
+  SpringMode mode[kMaxSpringModes] = {};
+  double moving_kg = 0;    ///< what all its modes take out of the moving mass
+  double error_ratio = 0;  ///< estimate of the error of F_q by its straight line over a tick, (w_n h)^2 / 8 of the
+                           ///< fastest mode: second order in the tick
+};
+
+/// Refuses a number of modes out of range ("valve.surge_modes"), with modes also a rate or a mass that is not positive
+/// and finite ("valve.spring_N_m", "valve.spring_active_kg"), a damping ratio out of range and none in a tick longer
+/// than kLongestUndampedTick_s ("valve.surge_damping_ratio"), a tick that is not positive or longer than a radian of
+/// the fastest mode ("options.tick_s").
+Status surge_of(const SurgingSpring& spring, double tick_s, SpringSurge& surge) noexcept;
+
+/// First natural frequency of the spring between its ends held fast, w_1 = pi sqrt(k_s / m_s), rad/s.
+[[nodiscard]] double surge_frequency_rad_s(const SurgingSpring& spring) noexcept;
+
+}  // namespace crankloop

@@ -1,0 +1,26 @@
+// How a valve spring surges at a constant speed where its end follows the theoretical lift: docs/model.md "Spring
+// surge".
+//
+// What belongs here: the steady oscillation of its modes over a cycle. What does not: a mode's step
+// (tabulate/spring_surge.hpp); what surge does to the valve's own motion, which no tick has.
+#pragma once
+
+#include <crankloop/define/valve_train.hpp>
+#include <crankloop/tabulate/valve_lift.hpp>
+
+namespace crankloop::program {
+
+/// Of every mode, where no file says another: a helical spring without friction between its coils.
+inline constexpr double kSurgeDampingRatio = 0.01;
+
+/// What a spring does beyond its static force.
+struct SpringSurgeCycle {
+  double frequency_Hz = 0;  ///< first natural frequency between fixed ends; 0 for a spring without mass
+  double largest_N = 0;  ///< magnitude, at the valve, over a cycle after all that was left of the start has decayed; 0
+                         ///< where it oscillates over a thousand times while the cam turns once: too slow for surge
+};
+
+/// All of the spring's mass is active; kMaxSpringModes modes. The valve must have passed validate().
+[[nodiscard]] SpringSurgeCycle surge_over_cycle(const ValveLift& lift, const Valve& valve, double cam_rad_s);
+
+}  // namespace crankloop::program
