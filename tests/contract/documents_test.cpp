@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "crankloop/commands/redline/redline_search.hpp"
+#include "crankloop/loops/surge_force.hpp"
 #include "crankloop/loops/valve_loop.hpp"
 #include "support/markup.hpp"
 #include "support/temporary_folder.hpp"
@@ -134,6 +135,16 @@ TEST_F(SeparationAndBounce, TellsTheForcesOfTheTrain) {
               " deg");
   expect_told(rounded("%.0f", full_N) + " N / 11765 N/mm = " + rounded("%.3f", full_N / 11765) + " mm");
   expect_told("it is " + rounded("%.2f", compression_m * 1e3) + " mm of compression");
+}
+
+TEST_F(SeparationAndBounce, TellsHowFarTheSpringSurges) {
+  const EngineFile file = read_engine_file(folder_ / "ohc_125.ini", {});
+  const LoneValve valve(file, "intake");
+  const auto surge = [&](double rpm) { return surge_over_cycle(valve.lift(), valve.valve(), rpm * support::kPi / 60); };
+  EXPECT_NEAR(surge(7000).frequency_Hz * 120 / 7000, 7, 0.01);
+  expect_told("lift's seventh harmonic meets the spring's own " + rounded("%.0f", surge(7000).frequency_Hz) + " Hz");
+  expect_told("swing by " + rounded("%.0f", surge(7000).largest_N) + " N, more than the 132 N");
+  expect_told("at 5000 rpm by " + rounded("%.0f", surge(5000).largest_N) + " N");
 }
 
 /// M abs(Y'') = P_s0 + k_s Y, by hand, for the speed at which a rigid train would float.

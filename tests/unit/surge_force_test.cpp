@@ -80,5 +80,17 @@ TEST(SurgeForce, ASpringWithoutMassHasNone) {
   EXPECT_EQ(surge_over_cycle(valve.lift(), valve.valve(), 0).largest_N, 0);
 }
 
+/// A spring far slower than its cam does not follow it: q_n'' is the drive, and the force that of the lift less its
+/// mean course. It has next to no damping within a cycle, so a start that has to decay would never end.
+TEST(SurgeForce, OfASpringFarSlowerThanItsCamIsFiniteAndSmall) {
+  const EngineFile file = read_engine_file(kOhc125, {});
+  const LoneValve valve(file, "intake");
+  Valve slow = valve.valve();
+  slow.spring_N_m = 1e-3, slow.spring_kg = 100;
+  const double largest_N = surge_over_cycle(valve.lift(), slow, 600).largest_N;
+  EXPECT_GT(largest_N, 0);
+  EXPECT_LT(largest_N, 3 * 2 * slow.spring_N_m * valve.lift().largest_lift_m());
+}
+
 }  // namespace
 }  // namespace crankloop::program

@@ -43,7 +43,6 @@ struct Motion {
   mode.of_q = {by_q.q - 1, by_v.q, (1 - by_q.q) * moved_s2};
   mode.of_v = {by_q.v, by_v.v - 1, -by_q.v * moved_s2};
   mode.valve_N_m = spring.rate_N_m * n * kPi * sign;
-  mode.fixed_end_N_m = spring.rate_N_m * n * kPi;
   mode.moving_kg = 2 * spring.active_kg / (kPi * kPi * n * n);
   return mode;
 }
@@ -55,27 +54,24 @@ double surge_frequency_rad_s(const SurgingSpring& spring) noexcept {
 }
 
 Status surge_of(const SurgingSpring& spring, double tick_s, SpringSurge& surge) noexcept {
-  if (spring.modes < 0 || spring.modes > kMaxSpringModes) return refuse("valve.surge_modes", Reason::out_of_range);
-  if (!is_positive(tick_s)) return refuse("options.tick_s", Reason::out_of_range);
+  if (spring.modes < 0 || spring.modes > kMaxSpringModes) return refuse("spring.modes", Reason::out_of_range);
+  if (!is_positive(tick_s)) return refuse("tick_s", Reason::out_of_range);
   if (spring.modes == 0) {
     surge = {};
     return {};
   }
-  if (!is_positive(spring.rate_N_m)) return refuse("valve.spring_N_m", Reason::not_positive);
-  if (!is_positive(spring.active_kg)) return refuse("valve.spring_active_kg", Reason::not_positive);
+  if (!is_positive(spring.rate_N_m)) return refuse("spring.rate_N_m", Reason::not_positive);
+  if (!is_positive(spring.active_kg)) return refuse("spring.active_kg", Reason::not_positive);
   if (!(spring.damping_ratio >= 0 && spring.damping_ratio < 1))
-    return refuse("valve.surge_damping_ratio", Reason::out_of_range);
-  if (spring.damping_ratio == 0 && tick_s > kLongestUndampedTick_s)
-    return refuse("valve.surge_damping_ratio", Reason::not_positive);
+    return refuse("spring.damping_ratio", Reason::out_of_range);
   const double turned = spring.modes * surge_frequency_rad_s(spring) * tick_s;
-  if (!(turned > 0 && turned <= 1)) return refuse("options.tick_s", Reason::out_of_range);
+  if (!(turned > 0 && turned <= 1)) return refuse("tick_s", Reason::out_of_range);
   surge = {};
   surge.modes = spring.modes;
   for (int n = 1; n <= spring.modes; ++n) {
     surge.mode[n - 1] = mode_of(spring, n, tick_s);
     surge.moving_kg += surge.mode[n - 1].moving_kg;
   }
-  surge.error_ratio = turned * turned / 8;
   return {};
 }
 

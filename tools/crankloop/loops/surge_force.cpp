@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include <crankloop/assert.hpp>
 #include <crankloop/tabulate/spring_surge.hpp>
 
 #include "../files/units.hpp"
@@ -12,7 +13,6 @@ namespace crankloop::program {
 namespace {
 
 constexpr double kRadPerStep = 0.05;  // of the fastest mode: errors of 1e-4
-constexpr double kLeft = 1e-4;        // of what was there at the start
 constexpr double kTurn_rad = 2 * kPi;
 constexpr double kSlow = 1000;  // oscillations in a turn of the cam
 
@@ -32,29 +32,24 @@ std::vector<double> accelerations_of(const ValveLift& lift, double cam_rad_s, st
   return mean_m_s2;
 }
 
-/// The largest force of a mode is not that of all: they are summed at each step.
-class Modes {
- public:
-  explicit Modes(const SpringSurge& surge) : surge_{surge} {}
-
-  double step_N(double mean_m_s2) {
-    double force_N = 0;
-    for (int i = 0; i < surge_.modes; ++i) {
-      const SpringMode& mode = surge_.mode[i];
-      const auto more = [&](const SpringMode::Row& row) {
-        return row.q * q_m_[i] + row.v * v_m_s_[i] + row.drive * mean_m_s2;
-      };
-      const double more_m = more(mode.of_q), more_m_s = more(mode.of_v);
-      q_m_[i] += more_m, v_m_s_[i] += more_m_s;
-      force_N += mode.valve_N_m * q_m_[i];
-    }
-    return force_N;
-  }
-
- private:
-  SpringSurge surge_;
-  double q_m_[kMaxSpringModes] = {}, v_m_s_[kMaxSpringModes] = {};
+struct ModeState {
+  double q_m, v_m_s;
 };
+
+[[nodiscard]] ModeState stepped(const SpringMode& mode, const ModeState& s, double mean_m_s2) {
+  const auto more = [&](const SpringMode::Row& row) { return row.q * s.q_m + row.v * s.v_m_s + row.drive * mean_m_s2; };
+  return {s.q_m + more(mode.of_q), s.v_m_s + more(mode.of_v)};
+}
+
+/// Where a mode starts a cycle that ends where it starts: a cycle takes a state s to A s + b, so s = (1 - A)^-1 b.
+[[nodiscard]] ModeState steady_start(const SpringMode& mode, const std::vector<double>& mean_m_s2) {
+  ModeState driven{0, 0}, of_q{1, 0}, of_v{0, 1};
+  for (const double m_s2 : mean_m_s2)
+    driven = stepped(mode, driven, m_s2), of_q = stepped(mode, of_q, 0), of_v = stepped(mode, of_v, 0);
+  const double a = 1 - of_q.q_m, b = -of_v.q_m, c = -of_q.v_m_s, d = 1 - of_v.v_m_s;
+  const double determinant = a * d - b * c;
+  return {(d * driven.q_m - b * driven.v_m_s) / determinant, (a * driven.v_m_s - c * driven.q_m) / determinant};
+}
 
 }  // namespace
 
@@ -68,13 +63,18 @@ SpringSurgeCycle surge_over_cycle(const ValveLift& lift, const Valve& valve, dou
   const auto steps = static_cast<std::size_t>(std::ceil(period_s * kMaxSpringModes * first_rad_s / kRadPerStep)) + 720;
   const double step_s = period_s / static_cast<double>(steps);
   SpringSurge surge;
-  if (!surge_of(spring, step_s, surge).ok()) return cycle;
+  [[maybe_unused]] const Status accepted = surge_of(spring, step_s, surge);
+  CRANKLOOP_ASSERT(accepted.ok());
   const std::vector<double> mean_m_s2 = accelerations_of(lift, cam_rad_s, steps, step_s);
-  const double cycles_to_settle = std::ceil(-std::log(kLeft) / (kSurgeDampingRatio * first_rad_s * period_s));
-  Modes modes(surge);
-  for (double i = 0; i < cycles_to_settle; ++i)
-    for (const double m_s2 : mean_m_s2) (void)modes.step_N(m_s2);
-  for (const double m_s2 : mean_m_s2) cycle.largest_N = std::max(cycle.largest_N, std::abs(modes.step_N(m_s2)));
+  std::vector<double> force_N(steps);
+  for (int i = 0; i < surge.modes; ++i) {
+    ModeState state = steady_start(surge.mode[i], mean_m_s2);
+    for (std::size_t at = 0; at < steps; ++at) {
+      state = stepped(surge.mode[i], state, mean_m_s2[at]);
+      force_N[at] += surge.mode[i].valve_N_m * state.q_m;
+    }
+  }
+  for (const double force : force_N) cycle.largest_N = std::max(cycle.largest_N, std::abs(force));
   return cycle;
 }
 

@@ -14,8 +14,6 @@ namespace crankloop {
 
 /// Most modes of one spring.
 inline constexpr int kMaxSpringModes = 3;
-/// Longest tick in s that an undamped mode is stepped with: in longer ones its amplitude grows on a stiff seat.
-inline constexpr double kLongestUndampedTick_s = 20e-6;
 
 /// A helical spring with one end fixed.
 struct SurgingSpring {
@@ -31,26 +29,22 @@ struct SpringMode {
   struct Row {
     double q, v, drive;
   };
-  double rate_rad_s;     ///< w_n
-  Row of_q, of_v;        ///< what a tick adds to q and to q'
-  double valve_N_m;      ///< per m of q: force on the valve, toward its seat
-  double fixed_end_N_m;  ///< per m of q: force on the fixed end, away from the valve
-  double moving_kg;      ///< 2 m_s / (pi n)^2: what the mode takes out of the moving mass m_s / 3
+  double rate_rad_s;  ///< w_n
+  Row of_q, of_v;     ///< what a tick adds to q and to q'
+  double valve_N_m;   ///< per m of q: force on the valve, toward its seat
+  double moving_kg;   ///< 2 m_s / (pi n)^2: what the mode takes out of the moving mass m_s / 3
 };
 
 /// All modes of a spring.
 struct SpringSurge {
   int modes = 0;
   SpringMode mode[kMaxSpringModes] = {};
-  double moving_kg = 0;    ///< what all its modes take out of the moving mass
-  double error_ratio = 0;  ///< estimate of the error of F_q by its straight line over a tick, (w_n h)^2 / 8 of the
-                           ///< fastest mode: second order in the tick
+  double moving_kg = 0;  ///< what all its modes take out of the moving mass
 };
 
-/// Refuses a number of modes out of range ("valve.surge_modes"), with modes also a rate or a mass that is not positive
-/// and finite ("valve.spring_N_m", "valve.spring_active_kg"), a damping ratio out of range and none in a tick longer
-/// than kLongestUndampedTick_s ("valve.surge_damping_ratio"), a tick that is not positive or longer than a radian of
-/// the fastest mode ("options.tick_s").
+/// Refuses a number of modes out of range ("spring.modes"), with modes also a rate or a mass that is not positive and
+/// finite ("spring.rate_N_m", "spring.active_kg"), a damping ratio out of range ("spring.damping_ratio"), a tick that
+/// is not positive or longer than a radian of the fastest mode ("tick_s").
 Status surge_of(const SurgingSpring& spring, double tick_s, SpringSurge& surge) noexcept;
 
 /// First natural frequency of the spring between its ends held fast, w_1 = pi sqrt(k_s / m_s), rad/s.

@@ -8,63 +8,16 @@
 #include <utility>
 
 #include "../../files/units.hpp"
-#include "../../loops/cam_from_lift.hpp"
 #include "../../report/text.hpp"
+#include "cam_canvas.hpp"
 
 namespace crankloop::program {
 namespace {
 
-using report::Axis;
-using report::axis_of;
-using report::coordinate;
 using report::number_text;
-using report::Plot;
-using report::plot_of;
-using report::Series;
 
 constexpr double kMilli = 1e3;
-constexpr double kWidth = 1080;  // of the picture, as wide as two columns of plots
-constexpr double kFigure = 700;  // of the drawing, left of its figures
-constexpr double kHeight = 640;
-constexpr double kBorder = 30;
 constexpr double kStepDeg = 0.25;
-
-struct Place {  // mm
-  double x;
-  double y;
-};
-using Outline = std::vector<Place>;
-
-Place operator+(const Place& a, const Place& b) { return {a.x + b.x, a.y + b.y}; }
-Place operator-(const Place& a, const Place& b) { return {a.x - b.x, a.y - b.y}; }
-Place toward(double length, double rad) { return {length * std::cos(rad), length * std::sin(rad)}; }
-double direction(const Place& a) { return std::atan2(a.y, a.x); }
-double length(const Place& a) { return std::hypot(a.x, a.y); }
-double cross(const Place& a, const Place& b) { return a.x * b.y - a.y * b.x; }
-
-void add_arc(Outline& outline, const Place& centre, double radius, double from_rad, double to_rad) {
-  constexpr int kParts = 96;
-  for (int i = 0; i <= kParts; ++i)
-    outline.push_back(centre + toward(radius, from_rad + i * (to_rad - from_rad) / kParts));
-}
-
-/// The convex outline around some points (Andrew's monotone chain).
-Outline around(Outline points) {
-  std::sort(points.begin(), points.end(),
-            [](const Place& a, const Place& b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); });
-  Outline hull;
-  for (int side = 0; side < 2; ++side) {
-    const std::size_t start = hull.size();
-    for (const Place& point : points) {
-      while (hull.size() >= start + 2 && cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0)
-        hull.pop_back();
-      hull.push_back(point);
-    }
-    hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
 
 // ---- places --------------------------------------------------------------------------------------------------------
 
@@ -98,10 +51,6 @@ struct Scene {
   }
 };
 
-CamContact contact_of(const CamFromLift& inverse, double cam_rad, const LiftPose& pose) {
-  return inverse.at(cam_rad, {pose.lift_m, pose.per_rad_m, pose.per_rad2_m});
-}
-
 /// The direction of the cam's centre from the pivot that puts the contact with the base circle level with the pivot.
 double cam_direction(const Rocker& rocker, double rest_rad) {
   const Place centre{rocker.pivot_to_cam_m, 0};
@@ -128,91 +77,13 @@ Scene scene_of(const ShownCam& shown, double cam_deg) {
 
 // ---- drawing -------------------------------------------------------------------------------------------------------
 
-/// Elements of the drawing, in mm until they are written.
-class Canvas {
- public:
-  void path(const char* what, const Outline& outline, bool closed) { paths_.push_back({what, outline, closed}); }
-  void line(const char* what, const Place& a, const Place& b) { path(what, {a, b}, false); }
-  void circle(const char* what, const Place& centre, double radius) {
-    Outline outline;
-    add_arc(outline, centre, radius, 0, 2 * kPi);
-    path(what, outline, true);
-  }
-  /// Text beside a place, `right` and `down` in user units.
-  void label(const Place& at, double right, double down, const std::string& text) {
-    labels_.push_back({at, right, down, text});
-  }
-
-  /// The whole, as large as it fits.
-  [[nodiscard]] std::string svg() const {
-    Place low{1e9, 1e9};
-    Place high{-1e9, -1e9};
-    for (const Path& path : paths_) {
-      for (const Place& p : path.outline) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-      }
-    }
-    const double scale =
-        std::min((kFigure - 2 * kBorder) / (high.x - low.x), (kHeight - 3 * kBorder) / (high.y - low.y));
-    const double left = (kFigure - scale * (low.x + high.x)) / 2;
-    const double top = (kHeight - kBorder + scale * (low.y + high.y)) / 2;
-    const auto at = [&](const Place& p) {
-      return coordinate(left + scale * p.x) + ' ' + coordinate(top - scale * p.y);
-    };
-    std::string svg;
-    for (const Path& path : paths_) {
-      svg += "<path class=\"" + path.what + "\" d=\"M";
-      for (std::size_t i = 0; i < path.outline.size(); ++i)
-        svg += (i == 1 ? "L" : i > 1 ? " " : "") + at(path.outline[i]);
-      svg += path.closed ? "Z\"/>\n" : "\"/>\n";
-    }
-    for (const Label& label : labels_) {
-      svg += "<text class=\"mark\" x=\"" + coordinate(left + scale * label.at.x + label.right) + "\" y=\"" +
-             coordinate(top - scale * label.at.y + label.down) + "\"" +
-             (label.right < 0 ? " text-anchor=\"end\"" : "") + ">" + report::escape(label.text) + "</text>\n";
-    }
-    return svg + scale_bar(scale);
-  }
-
- private:
-  struct Path {
-    std::string what;
-    Outline outline;
-    bool closed;
-  };
-  struct Label {
-    Place at;
-    double right;
-    double down;
-    std::string text;
-  };
-
-  static std::string scale_bar(double scale) {
-    const double length_mm = scale * 10 < 220 ? 10 : 5;
-    const std::string y = coordinate(kHeight - 12);
-    return "<path class=\"bar-of-scale\" d=\"M12 " + coordinate(kHeight - 18) + "v12M12 " + y + "h" +
-           coordinate(scale * length_mm) + "m0 -6v12\"/>\n<text class=\"mark\" x=\"" +
-           coordinate(24 + scale * length_mm) + "\" y=\"" + coordinate(kHeight - 6) + "\">" + number_text(length_mm) +
-           " mm</text>\n";
-  }
-
-  std::vector<Path> paths_{};
-  std::vector<Label> labels_{};
-};
-
-void draw_cross(Canvas& canvas, const Place& at, double half) {
-  canvas.line("centre", at - Place{half, 0}, at + Place{half, 0});
-  canvas.line("centre", at - Place{0, half}, at + Place{0, half});
-}
-
 void draw_cam(Canvas& canvas, const Scene& s) {
   Outline contour;
   for (double deg = -180; deg < 180; deg += kStepDeg) contour.push_back(s.contour(deg * kRadPerDeg));
   const double base = s.rocker().base_circle_m * kMilli;
   canvas.path("cam", contour, true);
   canvas.circle("thin dashes", s.frame.centre, base);
-  draw_cross(canvas, s.frame.centre, 0.25 * base);
+  canvas.cross(s.frame.centre, 0.25 * base);
   // The turn: an arrow inside the base circle, against the sense in which the flat angle grows.
   const double end_rad = s.frame.at_rad + s.frame.sense * 2.2;
   Outline turn;
@@ -326,7 +197,7 @@ void draw_levers(Canvas& canvas, const Scene& s, const Pad& pad, const Place& ba
   const double along = direction(pad.centre - contact);
   const double reach = 0.25 * r.pivot_to_cam_m * kMilli;
   canvas.line("normal", contact - toward(1.6 * reach, along), pad.centre + toward(0.4 * reach, along));
-  draw_cross(canvas, pad.centre, 1.5);
+  canvas.cross(pad.centre, 1.5);
   canvas.label(pad.centre, 12, -8, "pad centre, radius " + number_text(r.pad_radius_m * kMilli, 4) + " mm");
 }
 
@@ -343,7 +214,7 @@ void draw_with_rocker(Canvas& canvas, const Scene& s) {
   draw_stem(canvas, s);
   draw_cam(canvas, s);
   draw_levers(canvas, s, pad, ball);
-  draw_cross(canvas, {0, 0}, 0.06 * s.rocker().pivot_to_screw_m * kMilli);
+  canvas.cross({0, 0}, 0.06 * s.rocker().pivot_to_screw_m * kMilli);
   canvas.label({0, 0}, -8, 30, "pivot");
   draw_contact(canvas, s);
 }
@@ -365,38 +236,11 @@ void draw_with_flat(Canvas& canvas, const Scene& s) {
   draw_contact(canvas, s);
 }
 
-constexpr const char* kPictureStyle = R"css(
-.mech path { fill: none; stroke: var(--ink); stroke-width: 1.5px; stroke-linejoin: round; stroke-linecap: round; }
-.mech .cam { fill: var(--series-1); fill-opacity: 0.16; stroke: var(--series-1); stroke-width: 3px; }
-.mech .edge { stroke: var(--axis); stroke-width: 3px; }
-.mech .body { fill: var(--band); stroke: none; }
-.mech .screw, .mech .stem { fill: var(--paper); stroke: var(--muted); }
-.mech .pin { fill: var(--paper); stroke: var(--axis); }
-.mech .outline { stroke: var(--series-2); stroke-width: 2.5px; }
-.mech .rubbed { stroke: var(--series-2); stroke-width: 6px; stroke-linecap: butt; }
-.mech .thin { stroke: var(--series-1); stroke-width: 1.25px; }
-.mech .dashes { stroke-dasharray: 7 5; }
-.mech .centre { stroke: var(--muted); stroke-width: 1px; stroke-dasharray: 12 3 2 3; }
-.mech .lever { stroke: var(--muted); stroke-width: 1px; }
-.mech .normal { stroke: var(--series-2); stroke-width: 1px; stroke-dasharray: 12 3 2 3; }
-.mech .dot { fill: var(--series-1); stroke: none; }
-.mech .contact { fill: var(--series-2); stroke: var(--paper); }
-.mech .bar-of-scale { stroke: var(--ink); stroke-width: 1.5px; }
-.mech text { font-variant-numeric: tabular-nums; }
-.mech .mark {
-  fill: var(--ink); font-size: 15px; stroke: var(--paper); stroke-width: 4px; stroke-linejoin: round;
-  paint-order: stroke;
-}
-.mech .figure-name { fill: var(--muted); font-size: 15px; }
-.mech .figure-value { fill: var(--ink); font-size: 17px; font-weight: 600; }
-)css";
-
 std::string mm(double metres, int digits = 4) { return number_text(metres * kMilli, digits) + " mm"; }
 std::string deg(double radians) { return number_text(radians * kDegPerRad, 4) + "\u00B0"; }
 
-/// Names and values beside the drawing.
-std::vector<std::pair<std::string, std::string>> figures_of(const Scene& s) {
-  std::vector<std::pair<std::string, std::string>> figures{
+Figures figures_of(const Scene& s) {
+  Figures figures{
       {"Cam angle from full lift", deg(s.cam_rad)},
       {"Flat follower's angle of the contact", deg(s.contact.flat_rad)},
       {"Lift of the flat follower", mm(s.contact.lift_m)},
@@ -412,82 +256,23 @@ std::vector<std::pair<std::string, std::string>> figures_of(const Scene& s) {
   return figures;
 }
 
-std::string figures_svg(const Scene& s) {
-  std::string svg;
-  double y = 70;
-  for (const auto& [name, value] : figures_of(s)) {
-    const auto text = [&](const char* what, double at, const std::string& content) {
-      svg += std::string("<text class=\"") + what + "\" x=\"" + coordinate(kFigure + 60) + "\" y=\"" + coordinate(at) +
-             "\">" + report::escape(content) + "</text>\n";
-    };
-    text("figure-name", y, name);
-    text("figure-value", y + 21, value);
-    y += 58;
-  }
-  return svg;
-}
-
 report::Picture picture_of(const Scene& s) {
   Canvas canvas;
   s.has_pad() ? draw_with_rocker(canvas, s) : draw_with_flat(canvas, s);
-  return {"<g class=\"mech\">\n" + canvas.svg() + figures_svg(s) + "</g>\n", kPictureStyle, kWidth, kHeight};
-}
-
-// ---- plots ---------------------------------------------------------------------------------------------------------
-
-Plot radius_plot(const Scene& s) {
-  const ValveLift& lift = s.shown.lift;
-  const double from = lift.cam().opens_rad() * kDegPerRad;
-  const double to = lift.cam().closes_rad() * kDegPerRad;
-  Plot plot = plot_of("Radius of curvature", axis_of("Flat follower's cam angle from full lift", "deg"),
-                      axis_of("Radius", "mm"));
-  plot.y.logarithmic = true;
-  Series radius;
-  for (double at = from - 10; at <= to + 10; at += kStepDeg) {
-    const CamLift y = s.follower_at(at * kRadPerDeg);
-    radius.x.push_back(at);
-    radius.y.push_back((s.rocker().base_circle_m + y.lift_m + y.per_rad2_m) * kMilli);
-  }
-  plot.series = {radius};
-  const double least_deg = lift.smallest_radius_at_deg();
-  plot.markers = {{least_deg, lift.smallest_radius_m() * kMilli,
-                   number_text(lift.smallest_radius_m() * kMilli, 3) + " mm at " + number_text(least_deg, 3) + "\u00B0",
-                   0}};
-  plot.x.range = report::Range{from - 10, to + 10};
-  plot.x.tick_step = 30;
-  return plot;
-}
-
-Plot lift_plot(const Scene& s) {
-  const ValveLift& lift = s.shown.lift;
-  const double from = lift.opens_rad() * kDegPerRad - 10;
-  const double to = lift.closes_rad() * kDegPerRad + 10;
-  Plot plot = plot_of("Lift", axis_of("Cam angle from full lift", "deg"), axis_of("Lift", "mm"));
-  Series valve{"valve", {}, {}, {}};
-  Series follower{"flat follower at the contact", {}, {}, {}};
-  for (double at = from; at <= to; at += kStepDeg) {
-    const LiftPose pose = lift.at(at * kRadPerDeg);
-    valve.x.push_back(at);
-    valve.y.push_back(std::max(pose.lift_m, 0.0) * kMilli);
-    follower.x.push_back(at);
-    follower.y.push_back(contact_of(s.inverse, at * kRadPerDeg, pose).lift_m * kMilli);
-  }
-  plot.series = {valve, follower};
-  const double here = std::remainder(s.cam_rad, 2 * kPi) * kDegPerRad;
-  if (here >= from && here <= to)
-    plot.markers = {{here, std::max(s.pose.lift_m, 0.0) * kMilli, mm(std::max(s.pose.lift_m, 0.0)), 0}};
-  plot.x.range = report::Range{from, to};
-  plot.x.tick_step = 30;
-  return plot;
+  return canvas.picture(figures_of(s));
 }
 
 }  // namespace
+
+CamContact contact_of(const CamFromLift& inverse, double cam_rad, const LiftPose& pose) {
+  return inverse.at(cam_rad, {pose.lift_m, pose.per_rad_m, pose.per_rad2_m});
+}
 
 report::Sheet cam_sheet(const ShownCam& shown, double cam_deg) {
   const Scene s = scene_of(shown, cam_deg);
   report::Sheet sheet;
   sheet.picture = picture_of(s);
-  sheet.plots = {radius_plot(s), lift_plot(s)};
+  sheet.plots = {radius_plot(shown), lift_plot(shown, cam_deg)};
   return sheet;
 }
 

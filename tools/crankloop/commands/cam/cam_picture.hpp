@@ -1,7 +1,7 @@
 // The picture of `crankloop cam --svg`: cam, pad and rocker at one cam angle, to scale, with curvature and lift below.
 //
-// What belongs here: places, outlines and labels. What does not: their contact (loops/cam_from_lift.hpp), the sheet
-// (report/sheet.hpp).
+// What belongs here: places and labels. What does not: outlines (cam_canvas.hpp), their contact
+// (loops/cam_from_lift.hpp), the sheet (report/sheet.hpp).
 #pragma once
 
 #include <string>
@@ -10,6 +10,7 @@
 #include <crankloop/define/valve_train.hpp>
 #include <crankloop/tabulate/valve_lift.hpp>
 
+#include "../../loops/cam_from_lift.hpp"
 #include "../../report/sheet.hpp"
 
 namespace crankloop::program {
@@ -20,6 +21,13 @@ struct ShownCam {
   const ValveLift& lift;
   double stem_m = 0;  ///< diameter of the valve's stem; 0: not known
 };
+
+/// Where the cam touches its follower at a cam angle whose lift is `pose`.
+[[nodiscard]] CamContact contact_of(const CamFromLift& inverse, double cam_rad, const LiftPose& pose);
+
+[[nodiscard]] report::Plot radius_plot(const ShownCam& shown);
+/// Marks the valve's lift at `cam_deg`.
+[[nodiscard]] report::Plot lift_plot(const ShownCam& shown, double cam_deg);
 
 /// Title and remarks are the caller's.
 [[nodiscard]] report::Sheet cam_sheet(const ShownCam& shown, double cam_deg);

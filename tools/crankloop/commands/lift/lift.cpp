@@ -23,9 +23,6 @@
 namespace crankloop::program {
 namespace {
 
-/// The cam's, of an engine's speed.
-double cam_rad_s(double speed_rpm) { return speed_rpm * kRad_sPerRpm / 2; }
-
 void write_lift(Output& out, const ShownLift& shown, double step_deg) {
   std::vector<std::string> columns{"cam_deg",         "rocker_angle_deg", "lift_mm",
                                    "lift_mm_per_rad", "lift_mm_per_rad2", "rocker_ratio"};
@@ -34,7 +31,7 @@ void write_lift(Output& out, const ShownLift& shown, double step_deg) {
   CsvWriter csv(out, columns);
   const ValveLift& lift = shown.lift;
   const std::optional<FlowArea>& area = shown.area;
-  const double cam_speed = cam_rad_s(shown.speed_rpm.value_or(0));
+  const double cam_speed = shown.cam_rad_s();
   for_each_angle(step_deg, 360, [&](double since_first_row) {
     const double cam_deg = since_first_row - 180;
     const LiftPose pose = lift.at(cam_deg / kDegPerRad);
@@ -50,7 +47,8 @@ void write_lift(Output& out, const ShownLift& shown, double step_deg) {
 }
 
 /// Of rigid parts, at the engine's speed; the extremes of rows every tenth of a degree.
-void add_motion(Summary& s, const ValveLift& lift, double speed_rpm) {
+void add_motion(Summary& s, const ShownLift& shown) {
+  const ValveLift& lift = shown.lift;
   double velocity_m = 0;
   double rising_m = 0;
   double slowing_m = 0;
@@ -60,8 +58,8 @@ void add_motion(Summary& s, const ValveLift& lift, double speed_rpm) {
     rising_m = std::max(rising_m, pose.per_rad2_m);
     slowing_m = std::min(slowing_m, pose.per_rad2_m);
   }
-  const double speed = cam_rad_s(speed_rpm);
-  const std::string at = "at " + brief(speed_rpm) + " rpm of the engine";
+  const double speed = shown.cam_rad_s();
+  const std::string at = "at " + brief(*shown.speed_rpm) + " rpm of the engine";
   const auto per_rad = [](double m, const char* unit) { return brief(m * 1e3) + unit; };
   s.line("max_theoretical_velocity", velocity_m * speed, "m/s", at + "; " + per_rad(velocity_m, " mm/rad"));
   s.line("max_theoretical_acceleration", rising_m * speed * speed, "m/s^2", per_rad(rising_m, " mm/rad^2"));
@@ -85,7 +83,7 @@ std::string summary(const EngineFile& engine, const ShownLift& shown, const Trai
   s.line("rocker_ratio_least", least_ratio);
   s.line("rocker_ratio_most", most_ratio);
   s.line("min_cam_radius", lift.smallest_radius_m() * 1e3, "mm");
-  if (shown.speed_rpm) add_motion(s, lift, *shown.speed_rpm);
+  if (shown.speed_rpm) add_motion(s, shown);
   if (train.definition.cam.source == CamSource::table) {
     s.line("smoothing", train.definition.cam.smoothing_m * 1e6, "um", train.rows ? "chosen by auto" : "");
     s.line("smoothing_residual", lift.cam().residual_m() * 1e6, "um");

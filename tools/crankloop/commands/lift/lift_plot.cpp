@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "../../files/units.hpp"
 #include "../../loops/lift_jerk.hpp"
 #include "../../report/text.hpp"
 
@@ -59,8 +58,7 @@ struct Derivative {
 
 /// Its largest and smallest value are marked in both units.
 Plot derivative_plot(const ShownLift& shown, const Derivative& d) {
-  const double per_s =
-      shown.speed_rpm ? d.second_units * std::pow(*shown.speed_rpm * kRad_sPerRpm / 2, d.order) : kMilli;
+  const double per_s = shown.speed_rpm ? d.second_units * std::pow(shown.cam_rad_s(), d.order) : kMilli;
   const std::string unit = shown.speed_rpm ? d.per_second : d.per_rad;
   Plot plot = over_cam(shown.lift, d.title, d.title, unit, {curve(shown.lift, "", per_s, d.value)});
   const Series& drawn = plot.series[0];
