@@ -43,6 +43,18 @@ struct BreathingFromGiven : Scene {
   static constexpr bool forces = true;
   static constexpr bool mean_torque = true;
 };
+/// One valve whose spring surges, under gas.
+struct WithSprings : Scene {
+  static constexpr Count cylinders = up_to<4>;
+  static constexpr PressureGiven pressure = PressureGiven::by_input;
+  static constexpr ValveModel valves = ValveModel::elastic;
+  static constexpr bool valve_acceleration = true;
+  static constexpr bool valve_forces = true;
+  static constexpr bool valve_gas = true;
+  static constexpr std::uint32_t spring_modes = 3;
+};
+template class Engine<float, WithSprings>;
+template class Engine<double, WithSprings>;
 template class Engine<float, BreathingFromGiven>;
 template class Engine<double, BreathingFromGiven>;
 
@@ -100,6 +112,7 @@ EngineDefinition engine_of() {
     engine.train_count = 1;
     engine.trains[0] = valve_test::ohc_125_train();
     if (S::valve_gas) engine.trains[0].valve.head_area_m2 = 6e-4;
+    engine.trains[0].valve.surge_modes = static_cast<int>(S::spring_modes);
     if (!S::rod_inertia) engine.masses.rod_inertia_correction_kg_m2 = 0;
   }
   for (int t = 0; t < engine.train_count; ++t) engine.trains[t].cam.phase_rate_deg_s = 300;
@@ -228,14 +241,15 @@ struct CaseName {
   static std::string GetName(int) {
     using S = typename Case::S;
     constexpr bool gas = detail::Needs<S>::gas;
-    const char* scene = gas && S::valve_results ? "Breathing"
-                        : gas && S::starter     ? "BreathingFree"
-                        : gas                   ? "BreathingFromGiven"
-                        : S::valve_results      ? "Whole"
-                        : S::rod_motion         ? "MeasuredMotion"
-                        : S::starter            ? "FreeRunning"
-                        : S::load_ratio         ? "TorqueByTable"
-                                                : "TorqueByPressure";
+    const char* scene = S::spring_modes > 0       ? "WithSprings"
+                        : gas && S::valve_results ? "Breathing"
+                        : gas && S::starter       ? "BreathingFree"
+                        : gas                     ? "BreathingFromGiven"
+                        : S::valve_results        ? "Whole"
+                        : S::rod_motion           ? "MeasuredMotion"
+                        : S::starter              ? "FreeRunning"
+                        : S::load_ratio           ? "TorqueByTable"
+                                                  : "TorqueByPressure";
     return std::string(scene) + (sizeof(typename Case::Real) == 4 ? "Float" : "Double");
   }
 };
@@ -246,7 +260,7 @@ using Cases =
                      Of<double, scenes::TorqueByPressure>, Of<float, scenes::FreeRunning>,
                      Of<double, scenes::FreeRunning>, Of<float, scenes::Breathing>, Of<double, scenes::Breathing>,
                      Of<float, scenes::BreathingFree>, Of<double, scenes::BreathingFree>, Of<float, BreathingFromGiven>,
-                     Of<double, BreathingFromGiven>>;
+                     Of<double, BreathingFromGiven>, Of<float, WithSprings>, Of<double, WithSprings>>;
 TYPED_TEST_SUITE(ForgedState, Cases, CaseName);
 
 TYPED_TEST(ForgedState, WithinItsLimitsIsRefusedOrStepsOnInFiniteNumbers) {

@@ -23,10 +23,13 @@ namespace crankloop {
 
 using namespace detail;
 
+using tick_test::MeasuredWithSprings;
 using tick_test::MeasuredWithValves;
 using OneValve = tick_test::Elastic<1, 1>;  ///< and nothing besides: where it rests, its output is left as it is
 template class Engine<float, MeasuredWithValves>;
 template class Engine<double, MeasuredWithValves>;
+template class Engine<float, MeasuredWithSprings>;
+template class Engine<double, MeasuredWithSprings>;
 template class Engine<float, OneValve>;
 template class Engine<double, OneValve>;
 
@@ -45,6 +48,7 @@ EngineDefinition busy_engine() {
   engine.trains[0] = valve_test::ohc_125_train();
   engine.trains[0].cam.phase_rate_deg_s = 300;
   if (S::valve_gas) engine.trains[0].valve.head_area_m2 = 6e-4;
+  engine.trains[0].valve.surge_modes = static_cast<int>(S::spring_modes);
   engine.friction = {60e3, 100, 0.5};
   engine.machine = {1, 0.01, 1e-3, 0.02};
   engine.starter = {60, 60};
@@ -142,7 +146,8 @@ struct CaseName {
   template <class Case>
   static std::string GetName(int) {
     using S = typename Case::S;
-    const char* scene = S::valve_results                   ? (S::kinematics ? "Whole" : "MeasuredWithValves")
+    const char* scene = S::spring_modes > 0                ? "MeasuredWithSprings"
+                        : S::valve_results                 ? (S::kinematics ? "Whole" : "MeasuredWithValves")
                         : S::rod_motion                    ? "MeasuredMotion"
                         : S::valves == ValveModel::elastic ? "OneValve"
                         : S::starter                       ? "FreeRunning"
@@ -153,9 +158,10 @@ struct CaseName {
 };
 using Cases = ::testing::Types<
     Of<float, scenes::Whole>, Of<double, scenes::Whole>, Of<float, MeasuredWithValves>, Of<double, MeasuredWithValves>,
-    Of<float, OneValve>, Of<double, OneValve>, Of<float, scenes::TorqueByTable>, Of<double, scenes::TorqueByTable>,
-    Of<float, scenes::TorqueByPressure>, Of<double, scenes::TorqueByPressure>, Of<float, scenes::FreeRunning>,
-    Of<double, scenes::FreeRunning>, Of<float, scenes::MeasuredMotion>, Of<double, scenes::MeasuredMotion>>;
+    Of<float, MeasuredWithSprings>, Of<double, MeasuredWithSprings>, Of<float, OneValve>, Of<double, OneValve>,
+    Of<float, scenes::TorqueByTable>, Of<double, scenes::TorqueByTable>, Of<float, scenes::TorqueByPressure>,
+    Of<double, scenes::TorqueByPressure>, Of<float, scenes::FreeRunning>, Of<double, scenes::FreeRunning>,
+    Of<float, scenes::MeasuredMotion>, Of<double, scenes::MeasuredMotion>>;
 TYPED_TEST_SUITE(SavedState, Cases, CaseName);
 
 TYPED_TEST(SavedState, GoesOnWithTheSameBitsFromAnyTick) {

@@ -22,7 +22,7 @@
 
 namespace crankloop::valve_lanes {
 
-inline EngineDefinition engine_of(int cylinders, int trains, bool gas) {
+inline EngineDefinition engine_of(int cylinders, int trains, bool gas, int modes) {
   std::vector<double> firing_deg;
   for (int k = 0; k < cylinders; ++k) firing_deg.push_back(720.0 * k / cylinders);
   EngineDefinition engine = support::with_cylinders(valve_test::engine_with(valve_test::ohc_125_train()), firing_deg);
@@ -34,6 +34,7 @@ inline EngineDefinition engine_of(int cylinders, int trains, bool gas) {
     engine.trains[t].valve.valve_kg *= 1 + 0.3 * t;
     if (t == 1) engine.trains[t].rocker.clearance_m = 0;
     if (gas) engine.trains[t].valve.head_area_m2 = 4e-4 + 1e-4 * t;
+    engine.trains[t].valve.surge_modes = modes - t > 0 ? modes - t : 0;
   }
   return engine;
 }
@@ -51,7 +52,7 @@ void add_words(const T& of, std::vector<std::uint32_t>& bits) {
 template <class S>
 std::vector<std::uint32_t> bits_of(int cylinders, int trains, double tick_s) {
   const auto tables = std::make_unique<TableStorage<float, S>>();
-  EXPECT_TRUE(accepted(tables->build(engine_of(cylinders, trains, S::valve_gas), {tick_s, {}})));
+  EXPECT_TRUE(accepted(tables->build(engine_of(cylinders, trains, S::valve_gas, S::spring_modes), {tick_s, {}})));
   const auto engine = std::make_unique<Engine<float, S>>();
   EXPECT_TRUE(accepted(engine->init(tables->tables(), Phase{12345678901234567u})));
   const double limit_deg = static_cast<double>(tables->tables().drive->speed_limit_rad_s) * tick_s * 180 / support::kPi;
@@ -80,6 +81,7 @@ std::vector<std::uint32_t> bits_of(int cylinders, int trains, double tick_s) {
       for (int k = 0; k < cylinders; ++k) {
         add_words(out.valve[t][k], bits);
         if constexpr (S::valve_forces) add_words(out.valve_forces[t][k], bits);
+        if constexpr (detail::Needs<S>::spring_forces) add_words(out.valve_spring[t][k], bits);
         if constexpr (S::valve_results) {
           add_words(out.valve_cycle[t][k], bits);
           add_words(engine->state().record[t][k], bits);
@@ -103,6 +105,14 @@ LanesRun told(const char* name, int cylinders, int trains, double tick_s) {
                     cylinders, trains, tick_s)};
 }
 
+template <class Unit, std::uint32_t Cylinders, std::uint32_t Trains, bool Exact, bool Gas>
+LanesRun surging(const char* name, int cylinders, int trains, double tick_s) {
+  using tick_test::Lanes, tick_test::SurgingLanes, tick_test::ToldLanes;
+  const double surging_s = tick_s < 100e-6 ? tick_s : 100e-6;  // a longer one is refused
+  return {name, bits_of<SurgingLanes<ToldLanes<Lanes<Unit, Cylinders, Trains, Exact, false>, Gas>, 3>>(
+                    cylinders, trains, surging_s)};
+}
+
 /// Blocks of eight, of four, what fills none; several trains in a row and each for itself; cams that move.
 template <class Unit>
 std::vector<LanesRun> all_runs(double tick_s) {
@@ -117,7 +127,9 @@ std::vector<LanesRun> all_runs(double tick_s) {
           told<Unit, 16, 4, false, false, false>("seven of sixteen cylinders, forces and results", 7, 3, tick_s),
           told<Unit, 4, 2, true, false, true>("four cylinders under gas", 4, 2, tick_s),
           told<Unit, 6, 3, true, true, true>("six phased cylinders under gas", 6, 3, tick_s),
-          told<Unit, 8, 2, false, false, true>("five of eight cylinders under gas", 5, 2, tick_s)};
+          told<Unit, 8, 2, false, false, true>("five of eight cylinders under gas", 5, 2, tick_s),
+          surging<Unit, 4, 2, true, false>("four cylinders, springs that surge", 4, 2, tick_s),
+          surging<Unit, 16, 4, false, true>("seven of sixteen under gas, springs that surge", 7, 3, tick_s)};
 }
 
 std::vector<LanesRun> runs_one_by_one(double tick_s);

@@ -93,6 +93,12 @@ void each_output(const Output<Real, S>& out, const Used& used, const F& f) {
           f("train_compression_m", i, force.train_compression_m);
           f("regime", i, force.regime);
         }
+        if constexpr (detail::Needs<S>::spring_forces) {
+          const ValveSpringOutput<Real>& spring = out.valve_spring[t][k];
+          f("surge_N", i, spring.surge_N);
+          f("moving_N", i, spring.moving_N);
+          f("fixed_N", i, spring.fixed_N);
+        }
         if constexpr (S::valve_results) {
           const ValveCycle<Real>& c = out.valve_cycle[t][k];
           f("cycle_largest_lift_m", i, c.largest_lift_m);

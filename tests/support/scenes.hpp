@@ -244,6 +244,9 @@ struct MeasuredWithValves : Scene {
   static constexpr bool cam_phasing = true;
   static constexpr bool bad_input_count = true;
 };
+struct MeasuredWithSprings : MeasuredWithValves {
+  static constexpr std::uint32_t spring_modes = 3;
+};
 /// `Unit` makes the scene's type, and with it all that is compiled for it, the translation unit's own.
 template <class Unit, std::uint32_t Cylinders, std::uint32_t Trains, bool Exact, bool Phasing>
 struct Lanes : Scene {
@@ -262,6 +265,11 @@ struct ToldLanes : Base {
   static constexpr bool valve_forces = true;
   static constexpr bool valve_results = true;
   static constexpr bool valve_gas = Gas;
+};
+/// With springs that surge.
+template <class Base, std::uint32_t Modes>
+struct SurgingLanes : Base {
+  static constexpr std::uint32_t spring_modes = Modes;
 };
 
 // ---- trigger wheels -------------------------------------------------------------------------------------------------

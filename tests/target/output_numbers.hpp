@@ -53,6 +53,11 @@ void each(Sink& sink, const crankloop::ValveForcesOutput<Real>& forces) {
   sink.add(regime);
 }
 template <class Sink, class Real>
+void each(Sink& sink, const crankloop::ValveSpringOutput<Real>& spring) {
+  const auto& [surge, moving, fixed] = spring;
+  for (const Real x : {surge, moving, fixed}) sink.add(x);
+}
+template <class Sink, class Real>
 void each(Sink& sink, const crankloop::ValveCycle<Real>& cycle) {
   const auto& [lift, speed, acceleration, delay, gap, start, duration, seating, bounce, separations, bounces, changes,
                off_seat] = cycle;
@@ -121,6 +126,11 @@ void each_number(Sink& sink, const crankloop::Output<Real, S>& out) {
   if constexpr (S::valve_forces) {
     for (const auto& train : out.valve_forces) {
       for (const auto& forces : train) each(sink, forces);
+    }
+  }
+  if constexpr (crankloop::detail::Needs<S>::spring_forces) {
+    for (const auto& train : out.valve_spring) {
+      for (const auto& spring : train) each(sink, spring);
     }
   }
   if constexpr (S::valve_results) {

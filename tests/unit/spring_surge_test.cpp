@@ -35,7 +35,7 @@ struct Ringing {
 
   void step(double mean_m_s2) {
     for (int i = 0; i < surge.modes; ++i) {
-      const SpringMode& m = surge.mode[i];
+      const detail::ModeStep<double>& m = surge.mode[i].step;
       const double was_m = q[i];
       q[i] += m.of_q.q * was_m + m.of_q.v * v[i] + m.of_q.drive * mean_m_s2;
       v[i] += m.of_v.q * was_m + m.of_v.v * v[i] + m.of_v.drive * mean_m_s2;
@@ -43,7 +43,7 @@ struct Ringing {
   }
   [[nodiscard]] double force_N() const {
     double force = 0;
-    for (int i = 0; i < surge.modes; ++i) force += surge.mode[i].valve_N_m * q[i];
+    for (int i = 0; i < surge.modes; ++i) force += surge.mode[i].step.valve_N_m * q[i];
     return force;
   }
 

@@ -5,6 +5,8 @@ namespace crankloop {
 
 inline constexpr int kMaxCylinders = 16;
 inline constexpr int kMaxTrains = 4;  ///< valve trains of a cylinder: intake, exhaust, and two more
+inline constexpr int kMaxSpringModes = 3;  ///< of one valve spring's surge
+inline constexpr int kMaxValveModes = 2 * kMaxSpringModes;  ///< of a valve with two nested springs
 inline constexpr int kMaxTriggerWheels = 8;
 inline constexpr int kMaxTriggerEdges = 720;      ///< of one wheel in a turn of it
 inline constexpr double kMaxSpeed_rad_s = 10472;  ///< 100 000 rpm, whatever the engine

@@ -75,6 +75,14 @@ struct ValveForcesOutput {
   std::uint32_t regime;      ///< 0 free, 1 train, 2 seat, 3 both
 };
 
+/// Forces of a valve's springs together, where they surge.
+template <class Real>
+struct ValveSpringOutput {
+  Real surge_N;   ///< on the valve, toward its seat, beyond preload and rate
+  Real moving_N;  ///< on the valve, toward its seat: preload, rate and surge
+  Real fixed_N;   ///< on the head, where the springs are fixed
+};
+
 // The groups of outputs, each a base of Output where the scene asks for it.
 /// The gas of one cylinder at the end of the tick; flows and heat are means over it.
 template <class Real>
@@ -173,6 +181,11 @@ struct ValveForces {
 };
 
 template <class Real, class S>
+struct ValveSpringForces {
+  ValveSpringOutput<Real> valve_spring[S::trains.capacity][S::cylinders.capacity];
+};
+
+template <class Real, class S>
 struct CylinderGases {
   CylinderGasOutput<Real> cylinder_gas[S::cylinders.capacity];
 };
@@ -205,6 +218,7 @@ struct Output : detail::If<detail::Needs<S>::crank_dynamics, group::CrankMotion<
                 detail::If<S::gas_results, group::GasResults<Real, S>>,
                 detail::If<detail::Needs<S>::any_valves, group::Valves<Real, S>>,
                 detail::If<S::valve_forces, group::ValveForces<Real, S>>,
+                detail::If<detail::Needs<S>::spring_forces, group::ValveSpringForces<Real, S>>,
                 detail::If<S::valve_results, group::ValveResults<Real, S>>,
                 detail::If<detail::Needs<S>::any_triggers, group::Triggers<Real, S>> {
   std::uint32_t faults;  ///< Fault bits of this tick

@@ -87,6 +87,9 @@ struct Scene {
   static constexpr bool valve_results = false;  ///< per-cycle results: float, bounce, seating speed; elastic valves
   static constexpr bool valve_gas =
       false;  ///< cylinder pressure on the valve heads; a train with a head area demands it
+  static constexpr std::uint32_t spring_modes =
+      0;  ///< of a valve's springs together, up to kMaxValveModes, that surge; elastic valves. A train with more is
+          ///< refused
   static constexpr bool cam_phasing = false;  ///< Input::cam_phase_deg moves the cams
   static constexpr bool bad_input_count =
       false;  ///< State::bad_input_ticks: how many ticks had a bad input, and of which kinds
@@ -116,7 +119,10 @@ struct Needs {
   static constexpr bool work = S::mean_torque || crank_dynamics;  ///< of a tick, as a difference of integrals
   static constexpr bool any_valves = S::valves != ValveModel::none;
   static constexpr bool elastic_valves = S::valves == ValveModel::elastic;
-  static constexpr bool valves_rest = elastic_valves && !S::valve_gas;  ///< under gas they never do, or not for long
+  static constexpr bool surge = S::spring_modes > 0;
+  static constexpr bool valve_push = S::valve_gas || surge;  ///< forces on the valves from outside their equation
+  static constexpr bool valves_rest = elastic_valves && !valve_push;  ///< pushed they never do, or not for long
+  static constexpr bool spring_forces = surge && S::valve_forces;
   static constexpr bool cylinder_pressure = S::forces || (elastic_valves && S::valve_gas && !gas);
   static constexpr bool input_pressure = S::pressure == PressureGiven::by_input && (any_torque || cylinder_pressure);
   /// With forces asked for, the torque at the tick is their sum; without, it is read from torque curves.
@@ -168,6 +174,8 @@ struct CheckedScene {
                 "a cylinder has 1 to 4 valve trains");
   static_assert(S::valves == ValveModel::elastic || (!S::valve_forces && !S::valve_results && !S::valve_gas),
                 "valve forces, results and gas force need elastic valves");
+  static_assert(S::valves == ValveModel::elastic || S::spring_modes == 0, "springs surge at elastic valves");
+  static_assert(S::spring_modes <= kMaxValveModes, "a valve's springs have at most 6 modes");
   static_assert(S::valves != ValveModel::none || !S::cam_phasing, "cam_phasing needs valves");
   static_assert(S::valves != ValveModel::none || (!S::theoretical_lift && !S::valve_acceleration),
                 "theoretical_lift and valve_acceleration need valves");

@@ -76,6 +76,14 @@ template <class Real, class S>
 struct ValveGasState {
   Real valve_gas_N[ValvesState<Real, S>::kLanes] = {};  ///< at the end of the last tick
 };
+/// Springs that surge, by mode and valve.
+template <class Real, class S>
+struct SpringState {
+  static constexpr std::size_t kLanes = ValvesState<Real, S>::kLanes;
+  Real spring_mode_m[S::spring_modes][kLanes] = {};  ///< q
+  Real spring_mode_m_s[S::spring_modes][kLanes] = {};
+  Real valve_mean_m_s2[kLanes] = {};  ///< each valve's mean acceleration in the last tick
+};
 template <class Real, class S>
 struct CamPhaseState {
   std::uint64_t cam_phase[S::trains.capacity] = {};                  ///< phase units later than defined
@@ -120,6 +128,7 @@ struct State : group::StateCore<Real>,
                detail::If<detail::Needs<S>::crank_dynamics, group::CrankState<Real>>,
                detail::If<detail::Needs<S>::elastic_valves, group::ValvesState<Real, S>>,
                detail::If<detail::Needs<S>::valve_gas_held, group::ValveGasState<Real, S>>,
+               detail::If<detail::Needs<S>::surge, group::SpringState<Real, S>>,
                detail::If<S::cam_phasing, group::CamPhaseState<Real, S>>,
                detail::If<S::valve_results, group::ValveRecords<Real, S>>,
                detail::If<detail::Needs<S>::gas, group::CylinderGasState<Real, S>>,

@@ -40,6 +40,7 @@ enum class Reason : std::uint8_t {
   unknown_name,     ///< no input or output of the engine has this name
   // of definitions again; numbers keep their meaning from version to version
   too_much_heat,  ///< more heat per kilogram of mixture than any fuel releases
+  unstable,       ///< would oscillate ever more from tick to tick
 };
 
 /// The result of init, tabulate and validate. Trivially copyable; `field` points to a string literal.
@@ -118,6 +119,8 @@ struct [[nodiscard]] Status {
       return "names no input or output of this engine";
     case Reason::too_much_heat:
       return "releases more heat per kilogram of mixture than any fuel does";
+    case Reason::unstable:
+      return "would oscillate ever more from tick to tick: take a shorter tick or more damping";
   }
   return "unknown reason";
 }

@@ -249,6 +249,14 @@ constexpr void each_output(Visit&& visit, AState& state, AnOutput& out, [[maybe_
       show(whole("valve_forces[#,#].regime", "0 free, 1 on its train, 2 on its seat, 3 on both"), v.regime);
     });
   }
+  if constexpr (detail::Needs<S>::spring_forces) {
+    each_valve([&out](const auto& show, std::uint32_t t, std::uint32_t k) {
+      auto& v = out.valve_spring[t][k];
+      show(real("valve_spring[#,#].surge_N", "Of the springs' surge on the valve, toward its seat"), v.surge_N);
+      show(real("valve_spring[#,#].moving_N", "Of the springs on the valve, with surge"), v.moving_N);
+      show(real("valve_spring[#,#].fixed_N", "Of the springs on the head, with surge"), v.fixed_N);
+    });
+  }
   if constexpr (S::valve_results) {
     each_valve([&out](const auto& show, std::uint32_t t, std::uint32_t k) {
       auto& c = out.valve_cycle[t][k];

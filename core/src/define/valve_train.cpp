@@ -42,6 +42,18 @@ constexpr int kLeastCamPoints = 8;
   return {};
 }
 
+/// What the rules between the fields of surging springs demand: each has a rate and a mass, together no more than given.
+[[nodiscard]] Status validate_springs(const Valve& valve) noexcept {
+  if (!(valve.spring_N_m > 0)) return refuse("valve.spring_N_m", Reason::not_positive);
+  if (!(valve.spring_kg > 0)) return refuse("valve.spring_kg", Reason::not_positive);
+  if ((valve.inner_spring_N_m > 0) != (valve.inner_spring_kg > 0) || !(valve.inner_spring_N_m < valve.spring_N_m))
+    return refuse("valve.inner_spring_N_m", Reason::inconsistent);
+  if (!(valve.inner_spring_kg < valve.spring_kg)) return refuse("valve.inner_spring_kg", Reason::inconsistent);
+  if (!(valve.spring_active_kg <= valve.spring_kg - valve.inner_spring_kg))
+    return refuse("valve.spring_active_kg", Reason::inconsistent);
+  return {};
+}
+
 }  // namespace
 
 Status validate(const Cam& cam) noexcept {
@@ -59,7 +71,10 @@ Status validate(const Rocker& rocker) noexcept {
 
 Status validate(const Valve& valve) noexcept {
   if (valve.per_cylinder < 1 || valve.per_cylinder > 8) return refuse("valve.per_cylinder", Reason::out_of_range);
-  return out_of_range(valve);
+  if (valve.surge_modes < 0 || valve.surge_modes > kMaxSpringModes)
+    return refuse("valve.surge_modes", Reason::out_of_range);
+  if (const Status refused = out_of_range(valve); !refused.ok()) return refused;
+  return valve.surge_modes > 0 ? validate_springs(valve) : Status{};
 }
 
 Status validate(const ValveTrain& train) noexcept {

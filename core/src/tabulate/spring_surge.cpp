@@ -40,9 +40,9 @@ struct Motion {
   const Motion by_v = decayed({0, 1}, mode.rate_rad_s, spring.damping_ratio, tick_s);
   // A constant acceleration moves the place about which the mode turns by this, per m/s^2.
   const double moved_s2 = 2 * sign / (n * kPi) / (mode.rate_rad_s * mode.rate_rad_s);
-  mode.of_q = {by_q.q - 1, by_v.q, (1 - by_q.q) * moved_s2};
-  mode.of_v = {by_q.v, by_v.v - 1, -by_q.v * moved_s2};
-  mode.valve_N_m = spring.rate_N_m * n * kPi * sign;
+  mode.step.of_q = {by_q.q - 1, by_v.q, (1 - by_q.q) * moved_s2};
+  mode.step.of_v = {by_q.v, by_v.v - 1, -by_q.v * moved_s2};
+  mode.step.valve_N_m = spring.rate_N_m * n * kPi * sign;
   mode.moving_kg = 2 * spring.active_kg / (kPi * kPi * n * n);
   return mode;
 }

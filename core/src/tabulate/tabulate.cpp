@@ -34,6 +34,11 @@ void fill_drive(const EngineDefinition& engine, const TickOptions& options, Driv
   drive.tick_s = static_cast<Real>(options.tick_s);
   drive.per_tick_s = static_cast<Real>(1 / options.tick_s);
   drive.trains = static_cast<std::uint32_t>(engine.train_count);
+  for (int t = 0; t < engine.train_count; ++t) {
+    const Valve& valve = engine.trains[t].valve;
+    const auto modes = static_cast<std::uint32_t>((valve.inner_spring_N_m > 0 ? 2 : 1) * valve.surge_modes);
+    if (modes > drive.spring_modes) drive.spring_modes = modes;
+  }
   drive.cycles_per_tick_per_rad_s = static_cast<Real>(options.tick_s / kRadPerCycle);
   drive.rad_s_per_cycle_per_tick = static_cast<Real>(kRadPerCycle / options.tick_s);
   drive.speed_limit_rad_s = static_cast<Real>(detail::speed_limit_rad_s(engine, options));

@@ -6,10 +6,12 @@
 #include <crankloop/assert.hpp>
 #include <crankloop/tabulate/spring_margin.hpp>
 #include <crankloop/tabulate/valve_lift.hpp>
+#include <crankloop/tabulate/valve_springs.hpp>
 #include <crankloop/tick/one_instruction.hpp>
 
 #include "curve_fit.hpp"
 #include "phase_units.hpp"
+#include "rounding.hpp"
 
 namespace crankloop::detail {
 namespace {
@@ -195,6 +197,7 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
     return refused;
   };
   ValveMotion<double> motions[kMaxTrains];
+  SurgeOfValve surges[kMaxTrains];
   int fine_steps = 0;
   double class_deg = kDegreesPerTurn;
   for (int t = 0; t < engine.train_count; ++t) {
@@ -202,10 +205,15 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
     ValveLift lift;
     if (const Status refused = lift.init(train.cam, train.rocker); !refused.ok()) return of_train(refused, t);
     if (targets.valve_motions == nullptr) continue;
-    if (const Status refused = motion_of(valve_body(train.valve, lift), options.tick_s, options.valves, motions[t]);
+    const ValveBody<double> body = valve_body(train.valve, lift);
+    if (const Status refused = surge_of(train.valve, options.tick_s, surges[t]); !refused.ok())
+      return of_train(refused, t);
+    if (const Status refused = motion_of(beside_modes(body, surges[t]), options.tick_s, options.valves, motions[t]);
         !refused.ok()) {
       return of_train(refused, t);
     }
+    if (!(surge_growth(motions[t], surges[t].springs) < kMostSurgeGrowth))
+      return refuse("valve.surge_modes", Reason::unstable, t);
     set_widths(tenth_of_class_deg(lift, options.valves.accuracy_m), motions[t]);
     find_decoupled(motions[t], train.rocker.clearance_m);
     fine_steps += static_cast<int>(motions[t].parts) * engine.layout.cylinders;
@@ -215,7 +223,9 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
       return refuse("options.valves.event_budget", Reason::out_of_range, t);
     const double keeps_deg = motions[t].cubic_deg * motions[t].parts;
     if (keeps_deg < class_deg) class_deg = keeps_deg;
-    record_redline(static_redline(lift, motions[t].body), t, report);
+    record_redline(static_redline(lift, body), t, report);
+    const double surge_error = surge_error_ratio(surges[t], options.tick_s);
+    if (surge_error > report.surge_error_ratio) report.surge_error_ratio = surge_error;
   }
   report.valve_fine_steps = fine_steps;
   report.valve_class_deg = targets.valve_motions != nullptr ? class_deg : 0;
@@ -244,6 +254,7 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
         targets.valve_motions[t] = motions[t];
       }
     }
+    if (targets.valve_springs != nullptr) round_into(surges[t].springs, targets.valve_springs[t]);
   }
   return {};
 }

@@ -185,7 +185,7 @@ MountRanges mounts_of_trace(MountRanges ranges, const Trace& trace) {
 
 int run_balance(const Arguments& arguments) {
   const std::optional<Mounts> mounts = mounts_of(arguments);
-  const EngineFile engine = read_engine(arguments, {"engine", "crank", "masses"});
+  const EngineFile engine = read_engine_without_surge(arguments, {"engine", "crank", "masses"});
   const EngineDefinition& definition = engine.definition();
   const double rpm = speed_rpm(arguments, engine);
   const double speed = rpm * kRad_sPerRpm;

@@ -73,6 +73,10 @@ class EngineFile {
   /// Counterweights and balance shafts, which are no part of the definition.
   [[nodiscard]] const std::vector<Balancer>& balancers() const noexcept { return balancers_; }
 
+  /// Lets all valve springs follow their valves, for scenes that step no surge. Answers the trains whose springs
+  /// surged.
+  std::vector<std::string> let_springs_follow();
+
   /// One of the trains; throws InputError for an unknown name.
   [[nodiscard]] const TrainOfFile& train(const std::string& name) const;
 

@@ -412,8 +412,8 @@ report::Section valve_section(const ReportInput& input) {
   section.blocks.push_back(
       Paragraph{"The valves of cylinder 1. Each is one elastic mass between train and seat, stepped in time; it may "
                 "leave its train (separation, float) "
-                "and lift off its seat again (bounce). Either counts from 1 \u00B5m. Spring surge is not "
-                "modelled. " +
+                "and lift off its seat again (bounce). Either counts from 1 \u00B5m. Its spring follows it without "
+                "surge. " +
                 verdict(trains)});
   section.blocks.push_back(lift_plot(input, trains));
   section.blocks.push_back(timing_plot(input, trains));

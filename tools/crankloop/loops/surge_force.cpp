@@ -37,8 +37,8 @@ struct ModeState {
 };
 
 [[nodiscard]] ModeState stepped(const SpringMode& mode, const ModeState& s, double mean_m_s2) {
-  const auto more = [&](const SpringMode::Row& row) { return row.q * s.q_m + row.v * s.v_m_s + row.drive * mean_m_s2; };
-  return {s.q_m + more(mode.of_q), s.v_m_s + more(mode.of_v)};
+  const auto more = [&](const detail::ModeRow<double>& row) { return row.q * s.q_m + row.v * s.v_m_s + row.drive * mean_m_s2; };
+  return {s.q_m + more(mode.step.of_q), s.v_m_s + more(mode.step.of_v)};
 }
 
 /// Where a mode starts a cycle that ends where it starts: a cycle takes a state s to A s + b, so s = (1 - A)^-1 b.
@@ -71,7 +71,7 @@ SpringSurgeCycle surge_over_cycle(const ValveLift& lift, const Valve& valve, dou
     ModeState state = steady_start(surge.mode[i], mean_m_s2);
     for (std::size_t at = 0; at < steps; ++at) {
       state = stepped(surge.mode[i], state, mean_m_s2[at]);
-      force_N[at] += surge.mode[i].valve_N_m * state.q_m;
+      force_N[at] += surge.mode[i].step.valve_N_m * state.q_m;
     }
   }
   for (const double force : force_N) cycle.largest_N = std::max(cycle.largest_N, std::abs(force));

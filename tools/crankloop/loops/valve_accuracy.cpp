@@ -47,9 +47,15 @@ std::vector<std::string> beyond_class(const LoneValve& valve, double speed_rpm, 
                                       const ValveStepping& stepping) {
   const double deg = std::fabs(speed_rpm) * 3 * tick_s;
   const double keeps_deg = class_deg(valve.definition().trains[0], tick_s, stepping);
-  if (!(deg > keeps_deg) || deg > 180) return {};
+  const bool surges = valve.valve().surge_modes > 0;  // coupled to the valve's step to second order
+  if (!(deg > keeps_deg || surges) || deg > 180) return {};
   const double error_m = expected_error_m(valve, speed_rpm, tick_s, stepping);
   if (error_m <= stepping.accuracy_m) return {};
+  if (surges && deg <= keeps_deg)
+    return {valve.file().path() + ": warning: at " + brief(speed_rpm) + " rpm and a tick of " + brief(tick_s * 1e6) +
+            " us the lift of train " + valve.train().name + " may be off by " + two_digits(error_m * 1e6) +
+            " um for the surge of its springs, beyond the class of " + brief(stepping.accuracy_m * 1e6) +
+            " um: a tick half as long has a quarter of that"};
   return {valve.file().path() + ": warning: at " + brief(speed_rpm) + " rpm a tick of " + brief(tick_s * 1e6) +
           " us turns the cam of train " + valve.train().name + " by " + brief(std::round(deg * 10) / 10) +
           " cam degrees: its valve's lift may be off by " + two_digits(error_m * 1e6) + " um; it keeps the class of " +

@@ -107,7 +107,7 @@ ValveLoop<Real>::ValveLoop(const LoneValve& valve, double tick_s, const ValveMet
       crankcase_Pa_{valve.definition().pressure.crankcase_Pa},
       storage_{std::make_shared<Storage>()} {
   const EngineDefinition& definition = valve.definition();
-  if (const Status refused = storage_->build(definition, {tick_s, method.stepping}); !refused.ok()) {
+  if (const Status refused = storage_->build(definition, {tick_s, method.stepping}, &report_); !refused.ok()) {
     if (refused.field == std::string("options.tick_s")) {
       throw tick_too_long(valve.file(), valve.train(), valve.valve(), tick_s, method.stepping);
     }
@@ -179,7 +179,10 @@ void ValveLoop<Real>::textbook_step(Phase before, Phase after) noexcept {
 template <class Real>
 ValveTickOutput<Real> ValveLoop<Real>::output() const noexcept {
   const double cam_deg = start_cam_deg_ + static_cast<double>(ticks_) * deg_per_tick_;
-  if (!is_textbook_) return {cam_deg, engine_.output().valve[0][0], engine_.output().valve_forces[0][0]};
+  if (!is_textbook_) {
+    const auto& out = engine_.output();
+    return {cam_deg, out.valve[0][0], out.valve_forces[0][0], out.valve_spring[0][0]};
+  }
   const detail::ValveBody<Real>& body = motion().body;
   const detail::ValveState<Real>& valve = textbook_.valve.state;
   const detail::Cell cell = detail::LiftCurve<Real>::cell(since_opening(engine_.state().phase));
@@ -199,6 +202,7 @@ ValveTickOutput<Real> ValveLoop<Real>::output() const noexcept {
   out.forces.cam_N = out.forces.train_N * ratio;
   out.forces.train_compression_m = c.compression_m;
   out.forces.regime = textbook_.valve.regime;
+  out.springs.moving_N = out.springs.fixed_N = body.preload_N + body.spring_N_m * valve.lift_m;
   return out;
 }
 

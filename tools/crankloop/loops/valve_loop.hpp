@@ -19,7 +19,8 @@
 
 namespace crankloop::program {
 
-/// One train of one cylinder; with a head area the cylinder's pressure acts on the valve.
+/// One train of one cylinder; with a head area the cylinder's pressure acts on the valve, and its springs surge if they
+/// have modes.
 struct OneValve : Scene {
   static constexpr PressureGiven pressure = PressureGiven::by_table;
   static constexpr ValveModel valves = ValveModel::elastic;
@@ -28,6 +29,7 @@ struct OneValve : Scene {
   static constexpr bool valve_forces = true;
   static constexpr bool valve_results = true;
   static constexpr bool valve_gas = true;
+  static constexpr std::uint32_t spring_modes = kMaxValveModes;
 };
 
 /// Cylinder 1 of an engine file with one of its trains. A train needs neither [engine] nor [crank]; without a pressure
@@ -70,6 +72,7 @@ struct ValveTickOutput {
   double cam_deg;
   ValveMotionOutput<Real, OneValve> motion;
   ValveForcesOutput<Real> forces;
+  ValveSpringOutput<Real> springs;
 };
 
 /// The loop of one train. Copying it copies the valve's position: both then run independently.
@@ -91,6 +94,7 @@ class ValveLoop {
 
   [[nodiscard]] double deg_per_tick(double speed_rpm) const noexcept;  ///< cam degrees, with sign
   [[nodiscard]] const detail::LiftCurve<Real>& curve() const noexcept { return tables().lift_curves[0]; }
+  [[nodiscard]] double surge_error_ratio() const noexcept { return report_.surge_error_ratio; }
   [[nodiscard]] const detail::ValveMotion<Real>& motion() const noexcept { return tables().valve_motions[0]; }
 
  private:
@@ -116,6 +120,7 @@ class ValveLoop {
   double head_area_m2_;
   double crankcase_Pa_;
   std::shared_ptr<Storage> storage_;
+  TableReport report_;
   std::shared_ptr<const IndicatorDiagram> diagram_;
   OneEngine engine_;
   typename OneEngine::Input input_;

@@ -108,6 +108,13 @@ struct Valve {
   double seat_N_m = 0;              ///< k_z
   double seat_damping_ratio = 0;    ///< b_z = 2 zeta sqrt(k_z M)
   double head_area_m2 = 0;          ///< cylinder pressure on it closes the valve; 0 = none
+  // Surge: the spring's coils oscillate by themselves (docs/model.md "Spring surge"). A scene says by its spring_modes
+  // that it steps them; one that does not refuses such a train.
+  int surge_modes = 0;                ///< of each spring, 0 to kMaxSpringModes; 0 = all coils follow the valve
+  double surge_damping_ratio = 0.01;  ///< of each mode
+  double spring_active_kg = 0;        ///< mass of the active coils; 0 = all of spring_kg, less the inner spring's
+  double inner_spring_N_m = 0;        ///< of two nested springs, what the inner one has of spring_N_m; 0 = one spring
+  double inner_spring_kg = 0;         ///< and what its active coils have of spring_kg
 
   template <class Visit, class Self, class... Others>
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
@@ -123,6 +130,12 @@ struct Valve {
     CRANKLOOP_NUMBER(1, valve, seat_N_m, above(0).up_to(1e12));
     CRANKLOOP_NUMBER(1, valve, seat_damping_ratio, from(0).up_to(10));
     CRANKLOOP_NUMBER(1, valve, head_area_m2, from(0).up_to(1));
+    const int surges = self.surge_modes > 0 ? 1 : 0;
+    CRANKLOOP_FIELD(surges, valve, surge_modes);
+    CRANKLOOP_NUMBER(surges, valve, surge_damping_ratio, from(0).below(1));
+    CRANKLOOP_NUMBER(surges, valve, spring_active_kg, from(0).up_to(100));
+    CRANKLOOP_NUMBER(surges, valve, inner_spring_N_m, from(0).up_to(1e9));
+    CRANKLOOP_NUMBER(surges, valve, inner_spring_kg, from(0).up_to(100));
   }
 };
 

@@ -35,7 +35,8 @@ struct Drive {
   std::uint8_t
       turn_of[kMaxCylinders];  ///< per cylinder: 0, or 1 when it fires a crank turn after its mechanism's phase
   CylinderGroups by_mechanism;
-  std::uint32_t trains;  ///< valve trains of each cylinder
+  std::uint32_t trains;        ///< valve trains of each cylinder
+  std::uint32_t spring_modes;  ///< of the valve that has most
 };
 
 /// Lengths and masses of one cylinder as the force equations use them. All cylinders are the same.

@@ -37,6 +37,9 @@ template <class Real, class S>
         return refuse("scene.valve_gas", Reason::inconsistent, static_cast<std::int32_t>(t));
     }
   }
+  if constexpr (N::elastic_valves) {
+    if (drive.spring_modes > S::spring_modes) return refuse("scene.spring_modes", Reason::inconsistent);
+  }
   if constexpr (N::any_triggers) {
     if (!fits(S::triggers, tables.triggers->count)) return refuse("tables.triggers", Reason::out_of_range);
   }

@@ -65,6 +65,7 @@ enum class SectionRows : std::uint8_t { one, gas_grid, torque_grid, cut_grid, tr
   BEHIND(rocker_ratios, Segment<Real>, lobes, N::any_valves)                                       \
   SECTION(lift_curves, LiftCurve<Real>, trains, N::any_valves)                                     \
   SECTION(valve_motions, ValveMotion<Real>, trains, N::elastic_valves)                             \
+  SECTION(valve_springs, ValveSprings<Real>, trains, N::surge)                                     \
   /* where a valve at rest becomes active: its cam near; with forces also where its gap changes */ \
   SECTION(near_cams, CamDegrees, trains, N::valves_rest && !S::valve_forces)                       \
   SECTION(near_lobes, CamDegrees, trains, N::valves_rest&& S::valve_forces)                        \

@@ -14,6 +14,8 @@
 
 #include <cstdint>
 
+#include <crankloop/limits.hpp>
+
 namespace crankloop {
 
 /// Bits of a contact regime.
@@ -130,6 +132,27 @@ struct ValveMotion {
   RegimeStep<Real> whole[kRegimes];  ///< over a tick
   RegimeStep<Real> fine[kRegimes];   ///< over a fine step
   RegimeSeries<Real> series[kSeatOn + kTrainOn + 1];
+};
+
+/// What a tick adds to a mode's place or to its speed: this row times its place q, its speed q' and the valve's mean
+/// acceleration in the tick.
+template <class Number>
+struct ModeRow {
+  Number q, v, drive;
+};
+
+/// A mode of a valve spring over a tick (tabulate/spring_surge.hpp).
+template <class Number>
+struct ModeStep {
+  ModeRow<Number> of_q, of_v;
+  Number valve_N_m;  ///< per m of q: force on the valve, toward its seat
+};
+
+/// The springs of one valve train.
+template <class Real>
+struct ValveSprings {
+  std::uint32_t modes;  ///< of all its springs, at most kMaxValveModes
+  ModeStep<Real> mode[kMaxValveModes];
 };
 
 }  // namespace detail

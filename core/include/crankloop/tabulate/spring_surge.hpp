@@ -8,12 +8,11 @@
 //     force on the valve, toward its seat, beyond k_s y + P_0:       F_q = k_s sum n pi (-1)^n q_n
 #pragma once
 
+#include <crankloop/limits.hpp>
 #include <crankloop/status.hpp>
+#include <crankloop/tables/valve_tables.hpp>
 
 namespace crankloop {
-
-/// Most modes of one spring.
-inline constexpr int kMaxSpringModes = 3;
 
 /// A helical spring with one end fixed.
 struct SurgingSpring {
@@ -24,15 +23,11 @@ struct SurgingSpring {
 };
 
 /// A mode of a spring over a tick. Its step is exact for an acceleration of the valve that stays the same over the
-/// tick: q += of_q.q q + of_q.v q' + of_q.drive y'', q' likewise by of_v. Increments, as those of the valve's step.
+/// tick. Increments, as those of the valve's step.
 struct SpringMode {
-  struct Row {
-    double q, v, drive;
-  };
-  double rate_rad_s;  ///< w_n
-  Row of_q, of_v;     ///< what a tick adds to q and to q'
-  double valve_N_m;   ///< per m of q: force on the valve, toward its seat
-  double moving_kg;   ///< 2 m_s / (pi n)^2: what the mode takes out of the moving mass m_s / 3
+  double rate_rad_s;              ///< w_n
+  double moving_kg;               ///< 2 m_s / (pi n)^2: what the mode takes out of the moving mass m_s / 3
+  detail::ModeStep<double> step;  ///< over the tick
 };
 
 /// All modes of a spring.

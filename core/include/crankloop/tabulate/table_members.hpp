@@ -23,7 +23,7 @@ namespace crankloop::detail {
 
 CRANKLOOP_MEMBERS(CylinderGroups, cylinder, end)
 CRANKLOOP_MEMBERS_OF(Drive, fingerprint, tick, per_tick, cycles_per_tick, speed_per_cycle, speed_limit, cylinders,
-                     mechanisms, firing_phase, mechanism_of, turn_of, by_mechanism, trains)
+                     mechanisms, firing_phase, mechanism_of, turn_of, by_mechanism, trains, modes)
 CRANKLOOP_MEMBERS_OF(Body, radius, per_radius, per_rod, offset, height, area, crankcase, mass, inertia)
 CRANKLOOP_MEMBERS_OF(Segment, c)
 CRANKLOOP_MEMBERS_OF(IntegralSegment, c)
@@ -52,6 +52,9 @@ CRANKLOOP_MEMBERS_OF(RegimeStep, lift, velocity, acceleration, train, seat, rest
 CRANKLOOP_MEMBERS_OF(RegimeSeries, rest, gas, stiffness, damping, lift, lift_speed)
 CRANKLOOP_MEMBERS_OF(ValveMotion, body, tick, fine, per_fine, per_parts, parts, per_parts_32, changes, cubic, widest,
                      train_lag, seat_lag, per_seat, quiet, seat_rate, whole_steps, fine_steps, series)
+CRANKLOOP_MEMBERS_OF(ModeRow, q, v, drive)
+CRANKLOOP_MEMBERS_OF(ModeStep, of_q, of_v, push)
+CRANKLOOP_MEMBERS_OF(ValveSprings, modes, mode)
 CRANKLOOP_MEMBERS_OF(GasWalls, factor, area, per_volume, temperature, piston)
 CRANKLOOP_MEMBERS_OF(GasCylinders, walls, clearance, bore_area, crankcase, least, per_swept, per_charge, ambient,
                      ambient_temperature, exhaust_temperature, steps, spare)

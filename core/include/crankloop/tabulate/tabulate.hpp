@@ -56,6 +56,8 @@ struct TableReport {
                                     ///< (tabulate/spring_margin.hpp); 0: no train, no elastic valve, or none opens
   double static_redline_deg = 0;    ///< where on that train's lobe: cam degrees from full lift
   int static_redline_train = -1;    ///< which train; -1: none
+  double surge_error_ratio = 0;     ///< of the surge force of any valve's springs, what the tick's length may take from
+                                    ///< it (tabulate/valve_springs.hpp); 0: no surge
 };
 
 /// Fills the targets. Validates the definition first; nothing is written when it refuses.

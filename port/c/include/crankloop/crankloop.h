@@ -217,6 +217,11 @@ typedef struct crankloop_valve {
   double seat_N_m;
   double seat_damping_ratio;
   double head_area_m2;
+  int32_t surge_modes;
+  double surge_damping_ratio;
+  double spring_active_kg;
+  double inner_spring_N_m;
+  double inner_spring_kg;
 } crankloop_valve;
 
 typedef struct crankloop_valve_train {

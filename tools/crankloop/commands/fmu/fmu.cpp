@@ -113,7 +113,7 @@ std::vector<ZipEntry> described(const Packed& packed, fmi::Version version, cons
 }
 
 int run_fmu(const Arguments& arguments) {
-  const EngineFile engine = read_engine(arguments, {"engine", "crank", "masses"});
+  const EngineFile engine = read_engine_without_surge(arguments, {"engine", "crank", "masses"});
   const double tick_us = arguments.number("--tick-us");
   require_trains(engine, millionths(tick_us));
   const std::string& real = arguments.text("--real");

@@ -122,7 +122,7 @@ std::string summary(const EngineMap& map) {
 int run_map_command(const Arguments& arguments) {
   MapRequest request;
   request.speed_rpm = grid(arguments, kSpeeds, above(0).up_to(100000));
-  const EngineFile file = read_engine(arguments, {"engine", "crank", "masses"});
+  const EngineFile file = read_engine_without_surge(arguments, {"engine", "crank", "masses"});
   set_loads(request, arguments, file);
   const double count = static_cast<double>(request.speed_rpm.count) * request.load.count;
   if (count > kMaxPoints)

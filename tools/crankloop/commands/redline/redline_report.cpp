@@ -157,7 +157,10 @@ Section method_section(const Redline& redline) {
     masked[0] = 'L';
     list.items.push_back(masked + ".");
   }
-  list.items.push_back("The single-mass model opens its contact only at the cam; spring surge is not modelled.");
+  list.items.push_back(redline.valve.valve().surge_modes > 0
+                           ? "The valve's mass opens its contact only at the cam; its springs surge."
+                           : "The single-mass model opens its contact only at the cam; its spring follows it without "
+                             "surge.");
   list.items.push_back(
       "The static redline is the speed at which the spring can just slow the valve down as the cam asks, " +
       static_in_words(redline) + ".");

@@ -270,7 +270,7 @@ void run(const Engines& engine, const Request& request, const Arguments& argumen
 int run_run(const Arguments& arguments) {
   require_options_that_fit(arguments);
   std::vector<std::string> warnings;
-  const EngineFile file = read_engine(arguments, {"engine", "crank", "masses"}, &warnings);
+  const EngineFile file = read_engine_without_surge(arguments, {"engine", "crank", "masses"}, &warnings);
   const EngineDefinition& definition = file.definition();
   require_heat_to_scale(arguments, file);
   const GasOrder gas = gas_order(arguments, file, 1);

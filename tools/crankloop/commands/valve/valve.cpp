@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <optional>
 
 #include "../../command_line/commands.hpp"
@@ -56,6 +57,7 @@ void write_row(CsvWriter& csv, const LoneValve& valve, const Flow& flow, const V
         f.train_compression_m * real(1e3)})
     csv.cell(value);
   csv.cell(static_cast<int>(f.regime));
+  if (valve.valve().surge_modes > 0) csv.cell(out.springs.moving_N), csv.cell(out.springs.surge_N);
   if (flow.area) {
     const double lift_m = static_cast<double>(m.lift_m);
     csv.cell(real(flow.area->geometric_m2(lift_m) * 1e6));
@@ -94,8 +96,33 @@ void add_margin(Summary& s, const LoneValve& valve, double speed_rpm) {
   s.line("static_redline", redline.crank_rad_s * kRpmPerRad_s, "rpm", "spring margin 1; no elasticity, damping or gas");
 }
 
-/// Of the spring's own motion, which the valve's has no part of.
-void add_surge(Summary& s, const LoneValve& valve, double speed_rpm) {
+/// Forces of the springs over the cycle shown.
+struct SpringRange {
+  double largest_surge_N = 0;
+  double least_N = std::numeric_limits<double>::infinity();
+  double largest_N = 0;
+
+  void take(double surge_N, double force_N) {
+    largest_surge_N = std::max(largest_surge_N, std::abs(surge_N));
+    least_N = std::min(least_N, force_N), largest_N = std::max(largest_N, force_N);
+  }
+};
+
+/// Of springs whose modes are stepped with the valve.
+void add_stepped_surge(Summary& s, const LoneValve& valve, const SpringRange& springs, double error_ratio) {
+  const Valve& v = valve.valve();
+  s.line("spring_surge_force", springs.largest_surge_N, "N",
+         "largest, of " + std::to_string(v.surge_modes) + (v.surge_modes == 1 ? " mode" : " modes") +
+             (v.inner_spring_N_m > 0 ? " of each spring" : "") +
+             ", stepped with the valve; by the tick's length within " + brief(error_ratio * 100) + " %");
+  s.line("least_spring_force", springs.least_N, "N", "with surge; preload " + brief(v.spring_preload_N) + " N");
+  s.line("largest_spring_force", springs.largest_N, "N", "with surge");
+  if (springs.least_N < 0)
+    s.remark("a spring force below 0 is a spring that leaves its retainer, which is not modelled: it holds on");
+}
+
+/// Of the spring's own motion.
+void add_surge(Summary& s, const LoneValve& valve, double speed_rpm, const SpringRange& springs, double error_ratio) {
   const double cam_rad_s = speed_rpm * kRad_sPerRpm / 2;
   const SpringSurgeCycle surge = surge_over_cycle(valve.lift(), valve.valve(), cam_rad_s);
   if (!(surge.frequency_Hz > 0)) {
@@ -105,13 +132,14 @@ void add_surge(Summary& s, const LoneValve& valve, double speed_rpm) {
   s.line("spring_frequency", surge.frequency_Hz, "Hz",
          "first of the spring itself, " + brief(surge.frequency_Hz / std::abs(cam_rad_s * kTurnsPerRad)) +
              " times the cam's turns");
+  if (valve.valve().surge_modes > 0) return add_stepped_surge(s, valve, springs, error_ratio);
   if (!(surge.largest_N > 0)) {
     s.line("spring_surge_force", "none", "", "the cam turns too slowly");
     return;
   }
   s.line("spring_surge_force", surge.largest_N, "N",
          "largest, of its first three modes driven by the theoretical lift; damping ratio " +
-             brief(kSurgeDampingRatio) + " assumed; the valve's motion is without it");
+             brief(kSurgeDampingRatio) + " assumed; surge_modes of [valve] step them with the valve");
 }
 
 /// Largest and smallest speed and acceleration of a valve's lift, m/s and m/s^2.
@@ -150,7 +178,8 @@ void add_motion(Summary& s, const MotionRange& elastic, const MotionRange& rigid
 
 template <class Real>
 std::string summary(const LoneValve& valve, const Request& request, const ValveLoop<Real>& loop,
-                    const ValveCycle<Real>& cycle, double change_m, const Flow& flow, const MotionRange& motion) {
+                    const ValveCycle<Real>& cycle, double change_m, const Flow& flow, const MotionRange& motion,
+                    const SpringRange& springs) {
   const auto real = [](double value) { return static_cast<Real>(value); };
   const detail::ValveBody<double> body = valve.body();
   const bool separated = cycle.separations > 0;
@@ -181,7 +210,7 @@ std::string summary(const LoneValve& valve, const Request& request, const ValveL
   s.line("natural_frequency", real(open_frequency_rad_s(body) / (2 * kPi)), "Hz", "open, on the train");
   s.line("seat_frequency", real(seated_frequency_rad_s(body) / (2 * kPi)), "Hz", "on train and seat");
   add_margin(s, valve, request.speed_rpm);
-  add_surge(s, valve, request.speed_rpm);
+  add_surge(s, valve, request.speed_rpm, springs, loop.surge_error_ratio());
   const std::uint32_t parts = loop.motion().parts;
   s.line("sub_steps", request.method.textbook ? TextbookValve<Real>::steps(loop.motion()) : parts, "",
          request.method.textbook ? "in each tick" : "in a tick, near contact changes; 1 elsewhere");
@@ -216,6 +245,7 @@ void run(const LoneValve& valve, const Request& request, Results& results) {
     std::vector<std::string> columns{"cam_deg",      "theoretical_lift_mm",  "rocker_ratio",  "lift_mm",
                                      "velocity_m_s", "acceleration_m_s2",    "train_force_N", "seat_force_N",
                                      "cam_force_N",  "train_compression_mm", "regime"};
+    if (valve.valve().surge_modes > 0) columns.insert(columns.end(), {"spring_force_N", "spring_surge_N"});
     if (flow.area) columns.insert(columns.end(), {"flow_area_mm2", "effective_area_mm2"});
     csv.emplace(*file, columns);
   }
@@ -224,9 +254,11 @@ void run(const LoneValve& valve, const Request& request, Results& results) {
   if (flow.area) sum.emplace(*flow.area, seat_contact_m, 2 * std::abs(loop.deg_per_tick(request.speed_rpm)));
   ValveCycleTrace trace;
   MotionRange motion;
+  SpringRange springs;
   const OnValveTick<Real> on_tick = [&](const ValveTickOutput<Real>& out) {
     if (csv) write_row(*csv, valve, flow, out);
     motion.take(static_cast<double>(out.motion.velocity_m_s), static_cast<double>(out.motion.acceleration_m_s2));
+    springs.take(static_cast<double>(out.springs.surge_N), static_cast<double>(out.springs.moving_N));
     if (sum) sum->add(static_cast<double>(out.motion.lift_m));
     if (plot != nullptr) trace.ticks.push_back(in_double(out));
   };
@@ -246,7 +278,7 @@ void run(const LoneValve& valve, const Request& request, Results& results) {
     if (flow.area) add_flow_remarks(sheet.remarks, valve.train());
     plot->write(report::to_svg_file(sheet));
   }
-  results.finish(summary(valve, request, loop, cycle, change_m, flow, motion));
+  results.finish(summary(valve, request, loop, cycle, change_m, flow, motion, springs));
 }
 
 int run_valve(const Arguments& arguments) {
@@ -260,6 +292,9 @@ int run_valve(const Arguments& arguments) {
   if (request.speed_rpm == 0) throw UsageError("--rpm 0: the cam would never turn");
   const std::string name = train_name(arguments, file);
   const LoneValve valve(file, name);
+  if (request.method.textbook && valve.valve().surge_modes > 0)
+    throw UsageError("--integrator textbook: springs follow their valve there; take surge_modes out of [valve " + name +
+                     "]");
   if (!request.method.textbook)
     tell_warnings(arguments, beyond_class(valve, request.speed_rpm, request.tick_s, stepping));
   Results results(arguments, {"--csv", "--plot"});

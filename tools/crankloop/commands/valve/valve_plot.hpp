@@ -38,7 +38,8 @@ template <class Real>
   const ValveForcesOutput<Real>& f = out.forces;
   return {out.cam_deg,
           {{wide(m.theoretical_lift_m)}, {wide(m.lift_m), wide(m.velocity_m_s)}, {wide(m.acceleration_m_s2)}},
-          {wide(f.train_N), wide(f.seat_N), wide(f.tip_N), wide(f.cam_N), wide(f.train_compression_m), f.regime}};
+          {wide(f.train_N), wide(f.seat_N), wide(f.tip_N), wide(f.cam_N), wide(f.train_compression_m), f.regime},
+          {wide(out.springs.surge_N), wide(out.springs.moving_N), wide(out.springs.fixed_N)}};
 }
 
 }  // namespace crankloop::program

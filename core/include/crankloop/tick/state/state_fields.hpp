@@ -69,6 +69,14 @@ struct StateFields {
     if constexpr (N::valve_gas_held) {
       for (auto& gas : s.valve_gas_N) v.number(gas, -kMaxGas_N, kMaxGas_N);
     }
+    if constexpr (N::surge) {
+      v.group("state.spring");
+      for (auto& mode : s.spring_mode_m)
+        for (auto& q : mode) v.number(q, -kMaxMode_m, kMaxMode_m);
+      for (auto& mode : s.spring_mode_m_s)
+        for (auto& speed : mode) v.number(speed, -kMaxSpeed_m_s, kMaxSpeed_m_s);
+      for (auto& mean : s.valve_mean_m_s2) v.number(mean, -kMaxMean_m_s2, kMaxMean_m_s2);
+    }
     if constexpr (S::cam_phasing) {
       v.group("state.cam_phase");
       for (auto& phase : s.cam_phase) v.signed_wide(phase, kMaxCamPhase);
@@ -102,6 +110,8 @@ struct StateFields {
   static constexpr Real kMaxPerRoot = static_cast<Real>(1e5);
   static constexpr Real kMaxLift_m = static_cast<Real>(1e6);
   static constexpr Real kMaxSpeed_m_s = static_cast<Real>(1e6);
+  static constexpr Real kMaxMode_m = static_cast<Real>(1e3);
+  static constexpr Real kMaxMean_m_s2 = static_cast<Real>(1e13);  ///< twice the largest speed, in the shortest tick
   static constexpr Real kMaxGas_N = static_cast<Real>(1e9);   ///< 1e8 Pa on a bore of 2 m
   static constexpr Real kMaxNoted = static_cast<Real>(1e18);  ///< of numbers that are only compared, subtracted and
                                                               ///< output

@@ -5,6 +5,7 @@
 //
 //     activate valves whose cams come near -> plain step of each active valve, with its guards
 //     -> event location where a guard fails
+//     (springs that surge push before, and step after: spring_step.hpp)
 //
 // An active valve takes one step in its contact regime; the regime's record of constants makes the difference. If both
 // guards pass, no contact can have changed meanwhile, and that is its tick. A valve at rest whose cam is away is not
@@ -15,6 +16,7 @@
 
 #include <crankloop/assert.hpp>
 #include <crankloop/tick/valve/plain_steps.hpp>
+#include <crankloop/tick/valve/spring_step.hpp>
 
 namespace crankloop::detail {
 
@@ -33,11 +35,12 @@ class ElasticValves {
   /// Pressures are those of each cylinder, where the scene has valve_gas; none at the start.
   ElasticValves(const Tables<Real, S>& tables, State<Real, S>& state, ValvesWork<Real, S>& work, Output<Real, S>& out,
                 const Real* pressure_Pa = nullptr) noexcept
-      : valves_{tables, state, work, out, pressure_Pa} {}
+      : valves_{{}, tables, state, work, out, pressure_Pa} {}
 
   /// Puts every valve where its cam stands, at rest. The gas comes with the first tick.
   [[gnu::cold]] void start() noexcept {
     place_all(valves_);
+    if constexpr (Needs<S>::surge) SpringStep<Real, S>(valves_).start();
     valves_.for_each([&](std::uint32_t v) {
       const std::uint64_t since_opening =
           cam_phase(valves_.state, valves_.train(v)) - valves_.curve(v).opens[valves_.cylinder(v)];
@@ -97,12 +100,14 @@ class ElasticValves {
     for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g) entered |= begin_tick(cams[g], g);
     for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g) check_speed(cams[g], g);
     if (kByDegree && entered) enter_degrees(cams);
+    if constexpr (Needs<S>::surge) SpringStep<Real, S>(valves_).push();
     Before before;
     Steps steps(valves_);
     const Bits failed = steps.run(cams, before);
     EventBudget budget{valves_.tables.valve_motions[0].event_budget, false};
     if (failed != 0) locate_events_in_turn(failed, cams, before, budget);
     steps.deactivate_resting();
+    if constexpr (Needs<S>::surge) SpringStep<Real, S>(valves_).step();
     CRANKLOOP_ASSERT(budget.left <= valves_.tables.valve_motions[0].event_budget);
     if constexpr (S::valve_results) {
       end_cycles(cams);

@@ -20,7 +20,7 @@ namespace crankloop::detail {
 
 /// `Wide`: the lift in the tick's middle counts. Its own class, for it needs registers that the other uses.
 template <class S, bool Wide>
-class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide, MiddleOfLanes<S>> {
+class LaneBlocks : If<Needs<S>::valve_push && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide, MiddleOfLanes<S>> {
   using Valves = ValveAccess<float, S>;
   using Bits = typename Valves::Bits;
 
@@ -41,7 +41,7 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide,
     } else {
       set_tick(0, cams[0]);
     }
-    if constexpr (S::valve_gas && !kGasInBlocks<S>) {
+    if constexpr (Needs<S>::valve_push && !kGasInBlocks<S>) {
       valves_.for_each([&](std::uint32_t v) {
         const GasForce<float> gas = valves_.gas_on(v);
         this->from_N[v] = gas.from_N, this->to_N[v] = gas.to_N;
@@ -114,7 +114,7 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide,
       const Lanes pressure_Pa = load<Lanes>(valves_.pressure_Pa + first % Valves::kPerTrain);
       return GasForce<Lanes>{load<Lanes>(&state_.valve_gas_N[first]),
                              (pressure_Pa - valves_.behind_head_Pa(first)) * load<Lanes>(&work_.head_area_m2[first])};
-    } else if constexpr (S::valve_gas) {
+    } else if constexpr (Needs<S>::valve_push) {
       return GasForce<Lanes>{load<Lanes>(this->from_N + first), load<Lanes>(this->to_N + first)};
     } else {
       return static_cast<void>(first), NoGasForce<Lanes>{};
@@ -122,7 +122,7 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide,
   }
   template <class Lanes, class Gas>
   [[nodiscard, gnu::always_inline]] Lanes resting_m(const Gas& gas, std::uint32_t first) const noexcept {
-    if constexpr (S::valve_gas) return gas.resting_m(load<Lanes>(&work_.per_seat_N_m[first]));
+    if constexpr (Needs<S>::valve_push) return gas.resting_m(load<Lanes>(&work_.per_seat_N_m[first]));
     return static_cast<void>(gas), static_cast<void>(first), Lanes{};
   }
 
@@ -181,7 +181,7 @@ class LaneBlocks : If<S::valve_gas && !kGasInBlocks<S>, GasOfLanes<S>>, If<Wide,
       raised_ |= Bits{holding(raised)} << first;
       unfinished |= to_record;
     }
-    if constexpr (Needs<S>::valve_gas_held) keep_gas(first, gas.to_N, unfinished);
+    if constexpr (Valves::kKeepsGas) keep_gas(first, gas.to_N, unfinished);
     if (unfinished == 0) return;
     failed_ |= Bits{failed} << first;
     store<Lanes>(&before_.lift_m[first], start.lift_m);

@@ -101,7 +101,7 @@ class PlainSteps {
                                   const CamTick<Real>& tick, const Gas& gas) const noexcept {
     if (valves_.beyond_guards && magnitude(tick.cam.deg) >= valves_.work.skip_deg) return false;
     const ValveMotion<Real>& m = valves_.motion(v);
-    if constexpr (S::valve_gas) {
+    if constexpr (Needs<S>::valve_push) {
       const Real was_m = gas.rested_m(m.per_seat_N_m);
       const Real is_m = gas.resting_m(m.per_seat_N_m);
       const Real higher_m = was_m > is_m ? was_m : is_m;
@@ -127,7 +127,7 @@ class PlainSteps {
       };
       const Real increment_m = more(regime.lift);
       end = {start.lift_m + increment_m, start.velocity_m_s + more(regime.velocity)};
-      if (S::valve_gas && !passes(regime.train, outside_m - end.lift_m, end.velocity_m_s)) {
+      if (Needs<S>::valve_push && !passes(regime.train, outside_m - end.lift_m, end.velocity_m_s)) {
         before.keep(valves_.lane_of(v), start, increment_m, valves_.cam(v));
         valves_.set_cam(v, {outside_m, Real{0}});
         valves_.set_state(v, end);
@@ -154,7 +154,7 @@ class PlainSteps {
                                                        [[maybe_unused]] const ValveState<Real>& s,
                                                        [[maybe_unused]] const RegimeStep<Real>& regime,
                                                        [[maybe_unused]] const Gas& gas) const noexcept {
-    if constexpr (S::valve_gas) {
+    if constexpr (Needs<S>::valve_push) {
       const Real per_seat_N_m = valves_.motion(v).per_seat_N_m;
       const Real was_m = gas.rested_m(per_seat_N_m);
       const Real drift_m_s = magnitude(gas.resting_m(per_seat_N_m) - was_m) * valves_.tables.drive->per_tick_s;
@@ -190,7 +190,7 @@ class PlainSteps {
       valves_.record(v, start, end, {before.cam_lift_m[lane], before.cam_per_deg_m[lane]}, to, tick, gas,
                      acceleration_m_s2);
     }
-    if constexpr (Needs<S>::valve_gas_held) valves_.state.valve_gas_N[v] = gas.to_N;
+    if constexpr (Valves::kKeepsGas) valves_.state.valve_gas_N[v] = gas.to_N;
     valves_.load_record(v);
   }
 

@@ -49,15 +49,23 @@ template <class Real>
   shown.regime = contacts;
 }
 
+/// How springs that surge push each valve in the tick, beyond preload and rate, and how fast it starts.
+template <class Real, class S>
+struct SpringPush {
+  static constexpr std::size_t kLanes = group::ValvesState<Real, S>::kLanes;
+  Real from_N[kLanes], to_N[kLanes], started_m_s[kLanes];
+};
+
 /// Valves are numbered train by train: v = train times the scene's cylinders + cylinder.
 template <class Real, class S>
-struct ValveAccess {
-  using Gas = std::conditional_t<S::valve_gas, GasForce<Real>, NoGasForce<Real>>;
+struct ValveAccess : If<Needs<S>::surge, SpringPush<Real, S>> {
+  using Gas = std::conditional_t<Needs<S>::valve_push, GasForce<Real>, NoGasForce<Real>>;
   using Record = std::conditional_t<S::valve_results, ValveRecord<Real>, NoRecord<Real>>;
   using Locator = EventLocator<Real, Gas, Record>;
   using Bits = ValveBits<S>;
   static constexpr bool kInLanes = CRANKLOOP_ABREAST != 0 && kLaneLayout<Real, S>;
-  static constexpr bool kActiveFirst = kInLanes && !S::valve_gas;
+  static constexpr bool kActiveFirst = kInLanes && !Needs<S>::valve_push;
+  static constexpr bool kKeepsGas = Needs<S>::valve_gas_held && !Needs<S>::surge;  ///< after a valve's own step
   static constexpr std::uint32_t kPerTrain = S::cylinders.capacity;
   static constexpr std::uint32_t kMaxValves = S::trains.capacity * kPerTrain;
 
@@ -188,12 +196,20 @@ struct ValveAccess {
     (void)v;
     return Real{0};
   }
+  /// Of the gas alone.
+  [[nodiscard]] Real gas_before_N(std::uint32_t v) const noexcept {
+    if constexpr (Needs<S>::valve_gas_held) return state.valve_gas_N[v];
+    if constexpr (Needs<S>::gas && S::valve_gas)
+      return (state.cylinder_gas.pressure_Pa[cylinder(v)] - behind_head_Pa(v)) * motion(v).body.head_area_m2;
+    (void)v;
+    return Real{0};
+  }
+  /// Of the gas, and of springs that surge: these push as gas does.
   [[nodiscard]] Gas gas_on(std::uint32_t v) const noexcept {
-    if constexpr (Needs<S>::gas && S::valve_gas) {
-      const Real from_Pa = state.cylinder_gas.pressure_Pa[cylinder(v)];
-      return {(from_Pa - behind_head_Pa(v)) * motion(v).body.head_area_m2, gas_now_N(v)};
+    if constexpr (Needs<S>::surge) {
+      return {gas_before_N(v) + this->from_N[v], gas_now_N(v) + this->to_N[v]};
     } else if constexpr (S::valve_gas) {
-      return {state.valve_gas_N[v], gas_now_N(v)};
+      return {gas_before_N(v), gas_now_N(v)};
     }
     (void)v;
     return {};
@@ -201,7 +217,7 @@ struct ValveAccess {
 
   [[gnu::always_inline]] void write_output(std::uint32_t v, const ValveState<Real>& end, Cell cell,
                                            const Moment<Real>& at, const Gas& gas) noexcept {
-    if constexpr (Needs<S>::valve_gas_held) state.valve_gas_N[v] = gas.to_N;
+    if constexpr (kKeepsGas) state.valve_gas_N[v] = gas.to_N;
     write_motion((&out.valve[0][0])[v], end, at);
     if constexpr (S::valve_forces)
       write_forces((&out.valve_forces[0][0])[v], motion(v).body, curve(v), {end, state.valve_regime[v]}, cell, at);
@@ -249,7 +265,7 @@ template <class Real, class S>
 #if CRANKLOOP_ABREAST
   if constexpr (ValveAccess<Real, S>::kInLanes) {
     CRANKLOOP_ASSERT(lane < kLaneRoom<S>);
-    if constexpr (!S::valve_gas) valves.work.valve[lane] = v, valves.work.lane[v] = lane;
+    if constexpr (!Needs<S>::valve_push) valves.work.valve[lane] = v, valves.work.lane[v] = lane;
     set_cam_of_lane(valves.work, lane, curve, valves.cylinder(v)),
         set_body_of_lane(valves.work, lane, valves.motion(v));
   }

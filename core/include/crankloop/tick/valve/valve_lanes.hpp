@@ -140,7 +140,7 @@ template <class Work>
 /// Loads a lane with what it needs of its valve's body.
 template <class S>
 inline void set_body_of_lane(ValvesWork<float, S>& w, std::size_t lane, const ValveMotion<float>& motion) noexcept {
-  if constexpr (S::valve_gas)
+  if constexpr (Needs<S>::valve_push)
     w.head_area_m2[lane] = motion.body.head_area_m2, w.per_seat_N_m[lane] = motion.per_seat_N_m;
   if constexpr (S::valve_forces) {
     const ValveBody<float>& b = motion.body;
@@ -192,14 +192,15 @@ struct LanesTick {
   }
 };
 
-/// Gas forces of lanes over a tick, where blocks do not compute them.
+/// Forces of gas and surging springs on lanes over a tick, where blocks do not compute them.
 template <class S>
 struct GasOfLanes {
   float from_N[kLaneRoom<S>], to_N[kLaneRoom<S>];
 };
 /// Whether blocks compute them: then a block's valves are of one train, their cylinders side by side.
 template <class S>
-inline constexpr bool kGasInBlocks = Needs<S>::valve_gas_held&& S::cylinders.capacity % kLanesOf<WidestLanes> == 0;
+inline constexpr bool kGasInBlocks =
+    Needs<S>::valve_gas_held && !Needs<S>::surge && S::cylinders.capacity % kLanesOf<WidestLanes> == 0;
 
 /// Where lanes' cams stand in the middle of a wide tick.
 template <class S>

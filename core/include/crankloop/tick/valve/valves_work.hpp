@@ -27,7 +27,7 @@ template <class S, class Real = float>
 inline constexpr std::size_t kLaneRoom = kLaneLayout<Real, S> ? (group::ValvesState<float, S>::kLanes + 7) / 8 * 8
                                                               : group::ValvesState<Real, S>::kLanes;
 
-/// What lanes need side by side of their valves' bodies, where gas pushes them,
+/// What lanes need side by side of their valves' bodies, where gas or surging springs push them,
 template <class S>
 struct GasLanes {
   float head_area_m2[kLaneRoom<S>] = {}, per_seat_N_m[kLaneRoom<S>] = {};
@@ -47,7 +47,7 @@ struct RecordLanes {
   float only_maxima_below_m[kLaneRoom<S>] = {};
 };
 
-/// and where valves come to rest: active ones come first, in any order. (Under gas all stay active, and a lane is a
+/// and where valves come to rest: active ones come first, in any order. (Pushed ones all stay active, and a lane is a
 /// valve's number.)
 template <class S>
 struct LanesInUse {
@@ -59,11 +59,11 @@ struct LanesInUse {
 
 /// What vectors of lanes read besides, so that a block loads it side by side (tick/valve/valve_lanes.hpp).
 template <class S>
-struct alignas(16) VectorLanes : If<S::valve_gas, GasLanes<S>>,
+struct alignas(16) VectorLanes : If<Needs<S>::valve_push, GasLanes<S>>,
                                  If<S::valve_forces, ForceLanes<S>>,
                                  If<S::valve_results, RecordLanes<S>>,
-                                 If<!S::valve_gas, LanesInUse<S>> {
-  static constexpr bool kBlocksAligned = !S::valve_gas || S::cylinders.exact || S::cylinders.capacity % 4 == 0;
+                                 If<!Needs<S>::valve_push, LanesInUse<S>> {
+  static constexpr bool kBlocksAligned = !Needs<S>::valve_push || S::cylinders.exact || S::cylinders.capacity % 4 == 0;
   alignas(16) float constants[34][kLaneRoom<S>] = {};     ///< numbers of each lane's RegimeStep, up to decoupled_m
   const LiftSegment<float>* segments[kLaneRoom<S>] = {};  ///< of its cam's lift
   std::uint32_t degrees[kLaneRoom<S>] = {};               ///< of its lobe
