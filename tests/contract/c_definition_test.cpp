@@ -40,11 +40,11 @@ TEST(CDefinition, PassesEveryFieldOnToCpp) {
     const crankloop_definition back = c::as_c(cpp);
     return std::memcmp(&back, &usual, sizeof back) != 0;
   });
-  // Behind cylinders, heat_given, train_count, trigger_count, in each train behind point_count and per_cylinder, in
-  // each wheel behind inverted: 4 bytes. Of a wheel's `inverted` the three bytes above the lowest tell nothing new: any
-  // number but 0 is yes; but here each byte is changed by itself.
+  // Behind cylinders, heat_given, train_count, trigger_count, in each train behind point_count, per_cylinder and
+  // surge_modes, in each wheel behind inverted: 4 bytes. Of a wheel's `inverted` the three bytes above the lowest tell
+  // nothing new: any number but 0 is yes; but here each byte is changed by itself.
   if (kUsual64Bits) {
-    EXPECT_EQ(blind, 4 + 4 + 4 + 4 + CRANKLOOP_MAX_TRAINS * (4 + 4) + CRANKLOOP_MAX_TRIGGER_WHEELS * 4);
+    EXPECT_EQ(blind, 4 + 4 + 4 + 4 + CRANKLOOP_MAX_TRAINS * (4 + 4 + 4) + CRANKLOOP_MAX_TRIGGER_WHEELS * 4);
   }
 }
 

@@ -42,7 +42,7 @@ constexpr int kLeastCamPoints = 8;
   return {};
 }
 
-/// What the rules between the fields of surging springs demand: each has a rate and a mass, together no more than given.
+/// Of springs that surge each has a rate and a mass, together no more than given.
 [[nodiscard]] Status validate_springs(const Valve& valve) noexcept {
   if (!(valve.spring_N_m > 0)) return refuse("valve.spring_N_m", Reason::not_positive);
   if (!(valve.spring_kg > 0)) return refuse("valve.spring_kg", Reason::not_positive);

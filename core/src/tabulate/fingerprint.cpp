@@ -48,6 +48,19 @@ void add_rocker(AddRead& add, const Rocker& rocker) noexcept {
   Rocker::each_field([&add](const ListedField&, const auto& field) { add({1, ""}, field); }, used);
 }
 
+/// Adds the fields of a valve, that its springs surge only if they do: other engines keep the fingerprint of earlier
+/// releases.
+void add_valve(AddRead& add, const Valve& valve) noexcept {
+  Valve::each_field(
+      [&](const ListedField& listed, const auto& field) {
+        if constexpr (std::is_same_v<decltype(field), const int&>) {
+          if (&field == &valve.surge_modes && field == 0) return;
+        }
+        add(listed, field);
+      },
+      valve);
+}
+
 }  // namespace
 
 std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& options, const TableReport& report,
@@ -83,7 +96,7 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
       const auto& [cam, rocker, valve] = trains[t];
       add({1, ""}, cam);
       add_rocker(add, rocker);
-      add({1, ""}, valve);
+      add_valve(add, valve);
     }
   }
   // Parts of later releases are added only if they are in use: other engines keep the fingerprint of earlier releases.

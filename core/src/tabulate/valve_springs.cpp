@@ -2,7 +2,6 @@
 
 #include <crankloop/assert.hpp>
 #include <crankloop/tabulate/elementary.hpp>
-#include <crankloop/tabulate/spring_surge.hpp>
 #include <crankloop/tick/one_instruction.hpp>
 
 namespace crankloop {
@@ -109,15 +108,14 @@ template <class Real>
   return log;
 }
 
-/// The springs of a valve, the outer first.
-[[nodiscard]] int springs_of(const Valve& valve, SurgingSpring (&springs)[2]) noexcept {
+}  // namespace
+
+int springs_of(const Valve& valve, SurgingSpring (&springs)[2]) noexcept {
   const double outer_kg = valve.spring_active_kg > 0 ? valve.spring_active_kg : valve.spring_kg - valve.inner_spring_kg;
   springs[0] = {valve.spring_N_m - valve.inner_spring_N_m, outer_kg, valve.surge_damping_ratio, valve.surge_modes};
   springs[1] = {valve.inner_spring_N_m, valve.inner_spring_kg, valve.surge_damping_ratio, valve.surge_modes};
   return valve.inner_spring_N_m > 0 ? 2 : 1;
 }
-
-}  // namespace
 
 Status surge_of(const Valve& valve, double tick_s, SurgeOfValve& surge) noexcept {
   SurgeOfValve all;

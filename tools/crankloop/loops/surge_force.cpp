@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <crankloop/assert.hpp>
-#include <crankloop/tabulate/spring_surge.hpp>
+#include <crankloop/tabulate/valve_springs.hpp>
 
 #include "../files/units.hpp"
 
@@ -15,6 +16,7 @@ namespace {
 constexpr double kRadPerStep = 0.05;  // of the fastest mode: errors of 1e-4
 constexpr double kTurn_rad = 2 * kPi;
 constexpr double kSlow = 1000;  // oscillations in a turn of the cam
+constexpr double kLeastDampingRatio = 1e-4;
 
 /// Mean acceleration of the spring's end in each of a cycle's equal steps.
 std::vector<double> accelerations_of(const ValveLift& lift, double cam_rad_s, std::size_t steps, double step_s) {
@@ -37,7 +39,9 @@ struct ModeState {
 };
 
 [[nodiscard]] ModeState stepped(const SpringMode& mode, const ModeState& s, double mean_m_s2) {
-  const auto more = [&](const detail::ModeRow<double>& row) { return row.q * s.q_m + row.v * s.v_m_s + row.drive * mean_m_s2; };
+  const auto more = [&](const detail::ModeRow<double>& row) {
+    return row.q * s.q_m + row.v * s.v_m_s + row.drive * mean_m_s2;
+  };
   return {s.q_m + more(mode.step.of_q), s.v_m_s + more(mode.step.of_v)};
 }
 
@@ -51,28 +55,41 @@ struct ModeState {
   return {(d * driven.q_m - b * driven.v_m_s) / determinant, (a * driven.v_m_s - c * driven.q_m) / determinant};
 }
 
+/// Adds a mode's force in each step of a cycle that ends where it starts.
+void add_steady_force(const SpringMode& mode, const std::vector<double>& mean_m_s2, std::vector<double>& force_N) {
+  ModeState state = steady_start(mode, mean_m_s2);
+  for (std::size_t at = 0; at < force_N.size(); ++at) {
+    state = stepped(mode, state, mean_m_s2[at]);
+    force_N[at] += mode.step.valve_N_m * state.q_m;
+  }
+}
+
 }  // namespace
 
 SpringSurgeCycle surge_over_cycle(const ValveLift& lift, const Valve& valve, double cam_rad_s) {
   if (!(valve.spring_kg > 0 && valve.spring_N_m > 0)) return {};
-  const SurgingSpring spring{valve.spring_N_m, valve.spring_kg, kSurgeDampingRatio, kMaxSpringModes};
-  const double first_rad_s = surge_frequency_rad_s(spring);
-  SpringSurgeCycle cycle{first_rad_s / kTurn_rad, 0};
-  if (!(std::abs(cam_rad_s) * kSlow > first_rad_s)) return cycle;
+  SurgingSpring springs[2];
+  const int count = springs_of(valve, springs);
+  double slowest_rad_s = std::numeric_limits<double>::infinity(), fastest_rad_s = 0;
+  for (int i = 0; i < count; ++i) {
+    springs[i].modes = kMaxSpringModes;
+    springs[i].damping_ratio = std::max(springs[i].damping_ratio, kLeastDampingRatio);
+    slowest_rad_s = std::min(slowest_rad_s, surge_frequency_rad_s(springs[i]));
+    fastest_rad_s = std::max(fastest_rad_s, surge_frequency_rad_s(springs[i]));
+  }
+  SpringSurgeCycle cycle{slowest_rad_s / kTurn_rad, 0};
+  if (!(std::abs(cam_rad_s) * kSlow > fastest_rad_s)) return cycle;
   const double period_s = kTurn_rad / std::abs(cam_rad_s);
-  const auto steps = static_cast<std::size_t>(std::ceil(period_s * kMaxSpringModes * first_rad_s / kRadPerStep)) + 720;
+  const auto steps =
+      static_cast<std::size_t>(std::ceil(period_s * kMaxSpringModes * fastest_rad_s / kRadPerStep)) + 720;
   const double step_s = period_s / static_cast<double>(steps);
-  SpringSurge surge;
-  [[maybe_unused]] const Status accepted = surge_of(spring, step_s, surge);
-  CRANKLOOP_ASSERT(accepted.ok());
   const std::vector<double> mean_m_s2 = accelerations_of(lift, cam_rad_s, steps, step_s);
   std::vector<double> force_N(steps);
-  for (int i = 0; i < surge.modes; ++i) {
-    ModeState state = steady_start(surge.mode[i], mean_m_s2);
-    for (std::size_t at = 0; at < steps; ++at) {
-      state = stepped(surge.mode[i], state, mean_m_s2[at]);
-      force_N[at] += surge.mode[i].step.valve_N_m * state.q_m;
-    }
+  for (int i = 0; i < count; ++i) {
+    SpringSurge surge;
+    [[maybe_unused]] const Status accepted = surge_of(springs[i], step_s, surge);
+    CRANKLOOP_ASSERT(accepted.ok());
+    for (int n = 0; n < surge.modes; ++n) add_steady_force(surge.mode[n], mean_m_s2, force_N);
   }
   for (const double force : force_N) cycle.largest_N = std::max(cycle.largest_N, std::abs(force));
   return cycle;

@@ -2,7 +2,7 @@
 // surge".
 //
 // What belongs here: the steady oscillation of its modes over a cycle. What does not: a mode's step
-// (tabulate/spring_surge.hpp); what surge does to the valve's own motion, which no tick has.
+// (tabulate/spring_surge.hpp); what surge does to the valve's own motion (valve_loop.hpp).
 #pragma once
 
 #include <crankloop/define/valve_train.hpp>
@@ -10,17 +10,15 @@
 
 namespace crankloop::program {
 
-/// Of every mode, where no file says another: a helical spring without friction between its coils.
-inline constexpr double kSurgeDampingRatio = 0.01;
-
-/// What a spring does beyond its static force.
+/// What a valve's springs do beyond their static force.
 struct SpringSurgeCycle {
-  double frequency_Hz = 0;  ///< first natural frequency between fixed ends; 0 for a spring without mass
+  double frequency_Hz = 0;  ///< first natural frequency between fixed ends, of the slower spring; 0: without mass
   double largest_N = 0;  ///< magnitude, at the valve, over a cycle after all that was left of the start has decayed; 0
                          ///< where it oscillates over a thousand times while the cam turns once: too slow for surge
 };
 
-/// All of the spring's mass is active; kMaxSpringModes modes. The valve must have passed validate().
+/// kMaxSpringModes modes of each spring, whatever surge_modes says; a damping ratio below 1e-4 counts as that, for
+/// there is no steady state without. The valve must have passed validate().
 [[nodiscard]] SpringSurgeCycle surge_over_cycle(const ValveLift& lift, const Valve& valve, double cam_rad_s);
 
 }  // namespace crankloop::program

@@ -131,7 +131,7 @@ struct Valve {
     CRANKLOOP_NUMBER(1, valve, seat_damping_ratio, from(0).up_to(10));
     CRANKLOOP_NUMBER(1, valve, head_area_m2, from(0).up_to(1));
     const int surges = self.surge_modes > 0 ? 1 : 0;
-    CRANKLOOP_FIELD(surges, valve, surge_modes);
+    CRANKLOOP_FIELD(1, valve, surge_modes);
     CRANKLOOP_NUMBER(surges, valve, surge_damping_ratio, from(0).below(1));
     CRANKLOOP_NUMBER(surges, valve, spring_active_kg, from(0).up_to(100));
     CRANKLOOP_NUMBER(surges, valve, inner_spring_N_m, from(0).up_to(1e9));

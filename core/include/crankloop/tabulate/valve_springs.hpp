@@ -8,8 +8,12 @@
 #include <crankloop/define/valve_train.hpp>
 #include <crankloop/status.hpp>
 #include <crankloop/tables/valve_tables.hpp>
+#include <crankloop/tabulate/spring_surge.hpp>
 
 namespace crankloop {
+
+/// The springs of a valve that has passed validate(), the outer first. Answers how many: 1 or 2.
+int springs_of(const Valve& valve, SurgingSpring (&springs)[2]) noexcept;
 
 /// What surges of a valve's springs.
 struct SurgeOfValve {
@@ -24,7 +28,8 @@ Status surge_of(const Valve& valve, double tick_s, SurgeOfValve& surge) noexcept
 
 /// The valve beside the modes of its springs: dampers, stiffnesses and preload as they are, without the mass that the
 /// modes move.
-[[nodiscard]] detail::ValveBody<double> beside_modes(detail::ValveBody<double> body, const SurgeOfValve& surge) noexcept;
+[[nodiscard]] detail::ValveBody<double> beside_modes(detail::ValveBody<double> body,
+                                                     const SurgeOfValve& surge) noexcept;
 
 /// Largest ratio, less 1, by which valve and modes together grow in a tick of any contact regime: the spectral radius
 /// of the step of all, to 1e-12. The tick couples them one after the other, so that stiff seats and short dampers can

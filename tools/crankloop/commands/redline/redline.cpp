@@ -293,9 +293,12 @@ std::string static_in_words(const Redline& redline) {
   const double above = given.rigid.crank_rad_s * kRpmPerRad_s / given.separation.speed_rpm - 1;
   char percent[40];
   std::snprintf(percent, sizeof percent, "%.1f %%", 100 * std::abs(above));
+  const char* const earlier =
+      redline.valve.valve().surge_modes > 0
+          ? " above the onset: the springs' surge and vibration unload the train earlier"
+          : " above the onset: vibration, and while closing the guide's damping, unload the train earlier";
   return rigid + "; " + percent +
-         (above > 0 ? " above the onset: vibration, and while closing the guide's damping, unload the train earlier"
-                    : " below the onset: vibration loads the train where the margin is least");
+         (above > 0 ? earlier : " below the onset: vibration loads the train where the margin is least");
 }
 
 std::string text_of(const StaticRedline& rigid) {

@@ -139,7 +139,7 @@ void add_surge(Summary& s, const LoneValve& valve, double speed_rpm, const Sprin
   }
   s.line("spring_surge_force", surge.largest_N, "N",
          "largest, of its first three modes driven by the theoretical lift; damping ratio " +
-             brief(kSurgeDampingRatio) + " assumed; surge_modes of [valve] step them with the valve");
+             brief(valve.valve().surge_damping_ratio) + "; surge_modes of [valve] step them with the valve");
 }
 
 /// Largest and smallest speed and acceleration of a valve's lift, m/s and m/s^2.

@@ -1,0 +1,104 @@
+// A train of an engine file whose springs surge: its keys, what `valve` and `redline` say, and commands that step none.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "crankloop/commands/redline/redline_search.hpp"
+#include "crankloop/files/units.hpp"
+#include "crankloop/loops/surge_force.hpp"
+#include "crankloop/loops/valve_accuracy.hpp"
+#include "crankloop/loops/valve_loop.hpp"
+#include "support/engine_files.hpp"
+
+namespace crankloop::program {
+namespace {
+
+constexpr const char* kOhc125 = CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini";
+
+class SurgingTrain : public EngineFileTest {
+ protected:
+  /// The 125 with more lines for its valve.
+  static std::string with(const std::string& lines) {
+    return replaced(contents(kOhc125), "spring_preload_N = 205.8", lines + "\nspring_preload_N = 205.8");
+  }
+};
+
+TEST_F(SurgingTrain, IsReadWithItsUnits) {
+  const EngineFile file =
+      read(with("surge_modes = 2\nsurge_damping_ratio = 0.02\nspring_active_g = 30\ninner_spring_N_per_mm = "
+                "15\ninner_spring_g = 18"));
+  const Valve& valve = file.definition().trains[0].valve;
+  EXPECT_EQ(valve.surge_modes, 2);
+  EXPECT_DOUBLE_EQ(valve.surge_damping_ratio, 0.02);
+  EXPECT_DOUBLE_EQ(valve.spring_active_kg, 0.03);
+  EXPECT_DOUBLE_EQ(valve.inner_spring_N_m, 15e3);
+  EXPECT_DOUBLE_EQ(valve.inner_spring_kg, 0.018);
+  EXPECT_EQ(read(contents(kOhc125)).definition().trains[0].valve.surge_modes, 0);
+}
+
+TEST_F(SurgingTrain, IsRefusedAtTheLineOfItsKey) {
+  EXPECT_NE(refusal(with("surge_modes = 4")).find("surge_modes"), std::string::npos);
+  EXPECT_NE(refusal(with("surge_modes = 1.5")).find("surge_modes"), std::string::npos);
+  const std::string inner = refusal(with("surge_modes = 1\ninner_spring_N_per_mm = 50\ninner_spring_g = 10"));
+  EXPECT_NE(inner.find("inner_spring_N_per_mm"), std::string::npos) << inner;
+  EXPECT_NE(inner.find("contradicts another value"), std::string::npos) << inner;
+}
+
+TEST_F(SurgingTrain, FloatsEarlierThanOneWhoseSpringFollows) {
+  const auto onset_rpm = [this](int modes) {
+    const EngineFile file = read(with("surge_modes = " + std::to_string(modes)));
+    return sweep_speeds(LoneValve(file, "intake"), speed_range(5000, 10000), 1, {}, {50e-6, 0.5, 0})
+        .separation.speed_rpm;
+  };
+  const int following_rpm = onset_rpm(0);
+  EXPECT_NEAR(following_rpm, 8557, 1);
+  EXPECT_NEAR(onset_rpm(2), 6816, 30);  // the seventh harmonic of the lift is at 7000 rpm
+}
+
+TEST_F(SurgingTrain, SurgesAsMuchAsItsModesDrivenByTheTheoreticalLift) {
+  // Away from resonance and float the valve's own motion hardly matters.
+  const EngineFile file = read(with("surge_modes = 3"));
+  const LoneValve valve(file, "intake");
+  ValveLoop<double> loop(valve, 20e-6, {});
+  double largest_N = 0;
+  run_cycles<double>(loop, valve, 4500, 8, [&](const ValveTickOutput<double>& out) {
+    largest_N = std::max(largest_N, std::abs(out.springs.surge_N));
+  });
+  const double driven_N = surge_over_cycle(valve.lift(), valve.valve(), 4500 * kRad_sPerRpm / 2).largest_N;
+  EXPECT_NEAR(largest_N / driven_N, 1, 0.1) << driven_N;
+}
+
+TEST_F(SurgingTrain, IsWarnedOfWhereTheTickTakesItOutOfItsClass) {
+  const EngineFile file = read(with("surge_modes = 2"));
+  const LoneValve valve(file, "intake");
+  EXPECT_TRUE(beyond_class(valve, 5000, 10e-6).empty());
+  const auto lines = beyond_class(valve, 7000, 100e-6);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_NE(lines[0].find("surge of its springs"), std::string::npos) << lines[0];
+  EXPECT_GT(expected_error_m(valve, 7000, 100e-6, {}), 0.1e-6);
+}
+
+TEST_F(SurgingTrain, IsRefusedForATickInWhichItWouldGrow) {
+  const EngineFile file = read(with("surge_modes = 3"));
+  try {
+    ValveLoop<double> loop(LoneValve(file, "intake"), 200e-6, {});
+    FAIL() << "accepted";
+  } catch (const InputError& refused) {
+    EXPECT_NE(std::string(refused.what()).find("surge_modes"), std::string::npos) << refused.what();
+    EXPECT_NE(std::string(refused.what()).find("shorter tick"), std::string::npos) << refused.what();
+  }
+}
+
+TEST_F(SurgingTrain, FollowsItsValveInScenesThatStepNoSurge) {
+  EngineFile file = read(with("surge_modes = 2"));
+  EXPECT_EQ(file.let_springs_follow(), std::vector<std::string>{"intake"});
+  EXPECT_EQ(file.definition().trains[0].valve.surge_modes, 0);
+  EXPECT_EQ(file.train("intake").definition.valve.surge_modes, 0);
+  EXPECT_TRUE(file.let_springs_follow().empty());
+}
+
+}  // namespace
+}  // namespace crankloop::program
