@@ -119,11 +119,11 @@ std::string table_of_factors(const Redline& redline) {
 }
 
 void add_onset(Summary& s, const char* name, const Onset& onset, const SpeedRange& range) {
-  if (!onset.found) return s.line(name, "none", "", "up to " + std::to_string(range.to_rpm) + " rpm");
+  if (!onset.found) return s.none(name, "rpm", "up to " + std::to_string(range.to_rpm) + " rpm");
   s.line(name, onset.speed_rpm, "rpm", onset.at_the_start ? "or below: it is there at the lowest speed" : "");
 }
 
-std::string summary(const Redline& redline) {
+Summary summary(const Redline& redline) {
   const Sweep& given = redline.as_given();
   const detail::ValveBody<double> body = redline.valve.body();
   Summary s;
@@ -140,11 +140,20 @@ std::string summary(const Redline& redline) {
   add_onset(s, "separation_onset", given.separation, redline.range);
   add_onset(s, "bounce_onset", given.bounce, redline.range);
   add_onset(s, "seating_limit", given.seating, redline.range);
-  s.line("static_redline", cell_of(given.rigid), given.rigid.crank_rad_s > 0 ? "rpm" : "", static_in_words(redline));
+  if (given.rigid.crank_rad_s > 0) {
+    s.line("static_redline", given.rigid.crank_rad_s * kRpmPerRad_s, "rpm", static_in_words(redline));
+  } else {
+    s.none("static_redline", "rpm", static_in_words(redline));
+  }
   s.line("natural_frequency", open_frequency_rad_s(body) * kTurnsPerRad, "Hz", "open, on the train");
   s.line("seat_frequency", seated_frequency_rad_s(body) * kTurnsPerRad, "Hz", "on train and seat");
-  s.text("\n");
-  if (redline.influence == nullptr) return s.text() + table_of_speeds(given);
+  return s;
+}
+
+/// Of the speeds, or of the factors with a remark above it.
+std::string table(const Redline& redline) {
+  if (redline.influence == nullptr) return table_of_speeds(redline.as_given());
+  Summary s;
   s.remark(std::string("influence of ") + redline.influence->keys + ", times factor; from max_lift_mm on at " +
            std::to_string(redline.as_given().at[redline.compared_at()].speed_rpm) +
            " rpm, just above the onset as given");
@@ -212,9 +221,23 @@ RedlineLimits limits_of(const Arguments& arguments, const LoneValve& valve) {
   return limits;
 }
 
-int run_redline(const Arguments& arguments) {
+SpeedRange range_of(const Arguments& arguments) {
   const SpeedRange range = speed_range(arguments.whole_number("--from"), arguments.whole_number("--to"));
   if (range.from_rpm >= range.to_rpm) throw UsageError("--from must be less than --to");
+  return range;
+}
+
+/// Of the train as the file has it.
+Summary figures_of_redline(const Arguments& arguments, const EngineFile& file) {
+  const SpeedRange range = range_of(arguments);
+  const LoneValve valve(file, train_name(arguments, file));
+  Redline redline{valve, range, nullptr, {}, "", limits_of(arguments, valve)};
+  redline.sweeps.push_back(sweep_speeds(valve, range, 1, {}, redline.limits));
+  return summary(redline);
+}
+
+int run_redline(const Arguments& arguments) {
+  const SpeedRange range = range_of(arguments);
   const EngineFile file = read_engine(arguments, {});
   const std::string name = train_name(arguments, file);
   const LoneValve valve(file, name);
@@ -244,7 +267,7 @@ int run_redline(const Arguments& arguments) {
   tell_warnings(arguments, beyond_class(valve, range.to_rpm, redline.sweeps.front().tick_s));
   if (Output* csv = results["--csv"]) write_csv(*csv, redline);
   if (Output* page = results["--report"]) page->write(report::to_html(redline_page(redline)));
-  results.finish(summary(redline));
+  results.finish(summary(redline).text() + "\n" + table(redline));
   return kSuccess;
 }
 
@@ -315,6 +338,8 @@ const Command kRedline{"redline",
                        "crankloop redline ohc_125.ini --train intake --vary spring --report redline.html",
                        1,
                        kOptions,
-                       run_redline};
+                       run_redline,
+                       false,
+                       figures_of_redline};
 
 }  // namespace crankloop::program

@@ -131,8 +131,7 @@ void add_brake(Summary& s, const EngineDefinition& definition, double indicated_
   if (brake.efficiency_ratio > 0) s.line("mechanical_efficiency", brake.efficiency_ratio);
 }
 
-std::string summary_text(const Engines& engine, const Request& request, const RunFigures& f,
-                         const CycleSummary& summary, double wall_time_per_tick_ns) {
+Summary summary_of(const Engines& engine, const Request& request, const RunFigures& f, const CycleSummary& summary) {
   const EngineDefinition& definition = engine.exact.definition();
   const double speed = request.operation.speed_rad_s();
   Summary s;
@@ -201,10 +200,13 @@ std::string summary_text(const Engines& engine, const Request& request, const Ru
     s.line("event_budget", f.tables.event_budget);
   }
   s.faulty_ticks(f.faulty_ticks, f.faults);
+  return s;
+}
+
+void add_wall_time(Summary& s, double wall_time_per_tick_ns) {
   s.line("wall_time_per_tick", wall_time_per_tick_ns, "ns",
          "this machine: median of " + std::to_string(FixedStepLoop<float>::kBatches) + " batches of " +
              std::to_string(FixedStepLoop<float>::kBatchTicks) + " steps, nothing recorded");
-  return s.text();
 }
 
 std::string command_line(const Arguments& arguments, const Request& request, bool breathes) {
@@ -264,38 +266,75 @@ void run(const Engines& engine, const Request& request, const Arguments& argumen
                             request.warnings};
     page->write(report::to_html(engine_report(input)));
   }
-  results.finish(summary_text(engine, request, figures, summary, wall_time_per_tick_ns));
+  Summary printed = summary_of(engine, request, figures, summary);
+  add_wall_time(printed, wall_time_per_tick_ns);
+  results.finish(printed.text());
+}
+
+std::vector<std::string> needed_sections() { return {"engine", "crank", "masses"}; }
+
+/// Throttle, fuel and spark; refuses what no run can do.
+GasOrder gas_for(const Arguments& arguments, const EngineFile& file) {
+  require_heat_to_scale(arguments, file);
+  const GasOrder gas = gas_order(arguments, file, 1);
+  require_manifolds(file, millionths(arguments.number("--tick-us")));
+  return gas;
+}
+
+Operation operation_of(const Arguments& arguments, const EngineFile& file, const GasOrder& gas) {
+  return {speed_rpm(arguments, file), millionths(arguments.number("--tick-us")), arguments.number("--load-ratio"), gas};
+}
+
+ExactEngine exact_of(const EngineFile& file) {
+  ExactEngine exact;
+  if (const Status refused = exact.init(file.definition()); !refused.ok()) throw file.explain(refused);
+  return exact;
+}
+
+/// Calls `work` with a zero of the arithmetic and the scene.
+template <class Work>
+auto with_scene(const Engines& engine, const std::string& real, const Work& work) {
+  return with_real(real, [&](auto zero) {
+    return engine.breathes() ? work(zero, scenes::Breathing{}) : work(zero, scenes::Whole{});
+  });
 }
 
 int run_run(const Arguments& arguments) {
   require_options_that_fit(arguments);
   std::vector<std::string> warnings;
-  const EngineFile file = read_engine(arguments, {"engine", "crank", "masses"}, &warnings);
-  const EngineDefinition& definition = file.definition();
-  require_heat_to_scale(arguments, file);
-  const GasOrder gas = gas_order(arguments, file, 1);
-  require_manifolds(file, millionths(arguments.number("--tick-us")));
+  const EngineFile file = read_engine(arguments, needed_sections(), &warnings);
+  const GasOrder gas = gas_for(arguments, file);
   if (arguments.has("--free")) return run_free_by(arguments, file, gas, std::move(warnings));
-  const Operation operation{speed_rpm(arguments, file), millionths(arguments.number("--tick-us")),
-                            arguments.number("--load-ratio"), gas};
+  const Operation operation = operation_of(arguments, file, gas);
   for (std::string& line : tell_warnings(arguments, warnings_about_gas(file, operation.speed_rpm, operation.tick_s)))
     warnings.push_back(std::move(line));
   require_trains(file, operation.tick_s);
   for (std::string& line : tell_warnings(arguments, warnings_about_valves(file, operation.speed_rpm, operation.tick_s)))
     warnings.push_back(std::move(line));
   const Request request{operation, arguments.whole_number("--cycles"), arguments.text("--real"), std::move(warnings)};
-  ExactEngine exact;
-  if (const Status refused = exact.init(definition); !refused.ok()) throw file.explain(refused);
+  const ExactEngine exact = exact_of(file);
   const Engines engine{file, exact};
-  with_real(request.real, [&](auto zero) {
-    using Real = decltype(zero);
-    if (engine.breathes()) {
-      run<Real, scenes::Breathing>(engine, request, arguments);
-    } else {
-      run<Real, scenes::Whole>(engine, request, arguments);
-    }
-  });
+  with_scene(engine, request.real,
+             [&](auto zero, auto scene) { run<decltype(zero), decltype(scene)>(engine, request, arguments); });
   return kSuccess;
+}
+
+/// Of a run at constant speed, without the time that this machine takes.
+Summary figures_of_run(const Arguments& arguments, const EngineFile& file) {
+  file.require(needed_sections());
+  const Operation operation = operation_of(arguments, file, gas_for(arguments, file));
+  require_trains(file, operation.tick_s);
+  const Request request{operation, arguments.whole_number("--cycles"), arguments.text("--real"), {}};
+  const ExactEngine exact = exact_of(file);
+  const Engines engine{file, exact};
+  const CycleSummary cycle =
+      engine.breathes() ? CycleSummary{} : summarise(exact, operation.speed_rad_s(), operation.load_ratio);
+  return with_scene(engine, request.real, [&](auto zero, auto scene) {
+    using Real = decltype(zero);
+    using S = decltype(scene);
+    FixedStepLoop<Real, S> loop(file.definition(), operation);
+    return summary_of(engine, request, run_cycles<Real, S>(loop, file.definition(), operation, request.cycles), cycle);
+  });
 }
 
 constexpr Option kOptions[] = {
@@ -332,6 +371,8 @@ const Command kRun{
     "crankloop run diesel_495.ini --rpm 2000 --csv run.csv --report report.html",
     1,
     kOptions,
-    run_run};
+    run_run,
+    false,
+    figures_of_run};
 
 }  // namespace crankloop::program
