@@ -339,6 +339,33 @@ TEST_F(StudyCommand, DrawsCurvesWithTheFilesOwnValueOverOneKeyAndHeatMapsOverTwo
   EXPECT_EQ(fields, 1u);
 }
 
+/// `redline --vary` of a key: each row is the redline of a file that has the value, and the file's own is among them.
+TEST_F(StudyCommand, IsUnderRedlineWhoseKeysHaveTheRedlineOfAFileWithThatValue) {
+  const Words range{"--from", "8500", "--to", "8620"};
+  const std::string csv = path("redline.csv");
+  const std::string printed = printed_by(
+      kRedline,
+      joined({k125, "--vary", "rocker.clearance_mm=0.02:0.08:2", "--csv", csv, "--report", path("r.html")}, range));
+  EXPECT_EQ(support::read(contents(path("r.html"))).fault, "");
+  const std::vector<std::string> lines = split_at(printed, '\n');
+  const auto row_of = [&](const std::string& value) {
+    for (const std::string& one : lines) {
+      std::istringstream words(one);
+      std::string first;
+      std::string second;
+      if (words >> first >> second && first == value) return second;
+    }
+    return std::string();
+  };
+  for (const char* clearance : {"0.02", "0.05", "0.08"}) {
+    const std::string alone = printed_by(kRedline, joined({edited("clearance_mm", clearance)}, range));
+    EXPECT_EQ(row_of(clearance), shortest(line(alone, "separation_onset").first)) << clearance << "\n" << printed;
+  }
+  EXPECT_EQ(contents(csv).rfind("rocker.intake.clearance_mm,speed_rpm,", 0), 0u);
+  const std::string told = refusal_of(kRedline, joined({k125, "--vary", "cam.max_lift_mm=6,60"}, range));
+  EXPECT_NE(told.find("refused with cam.intake.max_lift_mm = 60"), std::string::npos) << told;
+}
+
 TEST(RunInParallel, DoesEachOnceAndThrowsTheFirstRefusal) {
   for (const int threads : {1, 2, 7}) {
     std::vector<int> done(100, 0);
