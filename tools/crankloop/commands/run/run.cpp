@@ -28,6 +28,7 @@
 #include "../../loops/run_valves.hpp"
 #include "../../loops/valve_accuracy.hpp"
 #include "../../loops/valve_tick_limit.hpp"
+#include "against.hpp"
 #include "free_request.hpp"
 #include "run_signals.hpp"
 
@@ -299,26 +300,6 @@ auto with_scene(const Engines& engine, const std::string& real, const Work& work
   });
 }
 
-int run_run(const Arguments& arguments) {
-  require_options_that_fit(arguments);
-  std::vector<std::string> warnings;
-  const EngineFile file = read_engine(arguments, needed_sections(), &warnings);
-  const GasOrder gas = gas_for(arguments, file);
-  if (arguments.has("--free")) return run_free_by(arguments, file, gas, std::move(warnings));
-  const Operation operation = operation_of(arguments, file, gas);
-  for (std::string& line : tell_warnings(arguments, warnings_about_gas(file, operation.speed_rpm, operation.tick_s)))
-    warnings.push_back(std::move(line));
-  require_trains(file, operation.tick_s);
-  for (std::string& line : tell_warnings(arguments, warnings_about_valves(file, operation.speed_rpm, operation.tick_s)))
-    warnings.push_back(std::move(line));
-  const Request request{operation, arguments.whole_number("--cycles"), arguments.text("--real"), std::move(warnings)};
-  const ExactEngine exact = exact_of(file);
-  const Engines engine{file, exact};
-  with_scene(engine, request.real,
-             [&](auto zero, auto scene) { run<decltype(zero), decltype(scene)>(engine, request, arguments); });
-  return kSuccess;
-}
-
 /// Of a run at constant speed, without the time that this machine takes.
 Summary figures_of_run(const Arguments& arguments, const EngineFile& file) {
   file.require(needed_sections());
@@ -337,6 +318,58 @@ Summary figures_of_run(const Arguments& arguments, const EngineFile& file) {
   });
 }
 
+Trace trace_of(const Arguments& arguments, const EngineFile& file) {
+  const Operation operation = operation_of(arguments, file, gas_for(arguments, file));
+  return with_real(arguments.text("--real"), [&](auto zero) {
+    using Real = decltype(zero);
+    return breathes(file.definition()) ? record_trace<Real, scenes::Breathing>(file.definition(), operation)
+                                       : record_trace<Real, scenes::Whole>(file.definition(), operation);
+  });
+}
+
+/// Both engines with the same options; each at its own rated speed without --rpm.
+int run_against(const Arguments& arguments, const EngineFile& first) {
+  for (const char* option : {"--free", "--csv", "--vcd"}) {
+    if (arguments.has(option)) throw UsageError(std::string(option) + " is of one engine; --against compares two");
+  }
+  const std::string& path = arguments.text("--against");
+  const EngineFile second = read_engine_file(path, needed_sections());
+  (void)tell_warnings(arguments, warnings_about(second));
+  Results results(arguments, {"--report"});
+  Side sides[] = {{first, figures_of_run(arguments, first)}, {second, figures_of_run(arguments, second)}};
+  if (Output* page = results["--report"]) {
+    for (Side& side : sides) side.trace = trace_of(arguments, side.file);
+    page->write(report::to_html(against_page(
+        sides[0], sides[1],
+        "crankloop run " + shell_word(first.path()) + " --against " + shell_word(path) +
+            (arguments.has("--rpm") ? " --rpm " + shortest(arguments.number("--rpm")) : "") + " --tick-us " +
+            shortest(arguments.number("--tick-us")) + " --real " + arguments.text("--real"))));
+  }
+  results.finish(side_by_side(sides[0], sides[1]).text());
+  return kSuccess;
+}
+
+int run_run(const Arguments& arguments) {
+  require_options_that_fit(arguments);
+  std::vector<std::string> warnings;
+  const EngineFile file = read_engine(arguments, needed_sections(), &warnings);
+  if (arguments.has("--against")) return run_against(arguments, file);
+  const GasOrder gas = gas_for(arguments, file);
+  if (arguments.has("--free")) return run_free_by(arguments, file, gas, std::move(warnings));
+  const Operation operation = operation_of(arguments, file, gas);
+  for (std::string& line : tell_warnings(arguments, warnings_about_gas(file, operation.speed_rpm, operation.tick_s)))
+    warnings.push_back(std::move(line));
+  require_trains(file, operation.tick_s);
+  for (std::string& line : tell_warnings(arguments, warnings_about_valves(file, operation.speed_rpm, operation.tick_s)))
+    warnings.push_back(std::move(line));
+  const Request request{operation, arguments.whole_number("--cycles"), arguments.text("--real"), std::move(warnings)};
+  const ExactEngine exact = exact_of(file);
+  const Engines engine{file, exact};
+  with_scene(engine, request.real,
+             [&](auto zero, auto scene) { run<decltype(zero), decltype(scene)>(engine, request, arguments); });
+  return kSuccess;
+}
+
 constexpr Option kOptions[] = {
     number("--rpm", "N", above(0).up_to(100000), "engine speed in rpm; default the file's rated_rpm"),
     kTick,
@@ -350,6 +383,7 @@ constexpr Option kOptions[] = {
     kBurnStart,
     text("--csv", "F", "file for a row per tick; - is standard output, the summary then goes to stderr"),
     text("--report", "F.html", "HTML file with the report; opens in any browser"),
+    text("--against", "B.ini", "another engine file: figures of both, and with --report their curves in one drawing"),
     text("--vcd", "F", "file for the trigger wheels' signals, a value change dump as GTKWave and PulseView open it"),
     flag("--free", "free-running: gas, friction and load set the speed; needed by the options below"),
     number("--from-rpm", "N", from(-100000).up_to(100000), "initial speed, backwards if negative", "0"),
@@ -366,7 +400,7 @@ const Command kRun{
     "run",
     "the fixed-step loop: torque, power, peak forces, time per tick; or a free-running engine; CSV and report",
     "FILE [--rpm N] [--cycles N] [--tick-us T] [--real R] [--load-ratio Q] [--csv F] [--report F.html] [--vcd F]\n"
-    "       [--throttle R] [--lambda L | --fuel-mg M] [--burn-start-deg A]\n"
+    "       [--throttle R] [--lambda L | --fuel-mg M] [--burn-start-deg A] [--against B.ini]\n"
     "       crankloop run FILE --free [--from-rpm N] [--seconds S] [--machine-Nm L] [--starter] [--cut K,..] [...]",
     "crankloop run diesel_495.ini --rpm 2000 --csv run.csv --report report.html",
     1,

@@ -249,8 +249,8 @@ const Command kStudy{"study",
                      "any number that a command prints, over one or two keys of the engine file or options",
                      "FILE --vary NAME=VALUES [NAME=VALUES] --of COMMAND.NAME... [--set NAME=VALUE...] [--threads N]\n"
                      "       [--csv F] [--report F.html] [--plot F.svg] [--shard K/N --part F | --join F...]",
-                     "crankloop study ohc_125.ini --vary rocker.clearance_mm=0.02:0.2:10 rpm=6000:9000:7 --of "
-                     "valve.seating_speed redline.bounce_onset --report study.html",
+                     "crankloop study ohc_125.ini --vary rocker.intake.clearance_mm=0.02:0.2:10 rpm=6000:9000:7 --set "
+                     "train=intake --of valve.seating_speed valve.bounces --report study.html",
                      1,
                      kOptions,
                      run_study};
