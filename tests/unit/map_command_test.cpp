@@ -132,6 +132,28 @@ TEST_F(MapCommand, IsTheSameHoweverItsPointsAreShared) {
   EXPECT_EQ(once("one.csv"), once("two.csv"));
 }
 
+TEST_F(MapCommand, HasTheSameBytesJoinedFromShards) {
+  const std::vector<std::string> words{kFour, "--rpm", "2000:4000:2", "--throttle", "0.2:1:3", "--tick-us", "200"};
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), more.begin(), more.end());
+    return map(all);
+  };
+  const auto outputs = [&](std::vector<std::string> how) {
+    how.insert(how.end(), {"--csv", path("map.csv"), "--report", path("map.html")});
+    const std::string summary = with(how);
+    return summary + contents(path("map.csv")) + contents(path("map.html"));
+  };
+  const std::string whole = outputs({"--threads", "1"});
+  EXPECT_EQ(with({"--shard", "1/2", "--part", path("one")}), "");
+  EXPECT_EQ(with({"--shard", "2/2", "--part", path("two")}), "");
+  EXPECT_TRUE(outputs({"--join", path("two"), path("one")}) == whole);
+  std::vector<std::string> other = words;
+  other[2] = "2000:5000:2";
+  other.insert(other.end(), {"--join", path("one"), path("two")});
+  EXPECT_NE(refusal(other).find("is a part of another map"), std::string::npos);
+}
+
 TEST_F(MapCommand, DrawsAHeatMapOfEachResultWithItsPointsAndContours) {
   const std::string summary =
       map({kFour, "--rpm", "1000:5000:5", "--throttle", "0:1:4", "--tick-us", "200", "--report", path("map.html")});

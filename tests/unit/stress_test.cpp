@@ -5,16 +5,19 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <crankloop/tabulate/valve_lift.hpp>
 
 #include "crankloop/command_line/commands.hpp"
+#include "crankloop/files/error.hpp"
 #include "lab/stress/stability_map.hpp"
 #include "lab/stress/stress_case.hpp"
 #include "lab/stress/stress_tally.hpp"
 #include "lab/stress/stress_trial.hpp"
 
 #include "support/status.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -88,6 +91,39 @@ TEST(StressTrials, OfEightyCasesFindNothing) {
   EXPECT_GT(tally.ran, 50);
   EXPECT_GT(tally.refusals(), 2);
   EXPECT_GT(tally.compared, 3);
+}
+
+/// Two blocks as text, added up: what one tally of all has. The last case fails, as no case does.
+TEST(StressTally, IsTheSumOfItsParts) {
+  StressTrials trials;
+  StressTally whole, parts[2];
+  for (int i = 0; i < 40; ++i) {
+    const StressCase one(kSeed, static_cast<std::uint64_t>(i));
+    TrialResult result = trials.run(one, i % 10 == 0);
+    if (i == 39) result.verdict = Verdict::diverged;
+    if (i == 39) result.trouble = "off, by 1 m";
+    whole.add(i, one, result);
+    parts[i / 20].add(i, one, result);
+  }
+  StressTally sum;
+  for (const StressTally& part : parts) sum.add_part(part.part());
+  EXPECT_EQ(text_of(sum, {}), text_of(whole, {}));
+  EXPECT_GT(whole.refusals(), 0);
+  ASSERT_EQ(sum.failures.size(), 1u);
+  EXPECT_EQ(sum.failures[0].drawn, whole.failures[0].drawn);
+}
+
+TEST(StressCommand, PrintsTheSameJoinedFromShards) {
+  const support::TemporaryFolder folder;
+  const auto printed = [](std::vector<std::string> words) {
+    words.insert(words.begin(), {"--cases", "12", "--seed", "3", "--reference-every", "100"});
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(kStress.run(Arguments(kStress, words)), kSuccess);
+    return testing::internal::GetCapturedStdout();
+  };
+  EXPECT_EQ(printed({"--shard", "1/2", "--part", folder / "one"}), "");
+  EXPECT_EQ(printed({"--shard", "2/2", "--part", folder / "two"}), "");
+  EXPECT_EQ(printed({"--join", folder / "one", folder / "two"}), printed({"--threads", "1"}));
 }
 
 TEST(StressCases, OfSmoothCamsRunBelowFloat) {

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "crankloop/commands/redline/redline_search.hpp"
+#include "crankloop/engine_file/following_springs.hpp"
 #include "crankloop/files/units.hpp"
+#include "crankloop/loops/run_loop.hpp"
 #include "crankloop/loops/surge_force.hpp"
 #include "crankloop/loops/valve_accuracy.hpp"
 #include "crankloop/loops/valve_loop.hpp"
@@ -92,12 +94,16 @@ TEST_F(SurgingTrain, IsRefusedForATickInWhichItWouldGrow) {
   }
 }
 
-TEST_F(SurgingTrain, FollowsItsValveInScenesThatStepNoSurge) {
-  EngineFile file = read(with("surge_modes = 2"));
-  EXPECT_EQ(file.let_springs_follow(), std::vector<std::string>{"intake"});
-  EXPECT_EQ(file.definition().trains[0].valve.surge_modes, 0);
-  EXPECT_EQ(file.train("intake").definition.valve.surge_modes, 0);
-  EXPECT_TRUE(file.let_springs_follow().empty());
+TEST_F(SurgingTrain, FollowsItsValveInReadyMadeScenesWithAWarning) {
+  const EngineFile file = read(with("surge_modes = 2"));
+  const auto lines = warnings_about_springs_that_follow(file);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_NE(lines[0].find("[valve intake] surge_modes: springs follow their valves"), std::string::npos) << lines[0];
+  EXPECT_TRUE(warnings_about_springs_that_follow(read(contents(kOhc125))).empty());
+  const Operation operation{7000, 100e-6};
+  FixedStepLoop<float> surging(file.definition(), operation);
+  FixedStepLoop<float> following(with_springs_that_follow(file.definition()), operation);
+  for (int i = 0; i < 1000; ++i) EXPECT_EQ(surging.step().valve[0][0].lift_m, following.step().valve[0][0].lift_m);
 }
 
 }  // namespace

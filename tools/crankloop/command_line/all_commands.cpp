@@ -3,9 +3,9 @@
 namespace crankloop::program {
 
 const std::vector<const Command*>& commands() {
-  static const std::vector<const Command*> all = {&kShow, &kNew,    &kMasses, &kKinematics, &kForces, &kBalance,
-                                                  &kLift, &kCam,    &kValve,  &kRedline,    &kRun,    &kMap,
-                                                  &kLive, &kTables, &kFmu,    &kBench,      &kStress, &kPack};
+  static const std::vector<const Command*> all = {
+      &kShow, &kNew, &kMasses, &kKinematics, &kForces, &kBalance, &kLift,  &kCam,    &kValve, &kRedline,
+      &kRun,  &kMap, &kStudy,  &kLive,       &kTables, &kFmu,     &kBench, &kStress, &kPack};
   return all;
 }
 

@@ -45,11 +45,20 @@ Arguments::Arguments(const Command& command, const std::vector<std::string>& wor
     const auto equals = word.find('=');
     const Option& option = known_option(command, word.substr(0, equals));
     const bool is_flag = option.kind == Option::Kind::flag;
-    const bool value_follows = i + 1 < words.size() && words[i + 1].compare(0, 2, "--") != 0;
+    const auto value_follows_at = [&](std::size_t at) {
+      return at + 1 < words.size() && words[at + 1].compare(0, 2, "--") != 0;
+    };
+    const bool value_follows = value_follows_at(i);
     if (is_flag && equals != std::string_view::npos) throw UsageError(std::string(option.name) + " takes no value");
     if (!is_flag && equals == std::string_view::npos && !value_follows) {
       throw UsageError(std::string(option.name) + " needs a value: " + option.name + " " + option.value + " (" +
                        option.meaning + ")");
+    }
+    if (option.kind == Option::Kind::words) {
+      if (equals != std::string_view::npos) set(option, word.substr(equals + 1), true);
+      for (bool first = equals == std::string_view::npos; first || value_follows_at(i); first = false)
+        set(option, words[++i], true);
+      continue;
     }
     if (has(option.name)) throw UsageError(std::string(option.name) + " is given twice; once is allowed");
     if (is_flag) {
@@ -103,8 +112,13 @@ void Arguments::set(const Option& option, std::string_view value, bool by_user) 
       break;
     }
     case Option::Kind::text:
+    case Option::Kind::words:
       if (value.empty()) throw UsageError(prefix + "the value is missing");
       break;
+  }
+  if (option.kind == Option::Kind::words) {
+    given.words = this->words(option.name);
+    given.words.emplace_back(value);
   }
   given_[option.name] = given;
 }
@@ -123,6 +137,9 @@ const Arguments::Given& Arguments::get(std::string_view option) const {
 double Arguments::number(std::string_view option) const { return get(option).number; }
 int Arguments::whole_number(std::string_view option) const { return static_cast<int>(get(option).number); }
 const std::string& Arguments::text(std::string_view option) const { return get(option).text; }
+std::vector<std::string> Arguments::words(std::string_view option) const {
+  return has(option) ? get(option).words : std::vector<std::string>{};
+}
 std::string Arguments::text_or_empty(std::string_view option) const { return has(option) ? get(option).text : ""; }
 
 }  // namespace crankloop::program

@@ -15,7 +15,7 @@ namespace crankloop::program {
 
 /// One option as a command declares it; make it with one of the functions below.
 struct Option {
-  enum class Kind { flag, number, whole_number, choice, text };
+  enum class Kind { flag, number, whole_number, choice, text, words };
 
   const char* name;  ///< "--rpm"
   Kind kind;
@@ -46,6 +46,11 @@ struct Option {
   return {name, Option::Kind::text, value, meaning, fallback};
 }
 
+/// One word or more, up to the next option; may be given again for more.
+[[nodiscard]] constexpr Option words(const char* name, const char* value, const char* meaning) noexcept {
+  return {name, Option::Kind::words, value, meaning};
+}
+
 [[nodiscard]] constexpr Option required(Option option) noexcept {
   option.is_required = true;
   return option;
@@ -55,6 +60,8 @@ struct Option {
 inline constexpr Option kNoWarnings = flag("--no-warnings", "suppress plausibility warnings");
 
 class Arguments;
+class EngineFile;
+class Summary;
 
 /// A command's options, from an array or none.
 struct Options {
@@ -79,6 +86,10 @@ struct Command {
   Options options;
   int (*run)(const Arguments&);  ///< returns an ExitStatus; throws the types of error.hpp
   bool for_developers = false;   ///< of crankloop: listed last
+
+  /// What the command prints of an engine, without any output; null: nothing that `study` could read. May be called by
+  /// several threads at once; throws as `run` does. The file is that of the arguments, perhaps with other values.
+  Summary (*figures)(const Arguments&, const EngineFile&) = nullptr;
 };
 
 /// The command's own options and the common ones.
@@ -98,7 +109,8 @@ class Arguments {
   /// Given or fallback value. An option that has neither is reported to the user as missing.
   [[nodiscard]] double number(std::string_view option) const;
   [[nodiscard]] int whole_number(std::string_view option) const;
-  [[nodiscard]] const std::string& text(std::string_view option) const;  ///< also choices
+  [[nodiscard]] const std::string& text(std::string_view option) const;         ///< also choices
+  [[nodiscard]] std::vector<std::string> words(std::string_view option) const;  ///< none where it was not given
 
   /// text(option), or "" if it was not given: what Output wants for an optional --csv.
   [[nodiscard]] std::string text_or_empty(std::string_view option) const;
@@ -109,6 +121,7 @@ class Arguments {
     std::string text;
     double number = 0;
     bool by_user = false;
+    std::vector<std::string> words{};
   };
   void set(const Option& option, std::string_view value, bool by_user);
   void require(const Command& command) const;

@@ -34,6 +34,7 @@ extern const Command kRun;
 extern const Command kTables;
 extern const Command kShow;
 extern const Command kStress;
+extern const Command kStudy;
 extern const Command kValve;
 
 }  // namespace crankloop::program

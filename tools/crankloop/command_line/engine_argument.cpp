@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "../engine_file/following_springs.hpp"
 #include "../engine_file/plausibility.hpp"
 
 namespace crankloop::program {
@@ -21,17 +22,11 @@ EngineFile read_engine(const Arguments& arguments, const std::vector<std::string
   return engine;
 }
 
-EngineFile read_engine_without_surge(const Arguments& arguments, const std::vector<std::string>& needed_sections,
-                                     std::vector<std::string>* warnings) {
+EngineFile read_engine_for_scenes(const Arguments& arguments, const std::vector<std::string>& needed_sections,
+                                  std::vector<std::string>* warnings) {
   EngineFile engine = read_engine(arguments, needed_sections, warnings);
-  std::vector<std::string> lines;
-  for (const std::string& train : engine.let_springs_follow()) {
-    lines.push_back(engine.path() + ": warning: [valve " + train +
-                    "] surge_modes: springs follow their valves in this command; `crankloop valve` and `crankloop "
-                    "redline` step their surge");
-  }
-  lines = tell_warnings(arguments, std::move(lines));
-  if (warnings != nullptr) warnings->insert(warnings->end(), lines.begin(), lines.end());
+  const std::vector<std::string> told = tell_warnings(arguments, warnings_about_springs_that_follow(engine));
+  if (warnings != nullptr) warnings->insert(warnings->end(), told.begin(), told.end());
   return engine;
 }
 

@@ -16,9 +16,9 @@ std::vector<std::string> tell_warnings(const Arguments& arguments, std::vector<s
 [[nodiscard]] EngineFile read_engine(const Arguments& arguments, const std::vector<std::string>& needed_sections,
                                      std::vector<std::string>* warnings = nullptr);
 
-/// The same for a command whose scenes step no surge of valve springs: there they follow their valves, with a warning.
-[[nodiscard]] EngineFile read_engine_without_surge(const Arguments& arguments,
-                                                   const std::vector<std::string>& needed_sections,
-                                                   std::vector<std::string>* warnings = nullptr);
+/// The same for a command that runs ready-made scenes: warns where they leave out what the file asks for.
+[[nodiscard]] EngineFile read_engine_for_scenes(const Arguments& arguments,
+                                                const std::vector<std::string>& needed_sections,
+                                                std::vector<std::string>* warnings = nullptr);
 
 }  // namespace crankloop::program

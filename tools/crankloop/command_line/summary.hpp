@@ -5,8 +5,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include <crankloop/faults.hpp>
 
@@ -14,20 +16,35 @@
 
 namespace crankloop::program {
 
+/// What a line says, with all digits: for `study`.
+struct Figure {
+  std::string name;
+  std::string unit;                ///< also of a figure that has no number here
+  std::optional<double> number{};  ///< none: a word
+  std::string word{};
+};
+
 class Summary {
  public:
   void remark(const std::string& text) { text_ += "# " + text + "\n"; }
   void line(const std::string& name, const std::string& value, const std::string& unit = "",
             const std::string& remark = "") {
-    text_ += name + " = " + value + (unit.empty() ? "" : " " + unit) + (remark.empty() ? "" : "  # " + remark) + "\n";
+    print(name, value, unit, remark);
+    figures_.push_back({name, unit, {}, value});
+  }
+  /// A figure that has no number here, such as an onset that is not reached: "name = none".
+  void none(const std::string& name, const std::string& unit, const std::string& remark = "") {
+    print(name, "none", "", remark);
+    figures_.push_back({name, unit, {}, "none"});
   }
   template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
   void line(const std::string& name, Number value, const std::string& unit = "", const std::string& remark = "") {
     if constexpr (std::is_integral_v<Number>) {
-      line(name, std::to_string(value), unit, remark);
+      print(name, std::to_string(value), unit, remark);
     } else {
-      line(name, brief(static_cast<double>(value)), unit, remark);
+      print(name, brief(static_cast<double>(value)), unit, remark);
     }
+    figures_.push_back({name, unit, static_cast<double>(value)});
   }
   /// Ticks with a fault, and which faults those were.
   void faulty_ticks(std::uint64_t ticks, std::uint32_t faults) {
@@ -36,9 +53,15 @@ class Summary {
   void text(const std::string& more) { text_ += more; }  ///< whole lines of another form
 
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
+  [[nodiscard]] const std::vector<Figure>& figures() const noexcept { return figures_; }
 
  private:
+  void print(const std::string& name, const std::string& value, const std::string& unit, const std::string& remark) {
+    text_ += name + " = " + value + (unit.empty() ? "" : " " + unit) + (remark.empty() ? "" : "  # " + remark) + "\n";
+  }
+
   std::string text_;
+  std::vector<Figure> figures_;
 };
 
 }  // namespace crankloop::program

@@ -11,6 +11,7 @@
 #include "../command_line/engine_argument.hpp"
 #include "../command_line/gas_options.hpp"
 #include "../command_line/operating_point.hpp"
+#include "../command_line/summary.hpp"
 #include "../engine_report/free_orders.hpp"
 #include "../files/csv.hpp"
 #include "../files/units.hpp"
@@ -21,26 +22,28 @@
 namespace crankloop::program {
 namespace {
 
+std::vector<std::string> needed_sections() { return {"engine", "crank", "masses"}; }
+
 /// A component's amplitude and phase; a balanced component has no phase.
-void write_wave(CsvWriter& csv, const std::string& name, const char* unit, double cosine, double sine, double noise) {
+void write_wave(Summary& s, const std::string& name, const char* unit, double cosine, double sine, double noise) {
   const Wave wave = wave_of(cosine, sine);
-  csv.row(name + "_" + unit, wave.amplitude);
-  csv.row(name + "_phase_deg", wave.amplitude > noise ? wave.phase_deg : 0);
+  s.line(name + "_" + unit, wave.amplitude);
+  s.line(name + "_phase_deg", wave.amplitude > noise ? wave.phase_deg : 0);
 }
 
 /// Amplitudes over a turn at speed w.
 class TurningWriter {
  public:
-  TurningWriter(CsvWriter& csv, const EngineDefinition& definition, double speed_rad_s)
-      : csv_{csv},
+  TurningWriter(Summary& s, const EngineDefinition& definition, double speed_rad_s)
+      : s_{s},
         w2_{speed_rad_s * speed_rad_s},
         noise_N_{1e-9 * definition.masses.reciprocating_kg() * definition.crank.crank_radius_m * w2_} {}
 
   void write(const std::string& name, const TurningForce& t) {
-    csv_.row("free_force_" + name + "_N", peak_force_kg_m(t) * w2_);
+    s_.line("free_force_" + name + "_N", peak_force_kg_m(t) * w2_);
     component("free_force_" + name + "_up", "N", t.up_cos, t.up_sin);
     component("free_force_" + name + "_lateral", "N", t.lateral_cos, t.lateral_sin);
-    csv_.row("free_moment_" + name + "_Nm", peak_moment_kg_m2(t) * w2_);
+    s_.line("free_moment_" + name + "_Nm", peak_moment_kg_m2(t) * w2_);
     component("free_moment_" + name + "_pitch", "Nm", t.pitch_cos, t.pitch_sin);
     component("free_moment_" + name + "_yaw", "Nm", t.yaw_cos, t.yaw_sin);
   }
@@ -51,18 +54,18 @@ class TurningWriter {
     const TurningForce bare = free_force(definition, {}, order.order);
     const TurningForce left = free_force(definition, balancers, order.order);
     const std::string name = std::string("_") + order.name + "_";
-    csv_.row("bare_force" + name + "N", peak_force_kg_m(bare) * w2_);
-    csv_.row("residual_force" + name + "N", peak_force_kg_m(left) * w2_);
-    csv_.row("bare_moment" + name + "Nm", peak_moment_kg_m2(bare) * w2_);
-    csv_.row("residual_moment" + name + "Nm", peak_moment_kg_m2(left) * w2_);
+    s_.line("bare_force" + name + "N", peak_force_kg_m(bare) * w2_);
+    s_.line("residual_force" + name + "N", peak_force_kg_m(left) * w2_);
+    s_.line("bare_moment" + name + "Nm", peak_moment_kg_m2(bare) * w2_);
+    s_.line("residual_moment" + name + "Nm", peak_moment_kg_m2(left) * w2_);
   }
 
  private:
   void component(const std::string& name, const char* unit, double cosine, double sine) {
-    write_wave(csv_, name, unit, cosine * w2_, sine * w2_, noise_N_);
+    write_wave(s_, name, unit, cosine * w2_, sine * w2_, noise_N_);
   }
 
-  CsvWriter& csv_;
+  Summary& s_;
   double w2_;
   double noise_N_;
 };
@@ -113,16 +116,16 @@ BearingRanges bearings_of_trace(const Trace& trace) {
   return r;
 }
 
-void write_bearings(CsvWriter& csv, std::uint32_t count, const BearingRanges& r) {
+void write_bearings(Summary& s, std::uint32_t count, const BearingRanges& r) {
   for (std::uint32_t i = 0; i < count; ++i)
-    csv.row("crank_pin_" + std::to_string(i + 1) + "_max_load_N", r.pins[i].most);
+    s.line("crank_pin_" + std::to_string(i + 1) + "_max_load_N", r.pins[i].most);
   for (std::uint32_t j = 0; j <= count; ++j) {
     const std::string journal = "main_journal_" + std::to_string(j + 1) + "_";
-    csv.row(journal + "max_load_N", r.journals[j].most);
-    csv.row(journal + "max_up_N", r.up[j].most);
-    csv.row(journal + "max_down_N", -r.up[j].least);
-    csv.row(journal + "max_lateral_N", r.lateral[j].most);
-    csv.row(journal + "min_lateral_N", r.lateral[j].least);
+    s.line(journal + "max_load_N", r.journals[j].most);
+    s.line(journal + "max_up_N", r.up[j].most);
+    s.line(journal + "max_down_N", -r.up[j].least);
+    s.line(journal + "max_lateral_N", r.lateral[j].most);
+    s.line(journal + "min_lateral_N", r.lateral[j].least);
   }
 }
 
@@ -140,13 +143,13 @@ class MountRanges {
       lateral_[i].take(force.lateral_N);
     }
   }
-  void write(CsvWriter& csv) const {
+  void write(Summary& s) const {
     for (std::size_t i = 0; i < kFeet; ++i) {
       const std::string mount = std::string("mount_") + kFeetOf[i].name + "_";
-      csv.row(mount + "max_up_N", up_[i].most);
-      csv.row(mount + "max_down_N", -up_[i].least);
-      csv.row(mount + "max_lateral_N", lateral_[i].most);
-      csv.row(mount + "min_lateral_N", lateral_[i].least);
+      s.line(mount + "max_up_N", up_[i].most);
+      s.line(mount + "max_down_N", -up_[i].least);
+      s.line(mount + "max_lateral_N", lateral_[i].most);
+      s.line(mount + "min_lateral_N", lateral_[i].least);
     }
   }
 
@@ -183,9 +186,10 @@ MountRanges mounts_of_trace(MountRanges ranges, const Trace& trace) {
   return ranges;
 }
 
-int run_balance(const Arguments& arguments) {
+/// Names have their units in them: they are printed as CSV.
+Summary figures_of_balance(const Arguments& arguments, const EngineFile& engine) {
   const std::optional<Mounts> mounts = mounts_of(arguments);
-  const EngineFile engine = read_engine_without_surge(arguments, {"engine", "crank", "masses"});
+  engine.require(needed_sections());
   const EngineDefinition& definition = engine.definition();
   const double rpm = speed_rpm(arguments, engine);
   const double speed = rpm * kRad_sPerRpm;
@@ -210,31 +214,30 @@ int run_balance(const Arguments& arguments) {
     if (feet) feet = mounts_by_angle(*feet, definition, speed, load_ratio);
   }
 
-  Output out(arguments.text_or_empty("--csv"));
-  CsvWriter csv(out, {"name", "value"});
-  csv.row("speed_rpm", rpm);
-  csv.row("reciprocating_mass_kg", definition.masses.reciprocating_kg());
-  csv.row("mean_piston_speed_m_s", mean_piston_speed_m_s(definition.crank, speed));
-  csv.row("net_mep_kPa", cycle.net_mep_Pa / 1000);
-  csv.row("gross_mep_kPa", cycle.gross_mep_Pa / 1000);
-  csv.row("power_kW", cycle.power_W / 1000);
+  Summary s;
+  s.line("speed_rpm", rpm);
+  s.line("reciprocating_mass_kg", definition.masses.reciprocating_kg());
+  s.line("mean_piston_speed_m_s", mean_piston_speed_m_s(definition.crank, speed));
+  s.line("net_mep_kPa", cycle.net_mep_Pa / 1000);
+  s.line("gross_mep_kPa", cycle.gross_mep_Pa / 1000);
+  s.line("power_kW", cycle.power_W / 1000);
   if (definition.friction.any()) {
-    csv.row("friction_mep_kPa", cycle.brake.friction_mep_Pa / 1000);
-    csv.row("brake_torque_Nm", cycle.brake.torque_Nm);
-    csv.row("brake_power_kW", cycle.brake.power_W / 1000);
-    csv.row("mechanical_efficiency_ratio", cycle.brake.efficiency_ratio);
+    s.line("friction_mep_kPa", cycle.brake.friction_mep_Pa / 1000);
+    s.line("brake_torque_Nm", cycle.brake.torque_Nm);
+    s.line("brake_power_kW", cycle.brake.power_W / 1000);
+    s.line("mechanical_efficiency_ratio", cycle.brake.efficiency_ratio);
   }
-  csv.row("mean_torque_Nm", cycle.mean_torque_Nm);
-  csv.row("max_torque_Nm", cycle.largest_torque_Nm);
-  csv.row("max_torque_deg", cycle.largest_torque_deg);
-  csv.row("min_torque_Nm", cycle.smallest_torque_Nm);
-  csv.row("min_torque_deg", cycle.smallest_torque_deg);
-  csv.row("torque_fluctuation_ratio", cycle.fluctuation_ratio);
+  s.line("mean_torque_Nm", cycle.mean_torque_Nm);
+  s.line("max_torque_Nm", cycle.largest_torque_Nm);
+  s.line("max_torque_deg", cycle.largest_torque_deg);
+  s.line("min_torque_Nm", cycle.smallest_torque_Nm);
+  s.line("min_torque_deg", cycle.smallest_torque_deg);
+  s.line("torque_fluctuation_ratio", cycle.fluctuation_ratio);
   for (const Harmonic& h : cycle.harmonics) {
     const double noise_Nm = 1e-9 * (cycle.largest_torque_Nm - cycle.smallest_torque_Nm);
-    write_wave(csv, "torque_order_" + shortest(h.order), "Nm", h.cosine_Nm, h.sine_Nm, noise_Nm);
+    write_wave(s, "torque_order_" + shortest(h.order), "Nm", h.cosine_Nm, h.sine_Nm, noise_Nm);
   }
-  TurningWriter turning(csv, definition, speed);
+  TurningWriter turning(s, definition, speed);
   for (const FreeOrder& order : free_orders(definition.crank))
     turning.write(order.name, reciprocating_order(definition, order.order));
   turning.write("rotating", balance_of(definition).rotating);
@@ -242,8 +245,17 @@ int run_balance(const Arguments& arguments) {
     for (const FreeOrder& order : free_orders(definition.crank))
       turning.write_residual(definition, engine.balancers(), order);
   }
-  write_bearings(csv, bearings_of(definition).pins, bearings);
-  if (feet) feet->write(csv);
+  write_bearings(s, bearings_of(definition).pins, bearings);
+  if (feet) feet->write(s);
+  return s;
+}
+
+int run_balance(const Arguments& arguments) {
+  const EngineFile engine = read_engine_for_scenes(arguments, needed_sections());
+  const Summary summary = figures_of_balance(arguments, engine);
+  Output out(arguments.text_or_empty("--csv"));
+  CsvWriter csv(out, {"name", "value"});
+  for (const Figure& figure : summary.figures()) csv.row(figure.name, *figure.number);
   out.finish();
   return kSuccess;
 }
@@ -270,6 +282,8 @@ const Command kBalance{"balance",
                        "crankloop balance diesel_495.ini --rpm 2000",
                        1,
                        kOptions,
-                       run_balance};
+                       run_balance,
+                       false,
+                       figures_of_balance};
 
 }  // namespace crankloop::program

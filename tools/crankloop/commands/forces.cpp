@@ -113,7 +113,7 @@ void write(CsvWriter& csv, const EngineFile& engine, const Arguments& arguments,
 }
 
 int run_forces(const Arguments& arguments) {
-  const EngineFile engine = read_engine_without_surge(arguments, {"engine", "crank", "masses"});
+  const EngineFile engine = read_engine_for_scenes(arguments, {"engine", "crank", "masses"});
   demand_a_diagram(engine);
   const EngineDefinition& definition = engine.definition();
   require_heat_to_scale(arguments, engine);

@@ -54,6 +54,10 @@ void check_headers(const IniText& ini, const std::string& path) {
   problems.refuse(path);
 }
 
+InputError section_is_missing(const std::string& path, int last_line, const std::string& title) {
+  return {path, last_line, "section [" + title + "] is missing; this command needs it"};
+}
+
 /// In the order of section_kinds(); sections of one kind stay in the order of the file.
 void sort_by_kind(std::vector<SectionValues>& sections) {
   const auto place = [](const SectionValues& section) {
@@ -72,11 +76,13 @@ EngineFile read_engine_file(const std::string& path, const std::vector<std::stri
 }
 
 EngineFile read_engine_text(const std::string& text, const std::string& path,
-                            const std::vector<std::string>& needed_sections) {
+                            const std::vector<std::string>& needed_sections, const std::vector<Setting>& settings) {
   IniText ini = parse_ini(split_lines(text, path), path);
+  apply(settings, ini, path);
   check_headers(ini, path);
 
   EngineFile engine(path);
+  engine.last_line_ = ini.last_line;
   Problems problems;
   for (const IniSection& section : ini.sections)
     problems.of([&] { engine.sections_.push_back(resolve_section(section, path)); });
@@ -84,7 +90,7 @@ EngineFile read_engine_text(const std::string& text, const std::string& path,
     const bool there = std::any_of(ini.sections.begin(), ini.sections.end(),
                                    [&title](const IniSection& one) { return one.kind == title; });
     problems.of([&] {
-      if (!there) throw InputError(path, ini.last_line, "section [" + title + "] is missing; this command needs it");
+      if (!there) throw section_is_missing(path, ini.last_line, title);
     });
   }
   problems.refuse(path);
@@ -193,6 +199,16 @@ const SectionValues* EngineFile::find(const std::string& title) const noexcept {
 
 SectionValues* EngineFile::find(const std::string& title) noexcept {
   return const_cast<SectionValues*>(std::as_const(*this).find(title));
+}
+
+void EngineFile::require(const std::vector<std::string>& needed_sections) const {
+  Problems problems;
+  for (const std::string& title : needed_sections) {
+    problems.of([&] {
+      if (!has(title)) throw section_is_missing(path_, last_line_, title);
+    });
+  }
+  problems.refuse(path_);
 }
 
 const SectionValues& EngineFile::section(const std::string& title) const {

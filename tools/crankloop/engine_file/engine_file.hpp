@@ -19,6 +19,7 @@
 #include "balancer.hpp"
 #include "engine_file_values.hpp"
 #include "port_geometry.hpp"
+#include "settings.hpp"
 
 namespace crankloop::program {
 
@@ -73,16 +74,15 @@ class EngineFile {
   /// Counterweights and balance shafts, which are no part of the definition.
   [[nodiscard]] const std::vector<Balancer>& balancers() const noexcept { return balancers_; }
 
-  /// Lets all valve springs follow their valves, for scenes that step no surge. Answers the trains whose springs
-  /// surged.
-  std::vector<std::string> let_springs_follow();
-
   /// One of the trains; throws InputError for an unknown name.
   [[nodiscard]] const TrainOfFile& train(const std::string& name) const;
 
   /// Titles are written as in the brackets: "masses", "cam intake".
   [[nodiscard]] bool has(const std::string& title) const noexcept { return find(title) != nullptr; }
   [[nodiscard]] const SectionValues& section(const std::string& title) const;
+
+  /// Throws InputError if a section that the command needs is missing.
+  void require(const std::vector<std::string>& needed_sections) const;
 
   /// All sections in the order of `show`: those of the file, and those with defaults only.
   [[nodiscard]] const std::vector<SectionValues>& sections() const noexcept { return sections_; }
@@ -94,7 +94,8 @@ class EngineFile {
   [[nodiscard]] InputError explain(const Status& status, const TrainOfFile& train, double cam_deg = 0) const;
 
  private:
-  friend EngineFile read_engine_text(const std::string&, const std::string&, const std::vector<std::string>&);
+  friend EngineFile read_engine_text(const std::string&, const std::string&, const std::vector<std::string>&,
+                                     const std::vector<Setting>&);
 
   explicit EngineFile(const std::string& path) : path_{path} {}
   [[nodiscard]] const SectionValues* find(const std::string& title) const noexcept;
@@ -110,6 +111,7 @@ class EngineFile {
   [[nodiscard]] const TrainOfFile* train_to_blame(const Key& key, int index) const;
 
   std::string path_;
+  int last_line_ = 1;
   std::vector<SectionValues> sections_;
   EngineDefinition definition_;
   std::vector<DiagramPoint> points_;
@@ -126,8 +128,10 @@ class EngineFile {
 /// Reads and validates everything in the file; throws InputError, also if a section that the command needs is missing.
 [[nodiscard]] EngineFile read_engine_file(const std::string& path, const std::vector<std::string>& needed_sections);
 
-/// Reads a text instead of the file: messages name `path`, and relative paths start at its folder.
+/// Reads a text instead of the file: messages name `path`, and relative paths start at its folder. With `settings`, as
+/// if the text had these values.
 [[nodiscard]] EngineFile read_engine_text(const std::string& text, const std::string& path,
-                                          const std::vector<std::string>& needed_sections);
+                                          const std::vector<std::string>& needed_sections,
+                                          const std::vector<Setting>& settings = {});
 
 }  // namespace crankloop::program

@@ -130,16 +130,6 @@ void EngineFile::read_cam(SectionValues& cam, TrainOfFile& train) {
   train.definition.cam.smoothing_m = cam.si("smoothing_um");
 }
 
-std::vector<std::string> EngineFile::let_springs_follow() {
-  std::vector<std::string> surged;
-  for (TrainOfFile& train : trains_) {
-    if (train.definition.valve.surge_modes > 0) surged.push_back(train.name);
-    train.definition.valve.surge_modes = 0;
-  }
-  for (ValveTrain& train : definition_.trains) train.valve.surge_modes = 0;
-  return surged;
-}
-
 const TrainOfFile& EngineFile::train(const std::string& name) const {
   std::vector<std::string> names;
   for (const TrainOfFile& train : trains_) {

@@ -16,9 +16,20 @@ void CsvWriter::cell(float value) { append(significant(value)); }
 void CsvWriter::cell(int value) { append(std::to_string(value)); }
 void CsvWriter::cell(std::string_view text) { append(text); }
 
+void CsvWriter::quoted_cell(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return append(text);
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  put(quoted + "\"");
+}
+
 void CsvWriter::append(std::string_view text) {
   if (text.find_first_of(",\"\r\n") != std::string_view::npos)
     throw std::logic_error("a CSV cell would need quotes: " + std::string(text));
+  put(text);
+}
+
+void CsvWriter::put(std::string_view text) {
   if (filled_++ > 0) line_ += ',';
   line_ += text;
 }

@@ -30,11 +30,13 @@ class CsvWriter {
   void cell(double value);
   void cell(float value);
   void cell(int value);
-  void cell(std::string_view text);  ///< must hold no comma, quote or line end
-  void end_row();                    ///< refuses (std::logic_error) a row that is shorter or longer than the header
+  void cell(std::string_view text);         ///< must hold no comma, quote or line end
+  void quoted_cell(std::string_view text);  ///< any text: in double quotes where it needs them
+  void end_row();  ///< refuses (std::logic_error) a row that is shorter or longer than the header
 
  private:
   void append(std::string_view text);
+  void put(std::string_view text);
 
   Output& out_;
   std::size_t columns_;

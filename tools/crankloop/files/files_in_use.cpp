@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -54,6 +55,7 @@ struct Used {
 };
 
 bool watching = false;
+std::mutex reading;  // files are read by several threads
 std::vector<Used> files_read;
 std::vector<Used> outputs;
 
@@ -69,6 +71,10 @@ void note_file_read(const std::string& path, int descriptor) {
     throw InputError(
         path + ": this command reads it, and " + stream +
         " goes there; if that was by >, the shell has emptied the file already; send the output elsewhere");
+  }
+  const std::lock_guard<std::mutex> lock(reading);
+  for (const Used& other : files_read) {
+    if (other.path == path && other.file == file) return;  // by each point of a study
   }
   files_read.push_back({path, "", file});
 }

@@ -1,4 +1,5 @@
 #include "run_loop.hpp"
+#include "../engine_file/following_springs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +41,7 @@ double part_of_tick(double start_Nm, double end_Nm, double mean_Nm, double part)
 template <class Real, class S>
 FixedStepLoop<Real, S>::FixedStepLoop(const EngineDefinition& definition, const Operation& operation, double start_deg,
                                       const std::function<void()>& after_tick) {
-  require(tables_->build(definition, {operation.tick_s}, &report_));
+  require(tables_->build(with_springs_that_follow(definition), {operation.tick_s}, &report_));
   const detail::Drive<Real>& drive = *tables_->tables().drive;
   input_.speed_rad_s = static_cast<Real>(operation.speed_rad_s());
   if constexpr (detail::Needs<S>::gas) {

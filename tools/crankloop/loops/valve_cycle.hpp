@@ -38,7 +38,7 @@ template <class Real>
 template <class Real>
 void add_opening_delay(Summary& s, const std::string& name, const ValveCycle<Real>& c) {
   if (has_opening_delay(c)) return s.line(name, c.opening_delay_deg, "deg", "of cam angle, at 0.1 mm of lift");
-  s.line(name, "none", "",
+  s.none(name, "deg",
          c.largest_lift_m < Real(0.1e-3) ? "it does not rise by 0.1 mm" : "off its seat before its cam lifted it");
 }
 

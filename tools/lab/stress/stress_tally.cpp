@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crankloop/command_line/shards.hpp"
 #include "crankloop/command_line/summary.hpp"
 #include "crankloop/files/number.hpp"
+#include "crankloop/files/words.hpp"
 #include "stress_comparison.hpp"
 
 namespace crankloop::program {
@@ -93,6 +95,19 @@ Section counts_section(const StressTally& tally) {
   return section;
 }
 
+constexpr int StressTally::*kCounters[] = {
+    &StressTally::ran,       &StressTally::all_cycles,   &StressTally::over_budget,     &StressTally::compared,
+    &StressTally::landed,    &StressTally::judged_again, &StressTally::wrongly_refused, &StressTally::diverged,
+    &StressTally::inaccurate};
+
+struct Errors {
+  const char* name;
+  std::vector<double> StressTally::*errors;
+};
+constexpr Errors kErrors[] = {{"of_class", &StressTally::of_class},
+                              {"of_class_landed", &StressTally::of_class_landed},
+                              {"of_allowed", &StressTally::of_allowed}};
+
 }  // namespace
 
 int beyond_class(const std::vector<double>& of_class) {
@@ -132,6 +147,43 @@ void StressTally::add(int number, const StressCase& drawn, const TrialResult& re
     of_class_landed.push_back(result.of_class);
   }
   if (!result.over_budget) of_allowed.push_back(result.of_allowed);
+}
+
+std::string StressTally::part() const {
+  std::string text = "counts";
+  for (const auto counter : kCounters) text += " " + std::to_string(this->*counter);
+  text += "\tticks " + std::to_string(ticks);
+  for (const auto& list : kErrors) {
+    text += std::string("\t") + list.name;
+    for (const double error : this->*list.errors) text += " " + exact_text(error);
+  }
+  for (const auto& [reason, times] : refused) text += "\trefused " + std::to_string(times) + " " + reason;
+  for (const StressFailure& one : failures)
+    text += "\tfailed " + std::to_string(one.number) + "\t" + one.what + "\t" + one.drawn;
+  return text;
+}
+
+void StressTally::add_part(const std::string& text) {
+  const auto fields = split(text, '\t');
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const auto words = split(fields[i], ' ');
+    const auto number = [&words](std::size_t at) { return static_cast<std::int64_t>(exact_number(words.at(at))); };
+    if (words[0] == "counts") {
+      for (std::size_t c = 0; c < std::size(kCounters); ++c) this->*kCounters[c] += static_cast<int>(number(c + 1));
+    } else if (words[0] == "ticks") {
+      ticks += number(1);
+    } else if (words[0] == "refused") {
+      refused[std::string(fields[i].substr(fields[i].find(' ', words[0].size() + 1) + 1))] +=
+          static_cast<int>(number(1));
+    } else if (words[0] == "failed") {
+      failures.push_back({static_cast<int>(number(1)), std::string(fields.at(i + 1)), std::string(fields.at(i + 2))});
+      i += 2;
+    }
+    for (const auto& list : kErrors) {
+      for (std::size_t w = 1; words[0] == list.name && w < words.size(); ++w)
+        (this->*list.errors).push_back(exact_number(words[w]));
+    }
+  }
 }
 
 int StressTally::refusals() const {

@@ -41,6 +41,11 @@ struct StressTally {
   std::vector<StressFailure> failures;
 
   void add(int number, const StressCase& drawn, const TrialResult& result);
+
+  /// What was counted, as one line of text, and added to what is counted here: of cases in their order, so that parts
+  /// in that order give the tally of all.
+  [[nodiscard]] std::string part() const;
+  void add_part(const std::string& text);
   [[nodiscard]] int refusals() const;
 };
 

@@ -76,7 +76,6 @@ EngineSource::EngineSource(const std::string& folder)
   if (!tick_us.ok()) throw InputError(tick_path, 1, tick_us.problem);
   tick_s_ = millionths(tick_us.value);
   identity_ = identity_of(bytes_of(path_, kMaxEngineFileBytes), file_);
-  file_.let_springs_follow();
   collect_numbers();
 }
 
@@ -89,7 +88,6 @@ EngineSource::EngineSource(const EngineFile& engine, double tick_us)
   for (const ZipEntry& entry : resources_of(engine, tick_us)) {
     if (entry.name == kEngineName) identity_ = identity_of(entry.bytes, file_);
   }
-  file_.let_springs_follow();
   collect_numbers();
 }
 

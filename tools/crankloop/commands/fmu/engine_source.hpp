@@ -15,6 +15,7 @@
 #include <crankloop/tabulate/tabulate.hpp>
 
 #include "../../engine_file/engine_file.hpp"
+#include "../../engine_file/following_springs.hpp"
 #include "../../files/stored_zip.hpp"
 #include "../../files/units.hpp"
 #include "../../loops/valve_tick_limit.hpp"
@@ -144,7 +145,7 @@ class FileSupply {
     return told(why, [&] {
       const EngineFile engine = source_->with(values);  // after a refusal the old tables are kept
       built_ = false;
-      const Status refused = storage_->build(engine.definition(), {source_->tick_s()});
+      const Status refused = storage_->build(with_springs_that_follow(engine.definition()), {source_->tick_s()});
       if (!refused.ok()) throw explain_tabulate(engine, refused, source_->tick_s());
       for (std::size_t i = 0; i < parameters(); ++i) values_[i] = values[i];
       built_ = true;

@@ -10,6 +10,7 @@
 #include "../../command_line/commands.hpp"
 #include "../../command_line/engine_argument.hpp"
 #include "../../command_line/with_real.hpp"
+#include "../../engine_file/following_springs.hpp"
 #include "../../engine_file/gas_order.hpp"
 #include "../../files/error.hpp"
 #include "../../files/output_file.hpp"
@@ -104,7 +105,7 @@ std::vector<ZipEntry> described(const Packed& packed, fmi::Version version, cons
   if (!instance->open("", why)) {
     const double tick_s = millionths(packed.tick_us);
     const auto storage = std::make_unique<TableStorage<Real, Scene, kMaxGasSegments>>();
-    const Status refused = storage->build(packed.engine.definition(), {tick_s});
+    const Status refused = storage->build(with_springs_that_follow(packed.engine.definition()), {tick_s});
     if (!refused.ok()) throw explain_tabulate(packed.engine, refused, tick_s);  // by the lines of the user's file
     throw InputError(why.text);
   }
@@ -113,7 +114,7 @@ std::vector<ZipEntry> described(const Packed& packed, fmi::Version version, cons
 }
 
 int run_fmu(const Arguments& arguments) {
-  const EngineFile engine = read_engine_without_surge(arguments, {"engine", "crank", "masses"});
+  const EngineFile engine = read_engine_for_scenes(arguments, {"engine", "crank", "masses"});
   const double tick_us = arguments.number("--tick-us");
   require_trains(engine, millionths(tick_us));
   const std::string& real = arguments.text("--real");

@@ -106,13 +106,19 @@ void write(CsvWriter& csv, const Crank& crank, const std::string& method, double
   write_by_formula<Real>(csv, crank, method == "exact" ? exact_pose : second_order_pose, step_deg, speed);
 }
 
-int run_kinematics(const Arguments& arguments) {
-  const double step_deg = arguments.number("--step-deg");
+std::vector<std::string> needed_sections() { return {"engine", "crank"}; }
+
+/// What the user asked for, but for the files.
+struct Request {
+  const Crank& crank;
+  double speed_rad_s;
+  PoseFunction pose;
+  bool beside;  ///< both methods
+};
+
+Request request_of(const Arguments& arguments, const EngineFile& engine) {
   const std::string& method = arguments.text("--method");
-  if (arguments.has("--rpm") && arguments.has("--speed-rad-s"))
-    throw UsageError("--rpm and --speed-rad-s exclude each other; give one");
-  const EngineFile engine = read_engine(arguments, {"engine", "crank"});
-  const double speed =
+  const double speed_rad_s =
       arguments.has("--speed-rad-s") ? arguments.number("--speed-rad-s") : speed_rpm(arguments, engine) * kRad_sPerRpm;
   const Crank& crank = engine.definition().crank;
   const bool beside = method == "both";
@@ -120,10 +126,28 @@ int run_kinematics(const Arguments& arguments) {
     throw InputError(engine.path() +
                      ": the second-order approximations hold for pin_offset_mm = 0 only; use --method exact");
   }
-  const PoseFunction pose = method == "approx" ? second_order_pose : exact_pose;
+  return {crank, speed_rad_s, method == "approx" ? second_order_pose : exact_pose, beside};
+}
+
+Summary summary_of(const Request& request) {
+  return motion_summary(request.crank, request.pose, request.speed_rad_s, request.beside);
+}
+
+void require_one_speed(const Arguments& arguments) {
+  if (arguments.has("--rpm") && arguments.has("--speed-rad-s"))
+    throw UsageError("--rpm and --speed-rad-s exclude each other; give one");
+}
+
+int run_kinematics(const Arguments& arguments) {
+  require_one_speed(arguments);
+  const EngineFile engine = read_engine(arguments, needed_sections());
+  const Request request = request_of(arguments, engine);
   const auto write_table = [&](Output& out) {
-    CsvWriter csv(out, columns_of(beside));
-    with_real(arguments.text("--real"), [&](auto zero) { write<decltype(zero)>(csv, crank, method, step_deg, speed); });
+    CsvWriter csv(out, columns_of(request.beside));
+    with_real(arguments.text("--real"), [&](auto zero) {
+      write<decltype(zero)>(csv, request.crank, arguments.text("--method"), arguments.number("--step-deg"),
+                            request.speed_rad_s);
+    });
   };
   if (!arguments.has("--csv") && !arguments.has("--plot")) {
     Output out("");
@@ -134,9 +158,16 @@ int run_kinematics(const Arguments& arguments) {
   Results results(arguments, {"--csv", "--plot"});
   if (Output* csv = results["--csv"]) write_table(*csv);
   if (Output* plot = results["--plot"])
-    plot->write(motion_picture(engine.has("engine") ? engine.name() : "", crank, pose, speed, beside));
-  results.finish(motion_summary(crank, pose, speed, beside));
+    plot->write(motion_picture(engine.has("engine") ? engine.name() : "", request.crank, request.pose,
+                               request.speed_rad_s, request.beside));
+  results.finish(summary_of(request).text());
   return kSuccess;
+}
+
+Summary figures_of_kinematics(const Arguments& arguments, const EngineFile& engine) {
+  require_one_speed(arguments);
+  engine.require(needed_sections());
+  return summary_of(request_of(arguments, engine));
 }
 
 constexpr Option kOptions[] = {
@@ -161,6 +192,8 @@ const Command kKinematics{
     "crankloop kinematics diesel_495.ini --rpm 2000 --step-deg 10",
     1,
     kOptions,
-    run_kinematics};
+    run_kinematics,
+    false,
+    figures_of_kinematics};
 
 }  // namespace crankloop::program

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../../command_line/summary.hpp"
 #include "../../files/units.hpp"
 
 namespace crankloop::program {
@@ -137,7 +136,7 @@ ExactSeries exact_series(const Crank& crank) {
   return series;
 }
 
-std::string motion_summary(const Crank& crank, PoseFunction pose, double speed_rad_s, bool beside) {
+Summary motion_summary(const Crank& crank, PoseFunction pose, double speed_rad_s, bool beside) {
   Summary s;
   s.line("crank_speed", speed_rad_s, "rad/s", "w");
   s.line("lambda", crank.rod_ratio(), "", "crank radius over rod length");
@@ -146,7 +145,7 @@ std::string motion_summary(const Crank& crank, PoseFunction pose, double speed_r
   add_extremes(s, crank, pose, speed_rad_s);
   add_series(s, crank);
   if (beside) add_errors(s, crank, speed_rad_s);
-  return s.text();
+  return s;
 }
 
 }  // namespace crankloop::program

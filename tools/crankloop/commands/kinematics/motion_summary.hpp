@@ -8,6 +8,8 @@
 
 #include <crankloop/tabulate/mechanism.hpp>
 
+#include "../../command_line/summary.hpp"
+
 namespace crankloop::program {
 
 /// Local extremes of a quantity over a turn, in the order of the angle; each to 1e-7 rad of its place where the curve
@@ -29,6 +31,6 @@ struct ExactSeries {
 [[nodiscard]] ExactSeries exact_series(const Crank& crank);
 
 /// The lines of the summary; `beside`: also the largest errors of the approximations.
-[[nodiscard]] std::string motion_summary(const Crank& crank, PoseFunction pose, double speed_rad_s, bool beside);
+[[nodiscard]] Summary motion_summary(const Crank& crank, PoseFunction pose, double speed_rad_s, bool beside);
 
 }  // namespace crankloop::program

@@ -59,7 +59,7 @@ LiveRequest request_of(const Arguments& arguments, const EngineFile& file) {
 }
 
 int run_live_command(const Arguments& arguments) {
-  const EngineFile file = read_engine_without_surge(arguments, {"engine", "crank", "masses"});
+  const EngineFile file = read_engine_for_scenes(arguments, {"engine", "crank", "masses"});
   const LiveRequest request = request_of(arguments, file);
   const std::string& real = arguments.text("--real");
   const bool shares = arguments.has("--shared");

@@ -12,6 +12,7 @@
 #include <crankloop/crankloop.hpp>
 #include <crankloop/scenes.hpp>
 
+#include "../../engine_file/following_springs.hpp"
 #include "../../files/error.hpp"
 #include "../../files/number.hpp"
 #include "../../files/units.hpp"
@@ -51,7 +52,7 @@ class FreeEngine {
   FreeEngine(const EngineFile& file, const LiveRequest& request)
       : cylinders_{static_cast<std::size_t>(file.definition().layout.cylinders)},
         burn_duration_deg_{request.burn_duration_deg} {
-    const Status built = tables_->build(file.definition(), {request.tick_s});
+    const Status built = tables_->build(with_springs_that_follow(file.definition()), {request.tick_s});
     if (!built.ok()) throw explain_tabulate(file, built, request.tick_s, {});
     const Status ready = engine_.init(tables_->tables());
     if (!ready.ok()) throw file.explain(ready);

@@ -3,25 +3,16 @@
 // What belongs here: the points and their run. What does not: words, files (map.cpp), drawing (map_report.cpp).
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "../../command_line/grid.hpp"
 #include "../../engine_file/engine_file.hpp"
 #include "../../engine_file/gas_order.hpp"
 #include "../../loops/run_gas.hpp"
 #include "../../report/page.hpp"
 
 namespace crankloop::program {
-
-/// `count` numbers from `from` to `to`, evenly spaced.
-struct Grid {
-  double from = 0;
-  double to = 0;
-  int count = 1;
-
-  [[nodiscard]] double at(int i) const noexcept { return count > 1 ? from + (to - from) * i / (count - 1) : from; }
-};
 
 /// The quantity that a map varies besides the speed.
 struct MapAxis {
@@ -46,15 +37,33 @@ struct MapRequest {
   double tick_s = 100e-6;
 };
 
+/// Its results, in the order of the columns.
+enum class MapResult : std::uint8_t {
+  torque,  ///< indicated, all cylinders
+  brake_torque,
+  brake_power,
+  net_mep,
+  pumping_mep,
+  trapped_air,
+  volumetric_efficiency,
+  fuel_burned,
+  residual,
+  excess_air,
+  exhaust_temperature,
+  exhaust_manifold_temperature,
+  intake_pressure,
+  peak_pressure,
+  faulty_ticks,
+};
+inline constexpr std::size_t kMapResults = 15;
+
 struct MapPoint {
   double speed_rpm = 0;
-  double load = 0;             ///< throttle or fuel, in its axis's unit
-  double torque_Nm = 0;        ///< indicated, all cylinders
-  double brake_torque_Nm = 0;  ///< less the file's [friction]
-  double power_W = 0;          ///< of the brake torque
-  GasFigures gas;
-  double faulty_ticks = 0;
+  double load = 0;  ///< throttle or fuel, in its axis's unit
+  double results[kMapResults] = {};
   std::uint32_t faults = 0;  ///< all fault bits that occurred
+
+  [[nodiscard]] double at(MapResult result) const noexcept { return results[static_cast<std::size_t>(result)]; }
 };
 
 struct EngineMap {
@@ -65,22 +74,28 @@ struct EngineMap {
 
   /// "at 3000 rpm, throttle 0.5"
   [[nodiscard]] std::string place_of(const MapPoint& point) const;
+  /// The first point with the largest value.
+  [[nodiscard]] const MapPoint& largest(MapResult result) const;
 };
 
-/// All points, on one thread per processor; results do not depend on their number. `after_point` is called after each,
-/// by one thread at a time. Throws what a run throws, as a speed beyond one revolution per tick.
-void run_map(EngineMap& map, const std::function<void()>& after_point);
+/// One point, counted speed by speed, as text for a part of the map; may be called by several threads at once. Throws
+/// what a run throws, as a speed beyond one revolution per tick.
+[[nodiscard]] std::string run_point(const EngineDefinition& definition, const MapRequest& request, int point);
+
+/// The points of these texts.
+[[nodiscard]] std::vector<MapPoint> points_of(const MapRequest& request, const std::vector<std::string>& texts);
 
 /// How a result is named, in CSV and drawings.
 struct MapColumn {
   const char* name;
   const char* title;  ///< of the drawing; nullptr: not drawn
   const char* unit;
-  double (*value)(const MapPoint&);
+  MapResult result;
   bool is_share = false;  ///< pages show it in per cent
+
+  [[nodiscard]] double value(const MapPoint& point) const noexcept { return point.at(result); }
 };
-inline constexpr std::size_t kMapColumns = 15;
-extern const MapColumn kMapColumnList[kMapColumns];
+extern const MapColumn kMapColumnList[kMapResults];
 
 [[nodiscard]] report::Page map_page(const EngineMap& map);
 

@@ -8,8 +8,8 @@
 #include "../../command_line/engine_argument.hpp"
 #include "../../command_line/gas_options.hpp"
 #include "../../command_line/operating_point.hpp"
-#include "../../command_line/progress.hpp"
 #include "../../command_line/results.hpp"
+#include "../../command_line/shards.hpp"
 #include "../../command_line/summary.hpp"
 #include "../../engine_file/plausibility.hpp"
 #include "../../engine_file/pressure_words.hpp"
@@ -28,27 +28,9 @@ constexpr double kMaxPoints = 10000;
 constexpr const char* kSpeeds = "--rpm";
 
 /// "800:6000:14"
-Grid grid(const Arguments& arguments, const char* option, Range range) {
-  const auto parts = split(arguments.text(option), ':');
-  if (parts.size() != 3) {
-    const std::string name = option;
-    throw UsageError(name + ": give FROM:TO:N, like " +
-                     (name == kSpeeds          ? "800:6000:14"
-                      : name == kThrottle.name ? "0:1:11"
-                                               : "10:60:6"));
-  }
-  double numbers[3] = {};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const ParsedNumber number = parse_number(parts[i], i < 2 ? range : from(1).up_to(1000), "");
-    if (!number.ok()) throw UsageError(std::string(option) + ": " + number.problem);
-    numbers[i] = number.value;
-  }
-  if (numbers[2] != std::floor(numbers[2]))
-    throw UsageError(std::string(option) + ": " + in_quotes(parts[2]) + " is not a whole number");
-  if (numbers[2] == 1 ? numbers[0] != numbers[1] : numbers[0] >= numbers[1]) {
-    throw UsageError(std::string(option) + ": FROM must be less than TO, or the same with N = 1");
-  }
-  return {numbers[0], numbers[1], static_cast<int>(numbers[2])};
+Grid grid(const Arguments& arguments, const std::string& name, Range range) {
+  const char* example = name == kSpeeds ? "800:6000:14" : name == kThrottle.name ? "0:1:11" : "10:60:6";
+  return parse_grid(name, arguments.text(name), range, 1000, example);
 }
 
 double one_number(const Arguments& arguments, const Option& option) {
@@ -99,22 +81,17 @@ std::string summary(const EngineMap& map) {
     add_fuel(s, map.request.gas);
   }
   s.line("burn_start", map.request.gas.burn_start_deg, "deg");
-  const auto add = [&](const char* name, double (*value)(const MapPoint&), const char* unit) {
-    const MapPoint& most = *std::max_element(map.points.begin(), map.points.end(),
-                                             [&](const MapPoint& a, const MapPoint& b) { return value(a) < value(b); });
-    s.line(name, value(most), unit, map.place_of(most));
+  const auto add = [&](const char* name, MapResult result, const char* unit) {
+    const MapPoint& most = map.largest(result);
+    s.line(name, most.at(result), unit, map.place_of(most));
   };
-  add(
-      "max_brake_torque", [](const MapPoint& p) { return p.brake_torque_Nm; }, "Nm");
-  add(
-      "max_brake_power", [](const MapPoint& p) { return p.power_W / 1e3; }, "kW");
-  add(
-      "max_net_mep", [](const MapPoint& p) { return p.gas.cycle.net_mep_Pa / 1e3; }, "kPa");
-  add(
-      "max_volumetric_efficiency", [](const MapPoint& p) { return p.gas.cycle.volumetric_efficiency; }, "");
+  add("max_brake_torque", MapResult::brake_torque, "Nm");
+  add("max_brake_power", MapResult::brake_power, "kW");
+  add("max_net_mep", MapResult::net_mep, "kPa");
+  add("max_volumetric_efficiency", MapResult::volumetric_efficiency, "");
   double faulty_ticks = 0;
   std::uint32_t faults = 0;
-  for (const MapPoint& point : map.points) faulty_ticks += point.faulty_ticks, faults |= point.faults;
+  for (const MapPoint& point : map.points) faulty_ticks += point.at(MapResult::faulty_ticks), faults |= point.faults;
   s.faulty_ticks(static_cast<std::uint64_t>(faulty_ticks), faults);
   return s.text();
 }
@@ -122,7 +99,7 @@ std::string summary(const EngineMap& map) {
 int run_map_command(const Arguments& arguments) {
   MapRequest request;
   request.speed_rpm = grid(arguments, kSpeeds, above(0).up_to(100000));
-  const EngineFile file = read_engine_without_surge(arguments, {"engine", "crank", "masses"});
+  const EngineFile file = read_engine_for_scenes(arguments, {"engine", "crank", "masses"});
   set_loads(request, arguments, file);
   const double count = static_cast<double>(request.speed_rpm.count) * request.load.count;
   if (count > kMaxPoints)
@@ -138,16 +115,19 @@ int run_map_command(const Arguments& arguments) {
   (void)tell_warnings(arguments, warnings_about_gas(file, request.speed_rpm.to, request.tick_s));
   const bool over_fuel = request.axis == &kFuelAxis;
   EngineMap map{file, request, ""};
-  map.command_line =
-      "crankloop map " + shell_word(arguments.file()) + " --rpm " + arguments.text(kSpeeds) + " --throttle " +
-      (over_fuel ? shortest(request.gas.throttle_ratio) : arguments.text("--throttle")) + " " +
-      (over_fuel ? "--fuel-mg " + arguments.text("--fuel-mg") : fuel_option(request.gas)) + " --burn-start-deg " +
-      shortest(request.gas.burn_start_deg) + " --tick-us " + shortest(arguments.number("--tick-us"));
+  const std::string options = "--rpm " + arguments.text(kSpeeds) + " --throttle " +
+                              (over_fuel ? shortest(request.gas.throttle_ratio) : arguments.text("--throttle")) + " " +
+                              (over_fuel ? "--fuel-mg " + arguments.text("--fuel-mg") : fuel_option(request.gas)) +
+                              " --burn-start-deg " + shortest(request.gas.burn_start_deg) + " --tick-us " +
+                              shortest(arguments.number("--tick-us"));
+  map.command_line = "crankloop map " + shell_word(arguments.file()) + " " + options;
   Results results(arguments, {"--csv", "--report"});
-  {
-    Progress progress("mapping", count, Progress::kLogPeriod_ns);
-    run_map(map, [&progress] { progress.long_step(); });
-  }
+  const Points points{"map", "mapping", static_cast<std::size_t>(count), Identity().add_engine(file).add(options)};
+  const auto texts = results_of(arguments, points, {"--csv", "--report"}, [&](std::size_t point) {
+    return run_point(file.definition(), request, static_cast<int>(point));
+  });
+  if (!texts) return kSuccess;
+  map.points = points_of(request, *texts);
   if (Output* csv = results["--csv"]) write_csv(*csv, map);
   if (Output* page = results["--report"]) page->write(report::to_html(map_page(map)));
   results.finish(summary(map));
@@ -163,6 +143,10 @@ constexpr Option kOptions[] = {
     kLambda,
     kBurnStart,
     kTick,
+    kThreads,
+    kShard,
+    kPart,
+    kJoin,
     text("--csv", "F", "file for a row per point; - is standard output, the summary then goes to stderr"),
     text("--report", "F.html", "HTML file with heat maps, or curves where N is 1; opens in any browser"),
 };
@@ -173,7 +157,7 @@ const Command kMap{
     "map",
     "torque, air charge and mean pressures of an engine with gas exchange, over speed and throttle or fuel",
     "FILE --rpm FROM:TO:N --throttle FROM:TO:N [--lambda L | --fuel-mg M] [--burn-start-deg A] "
-    "[--tick-us T] [--csv F] [--report F.html]\n"
+    "[--tick-us T] [--threads N] [--csv F] [--report F.html] [--shard K/N --part F | --join F...]\n"
     "       FILE --rpm FROM:TO:N --fuel-mg FROM:TO:N [--throttle R] [...]",
     "crankloop map four_2000.ini --rpm 1000:6000:6 --throttle 0:1:6 --csv map.csv --report map.html",
     1,

@@ -16,12 +16,6 @@ double shown(const MapColumn& column, const MapPoint& point) {
   return (column.is_share ? 100 : 1) * column.value(point);
 }
 
-std::vector<double> values_of(const Grid& grid) {
-  std::vector<double> values;
-  for (int i = 0; i < grid.count; ++i) values.push_back(grid.at(i));
-  return values;
-}
-
 report::Axis speed_axis() { return report::axis_of("Engine speed", "rpm"); }
 report::Axis load_axis(const EngineMap& map) {
   return report::axis_of(map.request.axis->title, map.request.axis->unit);
@@ -30,7 +24,7 @@ report::Axis load_axis(const EngineMap& map) {
 Plot heat_map(const EngineMap& map, const MapColumn& column) {
   Plot plot = report::plot_of(column.title, speed_axis(), load_axis(map));
   report::Field& field = plot.field;
-  field = {column.title, unit_of(column), values_of(map.request.speed_rpm), values_of(map.request.load), {}};
+  field = {column.title, unit_of(column), map.request.speed_rpm.values(), map.request.load.values(), {}};
   for (const MapPoint& point : map.points) field.values.push_back(shown(column, point));
   plot.x.range = report::Range{field.x.front(), field.x.back()};
   plot.y.range = report::Range{field.y.front(), field.y.back()};
@@ -66,10 +60,6 @@ std::string over_what(const EngineMap& map) {
 
 report::Page map_page(const EngineMap& map) {
   const auto number = [](double value) { return report::format_number(value, 4); };
-  const auto most = [&](double (*value)(const MapPoint&)) {
-    return *std::max_element(map.points.begin(), map.points.end(),
-                             [&](const MapPoint& a, const MapPoint& b) { return value(a) < value(b); });
-  };
   report::Page page;
   const MapAxis& axis = *map.request.axis;
   page.title = map.file.name() + ' ' + over_what(map);
@@ -78,12 +68,12 @@ report::Page map_page(const EngineMap& map) {
   };
   page.subtitle = counted(map.request.speed_rpm.count, "speed") + ", " +
                   counted(map.request.load.count, axis.positions) + ", each until it has settled.";
-  const MapPoint torque = most([](const MapPoint& p) { return p.brake_torque_Nm; });
-  const MapPoint power = most([](const MapPoint& p) { return p.power_W; });
-  const MapPoint charge = most([](const MapPoint& p) { return p.gas.cycle.volumetric_efficiency; });
-  page.facts = {{"Largest brake torque", number(torque.brake_torque_Nm), "Nm", map.place_of(torque)},
-                {"Largest brake power", number(power.power_W / 1e3), "kW", map.place_of(power)},
-                {"Largest volumetric efficiency", number(100 * charge.gas.cycle.volumetric_efficiency), "%",
+  const MapPoint& torque = map.largest(MapResult::brake_torque);
+  const MapPoint& power = map.largest(MapResult::brake_power);
+  const MapPoint& charge = map.largest(MapResult::volumetric_efficiency);
+  page.facts = {{"Largest brake torque", number(torque.at(MapResult::brake_torque)), "Nm", map.place_of(torque)},
+                {"Largest brake power", number(power.at(MapResult::brake_power)), "kW", map.place_of(power)},
+                {"Largest volumetric efficiency", number(100 * charge.at(MapResult::volumetric_efficiency)), "%",
                  map.place_of(charge)}};
 
   const bool is_field = map.request.speed_rpm.count > 1 && map.request.load.count > 1;

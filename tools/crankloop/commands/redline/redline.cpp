@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <mutex>
+#include <optional>
 
 #include "../../command_line/commands.hpp"
 #include "../../command_line/engine_argument.hpp"
 #include "../../command_line/operating_point.hpp"
+#include "../../command_line/parallel.hpp"
 #include "../../command_line/progress.hpp"
 #include "../../command_line/results.hpp"
 #include "../../command_line/summary.hpp"
@@ -100,14 +103,19 @@ std::string cell_of(const StaticRedline& rigid) {
   return rigid.crank_rad_s > 0 ? digits(rigid.crank_rad_s * kRpmPerRad_s, 6) : "none";
 }
 
+/// Of what is varied: "factor", "rocker.intake.clearance_mm".
+std::string column_of(const Redline& redline) {
+  return redline.varied == nullptr || redline.varied->are_factors ? "factor" : redline.varied->keys;
+}
+
 std::string table_of_factors(const Redline& redline) {
   TextTable table;
-  std::vector<std::string> header{"factor", "separation_onset_rpm", "bounce_onset_rpm", "seating_limit_rpm",
+  std::vector<std::string> header{column_of(redline), "separation_onset_rpm", "bounce_onset_rpm", "seating_limit_rpm",
                                   "static_redline_rpm"};
   for (const ResultColumn& column : kColumns) header.emplace_back(column.name);
   table.row(header);
   for (const Sweep& sweep : redline.sweeps) {
-    std::vector<std::string> cells{digits(sweep.factor, 6), cell_of(sweep.separation, redline.range),
+    std::vector<std::string> cells{sweep.value, cell_of(sweep.separation, redline.range),
                                    cell_of(sweep.bounce, redline.range), cell_of(sweep.seating, redline.range),
                                    cell_of(sweep.rigid)};
     const SpeedResult& result = sweep.at[redline.compared_at()];
@@ -119,11 +127,11 @@ std::string table_of_factors(const Redline& redline) {
 }
 
 void add_onset(Summary& s, const char* name, const Onset& onset, const SpeedRange& range) {
-  if (!onset.found) return s.line(name, "none", "", "up to " + std::to_string(range.to_rpm) + " rpm");
+  if (!onset.found) return s.none(name, "rpm", "up to " + std::to_string(range.to_rpm) + " rpm");
   s.line(name, onset.speed_rpm, "rpm", onset.at_the_start ? "or below: it is there at the lowest speed" : "");
 }
 
-std::string summary(const Redline& redline) {
+Summary summary(const Redline& redline) {
   const Sweep& given = redline.as_given();
   const detail::ValveBody<double> body = redline.valve.body();
   Summary s;
@@ -140,24 +148,37 @@ std::string summary(const Redline& redline) {
   add_onset(s, "separation_onset", given.separation, redline.range);
   add_onset(s, "bounce_onset", given.bounce, redline.range);
   add_onset(s, "seating_limit", given.seating, redline.range);
-  s.line("static_redline", cell_of(given.rigid), given.rigid.crank_rad_s > 0 ? "rpm" : "", static_in_words(redline));
+  if (given.rigid.crank_rad_s > 0) {
+    s.line("static_redline", given.rigid.crank_rad_s * kRpmPerRad_s, "rpm", static_in_words(redline));
+  } else {
+    s.none("static_redline", "rpm", static_in_words(redline));
+  }
   s.line("natural_frequency", open_frequency_rad_s(body) * kTurnsPerRad, "Hz", "open, on the train");
   s.line("seat_frequency", seated_frequency_rad_s(body) * kTurnsPerRad, "Hz", "on train and seat");
-  s.text("\n");
-  if (redline.influence == nullptr) return s.text() + table_of_speeds(given);
-  s.remark(std::string("influence of ") + redline.influence->keys + ", times factor; from max_lift_mm on at " +
-           std::to_string(redline.as_given().at[redline.compared_at()].speed_rpm) +
+  return s;
+}
+
+/// Of the speeds, or of the factors with a remark above it.
+std::string table(const Redline& redline) {
+  if (redline.varied == nullptr) return table_of_speeds(redline.as_given());
+  Summary s;
+  s.remark("influence of " + redline.varied->keys + (redline.varied->are_factors ? ", times factor" : "") +
+           "; from max_lift_mm on at " + std::to_string(redline.as_given().at[redline.compared_at()].speed_rpm) +
            " rpm, just above the onset as given");
   return s.text() + table_of_factors(redline);
 }
 
 void write_csv(Output& out, const Redline& redline) {
-  std::vector<std::string> header{"factor", "speed_rpm"};
+  std::vector<std::string> header{column_of(redline), "speed_rpm"};
   for (const ResultColumn& column : kColumns) header.emplace_back(column.name);
   CsvWriter csv(out, header);
   for (const Sweep& sweep : redline.sweeps) {
     for (const SpeedResult& result : sweep.at) {
-      csv.cell(sweep.factor);
+      if (redline.varied != nullptr && redline.varied->are_words) {
+        csv.quoted_cell(sweep.value);
+      } else {
+        csv.cell(sweep.factor);
+      }
       csv.cell(result.speed_rpm);
       for (const ResultColumn& column : kColumns) {
         if (is_shown(result, column)) {
@@ -176,32 +197,6 @@ double speeds_of(const SpeedRange& range) {
   return (range.to_rpm - range.from_rpm) / range.step_rpm + 1 + 2 * std::log2(std::max(range.step_rpm, 1));
 }
 
-/// The valve with a factor. Throws for a value outside the ranges of an engine file.
-LoneValve varied_valve(const LoneValve& valve, const Influence& influence, double factor) {
-  const Valve other = varied(valve.valve(), influence.option, factor);
-  if (validate(other).ok()) return valve.with(other);
-  throw InputError(valve.file().path() + ": " + brief(factor) + " times " + influence.keys + " of [valve " +
-                   valve.train().name + "] is out of range");
-}
-
-const Influence* influence_of(const Arguments& arguments) {
-  if (!arguments.has("--vary")) return nullptr;
-  for (const Influence& influence : kInfluences) {
-    if (arguments.text("--vary") == influence.option) return &influence;
-  }
-  return nullptr;
-}
-
-void refuse_nothing_to_vary(const LoneValve& valve, const std::string& option) {
-  const Valve& v = valve.valve();
-  const bool nothing =
-      (option == "spring" && v.spring_N_m == 0) ||
-      (option == "damping" && v.train_damping_ratio == 0 && v.guide_damping_ratio == 0 && v.seat_damping_ratio == 0);
-  if (nothing)
-    throw InputError(valve.file().path() + ": [valve " + valve.train().name + "]: --vary " + option +
-                     " has nothing to vary: it is 0");
-}
-
 RedlineLimits limits_of(const Arguments& arguments, const LoneValve& valve) {
   RedlineLimits limits{millionths(arguments.number("--bounce-um")), arguments.number("--seating-m-s"), 0};
   if (!arguments.has("--coil-bind-mm")) return limits;
@@ -212,39 +207,68 @@ RedlineLimits limits_of(const Arguments& arguments, const LoneValve& valve) {
   return limits;
 }
 
-int run_redline(const Arguments& arguments) {
+SpeedRange range_of(const Arguments& arguments) {
   const SpeedRange range = speed_range(arguments.whole_number("--from"), arguments.whole_number("--to"));
   if (range.from_rpm >= range.to_rpm) throw UsageError("--from must be less than --to");
+  return range;
+}
+
+/// Of the train as the file has it.
+Summary figures_of_redline(const Arguments& arguments, const EngineFile& file) {
+  const SpeedRange range = range_of(arguments);
+  const LoneValve valve(file, train_name(arguments, file));
+  Redline redline{valve, range, nullptr, {}, "", limits_of(arguments, valve)};
+  redline.sweeps.push_back(sweep_speeds(valve, range, 1, {}, redline.limits));
+  return summary(redline);
+}
+
+std::string command_line(const Arguments& arguments, const Redline& redline, const std::string& train) {
+  std::string text = "crankloop redline " + shell_word(arguments.file()) + " --train " + train + " --from " +
+                     std::to_string(redline.range.from_rpm) + " --to " + std::to_string(redline.range.to_rpm) +
+                     " --bounce-um " + shortest(arguments.number("--bounce-um")) + " --seating-m-s " +
+                     shortest(arguments.number("--seating-m-s"));
+  if (arguments.has("--coil-bind-mm")) text += " --coil-bind-mm " + shortest(arguments.number("--coil-bind-mm"));
+  return text + (redline.varied != nullptr ? " --vary " + shell_word(redline.varied->option) : "");
+}
+
+/// The trains on all processors.
+void sweep_all(Redline& redline) {
+  const std::size_t count = redline.varied != nullptr ? redline.varied->trains.size() : 1;
+  Progress progress("searching", static_cast<double>(count) * speeds_of(redline.range));
+  std::mutex one_at_a_time;
+  const auto after_speed = [&] {
+    const std::lock_guard<std::mutex> lock(one_at_a_time);
+    progress.long_step();
+  };
+  redline.sweeps.resize(count);
+  const auto sweep = [&](std::size_t i) {
+    if (redline.varied == nullptr) {
+      redline.sweeps[i] = sweep_speeds(redline.valve, redline.range, 1, after_speed, redline.limits);
+      return;
+    }
+    const VariedTrain& train = redline.varied->trains[i];
+    redline.sweeps[i] = sweep_speeds(*train.valve, redline.range, train.at, after_speed, redline.limits);
+    redline.sweeps[i].value = train.value;
+    redline.sweeps[i].as_given = train.as_given;
+  };
+  run_in_parallel(processors(), count, sweep, [] {});
+}
+
+int run_redline(const Arguments& arguments) {
+  const SpeedRange range = range_of(arguments);
   const EngineFile file = read_engine(arguments, {});
   const std::string name = train_name(arguments, file);
   const LoneValve valve(file, name);
+  std::optional<VariedTrains> varied;
+  if (arguments.has("--vary")) varied.emplace(varied_trains(valve, arguments.text("--vary")));
   Results results(arguments, {"--csv", "--report"});
-  Redline redline{valve, range, influence_of(arguments), {}, "", limits_of(arguments, valve)};
-  redline.command_line = "crankloop redline " + shell_word(arguments.file()) + " --train " + name + " --from " +
-                         std::to_string(range.from_rpm) + " --to " + std::to_string(range.to_rpm) + " --bounce-um " +
-                         shortest(arguments.number("--bounce-um")) + " --seating-m-s " +
-                         shortest(arguments.number("--seating-m-s"));
-  if (arguments.has("--coil-bind-mm"))
-    redline.command_line += " --coil-bind-mm " + shortest(arguments.number("--coil-bind-mm"));
-  {
-    const std::size_t sweeps = redline.influence != nullptr ? std::size(kInfluenceFactors) : 1;
-    Progress progress("searching", static_cast<double>(sweeps) * speeds_of(range));
-    const auto after_speed = [&progress] { progress.long_step(); };
-    if (redline.influence == nullptr) {
-      redline.sweeps.push_back(sweep_speeds(valve, range, 1, after_speed, redline.limits));
-    } else {
-      redline.command_line += std::string(" --vary ") + redline.influence->option;
-      refuse_nothing_to_vary(valve, redline.influence->option);
-      for (const double factor : kInfluenceFactors) {
-        redline.sweeps.push_back(
-            sweep_speeds(varied_valve(valve, *redline.influence, factor), range, factor, after_speed, redline.limits));
-      }
-    }
-  }
+  Redline redline{valve, range, varied ? &*varied : nullptr, {}, "", limits_of(arguments, valve)};
+  redline.command_line = command_line(arguments, redline, name);
+  sweep_all(redline);
   tell_warnings(arguments, beyond_class(valve, range.to_rpm, redline.sweeps.front().tick_s));
   if (Output* csv = results["--csv"]) write_csv(*csv, redline);
   if (Output* page = results["--report"]) page->write(report::to_html(redline_page(redline)));
-  results.finish(summary(redline));
+  results.finish(summary(redline).text() + "\n" + table(redline));
   return kSuccess;
 }
 
@@ -257,9 +281,10 @@ constexpr Option kOptions[] = {
     number("--seating-m-s", "V", above(0).up_to(100), "highest permissible seating speed", "0.5"),
     number("--coil-bind-mm", "L", above(0).up_to(1000),
            "valve lift at which the spring binds: results beyond are left out; default 1.5 times the theoretical lift"),
-    choice("--vary", "train|mass|spring|preload|damping",
-           "repeats the sweep with this times 0.5, 0.7, 0.85, 1, 1.2, 1.5, 2; mass: all that moves, damping: all three "
-           "ratios"),
+    text("--vary", "P",
+         "repeats the sweep with train, mass, spring, preload or damping times 0.5, 0.7, 0.85, 1, 1.2, 1.5, 2 (mass: "
+         "all "
+         "that moves, damping: all three ratios), or with SECTION.KEY=FROM:TO:N or =A,B,C of the engine file"),
     text("--csv", "F", "file for a row per factor and speed; - is standard output, the rest then goes to stderr"),
     text("--report", "F.html", "HTML file with the plots; opens in any browser"),
 };
@@ -318,6 +343,8 @@ const Command kRedline{"redline",
                        "crankloop redline ohc_125.ini --train intake --vary spring --report redline.html",
                        1,
                        kOptions,
-                       run_redline};
+                       run_redline,
+                       false,
+                       figures_of_redline};
 
 }  // namespace crankloop::program

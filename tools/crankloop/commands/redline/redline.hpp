@@ -8,20 +8,21 @@
 
 #include "../../report/page.hpp"
 #include "redline_search.hpp"
+#include "redline_vary.hpp"
 
 namespace crankloop::program {
 
 struct Redline {
   const LoneValve& valve;
   SpeedRange range;
-  const Influence* influence;  ///< null: nothing is varied
-  std::vector<Sweep> sweeps;   ///< by factor; without an influence one, of factor 1
+  const VariedTrains* varied;  ///< null: nothing is
+  std::vector<Sweep> sweeps;   ///< of the varied trains in their order, else one
   std::string command_line;
   RedlineLimits limits;
 
   [[nodiscard]] const Sweep& as_given() const noexcept {
     for (const Sweep& sweep : sweeps) {
-      if (sweep.factor == 1) return sweep;
+      if (sweep.as_given) return sweep;
     }
     return sweeps.front();
   }
@@ -45,7 +46,7 @@ struct Redline {
     for (const Sweep& sweep : sweeps) {
       if (sweep.separation.found) onset_rpm = std::min<double>(onset_rpm, sweep.separation.speed_rpm);
     }
-    return influence == nullptr ? range.from_rpm : std::max(1.0 * range.from_rpm, std::floor(onset_rpm / 2e3) * 1e3);
+    return varied == nullptr ? range.from_rpm : std::max(1.0 * range.from_rpm, std::floor(onset_rpm / 2e3) * 1e3);
   }
 
   /// The speed of the sweeps at which they are compared: the first above the onset of separation as given, where the

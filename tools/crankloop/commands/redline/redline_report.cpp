@@ -28,7 +28,17 @@ report::Series over_speed(const Sweep& sweep, const std::string& name, Value val
   return series;
 }
 
-std::string factor_name(const Sweep& sweep) { return "\u00D7 " + brief(sweep.factor); }
+/// "x 0.85", "0.05 mm", "a.csv".
+std::string name_of(const Redline& redline, const Sweep& sweep) {
+  if (redline.varied->are_factors) return "\u00D7 " + sweep.value;
+  return sweep.value + (redline.varied->unit.empty() ? "" : " " + redline.varied->unit);
+}
+
+/// Of a family of curves.
+int shade(std::size_t i, std::size_t count) {
+  if (count <= report::kRamp) return static_cast<int>(i) + 1;
+  return 1 + static_cast<int>(i * (report::kRamp - 1) / (count - 1));
+}
 
 /// One curve, or one for each factor.
 Plot plot_over_speed(const Redline& redline, const std::string& title, const Axis& y, Value value) {
@@ -36,12 +46,12 @@ Plot plot_over_speed(const Redline& redline, const std::string& title, const Axi
   plot.y.include_zero = true;
   plot.x.range = report::Range{redline.shown_from_rpm(), redline.shown_to_rpm()};
   for (const Sweep& sweep : redline.sweeps) {
-    plot.series.push_back(
-        over_speed(sweep, redline.influence != nullptr ? factor_name(sweep) : "", value, redline.shown_to_rpm(sweep)));
-    if (redline.influence == nullptr) continue;
+    plot.series.push_back(over_speed(sweep, redline.varied != nullptr ? name_of(redline, sweep) : "", value,
+                                     redline.shown_to_rpm(sweep)));
+    if (redline.varied == nullptr) continue;
     plot.names_at_ends = true;
-    plot.series.back().style.ramp = static_cast<int>(plot.series.size());
-    plot.series.back().style.bold = sweep.factor == 1;
+    plot.series.back().style.ramp = shade(plot.series.size() - 1, redline.sweeps.size());
+    plot.series.back().style.bold = sweep.as_given;
   }
   return plot;
 }
@@ -61,17 +71,18 @@ void mark(Plot& plot, const Onset& onset, const char* label) {
 }
 
 Section speed_section(const Redline& redline) {
-  Section section{
-      "speed", redline.influence != nullptr ? std::string(redline.influence->title) + " and speed" : "Over speed", {}};
-  if (redline.influence != nullptr) {
+  Section section{"speed", redline.varied != nullptr ? redline.varied->title + " and speed" : "Over speed", {}};
+  if (redline.varied != nullptr) {
     section.blocks.push_back(Paragraph{
-        "Each curve is the train with " + std::string(redline.influence->keys) +
-        " times its factor; \u00D7 1, bold, is the train as its file gives it. A curve ends shortly above the speed at "
-        "which its valve leaves the train: beyond, the motion is chaotic."});
+        "Each curve is the train with " +
+        (redline.varied->are_factors
+             ? redline.varied->keys + " times its factor; \u00D7 1, bold, is the train as its file gives it."
+             : "another " + redline.varied->title + "; the bold one is the train as its file gives it.") +
+        " A curve ends shortly above the speed at which its valve leaves the train: beyond, the motion is chaotic."});
   }
   Plot gap = plot_over_speed(redline, "Separation", axis_of("Largest gap between train and valve", "mm"), gap_mm);
   Plot bounce = plot_over_speed(redline, "Bounce", axis_of("Largest height above the seat", "mm"), bounce_mm);
-  if (redline.influence == nullptr) {
+  if (redline.varied == nullptr) {
     mark(gap, redline.as_given().separation, "from");
     mark(bounce, redline.as_given().bounce, "from");
   }
@@ -81,7 +92,7 @@ Section speed_section(const Redline& redline) {
   section.blocks.push_back(std::move(bounce));
   Plot seating =
       plot_over_speed(redline, "Seating", axis_of("Speed at the first contact with the seat", "m/s"), seating_m_s);
-  if (redline.influence == nullptr) mark(seating, redline.as_given().seating, "limit from");
+  if (redline.varied == nullptr) mark(seating, redline.as_given().seating, "limit from");
   section.blocks.push_back(std::move(seating));
   section.blocks.push_back(
       plot_over_speed(redline, "Largest force between cam and follower", axis_of("Force", "kN"), cam_kN));
@@ -93,9 +104,16 @@ Section speed_section(const Redline& redline) {
   return section;
 }
 
+Axis factor_axis(const Redline& redline) {
+  if (redline.varied->are_factors) return axis_of("Factor", "");
+  Axis axis = axis_of(redline.varied->title, redline.varied->unit);
+  if (redline.varied->are_words) axis.tick_step = 1;
+  return axis;
+}
+
 Section onset_section(const Redline& redline) {
   Section section{"onset", "Onset of separation and bounce", {}};
-  Plot plot = plot_of("Onset", axis_of("Factor", ""), axis_of("Engine speed", "rpm"));
+  Plot plot = plot_of("Onset", factor_axis(redline), axis_of("Engine speed", "rpm"));
   const auto series = [&](const char* name, Onset Sweep::*onset) {
     report::Series one;
     one.name = name;
@@ -121,7 +139,7 @@ Section onset_section(const Redline& redline) {
   if (!rigid.x.empty()) plot.series.push_back(std::move(rigid));
   if (!plot.series.empty()) section.blocks.push_back(std::move(plot));
   report::Table table{"",
-                      {{"Factor", ""},
+                      {{redline.varied->are_factors ? "Factor" : redline.varied->title, redline.varied->unit},
                        {"Separation from", ""},
                        {"Bounce from", ""},
                        {"Seating too fast from", ""},
@@ -129,9 +147,8 @@ Section onset_section(const Redline& redline) {
                       {},
                       false};
   for (const Sweep& sweep : redline.sweeps) {
-    table.rows.push_back({brief(sweep.factor), text_of(sweep.separation, redline.range),
-                          text_of(sweep.bounce, redline.range), text_of(sweep.seating, redline.range),
-                          text_of(sweep.rigid)});
+    table.rows.push_back({sweep.value, text_of(sweep.separation, redline.range), text_of(sweep.bounce, redline.range),
+                          text_of(sweep.seating, redline.range), text_of(sweep.rigid)});
   }
   section.blocks.push_back(std::move(table));
   return section;
@@ -164,7 +181,8 @@ Section method_section(const Redline& redline) {
   list.items.push_back(
       "The static redline is the speed at which the spring can just slow the valve down as the cam asks, " +
       static_in_words(redline) + ".");
-  if (redline.influence != nullptr) list.items.push_back("Damping ratios stay constant while mass or stiffness vary.");
+  if (redline.varied != nullptr && redline.varied->are_factors)
+    list.items.push_back("Damping ratios stay constant while mass or stiffness vary.");
   section.blocks.push_back(std::move(list));
   return section;
 }
@@ -179,8 +197,8 @@ report::Page redline_page(const Redline& redline) {
     return report::Fact{name, std::to_string(one.speed_rpm), "rpm", one.at_the_start ? "or below" : note};
   };
   report::Page page;
-  page.title = "Valve train " + redline.valve.train().name +
-               (redline.influence != nullptr ? ": " + std::string(redline.influence->title) : "");
+  page.title =
+      "Valve train " + redline.valve.train().name + (redline.varied != nullptr ? ": " + redline.varied->title : "");
   page.subtitle = "Separation and bounce from " + std::to_string(redline.range.from_rpm) + " to " +
                   std::to_string(redline.range.to_rpm) + " rpm of the engine, from " + redline.valve.file().path() +
                   ".";
@@ -195,7 +213,7 @@ report::Page redline_page(const Redline& redline) {
        "open, on the train"},
       {"Seated", report::format_number(seated_frequency_rad_s(body) * kTurnsPerRad, 4), "Hz", "on train and seat"},
       {"Largest theoretical lift", report::format_number(redline.valve.lift().largest_lift_m() * 1e3, 5), "mm", ""}};
-  if (redline.influence != nullptr) page.sections.push_back(onset_section(redline));
+  if (redline.varied != nullptr) page.sections.push_back(onset_section(redline));
   page.sections.push_back(speed_section(redline));
   page.sections.push_back(method_section(redline));
   page.footer = "Made by crankloop from " + redline.valve.file().path() + ".";

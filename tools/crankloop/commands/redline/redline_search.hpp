@@ -49,7 +49,9 @@ struct Onset {
 };
 
 struct Sweep {
-  double factor = 1;  ///< of the quantity that is varied
+  double factor = 1;     ///< or value, of the quantity that is varied
+  std::string value{};   ///< the same as text
+  bool as_given = true;  ///< the train as the file has it
   double tick_s = 0;
   std::vector<SpeedResult> at;
   double max_lift_m = 0;  ///< of what is possible

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "../../engine_file/following_springs.hpp"
 #include "../../files/units.hpp"
 #include "../../loops/run_limits.hpp"
 #include "../../loops/valve_tick_limit.hpp"
@@ -22,7 +23,7 @@ template <class Real, class S>
 FreeLoop<Real, S>::FreeLoop(const EngineFile& file, const EngineDefinition& definition, const FreeOperation& operation)
     : tick_s_{operation.tick_s} {
   require_ticks(operation.seconds / tick_s_, tick_s_, "or fewer --seconds");
-  Status status = tables_->build(definition, {tick_s_});
+  Status status = tables_->build(with_springs_that_follow(definition), {tick_s_});
   if (!status.ok()) throw explain_tabulate(file, status, tick_s_, {});
   require_speed(operation.from_rpm, static_cast<double>(tables_->tables().drive->speed_limit_rad_s), tick_s_,
                 definition.crank);

@@ -28,6 +28,7 @@
 #include "../../loops/run_valves.hpp"
 #include "../../loops/valve_accuracy.hpp"
 #include "../../loops/valve_tick_limit.hpp"
+#include "against.hpp"
 #include "free_request.hpp"
 #include "run_signals.hpp"
 
@@ -131,8 +132,7 @@ void add_brake(Summary& s, const EngineDefinition& definition, double indicated_
   if (brake.efficiency_ratio > 0) s.line("mechanical_efficiency", brake.efficiency_ratio);
 }
 
-std::string summary_text(const Engines& engine, const Request& request, const RunFigures& f,
-                         const CycleSummary& summary, double wall_time_per_tick_ns) {
+Summary summary_of(const Engines& engine, const Request& request, const RunFigures& f, const CycleSummary& summary) {
   const EngineDefinition& definition = engine.exact.definition();
   const double speed = request.operation.speed_rad_s();
   Summary s;
@@ -201,10 +201,13 @@ std::string summary_text(const Engines& engine, const Request& request, const Ru
     s.line("event_budget", f.tables.event_budget);
   }
   s.faulty_ticks(f.faulty_ticks, f.faults);
+  return s;
+}
+
+void add_wall_time(Summary& s, double wall_time_per_tick_ns) {
   s.line("wall_time_per_tick", wall_time_per_tick_ns, "ns",
          "this machine: median of " + std::to_string(FixedStepLoop<float>::kBatches) + " batches of " +
              std::to_string(FixedStepLoop<float>::kBatchTicks) + " steps, nothing recorded");
-  return s.text();
 }
 
 std::string command_line(const Arguments& arguments, const Request& request, bool breathes) {
@@ -264,37 +267,106 @@ void run(const Engines& engine, const Request& request, const Arguments& argumen
                             request.warnings};
     page->write(report::to_html(engine_report(input)));
   }
-  results.finish(summary_text(engine, request, figures, summary, wall_time_per_tick_ns));
+  Summary printed = summary_of(engine, request, figures, summary);
+  add_wall_time(printed, wall_time_per_tick_ns);
+  results.finish(printed.text());
+}
+
+std::vector<std::string> needed_sections() { return {"engine", "crank", "masses"}; }
+
+/// Throttle, fuel and spark; refuses what no run can do.
+GasOrder gas_for(const Arguments& arguments, const EngineFile& file) {
+  require_heat_to_scale(arguments, file);
+  const GasOrder gas = gas_order(arguments, file, 1);
+  require_manifolds(file, millionths(arguments.number("--tick-us")));
+  return gas;
+}
+
+Operation operation_of(const Arguments& arguments, const EngineFile& file, const GasOrder& gas) {
+  return {speed_rpm(arguments, file), millionths(arguments.number("--tick-us")), arguments.number("--load-ratio"), gas};
+}
+
+ExactEngine exact_of(const EngineFile& file) {
+  ExactEngine exact;
+  if (const Status refused = exact.init(file.definition()); !refused.ok()) throw file.explain(refused);
+  return exact;
+}
+
+/// Calls `work` with a zero of the arithmetic and the scene.
+template <class Work>
+auto with_scene(const Engines& engine, const std::string& real, const Work& work) {
+  return with_real(real, [&](auto zero) {
+    return engine.breathes() ? work(zero, scenes::Breathing{}) : work(zero, scenes::Whole{});
+  });
+}
+
+/// Of a run at constant speed, without the time that this machine takes.
+Summary figures_of_run(const Arguments& arguments, const EngineFile& file) {
+  file.require(needed_sections());
+  const Operation operation = operation_of(arguments, file, gas_for(arguments, file));
+  require_trains(file, operation.tick_s);
+  const Request request{operation, arguments.whole_number("--cycles"), arguments.text("--real"), {}};
+  const ExactEngine exact = exact_of(file);
+  const Engines engine{file, exact};
+  const CycleSummary cycle =
+      engine.breathes() ? CycleSummary{} : summarise(exact, operation.speed_rad_s(), operation.load_ratio);
+  return with_scene(engine, request.real, [&](auto zero, auto scene) {
+    using Real = decltype(zero);
+    using S = decltype(scene);
+    FixedStepLoop<Real, S> loop(file.definition(), operation);
+    return summary_of(engine, request, run_cycles<Real, S>(loop, file.definition(), operation, request.cycles), cycle);
+  });
+}
+
+Trace trace_of(const Arguments& arguments, const EngineFile& file) {
+  const Operation operation = operation_of(arguments, file, gas_for(arguments, file));
+  return with_real(arguments.text("--real"), [&](auto zero) {
+    using Real = decltype(zero);
+    return breathes(file.definition()) ? record_trace<Real, scenes::Breathing>(file.definition(), operation)
+                                       : record_trace<Real, scenes::Whole>(file.definition(), operation);
+  });
+}
+
+/// Both engines with the same options; each at its own rated speed without --rpm.
+int run_against(const Arguments& arguments, const EngineFile& first) {
+  for (const char* option : {"--free", "--csv", "--vcd"}) {
+    if (arguments.has(option)) throw UsageError(std::string(option) + " is of one engine; --against compares two");
+  }
+  const std::string& path = arguments.text("--against");
+  const EngineFile second = read_engine_file(path, needed_sections());
+  (void)tell_warnings(arguments, warnings_about(second));
+  Results results(arguments, {"--report"});
+  Side sides[] = {{first, figures_of_run(arguments, first)}, {second, figures_of_run(arguments, second)}};
+  if (Output* page = results["--report"]) {
+    for (Side& side : sides) side.trace = trace_of(arguments, side.file);
+    page->write(report::to_html(against_page(
+        sides[0], sides[1],
+        "crankloop run " + shell_word(first.path()) + " --against " + shell_word(path) +
+            (arguments.has("--rpm") ? " --rpm " + shortest(arguments.number("--rpm")) : "") + " --tick-us " +
+            shortest(arguments.number("--tick-us")) + " --real " + arguments.text("--real"))));
+  }
+  results.finish(side_by_side(sides[0], sides[1]).text());
+  return kSuccess;
 }
 
 int run_run(const Arguments& arguments) {
   require_options_that_fit(arguments);
   std::vector<std::string> warnings;
-  const EngineFile file = read_engine_without_surge(arguments, {"engine", "crank", "masses"}, &warnings);
-  const EngineDefinition& definition = file.definition();
-  require_heat_to_scale(arguments, file);
-  const GasOrder gas = gas_order(arguments, file, 1);
-  require_manifolds(file, millionths(arguments.number("--tick-us")));
+  const EngineFile file = read_engine_for_scenes(arguments, needed_sections(), &warnings);
+  if (arguments.has("--against")) return run_against(arguments, file);
+  const GasOrder gas = gas_for(arguments, file);
   if (arguments.has("--free")) return run_free_by(arguments, file, gas, std::move(warnings));
-  const Operation operation{speed_rpm(arguments, file), millionths(arguments.number("--tick-us")),
-                            arguments.number("--load-ratio"), gas};
+  const Operation operation = operation_of(arguments, file, gas);
   for (std::string& line : tell_warnings(arguments, warnings_about_gas(file, operation.speed_rpm, operation.tick_s)))
     warnings.push_back(std::move(line));
   require_trains(file, operation.tick_s);
   for (std::string& line : tell_warnings(arguments, warnings_about_valves(file, operation.speed_rpm, operation.tick_s)))
     warnings.push_back(std::move(line));
   const Request request{operation, arguments.whole_number("--cycles"), arguments.text("--real"), std::move(warnings)};
-  ExactEngine exact;
-  if (const Status refused = exact.init(definition); !refused.ok()) throw file.explain(refused);
+  const ExactEngine exact = exact_of(file);
   const Engines engine{file, exact};
-  with_real(request.real, [&](auto zero) {
-    using Real = decltype(zero);
-    if (engine.breathes()) {
-      run<Real, scenes::Breathing>(engine, request, arguments);
-    } else {
-      run<Real, scenes::Whole>(engine, request, arguments);
-    }
-  });
+  with_scene(engine, request.real,
+             [&](auto zero, auto scene) { run<decltype(zero), decltype(scene)>(engine, request, arguments); });
   return kSuccess;
 }
 
@@ -311,6 +383,7 @@ constexpr Option kOptions[] = {
     kBurnStart,
     text("--csv", "F", "file for a row per tick; - is standard output, the summary then goes to stderr"),
     text("--report", "F.html", "HTML file with the report; opens in any browser"),
+    text("--against", "B.ini", "another engine file: figures of both, and with --report their curves in one drawing"),
     text("--vcd", "F", "file for the trigger wheels' signals, a value change dump as GTKWave and PulseView open it"),
     flag("--free", "free-running: gas, friction and load set the speed; needed by the options below"),
     number("--from-rpm", "N", from(-100000).up_to(100000), "initial speed, backwards if negative", "0"),
@@ -327,11 +400,13 @@ const Command kRun{
     "run",
     "the fixed-step loop: torque, power, peak forces, time per tick; or a free-running engine; CSV and report",
     "FILE [--rpm N] [--cycles N] [--tick-us T] [--real R] [--load-ratio Q] [--csv F] [--report F.html] [--vcd F]\n"
-    "       [--throttle R] [--lambda L | --fuel-mg M] [--burn-start-deg A]\n"
+    "       [--throttle R] [--lambda L | --fuel-mg M] [--burn-start-deg A] [--against B.ini]\n"
     "       crankloop run FILE --free [--from-rpm N] [--seconds S] [--machine-Nm L] [--starter] [--cut K,..] [...]",
     "crankloop run diesel_495.ini --rpm 2000 --csv run.csv --report report.html",
     1,
     kOptions,
-    run_run};
+    run_run,
+    false,
+    figures_of_run};
 
 }  // namespace crankloop::program

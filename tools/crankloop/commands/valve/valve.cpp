@@ -87,8 +87,8 @@ std::string gas_remark(const LoneValve& valve) {
 void add_margin(Summary& s, const LoneValve& valve, double speed_rpm) {
   const StaticRedline redline = valve.static_redline();
   if (!(redline.crank_rad_s > 0)) {
-    s.line("spring_margin", "none", "", "the valve never opens");
-    s.line("static_redline", "none");
+    s.none("spring_margin", "", "the valve never opens");
+    s.none("static_redline", "rpm");
     return;
   }
   s.line("spring_margin", redline.margin(speed_rpm * kRad_sPerRpm), "",
@@ -126,7 +126,7 @@ void add_surge(Summary& s, const LoneValve& valve, double speed_rpm, const Sprin
   const double cam_rad_s = speed_rpm * kRad_sPerRpm / 2;
   const SpringSurgeCycle surge = surge_over_cycle(valve.lift(), valve.valve(), cam_rad_s);
   if (!(surge.frequency_Hz > 0)) {
-    s.line("spring_frequency", "none", "", "spring_g is 0");
+    s.none("spring_frequency", "Hz", "spring_g is 0");
     return;
   }
   s.line("spring_frequency", surge.frequency_Hz, "Hz",
@@ -134,7 +134,7 @@ void add_surge(Summary& s, const LoneValve& valve, double speed_rpm, const Sprin
              " times the cam's turns");
   if (valve.valve().surge_modes > 0) return add_stepped_surge(s, valve, springs, error_ratio);
   if (!(surge.largest_N > 0)) {
-    s.line("spring_surge_force", "none", "", "the cam turns too slowly");
+    s.none("spring_surge_force", "N", "the cam turns too slowly");
     return;
   }
   s.line("spring_surge_force", surge.largest_N, "N",
@@ -177,9 +177,9 @@ void add_motion(Summary& s, const MotionRange& elastic, const MotionRange& rigid
 }
 
 template <class Real>
-std::string summary(const LoneValve& valve, const Request& request, const ValveLoop<Real>& loop,
-                    const ValveCycle<Real>& cycle, double change_m, const Flow& flow, const MotionRange& motion,
-                    const SpringRange& springs) {
+Summary summary(const LoneValve& valve, const Request& request, const ValveLoop<Real>& loop,
+                const ValveCycle<Real>& cycle, double change_m, const Flow& flow, const MotionRange& motion,
+                const SpringRange& springs) {
   const auto real = [](double value) { return static_cast<Real>(value); };
   const detail::ValveBody<double> body = valve.body();
   const bool separated = cycle.separations > 0;
@@ -200,7 +200,7 @@ std::string summary(const LoneValve& valve, const Request& request, const ValveL
     s.line("separation_start", valve.cam_deg(static_cast<double>(cycle.separation_start_deg)), "deg",
            "cam angle, of the largest");
   } else {
-    s.line("separation_start", "none");
+    s.none("separation_start", "deg");
   }
   s.line("separation_duration", cycle.separation_duration_deg, "deg");
   s.line("seating_speed", cycle.seating_speed_m_s, "m/s");
@@ -220,15 +220,16 @@ std::string summary(const LoneValve& valve, const Request& request, const ValveL
   s.line("cycle_difference", real(change_m * 1e6), "um", "of lift, largest between two consecutive cycles");
   s.line("periodic", change_m <= kPeriodicWithin_m ? "yes" : "no", "", "yes: they agree within 1 um");
   s.remark(flow_remark(valve.train()));
-  if (!flow.area) return s.text();
+  if (!flow.area) return s;
   add_flow(s, "theoretical_", flow.theory);
   add_flow(s, "", flow.elastic);
   add_flow_figures(s, flow.elastic, valve.file(), valve.train(), request.speed_rpm);
-  return s.text();
+  return s;
 }
 
+/// Writes the files that are asked for.
 template <class Real>
-void run(const LoneValve& valve, const Request& request, Results& results) {
+Summary run(const LoneValve& valve, const Request& request, Results& results, const std::function<void()>& after_tick) {
   ValveLoop<Real> loop(valve, request.tick_s, request.method);
   const double ticks = ticks_per_cycle(request.speed_rpm, request.tick_s);
   Output* plot = results["--plot"];
@@ -238,8 +239,6 @@ void run(const LoneValve& valve, const Request& request, Results& results) {
   }
   Flow flow;
   if ((flow.area = flow_area_of(valve.train()))) flow.theory = theoretical_flow(*flow.area, valve.lift());
-  Progress progress("running", (2.0 * request.cycles + 2) * ticks);
-  const auto after_tick = [&progress] { progress.step(); };
   std::optional<CsvWriter> csv;
   if (Output* file = results["--csv"]) {
     std::vector<std::string> columns{"cam_deg",      "theoretical_lift_mm",  "rocker_ratio",  "lift_mm",
@@ -278,28 +277,43 @@ void run(const LoneValve& valve, const Request& request, Results& results) {
     if (flow.area) add_flow_remarks(sheet.remarks, valve.train());
     plot->write(report::to_svg_file(sheet));
   }
-  results.finish(summary(valve, request, loop, cycle, change_m, flow, motion, springs));
+  return summary(valve, request, loop, cycle, change_m, flow, motion, springs);
+}
+
+Request request_of(const Arguments& arguments, const EngineFile& file) {
+  const std::string& integrator = arguments.text("--integrator");
+  const ValveStepping stepping{integrator == "exponential" ? Integrator::exponential : Integrator::rk4,
+                               millionths(arguments.number("--accuracy-um"))};
+  Request request{speed_rpm(arguments, file),           millionths(arguments.number("--tick-us")),
+                  arguments.whole_number("--cycles"),   integrator,
+                  {stepping, integrator == "textbook"}, arguments.text("--real")};
+  if (request.speed_rpm == 0) throw UsageError("--rpm 0: the cam would never turn");
+  return request;
 }
 
 int run_valve(const Arguments& arguments) {
   const EngineFile file = read_engine(arguments, {});
-  const std::string& integrator = arguments.text("--integrator");
-  const ValveStepping stepping{integrator == "exponential" ? Integrator::exponential : Integrator::rk4,
-                               millionths(arguments.number("--accuracy-um"))};
-  const Request request{speed_rpm(arguments, file),           millionths(arguments.number("--tick-us")),
-                        arguments.whole_number("--cycles"),   integrator,
-                        {stepping, integrator == "textbook"}, arguments.text("--real")};
-  if (request.speed_rpm == 0) throw UsageError("--rpm 0: the cam would never turn");
+  const Request request = request_of(arguments, file);
   const std::string name = train_name(arguments, file);
   const LoneValve valve(file, name);
   if (request.method.textbook && valve.valve().surge_modes > 0)
     throw UsageError("--integrator textbook: springs follow their valve there; take surge_modes out of [valve " + name +
                      "]");
   if (!request.method.textbook)
-    tell_warnings(arguments, beyond_class(valve, request.speed_rpm, request.tick_s, stepping));
+    tell_warnings(arguments, beyond_class(valve, request.speed_rpm, request.tick_s, request.method.stepping));
   Results results(arguments, {"--csv", "--plot"});
-  with_real(request.real, [&](auto zero) { run<decltype(zero)>(valve, request, results); });
+  with_real(request.real, [&](auto zero) {
+    Progress progress("running", (2.0 * request.cycles + 2) * ticks_per_cycle(request.speed_rpm, request.tick_s));
+    results.finish(run<decltype(zero)>(valve, request, results, [&progress] { progress.step(); }).text());
+  });
   return kSuccess;
+}
+
+Summary figures_of_valve(const Arguments& arguments, const EngineFile& file) {
+  const Request request = request_of(arguments, file);
+  const LoneValve valve(file, train_name(arguments, file));
+  Results no_files(arguments, {});
+  return with_real(request.real, [&](auto zero) { return run<decltype(zero)>(valve, request, no_files, {}); });
 }
 
 constexpr Option kOptions[] = {
@@ -329,6 +343,8 @@ const Command kValve{
     "crankloop valve ohc_125.ini --train intake --rpm 7000 --csv valve.csv --plot valve.svg",
     1,
     kOptions,
-    run_valve};
+    run_valve,
+    false,
+    figures_of_valve};
 
 }  // namespace crankloop::program
