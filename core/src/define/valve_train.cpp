@@ -1,5 +1,7 @@
-// Validation of a valve train; field names as in the engine file.
+// Validation of a valve train and of its cam's contact; field names as in the engine file.
 #include <crankloop/define/valve_train.hpp>
+
+#include <crankloop/define/cam_contact.hpp>
 
 #include "rules.hpp"
 
@@ -60,6 +62,11 @@ Status validate(const Rocker& rocker) noexcept {
 Status validate(const Valve& valve) noexcept {
   if (valve.per_cylinder < 1 || valve.per_cylinder > 8) return refuse("valve.per_cylinder", Reason::out_of_range);
   return out_of_range(valve);
+}
+
+Status validate(const CamContact& contact) noexcept {
+  if (const Status refused = out_of_range(contact); !refused.ok()) return refused;
+  return none_or_positive(contact.width_m, "cam.width_m");
 }
 
 Status validate(const ValveTrain& train) noexcept {
