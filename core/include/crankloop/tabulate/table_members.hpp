@@ -52,6 +52,9 @@ CRANKLOOP_MEMBERS_OF(RegimeStep, lift, velocity, acceleration, train, seat, rest
 CRANKLOOP_MEMBERS_OF(RegimeSeries, rest, gas, stiffness, damping, lift, lift_speed)
 CRANKLOOP_MEMBERS_OF(ValveMotion, body, tick, fine, per_fine, per_parts, parts, per_parts_32, changes, cubic, widest,
                      train_lag, seat_lag, per_seat, quiet, seat_rate, whole_steps, fine_steps, series)
+CRANKLOOP_MEMBERS_OF(CamContactSegment, stress, entrainment)
+CRANKLOOP_MEMBERS_OF(CamContactCurve, at, sliding, per_width)
+CRANKLOOP_MEMBERS_OF(CamTorqueTable, sliding, friction, cams)
 CRANKLOOP_MEMBERS_OF(GasWalls, factor, area, per_volume, temperature, piston)
 CRANKLOOP_MEMBERS_OF(GasCylinders, walls, clearance, bore_area, crankcase, least, per_swept, per_charge, ambient,
                      ambient_temperature, exhaust_temperature, steps, spare)
