@@ -60,6 +60,14 @@ refuses 'valve forces, results and gas force need elastic valves' "$engine_of" "
   "$following static constexpr bool valve_forces $yes"
 refuses 'valve forces, results and gas force need elastic valves' "$engine_of" "$elastic static constexpr bool valve_results $yes" \
   "static constexpr bool valve_results $yes"
+for answer in cam_contact cam_torque; do
+  refuses 'cam_contact and cam_torque need elastic valves' "$engine_of" "$elastic static constexpr bool $answer $yes" \
+    "$following static constexpr bool $answer $yes"
+done
+turned='static constexpr auto crank = CrankGiven::torque;'
+refuses 'cam_drag needs cam_torque' "$engine_of" \
+  "$elastic $turned static constexpr bool cam_torque $yes static constexpr bool cam_drag $yes" \
+  "$elastic static constexpr bool cam_torque $yes static constexpr bool cam_drag $yes"
 refuses 'cam_phasing needs valves' "$engine_of" "$following static constexpr bool cam_phasing $yes" "static constexpr bool cam_phasing $yes"
 for answer in theoretical_lift valve_acceleration; do
   refuses 'theoretical_lift and valve_acceleration need valves' "$engine_of" "$following static constexpr bool $answer $yes" \

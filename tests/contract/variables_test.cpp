@@ -57,8 +57,14 @@ struct GivenManifolds : scenes::Breathing {
   static constexpr Manifold manifold = Manifold::given;
   static constexpr bool boundaries = false;
 };
+struct LoadedCams : scenes::Breathing {
+  static constexpr CrankGiven crank = CrankGiven::torque;
+  static constexpr bool cam_contact = true;
+  static constexpr bool cam_torque = true;
+  static constexpr bool cam_drag = true;
+};
 using Scenes =
-    testing::Types<scenes::Whole, scenes::Breathing, MeasuredBreathing, GivenManifolds, scenes::FreeRunning,
+    testing::Types<scenes::Whole, scenes::Breathing, MeasuredBreathing, GivenManifolds, LoadedCams, scenes::FreeRunning,
                    scenes::BreathingFree, scenes::MeasuredMotion, scenes::TorqueByTable, scenes::TorqueByPressure>;
 struct NumberOfScene {
   template <class S>

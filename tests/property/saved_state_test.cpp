@@ -554,8 +554,8 @@ TEST(SceneCode, TellsScenesApartByEveryAnswerThatTheirStatesDependOn) {
   const auto codes =
       codes_of<Plain, TwoCylinders, TwoTrains, ByPhase, ByLoad, TablePressure, InputPressure, Following, Elastic,
                WithLoadRatio, WithRodInertia, WithTorque, WithMeanTorque, WithForces, WithValveResults, WithValveGas,
-               WithCamPhasing, WithBadInputCount, WithStarter, WithCylinderCut>();
-  EXPECT_EQ(codes.size(), 20u);
+               WithCamContact, WithCamDrag, WithCamPhasing, WithBadInputCount, WithStarter, WithCylinderCut>();
+  EXPECT_EQ(codes.size(), 22u);
 }
 
 TEST(Crc32, HasTheCheckValueOfItsStandard) {

@@ -35,6 +35,8 @@ inline EngineDefinition engine_of(int cylinders, int trains, bool gas, int modes
     if (t == 1) engine.trains[t].rocker.clearance_m = 0;
     if (gas) engine.trains[t].valve.head_area_m2 = 4e-4 + 1e-4 * t;
     engine.trains[t].valve.surge_modes = modes - t > 0 ? modes - t : 0;
+    engine.contacts[t].width_m = 9e-3 + 1e-3 * t;
+    if (t != 1) engine.contacts[t].friction_ratio = 0.1;
   }
   return engine;
 }
@@ -77,6 +79,7 @@ std::vector<std::uint32_t> bits_of(int cylinders, int trains, double tick_s) {
     }
     const auto& out = engine->step(in);
     bits.push_back(out.faults);
+    if constexpr (S::cam_torque) add_words(out.camshaft_Nm, bits);
     for (int t = 0; t < trains; ++t) {
       for (int k = 0; k < cylinders; ++k) {
         add_words(out.valve[t][k], bits);
@@ -86,6 +89,12 @@ std::vector<std::uint32_t> bits_of(int cylinders, int trains, double tick_s) {
           add_words(out.valve_cycle[t][k], bits);
           add_words(engine->state().record[t][k], bits);
         }
+        if constexpr (S::cam_contact) {
+          add_words(out.cam_contact[t][k], bits);
+          add_words(out.cam_contact_cycle[t][k], bits);
+          add_words(engine->state().contact_record[t][k], bits);
+        }
+        if constexpr (S::cam_torque) add_words(out.cam_torque[t][k], bits);
         bits.push_back(engine->state().valve_regime[static_cast<std::size_t>(t) * S::cylinders.capacity +
                                                     static_cast<std::size_t>(k)]);
       }
@@ -113,6 +122,12 @@ LanesRun surging(const char* name, int cylinders, int trains, double tick_s) {
                     cylinders, trains, surging_s)};
 }
 
+template <class Unit, std::uint32_t Cylinders, std::uint32_t Trains, bool Exact, bool Phasing, bool Gas>
+LanesRun loaded(const char* name, int cylinders, int trains, double tick_s) {
+  using Told = tick_test::ToldLanes<tick_test::Lanes<Unit, Cylinders, Trains, Exact, Phasing>, Gas>;
+  return {name, bits_of<tick_test::CamLoadsAlone<Told>>(cylinders, trains, tick_s)};
+}
+
 /// Blocks of eight, of four, what fills none; several trains in a row and each for itself; cams that move.
 template <class Unit>
 std::vector<LanesRun> all_runs(double tick_s) {
@@ -125,6 +140,12 @@ std::vector<LanesRun> all_runs(double tick_s) {
           {"phased cams", bits_of<tick_test::Lanes<Unit, 4, 2, true, true>>(4, 2, tick_s)},
           told<Unit, 4, 2, true, true, false>("phased cams, forces and results", 4, 2, tick_s),
           told<Unit, 16, 4, false, false, false>("seven of sixteen cylinders, forces and results", 7, 3, tick_s),
+          {"what four cylinders' cams bear, forces and results",
+           bits_of<tick_test::WithCamLoads<tick_test::ToldLanes<tick_test::Lanes<Unit, 4, 2, true, false>, false>>>(
+               4, 2, tick_s)},
+          loaded<Unit, 4, 2, true, true, false>("what phased cams bear", 4, 2, tick_s),
+          loaded<Unit, 16, 4, false, false, false>("what seven of sixteen cylinders' cams bear", 7, 3, tick_s),
+          loaded<Unit, 6, 3, true, false, true>("what six cylinders' cams bear under gas", 6, 3, tick_s),
           told<Unit, 4, 2, true, false, true>("four cylinders under gas", 4, 2, tick_s),
           told<Unit, 6, 3, true, true, true>("six phased cylinders under gas", 6, 3, tick_s),
           told<Unit, 8, 2, false, false, true>("five of eight cylinders under gas", 5, 2, tick_s),

@@ -16,6 +16,7 @@ class FieldNames {
     (*this)({1, ""}, EngineDefinition{});
     (*this)({1, ""}, Gas{});
     (*this)({1, ""}, TriggerWheel{});
+    (*this)({1, ""}, CamContact{});
     names_.insert("trigger_count");
   }
   template <class Field>

@@ -115,9 +115,23 @@ void each_output(const Output<Real, S>& out, const Used& used, const F& f) {
           f("cycle_contact_changes", i, c.contact_changes);
           f("cycle_off_seat_at_end", i, c.off_seat_at_end);
         }
+        if constexpr (S::cam_contact) {
+          const CamContactOutput<Real>& c = out.cam_contact[t][k];
+          f("stress_Pa", i, c.stress_Pa);
+          f("half_width_m", i, c.half_width_m);
+          f("sliding_m_s", i, c.sliding_m_s);
+          f("entrainment_m_s", i, c.entrainment_m_s);
+          f("cycle_largest_Pa", i, out.cam_contact_cycle[t][k].largest_Pa);
+          f("cycle_largest_deg", i, out.cam_contact_cycle[t][k].largest_deg);
+        }
+        if constexpr (S::cam_torque) {
+          f("cam_torque_Nm", i, out.cam_torque[t][k].torque_Nm);
+          f("cam_friction_Nm", i, out.cam_torque[t][k].friction_Nm);
+        }
       }
     }
   }
+  if constexpr (S::cam_torque) f("camshaft_Nm", std::size_t{0}, out.camshaft_Nm);
   if constexpr (detail::Needs<S>::gas) {
     for (std::size_t k = 0; k < used.cylinders; ++k) {
       const CylinderGasOutput<Real>& gas = out.cylinder_gas[k];

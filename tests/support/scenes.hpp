@@ -202,6 +202,20 @@ struct OneValve : Scene {
   static constexpr bool valve_forces = true;
   static constexpr bool valve_results = true;
 };
+/// What its cam bears, beside all the rest.
+template <class Base = OneValve>
+struct WithCamLoads : Base {
+  static constexpr bool cam_contact = true;
+  static constexpr bool cam_torque = true;
+};
+/// That alone: forces come from the valve's state.
+template <class Base>
+struct CamLoadsAlone : WithCamLoads<Base> {
+  static constexpr bool theoretical_lift = false;
+  static constexpr bool valve_acceleration = false;
+  static constexpr bool valve_forces = false;
+  static constexpr bool valve_results = false;
+};
 struct OneValveWithPhaser : OneValve {
   static constexpr bool cam_phasing = true;
 };
@@ -341,6 +355,8 @@ OTHERWISE(WithMeanTorque, bool, mean_torque, true);
 OTHERWISE(WithForces, bool, forces, true);
 OTHERWISE(WithValveResults, bool, valve_results, true);
 OTHERWISE(WithValveGas, bool, valve_gas, true);
+OTHERWISE(WithCamContact, bool, cam_contact, true);
+OTHERWISE(WithCamDrag, bool, cam_drag, true);
 OTHERWISE(WithCamPhasing, bool, cam_phasing, true);
 OTHERWISE(WithBadInputCount, bool, bad_input_count, true);
 OTHERWISE(WithStarter, bool, starter, true);

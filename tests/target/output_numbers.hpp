@@ -138,6 +138,21 @@ void each_number(Sink& sink, const crankloop::Output<Real, S>& out) {
       for (const auto& cycle : train) each(sink, cycle);
     }
   }
+  if constexpr (S::cam_contact) {
+    for (const auto& train : out.cam_contact) {
+      for (const auto& [stress, half_width, sliding, entrainment] : train)
+        each(sink, stress), each(sink, half_width), each(sink, sliding), each(sink, entrainment);
+    }
+    for (const auto& train : out.cam_contact_cycle) {
+      for (const auto& [largest, at] : train) each(sink, largest), each(sink, at);
+    }
+  }
+  if constexpr (S::cam_torque) {
+    for (const auto& train : out.cam_torque) {
+      for (const auto& [torque, friction] : train) each(sink, torque), each(sink, friction);
+    }
+    each(sink, out.camshaft_Nm);
+  }
   if constexpr (crankloop::detail::Needs<S>::gas) {
     for (const auto& gas : out.cylinder_gas) each(sink, gas);
   }

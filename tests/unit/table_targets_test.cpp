@@ -91,6 +91,15 @@ TYPED_TEST(TableTargetsOf, APartWithoutWhatBelongsToItAreRefusedByItsName) {
   lifts.lift_segments = nullptr;
   lifts.rocker_ratios = &ratio;
   EXPECT_TRUE(refuses(answer(lifts), Reason::missing_table, "targets.lift_segments"));
+  CamContactCurve<Real> contact;
+  CamTorqueTable<Real> cam_torque;
+  Targets contacts;
+  contacts.cam_torques = &cam_torque;
+  EXPECT_TRUE(refuses(answer(contacts), Reason::missing_table, "targets.lift_curves"));
+  contacts.lift_curves = &lift, contacts.lift_segments = &lift_segment, contacts.rocker_ratios = &ratio;
+  EXPECT_TRUE(refuses(answer(contacts), Reason::missing_table, "targets.cam_sliding"));
+  contacts.cam_sliding = &ratio, contacts.cam_contacts = &contact;
+  EXPECT_TRUE(refuses(answer(contacts), Reason::missing_table, "targets.cam_contact_segments"));
 }
 
 TYPED_TEST(TableTargetsOf, AnEngineThatHasEverythingFillEverySection) {
@@ -98,6 +107,8 @@ TYPED_TEST(TableTargetsOf, AnEngineThatHasEverythingFillEverySection) {
   EngineDefinition engine = single_495();
   engine.train_count = 1;
   engine.trains[0] = valve_test::ohc_125_train();
+  engine.contacts[0].width_m = 9e-3;
+  engine.contacts[0].friction_ratio = 0.1;
   engine.trigger_count = 1;
   engine.triggers[0].places = 60;
   const auto stores = std::make_unique<detail::part::Stores<Real, detail::part::RoomForAll>>();

@@ -1,7 +1,8 @@
 // What comes out of a step: only the groups that the scene asked for; reading another does not compile.
 //
 // What belongs here: what outputs mean. What does not: how they come about (tick/step.hpp). Edges of trigger wheels:
-// tick/trigger/trigger_output.hpp; results of valves: tick/valve/valve_results.hpp.
+// tick/trigger/trigger_output.hpp; results of valves: tick/valve/valve_results.hpp; of cams:
+// tick/valve/contact_results.hpp.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include <crankloop/tables/gas_tables.hpp>
 #include <crankloop/tick/gas/gas_results.hpp>
 #include <crankloop/tick/trigger/trigger_output.hpp>
+#include <crankloop/tick/valve/contact_results.hpp>
 #include <crankloop/tick/valve/valve_results.hpp>
 
 namespace crankloop {
@@ -122,6 +124,8 @@ struct RodMotion {
 /// How the crank moves where the speed is not given. At the end of the tick, with this tick's inputs:
 ///
 ///     J_eff acceleration = torque_Nm + starter_Nm - friction_Nm - external_torque_Nm,    torque_Nm as below
+///
+/// With cam_drag less half of camshaft_Nm, as it was at the end of the tick before.
 template <class Real>
 struct CrankMotion {
   Phase crank;       ///< 0 = cylinder 1's firing top dead centre
@@ -220,6 +224,8 @@ struct Output : detail::If<detail::Needs<S>::crank_dynamics, group::CrankMotion<
                 detail::If<S::valve_forces, group::ValveForces<Real, S>>,
                 detail::If<detail::Needs<S>::spring_forces, group::ValveSpringForces<Real, S>>,
                 detail::If<S::valve_results, group::ValveResults<Real, S>>,
+                detail::If<S::cam_contact, group::CamContacts<Real, S>>,
+                detail::If<S::cam_torque, group::CamTorques<Real, S>>,
                 detail::If<detail::Needs<S>::any_triggers, group::Triggers<Real, S>> {
   std::uint32_t faults;  ///< Fault bits of this tick
 };

@@ -85,6 +85,10 @@ struct Scene {
   static constexpr bool valve_acceleration = false;  ///< of each valve
   static constexpr bool valve_forces = false;        ///< forces at train, seat, stem tip and cam; elastic valves
   static constexpr bool valve_results = false;  ///< per-cycle results: float, bounce, seating speed; elastic valves
+  static constexpr bool cam_contact = false;    ///< stress, sliding and rolling where cam and follower touch, and the
+                                                ///< largest stress of a cycle; elastic valves
+  static constexpr bool cam_torque = false;     ///< of each cam, and of the camshaft; elastic valves
+  static constexpr bool cam_drag = false;       ///< the crank turns the camshaft: cam_torque, CrankGiven::torque
   static constexpr bool valve_gas =
       false;  ///< cylinder pressure on the valve heads; a train with a head area demands it
   static constexpr std::uint32_t spring_modes =
@@ -144,6 +148,8 @@ struct Needs {
   static constexpr bool gas_pressure = cylinder_pressure && table_pressure;
   static constexpr bool load = S::load_ratio && table_pressure;
   static constexpr bool cut = S::cylinder_cut && table_pressure;
+  static constexpr bool cam_loads = S::cam_contact || S::cam_torque;
+  static constexpr bool cycle_ends = S::valve_results || S::cam_contact;  ///< of valves are noticed
   static constexpr bool valve_gas_held = S::valve_gas && !gas;  ///< the force of the last tick is part of the state
   static constexpr bool cut_torque =
       cut && torque_curves;  ///< the engine's gas torque less that of cylinders which do not fire
@@ -176,6 +182,10 @@ struct CheckedScene {
                 "valve forces, results and gas force need elastic valves");
   static_assert(S::valves == ValveModel::elastic || S::spring_modes == 0, "springs surge at elastic valves");
   static_assert(S::spring_modes <= kMaxValveModes, "a valve's springs have at most 6 modes");
+  static_assert(S::valves == ValveModel::elastic || (!S::cam_contact && !S::cam_torque),
+                "cam_contact and cam_torque need elastic valves");
+  static_assert(!S::cam_drag || (S::cam_torque && S::crank == CrankGiven::torque),
+                "cam_drag needs cam_torque, and a crank that is turned by forces: set crank = torque");
   static_assert(S::valves != ValveModel::none || !S::cam_phasing, "cam_phasing needs valves");
   static_assert(S::valves != ValveModel::none || (!S::theoretical_lift && !S::valve_acceleration),
                 "theoretical_lift and valve_acceleration need valves");

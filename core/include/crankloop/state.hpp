@@ -9,6 +9,7 @@
 #include <crankloop/tables/curve.hpp>
 #include <crankloop/tick/gas/gas_results.hpp>
 #include <crankloop/tick/gas/gas_state.hpp>
+#include <crankloop/tick/valve/contact_results.hpp>
 #include <crankloop/tick/valve/valve_results.hpp>
 
 namespace crankloop {
@@ -131,6 +132,8 @@ struct State : group::StateCore<Real>,
                detail::If<detail::Needs<S>::surge, group::SpringState<Real, S>>,
                detail::If<S::cam_phasing, group::CamPhaseState<Real, S>>,
                detail::If<S::valve_results, group::ValveRecords<Real, S>>,
+               detail::If<S::cam_contact, group::CamContactRecords<Real, S>>,
+               detail::If<S::cam_drag, group::CamDragState<Real>>,
                detail::If<detail::Needs<S>::gas, group::CylinderGasState<Real, S>>,
                detail::If<detail::Needs<S>::manifolds, group::ManifoldState<Real>>,
                detail::If<detail::Needs<S>::given_gas, group::GivenGasState<Real>>,

@@ -280,6 +280,32 @@ constexpr void each_output(Visit&& visit, AState& state, AnOutput& out, [[maybe_
            c.off_seat_at_end);
     });
   }
+  if constexpr (S::cam_contact) {
+    each_valve([&out](const auto& show, std::uint32_t t, std::uint32_t k) {
+      auto& c = out.cam_contact[t][k];
+      show(real("cam_contact[#,#].stress_Pa", "Largest pressure between cam and follower, by Hertz; 0: no contact"),
+           c.stress_Pa);
+      show(real("cam_contact[#,#].half_width_m", "Of the strip of contact"), c.half_width_m);
+      show(real("cam_contact[#,#].sliding_m_s", "Surface of the cam less that of the follower"), c.sliding_m_s);
+      show(real("cam_contact[#,#].entrainment_m_s", "Mean of both surfaces, relative to the contact"),
+           c.entrainment_m_s);
+    });
+    each_valve([&out](const auto& show, std::uint32_t t, std::uint32_t k) {
+      auto& c = out.cam_contact_cycle[t][k];
+      show(real("cam_contact_cycle[#,#].largest_Pa", "Largest stress of the last whole cycle"), c.largest_Pa);
+      show(real("cam_contact_cycle[#,#].largest_deg", "Where it was, cam degrees since the lobe's start"),
+           c.largest_deg);
+    });
+  }
+  if constexpr (S::cam_torque) {
+    each_valve([&out](const auto& show, std::uint32_t t, std::uint32_t k) {
+      auto& c = out.cam_torque[t][k];
+      show(real("cam_torque[#,#].torque_Nm", "Torque that a cam takes, positive against forward rotation"),
+           c.torque_Nm);
+      show(real("cam_torque[#,#].friction_Nm", "Its part of friction between cam and follower"), c.friction_Nm);
+    });
+    visit(real("camshaft_Nm", "Torque that all cams take, positive against forward rotation"), out.camshaft_Nm);
+  }
   if constexpr (S::bad_input_count) {
     visit(whole("bad_input_ticks", "Ticks with a bad input since the start"), state.bad_input_ticks);
     visit(whole("bad_input_kinds", "Their fault bits, or-ed"), state.bad_input_kinds);

@@ -219,6 +219,8 @@ Status validate(const EngineDefinition& engine) noexcept {
   for (int t = 0; t < engine.train_count; ++t) {
     if (const Status refused = validate(engine.trains[t]); !refused.ok())
       return refuse(refused.field, refused.reason, t);
+    if (const Status refused = validate(engine.contacts[t]); !refused.ok())
+      return refuse(refused.field, refused.reason, t);
   }
   // No rod has a negative moment of inertia: J_rod = dI + m_rod l_pin l_crank.
   const Masses& m = engine.masses;

@@ -1,5 +1,7 @@
-// Validation of a valve train; field names as in the engine file.
+// Validation of a valve train and of its cam's contact; field names as in the engine file.
 #include <crankloop/define/valve_train.hpp>
+
+#include <crankloop/define/cam_contact.hpp>
 
 #include "rules.hpp"
 
@@ -75,6 +77,11 @@ Status validate(const Valve& valve) noexcept {
     return refuse("valve.surge_modes", Reason::out_of_range);
   if (const Status refused = out_of_range(valve); !refused.ok()) return refused;
   return valve.surge_modes > 0 ? validate_springs(valve) : Status{};
+}
+
+Status validate(const CamContact& contact) noexcept {
+  if (const Status refused = out_of_range(contact); !refused.ok()) return refused;
+  return none_or_positive(contact.width_m, "cam.width_m");
 }
 
 Status validate(const ValveTrain& train) noexcept {

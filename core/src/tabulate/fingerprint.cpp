@@ -10,12 +10,13 @@ namespace crankloop::detail {
 static_assert(kListsEveryField<Crank> && kListsEveryField<Masses> && kListsEveryField<Layout> &&
                   kListsEveryField<WiebeDiagram> && kListsEveryField<Pressure> && kListsEveryField<Cam> &&
                   kListsEveryField<Rocker> && kListsEveryField<Valve> && kListsEveryField<ValveTrain> &&
-                  kListsEveryField<PortOfTrain> && kListsEveryField<Gas> && kListsEveryField<Friction> &&
-                  kListsEveryField<DrivenMachine> && kListsEveryField<Starter> && kListsEveryField<ToothGap> &&
-                  kListsEveryField<TriggerWheel>,
+                  kListsEveryField<CamContact> && kListsEveryField<PortOfTrain> && kListsEveryField<Gas> &&
+                  kListsEveryField<Friction> && kListsEveryField<DrivenMachine> && kListsEveryField<Starter> &&
+                  kListsEveryField<ToothGap> && kListsEveryField<TriggerWheel>,
               "each_field() lists every field, for the tables' fingerprint and for C, and the range of every number");
-static_assert(values_listed<EngineDefinition>() + 2 + kMaxTriggerWheels == values_taken<EngineDefinition>(),
-              "all but the gas and the trigger wheels are listed");
+static_assert(values_listed<EngineDefinition>() + 2 + kMaxTriggerWheels + kMaxTrains ==
+                  values_taken<EngineDefinition>(),
+              "all but the gas, the trigger wheels and the cams' contacts are listed");
 
 namespace {
 
@@ -67,7 +68,7 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
                              int scalar_bytes) noexcept {
   // A new part of the definition must be named here, and then added below.
   const auto& [crank, masses, layout, pressure, train_count, trains, friction, load, starter, trigger_count, triggers,
-               gas] = engine;
+               gas, contacts] = engine;
   Fingerprint f;
   AddRead add{f};
   f.add(kTableFormat);

@@ -35,7 +35,7 @@ inline constexpr int kTableFormat = 8;  ///< incremented whenever the same defin
 
 /// Equal for equal definition, tick, options of the valves' steps, scalar, accuracy of the gas grid and table format,
 /// on every machine and for any choice of sections. Trigger wheels are left out: a state holds nothing of them and
-/// stays valid with others.
+/// stays valid with others. So are the cams' contacts: a state holds but the largest stress of the cycle in progress.
 [[nodiscard]] std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& options,
                                            const TableReport& report, int scalar_bytes) noexcept;
 

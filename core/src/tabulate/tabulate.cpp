@@ -7,6 +7,7 @@
 #include <crankloop/tabulate/mechanism.hpp>
 #include <crankloop/tabulate/summary.hpp>
 
+#include "contact_curves.hpp"
 #include "crank_dynamics.hpp"
 #include "curve_fit.hpp"
 #include "cylinder_groups.hpp"
@@ -87,6 +88,10 @@ template <class Real>
   if (t.lift_curves != nullptr && !all_of_lift) return refuse("targets.lift_segments", Reason::missing_table);
   if ((t.near_cams != nullptr || t.near_lobes != nullptr || t.cycle_ends != nullptr) && t.lift_curves == nullptr)
     return refuse("targets.lift_curves", Reason::missing_table);
+  if ((t.cam_contacts != nullptr || t.cam_torques != nullptr) && (t.lift_curves == nullptr || t.cam_sliding == nullptr))
+    return refuse(t.lift_curves == nullptr ? "targets.lift_curves" : "targets.cam_sliding", Reason::missing_table);
+  if (t.cam_contacts != nullptr && t.cam_contact_segments == nullptr)
+    return refuse("targets.cam_contact_segments", Reason::missing_table);
   if ((t.gas_torque_heat != nullptr) != (t.gas_heat != nullptr))
     return refuse("targets.gas_heat", Reason::missing_table);
   if (t.triggers != nullptr && t.trigger_tracks == nullptr)
@@ -164,6 +169,7 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
   TableReport found;
   if (const Status refused = detail::fill_valves(engine, options, targets, found); !refused.ok()) return refused;
 
+  detail::fill_contacts(engine, targets);
   if (targets.body != nullptr) detail::round_into(body_of(engine), *targets.body);
   if (targets.crank_dynamics != nullptr) *targets.crank_dynamics = detail::crank_dynamics_of<Real>(engine, options);
   if (targets.bearings != nullptr) detail::round_into(bearings_of(engine), *targets.bearings);

@@ -117,7 +117,7 @@ ValveLift::Contact ValveLift::contact(double phi_rad) const noexcept {
   if (rocker_.kind == RockerKind::circular_pad) return pad_contact(y, phi_rad);
   const double i = rocker_.ratio;
   const LiftPose pose{i * y.lift_m - rocker_.clearance_m, i * y.per_rad_m, i * y.per_rad2_m, i, 0};
-  return {phi_rad, 1, rocker_.base_circle_m + y.lift_m + y.per_rad2_m, 1, 1, 1, pose};
+  return {phi_rad, 1, rocker_.base_circle_m + y.lift_m + y.per_rad2_m, 1, 1, 0, 1, pose};
 }
 
 ValveLift::Contact ValveLift::pad_contact(const CamLift& y, double phi_rad) const noexcept {
@@ -144,6 +144,7 @@ ValveLift::Contact ValveLift::pad_contact(const CamLift& y, double phi_rad) cons
   c.pose.rocker_rad = W;
   c.sin_pressure = elementary::sin(pressure);
   if (!(c.sin_pressure > 0)) return c;
+  c.cos_pressure = elementary::cos(pressure);
   const double turned = W - rocker_at_rest_rad_;
   const double psi = screw_at_rest_rad_ - turned;
   c.cos_screw = elementary::cos(psi);
@@ -156,7 +157,7 @@ ValveLift::Contact ValveLift::pad_contact(const CamLift& y, double phi_rad) cons
   const double cot_K = (l_c * l_c + R * R - l_a * l_a) / area4;
   const double J_per_phi = -cot_K * y.per_rad_m * offset_radius / (R * R);
   const double gamma_per_phi = (height * offset_radius - R * R) / (R * R);
-  const double arm_per_cam = l_a * elementary::cos(pressure) * (J_per_phi + toward * gamma_per_phi) / c.cam_per_phi;
+  const double arm_per_cam = l_a * c.cos_pressure * (J_per_phi + toward * gamma_per_phi) / c.cam_per_phi;
   const double W_per_cam = y.per_rad_m / arm;
   const double W_per_cam2 = (y.per_rad2_m / c.cam_per_phi - W_per_cam * arm_per_cam) / arm;
   const double h = 2 * l_b * elementary::cos(screw_at_rest_rad_ - turned / 2) *
@@ -168,17 +169,21 @@ ValveLift::Contact ValveLift::pad_contact(const CamLift& y, double phi_rad) cons
   return c;
 }
 
-LiftPose ValveLift::at(double cam_rad) const noexcept {
-  const double since_opening = into_turn(cam_rad - opens_rad_);
-  if (!(since_opening > 0 && since_opening < closes_rad_ - opens_rad_)) return outside_;
-  const double wanted = opens_rad_ + since_opening;
+bool ValveLift::is_on_lobe(double cam_rad, double& since_opening_rad) const noexcept {
+  since_opening_rad = into_turn(cam_rad - opens_rad_);
+  return since_opening_rad > 0 && since_opening_rad < closes_rad_ - opens_rad_;
+}
+
+/// The flat follower's angle at a place of the lobe, and the contact there.
+double ValveLift::phi_at(double since_opening_rad, Contact& c) const noexcept {
+  const double wanted = opens_rad_ + since_opening_rad;
   // phi_r increases with phi (check_contacts), so the root stays between `low` and `high`. Newton's method, with
   // bisection where its step leaves that interval or is more than half the step before.
   double low = cam_.opens_rad();
   double high = cam_.closes_rad();
-  double phi = low + since_opening;
+  double phi = low + since_opening_rad;
   double longest_step = (high - low) / 2;
-  Contact c = contact(phi);
+  c = contact(phi);
   for (int i = 0; i < 100; ++i) {
     const double beyond = c.cam_rad - wanted;
     if (beyond > 0) high = phi;
@@ -191,7 +196,35 @@ LiftPose ValveLift::at(double cam_rad) const noexcept {
     c = contact(phi);
     if (longest_step < 1e-12) break;  // the next step would be its square
   }
+  return phi;
+}
+
+LiftPose ValveLift::at(double cam_rad) const noexcept {
+  double since_opening_rad;
+  if (!is_on_lobe(cam_rad, since_opening_rad)) return outside_;
+  Contact c;
+  static_cast<void>(phi_at(since_opening_rad, c));
   return c.pose;
+}
+
+ContactPose ValveLift::contact_at(double cam_rad) const noexcept {
+  const double r_0 = rocker_.base_circle_m;
+  const bool has_pad = rocker_.kind == RockerKind::circular_pad;
+  const double pad_per_m = has_pad ? 1 / rocker_.pad_radius_m : 0;
+  double since_opening_rad;
+  if (!is_on_lobe(cam_rad, since_opening_rad)) return {1 / r_0 + pad_per_m, 0, r_0, r_0 / 2};
+  Contact c;
+  const CamLift y = cam_.at(phi_at(since_opening_rad, c));
+  // The rocker turns about O by dW/dphi_r = y' / (l_a sin J'), and its surface lies l_a cos J' - r_s beyond O along the
+  // normal.
+  double follower_m = 0;
+  if (has_pad) {
+    const double arm = rocker_.pivot_to_pad_m * c.sin_pressure;
+    const double beyond = rocker_.pivot_to_pad_m * c.cos_pressure - rocker_.pad_radius_m;
+    follower_m = (rocker_.cam_turns == CamTurns::toward_pivot ? 1 : -1) * (y.per_rad_m / arm) * beyond;
+  }
+  const double sliding_m = r_0 + y.lift_m - follower_m;
+  return {1 / c.radius_m + pad_per_m, y.per_rad_m, sliding_m, c.radius_m / c.cam_per_phi - sliding_m / 2};
 }
 
 }  // namespace crankloop

@@ -40,7 +40,7 @@ class Printer {
     } else if constexpr (std::is_arithmetic_v<Item>) {
       text(std::to_string(item) + (sizeof item == 8 ? "ULL" : sizeof item == 4 ? "U" : ""));
     } else if constexpr (std::is_pointer_v<Item>) {
-      text(places_.at(item));
+      text(item == nullptr ? "nullptr" : places_.at(item));
     } else if constexpr (std::is_array_v<Item>) {
       text("{");
       rows(item, std::extent_v<Item>);
@@ -122,6 +122,20 @@ std::vector<Piece<Record>> pieces_of(const Stores<Real>& s, const TableReport& r
   return pieces;
 }
 
+/// Whether an engine has what the sections of its cams' contacts need: a width, or for their sliding friction.
+template <class Section, class Real>
+bool lacks_contact(const Stores<Real>& s) {
+  constexpr bool kOfStress = std::is_same_v<Section, detail::section::cam_contacts> ||
+                             std::is_same_v<Section, detail::section::cam_contact_segments>;
+  constexpr bool kOfSliding = std::is_same_v<Section, detail::section::cam_sliding>;
+  if (!kOfStress && !kOfSliding) return false;
+  for (std::uint32_t t = 0; t < s.drive.trains; ++t) {
+    if (s.cam_contacts[t].per_width_m > 0) return false;
+    if (kOfSliding && s.cam_torques[t].sliding_m != nullptr) return false;
+  }
+  return true;
+}
+
 /// Prints a section as an object or array of its name. If the engine has no trains or wheels, prints one of zeros that
 /// no tick reads, so that scenes with room for them compile. False if a section has no rows.
 template <class Section, class Real>
@@ -131,6 +145,7 @@ bool print_section(Printer& p, const Stores<Real>& s, const TableReport& report,
       std::is_same_v<Section, detail::section::gas_cylinders> || std::is_same_v<Section, detail::section::gas_ports> ||
       std::is_same_v<Section, detail::section::gas_manifolds> || std::is_same_v<Section, detail::section::burn>;
   if (kOfGas && !(s.gas_cylinders.clearance_m3 > 0)) return false;  // an engine without gas exchange
+  if (lacks_contact<Section>(s)) return false;
   const std::string name = Section::kName;
   const std::string object = "\nconstexpr crankloop::detail::section::" + name + "::Record<" + real + "> " + name;
   if (std::is_same_v<Section, detail::section::triggers> && s.triggers.count == 0) {

@@ -128,6 +128,8 @@ class Reference {
   int changes = 0;
   double train_Ns = 0, seat_Ns = 0,
          spring_Ns = 0;  ///< impulses since the start: of the train, the seat, and all other forces
+  double cam_J = 0,
+         lost_J = 0;  ///< work since the start: of the cam on the train, and what train, guide and seat lost of it
   bool keep_moments = false;
   std::vector<Moment> moments;
 
@@ -174,6 +176,11 @@ class Reference {
     return force / mass_.M;
   }
 
+  /// Energy of the mass, of the spring beyond its preload, and of the contacts that are on.
+  [[nodiscard]] double energy_J(double cam_deg) const {
+    return mass_.M * v * v / 2 + mass_.k_s * y * y / 2 + mass_.P * y + held_J(cam(cam_deg, 0), regime);
+  }
+
  private:
   /// Whether the valve is closed and at rest to 1e-20 m, and the lash stays open (checked at both ends: callers advance
   /// by less than the base circle).
@@ -212,6 +219,7 @@ class Reference {
     double stage_y[kStages], stage_v[kStages];
     CamAt stage_cam[kStages];
     double train_Ns, seat_Ns, other_Ns;
+    double cam_J, lost_J;
   };
 
   /// One step of length h from the present state in the present regime.
@@ -249,6 +257,8 @@ class Reference {
       s.train_Ns += h * weight_[i] * train;
       s.seat_Ns += h * weight_[i] * seat;
       s.other_Ns += h * weight_[i] * (mass_.M * slope[i] - train - seat);
+      s.cam_J += h * weight_[i] * train * s.stage_cam[i].Yd;
+      s.lost_J += h * weight_[i] * lost_W(s.stage_cam[i], s.stage_v[i]);
     }
     return s;
   }
@@ -258,9 +268,23 @@ class Reference {
     return (forces.train ? 1u : 0u) | (forces.seat ? 2u : 0u);
   }
 
+  /// Power that the dampers of the contacts that are on take, and the guide.
+  [[nodiscard]] double lost_W(const CamAt& at, double v_m_s) const {
+    const double train = (regime & 1) != 0 ? mass_.b * (at.Yd - v_m_s) * (at.Yd - v_m_s) : 0;
+    const double seat = (regime & 2) != 0 ? mass_.b_z * v_m_s * v_m_s : 0;
+    return train + seat + mass_.c * v_m_s * v_m_s;
+  }
+  /// What the springs of some contacts hold: a contact that ends while its damper still pulls loses it.
+  [[nodiscard]] double held_J(const CamAt& at, std::uint32_t contacts) const {
+    const double train = (contacts & 1) != 0 ? mass_.k * (at.Y - y) * (at.Y - y) / 2 : 0;
+    const double seat = (contacts & 2) != 0 ? mass_.k_z * (mass_.delta - y) * (mass_.delta - y) / 2 : 0;
+    return train + seat;
+  }
+
   void take(const Trial& trial, double h, double from_deg, double per_s) {
     y = trial.y, v = trial.v;
     train_Ns += trial.train_Ns, seat_Ns += trial.seat_Ns, spring_Ns += trial.other_Ns;
+    cam_J += trial.cam_J, lost_J += trial.lost_J;
     t_ += h;
     if (keep_moments) {
       const CamAt at = cam(from_deg + per_s * h, per_s);
@@ -288,7 +312,9 @@ class Reference {
       }
       const Trial part = collocate(high, from_deg, per_s);
       take(part, high, from_deg, per_s);
-      const std::uint32_t next = regime_of(cam(from_deg + per_s * high, per_s), y, v);
+      const CamAt there = cam(from_deg + per_s * high, per_s);
+      const std::uint32_t next = regime_of(there, y, v);
+      lost_J += held_J(there, regime & ~next) - held_J(there, next & ~regime);
       changes += next != regime ? 1 : 0;
       regime = next;
       from_deg += per_s * high;

@@ -1,6 +1,7 @@
 // A whole engine, as its designer knows it.
 #pragma once
 
+#include <crankloop/define/cam_contact.hpp>
 #include <crankloop/define/crank.hpp>
 #include <crankloop/define/crank_dynamics.hpp>
 #include <crankloop/define/field.hpp>
@@ -25,7 +26,8 @@ struct EngineDefinition {
   Starter starter;
   int trigger_count = 0;  ///< 0 to kMaxTriggerWheels
   TriggerWheel triggers[kMaxTriggerWheels];
-  Gas gas;  ///< read where pressure.source is gas
+  Gas gas;                          ///< read where pressure.source is gas
+  CamContact contacts[kMaxTrains];  ///< of each train's cam
 
   template <class Visit, class Self, class... Others>
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {

@@ -40,6 +40,12 @@ template <class Real, class S>
   if constexpr (N::elastic_valves) {
     if (drive.spring_modes > S::spring_modes) return refuse("scene.spring_modes", Reason::inconsistent);
   }
+  if constexpr (S::cam_contact) {
+    for (std::uint32_t t = 0; t < drive.trains; ++t) {
+      if (!(tables.cam_contacts[t].per_width_m > 0))
+        return refuse("cam.width_m", Reason::not_positive, static_cast<std::int32_t>(t));
+    }
+  }
   if constexpr (N::any_triggers) {
     if (!fits(S::triggers, tables.triggers->count)) return refuse("tables.triggers", Reason::out_of_range);
   }

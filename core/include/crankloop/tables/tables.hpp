@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include <crankloop/scene.hpp>
+#include <crankloop/tables/contact_tables.hpp>
 #include <crankloop/tables/curve.hpp>
 #include <crankloop/tables/gas_tables.hpp>
 #include <crankloop/tables/lift_curve.hpp>
@@ -69,7 +70,11 @@ enum class SectionRows : std::uint8_t { one, gas_grid, torque_grid, cut_grid, tr
   /* where a valve at rest becomes active: its cam near; with forces also where its gap changes */ \
   SECTION(near_cams, CamDegrees, trains, N::valves_rest && !S::valve_forces)                       \
   SECTION(near_lobes, CamDegrees, trains, N::valves_rest&& S::valve_forces)                        \
-  SECTION(cycle_ends, CamDegrees, trains, S::valve_results) /* within kCycleEndMargin_deg */       \
+  SECTION(cycle_ends, CamDegrees, trains, N::cycle_ends)  /* within kCycleEndMargin_deg */         \
+  BEHIND(cam_sliding, Segment<Real>, lobes, N::cam_loads) /* m, by the cam's speed */              \
+  BEHIND(cam_contact_segments, CamContactSegment<Real>, lobes, S::cam_contact)                     \
+  SECTION(cam_contacts, CamContactCurve<Real>, trains, S::cam_contact)                             \
+  SECTION(cam_torques, CamTorqueTable<Real>, trains, S::cam_torque)                                \
   BEHIND(trigger_edges, std::uint32_t, edges, N::any_triggers)                                     \
   BEHIND(trigger_tracks, TriggerTrack, wheels, N::any_triggers)                                    \
   SECTION(triggers, TriggerWheels, one, N::any_triggers)                                           \

@@ -55,6 +55,9 @@ CRANKLOOP_MEMBERS_OF(ValveMotion, body, tick, fine, per_fine, per_parts, parts, 
 CRANKLOOP_MEMBERS_OF(ModeRow, q, v, drive)
 CRANKLOOP_MEMBERS_OF(ModeStep, of_q, of_v, push)
 CRANKLOOP_MEMBERS_OF(ValveSprings, modes, mode)
+CRANKLOOP_MEMBERS_OF(CamContactSegment, stress, entrainment)
+CRANKLOOP_MEMBERS_OF(CamContactCurve, at, sliding, per_width)
+CRANKLOOP_MEMBERS_OF(CamTorqueTable, sliding, friction, cams)
 CRANKLOOP_MEMBERS_OF(GasWalls, factor, area, per_volume, temperature, piston)
 CRANKLOOP_MEMBERS_OF(GasCylinders, walls, clearance, bore_area, crankcase, least, per_swept, per_charge, ambient,
                      ambient_temperature, exhaust_temperature, steps, spare)

@@ -28,7 +28,8 @@ inline constexpr std::size_t kMaxGasSegments = 20 * kDegreesPerCycle;
 /// Where to build each section; null = leave it out. Pressures need a gas_grid, gas torques a torque_grid, cut_torque a
 /// cut_grid; each has room for `gas_capacity` segments. A gas torque needs its segments, lift curves their segments and
 /// rocker ratios (kDegreesPerTurn rows per train of the definition), near_cams, near_lobes and cycle_ends need lift
-/// curves, triggers need tracks and edges (kMaxTriggerEdges rows per wheel).
+/// curves; cam_contacts and cam_torques need those and cam_sliding, cam_contacts their segments too; triggers need
+/// tracks and edges (kMaxTriggerEdges rows per wheel).
 template <class Real>
 struct TableTargets : detail::part::Targets<Real, detail::part::AllSections> {
   int gas_capacity = 0;  ///< at least 720 where there is a grid

@@ -20,6 +20,15 @@ struct LiftPose {
   double rocker_rad;    ///< W, 0 for a constant ratio
 };
 
+/// Where cam and follower touch at one cam angle phi_r: docs/model.md "Cam contact". Speeds are per unit of the cam's
+/// speed, positive with the cam's surface.
+struct ContactPose {
+  double curvature_per_m;  ///< 1/R = 1/rho + 1/r_s, of cam and pad; of a flat follower 1/rho
+  double lever_m;          ///< y', of the contact's normal about the cam's axis; negative while closing
+  double sliding_m;        ///< speed of the cam's surface less that of the follower's
+  double entrainment_m;    ///< mean of both surfaces' speeds relative to the contact, which moves
+};
+
 /// phi_r is the cam's rotation from full lift, negative while opening. Cam drawings use the flat follower's angle phi.
 /// The pad makes the difference between the two: equal steps of one are not equal steps of the other.
 class ValveLift {
@@ -37,6 +46,10 @@ class ValveLift {
   /// At cam angle phi_r, any value (wrapped). Exact to rounding: phi is found by Newton's method, derivatives are
   /// formulas.
   [[nodiscard]] LiftPose at(double cam_rad) const noexcept;
+
+  /// The contact at cam angle phi_r, as if the train were closed; outside the lobe that of the base circle. As exact as
+  /// at(). A pad's contact is that of a circle; a constant ratio has a flat follower that moves along its normal.
+  [[nodiscard]] ContactPose contact_at(double cam_rad) const noexcept;
 
   /// Ends of the lobe in phi_r, -2 pi to 2 pi, less than a turn apart; outside them the lift is minus the clearance,
   /// exactly.
@@ -63,12 +76,15 @@ class ValveLift {
     double radius_m;      ///< of the contour's curvature, r_0 + y + y''
     double triangle;      ///< 4 area of pivot, pad centre, cam centre, squared, per (l_a l_c)^2; <= 0: no triangle
     double sin_pressure;  ///< sin J', of the angle between rocker arm and contact normal
-    double cos_screw;     ///< cos psi
+    double cos_pressure;
+    double cos_screw;  ///< cos psi
     LiftPose pose;
   };
 
   [[nodiscard]] Contact contact(double phi_rad) const noexcept;
   [[nodiscard]] Contact pad_contact(const CamLift& y, double phi_rad) const noexcept;
+  [[nodiscard]] bool is_on_lobe(double cam_rad, double& since_opening_rad) const noexcept;
+  [[nodiscard]] double phi_at(double since_opening_rad, Contact& c) const noexcept;
   template <class Quantity>
   [[nodiscard]] bool stays_positive(const Quantity& quantity, double& smallest) noexcept;
   Status check_contacts() noexcept;

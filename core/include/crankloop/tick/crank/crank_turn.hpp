@@ -36,11 +36,18 @@ struct GasWorkOfTick {
   Real gas_work_J;
 };
 
+/// What the cams took of the crank at the end of the tick before: they are stepped once it has turned.
+template <class Real>
+struct CamDragOfTick {
+  Real cam_drag_Nm;
+};
+
 /// What a tick's crank part takes and gives besides tables, state and output.
 template <class Real, class S>
 struct CrankTurn : If<Needs<S>::cut, CutOfTick>,
                    If<Needs<S>::crank_dynamics, MotionOfTick<Real>>,
-                   If<Needs<S>::gas_work, GasWorkOfTick<Real>> {
+                   If<Needs<S>::gas_work, GasWorkOfTick<Real>>,
+                   If<S::cam_drag, CamDragOfTick<Real>> {
   Phase turned;         ///< in this tick
   bool jumped = false;  ///< nobody knows how it got there; has_jumped() after the first tick
   Real mean_pressure_Pa[Needs<S>::given_work ? S::cylinders.capacity : 1];  ///< over the tick, where they do work

@@ -223,6 +223,7 @@ template <class Real, class S, class OnceTurned>
     if constexpr (Needs<S>::cut) heat_Nm -= CutHeat<Real, S>(tables, cut_cylinders).torque_Nm(state.phase);
     gas_Nm += state.load_ratio * heat_Nm;
   }
+  if constexpr (S::cam_drag) gas_Nm -= crank.cam_drag_Nm = state.cam_drag_Nm;
   bool starter = false;
   if constexpr (S::starter) starter = input.starter != 0;
   CrankStep<Real> motion(*tables.drive, *tables.crank_dynamics, state, state.speed_rad_s,

@@ -166,7 +166,10 @@ struct TorqueStep : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
     if constexpr (N::crank_dynamics) {
       read_given_pressures(crank.mean_pressure_Pa);
       CrankStep<Real>& motion = *crank.motion;
-      motion.arrive({gas_work_J(crank), torque_Nm, inertia_kg_m2(), this->inertia_slope_kg_m2});
+      CrankArrival<Real> at{gas_work_J(crank), torque_Nm, inertia_kg_m2(), this->inertia_slope_kg_m2};
+      if constexpr (S::cam_drag)
+        at.gas_work_J -= crank.cam_drag_Nm * motion.turned_rad(), at.gas_Nm -= crank.cam_drag_Nm;
+      motion.arrive(at);
       torque_Nm += this->inertia_slope_kg_m2 * (state.speed_rad_s * state.speed_rad_s);
       out.crank = state.phase;
       motion.show(out);
@@ -215,7 +218,11 @@ struct TorqueStep : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
   [[nodiscard]] Real gas_work_J(const CrankTurn<Real, S>& crank) noexcept {
     const Real turned_rad = crank.motion->turned_rad();
     if constexpr (N::gas_work) return crank.gas_work_J;  // what left the gas, however slow: their energies add up
-    if (crawling(crank.turned)) return (crank.motion->gas_before_Nm() + torque_Nm) / 2 * turned_rad;
+    if (crawling(crank.turned)) {
+      Real before_Nm = crank.motion->gas_before_Nm();
+      if constexpr (S::cam_drag) before_Nm += crank.cam_drag_Nm;
+      return (before_Nm + torque_Nm) / 2 * turned_rad;
+    }
     Real work_J{};
     const Real mean_Nm = add_gas_work(crank, work_J);
     return work_J + mean_Nm * turned_rad;

@@ -55,6 +55,10 @@ template <class S>
     crc.add(std::uint32_t{S::starter});
     crc.add(std::uint32_t{S::cylinder_cut});
   }
+  if (S::cam_contact || S::cam_drag) {
+    crc.add(std::uint32_t{S::cam_contact});
+    crc.add(std::uint32_t{S::cam_drag});
+  }
   if (Needs<S>::gas) {
     crc.add(static_cast<std::uint32_t>(S::manifold));
     crc.add(static_cast<std::uint32_t>(S::combustion));

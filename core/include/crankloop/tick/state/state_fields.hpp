@@ -88,6 +88,20 @@ struct StateFields {
         for (auto& one : train) record(one, v);
       }
     }
+    if constexpr (S::cam_contact) {
+      v.group("state.contact");
+      for (auto& train : s.contact_record) {
+        for (auto& one : train) {
+          v.number(one.largest_Pa, Real{0}, kMaxStress_Pa);
+          v.number(one.largest_deg, Real{-360}, Real{360});
+        }
+      }
+    }
+    if constexpr (S::cam_drag) {
+      v.group("state.cam_drag");
+      v.number(s.cam_drag_Nm, -kMaxWork, kMaxWork);
+      v.spare(s.spare_of_cam_drag);
+    }
     if constexpr (N::gas) visit_gas(s, v);
     if constexpr (S::bad_input_count) {
       v.group("state.bad_input");
@@ -117,6 +131,7 @@ struct StateFields {
                                                               ///< output
   static constexpr std::uint64_t kMaxCamPhase = std::uint64_t{1} << 62;  ///< 180 deg of 720
   static constexpr std::uint32_t kAny = ~std::uint32_t{0};
+  static constexpr Real kMaxStress_Pa = static_cast<Real>(1e30);
 
   template <class AnIntegral, class Visitor>
   static constexpr void integral(AnIntegral& x, Visitor& v) noexcept {

@@ -15,6 +15,7 @@
 #include <cstdint>
 
 #include <crankloop/assert.hpp>
+#include <crankloop/tick/valve/cam_contact.hpp>
 #include <crankloop/tick/valve/plain_steps.hpp>
 #include <crankloop/tick/valve/spring_step.hpp>
 
@@ -106,17 +107,18 @@ class ElasticValves {
     const Bits failed = steps.run(cams, before);
     EventBudget budget{valves_.tables.valve_motions[0].event_budget, false};
     if (failed != 0) locate_events_in_turn(failed, cams, before, budget);
+    if constexpr (Needs<S>::cam_loads) CamsUnderLoad<Real, S>(valves_, cams).run();
     steps.deactivate_resting();
     if constexpr (Needs<S>::surge) SpringStep<Real, S>(valves_).step();
     CRANKLOOP_ASSERT(budget.left <= valves_.tables.valve_motions[0].event_budget);
-    if constexpr (S::valve_results) {
+    if constexpr (Needs<S>::cycle_ends) {
       end_cycles(cams);
     }
     return budget.exceeded ? std::uint32_t{kFaultEventBudget} : 0;
   }
 
  private:
-  static constexpr bool kByDegree = Needs<S>::valves_rest || S::valve_results;
+  static constexpr bool kByDegree = Needs<S>::valves_rest || Needs<S>::cycle_ends;
 
   /// Whether cams enter another degree of their turn.
   [[nodiscard]] bool begin_tick(const CamTick<Real>& tick, std::uint32_t group) noexcept {
@@ -142,7 +144,7 @@ class ElasticValves {
       const Bits newly_near = near & ~valves_.work.active;
       if (newly_near != 0) activate_all(newly_near, cams);
     }
-    if constexpr (S::valve_results)
+    if constexpr (Needs<S>::cycle_ends)
       valves_.work.ending =
           turns_by(cams, Real{kCycleEndMargin_deg}) ? all_valves() : valves_at(valves_.tables.cycle_ends, cams);
   }
@@ -261,14 +263,21 @@ class ElasticValves {
       const LiftCurve<Real>& lift = valves_.curve(v);
       const std::uint64_t opens = lift.opens[valves_.cylinder(v)];
       if (!lift.passes_base_circle(tick.phase_before() - opens, tick.phase - opens)) continue;
-      // In cam degrees since the start of the lobe: after it, or before it when turning backwards.
-      const auto lobe_deg = static_cast<Real>(static_cast<std::int32_t>(lift.segments));
-      const Real end_deg = (tick.cam.deg < 0 ? lobe_deg - Real{kDegreesPerTurn} : lobe_deg + Real{kDegreesPerTurn}) / 2;
-      valves_.out.valve_cycle[valves_.train(v)][valves_.cylinder(v)] =
-          valves_.state.record[valves_.train(v)][valves_.cylinder(v)].finish(
-              end_deg, contacts_of(valves_.state.valve_regime[v]));
-      valves_.load_record(v);
+      if constexpr (S::valve_results) end_record(v, tick, lift);
+      if constexpr (S::cam_contact) {
+        (&valves_.out.cam_contact_cycle[0][0])[v] = (&valves_.state.contact_record[0][0])[v];
+        (&valves_.state.contact_record[0][0])[v] = {};
+      }
     }
+  }
+  void end_record(std::uint32_t v, const CamTick<Real>& tick, const LiftCurve<Real>& lift) noexcept {
+    // In cam degrees since the start of the lobe: after it, or before it when turning backwards.
+    const auto lobe_deg = static_cast<Real>(static_cast<std::int32_t>(lift.segments));
+    const Real end_deg = (tick.cam.deg < 0 ? lobe_deg - Real{kDegreesPerTurn} : lobe_deg + Real{kDegreesPerTurn}) / 2;
+    valves_.out.valve_cycle[valves_.train(v)][valves_.cylinder(v)] =
+        valves_.state.record[valves_.train(v)][valves_.cylinder(v)].finish(end_deg,
+                                                                           contacts_of(valves_.state.valve_regime[v]));
+    valves_.load_record(v);
   }
 
   Valves valves_;

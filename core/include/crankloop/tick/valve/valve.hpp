@@ -132,6 +132,15 @@ template <class Held, class Number, class Gas>
          (f.gap * compression_m + f.gap_speed * compression_speed_m_s);
 }
 
+/// Of the train on the valve; it pushes only.
+template <class Real>
+[[nodiscard, gnu::always_inline]] constexpr Real train_force_N(const ValveBody<Real>& b, std::uint32_t contacts,
+                                                               Real compression_m,
+                                                               Real compression_speed_m_s) noexcept {
+  const Real force_N = b.train_N_m * compression_m + b.train_Ns_m * compression_speed_m_s;
+  return (contacts & kTrainOn) != 0 && force_N > 0 ? force_N : Real{0};
+}
+
 /// A guard: it passes where the contact cannot have changed during the step.
 template <class Held, class Number>
 [[nodiscard]] constexpr auto passes(const ContactGuard<Held>& g, Number place_m, Number speed_m_s) noexcept {

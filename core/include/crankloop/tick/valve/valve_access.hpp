@@ -39,8 +39,7 @@ template <class Real>
                                                 Cell cell, const Moment<Real>& at) noexcept {
   const auto pushing = [](bool on, Real force_N) { return on && force_N > 0 ? force_N : Real{0}; };
   const std::uint32_t contacts = contacts_of(valve.regime);
-  shown.train_N =
-      pushing((contacts & kTrainOn) != 0, b.train_N_m * at.compression_m + b.train_Ns_m * at.compression_speed_m_s);
+  shown.train_N = train_force_N(b, contacts, at.compression_m, at.compression_speed_m_s);
   shown.seat_N = pushing((contacts & kSeatOn) != 0,
                          b.preload_N - (b.seat_N_m * valve.state.lift_m + b.seat_Ns_m * valve.state.velocity_m_s));
   shown.tip_N = shown.train_N - b.rocker_mass_kg * at.acceleration_m_s2;
