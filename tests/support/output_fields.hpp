@@ -144,6 +144,12 @@ void each_output(const Output<Real, S>& out, const Used& used, const F& f) {
       f("wall_heat_W", k, gas.wall_heat_W);
     }
   }
+  if constexpr (S::crevice) {
+    for (std::size_t k = 0; k < used.cylinders; ++k) {
+      f("crevice_kg", k, out.crevice[k].mass_kg);
+      f("blow_by_kg_s", k, out.crevice[k].blow_by_kg_s);
+    }
+  }
   if constexpr (detail::Needs<S>::manifolds) {
     for (std::size_t port = 0; port < kPorts; ++port) {
       f("manifold_Pa", port, out.manifold[port].pressure_Pa);
@@ -172,6 +178,7 @@ void each_output(const Output<Real, S>& out, const Used& used, const F& f) {
       f("energy_defect_J", k, c.energy_defect_J);
     }
   }
+  if constexpr (S::crevice && S::gas_results) row("cycle_blow_by_kg", out.cycle_blow_by_kg, used.cylinders);
   f("faults", std::size_t{0}, out.faults);
 }
 

@@ -96,6 +96,26 @@ TEST_F(BreathingRun, TellsWhatItsTicksAddUpTo) {
   EXPECT_LT(line(summary, "energy_defect").first, 1e-9 * line(summary, "heat").first);
 }
 
+TEST_F(BreathingRun, TellsWhatBlowsByWhereTheEngineHasCrevices) {
+  std::string text = contents(kFour);
+  const std::string before = "[gas]\n";
+  text.replace(text.find(before), before.size(), "[gas]\ncrevice_share = 0.015\nblow_by_mm2 = 0.1\n");
+  const std::string leaky = path("leaky.ini"), csv = path("run.csv");
+  std::ofstream(leaky) << text;
+  const std::string summary = run({leaky, "--rpm", "2000", "--tick-us", "20", "--cycles", "1", "--csv", csv});
+  const Columns ticks(csv);
+  double blow_by_mg = 0;
+  for (const double g_s : ticks.column("c1_blow_by_g_s")) blow_by_mg += g_s * 20e-6 * 1e3;
+  EXPECT_GT(blow_by_mg, 3);
+  EXPECT_NEAR(line(summary, "blow_by").first, blow_by_mg, 2e-3 * blow_by_mg);
+  const std::vector<double> pressure_kPa = ticks.column("c1_gas_pressure_kPa"), held_mg = ticks.column("c1_crevice_mg");
+  const double per_kPa_mg = 0.015 * 86 * 86 * 86 * 3.14159265358979 / 4 * 1e-9 / 9.5 * 1e3 / 287.1 / 423.15 * 1e6;
+  for (std::size_t i = 0; i < held_mg.size(); ++i)
+    ASSERT_NEAR(held_mg[i], per_kPa_mg * pressure_kPa[i], 0.02 * held_mg[i]) << i;
+  EXPECT_LT(line(summary, "max_pressure").first, line(run({kFour, "--rpm", "2000"}), "max_pressure").first * 0.97);
+  EXPECT_EQ(run({kFour, "--rpm", "2000"}).find("blow_by"), std::string::npos);
+}
+
 TEST_F(BreathingRun, HasTheChargeOfAnEngineOfItsKind) {
   // No pressure waves, so no tuning peaks: flat, and less where the valves choke.
   for (const double rpm : {1000.0, 2000.0, 4000.0, 6000.0}) {

@@ -523,6 +523,27 @@ TEST(GasDefinition, KeepsEveryRangeThatIsListed) {
   EXPECT_TRUE(refuses(validate(good), Reason::negative, "gas.throttle_closed_m2"));
 }
 
+TEST(GasDefinition, HasCrevicesAndALeakWithinTheirRanges) {
+  const EngineDefinition good = support::four_2000();
+  const auto with = [&good](double Crevice::*member, double value) {
+    EngineDefinition engine = good;
+    engine.gas.crevice.*member = value;
+    return validate(engine);
+  };
+  const struct {
+    double Crevice::*member;
+    const char* field;
+    double most;
+  } rules[] = {{&Crevice::volume_ratio, "crevice.volume_ratio", 0.1},
+               {&Crevice::blow_by_m2, "crevice.blow_by_m2", 5e-6}};
+  for (const auto& rule : rules) {
+    for (const double accepted_one : {0.0, rule.most}) EXPECT_TRUE(accepted(with(rule.member, accepted_one)));
+    EXPECT_TRUE(refuses(with(rule.member, std::nextafter(rule.most, 1)), Reason::out_of_range, rule.field));
+    EXPECT_TRUE(refuses(with(rule.member, -1e-9), Reason::negative, rule.field));
+    EXPECT_TRUE(refuses(with(rule.member, kNaN), Reason::not_finite, rule.field));
+  }
+}
+
 TEST(GasDefinition, HasABackPressureOrThatOfTheAmbient) {
   EngineDefinition engine = support::four_2000();
   engine.gas.ambient_Pa = 95e3;

@@ -34,6 +34,7 @@ struct GasSections {
   GasManifolds<Real> manifolds;
   GasPortCurve<Real> ports[kMaxTrains];
   BurnTable<Real> burn;
+  GasCrevice<Real> crevice;
 };
 
 template <class Real>
@@ -48,6 +49,7 @@ class GasTablesOf : public ::testing::Test {
     targets.gas_manifolds = &sections->manifolds;
     targets.gas_ports = sections->ports;
     targets.burn = &sections->burn;
+    targets.gas_crevice = &sections->crevice;
     EXPECT_TRUE(accepted(tabulate(engine, options, targets)));
     return sections;
   }
@@ -83,6 +85,29 @@ TYPED_TEST(GasTablesOf, TheCylindersHaveTheirVolumesAndWalls) {
   this->expect_is(c.ambient_Pa, 93e3);
   this->expect_is(c.ambient_K, 281);
   this->expect_is(c.exhaust_K, 655);
+}
+
+TYPED_TEST(GasTablesOf, CrevicesHoldGasAtTheWallsTemperatureAndLeakAsAnOrifice) {
+  EngineDefinition engine = support::four_2000();
+  engine.pressure.crankcase_Pa = 97e3;
+  engine.gas.wall_K = 411;
+  const auto none = this->filled(engine);
+  EXPECT_EQ(none->crevice.in_use, 0u);
+  EXPECT_EQ(none->cylinders.parts, 0u);
+  engine.gas.crevice.volume_ratio = 0.015, engine.gas.crevice.blow_by_m2 = 0.1e-6;
+  const auto tables = this->filled(engine);
+  const auto& c = tables->crevice;
+  EXPECT_EQ(c.in_use, 1u);
+  EXPECT_EQ(tables->cylinders.parts, std::uint32_t{kGasCrevice});
+  this->expect_is(c.kg_per_Pa, 0.015 * kPi / 4 * 0.086 * 0.086 * 0.086 / 9.5 / (kGasR * 411));
+  this->expect_is(c.wall_K, 411);
+  this->expect_is(c.specific_work_J_kg, kGasR * 411);
+  this->expect_is(c.energy_J_kg, gas_energy(411, 0));
+  this->expect_is(c.burned_more_J_kg, 93.0 * 411);
+  this->expect_is(c.leak_kg_s_Pa, 0.1e-6 * support::kChokedPsi / std::sqrt(kGasR * 411));
+  this->expect_is(c.crankcase_Pa, 97e3);
+  engine.gas.crevice.volume_ratio = 0;  // a leak alone
+  EXPECT_EQ(this->filled(engine)->crevice.in_use, 1u);
 }
 
 /// 6 deg per 1000 rpm and millisecond, in steps of 5; without a highest speed 100 000 rpm or a revolution.

@@ -96,6 +96,12 @@ struct CylinderGasOutput {
   Real flow_kg_s[kPorts];  ///< into the cylinder, through kIntake and kExhaust
   Real wall_heat_W;        ///< to the walls
 };
+/// Crevices of one cylinder.
+template <class Real>
+struct CreviceOutput {
+  Real mass_kg;       ///< in them, at the end of the tick
+  Real blow_by_kg_s;  ///< into the crankcase, mean over the tick; negative: back
+};
 template <class Real>
 struct ManifoldOutput {
   Real pressure_Pa;
@@ -193,6 +199,10 @@ template <class Real, class S>
 struct CylinderGases {
   CylinderGasOutput<Real> cylinder_gas[S::cylinders.capacity];
 };
+template <class Real, class S>
+struct Crevices {
+  CreviceOutput<Real> crevice[S::cylinders.capacity];
+};
 template <class Real>
 struct Manifolds {
   ManifoldOutput<Real> manifold[kPorts];  ///< kIntake, kExhaust
@@ -203,6 +213,12 @@ struct Manifolds {
 template <class Real, class S>
 struct GasResults {
   GasCycle<Real> gas_cycle[S::cylinders.capacity];
+};
+
+/// Result of each cylinder's last whole cycle, as GasResults.
+template <class Real, class S>
+struct BlowByResults {
+  Real cycle_blow_by_kg[S::cylinders.capacity];
 };
 
 }  // namespace group
@@ -218,8 +234,10 @@ struct Output : detail::If<detail::Needs<S>::crank_dynamics, group::CrankMotion<
                 detail::If<S::bearing_loads, group::BearingLoads<Real, S>>,
                 detail::If<S::free_forces, group::FreeForces<Real>>,
                 detail::If<detail::Needs<S>::gas, group::CylinderGases<Real, S>>,
+                detail::If<S::crevice, group::Crevices<Real, S>>,
                 detail::If<detail::Needs<S>::manifolds, group::Manifolds<Real>>,
                 detail::If<S::gas_results, group::GasResults<Real, S>>,
+                detail::If<S::crevice && S::gas_results, group::BlowByResults<Real, S>>,
                 detail::If<detail::Needs<S>::any_valves, group::Valves<Real, S>>,
                 detail::If<S::valve_forces, group::ValveForces<Real, S>>,
                 detail::If<detail::Needs<S>::spring_forces, group::ValveSpringForces<Real, S>>,

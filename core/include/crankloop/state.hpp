@@ -114,6 +114,14 @@ template <class Real, class S>
 struct GasRecords {
   detail::GasRecord<Real> gas_record[S::cylinders.capacity];
 };
+template <class Real, class S>
+struct CreviceState {
+  detail::CreviceGases<Real, (S::cylinders.capacity + 1) / 2 * 2> crevice_gas;
+};
+template <class Real, class S>
+struct BlowByRecords {
+  Real cycle_blow_by_kg[(S::cylinders.capacity + 1) / 2 * 2];  ///< of the cycle in progress
+};
 /// Bad inputs since `init`.
 struct BadInputsState {
   std::uint32_t bad_input_ticks = 0;  ///< ticks with a bad input; stays at its largest value
@@ -139,6 +147,8 @@ struct State : group::StateCore<Real>,
                detail::If<detail::Needs<S>::given_gas, group::GivenGasState<Real>>,
                detail::If<detail::Needs<S>::burn, group::BurnState<Real, S>>,
                detail::If<S::gas_results, group::GasRecords<Real, S>>,
+               detail::If<S::crevice, group::CreviceState<Real, S>>,
+               detail::If<S::crevice && S::gas_results, group::BlowByRecords<Real, S>>,
                detail::If<S::bad_input_count, group::BadInputsState> {};
 
 /// The same state turning at another speed, for Engine::restore: a run that does not start at rest.

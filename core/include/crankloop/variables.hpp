@@ -180,6 +180,13 @@ constexpr void each_output(Visit&& visit, AState& state, AnOutput& out, [[maybe_
       visit(real("cylinder_gas[#].wall_heat_W", "Heat to the walls, mean of the tick").at(k), g.wall_heat_W);
     }
   }
+  if constexpr (S::crevice) {
+    for (std::uint32_t k = 0; k < shape.cylinders; ++k) {
+      auto& c = out.crevice[k];
+      visit(real("crevice[#].mass_kg", "Mass of gas in the cylinder's crevices").at(k), c.mass_kg);
+      visit(real("crevice[#].blow_by_kg_s", "From them into the crankcase, mean of the tick").at(k), c.blow_by_kg_s);
+    }
+  }
   if constexpr (detail::Needs<S>::manifolds) {
     const auto manifold = [&visit](const Variable& pressure, const Variable& temperature, const Variable& burned,
                                    auto& values) {
@@ -218,6 +225,10 @@ constexpr void each_output(Visit&& visit, AState& state, AnOutput& out, [[maybe_
       visit(real("gas_cycle[#].wall_heat_J", "To the walls").at(k), c.wall_heat_J);
       visit(real("gas_cycle[#].energy_defect_J", "What the first law lacks: rounding").at(k), c.energy_defect_J);
     }
+  }
+  if constexpr (S::crevice && S::gas_results) {
+    each(real("cycle_blow_by_kg[#]", "Of the last whole cycle: what blew by into the crankcase"), out.cycle_blow_by_kg,
+         shape.cylinders);
   }
   const auto each_valve = [&](const auto& show) {
     for (std::uint32_t t = 0; t < shape.trains; ++t) {

@@ -38,6 +38,7 @@ namespace {
 
 Status validate(const Gas& gas, int trains) noexcept {
   if (const Status refused = out_of_range(gas); !refused.ok()) return refused;
+  if (const Status refused = out_of_range(gas.crevice); !refused.ok()) return refused;
   if (const Status refused = in_range(gas.behind_outlet_Pa(), "gas.back_Pa", from(1e3)); !refused.ok()) return refused;
   if (const Status refused = validate_curve(gas.throttle_count, gas.throttle_ratio, "gas.throttle_ratio");
       !refused.ok())

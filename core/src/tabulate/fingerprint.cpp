@@ -10,9 +10,9 @@ namespace crankloop::detail {
 static_assert(kListsEveryField<Crank> && kListsEveryField<Masses> && kListsEveryField<Layout> &&
                   kListsEveryField<WiebeDiagram> && kListsEveryField<Pressure> && kListsEveryField<Cam> &&
                   kListsEveryField<Rocker> && kListsEveryField<Valve> && kListsEveryField<ValveTrain> &&
-                  kListsEveryField<CamContact> && kListsEveryField<PortOfTrain> && kListsEveryField<Gas> &&
-                  kListsEveryField<Friction> && kListsEveryField<DrivenMachine> && kListsEveryField<Starter> &&
-                  kListsEveryField<ToothGap> && kListsEveryField<TriggerWheel>,
+                  kListsEveryField<CamContact> && kListsEveryField<PortOfTrain> && kListsEveryField<Crevice> &&
+                  kListsEveryField<Gas> && kListsEveryField<Friction> && kListsEveryField<DrivenMachine> &&
+                  kListsEveryField<Starter> && kListsEveryField<ToothGap> && kListsEveryField<TriggerWheel>,
               "each_field() lists every field, for the tables' fingerprint and for C, and the range of every number");
 static_assert(values_listed<EngineDefinition>() + 2 + kMaxTriggerWheels + kMaxTrains ==
                   values_taken<EngineDefinition>(),
@@ -117,7 +117,14 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
   if (pressure.source == PressureSource::gas) {
     Gas read = gas;
     for (int t = train_count; t < kMaxTrains; ++t) read.ports[t] = {};
-    add({1, ""}, read);
+    Gas::each_field(
+        [&add](const ListedField& listed, const auto& field) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(field)>, Crevice>) {
+            if (!field.any()) return;
+          }
+          add(listed, field);
+        },
+        read);
     for (int t = 0; t < train_count; ++t) f.add(trains[t].valve.per_cylinder);  // the port's area counts them
   }
   return f.value();

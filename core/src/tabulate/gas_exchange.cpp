@@ -92,6 +92,23 @@ namespace {
   c.ambient_K = gas.ambient_K;
   c.exhaust_K = gas.exhaust_K;
   c.max_steps = max_steps_of(engine, options);
+  if (gas.crevice.any()) c.parts |= kGasCrevice;
+  return c;
+}
+
+[[nodiscard]] GasCrevice<double> crevice_of(const EngineDefinition& engine) noexcept {
+  const Gas& gas = engine.gas;
+  GasCrevice<double> c{};
+  if (!gas.crevice.any()) return c;
+  const GasPoint<double> at_wall{0, gas.wall_K, 0, 0};
+  c.specific_work_J_kg = kGasConstant<double> * gas.wall_K;
+  c.kg_per_Pa = gas.crevice.volume_ratio * clearance_volume_m3(engine.crank) / c.specific_work_J_kg;
+  c.wall_K = gas.wall_K;
+  c.energy_J_kg = energy_J_kg(gas.wall_K, 0.0);
+  c.burned_more_J_kg = energy_J_kg(gas.wall_K, 1.0) - c.energy_J_kg;
+  c.leak_kg_s_Pa = gas.crevice.blow_by_m2 * beyond(at_wall, 0.0).choked_per_Pa;
+  c.crankcase_Pa = engine.pressure.crankcase_Pa;
+  c.in_use = 1;
   return c;
 }
 
@@ -170,6 +187,7 @@ void fill_gas_exchange(const EngineDefinition& engine, const TickOptions& option
   };
   fill(targets.gas_cylinders, [&options](const EngineDefinition& e) { return cylinders_of(e, options); });
   fill(targets.gas_manifolds, [&options](const EngineDefinition& e) { return manifolds_of(e, options.tick_s); });
+  fill(targets.gas_crevice, crevice_of);
   fill(targets.burn, burn_of);
   if (targets.gas_ports == nullptr) return;
   for (int t = 0; t < engine.train_count; ++t)

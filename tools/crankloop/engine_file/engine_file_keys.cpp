@@ -66,7 +66,8 @@ constexpr SectionKind kSections[] = {
     {"valve", true, "the valve of the same NAME, for its dynamics"},
     {"trigger", true, "a trigger wheel: what a crank or cam sensor sees"},
     {"counterweight", true, "a mass on the crankshaft, for `balance` and reports; no part of the tick"},
-    {"balance_shaft", true, "an unbalanced shaft that the crankshaft drives, for `balance` and reports; no part of the tick"},
+    {"balance_shaft", true,
+     "an unbalanced shaft that the crankshaft drives, for `balance` and reports; no part of the tick"},
 };
 
 // clang-format off
@@ -130,6 +131,8 @@ constexpr Key kRows[] = {
     {"gas", "exhaust_C", Kind::number, kCelsius, "", from(-123.15).up_to(2726.85), "", defaults, "500", "", "", "initial value for a scene whose exhaust manifold is given"},
     {"gas", "wall_C", Kind::number, kCelsius, "", from(-123.15).up_to(1726.85), "", defaults, "150", "", "", "mean temperature of the cylinder's walls"},
     {"gas", "wall_heat_factor", Kind::number, kNoUnit, "gas.wall_heat_ratio", kOfField, "", defaults, "1", "", "", "k_w, of Hohenberg's heat transfer; 0: adiabatic"},
+    {"gas", "crevice_share", Kind::number, kNoUnit, "crevice.volume_ratio", kOfField, "", defaults, "0", "", "", "crevices (top land, ring pack, gasket, plug) by the clearance volume; 0: none", "0.01 to 0.02"},
+    {"gas", "blow_by_mm2", Kind::number, kMm2, "crevice.blow_by_m2", kOfField, "", defaults, "0", "", "", "effective area of the leak past the rings into the crankcase; 0: tight", "0.03 to 0.15; worn 0.3"},
     {"gas", "fuel_mg", Kind::number, kMg, "gas.fuel_kg", kOfField, "", defaults, "30", "", "fuel:amount", "fuel per cylinder and cycle; 0: motored"},
     {"gas", "excess_air_ratio", Kind::number, kNoUnit, "gas.excess_air_ratio", above(0).up_to(100), "", optional, "", "", "fuel:lambda", "lambda: fuel by the air in each cylinder"},
     {"gas", "heating_value_MJ_per_kg", Kind::number, kMJPerKg, "gas.heating_value_J_kg", kOfField, "", defaults, "43", "", "", "lower"},

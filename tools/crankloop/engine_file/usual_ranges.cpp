@@ -52,6 +52,8 @@ constexpr UsualRange kRanges[] = {
     {"gas", "exhaust_C", Per::one, {50, 1200}},
     {"gas", "wall_C", Per::one, {0, 400}},
     {"gas", "wall_heat_factor", Per::one, {0.2, 5}, kOrZero},
+    {"gas", "crevice_share", Per::one, {0.002, 0.04}, kOrZero},
+    {"gas", "blow_by_mm2", Per::bore, {0.0002, 0.006}, kOrZero},
     {"gas", "fuel_mg", Per::cylinder, {0.002, 0.4}, kOrZero},
     {"gas", "heating_value_MJ_per_kg", Per::one, {15, 125}},
     {"gas", "combustion_efficiency", Per::one, {0.7, 1}},

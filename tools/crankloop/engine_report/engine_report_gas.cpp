@@ -50,6 +50,8 @@ report::Table cycle_table(const ReportInput& input) {
   row("Fuel burned", c.fuel_kg * 1e6, "mg");
   row("Heat of combustion", c.heat_J, "J");
   row("Heat to the walls", c.wall_heat_J, "J");
+  if (input.file.definition().gas.crevice.any())
+    row("Blow-by into the crankcase", input.figures.gas.blow_by_kg * 1e6, "mg");
   row("Temperature of the gas that leaves through the exhaust valve", c.exhaust_K, "K");
   row("Intake manifold, mean pressure", input.figures.gas.intake_Pa / 1e3, "kPa");
   row("Exhaust manifold, mean pressure", input.figures.gas.exhaust_Pa / 1e3, "kPa");

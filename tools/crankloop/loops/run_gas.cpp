@@ -16,8 +16,8 @@ constexpr double kRichestThatIgnites = 0.5;  // lambda; gasoline's limit in air 
 
 }  // namespace
 
-void add_gas_columns(std::vector<std::string>& columns, std::size_t cylinders) {
-  for (std::size_t k = 1; k <= cylinders; ++k) {
+void add_gas_columns(std::vector<std::string>& columns, const EngineDefinition& engine) {
+  for (int k = 1; k <= engine.layout.cylinders; ++k) {
     for (const GasQuantityKind& kind : kGasQuantityKinds)
       columns.push_back("c" + std::to_string(k) + "_" + kind.name + "_" + kind.suffix);
   }
@@ -26,6 +26,9 @@ void add_gas_columns(std::vector<std::string>& columns, std::size_t cylinders) {
       columns.push_back(std::string(manifold) + what);
   }
   columns.insert(columns.end(), {"throttle_g_s", "outlet_g_s"});
+  for (int k = 1; k <= engine.layout.cylinders && engine.gas.crevice.any(); ++k) {
+    for (const char* what : {"_crevice_mg", "_blow_by_g_s"}) columns.push_back("c" + std::to_string(k) + what);
+  }
 }
 
 void add_fuel(Summary& s, const GasOrder& order) {
@@ -42,7 +45,8 @@ void add_order(Summary& s, const GasOrder& order) {
   s.line("burn_start", order.burn_start_deg, "deg");
 }
 
-void add_gas(Summary& s, const GasCycle<double>& cycle) {
+void add_gas(Summary& s, const EngineDefinition& engine, const GasFigures& figures) {
+  const GasCycle<double>& cycle = figures.cycle;
   s.line("pumping_mep", cycle.pumping_mep_Pa / 1e3, "kPa", "from 180 to 540 deg; negative: a loss");
   s.line("volumetric_efficiency", cycle.volumetric_efficiency, "", "air through the intake at ambient density");
   s.line("trapped_air", cycle.trapped_air_kg * 1e6, "mg",
@@ -56,6 +60,8 @@ void add_gas(Summary& s, const GasCycle<double>& cycle) {
   s.line("exhaust_temperature", cycle.exhaust_K, "K", "of the gas that leaves through the exhaust valve");
   s.line("heat", cycle.heat_J, "J", "of combustion, of a cylinder's cycle");
   s.line("wall_heat", cycle.wall_heat_J, "J");
+  if (engine.gas.crevice.any())
+    s.line("blow_by", figures.blow_by_kg * 1e6, "mg", "into the crankcase, of a cylinder's cycle");
 }
 
 void require_manifolds(const EngineFile& engine, double tick_s) {

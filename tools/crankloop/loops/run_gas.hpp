@@ -54,10 +54,12 @@ template <class Real>
           gas.flow_kg_s[kIntake], gas.flow_kg_s[kExhaust], gas.wall_heat_W};
 }
 
-/// Columns of a CSV file, and their cells for a tick: the cylinders, then the manifolds.
-void add_gas_columns(std::vector<std::string>& columns, std::size_t cylinders);
+/// Columns of a CSV file, and their cells for a tick: the cylinders, then the manifolds, then crevices where the engine
+/// has some.
+void add_gas_columns(std::vector<std::string>& columns, const EngineDefinition& engine);
 template <class Real, class S>
-void write_gas(CsvWriter& csv, const crankloop::Output<Real, S>& out, std::size_t cylinders) {
+void write_gas(CsvWriter& csv, const crankloop::Output<Real, S>& out, const EngineDefinition& engine) {
+  const auto cylinders = static_cast<std::size_t>(engine.layout.cylinders);
   for (std::size_t k = 0; k < cylinders; ++k) {
     const auto values = values_of(out.cylinder_gas[k]);
     for (std::size_t i = 0; i < kGasQuantities; ++i)
@@ -70,6 +72,10 @@ void write_gas(CsvWriter& csv, const crankloop::Output<Real, S>& out, std::size_
   }
   csv.cell(out.throttle_kg_s * static_cast<Real>(1e3));
   csv.cell(out.outlet_kg_s * static_cast<Real>(1e3));
+  for (std::size_t k = 0; k < cylinders && engine.gas.crevice.any(); ++k) {
+    csv.cell(out.crevice[k].mass_kg * static_cast<Real>(1e6));
+    csv.cell(out.crevice[k].blow_by_kg_s * static_cast<Real>(1e3));
+  }
 }
 
 /// Means over the cylinders' last whole cycles; for the energy defect, the one of largest magnitude.
@@ -107,15 +113,25 @@ struct GasFigures {
   double intake_Pa = 0;      ///< of the manifold, mean over the ticks
   double exhaust_Pa = 0;
   double exhaust_manifold_K = 0;
+  double blow_by_kg = 0;  ///< of a cylinder's cycle, their mean
 };
+
+/// Figures of the cylinders' last whole cycles.
+template <class Real, class S>
+void take_cycles(const crankloop::Output<Real, S>& out, std::size_t cylinders, GasFigures& figures) {
+  figures.cycle = mean_cycle(out.gas_cycle, cylinders);
+  figures.blow_by_kg = 0;
+  for (std::size_t k = 0; k < cylinders; ++k)
+    figures.blow_by_kg += static_cast<double>(out.cycle_blow_by_kg[k]) / static_cast<double>(cylinders);
+}
 
 /// The line of a summary with the requested fuel: fuel, or lambda.
 void add_fuel(Summary& s, const GasOrder& order);
 /// The lines that show the engine's inputs: throttle, fuel or lambda, burn_start.
 void add_order(Summary& s, const GasOrder& order);
 
-/// The lines about the gas, from pumping_mep to wall_heat.
-void add_gas(Summary& s, const GasCycle<double>& cycle);
+/// The lines about the gas, from pumping_mep to wall_heat, and of an engine with crevices blow_by.
+void add_gas(Summary& s, const EngineDefinition& engine, const GasFigures& figures);
 
 /// Refuses an engine with gas exchange whose manifolds are too small for a tick.
 void require_manifolds(const EngineFile& engine, double tick_s);

@@ -152,7 +152,7 @@ RunFigures run_cycles(FixedStepLoop<Real, S>& loop, const EngineDefinition& defi
     }
     if (on_tick) on_tick(tick, engine_deg, out);
   }
-  if constexpr (detail::Needs<S>::gas) f.gas.cycle = mean_cycle(loop.output().gas_cycle, cylinders);
+  if constexpr (detail::Needs<S>::gas) take_cycles(loop.output(), cylinders, f.gas);
   for (std::size_t t = 0; t < f.valves.size(); ++t) {
     for (std::size_t k = 0; k < cylinders; ++k) {
       f.valves[t].last_cycle = worse_of(f.valves[t].last_cycle, in_double(loop.output().valve_cycle[t][k]));

@@ -37,6 +37,20 @@ struct PortOfTrain {
   }
 };
 
+/// Crevices of a cylinder (top land, ring pack, gasket, plug), and the leak past its rings.
+struct Crevice {
+  double volume_ratio = 0;  ///< their volume / clearance volume; 0: none
+  double blow_by_m2 = 0;    ///< effective area of the leak into the crankcase; 0: tight
+
+  [[nodiscard]] constexpr bool any() const noexcept { return volume_ratio != 0 || blow_by_m2 != 0; }
+
+  template <class Visit, class Self, class... Others>
+  static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    CRANKLOOP_NUMBER(1, crevice, volume_ratio, from(0).up_to(0.1));
+    CRANKLOOP_NUMBER(1, crevice, blow_by_m2, from(0).up_to(5e-6));
+  }
+};
+
 /// All pressures are absolute.
 struct Gas {
   // manifolds, for scenes with a throttle
@@ -56,6 +70,7 @@ struct Gas {
   // walls
   double wall_K = 423.15;
   double wall_heat_ratio = 1;  ///< k_w; 0 = adiabatic
+  Crevice crevice;
   // combustion
   double fuel_kg = 30e-6;            ///< per cycle and cylinder; less than 1e-12 is none
   double excess_air_ratio = 0;       ///< lambda: fuel by the air in the cylinder, instead of fuel_kg; 0: fuel_kg
@@ -95,6 +110,7 @@ struct Gas {
     CRANKLOOP_NUMBER(1, gas, exhaust_K, from(150).up_to(3000));
     CRANKLOOP_NUMBER(1, gas, wall_K, from(150).up_to(2000));
     CRANKLOOP_NUMBER(1, gas, wall_heat_ratio, from(0).up_to(100));
+    CRANKLOOP_PART(1, crevice);
     CRANKLOOP_NUMBER(self.excess_air_ratio > 0 ? 0 : 1, gas, fuel_kg, from(0).up_to(0.01));
     CRANKLOOP_NUMBER(1, gas, excess_air_ratio, from(0).up_to(100));
     CRANKLOOP_NUMBER(1, gas, heating_value_J_kg, from(0).up_to(2e8));

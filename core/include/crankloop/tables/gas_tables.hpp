@@ -45,7 +45,23 @@ struct GasCylinders {
   Real ambient_K;
   Real exhaust_K;
   std::uint32_t max_steps;  ///< per tick, at the speed limit: 1 to kMaxGasSteps
-  std::uint32_t spare;
+  std::uint32_t parts;      ///< bits of GasPart: what a scene must step to run this engine
+};
+
+/// Parts of an engine's gas that a scene may leave out where an engine does not have them.
+enum GasPart : std::uint32_t { kGasCrevice = 1 };
+
+/// Crevices of a cylinder and its leak into the crankcase: tick/gas/crevice.hpp. Zero in an engine without either.
+template <class Real>
+struct GasCrevice {
+  Real kg_per_Pa;  ///< V_cr / (R T_w)
+  Real wall_K;
+  Real specific_work_J_kg;  ///< R T_w
+  Real energy_J_kg;         ///< of air at T_w
+  Real burned_more_J_kg;    ///< energy of burned gas at T_w less that of air
+  Real leak_kg_s_Pa;        ///< A_bb psi_c / sqrt(R T_w)
+  Real crankcase_Pa;
+  std::uint32_t in_use;  ///< 0: neither crevice nor leak
 };
 
 /// Effective area of the valves of one train over their lift.

@@ -51,6 +51,8 @@ template <class Real, class S>
   }
   if constexpr (N::gas) {
     if (!(tables.gas_cylinders->clearance_m3 > 0)) return refuse("pressure.source", Reason::inconsistent);
+    if (!S::crevice && (tables.gas_cylinders->parts & kGasCrevice) != 0)
+      return refuse("scene.crevice", Reason::inconsistent);
   }
   return {};
 }

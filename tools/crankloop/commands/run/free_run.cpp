@@ -23,8 +23,8 @@ using FreeOutput = typename FreeLoop<Real, S>::Output;
 template <class Real, class S>
 class TickTable {
  public:
-  TickTable(Output& out, const std::vector<std::string>& wheels, std::size_t cylinders)
-      : csv_{out, header(wheels, cylinders)}, wheels_{wheels.size()}, cylinders_{cylinders} {}
+  TickTable(Output& out, const std::vector<std::string>& wheels, const EngineDefinition& engine)
+      : csv_{out, header(wheels, engine)}, wheels_{wheels.size()}, engine_{engine} {}
 
   void row(const FreeState& state, double tick_s, const FreeOutput<Real, S>& out) {
     csv_.cell(state.time_s);
@@ -43,24 +43,24 @@ class TickTable {
       }
       csv_.cell(std::string_view(times));
     }
-    if constexpr (detail::Needs<S>::gas) write_gas(csv_, out, cylinders_);
+    if constexpr (detail::Needs<S>::gas) write_gas(csv_, out, engine_);
     csv_.end_row();
   }
 
  private:
-  static std::vector<std::string> header(const std::vector<std::string>& wheels, std::size_t cylinders) {
+  static std::vector<std::string> header(const std::vector<std::string>& wheels, const EngineDefinition& engine) {
     std::vector<std::string> columns{"time_s",    "crank_deg",      "speed_rpm",   "acceleration_rad_s2",
                                      "torque_Nm", "mean_torque_Nm", "friction_Nm", "starter_Nm"};
     for (const std::string& wheel : wheels) {
       for (const char* what : {"_level", "_edges", "_edge_times_s"}) columns.push_back(wheel + what);
     }
-    if (detail::Needs<S>::gas) add_gas_columns(columns, cylinders);
+    if (detail::Needs<S>::gas) add_gas_columns(columns, engine);
     return columns;
   }
 
   CsvWriter csv_;
   std::size_t wheels_;
-  std::size_t cylinders_;
+  const EngineDefinition& engine_;
 };
 
 /// The edges of a tick, for the cycles and the count.
@@ -120,7 +120,7 @@ FreeFigures run_ticks(const EngineFile& file, const EngineDefinition& definition
     progress.step();
   }
   if constexpr (detail::Needs<S>::gas)
-    figures.gas.cycle = mean_cycle(loop.output().gas_cycle, static_cast<std::size_t>(definition.layout.cylinders));
+    take_cycles(loop.output(), static_cast<std::size_t>(definition.layout.cylinders), figures.gas);
   figures.end = loop.state();
   figures.energy = books.balance(figures.end);
   figures.cycles.assign(recorder.cycles().begin(), recorder.cycles().end());
@@ -173,7 +173,7 @@ std::string summary_text(const EngineFile& file, const FreeRequest& request, con
   if (breathes(file.definition())) {
     s.remark("the gas, of the cylinders' last whole cycles");
     s.line("net_mep", f.gas.cycle.net_mep_Pa / 1e3, "kPa");
-    add_gas(s, f.gas.cycle);
+    add_gas(s, file.definition(), f.gas);
     s.line("intake_pressure", f.gas.intake_Pa / 1e3, "kPa", "in the manifold, at the end");
   }
   s.line("work_of_gas", f.energy.gas_J, "J");
@@ -197,8 +197,7 @@ void run_and_write(const EngineFile& file, const EngineDefinition& definition, c
   std::optional<TickTable<Real, S>> table;
   std::optional<SignalDump> dump;
   if (Output* vcd = results["--vcd"]) dump.emplace(file, *vcd, std::vector<std::string>{"speed_rpm", "torque_Nm"});
-  if (Output* csv = results["--csv"])
-    table.emplace(*csv, names_of_triggers(file), static_cast<std::size_t>(definition.layout.cylinders));
+  if (Output* csv = results["--csv"]) table.emplace(*csv, names_of_triggers(file), definition);
   const FreeFigures figures =
       run_ticks<Real, S>(file, definition, request, table ? &*table : nullptr, dump ? &*dump : nullptr);
   if (dump) dump->finish(figures.end.time_s);

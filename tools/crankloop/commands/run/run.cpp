@@ -35,7 +35,8 @@
 namespace crankloop::program {
 namespace {
 
-std::vector<std::string> csv_header(int cylinders, const std::vector<std::string>& trains, bool gas) {
+std::vector<std::string> csv_header(const EngineDefinition& engine, const std::vector<std::string>& trains) {
+  const int cylinders = engine.layout.cylinders;
   std::vector<std::string> header{"time_s", "crank_deg", "speed_rpm", "torque_Nm", "mean_torque_Nm"};
   for (int k = 1; k <= cylinders; ++k) {
     for (std::size_t i = 0; i < kCsvQuantities; ++i) {
@@ -49,7 +50,7 @@ std::vector<std::string> csv_header(int cylinders, const std::vector<std::string
       header.push_back(valve + "regime");
     }
   }
-  if (gas) add_gas_columns(header, static_cast<std::size_t>(cylinders));
+  if (breathes(engine)) add_gas_columns(header, engine);
   return header;
 }
 
@@ -74,7 +75,7 @@ void write_row(CsvWriter& csv, const EngineDefinition& definition, const Operati
       csv.cell(static_cast<int>(out.valve_forces[t][k].regime));
     }
   }
-  if constexpr (detail::Needs<S>::gas) write_gas(csv, out, static_cast<std::size_t>(layout.cylinders));
+  if constexpr (detail::Needs<S>::gas) write_gas(csv, out, definition);
   csv.end_row();
 }
 
@@ -162,7 +163,7 @@ Summary summary_of(const Engines& engine, const Request& request, const RunFigur
     if (definition.friction.any()) add_brake(s, definition, f.mean_torque_Nm, speed);
     s.line("net_mep", f.net_mep_Pa / 1e3, "kPa");
     if (engine.breathes()) {
-      add_gas(s, f.gas.cycle);
+      add_gas(s, definition, f.gas);
       s.line("energy_defect", f.gas.cycle.energy_defect_J, "J", "of a cylinder's cycle, the largest: rounding");
       s.line("intake_pressure", f.gas.intake_Pa / 1e3, "kPa", "in the manifold, mean");
       s.line("exhaust_pressure", f.gas.exhaust_Pa / 1e3, "kPa", "in the manifold, mean");
@@ -228,8 +229,7 @@ void run(const Engines& engine, const Request& request, const Arguments& argumen
   Results results(arguments, {"--csv", "--report", "--vcd"});
   if (Output* vcd = results["--vcd"]) write_signals(engine.file, operation, request.cycles, *vcd);
   std::optional<CsvWriter> csv;
-  if (Output* file = results["--csv"])
-    csv.emplace(*file, csv_header(definition.layout.cylinders, names_of_trains(engine.file), engine.breathes()));
+  if (Output* file = results["--csv"]) csv.emplace(*file, csv_header(definition, names_of_trains(engine.file)));
 
   Trace trace;
   if (results["--report"] != nullptr) trace = record_trace<Real, S>(definition, operation);

@@ -2,10 +2,12 @@
 //
 // What belongs here: heat, compression, what the ports bring and take, in the order in which a step has them. What does
 // not: how much flows (port_overlap.hpp), what that takes along (exchange.hpp), what burns (combustion.hpp), the
-// engine's step (gas_step.hpp). T is a number, or lanes of several cylinders.
+// engine's step (gas_step.hpp), crevices (crevice.hpp). T is a number, or lanes of several cylinders.
 //
-//     half of the heat -> compression -> the other half -> flow at the pressure that this leads to -> sums
+//     half of the heat -> compression -> the other half -> crevices -> flow at the pressure that this leads to -> sums
 #pragma once
+
+#include <type_traits>
 
 #include <crankloop/tick/gas/exchange.hpp>
 #include <crankloop/tick/gas/gas_state.hpp>
@@ -133,16 +135,17 @@ struct GasGain {
   }
 };
 
-/// The flow of a step through the ports that are `open` at either end of it. `far` are the manifolds at the ports.
-/// Adds to what is gained; answers the work on the piston by what flowed.
+/// The flow of a step through the ports that are `open` at either end of it. `far` are the manifolds at the ports,
+/// `response` is how far the cylinder's pressure moves per kg and R T. Adds to what is gained; answers the work on the
+/// piston by what flowed.
 template <class T, class Holds>
 [[nodiscard, gnu::always_inline]] inline T flow_through_ports(const Holds& open, const CylinderGas<T>& gas,
-                                                              const ClosedStep<T>& closed, const T (&to_m2)[kPorts],
+                                                              const ClosedStep<T>& closed, const T& response,
+                                                              const T (&to_m2)[kPorts],
                                                               const GasBeyond<NumberOf<T>> (&far)[kPorts],
                                                               NumberOf<T> step_s, GasGain<T>& gain,
                                                               PortStep<T> (&through)[kPorts]) noexcept {
   using Real = NumberOf<T>;
-  const T response = (Real{1} + closed.gas_ratio) * closed.per_volume_m3;  // Pa per kg and R T
   const T specific_work_J_kg = kGasConstant<Real> * closed.temperature_K;
   const FlowingGas<T> before{gas.contents.mass_kg + gain.mass_kg, gas.contents.energy_J + gain.energy_J,
                              gas.contents.burned_kg + gain.burned_kg, specific_work_J_kg};
@@ -192,16 +195,23 @@ template <class T, class Holds>
   return work_J;
 }
 
-/// Steps a cylinder, or several abreast. Contents that no engine holds are still to be put right.
-template <class T>
+/// Of a cylinder without crevices nothing comes between the closed step and the flow.
+struct NoCrevices {};
+
+/// Steps a cylinder, or several abreast. Contents that no engine holds are still to be put right. `crevices(closed,
+/// gain)` takes what goes into crevices from the cylinder and answers how much they give way to flow through the ports.
+template <class T, class Crevices = NoCrevices>
 [[nodiscard, gnu::always_inline]] inline CylinderStep<T> step_gas(
     CylinderGas<T>& gas, const T& volume_m3, const GasFuel<T>& fuel, const GasWalls<NumberOf<T>>& walls,
     const GasDrive<NumberOf<T>>& drive, const T (&to_m2)[kPorts], const GasBeyond<NumberOf<T>> (&far)[kPorts],
-    PortStep<T> (&through)[kPorts]) noexcept {
-  const ClosedStep<T> closed = ClosedStep<T>::of(gas, volume_m3, fuel.energy_J, walls, drive);
-  T work_J = closed.work_J;
+    PortStep<T> (&through)[kPorts], [[maybe_unused]] const Crevices& crevices = {}) noexcept {
+  constexpr bool kCrevices = !std::is_same_v<Crevices, NoCrevices>;
+  ClosedStep<T> closed = ClosedStep<T>::of(gas, volume_m3, fuel.energy_J, walls, drive);
   through[kIntake] = through[kExhaust] = PortStep<T>{};
   GasGain<T> gain{fuel.mass_kg, closed.heat_J - closed.wall_heat_J - closed.work_J, fuel.burned_kg};
+  [[maybe_unused]] T give_way{};
+  if constexpr (kCrevices) give_way = crevices(closed, gain);
+  T work_J = closed.work_J;
   const auto open = any_open(gas.area_m2[kIntake], gas.area_m2[kExhaust], to_m2[kIntake], to_m2[kExhaust]);
   const bool flows = any(open);
   if (flows) {
@@ -210,7 +220,9 @@ template <class T>
     for (int port = 0; port < kPorts; ++port) {
       limited_m2[port] = to_m2[port] < own_m2 ? to_m2[port] : own_m2;
     }
-    work_J += flow_through_ports(open, gas, closed, limited_m2, far, drive.step_s, gain, through);
+    T response = (NumberOf<T>{1} + closed.gas_ratio) * closed.per_volume_m3;
+    if constexpr (kCrevices) response = response / (NumberOf<T>{1} + give_way);
+    work_J += flow_through_ports(open, gas, closed, response, limited_m2, far, drive.step_s, gain, through);
     for (int port = 0; port < kPorts; ++port) gas.area_m2[port] = limited_m2[port];
   } else {
     gain.add(PortStep<T>{});  // as lanes have it beside one that is open: -0 becomes 0

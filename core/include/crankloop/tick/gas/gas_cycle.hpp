@@ -61,7 +61,9 @@ template <class Real, class S>
       heat_J_kg = tables.burn->heat_J_kg * burning_ratio(burn), excess_air_ratio = burn.excess_air_ratio;
     }
     out.gas_cycle[cylinder] = finished(record, gas, *tables.gas_cylinders, heat_J_kg, excess_air_ratio);
+    if constexpr (S::crevice) out.cycle_blow_by_kg[cylinder] = state.cycle_blow_by_kg[cylinder];
   }
+  if constexpr (S::crevice) state.cycle_blow_by_kg[cylinder] = Real{0};
   begin_cycle(record, gas);
 }
 

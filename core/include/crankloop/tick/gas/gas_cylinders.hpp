@@ -13,9 +13,10 @@
 #include <crankloop/output.hpp>
 #include <crankloop/state.hpp>
 #include <crankloop/tables/tables.hpp>
-#include <crankloop/tick/gas/cylinder_gas.hpp>
+#include <crankloop/tick/gas/crevice.hpp>
 #include <crankloop/tick/gas/gas_cycle.hpp>
 #include <crankloop/tick/gas/gas_places.hpp>
+#include <crankloop/tick/gas/gas_start.hpp>
 #include <crankloop/tick/gas/manifold.hpp>
 #include <crankloop/tick/lanes.hpp>
 
@@ -128,7 +129,8 @@ class GasCylindersStep {
     [[maybe_unused]] const T intake_was_m2 = gas.area_m2[kIntake];
     const T to_m2[kPorts] = {load<T>(areas.of[kIntake] + k), load<T>(areas.of[kExhaust] + k)};
     PortStep<T> through[kPorts];
-    CylinderStep<T> done = step_gas<T>(gas, volume_m3, fuel, table.walls, step.drive, to_m2, step.beyond, through);
+    [[maybe_unused]] CreviceStep<T> crevice_step{};
+    CylinderStep<T> done = step_with_crevices<T>(gas, k, volume_m3, fuel, step, to_m2, through, crevice_step);
     state_.cylinder_gas.put(k, gas);
     if (done.flows) state_.cylinder_gas.put_areas(k, gas);
     const T least_kg = step.drive.least_kg_m3 * volume_m3;
@@ -140,10 +142,15 @@ class GasCylindersStep {
         if (!put_cylinder_right(k + static_cast<std::uint32_t>(i), per_volume_m3, lane(least_kg, i))) continue;
         faults |= kFaultGas;
         drop_nonsense<T>(done, through, i);
+        if constexpr (S::crevice) drop_nonsense<T>(crevice_step, i);
       }
       gas = state_.cylinder_gas.template at<T>(k);
     }
     const Real per_tick_s = tables_.drive->per_tick_s;
+    if constexpr (S::crevice) {
+      done.closed.wall_heat_J += crevice_step.wall_heat_J;
+      show_crevices(crevice_step, k);
+    }
     T shown[7] = {gas.point.pressure_Pa,
                   gas.point.temperature_K,
                   gas.contents.mass_kg,
@@ -164,7 +171,8 @@ class GasCylindersStep {
       std::uint32_t intake_shut = 0;
       if (done.flows)
         intake_shut = holding(both_hold(intake_was_m2 > Real{0}, none_of(gas.area_m2[kIntake] > Real{0})));
-      const T gained_J = done.gained_J(through);
+      T gained_J = done.gained_J(through);
+      if constexpr (S::crevice) gained_J -= crevice_step.lost_J - crevice_step.wall_heat_J;
       record_step<T>(&state_.gas_record[k], done, through, fuel.mass_kg, way);
       for (int i = 0; i < kLanes; ++i) {
         const std::uint32_t one = k + static_cast<std::uint32_t>(i);
@@ -178,10 +186,48 @@ class GasCylindersStep {
     return faults;
   }
 
+  /// Steps the gas of one cylinder, or of lanes, with its crevices where the engine has some.
+  template <class T>
+  [[nodiscard, gnu::always_inline]] CylinderStep<T> step_with_crevices(
+      CylinderGas<T>& gas, [[maybe_unused]] std::uint32_t k, const T& volume_m3, const GasFuel<T>& fuel,
+      const EngineGasStep<Real>& step, const T (&to_m2)[kPorts], PortStep<T> (&through)[kPorts],
+      [[maybe_unused]] CreviceStep<T>& crevice_step) noexcept {
+    const GasWalls<Real>& walls = tables_.gas_cylinders->walls;
+    if constexpr (S::crevice) {
+      const GasCrevice<Real>& table = *tables_.gas_crevice;
+      const auto crevices = [&](ClosedStep<T> & closed, GasGain<T> & gain) __attribute__((always_inline)) {
+        if (table.in_use == 0) return T{};
+        CreviceGas<T> crevice = state_.crevice_gas.template at<T>(k);
+        const T give_way = step_crevice<T>(crevice, table, gas, step.drive.step_s, closed, gain, crevice_step);
+        state_.crevice_gas.put(k, crevice);
+        return give_way;
+      };
+      return step_gas<T>(gas, volume_m3, fuel, walls, step.drive, to_m2, step.beyond, through, crevices);
+    } else {
+      return step_gas<T>(gas, volume_m3, fuel, walls, step.drive, to_m2, step.beyond, through);
+    }
+  }
+
+  /// Shows and records what blew by.
+  template <class T>
+  [[gnu::always_inline]] void show_crevices(const CreviceStep<T>& step, std::uint32_t k) noexcept {
+    for (int i = 0; i < kLanesIn<T>; ++i) {
+      const std::uint32_t one = k + static_cast<std::uint32_t>(i);
+      const Real blow_by_kg = lane(step.blow_by_kg, i);
+      CreviceOutput<Real>& shown = out_.crevice[one];
+      shown.mass_kg = state_.crevice_gas.mass_kg[one];
+      shown.blow_by_kg_s += blow_by_kg * tables_.drive->per_tick_s;
+      if constexpr (S::gas_results) state_.cycle_blow_by_kg[one] += blow_by_kg;
+    }
+  }
+
   [[gnu::cold, gnu::noinline]] bool put_cylinder_right(std::uint32_t k, Real per_volume_m3, Real least_kg) noexcept {
     CylinderGas<Real> gas = state_.cylinder_gas.template at<Real>(k);
     const bool put_back = put_right(gas.contents, gas.point, per_volume_m3, least_kg);
     state_.cylinder_gas.put(k, gas.contents, gas.point);
+    if constexpr (S::crevice) {
+      if (put_back) fill_crevice(tables_, state_, k);
+    }
     return put_back;
   }
 

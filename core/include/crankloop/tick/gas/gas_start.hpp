@@ -18,6 +18,13 @@ template <class Real, class S>
   }
 }
 
+/// A cylinder's crevices, in equilibrium with it.
+template <class Real, class S>
+void fill_crevice(const Tables<Real, S>& tables, State<Real, S>& state, std::uint32_t k) noexcept {
+  const Real mass_kg = tables.gas_crevice->kg_per_Pa * state.cylinder_gas.pressure_Pa[k];
+  state.crevice_gas.put(k, CreviceGas<Real>{mass_kg, Real{0}, mass_kg * state.cylinder_gas.burned_ratio[k], Real{0}});
+}
+
 /// Anew, from the intake manifold, at the volumes as they are.
 template <class Real, class S>
 [[gnu::cold, gnu::noinline]] void fill_cylinders(const Tables<Real, S>& tables, State<Real, S>& state) noexcept {
@@ -34,6 +41,8 @@ template <class Real, class S>
     state.cylinder_gas.spare[k] = Real{0};
     if constexpr (Needs<S>::burn) end_burn(state.burn[k]);
     if constexpr (S::gas_results) state.gas_record[k] = {};
+    if constexpr (S::crevice) fill_crevice(tables, state, k);
+    if constexpr (S::crevice && S::gas_results) state.cycle_blow_by_kg[k] = Real{0};
   }
 }
 
@@ -55,8 +64,10 @@ template <class Real, class S>
   fill_cylinders(tables, state);
   // Cylinders that a scene has room for and the engine has not: as the first, so that a saved state is all numbers that
   // a step could compute with.
-  for (std::uint32_t k = count<S>(tables.drive->cylinders); k < S::cylinders.capacity; ++k)
+  for (std::uint32_t k = count<S>(tables.drive->cylinders); k < S::cylinders.capacity; ++k) {
     state.cylinder_gas.copy(0, k);
+    if constexpr (S::crevice) fill_crevice(tables, state, k);
+  }
 }
 
 }  // namespace crankloop::detail

@@ -1,6 +1,7 @@
 // What the gas of an engine remembers from step to step.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -19,6 +20,31 @@ struct CylinderGas {
   T area_m2[kPorts];  ///< effective, of each port
 };
 
+// Row k of a column, or as many from there as T has lanes. By its index: by its address, GCC keeps a pointer into each
+// column on the stack from load to store.
+struct TakeRow {
+  std::uint32_t k;
+  template <class Real, std::size_t kRows, class T>
+  [[gnu::always_inline]] void operator()(const Real (&column)[kRows], T& x) const noexcept {
+    if constexpr (kLanesIn<T> == 1) {
+      x = column[k];
+    } else {
+      std::memcpy(&x, column + k, sizeof x);
+    }
+  }
+};
+struct PutRow {
+  std::uint32_t k;
+  template <class Real, std::size_t kRows, class T>
+  [[gnu::always_inline]] void operator()(Real (&column)[kRows], const T& x) const noexcept {
+    if constexpr (kLanesIn<T> == 1) {
+      column[k] = x;
+    } else {
+      std::memcpy(column + k, &x, sizeof x);
+    }
+  }
+};
+
 /// The cylinders of an engine, in columns: neighbours go abreast.
 template <class Real, std::uint32_t kCylinders>
 struct CylinderGases {
@@ -35,22 +61,22 @@ struct CylinderGases {
   template <class T>
   [[nodiscard, gnu::always_inline]] CylinderGas<T> at(std::uint32_t k) const noexcept {
     CylinderGas<T> gas;
-    each(*this, gas, Take{k}), each_area(*this, gas, Take{k});
+    each(*this, gas, TakeRow{k}), each_area(*this, gas, TakeRow{k});
     return gas;
   }
   template <class T>
   [[gnu::always_inline]] void put(std::uint32_t k, const CylinderGas<T>& gas) noexcept {
-    each(*this, gas, Put{k});
+    each(*this, gas, PutRow{k});
   }
 
   void put(std::uint32_t k, const GasContents<Real>& contents, const GasPoint<Real>& point) noexcept {
-    each_of_gas(*this, contents, point, Put{k});
+    each_of_gas(*this, contents, point, PutRow{k});
   }
 
   /// Not among what a step always leaves: most ports are closed.
   template <class T>
   [[gnu::always_inline]] void put_areas(std::uint32_t k, const CylinderGas<T>& gas) noexcept {
-    each_area(*this, gas, Put{k});
+    each_area(*this, gas, PutRow{k});
   }
   void copy(std::uint32_t from, std::uint32_t to) noexcept {
     put(to, at<Real>(from)), put_areas(to, at<Real>(from));
@@ -58,30 +84,6 @@ struct CylinderGases {
   }
 
  private:
-  // A number by its index: by its address, GCC keeps a pointer into each column on the stack from load to store.
-  struct Take {
-    std::uint32_t k;
-    template <class T>
-    [[gnu::always_inline]] void operator()(const Real (&column)[kCylinders], T& x) const noexcept {
-      if constexpr (kLanesIn<T> == 1) {
-        x = column[k];
-      } else {
-        std::memcpy(&x, column + k, sizeof x);
-      }
-    }
-  };
-  struct Put {
-    std::uint32_t k;
-    template <class T>
-    [[gnu::always_inline]] void operator()(Real (&column)[kCylinders], const T& x) const noexcept {
-      if constexpr (kLanesIn<T> == 1) {
-        column[k] = x;
-      } else {
-        std::memcpy(column + k, &x, sizeof x);
-      }
-    }
-  };
-
   template <class Columns, class Gas, class Visit>
   [[gnu::always_inline]] static void each(Columns& column, Gas& gas, const Visit& visit) noexcept {
     each_of_gas(column, gas.contents, gas.point, visit);
@@ -99,6 +101,38 @@ struct CylinderGases {
   template <class Columns, class Gas, class Visit>
   [[gnu::always_inline]] static void each_area(Columns& column, Gas& gas, const Visit& visit) noexcept {
     visit(column.area_m2[kIntake], gas.area_m2[kIntake]), visit(column.area_m2[kExhaust], gas.area_m2[kExhaust]);
+  }
+};
+
+/// What a cylinder's crevices hold, at the walls' temperature.
+template <class T>
+struct CreviceGas {
+  T mass_kg, mass_rest_kg;
+  T burned_kg, burned_rest_kg;
+};
+
+/// The crevices of an engine's cylinders, in columns.
+template <class Real, std::uint32_t kCylinders>
+struct CreviceGases {
+  Real mass_kg[kCylinders], mass_rest_kg[kCylinders];
+  Real burned_kg[kCylinders], burned_rest_kg[kCylinders];
+
+  template <class T>
+  [[nodiscard, gnu::always_inline]] CreviceGas<T> at(std::uint32_t k) const noexcept {
+    CreviceGas<T> gas;
+    each(*this, gas, TakeRow{k});
+    return gas;
+  }
+  template <class T>
+  [[gnu::always_inline]] void put(std::uint32_t k, const CreviceGas<T>& gas) noexcept {
+    each(*this, gas, PutRow{k});
+  }
+
+ private:
+  template <class Columns, class Gas, class Visit>
+  [[gnu::always_inline]] static void each(Columns& column, Gas& gas, const Visit& visit) noexcept {
+    visit(column.mass_kg, gas.mass_kg), visit(column.mass_rest_kg, gas.mass_rest_kg);
+    visit(column.burned_kg, gas.burned_kg), visit(column.burned_rest_kg, gas.burned_rest_kg);
   }
 };
 

@@ -39,6 +39,9 @@ class GasStep {
     if constexpr (S::boundaries) {
       for (int port = 0; port < kPorts; ++port) boundary_[port] = given(port, Real{0});
     }
+    if constexpr (S::crevice) {
+      for (CreviceOutput<Real>& shown : out_.crevice) shown.blow_by_kg_s = Real{0};
+    }
     Areas end;
     read_areas(tables_, end, [this](std::uint32_t t, std::uint32_t k) { return out_.valve[t][k].lift_m; });
     CylinderGases<Real, kCylinders>& gases = state_.cylinder_gas;
@@ -49,6 +52,7 @@ class GasStep {
       for (std::uint32_t k = 0; k < cylinders(); ++k) {
         const Real shown[7] = {gases.pressure_Pa[k], gases.temperature_K[k], gases.mass_kg[k], gases.burned_ratio[k]};
         show(shown, &out_.cylinder_gas[k]);
+        if constexpr (S::crevice) out_.crevice[k].mass_kg = state_.crevice_gas.mass_kg[k];
       }
     } else {
       faults |= run_steps(input, end, static_cast<std::int64_t>(turned.units()));

@@ -34,6 +34,15 @@ template <class Real>
          within(gas.energy_rest_J, -rest * gas.energy_J, rest * gas.energy_J);
 }
 
+/// Checks a cylinder's crevices: of no more than a hundred times its gas, whose burned share is one.
+template <class Real>
+[[nodiscard]] inline bool crevice_agrees(const CreviceGas<Real>& crevice, Real gas_kg) noexcept {
+  const Real little_kg = static_cast<Real>(1e-3) * gas_kg;
+  return within(crevice.mass_kg, -little_kg, 100 * gas_kg) &&
+         within(crevice.burned_kg, -little_kg, crevice.mass_kg + little_kg) &&
+         within(crevice.mass_rest_kg, -little_kg, little_kg) && within(crevice.burned_rest_kg, -little_kg, little_kg);
+}
+
 /// Checks the sums that a cycle's end divides by one another and multiplies by constants of the engine.
 template <class Real>
 [[nodiscard]] inline bool record_agrees(const GasRecord<Real>& r, const GasCylinders<Real>& table) noexcept {
@@ -69,6 +78,9 @@ template <class Real, class S>
     const Real least_m3 = static_cast<Real>(0.99) * table.clearance_m3;
     if (!within(gas.volume_m3, least_m3, static_cast<Real>(1.01) * (table.clearance_m3 + swept_m3))) return false;
     if (!gas_agrees(gas.contents, gas.point, gas.volume_m3)) return false;
+    if constexpr (S::crevice) {
+      if (!crevice_agrees(state.crevice_gas.template at<Real>(k), gas.contents.mass_kg)) return false;
+    }
     if constexpr (S::gas_results) {
       if (!record_agrees(state.gas_record[k], table)) return false;
     }

@@ -64,6 +64,7 @@ template <class S>
     crc.add(static_cast<std::uint32_t>(S::combustion));
     crc.add(std::uint32_t{S::gas_results});
     if (S::boundaries) crc.add(std::uint32_t{1});
+    if (S::crevice) crc.add(std::uint32_t{2});
   }
   if (S::spring_modes > 0) crc.add(S::spring_modes);
   return crc.value();

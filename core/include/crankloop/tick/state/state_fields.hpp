@@ -180,6 +180,17 @@ struct StateFields {
       v.number(gas.pressure_before_Pa[k], Real{0}, static_cast<Real>(1e12));
       v.spare(gas.spare[k]);
     }
+    if constexpr (S::crevice) {
+      v.group("state.crevice");
+      auto& gas = s.crevice_gas;
+      for (std::uint32_t k = 0; k < sizeof gas.mass_kg / sizeof gas.mass_kg[0]; ++k) {
+        v.number(gas.mass_kg[k], -kMaxGas_kg, kMaxGas_kg);  // below 0 by rounding alone: gas_agrees.hpp
+        v.number(gas.burned_kg[k], -kMaxGas_kg, kMaxGas_kg);
+        numbers(kMaxGas_kg, gas.mass_rest_kg[k], gas.burned_rest_kg[k]);
+        if constexpr (S::gas_results) numbers(kMaxNoted, s.cycle_blow_by_kg[k]);
+      }
+      v.group("state.gas");
+    }
     if constexpr (N::manifolds) {
       for (auto& manifold : s.manifold) {
         auto& c = manifold.contents;

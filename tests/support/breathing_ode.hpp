@@ -1,0 +1,135 @@
+// A cylinder that breathes, with crevices and blow-by, as ordinary differential equations in continuous time, by an
+// adaptive integrator: shares no code with the library.
+//
+// docs/model.md "Gas". Between two manifolds that nothing changes; valves follow their cams. The crevice's flow is that
+// which keeps its pressure the cylinder's: no step, no lag.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "support/adaptive.hpp"
+#include "support/gas_equations.hpp"
+#include "support/gas_reference.hpp"
+
+namespace crankloop::support {
+
+class BreathingOde {
+ public:
+  /// What burns in a cycle by the definition's first law, the first one after a turn.
+  struct Burn {
+    double fuel_kg = 0;  ///< of no more than there is air for
+    double heat_J = 0;   ///< without mass
+  };
+
+  BreathingOde(const EngineDefinition& engine, double speed_rad_s, const GasSeen& intake, const GasSeen& exhaust,
+               const Burn& burn)
+      : e_{engine},
+        w_{speed_rad_s},
+        burn_{burn},
+        manifold_{intake, exhaust},
+        places_(engine, speed_rad_s, 1),
+        walls_(engine, speed_rad_s),
+        by_(1e-9, scale()) {
+    clearance_m3_ = places_.volume(0);
+    const GasVolume gas = gas_filled(intake.p, intake.t, intake.x, places_.volume(0));
+    y_ = {gas.m, gas.u, gas.b};
+    y_[kCreviceBurned] = per_Pa() * intake.p * intake.x;
+  }
+
+  /// The crank from 0 where it stands at the start.
+  void run_to(double time_s) {
+    by_.run([this](double t, const auto& y, auto& dy) { slopes(t, y, dy); }, t_, time_s, y_);
+  }
+
+  [[nodiscard]] double deg() const { return w_ * t_ * 180 / kPi; }
+  [[nodiscard]] GasSeen cylinder() const { return gas_seen({y_[0], y_[1], y_[2]}, places_.volume(deg())); }
+  [[nodiscard]] double mass_kg() const { return y_[0]; }
+  [[nodiscard]] double crevice_kg() const { return per_Pa() * cylinder().p; }
+  [[nodiscard]] double crevice_burned_kg() const { return y_[kCreviceBurned]; }
+  [[nodiscard]] double blow_by_kg() const { return y_[kBlowBy]; }
+  [[nodiscard]] double work_J() const { return y_[kWork]; }           ///< on the piston
+  [[nodiscard]] double wall_heat_J() const { return y_[kWallHeat]; }  ///< crevices' walls included
+  [[nodiscard]] double intake_kg() const { return y_[kIntakeMass]; }
+
+ private:
+  enum At : std::size_t { kCreviceBurned = 3, kBlowBy, kWork, kWallHeat, kIntakeMass, kCount };
+  using Vector = Adaptive<kCount>::Vector;
+
+  static Vector scale() { return {1e-5, 10, 1e-6, 1e-6, 1e-6, 10, 10, 1e-5}; }
+  [[nodiscard]] double per_Pa() const { return e_.gas.crevice.volume_ratio * clearance_m3_ / (kGasR * e_.gas.wall_K); }
+
+  /// By how much dm, dU, db move the pressure.
+  [[nodiscard]] static double moves(const GasVolume& gas, const GasSeen& at, double volume_m3, const GasVolume& d) {
+    const double cv = gas_a(at.x) + kGasB * at.t;
+    const double dt = (d.u - (646 * d.m + 93 * d.b) * at.t - kGasB / 2 * at.t * at.t * d.m) / (gas.m * cv);
+    return kGasR / volume_m3 * (d.m * at.t + gas.m * dt);
+  }
+
+  void slopes(double t, const Vector& y, Vector& dy) const {
+    const double deg = std::remainder(w_ * t * 180 / kPi, 720);
+    const double step = 1e-3, volume = places_.volume(deg);
+    const double volume_rate = (8 * (places_.volume(deg + step) - places_.volume(deg - step)) -
+                                (places_.volume(deg + 2 * step) - places_.volume(deg - 2 * step))) /
+                               (12 * step) * w_ * 180 / kPi;
+    const GasVolume gas{y[0], y[1], y[2]};
+    const GasSeen at = gas_seen(gas, volume);
+    GasVolume d{0, 0, 0}, outside{};
+    dy = {};
+    dy[kIntakeMass] = gas_flow(OrificeLaw::ellipse, places_.area_of(0, deg), manifold_[0], at, outside, d);
+    (void)gas_flow(OrificeLaw::ellipse, places_.area_of(1, deg), manifold_[1], at, outside, d);
+    const Gas& g = e_.gas;
+    if (w_ * t > 2 * kPi) {
+      const double rate =
+          wiebe_slope((deg - g.burn_start_deg) / g.burn_duration_deg, g.wiebe_m) / g.burn_duration_deg * w_ * 180 / kPi;
+      d.m += burn_.fuel_kg * rate, d.b += (1 + g.air_fuel_ratio) * burn_.fuel_kg * rate;
+      d.u += (burn_.heat_J + burn_.fuel_kg * fuel_energy_J_kg(g)) * rate;
+    }
+    dy[kWallHeat] = walls_.W(at, volume);
+    dy[kWork] = at.p * volume_rate;
+    d.u -= dy[kWallHeat] + dy[kWork];
+    if (g.crevice.any()) fill_crevice(y, gas, at, volume, at.p * volume_rate / volume, d, dy);
+    dy[0] = d.m, dy[1] = d.u, dy[2] = d.b;
+  }
+
+  /// `falls_Pa_s`: the pressure by the volume's change at constant m T.
+  void fill_crevice(const Vector& y, const GasVolume& gas, const GasSeen& at, double volume, double falls_Pa_s,
+                    GasVolume& d, Vector& dy) const {
+    const double wall_K = e_.gas.wall_K, behind_Pa = e_.pressure.crankcase_Pa, per_Pa = this->per_Pa();
+    const double held_kg = per_Pa * at.p;
+    const double leak = e_.gas.crevice.blow_by_m2 *
+                        (at.p >= behind_Pa ? ellipse(at.p, behind_Pa, wall_K) : -ellipse(behind_Pa, at.p, wall_K));
+    const double rises = moves(gas, at, volume, d) - falls_Pa_s;
+    const auto flow = [&](double x, double kelvin) {
+      const GasVolume unit{1, gas_enthalpy(kelvin, x), x};
+      const double w = (per_Pa * rises + leak) / (1 + per_Pa * moves(gas, at, volume, unit));
+      return GasVolume{w, w * unit.u, w * unit.b};
+    };
+    const bool fills = per_Pa * rises + leak > 0;
+    const double own_x = held_kg > 0 ? y[kCreviceBurned] / held_kg : 0;
+    const GasVolume out = fills ? flow(at.x, at.t) : flow(own_x, wall_K);
+    d.m -= out.m, d.u -= out.u, d.b -= out.b;
+    const double leak_x = held_kg > 0 ? own_x : std::fmax(0, at.x);
+    dy[kBlowBy] = leak;
+    dy[kCreviceBurned] = held_kg > 0 ? out.b - std::fmax(leak, 0) * leak_x : 0;
+    // What comes in less what stays, at the walls' temperature, and what leaves with its enthalpy.
+    const double stays = out.m - leak, stays_b = out.b - std::fmax(leak, 0) * leak_x;
+    const double at_wall = 646 * wall_K + kGasB / 2 * wall_K * wall_K;
+    dy[kWallHeat] +=
+        out.u - (stays * at_wall + stays_b * 93 * wall_K) - leak * gas_enthalpy(wall_K, leak > 0 ? leak_x : 0);
+  }
+
+  EngineDefinition e_;
+  double w_;
+  Burn burn_;
+  std::array<GasSeen, 2> manifold_;
+  GasReference places_;
+  WallHeat walls_;
+  Adaptive<kCount> by_;
+  double clearance_m3_ = 0, t_ = 0;
+  Vector y_{};
+};
+
+}  // namespace crankloop::support
