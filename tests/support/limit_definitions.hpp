@@ -22,8 +22,8 @@
 
 namespace crankloop::support {
 
-/// All the fields of a definition in one round: what EngineDefinition::each_field() lists, the wheels, and the gas
-/// where it is read.
+/// All the fields of a definition in one round that C has too: what EngineDefinition::each_field() lists, and the
+/// wheels.
 template <class Visit, class Self, class... Others>
 void each_part(Visit& visit, Self& definition, Others&... others) {
   EngineDefinition::each_field(visit, definition, others...);
@@ -117,6 +117,7 @@ class LimitDefinition {
     }
     Spoil spoil(random, 90);
     each_part(spoil, d);
+    spoil({d.train_count, "contacts"}, d.contacts);
     if (d.pressure.source == PressureSource::gas) spoil({1, ""}, d.gas);
   }
   LimitDefinition(const LimitDefinition&) = delete;
@@ -154,6 +155,7 @@ inline EngineDefinition in_memory_of(unsigned char filling, const EngineDefiniti
   std::memset(static_cast<void*>(&to), filling, sizeof to);
   CopyRead copy;
   each_part(copy, from, from, to);
+  copy({from.train_count, "contacts"}, from.contacts, from.contacts, to.contacts);
   if (from.pressure.source == PressureSource::gas) {
     Gas gas = from.gas;
     copy({1, ""}, gas, gas, to.gas);
