@@ -357,6 +357,7 @@ OTHERWISE(WithValveResults, bool, valve_results, true);
 OTHERWISE(WithValveGas, bool, valve_gas, true);
 OTHERWISE(WithCamContact, bool, cam_contact, true);
 OTHERWISE(WithCamDrag, bool, cam_drag, true);
+OTHERWISE(WithSpringModes, std::uint32_t, spring_modes, 1);
 OTHERWISE(WithCamPhasing, bool, cam_phasing, true);
 OTHERWISE(WithBadInputCount, bool, bad_input_count, true);
 OTHERWISE(WithStarter, bool, starter, true);

@@ -18,12 +18,13 @@ namespace {
 using report::Plot;
 using report::Series;
 
-constexpr int kSpeeds = 241;
+constexpr int kSpeeds = 181;
 constexpr double kFrom = 0.3;  ///< of the larger of rated speed and the run's
 constexpr double kTo = 1.2;
 constexpr double kCamPerCrank = 0.5;  ///< turns
-constexpr double kPeakOver = 1.15;    ///< what a marked peak exceeds its neighbourhood by
-constexpr int kNeighbourhood = 8;
+constexpr int kHarmonics = 8;
+constexpr double kPeakOver = 1.15;  ///< what a marked peak exceeds its neighbourhood by
+constexpr int kNeighbourhood = 6;
 
 /// Cam turns per second at a speed of the crank.
 double cam_Hz(double rpm) { return rpm / 60 * kCamPerCrank; }
@@ -57,9 +58,9 @@ Plot campbell_plot(const std::string& name, const Valve& valve, double high_rpm)
       plot.series.push_back(std::move(mode));
     }
   }
-  // From the harmonic that meets the first mode at the highest speed to that which does at half of it.
+  // From the harmonic that meets the first mode at the highest speed on: those of higher orders are small.
   const int first = std::max(1, static_cast<int>(std::ceil(lowest_Hz / cam_Hz(kTo * high_rpm))));
-  for (int n = first; n <= 2 * first; ++n) {
+  for (int n = first; n < first + kHarmonics; ++n) {
     Series harmonic{ordinal(n), {kFrom * high_rpm, kTo * high_rpm}, {}};
     for (const double rpm : harmonic.x) harmonic.y.push_back(n * cam_Hz(rpm));
     harmonic.style.colour = 4;
