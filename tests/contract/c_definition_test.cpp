@@ -177,6 +177,7 @@ TEST(CDefinition, AtItsLimitsIsAnsweredAsInCppWhateverItsUnreadMemoryHolds) {
     support::LimitDefinition limit(random);
     EngineDefinition& cpp = limit.definition;
     if (cpp.pressure.source == PressureSource::gas) cpp.pressure.source = PressureSource::none;  // C has no gas
+    for (CamContact& contact : cpp.contacts) contact = {};                                       // nor contacts
     const Status right = validate(cpp);
     const crankloop_definition whole = c::as_c(cpp);
     std::uint64_t fingerprints[2] = {};

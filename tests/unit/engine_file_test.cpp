@@ -89,6 +89,7 @@ TEST_F(EngineFileTest, DefaultsAreThoseOfTheLibrary) {
       DefaultOf library(key->field);
       EngineDefinition::each_field(library, untouched);
       Gas::each_field(library, untouched.gas);
+      CamContact::each_field(library, untouched.contacts[0]);
       EXPECT_EQ(parse_value(*key, key->fallback, "", 0).si(), library.value) << key->name;
       ++compared;
     }

@@ -112,7 +112,8 @@ EngineFile read_engine_text(const std::string& text, const std::string& path,
 
 void EngineFile::build_definition() {
   for (const SectionValues& section : sections_) {
-    const bool of_train = section.kind == "cam" || section.kind == "rocker" || section.kind == "valve";
+    const bool of_train =
+        section.kind == "cam" || section.kind == "material" || section.kind == "rocker" || section.kind == "valve";
     const bool needs_crank = !of_train && section.kind != "engine" && section.kind != "crank";
     if (needs_crank && !has("crank"))
       throw InputError(path_, section.line, section.title() + " needs a [crank] section beside it");

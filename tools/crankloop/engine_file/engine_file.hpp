@@ -25,10 +25,12 @@ namespace crankloop::program {
 
 inline constexpr std::size_t kMaxEngineFileBytes = std::size_t{1} << 20;
 
-/// A valve train of the file: what it has of [cam NAME], [rocker NAME] and [valve NAME].
+/// A valve train of the file: what it has of [cam NAME], [material NAME], [rocker NAME] and [valve NAME].
 struct TrainOfFile {
   std::string name;
   ValveTrain definition;  ///< parts that the file lacks are all zero
+  CamContact contact;
+  double stress_limit_Pa = 0;  ///< of the contact; 0: the file has none
   PortOfTrain port;
   bool has_flow_curve = false;           ///< of the file; else the curve is that of a usual valve
   std::optional<PortGeometry> geometry;  ///< of the port, where the file has a diameter of the seat or the head

@@ -28,6 +28,8 @@ constexpr Unit kCelsius{"C"};  // core takes kelvins: engine_file_gas.cpp
 constexpr Unit kKgM2{"kg_m2"};
 constexpr Unit kKgMm2{"kg_mm2", 1, 1e6};
 constexpr Unit kKPa{"kPa", 1e3, 1};
+constexpr Unit kMPa{"MPa", 1e6, 1};
+constexpr Unit kGPa{"GPa", 1e9, 1};
 constexpr Unit kJ{"J"};
 constexpr Unit kN{"N"};
 constexpr Unit kNPerMm{"N_per_mm", 1e3, 1};
@@ -62,6 +64,7 @@ constexpr SectionKind kSections[] = {
     {"machine", false, "the driven machine, a passive brake on the crankshaft; absent: none"},
     {"starter", false, "as seen from the crankshaft; absent: none"},
     {"cam", true, "a cam, by the lift of a flat follower"},
+    {"material", true, "of cam and follower of the same NAME, for their contact; absent: steel"},
     {"rocker", true, "what carries the cam's lift to the valve of the same NAME"},
     {"valve", true, "the valve of the same NAME, for its dynamics"},
     {"trigger", true, "a trigger wheel: what a crank or cam sensor sees"},
@@ -165,6 +168,14 @@ constexpr Key kRows[] = {
     {"cam", "phase_rate_deg_per_s", Kind::number, kDegPerS, "cam.phase_rate_deg_s", kOfField, "", defaults, "0", "", "", "cam phaser's rate limit in crank degrees; 0: fixed cam"},
     {"cam", "file", Kind::path, kNoUnit, "", kAny, "", required, "", kCamTable, "", "CSV with header cam_deg,lift_mm; relative to the engine file"},
     {"cam", "smoothing_um", Kind::number, kUm, "cam.smoothing_m", kOfField, "auto", required, "", kCamTable, "", "largest residual that smoothing may leave; auto: by the scatter of the rows"},
+    {"cam", "width_mm", Kind::number, kMm, "cam.width_m", above(0).up_to(1000), "", optional, "", "", "", "b, width of the contact with its follower, for stress"},
+    {"cam", "friction_ratio", Kind::number, kNoUnit, "cam.friction_ratio", kOfField, "", optional, "", "", "", "mu between cam and follower, at any speed; absent: none", "0.03 to 0.12"},
+    {"cam", "limit_MPa", Kind::number, kMPa, "", above(0).up_to(1e5), "", optional, "", "", "", "largest stress of the contact that is allowed; where it is passed is told"},
+
+    {"material", "cam_GPa", Kind::number, kGPa, "material.cam_Pa", kOfField, "", defaults, "206", "", "", "Young's modulus of the cam"},
+    {"material", "cam_poisson", Kind::number, kNoUnit, "material.cam_poisson_ratio", kOfField, "", defaults, "0.3", "", "", "its Poisson's ratio"},
+    {"material", "follower_GPa", Kind::number, kGPa, "material.follower_Pa", kOfField, "", defaults, "206", "", "", "Young's modulus of pad or flat follower"},
+    {"material", "follower_poisson", Kind::number, kNoUnit, "material.follower_poisson_ratio", kOfField, "", defaults, "0.3", "", "", "its Poisson's ratio"},
 
     {"rocker", "ratio", Kind::number, kNoUnit, "rocker.ratio", kOfField, "", required, "", "", "train:constant ratio", "direct (1) or constant-ratio train, instead of the geometry"},
     {"rocker", "pivot_to_pad_mm", Kind::number, kMm, "rocker.pivot_to_pad_m", kOfField, "", required, "", "", "train:geometry", "l_a"},
@@ -248,6 +259,7 @@ constexpr Range range_of_field(const Key& key) {
   Find find{key.field};
   EngineDefinition::each_field(find, definition);
   Gas::each_field(find, definition.gas);
+  CamContact::each_field(find, definition.contacts[0]);
   if (!find.found) throw "a key is that of a field that the definition does not have";
   const auto in_file = [&key](double si) { return si * key.unit.over / key.unit.times; };
   return {in_file(find.range.least), in_file(find.range.most), find.range.without_least, find.range.without_most};

@@ -1,5 +1,5 @@
-// Valve trains of an engine file: [cam NAME], [rocker NAME] and [valve NAME] as definitions, and messages for core's
-// refusals.
+// Valve trains of an engine file: [cam NAME], [material NAME], [rocker NAME] and [valve NAME] as definitions, and
+// messages for core's refusals.
 #include <algorithm>
 #include <cmath>
 
@@ -72,11 +72,22 @@ void EngineFile::build_trains() {
     if (!status.ok()) throw explain(status, train);
   };
   for (SectionValues& section : sections_) {
-    if (section.kind != "cam" && section.kind != "rocker" && section.kind != "valve") continue;
+    if (section.kind != "cam" && section.kind != "material" && section.kind != "rocker" && section.kind != "valve")
+      continue;
+    if (section.kind == "material" && !has("cam " + section.name)) {
+      throw InputError(path_, section.line,
+                       "[material " + section.name + "] has no [cam " + section.name + "] beside it");
+    }
     TrainOfFile& train = named(trains_, section.name);
-    if (section.kind == "cam") {
+    if (section.kind == "material") {
+      fill(section, train.contact);
+      accept(validate(train.contact), train);
+    } else if (section.kind == "cam") {
       train.has_cam = true;
       train.definition.cam = build_cam(section, path_);
+      fill(section, train.contact);
+      if (section.has("limit_MPa")) train.stress_limit_Pa = section.si("limit_MPa");
+      accept(validate(train.contact), train);
       if (section.has("file")) read_cam(section, train);
       accept(validate(train.definition.cam), train);
     } else if (section.kind == "rocker") {
@@ -100,6 +111,7 @@ void EngineFile::build_trains() {
           path_, section("cam " + train.name).line,
           "[cam " + train.name + "] makes one valve train too many; allowed: " + std::to_string(kMaxTrains));
     }
+    definition_.contacts[definition_.train_count] = train.contact;
     definition_.trains[definition_.train_count++] = train.definition;
   }
 }

@@ -25,6 +25,7 @@ namespace crankloop::program {
 [[nodiscard]] report::Section balance_section(const ReportInput& input);
 [[nodiscard]] report::Section valve_section(const ReportInput& input);       ///< where there are valve trains
 void add_flow_area(const ReportInput& input, report::Section& section);      ///< to the valve trains
+void add_cam_loads(const ReportInput& input, report::Section& section);      ///< to the valve trains
 void add_surge(const ReportInput& input, report::Section& section);          ///< to the valve trains
 [[nodiscard]] report::Section crankshaft_section(const ReportInput& input);  ///< of two cylinders or more
 [[nodiscard]] report::Section accuracy_section(const ReportInput& input);

@@ -435,6 +435,7 @@ report::Section valve_section(const ReportInput& input) {
       section.blocks.push_back(seating_plot(input, train));
   }
   section.blocks.push_back(results_table(trains));
+  add_cam_loads(input, section);
   add_surge(input, section);
   add_flow_area(input, section);
   for (const Train& train : trains) section.blocks.push_back(table_of_train(input, train));

@@ -76,6 +76,7 @@ LoneValve::LoneValve(const EngineFile& file, const std::string& name) : file_{fi
   definition_.masses.piston_kg = 1;
   definition_.train_count = 1;
   definition_.trains[0] = train_.definition;
+  definition_.contacts[0] = train_.contact;
   const auto lift = std::make_shared<ValveLift>();
   if (const Status refused = lift->init(train_.definition.cam, train_.definition.rocker); !refused.ok()) {
     throw file.explain(refused, train_, lift->failed_at_deg());

@@ -30,12 +30,14 @@
 #include "../../loops/valve_tick_limit.hpp"
 #include "against.hpp"
 #include "free_request.hpp"
+#include "run_cams.hpp"
 #include "run_signals.hpp"
 
 namespace crankloop::program {
 namespace {
 
-std::vector<std::string> csv_header(const EngineDefinition& engine, const std::vector<std::string>& trains) {
+std::vector<std::string> csv_header(const EngineDefinition& engine, const std::vector<std::string>& trains,
+                                    const CamColumns& cams) {
   const int cylinders = engine.layout.cylinders;
   std::vector<std::string> header{"time_s", "crank_deg", "speed_rpm", "torque_Nm", "mean_torque_Nm"};
   for (int k = 1; k <= cylinders; ++k) {
@@ -51,12 +53,13 @@ std::vector<std::string> csv_header(const EngineDefinition& engine, const std::v
     }
   }
   if (breathes(engine)) add_gas_columns(header, engine);
+  if (cams.any()) cams.add_names(header);
   return header;
 }
 
 template <class Real, class S>
 void write_row(CsvWriter& csv, const EngineDefinition& definition, const Operation& operation, std::uint64_t tick,
-               double crank_deg, const WholeOutput<Real, S>& out) {
+               double crank_deg, const WholeOutput<Real, S>& out, const CamColumns& cams) {
   const Layout& layout = definition.layout;
   csv.cell(static_cast<double>(tick) * operation.tick_s);
   csv.cell(crank_deg);
@@ -76,6 +79,7 @@ void write_row(CsvWriter& csv, const EngineDefinition& definition, const Operati
     }
   }
   if constexpr (detail::Needs<S>::gas) write_gas(csv, out, definition);
+  if (cams.any()) cams.write<Real, S>(csv, crank_deg, operation.speed_rad_s() / 2, out);
   csv.end_row();
 }
 
@@ -229,7 +233,8 @@ void run(const Engines& engine, const Request& request, const Arguments& argumen
   Results results(arguments, {"--csv", "--report", "--vcd"});
   if (Output* vcd = results["--vcd"]) write_signals(engine.file, operation, request.cycles, *vcd);
   std::optional<CsvWriter> csv;
-  if (Output* file = results["--csv"]) csv.emplace(*file, csv_header(definition, names_of_trains(engine.file)));
+  const CamColumns cams(engine.file);
+  if (Output* file = results["--csv"]) csv.emplace(*file, csv_header(definition, names_of_trains(engine.file), cams));
 
   Trace trace;
   if (results["--report"] != nullptr) trace = record_trace<Real, S>(definition, operation);
@@ -242,7 +247,7 @@ void run(const Engines& engine, const Request& request, const Arguments& argumen
   const CloseUpWindow window = close_up_window(summary.largest_torque_deg, loop.deg_per_tick());
   std::vector<CloseUpTick> close_up;
   const OnTick<Real, S> on_tick = [&](std::uint64_t tick, double crank_deg, const WholeOutput<Real, S>& out) {
-    if (csv) write_row<Real, S>(*csv, definition, operation, tick, crank_deg, out);
+    if (csv) write_row<Real, S>(*csv, definition, operation, tick, crank_deg, out, cams);
     if (static_cast<double>(tick) <= loop.ticks_per_cycle() && window.contains(crank_deg)) {
       close_up.push_back({crank_deg, static_cast<double>(out.torque_Nm), static_cast<double>(out.mean_torque_Nm)});
     }

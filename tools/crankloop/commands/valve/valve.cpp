@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -16,6 +17,7 @@
 #include "../../engine_file/gas_order.hpp"
 #include "../../files/csv.hpp"
 #include "../../files/units.hpp"
+#include "../../loops/cam_loads.hpp"
 #include "../../loops/flow_lines.hpp"
 #include "../../loops/surge_force.hpp"
 #include "../../loops/textbook_valve.hpp"
@@ -45,8 +47,13 @@ struct Flow {
   FlowIntegrals elastic{};
 };
 
+/// Columns of what the cam bears: where the file has the width of the contact.
+constexpr const char* kLoadColumns[] = {"contact_stress_MPa", "contact_half_width_um", "sliding_m_s", "entrainment_m_s",
+                                        "cam_torque_Nm"};
+
 template <class Real>
-void write_row(CsvWriter& csv, const LoneValve& valve, const Flow& flow, const ValveTickOutput<Real>& out) {
+void write_row(CsvWriter& csv, const LoneValve& valve, const Flow& flow, const ValveTickOutput<Real>& out,
+               const CamLoads& loads) {
   const auto real = [](double value) { return static_cast<Real>(value); };
   const ValveMotionOutput<Real, OneValve>& m = out.motion;
   const ValveForcesOutput<Real>& f = out.forces;
@@ -62,6 +69,11 @@ void write_row(CsvWriter& csv, const LoneValve& valve, const Flow& flow, const V
     const double lift_m = static_cast<double>(m.lift_m);
     csv.cell(real(flow.area->geometric_m2(lift_m) * 1e6));
     csv.cell(real(flow.area->effective_m2(lift_m) * 1e6));
+  }
+  if (valve.train().contact.width_m > 0) {
+    for (const double value :
+         {loads.stress_Pa / 1e6, loads.half_width_m * 1e6, loads.sliding_m_s, loads.entrainment_m_s, loads.torque_Nm})
+      csv.cell(real(value));
   }
   csv.end_row();
 }
@@ -176,10 +188,16 @@ void add_motion(Summary& s, const MotionRange& elastic, const MotionRange& rigid
   line("least_acceleration", elastic.fall_m_s2, rigid.fall_m_s2, "m/s^2");
 }
 
+/// What the ticks of the cycle shown come to.
+struct OfTheCycle {
+  MotionRange motion{};
+  SpringRange springs{};
+  CamLoadsOfCycle loads;
+};
+
 template <class Real>
 Summary summary(const LoneValve& valve, const Request& request, const ValveLoop<Real>& loop,
-                const ValveCycle<Real>& cycle, double change_m, const Flow& flow, const MotionRange& motion,
-                const SpringRange& springs) {
+                const ValveCycle<Real>& cycle, double change_m, const Flow& flow, const OfTheCycle& ticks) {
   const auto real = [](double value) { return static_cast<Real>(value); };
   const detail::ValveBody<double> body = valve.body();
   const bool separated = cycle.separations > 0;
@@ -192,7 +210,7 @@ Summary summary(const LoneValve& valve, const Request& request, const ValveLoop<
   const double cam_rad_s = loop.deg_per_tick(request.speed_rpm) * kRadPerDeg / request.tick_s;
   const MotionRange rigid = rigid_range(valve.lift(), cam_rad_s);
   s.line("max_acceleration", cycle.largest_acceleration_m_s2, "m/s^2", "of rigid parts " + brief(rigid.rise_m_s2));
-  add_motion(s, motion, rigid);
+  add_motion(s, ticks.motion, rigid);
   add_opening_delay(s, "opening_delay", cycle);
   s.line("separations", cycle.separations, "", "of at least 1 um");
   s.line("separation_max_gap", cycle.separation_clearance_m * real(1e3), "mm");
@@ -210,7 +228,9 @@ Summary summary(const LoneValve& valve, const Request& request, const ValveLoop<
   s.line("natural_frequency", real(open_frequency_rad_s(body) / (2 * kPi)), "Hz", "open, on the train");
   s.line("seat_frequency", real(seated_frequency_rad_s(body) / (2 * kPi)), "Hz", "on train and seat");
   add_margin(s, valve, request.speed_rpm);
-  add_surge(s, valve, request.speed_rpm, springs, loop.surge_error_ratio());
+  add_surge(s, valve, request.speed_rpm, ticks.springs, loop.surge_error_ratio());
+  const TrainOfFile& train = valve.train();
+  add_cam_loads(s, train, static_stress(valve.lift(), train.definition, train.contact), ticks.loads, cam_rad_s);
   const std::uint32_t parts = loop.motion().parts;
   s.line("sub_steps", request.method.textbook ? TextbookValve<Real>::steps(loop.motion()) : parts, "",
          request.method.textbook ? "in each tick" : "in a tick, near contact changes; 1 elsewhere");
@@ -246,20 +266,27 @@ Summary run(const LoneValve& valve, const Request& request, Results& results, co
                                      "cam_force_N",  "train_compression_mm", "regime"};
     if (valve.valve().surge_modes > 0) columns.insert(columns.end(), {"spring_force_N", "spring_surge_N"});
     if (flow.area) columns.insert(columns.end(), {"flow_area_mm2", "effective_area_mm2"});
+    if (valve.train().contact.width_m > 0)
+      columns.insert(columns.end(), std::begin(kLoadColumns), std::end(kLoadColumns));
     csv.emplace(*file, columns);
   }
   const double seat_contact_m = valve.body().preload_N / valve.body().seat_N_m;
   std::optional<FlowSum> sum;
   if (flow.area) sum.emplace(*flow.area, seat_contact_m, 2 * std::abs(loop.deg_per_tick(request.speed_rpm)));
   ValveCycleTrace trace;
-  MotionRange motion;
-  SpringRange springs;
+  const CamContact& contact = valve.train().contact;
+  const double cam_rad_s = loop.deg_per_tick(request.speed_rpm) * kRadPerDeg / request.tick_s;
+  OfTheCycle of_cycle{{}, {}, CamLoadsOfCycle(valve.train().stress_limit_Pa)};
   const OnValveTick<Real> on_tick = [&](const ValveTickOutput<Real>& out) {
-    if (csv) write_row(*csv, valve, flow, out);
-    motion.take(static_cast<double>(out.motion.velocity_m_s), static_cast<double>(out.motion.acceleration_m_s2));
-    springs.take(static_cast<double>(out.springs.surge_N), static_cast<double>(out.springs.moving_N));
+    const CamLoads loads = cam_loads_at(valve.lift(), contact, out.cam_deg * kRadPerDeg, cam_rad_s,
+                                        static_cast<double>(out.forces.train_N));
+    of_cycle.loads.add(out.cam_deg, loads);
+    if (csv) write_row(*csv, valve, flow, out, loads);
+    of_cycle.motion.take(static_cast<double>(out.motion.velocity_m_s),
+                         static_cast<double>(out.motion.acceleration_m_s2));
+    of_cycle.springs.take(static_cast<double>(out.springs.surge_N), static_cast<double>(out.springs.moving_N));
     if (sum) sum->add(static_cast<double>(out.motion.lift_m));
-    if (plot != nullptr) trace.ticks.push_back(in_double(out));
+    if (plot != nullptr) trace.ticks.push_back(in_double(out)), trace.loads.push_back(loads);
   };
   const ValveCycle<Real> cycle = run_cycles<Real>(loop, valve, request.speed_rpm, request.cycles, on_tick, after_tick);
   if (sum) flow.elastic = sum->largest();
@@ -271,13 +298,15 @@ Summary run(const LoneValve& valve, const Request& request, Results& results, co
     trace.speed_rad_s = request.speed_rpm * kRad_sPerRpm;
     trace.seat_contact_m = seat_contact_m;
     trace.area = flow.area;
+    trace.limit_Pa = valve.train().stress_limit_Pa;
+    if (!(contact.width_m > 0)) trace.loads.clear();
     const std::string remark = std::filesystem::path(valve.file().path()).filename().string() + ", " +
                                circumstances(request) + "; " + gas_remark(valve);
     report::Sheet sheet = valve_sheet(trace, "Valve train " + title(valve, request), remark);
     if (flow.area) add_flow_remarks(sheet.remarks, valve.train());
     plot->write(report::to_svg_file(sheet));
   }
-  return summary(valve, request, loop, cycle, change_m, flow, motion, springs);
+  return summary(valve, request, loop, cycle, change_m, flow, of_cycle);
 }
 
 Request request_of(const Arguments& arguments, const EngineFile& file) {
@@ -330,7 +359,9 @@ constexpr Option kOptions[] = {
     text("--csv", "F",
          "file for a row per tick of the last cycle; - is standard output, the summary then goes to stderr"),
     text("--plot", "F.svg",
-         "SVG file with a picture of the last cycle: lift, gap, forces, seating, flow area; opens in any browser"),
+         "SVG file with a picture of the last cycle: lift, gap, forces, seating, flow area, contact stress, cam "
+         "torque; opens "
+         "in any browser"),
 };
 
 }  // namespace

@@ -226,6 +226,33 @@ Plot area_plot(const Shown& s, Part part, const FlowArea& area) {
   return plot;
 }
 
+Series load_curve(const Shown& s, Part part, const std::vector<CamLoads>& loads, const char* name, int colour,
+                  double CamLoads::*of, double factor) {
+  Series series = curve(s, part, name, colour, [](const Tick&) { return 0.0; });
+  for (std::size_t i = part.from; i < part.to; ++i) series.y[i - part.from] = loads[i].*of * factor;
+  return series;
+}
+
+Plot stress_plot(const Shown& s, Part part, const ValveCycleTrace& trace) {
+  constexpr double kMPaPerPa = 1e-6;
+  Plot plot = plot_over_cam(s, part, "Stress between cam and follower", "Largest pressure, by Hertz", "MPa");
+  plot.series = {
+      load_curve(s, part, trace.loads, trace.limit_Pa > 0 ? "stress" : "", 1, &CamLoads::stress_Pa, kMPaPerPa)};
+  if (trace.limit_Pa > 0) {
+    plot.series.push_back(
+        curve(s, part, "limit", kTheoryColour, [&trace](const Tick&) { return trace.limit_Pa * kMPaPerPa; }));
+    plot.series.back().style.dashed = true;
+  }
+  fit_y(plot);
+  return plot;
+}
+
+Plot torque_plot(const Shown& s, Part part, const ValveCycleTrace& trace) {
+  Plot plot = plot_over_cam(s, part, "Torque of the cam", "Against rotation above 0", "Nm");
+  plot.series = {load_curve(s, part, trace.loads, "", 2, &CamLoads::torque_Nm, 1)};
+  return plot;
+}
+
 Plot seating_plot(const Shown& s) {
   const Part part = seating_part(s);
   Plot plot = plot_over_cam(s, part, "Seating, closer", "Lift above the seat's contact", "\u00B5m");
@@ -278,6 +305,10 @@ report::Sheet valve_sheet(const ValveCycleTrace& trace, const std::string& title
   sheet.plots = {lift_plot(s, part), force_plot(s, part), gap_plot(s, part)};
   if (s.seated < s.ticks.size()) sheet.plots.push_back(seating_plot(s));
   if (trace.area) sheet.plots.push_back(area_plot(s, part, *trace.area));
+  if (!trace.loads.empty()) {
+    sheet.plots.push_back(stress_plot(s, part, trace));
+    sheet.plots.push_back(torque_plot(s, part, trace));
+  }
   return sheet;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "../../loops/cam_loads.hpp"
 #include "../../loops/flow_area.hpp"
 #include "../../loops/valve_cycle.hpp"
 #include "../../loops/valve_loop.hpp"
@@ -18,16 +19,18 @@ namespace crankloop::program {
 /// One cycle in the order of time, as run_cycles() shows it.
 struct ValveCycleTrace {
   std::vector<ValveTickOutput<double>> ticks{};
+  std::vector<CamLoads> loads{};  ///< of each tick; none: the file has no width of the contact
   ValveCycle<double> cycle{};
   StaticRedline redline{};
   double speed_rad_s = 0;  ///< of the crank
   double seat_contact_m =
       0;  ///< lift at which the valve meets its seat: closed, its spring presses the seat below that
   std::optional<FlowArea> area{};  ///< none: the file has no diameter of the valve
+  double limit_Pa = 0;             ///< of the contact's stress; 0: none
 };
 
-/// Lift, gap and forces over the cam angle, the flow area where its dimensions are known, and a closer look at the
-/// seating where the valve does seat.
+/// Lift, gap and forces over the cam angle, the flow area and what the cam bears where their dimensions are known, and
+/// a closer look at the seating where the valve does seat.
 [[nodiscard]] report::Sheet valve_sheet(const ValveCycleTrace& trace, const std::string& title,
                                         const std::string& remark);
 
