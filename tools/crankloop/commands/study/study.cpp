@@ -183,20 +183,39 @@ std::string summary(const Study& study) {
   return s.text();
 }
 
+/// What --set asks for.
+void add_constants(Study& study, const Arguments& arguments, const std::vector<const Option*>& options) {
+  for (const std::string& one : arguments.words("--set")) {
+    const Constant constant = parse_constant(one, study.file, options);
+    if (constant.target.key) {
+      study.settings.push_back({*constant.target.key, constant.value});
+    } else {
+      study.options.push_back(constant);
+    }
+  }
+}
+
+/// The CSV on standard output where no file is asked for.
+void write(const Study& study, const Arguments& arguments, Results& results) {
+  if (!arguments.has("--csv") && !arguments.has("--report") && !arguments.has("--plot")) {
+    Output out("");
+    write_csv(out, study);
+    out.finish();
+    return;
+  }
+  if (Output* csv = results["--csv"]) write_csv(*csv, study);
+  if (Output* page = results["--report"]) page->write(report::to_html(study_page(study)));
+  if (Output* plot = results["--plot"]) plot->write(report::to_svg_file(study_sheet(study)));
+  results.finish(summary(study));
+}
+
 int run_study(const Arguments& arguments) {
   const std::string text = read_text(arguments.file());
   const EngineFile as_is = read_engine_text(text, arguments.file(), {});
   Study request{as_is, text, {}, {}, {}, {}};
   for (const std::string& figure : arguments.words("--of")) add_figure(request, figure);
   const std::vector<const Option*> options = options_to_vary(request.commands);
-  for (const std::string& one : arguments.words("--set")) {
-    const Constant constant = parse_constant(one, as_is, options);
-    if (constant.target.key) {
-      request.settings.push_back({*constant.target.key, constant.value});
-    } else {
-      request.options.push_back(constant);
-    }
-  }
+  add_constants(request, arguments, options);
   const EngineFile file = read_engine_text(text, arguments.file(), {}, request.settings);
   for (const Setting& setting : request.settings) require_used(file, setting.place);
   (void)tell_warnings(arguments, warnings_about(file));
@@ -211,16 +230,7 @@ int run_study(const Arguments& arguments) {
   if (!texts) return kSuccess;
   for (const std::string& one : *texts) study.results.push_back(parse_result(one));
   require_a_number(study);
-  if (!arguments.has("--csv") && !arguments.has("--report") && !arguments.has("--plot")) {
-    Output out("");
-    write_csv(out, study);
-    out.finish();
-    return kSuccess;
-  }
-  if (Output* csv = results["--csv"]) write_csv(*csv, study);
-  if (Output* page = results["--report"]) page->write(report::to_html(study_page(study)));
-  if (Output* plot = results["--plot"]) plot->write(report::to_svg_file(study_sheet(study)));
-  results.finish(summary(study));
+  write(study, arguments, results);
   return kSuccess;
 }
 
