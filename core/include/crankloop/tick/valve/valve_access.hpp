@@ -176,7 +176,7 @@ struct ValveAccess {
   /// The pressure behind the head.
   [[nodiscard]] Real behind_head_Pa([[maybe_unused]] std::uint32_t v) const noexcept {
     if constexpr (Needs<S>::gas) {
-      return port_pressure_Pa(tables, state, train(v));
+      return port_pressure_Pa(tables, state, train(v), cylinder(v));
     } else {
       return tables.body->crankcase_Pa;
     }
