@@ -1,5 +1,5 @@
-// A cylinder that breathes, with crevices and blow-by, as ordinary differential equations in continuous time, by an
-// adaptive integrator: shares no code with the library.
+// A cylinder that breathes, with crevices, blow-by and runners, as ordinary differential equations in continuous time,
+// by an adaptive integrator: shares no code with the library.
 //
 // docs/model.md "Gas". Between two manifolds that nothing changes; valves follow their cams. The crevice's flow is that
 // which keeps its pressure the cylinder's: no step, no lag.
@@ -37,6 +37,11 @@ class BreathingOde {
     const GasVolume gas = gas_filled(intake.p, intake.t, intake.x, places_.volume(0));
     y_ = {gas.m, gas.u, gas.b};
     y_[kCreviceBurned] = per_Pa() * intake.p * intake.x;
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (!runner(i).any()) continue;
+      const GasVolume port = gas_filled(manifold_[i].p, manifold_[i].t, manifold_[i].x, port_m3(i));
+      y_[kRunners + 4 * i] = port.m, y_[kRunners + 4 * i + 1] = port.u, y_[kRunners + 4 * i + 2] = port.b;
+    }
   }
 
   /// The crank from 0 where it stands at the start.
@@ -52,13 +57,42 @@ class BreathingOde {
   [[nodiscard]] double blow_by_kg() const { return y_[kBlowBy]; }
   [[nodiscard]] double work_J() const { return y_[kWork]; }           ///< on the piston
   [[nodiscard]] double wall_heat_J() const { return y_[kWallHeat]; }  ///< crevices' walls included
-  [[nodiscard]] double intake_kg() const { return y_[kIntakeMass]; }
+  [[nodiscard]] double intake_kg() const { return y_[kIntakeMass]; }  ///< through the intake valve
+  /// At a port; where there is a runner.
+  [[nodiscard]] GasSeen port(std::size_t i) const { return seen_at_port(y_, i); }
+  [[nodiscard]] double runner_kg_s(std::size_t i) const { return y_[kRunners + 4 * i + 3]; }
 
  private:
-  enum At : std::size_t { kCreviceBurned = 3, kBlowBy, kWork, kWallHeat, kIntakeMass, kCount };
+  enum At : std::size_t { kCreviceBurned = 3, kBlowBy, kWork, kWallHeat, kIntakeMass, kRunners, kCount = kRunners + 8 };
   using Vector = Adaptive<kCount>::Vector;
 
-  static Vector scale() { return {1e-5, 10, 1e-6, 1e-6, 1e-6, 10, 10, 1e-5}; }
+  static Vector scale() {
+    return {1e-5, 10, 1e-6, 1e-6, 1e-6, 10, 10, 1e-5, 1e-5, 10, 1e-6, 1e-2, 1e-5, 10, 1e-6, 1e-2};
+  }
+  [[nodiscard]] const Runner& runner(std::size_t i) const {
+    return i == 0 ? e_.gas.intake_runner : e_.gas.exhaust_runner;
+  }
+  [[nodiscard]] double port_m3(std::size_t i) const { return 4 / (kPi * kPi) * runner(i).volume_m3(); }
+  [[nodiscard]] GasSeen seen_at_port(const Vector& y, std::size_t i) const {
+    const std::size_t at = kRunners + 4 * i;
+    return gas_seen({y[at], y[at + 1], y[at + 2]}, port_m3(i));
+  }
+  /// Through the valves of a port, into the cylinder; answers that flow.
+  double breathe(std::size_t i, double deg, const Vector& y, const GasSeen& at, GasVolume& d, Vector& dy) const {
+    GasVolume from{0, 0, 0};
+    const bool has_runner = runner(i).any();
+    const GasSeen port = has_runner ? seen_at_port(y, i) : manifold_[i];
+    const double through = gas_flow(OrificeLaw::ellipse, places_.area_of(i, deg), port, at, from, d);
+    if (!has_runner) return through;
+    const double w = y[kRunners + 4 * i + 3], area = runner(i).area_m2();
+    const GasSeen& up = w >= 0 ? manifold_[i] : port;
+    const double density = up.p / (kGasR * up.t), h = gas_enthalpy(up.t, up.x);
+    const std::size_t to = kRunners + 4 * i;
+    dy[to] = from.m + w, dy[to + 1] = from.u + w * h, dy[to + 2] = from.b + w * up.x;
+    dy[to + 3] = area / runner(i).length_m *
+                 (manifold_[i].p - port.p - runner(i).loss_ratio * w * std::fabs(w) / (2 * density * area * area));
+    return through;
+  }
   [[nodiscard]] double per_Pa() const { return e_.gas.crevice.volume_ratio * clearance_m3_ / (kGasR * e_.gas.wall_K); }
 
   /// By how much dm, dU, db move the pressure.
@@ -76,10 +110,10 @@ class BreathingOde {
                                (12 * step) * w_ * 180 / kPi;
     const GasVolume gas{y[0], y[1], y[2]};
     const GasSeen at = gas_seen(gas, volume);
-    GasVolume d{0, 0, 0}, outside{};
+    GasVolume d{0, 0, 0};
     dy = {};
-    dy[kIntakeMass] = gas_flow(OrificeLaw::ellipse, places_.area_of(0, deg), manifold_[0], at, outside, d);
-    (void)gas_flow(OrificeLaw::ellipse, places_.area_of(1, deg), manifold_[1], at, outside, d);
+    dy[kIntakeMass] = breathe(0, deg, y, at, d, dy);
+    (void)breathe(1, deg, y, at, d, dy);
     const Gas& g = e_.gas;
     if (w_ * t > 2 * kPi) {
       const double rate =

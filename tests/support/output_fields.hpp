@@ -150,6 +150,14 @@ void each_output(const Output<Real, S>& out, const Used& used, const F& f) {
       f("blow_by_kg_s", k, out.crevice[k].blow_by_kg_s);
     }
   }
+  if constexpr (S::runners) {
+    for (std::size_t k = 0; k < used.cylinders; ++k) {
+      for (std::size_t port = 0; port < kPorts; ++port) {
+        f("port_Pa", 2 * k + port, out.runner[k].port_pressure_Pa[port]);
+        f("runner_kg_s", 2 * k + port, out.runner[k].flow_kg_s[port]);
+      }
+    }
+  }
   if constexpr (detail::Needs<S>::manifolds) {
     for (std::size_t port = 0; port < kPorts; ++port) {
       f("manifold_Pa", port, out.manifold[port].pressure_Pa);

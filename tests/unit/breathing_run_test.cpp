@@ -116,6 +116,33 @@ TEST_F(BreathingRun, TellsWhatBlowsByWhereTheEngineHasCrevices) {
   EXPECT_EQ(run({kFour, "--rpm", "2000"}).find("blow_by"), std::string::npos);
 }
 
+TEST_F(BreathingRun, IsTunedByItsRunners) {
+  const std::string before = "[gas]\n";
+  const auto with = [&](const std::string& keys) {
+    std::string text = contents(kFour);
+    text.replace(text.find(before), before.size(), before + keys);
+    const std::string file = path("runners.ini");
+    std::ofstream(file) << text;
+    return file;
+  };
+  const std::string tuned = with("intake_runner_mm = 400\nintake_runner_diameter_mm = 38\n");
+  const std::string csv = path("run.csv");
+  const double charge = at("volumetric_efficiency", tuned, 4800, {"--tick-us", "50", "--csv", csv});
+  EXPECT_GT(charge, at("volumetric_efficiency", kFour, 4800) + 0.08);
+  const Columns ticks(csv);
+  double through_mg = 0, runner_mg = 0, swing_kPa = 0;
+  for (const double g_s : ticks.column("c1_intake_flow_g_s")) through_mg += g_s * 50e-3;
+  for (const double g_s : ticks.column("c1_intake_runner_g_s")) runner_mg += g_s * 50e-3;
+  for (const double kPa : ticks.column("c1_intake_port_kPa")) swing_kPa = std::max(swing_kPa, std::fabs(kPa - 100));
+  EXPECT_NEAR(runner_mg, through_mg, 0.01 * through_mg);
+  EXPECT_GT(swing_kPa, 10);
+  const char* const refused[] = {"intake_runner_mm = 400\n", "exhaust_runner_loss = 1\n", "intake_runner_mm = 10\n"};
+  for (const std::string bad : refused) {
+    EXPECT_NE(status_of("'" + with(bad) + "' --rpm 3000"), 0) << bad;
+    EXPECT_NE(contents(path("err")).find(bad.substr(0, bad.find(' '))), std::string::npos) << contents(path("err"));
+  }
+}
+
 TEST_F(BreathingRun, HasTheChargeOfAnEngineOfItsKind) {
   // No pressure waves, so no tuning peaks: flat, and less where the valves choke.
   for (const double rpm : {1000.0, 2000.0, 4000.0, 6000.0}) {

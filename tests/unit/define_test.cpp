@@ -544,6 +544,29 @@ TEST(GasDefinition, HasCrevicesAndALeakWithinTheirRanges) {
   }
 }
 
+TEST(GasDefinition, HasRunnersWithinTheirRanges) {
+  const EngineDefinition good = support::four_2000();
+  const auto with = [&good](Runner Gas::*side, const Runner& runner) {
+    EngineDefinition engine = good;
+    engine.gas.*side = runner;
+    return validate(engine);
+  };
+  for (Runner Gas::*side : {&Gas::intake_runner, &Gas::exhaust_runner}) {
+    EXPECT_TRUE(accepted(with(side, {0, kNaN, -1}))) << "no runner: nothing of it counts";
+    EXPECT_TRUE(accepted(with(side, {0.02, 0.005, 0})));
+    EXPECT_TRUE(accepted(with(side, {3, 0.2, 10})));
+    EXPECT_TRUE(refuses(with(side, {std::nextafter(0.02, 0), 0.04, 0}), Reason::out_of_range, "runner.length_m"));
+    EXPECT_TRUE(refuses(with(side, {std::nextafter(3.0, 4), 0.04, 0}), Reason::out_of_range, "runner.length_m"));
+    EXPECT_TRUE(refuses(with(side, {-0.3, 0.04, 0}), Reason::negative, "runner.length_m"));
+    EXPECT_TRUE(refuses(with(side, {kNaN, 0.04, 0}), Reason::not_finite, "runner.length_m"));
+    EXPECT_TRUE(refuses(with(side, {0.3, 0, 0}), Reason::out_of_range, "runner.diameter_m"));
+    EXPECT_TRUE(refuses(with(side, {0.3, std::nextafter(0.2, 1), 0}), Reason::out_of_range, "runner.diameter_m"));
+    EXPECT_TRUE(refuses(with(side, {0.3, 0.04, -0.1}), Reason::negative, "runner.loss_ratio"));
+    EXPECT_TRUE(refuses(with(side, {0.3, 0.04, 10.1}), Reason::out_of_range, "runner.loss_ratio"));
+  }
+  EXPECT_EQ(with(&Gas::exhaust_runner, {0.3, 0, 0}).index, 1);
+}
+
 TEST(GasDefinition, HasABackPressureOrThatOfTheAmbient) {
   EngineDefinition engine = support::four_2000();
   engine.gas.ambient_Pa = 95e3;

@@ -35,6 +35,7 @@ struct GasSections {
   GasPortCurve<Real> ports[kMaxTrains];
   BurnTable<Real> burn;
   GasCrevice<Real> crevice;
+  GasRunners<Real> runners;
 };
 
 template <class Real>
@@ -50,6 +51,7 @@ class GasTablesOf : public ::testing::Test {
     targets.gas_ports = sections->ports;
     targets.burn = &sections->burn;
     targets.gas_crevice = &sections->crevice;
+    targets.gas_runners = &sections->runners;
     EXPECT_TRUE(accepted(tabulate(engine, options, targets)));
     return sections;
   }
@@ -108,6 +110,28 @@ TYPED_TEST(GasTablesOf, CrevicesHoldGasAtTheWallsTemperatureAndLeakAsAnOrifice) 
   this->expect_is(c.crankcase_Pa, 97e3);
   engine.gas.crevice.volume_ratio = 0;  // a leak alone
   EXPECT_EQ(this->filled(engine)->crevice.in_use, 1u);
+}
+
+TYPED_TEST(GasTablesOf, RunnersHaveAPortOfFourOverPiSquaredOfTheirVolumeAndLeaveTheRestToALargeManifold) {
+  EngineDefinition engine = support::four_2000();
+  const auto none = this->filled(engine);
+  EXPECT_EQ(none->runners.of[kIntake].area_m2, 0);
+  EXPECT_EQ(none->cylinders.parts, 0u);
+  engine.gas.intake_runner = {0.35, 0.038, 0.8};
+  const auto tables = this->filled(engine);
+  const auto& runner = tables->runners.of[kIntake];
+  const double area_m2 = kPi / 4 * 0.038 * 0.038, share = 4 / (kPi * kPi);
+  EXPECT_EQ(tables->cylinders.parts, std::uint32_t{kGasRunners});
+  EXPECT_EQ(tables->runners.of[kExhaust].area_m2, 0);
+  this->expect_is(runner.area_m2, area_m2);
+  this->expect_is(runner.area_per_length_m, area_m2 / 0.35);
+  this->expect_is(runner.loss_per_m4, 0.8 / (2 * area_m2 * area_m2));
+  this->expect_is(runner.per_volume_m3, 1 / (share * area_m2 * 0.35));
+  this->expect_is(runner.least_kg, 100e3 / (kGasR * 300) / 1000 * share * area_m2 * 0.35);
+  this->expect_is(tables->manifolds.per_volume_m3[kIntake], 1 / (3e-3 + 4 * (1 - share) * area_m2 * 0.35));
+  this->expect_is(tables->manifolds.per_volume_m3[kExhaust], 1 / 2.5e-3);
+  engine.gas.intake_m3 = 4.99 * area_m2 * 0.35;  // too small: nothing is added
+  this->expect_is(this->filled(engine)->manifolds.per_volume_m3[kIntake], 1 / engine.gas.intake_m3);
 }
 
 /// 6 deg per 1000 rpm and millisecond, in steps of 5; without a highest speed 100 000 rpm or a revolution.

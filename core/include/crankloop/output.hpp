@@ -102,6 +102,13 @@ struct CreviceOutput {
   Real mass_kg;       ///< in them, at the end of the tick
   Real blow_by_kg_s;  ///< into the crankcase, mean over the tick; negative: back
 };
+/// Runners of one cylinder at the end of the tick. Of a port without one: the manifold's pressure at the begin of the
+/// last step, and 0.
+template <class Real>
+struct RunnerOutput {
+  Real port_pressure_Pa[kPorts];
+  Real flow_kg_s[kPorts];  ///< toward the cylinder, from kIntake's and kExhaust's manifold
+};
 template <class Real>
 struct ManifoldOutput {
   Real pressure_Pa;
@@ -203,6 +210,10 @@ template <class Real, class S>
 struct Crevices {
   CreviceOutput<Real> crevice[S::cylinders.capacity];
 };
+template <class Real, class S>
+struct Runners {
+  RunnerOutput<Real> runner[S::cylinders.capacity];
+};
 template <class Real>
 struct Manifolds {
   ManifoldOutput<Real> manifold[kPorts];  ///< kIntake, kExhaust
@@ -235,6 +246,7 @@ struct Output : detail::If<detail::Needs<S>::crank_dynamics, group::CrankMotion<
                 detail::If<S::free_forces, group::FreeForces<Real>>,
                 detail::If<detail::Needs<S>::gas, group::CylinderGases<Real, S>>,
                 detail::If<S::crevice, group::Crevices<Real, S>>,
+                detail::If<S::runners, group::Runners<Real, S>>,
                 detail::If<detail::Needs<S>::manifolds, group::Manifolds<Real>>,
                 detail::If<S::gas_results, group::GasResults<Real, S>>,
                 detail::If<S::crevice && S::gas_results, group::BlowByResults<Real, S>>,

@@ -70,6 +70,8 @@ struct Scene {
       false;  ///< Input::ambient_Pa, ambient_K, back_Pa: boost, altitude, a silencer; needs Manifold::throttle
   static constexpr bool crevice = false;      ///< crevices and blow-by of each cylinder; a definition with either
                                               ///< demands it; needs PressureGiven::by_gas
+  static constexpr bool runners = false;      ///< inertia of the gas between manifolds and ports; a definition with a
+                                              ///< runner demands it; needs PressureGiven::by_gas
   static constexpr bool gas_results = false;  ///< per-cycle results: mean pressures, charge, heat
   static constexpr bool load_ratio = false;   ///< Input::load_ratio scales the heat of a pressure table; else full load
   static constexpr bool rod_inertia =
@@ -176,6 +178,7 @@ struct CheckedScene {
                     (S::manifold == Manifold::given && S::combustion == Combustion::none && !S::gas_results),
                 "manifold, combustion and gas_results are of gas: set pressure = by_gas");
   static_assert(!S::crevice || Needs<S>::gas, "crevices hold gas of a cylinder: set pressure = by_gas");
+  static_assert(!S::runners || Needs<S>::gas, "runners lead gas to the ports: set pressure = by_gas");
   static_assert(!S::boundaries || Needs<S>::manifolds, "boundaries are outside the manifolds: set manifold = throttle");
   static_assert(!S::starter || S::crank == CrankGiven::torque,
                 "a starter needs a crank that is turned by forces: set crank = torque");

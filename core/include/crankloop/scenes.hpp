@@ -78,6 +78,7 @@ struct Breathing : Whole {
   static constexpr Manifold manifold = Manifold::throttle;
   static constexpr bool boundaries = true;
   static constexpr bool crevice = true;
+  static constexpr bool runners = true;
   static constexpr Combustion combustion = Combustion::by_input;
   static constexpr bool gas_results = true;
   static constexpr bool load_ratio = false;
@@ -89,6 +90,7 @@ struct BreathingFree : FreeRunning {
   static constexpr Manifold manifold = Manifold::throttle;
   static constexpr bool boundaries = true;
   static constexpr bool crevice = true;
+  static constexpr bool runners = true;
   static constexpr Combustion combustion = Combustion::by_input;
   static constexpr bool gas_results = true;
   static constexpr bool load_ratio = false;

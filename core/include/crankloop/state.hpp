@@ -122,6 +122,10 @@ template <class Real, class S>
 struct BlowByRecords {
   Real cycle_blow_by_kg[(S::cylinders.capacity + 1) / 2 * 2];  ///< of the cycle in progress
 };
+template <class Real, class S>
+struct RunnerState {
+  detail::RunnerGas<Real> runner[kPorts][S::cylinders.capacity];
+};
 /// Bad inputs since `init`.
 struct BadInputsState {
   std::uint32_t bad_input_ticks = 0;  ///< ticks with a bad input; stays at its largest value
@@ -149,6 +153,7 @@ struct State : group::StateCore<Real>,
                detail::If<S::gas_results, group::GasRecords<Real, S>>,
                detail::If<S::crevice, group::CreviceState<Real, S>>,
                detail::If<S::crevice && S::gas_results, group::BlowByRecords<Real, S>>,
+               detail::If<S::runners, group::RunnerState<Real, S>>,
                detail::If<S::bad_input_count, group::BadInputsState> {};
 
 /// The same state turning at another speed, for Engine::restore: a run that does not start at rest.

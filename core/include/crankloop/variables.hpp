@@ -187,6 +187,19 @@ constexpr void each_output(Visit&& visit, AState& state, AnOutput& out, [[maybe_
       visit(real("crevice[#].blow_by_kg_s", "From them into the crankcase, mean of the tick").at(k), c.blow_by_kg_s);
     }
   }
+  if constexpr (S::runners) {
+    for (std::uint32_t k = 0; k < shape.cylinders; ++k) {
+      auto& r = out.runner[k];
+      visit(real("runner[#].intake_port_Pa", "Absolute pressure at the intake port").at(k),
+            r.port_pressure_Pa[kIntake]);
+      visit(real("runner[#].exhaust_port_Pa", "Absolute pressure at the exhaust port").at(k),
+            r.port_pressure_Pa[kExhaust]);
+      visit(real("runner[#].intake_kg_s", "Through the intake runner, toward the cylinder").at(k),
+            r.flow_kg_s[kIntake]);
+      visit(real("runner[#].exhaust_kg_s", "Through the exhaust runner, toward the cylinder").at(k),
+            r.flow_kg_s[kExhaust]);
+    }
+  }
   if constexpr (detail::Needs<S>::manifolds) {
     const auto manifold = [&visit](const Variable& pressure, const Variable& temperature, const Variable& burned,
                                    auto& values) {

@@ -34,6 +34,12 @@ namespace {
   return {};
 }
 
+[[nodiscard]] Status validate_runner(const Runner& runner, int port) noexcept {
+  Status refused = out_of_range(runner);
+  if (refused.ok() && runner.any()) refused = in_range(runner.length_m, "runner.length_m", from(0.02));
+  return refused.ok() ? refused : refuse(refused.field, refused.reason, port);
+}
+
 }  // namespace
 
 Status validate(const Gas& gas, int trains) noexcept {
@@ -50,6 +56,8 @@ Status validate(const Gas& gas, int trains) noexcept {
   if (mixture_J_kg > kMaxMixtureHeat_J_kg) return refuse("gas.air_fuel_ratio", Reason::too_much_heat);
   if (gas.burn_start_deg + gas.burn_duration_deg * gas.span_ratio() > kLatestBurn_deg)
     return refuse("gas.burn_duration_deg", Reason::inconsistent);
+  if (const Status refused = validate_runner(gas.intake_runner, 0); !refused.ok()) return refused;
+  if (const Status refused = validate_runner(gas.exhaust_runner, 1); !refused.ok()) return refused;
   if (trains < 1) return refuse("train_count", Reason::inconsistent);  // no valve admits gas
   for (int t = 0; t < trains; ++t) {
     if (const Status refused = validate_port(gas.ports[t], t); !refused.ok()) return refused;

@@ -11,8 +11,9 @@ static_assert(kListsEveryField<Crank> && kListsEveryField<Masses> && kListsEvery
                   kListsEveryField<WiebeDiagram> && kListsEveryField<Pressure> && kListsEveryField<Cam> &&
                   kListsEveryField<Rocker> && kListsEveryField<Valve> && kListsEveryField<ValveTrain> &&
                   kListsEveryField<CamContact> && kListsEveryField<PortOfTrain> && kListsEveryField<Crevice> &&
-                  kListsEveryField<Gas> && kListsEveryField<Friction> && kListsEveryField<DrivenMachine> &&
-                  kListsEveryField<Starter> && kListsEveryField<ToothGap> && kListsEveryField<TriggerWheel>,
+                  kListsEveryField<Runner> && kListsEveryField<Gas> && kListsEveryField<Friction> &&
+                  kListsEveryField<DrivenMachine> && kListsEveryField<Starter> && kListsEveryField<ToothGap> &&
+                  kListsEveryField<TriggerWheel>,
               "each_field() lists every field, for the tables' fingerprint and for C, and the range of every number");
 static_assert(values_listed<EngineDefinition>() + 2 + kMaxTriggerWheels + kMaxTrains ==
                   values_taken<EngineDefinition>(),
@@ -119,12 +120,17 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
     for (int t = train_count; t < kMaxTrains; ++t) read.ports[t] = {};
     Gas::each_field(
         [&add](const ListedField& listed, const auto& field) {
-          if constexpr (std::is_same_v<std::decay_t<decltype(field)>, Crevice>) {
+          using Field = std::decay_t<decltype(field)>;
+          if constexpr (std::is_same_v<Field, Crevice>) {
             if (!field.any()) return;
           }
-          add(listed, field);
+          if constexpr (!std::is_same_v<Field, Runner>) add(listed, field);
         },
         read);
+    if (gas.intake_runner.any() || gas.exhaust_runner.any()) {
+      add({1, ""}, gas.intake_runner);
+      add({1, ""}, gas.exhaust_runner);
+    }
     for (int t = 0; t < train_count; ++t) f.add(trains[t].valve.per_cylinder);  // the port's area counts them
   }
   return f.value();

@@ -93,6 +93,7 @@ namespace {
   c.exhaust_K = gas.exhaust_K;
   c.max_steps = max_steps_of(engine, options);
   if (gas.crevice.any()) c.parts |= kGasCrevice;
+  if (gas.intake_runner.any() || gas.exhaust_runner.any()) c.parts |= kGasRunners;
   return c;
 }
 
@@ -112,9 +113,33 @@ namespace {
   return c;
 }
 
+/// Share of a pipe's volume that swings at its port: 4 / pi^2, so that the lump has the first frequency of the pipe
+/// shut at one end. The rest belongs to the manifold.
+constexpr double kPortShare = 4 / (elementary::kPi * elementary::kPi);
+
+/// With what runners leave to it. A manifold of less than five of them answers as a mode of its own: nothing is added.
+[[nodiscard]] double with_runners_m3(double manifold_m3, const Runner& runner, int cylinders) noexcept {
+  constexpr double kLeastRunners = 5;
+  if (!runner.any() || manifold_m3 < kLeastRunners * runner.volume_m3()) return manifold_m3;
+  return manifold_m3 + cylinders * (1 - kPortShare) * runner.volume_m3();
+}
+
+[[nodiscard]] GasRunners<double> runners_of(const EngineDefinition& engine) noexcept {
+  GasRunners<double> all{};
+  for (int port = 0; port < kPorts; ++port) {
+    const Runner& runner = port == kIntake ? engine.gas.intake_runner : engine.gas.exhaust_runner;
+    if (!runner.any()) continue;
+    const double area = runner.area_m2(), volume = kPortShare * runner.volume_m3();
+    all.of[port] = {area, area / runner.length_m, runner.loss_ratio / (2 * area * area), 1 / volume,
+                    least_kg_m3(engine) * volume};
+  }
+  return all;
+}
+
 [[nodiscard]] GasManifolds<double> manifolds_of(const EngineDefinition& engine, double tick_s) noexcept {
   const Gas& gas = engine.gas;
-  const double volumes[kPorts] = {gas.intake_m3, gas.exhaust_m3};
+  const double volumes[kPorts] = {with_runners_m3(gas.intake_m3, gas.intake_runner, engine.layout.cylinders),
+                                  with_runners_m3(gas.exhaust_m3, gas.exhaust_runner, engine.layout.cylinders)};
   GasManifolds<double> m{};
   m.parts = parts_of(engine, tick_s);
   for (int i = 0; i < kPorts; ++i) {
@@ -188,6 +213,7 @@ void fill_gas_exchange(const EngineDefinition& engine, const TickOptions& option
   fill(targets.gas_cylinders, [&options](const EngineDefinition& e) { return cylinders_of(e, options); });
   fill(targets.gas_manifolds, [&options](const EngineDefinition& e) { return manifolds_of(e, options.tick_s); });
   fill(targets.gas_crevice, crevice_of);
+  fill(targets.gas_runners, runners_of);
   fill(targets.burn, burn_of);
   if (targets.gas_ports == nullptr) return;
   for (int t = 0; t < engine.train_count; ++t)

@@ -29,6 +29,21 @@ int fill_rows(const SectionValues& values, const char* key, double last, const s
   return static_cast<int>(rows);
 }
 
+/// The runner of "intake" or "exhaust".
+Runner build_runner(const SectionValues& values, const std::string& side, const std::string& path) {
+  const std::string length = side + "_runner_mm", diameter = side + "_runner_diameter_mm", loss = side + "_runner_loss";
+  Runner runner;
+  if (!values.has(length)) {
+    for (const std::string& key : {diameter, loss})
+      if (values.has(key)) refuse(values, key.c_str(), "needs " + length + ", the length of that pipe", path);
+    return runner;
+  }
+  if (!values.has(diameter)) refuse(values, length.c_str(), "needs " + diameter, path);
+  runner.length_m = values.si(length), runner.diameter_m = values.si(diameter);
+  if (values.has(loss)) runner.loss_ratio = values.number(loss);
+  return runner;
+}
+
 }  // namespace
 
 Gas build_gas(const SectionValues& values, const std::string& path) {
@@ -37,6 +52,7 @@ Gas build_gas(const SectionValues& values, const std::string& path) {
   gas.ambient_K = values.number("ambient_C") + kCelsiusInKelvin;
   gas.exhaust_K = values.number("exhaust_C") + kCelsiusInKelvin;
   gas.wall_K = values.number("wall_C") + kCelsiusInKelvin;
+  gas.intake_runner = build_runner(values, "intake", path), gas.exhaust_runner = build_runner(values, "exhaust", path);
   gas.throttle_count = fill_rows(values, "throttle_curve", 1, path, gas.throttle_ratio, gas.throttle_area_ratio);
   if (gas.throttle_ratio[gas.throttle_count - 1] != 1) refuse(values, "throttle_curve", "must end at 1", path);
   if (gas.throttle_closed_m2 > gas.throttle_m2) {

@@ -221,6 +221,21 @@ void look_at_mixture(const EngineFile& engine, const EngineSize& size, Warnings&
                                            about(lambda) + " in a cylinder full of air; " + usual);
 }
 
+/// Warns about a manifold that is no large volume for its runners: docs/model.md "Runners".
+void look_at_runners(const EngineFile& engine, Warnings& warnings) {
+  constexpr double kLeastVolumes = 5;
+  if (engine.definition().pressure.source != PressureSource::gas || !engine.has("gas")) return;
+  const Gas& gas = engine.definition().gas;
+  const auto look = [&](const Runner& runner, double manifold_m3, const std::string& key) {
+    if (!runner.any() || manifold_m3 >= kLeastVolumes * runner.volume_m3()) return;
+    warnings.add(engine.section("gas").line_of(key),
+                 key + " = " + brief(manifold_m3 * 1e6) + " is less than five volumes of a runner, " +
+                     brief(runner.volume_m3() * 1e6) + " cm3 each: its frequency is then 5 to 13 % low");
+  };
+  look(gas.intake_runner, gas.intake_m3, "intake_volume_cm3");
+  look(gas.exhaust_runner, gas.exhaust_m3, "exhaust_volume_cm3");
+}
+
 /// Over all kinds of engines, because the file does not state the kind.
 void look_at_piston(const EngineFile& engine, Warnings& warnings) {
   const double bore_m = engine.definition().crank.bore_m;
@@ -282,6 +297,7 @@ std::vector<std::string> warnings_about(const EngineFile& engine) {
   look_at_cams(engine, warnings);
   look_at_measured_cams(engine, warnings);
   look_at_mixture(engine, size, warnings);
+  look_at_runners(engine, warnings);
   return warnings.lines();
 }
 

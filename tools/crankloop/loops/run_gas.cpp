@@ -29,6 +29,13 @@ void add_gas_columns(std::vector<std::string>& columns, const EngineDefinition& 
   for (int k = 1; k <= engine.layout.cylinders && engine.gas.crevice.any(); ++k) {
     for (const char* what : {"_crevice_mg", "_blow_by_g_s"}) columns.push_back("c" + std::to_string(k) + what);
   }
+  const bool runners[] = {engine.gas.intake_runner.any(), engine.gas.exhaust_runner.any()};
+  for (int k = 1; k <= engine.layout.cylinders; ++k) {
+    for (const std::size_t port : {std::size_t{kIntake}, std::size_t{kExhaust}}) {
+      const std::string name = "c" + std::to_string(k) + (port == kIntake ? "_intake" : "_exhaust");
+      if (runners[port]) columns.push_back(name + "_port_kPa"), columns.push_back(name + "_runner_g_s");
+    }
+  }
 }
 
 void add_fuel(Summary& s, const GasOrder& order) {
@@ -79,15 +86,40 @@ void require_manifolds(const EngineFile& engine, double tick_s) {
                        "take a shorter --tick-us");
 }
 
+namespace {
+
+/// A runner's first mode has to be followed: pi a h / (2 l) up to 1, a phase of a radian a tick.
+std::vector<std::string> warnings_about_runners(const EngineFile& engine, double tick_s) {
+  constexpr double kSound_m_s = 346;
+  std::vector<std::string> warnings;
+  const auto look = [&](const Runner& runner, const std::string& side) {
+    const double longest_s = 2 * runner.length_m / (3.14159265358979 * kSound_m_s);
+    if (!runner.any() || tick_s <= longest_s) return;
+    warnings.push_back(engine.path() + ": warning: a tick of " + brief(tick_s * 1e6) + " us is too long for the " +
+                       side + " runners' own " + brief(std::round(kSound_m_s / (4 * runner.length_m))) +
+                       " Hz: their waves are damped; take --tick-us " + brief(std::floor(longest_s * 1e6)) +
+                       " or less");
+  };
+  look(engine.definition().gas.intake_runner, "intake");
+  look(engine.definition().gas.exhaust_runner, "exhaust");
+  return warnings;
+}
+
+}  // namespace
+
 std::vector<std::string> warnings_about_gas(const EngineFile& engine, double speed_rpm, double tick_s) {
   constexpr double kFollowed_deg = 40;       // eight steps of 5 deg
   constexpr double kPercent_per_deg = 0.12;  // measured: 5 % at 42 deg, 14 % at 120
   const double deg = speed_rpm * 6 * tick_s;
-  if (!breathes(engine.definition()) || !(deg > kFollowed_deg)) return {};
-  return {engine.path() + ": warning: a tick turns the crank by " + brief(deg) + " deg at " + brief(speed_rpm) +
-          " rpm, and gas follows in eight steps of at most 5 deg: net_mep may be off by some " +
-          brief(std::round(kPercent_per_deg * deg)) + " %; take --tick-us " +
-          brief(std::floor(kFollowed_deg / (speed_rpm * 6) * 1e6)) + " or less"};
+  if (!breathes(engine.definition())) return {};
+  std::vector<std::string> warnings = warnings_about_runners(engine, tick_s);
+  if (!(deg > kFollowed_deg)) return warnings;
+  warnings.push_back(engine.path() + ": warning: a tick turns the crank by " + brief(deg) + " deg at " +
+                     brief(speed_rpm) +
+                     " rpm, and gas follows in eight steps of at most 5 deg: net_mep may be off by some " +
+                     brief(std::round(kPercent_per_deg * deg)) + " %; take --tick-us " +
+                     brief(std::floor(kFollowed_deg / (speed_rpm * 6) * 1e6)) + " or less");
+  return warnings;
 }
 
 int cycles_to_settle(const EngineDefinition& engine) noexcept {

@@ -54,8 +54,8 @@ template <class Real>
           gas.flow_kg_s[kIntake], gas.flow_kg_s[kExhaust], gas.wall_heat_W};
 }
 
-/// Columns of a CSV file, and their cells for a tick: the cylinders, then the manifolds, then crevices where the engine
-/// has some.
+/// Columns of a CSV file, and their cells for a tick: the cylinders, then the manifolds, then crevices and runners
+/// where the engine has some.
 void add_gas_columns(std::vector<std::string>& columns, const EngineDefinition& engine);
 template <class Real, class S>
 void write_gas(CsvWriter& csv, const crankloop::Output<Real, S>& out, const EngineDefinition& engine) {
@@ -75,6 +75,14 @@ void write_gas(CsvWriter& csv, const crankloop::Output<Real, S>& out, const Engi
   for (std::size_t k = 0; k < cylinders && engine.gas.crevice.any(); ++k) {
     csv.cell(out.crevice[k].mass_kg * static_cast<Real>(1e6));
     csv.cell(out.crevice[k].blow_by_kg_s * static_cast<Real>(1e3));
+  }
+  const bool runners[] = {engine.gas.intake_runner.any(), engine.gas.exhaust_runner.any()};
+  for (std::size_t k = 0; k < cylinders; ++k) {
+    for (const std::size_t port : {std::size_t{kIntake}, std::size_t{kExhaust}}) {
+      if (!runners[port]) continue;
+      csv.cell(out.runner[k].port_pressure_Pa[port] * static_cast<Real>(1e-3));
+      csv.cell(out.runner[k].flow_kg_s[port] * static_cast<Real>(1e3));
+    }
   }
 }
 

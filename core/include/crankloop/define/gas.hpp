@@ -37,6 +37,26 @@ struct PortOfTrain {
   }
 };
 
+/// The pipe between a manifold and the port of each cylinder, as one mass of gas with inertia and one volume at the
+/// port.
+struct Runner {
+  double length_m = 0;  ///< 0.02 to 3; 0: none
+  double diameter_m = 0;
+  double loss_ratio = 0.5;  ///< zeta, pressure lost over the dynamic pressure: entrance, bends, wall friction
+
+  [[nodiscard]] constexpr bool any() const noexcept { return length_m != 0; }
+  [[nodiscard]] constexpr double area_m2() const noexcept { return 0.78539816339744831 * diameter_m * diameter_m; }
+  [[nodiscard]] constexpr double volume_m3() const noexcept { return area_m2() * length_m; }
+
+  template <class Visit, class Self, class... Others>
+  static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    const int read = self.any() ? 1 : 0;
+    CRANKLOOP_NUMBER(1, runner, length_m, from(0).up_to(3));
+    CRANKLOOP_NUMBER(read, runner, diameter_m, from(0.005).up_to(0.2));
+    CRANKLOOP_NUMBER(read, runner, loss_ratio, from(0).up_to(10));
+  }
+};
+
 /// Crevices of a cylinder (top land, ring pack, gasket, plug), and the leak past its rings.
 struct Crevice {
   double volume_ratio = 0;  ///< their volume / clearance volume; 0: none
@@ -85,6 +105,7 @@ struct Gas {
   double second_m = 1;
   double second_duration_ratio = 3;  ///< of its duration to the first's
   PortOfTrain ports[kMaxTrains];
+  Runner intake_runner, exhaust_runner;
 
   /// Behind the outlet.
   [[nodiscard]] constexpr double behind_outlet_Pa() const noexcept { return back_Pa > 0 ? back_Pa : ambient_Pa; }
@@ -124,6 +145,8 @@ struct Gas {
     CRANKLOOP_NUMBER(1, gas, second_m, from(0).up_to(10));
     CRANKLOOP_NUMBER(1, gas, second_duration_ratio, from(0.1).up_to(10));
     CRANKLOOP_PART(kMaxTrains, ports);
+    CRANKLOOP_PART(1, intake_runner);
+    CRANKLOOP_PART(1, exhaust_runner);
   }
 };
 

@@ -49,7 +49,7 @@ struct GasCylinders {
 };
 
 /// Parts of an engine's gas that a scene may leave out where an engine does not have them.
-enum GasPart : std::uint32_t { kGasCrevice = 1 };
+enum GasPart : std::uint32_t { kGasCrevice = 1, kGasRunners = 2 };
 
 /// Crevices of a cylinder and its leak into the crankcase: tick/gas/crevice.hpp. Zero in an engine without either.
 template <class Real>
@@ -84,6 +84,20 @@ struct GasBeyond {
   Real response_Pa_kg;  ///< its pressure drop per kg that leaves; 0 for a given reservoir
   Real end_Pa;          ///< its pressure at the step's end if no gas flows through the ports
   Real as_was_Pa;       ///< change of end_Pa if all flows through the ports stay as in the last step
+};
+
+/// The pipe between a manifold and a port of one cylinder: tick/gas/runner.hpp. Zero where there is none.
+template <class Real>
+struct GasRunner {
+  Real area_m2;            ///< A; 0: none
+  Real area_per_length_m;  ///< A / l
+  Real loss_per_m4;        ///< zeta / (2 A^2)
+  Real per_volume_m3;      ///< 1 / port volume
+  Real least_kg;           ///< lower limit of what the port holds
+};
+template <class Real>
+struct GasRunners {
+  GasRunner<Real> of[kPorts];
 };
 
 inline constexpr int kThrottleSteps = 100;

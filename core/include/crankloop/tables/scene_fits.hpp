@@ -53,6 +53,8 @@ template <class Real, class S>
     if (!(tables.gas_cylinders->clearance_m3 > 0)) return refuse("pressure.source", Reason::inconsistent);
     if (!S::crevice && (tables.gas_cylinders->parts & kGasCrevice) != 0)
       return refuse("scene.crevice", Reason::inconsistent);
+    if (!S::runners && (tables.gas_cylinders->parts & kGasRunners) != 0)
+      return refuse("scene.runners", Reason::inconsistent);
   }
   return {};
 }

@@ -62,6 +62,8 @@ CRANKLOOP_MEMBERS_OF(GasWalls, factor, area, per_volume, temperature, piston)
 CRANKLOOP_MEMBERS_OF(GasCylinders, walls, clearance, bore_area, crankcase, least, per_swept, per_charge, ambient,
                      ambient_temperature, exhaust_temperature, steps, parts)
 CRANKLOOP_MEMBERS_OF(GasCrevice, per_Pa, wall, specific_work, energy, burned_more, leak, crankcase, in_use)
+CRANKLOOP_MEMBERS_OF(GasRunner, area, per_length, loss, per_volume, least)
+CRANKLOOP_MEMBERS_OF(GasRunners, of)
 CRANKLOOP_MEMBERS_OF(GasPortCurve, port, per_step, area)
 CRANKLOOP_MEMBERS_OF(GasBeyond, pressure, choked, specific_work, enthalpy, burned, response, end, others)
 CRANKLOOP_MEMBERS_OF(GasManifolds, parts, spare, per_volume, least, outside, outlet, throttle)

@@ -136,16 +136,18 @@ struct GasGain {
 };
 
 /// The flow of a step through the ports that are `open` at either end of it. `far` are the manifolds at the ports,
-/// `response` is how far the cylinder's pressure moves per kg and R T. Adds to what is gained; answers the work on the
-/// piston by what flowed.
-template <class T, class Holds>
+/// `give_way` how much of a kilogram goes to crevices, for each that stays. Adds to what is gained; answers the work on
+/// the piston by what flowed.
+template <class T, class Far, class Holds, class GiveWay>
 [[nodiscard, gnu::always_inline]] inline T flow_through_ports(const Holds& open, const CylinderGas<T>& gas,
-                                                              const ClosedStep<T>& closed, const T& response,
-                                                              const T (&to_m2)[kPorts],
-                                                              const GasBeyond<NumberOf<T>> (&far)[kPorts],
+                                                              const ClosedStep<T>& closed,
+                                                              [[maybe_unused]] const GiveWay& give_way,
+                                                              const T (&to_m2)[kPorts], const Far (&far)[kPorts],
                                                               NumberOf<T> step_s, GasGain<T>& gain,
                                                               PortStep<T> (&through)[kPorts]) noexcept {
   using Real = NumberOf<T>;
+  T response = (Real{1} + closed.gas_ratio) * closed.per_volume_m3;  // Pa per kg and R T
+  if constexpr (std::is_same_v<GiveWay, T>) response = response / (Real{1} + give_way);
   const T specific_work_J_kg = kGasConstant<Real> * closed.temperature_K;
   const FlowingGas<T> before{gas.contents.mass_kg + gain.mass_kg, gas.contents.energy_J + gain.energy_J,
                              gas.contents.burned_kg + gain.burned_kg, specific_work_J_kg};
@@ -196,21 +198,24 @@ template <class T, class Holds>
 }
 
 /// Of a cylinder without crevices nothing comes between the closed step and the flow.
-struct NoCrevices {};
+struct NoCrevices {
+  template <class T>
+  constexpr NoCrevices operator()(ClosedStep<T>&, GasGain<T>&) const noexcept {
+    return {};
+  }
+};
 
 /// Steps a cylinder, or several abreast. Contents that no engine holds are still to be put right. `crevices(closed,
 /// gain)` takes what goes into crevices from the cylinder and answers how much they give way to flow through the ports.
-template <class T, class Crevices = NoCrevices>
+template <class T, class Far, class Crevices = NoCrevices>
 [[nodiscard, gnu::always_inline]] inline CylinderStep<T> step_gas(
     CylinderGas<T>& gas, const T& volume_m3, const GasFuel<T>& fuel, const GasWalls<NumberOf<T>>& walls,
-    const GasDrive<NumberOf<T>>& drive, const T (&to_m2)[kPorts], const GasBeyond<NumberOf<T>> (&far)[kPorts],
-    PortStep<T> (&through)[kPorts], [[maybe_unused]] const Crevices& crevices = {}) noexcept {
-  constexpr bool kCrevices = !std::is_same_v<Crevices, NoCrevices>;
+    const GasDrive<NumberOf<T>>& drive, const T (&to_m2)[kPorts], const Far (&far)[kPorts],
+    PortStep<T> (&through)[kPorts], const Crevices& crevices = {}) noexcept {
   ClosedStep<T> closed = ClosedStep<T>::of(gas, volume_m3, fuel.energy_J, walls, drive);
   through[kIntake] = through[kExhaust] = PortStep<T>{};
   GasGain<T> gain{fuel.mass_kg, closed.heat_J - closed.wall_heat_J - closed.work_J, fuel.burned_kg};
-  [[maybe_unused]] T give_way{};
-  if constexpr (kCrevices) give_way = crevices(closed, gain);
+  const auto give_way = crevices(closed, gain);
   T work_J = closed.work_J;
   const auto open = any_open(gas.area_m2[kIntake], gas.area_m2[kExhaust], to_m2[kIntake], to_m2[kExhaust]);
   const bool flows = any(open);
@@ -220,9 +225,7 @@ template <class T, class Crevices = NoCrevices>
     for (int port = 0; port < kPorts; ++port) {
       limited_m2[port] = to_m2[port] < own_m2 ? to_m2[port] : own_m2;
     }
-    T response = (NumberOf<T>{1} + closed.gas_ratio) * closed.per_volume_m3;
-    if constexpr (kCrevices) response = response / (NumberOf<T>{1} + give_way);
-    work_J += flow_through_ports(open, gas, closed, response, limited_m2, far, drive.step_s, gain, through);
+    work_J += flow_through_ports(open, gas, closed, give_way, limited_m2, far, drive.step_s, gain, through);
     for (int port = 0; port < kPorts; ++port) gas.area_m2[port] = limited_m2[port];
   } else {
     gain.add(PortStep<T>{});  // as lanes have it beside one that is open: -0 becomes 0

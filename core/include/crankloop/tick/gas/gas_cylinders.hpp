@@ -18,6 +18,7 @@
 #include <crankloop/tick/gas/gas_places.hpp>
 #include <crankloop/tick/gas/gas_start.hpp>
 #include <crankloop/tick/gas/manifold.hpp>
+#include <crankloop/tick/gas/runner.hpp>
 #include <crankloop/tick/lanes.hpp>
 
 namespace crankloop::detail {
@@ -130,7 +131,9 @@ class GasCylindersStep {
     const T to_m2[kPorts] = {load<T>(areas.of[kIntake] + k), load<T>(areas.of[kExhaust] + k)};
     PortStep<T> through[kPorts];
     [[maybe_unused]] CreviceStep<T> crevice_step{};
-    CylinderStep<T> done = step_with_crevices<T>(gas, k, volume_m3, fuel, step, to_m2, through, crevice_step);
+    [[maybe_unused]] RunnerSteps<kLanes> runners;
+    CylinderStep<T> done =
+        step_with_runners<T>(gas, k, volume_m3, fuel, table.walls, step, to_m2, through, runners, crevice_step);
     state_.cylinder_gas.put(k, gas);
     if (done.flows) state_.cylinder_gas.put_areas(k, gas);
     const T least_kg = step.drive.least_kg_m3 * volume_m3;
@@ -162,6 +165,7 @@ class GasCylindersStep {
       for (int port = 0; port < kPorts; ++port) shown[4 + port] = through[port].mass_kg * per_tick_s;
       if constexpr (N::manifolds) take_from_manifolds(step, through);
     }
+    if constexpr (S::runners) faults |= step_runners<T>(step, k, runners, through);
     show(shown, &out_.cylinder_gas[k]);
     const T crank_J = done.work_J - table.crankcase_Pa * (volume_m3 - before_m3);
     Real work_J = work_J_;
@@ -186,13 +190,140 @@ class GasCylindersStep {
     return faults;
   }
 
-  /// Steps the gas of one cylinder, or of lanes, with its crevices where the engine has some.
+  // ---- runners ------------------------------------------------------------------------------------------------------
+
+  /// Of the cylinders of a block, one by one.
+  template <int kLanes>
+  struct RunnerStepsOf {
+    RunnerStep<Real> step[kPorts][static_cast<std::size_t>(kLanes)];
+    GasBeyond<Real> seen[kPorts][static_cast<std::size_t>(kLanes)];
+  };
+  template <int kLanes>
+  using RunnerSteps = std::conditional_t<S::runners, RunnerStepsOf<kLanes>, char>;
+
+  /// That a runner may take in a step.
+  [[nodiscard]] Real most_of_manifold_kg([[maybe_unused]] int port) const noexcept {
+    if constexpr (N::manifolds) {
+      return state_.manifold[port].contents.mass_kg * static_cast<Real>(0.25);
+    } else {
+      return static_cast<Real>(1e12);
+    }
+  }
+  [[nodiscard]] bool has_runner(int port) const noexcept { return tables_.gas_runners->of[port].area_m2 > 0; }
+
+  template <int kLanes>
+  [[gnu::always_inline]] void see_runners(const EngineGasStep<Real>& step, std::uint32_t k,
+                                          RunnerStepsOf<kLanes>& runners) noexcept {
+    const auto& gas = state_.cylinder_gas;
+    for (int port = 0; port < kPorts; ++port) {
+      if (!has_runner(port)) continue;
+      for (int i = 0; i < kLanes; ++i) {
+        runners.seen[port][i] =
+            see_runner(step, port, step.beyond[port], k + static_cast<std::uint32_t>(i), gas, runners.step[port][i]);
+      }
+    }
+  }
+  template <class Gases>
+  [[nodiscard]] GasBeyond<Real> see_runner(const EngineGasStep<Real>& step, int port, const GasBeyond<Real>& manifold,
+                                           std::uint32_t one, const Gases& gas,
+                                           RunnerStep<Real>& runner_step) noexcept {
+    const RunnerGas<Real>& runner = state_.runner[port][one];
+    // Its own flow of the last step is among those that the manifold's end reckons with.
+    const Real own_Pa = manifold.response_Pa_kg * (step.drive.step_s * runner.flow_kg_s);
+    const RunnerEnds<Real> ends{manifold,
+                                manifold.end_Pa + (manifold.as_was_Pa + own_Pa),
+                                gas.pressure_Pa[one],
+                                gas.temperature_K[one],
+                                gas.area_m2[port][one],
+                                most_of_manifold_kg(port)};
+    return seen_of_runner(runner, tables_.gas_runners->of[port], ends, step.drive.step_s, runner_step);
+  }
+
   template <class T>
+  [[nodiscard, gnu::always_inline]] CylinderStep<T> step_with_runners(
+      CylinderGas<T>& gas, std::uint32_t k, const T& volume_m3, const GasFuel<T>& fuel, const GasWalls<Real>& walls,
+      const EngineGasStep<Real>& step, const T (&to_m2)[kPorts], PortStep<T> (&through)[kPorts],
+      [[maybe_unused]] RunnerSteps<kLanesIn<T>>& runners, CreviceStep<T>& crevice_step) noexcept {
+    if constexpr (S::runners) {
+      GasBeyond<T> far[kPorts];
+      see_runners<kLanesIn<T>>(step, k, runners), gather<T>(step, runners, far);
+      return step_with_crevices<T>(gas, k, volume_m3, fuel, walls, step, to_m2, far, through, crevice_step);
+    } else {
+      return step_with_crevices<T>(gas, k, volume_m3, fuel, walls, step, to_m2, step.beyond, through, crevice_step);
+    }
+  }
+
+  /// What the ports of a block see: of their runners, or of the manifold.
+  template <class T>
+  [[gnu::always_inline]] void gather(const EngineGasStep<Real>& step, const RunnerStepsOf<kLanesIn<T>>& runners,
+                                     GasBeyond<T> (&far)[kPorts]) const noexcept {
+    for (int port = 0; port < kPorts; ++port) {
+      const GasBeyond<Real>& manifold = step.beyond[port];
+      GasBeyond<T>& to = far[port];
+      const bool has = has_runner(port);
+      const auto each = [&](T & x, Real GasBeyond<Real>::*member) __attribute__((always_inline)) {
+        if (has) {
+          for (int i = 0; i < kLanesIn<T>; ++i) put_lane(x, i, runners.seen[port][i].*member);
+        } else {
+          x = spread<T>(manifold.*member);
+        }
+      };
+      using Beyond = GasBeyond<Real>;
+      each(to.pressure_Pa, &Beyond::pressure_Pa), each(to.choked_per_Pa, &Beyond::choked_per_Pa);
+      each(to.specific_work_J_kg, &Beyond::specific_work_J_kg), each(to.enthalpy_J_kg, &Beyond::enthalpy_J_kg);
+      each(to.burned_ratio, &Beyond::burned_ratio), each(to.response_Pa_kg, &Beyond::response_Pa_kg);
+      each(to.end_Pa, &Beyond::end_Pa), each(to.as_was_Pa, &Beyond::as_was_Pa);
+    }
+  }
+
+  /// Answers fault bits.
+  template <class T>
+  [[nodiscard, gnu::always_inline]] std::uint32_t step_runners(EngineGasStep<Real>& step, std::uint32_t k,
+                                                               const RunnerStepsOf<kLanesIn<T>>& runners,
+                                                               const PortStep<T> (&through)[kPorts]) noexcept {
+    std::uint32_t faults = 0;
+    for (int port = 0; port < kPorts; ++port) {
+      for (int i = 0; i < kLanesIn<T>; ++i) {
+        const std::uint32_t one = k + static_cast<std::uint32_t>(i);
+        RunnerOutput<Real>& shown = out_.runner[one];
+        if (!has_runner(port)) {
+          shown.port_pressure_Pa[port] = step.beyond[port].pressure_Pa;
+          continue;
+        }
+        const PortStep<T>& all = through[port];
+        const PortStep<Real> valve{lane(all.mass_kg, i), lane(all.enthalpy_J, i), lane(all.burned_kg, i)};
+        faults |= step_one_runner(step, port, one, runners.step[port][i], runners.seen[port][i], valve);
+        shown.port_pressure_Pa[port] = state_.runner[port][one].point.pressure_Pa;
+        shown.flow_kg_s[port] = state_.runner[port][one].flow_kg_s;
+      }
+    }
+    return faults;
+  }
+  [[nodiscard]] std::uint32_t step_one_runner(EngineGasStep<Real>& step, int port, std::uint32_t one,
+                                              const RunnerStep<Real>& runner_step, const GasBeyond<Real>& seen,
+                                              const PortStep<Real>& valve) noexcept {
+    const GasRunner<Real>& table = tables_.gas_runners->of[port];
+    RunnerGas<Real>& runner = state_.runner[port][one];
+    PortStep<Real> moves = step_runner(runner, table, runner_step, step.beyond[port], seen, valve,
+                                       most_of_manifold_kg(port), step.drive.step_s);
+    std::uint32_t faults = 0;
+    if (__builtin_expect(!is_well_runner(runner, table), 0)) faults = put_runner_right(runner, table, moves);
+    if constexpr (N::manifolds) {
+      state_.manifold[port].contents.add(-moves.mass_kg, -moves.enthalpy_J, -moves.burned_kg);
+      step.taken_kg[port] += moves.mass_kg;
+    }
+    return faults;
+  }
+
+  // ---- crevices -----------------------------------------------------------------------------------------------------
+
+  /// Steps the gas of one cylinder, or of lanes, with its crevices where the engine has some.
+  template <class T, class Far>
   [[nodiscard, gnu::always_inline]] CylinderStep<T> step_with_crevices(
       CylinderGas<T>& gas, [[maybe_unused]] std::uint32_t k, const T& volume_m3, const GasFuel<T>& fuel,
-      const EngineGasStep<Real>& step, const T (&to_m2)[kPorts], PortStep<T> (&through)[kPorts],
+      const GasWalls<Real>& walls, const EngineGasStep<Real>& step, const T (&to_m2)[kPorts],
+      const Far (&beyond)[kPorts], PortStep<T> (&through)[kPorts],
       [[maybe_unused]] CreviceStep<T>& crevice_step) noexcept {
-    const GasWalls<Real>& walls = tables_.gas_cylinders->walls;
     if constexpr (S::crevice) {
       const GasCrevice<Real>& table = *tables_.gas_crevice;
       const auto crevices = [&](ClosedStep<T> & closed, GasGain<T> & gain) __attribute__((always_inline)) {
@@ -202,9 +333,9 @@ class GasCylindersStep {
         state_.crevice_gas.put(k, crevice);
         return give_way;
       };
-      return step_gas<T>(gas, volume_m3, fuel, walls, step.drive, to_m2, step.beyond, through, crevices);
+      return step_gas<T>(gas, volume_m3, fuel, walls, step.drive, to_m2, beyond, through, crevices);
     } else {
-      return step_gas<T>(gas, volume_m3, fuel, walls, step.drive, to_m2, step.beyond, through);
+      return step_gas<T>(gas, volume_m3, fuel, walls, step.drive, to_m2, beyond, through);
     }
   }
 
@@ -246,6 +377,9 @@ class GasCylindersStep {
   [[gnu::always_inline]] void take_from_manifolds(EngineGasStep<Real>& step,
                                                   const PortStep<T> (&through)[kPorts]) noexcept {
     for (int port = 0; port < kPorts; ++port) {
+      if constexpr (S::runners) {
+        if (has_runner(port)) continue;  // takes from there itself
+      }
       const PortStep<T>& all = through[port];
       const std::uint32_t flowing = holding(all.mass_kg != Real{0});
       if (flowing == 0) continue;

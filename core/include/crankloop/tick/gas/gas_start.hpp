@@ -8,16 +8,6 @@
 
 namespace crankloop::detail {
 
-/// In the intake manifold.
-template <class Real, class S>
-[[nodiscard]] GasPoint<Real> intake_of(const State<Real, S>& state) noexcept {
-  if constexpr (Needs<S>::manifolds) {
-    return state.manifold[kIntake].point;
-  } else {
-    return {state.given_gas[kIntake].pressure_Pa, state.given_gas[kIntake].temperature_K, Real{0}, Real{0}};
-  }
-}
-
 /// A cylinder's crevices, in equilibrium with it.
 template <class Real, class S>
 void fill_crevice(const Tables<Real, S>& tables, State<Real, S>& state, std::uint32_t k) noexcept {
@@ -25,10 +15,35 @@ void fill_crevice(const Tables<Real, S>& tables, State<Real, S>& state, std::uin
   state.crevice_gas.put(k, CreviceGas<Real>{mass_kg, Real{0}, mass_kg * state.cylinder_gas.burned_ratio[k], Real{0}});
 }
 
+/// In a manifold.
+template <class Real, class S>
+[[nodiscard]] GasPoint<Real> manifold_of(const State<Real, S>& state, int port) noexcept {
+  if constexpr (Needs<S>::manifolds) {
+    return state.manifold[port].point;
+  } else {
+    const GivenGas<Real>& given = state.given_gas[port];
+    return {given.pressure_Pa, given.temperature_K, static_cast<Real>(port), Real{0}};
+  }
+}
+
+/// A cylinder's runners as the manifolds are, at rest.
+template <class Real, class S>
+void fill_runners(const Tables<Real, S>& tables, State<Real, S>& state, std::uint32_t k) noexcept {
+  for (int port = 0; port < kPorts; ++port) {
+    const GasRunner<Real>& table = tables.gas_runners->of[port];
+    RunnerGas<Real>& runner = state.runner[port][k] = {};
+    if (!(table.area_m2 > 0)) continue;
+    const GasPoint<Real> from = manifold_of(state, port);
+    runner.contents =
+        contents_of(from.pressure_Pa, from.temperature_K, from.burned_ratio, Real{1} / table.per_volume_m3);
+    runner.point = point_of(runner.contents, table.per_volume_m3);
+  }
+}
+
 /// Anew, from the intake manifold, at the volumes as they are.
 template <class Real, class S>
 [[gnu::cold, gnu::noinline]] void fill_cylinders(const Tables<Real, S>& tables, State<Real, S>& state) noexcept {
-  const GasPoint<Real> from = intake_of(state);
+  const GasPoint<Real> from = manifold_of(state, kIntake);
   for (std::uint32_t k = 0; k < count<S>(tables.drive->cylinders); ++k) {
     CylinderGas<Real> gas{};
     gas.volume_m3 = gas_volume_m3(tables, state.phase.units(), tables.drive->mechanism_of[k]);
@@ -42,6 +57,7 @@ template <class Real, class S>
     if constexpr (Needs<S>::burn) end_burn(state.burn[k]);
     if constexpr (S::gas_results) state.gas_record[k] = {};
     if constexpr (S::crevice) fill_crevice(tables, state, k);
+    if constexpr (S::runners) fill_runners(tables, state, k);
     if constexpr (S::crevice && S::gas_results) state.cycle_blow_by_kg[k] = Real{0};
   }
 }
@@ -67,6 +83,7 @@ template <class Real, class S>
   for (std::uint32_t k = count<S>(tables.drive->cylinders); k < S::cylinders.capacity; ++k) {
     state.cylinder_gas.copy(0, k);
     if constexpr (S::crevice) fill_crevice(tables, state, k);
+    if constexpr (S::runners) fill_runners(tables, state, k);
   }
 }
 

@@ -136,6 +136,14 @@ struct CreviceGases {
   }
 };
 
+/// A runner: the flow through it and the gas of its port.
+template <class Real>
+struct RunnerGas {
+  GasContents<Real> contents;
+  GasPoint<Real> point;
+  Real flow_kg_s, flow_rest_kg_s;  ///< toward the cylinder
+};
+
 /// A manifold.
 template <class Real>
 struct ManifoldGas {

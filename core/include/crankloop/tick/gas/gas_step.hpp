@@ -53,6 +53,11 @@ class GasStep {
         const Real shown[7] = {gases.pressure_Pa[k], gases.temperature_K[k], gases.mass_kg[k], gases.burned_ratio[k]};
         show(shown, &out_.cylinder_gas[k]);
         if constexpr (S::crevice) out_.crevice[k].mass_kg = state_.crevice_gas.mass_kg[k];
+        if constexpr (S::runners) {
+          for (int port = 0; port < kPorts; ++port)
+            out_.runner[k].port_pressure_Pa[port] = manifold_of(state_, port).pressure_Pa,
+            out_.runner[k].flow_kg_s[port] = Real{0};
+        }
       }
     } else {
       faults |= run_steps(input, end, static_cast<std::int64_t>(turned.units()));
@@ -181,6 +186,9 @@ class GasStep {
       if constexpr (N::manifolds) {
         std::uint32_t open = 0;
         for (std::uint32_t k = 0; k < cylinders(); ++k) open += bits_of(areas.of[port][k]) != 0 ? 1u : 0u;
+        if constexpr (S::runners) {
+          if (tables_.gas_runners->of[port].area_m2 > 0) open = cylinders();
+        }
         step.beyond[port] = seen_from_ports(state_.manifold[port], outside(port), outside_m2[port],
                                             tables_.gas_manifolds->per_volume_m3[port], state_.taken_kg_s[port],
                                             static_cast<Real>(open), most_m3(), step.drive.step_s);

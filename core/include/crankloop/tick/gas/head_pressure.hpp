@@ -10,11 +10,14 @@
 
 namespace crankloop::detail {
 
-/// Behind the valves of a train, at the end of the last tick.
+/// Behind a valve, at the end of the last tick.
 template <class Real, class S>
 [[nodiscard]] inline Real port_pressure_Pa(const Tables<Real, S>& tables, const State<Real, S>& state,
-                                           std::uint32_t train) noexcept {
+                                           std::uint32_t train, [[maybe_unused]] std::uint32_t cylinder) noexcept {
   const std::uint32_t port = tables.gas_ports[train].port;
+  if constexpr (S::runners) {
+    if (tables.gas_runners->of[port].area_m2 > 0) return state.runner[port][cylinder].point.pressure_Pa;
+  }
   if constexpr (Needs<S>::manifolds) {
     return state.manifold[port].point.pressure_Pa;
   } else {

@@ -51,16 +51,22 @@ template <class Real>
 template <class T>
 using BeyondOf = std::conditional_t<kLanesIn<T> == 1, const GasBeyond<T>&, GasBeyond<T>>;
 
-/// What is beyond one of two ports.
-template <class T, class Holds>
-[[nodiscard, gnu::always_inline]] inline BeyondOf<T> beyond_port(const GasBeyond<NumberOf<T>> (&far)[kPorts],
+/// What is beyond one of two ports, the same for all lanes or of each.
+template <class T, class Far, class Holds>
+[[nodiscard, gnu::always_inline]] inline BeyondOf<T> beyond_port(const Far (&far)[kPorts],
                                                                  const Holds& exhaust) noexcept {
   if constexpr (kLanesIn<T> == 1) {
     return far[exhaust ? kExhaust : kIntake];
   } else {
     const auto& e = far[kExhaust];
     const auto& i = far[kIntake];
-    const auto of = [&exhaust](auto a, auto b) { return pick(exhaust, spread<T>(a), spread<T>(b)); };
+    const auto of = [&exhaust](const auto& a, const auto& b) {
+      if constexpr (std::is_same_v<Far, GasBeyond<T>>) {
+        return pick(exhaust, a, b);
+      } else {
+        return pick(exhaust, spread<T>(a), spread<T>(b));
+      }
+    };
     return {of(e.pressure_Pa, i.pressure_Pa),
             of(e.choked_per_Pa, i.choked_per_Pa),
             of(e.specific_work_J_kg, i.specific_work_J_kg),

@@ -67,6 +67,22 @@ template <class Real, class S>
   return true;
 }
 
+/// Checks the runners of a cylinder that the engine has.
+template <class Real, class S>
+[[nodiscard]] bool runners_agree(const State<Real, S>& state, const GasRunners<Real>& tables,
+                                 std::uint32_t k) noexcept {
+  for (int port = 0; port < kPorts; ++port) {
+    const GasRunner<Real>& table = tables.of[port];
+    if (!(table.area_m2 > 0)) continue;
+    const RunnerGas<Real>& runner = state.runner[port][k];
+    if (!(runner.contents.mass_kg > 0) || !(runner.point.temperature_K >= static_cast<Real>(kLeastGas_K / 2)) ||
+        !(runner.point.gas_ratio >= static_cast<Real>(0.14)) ||
+        !gas_agrees(runner.contents, runner.point, Real{1} / table.per_volume_m3))
+      return false;
+  }
+  return true;
+}
+
 /// Checks all cylinders of the scene's capacity and the manifolds.
 template <class Real, class S>
 [[nodiscard]] bool gas_agrees(const State<Real, S>& state, const Tables<Real, S>& tables) noexcept {
@@ -80,6 +96,9 @@ template <class Real, class S>
     if (!gas_agrees(gas.contents, gas.point, gas.volume_m3)) return false;
     if constexpr (S::crevice) {
       if (!crevice_agrees(state.crevice_gas.template at<Real>(k), gas.contents.mass_kg)) return false;
+    }
+    if constexpr (S::runners) {
+      if (!runners_agree(state, *tables.gas_runners, k)) return false;
     }
     if constexpr (S::gas_results) {
       if (!record_agrees(state.gas_record[k], table)) return false;

@@ -61,6 +61,7 @@ template <class S>
     crc.add(std::uint32_t{S::gas_results});
     if (S::boundaries) crc.add(std::uint32_t{1});
     if (S::crevice) crc.add(std::uint32_t{2});
+    if (S::runners) crc.add(std::uint32_t{3});
   }
   // Answers of later releases, each with a mark of its own.
   if (S::cam_contact) crc.add(std::uint32_t{0x100});

@@ -191,6 +191,24 @@ struct StateFields {
       }
       v.group("state.gas");
     }
+    if constexpr (S::runners) {
+      v.group("state.runner");  // all 0 of a port without one: gas_agrees.hpp
+      for (auto& of_port : s.runner) {
+        for (auto& r : of_port) {
+          auto& c = r.contents;
+          auto& p = r.point;
+          numbers(kMaxGas_kg, c.mass_kg, c.mass_rest_kg);
+          numbers(kMaxGas_J, c.energy_J, c.energy_rest_J);
+          numbers(kMaxGas_kg, c.burned_kg, c.burned_rest_kg);
+          v.number(p.pressure_Pa, Real{0}, static_cast<Real>(1e12));
+          v.number(p.temperature_K, Real{0}, static_cast<Real>(kMaxGas_K * 2));
+          v.number(p.burned_ratio, Real{0}, Real{1});
+          v.number(p.gas_ratio, Real{0}, static_cast<Real>(0.45));
+          numbers(static_cast<Real>(1e6), r.flow_kg_s, r.flow_rest_kg_s);
+        }
+      }
+      v.group("state.gas");
+    }
     if constexpr (N::manifolds) {
       for (auto& manifold : s.manifold) {
         auto& c = manifold.contents;

@@ -183,7 +183,7 @@ struct ValveAccess : If<Needs<S>::surge, SpringPush<Real, S>> {
   /// The pressure behind the head.
   [[nodiscard]] Real behind_head_Pa([[maybe_unused]] std::uint32_t v) const noexcept {
     if constexpr (Needs<S>::gas) {
-      return port_pressure_Pa(tables, state, train(v));
+      return port_pressure_Pa(tables, state, train(v), cylinder(v));
     } else {
       return tables.body->crankcase_Pa;
     }
