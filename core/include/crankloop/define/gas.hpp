@@ -157,7 +157,8 @@ inline constexpr double kMaxMixtureHeat_J_kg = 5e6;
 /// Where a burn must have ended, before the exhaust opens.
 inline constexpr double kLatestBurn_deg = 150;
 
-/// Field names "gas.*", of ports too, with the train in `index`, where the tables read them: `trains` of them.
+/// Field names "gas.*", of ports too, with the train in `index`, where the tables read them: `trains` of them;
+/// "crevice.*", and "runner.*" with the port in `index`.
 Status validate(const Gas& gas, int trains) noexcept;
 
 }  // namespace crankloop
