@@ -96,7 +96,7 @@ Plot stress_plot(const ReportInput& input, const std::vector<TrainLoads>& all) {
 
 Plot torque_plot(const ReportInput& input, const std::vector<TrainLoads>& all, const std::vector<double>& shaft_Nm) {
   std::vector<Series> curves{over_angle(input.trace, "camshaft", shaft_Nm, 1)};
-  curves[0].style.colour = 0;
+  curves[0].style.colour = kMaxTrains + 1;  // beside those of the trains
   for (const TrainLoads& loads : all) {
     curves.push_back(over_angle(input.trace, loads.train.name, loads.torque_Nm, 1));
     curves.back().style.colour = static_cast<int>(loads.number) + 1;

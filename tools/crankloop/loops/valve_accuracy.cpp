@@ -68,7 +68,10 @@ std::vector<std::string> warnings_about_valves(const EngineFile& file, double sp
   if (speed_rpm == 0) return lines;
   for (const TrainOfFile& train : file.trains()) {
     if (!train.complete()) continue;
-    for (std::string& line : beyond_class(LoneValve(file, train.name), speed_rpm, tick_s, stepping))
+    const LoneValve valve(file, train.name);
+    Valve as_run = valve.valve();
+    as_run.surge_modes = 0;
+    for (std::string& line : beyond_class(valve.with(as_run), speed_rpm, tick_s, stepping))
       lines.push_back(std::move(line));
   }
   return lines;

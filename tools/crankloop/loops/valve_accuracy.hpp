@@ -22,7 +22,7 @@ namespace crankloop::program {
 [[nodiscard]] std::vector<std::string> beyond_class(const LoneValve& valve, double speed_rpm, double tick_s,
                                                     const ValveStepping& stepping = {});
 
-/// Those of all trains of an engine file.
+/// Those of all trains of an engine file as ready-made scenes step them, whose springs follow their valves.
 [[nodiscard]] std::vector<std::string> warnings_about_valves(const EngineFile& file, double speed_rpm, double tick_s,
                                                              const ValveStepping& stepping = {});
 

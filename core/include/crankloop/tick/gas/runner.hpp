@@ -41,8 +41,8 @@ struct RunnerStep {
   Real forward_kg_s, backward_kg_s_Pa;  ///< bounds: the speed of sound and a little more
   Real begin_kg, begin_J, begin_enthalpy_J_kg, begin_ratio;
 
-  /// At most what gas flows at 1.2 times sqrt(R T). It acts in ticks of several degrees, and on an exhaust runner that a
-  /// motored engine at high speed all but empties: docs/model.md "Runners".
+  /// At most what gas flows at 1.2 times sqrt(R T). It acts in ticks of several degrees, and on an exhaust runner that
+  /// a motored engine at high speed all but empties: docs/model.md "Runners".
   [[nodiscard]] Real bounded(Real flow, Real port_Pa) const noexcept {
     const Real back = -backward_kg_s_Pa * port_Pa;
     return flow > forward_kg_s ? forward_kg_s : (flow < back ? back : flow);
