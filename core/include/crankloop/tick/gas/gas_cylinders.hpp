@@ -262,11 +262,9 @@ class GasCylindersStep {
       GasBeyond<T>& to = far[port];
       const bool has = has_runner(port);
       const auto each = [&](T & x, Real GasBeyond<Real>::*member) __attribute__((always_inline)) {
-        if (has) {
-          for (int i = 0; i < kLanesIn<T>; ++i) put_lane(x, i, runners.seen[port][i].*member);
-        } else {
-          x = spread<T>(manifold.*member);
-        }
+        x = spread<T>(manifold.*member);
+        if (!has) return;
+        for (int i = 0; i < kLanesIn<T>; ++i) put_lane(x, i, runners.seen[port][i].*member);
       };
       using Beyond = GasBeyond<Real>;
       each(to.pressure_Pa, &Beyond::pressure_Pa), each(to.choked_per_Pa, &Beyond::choked_per_Pa);
