@@ -43,7 +43,7 @@ project() {
   cat >"$work/CMakeLists.txt" <<CMAKE
 cmake_minimum_required(VERSION 3.22)
 project(asks LANGUAGES $languages)
-find_package(crankloop 0.2 REQUIRED)
+find_package(crankloop 0.3 REQUIRED)
 crankloop_add_scene($name asks_scene.hpp "$engine_file" SCENE $scene)
 CMAKE
   { cmake -S "$work" -B "$work/build" "-DCMAKE_PREFIX_PATH=$prefix" "-DCMAKE_CXX_COMPILER=$compiler" "$@" &&

@@ -209,7 +209,7 @@ void print_limits(const Tables& tables) noexcept {
   if constexpr (Needs::valves_rest) activations = most_activations(tables);
   port::Line() << "limit activations " << activations;
   std::uint32_t endings = 0;
-  if constexpr (under_test::Scene::valve_results) endings = most_endings(tables);
+  if constexpr (Needs::cycle_ends) endings = most_endings(tables);
   port::Line() << "limit endings " << endings;
   port::Line() << "limit wide_ticks " << wide_ticks;
   port::Line() << "limit wide_steps " << wide_steps;
