@@ -86,12 +86,16 @@ refuses "[trigger NAME] sections" engine "$(has 4 2 1)"
 with_scene() { scene=$1 engine_file=$2; }
 with_scene Elastic "$engines/diesel_495.ini"
 project engine "$(has 4 2 2)" || { cat "$work/said" && failures=1; }
+sed 's/^spring_preload_N.*/&\
+surge_modes = 1/' "$engines/diesel_495.ini" >"$work/surge.ini"
+with_scene Elastic "$work/surge.ini"
+refuses 'needs as many `spring_modes`' engine "$(has 4 2 2)"
 with_scene Elastic "$engines/four_2000.ini"
 refuses 'needs `valve_gas = true`' engine "$(has 4 2 2)"
 with_scene Breathes "$engines/four_2000.ini"
 project engine "$(has 4 2 2)" || { cat "$work/said" && failures=1; }
 with_scene Breathes "$engines/diesel_495.ini"
-refuses 'gas exchange needs `source = gas` in' engine "$(has 4 2 2)"
+refuses 'gas exchange `source = gas` in' engine "$(has 4 2 2)"
 with_scene Forces "$engines/diesel_495.ini"
 project engine "$(has 4 2 2)" || { cat "$work/said" && failures=1; }
 sed 's/^rod_small_end_g.*/rod_g = 1887/; s/^rod_big_end_g.*/rod_com_to_crank_mm = 56.2\
