@@ -1,7 +1,7 @@
 #!/bin/sh
 # study_speed.sh CRANKLOOP ENGINE_FILE
-# A study of 1000 points takes two threads at most 1 / 1.8 of the time that it takes one, with the same bytes. Best of three;
-# skipped (77) where there are not two processors, or others use them.
+# A study of 1000 points takes two threads at most 1 / 1.8 of the time that it takes one, with the same bytes. Best of five;
+# skipped (77) where there are not two processors, or others used them before or after any that took longer.
 set -eu
 crankloop=$1 engine=$2
 [ "$(nproc)" -ge 2 ] || exit 77
@@ -24,15 +24,15 @@ study() {
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
-calm=
-for attempt in 1 2 3; do
-  if [ -z "${CRANKLOOP_BUSY_TOO:-}" ] && busy; then continue; fi
-  calm=yes
+disturbed=
+for attempt in 1 2 3 4 5; do
+  if [ -z "${CRANKLOOP_BUSY_TOO:-}" ] && busy; then disturbed=yes && continue; fi
   one=$(study 1) two=$(study 2)
   cmp 1.csv 2.csv
   [ "$(wc -l <1.csv)" = 1001 ]
   echo "attempt $attempt: $((one / 1000000)) ms by one thread, $((two / 1000000)) ms by two: $((one * 100 / two)) %"
   [ $((one * 10)) -lt $((two * 18)) ] || exit 0
+  if busy; then disturbed=yes; fi
 done
-[ -n "$calm" ] || { echo 'the machine is busy' && exit 77; }
+[ -z "$disturbed" ] || { echo 'the machine is busy' && exit 77; }
 exit 1

@@ -160,7 +160,7 @@ template <class Real>
   gas.add(moves.mass_kg, moves.enthalpy_J, moves.burned_kg);
   const Real next = free ? (wants - step.explicit_share * runner.flow_kg_s) * step.per_implicit_share : in_kg / step_s;
   add_carried(runner.flow_kg_s, runner.flow_rest_kg_s, next - runner.flow_kg_s);
-  runner.point = point_of(gas, table.per_volume_m3);
+  if (gas.mass_kg > 0) runner.point = point_of(gas, table.per_volume_m3);  // else put_runner_right()
   return moves;
 }
 
