@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "crankloop/command_line/commands.hpp"
 #include "crankloop/commands/redline/redline_search.hpp"
 #include "crankloop/engine_file/following_springs.hpp"
 #include "crankloop/files/units.hpp"
@@ -92,6 +94,40 @@ TEST_F(SurgingTrain, IsRefusedForATickInWhichItWouldGrow) {
     EXPECT_NE(std::string(refused.what()).find("surge_modes"), std::string::npos) << refused.what();
     EXPECT_NE(std::string(refused.what()).find("shorter tick"), std::string::npos) << refused.what();
   }
+}
+
+TEST_F(SurgingTrain, IsToldOfInSummaryAndCsv) {
+  const auto printed_by = [](std::vector<std::string> words) {
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(kValve.run(Arguments(kValve, words)), kSuccess);
+    return testing::internal::GetCapturedStdout();
+  };
+  const std::string path =
+      write("surging.ini", with("surge_modes = 2\ninner_spring_N_per_mm = 15\ninner_spring_g = 18"));
+  const std::string csv = folder_ / "valve.csv";
+  const std::string summary = printed_by({path, "--rpm", "6000", "--csv", csv});
+  EXPECT_NE(summary.find("springs surge, 2 modes each"), std::string::npos) << summary;
+  // The largest and least of the summary are those of the rows.
+  std::istringstream rows(contents(csv));
+  std::string row;
+  std::getline(rows, row);
+  ASSERT_NE(row.find(",regime,spring_force_N,spring_surge_N"), std::string::npos) << row;
+  double largest_N = 0, least_N = 1e9, most_N = 0;
+  while (std::getline(rows, row)) {
+    const std::size_t surge = row.rfind(','), force = row.rfind(',', surge - 1);
+    most_N = std::max(most_N, std::stod(row.substr(force + 1)));
+    least_N = std::min(least_N, std::stod(row.substr(force + 1)));
+    largest_N = std::max(largest_N, std::abs(std::stod(row.substr(surge + 1))));
+  }
+  const auto number = [&summary](const std::string& name) {
+    const std::size_t at = summary.find("\n" + name + " = ");
+    return at == std::string::npos ? 0 : std::stod(summary.substr(at + name.size() + 4));
+  };
+  EXPECT_NEAR(number("spring_surge_force"), largest_N, 1e-3 * largest_N);
+  EXPECT_NEAR(number("least_spring_force"), least_N, 1e-3 * most_N);
+  EXPECT_NEAR(number("largest_spring_force"), most_N, 1e-3 * most_N);
+  EXPECT_GT(largest_N, 50);
+  EXPECT_THROW(kValve.run(Arguments(kValve, {path, "--integrator", "textbook"})), UsageError);
 }
 
 TEST_F(SurgingTrain, FollowsItsValveInReadyMadeScenesWithAWarning) {

@@ -20,6 +20,7 @@
 #include "engine_file_values.hpp"
 #include "port_geometry.hpp"
 #include "settings.hpp"
+#include "spring_wire.hpp"
 
 namespace crankloop::program {
 
@@ -33,6 +34,7 @@ struct TrainOfFile {
   double stress_limit_Pa = 0;  ///< of the contact; 0: the file has none
   PortOfTrain port;
   bool has_flow_curve = false;           ///< of the file; else the curve is that of a usual valve
+  std::optional<SpringWire> wire;        ///< of its spring, where the file has one
   std::optional<PortGeometry> geometry;  ///< of the port, where the file has a diameter of the seat or the head
   bool has_cam = false;
   bool has_rocker = false;

@@ -99,6 +99,7 @@ void EngineFile::build_trains() {
       fill(section, train.definition.valve);
       train.port = build_port(section, path_);
       train.has_flow_curve = section.has("flow_over_lift_ratio");
+      train.wire = build_spring_wire(section, path_);
       train.geometry = build_port_geometry(section, path_);
       accept(validate(train.definition.valve), train);
     }

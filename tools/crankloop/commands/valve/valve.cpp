@@ -19,6 +19,7 @@
 #include "../../files/units.hpp"
 #include "../../loops/cam_loads.hpp"
 #include "../../loops/flow_lines.hpp"
+#include "../../loops/spring_stress.hpp"
 #include "../../loops/surge_force.hpp"
 #include "../../loops/textbook_valve.hpp"
 #include "../../loops/valve_accuracy.hpp"
@@ -95,6 +96,13 @@ std::string gas_remark(const LoneValve& valve) {
   return "with the gas force on the head, full load";
 }
 
+/// Forces on the valve beside spring and train.
+std::string forces_remark(const LoneValve& valve) {
+  const int modes = valve.valve().surge_modes;
+  if (modes == 0) return gas_remark(valve);
+  return gas_remark(valve) + "; springs surge, " + std::to_string(modes) + (modes == 1 ? " mode each" : " modes each");
+}
+
 /// Of rigid parts: it does not depend on the run.
 void add_margin(Summary& s, const LoneValve& valve, double speed_rpm) {
   const StaticRedline redline = valve.static_redline();
@@ -113,12 +121,43 @@ struct SpringRange {
   double largest_surge_N = 0;
   double least_N = std::numeric_limits<double>::infinity();
   double largest_N = 0;
+  double least_fixed_N = std::numeric_limits<double>::infinity();  ///< at the spring's fixed end
+  double largest_fixed_N = 0;
 
-  void take(double surge_N, double force_N) {
-    largest_surge_N = std::max(largest_surge_N, std::abs(surge_N));
-    least_N = std::min(least_N, force_N), largest_N = std::max(largest_N, force_N);
+  template <class Real>
+  void take(const ValveSpringOutput<Real>& s) {
+    const auto moving_N = static_cast<double>(s.moving_N), fixed_N = static_cast<double>(s.fixed_N);
+    largest_surge_N = std::max(largest_surge_N, std::abs(static_cast<double>(s.surge_N)));
+    least_N = std::min(least_N, moving_N), largest_N = std::max(largest_N, moving_N);
+    least_fixed_N = std::min(least_fixed_N, fixed_N), largest_fixed_N = std::max(largest_fixed_N, fixed_N);
   }
 };
+
+/// Of the spring's wire, where the file has one: at rest, and over the cycle at the end that swings more.
+void add_spring_stress(Summary& s, const LoneValve& valve, const SpringRange& springs) {
+  if (!valve.train().wire) return;
+  const SpringWire& wire = *valve.train().wire;
+  const Valve& v = valve.valve();
+  const auto stress_MPa = [&wire](double force_N) { return shear_stress_Pa(wire, force_N) / 1e6; };
+  s.line("wire_spring_rate", rate_of_wire_N_m(wire) / 1e3, "N/mm",
+         "of the wire" + std::string(wire.shear_assumed ? ", shear modulus assumed" : "") +
+             "; spring_N_per_mm = " + brief(v.spring_N_m / 1e3));
+  s.line("wire_spring_mass", mass_of_wire_kg(wire) * 1e3, "g",
+         "of its active coils, steel; spring_g = " + brief(v.spring_kg * 1e3));
+  s.line("wire_stress_closed", stress_MPa(v.spring_preload_N), "MPa", "shear by Wahl, valve closed");
+  s.line("wire_stress_open", stress_MPa(v.spring_preload_N + v.spring_N_m * valve.lift().largest_lift_m()), "MPa",
+         "at the largest theoretical lift");
+  const bool fixed = springs.largest_fixed_N - springs.least_fixed_N > springs.largest_N - springs.least_N;
+  const double least_N = fixed ? springs.least_fixed_N : springs.least_N;
+  const double largest_N = fixed ? springs.largest_fixed_N : springs.largest_N;
+  s.line("wire_stress_largest", stress_MPa(largest_N), "MPa",
+         "in the cycle, least " + brief(stress_MPa(least_N)) + " MPa" +
+             (v.surge_modes > 0 ? std::string(", with surge, at the spring's ") + (fixed ? "fixed" : "moving") + " end"
+                                : ", without surge"));
+  if (!wire.has_limits()) return;
+  s.line("goodman_factor", goodman_factor(wire, stress_MPa(least_N) * 1e6, stress_MPa(largest_N) * 1e6), "",
+         "of that swing against shear_endurance_MPa and shear_ultimate_MPa: below 1 it breaks some time");
+}
 
 /// Of springs whose modes are stepped with the valve.
 void add_stepped_surge(Summary& s, const LoneValve& valve, const SpringRange& springs, double error_ratio) {
@@ -203,7 +242,7 @@ Summary summary(const LoneValve& valve, const Request& request, const ValveLoop<
   const bool separated = cycle.separations > 0;
   Summary s;
   s.remark("valve train " + title(valve, request) + ", " + circumstances(request));
-  s.remark("cam angle: 0 at full theoretical lift; " + gas_remark(valve));
+  s.remark("cam angle: 0 at full theoretical lift; " + forces_remark(valve));
   s.line("max_theoretical_lift", real(valve.lift().largest_lift_m() * 1e3), "mm");
   s.line("max_lift", cycle.largest_lift_m * real(1e3), "mm");
   s.line("max_velocity", cycle.largest_speed_m_s, "m/s");
@@ -229,6 +268,7 @@ Summary summary(const LoneValve& valve, const Request& request, const ValveLoop<
   s.line("seat_frequency", real(seated_frequency_rad_s(body) / (2 * kPi)), "Hz", "on train and seat");
   add_margin(s, valve, request.speed_rpm);
   add_surge(s, valve, request.speed_rpm, ticks.springs, loop.surge_error_ratio());
+  add_spring_stress(s, valve, ticks.springs);
   const TrainOfFile& train = valve.train();
   add_cam_loads(s, train, static_stress(valve.lift(), train.definition, train.contact), ticks.loads, cam_rad_s);
   const std::uint32_t parts = loop.motion().parts;
@@ -284,7 +324,7 @@ Summary run(const LoneValve& valve, const Request& request, Results& results, co
     if (csv) write_row(*csv, valve, flow, out, loads);
     of_cycle.motion.take(static_cast<double>(out.motion.velocity_m_s),
                          static_cast<double>(out.motion.acceleration_m_s2));
-    of_cycle.springs.take(static_cast<double>(out.springs.surge_N), static_cast<double>(out.springs.moving_N));
+    of_cycle.springs.take(out.springs);
     if (sum) sum->add(static_cast<double>(out.motion.lift_m));
     if (plot != nullptr) trace.ticks.push_back(in_double(out)), trace.loads.push_back(loads);
   };
@@ -301,7 +341,7 @@ Summary run(const LoneValve& valve, const Request& request, Results& results, co
     trace.limit_Pa = valve.train().stress_limit_Pa;
     if (!(contact.width_m > 0)) trace.loads.clear();
     const std::string remark = std::filesystem::path(valve.file().path()).filename().string() + ", " +
-                               circumstances(request) + "; " + gas_remark(valve);
+                               circumstances(request) + "; " + forces_remark(valve);
     report::Sheet sheet = valve_sheet(trace, "Valve train " + title(valve, request), remark);
     if (flow.area) add_flow_remarks(sheet.remarks, valve.train());
     plot->write(report::to_svg_file(sheet));
