@@ -53,11 +53,7 @@ struct Cylinder : Scene {
 template <class Real, class S = Cylinder>
 [[nodiscard]] std::unique_ptr<Breathing<Real, S>> breathing(const EngineDefinition& definition, double tick_s,
                                                             double rpm, const GasSeen& exhaust) {
-  auto run = std::make_unique<Breathing<Real, S>>(definition, tick_s);
-  run->in.speed_rad_s = static_cast<Real>(rad_s(rpm));
-  run->in.intake_Pa = static_cast<Real>(kIn.p), run->in.intake_K = static_cast<Real>(kIn.t);
-  run->in.exhaust_Pa = static_cast<Real>(exhaust.p), run->in.exhaust_K = static_cast<Real>(exhaust.t);
-  return run;
+  return support::breathing_between<Real, S>(definition, tick_s, rad_s(rpm), kIn, exhaust);
 }
 
 template <class Real>

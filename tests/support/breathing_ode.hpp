@@ -9,12 +9,26 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 
 #include "support/adaptive.hpp"
+#include "support/gas_engine.hpp"
 #include "support/gas_equations.hpp"
 #include "support/gas_reference.hpp"
 
 namespace crankloop::support {
+
+/// An engine between two manifolds that nothing changes, at a speed.
+template <class Real, class S>
+[[nodiscard]] std::unique_ptr<Breathing<Real, S>> breathing_between(const EngineDefinition& definition, double tick_s,
+                                                                    double speed_rad_s, const GasSeen& intake,
+                                                                    const GasSeen& exhaust) {
+  auto run = std::make_unique<Breathing<Real, S>>(definition, tick_s);
+  run->in.speed_rad_s = static_cast<Real>(speed_rad_s);
+  run->in.intake_Pa = static_cast<Real>(intake.p), run->in.intake_K = static_cast<Real>(intake.t);
+  run->in.exhaust_Pa = static_cast<Real>(exhaust.p), run->in.exhaust_K = static_cast<Real>(exhaust.t);
+  return run;
+}
 
 class BreathingOde {
  public:

@@ -5,6 +5,10 @@
 
 #include <initializer_list>
 
+#include <gtest/gtest.h>
+
+#include <crankloop/tabulate/valve_lift.hpp>
+
 #include "lab/reference/ohc_125.hpp"
 #include "support/random.hpp"
 
@@ -90,6 +94,20 @@ inline Rocker random_rocker(Random& random) {
   rocker.screw_ball_m = random.between(3e-3, 10e-3);
   rocker.stem_above_pivot_m = random.between(-8e-3, 5e-3);
   return rocker;
+}
+
+/// Calls for some random trains that can turn: call(cam, rocker, lift, trace).
+template <class Call>
+void each_random_train(Random& random, int trains, const Call& call) {
+  for (int draw = 0; trains > 0; ++draw) {
+    ASSERT_LT(draw, 500) << "most draws are refused";
+    const Cam cam = random_cam(random);
+    const Rocker rocker = random_rocker(random);
+    ValveLift lift;
+    if (!lift.init(cam, rocker).ok()) continue;
+    --trains;
+    call(cam, rocker, lift, random.trace(draw));
+  }
 }
 
 }  // namespace crankloop::support

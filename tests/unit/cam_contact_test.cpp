@@ -127,16 +127,10 @@ TEST(CamContactOf, TheRockerOfThe125SlidesAndRollsAsTwoTurnedBodiesDoEitherWay) 
 
 TEST(CamContactOf, AnyTrainThatCanTurnSlidesAndRollsAsTwoTurnedBodiesDo) {
   Random random;
-  int trains = 0;
-  for (int draw = 0; trains < 12; ++draw) {
-    ASSERT_LT(draw, 500) << "most draws are refused";
-    const Cam cam = support::random_cam(random);
-    const Rocker rocker = support::random_rocker(random);
-    ValveLift lift;
-    if (!lift.init(cam, rocker).ok()) continue;
-    ++trains;
-    touches_as_bodies_do(cam, rocker, 1e-3, 0.7, random.trace(draw) + ", ");
-  }
+  support::each_random_train(random, 12,
+                             [](const Cam& cam, const Rocker& rocker, const ValveLift&, const std::string& trace) {
+                               touches_as_bodies_do(cam, rocker, 1e-3, 0.7, trace + ", ");
+                             });
 }
 
 TEST(CamContactOf, AFlatFollowerSlidesWithTheSupportOfItsCam) {

@@ -142,5 +142,24 @@ TEST_F(SurgingTrain, FollowsItsValveInReadyMadeScenesWithAWarning) {
   for (int i = 0; i < 1000; ++i) EXPECT_EQ(surging.step().valve[0][0].lift_m, following.step().valve[0][0].lift_m);
 }
 
+TEST_F(SurgingTrain, IsWarnedOfWhereAStudyOrAComparisonLetsItsSpringFollow) {
+  const auto told_by = [](const Command& command, const std::vector<std::string>& words) {
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(command.run(Arguments(command, words)), kSuccess);
+    static_cast<void>(testing::internal::GetCapturedStdout());
+    return testing::internal::GetCapturedStderr();
+  };
+  const std::string plain = write("plain.ini", contents(kOhc125));
+  const std::string surging = write("surging.ini", with("surge_modes = 2"));
+  const std::string varied = "valve.surge_modes=0:1:2";
+  EXPECT_NE(told_by(kStudy, {plain, "--vary", varied, "--of", "balance.power_kW"}).find("changes nothing that run"),
+            std::string::npos);
+  EXPECT_EQ(told_by(kStudy, {plain, "--vary", varied, "--of", "valve.max_lift"}).find("changes nothing"),
+            std::string::npos);
+  EXPECT_NE(told_by(kRun, {plain, "--against", surging}).find("surging.ini: warning: [valve intake] surge_modes"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace crankloop::program

@@ -176,29 +176,22 @@ TEST(RockerLift, OfASymmetricCamRunsBackwardsWhenTheCamTurnsTheOtherWay) {
 
 TEST(RockerLift, OfAnyTrainThatCanTurnIsThatOfTheBruteForce) {
   Random random;
-  int trains = 0;
-  for (int draw = 0; trains < 12; ++draw) {
-    ASSERT_LT(draw, 500) << "most draws are refused";
-    const Cam cam = support::random_cam(random);
-    const Rocker rocker = support::random_rocker(random);
-    ValveLift lift;
-    if (!lift.init(cam, rocker).ok()) continue;
-    ++trains;
-    CamProfile profile;
-    ASSERT_TRUE(accepted(profile.init(cam)));
-    const BruteForceCam body{rocker, [&](double phi) { return profile.at(phi).lift_m; }};
-    const double full_lift = body.turned_at_full_lift_rad();
-    for (int i = 0; i < 6; ++i) {
-      const double rad = random.between(lift.opens_rad(), lift.closes_rad());
-      const double turned = full_lift + rad;
-      const double W = body.rocker_rad(turned);
-      const LiftPose pose = lift.at(rad);
-      EXPECT_NEAR(pose.rocker_rad, W, kTouch_rad) << random.trace(draw) << ", " << rad << " rad";
-      const double contact_speed = profile.at(body.touch(W, turned).phi_rad).per_rad_m;
-      EXPECT_NEAR(pose.per_rad_m, pose.rocker_ratio * contact_speed, 2e-8)
-          << random.trace(draw) << ", " << rad << " rad";
-    }
-  }
+  support::each_random_train(
+      random, 12, [&random](const Cam& cam, const Rocker& rocker, const ValveLift& lift, const std::string& trace) {
+        CamProfile profile;
+        ASSERT_TRUE(accepted(profile.init(cam)));
+        const BruteForceCam body{rocker, [&](double phi) { return profile.at(phi).lift_m; }};
+        const double full_lift = body.turned_at_full_lift_rad();
+        for (int i = 0; i < 6; ++i) {
+          const double rad = random.between(lift.opens_rad(), lift.closes_rad());
+          const double turned = full_lift + rad;
+          const double W = body.rocker_rad(turned);
+          const LiftPose pose = lift.at(rad);
+          EXPECT_NEAR(pose.rocker_rad, W, kTouch_rad) << trace << ", " << rad << " rad";
+          const double contact_speed = profile.at(body.touch(W, turned).phi_rad).per_rad_m;
+          EXPECT_NEAR(pose.per_rad_m, pose.rocker_ratio * contact_speed, 2e-8) << trace << ", " << rad << " rad";
+        }
+      });
 }
 
 TEST(RockerLever, IsTheMeanOfSeatedAndFullyOpen) {

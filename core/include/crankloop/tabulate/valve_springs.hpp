@@ -42,7 +42,8 @@ template <class Real>
 inline constexpr double kMostSurgeGrowth = 1e-9;
 
 /// The share of a spring's surge force by which it may be wrong for the tick's length, where its modes ring: force and
-/// acceleration are straight lines over a tick. Of second order: (w h)^2 / 4 with the highest mode.
+/// acceleration are straight lines over a tick. Of second order: (w h)^2 / 4 with the highest mode. Where float and
+/// bounce amplify any error, more.
 [[nodiscard]] double surge_error_ratio(const SurgeOfValve& surge, double tick_s) noexcept;
 
 }  // namespace crankloop

@@ -17,6 +17,7 @@
 #include "../../command_line/results.hpp"
 #include "../../command_line/summary.hpp"
 #include "../../command_line/with_real.hpp"
+#include "../../engine_file/following_springs.hpp"
 #include "../../engine_file/plausibility.hpp"
 #include "../../engine_file/pressure_words.hpp"
 #include "../../engine_report/engine_report.hpp"
@@ -332,6 +333,16 @@ Trace trace_of(const Arguments& arguments, const EngineFile& file) {
   });
 }
 
+/// Tells where the operation is beyond the promised accuracy; throws InputError for a tick too long for a train.
+std::vector<std::string> tell_accuracy(const Arguments& arguments, const EngineFile& file, const Operation& operation) {
+  std::vector<std::string> told =
+      tell_warnings(arguments, warnings_about_gas(file, operation.speed_rpm, operation.tick_s));
+  require_trains(file, operation.tick_s);
+  for (std::string& line : tell_warnings(arguments, warnings_about_valves(file, operation.speed_rpm, operation.tick_s)))
+    told.push_back(std::move(line));
+  return told;
+}
+
 /// Both engines with the same options; each at its own rated speed without --rpm.
 int run_against(const Arguments& arguments, const EngineFile& first) {
   for (const char* option : {"--free", "--csv", "--vcd"}) {
@@ -340,6 +351,9 @@ int run_against(const Arguments& arguments, const EngineFile& first) {
   const std::string& path = arguments.text("--against");
   const EngineFile second = read_engine_file(path, needed_sections());
   (void)tell_warnings(arguments, warnings_about(second));
+  (void)tell_warnings(arguments, warnings_about_springs_that_follow(second));
+  for (const EngineFile* file : {&first, &second})
+    (void)tell_accuracy(arguments, *file, operation_of(arguments, *file, gas_for(arguments, *file)));
   Results results(arguments, {"--report"});
   Side sides[] = {{first, figures_of_run(arguments, first)}, {second, figures_of_run(arguments, second)}};
   if (Output* page = results["--report"]) {
@@ -362,11 +376,7 @@ int run_run(const Arguments& arguments) {
   const GasOrder gas = gas_for(arguments, file);
   if (arguments.has("--free")) return run_free_by(arguments, file, gas, std::move(warnings));
   const Operation operation = operation_of(arguments, file, gas);
-  for (std::string& line : tell_warnings(arguments, warnings_about_gas(file, operation.speed_rpm, operation.tick_s)))
-    warnings.push_back(std::move(line));
-  require_trains(file, operation.tick_s);
-  for (std::string& line : tell_warnings(arguments, warnings_about_valves(file, operation.speed_rpm, operation.tick_s)))
-    warnings.push_back(std::move(line));
+  for (std::string& line : tell_accuracy(arguments, file, operation)) warnings.push_back(std::move(line));
   const Request request{operation, arguments.whole_number("--cycles"), arguments.text("--real"), std::move(warnings)};
   const ExactEngine exact = exact_of(file);
   const Engines engine{file, exact};

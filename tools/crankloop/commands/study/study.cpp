@@ -8,6 +8,7 @@
 #include "../../command_line/engine_argument.hpp"
 #include "../../command_line/results.hpp"
 #include "../../command_line/shards.hpp"
+#include "../../engine_file/following_springs.hpp"
 #include "../../engine_file/plausibility.hpp"
 #include "../../files/csv.hpp"
 #include "../../files/error.hpp"
@@ -103,6 +104,19 @@ void add_axes(Study& study, const Arguments& arguments, const std::vector<const 
   for (const Variation& axis : study.axes) count *= static_cast<double>(axis.values.size());
   if (count > kMaxStudyPoints)
     throw UsageError("a study of " + brief(count) + " points; at most " + brief(kMaxStudyPoints) + " are allowed");
+}
+
+/// Warns where figures of ready-made scenes are asked for of springs that surge: there they follow their valves.
+void warn_of_springs_that_follow(const Study& study, const Arguments& arguments) {
+  const auto steps_surge = [](const Command* command) { return command == &kValve || command == &kRedline; };
+  if (std::all_of(study.commands.begin(), study.commands.end(), steps_surge)) return;
+  std::vector<std::string> lines = warnings_about_springs_that_follow(study.file);
+  for (const Variation& axis : study.axes) {
+    if (axis.target.key && std::string_view(axis.target.key->key->name) == "surge_modes")
+      lines.push_back(study.file.path() + ": warning: --vary " + axis.target.name() +
+                      " changes nothing that run, balance or kinematics print: springs follow their valves there");
+  }
+  (void)tell_warnings(arguments, lines);
 }
 
 /// Refuses a study of nothing but gaps.
@@ -221,6 +235,7 @@ int run_study(const Arguments& arguments) {
   (void)tell_warnings(arguments, warnings_about(file));
   Study study{file, text, request.settings, request.options, request.commands, request.figures};
   add_axes(study, arguments, options);
+  warn_of_springs_that_follow(study, arguments);
   study.command_line = command_line(arguments);
   survey(study);
   Results results(arguments, {"--csv", "--report", "--plot"});

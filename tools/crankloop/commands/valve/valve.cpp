@@ -165,7 +165,8 @@ void add_stepped_surge(Summary& s, const LoneValve& valve, const SpringRange& sp
   s.line("spring_surge_force", springs.largest_surge_N, "N",
          "largest, of " + std::to_string(v.surge_modes) + (v.surge_modes == 1 ? " mode" : " modes") +
              (v.inner_spring_N_m > 0 ? " of each spring" : "") +
-             ", stepped with the valve; by the tick's length within " + brief(error_ratio * 100) + " %");
+             ", stepped with the valve; the tick's length may take " + brief(error_ratio * 100) +
+             " % of it, bounces apart");
   s.line("least_spring_force", springs.least_N, "N", "with surge; preload " + brief(v.spring_preload_N) + " N");
   s.line("largest_spring_force", springs.largest_N, "N", "with surge");
   if (springs.least_N < 0)
