@@ -1,5 +1,5 @@
-// What docs/separation_and_bounce.md tells beside outputs, which figures/printed.sh compares: its pictures, and figures
-// in its sentences.
+// What docs/separation_and_bounce.md and docs/gas_exchange.md tell beside outputs, which figures/printed.sh compares:
+// their pictures, and figures in their sentences and tables.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,6 +18,7 @@
 #include "crankloop/commands/redline/redline_search.hpp"
 #include "crankloop/loops/surge_force.hpp"
 #include "crankloop/loops/valve_loop.hpp"
+#include "support/columns.hpp"
 #include "support/markup.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/units.hpp"
@@ -64,9 +65,12 @@ std::vector<std::string> commands_in(const std::string& document) {
   return commands;
 }
 
-class SeparationAndBounce : public testing::Test {
+/// A page, and a folder with the sample engines.
+class Page : public testing::Test {
  protected:
-  SeparationAndBounce() { std::filesystem::copy(kSource / "tools/engines/ohc_125.ini", folder_.path()); }
+  explicit Page(const char* name) : path_{std::string("docs/") + name}, document_{contents(kSource / path_)} {
+    std::filesystem::copy(kSource / "tools/engines", folder_.path());
+  }
 
   /// What a command of the document prints, run beside the sample engine.
   std::string output_of(const std::string& command) const {
@@ -85,14 +89,18 @@ class SeparationAndBounce : public testing::Test {
     std::string one_line;
     std::istringstream stream(document_);
     for (std::string word; stream >> word;) one_line += (one_line.empty() ? "" : " ") + word;
-    EXPECT_NE(one_line.find(words), std::string::npos) << "docs/separation_and_bounce.md does not say: " << words;
+    EXPECT_NE(one_line.find(words), std::string::npos) << path_ << " does not say: " << words;
   }
 
+  void expect_pictures(int count) const;
+
   support::TemporaryFolder folder_;
-  std::string document_ = contents(kSource / "docs/separation_and_bounce.md");
+  std::string path_;
+  std::string document_;
 };
 
-TEST_F(SeparationAndBounce, ShowsThePicturesThatItsCommandsDraw) {
+/// Of each command with --plot the page shows the picture, as it is drawn now.
+void Page::expect_pictures(int count) const {
   const auto words_in = [](const std::string& svg) {
     std::vector<std::string> words;
     const support::Markup markup = support::read(svg);
@@ -113,7 +121,62 @@ TEST_F(SeparationAndBounce, ShowsThePicturesThatItsCommandsDraw) {
     EXPECT_EQ(words_in(contents(kSource / "docs/images" / name)), words_in(contents(folder_ / name)))
         << "docs/images/" << name << " is no longer what this draws; in tools/engines, and copy it:\n  " << command;
   }
-  EXPECT_EQ(pictures, 2);
+  EXPECT_EQ(pictures, count);
+}
+
+class SeparationAndBounce : public Page {
+ protected:
+  SeparationAndBounce() : Page("separation_and_bounce.md") {}
+};
+class GasExchange : public Page {
+ protected:
+  GasExchange() : Page("gas_exchange.md") {}
+};
+
+TEST_F(SeparationAndBounce, ShowsThePicturesThatItsCommandsDraw) { expect_pictures(2); }
+TEST_F(GasExchange, ShowsThePicturesThatItsCommandsDraw) { expect_pictures(1); }
+
+/// The column "model" of the table beside the measured trace, which is not part of the repository.
+TEST_F(GasExchange, HasThePressuresOfTheMotoredSample) {
+  const auto row = [&](const std::string& start) -> std::string {
+    for (const std::string& line : lines_of(document_)) {
+      if (line.rfind("| " + start + " |", 0) == 0) return line;
+    }
+    ADD_FAILURE() << "no row " << start;
+    return "";
+  };
+  const std::string command = "crankloop run diesel_435_motored.ini --rpm 1800 --tick-us 20 --cycles 1 --csv run.csv";
+  const std::string summary = output_of(command);
+  const auto of_summary = [&](const std::string& name) {
+    const std::size_t at = summary.find("\n" + name + " = ");
+    return at == std::string::npos ? 0 : std::stod(summary.substr(at + name.size() + 4));
+  };
+  EXPECT_NE(row("max_pressure, kPa").find("| " + rounded("%.0f", of_summary("max_pressure")) + " |"),
+            std::string::npos);
+  EXPECT_NE(row("gross work of the closed 360 deg, kPa")
+                .find("| " + rounded("%.0f", of_summary("net_mep") - of_summary("pumping_mep")) + " |"),
+            std::string::npos);
+  const support::Columns ticks(folder_ / "run.csv");
+  const std::vector<double> deg = ticks.column("crank_deg");
+  const std::vector<double> kPa = ticks.column("c1_pressure_kPa");
+  for (const auto& [start, at_deg] : {std::pair("pressure at -90 deg, kPa", -90),
+                                      {"at -60 deg", -60},
+                                      {"at -30 deg", -30},
+                                      {"at 0 deg", 0},
+                                      {"at 30 deg", 30},
+                                      {"at 60 deg", 60},
+                                      {"at 90 deg", 90},
+                                      {"pressure in the exhaust stroke, at 300 deg, kPa", 300}}) {
+    std::size_t before = deg.size() - 1;  // of the two ticks around it, over the cycle's end too
+    for (std::size_t i = 0; i + 1 < deg.size(); ++i) {
+      if (deg[i] <= std::fmod(at_deg + 720, 720) && deg[i + 1] > std::fmod(at_deg + 720, 720)) before = i;
+    }
+    const std::size_t after = (before + 1) % deg.size();
+    const double share = std::remainder(at_deg - deg[before], 720) / std::remainder(deg[after] - deg[before], 720);
+    const double at_kPa = kPa[before] + share * (kPa[after] - kPa[before]);
+    EXPECT_NE(row(start).find("| " + rounded("%.0f", at_kPa) + " |"), std::string::npos)
+        << row(start) << ": " << at_kPa;
+  }
 }
 
 /// What the page reads off the picture at 7000 rpm, from the ticks.

@@ -79,6 +79,23 @@ TEST_F(NewEngine, GoesThroughEveryCommandAndKeepsItsValvesOnTheirCamsAtRatedSpee
   }
 }
 
+/// [gas] of the same engine: charge and work that engines have, and its manifolds hold their runners.
+TEST_F(NewEngine, BreathesIfAsked) {
+  for (std::vector<std::string> options : kEngines) {
+    SCOPED_TRACE(options[3] + " mm");
+    const double diagram_kPa = value_of(made(options), "net_mep_kPa");
+    options.push_back("--gas");
+    made(options);
+    const std::string told = output({"run", "--cycles", "1"});
+    EXPECT_GT(value_of(told, "volumetric_efficiency"), 0.75);
+    EXPECT_LT(value_of(told, "volumetric_efficiency"), 1.1);
+    EXPECT_LT(value_of(told, "residual_ratio"), 0.08);
+    EXPECT_GT(value_of(told, "net_mep"), 0.7 * diagram_kPa);
+    EXPECT_LT(value_of(told, "net_mep"), 1.1 * diagram_kPa);
+    output({"run", "--free", "--starter", "--seconds", "3"});
+  }
+}
+
 /// The brake takes what gas and friction leave at rated speed, so that is where full load settles.
 TEST_F(NewEngine, StartsAndFindsItsRatedSpeedAtFullLoad) {
   for (const auto& options : kEngines) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "support/columns.hpp"
 #include "support/markup.hpp"
 #include "support/run_command.hpp"
 #include "support/units.hpp"
@@ -17,30 +18,7 @@ namespace {
 const std::string kEngines = CRANKLOOP_SOURCE_DIR "/tools/engines/";
 const std::string kFour = kEngines + "four_2000.ini";
 
-/// A CSV file of numbers, by its columns.
-struct Columns {
-  std::vector<std::string> names;
-  std::vector<std::vector<double>> rows;
-
-  explicit Columns(const std::string& path) {
-    const std::vector<std::string> lines = split_at(contents(path), '\n');
-    names = split_at(lines.at(0), ',');
-    for (std::size_t i = 1; i < lines.size(); ++i) {
-      rows.emplace_back();
-      for (const std::string& cell : split_at(lines[i], ',')) rows.back().push_back(std::stod(cell));
-    }
-  }
-  [[nodiscard]] std::vector<double> column(const std::string& name) const {
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      if (names[i] != name) continue;
-      std::vector<double> values;
-      for (const auto& row : rows) values.push_back(row.at(i));
-      return values;
-    }
-    ADD_FAILURE() << "no column " << name;
-    return std::vector<double>(rows.size());
-  }
-};
+using support::Columns;
 
 class BreathingRun : public RunCommand {
  protected:

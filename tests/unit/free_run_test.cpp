@@ -12,6 +12,7 @@
 
 #include "crankloop/engine_file/engine_file.hpp"
 #include "crankloop/files/number.hpp"
+#include "support/columns.hpp"
 #include "support/ripple_theory.hpp"
 #include "support/run_command.hpp"
 #include "support/units.hpp"
@@ -20,31 +21,7 @@
 namespace crankloop::program {
 namespace {
 
-/// A CSV file by its columns.
-class Columns {
- public:
-  explicit Columns(const std::string& path) {
-    std::vector<std::string> lines = split_at(contents(path), '\n');
-    names_ = split_at(lines.at(0), ',');
-    for (std::size_t i = 1; i < lines.size(); ++i) {
-      std::vector<std::string> cells = split_at(lines[i], ',');
-      cells.resize(names_.size());  // empty cells at the end
-      rows_.push_back(cells);
-    }
-  }
-  [[nodiscard]] std::size_t rows() const { return rows_.size(); }
-  [[nodiscard]] const std::string& text(std::size_t row, const std::string& name) const {
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      if (names_[i] == name) return rows_.at(row).at(i);
-    }
-    throw std::out_of_range(name);
-  }
-  [[nodiscard]] double number(std::size_t row, const std::string& name) const { return std::stod(text(row, name)); }
-
- private:
-  std::vector<std::string> names_;
-  std::vector<std::vector<std::string>> rows_;
-};
+using support::Columns;
 
 /// What a signal did: its level to begin with, and when it changed.
 struct Signal {

@@ -316,7 +316,7 @@ TEST_F(StudyCommand, RefusesByName) {
   EXPECT_NE(which.find("could be any of cam.intake.max_lift_mm, cam.exhaust.max_lift_mm"), std::string::npos) << which;
 }
 
-TEST_F(StudyCommand, DrawsCurvesWithTheFilesOwnValueOverOneKeyAndHeatMapsOverTwo) {
+TEST_F(StudyCommand, DrawsCurvesWithTheFilesOwnValueOverOneKeyHeatMapsOverTwoAndACurvePerValueWhereTheyAreFew) {
   printed_by(kStudy, {k125, "--vary", "crank.rod_length_mm=90:120:4", "--of", "kinematics.velocity_max",
                       "kinematics.acceleration_max", "--report", path("one.html"), "--plot", path("one.svg")});
   const support::Markup one = support::read(contents(path("one.html")));
@@ -325,7 +325,7 @@ TEST_F(StudyCommand, DrawsCurvesWithTheFilesOwnValueOverOneKeyAndHeatMapsOverTwo
   EXPECT_NE(contents(path("one.html")).find("the file&#39;s own"), std::string::npos);
   EXPECT_EQ(support::read(contents(path("one.svg"))).fault, "");
 
-  printed_by(kStudy, {k125, "--vary", "crank.rod_length_mm=90:120:4", "crank.pin_offset_mm=0:2:3", "--of",
+  printed_by(kStudy, {k125, "--vary", "crank.rod_length_mm=90:120:6", "crank.pin_offset_mm=0:2:5", "--of",
                       "kinematics.velocity_max", "--report", path("two.html")});
   const support::Markup two = support::read(contents(path("two.html")));
   EXPECT_EQ(two.fault, "");
@@ -333,10 +333,18 @@ TEST_F(StudyCommand, DrawsCurvesWithTheFilesOwnValueOverOneKeyAndHeatMapsOverTwo
   for (const auto& group : two.all("g")) {
     const auto field = group.attributes.find("data-field");
     if (field == group.attributes.end()) continue;
-    EXPECT_EQ(split_at(field->second, ' ').size(), 12u);
+    EXPECT_EQ(split_at(field->second, ' ').size(), 30u);
     ++fields;
   }
   EXPECT_EQ(fields, 1u);
+
+  printed_by(kStudy, {k125, "--vary", "crank.pin_offset_mm=0,1", "crank.rod_length_mm=90:120:6", "--of",
+                      "kinematics.velocity_max", "--report", path("few.html")});
+  const support::Markup few = support::read(contents(path("few.html")));
+  EXPECT_TRUE(few.of_class("heat").empty());
+  std::vector<std::string> curves;
+  for (const support::Element& legend : few.of_class("legend")) curves.push_back(legend.text);
+  EXPECT_EQ(curves, (std::vector<std::string>{"0 mm", "1 mm"}));
 }
 
 /// `redline --vary` of a key: each row is the redline of a file that has the value, and the file's own is among them.

@@ -89,7 +89,7 @@ std::string Target::name() const { return key ? key->text() : option->name + 2; 
 std::string Target::unit() const { return key ? unit_in_words(key->key->unit.name) : ""; }
 
 std::string Target::title() const {
-  if (!key) return option->name;
+  if (!key) return std::string(option->name).substr(2);  // without "--"
   std::string words = key->key->name;
   const std::string suffix = std::string("_") + key->key->unit.name;
   if (suffix.size() > 1 && words.size() > suffix.size() &&

@@ -35,9 +35,10 @@ Runner build_runner(const SectionValues& values, const std::string& side, const 
   Runner runner;
   if (!values.has(length)) {
     for (const std::string& key : {diameter, loss})
-      if (values.has(key)) refuse(values, key.c_str(), "needs " + length + ", the length of that pipe", path);
+      if (values.has(key)) refuse(values, key.c_str(), "needs " + length + ", the length of that pipe; 0: none", path);
     return runner;
   }
+  if (values.number(length) == 0) return runner;
   if (!values.has(diameter)) refuse(values, length.c_str(), "needs " + diameter, path);
   runner.length_m = values.si(length), runner.diameter_m = values.si(diameter);
   if (values.has(loss)) runner.loss_ratio = values.number(loss);

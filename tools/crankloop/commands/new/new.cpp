@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -84,8 +85,10 @@ struct Numbers {
   double stroke_mm = 0;
   double rated_rpm = 0;
   double displacement_L = 0;  ///< of all cylinders
+  double compression_ratio = 0;
   double net_mep_kPa = 0;
   double brake_Nm = 0;
+  std::optional<GasExchange> gas{};  ///< where the pressure follows from it
 
   [[nodiscard]] double piston_speed_m_s() const noexcept { return stroke_mm * rated_rpm / 30e3; }
   [[nodiscard]] bool is_boosted() const noexcept { return design.pressure_ratio > 1; }
@@ -104,8 +107,8 @@ void add_crank(Draft& draft, const Arguments& arguments, Numbers& n) {
   draft.number("rod_length_mm", "--rod-length-mm", std::round(n.stroke_mm / 2 / kRodRatio * 10) / 10,
                "a rod ratio of " + shortest(kRodRatio));
   draft.assume("pin_offset_mm", 0, "none");
-  draft.number("compression_ratio", "--compression-ratio", usual_combustion(n.design).compression_ratio,
-               "usual for this kind");
+  n.compression_ratio = draft.number("compression_ratio", "--compression-ratio",
+                                     usual_combustion(n.design).compression_ratio, "usual for this kind");
   n.cylinders = arguments.whole_number("--cylinders");
   n.displacement_L = kPi / 4 * n.bore_mm * n.bore_mm * n.stroke_mm * n.cylinders / 1e6;
 }
@@ -163,6 +166,63 @@ void add_pressure(Draft& draft, Numbers& n) {
                                    " valves; pumping is subtracted, friction is not");
 }
 
+/// [pressure] and [gas] of an engine whose pressure follows from its gas exchange, in place of add_pressure's.
+void add_gas_exchange(Draft& draft, const Numbers& n) {
+  const Combustion& burn = usual_combustion(n.design);
+  const GasExchange& usual = *n.gas;
+  const bool spark = n.design.type == EngineType::spark_ignition;
+  const auto rounded = [&](const char* key, double value, const std::string& why) {
+    draft.assume(key, to_three_digits(value), why);
+  };
+  draft.section("pressure");
+  draft.line("source", "gas", "given");
+  draft.assume("crankcase_kPa", 100, "ambient");
+  draft.section("gas");
+  const std::string volumes =
+      shortest(kManifoldVolumes) + " times the displacement" + (spark ? ", five volumes of a runner or more" : "");
+  rounded("intake_volume_cm3", usual.intake_volume_cm3, volumes);
+  rounded("exhaust_volume_cm3", usual.exhaust_volume_cm3, volumes);
+  if (spark) {
+    rounded("intake_runner_mm", usual.intake_runner_mm, "tuned to 0.8 of the rated speed");
+    rounded("intake_runner_diameter_mm", usual.intake_runner_diameter_mm, "0.44 bores");
+    rounded("exhaust_runner_mm", usual.exhaust_runner_mm, "1.4 times the intake runner");
+    rounded("exhaust_runner_diameter_mm", usual.exhaust_runner_diameter_mm, "0.4 bores");
+  }
+  rounded("throttle_mm2", usual.throttle_mm2,
+          spark ? "effective area: " + shortest(kThrottleSpeed_m_s) + " m/s at rated speed"
+                : "effective area of air filter and duct: " + shortest(kDuctSpeed_m_s) + " m/s at rated speed");
+  rounded("throttle_closed_mm2", usual.throttle_closed_mm2, spark ? "leakage, for idling" : "a diesel has no throttle");
+  rounded("outlet_mm2", usual.outlet_mm2,
+          "the exhaust system as one orifice: " + shortest(kOutletPerInlet) + " of throttle_mm2");
+  rounded("ambient_kPa", 100 * n.design.pressure_ratio, n.is_boosted() ? "behind the compressor" : "sea level");
+  if (n.is_boosted()) rounded("back_kPa", 100 * n.design.pressure_ratio, "before the turbine: that of the intake");
+  draft.assume("ambient_C", n.is_boosted() ? 50 : 25,
+               n.is_boosted() ? "behind the charge cooler" : "of the air it draws in");
+  draft.assume("wall_C", usual.wall_C, "mean of head, piston and liner, at full load");
+  draft.assume("crevice_share", kCreviceShare, "top land, ring pack, gasket and plug by the clearance volume");
+  rounded("blow_by_mm2", usual.blow_by_mm2, "sound piston rings");
+  if (spark) {
+    draft.assume("excess_air_ratio", 1, "fuel by the air in each cylinder");
+    draft.assume("burn_start_deg", burn.start_deg, "usual for this kind");
+    draft.assume("burn_duration_deg", burn.duration_deg, "usual for this kind");
+    draft.assume("wiebe_m", burn.wiebe_m, "usual for this kind");
+    return;
+  }
+  constexpr double kHeatingValue_MJ_kg = 42.5;
+  const double work_J = n.net_mep_kPa * n.displacement_L / n.cylinders;
+  rounded("fuel_mg", work_J / (kDieselEfficiency * kHeatingValue_MJ_kg),
+          "full load, a net mean effective pressure of " + brief(to_three_digits(n.net_mep_kPa)) +
+              " kPa at an efficiency of " + shortest(kDieselEfficiency));
+  draft.assume("heating_value_MJ_per_kg", kHeatingValue_MJ_kg, "diesel fuel");
+  draft.assume("air_fuel_ratio", 14.5, "diesel fuel");
+  draft.assume("burn_start_deg", burn.start_deg, "usual for this kind");
+  draft.assume("burn_duration_deg", 20, "of what has mixed by then; the rest burns as it mixes");
+  draft.assume("wiebe_m", 1, "usual for this kind");
+  draft.assume("second_share", 0.7, "usual for this kind");
+  draft.assume("second_m", 0.9, "usual for this kind");
+  draft.assume("second_duration_ratio", 3.5, "usual for this kind");
+}
+
 /// `diagram` follows from the sections written so far.
 void add_what_turns_it(Draft& draft, const IndicatorDiagram& diagram, Numbers& n) {
   const double krpm = n.rated_rpm / 1000;
@@ -215,6 +275,12 @@ void add_train(Draft& draft, const char* name, double full_lift_deg, const Numbe
       to_three_digits(clearance_for_speed_mm(lift_mm, cam_rad_s, kCamEndsWith_m_s, kMostClearancePerLift * lift_mm)),
       "small: the cam ends with " + shortest(kCamEndsWith_m_s) + " m/s at rated speed, or slower");
   draft.section((std::string("valve ") + name).c_str());
+  if (n.gas) {
+    const bool intake = std::string_view(name) == "intake";
+    const double seat_mm = to_three_digits(intake ? n.gas->intake_seat_mm : n.gas->exhaust_seat_mm);
+    draft.line("port", name, "given");
+    draft.assume("seat_diameter_mm", seat_mm, shortest(to_three_digits(seat_mm / n.bore_mm)) + " bores");
+  }
   draft.assume("per_cylinder", n.design.four_valves ? 2 : 1,
                n.design.four_valves ? "two of each kind" : "one of each kind");
   draft.assume("valve_g", valve_g, "with bucket; proportional to bore cubed");
@@ -283,22 +349,30 @@ int run_new(const Arguments& arguments) {
   n.design.pressure_ratio = arguments.number("--boost");
   Draft crank(arguments);
   add_crank(crank, arguments, n);
+  Draft diagram(arguments);
+  add_pressure(diagram, n);
   Draft gas(arguments);
-  add_pressure(gas, n);
+  if (arguments.has("--gas")) {
+    const double cylinder_cm3 = n.displacement_L * 1e3 / n.cylinders;
+    n.gas = usual_gas_exchange(n.design, {n.bore_mm, cylinder_cm3, cylinder_cm3 / (n.compression_ratio - 1)},
+                               n.cylinders, n.rated_rpm);
+    add_gas_exchange(gas, n);
+  }
   Draft body(arguments);
   add_masses_and_layout(body, arguments, n);
-  const EngineFile half_way = read_draft(crank.text() + body.text() + gas.text());
+  const EngineFile half_way = read_draft(crank.text() + body.text() + diagram.text());
   Draft rest(arguments);
   add_what_turns_it(rest, *diagram_of(half_way), n);
   add_train(rest, "intake", 468, n);
-  add_train(rest, "exhaust", 262, n);
+  add_train(rest, "exhaust", n.gas ? n.gas->exhaust_full_lift_deg : 262, n);
   add_triggers(rest);
   const std::string text =
       "# An engine file from a few numbers, by `crankloop new`. Values from its command line are marked \"given\",\n"
       "# all others \"assumed\", with the reason: replace them by what you know. Angles are crank degrees, 0 at "
       "cylinder 1's firing "
       "TDC.\n" +
-      crank.text() + body.text() + crankshaft_comments(half_way.definition().layout) + gas.text() + rest.text();
+      crank.text() + body.text() + crankshaft_comments(half_way.definition().layout) + (n.gas ? gas : diagram).text() +
+      rest.text();
   const EngineFile engine = read_draft(text);
   if (engine.name() != arguments.text("--name"))
     throw UsageError("--name: a blank followed by # starts a comment in an engine file");
@@ -313,6 +387,7 @@ constexpr Option kOptions[] = {
     required(number("--stroke-mm", "S", above(0).up_to(4000), "stroke in mm")),
     choice("--type", "si|diesel|tractor", "spark ignition, car and truck diesel, or tractor diesel", "si"),
     choice("--valves", "2|4", "valves of a cylinder", "4"),
+    flag("--gas", "pressure from gas exchange instead of a diagram: [gas], ports and seats of the valves"),
     number("--boost", "R", from(1).up_to(5), "pressure in the intake by ambient, at full load", "1"),
     text("--name", "TEXT", "name of the engine in reports", "new engine"),
     number("--rated-rpm", "N", above(0).up_to(100000), "rated speed in rpm"),

@@ -101,6 +101,41 @@ double usual_valve_g(const EngineDesign& design, double bore_mm) noexcept {
   return kValveKgAt95Mm * 1e3 * (design.four_valves ? kFourValveMassShare : 1) * std::pow(bore_mm / 95, 3);
 }
 
+GasExchange usual_gas_exchange(const EngineDesign& design, const CylinderSize& size, int cylinders,
+                               double rated_rpm) noexcept {
+  constexpr double kSeatPerHead = 0.93;
+  constexpr double kRunnerVolumes = 5.1;  // of the manifold
+  const bool spark = is_spark(design);
+  const double bore_mm = size.bore_mm;
+  const double engine_cm3 = size.displacement_cm3 * cylinders;
+  GasExchange g{};
+  g.intake_seat_mm = kSeatPerHead * (design.four_valves ? 0.36 : 0.44) * bore_mm;
+  g.exhaust_seat_mm = kSeatPerHead * (design.four_valves ? 0.30 : 0.36) * bore_mm;
+  g.throttle_mm2 = engine_cm3 * rated_rpm / 120 / (spark ? kThrottleSpeed_m_s : kDuctSpeed_m_s);
+  g.throttle_closed_mm2 = spark ? 3e-3 * engine_cm3 : g.throttle_mm2;  // less than what idling takes
+  g.outlet_mm2 = kOutletPerInlet * g.throttle_mm2;
+  g.intake_volume_cm3 = g.exhaust_volume_cm3 = kManifoldVolumes * engine_cm3;
+  g.exhaust_full_lift_deg = 250;
+  g.wall_C = spark ? 150 : 180;
+  g.blow_by_mm2 = 0.1 * bore_mm / 86;
+  if (!spark) return g;
+  constexpr double kSound_m_s = 350, kEngelman = 2.1, kTunedAt = 0.8;
+  const auto area_cm2 = [](double diameter_mm) { return kPi / 4 * diameter_mm * diameter_mm / 100; };
+  const double swing_rad_s = 2 * kPi * kEngelman * kTunedAt * rated_rpm / 60;
+  const double behind_cm3 = size.displacement_cm3 / 2 + size.clearance_cm3;
+  g.intake_runner_diameter_mm = 0.44 * bore_mm;
+  g.exhaust_runner_diameter_mm = 0.4 * bore_mm;
+  g.intake_runner_mm =
+      10 * std::pow(100 * kSound_m_s / swing_rad_s, 2) * area_cm2(g.intake_runner_diameter_mm) / behind_cm3;
+  g.exhaust_runner_mm = 1.4 * g.intake_runner_mm;
+  const auto least_cm3 = [&](double length_mm, double diameter_mm) {
+    return kRunnerVolumes * length_mm / 10 * area_cm2(diameter_mm);
+  };
+  g.intake_volume_cm3 = std::max(g.intake_volume_cm3, least_cm3(g.intake_runner_mm, g.intake_runner_diameter_mm));
+  g.exhaust_volume_cm3 = std::max(g.exhaust_volume_cm3, least_cm3(g.exhaust_runner_mm, g.exhaust_runner_diameter_mm));
+  return g;
+}
+
 double cam_nose_factor() noexcept {
   double coefficients[kCamExponents.size()];
   cam_coefficients(kCamExponents.data(), static_cast<int>(kCamExponents.size()), coefficients);

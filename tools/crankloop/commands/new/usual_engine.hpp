@@ -79,6 +79,43 @@ inline constexpr double kCamHalfAngleDeg = 90;
 /// y'' of the cam at full lift, in lift / half angle squared.
 [[nodiscard]] double cam_nose_factor() noexcept;
 
+/// Gas exchange. Seats are 0.93 of the valve heads of Heywood (1988), section 6.3: in bores 0.36 and 0.30 of four
+/// valves, 0.44 and 0.36 of two. Throttle and outlet by the mean speed of the charge through their effective areas at
+/// rated speed; a diesel has its air filter and duct in place of a throttle. Intake runners of spark-ignition engines
+/// swing at 2.1 times the rotation frequency (H. W. Engelman, ASME 73-WA/DGP-2) at 0.8 of the rated speed, with half
+/// the displacement and the clearance volume behind them; those of the exhaust are 1.4 times as long.
+struct GasExchange {
+  double intake_seat_mm;
+  double exhaust_seat_mm;
+  double intake_volume_cm3;  ///< by the displacement, and five volumes of a runner or more
+  double exhaust_volume_cm3;
+  double throttle_mm2;
+  double throttle_closed_mm2;
+  double outlet_mm2;
+  double intake_runner_mm;  ///< 0: none, of diesels
+  double intake_runner_diameter_mm;
+  double exhaust_runner_mm;
+  double exhaust_runner_diameter_mm;
+  double exhaust_full_lift_deg;  ///< of the train
+  double wall_C;
+  double blow_by_mm2;  ///< a sound ring pack, proportional to the bore
+};
+inline constexpr double kThrottleSpeed_m_s = 60;
+inline constexpr double kDuctSpeed_m_s = 25;
+inline constexpr double kOutletPerInlet = 0.9;     ///< effective areas
+inline constexpr double kManifoldVolumes = 1.5;    ///< by the displacement
+inline constexpr double kCreviceShare = 0.015;     ///< 0.01 to 0.02 of the clearance volume
+inline constexpr double kDieselEfficiency = 0.43;  ///< net work over the fuel's heat, at full load
+
+/// Of one cylinder, in mm and cm^3.
+struct CylinderSize {
+  double bore_mm;
+  double displacement_cm3;
+  double clearance_cm3;
+};
+[[nodiscard]] GasExchange usual_gas_exchange(const EngineDesign& design, const CylinderSize& size, int cylinders,
+                                             double rated_rpm) noexcept;
+
 /// Lift at which the cam ends with this speed; at most `most_mm`. The cam turns at cam_rad_s.
 [[nodiscard]] double clearance_for_speed_mm(double lift_mm, double cam_rad_s, double speed_m_s,
                                             double most_mm) noexcept;

@@ -52,7 +52,7 @@ struct Study {
   [[nodiscard]] std::string place_of(std::size_t point) const;                 ///< "rpm = 3000, crank.bore_mm = 95"
   [[nodiscard]] std::string column_of(const StudiedFigure& figure) const;      ///< "valve.max_lift_mm"
   [[nodiscard]] std::string title_of(const StudiedFigure& figure) const;       ///< "valve: max lift"
-  [[nodiscard]] bool is_field() const;                                         ///< over a lattice of rising numbers
+  [[nodiscard]] bool is_field() const;  ///< over a lattice of rising numbers, five or more each way
 };
 
 /// Finds the units of the figures, and the result of the file's own values. Throws InputError for a figure that its

@@ -13,7 +13,8 @@ using report::Plot;
 using report::Section;
 
 constexpr std::size_t kMaxCurves = 12;
-constexpr std::size_t kMaxRows = 2000;  // of the table of all points
+constexpr std::size_t kLeastFieldSide = 5;  // fewer values are read better as curves
+constexpr std::size_t kMaxRows = 2000;      // of the table of all points
 
 double number_at(const Study& study, std::size_t point, std::size_t figure) {
   return study.results[point].values[figure].value_or(std::numeric_limits<double>::quiet_NaN());
@@ -71,15 +72,23 @@ void mark_own(Plot& plot, const Study& study, const Variation& axis, std::size_t
   plot.caption = "Dashed: the file's own value.";
 }
 
-/// The axis along x, and the other one, of which each value has a curve: numbers lie along x before words.
+/// The axis along x, and the other one, of which each value has a curve: numbers lie along x before words, and many
+/// before few.
 struct Sides {
   std::size_t along;
   std::optional<std::size_t> across;
 };
 Sides sides_of(const Study& study) {
   if (study.axes.size() == 1) return {0, {}};
-  const bool second = study.axes[0].is_of_words() && !study.axes[1].is_of_words();
+  const auto rank = [](const Variation& axis) { return axis.is_of_words() ? 0 : axis.values.size(); };
+  const bool second = rank(study.axes[1]) > rank(study.axes[0]);
   return {second ? 1u : 0u, second ? 0u : 1u};
+}
+
+/// "250 mm", "a.csv".
+std::string value_in_words(const Variation& axis, std::size_t i) {
+  const std::string unit = axis.is_of_words() ? "" : axis.target.unit();
+  return axis.values[i] + (unit.empty() ? "" : " " + unit);
 }
 
 Plot curves(const Study& study, std::size_t f) {
@@ -95,7 +104,7 @@ Plot curves(const Study& study, std::size_t f) {
   }
   for (std::size_t c = 0; c < plot.series.size(); ++c) {
     plot.series[c].style.draw = x.is_of_words() ? report::Draw::points : report::Draw::line_and_points;
-    if (sides.across) plot.series[c].name = study.axes[*sides.across].values[c];
+    if (sides.across) plot.series[c].name = value_in_words(study.axes[*sides.across], c);
   }
   for (std::size_t point = 0; point < study.points(); ++point) {
     const std::size_t c = sides.across ? study.index(point, *sides.across) : 0;
@@ -174,12 +183,15 @@ std::string Study::column_of(const StudiedFigure& figure) const {
   return std::string(commands[figure.command]->name) + "." + figure.name + (unit.empty() ? "" : "_" + unit);
 }
 
-bool Study::is_field() const { return axes.size() == 2 && rises(axes[0].numbers) && rises(axes[1].numbers); }
+bool Study::is_field() const {
+  const auto spans = [](const Variation& axis) { return rises(axis.numbers) && axis.values.size() >= kLeastFieldSide; };
+  return axes.size() == 2 && spans(axes[0]) && spans(axes[1]);
+}
 
 report::Sheet study_sheet(const Study& study) {
   report::Sheet sheet;
-  sheet.title = "Study over " + over_what(study);
-  sheet.remarks = {study.file.path()};
+  sheet.title = study.file.name();
+  sheet.remarks = {"Study over " + over_what(study), study.file.path()};
   if (const std::string places = places_in_words(study); !places.empty()) sheet.remarks.push_back(places);
   for (std::size_t f = 0; f < study.figures.size(); ++f) sheet.plots.push_back(plot_of(study, f));
   sheet.columns = sheet.plots.size() > 1 ? 2 : 1;
