@@ -16,6 +16,7 @@
 #include "crankloop/engine_file/engine_file.hpp"
 #include "crankloop/files/error.hpp"
 #include "crankloop/loops/cam_loads.hpp"
+#include "crankloop/loops/harmonics.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_valves.hpp"
 #include "support/valve_runs.hpp"
@@ -217,6 +218,17 @@ TEST(ContactOfRun, IsInTheCsvWhereTheFileHasAWidth) {
   EXPECT_GT(in_contact, 50);
 }
 
+TEST(HarmonicAmplitudes, AreThoseOfASumOfWaves) {
+  std::vector<double> samples;
+  for (int i = 0; i < 90; ++i) {
+    const double rad = 2 * support::kPi * i / 90;
+    samples.push_back(7 + 3 * std::cos(2 * rad) - 4 * std::sin(2 * rad) + 0.5 * std::cos(5 * rad + 1));
+  }
+  const std::vector<double> amplitudes = harmonic_amplitudes(samples, 6);
+  const std::vector<double> expected{0, 5, 0, 0, 0.5, 0};
+  for (std::size_t n = 0; n < 6; ++n) EXPECT_NEAR(amplitudes[n], expected[n], 1e-13) << n + 1;
+}
+
 TEST(ContactOfRun, IsInTheReportWhereTheFileHasAWidth) {
   support::TemporaryFolder folder;
   const Wide125 file("width_mm = 9\nlimit_MPa = 300\n");
@@ -225,6 +237,7 @@ TEST(ContactOfRun, IsInTheReportWhereTheFileHasAWidth) {
   EXPECT_NE(page.find("Stress between cam and follower"), std::string::npos);
   EXPECT_NE(page.find("passes limit_MPa = 300"), std::string::npos);
   EXPECT_NE(page.find("Torque of the camshaft"), std::string::npos);
+  EXPECT_NE(page.find("Orders of the camshaft&#39;s torque"), std::string::npos);
   EXPECT_NE(page.find("Mean power of all cams"), std::string::npos);
   run_command(kRun, {kOhc125, "--rpm", "6000", "--report", folder / "r.html"});
   EXPECT_EQ(contents(folder / "r.html").find("Torque of the camshaft"), std::string::npos);

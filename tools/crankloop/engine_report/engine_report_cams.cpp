@@ -6,6 +6,7 @@
 #include <crankloop/tabulate/valve_lift.hpp>
 
 #include "../loops/cam_loads.hpp"
+#include "../loops/harmonics.hpp"
 #include "engine_report_parts.hpp"
 
 namespace crankloop::program {
@@ -107,6 +108,19 @@ Plot torque_plot(const ReportInput& input, const std::vector<TrainLoads>& all, c
   return plot;
 }
 
+/// What a chain, a belt or gears on the camshaft are excited by.
+Plot orders_plot(const std::vector<double>& shaft_Nm) {
+  constexpr int kOrders = 24;
+  const std::vector<double> one_turn(shaft_Nm.begin(), shaft_Nm.end() - 1);
+  std::vector<double> orders;
+  for (int n = 1; n <= kOrders; ++n) orders.push_back(n);
+  Plot plot = plot_over_orders("Orders of the camshaft's torque", "Order per camshaft revolution", "Nm",
+                               std::move(orders), harmonic_amplitudes(one_turn, kOrders));
+  plot.x.tick_step = 2;
+  plot.caption = "Amplitudes of the torque of all cams: what excites the camshaft's drive.";
+  return plot;
+}
+
 report::Table loads_table(const std::vector<TrainLoads>& all, const std::vector<double>& shaft_Nm, double cam_rad_s) {
   report::Table table{"Loads of the cams", {{"", "", false}, {"Unit", "", false}}, {}, false};
   for (const TrainLoads& loads : all) table.columns.push_back({loads.train.name, ""});
@@ -156,6 +170,7 @@ void add_cam_loads(const ReportInput& input, report::Section& section) {
   const std::vector<double> shaft_Nm = camshaft_Nm(input, all);
   section.blocks.push_back(stress_plot(input, all));
   section.blocks.push_back(torque_plot(input, all, shaft_Nm));
+  section.blocks.push_back(orders_plot(shaft_Nm));
   section.blocks.push_back(loads_table(all, shaft_Nm, std::abs(input.operation.speed_rad_s()) / 2));
 }
 

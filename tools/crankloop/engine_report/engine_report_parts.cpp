@@ -141,6 +141,20 @@ report::Marker smallest_marker(const report::Plot& plot, std::size_t series) {
   return marker_at(plot, series, index_of_smallest(plot.series[series].y));
 }
 
+report::Plot plot_over_orders(const std::string& title, const std::string& order_title, const std::string& unit,
+                              std::vector<double> orders, std::vector<double> amplitudes) {
+  report::Plot plot = plot_of(title, axis_of(order_title, ""), axis_of("Amplitude", unit));
+  plot.x.tick_step = 1;
+  const std::size_t most = index_of_largest(amplitudes);
+  plot.markers.push_back(
+      {orders[most], amplitudes[most],
+       report::format_number(amplitudes[most], 3) + " " + unit + " at order " + number_text(orders[most]), 0});
+  report::Series bars{"", std::move(orders), std::move(amplitudes)};
+  bars.style.draw = report::Draw::bar;
+  plot.series.push_back(std::move(bars));
+  return plot;
+}
+
 report::Table table_over_angle(const Trace& trace, const std::string& caption, const std::vector<AngleColumn>& columns,
                                double last_deg) {
   report::Table table;

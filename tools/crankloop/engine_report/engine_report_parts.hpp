@@ -86,6 +86,11 @@ using report::plot_of;
 /// Marks the largest and smallest value of every curve.
 [[nodiscard]] report::Plot with_extremes(report::Plot plot);
 
+/// Bars of a Fourier series' amplitudes in `unit` over the orders, the largest with its value.
+[[nodiscard]] report::Plot plot_over_orders(const std::string& title, const std::string& order_title,
+                                            const std::string& unit, std::vector<double> orders,
+                                            std::vector<double> amplitudes);
+
 /// A column of a table over the crank angle: values in SI, one for each entry of the trace.
 struct AngleColumn {
   std::string title;

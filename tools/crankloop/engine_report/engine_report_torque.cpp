@@ -41,18 +41,13 @@ Plot single_torque(const ReportInput& input) {
 }
 
 Plot harmonics(const ReportInput& input) {
-  Plot plot = plot_of("Torque harmonics", axis_of("Order per crank revolution", ""), axis_of("Amplitude", "Nm"));
-  plot.x.tick_step = 1;
-  Series bars;
-  bars.style.draw = report::Draw::bar;
+  std::vector<double> orders, amplitudes_Nm;
   for (const Harmonic& h : input.summary.harmonics) {
-    bars.x.push_back(h.order);
-    bars.y.push_back(h.amplitude_Nm);
+    orders.push_back(h.order);
+    amplitudes_Nm.push_back(h.amplitude_Nm);
   }
-  const auto most = static_cast<std::size_t>(std::max_element(bars.y.begin(), bars.y.end()) - bars.y.begin());
-  plot.markers.push_back({bars.x[most], bars.y[most],
-                          report::format_number(bars.y[most], 3) + " Nm at order " + number_text(bars.x[most]), 0});
-  plot.series.push_back(std::move(bars));
+  Plot plot = plot_over_orders("Torque harmonics", "Order per crank revolution", "Nm", std::move(orders),
+                               std::move(amplitudes_Nm));
   plot.caption = "Amplitudes of the engine torque's Fourier series, from " +
                  (breathes(input) ? std::to_string(input.trace.crank_deg.size() - 1) + " torques of the loop"
                                   : std::string("7200 exact torques")) +

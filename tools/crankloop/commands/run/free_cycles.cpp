@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "../../loops/harmonics.hpp"
+
 namespace crankloop::program {
 namespace {
 
@@ -79,19 +81,10 @@ double FreeCycle::mean_torque_Nm() const { return (samples.back().work_J - sampl
 std::vector<double> FreeCycle::harmonics_rad_s() const {
   // A speed that drifts over the cycle is no harmonic: the straight line through both ends is taken off.
   const double drift = samples.back().speed_rad_s - samples.front().speed_rad_s;
-  std::vector<double> amplitudes;
-  for (std::size_t i = 1; i <= kSpeedHarmonics; ++i) {
-    double cosine = 0;
-    double sine = 0;
-    for (int s = 0; s < kSamplesPerCycle; ++s) {
-      const double part = static_cast<double>(s) / kSamplesPerCycle;
-      const double speed = samples[static_cast<std::size_t>(s)].speed_rad_s - drift * part;
-      cosine += speed * std::cos(2 * kPi * static_cast<double>(i) * part);
-      sine += speed * std::sin(2 * kPi * static_cast<double>(i) * part);
-    }
-    amplitudes.push_back(std::hypot(cosine, sine) * 2 / kSamplesPerCycle);
-  }
-  return amplitudes;
+  std::vector<double> speeds;
+  for (std::size_t i = 0; i < kSamplesPerCycle; ++i)
+    speeds.push_back(samples[i].speed_rad_s - drift * static_cast<double>(i) / kSamplesPerCycle);
+  return harmonic_amplitudes(speeds, kSpeedHarmonics);
 }
 
 void CycleRecorder::begin(const FreeState& at) {

@@ -15,7 +15,7 @@
 namespace crankloop::program {
 
 inline constexpr int kSamplesPerCycle = 1440;  ///< one each half degree
-inline constexpr std::size_t kSpeedHarmonics = 24;
+inline constexpr int kSpeedHarmonics = 24;
 
 /// A cycle's samples at 0, 0.5, 1 ... 720 deg: the last is the next cycle's first.
 struct FreeCycle {
