@@ -15,6 +15,16 @@ std::string fuel_in_words(const GasOrder& gas, bool varied) {
   return number_text(gas.fuel_kg * 1e6) + " mg of fuel per cylinder and cycle";
 }
 
+bool has_runners(const Gas& gas) { return gas.intake_runner.any() || gas.exhaust_runner.any(); }
+
+/// What the engine's pressures lack.
+std::string not_modelled(const Gas& gas) {
+  return std::string(" Not modelled: pressure waves in pipes") +
+         (has_runners(gas) ? " beyond the first mode of the runners" : " and the tuning they bring") +
+         ", fuel evaporation, two zones, dissociation" + (gas.crevice.any() ? "" : ", crevices and blow-by") +
+         ", swirl, cycle-to-cycle variation, turbochargers, layers of backflow in a port.";
+}
+
 }  // namespace
 
 std::string pressure_in_words(const EngineFile& file, double load_ratio, const GasOrder& gas,
@@ -33,11 +43,8 @@ std::string pressure_in_words(const EngineFile& file, double load_ratio, const G
              "valves as they move, compression, heat release and wall heat. Throttle " +
              (varied == &GasOrder::throttle_ratio ? "varied" : number_text(gas.throttle_ratio)) + ", " +
              fuel_in_words(gas, varied == &GasOrder::fuel_kg) + ", burning from " + number_text(gas.burn_start_deg) +
-             " deg for " + number_text(gas.burn_duration_deg * file.definition().gas.span_ratio()) +
-             " deg. Not modelled: pressure waves in pipes and the tuning they bring, fuel evaporation, two zones, "
-             "dissociation, crevices and blow-by, swirl, cycle-to-cycle variation, turbochargers, layers of backflow "
-             "in "
-             "a port.";
+             " deg for " + number_text(gas.burn_duration_deg * file.definition().gas.span_ratio()) + " deg." +
+             not_modelled(file.definition().gas);
     case PressureSource::none:
       return "There is no pressure source: gas forces are zero, and all forces and torques are those of the masses "
              "alone.";
@@ -64,7 +71,10 @@ std::string pressure_in_short(const EngineFile& file) {
     case PressureSource::none:
       return "no cylinder pressure: masses alone";
     case PressureSource::gas:
-      return "cylinder pressure: by gas exchange; no pressure waves, one zone";
+      return std::string("cylinder pressure: by gas exchange; ") +
+             (has_runners(file.definition().gas) ? "of pressure waves the first mode of runners"
+                                                 : "no pressure waves") +
+             ", one zone";
     case PressureSource::wiebe:
       return "cylinder pressure: synthesised, not measured";
     default:

@@ -11,17 +11,26 @@ using report::Section;
 
 constexpr double kKilo = 1e-3;
 
-/// Range of the ports' pressures; the cylinder's pressure is cut to it.
+/// Cylinder, manifolds, and ports at the ends of runners. The frame holds manifolds and ports, not the cylinder.
 Plot pressures(const ReportInput& input) {
   const Trace& trace = input.trace;
+  const GasTrace& gas = trace.gas;
+  std::vector<report::Series> curves{over_angle(trace, "cylinder", trace[Quantity::pressure], kKilo),
+                                     over_angle(trace, "intake manifold", gas.manifold_Pa[kIntake], kKilo),
+                                     over_angle(trace, "exhaust manifold", gas.manifold_Pa[kExhaust], kKilo)};
+  const char* const ports[kPorts] = {"intake port", "exhaust port"};
+  double most_Pa = 0;
+  for (std::size_t i = 0; i < std::size_t{kPorts}; ++i) {
+    most_Pa = std::max(most_Pa, 2 * span_of(gas.manifold_Pa[i]).high);
+    if (gas.port_Pa[i].empty()) continue;
+    most_Pa = std::max(most_Pa, span_of(gas.port_Pa[i]).high);
+    curves.push_back(over_angle(trace, ports[i], gas.port_Pa[i], kKilo));
+  }
   Plot plot = plot_over_angle(input, "Pressure on both sides of the valves", axis_of("Pressure, absolute", "kPa"),
-                              {over_angle(trace, "cylinder", trace[Quantity::pressure], kKilo),
-                               over_angle(trace, "intake manifold", trace.gas.manifold_Pa[kIntake], kKilo),
-                               over_angle(trace, "exhaust manifold", trace.gas.manifold_Pa[kExhaust], kKilo)});
-  const double most_Pa =
-      std::max(span_of(trace.gas.manifold_Pa[kIntake]).high, span_of(trace.gas.manifold_Pa[kExhaust]).high);
-  plot.y.range = report::Range{0, 2 * most_Pa * kKilo};
+                              std::move(curves));
+  plot.y.range = report::Range{0, most_Pa * kKilo};
   plot.caption = "Of cylinder 1. Blow-down and compression go beyond the frame.";
+  if (plot.series.size() > 3) plot.caption += " A port is the end of its runner: its gas swings.";
   return plot;
 }
 

@@ -73,6 +73,10 @@ void append(Trace& trace, const EngineDefinition& definition, double crank_deg, 
     for (std::size_t i = 0; i < kGasQuantities; ++i) append(trace.gas.of[i], static_cast<double>(of_gas[i]));
     for (std::size_t i = 0; i < std::size_t{kPorts}; ++i)
       append(trace.gas.manifold_Pa[i], static_cast<double>(out.manifold[i].pressure_Pa));
+    const bool runners[] = {definition.gas.intake_runner.any(), definition.gas.exhaust_runner.any()};
+    for (std::size_t i = 0; i < std::size_t{kPorts}; ++i) {
+      if (runners[i]) append(trace.gas.port_Pa[i], static_cast<double>(out.runner[0].port_pressure_Pa[i]));
+    }
   }
   for (std::size_t t = 0; t < trace.valves.size(); ++t) {
     const auto of_valve = values_of(out, t, 0);

@@ -35,6 +35,7 @@ struct ValveTrace {
 struct GasTrace {
   std::array<std::vector<double>, kGasQuantities> of;
   std::array<std::vector<double>, kPorts> manifold_Pa;
+  std::array<std::vector<double>, kPorts> port_Pa;  ///< at the end of cylinder 1's runner; empty without one
 
   [[nodiscard]] const std::vector<double>& operator[](GasQuantity quantity) const noexcept {
     return of[index_of(quantity)];
