@@ -63,6 +63,9 @@ class BreathingOde {
     by_.run([this](double t, const auto& y, auto& dy) { slopes(t, y, dy); }, t_, time_s, y_);
   }
 
+  /// Of the burn to come, or in progress.
+  void burn_over(double duration_deg) { e_.gas.burn_duration_deg = duration_deg; }
+
   [[nodiscard]] double deg() const { return w_ * t_ * 180 / kPi; }
   [[nodiscard]] GasSeen cylinder() const { return gas_seen({y_[0], y_[1], y_[2]}, places_.volume(deg())); }
   [[nodiscard]] double mass_kg() const { return y_[0]; }

@@ -117,6 +117,14 @@ class WallHeat {
          l * gas_energy(298.15, 0);
 }
 
+/// Laminar flame of gasoline and air, m/s; phi = 1 / lambda 0.7 to 1.4, burned share to 0.3. Metghalchi and Keck 1982,
+/// Rhodes and Keck, SAE 850047.
+[[nodiscard]] inline double flame_m_s(const GasSeen& gas, double lambda) {
+  const double phi = 1 / lambda;
+  return (0.305 - 0.549 * (phi - 1.21) * (phi - 1.21)) * std::pow(gas.t / 298, 2.4 - 0.271 * std::pow(phi, 3.51)) *
+         std::pow(gas.p / 101325, -0.357 + 0.14 * std::pow(phi, 2.77)) * (1 - 2.06 * std::pow(gas.x, 0.77));
+}
+
 /// Share of the fuel that has burned by a part s of the burn.
 [[nodiscard]] inline double wiebe(double s, double m) {
   if (s <= 0) return 0;

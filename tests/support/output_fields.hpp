@@ -187,6 +187,12 @@ void each_output(const Output<Real, S>& out, const Used& used, const F& f) {
     }
   }
   if constexpr (S::crevice && S::gas_results) row("cycle_blow_by_kg", out.cycle_blow_by_kg, used.cylinders);
+  if constexpr (detail::Needs<S>::charge_burn && S::gas_results) {
+    for (std::size_t k = 0; k < used.cylinders; ++k) {
+      f("cycle_burn_start_deg", k, out.cycle_burn[k].start_deg);
+      f("cycle_burn_duration_deg", k, out.cycle_burn[k].duration_deg);
+    }
+  }
   f("faults", std::size_t{0}, out.faults);
 }
 

@@ -143,6 +143,29 @@ TEST_F(BreathingRun, IsTunedByItsRunners) {
   }
 }
 
+TEST_F(BreathingRun, BurnsByItsCharge) {
+  const std::string before = "[gas]\n";
+  const auto with = [&](const std::string& keys) {
+    std::string text = contents(kFour);
+    text.replace(text.find(before), before.size(), before + keys);
+    const std::string file = path("charge.ini");
+    std::ofstream(file) << text;
+    return file;
+  };
+  const std::string file = with("burn_by = charge\nspark_to_start_deg = 5\n");
+  const auto duration = [&](double rpm, const std::vector<std::string>& more) {
+    return at("burn_by_charge_duration", file, rpm, more);
+  };
+  const double at_2000 = duration(2000, {});
+  EXPECT_GT(duration(4000, {}), 1.15 * at_2000);
+  EXPECT_GT(duration(2000, {"--throttle", "0.1"}), 1.1 * at_2000);
+  EXPECT_GT(duration(2000, {"--lambda", "1.3"}), 1.1 * at_2000);
+  EXPECT_NEAR(at("burn_by_charge_start", file, 2000), -18 + 5 * at_2000 / 50, 0.1);
+  const char* const refused[] = {"burn_by = magic\n", "burn_by = charge\nspark_to_start_deg = 41\n",
+                                 "burn_by = charge\nburn_reference_residual = 0.31\n"};
+  for (const std::string bad : refused) EXPECT_NE(status_of("'" + with(bad) + "' --rpm 3000"), 0) << bad;
+}
+
 TEST_F(BreathingRun, HasTheChargeOfAnEngineOfItsKind) {
   // No pressure waves, so no tuning peaks: flat, and less where the valves choke.
   for (const double rpm : {1000.0, 2000.0, 4000.0, 6000.0}) {

@@ -567,6 +567,33 @@ TEST(GasDefinition, HasRunnersWithinTheirRanges) {
   }
 }
 
+TEST(GasDefinition, HasABurnByChargeWithinItsRanges) {
+  const EngineDefinition good = support::four_2000();
+  const auto with = [&good](double ChargeBurn::*field, double value, bool in_use = true) {
+    EngineDefinition engine = good;
+    engine.gas.charge_burn.in_use = in_use, engine.gas.charge_burn.*field = value;
+    return validate(engine);
+  };
+  const struct {
+    double ChargeBurn::*field;
+    const char* name;
+    double least, most;
+  } ranges[] = {{&ChargeBurn::spark_to_start_deg, "charge_burn.spark_to_start_deg", 0, 40},
+                {&ChargeBurn::reference_rad_s, "charge_burn.reference_rad_s", 1, 10500},
+                {&ChargeBurn::reference_K, "charge_burn.reference_K", 300, 1500},
+                {&ChargeBurn::reference_Pa, "charge_burn.reference_Pa", 1e4, 1e8},
+                {&ChargeBurn::reference_burned_ratio, "charge_burn.reference_burned_ratio", 0, 0.3},
+                {&ChargeBurn::reference_excess_air_ratio, "charge_burn.reference_excess_air_ratio", 0.72, 1.42}};
+  for (const auto& range : ranges) {
+    EXPECT_TRUE(accepted(with(range.field, range.least)));
+    EXPECT_TRUE(accepted(with(range.field, range.most)));
+    EXPECT_TRUE(refuses(with(range.field, std::nextafter(range.most, 1e9)), Reason::out_of_range, range.name));
+    EXPECT_TRUE(refuses(with(range.field, kNaN), Reason::not_finite, range.name));
+    EXPECT_FALSE(with(range.field, std::nextafter(range.least, -1)).ok()) << range.name;
+    EXPECT_TRUE(accepted(with(range.field, kNaN, false))) << "not in use: nothing of it counts";
+  }
+}
+
 TEST(GasDefinition, HasABackPressureOrThatOfTheAmbient) {
   EngineDefinition engine = support::four_2000();
   engine.gas.ambient_Pa = 95e3;

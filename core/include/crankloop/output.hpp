@@ -109,6 +109,12 @@ struct RunnerOutput {
   Real port_pressure_Pa[kPorts];
   Real flow_kg_s[kPorts];  ///< toward the cylinder, from kIntake's and kExhaust's manifold
 };
+/// The burn of a cycle, as the charge had it; zero where nothing burned.
+template <class Real>
+struct ChargeBurnOutput {
+  Real start_deg;
+  Real duration_deg;
+};
 template <class Real>
 struct ManifoldOutput {
   Real pressure_Pa;
@@ -231,6 +237,10 @@ template <class Real, class S>
 struct BlowByResults {
   Real cycle_blow_by_kg[S::cylinders.capacity];
 };
+template <class Real, class S>
+struct ChargeBurnResults {
+  ChargeBurnOutput<Real> cycle_burn[S::cylinders.capacity];
+};
 
 }  // namespace group
 
@@ -250,6 +260,7 @@ struct Output : detail::If<detail::Needs<S>::crank_dynamics, group::CrankMotion<
                 detail::If<detail::Needs<S>::manifolds, group::Manifolds<Real>>,
                 detail::If<S::gas_results, group::GasResults<Real, S>>,
                 detail::If<S::crevice && S::gas_results, group::BlowByResults<Real, S>>,
+                detail::If<detail::Needs<S>::charge_burn && S::gas_results, group::ChargeBurnResults<Real, S>>,
                 detail::If<detail::Needs<S>::any_valves, group::Valves<Real, S>>,
                 detail::If<S::valve_forces, group::ValveForces<Real, S>>,
                 detail::If<detail::Needs<S>::spring_forces, group::ValveSpringForces<Real, S>>,

@@ -243,6 +243,15 @@ constexpr void each_output(Visit&& visit, AState& state, AnOutput& out, [[maybe_
     each(real("cycle_blow_by_kg[#]", "Of the last whole cycle: what blew by into the crankcase"), out.cycle_blow_by_kg,
          shape.cylinders);
   }
+  if constexpr (detail::Needs<S>::charge_burn && S::gas_results) {
+    for (std::uint32_t k = 0; k < shape.cylinders; ++k) {
+      auto& b = out.cycle_burn[k];
+      visit(real("cycle_burn[#].start_deg", "Of the last whole cycle: where the burn began, by the charge").at(k),
+            b.start_deg);
+      visit(real("cycle_burn[#].duration_deg", "How long it lasted, by the charge; 0: nothing burned").at(k),
+            b.duration_deg);
+    }
+  }
   const auto each_valve = [&](const auto& show) {
     for (std::uint32_t t = 0; t < shape.trains; ++t) {
       for (std::uint32_t k = 0; k < shape.cylinders; ++k) {

@@ -58,6 +58,7 @@ Status validate(const Gas& gas, int trains) noexcept {
     return refuse("gas.burn_duration_deg", Reason::inconsistent);
   if (const Status refused = validate_runner(gas.intake_runner, 0); !refused.ok()) return refused;
   if (const Status refused = validate_runner(gas.exhaust_runner, 1); !refused.ok()) return refused;
+  if (const Status refused = out_of_range(gas.charge_burn); !refused.ok()) return refused;
   if (trains < 1) return refuse("train_count", Reason::inconsistent);  // no valve admits gas
   for (int t = 0; t < trains; ++t) {
     if (const Status refused = validate_port(gas.ports[t], t); !refused.ok()) return refused;

@@ -11,9 +11,9 @@ static_assert(kListsEveryField<Crank> && kListsEveryField<Masses> && kListsEvery
                   kListsEveryField<WiebeDiagram> && kListsEveryField<Pressure> && kListsEveryField<Cam> &&
                   kListsEveryField<Rocker> && kListsEveryField<Valve> && kListsEveryField<ValveTrain> &&
                   kListsEveryField<CamContact> && kListsEveryField<PortOfTrain> && kListsEveryField<Crevice> &&
-                  kListsEveryField<Runner> && kListsEveryField<Gas> && kListsEveryField<Friction> &&
-                  kListsEveryField<DrivenMachine> && kListsEveryField<Starter> && kListsEveryField<ToothGap> &&
-                  kListsEveryField<TriggerWheel>,
+                  kListsEveryField<Runner> && kListsEveryField<ChargeBurn> && kListsEveryField<Gas> &&
+                  kListsEveryField<Friction> && kListsEveryField<DrivenMachine> && kListsEveryField<Starter> &&
+                  kListsEveryField<ToothGap> && kListsEveryField<TriggerWheel>,
               "each_field() lists every field, for the tables' fingerprint and for C, and the range of every number");
 static_assert(values_listed<EngineDefinition>() + 2 + kMaxTriggerWheels + kMaxTrains ==
                   values_taken<EngineDefinition>(),
@@ -124,13 +124,14 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
           if constexpr (std::is_same_v<Field, Crevice>) {
             if (!field.any()) return;
           }
-          if constexpr (!std::is_same_v<Field, Runner>) add(listed, field);
+          if constexpr (!std::is_same_v<Field, Runner> && !std::is_same_v<Field, ChargeBurn>) add(listed, field);
         },
         read);
     if (gas.intake_runner.any() || gas.exhaust_runner.any()) {
       add({1, ""}, gas.intake_runner);
       add({1, ""}, gas.exhaust_runner);
     }
+    if (gas.charge_burn.in_use) add({1, ""}, gas.charge_burn);
     for (int t = 0; t < train_count; ++t) f.add(trains[t].valve.per_cylinder);  // the port's area counts them
   }
   return f.value();

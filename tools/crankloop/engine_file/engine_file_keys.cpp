@@ -25,6 +25,7 @@ constexpr Unit kG{"g", 1, 1e3};
 constexpr Unit kMg{"mg", 1, 1e6};
 constexpr Unit kMJPerKg{"MJ_per_kg", 1e6, 1};
 constexpr Unit kCelsius{"C"};  // core takes kelvins: engine_file_gas.cpp
+constexpr Unit kKelvin{"K"};
 constexpr Unit kKgM2{"kg_m2"};
 constexpr Unit kKgMm2{"kg_mm2", 1, 1e6};
 constexpr Unit kKPa{"kPa", 1e3, 1};
@@ -50,6 +51,7 @@ constexpr Presence defaults = Presence::with_default;
 
 constexpr const char* kWiebe = "source=wiebe";
 constexpr const char* kTables = "source=angle_table|volume_table";
+constexpr const char* kByCharge = "burn_by=charge";
 constexpr const char* kPolynomial = "source=polynomial";
 constexpr const char* kCamTable = "source=table";
 
@@ -149,6 +151,13 @@ constexpr Key kRows[] = {
     {"gas", "air_fuel_ratio", Kind::number, kNoUnit, "gas.air_fuel_ratio", kOfField, "", defaults, "14.6", "", "", "stoichiometric, by mass"},
     {"gas", "burn_start_deg", Kind::number, kDeg, "gas.burn_start_deg", kOfField, "", defaults, "-18", "", "", "crank angle, firing TDC = 0"},
     {"gas", "burn_duration_deg", Kind::number, kDeg, "gas.burn_duration_deg", kOfField, "", defaults, "50", "", "", "must end by 150 deg"},
+    {"gas", "burn_by", Kind::choice, kNoUnit, "", kAny, "order|charge", defaults, "order", "", "", "charge: a burn lasts as long as speed, pressure, temperature, lambda and residual gas make it, and burn_start_deg is the spark"},
+    {"gas", "spark_to_start_deg", Kind::number, kDeg, "charge_burn.spark_to_start_deg", kOfField, "", defaults, "0", kByCharge, "", "from the spark to the burn's start, in the state of reference"},
+    {"gas", "burn_reference_rpm", Kind::number, kRpmAsRadS, "charge_burn.reference_rad_s", from(10).up_to(1e5), "", defaults, "2000", kByCharge, "", "state of reference, in which the burn lasts burn_duration_deg: speed"},
+    {"gas", "burn_reference_K", Kind::number, kKelvin, "charge_burn.reference_K", kOfField, "", defaults, "650", kByCharge, "", "its temperature in the cylinder, where the burn starts"},
+    {"gas", "burn_reference_kPa", Kind::number, kKPa, "charge_burn.reference_Pa", kOfField, "", defaults, "1300", kByCharge, "", "its absolute pressure there"},
+    {"gas", "burn_reference_residual", Kind::number, kNoUnit, "charge_burn.reference_burned_ratio", kOfField, "", defaults, "0.05", kByCharge, "", "burned share of its gas"},
+    {"gas", "burn_reference_lambda", Kind::number, kNoUnit, "charge_burn.reference_excess_air_ratio", kOfField, "", defaults, "1", kByCharge, "", "its excess-air ratio"},
     {"gas", "wiebe_m", Kind::number, kNoUnit, "gas.wiebe_m", kOfField, "", defaults, "2", "", "", "form exponent of the heat release"},
     {"gas", "second_share", Kind::number, kNoUnit, "gas.second_ratio", kOfField, "", defaults, "0", "", "", "share of the fuel that burns by a second law from the same start (diesel)"},
     {"gas", "second_m", Kind::number, kNoUnit, "gas.second_m", kOfField, "", defaults, "1", "", "", "its form exponent"},
@@ -323,6 +332,7 @@ constexpr Follows kFollows[] = {
     {"runner.length_m", "gas", "intake_runner_mm"},
     {"runner.diameter_m", "gas", "intake_runner_diameter_mm"},
     {"runner.loss_ratio", "gas", "intake_runner_loss"},
+    {"charge_burn.in_use", "gas", "burn_by"},
     {"gas.port", "valve", "port"},
     {"gas.flow_count", "valve", "flow_over_lift_ratio"},
     {"gas.flow_lift_ratio", "valve", "flow_over_lift_ratio"},

@@ -66,6 +66,12 @@ constexpr UsualRange kRanges[] = {
     {"gas", "air_fuel_ratio", Per::one, {5, 40}},
     {"gas", "burn_start_deg", Per::one, {-50, 20}},
     {"gas", "burn_duration_deg", Per::one, {15, 120}},
+    {"gas", "spark_to_start_deg", Per::one, {1, 30}, kOrZero},
+    {"gas", "burn_reference_rpm", Per::one, {500, 8000}},
+    {"gas", "burn_reference_K", Per::one, {500, 900}},
+    {"gas", "burn_reference_kPa", Per::one, {200, 5000}},
+    {"gas", "burn_reference_residual", Per::one, {0.01, 0.25}, kOrZero},
+    {"gas", "burn_reference_lambda", Per::one, {0.8, 1.3}},
     {"gas", "wiebe_m", Per::one, {0.2, 5}},
 
     {"friction", "constant_kPa", Per::one, {5, 500}, kOrZero},

@@ -64,6 +64,10 @@ void add_gas(Summary& s, const EngineDefinition& engine, const GasFigures& figur
   s.line("excess_air_ratio", cycle.excess_air_ratio, "",
          too_rich ? "lambda: so rich a mixture does not ignite; with --lambda fuel follows the air"
                   : "lambda; 0: no fuel");
+  if (engine.gas.charge_burn.in_use) {
+    s.line("burn_by_charge_start", figures.burn_start_deg, "deg", "where the burn began after the spark");
+    s.line("burn_by_charge_duration", figures.burn_duration_deg, "deg", "as the charge had it; 0: nothing burned");
+  }
   s.line("exhaust_temperature", cycle.exhaust_K, "K", "of the gas that leaves through the exhaust valve");
   s.line("heat", cycle.heat_J, "J", "of combustion, of a cylinder's cycle");
   s.line("wall_heat", cycle.wall_heat_J, "J");

@@ -121,16 +121,21 @@ struct GasFigures {
   double intake_Pa = 0;      ///< of the manifold, mean over the ticks
   double exhaust_Pa = 0;
   double exhaust_manifold_K = 0;
-  double blow_by_kg = 0;  ///< of a cylinder's cycle, their mean
+  double blow_by_kg = 0;                             ///< of a cylinder's cycle, their mean
+  double burn_start_deg = 0, burn_duration_deg = 0;  ///< by the charge, of a cylinder's cycle, their mean
 };
 
 /// Figures of the cylinders' last whole cycles.
 template <class Real, class S>
 void take_cycles(const crankloop::Output<Real, S>& out, std::size_t cylinders, GasFigures& figures) {
   figures.cycle = mean_cycle(out.gas_cycle, cylinders);
-  figures.blow_by_kg = 0;
-  for (std::size_t k = 0; k < cylinders; ++k)
-    figures.blow_by_kg += static_cast<double>(out.cycle_blow_by_kg[k]) / static_cast<double>(cylinders);
+  figures.blow_by_kg = figures.burn_start_deg = figures.burn_duration_deg = 0;
+  const double share = 1 / static_cast<double>(cylinders);
+  for (std::size_t k = 0; k < cylinders; ++k) {
+    figures.blow_by_kg += static_cast<double>(out.cycle_blow_by_kg[k]) * share;
+    figures.burn_start_deg += static_cast<double>(out.cycle_burn[k].start_deg) * share;
+    figures.burn_duration_deg += static_cast<double>(out.cycle_burn[k].duration_deg) * share;
+  }
 }
 
 /// The line of a summary with the requested fuel: fuel, or lambda.

@@ -71,6 +71,31 @@ struct Crevice {
   }
 };
 
+/// A burn whose duration follows the charge: docs/model.md "Burn by charge". Its burn_start_deg is then where the spark
+/// is, and burn_duration_deg how long it burns in the state of reference.
+struct ChargeBurn {
+  bool in_use = false;
+  double spark_to_start_deg = 0;  ///< from spark to burn in the state of reference
+  // the state of reference
+  double reference_rad_s = 209.43951023931953;  ///< speed: 2000 rpm
+  double reference_K = 650;
+  double reference_Pa = 1300e3;
+  double reference_burned_ratio = 0.05;  ///< burned share of the gas
+  double reference_excess_air_ratio = 1;
+
+  template <class Visit, class Self, class... Others>
+  static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    const int read = self.in_use ? 1 : 0;
+    CRANKLOOP_FIELD(1, charge_burn, in_use);
+    CRANKLOOP_NUMBER(read, charge_burn, spark_to_start_deg, from(0).up_to(40));
+    CRANKLOOP_NUMBER(read, charge_burn, reference_rad_s, from(1).up_to(10500));
+    CRANKLOOP_NUMBER(read, charge_burn, reference_K, from(300).up_to(1500));
+    CRANKLOOP_NUMBER(read, charge_burn, reference_Pa, from(1e4).up_to(1e8));
+    CRANKLOOP_NUMBER(read, charge_burn, reference_burned_ratio, from(0).up_to(0.3));
+    CRANKLOOP_NUMBER(read, charge_burn, reference_excess_air_ratio, from(0.72).up_to(1.42));
+  }
+};
+
 /// All pressures are absolute.
 struct Gas {
   // manifolds, for scenes with a throttle
@@ -106,6 +131,7 @@ struct Gas {
   double second_duration_ratio = 3;  ///< of its duration to the first's
   PortOfTrain ports[kMaxTrains];
   Runner intake_runner, exhaust_runner;
+  ChargeBurn charge_burn;
 
   /// Behind the outlet.
   [[nodiscard]] constexpr double behind_outlet_Pa() const noexcept { return back_Pa > 0 ? back_Pa : ambient_Pa; }
@@ -147,6 +173,7 @@ struct Gas {
     CRANKLOOP_PART(kMaxTrains, ports);
     CRANKLOOP_PART(1, intake_runner);
     CRANKLOOP_PART(1, exhaust_runner);
+    CRANKLOOP_PART(1, charge_burn);
   }
 };
 
@@ -158,7 +185,7 @@ inline constexpr double kMaxMixtureHeat_J_kg = 5e6;
 inline constexpr double kLatestBurn_deg = 150;
 
 /// Field names "gas.*", of ports too, with the train in `index`, where the tables read them: `trains` of them;
-/// "crevice.*", and "runner.*" with the port in `index`.
+/// "crevice.*", "charge_burn.*", and "runner.*" with the port in `index`.
 Status validate(const Gas& gas, int trains) noexcept;
 
 }  // namespace crankloop

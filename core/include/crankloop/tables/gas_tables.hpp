@@ -49,7 +49,7 @@ struct GasCylinders {
 };
 
 /// Parts of an engine's gas that a scene may leave out where an engine does not have them.
-enum GasPart : std::uint32_t { kGasCrevice = 1, kGasRunners = 2 };
+enum GasPart : std::uint32_t { kGasCrevice = 1, kGasRunners = 2, kGasChargeBurn = 4 };
 
 /// Crevices of a cylinder and its leak into the crankcase: tick/gas/crevice.hpp. Zero in an engine without either.
 template <class Real>
@@ -130,6 +130,15 @@ struct BurnTable {
   Real burn_start_deg;
   Real burn_duration_deg;
   Real burnt[kBurnSteps + 1];
+};
+
+/// A burn whose duration follows the charge: tick/gas/charge_burn.hpp.
+template <class Real>
+struct ChargeBurnTable {
+  Real reference;           ///< octaves of (S_0^2 / n_0)^(1/3), S_0 in m/s, n_0 in rad/s
+  Real spark_to_start_deg;  ///< in the state of reference
+  std::uint32_t in_use;     ///< 0: as ordered
+  std::uint32_t spare;
 };
 
 }  // namespace crankloop::detail

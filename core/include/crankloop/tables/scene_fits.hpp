@@ -55,6 +55,8 @@ template <class Real, class S>
       return refuse("scene.crevice", Reason::inconsistent);
     if (!S::runners && (tables.gas_cylinders->parts & kGasRunners) != 0)
       return refuse("scene.runners", Reason::inconsistent);
+    if (Needs<S>::burn && !S::charge_burn && (tables.gas_cylinders->parts & kGasChargeBurn) != 0)
+      return refuse("scene.charge_burn", Reason::inconsistent);
   }
   return {};
 }

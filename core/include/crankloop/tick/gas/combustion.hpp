@@ -70,14 +70,13 @@ template <class Real>
 template <class Real>
 [[gnu::noinline]] std::uint32_t take_fuel(CylinderBurn<Real>& burn, const BurnTable<Real>& table, const Real& mass_kg,
                                           const Real& burned_kg, const BurnOrder<Real>& order, bool cut) noexcept {
-  constexpr Real kLatest_deg = static_cast<Real>(150.001);  // kLatestBurn_deg, and rounding
   std::uint32_t faults = 0;
   constexpr Real kMost_kg = static_cast<Real>(kMaxFuel_kg);
   (void)checked(order.fuel_kg, within_positive(order.fuel_kg, kMost_kg), burn.asked_kg, kFaultBurn, faults);
   (void)checked(order.excess_air_ratio, within_positive(order.excess_air_ratio, static_cast<Real>(kMaxExcessAir_ratio)),
                 burn.asked_excess_air_ratio, kFaultBurn, faults);
   const bool good = within(order.start_deg, Real{-90}, Real{60}) && within(order.duration_deg, Real{5}, Real{150}) &&
-                    order.start_deg + order.duration_deg * table.span_ratio <= kLatest_deg;
+                    order.start_deg + order.duration_deg * table.span_ratio <= kLatestBurnEnd_deg<Real>;
   if (good) {
     burn.start_deg = order.start_deg, burn.duration_deg = order.duration_deg;
   } else {

@@ -7,6 +7,7 @@
 #include <crankloop/output.hpp>
 #include <crankloop/state.hpp>
 #include <crankloop/tables/tables.hpp>
+#include <crankloop/tick/gas/charge_burn.hpp>
 #include <crankloop/tick/gas/combustion.hpp>
 
 namespace crankloop::detail {
@@ -41,7 +42,13 @@ template <class Real, class S>
     bool cut = false;
     if constexpr (Needs<S>::gas_cut) cut = (input.cut_cylinders >> cylinder & 1u) != 0;
     const BurnOrder<Real> order = burn_order(tables, input, cylinder);
+    if constexpr (Needs<S>::charge_burn) burn.start_deg = state.charge_burn[cylinder].spark_deg;  // last good
     faults |= take_fuel(burn, table, mass_kg, burned_kg, order, cut);
+    if constexpr (Needs<S>::charge_burn) order_start(state.charge_burn[cylinder], burn, table, *tables.charge_burn);
+  }
+  if constexpr (Needs<S>::charge_burn) {
+    if (state.charge_burn[cylinder].due != 0 && burn.taken != 0 && way.deg<Real>() > burn.start_deg)
+      begin_burn(tables, state, cylinder, way);
   }
   const GasFuel<Real> fuel = burnt_fuel(burn, table, mass_kg, burned_kg, way);
   if (ends && way.forward()) end_burn(burn);
@@ -61,6 +68,7 @@ template <class Real, class S>
       heat_J_kg = tables.burn->heat_J_kg * burning_ratio(burn), excess_air_ratio = burn.excess_air_ratio;
     }
     out.gas_cycle[cylinder] = finished(record, gas, *tables.gas_cylinders, heat_J_kg, excess_air_ratio);
+    if constexpr (Needs<S>::charge_burn) out.cycle_burn[cylinder] = burn_of_cycle(tables, state, cylinder);
     if constexpr (S::crevice) out.cycle_blow_by_kg[cylinder] = state.cycle_blow_by_kg[cylinder];
   }
   if constexpr (S::crevice) state.cycle_blow_by_kg[cylinder] = Real{0};

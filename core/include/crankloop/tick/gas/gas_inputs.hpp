@@ -31,6 +31,9 @@ template <class Real, class S>
       burn.asked_kg = table.fuel_kg, burn.asked_excess_air_ratio = table.excess_air_ratio;
       burn.start_deg = table.burn_start_deg, burn.duration_deg = table.burn_duration_deg;
     }
+    if constexpr (Needs<S>::charge_burn) {
+      for (BurnStart<Real>& start : state.charge_burn) start = {table.burn_start_deg, Real{1}, 0, 0};
+    }
   }
 }
 

@@ -126,9 +126,9 @@ struct StateFields {
   static constexpr Real kMaxSpeed_m_s = static_cast<Real>(1e6);
   static constexpr Real kMaxMode_m = static_cast<Real>(1e3);
   static constexpr Real kMaxMean_m_s2 = static_cast<Real>(1e13);  ///< twice the largest speed, in the shortest tick
-  static constexpr Real kMaxGas_N = static_cast<Real>(1e9);   ///< 1e8 Pa on a bore of 2 m
-  static constexpr Real kMaxNoted = static_cast<Real>(1e18);  ///< of numbers that are only compared, subtracted and
-                                                              ///< output
+  static constexpr Real kMaxGas_N = static_cast<Real>(1e9);       ///< 1e8 Pa on a bore of 2 m
+  static constexpr Real kMaxNoted = static_cast<Real>(1e18);      ///< of numbers that are only compared, subtracted and
+                                                                  ///< output
   static constexpr std::uint64_t kMaxCamPhase = std::uint64_t{1} << 62;  ///< 180 deg of 720
   static constexpr std::uint32_t kAny = ~std::uint32_t{0};
   static constexpr Real kMaxStress_Pa = static_cast<Real>(1e30);
@@ -233,13 +233,22 @@ struct StateFields {
       for (auto& burn : s.burn) {
         v.number(burn.fuel_kg, Real{0}, static_cast<Real>(kMaxFuel_kg));
         v.number(burn.burnt_ratio, Real{0}, Real{1});
-        v.number(burn.start_deg, Real{-90}, Real{60});
+        v.number(burn.start_deg, Real{-90}, N::charge_burn ? kLatestBurnEnd_deg<Real> : Real{60});
         v.number(burn.duration_deg, Real{5}, Real{150});
         v.number(burn.per_deg, Real{0}, Real{1});
         v.number(burn.excess_air_ratio, Real{0}, kMaxNoted);
         v.number(burn.asked_kg, Real{0}, static_cast<Real>(kMaxFuel_kg));
         v.number(burn.asked_excess_air_ratio, Real{0}, static_cast<Real>(kMaxExcessAir_ratio));
         v.word(burn.taken, 1u);
+        v.spare(burn.spare);
+      }
+    }
+    if constexpr (N::charge_burn) {
+      v.group("state.charge_burn");
+      for (auto& burn : s.charge_burn) {
+        v.number(burn.spark_deg, Real{-90}, Real{60});
+        v.number(burn.ratio, kLeastBurn_ratio<Real>, kMaxBurn_ratio<Real>);
+        v.word(burn.due, 1u);
         v.spare(burn.spare);
       }
     }
