@@ -63,6 +63,15 @@ class BreathingOde {
     by_.run([this](double t, const auto& y, auto& dy) { slopes(t, y, dy); }, t_, time_s, y_);
   }
 
+  /// The unburned gas is as all gas now; its temperature and knock_integral() go on from here.
+  void begin_knock() {
+    const GasSeen at = cylinder();
+    y_[kUnburned] = at.t, y_[kKnock] = 0, unburned_x_ = at.x, knocks_ = true;
+  }
+  void end_knock() { knocks_ = false; }
+  [[nodiscard]] double knock_integral() const { return y_[kKnock]; }
+  [[nodiscard]] double unburned_K() const { return y_[kUnburned]; }
+
   /// Of the burn to come, or in progress.
   void burn_over(double duration_deg) { e_.gas.burn_duration_deg = duration_deg; }
 
@@ -80,11 +89,21 @@ class BreathingOde {
   [[nodiscard]] double runner_kg_s(std::size_t i) const { return y_[kRunners + 4 * i + 3]; }
 
  private:
-  enum At : std::size_t { kCreviceBurned = 3, kBlowBy, kWork, kWallHeat, kIntakeMass, kRunners, kCount = kRunners + 8 };
+  enum At : std::size_t {
+    kCreviceBurned = 3,
+    kBlowBy,
+    kWork,
+    kWallHeat,
+    kIntakeMass,
+    kRunners,
+    kUnburned = kRunners + 8,
+    kKnock,
+    kCount
+  };
   using Vector = Adaptive<kCount>::Vector;
 
   static Vector scale() {
-    return {1e-5, 10, 1e-6, 1e-6, 1e-6, 10, 10, 1e-5, 1e-5, 10, 1e-6, 1e-2, 1e-5, 10, 1e-6, 1e-2};
+    return {1e-5, 10, 1e-6, 1e-6, 1e-6, 10, 10, 1e-5, 1e-5, 10, 1e-6, 1e-2, 1e-5, 10, 1e-6, 1e-2, 10, 0.1};
   }
   [[nodiscard]] const Runner& runner(std::size_t i) const {
     return i == 0 ? e_.gas.intake_runner : e_.gas.exhaust_runner;
@@ -143,6 +162,10 @@ class BreathingOde {
     d.u -= dy[kWallHeat] + dy[kWork];
     if (g.crevice.any()) fill_crevice(y, gas, at, volume, at.p * volume_rate / volume, d, dy);
     dy[0] = d.m, dy[1] = d.u, dy[2] = d.b;
+    if (!knocks_) return;
+    const double rises = (moves(gas, at, volume, d) - at.p * volume_rate / volume) / at.p;
+    dy[kUnburned] = y[kUnburned] * kGasR / (gas_a(unburned_x_) + kGasB * y[kUnburned] + kGasR) * rises;
+    dy[kKnock] = 1 / knock_delay_s(g.octane_number, at.p, y[kUnburned]);
   }
 
   /// `falls_Pa_s`: the pressure by the volume's change at constant m T.
@@ -179,7 +202,8 @@ class BreathingOde {
   GasReference places_;
   WallHeat walls_;
   Adaptive<kCount> by_;
-  double clearance_m3_ = 0, t_ = 0;
+  double clearance_m3_ = 0, t_ = 0, unburned_x_ = 0;
+  bool knocks_ = false;
   Vector y_{};
 };
 

@@ -125,6 +125,12 @@ class WallHeat {
          std::pow(gas.p / 101325, -0.357 + 0.14 * std::pow(phi, 2.77)) * (1 - 2.06 * std::pow(gas.x, 0.77));
 }
 
+/// Ignition delay of Douaud and Eyzat, SAE 780080, s.
+[[nodiscard]] inline double knock_delay_s(double octane_number, double pressure_Pa, double unburned_K) {
+  return 17.68e-3 * std::pow(octane_number / 100, 3.402) * std::pow(pressure_Pa / 101325, -1.7) *
+         std::exp(3800 / unburned_K);
+}
+
 /// Share of the fuel that has burned by a part s of the burn.
 [[nodiscard]] inline double wiebe(double s, double m) {
   if (s <= 0) return 0;

@@ -187,6 +187,9 @@ void each_output(const Output<Real, S>& out, const Used& used, const F& f) {
     }
   }
   if constexpr (S::crevice && S::gas_results) row("cycle_blow_by_kg", out.cycle_blow_by_kg, used.cylinders);
+  if constexpr (detail::Needs<S>::knock) {
+    row("knock_integral", out.knock_integral, used.cylinders), row("knock_deg", out.knock_deg, used.cylinders);
+  }
   if constexpr (detail::Needs<S>::charge_burn && S::gas_results) {
     for (std::size_t k = 0; k < used.cylinders; ++k) {
       f("cycle_burn_start_deg", k, out.cycle_burn[k].start_deg);

@@ -143,6 +143,26 @@ TEST_F(BreathingRun, IsTunedByItsRunners) {
   }
 }
 
+TEST_F(BreathingRun, TellsHowNearItComesToKnock) {
+  const std::string before = "[gas]\n";
+  const auto with = [&](const std::string& keys) {
+    std::string text = contents(kFour);
+    text.replace(text.find(before), before.size(), before + keys);
+    const std::string file = path("knock.ini");
+    std::ofstream(file) << text;
+    return file;
+  };
+  const std::string file = with("octane = 95\n");
+  const double at_2000 = at("knock_integral", file, 2000);
+  EXPECT_GT(at_2000, 0.5);
+  EXPECT_LT(at("knock_integral", file, 5000), 0.7 * at_2000);
+  EXPECT_LT(at("knock_integral", file, 2000, {"--throttle", "0.1"}), 0.5 * at_2000);
+  EXPECT_GT(at("knock", with("octane = 60\n"), 1500), -18);
+  EXPECT_EQ(run({kFour, "--rpm", "2000"}).find("knock"), std::string::npos);
+  EXPECT_NE(status_of("'" + with("octane = 30\n") + "' --rpm 3000"), 0);
+  EXPECT_NE(contents(path("err")).find("octane"), std::string::npos) << contents(path("err"));
+}
+
 TEST_F(BreathingRun, BurnsByItsCharge) {
   const std::string before = "[gas]\n";
   const auto with = [&](const std::string& keys) {

@@ -567,6 +567,19 @@ TEST(GasDefinition, HasRunnersWithinTheirRanges) {
   }
 }
 
+TEST(GasDefinition, HasAnOctaneNumberOrNone) {
+  const auto with = [](double octane_number) {
+    EngineDefinition engine = support::four_2000();
+    engine.gas.octane_number = octane_number;
+    return validate(engine);
+  };
+  for (const double good : {0.0, 60.0, 120.0}) EXPECT_TRUE(accepted(with(good)));
+  for (const double bad : {std::nextafter(60.0, 0), std::nextafter(120.0, 121), 1.0})
+    EXPECT_TRUE(refuses(with(bad), Reason::out_of_range, "gas.octane_number"));
+  EXPECT_TRUE(refuses(with(-1), Reason::negative, "gas.octane_number"));
+  EXPECT_TRUE(refuses(with(kNaN), Reason::not_finite, "gas.octane_number"));
+}
+
 TEST(GasDefinition, HasABurnByChargeWithinItsRanges) {
   const EngineDefinition good = support::four_2000();
   const auto with = [&good](double ChargeBurn::*field, double value, bool in_use = true) {

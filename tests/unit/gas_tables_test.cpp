@@ -38,6 +38,7 @@ struct GasSections {
   GasCrevice<Real> crevice;
   GasRunners<Real> runners;
   ChargeBurnTable<Real> charge_burn;
+  KnockTable<Real> knock;
 };
 
 template <class Real>
@@ -55,6 +56,7 @@ class GasTablesOf : public ::testing::Test {
     targets.gas_crevice = &sections->crevice;
     targets.gas_runners = &sections->runners;
     targets.charge_burn = &sections->charge_burn;
+    targets.knock = &sections->knock;
     EXPECT_TRUE(accepted(tabulate(engine, options, targets)));
     return sections;
   }
@@ -135,6 +137,17 @@ TYPED_TEST(GasTablesOf, RunnersHaveAPortOfFourOverPiSquaredOfTheirVolumeAndLeave
   this->expect_is(tables->manifolds.per_volume_m3[kExhaust], 1 / 2.5e-3);
   engine.gas.intake_m3 = 4.99 * area_m2 * 0.35;  // too small: nothing is added
   this->expect_is(this->filled(engine)->manifolds.per_volume_m3[kIntake], 1 / engine.gas.intake_m3);
+}
+
+TYPED_TEST(GasTablesOf, KnockHasItsOctaneNumber) {
+  EngineDefinition engine = support::four_2000();
+  EXPECT_EQ(this->filled(engine)->knock.in_use, 0u);
+  engine.gas.octane_number = 87;
+  const auto tables = this->filled(engine);
+  EXPECT_EQ(tables->knock.in_use, 1u);
+  EXPECT_EQ(tables->cylinders.parts, 0u);
+  this->expect_is(tables->knock.hot_K, 3800 / std::log(2.0));
+  this->expect_is(tables->knock.rate, -std::log2(support::knock_delay_s(87, 1, 1e300)));
 }
 
 TYPED_TEST(GasTablesOf, ABurnByChargeHasItsStateOfReference) {

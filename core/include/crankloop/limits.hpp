@@ -4,7 +4,7 @@
 namespace crankloop {
 
 inline constexpr int kMaxCylinders = 16;
-inline constexpr int kMaxTrains = 4;  ///< valve trains of a cylinder: intake, exhaust, and two more
+inline constexpr int kMaxTrains = 4;       ///< valve trains of a cylinder: intake, exhaust, and two more
 inline constexpr int kMaxSpringModes = 3;  ///< of one valve spring's surge
 inline constexpr int kMaxValveModes = 2 * kMaxSpringModes;  ///< of a valve with two nested springs
 inline constexpr int kMaxTriggerWheels = 8;

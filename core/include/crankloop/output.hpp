@@ -237,6 +237,12 @@ template <class Real, class S>
 struct BlowByResults {
   Real cycle_blow_by_kg[S::cylinders.capacity];
 };
+/// Of each cylinder's last whole cycle with an octane number; zero until there is one, and where nothing burned.
+template <class Real, class S>
+struct KnockResults {
+  Real knock_integral[S::cylinders.capacity];  ///< 1 and above: the unburned gas ignites by itself
+  Real knock_deg[S::cylinders.capacity];       ///< where it passed 1; 0: it did not
+};
 template <class Real, class S>
 struct ChargeBurnResults {
   ChargeBurnOutput<Real> cycle_burn[S::cylinders.capacity];
@@ -261,6 +267,7 @@ struct Output : detail::If<detail::Needs<S>::crank_dynamics, group::CrankMotion<
                 detail::If<S::gas_results, group::GasResults<Real, S>>,
                 detail::If<S::crevice && S::gas_results, group::BlowByResults<Real, S>>,
                 detail::If<detail::Needs<S>::charge_burn && S::gas_results, group::ChargeBurnResults<Real, S>>,
+                detail::If<detail::Needs<S>::knock, group::KnockResults<Real, S>>,
                 detail::If<detail::Needs<S>::any_valves, group::Valves<Real, S>>,
                 detail::If<S::valve_forces, group::ValveForces<Real, S>>,
                 detail::If<detail::Needs<S>::spring_forces, group::ValveSpringForces<Real, S>>,

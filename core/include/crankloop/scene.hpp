@@ -74,6 +74,8 @@ struct Scene {
                                               ///< runner demands it; needs PressureGiven::by_gas
   static constexpr bool charge_burn = false;  ///< burns last as long as the charge makes them; a definition that says
                                               ///< so demands it; needs combustion
+  static constexpr bool knock = false;  ///< per-cycle result: how far unburned gas came to knock; needs combustion
+                                        ///< and a definition with an octane number
   static constexpr bool gas_results = false;  ///< per-cycle results: mean pressures, charge, heat
   static constexpr bool load_ratio = false;   ///< Input::load_ratio scales the heat of a pressure table; else full load
   static constexpr bool rod_inertia =
@@ -99,7 +101,7 @@ struct Scene {
       false;  ///< cylinder pressure on the valve heads; a train with a head area demands it
   static constexpr std::uint32_t spring_modes = 0;  ///< of a valve's springs together, up to kMaxValveModes, that
                                                     ///< surge; elastic valves. A train with more is refused
-  static constexpr bool cam_phasing = false;  ///< Input::cam_phase_deg moves the cams
+  static constexpr bool cam_phasing = false;        ///< Input::cam_phase_deg moves the cams
   static constexpr bool bad_input_count =
       false;  ///< State::bad_input_ticks: how many ticks had a bad input, and of which kinds
   static constexpr bool starter = false;  ///< Input::starter turns the crank; CrankGiven::torque
@@ -123,6 +125,7 @@ struct Needs {
   static constexpr bool burn = gas && S::combustion != Combustion::none;
   static constexpr bool burn_input = gas && S::combustion == Combustion::by_input;
   static constexpr bool charge_burn = burn && S::charge_burn;
+  static constexpr bool knock = burn && S::knock;
   static constexpr bool gas_cut = burn && S::cylinder_cut;
   static constexpr bool crank_dynamics = S::crank == CrankGiven::torque;
   static constexpr bool any_torque = S::torque || S::mean_torque || crank_dynamics;
@@ -182,6 +185,7 @@ struct CheckedScene {
   static_assert(!S::crevice || Needs<S>::gas, "crevices hold gas of a cylinder: set pressure = by_gas");
   static_assert(!S::runners || Needs<S>::gas, "runners lead gas to the ports: set pressure = by_gas");
   static_assert(!S::charge_burn || Needs<S>::burn, "charge_burn is of combustion: ask for it too");
+  static_assert(!S::knock || Needs<S>::burn, "knock is of combustion: ask for it too");
   static_assert(!S::boundaries || Needs<S>::manifolds, "boundaries are outside the manifolds: set manifold = throttle");
   static_assert(!S::starter || S::crank == CrankGiven::torque,
                 "a starter needs a crank that is turned by forces: set crank = torque");

@@ -80,6 +80,7 @@ struct Breathing : Whole {
   static constexpr bool crevice = true;
   static constexpr bool runners = true;
   static constexpr bool charge_burn = true;
+  static constexpr bool knock = true;
   static constexpr Combustion combustion = Combustion::by_input;
   static constexpr bool gas_results = true;
   static constexpr bool load_ratio = false;
@@ -93,6 +94,7 @@ struct BreathingFree : FreeRunning {
   static constexpr bool crevice = true;
   static constexpr bool runners = true;
   static constexpr bool charge_burn = true;
+  static constexpr bool knock = true;
   static constexpr Combustion combustion = Combustion::by_input;
   static constexpr bool gas_results = true;
   static constexpr bool load_ratio = false;

@@ -115,6 +115,10 @@ struct ChargeBurnState {
   detail::BurnStart<Real> charge_burn[S::cylinders.capacity];
 };
 template <class Real, class S>
+struct KnockRecords {
+  detail::KnockRecord<Real> knock[S::cylinders.capacity];
+};
+template <class Real, class S>
 struct GasRecords {
   detail::GasRecord<Real> gas_record[S::cylinders.capacity];
 };
@@ -155,6 +159,7 @@ struct State : group::StateCore<Real>,
                detail::If<detail::Needs<S>::given_gas, group::GivenGasState<Real>>,
                detail::If<detail::Needs<S>::burn, group::BurnState<Real, S>>,
                detail::If<detail::Needs<S>::charge_burn, group::ChargeBurnState<Real, S>>,
+               detail::If<detail::Needs<S>::knock, group::KnockRecords<Real, S>>,
                detail::If<S::gas_results, group::GasRecords<Real, S>>,
                detail::If<S::crevice, group::CreviceState<Real, S>>,
                detail::If<S::crevice && S::gas_results, group::BlowByRecords<Real, S>>,

@@ -252,6 +252,11 @@ constexpr void each_output(Visit&& visit, AState& state, AnOutput& out, [[maybe_
             b.duration_deg);
     }
   }
+  if constexpr (detail::Needs<S>::knock) {
+    each(real("knock_integral[#]", "Of the last whole cycle: the unburned gas ignites by itself at 1"),
+         out.knock_integral, shape.cylinders);
+    each(real("knock_deg[#]", "Where it passed 1; 0: it did not"), out.knock_deg, shape.cylinders);
+  }
   const auto each_valve = [&](const auto& show) {
     for (std::uint32_t t = 0; t < shape.trains; ++t) {
       for (std::uint32_t k = 0; k < shape.cylinders; ++k) {

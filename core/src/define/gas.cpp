@@ -59,6 +59,10 @@ Status validate(const Gas& gas, int trains) noexcept {
   if (const Status refused = validate_runner(gas.intake_runner, 0); !refused.ok()) return refused;
   if (const Status refused = validate_runner(gas.exhaust_runner, 1); !refused.ok()) return refused;
   if (const Status refused = out_of_range(gas.charge_burn); !refused.ok()) return refused;
+  if (gas.octane_number != 0) {
+    if (const Status refused = in_range(gas.octane_number, "gas.octane_number", from(60)); !refused.ok())
+      return refused;
+  }
   if (trains < 1) return refuse("train_count", Reason::inconsistent);  // no valve admits gas
   for (int t = 0; t < trains; ++t) {
     if (const Status refused = validate_port(gas.ports[t], t); !refused.ok()) return refused;

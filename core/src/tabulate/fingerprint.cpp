@@ -119,10 +119,13 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
     Gas read = gas;
     for (int t = train_count; t < kMaxTrains; ++t) read.ports[t] = {};
     Gas::each_field(
-        [&add](const ListedField& listed, const auto& field) {
+        [&add, &read](const ListedField& listed, const auto& field) {
           using Field = std::decay_t<decltype(field)>;
           if constexpr (std::is_same_v<Field, Crevice>) {
             if (!field.any()) return;
+          }
+          if constexpr (std::is_same_v<Field, double>) {
+            if (&field == &read.octane_number && field == 0) return;
           }
           if constexpr (!std::is_same_v<Field, Runner> && !std::is_same_v<Field, ChargeBurn>) add(listed, field);
         },

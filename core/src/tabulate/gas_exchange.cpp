@@ -192,6 +192,8 @@ constexpr double kPortShare = 4 / (elementary::kPi * elementary::kPi);
   return b;
 }
 
+constexpr double kLn2 = 0.69314718055994531;
+
 /// Laminar flame of gasoline in m/s: tick/gas/charge_burn.hpp.
 [[nodiscard]] double flame_m_s(const ChargeBurn& at) noexcept {
   using elementary::pow;
@@ -202,13 +204,22 @@ constexpr double kPortShare = 4 / (elementary::kPi * elementary::kPi);
 }
 
 [[nodiscard]] ChargeBurnTable<double> charge_burn_of(const EngineDefinition& engine) noexcept {
-  constexpr double kLn2 = 0.69314718055994531;
   const ChargeBurn& burn = engine.gas.charge_burn;
   ChargeBurnTable<double> table{};
   if (!burn.in_use) return table;
   const double flame = flame_m_s(burn);
   table.reference = elementary::log(flame * flame / burn.reference_rad_s) / (3 * kLn2);
   table.spark_to_start_deg = burn.spark_to_start_deg;
+  table.in_use = 1;
+  return table;
+}
+
+[[nodiscard]] KnockTable<double> knock_of(const EngineDefinition& engine) noexcept {
+  KnockTable<double> table{};
+  if (engine.gas.octane_number == 0) return table;
+  const double delay_s = 17.68e-3 * elementary::pow(engine.gas.octane_number / 100, 3.402);
+  table.rate = -(elementary::log(delay_s) + 1.7 * elementary::log(101325)) / kLn2;
+  table.hot_K = 3800 / kLn2;
   table.in_use = 1;
   return table;
 }
@@ -238,6 +249,7 @@ void fill_gas_exchange(const EngineDefinition& engine, const TickOptions& option
   fill(targets.gas_runners, runners_of);
   fill(targets.burn, burn_of);
   fill(targets.charge_burn, charge_burn_of);
+  fill(targets.knock, knock_of);
   if (targets.gas_ports == nullptr) return;
   for (int t = 0; t < engine.train_count; ++t)
     fill(targets.gas_ports + t, [t](const EngineDefinition& e) { return port_of(e, t); });

@@ -158,6 +158,7 @@ constexpr Key kRows[] = {
     {"gas", "burn_reference_kPa", Kind::number, kKPa, "charge_burn.reference_Pa", kOfField, "", defaults, "1300", kByCharge, "", "its absolute pressure there"},
     {"gas", "burn_reference_residual", Kind::number, kNoUnit, "charge_burn.reference_burned_ratio", kOfField, "", defaults, "0.05", kByCharge, "", "burned share of its gas"},
     {"gas", "burn_reference_lambda", Kind::number, kNoUnit, "charge_burn.reference_excess_air_ratio", kOfField, "", defaults, "1", kByCharge, "", "its excess-air ratio"},
+    {"gas", "octane", Kind::number, kNoUnit, "gas.octane_number", from(0).up_to(120), "", defaults, "0", "", "", "octane number of the fuel, 60 to 120, for the knock integral of each cycle; 0: none", "91 to 98"},
     {"gas", "wiebe_m", Kind::number, kNoUnit, "gas.wiebe_m", kOfField, "", defaults, "2", "", "", "form exponent of the heat release"},
     {"gas", "second_share", Kind::number, kNoUnit, "gas.second_ratio", kOfField, "", defaults, "0", "", "", "share of the fuel that burns by a second law from the same start (diesel)"},
     {"gas", "second_m", Kind::number, kNoUnit, "gas.second_m", kOfField, "", defaults, "1", "", "", "its form exponent"},

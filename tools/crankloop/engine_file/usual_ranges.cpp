@@ -72,6 +72,7 @@ constexpr UsualRange kRanges[] = {
     {"gas", "burn_reference_kPa", Per::one, {200, 5000}},
     {"gas", "burn_reference_residual", Per::one, {0.01, 0.25}, kOrZero},
     {"gas", "burn_reference_lambda", Per::one, {0.8, 1.3}},
+    {"gas", "octane", Per::one, {80, 110}, kOrZero},
     {"gas", "wiebe_m", Per::one, {0.2, 5}},
 
     {"friction", "constant_kPa", Per::one, {5, 500}, kOrZero},

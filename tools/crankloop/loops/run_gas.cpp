@@ -68,6 +68,11 @@ void add_gas(Summary& s, const EngineDefinition& engine, const GasFigures& figur
     s.line("burn_by_charge_start", figures.burn_start_deg, "deg", "where the burn began after the spark");
     s.line("burn_by_charge_duration", figures.burn_duration_deg, "deg", "as the charge had it; 0: nothing burned");
   }
+  if (engine.gas.octane_number > 0) {
+    s.line("knock_integral", figures.knock_integral, "",
+           "of the cylinder nearest to knock: from 1 on, unburned gas ignites by itself before it burns");
+    if (figures.knock_integral >= 1) s.line("knock", figures.knock_deg, "deg", "where the first cylinder passes 1");
+  }
   s.line("exhaust_temperature", cycle.exhaust_K, "K", "of the gas that leaves through the exhaust valve");
   s.line("heat", cycle.heat_J, "J", "of combustion, of a cylinder's cycle");
   s.line("wall_heat", cycle.wall_heat_J, "J");

@@ -132,6 +132,7 @@ struct Gas {
   PortOfTrain ports[kMaxTrains];
   Runner intake_runner, exhaust_runner;
   ChargeBurn charge_burn;
+  double octane_number = 0;  ///< ON of the fuel, for the result knock: 60 to 120; 0: none
 
   /// Behind the outlet.
   [[nodiscard]] constexpr double behind_outlet_Pa() const noexcept { return back_Pa > 0 ? back_Pa : ambient_Pa; }
@@ -174,6 +175,7 @@ struct Gas {
     CRANKLOOP_PART(1, intake_runner);
     CRANKLOOP_PART(1, exhaust_runner);
     CRANKLOOP_PART(1, charge_burn);
+    CRANKLOOP_NUMBER(1, gas, octane_number, from(0).up_to(120));
   }
 };
 

@@ -132,6 +132,15 @@ struct BurnTable {
   Real burnt[kBurnSteps + 1];
 };
 
+/// Ignition delay of unburned gas: tick/gas/knock.hpp.
+template <class Real>
+struct KnockTable {
+  Real rate;             ///< octaves of 1/tau at 1 Pa and no end of temperature, in 1/s
+  Real hot_K;            ///< 3800 K / ln 2
+  std::uint32_t in_use;  ///< 0: no octane number
+  std::uint32_t spare;
+};
+
 /// A burn whose duration follows the charge: tick/gas/charge_burn.hpp.
 template <class Real>
 struct ChargeBurnTable {

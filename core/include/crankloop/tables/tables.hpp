@@ -63,6 +63,7 @@ enum class SectionRows : std::uint8_t { one, gas_grid, torque_grid, cut_grid, tr
   SECTION(gas_manifolds, GasManifolds<Real>, one, N::manifolds)                                    \
   SECTION(burn, BurnTable<Real>, one, N::burn)                                                     \
   SECTION(charge_burn, ChargeBurnTable<Real>, one, N::charge_burn)                                 \
+  SECTION(knock, KnockTable<Real>, one, N::knock)                                                  \
   SECTION(bearings, Bearings<Real>, one, S::bearing_loads)                                         \
   SECTION(balance, Balance<Real>, one, S::free_forces)                                             \
   BEHIND(lift_segments, LiftSegment<Real>, lobes, N::any_valves)                                   \

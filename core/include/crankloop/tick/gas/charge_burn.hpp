@@ -16,22 +16,13 @@
 #include <crankloop/output.hpp>
 #include <crankloop/state.hpp>
 #include <crankloop/tables/tables.hpp>
-#include <crankloop/tick/gas/combustion.hpp>
-#include <crankloop/tick/gas/gas_places.hpp>
-#include <crankloop/tick/gas/octaves.hpp>
+#include <crankloop/tick/gas/burn_start.hpp>
 
 namespace crankloop::detail {
 
-/// What a flame's speed hangs on.
-template <class Real>
-struct FlameCharge {
-  Real temperature_K, pressure_Pa, burned_ratio;
-  Real excess_air_ratio;  ///< lambda, above 0
-};
-
 /// log2 of S in m/s. lambda is held to 1/1.4..1/0.7 and the burned share to 0..0.3: beyond, the law is none.
 template <class Real>
-[[nodiscard]] inline Real flame_octaves(const FlameCharge<Real>& charge) noexcept {
+[[nodiscard]] inline Real flame_octaves(const BurnCharge<Real>& charge) noexcept {
   const auto c = [](double x) { return static_cast<Real>(x); };
   const auto held = [](Real x, Real least, Real most) { return x > least ? (x < most ? x : most) : least; };
   const Real phi = c(1) / held(charge.excess_air_ratio, c(1 / 1.4), c(1 / 0.7)), off = phi - c(1.21);
@@ -47,7 +38,7 @@ template <class Real>
 
 /// Duration of a burn over the one ordered.
 template <class Real>
-[[nodiscard]] inline Real burn_ratio(const ChargeBurnTable<Real>& table, const FlameCharge<Real>& charge,
+[[nodiscard]] inline Real burn_ratio(const ChargeBurnTable<Real>& table, const BurnCharge<Real>& charge,
                                      Real speed_rad_s) noexcept {
   constexpr Real kThird = static_cast<Real>(1.0 / 3), kLeast_rad_s = static_cast<Real>(1e-3);
   const Real speed = magnitude(speed_rad_s);
@@ -68,37 +59,6 @@ inline void order_start(BurnStart<Real>& start, CylinderBurn<Real>& burn, const 
   start.due = charge_table.in_use != 0 && burn.fuel_kg > 0 ? 1 : 0;
 }
 
-/// The gas of a cylinder where it passes `deg` on its way, `on_deg` after the step's begin: as it was there,
-/// compressed, and cooled by the mean of the heat to its walls there and here.
-template <class Real, class S>
-[[nodiscard]] inline FlameCharge<Real> charge_at(const Tables<Real, S>& tables, const State<Real, S>& state,
-                                                 std::uint32_t cylinder, Real deg, Real on_deg) noexcept {
-  constexpr Real kHalf = static_cast<Real>(0.5);
-  const CylinderGas<Real> gas = state.cylinder_gas.template at<Real>(cylinder);
-  const GasPoint<Real>& at = gas.point;
-  const GasWalls<Real>& walls = tables.gas_cylinders->walls;
-  const std::uint32_t mechanism = tables.drive->mechanism_of[cylinder];
-  const Phase in_cycle = Phase::from_cycles(deg * static_cast<Real>(1.0 / kDegreesPerCycle));
-  const Real volume_m3 = gas_volume_m3(tables, in_cycle.units() + tables.drive->firing_phase[mechanism], mechanism);
-  const Real by_volume = gas.volume_m3 / volume_m3, octaves = octaves_of(by_volume);
-  const Real rise_K = at.temperature_K * (power_of_2(at.gas_ratio * octaves) - Real{1});
-  const Real mean_ratio =
-      at.gas_ratio / (Real{1} + kHalf * kHeatSlope<Real> * kPerGasConstant<Real> * at.gas_ratio * rise_K);
-  Real warmer = power_of_2(mean_ratio * octaves);
-  const auto charge = [&] {
-    return GasPoint<Real>{at.pressure_Pa * by_volume * warmer, at.temperature_K * warmer, at.burned_ratio,
-                          at.gas_ratio};
-  };
-  const Real speed_rad_s = magnitude(state.speed_rad_s), stirring = stirring_m_s(walls, speed_rad_s);
-  const Real wall_W =
-      kHalf * (wall_heat_W(walls, at, gas.volume_m3, stirring) + wall_heat_W(walls, charge(), volume_m3, stirring));
-  const Real way_s = speed_rad_s > 0 ? on_deg * static_cast<Real>(kRadPerDegree) / speed_rad_s : Real{0};
-  warmer *=
-      Real{1} - held_within(wall_W * way_s * mean_ratio / (at.pressure_Pa * gas.volume_m3), static_cast<Real>(0.25));
-  const GasPoint<Real> there = charge();
-  return {there.temperature_K, there.pressure_Pa, there.burned_ratio, state.burn[cylinder].excess_air_ratio};
-}
-
 /// Gives the burn that begins on a cylinder's way its duration. One that would not end in time ends
 /// there; none of a state that order_start() made is shorter than 1 deg.
 template <class Real, class S>
@@ -107,11 +67,7 @@ template <class Real, class S>
   BurnStart<Real>& start = state.charge_burn[cylinder];
   CylinderBurn<Real>& burn = state.burn[cylinder];
   start.due = 0;
-  const Real to_deg = way.deg<Real>();
-  const Real from_deg = to_deg - Phase{static_cast<std::uint64_t>(way.turned)}.signed_cycles<Real>() * kDegreesPerCycle;
-  const Real deg = burn.start_deg > from_deg ? burn.start_deg : from_deg;
-  start.ratio =
-      burn_ratio(*tables.charge_burn, charge_at(tables, state, cylinder, deg, deg - from_deg), state.speed_rad_s);
+  start.ratio = burn_ratio(*tables.charge_burn, charge_at_start(tables, state, cylinder, way), state.speed_rad_s);
   const Real wanted_deg = burn.duration_deg * start.ratio;
   const Real most_deg = (kLatestBurnEnd_deg<Real> - burn.start_deg) / tables.burn->span_ratio;
   const Real held_deg = wanted_deg < most_deg ? wanted_deg : most_deg, duration_deg = held_deg > 1 ? held_deg : Real{1};

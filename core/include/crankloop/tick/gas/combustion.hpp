@@ -46,6 +46,10 @@ struct CycleWay {
   [[nodiscard]] constexpr Real deg() const noexcept {
     return Phase{to}.template signed_cycles<Real>() * Real{kDegreesPerCycle};
   }
+  template <class Real>
+  [[nodiscard]] constexpr Real turned_deg() const noexcept {
+    return Phase{static_cast<std::uint64_t>(turned)}.template signed_cycles<Real>() * Real{kDegreesPerCycle};
+  }
 };
 
 /// The share of a cycle's fuel that its air can burn: less than 1 in a rich mixture.

@@ -9,6 +9,7 @@
 #include <crankloop/tables/tables.hpp>
 #include <crankloop/tick/gas/charge_burn.hpp>
 #include <crankloop/tick/gas/combustion.hpp>
+#include <crankloop/tick/gas/knock.hpp>
 
 namespace crankloop::detail {
 
@@ -45,14 +46,34 @@ template <class Real, class S>
     if constexpr (Needs<S>::charge_burn) burn.start_deg = state.charge_burn[cylinder].spark_deg;  // last good
     faults |= take_fuel(burn, table, mass_kg, burned_kg, order, cut);
     if constexpr (Needs<S>::charge_burn) order_start(state.charge_burn[cylinder], burn, table, *tables.charge_burn);
+    if constexpr (Needs<S>::knock) reset_knock(state.knock[cylinder], *tables.knock, burn.fuel_kg);
   }
   if constexpr (Needs<S>::charge_burn) {
     if (state.charge_burn[cylinder].due != 0 && burn.taken != 0 && way.deg<Real>() > burn.start_deg)
       begin_burn(tables, state, cylinder, way);
   }
+  if constexpr (Needs<S>::knock) {
+    KnockRecord<Real>& knock = state.knock[cylinder];
+    if (knock.stage == kKnockDue && burn.fuel_kg > 0 && way.deg<Real>() > burn.start_deg)
+      begin_knock(knock, charge_at_start(tables, state, cylinder, way));
+  }
   const GasFuel<Real> fuel = burnt_fuel(burn, table, mass_kg, burned_kg, way);
   if (ends && way.forward()) end_burn(burn);
   return fuel;
+}
+
+/// The step of a cylinder in its burn as far as knock goes, and what a cycle shows of it.
+template <class Real, class S>
+[[gnu::always_inline]] inline void knock_on_way(const Tables<Real, S>& tables, State<Real, S>& state,
+                                                Output<Real, S>& out, std::uint32_t cylinder, const CycleWay& way,
+                                                bool ends, Real step_s) noexcept {
+  KnockRecord<Real>& knock = state.knock[cylinder];
+  if (knock.stage == kKnockInBurn)
+    step_knock(knock, *tables.knock, state.burn[cylinder], state.cylinder_gas.pressure_Pa[cylinder], step_s, way);
+  if (!ends) return;
+  if (knock.stage == kKnockInBurn) knock.stage = kKnockDone;
+  if (!way.forward()) return;
+  out.knock_integral[cylinder] = knock.integral_ratio, out.knock_deg[cylinder] = knock.passes_deg;
 }
 
 /// Shows a cycle that was recorded from its begin, and begins the next.

@@ -171,6 +171,11 @@ class GasCylindersStep {
     Real work_J = work_J_;
     for (int i = 0; i < kLanes; ++i) work_J += lane(crank_J, i);
     work_J_ = work_J;
+    if constexpr (N::knock) {
+      for (int i = 0; i < kLanes; ++i)
+        knock_on_way(tables_, state_, out_, k + static_cast<std::uint32_t>(i), way[i], (ends >> i & 1u) != 0,
+                     step.drive.step_s);
+    }
     if constexpr (S::gas_results) {
       std::uint32_t intake_shut = 0;
       if (done.flows)

@@ -252,6 +252,19 @@ struct StateFields {
         v.spare(burn.spare);
       }
     }
+    if constexpr (N::knock) {
+      v.group("state.knock");
+      for (auto& knock : s.knock) {
+        v.number(knock.integral_ratio, Real{0}, static_cast<Real>(1e6));  // kMaxKnock
+        v.number(knock.passes_deg, Real{-kDegreesPerCycle}, Real{kDegreesPerCycle});
+        v.number(knock.unburned_K, static_cast<Real>(kLeastGas_K / 2), static_cast<Real>(kMaxGas_K * 2));
+        v.number(knock.pressure_Pa, static_cast<Real>(1e-6), static_cast<Real>(1e12));
+        v.number(knock.burned_ratio, Real{0}, Real{1});
+        v.number(knock.burnt_ratio, Real{0}, Real{1});
+        v.word(knock.stage, kKnockDone);
+        v.spare(knock.spare);
+      }
+    }
     if constexpr (S::gas_results) {
       v.group("state.gas_record");
       for (auto& r : s.gas_record) {
