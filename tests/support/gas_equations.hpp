@@ -101,9 +101,10 @@ class WallHeat {
         factor_{130e-4 * engine.gas.wall_heat_ratio *
                 std::pow(2 * engine.crank.crank_radius_m * std::fabs(speed_rad_s) / kPi + 1.4, 0.8)} {}
 
-  [[nodiscard]] double W(const GasSeen& gas, double volume_m3) const {
+  [[nodiscard]] double W(const GasSeen& gas, double volume_m3) const { return W(gas, volume_m3, wall_K_); }
+  [[nodiscard]] double W(const GasSeen& gas, double volume_m3, double wall_K) const {
     return factor_ * std::pow(volume_m3, -0.06) * std::pow(gas.p, 0.8) * std::pow(gas.t, -0.4) *
-           (2 * area_m2_ + 4 * volume_m3 / bore_m_) * (gas.t - wall_K_);
+           (2 * area_m2_ + 4 * volume_m3 / bore_m_) * (gas.t - wall_K);
   }
 
  private:

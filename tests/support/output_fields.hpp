@@ -158,6 +158,10 @@ void each_output(const Output<Real, S>& out, const Used& used, const F& f) {
       }
     }
   }
+  if constexpr (S::walls) {
+    row("wall_K", out.wall_K, used.cylinders);
+    row("port_heat_W", out.port_heat_W, std::size_t{kPorts});
+  }
   if constexpr (detail::Needs<S>::manifolds) {
     for (std::size_t port = 0; port < kPorts; ++port) {
       f("manifold_Pa", port, out.manifold[port].pressure_Pa);

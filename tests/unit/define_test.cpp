@@ -567,6 +567,25 @@ TEST(GasDefinition, HasRunnersWithinTheirRanges) {
   }
 }
 
+TEST(GasDefinition, HasWallsThatWarmUpWithinTheirRanges) {
+  const auto with = [](const Walls& walls) {
+    EngineDefinition engine = support::four_2000();
+    engine.gas.walls = walls;
+    return validate(engine);
+  };
+  EXPECT_TRUE(accepted(with({0, kNaN, kNaN, 0, 0, kNaN}))) << "none: nothing of it counts";
+  EXPECT_TRUE(accepted(with({1, 0, 150, 0, 0, 0})));
+  EXPECT_TRUE(accepted(with({1e6, 1e5, 2000, 1e5, 1e5, 3000})));
+  EXPECT_TRUE(refuses(with({0.99, 20, 363, 0, 0, 0}), Reason::out_of_range, "walls.capacity_J_K"));
+  EXPECT_TRUE(refuses(with({-1, 20, 363, 0, 0, 0}), Reason::negative, "walls.capacity_J_K"));
+  EXPECT_TRUE(refuses(with({kNaN, 20, 363, 0, 0, 0}), Reason::not_finite, "walls.capacity_J_K"));
+  EXPECT_TRUE(refuses(with({1500, -1, 363, 0, 0, 0}), Reason::negative, "walls.to_coolant_W_K"));
+  EXPECT_TRUE(refuses(with({1500, 20, 149, 0, 0, 0}), Reason::out_of_range, "walls.coolant_K"));
+  EXPECT_TRUE(refuses(with({0, 20, 363, 1e6, 0, 0}), Reason::out_of_range, "walls.intake_W_K"));
+  EXPECT_TRUE(refuses(with({0, 20, 363, 0, -2, 0}), Reason::negative, "walls.exhaust_W_K"));
+  EXPECT_TRUE(refuses(with({0, 20, 363, 0, 2, 149}), Reason::out_of_range, "walls.manifold_K"));
+}
+
 TEST(GasDefinition, HasAnOctaneNumberOrNone) {
   const auto with = [](double octane_number) {
     EngineDefinition engine = support::four_2000();

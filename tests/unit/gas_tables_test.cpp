@@ -39,6 +39,7 @@ struct GasSections {
   GasRunners<Real> runners;
   ChargeBurnTable<Real> charge_burn;
   KnockTable<Real> knock;
+  WarmWallsTable<Real> warm_walls;
 };
 
 template <class Real>
@@ -57,6 +58,7 @@ class GasTablesOf : public ::testing::Test {
     targets.gas_runners = &sections->runners;
     targets.charge_burn = &sections->charge_burn;
     targets.knock = &sections->knock;
+    targets.gas_walls = &sections->warm_walls;
     EXPECT_TRUE(accepted(tabulate(engine, options, targets)));
     return sections;
   }
@@ -137,6 +139,22 @@ TYPED_TEST(GasTablesOf, RunnersHaveAPortOfFourOverPiSquaredOfTheirVolumeAndLeave
   this->expect_is(tables->manifolds.per_volume_m3[kExhaust], 1 / 2.5e-3);
   engine.gas.intake_m3 = 4.99 * area_m2 * 0.35;  // too small: nothing is added
   this->expect_is(this->filled(engine)->manifolds.per_volume_m3[kIntake], 1 / engine.gas.intake_m3);
+}
+
+TYPED_TEST(GasTablesOf, WallsThatWarmUpHaveTheirCapacityAndConductances) {
+  EngineDefinition engine = support::four_2000();
+  EXPECT_EQ(this->filled(engine)->warm_walls.capacity_J_K, 0);
+  engine.gas.walls = {1500, 25, 360, 2, 9, 0};
+  const auto tables = this->filled(engine);
+  EXPECT_EQ(tables->cylinders.parts, std::uint32_t{kGasWalls});
+  this->expect_is(tables->warm_walls.capacity_J_K, 1500);
+  this->expect_is(tables->warm_walls.to_coolant_W_K, 25);
+  this->expect_is(tables->warm_walls.coolant_K, 360);
+  this->expect_is(tables->warm_walls.port_W_K[kIntake], 2);
+  this->expect_is(tables->warm_walls.port_W_K[kExhaust], 9);
+  this->expect_is(tables->warm_walls.behind_K, engine.gas.ambient_K);
+  engine.gas.walls.manifold_K = 340;
+  this->expect_is(this->filled(engine)->warm_walls.behind_K, 340);
 }
 
 TYPED_TEST(GasTablesOf, KnockHasItsOctaneNumber) {

@@ -220,6 +220,11 @@ template <class Real, class S>
 struct Runners {
   RunnerOutput<Real> runner[S::cylinders.capacity];
 };
+template <class Real, class S>
+struct WarmWalls {
+  Real wall_K[S::cylinders.capacity];  ///< of each cylinder's walls, at the end of the tick
+  Real port_heat_W[kPorts];            ///< of the gas to the walls of manifolds, or of all runners; mean over the tick
+};
 template <class Real>
 struct Manifolds {
   ManifoldOutput<Real> manifold[kPorts];  ///< kIntake, kExhaust
@@ -263,6 +268,7 @@ struct Output : detail::If<detail::Needs<S>::crank_dynamics, group::CrankMotion<
                 detail::If<detail::Needs<S>::gas, group::CylinderGases<Real, S>>,
                 detail::If<S::crevice, group::Crevices<Real, S>>,
                 detail::If<S::runners, group::Runners<Real, S>>,
+                detail::If<S::walls, group::WarmWalls<Real, S>>,
                 detail::If<detail::Needs<S>::manifolds, group::Manifolds<Real>>,
                 detail::If<S::gas_results, group::GasResults<Real, S>>,
                 detail::If<S::crevice && S::gas_results, group::BlowByResults<Real, S>>,

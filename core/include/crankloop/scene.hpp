@@ -72,6 +72,8 @@ struct Scene {
                                               ///< demands it; needs PressureGiven::by_gas
   static constexpr bool runners = false;      ///< inertia of the gas between manifolds and ports; a definition with a
                                               ///< runner demands it; needs PressureGiven::by_gas
+  static constexpr bool walls = false;        ///< walls that warm up, heat of manifolds and runners; a definition with
+                                              ///< either demands it; needs PressureGiven::by_gas
   static constexpr bool charge_burn = false;  ///< burns last as long as the charge makes them; a definition that says
                                               ///< so demands it; needs combustion
   static constexpr bool knock = false;  ///< per-cycle result: how far unburned gas came to knock; needs combustion
@@ -185,6 +187,7 @@ struct CheckedScene {
   static_assert(!S::crevice || Needs<S>::gas, "crevices hold gas of a cylinder: set pressure = by_gas");
   static_assert(!S::runners || Needs<S>::gas, "runners lead gas to the ports: set pressure = by_gas");
   static_assert(!S::charge_burn || Needs<S>::burn, "charge_burn is of combustion: ask for it too");
+  static_assert(!S::walls || Needs<S>::gas, "walls take heat of gas: set pressure = by_gas");
   static_assert(!S::knock || Needs<S>::burn, "knock is of combustion: ask for it too");
   static_assert(!S::boundaries || Needs<S>::manifolds, "boundaries are outside the manifolds: set manifold = throttle");
   static_assert(!S::starter || S::crank == CrankGiven::torque,

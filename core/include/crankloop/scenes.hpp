@@ -79,6 +79,7 @@ struct Breathing : Whole {
   static constexpr bool boundaries = true;
   static constexpr bool crevice = true;
   static constexpr bool runners = true;
+  static constexpr bool walls = true;
   static constexpr bool charge_burn = true;
   static constexpr bool knock = true;
   static constexpr Combustion combustion = Combustion::by_input;
@@ -93,6 +94,7 @@ struct BreathingFree : FreeRunning {
   static constexpr bool boundaries = true;
   static constexpr bool crevice = true;
   static constexpr bool runners = true;
+  static constexpr bool walls = true;
   static constexpr bool charge_burn = true;
   static constexpr bool knock = true;
   static constexpr Combustion combustion = Combustion::by_input;

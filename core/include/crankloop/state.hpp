@@ -115,6 +115,11 @@ struct ChargeBurnState {
   detail::BurnStart<Real> charge_burn[S::cylinders.capacity];
 };
 template <class Real, class S>
+struct WallState {
+  Real wall_K[(S::cylinders.capacity + 1) / 2 * 2];  ///< of each cylinder's walls
+  Real wall_rest_K[(S::cylinders.capacity + 1) / 2 * 2];
+};
+template <class Real, class S>
 struct KnockRecords {
   detail::KnockRecord<Real> knock[S::cylinders.capacity];
 };
@@ -164,6 +169,7 @@ struct State : group::StateCore<Real>,
                detail::If<S::crevice, group::CreviceState<Real, S>>,
                detail::If<S::crevice && S::gas_results, group::BlowByRecords<Real, S>>,
                detail::If<S::runners, group::RunnerState<Real, S>>,
+               detail::If<S::walls, group::WallState<Real, S>>,
                detail::If<S::bad_input_count, group::BadInputsState> {};
 
 /// The same state turning at another speed, for Engine::restore: a run that does not start at rest.

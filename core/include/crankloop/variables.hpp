@@ -200,6 +200,13 @@ constexpr void each_output(Visit&& visit, AState& state, AnOutput& out, [[maybe_
             r.flow_kg_s[kExhaust]);
     }
   }
+  if constexpr (S::walls) {
+    each(real("wall_K[#]", "Temperature of the cylinder's walls"), out.wall_K, shape.cylinders);
+    visit(real("intake_wall_heat_W", "To the walls of intake manifold or runners, mean of the tick"),
+          out.port_heat_W[kIntake]);
+    visit(real("exhaust_wall_heat_W", "To the walls of exhaust manifold or runners, mean of the tick"),
+          out.port_heat_W[kExhaust]);
+  }
   if constexpr (detail::Needs<S>::manifolds) {
     const auto manifold = [&visit](const Variable& pressure, const Variable& temperature, const Variable& burned,
                                    auto& values) {

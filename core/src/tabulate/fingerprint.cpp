@@ -11,9 +11,9 @@ static_assert(kListsEveryField<Crank> && kListsEveryField<Masses> && kListsEvery
                   kListsEveryField<WiebeDiagram> && kListsEveryField<Pressure> && kListsEveryField<Cam> &&
                   kListsEveryField<Rocker> && kListsEveryField<Valve> && kListsEveryField<ValveTrain> &&
                   kListsEveryField<CamContact> && kListsEveryField<PortOfTrain> && kListsEveryField<Crevice> &&
-                  kListsEveryField<Runner> && kListsEveryField<ChargeBurn> && kListsEveryField<Gas> &&
-                  kListsEveryField<Friction> && kListsEveryField<DrivenMachine> && kListsEveryField<Starter> &&
-                  kListsEveryField<ToothGap> && kListsEveryField<TriggerWheel>,
+                  kListsEveryField<Runner> && kListsEveryField<ChargeBurn> && kListsEveryField<Walls> &&
+                  kListsEveryField<Gas> && kListsEveryField<Friction> && kListsEveryField<DrivenMachine> &&
+                  kListsEveryField<Starter> && kListsEveryField<ToothGap> && kListsEveryField<TriggerWheel>,
               "each_field() lists every field, for the tables' fingerprint and for C, and the range of every number");
 static_assert(values_listed<EngineDefinition>() + 2 + kMaxTriggerWheels + kMaxTrains ==
                   values_taken<EngineDefinition>(),
@@ -127,7 +127,9 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
           if constexpr (std::is_same_v<Field, double>) {
             if (&field == &read.octane_number && field == 0) return;
           }
-          if constexpr (!std::is_same_v<Field, Runner> && !std::is_same_v<Field, ChargeBurn>) add(listed, field);
+          if constexpr (!std::is_same_v<Field, Runner> && !std::is_same_v<Field, ChargeBurn> &&
+                        !std::is_same_v<Field, Walls>)
+            add(listed, field);
         },
         read);
     if (gas.intake_runner.any() || gas.exhaust_runner.any()) {
@@ -135,6 +137,7 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
       add({1, ""}, gas.exhaust_runner);
     }
     if (gas.charge_burn.in_use) add({1, ""}, gas.charge_burn);
+    if (gas.walls.any()) add({1, ""}, gas.walls);
     for (int t = 0; t < train_count; ++t) f.add(trains[t].valve.per_cylinder);  // the port's area counts them
   }
   return f.value();

@@ -95,6 +95,7 @@ namespace {
   if (gas.crevice.any()) c.parts |= kGasCrevice;
   if (gas.intake_runner.any() || gas.exhaust_runner.any()) c.parts |= kGasRunners;
   if (gas.charge_burn.in_use) c.parts |= kGasChargeBurn;
+  if (gas.walls.any()) c.parts |= kGasWalls;
   return c;
 }
 
@@ -214,6 +215,17 @@ constexpr double kLn2 = 0.69314718055994531;
   return table;
 }
 
+[[nodiscard]] WarmWallsTable<double> walls_of(const EngineDefinition& engine) noexcept {
+  const Gas& gas = engine.gas;
+  const Walls& walls = gas.walls;
+  WarmWallsTable<double> table{};
+  if (!walls.any()) return table;
+  table.capacity_J_K = walls.capacity_J_K, table.to_coolant_W_K = walls.to_coolant_W_K;
+  table.coolant_K = walls.coolant_K, table.behind_K = gas.behind_walls_K();
+  table.port_W_K[kIntake] = walls.intake_W_K, table.port_W_K[kExhaust] = walls.exhaust_W_K;
+  return table;
+}
+
 [[nodiscard]] KnockTable<double> knock_of(const EngineDefinition& engine) noexcept {
   KnockTable<double> table{};
   if (engine.gas.octane_number == 0) return table;
@@ -250,6 +262,7 @@ void fill_gas_exchange(const EngineDefinition& engine, const TickOptions& option
   fill(targets.burn, burn_of);
   fill(targets.charge_burn, charge_burn_of);
   fill(targets.knock, knock_of);
+  fill(targets.gas_walls, walls_of);
   if (targets.gas_ports == nullptr) return;
   for (int t = 0; t < engine.train_count; ++t)
     fill(targets.gas_ports + t, [t](const EngineDefinition& e) { return port_of(e, t); });

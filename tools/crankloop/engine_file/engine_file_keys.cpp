@@ -26,6 +26,8 @@ constexpr Unit kMg{"mg", 1, 1e6};
 constexpr Unit kMJPerKg{"MJ_per_kg", 1e6, 1};
 constexpr Unit kCelsius{"C"};  // core takes kelvins: engine_file_gas.cpp
 constexpr Unit kKelvin{"K"};
+constexpr Unit kJPerK{"J_per_K"};
+constexpr Unit kWPerK{"W_per_K"};
 constexpr Unit kKgM2{"kg_m2"};
 constexpr Unit kKgMm2{"kg_mm2", 1, 1e6};
 constexpr Unit kKPa{"kPa", 1e3, 1};
@@ -136,6 +138,12 @@ constexpr Key kRows[] = {
     {"gas", "exhaust_C", Kind::number, kCelsius, "", from(-123.15).up_to(2726.85), "", defaults, "500", "", "", "initial value for a scene whose exhaust manifold is given"},
     {"gas", "wall_C", Kind::number, kCelsius, "", from(-123.15).up_to(1726.85), "", defaults, "150", "", "", "mean temperature of the cylinder's walls"},
     {"gas", "wall_heat_factor", Kind::number, kNoUnit, "gas.wall_heat_ratio", kOfField, "", defaults, "1", "", "", "k_w, of Hohenberg's heat transfer; 0: adiabatic"},
+    {"gas", "wall_J_per_K", Kind::number, kJPerK, "walls.capacity_J_K", from(0).up_to(1e6), "", defaults, "0", "", "", "heat capacity of each cylinder's walls, 1 and above, which start at wall_C; 0: they stay there", "500 to 3000"},
+    {"gas", "wall_W_per_K", Kind::number, kWPerK, "walls.to_coolant_W_K", kOfField, "", defaults, "20", "", "", "of them to the coolant, with wall_J_per_K", "10 to 50"},
+    {"gas", "coolant_C", Kind::number, kCelsius, "", from(-123.15).up_to(1726.85), "", defaults, "90", "", "", "temperature of the coolant, with wall_J_per_K"},
+    {"gas", "intake_W_per_K", Kind::number, kWPerK, "walls.intake_W_K", kOfField, "", defaults, "0", "", "", "of the gas in the intake manifold to its walls, with runners at each port instead; 0: adiabatic", "1 to 3"},
+    {"gas", "exhaust_W_per_K", Kind::number, kWPerK, "walls.exhaust_W_K", kOfField, "", defaults, "0", "", "", "of the gas in the exhaust manifold to its walls, with runners at each port instead; 0: adiabatic", "3 to 15"},
+    {"gas", "manifold_C", Kind::number, kCelsius, "", from(-123.15).up_to(2726.85), "", optional, "", "", "", "temperature behind the walls of manifolds and runners; absent: ambient_C"},
     {"gas", "crevice_share", Kind::number, kNoUnit, "crevice.volume_ratio", kOfField, "", defaults, "0", "", "", "crevices (top land, ring pack, gasket, plug) by the clearance volume; 0: none", "0.01 to 0.02"},
     {"gas", "blow_by_mm2", Kind::number, kMm2, "crevice.blow_by_m2", kOfField, "", defaults, "0", "", "", "effective area of the leak past the rings into the crankcase; 0: tight", "0.03 to 0.15; worn 0.3"},
     {"gas", "intake_runner_mm", Kind::number, kMm, "", from(20).up_to(3000), "", optional, "", "", "", "length of the pipe from the intake manifold to each cylinder's port; absent: no inertia of its gas", "250 to 600"},
@@ -334,6 +342,8 @@ constexpr Follows kFollows[] = {
     {"runner.diameter_m", "gas", "intake_runner_diameter_mm"},
     {"runner.loss_ratio", "gas", "intake_runner_loss"},
     {"charge_burn.in_use", "gas", "burn_by"},
+    {"walls.coolant_K", "gas", "coolant_C"},
+    {"walls.manifold_K", "gas", "manifold_C"},
     {"gas.port", "valve", "port"},
     {"gas.flow_count", "valve", "flow_over_lift_ratio"},
     {"gas.flow_lift_ratio", "valve", "flow_over_lift_ratio"},

@@ -29,6 +29,10 @@ void add_gas_columns(std::vector<std::string>& columns, const EngineDefinition& 
   for (int k = 1; k <= engine.layout.cylinders && engine.gas.crevice.any(); ++k) {
     for (const char* what : {"_crevice_mg", "_blow_by_g_s"}) columns.push_back("c" + std::to_string(k) + what);
   }
+  for (int k = 1; k <= engine.layout.cylinders && engine.gas.walls.capacity_J_K > 0; ++k)
+    columns.push_back("c" + std::to_string(k) + "_wall_K");
+  if (engine.gas.walls.intake_W_K > 0 || engine.gas.walls.exhaust_W_K > 0)
+    columns.insert(columns.end(), {"intake_wall_heat_W", "exhaust_wall_heat_W"});
   const bool runners[] = {engine.gas.intake_runner.any(), engine.gas.exhaust_runner.any()};
   for (int k = 1; k <= engine.layout.cylinders; ++k) {
     for (const std::size_t port : {std::size_t{kIntake}, std::size_t{kExhaust}}) {

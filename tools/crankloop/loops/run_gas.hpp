@@ -76,6 +76,10 @@ void write_gas(CsvWriter& csv, const crankloop::Output<Real, S>& out, const Engi
     csv.cell(out.crevice[k].mass_kg * static_cast<Real>(1e6));
     csv.cell(out.crevice[k].blow_by_kg_s * static_cast<Real>(1e3));
   }
+  for (std::size_t k = 0; k < cylinders && engine.gas.walls.capacity_J_K > 0; ++k) csv.cell(out.wall_K[k]);
+  if (engine.gas.walls.intake_W_K > 0 || engine.gas.walls.exhaust_W_K > 0) {
+    for (const Real heat_W : out.port_heat_W) csv.cell(heat_W);
+  }
   const bool runners[] = {engine.gas.intake_runner.any(), engine.gas.exhaust_runner.any()};
   for (std::size_t k = 0; k < cylinders; ++k) {
     for (const std::size_t port : {std::size_t{kIntake}, std::size_t{kExhaust}}) {

@@ -49,7 +49,7 @@ struct GasCylinders {
 };
 
 /// Parts of an engine's gas that a scene may leave out where an engine does not have them.
-enum GasPart : std::uint32_t { kGasCrevice = 1, kGasRunners = 2, kGasChargeBurn = 4 };
+enum GasPart : std::uint32_t { kGasCrevice = 1, kGasRunners = 2, kGasChargeBurn = 4, kGasWalls = 8 };
 
 /// Crevices of a cylinder and its leak into the crankcase: tick/gas/crevice.hpp. Zero in an engine without either.
 template <class Real>
@@ -130,6 +130,16 @@ struct BurnTable {
   Real burn_start_deg;
   Real burn_duration_deg;
   Real burnt[kBurnSteps + 1];
+};
+
+/// Walls that warm up: tick/gas/warm_walls.hpp. Zero in an engine without.
+template <class Real>
+struct WarmWallsTable {
+  Real capacity_J_K;  ///< of a cylinder's; 0: fixed
+  Real to_coolant_W_K;
+  Real coolant_K;
+  Real port_W_K[kPorts];  ///< of manifolds, or where there are runners of each port; 0: adiabatic
+  Real behind_K;          ///< behind them
 };
 
 /// Ignition delay of unburned gas: tick/gas/knock.hpp.

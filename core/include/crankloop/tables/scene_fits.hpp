@@ -55,6 +55,7 @@ template <class Real, class S>
       return refuse("scene.crevice", Reason::inconsistent);
     if (!S::runners && (tables.gas_cylinders->parts & kGasRunners) != 0)
       return refuse("scene.runners", Reason::inconsistent);
+    if (!S::walls && (tables.gas_cylinders->parts & kGasWalls) != 0) return refuse("scene.walls", Reason::inconsistent);
     if (Needs<S>::burn && !S::charge_burn && (tables.gas_cylinders->parts & kGasChargeBurn) != 0)
       return refuse("scene.charge_burn", Reason::inconsistent);
   }

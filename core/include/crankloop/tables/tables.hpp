@@ -59,6 +59,7 @@ enum class SectionRows : std::uint8_t { one, gas_grid, torque_grid, cut_grid, tr
   SECTION(gas_cylinders, GasCylinders<Real>, one, N::gas)                                          \
   SECTION(gas_crevice, GasCrevice<Real>, one, S::crevice)                                          \
   SECTION(gas_runners, GasRunners<Real>, one, S::runners)                                          \
+  SECTION(gas_walls, WarmWallsTable<Real>, one, S::walls)                                          \
   SECTION(gas_ports, GasPortCurve<Real>, trains, N::gas)                                           \
   SECTION(gas_manifolds, GasManifolds<Real>, one, N::manifolds)                                    \
   SECTION(burn, BurnTable<Real>, one, N::burn)                                                     \

@@ -29,7 +29,7 @@ template <class Real, class S>
   constexpr Real kHalf = static_cast<Real>(0.5);
   const CylinderGas<Real> gas = state.cylinder_gas.template at<Real>(cylinder);
   const GasPoint<Real>& at = gas.point;
-  const GasWalls<Real>& walls = tables.gas_cylinders->walls;
+  const GasWalls<Real>& walls = walls_of(tables, state, cylinder);
   const std::uint32_t mechanism = tables.drive->mechanism_of[cylinder];
   const Phase in_cycle = Phase::from_cycles(deg * static_cast<Real>(1.0 / kDegreesPerCycle));
   const Real volume_m3 = gas_volume_m3(tables, in_cycle.units() + tables.drive->firing_phase[mechanism], mechanism);

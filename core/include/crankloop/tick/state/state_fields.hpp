@@ -209,6 +209,12 @@ struct StateFields {
       }
       v.group("state.gas");
     }
+    if constexpr (S::walls) {
+      v.group("state.walls");
+      for (auto& wall : s.wall_K) v.number(wall, static_cast<Real>(kLeastGas_K), static_cast<Real>(kMaxGas_K));
+      for (auto& rest : s.wall_rest_K) v.number(rest, Real{-1}, Real{1});
+      v.group("state.gas");
+    }
     if constexpr (N::manifolds) {
       for (auto& manifold : s.manifold) {
         auto& c = manifold.contents;
