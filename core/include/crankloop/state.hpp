@@ -122,6 +122,8 @@ struct WallState {
 template <class Real, class S>
 struct KnockRecords {
   detail::KnockRecord<Real> knock[S::cylinders.capacity];
+  std::uint32_t knock_due;      ///< a bit of each cylinder whose burn, with an octane number, is yet to begin
+  std::uint32_t knock_in_burn;  ///< one of each whose integral grows
 };
 template <class Real, class S>
 struct GasRecords {

@@ -46,34 +46,51 @@ template <class Real, class S>
     if constexpr (Needs<S>::charge_burn) burn.start_deg = state.charge_burn[cylinder].spark_deg;  // last good
     faults |= take_fuel(burn, table, mass_kg, burned_kg, order, cut);
     if constexpr (Needs<S>::charge_burn) order_start(state.charge_burn[cylinder], burn, table, *tables.charge_burn);
-    if constexpr (Needs<S>::knock) reset_knock(state.knock[cylinder], *tables.knock, burn.fuel_kg);
+    if constexpr (Needs<S>::knock) {
+      const std::uint32_t bit = std::uint32_t{1} << cylinder;
+      reset_knock(state.knock[cylinder]);
+      state.knock_due = tables.knock->in_use != 0 && burn.fuel_kg > 0 ? state.knock_due | bit : state.knock_due & ~bit;
+    }
   }
   if constexpr (Needs<S>::charge_burn) {
     if (state.charge_burn[cylinder].due != 0 && burn.taken != 0 && way.deg<Real>() > burn.start_deg)
       begin_burn(tables, state, cylinder, way);
-  }
-  if constexpr (Needs<S>::knock) {
-    KnockRecord<Real>& knock = state.knock[cylinder];
-    if (knock.stage == kKnockDue && burn.fuel_kg > 0 && way.deg<Real>() > burn.start_deg)
-      begin_knock(knock, charge_at_start(tables, state, cylinder, way));
   }
   const GasFuel<Real> fuel = burnt_fuel(burn, table, mass_kg, burned_kg, way);
   if (ends && way.forward()) end_burn(burn);
   return fuel;
 }
 
-/// The step of a cylinder in its burn as far as knock goes, and what a cycle shows of it.
+/// The integrals of knock of those among cylinders from `first` on whose burns begin on their ways; `due`: bits of
+/// those that are yet to. Of one whose fuel is taken on the same way, on the next.
 template <class Real, class S>
-[[gnu::always_inline]] inline void knock_on_way(const Tables<Real, S>& tables, State<Real, S>& state,
-                                                Output<Real, S>& out, std::uint32_t cylinder, const CycleWay& way,
-                                                bool ends, Real step_s) noexcept {
-  KnockRecord<Real>& knock = state.knock[cylinder];
-  if (knock.stage == kKnockInBurn)
-    step_knock(knock, *tables.knock, state.burn[cylinder], state.cylinder_gas.pressure_Pa[cylinder], step_s, way);
-  if (!ends) return;
-  if (knock.stage == kKnockInBurn) knock.stage = kKnockDone;
-  if (!way.forward()) return;
-  out.knock_integral[cylinder] = knock.integral_ratio, out.knock_deg[cylinder] = knock.passes_deg;
+[[gnu::noinline]] void begin_knock_on_way(const Tables<Real, S>& tables, State<Real, S>& state, std::uint32_t first,
+                                          std::uint32_t due, const CycleWay* way) noexcept {
+  for (std::uint32_t k = first; due != 0; due >>= 1, ++k, ++way) {
+    const CylinderBurn<Real>& burn = state.burn[k];
+    if ((due & 1u) == 0 || !(way->template deg<Real>() > burn.start_deg) || !(burn.fuel_kg > 0)) continue;
+    begin_knock(state.knock[k], charge_at_start(tables, state, k, *way));
+    state.knock_due &= ~(std::uint32_t{1} << k), state.knock_in_burn |= std::uint32_t{1} << k;
+  }
+}
+
+/// The step of cylinders from `first` on as far as knock goes, and what their cycles show of it. Bits of each:
+/// `in_burn`, its integral grows, `ends`, its cycle does.
+template <class Real, class S>
+[[gnu::noinline]] void knock_on_way(const Tables<Real, S>& tables, State<Real, S>& state, Output<Real, S>& out,
+                                    std::uint32_t first, std::uint32_t in_burn, std::uint32_t ends, const CycleWay* way,
+                                    Real step_s) noexcept {
+  std::uint32_t left = in_burn | ends;
+  for (std::uint32_t k = first; left != 0; left >>= 1, in_burn >>= 1, ends >>= 1, ++k, ++way) {
+    if ((left & 1u) == 0) continue;
+    KnockRecord<Real>& knock = state.knock[k];
+    const Real pressure_Pa = state.cylinder_gas.pressure_Pa[k];
+    const bool goes_on =
+        (in_burn & 1u) != 0 && step_knock(knock, *tables.knock, state.burn[k], pressure_Pa, step_s, *way);
+    const bool ended = (ends & 1u) != 0;
+    if (!goes_on || ended) state.knock_in_burn &= ~(std::uint32_t{1} << k);
+    if (ended && way->forward()) out.knock_integral[k] = knock.integral_ratio, out.knock_deg[k] = knock.passes_deg;
+  }
 }
 
 /// Shows a cycle that was recorded from its begin, and begins the next.

@@ -117,6 +117,11 @@ class GasCylindersStep {
     std::uint32_t faults = 0;
     [[maybe_unused]] const std::uint32_t ends = ends_ >> k;  // one bit of each lane
     GasFuel<T> fuel{};
+    if constexpr (N::knock) {
+      constexpr std::uint32_t kAll = (std::uint32_t{1} << kLanes) - 1;
+      const std::uint32_t due = state_.knock_due >> k & kAll;
+      if (due != 0) begin_knock_on_way(tables_, state_, k, due, way);
+    }
     if constexpr (N::burn) {
       for (int i = 0; i < kLanes; ++i) {
         const GasFuel<Real> one = burn_on_way(tables_, state_, input, k + static_cast<std::uint32_t>(i), way[i],
@@ -174,9 +179,9 @@ class GasCylindersStep {
     for (int i = 0; i < kLanes; ++i) work_J += lane(crank_J, i);
     work_J_ = work_J;
     if constexpr (N::knock) {
-      for (int i = 0; i < kLanes; ++i)
-        knock_on_way(tables_, state_, out_, k + static_cast<std::uint32_t>(i), way[i], (ends >> i & 1u) != 0,
-                     step.drive.step_s);
+      constexpr std::uint32_t kAll = (std::uint32_t{1} << kLanes) - 1;
+      const std::uint32_t in_burn = state_.knock_in_burn >> k & kAll, ending = ends & kAll;
+      if ((in_burn | ending) != 0) knock_on_way(tables_, state_, out_, k, in_burn, ending, way, step.drive.step_s);
     }
     if constexpr (S::gas_results) {
       std::uint32_t intake_shut = 0;
@@ -354,8 +359,10 @@ class GasCylindersStep {
   [[nodiscard, gnu::always_inline]] std::uint32_t step_cylinder_walls(std::uint32_t k, const T& heat_J,
                                                                       Real step_s) noexcept {
     const WarmWallsTable<Real>& table = *tables_.gas_walls;
+    T wall_K = load<T>(state_.wall_K + k);
+    std::uint32_t faults = 0;
     if (table.capacity_J_K > 0) {
-      T wall_K = load<T>(state_.wall_K + k), rest_K = load<T>(state_.wall_rest_K + k);
+      T rest_K = load<T>(state_.wall_rest_K + k);
       bool plain = true;
       if constexpr (S::crevice) {
         if (tables_.gas_crevice->in_use != 0) {
@@ -366,19 +373,11 @@ class GasCylindersStep {
         }
       }
       if (plain) step_walls<T>(wall_K, rest_K, table, heat_J, step_s);
+      const auto well = both_hold(wall_K >= static_cast<Real>(kLeastGas_K), wall_K <= static_cast<Real>(kMaxGas_K));
+      if (__builtin_expect(!all(well), 0)) put_walls_right<T>(wall_K, rest_K), faults = kFaultGas;
       store<T>(state_.wall_K + k, wall_K), store<T>(state_.wall_rest_K + k, rest_K);
     }
-    std::uint32_t faults = 0;
-    for (int i = 0; i < kLanesIn<T>; ++i) {
-      const std::uint32_t one = k + static_cast<std::uint32_t>(i);
-      Real& wall_K = state_.wall_K[one];
-      if (__builtin_expect(!(wall_K >= static_cast<Real>(kLeastGas_K) && wall_K <= static_cast<Real>(kMaxGas_K)), 0)) {
-        wall_K = wall_K > static_cast<Real>(kMaxGas_K) ? static_cast<Real>(kMaxGas_K) : static_cast<Real>(kLeastGas_K);
-        state_.wall_rest_K[one] = Real{0};
-        faults |= kFaultGas;
-      }
-      out_.wall_K[one] = wall_K;
-    }
+    store<T>(out_.wall_K + k, wall_K);
     return faults;
   }
 

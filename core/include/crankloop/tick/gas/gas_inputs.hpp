@@ -33,7 +33,8 @@ template <class Real, class S>
     }
     if constexpr (Needs<S>::knock) {
       for (KnockRecord<Real>& knock : state.knock)
-        knock = {Real{0}, Real{0}, Real{300}, Real{100000}, Real{0}, Real{0}, kKnockDone, 0};
+        knock = {Real{0}, Real{0}, Real{300}, Real{100000}, Real{0}, Real{0}};
+      state.knock_due = state.knock_in_burn = 0;
     }
     if constexpr (Needs<S>::charge_burn) {
       for (BurnStart<Real>& start : state.charge_burn) start = {table.burn_start_deg, Real{1}, 0, 0};

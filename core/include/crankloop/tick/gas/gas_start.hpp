@@ -45,6 +45,7 @@ void fill_runners(const Tables<Real, S>& tables, State<Real, S>& state, std::uin
 template <class Real, class S>
 [[gnu::cold, gnu::noinline]] void fill_cylinders(const Tables<Real, S>& tables, State<Real, S>& state) noexcept {
   const GasPoint<Real> from = manifold_of(state, kIntake);
+  if constexpr (Needs<S>::knock) state.knock_due = state.knock_in_burn = 0;
   for (std::uint32_t k = 0; k < count<S>(tables.drive->cylinders); ++k) {
     CylinderGas<Real> gas{};
     gas.volume_m3 = gas_volume_m3(tables, state.phase.units(), tables.drive->mechanism_of[k]);

@@ -189,18 +189,15 @@ struct BurnStart {
   std::uint32_t spare;
 };
 
-inline constexpr std::uint32_t kKnockDue = 0, kKnockInBurn = 1, kKnockDone = 2;
 /// How far a cycle's unburned gas has come to knock.
 template <class Real>
 struct KnockRecord {
   Real integral_ratio;
-  Real passes_deg;      ///< where it passed 1; 0: it has not
-  Real unburned_K;      ///< temperature of the unburned gas
-  Real pressure_Pa;     ///< of the cylinder, at the end of the last step
-  Real burned_ratio;    ///< of the unburned gas: residual
-  Real burnt_ratio;     ///< of the fuel, at the end of the last step
-  std::uint32_t stage;  ///< kKnockDue, kKnockInBurn, kKnockDone
-  std::uint32_t spare;
+  Real passes_deg;    ///< where it passed 1; 0: it has not
+  Real unburned_K;    ///< temperature of the unburned gas
+  Real pressure_Pa;   ///< of the cylinder, at the end of the last step
+  Real burned_ratio;  ///< of the unburned gas: residual
+  Real burnt_ratio;   ///< of the fuel, at the end of the last step
 };
 
 /// A cycle's fuel and burn, as asked for.

@@ -23,16 +23,14 @@ inline constexpr Real kMaxKnock = static_cast<Real>(1e6);
 
 /// For a cycle that has taken its fuel.
 template <class Real>
-constexpr void reset_knock(KnockRecord<Real>& knock, const KnockTable<Real>& table, const Real& fuel_kg) noexcept {
+constexpr void reset_knock(KnockRecord<Real>& knock) noexcept {
   knock.integral_ratio = knock.passes_deg = knock.burnt_ratio = Real{0};
-  knock.stage = table.in_use != 0 && fuel_kg > 0 ? kKnockDue : kKnockDone;
 }
 
 template <class Real>
 constexpr void begin_knock(KnockRecord<Real>& knock, const BurnCharge<Real>& charge) noexcept {
   knock.unburned_K = charge.temperature_K, knock.pressure_Pa = charge.pressure_Pa;
   knock.burned_ratio = charge.burned_ratio;
-  knock.stage = kKnockInBurn;
 }
 
 /// Compresses the unburned gas to `to_Pa`; answers its mean temperature meanwhile.
@@ -51,11 +49,11 @@ template <class Real>
   return c(0.5) * (from_K + to_K);
 }
 
-/// A step of a cylinder in its burn, at whose end it is at `to_Pa`.
+/// A step of a cylinder in its burn, at whose end it is at `to_Pa`. Answers whether the burn goes on.
 template <class Real>
-[[gnu::noinline]] void step_knock(KnockRecord<Real>& knock, const KnockTable<Real>& table,
-                                  const CylinderBurn<Real>& burn, const Real& to_Pa, const Real& step_s,
-                                  const CycleWay& way) noexcept {
+[[nodiscard]] inline bool step_knock(KnockRecord<Real>& knock, const KnockTable<Real>& table,
+                                     const CylinderBurn<Real>& burn, const Real& to_Pa, const Real& step_s,
+                                     const CycleWay& way) noexcept {
   const auto c = [](double x) { return static_cast<Real>(x); };
   const Real mean_Pa = c(0.5) * (knock.pressure_Pa + to_Pa), mean_K = compress_unburned(knock, to_Pa);
   knock.pressure_Pa = to_Pa;
@@ -67,14 +65,15 @@ template <class Real>
     begins = c(1) - (to_deg - burn.start_deg) / turned_deg;
   const Real was = knock.burnt_ratio, end = kKnockEnd_ratio<Real>;
   if (!(burn.burnt_ratio < end)) ends = burn.burnt_ratio > was ? (end - was) / (burn.burnt_ratio - was) : Real{0};
-  if (!(burn.burnt_ratio < end) || !(burn.fuel_kg > 0)) knock.stage = kKnockDone;
+  const bool goes_on = burn.burnt_ratio < end && burn.fuel_kg > 0;
   knock.burnt_ratio = burn.burnt_ratio;
-  if (!(ends > begins)) return;
+  if (!(ends > begins)) return goes_on;
   const Real rises = per_s * step_s * (ends - begins), before = knock.integral_ratio;
   const Real after = before + rises;
   knock.integral_ratio = after < kMaxKnock<Real> ? after : kMaxKnock<Real>;
   if (before < 1 && !(after < 1))
     knock.passes_deg = to_deg - turned_deg * (c(1) - begins - (ends - begins) * ((c(1) - before) / rises));
+  return goes_on;
 }
 
 }  // namespace crankloop::detail

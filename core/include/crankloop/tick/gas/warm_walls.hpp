@@ -65,6 +65,19 @@ template <class T>
   add_carried(wall_K, rest_K, (heat_J + to_coolant_J_K * (table.coolant_K - wall_K)) * per_J_K);
 }
 
+/// Walls that no engine has, back among the others.
+template <class T>
+[[gnu::cold]] inline void put_walls_right(T& wall_K, T& rest_K) noexcept {
+  using Real = NumberOf<T>;
+  constexpr Real kLeast_K = static_cast<Real>(kLeastGas_K), kMax_K = static_cast<Real>(kMaxGas_K);
+  for (int i = 0; i < kLanesIn<T>; ++i) {
+    const Real kelvin = lane(wall_K, i);
+    if (kelvin >= kLeast_K && kelvin <= kMax_K) continue;
+    put_lane(wall_K, i, kelvin > kMax_K ? kMax_K : kLeast_K);
+    put_lane(rest_K, i, Real{0});
+  }
+}
+
 /// Heat of the gas in a manifold or at a port to its walls in a step; implicit, by the specific heat midway to them.
 template <class Real>
 [[nodiscard]] inline Real lose_heat(GasContents<Real>& gas, GasPoint<Real>& point, const Real& per_volume_m3,

@@ -267,9 +267,9 @@ struct StateFields {
         v.number(knock.pressure_Pa, static_cast<Real>(1e-6), static_cast<Real>(1e12));
         v.number(knock.burned_ratio, Real{0}, Real{1});
         v.number(knock.burnt_ratio, Real{0}, Real{1});
-        v.word(knock.stage, kKnockDone);
-        v.spare(knock.spare);
       }
+      constexpr std::uint32_t kAll = (std::uint32_t{1} << S::cylinders.capacity) - 1;
+      v.word(s.knock_due, kAll), v.word(s.knock_in_burn, kAll);
     }
     if constexpr (S::gas_results) {
       v.group("state.gas_record");
