@@ -221,6 +221,18 @@ void look_at_mixture(const EngineFile& engine, const EngineSize& size, Warnings&
                                            about(lambda) + " in a cylinder full of air; " + usual);
 }
 
+/// Warns about a burn by charge, and an octane number, of a fuel that burns by two laws: they are of gasoline in a
+/// flame.
+void look_at_burn(const EngineFile& engine, Warnings& warnings) {
+  if (engine.definition().pressure.source != PressureSource::gas || !engine.has("gas")) return;
+  const Gas& gas = engine.definition().gas;
+  if (!(gas.second_ratio > 0)) return;
+  const SectionValues& values = engine.section("gas");
+  const std::string why = ": a law of gasoline, and second_share = " + brief(gas.second_ratio) + " is a diesel's";
+  if (gas.charge_burn.in_use) warnings.add(values.line_of("burn_by"), "burn_by = charge" + why);
+  if (gas.octane_number > 0) warnings.add(values.line_of("octane"), "octane = " + brief(gas.octane_number) + why);
+}
+
 /// Warns about a manifold that is no large volume for its runners: docs/model.md "Runners".
 void look_at_runners(const EngineFile& engine, Warnings& warnings) {
   constexpr double kLeastVolumes = 5;
@@ -298,6 +310,7 @@ std::vector<std::string> warnings_about(const EngineFile& engine) {
   look_at_measured_cams(engine, warnings);
   look_at_mixture(engine, size, warnings);
   look_at_runners(engine, warnings);
+  look_at_burn(engine, warnings);
   return warnings.lines();
 }
 
