@@ -62,12 +62,12 @@ template <class Real, class S = Cylinder>
 }
 
 template <class Real>
-class GasBurn : public ::testing::Test {};
-TYPED_TEST_SUITE(GasBurn, tick_test::BothReals, RealName);
+class GasChargeBurn : public ::testing::Test {};
+TYPED_TEST_SUITE(GasChargeBurn, tick_test::BothReals, RealName);
 
 // ---- the law --------------------------------------------------------------------------------------------------------
 
-TYPED_TEST(GasBurn, HasPowersOfAnyExponent) {
+TYPED_TEST(GasChargeBurn, HasPowersOfAnyExponent) {
   using Real = TypeParam;
   const double tolerance = sizeof(Real) == 4 ? 3e-7 : 1e-8;
   for (double x = 1e-18; x < 1e18; x *= 1.0137) {
@@ -96,7 +96,7 @@ constexpr Case kCases[] = {
     {2000, 650, 1300e3, 0.05, 1 / 1.2, 0.918}, {2000, 640, 500e3, 0.15, 1, 1.178},
 };
 
-TYPED_TEST(GasBurn, LastsAsItsLawSays) {
+TYPED_TEST(GasChargeBurn, LastsAsItsLawSays) {
   using Real = TypeParam;
   EXPECT_NEAR(flame_m_s({101325, 298, 0}, 1), 0.2808, 5e-5);
   EXPECT_NEAR(flame_m_s({1300e3, 650, 0.05}, 1), 0.6749, 5e-5);
@@ -137,7 +137,7 @@ constexpr Accuracy kMeasured[] = {
     {6000, 50e-6, 8.1e-4, 7.0e-4}, {6000, 100e-6, 2.2e-3, 1.6e-3},
 };
 
-TYPED_TEST(GasBurn, FollowsItsDifferentialEquations) {
+TYPED_TEST(GasChargeBurn, FollowsItsDifferentialEquations) {
   using Real = TypeParam;
   for (const Accuracy& asked : kMeasured) {
     const EngineDefinition definition = by_charge();
@@ -186,7 +186,7 @@ TYPED_TEST(GasBurn, FollowsItsDifferentialEquations) {
 }
 
 /// From the spark to the burn's start it takes as much longer as the burn before did.
-TYPED_TEST(GasBurn, StartsAfterTheSparkByTheBurnBefore) {
+TYPED_TEST(GasChargeBurn, StartsAfterTheSparkByTheBurnBefore) {
   using Real = TypeParam;
   EngineDefinition definition = by_charge();
   definition.gas.charge_burn.spark_to_start_deg = 12, definition.gas.burn_start_deg = -30;
@@ -208,7 +208,7 @@ TYPED_TEST(GasBurn, StartsAfterTheSparkByTheBurnBefore) {
 }
 
 /// A burn that would end later ends there, and one that has the spark too late starts where half of it fits.
-TYPED_TEST(GasBurn, EndsInTime) {
+TYPED_TEST(GasChargeBurn, EndsInTime) {
   using Real = TypeParam;
   EngineDefinition definition = by_charge();
   definition.gas.burn_duration_deg = 88, definition.gas.burn_start_deg = 60;
@@ -224,7 +224,7 @@ TYPED_TEST(GasBurn, EndsInTime) {
 
 // ---- scenes ---------------------------------------------------------------------------------------------------------
 
-TYPED_TEST(GasBurn, ChangesNoBitWhereTheEngineHasNone) {
+TYPED_TEST(GasChargeBurn, ChangesNoBitWhereTheEngineHasNone) {
   using Real = TypeParam;
   EngineDefinition definition = by_charge();
   definition.gas.charge_burn.in_use = false;
@@ -243,7 +243,7 @@ struct Motored : Plain {
   static constexpr Combustion combustion = Combustion::none;
 };
 
-TEST(GasBurnScene, IsDemandedByADefinitionThatBurnsByCharge) {
+TEST(GasChargeBurnScene, IsDemandedByADefinitionThatBurnsByCharge) {
   TableStorage<float, Plain> storage;
   ASSERT_TRUE(accepted(storage.build(by_charge(), {100e-6, {}})));
   Engine<float, Plain> engine;
@@ -254,7 +254,7 @@ TEST(GasBurnScene, IsDemandedByADefinitionThatBurnsByCharge) {
   EXPECT_TRUE(accepted(turned.init(motored.tables())));
 }
 
-TEST(GasBurnScene, CostsNoByteOfStateAndOutputWhereItIsNotAskedFor) {
+TEST(GasChargeBurnScene, CostsNoByteOfStateAndOutputWhereItIsNotAskedFor) {
   EXPECT_EQ(sizeof(State<float, Cylinder>) - sizeof(State<float, Plain>), 4 * sizeof(float));
   EXPECT_EQ(sizeof(Output<float, Cylinder>) - sizeof(Output<float, Plain>), 2 * sizeof(float));
 }
@@ -264,7 +264,7 @@ struct Four : ByInput {
 };
 
 /// Each cylinder its own spark, fuel and burn, as by itself.
-TYPED_TEST(GasBurn, HasACylinderAbreastAsByItself) {
+TYPED_TEST(GasChargeBurn, HasACylinderAbreastAsByItself) {
   using Real = TypeParam;
   EngineDefinition definition = support::four_2000();
   definition.gas.charge_burn.in_use = true, definition.gas.charge_burn.spark_to_start_deg = 6;
@@ -294,7 +294,7 @@ TYPED_TEST(GasBurn, HasACylinderAbreastAsByItself) {
   EXPECT_NE(four->engine.output().cycle_burn[0].duration_deg, four->engine.output().cycle_burn[3].duration_deg);
 }
 
-TYPED_TEST(GasBurn, GoesOnFromASavedState) {
+TYPED_TEST(GasChargeBurn, GoesOnFromASavedState) {
   using Real = TypeParam;
   EngineDefinition definition = by_charge();
   definition.gas.charge_burn.spark_to_start_deg = 8;
@@ -320,7 +320,7 @@ TYPED_TEST(GasBurn, GoesOnFromASavedState) {
       support::refuses(load_state(bytes.data(), bytes.size(), run->engine), Reason::out_of_range, "state.charge_burn"));
 }
 
-TYPED_TEST(GasBurn, StaysANumberWhateverComesIn) {  // CRANKLOOP_LONG_TESTS=1: 20 000 engines
+TYPED_TEST(GasChargeBurn, StaysANumberWhateverComesIn) {  // CRANKLOOP_LONG_TESTS=1: 20 000 engines
   using Real = TypeParam;
   support::Random random(36);
   const int trials = std::getenv("CRANKLOOP_LONG_TESTS") != nullptr ? 20'000 : 300;
