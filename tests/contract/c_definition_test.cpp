@@ -32,6 +32,7 @@ TEST(CDefinition, PassesEveryFieldOnToCpp) {
   EngineDefinition all_read{};
   all_read.train_count = kMaxTrains;
   all_read.trigger_count = kMaxTriggerWheels;
+  all_read.layout.cylinders = kMaxCylinders;
   for (ValveTrain& train : all_read.trains) train.rocker.kind = RockerKind::circular_pad;
   const crankloop_definition usual = c::as_c(all_read);
   const int blind = blind_bytes(usual, [&](const crankloop_definition& changed) {
@@ -41,10 +42,12 @@ TEST(CDefinition, PassesEveryFieldOnToCpp) {
     return std::memcmp(&back, &usual, sizeof back) != 0;
   });
   // Behind cylinders, heat_given, train_count, trigger_count, in each train behind point_count, per_cylinder and
-  // surge_modes, in each wheel behind inverted: 4 bytes. Of a wheel's `inverted` the three bytes above the lowest tell
+  // surge_modes, in each wheel behind inverted, in each misfire behind
+  // cycles: 4 bytes. Of a wheel's `inverted` the three bytes above the lowest tell
   // nothing new: any number but 0 is yes; but here each byte is changed by itself.
   if (kUsual64Bits) {
-    EXPECT_EQ(blind, 4 + 4 + 4 + 4 + CRANKLOOP_MAX_TRAINS * (4 + 4 + 4) + CRANKLOOP_MAX_TRIGGER_WHEELS * 4);
+    EXPECT_EQ(blind, 4 + 4 + 4 + 4 + CRANKLOOP_MAX_TRAINS * (4 + 4 + 4) + CRANKLOOP_MAX_TRIGGER_WHEELS * 4 +
+                         CRANKLOOP_MAX_CYLINDERS * 4);
   }
 }
 

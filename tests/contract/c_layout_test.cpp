@@ -161,7 +161,7 @@ constexpr Place kPlaces[] = {
     CRANKLOOP_AT(crankloop_trigger_wheel, edges_deg, 104),
     CRANKLOOP_AT(crankloop_trigger_wheel, inverted, 112),
 
-    CRANKLOOP_SIZE(crankloop_definition, 3048),
+    CRANKLOOP_SIZE(crankloop_definition, 5736),
     CRANKLOOP_AT(crankloop_definition, crank, 0),
     CRANKLOOP_AT(crankloop_definition, masses, 48),
     CRANKLOOP_AT(crankloop_definition, layout, 96),
@@ -173,6 +173,17 @@ constexpr Place kPlaces[] = {
     CRANKLOOP_AT(crankloop_definition, starter, 2064),
     CRANKLOOP_AT(crankloop_definition, trigger_count, 2080),
     CRANKLOOP_AT(crankloop_definition, triggers, 2088),
+    CRANKLOOP_AT(crankloop_definition, misfires, 3048),
+
+    CRANKLOOP_SIZE(crankloop_misfire, 168),
+    CRANKLOOP_AT(crankloop_misfire, random_ratio, 0),
+    CRANKLOOP_AT(crankloop_misfire, burning_ratio, 8),
+    CRANKLOOP_AT(crankloop_misfire, pattern, 16),
+    CRANKLOOP_AT(crankloop_misfire, misfires, 20),
+    CRANKLOOP_AT(crankloop_misfire, of, 24),
+    CRANKLOOP_AT(crankloop_misfire, seed, 28),
+    CRANKLOOP_AT(crankloop_misfire, cycle_count, 32),
+    CRANKLOOP_AT(crankloop_misfire, cycles, 36),
 
     CRANKLOOP_SIZE(crankloop_options, 32),
     CRANKLOOP_AT(crankloop_options, tick_s, 0),

@@ -17,6 +17,7 @@ class FieldNames {
     (*this)({1, ""}, Gas{});
     (*this)({1, ""}, TriggerWheel{});
     (*this)({1, ""}, CamContact{});
+    (*this)({1, ""}, Misfire{});
     names_.insert("trigger_count");
   }
   template <class Field>

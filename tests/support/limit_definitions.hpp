@@ -29,6 +29,7 @@ void each_part(Visit& visit, Self& definition, Others&... others) {
   EngineDefinition::each_field(visit, definition, others...);
   visit(ListedField{1, "trigger_count"}, definition.trigger_count, others.trigger_count...);
   visit(ListedField{definition.trigger_count, "triggers"}, definition.triggers, others.triggers...);
+  visit(ListedField{definition.layout.cylinders, "misfires"}, definition.misfires, others.misfires...);
 }
 
 template <class T>

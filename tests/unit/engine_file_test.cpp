@@ -90,6 +90,7 @@ TEST_F(EngineFileTest, DefaultsAreThoseOfTheLibrary) {
       EngineDefinition::each_field(library, untouched);
       Gas::each_field(library, untouched.gas);
       CamContact::each_field(library, untouched.contacts[0]);
+      Misfire::each_field(library, untouched.misfires[0]);
       EXPECT_EQ(parse_value(*key, key->fallback, "", 0).si(), library.value) << key->name;
       ++compared;
     }
@@ -534,6 +535,59 @@ TEST(EngineFileKeys, WhatIsWrittenReadsBackBitForBit) {
     value.numbers = {number};
     ASSERT_EQ(parse_value(key, format_value(value), "table", 1).numbers[0], number) << format_value(value);
   }
+}
+
+// ---- misfires -------------------------------------------------------------------------------------------------------
+
+TEST_F(EngineFileTest, MisfiresHaveARuleForEachCylinder) {
+  const std::string sample = contents(kSample);
+  const EngineFile engine =
+      read(sample +
+           "[misfire 1]\nevery = 16\n[misfire 2]\nmisses = 3\nof_cycles = 10\n"
+           "burning_ratio = 0.25\n[misfire 3]\nburst = 2\ngap = 5\n[misfire 4]\nrandom_ratio = 0.02\nseed = 7\n");
+  const Misfire* rules = engine.definition().misfires;
+  EXPECT_TRUE(engine.misfires());
+  EXPECT_EQ(rules[0].pattern, MisfirePattern::spread);
+  EXPECT_EQ(rules[0].misfires, 1);
+  EXPECT_EQ(rules[0].of, 16);
+  EXPECT_EQ(rules[1].pattern, MisfirePattern::spread);
+  EXPECT_EQ(rules[1].misfires, 3);
+  EXPECT_EQ(rules[1].of, 10);
+  EXPECT_EQ(rules[1].burning_ratio, 0.25);
+  EXPECT_EQ(rules[2].pattern, MisfirePattern::burst);
+  EXPECT_EQ(rules[2].misfires, 2);
+  EXPECT_EQ(rules[2].of, 7);
+  EXPECT_EQ(rules[3].pattern, MisfirePattern::random);
+  EXPECT_EQ(rules[3].random_ratio, 0.02);
+  EXPECT_EQ(rules[3].seed, 7);
+}
+
+TEST_F(EngineFileTest, MisfiresOfACommandLineReplaceThoseOfTheFile) {
+  EngineFile engine = read(contents(kSample) + "[misfire 2]\nevery = 16\n");
+  engine.set_misfires({"cylinder=2 cycles=3,5,8", " cylinder=4  every=2"});
+  const Misfire* rules = engine.definition().misfires;
+  EXPECT_EQ(rules[1].pattern, MisfirePattern::listed);
+  EXPECT_EQ(std::vector<int>(rules[1].cycles, rules[1].cycles + rules[1].cycle_count), (std::vector<int>{3, 5, 8}));
+  EXPECT_EQ(rules[3].of, 2);
+}
+
+TEST_F(EngineFileTest, MisfiresAreRefusedWithWhatIsAllowed) {
+  const auto says = [this](const std::string& section, const std::string& words) {
+    const std::string text = refusal(contents(kSample) + section);
+    EXPECT_NE(text.find(words), std::string::npos) << section << text;
+  };
+  says("[misfire 5]\nevery = 2\n", "'5' is no cylinder; allowed: whole numbers from 1 to 4");
+  says("[misfire one]\nevery = 2\n", "'one' is no cylinder");
+  says("[misfire 1]\n",
+       "needs either every, or misses and of_cycles, or random_ratio and seed, or burst and gap, or cycles");
+  says("[misfire 1]\nburst = 2\ngap = 3\nevery = 2\n", "give either burst and gap, or every");
+  says("[misfire 1]\nmisses = 3\nof_cycles = 2\n", "misses: 3 of 2 cycles cannot misfire");
+  says("[misfire 1]\nburst = 40000\ngap = 40000\n", "gap: burst and gap are more than 65535 cycles together");
+  says("[misfire 1]\ncycles = 4,4\n", "cycles: 4 follows 4; they must rise");
+  says("[misfire 1]\ncycles = 1.5\n", "cycles: 1.5 is not a whole number");
+  std::string many = "1";
+  for (int i = 2; i <= 33; ++i) many += "," + std::to_string(i);
+  says("[misfire 1]\ncycles = " + many + "\n", "cycles: 33 given; allowed: up to 32");
 }
 
 // ---- trigger wheels -------------------------------------------------------------------------------------------------

@@ -95,16 +95,17 @@ struct Scene {
   static constexpr bool cam_drag = false;       ///< the crank turns the camshaft: cam_torque, CrankGiven::torque
   static constexpr bool valve_gas =
       false;  ///< cylinder pressure on the valve heads; a train with a head area demands it
-  static constexpr std::uint32_t spring_modes =
-      0;  ///< of a valve's springs together, up to kMaxValveModes, that surge; elastic valves. A train with more is
-          ///< refused
-  static constexpr bool cam_phasing = false;  ///< Input::cam_phase_deg moves the cams
+  static constexpr std::uint32_t spring_modes = 0;  ///< of a valve's springs together, up to kMaxValveModes, that
+                                                    ///< surge; elastic valves. A train with more is refused
+  static constexpr bool cam_phasing = false;        ///< Input::cam_phase_deg moves the cams
   static constexpr bool bad_input_count =
       false;  ///< State::bad_input_ticks: how many ticks had a bad input, and of which kinds
   static constexpr bool starter = false;  ///< Input::starter turns the crank; CrankGiven::torque
   static constexpr bool cylinder_cut =
       false;  ///< Input::cut_cylinders: cylinders that do not fire this tick (where gas burns: the cycle whose fuel is
               ///< due); needs load_ratio or combustion
+  static constexpr bool misfire = false;         ///< cycles that misfire by the definition's rules, and their counts
+                                                 ///< (State::misfire); needs load_ratio or combustion
   static constexpr Count triggers = exactly<0>;  ///< trigger wheels: their signals and the edges in each tick
   static constexpr std::uint32_t trigger_edges =
       8;  ///< of a wheel that a tick has room for; more are counted, but not listed
@@ -152,11 +153,13 @@ struct Needs {
   static constexpr bool gas_pressure = cylinder_pressure && table_pressure;
   static constexpr bool load = S::load_ratio && table_pressure;
   static constexpr bool cut = S::cylinder_cut && table_pressure;
+  static constexpr bool misfire_of_table = S::misfire && table_pressure;
+  static constexpr bool lack = cut || misfire_of_table;  ///< cylinders may lack heat of the table, or all of it
   static constexpr bool cam_loads = S::cam_contact || S::cam_torque;
   static constexpr bool cycle_ends = S::valve_results || S::cam_contact;  ///< of valves are noticed
   static constexpr bool valve_gas_held = S::valve_gas && !gas;  ///< the force of the last tick is part of the state
   static constexpr bool cut_torque =
-      cut && torque_curves;  ///< the engine's gas torque less that of cylinders which do not fire
+      lack && torque_curves;  ///< the engine's gas torque less that of cylinders which do not fire
   static constexpr bool mechanisms = stroke || shown_by_cylinder;
   static constexpr bool any_triggers = S::triggers.capacity > 0;
   static constexpr std::uint32_t valve_count = any_valves ? S::trains.capacity * S::cylinders.capacity : 0;
@@ -172,6 +175,8 @@ struct CheckedScene {
                 "load_ratio scales a pressure table: set pressure = by_table");
   static_assert(!S::cylinder_cut || S::load_ratio || Needs<S>::burn,
                 "a cut cylinder has the pressure of load ratio 0: set load_ratio too");
+  static_assert(!S::misfire || S::load_ratio || Needs<S>::burn,
+                "a misfiring cycle lacks heat of a pressure table with load_ratio, or of gas that burns: set one");
   static_assert(S::pressure != PressureGiven::by_gas || S::valves != ValveModel::none,
                 "gas flows through valves: ask for elastic or following ones");
   static_assert(S::pressure == PressureGiven::by_gas ||

@@ -68,6 +68,7 @@ struct FreeRunning : Scene {
   static constexpr bool mean_torque = true;
   static constexpr bool starter = true;
   static constexpr bool cylinder_cut = true;
+  static constexpr bool misfire = true;
   static constexpr Count triggers = up_to<kMaxTriggerWheels>;
   static constexpr std::uint32_t trigger_edges = 32;
 };

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <crankloop/misfire_record.hpp>
 #include <crankloop/phase.hpp>
 #include <crankloop/scene.hpp>
 #include <crankloop/tables/curve.hpp>
@@ -126,6 +127,15 @@ template <class Real, class S>
 struct RunnerState {
   detail::RunnerGas<Real> runner[kPorts][S::cylinders.capacity];
 };
+/// Cycles of each cylinder that misfired.
+template <class S>
+struct MisfireRecords {
+  MisfireRecord misfire[S::cylinders.capacity] = {};
+};
+template <class Real, class S>
+struct BurningState {
+  Real burning_ratio[(S::cylinders.capacity + 1) / 2 * 2] = {};  ///< share of its heat that each cylinder's cycle has
+};
 /// Bad inputs since `init`.
 struct BadInputsState {
   std::uint32_t bad_input_ticks = 0;  ///< ticks with a bad input; stays at its largest value
@@ -154,6 +164,8 @@ struct State : group::StateCore<Real>,
                detail::If<S::crevice, group::CreviceState<Real, S>>,
                detail::If<S::crevice && S::gas_results, group::BlowByRecords<Real, S>>,
                detail::If<S::runners, group::RunnerState<Real, S>>,
+               detail::If<S::misfire, group::MisfireRecords<S>>,
+               detail::If<detail::Needs<S>::misfire_of_table, group::BurningState<Real, S>>,
                detail::If<S::bad_input_count, group::BadInputsState> {};
 
 /// The same state turning at another speed, for Engine::restore: a run that does not start at rest.

@@ -330,6 +330,15 @@ constexpr void each_output(Visit&& visit, AState& state, AnOutput& out, [[maybe_
     });
     visit(real("camshaft_Nm", "Torque that all cams take, positive against forward rotation"), out.camshaft_Nm);
   }
+  if constexpr (S::misfire) {
+    for (std::uint32_t k = 0; k < shape.cylinders; ++k) {
+      auto& m = state.misfire[k];
+      visit(whole("misfire[#].cycles", "Cycles of a cylinder since the start").at(k), m.cycles);
+      visit(whole("misfire[#].misfires", "Those that misfired by the engine's rule").at(k), m.misfires);
+      visit(whole("misfire[#].in_200_turns", "Misfires in the last 100 cycles").at(k), m.in_200_turns);
+      visit(whole("misfire[#].in_1000_turns", "Misfires in the last 500 cycles").at(k), m.in_1000_turns);
+    }
+  }
   if constexpr (S::bad_input_count) {
     visit(whole("bad_input_ticks", "Ticks with a bad input since the start"), state.bad_input_ticks);
     visit(whole("bad_input_kinds", "Their fault bits, or-ed"), state.bad_input_kinds);

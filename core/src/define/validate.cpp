@@ -234,6 +234,10 @@ Status validate(const EngineDefinition& engine) noexcept {
   if (engine.pressure.source == PressureSource::gas) {
     if (const Status refused = validate(engine.gas, engine.train_count); !refused.ok()) return refused;
   }
+  for (int k = 0; k < engine.layout.cylinders; ++k) {
+    if (const Status refused = validate(engine.misfires[k]); !refused.ok())
+      return refuse(refused.field, refused.reason, k);
+  }
   if (engine.trigger_count < 0 || engine.trigger_count > kMaxTriggerWheels)
     return refuse("trigger_count", Reason::out_of_range);
   for (int i = 0; i < engine.trigger_count; ++i) {

@@ -13,11 +13,11 @@ static_assert(kListsEveryField<Crank> && kListsEveryField<Masses> && kListsEvery
                   kListsEveryField<CamContact> && kListsEveryField<PortOfTrain> && kListsEveryField<Crevice> &&
                   kListsEveryField<Runner> && kListsEveryField<Gas> && kListsEveryField<Friction> &&
                   kListsEveryField<DrivenMachine> && kListsEveryField<Starter> && kListsEveryField<ToothGap> &&
-                  kListsEveryField<TriggerWheel>,
+                  kListsEveryField<TriggerWheel> && kListsEveryField<Misfire>,
               "each_field() lists every field, for the tables' fingerprint and for C, and the range of every number");
-static_assert(values_listed<EngineDefinition>() + 2 + kMaxTriggerWheels + kMaxTrains ==
+static_assert(values_listed<EngineDefinition>() + 2 + kMaxTriggerWheels + kMaxTrains + kMaxCylinders ==
                   values_taken<EngineDefinition>(),
-              "all but the gas, the trigger wheels and the cams' contacts are listed");
+              "all but the gas, the trigger wheels, the cams' contacts and misfires are listed");
 
 namespace {
 
@@ -69,7 +69,7 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
                              int scalar_bytes) noexcept {
   // A new part of the definition must be named here, and then added below.
   const auto& [crank, masses, layout, pressure, train_count, trains, friction, load, starter, trigger_count, triggers,
-               gas, contacts] = engine;
+               gas, contacts, misfires] = engine;
   Fingerprint f;
   AddRead add{f};
   f.add(kTableFormat);

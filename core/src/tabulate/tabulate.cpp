@@ -14,6 +14,7 @@
 #include "fingerprint.hpp"
 #include "gas_curves.hpp"
 #include "gas_exchange.hpp"
+#include "misfire_rules.hpp"
 #include "phase_units.hpp"
 #include "rounding.hpp"
 #include "trigger_tracks.hpp"
@@ -183,6 +184,7 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
   fill_mechanism(engine, targets);
   detail::fill_gas(engine, diagram, targets, found);
   detail::fill_gas_exchange(engine, options, targets);
+  detail::fill_misfires(engine, targets);
   detail::fill_triggers(engine, options, targets);
   if (targets.drive != nullptr) {
     fill_drive(engine, options, *targets.drive);

@@ -106,6 +106,8 @@ std::vector<Piece<Record>> pieces_of(const Stores<Real>& s, const TableReport& r
       return segments(report.torque_segments);
     case detail::SectionRows::cut_grid:
       return segments(report.cut_segments);
+    case detail::SectionRows::cylinders:
+      return {{rows, s.drive.cylinders}};
     case detail::SectionRows::trains:
       return {{rows, s.drive.trains}};
     case detail::SectionRows::wheels:

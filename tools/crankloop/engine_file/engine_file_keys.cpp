@@ -68,6 +68,7 @@ constexpr SectionKind kSections[] = {
     {"rocker", true, "what carries the cam's lift to the valve of the same NAME"},
     {"valve", true, "the valve of the same NAME, for its dynamics"},
     {"trigger", true, "a trigger wheel: what a crank or cam sensor sees"},
+    {"misfire", true, "which cycles of cylinder NAME (1, 2, ...) misfire, where forces turn the crank: a test pattern"},
     {"counterweight", true, "a mass on the crankshaft, for `balance` and reports; no part of the tick"},
     {"balance_shaft", true,
      "an unbalanced shaft that the crankshaft drives, for `balance` and reports; no part of the tick"},
@@ -233,6 +234,16 @@ constexpr Key kRows[] = {
     {"trigger", "edges_deg", Kind::numbers, kDeg, "", from(0).up_to(1440), "", required, "", "", "edges:list", "instead of a pattern: rise, fall, rise, ... by engine angle, within one turn of the shaft (cam: 720 deg)"},
     {"trigger", "inverted", Kind::choice, kNoUnit, "", kAny, "no|yes", defaults, "no", "", "", "whether a tooth pulls the signal down"},
 
+    {"misfire", "every", Kind::whole_number, kNoUnit, "misfire.of", kOfField, "", required, "", "", "rule:every", "the Nth, the 2 Nth, ... cycle misfires"},
+    {"misfire", "misses", Kind::whole_number, kNoUnit, "misfire.misfires", kOfField, "", required, "", "", "rule:n of m", "so many misfires, evenly spread"},
+    {"misfire", "of_cycles", Kind::whole_number, kNoUnit, "misfire.of", kOfField, "", required, "", "", "rule:n of m", "in every so many cycles"},
+    {"misfire", "random_ratio", Kind::number, kNoUnit, "misfire.random_ratio", kOfField, "", required, "", "", "rule:random", "each cycle's probability of misfiring"},
+    {"misfire", "seed", Kind::whole_number, kNoUnit, "misfire.seed", kOfField, "", defaults, "1", "", "rule:random", "of the random numbers; each cylinder draws its own"},
+    {"misfire", "burst", Kind::whole_number, kNoUnit, "", from(1).up_to(kMaxMisfirePeriod - 1), "", required, "", "", "rule:burst", "so many misfires in a row"},
+    {"misfire", "gap", Kind::whole_number, kNoUnit, "", from(1).up_to(kMaxMisfirePeriod - 1), "", required, "", "", "rule:burst", "cycles that fire before each burst"},
+    {"misfire", "cycles", Kind::numbers, kNoUnit, "", from(1).up_to(2147483647), "", required, "", "", "rule:list", "numbers of the cycles that misfire, rising, up to 32; 1 is the first that takes its fuel"},
+    {"misfire", "burning_ratio", Kind::number, kNoUnit, "misfire.burning_ratio", kOfField, "", defaults, "0", "", "", "share of its heat that a misfiring cycle releases; 0: none"},
+
     {"counterweight", "mass_g", Kind::number, kG, "", above(0).up_to(1e7), "", required, "", "", "", "of the weight"},
     {"counterweight", "radius_mm", Kind::number, kMm, "", above(0).up_to(1e4), "", required, "", "", "", "of its centre of mass from the crankshaft's axis"},
     {"counterweight", "angle_deg", Kind::number, kDeg, "", from(-360).up_to(360), "", defaults, "180", "", "", "from cylinder 1's crank pin, in the sense of rotation; 180: opposite"},
@@ -247,9 +258,16 @@ constexpr Key kRows[] = {
 };
 // clang-format on
 
+/// In few steps: a compiler's constant expressions have a limit of them.
+constexpr bool is_same(const char* a, const char* b) {
+  for (; *a == *b; ++a, ++b)
+    if (*a == '\0') return true;
+  return false;
+}
+
 /// Looks for a field by its name.
 struct Find {
-  std::string_view name;
+  const char* name;
   bool found = false;
   Range range{};
 
@@ -259,19 +277,21 @@ struct Find {
       (*this)(here, field[0]);
     } else if constexpr (kHasFields<Field>) {
       Field::each_field(*this, field);
-    } else if (name == here.name) {
+    } else if (is_same(name, here.name)) {
       found = true;
       range = here.range;
     }
   }
 };
+constexpr EngineDefinition kExample{};
+
 /// The range of the key's field, in the key's unit. Throws, which does not compile, where there is no such field.
 constexpr Range range_of_field(const Key& key) {
-  const EngineDefinition definition{};
   Find find{key.field};
-  EngineDefinition::each_field(find, definition);
-  Gas::each_field(find, definition.gas);
-  CamContact::each_field(find, definition.contacts[0]);
+  EngineDefinition::each_field(find, kExample);
+  Gas::each_field(find, kExample.gas);
+  CamContact::each_field(find, kExample.contacts[0]);
+  Misfire::each_field(find, kExample.misfires[0]);
   if (!find.found) throw "a key is that of a field that the definition does not have";
   const auto in_file = [&key](double si) { return si * key.unit.over / key.unit.times; };
   return {in_file(find.range.least), in_file(find.range.most), find.range.without_least, find.range.without_most};
@@ -314,6 +334,9 @@ constexpr Follows kFollows[] = {
     {"cam.points", "cam", "file"},
     {"rocker.kind", "rocker", "ratio"},
     {"rocker.cam_turns", "rocker", "cam_turns"},
+    {"misfire.pattern", "misfire", "every"},
+    {"misfire.cycle_count", "misfire", "cycles"},
+    {"misfire.cycles", "misfire", "cycles"},
     {"gas.throttle_count", "gas", "throttle_curve"},
     {"gas.throttle_ratio", "gas", "throttle_curve"},
     {"gas.throttle_area_ratio", "gas", "throttle_curve"},

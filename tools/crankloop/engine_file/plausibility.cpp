@@ -310,6 +310,18 @@ std::vector<std::string> warnings_about_running_free(const EngineFile& engine, c
   return warnings.lines();
 }
 
+std::vector<std::string> warnings_about_misfires_left_out(const EngineFile& engine) {
+  std::vector<std::string> lines;
+  for (const SectionValues& section : engine.sections()) {
+    if (section.kind != "misfire") continue;
+    lines.push_back(
+        engine.path() + ":" + std::to_string(section.line) + ": warning: " + section.title() +
+        ": every cycle fires in this command; `crankloop run --free`, `crankloop live` and FMUs whose crank "
+        "forces turn take misfires");
+  }
+  return lines;
+}
+
 void demand_a_diagram(const EngineFile& engine) {
   if (engine.definition().pressure.source != PressureSource::gas) return;
   throw InputError(

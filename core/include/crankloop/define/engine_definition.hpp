@@ -8,6 +8,7 @@
 #include <crankloop/define/gas.hpp>
 #include <crankloop/define/layout.hpp>
 #include <crankloop/define/masses.hpp>
+#include <crankloop/define/misfire.hpp>
 #include <crankloop/define/pressure.hpp>
 #include <crankloop/define/trigger_wheel.hpp>
 #include <crankloop/define/valve_train.hpp>
@@ -28,6 +29,7 @@ struct EngineDefinition {
   TriggerWheel triggers[kMaxTriggerWheels];
   Gas gas;                          ///< read where pressure.source is gas
   CamContact contacts[kMaxTrains];  ///< of each train's cam
+  Misfire misfires[kMaxCylinders];  ///< of each cylinder; a scene with misfire takes them
 
   template <class Visit, class Self, class... Others>
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {

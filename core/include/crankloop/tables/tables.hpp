@@ -14,6 +14,7 @@
 #include <crankloop/tables/curve.hpp>
 #include <crankloop/tables/gas_tables.hpp>
 #include <crankloop/tables/lift_curve.hpp>
+#include <crankloop/tables/misfire_tables.hpp>
 #include <crankloop/tables/records.hpp>
 #include <crankloop/tables/trigger_tables.hpp>
 #include <crankloop/tables/valve_tables.hpp>
@@ -21,7 +22,7 @@
 namespace crankloop::detail {
 
 /// How many records a section has.
-enum class SectionRows : std::uint8_t { one, gas_grid, torque_grid, cut_grid, trains, lobes, wheels, edges };
+enum class SectionRows : std::uint8_t { one, gas_grid, torque_grid, cut_grid, cylinders, trains, lobes, wheels, edges };
 
 // The list of sections. All code that handles every section is generated from it. To add one, add its line here, fill
 // it in tabulate and, where its record is new, state in tabulate/table_members.hpp how many members it has.
@@ -62,6 +63,7 @@ enum class SectionRows : std::uint8_t { one, gas_grid, torque_grid, cut_grid, tr
   SECTION(gas_ports, GasPortCurve<Real>, trains, N::gas)                                           \
   SECTION(gas_manifolds, GasManifolds<Real>, one, N::manifolds)                                    \
   SECTION(burn, BurnTable<Real>, one, N::burn)                                                     \
+  SECTION(misfires, MisfireRule<Real>, cylinders, S::misfire)                                      \
   SECTION(bearings, Bearings<Real>, one, S::bearing_loads)                                         \
   SECTION(balance, Balance<Real>, one, S::free_forces)                                             \
   BEHIND(lift_segments, LiftSegment<Real>, lobes, N::any_valves)                                   \

@@ -72,9 +72,9 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
                 TableReport* report = nullptr) noexcept;
 
 namespace detail::part {
-/// Maximum number of rows of a section, for numbers of trains, wheels and grid segments.
-[[nodiscard]] constexpr std::size_t most_rows(SectionRows rows, std::size_t trains, std::size_t wheels,
-                                              std::size_t gas_segments) noexcept {
+/// Maximum number of rows of a section, for numbers of cylinders, trains, wheels and grid segments.
+[[nodiscard]] constexpr std::size_t most_rows(SectionRows rows, std::size_t cylinders, std::size_t trains,
+                                              std::size_t wheels, std::size_t gas_segments) noexcept {
   switch (rows) {
     case SectionRows::one:
       return 1;
@@ -82,6 +82,8 @@ namespace detail::part {
     case SectionRows::torque_grid:
     case SectionRows::cut_grid:
       return gas_segments;
+    case SectionRows::cylinders:
+      return cylinders;
     case SectionRows::trains:
       return trains;
     case SectionRows::lobes:
@@ -99,15 +101,17 @@ template <class S, std::size_t GasSegments>
 struct RoomForScene {
   static constexpr std::size_t kGasSegments = GasSegments;
   template <class Section>
-  static constexpr std::size_t kRows = Section::template needed<S>() ? most_rows(Section::kRows, S::trains.capacity,
-                                                                                 S::triggers.capacity, GasSegments)
-                                                                     : 0;
+  static constexpr std::size_t kRows = Section::template needed<S>()
+                                           ? most_rows(Section::kRows, S::cylinders.capacity, S::trains.capacity,
+                                                       S::triggers.capacity, GasSegments)
+                                           : 0;
 };
 /// Room for every section of any engine.
 struct RoomForAll {
   static constexpr std::size_t kGasSegments = kMaxGasSegments;
   template <class Section>
-  static constexpr std::size_t kRows = most_rows(Section::kRows, kMaxTrains, kMaxTriggerWheels, kMaxGasSegments);
+  static constexpr std::size_t kRows = most_rows(Section::kRows, kMaxCylinders, kMaxTrains, kMaxTriggerWheels,
+                                                 kMaxGasSegments);
 };
 
 template <class Thing, std::size_t N>

@@ -37,7 +37,7 @@ extern "C" {
 CRANKLOOP_API uint32_t crankloop_version(void);
 
 enum { CRANKLOOP_MAX_CYLINDERS = 16, CRANKLOOP_MAX_TRAINS = 4, CRANKLOOP_MAX_CAM_EXPONENTS = 8 };
-enum { CRANKLOOP_MAX_TRIGGER_WHEELS = 8, CRANKLOOP_MAX_TOOTH_GAPS = 8 };
+enum { CRANKLOOP_MAX_TRIGGER_WHEELS = 8, CRANKLOOP_MAX_TOOTH_GAPS = 8, CRANKLOOP_MAX_LISTED_MISFIRES = 32 };
 
 /* ---- answers ----------------------------------------------------------------------------------------------------- */
 
@@ -270,6 +270,25 @@ typedef struct crankloop_trigger_wheel {
   int32_t inverted;
 } crankloop_trigger_wheel;
 
+enum {
+  CRANKLOOP_MISFIRE_NONE,
+  CRANKLOOP_MISFIRE_SPREAD, /* `misfires` of every `of` cycles, evenly spread */
+  CRANKLOOP_MISFIRE_BURST,  /* the last `misfires` of every `of` cycles */
+  CRANKLOOP_MISFIRE_RANDOM, /* each cycle with the probability random_ratio */
+  CRANKLOOP_MISFIRE_LISTED
+};
+
+typedef struct crankloop_misfire {
+  double random_ratio;
+  double burning_ratio; /* share of its heat that a misfiring cycle releases */
+  int32_t pattern;      /* CRANKLOOP_MISFIRE_... */
+  int32_t misfires;
+  int32_t of;
+  int32_t seed;
+  int32_t cycle_count;
+  int32_t cycles[CRANKLOOP_MAX_LISTED_MISFIRES]; /* from 1, rising */
+} crankloop_misfire;
+
 /* The structs above keep their size; what comes later stands at the end of this one. */
 typedef struct crankloop_definition {
   crankloop_crank crank;
@@ -283,6 +302,7 @@ typedef struct crankloop_definition {
   crankloop_starter starter;
   int32_t trigger_count;
   crankloop_trigger_wheel triggers[CRANKLOOP_MAX_TRIGGER_WHEELS];
+  crankloop_misfire misfires[CRANKLOOP_MAX_CYLINDERS];
 } crankloop_definition;
 
 /* Fills in every default. Begin with this: a zeroed definition has other values. */

@@ -59,7 +59,8 @@ LiveRequest request_of(const Arguments& arguments, const EngineFile& file) {
 }
 
 int run_live_command(const Arguments& arguments) {
-  const EngineFile file = read_engine_for_scenes(arguments, {"engine", "crank", "masses"});
+  EngineFile file = read_engine_for_scenes(arguments, {"engine", "crank", "masses"});
+  file.set_misfires(arguments.words("--misfire"));
   const LiveRequest request = request_of(arguments, file);
   const std::string& real = arguments.text("--real");
   const bool shares = arguments.has("--shared");
@@ -109,6 +110,7 @@ constexpr Option kOptions[] = {
            "load on the crankshaft in Nm; until a controller sets it", "0"),
     flag("--starter", "starter engaged; until a controller sets it"),
     number("--from-rpm", "N", from(-100000).up_to(100000), "speed at the start in rpm", "0"),
+    kMisfire,
     choice("--real", "float|double", "arithmetic of the tick", "float"),
     whole_number("--cpu", "N", from(0).up_to(1023), "processor to run on, counted from 0; default any"),
     whole_number("--priority", "P", from(0).up_to(99),

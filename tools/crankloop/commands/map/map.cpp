@@ -100,6 +100,7 @@ int run_map_command(const Arguments& arguments) {
   MapRequest request;
   request.speed_rpm = grid(arguments, kSpeeds, above(0).up_to(100000));
   const EngineFile file = read_engine_for_scenes(arguments, {"engine", "crank", "masses"});
+  (void)tell_warnings(arguments, warnings_about_misfires_left_out(file));
   set_loads(request, arguments, file);
   const double count = static_cast<double>(request.speed_rpm.count) * request.load.count;
   if (count > kMaxPoints)

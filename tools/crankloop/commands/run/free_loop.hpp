@@ -59,6 +59,9 @@ class FreeLoop {
 
   [[nodiscard]] const Output& output() const noexcept { return engine_.output(); }
   [[nodiscard]] const FreeState& state() const noexcept { return state_; }
+  [[nodiscard]] const MisfireRecord& misfires_of(std::size_t cylinder) const noexcept {
+    return engine_.state().misfire[cylinder];
+  }
   [[nodiscard]] const FreeState& before() const noexcept { return before_; }  ///< the last tick
 
  private:

@@ -46,6 +46,7 @@ std::string command_line(const Arguments& arguments, const EngineFile& file, con
   if (breathes(file.definition())) text += " " + options_of(gas);
   if (arguments.has("--starter")) text += " --starter";
   if (arguments.has("--cut")) text += " --cut " + arguments.text("--cut");
+  for (const std::string& misfire : arguments.words("--misfire")) text += " --misfire " + shell_word(misfire);
   return text + " --real " + arguments.text("--real");
 }
 
@@ -53,7 +54,7 @@ std::string command_line(const Arguments& arguments, const EngineFile& file, con
 
 void require_options_that_fit(const Arguments& arguments) {
   const bool free = arguments.has("--free");
-  for (const char* option : {"--machine-Nm", "--starter", "--from-rpm", "--seconds", "--cut"}) {
+  for (const char* option : {"--machine-Nm", "--starter", "--from-rpm", "--seconds", "--cut", "--misfire"}) {
     if (!free && arguments.has(option)) throw UsageError(std::string(option) + " is for a run with --free");
   }
   if (free && arguments.has("--rpm"))

@@ -19,6 +19,14 @@ namespace {
 template <class Real, class S>
 using FreeOutput = typename FreeLoop<Real, S>::Output;
 
+/// Those with a rule by which cycles misfire, from 0.
+std::vector<std::size_t> misfiring_cylinders(const EngineDefinition& engine) {
+  std::vector<std::size_t> cylinders;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(engine.layout.cylinders); ++k)
+    if (engine.misfires[k].pattern != MisfirePattern::none) cylinders.push_back(k);
+  return cylinders;
+}
+
 /// A row per tick. Edges stand in one cell: their times since the run's start, blanks between.
 template <class Real, class S>
 class TickTable {
@@ -26,7 +34,8 @@ class TickTable {
   TickTable(Output& out, const std::vector<std::string>& wheels, const EngineDefinition& engine)
       : csv_{out, header(wheels, engine)}, wheels_{wheels.size()}, engine_{engine} {}
 
-  void row(const FreeState& state, double tick_s, const FreeOutput<Real, S>& out) {
+  void row(const FreeLoop<Real, S>& loop, double tick_s, const FreeOutput<Real, S>& out) {
+    const FreeState& state = loop.state();
     csv_.cell(state.time_s);
     csv_.cell(in_cycle_deg(state.angle_deg));
     csv_.cell(out.speed_rad_s * static_cast<Real>(kRpmPerRad_s));
@@ -43,6 +52,10 @@ class TickTable {
       }
       csv_.cell(std::string_view(times));
     }
+    for (const std::size_t k : misfiring_cylinders(engine_)) {
+      csv_.cell(static_cast<double>(loop.misfires_of(k).cycles));
+      csv_.cell(static_cast<double>(loop.misfires_of(k).misfires));
+    }
     if constexpr (detail::Needs<S>::gas) write_gas(csv_, out, engine_);
     csv_.end_row();
   }
@@ -53,6 +66,10 @@ class TickTable {
                                      "torque_Nm", "mean_torque_Nm", "friction_Nm", "starter_Nm"};
     for (const std::string& wheel : wheels) {
       for (const char* what : {"_level", "_edges", "_edge_times_s"}) columns.push_back(wheel + what);
+    }
+    for (const std::size_t k : misfiring_cylinders(engine)) {
+      columns.push_back("cycles_" + std::to_string(k + 1));
+      columns.push_back("misfires_" + std::to_string(k + 1));
     }
     if (detail::Needs<S>::gas) add_gas_columns(columns, engine);
     return columns;
@@ -111,7 +128,7 @@ FreeFigures run_ticks(const EngineFile& file, const EngineDefinition& definition
       figures.gas.exhaust_Pa = static_cast<double>(out.manifold[kExhaust].pressure_Pa);
       figures.intake_kPa.take(now.time_s, figures.gas.intake_Pa / 1e3);
     }
-    if (table != nullptr) table->row(now, operation.tick_s, out);
+    if (table != nullptr) table->row(loop, operation.tick_s, out);
     if (dump != nullptr) {
       dump->number(0, now.time_s, now.speed_rpm());
       dump->number(1, now.time_s, now.torque_Nm);
@@ -121,6 +138,7 @@ FreeFigures run_ticks(const EngineFile& file, const EngineDefinition& definition
   }
   if constexpr (detail::Needs<S>::gas)
     take_cycles(loop.output(), static_cast<std::size_t>(definition.layout.cylinders), figures.gas);
+  for (const std::size_t k : misfiring_cylinders(definition)) figures.misfires.push_back({k, loop.misfires_of(k)});
   figures.end = loop.state();
   figures.energy = books.balance(figures.end);
   figures.cycles.assign(recorder.cycles().begin(), recorder.cycles().end());
@@ -182,6 +200,13 @@ std::string summary_text(const EngineFile& file, const FreeRequest& request, con
   s.line("taken_by_load", f.energy.load_J, "J");
   s.line("change_of_kinetic_energy", f.energy.kinetic_J, "J");
   s.line("energy_defect", f.energy.missing_ratio(), "", "of the largest of these");
+  for (const MisfireFigures& misfire : f.misfires) {
+    const std::string whose = "cylinder_" + std::to_string(misfire.cylinder + 1);
+    s.line(whose + "_cycles", std::uint64_t{misfire.counts.cycles});
+    s.line(whose + "_misfires", std::uint64_t{misfire.counts.misfires});
+    s.line(whose + "_misfires_in_200_turns", std::uint64_t{misfire.counts.in_200_turns}, "", "its last 100 cycles");
+    s.line(whose + "_misfires_in_1000_turns", std::uint64_t{misfire.counts.in_1000_turns}, "", "its last 500 cycles");
+  }
   for (const SignalFigures& signal : f.signals) {
     s.line(signal.name + "_edges", signal.edges);
     s.line(signal.name + "_edges_lost", signal.lost, "",

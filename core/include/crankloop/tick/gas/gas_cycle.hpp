@@ -7,6 +7,7 @@
 #include <crankloop/output.hpp>
 #include <crankloop/state.hpp>
 #include <crankloop/tables/tables.hpp>
+#include <crankloop/tick/crank/misfire_step.hpp>
 #include <crankloop/tick/gas/combustion.hpp>
 
 namespace crankloop::detail {
@@ -26,8 +27,8 @@ template <class Real, class S>
   }
 }
 
-/// Fuel that burns on the way of a cylinder: where that passes latch_deg, of a new cycle. `ends`: it passes a cycle's
-/// end.
+/// Fuel that burns on the way of a cylinder: where that passes latch_deg, of a new cycle, or of a misfiring one a
+/// share. `ends`: it passes a cycle's end.
 template <class Real, class S>
 [[nodiscard]] inline GasFuel<Real> burn_on_way(const Tables<Real, S>& tables, State<Real, S>& state,
                                                const Input<Real, S>& input, std::uint32_t cylinder, const CycleWay& way,
@@ -40,8 +41,14 @@ template <class Real, class S>
   if (burn.taken == 0 && way.passes_forward(table.latch_phase)) {
     bool cut = false;
     if constexpr (Needs<S>::gas_cut) cut = (input.cut_cylinders >> cylinder & 1u) != 0;
+    Real burning_ratio{1};
+    if constexpr (S::misfire) {
+      burning_ratio = begin_cycle(tables.misfires[cylinder], state.misfire[cylinder]);
+      cut = cut || !(burning_ratio > 0);
+    }
     const BurnOrder<Real> order = burn_order(tables, input, cylinder);
     faults |= take_fuel(burn, table, mass_kg, burned_kg, order, cut);
+    if constexpr (S::misfire) burn.fuel_kg *= burning_ratio;  // the mixture's excess air stays
   }
   const GasFuel<Real> fuel = burnt_fuel(burn, table, mass_kg, burned_kg, way);
   if (ends && way.forward()) end_burn(burn);

@@ -25,6 +25,7 @@
 #include <crankloop/status.hpp>
 #include <crankloop/tick/checked.hpp>
 #include <crankloop/tick/state/gas_agrees.hpp>
+#include <crankloop/tick/state/misfire_counts.hpp>
 #include <crankloop/tick/state/saved_bytes.hpp>
 #include <crankloop/tick/state/state_fields.hpp>
 
@@ -67,6 +68,7 @@ template <class S>
   if (S::cam_contact) crc.add(std::uint32_t{0x100});
   if (S::cam_drag) crc.add(std::uint32_t{0x200});
   if (S::spring_modes > 0) crc.add(0x300 + S::spring_modes);
+  if (S::misfire) crc.add(std::uint32_t{0x400});
   return crc.value();
 }
 
@@ -130,6 +132,9 @@ Status load_state(const unsigned char* bytes, std::size_t size, Engine<Real, S>&
   if (!detail::within(state.speed_rad_s, -limit, limit)) return refuse("state.drive", Reason::out_of_range);
   if constexpr (detail::Needs<S>::gas) {
     if (!detail::gas_agrees(state, *engine.tables())) return refuse("state.gas", Reason::inconsistent);
+  }
+  if constexpr (S::misfire) {
+    for (MisfireRecord& record : state.misfire) detail::recount(record);
   }
   return engine.restore(state);
 }

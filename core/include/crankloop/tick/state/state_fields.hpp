@@ -103,6 +103,21 @@ struct StateFields {
       v.spare(s.spare_of_cam_drag);
     }
     if constexpr (N::gas) visit_gas(s, v);
+    if constexpr (S::misfire) {
+      v.group("state.misfire");
+      for (auto& record : s.misfire) {
+        for (auto& word : record.history) v.word(word, kAny);
+        v.word(record.cycles, kAny);
+        v.word(record.misfires, kAny);
+        v.spare(record.in_200_turns);  // follow from the history
+        v.spare(record.in_1000_turns);
+        v.word(record.random, kAny);
+        v.word(record.taken, 1u);
+      }
+      if constexpr (N::misfire_of_table) {
+        for (auto& ratio : s.burning_ratio) v.number(ratio, Real{0}, Real{1});
+      }
+    }
     if constexpr (S::bad_input_count) {
       v.group("state.bad_input");
       v.word(s.bad_input_ticks, kAny);
@@ -126,9 +141,9 @@ struct StateFields {
   static constexpr Real kMaxSpeed_m_s = static_cast<Real>(1e6);
   static constexpr Real kMaxMode_m = static_cast<Real>(1e3);
   static constexpr Real kMaxMean_m_s2 = static_cast<Real>(1e13);  ///< twice the largest speed, in the shortest tick
-  static constexpr Real kMaxGas_N = static_cast<Real>(1e9);   ///< 1e8 Pa on a bore of 2 m
-  static constexpr Real kMaxNoted = static_cast<Real>(1e18);  ///< of numbers that are only compared, subtracted and
-                                                              ///< output
+  static constexpr Real kMaxGas_N = static_cast<Real>(1e9);       ///< 1e8 Pa on a bore of 2 m
+  static constexpr Real kMaxNoted = static_cast<Real>(1e18);      ///< of numbers that are only compared, subtracted and
+                                                                  ///< output
   static constexpr std::uint64_t kMaxCamPhase = std::uint64_t{1} << 62;  ///< 180 deg of 720
   static constexpr std::uint32_t kAny = ~std::uint32_t{0};
   static constexpr Real kMaxStress_Pa = static_cast<Real>(1e30);
