@@ -256,7 +256,9 @@ struct Output : detail::If<detail::Needs<S>::crank_dynamics, group::CrankMotion<
                 detail::If<S::valve_results, group::ValveResults<Real, S>>,
                 detail::If<S::cam_contact, group::CamContacts<Real, S>>,
                 detail::If<S::cam_torque, group::CamTorques<Real, S>>,
-                detail::If<detail::Needs<S>::any_triggers, group::Triggers<Real, S>> {
+                detail::If<detail::Needs<S>::faulty_wheels, group::WheelFaultsOn>,
+                detail::If<detail::Needs<S>::any_triggers, group::Triggers<Real, S>>,
+                detail::If<detail::Needs<S>::faulty_wheels, group::FaultyTriggers<Real, S>> {
   std::uint32_t faults;  ///< Fault bits of this tick
 };
 

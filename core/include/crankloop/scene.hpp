@@ -107,6 +107,8 @@ struct Scene {
   static constexpr bool misfire = false;         ///< cycles that misfire by the definition's rules, and their counts
                                                  ///< (State::misfire); needs load_ratio or combustion
   static constexpr Count triggers = exactly<0>;  ///< trigger wheels: their signals and the edges in each tick
+  static constexpr std::uint32_t wheel_faults =
+      0;  ///< faults of trigger wheels that there is room for: faulty signals beside the healthy ones; at most 16
   static constexpr std::uint32_t trigger_edges =
       8;  ///< of a wheel that a tick has room for; more are counted, but not listed
 };
@@ -162,6 +164,7 @@ struct Needs {
       lack && torque_curves;  ///< the engine's gas torque less that of cylinders which do not fire
   static constexpr bool mechanisms = stroke || shown_by_cylinder;
   static constexpr bool any_triggers = S::triggers.capacity > 0;
+  static constexpr bool faulty_wheels = S::wheel_faults > 0;
   static constexpr std::uint32_t valve_count = any_valves ? S::trains.capacity * S::cylinders.capacity : 0;
 };
 
@@ -202,6 +205,8 @@ struct CheckedScene {
                 "theoretical_lift and valve_acceleration need valves");
   static_assert(!S::valve_gas || S::pressure != PressureGiven::none, "valve_gas needs a pressure");
   static_assert(S::triggers.capacity <= kMaxTriggerWheels, "an engine has at most 8 trigger wheels");
+  static_assert(S::wheel_faults == 0 || S::triggers.capacity > 0, "wheel_faults are of trigger wheels: set triggers");
+  static_assert(S::wheel_faults <= kMaxWheelFaults, "an engine has at most 16 faults of trigger wheels");
   static_assert(S::trigger_edges >= 1 && S::trigger_edges <= 2 * kMaxTriggerEdges,
                 "trigger_edges is 1 to 1440: two turns of the finest wheel");
   static constexpr bool value = true;

@@ -70,6 +70,7 @@ struct FreeRunning : Scene {
   static constexpr bool cylinder_cut = true;
   static constexpr bool misfire = true;
   static constexpr Count triggers = up_to<kMaxTriggerWheels>;
+  static constexpr std::uint32_t wheel_faults = 8;
   static constexpr std::uint32_t trigger_edges = 32;
 };
 

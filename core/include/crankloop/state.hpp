@@ -136,6 +136,13 @@ template <class Real, class S>
 struct BurningState {
   Real burning_ratio[(S::cylinders.capacity + 1) / 2 * 2] = {};  ///< share of its heat that each cylinder's cycle has
 };
+/// Wires of faulty wheels.
+template <class S>
+struct WireState {
+  std::uint32_t wire_levels = 0;  ///< bit w: faulty signal of wheel w after the last tick
+  std::uint32_t wires_known = 0;  ///< bit w: there was one
+  std::uint32_t noise_random[(S::wheel_faults + 1) / 2 * 2] = {};  ///< of xorshift32, per fault
+};
 /// Bad inputs since `init`.
 struct BadInputsState {
   std::uint32_t bad_input_ticks = 0;  ///< ticks with a bad input; stays at its largest value
@@ -166,6 +173,7 @@ struct State : group::StateCore<Real>,
                detail::If<S::runners, group::RunnerState<Real, S>>,
                detail::If<S::misfire, group::MisfireRecords<S>>,
                detail::If<detail::Needs<S>::misfire_of_table, group::BurningState<Real, S>>,
+               detail::If<detail::Needs<S>::faulty_wheels, group::WireState<S>>,
                detail::If<S::bad_input_count, group::BadInputsState> {};
 
 /// The same state turning at another speed, for Engine::restore: a run that does not start at rest.

@@ -245,6 +245,13 @@ Status validate(const EngineDefinition& engine) noexcept {
     if (const Status refused = validate(wheel); !refused.ok()) return refuse(refused.field, refused.reason, i);
     if (wheel.train >= engine.train_count) return refuse("trigger.train", Reason::out_of_range, i);
   }
+  if (engine.wheel_fault_count < 0 || engine.wheel_fault_count > kMaxWheelFaults)
+    return refuse("wheel_fault_count", Reason::out_of_range);
+  for (int i = 0; i < engine.wheel_fault_count; ++i) {
+    const WheelFault& fault = engine.wheel_faults[i];
+    if (const Status refused = validate(fault); !refused.ok()) return refuse(refused.field, refused.reason, i);
+    if (fault.wheel >= engine.trigger_count) return refuse("fault.wheel", Reason::out_of_range, i);
+  }
   return {};
 }
 

@@ -13,11 +13,12 @@ static_assert(kListsEveryField<Crank> && kListsEveryField<Masses> && kListsEvery
                   kListsEveryField<CamContact> && kListsEveryField<PortOfTrain> && kListsEveryField<Crevice> &&
                   kListsEveryField<Runner> && kListsEveryField<Gas> && kListsEveryField<Friction> &&
                   kListsEveryField<DrivenMachine> && kListsEveryField<Starter> && kListsEveryField<ToothGap> &&
-                  kListsEveryField<TriggerWheel> && kListsEveryField<Misfire>,
+                  kListsEveryField<TriggerWheel> && kListsEveryField<Misfire> && kListsEveryField<WheelFault>,
               "each_field() lists every field, for the tables' fingerprint and for C, and the range of every number");
-static_assert(values_listed<EngineDefinition>() + 2 + kMaxTriggerWheels + kMaxTrains + kMaxCylinders ==
+static_assert(values_listed<EngineDefinition>() + 2 + kMaxTriggerWheels + kMaxTrains + kMaxCylinders + 1 +
+                      kMaxWheelFaults ==
                   values_taken<EngineDefinition>(),
-              "all but the gas, the trigger wheels, the cams' contacts and misfires are listed");
+              "all but the gas, the trigger wheels, the cams' contacts, misfires and wheel faults are listed");
 
 namespace {
 
@@ -69,7 +70,7 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
                              int scalar_bytes) noexcept {
   // A new part of the definition must be named here, and then added below.
   const auto& [crank, masses, layout, pressure, train_count, trains, friction, load, starter, trigger_count, triggers,
-               gas, contacts, misfires] = engine;
+               gas, contacts, misfires, wheel_fault_count, wheel_faults] = engine;
   Fingerprint f;
   AddRead add{f};
   f.add(kTableFormat);

@@ -3,20 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "seeds.hpp"
+
 namespace crankloop::detail {
 namespace {
-
-/// A seed for each cylinder: the finaliser of MurmurHash3, a bijection that leaves no bit alone; 0, where xorshift
-/// would stay, becomes 1.
-[[nodiscard]] std::uint32_t seed_of(int seed, std::uint32_t cylinder) noexcept {
-  std::uint32_t x = static_cast<std::uint32_t>(seed) * std::uint32_t{kMaxCylinders} + cylinder + 0x9E3779B9u;
-  x ^= x >> 16;
-  x *= 0x85EBCA6Bu;
-  x ^= x >> 13;
-  x *= 0xC2B2AE35u;
-  x ^= x >> 16;
-  return x == 0 ? 1 : x;
-}
 
 [[nodiscard]] std::uint32_t pattern_of(MisfirePattern pattern) noexcept {
   switch (pattern) {
@@ -45,8 +35,7 @@ template <class Real>
     rule.misfires = static_cast<std::uint32_t>(misfire.misfires);
     rule.of = static_cast<std::uint32_t>(misfire.of);
   }
-  if (rule.pattern == kMisfiresAtRandom)
-    rule.below = static_cast<std::uint32_t>(misfire.random_ratio * 4294967295.0 + 0.5);
+  if (rule.pattern == kMisfiresAtRandom) rule.below = chance_of(misfire.random_ratio);
   if (rule.pattern == kMisfiresListed) {
     rule.listed = static_cast<std::uint32_t>(misfire.cycle_count);
     for (std::uint32_t i = 0; i < rule.listed; ++i) rule.cycle[i] = static_cast<std::uint32_t>(misfire.cycles[i]);

@@ -115,6 +115,9 @@ class EngineFile {
   void build_trains();
   void build_triggers();
   void build_misfires();
+  void build_faults();
+  [[nodiscard]] InputError explain_fault(const Status& status, const SectionValues& section) const;
+  [[nodiscard]] const SectionValues* fault_to_blame(const Key& key, int index) const;
   [[nodiscard]] int train_with_phaser(const SectionValues& trigger) const;
   void read_cam(SectionValues& cam, TrainOfFile& train);
   [[nodiscard]] InputError explain_cam(const Status& status, const TrainOfFile& train, const SectionValues& cam) const;

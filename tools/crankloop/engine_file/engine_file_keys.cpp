@@ -16,6 +16,9 @@ namespace {
 constexpr Unit kNoUnit{};
 constexpr Unit kDeg{"deg"};  // angles stay in degrees: core takes them so, because 120 deg has no exact radian
 constexpr Unit kDegPerS{"deg_per_s"};
+constexpr Unit kS{"s"};
+constexpr Unit kUs{"us", 1, 1e6};
+constexpr Unit kHz{"Hz"};
 constexpr Unit kRpm{"rpm"};
 constexpr Unit kMm{"mm", 1, 1e3};
 constexpr Unit kUm{"um", 1, 1e6};
@@ -69,6 +72,8 @@ constexpr SectionKind kSections[] = {
     {"valve", true, "the valve of the same NAME, for its dynamics"},
     {"trigger", true, "a trigger wheel: what a crank or cam sensor sees"},
     {"misfire", true, "which cycles of cylinder NAME (1, 2, ...) misfire, where forces turn the crank: a test pattern"},
+    {"fault", true,
+     "what is wrong with a trigger wheel, its sensor or its wire, and when; where forces turn the crank"},
     {"counterweight", true, "a mass on the crankshaft, for `balance` and reports; no part of the tick"},
     {"balance_shaft", true,
      "an unbalanced shaft that the crankshaft drives, for `balance` and reports; no part of the tick"},
@@ -244,6 +249,24 @@ constexpr Key kRows[] = {
     {"misfire", "cycles", Kind::numbers, kNoUnit, "", from(1).up_to(2147483647), "", required, "", "", "rule:list", "numbers of the cycles that misfire, rising, up to 32; 1 is the first that takes its fuel"},
     {"misfire", "burning_ratio", Kind::number, kNoUnit, "misfire.burning_ratio", kOfField, "", defaults, "0", "", "", "share of its heat that a misfiring cycle releases; 0: none"},
 
+    {"fault", "trigger", Kind::text, kNoUnit, "", kAny, "", required, "", "", "", "NAME of the [trigger NAME] that has it"},
+    {"fault", "start_s", Kind::number, kS, "fault.start_s", kOfField, "", defaults, "0", "", "", "on from here, since the start"},
+    {"fault", "end_s", Kind::number, kS, "fault.end_s", kOfField, "", defaults, "0", "", "", "to before here; 0: not by time"},
+    {"fault", "input_bit", Kind::whole_number, kNoUnit, "fault.input_bit", from(0).below(32), "", optional, "", "", "", "on while this bit of the input wheel_faults is set; needed without end_s"},
+    {"fault", "missing_tooth", Kind::whole_number, kNoUnit, "fault.missing_tooth", kOfField, "", defaults, "0", "", "", "this tooth, from 1, is not there; 0: none"},
+    {"fault", "moved_tooth", Kind::whole_number, kNoUnit, "fault.moved_tooth", kOfField, "", defaults, "0", "", "", "this tooth, from 1, stands elsewhere; 0: none"},
+    {"fault", "moved_deg", Kind::number, kDeg, "fault.moved_deg", kOfField, "", defaults, "0", "", "", "by so many crank degrees later"},
+    {"fault", "extra_tooth_deg", Kind::number, kDeg, "fault.extra_tooth_deg", kOfField, "", defaults, "0", "", "", "crank degrees from the first tooth's rising edge to that of a tooth too many"},
+    {"fault", "extra_width_deg", Kind::number, kDeg, "fault.extra_width_deg", kOfField, "", defaults, "0", "", "", "its width; 0: no such tooth"},
+    {"fault", "runout_deg", Kind::number, kDeg, "fault.runout_deg", kOfField, "", defaults, "0", "", "", "r, by which run-out moves edges: r sin(angle of the wheel - runout_at_deg) crank degrees later"},
+    {"fault", "runout_at_deg", Kind::number, kDeg, "fault.runout_at_deg", kOfField, "", defaults, "0", "", "", "of the wheel's own turn, from its first rising edge"},
+    {"fault", "late_deg", Kind::number, kDeg, "fault.late_deg", kOfField, "", defaults, "0", "", "", "all edges come so many crank degrees later: a stretched chain; negative: earlier"},
+    {"fault", "inverted", Kind::choice, kNoUnit, "", kAny, "no|yes", defaults, "no", "", "", "wires swapped"},
+    {"fault", "stuck", Kind::choice, kNoUnit, "", kAny, "no|low|high", defaults, "no", "", "", "the signal stays at a level"},
+    {"fault", "noise_Hz", Kind::number, kHz, "fault.noise_Hz", kOfField, "", defaults, "0", "", "", "pulses that invert the signal, at random, so many a second in the mean; at most one in a tick"},
+    {"fault", "noise_pulse_us", Kind::number, kUs, "fault.noise_pulse_s", from(0).up_to(1000), "", defaults, "0", "", "", "their length, up to half a tick; above 0 where there is noise"},
+    {"fault", "noise_seed", Kind::whole_number, kNoUnit, "fault.noise_seed", kOfField, "", defaults, "1", "", "", "of their random numbers"},
+
     {"counterweight", "mass_g", Kind::number, kG, "", above(0).up_to(1e7), "", required, "", "", "", "of the weight"},
     {"counterweight", "radius_mm", Kind::number, kMm, "", above(0).up_to(1e4), "", required, "", "", "", "of its centre of mass from the crankshaft's axis"},
     {"counterweight", "angle_deg", Kind::number, kDeg, "", from(-360).up_to(360), "", defaults, "180", "", "", "from cylinder 1's crank pin, in the sense of rotation; 180: opposite"},
@@ -292,6 +315,7 @@ constexpr Range range_of_field(const Key& key) {
   Gas::each_field(find, kExample.gas);
   CamContact::each_field(find, kExample.contacts[0]);
   Misfire::each_field(find, kExample.misfires[0]);
+  WheelFault::each_field(find, kExample.wheel_faults[0]);
   if (!find.found) throw "a key is that of a field that the definition does not have";
   const auto in_file = [&key](double si) { return si * key.unit.over / key.unit.times; };
   return {in_file(find.range.least), in_file(find.range.most), find.range.without_least, find.range.without_most};
@@ -337,6 +361,9 @@ constexpr Follows kFollows[] = {
     {"misfire.pattern", "misfire", "every"},
     {"misfire.cycle_count", "misfire", "cycles"},
     {"misfire.cycles", "misfire", "cycles"},
+    {"fault.wheel", "fault", "trigger"},
+    {"fault.inverted", "fault", "inverted"},
+    {"fault.stuck", "fault", "stuck"},
     {"gas.throttle_count", "gas", "throttle_curve"},
     {"gas.throttle_ratio", "gas", "throttle_curve"},
     {"gas.throttle_area_ratio", "gas", "throttle_curve"},

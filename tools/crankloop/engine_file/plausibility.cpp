@@ -313,11 +313,13 @@ std::vector<std::string> warnings_about_running_free(const EngineFile& engine, c
 std::vector<std::string> warnings_about_misfires_left_out(const EngineFile& engine) {
   std::vector<std::string> lines;
   for (const SectionValues& section : engine.sections()) {
-    if (section.kind != "misfire") continue;
+    const bool fault = section.kind == "fault";
+    if (!fault && section.kind != "misfire") continue;
     lines.push_back(
-        engine.path() + ":" + std::to_string(section.line) + ": warning: " + section.title() +
-        ": every cycle fires in this command; `crankloop run --free`, `crankloop live` and FMUs whose crank "
-        "forces turn take misfires");
+        engine.path() + ":" + std::to_string(section.line) + ": warning: " + section.title() + ": " +
+        (fault ? "every signal is healthy" : "every cycle fires") +
+        " in this command; `crankloop run --free`, `crankloop live` and FMUs whose crank forces turn take " +
+        (fault ? "faults" : "misfires"));
   }
   return lines;
 }

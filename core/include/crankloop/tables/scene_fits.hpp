@@ -49,6 +49,9 @@ template <class Real, class S>
   if constexpr (N::any_triggers) {
     if (!fits(S::triggers, tables.triggers->count)) return refuse("tables.triggers", Reason::out_of_range);
   }
+  if constexpr (N::faulty_wheels) {
+    if (tables.wheel_faults->count > S::wheel_faults) return refuse("tables.wheel_faults", Reason::out_of_range);
+  }
   if constexpr (N::gas) {
     if (!(tables.gas_cylinders->clearance_m3 > 0)) return refuse("pressure.source", Reason::inconsistent);
     if (!S::crevice && (tables.gas_cylinders->parts & kGasCrevice) != 0)

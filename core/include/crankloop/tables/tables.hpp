@@ -22,7 +22,19 @@
 namespace crankloop::detail {
 
 /// How many records a section has.
-enum class SectionRows : std::uint8_t { one, gas_grid, torque_grid, cut_grid, cylinders, trains, lobes, wheels, edges };
+enum class SectionRows : std::uint8_t {
+  one,
+  gas_grid,
+  torque_grid,
+  cut_grid,
+  cylinders,
+  trains,
+  lobes,
+  wheels,
+  edges,
+  wheel_faults,
+  fault_edges
+};
 
 // The list of sections. All code that handles every section is generated from it. To add one, add its line here, fill
 // it in tabulate and, where its record is new, state in tabulate/table_members.hpp how many members it has.
@@ -82,6 +94,10 @@ enum class SectionRows : std::uint8_t { one, gas_grid, torque_grid, cut_grid, cy
   BEHIND(trigger_edges, std::uint32_t, edges, N::any_triggers)                                     \
   BEHIND(trigger_tracks, TriggerTrack, wheels, N::any_triggers)                                    \
   SECTION(triggers, TriggerWheels, one, N::any_triggers)                                           \
+  BEHIND(fault_edges, std::uint32_t, fault_edges, N::faulty_wheels)                                \
+  BEHIND(fault_tracks, TriggerTrack, wheel_faults, N::faulty_wheels)                               \
+  BEHIND(wheel_fault_rules, WheelFaultRule<Real>, wheel_faults, N::faulty_wheels)                  \
+  SECTION(wheel_faults, WheelFaultRules<Real>, one, N::faulty_wheels)                              \
   SECTION(drive, Drive<Real>, one, true)
 
 /// The entries of the list as types, each named like its section.

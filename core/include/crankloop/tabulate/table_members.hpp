@@ -72,6 +72,8 @@ CRANKLOOP_MEMBERS_OF(BurnTable, latch, energy, heat, burning, burned, air_fuel, 
 CRANKLOOP_MEMBERS_OF(MisfireRule, burning, pattern, misfires, of, below, seed, listed, cycle)
 CRANKLOOP_MEMBERS(TriggerTrack, edges, edge_count, on_crank, starts, train, inverted, max_edges, edges_before)
 CRANKLOOP_MEMBERS(TriggerWheels, wheel, count)
+CRANKLOOP_MEMBERS_OF(WheelFaultRule, track, from, until, wheel, mask, inverted, stuck, below, seed, pulse)
+CRANKLOOP_MEMBERS_OF(WheelFaultRules, fault, count)
 
 #undef CRANKLOOP_TIED
 #undef CRANKLOOP_MEMBERS

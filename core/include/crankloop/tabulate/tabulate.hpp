@@ -29,7 +29,7 @@ inline constexpr std::size_t kMaxGasSegments = 20 * kDegreesPerCycle;
 /// cut_grid; each has room for `gas_capacity` segments. A gas torque needs its segments, lift curves their segments and
 /// rocker ratios (kDegreesPerTurn rows per train of the definition), near_cams, near_lobes and cycle_ends need lift
 /// curves; cam_contacts and cam_torques need those and cam_sliding, cam_contacts their segments too; triggers need
-/// tracks and edges (kMaxTriggerEdges rows per wheel).
+/// tracks and edges (kMaxTriggerEdges rows per wheel), wheel_faults their rules, and tracks and edges of each.
 template <class Real>
 struct TableTargets : detail::part::Targets<Real, detail::part::AllSections> {
   int gas_capacity = 0;  ///< at least 720 where there is a grid
@@ -72,9 +72,11 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
                 TableReport* report = nullptr) noexcept;
 
 namespace detail::part {
-/// Maximum number of rows of a section, for numbers of cylinders, trains, wheels and grid segments.
+/// Maximum number of rows of a section, for numbers of cylinders, trains, wheels, their faults and
+/// grid segments.
 [[nodiscard]] constexpr std::size_t most_rows(SectionRows rows, std::size_t cylinders, std::size_t trains,
-                                              std::size_t wheels, std::size_t gas_segments) noexcept {
+                                              std::size_t wheels, std::size_t wheel_faults,
+                                              std::size_t gas_segments) noexcept {
   switch (rows) {
     case SectionRows::one:
       return 1;
@@ -92,6 +94,10 @@ namespace detail::part {
       return wheels;
     case SectionRows::edges:
       return wheels * std::size_t{kMaxTriggerEdges};
+    case SectionRows::wheel_faults:
+      return wheel_faults;
+    case SectionRows::fault_edges:
+      return wheel_faults * std::size_t{kMaxTriggerEdges};
   }
   return 0;
 }
@@ -103,7 +109,7 @@ struct RoomForScene {
   template <class Section>
   static constexpr std::size_t kRows = Section::template needed<S>()
                                            ? most_rows(Section::kRows, S::cylinders.capacity, S::trains.capacity,
-                                                       S::triggers.capacity, GasSegments)
+                                                       S::triggers.capacity, S::wheel_faults, GasSegments)
                                            : 0;
 };
 /// Room for every section of any engine.
@@ -111,7 +117,7 @@ struct RoomForAll {
   static constexpr std::size_t kGasSegments = kMaxGasSegments;
   template <class Section>
   static constexpr std::size_t kRows = most_rows(Section::kRows, kMaxCylinders, kMaxTrains, kMaxTriggerWheels,
-                                                 kMaxGasSegments);
+                                                 kMaxWheelFaults, kMaxGasSegments);
 };
 
 template <class Thing, std::size_t N>
@@ -178,6 +184,10 @@ class TableStorage {
     if constexpr (detail::Needs<S>::any_triggers) {
       if (engine.trigger_count > static_cast<int>(S::triggers.capacity))
         return refuse("scene.triggers", Reason::out_of_range);
+    }
+    if constexpr (detail::Needs<S>::faulty_wheels) {
+      if (engine.wheel_fault_count > static_cast<int>(S::wheel_faults))
+        return refuse("scene.wheel_faults", Reason::out_of_range);
     }
     const TableTargets<Real> targets = stores_.targets();
     if (const Status refused = tabulate(engine, options, targets, report); !refused.ok()) return refused;

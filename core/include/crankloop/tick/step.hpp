@@ -35,6 +35,10 @@ template <class Real, class S>
     for (Real& pressure : state_.pressure_Pa) pressure = tables.body->crankcase_Pa;
   }
   if constexpr (S::misfire) detail::start_misfires(tables, state_);
+  if constexpr (detail::Needs<S>::faulty_wheels) {
+    for (std::uint32_t i = 0; i < tables.wheel_faults->count; ++i)
+      state_.noise_random[i] = tables.wheel_faults->fault[i].noise_seed;
+  }
   if constexpr (detail::Needs<S>::gas) detail::start_gas(tables, state_);
   if constexpr (detail::Needs<S>::work) {  // the first tick's work counts from here
     if constexpr (detail::Needs<S>::crank_dynamics) {
@@ -128,6 +132,8 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
   std::uint32_t faults = detail::take_crank_inputs(*tables.drive, state_, input, crank);
   faults |= detail::move_parts(tables, state_, *this, output_, input, crank);
   if constexpr (detail::Needs<S>::any_triggers) faults |= detail::read_triggers(tables, state_, output_, before, crank);
+  if constexpr (detail::Needs<S>::faulty_wheels)
+    faults |= detail::read_faulty_triggers(tables, state_, output_, input.wheel_faults, before, crank);
   if constexpr (S::bad_input_count) detail::count_bad_input(state_, faults);
   CRANKLOOP_ASSERT(detail::within_magnitude(state_.speed_rad_s, tables.drive->speed_limit_rad_s));
   output_.faults = faults;

@@ -39,6 +39,7 @@ FreeLoop<Real, S>::FreeLoop(const EngineFile& file, const EngineDefinition& defi
   }
   input_.starter = operation.starter ? 1 : 0;
   input_.cut_cylinders = operation.cut_cylinders;
+  input_.wheel_faults = operation.wheel_faults;
   state_.speed_rad_s = static_cast<double>(engine_.state().speed_rad_s);
 }
 

@@ -24,6 +24,7 @@ struct FreeOperation {
   double seconds = 2;
   bool starter = false;
   std::uint32_t cut_cylinders = 0;  ///< bit k: cylinder k does not fire
+  std::uint32_t wheel_faults = 0;   ///< bit b: faults of input_bit b are on
   GasOrder gas{};                   ///< of an engine with gas exchange, instead of the load ratio
 
   [[nodiscard]] std::uint64_t ticks() const noexcept;  ///< as many as it takes to cover the time

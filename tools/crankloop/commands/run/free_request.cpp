@@ -28,6 +28,24 @@ std::uint32_t cut_cylinders(const std::string& text, const Layout& layout) {
   return cut;
 }
 
+/// "0,3": input bits of [fault NAME].
+std::uint32_t fault_bits(const std::string& text, const EngineDefinition& definition) {
+  std::uint32_t known = 0, bits = 0;
+  for (int i = 0; i < definition.wheel_fault_count; ++i)
+    if (definition.wheel_faults[i].input_bit >= 0) known |= 1u << definition.wheel_faults[i].input_bit;
+  for (const std::string_view one : split(text, ',')) {
+    const ParsedNumber number = parse_number(one, from(0).up_to(31), "");
+    if (!number.ok()) throw UsageError("--fault-bits: " + number.problem);
+    const auto bit = static_cast<std::uint32_t>(number.value);
+    if (static_cast<double>(bit) != number.value)
+      throw UsageError("--fault-bits: " + in_quotes(one) + " is not a whole number");
+    if ((known >> bit & 1u) == 0)
+      throw UsageError("--fault-bits: no [fault NAME] has input_bit = " + std::to_string(bit));
+    bits |= 1u << bit;
+  }
+  return bits;
+}
+
 /// The file's engine, with the brake of the command line.
 EngineDefinition loaded(const EngineFile& file, const Arguments& arguments) {
   EngineDefinition definition = file.definition();
@@ -46,6 +64,7 @@ std::string command_line(const Arguments& arguments, const EngineFile& file, con
   if (breathes(file.definition())) text += " " + options_of(gas);
   if (arguments.has("--starter")) text += " --starter";
   if (arguments.has("--cut")) text += " --cut " + arguments.text("--cut");
+  if (arguments.has("--fault-bits")) text += " --fault-bits " + arguments.text("--fault-bits");
   for (const std::string& misfire : arguments.words("--misfire")) text += " --misfire " + shell_word(misfire);
   return text + " --real " + arguments.text("--real");
 }
@@ -54,7 +73,8 @@ std::string command_line(const Arguments& arguments, const EngineFile& file, con
 
 void require_options_that_fit(const Arguments& arguments) {
   const bool free = arguments.has("--free");
-  for (const char* option : {"--machine-Nm", "--starter", "--from-rpm", "--seconds", "--cut", "--misfire"}) {
+  for (const char* option :
+       {"--machine-Nm", "--starter", "--from-rpm", "--seconds", "--cut", "--misfire", "--fault-bits"}) {
     if (!free && arguments.has(option)) throw UsageError(std::string(option) + " is for a run with --free");
   }
   if (free && arguments.has("--rpm"))
@@ -79,6 +99,8 @@ int run_free_by(const Arguments& arguments, const EngineFile& file, const GasOrd
   request.operation.starter = arguments.has("--starter");
   if (arguments.has("--cut"))
     request.operation.cut_cylinders = cut_cylinders(arguments.text("--cut"), definition.layout);
+  if (arguments.has("--fault-bits"))
+    request.operation.wheel_faults = fault_bits(arguments.text("--fault-bits"), definition);
   request.real = arguments.text("--real");
   request.command_line = command_line(arguments, file, gas);
   for (std::string& line : tell_warnings(arguments, warnings_about_running_free(file, definition)))

@@ -31,8 +31,11 @@ std::vector<std::size_t> misfiring_cylinders(const EngineDefinition& engine) {
 template <class Real, class S>
 class TickTable {
  public:
-  TickTable(Output& out, const std::vector<std::string>& wheels, const EngineDefinition& engine)
-      : csv_{out, header(wheels, engine)}, wheels_{wheels.size()}, engine_{engine} {}
+  TickTable(Output& out, const std::vector<std::string>& signals, const EngineDefinition& engine)
+      : csv_{out, header(signals, engine)},
+        wheels_{static_cast<std::size_t>(engine.trigger_count)},
+        signals_{signals.size()},
+        engine_{engine} {}
 
   void row(const FreeLoop<Real, S>& loop, double tick_s, const FreeOutput<Real, S>& out) {
     const FreeState& state = loop.state();
@@ -42,8 +45,8 @@ class TickTable {
     for (const Real value :
          {out.acceleration_rad_s2, out.torque_Nm, out.mean_torque_Nm, out.friction_Nm, out.starter_Nm})
       csv_.cell(value);
-    for (std::size_t w = 0; w < wheels_; ++w) {
-      const auto& signal = out.trigger[w];
+    for (std::size_t w = 0; w < signals_; ++w) {
+      const auto& signal = signal_of(out, w, wheels_);
       csv_.cell(static_cast<int>(signal.level));
       csv_.cell(static_cast<int>(signal.edge_count));
       std::string times;
@@ -61,11 +64,11 @@ class TickTable {
   }
 
  private:
-  static std::vector<std::string> header(const std::vector<std::string>& wheels, const EngineDefinition& engine) {
+  static std::vector<std::string> header(const std::vector<std::string>& signals, const EngineDefinition& engine) {
     std::vector<std::string> columns{"time_s",    "crank_deg",      "speed_rpm",   "acceleration_rad_s2",
                                      "torque_Nm", "mean_torque_Nm", "friction_Nm", "starter_Nm"};
-    for (const std::string& wheel : wheels) {
-      for (const char* what : {"_level", "_edges", "_edge_times_s"}) columns.push_back(wheel + what);
+    for (const std::string& signal : signals) {
+      for (const char* what : {"_level", "_edges", "_edge_times_s"}) columns.push_back(signal + what);
     }
     for (const std::size_t k : misfiring_cylinders(engine)) {
       columns.push_back("cycles_" + std::to_string(k + 1));
@@ -77,15 +80,16 @@ class TickTable {
 
   CsvWriter csv_;
   std::size_t wheels_;
+  std::size_t signals_;  ///< those, and with faults the faulty ones
   const EngineDefinition& engine_;
 };
 
 /// The edges of a tick, for the cycles and the count.
 template <class Real, class S>
-void take_signals(const FreeOutput<Real, S>& out, double tick_s, bool first, CycleRecorder& recorder,
-                  std::vector<SignalFigures>& figures) {
+void take_signals(const FreeOutput<Real, S>& out, double tick_s, bool first, std::size_t wheels,
+                  CycleRecorder& recorder, std::vector<SignalFigures>& figures) {
   for (std::size_t w = 0; w < figures.size(); ++w) {
-    const auto& signal = out.trigger[w];
+    const auto& signal = signal_of(out, w, wheels);
     const std::uint32_t listed = listed_edges(signal);
     if (first) recorder.begin_at(w, level_before(signal));
     for (std::uint32_t e = 0; e < listed; ++e)
@@ -107,7 +111,7 @@ FreeFigures run_ticks(const EngineFile& file, const EngineDefinition& definition
   figures.ticks = operation.ticks();
   figures.speed_rpm = Overview(figures.ticks);
   figures.intake_kPa = Overview(figures.ticks);
-  for (const std::string& name : names_of_triggers(file)) figures.signals.push_back({name});
+  for (const std::string& name : names_of_signals(file)) figures.signals.push_back({name});
   CycleRecorder recorder(figures.signals.size());
   Progress progress("running", static_cast<double>(figures.ticks));
   if (dump != nullptr) dump->number(0, 0, operation.from_rpm);
@@ -115,7 +119,7 @@ FreeFigures run_ticks(const EngineFile& file, const EngineDefinition& definition
     const FreeOutput<Real, S>& out = loop.step();
     const FreeState& now = loop.state();
     const double before_rad_s = loop.before().speed_rad_s;
-    take_signals<Real, S>(out, operation.tick_s, tick == 0, recorder, figures.signals);
+    take_signals<Real, S>(out, operation.tick_s, tick == 0, file.triggers().size(), recorder, figures.signals);
     recorder.take(loop.before(), now);
     books.take(loop.before(), now, static_cast<double>(out.starter_Nm));
     figures.speed_rpm.take(now.time_s, now.speed_rpm());
@@ -221,8 +225,8 @@ void run_and_write(const EngineFile& file, const EngineDefinition& definition, c
                    Results& results) {
   std::optional<TickTable<Real, S>> table;
   std::optional<SignalDump> dump;
-  if (Output* vcd = results["--vcd"]) dump.emplace(file, *vcd, std::vector<std::string>{"speed_rpm", "torque_Nm"});
-  if (Output* csv = results["--csv"]) table.emplace(*csv, names_of_triggers(file), definition);
+  if (Output* vcd = results["--vcd"]) dump.emplace(SignalDump::with_faults(file, *vcd, {"speed_rpm", "torque_Nm"}));
+  if (Output* csv = results["--csv"]) table.emplace(*csv, names_of_signals(file), definition);
   const FreeFigures figures =
       run_ticks<Real, S>(file, definition, request, table ? &*table : nullptr, dump ? &*dump : nullptr);
   if (dump) dump->finish(figures.end.time_s);

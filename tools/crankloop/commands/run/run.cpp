@@ -413,6 +413,7 @@ constexpr Option kOptions[] = {
     flag("--starter", "the file's [starter] turns the crank too; it free-wheels where the engine is faster"),
     text("--cut", "K,..", "cylinders that do not fire, like 1,3"),
     kMisfire,
+    text("--fault-bits", "B,..", "input bits of [fault NAME] that are on during the whole run, like 0,3"),
 };
 
 }  // namespace
@@ -423,7 +424,7 @@ const Command kRun{
     "FILE [--rpm N] [--cycles N] [--tick-us T] [--real R] [--load-ratio Q] [--csv F] [--report F.html] [--vcd F]\n"
     "       [--throttle R] [--lambda L | --fuel-mg M] [--burn-start-deg A] [--against B.ini]\n"
     "       crankloop run FILE --free [--from-rpm N] [--seconds S] [--machine-Nm L] [--starter] [--cut K,..]\n"
-    "       [--misfire RULE ...] [...]",
+    "       [--misfire RULE ...] [--fault-bits B,..] [...]",
     "crankloop run diesel_495.ini --rpm 2000 --csv run.csv --report report.html",
     1,
     kOptions,

@@ -118,6 +118,12 @@ struct StateFields {
         for (auto& ratio : s.burning_ratio) v.number(ratio, Real{0}, Real{1});
       }
     }
+    if constexpr (N::faulty_wheels) {
+      v.group("state.wire");
+      v.word(s.wire_levels, (1u << S::triggers.capacity) - 1);
+      v.word(s.wires_known, (1u << S::triggers.capacity) - 1);
+      for (auto& random : s.noise_random) v.word(random, kAny);
+    }
     if constexpr (S::bad_input_count) {
       v.group("state.bad_input");
       v.word(s.bad_input_ticks, kAny);
