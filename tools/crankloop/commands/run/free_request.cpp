@@ -1,5 +1,7 @@
 #include "free_request.hpp"
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -9,6 +11,7 @@
 #include "../../files/error.hpp"
 #include "../../files/number.hpp"
 #include "../../files/words.hpp"
+#include "../../loops/input_option.hpp"
 #include "free_run.hpp"
 
 namespace crankloop::program {
@@ -36,6 +39,17 @@ EngineDefinition loaded(const EngineFile& file, const Arguments& arguments) {
   return definition;
 }
 
+/// What an input file may drive: the scene's inputs, of which those of this engine.
+std::shared_ptr<const InputSchedule> schedule_of(const Arguments& arguments, const EngineFile& file) {
+  detail::EngineShape shape;
+  shape.cylinders = static_cast<std::uint32_t>(file.definition().layout.cylinders);
+  std::optional<InputSchedule> schedule =
+      read_inputs(arguments, file,
+                  breathes(file.definition()) ? scene_inputs<scenes::BreathingFree>(shape)
+                                              : scene_inputs<scenes::FreeRunning>(shape));
+  return schedule ? std::make_shared<const InputSchedule>(std::move(*schedule)) : nullptr;
+}
+
 std::string command_line(const Arguments& arguments, const EngineFile& file, const GasOrder& gas) {
   std::string text = "crankloop run " + shell_word(arguments.file()) + " --free";
   for (const char* number : {"--from-rpm", "--seconds", "--tick-us", "--load-ratio", "--machine-Nm"}) {
@@ -46,6 +60,7 @@ std::string command_line(const Arguments& arguments, const EngineFile& file, con
   if (breathes(file.definition())) text += " " + options_of(gas);
   if (arguments.has("--starter")) text += " --starter";
   if (arguments.has("--cut")) text += " --cut " + arguments.text("--cut");
+  if (arguments.has("--inputs")) text += " --inputs " + shell_word(arguments.text("--inputs"));
   return text + " --real " + arguments.text("--real");
 }
 
@@ -53,7 +68,7 @@ std::string command_line(const Arguments& arguments, const EngineFile& file, con
 
 void require_options_that_fit(const Arguments& arguments) {
   const bool free = arguments.has("--free");
-  for (const char* option : {"--machine-Nm", "--starter", "--from-rpm", "--seconds", "--cut"}) {
+  for (const char* option : {"--machine-Nm", "--starter", "--from-rpm", "--seconds", "--cut", "--inputs"}) {
     if (!free && arguments.has(option)) throw UsageError(std::string(option) + " is for a run with --free");
   }
   if (free && arguments.has("--rpm"))
@@ -78,6 +93,7 @@ int run_free_by(const Arguments& arguments, const EngineFile& file, const GasOrd
   request.operation.starter = arguments.has("--starter");
   if (arguments.has("--cut"))
     request.operation.cut_cylinders = cut_cylinders(arguments.text("--cut"), definition.layout);
+  request.operation.schedule = schedule_of(arguments, file);
   request.real = arguments.text("--real");
   request.command_line = command_line(arguments, file, gas);
   for (std::string& line : tell_warnings(arguments, warnings_about_running_free(file, definition)))

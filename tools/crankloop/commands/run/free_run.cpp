@@ -160,6 +160,10 @@ std::string summary_text(const EngineFile& file, const FreeRequest& request, con
   s.line("tick", operation.tick_s * 1e6, "us");
   s.line("time", f.end.time_s, "s");
   s.line("ticks", f.ticks);
+  if (operation.schedule) {
+    s.line("inputs_from_file", operation.schedule->columns());
+    s.remark("inputs below are those of the command line, where the file does not have them");
+  }
   if (breathes(file.definition())) {
     add_order(s, operation.gas);
   } else {

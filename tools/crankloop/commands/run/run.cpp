@@ -23,6 +23,7 @@
 #include "../../engine_report/engine_report.hpp"
 #include "../../files/csv.hpp"
 #include "../../files/words.hpp"
+#include "../../loops/input_option.hpp"
 #include "../../loops/run_accuracy.hpp"
 #include "../../loops/run_loop.hpp"
 #include "../../loops/run_trace.hpp"
@@ -407,6 +408,7 @@ constexpr Option kOptions[] = {
            "a brake of constant torque instead of that of the file's [machine], whose inertia stays"),
     flag("--starter", "the file's [starter] turns the crank too; it free-wheels where the engine is faster"),
     text("--cut", "K,..", "cylinders that do not fire, like 1,3"),
+    kInputs,
 };
 
 }  // namespace
@@ -416,7 +418,8 @@ const Command kRun{
     "the fixed-step loop: torque, power, peak forces, time per tick; or a free-running engine; CSV and report",
     "FILE [--rpm N] [--cycles N] [--tick-us T] [--real R] [--load-ratio Q] [--csv F] [--report F.html] [--vcd F]\n"
     "       [--throttle R] [--lambda L | --fuel-mg M] [--burn-start-deg A] [--against B.ini]\n"
-    "       crankloop run FILE --free [--from-rpm N] [--seconds S] [--machine-Nm L] [--starter] [--cut K,..] [...]",
+    "       crankloop run FILE --free [--from-rpm N] [--seconds S] [--machine-Nm L] [--starter] [--cut K,..]\n"
+    "       [--inputs F] [...]",
     "crankloop run diesel_495.ini --rpm 2000 --csv run.csv --report report.html",
     1,
     kOptions,
