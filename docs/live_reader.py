@@ -199,6 +199,13 @@ def follow(block, seconds, pause_s, report):
         time.sleep(pause_s)
 
 
+def show(block, edges):
+    speed_rad_s = None
+    while speed_rad_s is None:  # written for a fraction of a microsecond in each tick
+        speed_rad_s = block.speed_rad_s()
+    print(f"# {speed_rad_s * 9.549296585513721:.1f} rpm, {edges.count} edges", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description="Follow the trigger edges of crankloop live.")
     parser.add_argument("path")
@@ -207,11 +214,11 @@ def main():
     options = parser.parse_args()
     try:
         block = Block(options.path)
-        show = lambda edges: print(f"# {(block.speed_rad_s() or 0) * 9.549296585513721:.1f} rpm, {edges.count} edges")
-        edges, check = follow(block, options.seconds, options.pause, show)
+        edges, check = follow(block, options.seconds, options.pause, lambda edges: show(block, edges))
     except BlockError as error:
         raise SystemExit(f"live_reader: {error}") from None
-    print(f"begin = {edges.begin}\nread = {edges.count}\nlost = {edges.lost}\nwritten = {edges.next}\nwrong = {check.wrong}")
+    print(f"begin = {edges.begin}\nread = {edges.count}\nlost = {edges.lost}")
+    print(f"written = {edges.next}\nwrong = {check.wrong}")
 
 
 if __name__ == "__main__":

@@ -266,6 +266,13 @@ SharedBlock SharedBlock::open(const std::string& path) {
   const auto* list = static_cast<const char*>(block.data()) + block->section_list;
   block.sections_.resize(std::min<std::size_t>(block->section_count, 64));
   std::memcpy(block.sections_.data(), list, block.sections_.size() * sizeof(Section));
+  // Whoever may write to the file may have changed the list since it was checked.
+  const auto leads_out = [bytes](const Section& s) {
+    return s.offset % 64 != 0 ||
+           std::uint64_t{s.offset} + head_bytes(s.kind) + std::uint64_t{s.count} * s.entry_bytes > bytes;
+  };
+  block.sections_.erase(std::remove_if(block.sections_.begin(), block.sections_.end(), leads_out),
+                        block.sections_.end());
   return block;
 }
 

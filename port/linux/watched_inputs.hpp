@@ -25,16 +25,7 @@ class Watched {
 
   /// The inputs of the tick that begins now. Times must not go back.
   [[nodiscard]] const Value& at(std::int64_t now_ns) noexcept {
-    std::uint32_t sequence = sequence_;
-    Value written = used_;
-    if (!area_.read(written, sequence)) {
-      ++torn_;
-    } else if (sequence != sequence_) {
-      used_ = written;
-      sequence_ = sequence;
-      written_ns_ = now_ns;
-      flags_ = kControllerSeen;
-    }
+    if (area_.sequence() != sequence_) take(now_ns);
     if (flags_ == kControllerSeen && now_ns - written_ns_ > patience_ns_) {
       used_ = safe_;
       flags_ |= kControllerSilent;
@@ -49,6 +40,20 @@ class Watched {
   [[nodiscard]] std::uint32_t silences() const noexcept { return silences_; }  ///< how often the controller fell silent
 
  private:
+  /// What was written since.
+  void take(std::int64_t now_ns) noexcept {
+    Value written = used_;
+    std::uint32_t sequence = sequence_;
+    if (!area_.read(written, sequence)) {
+      ++torn_;
+      return;
+    }
+    used_ = written;
+    sequence_ = sequence;
+    written_ns_ = now_ns;
+    flags_ = kControllerSeen;
+  }
+
   const Area& area_;
   Value used_;
   Value safe_;

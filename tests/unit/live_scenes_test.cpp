@@ -163,8 +163,9 @@ TEST(LiveEdges, AreOfAllWheelsInTheOrderOfTime) {
 
 TEST(LiveEdges, HaveRoomInTheRingForASecondAtFullSpeed) {
   const EngineFile file = sample("four_2000");  // 60-2 and half a moon up to 9000 rpm
-  EXPECT_EQ(usual_ring_edges(file.definition(), file.triggers().size(), 2e-4), 32768u);  // of 150 * (116 + 1)
-  EXPECT_EQ(usual_ring_edges(file.definition(), 0, 2e-4), 0u);
+  EXPECT_EQ(usual_ring_edges(file.definition(), file.triggers().size(), 2e-4, 1e-4), 32768u);  // of 150 * (116 + 1)
+  EXPECT_EQ(usual_ring_edges(file.definition(), file.triggers().size(), 2e-4, 1), 65536u) << "a second of lead";
+  EXPECT_EQ(usual_ring_edges(file.definition(), 0, 2e-4, 0), 0u);
 }
 
 }  // namespace

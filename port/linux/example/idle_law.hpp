@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 #include <thread>
 
 #include "follow_block.hpp"
@@ -116,11 +117,13 @@ int hold_idle(const char* program, const SharedBlock& block, Speed& speed, doubl
   IdleControl idle(target_rad_s, breathes ? kThrottleGains : kLoadGains);
   Record record;
   LiveInputs in;
+  Pulse pulse(block);
+  Pulse::Found found = Pulse::Found::runs;
   bool engaged = true;
   double running_after_s = -1;
   const auto periods = static_cast<int>(seconds / kPeriod_s);
   auto next = Clock::now();
-  for (int period = 0; period < periods && block->state == LiveState::running; ++period) {
+  for (int period = 0; period < periods && (found = pulse.feel()) == Pulse::Found::runs; ++period) {
     const double speed_rad_s = speed.rad_s(now_ns());
     smooth.take(speed_rad_s, kPeriod_s);
     engaged = starter_needed(engaged, smooth.rad_s(), target_rad_s);
@@ -136,6 +139,11 @@ int hold_idle(const char* program, const SharedBlock& block, Speed& speed, doubl
     std::this_thread::sleep_until(next);
   }
   block->inputs.write(LiveInputs{});
+  const std::string problem = Pulse::in_words(found);
+  if (!problem.empty()) {
+    std::fprintf(stderr, "%s: %s\n", program, problem.c_str());
+    return EXIT_FAILURE;
+  }
   if (running_after_s < 0) {
     std::fprintf(stderr, "%s: the engine did not start\n", program);
     return EXIT_FAILURE;

@@ -1,4 +1,4 @@
-// `--inputs F` of commands whose crank is free.
+// `--inputs IN.csv` of commands whose crank is free.
 //
 // What belongs here: the option, and what of the file an engine cannot follow. What does not: the file's format
 // (input_schedule.hpp).
@@ -13,8 +13,9 @@
 
 namespace crankloop::program {
 
-inline constexpr Option kInputs = text(
-    "--inputs", "F", "CSV file time_s,NAME,... with inputs of the engine over time, by the names of FMU variables");
+inline constexpr Option kInputs =
+    text("--inputs", "IN.csv",
+         "CSV file time_s,NAME,... with inputs of the engine over time, by the names of FMU variables");
 
 /// The file of --inputs, where it is given. Throws InputError, as InputSchedule does, and where the engine has nothing
 /// that an input acts on: a starter, a diagram to scale.

@@ -58,8 +58,9 @@ LiveRequest request_of(const Arguments& arguments, const EngineFile& file) {
 }
 
 /// As asked for, or enough for a second at full speed.
-std::uint32_t ring_edges_of(const Arguments& arguments, const EngineFile& file, double tick_s) {
-  const std::uint32_t usual = usual_ring_edges(file.definition(), file.triggers().size(), tick_s);
+std::uint32_t ring_edges_of(const Arguments& arguments, const EngineFile& file, const LiveRequest& request) {
+  const double lead_s = static_cast<double>(request.lead_ticks) * request.tick_s;
+  const std::uint32_t usual = usual_ring_edges(file.definition(), file.triggers().size(), request.tick_s, lead_s);
   if (!arguments.has("--ring-edges")) return usual;
   const auto asked = static_cast<std::uint32_t>(arguments.whole_number("--ring-edges"));
   if ((asked & (asked - 1)) != 0) throw UsageError("--ring-edges: " + std::to_string(asked) + " is no power of two");
@@ -90,8 +91,7 @@ int run_live_command(const Arguments& arguments) {
     if (shares) {
       claim_output(arguments.text("--shared"));
       shared.emplace(port::SharedBlock::create(
-          arguments.text("--shared"),
-          live_contents(file, request.tick_s, ring_edges_of(arguments, file, request.tick_s))));
+          arguments.text("--shared"), live_contents(file, request.tick_s, ring_edges_of(arguments, file, request))));
     }
     if (trace_file) trace.emplace(*trace_file, file.name(), names_of_triggers(file));
     const LiveEnds ends{shares ? &*shared : nullptr, schedule ? &*schedule : nullptr, trace ? &*trace : nullptr};
@@ -124,7 +124,7 @@ constexpr Option kOptions[] = {
     whole_number("--lead-ticks", "N", from(0).up_to(1000),
                  "edges of trigger wheels in the block are due so many ticks after their time in the tick", "1"),
     whole_number("--ring-edges", "N", from(16).up_to(port::kMaxRingEdges),
-                 "room for edges in the block, a power of two; default a second of all wheels at max_rpm"),
+                 "room for edges in the block, a power of two; default a second and the lead of all wheels at max_rpm"),
     kInputs,
     number("--silent-ms", "N", above(0).up_to(100000),
            "timeout of the controller: after N ms without a write, fuel, load and starter are off", "100"),
@@ -148,13 +148,14 @@ constexpr Option kOptions[] = {
 
 }  // namespace
 
-const Command kLive{"live",
-                    "the engine against the clock, with a controller in the loop: signals, trigger edges, latencies",
-                    "FILE [--tick-us T] [--seconds S] [--shared PATH] [--inputs F] [--from-rpm N] [--load-ratio Q] "
-                    "[--throttle R] [--external-torque-Nm L] [--starter] [...]",
-                    "crankloop live diesel_495.ini --from-rpm 800 --load-ratio 0.2 --tick-us 100 --seconds 5",
-                    1,
-                    kOptions,
-                    run_live_command};
+const Command kLive{
+    "live",
+    "the engine against the clock, with a controller in the loop: signals, trigger edges, latencies",
+    "FILE [--tick-us T] [--seconds S] [--shared PATH] [--inputs IN.csv] [--from-rpm N] [--load-ratio Q] "
+    "[--throttle R] [--external-torque-Nm L] [--starter] [...]",
+    "crankloop live diesel_495.ini --from-rpm 800 --load-ratio 0.2 --tick-us 100 --seconds 5",
+    1,
+    kOptions,
+    run_live_command};
 
 }  // namespace crankloop::program

@@ -213,7 +213,7 @@ std::vector<SceneInput> live_inputs(const EngineFile& file) {
   return with_live_scene(file, [&](auto scene) { return scene_inputs<decltype(scene)>(shape_of_file(file)); });
 }
 
-std::uint32_t usual_ring_edges(const EngineDefinition& engine, std::size_t wheels, double tick_s) {
+std::uint32_t usual_ring_edges(const EngineDefinition& engine, std::size_t wheels, double tick_s, double lead_s) {
   if (wheels == 0) return 0;
   double turns_per_s = std::min(1 / tick_s, kMaxSpeed_rad_s * kTurnsPerRad);  // a tick turns the crank once at most
   if (engine.crank.max_speed_rad_s > 0)
@@ -221,7 +221,7 @@ std::uint32_t usual_ring_edges(const EngineDefinition& engine, std::size_t wheel
   double edges_per_s = 0;
   for (std::size_t w = 0; w < wheels; ++w) edges_per_s += edges_per_turn(engine.triggers[w]) * turns_per_s;
   std::uint32_t depth = 16;
-  while (depth < edges_per_s && depth < port::kMaxRingEdges) depth *= 2;
+  while (depth < edges_per_s * (1 + lead_s) && depth < port::kMaxRingEdges) depth *= 2;
   return depth;
 }
 

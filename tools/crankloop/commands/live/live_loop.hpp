@@ -88,7 +88,9 @@ void run_live(const EngineFile& file, const LiveRequest& request, const LiveEnds
 /// What an input file of this engine may drive.
 [[nodiscard]] std::vector<SceneInput> live_inputs(const EngineFile& file);
 
-/// A ring for a second of all its wheels at its fastest, a power of two; 0: it has no wheel.
-[[nodiscard]] std::uint32_t usual_ring_edges(const EngineDefinition& engine, std::size_t wheels, double tick_s);
+/// A ring for all its wheels at its fastest over a second and the lead, for which a player leaves edges there: a power
+/// of two; 0: it has no wheel.
+[[nodiscard]] std::uint32_t usual_ring_edges(const EngineDefinition& engine, std::size_t wheels, double tick_s,
+                                             double lead_s);
 
 }  // namespace crankloop::program

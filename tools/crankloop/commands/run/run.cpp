@@ -419,7 +419,7 @@ const Command kRun{
     "FILE [--rpm N] [--cycles N] [--tick-us T] [--real R] [--load-ratio Q] [--csv F] [--report F.html] [--vcd F]\n"
     "       [--throttle R] [--lambda L | --fuel-mg M] [--burn-start-deg A] [--against B.ini]\n"
     "       crankloop run FILE --free [--from-rpm N] [--seconds S] [--machine-Nm L] [--starter] [--cut K,..]\n"
-    "       [--inputs F] [...]",
+    "       [--inputs IN.csv] [...]",
     "crankloop run diesel_495.ini --rpm 2000 --csv run.csv --report report.html",
     1,
     kOptions,
