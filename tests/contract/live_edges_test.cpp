@@ -426,6 +426,23 @@ TEST_F(LiveRing, IsMissedByItsPlayerInOneLineWhenLiveDies) {
             "live_reader: live has written nothing for 1 s: it has died or hangs\n");
 }
 
+TEST_F(LiveRing, IsMissedByItsPlayerInOneLineWhenTheBlockIsTakenAway) {
+  Process engine(fast_live(block_path(), "1000", "600"), in_folder("live.txt"));
+  ASSERT_TRUE(open_running()) << engine.output();
+  Process player({CRANKLOOP_EDGE_PLAYER, block_path(), "--record", in_folder("played.csv"), "--priority", "0"},
+                 in_folder("player.txt"));
+  ASSERT_TRUE(comes_true([&] {
+    return std::filesystem::exists(in_folder("played.csv")) &&
+           std::filesystem::file_size(in_folder("played.csv")) > 9999;
+  }));
+  std::filesystem::resize_file(block_path(), 0);
+  EXPECT_EQ(engine.wait(), 1);
+  EXPECT_EQ(player.wait(), 1) << player.output();
+  EXPECT_NE(player.output().find("edge_player: " + block_path() + ": the block was truncated or overwritten\n"),
+            std::string::npos)
+      << player.output();
+}
+
 /// Writes any bytes at all into the inputs, the list of sections, the names and the counter of the ring.
 void write_garbage(const SharedBlock& block, std::uint32_t seed, std::chrono::milliseconds duration) {
   std::mt19937 random(seed);
