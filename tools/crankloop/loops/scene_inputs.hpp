@@ -18,8 +18,18 @@
 
 namespace crankloop::program {
 
-/// Of a scene with any engine: per cylinder fuel, lambda, begin and length of the burn; a phaser per train.
-inline constexpr std::size_t kMaxSceneInputs = 4 * kMaxCylinders + kMaxTrains + 8;
+/// Of a scene with any engine.
+inline constexpr std::size_t kMaxSceneInputs = 128;
+
+/// How many a scene's largest engine has.
+template <class S>
+[[nodiscard]] constexpr std::size_t input_count() noexcept {
+  std::size_t count = 0;
+  Input<double, S> any{};
+  const auto add = [&count](const detail::Variable&, auto&) { ++count; };
+  detail::each_input<S>(add, any, detail::EngineShape{S::cylinders.capacity, S::trains.capacity, 0, 0});
+  return count;
+}
 
 struct SceneInput {
   std::string name;  ///< "fuel_kg[2]", in SI units
@@ -48,6 +58,7 @@ template <class S>
 /// reports; what a whole number does not hold is 0.
 template <class Real, class S>
 void set_inputs(Input<Real, S>& input, const detail::EngineShape& shape, const double* numbers) noexcept {
+  static_assert(input_count<S>() <= kMaxSceneInputs);
   const auto set = [&numbers](const detail::Variable&, auto& value) { detail::assign(value, *numbers++); };
   detail::each_input<S>(set, input, shape);
 }
