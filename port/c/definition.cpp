@@ -24,6 +24,10 @@ inline constexpr TriggerShaft kLast<TriggerShaft> = TriggerShaft::cam;
 template <>
 inline constexpr TriggerPattern kLast<TriggerPattern> = TriggerPattern::edges;
 template <>
+inline constexpr MisfirePattern kLast<MisfirePattern> = MisfirePattern::listed;
+template <>
+inline constexpr StuckSignal kLast<StuckSignal> = StuckSignal::high;
+template <>
 inline constexpr Integrator kLast<Integrator> = Integrator::exponential;
 
 /// Copies one field to C, or from C. The answer of the latter is the first enumerator that C++ does not have, of those
@@ -85,6 +89,9 @@ void each_field(Copy& copy, Cpp& definition, C& c) noexcept {
   if constexpr (std::is_same_v<std::remove_const_t<Cpp>, EngineDefinition>) {
     copy(true, "trigger_count", definition.trigger_count, c.trigger_count);
     EachNumber<Copy>{copy}({definition.trigger_count, ""}, definition.triggers, c.triggers);
+    EachNumber<Copy>{copy}({definition.layout.cylinders, ""}, definition.misfires, c.misfires);
+    copy(true, "wheel_fault_count", definition.wheel_fault_count, c.wheel_fault_count);
+    EachNumber<Copy>{copy}({definition.wheel_fault_count, ""}, definition.wheel_faults, c.wheel_faults);
   }
 }
 template <class Copy, class Cpp, class C>
@@ -102,7 +109,8 @@ static_assert(sizeof(crankloop_diagram_point) == sizeof(DiagramPoint) &&
 static_assert(sizeof(crankloop_cam_point) == sizeof(CamPoint) &&
               offsetof(crankloop_cam_point, lift_m) == offsetof(CamPoint, lift_m));
 
-static_assert(CRANKLOOP_MAX_TRIGGER_WHEELS == kMaxTriggerWheels && CRANKLOOP_MAX_TOOTH_GAPS == kMaxToothGaps);
+static_assert(CRANKLOOP_MAX_TRIGGER_WHEELS == kMaxTriggerWheels && CRANKLOOP_MAX_TOOTH_GAPS == kMaxToothGaps &&
+              CRANKLOOP_MAX_LISTED_MISFIRES == kMaxListedMisfires && CRANKLOOP_MAX_WHEEL_FAULTS == kMaxWheelFaults);
 static_assert(CRANKLOOP_MAX_CYLINDERS == kMaxCylinders && CRANKLOOP_MAX_TRAINS == kMaxTrains &&
               CRANKLOOP_MAX_CAM_EXPONENTS == kMaxCamExponents);
 static_assert(CRANKLOOP_TOO_MUCH_HEAT == static_cast<int>(Reason::too_much_heat) &&
@@ -117,6 +125,8 @@ static_assert(CRANKLOOP_CAM_TABLE == static_cast<int>(CamSource::table) &&
               CRANKLOOP_CAM_TURNS_AWAY_FROM_PIVOT == static_cast<int>(CamTurns::away_from_pivot) &&
               CRANKLOOP_TRIGGER_ON_CAM == static_cast<int>(TriggerShaft::cam) &&
               CRANKLOOP_TRIGGER_EDGES == static_cast<int>(TriggerPattern::edges) &&
+              CRANKLOOP_MISFIRE_LISTED == static_cast<int>(MisfirePattern::listed) &&
+              CRANKLOOP_STUCK_HIGH == static_cast<int>(StuckSignal::high) &&
               CRANKLOOP_INTEGRATOR_EXPONENTIAL == static_cast<int>(Integrator::exponential));
 
 }  // namespace

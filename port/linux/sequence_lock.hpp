@@ -19,8 +19,32 @@ namespace crankloop::port {
 /// acquire: whoever loads a word of a write also sees the odd number stored before it, and so never accepts it as a
 /// part of the write before. The same is often written with fences, which the thread sanitizer does not understand; on
 /// x86 both are plain moves.
-///
-/// One writer. All zeros is a valid lock that was never written (sequence 0), so it may lie in a new file.
+namespace sequence_lock {
+
+/// Never waits. A writer that died while writing left the number odd; the next one goes on from there.
+inline void write(std::atomic<std::uint32_t>& sequence, std::atomic<std::uint32_t>* words, const std::uint32_t* from,
+                  std::size_t count) noexcept {
+  const std::uint32_t odd = sequence.load(std::memory_order_relaxed) | 1u;
+  sequence.store(odd, std::memory_order_relaxed);
+  for (std::size_t i = 0; i < count; ++i) words[i].store(from[i], std::memory_order_release);
+  sequence.store(odd + 1, std::memory_order_release);
+}
+
+/// One try, so it never waits. False while the writer is at it: what is in `to` is then torn. `number`: of the write.
+[[nodiscard]] inline bool read(const std::atomic<std::uint32_t>& sequence, const std::atomic<std::uint32_t>* words,
+                               std::uint32_t* to, std::size_t count, std::uint32_t& number) noexcept {
+  const std::uint32_t before = sequence.load(std::memory_order_acquire);
+  if (before % 2 != 0) return false;
+  for (std::size_t i = 0; i < count; ++i) to[i] = words[i].load(std::memory_order_acquire);
+  if (sequence.load(std::memory_order_relaxed) != before) return false;
+  number = before;
+  return true;
+}
+
+}  // namespace sequence_lock
+
+/// A value under such a lock. One writer. All zeros is a valid lock that was never written (sequence 0), so it may lie
+/// in a new file.
 template <class Value>
 class SequenceLocked {
   static_assert(std::is_trivially_copyable_v<Value> && sizeof(Value) % sizeof(std::uint32_t) == 0);
@@ -28,25 +52,17 @@ class SequenceLocked {
                 "a lock hidden in an atomic is not shared with another process");
 
  public:
-  /// Never waits. A writer that died while writing left the number odd; the next one goes on from there.
   void write(const Value& value) noexcept {
     Words words;
     std::memcpy(words.data(), &value, sizeof value);
-    const std::uint32_t odd = sequence_.load(std::memory_order_relaxed) | 1u;
-    sequence_.store(odd, std::memory_order_relaxed);
-    for (std::size_t i = 0; i < kWords; ++i) words_[i].store(words[i], std::memory_order_release);
-    sequence_.store(odd + 1, std::memory_order_release);
+    sequence_lock::write(sequence_, words_.data(), words.data(), kWords);
   }
 
-  /// One try, so it never waits. False, and `value` and `sequence` are left as they were, while the writer is at it.
+  /// False, and `value` and `sequence` are left as they were, while the writer is at it.
   [[nodiscard]] bool read(Value& value, std::uint32_t& sequence) const noexcept {
-    const std::uint32_t before = sequence_.load(std::memory_order_acquire);
-    if (before % 2 != 0) return false;
     Words words;
-    for (std::size_t i = 0; i < kWords; ++i) words[i] = words_[i].load(std::memory_order_acquire);
-    if (sequence_.load(std::memory_order_relaxed) != before) return false;
+    if (!sequence_lock::read(sequence_, words_.data(), words.data(), kWords, sequence)) return false;
     std::memcpy(static_cast<void*>(&value), words.data(), sizeof value);
-    sequence = before;
     return true;
   }
 

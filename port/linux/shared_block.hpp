@@ -1,8 +1,8 @@
-// The block of memory that `crankloop live` shares with a controller: inputs in, outputs out. docs/live.md has the same
-// as a table.
+// The block of memory that `crankloop live` shares with a controller: inputs in; outputs, signals and edges out.
+// docs/live.md has the same as a table, live_block.h in C99.
 //
 // What belongs here: the layout, and how a process gets hold of the block. What does not: what the engine makes of it.
-// This header, sequence_lock.hpp and shared_block.cpp need nothing else of crankloop: a controller may copy them.
+// This header, those that it includes and shared_block.cpp need nothing else of crankloop: a controller may copy them.
 #pragma once
 
 #include <atomic>
@@ -10,7 +10,11 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "edge_ring.hpp"
+#include "live_block.h"
+#include "locked_numbers.hpp"
 #include "sequence_lock.hpp"
 
 namespace crankloop::port {
@@ -58,8 +62,8 @@ struct LiveOutputs {
 
 enum class LiveState : std::uint32_t { starting = 0, running = 1, ended = 2 };
 
-/// The block itself, in the byte order and with the floating-point numbers (IEEE 754) of the machine. Words not named
-/// are 0.
+/// The fixed part of the block, in the byte order and with the floating-point numbers (IEEE 754) of the machine. Words
+/// not named are 0. The sections follow it.
 struct alignas(64) LiveBlock {
   std::atomic<std::uint32_t> magic{0};  ///< kLiveMagic, written last: before that nothing in the block is valid
   std::uint32_t version = 0;
@@ -67,20 +71,24 @@ struct alignas(64) LiveBlock {
   std::atomic<LiveState> state{LiveState::starting};
   double tick_s = 0;
   std::uint32_t cylinders = 0;
-  std::uint32_t breathes = 0;  ///< 1: throttle, fuel and burn start count, and the load ratio does not
+  std::uint32_t breathes = 0;       ///< 1: throttle, fuel and burn start count, and the load ratio does not
+  std::uint32_t section_count = 0;  ///< entries of the list
+  std::uint32_t section_list = 0;   ///< offset of the list: crankloop_live_section
   alignas(64) SequenceLocked<LiveInputs> inputs;    ///< written by the controller, one only
   alignas(64) SequenceLocked<LiveOutputs> outputs;  ///< written by live
 };
 
-inline constexpr std::uint32_t kLiveMagic = 0x4C4B5243;  ///< the bytes "CRKL" where the lowest comes first
-inline constexpr std::uint32_t kLiveVersion = 3;         ///< another layout has another number
-inline constexpr std::size_t kLiveBlockBytes = 256;
+inline constexpr std::uint32_t kLiveMagic = CRANKLOOP_LIVE_MAGIC;
+inline constexpr std::uint32_t kLiveVersion = CRANKLOOP_LIVE_VERSION;
+inline constexpr std::size_t kLiveFixedBytes = CRANKLOOP_LIVE_FIXED_BYTES;
+inline constexpr std::size_t kMaxRingEdges = std::size_t{1} << 22;  ///< 64 MiB
 
-static_assert(sizeof(double) == 8 && sizeof(LiveBlock) == kLiveBlockBytes);
+static_assert(sizeof(double) == 8 && sizeof(LiveBlock) == kLiveFixedBytes);
 static_assert(offsetof(LiveBlock, version) == 4 && offsetof(LiveBlock, size_bytes) == 8 &&
               offsetof(LiveBlock, state) == 12);
 static_assert(offsetof(LiveBlock, tick_s) == 16 && offsetof(LiveBlock, cylinders) == 24 &&
               offsetof(LiveBlock, breathes) == 28);
+static_assert(offsetof(LiveBlock, section_count) == 32 && offsetof(LiveBlock, section_list) == 36);
 static_assert(offsetof(LiveBlock, inputs) == 64 && offsetof(LiveBlock, outputs) == 128);
 static_assert(sizeof(SequenceLocked<LiveInputs>) == 8 + sizeof(LiveInputs),
               "the words follow 8 bytes after the sequence number");
@@ -104,21 +112,33 @@ class SharedBlockError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What a block is made for. Names of more than 47 bytes are cut.
+struct LiveContents {
+  double tick_s = 0;
+  std::uint32_t cylinders = 0;
+  bool breathes = false;
+  std::vector<std::string> signals{};  ///< names of the section's numbers, at most kMaxLiveNumbers
+  std::vector<std::string> inputs{};   ///< likewise
+  std::vector<std::string> wheels{};
+  std::uint32_t ring_edges = 0;  ///< a power of two up to kMaxRingEdges; 0: no ring
+};
+
 /// A block mapped into this process, for as long as the object lives.
 ///
-/// Anybody who may write to the file may truncate it. Truncated to nothing, whoever touches the page gets SIGBUS: the
-/// block then becomes memory of this process alone, all zero, and its magic is gone, which tells both sides that they
-/// have lost it. Truncated to less than a block, the page stays, zeros in the place of what is gone: is_whole() sees
-/// that. The signal's handler stays for the life of the process; a SIGBUS from elsewhere ends the process as ever.
+/// Anybody who may write to the file may truncate it. Whoever touches a page that is gone gets SIGBUS: the whole block
+/// then becomes memory of this process alone, all zero, and its magic is gone, which tells both sides that they have
+/// lost it. Truncated within a page, the page stays, zeros in the place of what is gone: is_whole() sees that. The
+/// signal's handler stays for the life of the process; a SIGBUS from elsewhere ends the process as ever.
+///
+/// Where the sections are is read once, checked, and kept: who overwrites the list later moves nothing.
 class SharedBlock {
  public:
   /// Live's side: a new file, mode 0660 less the umask, removed at the end. A block that a killed run left behind is
   /// replaced, whole or half made; any other file at that path, and a block that another process runs on, is refused
   /// and left alone.
-  [[nodiscard]] static SharedBlock create(const std::string& path, double tick_s, std::uint32_t cylinders,
-                                          bool breathes = false);
+  [[nodiscard]] static SharedBlock create(const std::string& path, const LiveContents& contents);
 
-  /// The controller's side: the block of a running `live`. Refused: no such file, not ready yet, another layout.
+  /// The controller's side: the block of a running `live`. Refused: no such file, not ready yet, another version.
   [[nodiscard]] static SharedBlock open(const std::string& path);
 
   SharedBlock(SharedBlock&& other) noexcept;
@@ -137,13 +157,28 @@ class SharedBlock {
   [[nodiscard]] LiveBlock& operator*() const noexcept { return *block_; }
   [[nodiscard]] LiveBlock* operator->() const noexcept { return block_; }
 
+  /// The sections: one writer each, the creator of signals and edges, the controller of inputs.
+  [[nodiscard]] LockedNumbers signals() const noexcept { return numbers(CRANKLOOP_LIVE_SIGNALS); }
+  [[nodiscard]] LockedNumbers inputs_by_name() const noexcept { return numbers(CRANKLOOP_LIVE_INPUTS); }
+  [[nodiscard]] EdgeRing edges() const noexcept;  ///< to write; begins at edge 0
+  /// The mapped file, for the functions of live_block.h.
+  [[nodiscard]] const void* data() const noexcept { return block_; }
+  [[nodiscard]] std::size_t bytes() const noexcept { return bytes_; }
+
  private:
-  SharedBlock(std::string path, int file, bool creator);
+  using Section = crankloop_live_section;
+
+  SharedBlock(std::string path, int file, std::size_t bytes, bool creator);
+  [[nodiscard]] void* at(const Section& section) const noexcept;
+  [[nodiscard]] const Section* find(std::uint32_t kind) const noexcept;
+  [[nodiscard]] LockedNumbers numbers(std::uint32_t kind) const noexcept;
 
   std::string path_;
   int file_ = -1;
+  std::size_t bytes_ = 0;
   bool creator_;
   LiveBlock* block_ = nullptr;
+  std::vector<Section> sections_;
 };
 
 }  // namespace crankloop::port

@@ -13,27 +13,21 @@ namespace crankloop::port {
 /// A controller is there from its first write on. Its sign of life is a write: a sequence number not seen before, with
 /// inputs that are whole. One that stays away for longer than the patience, be it dead, stopped or stuck half-way
 /// through a write, is silent until its next write. Never waits and never loops.
-class WatchedInputs {
+///
+/// Area is a value under a sequence lock.
+template <class Value, class Area = SequenceLocked<Value>>
+class Watched {
  public:
-  /// `at_start` is used until a controller has written. What stands in `area` now was written for an earlier run and is
-  /// not used.
-  WatchedInputs(const SequenceLocked<LiveInputs>& area, const LiveInputs& at_start, std::int64_t patience_ns) noexcept
-      : area_{area}, used_{at_start}, patience_ns_{patience_ns}, sequence_{area.sequence()} {}
+  /// `at_start` is used until a controller has written, `safe` where it is silent. What stands in `area` now was
+  /// written for an earlier run and is not used.
+  Watched(const Area& area, const Value& at_start, std::int64_t patience_ns, const Value& safe = {}) noexcept
+      : area_{area}, used_{at_start}, safe_{safe}, patience_ns_{patience_ns}, sequence_{area.sequence()} {}
 
   /// The inputs of the tick that begins now. Times must not go back.
-  [[nodiscard]] const LiveInputs& at(std::int64_t now_ns) noexcept {
-    std::uint32_t sequence = sequence_;
-    LiveInputs written;
-    if (!area_.read(written, sequence)) {
-      ++torn_;
-    } else if (sequence != sequence_) {
-      used_ = written;
-      sequence_ = sequence;
-      written_ns_ = now_ns;
-      flags_ = kControllerSeen;
-    }
+  [[nodiscard]] const Value& at(std::int64_t now_ns) noexcept {
+    if (area_.sequence() != sequence_) take(now_ns);
     if (flags_ == kControllerSeen && now_ns - written_ns_ > patience_ns_) {
-      used_ = LiveInputs{};
+      used_ = safe_;
       flags_ |= kControllerSilent;
       ++silences_;
     }
@@ -46,8 +40,23 @@ class WatchedInputs {
   [[nodiscard]] std::uint32_t silences() const noexcept { return silences_; }  ///< how often the controller fell silent
 
  private:
-  const SequenceLocked<LiveInputs>& area_;
-  LiveInputs used_;
+  /// What was written since.
+  void take(std::int64_t now_ns) noexcept {
+    Value written = used_;
+    std::uint32_t sequence = sequence_;
+    if (!area_.read(written, sequence)) {
+      ++torn_;
+      return;
+    }
+    used_ = written;
+    sequence_ = sequence;
+    written_ns_ = now_ns;
+    flags_ = kControllerSeen;
+  }
+
+  const Area& area_;
+  Value used_;
+  Value safe_;
   std::int64_t patience_ns_;
   std::uint32_t sequence_;
   std::int64_t written_ns_ = 0;
@@ -55,5 +64,8 @@ class WatchedInputs {
   std::uint32_t torn_ = 0;
   std::uint32_t silences_ = 0;
 };
+
+using WatchedInputs = Watched<LiveInputs>;
+using WatchedNumbers = Watched<LiveNumbers, LockedNumbers>;
 
 }  // namespace crankloop::port

@@ -32,6 +32,8 @@ TEST(CDefinition, PassesEveryFieldOnToCpp) {
   EngineDefinition all_read{};
   all_read.train_count = kMaxTrains;
   all_read.trigger_count = kMaxTriggerWheels;
+  all_read.layout.cylinders = kMaxCylinders;
+  all_read.wheel_fault_count = kMaxWheelFaults;
   for (ValveTrain& train : all_read.trains) train.rocker.kind = RockerKind::circular_pad;
   const crankloop_definition usual = c::as_c(all_read);
   const int blind = blind_bytes(usual, [&](const crankloop_definition& changed) {
@@ -40,11 +42,13 @@ TEST(CDefinition, PassesEveryFieldOnToCpp) {
     const crankloop_definition back = c::as_c(cpp);
     return std::memcmp(&back, &usual, sizeof back) != 0;
   });
-  // Behind cylinders, heat_given, train_count, trigger_count, in each train behind point_count, per_cylinder and
-  // surge_modes, in each wheel behind inverted: 4 bytes. Of a wheel's `inverted` the three bytes above the lowest tell
-  // nothing new: any number but 0 is yes; but here each byte is changed by itself.
+  // Behind cylinders, heat_given, train_count, trigger_count, wheel_fault_count, in each train behind point_count,
+  // per_cylinder and surge_modes, in each wheel behind inverted, in each misfire behind cycles, in each fault behind
+  // noise_seed: 4 bytes. Of a wheel's `inverted` the three bytes above the lowest tell nothing new: any number but 0 is
+  // yes; but here each byte is changed by itself.
   if (kUsual64Bits) {
-    EXPECT_EQ(blind, 4 + 4 + 4 + 4 + CRANKLOOP_MAX_TRAINS * (4 + 4 + 4) + CRANKLOOP_MAX_TRIGGER_WHEELS * 4);
+    EXPECT_EQ(blind, 4 + 4 + 4 + 4 + CRANKLOOP_MAX_TRAINS * (4 + 4 + 4) + CRANKLOOP_MAX_TRIGGER_WHEELS * 4 +
+                         CRANKLOOP_MAX_CYLINDERS * 4 + 4 + CRANKLOOP_MAX_WHEEL_FAULTS * 4);
   }
 }
 

@@ -1,14 +1,10 @@
 // `crankloop live`, run as a user runs it: with the example's controller, with a controller that errs or dies, until a
 // signal, with bad arguments. Times are this machine's, which may be busy: they are looked for, never bounded.
 #include <gtest/gtest.h>
-#include <sys/types.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -17,123 +13,17 @@
 #include <optional>
 #include <sstream>
 #include <string>
-#include <thread>
+#include <utility>
 #include <vector>
 
 #include <crankloop/faults.hpp>
 
-#include "port/linux/shared_block.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/live_bench.hpp"
 
 namespace crankloop::port {
 namespace {
 
-const std::string kEngine = CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495.ini";
-constexpr std::chrono::seconds kPatience{60};  // for what happens at once on a machine that has time
-
-std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-/// A program that runs beside the test. Ended, if it still runs, with the object.
-class Process {
- public:
-  Process(const std::vector<std::string>& words, std::string output_path) : output_path_{std::move(output_path)} {
-    std::vector<char*> arguments;
-    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-    arguments.push_back(nullptr);
-    id_ = ::fork();
-    if (id_ != 0) return;
-    if (std::freopen(output_path_.c_str(), "w", stdout) == nullptr || ::dup2(STDOUT_FILENO, STDERR_FILENO) < 0)
-      ::_exit(126);
-    ::execv(arguments[0], arguments.data());
-    ::_exit(127);
-  }
-  Process(const Process&) = delete;
-  Process& operator=(const Process&) = delete;
-  ~Process() {
-    if (id_ > 0) {
-      signal(SIGKILL);
-      wait();
-    }
-  }
-
-  void signal(int number) const { ::kill(id_, number); }
-
-  /// Its exit status, or minus the signal that ended it.
-  int wait() {
-    int status = 0;
-    EXPECT_EQ(::waitpid(id_, &status, 0), id_);
-    id_ = -1;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-  }
-
-  [[nodiscard]] std::string output() const { return contents(output_path_); }
-
- private:
-  std::string output_path_;
-  ::pid_t id_ = -1;
-};
-
-/// The lines "name = value unit".
-std::map<std::string, std::string> values_of(const std::string& text) {
-  std::map<std::string, std::string> values;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) {
-    const std::size_t equals = line.find(" = ");
-    if (line[0] != '#' && equals != std::string::npos) values[line.substr(0, equals)] = line.substr(equals + 3);
-  }
-  return values;
-}
-
-bool comes_true(const std::function<bool()>& condition) {
-  const auto deadline = std::chrono::steady_clock::now() + kPatience;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > deadline) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  return true;
-}
-
-class Live : public testing::Test {
- protected:
-  [[nodiscard]] std::string in_folder(const std::string& name) const { return folder_ / name; }
-  [[nodiscard]] std::string block_path() const { return in_folder("block"); }
-
-  [[nodiscard]] std::vector<std::string> live(const std::vector<std::string>& options) const {
-    std::vector<std::string> words{CRANKLOOP_PROGRAM, "live", kEngine};
-    words.insert(words.end(), options.begin(), options.end());
-    return words;
-  }
-
-  /// The block once the loop runs.
-  [[nodiscard]] std::optional<SharedBlock> open_running() const {
-    std::optional<SharedBlock> block;
-    comes_true([&] {
-      try {
-        if (!block) block.emplace(SharedBlock::open(block_path()));
-      } catch (const SharedBlockError&) {
-        return false;
-      }
-      return (*block)->state == LiveState::running;
-    });
-    return block;
-  }
-
-  support::TemporaryFolder folder_;
-};
-
-/// What `live` shows at the moment.
-LiveOutputs outputs_of(const SharedBlock& block) {
-  LiveOutputs out;
-  std::uint32_t sequence = 0;
-  while (!block->outputs.read(out, sequence)) {
-  }
-  return out;
-}
+using Live = LiveBench;
 
 TEST_F(Live, StartsAndIdlesUnderTheExamplesController) {
   constexpr double kTarget_rpm = 800;
@@ -283,11 +173,14 @@ TEST_F(Live, EndsWithItsFiguresAndALineWhenItsBlockIsTakenAway) {
   const auto shorten = [&] {
     std::filesystem::resize_file(block_path(), 100);
   };  // its page stays, and the magic with it
+  const auto cut_off = [&] {
+    std::filesystem::resize_file(block_path(), 4096);
+  };  // the fixed part stays, the ring's last pages are gone
   const auto overwrite = [&] {
-    std::ofstream(block_path()) << std::string(kLiveBlockBytes, '\0');
+    std::ofstream(block_path()) << std::string(std::filesystem::file_size(block_path()), '\0');
   };  // as `cp` would: truncated, then as large again
-  for (const std::function<void()>& take_away :
-       {std::function<void()>(truncate), std::function<void()>(shorten), std::function<void()>(overwrite)}) {
+  for (const std::function<void()>& take_away : {std::function<void()>(truncate), std::function<void()>(shorten),
+                                                 std::function<void()>(cut_off), std::function<void()>(overwrite)}) {
     Process engine(live({"--seconds", "600", "--from-rpm", "1000", "--shared", block_path()}), in_folder("live.txt"));
     {
       const std::optional<SharedBlock> block = open_running();
@@ -333,7 +226,7 @@ TEST_F(Live, RefusesWhatCannotBeRunInOneLineAndAUsage) {
       {{"--seconds", "0"}, "crankloop live: --seconds: 0 is out of range; allowed: above 0"},
       {{"--from-rpm", "61000"}, "crankloop live: 61000 rpm is beyond the engine's max_rpm of 3000"},
       {{"--cpu", "1023", "--seconds", "0.01"}, "crankloop live: --cpu 1023: Invalid argument"},
-      {{"--shared", block_path()}, block_path() + ": exists and is no block of this version of crankloop"},
+      {{"--shared", block_path()}, block_path() + ": exists and is no block of crankloop live"},
       {{"--shared", folder_ / "none/block"}, folder_ / "none/block: cannot be created"},
   };
   for (const auto& [options, message] : cases) {

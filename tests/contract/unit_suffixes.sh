@@ -16,11 +16,11 @@ allowed='
 compression_exponent expansion_exponent motored_expansion_exponent motored_exponent kMotoredLoss exponents  # of power laws
 coefficients a0 a1 a2 a4 a6 order                  # of polynomials and Fourier series; coefficients of what they multiply
 at value least most limit                          # degree or m^3, Pa or m: as the row, the quantity or the range says
-ratio volumetric_efficiency combustion_efficiency margin spring_margin surge_growth kMostSurgeGrowth   # its own unit
+ratio octane_number knock_integral volumetric_efficiency combustion_efficiency margin spring_margin surge_growth kMostSurgeGrowth   # its own unit
 per_crank_radius per_rod_length                    # 1/m
 rad_s_per_cycle_per_tick                           # named by its unit
 up_cos up_sin lateral_cos lateral_sin pitch_cos pitch_sin yaw_cos yaw_sin  # amplitudes per w^2: kg m and kg m^2
-trigger valve                                      # signals and motions, whose members have their unit
+trigger faulty_trigger valve                       # signals and motions, whose members have their unit
 throw_cos throw_sin quantum # numbers
 reduced_speed reduced_rest per_root_inertia  # sqrt(J) and 1/sqrt(kg m2)
 amplitude cosine sine wave_of                      # of a wave of any unit

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -140,6 +142,63 @@ TEST_F(EngineFileFmu, PrintsTheRowsOfRun) {
     }
     EXPECT_EQ(rows, 800);
   }
+}
+
+/// A row of inputs over time, as how_to.md describes the file; read here by a few lines of its own.
+struct InputRows {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> rows;  ///< time first
+
+  explicit InputRows(const std::string& text) {
+    std::istringstream lines(text);
+    std::string line, cell;
+    std::getline(lines, line);
+    for (std::istringstream header(line); std::getline(header, cell, ',');) names.push_back(cell);
+    while (std::getline(lines, line)) {
+      rows.emplace_back();
+      for (std::istringstream cells(line); std::getline(cells, cell, ',');) rows.back().push_back(std::stod(cell));
+    }
+  }
+  /// Of a column other than the time; a switch keeps its value until the next row.
+  [[nodiscard]] double at(std::size_t column, double time_s) const {
+    std::size_t i = 0;
+    while (i + 1 < rows.size() && rows[i + 1][0] <= time_s) ++i;
+    const bool is_switch = names[column] == "starter" || names[column] == "cut_cylinders";
+    if (is_switch || i + 1 == rows.size() || time_s < rows[i][0]) return rows[i][column];
+    const double share = (time_s - rows[i][0]) / (rows[i + 1][0] - rows[i][0]);
+    return rows[i][column] + (rows[i + 1][column] - rows[i][column]) * share;
+  }
+};
+
+TEST_F(EngineFileFmu, IsDrivenByTheInputFileOfAFreeRun) {
+  const std::string text =
+      "time_s,load_ratio,starter,external_torque_Nm,cut_cylinders\n"
+      "0,0.3,1,0,0\n0.2,0.5,0,10,0\n0.35,0.5,0,30,2\n0.5,0.1,0,-20,0\n";
+  std::ofstream(path("inputs.csv")) << text;
+  ASSERT_EQ(run("run '" + sample("diesel_495") +
+                "' --free --from-rpm 900 --seconds 0.6 --tick-us 100 --real double --inputs '" + path("inputs.csv") +
+                "' --csv '" + path("run.csv") + "'")[0],
+            '0');
+  const InputRows inputs(text);
+  const Fmu fmu(made(sample("diesel_495"), "--crank torque --tick-us 100 --real double"));
+  Unit unit(fmu);
+  unit.set("start.speed_rad_s", 900 * std::acos(-1.0) / 30);
+  ASSERT_NO_FATAL_FAILURE(unit.start());
+  std::ifstream csv(path("run.csv"));
+  std::string line;
+  std::getline(csv, line);
+  ASSERT_EQ(line.compare(0, 59, "time_s,crank_deg,speed_rpm,acceleration_rad_s2,torque_Nm,me"), 0);
+  int ticks = 0;
+  for (; std::getline(csv, line); ++ticks) {
+    for (std::size_t column = 1; column < inputs.names.size(); ++column)
+      unit.set(inputs.names[column], inputs.at(column, ticks * 1e-4));
+    ASSERT_NO_FATAL_FAILURE(unit.step(ticks * 1e-4, 1e-4));
+    double row[5];
+    ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf", row, row + 1, row + 2, row + 3, row + 4), 5);
+    ASSERT_NEAR(unit.get("speed_rad_s") * 30 / std::acos(-1.0), row[2], 1e-7) << "tick " << ticks;
+    ASSERT_NEAR(unit.get("torque_Nm"), row[4], 1e-6) << "tick " << ticks;
+  }
+  EXPECT_EQ(ticks, 6000);
 }
 
 /// The rated speed in the file, by hand, and what `run --free` tells of the same start. These files' [machine] takes

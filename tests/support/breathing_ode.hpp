@@ -50,7 +50,8 @@ class BreathingOde {
     clearance_m3_ = places_.volume(0);
     const GasVolume gas = gas_filled(intake.p, intake.t, intake.x, places_.volume(0));
     y_ = {gas.m, gas.u, gas.b};
-    y_[kCreviceBurned] = per_Pa() * intake.p * intake.x;
+    y_[kWall] = engine.gas.wall_K;
+    y_[kCreviceBurned] = per_Pa(y_) * intake.p * intake.x;
     for (std::size_t i = 0; i < 2; ++i) {
       if (!runner(i).any()) continue;
       const GasVolume port = gas_filled(manifold_[i].p, manifold_[i].t, manifold_[i].x, port_m3(i));
@@ -63,10 +64,23 @@ class BreathingOde {
     by_.run([this](double t, const auto& y, auto& dy) { slopes(t, y, dy); }, t_, time_s, y_);
   }
 
+  /// The unburned gas is as all gas now; its temperature and knock_integral() go on from here.
+  void begin_knock() {
+    const GasSeen at = cylinder();
+    y_[kUnburned] = at.t, y_[kKnock] = 0, unburned_x_ = at.x, knocks_ = true;
+  }
+  void end_knock() { knocks_ = false; }
+  [[nodiscard]] double knock_integral() const { return y_[kKnock]; }
+  [[nodiscard]] double unburned_K() const { return y_[kUnburned]; }
+
+  /// Of the burn to come, or in progress.
+  void burn_over(double duration_deg) { e_.gas.burn_duration_deg = duration_deg; }
+
   [[nodiscard]] double deg() const { return w_ * t_ * 180 / kPi; }
   [[nodiscard]] GasSeen cylinder() const { return gas_seen({y_[0], y_[1], y_[2]}, places_.volume(deg())); }
   [[nodiscard]] double mass_kg() const { return y_[0]; }
-  [[nodiscard]] double crevice_kg() const { return per_Pa() * cylinder().p; }
+  [[nodiscard]] double crevice_kg() const { return per_Pa(y_) * cylinder().p; }
+  [[nodiscard]] double wall_K() const { return y_[kWall]; }  ///< of the cylinder
   [[nodiscard]] double crevice_burned_kg() const { return y_[kCreviceBurned]; }
   [[nodiscard]] double blow_by_kg() const { return y_[kBlowBy]; }
   [[nodiscard]] double work_J() const { return y_[kWork]; }           ///< on the piston
@@ -77,11 +91,22 @@ class BreathingOde {
   [[nodiscard]] double runner_kg_s(std::size_t i) const { return y_[kRunners + 4 * i + 3]; }
 
  private:
-  enum At : std::size_t { kCreviceBurned = 3, kBlowBy, kWork, kWallHeat, kIntakeMass, kRunners, kCount = kRunners + 8 };
+  enum At : std::size_t {
+    kCreviceBurned = 3,
+    kBlowBy,
+    kWork,
+    kWallHeat,
+    kIntakeMass,
+    kRunners,
+    kUnburned = kRunners + 8,
+    kKnock,
+    kWall,
+    kCount
+  };
   using Vector = Adaptive<kCount>::Vector;
 
   static Vector scale() {
-    return {1e-5, 10, 1e-6, 1e-6, 1e-6, 10, 10, 1e-5, 1e-5, 10, 1e-6, 1e-2, 1e-5, 10, 1e-6, 1e-2};
+    return {1e-5, 10, 1e-6, 1e-6, 1e-6, 10, 10, 1e-5, 1e-5, 10, 1e-6, 1e-2, 1e-5, 10, 1e-6, 1e-2, 10, 0.1, 10};
   }
   [[nodiscard]] const Runner& runner(std::size_t i) const {
     return i == 0 ? e_.gas.intake_runner : e_.gas.exhaust_runner;
@@ -103,11 +128,14 @@ class BreathingOde {
     const double density = up.p / (kGasR * up.t), h = gas_enthalpy(up.t, up.x);
     const std::size_t to = kRunners + 4 * i;
     dy[to] = from.m + w, dy[to + 1] = from.u + w * h, dy[to + 2] = from.b + w * up.x;
+    dy[to + 1] -= (i == 0 ? e_.gas.walls.intake_W_K : e_.gas.walls.exhaust_W_K) * (port.t - e_.gas.behind_walls_K());
     dy[to + 3] = area / runner(i).length_m *
                  (manifold_[i].p - port.p - runner(i).loss_ratio * w * std::fabs(w) / (2 * density * area * area));
     return through;
   }
-  [[nodiscard]] double per_Pa() const { return e_.gas.crevice.volume_ratio * clearance_m3_ / (kGasR * e_.gas.wall_K); }
+  [[nodiscard]] double per_Pa(const Vector& y) const {
+    return e_.gas.crevice.volume_ratio * clearance_m3_ / (kGasR * y[kWall]);
+  }
 
   /// By how much dm, dU, db move the pressure.
   [[nodiscard]] static double moves(const GasVolume& gas, const GasSeen& at, double volume_m3, const GasVolume& d) {
@@ -135,21 +163,41 @@ class BreathingOde {
       d.m += burn_.fuel_kg * rate, d.b += (1 + g.air_fuel_ratio) * burn_.fuel_kg * rate;
       d.u += (burn_.heat_J + burn_.fuel_kg * fuel_energy_J_kg(g)) * rate;
     }
-    dy[kWallHeat] = walls_.W(at, volume);
+    dy[kWallHeat] = walls_.W(at, volume, y[kWall]);
     dy[kWork] = at.p * volume_rate;
     d.u -= dy[kWallHeat] + dy[kWork];
-    if (g.crevice.any()) fill_crevice(y, gas, at, volume, at.p * volume_rate / volume, d, dy);
+    dy[kWall] = walls_warm_K_s(y, at, dy[kWallHeat]);
+    if (g.crevice.any()) {
+      const GasVolume without = d;
+      const double heat_W = dy[kWallHeat];
+      for (int i = 0; i < 3; ++i) {  // the walls' warmth lets gas out of the crevices, whose heat warms the walls
+        d = without, dy[kWallHeat] = heat_W;
+        fill_crevice(y, gas, at, volume, at.p * volume_rate / volume, d, dy);
+        dy[kWall] = walls_warm_K_s(y, at, dy[kWallHeat]);
+      }
+    }
     dy[0] = d.m, dy[1] = d.u, dy[2] = d.b;
+    if (!knocks_) return;
+    const double rises = (moves(gas, at, volume, d) - at.p * volume_rate / volume) / at.p;
+    dy[kUnburned] = y[kUnburned] * kGasR / (gas_a(unburned_x_) + kGasB * y[kUnburned] + kGasR) * rises;
+    dy[kKnock] = 1 / knock_delay_s(g.octane_number, at.p, y[kUnburned]);
+  }
+
+  [[nodiscard]] double walls_warm_K_s(const Vector& y, const GasSeen& at, double heat_W) const {
+    const Walls& walls = e_.gas.walls;
+    if (walls.capacity_J_K == 0) return 0;
+    const double crevice_J_K = per_Pa(y) * at.p * (646 + kGasB * y[kWall]) + 93 * y[kCreviceBurned];
+    return (heat_W - walls.to_coolant_W_K * (y[kWall] - walls.coolant_K)) / (walls.capacity_J_K + crevice_J_K);
   }
 
   /// `falls_Pa_s`: the pressure by the volume's change at constant m T.
   void fill_crevice(const Vector& y, const GasVolume& gas, const GasSeen& at, double volume, double falls_Pa_s,
                     GasVolume& d, Vector& dy) const {
-    const double wall_K = e_.gas.wall_K, behind_Pa = e_.pressure.crankcase_Pa, per_Pa = this->per_Pa();
+    const double wall_K = y[kWall], behind_Pa = e_.pressure.crankcase_Pa, per_Pa = this->per_Pa(y);
     const double held_kg = per_Pa * at.p;
     const double leak = e_.gas.crevice.blow_by_m2 *
                         (at.p >= behind_Pa ? ellipse(at.p, behind_Pa, wall_K) : -ellipse(behind_Pa, at.p, wall_K));
-    const double rises = moves(gas, at, volume, d) - falls_Pa_s;
+    const double rises = moves(gas, at, volume, d) - falls_Pa_s - at.p * dy[kWall] / wall_K;
     const auto flow = [&](double x, double kelvin) {
       const GasVolume unit{1, gas_enthalpy(kelvin, x), x};
       const double w = (per_Pa * rises + leak) / (1 + per_Pa * moves(gas, at, volume, unit));
@@ -176,7 +224,8 @@ class BreathingOde {
   GasReference places_;
   WallHeat walls_;
   Adaptive<kCount> by_;
-  double clearance_m3_ = 0, t_ = 0;
+  double clearance_m3_ = 0, t_ = 0, unburned_x_ = 0;
+  bool knocks_ = false;
   Vector y_{};
 };
 

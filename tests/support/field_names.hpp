@@ -17,7 +17,10 @@ class FieldNames {
     (*this)({1, ""}, Gas{});
     (*this)({1, ""}, TriggerWheel{});
     (*this)({1, ""}, CamContact{});
+    (*this)({1, ""}, Misfire{});
+    (*this)({1, ""}, WheelFault{});
     names_.insert("trigger_count");
+    names_.insert("wheel_fault_count");
   }
   template <class Field>
   void operator()(const ListedField& listed, const Field& field) {

@@ -101,9 +101,10 @@ class WallHeat {
         factor_{130e-4 * engine.gas.wall_heat_ratio *
                 std::pow(2 * engine.crank.crank_radius_m * std::fabs(speed_rad_s) / kPi + 1.4, 0.8)} {}
 
-  [[nodiscard]] double W(const GasSeen& gas, double volume_m3) const {
+  [[nodiscard]] double W(const GasSeen& gas, double volume_m3) const { return W(gas, volume_m3, wall_K_); }
+  [[nodiscard]] double W(const GasSeen& gas, double volume_m3, double wall_K) const {
     return factor_ * std::pow(volume_m3, -0.06) * std::pow(gas.p, 0.8) * std::pow(gas.t, -0.4) *
-           (2 * area_m2_ + 4 * volume_m3 / bore_m_) * (gas.t - wall_K_);
+           (2 * area_m2_ + 4 * volume_m3 / bore_m_) * (gas.t - wall_K);
   }
 
  private:
@@ -115,6 +116,20 @@ class WallHeat {
   const double l = gas.air_fuel_ratio;
   return gas.combustion_efficiency * gas.heating_value_J_kg + (1 + l) * gas_energy(298.15, 1) -
          l * gas_energy(298.15, 0);
+}
+
+/// Laminar flame of gasoline and air, m/s; phi = 1 / lambda 0.7 to 1.4, burned share to 0.3. Metghalchi and Keck 1982,
+/// Rhodes and Keck, SAE 850047.
+[[nodiscard]] inline double flame_m_s(const GasSeen& gas, double lambda) {
+  const double phi = 1 / lambda;
+  return (0.305 - 0.549 * (phi - 1.21) * (phi - 1.21)) * std::pow(gas.t / 298, 2.4 - 0.271 * std::pow(phi, 3.51)) *
+         std::pow(gas.p / 101325, -0.357 + 0.14 * std::pow(phi, 2.77)) * (1 - 2.06 * std::pow(gas.x, 0.77));
+}
+
+/// Ignition delay of Douaud and Eyzat, SAE 780080, s.
+[[nodiscard]] inline double knock_delay_s(double octane_number, double pressure_Pa, double unburned_K) {
+  return 17.68e-3 * std::pow(octane_number / 100, 3.402) * std::pow(pressure_Pa / 101325, -1.7) *
+         std::exp(3800 / unburned_K);
 }
 
 /// Share of the fuel that has burned by a part s of the burn.

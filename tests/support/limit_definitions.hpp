@@ -29,6 +29,9 @@ void each_part(Visit& visit, Self& definition, Others&... others) {
   EngineDefinition::each_field(visit, definition, others...);
   visit(ListedField{1, "trigger_count"}, definition.trigger_count, others.trigger_count...);
   visit(ListedField{definition.trigger_count, "triggers"}, definition.triggers, others.triggers...);
+  visit(ListedField{definition.layout.cylinders, "misfires"}, definition.misfires, others.misfires...);
+  visit(ListedField{1, "wheel_fault_count"}, definition.wheel_fault_count, others.wheel_fault_count...);
+  visit(ListedField{definition.wheel_fault_count, "wheel_faults"}, definition.wheel_faults, others.wheel_faults...);
 }
 
 template <class T>

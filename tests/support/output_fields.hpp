@@ -158,6 +158,10 @@ void each_output(const Output<Real, S>& out, const Used& used, const F& f) {
       }
     }
   }
+  if constexpr (S::walls) {
+    row("wall_K", out.wall_K, used.cylinders);
+    row("port_heat_W", out.port_heat_W, std::size_t{kPorts});
+  }
   if constexpr (detail::Needs<S>::manifolds) {
     for (std::size_t port = 0; port < kPorts; ++port) {
       f("manifold_Pa", port, out.manifold[port].pressure_Pa);
@@ -187,6 +191,15 @@ void each_output(const Output<Real, S>& out, const Used& used, const F& f) {
     }
   }
   if constexpr (S::crevice && S::gas_results) row("cycle_blow_by_kg", out.cycle_blow_by_kg, used.cylinders);
+  if constexpr (detail::Needs<S>::knock) {
+    row("knock_integral", out.knock_integral, used.cylinders), row("knock_deg", out.knock_deg, used.cylinders);
+  }
+  if constexpr (detail::Needs<S>::charge_burn && S::gas_results) {
+    for (std::size_t k = 0; k < used.cylinders; ++k) {
+      f("cycle_burn_start_deg", k, out.cycle_burn[k].start_deg);
+      f("cycle_burn_duration_deg", k, out.cycle_burn[k].duration_deg);
+    }
+  }
   f("faults", std::size_t{0}, out.faults);
 }
 

@@ -121,6 +121,69 @@ TEST_F(BreathingRun, IsTunedByItsRunners) {
   }
 }
 
+TEST_F(BreathingRun, WarmsItsWallsUp) {
+  const std::string before = "[gas]\n";
+  const auto with = [&](const std::string& keys) {
+    std::string text = contents(kFour);
+    text.replace(text.find(before), before.size(), before + keys);
+    const std::string file = path("walls.ini");
+    std::ofstream(file) << text;
+    return file;
+  };
+  const std::string csv = path("run.csv");
+  (void)run({with("wall_J_per_K = 100\nexhaust_W_per_K = 8\n"), "--rpm", "3000", "--no-warnings", "--csv", csv});
+  const Columns ticks(csv);
+  const auto wall_K = ticks.column("c4_wall_K"), heat_W = ticks.column("exhaust_wall_heat_W"),
+             manifold_K = ticks.column("exhaust_manifold_K");
+  EXPECT_GT(wall_K.back(), 424);
+  EXPECT_NEAR(heat_W.back(), 8 * (manifold_K.back() - 298.15), 0.02 * heat_W.back());
+  EXPECT_EQ(ticks.column("intake_wall_heat_W").back(), 0);
+  EXPECT_NE(status_of("'" + with("wall_J_per_K = 0.5\n") + "' --rpm 3000"), 0);
+  EXPECT_NE(contents(path("err")).find("wall_J_per_K"), std::string::npos) << contents(path("err"));
+}
+
+TEST_F(BreathingRun, TellsHowNearItComesToKnock) {
+  const std::string before = "[gas]\n";
+  const auto with = [&](const std::string& keys) {
+    std::string text = contents(kFour);
+    text.replace(text.find(before), before.size(), before + keys);
+    const std::string file = path("knock.ini");
+    std::ofstream(file) << text;
+    return file;
+  };
+  const std::string file = with("octane = 95\n");
+  const double at_2000 = at("knock_integral", file, 2000);
+  EXPECT_GT(at_2000, 0.5);
+  EXPECT_LT(at("knock_integral", file, 5000), 0.7 * at_2000);
+  EXPECT_LT(at("knock_integral", file, 2000, {"--throttle", "0.1"}), 0.5 * at_2000);
+  EXPECT_GT(at("knock", with("octane = 60\n"), 1500), -18);
+  EXPECT_EQ(run({kFour, "--rpm", "2000"}).find("knock"), std::string::npos);
+  EXPECT_NE(status_of("'" + with("octane = 30\n") + "' --rpm 3000"), 0);
+  EXPECT_NE(contents(path("err")).find("octane"), std::string::npos) << contents(path("err"));
+}
+
+TEST_F(BreathingRun, BurnsByItsCharge) {
+  const std::string before = "[gas]\n";
+  const auto with = [&](const std::string& keys) {
+    std::string text = contents(kFour);
+    text.replace(text.find(before), before.size(), before + keys);
+    const std::string file = path("charge.ini");
+    std::ofstream(file) << text;
+    return file;
+  };
+  const std::string file = with("burn_by = charge\nspark_to_start_deg = 5\n");
+  const auto duration = [&](double rpm, const std::vector<std::string>& more) {
+    return at("burn_by_charge_duration", file, rpm, more);
+  };
+  const double at_2000 = duration(2000, {});
+  EXPECT_GT(duration(4000, {}), 1.15 * at_2000);
+  EXPECT_GT(duration(2000, {"--lambda", "1.3"}), 1.1 * at_2000);
+  EXPECT_NEAR(at("burn_by_charge_start", file, 2000), -18 + 5 * at_2000 / 50, 0.1);
+  const char* const refused[] = {"burn_by = magic\n", "burn_by = charge\nspark_to_start_deg = 41\n",
+                                 "burn_by = charge\nburn_reference_residual = 0.31\n"};
+  for (const std::string bad : refused) EXPECT_NE(status_of("'" + with(bad) + "' --rpm 3000"), 0) << bad;
+}
+
 TEST_F(BreathingRun, HasTheChargeOfAnEngineOfItsKind) {
   // No pressure waves, so no tuning peaks: flat, and less where the valves choke.
   for (const double rpm : {1000.0, 2000.0, 4000.0, 6000.0}) {

@@ -567,6 +567,65 @@ TEST(GasDefinition, HasRunnersWithinTheirRanges) {
   }
 }
 
+TEST(GasDefinition, HasWallsThatWarmUpWithinTheirRanges) {
+  const auto with = [](const Walls& walls) {
+    EngineDefinition engine = support::four_2000();
+    engine.gas.walls = walls;
+    return validate(engine);
+  };
+  EXPECT_TRUE(accepted(with({0, kNaN, kNaN, 0, 0, kNaN}))) << "none: nothing of it counts";
+  EXPECT_TRUE(accepted(with({1, 0, 150, 0, 0, 0})));
+  EXPECT_TRUE(accepted(with({1e6, 1e5, 2000, 1e5, 1e5, 3000})));
+  EXPECT_TRUE(refuses(with({0.99, 20, 363, 0, 0, 0}), Reason::out_of_range, "walls.capacity_J_K"));
+  EXPECT_TRUE(refuses(with({-1, 20, 363, 0, 0, 0}), Reason::negative, "walls.capacity_J_K"));
+  EXPECT_TRUE(refuses(with({kNaN, 20, 363, 0, 0, 0}), Reason::not_finite, "walls.capacity_J_K"));
+  EXPECT_TRUE(refuses(with({1500, -1, 363, 0, 0, 0}), Reason::negative, "walls.to_coolant_W_K"));
+  EXPECT_TRUE(refuses(with({1500, 20, 149, 0, 0, 0}), Reason::out_of_range, "walls.coolant_K"));
+  EXPECT_TRUE(refuses(with({0, 20, 363, 1e6, 0, 0}), Reason::out_of_range, "walls.intake_W_K"));
+  EXPECT_TRUE(refuses(with({0, 20, 363, 0, -2, 0}), Reason::negative, "walls.exhaust_W_K"));
+  EXPECT_TRUE(refuses(with({0, 20, 363, 0, 2, 149}), Reason::out_of_range, "walls.manifold_K"));
+}
+
+TEST(GasDefinition, HasAnOctaneNumberOrNone) {
+  const auto with = [](double octane_number) {
+    EngineDefinition engine = support::four_2000();
+    engine.gas.octane_number = octane_number;
+    return validate(engine);
+  };
+  for (const double good : {0.0, 60.0, 120.0}) EXPECT_TRUE(accepted(with(good)));
+  for (const double bad : {std::nextafter(60.0, 0), std::nextafter(120.0, 121), 1.0})
+    EXPECT_TRUE(refuses(with(bad), Reason::out_of_range, "gas.octane_number"));
+  EXPECT_TRUE(refuses(with(-1), Reason::negative, "gas.octane_number"));
+  EXPECT_TRUE(refuses(with(kNaN), Reason::not_finite, "gas.octane_number"));
+}
+
+TEST(GasDefinition, HasABurnByChargeWithinItsRanges) {
+  const EngineDefinition good = support::four_2000();
+  const auto with = [&good](double ChargeBurn::*field, double value, bool in_use = true) {
+    EngineDefinition engine = good;
+    engine.gas.charge_burn.in_use = in_use, engine.gas.charge_burn.*field = value;
+    return validate(engine);
+  };
+  const struct {
+    double ChargeBurn::*field;
+    const char* name;
+    double least, most;
+  } ranges[] = {{&ChargeBurn::spark_to_start_deg, "charge_burn.spark_to_start_deg", 0, 40},
+                {&ChargeBurn::reference_rad_s, "charge_burn.reference_rad_s", 1, 10500},
+                {&ChargeBurn::reference_K, "charge_burn.reference_K", 300, 1500},
+                {&ChargeBurn::reference_Pa, "charge_burn.reference_Pa", 1e4, 1e8},
+                {&ChargeBurn::reference_burned_ratio, "charge_burn.reference_burned_ratio", 0, 0.3},
+                {&ChargeBurn::reference_excess_air_ratio, "charge_burn.reference_excess_air_ratio", 0.72, 1.42}};
+  for (const auto& range : ranges) {
+    EXPECT_TRUE(accepted(with(range.field, range.least)));
+    EXPECT_TRUE(accepted(with(range.field, range.most)));
+    EXPECT_TRUE(refuses(with(range.field, std::nextafter(range.most, 1e9)), Reason::out_of_range, range.name));
+    EXPECT_TRUE(refuses(with(range.field, kNaN), Reason::not_finite, range.name));
+    EXPECT_FALSE(with(range.field, std::nextafter(range.least, -1)).ok()) << range.name;
+    EXPECT_TRUE(accepted(with(range.field, kNaN, false))) << "not in use: nothing of it counts";
+  }
+}
+
 TEST(GasDefinition, HasABackPressureOrThatOfTheAmbient) {
   EngineDefinition engine = support::four_2000();
   engine.gas.ambient_Pa = 95e3;

@@ -90,6 +90,8 @@ TEST_F(EngineFileTest, DefaultsAreThoseOfTheLibrary) {
       EngineDefinition::each_field(library, untouched);
       Gas::each_field(library, untouched.gas);
       CamContact::each_field(library, untouched.contacts[0]);
+      Misfire::each_field(library, untouched.misfires[0]);
+      WheelFault::each_field(library, untouched.wheel_faults[0]);
       EXPECT_EQ(parse_value(*key, key->fallback, "", 0).si(), library.value) << key->name;
       ++compared;
     }
@@ -534,6 +536,108 @@ TEST(EngineFileKeys, WhatIsWrittenReadsBackBitForBit) {
     value.numbers = {number};
     ASSERT_EQ(parse_value(key, format_value(value), "table", 1).numbers[0], number) << format_value(value);
   }
+}
+
+// ---- misfires -------------------------------------------------------------------------------------------------------
+
+TEST_F(EngineFileTest, MisfiresHaveARuleForEachCylinder) {
+  const std::string sample = contents(kSample);
+  const EngineFile engine =
+      read(sample +
+           "[misfire 1]\nevery = 16\n[misfire 2]\nmisses = 3\nof_cycles = 10\n"
+           "burning_ratio = 0.25\n[misfire 3]\nburst = 2\ngap = 5\n[misfire 4]\nrandom_ratio = 0.02\nseed = 7\n");
+  const Misfire* rules = engine.definition().misfires;
+  EXPECT_TRUE(engine.misfires());
+  EXPECT_EQ(rules[0].pattern, MisfirePattern::spread);
+  EXPECT_EQ(rules[0].misfires, 1);
+  EXPECT_EQ(rules[0].of, 16);
+  EXPECT_EQ(rules[1].pattern, MisfirePattern::spread);
+  EXPECT_EQ(rules[1].misfires, 3);
+  EXPECT_EQ(rules[1].of, 10);
+  EXPECT_EQ(rules[1].burning_ratio, 0.25);
+  EXPECT_EQ(rules[2].pattern, MisfirePattern::burst);
+  EXPECT_EQ(rules[2].misfires, 2);
+  EXPECT_EQ(rules[2].of, 7);
+  EXPECT_EQ(rules[3].pattern, MisfirePattern::random);
+  EXPECT_EQ(rules[3].random_ratio, 0.02);
+  EXPECT_EQ(rules[3].seed, 7);
+}
+
+TEST_F(EngineFileTest, MisfiresOfACommandLineReplaceThoseOfTheFile) {
+  EngineFile engine = read(contents(kSample) + "[misfire 2]\nevery = 16\n");
+  engine.set_misfires({"cylinder=2 cycles=3,5,8", " cylinder=4  every=2"});
+  const Misfire* rules = engine.definition().misfires;
+  EXPECT_EQ(rules[1].pattern, MisfirePattern::listed);
+  EXPECT_EQ(std::vector<int>(rules[1].cycles, rules[1].cycles + rules[1].cycle_count), (std::vector<int>{3, 5, 8}));
+  EXPECT_EQ(rules[3].of, 2);
+}
+
+TEST_F(EngineFileTest, MisfiresAreRefusedWithWhatIsAllowed) {
+  const auto says = [this](const std::string& section, const std::string& words) {
+    const std::string text = refusal(contents(kSample) + section);
+    EXPECT_NE(text.find(words), std::string::npos) << section << text;
+  };
+  says("[misfire 5]\nevery = 2\n", "'5' is no cylinder; allowed: whole numbers from 1 to 4");
+  says("[misfire one]\nevery = 2\n", "'one' is no cylinder");
+  says("[misfire 1]\n",
+       "needs either every, or misses and of_cycles, or random_ratio and seed, or burst and gap, or cycles");
+  says("[misfire 1]\nburst = 2\ngap = 3\nevery = 2\n", "give either burst and gap, or every");
+  says("[misfire 1]\nmisses = 3\nof_cycles = 2\n", "misses: 3 of 2 cycles cannot misfire");
+  says("[misfire 1]\nburst = 40000\ngap = 40000\n", "gap: burst and gap are more than 65535 cycles together");
+  says("[misfire 1]\ncycles = 4,4\n", "cycles: 4 follows 4; they must rise");
+  says("[misfire 1]\ncycles = 1.5\n", "cycles: 1.5 is not a whole number");
+  std::string many = "1";
+  for (int i = 2; i <= 33; ++i) many += "," + std::to_string(i);
+  says("[misfire 1]\ncycles = " + many + "\n", "cycles: 33 given; allowed: up to 32");
+}
+
+// ---- faults of trigger wheels ---------------------------------------------------------------------------------------
+
+TEST_F(EngineFileTest, FaultsOfWheelsHaveAllTheirKeys) {
+  const EngineFile engine =
+      read(contents(kSample) +
+           "[fault worn]\ntrigger = cam\nstart_s = 1\nend_s = 2.5\nlate_deg = 8\n"
+           "[fault wire]\ntrigger = crank\ninput_bit = 3\nmissing_tooth = 7\nmoved_tooth = 9\n"
+           "moved_deg = -0.5\nrunout_deg = 0.3\nrunout_at_deg = 90\ninverted = yes\nstuck = high\n"
+           "noise_Hz = 50\nnoise_pulse_us = 12\nnoise_seed = 5\nextra_tooth_deg = 349\nextra_width_deg = 1\n");
+  ASSERT_EQ(engine.definition().wheel_fault_count, 2);
+  const WheelFault &worn = engine.definition().wheel_faults[0], &wire = engine.definition().wheel_faults[1];
+  EXPECT_EQ(worn.wheel, 1);
+  EXPECT_EQ(worn.start_s, 1);
+  EXPECT_EQ(worn.end_s, 2.5);
+  EXPECT_EQ(worn.late_deg, 8);
+  EXPECT_EQ(worn.input_bit, -1);
+  EXPECT_EQ(wire.wheel, 0);
+  EXPECT_EQ(wire.input_bit, 3);
+  EXPECT_EQ(wire.missing_tooth, 7);
+  EXPECT_EQ(wire.moved_tooth, 9);
+  EXPECT_EQ(wire.moved_deg, -0.5);
+  EXPECT_EQ(wire.extra_tooth_deg, 349);
+  EXPECT_EQ(wire.extra_width_deg, 1);
+  EXPECT_EQ(wire.runout_deg, 0.3);
+  EXPECT_EQ(wire.runout_at_deg, 90);
+  EXPECT_TRUE(wire.inverted);
+  EXPECT_EQ(wire.stuck, StuckSignal::high);
+  EXPECT_EQ(wire.noise_Hz, 50);
+  EXPECT_EQ(wire.noise_pulse_s, 12e-6);
+  EXPECT_EQ(wire.noise_seed, 5);
+}
+
+TEST_F(EngineFileTest, FaultsOfWheelsAreRefusedWithWhatIsAllowed) {
+  const auto says = [this](const std::string& section, const std::string& words) {
+    const std::string text = refusal(contents(kSample) + "[fault a]\n" + section);
+    EXPECT_NE(text.find(words), std::string::npos) << section << text;
+  };
+  says("trigger = crnk\nend_s = 1\n", "trigger: 'crnk' is not one of crank, cam; did you mean crank?");
+  says("trigger = crank\n", "end_s: 0 is never on: give end_s above start_s, or an input_bit");
+  says("trigger = crank\nend_s = 1\nmissing_tooth = 3\nmoved_tooth = 3\n",
+       "moved_tooth: 3 is the tooth that is missing");
+  says("trigger = crank\nend_s = 1\nnoise_Hz = 3\n", "noise_pulse_us: 0 must be greater than zero");
+  says("trigger = crank\nend_s = 1\nstuck = up\n", "stuck: 'up' is not one of no, low, high");
+  // What only the wheel and the tick tell, as tabulate refuses it.
+  const EngineFile engine = read(contents(kSample) + "[fault a]\ntrigger = crank\nend_s = 1\nmissing_tooth = 60\n");
+  const std::string told = engine.explain(crankloop::refuse("fault.missing_tooth", Reason::out_of_range, 0)).what();
+  EXPECT_NE(told.find("[fault a] missing_tooth: 60 is more than the wheel has teeth"), std::string::npos) << told;
 }
 
 // ---- trigger wheels -------------------------------------------------------------------------------------------------

@@ -13,6 +13,7 @@
 #include "support/both_reals.hpp"
 #include "support/engines.hpp"
 #include "support/gas_bench.hpp"
+#include "support/gas_equations.hpp"
 #include "support/status.hpp"
 #include "support/units.hpp"
 
@@ -36,6 +37,9 @@ struct GasSections {
   BurnTable<Real> burn;
   GasCrevice<Real> crevice;
   GasRunners<Real> runners;
+  ChargeBurnTable<Real> charge_burn;
+  KnockTable<Real> knock;
+  WarmWallsTable<Real> warm_walls;
 };
 
 template <class Real>
@@ -52,6 +56,9 @@ class GasTablesOf : public ::testing::Test {
     targets.burn = &sections->burn;
     targets.gas_crevice = &sections->crevice;
     targets.gas_runners = &sections->runners;
+    targets.charge_burn = &sections->charge_burn;
+    targets.knock = &sections->knock;
+    targets.gas_walls = &sections->warm_walls;
     EXPECT_TRUE(accepted(tabulate(engine, options, targets)));
     return sections;
   }
@@ -132,6 +139,48 @@ TYPED_TEST(GasTablesOf, RunnersHaveAPortOfFourOverPiSquaredOfTheirVolumeAndLeave
   this->expect_is(tables->manifolds.per_volume_m3[kExhaust], 1 / 2.5e-3);
   engine.gas.intake_m3 = 4.99 * area_m2 * 0.35;  // too small: nothing is added
   this->expect_is(this->filled(engine)->manifolds.per_volume_m3[kIntake], 1 / engine.gas.intake_m3);
+}
+
+TYPED_TEST(GasTablesOf, WallsThatWarmUpHaveTheirCapacityAndConductances) {
+  EngineDefinition engine = support::four_2000();
+  EXPECT_EQ(this->filled(engine)->warm_walls.capacity_J_K, 0);
+  engine.gas.walls = {1500, 25, 360, 2, 9, 0};
+  const auto tables = this->filled(engine);
+  EXPECT_EQ(tables->cylinders.parts, std::uint32_t{kGasWalls});
+  this->expect_is(tables->warm_walls.capacity_J_K, 1500);
+  this->expect_is(tables->warm_walls.to_coolant_W_K, 25);
+  this->expect_is(tables->warm_walls.coolant_K, 360);
+  this->expect_is(tables->warm_walls.port_W_K[kIntake], 2);
+  this->expect_is(tables->warm_walls.port_W_K[kExhaust], 9);
+  this->expect_is(tables->warm_walls.behind_K, engine.gas.ambient_K);
+  engine.gas.walls.manifold_K = 340;
+  this->expect_is(this->filled(engine)->warm_walls.behind_K, 340);
+}
+
+TYPED_TEST(GasTablesOf, KnockHasItsOctaneNumber) {
+  EngineDefinition engine = support::four_2000();
+  EXPECT_EQ(this->filled(engine)->knock.in_use, 0u);
+  engine.gas.octane_number = 87;
+  const auto tables = this->filled(engine);
+  EXPECT_EQ(tables->knock.in_use, 1u);
+  EXPECT_EQ(tables->cylinders.parts, 0u);
+  this->expect_is(tables->knock.hot_K, 3800 / std::log(2.0));
+  this->expect_is(tables->knock.rate, -std::log2(support::knock_delay_s(87, 1, 1e300)));
+}
+
+TYPED_TEST(GasTablesOf, ABurnByChargeHasItsStateOfReference) {
+  EngineDefinition engine = support::four_2000();
+  EXPECT_EQ(this->filled(engine)->charge_burn.in_use, 0u);
+  engine.gas.charge_burn = {true, 7, 300, 700, 2e6, 0.1, 1.1};
+  const auto tables = this->filled(engine);
+  const double flame_m_s = support::flame_m_s({2e6, 700, 0.1}, 1.1);
+  EXPECT_EQ(tables->cylinders.parts, std::uint32_t{kGasChargeBurn});
+  EXPECT_EQ(tables->charge_burn.in_use, 1u);
+  this->expect_is(tables->charge_burn.spark_to_start_deg, 7);
+  this->expect_is(tables->charge_burn.reference, std::log2(std::cbrt(flame_m_s * flame_m_s / 300)));
+  engine.gas.charge_burn.reference_burned_ratio = 0;
+  this->expect_is(this->filled(engine)->charge_burn.reference,
+                  std::log2(std::cbrt(std::pow(support::flame_m_s({2e6, 700, 0}, 1.1), 2) / 300)));
 }
 
 /// 6 deg per 1000 rpm and millisecond, in steps of 5; without a highest speed 100 000 rpm or a revolution.

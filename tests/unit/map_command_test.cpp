@@ -91,6 +91,40 @@ TEST_F(MapCommand, IsOverFuelWhereFuelIsAGrid) {
   }
 }
 
+/// Consumption and efficiency from torque and fuel; the spark of best torque has more of it than sparks around.
+TEST_F(MapCommand, FindsTheSparkOfBestTorque) {
+  const std::string csv = path("mbt.csv");
+  const auto point = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> words{kFour, "--rpm", "3000:3000:1", "--throttle", "0.5:0.5:1", "--tick-us", "200"};
+    words.insert(words.end(), options.begin(), options.end());
+    words.insert(words.end(), {"--csv", csv});
+    const std::string summary = map(words);
+    EXPECT_GT(line(summary, "max_brake_efficiency").first, 0.15);
+    const std::vector<std::string> lines = split_at(contents(csv), '\n');
+    const std::vector<std::string> names = split_at(lines.at(0), ','), cells = split_at(lines.at(1), ',');
+    return [names, cells](const char* name) {
+      const auto at = std::find(names.begin(), names.end(), name) - names.begin();
+      return std::stod(cells.at(static_cast<std::size_t>(at)));
+    };
+  };
+  const auto best = point({"--mbt"});
+  const double start_deg = best("burn_start_deg");
+  EXPECT_GT(start_deg, -45);
+  EXPECT_LT(start_deg, -5);
+  const double fuel_kg_s = best("fuel_burned_mg") * 1e-6 * 4 * 3000 / 120, power_kW = best("brake_power_kW");
+  EXPECT_NEAR(best("brake_specific_consumption_g_per_kWh"), fuel_kg_s * 3.6e6 / power_kW, 0.01);
+  EXPECT_NEAR(best("brake_efficiency"), power_kW / (fuel_kg_s * 43e3), 1e-5);
+  EXPECT_EQ(best("knock_integral"), 0);
+  for (const double off_deg : {-3.0, 3.0}) {
+    const auto other = point({"--burn-start-deg", std::to_string(start_deg + off_deg)});
+    EXPECT_LT(other("torque_Nm"), best("torque_Nm"));
+    EXPECT_NEAR(other("burn_start_deg"), start_deg + off_deg, 1e-4);
+  }
+  EXPECT_NE(refusal({kFour, "--rpm", "3000:3000:1", "--throttle", "1:1:1", "--mbt", "--burn-start-deg", "-10"})
+                .find("--burn-start-deg"),
+            std::string::npos);
+}
+
 TEST_F(MapCommand, TakesItsFuelByTheAirAtEachPoint) {
   const std::string csv = path("air.csv");
   map({kFour, "--rpm", "2000:2000:1", "--throttle", "0.05:1:3", "--csv", csv});
@@ -160,7 +194,7 @@ TEST_F(MapCommand, DrawsAHeatMapOfEachResultWithItsPointsAndContours) {
   const std::string text = contents(path("map.html"));
   const support::Markup page = support::read(text);
   EXPECT_EQ(page.fault, "");
-  EXPECT_EQ(page.all("svg").size(), 6u);
+  EXPECT_EQ(page.all("svg").size(), 7u);
   std::size_t maps = 0;
   for (const auto& group : page.all("g")) {
     const auto field = group.attributes.find("data-field");
@@ -168,7 +202,7 @@ TEST_F(MapCommand, DrawsAHeatMapOfEachResultWithItsPointsAndContours) {
     EXPECT_EQ(split_at(field->second, ' ').size(), 5u * 4) << group.attributes.at("data-name");
     ++maps;
   }
-  EXPECT_EQ(maps, 6u);
+  EXPECT_EQ(maps, 7u);
   EXPECT_GE(page.of_class("contour").size(), 3 * maps);
   EXPECT_NE(text.find("data-name=\"Residual gas\" data-unit=\"%\""), std::string::npos);
   EXPECT_NE(text.find("Not modelled: pressure waves"), std::string::npos);
@@ -198,7 +232,7 @@ TEST_F(MapCommand, DrawsCurvesWhereThereIsOneSpeedOrOneThrottle) {
     EXPECT_EQ(page.fault, "");
     EXPECT_NE(text.find(std::string("<h1>four-cylinder 2000 ") + one.title), std::string::npos);
     const auto drawings = page.all("svg");
-    EXPECT_EQ(drawings.size(), 6u);
+    EXPECT_EQ(drawings.size(), 7u);
     for (const support::Element& svg : drawings) EXPECT_EQ(range_of_x(svg), one.range);
     for (const support::Element& dots : page.of_class("dot"))
       EXPECT_EQ(split_at(dots.attributes.at("d"), 'M').size(), 1 + one.points);
@@ -209,7 +243,7 @@ TEST_F(MapCommand, DrawsALonePointToo) {
   map({kFour, "--rpm", "2000:2000:1", "--throttle", "1:1:1", "--tick-us", "200", "--report", path("map.html")});
   const support::Markup page = support::read(contents(path("map.html")));
   EXPECT_EQ(page.fault, "");
-  EXPECT_EQ(page.all("svg").size(), 6u);
+  EXPECT_EQ(page.all("svg").size(), 7u);
 }
 
 TEST_F(MapCommand, RefusesWhatIsNoMap) {

@@ -262,6 +262,13 @@ TEST_F(Unusual, AMotoredTraceThatPeaksLongBeforeDeadCentreIsTold) {
               "the motored pressure is largest 2.5 deg before top dead centre");
 }
 
+TEST_F(Unusual, AFlameOfGasolineAndAnOctaneNumberInADieselAreTold) {
+  const Engine diesel(bad_input::contents(CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495_gas.ini"));
+  EXPECT_TRUE(warnings(diesel).empty());
+  expect_only(diesel.changed("[gas]", "[gas]\nburn_by = charge"), "burn_by", "a law of gasoline");
+  expect_only(diesel.changed("[gas]", "[gas]\noctane = 95"), "octane", "is a diesel's");
+}
+
 /// The 125 with its intake cam measured to whole micrometres every `step_deg`: its lift above `clearance_mm`.
 class MeasuredCam : public Unusual {
  protected:

@@ -59,7 +59,17 @@ class SharedBlockFile : public testing::Test {
     }
     return "";
   }
-  static SharedBlock create_at(const std::string& path) { return SharedBlock::create(path, kTick_s, kCylinders); }
+  static SharedBlock create_at(const std::string& path) { return SharedBlock::create(path, contents()); }
+  static LiveContents contents() {
+    LiveContents contents;
+    contents.tick_s = kTick_s;
+    contents.cylinders = kCylinders;
+    contents.signals = {"crank_deg", "faults", "cam_deg"};
+    contents.inputs = {"fuel_kg[1]", "starter"};
+    contents.wheels = {"crank", std::string(60, 'w')};
+    contents.ring_edges = 64;
+    return contents;
+  }
 
   support::TemporaryFolder folder_;
 };
@@ -68,10 +78,9 @@ class SharedBlockFile : public testing::Test {
 
 TEST_F(SharedBlockFile, HasItsNumbersWhereTheDocumentSays) {
   const SharedBlock block = create_at(path());
-  EXPECT_EQ(bytes_of(path()).size(), 256u);
   EXPECT_EQ(at<std::uint32_t>(0), 0x4C4B5243u);
-  EXPECT_EQ(at<std::uint32_t>(4), 3u);
-  EXPECT_EQ(at<std::uint32_t>(8), 256u);
+  EXPECT_EQ(at<std::uint32_t>(4), 4u);
+  EXPECT_EQ(at<std::uint32_t>(8), bytes_of(path()).size());
   EXPECT_EQ(at<std::uint32_t>(12), 0u);
   EXPECT_EQ(at<double>(16), kTick_s);
   EXPECT_EQ(at<std::uint32_t>(24), kCylinders);
@@ -153,6 +162,8 @@ TEST(LiveBlock, IsTheTableOfTheDocument) {
       {"tick_s", offsetof(LiveBlock, tick_s)},
       {"cylinders", offsetof(LiveBlock, cylinders)},
       {"breathes", offsetof(LiveBlock, breathes)},
+      {"section_count", offsetof(LiveBlock, section_count)},
+      {"section_list", offsetof(LiveBlock, section_list)},
       {"load_ratio", kInputs + offsetof(LiveInputs, load_ratio)},
       {"external_torque_Nm", kInputs + offsetof(LiveInputs, external_torque_Nm)},
       {"starter", kInputs + offsetof(LiveInputs, starter)},
@@ -173,6 +184,9 @@ TEST(LiveBlock, IsTheTableOfTheDocument) {
       {"faults", kOutputs + offsetof(LiveOutputs, faults)},
       {"flags", kOutputs + offsetof(LiveOutputs, flags)},
       {"inputs_sequence", kOutputs + offsetof(LiveOutputs, inputs_sequence)},
+      {"due_ns", offsetof(crankloop_live_edge, due_ns)},
+      {"wheel", offsetof(crankloop_live_edge, wheel)},
+      {"level", offsetof(crankloop_live_edge, level)},
       {"torn_inputs", kOutputs + offsetof(LiveOutputs, torn_inputs)},
       {"late_ticks", kOutputs + offsetof(LiveOutputs, late_ticks)},
       {"missed_deadlines", kOutputs + offsetof(LiveOutputs, missed_deadlines)},
@@ -202,6 +216,78 @@ TEST_F(SharedBlockFile, IsTheSameMemoryOnBothSides) {
   EXPECT_EQ(out.speed_rad_s, 83);
 }
 
+// ---- sections -------------------------------------------------------------------------------------------------------
+
+TEST_F(SharedBlockFile, HasSectionsThatAReaderFindsByKind) {
+  const SharedBlock live = create_at(path());
+  const SharedBlock reader = SharedBlock::open(path());
+  const void* map = reader.data();
+  ASSERT_EQ(crankloop_live_refusal(map, reader.bytes()), nullptr);
+  const crankloop_live_section names = crankloop_live_find(map, CRANKLOOP_LIVE_SIGNAL_NAMES);
+  const crankloop_live_section signals = crankloop_live_find(map, CRANKLOOP_LIVE_SIGNALS);
+  EXPECT_EQ(names.count, 3u);
+  EXPECT_EQ(crankloop_live_index(map, names, "cam_deg"), 2u);
+  EXPECT_EQ(crankloop_live_index(map, names, "cam"), 3u) << "there is none";
+  const crankloop_live_section wheels = crankloop_live_find(map, CRANKLOOP_LIVE_WHEEL_NAMES);
+  EXPECT_EQ(crankloop_live_index(map, wheels, "crank"), 0u);
+  EXPECT_EQ(crankloop_live_index(map, wheels, std::string(47, 'w').c_str()), 1u) << "cut";
+  EXPECT_EQ(crankloop_live_find(map, 99).count, 0u) << "a kind that is not there";
+  EXPECT_EQ(crankloop_live_find(map, CRANKLOOP_LIVE_EDGES).count, 64u);
+
+  LiveNumbers written{};
+  written[0] = 123.5, written[1] = 7, written[2] = -0.25;
+  live.signals().write(written);
+  double read[3] = {};
+  ASSERT_EQ(crankloop_live_numbers_read(map, signals, read), 1);
+  EXPECT_EQ(std::vector<double>(read, read + 3), (std::vector<double>{123.5, 7, -0.25}));
+
+  written[0] = 1e-5, written[1] = 1;
+  reader.inputs_by_name().write(written);
+  LiveNumbers taken{};
+  std::uint32_t sequence = 0;
+  ASSERT_TRUE(live.inputs_by_name().read(taken, sequence));
+  EXPECT_EQ(sequence, 2u);
+  EXPECT_EQ(taken[0], 1e-5);
+  EXPECT_EQ(taken[1], 1);
+  EXPECT_EQ(taken[2], 0) << "two are there";
+}
+
+TEST_F(SharedBlockFile, WithoutSectionsHasNone) {
+  LiveContents bare;
+  bare.tick_s = kTick_s;
+  const SharedBlock live = SharedBlock::create(path(), bare);
+  EXPECT_EQ(live->section_count, 0u);
+  EXPECT_EQ(live.signals().count(), 0u);
+  LiveNumbers numbers{};
+  live.signals().write(numbers);  // does nothing
+  EdgeRing ring = live.edges();
+  ring.write(1, 2, 1);
+  EXPECT_EQ(ring.written(), 0u);
+  crankloop_live_edge_reader reader;
+  EXPECT_EQ(crankloop_live_edges_begin(live.data(), &reader), 0);
+}
+
+TEST_F(SharedBlockFile, IsRefusedWhereASectionIsNotWithinIt) {
+  const std::string whole = [&] {
+    const SharedBlock live = create_at(path());
+    return bytes_of(path());
+  }();
+  const auto with_word = [&](std::size_t at, std::uint32_t word) {
+    std::string bytes = whole;
+    bytes.replace(at, 4, std::string(reinterpret_cast<const char*>(&word), 4));
+    return bytes;
+  };
+  const std::size_t list = 256;  // of entries kind, offset, count, entry_bytes
+  for (const std::string& bytes :
+       {with_word(32, 1u << 31), with_word(36, 0xFFFFFFF0u), with_word(36, 1), with_word(list + 4, 0xFFFFFFC0u),
+        with_word(list + 4, 1), with_word(list + 8, 0xFFFFFFFFu), with_word(list + 12, 0xFFFFFFFFu),
+        with_word(list + 5 * 16 + 8, 63), with_word(list + 5 * 16 + 8, 128), with_word(list + 5 * 16 + 12, 8),
+        with_word(8, 256), whole + "x"}) {
+    put(bytes);
+    EXPECT_EQ(refusal_of(SharedBlock::open, path()), path() + ": is a block that is not whole");
+  }
+}
+
 // ---- who gets it ----------------------------------------------------------------------------------------------------
 
 TEST_F(SharedBlockFile, IsReadAndWrittenByNobodyElseAndRemovedAtTheEnd) {
@@ -229,12 +315,11 @@ TEST_F(SharedBlockFile, IsRefusedAndLeftAloneWhereAnotherFileStands) {
   const std::string other_content(256, 'x');
   for (const std::string& text : {other_size, other_content}) {
     put(text);
-    EXPECT_EQ(refusal_of(create_at, path()), path() + ": exists and is no block of this version of crankloop");
+    EXPECT_EQ(refusal_of(create_at, path()), path() + ": exists and is no block of crankloop live");
     EXPECT_EQ(bytes_of(path()), text);
-    EXPECT_EQ(refusal_of(SharedBlock::open, path()), path() + ": is no block of this version of crankloop");
+    EXPECT_EQ(refusal_of(SharedBlock::open, path()), path() + ": is no block of crankloop live");
   }
-  EXPECT_EQ(refusal_of(create_at, folder_.path()),
-            folder_.path() + ": exists and is no block of this version of crankloop");
+  EXPECT_EQ(refusal_of(create_at, folder_.path()), folder_.path() + ": exists and is no block of crankloop live");
   EXPECT_EQ(refusal_of(create_at, folder_ / "none/block"),
             folder_ / "none/block: cannot be created: No such file or directory");
 }
@@ -245,12 +330,25 @@ TEST_F(SharedBlockFile, IsRefusedWhereItIsOfAnotherVersion) {
     const SharedBlock live = create_at(path());
     bytes = bytes_of(path());
   }
-  for (const char version : {'\2', '\4'}) {
-    bytes[4] = version;
-    put(bytes);
-    EXPECT_EQ(refusal_of(create_at, path()), path() + ": exists and is no block of this version of crankloop");
-    EXPECT_EQ(refusal_of(SharedBlock::open, path()), path() + ": is no block of this version of crankloop");
+  for (const char version : {'\2', '\3', '\5'}) {
+    for (const std::size_t size : {std::size_t{256}, bytes.size()}) {  // those before 4 had 256 bytes
+      std::string other = bytes.substr(0, size);
+      other[4] = version;
+      put(other);
+      const std::string what = "a block of version " + std::to_string(version) + " of crankloop live; this one's is 4";
+      EXPECT_EQ(refusal_of(create_at, path()), path() + ": exists and is " + what);
+      EXPECT_EQ(refusal_of(SharedBlock::open, path()), path() + ": is " + what);
+      EXPECT_STREQ(crankloop_live_refusal(other.data(), other.size()), "is a block of another version of crankloop");
+      EXPECT_EQ(bytes_of(path()), other) << "left alone";
+    }
   }
+}
+
+/// What the readers of version 2 and 3 looked at: 256 bytes, and the first three words.
+TEST_F(SharedBlockFile, IsRefusedByTheReadersOfEarlierVersions) {
+  const SharedBlock live = create_at(path());
+  EXPECT_NE(bytes_of(path()).size(), 256u) << "they said: is no block of this version of crankloop";
+  EXPECT_GT(at<std::uint32_t>(4), 3u) << "as did those that map 256 bytes of it";
 }
 
 TEST_F(SharedBlockFile, IsRefusedWhereAnotherProcessRunsOnIt) {
@@ -287,8 +385,8 @@ TEST_F(SharedBlockFile, ReplacesABlockThatItsMakerDiedOver) {
   }
   std::string without_magic = whole;  // which is written last
   without_magic.replace(0, 4, 4, '\0');
-  for (const std::string& text :
-       {std::string(), std::string(256, '\0'), without_magic, without_magic.substr(0, 16), whole.substr(0, 100)}) {
+  for (const std::string& text : {std::string(), std::string(256, '\0'), without_magic, without_magic.substr(0, 16),
+                                  whole.substr(0, 100), without_magic.substr(0, 12), without_magic.substr(0, 1000)}) {
     put(text);
     const SharedBlock live = create_at(path());
     EXPECT_EQ(bytes_of(path()), whole) << text.size();
@@ -350,8 +448,20 @@ TEST_F(SharedBlockFile, ThatIsTruncatedUnderItsOwnersLosesItsMagicAndNobodysLife
   EXPECT_EQ(live->magic, 0u);
 }
 
+TEST_F(SharedBlockFile, ThatLosesItsLastPagesIsNobodysDeathEither) {
+  LiveContents large = contents();
+  large.ring_edges = 4096;  // 16 pages
+  const SharedBlock live = SharedBlock::create(path(), large);
+  ASSERT_EQ(::truncate(path().c_str(), 4096), 0);
+  EXPECT_TRUE(live.has_magic());
+  EXPECT_FALSE(live.is_whole());
+  EdgeRing ring = live.edges();
+  for (int i = 0; i < 4096; ++i) ring.write(1, 0, 1);  // would be SIGBUS
+  EXPECT_FALSE(live.has_magic()) << "it is memory of this process alone now";
+}
+
 TEST_F(SharedBlockFile, IsNotWholeOnceItIsShorterByAByteOrItsMagicIsGone) {
-  for (const ::off_t size : {0, 1, 100, 200, 255}) {
+  for (const ::off_t size : {0, 1, 100, 200, 255, 256, 1000}) {
     const SharedBlock live = create_at(path());
     const SharedBlock controller = SharedBlock::open(path());
     EXPECT_TRUE(live.is_whole() && controller.is_whole());

@@ -111,6 +111,8 @@ TYPED_TEST(TableTargetsOf, AnEngineThatHasEverythingFillEverySection) {
   engine.contacts[0].friction_ratio = 0.1;
   engine.trigger_count = 1;
   engine.triggers[0].places = 60;
+  engine.wheel_fault_count = 1;
+  engine.wheel_faults[0].end_s = 1;
   const auto stores = std::make_unique<detail::part::Stores<Real, detail::part::RoomForAll>>();
   constexpr unsigned char kUntouched = 0xA5;
   std::memset(static_cast<void*>(stores.get()), kUntouched, sizeof *stores);

@@ -90,6 +90,10 @@ struct CamPhaseInput {
       {};  ///< target, crank degrees later than defined; -180 to 180; moved at the train's limited rate
 };
 
+struct WheelFaultInput {
+  std::uint32_t wheel_faults = 0;  ///< bit b: faults of WheelFault::input_bit b are on this tick
+};
+
 template <class Real, class S>
 using CrankInput =
     std::conditional_t<S::crank == CrankGiven::speed, SpeedInput<Real>,
@@ -107,6 +111,7 @@ struct Input : group::CrankInput<Real, S>,
                detail::If<detail::Needs<S>::gas && !detail::Needs<S>::manifolds, group::GivenManifoldInput<Real>>,
                detail::If<detail::Needs<S>::manifolds, group::ThrottleInput<Real>>,
                detail::If<S::boundaries, group::BoundaryInput<Real>>,
-               detail::If<detail::Needs<S>::burn_input, group::CombustionInput<Real, S>> {};
+               detail::If<detail::Needs<S>::burn_input, group::CombustionInput<Real, S>>,
+               detail::If<detail::Needs<S>::faulty_wheels, group::WheelFaultInput> {};
 
 }  // namespace crankloop

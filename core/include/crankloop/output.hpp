@@ -109,6 +109,12 @@ struct RunnerOutput {
   Real port_pressure_Pa[kPorts];
   Real flow_kg_s[kPorts];  ///< toward the cylinder, from kIntake's and kExhaust's manifold
 };
+/// The burn of a cycle, as the charge had it; zero where nothing burned.
+template <class Real>
+struct ChargeBurnOutput {
+  Real start_deg;
+  Real duration_deg;
+};
 template <class Real>
 struct ManifoldOutput {
   Real pressure_Pa;
@@ -214,6 +220,11 @@ template <class Real, class S>
 struct Runners {
   RunnerOutput<Real> runner[S::cylinders.capacity];
 };
+template <class Real, class S>
+struct WarmWalls {
+  Real wall_K[S::cylinders.capacity];  ///< of each cylinder's walls, at the end of the tick
+  Real port_heat_W[kPorts];            ///< of the gas to the walls of manifolds, or of all runners; mean over the tick
+};
 template <class Real>
 struct Manifolds {
   ManifoldOutput<Real> manifold[kPorts];  ///< kIntake, kExhaust
@@ -231,6 +242,16 @@ template <class Real, class S>
 struct BlowByResults {
   Real cycle_blow_by_kg[S::cylinders.capacity];
 };
+/// Of each cylinder's last whole cycle with an octane number; zero until there is one, and where nothing burned.
+template <class Real, class S>
+struct KnockResults {
+  Real knock_integral[S::cylinders.capacity];  ///< 1 and above: the unburned gas ignites by itself
+  Real knock_deg[S::cylinders.capacity];       ///< where it passed 1; 0: it did not
+};
+template <class Real, class S>
+struct ChargeBurnResults {
+  ChargeBurnOutput<Real> cycle_burn[S::cylinders.capacity];
+};
 
 }  // namespace group
 
@@ -247,16 +268,21 @@ struct Output : detail::If<detail::Needs<S>::crank_dynamics, group::CrankMotion<
                 detail::If<detail::Needs<S>::gas, group::CylinderGases<Real, S>>,
                 detail::If<S::crevice, group::Crevices<Real, S>>,
                 detail::If<S::runners, group::Runners<Real, S>>,
+                detail::If<S::walls, group::WarmWalls<Real, S>>,
                 detail::If<detail::Needs<S>::manifolds, group::Manifolds<Real>>,
                 detail::If<S::gas_results, group::GasResults<Real, S>>,
                 detail::If<S::crevice && S::gas_results, group::BlowByResults<Real, S>>,
+                detail::If<detail::Needs<S>::charge_burn && S::gas_results, group::ChargeBurnResults<Real, S>>,
+                detail::If<detail::Needs<S>::knock, group::KnockResults<Real, S>>,
                 detail::If<detail::Needs<S>::any_valves, group::Valves<Real, S>>,
                 detail::If<S::valve_forces, group::ValveForces<Real, S>>,
                 detail::If<detail::Needs<S>::spring_forces, group::ValveSpringForces<Real, S>>,
                 detail::If<S::valve_results, group::ValveResults<Real, S>>,
                 detail::If<S::cam_contact, group::CamContacts<Real, S>>,
                 detail::If<S::cam_torque, group::CamTorques<Real, S>>,
-                detail::If<detail::Needs<S>::any_triggers, group::Triggers<Real, S>> {
+                detail::If<detail::Needs<S>::faulty_wheels, group::WheelFaultsOn>,
+                detail::If<detail::Needs<S>::any_triggers, group::Triggers<Real, S>>,
+                detail::If<detail::Needs<S>::faulty_wheels, group::FaultyTriggers<Real, S>> {
   std::uint32_t faults;  ///< Fault bits of this tick
 };
 

@@ -72,6 +72,12 @@ struct Scene {
                                               ///< demands it; needs PressureGiven::by_gas
   static constexpr bool runners = false;      ///< inertia of the gas between manifolds and ports; a definition with a
                                               ///< runner demands it; needs PressureGiven::by_gas
+  static constexpr bool walls = false;        ///< walls that warm up, heat of manifolds and runners; a definition with
+                                              ///< either demands it; needs PressureGiven::by_gas
+  static constexpr bool charge_burn = false;  ///< burns last as long as the charge makes them; a definition that says
+                                              ///< so demands it; needs combustion
+  static constexpr bool knock = false;  ///< per-cycle result: how far unburned gas came to knock; needs combustion
+                                        ///< and a definition with an octane number
   static constexpr bool gas_results = false;  ///< per-cycle results: mean pressures, charge, heat
   static constexpr bool load_ratio = false;   ///< Input::load_ratio scales the heat of a pressure table; else full load
   static constexpr bool rod_inertia =
@@ -95,17 +101,20 @@ struct Scene {
   static constexpr bool cam_drag = false;       ///< the crank turns the camshaft: cam_torque, CrankGiven::torque
   static constexpr bool valve_gas =
       false;  ///< cylinder pressure on the valve heads; a train with a head area demands it
-  static constexpr std::uint32_t spring_modes =
-      0;  ///< of a valve's springs together, up to kMaxValveModes, that surge; elastic valves. A train with more is
-          ///< refused
-  static constexpr bool cam_phasing = false;  ///< Input::cam_phase_deg moves the cams
+  static constexpr std::uint32_t spring_modes = 0;  ///< of a valve's springs together, up to kMaxValveModes, that
+                                                    ///< surge; elastic valves. A train with more is refused
+  static constexpr bool cam_phasing = false;        ///< Input::cam_phase_deg moves the cams
   static constexpr bool bad_input_count =
       false;  ///< State::bad_input_ticks: how many ticks had a bad input, and of which kinds
   static constexpr bool starter = false;  ///< Input::starter turns the crank; CrankGiven::torque
   static constexpr bool cylinder_cut =
       false;  ///< Input::cut_cylinders: cylinders that do not fire this tick (where gas burns: the cycle whose fuel is
               ///< due); needs load_ratio or combustion
+  static constexpr bool misfire = false;         ///< cycles that misfire by the definition's rules, and their counts
+                                                 ///< (State::misfire); needs load_ratio or combustion
   static constexpr Count triggers = exactly<0>;  ///< trigger wheels: their signals and the edges in each tick
+  static constexpr std::uint32_t wheel_faults =
+      0;  ///< faults of trigger wheels that there is room for: faulty signals beside the healthy ones; at most 16
   static constexpr std::uint32_t trigger_edges =
       8;  ///< of a wheel that a tick has room for; more are counted, but not listed
 };
@@ -121,6 +130,8 @@ struct Needs {
   static constexpr bool given_gas = gas && (!manifolds || S::boundaries);  ///< by inputs, each tick
   static constexpr bool burn = gas && S::combustion != Combustion::none;
   static constexpr bool burn_input = gas && S::combustion == Combustion::by_input;
+  static constexpr bool charge_burn = burn && S::charge_burn;
+  static constexpr bool knock = burn && S::knock;
   static constexpr bool gas_cut = burn && S::cylinder_cut;
   static constexpr bool crank_dynamics = S::crank == CrankGiven::torque;
   static constexpr bool any_torque = S::torque || S::mean_torque || crank_dynamics;
@@ -152,13 +163,16 @@ struct Needs {
   static constexpr bool gas_pressure = cylinder_pressure && table_pressure;
   static constexpr bool load = S::load_ratio && table_pressure;
   static constexpr bool cut = S::cylinder_cut && table_pressure;
+  static constexpr bool misfire_of_table = S::misfire && table_pressure;
+  static constexpr bool lack = cut || misfire_of_table;  ///< cylinders may lack heat of the table, or all of it
   static constexpr bool cam_loads = S::cam_contact || S::cam_torque;
   static constexpr bool cycle_ends = S::valve_results || S::cam_contact;  ///< of valves are noticed
   static constexpr bool valve_gas_held = S::valve_gas && !gas;  ///< the force of the last tick is part of the state
   static constexpr bool cut_torque =
-      cut && torque_curves;  ///< the engine's gas torque less that of cylinders which do not fire
+      lack && torque_curves;  ///< the engine's gas torque less that of cylinders which do not fire
   static constexpr bool mechanisms = stroke || shown_by_cylinder;
   static constexpr bool any_triggers = S::triggers.capacity > 0;
+  static constexpr bool faulty_wheels = S::wheel_faults > 0;
   static constexpr std::uint32_t valve_count = any_valves ? S::trains.capacity * S::cylinders.capacity : 0;
 };
 
@@ -172,6 +186,8 @@ struct CheckedScene {
                 "load_ratio scales a pressure table: set pressure = by_table");
   static_assert(!S::cylinder_cut || S::load_ratio || Needs<S>::burn,
                 "a cut cylinder has the pressure of load ratio 0: set load_ratio too");
+  static_assert(!S::misfire || S::load_ratio || Needs<S>::burn,
+                "a misfiring cycle lacks heat of a pressure table with load_ratio, or of gas that burns: set one");
   static_assert(S::pressure != PressureGiven::by_gas || S::valves != ValveModel::none,
                 "gas flows through valves: ask for elastic or following ones");
   static_assert(S::pressure == PressureGiven::by_gas ||
@@ -179,6 +195,9 @@ struct CheckedScene {
                 "manifold, combustion and gas_results are of gas: set pressure = by_gas");
   static_assert(!S::crevice || Needs<S>::gas, "crevices hold gas of a cylinder: set pressure = by_gas");
   static_assert(!S::runners || Needs<S>::gas, "runners lead gas to the ports: set pressure = by_gas");
+  static_assert(!S::charge_burn || Needs<S>::burn, "charge_burn is of combustion: ask for it too");
+  static_assert(!S::walls || Needs<S>::gas, "walls take heat of gas: set pressure = by_gas");
+  static_assert(!S::knock || Needs<S>::burn, "knock is of combustion: ask for it too");
   static_assert(!S::boundaries || Needs<S>::manifolds, "boundaries are outside the manifolds: set manifold = throttle");
   static_assert(!S::starter || S::crank == CrankGiven::torque,
                 "a starter needs a crank that is turned by forces: set crank = torque");
@@ -197,6 +216,8 @@ struct CheckedScene {
                 "theoretical_lift and valve_acceleration need valves");
   static_assert(!S::valve_gas || S::pressure != PressureGiven::none, "valve_gas needs a pressure");
   static_assert(S::triggers.capacity <= kMaxTriggerWheels, "an engine has at most 8 trigger wheels");
+  static_assert(S::wheel_faults == 0 || S::triggers.capacity > 0, "wheel_faults are of trigger wheels: set triggers");
+  static_assert(S::wheel_faults <= kMaxWheelFaults, "an engine has at most 16 faults of trigger wheels");
   static_assert(S::trigger_edges >= 1 && S::trigger_edges <= 2 * kMaxTriggerEdges,
                 "trigger_edges is 1 to 1440: two turns of the finest wheel");
   static constexpr bool value = true;

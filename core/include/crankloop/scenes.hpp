@@ -68,7 +68,9 @@ struct FreeRunning : Scene {
   static constexpr bool mean_torque = true;
   static constexpr bool starter = true;
   static constexpr bool cylinder_cut = true;
+  static constexpr bool misfire = true;
   static constexpr Count triggers = up_to<kMaxTriggerWheels>;
+  static constexpr std::uint32_t wheel_faults = 8;
   static constexpr std::uint32_t trigger_edges = 32;
 };
 
@@ -79,6 +81,9 @@ struct Breathing : Whole {
   static constexpr bool boundaries = true;
   static constexpr bool crevice = true;
   static constexpr bool runners = true;
+  static constexpr bool walls = true;
+  static constexpr bool charge_burn = true;
+  static constexpr bool knock = true;
   static constexpr Combustion combustion = Combustion::by_input;
   static constexpr bool gas_results = true;
   static constexpr bool load_ratio = false;
@@ -91,6 +96,9 @@ struct BreathingFree : FreeRunning {
   static constexpr bool boundaries = true;
   static constexpr bool crevice = true;
   static constexpr bool runners = true;
+  static constexpr bool walls = true;
+  static constexpr bool charge_burn = true;
+  static constexpr bool knock = true;
   static constexpr Combustion combustion = Combustion::by_input;
   static constexpr bool gas_results = true;
   static constexpr bool load_ratio = false;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <crankloop/misfire_record.hpp>
 #include <crankloop/phase.hpp>
 #include <crankloop/scene.hpp>
 #include <crankloop/tables/curve.hpp>
@@ -111,6 +112,21 @@ struct BurnState {
   detail::CylinderBurn<Real> burn[S::cylinders.capacity];
 };
 template <class Real, class S>
+struct ChargeBurnState {
+  detail::BurnStart<Real> charge_burn[S::cylinders.capacity];
+};
+template <class Real, class S>
+struct WallState {
+  Real wall_K[(S::cylinders.capacity + 1) / 2 * 2];  ///< of each cylinder's walls
+  Real wall_rest_K[(S::cylinders.capacity + 1) / 2 * 2];
+};
+template <class Real, class S>
+struct KnockRecords {
+  detail::KnockRecord<Real> knock[S::cylinders.capacity];
+  std::uint32_t knock_due;      ///< a bit of each cylinder whose burn, with an octane number, is yet to begin
+  std::uint32_t knock_in_burn;  ///< one of each whose integral grows
+};
+template <class Real, class S>
 struct GasRecords {
   detail::GasRecord<Real> gas_record[S::cylinders.capacity];
 };
@@ -125,6 +141,22 @@ struct BlowByRecords {
 template <class Real, class S>
 struct RunnerState {
   detail::RunnerGas<Real> runner[kPorts][S::cylinders.capacity];
+};
+/// Cycles of each cylinder that misfired.
+template <class S>
+struct MisfireRecords {
+  MisfireRecord misfire[S::cylinders.capacity] = {};
+};
+template <class Real, class S>
+struct BurningState {
+  Real burning_ratio[(S::cylinders.capacity + 1) / 2 * 2] = {};  ///< share of its heat that each cylinder's cycle has
+};
+/// Wires of faulty wheels.
+template <class S>
+struct WireState {
+  std::uint32_t wire_levels = 0;  ///< bit w: faulty signal of wheel w after the last tick
+  std::uint32_t wires_known = 0;  ///< bit w: there was one
+  std::uint32_t noise_random[(S::wheel_faults + 1) / 2 * 2] = {};  ///< of xorshift32, per fault
 };
 /// Bad inputs since `init`.
 struct BadInputsState {
@@ -150,10 +182,16 @@ struct State : group::StateCore<Real>,
                detail::If<detail::Needs<S>::manifolds, group::ManifoldState<Real>>,
                detail::If<detail::Needs<S>::given_gas, group::GivenGasState<Real>>,
                detail::If<detail::Needs<S>::burn, group::BurnState<Real, S>>,
+               detail::If<detail::Needs<S>::charge_burn, group::ChargeBurnState<Real, S>>,
+               detail::If<detail::Needs<S>::knock, group::KnockRecords<Real, S>>,
                detail::If<S::gas_results, group::GasRecords<Real, S>>,
                detail::If<S::crevice, group::CreviceState<Real, S>>,
                detail::If<S::crevice && S::gas_results, group::BlowByRecords<Real, S>>,
                detail::If<S::runners, group::RunnerState<Real, S>>,
+               detail::If<S::walls, group::WallState<Real, S>>,
+               detail::If<S::misfire, group::MisfireRecords<S>>,
+               detail::If<detail::Needs<S>::misfire_of_table, group::BurningState<Real, S>>,
+               detail::If<detail::Needs<S>::faulty_wheels, group::WireState<S>>,
                detail::If<S::bad_input_count, group::BadInputsState> {};
 
 /// The same state turning at another speed, for Engine::restore: a run that does not start at rest.

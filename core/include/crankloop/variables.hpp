@@ -91,6 +91,9 @@ constexpr void each_input(Visit&& visit, AnInput& in, [[maybe_unused]] const Eng
     for (std::uint32_t k = 0; k < shape.cylinders; ++k) visit(start.at(k).within(-90, 60), in.burn_start_deg[k]);
     for (std::uint32_t k = 0; k < shape.cylinders; ++k) visit(duration.at(k).within(5, 150), in.burn_duration_deg[k]);
   }
+  if constexpr (detail::Needs<S>::faulty_wheels) {
+    visit(whole("wheel_faults", "Bit b: faults of the wheels that are on by input bit b"), in.wheel_faults);
+  }
 }
 
 /// In the order of Output; a group whose name stands before the member is an array of records.
@@ -200,6 +203,13 @@ constexpr void each_output(Visit&& visit, AState& state, AnOutput& out, [[maybe_
             r.flow_kg_s[kExhaust]);
     }
   }
+  if constexpr (S::walls) {
+    each(real("wall_K[#]", "Temperature of the cylinder's walls"), out.wall_K, shape.cylinders);
+    visit(real("intake_wall_heat_W", "To the walls of intake manifold or runners, mean of the tick"),
+          out.port_heat_W[kIntake]);
+    visit(real("exhaust_wall_heat_W", "To the walls of exhaust manifold or runners, mean of the tick"),
+          out.port_heat_W[kExhaust]);
+  }
   if constexpr (detail::Needs<S>::manifolds) {
     const auto manifold = [&visit](const Variable& pressure, const Variable& temperature, const Variable& burned,
                                    auto& values) {
@@ -242,6 +252,20 @@ constexpr void each_output(Visit&& visit, AState& state, AnOutput& out, [[maybe_
   if constexpr (S::crevice && S::gas_results) {
     each(real("cycle_blow_by_kg[#]", "Of the last whole cycle: what blew by into the crankcase"), out.cycle_blow_by_kg,
          shape.cylinders);
+  }
+  if constexpr (detail::Needs<S>::charge_burn && S::gas_results) {
+    for (std::uint32_t k = 0; k < shape.cylinders; ++k) {
+      auto& b = out.cycle_burn[k];
+      visit(real("cycle_burn[#].start_deg", "Of the last whole cycle: where the burn began, by the charge").at(k),
+            b.start_deg);
+      visit(real("cycle_burn[#].duration_deg", "How long it lasted, by the charge; 0: nothing burned").at(k),
+            b.duration_deg);
+    }
+  }
+  if constexpr (detail::Needs<S>::knock) {
+    each(real("knock_integral[#]", "Of the last whole cycle: the unburned gas ignites by itself at 1"),
+         out.knock_integral, shape.cylinders);
+    each(real("knock_deg[#]", "Where it passed 1; 0: it did not"), out.knock_deg, shape.cylinders);
   }
   const auto each_valve = [&](const auto& show) {
     for (std::uint32_t t = 0; t < shape.trains; ++t) {
@@ -330,9 +354,35 @@ constexpr void each_output(Visit&& visit, AState& state, AnOutput& out, [[maybe_
     });
     visit(real("camshaft_Nm", "Torque that all cams take, positive against forward rotation"), out.camshaft_Nm);
   }
+  if constexpr (detail::Needs<S>::faulty_wheels) {
+    visit(whole("wheel_faults_on", "Bit i-1: fault i of the wheels is on"), out.wheel_faults_on);
+  }
+  if constexpr (S::misfire) {
+    for (std::uint32_t k = 0; k < shape.cylinders; ++k) {
+      auto& m = state.misfire[k];
+      visit(whole("misfire[#].cycles", "Cycles of a cylinder since the start").at(k), m.cycles);
+      visit(whole("misfire[#].misfires", "Those that misfired by the engine's rule").at(k), m.misfires);
+      visit(whole("misfire[#].in_200_turns", "Misfires in the last 100 cycles").at(k), m.in_200_turns);
+      visit(whole("misfire[#].in_1000_turns", "Misfires in the last 500 cycles").at(k), m.in_1000_turns);
+    }
+  }
   if constexpr (S::bad_input_count) {
     visit(whole("bad_input_ticks", "Ticks with a bad input since the start"), state.bad_input_ticks);
     visit(whole("bad_input_kinds", "Their fault bits, or-ed"), state.bad_input_kinds);
+  }
+}
+
+/// A wheel's signal as names of two kinds have it.
+struct SignalNames {
+  const char *level, *edge_count, *time_s, *edge_level;
+};
+template <class S, class Visit, class ASignal>
+constexpr void each_signal(Visit& visit, const SignalNames& names, std::uint32_t wheel, ASignal& t) {
+  visit(truth(names.level, "Level of the signal at the end of the tick").at(wheel), t.level);
+  visit(whole(names.edge_count, "Edges in the tick").at(wheel), t.edge_count);
+  for (std::uint32_t e = 0; e < S::trigger_edges; ++e) {
+    visit(real(names.time_s, "Since the tick's begin").at(wheel, e), t.edge[e].time_s);
+    visit(truth(names.edge_level, "After it: 1 it rose, 0 it fell").at(wheel, e), t.edge[e].level);
   }
 }
 
@@ -340,15 +390,14 @@ template <class S, class Visit, class AnOutput>
 constexpr void each_event([[maybe_unused]] Visit&& visit, [[maybe_unused]] AnOutput& out,
                           [[maybe_unused]] const EngineShape& shape) {
   if constexpr (detail::Needs<S>::any_triggers) {
-    for (std::uint32_t w = 0; w < shape.wheels; ++w) {
-      auto& t = out.trigger[w];
-      visit(truth("trigger[#].level", "Level of the signal at the end of the tick").at(w), t.level);
-      visit(whole("trigger[#].edge_count", "Edges in the tick").at(w), t.edge_count);
-      for (std::uint32_t e = 0; e < S::trigger_edges; ++e) {
-        visit(real("trigger[#].edge[#].time_s", "Since the tick's begin").at(w, e), t.edge[e].time_s);
-        visit(truth("trigger[#].edge[#].level", "After it: 1 it rose, 0 it fell").at(w, e), t.edge[e].level);
-      }
-    }
+    constexpr SignalNames kHealthy{"trigger[#].level", "trigger[#].edge_count", "trigger[#].edge[#].time_s",
+                                   "trigger[#].edge[#].level"};
+    for (std::uint32_t w = 0; w < shape.wheels; ++w) each_signal<S>(visit, kHealthy, w, out.trigger[w]);
+  }
+  if constexpr (detail::Needs<S>::faulty_wheels) {
+    constexpr SignalNames kFaulty{"faulty_trigger[#].level", "faulty_trigger[#].edge_count",
+                                  "faulty_trigger[#].edge[#].time_s", "faulty_trigger[#].edge[#].level"};
+    for (std::uint32_t w = 0; w < shape.wheels; ++w) each_signal<S>(visit, kFaulty, w, out.faulty_trigger[w]);
   }
 }
 

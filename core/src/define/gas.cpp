@@ -40,6 +40,16 @@ namespace {
   return refused.ok() ? refused : refuse(refused.field, refused.reason, port);
 }
 
+[[nodiscard]] Status validate_walls(const Walls& walls) noexcept {
+  if (const Status refused = out_of_range(walls); !refused.ok()) return refused;
+  if (walls.capacity_J_K != 0) {
+    if (const Status refused = in_range(walls.capacity_J_K, "walls.capacity_J_K", from(1)); !refused.ok())
+      return refused;
+  }
+  if (walls.any() && walls.manifold_K != 0) return in_range(walls.manifold_K, "walls.manifold_K", from(150));
+  return {};
+}
+
 }  // namespace
 
 Status validate(const Gas& gas, int trains) noexcept {
@@ -58,6 +68,12 @@ Status validate(const Gas& gas, int trains) noexcept {
     return refuse("gas.burn_duration_deg", Reason::inconsistent);
   if (const Status refused = validate_runner(gas.intake_runner, 0); !refused.ok()) return refused;
   if (const Status refused = validate_runner(gas.exhaust_runner, 1); !refused.ok()) return refused;
+  if (const Status refused = out_of_range(gas.charge_burn); !refused.ok()) return refused;
+  if (const Status refused = validate_walls(gas.walls); !refused.ok()) return refused;
+  if (gas.octane_number != 0) {
+    if (const Status refused = in_range(gas.octane_number, "gas.octane_number", from(60)); !refused.ok())
+      return refused;
+  }
   if (trains < 1) return refuse("train_count", Reason::inconsistent);  // no valve admits gas
   for (int t = 0; t < trains; ++t) {
     if (const Status refused = validate_port(gas.ports[t], t); !refused.ok()) return refused;

@@ -234,12 +234,23 @@ Status validate(const EngineDefinition& engine) noexcept {
   if (engine.pressure.source == PressureSource::gas) {
     if (const Status refused = validate(engine.gas, engine.train_count); !refused.ok()) return refused;
   }
+  for (int k = 0; k < engine.layout.cylinders; ++k) {
+    if (const Status refused = validate(engine.misfires[k]); !refused.ok())
+      return refuse(refused.field, refused.reason, k);
+  }
   if (engine.trigger_count < 0 || engine.trigger_count > kMaxTriggerWheels)
     return refuse("trigger_count", Reason::out_of_range);
   for (int i = 0; i < engine.trigger_count; ++i) {
     const TriggerWheel& wheel = engine.triggers[i];
     if (const Status refused = validate(wheel); !refused.ok()) return refuse(refused.field, refused.reason, i);
     if (wheel.train >= engine.train_count) return refuse("trigger.train", Reason::out_of_range, i);
+  }
+  if (engine.wheel_fault_count < 0 || engine.wheel_fault_count > kMaxWheelFaults)
+    return refuse("wheel_fault_count", Reason::out_of_range);
+  for (int i = 0; i < engine.wheel_fault_count; ++i) {
+    const WheelFault& fault = engine.wheel_faults[i];
+    if (const Status refused = validate(fault); !refused.ok()) return refuse(refused.field, refused.reason, i);
+    if (fault.wheel >= engine.trigger_count) return refuse("fault.wheel", Reason::out_of_range, i);
   }
   return {};
 }

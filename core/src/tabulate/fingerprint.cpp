@@ -11,13 +11,15 @@ static_assert(kListsEveryField<Crank> && kListsEveryField<Masses> && kListsEvery
                   kListsEveryField<WiebeDiagram> && kListsEveryField<Pressure> && kListsEveryField<Cam> &&
                   kListsEveryField<Rocker> && kListsEveryField<Valve> && kListsEveryField<ValveTrain> &&
                   kListsEveryField<CamContact> && kListsEveryField<PortOfTrain> && kListsEveryField<Crevice> &&
-                  kListsEveryField<Runner> && kListsEveryField<Gas> && kListsEveryField<Friction> &&
-                  kListsEveryField<DrivenMachine> && kListsEveryField<Starter> && kListsEveryField<ToothGap> &&
-                  kListsEveryField<TriggerWheel>,
+                  kListsEveryField<Runner> && kListsEveryField<ChargeBurn> && kListsEveryField<Walls> &&
+                  kListsEveryField<Gas> && kListsEveryField<Friction> && kListsEveryField<DrivenMachine> &&
+                  kListsEveryField<Starter> && kListsEveryField<ToothGap> && kListsEveryField<TriggerWheel> &&
+                  kListsEveryField<Misfire> && kListsEveryField<WheelFault>,
               "each_field() lists every field, for the tables' fingerprint and for C, and the range of every number");
-static_assert(values_listed<EngineDefinition>() + 2 + kMaxTriggerWheels + kMaxTrains ==
+static_assert(values_listed<EngineDefinition>() + 2 + kMaxTriggerWheels + kMaxTrains + kMaxCylinders + 1 +
+                      kMaxWheelFaults ==
                   values_taken<EngineDefinition>(),
-              "all but the gas, the trigger wheels and the cams' contacts are listed");
+              "all but the gas, the trigger wheels, the cams' contacts, misfires and wheel faults are listed");
 
 namespace {
 
@@ -69,7 +71,7 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
                              int scalar_bytes) noexcept {
   // A new part of the definition must be named here, and then added below.
   const auto& [crank, masses, layout, pressure, train_count, trains, friction, load, starter, trigger_count, triggers,
-               gas, contacts] = engine;
+               gas, contacts, misfires, wheel_fault_count, wheel_faults] = engine;
   Fingerprint f;
   AddRead add{f};
   f.add(kTableFormat);
@@ -119,18 +121,25 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
     Gas read = gas;
     for (int t = train_count; t < kMaxTrains; ++t) read.ports[t] = {};
     Gas::each_field(
-        [&add](const ListedField& listed, const auto& field) {
+        [&add, &read](const ListedField& listed, const auto& field) {
           using Field = std::decay_t<decltype(field)>;
           if constexpr (std::is_same_v<Field, Crevice>) {
             if (!field.any()) return;
           }
-          if constexpr (!std::is_same_v<Field, Runner>) add(listed, field);
+          if constexpr (std::is_same_v<Field, double>) {
+            if (&field == &read.octane_number && field == 0) return;
+          }
+          if constexpr (!std::is_same_v<Field, Runner> && !std::is_same_v<Field, ChargeBurn> &&
+                        !std::is_same_v<Field, Walls>)
+            add(listed, field);
         },
         read);
     if (gas.intake_runner.any() || gas.exhaust_runner.any()) {
       add({1, ""}, gas.intake_runner);
       add({1, ""}, gas.exhaust_runner);
     }
+    if (gas.charge_burn.in_use) add({1, ""}, gas.charge_burn);
+    if (gas.walls.any()) add({1, ""}, gas.walls);
     for (int t = 0; t < train_count; ++t) f.add(trains[t].valve.per_cylinder);  // the port's area counts them
   }
   return f.value();

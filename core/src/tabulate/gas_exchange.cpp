@@ -94,6 +94,8 @@ namespace {
   c.max_steps = max_steps_of(engine, options);
   if (gas.crevice.any()) c.parts |= kGasCrevice;
   if (gas.intake_runner.any() || gas.exhaust_runner.any()) c.parts |= kGasRunners;
+  if (gas.charge_burn.in_use) c.parts |= kGasChargeBurn;
+  if (gas.walls.any()) c.parts |= kGasWalls;
   return c;
 }
 
@@ -191,6 +193,49 @@ constexpr double kPortShare = 4 / (elementary::kPi * elementary::kPi);
   return b;
 }
 
+constexpr double kLn2 = 0.69314718055994531;
+
+/// Laminar flame of gasoline in m/s: tick/gas/charge_burn.hpp.
+[[nodiscard]] double flame_m_s(const ChargeBurn& at) noexcept {
+  using elementary::pow;
+  const double phi = 1 / at.reference_excess_air_ratio, off = phi - 1.21;
+  const double unspoiled = at.reference_burned_ratio > 0 ? 1 - 2.06 * pow(at.reference_burned_ratio, 0.77) : 1;
+  return (0.305 - 0.549 * off * off) * unspoiled * pow(at.reference_K / 298, 2.4 - 0.271 * pow(phi, 3.51)) *
+         pow(at.reference_Pa / 101325, -0.357 + 0.14 * pow(phi, 2.77));
+}
+
+[[nodiscard]] ChargeBurnTable<double> charge_burn_of(const EngineDefinition& engine) noexcept {
+  const ChargeBurn& burn = engine.gas.charge_burn;
+  ChargeBurnTable<double> table{};
+  if (!burn.in_use) return table;
+  const double flame = flame_m_s(burn);
+  table.reference = elementary::log(flame * flame / burn.reference_rad_s) / (3 * kLn2);
+  table.spark_to_start_deg = burn.spark_to_start_deg;
+  table.in_use = 1;
+  return table;
+}
+
+[[nodiscard]] WarmWallsTable<double> walls_of(const EngineDefinition& engine) noexcept {
+  const Gas& gas = engine.gas;
+  const Walls& walls = gas.walls;
+  WarmWallsTable<double> table{};
+  if (!walls.any()) return table;
+  table.capacity_J_K = walls.capacity_J_K, table.to_coolant_W_K = walls.to_coolant_W_K;
+  table.coolant_K = walls.coolant_K, table.behind_K = gas.behind_walls_K();
+  table.port_W_K[kIntake] = walls.intake_W_K, table.port_W_K[kExhaust] = walls.exhaust_W_K;
+  return table;
+}
+
+[[nodiscard]] KnockTable<double> knock_of(const EngineDefinition& engine) noexcept {
+  KnockTable<double> table{};
+  if (engine.gas.octane_number == 0) return table;
+  const double delay_s = 17.68e-3 * elementary::pow(engine.gas.octane_number / 100, 3.402);
+  table.rate = -(elementary::log(delay_s) + 1.7 * elementary::log(101325)) / kLn2;
+  table.hot_K = 3800 / kLn2;
+  table.in_use = 1;
+  return table;
+}
+
 }  // namespace
 
 Status validate_manifolds(const EngineDefinition& engine, double tick_s) noexcept {
@@ -215,6 +260,9 @@ void fill_gas_exchange(const EngineDefinition& engine, const TickOptions& option
   fill(targets.gas_crevice, crevice_of);
   fill(targets.gas_runners, runners_of);
   fill(targets.burn, burn_of);
+  fill(targets.charge_burn, charge_burn_of);
+  fill(targets.knock, knock_of);
+  fill(targets.gas_walls, walls_of);
   if (targets.gas_ports == nullptr) return;
   for (int t = 0; t < engine.train_count; ++t)
     fill(targets.gas_ports + t, [t](const EngineDefinition& e) { return port_of(e, t); });

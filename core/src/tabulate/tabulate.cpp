@@ -14,10 +14,12 @@
 #include "fingerprint.hpp"
 #include "gas_curves.hpp"
 #include "gas_exchange.hpp"
+#include "misfire_rules.hpp"
 #include "phase_units.hpp"
 #include "rounding.hpp"
 #include "trigger_tracks.hpp"
 #include "valve_curves.hpp"
+#include "wheel_fault_tracks.hpp"
 
 namespace crankloop {
 
@@ -98,6 +100,8 @@ template <class Real>
     return refuse("targets.trigger_tracks", Reason::missing_table);
   if (t.triggers != nullptr && t.trigger_edges == nullptr)
     return refuse("targets.trigger_edges", Reason::missing_table);
+  const bool all_of_faults = t.fault_edges != nullptr && t.fault_tracks != nullptr && t.wheel_fault_rules != nullptr;
+  if (t.wheel_faults != nullptr && !all_of_faults) return refuse("targets.fault_tracks", Reason::missing_table);
   return {};
 }
 
@@ -160,6 +164,9 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
   if (engine.train_count > 0) {
     if (const Status refused = validate(options.valves); !refused.ok()) return refused;
   }
+  if (targets.wheel_faults != nullptr) {
+    if (const Status refused = detail::validate_wheel_faults(engine, options); !refused.ok()) return refused;
+  }
   if (targets.gas_manifolds != nullptr) {
     if (const Status refused = detail::validate_manifolds(engine, options.tick_s); !refused.ok()) return refused;
   }
@@ -183,7 +190,9 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
   fill_mechanism(engine, targets);
   detail::fill_gas(engine, diagram, targets, found);
   detail::fill_gas_exchange(engine, options, targets);
+  detail::fill_misfires(engine, targets);
   detail::fill_triggers(engine, options, targets);
+  detail::fill_wheel_faults(engine, options, targets);
   if (targets.drive != nullptr) {
     fill_drive(engine, options, *targets.drive);
     targets.drive->fingerprint = detail::fingerprint_of(engine, options, found, static_cast<int>(sizeof(Real)));

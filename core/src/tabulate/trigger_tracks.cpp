@@ -15,30 +15,6 @@ namespace {
   return static_cast<std::uint32_t>(turns * 4294967296.0 + 0.5);
 }
 
-/// Fills the angles of a wheel's edges, the first at 0; returns their number.
-std::uint32_t fill_edges(const TriggerWheel& wheel, std::uint32_t* edges) noexcept {
-  std::uint32_t count = 0;
-  if (wheel.pattern == TriggerPattern::edges) {
-    const double turn_deg = wheel.shaft == TriggerShaft::crank ? 360 : 720;
-    for (int i = 0; i < wheel.edge_count; ++i)
-      edges[count++] = turn_units((wheel.edges_deg[i] - wheel.edges_deg[0]) / turn_deg);
-    return count;
-  }
-  int place = 0;
-  const auto add_teeth = [&](int until) {
-    for (; place < until; ++place) {
-      edges[count++] = turn_units(static_cast<double>(place) / wheel.places);
-      edges[count++] = turn_units((place + wheel.tooth_ratio) / wheel.places);
-    }
-  };
-  for (int i = 0; i < wheel.gap_count; ++i) {
-    add_teeth(place + wheel.gaps[i].teeth);
-    place += wheel.gaps[i].missing;
-  }
-  add_teeth(wheel.places);
-  return count;
-}
-
 void fill_parts(TriggerTrack& track) noexcept {
   constexpr std::uint32_t kPart = std::uint32_t{1} << 25;
   static_assert(kTriggerParts * std::uint64_t{kPart} == std::uint64_t{1} << 32);
@@ -81,6 +57,44 @@ void fill_parts(TriggerTrack& track) noexcept {
 
 }  // namespace
 
+std::uint32_t fill_edges(const TriggerWheel& wheel, std::uint32_t* edges) noexcept {
+  std::uint32_t count = 0;
+  if (wheel.pattern == TriggerPattern::edges) {
+    const double turn_deg = wheel.shaft == TriggerShaft::crank ? 360 : 720;
+    for (int i = 0; i < wheel.edge_count; ++i)
+      edges[count++] = turn_units((wheel.edges_deg[i] - wheel.edges_deg[0]) / turn_deg);
+    return count;
+  }
+  int place = 0;
+  const auto add_teeth = [&](int until) {
+    for (; place < until; ++place) {
+      edges[count++] = turn_units(static_cast<double>(place) / wheel.places);
+      edges[count++] = turn_units((place + wheel.tooth_ratio) / wheel.places);
+    }
+  };
+  for (int i = 0; i < wheel.gap_count; ++i) {
+    add_teeth(place + wheel.gaps[i].teeth);
+    place += wheel.gaps[i].missing;
+  }
+  add_teeth(wheel.places);
+  return count;
+}
+
+TriggerTrack track_of(const EngineDefinition& engine, const TickOptions& options, const TriggerWheel& wheel,
+                      const std::uint32_t* edges, std::uint32_t count) noexcept {
+  TriggerTrack track{};
+  track.edges = edges;
+  track.edge_count = count;
+  CRANKLOOP_ASSERT(track.edge_count >= 2 && track.edge_count <= std::uint32_t{kMaxTriggerEdges});
+  track.on_crank = wheel.shaft == TriggerShaft::crank ? 1 : 0;
+  track.starts = phase_units(wheel.pattern == TriggerPattern::teeth ? wheel.first_tooth_deg : wheel.edges_deg[0]);
+  track.train = wheel.train >= 0 ? static_cast<std::uint32_t>(wheel.train) : kNoTrain;
+  track.inverted = wheel.inverted ? 1 : 0;
+  fill_parts(track);
+  track.max_edges = max_edges_in(track, widest_turns(engine, options, wheel));
+  return track;
+}
+
 template <class Real>
 void fill_triggers(const EngineDefinition& engine, const TickOptions& options,
                    const TableTargets<Real>& targets) noexcept {
@@ -89,17 +103,7 @@ void fill_triggers(const EngineDefinition& engine, const TickOptions& options,
   for (std::uint32_t i = 0; i < count; ++i) {
     const TriggerWheel& wheel = engine.triggers[i];
     std::uint32_t* edges = targets.trigger_edges + i * std::size_t{kMaxTriggerEdges};
-    TriggerTrack& track = targets.trigger_tracks[i];
-    track = {};
-    track.edges = edges;
-    track.edge_count = fill_edges(wheel, edges);
-    CRANKLOOP_ASSERT(track.edge_count >= 2 && track.edge_count <= std::uint32_t{kMaxTriggerEdges});
-    track.on_crank = wheel.shaft == TriggerShaft::crank ? 1 : 0;
-    track.starts = phase_units(wheel.pattern == TriggerPattern::teeth ? wheel.first_tooth_deg : wheel.edges_deg[0]);
-    track.train = wheel.train >= 0 ? static_cast<std::uint32_t>(wheel.train) : kNoTrain;
-    track.inverted = wheel.inverted ? 1 : 0;
-    fill_parts(track);
-    track.max_edges = max_edges_in(track, widest_turns(engine, options, wheel));
+    targets.trigger_tracks[i] = track_of(engine, options, wheel, edges, fill_edges(wheel, edges));
   }
   *targets.triggers = {targets.trigger_tracks, count};
 }

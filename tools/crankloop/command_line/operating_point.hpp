@@ -17,6 +17,8 @@ inline constexpr Option kLoadRatio =
 inline constexpr Option kSpeed = number("--rpm", "N", from(-100000).up_to(100000),
                                         "engine speed in rpm, backwards if negative; default the file's rated_rpm");
 inline constexpr Option kTick = number("--tick-us", "T", from(1).up_to(2000), "length of a tick in us", "100");
+inline constexpr Option kMisfire =
+    words("--misfire", "RULE", "a cylinder's misfires, by the keys of [misfire N]: 'cylinder=2 every=16'");
 
 /// Refuses it where there is no pressure that it could scale.
 inline void require_heat_to_scale(const Arguments& arguments, const EngineFile& engine) {

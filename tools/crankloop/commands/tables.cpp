@@ -106,10 +106,19 @@ std::vector<Piece<Record>> pieces_of(const Stores<Real>& s, const TableReport& r
       return segments(report.torque_segments);
     case detail::SectionRows::cut_grid:
       return segments(report.cut_segments);
+    case detail::SectionRows::cylinders:
+      return {{rows, s.drive.cylinders}};
     case detail::SectionRows::trains:
       return {{rows, s.drive.trains}};
     case detail::SectionRows::wheels:
       return {{rows, s.triggers.count}};
+    case detail::SectionRows::wheel_faults:
+      for (std::uint32_t i = 0; i < s.wheel_faults.count; ++i) pieces.push_back({rows + i, 1});  // rules point to each
+      return pieces;
+    case detail::SectionRows::fault_edges:
+      for (std::uint32_t i = 0; i < s.wheel_faults.count; ++i)
+        pieces.push_back({rows + i * std::size_t{kMaxTriggerEdges}, s.fault_tracks[i].edge_count});
+      return pieces;
     case detail::SectionRows::lobes:
       for (std::uint32_t t = 0; t < s.drive.trains; ++t)
         pieces.push_back({rows + t * std::size_t{kDegreesPerTurn}, s.lift_curves[t].rows()});
@@ -148,7 +157,8 @@ bool print_section(Printer& p, const Stores<Real>& s, const TableReport& report,
   if (lacks_contact<Section>(s)) return false;
   const std::string name = Section::kName;
   const std::string object = "\nconstexpr crankloop::detail::section::" + name + "::Record<" + real + "> " + name;
-  if (std::is_same_v<Section, detail::section::triggers> && s.triggers.count == 0) {
+  const bool no_wheels = std::is_same_v<Section, detail::section::triggers> && s.triggers.count == 0;
+  if (no_wheels || (std::is_same_v<Section, detail::section::wheel_faults> && s.wheel_faults.count == 0)) {
     p.text(object + " = {}");
   } else if constexpr (kOne) {
     p.text(object + " = ");

@@ -139,6 +139,8 @@ void EngineFile::build_definition() {
   definition_.layout = build_layout(*find("layout"), section("crank").number("bore_mm"), path_);
   accept(validate(definition_.layout));
   balancers_ = build_balancers(sections_, definition_.layout);
+  build_misfires();
+  build_faults();
   definition_.pressure = build_pressure(section("pressure"));
   if (section("pressure").has("file")) read_diagram(section("pressure"));
   accept(validate(definition_.pressure, definition_.crank));

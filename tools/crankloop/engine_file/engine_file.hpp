@@ -75,6 +75,11 @@ class EngineFile {
   /// The NAME of every [trigger], in the order of definition().triggers.
   [[nodiscard]] const std::vector<TriggerOfFile>& triggers() const noexcept { return triggers_; }
 
+  /// Rules of `--misfire 'cylinder=2 every=16'`, with the keys of [misfire N], in place of the file's for these
+  /// cylinders. Throws as the reader of a file does.
+  void set_misfires(const std::vector<std::string>& orders);
+  [[nodiscard]] bool misfires() const noexcept;  ///< of any cylinder
+
   /// Counterweights and balance shafts, which are no part of the definition.
   [[nodiscard]] const std::vector<Balancer>& balancers() const noexcept { return balancers_; }
 
@@ -109,6 +114,10 @@ class EngineFile {
   void build_gas_exchange();
   void build_trains();
   void build_triggers();
+  void build_misfires();
+  void build_faults();
+  [[nodiscard]] InputError explain_fault(const Status& status, const SectionValues& section) const;
+  [[nodiscard]] const SectionValues* fault_to_blame(const Key& key, int index) const;
   [[nodiscard]] int train_with_phaser(const SectionValues& trigger) const;
   void read_cam(SectionValues& cam, TrainOfFile& train);
   [[nodiscard]] InputError explain_cam(const Status& status, const TrainOfFile& train, const SectionValues& cam) const;

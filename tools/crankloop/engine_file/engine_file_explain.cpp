@@ -53,6 +53,7 @@ InputError EngineFile::explain(const Status& status) const {
   if (key == nullptr) return InputError(path_ + ": " + status.field + " " + describe(status.reason));
   if (const TrainOfFile* train = train_to_blame(*key, status.index))
     return explain(crankloop::refuse(status.field, status.reason), *train);
+  if (const SectionValues* fault = fault_to_blame(*key, status.index)) return explain_fault(status, *fault);
   const SectionValues* home = find(key->section);
   if (home == nullptr) return InputError(path_ + ": " + key->name + ": " + describe(status.reason));
 

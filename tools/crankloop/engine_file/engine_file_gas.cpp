@@ -54,6 +54,9 @@ Gas build_gas(const SectionValues& values, const std::string& path) {
   gas.exhaust_K = values.number("exhaust_C") + kCelsiusInKelvin;
   gas.wall_K = values.number("wall_C") + kCelsiusInKelvin;
   gas.intake_runner = build_runner(values, "intake", path), gas.exhaust_runner = build_runner(values, "exhaust", path);
+  gas.walls.coolant_K = values.number("coolant_C") + kCelsiusInKelvin;
+  if (values.has("manifold_C")) gas.walls.manifold_K = values.number("manifold_C") + kCelsiusInKelvin;
+  gas.charge_burn.in_use = values.text("burn_by") == "charge";
   gas.throttle_count = fill_rows(values, "throttle_curve", 1, path, gas.throttle_ratio, gas.throttle_area_ratio);
   if (gas.throttle_ratio[gas.throttle_count - 1] != 1) refuse(values, "throttle_curve", "must end at 1", path);
   if (gas.throttle_closed_m2 > gas.throttle_m2) {

@@ -16,6 +16,9 @@ namespace {
 constexpr Unit kNoUnit{};
 constexpr Unit kDeg{"deg"};  // angles stay in degrees: core takes them so, because 120 deg has no exact radian
 constexpr Unit kDegPerS{"deg_per_s"};
+constexpr Unit kS{"s"};
+constexpr Unit kUs{"us", 1, 1e6};
+constexpr Unit kHz{"Hz"};
 constexpr Unit kRpm{"rpm"};
 constexpr Unit kMm{"mm", 1, 1e3};
 constexpr Unit kUm{"um", 1, 1e6};
@@ -25,6 +28,9 @@ constexpr Unit kG{"g", 1, 1e3};
 constexpr Unit kMg{"mg", 1, 1e6};
 constexpr Unit kMJPerKg{"MJ_per_kg", 1e6, 1};
 constexpr Unit kCelsius{"C"};  // core takes kelvins: engine_file_gas.cpp
+constexpr Unit kKelvin{"K"};
+constexpr Unit kJPerK{"J_per_K"};
+constexpr Unit kWPerK{"W_per_K"};
 constexpr Unit kKgM2{"kg_m2"};
 constexpr Unit kKgMm2{"kg_mm2", 1, 1e6};
 constexpr Unit kKPa{"kPa", 1e3, 1};
@@ -50,6 +56,7 @@ constexpr Presence defaults = Presence::with_default;
 
 constexpr const char* kWiebe = "source=wiebe";
 constexpr const char* kTables = "source=angle_table|volume_table";
+constexpr const char* kByCharge = "burn_by=charge";
 constexpr const char* kPolynomial = "source=polynomial";
 constexpr const char* kCamTable = "source=table";
 
@@ -68,6 +75,9 @@ constexpr SectionKind kSections[] = {
     {"rocker", true, "what carries the cam's lift to the valve of the same NAME"},
     {"valve", true, "the valve of the same NAME, for its dynamics"},
     {"trigger", true, "a trigger wheel: what a crank or cam sensor sees"},
+    {"misfire", true, "which cycles of cylinder NAME (1, 2, ...) misfire, where forces turn the crank: a test pattern"},
+    {"fault", true,
+     "what is wrong with a trigger wheel, its sensor or its wire, and when; where forces turn the crank"},
     {"counterweight", true, "a mass on the crankshaft, for `balance` and reports; no part of the tick"},
     {"balance_shaft", true,
      "an unbalanced shaft that the crankshaft drives, for `balance` and reports; no part of the tick"},
@@ -134,6 +144,12 @@ constexpr Key kRows[] = {
     {"gas", "exhaust_C", Kind::number, kCelsius, "", from(-123.15).up_to(2726.85), "", defaults, "500", "", "", "initial value for a scene whose exhaust manifold is given"},
     {"gas", "wall_C", Kind::number, kCelsius, "", from(-123.15).up_to(1726.85), "", defaults, "150", "", "", "mean temperature of the cylinder's walls"},
     {"gas", "wall_heat_factor", Kind::number, kNoUnit, "gas.wall_heat_ratio", kOfField, "", defaults, "1", "", "", "k_w, of Hohenberg's heat transfer; 0: adiabatic"},
+    {"gas", "wall_J_per_K", Kind::number, kJPerK, "walls.capacity_J_K", from(0).up_to(1e6), "", defaults, "0", "", "", "heat capacity of each cylinder's walls, 1 and above, which start at wall_C; 0: they stay there", "500 to 3000"},
+    {"gas", "wall_W_per_K", Kind::number, kWPerK, "walls.to_coolant_W_K", kOfField, "", defaults, "20", "", "", "of them to the coolant, with wall_J_per_K", "10 to 50"},
+    {"gas", "coolant_C", Kind::number, kCelsius, "", from(-123.15).up_to(1726.85), "", defaults, "90", "", "", "temperature of the coolant, with wall_J_per_K"},
+    {"gas", "intake_W_per_K", Kind::number, kWPerK, "walls.intake_W_K", kOfField, "", defaults, "0", "", "", "of the gas in the intake manifold to its walls, with runners at each port instead; 0: adiabatic", "1 to 3"},
+    {"gas", "exhaust_W_per_K", Kind::number, kWPerK, "walls.exhaust_W_K", kOfField, "", defaults, "0", "", "", "of the gas in the exhaust manifold to its walls, with runners at each port instead; 0: adiabatic", "3 to 15"},
+    {"gas", "manifold_C", Kind::number, kCelsius, "", from(-123.15).up_to(2726.85), "", optional, "", "", "", "temperature behind the walls of manifolds and runners; absent: ambient_C"},
     {"gas", "crevice_share", Kind::number, kNoUnit, "crevice.volume_ratio", kOfField, "", defaults, "0", "", "", "crevices (top land, ring pack, gasket, plug) by the clearance volume; 0: none", "0.01 to 0.02"},
     {"gas", "blow_by_mm2", Kind::number, kMm2, "crevice.blow_by_m2", kOfField, "", defaults, "0", "", "", "effective area of the leak past the rings into the crankcase; 0: tight", "0.03 to 0.15; worn 0.3"},
     {"gas", "intake_runner_mm", Kind::number, kMm, "", from(0).up_to(3000), "", optional, "", "", "", "length of the pipe from the intake manifold to each cylinder's port; 20 or more; 0 or absent: no inertia of its gas", "250 to 600"},
@@ -149,6 +165,14 @@ constexpr Key kRows[] = {
     {"gas", "air_fuel_ratio", Kind::number, kNoUnit, "gas.air_fuel_ratio", kOfField, "", defaults, "14.6", "", "", "stoichiometric, by mass"},
     {"gas", "burn_start_deg", Kind::number, kDeg, "gas.burn_start_deg", kOfField, "", defaults, "-18", "", "", "crank angle, firing TDC = 0"},
     {"gas", "burn_duration_deg", Kind::number, kDeg, "gas.burn_duration_deg", kOfField, "", defaults, "50", "", "", "must end by 150 deg"},
+    {"gas", "burn_by", Kind::choice, kNoUnit, "", kAny, "order|charge", defaults, "order", "", "", "charge: a burn lasts as long as speed, pressure, temperature, lambda and residual gas make it, and burn_start_deg is the spark"},
+    {"gas", "spark_to_start_deg", Kind::number, kDeg, "charge_burn.spark_to_start_deg", kOfField, "", defaults, "0", kByCharge, "", "from the spark to the burn's start, in the state of reference"},
+    {"gas", "burn_reference_rpm", Kind::number, kRpmAsRadS, "charge_burn.reference_rad_s", from(10).up_to(1e5), "", defaults, "2000", kByCharge, "", "state of reference, in which the burn lasts burn_duration_deg: speed"},
+    {"gas", "burn_reference_K", Kind::number, kKelvin, "charge_burn.reference_K", kOfField, "", defaults, "650", kByCharge, "", "its temperature in the cylinder, where the burn starts"},
+    {"gas", "burn_reference_kPa", Kind::number, kKPa, "charge_burn.reference_Pa", kOfField, "", defaults, "1300", kByCharge, "", "its absolute pressure there"},
+    {"gas", "burn_reference_residual", Kind::number, kNoUnit, "charge_burn.reference_burned_ratio", kOfField, "", defaults, "0.05", kByCharge, "", "burned share of its gas"},
+    {"gas", "burn_reference_lambda", Kind::number, kNoUnit, "charge_burn.reference_excess_air_ratio", kOfField, "", defaults, "1", kByCharge, "", "its excess-air ratio"},
+    {"gas", "octane", Kind::number, kNoUnit, "gas.octane_number", from(0).up_to(120), "", defaults, "0", "", "", "octane number of the fuel, 60 to 120, for the knock integral of each cycle; 0: none", "91 to 98"},
     {"gas", "wiebe_m", Kind::number, kNoUnit, "gas.wiebe_m", kOfField, "", defaults, "2", "", "", "form exponent of the heat release"},
     {"gas", "second_share", Kind::number, kNoUnit, "gas.second_ratio", kOfField, "", defaults, "0", "", "", "share of the fuel that burns by a second law from the same start (diesel)"},
     {"gas", "second_m", Kind::number, kNoUnit, "gas.second_m", kOfField, "", defaults, "1", "", "", "its form exponent"},
@@ -233,6 +257,34 @@ constexpr Key kRows[] = {
     {"trigger", "edges_deg", Kind::numbers, kDeg, "", from(0).up_to(1440), "", required, "", "", "edges:list", "instead of a pattern: rise, fall, rise, ... by engine angle, within one turn of the shaft (cam: 720 deg)"},
     {"trigger", "inverted", Kind::choice, kNoUnit, "", kAny, "no|yes", defaults, "no", "", "", "whether a tooth pulls the signal down"},
 
+    {"misfire", "every", Kind::whole_number, kNoUnit, "misfire.of", kOfField, "", required, "", "", "rule:every", "the Nth, the 2 Nth, ... cycle misfires"},
+    {"misfire", "misses", Kind::whole_number, kNoUnit, "misfire.misfires", kOfField, "", required, "", "", "rule:n of m", "so many misfires, evenly spread"},
+    {"misfire", "of_cycles", Kind::whole_number, kNoUnit, "misfire.of", kOfField, "", required, "", "", "rule:n of m", "in every so many cycles"},
+    {"misfire", "random_ratio", Kind::number, kNoUnit, "misfire.random_ratio", kOfField, "", required, "", "", "rule:random", "each cycle's probability of misfiring"},
+    {"misfire", "seed", Kind::whole_number, kNoUnit, "misfire.seed", kOfField, "", defaults, "1", "", "rule:random", "of the random numbers; each cylinder draws its own"},
+    {"misfire", "burst", Kind::whole_number, kNoUnit, "", from(1).up_to(kMaxMisfirePeriod - 1), "", required, "", "", "rule:burst", "so many misfires in a row"},
+    {"misfire", "gap", Kind::whole_number, kNoUnit, "", from(1).up_to(kMaxMisfirePeriod - 1), "", required, "", "", "rule:burst", "cycles that fire before each burst"},
+    {"misfire", "cycles", Kind::numbers, kNoUnit, "", from(1).up_to(2147483647), "", required, "", "", "rule:list", "numbers of the cycles that misfire, rising, up to 32; 1 is the first that takes its fuel"},
+    {"misfire", "burning_ratio", Kind::number, kNoUnit, "misfire.burning_ratio", kOfField, "", defaults, "0", "", "", "share of its heat that a misfiring cycle releases; 0: none"},
+
+    {"fault", "trigger", Kind::text, kNoUnit, "", kAny, "", required, "", "", "", "NAME of the [trigger NAME] that has it"},
+    {"fault", "start_s", Kind::number, kS, "fault.start_s", kOfField, "", defaults, "0", "", "", "on from here, since the start"},
+    {"fault", "end_s", Kind::number, kS, "fault.end_s", kOfField, "", defaults, "0", "", "", "to before here; 0: not by time"},
+    {"fault", "input_bit", Kind::whole_number, kNoUnit, "fault.input_bit", from(0).below(32), "", optional, "", "", "", "on while this bit of the input wheel_faults is set; needed without end_s"},
+    {"fault", "missing_tooth", Kind::whole_number, kNoUnit, "fault.missing_tooth", kOfField, "", defaults, "0", "", "", "this tooth, from 1, is not there; 0: none"},
+    {"fault", "moved_tooth", Kind::whole_number, kNoUnit, "fault.moved_tooth", kOfField, "", defaults, "0", "", "", "this tooth, from 1, stands elsewhere; 0: none"},
+    {"fault", "moved_deg", Kind::number, kDeg, "fault.moved_deg", kOfField, "", defaults, "0", "", "", "by so many crank degrees later"},
+    {"fault", "extra_tooth_deg", Kind::number, kDeg, "fault.extra_tooth_deg", kOfField, "", defaults, "0", "", "", "crank degrees from the first tooth's rising edge to that of a tooth too many"},
+    {"fault", "extra_width_deg", Kind::number, kDeg, "fault.extra_width_deg", kOfField, "", defaults, "0", "", "", "its width; 0: no such tooth"},
+    {"fault", "runout_deg", Kind::number, kDeg, "fault.runout_deg", kOfField, "", defaults, "0", "", "", "r, by which run-out moves edges: r sin(angle of the wheel - runout_at_deg) crank degrees later"},
+    {"fault", "runout_at_deg", Kind::number, kDeg, "fault.runout_at_deg", kOfField, "", defaults, "0", "", "", "of the wheel's own turn, from its first rising edge"},
+    {"fault", "late_deg", Kind::number, kDeg, "fault.late_deg", kOfField, "", defaults, "0", "", "", "all edges come so many crank degrees later: a stretched chain; negative: earlier"},
+    {"fault", "inverted", Kind::choice, kNoUnit, "", kAny, "no|yes", defaults, "no", "", "", "wires swapped"},
+    {"fault", "stuck", Kind::choice, kNoUnit, "", kAny, "no|low|high", defaults, "no", "", "", "the signal stays at a level"},
+    {"fault", "noise_Hz", Kind::number, kHz, "fault.noise_Hz", kOfField, "", defaults, "0", "", "", "pulses that invert the signal, at random, so many a second in the mean; at most one in a tick"},
+    {"fault", "noise_pulse_us", Kind::number, kUs, "fault.noise_pulse_s", from(0).up_to(1000), "", defaults, "0", "", "", "their length, up to half a tick; above 0 where there is noise"},
+    {"fault", "noise_seed", Kind::whole_number, kNoUnit, "fault.noise_seed", kOfField, "", defaults, "1", "", "", "of their random numbers"},
+
     {"counterweight", "mass_g", Kind::number, kG, "", above(0).up_to(1e7), "", required, "", "", "", "of the weight"},
     {"counterweight", "radius_mm", Kind::number, kMm, "", above(0).up_to(1e4), "", required, "", "", "", "of its centre of mass from the crankshaft's axis"},
     {"counterweight", "angle_deg", Kind::number, kDeg, "", from(-360).up_to(360), "", defaults, "180", "", "", "from cylinder 1's crank pin, in the sense of rotation; 180: opposite"},
@@ -247,9 +299,16 @@ constexpr Key kRows[] = {
 };
 // clang-format on
 
+/// In few steps: a compiler's constant expressions have a limit of them.
+constexpr bool is_same(const char* a, const char* b) {
+  for (; *a == *b; ++a, ++b)
+    if (*a == '\0') return true;
+  return false;
+}
+
 /// Looks for a field by its name.
 struct Find {
-  std::string_view name;
+  const char* name;
   bool found = false;
   Range range{};
 
@@ -259,19 +318,22 @@ struct Find {
       (*this)(here, field[0]);
     } else if constexpr (kHasFields<Field>) {
       Field::each_field(*this, field);
-    } else if (name == here.name) {
+    } else if (is_same(name, here.name)) {
       found = true;
       range = here.range;
     }
   }
 };
+constexpr EngineDefinition kExample{};
+
 /// The range of the key's field, in the key's unit. Throws, which does not compile, where there is no such field.
 constexpr Range range_of_field(const Key& key) {
-  const EngineDefinition definition{};
   Find find{key.field};
-  EngineDefinition::each_field(find, definition);
-  Gas::each_field(find, definition.gas);
-  CamContact::each_field(find, definition.contacts[0]);
+  EngineDefinition::each_field(find, kExample);
+  Gas::each_field(find, kExample.gas);
+  CamContact::each_field(find, kExample.contacts[0]);
+  Misfire::each_field(find, kExample.misfires[0]);
+  WheelFault::each_field(find, kExample.wheel_faults[0]);
   if (!find.found) throw "a key is that of a field that the definition does not have";
   const auto in_file = [&key](double si) { return si * key.unit.over / key.unit.times; };
   return {in_file(find.range.least), in_file(find.range.most), find.range.without_least, find.range.without_most};
@@ -314,6 +376,12 @@ constexpr Follows kFollows[] = {
     {"cam.points", "cam", "file"},
     {"rocker.kind", "rocker", "ratio"},
     {"rocker.cam_turns", "rocker", "cam_turns"},
+    {"misfire.pattern", "misfire", "every"},
+    {"misfire.cycle_count", "misfire", "cycles"},
+    {"misfire.cycles", "misfire", "cycles"},
+    {"fault.wheel", "fault", "trigger"},
+    {"fault.inverted", "fault", "inverted"},
+    {"fault.stuck", "fault", "stuck"},
     {"gas.throttle_count", "gas", "throttle_curve"},
     {"gas.throttle_ratio", "gas", "throttle_curve"},
     {"gas.throttle_area_ratio", "gas", "throttle_curve"},
@@ -323,6 +391,9 @@ constexpr Follows kFollows[] = {
     {"runner.length_m", "gas", "intake_runner_mm"},
     {"runner.diameter_m", "gas", "intake_runner_diameter_mm"},
     {"runner.loss_ratio", "gas", "intake_runner_loss"},
+    {"charge_burn.in_use", "gas", "burn_by"},
+    {"walls.coolant_K", "gas", "coolant_C"},
+    {"walls.manifold_K", "gas", "manifold_C"},
     {"gas.port", "valve", "port"},
     {"gas.flow_count", "valve", "flow_over_lift_ratio"},
     {"gas.flow_lift_ratio", "valve", "flow_over_lift_ratio"},

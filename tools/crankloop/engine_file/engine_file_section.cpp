@@ -114,8 +114,8 @@ std::map<std::string, FormInUse> forms_in_use(const SectionValues& values, const
       throw InputError(path, value.line,
                        std::string(value.key->name) + " and " + first->key->name + " (line " +
                            std::to_string(first->line) + ") exclude each other; give either " +
-                           required_keys(values.kind, choice.forms[0]) + ", or " +
-                           required_keys(values.kind, choice.forms[1]));
+                           required_keys(values.kind, first->key->form) + ", or " +
+                           required_keys(values.kind, value.key->form));
     }
     if (first == nullptr) choice.first_given = &value;
   }
@@ -123,9 +123,9 @@ std::map<std::string, FormInUse> forms_in_use(const SectionValues& values, const
     choice.in_use =
         choice.first_given != nullptr ? choice.first_given->key->form : form_by_default(values.kind, choice.forms);
     if (!choice.needed || !choice.in_use.empty()) continue;
-    throw InputError(path, values.line,
-                     values.title() + " needs either " + required_keys(values.kind, choice.forms[0]) + ", or " +
-                         required_keys(values.kind, choice.forms[1]));
+    std::vector<std::string> ways;
+    for (const std::string& form : choice.forms) ways.push_back(required_keys(values.kind, form));
+    throw InputError(path, values.line, values.title() + " needs either " + join(ways, ", or "));
   }
   return choices;
 }

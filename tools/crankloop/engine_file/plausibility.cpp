@@ -222,6 +222,18 @@ void look_at_mixture(const EngineFile& engine, const EngineSize& size, Warnings&
                                            about(lambda) + " in a cylinder full of air; " + usual);
 }
 
+/// Warns about a burn by charge, and an octane number, of a fuel that burns by two laws: they are of gasoline in a
+/// flame.
+void look_at_burn(const EngineFile& engine, Warnings& warnings) {
+  if (engine.definition().pressure.source != PressureSource::gas || !engine.has("gas")) return;
+  const Gas& gas = engine.definition().gas;
+  if (!(gas.second_ratio > 0)) return;
+  const SectionValues& values = engine.section("gas");
+  const std::string why = ": a law of gasoline, and second_share = " + brief(gas.second_ratio) + " is a diesel's";
+  if (gas.charge_burn.in_use) warnings.add(values.line_of("burn_by"), "burn_by = charge" + why);
+  if (gas.octane_number > 0) warnings.add(values.line_of("octane"), "octane = " + brief(gas.octane_number) + why);
+}
+
 /// Warns about a manifold that is no large volume for its runners: docs/model.md "Runners".
 void look_at_runners(const EngineFile& engine, Warnings& warnings) {
   constexpr double kLeastVolumes = 5;
@@ -299,6 +311,7 @@ std::vector<std::string> warnings_about(const EngineFile& engine) {
   look_at_measured_cams(engine, warnings);
   look_at_mixture(engine, size, warnings);
   look_at_runners(engine, warnings);
+  look_at_burn(engine, warnings);
   return warnings.lines();
 }
 
@@ -309,6 +322,20 @@ std::vector<std::string> warnings_about_running_free(const EngineFile& engine, c
       definition.friction.any() || machine.constant_Nm != 0 || machine.linear_Nm_s != 0 || machine.quadratic_Nm_s2 != 0;
   if (!held) warnings.add(0, "a free-running engine without [friction] and [machine] has nothing to limit its speed");
   return warnings.lines();
+}
+
+std::vector<std::string> warnings_about_misfires_left_out(const EngineFile& engine) {
+  std::vector<std::string> lines;
+  for (const SectionValues& section : engine.sections()) {
+    const bool fault = section.kind == "fault";
+    if (!fault && section.kind != "misfire") continue;
+    lines.push_back(
+        engine.path() + ":" + std::to_string(section.line) + ": warning: " + section.title() + ": " +
+        (fault ? "every signal is healthy" : "every cycle fires") +
+        " in this command; `crankloop run --free`, `crankloop live` and FMUs whose crank forces turn take " +
+        (fault ? "faults" : "misfires"));
+  }
+  return lines;
 }
 
 void demand_a_diagram(const EngineFile& engine) {

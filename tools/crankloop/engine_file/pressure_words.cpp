@@ -25,6 +25,14 @@ std::string not_modelled(const Gas& gas) {
          ", swirl, cycle-to-cycle variation, turbochargers, layers of backflow in a port.";
 }
 
+std::string burn_in_words(const Gas& definition, const GasOrder& gas) {
+  const std::string duration = number_text(gas.burn_duration_deg * definition.span_ratio());
+  if (!definition.charge_burn.in_use)
+    return "from " + number_text(gas.burn_start_deg) + " deg for " + duration + " deg";
+  return "from a spark at " + number_text(gas.burn_start_deg) + " deg for as long as the charge makes it, " + duration +
+         " deg in the state of reference";
+}
+
 }  // namespace
 
 std::string pressure_in_words(const EngineFile& file, double load_ratio, const GasOrder& gas,
@@ -42,9 +50,8 @@ std::string pressure_in_words(const EngineFile& file, double load_ratio, const G
       return "The cylinder pressure is not given: it follows from what the cylinders hold, by gas exchange through the "
              "valves as they move, compression, heat release and wall heat. Throttle " +
              (varied == &GasOrder::throttle_ratio ? "varied" : number_text(gas.throttle_ratio)) + ", " +
-             fuel_in_words(gas, varied == &GasOrder::fuel_kg) + ", burning from " + number_text(gas.burn_start_deg) +
-             " deg for " + number_text(gas.burn_duration_deg * file.definition().gas.span_ratio()) + " deg." +
-             not_modelled(file.definition().gas);
+             fuel_in_words(gas, varied == &GasOrder::fuel_kg) + ", burning " +
+             burn_in_words(file.definition().gas, gas) + "." + not_modelled(file.definition().gas);
     case PressureSource::none:
       return "There is no pressure source: gas forces are zero, and all forces and torques are those of the masses "
              "alone.";

@@ -61,6 +61,12 @@ report::Table cycle_table(const ReportInput& input) {
   row("Heat to the walls", c.wall_heat_J, "J");
   if (input.file.definition().gas.crevice.any())
     row("Blow-by into the crankcase", input.figures.gas.blow_by_kg * 1e6, "mg");
+  if (input.file.definition().gas.charge_burn.in_use) {
+    row("Burn by charge, start", input.figures.gas.burn_start_deg, "deg");
+    row("Burn by charge, duration", input.figures.gas.burn_duration_deg, "deg");
+  }
+  if (input.file.definition().gas.octane_number > 0)
+    row("Knock integral of the cylinder nearest to knock", input.figures.gas.knock_integral, "");
   row("Temperature of the gas that leaves through the exhaust valve", c.exhaust_K, "K");
   row("Intake manifold, mean pressure", input.figures.gas.intake_Pa / 1e3, "kPa");
   row("Exhaust manifold, mean pressure", input.figures.gas.exhaust_Pa / 1e3, "kPa");

@@ -29,6 +29,10 @@ void add_gas_columns(std::vector<std::string>& columns, const EngineDefinition& 
   for (int k = 1; k <= engine.layout.cylinders && engine.gas.crevice.any(); ++k) {
     for (const char* what : {"_crevice_mg", "_blow_by_g_s"}) columns.push_back("c" + std::to_string(k) + what);
   }
+  for (int k = 1; k <= engine.layout.cylinders && engine.gas.walls.capacity_J_K > 0; ++k)
+    columns.push_back("c" + std::to_string(k) + "_wall_K");
+  if (engine.gas.walls.intake_W_K > 0 || engine.gas.walls.exhaust_W_K > 0)
+    columns.insert(columns.end(), {"intake_wall_heat_W", "exhaust_wall_heat_W"});
   const bool runners[] = {engine.gas.intake_runner.any(), engine.gas.exhaust_runner.any()};
   for (int k = 1; k <= engine.layout.cylinders; ++k) {
     for (const std::size_t port : {std::size_t{kIntake}, std::size_t{kExhaust}}) {
@@ -64,6 +68,15 @@ void add_gas(Summary& s, const EngineDefinition& engine, const GasFigures& figur
   s.line("excess_air_ratio", cycle.excess_air_ratio, "",
          too_rich ? "lambda: so rich a mixture does not ignite; with --lambda fuel follows the air"
                   : "lambda; 0: no fuel");
+  if (engine.gas.charge_burn.in_use) {
+    s.line("burn_by_charge_start", figures.burn_start_deg, "deg", "where the burn began after the spark");
+    s.line("burn_by_charge_duration", figures.burn_duration_deg, "deg", "as the charge had it; 0: nothing burned");
+  }
+  if (engine.gas.octane_number > 0) {
+    s.line("knock_integral", figures.knock_integral, "",
+           "of the cylinder nearest to knock: from 1 on, unburned gas ignites by itself before it burns");
+    if (figures.knock_integral >= 1) s.line("knock", figures.knock_deg, "deg", "where the first cylinder passes 1");
+  }
   s.line("exhaust_temperature", cycle.exhaust_K, "K", "of the gas that leaves through the exhaust valve");
   s.line("heat", cycle.heat_J, "J", "of combustion, of a cylinder's cycle");
   s.line("wall_heat", cycle.wall_heat_J, "J");

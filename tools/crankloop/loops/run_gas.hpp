@@ -76,6 +76,10 @@ void write_gas(CsvWriter& csv, const crankloop::Output<Real, S>& out, const Engi
     csv.cell(out.crevice[k].mass_kg * static_cast<Real>(1e6));
     csv.cell(out.crevice[k].blow_by_kg_s * static_cast<Real>(1e3));
   }
+  for (std::size_t k = 0; k < cylinders && engine.gas.walls.capacity_J_K > 0; ++k) csv.cell(out.wall_K[k]);
+  if (engine.gas.walls.intake_W_K > 0 || engine.gas.walls.exhaust_W_K > 0) {
+    for (const Real heat_W : out.port_heat_W) csv.cell(heat_W);
+  }
   const bool runners[] = {engine.gas.intake_runner.any(), engine.gas.exhaust_runner.any()};
   for (std::size_t k = 0; k < cylinders; ++k) {
     for (const std::size_t port : {std::size_t{kIntake}, std::size_t{kExhaust}}) {
@@ -121,16 +125,27 @@ struct GasFigures {
   double intake_Pa = 0;      ///< of the manifold, mean over the ticks
   double exhaust_Pa = 0;
   double exhaust_manifold_K = 0;
-  double blow_by_kg = 0;  ///< of a cylinder's cycle, their mean
+  double blow_by_kg = 0;                             ///< of a cylinder's cycle, their mean
+  double knock_integral = 0;                         ///< largest of the cylinders
+  double knock_deg = 0;                              ///< earliest of the cylinders that passed 1; 0: none did
+  double burn_start_deg = 0, burn_duration_deg = 0;  ///< by the charge, of a cylinder's cycle, their mean
 };
 
 /// Figures of the cylinders' last whole cycles.
 template <class Real, class S>
 void take_cycles(const crankloop::Output<Real, S>& out, std::size_t cylinders, GasFigures& figures) {
   figures.cycle = mean_cycle(out.gas_cycle, cylinders);
-  figures.blow_by_kg = 0;
-  for (std::size_t k = 0; k < cylinders; ++k)
-    figures.blow_by_kg += static_cast<double>(out.cycle_blow_by_kg[k]) / static_cast<double>(cylinders);
+  figures.blow_by_kg = figures.burn_start_deg = figures.burn_duration_deg = 0;
+  figures.knock_integral = figures.knock_deg = 0;
+  const double share = 1 / static_cast<double>(cylinders);
+  for (std::size_t k = 0; k < cylinders; ++k) {
+    figures.blow_by_kg += static_cast<double>(out.cycle_blow_by_kg[k]) * share;
+    const auto knock = static_cast<double>(out.knock_integral[k]), knock_deg = static_cast<double>(out.knock_deg[k]);
+    if (knock >= 1 && (figures.knock_integral < 1 || knock_deg < figures.knock_deg)) figures.knock_deg = knock_deg;
+    if (knock > figures.knock_integral) figures.knock_integral = knock;
+    figures.burn_start_deg += static_cast<double>(out.cycle_burn[k].start_deg) * share;
+    figures.burn_duration_deg += static_cast<double>(out.cycle_burn[k].duration_deg) * share;
+  }
 }
 
 /// The line of a summary with the requested fuel: fuel, or lambda.

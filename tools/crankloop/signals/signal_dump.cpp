@@ -11,7 +11,17 @@ const EngineFile& with_wheels(const EngineFile& engine) {
 
 }  // namespace
 
+SignalDump::SignalDump(const EngineFile& engine, Output& out, const std::vector<std::string>& signals,
+                       const std::vector<std::string>& numbers)
+    : wheels_{with_wheels(engine).triggers().size()},
+      faulty_{signals.size() - wheels_},
+      vcd_{out, engine.name(), signals, numbers} {}
+
 SignalDump::SignalDump(const EngineFile& engine, Output& out, const std::vector<std::string>& numbers)
-    : wheels_{with_wheels(engine).triggers().size()}, vcd_{out, engine.name(), names_of_triggers(engine), numbers} {}
+    : SignalDump(engine, out, names_of_triggers(engine), numbers) {}
+
+SignalDump SignalDump::with_faults(const EngineFile& engine, Output& out, const std::vector<std::string>& numbers) {
+  return {engine, out, names_of_signals(engine), numbers};
+}
 
 }  // namespace crankloop::program

@@ -8,9 +8,11 @@
 #include <crankloop/define/gas.hpp>
 #include <crankloop/define/layout.hpp>
 #include <crankloop/define/masses.hpp>
+#include <crankloop/define/misfire.hpp>
 #include <crankloop/define/pressure.hpp>
 #include <crankloop/define/trigger_wheel.hpp>
 #include <crankloop/define/valve_train.hpp>
+#include <crankloop/define/wheel_fault.hpp>
 
 namespace crankloop {
 
@@ -26,8 +28,11 @@ struct EngineDefinition {
   Starter starter;
   int trigger_count = 0;  ///< 0 to kMaxTriggerWheels
   TriggerWheel triggers[kMaxTriggerWheels];
-  Gas gas;                          ///< read where pressure.source is gas
-  CamContact contacts[kMaxTrains];  ///< of each train's cam
+  Gas gas;                                   ///< read where pressure.source is gas
+  CamContact contacts[kMaxTrains];           ///< of each train's cam
+  Misfire misfires[kMaxCylinders];           ///< of each cylinder; a scene with misfire takes them
+  int wheel_fault_count = 0;                 ///< 0 to kMaxWheelFaults
+  WheelFault wheel_faults[kMaxWheelFaults];  ///< a scene with wheel_faults takes them
 
   template <class Visit, class Self, class... Others>
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {

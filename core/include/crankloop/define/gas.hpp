@@ -71,6 +71,56 @@ struct Crevice {
   }
 };
 
+/// Walls that warm up: docs/model.md "Walls".
+struct Walls {
+  // of each cylinder
+  double capacity_J_K = 0;     ///< heat capacity, 1 and above; 0: fixed at Gas::wall_K
+  double to_coolant_W_K = 20;  ///< conductance
+  double coolant_K = 363.15;
+  // of each manifold, or where there are runners of each port
+  double intake_W_K = 0;  ///< conductance from the gas; 0: adiabatic
+  double exhaust_W_K = 0;
+  double manifold_K = 0;  ///< temperature behind them, at least 150; 0: Gas::ambient_K
+
+  [[nodiscard]] constexpr bool any() const noexcept { return capacity_J_K != 0 || intake_W_K != 0 || exhaust_W_K != 0; }
+
+  template <class Visit, class Self, class... Others>
+  static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    const int read = self.any() ? 1 : 0;
+    CRANKLOOP_NUMBER(1, walls, capacity_J_K, from(0).up_to(1e6));
+    CRANKLOOP_NUMBER(read, walls, to_coolant_W_K, from(0).up_to(1e5));
+    CRANKLOOP_NUMBER(read, walls, coolant_K, from(150).up_to(2000));
+    CRANKLOOP_NUMBER(1, walls, intake_W_K, from(0).up_to(1e5));
+    CRANKLOOP_NUMBER(1, walls, exhaust_W_K, from(0).up_to(1e5));
+    CRANKLOOP_NUMBER(read, walls, manifold_K, from(0).up_to(3000));
+  }
+};
+
+/// A burn whose duration follows the charge: docs/model.md "Burn by charge". Its burn_start_deg is then where the spark
+/// is, and burn_duration_deg how long it burns in the state of reference.
+struct ChargeBurn {
+  bool in_use = false;
+  double spark_to_start_deg = 0;  ///< from spark to burn in the state of reference
+  // the state of reference
+  double reference_rad_s = 209.43951023931953;  ///< speed: 2000 rpm
+  double reference_K = 650;
+  double reference_Pa = 1300e3;
+  double reference_burned_ratio = 0.05;  ///< burned share of the gas
+  double reference_excess_air_ratio = 1;
+
+  template <class Visit, class Self, class... Others>
+  static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
+    const int read = self.in_use ? 1 : 0;
+    CRANKLOOP_FIELD(1, charge_burn, in_use);
+    CRANKLOOP_NUMBER(read, charge_burn, spark_to_start_deg, from(0).up_to(40));
+    CRANKLOOP_NUMBER(read, charge_burn, reference_rad_s, from(1).up_to(10500));
+    CRANKLOOP_NUMBER(read, charge_burn, reference_K, from(300).up_to(1500));
+    CRANKLOOP_NUMBER(read, charge_burn, reference_Pa, from(1e4).up_to(1e8));
+    CRANKLOOP_NUMBER(read, charge_burn, reference_burned_ratio, from(0).up_to(0.3));
+    CRANKLOOP_NUMBER(read, charge_burn, reference_excess_air_ratio, from(0.72).up_to(1.42));
+  }
+};
+
 /// All pressures are absolute.
 struct Gas {
   // manifolds, for scenes with a throttle
@@ -88,7 +138,7 @@ struct Gas {
   double ambient_K = 298.15;
   double exhaust_K = 773.15;  ///< of a given exhaust manifold, at first
   // walls
-  double wall_K = 423.15;
+  double wall_K = 423.15;      ///< where walls warm up, at first
   double wall_heat_ratio = 1;  ///< k_w; 0 = adiabatic
   Crevice crevice;
   // combustion
@@ -106,7 +156,14 @@ struct Gas {
   double second_duration_ratio = 3;  ///< of its duration to the first's
   PortOfTrain ports[kMaxTrains];
   Runner intake_runner, exhaust_runner;
+  ChargeBurn charge_burn;
+  Walls walls;
+  double octane_number = 0;  ///< ON of the fuel, for the result knock: 60 to 120; 0: none
 
+  /// Behind the walls of manifolds and runners.
+  [[nodiscard]] constexpr double behind_walls_K() const noexcept {
+    return walls.manifold_K > 0 ? walls.manifold_K : ambient_K;
+  }
   /// Behind the outlet.
   [[nodiscard]] constexpr double behind_outlet_Pa() const noexcept { return back_Pa > 0 ? back_Pa : ambient_Pa; }
 
@@ -147,6 +204,9 @@ struct Gas {
     CRANKLOOP_PART(kMaxTrains, ports);
     CRANKLOOP_PART(1, intake_runner);
     CRANKLOOP_PART(1, exhaust_runner);
+    CRANKLOOP_PART(1, charge_burn);
+    CRANKLOOP_PART(1, walls);
+    CRANKLOOP_NUMBER(1, gas, octane_number, from(0).up_to(120));
   }
 };
 
@@ -158,7 +218,7 @@ inline constexpr double kMaxMixtureHeat_J_kg = 5e6;
 inline constexpr double kLatestBurn_deg = 150;
 
 /// Field names "gas.*", of ports too, with the train in `index`, where the tables read them: `trains` of them;
-/// "crevice.*", and "runner.*" with the port in `index`.
+/// "crevice.*", "charge_burn.*", "walls.*", and "runner.*" with the port in `index`.
 Status validate(const Gas& gas, int trains) noexcept;
 
 }  // namespace crankloop

@@ -49,7 +49,7 @@ struct GasCylinders {
 };
 
 /// Parts of an engine's gas that a scene may leave out where an engine does not have them.
-enum GasPart : std::uint32_t { kGasCrevice = 1, kGasRunners = 2 };
+enum GasPart : std::uint32_t { kGasCrevice = 1, kGasRunners = 2, kGasChargeBurn = 4, kGasWalls = 8 };
 
 /// Crevices of a cylinder and its leak into the crankcase: tick/gas/crevice.hpp. Zero in an engine without either.
 template <class Real>
@@ -130,6 +130,34 @@ struct BurnTable {
   Real burn_start_deg;
   Real burn_duration_deg;
   Real burnt[kBurnSteps + 1];
+};
+
+/// Walls that warm up: tick/gas/warm_walls.hpp. Zero in an engine without.
+template <class Real>
+struct WarmWallsTable {
+  Real capacity_J_K;  ///< of a cylinder's; 0: fixed
+  Real to_coolant_W_K;
+  Real coolant_K;
+  Real port_W_K[kPorts];  ///< of manifolds, or where there are runners of each port; 0: adiabatic
+  Real behind_K;          ///< behind them
+};
+
+/// Ignition delay of unburned gas: tick/gas/knock.hpp.
+template <class Real>
+struct KnockTable {
+  Real rate;             ///< octaves of 1/tau at 1 Pa and no end of temperature, in 1/s
+  Real hot_K;            ///< 3800 K / ln 2
+  std::uint32_t in_use;  ///< 0: no octane number
+  std::uint32_t spare;
+};
+
+/// A burn whose duration follows the charge: tick/gas/charge_burn.hpp.
+template <class Real>
+struct ChargeBurnTable {
+  Real reference;           ///< octaves of (S_0^2 / n_0)^(1/3), S_0 in m/s, n_0 in rad/s
+  Real spark_to_start_deg;  ///< in the state of reference
+  std::uint32_t in_use;     ///< 0: as ordered
+  std::uint32_t spare;
 };
 
 }  // namespace crankloop::detail

@@ -49,12 +49,18 @@ template <class Real, class S>
   if constexpr (N::any_triggers) {
     if (!fits(S::triggers, tables.triggers->count)) return refuse("tables.triggers", Reason::out_of_range);
   }
+  if constexpr (N::faulty_wheels) {
+    if (tables.wheel_faults->count > S::wheel_faults) return refuse("tables.wheel_faults", Reason::out_of_range);
+  }
   if constexpr (N::gas) {
     if (!(tables.gas_cylinders->clearance_m3 > 0)) return refuse("pressure.source", Reason::inconsistent);
     if (!S::crevice && (tables.gas_cylinders->parts & kGasCrevice) != 0)
       return refuse("scene.crevice", Reason::inconsistent);
     if (!S::runners && (tables.gas_cylinders->parts & kGasRunners) != 0)
       return refuse("scene.runners", Reason::inconsistent);
+    if (!S::walls && (tables.gas_cylinders->parts & kGasWalls) != 0) return refuse("scene.walls", Reason::inconsistent);
+    if (Needs<S>::burn && !S::charge_burn && (tables.gas_cylinders->parts & kGasChargeBurn) != 0)
+      return refuse("scene.charge_burn", Reason::inconsistent);
   }
   return {};
 }

@@ -14,6 +14,7 @@
 #include <crankloop/tables/curve.hpp>
 #include <crankloop/tables/gas_tables.hpp>
 #include <crankloop/tables/lift_curve.hpp>
+#include <crankloop/tables/misfire_tables.hpp>
 #include <crankloop/tables/records.hpp>
 #include <crankloop/tables/trigger_tables.hpp>
 #include <crankloop/tables/valve_tables.hpp>
@@ -21,7 +22,19 @@
 namespace crankloop::detail {
 
 /// How many records a section has.
-enum class SectionRows : std::uint8_t { one, gas_grid, torque_grid, cut_grid, trains, lobes, wheels, edges };
+enum class SectionRows : std::uint8_t {
+  one,
+  gas_grid,
+  torque_grid,
+  cut_grid,
+  cylinders,
+  trains,
+  lobes,
+  wheels,
+  edges,
+  wheel_faults,
+  fault_edges
+};
 
 // The list of sections. All code that handles every section is generated from it. To add one, add its line here, fill
 // it in tabulate and, where its record is new, state in tabulate/table_members.hpp how many members it has.
@@ -59,9 +72,13 @@ enum class SectionRows : std::uint8_t { one, gas_grid, torque_grid, cut_grid, tr
   SECTION(gas_cylinders, GasCylinders<Real>, one, N::gas)                                          \
   SECTION(gas_crevice, GasCrevice<Real>, one, S::crevice)                                          \
   SECTION(gas_runners, GasRunners<Real>, one, S::runners)                                          \
+  SECTION(gas_walls, WarmWallsTable<Real>, one, S::walls)                                          \
   SECTION(gas_ports, GasPortCurve<Real>, trains, N::gas)                                           \
   SECTION(gas_manifolds, GasManifolds<Real>, one, N::manifolds)                                    \
   SECTION(burn, BurnTable<Real>, one, N::burn)                                                     \
+  SECTION(charge_burn, ChargeBurnTable<Real>, one, N::charge_burn)                                 \
+  SECTION(knock, KnockTable<Real>, one, N::knock)                                                  \
+  SECTION(misfires, MisfireRule<Real>, cylinders, S::misfire)                                      \
   SECTION(bearings, Bearings<Real>, one, S::bearing_loads)                                         \
   SECTION(balance, Balance<Real>, one, S::free_forces)                                             \
   BEHIND(lift_segments, LiftSegment<Real>, lobes, N::any_valves)                                   \
@@ -80,6 +97,10 @@ enum class SectionRows : std::uint8_t { one, gas_grid, torque_grid, cut_grid, tr
   BEHIND(trigger_edges, std::uint32_t, edges, N::any_triggers)                                     \
   BEHIND(trigger_tracks, TriggerTrack, wheels, N::any_triggers)                                    \
   SECTION(triggers, TriggerWheels, one, N::any_triggers)                                           \
+  BEHIND(fault_edges, std::uint32_t, fault_edges, N::faulty_wheels)                                \
+  BEHIND(fault_tracks, TriggerTrack, wheel_faults, N::faulty_wheels)                               \
+  BEHIND(wheel_fault_rules, WheelFaultRule<Real>, wheel_faults, N::faulty_wheels)                  \
+  SECTION(wheel_faults, WheelFaultRules<Real>, one, N::faulty_wheels)                              \
   SECTION(drive, Drive<Real>, one, true)
 
 /// The entries of the list as types, each named like its section.

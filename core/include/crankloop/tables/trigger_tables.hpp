@@ -34,4 +34,26 @@ struct TriggerWheels {
   std::uint32_t count;  ///< 0 to kMaxTriggerWheels
 };
 
+/// A fault of a wheel. A wheel that it does not change has its healthy track once more.
+template <class Real>
+struct WheelFaultRule {
+  const TriggerTrack* track;
+  std::uint64_t from_tick;  ///< on in ticks from_tick to before until_tick, the engine's first being 0
+  std::uint64_t until_tick;
+  std::uint32_t wheel;
+  std::uint32_t input_mask;   ///< and while a bit of these is set; 0: none
+  std::uint32_t inverted;     ///< 1: the signal is, beside the track's own sense
+  std::uint32_t stuck;        ///< 0 no, 1 low, 2 high
+  std::uint32_t noise_below;  ///< a pulse in a tick whose number, drawn from 0 to 2^32 - 2, is less
+  std::uint32_t noise_seed;   ///< never 0
+  Real pulse;                 ///< its length by that of the tick, at most 1/2
+};
+
+/// The faults of an engine's wheels.
+template <class Real>
+struct WheelFaultRules {
+  const WheelFaultRule<Real>* fault;
+  std::uint32_t count;  ///< 0 to kMaxWheelFaults
+};
+
 }  // namespace crankloop::detail

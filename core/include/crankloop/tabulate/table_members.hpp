@@ -69,8 +69,14 @@ CRANKLOOP_MEMBERS_OF(GasBeyond, pressure, choked, specific_work, enthalpy, burne
 CRANKLOOP_MEMBERS_OF(GasManifolds, parts, spare, per_volume, least, outside, outlet, throttle)
 CRANKLOOP_MEMBERS_OF(BurnTable, latch, energy, heat, burning, burned, air_fuel, per_air_fuel, span, fuel, excess_air,
                      start, duration, burnt)
+CRANKLOOP_MEMBERS_OF(ChargeBurnTable, reference, delay, in_use, spare)
+CRANKLOOP_MEMBERS_OF(WarmWallsTable, capacity, to_coolant, coolant, port, behind)
+CRANKLOOP_MEMBERS_OF(KnockTable, rate, hot, in_use, spare)
+CRANKLOOP_MEMBERS_OF(MisfireRule, burning, pattern, misfires, of, below, seed, listed, cycle)
 CRANKLOOP_MEMBERS(TriggerTrack, edges, edge_count, on_crank, starts, train, inverted, max_edges, edges_before)
 CRANKLOOP_MEMBERS(TriggerWheels, wheel, count)
+CRANKLOOP_MEMBERS_OF(WheelFaultRule, track, from, until, wheel, mask, inverted, stuck, below, seed, pulse)
+CRANKLOOP_MEMBERS_OF(WheelFaultRules, fault, count)
 
 #undef CRANKLOOP_TIED
 #undef CRANKLOOP_MEMBERS

@@ -29,7 +29,7 @@ inline constexpr std::size_t kMaxGasSegments = 20 * kDegreesPerCycle;
 /// cut_grid; each has room for `gas_capacity` segments. A gas torque needs its segments, lift curves their segments and
 /// rocker ratios (kDegreesPerTurn rows per train of the definition), near_cams, near_lobes and cycle_ends need lift
 /// curves; cam_contacts and cam_torques need those and cam_sliding, cam_contacts their segments too; triggers need
-/// tracks and edges (kMaxTriggerEdges rows per wheel).
+/// tracks and edges (kMaxTriggerEdges rows per wheel), wheel_faults their rules, and tracks and edges of each.
 template <class Real>
 struct TableTargets : detail::part::Targets<Real, detail::part::AllSections> {
   int gas_capacity = 0;  ///< at least 720 where there is a grid
@@ -72,8 +72,10 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
                 TableReport* report = nullptr) noexcept;
 
 namespace detail::part {
-/// Maximum number of rows of a section, for numbers of trains, wheels and grid segments.
-[[nodiscard]] constexpr std::size_t most_rows(SectionRows rows, std::size_t trains, std::size_t wheels,
+/// Maximum number of rows of a section, for numbers of cylinders, trains, wheels, their faults and
+/// grid segments.
+[[nodiscard]] constexpr std::size_t most_rows(SectionRows rows, std::size_t cylinders, std::size_t trains,
+                                              std::size_t wheels, std::size_t wheel_faults,
                                               std::size_t gas_segments) noexcept {
   switch (rows) {
     case SectionRows::one:
@@ -82,6 +84,8 @@ namespace detail::part {
     case SectionRows::torque_grid:
     case SectionRows::cut_grid:
       return gas_segments;
+    case SectionRows::cylinders:
+      return cylinders;
     case SectionRows::trains:
       return trains;
     case SectionRows::lobes:
@@ -90,6 +94,10 @@ namespace detail::part {
       return wheels;
     case SectionRows::edges:
       return wheels * std::size_t{kMaxTriggerEdges};
+    case SectionRows::wheel_faults:
+      return wheel_faults;
+    case SectionRows::fault_edges:
+      return wheel_faults * std::size_t{kMaxTriggerEdges};
   }
   return 0;
 }
@@ -99,15 +107,17 @@ template <class S, std::size_t GasSegments>
 struct RoomForScene {
   static constexpr std::size_t kGasSegments = GasSegments;
   template <class Section>
-  static constexpr std::size_t kRows = Section::template needed<S>() ? most_rows(Section::kRows, S::trains.capacity,
-                                                                                 S::triggers.capacity, GasSegments)
-                                                                     : 0;
+  static constexpr std::size_t kRows = Section::template needed<S>()
+                                           ? most_rows(Section::kRows, S::cylinders.capacity, S::trains.capacity,
+                                                       S::triggers.capacity, S::wheel_faults, GasSegments)
+                                           : 0;
 };
 /// Room for every section of any engine.
 struct RoomForAll {
   static constexpr std::size_t kGasSegments = kMaxGasSegments;
   template <class Section>
-  static constexpr std::size_t kRows = most_rows(Section::kRows, kMaxTrains, kMaxTriggerWheels, kMaxGasSegments);
+  static constexpr std::size_t kRows = most_rows(Section::kRows, kMaxCylinders, kMaxTrains, kMaxTriggerWheels,
+                                                 kMaxWheelFaults, kMaxGasSegments);
 };
 
 template <class Thing, std::size_t N>
@@ -174,6 +184,10 @@ class TableStorage {
     if constexpr (detail::Needs<S>::any_triggers) {
       if (engine.trigger_count > static_cast<int>(S::triggers.capacity))
         return refuse("scene.triggers", Reason::out_of_range);
+    }
+    if constexpr (detail::Needs<S>::faulty_wheels) {
+      if (engine.wheel_fault_count > static_cast<int>(S::wheel_faults))
+        return refuse("scene.wheel_faults", Reason::out_of_range);
     }
     const TableTargets<Real> targets = stores_.targets();
     if (const Status refused = tabulate(engine, options, targets, report); !refused.ok()) return refused;

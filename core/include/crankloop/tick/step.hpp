@@ -34,18 +34,24 @@ template <class Real, class S>
   if constexpr (detail::Needs<S>::input_pressure) {
     for (Real& pressure : state_.pressure_Pa) pressure = tables.body->crankcase_Pa;
   }
+  if constexpr (S::misfire) detail::start_misfires(tables, state_);
+  if constexpr (detail::Needs<S>::faulty_wheels) {
+    for (std::uint32_t i = 0; i < tables.wheel_faults->count; ++i)
+      state_.noise_random[i] = tables.wheel_faults->fault[i].noise_seed;
+  }
   if constexpr (detail::Needs<S>::gas) detail::start_gas(tables, state_);
   if constexpr (detail::Needs<S>::work) {  // the first tick's work counts from here
     if constexpr (detail::Needs<S>::crank_dynamics) {
       Real mean_pressure_Pa[S::cylinders.capacity] = {};
       detail::TorqueStep<Real, S> step(tables, state_, output_);
-      step.read_torque(0);
+      step.read_torque(detail::cut_cylinders_of(state_, 0));
       step.read_given_pressures(mean_pressure_Pa);
       step.start_crank();
       step.remember_work();
     } else {
       detail::CrankTurn<Real, S> crank{};
       crank.jumped = true;
+      if constexpr (detail::Needs<S>::lack) crank.cut_cylinders = detail::cut_cylinders_of(state_, 0);
       detail::run_mechanisms_apart(tables, state_, output_, crank);
     }
     output_ = Output{};
@@ -80,6 +86,9 @@ template <class Real, class S>
                                                                   CrankTurn<Real, S>& crank) noexcept {
   using N = Needs<S>;
   std::uint32_t faults = 0;
+  if constexpr (N::misfire_of_table && !N::crank_dynamics) {
+    if (!crank.has_jumped()) pass_cycles(tables, state, crank.turned);
+  }
   if constexpr (N::gas && N::crank_dynamics) {
     const auto once_turned = [&] { faults |= breathe(tables, state, work, out, input, crank); };
     faults |= turn_by_forces(tables, state, out, crank, input, once_turned);
@@ -123,6 +132,8 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
   std::uint32_t faults = detail::take_crank_inputs(*tables.drive, state_, input, crank);
   faults |= detail::move_parts(tables, state_, *this, output_, input, crank);
   if constexpr (detail::Needs<S>::any_triggers) faults |= detail::read_triggers(tables, state_, output_, before, crank);
+  if constexpr (detail::Needs<S>::faulty_wheels)
+    faults |= detail::read_faulty_triggers(tables, state_, output_, input.wheel_faults, before, crank);
   if constexpr (S::bad_input_count) detail::count_bad_input(state_, faults);
   CRANKLOOP_ASSERT(detail::within_magnitude(state_.speed_rad_s, tables.drive->speed_limit_rad_s));
   output_.faults = faults;

@@ -37,7 +37,8 @@ extern "C" {
 CRANKLOOP_API uint32_t crankloop_version(void);
 
 enum { CRANKLOOP_MAX_CYLINDERS = 16, CRANKLOOP_MAX_TRAINS = 4, CRANKLOOP_MAX_CAM_EXPONENTS = 8 };
-enum { CRANKLOOP_MAX_TRIGGER_WHEELS = 8, CRANKLOOP_MAX_TOOTH_GAPS = 8 };
+enum { CRANKLOOP_MAX_TRIGGER_WHEELS = 8, CRANKLOOP_MAX_TOOTH_GAPS = 8, CRANKLOOP_MAX_LISTED_MISFIRES = 32 };
+enum { CRANKLOOP_MAX_WHEEL_FAULTS = 16 };
 
 /* ---- answers ----------------------------------------------------------------------------------------------------- */
 
@@ -270,6 +271,48 @@ typedef struct crankloop_trigger_wheel {
   int32_t inverted;
 } crankloop_trigger_wheel;
 
+enum {
+  CRANKLOOP_MISFIRE_NONE,
+  CRANKLOOP_MISFIRE_SPREAD, /* `misfires` of every `of` cycles, evenly spread */
+  CRANKLOOP_MISFIRE_BURST,  /* the last `misfires` of every `of` cycles */
+  CRANKLOOP_MISFIRE_RANDOM, /* each cycle with the probability random_ratio */
+  CRANKLOOP_MISFIRE_LISTED
+};
+
+typedef struct crankloop_misfire {
+  double random_ratio;
+  double burning_ratio; /* share of its heat that a misfiring cycle releases */
+  int32_t pattern;      /* CRANKLOOP_MISFIRE_... */
+  int32_t misfires;
+  int32_t of;
+  int32_t seed;
+  int32_t cycle_count;
+  int32_t cycles[CRANKLOOP_MAX_LISTED_MISFIRES]; /* from 1, rising */
+} crankloop_misfire;
+
+enum { CRANKLOOP_STUCK_NO, CRANKLOOP_STUCK_LOW, CRANKLOOP_STUCK_HIGH };
+
+/* What is wrong with a trigger wheel, its sensor or its wire, and when; angles in crank degrees. */
+typedef struct crankloop_wheel_fault {
+  double start_s; /* on from here to before end_s, and while input_bit of the input wheel_faults is set */
+  double end_s;
+  double moved_deg;
+  double extra_tooth_deg;
+  double extra_width_deg; /* 0: no extra tooth */
+  double runout_deg;
+  double runout_at_deg;
+  double late_deg;
+  double noise_Hz;
+  double noise_pulse_s;
+  int32_t wheel; /* counted from 0 */
+  int32_t input_bit; /* -1: none */
+  int32_t missing_tooth; /* from 1; 0: none */
+  int32_t moved_tooth;
+  int32_t inverted;
+  int32_t stuck; /* CRANKLOOP_STUCK_... */
+  int32_t noise_seed;
+} crankloop_wheel_fault;
+
 /* The structs above keep their size; what comes later stands at the end of this one. */
 typedef struct crankloop_definition {
   crankloop_crank crank;
@@ -283,6 +326,9 @@ typedef struct crankloop_definition {
   crankloop_starter starter;
   int32_t trigger_count;
   crankloop_trigger_wheel triggers[CRANKLOOP_MAX_TRIGGER_WHEELS];
+  crankloop_misfire misfires[CRANKLOOP_MAX_CYLINDERS];
+  int32_t wheel_fault_count;
+  crankloop_wheel_fault wheel_faults[CRANKLOOP_MAX_WHEEL_FAULTS];
 } crankloop_definition;
 
 /* Fills in every default. Begin with this: a zeroed definition has other values. */

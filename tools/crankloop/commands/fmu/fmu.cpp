@@ -12,6 +12,7 @@
 #include "../../command_line/with_real.hpp"
 #include "../../engine_file/following_springs.hpp"
 #include "../../engine_file/gas_order.hpp"
+#include "../../engine_file/plausibility.hpp"
 #include "../../files/error.hpp"
 #include "../../files/output_file.hpp"
 #include "../../files/stored_zip.hpp"
@@ -126,6 +127,7 @@ int run_fmu(const Arguments& arguments) {
     tell_warnings(arguments, {engine.path() + ": warning: there is no [machine] to load the engine, which speeds up "
                                               "at full load until external_torque_Nm is set"});
   }
+  if (crank == "speed") tell_warnings(arguments, warnings_about_misfires_left_out(engine));
   std::vector<ZipEntry> resources = resources_of(engine, tick_us);
   Output out(output);
   const Packed packed{engine, tick_us};

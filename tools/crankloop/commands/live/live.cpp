@@ -17,15 +17,13 @@
 #include "../../files/number.hpp"
 #include "../../files/output_file.hpp"
 #include "../../files/units.hpp"
+#include "../../loops/input_option.hpp"
+#include "../../signals/signal_dump.hpp"
 #include "live_loop.hpp"
 #include "live_summary.hpp"
 
 namespace crankloop::program {
 namespace {
-
-std::uint32_t cylinders_of(const EngineFile& file) {
-  return static_cast<std::uint32_t>(file.definition().layout.cylinders);
-}
 
 LiveRequest request_of(const Arguments& arguments, const EngineFile& file) {
   const double tick_us = arguments.number("--tick-us");
@@ -38,6 +36,7 @@ LiveRequest request_of(const Arguments& arguments, const EngineFile& file) {
   request.ticks = static_cast<std::uint64_t>(std::max(1.0, std::round(arguments.number("--seconds") / request.tick_s)));
   request.start_rad_s = arguments.number("--from-rpm") * kRad_sPerRpm;
   request.patience_ns = std::llround(arguments.number("--silent-ms") * 1e6);
+  request.lead_ticks = arguments.whole_number("--lead-ticks");
   const GasOrder gas = gas_order(arguments, file, 0);
   request.at_start.load_ratio = arguments.number("--load-ratio");
   request.at_start.throttle_ratio = gas.throttle_ratio;
@@ -58,34 +57,60 @@ LiveRequest request_of(const Arguments& arguments, const EngineFile& file) {
   return request;
 }
 
+/// As asked for, or enough for a second at full speed.
+std::uint32_t ring_edges_of(const Arguments& arguments, const EngineFile& file, const LiveRequest& request) {
+  const double lead_s = static_cast<double>(request.lead_ticks) * request.tick_s;
+  const std::uint32_t usual = usual_ring_edges(file.definition(), file.triggers().size(), request.tick_s, lead_s);
+  if (!arguments.has("--ring-edges")) return usual;
+  const auto asked = static_cast<std::uint32_t>(arguments.whole_number("--ring-edges"));
+  if ((asked & (asked - 1)) != 0) throw UsageError("--ring-edges: " + std::to_string(asked) + " is no power of two");
+  return usual == 0 ? 0 : asked;
+}
+
+/// Nobody brakes or fires the engine but its file and options: warns where it cannot run so.
+void warn_of_running_alone(const Arguments& arguments, const EngineFile& file, const LiveRequest& request) {
+  if (arguments.has("--shared") || arguments.has("--inputs") || request.at_start.external_torque_Nm != 0) return;
+  tell_warnings(arguments, warnings_about_running_free(file, file.definition()));
+}
+
 int run_live_command(const Arguments& arguments) {
-  const EngineFile file = read_engine_for_scenes(arguments, {"engine", "crank", "masses"});
+  EngineFile file = read_engine_for_scenes(arguments, {"engine", "crank", "masses"});
+  file.set_misfires(arguments.words("--misfire"));
   const LiveRequest request = request_of(arguments, file);
   const std::string& real = arguments.text("--real");
   const bool shares = arguments.has("--shared");
-  if (!shares && request.at_start.external_torque_Nm == 0)
-    tell_warnings(arguments, warnings_about_running_free(file, file.definition()));
-  std::optional<Output> histogram;
+  warn_of_running_alone(arguments, file, request);
+  std::optional<InputSchedule> schedule = read_inputs(arguments, file, live_inputs(file));
+  std::optional<Output> histogram, trace_file;
   if (arguments.has("--histogram")) histogram.emplace(arguments.text("--histogram"));
+  if (arguments.has("--trace")) trace_file.emplace(arguments.text("--trace"));
 
   const auto figures = std::make_unique<LiveFigures>();
+  std::optional<LiveTrace> trace;
   try {
     std::optional<port::SharedBlock> shared;
     if (shares) {
       claim_output(arguments.text("--shared"));
-      shared.emplace(port::SharedBlock::create(arguments.text("--shared"), request.tick_s, cylinders_of(file),
-                                               breathes(file.definition())));
+      shared.emplace(port::SharedBlock::create(
+          arguments.text("--shared"), live_contents(file, request.tick_s, ring_edges_of(arguments, file, request))));
     }
-    with_real(real, [&](auto zero) { run_live<decltype(zero)>(file, request, shares ? &*shared : nullptr, *figures); });
+    if (trace_file) trace.emplace(*trace_file, file.name(), names_of_triggers(file));
+    const LiveEnds ends{shares ? &*shared : nullptr, schedule ? &*schedule : nullptr, trace ? &*trace : nullptr};
+    with_real(real, [&](auto zero) { run_live<decltype(zero)>(file, request, ends, *figures); });
   } catch (const port::SharedBlockError& refused) {
     throw InputError(refused.what());
   }
 
+  print(live_summary(file, request, real, {shares, trace ? &*trace : nullptr, schedule ? &*schedule : nullptr},
+                     *figures));
   if (histogram) {
     write_live_histogram(*histogram, *figures);
     histogram->finish();
   }
-  print(live_summary(file, request, real, shares, *figures));
+  if (trace) {
+    trace->finish();
+    trace_file->finish();
+  }
   if (!figures->lost_block) return kSuccess;
   throw std::runtime_error(arguments.text("--shared") + ": was truncated or overwritten after " +
                            std::to_string(figures->tally.ticks) + " ticks");
@@ -97,6 +122,11 @@ constexpr Option kOptions[] = {
     number("--seconds", "S", above(0).up_to(1000000), "duration; Ctrl-C stops the run early and prints its summary",
            "10"),
     text("--shared", "PATH", "block of memory shared with a controller, such as /dev/shm/engine: docs/live.md"),
+    whole_number("--lead-ticks", "N", from(0).up_to(1000),
+                 "edges of trigger wheels in the block are due so many ticks after their time in the tick", "1"),
+    whole_number("--ring-edges", "N", from(16).up_to(port::kMaxRingEdges),
+                 "room for edges in the block, a power of two; default a second and the lead of all wheels at max_rpm"),
+    kInputs,
     number("--silent-ms", "N", above(0).up_to(100000),
            "timeout of the controller: after N ms without a write, fuel, load and starter are off", "100"),
     number("--load-ratio", "Q", from(0).up_to(2),
@@ -109,22 +139,25 @@ constexpr Option kOptions[] = {
            "load on the crankshaft in Nm; until a controller sets it", "0"),
     flag("--starter", "starter engaged; until a controller sets it"),
     number("--from-rpm", "N", from(-100000).up_to(100000), "speed at the start in rpm", "0"),
+    kMisfire,
     choice("--real", "float|double", "arithmetic of the tick", "float"),
     whole_number("--cpu", "N", from(0).up_to(1023), "processor to run on, counted from 0; default any"),
     whole_number("--priority", "P", from(0).up_to(99),
                  "SCHED_FIFO priority, where allowed; 0 leaves the scheduler as it is", "80"),
+    text("--trace", "F.vcd", "file of the trigger wheels' signals, speed and torque, written while it runs"),
     text("--histogram", "F", "CSV file for the histograms of wake-up latency and of times"),
 };
 
 }  // namespace
 
-const Command kLive{"live",
-                    "the engine against the clock, with a controller in the loop: latencies, missed deadlines",
-                    "FILE [--tick-us T] [--seconds S] [--shared PATH] [--from-rpm N] [--load-ratio Q] [--throttle R] "
-                    "[--external-torque-Nm L] [--starter] [...]",
-                    "crankloop live diesel_495.ini --from-rpm 800 --load-ratio 0.2 --tick-us 100 --seconds 5",
-                    1,
-                    kOptions,
-                    run_live_command};
+const Command kLive{
+    "live",
+    "the engine against the clock, with a controller in the loop: signals, trigger edges, latencies",
+    "FILE [--tick-us T] [--seconds S] [--shared PATH] [--inputs IN.csv] [--from-rpm N] [--load-ratio Q] "
+    "[--throttle R] [--external-torque-Nm L] [--starter] [...]",
+    "crankloop live diesel_495.ini --from-rpm 800 --load-ratio 0.2 --tick-us 100 --seconds 5",
+    1,
+    kOptions,
+    run_live_command};
 
 }  // namespace crankloop::program

@@ -5,108 +5,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
-#include <memory>
 #include <string>
 
-#include <crankloop/crankloop.hpp>
-#include <crankloop/scenes.hpp>
-
-#include "../../engine_file/following_springs.hpp"
 #include "../../files/error.hpp"
-#include "../../files/number.hpp"
 #include "../../files/units.hpp"
-#include "../../loops/run_limits.hpp"
-#include "../../loops/valve_tick_limit.hpp"
+#include "live_edges.hpp"
+#include "live_engine.hpp"
+#include "live_inputs.hpp"
 #include "port/linux/stop_signal.hpp"
 #include "port/linux/stopwatch.hpp"
-#include "port/linux/watched_inputs.hpp"
 
 namespace crankloop::program {
 namespace {
 
-using port::LiveInputs;
 using port::LiveOutputs;
-
-/// A controller may write any number: one beyond the type's range becomes infinite, which the engine refuses.
-template <class Real>
-Real as(double value) noexcept {
-  constexpr auto kMax = static_cast<double>(std::numeric_limits<Real>::max());
-  constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
-  if (value > kMax) return kInfinite;
-  if (value < -kMax) return -kInfinite;
-  return static_cast<Real>(value);
-}
-
-double crank_deg(Phase phase) noexcept {
-  const double deg = static_cast<double>(phase.units()) * kDegPerUnit;
-  return deg < 720 ? deg : 0;  // the last 2^10 units round up to 720
-}
-
-/// The engine at rest or turning, and its tables.
-template <class Real, class S>
-class FreeEngine {
- public:
-  using Engine = crankloop::Engine<Real, S>;
-
-  FreeEngine(const EngineFile& file, const LiveRequest& request)
-      : cylinders_{static_cast<std::size_t>(file.definition().layout.cylinders)},
-        burn_duration_deg_{request.burn_duration_deg} {
-    const Status built = tables_->build(with_springs_that_follow(file.definition()), {request.tick_s});
-    if (!built.ok()) throw explain_tabulate(file, built, request.tick_s, {});
-    const Status ready = engine_.init(tables_->tables());
-    if (!ready.ok()) throw file.explain(ready);
-    require_speed(request.start_rad_s * kRpmPerRad_s, static_cast<double>(tables_->tables().drive->speed_limit_rad_s),
-                  request.tick_s, file.definition().crank);
-    const Status turning = engine_.restore(turning_at(engine_.state(), static_cast<Real>(request.start_rad_s)));
-    if (!turning.ok()) throw file.explain(turning);
-  }
-
-  void step(const LiveInputs& in) noexcept {
-    typename Engine::Input input;
-    if constexpr (detail::Needs<S>::gas) {
-      input.throttle_ratio = as<Real>(in.throttle_ratio);
-      for (std::size_t k = 0; k < cylinders_; ++k) {
-        input.fuel_kg[k] = as<Real>(in.fuel_kg);
-        input.excess_air_ratio[k] = as<Real>(in.excess_air_ratio);
-        input.burn_start_deg[k] = as<Real>(in.burn_start_deg);
-        input.burn_duration_deg[k] = static_cast<Real>(burn_duration_deg_);
-      }
-    } else {
-      input.load_ratio = as<Real>(in.load_ratio);
-    }
-    input.external_torque_Nm = as<Real>(in.external_torque_Nm);
-    input.starter = in.starter;
-    input.cut_cylinders = in.cut_cylinders;
-    engine_.step(input);
-  }
-
-  void tell(LiveOutputs& told) const noexcept {
-    const typename Engine::Output& out = engine_.output();
-    told.speed_rad_s = static_cast<double>(out.speed_rad_s);
-    told.acceleration_rad_s2 = static_cast<double>(out.acceleration_rad_s2);
-    told.crank_deg = crank_deg(out.crank);
-    told.torque_Nm = static_cast<double>(out.torque_Nm);
-    told.mean_torque_Nm = static_cast<double>(out.mean_torque_Nm);
-    told.friction_Nm = static_cast<double>(out.friction_Nm);
-    told.starter_Nm = static_cast<double>(out.starter_Nm);
-    told.faults = out.faults;
-    if constexpr (detail::Needs<S>::gas) {
-      told.intake_Pa = static_cast<double>(out.manifold[kIntake].pressure_Pa);
-      told.trapped_air_kg = 0;
-      for (std::size_t k = 0; k < cylinders_; ++k)
-        told.trapped_air_kg += static_cast<double>(out.gas_cycle[k].trapped_air_kg) / static_cast<double>(cylinders_);
-    }
-  }
-
- private:
-  using Tables = TableStorage<Real, S, kMaxGasSegments>;  // room for the finest gas grid there is
-
-  std::size_t cylinders_;
-  double burn_duration_deg_;
-  std::unique_ptr<Tables> tables_ = std::make_unique<Tables>();
-  Engine engine_;
-};
 
 /// The kernel's counters of this thread.
 struct ThreadCounts {
@@ -120,94 +32,218 @@ struct ThreadCounts {
   }
 };
 
-}  // namespace
+/// Sums over the ticks.
+struct LiveSums {
+  double speed_rad_s = 0;
+  double torque_Nm = 0;
+};
 
-namespace {
-
+/// One run: what a tick takes and gives, in the order of the tick.
 template <class Real, class S>
-void run_scene(const EngineFile& file, const LiveRequest& request, port::SharedBlock* shared, LiveFigures& figures) {
-  port::LiveBlock alone;
-  port::LiveBlock& block = shared != nullptr ? **shared : alone;
-  const port::StopSignal stop;
-  FreeEngine<Real, S> engine(file, request);
-  port::WatchedInputs inputs(block.inputs, request.at_start, request.patience_ns);
-  LiveOutputs published;
-  double speed_sum_rad_s = 0;
-  double torque_sum_Nm = 0;
+class LiveRun {
+ public:
+  LiveRun(const EngineFile& file, const LiveRequest& request, const LiveEnds& ends, LiveFigures& figures)
+      : request_{request},
+        ends_{ends},
+        figures_{figures},
+        block_{ends.shared != nullptr ? **ends.shared : alone_},
+        engine_{file, request},
+        wheels_{engine_.shape().wheels},
+        signals_{ends.shared != nullptr ? ends.shared->signals() : port::LockedNumbers{}},
+        ring_{ends.shared != nullptr ? ends.shared->edges() : port::EdgeRing{}},
+        inputs_{block_.inputs, inputs_at_start(), engine_, request.patience_ns, ends.schedule} {}
 
-  const port::RealTime real_time(request.real_time);
-  if (real_time.cpu_error() != 0) {
-    throw UsageError("--cpu " + std::to_string(request.real_time.cpu) + ": " + std::strerror(real_time.cpu_error()));
+  void run() {
+    const port::StopSignal stop;
+    const port::RealTime real_time(request_.real_time);
+    if (real_time.cpu_error() != 0) {
+      throw UsageError("--cpu " + std::to_string(request_.real_time.cpu) + ": " + std::strerror(real_time.cpu_error()));
+    }
+    figures_.memory_error = real_time.memory_error();
+    figures_.priority_error = real_time.priority_error();
+
+    block_.state.store(port::LiveState::running, std::memory_order_release);
+    port::Periodic periodic(request_.tick_ns);
+    const ThreadCounts counts_before = ThreadCounts::now();  // after the first reading of the clock, so that its page
+                                                             // is mapped
+    const std::int64_t start_ns = periodic.due_ns();
+    while (periodic.tally().ticks < request_.ticks && !stop.received() && is_ours(periodic.tally().ticks))
+      tick(periodic);
+    const ThreadCounts counts_after = ThreadCounts::now();
+    figures_.page_faults = counts_after.page_faults - counts_before.page_faults;
+    figures_.preemptions = counts_after.preemptions - counts_before.preemptions;
+    figures_.wall_s = static_cast<double>(port::now_ns() - start_ns) * 1e-9;
+    finish(periodic.tally());
   }
-  figures.memory_error = real_time.memory_error();
-  figures.priority_error = real_time.priority_error();
 
-  block.state.store(port::LiveState::running, std::memory_order_release);
-  port::Periodic periodic(request.tick_ns);
-  const ThreadCounts counts_before = ThreadCounts::now();  // after the first reading of the clock, so that its page is
-                                                           // mapped
-  const std::int64_t start_ns = periodic.due_ns();
-  const port::PeriodicTally& tally = periodic.tally();
-  const auto ticks_per_ms = static_cast<std::uint64_t>(std::max<std::int64_t>(1, 1000000 / request.tick_ns));
-  const auto is_ours = [&] {
-    if (shared == nullptr) return true;
-    return shared->has_magic() && (tally.ticks % ticks_per_ms != 0 || shared->is_whole());
-  };
-  while (tally.ticks < request.ticks && !stop.received() && is_ours()) {
-    figures.begin.add(periodic.begin());
-    const LiveInputs in = inputs.at(periodic.begun_ns());
+ private:
+  /// The section of inputs by name shows a controller what there is to begin with.
+  port::LockedNumbers inputs_at_start() {
+    engine_.set(request_.at_start);
+    port::LockedNumbers by_name = ends_.shared != nullptr ? ends_.shared->inputs_by_name() : port::LockedNumbers{};
+    by_name.write(engine_.inputs());
+    return by_name;
+  }
+
+  [[nodiscard]] bool is_ours(std::uint64_t ticks) const {
+    if (ends_.shared == nullptr) return true;
+    return ends_.shared->has_magic() && (ticks % ticks_per_ms_ != 0 || ends_.shared->is_whole());
+  }
+
+  void tick(port::Periodic& periodic) {
+    const port::PeriodicTally& tally = periodic.tally();
+    figures_.begin.add(periodic.begin());
+    inputs_.give(periodic.begun_ns(), static_cast<double>(tally.ticks) * request_.tick_s);
     const std::int64_t step_ns = port::now_ns();
-    engine.step(in);
-    figures.model.add(port::now_ns() - step_ns);
+    engine_.step();
+    figures_.model.add(port::now_ns() - step_ns);
 
-    published.ticks = tally.ticks + 1;
-    published.time_s = static_cast<double>(published.ticks) * request.tick_s;
-    engine.tell(published);
-    published.flags = inputs.flags();
-    published.inputs_sequence = inputs.sequence();
-    published.torn_inputs = inputs.torn();
-    published.late_ticks = tally.late;
-    published.missed_deadlines = tally.missed;
-    block.outputs.write(published);
-
-    speed_sum_rad_s += published.speed_rad_s;
-    torque_sum_Nm += published.mean_torque_Nm;
-    figures.faulty_ticks += published.faults != 0 ? 1 : 0;
-    figures.faults |= published.faults;
-    figures.work.add(periodic.done());
+    if (tally.ticks == 0) begin_trace();
+    publish_edges(periodic.due_ns(), static_cast<std::int64_t>(tally.ticks) * request_.tick_ns);
+    publish(tally);
+    sums_.speed_rad_s += published_.speed_rad_s;
+    sums_.torque_Nm += published_.mean_torque_Nm;
+    figures_.faulty_ticks += published_.faults != 0 ? 1 : 0;
+    figures_.faults |= published_.faults;
+    figures_.work.add(periodic.done());
   }
-  const ThreadCounts counts_after = ThreadCounts::now();
 
-  figures.tally = tally;
-  figures.wall_s = static_cast<double>(port::now_ns() - start_ns) * 1e-9;
-  figures.lost_block = shared != nullptr && !shared->is_whole();
-  figures.stopped = tally.ticks < request.ticks && !figures.lost_block;
-  figures.page_faults = counts_after.page_faults - counts_before.page_faults;
-  figures.preemptions = counts_after.preemptions - counts_before.preemptions;
-  figures.speed_rad_s = published.speed_rad_s;
-  if (tally.ticks > 0) {
-    figures.mean_speed_rad_s = speed_sum_rad_s / static_cast<double>(tally.ticks);
-    figures.mean_torque_Nm = torque_sum_Nm / static_cast<double>(tally.ticks);
+  /// What was so before the first tick.
+  void begin_trace() {
+    if (ends_.trace == nullptr) return;
+    ends_.trace->speed(0, request_.start_rad_s * kRpmPerRad_s);
+    for (std::uint32_t w = 0; w < wheels_; ++w) ends_.trace->level(0, w, level_before(engine_.output().trigger[w]));
   }
-  figures.controller_seen = (inputs.flags() & port::kControllerSeen) != 0;
-  figures.controller_silences = inputs.silences();
-  figures.torn_inputs = inputs.torn();
-  figures.intake_Pa = published.intake_Pa;
-  figures.trapped_air_kg = published.trapped_air_kg;
+
+  /// Of a tick that is due at `due_ns` and begins at `begin_ns` of the model's time.
+  void publish_edges(std::int64_t due_ns, std::int64_t begin_ns) {
+    const std::int64_t ring_ns = due_ns + request_.lead_ticks * request_.tick_ns;
+    figures_.unlisted_edges +=
+        each_edge_by_time(engine_.output(), wheels_, request_.tick_ns,
+                          [&](std::int64_t time_ns, std::uint32_t wheel, std::uint32_t level) {
+                            ring_.write(static_cast<std::uint64_t>(ring_ns + time_ns), wheel, level);
+                            if (ends_.trace != nullptr) ends_.trace->level(begin_ns + time_ns, wheel, level != 0);
+                            ++figures_.edges;
+                          });
+  }
+
+  void publish(const port::PeriodicTally& tally) {
+    published_.ticks = tally.ticks + 1;
+    published_.time_s = static_cast<double>(published_.ticks) * request_.tick_s;
+    engine_.tell(published_);
+    published_.flags = inputs_.flags();
+    published_.inputs_sequence = inputs_.sequence();
+    published_.torn_inputs = inputs_.torn();
+    published_.late_ticks = tally.late;
+    published_.missed_deadlines = tally.missed;
+    if (signals_.count() > 0) {
+      engine_.tell(shown_);
+      signals_.write(shown_);
+    }
+    block_.outputs.write(published_);
+    if (ends_.trace == nullptr) return;
+    const auto end_ns = static_cast<std::int64_t>(published_.ticks) * request_.tick_ns;
+    ends_.trace->speed(end_ns, published_.speed_rad_s * kRpmPerRad_s);
+    ends_.trace->torque(end_ns, published_.torque_Nm);
+  }
+
+  void finish(const port::PeriodicTally& tally) {
+    figures_.tally = tally;
+    figures_.lost_block = ends_.shared != nullptr && !ends_.shared->is_whole();
+    figures_.stopped = tally.ticks < request_.ticks && !figures_.lost_block;
+    figures_.speed_rad_s = published_.speed_rad_s;
+    if (tally.ticks > 0) {
+      figures_.mean_speed_rad_s = sums_.speed_rad_s / static_cast<double>(tally.ticks);
+      figures_.mean_torque_Nm = sums_.torque_Nm / static_cast<double>(tally.ticks);
+    }
+    figures_.controller_seen = (inputs_.flags() & port::kControllerSeen) != 0;
+    figures_.inputs_by_name = inputs_.by_name_is_used();
+    figures_.fixed_is_ignored = inputs_.fixed_is_ignored();
+    figures_.controller_silences = inputs_.silences();
+    figures_.torn_inputs = inputs_.torn();
+    figures_.intake_Pa = published_.intake_Pa;
+    figures_.trapped_air_kg = published_.trapped_air_kg;
+  }
+
+  const LiveRequest& request_;
+  const LiveEnds& ends_;
+  LiveFigures& figures_;
+  port::LiveBlock alone_;
+  port::LiveBlock& block_;
+  LiveEngine<Real, S> engine_;
+  std::uint32_t wheels_;
+  port::LockedNumbers signals_;
+  port::EdgeRing ring_;
+  LiveInputSources<LiveEngine<Real, S>> inputs_;
+  LiveOutputs published_;
+  port::LiveNumbers shown_{};
+  LiveSums sums_;
+  std::uint64_t ticks_per_ms_ = static_cast<std::uint64_t>(std::max<std::int64_t>(1, 1000000 / request_.tick_ns));
+};
+
+/// The engine's shape, before there are tables.
+detail::EngineShape shape_of_file(const EngineFile& file) {
+  const EngineDefinition& engine = file.definition();
+  detail::EngineShape shape;
+  shape.cylinders = static_cast<std::uint32_t>(engine.layout.cylinders);
+  for (const TrainOfFile& train : file.trains()) shape.trains += train.complete() ? 1u : 0u;
+  shape.wheels = static_cast<std::uint32_t>(file.triggers().size());
+  return shape;
+}
+
+/// Edges in a turn of the crank.
+double edges_per_turn(const TriggerWheel& wheel) {
+  int edges = wheel.edge_count;
+  if (wheel.pattern == TriggerPattern::teeth) {
+    edges = 2 * wheel.places;
+    for (int i = 0; i < wheel.gap_count; ++i) edges -= 2 * wheel.gaps[i].missing;
+  }
+  return wheel.shaft == TriggerShaft::cam ? edges / 2.0 : edges;
+}
+
+/// Calls `work` with a scene of this engine.
+template <class Work>
+auto with_live_scene(const EngineFile& file, const Work& work) {
+  return breathes(file.definition()) ? work(LiveBreathing{}) : work(LiveRunning{});
 }
 
 }  // namespace
+
+std::vector<SceneInput> live_inputs(const EngineFile& file) {
+  return with_live_scene(file, [&](auto scene) { return scene_inputs<decltype(scene)>(shape_of_file(file)); });
+}
+
+std::uint32_t usual_ring_edges(const EngineDefinition& engine, std::size_t wheels, double tick_s, double lead_s) {
+  if (wheels == 0) return 0;
+  double turns_per_s = std::min(1 / tick_s, kMaxSpeed_rad_s * kTurnsPerRad);  // a tick turns the crank once at most
+  if (engine.crank.max_speed_rad_s > 0)
+    turns_per_s = std::min(turns_per_s, engine.crank.max_speed_rad_s * kTurnsPerRad);
+  double edges_per_s = 0;
+  for (std::size_t w = 0; w < wheels; ++w) edges_per_s += edges_per_turn(engine.triggers[w]) * turns_per_s;
+  std::uint32_t depth = 16;
+  while (depth < edges_per_s * (1 + lead_s) && depth < port::kMaxRingEdges) depth *= 2;
+  return depth;
+}
+
+port::LiveContents live_contents(const EngineFile& file, double tick_s, std::uint32_t ring_edges) {
+  port::LiveContents contents;
+  const detail::EngineShape shape = shape_of_file(file);
+  contents.tick_s = tick_s;
+  contents.cylinders = shape.cylinders;
+  contents.breathes = breathes(file.definition());
+  contents.signals = with_live_scene(file, [&](auto scene) { return signal_names<double, decltype(scene)>(shape); });
+  for (const SceneInput& input : live_inputs(file)) contents.inputs.push_back(input.name);
+  contents.wheels = names_of_triggers(file);
+  contents.ring_edges = ring_edges;
+  return contents;
+}
 
 template <class Real>
-void run_live(const EngineFile& file, const LiveRequest& request, port::SharedBlock* shared, LiveFigures& figures) {
-  if (breathes(file.definition())) {
-    run_scene<Real, scenes::BreathingFree>(file, request, shared, figures);
-  } else {
-    run_scene<Real, scenes::FreeRunning>(file, request, shared, figures);
-  }
+void run_live(const EngineFile& file, const LiveRequest& request, const LiveEnds& ends, LiveFigures& figures) {
+  with_live_scene(file, [&](auto scene) { LiveRun<Real, decltype(scene)>(file, request, ends, figures).run(); });
 }
 
-template void run_live<float>(const EngineFile&, const LiveRequest&, port::SharedBlock*, LiveFigures&);
-template void run_live<double>(const EngineFile&, const LiveRequest&, port::SharedBlock*, LiveFigures&);
+template void run_live<float>(const EngineFile&, const LiveRequest&, const LiveEnds&, LiveFigures&);
+template void run_live<double>(const EngineFile&, const LiveRequest&, const LiveEnds&, LiveFigures&);
 
 }  // namespace crankloop::program

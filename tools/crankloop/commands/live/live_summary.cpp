@@ -124,10 +124,16 @@ void add_engine(Summary& s, const LiveFigures& f) {
   s.line("faults", f.faults);
 }
 
+void add_edges(Summary& s, const LiveFigures& f) {
+  s.line("edges", f.edges);
+  s.line("edges_lost", f.unlisted_edges, "",
+         f.unlisted_edges > 0 ? "more edges in a tick than it can record: use a shorter --tick-us" : "");
+}
+
 }  // namespace
 
-std::string live_summary(const EngineFile& file, const LiveRequest& request, const std::string& real, bool shared,
-                         const LiveFigures& f) {
+std::string live_summary(const EngineFile& file, const LiveRequest& request, const std::string& real,
+                         const LiveExtras& extras, const LiveFigures& f) {
   Summary s;
   s.remark(file.name() + ", its crank free, in " + real +
            (f.stopped      ? ", stopped by a signal"
@@ -142,8 +148,18 @@ std::string live_summary(const EngineFile& file, const LiveRequest& request, con
   add_picture(s, f.begin);
   s.remark("the engine");
   add_engine(s, f);
-  if (!shared) return s.text();
-  s.line("controller", f.controller_seen ? "seen" : "never seen");
+  if (!file.triggers().empty()) add_edges(s, f);
+  if (extras.schedule != nullptr) {
+    s.line("inputs_from_file", extras.schedule->columns());
+    if (f.controller_seen) s.remark("the controller wrote inputs; from then on those of the file were not used");
+  }
+  if (extras.trace != nullptr) {
+    s.line("trace_dropped", extras.trace->dropped(), "",
+           extras.trace->dropped() > 0 ? "changes that found the queue of --trace full: they are not in the file" : "");
+  }
+  if (!extras.shared) return s.text();
+  s.line("controller", !f.controller_seen ? "never seen" : f.inputs_by_name ? "seen, inputs by name" : "seen");
+  if (f.fixed_is_ignored) s.remark("the inputs of the fixed part were written too: not used, the section has them all");
   s.line("controller_silences", f.controller_silences);
   s.line("torn_inputs", f.torn_inputs);
   return s.text();

@@ -11,10 +11,16 @@
 
 namespace crankloop::program {
 
-/// Lines "name = value unit", remarks after '#'. `real`: arithmetic of the tick; `shared`: there was a block that a
-/// controller could write to.
+/// What a run had beside its engine.
+struct LiveExtras {
+  bool shared = false;                      ///< a block that a controller could write to
+  const LiveTrace* trace = nullptr;         ///< null: none
+  const InputSchedule* schedule = nullptr;  ///< null: none
+};
+
+/// Lines "name = value unit", remarks after '#'. `real`: arithmetic of the tick.
 [[nodiscard]] std::string live_summary(const EngineFile& file, const LiveRequest& request, const std::string& real,
-                                       bool shared, const LiveFigures& figures);
+                                       const LiveExtras& extras, const LiveFigures& figures);
 
 /// CSV: a row per bucket that is not empty.
 void write_live_histogram(Output& out, const LiveFigures& figures);

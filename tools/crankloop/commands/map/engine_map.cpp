@@ -12,8 +12,23 @@
 namespace crankloop::program {
 namespace {
 
-double value_of(MapResult result, const RunFigures& figures, const BrakeFigures& brake) {
+/// A point as it ran.
+struct RunPoint {
+  Operation operation;
+  RunFigures figures;
+  BrakeFigures brake;
+};
+
+/// Fuel of all cylinders.
+double fuel_kg_s(const EngineDefinition& definition, const RunPoint& run) {
+  constexpr double kCycle_rad = 12.566370614359172;
+  return run.figures.gas.cycle.fuel_kg * definition.layout.cylinders * run.operation.speed_rad_s() / kCycle_rad;
+}
+
+double value_of(MapResult result, const EngineDefinition& definition, const RunPoint& run) {
+  const auto& [operation, figures, brake] = run;
   const GasCycle<double>& cycle = figures.gas.cycle;
+  const bool works = brake.power_W > 0 && cycle.fuel_kg > 0;
   switch (result) {
     case MapResult::torque:
       return figures.mean_torque_Nm;
@@ -43,10 +58,45 @@ double value_of(MapResult result, const RunFigures& figures, const BrakeFigures&
       return figures.gas.intake_Pa / 1e3;
     case MapResult::peak_pressure:
       return cycle.peak_Pa / 1e3;
+    case MapResult::specific_consumption:
+      return works ? fuel_kg_s(definition, run) / brake.power_W * 3.6e9 : 0;
+    case MapResult::brake_efficiency:
+      return works ? brake.power_W / (fuel_kg_s(definition, run) * definition.gas.heating_value_J_kg) : 0;
+    case MapResult::burn_start:
+      return operation.gas.burn_start_deg;
+    case MapResult::knock_integral:
+      return figures.gas.knock_integral;
     case MapResult::faulty_ticks:
       break;
   }
   return static_cast<double>(figures.faulty_ticks);
+}
+
+RunPoint run_operation(const EngineDefinition& definition, const Operation& operation) {
+  FixedStepLoop<float, scenes::Breathing> loop(definition, operation);
+  const RunFigures figures = run_cycles<float, scenes::Breathing>(loop, definition, operation, 1);
+  return {operation, figures, brake_figures(definition, figures.mean_torque_Nm, operation.speed_rad_s())};
+}
+
+/// The burn start of best torque by golden sections: torque over spark has one hump.
+RunPoint best_of(const EngineDefinition& definition, const Operation& operation) {
+  constexpr double kGolden = 0.6180339887498949;
+  const auto at = [&](double start_deg) {
+    Operation with = operation;
+    with.gas.burn_start_deg = start_deg;
+    return run_operation(definition, with);
+  };
+  const double latest_deg = kLatestBurn_deg - operation.gas.burn_duration_deg * definition.gas.span_ratio();
+  double from_deg = kBestStart_deg.least, to_deg = std::min(kBestStart_deg.most, latest_deg);
+  RunPoint early = at(to_deg - kGolden * (to_deg - from_deg)), late = at(from_deg + kGolden * (to_deg - from_deg));
+  while (to_deg - from_deg > kBestStartWithin_deg) {
+    if (early.figures.mean_torque_Nm > late.figures.mean_torque_Nm) {
+      to_deg = late.operation.gas.burn_start_deg, late = early, early = at(to_deg - kGolden * (to_deg - from_deg));
+    } else {
+      from_deg = early.operation.gas.burn_start_deg, early = late, late = at(from_deg + kGolden * (to_deg - from_deg));
+    }
+  }
+  return early.figures.mean_torque_Nm > late.figures.mean_torque_Nm ? early : late;
 }
 
 }  // namespace
@@ -67,6 +117,10 @@ const MapColumn kMapColumnList[kMapResults] = {
      MapResult::exhaust_manifold_temperature},
     {"intake_pressure_kPa", nullptr, "kPa", MapResult::intake_pressure},
     {"peak_pressure_kPa", nullptr, "kPa", MapResult::peak_pressure},
+    {"brake_specific_consumption_g_per_kWh", nullptr, "g_per_kWh", MapResult::specific_consumption},
+    {"brake_efficiency", "Brake efficiency", "", MapResult::brake_efficiency, true},
+    {"burn_start_deg", "Burn start of best torque", "deg", MapResult::burn_start},
+    {"knock_integral", "Knock integral", "", MapResult::knock_integral},
     {"faulty_ticks", nullptr, "", MapResult::faulty_ticks},
 };
 
@@ -85,11 +139,9 @@ std::string run_point(const EngineDefinition& definition, const MapRequest& requ
   const int loads = request.load.count;
   Operation operation{request.speed_rpm.at(point / loads), request.tick_s, 1, request.gas};
   operation.gas.*request.axis->varied = request.load.at(point % loads) / request.axis->per_si;
-  FixedStepLoop<float, scenes::Breathing> loop(definition, operation);
-  const RunFigures figures = run_cycles<float, scenes::Breathing>(loop, definition, operation, 1);
-  const BrakeFigures brake = brake_figures(definition, figures.mean_torque_Nm, operation.speed_rad_s());
-  std::string text = std::to_string(figures.faults);
-  for (const MapColumn& column : kMapColumnList) text += " " + exact_text(value_of(column.result, figures, brake));
+  const RunPoint run = request.best_spark ? best_of(definition, operation) : run_operation(definition, operation);
+  std::string text = std::to_string(run.figures.faults);
+  for (const MapColumn& column : kMapColumnList) text += " " + exact_text(value_of(column.result, definition, run));
   return text;
 }
 

@@ -35,6 +35,7 @@ struct MapRequest {
   Grid load;     ///< in the axis's unit
   GasOrder gas;  ///< all that is not varied
   double tick_s = 100e-6;
+  bool best_spark = false;  ///< each point at its burn start of best torque, not at that of `gas`
 };
 
 /// Its results, in the order of the columns.
@@ -53,9 +54,13 @@ enum class MapResult : std::uint8_t {
   exhaust_manifold_temperature,
   intake_pressure,
   peak_pressure,
+  specific_consumption,  ///< brake; 0 without power, as the next
+  brake_efficiency,
+  burn_start,
+  knock_integral,
   faulty_ticks,
 };
-inline constexpr std::size_t kMapResults = 15;
+inline constexpr std::size_t kMapResults = 19;
 
 struct MapPoint {
   double speed_rpm = 0;
@@ -77,6 +82,10 @@ struct EngineMap {
   /// The first point with the largest value.
   [[nodiscard]] const MapPoint& largest(MapResult result) const;
 };
+
+/// Burn starts among which the one of best torque is found, and how well.
+inline constexpr Range kBestStart_deg = from(-60).up_to(20);
+inline constexpr double kBestStartWithin_deg = 0.5;
 
 /// One point, counted speed by speed, as text for a part of the map; may be called by several threads at once. Throws
 /// what a run throws, as a speed beyond one revolution per tick.

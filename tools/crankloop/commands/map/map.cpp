@@ -26,6 +26,8 @@ namespace {
 constexpr double kMaxPoints = 10000;
 
 constexpr const char* kSpeeds = "--rpm";
+constexpr Option kBestSpark =
+    flag("--mbt", "each point at the burn start of its best torque, of -60 to 20 deg within 0.5: twelve runs of it");
 
 /// "800:6000:14"
 Grid grid(const Arguments& arguments, const std::string& name, Range range) {
@@ -80,7 +82,11 @@ std::string summary(const EngineMap& map) {
   } else {
     add_fuel(s, map.request.gas);
   }
-  s.line("burn_start", map.request.gas.burn_start_deg, "deg");
+  if (map.request.best_spark) {
+    s.remark("burn_start of each point: that of its best torque");
+  } else {
+    s.line("burn_start", map.request.gas.burn_start_deg, "deg");
+  }
   const auto add = [&](const char* name, MapResult result, const char* unit) {
     const MapPoint& most = map.largest(result);
     s.line(name, most.at(result), unit, map.place_of(most));
@@ -89,6 +95,8 @@ std::string summary(const EngineMap& map) {
   add("max_brake_power", MapResult::brake_power, "kW");
   add("max_net_mep", MapResult::net_mep, "kPa");
   add("max_volumetric_efficiency", MapResult::volumetric_efficiency, "");
+  add("max_brake_efficiency", MapResult::brake_efficiency, "");
+  if (map.file.definition().gas.octane_number > 0) add("max_knock_integral", MapResult::knock_integral, "");
   double faulty_ticks = 0;
   std::uint32_t faults = 0;
   for (const MapPoint& point : map.points) faulty_ticks += point.at(MapResult::faulty_ticks), faults |= point.faults;
@@ -100,6 +108,7 @@ int run_map_command(const Arguments& arguments) {
   MapRequest request;
   request.speed_rpm = grid(arguments, kSpeeds, above(0).up_to(100000));
   const EngineFile file = read_engine_for_scenes(arguments, {"engine", "crank", "masses"});
+  (void)tell_warnings(arguments, warnings_about_misfires_left_out(file));
   set_loads(request, arguments, file);
   const double count = static_cast<double>(request.speed_rpm.count) * request.load.count;
   if (count > kMaxPoints)
@@ -109,17 +118,21 @@ int run_map_command(const Arguments& arguments) {
         file.path() +
         " has no [pressure] source = gas: without it nothing depends on throttle or fuel; use `crankloop run`");
   }
+  request.best_spark = arguments.has(kBestSpark.name);
+  if (request.best_spark && arguments.has(kBurnStart.name))
+    throw UsageError("--mbt finds the burn start of each point: leave out --burn-start-deg");
   request.tick_s = millionths(arguments.number("--tick-us"));
   require_trains(file, request.tick_s);
   require_manifolds(file, request.tick_s);
   (void)tell_warnings(arguments, warnings_about_gas(file, request.speed_rpm.to, request.tick_s));
   const bool over_fuel = request.axis == &kFuelAxis;
   EngineMap map{file, request, ""};
-  const std::string options = "--rpm " + arguments.text(kSpeeds) + " --throttle " +
-                              (over_fuel ? shortest(request.gas.throttle_ratio) : arguments.text("--throttle")) + " " +
-                              (over_fuel ? "--fuel-mg " + arguments.text("--fuel-mg") : fuel_option(request.gas)) +
-                              " --burn-start-deg " + shortest(request.gas.burn_start_deg) + " --tick-us " +
-                              shortest(arguments.number("--tick-us"));
+  const std::string options =
+      "--rpm " + arguments.text(kSpeeds) + " --throttle " +
+      (over_fuel ? shortest(request.gas.throttle_ratio) : arguments.text("--throttle")) + " " +
+      (over_fuel ? "--fuel-mg " + arguments.text("--fuel-mg") : fuel_option(request.gas)) +
+      (request.best_spark ? std::string(" --mbt") : " --burn-start-deg " + shortest(request.gas.burn_start_deg)) +
+      " --tick-us " + shortest(arguments.number("--tick-us"));
   map.command_line = "crankloop map " + shell_word(arguments.file()) + " " + options;
   Results results(arguments, {"--csv", "--report"});
   const Points points{"map", "mapping", static_cast<std::size_t>(count), Identity().add_engine(file).add(options)};
@@ -142,6 +155,7 @@ constexpr Option kOptions[] = {
          "fuel per cylinder and cycle in mg, N values evenly spaced; or one, the file's by default"),
     kLambda,
     kBurnStart,
+    kBestSpark,
     kTick,
     kThreads,
     kShard,
@@ -156,7 +170,7 @@ constexpr Option kOptions[] = {
 const Command kMap{
     "map",
     "torque, air charge and mean pressures of an engine with gas exchange, over speed and throttle or fuel",
-    "FILE --rpm FROM:TO:N --throttle FROM:TO:N [--lambda L | --fuel-mg M] [--burn-start-deg A] "
+    "FILE --rpm FROM:TO:N --throttle FROM:TO:N [--lambda L | --fuel-mg M] [--burn-start-deg A | --mbt] "
     "[--tick-us T] [--threads N] [--csv F] [--report F.html] [--shard K/N --part F | --join F...]\n"
     "       FILE --rpm FROM:TO:N --fuel-mg FROM:TO:N [--throttle R] [...]",
     "crankloop map four_2000.ini --rpm 1000:6000:6 --throttle 0:1:6 --csv map.csv --report map.html",

@@ -56,6 +56,13 @@ std::string over_what(const EngineMap& map) {
   return request.load.count > 1 ? "over " + load + " at " + speed : "at " + speed + " and " + one_load;
 }
 
+/// Results that every map shows, and those that this one asks for.
+bool is_drawn(const EngineMap& map, const MapColumn& column) {
+  if (column.result == MapResult::burn_start) return map.request.best_spark;
+  if (column.result == MapResult::knock_integral) return map.file.definition().gas.octane_number > 0;
+  return column.title != nullptr;
+}
+
 }  // namespace
 
 report::Page map_page(const EngineMap& map) {
@@ -81,7 +88,7 @@ report::Page map_page(const EngineMap& map) {
   maps.blocks.push_back(
       report::Paragraph{pressure_in_words(map.file, 1, map.request.gas, map.request.axis->varied), true});
   for (const MapColumn& column : kMapColumnList) {
-    if (column.title != nullptr) maps.blocks.push_back(is_field ? heat_map(map, column) : curve(map, column));
+    if (is_drawn(map, column)) maps.blocks.push_back(is_field ? heat_map(map, column) : curve(map, column));
   }
   report::Table table{"Table: all points", {{"Speed", "rpm"}, {axis.title, axis.unit}}, {}, true};
   for (const MapColumn& column : kMapColumnList) {
@@ -107,7 +114,9 @@ report::Page map_page(const EngineMap& map) {
                        std::to_string(cycles_to_settle(map.file.definition())) +
                        " cycles to settle and one for the result.");
   list.items.push_back(
-      std::string("The burn starts at the same angle everywhere: the spark timing is not optimised. ") +
+      std::string(map.request.best_spark
+                      ? "The burn of each point starts where its torque is best, found within 0.5 deg. "
+                      : "The burn starts at the same angle everywhere: the spark timing is not optimised. ") +
       (map.request.gas.excess_air_ratio > 0 ? "Fuel follows the air in each cylinder."
                                             : "Fuel burns only as far as there is air for it."));
   list.items.push_back(map.file.definition().friction.any()

@@ -71,7 +71,12 @@ double GasWork::backwards_Nm() const {
 }
 
 EnergyBooks::EnergyBooks(const ExactEngine& exact, const FreeOperation& operation, const FreeState& begin)
-    : engine_{exact.definition()}, gas_{exact, operation}, backwards_Nm_{gas_.backwards_Nm()}, begin_{begin} {}
+    : engine_{exact.definition()},
+      gas_{exact, operation},
+      backwards_Nm_{gas_.backwards_Nm()},
+      by_torque_{breathes(engine_) || (operation.schedule && (operation.schedule->drives("load_ratio") ||
+                                                              operation.schedule->drives("cut_cylinders")))},
+      begin_{begin} {}
 
 double EnergyBooks::friction_Nm(double speed_rad_s) const noexcept {
   const double own_Nm = -brake_figures(engine_, 0, std::fabs(speed_rad_s)).torque_Nm;
@@ -120,8 +125,9 @@ void EnergyBooks::take(const FreeState& before, const FreeState& after, double s
 
 EnergyBalance EnergyBooks::balance(const FreeState& end) const {
   const double gas_J =
-      breathes(engine_) ? end.work_J - begin_.work_J + slowed_J_ : gas_.between_J(begin_.angle_deg, end.angle_deg);
-  return {gas_J, starter_J_, friction_J_, load_J_, kinetic_J(end) - kinetic_J(begin_)};
+      by_torque_ ? end.work_J - begin_.work_J + slowed_J_ : gas_.between_J(begin_.angle_deg, end.angle_deg);
+  return {gas_J, starter_J_, friction_J_, load_J_ + end.external_J - begin_.external_J,
+          kinetic_J(end) - kinetic_J(begin_)};
 }
 
 }  // namespace crankloop::program

@@ -19,7 +19,7 @@ struct EnergyBalance {
   double gas_J = 0;
   double starter_J = 0;
   double friction_J = 0;
-  double load_J = 0;
+  double load_J = 0;     ///< the external torque's too
   double kinetic_J = 0;  ///< change
 
   [[nodiscard]] double missing_J() const noexcept { return gas_J + starter_J - friction_J - load_J - kinetic_J; }
@@ -74,6 +74,7 @@ class EnergyBooks {
   const EngineDefinition& engine_;
   GasWork gas_;
   double backwards_Nm_;
+  bool by_torque_;  ///< the gas's work, from the loop's torque
   FreeState begin_;
   double starter_J_ = 0;
   double friction_J_ = 0;

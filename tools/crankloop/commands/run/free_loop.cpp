@@ -39,12 +39,20 @@ FreeLoop<Real, S>::FreeLoop(const EngineFile& file, const EngineDefinition& defi
   }
   input_.starter = operation.starter ? 1 : 0;
   input_.cut_cylinders = operation.cut_cylinders;
+  input_.wheel_faults = operation.wheel_faults;
+  shape_ = detail::shape_of<Real, S>(tables_->tables());
+  if (operation.schedule) schedule_.emplace(*operation.schedule);
+  get_inputs(input_, shape_, inputs_.data());
   state_.speed_rad_s = static_cast<double>(engine_.state().speed_rad_s);
 }
 
 template <class Real, class S>
 const typename FreeLoop<Real, S>::Output& FreeLoop<Real, S>::step() noexcept {
   before_ = state_;
+  if (schedule_) {
+    schedule_->at(state_.time_s, inputs_.data());
+    set_inputs(input_, shape_, inputs_.data());
+  }
   const std::uint64_t phase_before = engine_.state().phase.units();
   const Output& out = engine_.step(input_);
   const std::uint64_t phase = out.crank.units();
@@ -57,7 +65,9 @@ const typename FreeLoop<Real, S>::Output& FreeLoop<Real, S>::step() noexcept {
   state_.speed_rad_s = static_cast<double>(out.speed_rad_s);
   state_.acceleration_rad_s2 = static_cast<double>(out.acceleration_rad_s2);
   state_.torque_Nm = static_cast<double>(out.torque_Nm);
-  state_.work_J += static_cast<double>(out.mean_torque_Nm) * (state_.angle_deg - before_.angle_deg) * kRadPerDeg;
+  const double turned_rad = (state_.angle_deg - before_.angle_deg) * kRadPerDeg;
+  state_.work_J += static_cast<double>(out.mean_torque_Nm) * turned_rad;
+  state_.external_J += static_cast<double>(input_.external_torque_Nm) * turned_rad;
   return out;
 }
 

@@ -4,8 +4,10 @@
 // (free_cycles.hpp, free_energy.hpp), files (free_run.cpp).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include <crankloop/crankloop.hpp>
 #include <crankloop/scenes.hpp>
@@ -13,18 +15,21 @@
 #include "../../engine_file/engine_file.hpp"
 #include "../../engine_file/gas_order.hpp"
 #include "../../files/units.hpp"
+#include "../../loops/input_schedule.hpp"
 
 namespace crankloop::program {
 
-/// How the engine is let run. All of it holds for the whole run.
+/// How the engine is let run. All of it holds for the whole run, but for the inputs of a schedule.
 struct FreeOperation {
   double tick_s = 100e-6;
   double load_ratio = 1;
   double from_rpm = 0;  ///< negative = backwards
   double seconds = 2;
   bool starter = false;
-  std::uint32_t cut_cylinders = 0;  ///< bit k: cylinder k does not fire
-  GasOrder gas{};                   ///< of an engine with gas exchange, instead of the load ratio
+  std::uint32_t cut_cylinders = 0;                  ///< bit k: cylinder k does not fire
+  std::uint32_t wheel_faults = 0;                   ///< bit b: faults of input_bit b are on
+  GasOrder gas{};                                   ///< of an engine with gas exchange, instead of the load ratio
+  std::shared_ptr<const InputSchedule> schedule{};  ///< inputs over time; null: none
 
   [[nodiscard]] std::uint64_t ticks() const noexcept;  ///< as many as it takes to cover the time
 };
@@ -35,8 +40,9 @@ struct FreeState {
   double angle_deg = 0;  ///< turned, without end: backwards it falls
   double speed_rad_s = 0;
   double acceleration_rad_s2 = 0;
-  double torque_Nm = 0;  ///< of gas and masses, as in crankloop::Torque
-  double work_J = 0;     ///< of that torque
+  double torque_Nm = 0;   ///< of gas and masses, as in crankloop::Torque
+  double work_J = 0;      ///< of that torque
+  double external_J = 0;  ///< taken by the external torque
 
   [[nodiscard]] double speed_rpm() const noexcept { return speed_rad_s * kRpmPerRad_s; }
 };
@@ -55,10 +61,13 @@ class FreeLoop {
   /// tick or too many ticks, InputError for an engine that cannot run free.
   FreeLoop(const EngineFile& file, const EngineDefinition& definition, const FreeOperation& operation);
 
-  const Output& step() noexcept;
+  const Output& step() noexcept;  ///< with the schedule's inputs as they are when the tick begins
 
   [[nodiscard]] const Output& output() const noexcept { return engine_.output(); }
   [[nodiscard]] const FreeState& state() const noexcept { return state_; }
+  [[nodiscard]] const MisfireRecord& misfires_of(std::size_t cylinder) const noexcept {
+    return engine_.state().misfire[cylinder];
+  }
   [[nodiscard]] const FreeState& before() const noexcept { return before_; }  ///< the last tick
 
  private:
@@ -67,6 +76,9 @@ class FreeLoop {
   std::unique_ptr<Tables> tables_ = std::make_unique<Tables>();
   Engine engine_;
   typename Engine::Input input_;
+  detail::EngineShape shape_;
+  std::optional<InputSchedule> schedule_;
+  std::array<double, kMaxSceneInputs> inputs_{};
   double tick_s_;
   std::uint64_t ticks_ = 0;
   std::int64_t cycles_ = 0;

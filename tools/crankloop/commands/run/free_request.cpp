@@ -1,5 +1,7 @@
 #include "free_request.hpp"
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -9,6 +11,7 @@
 #include "../../files/error.hpp"
 #include "../../files/number.hpp"
 #include "../../files/words.hpp"
+#include "../../loops/input_option.hpp"
 #include "free_run.hpp"
 
 namespace crankloop::program {
@@ -28,12 +31,41 @@ std::uint32_t cut_cylinders(const std::string& text, const Layout& layout) {
   return cut;
 }
 
+/// "0,3": input bits of [fault NAME].
+std::uint32_t fault_bits(const std::string& text, const EngineDefinition& definition) {
+  std::uint32_t known = 0, bits = 0;
+  for (int i = 0; i < definition.wheel_fault_count; ++i)
+    if (definition.wheel_faults[i].input_bit >= 0) known |= 1u << definition.wheel_faults[i].input_bit;
+  for (const std::string_view one : split(text, ',')) {
+    const ParsedNumber number = parse_number(one, from(0).up_to(31), "");
+    if (!number.ok()) throw UsageError("--fault-bits: " + number.problem);
+    const auto bit = static_cast<std::uint32_t>(number.value);
+    if (static_cast<double>(bit) != number.value)
+      throw UsageError("--fault-bits: " + in_quotes(one) + " is not a whole number");
+    if ((known >> bit & 1u) == 0)
+      throw UsageError("--fault-bits: no [fault NAME] has input_bit = " + std::to_string(bit));
+    bits |= 1u << bit;
+  }
+  return bits;
+}
+
 /// The file's engine, with the brake of the command line.
 EngineDefinition loaded(const EngineFile& file, const Arguments& arguments) {
   EngineDefinition definition = file.definition();
   if (arguments.has("--machine-Nm"))
     definition.machine = {arguments.number("--machine-Nm"), 0, 0, definition.machine.inertia_kg_m2};
   return definition;
+}
+
+/// What an input file may drive: the scene's inputs, of which those of this engine.
+std::shared_ptr<const InputSchedule> schedule_of(const Arguments& arguments, const EngineFile& file) {
+  detail::EngineShape shape;
+  shape.cylinders = static_cast<std::uint32_t>(file.definition().layout.cylinders);
+  std::optional<InputSchedule> schedule =
+      read_inputs(arguments, file,
+                  breathes(file.definition()) ? scene_inputs<scenes::BreathingFree>(shape)
+                                              : scene_inputs<scenes::FreeRunning>(shape));
+  return schedule ? std::make_shared<const InputSchedule>(std::move(*schedule)) : nullptr;
 }
 
 std::string command_line(const Arguments& arguments, const EngineFile& file, const GasOrder& gas) {
@@ -46,6 +78,9 @@ std::string command_line(const Arguments& arguments, const EngineFile& file, con
   if (breathes(file.definition())) text += " " + options_of(gas);
   if (arguments.has("--starter")) text += " --starter";
   if (arguments.has("--cut")) text += " --cut " + arguments.text("--cut");
+  if (arguments.has("--fault-bits")) text += " --fault-bits " + arguments.text("--fault-bits");
+  for (const std::string& misfire : arguments.words("--misfire")) text += " --misfire " + shell_word(misfire);
+  if (arguments.has("--inputs")) text += " --inputs " + shell_word(arguments.text("--inputs"));
   return text + " --real " + arguments.text("--real");
 }
 
@@ -53,7 +88,8 @@ std::string command_line(const Arguments& arguments, const EngineFile& file, con
 
 void require_options_that_fit(const Arguments& arguments) {
   const bool free = arguments.has("--free");
-  for (const char* option : {"--machine-Nm", "--starter", "--from-rpm", "--seconds", "--cut"}) {
+  for (const char* option :
+       {"--machine-Nm", "--starter", "--from-rpm", "--seconds", "--cut", "--misfire", "--fault-bits", "--inputs"}) {
     if (!free && arguments.has(option)) throw UsageError(std::string(option) + " is for a run with --free");
   }
   if (free && arguments.has("--rpm"))
@@ -78,6 +114,9 @@ int run_free_by(const Arguments& arguments, const EngineFile& file, const GasOrd
   request.operation.starter = arguments.has("--starter");
   if (arguments.has("--cut"))
     request.operation.cut_cylinders = cut_cylinders(arguments.text("--cut"), definition.layout);
+  if (arguments.has("--fault-bits"))
+    request.operation.wheel_faults = fault_bits(arguments.text("--fault-bits"), definition);
+  request.operation.schedule = schedule_of(arguments, file);
   request.real = arguments.text("--real");
   request.command_line = command_line(arguments, file, gas);
   for (std::string& line : tell_warnings(arguments, warnings_about_running_free(file, definition)))

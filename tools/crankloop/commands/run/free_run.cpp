@@ -19,22 +19,34 @@ namespace {
 template <class Real, class S>
 using FreeOutput = typename FreeLoop<Real, S>::Output;
 
+/// Those with a rule by which cycles misfire, from 0.
+std::vector<std::size_t> misfiring_cylinders(const EngineDefinition& engine) {
+  std::vector<std::size_t> cylinders;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(engine.layout.cylinders); ++k)
+    if (engine.misfires[k].pattern != MisfirePattern::none) cylinders.push_back(k);
+  return cylinders;
+}
+
 /// A row per tick. Edges stand in one cell: their times since the run's start, blanks between.
 template <class Real, class S>
 class TickTable {
  public:
-  TickTable(Output& out, const std::vector<std::string>& wheels, const EngineDefinition& engine)
-      : csv_{out, header(wheels, engine)}, wheels_{wheels.size()}, engine_{engine} {}
+  TickTable(Output& out, const std::vector<std::string>& signals, const EngineDefinition& engine)
+      : csv_{out, header(signals, engine)},
+        wheels_{static_cast<std::size_t>(engine.trigger_count)},
+        signals_{signals.size()},
+        engine_{engine} {}
 
-  void row(const FreeState& state, double tick_s, const FreeOutput<Real, S>& out) {
+  void row(const FreeLoop<Real, S>& loop, double tick_s, const FreeOutput<Real, S>& out) {
+    const FreeState& state = loop.state();
     csv_.cell(state.time_s);
     csv_.cell(in_cycle_deg(state.angle_deg));
     csv_.cell(out.speed_rad_s * static_cast<Real>(kRpmPerRad_s));
     for (const Real value :
          {out.acceleration_rad_s2, out.torque_Nm, out.mean_torque_Nm, out.friction_Nm, out.starter_Nm})
       csv_.cell(value);
-    for (std::size_t w = 0; w < wheels_; ++w) {
-      const auto& signal = out.trigger[w];
+    for (std::size_t w = 0; w < signals_; ++w) {
+      const auto& signal = signal_of(out, w, wheels_);
       csv_.cell(static_cast<int>(signal.level));
       csv_.cell(static_cast<int>(signal.edge_count));
       std::string times;
@@ -43,16 +55,24 @@ class TickTable {
       }
       csv_.cell(std::string_view(times));
     }
+    for (const std::size_t k : misfiring_cylinders(engine_)) {
+      csv_.cell(static_cast<double>(loop.misfires_of(k).cycles));
+      csv_.cell(static_cast<double>(loop.misfires_of(k).misfires));
+    }
     if constexpr (detail::Needs<S>::gas) write_gas(csv_, out, engine_);
     csv_.end_row();
   }
 
  private:
-  static std::vector<std::string> header(const std::vector<std::string>& wheels, const EngineDefinition& engine) {
+  static std::vector<std::string> header(const std::vector<std::string>& signals, const EngineDefinition& engine) {
     std::vector<std::string> columns{"time_s",    "crank_deg",      "speed_rpm",   "acceleration_rad_s2",
                                      "torque_Nm", "mean_torque_Nm", "friction_Nm", "starter_Nm"};
-    for (const std::string& wheel : wheels) {
-      for (const char* what : {"_level", "_edges", "_edge_times_s"}) columns.push_back(wheel + what);
+    for (const std::string& signal : signals) {
+      for (const char* what : {"_level", "_edges", "_edge_times_s"}) columns.push_back(signal + what);
+    }
+    for (const std::size_t k : misfiring_cylinders(engine)) {
+      columns.push_back("cycles_" + std::to_string(k + 1));
+      columns.push_back("misfires_" + std::to_string(k + 1));
     }
     if (detail::Needs<S>::gas) add_gas_columns(columns, engine);
     return columns;
@@ -60,15 +80,16 @@ class TickTable {
 
   CsvWriter csv_;
   std::size_t wheels_;
+  std::size_t signals_;  ///< those, and with faults the faulty ones
   const EngineDefinition& engine_;
 };
 
 /// The edges of a tick, for the cycles and the count.
 template <class Real, class S>
-void take_signals(const FreeOutput<Real, S>& out, double tick_s, bool first, CycleRecorder& recorder,
-                  std::vector<SignalFigures>& figures) {
+void take_signals(const FreeOutput<Real, S>& out, double tick_s, bool first, std::size_t wheels,
+                  CycleRecorder& recorder, std::vector<SignalFigures>& figures) {
   for (std::size_t w = 0; w < figures.size(); ++w) {
-    const auto& signal = out.trigger[w];
+    const auto& signal = signal_of(out, w, wheels);
     const std::uint32_t listed = listed_edges(signal);
     if (first) recorder.begin_at(w, level_before(signal));
     for (std::uint32_t e = 0; e < listed; ++e)
@@ -90,7 +111,7 @@ FreeFigures run_ticks(const EngineFile& file, const EngineDefinition& definition
   figures.ticks = operation.ticks();
   figures.speed_rpm = Overview(figures.ticks);
   figures.intake_kPa = Overview(figures.ticks);
-  for (const std::string& name : names_of_triggers(file)) figures.signals.push_back({name});
+  for (const std::string& name : names_of_signals(file)) figures.signals.push_back({name});
   CycleRecorder recorder(figures.signals.size());
   Progress progress("running", static_cast<double>(figures.ticks));
   if (dump != nullptr) dump->number(0, 0, operation.from_rpm);
@@ -98,7 +119,7 @@ FreeFigures run_ticks(const EngineFile& file, const EngineDefinition& definition
     const FreeOutput<Real, S>& out = loop.step();
     const FreeState& now = loop.state();
     const double before_rad_s = loop.before().speed_rad_s;
-    take_signals<Real, S>(out, operation.tick_s, tick == 0, recorder, figures.signals);
+    take_signals<Real, S>(out, operation.tick_s, tick == 0, file.triggers().size(), recorder, figures.signals);
     recorder.take(loop.before(), now);
     books.take(loop.before(), now, static_cast<double>(out.starter_Nm));
     figures.speed_rpm.take(now.time_s, now.speed_rpm());
@@ -111,7 +132,7 @@ FreeFigures run_ticks(const EngineFile& file, const EngineDefinition& definition
       figures.gas.exhaust_Pa = static_cast<double>(out.manifold[kExhaust].pressure_Pa);
       figures.intake_kPa.take(now.time_s, figures.gas.intake_Pa / 1e3);
     }
-    if (table != nullptr) table->row(now, operation.tick_s, out);
+    if (table != nullptr) table->row(loop, operation.tick_s, out);
     if (dump != nullptr) {
       dump->number(0, now.time_s, now.speed_rpm());
       dump->number(1, now.time_s, now.torque_Nm);
@@ -121,6 +142,7 @@ FreeFigures run_ticks(const EngineFile& file, const EngineDefinition& definition
   }
   if constexpr (detail::Needs<S>::gas)
     take_cycles(loop.output(), static_cast<std::size_t>(definition.layout.cylinders), figures.gas);
+  for (const std::size_t k : misfiring_cylinders(definition)) figures.misfires.push_back({k, loop.misfires_of(k)});
   figures.end = loop.state();
   figures.energy = books.balance(figures.end);
   figures.cycles.assign(recorder.cycles().begin(), recorder.cycles().end());
@@ -160,6 +182,10 @@ std::string summary_text(const EngineFile& file, const FreeRequest& request, con
   s.line("tick", operation.tick_s * 1e6, "us");
   s.line("time", f.end.time_s, "s");
   s.line("ticks", f.ticks);
+  if (operation.schedule) {
+    s.line("inputs_from_file", operation.schedule->columns());
+    s.remark("inputs below are those of the command line, where the file does not have them");
+  }
   if (breathes(file.definition())) {
     add_order(s, operation.gas);
   } else {
@@ -182,6 +208,13 @@ std::string summary_text(const EngineFile& file, const FreeRequest& request, con
   s.line("taken_by_load", f.energy.load_J, "J");
   s.line("change_of_kinetic_energy", f.energy.kinetic_J, "J");
   s.line("energy_defect", f.energy.missing_ratio(), "", "of the largest of these");
+  for (const MisfireFigures& misfire : f.misfires) {
+    const std::string whose = "cylinder_" + std::to_string(misfire.cylinder + 1);
+    s.line(whose + "_cycles", std::uint64_t{misfire.counts.cycles});
+    s.line(whose + "_misfires", std::uint64_t{misfire.counts.misfires});
+    s.line(whose + "_misfires_in_200_turns", std::uint64_t{misfire.counts.in_200_turns}, "", "its last 100 cycles");
+    s.line(whose + "_misfires_in_1000_turns", std::uint64_t{misfire.counts.in_1000_turns}, "", "its last 500 cycles");
+  }
   for (const SignalFigures& signal : f.signals) {
     s.line(signal.name + "_edges", signal.edges);
     s.line(signal.name + "_edges_lost", signal.lost, "",
@@ -196,8 +229,8 @@ void run_and_write(const EngineFile& file, const EngineDefinition& definition, c
                    Results& results) {
   std::optional<TickTable<Real, S>> table;
   std::optional<SignalDump> dump;
-  if (Output* vcd = results["--vcd"]) dump.emplace(file, *vcd, std::vector<std::string>{"speed_rpm", "torque_Nm"});
-  if (Output* csv = results["--csv"]) table.emplace(*csv, names_of_triggers(file), definition);
+  if (Output* vcd = results["--vcd"]) dump.emplace(SignalDump::with_faults(file, *vcd, {"speed_rpm", "torque_Nm"}));
+  if (Output* csv = results["--csv"]) table.emplace(*csv, names_of_signals(file), definition);
   const FreeFigures figures =
       run_ticks<Real, S>(file, definition, request, table ? &*table : nullptr, dump ? &*dump : nullptr);
   if (dump) dump->finish(figures.end.time_s);

@@ -33,6 +33,12 @@ struct SignalFigures {
   std::uint64_t lost = 0;  ///< counted, but the scene had no room to list them
 };
 
+/// What became of one cylinder whose cycles misfire by a rule.
+struct MisfireFigures {
+  std::size_t cylinder = 0;  ///< from 0
+  MisfireRecord counts{};
+};
+
 struct FreeFigures {
   std::uint64_t ticks = 0;
   std::uint64_t faulty_ticks = 0;
@@ -46,6 +52,7 @@ struct FreeFigures {
   double friction_Nm = 0;         ///< at the last cycle's mean speed, as is the load
   double load_Nm = 0;
   std::vector<SignalFigures> signals;
+  std::vector<MisfireFigures> misfires;
   GasFigures gas;          ///< of an engine with gas exchange; pressures at the end
   Overview intake_kPa{0};  ///< likewise
 };

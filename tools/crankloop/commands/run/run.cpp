@@ -23,6 +23,7 @@
 #include "../../engine_report/engine_report.hpp"
 #include "../../files/csv.hpp"
 #include "../../files/words.hpp"
+#include "../../loops/input_option.hpp"
 #include "../../loops/run_accuracy.hpp"
 #include "../../loops/run_loop.hpp"
 #include "../../loops/run_trace.hpp"
@@ -371,9 +372,14 @@ int run_against(const Arguments& arguments, const EngineFile& first) {
 int run_run(const Arguments& arguments) {
   require_options_that_fit(arguments);
   std::vector<std::string> warnings;
-  const EngineFile file = read_engine_for_scenes(arguments, needed_sections(), &warnings);
+  EngineFile file = read_engine_for_scenes(arguments, needed_sections(), &warnings);
+  if (!arguments.has("--free")) {
+    for (std::string& line : tell_warnings(arguments, warnings_about_misfires_left_out(file)))
+      warnings.push_back(std::move(line));
+  }
   if (arguments.has("--against")) return run_against(arguments, file);
   const GasOrder gas = gas_for(arguments, file);
+  if (arguments.has("--free")) file.set_misfires(arguments.words("--misfire"));
   if (arguments.has("--free")) return run_free_by(arguments, file, gas, std::move(warnings));
   const Operation operation = operation_of(arguments, file, gas);
   for (std::string& line : tell_accuracy(arguments, file, operation)) warnings.push_back(std::move(line));
@@ -407,6 +413,9 @@ constexpr Option kOptions[] = {
            "a brake of constant torque instead of that of the file's [machine], whose inertia stays"),
     flag("--starter", "the file's [starter] turns the crank too; it free-wheels where the engine is faster"),
     text("--cut", "K,..", "cylinders that do not fire, like 1,3"),
+    kMisfire,
+    text("--fault-bits", "B,..", "input bits of [fault NAME] that are on during the whole run, like 0,3"),
+    kInputs,
 };
 
 }  // namespace
@@ -416,7 +425,8 @@ const Command kRun{
     "the fixed-step loop: torque, power, peak forces, time per tick; or a free-running engine; CSV and report",
     "FILE [--rpm N] [--cycles N] [--tick-us T] [--real R] [--load-ratio Q] [--csv F] [--report F.html] [--vcd F]\n"
     "       [--throttle R] [--lambda L | --fuel-mg M] [--burn-start-deg A] [--against B.ini]\n"
-    "       crankloop run FILE --free [--from-rpm N] [--seconds S] [--machine-Nm L] [--starter] [--cut K,..] [...]",
+    "       crankloop run FILE --free [--from-rpm N] [--seconds S] [--machine-Nm L] [--starter] [--cut K,..]\n"
+    "       [--misfire RULE ...] [--fault-bits B,..] [--inputs IN.csv] [...]",
     "crankloop run diesel_495.ini --rpm 2000 --csv run.csv --report report.html",
     1,
     kOptions,

@@ -20,9 +20,10 @@
 
 namespace crankloop::detail {
 
-/// Which cylinders do not fire this tick.
+/// Which cylinders do not fire this tick, or not with all their heat.
+template <class Real, class S>
 struct CutOfTick {
-  std::uint32_t cut_cylinders;
+  CutCylinders<Real, S> cut_cylinders;
 };
 /// The integration of the crank's motion, between its halves.
 template <class Real>
@@ -44,7 +45,7 @@ struct CamDragOfTick {
 
 /// What a tick's crank part takes and gives besides tables, state and output.
 template <class Real, class S>
-struct CrankTurn : If<Needs<S>::cut, CutOfTick>,
+struct CrankTurn : If<Needs<S>::lack, CutOfTick<Real, S>>,
                    If<Needs<S>::crank_dynamics, MotionOfTick<Real>>,
                    If<Needs<S>::gas_work, GasWorkOfTick<Real>>,
                    If<S::cam_drag, CamDragOfTick<Real>> {
@@ -121,7 +122,11 @@ template <class Real, class S>
                   faults);
   }
   if constexpr (Needs<S>::input_pressure) take_pressures(drive, state, input, crank, faults);
-  if constexpr (Needs<S>::cut) crank.cut_cylinders = input.cut_cylinders;
+  if constexpr (Needs<S>::cut) {
+    crank.cut_cylinders = cut_cylinders_of(state, input.cut_cylinders);
+  } else if constexpr (Needs<S>::lack) {
+    crank.cut_cylinders = cut_cylinders_of(state, 0);
+  }
   return faults;
 }
 

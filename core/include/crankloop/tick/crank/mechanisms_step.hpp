@@ -16,6 +16,7 @@
 #include <crankloop/tables/tables.hpp>
 #include <crankloop/tick/crank/cylinder_forces.hpp>
 #include <crankloop/tick/crank/engine_loads.hpp>
+#include <crankloop/tick/crank/misfire_step.hpp>
 #include <crankloop/tick/crank/torque_step.hpp>
 
 namespace crankloop::detail {
@@ -24,10 +25,10 @@ namespace crankloop::detail {
 /// are no cycle.
 template <class Real, class S>
 [[nodiscard]] Real mean_gas_Nm([[maybe_unused]] const Tables<Real, S>& tables, [[maybe_unused]] Real load_ratio,
-                               [[maybe_unused]] std::uint32_t cut_cylinders) noexcept {
+                               [[maybe_unused]] CutCylinders<Real, S> cut_cylinders) noexcept {
   if constexpr (Needs<S>::gas_torque && Needs<S>::load) {
     Real heat_Nm = tables.gas_torque_heat->mean_Nm;
-    if constexpr (Needs<S>::cut) heat_Nm -= CutHeat<Real, S>(tables, cut_cylinders).mean_Nm();
+    if constexpr (Needs<S>::lack) heat_Nm -= CutHeat<Real, S>(tables, cut_cylinders).mean_Nm();
     return tables.gas_torque_motored->mean_Nm + load_ratio * heat_Nm;
   } else if constexpr (Needs<S>::gas_torque) {
     return tables.gas_torque_full->mean_Nm;
@@ -74,7 +75,7 @@ struct MechanismsStep {
   /// In cylinder k, whose mechanism stands at `at`.
   template <class At>
   [[nodiscard, gnu::always_inline]] Real pressure_Pa([[maybe_unused]] std::uint32_t k, [[maybe_unused]] const At& at,
-                                                     [[maybe_unused]] std::uint32_t cut_cylinders,
+                                                     [[maybe_unused]] CutCylinders<Real, S> cut_cylinders,
                                                      [[maybe_unused]] Real load_ratio) const noexcept {
     if constexpr (N::input_pressure) {
       return torque.state.pressure_Pa[k];
@@ -86,7 +87,11 @@ struct MechanismsStep {
         return value(torque.tables.pressure_full[segment], at.u);
       } else {
         const Real motored_Pa = value(torque.tables.pressure_motored[segment], at.u);
-        if (N::cut && (cut_cylinders >> k & 1u) != 0) return motored_Pa;
+        if constexpr (N::misfire_of_table) {
+          load_ratio *= cut_cylinders.share(k);
+        } else {
+          if (N::cut && (cut_cylinders >> k & 1u) != 0) return motored_Pa;
+        }
         return motored_Pa + load_ratio * value(torque.tables.pressure_heat[segment], at.u);
       }
     } else {
@@ -105,7 +110,7 @@ struct MechanismsStep {
 
   /// Mechanism by mechanism what its cylinders share, then those. Fills crank.head_pressure_Pa where the scene has gas
   /// on its valves' heads.
-  void run([[maybe_unused]] CrankTurn<Real, S>& crank, [[maybe_unused]] std::uint32_t cut_cylinders) noexcept {
+  void run([[maybe_unused]] CrankTurn<Real, S>& crank, [[maybe_unused]] CutCylinders<Real, S> cut_cylinders) noexcept {
     const Drive<Real>& drive = *torque.tables.drive;
     [[maybe_unused]] typename TorqueStep<Real, S>::Swept swept;
     [[maybe_unused]] const std::uint8_t* k = drive.by_mechanism.cylinder;
@@ -130,7 +135,7 @@ struct MechanismsStep {
   [[nodiscard, gnu::always_inline]] Real show_cylinders(const std::uint8_t* next, const std::uint8_t* end,
                                                         [[maybe_unused]] const At& at, const Pose<Real>& p,
                                                         [[maybe_unused]] CrankTurn<Real, S>& crank,
-                                                        [[maybe_unused]] std::uint32_t cut_cylinders,
+                                                        [[maybe_unused]] CutCylinders<Real, S> cut_cylinders,
                                                         Real sum_Nm) noexcept {
     const Real speed = torque.state.speed_rad_s;
     [[maybe_unused]] Real velocity_m_s, acceleration_m_s2, rod_speed_rad_s, rod_acceleration_rad_s2;
@@ -185,8 +190,8 @@ template <class Real, class S>
 inline void run_mechanisms(const Tables<Real, S>& tables, State<Real, S>& state, Output<Real, S>& out,
                            CrankTurn<Real, S>& crank) noexcept {
   TorqueStep<Real, S> torque(tables, state, out);
-  std::uint32_t cut_cylinders = 0;
-  if constexpr (Needs<S>::cut) cut_cylinders = crank.cut_cylinders;
+  CutCylinders<Real, S> cut_cylinders{};
+  if constexpr (Needs<S>::lack) cut_cylinders = crank.cut_cylinders;
   [[maybe_unused]] const auto at = torque.read_torque(cut_cylinders);
   torque.move_crank(crank);
   if constexpr (MechanismsStep<Real, S>::kNeeded) MechanismsStep<Real, S>{torque}.run(crank, cut_cylinders);
@@ -216,11 +221,11 @@ template <class Real, class S, class OnceTurned>
                 within_magnitude(input.external_torque_Nm, static_cast<Real>(kMaxExternalTorque_Nm)),
                 state.external_torque_Nm, kFaultExternalTorque, faults);
   Real gas_Nm = state.gas_Nm[0];
-  std::uint32_t cut_cylinders = 0;
-  if constexpr (Needs<S>::cut) cut_cylinders = crank.cut_cylinders;
+  CutCylinders<Real, S> cut_cylinders{};
+  if constexpr (Needs<S>::lack) cut_cylinders = crank.cut_cylinders;
   if constexpr (Needs<S>::load) {
     Real heat_Nm = state.gas_Nm[1];
-    if constexpr (Needs<S>::cut) heat_Nm -= CutHeat<Real, S>(tables, cut_cylinders).torque_Nm(state.phase);
+    if constexpr (Needs<S>::lack) heat_Nm -= CutHeat<Real, S>(tables, cut_cylinders).torque_Nm(state.phase);
     gas_Nm += state.load_ratio * heat_Nm;
   }
   if constexpr (S::cam_drag) gas_Nm -= crank.cam_drag_Nm = state.cam_drag_Nm;
@@ -231,6 +236,7 @@ template <class Real, class S, class OnceTurned>
   crank.turned = motion.turn(gas_Nm, starter);
   crank.motion = &motion;
   state.phase += crank.turned;
+  if constexpr (Needs<S>::misfire_of_table) pass_cycles(tables, state, crank.turned);
   if constexpr (Needs<S>::gas) once_turned();
   run_mechanisms(tables, state, out, crank);
   return motion.overspeed() ? faults | kFaultOverspeed : faults;

@@ -12,41 +12,11 @@
 #include <crankloop/phase.hpp>
 #include <crankloop/tables/gas_tables.hpp>
 #include <crankloop/tick/checked.hpp>
+#include <crankloop/tick/crank/cycle_way.hpp>
 #include <crankloop/tick/gas/cylinder_gas.hpp>
 #include <crankloop/tick/gas/gas_state.hpp>
 
 namespace crankloop::detail {
-
-/// A cylinder's way in its own cycle over one step; 0 = its firing top dead centre.
-struct CycleWay {
-  std::uint64_t to;
-  std::int64_t turned;
-
-  [[nodiscard]] constexpr std::uint64_t from() const noexcept { return to - static_cast<std::uint64_t>(turned); }
-  [[nodiscard]] constexpr bool forward() const noexcept { return turned > 0; }
-  [[nodiscard]] constexpr bool passes_forward(std::uint64_t place) const noexcept {
-    return turned > 0 && static_cast<std::int64_t>(to - place) >= 0 && static_cast<std::int64_t>(from() - place) < 0;
-  }
-  /// Over the top dead centre of gas exchange, where a cycle ends, either way: in the middle of all numbers, where the
-  /// top bit changes; it changes at firing top dead centre too.
-  [[nodiscard]] constexpr bool passes_end() const noexcept {
-    return passes_dead_centre() && (to >> 63 != 0) == (turned > 0);
-  }
-  /// The one or the other.
-  [[nodiscard]] constexpr bool passes_dead_centre() const noexcept {
-    return static_cast<std::int64_t>(from() ^ to) < 0;
-  }
-  /// Whether it ends in the half of the cycle about gas exchange: 180 to 540 deg.
-  [[nodiscard]] constexpr bool in_gas_exchange() const noexcept {
-    constexpr std::uint64_t kQuarter = std::uint64_t{1} << 62;
-    return static_cast<std::int64_t>(to - kQuarter) >= 0;
-  }
-  /// Of the end, from -360 to 360.
-  template <class Real>
-  [[nodiscard]] constexpr Real deg() const noexcept {
-    return Phase{to}.template signed_cycles<Real>() * Real{kDegreesPerCycle};
-  }
-};
 
 /// The share of a cycle's fuel that its air can burn: less than 1 in a rich mixture.
 template <class Real>
@@ -70,14 +40,13 @@ template <class Real>
 template <class Real>
 [[gnu::noinline]] std::uint32_t take_fuel(CylinderBurn<Real>& burn, const BurnTable<Real>& table, const Real& mass_kg,
                                           const Real& burned_kg, const BurnOrder<Real>& order, bool cut) noexcept {
-  constexpr Real kLatest_deg = static_cast<Real>(150.001);  // kLatestBurn_deg, and rounding
   std::uint32_t faults = 0;
   constexpr Real kMost_kg = static_cast<Real>(kMaxFuel_kg);
   (void)checked(order.fuel_kg, within_positive(order.fuel_kg, kMost_kg), burn.asked_kg, kFaultBurn, faults);
   (void)checked(order.excess_air_ratio, within_positive(order.excess_air_ratio, static_cast<Real>(kMaxExcessAir_ratio)),
                 burn.asked_excess_air_ratio, kFaultBurn, faults);
   const bool good = within(order.start_deg, Real{-90}, Real{60}) && within(order.duration_deg, Real{5}, Real{150}) &&
-                    order.start_deg + order.duration_deg * table.span_ratio <= kLatest_deg;
+                    order.start_deg + order.duration_deg * table.span_ratio <= kLatestBurnEnd_deg<Real>;
   if (good) {
     burn.start_deg = order.start_deg, burn.duration_deg = order.duration_deg;
   } else {

@@ -29,10 +29,15 @@ template <class T>
   for (T* x : {&step.blow_by_kg, &step.lost_J, &step.wall_heat_J}) put_lane(*x, i, NumberOf<T>{0});
 }
 
+template <class Real>
+[[nodiscard, gnu::always_inline]] inline bool leaks(const GasCrevice<Real>& table) noexcept {
+  return table.leak_kg_s_Pa > 0;
+}
+
 /// Through the leak in a step, by the conductance at the step's mean pressure: regular where pressures are equal.
-template <class T>
-[[nodiscard, gnu::always_inline]] inline T blow_by_kg(const GasCrevice<NumberOf<T>>& table, const T& mean_Pa,
-                                                      const T& per_kg_Pa, NumberOf<T> step_s) noexcept {
+template <class T, class Table>
+[[nodiscard, gnu::always_inline]] inline T blow_by_kg(const Table& table, const T& mean_Pa, const T& per_kg_Pa,
+                                                      NumberOf<T> step_s) noexcept {
   using Real = NumberOf<T>;
   const Real behind_Pa = table.crankcase_Pa;
   const T apart_Pa = mean_Pa - behind_Pa;
@@ -52,9 +57,9 @@ template <class T>
 
 /// The step of a crevice between the closed step of its cylinder and the flow through the ports: moves gas from the
 /// sums that the cylinder gains, and its temperature and work. Answers how much of a kilogram that flows through
-/// a port goes to the crevice, for each that stays.
-template <class T>
-[[nodiscard, gnu::always_inline]] inline T step_crevice(CreviceGas<T>& crevice, const GasCrevice<NumberOf<T>>& table,
+/// a port goes to the crevice, for each that stays. `table`: GasCrevice, or WarmCrevice of T.
+template <class T, class Table>
+[[nodiscard, gnu::always_inline]] inline T step_crevice(CreviceGas<T>& crevice, const Table& table,
                                                         const CylinderGas<T>& gas, NumberOf<T> step_s,
                                                         ClosedStep<T>& closed, GasGain<T>& gain,
                                                         CreviceStep<T>& step) noexcept {
@@ -74,8 +79,7 @@ template <class T>
   const T out_Pa_kg = per_kg_K_Pa * end_K, in_Pa_kg = per_kg_K_Pa * table.wall_K;
   const T end_Pa = mass_kg * kGasConstant<Real> * end_K * closed.per_volume_m3;
   T leak_kg{};
-  if (table.leak_kg_s_Pa > 0)
-    leak_kg = blow_by_kg<T>(table, kHalf * (gas.point.pressure_Pa + end_Pa), out_Pa_kg, step_s);
+  if (leaks(table)) leak_kg = blow_by_kg<T>(table, kHalf * (gas.point.pressure_Pa + end_Pa), out_Pa_kg, step_s);
   // What it lacks.
   const T wants_kg = (table.kg_per_Pa * end_Pa - crevice.mass_kg) + leak_kg;
   const auto fills = wants_kg > Real{0};

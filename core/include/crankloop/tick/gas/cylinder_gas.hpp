@@ -54,9 +54,9 @@ struct ClosedStep {
   T gas_ratio;      ///< of the mean temperature
 
   /// The temperature's rise is worked out as such: exp() and a difference would lose a slow crank's.
+  template <class Walls>
   [[nodiscard, gnu::always_inline]] static ClosedStep of(CylinderGas<T>& gas, const T& volume_m3, const T& heat_J,
-                                                         const GasWalls<Real>& walls,
-                                                         const GasDrive<Real>& drive) noexcept {
+                                                         const Walls& walls, const GasDrive<Real>& drive) noexcept {
     constexpr Real b = kHeatSlope<Real>;
     const auto c = [](double x) { return static_cast<Real>(x); };
     const T wall_W = wall_heat_W<T>(walls, gas.point, gas.volume_m3, drive.stirring_m_s);
@@ -207,11 +207,13 @@ struct NoCrevices {
 
 /// Steps a cylinder, or several abreast. Contents that no engine holds are still to be put right. `crevices(closed,
 /// gain)` takes what goes into crevices from the cylinder and answers how much they give way to flow through the ports.
-template <class T, class Far, class Crevices = NoCrevices>
-[[nodiscard, gnu::always_inline]] inline CylinderStep<T> step_gas(
-    CylinderGas<T>& gas, const T& volume_m3, const GasFuel<T>& fuel, const GasWalls<NumberOf<T>>& walls,
-    const GasDrive<NumberOf<T>>& drive, const T (&to_m2)[kPorts], const Far (&far)[kPorts],
-    PortStep<T> (&through)[kPorts], const Crevices& crevices = {}) noexcept {
+template <class T, class Walls, class Far, class Crevices = NoCrevices>
+[[nodiscard, gnu::always_inline]] inline CylinderStep<T> step_gas(CylinderGas<T>& gas, const T& volume_m3,
+                                                                  const GasFuel<T>& fuel, const Walls& walls,
+                                                                  const GasDrive<NumberOf<T>>& drive,
+                                                                  const T (&to_m2)[kPorts], const Far (&far)[kPorts],
+                                                                  PortStep<T> (&through)[kPorts],
+                                                                  const Crevices& crevices = {}) noexcept {
   ClosedStep<T> closed = ClosedStep<T>::of(gas, volume_m3, fuel.energy_J, walls, drive);
   through[kIntake] = through[kExhaust] = PortStep<T>{};
   GasGain<T> gain{fuel.mass_kg, closed.heat_J - closed.wall_heat_J - closed.work_J, fuel.burned_kg};

@@ -7,7 +7,10 @@
 #include <crankloop/output.hpp>
 #include <crankloop/state.hpp>
 #include <crankloop/tables/tables.hpp>
+#include <crankloop/tick/crank/misfire_step.hpp>
+#include <crankloop/tick/gas/charge_burn.hpp>
 #include <crankloop/tick/gas/combustion.hpp>
+#include <crankloop/tick/gas/knock.hpp>
 
 namespace crankloop::detail {
 
@@ -26,8 +29,8 @@ template <class Real, class S>
   }
 }
 
-/// Fuel that burns on the way of a cylinder: where that passes latch_deg, of a new cycle. `ends`: it passes a cycle's
-/// end.
+/// Fuel that burns on the way of a cylinder: where that passes latch_deg, of a new cycle, or of a misfiring one a
+/// share. `ends`: it passes a cycle's end.
 template <class Real, class S>
 [[nodiscard]] inline GasFuel<Real> burn_on_way(const Tables<Real, S>& tables, State<Real, S>& state,
                                                const Input<Real, S>& input, std::uint32_t cylinder, const CycleWay& way,
@@ -40,12 +43,61 @@ template <class Real, class S>
   if (burn.taken == 0 && way.passes_forward(table.latch_phase)) {
     bool cut = false;
     if constexpr (Needs<S>::gas_cut) cut = (input.cut_cylinders >> cylinder & 1u) != 0;
+    Real burning_ratio{1};
+    if constexpr (S::misfire) {
+      burning_ratio = begin_cycle(tables.misfires[cylinder], state.misfire[cylinder]);
+      cut = cut || !(burning_ratio > 0);
+    }
     const BurnOrder<Real> order = burn_order(tables, input, cylinder);
+    if constexpr (Needs<S>::charge_burn) burn.start_deg = state.charge_burn[cylinder].spark_deg;  // last good
     faults |= take_fuel(burn, table, mass_kg, burned_kg, order, cut);
+    if constexpr (S::misfire) burn.fuel_kg *= burning_ratio;  // the mixture's excess air stays
+    if constexpr (Needs<S>::charge_burn) order_start(state.charge_burn[cylinder], burn, table, *tables.charge_burn);
+    if constexpr (Needs<S>::knock) {
+      const std::uint32_t bit = std::uint32_t{1} << cylinder;
+      reset_knock(state.knock[cylinder]);
+      state.knock_due = tables.knock->in_use != 0 && burn.fuel_kg > 0 ? state.knock_due | bit : state.knock_due & ~bit;
+    }
+  }
+  if constexpr (Needs<S>::charge_burn) {
+    if (state.charge_burn[cylinder].due != 0 && burn.taken != 0 && way.deg<Real>() > burn.start_deg)
+      begin_burn(tables, state, cylinder, way);
   }
   const GasFuel<Real> fuel = burnt_fuel(burn, table, mass_kg, burned_kg, way);
   if (ends && way.forward()) end_burn(burn);
   return fuel;
+}
+
+/// The integrals of knock of those among cylinders from `first` on whose burns begin on their ways; `due`: bits of
+/// those that are yet to. Of one whose fuel is taken on the same way, on the next.
+template <class Real, class S>
+[[gnu::noinline]] void begin_knock_on_way(const Tables<Real, S>& tables, State<Real, S>& state, std::uint32_t first,
+                                          std::uint32_t due, const CycleWay* way) noexcept {
+  for (std::uint32_t k = first; due != 0; due >>= 1, ++k, ++way) {
+    const CylinderBurn<Real>& burn = state.burn[k];
+    if ((due & 1u) == 0 || !(way->template deg<Real>() > burn.start_deg) || !(burn.fuel_kg > 0)) continue;
+    begin_knock(state.knock[k], charge_at_start(tables, state, k, *way));
+    state.knock_due &= ~(std::uint32_t{1} << k), state.knock_in_burn |= std::uint32_t{1} << k;
+  }
+}
+
+/// The step of cylinders from `first` on as far as knock goes, and what their cycles show of it. Bits of each:
+/// `in_burn`, its integral grows, `ends`, its cycle does.
+template <class Real, class S>
+[[gnu::noinline]] void knock_on_way(const Tables<Real, S>& tables, State<Real, S>& state, Output<Real, S>& out,
+                                    std::uint32_t first, std::uint32_t in_burn, std::uint32_t ends, const CycleWay* way,
+                                    Real step_s) noexcept {
+  std::uint32_t left = in_burn | ends;
+  for (std::uint32_t k = first; left != 0; left >>= 1, in_burn >>= 1, ends >>= 1, ++k, ++way) {
+    if ((left & 1u) == 0) continue;
+    KnockRecord<Real>& knock = state.knock[k];
+    const Real pressure_Pa = state.cylinder_gas.pressure_Pa[k];
+    const bool goes_on =
+        (in_burn & 1u) != 0 && step_knock(knock, *tables.knock, state.burn[k], pressure_Pa, step_s, *way);
+    const bool ended = (ends & 1u) != 0;
+    if (!goes_on || ended) state.knock_in_burn &= ~(std::uint32_t{1} << k);
+    if (ended && way->forward()) out.knock_integral[k] = knock.integral_ratio, out.knock_deg[k] = knock.passes_deg;
+  }
 }
 
 /// Shows a cycle that was recorded from its begin, and begins the next.
@@ -61,6 +113,7 @@ template <class Real, class S>
       heat_J_kg = tables.burn->heat_J_kg * burning_ratio(burn), excess_air_ratio = burn.excess_air_ratio;
     }
     out.gas_cycle[cylinder] = finished(record, gas, *tables.gas_cylinders, heat_J_kg, excess_air_ratio);
+    if constexpr (Needs<S>::charge_burn) out.cycle_burn[cylinder] = burn_of_cycle(tables, state, cylinder);
     if constexpr (S::crevice) out.cycle_blow_by_kg[cylinder] = state.cycle_blow_by_kg[cylinder];
   }
   if constexpr (S::crevice) state.cycle_blow_by_kg[cylinder] = Real{0};

@@ -19,6 +19,7 @@
 #include <crankloop/tick/gas/gas_start.hpp>
 #include <crankloop/tick/gas/manifold.hpp>
 #include <crankloop/tick/gas/runner.hpp>
+#include <crankloop/tick/gas/warm_walls.hpp>
 #include <crankloop/tick/lanes.hpp>
 
 namespace crankloop::detail {
@@ -116,6 +117,11 @@ class GasCylindersStep {
     std::uint32_t faults = 0;
     [[maybe_unused]] const std::uint32_t ends = ends_ >> k;  // one bit of each lane
     GasFuel<T> fuel{};
+    if constexpr (N::knock) {
+      constexpr std::uint32_t kAll = (std::uint32_t{1} << kLanes) - 1;
+      const std::uint32_t due = state_.knock_due >> k & kAll;
+      if (due != 0) begin_knock_on_way(tables_, state_, k, due, way);
+    }
     if constexpr (N::burn) {
       for (int i = 0; i < kLanes; ++i) {
         const GasFuel<Real> one = burn_on_way(tables_, state_, input, k + static_cast<std::uint32_t>(i), way[i],
@@ -132,8 +138,8 @@ class GasCylindersStep {
     PortStep<T> through[kPorts];
     [[maybe_unused]] CreviceStep<T> crevice_step{};
     [[maybe_unused]] RunnerSteps<kLanes> runners;
-    CylinderStep<T> done =
-        step_with_runners<T>(gas, k, volume_m3, fuel, table.walls, step, to_m2, through, runners, crevice_step);
+    CylinderStep<T> done = step_with_runners<T>(gas, k, volume_m3, fuel, walls_at<T>(table, k), step, to_m2, through,
+                                                runners, crevice_step);
     state_.cylinder_gas.put(k, gas);
     if (done.flows) state_.cylinder_gas.put_areas(k, gas);
     const T least_kg = step.drive.least_kg_m3 * volume_m3;
@@ -154,6 +160,7 @@ class GasCylindersStep {
       done.closed.wall_heat_J += crevice_step.wall_heat_J;
       show_crevices(crevice_step, k);
     }
+    if constexpr (S::walls) faults |= step_cylinder_walls<T>(k, done.closed.wall_heat_J, step.drive.step_s);
     T shown[7] = {gas.point.pressure_Pa,
                   gas.point.temperature_K,
                   gas.contents.mass_kg,
@@ -171,6 +178,11 @@ class GasCylindersStep {
     Real work_J = work_J_;
     for (int i = 0; i < kLanes; ++i) work_J += lane(crank_J, i);
     work_J_ = work_J;
+    if constexpr (N::knock) {
+      constexpr std::uint32_t kAll = (std::uint32_t{1} << kLanes) - 1;
+      const std::uint32_t in_burn = state_.knock_in_burn >> k & kAll, ending = ends & kAll;
+      if ((in_burn | ending) != 0) knock_on_way(tables_, state_, out_, k, in_burn, ending, way, step.drive.step_s);
+    }
     if constexpr (S::gas_results) {
       std::uint32_t intake_shut = 0;
       if (done.flows)
@@ -239,9 +251,9 @@ class GasCylindersStep {
     return seen_of_runner(runner, tables_.gas_runners->of[port], ends, step.drive.step_s, runner_step);
   }
 
-  template <class T>
+  template <class T, class Walls>
   [[nodiscard, gnu::always_inline]] CylinderStep<T> step_with_runners(
-      CylinderGas<T>& gas, std::uint32_t k, const T& volume_m3, const GasFuel<T>& fuel, const GasWalls<Real>& walls,
+      CylinderGas<T>& gas, std::uint32_t k, const T& volume_m3, const GasFuel<T>& fuel, const Walls& walls,
       const EngineGasStep<Real>& step, const T (&to_m2)[kPorts], PortStep<T> (&through)[kPorts],
       [[maybe_unused]] RunnerSteps<kLanesIn<T>>& runners, CreviceStep<T>& crevice_step) noexcept {
     if constexpr (S::runners) {
@@ -306,6 +318,13 @@ class GasCylindersStep {
                                        most_of_manifold_kg(port), step.drive.step_s);
     std::uint32_t faults = 0;
     if (__builtin_expect(!is_well_runner(runner, table), 0)) faults = put_runner_right(runner, table, moves);
+    if constexpr (S::walls) {
+      const WarmWallsTable<Real>& walls = *tables_.gas_walls;
+      if (walls.port_W_K[port] > 0)
+        out_.port_heat_W[port] += lose_heat(runner.contents, runner.point, table.per_volume_m3, walls.port_W_K[port],
+                                            walls.behind_K, step.drive.step_s) *
+                                  tables_.drive->per_tick_s;
+    }
     if constexpr (N::manifolds) {
       state_.manifold[port].contents.add(-moves.mass_kg, -moves.enthalpy_J, -moves.burned_kg);
       step.taken_kg[port] += moves.mass_kg;
@@ -313,21 +332,70 @@ class GasCylindersStep {
     return faults;
   }
 
+  // ---- walls --------------------------------------------------------------------------------------------------------
+
+  /// Of cylinder `k`, or of lanes.
+  template <class T>
+  [[nodiscard, gnu::always_inline]] decltype(auto) walls_at(const GasCylinders<Real>& table,
+                                                            [[maybe_unused]] std::uint32_t k) const noexcept {
+    if constexpr (S::walls) {
+      return WarmWalls<T>(table.walls, load<T>(state_.wall_K + k));
+    } else {
+      return (table.walls);
+    }
+  }
+  [[nodiscard, gnu::always_inline]] static const GasCrevice<Real>& crevice_at(const GasCrevice<Real>& table,
+                                                                              const GasWalls<Real>&) noexcept {
+    return table;
+  }
+  template <class T>
+  [[nodiscard, gnu::always_inline]] static WarmCrevice<T> crevice_at(const GasCrevice<Real>& table,
+                                                                     const WarmWalls<T>& walls) noexcept {
+    return WarmCrevice<T>(table, walls.temperature_K);
+  }
+
+  /// Answers fault bits.
+  template <class T>
+  [[nodiscard, gnu::always_inline]] std::uint32_t step_cylinder_walls(std::uint32_t k, const T& heat_J,
+                                                                      Real step_s) noexcept {
+    const WarmWallsTable<Real>& table = *tables_.gas_walls;
+    T wall_K = load<T>(state_.wall_K + k);
+    std::uint32_t faults = 0;
+    if (table.capacity_J_K > 0) {
+      T rest_K = load<T>(state_.wall_rest_K + k);
+      bool plain = true;
+      if constexpr (S::crevice) {
+        if (tables_.gas_crevice->in_use != 0) {
+          const CreviceGas<T> crevice = state_.crevice_gas.template at<T>(k);
+          const T crevice_J_K =
+              crevice.mass_kg * (Real{646} + kHeatSlope<Real> * wall_K) + crevice.burned_kg * Real{93};
+          step_walls<T>(wall_K, rest_K, table, heat_J, crevice_J_K, step_s), plain = false;
+        }
+      }
+      if (plain) step_walls<T>(wall_K, rest_K, table, heat_J, step_s);
+      const auto well = both_hold(wall_K >= static_cast<Real>(kLeastGas_K), wall_K <= static_cast<Real>(kMaxGas_K));
+      if (__builtin_expect(!all(well), 0)) put_walls_right<T>(wall_K, rest_K), faults = kFaultGas;
+      store<T>(state_.wall_K + k, wall_K), store<T>(state_.wall_rest_K + k, rest_K);
+    }
+    store<T>(out_.wall_K + k, wall_K);
+    return faults;
+  }
+
   // ---- crevices -----------------------------------------------------------------------------------------------------
 
   /// Steps the gas of one cylinder, or of lanes, with its crevices where the engine has some.
-  template <class T, class Far>
+  template <class T, class Walls, class Far>
   [[nodiscard, gnu::always_inline]] CylinderStep<T> step_with_crevices(
       CylinderGas<T>& gas, [[maybe_unused]] std::uint32_t k, const T& volume_m3, const GasFuel<T>& fuel,
-      const GasWalls<Real>& walls, const EngineGasStep<Real>& step, const T (&to_m2)[kPorts],
-      const Far (&beyond)[kPorts], PortStep<T> (&through)[kPorts],
-      [[maybe_unused]] CreviceStep<T>& crevice_step) noexcept {
+      const Walls& walls, const EngineGasStep<Real>& step, const T (&to_m2)[kPorts], const Far (&beyond)[kPorts],
+      PortStep<T> (&through)[kPorts], [[maybe_unused]] CreviceStep<T>& crevice_step) noexcept {
     if constexpr (S::crevice) {
       const GasCrevice<Real>& table = *tables_.gas_crevice;
       const auto crevices = [&](ClosedStep<T> & closed, GasGain<T> & gain) __attribute__((always_inline)) {
         if (table.in_use == 0) return T{};
         CreviceGas<T> crevice = state_.crevice_gas.template at<T>(k);
-        const T give_way = step_crevice<T>(crevice, table, gas, step.drive.step_s, closed, gain, crevice_step);
+        const T give_way =
+            step_crevice<T>(crevice, crevice_at(table, walls), gas, step.drive.step_s, closed, gain, crevice_step);
         state_.crevice_gas.put(k, crevice);
         return give_way;
       };

@@ -31,6 +31,14 @@ template <class Real, class S>
       burn.asked_kg = table.fuel_kg, burn.asked_excess_air_ratio = table.excess_air_ratio;
       burn.start_deg = table.burn_start_deg, burn.duration_deg = table.burn_duration_deg;
     }
+    if constexpr (Needs<S>::knock) {
+      for (KnockRecord<Real>& knock : state.knock)
+        knock = {Real{0}, Real{0}, Real{300}, Real{100000}, Real{0}, Real{0}};
+      state.knock_due = state.knock_in_burn = 0;
+    }
+    if constexpr (Needs<S>::charge_burn) {
+      for (BurnStart<Real>& start : state.charge_burn) start = {table.burn_start_deg, Real{1}, 0, 0};
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include <crankloop/state.hpp>
 #include <crankloop/tables/angle.hpp>
 #include <crankloop/tables/tables.hpp>
 #include <crankloop/tick/checked.hpp>
@@ -25,6 +26,20 @@ template <class Real, class S>
   }
   const GasCylinders<Real>& table = *tables.gas_cylinders;
   return table.clearance_m3 + table.bore_area_m2 * (displacement_m > 0 ? displacement_m : Real{0});
+}
+
+/// Of one cylinder, as they are now.
+template <class Real, class S>
+[[nodiscard, gnu::always_inline]] inline decltype(auto) walls_of(const Tables<Real, S>& tables,
+                                                                 [[maybe_unused]] const State<Real, S>& state,
+                                                                 [[maybe_unused]] std::uint32_t cylinder) noexcept {
+  if constexpr (S::walls) {
+    GasWalls<Real> walls = tables.gas_cylinders->walls;
+    walls.temperature_K = state.wall_K[cylinder];
+    return walls;
+  } else {
+    return (tables.gas_cylinders->walls);
+  }
 }
 
 /// Effective, of all valves of a train in a cylinder that are open.

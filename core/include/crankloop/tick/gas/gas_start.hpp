@@ -11,7 +11,8 @@ namespace crankloop::detail {
 /// A cylinder's crevices, in equilibrium with it.
 template <class Real, class S>
 void fill_crevice(const Tables<Real, S>& tables, State<Real, S>& state, std::uint32_t k) noexcept {
-  const Real mass_kg = tables.gas_crevice->kg_per_Pa * state.cylinder_gas.pressure_Pa[k];
+  Real mass_kg = tables.gas_crevice->kg_per_Pa * state.cylinder_gas.pressure_Pa[k];
+  if constexpr (S::walls) mass_kg *= tables.gas_cylinders->walls.temperature_K / state.wall_K[k];
   state.crevice_gas.put(k, CreviceGas<Real>{mass_kg, Real{0}, mass_kg * state.cylinder_gas.burned_ratio[k], Real{0}});
 }
 
@@ -44,12 +45,13 @@ void fill_runners(const Tables<Real, S>& tables, State<Real, S>& state, std::uin
 template <class Real, class S>
 [[gnu::cold, gnu::noinline]] void fill_cylinders(const Tables<Real, S>& tables, State<Real, S>& state) noexcept {
   const GasPoint<Real> from = manifold_of(state, kIntake);
+  if constexpr (Needs<S>::knock) state.knock_due = state.knock_in_burn = 0;
   for (std::uint32_t k = 0; k < count<S>(tables.drive->cylinders); ++k) {
     CylinderGas<Real> gas{};
     gas.volume_m3 = gas_volume_m3(tables, state.phase.units(), tables.drive->mechanism_of[k]);
     gas.contents = contents_of(from.pressure_Pa, from.temperature_K, from.burned_ratio, gas.volume_m3);
     gas.point = point_of(gas.contents, Real{1} / gas.volume_m3);
-    const GasWalls<Real>& walls = tables.gas_cylinders->walls;
+    const GasWalls<Real>& walls = walls_of(tables, state, k);
     gas.wall_heat_W = wall_heat_W(walls, gas.point, gas.volume_m3, stirring_m_s(walls, state.speed_rad_s));
     state.cylinder_gas.put(k, gas), state.cylinder_gas.put_areas(k, gas);
     state.cylinder_gas.pressure_before_Pa[k] = gas.point.pressure_Pa;
@@ -66,6 +68,10 @@ template <class Real, class S>
 template <class Real, class S>
 [[gnu::cold]] void start_gas(const Tables<Real, S>& tables, State<Real, S>& state) noexcept {
   start_gas_inputs(tables, state);
+  if constexpr (S::walls) {
+    for (Real& wall_K : state.wall_K) wall_K = tables.gas_cylinders->walls.temperature_K;
+    for (Real& rest_K : state.wall_rest_K) rest_K = Real{0};
+  }
   if constexpr (Needs<S>::manifolds) {
     for (int port = 0; port < kPorts; ++port) {
       const GasBeyond<Real>& outside = tables.gas_manifolds->outside[port];

@@ -171,6 +171,35 @@ struct CylinderBurn {
   std::uint32_t spare;
 };
 
+/// Where a burn must have ended, and rounding.
+template <class Real>
+inline constexpr Real kLatestBurnEnd_deg = static_cast<Real>(150.001);
+
+template <class Real>
+inline constexpr Real kLeastBurn_ratio = static_cast<Real>(0.5);  ///< duration of a burn by charge over the one ordered
+template <class Real>
+inline constexpr Real kMaxBurn_ratio = static_cast<Real>(3);
+
+/// A burn that follows the charge: CylinderBurn::start_deg is then where it starts, after the spark.
+template <class Real>
+struct BurnStart {
+  Real spark_deg;     ///< last good
+  Real ratio;         ///< duration of the last burn over the one ordered
+  std::uint32_t due;  ///< 1: this cycle's burn has not begun
+  std::uint32_t spare;
+};
+
+/// How far a cycle's unburned gas has come to knock.
+template <class Real>
+struct KnockRecord {
+  Real integral_ratio;
+  Real passes_deg;    ///< where it passed 1; 0: it has not
+  Real unburned_K;    ///< temperature of the unburned gas
+  Real pressure_Pa;   ///< of the cylinder, at the end of the last step
+  Real burned_ratio;  ///< of the unburned gas: residual
+  Real burnt_ratio;   ///< of the fuel, at the end of the last step
+};
+
 /// A cycle's fuel and burn, as asked for.
 template <class Real>
 struct BurnOrder {

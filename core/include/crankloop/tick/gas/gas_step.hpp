@@ -42,6 +42,7 @@ class GasStep {
     if constexpr (S::crevice) {
       for (CreviceOutput<Real>& shown : out_.crevice) shown.blow_by_kg_s = Real{0};
     }
+    if constexpr (S::walls) out_.port_heat_W[kIntake] = out_.port_heat_W[kExhaust] = Real{0};
     Areas end;
     read_areas(tables_, end, [this](std::uint32_t t, std::uint32_t k) { return out_.valve[t][k].lift_m; });
     CylinderGases<Real, kCylinders>& gases = state_.cylinder_gas;
@@ -52,6 +53,7 @@ class GasStep {
       for (std::uint32_t k = 0; k < cylinders(); ++k) {
         const Real shown[7] = {gases.pressure_Pa[k], gases.temperature_K[k], gases.mass_kg[k], gases.burned_ratio[k]};
         show(shown, &out_.cylinder_gas[k]);
+        if constexpr (S::walls) out_.wall_K[k] = state_.wall_K[k];
         if constexpr (S::crevice) out_.crevice[k].mass_kg = state_.crevice_gas.mass_kg[k];
         if constexpr (S::runners) {
           for (int port = 0; port < kPorts; ++port)
@@ -245,7 +247,19 @@ class GasStep {
     const Real in_kg = step_manifold(state_.manifold[port], near, step.beyond[port], outside, area_m2,
                                      table.per_volume_m3[port], table.least_kg[port], step.drive.step_s, put_back);
     outside_kg_[port] += in_kg;
+    if constexpr (S::walls) lose_heat_of(state_.manifold[port], port, step.drive.step_s);
     return in_kg;
+  }
+  /// To the walls of a manifold; where there are runners, they have them.
+  void lose_heat_of(ManifoldGas<Real>& manifold, int port, Real step_s) noexcept {
+    const WarmWallsTable<Real>& walls = *tables_.gas_walls;
+    if (!(walls.port_W_K[port] > 0)) return;
+    if constexpr (S::runners) {
+      if (tables_.gas_runners->of[port].area_m2 > 0) return;
+    }
+    const Real heat_J = lose_heat(manifold.contents, manifold.point, tables_.gas_manifolds->per_volume_m3[port],
+                                  walls.port_W_K[port], walls.behind_K, step_s);
+    out_.port_heat_W[port] += heat_J * tables_.drive->per_tick_s;
   }
   /// What flows back through it.
   [[nodiscard]] GasBeyond<Real> behind_outlet(Real pressure_Pa) const noexcept {

@@ -107,9 +107,10 @@ template <class Real>
   return magnitude(speed_rad_s) * walls.piston_m + static_cast<Real>(1.4);
 }
 
-template <class T>
-[[nodiscard, gnu::always_inline]] inline T wall_heat_W(const GasWalls<NumberOf<T>>& walls, const GasPoint<T>& gas,
-                                                       const T& volume_m3, NumberOf<T> stirring_m_s) noexcept {
+/// `walls`: GasWalls, or WarmWalls of T.
+template <class T, class Walls>
+[[nodiscard, gnu::always_inline]] inline T wall_heat_W(const Walls& walls, const GasPoint<T>& gas, const T& volume_m3,
+                                                       NumberOf<T> stirring_m_s) noexcept {
   const T stirred = gas.pressure_Pa * stirring_m_s;
   const T power = power_two_fifths<T>(stirred * stirred / gas.temperature_K);
   return walls.heat_factor * power * volume_power<T>(volume_m3) *

@@ -25,6 +25,7 @@
 #include <crankloop/status.hpp>
 #include <crankloop/tick/checked.hpp>
 #include <crankloop/tick/state/gas_agrees.hpp>
+#include <crankloop/tick/state/misfire_counts.hpp>
 #include <crankloop/tick/state/saved_bytes.hpp>
 #include <crankloop/tick/state/state_fields.hpp>
 
@@ -65,8 +66,13 @@ template <class S>
   }
   // Answers of later releases, each with a mark of its own.
   if (S::cam_contact) crc.add(std::uint32_t{0x100});
+  if (Needs<S>::charge_burn) crc.add(std::uint32_t{0x400});
+  if (Needs<S>::knock) crc.add(std::uint32_t{0x500});
+  if (S::walls) crc.add(std::uint32_t{0x600});
   if (S::cam_drag) crc.add(std::uint32_t{0x200});
   if (S::spring_modes > 0) crc.add(0x300 + S::spring_modes);
+  if (S::misfire) crc.add(std::uint32_t{0x400});
+  if (S::wheel_faults > 0) crc.add(0x500 + S::triggers.capacity), crc.add(S::wheel_faults);
   return crc.value();
 }
 
@@ -130,6 +136,9 @@ Status load_state(const unsigned char* bytes, std::size_t size, Engine<Real, S>&
   if (!detail::within(state.speed_rad_s, -limit, limit)) return refuse("state.drive", Reason::out_of_range);
   if constexpr (detail::Needs<S>::gas) {
     if (!detail::gas_agrees(state, *engine.tables())) return refuse("state.gas", Reason::inconsistent);
+  }
+  if constexpr (S::misfire) {
+    for (MisfireRecord& record : state.misfire) detail::recount(record);
   }
   return engine.restore(state);
 }

@@ -103,6 +103,27 @@ struct StateFields {
       v.spare(s.spare_of_cam_drag);
     }
     if constexpr (N::gas) visit_gas(s, v);
+    if constexpr (S::misfire) {
+      v.group("state.misfire");
+      for (auto& record : s.misfire) {
+        for (auto& word : record.history) v.word(word, kAny);
+        v.word(record.cycles, kAny);
+        v.word(record.misfires, kAny);
+        v.spare(record.in_200_turns);  // follow from the history
+        v.spare(record.in_1000_turns);
+        v.word(record.random, kAny);
+        v.word(record.taken, 1u);
+      }
+      if constexpr (N::misfire_of_table) {
+        for (auto& ratio : s.burning_ratio) v.number(ratio, Real{0}, Real{1});
+      }
+    }
+    if constexpr (N::faulty_wheels) {
+      v.group("state.wire");
+      v.word(s.wire_levels, (1u << S::triggers.capacity) - 1);
+      v.word(s.wires_known, (1u << S::triggers.capacity) - 1);
+      for (auto& random : s.noise_random) v.word(random, kAny);
+    }
     if constexpr (S::bad_input_count) {
       v.group("state.bad_input");
       v.word(s.bad_input_ticks, kAny);
@@ -126,9 +147,9 @@ struct StateFields {
   static constexpr Real kMaxSpeed_m_s = static_cast<Real>(1e6);
   static constexpr Real kMaxMode_m = static_cast<Real>(1e3);
   static constexpr Real kMaxMean_m_s2 = static_cast<Real>(1e13);  ///< twice the largest speed, in the shortest tick
-  static constexpr Real kMaxGas_N = static_cast<Real>(1e9);   ///< 1e8 Pa on a bore of 2 m
-  static constexpr Real kMaxNoted = static_cast<Real>(1e18);  ///< of numbers that are only compared, subtracted and
-                                                              ///< output
+  static constexpr Real kMaxGas_N = static_cast<Real>(1e9);       ///< 1e8 Pa on a bore of 2 m
+  static constexpr Real kMaxNoted = static_cast<Real>(1e18);      ///< of numbers that are only compared, subtracted and
+                                                                  ///< output
   static constexpr std::uint64_t kMaxCamPhase = std::uint64_t{1} << 62;  ///< 180 deg of 720
   static constexpr std::uint32_t kAny = ~std::uint32_t{0};
   static constexpr Real kMaxStress_Pa = static_cast<Real>(1e30);
@@ -209,6 +230,12 @@ struct StateFields {
       }
       v.group("state.gas");
     }
+    if constexpr (S::walls) {
+      v.group("state.walls");
+      for (auto& wall : s.wall_K) v.number(wall, static_cast<Real>(kLeastGas_K), static_cast<Real>(kMaxGas_K));
+      for (auto& rest : s.wall_rest_K) v.number(rest, Real{-1}, Real{1});
+      v.group("state.gas");
+    }
     if constexpr (N::manifolds) {
       for (auto& manifold : s.manifold) {
         auto& c = manifold.contents;
@@ -233,7 +260,7 @@ struct StateFields {
       for (auto& burn : s.burn) {
         v.number(burn.fuel_kg, Real{0}, static_cast<Real>(kMaxFuel_kg));
         v.number(burn.burnt_ratio, Real{0}, Real{1});
-        v.number(burn.start_deg, Real{-90}, Real{60});
+        v.number(burn.start_deg, Real{-90}, N::charge_burn ? kLatestBurnEnd_deg<Real> : Real{60});
         v.number(burn.duration_deg, Real{5}, Real{150});
         v.number(burn.per_deg, Real{0}, Real{1});
         v.number(burn.excess_air_ratio, Real{0}, kMaxNoted);
@@ -242,6 +269,28 @@ struct StateFields {
         v.word(burn.taken, 1u);
         v.spare(burn.spare);
       }
+    }
+    if constexpr (N::charge_burn) {
+      v.group("state.charge_burn");
+      for (auto& burn : s.charge_burn) {
+        v.number(burn.spark_deg, Real{-90}, Real{60});
+        v.number(burn.ratio, kLeastBurn_ratio<Real>, kMaxBurn_ratio<Real>);
+        v.word(burn.due, 1u);
+        v.spare(burn.spare);
+      }
+    }
+    if constexpr (N::knock) {
+      v.group("state.knock");
+      for (auto& knock : s.knock) {
+        v.number(knock.integral_ratio, Real{0}, static_cast<Real>(1e6));  // kMaxKnock
+        v.number(knock.passes_deg, Real{-kDegreesPerCycle}, Real{kDegreesPerCycle});
+        v.number(knock.unburned_K, static_cast<Real>(kLeastGas_K / 2), static_cast<Real>(kMaxGas_K * 2));
+        v.number(knock.pressure_Pa, static_cast<Real>(1e-6), static_cast<Real>(1e12));
+        v.number(knock.burned_ratio, Real{0}, Real{1});
+        v.number(knock.burnt_ratio, Real{0}, Real{1});
+      }
+      constexpr std::uint32_t kAll = (std::uint32_t{1} << S::cylinders.capacity) - 1;
+      v.word(s.knock_due, kAll), v.word(s.knock_in_burn, kAll);
     }
     if constexpr (S::gas_results) {
       v.group("state.gas_record");

@@ -29,6 +29,15 @@ template <class Real, class S>
 struct Triggers {
   TriggerSignal<Real, S> trigger[S::triggers.capacity];
 };
+/// What a controller sees: each wheel's signal with the first of its faults that is on, else the healthy one. Where a
+/// fault comes or goes and the level changes with it, an edge at time 0 shows it.
+template <class Real, class S>
+struct FaultyTriggers {
+  TriggerSignal<Real, S> faulty_trigger[S::triggers.capacity];
+};
+struct WheelFaultsOn {
+  std::uint32_t wheel_faults_on;  ///< bit i: fault i of the definition is on
+};
 }  // namespace group
 
 }  // namespace crankloop

@@ -9,6 +9,7 @@
 #include <crankloop/tables/tables.hpp>
 #include <crankloop/tick/crank/crank_turn.hpp>
 #include <crankloop/tick/trigger/trigger_wheel.hpp>
+#include <crankloop/tick/trigger/wheel_faults.hpp>
 
 namespace crankloop::detail {
 
@@ -49,20 +50,47 @@ struct TriggersStep {
       const TriggerTrack& wheel = tables.triggers->wheel[i];
       TriggerSignal<Real, S>& signal = out.trigger[i];
       TriggerTick<Real, S> tick(wheel, tables.drive->tick_s, signal);
-      if (path.jumped) {
-        tick.leap(on_wheel(wheel, path.begin + path.turned, phaser_after(wheel)));
-      } else if constexpr (Needs<S>::crank_dynamics) {
-        const Sweep sweep = sweep_of(wheel);
-        tick.turn(sweep, wheel.on_crank != 0 ? 2 * path.bend_cycles : path.bend_cycles);
-      } else {
-        tick.turn(sweep_of(wheel));
-      }
+      turn(wheel, tick);
       if (tick.out_of_room()) faults |= kFaultTriggerEdges;
     }
     return faults;
   }
 
+  /// From the healthy signals, or from the track of a changed wheel.
+  [[nodiscard]] std::uint32_t run_faulty(State<Real, S>& spoiled, std::uint32_t input) noexcept {
+    const WheelFaultRules<Real>& rules = *tables.wheel_faults;
+    std::uint8_t first[S::triggers.capacity];
+    out.wheel_faults_on = faults_on<Real, S>(rules, state, input, first);
+    std::uint32_t faults = 0;
+    const std::uint32_t wheels = S::triggers.exact ? S::triggers.capacity : tables.triggers->count;
+    for (std::uint32_t i = 0; i < wheels; ++i) {
+      TriggerSignal<Real, S>& signal = out.faulty_trigger[i];
+      SignalEdges<Real, S> edges(signal);
+      if (first[i] >= kMaxWheelFaults) {
+        edges.copy(out.trigger[i]);
+      } else {
+        const WheelFaultRule<Real>& fault = rules.fault[first[i]];
+        TriggerTick<Real, S> tick(*fault.track, tables.drive->tick_s, signal);
+        turn(*fault.track, tick);
+        spoil(fault, tables.drive->tick_s, spoiled.noise_random[first[i]], edges);
+      }
+      join_ticks(spoiled, i, path.jumped, signal, edges);
+      if (edges.out_of_room()) faults |= kFaultTriggerEdges;
+    }
+    return faults;
+  }
+
  private:
+  [[gnu::always_inline]] void turn(const TriggerTrack& wheel, TriggerTick<Real, S>& tick) const noexcept {
+    if (path.jumped) {
+      tick.leap(on_wheel(wheel, path.begin + path.turned, phaser_after(wheel)));
+    } else if constexpr (Needs<S>::crank_dynamics) {
+      const Sweep sweep = sweep_of(wheel);
+      tick.turn(sweep, wheel.on_crank != 0 ? 2 * path.bend_cycles : path.bend_cycles);
+    } else {
+      tick.turn(sweep_of(wheel));
+    }
+  }
   /// Converts phase units (2^64 = 720 deg) to units of the wheel's turn. By a sum, because a shift by a variable is a
   /// library call on some processors.
   [[nodiscard]] static std::uint64_t in_turns(const TriggerTrack& wheel, std::uint64_t phase) noexcept {
@@ -101,6 +129,18 @@ struct TriggersStep {
   }
 };
 
+template <class Real, class S>
+[[nodiscard, gnu::always_inline]] inline CrankPath<Real> path_of(const Tables<Real, S>& tables,
+                                                                 const State<Real, S>& state,
+                                                                 const BeforeTick<Real, S>& before,
+                                                                 const CrankTurn<Real, S>& crank) noexcept {
+  CrankPath<Real> path{state.phase - crank.turned, crank.turned, crank.has_jumped(), {}};
+  if constexpr (Needs<S>::crank_dynamics)
+    path.bend_cycles = (state.speed_rad_s - before.speed_rad_s) * tables.drive->cycles_per_tick_per_rad_s / 2;
+  (void)tables, (void)before;
+  return path;
+}
+
 /// Returns fault bits.
 template <class Real, class S>
 [[nodiscard]] std::uint32_t read_triggers(const Tables<Real, S>& tables, const State<Real, S>& state,
@@ -110,6 +150,16 @@ template <class Real, class S>
   if constexpr (Needs<S>::crank_dynamics)
     path.bend_cycles = (state.speed_rad_s - before.speed_rad_s) * tables.drive->cycles_per_tick_per_rad_s / 2;
   return TriggersStep<Real, S>{tables, state, out, path, before}.run();
+}
+
+/// The faulty signals, once the healthy ones are there. Returns fault bits.
+template <class Real, class S>
+[[nodiscard]] std::uint32_t read_faulty_triggers(const Tables<Real, S>& tables, State<Real, S>& state,
+                                                 Output<Real, S>& out, std::uint32_t input,
+                                                 const BeforeTick<Real, S>& before,
+                                                 const CrankTurn<Real, S>& crank) noexcept {
+  const CrankPath<Real> path = path_of(tables, state, before, crank);
+  return TriggersStep<Real, S>{tables, state, out, path, before}.run_faulty(state, input);
 }
 
 }  // namespace crankloop::detail

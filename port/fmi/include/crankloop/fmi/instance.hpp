@@ -87,14 +87,14 @@ class Instance {
       visit(Role::parameter, supply_.parameter(i), kept_.parameters[i]);
     each_output<S>([&visit](const Variable& variable, auto& value) { visit(Role::output, variable, value); },
                    engine_.state(), engine_.output(), shape_);
-    for (std::uint32_t i = 0; i < shape_.wheels; ++i) {
-      WheelShown& w = kept_.wheels[i];
-      visit(Role::event, truth("trigger[#].level", "Level of the signal").at(i), w.level);
-      visit(Role::event, whole("trigger[#].edges", "Edges since the start, modulo 2^31").at(i), w.edges);
-      for (std::uint32_t e = 0; e < kEdgesShown; ++e)
-        visit(Role::event, real("trigger[#].edge_s[#]", "Time of an edge; 1 is the newest").at(i, e), w.edge[e].time_s);
-      for (std::uint32_t e = 0; e < kEdgesShown; ++e)
-        visit(Role::event, truth("trigger[#].edge_rises[#]", "Whether it rose").at(i, e), w.edge[e].rises);
+    constexpr WheelNames kHealthy{"trigger[#].level", "trigger[#].edges", "trigger[#].edge_s[#]",
+                                  "trigger[#].edge_rises[#]"};
+    for (std::uint32_t i = 0; i < shape_.wheels; ++i) each_of_wheel(visit, kHealthy, i, kept_.wheels[i]);
+    if constexpr (detail::Needs<S>::faulty_wheels) {
+      constexpr WheelNames kFaulty{"faulty_trigger[#].level", "faulty_trigger[#].edges", "faulty_trigger[#].edge_s[#]",
+                                   "faulty_trigger[#].edge_rises[#]"};
+      for (std::uint32_t i = 0; i < shape_.wheels; ++i)
+        each_of_wheel(visit, kFaulty, i, kept_.wheels[Kept<Supply>::kMaxWheels + i]);
     }
     visit(Role::event, whole("faults", "Fault bits of the last communication step, or-ed"), kept_.faults);
     visit(Role::event, whole("fault_ticks", "Ticks with a fault bit since the start"), kept_.fault_ticks);
@@ -206,7 +206,7 @@ class Instance {
   static constexpr std::size_t kHeaderBytes = 28;
   static constexpr std::size_t kMaxVariables = 6 + Kept<Supply>::kCount.inputs + Kept<Supply>::kMaxParameters +
                                                Kept<Supply>::kCount.outputs +
-                                               Kept<Supply>::kMaxWheels * (2 + 2 * kEdgesShown);
+                                               Kept<Supply>::kSignals * (2 + 2 * kEdgesShown);
 
   bool start_engine(Message& why) noexcept {
     const Tables<Real, S>* tables = supply_.build(kept_.parameters, why);
@@ -269,12 +269,30 @@ class Instance {
     const auto& out = engine_.step(input_);
     if (out.faults != 0) note_faults(out.faults);
     if constexpr (detail::Needs<S>::any_triggers) {
-      for (std::uint32_t w = 0; w < shape_.wheels; ++w) {
-        kept_.wheels[w].level = out.trigger[w].level;
-        if (out.trigger[w].edge_count != 0) kept_.wheels[w].note(out.trigger[w], kept_.start_s + ticks_run() * tick_s_);
-      }
+      for (std::uint32_t w = 0; w < shape_.wheels; ++w) show_signal(out.trigger[w], kept_.wheels[w]);
+    }
+    if constexpr (detail::Needs<S>::faulty_wheels) {
+      for (std::uint32_t w = 0; w < shape_.wheels; ++w)
+        show_signal(out.faulty_trigger[w], kept_.wheels[Kept<Supply>::kMaxWheels + w]);
     }
     ++kept_.ticks;
+  }
+  struct WheelNames {
+    const char *level, *edges, *edge_s, *edge_rises;
+  };
+  template <class Visit>
+  static void each_of_wheel(Visit& visit, const WheelNames& names, std::uint32_t i, WheelShown& w) noexcept {
+    visit(Role::event, truth(names.level, "Level of the signal").at(i), w.level);
+    visit(Role::event, whole(names.edges, "Edges since the start, modulo 2^31").at(i), w.edges);
+    for (std::uint32_t e = 0; e < kEdgesShown; ++e)
+      visit(Role::event, real(names.edge_s, "Time of an edge; 1 is the newest").at(i, e), w.edge[e].time_s);
+    for (std::uint32_t e = 0; e < kEdgesShown; ++e)
+      visit(Role::event, truth(names.edge_rises, "Whether it rose").at(i, e), w.edge[e].rises);
+  }
+  template <class Signal>
+  [[gnu::always_inline]] void show_signal(const Signal& signal, WheelShown& shown) noexcept {
+    shown.level = signal.level;
+    if (signal.edge_count != 0) shown.note(signal, kept_.start_s + ticks_run() * tick_s_);
   }
   [[gnu::noinline]] void note_faults(std::uint32_t faults) noexcept {
     kept_.faults |= faults;

@@ -95,6 +95,7 @@ struct Kept {
   static constexpr EngineShape kLargest{S::cylinders.capacity, S::trains.capacity, S::triggers.capacity, 1.0};
   static constexpr std::size_t kMaxParameters = Supply::kMaxParameters > 0 ? Supply::kMaxParameters : 1;
   static constexpr std::size_t kMaxWheels = S::triggers.capacity > 0 ? S::triggers.capacity : 1;
+  static constexpr std::size_t kSignals = kMaxWheels * (S::wheel_faults > 0 ? 2 : 1);  ///< healthy ones, then faulty
   struct Count {
     std::size_t inputs = 0, outputs = 0, output_bytes = 0;
 
@@ -119,7 +120,7 @@ struct Kept {
   std::uint32_t fault_ticks = 0;
   double inputs[kCount.inputs]{};
   double parameters[kMaxParameters]{};
-  WheelShown wheels[kMaxWheels]{};
+  WheelShown wheels[kSignals]{};
   bool input_is_old = true;  ///< whether the next step has to convert the inputs anew; the one that is not stored
 
   template <class AKept, class Visit>

@@ -1,0 +1,77 @@
+// Faults of trigger wheels of an engine file: [fault NAME] as a definition, and messages for its errors.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "../files/words.hpp"
+#include "engine_file.hpp"
+#include "engine_file_parts.hpp"
+
+namespace crankloop::program {
+namespace {
+
+WheelFault build_fault(const SectionValues& values) {
+  WheelFault fault;
+  fill(values, fault);
+  fault.inverted = values.text("inverted") == "yes";
+  const std::string& stuck = values.text("stuck");
+  fault.stuck = stuck == "low" ? StuckSignal::low : stuck == "high" ? StuckSignal::high : StuckSignal::no;
+  return fault;
+}
+
+/// The key of a field whose part of a Status tells what is wrong, and why.
+std::string why(const Status& status) {
+  const std::string_view field = status.field;
+  if (field == "fault.end_s") return "is never on: give end_s above start_s, or an input_bit";
+  if (field == "fault.moved_tooth" && status.reason == Reason::inconsistent) return "is the tooth that is missing";
+  if (field == "fault.missing_tooth" && status.reason == Reason::too_few_points) return "leaves the wheel no tooth";
+  if (status.reason == Reason::out_of_range && (field == "fault.missing_tooth" || field == "fault.moved_tooth"))
+    return "is more than the wheel has teeth";
+  if (field == "fault.noise_Hz") return "is more than one pulse in a tick";
+  if (field == "fault.noise_pulse_s" && status.reason == Reason::out_of_range) return "is more than half a tick";
+  if (status.reason == Reason::inconsistent) return "leaves edges closer than 0.001 deg, or in another order";
+  return describe(status.reason);
+}
+
+}  // namespace
+
+void EngineFile::build_faults() {
+  for (const SectionValues& section : sections_) {
+    if (section.kind != "fault") continue;
+    if (definition_.wheel_fault_count == kMaxWheelFaults) {
+      throw InputError(path_, section.line,
+                       section.title() + " makes one fault too many; allowed: " + std::to_string(kMaxWheelFaults));
+    }
+    WheelFault fault = build_fault(section);
+    const std::string& name = section.text("trigger");
+    const auto wheel = std::find_if(triggers_.begin(), triggers_.end(),
+                                    [&name](const TriggerOfFile& trigger) { return trigger.name == name; });
+    if (wheel == triggers_.end()) {
+      std::vector<std::string> names;
+      for (const TriggerOfFile& trigger : triggers_) names.push_back(trigger.name);
+      refuse(section, "trigger",
+             in_quotes(name) + (names.empty() ? " is none: the file has no [trigger NAME]"
+                                              : " is not one of " + join(names) + suggestion(name, names)),
+             path_);
+    }
+    fault.wheel = static_cast<int>(wheel - triggers_.begin());
+    definition_.wheel_faults[definition_.wheel_fault_count++] = fault;
+    if (const Status status = validate(fault); !status.ok()) throw explain_fault(status, section);
+  }
+}
+
+InputError EngineFile::explain_fault(const Status& status, const SectionValues& section) const {
+  const Key& key = *key_of_field(status.field);
+  return {path_, section.line_of(key.name), section.title() + " " + in_words(section, key, Reason::ok, why(status))};
+}
+
+const SectionValues* EngineFile::fault_to_blame(const Key& key, int index) const {
+  if (std::string_view(key.section) != "fault") return nullptr;
+  int number = 0;
+  for (const SectionValues& section : sections_) {
+    if (section.kind == "fault" && number++ == index) return &section;
+  }
+  return nullptr;
+}
+
+}  // namespace crankloop::program
