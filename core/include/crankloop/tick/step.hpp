@@ -44,14 +44,14 @@ template <class Real, class S>
     if constexpr (detail::Needs<S>::crank_dynamics) {
       Real mean_pressure_Pa[S::cylinders.capacity] = {};
       detail::TorqueStep<Real, S> step(tables, state_, output_);
-      step.read_torque(detail::cut_cylinders_of(state_, 0));
+      step.read_torque(detail::cut_cylinders_of(*tables.drive, state_, 0));
       step.read_given_pressures(mean_pressure_Pa);
       step.start_crank();
       step.remember_work();
     } else {
       detail::CrankTurn<Real, S> crank{};
       crank.jumped = true;
-      if constexpr (detail::Needs<S>::lack) crank.cut_cylinders = detail::cut_cylinders_of(state_, 0);
+      if constexpr (detail::Needs<S>::lack) crank.cut_cylinders = detail::cut_cylinders_of(*tables.drive, state_, 0);
       detail::run_mechanisms_apart(tables, state_, output_, crank);
     }
     output_ = Output{};

@@ -123,9 +123,9 @@ template <class Real, class S>
   }
   if constexpr (Needs<S>::input_pressure) take_pressures(drive, state, input, crank, faults);
   if constexpr (Needs<S>::cut) {
-    crank.cut_cylinders = cut_cylinders_of(state, input.cut_cylinders);
+    crank.cut_cylinders = cut_cylinders_of(drive, state, input.cut_cylinders);
   } else if constexpr (Needs<S>::lack) {
-    crank.cut_cylinders = cut_cylinders_of(state, 0);
+    crank.cut_cylinders = cut_cylinders_of(drive, state, 0);
   }
   return faults;
 }

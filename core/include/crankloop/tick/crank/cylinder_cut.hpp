@@ -18,6 +18,7 @@ namespace crankloop::detail {
 /// Cylinders that lack heat: cut ones lack all of it, the others what their cycles do not burn.
 template <class Real>
 struct LackingHeat {
+  std::uint32_t lacking;  ///< bit k: cylinder k, for either reason
   std::uint32_t cut;
   const Real* burning_ratio;  ///< of each cylinder's cycle
 
@@ -28,10 +29,14 @@ template <class Real, class S>
 using CutCylinders = std::conditional_t<Needs<S>::misfire_of_table, LackingHeat<Real>, std::uint32_t>;
 
 template <class Real, class S>
-[[nodiscard]] CutCylinders<Real, S> cut_cylinders_of([[maybe_unused]] const State<Real, S>& state,
+[[nodiscard]] CutCylinders<Real, S> cut_cylinders_of([[maybe_unused]] const Drive<Real>& drive,
+                                                     [[maybe_unused]] const State<Real, S>& state,
                                                      std::uint32_t cut) noexcept {
   if constexpr (Needs<S>::misfire_of_table) {
-    return {cut, state.burning_ratio};
+    std::uint32_t lacking = cut;
+    for (std::uint32_t k = 0; k < count<S>(drive.cylinders); ++k)
+      lacking |= std::uint32_t{state.burning_ratio[k] < 1} << k;
+    return {lacking, cut, state.burning_ratio};
   } else {
     return cut;
   }
@@ -86,15 +91,15 @@ class CutHeat {
   }
   template <class Visit>
   void for_each(const Visit& visit) const noexcept {
+    std::uint32_t lacking;
     if constexpr (Needs<S>::misfire_of_table) {
-      for (std::uint32_t k = 0; k < count<S>(tables_.drive->cylinders); ++k) {
-        if (cut_.share(k) < 1) visit(k);
-      }
+      lacking = cut_.lacking;
     } else {
-      if (cut_ == 0) return;
-      for (std::uint32_t k = 0; k < count<S>(tables_.drive->cylinders); ++k) {
-        if ((cut_ >> k & 1u) != 0) visit(k);
-      }
+      lacking = cut_;
+    }
+    if (lacking == 0) return;
+    for (std::uint32_t k = 0; k < count<S>(tables_.drive->cylinders); ++k) {
+      if ((lacking >> k & 1u) != 0) visit(k);
     }
   }
   /// In the cylinder's own cycle.

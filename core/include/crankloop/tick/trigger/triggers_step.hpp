@@ -146,9 +146,7 @@ template <class Real, class S>
 [[nodiscard]] std::uint32_t read_triggers(const Tables<Real, S>& tables, const State<Real, S>& state,
                                           Output<Real, S>& out, const BeforeTick<Real, S>& before,
                                           const CrankTurn<Real, S>& crank) noexcept {
-  CrankPath<Real> path{state.phase - crank.turned, crank.turned, crank.has_jumped(), {}};
-  if constexpr (Needs<S>::crank_dynamics)
-    path.bend_cycles = (state.speed_rad_s - before.speed_rad_s) * tables.drive->cycles_per_tick_per_rad_s / 2;
+  const CrankPath<Real> path = path_of(tables, state, before, crank);
   return TriggersStep<Real, S>{tables, state, out, path, before}.run();
 }
 
