@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -25,6 +26,9 @@ namespace crankloop::port {
 namespace {
 
 const std::string kReader = CRANKLOOP_SOURCE_DIR "/docs/live_reader.py";
+
+constexpr const char* kNoPython = "there is no python3, which nothing of crankloop needs";
+bool has_python() { return std::system("python3 -c pass >/dev/null 2>&1") == 0; }
 
 class LiveRing : public LiveBench {
  protected:
@@ -114,6 +118,7 @@ void expect_no_loss_at_both_rates(
 }
 
 TEST_F(LiveRing, LosesNoEdgeAt1kHzAnd10kHz) {
+  if (!has_python()) GTEST_SKIP() << kNoPython;
   const auto keep_up = [&](const std::string& tick_us, const std::string& block) {
     expect_readers_to_keep_up(fast_live(block, tick_us, "3"), block, c_reader(block, "1e9", "5"),
                               python_reader(block, "0.005"), in_folder(tick_us), 3);
@@ -123,6 +128,7 @@ TEST_F(LiveRing, LosesNoEdgeAt1kHzAnd10kHz) {
 
 /// A minute each while four other programs want the processors.
 TEST_F(LiveRing, ForAMinuteLosesNoEdgeOnALoadedMachine) {
+  if (!has_python()) GTEST_SKIP() << kNoPython;
   std::vector<std::unique_ptr<Process>> load;
   for (int i = 0; i < 4; ++i) {
     load.push_back(std::make_unique<Process>(std::vector<std::string>{"/bin/sh", "-c", "while :; do :; done"},
@@ -136,6 +142,7 @@ TEST_F(LiveRing, ForAMinuteLosesNoEdgeOnALoadedMachine) {
 }
 
 TEST_F(LiveRing, CountsOverrunToTheEdgeWhenItIsForced) {
+  if (!has_python()) GTEST_SKIP() << kNoPython;
   Process engine(fast_live(block_path(), "1000", "1.2", {"--ring-edges", "64"}), in_folder("live.txt"));
   ASSERT_TRUE(open_running()) << engine.output();
   Process c(c_reader(block_path(), "1e9", "100"), in_folder("c.txt"));  // 1165 edges between two looks
@@ -252,6 +259,7 @@ TEST_F(LiveRing, IsPlayedEdgeByEdgeAndTheLatenessTold) {
 }
 
 TEST_F(LiveRing, IsRefusedByPlayersAndReadersThatCannotUseIt) {
+  if (!has_python()) GTEST_SKIP() << kNoPython;
   std::string block_of_version_3(256, '\0');
   const std::uint32_t head[] = {kLiveMagic, 3, 256, 1};
   block_of_version_3.replace(0, sizeof head, std::string(reinterpret_cast<const char*>(head), sizeof head));
@@ -371,6 +379,7 @@ TEST_F(LiveRing, IsDrivenByInputsByName) {
 }
 
 TEST_F(LiveRing, IsDrivenFromPython) {
+  if (!has_python()) GTEST_SKIP() << kNoPython;
   std::ofstream(in_folder("drive.py")) << "import sys, time\n"
                                           "sys.path.insert(0, sys.argv[1])\n"
                                           "from live_reader import Block, RUNNING\n"
@@ -401,6 +410,7 @@ TEST_F(LiveRing, IsDrivenFromPython) {
 // ---- attacks --------------------------------------------------------------------------------------------------------
 
 TEST_F(LiveRing, IsMissedByItsPlayerInOneLineWhenLiveDies) {
+  if (!has_python()) GTEST_SKIP() << kNoPython;
   Process engine(fast_live(block_path(), "1000", "600"), in_folder("live.txt"));
   ASSERT_TRUE(open_running()) << engine.output();
   Process player({CRANKLOOP_EDGE_PLAYER, block_path(), "--record", in_folder("played.csv"), "--priority", "0"},
