@@ -211,7 +211,7 @@ TEST(Schema, RefusesAnotherDescription) {
       {3, "canSerializeFMUState=\"true\"", "canSerializeFMUState=\"yes\""},
       {3, "fixedInternalStepSize=\"1e-04\"", "fixedInternalStepSize=\"0,0001\""},
       {3, "generationTool", "generationTime"},
-      {3, "    <InitialUnknown valueReference=\"7\"", "    <InitialUnknown index=\"7\""},
+      {3, "    <InitialUnknown valueReference=\"8\"", "    <InitialUnknown index=\"8\""},
   };
   for (const auto& [version, from, to] : mistakes) {
     std::string xml = fmu::described("free_running", version).files.at("modelDescription.xml");
