@@ -26,20 +26,13 @@ using support::BreathingOde;
 using support::flame_m_s;
 using support::GasSeen;
 using support::kPi;
+using support::rad_s;
 using tick_test::RealName;
 
 constexpr GasSeen kIn{100e3, 298, 0}, kOut{102e3, 900, 1};
 
-[[nodiscard]] double rad_s(double rpm) { return rpm * kPi / 30; }
-
-struct Cylinder : Scene {
-  static constexpr Count cylinders = exactly<1>;
-  static constexpr Count trains = exactly<2>;
-  static constexpr PressureGiven pressure = PressureGiven::by_gas;
-  static constexpr Combustion combustion = Combustion::by_table;
-  static constexpr ValveModel valves = ValveModel::following;
+struct Cylinder : support::GivenCylinder {
   static constexpr bool charge_burn = true;
-  static constexpr bool gas_results = true;
 };
 struct ByInput : Cylinder {
   static constexpr Combustion combustion = Combustion::by_input;

@@ -26,6 +26,7 @@ using support::BreathingFour;
 using support::ElasticBreathingFour;
 using support::four_2000;
 using support::GasReference;
+using support::rad_s;
 using tick_test::RealName;
 
 using namespace std::string_literals;
@@ -33,8 +34,6 @@ using namespace std::string_literals;
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kSwept_m3 = kPi / 4 * 0.086 * 0.086 * 0.086;
 constexpr support::Used kAll{4, 4, 2};
-
-[[nodiscard]] double rad_s(double rpm) { return rpm * kPi / 30; }
 
 template <class Real, class S>
 [[nodiscard]] std::unique_ptr<Breathing<Real, S>> breathing(const EngineDefinition& definition, double tick_s,

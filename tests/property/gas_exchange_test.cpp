@@ -18,13 +18,12 @@ using support::BreathingFour;
 using support::ElasticBreathingFour;
 using support::four_2000;
 using support::GasReference;
+using support::rad_s;
 using tick_test::RealName;
 
 template <class Real>
 class GasExchange : public ::testing::Test {};
 TYPED_TEST_SUITE(GasExchange, tick_test::BothReals, RealName);
-
-[[nodiscard]] double rad_s(double rpm) { return rpm * support::kPi / 30; }
 
 // ---- against the differential equations -----------------------------------------------------------------------------
 

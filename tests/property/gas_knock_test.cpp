@@ -28,21 +28,15 @@ using support::kGasB;
 using support::kGasR;
 using support::knock_delay_s;
 using support::kPi;
+using support::rad_s;
 using tick_test::RealName;
 
 constexpr GasSeen kIn{100e3, 298, 0}, kOut{102e3, 900, 1};
 
-[[nodiscard]] double rad_s(double rpm) { return rpm * kPi / 30; }
-
-struct Cylinder : Scene {
-  static constexpr Count cylinders = exactly<1>;
-  static constexpr Count trains = exactly<2>;
-  static constexpr PressureGiven pressure = PressureGiven::by_gas;
+struct Cylinder : support::GivenCylinder {
   static constexpr Combustion combustion = Combustion::by_input;
-  static constexpr ValveModel valves = ValveModel::following;
   static constexpr bool cylinder_cut = true;
   static constexpr bool knock = true;
-  static constexpr bool gas_results = true;
 };
 struct Plain : Cylinder {
   static constexpr bool knock = false;

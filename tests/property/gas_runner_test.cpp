@@ -25,22 +25,15 @@ using support::BreathingOde;
 using support::GasSeen;
 using support::kGasR;
 using support::kPi;
+using support::rad_s;
 using tick_test::RealName;
 
 constexpr double kSwept_m3 = kPi / 4 * 0.086 * 0.086 * 0.086;
 constexpr GasSeen kIn{100e3, 298.15, 0};
 
-[[nodiscard]] double rad_s(double rpm) { return rpm * kPi / 30; }
-
-struct Cylinder : Scene {
-  static constexpr Count cylinders = exactly<1>;
-  static constexpr Count trains = exactly<2>;
-  static constexpr PressureGiven pressure = PressureGiven::by_gas;
-  static constexpr Combustion combustion = Combustion::by_table;
-  static constexpr ValveModel valves = ValveModel::following;
+struct Cylinder : support::GivenCylinder {
   static constexpr bool crevice = true;
   static constexpr bool runners = true;
-  static constexpr bool gas_results = true;
 };
 
 /// Of the prototype's figures: intake 350 x 38 mm, exhaust 500 x 36 mm, zeta 0.8, crevices and blow-by.

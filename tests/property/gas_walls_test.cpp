@@ -24,25 +24,18 @@ using support::Breathing;
 using support::BreathingOde;
 using support::GasSeen;
 using support::kPi;
+using support::rad_s;
 using tick_test::RealName;
 
 constexpr GasSeen kIn{100e3, 298, 0}, kOut{102e3, 900, 1};
 
-[[nodiscard]] double rad_s(double rpm) { return rpm * kPi / 30; }
-
 /// Everything of gas.
-struct Cylinder : Scene {
-  static constexpr Count cylinders = exactly<1>;
-  static constexpr Count trains = exactly<2>;
-  static constexpr PressureGiven pressure = PressureGiven::by_gas;
-  static constexpr Combustion combustion = Combustion::by_table;
-  static constexpr ValveModel valves = ValveModel::following;
+struct Cylinder : support::GivenCylinder {
   static constexpr bool crevice = true;
   static constexpr bool runners = true;
   static constexpr bool walls = true;
   static constexpr bool charge_burn = true;
   static constexpr bool knock = true;
-  static constexpr bool gas_results = true;
 };
 struct Plain : Cylinder {
   static constexpr bool walls = false;
@@ -71,15 +64,13 @@ struct Four : Cylinder {
 template <class Real, class S = Cylinder>
 [[nodiscard]] std::unique_ptr<Breathing<Real, S>> breathing(const EngineDefinition& definition, double tick_s,
                                                             double rpm, const GasSeen& exhaust = kOut) {
-  auto run = std::make_unique<Breathing<Real, S>>(definition, tick_s);
-  run->in.speed_rad_s = static_cast<Real>(rad_s(rpm));
   if constexpr (detail::Needs<S>::given_gas) {
-    run->in.intake_Pa = static_cast<Real>(kIn.p), run->in.intake_K = static_cast<Real>(kIn.t);
-    run->in.exhaust_Pa = static_cast<Real>(exhaust.p), run->in.exhaust_K = static_cast<Real>(exhaust.t);
+    return support::breathing_between<Real, S>(definition, tick_s, rad_s(rpm), kIn, exhaust);
   } else {
-    run->in.throttle_ratio = Real{1};
+    auto run = std::make_unique<Breathing<Real, S>>(definition, tick_s);
+    run->in.speed_rad_s = static_cast<Real>(rad_s(rpm)), run->in.throttle_ratio = Real{1};
+    return run;
   }
-  return run;
 }
 template <class Real>
 [[nodiscard]] double wide(Real x) {

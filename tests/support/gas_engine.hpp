@@ -12,6 +12,7 @@
 #include "support/engines.hpp"
 #include "support/running.hpp"
 #include "support/status.hpp"
+#include "support/units.hpp"
 
 namespace crankloop::support {
 
@@ -32,6 +33,15 @@ struct ElasticBreathingFour : BreathingFour {
   static constexpr bool valve_acceleration = true;
   static constexpr bool valve_gas = true;
 };
+/// A cylinder between two manifolds that are given.
+struct GivenCylinder : Scene {
+  static constexpr Count cylinders = exactly<1>;
+  static constexpr Count trains = exactly<2>;
+  static constexpr PressureGiven pressure = PressureGiven::by_gas;
+  static constexpr Combustion combustion = Combustion::by_table;
+  static constexpr ValveModel valves = ValveModel::following;
+  static constexpr bool gas_results = true;
+};
 /// A cylinder whose crank and manifolds a test holds in its hands.
 struct MeasuredCylinder : Scene {
   static constexpr Count cylinders = exactly<1>;
@@ -43,6 +53,8 @@ struct MeasuredCylinder : Scene {
   static constexpr ValveModel valves = ValveModel::following;
   static constexpr bool gas_results = true;
 };
+
+[[nodiscard]] inline double rad_s(double rpm) { return rpm * kPi / 30; }
 
 /// One cylinder of the four.
 [[nodiscard]] inline EngineDefinition one_of_four_2000() {

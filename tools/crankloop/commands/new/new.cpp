@@ -240,7 +240,9 @@ void add_what_turns_it(Draft& draft, const IndicatorDiagram& diagram, Numbers& n
                "the same, proportional to its square");
   draft.section("machine");
   draft.assume("quadratic_Nm_per_1000rpm2", to_three_digits(n.brake_Nm / (krpm * krpm)),
-               "a brake that takes full load at rated speed, " + brief(to_three_digits(n.brake_Nm)) + " Nm, " +
+               std::string(n.gas ? "a brake that takes what is usual at rated speed; `run` tells what [gas] gives: "
+                                 : "a brake that takes full load at rated speed, ") +
+                   brief(to_three_digits(n.brake_Nm)) + " Nm, " +
                    brief(to_three_digits(n.brake_Nm * n.rated_rpm * kRad_sPerRpm / 1e3)) + " kW");
   draft.section("starter");
   draft.assume("stall_Nm", to_three_digits(kStarterNmPerLitre * n.displacement_L / std::sqrt(n.cylinders)),
