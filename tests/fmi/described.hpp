@@ -23,7 +23,7 @@ inline Archive with_own_description(Archive archive, int version) {
   fmi::Message why;
   demand(instance->open(nullptr, why), why.text);
   const std::string identifier = Model(archive).identifier;
-  fmi::Description<BoreSupply> description(*instance, {identifier, "a diesel whose bore may be set"});
+  fmi::Description description(fmi::shown(*instance), {identifier, "a diesel whose bore may be set"});
   const fmi::SourceBuild sources{identifier, "-O2", {"include"}, {{"NDEBUG", "1"}}, {"all.cpp"}};
   archive.files["modelDescription.xml"] = description.model(version == 2 ? fmi::Version::two : fmi::Version::three);
   archive.files["documentation/index.html"] = description.page();

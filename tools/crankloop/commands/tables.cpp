@@ -1,9 +1,11 @@
 // `crankloop tables FILE`: the tables as a C++ header of constexpr data, one object per section.
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <vector>
@@ -30,7 +32,7 @@ class Printer {
  public:
   explicit Printer(Output& out) : out_{out} {}
 
-  void text(const std::string& s) { out_.write(s); }
+  void text(std::string_view s) { out_.write(s); }
 
   /// A number, an array, a pointer to data printed before, or a record member by member.
   template <class Item>
@@ -38,9 +40,10 @@ class Printer {
     if constexpr (std::is_floating_point_v<Item>) {
       hex(static_cast<double>(item), sizeof item == sizeof(float) ? "F" : "");
     } else if constexpr (std::is_arithmetic_v<Item>) {
-      text(std::to_string(item) + (sizeof item == 8 ? "ULL" : sizeof item == 4 ? "U" : ""));
+      static_assert(std::is_unsigned_v<Item>);
+      whole(item, sizeof item);
     } else if constexpr (std::is_pointer_v<Item>) {
-      text(item == nullptr ? "nullptr" : places_.at(item));
+      place(item);
     } else if constexpr (std::is_array_v<Item>) {
       text("{");
       rows(item, std::extent_v<Item>);
@@ -72,63 +75,69 @@ class Printer {
     print(first);
     ((text(", "), print(others)), ...);
   }
-  void hex(double x, const char* suffix) {
-    char digits[40];
-    std::snprintf(digits, sizeof digits, "%a%s", x, suffix);
-    text(digits);
-  }
+
+  // Not inline: print() is instantiated for every record, and compiled in seconds instead of most of a minute.
+  void hex(double x, const char* suffix);
+  void whole(std::uint64_t n, std::size_t bytes);
+  void place(const void* item);
 
   Output& out_;
   std::map<const void*, std::string> places_;
 };
 
+void Printer::hex(double x, const char* suffix) {
+  char digits[40];
+  std::snprintf(digits, sizeof digits, "%a%s", x, suffix);
+  text(digits);
+}
+
+void Printer::whole(std::uint64_t n, std::size_t bytes) {
+  text(std::to_string(n) + (bytes == 8 ? "ULL" : bytes == 4 ? "U" : ""));
+}
+
+void Printer::place(const void* item) { text(item == nullptr ? "nullptr" : places_.at(item)); }
+
 /// Consecutive rows that are in use.
-template <class Record>
 struct Piece {
-  const Record* first;
+  std::size_t first;
   std::size_t count;
 };
 
 /// The rows in use of a section that has several: in one piece, or in one per train or wheel without the unused rows
 /// between them.
-template <class Section, class Real, class Record>
-std::vector<Piece<Record>> pieces_of(const Stores<Real>& s, const TableReport& report, const Record* rows) {
-  const auto segments = [rows](int count) {
-    return std::vector<Piece<Record>>{{rows, static_cast<std::size_t>(count)}};
+template <class Real>
+std::vector<Piece> pieces_of(detail::SectionRows rows, const Stores<Real>& s, const TableReport& report) {
+  const auto from_first = [](std::size_t count) { return std::vector<Piece>{{0, count}}; };
+  const auto each = [](std::size_t count, std::size_t stride, auto in_use) {
+    std::vector<Piece> pieces;
+    for (std::size_t i = 0; i < count; ++i) pieces.push_back({i * stride, in_use(i)});
+    return pieces;
   };
-  std::vector<Piece<Record>> pieces;
-  switch (Section::kRows) {
+  switch (rows) {
     case detail::SectionRows::one:
-      return {{rows, 1}};
+      return from_first(1);
     case detail::SectionRows::gas_grid:
-      return segments(report.gas_segments);
+      return from_first(static_cast<std::size_t>(report.gas_segments));
     case detail::SectionRows::torque_grid:
-      return segments(report.torque_segments);
+      return from_first(static_cast<std::size_t>(report.torque_segments));
     case detail::SectionRows::cut_grid:
-      return segments(report.cut_segments);
+      return from_first(static_cast<std::size_t>(report.cut_segments));
     case detail::SectionRows::cylinders:
-      return {{rows, s.drive.cylinders}};
+      return from_first(s.drive.cylinders);
     case detail::SectionRows::trains:
-      return {{rows, s.drive.trains}};
+      return from_first(s.drive.trains);
     case detail::SectionRows::wheels:
-      return {{rows, s.triggers.count}};
-    case detail::SectionRows::wheel_faults:
-      for (std::uint32_t i = 0; i < s.wheel_faults.count; ++i) pieces.push_back({rows + i, 1});  // rules point to each
-      return pieces;
+      return from_first(s.triggers.count);
+    case detail::SectionRows::wheel_faults:  // one each, for rules point to each
+      return each(s.wheel_faults.count, 1, [](std::size_t) { return std::size_t{1}; });
     case detail::SectionRows::fault_edges:
-      for (std::uint32_t i = 0; i < s.wheel_faults.count; ++i)
-        pieces.push_back({rows + i * std::size_t{kMaxTriggerEdges}, s.fault_tracks[i].edge_count});
-      return pieces;
+      return each(s.wheel_faults.count, kMaxTriggerEdges, [&](std::size_t i) { return s.fault_tracks[i].edge_count; });
     case detail::SectionRows::lobes:
-      for (std::uint32_t t = 0; t < s.drive.trains; ++t)
-        pieces.push_back({rows + t * std::size_t{kDegreesPerTurn}, s.lift_curves[t].rows()});
-      return pieces;
+      return each(s.drive.trains, kDegreesPerTurn, [&](std::size_t t) { return s.lift_curves[t].rows(); });
     case detail::SectionRows::edges:
-      for (std::uint32_t w = 0; w < s.triggers.count; ++w)
-        pieces.push_back({rows + w * std::size_t{kMaxTriggerEdges}, s.trigger_tracks[w].edge_count});
-      return pieces;
+      return each(s.triggers.count, kMaxTriggerEdges, [&](std::size_t w) { return s.trigger_tracks[w].edge_count; });
   }
-  return pieces;
+  return {};
 }
 
 /// Whether an engine has what the sections of its cams' contacts need: a width, or for their sliding friction.
@@ -145,6 +154,14 @@ bool lacks_contact(const Stores<Real>& s) {
   return true;
 }
 
+std::string declaration_of(const char* section, const std::string& real) {
+  const std::string name = section;
+  return "\nconstexpr crankloop::detail::section::" + name + "::Record<" + real + "> " + name;
+}
+std::string place_in(const char* section, std::size_t row) {
+  return std::string(section) + " + " + std::to_string(row);
+}
+
 /// Prints a section as an object or array of its name. If the engine has no trains or wheels, prints one of zeros that
 /// no tick reads, so that scenes with room for them compile. False if a section has no rows.
 template <class Section, class Real>
@@ -155,28 +172,39 @@ bool print_section(Printer& p, const Stores<Real>& s, const TableReport& report,
       std::is_same_v<Section, detail::section::gas_manifolds> || std::is_same_v<Section, detail::section::burn>;
   if (kOfGas && !(s.gas_cylinders.clearance_m3 > 0)) return false;  // an engine without gas exchange
   if (lacks_contact<Section>(s)) return false;
-  const std::string name = Section::kName;
-  const std::string object = "\nconstexpr crankloop::detail::section::" + name + "::Record<" + real + "> " + name;
+  const std::string object = declaration_of(Section::kName, real);
   const bool no_wheels = std::is_same_v<Section, detail::section::triggers> && s.triggers.count == 0;
   if (no_wheels || (std::is_same_v<Section, detail::section::wheel_faults> && s.wheel_faults.count == 0)) {
-    p.text(object + " = {}");
+    p.text(object);
+    p.text(" = {}");
   } else if constexpr (kOne) {
-    p.text(object + " = ");
+    p.text(object);
+    p.text(" = ");
     p.print(Section::in(s));
   } else {
+    const auto* const rows = Section::in(s);
     std::size_t printed = 0;
-    for (const auto& piece : pieces_of<Section>(s, report, Section::in(s))) {
+    for (const Piece& piece : pieces_of(Section::kRows, s, report)) {
       if (piece.count == 0) continue;
-      p.text(printed == 0 ? object + "[] = {" : ",");
-      p.remember(piece.first, name + " + " + std::to_string(printed));
-      p.rows(piece.first, piece.count);
+      if (printed == 0) p.text(object);
+      p.text(printed == 0 ? "[] = {" : ",");
+      p.remember(rows + piece.first, place_in(Section::kName, printed));
+      p.rows(rows + piece.first, piece.count);
       printed += piece.count;
     }
-    if (printed == 0 && Section::kRows != detail::SectionRows::trains) return false;
-    p.text(printed == 0 ? object + "[1] = {}" : "\n}");
+    if (printed == 0) {
+      if (Section::kRows != detail::SectionRows::trains) return false;
+      p.text(object);
+    }
+    p.text(printed == 0 ? "[1] = {}" : "\n}");
   }
   p.text(";\n");
   return true;
+}
+
+std::string set_pointer(const char* section, bool one) {
+  const std::string name = section;
+  return "  s." + name + " = " + (one ? "&" : "") + name + ";\n";
 }
 
 template <class Real>
@@ -184,8 +212,7 @@ void print_sections(Printer& p, const Stores<Real>& s, const std::string& real, 
   std::string all;
   detail::sections([&](auto section) {
     if (!print_section<decltype(section)>(p, s, report, real) || !section.kRead) return;
-    all += std::string("  s.") + section.kName + " = " + (section.kRows == detail::SectionRows::one ? "&" : "") +
-           section.kName + ";\n";
+    all += set_pointer(section.kName, section.kRows == detail::SectionRows::one);
   });
   const std::string type = "crankloop::Sections<" + real + ">";
   p.text("\nconstexpr " + type + " sections = [] {\n  " + type + " s;\n" + all + "  return s;\n}();\n");

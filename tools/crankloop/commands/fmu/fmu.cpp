@@ -110,7 +110,7 @@ std::vector<ZipEntry> described(const Packed& packed, fmi::Version version, cons
     if (!refused.ok()) throw explain_tabulate(packed.engine, refused, tick_s);  // by the lines of the user's file
     throw InputError(why.text);
   }
-  fmi::Description<Supply> description(*instance, title);
+  fmi::Description description(fmi::shown(*instance), title);
   return {{"modelDescription.xml", description.model(version)}, {"documentation/index.html", description.page()}};
 }
 

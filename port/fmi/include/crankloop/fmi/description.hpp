@@ -5,6 +5,7 @@
 // fmi/instance.hpp). For programs that make FMUs: not for real time.
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -108,25 +109,46 @@ struct SourceBuild {
   }
 };
 
-/// The files that describe the variables, one function each.
+/// A variable, and its value as a number.
+struct ShownVariable {
+  Role role;
+  Variable variable;
+  double value;
+};
+
+/// What the files tell of an instance: collected once, so that their text is made by the same code for every scene.
+struct Shown {
+  double tick_s;
+  std::string token;
+  std::vector<ShownVariable> variables;  ///< by value reference
+};
+
 template <class Supply>
+[[nodiscard]] Shown shown(Instance<Supply>& instance) {
+  Shown all{instance.tick_s(), TokenText(instance.token()).text, {}};
+  instance.each([&all](Role role, const Variable& variable, auto&) { all.variables.push_back({role, variable, 0}); });
+  for (std::uint32_t i = 0; i < all.variables.size(); ++i) all.variables[i].value = instance.number(i);
+  return all;
+}
+
+/// The files that describe the variables, one function each.
 class Description {
  public:
-  Description(Instance<Supply>& instance, const Title& title) : instance_{instance}, title_{title} {}
+  Description(Shown shown, Title title) : shown_{std::move(shown)}, title_{std::move(title)} {}
 
   [[nodiscard]] std::string model(Version version) {
     const bool three = version == Version::three;
     const std::string state = three ? "FMUState" : "FMUstate";
     std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription";
     xml += attribute("fmiVersion", three ? "3.0" : "2.0") + attribute("modelName", title_.identifier);
-    xml += attribute(three ? "instantiationToken" : "guid", TokenText(instance_.token()).text);
+    xml += attribute(three ? "instantiationToken" : "guid", shown_.token);
     xml += attribute("description", title_.engine) + attribute("generationTool", "crankloop " + version_text());
     xml += attribute("variableNamingConvention", "structured") + ">\n";
     xml += "  <CoSimulation" + attribute("modelIdentifier", title_.identifier);
     if (!three) xml += attribute("canNotUseMemoryManagementFunctions", "true");
     xml += attribute("canGetAndSet" + state, "true") + attribute("canSerialize" + state, "true");
     xml += attribute("canHandleVariableCommunicationStepSize", "true");
-    if (three) xml += attribute("fixedInternalStepSize", digits(instance_.tick_s()));
+    if (three) xml += attribute("fixedInternalStepSize", digits(shown_.tick_s));
     xml += "/>\n" + units();
     xml += "  <LogCategories>\n";
     xml += "    <Category name=\"logStatusError\" description=\"Refused calls, and why\"/>\n";
@@ -134,14 +156,15 @@ class Description {
     xml += "  <DefaultExperiment startTime=\"0\" stopTime=\"1\"" + attribute("stepSize", digits(step_s())) + "/>\n";
     xml += "  <ModelVariables>\n";
     std::string unknowns;
-    for_all([&](std::uint32_t reference, Role role, const Variable& variable, double value) {
+    for (std::uint32_t reference = 0; reference < shown_.variables.size(); ++reference) {
+      const auto& [role, variable, value] = shown_.variables[reference];
       xml += three ? variable_3(reference, role, variable, value) : variable_2(reference, role, variable, value);
-      if (!is_output(role)) return;
+      if (!is_output(role)) continue;
       // FMI 2 counts variables from 1, FMI 3 takes value references.
       unknowns += three ? "@" + attribute("valueReference", std::to_string(reference))
                         : "@" + attribute("index", std::to_string(reference + 1));
       unknowns += " dependencies=\"\"/>\n";
-    });
+    }
     xml += "  </ModelVariables>\n  <ModelStructure>\n";
     if (three) {
       xml += replaced(unknowns, "    <Output") + replaced(unknowns, "    <InitialUnknown");
@@ -159,17 +182,17 @@ class Description {
         "</title>\n<style>body{font-family:sans-serif;margin:2em}td,th{text-align:left;padding:0 1em 0 0}</style>\n"
         "</head>\n<body>\n<h1>" +
         escaped(title_.engine) + "</h1>\n<p>An engine of crankloop " + version_text() + ", stepped every " +
-        digits(instance_.tick_s() * 1e6) +
+        digits(shown_.tick_s * 1e6) +
         " &micro;s. A communication step runs the whole ticks that end in it: its inputs hold over the step, its "
         "outputs are those of the last tick, and are 0 before the first. The start values take effect when "
         "initialization ends.</p>\n"
         "<h2>Variables</h2>\n<table>\n<tr><th>name</th><th>unit</th><th></th><th>range</th><th>meaning</th></tr>\n";
-    for_all([&](std::uint32_t, Role role, const Variable& variable, double) {
+    for (const auto& [role, variable, value] : shown_.variables) {
       html += "<tr><td>" + escaped(name_of(variable)) + "</td><td>" + written_unit(variable) + "</td><td>" +
               causality(role) + "</td><td>" +
               (has_range(variable) ? digits(variable.least) + " to " + digits(variable.most) : std::string()) +
               "</td><td>" + escaped(variable.meaning) + "</td></tr>\n";
-    });
+    }
     html +=
         "</table>\n<h2>Bits of faults</h2>\n<p>Of an input: it was not finite or out of its range, and its last good "
         "value was used.</p>\n<table>\n";
@@ -212,32 +235,22 @@ class Description {
     return continuous ? "continuous" : "discrete";
   }
 
-  /// visit(value reference, role, variable, value as a number)
-  template <class Visit>
-  void for_all(const Visit& visit) {
-    std::uint32_t next = 0;
-    instance_.each([&](Role role, const Variable& variable, auto&) {
-      visit(next, role, variable, instance_.number(next));
-      ++next;
-    });
-  }
-
   /// 1 ms, or the first whole number of ticks that is as long.
   [[nodiscard]] double step_s() const {
-    const double tick_us = instance_.tick_s() * 1e6;
+    const double tick_us = shown_.tick_s * 1e6;
     return std::ceil(1000 / tick_us - 1e-6) * tick_us / 1e6;
   }
 
   [[nodiscard]] std::string units() {
     std::vector<const UnitOfName*> used;
-    for_all([&used](std::uint32_t, Role, const Variable& variable, double) {
-      if (variable.kind != VariableKind::real) return;
-      const UnitOfName& unit = unit_of(variable);
-      for (const UnitOfName* known : used) {
-        if (std::string_view(known->written) == unit.written) return;
-      }
-      used.push_back(&unit);
-    });
+    for (const ShownVariable& shown : shown_.variables) {
+      if (shown.variable.kind != VariableKind::real) continue;
+      const UnitOfName& unit = unit_of(shown.variable);
+      const auto is_unit = [&unit](const UnitOfName* known) {
+        return std::string_view(known->written) == unit.written;
+      };
+      if (std::none_of(used.begin(), used.end(), is_unit)) used.push_back(&unit);
+    }
     std::string xml = "  <UnitDefinitions>\n";
     for (const UnitOfName* unit : used) {
       xml += "    <Unit" + attribute("name", unit->written) + ">\n      <BaseUnit";
@@ -297,7 +310,7 @@ class Description {
            values(role, variable, value) + "/>\n";
   }
 
-  Instance<Supply>& instance_;
+  Shown shown_;
   Title title_;
 };
 
