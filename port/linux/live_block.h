@@ -39,7 +39,7 @@ enum {
 
 struct crankloop_live_section {
   uint32_t kind;
-  uint32_t offset; /* in bytes, from the block's begin; a multiple of 64 */
+  uint32_t offset; /* in bytes, from the start of the block; a multiple of 64 */
   uint32_t count;
   uint32_t entry_bytes; /* of each of the `count` */
 };

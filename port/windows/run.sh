@@ -1,6 +1,6 @@
 #!/bin/sh
-# run.sh PROGRAM.exe ARGUMENT...: starts it by Wine, whose settings and fixtures stay in CRANKLOOP_WINE, a folder under
-# /tmp unless told. Tests that run at the same time share one server of Wine's.
+# run.sh PROGRAM.exe ARGUMENT...: starts it by Wine, whose settings and fixtures stay in CRANKLOOP_WINE (default: a
+# folder under /tmp). Tests that run at the same time share one Wine server.
 set -eu
 WINEPREFIX=${CRANKLOOP_WINE:-/tmp/crankloop-wine-$(id -u)}
 WINEDEBUG=${WINEDEBUG:--all}

@@ -89,7 +89,7 @@ struct Breathing : Whole {
   static constexpr bool load_ratio = false;
 };
 
-/// FreeRunning with an engine that breathes: its controller sets throttle, fuel and spark.
+/// FreeRunning of an engine with gas exchange: its controller sets throttle, fuel and spark.
 struct BreathingFree : FreeRunning {
   static constexpr PressureGiven pressure = PressureGiven::by_gas;
   static constexpr Manifold manifold = Manifold::throttle;

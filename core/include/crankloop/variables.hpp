@@ -381,7 +381,7 @@ constexpr void each_signal(Visit& visit, const SignalNames& names, std::uint32_t
   visit(truth(names.level, "Level of the signal at the end of the tick").at(wheel), t.level);
   visit(whole(names.edge_count, "Edges in the tick").at(wheel), t.edge_count);
   for (std::uint32_t e = 0; e < S::trigger_edges; ++e) {
-    visit(real(names.time_s, "Since the tick's begin").at(wheel, e), t.edge[e].time_s);
+    visit(real(names.time_s, "Time since the start of the tick").at(wheel, e), t.edge[e].time_s);
     visit(truth(names.edge_level, "After it: 1 it rose, 0 it fell").at(wheel, e), t.edge[e].level);
   }
 }

@@ -9,7 +9,7 @@
 
 namespace crankloop {
 
-/// Read by scenes with cam_contact or cam_torque alone; both bodies of steel and without friction unless told.
+/// Read by scenes with cam_contact or cam_torque alone; defaults: both bodies of steel, no friction.
 struct CamContact {
   double width_m = 0;         ///< b, of the line of contact; 0: not known, and a scene with cam_contact is refused
   double friction_ratio = 0;  ///< mu, friction force over normal force at any speed; 0: none

@@ -15,9 +15,9 @@
 
 namespace crankloop::program {
 
-/// Calls visit(time_ns, wheel, level) for each edge that the scene listed; times are since the tick's begin, 0 to its
-/// length, rounded to the nanosecond. Edges of equal time go by wheel. Returns how many were not listed: more in a tick
-/// than a scene has room for. O(edges * wheels).
+/// Calls visit(time_ns, wheel, level) for each edge that the scene listed; times are since the start of the tick, 0 to
+/// its length, rounded to the nanosecond. Edges of equal time go by wheel. Returns how many were not listed: more in a
+/// tick than a scene has room for. O(edges * wheels).
 template <class Output, class Visit>
 std::uint64_t each_edge_by_time(const Output& out, std::uint32_t wheels, std::int64_t tick_ns, const Visit& visit) {
   std::array<std::uint32_t, kMaxTriggerWheels> next{};

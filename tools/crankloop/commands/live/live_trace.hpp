@@ -31,7 +31,7 @@ class LiveTrace {
   LiveTrace& operator=(const LiveTrace&) = delete;
   ~LiveTrace();
 
-  /// Of the loop's thread, in the order of time since the run's begin. O(1); neither allocates nor waits.
+  /// Of the loop's thread, in the order of time since the start of the run. O(1); neither allocates nor waits.
   void level(std::int64_t time_ns, std::uint32_t wheel, bool high) noexcept { put({time_ns, wheel, high ? 1.0 : 0.0}); }
   void speed(std::int64_t time_ns, double rpm) noexcept { put({time_ns, wheels_, rpm}); }
   void torque(std::int64_t time_ns, double Nm) noexcept { put({time_ns, wheels_ + 1, Nm}); }

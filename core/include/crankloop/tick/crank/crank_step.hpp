@@ -258,7 +258,7 @@ class CrankStep {
   Real predicted_rad_s_{};  ///< mean speed by the start alone
   Real mean_rad_s_{};       ///< of the angle turned
   Real ahead_{};            ///< u at the tick's end by the forces at its start: only its sign counts
-  Real before_{};           ///< u at the tick's begin
+  Real before_{};           ///< u at the start of the tick
   Real friction_s_{};       ///< time that is left for friction
   Real gas_before_Nm_{};
   Real gas_Nm_{};      ///< at the end of the tick

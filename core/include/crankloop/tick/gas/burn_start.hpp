@@ -21,7 +21,7 @@ struct BurnCharge {
   Real excess_air_ratio;  ///< lambda, above 0
 };
 
-/// The gas of a cylinder where it passes `deg` on its way, `on_deg` after the step's begin: as it was there,
+/// The gas of a cylinder where it passes `deg` on its way, `on_deg` after the start of the step: as it was there,
 /// compressed, and cooled by the mean of the heat to its walls there and here.
 template <class Real, class S>
 [[nodiscard]] inline BurnCharge<Real> charge_at(const Tables<Real, S>& tables, const State<Real, S>& state,

@@ -7,7 +7,7 @@
 //     m_cr = c p,  c = V_cr / (R T_w);   w = dm_cr/dt + w_bb leaves the cylinder, w_bb the crevice for the crankcase
 //     Namazian and Heywood, SAE 820088, with one volume
 //
-// Implicit: from the pressure of the step's begin a crevice would lag by a step, which is work (1.4 kPa of mean
+// Implicit: by the pressure at the start of the step a crevice would lag by a step, which is work (1.4 kPa of mean
 // pressure at 50 us).
 #pragma once
 

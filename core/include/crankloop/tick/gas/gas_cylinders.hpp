@@ -50,7 +50,7 @@ struct EngineGasStep {
   std::uint64_t phase;  ///< of the engine, at its end
   std::int64_t turned;
   GasDrive<Real> drive;
-  GasBeyond<Real> beyond[kPorts];  ///< as it stands at the step's begin, whatever order cylinders go in
+  GasBeyond<Real> beyond[kPorts];  ///< as at the start of the step, whatever order cylinders go in
   Real taken_kg[kPorts];           ///< from there
 };
 
@@ -240,7 +240,7 @@ class GasCylindersStep {
                                            std::uint32_t one, const Gases& gas,
                                            RunnerStep<Real>& runner_step) noexcept {
     const RunnerGas<Real>& runner = state_.runner[port][one];
-    // Its own flow of the last step is among those that the manifold's end reckons with.
+    // Its own flow of the last step is among those that the manifold's end includes.
     const Real own_Pa = manifold.response_Pa_kg * (step.drive.step_s * runner.flow_kg_s);
     const RunnerEnds<Real> ends{manifold,
                                 manifold.end_Pa + (manifold.as_was_Pa + own_Pa),

@@ -12,21 +12,21 @@ template <class Real>
   return pressure_of(Real{1} + manifold.point.gas_ratio, manifold.point.temperature_K, per_volume_m3);
 }
 
-/// As the far side of the ports in a step, at whose begin `open` cylinders of up to `most_m3` see it.
+/// As the far side of the ports in a step: at its start `open` cylinders of up to `most_m3` are open to it.
 ///
 /// All see it as it stands then. One that let its own flow alone move that pressure would be wrong to first order: what
 /// it takes the throttle brings meanwhile. It need not, while they together could not empty it: each brings its own
 /// pressure to the manifold's, so the manifold overshoots by open most_m3 / V, and settles where that is small. Of a
-/// small manifold each reckons with flows through the others as in the last step, with changes like its own in them,
-/// and with what the opening to the outside answers to it within the step: that is z = h k Y stiff, Y its flow per
+/// small manifold each assumes flows through the others as in the last step, with changes like its own in them, and
+/// allows for how the opening to the outside responds within the step: its stiffness is z = h k Y, Y its flow per
 /// difference of pressures.
 template <class Real>
 [[nodiscard]] inline GasBeyond<Real> seen_from_ports(const ManifoldGas<Real>& manifold, const GasBeyond<Real>& outside,
                                                      Real area_m2, Real per_volume_m3, Real taken_kg_s, Real open,
                                                      Real most_m3, Real step_s) noexcept {
-  const Real reckons = open - Real{1} / (2 * most_m3 * per_volume_m3);
+  const Real counted = open - Real{1} / (2 * most_m3 * per_volume_m3);
   GasBeyond<Real> seen = beyond(manifold.point, Real{0});
-  if (!(reckons > 0)) return seen;
+  if (!(counted > 0)) return seen;
   const bool in = outside.pressure_Pa > manifold.point.pressure_Pa;
   const Real up_Pa = in ? outside.pressure_Pa : manifold.point.pressure_Pa;
   const Real apart_Pa = outside.pressure_Pa - manifold.point.pressure_Pa;
@@ -39,8 +39,8 @@ template <class Real>
   const Real z = step_s * per_Pa * flow_Pa *
                  (in ? (Real{1} + manifold.point.gas_ratio) * per_volume_m3 * outside.specific_work_J_kg : own_Pa_kg);
   const Real per_answer = Real{1} / (Real{1} + z);
-  seen.response_Pa_kg = reckons * own_Pa_kg * per_answer;
-  const Real share = reckons / open * per_answer;
+  seen.response_Pa_kg = counted * own_Pa_kg * per_answer;
+  const Real share = counted / open * per_answer;
   seen.end_Pa += apart_Pa * z * share;
   seen.as_was_Pa = -(step_s * taken_kg_s * own_Pa_kg) * share;
   return seen;

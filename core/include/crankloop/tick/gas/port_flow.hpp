@@ -89,7 +89,7 @@ template <class T>
 /// What an opening gets through in a step before its implicit part does.
 template <class T>
 struct EarlyFlow {
-  T flow_kg_s_m2;  ///< at the step's begin
+  T flow_kg_s_m2;  ///< at the start of the step
   T per_kg_Pa;     ///< by which a kg of it moves the near pressure
   T stiffness;     ///< of the step
 

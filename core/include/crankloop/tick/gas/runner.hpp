@@ -27,7 +27,7 @@ template <class Real>
 struct RunnerEnds {
   const GasBeyond<Real>& manifold;
   Real manifold_Pa;              ///< at the step's end if nothing flowed through this runner
-  Real cylinder_Pa, cylinder_K;  ///< at the step's begin
+  Real cylinder_Pa, cylinder_K;  ///< at the start of the step
   Real from_m2;                  ///< effective area of the valves then
   Real most_kg;                  ///< that the manifold may give
 };
@@ -101,7 +101,7 @@ template <class Real>
     seen.enthalpy_J_kg = (mass_kg * seen.enthalpy_J_kg + mixes_kg * manifold.enthalpy_J_kg) * per_kg;
     seen.burned_ratio = (mass_kg * seen.burned_ratio + mixes_kg * manifold.burned_ratio) * per_kg;
   }
-  if (ends.from_m2 > 0) {  // end_Pa is without the valve's flow: what an opening reckons with as it was is taken off
+  if (ends.from_m2 > 0) {  // end_Pa is without the valve's flow, as_was_Pa takes it off
     const Orifice<Real> flow = Orifice<Real>::at(ends.cylinder_Pa, ends.cylinder_K, seen);
     seen.as_was_Pa = -seen.response_Pa_kg * (step_s * ends.from_m2 * flow.flow_kg_s_m2);
   }

@@ -27,7 +27,7 @@ class SignalEdges {
   [[nodiscard]] std::uint32_t listed() const noexcept {
     return signal_.edge_count < S::trigger_edges ? signal_.edge_count : S::trigger_edges;
   }
-  /// At the tick's begin: each edge changes the level.
+  /// At the start of the tick: each edge changes the level.
   [[nodiscard]] std::uint32_t level_before() const noexcept { return (signal_.level ^ signal_.edge_count) & 1u; }
 
   void copy(const TriggerSignal<Real, S>& from) noexcept {
@@ -47,7 +47,7 @@ class SignalEdges {
     invert_from(place);
     insert(place, {time_s, before ^ 1u});
   }
-  /// An edge at the tick's begin, to the level that the signal has there.
+  /// An edge at the start of the tick, to the level that the signal has there.
   void begin_with_edge() noexcept { insert(0, {Real{0}, level_before()}); }
 
   [[nodiscard]] bool out_of_room() const noexcept { return signal_.edge_count > S::trigger_edges; }

@@ -31,7 +31,7 @@ enum class Role : std::uint8_t { independent, input, parameter, output, event, c
 
 /// What get and set need of a variable.
 struct Slot {
-  std::uint32_t offset;  ///< from the instance's begin
+  std::uint32_t offset;  ///< from the start of the instance
   Storage storage;
   VariableKind kind;
   Role role;
