@@ -113,7 +113,8 @@ static_assert(CRANKLOOP_MAX_TRIGGER_WHEELS == kMaxTriggerWheels && CRANKLOOP_MAX
               CRANKLOOP_MAX_LISTED_MISFIRES == kMaxListedMisfires && CRANKLOOP_MAX_WHEEL_FAULTS == kMaxWheelFaults);
 static_assert(CRANKLOOP_MAX_CYLINDERS == kMaxCylinders && CRANKLOOP_MAX_TRAINS == kMaxTrains &&
               CRANKLOOP_MAX_CAM_EXPONENTS == kMaxCamExponents);
-static_assert(CRANKLOOP_TOO_MUCH_HEAT == static_cast<int>(Reason::too_much_heat) &&
+static_assert(CRANKLOOP_UNSTABLE == static_cast<int>(Reason::unstable) &&
+              CRANKLOOP_TOO_MUCH_HEAT == static_cast<int>(Reason::too_much_heat) &&
               CRANKLOOP_ROD_TOO_SHORT == static_cast<int>(Reason::rod_too_short) &&
               CRANKLOOP_NO_SOLUTION == static_cast<int>(Reason::no_solution) &&
               CRANKLOOP_CONTRACTING_BUILD == static_cast<int>(Reason::contracting_build));
