@@ -493,7 +493,7 @@ TEST_F(EngineFileTest, ValveTrainSectionsAreReadCheckedAndShown) {
   const std::string shown = show(engine);
   EXPECT_EQ(show(read(shown)), shown);
   EXPECT_NE(refusal(train + "ratio = 1\n"), "");
-  EXPECT_NE(refusal(replaced(train, "train_N_per_mm = 11765", "train_N_per_mm = -1")).find("at most 1e+09 N/mm"),
+  EXPECT_NE(refusal(replaced(train, "train_N_per_mm = 11765", "train_N_per_mm = -1")).find("at most 1e9 N/mm"),
             std::string::npos);
   EXPECT_NE(refusal(replaced(train, "ratio = 1\n", "ratio = 1\ncam_turns = toward_pivot\n")), "");
   EXPECT_NE(refusal(replaced(train, "2,10,18,26", "2,18,10,26")), "");

@@ -499,7 +499,7 @@ std::vector<std::string> sections_with_key(const std::string& name) {
 }
 
 std::string describe_all_keys() {
-  constexpr std::size_t kColumn = 26;
+  constexpr std::size_t kColumn = 28;
   std::string text;
   for (const SectionKind& kind : kSections) {
     text += std::string(text.empty() ? "" : "\n") + "[" + kind.name + (kind.named ? " NAME]" : "]") + "  " +

@@ -37,17 +37,32 @@ std::string rounded(Real value, int digits) {
   return {text.data(), end.ptr};
 }
 
+/// As people write it: 2147483647 and 1e9, where shortest() has 2.147483647e+09 and 1e+09.
+std::string bound_in_words(double bound) {
+  const std::string text = shortest(bound);
+  const std::size_t exponent = text.find("e+");
+  if (exponent == std::string::npos) return text;
+  if (text.find('.') == std::string::npos)
+    return text.substr(0, exponent) + "e" + std::to_string(std::stoi(text.substr(exponent + 2)));
+  std::array<char, 400> digits{};
+  return {digits.data(),
+          std::to_chars(digits.data(), digits.data() + digits.size(), bound, std::chars_format::fixed).ptr};
+}
+
 }  // namespace
 
 std::string describe(const Range& range, std::string_view unit) {
   const bool has_least = std::isfinite(range.least);
   const bool has_most = std::isfinite(range.most);
-  const std::string least = (range.without_least ? "above " : has_most ? "" : "at least ") + shortest(range.least);
+  const std::string least = (range.without_least ? "above "
+                             : has_most          ? ""
+                                                 : "at least ") +
+                            bound_in_words(range.least);
   const std::string joint = !has_least || range.without_least ? (range.without_most ? "below " : "at most ")
                                                               : (range.without_most ? "to below " : "to ");
   std::string words;
   if (has_least) words += least;
-  if (has_most) words += (!has_least ? "" : range.without_least ? ", " : " ") + joint + shortest(range.most);
+  if (has_most) words += (!has_least ? "" : range.without_least ? ", " : " ") + joint + bound_in_words(range.most);
   if (!words.empty() && !unit.empty()) words.append(" ").append(unit);
   return words;
 }

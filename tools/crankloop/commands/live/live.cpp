@@ -131,7 +131,7 @@ constexpr Option kOptions[] = {
            "timeout of the controller: after N ms without a write, fuel, load and starter are off", "100"),
     number("--load-ratio", "Q", from(0).up_to(2),
            "0 = motored, 1 = the pressure diagram as it is; until a controller sets it", "0"),
-    kThrottle,
+    number(kThrottle.name, kThrottle.value, kThrottle.range, kThrottle.meaning, "0"),
     kFuel,
     kLambda,
     kBurnStart,
