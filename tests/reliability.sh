@@ -266,7 +266,7 @@ without a reason, or a reason without a branch, is a failure.
 ## Mutants
 
 A mutant is a single-point change of core, drawn from a seed: a comparison, an operator (+ - * /), a constant, a condition, a negation, or a statement left out.
-The areas gas, trigger and valve are folders of core/include/crankloop/tick; tabulate is set-up with the checks of definitions; fmi is
+The areas gas, crank, trigger and valve are folders of core/include/crankloop/tick; tabulate is set-up with the checks of definitions; fmi is
 port/fmi/include/crankloop/fmi. Lanes and the C interface have no mutants.
 
 1. Tests of behaviour judge first: unit, property and interface tests, for fmi those of tests/fmi, with assertions, and only those that reach the changed line. The

@@ -147,7 +147,7 @@ Summary summary_of(const Engines& engine, const Request& request, const RunFigur
            (engine.has_gas() ? "" : ", no pressure source: inertia only"));
   s.remark(pressure_in_short(engine.file));
   s.remark("angles: torque and journals from cylinder 1's firing TDC, all else from that of the cylinder itself");
-  s.remark("largest and smallest are over the ticks, every " + brief(f.deg_per_tick) + " deg");
+  s.remark("max_ and min_ are over the ticks, every " + brief(f.deg_per_tick) + " deg");
   s.line("speed", request.operation.speed_rpm, "rpm");
   if (engine.breathes()) {
     add_order(s, request.operation.gas);
