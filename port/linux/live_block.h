@@ -217,7 +217,8 @@ static inline struct crankloop_live_section crankloop_live_find(const void* map,
 static inline uint32_t crankloop_live_index(const void* map, struct crankloop_live_section names, const char* name) {
   uint32_t i;
   for (i = 0; i < names.count; ++i) {
-    if (strncmp((const char*)map + names.offset + (size_t)i * names.entry_bytes, name, names.entry_bytes) == 0) return i;
+    const char* const entry = (const char*)map + names.offset + (size_t)i * names.entry_bytes;
+    if (strncmp(entry, name, names.entry_bytes) == 0) return i;
   }
   return names.count;
 }
