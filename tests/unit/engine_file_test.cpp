@@ -21,7 +21,9 @@
 #include <utility>
 #include <vector>
 
+#include "crankloop/engine_file/pressure_words.hpp"
 #include "crankloop/files/error.hpp"
+#include "crankloop/files/number.hpp"
 #include "crankloop/files/text_file.hpp"
 #include "crankloop/loops/valve_loop.hpp"
 #include "lab/reference/valve_reference.hpp"
@@ -708,6 +710,21 @@ TEST_F(EngineFileTest, ReadsWhereATriggerWheelStandsAndWhatMovesIt) {
   EXPECT_NE(refusal(sample + "[trigger a]\non = crank\nedges_deg = 10,300,380,390\n")
                 .find("edges_deg: entry 3: 380 is out of range"),
             std::string::npos);
+}
+
+TEST(PressureInWords, SaysOfAMotoredEngineThatItHasNoFuel) {
+  const EngineFile engine = read_engine_file(CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_435_motored.ini", {});
+  GasOrder order = gas_order(engine.definition().gas);
+  EXPECT_NE(pressure_in_words(engine, 1, order).find("Throttle 1, no fuel. Not modelled"), std::string::npos);
+  order.fuel_kg = 10e-6;
+  EXPECT_NE(pressure_in_words(engine, 1, order).find("10 mg of fuel per cylinder and cycle, burning from"),
+            std::string::npos);
+}
+
+TEST(RangeInWords, HasBoundsAsPeopleWriteThem) {
+  EXPECT_EQ(describe(from(0).up_to(2147483647), ""), "0 to 2147483647");
+  EXPECT_EQ(describe(above(0).up_to(1e9), "s"), "above 0, at most 1e9 s");
+  EXPECT_EQ(describe(from(-0.5).up_to(1e-9), ""), "-0.5 to 1e-09");
 }
 
 }  // namespace
