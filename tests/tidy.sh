@@ -23,7 +23,7 @@ jobs=$(nproc 2>/dev/null || echo 1)
 run_all() {
   rm -rf "$work"
   mkdir -p "$work"
-  [ -s $build/compile_commands.json ] || cmake --preset clang >"$work/configure.log" 2>&1
+  cmake --preset clang >"$work/configure.log" 2>&1
   {
     sed -n 's/^ *"file": "\(.*\)".*/\1/p' $build/compile_commands.json | sort -u |
       grep -E "^$PWD/(core|port)/|/commands/fmu/exports[.]cpp\$"
