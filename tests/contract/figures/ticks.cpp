@@ -1,5 +1,6 @@
 // Steps one engine of crankloop_add_scene: `ticks` prints its RAM in bytes and the time of a tick in ns, `ticks N` only
-// makes N steps, so that two runs under an instruction counter tell what one step takes, `ticks ram` only prints its RAM.
+// makes N steps, so that two runs under an instruction counter tell what one step takes; `ticks ram` prints its RAM
+// alone.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -34,7 +35,7 @@ void drive(Input& in, long tick) {
   }
   if constexpr (std::is_base_of_v<crankloop::group::CombustionInput<Real, the_engine::Scene>, Input>) {
     for (Real& fuel_kg : in.fuel_kg) fuel_kg = static_cast<Real>(30e-6);
-    for (Real& burn_deg : in.burn_duration_deg) burn_deg = 20;
+    for (Real& burn_deg : in.burn_duration_deg) burn_deg = FIGURES_BURN_DEG;
   }
 }
 

@@ -71,6 +71,10 @@ class GasCylindersStep {
     prepare(step, volume_m3, way);
     std::uint32_t faults = 0;
     const std::uint32_t cylinders = count<S>(tables_.drive->cylinders);
+    [[maybe_unused]] const std::uint32_t all = (std::uint32_t{1} << cylinders) - 1;  // a bit of each
+    if constexpr (N::knock) {
+      if (const std::uint32_t due = state_.knock_due & all; due != 0) begin_knock_on_way(tables_, state_, due, way);
+    }
     std::uint32_t k = 0;
 #if CRANKLOOP_ABREAST
     if constexpr (sizeof(Real) == 4 && kCylinders >= 4) {
@@ -78,6 +82,10 @@ class GasCylindersStep {
     }
 #endif
     for (; k < cylinders; ++k) faults |= run_block<Real>(input, step, areas, way + k, k, volume_m3 + k);
+    if constexpr (N::knock) {
+      const std::uint32_t in_burn = state_.knock_in_burn & all;
+      if ((in_burn | ends_) != 0) knock_on_way(tables_, state_, out_, in_burn, ends_, way, step.drive.step_s);
+    }
     return faults;
   }
 
@@ -117,11 +125,6 @@ class GasCylindersStep {
     std::uint32_t faults = 0;
     [[maybe_unused]] const std::uint32_t ends = ends_ >> k;  // one bit of each lane
     GasFuel<T> fuel{};
-    if constexpr (N::knock) {
-      constexpr std::uint32_t kAll = (std::uint32_t{1} << kLanes) - 1;
-      const std::uint32_t due = state_.knock_due >> k & kAll;
-      if (due != 0) begin_knock_on_way(tables_, state_, k, due, way);
-    }
     if constexpr (N::burn) {
       for (int i = 0; i < kLanes; ++i) {
         const GasFuel<Real> one = burn_on_way(tables_, state_, input, k + static_cast<std::uint32_t>(i), way[i],
@@ -178,11 +181,6 @@ class GasCylindersStep {
     Real work_J = work_J_;
     for (int i = 0; i < kLanes; ++i) work_J += lane(crank_J, i);
     work_J_ = work_J;
-    if constexpr (N::knock) {
-      constexpr std::uint32_t kAll = (std::uint32_t{1} << kLanes) - 1;
-      const std::uint32_t in_burn = state_.knock_in_burn >> k & kAll, ending = ends & kAll;
-      if ((in_burn | ending) != 0) knock_on_way(tables_, state_, out_, k, in_burn, ending, way, step.drive.step_s);
-    }
     if constexpr (S::gas_results) {
       std::uint32_t intake_shut = 0;
       if (done.flows)

@@ -24,6 +24,7 @@ enum class Version : int { two = 2, three = 3 };
 struct Title {
   std::string identifier;  ///< a C identifier: the binary's name
   std::string engine;      ///< what it is, free text
+  std::string without;     ///< what the engine has and the FMU does not step, a phrase; empty: nothing
 };
 
 /// Text in XML and HTML, in attributes too: all that is not ASCII becomes a question mark.
@@ -120,7 +121,8 @@ class Description {
     std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription";
     xml += attribute("fmiVersion", three ? "3.0" : "2.0") + attribute("modelName", title_.identifier);
     xml += attribute(three ? "instantiationToken" : "guid", TokenText(instance_.token()).text);
-    xml += attribute("description", title_.engine) + attribute("generationTool", "crankloop " + version_text());
+    xml += attribute("description", title_.engine + (title_.without.empty() ? "" : "; " + title_.without)) +
+           attribute("generationTool", "crankloop " + version_text());
     xml += attribute("variableNamingConvention", "structured") + ">\n";
     xml += "  <CoSimulation" + attribute("modelIdentifier", title_.identifier);
     if (!three) xml += attribute("canNotUseMemoryManagementFunctions", "true");
@@ -162,7 +164,8 @@ class Description {
         digits(instance_.tick_s() * 1e6) +
         " &micro;s. A communication step runs the whole ticks that end in it: its inputs hold over the step, its "
         "outputs are those of the last tick, and are 0 before the first. The start values take effect when "
-        "initialization ends.</p>\n"
+        "initialization ends.</p>\n" +
+        (title_.without.empty() ? std::string() : "<p>Not stepped: " + escaped(title_.without) + ".</p>\n") +
         "<h2>Variables</h2>\n<table>\n<tr><th>name</th><th>unit</th><th></th><th>range</th><th>meaning</th></tr>\n";
     for_all([&](std::uint32_t, Role role, const Variable& variable, double) {
       html += "<tr><td>" + escaped(name_of(variable)) + "</td><td>" + written_unit(variable) + "</td><td>" +
