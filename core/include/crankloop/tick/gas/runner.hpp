@@ -175,8 +175,9 @@ template <class T>
           moves_ratio = pick(in, spread<T>(manifold.burned_ratio), ratio);
   const PortStep<T> moves{in_kg, in_kg * moves_J_kg, in_kg * moves_ratio};
   gas.add(moves.mass_kg, moves.enthalpy_J, moves.burned_kg);
-  const T next = pick(in_kg == wants_kg, T{(wants - step.explicit_share * runner.flow_kg_s) * step.per_implicit_share},
-                      T{in_kg / step_s});
+  const T next = either<T>(
+      in_kg == wants_kg, [&] { return (wants - step.explicit_share * runner.flow_kg_s) * step.per_implicit_share; },
+      [&] { return in_kg / step_s; });
   add_carried(runner.flow_kg_s, runner.flow_rest_kg_s, T{next - runner.flow_kg_s});
   const auto holds = gas.mass_kg > Real{0};  // else put_runner_right()
   if (any(holds)) {
