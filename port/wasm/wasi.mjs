@@ -1,5 +1,4 @@
-// What an image of this port asks of its host, of WASI's preview 1: text out, an end. For Node and for pages: nothing here
-// is of one of them.
+// What an image of this port asks of its host, of WASI's preview 1: text out, an end. For Node and for pages alike.
 //
 // What belongs here: the functions that wasi-libc imports for printf and _Exit. What does not: files, clocks, random
 // numbers, which the images do not use.
@@ -28,7 +27,8 @@ export function runImage(module, write) {
       let bytes = 0;
       for (let i = 0; i < count; ++i) {
         const size = view.getUint32(pieces + 8 * i + 4, true);
-        write(decoder.decode(new Uint8Array(memory.buffer, view.getUint32(pieces + 8 * i, true), size), {stream: true}));
+        const piece = new Uint8Array(memory.buffer, view.getUint32(pieces + 8 * i, true), size);
+        write(decoder.decode(piece, {stream: true}));
         bytes += size;
       }
       view.setUint32(written, bytes, true);

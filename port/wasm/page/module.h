@@ -25,8 +25,8 @@
  * Call its export _initialize() once, first. One instance is one engine, for one worker; the redline's search runs
  * beside it in another instance.
  *
- * The golden runs are a module of their own: tests/target's self-check for WASI (self_check.wasm). It writes lines
- * "golden NAME 0xHASH" and last "N passed, M failed".
+ * The golden runs are a module of their own, a program for WASI (../module/golden.cpp). It writes lines "golden NAME
+ * 0xHASH" and last "N passed, M failed".
  */
 #ifndef CRANKLOOP_PORT_WASM_PAGE_MODULE_H
 #define CRANKLOOP_PORT_WASM_PAGE_MODULE_H
@@ -76,11 +76,11 @@ const char* PAGE_EXPORT(page_load)(const char* name, uint32_t name_bytes, const 
  *   "trains": [{"name", "port": "intake"|"exhaust"|"", "valves_per_cylinder", "max_lift_m", "full_lift_deg" (in the
  *               cylinder's own cycle), "opens_deg", "closes_deg" (own cycle, may be below 0 or above 720),
  *               "rocker": "circular_pad"|"ratio", "base_circle_m", "clearance_m", "seat_m" (diameter, 0 unknown),
- *               "cam_deg": [-180 ... 180], "cam_lift_m": [...] (the valve's lift as the cam wants it, without lash
- *               below 0; cam angle from full lift, every degree), "profile_m": [...] (radius of the cam, same angles),
- *               "can_redline": true}...],
- *   "wheels": [{"name", "shaft": "crank"|"cam", "places", "rising_deg": [...], "falling_deg": [...] (edges in a turn of
- *               its shaft, crank degrees)}...]}
+ *               "cam_deg": [-180 ... 180], "cam_lift_m": [...] (the valve's lift as the cam wants it, not below 0; cam
+ *               angle from full lift, every degree), "profile_m": [...] (base circle and lift of a flat follower, at
+ *               the same angles of the follower)}...],
+ *   "wheels": [{"name", "shaft": "crank"|"cam", "places", "inverted", "rising_deg": [...], "falling_deg": [...] (edges
+ *               in a turn of its shaft, crank degrees, may pass the turn's end)}...]}
  *  {} where none is loaded. */
 const char* PAGE_EXPORT(page_facts)(void);
 
@@ -91,16 +91,13 @@ const char* PAGE_EXPORT(page_facts)(void);
  *    "value": "32.5", "line": 40 (0: a default), "used": true (false: of a form that is not chosen), "meaning"}...] */
 const char* PAGE_EXPORT(page_keys)(void);
 
-/** The loaded text with another value of a key, all else as it was, comments too; the line is added where the file had
- *  a default. {"errors": [...], "text": "...", "line": 40}. Loads nothing. */
-const char* PAGE_EXPORT(page_text_with)(const char* key, uint32_t key_bytes, const char* value, uint32_t value_bytes);
-
 /* ---- the engine runs ---- */
 
 /** Makes the loaded engine's tables and starts it: from the crank angle, at the speed, valves at rest on their seats,
  *  manifolds at ambient. Speed held: the tick of `crankloop run`; crank free: of `run --free`. Time and cycles begin at
  *  0. Inputs begin at the values of the file; the speed is an input then. What page_watch() asked for stays asked for.
- *  {"errors": [message...], "warnings": [message...], "settling_cycles": 1, "ticks_per_cycle": 1200.0 (at that
+ *  {"errors": [message...], "warnings": [message...] (but for a tick too long for a valve's class: that takes seconds),
+ *   "settling_cycles": 1, "ticks_per_cycle": 1200.0 (at that
  *   speed, null at rest)} */
 const char* PAGE_EXPORT(page_start)(double tick_us, uint32_t in_double, uint32_t crank_is_free, double speed_rpm,
                                     double crank_deg);
@@ -140,9 +137,9 @@ uint32_t PAGE_EXPORT(page_sample_count)(void);
 /** The last tick's values in the same columns, whatever `every` was. */
 const double* PAGE_EXPORT(page_now)(void);
 
-/** Edges of the trigger wheels in the last page_step(), also between samples: rows of three doubles, time_s, wheel (from
- *  0; that of faulty signals plus 100 where faults of wheels are on), level after it (0 or 1). Up to 4096; what did
- *  not fit is not there, and page_edges_lost() counts it. */
+/** Edges of the trigger wheels in the last page_step(), also between samples: rows of three doubles, time_s, wheel
+ *  (from 0; that of faulty signals plus 100 where faults of wheels are on), level after it (0 or 1). Up to 4096; what
+ *  did not fit is not there, and page_edges_lost() counts it. */
 const double* PAGE_EXPORT(page_edges)(void);
 uint32_t PAGE_EXPORT(page_edge_count)(void);
 uint32_t PAGE_EXPORT(page_edges_lost)(void);
@@ -151,22 +148,21 @@ uint32_t PAGE_EXPORT(page_edges_lost)(void);
 uint32_t PAGE_EXPORT(page_cycles)(void);
 /** Results of the last whole cycle: [{"name": "net_mep_Pa", "base", "first", "second", "unit", "shown_unit",
  *   "shown_per_unit", "meaning", "of": "engine"|"cylinder"|"valve"}...]; mean torque, power, net mean pressure, speed
- *  (mean, least, largest), largest pressure and where of each cylinder, the valves' separations, bounces, seating speeds
- *  ..., the gas's volumetric efficiency, residual gas, fuel, heat .... */
+ *  (mean, least, largest), largest pressure and where of each cylinder, the valves' separations, bounces, seating
+ *  speeds ..., the gas's volumetric efficiency, residual gas, fuel, heat .... */
 const char* PAGE_EXPORT(page_results)(void);
 /** As many doubles, in that order; not a number before the first cycle is whole. */
 const double* PAGE_EXPORT(page_result_values)(void);
 
 /* ---- proof ---- */
 
-/** As `crankloop run FILE --hash --rpm N --tick-us T --cycles C --real R` of the loaded file: the hash of every bit that
- *  comes out. Does not touch what runs. {"errors": [...], "hash": "0x0123456789ABCDEF", "ticks": 2400,
- *  "mean_torque_Nm": 151.2} */
+/** As `crankloop run FILE --hash --rpm N --tick-us T --cycles C --real R` of the loaded file: the hash of every bit
+ *  that comes out. Does not touch what runs. {"errors": [...], "hash": "0x0123456789ABCDEF", "ticks": 2400} */
 const char* PAGE_EXPORT(page_hash)(double tick_us, uint32_t in_double, double speed_rpm, uint32_t cycles);
 
 /* ---- the redline ---- */
 
-/** Begins the search of `crankloop redline FILE --valve TRAIN`: a sweep of speeds, then the onsets to 1 rpm. to_rpm 0:
+/** Begins the search of `crankloop redline FILE --train TRAIN`: a sweep of speeds, then the onsets to 1 rpm. to_rpm 0:
  *  what `redline` takes. {"errors": [...], "from_rpm", "to_rpm", "step_rpm", "speeds": 61 (of the sweep),
  *  "static_redline_rpm" (null: none), "tick_us"} */
 const char* PAGE_EXPORT(page_redline)(const char* train, uint32_t bytes, uint32_t from_rpm, uint32_t to_rpm);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <crankloop/define/range.hpp>
-#include <crankloop/fmi/description.hpp>
+#include <crankloop/fmi/name.hpp>
 #include <crankloop/scenes.hpp>
 #include <crankloop/variable_values.hpp>
 #include <crankloop/variables.hpp>

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <crankloop/fmi/description.hpp>
+#include <crankloop/fmi/name.hpp>
 #include <crankloop/variable_values.hpp>
 
 #include "../../files/units.hpp"

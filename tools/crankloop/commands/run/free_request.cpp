@@ -92,6 +92,7 @@ void require_options_that_fit(const Arguments& arguments) {
        {"--machine-Nm", "--starter", "--from-rpm", "--seconds", "--cut", "--misfire", "--fault-bits", "--inputs"}) {
     if (!free && arguments.has(option)) throw UsageError(std::string(option) + " is for a run with --free");
   }
+  if (free && arguments.has("--hash")) throw UsageError("--hash is for a run at constant speed, without --free");
   if (free && arguments.has("--rpm"))
     throw UsageError("--rpm is for a run at constant speed; with --free the speed begins at --from-rpm");
   if (free && arguments.has("--cycles"))

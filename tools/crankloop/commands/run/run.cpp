@@ -25,6 +25,7 @@
 #include "../../files/words.hpp"
 #include "../../loops/input_option.hpp"
 #include "../../loops/run_accuracy.hpp"
+#include "../../loops/run_hash.hpp"
 #include "../../loops/run_loop.hpp"
 #include "../../loops/run_trace.hpp"
 #include "../../loops/run_valves.hpp"
@@ -248,8 +249,12 @@ void run(const Engines& engine, const Request& request, const Arguments& argumen
   }
   const CloseUpWindow window = close_up_window(summary.largest_torque_deg, loop.deg_per_tick());
   std::vector<CloseUpTick> close_up;
+  const bool is_hashed = arguments.has("--hash");
+  BitHash hash;
+  const detail::EngineShape shape = detail::shape_of<Real, S>(*loop.engine().tables());
   const OnTick<Real, S> on_tick = [&](std::uint64_t tick, double crank_deg, const WholeOutput<Real, S>& out) {
     if (csv) write_row<Real, S>(*csv, definition, operation, tick, crank_deg, out, cams);
+    if (is_hashed) add_tick<S>(hash, loop.engine(), shape);
     if (static_cast<double>(tick) <= loop.ticks_per_cycle() && window.contains(crank_deg)) {
       close_up.push_back({crank_deg, static_cast<double>(out.torque_Nm), static_cast<double>(out.mean_torque_Nm)});
     }
@@ -275,6 +280,7 @@ void run(const Engines& engine, const Request& request, const Arguments& argumen
     page->write(report::to_html(engine_report(input)));
   }
   Summary printed = summary_of(engine, request, figures, summary);
+  if (is_hashed) printed.line("hash", hash.text(), "", "of every bit that the recorded ticks show");
   add_wall_time(printed, wall_time_per_tick_ns);
   results.finish(printed.text());
 }
@@ -346,7 +352,7 @@ std::vector<std::string> tell_accuracy(const Arguments& arguments, const EngineF
 
 /// Both engines with the same options; each at its own rated speed without --rpm.
 int run_against(const Arguments& arguments, const EngineFile& first) {
-  for (const char* option : {"--free", "--csv", "--vcd"}) {
+  for (const char* option : {"--free", "--csv", "--vcd", "--hash"}) {
     if (arguments.has(option)) throw UsageError(std::string(option) + " is of one engine; --against compares two");
   }
   const std::string& path = arguments.text("--against");
@@ -403,6 +409,7 @@ constexpr Option kOptions[] = {
     kLambda,
     kBurnStart,
     text("--csv", "F", "file for a row per tick; - is standard output, the summary then goes to stderr"),
+    flag("--hash", "prints a hash of every bit that the recorded ticks show: equal on every machine, and in a page"),
     text("--report", "F.html", "HTML file with the report; opens in any browser"),
     text("--against", "B.ini", "another engine file: figures of both, and with --report their curves in one drawing"),
     text("--vcd", "F", "file for the trigger wheels' signals, a value change dump as GTKWave and PulseView open it"),

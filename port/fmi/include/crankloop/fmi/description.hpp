@@ -15,6 +15,7 @@
 
 #include <crankloop/faults.hpp>
 #include <crankloop/fmi/instance.hpp>
+#include <crankloop/fmi/name.hpp>
 
 namespace crankloop::fmi {
 
@@ -55,21 +56,6 @@ struct Title {
   char text[40];
   const auto end = std::to_chars(text, text + sizeof text, value).ptr;
   return std::string(text, end);
-}
-
-/// "valve[#,#].lift_m" with its indices, counted from 1.
-[[nodiscard]] inline std::string name_of(const Variable& variable) {
-  std::string name;
-  std::uint32_t index = variable.first;
-  for (const char* c = variable.name; *c != '\0'; ++c) {
-    if (*c != '#') {
-      name += *c;
-      continue;
-    }
-    name += std::to_string(index + 1);
-    index = variable.second;
-  }
-  return name;
 }
 
 [[nodiscard]] inline std::string attribute(const std::string& name, const std::string& value) {
