@@ -44,14 +44,14 @@ template <class Real, class S>
     if constexpr (detail::Needs<S>::crank_dynamics) {
       Real mean_pressure_Pa[S::cylinders.capacity] = {};
       detail::TorqueStep<Real, S> step(tables, state_, output_);
-      step.read_torque(detail::cut_cylinders_of(*tables.drive, state_, 0));
+      step.read_torque(detail::cut_cylinders_of(state_, 0));
       step.read_given_pressures(mean_pressure_Pa);
       step.start_crank();
       step.remember_work();
     } else {
       detail::CrankTurn<Real, S> crank{};
       crank.jumped = true;
-      if constexpr (detail::Needs<S>::lack) crank.cut_cylinders = detail::cut_cylinders_of(*tables.drive, state_, 0);
+      if constexpr (detail::Needs<S>::lack) crank.cut_cylinders = detail::cut_cylinders_of(state_, 0);
       detail::run_mechanisms_apart(tables, state_, output_, crank);
     }
     output_ = Output{};
@@ -87,7 +87,11 @@ template <class Real, class S>
   using N = Needs<S>;
   std::uint32_t faults = 0;
   if constexpr (N::misfire_of_table && !N::crank_dynamics) {
-    if (!crank.has_jumped()) pass_cycles(tables, state, crank.turned);
+    if (crank.has_jumped()) {
+      note_cycles(tables, state);
+    } else {
+      pass_cycles(tables, state, crank.turned);
+    }
   }
   if constexpr (N::gas && N::crank_dynamics) {
     const auto once_turned = [&] { faults |= breathe(tables, state, work, out, input, crank); };
@@ -153,6 +157,7 @@ template <class Real, class S>
       return refuse("state.speed_rad_s", Reason::out_of_range);
   }
   state_ = state;
+  if constexpr (detail::Needs<S>::misfire_of_table) detail::note_cycles(*tables_, state_);
   if constexpr (detail::Needs<S>::elastic_valves) {
     detail::ElasticValves<Real, S> valves(*tables_, state_, *this, output_);
     valves.remember();

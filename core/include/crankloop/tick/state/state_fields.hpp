@@ -116,12 +116,15 @@ struct StateFields {
       }
       if constexpr (N::misfire_of_table) {
         for (auto& ratio : s.burning_ratio) v.number(ratio, Real{0}, Real{1});
+        v.spare(s.cycles_go_on_from);  // follow from phase and shares
+        v.spare(s.cycles_go_on);
+        v.spare(s.lacking_heat);
+        v.spare(s.spare_of_burning);
       }
     }
     if constexpr (N::faulty_wheels) {
       v.group("state.wire");
-      v.word(s.wire_levels, (1u << S::triggers.capacity) - 1);
-      v.word(s.wires_known, (1u << S::triggers.capacity) - 1);
+      v.word(s.wires_differ, (1u << S::triggers.capacity) - 1);
       for (auto& random : s.noise_random) v.word(random, kAny);
     }
     if constexpr (S::bad_input_count) {
