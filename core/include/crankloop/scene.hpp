@@ -66,6 +66,9 @@ struct Scene {
   static constexpr PressureGiven pressure = PressureGiven::none;
   static constexpr Manifold manifold = Manifold::given;  ///< of PressureGiven::by_gas, as are the next two
   static constexpr Combustion combustion = Combustion::none;
+  static constexpr bool controller_names =
+      false;  ///< Input::spark_advance_deg beside burn_start_deg; throttle, manifold, lambda and coolant once more, by
+              ///< a controller's names; needs Manifold::throttle and Combustion::by_input
   static constexpr bool boundaries =
       false;  ///< Input::ambient_Pa, ambient_K, back_Pa: boost, altitude, a silencer; needs Manifold::throttle
   static constexpr bool crevice = false;      ///< crevices and blow-by of each cylinder; a definition with either
@@ -199,6 +202,8 @@ struct CheckedScene {
   static_assert(!S::walls || Needs<S>::gas, "walls take heat of gas: set pressure = by_gas");
   static_assert(!S::knock || Needs<S>::burn, "knock is of combustion: ask for it too");
   static_assert(!S::boundaries || Needs<S>::manifolds, "boundaries are outside the manifolds: set manifold = throttle");
+  static_assert(!S::controller_names || (Needs<S>::manifolds && Needs<S>::burn_input),
+                "controller_names are of throttle and spark: set manifold = throttle, combustion = by_input");
   static_assert(!S::starter || S::crank == CrankGiven::torque,
                 "a starter needs a crank that is turned by forces: set crank = torque");
   static_assert(S::valves == ValveModel::none || (S::trains.capacity >= 1 && S::trains.capacity <= kMaxTrains),

@@ -94,6 +94,12 @@ constexpr void each_input(Visit&& visit, AnInput& in, [[maybe_unused]] const Eng
   if constexpr (detail::Needs<S>::faulty_wheels) {
     visit(whole("wheel_faults", "Bit b: faults of the wheels that are on by input bit b"), in.wheel_faults);
   }
+  if constexpr (S::controller_names) {
+    constexpr Variable advance = real("spark_advance_deg[#]", "Spark before firing top dead centre");
+    visit(truth("by_spark_advance", "Sparks are where spark_advance_deg has them, not burn_start_deg"),
+          in.by_spark_advance);
+    for (std::uint32_t k = 0; k < shape.cylinders; ++k) visit(advance.at(k).within(-60, 90), in.spark_advance_deg[k]);
+  }
 }
 
 /// In the order of Output; a group whose name stands before the member is an array of records.
@@ -365,6 +371,17 @@ constexpr void each_output(Visit&& visit, AState& state, AnOutput& out, [[maybe_
       visit(whole("misfire[#].in_200_turns", "Misfires in the last 100 cycles").at(k), m.in_200_turns);
       visit(whole("misfire[#].in_1000_turns", "Misfires in the last 500 cycles").at(k), m.in_1000_turns);
     }
+  }
+  if constexpr (S::controller_names) {  // what stands above already, by a controller's names
+    visit(real("map_Pa", "Absolute pressure in the intake manifold"), out.manifold[kIntake].pressure_Pa);
+    visit(real("intake_air_K", "Temperature in the intake manifold"), out.manifold[kIntake].temperature_K);
+    visit(real("tps_ratio", "Throttle, as the tick took it"), state.throttle_ratio);
+    if constexpr (S::gas_results) {
+      for (std::uint32_t k = 0; k < shape.cylinders; ++k)
+        visit(real("lambda[#]", "Of a cylinder's last whole cycle; 0: no fuel").at(k),
+              out.gas_cycle[k].excess_air_ratio);
+    }
+    if constexpr (S::walls) visit(real("coolant_K", "Coolant of the walls; 0: none"), out.coolant_K);
   }
   if constexpr (S::bad_input_count) {
     visit(whole("bad_input_ticks", "Ticks with a bad input since the start"), state.bad_input_ticks);

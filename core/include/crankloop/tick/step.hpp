@@ -58,6 +58,7 @@ template <class Real, class S>
   }
   if constexpr (detail::Needs<S>::elastic_valves)
     detail::ElasticValves<Real, S>(tables, state_, *this, output_).start();
+  if constexpr (S::controller_names && S::walls) output_.coolant_K = tables.gas_walls->coolant_K;
   return {};
 }
 

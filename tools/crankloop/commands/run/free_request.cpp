@@ -11,6 +11,7 @@
 #include "../../files/error.hpp"
 #include "../../files/number.hpp"
 #include "../../files/words.hpp"
+#include "../../loops/fault_option.hpp"
 #include "../../loops/input_option.hpp"
 #include "free_run.hpp"
 
@@ -29,24 +30,6 @@ std::uint32_t cut_cylinders(const std::string& text, const Layout& layout) {
     cut |= 1u << (cylinder - 1);
   }
   return cut;
-}
-
-/// "0,3": input bits of [fault NAME].
-std::uint32_t fault_bits(const std::string& text, const EngineDefinition& definition) {
-  std::uint32_t known = 0, bits = 0;
-  for (int i = 0; i < definition.wheel_fault_count; ++i)
-    if (definition.wheel_faults[i].input_bit >= 0) known |= 1u << definition.wheel_faults[i].input_bit;
-  for (const std::string_view one : split(text, ',')) {
-    const ParsedNumber number = parse_number(one, from(0).up_to(31), "");
-    if (!number.ok()) throw UsageError("--fault-bits: " + number.problem);
-    const auto bit = static_cast<std::uint32_t>(number.value);
-    if (static_cast<double>(bit) != number.value)
-      throw UsageError("--fault-bits: " + in_quotes(one) + " is not a whole number");
-    if ((known >> bit & 1u) == 0)
-      throw UsageError("--fault-bits: no [fault NAME] has input_bit = " + std::to_string(bit));
-    bits |= 1u << bit;
-  }
-  return bits;
 }
 
 /// The file's engine, with the brake of the command line.
@@ -114,8 +97,7 @@ int run_free_by(const Arguments& arguments, const EngineFile& file, const GasOrd
   request.operation.starter = arguments.has("--starter");
   if (arguments.has("--cut"))
     request.operation.cut_cylinders = cut_cylinders(arguments.text("--cut"), definition.layout);
-  if (arguments.has("--fault-bits"))
-    request.operation.wheel_faults = fault_bits(arguments.text("--fault-bits"), definition);
+  request.operation.wheel_faults = fault_bits(arguments, definition);
   request.operation.schedule = schedule_of(arguments, file);
   request.real = arguments.text("--real");
   request.command_line = command_line(arguments, file, gas);

@@ -23,6 +23,7 @@
 #include "../../engine_report/engine_report.hpp"
 #include "../../files/csv.hpp"
 #include "../../files/words.hpp"
+#include "../../loops/fault_option.hpp"
 #include "../../loops/input_option.hpp"
 #include "../../loops/run_accuracy.hpp"
 #include "../../loops/run_loop.hpp"
@@ -414,7 +415,7 @@ constexpr Option kOptions[] = {
     flag("--starter", "the file's [starter] turns the crank too; it free-wheels where the engine is faster"),
     text("--cut", "K,..", "cylinders that do not fire, like 1,3"),
     kMisfire,
-    text("--fault-bits", "B,..", "input bits of [fault NAME] that are on during the whole run, like 0,3"),
+    kFaultBits,
     kInputs,
 };
 

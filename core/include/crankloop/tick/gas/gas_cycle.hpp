@@ -21,8 +21,11 @@ template <class Real, class S>
                                                 [[maybe_unused]] std::uint32_t cylinder) noexcept {
   if constexpr (Needs<S>::burn_input) {
     (void)tables;
-    return {input.fuel_kg[cylinder], input.excess_air_ratio[cylinder], input.burn_start_deg[cylinder],
-            input.burn_duration_deg[cylinder]};
+    Real start_deg = input.burn_start_deg[cylinder];
+    if constexpr (S::controller_names) {
+      if (input.by_spark_advance != 0) start_deg = -input.spark_advance_deg[cylinder];
+    }
+    return {input.fuel_kg[cylinder], input.excess_air_ratio[cylinder], start_deg, input.burn_duration_deg[cylinder]};
   } else {
     const BurnTable<Real>& table = *tables.burn;
     return {table.fuel_kg, table.excess_air_ratio, table.burn_start_deg, table.burn_duration_deg};
