@@ -52,6 +52,8 @@ class VariablesOf : public testing::Test {};
 struct MeasuredBreathing : scenes::Breathing {
   static constexpr CrankGiven crank = CrankGiven::phase;
   static constexpr Count triggers = up_to<2>;
+  static constexpr std::uint32_t reluctor_samples = 16;
+  static constexpr bool controller_names = true;
 };
 struct GivenManifolds : scenes::Breathing {
   static constexpr Manifold manifold = Manifold::given;

@@ -92,6 +92,7 @@ TEST_F(EngineFileTest, DefaultsAreThoseOfTheLibrary) {
       CamContact::each_field(library, untouched.contacts[0]);
       Misfire::each_field(library, untouched.misfires[0]);
       WheelFault::each_field(library, untouched.wheel_faults[0]);
+      Reluctor::each_field(library, untouched.reluctor);
       EXPECT_EQ(parse_value(*key, key->fallback, "", 0).si(), library.value) << key->name;
       ++compared;
     }
@@ -638,6 +639,27 @@ TEST_F(EngineFileTest, FaultsOfWheelsAreRefusedWithWhatIsAllowed) {
   const EngineFile engine = read(contents(kSample) + "[fault a]\ntrigger = crank\nend_s = 1\nmissing_tooth = 60\n");
   const std::string told = engine.explain(crankloop::refuse("fault.missing_tooth", Reason::out_of_range, 0)).what();
   EXPECT_NE(told.find("[fault a] missing_tooth: 60 is more than the wheel has teeth"), std::string::npos) << told;
+}
+
+TEST_F(EngineFileTest, ASensorHasAllItsKeysAndIsRefusedAtAWheelThatItDoesNotFit) {
+  EXPECT_EQ(read(contents(kSample)).definition().reluctor.wheel, -1);
+  const EngineFile engine = read(contents(kSample) +
+                                 "[reluctor]\ntrigger = crank\ngain_V_s = 0.02\nreach_ratio = 0.8\n"
+                                 "gap_lobe_ratio = 1.6\nrunout_ratio = 0.1\nrunout_at_deg = 30\nreversed = yes\n"
+                                 "arm_ratio = 0.5\nleast_V = 0.1\nhysteresis_V = 0.02\nwatchdog_s = 0.2\n");
+  const Reluctor& sensor = engine.definition().reluctor;
+  EXPECT_TRUE(sensor.wheel == 0 && sensor.reversed);
+  EXPECT_TRUE(sensor.gain_V_s == 0.02 && sensor.reach_ratio == 0.8 && sensor.gap_lobe_ratio == 1.6);
+  EXPECT_TRUE(sensor.runout_ratio == 0.1 && sensor.runout_at_deg == 30 && sensor.arm_ratio == 0.5);
+  EXPECT_TRUE(sensor.least_V == 0.1 && sensor.hysteresis_V == 0.02 && sensor.watchdog_s == 0.2);
+  const auto says = [this](const std::string& keys, const std::string& words) {
+    const std::string text = refusal(contents(kSample) + "[reluctor]\n" + keys);
+    EXPECT_NE(text.find(words), std::string::npos) << keys << text;
+  };
+  says("trigger = crnk\ngain_V_s = 1\n", "trigger: 'crnk' is not one of crank, cam; did you mean crank?");
+  says("trigger = cam\ngain_V_s = 1\n", "trigger: 'cam' is no wheel of up to 120 evenly spaced teeth that no phaser");
+  says("trigger = crank\n", "gain_V_s");
+  says("trigger = crank\ngain_V_s = 1\nreach_ratio = 1.1\n", "reach_ratio: 1.1 is out of range; allowed: 0.6 to 1");
 }
 
 // ---- trigger wheels -------------------------------------------------------------------------------------------------

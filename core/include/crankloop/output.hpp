@@ -289,6 +289,7 @@ struct Output : detail::If<detail::Needs<S>::crank_dynamics, group::CrankMotion<
                 detail::If<detail::Needs<S>::faulty_wheels, group::WheelFaultsOn>,
                 detail::If<detail::Needs<S>::any_triggers, group::Triggers<Real, S>>,
                 detail::If<detail::Needs<S>::faulty_wheels, group::FaultyTriggers<Real, S>>,
+                detail::If<detail::Needs<S>::reluctor, group::ReluctorSignal<Real, S>>,
                 detail::If<S::controller_names && S::walls, group::Coolant<Real>> {
   std::uint32_t faults;  ///< Fault bits of this tick
 };

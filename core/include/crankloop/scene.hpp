@@ -118,6 +118,8 @@ struct Scene {
   static constexpr Count triggers = exactly<0>;  ///< trigger wheels: their signals and the edges in each tick
   static constexpr std::uint32_t wheel_faults =
       0;  ///< faults of trigger wheels that there is room for: faulty signals beside the healthy ones; at most 16
+  static constexpr std::uint32_t reluctor_samples =
+      0;  ///< voltages in a tick of the definition's variable reluctance sensor, and its comparator: 8, 16 or 32
   static constexpr std::uint32_t trigger_edges =
       8;  ///< of a wheel that a tick has room for; more are counted, but not listed
 };
@@ -176,6 +178,7 @@ struct Needs {
   static constexpr bool mechanisms = stroke || shown_by_cylinder;
   static constexpr bool any_triggers = S::triggers.capacity > 0;
   static constexpr bool faulty_wheels = S::wheel_faults > 0;
+  static constexpr bool reluctor = S::reluctor_samples > 0;
   static constexpr std::uint32_t valve_count = any_valves ? S::trains.capacity * S::cylinders.capacity : 0;
 };
 
@@ -223,6 +226,11 @@ struct CheckedScene {
   static_assert(S::triggers.capacity <= kMaxTriggerWheels, "an engine has at most 8 trigger wheels");
   static_assert(S::wheel_faults == 0 || S::triggers.capacity > 0, "wheel_faults are of trigger wheels: set triggers");
   static_assert(S::wheel_faults <= kMaxWheelFaults, "an engine has at most 16 faults of trigger wheels");
+  static_assert(S::reluctor_samples == 0 || S::reluctor_samples == 8 || S::reluctor_samples == 16 ||
+                    S::reluctor_samples == 32,
+                "reluctor_samples is 8, 16 or 32");
+  static_assert(S::reluctor_samples == 0 || S::triggers.capacity > 0,
+                "a reluctor's sensor is at a trigger wheel: set triggers");
   static_assert(S::trigger_edges >= 1 && S::trigger_edges <= 2 * kMaxTriggerEdges,
                 "trigger_edges is 1 to 1440: two turns of the finest wheel");
   static constexpr bool value = true;

@@ -372,6 +372,10 @@ constexpr void each_output(Visit&& visit, AState& state, AnOutput& out, [[maybe_
       visit(whole("misfire[#].in_1000_turns", "Misfires in the last 500 cycles").at(k), m.in_1000_turns);
     }
   }
+  if constexpr (detail::Needs<S>::reluctor) {
+    each(real("reluctor_V[#]", "Voltage of the variable reluctance sensor within the tick"), out.reluctor_V,
+         S::reluctor_samples);
+  }
   if constexpr (S::controller_names) {  // what stands above already, by a controller's names
     visit(real("map_Pa", "Absolute pressure in the intake manifold"), out.manifold[kIntake].pressure_Pa);
     visit(real("intake_air_K", "Temperature in the intake manifold"), out.manifold[kIntake].temperature_K);
@@ -415,6 +419,11 @@ constexpr void each_event([[maybe_unused]] Visit&& visit, [[maybe_unused]] AnOut
     constexpr SignalNames kFaulty{"faulty_trigger[#].level", "faulty_trigger[#].edge_count",
                                   "faulty_trigger[#].edge[#].time_s", "faulty_trigger[#].edge[#].level"};
     for (std::uint32_t w = 0; w < shape.wheels; ++w) each_signal<S>(visit, kFaulty, w, out.faulty_trigger[w]);
+  }
+  if constexpr (detail::Needs<S>::reluctor) {
+    constexpr SignalNames kComparator{"comparator[#].level", "comparator[#].edge_count", "comparator[#].edge[#].time_s",
+                                      "comparator[#].edge[#].level"};
+    each_signal<S>(visit, kComparator, 0, out.comparator);
   }
 }
 

@@ -145,8 +145,8 @@ bool lacks_contact(const Stores<Real>& s) {
   return true;
 }
 
-/// Prints a section as an object or array of its name. If the engine has no trains or wheels, prints one of zeros that
-/// no tick reads, so that scenes with room for them compile. False if a section has no rows.
+/// Prints a section as an object or array of its name. If the engine has no trains, wheels or sensor, prints one of
+/// zeros that no tick reads, so that scenes with room for them compile. False if a section has no rows.
 template <class Section, class Real>
 bool print_section(Printer& p, const Stores<Real>& s, const TableReport& report, const std::string& real) {
   constexpr bool kOne = Section::kRows == detail::SectionRows::one;
@@ -157,8 +157,10 @@ bool print_section(Printer& p, const Stores<Real>& s, const TableReport& report,
   if (lacks_contact<Section>(s)) return false;
   const std::string name = Section::kName;
   const std::string object = "\nconstexpr crankloop::detail::section::" + name + "::Record<" + real + "> " + name;
-  const bool no_wheels = std::is_same_v<Section, detail::section::triggers> && s.triggers.count == 0;
-  if (no_wheels || (std::is_same_v<Section, detail::section::wheel_faults> && s.wheel_faults.count == 0)) {
+  const bool none = (std::is_same_v<Section, detail::section::triggers> && s.triggers.count == 0) ||
+                    (std::is_same_v<Section, detail::section::wheel_faults> && s.wheel_faults.count == 0) ||
+                    (std::is_same_v<Section, detail::section::reluctor> && s.reluctor.in_use == 0);
+  if (none) {
     p.text(object + " = {}");
   } else if constexpr (kOne) {
     p.text(object + " = ");

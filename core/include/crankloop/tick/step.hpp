@@ -139,6 +139,7 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
   if constexpr (detail::Needs<S>::any_triggers) faults |= detail::read_triggers(tables, state_, output_, before, crank);
   if constexpr (detail::Needs<S>::faulty_wheels)
     faults |= detail::read_faulty_triggers(tables, state_, output_, input.wheel_faults, before, crank);
+  if constexpr (detail::Needs<S>::reluctor) faults |= detail::sample_reluctor(tables, state_, output_, before, crank);
   if constexpr (S::bad_input_count) detail::count_bad_input(state_, faults);
   CRANKLOOP_ASSERT(detail::within_magnitude(state_.speed_rad_s, tables.drive->speed_limit_rad_s));
   output_.faults = faults;

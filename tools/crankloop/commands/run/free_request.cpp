@@ -71,8 +71,8 @@ std::string command_line(const Arguments& arguments, const EngineFile& file, con
 
 void require_options_that_fit(const Arguments& arguments) {
   const bool free = arguments.has("--free");
-  for (const char* option :
-       {"--machine-Nm", "--starter", "--from-rpm", "--seconds", "--cut", "--misfire", "--fault-bits", "--inputs"}) {
+  for (const char* option : {"--machine-Nm", "--starter", "--from-rpm", "--seconds", "--cut", "--misfire",
+                             "--fault-bits", "--inputs", "--analogue"}) {
     if (!free && arguments.has(option)) throw UsageError(std::string(option) + " is for a run with --free");
   }
   if (free && arguments.has("--rpm"))
@@ -104,7 +104,9 @@ int run_free_by(const Arguments& arguments, const EngineFile& file, const GasOrd
   for (std::string& line : tell_warnings(arguments, warnings_about_running_free(file, definition)))
     warnings.push_back(std::move(line));
   request.warnings = std::move(warnings);
-  Results results(arguments, {"--csv", "--report", "--vcd"});
+  if (arguments.has("--analogue") && definition.reluctor.wheel < 0)
+    throw InputError(file.path() + ": there is no [reluctor], so --analogue has nothing to write");
+  Results results(arguments, {"--csv", "--report", "--vcd", "--analogue"});
   run_free(file, definition, request, results);
   return kSuccess;
 }

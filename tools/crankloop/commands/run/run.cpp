@@ -416,6 +416,7 @@ constexpr Option kOptions[] = {
     text("--cut", "K,..", "cylinders that do not fire, like 1,3"),
     kMisfire,
     kFaultBits,
+    text("--analogue", "F.csv", "with --free and a [reluctor]: its voltage, 16 samples a tick, and its comparator"),
     kInputs,
 };
 

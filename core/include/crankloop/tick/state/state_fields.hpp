@@ -127,6 +127,17 @@ struct StateFields {
       v.word(s.wires_differ, (1u << S::triggers.capacity) - 1);
       for (auto& random : s.noise_random) v.word(random, kAny);
     }
+    if constexpr (N::reluctor) {
+      v.group("state.comparator");
+      v.number(s.sensor_V, -kMaxSensor_V, kMaxSensor_V);
+      v.number(s.sensor_peak_V, Real{0}, kMaxSensor_V);
+      v.number(s.sensor_last_peak_V, Real{0}, kMaxSensor_V);
+      v.spare(s.spare_of_sensor);
+      v.word(s.comparator_level, 1u);
+      v.word(s.comparator_armed, 1u);
+      v.word(s.comparator_quiet_ticks, kAny);
+      v.spare(s.spare_of_comparator);
+    }
     if constexpr (S::bad_input_count) {
       v.group("state.bad_input");
       v.word(s.bad_input_ticks, kAny);
@@ -154,6 +165,7 @@ struct StateFields {
   static constexpr Real kMaxNoted = static_cast<Real>(1e18);      ///< of numbers that are only compared, subtracted and
                                                                   ///< output
   static constexpr std::uint64_t kMaxCamPhase = std::uint64_t{1} << 62;  ///< 180 deg of 720
+  static constexpr Real kMaxSensor_V = static_cast<Real>(1e9);
   static constexpr std::uint32_t kAny = ~std::uint32_t{0};
   static constexpr Real kMaxStress_Pa = static_cast<Real>(1e30);
 

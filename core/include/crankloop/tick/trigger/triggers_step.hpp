@@ -8,6 +8,7 @@
 #include <crankloop/state.hpp>
 #include <crankloop/tables/tables.hpp>
 #include <crankloop/tick/crank/crank_turn.hpp>
+#include <crankloop/tick/trigger/reluctor.hpp>
 #include <crankloop/tick/trigger/trigger_wheel.hpp>
 #include <crankloop/tick/trigger/wheel_faults.hpp>
 
@@ -171,6 +172,18 @@ template <class Real, class S>
   out.wheel_faults_on = 0;
   if (__builtin_expect((tables.wheel_faults->count | state.wires_differ) == 0, 1)) return 0;
   return spoil_triggers(tables, state, out, input, before, crank);
+}
+
+/// The variable reluctance sensor of the definition. Returns fault bits.
+template <class Real, class S>
+[[nodiscard, gnu::noinline]] std::uint32_t sample_reluctor(const Tables<Real, S>& tables, State<Real, S>& state,
+                                                           Output<Real, S>& out, const BeforeTick<Real, S>& before,
+                                                           const CrankTurn<Real, S>& crank) noexcept {
+  const CrankPath<Real> path = path_of(tables, state, before, crank);
+  CrankSample<Real> sample{path, state.speed_rad_s, Real{}};
+  if constexpr (Needs<S>::crank_dynamics)
+    sample.begin_rad_s = before.speed_rad_s, sample.gain_rad_s = state.speed_rad_s - before.speed_rad_s;
+  return read_reluctor<Real, S>(*tables.reluctor, tables.drive->tick_s, state, out, sample);
 }
 
 }  // namespace crankloop::detail

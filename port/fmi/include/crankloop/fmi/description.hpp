@@ -249,6 +249,7 @@ class Description {
       exponent("s", unit->s);
       exponent("K", unit->K);
       exponent("rad", unit->rad);
+      if (unit->written[0] == 'V') exponent("A", -1);
       if (unit->factor != 1) xml += attribute("factor", digits(unit->factor));
       xml += "/>\n";
       if (unit->displayed[0] != '\0') {
