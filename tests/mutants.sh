@@ -1,8 +1,8 @@
 #!/bin/sh
 # mutants.sh [--seed N] [--count N] [--areas | --area NAME... | --only REGEX...] [BUILD_DIR]
 # How many single-point changes of core the tests notice: a sample of COUNT (60) of what tests/mutants/mutate.cpp can
-# change. --areas draws COUNT of each of the areas gas, trigger, tabulate, valve and fmi, --area of those named, --only
-# in files whose paths have REGEX, such as tick/valve/. Lanes are left out: they have tests of their own.
+# change. --areas draws COUNT of each of the areas gas, crank, trigger, tabulate, valve and fmi, --area of those named,
+# --only in files whose paths have REGEX, such as tick/valve/. Lanes are left out: they have tests of their own.
 #
 # All mutants of a sample are in one build, with assertions; CRANKLOOP_MUTANT=N makes a run the mutant N. Each is judged
 # by the tests that reach its place, the quickest first, up to the first that fails: by those of behaviour, which are
@@ -18,12 +18,12 @@ set -eu
 CDPATH='' cd -- "$(dirname -- "$0")/.."
 seed=1 count=60 areas='' build=build/mutants
 usage() { sed -n '2,/^[^#]/s/^# \{0,1\}//p' tests/mutants.sh >&2 && exit 2; }
-all_areas='gas trigger tabulate valve'
+all_areas='gas crank trigger tabulate valve'
 [ ! -e tests/mutants/fmi/CMakeLists.txt ] || all_areas="$all_areas fmi"
 # add_area NAME: "NAME=REGEX", as mutate takes them.
 add_area() {
   case $1 in
-    gas | trigger | valve) areas="$areas $1=/tick/$1/" ;;
+    gas | crank | trigger | valve) areas="$areas $1=/tick/$1/" ;;
     tabulate) areas="$areas $1=/(tabulate|define)/" ;;
     fmi) areas="$areas $1=/fmi/" ;;
     *) usage ;;

@@ -1,9 +1,10 @@
 #!/bin/sh
-# reliability.sh [--long | --page]
+# reliability.sh [--long | --page | --age]
 # Writes docs/reliability.md: what was tried to break crankloop, and the results.
 #
 # Runs each command that has no log in build/reliability yet; delete a log to renew its figures. Beside each log stands
-# the commit it was measured at. --long takes hours: 100 000 random cases, 10^8 hostile inputs, 10^9 ticks of soak, 6
+# the commit that it ran at, so core and port must have no changes that are not committed. --age runs nothing and leaves
+# the figures alone: it writes into the page's table of runs whether core has changed since each. --long takes hours: 100 000 random cases, 10^8 hostile inputs, 10^9 ticks of soak, 6
 # minutes of each fuzz target, the whole suite under the sanitizers. Builds the presets release, check, sanitize and
 # coverage (needs clang++ and llvm-cov), and runs the numerical sanitizer where there is clang++-19. --page runs
 # nothing: it writes the page from the existing logs.
@@ -24,6 +25,23 @@ if [ "${1:-}" = --long ]; then
   export CRANKLOOP_LONG_TESTS=1
 fi
 
+page=docs/reliability.md
+core=$(git rev-parse --short=12 HEAD:core)
+# aged TREE: the hash of a core, behind it whether that is no longer the checkout's.
+aged() { if [ "$1" = "$core" ]; then echo "$1"; else echo "$1, changed since"; fi; }
+if [ "${1:-}" = --age ]; then
+  awk -F ' [|] ' -v core="$core" '
+    /^<!-- runs begin/ { inside = 1 }
+    /^<!-- runs end/ { inside = 0 }
+    inside && match($6, /^[0-9a-f]+/) && RLENGTH == 12 {
+      tree = substr($6, 1, 12)
+      sub(/ [|] [^|]* [|]$/, " | " tree (tree == core ? "" : ", changed since") " |")
+    }
+    { print }' $page >"$logs/page"
+  cp "$logs/page" $page
+  exit 0
+fi
+
 build() { cmake --preset "$1" >"$logs/build.log" 2>&1 && cmake --build --preset "$@" >>"$logs/build.log" 2>&1; }
 
 # keep NAME PRESET TARGET command...: runs the command unless its log exists; the page shows failures.
@@ -38,6 +56,7 @@ keep() {
 }
 
 if [ "${1:-}" != --page ]; then
+  git diff --quiet HEAD -- core port || { echo 'core or port has changes that are not committed: no hash names them' >&2 && exit 1; }
   for seed in $seeds; do
     keep "stress-$seed" release crankloop_program build/release/bin/crankloop stress --seed "$seed" --cases "$cases"
   done
@@ -61,12 +80,36 @@ fi
 
 # ---- the page --------------------------------------------------------------------------------------------------------
 
-# at NAME: when and at which commit NAME was measured.
-at() {
-  printf 'Measured on %s' "$(date -r "$logs/$1.log" +%Y-%m-%d)"
-  [ ! -s "$logs/$1.commit" ] || printf ' at %s' "$(cat "$logs/$1.commit")"
+# run NAME TITLE RESULT [COMMAND]: a row of the table of runs; the command is what the log begins with unless told.
+run() {
+  [ -s "$logs/$1.log" ] || return 0
+  commit=$(cat "$logs/$1.commit")
+  tree=$(git rev-parse --short=12 "$commit:core")
+  # shellcheck disable=SC2016  # code in Markdown
+  printf '| %s | `%s` | %s | %s | %s | %s |\n' "$2" "${4:-$(head -n 1 "$logs/$1.log")}" "$3" "$(date -r "$logs/$1.log" +%Y-%m-%d)" "$commit" "$(aged "$tree")"
 }
-command_of() { printf '    %s\n\n%s.\n\n' "$(head -n 1 "$logs/$1.log")" "$(at "$1")"; }
+# tests_of NAME: what GoogleTest says of the run.
+tests_of() { sed -n 's/^\[  \([A-Z]*\)  \] \([0-9]* tests*\).*/\2 \1/p' "$logs/$1.log" | sort -u | tr '\n' ' ' | sed 's/ $//'; }
+# stress_sum FIGURE: the sum of its "FIGURE = N" over the runs.
+stress_sum() { cat "$logs"/stress-[0-9]*.log | awk -F ' = ' -v figure="$1" '$1 == figure { sum += $2 } END { printf "%.0f", sum }'; }
+runs() {
+  printf '| run | command | result | date | commit | core |\n| --- | --- | --- | --- | --- | --- |\n'
+  # shellcheck disable=SC2016  # the shell of who repeats it expands it
+  each=$(sed -n 's/ --seed [0-9]*/ --seed $seed/p;q' "$logs/stress-1.log")
+  # shellcheck disable=SC2046  # a list of numbers
+  seeds=$(printf ' %s' $(sed -n 's/^seed = //p' "$logs"/stress-[0-9]*.log | sort -n))
+  failures=$(cat "$logs"/stress-[0-9]*.log | grep -c '^failure' || :)
+  run stress-1 'random valve trains' "$(stress_sum cases) cases: $(stress_sum ran) ran, $failures failures" "for seed in$seeds; do $each; done"
+  run faults 'faults in a running engine' "$(tests_of faults)"
+  run soak 'soak' "$(tests_of soak)"
+  run edges 'edges of tables' "$(tests_of edges)"
+  run fuzz 'fuzzing' "$(cat "$logs"/fuzz-*.log | awk '/^Done / { inputs += $2; s = $5; ++n } END { print inputs " inputs by " n " targets in " s " s each" }'); $(tail -n 1 "$logs/fuzz.log")"
+  run long 'what proves least for its time' "$(tail -n 1 "$logs/long.log" 2>/dev/null)" 'tools/check --long'
+  run threads 'threads under the thread sanitizer' "$(tests_of threads)"
+  run numerical 'numerical sanitizer' "no verdict; lines below"
+  run coverage 'branch coverage by the host tests' "$(sed -n 's/^branches_covered = //p' "$logs/coverage.log") of $(sed -n 's/^branches = //p' "$logs/coverage.log") branches"
+  run mutants 'mutants' "$(awk '/ mutants of / { drawn += $3 } END { print drawn " mutants, below" }' "$logs/mutants.log")"
+}
 # faults: the "of N detected D, recovered within a cycle R, finite F" lines of the log as a table, float / double.
 faults() {
   awk '
@@ -97,8 +140,9 @@ figures() {
 What was tried to break crankloop, and the results. docs/contract.md states what is promised. tests/reliability.sh writes this page from the logs of the
 commands below.
 
-Each section names the date and the commit of its figures; `git log COMMIT.. -- core port` lists what has changed since. File names and line numbers are
-those of that commit.
+Each run below names its commit, and the hash of core that it holds for: `git rev-parse --short=12 COMMIT:core`. "changed since" means that today's core
+is another, and `git log COMMIT.. -- core` lists the changes. A test fails where the table is silent about that (`ctest -R contract.reliability_claims`;
+`tests/reliability.sh --age` writes it). File names and line numbers are those of the run's commit.
 
 ## What runs when
 
@@ -119,7 +163,18 @@ those of that commit.
 | 64-bit Windows, by Wine | self-check (`windows`) | FMUs: the same bits as on Linux (`windows_rest`) |
 | Cortex-M4F, M7, M33, R5F, RV32IMAFC, emulated | self-check, costs, bounds, 50 000 hostile ticks | 10^6 hostile ticks on a Cortex-M4F (`hostile`) |
 | figures of README and docs, benchmark's instructions and errors, demonstration | `figures`, `bench`, `demo` | |
+| rules of High Integrity C++ and CERT C++ | | clang-tidy, against the table of docs/safety.md (`tidy`) |
 | the tests themselves | | a sample of single-point changes of core (`mutants`) |
+
+## Runs
+
+<!-- runs begin: tests/reliability.sh writes the table, --age its last column -->
+
+TEXT
+  runs
+  cat <<'TEXT'
+
+<!-- runs end -->
 
 ## Random valve trains
 
@@ -131,11 +186,7 @@ Each case is a valve train and an operating point, drawn from a seed (ranges: to
 Every tenth case is compared with the converged reference (rules: tools/lab/stress/stress_trial.hpp).
 
 TEXT
-  # shellcheck disable=SC2016  # the shell of who repeats it expands it
-  run=$(sed -n 's/ --seed [0-9]*/ --seed $seed/p;q' "$logs/stress-1.log")
-  # shellcheck disable=SC2046  # a list of numbers
-  printf '    for seed in%s; do %s; done\n\n' "$(printf ' %s' $(sed -n 's/^seed = //p' "$logs"/stress-[0-9]*.log | sort -n))" "$run"
-  printf '%s. Counts are sums over the runs, errors the largest of all runs.\n\n' "$(at stress-1)"
+  printf 'Counts are sums over the runs, errors the largest of all runs.\n\n'
   awk -F ' = ' '
     FNR == 1 { ++runs; next }
     / = / && $1 != "failure" && $1 != "seed" {
@@ -169,7 +220,6 @@ Two engines run side by side: four cylinders, eight elastic valves, a measured c
 (for bits of the state: `save_state`, then `load_state` refuses). Recovered: all outputs are bit-equal to those of the other engine one cycle later.
 
 TEXT
-  command_of faults
   printf 'A single number applies to float and double; otherwise float / double.\n\n'
   faults
   printf '\n'
@@ -177,14 +227,11 @@ TEXT
   printf '\n## Soak\n\nSpeed sweeps up and down, repeated. Each sweep must give the same bits, and no state may hold a denormal number.\n'
   # shellcheck disable=SC2016  # code in Markdown
   printf '`tools/check slow` runs 10^7 ticks, CRANKLOOP_LONG_TESTS=1 10^9.\n\n'
-  command_of soak
   figures soak
   printf '\n## Edges of tables\n\n'
-  command_of edges
   figures edges
   # shellcheck disable=SC2016  # code in Markdown
   printf '\n## Fuzzing\n\nArbitrary bytes, under the address and undefined-behaviour sanitizers. Any finding fails `tools/check fuzz`.\n\n'
-  command_of fuzz
   for log in "$logs"/fuzz-*.log; do
     name=${log##*/fuzz-}
     sed -n "s/^Done \\([0-9]*\\) runs in \\([0-9]*\\) second(s)\$/- ${name%.log}: \\1 inputs in \\2 s/p" "$log"
@@ -196,11 +243,8 @@ Address and undefined behaviour (with float-cast-overflow and float-divide-by-ze
 
 TEXT
   if [ -s "$logs/long.log" ]; then
-    # shellcheck disable=SC2016  # code in Markdown
-    printf '`tools/check --long`. %s:\n\n' "$(at long)"
     awk '/^-- / { title = substr($0, 4) } /^   [0-9]+ passed/ { sub(/^ */, ""); sub(/;.*/, ""); print "- " title ": " $0 }' "$logs/long.log"
   fi
-  printf -- '- %s: %s\n' "$(head -n 1 "$logs/threads.log")" "$(sed -n 's/^\[  \([A-Z]*\)  \] /\1 /p' "$logs/threads.log" | head -n 1)"
   if [ -s "$logs/numerical.log" ]; then
     cat <<'TEXT'
 
@@ -209,12 +253,10 @@ It cannot pass or fail: differences of nearly equal lifts, and values near zero,
 test and docs/performance.md measure. The lines it names most often:
 
 TEXT
-    command_of numerical
     sed -n '2,9p' "$logs/numerical.log"
     printf -- '- and %d more lines\n' "$(($(wc -l <"$logs/numerical.log") - 9))"
   fi
   printf '\n## Branch coverage by the host tests\n\n'
-  command_of coverage
   sed -n 's/^\([a-z_]* = .*\)/- \1/p' "$logs/coverage.log"
   cat <<'TEXT'
 
@@ -224,7 +266,7 @@ without a reason, or a reason without a branch, is a failure.
 ## Mutants
 
 A mutant is a single-point change of core, drawn from a seed: a comparison, an operator (+ - * /), a constant, a condition, a negation, or a statement left out.
-The areas gas, trigger and valve are folders of core/include/crankloop/tick; tabulate is set-up with the checks of definitions; fmi is
+The areas gas, crank, trigger and valve are folders of core/include/crankloop/tick; tabulate is set-up with the checks of definitions; fmi is
 port/fmi/include/crankloop/fmi. Lanes and the C interface have no mutants.
 
 1. Tests of behaviour judge first: unit, property and interface tests, for fmi those of tests/fmi, with assertions, and only those that reach the changed line. The
@@ -234,7 +276,6 @@ port/fmi/include/crankloop/fmi. Lanes and the C interface have no mutants.
 3. A mutant that no test detects is either an equivalent, which no test can detect, or survives. tests/mutants/survivors.conf gives the reason for each.
 
 TEXT
-  command_of mutants
   sed -n 's/^\([a-z]* = .*\)/- \1/p' "$logs/mutants.log"
   # shellcheck disable=SC2016  # code in Markdown
   sed -n 's/^by golden bits alone: \(core[^ ]*\|port[^ ]*\)  \([^|]*[^ |]\)  |  \(.*\)/- \1, `\3`, \2: by golden bits alone/p
@@ -256,5 +297,5 @@ TEXT
 
 - Memory faults in a running state are found only if the caller checks for them (docs/contract.md, "Flipped bits").
 TEXT
-} >docs/reliability.md
-echo "docs/reliability.md is written from $logs"
+} >$page
+echo "$page is written from $logs"

@@ -12,13 +12,15 @@ namespace {
 template <class Enum>
 inline constexpr Enum kLast{};
 template <>
-inline constexpr PressureSource kLast<PressureSource> = PressureSource::wiebe;
+inline constexpr PressureSource kLast<PressureSource> = PressureSource::gas;
 template <>
 inline constexpr CamSource kLast<CamSource> = CamSource::table;
 template <>
 inline constexpr RockerKind kLast<RockerKind> = RockerKind::ratio;
 template <>
 inline constexpr CamTurns kLast<CamTurns> = CamTurns::away_from_pivot;
+template <>
+inline constexpr GasPort kLast<GasPort> = GasPort::exhaust;
 template <>
 inline constexpr TriggerShaft kLast<TriggerShaft> = TriggerShaft::cam;
 template <>
@@ -82,17 +84,31 @@ struct EachNumber {
     }
   }
 };
-/// All of a definition but its gas, which no ready-made engine has.
+/// A port is read where there is a train that opens it.
+template <class Copy, class Cpp, class C>
+void each_of_gas(EachNumber<Copy>& each, bool breathes, int trains, Cpp& gas, C& c) noexcept {
+  const auto field_of_gas = [&](const ListedField& listed, auto& field, auto& c_field) {
+    using Entry = std::remove_cv_t<std::remove_extent_t<std::remove_reference_t<decltype(field)>>>;
+    const int read = std::is_same_v<Entry, PortOfTrain> ? trains : listed.read;
+    each({breathes ? read : 0, listed.name}, field, c_field);
+  };
+  Gas::each_field(field_of_gas, gas, c);
+}
 template <class Copy, class Cpp, class C>
 void each_field(Copy& copy, Cpp& definition, C& c) noexcept {
-  EachNumber<Copy>{copy}({1, ""}, definition, c);
-  if constexpr (std::is_same_v<std::remove_const_t<Cpp>, EngineDefinition>) {
-    copy(true, "trigger_count", definition.trigger_count, c.trigger_count);
-    EachNumber<Copy>{copy}({definition.trigger_count, ""}, definition.triggers, c.triggers);
-    EachNumber<Copy>{copy}({definition.layout.cylinders, ""}, definition.misfires, c.misfires);
-    copy(true, "wheel_fault_count", definition.wheel_fault_count, c.wheel_fault_count);
-    EachNumber<Copy>{copy}({definition.wheel_fault_count, ""}, definition.wheel_faults, c.wheel_faults);
-  }
+  // A new part of the definition must be named here, and then visited below unless each_field() lists it.
+  auto& [crank, masses, layout, pressure, train_count, trains, friction, machine, starter, trigger_count, triggers, gas,
+         contacts, misfires, wheel_fault_count, wheel_faults, reluctor] = definition;
+  EachNumber<Copy> each{copy};
+  each({1, ""}, definition, c);
+  copy(true, "trigger_count", trigger_count, c.trigger_count);
+  each({trigger_count, ""}, triggers, c.triggers);
+  each_of_gas(each, pressure.source == PressureSource::gas, train_count, gas, c.gas);
+  each({train_count, ""}, contacts, c.contacts);
+  each({layout.cylinders, ""}, misfires, c.misfires);
+  copy(true, "wheel_fault_count", wheel_fault_count, c.wheel_fault_count);
+  each({wheel_fault_count, ""}, wheel_faults, c.wheel_faults);
+  each({1, ""}, reluctor, c.reluctor);
 }
 template <class Copy, class Cpp, class C>
 void each_option(Copy& copy, Cpp& options, C& c) noexcept {
@@ -110,16 +126,20 @@ static_assert(sizeof(crankloop_cam_point) == sizeof(CamPoint) &&
               offsetof(crankloop_cam_point, lift_m) == offsetof(CamPoint, lift_m));
 
 static_assert(CRANKLOOP_MAX_TRIGGER_WHEELS == kMaxTriggerWheels && CRANKLOOP_MAX_TOOTH_GAPS == kMaxToothGaps &&
-              CRANKLOOP_MAX_LISTED_MISFIRES == kMaxListedMisfires && CRANKLOOP_MAX_WHEEL_FAULTS == kMaxWheelFaults);
+              CRANKLOOP_MAX_LISTED_MISFIRES == kMaxListedMisfires && CRANKLOOP_MAX_WHEEL_FAULTS == kMaxWheelFaults &&
+              CRANKLOOP_MAX_FLOW_POINTS == kMaxFlowPoints);
 static_assert(CRANKLOOP_MAX_CYLINDERS == kMaxCylinders && CRANKLOOP_MAX_TRAINS == kMaxTrains &&
               CRANKLOOP_MAX_CAM_EXPONENTS == kMaxCamExponents);
-static_assert(CRANKLOOP_TOO_MUCH_HEAT == static_cast<int>(Reason::too_much_heat) &&
+static_assert(CRANKLOOP_UNSTABLE == static_cast<int>(Reason::unstable) &&
+              CRANKLOOP_TOO_MUCH_HEAT == static_cast<int>(Reason::too_much_heat) &&
               CRANKLOOP_ROD_TOO_SHORT == static_cast<int>(Reason::rod_too_short) &&
               CRANKLOOP_NO_SOLUTION == static_cast<int>(Reason::no_solution) &&
               CRANKLOOP_CONTRACTING_BUILD == static_cast<int>(Reason::contracting_build));
 static_assert(CRANKLOOP_PRESSURE_WIEBE == static_cast<int>(PressureSource::wiebe) &&
               CRANKLOOP_PRESSURE_NONE == static_cast<int>(PressureSource::none) &&
-              CRANKLOOP_PRESSURE_ANGLE_TABLE == static_cast<int>(PressureSource::angle_table));
+              CRANKLOOP_PRESSURE_ANGLE_TABLE == static_cast<int>(PressureSource::angle_table) &&
+              CRANKLOOP_PRESSURE_GAS == static_cast<int>(PressureSource::gas) &&
+              CRANKLOOP_PORT_EXHAUST == static_cast<int>(GasPort::exhaust));
 static_assert(CRANKLOOP_CAM_TABLE == static_cast<int>(CamSource::table) &&
               CRANKLOOP_ROCKER_RATIO == static_cast<int>(RockerKind::ratio) &&
               CRANKLOOP_CAM_TURNS_AWAY_FROM_PIVOT == static_cast<int>(CamTurns::away_from_pivot) &&

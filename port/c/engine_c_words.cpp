@@ -12,7 +12,7 @@
 using namespace crankloop;
 
 const char* crankloop_describe(std::int32_t reason) {
-  const bool known = reason >= 0 && reason <= CRANKLOOP_TOO_MUCH_HEAT;
+  const bool known = reason >= 0 && reason <= CRANKLOOP_UNSTABLE;
   return known ? describe(static_cast<Reason>(reason)) : "unknown reason";
 }
 

@@ -45,6 +45,8 @@ struct RunTimeTables {
     if (const Status refused = HeldTables::room_in(tables, size, "tables"); !refused.ok()) return as_c(refused);
     EngineDefinition engine;
     if (const Status refused = take(engine, definition, definition_size); !refused.ok()) return as_c(refused);
+    if (!detail::Needs<Scene>::gas && engine.pressure.source == PressureSource::gas)
+      return as_c(refuse("pressure.source", Reason::inconsistent));
     TickOptions tick;
     if (const Status refused = take(tick, options, options_size); !refused.ok()) return as_c(refused);
     auto* made = new (tables) TablesInUse;

@@ -57,7 +57,7 @@ class LatencyHistogram {
 
   /// From the shortest times to the longest.
   [[nodiscard]] Bucket bucket(std::size_t index) const noexcept {
-    if (index < 2 * kParts)
+    if (index < std::size_t{2} * kParts)
       return {static_cast<std::int64_t>(index), static_cast<std::int64_t>(index), buckets_[index]};
     const std::size_t width_log2 = index / kParts - 1;
     const auto first_ns = static_cast<std::int64_t>((index % kParts + kParts) << width_log2);
@@ -68,7 +68,7 @@ class LatencyHistogram {
   /// A time of octave o has the leading bit 2^o; it and the six bits below it say which part of the octave.
   [[nodiscard]] static std::size_t index_of(std::int64_t time_ns) noexcept {
     const auto bits = static_cast<std::uint64_t>(time_ns);
-    if (bits < 2 * kParts) return static_cast<std::size_t>(bits);
+    if (bits < std::uint64_t{2} * kParts) return static_cast<std::size_t>(bits);
     const int octave = 63 - __builtin_clzll(bits);
     if (octave > kLastOctave) return kBuckets - 1;
     const int width_log2 = octave - kPartsLog2;

@@ -217,7 +217,8 @@ static inline struct crankloop_live_section crankloop_live_find(const void* map,
 static inline uint32_t crankloop_live_index(const void* map, struct crankloop_live_section names, const char* name) {
   uint32_t i;
   for (i = 0; i < names.count; ++i) {
-    if (strncmp((const char*)map + names.offset + i * names.entry_bytes, name, names.entry_bytes) == 0) return i;
+    const char* const entry = (const char*)map + names.offset + (size_t)i * names.entry_bytes;
+    if (strncmp(entry, name, names.entry_bytes) == 0) return i;
   }
   return names.count;
 }
@@ -231,8 +232,8 @@ static inline int crankloop_live_numbers_read(const void* map, struct crankloop_
   if (before % 2 != 0) return 0;
   for (i = 0; i < section.count; ++i) {
     uint32_t pair[2];
-    pair[0] = __atomic_load_n(words + 2 * i, __ATOMIC_ACQUIRE);
-    pair[1] = __atomic_load_n(words + 2 * i + 1, __ATOMIC_ACQUIRE);
+    pair[0] = __atomic_load_n(words + (size_t)2 * i, __ATOMIC_ACQUIRE);
+    pair[1] = __atomic_load_n(words + (size_t)2 * i + 1, __ATOMIC_ACQUIRE);
     memcpy(numbers + i, pair, sizeof pair);
   }
   return __atomic_load_n(&lock->sequence, __ATOMIC_RELAXED) == before;

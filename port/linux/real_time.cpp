@@ -12,7 +12,7 @@ namespace {
 /// Touches the stack that the loop may grow into, so that its pages are there to be locked. Not inlined: the array has
 /// to lie below the caller's frame.
 __attribute__((noinline)) void touch_stack() noexcept {
-  constexpr std::size_t kBytes = 256 * 1024;
+  constexpr std::size_t kBytes = std::size_t{256} * 1024;
   constexpr std::size_t kPage = 4096;  // the smallest there is
   volatile unsigned char stack[kBytes];
   for (std::size_t i = 0; i < kBytes; i += kPage) stack[i] = 0;

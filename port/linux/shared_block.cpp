@@ -187,30 +187,36 @@ void remove_left_over(const std::string& path) {
   if (is_at(old.descriptor(), path) && ::unlink(path.c_str()) != 0) refuse(path, "cannot be removed", errno);
 }
 
-/// Locked, all zeros but for version and size.
+/// A file that is there and locked becomes a block: all zeros but for version and size.
+void make_block(int file, const std::string& path, std::uint32_t bytes) {
+  // Who dies over it leaves a file that is known as a block's.
+  const Head head{0, kLiveVersion, bytes};
+  int error = ::pwrite(file, &head, sizeof head, 0) == ssize_t{sizeof head} ? 0 : errno;
+  // Room now, or a full disk would stop the loop by a signal later.
+  if (error == 0) error = ::posix_fallocate(file, 0, static_cast<off_t>(bytes));
+  if (error == 0) return;
+  ::unlink(path.c_str());
+  refuse(path, "has no room", error);
+}
+
+/// Tries again as often as another process takes or removes the file meanwhile.
 int create_file(const std::string& path, std::uint32_t bytes) {
   constexpr int kFlags = O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC;
   constexpr mode_t kMode = 0660;
-  File file(::open(path.c_str(), kFlags, kMode));
-  if (file.descriptor() < 0 && errno == EEXIST) {
-    remove_left_over(path);
-    return create_file(path, bytes);
+  for (;;) {
+    File file(::open(path.c_str(), kFlags, kMode));
+    if (file.descriptor() < 0) {
+      if (errno != EEXIST) refuse(path, "cannot be created", errno);
+      remove_left_over(path);
+      continue;
+    }
+    // Locked until this process ends, however it does: that distinguishes a running block from a stale one. In the
+    // moment before, another process may have taken it for one that its maker died over.
+    const bool taken = ::flock(file.descriptor(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (taken || !is_at(file.descriptor(), path)) continue;
+    make_block(file.descriptor(), path, bytes);
+    return file.release();
   }
-  if (file.descriptor() < 0) refuse(path, "cannot be created", errno);
-  // Locked until this process ends, however it does: that distinguishes a running block from a stale one. In the moment
-  // before, another process may have taken it for one that its maker died over.
-  const bool taken = ::flock(file.descriptor(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  if (taken || !is_at(file.descriptor(), path)) return create_file(path, bytes);
-  // Who dies over it leaves a file that is known as a block's.
-  const Head head{0, kLiveVersion, bytes};
-  int error = ::pwrite(file.descriptor(), &head, sizeof head, 0) == ssize_t{sizeof head} ? 0 : errno;
-  // Room now, or a full disk would stop the loop by a signal later.
-  if (error == 0) error = ::posix_fallocate(file.descriptor(), 0, static_cast<off_t>(bytes));
-  if (error != 0) {
-    ::unlink(path.c_str());
-    refuse(path, "has no room", error);
-  }
-  return file.release();
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
 // What docs/separation_and_bounce.md and docs/gas_exchange.md tell beside outputs, which figures/printed.sh compares:
-// their pictures, and figures in their sentences and tables.
+// their pictures, and figures in their sentences and tables. The fault bits of docs/safety.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -14,6 +16,8 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <crankloop/faults.hpp>
 
 #include "crankloop/commands/redline/redline_search.hpp"
 #include "crankloop/loops/surge_force.hpp"
@@ -330,6 +334,43 @@ TEST_F(SeparationAndBounce, TellsItsFiguresBesideTheThesis) {
   expect_told("| " + rounded("%.4f", printed(12000, "max_lift")) + " mm |");
   expect_told("| " + rounded("%.3f", printed(7000, "opening_delay")) + " and " +
               rounded("%.3f", printed(12000, "opening_delay")) + " cam deg late |");
+}
+
+class SafetyPage : public Page {
+ protected:
+  SafetyPage() : Page("safety.md") {}
+};
+
+/// "load ratio" is kFaultLoadRatio; empty where no fault has the bit.
+std::string enumerator_of(std::uint32_t bit) {
+  const char* const words = name_of(static_cast<Fault>(bit));
+  if (words == nullptr) return "";
+  std::string name = "kFault";
+  bool starts_word = true;
+  for (const char* c = words; *c != '\0'; ++c) {
+    if (*c != ' ') name += starts_word ? static_cast<char>(std::toupper(*c)) : *c;
+    starts_word = *c == ' ';
+  }
+  return name;
+}
+
+TEST_F(SafetyPage, HasAWholeRowForEachFaultBit) {
+  std::vector<std::string> bits;
+  for (std::uint32_t bit = 1; bit != 0; bit <<= 1) {
+    if (const std::string name = enumerator_of(bit); !name.empty()) bits.push_back(name);
+  }
+  std::vector<std::string> rows;
+  for (const std::string& line : lines_of(document_)) {
+    if (line.rfind("| `kFault", 0) != 0) continue;
+    rows.push_back(line.substr(3, line.find('`', 3) - 3));
+    int cells = 0;
+    for (std::size_t at = 0, end; (end = line.find(" |", at + 1)) != std::string::npos; at = end + 1) {
+      EXPECT_GT(end - at, 2u) << "an empty cell of " << rows.back();
+      ++cells;
+    }
+    EXPECT_EQ(cells, 5) << rows.back() << ": bit, cause, effect, told, what the application should do";
+  }
+  EXPECT_EQ(rows, bits);
 }
 
 }  // namespace

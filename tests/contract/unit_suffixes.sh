@@ -10,7 +10,7 @@ set -eu
 cd "$1/crankloop"
 interface=$(find define tabulate engine.hpp input.hpp output.hpp state.hpp tables/records.hpp tables/tables.hpp tick/trigger/trigger_output.hpp tick/valve/valve_results.hpp tick/gas/gas_results.hpp tick/gas/gas_state.hpp -name "*.hpp" ! -name elementary.hpp | sort)
 
-units='m|m2|m3|m_s|m_s2|rad|rad_s|rad_s2|deg|deg_s|deg_per_s|rpm|s|kg|kg_m|kg_m2|N|Nm|N_m|Ns_m|Nm_s|Nm_s2|Pa_s|Pa_s2|J|W|K|Pa|Hz|ratio'
+units='m|m2|m3|m_s|m_s2|rad|rad_s|rad_s2|deg|deg_s|deg_per_s|rpm|s|kg|kg_m|kg_m2|N|Nm|N_m|Ns_m|Nm_s|Nm_s2|Pa_s|Pa_s2|J|W|K|Pa|Hz|V|V_s|ratio'
 
 allowed='
 compression_exponent expansion_exponent motored_expansion_exponent motored_exponent kMotoredLoss exponents  # of power laws
@@ -20,13 +20,13 @@ ratio octane_number knock_integral volumetric_efficiency combustion_efficiency m
 per_crank_radius per_rod_length                    # 1/m
 rad_s_per_cycle_per_tick                           # named by its unit
 up_cos up_sin lateral_cos lateral_sin pitch_cos pitch_sin yaw_cos yaw_sin  # amplitudes per w^2: kg m and kg m^2
-trigger faulty_trigger valve                       # signals and motions, whose members have their unit
+trigger faulty_trigger comparator valve                       # signals and motions, whose members have their unit
 throw_cos throw_sin quantum # numbers
 reduced_speed reduced_rest per_root_inertia  # sqrt(J) and 1/sqrt(kg m2)
 amplitude cosine sine wave_of                      # of a wave of any unit
 regime segment                                     # numbers of several units, lane by lane
 from to largest x slope_from slope_to spare        # parameters of numbers, in helpers that serve any unit; filling
-spare_of_manifolds spare_number                    # filling
+spare_of_manifolds spare_of_sensor spare_number                    # filling
 peak magnitude Pose PoseMember PoseFunction tables state turning_at # functions and types that serve any unit
 '
 

@@ -317,6 +317,23 @@ TEST_F(EngineFileFmu, TakesTheFilesNumbersAsParameters) {
   EXPECT_EQ(other.all(), wider.all());
 }
 
+TEST_F(EngineFileFmu, SaysThatSpringsWhichSurgeByTheFileFollowTheirValves) {
+  const std::string surging =
+      changed("diesel_495", "spring_preload_N", "spring_preload_N = 320\nsurge_modes = 2\nsurge_damping_ratio = 0.02");
+  const std::string fmu_path = path("surging.fmu");
+  EXPECT_EQ(run("fmu '" + surging + "' --no-warnings -o '" + fmu_path + "'"), "0 ");
+  EXPECT_NE(run("fmu '" + surging + "' -o '" + fmu_path + "'").find("surge_modes: springs follow"), std::string::npos);
+  const Fmu fmu(fmu_path);
+  const fmu::Archive archive(fmu_path);
+  EXPECT_NE(archive.files.at("documentation/index.html").find("Not stepped: surge of the valve springs"),
+            std::string::npos);
+  EXPECT_NE(fmu.model.root["description"].find("surge of the valve springs"), std::string::npos);
+  EXPECT_EQ(fmu.model.by_name.count("engine.valve.intake.surge_damping_ratio"), 0u) << "it would change nothing";
+  EXPECT_EQ(fmu.model.by_name.count("engine.valve.intake.spring_preload_N"), 1u);
+  Unit unit(fmu);
+  ASSERT_NO_FATAL_FAILURE(unit.start());
+}
+
 TEST_F(EngineFileFmu, RefusesAtTheStartWhatTheFileMustNotSay) {
   const Fmu fmu(made(sample("diesel_495"), ""));
   Unit unit(fmu);

@@ -531,6 +531,20 @@ TYPED_TEST(MisfireOf, ARestoredRunRepeatsItsRandomMisfires) {
   EXPECT_EQ(std::memcmp(&first->engine.state(), &second->engine.state(), sizeof first->engine.state()), 0);
 }
 
+TEST(Misfire, ARestoredStateLacksTheHeatThatItsSharesSay) {
+  const auto run = rig<float, Free>(diesel_495(), 100e-6), whole = rig<float, Free>(diesel_495(), 100e-6);
+  auto state = turning_at<float, Free>(run->engine.state(), 200);
+  ASSERT_TRUE(whole->engine.restore(state).ok());
+  state.burning_ratio[0] = 0;  // of the cylinder that fires; what follows from it is left as it was
+  ASSERT_EQ(state.lacking_heat, 0u);
+  ASSERT_TRUE(run->engine.restore(state).ok());
+  EXPECT_EQ(run->engine.state().lacking_heat, 1u);
+  bool lacks = false;
+  for (int tick = 0; tick < 2000; ++tick) lacks = run->step().torque_Nm < whole->step().torque_Nm - 1 || lacks;
+  EXPECT_TRUE(lacks);
+  EXPECT_EQ(run->engine.state().lacking_heat, 0u);  // the next cycle has no rule
+}
+
 TEST(Misfire, AForgedStateIsRefusedOrStepped) {
   const auto run = rig<float, Free>(diesel_495(), 100e-6);
   std::vector<unsigned char> bytes(kSavedStateBytes<float, Free>);

@@ -551,11 +551,13 @@ std::set<std::uint32_t> codes_of() {
 
 TEST(SceneCode, TellsScenesApartByEveryAnswerThatTheirStatesDependOn) {
   using namespace tick_test::otherwise;
-  const auto codes = codes_of<Plain, TwoCylinders, TwoTrains, ByPhase, ByLoad, TablePressure, InputPressure, Following,
-                              Elastic, WithLoadRatio, WithRodInertia, WithTorque, WithMeanTorque, WithForces,
-                              WithValveResults, WithValveGas, WithCamContact, WithCamDrag, WithSpringModes,
-                              WithCamPhasing, WithBadInputCount, WithStarter, WithCylinderCut>();
-  EXPECT_EQ(codes.size(), 23u);
+  const auto codes =
+      codes_of<Plain, TwoCylinders, TwoTrains, ByPhase, ByLoad, TablePressure, InputPressure, Following, Elastic,
+               WithLoadRatio, WithRodInertia, WithTorque, WithMeanTorque, WithForces, WithValveResults, WithValveGas,
+               WithCamContact, WithCamDrag, WithSpringModes, WithCamPhasing, WithBadInputCount, WithStarter,
+               WithCylinderCut, WithWheelFaults, Burning, BetweenGivenManifolds, WithoutCombustion, WithGasResults,
+               WithBoundaries, WithCrevice, WithRunners, WithWalls, WithChargeBurn, WithKnock, WithMisfire>();
+  EXPECT_EQ(codes.size(), 35u);
 }
 
 TEST(Crc32, HasTheCheckValueOfItsStandard) {

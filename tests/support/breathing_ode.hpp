@@ -70,6 +70,8 @@ class BreathingOde {
     y_[kUnburned] = at.t, y_[kKnock] = 0, unburned_x_ = at.x, knocks_ = true;
   }
   void end_knock() { knocks_ = false; }
+  /// From here on, of no more than there is air for.
+  void take_fuel(double kg) { burn_.fuel_kg = kg; }
   [[nodiscard]] double knock_integral() const { return y_[kKnock]; }
   [[nodiscard]] double unburned_K() const { return y_[kUnburned]; }
 

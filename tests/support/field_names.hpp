@@ -19,6 +19,7 @@ class FieldNames {
     (*this)({1, ""}, CamContact{});
     (*this)({1, ""}, Misfire{});
     (*this)({1, ""}, WheelFault{});
+    (*this)({1, ""}, Reluctor{});
     names_.insert("trigger_count");
     names_.insert("wheel_fault_count");
   }

@@ -22,8 +22,7 @@
 
 namespace crankloop::support {
 
-/// All the fields of a definition in one round that C has too: what EngineDefinition::each_field() lists, and the
-/// wheels.
+/// All the fields of a definition in one round.
 template <class Visit, class Self, class... Others>
 void each_part(Visit& visit, Self& definition, Others&... others) {
   EngineDefinition::each_field(visit, definition, others...);
@@ -32,6 +31,9 @@ void each_part(Visit& visit, Self& definition, Others&... others) {
   visit(ListedField{definition.layout.cylinders, "misfires"}, definition.misfires, others.misfires...);
   visit(ListedField{1, "wheel_fault_count"}, definition.wheel_fault_count, others.wheel_fault_count...);
   visit(ListedField{definition.wheel_fault_count, "wheel_faults"}, definition.wheel_faults, others.wheel_faults...);
+  visit(ListedField{definition.train_count, "contacts"}, definition.contacts, others.contacts...);
+  visit(ListedField{definition.pressure.source == PressureSource::gas ? 1 : 0, "gas"}, definition.gas, others.gas...);
+  visit(ListedField{1, "reluctor"}, definition.reluctor, others.reluctor...);
 }
 
 template <class T>
@@ -120,8 +122,6 @@ class LimitDefinition {
     }
     Spoil spoil(random, 90);
     each_part(spoil, d);
-    spoil({d.train_count, "contacts"}, d.contacts);
-    if (d.pressure.source == PressureSource::gas) spoil({1, ""}, d.gas);
   }
   LimitDefinition(const LimitDefinition&) = delete;
   LimitDefinition& operator=(const LimitDefinition&) = delete;
@@ -158,10 +158,7 @@ inline EngineDefinition in_memory_of(unsigned char filling, const EngineDefiniti
   std::memset(static_cast<void*>(&to), filling, sizeof to);
   CopyRead copy;
   each_part(copy, from, from, to);
-  copy({from.train_count, "contacts"}, from.contacts, from.contacts, to.contacts);
   if (from.pressure.source == PressureSource::gas) {
-    Gas gas = from.gas;
-    copy({1, ""}, gas, gas, to.gas);
     for (int t = from.train_count > 0 ? from.train_count : 0; t < kMaxTrains; ++t)
       std::memset(static_cast<void*>(&to.gas.ports[t]), filling, sizeof to.gas.ports[t]);
   }

@@ -336,10 +336,16 @@ struct BentSpeed : Scene {
 /// Scenes that differ from a plain one, and from one another, in what their states mean.
 namespace otherwise {
 struct Plain : Scene {};
-#define OTHERWISE(Name, type, answer, other) \
-  struct Name : Plain {                      \
-    static constexpr type answer = other;    \
+struct Burning : Plain {
+  static constexpr PressureGiven pressure = PressureGiven::by_gas;
+  static constexpr Manifold manifold = Manifold::throttle;
+  static constexpr Combustion combustion = Combustion::by_input;
+};
+#define OTHERWISE_THAN(Base, Name, type, answer, other) \
+  struct Name : Base {                                  \
+    static constexpr type answer = other;               \
   }
+#define OTHERWISE(Name, type, answer, other) OTHERWISE_THAN(Plain, Name, type, answer, other)
 OTHERWISE(TwoCylinders, Count, cylinders, exactly<2>);
 OTHERWISE(TwoTrains, Count, trains, exactly<2>);
 OTHERWISE(ByPhase, CrankGiven, crank, CrankGiven::phase);
@@ -362,7 +368,19 @@ OTHERWISE(WithCamPhasing, bool, cam_phasing, true);
 OTHERWISE(WithBadInputCount, bool, bad_input_count, true);
 OTHERWISE(WithStarter, bool, starter, true);
 OTHERWISE(WithCylinderCut, bool, cylinder_cut, true);
+OTHERWISE(WithWheelFaults, std::uint32_t, wheel_faults, 1);
+OTHERWISE_THAN(Burning, BetweenGivenManifolds, Manifold, manifold, Manifold::given);
+OTHERWISE_THAN(Burning, WithoutCombustion, Combustion, combustion, Combustion::none);
+OTHERWISE_THAN(Burning, WithGasResults, bool, gas_results, true);
+OTHERWISE_THAN(Burning, WithBoundaries, bool, boundaries, true);
+OTHERWISE_THAN(Burning, WithCrevice, bool, crevice, true);
+OTHERWISE_THAN(Burning, WithRunners, bool, runners, true);
+OTHERWISE_THAN(Burning, WithWalls, bool, walls, true);
+OTHERWISE_THAN(Burning, WithChargeBurn, bool, charge_burn, true);
+OTHERWISE_THAN(Burning, WithKnock, bool, knock, true);
+OTHERWISE_THAN(Burning, WithMisfire, bool, misfire, true);
 #undef OTHERWISE
+#undef OTHERWISE_THAN
 }  // namespace otherwise
 
 }  // namespace crankloop::tick_test

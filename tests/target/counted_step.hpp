@@ -185,6 +185,7 @@ void print_limits(const Tables& tables) noexcept {
     }
     events = tables.valve_motions[0].event_budget;
   }
+  port::Line() << "limit spring_modes " << tables.drive->spring_modes;
   std::uint32_t wheels = 0;
   std::uint32_t edges = 0;          // of a wheel in a tick
   std::uint32_t edge_searches = 0;  // rounds of a bisection

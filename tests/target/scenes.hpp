@@ -111,6 +111,33 @@ struct Everything : Forces {
   static constexpr bool cam_phasing = true;
 };
 
+// One more group each: what it costs beside the scene without.
+
+struct SurgingValves : ElasticValves {
+  static constexpr std::uint32_t spring_modes = 2;
+};
+struct CamContactValves : ElasticValves {
+  static constexpr bool cam_contact = true;
+};
+struct CamTorqueValves : ElasticValves {
+  static constexpr bool cam_torque = true;
+};
+struct FiredCrevice : Fired {
+  static constexpr bool crevice = true;
+};
+struct FiredRunners : Fired {
+  static constexpr bool runners = true;
+};
+struct FiredWalls : Fired {
+  static constexpr bool walls = true;
+};
+struct FiredKnock : Fired {
+  static constexpr bool knock = true;
+};
+struct FiredChargeBurn : Fired {
+  static constexpr bool charge_burn = true;
+};
+
 /// The same scene with all that it can show of its valves' motion.
 template <class S>
 struct ShowingValves : S {

@@ -16,10 +16,15 @@
 namespace {
 
 constexpr std::uint32_t kSearchedTicks = 8;  ///< whose inputs are climbed over
+#ifdef COSTS_SHORT_SEARCH                    // a tenth of the ticks, of scenes that stand beside another
+constexpr std::uint32_t kSearchRounds = 4;
+constexpr std::uint32_t kLastClimbs = 300;
+#else
 constexpr std::uint32_t kSearchRounds = 24;  ///< climbs, every second one from steady running
-constexpr std::uint32_t kRunMoments = 50;    ///< of a round, before its climb from the dearest of them
-constexpr std::uint32_t kClimbs = 200;       ///< changes that a round tries
 constexpr std::uint32_t kLastClimbs = 4000;  ///< and the last climb, from the dearest of all rounds
+#endif
+constexpr std::uint32_t kRunMoments = 50;  ///< of a round, before its climb from the dearest of them
+constexpr std::uint32_t kClimbs = 200;     ///< changes that a round tries
 
 /// The inputs of a few ticks, and where the engine was before them. A measured crank angle is told from the last one.
 struct Moment {

@@ -330,6 +330,24 @@ TEST_F(BreathingRun, DrawsThePressureAtThePortsOfItsRunners) {
     EXPECT_EQ(std::count(legends.begin(), legends.end(), port), 1) << port;
 }
 
+TEST_F(BreathingRun, OfTheSampleWithEverythingIsThatOfATwoLitreEngine) {
+  const std::string engine = kEngines + "four_2000_everything.ini";
+  double burn_deg = 0;
+  for (const int rpm : {1000, 3000, 6000}) {
+    const std::string summary = run({engine, "--rpm", std::to_string(rpm)});
+    const auto number = [&summary](const char* name) { return line(summary, name).first; };
+    const double brake_Nm = number("brake_torque"), efficiency = number("volumetric_efficiency");
+    EXPECT_TRUE(brake_Nm > 140 && brake_Nm < 190) << rpm << ": " << brake_Nm;
+    EXPECT_TRUE(efficiency > 0.8 && efficiency < 1.05) << rpm << ": " << efficiency;
+    EXPECT_GT(number("burn_by_charge_duration"), burn_deg) << "burns take longer at " << rpm;
+    burn_deg = number("burn_by_charge_duration");
+    EXPECT_GT(number("burn_by_charge_start"), -22) << "the spark";
+    EXPECT_GT(number("blow_by"), 1) << "mg";
+    EXPECT_GT(number("knock_integral"), 0.5);
+    EXPECT_EQ(number("faulty_ticks"), 0);
+  }
+}
+
 TEST_F(BreathingRun, DrawsItsGasExchangeOnAPageOfTheUsualSize) {
   const std::string summary = run({kFour, "--rpm", "3000", "--report", path("report.html")});
   const std::string text = contents(path("report.html"));

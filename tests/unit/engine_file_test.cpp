@@ -21,7 +21,9 @@
 #include <utility>
 #include <vector>
 
+#include "crankloop/engine_file/pressure_words.hpp"
 #include "crankloop/files/error.hpp"
+#include "crankloop/files/number.hpp"
 #include "crankloop/files/text_file.hpp"
 #include "crankloop/loops/valve_loop.hpp"
 #include "lab/reference/valve_reference.hpp"
@@ -92,6 +94,7 @@ TEST_F(EngineFileTest, DefaultsAreThoseOfTheLibrary) {
       CamContact::each_field(library, untouched.contacts[0]);
       Misfire::each_field(library, untouched.misfires[0]);
       WheelFault::each_field(library, untouched.wheel_faults[0]);
+      Reluctor::each_field(library, untouched.reluctor);
       EXPECT_EQ(parse_value(*key, key->fallback, "", 0).si(), library.value) << key->name;
       ++compared;
     }
@@ -493,7 +496,7 @@ TEST_F(EngineFileTest, ValveTrainSectionsAreReadCheckedAndShown) {
   const std::string shown = show(engine);
   EXPECT_EQ(show(read(shown)), shown);
   EXPECT_NE(refusal(train + "ratio = 1\n"), "");
-  EXPECT_NE(refusal(replaced(train, "train_N_per_mm = 11765", "train_N_per_mm = -1")).find("at most 1e+09 N/mm"),
+  EXPECT_NE(refusal(replaced(train, "train_N_per_mm = 11765", "train_N_per_mm = -1")).find("at most 1e9 N/mm"),
             std::string::npos);
   EXPECT_NE(refusal(replaced(train, "ratio = 1\n", "ratio = 1\ncam_turns = toward_pivot\n")), "");
   EXPECT_NE(refusal(replaced(train, "2,10,18,26", "2,18,10,26")), "");
@@ -640,6 +643,27 @@ TEST_F(EngineFileTest, FaultsOfWheelsAreRefusedWithWhatIsAllowed) {
   EXPECT_NE(told.find("[fault a] missing_tooth: 60 is more than the wheel has teeth"), std::string::npos) << told;
 }
 
+TEST_F(EngineFileTest, ASensorHasAllItsKeysAndIsRefusedAtAWheelThatItDoesNotFit) {
+  EXPECT_EQ(read(contents(kSample)).definition().reluctor.wheel, -1);
+  const EngineFile engine = read(contents(kSample) +
+                                 "[reluctor]\ntrigger = crank\ngain_V_s = 0.02\nreach_ratio = 0.8\n"
+                                 "gap_lobe_ratio = 1.6\nrunout_ratio = 0.1\nrunout_at_deg = 30\nreversed = yes\n"
+                                 "arm_ratio = 0.5\nleast_V = 0.1\nhysteresis_V = 0.02\nwatchdog_s = 0.2\n");
+  const Reluctor& sensor = engine.definition().reluctor;
+  EXPECT_TRUE(sensor.wheel == 0 && sensor.reversed);
+  EXPECT_TRUE(sensor.gain_V_s == 0.02 && sensor.reach_ratio == 0.8 && sensor.gap_lobe_ratio == 1.6);
+  EXPECT_TRUE(sensor.runout_ratio == 0.1 && sensor.runout_at_deg == 30 && sensor.arm_ratio == 0.5);
+  EXPECT_TRUE(sensor.least_V == 0.1 && sensor.hysteresis_V == 0.02 && sensor.watchdog_s == 0.2);
+  const auto says = [this](const std::string& keys, const std::string& words) {
+    const std::string text = refusal(contents(kSample) + "[reluctor]\n" + keys);
+    EXPECT_NE(text.find(words), std::string::npos) << keys << text;
+  };
+  says("trigger = crnk\ngain_V_s = 1\n", "trigger: 'crnk' is not one of crank, cam; did you mean crank?");
+  says("trigger = cam\ngain_V_s = 1\n", "trigger: 'cam' is no wheel of up to 120 evenly spaced teeth that no phaser");
+  says("trigger = crank\n", "gain_V_s");
+  says("trigger = crank\ngain_V_s = 1\nreach_ratio = 1.1\n", "reach_ratio: 1.1 is out of range; allowed: 0.6 to 1");
+}
+
 // ---- trigger wheels -------------------------------------------------------------------------------------------------
 
 /// Teeth and gaps as they stand around a wheel: x a tooth, - none.
@@ -708,6 +732,21 @@ TEST_F(EngineFileTest, ReadsWhereATriggerWheelStandsAndWhatMovesIt) {
   EXPECT_NE(refusal(sample + "[trigger a]\non = crank\nedges_deg = 10,300,380,390\n")
                 .find("edges_deg: entry 3: 380 is out of range"),
             std::string::npos);
+}
+
+TEST(PressureInWords, SaysOfAMotoredEngineThatItHasNoFuel) {
+  const EngineFile engine = read_engine_file(CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_435_motored.ini", {});
+  GasOrder order = gas_order(engine.definition().gas);
+  EXPECT_NE(pressure_in_words(engine, 1, order).find("Throttle 1, no fuel. Not modelled"), std::string::npos);
+  order.fuel_kg = 10e-6;
+  EXPECT_NE(pressure_in_words(engine, 1, order).find("10 mg of fuel per cylinder and cycle, burning from"),
+            std::string::npos);
+}
+
+TEST(RangeInWords, HasBoundsAsPeopleWriteThem) {
+  EXPECT_EQ(describe(from(0).up_to(2147483647), ""), "0 to 2147483647");
+  EXPECT_EQ(describe(above(0).up_to(1e9), "s"), "above 0, at most 1e9 s");
+  EXPECT_EQ(describe(from(-0.5).up_to(1e-9), ""), "-0.5 to 1e-09");
 }
 
 }  // namespace

@@ -87,6 +87,58 @@ TEST(LiveScenes, RunAsTheReadyMadeOnesDo) {
   expect_same_bits<double, scenes::BreathingFree, LiveBreathing>("four_2000", 2e-4);
 }
 
+TEST(LiveSignals, ShowWhichWheelsAreFaultyAndTheEdgesThatAControllerSees) {
+  EngineDefinition definition = sample("diesel_495").definition();
+  definition.wheel_fault_count = 2;
+  definition.wheel_faults[0].wheel = 1, definition.wheel_faults[0].input_bit = 5;
+  definition.wheel_faults[0].inverted = true;
+  definition.wheel_faults[1].wheel = 0, definition.wheel_faults[1].input_bit = 3;
+  definition.wheel_faults[1].stuck = StuckSignal::low;
+  Bench<float, LiveRunning> bench(definition, 1e-4);
+  const std::vector<std::string> names = signal_names<float, LiveRunning>(bench.shape);
+  int healthy_high = 0, edges_of_crank = 0, healthy_edges = 0;
+  for (int tick = 0; tick < 2000; ++tick) {
+    bench.input.wheel_faults = 1u << 3;
+    const auto& out = bench.engine.step(bench.input);
+    port::LiveNumbers numbers{};
+    write_signals(out, bench.engine.state(), bench.shape, numbers);
+    std::map<std::string, double> shown;
+    for (std::size_t i = 0; i < names.size(); ++i) shown[names[i]] = numbers[i];
+    ASSERT_EQ(shown.at("wheel_faults_on"), 2);
+    ASSERT_EQ(shown.at("faulty_trigger[1].level"), 0);
+    ASSERT_EQ(shown.at("faulty_trigger[2].level"), shown.at("trigger[2].level"));
+    healthy_high += shown.at("trigger[1].level") == 1 ? 1 : 0;
+    each_edge_by_time(out.faulty_trigger, bench.shape.wheels, 100'000,
+                      [&](std::int64_t, std::uint32_t wheel, std::uint32_t) { edges_of_crank += wheel == 0 ? 1 : 0; });
+    each_edge_by_time(out.trigger, bench.shape.wheels, 100'000,
+                      [&](std::int64_t, std::uint32_t wheel, std::uint32_t) { healthy_edges += wheel == 0 ? 1 : 0; });
+  }
+  EXPECT_GT(healthy_high, 500);
+  EXPECT_GT(healthy_edges, 200);
+  EXPECT_LE(edges_of_crank, 1);  // where it fell to the level at which it is stuck
+}
+
+/// docs/feed_a_controller.md states them, and what follows from them.
+TEST(SampleEngines, HaveTheWheelsThatTheControllersPageStates) {
+  for (const char* name :
+       {"diesel_495", "diesel_495_gas", "four_2000", "four_2000_runners", "ohc_125", "ohc_125_gas"}) {
+    SCOPED_TRACE(name);
+    const EngineDefinition engine = sample(name).definition();
+    ASSERT_EQ(engine.trigger_count, 2);
+    const TriggerWheel &crank = engine.triggers[0], &cam = engine.triggers[1];
+    EXPECT_TRUE(crank.shaft == TriggerShaft::crank && crank.places == 60 && crank.gap_count == 1);
+    EXPECT_TRUE(crank.gaps[0].teeth == 58 && crank.gaps[0].missing == 2);
+    EXPECT_TRUE(!crank.inverted && !cam.inverted);
+    EXPECT_EQ(crank.first_tooth_deg, 246);
+    EXPECT_EQ(crank.tooth_ratio * 360 / crank.places, 3);  // a tooth's end after its begin
+    EXPECT_TRUE(cam.shaft == TriggerShaft::cam && cam.places == 1 && cam.tooth_ratio == 0.5);
+    const double rises_deg = cam.first_tooth_deg;  // high for 360 from here
+    EXPECT_EQ(rises_deg, 720 - 180);
+    EXPECT_EQ(246 + 360 - rises_deg, 66);          // tooth 1 before firing: 114 deg before 720
+    EXPECT_EQ(246 - (rises_deg + 360 - 720), 66);  // the other one, in the low half
+  }
+}
+
 TEST(LiveSignals, SayWhatTheDiagramAndTheCamsSay) {
   const EngineFile file = sample("diesel_495");
   ExactEngine exact;
@@ -154,7 +206,7 @@ TEST(LiveEdges, AreOfAllWheelsInTheOrderOfTime) {
   out.trigger[2] = {1, {{1.0000004e-3, 1}, {}, {}}};     // of float: a hair beyond the tick
   std::string seen;
   const std::uint64_t unlisted =
-      each_edge_by_time(out, 3, 1'000'000, [&](std::int64_t time_ns, std::uint32_t wheel, std::uint32_t level) {
+      each_edge_by_time(out.trigger, 3, 1'000'000, [&](std::int64_t time_ns, std::uint32_t wheel, std::uint32_t level) {
         seen += std::to_string(time_ns) + ":" + std::to_string(wheel) + (level != 0 ? "+ " : "- ");
       });
   EXPECT_EQ(seen, "0:1- 100000:0+ 300000:0- 300000:0+ 300000:1+ 900000:1- 1000000:2+ ");

@@ -130,6 +130,38 @@ TEST_F(SurgingTrain, IsToldOfInSummaryAndCsv) {
   EXPECT_THROW(kValve.run(Arguments(kValve, {path, "--integrator", "textbook"})), UsageError);
 }
 
+TEST_F(SurgingTrain, HasItsRedlineBesideThatOfSpringsThatFollow) {
+  const auto printed_by = [](const std::vector<std::string>& words) {
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(kRedline.run(Arguments(kRedline, words)), kSuccess);
+    static_cast<void>(testing::internal::GetCapturedStderr());
+    return testing::internal::GetCapturedStdout();
+  };
+  const auto line = [](const std::string& text, const std::string& name) {
+    const std::size_t at = text.find("\n" + name + " = ");
+    return at == std::string::npos ? "no " + name
+                                   : text.substr(at + name.size() + 4, text.find('\n', at + 1) - at - name.size() - 4);
+  };
+  const std::string report = folder_ / "redline.html";
+  const std::vector<std::string> speeds{"--from", "6000", "--to", "9500"};
+  const auto redline_of = [&](const std::string& file, std::vector<std::string> more) {
+    std::vector<std::string> words{file};
+    words.insert(words.end(), speeds.begin(), speeds.end());
+    words.insert(words.end(), more.begin(), more.end());
+    return printed_by(words);
+  };
+  const std::string surging = redline_of(write("surging.ini", with("surge_modes = 2")), {"--report", report});
+  const std::string plain = redline_of(write("plain.ini", contents(kOhc125)), {});
+  EXPECT_EQ(line(surging, "separation_onset_without_surge"), line(plain, "separation_onset"));
+  EXPECT_EQ(line(surging, "bounce_onset_without_surge"), line(plain, "bounce_onset"));
+  EXPECT_LT(std::stod(line(surging, "separation_onset")), 0.9 * std::stod(line(plain, "separation_onset")));
+  EXPECT_EQ(plain.find("without_surge"), std::string::npos);
+  const std::string page = contents(report);
+  EXPECT_NE(page.find("springs follow"), std::string::npos);
+  EXPECT_NE(page.find("Separation without surge"), std::string::npos);
+}
+
 TEST_F(SurgingTrain, FollowsItsValveInReadyMadeScenesWithAWarning) {
   const EngineFile file = read(with("surge_modes = 2"));
   const auto lines = warnings_about_springs_that_follow(file);

@@ -94,6 +94,14 @@ struct WheelFaultInput {
   std::uint32_t wheel_faults = 0;  ///< bit b: faults of WheelFault::input_bit b are on this tick
 };
 
+/// The spark by a controller's name. The burn begins there, or after the delay of a burn by charge
+/// (spark_to_start_deg).
+template <class Real, class S>
+struct SparkAdvanceInput {
+  std::uint32_t by_spark_advance = 0;                  ///< 0: burn_start_deg counts; else spark_advance_deg instead
+  Real spark_advance_deg[S::cylinders.capacity] = {};  ///< before firing top dead centre, -60 to 90
+};
+
 template <class Real, class S>
 using CrankInput =
     std::conditional_t<S::crank == CrankGiven::speed, SpeedInput<Real>,
@@ -112,6 +120,7 @@ struct Input : group::CrankInput<Real, S>,
                detail::If<detail::Needs<S>::manifolds, group::ThrottleInput<Real>>,
                detail::If<S::boundaries, group::BoundaryInput<Real>>,
                detail::If<detail::Needs<S>::burn_input, group::CombustionInput<Real, S>>,
-               detail::If<detail::Needs<S>::faulty_wheels, group::WheelFaultInput> {};
+               detail::If<detail::Needs<S>::faulty_wheels, group::WheelFaultInput>,
+               detail::If<S::controller_names, group::SparkAdvanceInput<Real, S>> {};
 
 }  // namespace crankloop

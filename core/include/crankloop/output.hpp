@@ -253,6 +253,12 @@ struct ChargeBurnResults {
   ChargeBurnOutput<Real> cycle_burn[S::cylinders.capacity];
 };
 
+/// Constant. A step does not write it.
+template <class Real>
+struct Coolant {
+  Real coolant_K;  ///< that the cylinders' walls give heat to; 0: the engine has none
+};
+
 }  // namespace group
 
 template <class Real, class S>
@@ -282,7 +288,9 @@ struct Output : detail::If<detail::Needs<S>::crank_dynamics, group::CrankMotion<
                 detail::If<S::cam_torque, group::CamTorques<Real, S>>,
                 detail::If<detail::Needs<S>::faulty_wheels, group::WheelFaultsOn>,
                 detail::If<detail::Needs<S>::any_triggers, group::Triggers<Real, S>>,
-                detail::If<detail::Needs<S>::faulty_wheels, group::FaultyTriggers<Real, S>> {
+                detail::If<detail::Needs<S>::faulty_wheels, group::FaultyTriggers<Real, S>>,
+                detail::If<detail::Needs<S>::reluctor, group::ReluctorSignal<Real, S>>,
+                detail::If<S::controller_names && S::walls, group::Coolant<Real>> {
   std::uint32_t faults;  ///< Fault bits of this tick
 };
 

@@ -66,6 +66,9 @@ struct Scene {
   static constexpr PressureGiven pressure = PressureGiven::none;
   static constexpr Manifold manifold = Manifold::given;  ///< of PressureGiven::by_gas, as are the next two
   static constexpr Combustion combustion = Combustion::none;
+  static constexpr bool controller_names =
+      false;  ///< Input::spark_advance_deg beside burn_start_deg; throttle, manifold, lambda and coolant once more, by
+              ///< a controller's names; needs Manifold::throttle and Combustion::by_input
   static constexpr bool boundaries =
       false;  ///< Input::ambient_Pa, ambient_K, back_Pa: boost, altitude, a silencer; needs Manifold::throttle
   static constexpr bool crevice = false;      ///< crevices and blow-by of each cylinder; a definition with either
@@ -115,6 +118,8 @@ struct Scene {
   static constexpr Count triggers = exactly<0>;  ///< trigger wheels: their signals and the edges in each tick
   static constexpr std::uint32_t wheel_faults =
       0;  ///< faults of trigger wheels that there is room for: faulty signals beside the healthy ones; at most 16
+  static constexpr std::uint32_t reluctor_samples =
+      0;  ///< voltages in a tick of the definition's variable reluctance sensor, and its comparator: 8, 16 or 32
   static constexpr std::uint32_t trigger_edges =
       8;  ///< of a wheel that a tick has room for; more are counted, but not listed
 };
@@ -173,6 +178,7 @@ struct Needs {
   static constexpr bool mechanisms = stroke || shown_by_cylinder;
   static constexpr bool any_triggers = S::triggers.capacity > 0;
   static constexpr bool faulty_wheels = S::wheel_faults > 0;
+  static constexpr bool reluctor = S::reluctor_samples > 0;
   static constexpr std::uint32_t valve_count = any_valves ? S::trains.capacity * S::cylinders.capacity : 0;
 };
 
@@ -199,6 +205,8 @@ struct CheckedScene {
   static_assert(!S::walls || Needs<S>::gas, "walls take heat of gas: set pressure = by_gas");
   static_assert(!S::knock || Needs<S>::burn, "knock is of combustion: ask for it too");
   static_assert(!S::boundaries || Needs<S>::manifolds, "boundaries are outside the manifolds: set manifold = throttle");
+  static_assert(!S::controller_names || (Needs<S>::manifolds && Needs<S>::burn_input),
+                "controller_names are of throttle and spark: set manifold = throttle, combustion = by_input");
   static_assert(!S::starter || S::crank == CrankGiven::torque,
                 "a starter needs a crank that is turned by forces: set crank = torque");
   static_assert(S::valves == ValveModel::none || (S::trains.capacity >= 1 && S::trains.capacity <= kMaxTrains),
@@ -218,6 +226,11 @@ struct CheckedScene {
   static_assert(S::triggers.capacity <= kMaxTriggerWheels, "an engine has at most 8 trigger wheels");
   static_assert(S::wheel_faults == 0 || S::triggers.capacity > 0, "wheel_faults are of trigger wheels: set triggers");
   static_assert(S::wheel_faults <= kMaxWheelFaults, "an engine has at most 16 faults of trigger wheels");
+  static_assert(S::reluctor_samples == 0 || S::reluctor_samples == 8 || S::reluctor_samples == 16 ||
+                    S::reluctor_samples == 32,
+                "reluctor_samples is 8, 16 or 32");
+  static_assert(S::reluctor_samples == 0 || S::triggers.capacity > 0,
+                "a reluctor's sensor is at a trigger wheel: set triggers");
   static_assert(S::trigger_edges >= 1 && S::trigger_edges <= 2 * kMaxTriggerEdges,
                 "trigger_edges is 1 to 1440: two turns of the finest wheel");
   static constexpr bool value = true;

@@ -93,6 +93,7 @@ struct Breathing : Whole {
 struct BreathingFree : FreeRunning {
   static constexpr PressureGiven pressure = PressureGiven::by_gas;
   static constexpr Manifold manifold = Manifold::throttle;
+  static constexpr bool controller_names = true;
   static constexpr bool boundaries = true;
   static constexpr bool crevice = true;
   static constexpr bool runners = true;

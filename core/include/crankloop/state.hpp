@@ -150,13 +150,29 @@ struct MisfireRecords {
 template <class Real, class S>
 struct BurningState {
   Real burning_ratio[(S::cylinders.capacity + 1) / 2 * 2] = {};  ///< share of its heat that each cylinder's cycle has
+  // Follow from the shares and the phase, so that a tick need not ask each cylinder: misfire_step.hpp.
+  std::uint64_t cycles_go_on_from = 0;  ///< no cycle begins or ends in a part of the turn about the phase, from here
+  std::uint64_t cycles_go_on = 0;       ///< on for so many units
+  std::uint32_t lacking_heat = 0;       ///< bit k: the share of cylinder k is below 1
+  std::uint32_t spare_of_burning = 0;
 };
 /// Wires of faulty wheels.
 template <class S>
 struct WireState {
-  std::uint32_t wire_levels = 0;  ///< bit w: faulty signal of wheel w after the last tick
-  std::uint32_t wires_known = 0;  ///< bit w: there was one
-  std::uint32_t noise_random[(S::wheel_faults + 1) / 2 * 2] = {};  ///< of xorshift32, per fault
+  std::uint32_t wires_differ = 0;  ///< bit w: after the last tick wheel w's faulty signal was not at its healthy level
+  std::uint32_t noise_random[S::wheel_faults | 1] = {};  ///< of xorshift32, per fault; odd: no padding
+};
+/// A sensor's comparator.
+template <class Real>
+struct ComparatorState {
+  Real sensor_V = 0;            ///< the last sample
+  Real sensor_peak_V = 0;       ///< since the last edge at a tooth's centre
+  Real sensor_last_peak_V = 0;  ///< before it
+  Real spare_of_sensor = 0;
+  std::uint32_t comparator_level = 0;
+  std::uint32_t comparator_armed = 0;
+  std::uint32_t comparator_quiet_ticks = 0;  ///< since that edge; stays at its largest value
+  std::uint32_t spare_of_comparator = 0;
 };
 /// Bad inputs since `init`.
 struct BadInputsState {
@@ -192,6 +208,7 @@ struct State : group::StateCore<Real>,
                detail::If<S::misfire, group::MisfireRecords<S>>,
                detail::If<detail::Needs<S>::misfire_of_table, group::BurningState<Real, S>>,
                detail::If<detail::Needs<S>::faulty_wheels, group::WireState<S>>,
+               detail::If<detail::Needs<S>::reluctor, group::ComparatorState<Real>>,
                detail::If<S::bad_input_count, group::BadInputsState> {};
 
 /// The same state turning at another speed, for Engine::restore: a run that does not start at rest.

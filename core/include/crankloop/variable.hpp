@@ -62,7 +62,9 @@ inline constexpr UnitOfName kUnitsOfNames[] = {
     {"_K", "K", 0, 0, 0, 1, 0},
     {"_J", "J", 1, 2, -2, 0, 0},
     {"_W", "W", 1, 2, -3, 0, 0},
+    {"_V", "V", 1, 2, -3, 0, 0},  // and 1/A
 
+    {"_V_s", "V.s", 1, 2, -2, 0, 0},  // and 1/A
     {"_deg_per_s", "deg/s", 0, 0, -1, 0, 1, kRadPerDegree},
     {"_kPa_per_1000rpm", "kPa/krpm", 1, -1, -1, 0, -1, 1e3 / kRadSPer1000Rpm},
     {"_kPa_per_1000rpm2", "kPa/krpm2", 1, -1, 0, 0, -2, 1e3 / kRadSPer1000Rpm / kRadSPer1000Rpm},

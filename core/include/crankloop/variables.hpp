@@ -94,6 +94,12 @@ constexpr void each_input(Visit&& visit, AnInput& in, [[maybe_unused]] const Eng
   if constexpr (detail::Needs<S>::faulty_wheels) {
     visit(whole("wheel_faults", "Bit b: faults of the wheels that are on by input bit b"), in.wheel_faults);
   }
+  if constexpr (S::controller_names) {
+    constexpr Variable advance = real("spark_advance_deg[#]", "Spark before firing top dead centre");
+    visit(truth("by_spark_advance", "Sparks are where spark_advance_deg has them, not burn_start_deg"),
+          in.by_spark_advance);
+    for (std::uint32_t k = 0; k < shape.cylinders; ++k) visit(advance.at(k).within(-60, 90), in.spark_advance_deg[k]);
+  }
 }
 
 /// In the order of Output; a group whose name stands before the member is an array of records.
@@ -366,6 +372,21 @@ constexpr void each_output(Visit&& visit, AState& state, AnOutput& out, [[maybe_
       visit(whole("misfire[#].in_1000_turns", "Misfires in the last 500 cycles").at(k), m.in_1000_turns);
     }
   }
+  if constexpr (detail::Needs<S>::reluctor) {
+    each(real("reluctor_V[#]", "Voltage of the variable reluctance sensor within the tick"), out.reluctor_V,
+         S::reluctor_samples);
+  }
+  if constexpr (S::controller_names) {  // what stands above already, by a controller's names
+    visit(real("map_Pa", "Absolute pressure in the intake manifold"), out.manifold[kIntake].pressure_Pa);
+    visit(real("intake_air_K", "Temperature in the intake manifold"), out.manifold[kIntake].temperature_K);
+    visit(real("tps_ratio", "Throttle, as the tick took it"), state.throttle_ratio);
+    if constexpr (S::gas_results) {
+      for (std::uint32_t k = 0; k < shape.cylinders; ++k)
+        visit(real("lambda[#]", "Of a cylinder's last whole cycle; 0: no fuel").at(k),
+              out.gas_cycle[k].excess_air_ratio);
+    }
+    if constexpr (S::walls) visit(real("coolant_K", "Coolant of the walls; 0: none"), out.coolant_K);
+  }
   if constexpr (S::bad_input_count) {
     visit(whole("bad_input_ticks", "Ticks with a bad input since the start"), state.bad_input_ticks);
     visit(whole("bad_input_kinds", "Their fault bits, or-ed"), state.bad_input_kinds);
@@ -398,6 +419,11 @@ constexpr void each_event([[maybe_unused]] Visit&& visit, [[maybe_unused]] AnOut
     constexpr SignalNames kFaulty{"faulty_trigger[#].level", "faulty_trigger[#].edge_count",
                                   "faulty_trigger[#].edge[#].time_s", "faulty_trigger[#].edge[#].level"};
     for (std::uint32_t w = 0; w < shape.wheels; ++w) each_signal<S>(visit, kFaulty, w, out.faulty_trigger[w]);
+  }
+  if constexpr (detail::Needs<S>::reluctor) {
+    constexpr SignalNames kComparator{"comparator[#].level", "comparator[#].edge_count", "comparator[#].edge[#].time_s",
+                                      "comparator[#].edge[#].level"};
+    each_signal<S>(visit, kComparator, 0, out.comparator);
   }
 }
 

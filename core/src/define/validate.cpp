@@ -209,6 +209,22 @@ Status validate(const Pressure& pressure, const Crank& crank) noexcept {
   return refuse("pressure.source", Reason::out_of_range);  // an undefined source
 }
 
+namespace {
+
+/// A sensor has to fit its wheel: spaces long enough for its lobes, and for the table.
+[[nodiscard]] Status validate_reluctor(const EngineDefinition& engine) noexcept {
+  const Reluctor& sensor = engine.reluctor;
+  if (const Status refused = validate(sensor); !refused.ok() || sensor.wheel < 0) return refused;
+  if (sensor.wheel >= engine.trigger_count) return refuse("reluctor.wheel", Reason::out_of_range);
+  const TriggerWheel& wheel = engine.triggers[sensor.wheel];
+  if (wheel.pattern != TriggerPattern::teeth || wheel.train >= 0 || wheel.places > kMaxReluctorPlaces)
+    return refuse("reluctor.wheel", Reason::inconsistent);
+  if (sensor.reach_ratio < wheel.tooth_ratio + 0.1) return refuse("reluctor.reach_ratio", Reason::inconsistent);
+  return {};
+}
+
+}  // namespace
+
 Status validate(const EngineDefinition& engine) noexcept {
   const Status answers[] = {validate(engine.crank),    validate(engine.masses),
                             validate(engine.layout),   validate(engine.pressure, engine.crank),
@@ -252,7 +268,7 @@ Status validate(const EngineDefinition& engine) noexcept {
     if (const Status refused = validate(fault); !refused.ok()) return refuse(refused.field, refused.reason, i);
     if (fault.wheel >= engine.trigger_count) return refuse("fault.wheel", Reason::out_of_range, i);
   }
-  return {};
+  return validate_reluctor(engine);
 }
 
 }  // namespace crankloop

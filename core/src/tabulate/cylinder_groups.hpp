@@ -13,8 +13,8 @@ namespace crankloop::detail {
   CylinderGroups by{};
   std::uint8_t n = 0;
   for (std::uint32_t g = 0; g < groups; ++g) {
-    for (std::uint8_t k = 0; k < cylinders; ++k) {
-      if (group_of[k] == g) by.cylinder[n++] = k;
+    for (std::uint32_t k = 0; k < cylinders; ++k) {
+      if (group_of[k] == g) by.cylinder[n++] = static_cast<std::uint8_t>(k);
     }
     by.end[g] = n;
   }

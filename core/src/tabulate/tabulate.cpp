@@ -16,6 +16,7 @@
 #include "gas_exchange.hpp"
 #include "misfire_rules.hpp"
 #include "phase_units.hpp"
+#include "reluctor_table.hpp"
 #include "rounding.hpp"
 #include "trigger_tracks.hpp"
 #include "valve_curves.hpp"
@@ -193,6 +194,7 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
   detail::fill_misfires(engine, targets);
   detail::fill_triggers(engine, options, targets);
   detail::fill_wheel_faults(engine, options, targets);
+  detail::fill_reluctor(engine, options, targets);
   if (targets.drive != nullptr) {
     fill_drive(engine, options, *targets.drive);
     targets.drive->fingerprint = detail::fingerprint_of(engine, options, found, static_cast<int>(sizeof(Real)));

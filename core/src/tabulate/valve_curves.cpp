@@ -241,7 +241,7 @@ Status fill_valves(const EngineDefinition& engine, const TickOptions& options, c
     if (targets.lift_curves != nullptr) {
       ValveLift lift;
       static_cast<void>(lift.init(train.cam, train.rocker));  // accepted above
-      const std::ptrdiff_t first = t * kDegreesPerTurn;
+      const std::ptrdiff_t first = std::ptrdiff_t{t} * kDegreesPerTurn;
       fill_lift(train.cam, train.rocker, engine.layout, lift, options.tick_s, targets.lift_curves[t],
                 targets.lift_segments + first, targets.rocker_ratios + first);
       fill_cam_degrees(targets.lift_curves[t], engine.layout.cylinders, t, targets);

@@ -5,7 +5,8 @@
 #   figures.sh BUILD_DIR scenes         flash, RAM, stack, instructions and time of each scene
 #   figures.sh BUILD_DIR performance    writes docs/measurements/host.md, and what docs/performance.md says of it
 #   figures.sh BUILD_DIR decisions      what docs/decisions/0002 to 0006 state
-#   figures.sh BUILD_DIR check README HOST  whether they state the errors and the RAM that are measured now
+#   figures.sh BUILD_DIR groups         code, tables, RAM and instructions of groups of results and parts of the gas, one each
+#   figures.sh BUILD_DIR check README HOST  whether they state the errors, the RAM and what groups cost that are measured now
 #   figures.sh BUILD_DIR                errors and scenes
 #
 # What the documents show of the program's output: printed.sh.
@@ -80,6 +81,27 @@ scenes() {
   echo "$(measured_on), load $(cut -d ' ' -f 1 /proc/loadavg)"
 }
 
+# What one group of results or part of the gas takes beside a scene without: scenes of tests/target.
+valve_groups='ElasticValves SurgingValves CamContactValves CamTorqueValves'
+gas_groups='Fired FiredCrevice FiredBlowBy FiredRunners FiredWalls FiredKnock FiredChargeBurn'
+group_ticks=6000  # two cycles at 2000 rpm and 20 us
+
+group_row() {
+  count=-
+  if command -v valgrind >/dev/null 2>&1; then
+    more=$((2 * group_ticks))
+    count=$((($(instructions "./ticks_$1" $more) - $(instructions "./ticks_$1" $group_ticks) + group_ticks / 2) / group_ticks))
+  fi
+  echo "| $1 | $(section_bytes "$1" '^\\.text') | $(section_bytes "$1" '^\\.(rodata|data\\.rel\\.ro)') | $("./ticks_$1" ram) | $count |"
+}
+
+groups() {
+  echo "| scene, one group each | code, bytes | tables, bytes | RAM, bytes | instructions, 2000 rpm, 20 us |"
+  echo "| --- | --- | --- | --- | --- |"
+  # shellcheck disable=SC2086  # lists of words
+  for group in $valve_groups $gas_groups; do group_row "$group"; done
+}
+
 # ---- docs/measurements/host.md ---------------------------------------------------------------------------------------
 
 example_rows() {  # example_rows REAL
@@ -106,6 +128,10 @@ performance() {
     echo
     scene_header
     example_rows double
+    echo
+    echo "Groups, float:"
+    echo
+    groups
     echo
     echo "Measured on: $(measured_on)."
   } >host.md
@@ -141,6 +167,29 @@ states_ram() {
   done
 }
 
+# states_groups HOST MEASURED: no figure of a group has grown by over 2 %. RAM everywhere; code, tables and instructions by the compiler and
+# on the kind of processor that HOST names, instructions where they can be counted.
+states_groups() {
+  same=0
+  here_on=$(measured_on | sed 's/, [^,]*, /, /')
+  [ "$(sed -n 's/^Measured on: \(.*\)\.$/\1/p' "$1" | sed 's/, [^,]*, /, /')" = "$here_on" ] && same=1
+  awk -F ' *[|] *' -v same="$same" -v page="$1" '
+    FNR == 1 { groups = 0 }
+    /^\| scene, one group each/ { groups = 1; next }
+    !groups || $2 !~ /^[A-Z][A-Za-z]*$/ { if (groups && /^$/) groups = 0; next }
+    NR == FNR { for (i = 3; i <= 6; ++i) was[$2, i] = $i; told[$2] = 1; next }
+    !told[$2] { print "not in " page ": " $0; bad = 1; next }
+    {
+      delete told[$2]
+      for (i = 3; i <= 6; ++i) {
+        if ((i != 5 && !same) || $i == "-" || $i + 0 <= was[$2, i] * 1.02) continue
+        print page ", " $2 ": " was[$2, i] " has grown to " $i
+        bad = 1
+      }
+    }
+    END { for (name in told) if (told[name]) { print page " has a row of " name ", which is no more"; bad = 1 } exit bad }' "$1" "$2"
+}
+
 # Every measured row of errors stands in the README, and so does the RAM of every scene that it and
 # docs/measurements/host.md name.
 check() {
@@ -154,6 +203,9 @@ check() {
   for real in float double; do
     states_ram "$2" "PistonMotion_$real" "TorqueOnly_$real" "ForcesAndTorque_$real" "ValveLift_$real" "ValveDynamics_$real" "WholeEngine_$real"
   done
+  groups >groups.md
+  # shellcheck disable=SC2015  # the count of what is bad decides
+  states_groups "$2" groups.md || bad=$((bad + 1))
   [ "$bad" -eq 0 ]
 }
 
@@ -161,6 +213,7 @@ case $what in
   errors) ./errors "$engine" ;;
   scenes) scenes ;;
   decisions) decisions ;;
+  groups) groups ;;
   performance) performance ;;
   check) check "$(absolute "$3")" "$(absolute "$4")" ;;
   '')

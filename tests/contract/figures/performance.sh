@@ -86,6 +86,35 @@ scenes() {
   ' $measurements/cortex_m4f.md
 }
 
+# What a group of results or a part of the gas takes more than the scene without it: per tick of four cylinders with eight valves.
+groups() {
+  echo "| four cylinders, float, 20 us | x86-64: instructions | code | tables | RAM | Cortex-M4F: instructions, mean / worst | bound, any input | cycles, mean / worst | bound, any input | code | tables | RAM |"
+  echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
+  awk -F ' *[|] *' '
+    function more(a, b) { return sprintf("%+d", a - b) }
+    function two(a, b,    x, y) { split(a, x, " / "); split(b, y, " / "); return more(x[1], y[1]) " / " more(x[2], y[2]) }
+    BEGIN {
+      split("SurgingValves CamContactValves CamTorqueValves FiredCrevice FiredBlowBy FiredRunners FiredWalls FiredKnock FiredChargeBurn", order, " ")
+      split("spring surge, two modes|contact of the cams|torque of the cams, friction|crevices|crevices, blow-by|runners, intake and exhaust|warm walls|knock|burn by charge", name, "|")
+    }
+    FNR == 1 { ++page; cycles = 0 }
+    page == 1 && /^\| scene, one group each/ { groups = 1 }
+    page == 1 && groups { for (i = 3; i <= 6; ++i) host[$2, i] = $i }
+    /^Cycles, / { cycles = 1; zero = /^Cycles, 0 / }
+    page == 2 && $3 == 20 && !cycles { for (i = 6; i <= 11; ++i) arm[$2, i] = $i }
+    page == 2 && $3 == 20 && zero { arm[$2, "cycles"] = $4; arm[$2, "bound"] = $6 }
+    END {
+      for (i = 1; i in order; ++i) {
+        n = order[i]
+        b = n ~ /^Fired/ ? "Fired" : "ElasticValves"
+        print "| " name[i] " | " more(host[n, 6], host[b, 6]) " of " host[b, 6] " | " more(host[n, 3], host[b, 3]) " | " more(host[n, 4], host[b, 4]) " | " \
+          more(host[n, 5], host[b, 5]) " | " two(arm[n, 6], arm[b, 6]) " of " arm[b, 6] " | " more(arm[n, 8], arm[b, 8]) " | " two(arm[n, "cycles"], arm[b, "cycles"]) " | " \
+          more(arm[n, "bound"], arm[b, "bound"]) " | " more(arm[n, 9], arm[b, 9]) " | " more(arm[n, 10], arm[b, 10]) " | " more(arm[n, 11], arm[b, 11]) " |"
+      }
+    }
+  ' $measurements/host.md $measurements/cortex_m4f.md
+}
+
 # against TASK LIBRARY_ROW OTHER_ROW...: each row is CONTESTANT|REAL|SETTING; times over that of the first.
 against() {
   task=$1
@@ -141,13 +170,14 @@ growth() {
 
 # In docs/performance.md, what stands between "<!-- NAME begin" and "<!-- NAME end".
 scenes >"$work/scenes"
+groups >"$work/groups"
 beside_plain_code >"$work/beside_plain_code"
 growth >"$work/growth"
 awk -v work="$work" '
   inside && /^<!-- [a-z_]* end -->/ { print ""; inside = 0; ++parts }
   !inside { print }
   /^<!-- [a-z_]* begin/ { inside = 1; print ""; part = work "/" $2; while ((getline line <part) > 0) print line }
-  END { exit parts != 3 }' docs/performance.md >"$work/performance.md"
+  END { exit parts != 4 }' docs/performance.md >"$work/performance.md"
 
 # The README tells the costs of two scenes on a Cortex-M4F.
 told=$(awk -F ' *[|] *' '

@@ -1,10 +1,12 @@
 // Steps one engine of crankloop_add_scene: `ticks` prints its RAM in bytes and the time of a tick in ns, `ticks N` only
-// makes N steps, so that two runs under an instruction counter tell what one step takes.
+// makes N steps, so that two runs under an instruction counter tell what one step takes; `ticks ram` prints its RAM
+// alone.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <type_traits>
 
 #include FIGURES_ENGINE_HEADER  // namespace the_engine stands for the engine that this program is built for
@@ -33,7 +35,7 @@ void drive(Input& in, long tick) {
   }
   if constexpr (std::is_base_of_v<crankloop::group::CombustionInput<Real, the_engine::Scene>, Input>) {
     for (Real& fuel_kg : in.fuel_kg) fuel_kg = static_cast<Real>(30e-6);
-    for (Real& burn_deg : in.burn_duration_deg) burn_deg = 20;
+    for (Real& burn_deg : in.burn_duration_deg) burn_deg = FIGURES_BURN_DEG;
   }
 }
 
@@ -61,6 +63,7 @@ double median_ns() {
 }  // namespace
 
 int main(int count, char** words) {
+  if (count > 1 && std::strcmp(words[1], "ram") == 0) return std::printf("%zu\n", sizeof engine) < 0;
   if (count > 1) return step(std::atol(words[1])) == 0 ? 0 : 1;
   std::printf("%zu %.1f\n", sizeof engine, median_ns());
   return 0;

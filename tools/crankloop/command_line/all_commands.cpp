@@ -4,8 +4,8 @@ namespace crankloop::program {
 
 const std::vector<const Command*>& commands() {
   static const std::vector<const Command*> all = {
-      &kShow, &kNew, &kMasses, &kKinematics, &kForces, &kBalance, &kLift,  &kCam,    &kValve, &kRedline,
-      &kRun,  &kMap, &kStudy,  &kLive,       &kTables, &kFmu,     &kBench, &kStress, &kPack};
+      &kShow, &kNew, &kMasses, &kKinematics, &kForces, &kBalance, &kLift, &kCam,   &kValve,  &kRedline,
+      &kRun,  &kMap, &kStudy,  &kLive,       &kTables, &kFmu,     &kPage, &kBench, &kStress, &kPack};
   return all;
 }
 

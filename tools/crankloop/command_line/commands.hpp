@@ -29,6 +29,7 @@ extern const Command kMap;
 extern const Command kMasses;
 extern const Command kNew;
 extern const Command kPack;
+extern const Command kPage;
 extern const Command kRedline;
 extern const Command kRun;
 extern const Command kTables;

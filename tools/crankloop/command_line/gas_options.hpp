@@ -12,8 +12,7 @@
 namespace crankloop::program {
 
 inline constexpr Option kThrottle =
-    number("--throttle", "R", from(0).up_to(1),
-           "throttle of an engine with gas exchange: 0 closed, 1 wide open; default 1 (live: 0)");
+    number("--throttle", "R", from(0).up_to(1), "throttle of an engine with gas exchange: 0 closed, 1 wide open", "1");
 inline constexpr Option kFuel = number("--fuel-mg", "M", from(0).up_to(kMaxFuel_kg * 1e6),
                                        "fuel per cylinder and cycle in mg, with gas exchange; default the file's");
 inline constexpr Option kLambda =

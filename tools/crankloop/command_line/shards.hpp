@@ -22,7 +22,8 @@
 namespace crankloop::program {
 
 inline constexpr Option kThreads =
-    whole_number("--threads", "N", from(1).up_to(1024), "how many; default one for each processor that it may use");
+    whole_number("--threads", "N", from(1).up_to(1024),
+                 "number of threads; default one for each processor that the process may use");
 inline constexpr Option kShard =
     text("--shard", "K/N", "computes the Kth of N parts of the points only, for --part; K from 1");
 inline constexpr Option kPart = text("--part", "F", "file for the part of --shard; - is standard output");

@@ -162,8 +162,8 @@ std::string place_in(const char* section, std::size_t row) {
   return std::string(section) + " + " + std::to_string(row);
 }
 
-/// Prints a section as an object or array of its name. If the engine has no trains or wheels, prints one of zeros that
-/// no tick reads, so that scenes with room for them compile. False if a section has no rows.
+/// Prints a section as an object or array of its name. If the engine has no trains, wheels or sensor, prints one of
+/// zeros that no tick reads, so that scenes with room for them compile. False if a section has no rows.
 template <class Section, class Real>
 bool print_section(Printer& p, const Stores<Real>& s, const TableReport& report, const std::string& real) {
   constexpr bool kOne = Section::kRows == detail::SectionRows::one;
@@ -173,8 +173,10 @@ bool print_section(Printer& p, const Stores<Real>& s, const TableReport& report,
   if (kOfGas && !(s.gas_cylinders.clearance_m3 > 0)) return false;  // an engine without gas exchange
   if (lacks_contact<Section>(s)) return false;
   const std::string object = declaration_of(Section::kName, real);
-  const bool no_wheels = std::is_same_v<Section, detail::section::triggers> && s.triggers.count == 0;
-  if (no_wheels || (std::is_same_v<Section, detail::section::wheel_faults> && s.wheel_faults.count == 0)) {
+  const bool none = (std::is_same_v<Section, detail::section::triggers> && s.triggers.count == 0) ||
+                    (std::is_same_v<Section, detail::section::wheel_faults> && s.wheel_faults.count == 0) ||
+                    (std::is_same_v<Section, detail::section::reluctor> && s.reluctor.in_use == 0);
+  if (none) {
     p.text(object);
     p.text(" = {}");
   } else if constexpr (kOne) {

@@ -141,6 +141,7 @@ void EngineFile::build_definition() {
   balancers_ = build_balancers(sections_, definition_.layout);
   build_misfires();
   build_faults();
+  build_reluctor();
   definition_.pressure = build_pressure(section("pressure"));
   if (section("pressure").has("file")) read_diagram(section("pressure"));
   accept(validate(definition_.pressure, definition_.crank));

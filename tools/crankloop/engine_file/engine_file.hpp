@@ -116,6 +116,8 @@ class EngineFile {
   void build_triggers();
   void build_misfires();
   void build_faults();
+  void build_reluctor();
+  [[nodiscard]] int wheel_of(const SectionValues& section) const;
   [[nodiscard]] InputError explain_fault(const Status& status, const SectionValues& section) const;
   [[nodiscard]] const SectionValues* fault_to_blame(const Key& key, int index) const;
   [[nodiscard]] int train_with_phaser(const SectionValues& trigger) const;

@@ -35,6 +35,40 @@ std::string why(const Status& status) {
 
 }  // namespace
 
+int EngineFile::wheel_of(const SectionValues& section) const {
+  const std::string& name = section.text("trigger");
+  const auto wheel = std::find_if(triggers_.begin(), triggers_.end(),
+                                  [&name](const TriggerOfFile& trigger) { return trigger.name == name; });
+  if (wheel == triggers_.end()) {
+    std::vector<std::string> names;
+    for (const TriggerOfFile& trigger : triggers_) names.push_back(trigger.name);
+    refuse(section, "trigger",
+           in_quotes(name) + (names.empty() ? " is none: the file has no [trigger NAME]"
+                                            : " is not one of " + join(names) + suggestion(name, names)),
+           path_);
+  }
+  return static_cast<int>(wheel - triggers_.begin());
+}
+
+void EngineFile::build_reluctor() {
+  const SectionValues* section = find("reluctor");
+  if (section == nullptr) return;
+  Reluctor sensor;
+  fill(*section, sensor);
+  sensor.wheel = wheel_of(*section);
+  sensor.reversed = section->text("reversed") == "yes";
+  definition_.reluctor = sensor;
+  const TriggerWheel& wheel = definition_.triggers[sensor.wheel];
+  if (wheel.pattern != TriggerPattern::teeth || wheel.train >= 0 || wheel.places > kMaxReluctorPlaces) {
+    refuse(*section, "trigger",
+           in_quotes(section->text("trigger")) + " is no wheel of up to " + std::to_string(kMaxReluctorPlaces) +
+               " evenly spaced teeth that no phaser moves",
+           path_);
+  }
+  if (sensor.reach_ratio < wheel.tooth_ratio + 0.1)
+    refuse(*section, "reach_ratio", "must exceed the wheel's tooth_ratio by 0.1", path_);
+}
+
 void EngineFile::build_faults() {
   for (const SectionValues& section : sections_) {
     if (section.kind != "fault") continue;
@@ -43,18 +77,7 @@ void EngineFile::build_faults() {
                        section.title() + " makes one fault too many; allowed: " + std::to_string(kMaxWheelFaults));
     }
     WheelFault fault = build_fault(section);
-    const std::string& name = section.text("trigger");
-    const auto wheel = std::find_if(triggers_.begin(), triggers_.end(),
-                                    [&name](const TriggerOfFile& trigger) { return trigger.name == name; });
-    if (wheel == triggers_.end()) {
-      std::vector<std::string> names;
-      for (const TriggerOfFile& trigger : triggers_) names.push_back(trigger.name);
-      refuse(section, "trigger",
-             in_quotes(name) + (names.empty() ? " is none: the file has no [trigger NAME]"
-                                              : " is not one of " + join(names) + suggestion(name, names)),
-             path_);
-    }
-    fault.wheel = static_cast<int>(wheel - triggers_.begin());
+    fault.wheel = wheel_of(section);
     definition_.wheel_faults[definition_.wheel_fault_count++] = fault;
     if (const Status status = validate(fault); !status.ok()) throw explain_fault(status, section);
   }

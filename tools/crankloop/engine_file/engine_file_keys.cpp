@@ -19,6 +19,8 @@ constexpr Unit kDegPerS{"deg_per_s"};
 constexpr Unit kS{"s"};
 constexpr Unit kUs{"us", 1, 1e6};
 constexpr Unit kHz{"Hz"};
+constexpr Unit kV{"V"};
+constexpr Unit kVS{"V_s"};
 constexpr Unit kRpm{"rpm"};
 constexpr Unit kMm{"mm", 1, 1e3};
 constexpr Unit kUm{"um", 1, 1e6};
@@ -78,6 +80,7 @@ constexpr SectionKind kSections[] = {
     {"misfire", true, "which cycles of cylinder NAME (1, 2, ...) misfire, where forces turn the crank: a test pattern"},
     {"fault", true,
      "what is wrong with a trigger wheel, its sensor or its wire, and when; where forces turn the crank"},
+    {"reluctor", false, "a variable reluctance sensor at a trigger wheel, and its comparator; absent: none"},
     {"counterweight", true, "a mass on the crankshaft, for `balance` and reports; no part of the tick"},
     {"balance_shaft", true,
      "an unbalanced shaft that the crankshaft drives, for `balance` and reports; no part of the tick"},
@@ -285,6 +288,18 @@ constexpr Key kRows[] = {
     {"fault", "noise_pulse_us", Kind::number, kUs, "fault.noise_pulse_s", from(0).up_to(1000), "", defaults, "0", "", "", "their length, up to half a tick; above 0 where there is noise"},
     {"fault", "noise_seed", Kind::whole_number, kNoUnit, "fault.noise_seed", kOfField, "", defaults, "1", "", "", "of their random numbers"},
 
+    {"reluctor", "trigger", Kind::text, kNoUnit, "", kAny, "", required, "", "", "", "NAME of the [trigger NAME] that it is at: a pattern of evenly spaced teeth, on the crank or on a cam without a phaser"},
+    {"reluctor", "gain_V_s", Kind::number, kVS, "reluctor.gain_V_s", kOfField, "", required, "", "", "", "peak voltage at a tooth by the wheel's speed in rad/s"},
+    {"reluctor", "reach_ratio", Kind::number, kNoUnit, "reluctor.reach_ratio", kOfField, "", defaults, "0.9", "", "", "where a tooth's lobes end, by the way from its centre to the middle of the space behind it; a small air gap has short ones"},
+    {"reluctor", "gap_lobe_ratio", Kind::number, kNoUnit, "reluctor.gap_lobe_ratio", kOfField, "", defaults, "1.4", "", "", "height of lobes beside a gap by that of the others"},
+    {"reluctor", "runout_ratio", Kind::number, kNoUnit, "reluctor.runout_ratio", kOfField, "", defaults, "0", "", "", "r, by which the wheel's run-out swings the flux: 1 + r cos(angle of the wheel - runout_at_deg)"},
+    {"reluctor", "runout_at_deg", Kind::number, kDeg, "reluctor.runout_at_deg", kOfField, "", defaults, "0", "", "", "of the wheel's own turn, from its first rising edge"},
+    {"reluctor", "reversed", Kind::choice, kNoUnit, "", kAny, "no|yes", defaults, "no", "", "", "wires swapped: the voltage has the other sign"},
+    {"reluctor", "arm_ratio", Kind::number, kNoUnit, "reluctor.arm_ratio", kOfField, "", defaults, "0.3333333333333333", "", "", "the comparator is armed beyond this share of the last peak"},
+    {"reluctor", "least_V", Kind::number, kV, "reluctor.least_V", kOfField, "", defaults, "0.05", "", "", "and beyond this voltage"},
+    {"reluctor", "hysteresis_V", Kind::number, kV, "reluctor.hysteresis_V", kOfField, "", defaults, "0", "", "", "its edge is where the voltage falls through this, below 0"},
+    {"reluctor", "watchdog_s", Kind::number, kS, "reluctor.watchdog_s", kOfField, "", defaults, "0.085", "", "", "after so long without an edge the last peak is forgotten"},
+
     {"counterweight", "mass_g", Kind::number, kG, "", above(0).up_to(1e7), "", required, "", "", "", "of the weight"},
     {"counterweight", "radius_mm", Kind::number, kMm, "", above(0).up_to(1e4), "", required, "", "", "", "of its centre of mass from the crankshaft's axis"},
     {"counterweight", "angle_deg", Kind::number, kDeg, "", from(-360).up_to(360), "", defaults, "180", "", "", "from cylinder 1's crank pin, in the sense of rotation; 180: opposite"},
@@ -334,6 +349,7 @@ constexpr Range range_of_field(const Key& key) {
   CamContact::each_field(find, kExample.contacts[0]);
   Misfire::each_field(find, kExample.misfires[0]);
   WheelFault::each_field(find, kExample.wheel_faults[0]);
+  Reluctor::each_field(find, kExample.reluctor);
   if (!find.found) throw "a key is that of a field that the definition does not have";
   const auto in_file = [&key](double si) { return si * key.unit.over / key.unit.times; };
   return {in_file(find.range.least), in_file(find.range.most), find.range.without_least, find.range.without_most};
@@ -382,6 +398,8 @@ constexpr Follows kFollows[] = {
     {"fault.wheel", "fault", "trigger"},
     {"fault.inverted", "fault", "inverted"},
     {"fault.stuck", "fault", "stuck"},
+    {"reluctor.wheel", "reluctor", "trigger"},
+    {"reluctor.reversed", "reluctor", "reversed"},
     {"gas.throttle_count", "gas", "throttle_curve"},
     {"gas.throttle_ratio", "gas", "throttle_curve"},
     {"gas.throttle_area_ratio", "gas", "throttle_curve"},
@@ -499,7 +517,7 @@ std::vector<std::string> sections_with_key(const std::string& name) {
 }
 
 std::string describe_all_keys() {
-  constexpr std::size_t kColumn = 26;
+  constexpr std::size_t kColumn = 28;
   std::string text;
   for (const SectionKind& kind : kSections) {
     text += std::string(text.empty() ? "" : "\n") + "[" + kind.name + (kind.named ? " NAME]" : "]") + "  " +

@@ -16,6 +16,13 @@ namespace crankloop::program {
   return definition;
 }
 
+/// Whether the file lets any springs surge.
+[[nodiscard]] inline bool springs_surge(const EngineFile& file) noexcept {
+  bool any = false;
+  for (const TrainOfFile& train : file.trains()) any = any || train.definition.valve.surge_modes != 0;
+  return any;
+}
+
 /// A warning for each train whose springs surge by the file.
 [[nodiscard]] inline std::vector<std::string> warnings_about_springs_that_follow(const EngineFile& file) {
   std::vector<std::string> lines;

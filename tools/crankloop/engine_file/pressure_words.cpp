@@ -8,8 +8,11 @@ namespace {
 constexpr double kKilo = 1e-3;
 using report::number_text;
 
+bool is_motored(const GasOrder& gas) { return gas.excess_air_ratio <= 0 && gas.fuel_kg <= 0; }
+
 std::string fuel_in_words(const GasOrder& gas, bool varied) {
   if (varied) return "varied fuel";
+  if (is_motored(gas)) return "no fuel";
   if (gas.excess_air_ratio > 0)
     return "fuel by the air in each cylinder at lambda " + number_text(gas.excess_air_ratio);
   return number_text(gas.fuel_kg * 1e6) + " mg of fuel per cylinder and cycle";
@@ -45,13 +48,15 @@ std::string pressure_in_words(const EngineFile& file, double load_ratio, const G
     return "The cylinder pressure is the table " + file.section("pressure").text("file") + ", given over the " + over +
            "." + load;
   };
+  const bool fuel_varies = varied == &GasOrder::fuel_kg;
   switch (p.source) {
     case PressureSource::gas:
       return "The cylinder pressure is not given: it follows from what the cylinders hold, by gas exchange through the "
              "valves as they move, compression, heat release and wall heat. Throttle " +
              (varied == &GasOrder::throttle_ratio ? "varied" : number_text(gas.throttle_ratio)) + ", " +
-             fuel_in_words(gas, varied == &GasOrder::fuel_kg) + ", burning " +
-             burn_in_words(file.definition().gas, gas) + "." + not_modelled(file.definition().gas);
+             fuel_in_words(gas, fuel_varies) +
+             (is_motored(gas) && !fuel_varies ? "" : ", burning " + burn_in_words(file.definition().gas, gas)) + "." +
+             not_modelled(file.definition().gas);
     case PressureSource::none:
       return "There is no pressure source: gas forces are zero, and all forces and torques are those of the masses "
              "alone.";

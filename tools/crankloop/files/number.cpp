@@ -1,10 +1,8 @@
 #include "number.hpp"
 
-#include <array>
-#include <charconv>
 #include <cmath>
-#include <system_error>
 
+#include "decimal.hpp"
 #include "words.hpp"
 
 namespace crankloop::program {
@@ -29,12 +27,16 @@ std::string why_not_a_number(std::string_view text, std::string_view rest) {
 }
 
 /// The %g form; no "-0".
-template <class Real>
-std::string rounded(Real value, int digits) {
-  if (value == 0) value = 0;
-  std::array<char, 64> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, digits);
-  return {text.data(), end.ptr};
+std::string rounded(double value, int digits) { return decimal::general(value == 0 ? 0 : value, digits); }
+
+/// As people write it: 2147483647 and 1e9, where shortest() has 2.147483647e+09 and 1e+09.
+std::string bound_in_words(double bound) {
+  const std::string text = shortest(bound);
+  const std::size_t exponent = text.find("e+");
+  if (exponent == std::string::npos) return text;
+  if (text.find('.') == std::string::npos)
+    return text.substr(0, exponent) + "e" + std::to_string(std::stoi(text.substr(exponent + 2)));
+  return rounded(bound, 15);
 }
 
 }  // namespace
@@ -42,12 +44,15 @@ std::string rounded(Real value, int digits) {
 std::string describe(const Range& range, std::string_view unit) {
   const bool has_least = std::isfinite(range.least);
   const bool has_most = std::isfinite(range.most);
-  const std::string least = (range.without_least ? "above " : has_most ? "" : "at least ") + shortest(range.least);
+  const std::string least = (range.without_least ? "above "
+                             : has_most          ? ""
+                                                 : "at least ") +
+                            bound_in_words(range.least);
   const std::string joint = !has_least || range.without_least ? (range.without_most ? "below " : "at most ")
                                                               : (range.without_most ? "to below " : "to ");
   std::string words;
   if (has_least) words += least;
-  if (has_most) words += (!has_least ? "" : range.without_least ? ", " : " ") + joint + shortest(range.most);
+  if (has_most) words += (!has_least ? "" : range.without_least ? ", " : " ") + joint + bound_in_words(range.most);
   if (!words.empty() && !unit.empty()) words.append(" ").append(unit);
   return words;
 }
@@ -58,16 +63,13 @@ ParsedNumber parse_number(std::string_view text) {
   if (starts_like_infinity_or_nan(digits)) return {0, in_quotes(text) + " is not a finite number"};
   if (digits.empty() || !(is_digit(digits[0]) || digits[0] == '.')) return {0, why_not_a_number(text, text)};
 
-  // from_chars, unlike strtod, ignores the locale. It does not accept a plus sign, so it gets only the digits.
-  double value = 0;
-  const auto [rest, error] =
-      std::from_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general);
-  const std::string_view left(rest, static_cast<std::size_t>(digits.data() + digits.size() - rest));
-  if (error == std::errc::invalid_argument || !left.empty()) return {0, why_not_a_number(text, left)};
-  if (error == std::errc::result_out_of_range || !std::isfinite(value)) {
+  const decimal::Read read = decimal::read(digits);  // knows no sign
+  const std::string_view left = digits.substr(read.size);
+  if (read.size == 0 || !left.empty()) return {0, why_not_a_number(text, left)};
+  if (read.out_of_range) {
     return {0, in_quotes(text) + " is too large or too small for a number (about 1e-308 to 1e308)"};
   }
-  return {text[0] == '-' && value != 0 ? -value : value, ""};
+  return {text[0] == '-' && read.value != 0 ? -read.value : read.value, ""};
 }
 
 ParsedNumber parse_number(std::string_view text, const Range& range, std::string_view unit) {
@@ -82,10 +84,7 @@ std::string shortest(double value) {
   const double size = std::abs(value);
   const bool reads_best_plain = value == 0 || (size >= 1e-4 && size < 1e9);  // 100000, not 1e+05
   if (value == 0) value = 0;
-  std::array<char, 64> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
-                                 reads_best_plain ? std::chars_format::fixed : std::chars_format::scientific);
-  return {text.data(), end.ptr};
+  return reads_best_plain ? decimal::shortest_plain(value) : decimal::shortest_with_exponent(value);
 }
 
 double millionths(double value) {
@@ -95,6 +94,6 @@ double millionths(double value) {
 
 std::string brief(double value) { return rounded(value, 6); }
 std::string significant(double value) { return rounded(value, 12); }
-std::string significant(float value) { return rounded(value, 9); }
+std::string significant(float value) { return rounded(static_cast<double>(value), 9); }
 
 }  // namespace crankloop::program

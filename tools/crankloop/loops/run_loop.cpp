@@ -1,10 +1,7 @@
 #include "run_loop.hpp"
-#include "../engine_file/following_springs.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 #include <crankloop/tabulate/mechanism.hpp>
 #include <crankloop/tabulate/summary.hpp>
@@ -16,18 +13,6 @@ namespace {
 
 constexpr double kRadPerCycle = 4 * kPi;
 
-/// Fraction of a tick: a cycle's end that is closer than this is not worth another tick, because the phase increment is
-/// rounded.
-constexpr double kHairOfATick = 1e-3;
-constexpr const char* kFewerTicks = "fewer --cycles or a higher --rpm";
-
-/// Definition and tick are valid and the tables have room, so that a refusal here is a defect of the program.
-void require(const Status& status) {
-  if (!status.ok()) throw std::logic_error(std::string(status.field) + " " + describe(status.reason));
-}
-
-Phase phase_at(double engine_deg) { return Phase::from_cycles(engine_deg / 720); }
-
 /// Integral over the first part (0 to 1) of a tick, of the parabola that has the tick's torque at both ends and its
 /// mean.
 double part_of_tick(double start_Nm, double end_Nm, double mean_Nm, double part) {
@@ -37,56 +22,6 @@ double part_of_tick(double start_Nm, double end_Nm, double mean_Nm, double part)
 }
 
 }  // namespace
-
-template <class Real, class S>
-FixedStepLoop<Real, S>::FixedStepLoop(const EngineDefinition& definition, const Operation& operation, double start_deg,
-                                      const std::function<void()>& after_tick) {
-  require(tables_->build(with_springs_that_follow(definition), {operation.tick_s}, &report_));
-  const detail::Drive<Real>& drive = *tables_->tables().drive;
-  input_.speed_rad_s = static_cast<Real>(operation.speed_rad_s());
-  if constexpr (detail::Needs<S>::gas) {
-    tell(input_, operation.gas);
-  } else {
-    input_.load_ratio = static_cast<Real>(operation.load_ratio);
-  }
-  require_speed(operation.speed_rpm, static_cast<double>(drive.speed_limit_rad_s), operation.tick_s, definition.crank);
-  const int settling_cycles = cycles_to_settle(definition);
-  require_ticks(settling_cycles * 720 / (operation.speed_rad_s() * kDegPerRad * operation.tick_s), operation.tick_s,
-                kFewerTicks);
-
-  // At constant speed all ticks turn the crank equally far: one tick gives the angle.
-  require(engine_.init(tables_->tables()));
-  engine_.step(input_);
-  const Phase turned = engine_.state().phase;
-  deg_per_tick_ = static_cast<double>(turned.units()) * kDegPerUnit;
-  settling_ticks_ = static_cast<std::uint64_t>(std::ceil(settling_cycles * ticks_per_cycle() - kHairOfATick));
-  const Phase settling{settling_ticks_ * turned.units()};
-  require(engine_.init(tables_->tables(), phase_at(start_deg) - settling));
-  double before_Pa = 0;  // of the cycle before the last
-  for (std::uint64_t i = 0; i < settling_ticks_; ++i) {
-    engine_.step(input_);
-    if constexpr (detail::Needs<S>::gas) {
-      if (static_cast<double>(settling_ticks_ - i) >= ticks_per_cycle()) before_Pa = cycle_mep_Pa();
-    }
-    if (after_tick) after_tick();
-  }
-  if constexpr (detail::Needs<S>::gas) unsettled_Pa_ = std::fabs(cycle_mep_Pa() - before_Pa);
-}
-
-template <class Real, class S>
-double FixedStepLoop<Real, S>::cycle_mep_Pa() const noexcept {
-  if constexpr (detail::Needs<S>::gas) {
-    return mean_cycle(engine_.output().gas_cycle, engine_.tables()->drive->cylinders).net_mep_Pa;
-  } else {
-    return 0;
-  }
-}
-
-template <class Real, class S>
-double FixedStepLoop<Real, S>::crank_deg() const noexcept {
-  const double deg = static_cast<double>(engine_.state().phase.units()) * kDegPerUnit;
-  return deg < 720 ? deg : 0;  // the last 2^10 units round up to 720
-}
 
 template <class Real, class S>
 double FixedStepLoop<Real, S>::wall_time_per_tick_ns() noexcept {

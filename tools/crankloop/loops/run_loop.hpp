@@ -1,82 +1,21 @@
-// The engine in the fixed-step loop, as firmware runs it, and the results of a run of some cycles.
+// The results of a run of some cycles in the fixed-step loop.
 //
-// What belongs here: stepping at one speed, and results updated tick by tick, so that memory does not grow with the
-// run. What does not: files (run.cpp), curves over the angle (run_trace.hpp), the exact engine (run_accuracy.hpp).
+// What belongs here: results updated tick by tick, so that memory does not grow with the run. What does not: the loop
+// (fixed_step_loop.hpp), files (run.cpp), curves over the angle (run_trace.hpp), the exact engine (run_accuracy.hpp).
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <functional>
-#include <memory>
 #include <vector>
 
 #include <crankloop/crankloop.hpp>
-#include <crankloop/scenes.hpp>
 
-#include "../engine_file/gas_order.hpp"
+#include "fixed_step_loop.hpp"
 #include "run_gas.hpp"
-#include "run_limits.hpp"
 #include "run_quantities.hpp"
 #include "run_valves.hpp"
 
 namespace crankloop::program {
-
-/// How the engine is run: speed and load are constant.
-struct Operation {
-  double speed_rpm = 0;
-  double tick_s = 100e-6;
-  double load_ratio = 1;  ///< of an engine with a diagram
-  GasOrder gas{};         ///< of an engine with gas exchange
-
-  [[nodiscard]] double speed_rad_s() const noexcept { return speed_rpm * kPi / 30; }
-};
-
-/// Engine, tables and input. After construction cycles_to_settle() have been run, which lets any state settle, and the
-/// engine is at `start_deg`: a recorded run begins there for any tick length. S is Whole, or Breathing for an engine
-/// with gas exchange.
-template <class Real, class S = scenes::Whole>
-class FixedStepLoop {
- public:
-  using Engine = crankloop::Engine<Real, S>;
-  /// Called after every recorded tick: its number from 1, the engine angle after it in [0, 720), and the output.
-  using OnTick = std::function<void(std::uint64_t tick, double crank_deg, const WholeOutput<Real, S>& out)>;
-
-  /// The definition is valid and has masses, and the tick suits its valve trains. Throws UsageError for a speed beyond
-  /// one revolution per tick, and for a tick so short that a cycle takes more than kMaxTicks. `after_tick` is called
-  /// after each tick of the settling cycle.
-  FixedStepLoop(const EngineDefinition& definition, const Operation& operation, double start_deg = 0,
-                const std::function<void()>& after_tick = {});
-
-  const WholeOutput<Real, S>& step() noexcept { return engine_.step(input_); }
-
-  [[nodiscard]] const WholeOutput<Real, S>& output() const noexcept { return engine_.output(); }
-  [[nodiscard]] double crank_deg() const noexcept;  ///< engine angle, 0 to below 720
-  [[nodiscard]] double deg_per_tick() const noexcept { return deg_per_tick_; }
-  [[nodiscard]] double ticks_per_cycle() const noexcept { return 720 / deg_per_tick_; }
-  [[nodiscard]] std::uint64_t settling_ticks() const noexcept { return settling_ticks_; }
-  /// For an engine with gas exchange: change of its net mean pressure in the last settling cycle.
-  [[nodiscard]] double unsettled_Pa() const noexcept { return unsettled_Pa_; }
-  [[nodiscard]] const TableReport& tables() const noexcept { return report_; }
-
-  /// Wall time of step() on this machine: the median of kBatches batches of kBatchTicks. The engine runs on meanwhile.
-  [[nodiscard]] double wall_time_per_tick_ns() noexcept;
-  static constexpr int kBatches = 31;
-  static constexpr int kBatchTicks = 2000;
-
- private:
-  [[nodiscard]] double cycle_mep_Pa() const noexcept;  ///< of the last whole cycle, mean over the cylinders
-
-  // Room for the finest possible gas grid: the program has enough memory.
-  using Tables = TableStorage<Real, S, kMaxGasSegments>;
-
-  std::unique_ptr<Tables> tables_ = std::make_unique<Tables>();
-  TableReport report_;
-  Engine engine_;
-  typename Engine::Input input_;
-  double deg_per_tick_ = 0;
-  std::uint64_t settling_ticks_ = 0;
-  double unsettled_Pa_ = 0;
-};
 
 /// A value and its angle.
 struct Peak {

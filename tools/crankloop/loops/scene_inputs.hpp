@@ -8,10 +8,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <crankloop/define/range.hpp>
-#include <crankloop/fmi/description.hpp>
+#include <crankloop/fmi/name.hpp>
 #include <crankloop/scenes.hpp>
 #include <crankloop/variable_values.hpp>
 #include <crankloop/variables.hpp>
@@ -46,8 +47,10 @@ template <class S>
     Range range;
     if (variable.least < variable.most) range = from(variable.least).up_to(variable.most);
     if (variable.kind == detail::VariableKind::truth) range = from(0).up_to(1);
-    if (variable.kind == detail::VariableKind::whole)
-      range = from(0).up_to(static_cast<double>((std::uint64_t{1} << shape.cylinders) - 1));
+    if (variable.kind == detail::VariableKind::whole) {
+      const bool of_cylinders = std::string_view(variable.name) == "cut_cylinders";
+      range = from(0).up_to(static_cast<double>((std::uint64_t{1} << (of_cylinders ? shape.cylinders : 32)) - 1));
+    }
     inputs.push_back({fmi::name_of(variable), variable.kind, range});
   };
   detail::each_input<S>(add, any, shape);

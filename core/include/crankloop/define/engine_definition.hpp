@@ -10,6 +10,7 @@
 #include <crankloop/define/masses.hpp>
 #include <crankloop/define/misfire.hpp>
 #include <crankloop/define/pressure.hpp>
+#include <crankloop/define/reluctor.hpp>
 #include <crankloop/define/trigger_wheel.hpp>
 #include <crankloop/define/valve_train.hpp>
 #include <crankloop/define/wheel_fault.hpp>
@@ -33,6 +34,7 @@ struct EngineDefinition {
   Misfire misfires[kMaxCylinders];           ///< of each cylinder; a scene with misfire takes them
   int wheel_fault_count = 0;                 ///< 0 to kMaxWheelFaults
   WheelFault wheel_faults[kMaxWheelFaults];  ///< a scene with wheel_faults takes them
+  Reluctor reluctor;                         ///< a scene with reluctor_samples takes it
 
   template <class Visit, class Self, class... Others>
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {

@@ -100,7 +100,7 @@ struct LiftCurve {
   /// The middle of the base circle, counted from the start of the lobe.
   [[nodiscard]] constexpr std::uint64_t base_middle() const noexcept {
     CRANKLOOP_ASSERT(segments <= std::uint32_t{kDegreesPerTurn});
-    return (std::uint64_t{segments} + kDegreesPerTurn) * (~std::uint64_t{0} / (2 * kDegreesPerTurn));
+    return (std::uint64_t{segments} + kDegreesPerTurn) * (~std::uint64_t{0} / (std::uint64_t{2} * kDegreesPerTurn));
   }
 
   /// Whether the cam passes the middle of its base circle, where a cycle ends, between two phases.

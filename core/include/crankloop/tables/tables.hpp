@@ -16,6 +16,7 @@
 #include <crankloop/tables/lift_curve.hpp>
 #include <crankloop/tables/misfire_tables.hpp>
 #include <crankloop/tables/records.hpp>
+#include <crankloop/tables/reluctor_tables.hpp>
 #include <crankloop/tables/trigger_tables.hpp>
 #include <crankloop/tables/valve_tables.hpp>
 
@@ -101,6 +102,7 @@ enum class SectionRows : std::uint8_t {
   BEHIND(fault_tracks, TriggerTrack, wheel_faults, N::faulty_wheels)                               \
   BEHIND(wheel_fault_rules, WheelFaultRule<Real>, wheel_faults, N::faulty_wheels)                  \
   SECTION(wheel_faults, WheelFaultRules<Real>, one, N::faulty_wheels)                              \
+  SECTION(reluctor, ReluctorTable<Real>, one, N::reluctor)                                         \
   SECTION(drive, Drive<Real>, one, true)
 
 /// The entries of the list as types, each named like its section.

@@ -77,6 +77,8 @@ CRANKLOOP_MEMBERS(TriggerTrack, edges, edge_count, on_crank, starts, train, inve
 CRANKLOOP_MEMBERS(TriggerWheels, wheel, count)
 CRANKLOOP_MEMBERS_OF(WheelFaultRule, track, from, until, wheel, mask, inverted, stuck, below, seed, pulse)
 CRANKLOOP_MEMBERS_OF(WheelFaultRules, fault, count)
+CRANKLOOP_MEMBERS_OF(ReluctorCell, c)
+CRANKLOOP_MEMBERS_OF(ReluctorTable, starts, on_crank, in_use, watchdog, cells, arm, least, hysteresis, at)
 
 #undef CRANKLOOP_TIED
 #undef CRANKLOOP_MEMBERS

@@ -23,7 +23,7 @@ struct TickOptions {
 };
 
 /// Maximum number of segments of a grid: 20 in every degree.
-inline constexpr std::size_t kMaxGasSegments = 20 * kDegreesPerCycle;
+inline constexpr std::size_t kMaxGasSegments = std::size_t{20} * kDegreesPerCycle;
 
 /// Where to build each section; null = leave it out. Pressures need a gas_grid, gas torques a torque_grid, cut_torque a
 /// cut_grid; each has room for `gas_capacity` segments. A gas torque needs its segments, lift curves their segments and

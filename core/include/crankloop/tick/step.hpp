@@ -44,20 +44,21 @@ template <class Real, class S>
     if constexpr (detail::Needs<S>::crank_dynamics) {
       Real mean_pressure_Pa[S::cylinders.capacity] = {};
       detail::TorqueStep<Real, S> step(tables, state_, output_);
-      step.read_torque(detail::cut_cylinders_of(*tables.drive, state_, 0));
+      step.read_torque(detail::cut_cylinders_of(state_, 0));
       step.read_given_pressures(mean_pressure_Pa);
       step.start_crank();
       step.remember_work();
     } else {
       detail::CrankTurn<Real, S> crank{};
       crank.jumped = true;
-      if constexpr (detail::Needs<S>::lack) crank.cut_cylinders = detail::cut_cylinders_of(*tables.drive, state_, 0);
+      if constexpr (detail::Needs<S>::lack) crank.cut_cylinders = detail::cut_cylinders_of(state_, 0);
       detail::run_mechanisms_apart(tables, state_, output_, crank);
     }
     output_ = Output{};
   }
   if constexpr (detail::Needs<S>::elastic_valves)
     detail::ElasticValves<Real, S>(tables, state_, *this, output_).start();
+  if constexpr (S::controller_names && S::walls) output_.coolant_K = tables.gas_walls->coolant_K;
   return {};
 }
 
@@ -87,7 +88,11 @@ template <class Real, class S>
   using N = Needs<S>;
   std::uint32_t faults = 0;
   if constexpr (N::misfire_of_table && !N::crank_dynamics) {
-    if (!crank.has_jumped()) pass_cycles(tables, state, crank.turned);
+    if (crank.has_jumped()) {
+      note_cycles(tables, state);
+    } else {
+      pass_cycles(tables, state, crank.turned);
+    }
   }
   if constexpr (N::gas && N::crank_dynamics) {
     const auto once_turned = [&] { faults |= breathe(tables, state, work, out, input, crank); };
@@ -134,6 +139,7 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
   if constexpr (detail::Needs<S>::any_triggers) faults |= detail::read_triggers(tables, state_, output_, before, crank);
   if constexpr (detail::Needs<S>::faulty_wheels)
     faults |= detail::read_faulty_triggers(tables, state_, output_, input.wheel_faults, before, crank);
+  if constexpr (detail::Needs<S>::reluctor) faults |= detail::sample_reluctor(tables, state_, output_, before, crank);
   if constexpr (S::bad_input_count) detail::count_bad_input(state_, faults);
   CRANKLOOP_ASSERT(detail::within_magnitude(state_.speed_rad_s, tables.drive->speed_limit_rad_s));
   output_.faults = faults;
@@ -153,6 +159,7 @@ template <class Real, class S>
       return refuse("state.speed_rad_s", Reason::out_of_range);
   }
   state_ = state;
+  if constexpr (detail::Needs<S>::misfire_of_table) detail::note_cycles(*tables_, state_);
   if constexpr (detail::Needs<S>::elastic_valves) {
     detail::ElasticValves<Real, S> valves(*tables_, state_, *this, output_);
     valves.remember();

@@ -38,7 +38,7 @@ CRANKLOOP_API uint32_t crankloop_version(void);
 
 enum { CRANKLOOP_MAX_CYLINDERS = 16, CRANKLOOP_MAX_TRAINS = 4, CRANKLOOP_MAX_CAM_EXPONENTS = 8 };
 enum { CRANKLOOP_MAX_TRIGGER_WHEELS = 8, CRANKLOOP_MAX_TOOTH_GAPS = 8, CRANKLOOP_MAX_LISTED_MISFIRES = 32 };
-enum { CRANKLOOP_MAX_WHEEL_FAULTS = 16 };
+enum { CRANKLOOP_MAX_WHEEL_FAULTS = 16, CRANKLOOP_MAX_FLOW_POINTS = 16 };
 
 /* ---- answers ----------------------------------------------------------------------------------------------------- */
 
@@ -71,7 +71,8 @@ enum {
   CRANKLOOP_NOT_CREATED,
   CRANKLOOP_ALREADY_CREATED,
   CRANKLOOP_UNKNOWN_NAME,
-  CRANKLOOP_TOO_MUCH_HEAT
+  CRANKLOOP_TOO_MUCH_HEAT,
+  CRANKLOOP_UNSTABLE
 };
 
 typedef struct crankloop_status {
@@ -137,7 +138,8 @@ enum {
   CRANKLOOP_PRESSURE_NONE,
   CRANKLOOP_PRESSURE_ANGLE_TABLE,
   CRANKLOOP_PRESSURE_VOLUME_TABLE,
-  CRANKLOOP_PRESSURE_WIEBE
+  CRANKLOOP_PRESSURE_WIEBE,
+  CRANKLOOP_PRESSURE_GAS /* refused where a ready-made engine has no gas exchange */
 };
 
 typedef struct crankloop_diagram_point {
@@ -313,6 +315,108 @@ typedef struct crankloop_wheel_fault {
   int32_t noise_seed;
 } crankloop_wheel_fault;
 
+/* Where cam and follower of a train touch. No ready-made engine works out their stress or friction. */
+typedef struct crankloop_cam_contact {
+  double width_m; /* 0: not known */
+  double friction_ratio;
+  double cam_Pa;
+  double cam_poisson_ratio;
+  double follower_Pa;
+  double follower_poisson_ratio;
+} crankloop_cam_contact;
+
+enum { CRANKLOOP_PORT_NONE, CRANKLOOP_PORT_INTAKE, CRANKLOOP_PORT_EXHAUST };
+
+typedef struct crankloop_port {
+  double seat_diameter_m;
+  double flow_lift_ratio[CRANKLOOP_MAX_FLOW_POINTS];
+  double flow_ratio[CRANKLOOP_MAX_FLOW_POINTS];
+  int32_t port; /* CRANKLOOP_PORT_... */
+  int32_t flow_count;
+} crankloop_port;
+
+typedef struct crankloop_runner {
+  double length_m; /* 0: none */
+  double diameter_m;
+  double loss_ratio;
+} crankloop_runner;
+
+typedef struct crankloop_crevice {
+  double volume_ratio; /* 0: none */
+  double blow_by_m2;   /* 0: tight */
+} crankloop_crevice;
+
+typedef struct crankloop_walls {
+  double capacity_J_K; /* 0: fixed at wall_K */
+  double to_coolant_W_K;
+  double coolant_K;
+  double intake_W_K;
+  double exhaust_W_K;
+  double manifold_K; /* 0: ambient_K */
+} crankloop_walls;
+
+typedef struct crankloop_charge_burn {
+  double spark_to_start_deg;
+  double reference_rad_s;
+  double reference_K;
+  double reference_Pa;
+  double reference_burned_ratio;
+  double reference_excess_air_ratio;
+  int32_t in_use;
+} crankloop_charge_burn;
+
+/* Gas exchange through the valves; pressures are absolute. */
+typedef struct crankloop_gas {
+  double intake_m3;
+  double exhaust_m3;
+  double throttle_m2;
+  double throttle_closed_m2;
+  double throttle_ratio[CRANKLOOP_MAX_FLOW_POINTS];
+  double throttle_area_ratio[CRANKLOOP_MAX_FLOW_POINTS];
+  double outlet_m2;
+  double ambient_Pa;
+  double back_Pa; /* 0: ambient_Pa */
+  double ambient_K;
+  double exhaust_K;
+  double wall_K;
+  double wall_heat_ratio;
+  double fuel_kg;
+  double excess_air_ratio; /* 0: fuel_kg */
+  double heating_value_J_kg;
+  double combustion_efficiency;
+  double air_fuel_ratio;
+  double latch_deg;
+  double burn_start_deg;
+  double burn_duration_deg;
+  double wiebe_m;
+  double second_ratio;
+  double second_m;
+  double second_duration_ratio;
+  double octane_number; /* 0: none */
+  crankloop_crevice crevice;
+  crankloop_runner intake_runner;
+  crankloop_runner exhaust_runner;
+  crankloop_walls walls;
+  crankloop_charge_burn charge_burn;
+  crankloop_port ports[CRANKLOOP_MAX_TRAINS];
+  int32_t throttle_count;
+} crankloop_gas;
+
+/* A variable reluctance sensor at a trigger wheel, and its comparator. No ready-made engine samples it. */
+typedef struct crankloop_reluctor {
+  double gain_V_s; /* peak voltage at a tooth by the wheel's speed in rad/s */
+  double reach_ratio;
+  double gap_lobe_ratio;
+  double runout_ratio;
+  double runout_at_deg; /* of the wheel's turn, from the first rising edge */
+  double arm_ratio;     /* comparator */
+  double least_V;
+  double hysteresis_V;
+  double watchdog_s;
+  int32_t wheel;    /* counted from 0; -1: no sensor */
+  int32_t reversed; /* its wires */
+} crankloop_reluctor;
+
 /* The structs above keep their size; what comes later stands at the end of this one. */
 typedef struct crankloop_definition {
   crankloop_crank crank;
@@ -329,6 +433,9 @@ typedef struct crankloop_definition {
   crankloop_misfire misfires[CRANKLOOP_MAX_CYLINDERS];
   int32_t wheel_fault_count;
   crankloop_wheel_fault wheel_faults[CRANKLOOP_MAX_WHEEL_FAULTS];
+  crankloop_cam_contact contacts[CRANKLOOP_MAX_TRAINS]; /* of each train's cam */
+  crankloop_gas gas;                                    /* read where pressure.source is CRANKLOOP_PRESSURE_GAS */
+  crankloop_reluctor reluctor;
 } crankloop_definition;
 
 /* Fills in every default. Begin with this: a zeroed definition has other values. */

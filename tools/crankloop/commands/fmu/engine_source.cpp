@@ -24,8 +24,11 @@ std::string bytes_of(const std::string& path, std::size_t most) {
   return std::move(file.bytes);
 }
 
-/// Whether a parameter may be set: a number that determines no other structure.
+/// Whether a parameter may be set: a number that determines no other structure, and that an FMU steps by.
 bool is_parameter(const SectionValues& section, const Value& value) {
+  const std::string_view name = value.key->name;
+  for (const char* of_surge : {"surge_damping_ratio", "spring_active_g", "inner_spring_N_per_mm", "inner_spring_g"})
+    if (name == of_surge) return false;
   return value.used && value.key->kind == Kind::number && section.kind != "engine";
 }
 

@@ -104,6 +104,7 @@ class FileSupply {
         in.excess_air_ratio[k] = gas.excess_air_ratio;
         in.burn_start_deg[k] = gas.burn_start_deg;
         in.burn_duration_deg[k] = gas.burn_duration_deg;
+        if constexpr (Scene::controller_names) in.spark_advance_deg[k] = -gas.burn_start_deg;
       }
     }
   }

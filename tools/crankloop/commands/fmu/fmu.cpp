@@ -131,7 +131,8 @@ int run_fmu(const Arguments& arguments) {
   std::vector<ZipEntry> resources = resources_of(engine, tick_us);
   Output out(output);
   const Packed packed{engine, tick_us};
-  const fmi::Title title{identifier_of(output), engine.name()};
+  const fmi::Title title{identifier_of(output), engine.name(),
+                         springs_surge(engine) ? "surge of the valve springs, which follow their valves" : ""};
   const auto version = two ? fmi::Version::two : fmi::Version::three;
   std::vector<ZipEntry> entries = with_real(real, [&](auto zero) {
     using Real = decltype(zero);

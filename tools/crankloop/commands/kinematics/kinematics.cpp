@@ -179,7 +179,7 @@ constexpr Option kOptions[] = {
            "error",
            "table"),
     choice("--real", "float|double", "arithmetic of the tick, and digits of the result", "double"),
-    text("--csv", "F", "file for the table, and a summary on standard output: extremes, series; else the table there"),
+    text("--csv", "F", "file for the table; standard output then shows extremes and series instead of it"),
     text("--plot", "F.svg", "SVG file with a picture of the turn, and the summary; opens in any browser"),
 };
 

@@ -143,7 +143,7 @@ constexpr Option kOptions[] = {
     number("--rpm", "N", above(0).up_to(100000),
            "engine speed in rpm, for velocity in m/s and acceleration in m/s^2 beside mm/rad and mm/rad^2"),
     number("--step-deg", "D", from(0.001).up_to(360), "cam degrees between rows", "1"),
-    text("--csv", "F", "file for the table, and a summary on standard output; else the table there"),
+    text("--csv", "F", "file for the table; standard output then shows a summary instead of it"),
     text("--plot", "F.svg", "SVG file with a picture: lift, velocity, acceleration, jerk, rocker ratio, flow area"),
 };
 

@@ -17,6 +17,7 @@
 #include "../../files/number.hpp"
 #include "../../files/output_file.hpp"
 #include "../../files/units.hpp"
+#include "../../loops/fault_option.hpp"
 #include "../../loops/input_option.hpp"
 #include "../../signals/signal_dump.hpp"
 #include "live_loop.hpp"
@@ -46,6 +47,7 @@ LiveRequest request_of(const Arguments& arguments, const EngineFile& file) {
   request.burn_duration_deg = gas.burn_duration_deg;
   request.at_start.external_torque_Nm = arguments.number("--external-torque-Nm");
   request.at_start.starter = arguments.has("--starter") ? 1 : 0;
+  request.wheel_faults = fault_bits(arguments, file.definition());
   request.real_time.priority = arguments.whole_number("--priority");
   if (arguments.has("--cpu")) request.real_time.cpu = arguments.whole_number("--cpu");
 
@@ -131,7 +133,7 @@ constexpr Option kOptions[] = {
            "timeout of the controller: after N ms without a write, fuel, load and starter are off", "100"),
     number("--load-ratio", "Q", from(0).up_to(2),
            "0 = motored, 1 = the pressure diagram as it is; until a controller sets it", "0"),
-    kThrottle,
+    number(kThrottle.name, kThrottle.value, kThrottle.range, kThrottle.meaning, "0"),
     kFuel,
     kLambda,
     kBurnStart,
@@ -140,6 +142,7 @@ constexpr Option kOptions[] = {
     flag("--starter", "starter engaged; until a controller sets it"),
     number("--from-rpm", "N", from(-100000).up_to(100000), "speed at the start in rpm", "0"),
     kMisfire,
+    kFaultBits,
     choice("--real", "float|double", "arithmetic of the tick", "float"),
     whole_number("--cpu", "N", from(0).up_to(1023), "processor to run on, counted from 0; default any"),
     whole_number("--priority", "P", from(0).up_to(99),

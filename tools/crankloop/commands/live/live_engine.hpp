@@ -39,7 +39,8 @@ class LiveEngine {
  public:
   using Engine = crankloop::Engine<Real, S>;
 
-  LiveEngine(const EngineFile& file, const LiveRequest& request) : burn_duration_deg_{request.burn_duration_deg} {
+  LiveEngine(const EngineFile& file, const LiveRequest& request)
+      : burn_duration_deg_{request.burn_duration_deg}, wheel_faults_{request.wheel_faults} {
     const Status built = tables_->build(with_springs_that_follow(file.definition()), {request.tick_s});
     if (!built.ok()) throw explain_tabulate(file, built, request.tick_s, {});
     const Status ready = engine_.init(tables_->tables());
@@ -50,7 +51,8 @@ class LiveEngine {
     shape_ = detail::shape_of<Real, S>(tables_->tables());
   }
 
-  /// As in the block's fixed part: the same for all cylinders, with the definition's phasing and surroundings.
+  /// As in the block's fixed part: the same for all cylinders, with the definition's phasing and surroundings, and the
+  /// faults of the command line.
   void set(const port::LiveInputs& in) noexcept {
     input_ = {};
     if constexpr (detail::Needs<S>::gas) {
@@ -67,6 +69,7 @@ class LiveEngine {
     input_.external_torque_Nm = as<Real>(in.external_torque_Nm);
     input_.starter = in.starter;
     input_.cut_cylinders = in.cut_cylinders;
+    input_.wheel_faults = wheel_faults_;
   }
   /// All of the scene's, in the order of scene_inputs().
   void set(const port::LiveNumbers& numbers) noexcept { set_inputs(input_, shape_, numbers.data()); }
@@ -112,6 +115,7 @@ class LiveEngine {
   using Tables = TableStorage<Real, S, kMaxGasSegments>;  // room for the finest gas grid there is
 
   double burn_duration_deg_;
+  std::uint32_t wheel_faults_;
   detail::EngineShape shape_;
   std::unique_ptr<Tables> tables_ = std::make_unique<Tables>();
   Engine engine_;

@@ -105,6 +105,7 @@ class LiveRun {
     sums_.torque_Nm += published_.mean_torque_Nm;
     figures_.faulty_ticks += published_.faults != 0 ? 1 : 0;
     figures_.faults |= published_.faults;
+    figures_.wheel_faults |= engine_.output().wheel_faults_on;
     figures_.work.add(periodic.done());
   }
 
@@ -112,14 +113,16 @@ class LiveRun {
   void begin_trace() {
     if (ends_.trace == nullptr) return;
     ends_.trace->speed(0, request_.start_rad_s * kRpmPerRad_s);
-    for (std::uint32_t w = 0; w < wheels_; ++w) ends_.trace->level(0, w, level_before(engine_.output().trigger[w]));
+    for (std::uint32_t w = 0; w < wheels_; ++w)
+      ends_.trace->level(0, w, level_before(engine_.output().faulty_trigger[w]));
   }
 
-  /// Of a tick that is due at `due_ns` and begins at `begin_ns` of the model's time.
+  /// As a controller sees them, with their faults. Of a tick that is due at `due_ns` and begins at `begin_ns` of the
+  /// model's time.
   void publish_edges(std::int64_t due_ns, std::int64_t begin_ns) {
     const std::int64_t ring_ns = due_ns + request_.lead_ticks * request_.tick_ns;
     figures_.unlisted_edges +=
-        each_edge_by_time(engine_.output(), wheels_, request_.tick_ns,
+        each_edge_by_time(engine_.output().faulty_trigger, wheels_, request_.tick_ns,
                           [&](std::int64_t time_ns, std::uint32_t wheel, std::uint32_t level) {
                             ring_.write(static_cast<std::uint64_t>(ring_ns + time_ns), wheel, level);
                             if (ends_.trace != nullptr) ends_.trace->level(begin_ns + time_ns, wheel, level != 0);

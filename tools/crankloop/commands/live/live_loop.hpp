@@ -24,10 +24,11 @@ struct LiveRequest {
   std::int64_t tick_ns = 0;  ///< the same
   std::uint64_t ticks = 0;
   double start_rad_s = 0;
-  port::LiveInputs at_start;     ///< until a controller writes inputs
-  double burn_duration_deg = 0;  ///< of an engine with gas exchange; no input
-  std::int64_t patience_ns = 0;  ///< timeout of the controller
-  std::int64_t lead_ticks = 1;   ///< by which edges are due after their time in the tick
+  port::LiveInputs at_start;       ///< until a controller writes inputs
+  double burn_duration_deg = 0;    ///< of an engine with gas exchange; no input
+  std::uint32_t wheel_faults = 0;  ///< input of that name; no input of the block's fixed part
+  std::int64_t patience_ns = 0;    ///< timeout of the controller
+  std::int64_t lead_ticks = 1;     ///< by which edges are due after their time in the tick
   port::RealTimeWish real_time;
 };
 
@@ -57,7 +58,8 @@ struct LiveFigures {
   double mean_speed_rad_s = 0;  ///< over the ticks, as the two below
   double mean_torque_Nm = 0;    ///< of gas and masses
   std::uint64_t faulty_ticks = 0;
-  std::uint32_t faults = 0;  ///< all fault bits that occurred
+  std::uint32_t faults = 0;        ///< all fault bits that occurred
+  std::uint32_t wheel_faults = 0;  ///< bit i: fault i of the wheels was on
 
   double intake_Pa = 0;       ///< at the end, of an engine with gas exchange
   double trapped_air_kg = 0;  ///< likewise

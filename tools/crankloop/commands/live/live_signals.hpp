@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <crankloop/fmi/description.hpp>
+#include <crankloop/fmi/name.hpp>
 #include <crankloop/variable_values.hpp>
 
 #include "../../files/units.hpp"
@@ -28,6 +28,11 @@ void each_signal(Visit&& visit, const crankloop::Output<Real, S>& out, const Sta
   visit(real("cam_deg", "0 to below 360: half the crank's, without phasers"), crank_deg / 2);
   for (std::uint32_t w = 0; w < shape.wheels; ++w)
     visit(detail::truth("trigger[#].level", "Level of the signal").at(w), static_cast<double>(out.trigger[w].level));
+  for (std::uint32_t w = 0; w < shape.wheels; ++w)
+    visit(detail::truth("faulty_trigger[#].level", "As a controller sees it").at(w),
+          static_cast<double>(out.faulty_trigger[w].level));
+  visit(detail::whole("wheel_faults_on", "Bit i-1: fault i of the wheels is on"),
+        static_cast<double>(out.wheel_faults_on));
   for (std::uint32_t k = 0; k < shape.cylinders; ++k) {
     if constexpr (detail::Needs<S>::gas) {
       visit(real("cylinder_gas[#].pressure_Pa", "Absolute pressure").at(k),
@@ -50,11 +55,21 @@ void each_signal(Visit&& visit, const crankloop::Output<Real, S>& out, const Sta
     visit(real("exhaust.pressure_Pa", "In the exhaust manifold"),
           static_cast<double>(out.manifold[kExhaust].pressure_Pa));
   }
+  if constexpr (S::controller_names) {
+    visit(real("map_Pa", "In the intake manifold"), static_cast<double>(out.manifold[kIntake].pressure_Pa));
+    visit(real("intake_air_K", "In the intake manifold"), static_cast<double>(out.manifold[kIntake].temperature_K));
+    visit(real("tps_ratio", "Throttle"), static_cast<double>(state.throttle_ratio));
+    for (std::uint32_t k = 0; k < shape.cylinders; ++k)
+      visit(real("lambda[#]", "Of a cylinder's last cycle").at(k),
+            static_cast<double>(out.gas_cycle[k].excess_air_ratio));
+    visit(real("coolant_K", "0: none"), static_cast<double>(out.coolant_K));
+  }
   visit(detail::whole("faults", "The tick's fault bits"), static_cast<double>(out.faults));
 }
 
-/// Wheels, cylinders, valves, phasers, and six more.
-static_assert(kMaxTriggerWheels + kMaxCylinders + kMaxTrains * kMaxCylinders + kMaxTrains + 6 <= port::kMaxLiveNumbers);
+/// Wheels twice, cylinders twice, valves, phasers, and eleven more.
+static_assert(2 * kMaxTriggerWheels + 2 * kMaxCylinders + kMaxTrains * kMaxCylinders + kMaxTrains + 11 <=
+              port::kMaxLiveNumbers);
 
 template <class Real, class S>
 [[nodiscard]] std::vector<std::string> signal_names(const detail::EngineShape& shape) {

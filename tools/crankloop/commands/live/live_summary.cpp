@@ -122,6 +122,7 @@ void add_engine(Summary& s, const LiveFigures& f) {
   }
   s.line("faulty_ticks", f.faulty_ticks);
   s.line("faults", f.faults);
+  if (f.wheel_faults != 0) s.line("wheel_faults", f.wheel_faults, "", "bit i-1: the file's i-th [fault NAME] was on");
 }
 
 void add_edges(Summary& s, const LiveFigures& f) {

@@ -26,8 +26,8 @@ namespace {
 constexpr double kMaxPoints = 10000;
 
 constexpr const char* kSpeeds = "--rpm";
-constexpr Option kBestSpark =
-    flag("--mbt", "each point at the burn start of its best torque, of -60 to 20 deg within 0.5: twelve runs of it");
+constexpr Option kBestSpark = flag(
+    "--mbt", "each point at the burn start of its best torque, found between -60 and 20 deg to 0.5 deg by twelve runs");
 
 /// "800:6000:14"
 Grid grid(const Arguments& arguments, const std::string& name, Range range) {
@@ -172,7 +172,7 @@ const Command kMap{
     "torque, air charge and mean pressures of an engine with gas exchange, over speed and throttle or fuel",
     "FILE --rpm FROM:TO:N --throttle FROM:TO:N [--lambda L | --fuel-mg M] [--burn-start-deg A | --mbt] "
     "[--tick-us T] [--threads N] [--csv F] [--report F.html] [--shard K/N --part F | --join F...]\n"
-    "       FILE --rpm FROM:TO:N --fuel-mg FROM:TO:N [--throttle R] [...]",
+    "       crankloop map FILE --rpm FROM:TO:N --fuel-mg FROM:TO:N [--throttle R] [...]",
     "crankloop map four_2000.ini --rpm 1000:6000:6 --throttle 0:1:6 --csv map.csv --report map.html",
     1,
     kOptions,

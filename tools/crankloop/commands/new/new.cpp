@@ -390,7 +390,7 @@ constexpr Option kOptions[] = {
     choice("--type", "si|diesel|tractor", "spark ignition, car and truck diesel, or tractor diesel", "si"),
     choice("--valves", "2|4", "valves of a cylinder", "4"),
     flag("--gas", "pressure from gas exchange instead of a diagram: [gas], ports and seats of the valves"),
-    number("--boost", "R", from(1).up_to(5), "pressure in the intake by ambient, at full load", "1"),
+    number("--boost", "R", from(1).up_to(5), "intake pressure over ambient pressure, at full load", "1"),
     text("--name", "TEXT", "name of the engine in reports", "new engine"),
     number("--rated-rpm", "N", above(0).up_to(100000), "rated speed in rpm"),
     number("--compression-ratio", "E", above(1).up_to(100), "geometric"),

@@ -148,6 +148,10 @@ Summary summary(const Redline& redline) {
   add_onset(s, "separation_onset", given.separation, redline.range);
   add_onset(s, "bounce_onset", given.bounce, redline.range);
   add_onset(s, "seating_limit", given.seating, redline.range);
+  if (redline.following) {
+    add_onset(s, "separation_onset_without_surge", redline.following->separation, redline.range);
+    add_onset(s, "bounce_onset_without_surge", redline.following->bounce, redline.range);
+  }
   if (given.rigid.crank_rad_s > 0) {
     s.line("static_redline", given.rigid.crank_rad_s * kRpmPerRad_s, "rpm", static_in_words(redline));
   } else {
@@ -213,12 +217,20 @@ SpeedRange range_of(const Arguments& arguments) {
   return range;
 }
 
+/// The train with springs that follow their valve.
+Sweep sweep_following(const Redline& redline, const std::function<void()>& after_speed) {
+  Valve valve = redline.valve.valve();
+  valve.surge_modes = 0;
+  return sweep_speeds(redline.valve.with(valve), redline.range, 1, after_speed, redline.limits);
+}
+
 /// Of the train as the file has it.
 Summary figures_of_redline(const Arguments& arguments, const EngineFile& file) {
   const SpeedRange range = range_of(arguments);
   const LoneValve valve(file, train_name(arguments, file));
   Redline redline{valve, range, nullptr, {}, "", limits_of(arguments, valve)};
   redline.sweeps.push_back(sweep_speeds(valve, range, 1, {}, redline.limits));
+  if (redline.surges()) redline.following = sweep_following(redline, {});
   return summary(redline);
 }
 
@@ -234,7 +246,8 @@ std::string command_line(const Arguments& arguments, const Redline& redline, con
 /// The trains on all processors.
 void sweep_all(Redline& redline) {
   const std::size_t count = redline.varied != nullptr ? redline.varied->trains.size() : 1;
-  Progress progress("searching", static_cast<double>(count) * speeds_of(redline.range));
+  const std::size_t besides = redline.surges() ? 1 : 0;
+  Progress progress("searching", static_cast<double>(count + besides) * speeds_of(redline.range));
   std::mutex one_at_a_time;
   const auto after_speed = [&] {
     const std::lock_guard<std::mutex> lock(one_at_a_time);
@@ -242,6 +255,10 @@ void sweep_all(Redline& redline) {
   };
   redline.sweeps.resize(count);
   const auto sweep = [&](std::size_t i) {
+    if (i == count) {
+      redline.following = sweep_following(redline, after_speed);
+      return;
+    }
     if (redline.varied == nullptr) {
       redline.sweeps[i] = sweep_speeds(redline.valve, redline.range, 1, after_speed, redline.limits);
       return;
@@ -251,7 +268,7 @@ void sweep_all(Redline& redline) {
     redline.sweeps[i].value = train.value;
     redline.sweeps[i].as_given = train.as_given;
   };
-  run_in_parallel(processors(), count, sweep, [] {});
+  run_in_parallel(processors(), count + besides, sweep, [] {});
 }
 
 int run_redline(const Arguments& arguments) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@ struct Redline {
   std::vector<Sweep> sweeps;   ///< of the varied trains in their order, else one
   std::string command_line;
   RedlineLimits limits;
+  std::optional<Sweep> following{};  ///< the train as given, but for springs that follow their valve: where they surge
+
+  /// Whether they do, of the one train that is shown.
+  [[nodiscard]] bool surges() const noexcept { return varied == nullptr && valve.valve().surge_modes > 0; }
 
   [[nodiscard]] const Sweep& as_given() const noexcept {
     for (const Sweep& sweep : sweeps) {
@@ -37,6 +42,7 @@ struct Redline {
   [[nodiscard]] double shown_to_rpm() const {
     double last_rpm = range.from_rpm + 1.0;
     for (const Sweep& sweep : sweeps) last_rpm = std::max(last_rpm, shown_to_rpm(sweep));
+    if (following) last_rpm = std::max(last_rpm, shown_to_rpm(*following));
     return last_rpm;
   }
 

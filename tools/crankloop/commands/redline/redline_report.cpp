@@ -40,7 +40,7 @@ int shade(std::size_t i, std::size_t count) {
   return 1 + static_cast<int>(i * (report::kRamp - 1) / (count - 1));
 }
 
-/// One curve, or one for each factor.
+/// One curve, with one beside it of springs that follow where they surge; or one for each factor.
 Plot plot_over_speed(const Redline& redline, const std::string& title, const Axis& y, Value value) {
   Plot plot = plot_of(title, axis_of("Engine speed", "rpm"), y);
   plot.y.include_zero = true;
@@ -52,6 +52,11 @@ Plot plot_over_speed(const Redline& redline, const std::string& title, const Axi
     plot.names_at_ends = true;
     plot.series.back().style.ramp = shade(plot.series.size() - 1, redline.sweeps.size());
     plot.series.back().style.bold = sweep.as_given;
+  }
+  if (redline.following) {
+    plot.series.back().name = "springs surge";
+    plot.series.push_back(
+        over_speed(*redline.following, "springs follow", value, redline.shown_to_rpm(*redline.following)));
   }
   return plot;
 }
@@ -213,6 +218,10 @@ report::Page redline_page(const Redline& redline) {
        "open, on the train"},
       {"Seated", report::format_number(seated_frequency_rad_s(body) * kTurnsPerRad, 4), "Hz", "on train and seat"},
       {"Largest theoretical lift", report::format_number(redline.valve.lift().largest_lift_m() * 1e3, 5), "mm", ""}};
+  if (redline.following) {
+    page.facts.insert(page.facts.begin() + 1, onset("Separation without surge", redline.following->separation,
+                                                    "if springs followed the valve"));
+  }
   if (redline.varied != nullptr) page.sections.push_back(onset_section(redline));
   page.sections.push_back(speed_section(redline));
   page.sections.push_back(method_section(redline));

@@ -28,20 +28,6 @@ SpeedResult run_at(ValveLoop<double>& loop, const LoneValve& valve, int speed_rp
   return result;
 }
 
-template <class Happens, class RunAt>
-Onset onset_of(const std::vector<SpeedResult>& sweep, const Happens& happens, const RunAt& run_at) {
-  const auto first = std::find_if(sweep.begin(), sweep.end(), happens);
-  if (first == sweep.end()) return {};
-  if (first == sweep.begin()) return {true, true, first->speed_rpm};
-  int without = (first - 1)->speed_rpm;
-  int with = first->speed_rpm;
-  while (with - without > 1) {
-    const int middle = without + (with - without) / 2;
-    (happens(run_at(middle)) ? with : without) = middle;
-  }
-  return {true, false, with};
-}
-
 }  // namespace
 
 SpeedRange speed_range(int from_rpm, int to_rpm) noexcept {
@@ -52,31 +38,76 @@ SpeedRange speed_range(int from_rpm, int to_rpm) noexcept {
   return {from_rpm, to_rpm, (to_rpm - from_rpm + kMaxSteps - 1) / kMaxSteps};
 }
 
+SpeedSearch::SpeedSearch(const LoneValve& valve, const SpeedRange& range, double factor, const RedlineLimits& limits)
+    : valve_{valve},
+      range_{range},
+      limits_{limits},
+      loop_(valve, tick_for(valve), {}),
+      next_rpm_{std::min(range.from_rpm, range.to_rpm)} {
+  sweep_.factor = factor;
+  sweep_.tick_s = tick_for(valve);
+  sweep_.max_lift_m = limits.lift_m > 0 ? limits.lift_m : kMaxLiftRatio * std::max(0.0, valve.lift().largest_lift_m());
+  sweep_.rigid = valve.static_redline();
+}
+
+SpeedResult SpeedSearch::run(int speed_rpm) {
+  SpeedResult result = run_at(loop_, valve_, speed_rpm);
+  result.spring_margin = sweep_.rigid.margin(speed_rpm * kRad_sPerRpm);
+  result.is_possible = result.cycle.largest_lift_m <= sweep_.max_lift_m;
+  return result;
+}
+
+bool SpeedSearch::happens(const SpeedResult& result) const noexcept {
+  switch (part_) {
+    case Part::separation:
+      return result.cycle.separations > 0;
+    case Part::bounce:
+      return result.cycle.bounces > 0 && result.cycle.bounce_height_m >= limits_.bounce_m;
+    default:
+      return result.cycle.seating_speed_m_s > limits_.seating_m_s;
+  }
+}
+
+Onset& SpeedSearch::onset() noexcept {
+  return part_ == Part::separation ? sweep_.separation : part_ == Part::bounce ? sweep_.bounce : sweep_.seating;
+}
+
+/// Of an onset: takes its bracket from the sweep, and goes on where there is nothing to narrow down.
+void SpeedSearch::begin_part(Part part) {
+  for (part_ = part; part_ != Part::ended; part_ = static_cast<Part>(static_cast<int>(part_) + 1)) {
+    const auto first =
+        std::find_if(sweep_.at.begin(), sweep_.at.end(), [this](const SpeedResult& result) { return happens(result); });
+    if (first == sweep_.at.end()) continue;
+    onset() = {true, first == sweep_.at.begin(), first->speed_rpm};
+    without_rpm_ = onset().at_the_start ? first->speed_rpm : (first - 1)->speed_rpm;
+    if (onset().speed_rpm - without_rpm_ > 1) return;
+  }
+}
+
+SpeedResult SpeedSearch::step() {
+  if (part_ == Part::sweep) {
+    const SpeedResult result = run(next_rpm_);
+    sweep_.at.push_back(result);
+    const bool is_last = next_rpm_ >= range_.to_rpm;
+    next_rpm_ = std::min(next_rpm_ + range_.step_rpm, range_.to_rpm);
+    if (is_last) begin_part(Part::separation);
+    return result;
+  }
+  const int middle_rpm = without_rpm_ + (onset().speed_rpm - without_rpm_) / 2;
+  const SpeedResult result = run(middle_rpm);
+  (happens(result) ? onset().speed_rpm : without_rpm_) = middle_rpm;
+  if (onset().speed_rpm - without_rpm_ <= 1) begin_part(static_cast<Part>(static_cast<int>(part_) + 1));
+  return result;
+}
+
 Sweep sweep_speeds(const LoneValve& valve, const SpeedRange& range, double factor,
                    const std::function<void()>& after_speed, const RedlineLimits& limits) {
-  Sweep sweep;
-  sweep.factor = factor;
-  sweep.tick_s = tick_for(valve);
-  sweep.max_lift_m = limits.lift_m > 0 ? limits.lift_m : kMaxLiftRatio * std::max(0.0, valve.lift().largest_lift_m());
-  sweep.rigid = valve.static_redline();
-  ValveLoop<double> loop(valve, sweep.tick_s, {});
-  const auto run = [&](int speed_rpm) {
-    SpeedResult result = run_at(loop, valve, speed_rpm);
-    result.spring_margin = sweep.rigid.margin(speed_rpm * kRad_sPerRpm);
-    result.is_possible = result.cycle.largest_lift_m <= sweep.max_lift_m;
+  SpeedSearch search(valve, range, factor, limits);
+  while (search.part() != SpeedSearch::Part::ended) {
+    (void)search.step();
     if (after_speed) after_speed();
-    return result;
-  };
-  for (int rpm = range.from_rpm; rpm < range.to_rpm; rpm += range.step_rpm) sweep.at.push_back(run(rpm));
-  sweep.at.push_back(run(range.to_rpm));
-  sweep.separation = onset_of(
-      sweep.at, [](const SpeedResult& r) { return r.cycle.separations > 0; }, run);
-  sweep.bounce = onset_of(
-      sweep.at, [&](const SpeedResult& r) { return r.cycle.bounces > 0 && r.cycle.bounce_height_m >= limits.bounce_m; },
-      run);
-  sweep.seating = onset_of(
-      sweep.at, [&](const SpeedResult& r) { return r.cycle.seating_speed_m_s > limits.seating_m_s; }, run);
-  return sweep;
+  }
+  return search.sweep();
 }
 
 Valve varied(const Valve& valve, const std::string& option, double factor) {

@@ -3,6 +3,7 @@
 // What belongs here: the search and its results. What does not: how they are shown (redline.cpp, redline_report.cpp).
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -63,7 +64,36 @@ struct Sweep {
 
 /// Sweeps the range and narrows the onsets down: between the first speed of the sweep that has a separation of at least
 /// 1 um (a bounce of at least limits.bounce_m, a seating speed above limits.seating_m_s) and the one before. What comes
-/// and goes between two speeds of the sweep is not seen. `after_speed` is called after each speed that was run.
+/// and goes between two speeds of the sweep is not seen. A speed at a time, for those who show it while they wait.
+class SpeedSearch {
+ public:
+  enum class Part : std::uint8_t { sweep, separation, bounce, seating, ended };
+
+  /// The valve must outlive it.
+  SpeedSearch(const LoneValve& valve, const SpeedRange& range, double factor, const RedlineLimits& limits = {});
+
+  [[nodiscard]] Part part() const noexcept { return part_; }  ///< of the next speed
+  SpeedResult step();                                         ///< runs it; not when ended
+
+  [[nodiscard]] const Sweep& sweep() const noexcept { return sweep_; }  ///< whole when ended
+
+ private:
+  [[nodiscard]] SpeedResult run(int speed_rpm);
+  [[nodiscard]] bool happens(const SpeedResult& result) const noexcept;
+  [[nodiscard]] Onset& onset() noexcept;
+  void begin_part(Part part);
+
+  const LoneValve& valve_;
+  SpeedRange range_;
+  RedlineLimits limits_;
+  Sweep sweep_;
+  ValveLoop<double> loop_;
+  Part part_ = Part::sweep;
+  int next_rpm_;
+  int without_rpm_ = 0;  ///< the onset is above this
+};
+
+/// The search from its begin to its end. `after_speed` is called after each speed that was run.
 [[nodiscard]] Sweep sweep_speeds(const LoneValve& valve, const SpeedRange& range, double factor,
                                  const std::function<void()>& after_speed, const RedlineLimits& limits = {});
 

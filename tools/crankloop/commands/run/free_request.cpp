@@ -11,6 +11,7 @@
 #include "../../files/error.hpp"
 #include "../../files/number.hpp"
 #include "../../files/words.hpp"
+#include "../../loops/fault_option.hpp"
 #include "../../loops/input_option.hpp"
 #include "free_run.hpp"
 
@@ -29,24 +30,6 @@ std::uint32_t cut_cylinders(const std::string& text, const Layout& layout) {
     cut |= 1u << (cylinder - 1);
   }
   return cut;
-}
-
-/// "0,3": input bits of [fault NAME].
-std::uint32_t fault_bits(const std::string& text, const EngineDefinition& definition) {
-  std::uint32_t known = 0, bits = 0;
-  for (int i = 0; i < definition.wheel_fault_count; ++i)
-    if (definition.wheel_faults[i].input_bit >= 0) known |= 1u << definition.wheel_faults[i].input_bit;
-  for (const std::string_view one : split(text, ',')) {
-    const ParsedNumber number = parse_number(one, from(0).up_to(31), "");
-    if (!number.ok()) throw UsageError("--fault-bits: " + number.problem);
-    const auto bit = static_cast<std::uint32_t>(number.value);
-    if (static_cast<double>(bit) != number.value)
-      throw UsageError("--fault-bits: " + in_quotes(one) + " is not a whole number");
-    if ((known >> bit & 1u) == 0)
-      throw UsageError("--fault-bits: no [fault NAME] has input_bit = " + std::to_string(bit));
-    bits |= 1u << bit;
-  }
-  return bits;
 }
 
 /// The file's engine, with the brake of the command line.
@@ -88,10 +71,11 @@ std::string command_line(const Arguments& arguments, const EngineFile& file, con
 
 void require_options_that_fit(const Arguments& arguments) {
   const bool free = arguments.has("--free");
-  for (const char* option :
-       {"--machine-Nm", "--starter", "--from-rpm", "--seconds", "--cut", "--misfire", "--fault-bits", "--inputs"}) {
+  for (const char* option : {"--machine-Nm", "--starter", "--from-rpm", "--seconds", "--cut", "--misfire",
+                             "--fault-bits", "--inputs", "--analogue"}) {
     if (!free && arguments.has(option)) throw UsageError(std::string(option) + " is for a run with --free");
   }
+  if (free && arguments.has("--hash")) throw UsageError("--hash is for a run at constant speed, without --free");
   if (free && arguments.has("--rpm"))
     throw UsageError("--rpm is for a run at constant speed; with --free the speed begins at --from-rpm");
   if (free && arguments.has("--cycles"))
@@ -114,15 +98,16 @@ int run_free_by(const Arguments& arguments, const EngineFile& file, const GasOrd
   request.operation.starter = arguments.has("--starter");
   if (arguments.has("--cut"))
     request.operation.cut_cylinders = cut_cylinders(arguments.text("--cut"), definition.layout);
-  if (arguments.has("--fault-bits"))
-    request.operation.wheel_faults = fault_bits(arguments.text("--fault-bits"), definition);
+  request.operation.wheel_faults = fault_bits(arguments, definition);
   request.operation.schedule = schedule_of(arguments, file);
   request.real = arguments.text("--real");
   request.command_line = command_line(arguments, file, gas);
   for (std::string& line : tell_warnings(arguments, warnings_about_running_free(file, definition)))
     warnings.push_back(std::move(line));
   request.warnings = std::move(warnings);
-  Results results(arguments, {"--csv", "--report", "--vcd"});
+  Results results(arguments, {"--csv", "--report", "--vcd", "--analogue"});
+  if (results["--analogue"] != nullptr && definition.reluctor.wheel < 0)
+    throw InputError(file.path() + ": there is no [reluctor], so --analogue has nothing to write");
   run_free(file, definition, request, results);
   return kSuccess;
 }

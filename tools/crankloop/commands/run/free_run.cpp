@@ -11,6 +11,7 @@
 #include "../../engine_file/pressure_words.hpp"
 #include "../../files/csv.hpp"
 #include "../../files/number.hpp"
+#include "../../loops/analogue_log.hpp"
 #include "../../signals/signal_dump.hpp"
 
 namespace crankloop::program {
@@ -101,7 +102,7 @@ void take_signals(const FreeOutput<Real, S>& out, double tick_s, bool first, std
 
 template <class Real, class S>
 FreeFigures run_ticks(const EngineFile& file, const EngineDefinition& definition, const FreeRequest& request,
-                      TickTable<Real, S>* table, SignalDump* dump) {
+                      TickTable<Real, S>* table, SignalDump* dump, AnalogueLog<Real>* analogue) {
   const FreeOperation& operation = request.operation;
   ExactEngine exact;
   if (const Status refused = exact.init(definition); !refused.ok()) throw file.explain(refused);
@@ -114,6 +115,7 @@ FreeFigures run_ticks(const EngineFile& file, const EngineDefinition& definition
   for (const std::string& name : names_of_signals(file)) figures.signals.push_back({name});
   CycleRecorder recorder(figures.signals.size());
   Progress progress("running", static_cast<double>(figures.ticks));
+  Phase crank{};
   if (dump != nullptr) dump->number(0, 0, operation.from_rpm);
   for (std::uint64_t tick = 0; tick < figures.ticks; ++tick) {
     const FreeOutput<Real, S>& out = loop.step();
@@ -131,6 +133,10 @@ FreeFigures run_ticks(const EngineFile& file, const EngineDefinition& definition
       figures.gas.intake_Pa = static_cast<double>(out.manifold[kIntake].pressure_Pa);
       figures.gas.exhaust_Pa = static_cast<double>(out.manifold[kExhaust].pressure_Pa);
       figures.intake_kPa.take(now.time_s, figures.gas.intake_Pa / 1e3);
+    }
+    if (analogue != nullptr) {
+      analogue->take(loop.before().time_s, crank, out.crank, static_cast<Real>(before_rad_s), out.speed_rad_s);
+      crank = out.crank;
     }
     if (table != nullptr) table->row(loop, operation.tick_s, out);
     if (dump != nullptr) {
@@ -231,8 +237,10 @@ void run_and_write(const EngineFile& file, const EngineDefinition& definition, c
   std::optional<SignalDump> dump;
   if (Output* vcd = results["--vcd"]) dump.emplace(SignalDump::with_faults(file, *vcd, {"speed_rpm", "torque_Nm"}));
   if (Output* csv = results["--csv"]) table.emplace(*csv, names_of_signals(file), definition);
-  const FreeFigures figures =
-      run_ticks<Real, S>(file, definition, request, table ? &*table : nullptr, dump ? &*dump : nullptr);
+  std::optional<AnalogueLog<Real>> analogue;
+  if (Output* csv = results["--analogue"]) analogue.emplace(*csv, file, definition, request.operation.tick_s);
+  const FreeFigures figures = run_ticks<Real, S>(file, definition, request, table ? &*table : nullptr,
+                                                 dump ? &*dump : nullptr, analogue ? &*analogue : nullptr);
   if (dump) dump->finish(figures.end.time_s);
   if (Output* page = results["--report"])
     page->write(report::to_html(free_run_report({file, definition, request, figures})));

@@ -23,8 +23,10 @@
 #include "../../engine_report/engine_report.hpp"
 #include "../../files/csv.hpp"
 #include "../../files/words.hpp"
+#include "../../loops/fault_option.hpp"
 #include "../../loops/input_option.hpp"
 #include "../../loops/run_accuracy.hpp"
+#include "../../loops/run_hash.hpp"
 #include "../../loops/run_loop.hpp"
 #include "../../loops/run_trace.hpp"
 #include "../../loops/run_valves.hpp"
@@ -147,7 +149,7 @@ Summary summary_of(const Engines& engine, const Request& request, const RunFigur
            (engine.has_gas() ? "" : ", no pressure source: inertia only"));
   s.remark(pressure_in_short(engine.file));
   s.remark("angles: torque and journals from cylinder 1's firing TDC, all else from that of the cylinder itself");
-  s.remark("largest and smallest are over the ticks, every " + brief(f.deg_per_tick) + " deg");
+  s.remark("max_ and min_ are over the ticks, every " + brief(f.deg_per_tick) + " deg");
   s.line("speed", request.operation.speed_rpm, "rpm");
   if (engine.breathes()) {
     add_order(s, request.operation.gas);
@@ -248,8 +250,12 @@ void run(const Engines& engine, const Request& request, const Arguments& argumen
   }
   const CloseUpWindow window = close_up_window(summary.largest_torque_deg, loop.deg_per_tick());
   std::vector<CloseUpTick> close_up;
+  const bool is_hashed = arguments.has("--hash");
+  BitHash hash;
+  const detail::EngineShape shape = detail::shape_of<Real, S>(*loop.engine().tables());
   const OnTick<Real, S> on_tick = [&](std::uint64_t tick, double crank_deg, const WholeOutput<Real, S>& out) {
     if (csv) write_row<Real, S>(*csv, definition, operation, tick, crank_deg, out, cams);
+    if (is_hashed) add_tick<S>(hash, loop.engine(), shape);
     if (static_cast<double>(tick) <= loop.ticks_per_cycle() && window.contains(crank_deg)) {
       close_up.push_back({crank_deg, static_cast<double>(out.torque_Nm), static_cast<double>(out.mean_torque_Nm)});
     }
@@ -275,6 +281,7 @@ void run(const Engines& engine, const Request& request, const Arguments& argumen
     page->write(report::to_html(engine_report(input)));
   }
   Summary printed = summary_of(engine, request, figures, summary);
+  if (is_hashed) printed.line("hash", hash.text(), "", "of every bit that the recorded ticks show");
   add_wall_time(printed, wall_time_per_tick_ns);
   results.finish(printed.text());
 }
@@ -346,7 +353,7 @@ std::vector<std::string> tell_accuracy(const Arguments& arguments, const EngineF
 
 /// Both engines with the same options; each at its own rated speed without --rpm.
 int run_against(const Arguments& arguments, const EngineFile& first) {
-  for (const char* option : {"--free", "--csv", "--vcd"}) {
+  for (const char* option : {"--free", "--csv", "--vcd", "--hash"}) {
     if (arguments.has(option)) throw UsageError(std::string(option) + " is of one engine; --against compares two");
   }
   const std::string& path = arguments.text("--against");
@@ -403,6 +410,7 @@ constexpr Option kOptions[] = {
     kLambda,
     kBurnStart,
     text("--csv", "F", "file for a row per tick; - is standard output, the summary then goes to stderr"),
+    flag("--hash", "prints a hash of every bit that the recorded ticks show: equal on every machine, and in a page"),
     text("--report", "F.html", "HTML file with the report; opens in any browser"),
     text("--against", "B.ini", "another engine file: figures of both, and with --report their curves in one drawing"),
     text("--vcd", "F", "file for the trigger wheels' signals, a value change dump as GTKWave and PulseView open it"),
@@ -414,7 +422,8 @@ constexpr Option kOptions[] = {
     flag("--starter", "the file's [starter] turns the crank too; it free-wheels where the engine is faster"),
     text("--cut", "K,..", "cylinders that do not fire, like 1,3"),
     kMisfire,
-    text("--fault-bits", "B,..", "input bits of [fault NAME] that are on during the whole run, like 0,3"),
+    kFaultBits,
+    text("--analogue", "F.csv", "with --free and a [reluctor]: its voltage, 16 samples a tick, and its comparator"),
     kInputs,
 };
 

@@ -21,9 +21,9 @@
 namespace crankloop::detail {
 
 /// Which cylinders do not fire this tick, or not with all their heat.
-template <class Real, class S>
+template <class S>
 struct CutOfTick {
-  CutCylinders<Real, S> cut_cylinders;
+  CutCylinders<S> cut_cylinders;
 };
 /// The integration of the crank's motion, between its halves.
 template <class Real>
@@ -45,7 +45,7 @@ struct CamDragOfTick {
 
 /// What a tick's crank part takes and gives besides tables, state and output.
 template <class Real, class S>
-struct CrankTurn : If<Needs<S>::lack, CutOfTick<Real, S>>,
+struct CrankTurn : If<Needs<S>::lack, CutOfTick<S>>,
                    If<Needs<S>::crank_dynamics, MotionOfTick<Real>>,
                    If<Needs<S>::gas_work, GasWorkOfTick<Real>>,
                    If<S::cam_drag, CamDragOfTick<Real>> {
@@ -123,9 +123,9 @@ template <class Real, class S>
   }
   if constexpr (Needs<S>::input_pressure) take_pressures(drive, state, input, crank, faults);
   if constexpr (Needs<S>::cut) {
-    crank.cut_cylinders = cut_cylinders_of(drive, state, input.cut_cylinders);
+    crank.cut_cylinders = cut_cylinders_of(state, input.cut_cylinders);
   } else if constexpr (Needs<S>::lack) {
-    crank.cut_cylinders = cut_cylinders_of(drive, state, 0);
+    crank.cut_cylinders = cut_cylinders_of(state, 0);
   }
   return faults;
 }

@@ -16,46 +16,43 @@
 namespace crankloop::detail {
 
 /// Cylinders that lack heat: cut ones lack all of it, the others what their cycles do not burn.
-template <class Real>
 struct LackingHeat {
   std::uint32_t lacking;  ///< bit k: cylinder k, for either reason
   std::uint32_t cut;
-  const Real* burning_ratio;  ///< of each cylinder's cycle
-
-  [[nodiscard]] Real share(std::uint32_t k) const noexcept { return (cut >> k & 1u) != 0 ? Real{0} : burning_ratio[k]; }
 };
 /// What a tick knows of them: in scenes without misfires which are cut.
-template <class Real, class S>
-using CutCylinders = std::conditional_t<Needs<S>::misfire_of_table, LackingHeat<Real>, std::uint32_t>;
+template <class S>
+using CutCylinders = std::conditional_t<Needs<S>::misfire_of_table, LackingHeat, std::uint32_t>;
 
 template <class Real, class S>
-[[nodiscard]] CutCylinders<Real, S> cut_cylinders_of([[maybe_unused]] const Drive<Real>& drive,
-                                                     [[maybe_unused]] const State<Real, S>& state,
-                                                     std::uint32_t cut) noexcept {
+[[nodiscard]] CutCylinders<S> cut_cylinders_of([[maybe_unused]] const State<Real, S>& state,
+                                               std::uint32_t cut) noexcept {
   if constexpr (Needs<S>::misfire_of_table) {
-    std::uint32_t lacking = cut;
-    for (std::uint32_t k = 0; k < count<S>(drive.cylinders); ++k)
-      lacking |= std::uint32_t{state.burning_ratio[k] < 1} << k;
-    return {lacking, cut, state.burning_ratio};
+    return {state.lacking_heat | cut, cut};
   } else {
     return cut;
   }
+}
+
+/// Share of its heat that cylinder k has.
+template <class Real, class S>
+[[nodiscard]] inline Real heat_share(const State<Real, S>& state, LackingHeat lacks, std::uint32_t k) noexcept {
+  return (lacks.cut >> k & 1u) != 0 ? Real{0} : state.burning_ratio[k];
 }
 
 template <class Real, class S>
 class CutHeat {
  public:
   /// Bits of `cut` beyond the engine's cylinders mean nothing.
-  CutHeat(const Tables<Real, S>& tables, CutCylinders<Real, S> cut) noexcept : tables_{tables}, cut_{cut} {}
+  CutHeat(const Tables<Real, S>& tables, const State<Real, S>& state, CutCylinders<S> cut) noexcept
+      : tables_{tables}, state_{state}, cut_{cut} {}
 
   /// At load ratio 1, of all that lack heat.
   [[nodiscard]] Real torque_Nm(Phase phase) const noexcept {
-    Real sum{};
-    for_each([&](std::uint32_t k) {
+    return sum_of_lacking<Real>([this, phase](Real& sum, std::uint32_t k) {
       const Angle<Real> at = own_angle(k, phase);
       sum += lacked(k, value(segment(at).slope, at.u));
     });
-    return sum;
   }
 
   /// Heat work at load ratio 1 of all cylinders that lack heat between two phases: work_J, less that of mean_Nm.
@@ -64,43 +61,50 @@ class CutHeat {
     Real mean_Nm;
   };
   [[nodiscard]] Work work(Phase from, Phase to) const noexcept {
-    const GasTorque<Real>& heat = *tables_.cut_torque;
-    Work sum{};
-    for_each([&](std::uint32_t k) {
+    return sum_of_lacking<Work>([this, from, to](Work& sum, std::uint32_t k) {
+      const GasTorque<Real>& heat = *tables_.cut_torque;
       sum.work_J += lacked(k, difference(integral(k, from), integral(k, to), heat.quantum));
       sum.mean_Nm += lacked(k, heat.mean_Nm);
     });
-    return sum;
   }
 
   /// Mean torque over a cycle at load ratio 1, of all that lack heat.
   [[nodiscard]] Real mean_Nm() const noexcept {
-    Real sum{};
-    for_each([&]([[maybe_unused]] std::uint32_t k) { sum += lacked(k, tables_.cut_torque->mean_Nm); });
-    return sum;
+    return sum_of_lacking<Real>([this]([[maybe_unused]] Real& sum, [[maybe_unused]] std::uint32_t k) {
+      sum += lacked(k, tables_.cut_torque->mean_Nm);
+    });
   }
 
  private:
   /// What cylinder k lacks of `all`: of a cut one that is all of it.
   [[nodiscard, gnu::always_inline]] Real lacked([[maybe_unused]] std::uint32_t k, Real all) const noexcept {
     if constexpr (Needs<S>::misfire_of_table) {
-      return (Real{1} - cut_.share(k)) * all;
+      return (Real{1} - heat_share(state_, cut_, k)) * all;
     } else {
       return all;
     }
   }
-  template <class Visit>
-  void for_each(const Visit& visit) const noexcept {
-    std::uint32_t lacking;
+  /// Where rules may make cylinders lack heat the sum is a call of its own: ticks without one stay short.
+  template <class Sum, class Add>
+  [[nodiscard, gnu::always_inline]] Sum sum_of_lacking(const Add& add) const noexcept {
     if constexpr (Needs<S>::misfire_of_table) {
-      lacking = cut_.lacking;
+      if (__builtin_expect(cut_.lacking != 0, 0)) return sum_apart<Sum>(add, cut_.lacking);
+      return Sum{};
     } else {
-      lacking = cut_;
+      return cut_ == 0 ? Sum{} : sum_over<Sum>(add, cut_);
     }
-    if (lacking == 0) return;
+  }
+  template <class Sum, class Add>
+  [[nodiscard, gnu::noinline]] Sum sum_apart(Add add, std::uint32_t lacking) const noexcept {
+    return sum_over<Sum>(add, lacking);
+  }
+  template <class Sum, class Add>
+  [[nodiscard]] Sum sum_over(const Add& add, std::uint32_t lacking) const noexcept {
+    Sum sum{};
     for (std::uint32_t k = 0; k < count<S>(tables_.drive->cylinders); ++k) {
-      if ((lacking >> k & 1u) != 0) visit(k);
+      if ((lacking >> k & 1u) != 0) add(sum, k);
     }
+    return sum;
   }
   /// In the cylinder's own cycle.
   [[nodiscard]] Angle<Real> own_angle(std::uint32_t k, Phase phase) const noexcept {
@@ -117,7 +121,8 @@ class CutHeat {
   }
 
   const Tables<Real, S>& tables_;
-  CutCylinders<Real, S> cut_;
+  const State<Real, S>& state_;
+  CutCylinders<S> cut_;
 };
 
 }  // namespace crankloop::detail

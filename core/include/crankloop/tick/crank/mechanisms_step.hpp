@@ -24,12 +24,13 @@ namespace crankloop::detail {
 /// Where forces turn the crank: mean torque of the gas over a cycle as it is at the tick; 0 of given pressures, which
 /// are no cycle.
 template <class Real, class S>
-[[nodiscard]] Real mean_gas_Nm([[maybe_unused]] const Tables<Real, S>& tables, [[maybe_unused]] Real load_ratio,
-                               [[maybe_unused]] CutCylinders<Real, S> cut_cylinders) noexcept {
+[[nodiscard]] Real mean_gas_Nm([[maybe_unused]] const Tables<Real, S>& tables,
+                               [[maybe_unused]] const State<Real, S>& state,
+                               [[maybe_unused]] CutCylinders<S> cut_cylinders) noexcept {
   if constexpr (Needs<S>::gas_torque && Needs<S>::load) {
     Real heat_Nm = tables.gas_torque_heat->mean_Nm;
-    if constexpr (Needs<S>::lack) heat_Nm -= CutHeat<Real, S>(tables, cut_cylinders).mean_Nm();
-    return tables.gas_torque_motored->mean_Nm + load_ratio * heat_Nm;
+    if constexpr (Needs<S>::lack) heat_Nm -= CutHeat<Real, S>(tables, state, cut_cylinders).mean_Nm();
+    return tables.gas_torque_motored->mean_Nm + state.load_ratio * heat_Nm;
   } else if constexpr (Needs<S>::gas_torque) {
     return tables.gas_torque_full->mean_Nm;
   } else {
@@ -75,7 +76,7 @@ struct MechanismsStep {
   /// In cylinder k, whose mechanism stands at `at`.
   template <class At>
   [[nodiscard, gnu::always_inline]] Real pressure_Pa([[maybe_unused]] std::uint32_t k, [[maybe_unused]] const At& at,
-                                                     [[maybe_unused]] CutCylinders<Real, S> cut_cylinders,
+                                                     [[maybe_unused]] CutCylinders<S> cut_cylinders,
                                                      [[maybe_unused]] Real load_ratio) const noexcept {
     if constexpr (N::input_pressure) {
       return torque.state.pressure_Pa[k];
@@ -88,7 +89,7 @@ struct MechanismsStep {
       } else {
         const Real motored_Pa = value(torque.tables.pressure_motored[segment], at.u);
         if constexpr (N::misfire_of_table) {
-          load_ratio *= cut_cylinders.share(k);
+          load_ratio *= heat_share(torque.state, cut_cylinders, k);
         } else {
           if (N::cut && (cut_cylinders >> k & 1u) != 0) return motored_Pa;
         }
@@ -110,7 +111,7 @@ struct MechanismsStep {
 
   /// Mechanism by mechanism what its cylinders share, then those. Fills crank.head_pressure_Pa where the scene has gas
   /// on its valves' heads.
-  void run([[maybe_unused]] CrankTurn<Real, S>& crank, [[maybe_unused]] CutCylinders<Real, S> cut_cylinders) noexcept {
+  void run([[maybe_unused]] CrankTurn<Real, S>& crank, [[maybe_unused]] CutCylinders<S> cut_cylinders) noexcept {
     const Drive<Real>& drive = *torque.tables.drive;
     [[maybe_unused]] typename TorqueStep<Real, S>::Swept swept;
     [[maybe_unused]] const std::uint8_t* k = drive.by_mechanism.cylinder;
@@ -135,7 +136,7 @@ struct MechanismsStep {
   [[nodiscard, gnu::always_inline]] Real show_cylinders(const std::uint8_t* next, const std::uint8_t* end,
                                                         [[maybe_unused]] const At& at, const Pose<Real>& p,
                                                         [[maybe_unused]] CrankTurn<Real, S>& crank,
-                                                        [[maybe_unused]] CutCylinders<Real, S> cut_cylinders,
+                                                        [[maybe_unused]] CutCylinders<S> cut_cylinders,
                                                         Real sum_Nm) noexcept {
     const Real speed = torque.state.speed_rad_s;
     [[maybe_unused]] Real velocity_m_s, acceleration_m_s2, rod_speed_rad_s, rod_acceleration_rad_s2;
@@ -190,7 +191,7 @@ template <class Real, class S>
 inline void run_mechanisms(const Tables<Real, S>& tables, State<Real, S>& state, Output<Real, S>& out,
                            CrankTurn<Real, S>& crank) noexcept {
   TorqueStep<Real, S> torque(tables, state, out);
-  CutCylinders<Real, S> cut_cylinders{};
+  CutCylinders<S> cut_cylinders{};
   if constexpr (Needs<S>::lack) cut_cylinders = crank.cut_cylinders;
   [[maybe_unused]] const auto at = torque.read_torque(cut_cylinders);
   torque.move_crank(crank);
@@ -221,18 +222,18 @@ template <class Real, class S, class OnceTurned>
                 within_magnitude(input.external_torque_Nm, static_cast<Real>(kMaxExternalTorque_Nm)),
                 state.external_torque_Nm, kFaultExternalTorque, faults);
   Real gas_Nm = state.gas_Nm[0];
-  CutCylinders<Real, S> cut_cylinders{};
+  CutCylinders<S> cut_cylinders{};
   if constexpr (Needs<S>::lack) cut_cylinders = crank.cut_cylinders;
   if constexpr (Needs<S>::load) {
     Real heat_Nm = state.gas_Nm[1];
-    if constexpr (Needs<S>::lack) heat_Nm -= CutHeat<Real, S>(tables, cut_cylinders).torque_Nm(state.phase);
+    if constexpr (Needs<S>::lack) heat_Nm -= CutHeat<Real, S>(tables, state, cut_cylinders).torque_Nm(state.phase);
     gas_Nm += state.load_ratio * heat_Nm;
   }
   if constexpr (S::cam_drag) gas_Nm -= crank.cam_drag_Nm = state.cam_drag_Nm;
   bool starter = false;
   if constexpr (S::starter) starter = input.starter != 0;
   CrankStep<Real> motion(*tables.drive, *tables.crank_dynamics, state, state.speed_rad_s,
-                         mean_gas_Nm(tables, state.load_ratio, cut_cylinders));
+                         mean_gas_Nm(tables, state, cut_cylinders));
   crank.turned = motion.turn(gas_Nm, starter);
   crank.motion = &motion;
   state.phase += crank.turned;

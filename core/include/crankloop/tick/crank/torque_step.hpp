@@ -48,7 +48,7 @@ struct TorqueStep : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
 
   /// Torque of tables: they hold that of all cylinders together. Forces add up to it by themselves. Returns where the
   /// crank stands.
-  auto read_torque([[maybe_unused]] CutCylinders<Real, S> cut_cylinders) noexcept {
+  auto read_torque([[maybe_unused]] CutCylinders<S> cut_cylinders) noexcept {
     const auto at = [&] {
       if constexpr (N::gas_torque) {
         return angle_of<Real>(state.phase.units(), 0);
@@ -72,7 +72,7 @@ struct TorqueStep : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
         gas_Nm = gas_torque(*tables.gas_torque_motored, segment, at.u, 0);
         Real heat_Nm = gas_torque(*tables.gas_torque_heat, segment, at.u, 1);
         if constexpr (N::crank_dynamics) this->gas_parts_Nm[0] = gas_Nm, this->gas_parts_Nm[1] = heat_Nm;
-        if constexpr (N::lack) heat_Nm -= CutHeat<Real, S>(tables, cut_cylinders).torque_Nm(state.phase);
+        if constexpr (N::lack) heat_Nm -= CutHeat<Real, S>(tables, state, cut_cylinders).torque_Nm(state.phase);
         gas_Nm += state.load_ratio * heat_Nm;
       } else {
         gas_Nm = gas_torque(*tables.gas_torque_full, segment, at.u, 0);
@@ -197,7 +197,8 @@ struct TorqueStep : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
       Real heat_J = difference(state.gas[1], gas[1], heat.quantum);
       Real heat_mean_Nm = heat.mean_Nm;
       if constexpr (N::lack) {
-        const auto lacks = CutHeat<Real, S>(tables, crank.cut_cylinders).work(state.phase - crank.turned, state.phase);
+        const auto lacks =
+            CutHeat<Real, S>(tables, state, crank.cut_cylinders).work(state.phase - crank.turned, state.phase);
         heat_J -= lacks.work_J;
         heat_mean_Nm -= lacks.mean_Nm;
       }

@@ -21,8 +21,11 @@ template <class Real, class S>
                                                 [[maybe_unused]] std::uint32_t cylinder) noexcept {
   if constexpr (Needs<S>::burn_input) {
     (void)tables;
-    return {input.fuel_kg[cylinder], input.excess_air_ratio[cylinder], input.burn_start_deg[cylinder],
-            input.burn_duration_deg[cylinder]};
+    Real start_deg = input.burn_start_deg[cylinder];
+    if constexpr (S::controller_names) {
+      if (input.by_spark_advance != 0) start_deg = -input.spark_advance_deg[cylinder];
+    }
+    return {input.fuel_kg[cylinder], input.excess_air_ratio[cylinder], start_deg, input.burn_duration_deg[cylinder]};
   } else {
     const BurnTable<Real>& table = *tables.burn;
     return {table.fuel_kg, table.excess_air_ratio, table.burn_start_deg, table.burn_duration_deg};
@@ -68,35 +71,35 @@ template <class Real, class S>
   return fuel;
 }
 
-/// The integrals of knock of those among cylinders from `first` on whose burns begin on their ways; `due`: bits of
-/// those that are yet to. Of one whose fuel is taken on the same way, on the next.
+/// The integrals of knock of those whose burns begin on their ways, among cylinders whose bits in `due` say that theirs
+/// are yet to. Of one whose fuel is taken on the same way, on the next.
 template <class Real, class S>
-[[gnu::noinline]] void begin_knock_on_way(const Tables<Real, S>& tables, State<Real, S>& state, std::uint32_t first,
-                                          std::uint32_t due, const CycleWay* way) noexcept {
-  for (std::uint32_t k = first; due != 0; due >>= 1, ++k, ++way) {
+[[gnu::noinline]] void begin_knock_on_way(const Tables<Real, S>& tables, State<Real, S>& state, std::uint32_t due,
+                                          const CycleWay* way) noexcept {
+  for (std::uint32_t left = due; left != 0; left &= left - 1) {
+    const std::uint32_t k = trailing_zeros(left);
     const CylinderBurn<Real>& burn = state.burn[k];
-    if ((due & 1u) == 0 || !(way->template deg<Real>() > burn.start_deg) || !(burn.fuel_kg > 0)) continue;
-    begin_knock(state.knock[k], charge_at_start(tables, state, k, *way));
+    if (!(way[k].template deg<Real>() > burn.start_deg) || !(burn.fuel_kg > 0)) continue;
+    begin_knock(state.knock[k], charge_at_start(tables, state, k, way[k]));
     state.knock_due &= ~(std::uint32_t{1} << k), state.knock_in_burn |= std::uint32_t{1} << k;
   }
 }
 
-/// The step of cylinders from `first` on as far as knock goes, and what their cycles show of it. Bits of each:
-/// `in_burn`, its integral grows, `ends`, its cycle does.
+/// The step of all cylinders as far as knock goes, and what their cycles show of it. Bits of each: `in_burn`, its
+/// integral grows, `ends`, its cycle does.
 template <class Real, class S>
 [[gnu::noinline]] void knock_on_way(const Tables<Real, S>& tables, State<Real, S>& state, Output<Real, S>& out,
-                                    std::uint32_t first, std::uint32_t in_burn, std::uint32_t ends, const CycleWay* way,
+                                    std::uint32_t in_burn, std::uint32_t ends, const CycleWay* way,
                                     Real step_s) noexcept {
-  std::uint32_t left = in_burn | ends;
-  for (std::uint32_t k = first; left != 0; left >>= 1, in_burn >>= 1, ends >>= 1, ++k, ++way) {
-    if ((left & 1u) == 0) continue;
+  for (std::uint32_t left = in_burn | ends; left != 0; left &= left - 1) {
+    const std::uint32_t k = trailing_zeros(left), bit = std::uint32_t{1} << k;
     KnockRecord<Real>& knock = state.knock[k];
     const Real pressure_Pa = state.cylinder_gas.pressure_Pa[k];
     const bool goes_on =
-        (in_burn & 1u) != 0 && step_knock(knock, *tables.knock, state.burn[k], pressure_Pa, step_s, *way);
-    const bool ended = (ends & 1u) != 0;
-    if (!goes_on || ended) state.knock_in_burn &= ~(std::uint32_t{1} << k);
-    if (ended && way->forward()) out.knock_integral[k] = knock.integral_ratio, out.knock_deg[k] = knock.passes_deg;
+        (in_burn & bit) != 0 && step_knock(knock, *tables.knock, state.burn[k], pressure_Pa, step_s, way[k]);
+    const bool ended = (ends & bit) != 0;
+    if (!goes_on || ended) state.knock_in_burn &= ~bit;
+    if (ended && way[k].forward()) out.knock_integral[k] = knock.integral_ratio, out.knock_deg[k] = knock.passes_deg;
   }
 }
 

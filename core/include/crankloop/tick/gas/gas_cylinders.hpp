@@ -71,6 +71,10 @@ class GasCylindersStep {
     prepare(step, volume_m3, way);
     std::uint32_t faults = 0;
     const std::uint32_t cylinders = count<S>(tables_.drive->cylinders);
+    [[maybe_unused]] const std::uint32_t all = (std::uint32_t{1} << cylinders) - 1;  // a bit of each
+    if constexpr (N::knock) {
+      if (const std::uint32_t due = state_.knock_due & all; due != 0) begin_knock_on_way(tables_, state_, due, way);
+    }
     std::uint32_t k = 0;
 #if CRANKLOOP_ABREAST
     if constexpr (sizeof(Real) == 4 && kCylinders >= 4) {
@@ -78,6 +82,10 @@ class GasCylindersStep {
     }
 #endif
     for (; k < cylinders; ++k) faults |= run_block<Real>(input, step, areas, way + k, k, volume_m3 + k);
+    if constexpr (N::knock) {
+      const std::uint32_t in_burn = state_.knock_in_burn & all;
+      if ((in_burn | ends_) != 0) knock_on_way(tables_, state_, out_, in_burn, ends_, way, step.drive.step_s);
+    }
     return faults;
   }
 
@@ -117,11 +125,6 @@ class GasCylindersStep {
     std::uint32_t faults = 0;
     [[maybe_unused]] const std::uint32_t ends = ends_ >> k;  // one bit of each lane
     GasFuel<T> fuel{};
-    if constexpr (N::knock) {
-      constexpr std::uint32_t kAll = (std::uint32_t{1} << kLanes) - 1;
-      const std::uint32_t due = state_.knock_due >> k & kAll;
-      if (due != 0) begin_knock_on_way(tables_, state_, k, due, way);
-    }
     if constexpr (N::burn) {
       for (int i = 0; i < kLanes; ++i) {
         const GasFuel<Real> one = burn_on_way(tables_, state_, input, k + static_cast<std::uint32_t>(i), way[i],
@@ -137,7 +140,7 @@ class GasCylindersStep {
     const T to_m2[kPorts] = {load<T>(areas.of[kIntake] + k), load<T>(areas.of[kExhaust] + k)};
     PortStep<T> through[kPorts];
     [[maybe_unused]] CreviceStep<T> crevice_step{};
-    [[maybe_unused]] RunnerSteps<kLanes> runners;
+    [[maybe_unused]] RunnerSteps<T> runners;
     CylinderStep<T> done = step_with_runners<T>(gas, k, volume_m3, fuel, walls_at<T>(table, k), step, to_m2, through,
                                                 runners, crevice_step);
     state_.cylinder_gas.put(k, gas);
@@ -178,11 +181,6 @@ class GasCylindersStep {
     Real work_J = work_J_;
     for (int i = 0; i < kLanes; ++i) work_J += lane(crank_J, i);
     work_J_ = work_J;
-    if constexpr (N::knock) {
-      constexpr std::uint32_t kAll = (std::uint32_t{1} << kLanes) - 1;
-      const std::uint32_t in_burn = state_.knock_in_burn >> k & kAll, ending = ends & kAll;
-      if ((in_burn | ending) != 0) knock_on_way(tables_, state_, out_, k, in_burn, ending, way, step.drive.step_s);
-    }
     if constexpr (S::gas_results) {
       std::uint32_t intake_shut = 0;
       if (done.flows)
@@ -204,14 +202,14 @@ class GasCylindersStep {
 
   // ---- runners ------------------------------------------------------------------------------------------------------
 
-  /// Of the cylinders of a block, one by one.
-  template <int kLanes>
+  /// Of a block of cylinders.
+  template <class T>
   struct RunnerStepsOf {
-    RunnerStep<Real> step[kPorts][static_cast<std::size_t>(kLanes)];
-    GasBeyond<Real> seen[kPorts][static_cast<std::size_t>(kLanes)];
+    RunnerStep<T> step[kPorts];
+    GasBeyond<T> seen[kPorts];  ///< of the runner, or of the manifold where there is none
   };
-  template <int kLanes>
-  using RunnerSteps = std::conditional_t<S::runners, RunnerStepsOf<kLanes>, char>;
+  template <class T>
+  using RunnerSteps = std::conditional_t<S::runners, RunnerStepsOf<T>, char>;
 
   /// That a runner may take in a step.
   [[nodiscard]] Real most_of_manifold_kg([[maybe_unused]] int port) const noexcept {
@@ -223,111 +221,103 @@ class GasCylindersStep {
   }
   [[nodiscard]] bool has_runner(int port) const noexcept { return tables_.gas_runners->of[port].area_m2 > 0; }
 
-  template <int kLanes>
-  [[gnu::always_inline]] void see_runners(const EngineGasStep<Real>& step, std::uint32_t k,
-                                          RunnerStepsOf<kLanes>& runners) noexcept {
-    const auto& gas = state_.cylinder_gas;
+  template <class T>
+  [[gnu::always_inline]] void see_runners(const EngineGasStep<Real>& step, std::uint32_t k, const CylinderGas<T>& gas,
+                                          RunnerStepsOf<T>& runners) noexcept {
     for (int port = 0; port < kPorts; ++port) {
-      if (!has_runner(port)) continue;
-      for (int i = 0; i < kLanes; ++i) {
-        runners.seen[port][i] =
-            see_runner(step, port, step.beyond[port], k + static_cast<std::uint32_t>(i), gas, runners.step[port][i]);
+      const GasBeyond<Real>& manifold = step.beyond[port];
+      if (!has_runner(port)) {
+        runners.seen[port] = of_each<T>(manifold);
+        continue;
       }
+      const RunnerGas<T> runner = take_runners<T>(&state_.runner[port][k]);
+      // Its own flow of the last step is among those that the manifold's end includes.
+      const T own_Pa = manifold.response_Pa_kg * (step.drive.step_s * runner.flow_kg_s);
+      const RunnerEnds<T> ends{manifold,
+                               manifold.end_Pa + (manifold.as_was_Pa + own_Pa),
+                               gas.point.pressure_Pa,
+                               gas.point.temperature_K,
+                               gas.area_m2[port],
+                               most_of_manifold_kg(port)};
+      runners.seen[port] =
+          seen_of_runner<T>(runner, tables_.gas_runners->of[port], ends, step.drive.step_s, runners.step[port]);
     }
   }
-  template <class Gases>
-  [[nodiscard]] GasBeyond<Real> see_runner(const EngineGasStep<Real>& step, int port, const GasBeyond<Real>& manifold,
-                                           std::uint32_t one, const Gases& gas,
-                                           RunnerStep<Real>& runner_step) noexcept {
-    const RunnerGas<Real>& runner = state_.runner[port][one];
-    // Its own flow of the last step is among those that the manifold's end includes.
-    const Real own_Pa = manifold.response_Pa_kg * (step.drive.step_s * runner.flow_kg_s);
-    const RunnerEnds<Real> ends{manifold,
-                                manifold.end_Pa + (manifold.as_was_Pa + own_Pa),
-                                gas.pressure_Pa[one],
-                                gas.temperature_K[one],
-                                gas.area_m2[port][one],
-                                most_of_manifold_kg(port)};
-    return seen_of_runner(runner, tables_.gas_runners->of[port], ends, step.drive.step_s, runner_step);
+  template <class T>
+  [[nodiscard, gnu::always_inline]] static GasBeyond<T> of_each(const GasBeyond<Real>& far) noexcept {
+    return {spread<T>(far.pressure_Pa),   spread<T>(far.choked_per_Pa), spread<T>(far.specific_work_J_kg),
+            spread<T>(far.enthalpy_J_kg), spread<T>(far.burned_ratio),  spread<T>(far.response_Pa_kg),
+            spread<T>(far.end_Pa),        spread<T>(far.as_was_Pa)};
   }
 
   template <class T, class Walls>
   [[nodiscard, gnu::always_inline]] CylinderStep<T> step_with_runners(
       CylinderGas<T>& gas, std::uint32_t k, const T& volume_m3, const GasFuel<T>& fuel, const Walls& walls,
       const EngineGasStep<Real>& step, const T (&to_m2)[kPorts], PortStep<T> (&through)[kPorts],
-      [[maybe_unused]] RunnerSteps<kLanesIn<T>>& runners, CreviceStep<T>& crevice_step) noexcept {
+      [[maybe_unused]] RunnerSteps<T>& runners, CreviceStep<T>& crevice_step) noexcept {
     if constexpr (S::runners) {
-      GasBeyond<T> far[kPorts];
-      see_runners<kLanesIn<T>>(step, k, runners), gather<T>(step, runners, far);
-      return step_with_crevices<T>(gas, k, volume_m3, fuel, walls, step, to_m2, far, through, crevice_step);
+      see_runners<T>(step, k, gas, runners);
+      return step_with_crevices<T>(gas, k, volume_m3, fuel, walls, step, to_m2, runners.seen, through, crevice_step);
     } else {
       return step_with_crevices<T>(gas, k, volume_m3, fuel, walls, step, to_m2, step.beyond, through, crevice_step);
-    }
-  }
-
-  /// What the ports of a block see: of their runners, or of the manifold.
-  template <class T>
-  [[gnu::always_inline]] void gather(const EngineGasStep<Real>& step, const RunnerStepsOf<kLanesIn<T>>& runners,
-                                     GasBeyond<T> (&far)[kPorts]) const noexcept {
-    for (int port = 0; port < kPorts; ++port) {
-      const GasBeyond<Real>& manifold = step.beyond[port];
-      GasBeyond<T>& to = far[port];
-      const bool has = has_runner(port);
-      const auto each = [&](T & x, Real GasBeyond<Real>::*member) __attribute__((always_inline)) {
-        x = spread<T>(manifold.*member);
-        if (!has) return;
-        for (int i = 0; i < kLanesIn<T>; ++i) put_lane(x, i, runners.seen[port][i].*member);
-      };
-      using Beyond = GasBeyond<Real>;
-      each(to.pressure_Pa, &Beyond::pressure_Pa), each(to.choked_per_Pa, &Beyond::choked_per_Pa);
-      each(to.specific_work_J_kg, &Beyond::specific_work_J_kg), each(to.enthalpy_J_kg, &Beyond::enthalpy_J_kg);
-      each(to.burned_ratio, &Beyond::burned_ratio), each(to.response_Pa_kg, &Beyond::response_Pa_kg);
-      each(to.end_Pa, &Beyond::end_Pa), each(to.as_was_Pa, &Beyond::as_was_Pa);
     }
   }
 
   /// Answers fault bits.
   template <class T>
   [[nodiscard, gnu::always_inline]] std::uint32_t step_runners(EngineGasStep<Real>& step, std::uint32_t k,
-                                                               const RunnerStepsOf<kLanesIn<T>>& runners,
+                                                               const RunnerStepsOf<T>& runners,
                                                                const PortStep<T> (&through)[kPorts]) noexcept {
     std::uint32_t faults = 0;
     for (int port = 0; port < kPorts; ++port) {
+      if (has_runner(port)) faults |= step_runners_of<T>(step, port, k, runners, through[port]);
       for (int i = 0; i < kLanesIn<T>; ++i) {
         const std::uint32_t one = k + static_cast<std::uint32_t>(i);
+        const RunnerGas<Real>& runner = state_.runner[port][one];
         RunnerOutput<Real>& shown = out_.runner[one];
-        if (!has_runner(port)) {
-          shown.port_pressure_Pa[port] = step.beyond[port].pressure_Pa;
-          continue;
-        }
-        const PortStep<T>& all = through[port];
-        const PortStep<Real> valve{lane(all.mass_kg, i), lane(all.enthalpy_J, i), lane(all.burned_kg, i)};
-        faults |= step_one_runner(step, port, one, runners.step[port][i], runners.seen[port][i], valve);
-        shown.port_pressure_Pa[port] = state_.runner[port][one].point.pressure_Pa;
-        shown.flow_kg_s[port] = state_.runner[port][one].flow_kg_s;
+        shown.port_pressure_Pa[port] = has_runner(port) ? runner.point.pressure_Pa : step.beyond[port].pressure_Pa;
+        shown.flow_kg_s[port] = runner.flow_kg_s;
       }
     }
     return faults;
   }
-  [[nodiscard]] std::uint32_t step_one_runner(EngineGasStep<Real>& step, int port, std::uint32_t one,
-                                              const RunnerStep<Real>& runner_step, const GasBeyond<Real>& seen,
-                                              const PortStep<Real>& valve) noexcept {
+  template <class T>
+  [[nodiscard, gnu::always_inline]] std::uint32_t step_runners_of(EngineGasStep<Real>& step, int port, std::uint32_t k,
+                                                                  const RunnerStepsOf<T>& runners,
+                                                                  const PortStep<T>& through) noexcept {
     const GasRunner<Real>& table = tables_.gas_runners->of[port];
-    RunnerGas<Real>& runner = state_.runner[port][one];
-    PortStep<Real> moves = step_runner(runner, table, runner_step, step.beyond[port], seen, valve,
-                                       most_of_manifold_kg(port), step.drive.step_s);
+    RunnerGas<Real>* const first = &state_.runner[port][k];
+    RunnerGas<T> runner = take_runners<T>(first);
+    PortStep<T> moves = step_runner<T>(runner, table, runners.step[port], step.beyond[port], runners.seen[port],
+                                       through, most_of_manifold_kg(port), step.drive.step_s);
+    const auto well = is_well_runner<T>(runner, table);
+    put_runners<T>(first, runner);
     std::uint32_t faults = 0;
-    if (__builtin_expect(!is_well_runner(runner, table), 0)) faults = put_runner_right(runner, table, moves);
+    if (__builtin_expect(!all(well), 0)) {
+      for (int i = 0; i < kLanesIn<T>; ++i) {
+        if ((holding(well) >> i & 1u) != 0) continue;
+        PortStep<Real> one{lane(moves.mass_kg, i), lane(moves.enthalpy_J, i), lane(moves.burned_kg, i)};
+        faults |= put_runner_right(first[i], table, one);
+        put_lane(moves.mass_kg, i, one.mass_kg), put_lane(moves.enthalpy_J, i, one.enthalpy_J);
+        put_lane(moves.burned_kg, i, one.burned_kg);
+      }
+    }
     if constexpr (S::walls) {
       const WarmWallsTable<Real>& walls = *tables_.gas_walls;
-      if (walls.port_W_K[port] > 0)
-        out_.port_heat_W[port] += lose_heat(runner.contents, runner.point, table.per_volume_m3, walls.port_W_K[port],
-                                            walls.behind_K, step.drive.step_s) *
-                                  tables_.drive->per_tick_s;
+      if (walls.port_W_K[port] > 0) {
+        for (int i = 0; i < kLanesIn<T>; ++i)
+          out_.port_heat_W[port] += lose_heat(first[i].contents, first[i].point, table.per_volume_m3,
+                                              walls.port_W_K[port], walls.behind_K, step.drive.step_s) *
+                                    tables_.drive->per_tick_s;
+      }
     }
     if constexpr (N::manifolds) {
-      state_.manifold[port].contents.add(-moves.mass_kg, -moves.enthalpy_J, -moves.burned_kg);
-      step.taken_kg[port] += moves.mass_kg;
+      GasContents<Real> contents = state_.manifold[port].contents;
+      for (int i = 0; i < kLanesIn<T>; ++i) {
+        contents.add(-lane(moves.mass_kg, i), -lane(moves.enthalpy_J, i), -lane(moves.burned_kg, i));
+        step.taken_kg[port] += lane(moves.mass_kg, i);
+      }
+      state_.manifold[port].contents = contents;
     }
     return faults;
   }

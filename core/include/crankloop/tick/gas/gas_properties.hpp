@@ -36,9 +36,9 @@ template <class T>
 }
 
 /// e
-template <class Real>
-[[nodiscard]] constexpr Real energy_J_kg(Real temperature_K, Real burned_ratio) noexcept {
-  return temperature_K * (heat_at_0_K(burned_ratio) + kHeatSlope<Real> / 2 * temperature_K);
+template <class T>
+[[nodiscard]] constexpr T energy_J_kg(T temperature_K, T burned_ratio) noexcept {
+  return temperature_K * (heat_at_0_K(burned_ratio) + kHeatSlope<NumberOf<T>> / 2 * temperature_K);
 }
 
 /// A carried sum: what rounding leaves out of one addition is added with the next (as CrankState::reduced_rest).

@@ -144,6 +144,42 @@ struct RunnerGas {
   Real flow_kg_s, flow_rest_kg_s;  ///< toward the cylinder
 };
 
+/// Runners of as many cylinders as T has lanes, from the first on.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline RunnerGas<T> take_runners(const RunnerGas<NumberOf<T>>* first) noexcept {
+  if constexpr (kLanesIn<T> == 1) {
+    return *first;
+  } else {
+    constexpr std::size_t kNumbers = sizeof(RunnerGas<float>) / sizeof(float);
+    static_assert(kNumbers % 4 == 0 && sizeof(RunnerGas<T>) == kNumbers * sizeof(T), "numbers alone, four by four");
+    T column[kNumbers];
+    for (std::size_t n = 0; n < kNumbers; n += 4) {
+      T row[4];
+      for (std::size_t i = 0; i < 4; ++i) row[i] = load<T>(reinterpret_cast<const float*>(first + i) + n);
+      transpose(row);
+      for (std::size_t i = 0; i < 4; ++i) column[n + i] = row[i];
+    }
+    RunnerGas<T> runners;
+    std::memcpy(&runners, column, sizeof runners);
+    return runners;
+  }
+}
+template <class T>
+[[gnu::always_inline]] inline void put_runners(RunnerGas<NumberOf<T>>* first, const RunnerGas<T>& runners) noexcept {
+  if constexpr (kLanesIn<T> == 1) {
+    *first = runners;
+  } else {
+    constexpr std::size_t kNumbers = sizeof(RunnerGas<float>) / sizeof(float);
+    T column[kNumbers];
+    std::memcpy(column, &runners, sizeof runners);
+    for (std::size_t n = 0; n < kNumbers; n += 4) {
+      T row[4] = {column[n], column[n + 1], column[n + 2], column[n + 3]};
+      transpose(row);
+      for (std::size_t i = 0; i < 4; ++i) store<T>(reinterpret_cast<float*>(first + i) + n, row[i]);
+    }
+  }
+}
+
 /// A manifold.
 template <class Real>
 struct ManifoldGas {

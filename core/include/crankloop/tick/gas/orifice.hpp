@@ -38,13 +38,13 @@ template <class Real>
   return Real{2} / (static_cast<Real>(kFlowSpeed_m_s) * step_s);
 }
 
-template <class Real>
-[[nodiscard]] inline GasBeyond<Real> beyond(const GasPoint<Real>& gas, Real response_Pa_kg) noexcept {
-  const Real specific_work_J_kg = kGasConstant<Real> * gas.temperature_K;
+template <class T>
+[[nodiscard]] inline GasBeyond<T> beyond(const GasPoint<T>& gas, T response_Pa_kg) noexcept {
+  const T specific_work_J_kg = kGasConstant<NumberOf<T>> * gas.temperature_K;
   return {gas.pressure_Pa,    choked_per_Pa(gas.temperature_K),
           specific_work_J_kg, energy_J_kg(gas.temperature_K, gas.burned_ratio) + specific_work_J_kg,
           gas.burned_ratio,   response_Pa_kg,
-          gas.pressure_Pa,    Real{0}};
+          gas.pressure_Pa,    T{}};
 }
 
 /// As an opening has it: of lanes, each has its own.

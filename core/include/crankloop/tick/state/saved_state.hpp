@@ -71,8 +71,9 @@ template <class S>
   if (S::walls) crc.add(std::uint32_t{0x600});
   if (S::cam_drag) crc.add(std::uint32_t{0x200});
   if (S::spring_modes > 0) crc.add(0x300 + S::spring_modes);
-  if (S::misfire) crc.add(std::uint32_t{0x400});
-  if (S::wheel_faults > 0) crc.add(0x500 + S::triggers.capacity), crc.add(S::wheel_faults);
+  if (S::misfire) crc.add(std::uint32_t{0x700});
+  if (S::reluctor_samples > 0) crc.add(0x900 + S::reluctor_samples);
+  if (S::wheel_faults > 0) crc.add(0x800 + S::triggers.capacity), crc.add(S::wheel_faults);
   return crc.value();
 }
 

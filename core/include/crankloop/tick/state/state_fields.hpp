@@ -116,13 +116,27 @@ struct StateFields {
       }
       if constexpr (N::misfire_of_table) {
         for (auto& ratio : s.burning_ratio) v.number(ratio, Real{0}, Real{1});
+        v.spare(s.cycles_go_on_from);  // follow from phase and shares
+        v.spare(s.cycles_go_on);
+        v.spare(s.lacking_heat);
+        v.spare(s.spare_of_burning);
       }
     }
     if constexpr (N::faulty_wheels) {
       v.group("state.wire");
-      v.word(s.wire_levels, (1u << S::triggers.capacity) - 1);
-      v.word(s.wires_known, (1u << S::triggers.capacity) - 1);
+      v.word(s.wires_differ, (1u << S::triggers.capacity) - 1);
       for (auto& random : s.noise_random) v.word(random, kAny);
+    }
+    if constexpr (N::reluctor) {
+      v.group("state.comparator");
+      v.number(s.sensor_V, -kMaxSensor_V, kMaxSensor_V);
+      v.number(s.sensor_peak_V, Real{0}, kMaxSensor_V);
+      v.number(s.sensor_last_peak_V, Real{0}, kMaxSensor_V);
+      v.spare(s.spare_of_sensor);
+      v.word(s.comparator_level, 1u);
+      v.word(s.comparator_armed, 1u);
+      v.word(s.comparator_quiet_ticks, kAny);
+      v.spare(s.spare_of_comparator);
     }
     if constexpr (S::bad_input_count) {
       v.group("state.bad_input");
@@ -151,6 +165,7 @@ struct StateFields {
   static constexpr Real kMaxNoted = static_cast<Real>(1e18);      ///< of numbers that are only compared, subtracted and
                                                                   ///< output
   static constexpr std::uint64_t kMaxCamPhase = std::uint64_t{1} << 62;  ///< 180 deg of 720
+  static constexpr Real kMaxSensor_V = static_cast<Real>(1e9);
   static constexpr std::uint32_t kAny = ~std::uint32_t{0};
   static constexpr Real kMaxStress_Pa = static_cast<Real>(1e30);
 

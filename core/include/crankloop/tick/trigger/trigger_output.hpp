@@ -35,6 +35,13 @@ template <class Real, class S>
 struct FaultyTriggers {
   TriggerSignal<Real, S> faulty_trigger[S::triggers.capacity];
 };
+/// The definition's variable reluctance sensor; 0 without one.
+template <class Real, class S>
+struct ReluctorSignal {
+  Real reluctor_V[S::reluctor_samples];  ///< sample i, from 0, at (i + 1) / reluctor_samples of the tick; 0 where a
+                                         ///< measured phase jumped
+  TriggerSignal<Real, S> comparator;     ///< rises where the voltage falls through 0 at a tooth's centre
+};
 struct WheelFaultsOn {
   std::uint32_t wheel_faults_on;  ///< bit i: fault i of the definition is on
 };

@@ -8,6 +8,7 @@
 #include <crankloop/state.hpp>
 #include <crankloop/tables/tables.hpp>
 #include <crankloop/tick/crank/crank_turn.hpp>
+#include <crankloop/tick/trigger/reluctor.hpp>
 #include <crankloop/tick/trigger/trigger_wheel.hpp>
 #include <crankloop/tick/trigger/wheel_faults.hpp>
 
@@ -52,11 +53,12 @@ struct TriggersStep {
       TriggerTick<Real, S> tick(wheel, tables.drive->tick_s, signal);
       turn(wheel, tick);
       if (tick.out_of_room()) faults |= kFaultTriggerEdges;
+      if constexpr (Needs<S>::faulty_wheels) copy_signal(signal, out.faulty_trigger[i]);
     }
     return faults;
   }
 
-  /// From the healthy signals, or from the track of a changed wheel.
+  /// The signals of wheels with a fault that is on, or that was until this tick, anew; the others are healthy.
   [[nodiscard]] std::uint32_t run_faulty(State<Real, S>& spoiled, std::uint32_t input) noexcept {
     const WheelFaultRules<Real>& rules = *tables.wheel_faults;
     std::uint8_t first[S::triggers.capacity];
@@ -64,17 +66,17 @@ struct TriggersStep {
     std::uint32_t faults = 0;
     const std::uint32_t wheels = S::triggers.exact ? S::triggers.capacity : tables.triggers->count;
     for (std::uint32_t i = 0; i < wheels; ++i) {
+      const bool spoils = first[i] < kMaxWheelFaults;
+      if (!spoils && (state.wires_differ >> i & 1u) == 0) continue;
       TriggerSignal<Real, S>& signal = out.faulty_trigger[i];
       SignalEdges<Real, S> edges(signal);
-      if (first[i] >= kMaxWheelFaults) {
-        edges.copy(out.trigger[i]);
-      } else {
+      if (spoils) {
         const WheelFaultRule<Real>& fault = rules.fault[first[i]];
         TriggerTick<Real, S> tick(*fault.track, tables.drive->tick_s, signal);
         turn(*fault.track, tick);
         spoil(fault, tables.drive->tick_s, spoiled.noise_random[first[i]], edges);
       }
-      join_ticks(spoiled, i, path.jumped, signal, edges);
+      join_ticks(spoiled, i, path.jumped, out.trigger[i], edges);
       if (edges.out_of_room()) faults |= kFaultTriggerEdges;
     }
     return faults;
@@ -150,14 +152,38 @@ template <class Real, class S>
   return TriggersStep<Real, S>{tables, state, out, path, before}.run();
 }
 
-/// The faulty signals, once the healthy ones are there. Returns fault bits.
+/// The faulty signals, once they are copies of the healthy ones. Returns fault bits.
 template <class Real, class S>
-[[nodiscard]] std::uint32_t read_faulty_triggers(const Tables<Real, S>& tables, State<Real, S>& state,
-                                                 Output<Real, S>& out, std::uint32_t input,
-                                                 const BeforeTick<Real, S>& before,
-                                                 const CrankTurn<Real, S>& crank) noexcept {
+[[nodiscard, gnu::noinline]] std::uint32_t spoil_triggers(const Tables<Real, S>& tables, State<Real, S>& state,
+                                                          Output<Real, S>& out, std::uint32_t input,
+                                                          const BeforeTick<Real, S>& before,
+                                                          const CrankTurn<Real, S>& crank) noexcept {
   const CrankPath<Real> path = path_of(tables, state, before, crank);
   return TriggersStep<Real, S>{tables, state, out, path, before}.run_faulty(state, input);
+}
+
+/// An engine without faults has one comparison. Returns fault bits.
+template <class Real, class S>
+[[nodiscard, gnu::always_inline]] inline std::uint32_t read_faulty_triggers(const Tables<Real, S>& tables,
+                                                                            State<Real, S>& state, Output<Real, S>& out,
+                                                                            std::uint32_t input,
+                                                                            const BeforeTick<Real, S>& before,
+                                                                            const CrankTurn<Real, S>& crank) noexcept {
+  out.wheel_faults_on = 0;
+  if (__builtin_expect((tables.wheel_faults->count | state.wires_differ) == 0, 1)) return 0;
+  return spoil_triggers(tables, state, out, input, before, crank);
+}
+
+/// The variable reluctance sensor of the definition. Returns fault bits.
+template <class Real, class S>
+[[nodiscard, gnu::noinline]] std::uint32_t sample_reluctor(const Tables<Real, S>& tables, State<Real, S>& state,
+                                                           Output<Real, S>& out, const BeforeTick<Real, S>& before,
+                                                           const CrankTurn<Real, S>& crank) noexcept {
+  const CrankPath<Real> path = path_of(tables, state, before, crank);
+  CrankSample<Real> sample{path, state.speed_rad_s, Real{}};
+  if constexpr (Needs<S>::crank_dynamics)
+    sample.begin_rad_s = before.speed_rad_s, sample.gain_rad_s = state.speed_rad_s - before.speed_rad_s;
+  return read_reluctor<Real, S>(*tables.reluctor, tables.drive->tick_s, state, out, sample);
 }
 
 }  // namespace crankloop::detail

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 
 #include <crankloop/faults.hpp>
 #include <crankloop/output.hpp>
@@ -18,6 +19,24 @@
 
 namespace crankloop::detail {
 
+/// At the start of the tick: each edge changes the level.
+template <class Real, class S>
+[[nodiscard]] std::uint32_t level_before(const TriggerSignal<Real, S>& signal) noexcept {
+  return (signal.level ^ signal.edge_count) & 1u;
+}
+
+template <class Real, class S>
+[[gnu::noinline]] void copy_edges(const TriggerSignal<Real, S>& from, TriggerSignal<Real, S>& to) noexcept {
+  for (std::uint32_t e = 0; e < from.edge_count && e < S::trigger_edges; ++e) to.edge[e] = from.edge[e];
+}
+/// Most ticks have no edge: one word then.
+template <class Real, class S>
+[[gnu::always_inline]] inline void copy_signal(const TriggerSignal<Real, S>& from,
+                                               TriggerSignal<Real, S>& to) noexcept {
+  std::memcpy(&to, &from, sizeof from.level + sizeof from.edge_count);
+  if (__builtin_expect(from.edge_count != 0, 0)) copy_edges(from, to);
+}
+
 /// A signal's edges in one tick, changed in place. O(edges listed).
 template <class Real, class S>
 class SignalEdges {
@@ -27,14 +46,9 @@ class SignalEdges {
   [[nodiscard]] std::uint32_t listed() const noexcept {
     return signal_.edge_count < S::trigger_edges ? signal_.edge_count : S::trigger_edges;
   }
-  /// At the start of the tick: each edge changes the level.
-  [[nodiscard]] std::uint32_t level_before() const noexcept { return (signal_.level ^ signal_.edge_count) & 1u; }
+  [[nodiscard]] std::uint32_t level() const noexcept { return signal_.level; }
+  [[nodiscard]] std::uint32_t level_before() const noexcept { return detail::level_before(signal_); }
 
-  void copy(const TriggerSignal<Real, S>& from) noexcept {
-    signal_.level = from.level;
-    signal_.edge_count = from.edge_count;
-    for (std::uint32_t e = 0; e < listed(); ++e) signal_.edge[e] = from.edge[e];
-  }
   void invert() noexcept { invert_from(0); }
   void hold(std::uint32_t level) noexcept { signal_.level = level, signal_.edge_count = 0; }
 
@@ -111,13 +125,13 @@ template <class Real, class S>
 
 /// An edge where the level changes between two ticks, unless the crank jumped, which shows none.
 template <class Real, class S>
-inline void join_ticks(State<Real, S>& state, std::uint32_t wheel, bool jumped, const TriggerSignal<Real, S>& signal,
+inline void join_ticks(State<Real, S>& state, std::uint32_t wheel, bool jumped, const TriggerSignal<Real, S>& healthy,
                        SignalEdges<Real, S>& edges) noexcept {
-  const std::uint32_t bit = 1u << wheel;
-  const std::uint32_t last = state.wire_levels >> wheel & 1u;
-  if ((state.wires_known & bit) != 0 && !jumped && edges.level_before() != last) edges.begin_with_edge();
-  state.wires_known |= bit;
-  state.wire_levels = (state.wire_levels & ~bit) | signal.level << wheel;
+  const std::uint32_t last = level_before(healthy) ^ (state.wires_differ >> wheel & 1u);
+  const bool first_tick = state.ticks == 1;
+  if (!first_tick && !jumped && edges.level_before() != last) edges.begin_with_edge();
+  const std::uint32_t differs = edges.level() ^ healthy.level;
+  state.wires_differ = (state.wires_differ & ~(1u << wheel)) | differs << wheel;
 }
 
 }  // namespace crankloop::detail

@@ -72,7 +72,7 @@ class SpringStep {
     const State<Real, S>& state = valves_.state;
     const Lanes mean_m_s2 = load<Lanes>(&state.valve_mean_m_s2[first]);
     Lanes from_N{}, to_N{};
-    for (std::uint32_t n = 0; n < modes(springs); ++n) {
+    for (std::uint32_t n = 0; n < S::spring_modes && n < springs.modes; ++n) {
       const ModeStep<Real>& mode = springs.mode[n];
       const Lanes q = load<Lanes>(&state.spring_mode_m[n][first]);
       const Lanes v = load<Lanes>(&state.spring_mode_m_s[n][first]);
@@ -93,7 +93,7 @@ class SpringStep {
         (end_m_s - load<Lanes>(&valves_.started_m_s[first])) * spread<Lanes>(valves_.tables.drive->per_tick_s);
     store<Lanes>(&state.valve_mean_m_s2[first], mean_m_s2);
     Lanes moving_N{}, fixed_N{};
-    for (std::uint32_t n = 0; n < modes(springs); ++n) {
+    for (std::uint32_t n = 0; n < S::spring_modes && n < springs.modes; ++n) {
       const ModeStep<Real>& mode = springs.mode[n];
       const Lanes q = load<Lanes>(&state.spring_mode_m[n][first]);
       const Lanes v = load<Lanes>(&state.spring_mode_m_s[n][first]);
@@ -120,12 +120,6 @@ class SpringStep {
       (&valves_.out.valve_spring[0][0])[v] = {surge_N, static_N + surge_N, static_N + at_fixed_N};
     }
     (void)v, (void)surge_N, (void)at_fixed_N;
-  }
-
-  /// Modes of all trains are within the scene's (tables/scene_fits.hpp); said so that its arrays are not left.
-  [[nodiscard]] static std::uint32_t modes(const ValveSprings<Real>& springs) noexcept {
-    CRANKLOOP_ASSERT(springs.modes <= S::spring_modes);
-    return springs.modes;
   }
 
   // A mode that moves less stands still: its numbers would end too small for the processor's fast path.

@@ -16,6 +16,7 @@
 
 #include <crankloop/faults.hpp>
 #include <crankloop/fmi/instance.hpp>
+#include <crankloop/fmi/name.hpp>
 
 namespace crankloop::fmi {
 
@@ -25,6 +26,7 @@ enum class Version : int { two = 2, three = 3 };
 struct Title {
   std::string identifier;  ///< a C identifier: the binary's name
   std::string engine;      ///< what it is, free text
+  std::string without;     ///< what the engine has and the FMU does not step, a phrase; empty: nothing
 };
 
 /// Text in XML and HTML, in attributes too: all that is not ASCII becomes a question mark.
@@ -56,21 +58,6 @@ struct Title {
   char text[40];
   const auto end = std::to_chars(text, text + sizeof text, value).ptr;
   return std::string(text, end);
-}
-
-/// "valve[#,#].lift_m" with its indices, counted from 1.
-[[nodiscard]] inline std::string name_of(const Variable& variable) {
-  std::string name;
-  std::uint32_t index = variable.first;
-  for (const char* c = variable.name; *c != '\0'; ++c) {
-    if (*c != '#') {
-      name += *c;
-      continue;
-    }
-    name += std::to_string(index + 1);
-    index = variable.second;
-  }
-  return name;
 }
 
 [[nodiscard]] inline std::string attribute(const std::string& name, const std::string& value) {
@@ -142,7 +129,8 @@ class Description {
     std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription";
     xml += attribute("fmiVersion", three ? "3.0" : "2.0") + attribute("modelName", title_.identifier);
     xml += attribute(three ? "instantiationToken" : "guid", shown_.token);
-    xml += attribute("description", title_.engine) + attribute("generationTool", "crankloop " + version_text());
+    xml += attribute("description", title_.engine + (title_.without.empty() ? "" : "; " + title_.without)) +
+           attribute("generationTool", "crankloop " + version_text());
     xml += attribute("variableNamingConvention", "structured") + ">\n";
     xml += "  <CoSimulation" + attribute("modelIdentifier", title_.identifier);
     if (!three) xml += attribute("canNotUseMemoryManagementFunctions", "true");
@@ -185,7 +173,8 @@ class Description {
         digits(shown_.tick_s * 1e6) +
         " &micro;s. A communication step runs the whole ticks that end in it: its inputs hold over the step, its "
         "outputs are those of the last tick, and are 0 before the first. The start values take effect when "
-        "initialization ends.</p>\n"
+        "initialization ends.</p>\n" +
+        (title_.without.empty() ? std::string() : "<p>Not stepped: " + escaped(title_.without) + ".</p>\n") +
         "<h2>Variables</h2>\n<table>\n<tr><th>name</th><th>unit</th><th></th><th>range</th><th>meaning</th></tr>\n";
     for (const auto& [role, variable, value] : shown_.variables) {
       html += "<tr><td>" + escaped(name_of(variable)) + "</td><td>" + written_unit(variable) + "</td><td>" +
@@ -262,6 +251,7 @@ class Description {
       exponent("s", unit->s);
       exponent("K", unit->K);
       exponent("rad", unit->rad);
+      if (unit->written[0] == 'V') exponent("A", -1);
       if (unit->factor != 1) xml += attribute("factor", digits(unit->factor));
       xml += "/>\n";
       if (unit->displayed[0] != '\0') {

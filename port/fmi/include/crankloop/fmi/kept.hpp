@@ -95,7 +95,9 @@ struct Kept {
   static constexpr EngineShape kLargest{S::cylinders.capacity, S::trains.capacity, S::triggers.capacity, 1.0};
   static constexpr std::size_t kMaxParameters = Supply::kMaxParameters > 0 ? Supply::kMaxParameters : 1;
   static constexpr std::size_t kMaxWheels = S::triggers.capacity > 0 ? S::triggers.capacity : 1;
-  static constexpr std::size_t kSignals = kMaxWheels * (S::wheel_faults > 0 ? 2 : 1);  ///< healthy ones, then faulty
+  static constexpr std::size_t kSignals =
+      kMaxWheels * (S::wheel_faults > 0 ? 2 : 1) +
+      (S::reluctor_samples > 0 ? 1 : 0);  ///< healthy ones, then faulty, then the comparator
   struct Count {
     std::size_t inputs = 0, outputs = 0, output_bytes = 0;
 

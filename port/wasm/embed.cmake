@@ -1,0 +1,41 @@
+# cmake -D OUTPUT=page_parts.cpp -D PAGE=port/wasm/page -D MODULES=build/page/modules -D HASHES=golden_hashes.inc -P embed.cmake:
+# the parts of a page as constant data of the program. Modules, which preset page makes, are deflated; without them
+# `crankloop page` says so.
+file(GLOB names RELATIVE ${PAGE} ${PAGE}/*.mjs ${PAGE}/*.css ${PAGE}/*.html)
+list(APPEND names ../wasi.mjs)
+list(SORT names)
+set(code "// Made by port/wasm/embed.cmake; do not edit.\n#include \"crankloop/commands/page/page_parts.hpp\"\n\nnamespace crankloop::program {\nnamespace {\n\n")
+set(rows "")
+set(count 0)
+
+macro(add_part name hex)
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${hex}")
+  string(APPEND code "constexpr unsigned char kPart${count}[] = {${bytes}};\n")
+  string(APPEND rows "    {\"${name}\", kPart${count}, sizeof kPart${count}},\n")
+  math(EXPR count "${count} + 1")
+endmacro()
+
+foreach(name IN LISTS names)
+  file(READ ${PAGE}/${name} hex HEX)
+  if(hex)
+    add_part(${name} "${hex}")
+  endif()
+endforeach()
+file(READ ${HASHES} hex HEX)
+add_part(golden_hashes.inc "${hex}")
+foreach(name IN ITEMS engine.wasm golden.wasm)
+  if(NOT EXISTS ${MODULES}/${name})
+    continue()
+  endif()
+  # gzip's head and tail, of 10 and 8 bytes, stay away: the head has the time of day.
+  file(ARCHIVE_CREATE OUTPUT ${OUTPUT}.gz PATHS ${MODULES}/${name} FORMAT raw COMPRESSION GZip COMPRESSION_LEVEL 9)
+  file(READ ${OUTPUT}.gz hex HEX)
+  file(REMOVE ${OUTPUT}.gz)
+  string(LENGTH "${hex}" length)
+  math(EXPR length "${length} - 36")
+  string(SUBSTRING "${hex}" 20 ${length} hex)
+  add_part(${name} "${hex}")
+endforeach()
+
+string(APPEND code "\n}  // namespace\n\nconst PagePart kPageParts[] = {\n${rows}};\nconst std::size_t kPagePartCount = ${count};\n\n}  // namespace crankloop::program\n")
+file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "${code}" @ONLY)

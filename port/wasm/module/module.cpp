@@ -1,0 +1,411 @@
+// The exports of module.h: one engine file, one engine that runs, one search.
+#include "../page/module.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <crankloop/version.h>
+#include <crankloop/fmi/name.hpp>
+
+#include "crankloop/commands/redline/redline_search.hpp"
+#include "crankloop/engine_file/following_springs.hpp"
+#include "crankloop/engine_file/gas_order.hpp"
+#include "crankloop/engine_file/plausibility.hpp"
+#include "crankloop/files/number.hpp"
+#include "crankloop/files/text_file.hpp"
+#include "crankloop/files/units.hpp"
+#include "crankloop/files/words.hpp"
+#include "crankloop/loops/fixed_step_loop.hpp"
+#include "crankloop/loops/valve_tick_limit.hpp"
+#include "engine_facts.hpp"
+#include "json.hpp"
+#include "named_files.hpp"
+#include "running.hpp"
+
+namespace crankloop::page {
+namespace {
+
+using program::EngineFile;
+using program::InputError;
+
+/// All that an instance holds between calls.
+struct Module {
+  std::string answer;
+  std::shared_ptr<const EngineFile> engine;
+  std::unique_ptr<Running> running;
+  std::vector<std::string> watched;
+  std::shared_ptr<const EngineFile> searched;  ///< the search points to it
+  std::unique_ptr<program::LoneValve> valve;
+  std::unique_ptr<program::SpeedSearch> search;
+  program::SpeedRange range{0, 0, 1};
+  int speeds_run = 0;
+};
+
+Module& module() {
+  static Module the_module;
+  return the_module;
+}
+
+const char* answer(std::string text) {
+  module().answer = std::move(text);
+  return module().answer.c_str();
+}
+
+// ---- messages
+// --------------------------------------------------------------------------------------------------------
+
+/// The line of "PATH:LINE: ..."; 0 where the message names none of this file.
+int line_of(std::string_view message, std::string_view path) {
+  const std::string begin = std::string(path) + ":";
+  if (message.substr(0, begin.size()) != begin) return 0;
+  int line = 0;
+  for (const char c : message.substr(begin.size())) {
+    if (c == ':') return line;
+    if (c < '0' || c > '9') return 0;
+    line = line * 10 + (c - '0');
+  }
+  return 0;
+}
+
+void add_messages(Json& json, const char* key, const std::vector<std::string>& lines, const std::string& path) {
+  json.key(key).open('[');
+  for (const std::string& line : lines)
+    json.open('{').member("line", line_of(line, path)).member("text", line).close('}');
+  json.close(']');
+}
+
+std::vector<std::string> lines_of(const char* text) {
+  std::vector<std::string> lines;
+  for (const std::string_view line : program::split(text, '\n')) lines.emplace_back(line);
+  return lines;
+}
+
+/// Answers what `work` adds to an object that has "errors"; where it throws, that alone.
+template <class Work>
+const char* answer_or_errors(const std::string& path, const Work& work) {
+  std::vector<std::string> errors;
+  try {
+    Json json;
+    json.open('{');
+    add_messages(json, "errors", {}, path);
+    work(json);
+    return answer(json.close('}').text());
+  } catch (const std::exception& error) {
+    errors = lines_of(error.what());
+  }
+  Json json;
+  json.open('{');
+  add_messages(json, "errors", errors, path);
+  add_messages(json, "warnings", {}, path);
+  return answer(json.close('}').text());
+}
+
+const EngineFile& loaded() {
+  if (module().engine == nullptr) throw InputError("no engine file is loaded");
+  return *module().engine;
+}
+std::string path_of_loaded() { return module().engine == nullptr ? "" : module().engine->path(); }
+
+Running& running() {
+  if (module().running == nullptr) throw InputError("no engine runs");
+  return *module().running;
+}
+
+// ---- names
+// -----------------------------------------------------------------------------------------------------------
+
+void add_variable(Json& json, const detail::Variable& variable) {
+  const std::string base = variable.name;
+  const std::size_t hash = base.find('#');
+  const bool two = hash != std::string::npos && base.find('#', hash + 1) != std::string::npos;
+  const detail::UnitOfName& unit = detail::unit_of(variable);
+  constexpr const char* kKinds[] = {"real", "whole", "truth"};
+  json.member("name", fmi::name_of(variable)).member("base", base);
+  json.member("first", hash == std::string::npos ? 0 : variable.first + 1)
+      .member("second", two ? variable.second + 1 : 0);
+  json.member("unit", unit.written).member("shown_unit", unit.displayed);
+  json.member("shown_per_unit", unit.displayed_per_written).member("kind", kKinds[static_cast<int>(variable.kind)]);
+  json.member("meaning", variable.meaning);
+}
+
+template <class List, class Add>
+const char* list_of(const List& list, const Add& add) {
+  Json json;
+  json.open('[');
+  for (const auto& entry : list) add(json, entry);
+  return answer(json.close(']').text());
+}
+
+void add_columns(Json& json, Running& engine) {
+  json.open('[').value("time_s").value("crank_deg");
+  for (const Probe* column : engine.columns()) json.value(fmi::name_of(column->variable));
+  json.close(']');
+}
+
+// ---- work
+// ------------------------------------------------------------------------------------------------------------
+
+void load(Json& json, const std::string& path, const std::string& text) {
+  auto engine = std::make_shared<EngineFile>(program::read_engine_text(text, path, {"engine", "crank", "masses"}));
+  std::vector<std::string> warnings = program::warnings_about(*engine);
+  for (std::string& line : program::warnings_about_springs_that_follow(*engine)) warnings.push_back(std::move(line));
+  add_messages(json, "warnings", warnings, path);
+  module().engine = std::move(engine);
+}
+
+void start(Json& json, const StartRequest& request) {
+  const EngineFile& file = loaded();
+  program::require_manifolds(file, request.tick_s);
+  program::require_trains(file, request.tick_s);
+  std::unique_ptr<Running> engine = start_running(file, request);
+  std::vector<std::string> warnings = program::warnings_about_gas(file, request.speed_rpm, request.tick_s);
+  const auto more = request.crank_is_free ? program::warnings_about_running_free(file, file.definition())
+                                          : program::warnings_about_misfires_left_out(file);
+  warnings.insert(warnings.end(), more.begin(), more.end());
+  add_messages(json, "warnings", warnings, file.path());
+  json.member("settling_cycles", program::cycles_to_settle(file.definition()));
+  json.member("ticks_per_cycle", 120 / (std::fabs(request.speed_rpm) * request.tick_s));
+  std::vector<std::string> watched;
+  for (const std::string& name : module().watched) {
+    if (engine->find(name) != nullptr) watched.push_back(name);
+  }
+  std::string unknown;
+  engine->watch(watched, unknown);
+  module().running = std::move(engine);
+}
+
+void hash(Json& json, double tick_us, bool in_double, double speed_rpm, int cycles) {
+  const EngineFile& file = loaded();
+  const double tick_s = program::millionths(tick_us);
+  program::require_manifolds(file, tick_s);
+  program::require_trains(file, tick_s);
+  const program::Operation operation{speed_rpm, tick_s, 1, program::gas_order(file.definition().gas)};
+  const HashedRun run = hash_held_run(file, operation, in_double, cycles);
+  json.member("hash", run.hash).member("ticks", run.ticks);
+}
+
+// ---- the redline
+// -----------------------------------------------------------------------------------------------------
+
+constexpr int kLeastRedline_rpm = 500, kMaxRedline_rpm = 15000;  // as `redline` has them
+
+/// Speeds of the sweep, and of an onset's search.
+int sweep_speeds_of(const program::SpeedRange& range) {
+  return (range.to_rpm - range.from_rpm + range.step_rpm - 1) / range.step_rpm + 1;
+}
+int speeds_per_onset(const program::SpeedRange& range) {
+  return static_cast<int>(std::ceil(std::log2(std::max(range.step_rpm, 1))));
+}
+
+void begin_redline(Json& json, const std::string& train, int from_rpm, int to_rpm) {
+  const program::SpeedRange range =
+      program::speed_range(from_rpm > 0 ? from_rpm : kLeastRedline_rpm, to_rpm > 0 ? to_rpm : kMaxRedline_rpm);
+  if (range.from_rpm >= range.to_rpm) throw InputError("the lowest speed must be less than the highest");
+  Module& m = module();
+  const std::shared_ptr<const EngineFile> file = (loaded(), m.engine);
+  auto valve = std::make_unique<program::LoneValve>(*file, train);
+  auto search = std::make_unique<program::SpeedSearch>(*valve, range, 1.0);
+  m.search = std::move(search);  // in this order: the old search points to the old valve
+  m.valve = std::move(valve);
+  m.searched = file;
+  m.range = range;
+  m.speeds_run = 0;
+  const double rigid_rad_s = m.search->sweep().rigid.crank_rad_s;
+  json.member("from_rpm", range.from_rpm).member("to_rpm", range.to_rpm).member("step_rpm", range.step_rpm);
+  json.member("speeds", sweep_speeds_of(range)).key("static_redline_rpm");
+  json.value(rigid_rad_s > 0 ? rigid_rad_s * program::kRpmPerRad_s : std::numeric_limits<double>::infinity());
+  json.member("tick_us", m.search->sweep().tick_s * 1e6);
+}
+
+const char* name_of(program::SpeedSearch::Part part) {
+  constexpr const char* kNames[] = {"sweep", "separation", "bounce", "seating", "ended"};
+  return kNames[static_cast<int>(part)];
+}
+
+void add_onset(Json& json, const std::string& name, const program::Onset& onset) {
+  json.key(name + "_rpm");
+  json.value(onset.found ? onset.speed_rpm : std::numeric_limits<double>::infinity());
+  json.member(name + "_at_start", onset.at_the_start);
+}
+
+void step_redline(Json& json) {
+  Module& m = module();
+  if (m.search == nullptr) throw InputError("no search has begun");
+  const auto part = m.search->part();
+  if (part == program::SpeedSearch::Part::ended) {
+    const program::Sweep& sweep = m.search->sweep();
+    json.member("ended", true);
+    add_onset(json, "separation", sweep.separation);
+    add_onset(json, "bounce", sweep.bounce);
+    add_onset(json, "seating", sweep.seating);
+    return;
+  }
+  const program::SpeedResult result = m.search->step();
+  const int of = sweep_speeds_of(m.range) + 3 * speeds_per_onset(m.range);
+  ++m.speeds_run;
+  json.member("ended", false)
+      .member("part", name_of(part))
+      .member("done", m.speeds_run)
+      .member("of", std::max(of, m.speeds_run));
+  json.member("speed_rpm", result.speed_rpm).key("results").open('{');
+  json.member("max_lift_m", result.cycle.largest_lift_m).member("separations", result.cycle.separations);
+  json.member("separation_gap_m", result.cycle.separation_clearance_m)
+      .member("seating_m_s", result.cycle.seating_speed_m_s);
+  json.member("bounces", result.cycle.bounces).member("bounce_m", result.cycle.bounce_height_m);
+  json.member("max_acceleration_m_s2", result.cycle.largest_acceleration_m_s2).member("train_N", result.train_N);
+  json.member("cam_N", result.cam_N).member("spring_margin", result.spring_margin);
+  json.member("is_possible", result.is_possible).close('}');
+}
+
+}  // namespace
+}  // namespace crankloop::page
+
+using namespace crankloop;        // NOLINT: the exports below are C
+using namespace crankloop::page;  // NOLINT
+
+extern "C" {
+
+char* page_take(std::uint32_t bytes) { return static_cast<char*>(std::malloc(bytes > 0 ? bytes : 1)); }
+void page_give(char* room) { std::free(room); }
+
+const char* page_facts_of_module(void) {
+#if defined(__wasm_simd128__)
+  constexpr bool kSimd = true;
+#else
+  constexpr bool kSimd = false;
+#endif
+  const std::string version = std::to_string(CRANKLOOP_VERSION_MAJOR) + "." + std::to_string(CRANKLOOP_VERSION_MINOR) +
+                              "." + std::to_string(CRANKLOOP_VERSION_PATCH);
+  Json json;
+  json.open('{').member("version", version).member("simd", kSimd).member("max_samples", kMaxSampleNumbers);
+  return answer(json.close('}').text());
+}
+
+void page_put_file(const char* name, std::uint32_t name_bytes, const char* text, std::uint32_t bytes) {
+  put_file({name, name_bytes}, {text, bytes});
+}
+void page_forget_files(void) { forget_files(); }
+
+const char* page_load(const char* name, std::uint32_t name_bytes, const char* text, std::uint32_t bytes) {
+  const std::string path(name, name_bytes);
+  const std::string whole(text, bytes);
+  return answer_or_errors(path, [&](Json& json) { load(json, path, whole); });
+}
+
+const char* page_facts(void) { return answer(module().engine == nullptr ? "{}" : facts_of(*module().engine)); }
+const char* page_keys(void) { return answer(module().engine == nullptr ? "[]" : keys_of(*module().engine)); }
+
+const char* page_start(double tick_us, std::uint32_t in_double, std::uint32_t crank_is_free, double speed_rpm,
+                       double crank_deg) {
+  return answer_or_errors(path_of_loaded(), [&](Json& json) {
+    if (!(tick_us >= 1 && tick_us <= 2000)) throw InputError("the tick is out of range; allowed: 1 to 2000 us");
+    if (!std::isfinite(speed_rpm) || !std::isfinite(crank_deg)) throw InputError("speed and angle must be finite");
+    start(json, {program::millionths(tick_us), in_double != 0, crank_is_free != 0, speed_rpm, crank_deg});
+  });
+}
+
+const char* page_inputs(void) {
+  if (module().running == nullptr) return answer("[]");
+  return list_of(running().inputs(), [](Json& json, const Probe& probe) {
+    const detail::Variable& variable = probe.variable;
+    json.open('{');
+    add_variable(json, variable);
+    json.member("index", std::string_view(variable.name).find('#') == std::string_view::npos ? 0 : variable.first + 1);
+    const bool has_range = variable.least < variable.most;
+    json.member("least", has_range ? variable.least : -std::numeric_limits<double>::infinity());
+    json.member("most", has_range ? variable.most : std::numeric_limits<double>::infinity()).close('}');
+  });
+}
+double* page_input_values(void) { return module().running == nullptr ? nullptr : running().input_values().data(); }
+
+const char* page_channels(void) {
+  if (module().running == nullptr) return answer("[]");
+  return list_of(running().channels(), [](Json& json, const Probe& probe) {
+    json.open('{');
+    add_variable(json, probe.variable);
+    json.close('}');
+  });
+}
+
+const char* page_watch(const char* names, std::uint32_t bytes) {
+  return answer_or_errors(path_of_loaded(), [&](Json& json) {
+    std::vector<std::string> asked;
+    const std::string all(names, bytes);
+    for (const std::string_view name : program::split(all, '\n')) {
+      if (!name.empty()) asked.emplace_back(name);
+    }
+    std::string unknown;
+    if (!running().watch(asked, unknown)) throw InputError("the engine has no " + program::in_quotes(unknown));
+    module().watched = asked;
+    json.key("columns");
+    add_columns(json, running());
+  });
+}
+const char* page_columns(void) {
+  if (module().running == nullptr) return answer("[]");
+  Json json;
+  add_columns(json, running());
+  return answer(json.text());
+}
+
+std::uint32_t page_step(std::uint32_t ticks, std::uint32_t every) {
+  return module().running == nullptr ? 0 : running().step(ticks, every);
+}
+const double* page_samples(void) { return module().running == nullptr ? nullptr : running().samples().data(); }
+std::uint32_t page_sample_count(void) {
+  return module().running == nullptr ? 0 : static_cast<std::uint32_t>(running().sample_count());
+}
+const double* page_now(void) { return module().running == nullptr ? nullptr : running().now().data(); }
+
+const double* page_edges(void) { return module().running == nullptr ? nullptr : running().edges().data(); }
+std::uint32_t page_edge_count(void) {
+  return module().running == nullptr ? 0 : static_cast<std::uint32_t>(running().edges().size() / 3);
+}
+std::uint32_t page_edges_lost(void) { return module().running == nullptr ? 0 : running().edges_lost(); }
+
+std::uint32_t page_cycles(void) { return module().running == nullptr ? 0 : running().cycles(); }
+const char* page_results(void) {
+  if (module().running == nullptr) return answer("[]");
+  return list_of(running().results(), [](Json& json, const detail::Variable& variable) {
+    const std::string_view name = variable.name;
+    json.open('{');
+    add_variable(json, variable);
+    json.member("of", name.find("#,#") != std::string_view::npos ? "valve"
+                      : name.find('#') != std::string_view::npos ? "cylinder"
+                                                                 : "engine");
+    json.close('}');
+  });
+}
+const double* page_result_values(void) {
+  return module().running == nullptr ? nullptr : running().result_values().data();
+}
+
+const char* page_hash(double tick_us, std::uint32_t in_double, double speed_rpm, std::uint32_t cycles) {
+  return answer_or_errors(path_of_loaded(), [&](Json& json) {
+    if (!(tick_us >= 1 && tick_us <= 2000)) throw InputError("the tick is out of range; allowed: 1 to 2000 us");
+    if (!(speed_rpm > 0 && speed_rpm <= 100000))
+      throw InputError("the speed is out of range; allowed: above 0, at most 100000 rpm");
+    if (cycles < 1 || cycles > 1000) throw InputError("the cycles are out of range; allowed: 1 to 1000");
+    hash(json, tick_us, in_double != 0, speed_rpm, static_cast<int>(cycles));
+  });
+}
+
+const char* page_redline(const char* train, std::uint32_t bytes, std::uint32_t from_rpm, std::uint32_t to_rpm) {
+  return answer_or_errors(path_of_loaded(), [&](Json& json) {
+    if (from_rpm > 100000 || to_rpm > 100000)
+      throw InputError("the speed is out of range; allowed: at most 100000 rpm");
+    begin_redline(json, {train, bytes}, static_cast<int>(from_rpm), static_cast<int>(to_rpm));
+  });
+}
+const char* page_redline_step(void) {
+  return answer_or_errors(path_of_loaded(), [&](Json& json) { step_redline(json); });
+}
+
+}  // extern "C"

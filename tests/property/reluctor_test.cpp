@@ -1,0 +1,364 @@
+// The variable reluctance sensor and its comparator: against the formula worked out another way, and facts that hold
+// whatever the shape of a lobe.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <crankloop/tabulate/tabulate.hpp>
+#include <crankloop/tick/state/saved_state.hpp>
+#include <crankloop/tick/step.hpp>
+
+#include "support/both_reals.hpp"
+#include "support/engines.hpp"
+#include "support/status.hpp"
+
+namespace crankloop {
+namespace {
+
+using tick_test::RealName;
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr int kPlaces = 60;
+
+struct Turned : Scene {
+  static constexpr Count cylinders = exactly<4>;
+  static constexpr Count triggers = exactly<1>;
+  static constexpr std::uint32_t reluctor_samples = 16;
+  static constexpr std::uint32_t trigger_edges = 16;
+};
+template <std::uint32_t N>
+struct Free : Scene {
+  static constexpr Count cylinders = exactly<4>;
+  static constexpr CrankGiven crank = CrankGiven::torque;
+  static constexpr PressureGiven pressure = PressureGiven::by_table;
+  static constexpr bool load_ratio = true;
+  static constexpr bool starter = true;
+  static constexpr Count triggers = exactly<1>;
+  static constexpr std::uint32_t trigger_edges = 16;
+  static constexpr std::uint32_t reluctor_samples = N;
+};
+struct Measured : Turned {
+  static constexpr CrankGiven crank = CrankGiven::phase;
+};
+struct Plain : Free<8> {
+  static constexpr std::uint32_t reluctor_samples = 0;
+};
+
+/// The 495 with 60-2 and a sensor of 10 mV s at it: 2 V at 2000 rpm.
+[[nodiscard]] EngineDefinition sensed() {
+  EngineDefinition engine = support::diesel_495();
+  engine.trigger_count = 1;
+  TriggerWheel& wheel = engine.triggers[0];
+  wheel = {};
+  wheel.places = kPlaces, wheel.gap_count = 1, wheel.gaps[0] = {58, 2};
+  wheel.first_tooth_deg = 246;
+  engine.reluctor.wheel = 0;
+  engine.reluctor.gain_V_s = 0.01;
+  return engine;
+}
+
+template <class Real, class S>
+struct Rig {
+  TableStorage<Real, S> storage;
+  Engine<Real, S> engine;
+  Input<Real, S> in;
+
+  Rig(const EngineDefinition& definition, double tick_s) {
+    EXPECT_TRUE(accepted(storage.build(definition, {tick_s})));
+    EXPECT_TRUE(accepted(engine.init(storage.tables())));
+  }
+  [[nodiscard]] const detail::ReluctorTable<Real>& table() const { return *storage.tables().reluctor; }
+  [[nodiscard]] double volts(double turns, double speed_rad_s = 1) const {
+    const double from_centre = turns - 0.25 / kPlaces, whole = from_centre - std::floor(from_centre);
+    const auto angle = static_cast<std::uint64_t>(whole * 4294967296.0) << 32;
+    return static_cast<double>(detail::reluctor_V(table(), angle, static_cast<Real>(speed_rad_s)));
+  }
+};
+
+/// Centre of tooth n, from 0, in turns of the wheel from its first rising edge.
+[[nodiscard]] double centre(int tooth) { return (tooth + 0.25) / kPlaces; }
+
+/// The flux by the definition's words alone: lobes of height 1 at the teeth's edges, integrated by trapezoids, and the
+/// wheel's distance swung over a turn.
+class FluxByHand {
+ public:
+  explicit FluxByHand(const Reluctor& sensor) : sensor_{sensor}, flux_(kSteps + 1, 0.0) {
+    for (int i = 0; i < kSteps; ++i)
+      flux_[static_cast<std::size_t>(i) + 1] =
+          flux_[static_cast<std::size_t>(i)] +
+          (slope(at(i)) + 4 * slope(at(i) + 0.5 / kSteps) + slope(at(i + 1))) / 6 / kSteps;
+    const double least = *std::min_element(flux_.begin(), flux_.end());
+    for (double& flux : flux_) flux -= least;  // counted from that in the gap
+  }
+  /// d/da ((1 + r cos(a - a0)) flux) of the wheel's angle in turns, by central differences.
+  [[nodiscard]] double derivative(int i) const {
+    const auto swung = [this](int k) {
+      const int step = (k + kSteps) % kSteps;
+      return (1 + sensor_.runout_ratio * std::cos(2 * kPi * (at(step) - sensor_.runout_at_deg / 360))) *
+             flux_[static_cast<std::size_t>(step)];
+    };
+    return (swung(i + 1) - swung(i - 1)) * kSteps / 2;
+  }
+  [[nodiscard]] static double at(int i) { return static_cast<double>(i) / kSteps; }
+  static constexpr int kSteps = 240'000;
+
+ private:
+  [[nodiscard]] double slope(double turns) const {
+    double sum = 0;
+    for (int tooth = 0; tooth < 58; ++tooth) {
+      double x = (turns - centre(tooth)) * kPlaces;
+      if (x > kPlaces / 2.0) x -= kPlaces;
+      if (x < -kPlaces / 2.0) x += kPlaces;
+      const bool beside_gap = (tooth == 0 && x < 0) || (tooth == 57 && x > 0);
+      const double height = (x < 0 ? 1 : -1) * (beside_gap ? sensor_.gap_lobe_ratio : 1.0);
+      const double edge = 0.25, end = sensor_.reach_ratio / 2, far = std::fabs(x);
+      if (far < edge) {
+        sum += height * (1 - (1 - far / edge) * (1 - far / edge));
+      } else if (far < end) {
+        const double t = (end - far) / (end - edge);
+        sum += height * t * t * (3 - 2 * t);
+      }
+    }
+    return sum;
+  }
+
+  Reluctor sensor_;
+  std::vector<double> flux_;
+};
+
+template <class Real>
+class ReluctorOf : public ::testing::Test {};
+TYPED_TEST_SUITE(ReluctorOf, tick_test::BothReals, RealName);
+
+TYPED_TEST(ReluctorOf, VoltageIsTheDerivativeOfTheFluxUnderRunOut) {
+  for (const double runout : {0.0, 0.15}) {
+    EngineDefinition engine = sensed();
+    engine.reluctor.gain_V_s = 1;
+    engine.reluctor.runout_ratio = runout, engine.reluctor.runout_at_deg = 70;
+    const Rig<TypeParam, Turned> rig(engine, 100e-6);
+    const FluxByHand by_hand(engine.reluctor);
+    double largest = 0, worst = 0;
+    for (int i = 1; i < FluxByHand::kSteps; i += 7) {
+      const double expected = by_hand.derivative(i);
+      largest = std::fmax(largest, std::fabs(expected));
+      worst = std::fmax(worst, std::fabs(rig.volts(FluxByHand::at(i)) - expected));
+    }
+    EXPECT_NEAR(largest, 1.4, 1.4 * runout + 1e-3);
+    EXPECT_LT(worst, 3e-3) << runout;  // a cell is a seventeenth of a lobe's half, differences a 4000th of a pitch
+  }
+}
+
+TYPED_TEST(ReluctorOf, CrossesZeroAtTheCentreOfEachToothWithinTwoInTenMillionTurns) {
+  const Rig<TypeParam, Turned> rig(sensed(), 100e-6);
+  for (int tooth = 0; tooth < 58; ++tooth) {
+    double low = centre(tooth) - 1e-3, high = centre(tooth) + 1e-3;
+    ASSERT_GT(rig.volts(low), 0);
+    ASSERT_LT(rig.volts(high), 0);
+    for (int i = 0; i < 60; ++i) {
+      const double middle = (low + high) / 2;
+      (rig.volts(middle) > 0 ? low : high) = middle;
+    }
+    ASSERT_NEAR(low, centre(tooth), 2e-7) << tooth;
+  }
+}
+
+TYPED_TEST(ReluctorOf, IntegralOverATurnIsZeroWhateverTheRunOut) {
+  for (const double runout : {0.0, 0.05, 0.5}) {
+    EngineDefinition engine = sensed();
+    engine.reluctor.runout_ratio = runout, engine.reluctor.runout_at_deg = -35;
+    const Rig<TypeParam, Turned> rig(engine, 100e-6);
+    double sum = 0, magnitudes = 0;
+    for (const auto& cell : rig.table().at) {
+      const double of_cell =
+          static_cast<double>(cell.c[0]) + static_cast<double>(cell.c[1]) / 2 + static_cast<double>(cell.c[2]) / 3;
+      sum += of_cell, magnitudes += std::fabs(of_cell);
+    }
+    EXPECT_LT(std::fabs(sum), (sizeof(TypeParam) == 4 ? 2e-7 : 1e-15) * magnitudes) << runout;
+    EXPECT_GT(magnitudes / detail::kReluctorCells, 1e-3);
+  }
+}
+
+TYPED_TEST(ReluctorOf, VoltageIsProportionalToSpeedToRounding) {
+  using Real = TypeParam;
+  Rig<Real, Turned> slow(sensed(), 200e-6), fast(sensed(), 100e-6);
+  slow.in.speed_rad_s = Real{100}, fast.in.speed_rad_s = Real{200};  // the same angles
+  double peak = 0, slow_peak = 0;
+  for (int tick = 0; tick < 2000; ++tick) {
+    const auto &a = slow.engine.step(slow.in), &b = fast.engine.step(fast.in);
+    for (std::uint32_t i = 0; i < 16; ++i) {
+      ASSERT_NEAR(static_cast<double>(b.reluctor_V[i]), 2 * static_cast<double>(a.reluctor_V[i]),
+                  sizeof(Real) == 4 ? 2e-5 : 1e-12)
+          << tick;
+      slow_peak = std::fmax(slow_peak, static_cast<double>(a.reluctor_V[i]));
+      peak = std::fmax(peak, static_cast<double>(b.reluctor_V[i]));
+    }
+  }
+  EXPECT_NEAR(slow_peak, 1.4, 0.01);  // beside the gap: gain times speed times gap_lobe_ratio
+  EXPECT_NEAR(peak, 2 * slow_peak, 1e-5);
+}
+
+TYPED_TEST(ReluctorOf, FewerSamplesAreSomeOfMoreBitByBitThroughStartsAndReversals) {
+  using Real = TypeParam;
+  const EngineDefinition engine = sensed();
+  const auto by8 = std::make_unique<Rig<Real, Free<8>>>(engine, 100e-6);
+  const auto by16 = std::make_unique<Rig<Real, Free<16>>>(engine, 100e-6);
+  const auto by32 = std::make_unique<Rig<Real, Free<32>>>(engine, 100e-6);
+  const auto plain = std::make_unique<Rig<Real, Plain>>(engine, 100e-6);
+  double largest = 0;
+  for (int tick = 0; tick < 20'000; ++tick) {
+    const auto set = [tick](auto& in) {
+      in.starter = tick < 6000 ? 1 : 0;
+      in.load_ratio = Real{0};
+      in.external_torque_Nm = static_cast<Real>(tick < 9000 ? 0 : 400);  // stops it, and drives it back
+    };
+    set(by8->in), set(by16->in), set(by32->in), set(plain->in);
+    const auto& a = by8->engine.step(by8->in);
+    const auto& b = by16->engine.step(by16->in);
+    const auto& c = by32->engine.step(by32->in);
+    const auto& d = plain->engine.step(plain->in);
+    ASSERT_EQ(a.speed_rad_s, d.speed_rad_s);  // who asks for no samples has the same bits
+    for (std::uint32_t i = 0; i < 8; ++i) {
+      ASSERT_EQ(a.reluctor_V[i], b.reluctor_V[2 * i + 1]) << tick;
+      ASSERT_EQ(a.reluctor_V[i], c.reluctor_V[4 * i + 3]) << tick;
+      ASSERT_EQ(b.reluctor_V[2 * i], c.reluctor_V[4 * i + 1]) << tick;
+      largest = std::fmax(largest, std::fabs(static_cast<double>(a.reluctor_V[i])));
+    }
+  }
+  EXPECT_LT(static_cast<double>(plain->engine.output().speed_rad_s), -10);
+  EXPECT_GT(largest, 0.2);
+}
+
+TYPED_TEST(ReluctorOf, ComparatorRisesOnceAtEachTooth) {
+  using Real = TypeParam;
+  Rig<Real, Turned> rig(sensed(), 100e-6);
+  rig.in.speed_rad_s = static_cast<Real>(200);
+  const double turns_per_s = 200 / (2 * kPi), first = 246.0 / 360;
+  std::vector<double> rises;
+  double worst = 0;
+  for (int tick = 0; tick < 5000; ++tick) {
+    const auto& out = rig.engine.step(rig.in);
+    ASSERT_EQ(out.faults, 0u);
+    for (std::uint32_t e = 0; e < out.comparator.edge_count; ++e) {
+      if (out.comparator.edge[e].level == 0) continue;
+      const double turns = (tick * 100e-6 + static_cast<double>(out.comparator.edge[e].time_s)) * turns_per_s - first;
+      rises.push_back(turns);
+      const double place = (turns - std::floor(turns)) * kPlaces - 0.25;
+      worst = std::fmax(worst, std::fabs(place - std::round(place)) / kPlaces);
+    }
+  }
+  const double turns = 0.5 * turns_per_s;
+  EXPECT_NEAR(static_cast<double>(rises.size()), 58 * turns, 3);
+  EXPECT_LT(worst, 2e-5);  // a straight line between two of 16 samples a tick: 2e-4 turns apart
+  for (std::size_t i = 1; i < rises.size(); ++i) ASSERT_GT(rises[i], rises[i - 1]);
+}
+
+TYPED_TEST(ReluctorOf, ReversedWiresCrossUpwardAtTheTeethAndTheComparatorSeesSpaces) {
+  using Real = TypeParam;
+  EngineDefinition engine = sensed();
+  engine.reluctor.reversed = true;
+  const Rig<Real, Turned> healthy(sensed(), 100e-6);
+  Rig<Real, Turned> rig(engine, 100e-6);
+  for (double turns = 0; turns < 1; turns += 1e-3) ASSERT_EQ(rig.volts(turns), -healthy.volts(turns));
+  rig.in.speed_rad_s = static_cast<Real>(200);
+  double least = 1;
+  for (int tick = 0; tick < 3000; ++tick) {
+    const auto& out = rig.engine.step(rig.in);
+    for (std::uint32_t e = 0; e < out.comparator.edge_count; ++e) {
+      if (out.comparator.edge[e].level == 0) continue;
+      const double turns =
+          (tick * 100e-6 + static_cast<double>(out.comparator.edge[e].time_s)) * 200 / (2 * kPi) - 246.0 / 360;
+      const double place = (turns - std::floor(turns)) * kPlaces - 0.25;
+      least = std::fmin(least, std::fabs(place - std::round(place)));
+    }
+  }
+  EXPECT_GT(least, 0.3);  // places: between the teeth, not at them
+}
+
+TYPED_TEST(ReluctorOf, EdgesAreLostBelowTheComparatorsThreshold) {
+  using Real = TypeParam;
+  const auto edges_at = [](double speed_rad_s) {
+    Rig<Real, Turned> rig(sensed(), 100e-6);
+    rig.in.speed_rad_s = static_cast<Real>(speed_rad_s);
+    std::uint32_t rises = 0;
+    const long ticks = std::lround(4 * 2 * kPi / speed_rad_s / 100e-6);
+    for (long tick = 0; tick < ticks; ++tick) {
+      const auto& out = rig.engine.step(rig.in);
+      for (std::uint32_t e = 0; e < out.comparator.edge_count; ++e) rises += out.comparator.edge[e].level;
+    }
+    return rises;
+  };
+  EXPECT_EQ(edges_at(3.4), 0u);                              // 0.034 V; 0.0476 V beside the gap
+  EXPECT_NEAR(static_cast<double>(edges_at(4.5)), 4, 1);     // the tooth behind the gap alone: 0.063 V
+  EXPECT_NEAR(static_cast<double>(edges_at(6)), 4 * 58, 3);  // all
+}
+
+TEST(Reluctor, ARestoredRunGoesOnWithTheSameEdges) {
+  Rig<float, Turned> first(sensed(), 100e-6), second(sensed(), 100e-6);
+  first.in.speed_rad_s = second.in.speed_rad_s = 150;
+  for (int tick = 0; tick < 777; ++tick) first.engine.step(first.in);
+  std::vector<unsigned char> bytes(kSavedStateBytes<float, Turned>);
+  ASSERT_TRUE(save_state(first.engine, bytes.data(), bytes.size()).ok());
+  ASSERT_TRUE(accepted(load_state(bytes.data(), bytes.size(), second.engine)));
+  for (int tick = 0; tick < 777; ++tick) {
+    const auto &a = first.engine.step(first.in), &b = second.engine.step(second.in);
+    ASSERT_EQ(a.comparator.edge_count, b.comparator.edge_count);
+    for (std::uint32_t e = 0; e < a.comparator.edge_count; ++e)
+      ASSERT_EQ(a.comparator.edge[e].time_s, b.comparator.edge[e].time_s);
+  }
+}
+
+TEST(Reluctor, AJumpOfTheMeasuredAngleHasNoVoltageAndNoEdge) {
+  Rig<float, Measured> rig(sensed(), 100e-6);
+  std::uint32_t edges = 0;
+  for (int tick = 0; tick < 1000; ++tick) {
+    const bool jumps = tick == 500;
+    rig.in.crank += Phase::from_cycles(jumps ? 0.4F : 0.002F);
+    const auto& out = rig.engine.step(rig.in);
+    edges += out.comparator.edge_count;
+    if (!jumps) continue;
+    EXPECT_EQ(out.faults, std::uint32_t{kFaultPhaseJump});
+    EXPECT_EQ(out.comparator.edge_count, 0u);
+    for (const float volts : out.reluctor_V) EXPECT_EQ(volts, 0);
+  }
+  EXPECT_GT(edges, 200u);
+}
+
+TEST(Reluctor, AnEngineWithoutASensorShowsNoVoltage) {
+  EngineDefinition engine = sensed();
+  engine.reluctor = {};
+  Rig<float, Turned> rig(engine, 100e-6);
+  rig.in.speed_rad_s = 300;
+  for (int tick = 0; tick < 100; ++tick) {
+    const auto& out = rig.engine.step(rig.in);
+    for (const float volts : out.reluctor_V) ASSERT_EQ(volts, 0);
+    ASSERT_EQ(out.comparator.edge_count + out.comparator.level, 0u);
+  }
+}
+
+TEST(Reluctor, WhatNoWheelCanHaveIsRefusedByName) {
+  const auto refusal = [](auto change) {
+    EngineDefinition engine = sensed();
+    change(engine);
+    return validate(engine);
+  };
+  using E = EngineDefinition;
+  EXPECT_TRUE(refusal([](E&) {}).ok());
+  EXPECT_TRUE(support::refuses(refusal([](E& e) { e.reluctor.wheel = 1; }), Reason::out_of_range, "reluctor.wheel"));
+  EXPECT_TRUE(support::refuses(refusal([](E& e) { e.triggers[0].places = 121, e.triggers[0].gap_count = 0; }),
+                               Reason::inconsistent, "reluctor.wheel"));
+  EXPECT_TRUE(support::refuses(refusal([](E& e) { e.triggers[0].tooth_ratio = 0.85; }), Reason::inconsistent,
+                               "reluctor.reach_ratio"));
+  EXPECT_TRUE(
+      support::refuses(refusal([](E& e) { e.reluctor.gain_V_s = 0; }), Reason::not_positive, "reluctor.gain_V_s"));
+  EXPECT_TRUE(support::refuses(refusal([](E& e) { e.reluctor.gap_lobe_ratio = 2.5; }), Reason::out_of_range,
+                               "reluctor.gap_lobe_ratio"));
+}
+
+}  // namespace
+}  // namespace crankloop
