@@ -378,6 +378,13 @@ TEST_F(BreathingRun, DrawsItsGasExchangeOnAPageOfTheUsualSize) {
               line(summary, "trapped_air").first / (1 - line(summary, "residual_ratio").first) +
                   line(summary, "fuel_burned").first,
               12);
+  // The loop's caption has the work of the ticks, not the area between its points.
+  const auto behind = [&text](const std::string& words) {
+    return std::stod(text.substr(text.find(words) + words.size()));
+  };
+  const double net_kPa = line(summary, "net_mep").first;
+  EXPECT_NEAR(behind("Its area is the indicated work: net IMEP "), net_kPa, 0.5);
+  EXPECT_NEAR(behind("gross (over the closed 360 deg) "), net_kPa - line(summary, "pumping_mep").first, 0.5);
 }
 
 /// Intake valves of the sample by theory, as `lift` has them (lift_command_test.cpp sums those by hand); the elastic

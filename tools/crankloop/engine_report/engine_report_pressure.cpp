@@ -76,6 +76,17 @@ void add_heat_release(Section& section, const ReportInput& input, const std::vec
   section.blocks.push_back(std::move(heat));
 }
 
+struct IndicatedWork {
+  double net_mep_Pa, gross_mep_Pa;
+};
+
+/// Of gas exchange what the tick has summed up: the area between its points is off by some 0.4 % in ticks of 4 deg.
+IndicatedWork indicated_work(const ReportInput& input) {
+  if (!breathes(input)) return {input.summary.net_mep_Pa, input.summary.gross_mep_Pa};
+  const GasCycle<double>& cycle = input.figures.gas.cycle;
+  return {cycle.net_mep_Pa, cycle.net_mep_Pa - cycle.pumping_mep_Pa};
+}
+
 }  // namespace
 
 report::Section pressure_section(const ReportInput& input) {
@@ -100,9 +111,9 @@ report::Section pressure_section(const ReportInput& input) {
   loop.y.include_zero = true;
   loop.series = loop_by_strokes(input, volume, pressure);
   loop.markers = {loop_marker(trace, volume, pressure, peak, "kPa", 0)};
-  loop.caption = "Its area is the indicated work: net IMEP " + number_text(input.summary.net_mep_Pa * kKilo) +
-                 " kPa, gross (over the " + "closed 360 deg) " + number_text(input.summary.gross_mep_Pa * kKilo) +
-                 " kPa.";
+  const IndicatedWork work = indicated_work(input);
+  loop.caption = "Its area is the indicated work: net IMEP " + number_text(work.net_mep_Pa * kKilo) +
+                 " kPa, gross (over the closed 360 deg) " + number_text(work.gross_mep_Pa * kKilo) + " kPa.";
   Plot log_loop = loop;
   Plot exchange = loop;
   section.blocks.push_back(std::move(loop));
@@ -117,8 +128,7 @@ report::Section pressure_section(const ReportInput& input) {
   exchange.markers.clear();
   exchange.y.range = report::Range{0, exchange_top(input, pressure)};
   exchange.caption = "The lower end of the loop: exhaust and intake enclose net less gross IMEP, " +
-                     report::format_number((input.summary.net_mep_Pa - input.summary.gross_mep_Pa) * kKilo, 3) +
-                     " kPa.";
+                     report::format_number((work.net_mep_Pa - work.gross_mep_Pa) * kKilo, 3) + " kPa.";
   section.blocks.push_back(std::move(exchange));
   const std::vector<double> volume_m3 = scaled(volume, 1e-6);
   add_heat_release(section, input, volume_m3);

@@ -101,7 +101,7 @@ report::Section torque_section(const ReportInput& input) {
   const Trace& trace = input.trace;
   Section section{"torque", "Torque", {}};
   section.blocks.push_back(engine_torque(input));
-  section.blocks.push_back(single_torque(input));
+  if (input.exact.definition().layout.cylinders > 1) section.blocks.push_back(single_torque(input));  // else the same
   section.blocks.push_back(harmonics(input));
   if (input.close_up.size() > 2) section.blocks.push_back(close_up(input));
 
