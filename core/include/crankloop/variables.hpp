@@ -6,7 +6,7 @@
 //
 // What is written, read or described variable by variable goes by these lists: an FMU's model description, its get and
 // set, its documentation; the structs of the C interface and the columns of its step_many(). A new group of Input or
-// Output takes its rows here, in the order of its members, and nothing else.
+// Output takes its rows here or, of gas and of valves, in variables/; in the order of its members, and nothing else.
 //
 // What belongs here: names, meanings, ranges, and in which scenes a variable is. What does not: what a variable is
 // (variable.hpp), how a format spells it (fmi/description.hpp, c/header_text.hpp), its value as a number
@@ -20,6 +20,8 @@
 #include <crankloop/output.hpp>
 #include <crankloop/state.hpp>
 #include <crankloop/variable.hpp>
+#include <crankloop/variables/gas_outputs.hpp>
+#include <crankloop/variables/valve_outputs.hpp>
 
 namespace crankloop::detail {
 
@@ -176,190 +178,8 @@ constexpr void each_output(Visit&& visit, AState& state, AnOutput& out, [[maybe_
     force(real("rotating.up_N", "Free centrifugal force, up"), real("rotating.lateral_N", "Free force, lateral"),
           real("rotating.pitch_Nm", "Free moment, pitch"), real("rotating.yaw_Nm", "Free moment, yaw"), out.rotating);
   }
-  if constexpr (detail::Needs<S>::gas) {
-    for (std::uint32_t k = 0; k < shape.cylinders; ++k) {
-      auto& g = out.cylinder_gas[k];
-      visit(real("cylinder_gas[#].pressure_Pa", "Absolute pressure").at(k), g.pressure_Pa);
-      visit(real("cylinder_gas[#].temperature_K", "Temperature").at(k), g.temperature_K);
-      visit(real("cylinder_gas[#].mass_kg", "Mass of gas").at(k), g.mass_kg);
-      visit(real("cylinder_gas[#].burned_ratio", "Burned share of the mass").at(k), g.burned_ratio);
-      visit(real("cylinder_gas[#].intake_kg_s", "In through the intake, mean of the tick").at(k), g.flow_kg_s[kIntake]);
-      visit(real("cylinder_gas[#].exhaust_kg_s", "In through the exhaust, mean of the tick").at(k),
-            g.flow_kg_s[kExhaust]);
-      visit(real("cylinder_gas[#].wall_heat_W", "Heat to the walls, mean of the tick").at(k), g.wall_heat_W);
-    }
-  }
-  if constexpr (S::crevice) {
-    for (std::uint32_t k = 0; k < shape.cylinders; ++k) {
-      auto& c = out.crevice[k];
-      visit(real("crevice[#].mass_kg", "Mass of gas in the cylinder's crevices").at(k), c.mass_kg);
-      visit(real("crevice[#].blow_by_kg_s", "From them into the crankcase, mean of the tick").at(k), c.blow_by_kg_s);
-    }
-  }
-  if constexpr (S::runners) {
-    for (std::uint32_t k = 0; k < shape.cylinders; ++k) {
-      auto& r = out.runner[k];
-      visit(real("runner[#].intake_port_Pa", "Absolute pressure at the intake port").at(k),
-            r.port_pressure_Pa[kIntake]);
-      visit(real("runner[#].exhaust_port_Pa", "Absolute pressure at the exhaust port").at(k),
-            r.port_pressure_Pa[kExhaust]);
-      visit(real("runner[#].intake_kg_s", "Through the intake runner, toward the cylinder").at(k),
-            r.flow_kg_s[kIntake]);
-      visit(real("runner[#].exhaust_kg_s", "Through the exhaust runner, toward the cylinder").at(k),
-            r.flow_kg_s[kExhaust]);
-    }
-  }
-  if constexpr (S::walls) {
-    each(real("wall_K[#]", "Temperature of the cylinder's walls"), out.wall_K, shape.cylinders);
-    visit(real("intake_wall_heat_W", "To the walls of intake manifold or runners, mean of the tick"),
-          out.port_heat_W[kIntake]);
-    visit(real("exhaust_wall_heat_W", "To the walls of exhaust manifold or runners, mean of the tick"),
-          out.port_heat_W[kExhaust]);
-  }
-  if constexpr (detail::Needs<S>::manifolds) {
-    const auto manifold = [&visit](const Variable& pressure, const Variable& temperature, const Variable& burned,
-                                   auto& values) {
-      visit(pressure, values.pressure_Pa);
-      visit(temperature, values.temperature_K);
-      visit(burned, values.burned_ratio);
-    };
-    manifold(real("intake.pressure_Pa", "Absolute pressure in the intake manifold"),
-             real("intake.temperature_K", "Temperature"), real("intake.burned_ratio", "Burned share of its gas"),
-             out.manifold[kIntake]);
-    manifold(real("exhaust.pressure_Pa", "Absolute pressure in the exhaust manifold"),
-             real("exhaust.temperature_K", "Temperature"), real("exhaust.burned_ratio", "Burned share of its gas"),
-             out.manifold[kExhaust]);
-    visit(real("throttle_kg_s", "Through the throttle, mean of the tick"), out.throttle_kg_s);
-    visit(real("outlet_kg_s", "Out of the exhaust manifold, mean of the tick"), out.outlet_kg_s);
-  }
-  if constexpr (S::gas_results) {
-    for (std::uint32_t k = 0; k < shape.cylinders; ++k) {
-      auto& c = out.gas_cycle[k];
-      visit(real("gas_cycle[#].net_mep_Pa", "Of the last whole cycle: work over the swept volume").at(k), c.net_mep_Pa);
-      visit(real("gas_cycle[#].pumping_mep_Pa", "Its part from 180 to 540 deg; negative: a loss").at(k),
-            c.pumping_mep_Pa);
-      visit(real("gas_cycle[#].peak_Pa", "Largest pressure").at(k), c.peak_Pa);
-      visit(real("gas_cycle[#].peak_deg", "Where it was").at(k), c.peak_deg);
-      visit(real("gas_cycle[#].trapped_kg", "Gas in the cylinder when the intake closed").at(k), c.trapped_kg);
-      visit(real("gas_cycle[#].trapped_air_kg", "Air of it").at(k), c.trapped_air_kg);
-      visit(real("gas_cycle[#].residual_ratio", "Burned share of it").at(k), c.residual_ratio);
-      visit(real("gas_cycle[#].volumetric_efficiency", "Air through the intake over ambient air that fills the stroke")
-                .at(k),
-            c.volumetric_efficiency);
-      visit(real("gas_cycle[#].exhaust_K", "Of the gas through the exhaust, by its mean enthalpy").at(k), c.exhaust_K);
-      visit(real("gas_cycle[#].fuel_kg", "Fuel burned").at(k), c.fuel_kg);
-      visit(real("gas_cycle[#].excess_air_ratio", "Air there over air that the fuel wanted; 0: no fuel").at(k),
-            c.excess_air_ratio);
-      visit(real("gas_cycle[#].heat_J", "Of combustion").at(k), c.heat_J);
-      visit(real("gas_cycle[#].wall_heat_J", "To the walls").at(k), c.wall_heat_J);
-      visit(real("gas_cycle[#].energy_defect_J", "What the first law lacks: rounding").at(k), c.energy_defect_J);
-    }
-  }
-  if constexpr (S::crevice && S::gas_results) {
-    each(real("cycle_blow_by_kg[#]", "Of the last whole cycle: what blew by into the crankcase"), out.cycle_blow_by_kg,
-         shape.cylinders);
-  }
-  if constexpr (detail::Needs<S>::charge_burn && S::gas_results) {
-    for (std::uint32_t k = 0; k < shape.cylinders; ++k) {
-      auto& b = out.cycle_burn[k];
-      visit(real("cycle_burn[#].start_deg", "Of the last whole cycle: where the burn began, by the charge").at(k),
-            b.start_deg);
-      visit(real("cycle_burn[#].duration_deg", "How long it lasted, by the charge; 0: nothing burned").at(k),
-            b.duration_deg);
-    }
-  }
-  if constexpr (detail::Needs<S>::knock) {
-    each(real("knock_integral[#]", "Of the last whole cycle: the unburned gas ignites by itself at 1"),
-         out.knock_integral, shape.cylinders);
-    each(real("knock_deg[#]", "Where it passed 1; 0: it did not"), out.knock_deg, shape.cylinders);
-  }
-  const auto each_valve = [&](const auto& show) {
-    for (std::uint32_t t = 0; t < shape.trains; ++t) {
-      for (std::uint32_t k = 0; k < shape.cylinders; ++k) {
-        show([&visit, t, k](const Variable& variable, auto& value) { visit(variable.at(t, k), value); }, t, k);
-      }
-    }
-  };
-  if constexpr (detail::Needs<S>::any_valves) {
-    each_valve([&out](const auto& show, std::uint32_t t, std::uint32_t k) {
-      auto& v = out.valve[t][k];
-      if constexpr (S::theoretical_lift)
-        show(real("valve[#,#].theoretical_lift_m", "Lift of the cam at the valve, not below 0"), v.theoretical_lift_m);
-      show(real("valve[#,#].lift_m", "Lift from the closed, preloaded valve"), v.lift_m);
-      show(real("valve[#,#].velocity_m_s", "Velocity of the valve"), v.velocity_m_s);
-      if constexpr (S::valve_acceleration)
-        show(real("valve[#,#].acceleration_m_s2", "Acceleration of the valve"), v.acceleration_m_s2);
-    });
-  }
-  if constexpr (S::valve_forces) {
-    each_valve([&out](const auto& show, std::uint32_t t, std::uint32_t k) {
-      auto& v = out.valve_forces[t][k];
-      show(real("valve_forces[#,#].train_N", "Between train and valve, pushing"), v.train_N);
-      show(real("valve_forces[#,#].seat_N", "Between valve and seat"), v.seat_N);
-      show(real("valve_forces[#,#].tip_N", "At the stem's tip"), v.tip_N);
-      show(real("valve_forces[#,#].cam_N", "Between cam and pad"), v.cam_N);
-      show(real("valve_forces[#,#].train_compression_m", "Train lift less valve lift; negative: clearance"),
-           v.train_compression_m);
-      show(whole("valve_forces[#,#].regime", "0 free, 1 on its train, 2 on its seat, 3 on both"), v.regime);
-    });
-  }
-  if constexpr (detail::Needs<S>::spring_forces) {
-    each_valve([&out](const auto& show, std::uint32_t t, std::uint32_t k) {
-      auto& v = out.valve_spring[t][k];
-      show(real("valve_spring[#,#].surge_N", "Of the springs' surge on the valve, toward its seat"), v.surge_N);
-      show(real("valve_spring[#,#].moving_N", "Of the springs on the valve, with surge"), v.moving_N);
-      show(real("valve_spring[#,#].fixed_N", "Of the springs on the head, with surge"), v.fixed_N);
-    });
-  }
-  if constexpr (S::valve_results) {
-    each_valve([&out](const auto& show, std::uint32_t t, std::uint32_t k) {
-      auto& c = out.valve_cycle[t][k];
-      show(real("valve_cycle[#,#].largest_lift_m", "Of the last whole cycle"), c.largest_lift_m);
-      show(real("valve_cycle[#,#].largest_speed_m_s", "Magnitude"), c.largest_speed_m_s);
-      show(real("valve_cycle[#,#].largest_acceleration_m_s2", "Magnitude"), c.largest_acceleration_m_s2);
-      show(real("valve_cycle[#,#].opening_delay_deg", "Valve against theory at 0.1 mm of lift, cam degrees"),
-           c.opening_delay_deg);
-      show(real("valve_cycle[#,#].separation_clearance_m", "Largest clearance of a separation before seating"),
-           c.separation_clearance_m);
-      show(real("valve_cycle[#,#].separation_start_deg", "Of that separation, cam degrees since the lobe's start"),
-           c.separation_start_deg);
-      show(real("valve_cycle[#,#].separation_duration_deg", "Of that separation"), c.separation_duration_deg);
-      show(real("valve_cycle[#,#].seating_speed_m_s", "At the first contact with the seat"), c.seating_speed_m_s);
-      show(real("valve_cycle[#,#].bounce_height_m", "Largest lift above the seat's contact after a lift-off"),
-           c.bounce_height_m);
-      show(whole("valve_cycle[#,#].separations", "Separations of at least 1 um"), c.separations);
-      show(whole("valve_cycle[#,#].bounces", "Lift-offs of at least 1 um"), c.bounces);
-      show(whole("valve_cycle[#,#].contact_changes", "Changes of contact"), c.contact_changes);
-      show(truth("valve_cycle[#,#].off_seat_at_end", "Still off its seat in the middle of the base circle"),
-           c.off_seat_at_end);
-    });
-  }
-  if constexpr (S::cam_contact) {
-    each_valve([&out](const auto& show, std::uint32_t t, std::uint32_t k) {
-      auto& c = out.cam_contact[t][k];
-      show(real("cam_contact[#,#].stress_Pa", "Largest pressure between cam and follower, by Hertz; 0: no contact"),
-           c.stress_Pa);
-      show(real("cam_contact[#,#].half_width_m", "Of the strip of contact"), c.half_width_m);
-      show(real("cam_contact[#,#].sliding_m_s", "Surface of the cam less that of the follower"), c.sliding_m_s);
-      show(real("cam_contact[#,#].entrainment_m_s", "Mean of both surfaces, relative to the contact"),
-           c.entrainment_m_s);
-    });
-    each_valve([&out](const auto& show, std::uint32_t t, std::uint32_t k) {
-      auto& c = out.cam_contact_cycle[t][k];
-      show(real("cam_contact_cycle[#,#].largest_Pa", "Largest stress of the last whole cycle"), c.largest_Pa);
-      show(real("cam_contact_cycle[#,#].largest_deg", "Where it was, cam degrees since the lobe's start"),
-           c.largest_deg);
-    });
-  }
-  if constexpr (S::cam_torque) {
-    each_valve([&out](const auto& show, std::uint32_t t, std::uint32_t k) {
-      auto& c = out.cam_torque[t][k];
-      show(real("cam_torque[#,#].torque_Nm", "Torque that a cam takes, positive against forward rotation"),
-           c.torque_Nm);
-      show(real("cam_torque[#,#].friction_Nm", "Its part of friction between cam and follower"), c.friction_Nm);
-    });
-    visit(real("camshaft_Nm", "Torque that all cams take, positive against forward rotation"), out.camshaft_Nm);
-  }
+  each_gas_output<S>(visit, out, shape);
+  each_valve_output<S>(visit, out, shape);
   if constexpr (detail::Needs<S>::faulty_wheels) {
     visit(whole("wheel_faults_on", "Bit i-1: fault i of the wheels is on"), out.wheel_faults_on);
   }
