@@ -77,13 +77,15 @@ require_cmake_3_22() {
 }
 
 # Several builds compile the same sources with the same flags, and the next run most of them again: with ccache each
-# once.
+# once. Paths stay absolute: relative to a build folder they would differ between build/release and the builds of tests,
+# which lie deeper.
 use_compiler_cache() {
   has_command ccache || return 0
   export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
-  CCACHE_BASEDIR=$(pwd) CCACHE_NOHASHDIR=1  # a checkout of another path counts as the same
+  CCACHE_NOHASHDIR=1                        # nor does it matter from which folder the compiler is called
   CCACHE_SLOPPINESS=pch_defines,time_macros  # else it leaves out what includes a precompiled header
-  export CCACHE_BASEDIR CCACHE_NOHASHDIR CCACHE_SLOPPINESS
+  export CCACHE_NOHASHDIR CCACHE_SLOPPINESS
+  unset CCACHE_BASEDIR
 }
 
 # Ninja calls the compiler from the top of the build folder wherever a source lies: then builds of other projects find

@@ -24,7 +24,7 @@ absolute() { case $1 in /*) echo "$1" ;; *) echo "$here_now/$1" ;; esac; }
 jobs=$(nproc 2>/dev/null || echo 1)
 
 mkdir -p "$build_dir"
-if ! { cmake -S "$here" -B "$build_dir" -DCMAKE_BUILD_TYPE=Release -DCRANKLOOP_DEVELOPER=ON && cmake --build "$build_dir" --parallel "$jobs"; } >"$build_dir/build.log" 2>&1; then
+if ! { cmake -S "$here" -B "$build_dir" -DCMAKE_BUILD_TYPE=Release && cmake --build "$build_dir" --parallel "$jobs"; } >"$build_dir/build.log" 2>&1; then
   tail -n 40 "$build_dir/build.log" >&2
   exit 1
 fi
