@@ -228,6 +228,19 @@ template <class Real>
 class MisfireOf : public ::testing::Test {};
 TYPED_TEST_SUITE(MisfireOf, tick_test::BothReals, RealName);
 
+TYPED_TEST(MisfireOf, ACountThatItsHistoryDoesNotHaveIsRefusedByVerify) {
+  using Real = TypeParam;
+  EngineDefinition engine = diesel_495();
+  engine.misfires[1] = some_of(MisfirePattern::spread, 1, 4);
+  const auto run = rig<Real, TorqueAlone>(engine, 100e-6, 2000 * kPi / 30);
+  for (int tick = 0; tick < 5000; ++tick) run->step();
+  EXPECT_TRUE(accepted(verify(run->engine)));
+  auto state = run->engine.state();
+  state.misfire[1].in_200_turns ^= 4;
+  ASSERT_TRUE(accepted(run->engine.restore(state)));
+  EXPECT_TRUE(support::refuses(verify(run->engine), Reason::inconsistent, "state.misfire"));
+}
+
 TYPED_TEST(MisfireOf, EachCycleOfEachCylinderIsCountedOnceFromItsFuelOn) {
   using Real = TypeParam;
   EngineDefinition engine = diesel_495();

@@ -7,12 +7,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 
 #include <crankloop/assert.hpp>
 #include <crankloop/phase.hpp>
 #include <crankloop/status.hpp>
-#include <crankloop/tick/checked.hpp>
+#include <crankloop/tick/state/field_ranges.hpp>
 
 namespace crankloop::detail {
 
@@ -106,7 +105,7 @@ class StateReader {
  public:
   explicit StateReader(const unsigned char* at) noexcept : at_{at} {}
 
-  [[nodiscard]] Status status() const noexcept { return status_; }
+  [[nodiscard]] Status status() const noexcept { return ranges_.status(); }
 
   template <class T>
   void take(T& x, std::size_t bytes = sizeof(T)) noexcept {
@@ -116,45 +115,28 @@ class StateReader {
     set_bits(x, bits);
   }
 
-  void group(const char* name) noexcept { group_ = name; }
+  void group(const char* name) noexcept { ranges_.group(name); }
   template <class Real>
   void number(Real& x, Real least, Real most) noexcept {
-    take(x);
-    if (within(x, least, most)) return;
-    constexpr Real kLargest = std::numeric_limits<Real>::max();
-    refuse(within(x, -kLargest, kLargest) ? Reason::out_of_range : Reason::not_finite);
+    take(x), ranges_.number(x, least, most);
   }
   template <class Base>
   void sum(Base& x, double most) noexcept {
-    if constexpr (sizeof(Base) == 8) {
-      number(x, -most, most);
-    } else {
-      take(x);
-      (void)most;
-    }
+    take(x), ranges_.sum(x, most);
   }
   void wide(std::uint64_t& x) noexcept { take(x); }
   void phase(Phase& x) noexcept { take(x); }
-  void signed_wide(std::uint64_t& x, std::uint64_t most) noexcept {
-    take(x);
-    if (x + most > 2 * most) refuse(Reason::out_of_range);  // wraps where x is negative
-  }
+  void signed_wide(std::uint64_t& x, std::uint64_t most) noexcept { take(x), ranges_.signed_wide(x, most); }
   template <class Word>
   void word(Word& x, std::uint32_t most) noexcept {
-    take(x);
-    if (static_cast<std::uint32_t>(x) > most) refuse(Reason::out_of_range);
+    take(x), ranges_.word(x, most);
   }
   template <class T>
   void spare(T&) noexcept {}
 
  private:
-  void refuse(Reason reason) noexcept {
-    if (status_.ok()) status_ = {reason, -1, group_};
-  }
-
   const unsigned char* at_;
-  const char* group_ = "state";
-  Status status_{};
+  FieldRanges ranges_;
 };
 
 }  // namespace crankloop::detail

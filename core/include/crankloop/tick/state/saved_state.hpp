@@ -23,11 +23,10 @@
 
 #include <crankloop/engine.hpp>
 #include <crankloop/status.hpp>
-#include <crankloop/tick/checked.hpp>
-#include <crankloop/tick/state/gas_agrees.hpp>
 #include <crankloop/tick/state/misfire_counts.hpp>
 #include <crankloop/tick/state/saved_bytes.hpp>
 #include <crankloop/tick/state/state_fields.hpp>
+#include <crankloop/tick/state/verify.hpp>
 
 namespace crankloop {
 
@@ -133,11 +132,7 @@ Status load_state(const unsigned char* bytes, std::size_t size, Engine<Real, S>&
   detail::StateFields<Real, S>::visit(state, read);
   if (state.fingerprint != engine.state().fingerprint) return refuse("state.fingerprint", Reason::other_tables);
   if (!read.status().ok()) return read.status();
-  const Real limit = engine.tables()->drive->speed_limit_rad_s;
-  if (!detail::within(state.speed_rad_s, -limit, limit)) return refuse("state.drive", Reason::out_of_range);
-  if constexpr (detail::Needs<S>::gas) {
-    if (!detail::gas_agrees(state, *engine.tables())) return refuse("state.gas", Reason::inconsistent);
-  }
+  if (const Status status = detail::fits(state, *engine.tables()); !status.ok()) return status;
   if constexpr (S::misfire) {
     for (MisfireRecord& record : state.misfire) detail::recount(record);
   }
