@@ -1,4 +1,7 @@
-// The cycle of one cylinder of an engine: the fuel that it brings to a step, the results that it leaves.
+// The cycle of a cylinder of an engine: the fuel that it brings to a step, the results that it leaves.
+//
+// What belongs here: of one, and of several abreast. What does not: what burns (combustion.hpp), how long
+// (charge_burn.hpp), the sums of a record (gas_results.hpp).
 #pragma once
 
 #include <cstdint>
@@ -71,6 +74,25 @@ template <class Real, class S>
   return fuel;
 }
 
+/// The same of cylinder `k`, or of lanes; `ends` has a bit of each, from this one on.
+template <class T, class Real, class S>
+[[nodiscard, gnu::always_inline]] inline GasFuel<T> burn_of_block(const Tables<Real, S>& tables, State<Real, S>& state,
+                                                                  const Input<Real, S>& input, std::uint32_t k,
+                                                                  const CycleWay* way, std::uint32_t ends,
+                                                                  std::uint32_t& faults) noexcept {
+  GasFuel<T> fuel{};
+  if constexpr (Needs<S>::burn) {
+    for (int i = 0; i < kLanesIn<T>; ++i) {
+      const GasFuel<Real> one =
+          burn_on_way(tables, state, input, k + static_cast<std::uint32_t>(i), way[i], (ends >> i & 1u) != 0, faults);
+      put_lane(fuel.mass_kg, i, one.mass_kg);
+      put_lane(fuel.energy_J, i, one.energy_J);
+      put_lane(fuel.burned_kg, i, one.burned_kg);
+    }
+  }
+  return fuel;
+}
+
 /// The integrals of knock of those whose burns begin on their ways, among cylinders whose bits in `due` say that theirs
 /// are yet to. Of one whose fuel is taken on the same way, on the next.
 template <class Real, class S>
@@ -121,6 +143,37 @@ template <class Real, class S>
   }
   if constexpr (S::crevice) state.cycle_blow_by_kg[cylinder] = Real{0};
   begin_cycle(record, gas);
+}
+
+/// Whether a cylinder is before firing dead centre, and none of its fuel has burned.
+template <class Real, class S>
+[[nodiscard]] inline bool before_burn([[maybe_unused]] const State<Real, S>& state, [[maybe_unused]] std::uint32_t k,
+                                      const CycleWay& way) noexcept {
+  if (way.to >> 63 == 0) return false;
+  if constexpr (Needs<S>::burn) {
+    return state.burn[k].taken == 0 || !(state.burn[k].burnt_ratio > 0);
+  } else {
+    return true;
+  }
+}
+
+/// What a step of cylinder `k`, or of lanes, leaves in the records of their cycles. Bits of each: `shut`, its intake
+/// did, `ends`, its cycle does.
+template <class T, class Real, class S>
+[[gnu::always_inline]] inline void record_block(const Tables<Real, S>& tables, State<Real, S>& state,
+                                                Output<Real, S>& out, std::uint32_t k, const CylinderStep<T>& done,
+                                                const PortStep<T> (&through)[kPorts], const T& gained_J,
+                                                const T& fuel_kg, const CycleWay* way, std::uint32_t shut,
+                                                std::uint32_t ends) noexcept {
+  record_step<T>(&state.gas_record[k], done, through, fuel_kg, way);
+  for (int i = 0; i < kLanesIn<T>; ++i) {
+    const std::uint32_t one = k + static_cast<std::uint32_t>(i);
+    GasRecord<Real>& record = state.gas_record[one];
+    record_end(record, state.cylinder_gas.pressure_Pa[one], lane(gained_J, i), way[i]);
+    if ((shut >> i & 1u) != 0 && before_burn(state, one, way[i]))
+      record_trapped(record, state.cylinder_gas.template at<Real>(one).contents);
+    if ((ends >> i & 1u) != 0) end_cycle(tables, state, out, one);
+  }
 }
 
 }  // namespace crankloop::detail
