@@ -118,7 +118,7 @@ struct ChargeBurnState {
 template <class Real, class S>
 struct WallState {
   Real wall_K[(S::cylinders.capacity + 1) / 2 * 2];  ///< of each cylinder's walls
-  Real wall_rest_K[(S::cylinders.capacity + 1) / 2 * 2];
+  Real wall_heat_J[(S::cylinders.capacity + 1) / 2 * 2];  ///< that they have and wall_K does not show yet
 };
 template <class Real, class S>
 struct KnockRecords {

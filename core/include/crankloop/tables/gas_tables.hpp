@@ -132,14 +132,16 @@ struct BurnTable {
   Real burnt[kBurnSteps + 1];
 };
 
-/// Walls that warm up: tick/gas/warm_walls.hpp. Zero in an engine without.
+/// Walls that warm up: tick/gas/warm_walls.hpp. Zero in an engine without, but for `ticks`.
 template <class Real>
 struct WarmWallsTable {
   Real capacity_J_K;  ///< of a cylinder's; 0: fixed
   Real to_coolant_W_K;
   Real coolant_K;
-  Real port_W_K[kPorts];  ///< of manifolds, or where there are runners of each port; 0: adiabatic
-  Real behind_K;          ///< behind them
+  Real port_W_K[kPorts];   ///< of manifolds, or where there are runners of each port; 0: adiabatic
+  Real behind_K;           ///< behind them
+  std::uint32_t ticks;     ///< from one change of wall temperatures to the next, a power of 2
+  std::uint32_t of_ports;  ///< 1: one of port_W_K is not 0
 };
 
 /// Ignition delay of unburned gas: tick/gas/knock.hpp.

@@ -70,7 +70,7 @@ CRANKLOOP_MEMBERS_OF(GasManifolds, parts, spare, per_volume, least, outside, out
 CRANKLOOP_MEMBERS_OF(BurnTable, latch, energy, heat, burning, burned, air_fuel, per_air_fuel, span, fuel, excess_air,
                      start, duration, burnt)
 CRANKLOOP_MEMBERS_OF(ChargeBurnTable, reference, delay, in_use, spare)
-CRANKLOOP_MEMBERS_OF(WarmWallsTable, capacity, to_coolant, coolant, port, behind)
+CRANKLOOP_MEMBERS_OF(WarmWallsTable, capacity, to_coolant, coolant, port, behind, ticks, of_ports)
 CRANKLOOP_MEMBERS_OF(KnockTable, rate, hot, in_use, spare)
 CRANKLOOP_MEMBERS_OF(MisfireRule, burning, pattern, misfires, of, below, seed, listed, cycle)
 CRANKLOOP_MEMBERS(TriggerTrack, edges, edge_count, on_crank, starts, train, inverted, max_edges, edges_before)

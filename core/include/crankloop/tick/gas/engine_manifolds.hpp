@@ -106,6 +106,9 @@ class EngineManifolds {
       const Real in_kg = exchange_with(flows_back ? behind_outlet(behind.pressure_Pa) : behind, kExhaust,
                                        table.outlet_m2, near, step, put_back);
       if (in_kg < 0) state_.outlet = {before.temperature_K, before.burned_ratio};
+      if constexpr (S::walls) {
+        if (__builtin_expect(tables_.gas_walls->of_ports != 0, 0)) lose_heat_to_walls(step.drive.step_s);
+      }
     }
     return put_back ? std::uint32_t{kFaultGas} : 0;
   }
@@ -178,16 +181,18 @@ class EngineManifolds {
     const Real in_kg = step_manifold(state_.manifold[port], near, step.beyond[port], outside, area_m2,
                                      table.per_volume_m3[port], table.least_kg[port], step.drive.step_s, put_back);
     outside_kg_[port] += in_kg;
-    if constexpr (S::walls) lose_heat_of(state_.manifold[port], port, step.drive.step_s);
     return in_kg;
   }
-  /// To the walls of a manifold; where there are runners, they have them.
-  void lose_heat_of(ManifoldGas<Real>& manifold, int port, Real step_s) noexcept {
+  /// Of manifolds; where there are runners, they have it.
+  [[gnu::noinline]] void lose_heat_to_walls(Real step_s) noexcept {
     const WarmWallsTable<Real>& walls = *tables_.gas_walls;
-    if (!(walls.port_W_K[port] > 0) || has_runner(tables_, port)) return;
-    const Real heat_J = lose_heat(manifold.contents, manifold.point, tables_.gas_manifolds->per_volume_m3[port],
-                                  walls.port_W_K[port], walls.behind_K, step_s);
-    out_.port_heat_W[port] += heat_J * tables_.drive->per_tick_s;
+    for (int port = 0; port < kPorts; ++port) {
+      if (!(walls.port_W_K[port] > 0) || has_runner(tables_, port)) continue;
+      ManifoldGas<Real>& manifold = state_.manifold[port];
+      out_.port_heat_W[port] += lose_heat(manifold.contents, manifold.point, tables_.gas_manifolds->per_volume_m3[port],
+                                          walls.port_W_K[port], walls.behind_K, step_s) *
+                                tables_.drive->per_tick_s;
+    }
   }
 
   std::conditional_t<S::boundaries, GasBeyond<Real>[kPorts], char> boundary_;

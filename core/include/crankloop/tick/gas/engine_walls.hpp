@@ -1,10 +1,15 @@
-// The walls of an engine's cylinders over a step, those of several cylinders abreast.
+// The walls of an engine's cylinders over a tick.
 //
-// What belongs here: the temperature that a cylinder's gas sees, the walls' step. What does not: the formulas
-// (warm_walls.hpp), walls of manifolds and ports (engine_manifolds.hpp, engine_runners.hpp).
+// What belongs here: the temperature that a cylinder's gas sees, the heat that it gives, when that changes the
+// temperature. What does not: the formulas (warm_walls.hpp), walls of manifolds and ports (engine_manifolds.hpp,
+// engine_runners.hpp).
+//
+// Each step adds its heat to a sum; only every few ticks, so few that no wall changes by 0.05 K, does the sum change
+// the temperature: walls take minutes, and a division a tick would be for nothing.
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 
 #include <crankloop/faults.hpp>
 #include <crankloop/output.hpp>
@@ -26,31 +31,38 @@ template <class T, class Real, class S>
   }
 }
 
-/// Of cylinder `k`, or of lanes, whose gas gave them `heat_J`. Answers fault bits.
+/// Heat that the gas of cylinder `k`, or of lanes, gave its walls in a step.
 template <class T, class Real, class S>
-[[nodiscard, gnu::always_inline]] inline std::uint32_t step_cylinder_walls(const Tables<Real, S>& tables,
-                                                                           State<Real, S>& state, Output<Real, S>& out,
-                                                                           std::uint32_t k, const T& heat_J,
-                                                                           Real step_s) noexcept {
-  const WarmWallsTable<Real>& table = *tables.gas_walls;
-  T wall_K = load<T>(state.wall_K + k);
+[[gnu::always_inline]] inline void add_wall_heat(State<Real, S>& state, std::uint32_t k, const T& heat_J) noexcept {
+  store<T>(state.wall_heat_J + k, load<T>(state.wall_heat_J + k) + heat_J);
+}
+
+/// Lets the heat of the last ticks change the temperatures of all walls. Answers fault bits.
+template <class Real, class S>
+[[nodiscard, gnu::noinline]] std::uint32_t change_wall_temperatures(const Tables<Real, S>& tables,
+                                                                    State<Real, S>& state) noexcept {
+  const Real time_s = static_cast<Real>(tables.gas_walls->ticks) * tables.drive->tick_s;
   std::uint32_t faults = 0;
-  if (table.capacity_J_K > 0) {
-    T rest_K = load<T>(state.wall_rest_K + k);
-    bool plain = true;
+  for (std::uint32_t k = 0; k < count<S>(tables.drive->cylinders); ++k) {
+    Real &wall_K = state.wall_K[k], crevice_J_K{};
     if constexpr (S::crevice) {
-      if (tables.gas_crevice->in_use != 0) {
-        const CreviceGas<T> crevice = state.crevice_gas.template at<T>(k);
-        const T crevice_J_K = crevice.mass_kg * (Real{646} + kHeatSlope<Real> * wall_K) + crevice.burned_kg * Real{93};
-        step_walls<T>(wall_K, rest_K, table, heat_J, crevice_J_K, step_s), plain = false;
-      }
+      const CreviceGas<Real> crevice = state.crevice_gas.template at<Real>(k);
+      crevice_J_K = crevice.mass_kg * (Real{646} + kHeatSlope<Real> * wall_K) + crevice.burned_kg * Real{93};
     }
-    if (plain) step_walls<T>(wall_K, rest_K, table, heat_J, step_s);
-    const auto well = both_hold(wall_K >= static_cast<Real>(kLeastGas_K), wall_K <= static_cast<Real>(kMaxGas_K));
-    if (__builtin_expect(!all(well), 0)) put_walls_right<T>(wall_K, rest_K), faults = kFaultGas;
-    store<T>(state.wall_K + k, wall_K), store<T>(state.wall_rest_K + k, rest_K);
+    if (!step_walls(wall_K, state.wall_heat_J[k], *tables.gas_walls, crevice_J_K, time_s)) faults = kFaultGas;
   }
-  store<T>(out.wall_K + k, wall_K);
+  return faults;
+}
+
+/// Once a tick, after the steps of the gas. Answers fault bits.
+template <class Real, class S>
+[[nodiscard, gnu::always_inline]] inline std::uint32_t step_cylinder_walls(const Tables<Real, S>& tables,
+                                                                           State<Real, S>& state,
+                                                                           Output<Real, S>& out) noexcept {
+  std::uint32_t faults = 0;
+  if ((static_cast<std::uint32_t>(state.ticks) & (tables.gas_walls->ticks - 1)) == 0)
+    faults = change_wall_temperatures(tables, state);
+  std::memcpy(out.wall_K, state.wall_K, sizeof out.wall_K);
   return faults;
 }
 

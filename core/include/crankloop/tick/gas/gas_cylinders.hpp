@@ -115,8 +115,7 @@ class GasCylindersStep {
       done.closed.wall_heat_J += crevice_step.wall_heat_J;
       show_crevices(tables_, state_, out_, crevice_step, k);
     }
-    if constexpr (S::walls)
-      faults |= step_cylinder_walls<T>(tables_, state_, out_, k, done.closed.wall_heat_J, step.drive.step_s);
+    if constexpr (S::walls) add_wall_heat<T>(state_, k, done.closed.wall_heat_J);
     const Real per_tick_s = tables_.drive->per_tick_s;
     T shown[7] = {gas.point.pressure_Pa,
                   gas.point.temperature_K,

@@ -70,7 +70,7 @@ template <class Real, class S>
   start_gas_inputs(tables, state);
   if constexpr (S::walls) {
     for (Real& wall_K : state.wall_K) wall_K = tables.gas_cylinders->walls.temperature_K;
-    for (Real& rest_K : state.wall_rest_K) rest_K = Real{0};
+    for (Real& heat_J : state.wall_heat_J) heat_J = Real{0};
   }
   if constexpr (Needs<S>::manifolds) {
     for (int port = 0; port < kPorts; ++port) {

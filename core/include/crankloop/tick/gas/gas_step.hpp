@@ -11,6 +11,7 @@
 
 #include <crankloop/assert.hpp>
 #include <crankloop/tick/gas/engine_manifolds.hpp>
+#include <crankloop/tick/gas/engine_walls.hpp>
 #include <crankloop/tick/gas/gas_cylinders.hpp>
 #include <crankloop/tick/gas/gas_inputs.hpp>
 #include <crankloop/tick/gas/gas_shown.hpp>
@@ -54,6 +55,7 @@ class GasStep : EngineManifolds<Real, S> {
       show_filled(tables_, state_, out_);
     } else {
       faults |= run_steps(input, end, static_cast<std::int64_t>(turned.units()));
+      if constexpr (S::walls) faults |= step_cylinder_walls(tables_, state_, out_);
     }
     Manifolds::show_manifolds();
     work_J = work_J_;

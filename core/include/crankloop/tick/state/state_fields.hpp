@@ -248,7 +248,7 @@ struct StateFields {
     if constexpr (S::walls) {
       v.group("state.walls");
       for (auto& wall : s.wall_K) v.number(wall, static_cast<Real>(kLeastGas_K), static_cast<Real>(kMaxGas_K));
-      for (auto& rest : s.wall_rest_K) v.number(rest, Real{-1}, Real{1});
+      for (auto& heat : s.wall_heat_J) numbers(kMaxGas_J, heat);
       v.group("state.gas");
     }
     if constexpr (N::manifolds) {
