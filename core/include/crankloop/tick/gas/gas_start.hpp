@@ -13,7 +13,7 @@ template <class Real, class S>
 void fill_crevice(const Tables<Real, S>& tables, State<Real, S>& state, std::uint32_t k) noexcept {
   Real mass_kg = tables.gas_crevice->kg_per_Pa * state.cylinder_gas.pressure_Pa[k];
   if constexpr (S::walls) mass_kg *= tables.gas_cylinders->walls.temperature_K / state.wall_K[k];
-  state.crevice_gas.put(k, CreviceGas<Real>{mass_kg, Real{0}, mass_kg * state.cylinder_gas.burned_ratio[k], Real{0}});
+  state.crevice_gas.put(k, CreviceGas<Real>{mass_kg, mass_kg * state.cylinder_gas.burned_ratio[k]});
 }
 
 /// In a manifold.

@@ -222,7 +222,6 @@ struct StateFields {
       for (std::uint32_t k = 0; k < sizeof gas.mass_kg / sizeof gas.mass_kg[0]; ++k) {
         v.number(gas.mass_kg[k], -kMaxGas_kg, kMaxGas_kg);  // below 0 by rounding alone: gas_agrees.hpp
         v.number(gas.burned_kg[k], -kMaxGas_kg, kMaxGas_kg);
-        numbers(kMaxGas_kg, gas.mass_rest_kg[k], gas.burned_rest_kg[k]);
         if constexpr (S::gas_results) numbers(kMaxNoted, s.cycle_blow_by_kg[k]);
       }
       v.group("state.gas");
