@@ -55,7 +55,7 @@ template <class T, class Real, class S>
       runners.seen[port] = spread<T>(manifold);
       continue;
     }
-    const RunnerGas<T> runner = take_runners<T>(&state.runner[port][k]);
+    const RunnerGas<T>& runner = take_runners<T>(&state.runner[port][k]);
     // Its own flow of the last step is among those that the manifold's end includes.
     const T own_Pa = manifold.response_Pa_kg * (step.drive.step_s * runner.flow_kg_s);
     const RunnerEnds<T> ends{manifold,

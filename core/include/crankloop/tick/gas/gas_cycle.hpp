@@ -35,6 +35,14 @@ template <class Real, class S>
   }
 }
 
+/// The knock integral of a cylinder whose burn begins on its way.
+template <class Real, class S>
+[[gnu::noinline]] void begin_knock_on_way(const Tables<Real, S>& tables, State<Real, S>& state, std::uint32_t cylinder,
+                                          const CycleWay& way) noexcept {
+  begin_knock(state.knock[cylinder], charge_at_start(tables, state, cylinder, way));
+  state.knock_due &= ~(std::uint32_t{1} << cylinder), state.knock_in_burn |= std::uint32_t{1} << cylinder;
+}
+
 /// Fuel that burns on the way of a cylinder: where that passes latch_deg, of a new cycle, or of a misfiring one a
 /// share. `ends`: it passes a cycle's end.
 template <class Real, class S>
@@ -70,6 +78,9 @@ template <class Real, class S>
       begin_burn(tables, state, cylinder, way);
   }
   const GasFuel<Real> fuel = burnt_fuel(burn, table, mass_kg, burned_kg, way);
+  if constexpr (Needs<S>::knock) {
+    if (fuel.mass_kg > 0 && (state.knock_due >> cylinder & 1u) != 0) begin_knock_on_way(tables, state, cylinder, way);
+  }
   if (ends && way.forward()) end_burn(burn);
   return fuel;
 }
@@ -91,20 +102,6 @@ template <class T, class Real, class S>
     }
   }
   return fuel;
-}
-
-/// The integrals of knock of those whose burns begin on their ways, among cylinders whose bits in `due` say that theirs
-/// are yet to. Of one whose fuel is taken on the same way, on the next.
-template <class Real, class S>
-[[gnu::noinline]] void begin_knock_on_way(const Tables<Real, S>& tables, State<Real, S>& state, std::uint32_t due,
-                                          const CycleWay* way) noexcept {
-  for (std::uint32_t left = due; left != 0; left &= left - 1) {
-    const std::uint32_t k = trailing_zeros(left);
-    const CylinderBurn<Real>& burn = state.burn[k];
-    if (!(way[k].template deg<Real>() > burn.start_deg) || !(burn.fuel_kg > 0)) continue;
-    begin_knock(state.knock[k], charge_at_start(tables, state, k, way[k]));
-    state.knock_due &= ~(std::uint32_t{1} << k), state.knock_in_burn |= std::uint32_t{1} << k;
-  }
 }
 
 /// The step of all cylinders as far as knock goes, and what their cycles show of it. Bits of each: `in_burn`, its

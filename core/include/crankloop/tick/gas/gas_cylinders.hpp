@@ -42,9 +42,6 @@ class GasCylindersStep {
     std::uint32_t faults = 0;
     const std::uint32_t cylinders = count<S>(tables_.drive->cylinders);
     [[maybe_unused]] const std::uint32_t all = (std::uint32_t{1} << cylinders) - 1;  // a bit of each
-    if constexpr (N::knock) {
-      if (const std::uint32_t due = state_.knock_due & all; due != 0) begin_knock_on_way(tables_, state_, due, way);
-    }
     std::uint32_t k = 0;
 #if CRANKLOOP_ABREAST
     if constexpr (sizeof(Real) == 4 && kCylinders >= 4) {

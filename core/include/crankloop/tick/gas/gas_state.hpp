@@ -143,9 +143,9 @@ struct RunnerGas {
 
 /// Runners of as many cylinders as T has lanes, from the first on.
 template <class T>
-[[nodiscard, gnu::always_inline]] inline RunnerGas<T> take_runners(const RunnerGas<NumberOf<T>>* first) noexcept {
+[[nodiscard, gnu::always_inline]] inline decltype(auto) take_runners(const RunnerGas<NumberOf<T>>* first) noexcept {
   if constexpr (kLanesIn<T> == 1) {
-    return *first;
+    return (*first);
   } else {
     constexpr std::size_t kNumbers = sizeof(RunnerGas<float>) / sizeof(float);
     static_assert(kNumbers % 4 == 0 && sizeof(RunnerGas<T>) == kNumbers * sizeof(T), "numbers alone, four by four");
