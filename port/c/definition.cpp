@@ -98,7 +98,7 @@ template <class Copy, class Cpp, class C>
 void each_field(Copy& copy, Cpp& definition, C& c) noexcept {
   // A new part of the definition must be named here, and then visited below unless each_field() lists it.
   auto& [crank, masses, layout, pressure, train_count, trains, friction, machine, starter, trigger_count, triggers, gas,
-         contacts, misfires, wheel_fault_count, wheel_faults, reluctor] = definition;
+         contacts, misfires, wheel_fault_count, wheel_faults, reluctor, lambda_sensor] = definition;
   EachNumber<Copy> each{copy};
   each({1, ""}, definition, c);
   copy(true, "trigger_count", trigger_count, c.trigger_count);
@@ -109,6 +109,7 @@ void each_field(Copy& copy, Cpp& definition, C& c) noexcept {
   copy(true, "wheel_fault_count", wheel_fault_count, c.wheel_fault_count);
   each({wheel_fault_count, ""}, wheel_faults, c.wheel_faults);
   each({1, ""}, reluctor, c.reluctor);
+  each({1, ""}, lambda_sensor, c.lambda_sensor);
 }
 template <class Copy, class Cpp, class C>
 void each_option(Copy& copy, Cpp& options, C& c) noexcept {

@@ -46,11 +46,11 @@ TEST(CDefinition, PassesEveryFieldOnToCpp) {
   });
   // Behind cylinders, heat_given, train_count, trigger_count, wheel_fault_count, in each train behind point_count,
   // per_cylinder and surge_modes, in each wheel behind inverted, in each misfire behind cycles, in each fault behind
-  // noise_seed, in the gas behind in_use and throttle_count: 4 bytes. Of a wheel's `inverted` the three bytes above the
+  // noise_seed, in the gas behind in_use and throttle_count, in the lambda sensor: 4 bytes. Of a wheel's `inverted` the three bytes above the
   // lowest tell nothing new: any number but 0 is yes; but here each byte is changed by itself.
   if (kUsual64Bits) {
     EXPECT_EQ(blind, 4 + 4 + 4 + 4 + CRANKLOOP_MAX_TRAINS * (4 + 4 + 4) + CRANKLOOP_MAX_TRIGGER_WHEELS * 4 +
-                         CRANKLOOP_MAX_CYLINDERS * 4 + 4 + CRANKLOOP_MAX_WHEEL_FAULTS * 4 + 4 + 4);
+                         CRANKLOOP_MAX_CYLINDERS * 4 + 4 + CRANKLOOP_MAX_WHEEL_FAULTS * 4 + 4 + 4 + 4);
   }
 }
 

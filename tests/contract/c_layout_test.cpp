@@ -161,7 +161,7 @@ constexpr Place kPlaces[] = {
     CRANKLOOP_AT(crankloop_trigger_wheel, edges_deg, 104),
     CRANKLOOP_AT(crankloop_trigger_wheel, inverted, 112),
 
-    CRANKLOOP_SIZE(crankloop_definition, 9520),
+    CRANKLOOP_SIZE(crankloop_definition, 9544),
     CRANKLOOP_AT(crankloop_definition, crank, 0),
     CRANKLOOP_AT(crankloop_definition, masses, 48),
     CRANKLOOP_AT(crankloop_definition, layout, 96),
@@ -180,6 +180,12 @@ constexpr Place kPlaces[] = {
     CRANKLOOP_AT(crankloop_definition, contacts, 7536),
     CRANKLOOP_AT(crankloop_definition, gas, 7728),
     CRANKLOOP_AT(crankloop_definition, reluctor, 9440),
+    CRANKLOOP_AT(crankloop_definition, lambda_sensor, 9520),
+
+    CRANKLOOP_SIZE(crankloop_lambda_sensor, 24),
+    CRANKLOOP_AT(crankloop_lambda_sensor, pipe_m3, 0),
+    CRANKLOOP_AT(crankloop_lambda_sensor, lag_s, 8),
+    CRANKLOOP_AT(crankloop_lambda_sensor, in_use, 16),
 
     CRANKLOOP_SIZE(crankloop_reluctor, 80),
     CRANKLOOP_AT(crankloop_reluctor, gain_V_s, 0),

@@ -20,6 +20,7 @@ class FieldNames {
     (*this)({1, ""}, Misfire{});
     (*this)({1, ""}, WheelFault{});
     (*this)({1, ""}, Reluctor{});
+    (*this)({1, ""}, LambdaSensor{});
     names_.insert("trigger_count");
     names_.insert("wheel_fault_count");
   }

@@ -34,6 +34,7 @@ void each_part(Visit& visit, Self& definition, Others&... others) {
   visit(ListedField{definition.train_count, "contacts"}, definition.contacts, others.contacts...);
   visit(ListedField{definition.pressure.source == PressureSource::gas ? 1 : 0, "gas"}, definition.gas, others.gas...);
   visit(ListedField{1, "reluctor"}, definition.reluctor, others.reluctor...);
+  visit(ListedField{1, "lambda_sensor"}, definition.lambda_sensor, others.lambda_sensor...);
 }
 
 template <class T>

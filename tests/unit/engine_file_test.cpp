@@ -95,6 +95,7 @@ TEST_F(EngineFileTest, DefaultsAreThoseOfTheLibrary) {
       Misfire::each_field(library, untouched.misfires[0]);
       WheelFault::each_field(library, untouched.wheel_faults[0]);
       Reluctor::each_field(library, untouched.reluctor);
+      LambdaSensor::each_field(library, untouched.lambda_sensor);
       EXPECT_EQ(parse_value(*key, key->fallback, "", 0).si(), library.value) << key->name;
       ++compared;
     }
@@ -662,6 +663,21 @@ TEST_F(EngineFileTest, ASensorHasAllItsKeysAndIsRefusedAtAWheelThatItDoesNotFit)
   says("trigger = cam\ngain_V_s = 1\n", "trigger: 'cam' is no wheel of up to 120 evenly spaced teeth that no phaser");
   says("trigger = crank\n", "gain_V_s");
   says("trigger = crank\ngain_V_s = 1\nreach_ratio = 1.1\n", "reach_ratio: 1.1 is out of range; allowed: 0.6 to 1");
+}
+
+TEST_F(EngineFileTest, ALambdaSensorNeedsAnEngineThatBreathes) {
+  const std::string breathes = contents(std::string(CRANKLOOP_SOURCE_DIR) + "/tools/engines/four_2000.ini");
+  EXPECT_FALSE(read(breathes).definition().lambda_sensor.in_use);
+  const EngineFile usual = read(breathes + "[lambda_sensor]\n");
+  EXPECT_TRUE(usual.definition().lambda_sensor.in_use);
+  EXPECT_EQ(usual.definition().lambda_sensor.pipe_m3, LambdaSensor{}.pipe_m3);
+  const EngineFile engine = read(breathes + "[lambda_sensor]\npipe_cm3 = 800\nlag_s = 0.1\n");
+  EXPECT_EQ(engine.definition().lambda_sensor.pipe_m3, 800 / 1e6);
+  EXPECT_EQ(engine.definition().lambda_sensor.lag_s, 0.1);
+  EXPECT_NE(refusal(breathes + "[lambda_sensor]\nlag_s = -1\n").find("lag_s: -1 is out of range; allowed: 0 to 100"),
+            std::string::npos);
+  const std::string diagram = refusal(contents(kSample) + "[lambda_sensor]\n");
+  EXPECT_NE(diagram.find("[lambda_sensor] needs [pressure] source = gas"), std::string::npos) << diagram;
 }
 
 // ---- trigger wheels -------------------------------------------------------------------------------------------------

@@ -253,6 +253,19 @@ struct ChargeBurnResults {
   ChargeBurnOutput<Real> cycle_burn[S::cylinders.capacity];
 };
 
+/// Lambda as the definition's sensor has it; 0 without one. Air has kMaxExcessAir_ratio.
+template <class Real>
+struct ExhaustLambda {
+  Real exhaust_excess_air_ratio;  ///< of the exhaust manifold: air, free and bound, over what its fuel wants, burned or
+                                  ///< not
+  Real sensor_excess_air_ratio;   ///< shown by the sensor
+};
+/// Of the gas that left each cylinder in its last whole cycle.
+template <class Real, class S>
+struct OutflowLambda {
+  Real outflow_excess_air_ratio[S::cylinders.capacity];
+};
+
 /// Constant. A step does not write it.
 template <class Real>
 struct Coolant {
@@ -280,6 +293,8 @@ struct Output : detail::If<detail::Needs<S>::crank_dynamics, group::CrankMotion<
                 detail::If<S::crevice && S::gas_results, group::BlowByResults<Real, S>>,
                 detail::If<detail::Needs<S>::charge_burn && S::gas_results, group::ChargeBurnResults<Real, S>>,
                 detail::If<detail::Needs<S>::knock, group::KnockResults<Real, S>>,
+                detail::If<detail::Needs<S>::lambda, group::ExhaustLambda<Real>>,
+                detail::If<detail::Needs<S>::lambda && S::gas_results, group::OutflowLambda<Real, S>>,
                 detail::If<detail::Needs<S>::any_valves, group::Valves<Real, S>>,
                 detail::If<S::valve_forces, group::ValveForces<Real, S>>,
                 detail::If<detail::Needs<S>::spring_forces, group::ValveSpringForces<Real, S>>,

@@ -84,6 +84,7 @@ struct Breathing : Whole {
   static constexpr bool walls = true;
   static constexpr bool charge_burn = true;
   static constexpr bool knock = true;
+  static constexpr std::uint32_t lambda_parcels = 32;
   static constexpr Combustion combustion = Combustion::by_input;
   static constexpr bool gas_results = true;
   static constexpr bool load_ratio = false;
@@ -100,6 +101,7 @@ struct BreathingFree : FreeRunning {
   static constexpr bool walls = true;
   static constexpr bool charge_burn = true;
   static constexpr bool knock = true;
+  static constexpr std::uint32_t lambda_parcels = 32;
   static constexpr Combustion combustion = Combustion::by_input;
   static constexpr bool gas_results = true;
   static constexpr bool load_ratio = false;

@@ -142,6 +142,30 @@ template <class Real, class S>
 struct RunnerState {
   detail::RunnerGas<Real> runner[kPorts][S::cylinders.capacity];
 };
+/// Fuel that lacked air, wherever the gas carried it, the pipe to the lambda sensor, and the sensor.
+template <class Real, class S>
+struct LambdaState {
+  static constexpr std::uint32_t kEven = (S::cylinders.capacity + 1) / 2 * 2;
+  Real unburned_kg[kEven] = {};  ///< in each cylinder and its crevices
+  Real manifold_unburned_kg[kPorts] = {};
+  Real pipe_ratio[S::lambda_parcels] = {};  ///< 1 / lambda of each parcel; 0: air
+  Real filled_ratio = 0;                    ///< of the parcel that fills
+  Real filling_ratio = 0;                   ///< 1 / lambda of what is in it, times filled_ratio
+  Real owed_ratio = 0;                      ///< parcels that flowed back, and come again
+  Real outlet_unburned_ratio = 0;           ///< of the gas that last flowed out
+  Real sensor_ratio = 0;                    ///< 1 / lambda that the sensor shows
+  Real sensor_rest_ratio = 0;
+  std::uint32_t oldest_parcel = 0;
+  std::uint32_t any_unburned = 0;  ///< 1: some of what stands above is not 0
+};
+template <class Real, class S>
+struct RunnerLambdaState {
+  Real runner_unburned_kg[kPorts][LambdaState<Real, S>::kEven] = {};
+};
+template <class Real, class S>
+struct OutflowRecords {
+  Real outflow_unburned_kg[LambdaState<Real, S>::kEven] = {};  ///< out of each exhaust valve, in the cycle in progress
+};
 /// Cycles of each cylinder that misfired.
 template <class S>
 struct MisfireRecords {
@@ -205,6 +229,9 @@ struct State : group::StateCore<Real>,
                detail::If<S::crevice && S::gas_results, group::BlowByRecords<Real, S>>,
                detail::If<S::runners, group::RunnerState<Real, S>>,
                detail::If<S::walls, group::WallState<Real, S>>,
+               detail::If<detail::Needs<S>::lambda, group::LambdaState<Real, S>>,
+               detail::If<detail::Needs<S>::lambda && S::runners, group::RunnerLambdaState<Real, S>>,
+               detail::If<detail::Needs<S>::lambda && S::gas_results, group::OutflowRecords<Real, S>>,
                detail::If<S::misfire, group::MisfireRecords<S>>,
                detail::If<detail::Needs<S>::misfire_of_table, group::BurningState<Real, S>>,
                detail::If<detail::Needs<S>::faulty_wheels, group::WireState<S>>,

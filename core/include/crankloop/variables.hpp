@@ -259,6 +259,16 @@ constexpr void each_output(Visit&& visit, AState& state, AnOutput& out, [[maybe_
     each(real("cycle_blow_by_kg[#]", "Of the last whole cycle: what blew by into the crankcase"), out.cycle_blow_by_kg,
          shape.cylinders);
   }
+  if constexpr (detail::Needs<S>::lambda) {
+    visit(real("exhaust.excess_air_ratio", "Lambda of the gas in the exhaust manifold; 100: air; 0: no sensor"),
+          out.exhaust_excess_air_ratio);
+    visit(real("sensor_excess_air_ratio", "Lambda that the sensor shows, behind its pipe and lag; 100: air"),
+          out.sensor_excess_air_ratio);
+    if constexpr (S::gas_results) {
+      each(real("outflow_excess_air_ratio[#]", "Of the last whole cycle: lambda of what left the cylinder"),
+           out.outflow_excess_air_ratio, shape.cylinders);
+    }
+  }
   if constexpr (detail::Needs<S>::charge_burn && S::gas_results) {
     for (std::uint32_t k = 0; k < shape.cylinders; ++k) {
       auto& b = out.cycle_burn[k];
@@ -385,6 +395,8 @@ constexpr void each_output(Visit&& visit, AState& state, AnOutput& out, [[maybe_
         visit(real("lambda[#]", "Of a cylinder's last whole cycle; 0: no fuel").at(k),
               out.gas_cycle[k].excess_air_ratio);
     }
+    if constexpr (detail::Needs<S>::lambda)
+      visit(real("sensor_lambda", "At the lambda sensor; 100: air; 0: no sensor"), out.sensor_excess_air_ratio);
     if constexpr (S::walls) visit(real("coolant_K", "Coolant of the walls; 0: none"), out.coolant_K);
   }
   if constexpr (S::bad_input_count) {

@@ -268,7 +268,8 @@ Status validate(const EngineDefinition& engine) noexcept {
     if (const Status refused = validate(fault); !refused.ok()) return refuse(refused.field, refused.reason, i);
     if (fault.wheel >= engine.trigger_count) return refuse("fault.wheel", Reason::out_of_range, i);
   }
-  return validate_reluctor(engine);
+  if (const Status refused = validate_reluctor(engine); !refused.ok()) return refused;
+  return validate(engine.lambda_sensor);
 }
 
 }  // namespace crankloop

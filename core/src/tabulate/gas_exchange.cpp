@@ -226,6 +226,24 @@ constexpr double kLn2 = 0.69314718055994531;
   return table;
 }
 
+[[nodiscard]] LambdaTable<double> lambda_of(const EngineDefinition& engine, double tick_s) noexcept {
+  constexpr double kMost = 1e12;  // of pipes: a float holds it
+  const LambdaSensor& sensor = engine.lambda_sensor;
+  const double air_fuel = engine.gas.air_fuel_ratio;
+  LambdaTable<double> table{};
+  if (!sensor.in_use) return table;
+  table.air_fuel_ratio = air_fuel;
+  table.burned_fuel_ratio = 1 / (1 + air_fuel);
+  table.unburned_ratio = air_fuel / (1 + air_fuel);
+  if (sensor.pipe_m3 > 0) {
+    const bool tiny = engine.gas.exhaust_m3 > kMost * sensor.pipe_m3;
+    table.pipes_in_exhaust = tiny ? kMost : engine.gas.exhaust_m3 / sensor.pipe_m3;
+  }
+  table.follows_ratio = sensor.lag_s > 0 ? 1 - elementary::exp(-tick_s / sensor.lag_s) : 1;
+  table.in_use = 1;
+  return table;
+}
+
 [[nodiscard]] KnockTable<double> knock_of(const EngineDefinition& engine) noexcept {
   KnockTable<double> table{};
   if (engine.gas.octane_number == 0) return table;
@@ -263,6 +281,7 @@ void fill_gas_exchange(const EngineDefinition& engine, const TickOptions& option
   fill(targets.charge_burn, charge_burn_of);
   fill(targets.knock, knock_of);
   fill(targets.gas_walls, walls_of);
+  fill(targets.lambda, [&options](const EngineDefinition& e) { return lambda_of(e, options.tick_s); });
   if (targets.gas_ports == nullptr) return;
   for (int t = 0; t < engine.train_count; ++t)
     fill(targets.gas_ports + t, [t](const EngineDefinition& e) { return port_of(e, t); });

@@ -69,6 +69,15 @@ void EngineFile::build_reluctor() {
     refuse(*section, "reach_ratio", "must exceed the wheel's tooth_ratio by 0.1", path_);
 }
 
+void EngineFile::build_lambda_sensor() {
+  const SectionValues* section = find("lambda_sensor");
+  if (section == nullptr) return;
+  if (definition_.pressure.source != PressureSource::gas)
+    throw InputError(path_, section->line, section->title() + " needs [pressure] source = gas: without, no gas flows");
+  fill(*section, definition_.lambda_sensor);
+  definition_.lambda_sensor.in_use = true;
+}
+
 void EngineFile::build_faults() {
   for (const SectionValues& section : sections_) {
     if (section.kind != "fault") continue;

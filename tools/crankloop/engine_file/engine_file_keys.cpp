@@ -81,6 +81,7 @@ constexpr SectionKind kSections[] = {
     {"fault", true,
      "what is wrong with a trigger wheel, its sensor or its wire, and when; where forces turn the crank"},
     {"reluctor", false, "a variable reluctance sensor at a trigger wheel, and its comparator; absent: none"},
+    {"lambda_sensor", false, "a lambda sensor in the exhaust pipe ([pressure] source = gas); absent: none"},
     {"counterweight", true, "a mass on the crankshaft, for `balance` and reports; no part of the tick"},
     {"balance_shaft", true,
      "an unbalanced shaft that the crankshaft drives, for `balance` and reports; no part of the tick"},
@@ -300,6 +301,9 @@ constexpr Key kRows[] = {
     {"reluctor", "hysteresis_V", Kind::number, kV, "reluctor.hysteresis_V", kOfField, "", defaults, "0", "", "", "its edge is where the voltage falls through this, below 0"},
     {"reluctor", "watchdog_s", Kind::number, kS, "reluctor.watchdog_s", kOfField, "", defaults, "0.085", "", "", "after so long without an edge the last peak is forgotten"},
 
+    {"lambda_sensor", "pipe_cm3", Kind::number, kCm3, "lambda_sensor.pipe_m3", kOfField, "", defaults, "500", "", "", "volume of the pipe from the exhaust manifold to the sensor; 0: the sensor is at the manifold"},
+    {"lambda_sensor", "lag_s", Kind::number, kS, "lambda_sensor.lag_s", kOfField, "", defaults, "0.05", "", "", "the sensor's time constant, of first order; 0: none", "0.02 to 0.2"},
+
     {"counterweight", "mass_g", Kind::number, kG, "", above(0).up_to(1e7), "", required, "", "", "", "of the weight"},
     {"counterweight", "radius_mm", Kind::number, kMm, "", above(0).up_to(1e4), "", required, "", "", "", "of its centre of mass from the crankshaft's axis"},
     {"counterweight", "angle_deg", Kind::number, kDeg, "", from(-360).up_to(360), "", defaults, "180", "", "", "from cylinder 1's crank pin, in the sense of rotation; 180: opposite"},
@@ -350,6 +354,7 @@ constexpr Range range_of_field(const Key& key) {
   Misfire::each_field(find, kExample.misfires[0]);
   WheelFault::each_field(find, kExample.wheel_faults[0]);
   Reluctor::each_field(find, kExample.reluctor);
+  LambdaSensor::each_field(find, kExample.lambda_sensor);
   if (!find.found) throw "a key is that of a field that the definition does not have";
   const auto in_file = [&key](double si) { return si * key.unit.over / key.unit.times; };
   return {in_file(find.range.least), in_file(find.range.most), find.range.without_least, find.range.without_most};
@@ -400,6 +405,7 @@ constexpr Follows kFollows[] = {
     {"fault.stuck", "fault", "stuck"},
     {"reluctor.wheel", "reluctor", "trigger"},
     {"reluctor.reversed", "reluctor", "reversed"},
+    {"lambda_sensor.in_use", "lambda_sensor", "pipe_cm3"},
     {"gas.throttle_count", "gas", "throttle_curve"},
     {"gas.throttle_ratio", "gas", "throttle_curve"},
     {"gas.throttle_area_ratio", "gas", "throttle_curve"},

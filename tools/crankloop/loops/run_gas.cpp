@@ -40,6 +40,7 @@ void add_gas_columns(std::vector<std::string>& columns, const EngineDefinition& 
       if (runners[port]) columns.push_back(name + "_port_kPa"), columns.push_back(name + "_runner_g_s");
     }
   }
+  if (engine.lambda_sensor.in_use) columns.insert(columns.end(), {"exhaust_lambda", "sensor_lambda"});
 }
 
 void add_fuel(Summary& s, const GasOrder& order) {
@@ -68,6 +69,10 @@ void add_gas(Summary& s, const EngineDefinition& engine, const GasFigures& figur
   s.line("excess_air_ratio", cycle.excess_air_ratio, "",
          too_rich ? "lambda: so rich a mixture does not ignite; with --lambda fuel follows the air"
                   : "lambda; 0: no fuel");
+  if (engine.lambda_sensor.in_use) {
+    s.line("exhaust_lambda", figures.exhaust_lambda, "", "of the gas in the exhaust manifold, at the end; 100: air");
+    s.line("sensor_lambda", figures.sensor_lambda, "", "shown by the sensor");
+  }
   if (engine.gas.charge_burn.in_use) {
     s.line("burn_by_charge_start", figures.burn_start_deg, "deg", "where the burn began after the spark");
     s.line("burn_by_charge_duration", figures.burn_duration_deg, "deg", "as the charge had it; 0: nothing burned");

@@ -54,8 +54,8 @@ template <class Real>
           gas.flow_kg_s[kIntake], gas.flow_kg_s[kExhaust], gas.wall_heat_W};
 }
 
-/// Columns of a CSV file, and their cells for a tick: the cylinders, then the manifolds, then crevices and runners
-/// where the engine has some.
+/// Columns of a CSV file, and their cells for a tick: the cylinders, then the manifolds, then crevices, runners and
+/// the lambda sensor where the engine has some.
 void add_gas_columns(std::vector<std::string>& columns, const EngineDefinition& engine);
 template <class Real, class S>
 void write_gas(CsvWriter& csv, const crankloop::Output<Real, S>& out, const EngineDefinition& engine) {
@@ -88,6 +88,7 @@ void write_gas(CsvWriter& csv, const crankloop::Output<Real, S>& out, const Engi
       csv.cell(out.runner[k].flow_kg_s[port] * static_cast<Real>(1e3));
     }
   }
+  if (engine.lambda_sensor.in_use) csv.cell(out.exhaust_excess_air_ratio), csv.cell(out.sensor_excess_air_ratio);
 }
 
 /// Means over the cylinders' last whole cycles; for the energy defect, the one of largest magnitude.
@@ -129,6 +130,7 @@ struct GasFigures {
   double knock_integral = 0;                         ///< largest of the cylinders
   double knock_deg = 0;                              ///< earliest of the cylinders that passed 1; 0: none did
   double burn_start_deg = 0, burn_duration_deg = 0;  ///< by the charge, of a cylinder's cycle, their mean
+  double exhaust_lambda = 0, sensor_lambda = 0;      ///< at the end; 0: no lambda sensor
 };
 
 /// Figures of the cylinders' last whole cycles.
@@ -137,6 +139,8 @@ void take_cycles(const crankloop::Output<Real, S>& out, std::size_t cylinders, G
   figures.cycle = mean_cycle(out.gas_cycle, cylinders);
   figures.blow_by_kg = figures.burn_start_deg = figures.burn_duration_deg = 0;
   figures.knock_integral = figures.knock_deg = 0;
+  figures.exhaust_lambda = static_cast<double>(out.exhaust_excess_air_ratio);
+  figures.sensor_lambda = static_cast<double>(out.sensor_excess_air_ratio);
   const double share = 1 / static_cast<double>(cylinders);
   for (std::size_t k = 0; k < cylinders; ++k) {
     figures.blow_by_kg += static_cast<double>(out.cycle_blow_by_kg[k]) * share;

@@ -6,6 +6,7 @@
 #include <crankloop/define/crank_dynamics.hpp>
 #include <crankloop/define/field.hpp>
 #include <crankloop/define/gas.hpp>
+#include <crankloop/define/lambda_sensor.hpp>
 #include <crankloop/define/layout.hpp>
 #include <crankloop/define/masses.hpp>
 #include <crankloop/define/misfire.hpp>
@@ -35,6 +36,7 @@ struct EngineDefinition {
   int wheel_fault_count = 0;                 ///< 0 to kMaxWheelFaults
   WheelFault wheel_faults[kMaxWheelFaults];  ///< a scene with wheel_faults takes them
   Reluctor reluctor;                         ///< a scene with reluctor_samples takes it
+  LambdaSensor lambda_sensor;                ///< a scene with lambda_parcels takes it
 
   template <class Visit, class Self, class... Others>
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {

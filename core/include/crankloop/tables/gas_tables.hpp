@@ -151,6 +151,18 @@ struct KnockTable {
   std::uint32_t spare;
 };
 
+/// Lambda of the exhaust and its sensor: tick/gas/exhaust_lambda.hpp. Zero in an engine without.
+template <class Real>
+struct LambdaTable {
+  Real air_fuel_ratio;     ///< L
+  Real burned_fuel_ratio;  ///< 1 / (1 + L): the fuel in gas that burned with enough air
+  Real unburned_ratio;     ///< L / (1 + L): of a kg that turns into burned gas without air, what that has too much
+  Real pipes_in_exhaust;   ///< volume of the exhaust manifold over that of the pipe; 0: no pipe
+  Real follows_ratio;      ///< of the sensor, in a tick: 1 - exp(-tick / lag)
+  std::uint32_t in_use;
+  std::uint32_t spare;
+};
+
 /// A burn whose duration follows the charge: tick/gas/charge_burn.hpp.
 template <class Real>
 struct ChargeBurnTable {

@@ -79,6 +79,7 @@ enum class SectionRows : std::uint8_t {
   SECTION(burn, BurnTable<Real>, one, N::burn)                                                     \
   SECTION(charge_burn, ChargeBurnTable<Real>, one, N::charge_burn)                                 \
   SECTION(knock, KnockTable<Real>, one, N::knock)                                                  \
+  SECTION(lambda, LambdaTable<Real>, one, N::lambda)                                               \
   SECTION(misfires, MisfireRule<Real>, cylinders, S::misfire)                                      \
   SECTION(bearings, Bearings<Real>, one, S::bearing_loads)                                         \
   SECTION(balance, Balance<Real>, one, S::free_forces)                                             \

@@ -72,6 +72,7 @@ CRANKLOOP_MEMBERS_OF(BurnTable, latch, energy, heat, burning, burned, air_fuel, 
 CRANKLOOP_MEMBERS_OF(ChargeBurnTable, reference, delay, in_use, spare)
 CRANKLOOP_MEMBERS_OF(WarmWallsTable, capacity, to_coolant, coolant, port, behind)
 CRANKLOOP_MEMBERS_OF(KnockTable, rate, hot, in_use, spare)
+CRANKLOOP_MEMBERS_OF(LambdaTable, air_fuel, burned, unburned, pipes, follows, in_use, spare)
 CRANKLOOP_MEMBERS_OF(MisfireRule, burning, pattern, misfires, of, below, seed, listed, cycle)
 CRANKLOOP_MEMBERS(TriggerTrack, edges, edge_count, on_crank, starts, train, inverted, max_edges, edges_before)
 CRANKLOOP_MEMBERS(TriggerWheels, wheel, count)

@@ -154,6 +154,9 @@ template <class Real, class S>
     for (const std::uint32_t of_valve : state.valve_regime)
       if (of_valve >= std::uint32_t{detail::kRegimes}) return refuse("state.valve", Reason::out_of_range);
   }
+  if constexpr (detail::Needs<S>::lambda) {
+    if (state.oldest_parcel >= S::lambda_parcels) return refuse("state.lambda", Reason::out_of_range);
+  }
   if constexpr (S::crank == CrankGiven::speed) {  // a bad input's tick turns by it
     if (!detail::within_magnitude(state.speed_rad_s, tables_->drive->speed_limit_rad_s))
       return refuse("state.speed_rad_s", Reason::out_of_range);

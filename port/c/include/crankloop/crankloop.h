@@ -306,8 +306,8 @@ typedef struct crankloop_wheel_fault {
   double late_deg;
   double noise_Hz;
   double noise_pulse_s;
-  int32_t wheel; /* counted from 0 */
-  int32_t input_bit; /* -1: none */
+  int32_t wheel;         /* counted from 0 */
+  int32_t input_bit;     /* -1: none */
   int32_t missing_tooth; /* from 1; 0: none */
   int32_t moved_tooth;
   int32_t inverted;
@@ -417,6 +417,13 @@ typedef struct crankloop_reluctor {
   int32_t reversed; /* its wires */
 } crankloop_reluctor;
 
+/* A lambda sensor in the exhaust pipe, of an engine with gas exchange. */
+typedef struct crankloop_lambda_sensor {
+  double pipe_m3; /* volume of the pipe from the exhaust manifold to it */
+  double lag_s;   /* its time constant; 0: none */
+  int32_t in_use;
+} crankloop_lambda_sensor;
+
 /* The structs above keep their size; what comes later stands at the end of this one. */
 typedef struct crankloop_definition {
   crankloop_crank crank;
@@ -436,6 +443,7 @@ typedef struct crankloop_definition {
   crankloop_cam_contact contacts[CRANKLOOP_MAX_TRAINS]; /* of each train's cam */
   crankloop_gas gas;                                    /* read where pressure.source is CRANKLOOP_PRESSURE_GAS */
   crankloop_reluctor reluctor;
+  crankloop_lambda_sensor lambda_sensor;
 } crankloop_definition;
 
 /* Fills in every default. Begin with this: a zeroed definition has other values. */

@@ -62,13 +62,15 @@ void each_signal(Visit&& visit, const crankloop::Output<Real, S>& out, const Sta
     for (std::uint32_t k = 0; k < shape.cylinders; ++k)
       visit(real("lambda[#]", "Of a cylinder's last cycle").at(k),
             static_cast<double>(out.gas_cycle[k].excess_air_ratio));
+    visit(real("sensor_lambda", "At the lambda sensor; 100: air; 0: no sensor"),
+          static_cast<double>(out.sensor_excess_air_ratio));
     visit(real("coolant_K", "0: none"), static_cast<double>(out.coolant_K));
   }
   visit(detail::whole("faults", "The tick's fault bits"), static_cast<double>(out.faults));
 }
 
-/// Wheels twice, cylinders twice, valves, phasers, and eleven more.
-static_assert(2 * kMaxTriggerWheels + 2 * kMaxCylinders + kMaxTrains * kMaxCylinders + kMaxTrains + 11 <=
+/// Wheels twice, cylinders twice, valves, phasers, and twelve more.
+static_assert(2 * kMaxTriggerWheels + 2 * kMaxCylinders + kMaxTrains * kMaxCylinders + kMaxTrains + 12 <=
               port::kMaxLiveNumbers);
 
 template <class Real, class S>

@@ -123,6 +123,9 @@ class EngineManifolds {
   }
 
  protected:
+  /// What has come in from outside in this tick, of each.
+  [[nodiscard]] const auto& outside_kg() const noexcept { return outside_kg_; }
+
   const Tables<Real, S>& tables_;
   State<Real, S>& state_;
   Output<Real, S>& out_;

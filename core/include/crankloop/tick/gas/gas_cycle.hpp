@@ -13,7 +13,9 @@
 #include <crankloop/tick/crank/misfire_step.hpp>
 #include <crankloop/tick/gas/charge_burn.hpp>
 #include <crankloop/tick/gas/combustion.hpp>
+#include <crankloop/tick/gas/exhaust_lambda.hpp>
 #include <crankloop/tick/gas/knock.hpp>
+#include <crankloop/tick/gas/unburned_fuel.hpp>
 
 namespace crankloop::detail {
 
@@ -70,6 +72,7 @@ template <class Real, class S>
       begin_burn(tables, state, cylinder, way);
   }
   const GasFuel<Real> fuel = burnt_fuel(burn, table, mass_kg, burned_kg, way);
+  if constexpr (Needs<S>::lambda) leave_unburned(*tables.lambda, state, cylinder, fuel.mass_kg);
   if (ends && way.forward()) end_burn(burn);
   return fuel;
 }
@@ -140,7 +143,12 @@ template <class Real, class S>
     out.gas_cycle[cylinder] = finished(record, gas, *tables.gas_cylinders, heat_J_kg, excess_air_ratio);
     if constexpr (Needs<S>::charge_burn) out.cycle_burn[cylinder] = burn_of_cycle(tables, state, cylinder);
     if constexpr (S::crevice) out.cycle_blow_by_kg[cylinder] = state.cycle_blow_by_kg[cylinder];
+    if constexpr (Needs<S>::lambda) {
+      if (tables.lambda->in_use != 0)
+        out.outflow_excess_air_ratio[cylinder] = outflow_lambda(*tables.lambda, state, cylinder);
+    }
   }
+  if constexpr (Needs<S>::lambda) state.outflow_unburned_kg[cylinder] = Real{0};
   if constexpr (S::crevice) state.cycle_blow_by_kg[cylinder] = Real{0};
   begin_cycle(record, gas);
 }

@@ -5,6 +5,7 @@
 #include <crankloop/tables/tables.hpp>
 #include <crankloop/tick/gas/gas_inputs.hpp>
 #include <crankloop/tick/gas/gas_places.hpp>
+#include <crankloop/tick/gas/unburned_fuel.hpp>
 
 namespace crankloop::detail {
 
@@ -61,6 +62,7 @@ template <class Real, class S>
     if constexpr (S::crevice) fill_crevice(tables, state, k);
     if constexpr (S::runners) fill_runners(tables, state, k);
     if constexpr (S::crevice && S::gas_results) state.cycle_blow_by_kg[k] = Real{0};
+    if constexpr (Needs<S>::lambda) refill_unburned(state, k);
   }
 }
 

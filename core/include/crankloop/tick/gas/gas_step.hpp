@@ -11,10 +11,12 @@
 
 #include <crankloop/assert.hpp>
 #include <crankloop/tick/gas/engine_manifolds.hpp>
+#include <crankloop/tick/gas/exhaust_lambda.hpp>
 #include <crankloop/tick/gas/gas_cylinders.hpp>
 #include <crankloop/tick/gas/gas_inputs.hpp>
 #include <crankloop/tick/gas/gas_shown.hpp>
 #include <crankloop/tick/gas/gas_start.hpp>
+#include <crankloop/tick/gas/unburned_fuel.hpp>
 #include <crankloop/tick/valve/valve.hpp>
 
 namespace crankloop::detail {
@@ -56,6 +58,9 @@ class GasStep : EngineManifolds<Real, S> {
       faults |= run_steps(input, end, static_cast<std::int64_t>(turned.units()));
     }
     Manifolds::show_manifolds();
+    if constexpr (N::lambda) {
+      if (tables_.lambda->in_use != 0) show_lambda(tables_, state_, out_);
+    }
     work_J = work_J_;
     return faults;
   }
@@ -153,8 +158,16 @@ class GasStep : EngineManifolds<Real, S> {
   [[nodiscard]] std::uint32_t run_step(const Input<Real, S>& input, EngineGasStep<Real>& step,
                                        const Areas& areas) noexcept {
     Manifolds::show_to_cylinders(step, areas);
-    const std::uint32_t faults = GasCylindersStep<Real, S>(tables_, state_, out_, work_J_).run(input, step, areas);
-    return faults | Manifolds::step_manifolds(step);
+    if constexpr (N::lambda) {
+      UnburnedStep<Real, S> unburned(tables_, state_, out_, Manifolds::outside_kg());
+      std::uint32_t faults = GasCylindersStep<Real, S>(tables_, state_, out_, work_J_).run(input, step, areas);
+      faults |= Manifolds::step_manifolds(step);
+      unburned.run();
+      return faults;
+    } else {
+      const std::uint32_t faults = GasCylindersStep<Real, S>(tables_, state_, out_, work_J_).run(input, step, areas);
+      return faults | Manifolds::step_manifolds(step);
+    }
   }
 
   Real work_J_ = Real{0};

@@ -307,6 +307,25 @@ struct StateFields {
       constexpr std::uint32_t kAll = (std::uint32_t{1} << S::cylinders.capacity) - 1;
       v.word(s.knock_due, kAll), v.word(s.knock_in_burn, kAll);
     }
+    if constexpr (N::lambda) {
+      v.group("state.lambda");
+      const auto fuel = [&v](auto& fuels) {
+        for (auto& kg : fuels) v.number(kg, Real{0}, kMaxGas_kg);
+      };
+      fuel(s.unburned_kg), fuel(s.manifold_unburned_kg);
+      if constexpr (S::runners) fuel(s.runner_unburned_kg[kIntake]), fuel(s.runner_unburned_kg[kExhaust]);
+      if constexpr (S::gas_results) fuel(s.outflow_unburned_kg);
+      constexpr Real kMost = static_cast<Real>(kMaxExcessAir_ratio);  // of 1 / lambda, too
+      for (auto& ratio : s.pipe_ratio) v.number(ratio, Real{0}, kMost);
+      v.number(s.filled_ratio, Real{0}, Real{1});
+      v.number(s.filling_ratio, Real{0}, kMost);
+      v.number(s.owed_ratio, Real{0}, Real{S::lambda_parcels});
+      v.number(s.outlet_unburned_ratio, Real{0}, Real{1});
+      v.number(s.sensor_ratio, Real{0}, kMost);
+      v.number(s.sensor_rest_ratio, Real{-1}, Real{1});
+      v.word(s.oldest_parcel, S::lambda_parcels - 1);
+      v.word(s.any_unburned, 1u);
+    }
     if constexpr (S::gas_results) {
       v.group("state.gas_record");
       for (auto& r : s.gas_record) {
