@@ -557,8 +557,8 @@ TEST(SceneCode, TellsScenesApartByEveryAnswerThatTheirStatesDependOn) {
                WithCamContact, WithCamDrag, WithSpringModes, WithCamPhasing, WithBadInputCount, WithStarter,
                WithCylinderCut, WithWheelFaults, Burning, BetweenGivenManifolds, WithoutCombustion, WithGasResults,
                WithBoundaries, WithCrevice, WithRunners, WithWalls, WithChargeBurn, WithKnock, WithLambda,
-               WithMoreParcels, WithMisfire>();
-  EXPECT_EQ(codes.size(), 37u);
+               WithMoreParcels, WithSensorFaults, WithMisfire>();
+  EXPECT_EQ(codes.size(), 38u);
 }
 
 TEST(Crc32, HasTheCheckValueOfItsStandard) {

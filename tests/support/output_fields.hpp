@@ -205,6 +205,10 @@ void each_output(const Output<Real, S>& out, const Used& used, const F& f) {
     f("sensor_excess_air_ratio", std::size_t{0}, out.sensor_excess_air_ratio);
     if constexpr (S::gas_results) row("outflow_excess_air_ratio", out.outflow_excess_air_ratio, used.cylinders);
   }
+  if constexpr (S::sensor_faults) {
+    f("sensor_faults_on", std::size_t{0}, out.sensor_faults_on);
+    row("faulty_sensor", out.faulty_sensor, std::size_t{kControllerSensors});
+  }
   f("faults", std::size_t{0}, out.faults);
 }
 

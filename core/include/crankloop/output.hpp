@@ -253,6 +253,14 @@ struct ChargeBurnResults {
   ChargeBurnOutput<Real> cycle_burn[S::cylinders.capacity];
 };
 
+struct SensorFaultsOn {
+  std::uint32_t sensor_faults_on;  ///< bit i: fault i of the definition's sensors is on
+};
+/// What a controller reads of its sensors: MAP in Pa, IAT in K, TPS, lambda, CLT in K.
+template <class Real>
+struct FaultySensors {
+  Real faulty_sensor[kControllerSensors];  ///< the healthy values where no fault is on
+};
 /// Lambda as the definition's sensor has it; 0 without one. Air has kMaxExcessAir_ratio.
 template <class Real>
 struct ExhaustLambda {
@@ -301,6 +309,8 @@ struct Output : detail::If<detail::Needs<S>::crank_dynamics, group::CrankMotion<
                 detail::If<S::valve_results, group::ValveResults<Real, S>>,
                 detail::If<S::cam_contact, group::CamContacts<Real, S>>,
                 detail::If<S::cam_torque, group::CamTorques<Real, S>>,
+                detail::If<S::sensor_faults, group::SensorFaultsOn>,
+                detail::If<S::sensor_faults, group::FaultySensors<Real>>,
                 detail::If<detail::Needs<S>::faulty_wheels, group::WheelFaultsOn>,
                 detail::If<detail::Needs<S>::any_triggers, group::Triggers<Real, S>>,
                 detail::If<detail::Needs<S>::faulty_wheels, group::FaultyTriggers<Real, S>>,

@@ -69,6 +69,8 @@ struct Scene {
   static constexpr bool controller_names =
       false;  ///< Input::spark_advance_deg beside burn_start_deg; throttle, manifold, lambda and coolant once more, by
               ///< a controller's names; needs Manifold::throttle and Combustion::by_input
+  static constexpr bool sensor_faults = false;  ///< faults of a controller's sensors: faulty values beside the healthy
+                                                ///< ones; needs controller_names
   static constexpr bool boundaries =
       false;  ///< Input::ambient_Pa, ambient_K, back_Pa: boost, altitude, a silencer; needs Manifold::throttle
   static constexpr bool crevice = false;      ///< crevices and blow-by of each cylinder; a definition with either
@@ -214,6 +216,8 @@ struct CheckedScene {
   static_assert(!S::boundaries || Needs<S>::manifolds, "boundaries are outside the manifolds: set manifold = throttle");
   static_assert(!S::controller_names || (Needs<S>::manifolds && Needs<S>::burn_input),
                 "controller_names are of throttle and spark: set manifold = throttle, combustion = by_input");
+  static_assert(!S::sensor_faults || S::controller_names,
+                "sensor_faults are of a controller's sensors: set controller_names");
   static_assert(!S::starter || S::crank == CrankGiven::torque,
                 "a starter needs a crank that is turned by forces: set crank = torque");
   static_assert(S::valves == ValveModel::none || (S::trains.capacity >= 1 && S::trains.capacity <= kMaxTrains),

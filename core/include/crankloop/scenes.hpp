@@ -95,6 +95,7 @@ struct BreathingFree : FreeRunning {
   static constexpr PressureGiven pressure = PressureGiven::by_gas;
   static constexpr Manifold manifold = Manifold::throttle;
   static constexpr bool controller_names = true;
+  static constexpr bool sensor_faults = true;
   static constexpr bool boundaries = true;
   static constexpr bool crevice = true;
   static constexpr bool runners = true;

@@ -269,7 +269,14 @@ Status validate(const EngineDefinition& engine) noexcept {
     if (fault.wheel >= engine.trigger_count) return refuse("fault.wheel", Reason::out_of_range, i);
   }
   if (const Status refused = validate_reluctor(engine); !refused.ok()) return refused;
-  return validate(engine.lambda_sensor);
+  if (const Status refused = validate(engine.lambda_sensor); !refused.ok()) return refused;
+  if (engine.sensor_fault_count < 0 || engine.sensor_fault_count > kMaxSensorFaults)
+    return refuse("sensor_fault_count", Reason::out_of_range);
+  for (int i = 0; i < engine.sensor_fault_count; ++i) {
+    if (const Status refused = validate(engine.sensor_faults[i]); !refused.ok())
+      return refuse(refused.field, refused.reason, i);
+  }
+  return {};
 }
 
 }  // namespace crankloop

@@ -147,6 +147,7 @@ void EngineFile::build_definition() {
   accept(validate(definition_.pressure, definition_.crank));
   if (definition_.pressure.source == PressureSource::gas) build_gas_exchange();
   build_lambda_sensor();
+  build_sensor_faults();
   fill(section("friction"), definition_.friction);
   fill(section("machine"), definition_.machine);
   fill(section("starter"), definition_.starter);

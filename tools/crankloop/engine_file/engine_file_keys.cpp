@@ -81,6 +81,7 @@ constexpr SectionKind kSections[] = {
     {"fault", true,
      "what is wrong with a trigger wheel, its sensor or its wire, and when; where forces turn the crank"},
     {"reluctor", false, "a variable reluctance sensor at a trigger wheel, and its comparator; absent: none"},
+    {"sensor_fault", true, "what a controller reads of a sensor, and when; where forces turn the crank of an engine that breathes"},
     {"lambda_sensor", false, "a lambda sensor in the exhaust pipe ([pressure] source = gas); absent: none"},
     {"counterweight", true, "a mass on the crankshaft, for `balance` and reports; no part of the tick"},
     {"balance_shaft", true,
@@ -300,6 +301,21 @@ constexpr Key kRows[] = {
     {"reluctor", "least_V", Kind::number, kV, "reluctor.least_V", kOfField, "", defaults, "0.05", "", "", "and beyond this voltage"},
     {"reluctor", "hysteresis_V", Kind::number, kV, "reluctor.hysteresis_V", kOfField, "", defaults, "0", "", "", "its edge is where the voltage falls through this, below 0"},
     {"reluctor", "watchdog_s", Kind::number, kS, "reluctor.watchdog_s", kOfField, "", defaults, "0.085", "", "", "after so long without an edge the last peak is forgotten"},
+    {"reluctor", "delay_us", Kind::number, kUs, "reluctor.delay_s", kOfField, "", defaults, "0", "", "", "of the comparator: its edges come so much later, at most a tick"},
+
+    {"sensor_fault", "sensor", Kind::choice, kNoUnit, "", kAny, "map|intake_air|tps|lambda|coolant", required, "", "", "", "whose value: map in Pa, intake_air and coolant in K, tps, lambda"},
+    {"sensor_fault", "start_s", Kind::number, kS, "sensor_fault.start_s", kOfField, "", defaults, "0", "", "", "on from here, since the start"},
+    {"sensor_fault", "end_s", Kind::number, kS, "sensor_fault.end_s", kOfField, "", defaults, "0", "", "", "to before here; 0: not by time"},
+    {"sensor_fault", "input_bit", Kind::whole_number, kNoUnit, "sensor_fault.input_bit", from(0).below(32), "", optional, "", "", "", "on while this bit of the input sensor_faults is set; needed without end_s"},
+    {"sensor_fault", "wire", Kind::choice, kNoUnit, "", kAny, "good|stuck|open|short", defaults, "good", "", "", "stuck: the value stays where it was; open and short read most and least"},
+    {"sensor_fault", "offset", Kind::number, kNoUnit, "sensor_fault.offset", kOfField, "", defaults, "0", "", "", "added, in the unit of the sensor's value, as is what follows"},
+    {"sensor_fault", "noise", Kind::number, kNoUnit, "sensor_fault.noise", kOfField, "", defaults, "0", "", "", "a random number of each tick, evenly from -noise to noise"},
+    {"sensor_fault", "noise_seed", Kind::whole_number, kNoUnit, "sensor_fault.noise_seed", kOfField, "", defaults, "1", "", "", "of these numbers"},
+    {"sensor_fault", "delay_s", Kind::number, kS, "sensor_fault.delay_s", kOfField, "", defaults, "0", "", "", "the value comes so much later, within 1/32 of it"},
+    {"sensor_fault", "lag_s", Kind::number, kS, "sensor_fault.lag_s", kOfField, "", defaults, "0", "", "", "time constant of first order"},
+    {"sensor_fault", "least", Kind::number, kNoUnit, "sensor_fault.least", kOfField, "", defaults, "0", "", "", "of the range that the sensor reads"},
+    {"sensor_fault", "most", Kind::number, kNoUnit, "sensor_fault.most", kOfField, "", defaults, "0", "", "", "of it; not above least: no range"},
+    {"sensor_fault", "step", Kind::number, kNoUnit, "sensor_fault.step", kOfField, "", defaults, "0", "", "", "of a converter that counts from least, at most 65536 of them; 0: none"},
 
     {"lambda_sensor", "pipe_cm3", Kind::number, kCm3, "lambda_sensor.pipe_m3", kOfField, "", defaults, "500", "", "", "volume of the pipe from the exhaust manifold to the sensor; 0: the sensor is at the manifold"},
     {"lambda_sensor", "lag_s", Kind::number, kS, "lambda_sensor.lag_s", kOfField, "", defaults, "0.05", "", "", "the sensor's time constant, of first order; 0: none", "0.02 to 0.2"},
@@ -355,6 +371,7 @@ constexpr Range range_of_field(const Key& key) {
   WheelFault::each_field(find, kExample.wheel_faults[0]);
   Reluctor::each_field(find, kExample.reluctor);
   LambdaSensor::each_field(find, kExample.lambda_sensor);
+  SensorFault::each_field(find, kExample.sensor_faults[0]);
   if (!find.found) throw "a key is that of a field that the definition does not have";
   const auto in_file = [&key](double si) { return si * key.unit.over / key.unit.times; };
   return {in_file(find.range.least), in_file(find.range.most), find.range.without_least, find.range.without_most};
@@ -405,6 +422,8 @@ constexpr Follows kFollows[] = {
     {"fault.stuck", "fault", "stuck"},
     {"reluctor.wheel", "reluctor", "trigger"},
     {"reluctor.reversed", "reluctor", "reversed"},
+    {"sensor_fault.sensor", "sensor_fault", "sensor"},
+    {"sensor_fault.wire", "sensor_fault", "wire"},
     {"lambda_sensor.in_use", "lambda_sensor", "pipe_cm3"},
     {"gas.throttle_count", "gas", "throttle_curve"},
     {"gas.throttle_ratio", "gas", "throttle_curve"},

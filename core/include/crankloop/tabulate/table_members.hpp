@@ -79,7 +79,10 @@ CRANKLOOP_MEMBERS(TriggerWheels, wheel, count)
 CRANKLOOP_MEMBERS_OF(WheelFaultRule, track, from, until, wheel, mask, inverted, stuck, below, seed, pulse)
 CRANKLOOP_MEMBERS_OF(WheelFaultRules, fault, count)
 CRANKLOOP_MEMBERS_OF(ReluctorCell, c)
-CRANKLOOP_MEMBERS_OF(ReluctorTable, starts, on_crank, in_use, watchdog, cells, arm, least, hysteresis, at)
+CRANKLOOP_MEMBERS_OF(ReluctorTable, starts, on_crank, in_use, watchdog, cells, arm, least, hysteresis, delay, at)
+CRANKLOOP_MEMBERS_OF(SensorFaultRule, from, until, sensor, mask, wire, seed, samples, ticks, follows, offset, noise,
+                     least, most, step, per_step, spare)
+CRANKLOOP_MEMBERS_OF(SensorFaultRules, fault, count, spare)
 
 #undef CRANKLOOP_TIED
 #undef CRANKLOOP_MEMBERS
