@@ -72,7 +72,7 @@ std::string command_line(const Arguments& arguments, const EngineFile& file, con
 void require_options_that_fit(const Arguments& arguments) {
   const bool free = arguments.has("--free");
   for (const char* option : {"--machine-Nm", "--starter", "--from-rpm", "--seconds", "--cut", "--misfire",
-                             "--fault-bits", "--inputs", "--analogue"}) {
+                             "--fault-bits", "--inputs", "--analogue", "--cranking"}) {
     if (!free && arguments.has(option)) throw UsageError(std::string(option) + " is for a run with --free");
   }
   if (free && arguments.has("--hash")) throw UsageError("--hash is for a run at constant speed, without --free");
@@ -105,9 +105,11 @@ int run_free_by(const Arguments& arguments, const EngineFile& file, const GasOrd
   for (std::string& line : tell_warnings(arguments, warnings_about_running_free(file, definition)))
     warnings.push_back(std::move(line));
   request.warnings = std::move(warnings);
-  Results results(arguments, {"--csv", "--report", "--vcd", "--analogue"});
-  if (results["--analogue"] != nullptr && definition.reluctor.wheel < 0)
-    throw InputError(file.path() + ": there is no [reluctor], so --analogue has nothing to write");
+  Results results(arguments, {"--csv", "--report", "--vcd", "--analogue", "--cranking"});
+  for (const char* option : {"--analogue", "--cranking"}) {
+    if (results[option] != nullptr && definition.reluctor.wheel < 0)
+      throw InputError(file.path() + ": there is no [reluctor], so " + option + " has nothing to write");
+  }
   run_free(file, definition, request, results);
   return kSuccess;
 }

@@ -13,6 +13,7 @@
 #include "../../files/number.hpp"
 #include "../../loops/analogue_log.hpp"
 #include "../../signals/signal_dump.hpp"
+#include "cranking_sheet.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -238,10 +239,15 @@ void run_and_write(const EngineFile& file, const EngineDefinition& definition, c
   if (Output* vcd = results["--vcd"]) dump.emplace(SignalDump::with_faults(file, *vcd, {"speed_rpm", "torque_Nm"}));
   if (Output* csv = results["--csv"]) table.emplace(*csv, names_of_signals(file), definition);
   std::optional<AnalogueLog<Real>> analogue;
-  if (Output* csv = results["--analogue"]) analogue.emplace(*csv, file, definition, request.operation.tick_s);
+  AnalogueTrace cranking;
+  Output* const samples = results["--analogue"];
+  Output* const drawing = results["--cranking"];
+  if (samples != nullptr || drawing != nullptr)
+    analogue.emplace(samples, drawing != nullptr ? &cranking : nullptr, file, definition, request.operation.tick_s);
   const FreeFigures figures = run_ticks<Real, S>(file, definition, request, table ? &*table : nullptr,
                                                  dump ? &*dump : nullptr, analogue ? &*analogue : nullptr);
   if (dump) dump->finish(figures.end.time_s);
+  if (drawing != nullptr) drawing->write(report::to_svg_file(cranking_sheet(cranking, file.name() + ": a start")));
   if (Output* page = results["--report"])
     page->write(report::to_html(free_run_report({file, definition, request, figures})));
   results.finish(summary_text(file, request, figures));

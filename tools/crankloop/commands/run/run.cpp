@@ -424,6 +424,8 @@ constexpr Option kOptions[] = {
     kMisfire,
     kFaultBits,
     text("--analogue", "F.csv", "with --free and a [reluctor]: its voltage, 16 samples a tick, and its comparator"),
+    text("--cranking", "F.svg",
+         "with --free and a [reluctor]: a drawing of the run's first second: speed, voltage, threshold, edges"),
     kInputs,
 };
 
