@@ -164,7 +164,8 @@ void start(Json& json, const StartRequest& request) {
   const EngineFile& file = loaded();
   program::require_manifolds(file, request.tick_s);
   program::require_trains(file, request.tick_s);
-  std::unique_ptr<Running> engine = start_running(file, request);
+  std::unique_ptr<Running> engine =
+      request.in_double ? start_running<double>(file, request) : start_running<float>(file, request);
   std::vector<std::string> warnings = program::warnings_about_gas(file, request.speed_rpm, request.tick_s);
   const auto more = request.crank_is_free ? program::warnings_about_running_free(file, file.definition())
                                           : program::warnings_about_misfires_left_out(file);
@@ -187,7 +188,8 @@ void hash(Json& json, double tick_us, bool in_double, double speed_rpm, int cycl
   program::require_manifolds(file, tick_s);
   program::require_trains(file, tick_s);
   const program::Operation operation{speed_rpm, tick_s, 1, program::gas_order(file.definition().gas)};
-  const HashedRun run = hash_held_run(file, operation, in_double, cycles);
+  const HashedRun run =
+      in_double ? hash_held_run<double>(file, operation, cycles) : hash_held_run<float>(file, operation, cycles);
   json.member("hash", run.hash).member("ticks", run.ticks);
 }
 
