@@ -5,7 +5,7 @@ import {spawnSync} from 'node:child_process';
 import {readdirSync, readFileSync} from 'node:fs';
 import {join} from 'node:path';
 
-import {openModule} from '../../port/wasm/page/module.mjs';
+import {openedModule} from './modules_of.mjs';
 
 const [program, modules, engines, tick_us = '50'] = process.argv.slice(2);
 const kBatches = 301;
@@ -20,7 +20,7 @@ function hostTime_ns(file, real) {
 }
 
 async function pageTime_ns(file, real, free) {
-  const engine = await openModule(readFileSync(join(modules, 'engine.wasm')));
+  const engine = await openedModule(modules);
   for (const name of readdirSync(engines)) {
     if (name.endsWith('.csv')) engine.putFile(name, readFileSync(join(engines, name), 'utf8'));
   }

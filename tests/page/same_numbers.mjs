@@ -4,21 +4,20 @@
 
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
-import {existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 
-import {openModule} from '../../port/wasm/page/module.mjs';
+import {hasModules, openedModule} from './modules_of.mjs';
 
 const [program, modules, engines] = process.argv.slice(2);
-const kModules = ['engine.wasm'].filter((name) => existsSync(join(modules, name)));
 const kTables = readdirSync(engines).filter((name) => name.endsWith('.csv'));
 const kFiles = readdirSync(engines).filter((name) => name.endsWith('.ini'));
 
 const textOf = (name) => readFileSync(join(engines, name), 'utf8');
 
-async function opened(module) {
-  const engine = await openModule(readFileSync(join(modules, module)));
+async function opened() {
+  const engine = await openedModule(modules);
   for (const name of kTables) engine.putFile(name, textOf(name));
   return engine;
 }
@@ -36,8 +35,8 @@ function hashOfProgram(file, real, tick_us) {
   return hashes.get(key);
 }
 
-async function sameHashes(module) {
-  const engine = await opened(module);
+async function sameHashes() {
+  const engine = await opened();
   for (const file of kFiles) {
     assert.deepEqual(engine.load(file, textOf(file)).errors, []);
     for (const real of ['float', 'double']) {
@@ -45,14 +44,14 @@ async function sameHashes(module) {
         const run = {tick_us, in_double: real === 'double', speed_rpm: engine.facts().rated_rpm, cycles: 2};
         const {errors, hash} = engine.hash(run);
         assert.deepEqual(errors, []);
-        assert.equal(hash, hashOfProgram(file, real, tick_us), `${module} ${file} ${real} ${tick_us} us`);
+        assert.equal(hash, hashOfProgram(file, real, tick_us), `${file} ${real} ${tick_us} us`);
       }
     }
   }
 }
 
-async function sameRedline(module) {
-  const engine = await opened(module);
+async function sameRedline() {
+  const engine = await opened();
   engine.load('ohc_125.ini', textOf('ohc_125.ini'));
   engine.redline('intake', 0, 0);
   let last = engine.redlineStep();
@@ -73,8 +72,8 @@ const kBad = [
   (text) => text.replace(/file = .*/g, 'file = none.csv'), (text) => text.replace(/=.*/g, '= 1,5'),
 ];
 
-async function sameErrors(module) {
-  const engine = await opened(module);
+async function sameErrors() {
+  const engine = await opened();
   const folder = mkdtempSync(join(tmpdir(), 'crankloop-page-'));
   for (const name of kTables) writeFileSync(join(folder, name), textOf(name));
   for (const file of kFiles) {
@@ -97,13 +96,11 @@ async function sameErrors(module) {
   rmSync(folder, {recursive: true});
 }
 
-if (kModules.length === 0) {
-  console.log(`skipped: there is no module in ${modules}; preset page makes them`);
+if (!hasModules(modules)) {
+  console.log(`skipped: there is no module in ${modules}; preset page makes it`);
   process.exit(77);
 }
-for (const module of kModules) {
-  for (const story of [sameHashes, sameRedline, sameErrors]) {
-    await story(module);
-    console.log(`ok  ${module} ${story.name}`);
-  }
+for (const story of [sameHashes, sameRedline, sameErrors]) {
+  await story();
+  console.log(`ok  ${story.name}`);
 }

@@ -13,20 +13,20 @@ import {hashOfFile, ProofView} from './proof_view.mjs';
 import {RedlineView} from './redline_view.mjs';
 import {Session} from './session.mjs';
 import {Sliders} from './sliders.mjs';
-import {bytesBlock, jsonBlock, moduleOf, textBlock, workerOf} from './source.mjs';
+import {bytesBlock, canRunModules, jsonBlock, textBlock, workerOf} from './source.mjs';
 import {connectTransport} from './transport.mjs';
 
 function main() {
   const source = jsonBlock('engine-source');
   setText(byId('title'), source.path);
-  const bytes = moduleOf(['engine-module', 'engine-module-plain']);
-  if (bytes === null) {
-    refuse('This browser has no WebAssembly, in which the engine runs. Below is the engine’s file; a browser with ' +
-           'WebAssembly, or the program crankloop, runs it.', source.text);
+  if (!canRunModules()) {
+    refuse('This browser has no WebAssembly with exceptions, in which the engine runs. Below is the engine’s file; ' +
+           'a newer browser, or the program crankloop, runs it.', source.text);
     return;
   }
   const newWorker = () => workerOf(textBlock('worker-text'));
-  const boot = {kind: 'boot', bytes: bytes.buffer, files: source.files};
+  const boot = {kind: 'boot', bytes: bytesBlock('engine-module').buffer,
+                double_bytes: bytesBlock('engine-double')?.buffer ?? null, files: source.files};
   const engineWorker = newWorker();
   const session = new Session(engineWorker, source);
   const palette = new Palette(() => bench.redraw());
@@ -150,11 +150,12 @@ function connectDownloads(session, palette) {
 }
 
 function connectProof(session, newWorker) {
-  const bytes = bytesBlock('proof-module');
-  byId('proof-golden').hidden = bytes === null;
-  if (bytes !== null)
+  const isThere = textBlock('proof-module') !== '';
+  byId('proof-golden').hidden = !isThere;
+  if (isThere)
     new ProofView({button: byId('prove'), text: byId('proof-text'), body: byId('proof-body'),
-                   details: byId('proof-details')}, jsonBlock('golden-hashes'), newWorker, () => bytes.slice().buffer);
+                   details: byId('proof-details')}, jsonBlock('golden-hashes'), newWorker,
+                  () => bytesBlock('proof-module').buffer);
   byId('hash').addEventListener('click', async () => {
     if (session.engine !== null) setText(byId('hash-text'), await hashOfFile(session));
   });
