@@ -193,6 +193,19 @@ void hash(Json& json, double tick_us, bool in_double, double speed_rpm, int cycl
   json.member("hash", run.hash).member("ticks", run.ticks);
 }
 
+void hash_free(Json& json, const StartRequest& request, double seconds) {
+  const EngineFile& file = loaded();
+  program::require_manifolds(file, request.tick_s);
+  program::require_trains(file, request.tick_s);
+  const HashedRun run =
+      request.in_double ? hash_free_run<double>(file, request, seconds) : hash_free_run<float>(file, request, seconds);
+  json.member("hash", run.hash).member("ticks", run.ticks);
+}
+
+void require_tick(double tick_us) {
+  if (!(tick_us >= 1 && tick_us <= 2000)) throw InputError("the tick is out of range; allowed: 1 to 2000 us");
+}
+
 // ---- the redline
 // -----------------------------------------------------------------------------------------------------
 
@@ -307,7 +320,7 @@ const char* page_keys(void) { return answer(module().engine == nullptr ? "[]" : 
 const char* page_start(double tick_us, std::uint32_t in_double, std::uint32_t crank_is_free, double speed_rpm,
                        double crank_deg) {
   return answer_or_errors(path_of_loaded(), [&](Json& json) {
-    if (!(tick_us >= 1 && tick_us <= 2000)) throw InputError("the tick is out of range; allowed: 1 to 2000 us");
+    require_tick(tick_us);
     if (!std::isfinite(speed_rpm) || !std::isfinite(crank_deg)) throw InputError("speed and angle must be finite");
     start(json, {program::millionths(tick_us), in_double != 0, crank_is_free != 0, speed_rpm, crank_deg});
   });
@@ -391,11 +404,20 @@ const double* page_result_values(void) {
 
 const char* page_hash(double tick_us, std::uint32_t in_double, double speed_rpm, std::uint32_t cycles) {
   return answer_or_errors(path_of_loaded(), [&](Json& json) {
-    if (!(tick_us >= 1 && tick_us <= 2000)) throw InputError("the tick is out of range; allowed: 1 to 2000 us");
+    require_tick(tick_us);
     if (!(speed_rpm > 0 && speed_rpm <= 100000))
       throw InputError("the speed is out of range; allowed: above 0, at most 100000 rpm");
     if (cycles < 1 || cycles > 1000) throw InputError("the cycles are out of range; allowed: 1 to 1000");
     hash(json, tick_us, in_double != 0, speed_rpm, static_cast<int>(cycles));
+  });
+}
+
+const char* page_hash_free(double tick_us, std::uint32_t in_double, double speed_rpm, double seconds) {
+  return answer_or_errors(path_of_loaded(), [&](Json& json) {
+    require_tick(tick_us);
+    if (!std::isfinite(speed_rpm)) throw InputError("the speed must be finite");
+    if (!(seconds > 0 && seconds <= 100)) throw InputError("the time is out of range; allowed: above 0, at most 100 s");
+    hash_free(json, {program::millionths(tick_us), in_double != 0, true, speed_rpm, 0}, seconds);
   });
 }
 

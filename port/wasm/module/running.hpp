@@ -154,5 +154,8 @@ template <class Real>
 /// As `run --hash`, with throttle, fuel and spark of the operation.
 template <class Real>
 [[nodiscard]] HashedRun hash_held_run(const program::EngineFile& file, const program::Operation& operation, int cycles);
+/// As `run --free --hash`.
+template <class Real>
+[[nodiscard]] HashedRun hash_free_run(const program::EngineFile& file, const StartRequest& request, double seconds);
 
 }  // namespace crankloop::page

@@ -8,6 +8,7 @@
 #include <crankloop/crankloop.hpp>
 #include <crankloop/variables.hpp>
 
+#include "crankloop/commands/run/free_loop.hpp"
 #include "crankloop/engine_file/following_springs.hpp"
 #include "crankloop/engine_file/gas_order.hpp"
 #include "crankloop/files/units.hpp"
@@ -24,15 +25,19 @@ template <class Value>
   return {variable, detail::kStorageOf<Value>, const_cast<Value*>(&value)};  // is only read
 }
 
-/// All that the program shows of such a scene, in its order. The numbers stay where they are as long as the engine
-/// does.
-template <class Real, class S>
+/// All that `Shown` shows of such a scene, in its order. The numbers stay where they are as long as the engine does.
+template <class Shown, class Real, class S>
 [[gnu::noinline]] void list_outputs(const Engine<Real, S>& engine, const detail::EngineShape& shape,
                                     std::vector<Probe>& probes) {
   const auto add = [&probes](const detail::Variable& variable, const auto& value) {
     probes.push_back(probe_of(variable, value));
   };
-  detail::each_output<typename S::Shown>(add, engine.state(), engine.output(), shape);
+  detail::each_output<Shown>(add, engine.state(), engine.output(), shape);
+}
+
+inline void add_tick(program::BitHash& hash, const std::vector<Probe>& outputs) noexcept {
+  for (const Probe& output : outputs)
+    detail::with_value(output.storage, output.at, [&hash](const auto& value) { hash.add(value); });
 }
 
 template <class Real, class S>
@@ -46,18 +51,30 @@ class RunningScene final : public Running {
     require(engine_.init(tables_->tables(), Phase::from_cycles(request.crank_deg / kDegreesPerCycle)));
     program::require_speed(request.speed_rpm, static_cast<double>(tables_->tables().drive->speed_limit_rad_s),
                            request.tick_s, file.definition().crank);
-    const double speed_rad_s = request.speed_rpm * program::kRad_sPerRpm;
     shape_ = detail::shape_of<Real, S>(tables_->tables());
     has_faults_ = tables_->tables().wheel_faults->count > 0;
-    if constexpr (kIsFree) {
+    if constexpr (kIsFree) {  // each speed by the quotient of its own run, for the same bits
+      const double speed_rad_s = request.speed_rpm / program::kRpmPerRad_s;
       require(engine_.restore(turning_at<Real, S>(engine_.state(), static_cast<Real>(speed_rad_s))));
     } else {
-      input_.speed_rad_s = static_cast<Real>(speed_rad_s);
+      input_.speed_rad_s = static_cast<Real>(program::Operation{request.speed_rpm}.speed_rad_s());
     }
     if constexpr (detail::Needs<S>::gas) program::tell(input_, program::gas_order(file.definition().gas));
     list_inputs();
     list_channels();
     list_results(engine_.state().phase);
+  }
+
+  /// Of the ticks from now on, with the inputs as they are.
+  [[nodiscard]] HashedRun hash(std::uint64_t ticks) {
+    std::vector<Probe> outputs;
+    list_outputs<program::FreeShown<S>>(engine_, shape_, outputs);
+    program::BitHash hash;
+    for (std::uint64_t i = 0; i < ticks; ++i) {
+      engine_.step(input_);
+      add_tick(hash, outputs);
+    }
+    return {hash.text(), ticks};
   }
 
  private:
@@ -76,7 +93,7 @@ class RunningScene final : public Running {
   }
   /// The engine's numbers stay where they are as long as it lives.
   void list_channels() {
-    list_outputs(engine_, shape_, channels_);
+    list_outputs<typename S::Shown>(engine_, shape_, channels_);
     const auto add_channel = [this](const detail::Variable& variable, const auto& value) {
       channels_.push_back(probe_of(variable, value));
     };
@@ -121,13 +138,12 @@ template <class Real, class S>
   const double span = cycles * loop.ticks_per_cycle();
   program::require_ticks(span, operation.tick_s, program::kFewerTicks);
   std::vector<Probe> outputs;
-  list_outputs(loop.engine(), detail::shape_of<Real, S>(*loop.engine().tables()), outputs);
+  list_outputs<typename S::Shown>(loop.engine(), detail::shape_of<Real, S>(*loop.engine().tables()), outputs);
   program::BitHash hash;
   const auto ticks = static_cast<std::uint64_t>(std::max(1.0, std::ceil(span - program::kHairOfATick)));
   for (std::uint64_t i = 0; i < ticks; ++i) {
     loop.step();
-    for (const Probe& output : outputs)
-      detail::with_value(output.storage, output.at, [&hash](const auto& value) { hash.add(value); });
+    add_tick(hash, outputs);
   }
   return {hash.text(), ticks};
 }
@@ -147,6 +163,14 @@ template <class Real>
 HashedRun hash_held_run(const program::EngineFile& file, const program::Operation& operation, int cycles) {
   return program::breathes(file.definition()) ? hash_of<Real, HeldBreathing>(file, operation, cycles)
                                               : hash_of<Real, Held>(file, operation, cycles);
+}
+
+template <class Real>
+HashedRun hash_free_run(const program::EngineFile& file, const StartRequest& request, double seconds) {
+  const std::uint64_t ticks = program::ticks_of(seconds, request.tick_s);
+  if (program::breathes(file.definition()))
+    return std::make_unique<RunningScene<Real, FreeBreathing>>(file, request)->hash(ticks);
+  return std::make_unique<RunningScene<Real, Free>>(file, request)->hash(ticks);
 }
 
 }  // namespace crankloop::page

@@ -62,8 +62,10 @@ export class EngineModule {
   results() { return this.#answer(this.exports.page_results()); }
   resultValues(count) { return this.#numbers(this.exports.page_result_values(), count); }
 
-  hash({tick_us, in_double, speed_rpm, cycles}) {
+  /// free: over some seconds, else over some cycles.
+  hash({tick_us, in_double, free, speed_rpm, cycles, seconds}) {
     if (in_double) this.#needDouble();
+    if (free) return this.#answer(this.exports.page_hash_free(tick_us, in_double ? 1 : 0, speed_rpm, seconds));
     return this.#answer(this.exports.page_hash(tick_us, in_double ? 1 : 0, speed_rpm, cycles));
   }
   redline(train, from_rpm, to_rpm) {

@@ -75,7 +75,6 @@ void require_options_that_fit(const Arguments& arguments) {
                              "--fault-bits", "--inputs", "--analogue"}) {
     if (!free && arguments.has(option)) throw UsageError(std::string(option) + " is for a run with --free");
   }
-  if (free && arguments.has("--hash")) throw UsageError("--hash is for a run at constant speed, without --free");
   if (free && arguments.has("--rpm"))
     throw UsageError("--rpm is for a run at constant speed; with --free the speed begins at --from-rpm");
   if (free && arguments.has("--cycles"))
@@ -101,6 +100,7 @@ int run_free_by(const Arguments& arguments, const EngineFile& file, const GasOrd
   request.operation.wheel_faults = fault_bits(arguments, definition);
   request.operation.schedule = schedule_of(arguments, file);
   request.real = arguments.text("--real");
+  request.is_hashed = arguments.has("--hash");
   request.command_line = command_line(arguments, file, gas);
   for (std::string& line : tell_warnings(arguments, warnings_about_running_free(file, definition)))
     warnings.push_back(std::move(line));

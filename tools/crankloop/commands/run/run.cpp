@@ -410,7 +410,7 @@ constexpr Option kOptions[] = {
     kLambda,
     kBurnStart,
     text("--csv", "F", "file for a row per tick; - is standard output, the summary then goes to stderr"),
-    flag("--hash", "prints a hash of every bit that the recorded ticks show: equal on every machine, and in a page"),
+    flag("--hash", "prints a hash of every bit that the ticks show: equal on every machine, and in a page"),
     text("--report", "F.html", "HTML file with the report; opens in any browser"),
     text("--against", "B.ini", "another engine file: figures of both, and with --report their curves in one drawing"),
     text("--vcd", "F", "file for the trigger wheels' signals, a value change dump as GTKWave and PulseView open it"),
