@@ -124,8 +124,15 @@ function summaryOf({crank, cylinders, firing_order, trains, breathes}) {
     (trains.length > 0 ? `; valves of each: ${valves}` : '') + (breathes ? '; gas exchange.' : '.');
 }
 
+/// Its worker begins when the engine runs: until then both would wait for the processor, and the picture with them.
 function connectRedline(session, bench, newWorker, boot) {
-  const worker = newWorker();
+  session.on('engine', ({facts}) => {
+    bench.redline ??= startRedline(newWorker(), boot);
+    bench.redline.setEngine(session.path, session.loaded, facts);
+  });
+}
+
+function startRedline(worker, boot) {
   const view = new RedlineView(worker, {gap: byId('redline-gap'), bounce: byId('redline-bounce'),
                                         text: byId('redline-text'), train: byId('redline-train')});
   worker.onmessage = ({data}) => {
@@ -133,8 +140,7 @@ function connectRedline(session, bench, newWorker, boot) {
     else view.take(data);
   };
   worker.postMessage(boot);
-  session.on('engine', ({facts}) => view.setEngine(session.path, session.loaded, facts));
-  bench.redline = view;
+  return view;
 }
 
 function connectDownloads(session, palette) {
