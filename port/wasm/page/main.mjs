@@ -64,6 +64,7 @@ function connectText(session, source) {
   session.on('text', (text) => {
     editor.setText(text);
     sliders.setText(text);
+    setText(byId('paper-file'), text);
   });
   byId('as-it-was').addEventListener('click', () => session.setText(source.text));
   session.on('engine', ({warnings, took_ms}) => {
@@ -106,6 +107,9 @@ function connectHead(session) {
     setText(byId('title'), facts.name);
     document.title = facts.name;
     setText(byId('summary'), summaryOf(facts));
+    byId('torque-key').hidden = facts.cylinders.length === 1;
+    for (const keys of document.querySelectorAll('.train-keys'))
+      keys.replaceChildren(...facts.trains.map(({name}, t) => element('span', {class: `key c${t + 1}`}, name)));
     if (select.children.length !== facts.cylinders.length)
       select.replaceChildren(...facts.cylinders.map((_, i) => element('option', {value: i + 1}, `cylinder ${i + 1}`)));
     select.value = String(session.cylinder);
