@@ -1,10 +1,10 @@
 // same_numbers.mjs PROGRAM MODULES ENGINES: the page's modules under Node beside the program: the hash of every bit of
 // every sample engine in float and double, speed held and crank free, what hands do to a free crank, the redline, the
-// lines of errors of bad files. Exit status 77, "skipped", where the modules are not there.
+// lines of errors of bad files, the module's size. Exit status 77, "skipped", where the modules are not there.
 
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
-import {mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 
@@ -171,11 +171,17 @@ async function sameErrors() {
   rmSync(folder, {recursive: true});
 }
 
+/// What a page compiles before its first picture.
+function isSmall() {
+  const {size} = statSync(join(modules, 'engine.wasm'));
+  assert.ok(size <= 600e3, `${size} bytes`);
+}
+
 if (!hasModules(modules)) {
   console.log(`skipped: there is no module in ${modules}; preset page makes it`);
   process.exit(77);
 }
-for (const story of [sameHashes, sameFreeRuns, sameRedline, sameErrors]) {
+for (const story of [isSmall, sameHashes, sameFreeRuns, sameRedline, sameErrors]) {
   await story();
   console.log(`ok  ${story.name}`);
 }
