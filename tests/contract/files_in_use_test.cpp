@@ -64,9 +64,9 @@ class FilesInUse : public BadInput {
     std::istringstream example(command.example);
     std::string word;
     for (example >> word; example >> word && word != ">";) {
-      const bool is_output =
-          word == "-o" || std::any_of(command.options.begin(), command.options.end(),
-                                      [&](const Option& o) { return o.name == word && names_a_file(o); });
+      const bool is_output = word == "-o" || word == "--at" /* of --svg */ ||
+                             std::any_of(command.options.begin(), command.options.end(),
+                                         [&](const Option& o) { return o.name == word && names_a_file(o); });
       if (is_output) {
         example >> word;
       } else {
