@@ -119,6 +119,10 @@ template <class Real, std::size_t Capacity>
   return mean;
 }
 
+/// Residual share of the trapped mass beyond which a real charge burns in part or not at all: 15 to 30 % of exhaust gas
+/// beside the residual, whatever the kind of combustion chamber (Heywood, section 9.4).
+inline constexpr double kMaxResidualThatBurns = 0.4;
+
 /// Results of the gas in a run.
 struct GasFigures {
   GasCycle<double> cycle{};  ///< mean_cycle at the end
@@ -152,6 +156,15 @@ void take_cycles(const crankloop::Output<Real, S>& out, std::size_t cylinders, G
 void add_fuel(Summary& s, const GasOrder& order);
 /// The lines that show the engine's inputs: throttle, fuel or lambda, burn_start.
 void add_order(Summary& s, const GasOrder& order);
+
+/// Fuel of all cylinders, at this speed.
+[[nodiscard]] double fuel_kg_s(const EngineDefinition& engine, const GasFigures& figures, double speed_rad_s) noexcept;
+
+/// What a real engine would do otherwise than these figures say, a sentence each: it misfires, it knocks.
+[[nodiscard]] std::vector<std::string> doubts_about(const GasFigures& figures);
+
+/// What is left out of an exhaust manifold's temperature: "" or a remark.
+[[nodiscard]] std::string exhaust_heat_left_out(const EngineDefinition& engine);
 
 /// The lines about the gas, from pumping_mep to wall_heat, and of an engine with crevices blow_by.
 void add_gas(Summary& s, const EngineDefinition& engine, const GasFigures& figures);
