@@ -117,7 +117,7 @@ footer {
 @media print {
   :root { --paper: #ffffff; color-scheme: light; }
   body { padding: 0; max-width: none; font-size: 10pt; }
-  nav, .read-out { display: none; }
+  nav, .read-out, footer { display: none; }  /* the footer's file is in the command under Method */
   section { margin-top: 1.4rem; }
   h2 { margin-bottom: 0.8rem; padding-top: 0.7rem; } h3 { margin-bottom: 0.3rem; }
   .row:not(:has(> .table:only-child)) { grid-template-columns: 1fr 1fr; }
@@ -135,7 +135,6 @@ footer {
   .facts .unit { font-size: 8.5pt; }
   figure, p, li, tr, .facts, .table:not(:has(tr:nth-child(31))) { break-inside: avoid; }
   h2, h3, caption, p:has(+ .row), p:has(+ p + .row), ul:has(+ .row) { break-after: avoid; }
-  footer { margin-top: 1.4rem; break-before: avoid; }
   .plot .hair { display: none; }
   .table:has(> details:not([open])) { display: none; }
   .plot * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
