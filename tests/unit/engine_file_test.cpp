@@ -582,8 +582,7 @@ TEST_F(EngineFileTest, MisfiresAreRefusedWithWhatIsAllowed) {
   };
   says("[misfire 5]\nevery = 2\n", "'5' is no cylinder; allowed: whole numbers from 1 to 4");
   says("[misfire one]\nevery = 2\n", "'one' is no cylinder");
-  says("[misfire 1]\n",
-       "needs either every, or misses and of_cycles, or random_ratio, or burst and gap, or cycles");
+  says("[misfire 1]\n", "needs either every, or misses and of_cycles, or random_ratio, or burst and gap, or cycles");
   says("[misfire 1]\nburst = 2\ngap = 3\nevery = 2\n", "give either burst and gap, or every");
   says("[misfire 1]\nmisses = 3\nof_cycles = 2\n", "misses: 3 of 2 cycles cannot misfire");
   says("[misfire 1]\nburst = 40000\ngap = 40000\n", "gap: burst and gap are more than 65535 cycles together");
