@@ -237,9 +237,12 @@ class ElasticValves {
     const Span<Real, typename Valves::Gas> span = valves_.span(v, tick, from, to, gas);
     const auto locator = valves_.event_locator(v, budget);
     const std::uint32_t parts = valves_.motion(v).parts;
-    const ValveInRegime<Real> end = (parts > 1 || valves_.wide) && locator.rests(start, span) ? start
-                                    : budget.spend(parts) ? locator.run(start, step, span, at, tick.turned)
-                                                          : locator.beyond_budget(start, step, span);
+    const bool at_rest = (parts > 1 || valves_.wide) && locator.rests(start, span);
+    bool paid = false;
+    if (!at_rest) paid = budget.spend(parts);
+    const ValveInRegime<Real> end = at_rest ? start
+                                    : paid  ? locator.run(start, step, span, at, tick.turned)
+                                            : locator.beyond_budget(start, step, span);
     CRANKLOOP_ASSERT(is_finite(end.state.lift_m) && is_finite(end.state.velocity_m_s));
     valves_.set_state(v, end.state);
     if (end.regime != start.regime) valves_.set_regime(v, end.regime);
