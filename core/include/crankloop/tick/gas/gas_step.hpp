@@ -187,7 +187,10 @@ class GasStep {
       step.taken_kg[port] = Real{0};
       if constexpr (N::manifolds) {
         std::uint32_t open = 0;
-        for (std::uint32_t k = 0; k < cylinders(); ++k) open += bits_of(areas.of[port][k]) != 0 ? 1u : 0u;
+        for (std::uint32_t k = 0; k < cylinders(); ++k) {
+          const auto bits = bits_of(areas.of[port][k]);  // of a number that is not negative
+          open += static_cast<std::uint32_t>((0 - bits) >> (8 * sizeof bits - 1));
+        }
         if constexpr (S::runners) {
           if (tables_.gas_runners->of[port].area_m2 > 0) open = cylinders();
         }
