@@ -62,6 +62,7 @@ if [ "${1:-}" != --page ]; then
   done
   keep faults check crankloop_property_tests build/check/tests/crankloop_property_tests --gtest_filter='FaultInjection*'
   keep soak check crankloop_property_tests build/check/tests/crankloop_property_tests --gtest_filter='Soak*'
+  keep page_soak check crankloop_program node tests/page/soak.mjs build/check/bin/crankloop tools/engines 10
   keep edges check crankloop_unit_tests build/check/tests/crankloop_unit_tests --gtest_filter='TableEdges*'
   keep fuzz sanitize fuzz_targets env CRANKLOOP_FUZZ_SECONDS="$fuzz_seconds" tools/check fuzz
   for log in build/check-logs/fuzz-*.log; do
@@ -108,6 +109,7 @@ runs() {
   run threads 'threads under the thread sanitizer' "$(tests_of threads)"
   run numerical 'numerical sanitizer' "no verdict; lines below"
   run coverage 'branch coverage by the host tests' "$(sed -n 's/^branches_covered = //p' "$logs/coverage.log") of $(sed -n 's/^branches = //p' "$logs/coverage.log") branches"
+  run page_soak 'the page in Chromium for ten minutes, a change each half minute' "$(tail -n 1 "$logs/page_soak.log")"
   run mutants 'mutants' "$(awk '/ mutants of / { drawn += $3 } END { print drawn " mutants, below" }' "$logs/mutants.log")"
 }
 # faults: the "of N detected D, recovered within a cycle R, finite F" lines of the log as a table, float / double.

@@ -98,7 +98,8 @@ template <class Copy, class Cpp, class C>
 void each_field(Copy& copy, Cpp& definition, C& c) noexcept {
   // A new part of the definition must be named here, and then visited below unless each_field() lists it.
   auto& [crank, masses, layout, pressure, train_count, trains, friction, machine, starter, trigger_count, triggers, gas,
-         contacts, misfires, wheel_fault_count, wheel_faults, reluctor] = definition;
+         contacts, misfires, wheel_fault_count, wheel_faults, reluctor, lambda_sensor, sensor_fault_count,
+         sensor_faults] = definition;
   EachNumber<Copy> each{copy};
   each({1, ""}, definition, c);
   copy(true, "trigger_count", trigger_count, c.trigger_count);
@@ -109,6 +110,9 @@ void each_field(Copy& copy, Cpp& definition, C& c) noexcept {
   copy(true, "wheel_fault_count", wheel_fault_count, c.wheel_fault_count);
   each({wheel_fault_count, ""}, wheel_faults, c.wheel_faults);
   each({1, ""}, reluctor, c.reluctor);
+  each({1, ""}, lambda_sensor, c.lambda_sensor);
+  copy(true, "sensor_fault_count", sensor_fault_count, c.sensor_fault_count);
+  each({sensor_fault_count, ""}, sensor_faults, c.sensor_faults);
 }
 template <class Copy, class Cpp, class C>
 void each_option(Copy& copy, Cpp& options, C& c) noexcept {
@@ -127,7 +131,7 @@ static_assert(sizeof(crankloop_cam_point) == sizeof(CamPoint) &&
 
 static_assert(CRANKLOOP_MAX_TRIGGER_WHEELS == kMaxTriggerWheels && CRANKLOOP_MAX_TOOTH_GAPS == kMaxToothGaps &&
               CRANKLOOP_MAX_LISTED_MISFIRES == kMaxListedMisfires && CRANKLOOP_MAX_WHEEL_FAULTS == kMaxWheelFaults &&
-              CRANKLOOP_MAX_FLOW_POINTS == kMaxFlowPoints);
+              CRANKLOOP_MAX_SENSOR_FAULTS == kMaxSensorFaults && CRANKLOOP_MAX_FLOW_POINTS == kMaxFlowPoints);
 static_assert(CRANKLOOP_MAX_CYLINDERS == kMaxCylinders && CRANKLOOP_MAX_TRAINS == kMaxTrains &&
               CRANKLOOP_MAX_CAM_EXPONENTS == kMaxCamExponents);
 static_assert(CRANKLOOP_UNSTABLE == static_cast<int>(Reason::unstable) &&
@@ -147,6 +151,8 @@ static_assert(CRANKLOOP_CAM_TABLE == static_cast<int>(CamSource::table) &&
               CRANKLOOP_TRIGGER_EDGES == static_cast<int>(TriggerPattern::edges) &&
               CRANKLOOP_MISFIRE_LISTED == static_cast<int>(MisfirePattern::listed) &&
               CRANKLOOP_STUCK_HIGH == static_cast<int>(StuckSignal::high) &&
+              CRANKLOOP_SENSOR_COOLANT == static_cast<int>(ControllerSensor::coolant) &&
+              CRANKLOOP_WIRE_SHORTED == static_cast<int>(SensorWire::shorted) &&
               CRANKLOOP_INTEGRATOR_EXPONENTIAL == static_cast<int>(Integrator::exponential));
 
 }  // namespace

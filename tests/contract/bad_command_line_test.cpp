@@ -57,6 +57,34 @@ TEST_F(BadCommandLine, IsToldWithTheUsageOfItsCommand) {
   expect_usage({"map", kSample, "--throttle", "0:1:3"}, {"--rpm is missing"});
 }
 
+TEST_F(BadCommandLine, RefusesAnOptionThatWouldHaveNoEffect) {
+  const auto nothing_alone = [&](std::vector<std::string> words, const std::string& without) {
+    const std::string option = words[words.size() - 2];
+    expect_usage(words, {option + " has no effect without " + without + "; give both", "usage: crankloop " + words[0]});
+  };
+  nothing_alone({"live", kSample, "--ring-edges", "64"}, "--shared");
+  nothing_alone({"live", kSample, "--lead-ticks", "2"}, "--shared");
+  nothing_alone({"live", kSample, "--silent-ms", "50"}, "--shared");
+  nothing_alone({"cam", kSample, "--train", "intake", "--at", "5"}, "--svg");
+  nothing_alone({"bench", "--ticks", "5"}, "--kernel");
+}
+
+TEST_F(BadCommandLine, RefusesOptionsOfWhichOneWouldBeIgnored) {
+  const std::string page = folder_ / "page.html";
+  expect_usage({"stress", "--case", "1", "--report", page}, {"--case and --report exclude each other; give one"});
+  expect_usage({"stress", "--case", "1", "--cases", "5"}, {"--case and --cases exclude each other"});
+  expect_usage({"bench", "--kernel", "torque-float", "--csv", page}, {"--kernel and --csv exclude each other"});
+  EXPECT_FALSE(std::filesystem::exists(page));
+  expect_usage(
+      {"study", kSample, "--vary", "rpm=1000:2000:2", "--set", "train=intake", "rpm=1500", "--of", "valve.max_lift"},
+      {"--set: rpm is varied; give it once", "usage: crankloop study"});
+}
+
+TEST_F(BadCommandLine, NamesAProcessorThatIsNotThere) {
+  expect_usage({"live", kSample, "--seconds", "1", "--cpu", "1023"},
+               {"--cpu 1023: this process may not use such a processor"});
+}
+
 TEST_F(BadCommandLine, TakesOutputByBothItsNames) {
   std::filesystem::create_directory(folder_ / "packed");
   write("packed/one.txt", "one");
@@ -204,6 +232,9 @@ TEST_F(BadCommandLine, HelpSaysWhatErrorsLookLikeAndWhatAKeyUsuallyIs) {
   EXPECT_NE(about("net_mep_kPa").find("; required, or heat_J"), std::string::npos) << about("net_mep_kPa");
   EXPECT_NE(about("rod_g").find("; required, or rod_small_end_g and rod_big_end_g"), std::string::npos)
       << about("rod_g");
+  EXPECT_NE(about("every").find("; required, or misses and of_cycles, or random_ratio, or burst and gap, or cycles"),
+            std::string::npos)
+      << about("every");
   EXPECT_EQ(about("crankcase_kPa").find("required"), std::string::npos);
   EXPECT_NE(about("wiebe_m").find("; default 0.9; usual 0.7 to 3"), std::string::npos) << about("wiebe_m");
   EXPECT_NE(about("compression_ratio").find("; usual "), std::string::npos) << about("compression_ratio");

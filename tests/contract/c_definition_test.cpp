@@ -36,6 +36,8 @@ TEST(CDefinition, PassesEveryFieldOnToCpp) {
   all_read.wheel_fault_count = kMaxWheelFaults;
   all_read.pressure.source = PressureSource::gas;
   all_read.reluctor.wheel = 0;
+  all_read.sensor_fault_count = kMaxSensorFaults;
+  for (SensorFault& fault : all_read.sensor_faults) fault.noise = 1;
   for (ValveTrain& train : all_read.trains) train.rocker.kind = RockerKind::circular_pad;
   const crankloop_definition usual = c::as_c(all_read);
   const int blind = blind_bytes(usual, [&](const crankloop_definition& changed) {
@@ -46,11 +48,12 @@ TEST(CDefinition, PassesEveryFieldOnToCpp) {
   });
   // Behind cylinders, heat_given, train_count, trigger_count, wheel_fault_count, in each train behind point_count,
   // per_cylinder and surge_modes, in each wheel behind inverted, in each misfire behind cycles, in each fault behind
-  // noise_seed, in the gas behind in_use and throttle_count: 4 bytes. Of a wheel's `inverted` the three bytes above the
+  // noise_seed, in the gas behind in_use and throttle_count, in the lambda sensor behind in_use, behind
+  // sensor_fault_count: 4 bytes. Of a wheel's `inverted` the three bytes above the
   // lowest tell nothing new: any number but 0 is yes; but here each byte is changed by itself.
   if (kUsual64Bits) {
     EXPECT_EQ(blind, 4 + 4 + 4 + 4 + CRANKLOOP_MAX_TRAINS * (4 + 4 + 4) + CRANKLOOP_MAX_TRIGGER_WHEELS * 4 +
-                         CRANKLOOP_MAX_CYLINDERS * 4 + 4 + CRANKLOOP_MAX_WHEEL_FAULTS * 4 + 4 + 4);
+                         CRANKLOOP_MAX_CYLINDERS * 4 + 4 + CRANKLOOP_MAX_WHEEL_FAULTS * 4 + 4 + 4 + 4 + 4);
   }
 }
 

@@ -96,15 +96,15 @@ class Page : public testing::Test {
     EXPECT_NE(one_line.find(words), std::string::npos) << path_ << " does not say: " << words;
   }
 
-  void expect_pictures(int count) const;
+  void expect_pictures(int count, const std::string& option = "--plot") const;
 
   support::TemporaryFolder folder_;
   std::string path_;
   std::string document_;
 };
 
-/// Of each command with --plot the page shows the picture, as it is drawn now.
-void Page::expect_pictures(int count) const {
+/// Of each command with this option the page shows the picture, as it is drawn now.
+void Page::expect_pictures(int count, const std::string& option) const {
   const auto words_in = [](const std::string& svg) {
     std::vector<std::string> words;
     const support::Markup markup = support::read(svg);
@@ -116,7 +116,7 @@ void Page::expect_pictures(int count) const {
   };
   int pictures = 0;
   for (const std::string& command : commands_in(document_)) {
-    const std::size_t at = command.find("--plot ");
+    const std::size_t at = command.find(option + " ");
     if (at == std::string::npos) continue;
     ++pictures;
     const std::string name = words_of(command.substr(at))[1];
@@ -132,6 +132,10 @@ class SeparationAndBounce : public Page {
  protected:
   SeparationAndBounce() : Page("separation_and_bounce.md") {}
 };
+class FeedAController : public Page {
+ protected:
+  FeedAController() : Page("feed_a_controller.md") {}
+};
 class GasExchange : public Page {
  protected:
   GasExchange() : Page("gas_exchange.md") {}
@@ -139,6 +143,7 @@ class GasExchange : public Page {
 
 TEST_F(SeparationAndBounce, ShowsThePicturesThatItsCommandsDraw) { expect_pictures(2); }
 TEST_F(GasExchange, ShowsThePicturesThatItsCommandsDraw) { expect_pictures(1); }
+TEST_F(FeedAController, ShowsThePictureThatItsCommandDraws) { expect_pictures(1, "--cranking"); }
 
 /// The column "model" of the table beside the measured trace, which is not part of the repository.
 TEST_F(GasExchange, HasThePressuresOfTheMotoredSample) {

@@ -64,9 +64,9 @@ class FilesInUse : public BadInput {
     std::istringstream example(command.example);
     std::string word;
     for (example >> word; example >> word && word != ">";) {
-      const bool is_output =
-          word == "-o" || std::any_of(command.options.begin(), command.options.end(),
-                                      [&](const Option& o) { return o.name == word && names_a_file(o); });
+      const bool is_output = word == "-o" || word == "--at" /* of --svg */ ||
+                             std::any_of(command.options.begin(), command.options.end(),
+                                         [&](const Option& o) { return o.name == word && names_a_file(o); });
       if (is_output) {
         example >> word;
       } else {
@@ -101,7 +101,9 @@ class FilesInUse : public BadInput {
   static bool is_part(const Option& option) { return option.name == std::string("--part"); }
   static std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
     words.insert(words.end(), more.begin(), more.end());
-    if (std::find(more.begin(), more.end(), "--analogue") != more.end()) {  // is for a run without a given speed
+    const bool free = std::any_of(more.begin(), more.end(),
+                                  [](const std::string& word) { return word == "--analogue" || word == "--cranking"; });
+    if (free) {  // is for a run without a given speed
       const auto speed = std::find(words.begin(), words.end(), "--rpm");
       if (speed != words.end()) words.erase(speed, speed + 2);
       words.emplace_back("--free");

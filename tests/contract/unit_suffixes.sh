@@ -27,6 +27,7 @@ amplitude cosine sine wave_of                      # of a wave of any unit
 regime segment                                     # numbers of several units, lane by lane
 from to largest x slope_from slope_to spare        # parameters of numbers, in helpers that serve any unit; filling
 spare_of_manifolds spare_of_sensor spare_number                    # filling
+offset noise step held late lagged lagged_rest sample sensor faulty_sensor # of sensors: Pa, K or 1
 peak magnitude Pose PoseMember PoseFunction tables state turning_at # functions and types that serve any unit
 '
 

@@ -59,6 +59,7 @@ struct MeasuredBreathing : scenes::Breathing {
 struct GivenManifolds : scenes::Breathing {
   static constexpr Manifold manifold = Manifold::given;
   static constexpr bool boundaries = false;
+  static constexpr std::uint32_t lambda_parcels = 0;
 };
 struct LoadedCams : scenes::Breathing {
   static constexpr CrankGiven crank = CrankGiven::torque;

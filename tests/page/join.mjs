@@ -50,7 +50,7 @@ export function pageOf({source, module = '', proof = '', golden = [], replaced =
     POLICY: `default-src 'none'; script-src ${hash(script)} 'wasm-unsafe-eval'; worker-src blob:; ` +
             `style-src ${hash(style)}; img-src data: blob:`,
     TITLE: escaped(source.path), STYLE: style, ENGINE: json(source), GOLDEN: json(golden), MODULE: module,
-    MODULE_PLAIN: '', PROOF: proof, WORKER: guarded(joined('worker.mjs', replaced)), SCRIPT: script,
+    DOUBLE: '', PROOF: proof, WORKER: guarded(joined('worker.mjs', replaced)), SCRIPT: script,
   };
   return readFileSync(new URL('page.html', kPage), 'utf8').replace(/%%(\w+)%%/g, (_, name) => values[name]);
 }

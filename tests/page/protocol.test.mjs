@@ -8,7 +8,7 @@ test('a message of the list passes as it is, any other throws', () => {
   const rate = {kind: 'rate', rate: 0.5};
   assert.equal(checked(rate, kOrders), rate);
   for (const bad of [null, {}, {kind: 'nothing'}, {kind: 'rate'}, {kind: 'rate', rate: NaN}, {kind: 'toString'},
-                     {kind: 'input', base: 3, value: 1}, {kind: 'boot', bytes: [], files: []}])
+                     {kind: 'input', base: 3, value: 1}, {kind: 'boot', bytes: [], double_bytes: null, files: []}])
     assert.throws(() => checked(bad, kOrders), TypeError);
 });
 

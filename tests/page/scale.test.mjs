@@ -31,6 +31,12 @@ test('a range holds what it shows and stays while that fits', () => {
   assert.notEqual(steadyRange({low: 0, high: 0.5}, range), range);  // a third of it is not filled
 });
 
+test('what is little below zero has no range of its own where it is said', () => {
+  assert.equal(steadyRange({low: -0.1, high: 9.5}, null, {below: 0.03}).low, 0);
+  assert.ok(steadyRange({low: -0.4, high: 9.5}, null, {below: 0.03}).low <= -0.4);
+  assert.equal(steadyRange({low: 2, high: 9.5}, null, {below: 0.03}).low, 0);
+});
+
 test('nothing at all has a range of some width', () => {
   for (const zero of [true, false]) {
     const range = steadyRange(extentOf([curveOf()], 'y'), null, {zero, least_span: 1});

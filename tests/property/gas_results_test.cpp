@@ -113,7 +113,7 @@ TYPED_TEST(GasResults, AreWhatTheTicksShowed) {
     near(cycle.volumetric_efficiency, shown.in_kg / full_kg, 1e-6 * shown.in_kg / full_kg, "volumetric_efficiency");
     near(cycle.fuel_kg, how.fuel_kg, 1e-6 * how.fuel_kg, "fuel_kg");
     near(cycle.heat_J, how.fuel_kg * 0.97 * 43e6, 2e-6 * 1250, "heat_J");
-    near(cycle.wall_heat_J, shown.wall_heat_J, 3e-6 * std::fabs(shown.wall_heat_J), "wall_heat_J");
+    near(cycle.wall_heat_J, shown.wall_heat_J, 5e-6 * std::fabs(shown.wall_heat_J), "wall_heat_J");  // 2880 sums
     near(cycle.energy_defect_J, 0, sizeof(Real) == 4 ? 1e-5 : 1e-12, "energy_defect_J");
   }
 }

@@ -258,6 +258,42 @@ TYPED_TEST(ReluctorOf, ComparatorRisesOnceAtEachTooth) {
   for (std::size_t i = 1; i < rises.size(); ++i) ASSERT_GT(rises[i], rises[i - 1]);
 }
 
+TYPED_TEST(ReluctorOf, EdgesOfAComparatorWithADelayComeLaterByItAndNoneIsLost) {
+  using Real = TypeParam;
+  struct Edge {
+    double time_s;
+    std::uint32_t level;
+  };
+  const auto edges_with = [](double delay_s) {
+    EngineDefinition engine = sensed();
+    engine.reluctor.delay_s = delay_s;
+    Rig<Real, Turned> rig(engine, 100e-6);
+    rig.in.speed_rad_s = static_cast<Real>(600);
+    std::vector<Edge> edges;
+    std::uint32_t level = 0;
+    for (int tick = 0; tick < 3000; ++tick) {
+      const auto& out = rig.engine.step(rig.in);
+      EXPECT_EQ(out.faults, 0u);
+      for (std::uint32_t e = 0; e < out.comparator.edge_count; ++e) {
+        EXPECT_EQ(out.comparator.edge[e].level, level ^= 1u);
+        edges.push_back({tick * 100e-6 + static_cast<double>(out.comparator.edge[e].time_s), level});
+      }
+      EXPECT_EQ(out.comparator.level, level);
+    }
+    return edges;
+  };
+  const std::vector<Edge> prompt = edges_with(0);
+  ASSERT_GT(prompt.size(), 3000u);
+  for (const double delay_s : {15e-6, 63e-6, 100e-6}) {
+    const std::vector<Edge> late = edges_with(delay_s);
+    ASSERT_LE(prompt.size() - late.size(), 3u) << "those of the last tick";
+    for (std::size_t i = 0; i < late.size(); ++i) {
+      ASSERT_NEAR(late[i].time_s, prompt[i].time_s + delay_s, 2e-11) << i;
+      ASSERT_EQ(late[i].level, prompt[i].level);
+    }
+  }
+}
+
 TYPED_TEST(ReluctorOf, ReversedWiresCrossUpwardAtTheTeethAndTheComparatorSeesSpaces) {
   using Real = TypeParam;
   EngineDefinition engine = sensed();

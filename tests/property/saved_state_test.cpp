@@ -556,8 +556,9 @@ TEST(SceneCode, TellsScenesApartByEveryAnswerThatTheirStatesDependOn) {
                WithLoadRatio, WithRodInertia, WithTorque, WithMeanTorque, WithForces, WithValveResults, WithValveGas,
                WithCamContact, WithCamDrag, WithSpringModes, WithCamPhasing, WithBadInputCount, WithStarter,
                WithCylinderCut, WithWheelFaults, Burning, BetweenGivenManifolds, WithoutCombustion, WithGasResults,
-               WithBoundaries, WithCrevice, WithRunners, WithWalls, WithChargeBurn, WithKnock, WithMisfire>();
-  EXPECT_EQ(codes.size(), 35u);
+               WithBoundaries, WithCrevice, WithRunners, WithWalls, WithChargeBurn, WithKnock, WithLambda,
+               WithMoreParcels, WithSensorFaults, WithMisfire>();
+  EXPECT_EQ(codes.size(), 38u);
 }
 
 TEST(Crc32, HasTheCheckValueOfItsStandard) {

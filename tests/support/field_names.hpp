@@ -20,6 +20,9 @@ class FieldNames {
     (*this)({1, ""}, Misfire{});
     (*this)({1, ""}, WheelFault{});
     (*this)({1, ""}, Reluctor{});
+    (*this)({1, ""}, LambdaSensor{});
+    (*this)({1, ""}, SensorFault{});
+    names_.insert("sensor_fault_count");
     names_.insert("trigger_count");
     names_.insert("wheel_fault_count");
   }

@@ -34,6 +34,9 @@ void each_part(Visit& visit, Self& definition, Others&... others) {
   visit(ListedField{definition.train_count, "contacts"}, definition.contacts, others.contacts...);
   visit(ListedField{definition.pressure.source == PressureSource::gas ? 1 : 0, "gas"}, definition.gas, others.gas...);
   visit(ListedField{1, "reluctor"}, definition.reluctor, others.reluctor...);
+  visit(ListedField{1, "lambda_sensor"}, definition.lambda_sensor, others.lambda_sensor...);
+  visit(ListedField{1, "sensor_fault_count"}, definition.sensor_fault_count, others.sensor_fault_count...);
+  visit(ListedField{definition.sensor_fault_count, "sensor_faults"}, definition.sensor_faults, others.sensor_faults...);
 }
 
 template <class T>

@@ -200,6 +200,15 @@ void each_output(const Output<Real, S>& out, const Used& used, const F& f) {
       f("cycle_burn_duration_deg", k, out.cycle_burn[k].duration_deg);
     }
   }
+  if constexpr (detail::Needs<S>::lambda) {
+    f("exhaust_excess_air_ratio", std::size_t{0}, out.exhaust_excess_air_ratio);
+    f("sensor_excess_air_ratio", std::size_t{0}, out.sensor_excess_air_ratio);
+    if constexpr (S::gas_results) row("outflow_excess_air_ratio", out.outflow_excess_air_ratio, used.cylinders);
+  }
+  if constexpr (S::sensor_faults) {
+    f("sensor_faults_on", std::size_t{0}, out.sensor_faults_on);
+    row("faulty_sensor", out.faulty_sensor, std::size_t{kControllerSensors});
+  }
   f("faults", std::size_t{0}, out.faults);
 }
 

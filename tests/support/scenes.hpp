@@ -378,6 +378,9 @@ OTHERWISE_THAN(Burning, WithRunners, bool, runners, true);
 OTHERWISE_THAN(Burning, WithWalls, bool, walls, true);
 OTHERWISE_THAN(Burning, WithChargeBurn, bool, charge_burn, true);
 OTHERWISE_THAN(Burning, WithKnock, bool, knock, true);
+OTHERWISE_THAN(Burning, WithSensorFaults, bool, sensor_faults, true);
+OTHERWISE_THAN(Burning, WithLambda, std::uint32_t, lambda_parcels, 8);
+OTHERWISE_THAN(Burning, WithMoreParcels, std::uint32_t, lambda_parcels, 16);
 OTHERWISE_THAN(Burning, WithMisfire, bool, misfire, true);
 #undef OTHERWISE
 #undef OTHERWISE_THAN

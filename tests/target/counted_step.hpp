@@ -84,6 +84,44 @@ std::uint32_t most_activations(const Tables& tables) noexcept {
   return all;
 }
 
+/// Cams that come to the same angle of theirs in one tick, turning one way, at most.
+template <class Tables>
+std::uint32_t most_cam_openings(const Tables& tables) noexcept {
+  std::uint32_t all = 0;
+  for (std::uint32_t t = 0; t < tables.drive->trains; ++t) {
+    const Real turn_cycles = widest_cam_turn_deg(tables, t) * static_cast<Real>(1.0 / crankloop::kDegreesPerTurn);
+    if (turn_cycles >= static_cast<Real>(0.5)) return tables.drive->trains * tables.drive->cylinders;
+    const std::uint64_t turn = crankloop::Phase::from_cycles(turn_cycles).units();
+    const auto& opens = tables.lift_curves[t].opens;
+    std::uint32_t most = 0;
+    for (std::uint32_t first = 0; first < tables.drive->cylinders; ++first) {
+      std::uint32_t count = 0;
+      for (std::uint32_t k = 0; k < tables.drive->cylinders; ++k) count += opens[k] - opens[first] <= turn ? 1u : 0u;
+      if (count > most) most = count;
+    }
+    all += most;
+  }
+  return all;
+}
+
+/// Valves whose cams are on their lobes at a tick's end, at most.
+template <class Tables>
+std::uint32_t most_on_lobes(const Tables& tables) noexcept {
+  std::uint32_t all = 0;
+  for (std::uint32_t t = 0; t < tables.drive->trains; ++t) {
+    const auto& curve = tables.lift_curves[t];
+    std::uint32_t most = 0;  // where one opens: only there does their number rise
+    for (std::uint32_t first = 0; first < tables.drive->cylinders; ++first) {
+      std::uint32_t on = 0;
+      for (std::uint32_t k = 0; k < tables.drive->cylinders; ++k)
+        on += curve.cell(curve.opens[first], k).degree < curve.segments ? 1u : 0u;
+      if (on > most) most = on;
+    }
+    all += most;
+  }
+  return all;
+}
+
 /// Valves whose cycles may end in one tick, at most.
 template <class Tables>
 std::uint32_t most_endings(const Tables& tables) noexcept {
@@ -172,8 +210,10 @@ void print_limits(const Tables& tables) noexcept {
   std::uint32_t pins = 0;
   std::uint32_t fine_steps = 0;  // 0: a tick is one, and none goes by several
   std::uint32_t events = 0;
-  std::uint32_t wide_ticks = 0;  // 1: a tick may turn the cams further than the cubic through its ends can follow,
-  std::uint32_t wide_steps = 0;  // or even a fine step of one
+  std::uint32_t wide_ticks = 0;   // 1: a tick may turn the cams further than the cubic through its ends can follow,
+  std::uint32_t wide_steps = 0;   // or even a fine step of one
+  std::uint32_t guard_ticks = 0;  // 1: or further than some guards reach
+  std::uint32_t rest_ticks = 0;   // 1: a valve whose guards fail may be at rest
   if constexpr (under_test::Scene::bearing_loads) pins = tables.bearings->pins;
   if constexpr (Needs::elastic_valves) {
     for (std::uint32_t t = 0; t < tables.drive->trains; ++t) {
@@ -181,8 +221,11 @@ void print_limits(const Tables& tables) noexcept {
       if (parts > 1 && parts > fine_steps) fine_steps = parts;
       const Real turn_deg = widest_cam_turn_deg(tables, t);
       if (turn_deg >= tables.valve_motions[t].cubic_deg) wide_ticks = 1;
+      if (turn_deg >= tables.valve_motions[t].widest_step_deg || turn_deg >= tables.lift_curves[t].skip_deg)
+        guard_ticks = wide_ticks = 1;
       if (turn_deg * tables.valve_motions[t].per_parts >= tables.valve_motions[t].cubic_deg) wide_steps = 1;
     }
+    rest_ticks = fine_steps != 0 || wide_ticks != 0 ? 1 : 0;
     events = tables.valve_motions[0].event_budget;
   }
   port::Line() << "limit spring_modes " << tables.drive->spring_modes;
@@ -214,6 +257,12 @@ void print_limits(const Tables& tables) noexcept {
   port::Line() << "limit endings " << endings;
   port::Line() << "limit wide_ticks " << wide_ticks;
   port::Line() << "limit wide_steps " << wide_steps;
+  port::Line() << "limit guard_ticks " << guard_ticks;
+  port::Line() << "limit rest_ticks " << rest_ticks;
+  std::uint32_t on_lobes = 0, cam_openings = 0;
+  if constexpr (Needs::any_valves) on_lobes = most_on_lobes(tables), cam_openings = most_cam_openings(tables);
+  port::Line() << "limit cam_openings " << cam_openings;
+  port::Line() << "limit on_lobes " << on_lobes;
   std::uint32_t gas_steps = 1;
   if constexpr (Needs::gas) gas_steps = tables.gas_cylinders->max_steps;
   OpenCylinders open{0, 0};

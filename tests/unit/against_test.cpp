@@ -61,7 +61,7 @@ TEST_F(RunAgainst, DrawsBothInOneDrawing) {
   const support::Markup page = support::read(text);
   EXPECT_EQ(page.fault, "");
   EXPECT_GE(page.all("svg").size(), 7u);
-  EXPECT_NE(text.find("swept volume, cm^3"), std::string::npos);
+  EXPECT_NE(text.find("swept volume, cm\u00B3"), std::string::npos);
 }
 
 TEST_F(RunAgainst, RefusesWhatIsOfOneEngine) {

@@ -95,6 +95,8 @@ TEST_F(EngineFileTest, DefaultsAreThoseOfTheLibrary) {
       Misfire::each_field(library, untouched.misfires[0]);
       WheelFault::each_field(library, untouched.wheel_faults[0]);
       Reluctor::each_field(library, untouched.reluctor);
+      LambdaSensor::each_field(library, untouched.lambda_sensor);
+      SensorFault::each_field(library, untouched.sensor_faults[0]);
       EXPECT_EQ(parse_value(*key, key->fallback, "", 0).si(), library.value) << key->name;
       ++compared;
     }
@@ -582,8 +584,7 @@ TEST_F(EngineFileTest, MisfiresAreRefusedWithWhatIsAllowed) {
   };
   says("[misfire 5]\nevery = 2\n", "'5' is no cylinder; allowed: whole numbers from 1 to 4");
   says("[misfire one]\nevery = 2\n", "'one' is no cylinder");
-  says("[misfire 1]\n",
-       "needs either every, or misses and of_cycles, or random_ratio and seed, or burst and gap, or cycles");
+  says("[misfire 1]\n", "needs either every, or misses and of_cycles, or random_ratio, or burst and gap, or cycles");
   says("[misfire 1]\nburst = 2\ngap = 3\nevery = 2\n", "give either burst and gap, or every");
   says("[misfire 1]\nmisses = 3\nof_cycles = 2\n", "misses: 3 of 2 cycles cannot misfire");
   says("[misfire 1]\nburst = 40000\ngap = 40000\n", "gap: burst and gap are more than 65535 cycles together");
@@ -645,15 +646,17 @@ TEST_F(EngineFileTest, FaultsOfWheelsAreRefusedWithWhatIsAllowed) {
 
 TEST_F(EngineFileTest, ASensorHasAllItsKeysAndIsRefusedAtAWheelThatItDoesNotFit) {
   EXPECT_EQ(read(contents(kSample)).definition().reluctor.wheel, -1);
-  const EngineFile engine = read(contents(kSample) +
-                                 "[reluctor]\ntrigger = crank\ngain_V_s = 0.02\nreach_ratio = 0.8\n"
-                                 "gap_lobe_ratio = 1.6\nrunout_ratio = 0.1\nrunout_at_deg = 30\nreversed = yes\n"
-                                 "arm_ratio = 0.5\nleast_V = 0.1\nhysteresis_V = 0.02\nwatchdog_s = 0.2\n");
+  const EngineFile engine =
+      read(contents(kSample) +
+           "[reluctor]\ntrigger = crank\ngain_V_s = 0.02\nreach_ratio = 0.8\n"
+           "gap_lobe_ratio = 1.6\nrunout_ratio = 0.1\nrunout_at_deg = 30\nreversed = yes\n"
+           "arm_ratio = 0.5\nleast_V = 0.1\nhysteresis_V = 0.02\nwatchdog_s = 0.2\ndelay_us = 12\n");
   const Reluctor& sensor = engine.definition().reluctor;
   EXPECT_TRUE(sensor.wheel == 0 && sensor.reversed);
   EXPECT_TRUE(sensor.gain_V_s == 0.02 && sensor.reach_ratio == 0.8 && sensor.gap_lobe_ratio == 1.6);
   EXPECT_TRUE(sensor.runout_ratio == 0.1 && sensor.runout_at_deg == 30 && sensor.arm_ratio == 0.5);
-  EXPECT_TRUE(sensor.least_V == 0.1 && sensor.hysteresis_V == 0.02 && sensor.watchdog_s == 0.2);
+  EXPECT_TRUE(sensor.least_V == 0.1 && sensor.hysteresis_V == 0.02 && sensor.watchdog_s == 0.2 &&
+              sensor.delay_s == 12 / 1e6);
   const auto says = [this](const std::string& keys, const std::string& words) {
     const std::string text = refusal(contents(kSample) + "[reluctor]\n" + keys);
     EXPECT_NE(text.find(words), std::string::npos) << keys << text;
@@ -662,6 +665,47 @@ TEST_F(EngineFileTest, ASensorHasAllItsKeysAndIsRefusedAtAWheelThatItDoesNotFit)
   says("trigger = cam\ngain_V_s = 1\n", "trigger: 'cam' is no wheel of up to 120 evenly spaced teeth that no phaser");
   says("trigger = crank\n", "gain_V_s");
   says("trigger = crank\ngain_V_s = 1\nreach_ratio = 1.1\n", "reach_ratio: 1.1 is out of range; allowed: 0.6 to 1");
+}
+
+TEST_F(EngineFileTest, SensorFaultsHaveAllTheirKeysAndAreRefusedWithWhatIsWrong) {
+  const std::string breathes = contents(std::string(CRANKLOOP_SOURCE_DIR) + "/tools/engines/four_2000.ini");
+  const EngineFile engine =
+      read(breathes +
+           "[sensor_fault a]\nsensor = coolant\nstart_s = 1\nend_s = 2\nwire = short\n"
+           "offset = -3\nnoise = 0.5\nnoise_seed = 9\ndelay_s = 0.1\nlag_s = 2\n"
+           "least = 233\nmost = 423\nstep = 0.5\n[sensor_fault b]\nsensor = tps\ninput_bit = 3\n");
+  ASSERT_EQ(engine.definition().sensor_fault_count, 2);
+  const SensorFault &a = engine.definition().sensor_faults[0], &b = engine.definition().sensor_faults[1];
+  EXPECT_TRUE(a.sensor == ControllerSensor::coolant && a.wire == SensorWire::shorted && a.input_bit == -1);
+  EXPECT_TRUE(a.start_s == 1 && a.end_s == 2 && a.offset == -3 && a.noise == 0.5 && a.noise_seed == 9);
+  EXPECT_TRUE(a.delay_s == 0.1 && a.lag_s == 2 && a.least == 233 && a.most == 423 && a.step == 0.5);
+  EXPECT_TRUE(b.sensor == ControllerSensor::tps && b.wire == SensorWire::good && b.input_bit == 3);
+  const auto says = [&](const std::string& keys, const std::string& words) {
+    const std::string text = refusal(breathes + "[sensor_fault a]\n" + keys);
+    EXPECT_NE(text.find(words), std::string::npos) << keys << text;
+  };
+  says("sensor = map\n", "[sensor_fault a] end_s: 0 is never on: give end_s above start_s, or an input_bit");
+  says("sensor = map\nend_s = 1\nwire = open\n", "[sensor_fault a] most: 0 is not above least");
+  says("sensor = map\nend_s = 1\nmost = 1e5\nstep = 1\n", "[sensor_fault a] step: 1 makes more than 65536 steps");
+  says("sensor = oil\nend_s = 1\n", "'oil' is not one of map, intake_air");
+  EXPECT_NE(
+      refusal(contents(kSample) + "[sensor_fault a]\nsensor = map\nend_s = 1\n").find("needs [pressure] source = gas"),
+      std::string::npos);
+}
+
+TEST_F(EngineFileTest, ALambdaSensorNeedsAnEngineThatBreathes) {
+  const std::string breathes = contents(std::string(CRANKLOOP_SOURCE_DIR) + "/tools/engines/four_2000.ini");
+  EXPECT_FALSE(read(breathes).definition().lambda_sensor.in_use);
+  const EngineFile usual = read(breathes + "[lambda_sensor]\n");
+  EXPECT_TRUE(usual.definition().lambda_sensor.in_use);
+  EXPECT_EQ(usual.definition().lambda_sensor.pipe_m3, LambdaSensor{}.pipe_m3);
+  const EngineFile engine = read(breathes + "[lambda_sensor]\npipe_cm3 = 800\nlag_s = 0.1\n");
+  EXPECT_EQ(engine.definition().lambda_sensor.pipe_m3, 800 / 1e6);
+  EXPECT_EQ(engine.definition().lambda_sensor.lag_s, 0.1);
+  EXPECT_NE(refusal(breathes + "[lambda_sensor]\nlag_s = -1\n").find("lag_s: -1 is out of range; allowed: 0 to 100"),
+            std::string::npos);
+  const std::string diagram = refusal(contents(kSample) + "[lambda_sensor]\n");
+  EXPECT_NE(diagram.find("[lambda_sensor] needs [pressure] source = gas"), std::string::npos) << diagram;
 }
 
 // ---- trigger wheels -------------------------------------------------------------------------------------------------

@@ -228,6 +228,8 @@ TEST(SmoothSegment, HasDepthSpeedAndRateOfBothContactsAtBothEnds) {
     const ValveState<double> to{random.between(0, 1e-3), random.between(-2, 2)};
     for (const std::uint32_t regime : {0u, kTrainOn, kSeatOn, kTrainOn | kSeatOn}) {
       const auto s = detail::segment_of(motion, {from, regime}, {to, to.lift_m - from.lift_m}, lift, left, step);
+      const detail::Contact<double> of_train = detail::train_over(motion, s, lift, left, step);
+      const detail::Contact<double> of_seat = detail::seat_over(motion, s);
       for (int end = 0; end < 2; ++end) {
         const ValveState<double>& valve = end == 0 ? from : to;
         const double x = end == 0 ? 1 - left : 1;  // of the whole step
@@ -242,13 +244,13 @@ TEST(SmoothSegment, HasDepthSpeedAndRateOfBothContactsAtBothEnds) {
           force_N += mass.k * (cam_m - valve.lift_m) + mass.b * (cam_m_s - valve.velocity_m_s);
         if ((regime & kSeatOn) != 0) force_N += mass.k_z * (mass.delta - valve.lift_m) - mass.b_z * valve.velocity_m_s;
         const double valve_m_s2 = force_N / mass.M;
-        EXPECT_NEAR(s.train.depth_m[end], cam_m - valve.lift_m, 1e-15);
-        EXPECT_NEAR(s.train.speed_m_s[end], cam_m_s - valve.velocity_m_s, 1e-9);
+        EXPECT_NEAR(of_train.depth_m[end], cam_m - valve.lift_m, 1e-15);
+        EXPECT_NEAR(of_train.speed_m_s[end], cam_m_s - valve.velocity_m_s, 1e-9);
         const double scale_m_s2 = std::fabs(cam_m_s2) + std::fabs(valve_m_s2);
-        EXPECT_NEAR(s.train.rate_m_s2[end], cam_m_s2 - valve_m_s2, 1e-6 * scale_m_s2) << end << ' ' << regime;
-        EXPECT_NEAR(s.seat.depth_m[end], mass.delta - valve.lift_m, 1e-15);
-        EXPECT_NEAR(s.seat.speed_m_s[end], -valve.velocity_m_s, 1e-15);
-        EXPECT_NEAR(s.seat.rate_m_s2[end], -valve_m_s2, 1e-6 * scale_m_s2) << end << ' ' << regime;
+        EXPECT_NEAR(of_train.rate_m_s2[end], cam_m_s2 - valve_m_s2, 1e-6 * scale_m_s2) << end << ' ' << regime;
+        EXPECT_NEAR(of_seat.depth_m[end], mass.delta - valve.lift_m, 1e-15);
+        EXPECT_NEAR(of_seat.speed_m_s[end], -valve.velocity_m_s, 1e-15);
+        EXPECT_NEAR(of_seat.rate_m_s2[end], -valve_m_s2, 1e-6 * scale_m_s2) << end << ' ' << regime;
         EXPECT_NEAR(s.acceleration[end], valve_m_s2, 1e-6 * scale_m_s2);
       }
     }

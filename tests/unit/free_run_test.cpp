@@ -143,6 +143,24 @@ TEST_F(FreeRunCommand, ACutCylinderShowsInHalfOrderWhicheverItIs) {
   EXPECT_GT(line(even, "speed_order_1").first, amplitude / 2);
 }
 
+TEST_F(FreeRunCommand, HashesEveryTickWithWhatAHandDoes) {
+  const auto hash_of = [](const std::vector<std::string>& options) {
+    std::vector<std::string> words{kSample, "--free", "--from-rpm", "900", "--hash"};
+    words.insert(words.end(), options.begin(), options.end());
+    for (const std::string& text : split_at(run(words), '\n'))
+      if (text.rfind("hash = 0x", 0) == 0) return text.substr(0, 25);
+    return std::string();
+  };
+  const std::string hash = hash_of({"--seconds", "0.1"});
+  EXPECT_EQ(hash.size(), 25u);
+  EXPECT_EQ(hash_of({"--seconds", "0.1"}), hash);
+  EXPECT_NE(hash_of({"--seconds", "0.1001"}), hash);
+  EXPECT_NE(hash_of({"--seconds", "0.1", "--cut", "1"}), hash);
+  EXPECT_EQ(hash_of({"--seconds", "0.1", "--starter"}), hash);  // it free-wheels at this speed
+  EXPECT_NE(hash_of({"--seconds", "0.1", "--load-ratio", "0.5"}), hash);
+  EXPECT_NE(hash_of({"--seconds", "0.1", "--real", "double"}), hash);
+}
+
 TEST_F(FreeRunCommand, VcdAndCsvTellTheSameSignals) {
   for (const char* from_rpm : {"0", "700", "-90"}) {
     run({kSample, "--free", "--from-rpm", from_rpm, "--starter", "--load-ratio", "0.3", "--seconds", "0.7", "--csv",

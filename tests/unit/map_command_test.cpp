@@ -63,8 +63,29 @@ TEST_F(MapCommand, HasAtEachPointWhatARunOfThatPointHas) {
         const double expected = line(summary, of_run).first;
         EXPECT_NEAR(std::stod(cells.at(static_cast<std::size_t>(at))), expected, 1e-5 * std::abs(expected)) << column;
       }
+      const double power_kW = line(summary, "brake_power").first;
+      if (power_kW <= 0) continue;
+      const double fuel_g_h = line(summary, "fuel_burned").first * 1e-3 * 4 * std::stod(rpm) / 2 * 60;
+      EXPECT_NEAR(line(summary, "brake_specific_consumption").first, fuel_g_h / power_kW, 1e-4 * fuel_g_h / power_kW);
     }
   }
+}
+
+/// Where a real engine would misfire or knock, map and page say so; elsewhere they do not.
+TEST_F(MapCommand, SaysWhereARealEngineWouldNotRunSo) {
+  const std::string misfires = "1 of 2 points have more than 40 % of residual gas: a real engine misfires";
+  const std::string open = map({kFour, "--rpm", "3000:3000:1", "--throttle", "0.5:1:2"});
+  EXPECT_EQ(open.find("a real engine"), std::string::npos) << open;
+  const std::string closed =
+      map({kFour, "--rpm", "6000:6000:1", "--throttle", "0:1:2", "--report", path("closed.html")});
+  EXPECT_NE(closed.find("# " + misfires), std::string::npos) << closed;
+  EXPECT_NE(contents(path("closed.html")).find(misfires), std::string::npos);
+  EXPECT_NE(run({kFour, "--rpm", "6000", "--throttle", "0", "--cycles", "1"}).find("makes a real engine misfire"),
+            std::string::npos);
+
+  const std::string runners = CRANKLOOP_SOURCE_DIR "/tools/engines/four_2000_runners.ini";
+  const std::string early = map({runners, "--rpm", "2000:2000:1", "--throttle", "1:1:1", "--burn-start-deg", "-40"});
+  EXPECT_NE(early.find("# 1 of 1 points have a knock integral of 1 or more"), std::string::npos) << early;
 }
 
 /// A diesel is governed by its fuel: more of it, more torque and less air over.

@@ -88,15 +88,14 @@ TEST(Cubic, TurnsWhereItsSlopeIsZero) {
 }
 
 TEST(SmoothSegment, TellsOfAContactByItsForceWhereItIsAndByItsDepthWhereItIsNot) {
-  SmoothSegment<double> s{};
-  s.d_s = 2e-5;
+  const double d_s = 2e-5;
   const Contact<double> c{{-3e-6, 5e-6}, {0.3, 0.7}, {1e4, -2e4}};
   const double lag_s = 4e-6;
   const auto through = [&](const Contact<double>& of, bool is_on, double lag) {
-    const Cubic<double> f = s.event_function(of, is_on, lag_s);
+    const Cubic<double> f = event_function(of, is_on, lag_s, d_s);
     for (int end = 0; end < 2; ++end) {
       EXPECT_NEAR(f.at(end).value, of.depth_m[end] + lag * of.speed_m_s[end], 1e-20);
-      EXPECT_NEAR(f.at(end).slope, s.d_s * (of.speed_m_s[end] + lag * of.rate_m_s2[end]), 1e-18);
+      EXPECT_NEAR(f.at(end).slope, d_s * (of.speed_m_s[end] + lag * of.rate_m_s2[end]), 1e-18);
     }
   };
   through(c, true, lag_s);  // ends where its force does

@@ -533,6 +533,19 @@ TEST_F(ValveCommands, ATrainThatLacksAPartIsTold) {
             std::string::npos);
 }
 
+TEST_F(ValveCommands, ARedlineSaysWhichOnsetsLieBelowTheRatedSpeed) {
+  const std::string page = path("r.html");
+  const std::string text =
+      run(kRedline, {kOhc125, "--train", "intake", "--from", "5000", "--to", "9000", "--report", page});
+  const auto remark_of = [&text](const std::string& name) {
+    const std::string from_name = text.substr(text.find(name + " = "));
+    return from_name.substr(0, from_name.find('\n'));
+  };
+  EXPECT_NE(remark_of("seating_limit").find("  # below rated_rpm = 7000"), std::string::npos) << text;
+  EXPECT_EQ(remark_of("separation_onset").find('#'), std::string::npos) << text;
+  EXPECT_NE(contents(page).find("the engine is rated at 7000"), std::string::npos);
+}
+
 TEST_F(ValveCommands, ARedlineTellsBothOnsetsAndWritesItsTableAndPage) {
   const auto found = lines(run(kRedline, {kOhc125, "--train", "intake", "--from", "8000", "--to", "9500", "--vary",
                                           "spring", "--csv", path("r.csv"), "--report", path("r.html")}));

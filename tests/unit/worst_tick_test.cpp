@@ -147,6 +147,25 @@ TEST(WorstTick, TellsWhichCallOfALineSpends) {
       << "both calls of line 2 spend";
 }
 
+TEST(WorstTick, RefusesAStoreOrCallBesideTheOneThatSpends) {
+  // Arguments of a call on the line that pays: counted as payments, they would be for work that nobody does.
+  const std::string listing =
+      "00000010 <step>:\n"
+      "      10:\tstr\tr0, [r3, #0]\n"
+      "      12:\tstr\tr1, [sp, #4]\n"
+      "      14:\tbl\t30 <locate>\n"
+      "      18:\tbl\t30 <locate>\n"
+      "      1c:\tpop\t{r4, pc}\n"
+      "00000030 <locate>:\n"
+      "      30:\tbx\tlr\n";
+  const std::string budget = "budget | place | 1 | .\n";
+  EXPECT_EQ(refusal(listing, "10 2 12 2", "code | engine.hpp | locate(i) | str spends place | .\n" + budget),
+            "12: a second str that spends place");
+  EXPECT_EQ(refusal(listing, "14 2 18 2", "code | engine.hpp | locate(i) | bl spends place | .\n" + budget),
+            "18: a second bl that spends place");
+  EXPECT_EQ(bound(listing, "10 2 12 4", "code | engine.hpp | locate(i) | str spends place | .\n" + budget), 7);
+}
+
 TEST(WorstTick, CountsABodyBelowItsTestOncePerRepeat) {
   const std::string listing =
       "00000010 <step>:\n"

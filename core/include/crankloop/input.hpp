@@ -94,6 +94,10 @@ struct WheelFaultInput {
   std::uint32_t wheel_faults = 0;  ///< bit b: faults of WheelFault::input_bit b are on this tick
 };
 
+struct SensorFaultInput {
+  std::uint32_t sensor_faults = 0;  ///< bit b: faults of SensorFault::input_bit b are on this tick
+};
+
 /// The spark by a controller's name. The burn begins there, or after the delay of a burn by charge
 /// (spark_to_start_deg).
 template <class Real, class S>
@@ -121,6 +125,7 @@ struct Input : group::CrankInput<Real, S>,
                detail::If<S::boundaries, group::BoundaryInput<Real>>,
                detail::If<detail::Needs<S>::burn_input, group::CombustionInput<Real, S>>,
                detail::If<detail::Needs<S>::faulty_wheels, group::WheelFaultInput>,
+               detail::If<S::sensor_faults, group::SensorFaultInput>,
                detail::If<S::controller_names, group::SparkAdvanceInput<Real, S>> {};
 
 }  // namespace crankloop

@@ -253,6 +253,27 @@ struct ChargeBurnResults {
   ChargeBurnOutput<Real> cycle_burn[S::cylinders.capacity];
 };
 
+struct SensorFaultsOn {
+  std::uint32_t sensor_faults_on;  ///< bit i: fault i of the definition's sensors is on
+};
+/// What a controller reads of its sensors: MAP in Pa, IAT in K, TPS, lambda, CLT in K.
+template <class Real>
+struct FaultySensors {
+  Real faulty_sensor[kControllerSensors];  ///< the healthy values where no fault is on
+};
+/// Lambda as the definition's sensor has it; 0 without one. Air has kMaxExcessAir_ratio.
+template <class Real>
+struct ExhaustLambda {
+  Real exhaust_excess_air_ratio;  ///< of the exhaust manifold: air, free and bound, over what its fuel wants, burned or
+                                  ///< not
+  Real sensor_excess_air_ratio;   ///< shown by the sensor
+};
+/// Of the gas that left each cylinder in its last whole cycle.
+template <class Real, class S>
+struct OutflowLambda {
+  Real outflow_excess_air_ratio[S::cylinders.capacity];
+};
+
 /// Constant. A step does not write it.
 template <class Real>
 struct Coolant {
@@ -280,12 +301,16 @@ struct Output : detail::If<detail::Needs<S>::crank_dynamics, group::CrankMotion<
                 detail::If<S::crevice && S::gas_results, group::BlowByResults<Real, S>>,
                 detail::If<detail::Needs<S>::charge_burn && S::gas_results, group::ChargeBurnResults<Real, S>>,
                 detail::If<detail::Needs<S>::knock, group::KnockResults<Real, S>>,
+                detail::If<detail::Needs<S>::lambda, group::ExhaustLambda<Real>>,
+                detail::If<detail::Needs<S>::lambda && S::gas_results, group::OutflowLambda<Real, S>>,
                 detail::If<detail::Needs<S>::any_valves, group::Valves<Real, S>>,
                 detail::If<S::valve_forces, group::ValveForces<Real, S>>,
                 detail::If<detail::Needs<S>::spring_forces, group::ValveSpringForces<Real, S>>,
                 detail::If<S::valve_results, group::ValveResults<Real, S>>,
                 detail::If<S::cam_contact, group::CamContacts<Real, S>>,
                 detail::If<S::cam_torque, group::CamTorques<Real, S>>,
+                detail::If<S::sensor_faults, group::SensorFaultsOn>,
+                detail::If<S::sensor_faults, group::FaultySensors<Real>>,
                 detail::If<detail::Needs<S>::faulty_wheels, group::WheelFaultsOn>,
                 detail::If<detail::Needs<S>::any_triggers, group::Triggers<Real, S>>,
                 detail::If<detail::Needs<S>::faulty_wheels, group::FaultyTriggers<Real, S>>,

@@ -69,6 +69,8 @@ struct Scene {
   static constexpr bool controller_names =
       false;  ///< Input::spark_advance_deg beside burn_start_deg; throttle, manifold, lambda and coolant once more, by
               ///< a controller's names; needs Manifold::throttle and Combustion::by_input
+  static constexpr bool sensor_faults = false;  ///< faults of a controller's sensors: faulty values beside the healthy
+                                                ///< ones; needs controller_names
   static constexpr bool boundaries =
       false;  ///< Input::ambient_Pa, ambient_K, back_Pa: boost, altitude, a silencer; needs Manifold::throttle
   static constexpr bool crevice = false;      ///< crevices and blow-by of each cylinder; a definition with either
@@ -82,7 +84,10 @@ struct Scene {
   static constexpr bool knock = false;  ///< per-cycle result: how far unburned gas came to knock; needs combustion
                                         ///< and a definition with an octane number
   static constexpr bool gas_results = false;  ///< per-cycle results: mean pressures, charge, heat
-  static constexpr bool load_ratio = false;   ///< Input::load_ratio scales the heat of a pressure table; else full load
+  static constexpr std::uint32_t lambda_parcels =
+      0;  ///< of the pipe to the definition's lambda sensor: lambda of the exhaust and at the sensor; 8 to 256. Needs
+          ///< Manifold::throttle and combustion
+  static constexpr bool load_ratio = false;  ///< Input::load_ratio scales the heat of a pressure table; else full load
   static constexpr bool rod_inertia =
       false;  ///< take the rod's inertia correction dI into account; a definition with dI != 0 demands it
   static constexpr bool kinematics = false;     ///< displacement, velocity, acceleration of each piston
@@ -137,6 +142,7 @@ struct Needs {
   static constexpr bool burn_input = gas && S::combustion == Combustion::by_input;
   static constexpr bool charge_burn = burn && S::charge_burn;
   static constexpr bool knock = burn && S::knock;
+  static constexpr bool lambda = S::lambda_parcels > 0;
   static constexpr bool gas_cut = burn && S::cylinder_cut;
   static constexpr bool crank_dynamics = S::crank == CrankGiven::torque;
   static constexpr bool any_torque = S::torque || S::mean_torque || crank_dynamics;
@@ -204,9 +210,14 @@ struct CheckedScene {
   static_assert(!S::charge_burn || Needs<S>::burn, "charge_burn is of combustion: ask for it too");
   static_assert(!S::walls || Needs<S>::gas, "walls take heat of gas: set pressure = by_gas");
   static_assert(!S::knock || Needs<S>::burn, "knock is of combustion: ask for it too");
+  static_assert(!Needs<S>::lambda || (Needs<S>::manifolds && Needs<S>::burn),
+                "lambda is of an exhaust manifold: set manifold = throttle, and combustion");
+  static_assert(S::lambda_parcels <= 256 && S::lambda_parcels % 8 == 0, "lambda_parcels is 8, 16, ... 256");
   static_assert(!S::boundaries || Needs<S>::manifolds, "boundaries are outside the manifolds: set manifold = throttle");
   static_assert(!S::controller_names || (Needs<S>::manifolds && Needs<S>::burn_input),
                 "controller_names are of throttle and spark: set manifold = throttle, combustion = by_input");
+  static_assert(!S::sensor_faults || S::controller_names,
+                "sensor_faults are of a controller's sensors: set controller_names");
   static_assert(!S::starter || S::crank == CrankGiven::torque,
                 "a starter needs a crank that is turned by forces: set crank = torque");
   static_assert(S::valves == ValveModel::none || (S::trains.capacity >= 1 && S::trains.capacity <= kMaxTrains),

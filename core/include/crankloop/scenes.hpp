@@ -84,6 +84,7 @@ struct Breathing : Whole {
   static constexpr bool walls = true;
   static constexpr bool charge_burn = true;
   static constexpr bool knock = true;
+  static constexpr std::uint32_t lambda_parcels = 32;
   static constexpr Combustion combustion = Combustion::by_input;
   static constexpr bool gas_results = true;
   static constexpr bool load_ratio = false;
@@ -94,12 +95,14 @@ struct BreathingFree : FreeRunning {
   static constexpr PressureGiven pressure = PressureGiven::by_gas;
   static constexpr Manifold manifold = Manifold::throttle;
   static constexpr bool controller_names = true;
+  static constexpr bool sensor_faults = true;
   static constexpr bool boundaries = true;
   static constexpr bool crevice = true;
   static constexpr bool runners = true;
   static constexpr bool walls = true;
   static constexpr bool charge_burn = true;
   static constexpr bool knock = true;
+  static constexpr std::uint32_t lambda_parcels = 32;
   static constexpr Combustion combustion = Combustion::by_input;
   static constexpr bool gas_results = true;
   static constexpr bool load_ratio = false;

@@ -8,6 +8,7 @@
 #include <crankloop/phase.hpp>
 #include <crankloop/scene.hpp>
 #include <crankloop/tables/curve.hpp>
+#include <crankloop/tables/sensor_tables.hpp>
 #include <crankloop/tick/gas/gas_results.hpp>
 #include <crankloop/tick/gas/gas_state.hpp>
 #include <crankloop/tick/valve/contact_results.hpp>
@@ -20,6 +21,22 @@ namespace detail {
 /// Cams that turn alike: all of an engine, or those of each train where phasers turn them.
 template <class S>
 inline constexpr std::uint32_t kCamGroups = S::cam_phasing ? S::trains.capacity : 1;
+
+}  // namespace detail
+
+namespace detail {
+
+/// What a fault of a sensor remembers of its value.
+template <class Real>
+struct SensorState {
+  Real held;  ///< when it came
+  Real late, lagged, lagged_rest;
+  Real sample[kDelayedSamples];
+  std::uint32_t oldest;
+  std::uint32_t ticks_left;  ///< to the next sample
+  std::uint32_t random;
+  std::uint32_t fault;  ///< that is on; kMaxSensorFaults: none
+};
 
 }  // namespace detail
 
@@ -118,7 +135,7 @@ struct ChargeBurnState {
 template <class Real, class S>
 struct WallState {
   Real wall_K[(S::cylinders.capacity + 1) / 2 * 2];  ///< of each cylinder's walls
-  Real wall_rest_K[(S::cylinders.capacity + 1) / 2 * 2];
+  Real wall_heat_J[(S::cylinders.capacity + 1) / 2 * 2];  ///< that they have and wall_K does not show yet
 };
 template <class Real, class S>
 struct KnockRecords {
@@ -142,6 +159,30 @@ template <class Real, class S>
 struct RunnerState {
   detail::RunnerGas<Real> runner[kPorts][S::cylinders.capacity];
 };
+/// Fuel that lacked air, wherever the gas carried it, the pipe to the lambda sensor, and the sensor.
+template <class Real, class S>
+struct LambdaState {
+  static constexpr std::uint32_t kEven = (S::cylinders.capacity + 1) / 2 * 2;
+  Real unburned_kg[kEven] = {};  ///< in each cylinder and its crevices
+  Real manifold_unburned_kg[kPorts] = {};
+  Real pipe_ratio[S::lambda_parcels] = {};  ///< 1 / lambda of each parcel; 0: air
+  Real filled_ratio = 0;                    ///< of the parcel that fills
+  Real filling_ratio = 0;                   ///< 1 / lambda of what is in it, times filled_ratio
+  Real owed_ratio = 0;                      ///< parcels that flowed back, and come again
+  Real outlet_unburned_ratio = 0;           ///< of the gas that last flowed out
+  Real sensor_ratio = 0;                    ///< 1 / lambda that the sensor shows
+  Real sensor_rest_ratio = 0;
+  std::uint32_t oldest_parcel = 0;
+  std::uint32_t any_unburned = 0;  ///< 1: some of what stands above is not 0
+};
+template <class Real, class S>
+struct RunnerLambdaState {
+  Real runner_unburned_kg[kPorts][LambdaState<Real, S>::kEven] = {};
+};
+template <class Real, class S>
+struct OutflowRecords {
+  Real outflow_unburned_kg[LambdaState<Real, S>::kEven] = {};  ///< out of each exhaust valve, in the cycle in progress
+};
 /// Cycles of each cylinder that misfired.
 template <class S>
 struct MisfireRecords {
@@ -163,16 +204,22 @@ struct WireState {
   std::uint32_t noise_random[S::wheel_faults | 1] = {};  ///< of xorshift32, per fault; odd: no padding
 };
 /// A sensor's comparator.
-template <class Real>
+template <class Real, class S>
 struct ComparatorState {
   Real sensor_V = 0;            ///< the last sample
   Real sensor_peak_V = 0;       ///< since the last edge at a tooth's centre
   Real sensor_last_peak_V = 0;  ///< before it
   Real spare_of_sensor = 0;
+  Real late_edge_s[S::reluctor_samples] = {};  ///< of edges that are due in the next tick, from its start
   std::uint32_t comparator_level = 0;
   std::uint32_t comparator_armed = 0;
   std::uint32_t comparator_quiet_ticks = 0;  ///< since that edge; stays at its largest value
-  std::uint32_t spare_of_comparator = 0;
+  std::uint32_t late_edges = 0;
+};
+/// A controller's sensors.
+template <class Real>
+struct SensorStates {
+  detail::SensorState<Real> sensor[kControllerSensors] = {};
 };
 /// Bad inputs since `init`.
 struct BadInputsState {
@@ -205,10 +252,14 @@ struct State : group::StateCore<Real>,
                detail::If<S::crevice && S::gas_results, group::BlowByRecords<Real, S>>,
                detail::If<S::runners, group::RunnerState<Real, S>>,
                detail::If<S::walls, group::WallState<Real, S>>,
+               detail::If<detail::Needs<S>::lambda, group::LambdaState<Real, S>>,
+               detail::If<detail::Needs<S>::lambda && S::runners, group::RunnerLambdaState<Real, S>>,
+               detail::If<detail::Needs<S>::lambda && S::gas_results, group::OutflowRecords<Real, S>>,
                detail::If<S::misfire, group::MisfireRecords<S>>,
                detail::If<detail::Needs<S>::misfire_of_table, group::BurningState<Real, S>>,
                detail::If<detail::Needs<S>::faulty_wheels, group::WireState<S>>,
-               detail::If<detail::Needs<S>::reluctor, group::ComparatorState<Real>>,
+               detail::If<detail::Needs<S>::reluctor, group::ComparatorState<Real, S>>,
+               detail::If<S::sensor_faults, group::SensorStates<Real>>,
                detail::If<S::bad_input_count, group::BadInputsState> {};
 
 /// The same state turning at another speed, for Engine::restore: a run that does not start at rest.

@@ -96,6 +96,9 @@ constexpr void each_input(Visit&& visit, AnInput& in, [[maybe_unused]] const Eng
   if constexpr (detail::Needs<S>::faulty_wheels) {
     visit(whole("wheel_faults", "Bit b: faults of the wheels that are on by input bit b"), in.wheel_faults);
   }
+  if constexpr (S::sensor_faults) {
+    visit(whole("sensor_faults", "Bit b: faults of the sensors that are on by input bit b"), in.sensor_faults);
+  }
   if constexpr (S::controller_names) {
     constexpr Variable advance = real("spark_advance_deg[#]", "Spark before firing top dead centre");
     visit(truth("by_spark_advance", "Sparks are where spark_advance_deg has them, not burn_start_deg"),
@@ -205,7 +208,17 @@ constexpr void each_output(Visit&& visit, AState& state, AnOutput& out, [[maybe_
         visit(real("lambda[#]", "Of a cylinder's last whole cycle; 0: no fuel").at(k),
               out.gas_cycle[k].excess_air_ratio);
     }
+    if constexpr (detail::Needs<S>::lambda)
+      visit(real("sensor_lambda", "At the lambda sensor; 100: air; 0: no sensor"), out.sensor_excess_air_ratio);
     if constexpr (S::walls) visit(real("coolant_K", "Coolant of the walls; 0: none"), out.coolant_K);
+  }
+  if constexpr (S::sensor_faults) {
+    visit(whole("sensor_faults_on", "Bit i-1: fault i of the sensors is on"), out.sensor_faults_on);
+    visit(real("faulty_map_Pa", "As a controller reads map_Pa"), out.faulty_sensor[0]);
+    visit(real("faulty_intake_air_K", "As a controller reads intake_air_K"), out.faulty_sensor[1]);
+    visit(real("faulty_tps_ratio", "As a controller reads tps_ratio"), out.faulty_sensor[2]);
+    visit(real("faulty_sensor_lambda", "As a controller reads sensor_lambda"), out.faulty_sensor[3]);
+    visit(real("faulty_coolant_K", "As a controller reads coolant_K"), out.faulty_sensor[4]);
   }
   if constexpr (S::bad_input_count) {
     visit(whole("bad_input_ticks", "Ticks with a bad input since the start"), state.bad_input_ticks);

@@ -268,7 +268,15 @@ Status validate(const EngineDefinition& engine) noexcept {
     if (const Status refused = validate(fault); !refused.ok()) return refuse(refused.field, refused.reason, i);
     if (fault.wheel >= engine.trigger_count) return refuse("fault.wheel", Reason::out_of_range, i);
   }
-  return validate_reluctor(engine);
+  if (const Status refused = validate_reluctor(engine); !refused.ok()) return refused;
+  if (const Status refused = validate(engine.lambda_sensor); !refused.ok()) return refused;
+  if (engine.sensor_fault_count < 0 || engine.sensor_fault_count > kMaxSensorFaults)
+    return refuse("sensor_fault_count", Reason::out_of_range);
+  for (int i = 0; i < engine.sensor_fault_count; ++i) {
+    if (const Status refused = validate(engine.sensor_faults[i]); !refused.ok())
+      return refuse(refused.field, refused.reason, i);
+  }
+  return {};
 }
 
 }  // namespace crankloop

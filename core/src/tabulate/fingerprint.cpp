@@ -14,12 +14,13 @@ static_assert(kListsEveryField<Crank> && kListsEveryField<Masses> && kListsEvery
                   kListsEveryField<Runner> && kListsEveryField<ChargeBurn> && kListsEveryField<Walls> &&
                   kListsEveryField<Gas> && kListsEveryField<Friction> && kListsEveryField<DrivenMachine> &&
                   kListsEveryField<Starter> && kListsEveryField<ToothGap> && kListsEveryField<TriggerWheel> &&
-                  kListsEveryField<Misfire> && kListsEveryField<WheelFault> && kListsEveryField<Reluctor>,
+                  kListsEveryField<Misfire> && kListsEveryField<WheelFault> && kListsEveryField<Reluctor> &&
+                  kListsEveryField<LambdaSensor> && kListsEveryField<SensorFault>,
               "each_field() lists every field, for the tables' fingerprint and for C, and the range of every number");
-static_assert(
-    values_listed<EngineDefinition>() + 2 + kMaxTriggerWheels + kMaxTrains + kMaxCylinders + 1 + kMaxWheelFaults + 1 ==
-        values_taken<EngineDefinition>(),
-    "all but the gas, trigger wheels and their faults, the cams' contacts, misfires and the reluctor are listed");
+static_assert(values_listed<EngineDefinition>() + 2 + kMaxTriggerWheels + kMaxTrains + kMaxCylinders + 1 +
+                      kMaxWheelFaults + 3 + kMaxSensorFaults ==
+                  values_taken<EngineDefinition>(),
+              "all but the gas, trigger wheels and their faults, the cams' contacts, misfires and sensors are listed");
 
 namespace {
 
@@ -71,7 +72,8 @@ std::uint64_t fingerprint_of(const EngineDefinition& engine, const TickOptions& 
                              int scalar_bytes) noexcept {
   // A new part of the definition must be named here, and then added below.
   const auto& [crank, masses, layout, pressure, train_count, trains, friction, load, starter, trigger_count, triggers,
-               gas, contacts, misfires, wheel_fault_count, wheel_faults, reluctor] = engine;
+               gas, contacts, misfires, wheel_fault_count, wheel_faults, reluctor, lambda_sensor, sensor_fault_count,
+               sensor_faults] = engine;
   Fingerprint f;
   AddRead add{f};
   f.add(kTableFormat);

@@ -215,14 +215,51 @@ constexpr double kLn2 = 0.69314718055994531;
   return table;
 }
 
-[[nodiscard]] WarmWallsTable<double> walls_of(const EngineDefinition& engine) noexcept {
+/// Ticks from one change of wall temperatures to the next, a power of 2: no more than change one by 0.05 K, by as much
+/// heat as ever comes through a surface (5 MW/m2) or a thousandth of what flows to the coolant.
+[[nodiscard]] std::uint32_t wall_ticks(const EngineDefinition& engine, double tick_s) noexcept {
+  constexpr std::uint32_t kMost = 32;
+  constexpr double kMostHeat_W_m2 = 5e6, kMostChange_K = 0.05, kMostShare = 1e-3;
+  const Walls& walls = engine.gas.walls;
+  if (walls.capacity_J_K == 0) return kMost;
+  const double heat_W = kMostHeat_W_m2 * 2 * bore_area_m2(engine.crank);
+  const auto few = [&](double time_s) {
+    return time_s * heat_W <= kMostChange_K * walls.capacity_J_K &&
+           time_s * walls.to_coolant_W_K <= kMostShare * walls.capacity_J_K;
+  };
+  std::uint32_t ticks = 1;
+  while (ticks < kMost && few(2 * ticks * tick_s)) ticks *= 2;
+  return ticks;
+}
+
+[[nodiscard]] WarmWallsTable<double> walls_of(const EngineDefinition& engine, double tick_s) noexcept {
   const Gas& gas = engine.gas;
   const Walls& walls = gas.walls;
   WarmWallsTable<double> table{};
+  table.ticks = wall_ticks(engine, tick_s);
   if (!walls.any()) return table;
   table.capacity_J_K = walls.capacity_J_K, table.to_coolant_W_K = walls.to_coolant_W_K;
   table.coolant_K = walls.coolant_K, table.behind_K = gas.behind_walls_K();
   table.port_W_K[kIntake] = walls.intake_W_K, table.port_W_K[kExhaust] = walls.exhaust_W_K;
+  table.of_ports = walls.intake_W_K > 0 || walls.exhaust_W_K > 0 ? 1 : 0;
+  return table;
+}
+
+[[nodiscard]] LambdaTable<double> lambda_of(const EngineDefinition& engine, double tick_s) noexcept {
+  constexpr double kMost = 1e12;  // of pipes: a float holds it
+  const LambdaSensor& sensor = engine.lambda_sensor;
+  const double air_fuel = engine.gas.air_fuel_ratio;
+  LambdaTable<double> table{};
+  if (!sensor.in_use) return table;
+  table.air_fuel_ratio = air_fuel;
+  table.burned_fuel_ratio = 1 / (1 + air_fuel);
+  table.unburned_ratio = air_fuel / (1 + air_fuel);
+  if (sensor.pipe_m3 > 0) {
+    const bool tiny = engine.gas.exhaust_m3 > kMost * sensor.pipe_m3;
+    table.pipes_in_exhaust = tiny ? kMost : engine.gas.exhaust_m3 / sensor.pipe_m3;
+  }
+  table.follows_ratio = sensor.lag_s > 0 ? 1 - elementary::exp(-tick_s / sensor.lag_s) : 1;
+  table.in_use = 1;
   return table;
 }
 
@@ -262,7 +299,8 @@ void fill_gas_exchange(const EngineDefinition& engine, const TickOptions& option
   fill(targets.burn, burn_of);
   fill(targets.charge_burn, charge_burn_of);
   fill(targets.knock, knock_of);
-  fill(targets.gas_walls, walls_of);
+  fill(targets.gas_walls, [&options](const EngineDefinition& e) { return walls_of(e, options.tick_s); });
+  fill(targets.lambda, [&options](const EngineDefinition& e) { return lambda_of(e, options.tick_s); });
   if (targets.gas_ports == nullptr) return;
   for (int t = 0; t < engine.train_count; ++t)
     fill(targets.gas_ports + t, [t](const EngineDefinition& e) { return port_of(e, t); });

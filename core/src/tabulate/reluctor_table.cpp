@@ -120,6 +120,7 @@ void fill_reluctor(const EngineDefinition& engine, const TickOptions& options,
   table.arm_ratio = static_cast<Real>(sensor.arm_ratio);
   table.least_V = static_cast<Real>(sensor.least_V);
   table.hysteresis_V = static_cast<Real>(sensor.hysteresis_V);
+  table.delay_s = static_cast<Real>(sensor.delay_s);
   table.watchdog_ticks = static_cast<std::uint32_t>(sensor.watchdog_s / options.tick_s) + 1;
 
   const WheelFlux wheel_flux(wheel, sensor);

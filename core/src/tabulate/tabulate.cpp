@@ -18,6 +18,7 @@
 #include "phase_units.hpp"
 #include "reluctor_table.hpp"
 #include "rounding.hpp"
+#include "sensor_faults.hpp"
 #include "trigger_tracks.hpp"
 #include "valve_curves.hpp"
 #include "wheel_fault_tracks.hpp"
@@ -168,6 +169,8 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
   if (targets.wheel_faults != nullptr) {
     if (const Status refused = detail::validate_wheel_faults(engine, options); !refused.ok()) return refused;
   }
+  if (targets.reluctor != nullptr && engine.reluctor.wheel >= 0 && engine.reluctor.delay_s > options.tick_s)
+    return refuse("reluctor.delay_s", Reason::out_of_range);
   if (targets.gas_manifolds != nullptr) {
     if (const Status refused = detail::validate_manifolds(engine, options.tick_s); !refused.ok()) return refused;
   }
@@ -195,6 +198,7 @@ Status tabulate(const EngineDefinition& engine, const TickOptions& options, cons
   detail::fill_triggers(engine, options, targets);
   detail::fill_wheel_faults(engine, options, targets);
   detail::fill_reluctor(engine, options, targets);
+  detail::fill_sensor_faults(engine, options, targets);
   if (targets.drive != nullptr) {
     fill_drive(engine, options, *targets.drive);
     targets.drive->fingerprint = detail::fingerprint_of(engine, options, found, static_cast<int>(sizeof(Real)));

@@ -164,7 +164,8 @@ void start(Json& json, const StartRequest& request) {
   const EngineFile& file = loaded();
   program::require_manifolds(file, request.tick_s);
   program::require_trains(file, request.tick_s);
-  std::unique_ptr<Running> engine = start_running(file, request);
+  std::unique_ptr<Running> engine =
+      request.in_double ? start_running<double>(file, request) : start_running<float>(file, request);
   std::vector<std::string> warnings = program::warnings_about_gas(file, request.speed_rpm, request.tick_s);
   const auto more = request.crank_is_free ? program::warnings_about_running_free(file, file.definition())
                                           : program::warnings_about_misfires_left_out(file);
@@ -187,8 +188,22 @@ void hash(Json& json, double tick_us, bool in_double, double speed_rpm, int cycl
   program::require_manifolds(file, tick_s);
   program::require_trains(file, tick_s);
   const program::Operation operation{speed_rpm, tick_s, 1, program::gas_order(file.definition().gas)};
-  const HashedRun run = hash_held_run(file, operation, in_double, cycles);
+  const HashedRun run =
+      in_double ? hash_held_run<double>(file, operation, cycles) : hash_held_run<float>(file, operation, cycles);
   json.member("hash", run.hash).member("ticks", run.ticks);
+}
+
+void hash_free(Json& json, const StartRequest& request, double seconds) {
+  const EngineFile& file = loaded();
+  program::require_manifolds(file, request.tick_s);
+  program::require_trains(file, request.tick_s);
+  const HashedRun run =
+      request.in_double ? hash_free_run<double>(file, request, seconds) : hash_free_run<float>(file, request, seconds);
+  json.member("hash", run.hash).member("ticks", run.ticks);
+}
+
+void require_tick(double tick_us) {
+  if (!(tick_us >= 1 && tick_us <= 2000)) throw InputError("the tick is out of range; allowed: 1 to 2000 us");
 }
 
 // ---- the redline
@@ -305,7 +320,7 @@ const char* page_keys(void) { return answer(module().engine == nullptr ? "[]" : 
 const char* page_start(double tick_us, std::uint32_t in_double, std::uint32_t crank_is_free, double speed_rpm,
                        double crank_deg) {
   return answer_or_errors(path_of_loaded(), [&](Json& json) {
-    if (!(tick_us >= 1 && tick_us <= 2000)) throw InputError("the tick is out of range; allowed: 1 to 2000 us");
+    require_tick(tick_us);
     if (!std::isfinite(speed_rpm) || !std::isfinite(crank_deg)) throw InputError("speed and angle must be finite");
     start(json, {program::millionths(tick_us), in_double != 0, crank_is_free != 0, speed_rpm, crank_deg});
   });
@@ -389,11 +404,20 @@ const double* page_result_values(void) {
 
 const char* page_hash(double tick_us, std::uint32_t in_double, double speed_rpm, std::uint32_t cycles) {
   return answer_or_errors(path_of_loaded(), [&](Json& json) {
-    if (!(tick_us >= 1 && tick_us <= 2000)) throw InputError("the tick is out of range; allowed: 1 to 2000 us");
+    require_tick(tick_us);
     if (!(speed_rpm > 0 && speed_rpm <= 100000))
       throw InputError("the speed is out of range; allowed: above 0, at most 100000 rpm");
     if (cycles < 1 || cycles > 1000) throw InputError("the cycles are out of range; allowed: 1 to 1000");
     hash(json, tick_us, in_double != 0, speed_rpm, static_cast<int>(cycles));
+  });
+}
+
+const char* page_hash_free(double tick_us, std::uint32_t in_double, double speed_rpm, double seconds) {
+  return answer_or_errors(path_of_loaded(), [&](Json& json) {
+    require_tick(tick_us);
+    if (!std::isfinite(speed_rpm)) throw InputError("the speed must be finite");
+    if (!(seconds > 0 && seconds <= 100)) throw InputError("the time is out of range; allowed: above 0, at most 100 s");
+    hash_free(json, {program::millionths(tick_us), in_double != 0, true, speed_rpm, 0}, seconds);
   });
 }
 

@@ -35,6 +35,21 @@ struct Probe {
   }
 };
 
+/// A real output, which the bookkeeping of a tick reads.
+class RealOutput {
+ public:
+  RealOutput() = default;
+  explicit RealOutput(const Probe& probe) noexcept
+      : at_{probe.at}, is_double_{probe.storage == detail::Storage::real} {}
+  [[nodiscard]] double number() const noexcept {
+    return is_double_ ? *static_cast<const double*>(at_) : static_cast<double>(*static_cast<const float*>(at_));
+  }
+
+ private:
+  const void* at_ = nullptr;
+  bool is_double_ = false;
+};
+
 struct StartRequest {
   double tick_s = 0;
   bool in_double = false;
@@ -78,12 +93,11 @@ class Running {
  protected:
   explicit Running(const program::EngineFile& file, double tick_s);
 
-  virtual void tick() noexcept = 0;
-  [[nodiscard]] virtual Phase phase() const noexcept = 0;
-  virtual void collect_edges(double begin_s) = 0;
+  /// The engine's step, and its edges: `begin_s` is the time before the tick.
+  virtual void tick(double begin_s) noexcept = 0;
 
-  void add_edge(double time_s, double wheel, std::uint32_t level);
-  void list_results();  ///< when the channels are known
+  void add_edge(double time_s, double wheel, std::uint32_t level) noexcept;
+  void list_results(const Phase& of_engine);  ///< when the channels are known
 
   std::vector<Probe> inputs_;
   std::vector<double> input_values_;
@@ -101,11 +115,13 @@ class Running {
   };
 
   void take_inputs() noexcept;  ///< into the engine's input
+  [[nodiscard]] Phase phase() const noexcept { return *phase_; }
   [[nodiscard]] std::size_t row_size() const noexcept { return 2 + columns_.size(); }
   [[nodiscard]] double time_s() const noexcept { return static_cast<double>(ticks_) * tick_s_; }
   void add_row(std::vector<double>& rows) const;
-  void note(Phase before, Phase after);
-  void end_cycle();
+  void add_to_cycle(Phase before, Phase after) noexcept;
+  void end_cycle() noexcept;
+  void begin_cycle(bool is_whole) noexcept;
 
   double tick_s_;
   std::vector<double> firing_deg_;
@@ -116,24 +132,30 @@ class Running {
   std::vector<double> samples_, now_, edges_;
   std::uint32_t edges_lost_ = 0;
   Cycle cycle_;
-  bool is_whole_ = false;  ///< the cycle began at its begin
-  const Probe* mean_torque_ = nullptr;
-  const Probe* speed_ = nullptr;
-  std::vector<const Probe*> pressures_;
+  bool is_whole_ = false;         ///< the cycle began at its begin
+  const Phase* phase_ = nullptr;  ///< of the engine
+  RealOutput mean_torque_, speed_;
+  std::vector<RealOutput> pressures_;
   std::vector<const Probe*> shown_results_;
   std::vector<detail::Variable> results_;
   std::vector<double> result_values_;
 };
 
-/// Makes the engine's tables and starts it; throws InputError and UsageError as `run` does.
-[[nodiscard]] std::unique_ptr<Running> start_running(const program::EngineFile& file, const StartRequest& request);
-
 struct HashedRun {
   std::string hash;
   std::uint64_t ticks;
 };
+
+// In running_float.cpp and running_double.cpp: what only double needs is a part of the module by itself.
+
+/// Makes the engine's tables and starts it; throws InputError and UsageError as `run` does.
+template <class Real>
+[[nodiscard]] std::unique_ptr<Running> start_running(const program::EngineFile& file, const StartRequest& request);
 /// As `run --hash`, with throttle, fuel and spark of the operation.
-[[nodiscard]] HashedRun hash_held_run(const program::EngineFile& file, const program::Operation& operation,
-                                      bool in_double, int cycles);
+template <class Real>
+[[nodiscard]] HashedRun hash_held_run(const program::EngineFile& file, const program::Operation& operation, int cycles);
+/// As `run --free --hash`.
+template <class Real>
+[[nodiscard]] HashedRun hash_free_run(const program::EngineFile& file, const StartRequest& request, double seconds);
 
 }  // namespace crankloop::page

@@ -14,6 +14,8 @@ const kNumbersEvery_ms = 120;
 const kMostDegPerFrame = 45;  // beyond it a hair over the scopes would only flicker
 
 export class Bench {
+  #isFirst = true;
+
   constructor(session, palette) {
     Object.assign(this, {session, palette, redline: null, fresh: true, asked: false, numbers_ms: 0, most_Pa: 5e6,
                          enlarged: 1});
@@ -105,6 +107,8 @@ export class Bench {
     this.picture.draw(this.palette, {cylinder_deg: this.#cylinderAngle(crank_deg), gas: gas[cylinder - 1], trains,
                                      enlarged: this.enlarged});
     this.firing.draw(this.palette, crank_deg, gas, cylinder);
+    if (this.#isFirst) performance.mark('first picture');
+    this.#isFirst = false;
   }
 
   #drawScopes({crank_deg, slow}) {

@@ -52,7 +52,8 @@ function drawOne({context, height}, palette, {left, wide, own_deg, share, gas, n
   context.fillText(String(number), left + wide / 2, 13);
   context.fillStyle = palette.muted;
   const name = strokeName(own_deg);
-  context.fillText(context.measureText(name).width < wide ? name : name[0], left + wide / 2, height - 6);
+  const hasRoom = context.measureText('compression').width < wide;  // the longest: all are names, or all are letters
+  context.fillText(hasRoom ? name : name[0], left + wide / 2, height - 6);
 }
 
 function drawGas(context, palette, {x, top, bore}, crown, gas) {

@@ -139,3 +139,10 @@ export function inflate(bytes) {
   }
   return output.bytes.slice(0, output.size);
 }
+
+/// A module as it is compiled, out of the page's bytes of it: deflated, or as it is.
+export function moduleBytes(buffer) {
+  const bytes = new Uint8Array(buffer);
+  const isModule = [0x00, 0x61, 0x73, 0x6d].every((byte, i) => bytes[i] === byte);
+  return isModule ? bytes : inflate(bytes);
+}

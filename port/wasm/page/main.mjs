@@ -13,20 +13,20 @@ import {hashOfFile, ProofView} from './proof_view.mjs';
 import {RedlineView} from './redline_view.mjs';
 import {Session} from './session.mjs';
 import {Sliders} from './sliders.mjs';
-import {bytesBlock, jsonBlock, moduleOf, textBlock, workerOf} from './source.mjs';
+import {bytesBlock, canRunModules, jsonBlock, textBlock, workerOf} from './source.mjs';
 import {connectTransport} from './transport.mjs';
 
 function main() {
   const source = jsonBlock('engine-source');
   setText(byId('title'), source.path);
-  const bytes = moduleOf(['engine-module', 'engine-module-plain']);
-  if (bytes === null) {
-    refuse('This browser has no WebAssembly, in which the engine runs. Below is the engine’s file; a browser with ' +
-           'WebAssembly, or the program crankloop, runs it.', source.text);
+  if (!canRunModules()) {
+    refuse('This browser has no WebAssembly with exceptions, in which the engine runs. Below is the engine’s file; ' +
+           'a newer browser, or the program crankloop, runs it.', source.text);
     return;
   }
   const newWorker = () => workerOf(textBlock('worker-text'));
-  const boot = {kind: 'boot', bytes: bytes.buffer, files: source.files};
+  const boot = {kind: 'boot', bytes: bytesBlock('engine-module').buffer,
+                double_bytes: bytesBlock('engine-double')?.buffer ?? null, files: source.files};
   const engineWorker = newWorker();
   const session = new Session(engineWorker, source);
   const palette = new Palette(() => bench.redraw());
@@ -64,6 +64,7 @@ function connectText(session, source) {
   session.on('text', (text) => {
     editor.setText(text);
     sliders.setText(text);
+    setText(byId('paper-file'), text);
   });
   byId('as-it-was').addEventListener('click', () => session.setText(source.text));
   session.on('engine', ({warnings, took_ms}) => {
@@ -106,6 +107,9 @@ function connectHead(session) {
     setText(byId('title'), facts.name);
     document.title = facts.name;
     setText(byId('summary'), summaryOf(facts));
+    byId('torque-key').hidden = facts.cylinders.length === 1;
+    for (const keys of document.querySelectorAll('.train-keys'))
+      keys.replaceChildren(...facts.trains.map(({name}, t) => element('span', {class: `key c${t + 1}`}, name)));
     if (select.children.length !== facts.cylinders.length)
       select.replaceChildren(...facts.cylinders.map((_, i) => element('option', {value: i + 1}, `cylinder ${i + 1}`)));
     select.value = String(session.cylinder);
@@ -124,8 +128,15 @@ function summaryOf({crank, cylinders, firing_order, trains, breathes}) {
     (trains.length > 0 ? `; valves of each: ${valves}` : '') + (breathes ? '; gas exchange.' : '.');
 }
 
+/// Its worker begins when the engine runs: until then both would wait for the processor, and the picture with them.
 function connectRedline(session, bench, newWorker, boot) {
-  const worker = newWorker();
+  session.on('engine', ({facts}) => {
+    bench.redline ??= startRedline(newWorker(), boot);
+    bench.redline.setEngine(session.path, session.loaded, facts);
+  });
+}
+
+function startRedline(worker, boot) {
   const view = new RedlineView(worker, {gap: byId('redline-gap'), bounce: byId('redline-bounce'),
                                         text: byId('redline-text'), train: byId('redline-train')});
   worker.onmessage = ({data}) => {
@@ -133,8 +144,7 @@ function connectRedline(session, bench, newWorker, boot) {
     else view.take(data);
   };
   worker.postMessage(boot);
-  session.on('engine', ({facts}) => view.setEngine(session.path, session.loaded, facts));
-  bench.redline = view;
+  return view;
 }
 
 function connectDownloads(session, palette) {
@@ -150,11 +160,12 @@ function connectDownloads(session, palette) {
 }
 
 function connectProof(session, newWorker) {
-  const bytes = bytesBlock('proof-module');
-  byId('proof-golden').hidden = bytes === null;
-  if (bytes !== null)
+  const isThere = textBlock('proof-module') !== '';
+  byId('proof-golden').hidden = !isThere;
+  if (isThere)
     new ProofView({button: byId('prove'), text: byId('proof-text'), body: byId('proof-body'),
-                   details: byId('proof-details')}, jsonBlock('golden-hashes'), newWorker, () => bytes.slice().buffer);
+                   details: byId('proof-details')}, jsonBlock('golden-hashes'), newWorker,
+                  () => bytesBlock('proof-module').buffer);
   byId('hash').addEventListener('click', async () => {
     if (session.engine !== null) setText(byId('hash-text'), await hashOfFile(session));
   });

@@ -159,6 +159,9 @@ const double* PAGE_EXPORT(page_result_values)(void);
 /** As `crankloop run FILE --hash --rpm N --tick-us T --cycles C --real R` of the loaded file: the hash of every bit
  *  that comes out. Does not touch what runs. {"errors": [...], "hash": "0x0123456789ABCDEF", "ticks": 2400} */
 const char* PAGE_EXPORT(page_hash)(double tick_us, uint32_t in_double, double speed_rpm, uint32_t cycles);
+/** As `crankloop run FILE --free --hash --from-rpm N --tick-us T --seconds S --real R` of the loaded file. Does not
+ *  touch what runs. Answers as page_hash() does. */
+const char* PAGE_EXPORT(page_hash_free)(double tick_us, uint32_t in_double, double speed_rpm, double seconds);
 
 /* ---- the redline ---- */
 

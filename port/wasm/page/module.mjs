@@ -4,21 +4,34 @@
 const kWriter = new TextEncoder();
 const kReader = new TextDecoder();
 
-/// bytes: of the module. One instance is one engine.
-export async function openModule(bytes) {
+/// bytes: of the module; doubleBytes: () => those of its second part, which is asked for when arithmetic in double is.
+/// One instance is one engine.
+export async function openModule(bytes, doubleBytes) {
+  const module = await WebAssembly.compile(bytes);
   const imports = {
     env: {emscripten_notify_memory_growth() {}},
     wasi_snapshot_preview1: {
       proc_exit(status) { throw new Error(`the module ended with status ${status}: a defect`); },
     },
+    placeholder: {},
   };
-  const {instance} = await WebAssembly.instantiate(bytes, imports);
-  instance.exports._initialize();
-  return new EngineModule(instance.exports);
+  for (const {module: from, name} of WebAssembly.Module.imports(module)) {
+    if (from === 'placeholder') imports.placeholder[name] = () => { throw new Error('double is not there: a defect'); };
+  }
+  const {exports} = await WebAssembly.instantiate(module, imports);
+  exports._initialize();
+  return new EngineModule(exports, doubleBytes);
 }
 
 export class EngineModule {
-  constructor(exports) { this.exports = exports; }
+  constructor(exports, doubleBytes) { Object.assign(this, {exports, doubleBytes, hasDouble: false}); }
+
+  /// The second part puts its functions into the table of the first.
+  #needDouble() {
+    if (this.hasDouble) return;
+    new WebAssembly.Instance(new WebAssembly.Module(this.doubleBytes()), {primary: this.exports});
+    this.hasDouble = true;
+  }
 
   moduleFacts() { return this.#answer(this.exports.page_facts_of_module()); }
   putFile(name, text) { this.#withTexts([name, text], (...at) => this.exports.page_put_file(...at)); }
@@ -29,6 +42,7 @@ export class EngineModule {
   keys() { return this.#answer(this.exports.page_keys()); }
 
   start({tick_us, in_double, free, speed_rpm, crank_deg}) {
+    if (in_double) this.#needDouble();
     return this.#answer(this.exports.page_start(tick_us, in_double ? 1 : 0, free ? 1 : 0, speed_rpm, crank_deg));
   }
   inputs() { return this.#answer(this.exports.page_inputs()); }
@@ -48,10 +62,14 @@ export class EngineModule {
   results() { return this.#answer(this.exports.page_results()); }
   resultValues(count) { return this.#numbers(this.exports.page_result_values(), count); }
 
-  hash({tick_us, in_double, speed_rpm, cycles}) {
+  /// free: over some seconds, else over some cycles.
+  hash({tick_us, in_double, free, speed_rpm, cycles, seconds}) {
+    if (in_double) this.#needDouble();
+    if (free) return this.#answer(this.exports.page_hash_free(tick_us, in_double ? 1 : 0, speed_rpm, seconds));
     return this.#answer(this.exports.page_hash(tick_us, in_double ? 1 : 0, speed_rpm, cycles));
   }
   redline(train, from_rpm, to_rpm) {
+    this.#needDouble();
     return this.#withTexts([train], (...at) => this.#answer(this.exports.page_redline(...at, from_rpm, to_rpm)));
   }
   redlineStep() { return this.#answer(this.exports.page_redline_step()); }

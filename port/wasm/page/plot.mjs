@@ -17,11 +17,11 @@ export class Plot {
   }
 
   /// x: {low, high, angle} or null: by the curves. bands: [{from, to, name}]. cursor: a place on x, or null.
-  draw(palette, {curves, x = null, zero = true, least_span = 1e-9, bands = [], cursor = null}) {
+  draw(palette, {curves, x = null, zero = true, least_span = 1e-9, below = 0, bands = [], cursor = null}) {
     const drawing = this.surface.begin();
     if (drawing === null) return;
     const {context, width, height} = drawing;
-    this.range = steadyRange(extentOf(curves, 'y'), this.range, {zero, least_span});
+    this.range = steadyRange(extentOf(curves, 'y'), this.range, {zero, least_span, below});
     this.rangeX = x ?? steadyRange(extentOf(curves, 'x'), this.rangeX, {least_span});
     const toX = mapping(this.rangeX, {low: kLeft, high: width - kRight});
     const toY = mapping(this.range, {low: height - kBottom, high: kTop});
@@ -58,11 +58,15 @@ function nearest({rows, n, x}, place) {
 function drawBands(context, palette, bands, toX, height) {
   context.textAlign = 'center';
   context.textBaseline = 'alphabetic';
-  bands.forEach(({from, to, name}, i) => {
+  const fits = (text, {from, to}) => context.measureText(text).width < toX(to) - toX(from) - 4;
+  const inFull = bands.every((band) => fits(band.name, band));  // or each by its short name
+  bands.forEach((band, i) => {
+    const [left, right] = [toX(band.from), toX(band.to)];
     context.fillStyle = palette.band;
-    if (i % 2 === 0) context.fillRect(toX(from), 2, toX(to) - toX(from), height - kBottom - 2);
+    if (i % 2 === 0) context.fillRect(left, 2, right - left, height - kBottom - 2);
     context.fillStyle = palette.muted;
-    if (context.measureText(name).width < toX(to) - toX(from) - 4) context.fillText(name, toX((from + to) / 2), 13);
+    const text = inFull ? band.name : band.short ?? band.name;
+    if (fits(text, band)) context.fillText(text, (left + right) / 2, 13);
   });
 }
 
@@ -83,7 +87,8 @@ function drawGrid(context, palette, plot, x, toX, toY, width, height) {
   for (const tick of x?.angle ? angleTicks(low, high, most) : ticksOf(low, high, most)) {
     line(context, palette.grid, toX(tick), kTop, toX(tick), bottom);
     context.fillStyle = palette.muted;
-    context.fillText(tickText(tick), Math.min(toX(tick), width - 12), bottom + 5);
+    const half = context.measureText(tickText(tick)).width / 2;
+    context.fillText(tickText(tick), Math.min(toX(tick), width - half), bottom + 5);
   }
   line(context, palette.axis, kLeft, bottom, width - kRight, bottom);
 }

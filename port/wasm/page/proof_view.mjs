@@ -51,14 +51,13 @@ export class ProofView {
   }
 }
 
-/// This file's hash as `crankloop run --hash` prints it, in words.
+/// This file's hash as `crankloop run --hash` prints it, in words; of a free crank a second from the rated speed on.
 export async function hashOfFile(session) {
-  const {tick_us, in_double} = session.settings;
+  const {tick_us, in_double, free} = session.settings;
   const speed_rpm = session.engine.facts.rated_rpm;
-  const run = {tick_us, in_double, speed_rpm, cycles: 2};
-  const {answer} = await session.ask({kind: 'hash', run});
+  const {answer} = await session.ask({kind: 'hash', run: {tick_us, in_double, free, speed_rpm, cycles: 2, seconds: 1}});
   if (answer.errors.length > 0) return answer.errors.map(({text}) => text).join(' ');
-  const real = in_double ? ' --real double' : '';
-  return `${answer.hash}, as prints: crankloop run ${session.path} --hash --rpm ${speed_rpm} --tick-us ${tick_us}` +
-         ` --cycles 2${real}`;
+  const how = free ? `--free --hash --from-rpm ${speed_rpm} --seconds 1` : `--hash --rpm ${speed_rpm} --cycles 2`;
+  return `${answer.hash}, as prints: crankloop run ${session.path} ${how} --tick-us ${tick_us}` +
+         (in_double ? ' --real double' : '');
 }

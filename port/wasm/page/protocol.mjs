@@ -12,7 +12,7 @@ const orNull = (is) => (v) => v === null || is(v);
 
 /// To the worker that runs the engine, and to that of the redline (boot, redline) and of the proof (prove).
 export const kOrders = {
-  boot: {bytes: kBytes, files: kList},
+  boot: {bytes: kBytes, double_bytes: orNull(kBytes), files: kList},
   load: {id: kNumber, path: kText, text: kText, settings: kObject},
   settings: {id: kNumber, settings: kObject},
   input: {base: kText, value: kNumber},

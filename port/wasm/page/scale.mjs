@@ -49,11 +49,12 @@ export function extentOf(curves, axis) {
 }
 
 /// The range of a scope: round, holds the extent, and keeps the old range while the extent fits in and fills a third of
-/// it, so that a scope does not breathe from cycle to cycle. old: null or a range from here.
-export function steadyRange(extent, old, {zero = true, least_span = 1e-12} = {}) {
+/// it, so that a scope does not breathe from cycle to cycle. old: null or a range from here. below: share of the extent
+/// that may stand below zero without a range of its own.
+export function steadyRange(extent, old, {zero = true, least_span = 1e-12, below = 0} = {}) {
   let {low, high} = extent;
   if (zero) {
-    low = Math.min(low, 0);
+    low = -low <= below * (high - low) ? 0 : Math.min(low, 0);
     high = Math.max(high, 0);
   }
   if (old !== null && low >= old.low && high <= old.high && high - low >= (old.high - old.low) / 3) return old;

@@ -8,8 +8,8 @@ import {volumeOf, wrapped} from './mechanism.mjs';
 import {pressureName} from './watched.mjs';
 
 const kCycle = {low: 0, high: 720, angle: true};
-const kStrokes = [['power', 0], ['exhaust', 180], ['intake', 360], ['compression', 540]]
-  .map(([name, from]) => ({name, from, to: from + 180}));
+const kStrokes = [['power', 'power', 0], ['exhaust', 'exh.', 180], ['intake', 'intake', 360],
+                  ['compression', 'compr.', 540]].map(([name, short, from]) => ({name, short, from, to: from + 180}));
 
 /// What a scope needs of a run: its rows, and the engine's facts of that run.
 export class View {
@@ -68,7 +68,7 @@ const kCurves = {
   torque: {
     curves: (v, p, before) => [
       ...v.curve('torque_Nm', 1, plain(p, before, 'engine, Nm')),
-      ...(before ? [] : v.curve(`cylinder[${v.cylinder}].torque_Nm`, 1,
+      ...(before || v.facts.cylinders.length === 1 ? [] : v.curve(`cylinder[${v.cylinder}].torque_Nm`, 1,
                                 {...plain(p, before, 'cylinder, Nm', 1), width: 1}))],
     least_span: 0.1,
   },
@@ -77,7 +77,7 @@ const kCurves = {
       ...(before ? [] : v.curve(valve('theoretical_lift_m', t, v.cylinder), 1e3,
                                 {colour: p.muted, width: 1.5, dash: [4, 4]})),
       ...v.curve(valve('lift_m', t, v.cylinder), 1e3, style)]),
-    least_span: 0.1,
+    least_span: 0.1, below: 0.03,  // a valve gives way by a tenth of a millimetre where its train presses
   },
   difference: {
     curves: (v, p, before) => v.ofTrains(p, before, (t, style) => v.difference(
@@ -130,7 +130,7 @@ export class Scopes {
     const curves = fresh.length === 0 ? [...grey, ...own] : [...grey, ...own.map(thin), ...fresh.map(open)];
     const overAngle = spec.x === undefined;
     plot.draw(palette, {curves, x: overAngle ? kCycle : null, bands: overAngle ? kStrokes : [],
-                        cursor: overAngle ? cursor : null, least_span: spec.least_span});
+                        cursor: overAngle ? cursor : null, least_span: spec.least_span, below: spec.below});
   }
 
   #drawContacts(palette, view, cursor) {

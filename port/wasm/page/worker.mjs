@@ -1,6 +1,7 @@
 // The worker: one text for three of them. The first runs the engine, the second searches the redline, the third proves
 // the bits; each by the orders that it is sent.
 
+import {moduleBytes} from './inflate.mjs';
 import {openModule} from './module.mjs';
 import {checked, kOrders} from './protocol.mjs';
 import {prove} from './proof_run.mjs';
@@ -14,8 +15,8 @@ let search = null;
 function report(message, moved = []) { self.postMessage(message, moved); }
 
 const kAnswers = {
-  async boot({bytes, files}) {
-    module = await openModule(bytes);
+  async boot({bytes, double_bytes, files}) {
+    module = await openModule(moduleBytes(bytes), () => moduleBytes(double_bytes));
     for (const {name, text} of files) module.putFile(name, text);
     runner = new Runner(module, () => performance.now());
     search = new RedlineSearch(module, report);
@@ -44,7 +45,7 @@ const kAnswers = {
   redline({id, path, text, train}) { search.begin(id, path, text, train); },
   stop() { search?.stop(); },
   async prove({bytes}) {
-    const summary = await prove(bytes, (name, hash) => report({kind: 'golden', name, hash}));
+    const summary = await prove(moduleBytes(bytes), (name, hash) => report({kind: 'golden', name, hash}));
     report({kind: 'proven', summary});
   },
 };

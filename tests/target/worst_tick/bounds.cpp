@@ -198,7 +198,9 @@ Spending Bounds::spends(const Instruction& instruction) const {
         instruction.operands.find(expense.operands) != std::string::npos &&
         (stems_from(instruction.place) ||
          std::any_of(instruction.calls.begin(), instruction.calls.end(), stems_from))) {
-      return expense.spends;
+      Spending spends = expense.spends;
+      spends.by = &expense;
+      return spends;
     }
   }
   return {};

@@ -35,13 +35,14 @@ using Numbers = std::map<std::string, std::int64_t>;
 struct Spending {
   std::string budget;
   std::int64_t number = 1;
+  const void* by = nullptr;  ///< the line of the file that says so, of an instruction
 };
 
 struct LoopBound {
   std::string file, text;
   std::int64_t rounds;
   Spending spends;
-  bool first_too;      ///< the first round spends as well
+  bool first_too;  ///< the first round spends as well
 };
 
 struct Expense {

@@ -1,6 +1,7 @@
 #include "longest_path.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "mixture.hpp"
 #include "thumb.hpp"
@@ -51,10 +52,17 @@ void LongestPath::add(std::uint32_t address, std::vector<std::uint32_t>& callers
   Body body{graph_of(function), {}, {}};
   for (const Block& block : body.graph.blocks) {
     Path path;
+    std::set<const void*> paid;
     for (std::size_t i = block.begin; i < block.end; ++i) {
+      const Instruction& instruction = function.instructions[i];
       path.length += cost(function, i);
-      const Spending spends = bounds_.spends(function.instructions[i]);
-      if (!spends.budget.empty()) path.spend(budget(spends.budget), spends.number);
+      const Spending spends = bounds_.spends(instruction);
+      if (spends.budget.empty()) continue;
+      path.spend(budget(spends.budget), spends.number);
+      const bool of_any_kind = instruction.mnemonic == "str" || flow_of(instruction).calls;
+      if (of_any_kind && !paid.insert(spends.by).second)
+        throw Refusal(hex(instruction.address) + ": a second " + instruction.mnemonic + " that spends " +
+                      spends.budget);
     }
     body.blocks.push_back(path);
   }

@@ -22,7 +22,9 @@ namespace worst_tick {
 
 class LongestPath {
  public:
-  /// Refuses recursion, calls of what is not in the program, and what graph_of() and Bounds refuse.
+  /// Refuses recursion, calls of what is not in the program, two stores or two calls in a row that spend for the same
+  /// line (arguments of a call on it, as a rule, that pay for work which nobody does), and what graph_of() and Bounds
+  /// refuse.
   LongestPath(const Program& program, const Bounds& bounds, const Costs& costs, std::uint32_t root);
 
   /// The most from the root's first instruction to its return, both counted.

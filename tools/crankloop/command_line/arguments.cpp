@@ -128,6 +128,20 @@ bool Arguments::has(std::string_view option) const {
   return found != given_.end() && found->second.by_user;
 }
 
+void Arguments::require_with(std::string_view option, std::string_view other) const {
+  if (has(option) && !has(other)) {
+    throw UsageError(std::string(option) + " has no effect without " + std::string(other) + "; give both");
+  }
+}
+
+void Arguments::refuse_with(std::string_view option, std::initializer_list<std::string_view> others) const {
+  for (const std::string_view other : others) {
+    if (has(option) && has(other)) {
+      throw UsageError(std::string(option) + " and " + std::string(other) + " exclude each other; give one");
+    }
+  }
+}
+
 const Arguments::Given& Arguments::get(std::string_view option) const {
   const auto found = given_.find(option);
   if (found == given_.end()) throw UsageError(std::string(option) + " is missing");

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <string_view>
@@ -105,6 +106,12 @@ class Arguments {
 
   [[nodiscard]] const std::string& file(std::size_t index = 0) const { return files_.at(index); }
   [[nodiscard]] bool has(std::string_view option) const;  ///< given by the user; a fallback does not count
+
+  /// Throws UsageError where the user gave `option` without `other`, without which it would do nothing.
+  void require_with(std::string_view option, std::string_view other) const;
+
+  /// Throws UsageError where the user gave `option` and one of `others`.
+  void refuse_with(std::string_view option, std::initializer_list<std::string_view> others) const;
 
   /// Given or fallback value. An option that has neither is reported to the user as missing.
   [[nodiscard]] double number(std::string_view option) const;

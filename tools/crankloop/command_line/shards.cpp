@@ -140,7 +140,7 @@ std::vector<std::string> computed(const Arguments& arguments, const Points& poin
 void require_options_that_fit(const Arguments& arguments, std::initializer_list<const char*> outputs) {
   const bool shard = arguments.has(kShard.name);
   if (shard != arguments.has(kPart.name)) throw UsageError("--shard and --part belong together; give both");
-  if (shard && arguments.has(kJoin.name)) throw UsageError("--shard and --join exclude each other; give one");
+  arguments.refuse_with(kShard.name, {kJoin.name});
   for (const char* output : outputs) {
     if (shard && arguments.has(output))
       throw UsageError(std::string(output) + " is of all points; give it with --join, when all shards have run");

@@ -48,6 +48,8 @@ int run_bench(const Arguments& arguments) {
   if (arguments.has("--errors") && (arguments.has("--quick") || arguments.has("--report") || arguments.has("--plot"))) {
     throw UsageError("--errors measures no time: it goes with neither --quick, --report nor --plot");
   }
+  arguments.require_with("--ticks", "--kernel");
+  arguments.refuse_with("--kernel", {"--quick", "--errors", "--json", "--csv", "--report", "--plot"});
   if (arguments.has("--kernel")) {
     bench::run_kernel(arguments.text("--kernel"), arguments.whole_number("--ticks"));
     return kSuccess;

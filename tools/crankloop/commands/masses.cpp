@@ -10,8 +10,8 @@ namespace crankloop::program {
 namespace {
 
 void add_interval(Summary& s, const std::string& name, Interval interval, double scale, const char* unit) {
-  s.line(name + "_least", interval.least * scale, unit);
-  s.line(name + "_most", interval.most * scale, unit);
+  s.line("min_" + name, interval.least * scale, unit);
+  s.line("max_" + name, interval.most * scale, unit);
 }
 
 int run_masses(const Arguments& arguments) {

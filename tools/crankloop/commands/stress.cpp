@@ -61,6 +61,7 @@ std::string run_block(const StressTally& asked, StressKind kind, int block) {
 }
 
 int run_stress(const Arguments& arguments) {
+  arguments.refuse_with("--case", {"--cases", "--reference-every", "--threads", "--shard", "--join", "--report"});
   if (arguments.has("--case")) return run_one(arguments);
   StressTally tally;
   tally.seed = arguments.whole_number("--seed");

@@ -175,7 +175,8 @@ bool print_section(Printer& p, const Stores<Real>& s, const TableReport& report,
   const std::string object = declaration_of(Section::kName, real);
   const bool none = (std::is_same_v<Section, detail::section::triggers> && s.triggers.count == 0) ||
                     (std::is_same_v<Section, detail::section::wheel_faults> && s.wheel_faults.count == 0) ||
-                    (std::is_same_v<Section, detail::section::reluctor> && s.reluctor.in_use == 0);
+                    (std::is_same_v<Section, detail::section::reluctor> && s.reluctor.in_use == 0) ||
+                    (std::is_same_v<Section, detail::section::sensor_faults> && s.sensor_faults.count == 0);
   if (none) {
     p.text(object);
     p.text(" = {}");

@@ -146,6 +146,8 @@ void EngineFile::build_definition() {
   if (section("pressure").has("file")) read_diagram(section("pressure"));
   accept(validate(definition_.pressure, definition_.crank));
   if (definition_.pressure.source == PressureSource::gas) build_gas_exchange();
+  build_lambda_sensor();
+  build_sensor_faults();
   fill(section("friction"), definition_.friction);
   fill(section("machine"), definition_.machine);
   fill(section("starter"), definition_.starter);

@@ -117,6 +117,8 @@ class EngineFile {
   void build_misfires();
   void build_faults();
   void build_reluctor();
+  void build_lambda_sensor();
+  void build_sensor_faults();
   [[nodiscard]] int wheel_of(const SectionValues& section) const;
   [[nodiscard]] InputError explain_fault(const Status& status, const SectionValues& section) const;
   [[nodiscard]] const SectionValues* fault_to_blame(const Key& key, int index) const;

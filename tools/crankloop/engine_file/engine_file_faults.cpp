@@ -1,4 +1,5 @@
-// Faults of trigger wheels of an engine file: [fault NAME] as a definition, and messages for its errors.
+// Faults and sensors of an engine file: [fault NAME], [sensor_fault NAME], [reluctor], [lambda_sensor] as definitions,
+// and messages for their errors.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -19,10 +20,31 @@ WheelFault build_fault(const SectionValues& values) {
   return fault;
 }
 
+SensorFault build_sensor_fault(const SectionValues& values) {
+  SensorFault fault;
+  fill(values, fault);
+  const std::string& sensor = values.text("sensor");
+  fault.sensor = sensor == "map"          ? ControllerSensor::map
+                 : sensor == "intake_air" ? ControllerSensor::intake_air
+                 : sensor == "tps"        ? ControllerSensor::tps
+                 : sensor == "lambda"     ? ControllerSensor::lambda
+                                          : ControllerSensor::coolant;
+  const std::string& wire = values.text("wire");
+  fault.wire = wire == "stuck"   ? SensorWire::stuck
+               : wire == "open"  ? SensorWire::open
+               : wire == "short" ? SensorWire::shorted
+                                 : SensorWire::good;
+  return fault;
+}
+
 /// The key of a field whose part of a Status tells what is wrong, and why.
 std::string why(const Status& status) {
   const std::string_view field = status.field;
-  if (field == "fault.end_s") return "is never on: give end_s above start_s, or an input_bit";
+  if (field == "fault.end_s" || field == "sensor_fault.end_s")
+    return "is never on: give end_s above start_s, or an input_bit";
+  if (field == "sensor_fault.most")
+    return "is not above least: a wire that is open or shorted, and steps, need a range";
+  if (field == "sensor_fault.step") return "makes more than 65536 steps of the range";
   if (field == "fault.moved_tooth" && status.reason == Reason::inconsistent) return "is the tooth that is missing";
   if (field == "fault.missing_tooth" && status.reason == Reason::too_few_points) return "leaves the wheel no tooth";
   if (status.reason == Reason::out_of_range && (field == "fault.missing_tooth" || field == "fault.moved_tooth"))
@@ -67,6 +89,30 @@ void EngineFile::build_reluctor() {
   }
   if (sensor.reach_ratio < wheel.tooth_ratio + 0.1)
     refuse(*section, "reach_ratio", "must exceed the wheel's tooth_ratio by 0.1", path_);
+}
+
+void EngineFile::build_lambda_sensor() {
+  const SectionValues* section = find("lambda_sensor");
+  if (section == nullptr) return;
+  if (definition_.pressure.source != PressureSource::gas)
+    throw InputError(path_, section->line, section->title() + " needs [pressure] source = gas: without, no gas flows");
+  fill(*section, definition_.lambda_sensor);
+  definition_.lambda_sensor.in_use = true;
+}
+
+void EngineFile::build_sensor_faults() {
+  for (const SectionValues& section : sections_) {
+    if (section.kind != "sensor_fault") continue;
+    if (definition_.pressure.source != PressureSource::gas)
+      throw InputError(path_, section.line, section.title() + " needs [pressure] source = gas: without, no gas flows");
+    if (definition_.sensor_fault_count == kMaxSensorFaults) {
+      throw InputError(path_, section.line,
+                       section.title() + " makes one fault too many; allowed: " + std::to_string(kMaxSensorFaults));
+    }
+    const SensorFault& fault = definition_.sensor_faults[definition_.sensor_fault_count++] =
+        build_sensor_fault(section);
+    if (const Status status = validate(fault); !status.ok()) throw explain_fault(status, section);
+  }
 }
 
 void EngineFile::build_faults() {

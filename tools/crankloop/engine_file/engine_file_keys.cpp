@@ -81,6 +81,8 @@ constexpr SectionKind kSections[] = {
     {"fault", true,
      "what is wrong with a trigger wheel, its sensor or its wire, and when; where forces turn the crank"},
     {"reluctor", false, "a variable reluctance sensor at a trigger wheel, and its comparator; absent: none"},
+    {"sensor_fault", true, "what a controller reads of a sensor, and when; where forces turn the crank of an engine that breathes"},
+    {"lambda_sensor", false, "a lambda sensor in the exhaust pipe ([pressure] source = gas); absent: none"},
     {"counterweight", true, "a mass on the crankshaft, for `balance` and reports; no part of the tick"},
     {"balance_shaft", true,
      "an unbalanced shaft that the crankshaft drives, for `balance` and reports; no part of the tick"},
@@ -168,7 +170,7 @@ constexpr Key kRows[] = {
     {"gas", "air_fuel_ratio", Kind::number, kNoUnit, "gas.air_fuel_ratio", kOfField, "", defaults, "14.6", "", "", "stoichiometric, by mass"},
     {"gas", "burn_start_deg", Kind::number, kDeg, "gas.burn_start_deg", kOfField, "", defaults, "-18", "", "", "crank angle, firing TDC = 0"},
     {"gas", "burn_duration_deg", Kind::number, kDeg, "gas.burn_duration_deg", kOfField, "", defaults, "50", "", "", "must end by 150 deg"},
-    {"gas", "burn_by", Kind::choice, kNoUnit, "", kAny, "order|charge", defaults, "order", "", "", "charge: a burn lasts as long as speed, pressure, temperature, lambda and residual gas make it, and burn_start_deg is the spark"},
+    {"gas", "burn_by", Kind::choice, kNoUnit, "", kAny, "order|charge", defaults, "order", "", "", "charge: the duration of a burn follows from speed, pressure, temperature, lambda and residual gas, and burn_start_deg is the spark"},
     {"gas", "spark_to_start_deg", Kind::number, kDeg, "charge_burn.spark_to_start_deg", kOfField, "", defaults, "0", kByCharge, "", "from the spark to the burn's start, in the state of reference"},
     {"gas", "burn_reference_rpm", Kind::number, kRpmAsRadS, "charge_burn.reference_rad_s", from(10).up_to(1e5), "", defaults, "2000", kByCharge, "", "state of reference, in which the burn lasts burn_duration_deg: speed"},
     {"gas", "burn_reference_K", Kind::number, kKelvin, "charge_burn.reference_K", kOfField, "", defaults, "650", kByCharge, "", "its temperature in the cylinder, where the burn starts"},
@@ -203,7 +205,7 @@ constexpr Key kRows[] = {
     {"cam", "smoothing_um", Kind::number, kUm, "cam.smoothing_m", kOfField, "auto", required, "", kCamTable, "", "largest residual that smoothing may leave; auto: by the scatter of the rows"},
     {"cam", "width_mm", Kind::number, kMm, "cam.width_m", above(0).up_to(1000), "", optional, "", "", "", "b, width of the contact with its follower, for stress"},
     {"cam", "friction_ratio", Kind::number, kNoUnit, "cam.friction_ratio", kOfField, "", optional, "", "", "", "mu between cam and follower, at any speed; absent: none", "0.03 to 0.12"},
-    {"cam", "limit_MPa", Kind::number, kMPa, "", above(0).up_to(1e5), "", optional, "", "", "", "largest stress of the contact that is allowed; where it is passed is told"},
+    {"cam", "limit_MPa", Kind::number, kMPa, "", above(0).up_to(1e5), "", optional, "", "", "", "permissible contact stress; commands report where it is exceeded"},
 
     {"material", "cam_GPa", Kind::number, kGPa, "material.cam_Pa", kOfField, "", defaults, "206", "", "", "Young's modulus of the cam"},
     {"material", "cam_poisson", Kind::number, kNoUnit, "material.cam_poisson_ratio", kOfField, "", defaults, "0.3", "", "", "its Poisson's ratio"},
@@ -233,25 +235,25 @@ constexpr Key kRows[] = {
     {"valve", "seat_N_per_mm", Kind::number, kNPerMm, "valve.seat_N_m", kOfField, "", required, "", "", "", "stiffness of the seat"},
     {"valve", "seat_damping_ratio", Kind::number, kNoUnit, "valve.seat_damping_ratio", kOfField, "", required, "", "", "", "b_z = 2 zeta sqrt(k_z M)"},
     {"valve", "head_area_mm2", Kind::number, kMm2, "valve.head_area_m2", kOfField, "", defaults, "0", "", "", "gas force on the valve head; 0: none"},
-    {"valve", "surge_modes", Kind::whole_number, kNoUnit, "valve.surge_modes", from(0).up_to(3), "", optional, "", "", "", "modes of each spring that surge by themselves; absent: 0, the spring follows its valve"},
+    {"valve", "surge_modes", Kind::whole_number, kNoUnit, "valve.surge_modes", from(0).up_to(3), "", optional, "", "", "", "surge modes of each spring; absent: 0, the spring follows its valve"},
     {"valve", "surge_damping_ratio", Kind::number, kNoUnit, "valve.surge_damping_ratio", kOfField, "", optional, "", "", "", "of each mode; absent: 0.01"},
-    {"valve", "spring_active_g", Kind::number, kG, "valve.spring_active_kg", kOfField, "", optional, "", "", "", "of spring_g, the active coils of the (outer) spring; absent: all that the inner one leaves"},
-    {"valve", "inner_spring_N_per_mm", Kind::number, kNPerMm, "valve.inner_spring_N_m", kOfField, "", optional, "", "", "", "of spring_N_per_mm, what the inner of two nested springs has; absent: one spring"},
-    {"valve", "inner_spring_g", Kind::number, kG, "valve.inner_spring_kg", kOfField, "", optional, "", "", "", "of spring_g, the inner spring's active coils"},
+    {"valve", "spring_active_g", Kind::number, kG, "valve.spring_active_kg", kOfField, "", optional, "", "", "", "share of spring_g in the active coils of the (outer) spring; absent: all but the inner one's"},
+    {"valve", "inner_spring_N_per_mm", Kind::number, kNPerMm, "valve.inner_spring_N_m", kOfField, "", optional, "", "", "", "share of spring_N_per_mm in the inner of two nested springs; absent: one spring"},
+    {"valve", "inner_spring_g", Kind::number, kG, "valve.inner_spring_kg", kOfField, "", optional, "", "", "", "share of spring_g in the inner spring's active coils"},
     {"valve", "wire_mm", Kind::number, kMm, "", above(0).up_to(100), "", optional, "", "", "", "d, diameter of the spring's wire, for its stress"},
     {"valve", "coil_mm", Kind::number, kMm, "", above(0).up_to(1000), "", optional, "", "", "", "D, mean diameter of its coils"},
-    {"valve", "active_coils", Kind::number, kNoUnit, "", from(0.5).up_to(100), "", optional, "", "", "", "n, how many of them bend"},
+    {"valve", "active_coils", Kind::number, kNoUnit, "", from(0.5).up_to(100), "", optional, "", "", "", "n, number of active coils"},
     {"valve", "shear_GPa", Kind::number, kGPa, "", above(0).up_to(1000), "", optional, "", "", "", "G, shear modulus of the wire; absent: 79, spring steel"},
-    {"valve", "shear_endurance_MPa", Kind::number, kMPa, "", above(0).up_to(1e5), "", optional, "", "", "", "largest amplitude of shear stress about zero that the wire bears for ever; with the next key gives Goodman's factor"},
-    {"valve", "shear_ultimate_MPa", Kind::number, kMPa, "", above(0).up_to(1e5), "", optional, "", "", "", "shear stress at which it breaks"},
-    {"valve", "port", Kind::choice, kNoUnit, "", kAny, "intake|exhaust", optional, "", "", "", "what it opens; needed with [pressure] source = gas"},
+    {"valve", "shear_endurance_MPa", Kind::number, kMPa, "", above(0).up_to(1e5), "", optional, "", "", "", "endurance limit: amplitude of alternating shear stress; with the next key gives Goodman's factor"},
+    {"valve", "shear_ultimate_MPa", Kind::number, kMPa, "", above(0).up_to(1e5), "", optional, "", "", "", "ultimate shear stress"},
+    {"valve", "port", Kind::choice, kNoUnit, "", kAny, "intake|exhaust", optional, "", "", "", "the port that it opens; needed with [pressure] source = gas"},
     {"valve", "seat_diameter_mm", Kind::number, kMm, "gas.seat_diameter_m", kOfField, "", optional, "", "", "", "inner; needed with [pressure] source = gas"},
     {"valve", "head_diameter_mm", Kind::number, kMm, "", above(0).up_to(1000), "", optional, "", "", "", "D_v, outer diameter of the seat, for the flow area; absent: seat_diameter_mm and twice seat_width_mm"},
     {"valve", "seat_width_mm", Kind::number, kMm, "", above(0).up_to(100), "", optional, "", "", "", "s, outer less inner radius of the seat; absent: of the two diameters, or 0.04 of the inner one"},
     {"valve", "seat_angle_deg", Kind::number, kDeg, "", from(1).up_to(89), "", optional, "", "", "", "beta, from the plane of the head; absent: 45"},
     {"valve", "port_diameter_mm", Kind::number, kMm, "", above(0).up_to(1000), "", optional, "", "", "", "D_p, behind the seat; absent: the seat's inner diameter"},
     {"valve", "stem_diameter_mm", Kind::number, kMm, "", from(0).up_to(1000), "", optional, "", "", "", "D_s; absent: 0.2 of the seat's inner diameter"},
-    {"valve", "flow_over_lift_ratio", Kind::pairs, kNoUnit, "", from(0).up_to(1), "", optional, "", "", "", "instead of a usual valve's: flow coefficient times area over that of the seat, by lift over its diameter, 0 to 0.5"},
+    {"valve", "flow_over_lift_ratio", Kind::pairs, kNoUnit, "", from(0).up_to(1), "", optional, "", "", "", "effective area over the seat's, by lift over seat diameter, 0 to 0.5; absent: a usual poppet valve"},
 
     {"trigger", "on", Kind::text, kNoUnit, "", kAny, "", required, "", "", "", "crank, cam, or cam NAME for one that the phaser of [cam NAME] moves"},
     {"trigger", "pattern", Kind::text, kNoUnit, "", kAny, "", required, "", "", "edges:teeth", "60 or 60-2 (two missing), 36-2-2-2, 36-2-2-2-H6, half-moon, teeth and (missing) in turn, like 13(2)16(2)1(2), or the name of a pair: `crankloop help patterns`"},
@@ -261,44 +263,62 @@ constexpr Key kRows[] = {
     {"trigger", "inverted", Kind::choice, kNoUnit, "", kAny, "no|yes", defaults, "no", "", "", "whether a tooth pulls the signal down"},
 
     {"misfire", "every", Kind::whole_number, kNoUnit, "misfire.of", kOfField, "", required, "", "", "rule:every", "the Nth, the 2 Nth, ... cycle misfires"},
-    {"misfire", "misses", Kind::whole_number, kNoUnit, "misfire.misfires", kOfField, "", required, "", "", "rule:n of m", "so many misfires, evenly spread"},
-    {"misfire", "of_cycles", Kind::whole_number, kNoUnit, "misfire.of", kOfField, "", required, "", "", "rule:n of m", "in every so many cycles"},
+    {"misfire", "misses", Kind::whole_number, kNoUnit, "misfire.misfires", kOfField, "", required, "", "", "rule:n of m", "number of misfires, evenly spread"},
+    {"misfire", "of_cycles", Kind::whole_number, kNoUnit, "misfire.of", kOfField, "", required, "", "", "rule:n of m", "number of cycles over which they are spread, again and again"},
     {"misfire", "random_ratio", Kind::number, kNoUnit, "misfire.random_ratio", kOfField, "", required, "", "", "rule:random", "each cycle's probability of misfiring"},
-    {"misfire", "seed", Kind::whole_number, kNoUnit, "misfire.seed", kOfField, "", defaults, "1", "", "rule:random", "of the random numbers; each cylinder draws its own"},
-    {"misfire", "burst", Kind::whole_number, kNoUnit, "", from(1).up_to(kMaxMisfirePeriod - 1), "", required, "", "", "rule:burst", "so many misfires in a row"},
+    {"misfire", "seed", Kind::whole_number, kNoUnit, "misfire.seed", kOfField, "", defaults, "1", "", "rule:random", "seed of the random numbers; each cylinder draws its own"},
+    {"misfire", "burst", Kind::whole_number, kNoUnit, "", from(1).up_to(kMaxMisfirePeriod - 1), "", required, "", "", "rule:burst", "number of misfires in a row"},
     {"misfire", "gap", Kind::whole_number, kNoUnit, "", from(1).up_to(kMaxMisfirePeriod - 1), "", required, "", "", "rule:burst", "cycles that fire before each burst"},
     {"misfire", "cycles", Kind::numbers, kNoUnit, "", from(1).up_to(2147483647), "", required, "", "", "rule:list", "numbers of the cycles that misfire, rising, up to 32; 1 is the first that takes its fuel"},
     {"misfire", "burning_ratio", Kind::number, kNoUnit, "misfire.burning_ratio", kOfField, "", defaults, "0", "", "", "share of its heat that a misfiring cycle releases; 0: none"},
 
-    {"fault", "trigger", Kind::text, kNoUnit, "", kAny, "", required, "", "", "", "NAME of the [trigger NAME] that has it"},
-    {"fault", "start_s", Kind::number, kS, "fault.start_s", kOfField, "", defaults, "0", "", "", "on from here, since the start"},
-    {"fault", "end_s", Kind::number, kS, "fault.end_s", kOfField, "", defaults, "0", "", "", "to before here; 0: not by time"},
-    {"fault", "input_bit", Kind::whole_number, kNoUnit, "fault.input_bit", from(0).below(32), "", optional, "", "", "", "on while this bit of the input wheel_faults is set; needed without end_s"},
-    {"fault", "missing_tooth", Kind::whole_number, kNoUnit, "fault.missing_tooth", kOfField, "", defaults, "0", "", "", "this tooth, from 1, is not there; 0: none"},
-    {"fault", "moved_tooth", Kind::whole_number, kNoUnit, "fault.moved_tooth", kOfField, "", defaults, "0", "", "", "this tooth, from 1, stands elsewhere; 0: none"},
-    {"fault", "moved_deg", Kind::number, kDeg, "fault.moved_deg", kOfField, "", defaults, "0", "", "", "by so many crank degrees later"},
-    {"fault", "extra_tooth_deg", Kind::number, kDeg, "fault.extra_tooth_deg", kOfField, "", defaults, "0", "", "", "crank degrees from the first tooth's rising edge to that of a tooth too many"},
-    {"fault", "extra_width_deg", Kind::number, kDeg, "fault.extra_width_deg", kOfField, "", defaults, "0", "", "", "its width; 0: no such tooth"},
-    {"fault", "runout_deg", Kind::number, kDeg, "fault.runout_deg", kOfField, "", defaults, "0", "", "", "r, by which run-out moves edges: r sin(angle of the wheel - runout_at_deg) crank degrees later"},
+    {"fault", "trigger", Kind::text, kNoUnit, "", kAny, "", required, "", "", "", "NAME of the [trigger NAME] with the fault"},
+    {"fault", "start_s", Kind::number, kS, "fault.start_s", kOfField, "", defaults, "0", "", "", "time at which the fault begins, from the start of the run"},
+    {"fault", "end_s", Kind::number, kS, "fault.end_s", kOfField, "", defaults, "0", "", "", "time at which it ends; 0: the fault is not switched by time"},
+    {"fault", "input_bit", Kind::whole_number, kNoUnit, "fault.input_bit", from(0).below(32), "", optional, "", "", "", "bit of the input wheel_faults that switches the fault on; needed without end_s"},
+    {"fault", "missing_tooth", Kind::whole_number, kNoUnit, "fault.missing_tooth", kOfField, "", defaults, "0", "", "", "number of a tooth that is missing, from 1; 0: none"},
+    {"fault", "moved_tooth", Kind::whole_number, kNoUnit, "fault.moved_tooth", kOfField, "", defaults, "0", "", "", "number of a tooth that is out of place, from 1; 0: none"},
+    {"fault", "moved_deg", Kind::number, kDeg, "fault.moved_deg", kOfField, "", defaults, "0", "", "", "delay of that tooth; negative: early"},
+    {"fault", "extra_tooth_deg", Kind::number, kDeg, "fault.extra_tooth_deg", kOfField, "", defaults, "0", "", "", "angle of an extra tooth's rising edge, in crank degrees from the first tooth's"},
+    {"fault", "extra_width_deg", Kind::number, kDeg, "fault.extra_width_deg", kOfField, "", defaults, "0", "", "", "width of the extra tooth; 0: none"},
+    {"fault", "runout_deg", Kind::number, kDeg, "fault.runout_deg", kOfField, "", defaults, "0", "", "", "r, run-out of the wheel: delays edges by r sin(angle of the wheel - runout_at_deg) crank degrees"},
     {"fault", "runout_at_deg", Kind::number, kDeg, "fault.runout_at_deg", kOfField, "", defaults, "0", "", "", "of the wheel's own turn, from its first rising edge"},
-    {"fault", "late_deg", Kind::number, kDeg, "fault.late_deg", kOfField, "", defaults, "0", "", "", "all edges come so many crank degrees later: a stretched chain; negative: earlier"},
+    {"fault", "late_deg", Kind::number, kDeg, "fault.late_deg", kOfField, "", defaults, "0", "", "", "delay of all edges, as by a stretched chain; negative: early"},
     {"fault", "inverted", Kind::choice, kNoUnit, "", kAny, "no|yes", defaults, "no", "", "", "wires swapped"},
     {"fault", "stuck", Kind::choice, kNoUnit, "", kAny, "no|low|high", defaults, "no", "", "", "the signal stays at a level"},
-    {"fault", "noise_Hz", Kind::number, kHz, "fault.noise_Hz", kOfField, "", defaults, "0", "", "", "pulses that invert the signal, at random, so many a second in the mean; at most one in a tick"},
-    {"fault", "noise_pulse_us", Kind::number, kUs, "fault.noise_pulse_s", from(0).up_to(1000), "", defaults, "0", "", "", "their length, up to half a tick; above 0 where there is noise"},
-    {"fault", "noise_seed", Kind::whole_number, kNoUnit, "fault.noise_seed", kOfField, "", defaults, "1", "", "", "of their random numbers"},
+    {"fault", "noise_Hz", Kind::number, kHz, "fault.noise_Hz", kOfField, "", defaults, "0", "", "", "mean rate of random pulses that invert the signal; at most one in a tick"},
+    {"fault", "noise_pulse_us", Kind::number, kUs, "fault.noise_pulse_s", from(0).up_to(1000), "", defaults, "0", "", "", "length of these pulses, up to half a tick; above 0 with noise_Hz"},
+    {"fault", "noise_seed", Kind::whole_number, kNoUnit, "fault.noise_seed", kOfField, "", defaults, "1", "", "", "seed of their random numbers"},
 
-    {"reluctor", "trigger", Kind::text, kNoUnit, "", kAny, "", required, "", "", "", "NAME of the [trigger NAME] that it is at: a pattern of evenly spaced teeth, on the crank or on a cam without a phaser"},
-    {"reluctor", "gain_V_s", Kind::number, kVS, "reluctor.gain_V_s", kOfField, "", required, "", "", "", "peak voltage at a tooth by the wheel's speed in rad/s"},
-    {"reluctor", "reach_ratio", Kind::number, kNoUnit, "reluctor.reach_ratio", kOfField, "", defaults, "0.9", "", "", "where a tooth's lobes end, by the way from its centre to the middle of the space behind it; a small air gap has short ones"},
-    {"reluctor", "gap_lobe_ratio", Kind::number, kNoUnit, "reluctor.gap_lobe_ratio", kOfField, "", defaults, "1.4", "", "", "height of lobes beside a gap by that of the others"},
-    {"reluctor", "runout_ratio", Kind::number, kNoUnit, "reluctor.runout_ratio", kOfField, "", defaults, "0", "", "", "r, by which the wheel's run-out swings the flux: 1 + r cos(angle of the wheel - runout_at_deg)"},
+    {"reluctor", "trigger", Kind::text, kNoUnit, "", kAny, "", required, "", "", "", "NAME of the [trigger NAME] that it senses: a pattern of evenly spaced teeth, on the crank or on a cam without a phaser"},
+    {"reluctor", "gain_V_s", Kind::number, kVS, "reluctor.gain_V_s", kOfField, "", required, "", "", "", "peak voltage at a tooth over the wheel's speed"},
+    {"reluctor", "reach_ratio", Kind::number, kNoUnit, "reluctor.reach_ratio", kOfField, "", defaults, "0.9", "", "", "where a tooth's lobe ends, relative to the distance from its centre to the middle of the next gap; smaller for a small air gap"},
+    {"reluctor", "gap_lobe_ratio", Kind::number, kNoUnit, "reluctor.gap_lobe_ratio", kOfField, "", defaults, "1.4", "", "", "height of the lobes beside missing teeth over that of the others"},
+    {"reluctor", "runout_ratio", Kind::number, kNoUnit, "reluctor.runout_ratio", kOfField, "", defaults, "0", "", "", "r, run-out of the wheel: modulates the flux by 1 + r cos(angle of the wheel - runout_at_deg)"},
     {"reluctor", "runout_at_deg", Kind::number, kDeg, "reluctor.runout_at_deg", kOfField, "", defaults, "0", "", "", "of the wheel's own turn, from its first rising edge"},
-    {"reluctor", "reversed", Kind::choice, kNoUnit, "", kAny, "no|yes", defaults, "no", "", "", "wires swapped: the voltage has the other sign"},
-    {"reluctor", "arm_ratio", Kind::number, kNoUnit, "reluctor.arm_ratio", kOfField, "", defaults, "0.3333333333333333", "", "", "the comparator is armed beyond this share of the last peak"},
-    {"reluctor", "least_V", Kind::number, kV, "reluctor.least_V", kOfField, "", defaults, "0.05", "", "", "and beyond this voltage"},
-    {"reluctor", "hysteresis_V", Kind::number, kV, "reluctor.hysteresis_V", kOfField, "", defaults, "0", "", "", "its edge is where the voltage falls through this, below 0"},
-    {"reluctor", "watchdog_s", Kind::number, kS, "reluctor.watchdog_s", kOfField, "", defaults, "0.085", "", "", "after so long without an edge the last peak is forgotten"},
+    {"reluctor", "reversed", Kind::choice, kNoUnit, "", kAny, "no|yes", defaults, "no", "", "", "swapped wires: the voltage has the opposite sign"},
+    {"reluctor", "arm_ratio", Kind::number, kNoUnit, "reluctor.arm_ratio", kOfField, "", defaults, "0.3333333333333333", "", "", "the comparator is armed above this share of the last peak"},
+    {"reluctor", "least_V", Kind::number, kV, "reluctor.least_V", kOfField, "", defaults, "0.05", "", "", "and above this voltage"},
+    {"reluctor", "hysteresis_V", Kind::number, kV, "reluctor.hysteresis_V", kOfField, "", defaults, "0", "", "", "its edge is where the voltage falls below minus this value"},
+    {"reluctor", "watchdog_s", Kind::number, kS, "reluctor.watchdog_s", kOfField, "", defaults, "0.085", "", "", "time without an edge after which the last peak is discarded"},
+    {"reluctor", "delay_us", Kind::number, kUs, "reluctor.delay_s", kOfField, "", defaults, "0", "", "", "delay of the comparator's edges, at most a tick"},
+
+    {"sensor_fault", "sensor", Kind::choice, kNoUnit, "", kAny, "map|intake_air|tps|lambda|coolant", required, "", "", "", "the sensor with the fault: map in Pa, intake_air and coolant in K, tps, lambda"},
+    {"sensor_fault", "start_s", Kind::number, kS, "sensor_fault.start_s", kOfField, "", defaults, "0", "", "", "time at which the fault begins, from the start of the run"},
+    {"sensor_fault", "end_s", Kind::number, kS, "sensor_fault.end_s", kOfField, "", defaults, "0", "", "", "time at which it ends; 0: the fault is not switched by time"},
+    {"sensor_fault", "input_bit", Kind::whole_number, kNoUnit, "sensor_fault.input_bit", from(0).below(32), "", optional, "", "", "", "bit of the input sensor_faults that switches the fault on; needed without end_s"},
+    {"sensor_fault", "wire", Kind::choice, kNoUnit, "", kAny, "good|stuck|open|short", defaults, "good", "", "", "stuck: the value stays as it was; open: reads most; short: reads least"},
+    {"sensor_fault", "offset", Kind::number, kNoUnit, "sensor_fault.offset", kOfField, "", defaults, "0", "", "", "added to the value, in the sensor's unit"},
+    {"sensor_fault", "noise", Kind::number, kNoUnit, "sensor_fault.noise", kOfField, "", defaults, "0", "", "", "amplitude of random noise, uniform from -noise to noise in each tick, in the sensor's unit"},
+    {"sensor_fault", "noise_seed", Kind::whole_number, kNoUnit, "sensor_fault.noise_seed", kOfField, "", defaults, "1", "", "", "seed of its random numbers"},
+    {"sensor_fault", "delay_s", Kind::number, kS, "sensor_fault.delay_s", kOfField, "", defaults, "0", "", "", "delay of the value, to 1/32 of it"},
+    {"sensor_fault", "lag_s", Kind::number, kS, "sensor_fault.lag_s", kOfField, "", defaults, "0", "", "", "time constant of first order"},
+    {"sensor_fault", "least", Kind::number, kNoUnit, "sensor_fault.least", kOfField, "", defaults, "0", "", "", "smallest value that the sensor reads"},
+    {"sensor_fault", "most", Kind::number, kNoUnit, "sensor_fault.most", kOfField, "", defaults, "0", "", "", "largest; not above least: no range"},
+    {"sensor_fault", "step", Kind::number, kNoUnit, "sensor_fault.step", kOfField, "", defaults, "0", "", "", "step of a converter that counts from least, at most 65 536 steps; 0: none"},
+
+    {"lambda_sensor", "pipe_cm3", Kind::number, kCm3, "lambda_sensor.pipe_m3", kOfField, "", defaults, "500", "", "", "volume of the pipe from the exhaust manifold to the sensor; 0: the sensor is at the manifold"},
+    {"lambda_sensor", "lag_s", Kind::number, kS, "lambda_sensor.lag_s", kOfField, "", defaults, "0.05", "", "", "the sensor's time constant, of first order; 0: none", "0.02 to 0.2"},
 
     {"counterweight", "mass_g", Kind::number, kG, "", above(0).up_to(1e7), "", required, "", "", "", "of the weight"},
     {"counterweight", "radius_mm", Kind::number, kMm, "", above(0).up_to(1e4), "", required, "", "", "", "of its centre of mass from the crankshaft's axis"},
@@ -350,6 +370,8 @@ constexpr Range range_of_field(const Key& key) {
   Misfire::each_field(find, kExample.misfires[0]);
   WheelFault::each_field(find, kExample.wheel_faults[0]);
   Reluctor::each_field(find, kExample.reluctor);
+  LambdaSensor::each_field(find, kExample.lambda_sensor);
+  SensorFault::each_field(find, kExample.sensor_faults[0]);
   if (!find.found) throw "a key is that of a field that the definition does not have";
   const auto in_file = [&key](double si) { return si * key.unit.over / key.unit.times; };
   return {in_file(find.range.least), in_file(find.range.most), find.range.without_least, find.range.without_most};
@@ -400,6 +422,9 @@ constexpr Follows kFollows[] = {
     {"fault.stuck", "fault", "stuck"},
     {"reluctor.wheel", "reluctor", "trigger"},
     {"reluctor.reversed", "reluctor", "reversed"},
+    {"sensor_fault.sensor", "sensor_fault", "sensor"},
+    {"sensor_fault.wire", "sensor_fault", "wire"},
+    {"lambda_sensor.in_use", "lambda_sensor", "pipe_cm3"},
     {"gas.throttle_count", "gas", "throttle_curve"},
     {"gas.throttle_ratio", "gas", "throttle_curve"},
     {"gas.throttle_area_ratio", "gas", "throttle_curve"},
@@ -418,17 +443,19 @@ constexpr Follows kFollows[] = {
     {"gas.flow_ratio", "valve", "flow_over_lift_ratio"},
 };
 
-/// ", or heat_J": what may be given instead, where there is a choice.
+/// ", or heat_J", ", or misses and of_cycles, or cycles": what may be given instead, where there is a choice.
 std::string other_ways(const Key& key) {
   if (key.form[0] == '\0') return "";
   const std::string_view choice = split(key.form, ':')[0];
-  std::vector<std::string> keys;
+  std::vector<std::string_view> forms;
   for (const Key& other : kKeys) {
     const bool instead = key.section == std::string_view(other.section) && split(other.form, ':')[0] == choice &&
-                         key.form != std::string_view(other.form);
-    if (instead && other.presence != Presence::optional) keys.emplace_back(other.name);
+                         key.form != std::string_view(other.form) && other.presence != Presence::optional;
+    if (instead && std::find(forms.begin(), forms.end(), other.form) == forms.end()) forms.emplace_back(other.form);
   }
-  return keys.empty() ? "" : ", or " + join(keys, " and ");
+  std::string words;
+  for (const std::string_view form : forms) words += ", or " + required_keys(key.section, form);
+  return words;
 }
 
 std::string words_about(const Key& key) {
@@ -480,6 +507,18 @@ const SectionKind* find_section_kind(const std::string& name) {
     if (kind.name == name) return &kind;
   }
   return nullptr;
+}
+
+std::string required_keys(const std::string& section, std::string_view form) {
+  const std::vector<const Key*> keys = keys_of(section);
+  for (const Presence most_needed : {Presence::required, Presence::with_default, Presence::optional}) {
+    std::vector<std::string> names;
+    for (const Key* key : keys) {
+      if (form == key->form && key->presence == most_needed) names.emplace_back(key->name);
+    }
+    if (!names.empty()) return join(names, " and ");
+  }
+  return "";
 }
 
 std::vector<const Key*> keys_of(const std::string& section) {

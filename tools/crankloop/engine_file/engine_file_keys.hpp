@@ -66,6 +66,8 @@ struct SectionKind {
 
 /// In the order of `show`. The table is a constant array; the vectors only point into it.
 [[nodiscard]] std::vector<const Key*> keys_of(const std::string& section);
+/// The keys of one form, "rod_small_end_g and rod_big_end_g": those that must be there, else those that may.
+[[nodiscard]] std::string required_keys(const std::string& section, std::string_view form);
 [[nodiscard]] const Key* find_key(const std::string& section, const std::string& name);
 
 /// The key of a Status's field, or the key from which the field is computed: stroke_mm for "crank.crank_radius_m";

@@ -63,20 +63,6 @@ bool counts(const Key& key, const SectionValues& values) {
   return std::find(wanted.begin(), wanted.end(), deciding->text) != wanted.end();
 }
 
-/// The keys of one form, "rod_small_end_g and rod_big_end_g"; only those that must be there.
-std::string required_keys(const std::string& section, std::string_view form) {
-  std::vector<std::string> names;
-  for (const Key* key : keys_of(section)) {
-    if (form == key->form && key->presence != Presence::optional) names.emplace_back(key->name);
-  }
-  if (names.empty()) {
-    for (const Key* key : keys_of(section)) {
-      if (form == key->form) names.emplace_back(key->name);
-    }
-  }
-  return join(names, " and ");
-}
-
 /// A choice between forms: its name, and the form that the file uses.
 struct FormInUse {
   const Value* first_given = nullptr;

@@ -70,7 +70,9 @@ report::Table cycle_table(const ReportInput& input) {
   row("Temperature of the gas that leaves through the exhaust valve", c.exhaust_K, "K");
   row("Intake manifold, mean pressure", input.figures.gas.intake_Pa / 1e3, "kPa");
   row("Exhaust manifold, mean pressure", input.figures.gas.exhaust_Pa / 1e3, "kPa");
-  row("Exhaust manifold, mean temperature", input.figures.gas.exhaust_manifold_K, "K");
+  const std::string left_out = exhaust_heat_left_out(input.file.definition());
+  row(("Exhaust manifold, mean temperature" + (left_out.empty() ? "" : "; " + left_out)).c_str(),
+      input.figures.gas.exhaust_manifold_K, "K");
   row("Energy balance error", c.energy_defect_J, "J");
   return table;
 }
@@ -80,6 +82,8 @@ report::Table cycle_table(const ReportInput& input) {
 report::Section gas_section(const ReportInput& input) {
   const Trace& trace = input.trace;
   Section section{"gas", "Gas exchange", {}};
+  for (const std::string& doubt : doubts_about(input.figures.gas))
+    section.blocks.push_back(report::Paragraph{doubt, true});
   section.blocks.push_back(flows(input));
   section.blocks.push_back(pressures(input));
   Plot temperature = plot_over_angle(input, "Temperature of the gas", axis_of("Temperature", "K"),

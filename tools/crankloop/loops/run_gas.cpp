@@ -40,6 +40,7 @@ void add_gas_columns(std::vector<std::string>& columns, const EngineDefinition& 
       if (runners[port]) columns.push_back(name + "_port_kPa"), columns.push_back(name + "_runner_g_s");
     }
   }
+  if (engine.lambda_sensor.in_use) columns.insert(columns.end(), {"exhaust_lambda", "sensor_lambda"});
 }
 
 void add_fuel(Summary& s, const GasOrder& order) {
@@ -56,18 +57,50 @@ void add_order(Summary& s, const GasOrder& order) {
   s.line("burn_start", order.burn_start_deg, "deg");
 }
 
+double fuel_kg_s(const EngineDefinition& engine, const GasFigures& figures, double speed_rad_s) noexcept {
+  constexpr double kCycle_rad = 12.566370614359172;
+  return figures.cycle.fuel_kg * engine.layout.cylinders * speed_rad_s / kCycle_rad;
+}
+
+std::vector<std::string> doubts_about(const GasFigures& figures) {
+  std::vector<std::string> doubts;
+  const GasCycle<double>& cycle = figures.cycle;
+  if (cycle.residual_ratio > kMaxResidualThatBurns && cycle.heat_J > 0) {
+    doubts.push_back(brief(std::round(100 * cycle.residual_ratio)) +
+                     " % of the trapped mass is residual gas: a real engine misfires. Here all fuel burns, and "
+                     "temperatures are too high.");
+  }
+  if (figures.knock_integral >= 1) {
+    doubts.push_back("The knock integral passes 1 at " + brief(std::round(10 * figures.knock_deg) / 10) +
+                     " deg: a real engine knocks. It would burn later or take a fuel of higher octane number.");
+  }
+  return doubts;
+}
+
+std::string exhaust_heat_left_out(const EngineDefinition& engine) {
+  return engine.gas.walls.exhaust_W_K > 0 ? "" : "no heat to its walls: exhaust_W_per_K is 0";
+}
+
 void add_gas(Summary& s, const EngineDefinition& engine, const GasFigures& figures) {
   const GasCycle<double>& cycle = figures.cycle;
   s.line("pumping_mep", cycle.pumping_mep_Pa / 1e3, "kPa", "from 180 to 540 deg; negative: a loss");
   s.line("volumetric_efficiency", cycle.volumetric_efficiency, "", "air through the intake at ambient density");
   s.line("trapped_air", cycle.trapped_air_kg * 1e6, "mg",
          cycle.trapped_kg > 0 ? "in a cylinder when its intake closed" : "the intake did not close before the burn");
-  s.line("residual_ratio", cycle.residual_ratio, "", "burned share of the trapped mass");
+  s.line("residual_ratio", cycle.residual_ratio, "",
+         std::string("burned share of the trapped mass") +
+             (cycle.residual_ratio > kMaxResidualThatBurns && cycle.heat_J > 0
+                  ? "; so much makes a real engine misfire, here all fuel burns"
+                  : ""));
   s.line("fuel_burned", cycle.fuel_kg * 1e6, "mg", "of a cylinder's cycle");
   const bool too_rich = cycle.excess_air_ratio > 0 && cycle.excess_air_ratio < kRichestThatIgnites;
   s.line("excess_air_ratio", cycle.excess_air_ratio, "",
          too_rich ? "lambda: so rich a mixture does not ignite; with --lambda fuel follows the air"
                   : "lambda; 0: no fuel");
+  if (engine.lambda_sensor.in_use) {
+    s.line("exhaust_lambda", figures.exhaust_lambda, "", "of the gas in the exhaust manifold, at the end; 100: air");
+    s.line("sensor_lambda", figures.sensor_lambda, "", "shown by the sensor");
+  }
   if (engine.gas.charge_burn.in_use) {
     s.line("burn_by_charge_start", figures.burn_start_deg, "deg", "where the burn began after the spark");
     s.line("burn_by_charge_duration", figures.burn_duration_deg, "deg", "as the charge had it; 0: nothing burned");

@@ -54,8 +54,8 @@ template <class Real>
           gas.flow_kg_s[kIntake], gas.flow_kg_s[kExhaust], gas.wall_heat_W};
 }
 
-/// Columns of a CSV file, and their cells for a tick: the cylinders, then the manifolds, then crevices and runners
-/// where the engine has some.
+/// Columns of a CSV file, and their cells for a tick: the cylinders, then the manifolds, then crevices, runners and
+/// the lambda sensor where the engine has some.
 void add_gas_columns(std::vector<std::string>& columns, const EngineDefinition& engine);
 template <class Real, class S>
 void write_gas(CsvWriter& csv, const crankloop::Output<Real, S>& out, const EngineDefinition& engine) {
@@ -88,6 +88,7 @@ void write_gas(CsvWriter& csv, const crankloop::Output<Real, S>& out, const Engi
       csv.cell(out.runner[k].flow_kg_s[port] * static_cast<Real>(1e3));
     }
   }
+  if (engine.lambda_sensor.in_use) csv.cell(out.exhaust_excess_air_ratio), csv.cell(out.sensor_excess_air_ratio);
 }
 
 /// Means over the cylinders' last whole cycles; for the energy defect, the one of largest magnitude.
@@ -119,6 +120,10 @@ template <class Real, std::size_t Capacity>
   return mean;
 }
 
+/// Residual share of the trapped mass beyond which a real charge burns in part or not at all: 15 to 30 % of exhaust gas
+/// beside the residual, whatever the kind of combustion chamber (Heywood, section 9.4).
+inline constexpr double kMaxResidualThatBurns = 0.4;
+
 /// Results of the gas in a run.
 struct GasFigures {
   GasCycle<double> cycle{};  ///< mean_cycle at the end
@@ -129,6 +134,7 @@ struct GasFigures {
   double knock_integral = 0;                         ///< largest of the cylinders
   double knock_deg = 0;                              ///< earliest of the cylinders that passed 1; 0: none did
   double burn_start_deg = 0, burn_duration_deg = 0;  ///< by the charge, of a cylinder's cycle, their mean
+  double exhaust_lambda = 0, sensor_lambda = 0;      ///< at the end; 0: no lambda sensor
 };
 
 /// Figures of the cylinders' last whole cycles.
@@ -137,6 +143,8 @@ void take_cycles(const crankloop::Output<Real, S>& out, std::size_t cylinders, G
   figures.cycle = mean_cycle(out.gas_cycle, cylinders);
   figures.blow_by_kg = figures.burn_start_deg = figures.burn_duration_deg = 0;
   figures.knock_integral = figures.knock_deg = 0;
+  figures.exhaust_lambda = static_cast<double>(out.exhaust_excess_air_ratio);
+  figures.sensor_lambda = static_cast<double>(out.sensor_excess_air_ratio);
   const double share = 1 / static_cast<double>(cylinders);
   for (std::size_t k = 0; k < cylinders; ++k) {
     figures.blow_by_kg += static_cast<double>(out.cycle_blow_by_kg[k]) * share;
@@ -152,6 +160,15 @@ void take_cycles(const crankloop::Output<Real, S>& out, std::size_t cylinders, G
 void add_fuel(Summary& s, const GasOrder& order);
 /// The lines that show the engine's inputs: throttle, fuel or lambda, burn_start.
 void add_order(Summary& s, const GasOrder& order);
+
+/// Fuel of all cylinders, at this speed.
+[[nodiscard]] double fuel_kg_s(const EngineDefinition& engine, const GasFigures& figures, double speed_rad_s) noexcept;
+
+/// What a real engine would do otherwise than these figures say, a sentence each: it misfires, it knocks.
+[[nodiscard]] std::vector<std::string> doubts_about(const GasFigures& figures);
+
+/// What is left out of an exhaust manifold's temperature: "" or a remark.
+[[nodiscard]] std::string exhaust_heat_left_out(const EngineDefinition& engine);
 
 /// The lines about the gas, from pumping_mep to wall_heat, and of an engine with crevices blow_by.
 void add_gas(Summary& s, const EngineDefinition& engine, const GasFigures& figures);

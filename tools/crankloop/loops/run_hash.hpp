@@ -9,9 +9,8 @@
 #include <string>
 #include <type_traits>
 
+#include <crankloop/scenes.hpp>
 #include <crankloop/variables.hpp>
-
-#include "fixed_step_loop.hpp"
 
 namespace crankloop::program {
 
@@ -51,5 +50,11 @@ void add_tick(BitHash& hash, const Engine<Real, S>& engine, const detail::Engine
   detail::each_output<Shown>([&hash](const detail::Variable&, const auto& value) { hash.add(value); }, engine.state(),
                              engine.output(), shape);
 }
+
+/// The ready-made scene of `run --free` without a controller's names, which say some of its numbers once more.
+template <class S>
+struct FreeShown : std::conditional_t<detail::Needs<S>::gas, scenes::BreathingFree, scenes::FreeRunning> {
+  static constexpr bool controller_names = false;
+};
 
 }  // namespace crankloop::program

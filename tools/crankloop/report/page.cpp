@@ -71,6 +71,10 @@ h2, .figure { scroll-margin-top: 5rem; }
 p + .row, ul + .row { margin-top: 2rem; }
 @media (min-width: 48rem) { .row { grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); } }
 @media (min-width: 64rem) { .row:has(> :nth-child(3):last-child) { grid-template-columns: repeat(3, minmax(0, 1fr)); } }
+@media print, (min-width: 48rem) {  /* a table alone in its row takes the width that it needs */
+  .row:has(> .table:only-child) { grid-template-columns: minmax(0, 1fr); }
+  .row:has(> .table:only-child) table { width: auto; min-width: 50%; }
+}
 .row > * { min-width: 0; }
 figure { margin: 0; }
 figcaption { margin-top: 0.6rem; color: var(--muted); font-size: 0.9rem; line-height: 1.45; }
@@ -113,15 +117,24 @@ footer {
 @media print {
   :root { --paper: #ffffff; color-scheme: light; }
   body { padding: 0; max-width: none; font-size: 10pt; }
-  nav, .read-out { display: none; }
+  nav, .read-out, footer { display: none; }  /* the footer's file is in the command under Method */
   section { margin-top: 1.4rem; }
   h2 { margin-bottom: 0.8rem; padding-top: 0.7rem; } h3 { margin-bottom: 0.3rem; }
-  .row { grid-template-columns: 1fr 1fr; gap: 1.1rem 1.8rem; margin-bottom: 1.1rem; }
+  .row:not(:has(> .table:only-child)) { grid-template-columns: 1fr 1fr; }
+  .row { gap: 0.8rem 1.8rem; margin-bottom: 0.8rem; }
+  figure .plot { width: 94%; }  /* three rows to a page */
   figcaption { margin-top: 0.2rem; font-size: 8.5pt; } .table { margin-bottom: 1.1rem; }
   .scroll { overflow: visible; }
-  table { font-size: 8.5pt; } .row :is(th, td):not(:last-child) { padding-right: 0.5rem; }
-  figure, tr, .facts, .row .table { break-inside: avoid; }
-  h2, h3, caption { break-after: avoid; }
+  table { font-size: 8.5pt; } th, td { padding-top: 0.18rem; padding-bottom: 0.18rem; }
+  .row :is(th, td):not(:last-child) { padding-right: 0.5rem; }
+  .facts { grid-template-columns: repeat(6, minmax(0, 1fr)); gap: 0.8rem 0.9rem; margin-top: 1.2rem; }
+  .facts > :first-child:nth-last-child(n) { grid-column: auto; }
+  .facts > :first-child:nth-last-child(6n + 1) { grid-column: span 2; }
+  .facts div { padding-top: 0.4rem; border-top-width: 1pt; }
+  .facts dt, .facts .remark { font-size: 7.5pt; } .facts .value { font-size: 12pt; }
+  .facts .unit { font-size: 8.5pt; }
+  figure, p, li, tr, .facts, .table:not(:has(tr:nth-child(31))) { break-inside: avoid; }
+  h2, h3, caption, p:has(+ .row), p:has(+ p + .row), ul:has(+ .row) { break-after: avoid; }
   .plot .hair { display: none; }
   .table:has(> details:not([open])) { display: none; }
   .plot * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }

@@ -6,11 +6,13 @@
 #include <crankloop/define/crank_dynamics.hpp>
 #include <crankloop/define/field.hpp>
 #include <crankloop/define/gas.hpp>
+#include <crankloop/define/lambda_sensor.hpp>
 #include <crankloop/define/layout.hpp>
 #include <crankloop/define/masses.hpp>
 #include <crankloop/define/misfire.hpp>
 #include <crankloop/define/pressure.hpp>
 #include <crankloop/define/reluctor.hpp>
+#include <crankloop/define/sensor_fault.hpp>
 #include <crankloop/define/trigger_wheel.hpp>
 #include <crankloop/define/valve_train.hpp>
 #include <crankloop/define/wheel_fault.hpp>
@@ -29,12 +31,15 @@ struct EngineDefinition {
   Starter starter;
   int trigger_count = 0;  ///< 0 to kMaxTriggerWheels
   TriggerWheel triggers[kMaxTriggerWheels];
-  Gas gas;                                   ///< read where pressure.source is gas
-  CamContact contacts[kMaxTrains];           ///< of each train's cam
-  Misfire misfires[kMaxCylinders];           ///< of each cylinder; a scene with misfire takes them
-  int wheel_fault_count = 0;                 ///< 0 to kMaxWheelFaults
-  WheelFault wheel_faults[kMaxWheelFaults];  ///< a scene with wheel_faults takes them
-  Reluctor reluctor;                         ///< a scene with reluctor_samples takes it
+  Gas gas;                                      ///< read where pressure.source is gas
+  CamContact contacts[kMaxTrains];              ///< of each train's cam
+  Misfire misfires[kMaxCylinders];              ///< of each cylinder; a scene with misfire takes them
+  int wheel_fault_count = 0;                    ///< 0 to kMaxWheelFaults
+  WheelFault wheel_faults[kMaxWheelFaults];     ///< a scene with wheel_faults takes them
+  Reluctor reluctor;                            ///< a scene with reluctor_samples takes it
+  LambdaSensor lambda_sensor;                   ///< a scene with lambda_parcels takes it
+  int sensor_fault_count = 0;                   ///< 0 to kMaxSensorFaults
+  SensorFault sensor_faults[kMaxSensorFaults];  ///< a scene with sensor_faults takes them
 
   template <class Visit, class Self, class... Others>
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {

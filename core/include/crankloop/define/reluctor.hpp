@@ -27,6 +27,7 @@ struct Reluctor {
   double least_V = 0.05;        ///< and beyond this voltage
   double hysteresis_V = 0;      ///< its edge is where the voltage falls through this, below 0
   double watchdog_s = 0.085;    ///< after so long without an edge the last peak is forgotten
+  double delay_s = 0;           ///< its edges come so much later; at most a tick
 
   template <class Visit, class Self, class... Others>
   static constexpr void each_field(Visit&& visit, Self& self, Others&... others) {
@@ -42,6 +43,7 @@ struct Reluctor {
     CRANKLOOP_NUMBER(there, reluctor, least_V, above(0).up_to(100));
     CRANKLOOP_NUMBER(there, reluctor, hysteresis_V, from(0).up_to(10));
     CRANKLOOP_NUMBER(there, reluctor, watchdog_s, above(0).up_to(100));
+    CRANKLOOP_NUMBER(there, reluctor, delay_s, from(0).up_to(2e-3));
   }
 };
 

@@ -132,14 +132,16 @@ struct BurnTable {
   Real burnt[kBurnSteps + 1];
 };
 
-/// Walls that warm up: tick/gas/warm_walls.hpp. Zero in an engine without.
+/// Walls that warm up: tick/gas/warm_walls.hpp. Zero in an engine without, but for `ticks`.
 template <class Real>
 struct WarmWallsTable {
   Real capacity_J_K;  ///< of a cylinder's; 0: fixed
   Real to_coolant_W_K;
   Real coolant_K;
-  Real port_W_K[kPorts];  ///< of manifolds, or where there are runners of each port; 0: adiabatic
-  Real behind_K;          ///< behind them
+  Real port_W_K[kPorts];   ///< of manifolds, or where there are runners of each port; 0: adiabatic
+  Real behind_K;           ///< behind them
+  std::uint32_t ticks;     ///< from one change of wall temperatures to the next, a power of 2
+  std::uint32_t of_ports;  ///< 1: one of port_W_K is not 0
 };
 
 /// Ignition delay of unburned gas: tick/gas/knock.hpp.
@@ -148,6 +150,18 @@ struct KnockTable {
   Real rate;             ///< octaves of 1/tau at 1 Pa and no end of temperature, in 1/s
   Real hot_K;            ///< 3800 K / ln 2
   std::uint32_t in_use;  ///< 0: no octane number
+  std::uint32_t spare;
+};
+
+/// Lambda of the exhaust and its sensor: tick/gas/exhaust_lambda.hpp. Zero in an engine without.
+template <class Real>
+struct LambdaTable {
+  Real air_fuel_ratio;     ///< L
+  Real burned_fuel_ratio;  ///< 1 / (1 + L): the fuel in gas that burned with enough air
+  Real unburned_ratio;     ///< L / (1 + L): of a kg that turns into burned gas without air, what that has too much
+  Real pipes_in_exhaust;   ///< volume of the exhaust manifold over that of the pipe; 0: no pipe
+  Real follows_ratio;      ///< of the sensor, in a tick: 1 - exp(-tick / lag)
+  std::uint32_t in_use;
   std::uint32_t spare;
 };
 

@@ -29,6 +29,7 @@ struct ReluctorTable {
   Real arm_ratio;
   Real least_V;
   Real hysteresis_V;
+  Real delay_s;  ///< of the comparator's edges, at most a tick
   ReluctorCell<Real> at[kReluctorCells];
 };
 

@@ -17,6 +17,7 @@
 #include <crankloop/tables/misfire_tables.hpp>
 #include <crankloop/tables/records.hpp>
 #include <crankloop/tables/reluctor_tables.hpp>
+#include <crankloop/tables/sensor_tables.hpp>
 #include <crankloop/tables/trigger_tables.hpp>
 #include <crankloop/tables/valve_tables.hpp>
 
@@ -79,6 +80,7 @@ enum class SectionRows : std::uint8_t {
   SECTION(burn, BurnTable<Real>, one, N::burn)                                                     \
   SECTION(charge_burn, ChargeBurnTable<Real>, one, N::charge_burn)                                 \
   SECTION(knock, KnockTable<Real>, one, N::knock)                                                  \
+  SECTION(lambda, LambdaTable<Real>, one, N::lambda)                                               \
   SECTION(misfires, MisfireRule<Real>, cylinders, S::misfire)                                      \
   SECTION(bearings, Bearings<Real>, one, S::bearing_loads)                                         \
   SECTION(balance, Balance<Real>, one, S::free_forces)                                             \
@@ -103,6 +105,7 @@ enum class SectionRows : std::uint8_t {
   BEHIND(wheel_fault_rules, WheelFaultRule<Real>, wheel_faults, N::faulty_wheels)                  \
   SECTION(wheel_faults, WheelFaultRules<Real>, one, N::faulty_wheels)                              \
   SECTION(reluctor, ReluctorTable<Real>, one, N::reluctor)                                         \
+  SECTION(sensor_faults, SensorFaultRules<Real>, one, S::sensor_faults)                            \
   SECTION(drive, Drive<Real>, one, true)
 
 /// The entries of the list as types, each named like its section.

@@ -29,8 +29,9 @@ namespace detail {
 inline constexpr std::uint32_t kQuiet = 4;
 inline constexpr int kRegimes = 5;
 
-/// Units of the event budget that an event takes, and one more where both contacts change or one only grazes; a fine
-/// step takes one.
+/// Units of the event budget that an event takes, and one more where both contacts change, one only grazes or has
+/// changed before the tick; a fine step takes one, and a tick that is not divided one more where it has no event.
+inline constexpr std::uint32_t kUnitsOfLook = 1;
 inline constexpr std::uint32_t kUnitsOfEvent = 2;
 inline constexpr std::uint32_t kUnitsOfSearch = 1;
 

@@ -70,15 +70,19 @@ CRANKLOOP_MEMBERS_OF(GasManifolds, parts, spare, per_volume, least, outside, out
 CRANKLOOP_MEMBERS_OF(BurnTable, latch, energy, heat, burning, burned, air_fuel, per_air_fuel, span, fuel, excess_air,
                      start, duration, burnt)
 CRANKLOOP_MEMBERS_OF(ChargeBurnTable, reference, delay, in_use, spare)
-CRANKLOOP_MEMBERS_OF(WarmWallsTable, capacity, to_coolant, coolant, port, behind)
+CRANKLOOP_MEMBERS_OF(WarmWallsTable, capacity, to_coolant, coolant, port, behind, ticks, of_ports)
 CRANKLOOP_MEMBERS_OF(KnockTable, rate, hot, in_use, spare)
+CRANKLOOP_MEMBERS_OF(LambdaTable, air_fuel, burned, unburned, pipes, follows, in_use, spare)
 CRANKLOOP_MEMBERS_OF(MisfireRule, burning, pattern, misfires, of, below, seed, listed, cycle)
 CRANKLOOP_MEMBERS(TriggerTrack, edges, edge_count, on_crank, starts, train, inverted, max_edges, edges_before)
 CRANKLOOP_MEMBERS(TriggerWheels, wheel, count)
 CRANKLOOP_MEMBERS_OF(WheelFaultRule, track, from, until, wheel, mask, inverted, stuck, below, seed, pulse)
 CRANKLOOP_MEMBERS_OF(WheelFaultRules, fault, count)
 CRANKLOOP_MEMBERS_OF(ReluctorCell, c)
-CRANKLOOP_MEMBERS_OF(ReluctorTable, starts, on_crank, in_use, watchdog, cells, arm, least, hysteresis, at)
+CRANKLOOP_MEMBERS_OF(ReluctorTable, starts, on_crank, in_use, watchdog, cells, arm, least, hysteresis, delay, at)
+CRANKLOOP_MEMBERS_OF(SensorFaultRule, from, until, sensor, mask, wire, seed, samples, ticks, follows, offset, noise,
+                     least, most, step, per_step, spare)
+CRANKLOOP_MEMBERS_OF(SensorFaultRules, fault, count, spare)
 
 #undef CRANKLOOP_TIED
 #undef CRANKLOOP_MEMBERS

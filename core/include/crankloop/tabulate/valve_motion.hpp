@@ -26,7 +26,7 @@ struct ValveStepping {
   double accuracy_m = 0.1e-6;  ///< requested class of lift error, 0.01e-6 to 10e-6: below 0.1e-6 all steps are finer,
                                ///< above it none is coarser
   int event_budget = 0;  ///< units of work for events in a tick, over all valves (docs/contract.md, "Event budget"):
-                         ///< a fine step takes 1, an event 2 or 3. 0: usual_event_budget; else enough for the fine
+                         ///< a fine step takes 1 or 2, an event 2 or 3. 0: usual_event_budget; else enough for the fine
                          ///< steps of any valve and an event, at most kMaxEventBudget
 };
 

@@ -15,6 +15,7 @@
 #include <crankloop/tick/crank/crank_turn.hpp>
 #include <crankloop/tick/crank/mechanisms_step.hpp>
 #include <crankloop/tick/gas/gas_step.hpp>
+#include <crankloop/tick/sensor_faults.hpp>
 #include <crankloop/tick/trigger/triggers_step.hpp>
 #include <crankloop/tick/valve/valves_step.hpp>
 
@@ -38,6 +39,9 @@ template <class Real, class S>
   if constexpr (detail::Needs<S>::faulty_wheels) {
     for (std::uint32_t i = 0; i < tables.wheel_faults->count; ++i)
       state_.noise_random[i] = tables.wheel_faults->fault[i].noise_seed;
+  }
+  if constexpr (S::sensor_faults) {
+    for (auto& sensor : state_.sensor) sensor.fault = detail::kNoSensorFault;
   }
   if constexpr (detail::Needs<S>::gas) detail::start_gas(tables, state_);
   if constexpr (detail::Needs<S>::work) {  // the first tick's work counts from here
@@ -140,6 +144,7 @@ const typename Engine<Real, S>::Output& Engine<Real, S>::step(const Input& input
   if constexpr (detail::Needs<S>::faulty_wheels)
     faults |= detail::read_faulty_triggers(tables, state_, output_, input.wheel_faults, before, crank);
   if constexpr (detail::Needs<S>::reluctor) faults |= detail::sample_reluctor(tables, state_, output_, before, crank);
+  if constexpr (S::sensor_faults) detail::read_faulty_sensors(tables, state_, output_, input.sensor_faults);
   if constexpr (S::bad_input_count) detail::count_bad_input(state_, faults);
   CRANKLOOP_ASSERT(detail::within_magnitude(state_.speed_rad_s, tables.drive->speed_limit_rad_s));
   output_.faults = faults;
@@ -153,6 +158,16 @@ template <class Real, class S>
   if constexpr (detail::Needs<S>::elastic_valves) {
     for (const std::uint32_t of_valve : state.valve_regime)
       if (of_valve >= std::uint32_t{detail::kRegimes}) return refuse("state.valve", Reason::out_of_range);
+  }
+  if constexpr (detail::Needs<S>::reluctor) {
+    if (state.late_edges > S::reluctor_samples) return refuse("state.comparator", Reason::out_of_range);
+  }
+  if constexpr (detail::Needs<S>::lambda) {
+    if (state.oldest_parcel >= S::lambda_parcels) return refuse("state.lambda", Reason::out_of_range);
+  }
+  if constexpr (S::sensor_faults) {
+    for (const auto& sensor : state.sensor)
+      if (sensor.oldest >= detail::kDelayedSamples) return refuse("state.sensor", Reason::out_of_range);
   }
   if constexpr (S::crank == CrankGiven::speed) {  // a bad input's tick turns by it
     if (!detail::within_magnitude(state.speed_rad_s, tables_->drive->speed_limit_rad_s))

@@ -101,6 +101,16 @@ constexpr void each_gas_output([[maybe_unused]] Visit& visit, [[maybe_unused]] A
     each(real("cycle_blow_by_kg[#]", "Of the last whole cycle: what blew by into the crankcase"), out.cycle_blow_by_kg,
          shape.cylinders);
   }
+  if constexpr (detail::Needs<S>::lambda) {
+    visit(real("exhaust.excess_air_ratio", "Lambda of the gas in the exhaust manifold; 100: air; 0: no sensor"),
+          out.exhaust_excess_air_ratio);
+    visit(real("sensor_excess_air_ratio", "Lambda that the sensor shows, behind its pipe and lag; 100: air"),
+          out.sensor_excess_air_ratio);
+    if constexpr (S::gas_results) {
+      each(real("outflow_excess_air_ratio[#]", "Of the last whole cycle: lambda of what left the cylinder"),
+           out.outflow_excess_air_ratio, shape.cylinders);
+    }
+  }
   if constexpr (detail::Needs<S>::charge_burn && S::gas_results) {
     for (std::uint32_t k = 0; k < shape.cylinders; ++k) {
       auto& b = out.cycle_burn[k];

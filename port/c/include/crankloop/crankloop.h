@@ -38,7 +38,7 @@ CRANKLOOP_API uint32_t crankloop_version(void);
 
 enum { CRANKLOOP_MAX_CYLINDERS = 16, CRANKLOOP_MAX_TRAINS = 4, CRANKLOOP_MAX_CAM_EXPONENTS = 8 };
 enum { CRANKLOOP_MAX_TRIGGER_WHEELS = 8, CRANKLOOP_MAX_TOOTH_GAPS = 8, CRANKLOOP_MAX_LISTED_MISFIRES = 32 };
-enum { CRANKLOOP_MAX_WHEEL_FAULTS = 16, CRANKLOOP_MAX_FLOW_POINTS = 16 };
+enum { CRANKLOOP_MAX_WHEEL_FAULTS = 16, CRANKLOOP_MAX_FLOW_POINTS = 16, CRANKLOOP_MAX_SENSOR_FAULTS = 16 };
 
 /* ---- answers ----------------------------------------------------------------------------------------------------- */
 
@@ -306,8 +306,8 @@ typedef struct crankloop_wheel_fault {
   double late_deg;
   double noise_Hz;
   double noise_pulse_s;
-  int32_t wheel; /* counted from 0 */
-  int32_t input_bit; /* -1: none */
+  int32_t wheel;         /* counted from 0 */
+  int32_t input_bit;     /* -1: none */
   int32_t missing_tooth; /* from 1; 0: none */
   int32_t moved_tooth;
   int32_t inverted;
@@ -413,9 +413,43 @@ typedef struct crankloop_reluctor {
   double least_V;
   double hysteresis_V;
   double watchdog_s;
+  double delay_s;   /* of the comparator's edges */
   int32_t wheel;    /* counted from 0; -1: no sensor */
   int32_t reversed; /* its wires */
 } crankloop_reluctor;
+
+/* A lambda sensor in the exhaust pipe, of an engine with gas exchange. */
+typedef struct crankloop_lambda_sensor {
+  double pipe_m3; /* volume of the pipe from the exhaust manifold to it */
+  double lag_s;   /* its time constant; 0: none */
+  int32_t in_use;
+} crankloop_lambda_sensor;
+
+enum {
+  CRANKLOOP_SENSOR_MAP,        /* Pa */
+  CRANKLOOP_SENSOR_INTAKE_AIR, /* K */
+  CRANKLOOP_SENSOR_TPS,
+  CRANKLOOP_SENSOR_LAMBDA,
+  CRANKLOOP_SENSOR_COOLANT /* K */
+};
+enum { CRANKLOOP_WIRE_GOOD, CRANKLOOP_WIRE_STUCK, CRANKLOOP_WIRE_OPEN, CRANKLOOP_WIRE_SHORTED };
+
+/* What is wrong with a controller's sensor, and when; in the unit of its value. */
+typedef struct crankloop_sensor_fault {
+  double start_s; /* on from here to before end_s, and while input_bit of the input sensor_faults is set */
+  double end_s;
+  double offset;
+  double noise; /* evenly from -noise to noise, in each tick */
+  double delay_s;
+  double lag_s;
+  double least; /* range; none where most is not above least */
+  double most;
+  double step;       /* of a converter; 0: none */
+  int32_t sensor;    /* CRANKLOOP_SENSOR_... */
+  int32_t input_bit; /* -1: none */
+  int32_t wire;      /* CRANKLOOP_WIRE_... */
+  int32_t noise_seed;
+} crankloop_sensor_fault;
 
 /* The structs above keep their size; what comes later stands at the end of this one. */
 typedef struct crankloop_definition {
@@ -436,6 +470,9 @@ typedef struct crankloop_definition {
   crankloop_cam_contact contacts[CRANKLOOP_MAX_TRAINS]; /* of each train's cam */
   crankloop_gas gas;                                    /* read where pressure.source is CRANKLOOP_PRESSURE_GAS */
   crankloop_reluctor reluctor;
+  crankloop_lambda_sensor lambda_sensor;
+  int32_t sensor_fault_count;
+  crankloop_sensor_fault sensor_faults[CRANKLOOP_MAX_SENSOR_FAULTS];
 } crankloop_definition;
 
 /* Fills in every default. Begin with this: a zeroed definition has other values. */

@@ -97,7 +97,7 @@ void add_design(Summary& s, const CamOfTrain& cam) {
   const WantedCam& wanted = *cam.wanted;
   s.line("wanted_smoothing", wanted.smoothing_m * kMicro, "um", "of its rows, chosen by their scatter");
   s.line("wanted_residual", wanted.residual_m * kMicro, "um");
-  s.line("wanted_peak", wanted.peak_deg, "deg", "cam angle in its file; here 0");
+  s.line("wanted_peak", std::abs(wanted.peak_deg) < 1e-9 ? 0 : wanted.peak_deg, "deg", "cam angle in its file; here 0");
   s.line("deviation_from_wanted", deviation_m(wanted, *cam.lift) * kMicro, "um",
          "largest, of the valve lift that the cam's table gives");
 }
@@ -133,7 +133,7 @@ std::string title_of(const CamOfTrain& cam) {
 std::string picture(const EngineFile& file, const CamOfTrain& cam, double at_deg) {
   const double stem_m = cam.train.geometry ? cam.train.geometry->stem_m : 0;
   report::Sheet sheet = cam_sheet({cam.rocker(), *cam.lift, stem_m}, at_deg);
-  sheet.title = title_of(cam) + ", at " + brief(at_deg) + " deg";
+  sheet.title = title_of(cam) + ", at " + report::number_text(at_deg) + " deg";
   sheet.remarks = {std::filesystem::path(file.path()).filename().string() + ", to scale"};
   sheet.remarks.push_back(cam.rocker().kind == RockerKind::circular_pad
                               ? "Assumed: the outlines of rocker, screw and valve, and the angle between the arms"
@@ -157,6 +157,7 @@ int run_cam(const Arguments& arguments) {
   if (!train.has_rocker)
     throw InputError(file.path() + ": section [rocker " + train.name + "] is missing; this command needs it");
   const double step_deg = arguments.number("--step-deg");
+  arguments.require_with("--at", "--svg");
   if (arguments.has("--zero-lash") && !arguments.has("--wanted"))
     throw UsageError("--zero-lash says how a wanted lift is counted; give --wanted");
   const WantedOptions options{step_deg, arguments.has("--zero-lash")};

@@ -215,7 +215,7 @@ void draw_with_rocker(Canvas& canvas, const Scene& s) {
   draw_cam(canvas, s);
   draw_levers(canvas, s, pad, ball);
   canvas.cross({0, 0}, 0.06 * s.rocker().pivot_to_screw_m * kMilli);
-  canvas.label({0, 0}, -8, 30, "pivot");
+  canvas.label({0, 0}, -8, 68, "pivot");
   draw_contact(canvas, s);
 }
 

@@ -133,13 +133,8 @@ Summary summary_of(const Request& request) {
   return motion_summary(request.crank, request.pose, request.speed_rad_s, request.beside);
 }
 
-void require_one_speed(const Arguments& arguments) {
-  if (arguments.has("--rpm") && arguments.has("--speed-rad-s"))
-    throw UsageError("--rpm and --speed-rad-s exclude each other; give one");
-}
-
 int run_kinematics(const Arguments& arguments) {
-  require_one_speed(arguments);
+  arguments.refuse_with("--rpm", {"--speed-rad-s"});
   const EngineFile engine = read_engine(arguments, needed_sections());
   const Request request = request_of(arguments, engine);
   const auto write_table = [&](Output& out) {
@@ -165,7 +160,7 @@ int run_kinematics(const Arguments& arguments) {
 }
 
 Summary figures_of_kinematics(const Arguments& arguments, const EngineFile& engine) {
-  require_one_speed(arguments);
+  arguments.refuse_with("--rpm", {"--speed-rad-s"});
   engine.require(needed_sections());
   return summary_of(request_of(arguments, engine));
 }

@@ -1,5 +1,7 @@
 #include "motion_plot.hpp"
 
+#include <algorithm>
+#include <string>
 #include <utility>
 
 #include "../../files/units.hpp"
@@ -54,7 +56,11 @@ Plot motion_of(const Shown& of, const Crank& crank, PoseFunction pose, bool besi
   for (const LocalExtreme& local : local_extremes(crank, of.member, pose)) {
     const double value = local.extreme.value * of.factor;
     const double deg = local.extreme.at_rad / kRadPerDeg;
-    plot.markers.push_back({deg, value, number_text(value, 4) + " at " + number_text(deg, 4), 0});
+    const std::string text = number_text(value, 4) + " " + of.unit;
+    const bool is_named = std::any_of(plot.markers.begin(), plot.markers.end(), [&](const report::Marker& marker) {
+      return marker.label.compare(0, text.size(), text) == 0;  // the same on the way back
+    });
+    plot.markers.push_back({deg, value, is_named ? "" : text + " at " + number_text(deg, 4) + " deg", 0});
   }
   return plot;
 }

@@ -78,10 +78,10 @@ std::string summary(const EngineFile& engine, const ShownLift& shown, const Trai
   }
   Summary s;
   s.line("max_theoretical_lift", lift.largest_lift_m() * 1e3, "mm");
-  s.line("lobe_begin", lift.opens_rad() * kDegPerRad, "deg");
+  s.line("lobe_start", lift.opens_rad() * kDegPerRad, "deg");
   s.line("lobe_end", lift.closes_rad() * kDegPerRad, "deg");
-  s.line("rocker_ratio_least", least_ratio);
-  s.line("rocker_ratio_most", most_ratio);
+  s.line("min_rocker_ratio", least_ratio);
+  s.line("max_rocker_ratio", most_ratio);
   s.line("min_cam_radius", lift.smallest_radius_m() * 1e3, "mm");
   if (shown.speed_rpm) add_motion(s, shown);
   if (train.definition.cam.source == CamSource::table) {

@@ -27,6 +27,7 @@ namespace crankloop::program {
 namespace {
 
 LiveRequest request_of(const Arguments& arguments, const EngineFile& file) {
+  for (const char* option : {"--lead-ticks", "--ring-edges", "--silent-ms"}) arguments.require_with(option, "--shared");
   const double tick_us = arguments.number("--tick-us");
   LiveRequest request;
   request.tick_ns = std::llround(tick_us * 1e3);

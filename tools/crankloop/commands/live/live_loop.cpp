@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -57,7 +58,9 @@ class LiveRun {
     const port::StopSignal stop;
     const port::RealTime real_time(request_.real_time);
     if (real_time.cpu_error() != 0) {
-      throw UsageError("--cpu " + std::to_string(request_.real_time.cpu) + ": " + std::strerror(real_time.cpu_error()));
+      const int error = real_time.cpu_error();
+      throw UsageError("--cpu " + std::to_string(request_.real_time.cpu) + ": " +
+                       (error == EINVAL ? "this process may not use such a processor" : std::strerror(error)));
     }
     figures_.memory_error = real_time.memory_error();
     figures_.priority_error = real_time.priority_error();

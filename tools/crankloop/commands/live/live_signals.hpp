@@ -62,13 +62,21 @@ void each_signal(Visit&& visit, const crankloop::Output<Real, S>& out, const Sta
     for (std::uint32_t k = 0; k < shape.cylinders; ++k)
       visit(real("lambda[#]", "Of a cylinder's last cycle").at(k),
             static_cast<double>(out.gas_cycle[k].excess_air_ratio));
+    visit(real("sensor_lambda", "At the lambda sensor; 100: air; 0: no sensor"),
+          static_cast<double>(out.sensor_excess_air_ratio));
     visit(real("coolant_K", "0: none"), static_cast<double>(out.coolant_K));
+    const char* const faulty[] = {"faulty_map_Pa", "faulty_intake_air_K", "faulty_tps_ratio", "faulty_sensor_lambda",
+                                  "faulty_coolant_K"};
+    for (int i = 0; i < kControllerSensors; ++i)
+      visit(real(faulty[i], "As a controller reads it"), static_cast<double>(out.faulty_sensor[i]));
+    visit(detail::whole("sensor_faults_on", "Bit i-1: fault i of the sensors is on"),
+          static_cast<double>(out.sensor_faults_on));
   }
   visit(detail::whole("faults", "The tick's fault bits"), static_cast<double>(out.faults));
 }
 
-/// Wheels twice, cylinders twice, valves, phasers, and eleven more.
-static_assert(2 * kMaxTriggerWheels + 2 * kMaxCylinders + kMaxTrains * kMaxCylinders + kMaxTrains + 11 <=
+/// Wheels twice, cylinders twice, valves, phasers, and eighteen more.
+static_assert(2 * kMaxTriggerWheels + 2 * kMaxCylinders + kMaxTrains * kMaxCylinders + kMaxTrains + 18 <=
               port::kMaxLiveNumbers);
 
 template <class Real, class S>

@@ -19,16 +19,11 @@ struct RunPoint {
   BrakeFigures brake;
 };
 
-/// Fuel of all cylinders.
-double fuel_kg_s(const EngineDefinition& definition, const RunPoint& run) {
-  constexpr double kCycle_rad = 12.566370614359172;
-  return run.figures.gas.cycle.fuel_kg * definition.layout.cylinders * run.operation.speed_rad_s() / kCycle_rad;
-}
-
 double value_of(MapResult result, const EngineDefinition& definition, const RunPoint& run) {
   const auto& [operation, figures, brake] = run;
   const GasCycle<double>& cycle = figures.gas.cycle;
   const bool works = brake.power_W > 0 && cycle.fuel_kg > 0;
+  const double burned_kg_s = fuel_kg_s(definition, figures.gas, operation.speed_rad_s());
   switch (result) {
     case MapResult::torque:
       return figures.mean_torque_Nm;
@@ -59,9 +54,9 @@ double value_of(MapResult result, const EngineDefinition& definition, const RunP
     case MapResult::peak_pressure:
       return cycle.peak_Pa / 1e3;
     case MapResult::specific_consumption:
-      return works ? fuel_kg_s(definition, run) / brake.power_W * 3.6e9 : 0;
+      return works ? burned_kg_s / brake.power_W * 3.6e9 : 0;
     case MapResult::brake_efficiency:
-      return works ? brake.power_W / (fuel_kg_s(definition, run) * definition.gas.heating_value_J_kg) : 0;
+      return works ? brake.power_W / (burned_kg_s * definition.gas.heating_value_J_kg) : 0;
     case MapResult::burn_start:
       return operation.gas.burn_start_deg;
     case MapResult::knock_integral:
@@ -133,6 +128,26 @@ std::string EngineMap::place_of(const MapPoint& point) const {
 const MapPoint& EngineMap::largest(MapResult result) const {
   return *std::max_element(points.begin(), points.end(),
                            [result](const MapPoint& a, const MapPoint& b) { return a.at(result) < b.at(result); });
+}
+
+std::vector<std::string> EngineMap::doubts() const {
+  const auto count = [this](const auto& is_so) { return std::count_if(points.begin(), points.end(), is_so); };
+  const auto misfiring = count([](const MapPoint& point) {
+    return point.at(MapResult::residual) > kMaxResidualThatBurns && point.at(MapResult::fuel_burned) > 0;
+  });
+  const auto knocking = count([](const MapPoint& point) { return point.at(MapResult::knock_integral) >= 1; });
+  const auto of_points = [this](auto some) { return std::to_string(some) + " of " + std::to_string(points.size()); };
+  std::vector<std::string> doubts;
+  if (misfiring > 0) {
+    doubts.push_back(of_points(misfiring) + " points have more than " + brief(100 * kMaxResidualThatBurns) +
+                     " % of residual gas: a real engine misfires there. Here all fuel burns, and temperatures are too "
+                     "high.");
+  }
+  if (knocking > 0) {
+    doubts.push_back(of_points(knocking) + " points have a knock integral of 1 or more: a real engine knocks there, " +
+                     (request.best_spark ? "before it reaches this torque." : "and would burn later."));
+  }
+  return doubts;
 }
 
 std::string run_point(const EngineDefinition& definition, const MapRequest& request, int point) {

@@ -79,6 +79,8 @@ struct EngineMap {
 
   /// "at 3000 rpm, throttle 0.5"
   [[nodiscard]] std::string place_of(const MapPoint& point) const;
+  /// What a real engine would do otherwise in some points, a sentence each: it misfires, it knocks.
+  [[nodiscard]] std::vector<std::string> doubts() const;
   /// The first point with the largest value.
   [[nodiscard]] const MapPoint& largest(MapResult result) const;
 };

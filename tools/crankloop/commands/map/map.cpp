@@ -97,6 +97,7 @@ std::string summary(const EngineMap& map) {
   add("max_volumetric_efficiency", MapResult::volumetric_efficiency, "");
   add("max_brake_efficiency", MapResult::brake_efficiency, "");
   if (map.file.definition().gas.octane_number > 0) add("max_knock_integral", MapResult::knock_integral, "");
+  for (const std::string& doubt : map.doubts()) s.remark(doubt);
   double faulty_ticks = 0;
   std::uint32_t faults = 0;
   for (const MapPoint& point : map.points) faulty_ticks += point.at(MapResult::faulty_ticks), faults |= point.faults;

@@ -87,6 +87,7 @@ report::Page map_page(const EngineMap& map) {
   Section maps{"maps", "Results " + over_what(map), {}};
   maps.blocks.push_back(
       report::Paragraph{pressure_in_words(map.file, 1, map.request.gas, map.request.axis->varied), true});
+  for (const std::string& doubt : map.doubts()) maps.blocks.push_back(report::Paragraph{doubt, true});
   for (const MapColumn& column : kMapColumnList) {
     if (is_drawn(map, column)) maps.blocks.push_back(is_field ? heat_map(map, column) : curve(map, column));
   }
@@ -122,6 +123,8 @@ report::Page map_page(const EngineMap& map) {
   list.items.push_back(map.file.definition().friction.any()
                            ? "Brake torque is the indicated torque less the file's [friction]."
                            : "Brake torque is the indicated torque: the file has no [friction].");
+  if (const std::string left_out = exhaust_heat_left_out(map.file.definition()); !left_out.empty())
+    list.items.push_back("The exhaust manifold loses " + left_out + ".");
   method.blocks.push_back(std::move(list));
   page.sections.push_back(std::move(method));
   page.footer = "Made by crankloop from " + map.file.path() + ".";

@@ -128,8 +128,8 @@ void add_masses_and_layout(Draft& draft, const Arguments& arguments, const Numbe
   draft.line("cylinders", std::to_string(n.cylinders), "given");
   const bool banked = arguments.has("--bank-angles-deg");
   const bool ordered = arguments.has("--firing-order");
+  arguments.refuse_with("--firing-order", {"--firing-angles-deg"});
   if (arguments.has("--firing-angles-deg")) {
-    if (ordered) throw UsageError("--firing-order and --firing-angles-deg exclude each other; give one");
     draft.line("firing_angles_deg", arguments.text("--firing-angles-deg"), "given");
   } else {
     const std::string usual_order = banked ? "" : usual_firing_order(n.cylinders);
@@ -240,10 +240,10 @@ void add_what_turns_it(Draft& draft, const IndicatorDiagram& diagram, Numbers& n
                "the same, proportional to its square");
   draft.section("machine");
   draft.assume("quadratic_Nm_per_1000rpm2", to_three_digits(n.brake_Nm / (krpm * krpm)),
-               std::string(n.gas ? "a brake that takes what is usual at rated speed; `run` tells what [gas] gives: "
-                                 : "a brake that takes full load at rated speed, ") +
+               std::string("a brake that takes ") + (n.gas ? "what is usual" : "full load") + " at rated speed, " +
                    brief(to_three_digits(n.brake_Nm)) + " Nm, " +
-                   brief(to_three_digits(n.brake_Nm * n.rated_rpm * kRad_sPerRpm / 1e3)) + " kW");
+                   brief(to_three_digits(n.brake_Nm * n.rated_rpm * kRad_sPerRpm / 1e3)) + " kW" +
+                   (n.gas ? "; `run` prints what [gas] gives" : ""));
   draft.section("starter");
   draft.assume("stall_Nm", to_three_digits(kStarterNmPerLitre * n.displacement_L / std::sqrt(n.cylinders)),
                "by displacement");

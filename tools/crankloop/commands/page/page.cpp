@@ -131,7 +131,7 @@ std::string page_of(const EngineFile& engine, const std::string& path) {
                  {"ENGINE", source_of(engine, path)},
                  {"GOLDEN", golden_of(text_of_part("golden_hashes.inc"))},
                  {"MODULE", base64_of_part("engine.wasm")},
-                 {"MODULE_PLAIN", ""},
+                 {"DOUBLE", base64_of_part("engine_double.wasm")},
                  {"PROOF", base64_of_part("golden.wasm")},
                  {"WORKER", script_block("worker.mjs")},
                  {"SCRIPT", script}});

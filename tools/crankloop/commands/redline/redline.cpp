@@ -126,9 +126,12 @@ std::string table_of_factors(const Redline& redline) {
   return table.text();
 }
 
-void add_onset(Summary& s, const char* name, const Onset& onset, const SpeedRange& range) {
-  if (!onset.found) return s.none(name, "rpm", "up to " + std::to_string(range.to_rpm) + " rpm");
-  s.line(name, onset.speed_rpm, "rpm", onset.at_the_start ? "or below: it is there at the lowest speed" : "");
+void add_onset(Summary& s, const char* name, const Onset& onset, const Redline& redline) {
+  if (!onset.found) return s.none(name, "rpm", "up to " + std::to_string(redline.range.to_rpm) + " rpm");
+  std::vector<std::string> remarks;
+  if (onset.at_the_start) remarks.emplace_back("or below: it is there at the lowest speed");
+  if (onset.speed_rpm < redline.rated_rpm()) remarks.push_back("below rated_rpm = " + brief(redline.rated_rpm()));
+  s.line(name, onset.speed_rpm, "rpm", join(remarks, "; "));
 }
 
 Summary summary(const Redline& redline) {
@@ -145,12 +148,12 @@ Summary summary(const Redline& redline) {
   if (const std::string masked = masked_in_words(redline); !masked.empty()) s.remark(masked);
   if (breathes(redline.valve.file().definition()))
     s.remark("no gas force on the head: for an engine with gas exchange use `crankloop run`");
-  add_onset(s, "separation_onset", given.separation, redline.range);
-  add_onset(s, "bounce_onset", given.bounce, redline.range);
-  add_onset(s, "seating_limit", given.seating, redline.range);
+  add_onset(s, "separation_onset", given.separation, redline);
+  add_onset(s, "bounce_onset", given.bounce, redline);
+  add_onset(s, "seating_limit", given.seating, redline);
   if (redline.following) {
-    add_onset(s, "separation_onset_without_surge", redline.following->separation, redline.range);
-    add_onset(s, "bounce_onset_without_surge", redline.following->bounce, redline.range);
+    add_onset(s, "separation_onset_without_surge", redline.following->separation, redline);
+    add_onset(s, "bounce_onset_without_surge", redline.following->bounce, redline);
   }
   if (given.rigid.crank_rad_s > 0) {
     s.line("static_redline", given.rigid.crank_rad_s * kRpmPerRad_s, "rpm", static_in_words(redline));

@@ -22,6 +22,8 @@ struct Redline {
   RedlineLimits limits;
   std::optional<Sweep> following{};  ///< the train as given, but for springs that follow their valve: where they surge
 
+  [[nodiscard]] double rated_rpm() const { return valve.file().rated_rpm(); }
+
   /// Whether they do, of the one train that is shown.
   [[nodiscard]] bool surges() const noexcept { return varied == nullptr && valve.valve().surge_modes > 0; }
 

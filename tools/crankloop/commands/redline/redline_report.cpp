@@ -199,7 +199,10 @@ report::Page redline_page(const Redline& redline) {
   const detail::ValveBody<double> body = redline.valve.body();
   const auto onset = [&](const char* name, const Onset& one, const char* note) {
     if (!one.found) return report::Fact{name, "none", "", "up to " + std::to_string(redline.range.to_rpm) + " rpm"};
-    return report::Fact{name, std::to_string(one.speed_rpm), "rpm", one.at_the_start ? "or below" : note};
+    std::string remark = one.at_the_start ? "or below" : note;
+    if (one.speed_rpm < redline.rated_rpm())
+      remark += "; the engine is rated at " + report::format_number(redline.rated_rpm(), 4);
+    return report::Fact{name, std::to_string(one.speed_rpm), "rpm", remark};
   };
   report::Page page;
   page.title =

@@ -19,8 +19,10 @@ const Figure* find(const Summary& summary, const std::string& name) {
   return nullptr;
 }
 
+constexpr const char* kAbsent = "absent";
+
 std::string text_of(const Figure* figure) {
-  if (figure == nullptr) return "absent";
+  if (figure == nullptr) return kAbsent;
   return figure->number ? brief(*figure->number) : figure->word;
 }
 
@@ -35,11 +37,18 @@ std::string difference(const Figure& first, const Figure* second) {
   return text;
 }
 
+/// As a page writes it: "m/s²".
+std::string page_unit(std::string unit) {
+  const std::size_t power = unit.find('^');
+  if (power != std::string::npos) unit.replace(power, 2, unit[power + 1] == '2' ? "\u00B2" : "\u00B3");
+  return unit;
+}
+
 /// Names of the figures, the first's with those that only the second has behind.
 std::vector<Figure> all_figures(const Side& first, const Side& second) {
   std::vector<Figure> all = first.figures.figures();
   for (const Figure& figure : second.figures.figures()) {
-    if (find(first.figures, figure.name) == nullptr) all.push_back({figure.name, figure.unit, {}, "absent"});
+    if (find(first.figures, figure.name) == nullptr) all.push_back({figure.name, figure.unit, {}, kAbsent});
   }
   return all;
 }
@@ -53,7 +62,7 @@ std::string name_of(const Side& side, const Side& other) {
 template <class Values>
 Plot two_curves(const Side& first, const Side& second, const std::string& title, const std::string& unit,
                 const Values& values) {
-  Plot plot = report::plot_of(title, report::axis_of("Crank angle", "deg"), report::axis_of(title, unit));
+  Plot plot = report::plot_of(title, report::axis_of("Crank angle", "deg"), report::axis_of(title, page_unit(unit)));
   plot.x.tick_step = 90;
   plot.x.range = report::Range{0, 720};
   for (const Side* side : {&first, &second}) {
@@ -79,9 +88,9 @@ Section curves_section(const Side& first, const Side& second) {
     Quantity quantity;
     const char* title;
   } shown[] = {{Quantity::pressure, "Pressure in cylinder 1"},
-               {Quantity::acceleration, "Acceleration of the piston"},
+               {Quantity::acceleration, "Piston acceleration"},
                {Quantity::side_force, "Side force"},
-               {Quantity::crank_pin_load, "Load of the crank pin"}};
+               {Quantity::crank_pin_load, "Crank pin load"}};
   for (const auto& one : shown) {
     const QuantityKind& kind = kQuantityKinds[index_of(one.quantity)];
     section.blocks.push_back(two_curves(first, second, one.title, kind.unit,
@@ -94,7 +103,7 @@ Section curves_section(const Side& first, const Side& second) {
     const auto of_second = static_cast<std::size_t>(same - others.begin());
     for (const ValveQuantity quantity : {ValveQuantity::lift, ValveQuantity::train_force}) {
       const ValveQuantityKind& kind = kValveQuantityKinds[index_of(quantity)];
-      const char* title = quantity == ValveQuantity::lift ? "Lift of valve " : "Force of train ";
+      const char* title = quantity == ValveQuantity::lift ? "Valve lift, " : "Force between train and valve, ";
       section.blocks.push_back(two_curves(first, second, title + trains[t], kind.unit, [&](const Side& s) {
         return scaled(s.trace.valves[&s == &first ? t : of_second][quantity], kind.per_si);
       }));
@@ -114,8 +123,11 @@ Section figures_section(const Side& first, const Side& second) {
     const Figure* other = find(second.figures, figure.name);
     std::string title = figure.name;
     std::replace(title.begin(), title.end(), '_', ' ');
-    if (!figure.unit.empty()) title += ", " + figure.unit;
-    table.rows.push_back({title, text_of(&figure), text_of(other), difference(figure, other)});
+    if (!figure.unit.empty()) title += ", " + page_unit(figure.unit);
+    const auto cell = [](const std::string& text) {
+      return text == kAbsent ? "\u2013" : text[0] == '-' ? "\u2212" + text.substr(1) : text;
+    };
+    table.rows.push_back({title, cell(text_of(&figure)), cell(text_of(other)), cell(difference(figure, other))});
   }
   section.blocks.push_back(std::move(table));
   return section;
@@ -145,14 +157,18 @@ report::Page against_page(const Side& first, const Side& second, const std::stri
   report::Page page;
   page.title = name_of(first, second) + " against " + name_of(second, first);
   page.subtitle = "Engine files " + first.file.path() + " and " + second.file.path() + ".";
-  for (const char* name : {"speed", "mean_torque", "power", "net_mep", "volumetric_efficiency"}) {
-    const Figure* figure = find(first.figures, name);
+  const struct {
+    const char *name, *title;
+  } facts[] = {
+      {"speed", "Speed"},      {"mean_torque", "Mean torque"},    {"power", "Power"},
+      {"net_mep", "Net IMEP"}, {"max_pressure", "Peak pressure"}, {"volumetric_efficiency", "Volumetric efficiency"}};
+  for (const auto& fact : facts) {
+    const Figure* figure = find(first.figures, fact.name);
     if (figure == nullptr || !figure->number) continue;
-    const Figure* other = find(second.figures, name);
-    std::string title = name;
-    std::replace(title.begin(), title.end(), '_', ' ');
-    title[0] = static_cast<char>(title[0] - 'a' + 'A');
-    page.facts.push_back({title, report::number_text(*figure->number, 5), figure->unit, "against " + text_of(other)});
+    const Figure* other = find(second.figures, fact.name);
+    const bool has_number = other != nullptr && other->number;
+    page.facts.push_back({fact.title, report::number_text(*figure->number, 4), figure->unit,
+                          "against " + (has_number ? report::number_text(*other->number, 4) : text_of(other))});
   }
   page.sections = {curves_section(first, second), figures_section(first, second),
                    Section{"method", "Method", {report::Paragraph{"Command: " + command_line}}}};

@@ -9,11 +9,6 @@
 
 namespace crankloop::program {
 
-std::uint64_t FreeOperation::ticks() const noexcept {
-  constexpr double kHairOfATick = 1e-6;  // 2 s are 20000 ticks of 100 us, however the quotient is rounded
-  return static_cast<std::uint64_t>(std::ceil(seconds / tick_s - kHairOfATick));
-}
-
 double in_cycle_deg(double angle_deg) noexcept {
   const double deg = angle_deg - 720 * std::floor(angle_deg / 720);
   return deg < 720 ? deg : 0;

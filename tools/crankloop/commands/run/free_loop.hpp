@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -19,6 +20,12 @@
 
 namespace crankloop::program {
 
+/// As many as it takes to cover the time.
+[[nodiscard]] inline std::uint64_t ticks_of(double seconds, double tick_s) noexcept {
+  constexpr double kHairOfATick = 1e-6;  // 2 s are 20000 ticks of 100 us, however the quotient is rounded
+  return static_cast<std::uint64_t>(std::ceil(seconds / tick_s - kHairOfATick));
+}
+
 /// How the engine is let run. All of it holds for the whole run, but for the inputs of a schedule.
 struct FreeOperation {
   double tick_s = 100e-6;
@@ -31,7 +38,7 @@ struct FreeOperation {
   GasOrder gas{};                                   ///< of an engine with gas exchange, instead of the load ratio
   std::shared_ptr<const InputSchedule> schedule{};  ///< inputs over time; null: none
 
-  [[nodiscard]] std::uint64_t ticks() const noexcept;  ///< as many as it takes to cover the time
+  [[nodiscard]] std::uint64_t ticks() const noexcept { return ticks_of(seconds, tick_s); }
 };
 
 /// The crank at the end of a tick, and what has passed since the run began at cylinder 1's firing top dead centre.
@@ -64,6 +71,8 @@ class FreeLoop {
   const Output& step() noexcept;  ///< with the schedule's inputs as they are when the tick begins
 
   [[nodiscard]] const Output& output() const noexcept { return engine_.output(); }
+  [[nodiscard]] const Engine& engine() const noexcept { return engine_; }
+  [[nodiscard]] const detail::EngineShape& shape() const noexcept { return shape_; }
   [[nodiscard]] const FreeState& state() const noexcept { return state_; }
   [[nodiscard]] const MisfireRecord& misfires_of(std::size_t cylinder) const noexcept {
     return engine_.state().misfire[cylinder];

@@ -72,10 +72,9 @@ std::string command_line(const Arguments& arguments, const EngineFile& file, con
 void require_options_that_fit(const Arguments& arguments) {
   const bool free = arguments.has("--free");
   for (const char* option : {"--machine-Nm", "--starter", "--from-rpm", "--seconds", "--cut", "--misfire",
-                             "--fault-bits", "--inputs", "--analogue"}) {
+                             "--fault-bits", "--inputs", "--analogue", "--cranking"}) {
     if (!free && arguments.has(option)) throw UsageError(std::string(option) + " is for a run with --free");
   }
-  if (free && arguments.has("--hash")) throw UsageError("--hash is for a run at constant speed, without --free");
   if (free && arguments.has("--rpm"))
     throw UsageError("--rpm is for a run at constant speed; with --free the speed begins at --from-rpm");
   if (free && arguments.has("--cycles"))
@@ -101,13 +100,16 @@ int run_free_by(const Arguments& arguments, const EngineFile& file, const GasOrd
   request.operation.wheel_faults = fault_bits(arguments, definition);
   request.operation.schedule = schedule_of(arguments, file);
   request.real = arguments.text("--real");
+  request.is_hashed = arguments.has("--hash");
   request.command_line = command_line(arguments, file, gas);
   for (std::string& line : tell_warnings(arguments, warnings_about_running_free(file, definition)))
     warnings.push_back(std::move(line));
   request.warnings = std::move(warnings);
-  Results results(arguments, {"--csv", "--report", "--vcd", "--analogue"});
-  if (results["--analogue"] != nullptr && definition.reluctor.wheel < 0)
-    throw InputError(file.path() + ": there is no [reluctor], so --analogue has nothing to write");
+  Results results(arguments, {"--csv", "--report", "--vcd", "--analogue", "--cranking"});
+  for (const char* option : {"--analogue", "--cranking"}) {
+    if (results[option] != nullptr && definition.reluctor.wheel < 0)
+      throw InputError(file.path() + ": there is no [reluctor], so " + option + " has nothing to write");
+  }
   run_free(file, definition, request, results);
   return kSuccess;
 }

@@ -12,7 +12,9 @@
 #include "../../files/csv.hpp"
 #include "../../files/number.hpp"
 #include "../../loops/analogue_log.hpp"
+#include "../../loops/run_hash.hpp"
 #include "../../signals/signal_dump.hpp"
+#include "cranking_sheet.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -116,6 +118,7 @@ FreeFigures run_ticks(const EngineFile& file, const EngineDefinition& definition
   CycleRecorder recorder(figures.signals.size());
   Progress progress("running", static_cast<double>(figures.ticks));
   Phase crank{};
+  BitHash hash;
   if (dump != nullptr) dump->number(0, 0, operation.from_rpm);
   for (std::uint64_t tick = 0; tick < figures.ticks; ++tick) {
     const FreeOutput<Real, S>& out = loop.step();
@@ -139,6 +142,7 @@ FreeFigures run_ticks(const EngineFile& file, const EngineDefinition& definition
       crank = out.crank;
     }
     if (table != nullptr) table->row(loop, operation.tick_s, out);
+    if (request.is_hashed) add_tick<FreeShown<S>>(hash, loop.engine(), loop.shape());
     if (dump != nullptr) {
       dump->number(0, now.time_s, now.speed_rpm());
       dump->number(1, now.time_s, now.torque_Nm);
@@ -150,6 +154,7 @@ FreeFigures run_ticks(const EngineFile& file, const EngineDefinition& definition
     take_cycles(loop.output(), static_cast<std::size_t>(definition.layout.cylinders), figures.gas);
   for (const std::size_t k : misfiring_cylinders(definition)) figures.misfires.push_back({k, loop.misfires_of(k)});
   figures.end = loop.state();
+  if (request.is_hashed) figures.hash = hash.text();
   figures.energy = books.balance(figures.end);
   figures.cycles.assign(recorder.cycles().begin(), recorder.cycles().end());
   if (!figures.cycles.empty()) {
@@ -227,6 +232,7 @@ std::string summary_text(const EngineFile& file, const FreeRequest& request, con
            signal.lost > 0 ? "more edges in a tick than it can record: use a shorter --tick-us" : "");
   }
   s.faulty_ticks(f.faulty_ticks, f.faults);
+  if (request.is_hashed) s.line("hash", f.hash, "", "of every bit that the ticks show");
   return s.text();
 }
 
@@ -238,10 +244,15 @@ void run_and_write(const EngineFile& file, const EngineDefinition& definition, c
   if (Output* vcd = results["--vcd"]) dump.emplace(SignalDump::with_faults(file, *vcd, {"speed_rpm", "torque_Nm"}));
   if (Output* csv = results["--csv"]) table.emplace(*csv, names_of_signals(file), definition);
   std::optional<AnalogueLog<Real>> analogue;
-  if (Output* csv = results["--analogue"]) analogue.emplace(*csv, file, definition, request.operation.tick_s);
+  AnalogueTrace cranking;
+  Output* const samples = results["--analogue"];
+  Output* const drawing = results["--cranking"];
+  if (samples != nullptr || drawing != nullptr)
+    analogue.emplace(samples, drawing != nullptr ? &cranking : nullptr, file, definition, request.operation.tick_s);
   const FreeFigures figures = run_ticks<Real, S>(file, definition, request, table ? &*table : nullptr,
                                                  dump ? &*dump : nullptr, analogue ? &*analogue : nullptr);
   if (dump) dump->finish(figures.end.time_s);
+  if (drawing != nullptr) drawing->write(report::to_svg_file(cranking_sheet(cranking, file.name() + ": a start")));
   if (Output* page = results["--report"])
     page->write(report::to_html(free_run_report({file, definition, request, figures})));
   results.finish(summary_text(file, request, figures));

@@ -21,7 +21,8 @@ namespace crankloop::program {
 
 struct FreeRequest {
   FreeOperation operation;
-  std::string real;                   ///< "float" or "double"
+  std::string real;  ///< "float" or "double"
+  bool is_hashed = false;
   std::string command_line;           ///< for the report
   std::vector<std::string> warnings;  ///< for the report
 };
@@ -45,6 +46,7 @@ struct FreeFigures {
   std::uint32_t faults = 0;     ///< all fault bits that occurred
   std::uint64_t reversals = 0;  ///< of the sense of rotation
   FreeState end;
+  std::string hash;                ///< of every bit that the ticks show, where it was asked for
   double largest_speed_rad_s = 0;  ///< whatever its sense
   EnergyBalance energy;
   Overview speed_rpm{0};

@@ -132,13 +132,15 @@ void add_valves(Summary& s, const std::string& train, const ValveFigures& f) {
   peak(ValveQuantity::cam_force);
 }
 
-void add_brake(Summary& s, const EngineDefinition& definition, double indicated_Nm, double speed_rad_s) {
-  const BrakeFigures brake = brake_figures(definition, indicated_Nm, speed_rad_s);
+void add_brake(Summary& s, const EngineDefinition& definition, const RunFigures& f, double speed_rad_s) {
+  const BrakeFigures brake = brake_figures(definition, f.mean_torque_Nm, speed_rad_s);
   s.line("friction_mep", brake.friction_mep_Pa / 1e3, "kPa", "of [friction] at this speed");
   s.line("brake_torque", brake.torque_Nm, "Nm");
   s.line("brake_power", brake.power_W / 1e3, "kW",
          brief(brake.power_W / 1e3 / definition.layout.cylinders) + " kW a cylinder");
   if (brake.efficiency_ratio > 0) s.line("mechanical_efficiency", brake.efficiency_ratio);
+  if (const double fuel = fuel_kg_s(definition, f.gas, speed_rad_s); fuel > 0 && brake.power_W > 0)
+    s.line("brake_specific_consumption", fuel / brake.power_W * 3.6e9, "g/kWh");
 }
 
 Summary summary_of(const Engines& engine, const Request& request, const RunFigures& f, const CycleSummary& summary) {
@@ -168,14 +170,16 @@ Summary summary_of(const Engines& engine, const Request& request, const RunFigur
   s.line("mean_torque", f.mean_torque_Nm, "Nm");
   if (engine.has_gas()) {
     s.line("power", f.power_W / 1e3, "kW", "indicated: friction is not subtracted");
-    if (definition.friction.any()) add_brake(s, definition, f.mean_torque_Nm, speed);
+    if (definition.friction.any()) add_brake(s, definition, f, speed);
     s.line("net_mep", f.net_mep_Pa / 1e3, "kPa");
     if (engine.breathes()) {
       add_gas(s, definition, f.gas);
       s.line("energy_defect", f.gas.cycle.energy_defect_J, "J", "of a cylinder's cycle, the largest: rounding");
       s.line("intake_pressure", f.gas.intake_Pa / 1e3, "kPa", "in the manifold, mean");
       s.line("exhaust_pressure", f.gas.exhaust_Pa / 1e3, "kPa", "in the manifold, mean");
-      s.line("exhaust_manifold_temperature", f.gas.exhaust_manifold_K, "K", "mean, as a probe reads it");
+      const std::string left_out = exhaust_heat_left_out(definition);
+      s.line("exhaust_manifold_temperature", f.gas.exhaust_manifold_K, "K",
+             "mean" + (left_out.empty() ? ", as a probe reads it" : "; " + left_out));
     } else {
       s.line("net_mep_exact", summary.net_mep_Pa / 1e3, "kPa", "loop integral of p dV");
       s.line("gross_mep_exact", summary.gross_mep_Pa / 1e3, "kPa", "over the closed 360 deg");
@@ -410,7 +414,7 @@ constexpr Option kOptions[] = {
     kLambda,
     kBurnStart,
     text("--csv", "F", "file for a row per tick; - is standard output, the summary then goes to stderr"),
-    flag("--hash", "prints a hash of every bit that the recorded ticks show: equal on every machine, and in a page"),
+    flag("--hash", "prints a hash of every bit that the ticks show: equal on every machine, and in a page"),
     text("--report", "F.html", "HTML file with the report; opens in any browser"),
     text("--against", "B.ini", "another engine file: figures of both, and with --report their curves in one drawing"),
     text("--vcd", "F", "file for the trigger wheels' signals, a value change dump as GTKWave and PulseView open it"),
@@ -424,6 +428,8 @@ constexpr Option kOptions[] = {
     kMisfire,
     kFaultBits,
     text("--analogue", "F.csv", "with --free and a [reluctor]: its voltage, 16 samples a tick, and its comparator"),
+    text("--cranking", "F.svg",
+         "with --free and a [reluctor]: a drawing of the run's first second: speed, voltage, threshold, edges"),
     kInputs,
 };
 

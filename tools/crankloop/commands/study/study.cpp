@@ -98,6 +98,11 @@ void add_axes(Study& study, const Arguments& arguments, const std::vector<const 
       if (study.axes[a].target.name() == study.axes.back().target.name())
         throw UsageError("--vary: " + study.axes[a].target.name() + " is varied twice");
     }
+    // A key may be in both: --set then makes the file of the engine whole.
+    const std::string varied = study.axes.back().target.name();
+    for (const Constant& constant : study.options) {
+      if (constant.target.name() == varied) throw UsageError("--set: " + varied + " is varied; give it once");
+    }
   }
   if (study.axes.size() > 2) throw UsageError("--vary: at most two quantities are varied at once");
   double count = 1;

@@ -225,7 +225,7 @@ void add_motion(Summary& s, const MotionRange& elastic, const MotionRange& rigid
   };
   line("opening_velocity", elastic.opening_m_s, rigid.opening_m_s, "m/s");
   line("closing_velocity", elastic.closing_m_s, rigid.closing_m_s, "m/s");
-  line("least_acceleration", elastic.fall_m_s2, rigid.fall_m_s2, "m/s^2");
+  line("min_acceleration", elastic.fall_m_s2, rigid.fall_m_s2, "m/s^2");
 }
 
 /// What the ticks of the cycle shown come to.

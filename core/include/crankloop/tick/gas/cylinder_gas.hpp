@@ -180,13 +180,15 @@ template <class T, class Far, class Holds, class GiveWay>
     other = where(both, step[1]), other_Pa_kg = flow[1].per_kg_Pa;
   }
   // What flows moves the pressure on the way: half of that, over the step, works too. What flows out leaves with the
-  // enthalpy that it has on the way, not at the step's end: less by as much.
+  // enthalpy that it has on the way, not at the step's end: less by as much, and without half of the step's heat.
   const T half_m3 = (closed.volume_m3 - gas.volume_m3) * static_cast<Real>(0.5);
   const T left_J = before.energy_J + (larger.enthalpy_J + other.enthalpy_J);
   const T most_J = where(left_J > Real{0}, left_J * static_cast<Real>(0.25));
+  const T warmer_J_kg =
+      static_cast<Real>(0.5) * (Real{1} + closed.gas_ratio) * (closed.wall_heat_J - closed.heat_J) / before.mass_kg;
   const auto let_work = [&](PortStep<T> & step, const T& per_kg_Pa) __attribute__((always_inline)) {
     const T work_J = held_within<T>(half_m3 * per_kg_Pa * step.mass_kg, most_J);
-    step.enthalpy_J += where(step.mass_kg < Real{0}, work_J);
+    step.enthalpy_J += where(step.mass_kg < Real{0}, work_J + warmer_J_kg * step.mass_kg);
     gain.add(step);
     gain.energy_J -= work_J;
     return work_J;

@@ -5,6 +5,7 @@
 #include <crankloop/tables/tables.hpp>
 #include <crankloop/tick/gas/gas_inputs.hpp>
 #include <crankloop/tick/gas/gas_places.hpp>
+#include <crankloop/tick/gas/unburned_fuel.hpp>
 
 namespace crankloop::detail {
 
@@ -13,7 +14,7 @@ template <class Real, class S>
 void fill_crevice(const Tables<Real, S>& tables, State<Real, S>& state, std::uint32_t k) noexcept {
   Real mass_kg = tables.gas_crevice->kg_per_Pa * state.cylinder_gas.pressure_Pa[k];
   if constexpr (S::walls) mass_kg *= tables.gas_cylinders->walls.temperature_K / state.wall_K[k];
-  state.crevice_gas.put(k, CreviceGas<Real>{mass_kg, Real{0}, mass_kg * state.cylinder_gas.burned_ratio[k], Real{0}});
+  state.crevice_gas.put(k, CreviceGas<Real>{mass_kg, mass_kg * state.cylinder_gas.burned_ratio[k]});
 }
 
 /// In a manifold.
@@ -61,6 +62,7 @@ template <class Real, class S>
     if constexpr (S::crevice) fill_crevice(tables, state, k);
     if constexpr (S::runners) fill_runners(tables, state, k);
     if constexpr (S::crevice && S::gas_results) state.cycle_blow_by_kg[k] = Real{0};
+    if constexpr (Needs<S>::lambda) refill_unburned(state, k);
   }
 }
 
@@ -70,7 +72,7 @@ template <class Real, class S>
   start_gas_inputs(tables, state);
   if constexpr (S::walls) {
     for (Real& wall_K : state.wall_K) wall_K = tables.gas_cylinders->walls.temperature_K;
-    for (Real& rest_K : state.wall_rest_K) rest_K = Real{0};
+    for (Real& heat_J : state.wall_heat_J) heat_J = Real{0};
   }
   if constexpr (Needs<S>::manifolds) {
     for (int port = 0; port < kPorts; ++port) {

@@ -107,15 +107,13 @@ struct CylinderGases {
 /// What a cylinder's crevices hold, at the walls' temperature.
 template <class T>
 struct CreviceGas {
-  T mass_kg, mass_rest_kg;
-  T burned_kg, burned_rest_kg;
+  T mass_kg, burned_kg;
 };
 
 /// The crevices of an engine's cylinders, in columns.
 template <class Real, std::uint32_t kCylinders>
 struct CreviceGases {
-  Real mass_kg[kCylinders], mass_rest_kg[kCylinders];
-  Real burned_kg[kCylinders], burned_rest_kg[kCylinders];
+  Real mass_kg[kCylinders], burned_kg[kCylinders];
 
   template <class T>
   [[nodiscard, gnu::always_inline]] CreviceGas<T> at(std::uint32_t k) const noexcept {
@@ -131,8 +129,7 @@ struct CreviceGases {
  private:
   template <class Columns, class Gas, class Visit>
   [[gnu::always_inline]] static void each(Columns& column, Gas& gas, const Visit& visit) noexcept {
-    visit(column.mass_kg, gas.mass_kg), visit(column.mass_rest_kg, gas.mass_rest_kg);
-    visit(column.burned_kg, gas.burned_kg), visit(column.burned_rest_kg, gas.burned_rest_kg);
+    visit(column.mass_kg, gas.mass_kg), visit(column.burned_kg, gas.burned_kg);
   }
 };
 
@@ -146,9 +143,9 @@ struct RunnerGas {
 
 /// Runners of as many cylinders as T has lanes, from the first on.
 template <class T>
-[[nodiscard, gnu::always_inline]] inline RunnerGas<T> take_runners(const RunnerGas<NumberOf<T>>* first) noexcept {
+[[nodiscard, gnu::always_inline]] inline decltype(auto) take_runners(const RunnerGas<NumberOf<T>>* first) noexcept {
   if constexpr (kLanesIn<T> == 1) {
-    return *first;
+    return (*first);
   } else {
     constexpr std::size_t kNumbers = sizeof(RunnerGas<float>) / sizeof(float);
     static_assert(kNumbers % 4 == 0 && sizeof(RunnerGas<T>) == kNumbers * sizeof(T), "numbers alone, four by four");

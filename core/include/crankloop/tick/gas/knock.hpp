@@ -59,11 +59,12 @@ template <class Real>
   knock.pressure_Pa = to_Pa;
   const Real per_s = power_of_2(table.rate + c(1.7) * octaves_of(mean_Pa) - table.hot_K / mean_K);
   // Which part of the step is in the burn.
-  const Real to_deg = way.deg<Real>(), turned_deg = way.turned_deg<Real>();
+  const auto to_deg = [&way] { return way.deg<Real>(); };
+  const auto turned_deg = [&way] { return way.turned_deg<Real>(); };
   Real begins{}, ends = c(1);
-  if (burn.start_deg > to_deg - turned_deg && burn.start_deg < to_deg)
-    begins = c(1) - (to_deg - burn.start_deg) / turned_deg;
   const Real was = knock.burnt_ratio, end = kKnockEnd_ratio<Real>;
+  if (!(was > 0) && burn.start_deg > to_deg() - turned_deg() && burn.start_deg < to_deg())
+    begins = c(1) - (to_deg() - burn.start_deg) / turned_deg();
   if (!(burn.burnt_ratio < end)) ends = burn.burnt_ratio > was ? (end - was) / (burn.burnt_ratio - was) : Real{0};
   const bool goes_on = burn.burnt_ratio < end && burn.fuel_kg > 0;
   knock.burnt_ratio = burn.burnt_ratio;
@@ -72,7 +73,7 @@ template <class Real>
   const Real after = before + rises;
   knock.integral_ratio = after < kMaxKnock<Real> ? after : kMaxKnock<Real>;
   if (before < 1 && !(after < 1))
-    knock.passes_deg = to_deg - turned_deg * (c(1) - begins - (ends - begins) * ((c(1) - before) / rises));
+    knock.passes_deg = to_deg() - turned_deg() * (c(1) - begins - (ends - begins) * ((c(1) - before) / rises));
   return goes_on;
 }
 

@@ -46,36 +46,26 @@ template <class T>
   return table.leaks;
 }
 
-/// A step of cylinders' walls that took `heat_J`, implicit in their heat to the coolant. `crevice_J_K`: what the gas in
-/// the crevices adds to their capacity, so that no energy is lost as it warms with them.
-template <class T>
-[[gnu::always_inline]] inline void step_walls(T& wall_K, T& rest_K, const WarmWallsTable<NumberOf<T>>& table,
-                                              const T& heat_J, const T& crevice_J_K, NumberOf<T> step_s) noexcept {
-  const NumberOf<T> to_coolant_J_K = step_s * table.to_coolant_W_K;
-  const T rise_K =
-      (heat_J + to_coolant_J_K * (table.coolant_K - wall_K)) / (table.capacity_J_K + to_coolant_J_K + crevice_J_K);
-  add_carried(wall_K, rest_K, rise_K);
-}
-/// The same of an engine without crevices: one division for all lanes.
-template <class T>
-[[gnu::always_inline]] inline void step_walls(T& wall_K, T& rest_K, const WarmWallsTable<NumberOf<T>>& table,
-                                              const T& heat_J, NumberOf<T> step_s) noexcept {
-  const NumberOf<T> to_coolant_J_K = step_s * table.to_coolant_W_K;
-  const NumberOf<T> per_J_K = NumberOf<T>{1} / (table.capacity_J_K + to_coolant_J_K);
-  add_carried(wall_K, rest_K, (heat_J + to_coolant_J_K * (table.coolant_K - wall_K)) * per_J_K);
-}
-
-/// Walls that no engine has, back among the others.
-template <class T>
-[[gnu::cold]] inline void put_walls_right(T& wall_K, T& rest_K) noexcept {
-  using Real = NumberOf<T>;
+/// The walls of a cylinder over `time_s` in which its gas gave them `heat_J`; implicit in their heat to the coolant.
+/// `crevice_J_K`: what the gas in the crevices adds to their capacity, so that no energy is lost as it warms with them.
+/// Leaves in `heat_J` what rounding of the temperature leaves out. Answers false for walls that no engine has, which
+/// are put back among the others.
+template <class Real>
+[[nodiscard]] inline bool step_walls(Real& wall_K, Real& heat_J, const WarmWallsTable<Real>& table,
+                                     const Real& crevice_J_K, const Real& time_s) noexcept {
   constexpr Real kLeast_K = static_cast<Real>(kLeastGas_K), kMax_K = static_cast<Real>(kMaxGas_K);
-  for (int i = 0; i < kLanesIn<T>; ++i) {
-    const Real kelvin = lane(wall_K, i);
-    if (kelvin >= kLeast_K && kelvin <= kMax_K) continue;
-    put_lane(wall_K, i, kelvin > kMax_K ? kMax_K : kLeast_K);
-    put_lane(rest_K, i, Real{0});
+  if (!(table.capacity_J_K > 0)) return heat_J = Real{0}, true;  // fixed
+  const Real to_coolant_J_K = time_s * table.to_coolant_W_K;
+  const Real capacity_J_K = table.capacity_J_K + crevice_J_K + to_coolant_J_K;
+  const Real gets_J = heat_J + to_coolant_J_K * (table.coolant_K - wall_K);
+  const Real to_K = wall_K + gets_J / capacity_J_K;
+  if (!(to_K >= kLeast_K && to_K <= kMax_K)) {
+    wall_K = to_K > kMax_K ? kMax_K : kLeast_K, heat_J = Real{0};
+    return false;
   }
+  heat_J = gets_J - (to_K - wall_K) * capacity_J_K;
+  wall_K = to_K;
+  return true;
 }
 
 /// Heat of the gas in a manifold or at a port to its walls in a step; implicit, by the specific heat midway to them.

@@ -40,7 +40,6 @@ struct GasFields {
       for (std::uint32_t k = 0; k < sizeof gas.mass_kg / sizeof gas.mass_kg[0]; ++k) {
         v.number(gas.mass_kg[k], -kMaxGas_kg, kMaxGas_kg);  // below 0 by rounding alone: gas_agrees.hpp
         v.number(gas.burned_kg[k], -kMaxGas_kg, kMaxGas_kg);
-        numbers(kMaxGas_kg, gas.mass_rest_kg[k], gas.burned_rest_kg[k]);
         if constexpr (S::gas_results) numbers(kMaxNoted<Real>, s.cycle_blow_by_kg[k]);
       }
       v.group("state.gas");
@@ -66,7 +65,7 @@ struct GasFields {
     if constexpr (S::walls) {
       v.group("state.walls");
       for (auto& wall : s.wall_K) v.number(wall, static_cast<Real>(kLeastGas_K), static_cast<Real>(kMaxGas_K));
-      for (auto& rest : s.wall_rest_K) v.number(rest, Real{-1}, Real{1});
+      for (auto& heat : s.wall_heat_J) numbers(kMaxGas_J, heat);
       v.group("state.gas");
     }
     if constexpr (N::manifolds) {
@@ -124,6 +123,25 @@ struct GasFields {
       }
       constexpr std::uint32_t kAll = (std::uint32_t{1} << S::cylinders.capacity) - 1;
       v.word(s.knock_due, kAll), v.word(s.knock_in_burn, kAll);
+    }
+    if constexpr (N::lambda) {
+      v.group("state.lambda");
+      const auto fuel = [&v](auto& fuels) {
+        for (auto& kg : fuels) v.number(kg, Real{0}, kMaxGas_kg);
+      };
+      fuel(s.unburned_kg), fuel(s.manifold_unburned_kg);
+      if constexpr (S::runners) fuel(s.runner_unburned_kg[kIntake]), fuel(s.runner_unburned_kg[kExhaust]);
+      if constexpr (S::gas_results) fuel(s.outflow_unburned_kg);
+      constexpr Real kMost = static_cast<Real>(kMaxExcessAir_ratio);  // of 1 / lambda, too
+      for (auto& ratio : s.pipe_ratio) v.number(ratio, Real{0}, kMost);
+      v.number(s.filled_ratio, Real{0}, Real{1});
+      v.number(s.filling_ratio, Real{0}, kMost);
+      v.number(s.owed_ratio, Real{0}, Real{S::lambda_parcels});
+      v.number(s.outlet_unburned_ratio, Real{0}, Real{1});
+      v.number(s.sensor_ratio, Real{0}, kMost);
+      v.number(s.sensor_rest_ratio, Real{-1}, Real{1});
+      v.word(s.oldest_parcel, S::lambda_parcels - 1);
+      v.word(s.any_unburned, 1u);
     }
     if constexpr (S::gas_results) {
       v.group("state.gas_record");

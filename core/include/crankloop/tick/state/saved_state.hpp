@@ -68,10 +68,12 @@ template <class S>
   if (Needs<S>::charge_burn) crc.add(std::uint32_t{0x400});
   if (Needs<S>::knock) crc.add(std::uint32_t{0x500});
   if (S::walls) crc.add(std::uint32_t{0x600});
+  if (Needs<S>::lambda) crc.add(0x1000 + S::lambda_parcels);
   if (S::cam_drag) crc.add(std::uint32_t{0x200});
   if (S::spring_modes > 0) crc.add(0x300 + S::spring_modes);
   if (S::misfire) crc.add(std::uint32_t{0x700});
   if (S::reluctor_samples > 0) crc.add(0x900 + S::reluctor_samples);
+  if (S::sensor_faults) crc.add(std::uint32_t{0xA00});
   if (S::wheel_faults > 0) crc.add(0x800 + S::triggers.capacity), crc.add(S::wheel_faults);
   return crc.value();
 }

@@ -137,7 +137,20 @@ struct StateFields {
       v.word(s.comparator_level, 1u);
       v.word(s.comparator_armed, 1u);
       v.word(s.comparator_quiet_ticks, kAny);
-      v.spare(s.spare_of_comparator);
+      for (auto& late : s.late_edge_s) v.number(late, Real{0}, Real{1});
+      v.word(s.late_edges, S::reluctor_samples);
+    }
+    if constexpr (S::sensor_faults) {
+      v.group("state.sensor");
+      for (auto& sensor : s.sensor) {
+        for (auto* x : {&sensor.held, &sensor.late, &sensor.lagged, &sensor.lagged_rest})
+          v.number(*x, -kMaxNoted<Real>, kMaxNoted<Real>);
+        for (auto& sample : sensor.sample) v.number(sample, -kMaxNoted<Real>, kMaxNoted<Real>);
+        v.word(sensor.oldest, detail::kDelayedSamples - 1);
+        v.word(sensor.ticks_left, kAny);
+        v.word(sensor.random, kAny);
+        v.word(sensor.fault, std::uint32_t{kMaxSensorFaults});
+      }
     }
     if constexpr (S::bad_input_count) {
       v.group("state.bad_input");

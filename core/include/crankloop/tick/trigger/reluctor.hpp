@@ -54,10 +54,14 @@ template <class Real>
 template <class Real, class S>
 class Comparator {
  public:
-  Comparator(const ReluctorTable<Real>& table, group::ComparatorState<Real>& state,
+  Comparator(const ReluctorTable<Real>& table, Real tick_s, group::ComparatorState<Real, S>& state,
              TriggerSignal<Real, S>& out) noexcept
-      : table_{table}, state_{state}, out_{out} {
+      : table_{table}, tick_s_{tick_s}, state_{state}, out_{out} {
+    const std::uint32_t late = state_.late_edges;
     out_.edge_count = 0;
+    out_.level = (state_.comparator_level ^ late) & 1u;
+    state_.late_edges = 0;
+    for (std::uint32_t e = 0; e < late; ++e) show(state_.late_edge_s[e]);
     if (state_.comparator_quiet_ticks >= table.watchdog_ticks) state_.sensor_last_peak_V = Real{0};
     if (state_.comparator_quiet_ticks != ~std::uint32_t{0}) ++state_.comparator_quiet_ticks;
   }
@@ -84,13 +88,13 @@ class Comparator {
   }
 
   /// Where nobody knows how the crank came here.
-  void disarm() noexcept { state_.sensor_V = Real{0}, state_.comparator_armed = 0; }
+  void disarm() noexcept {
+    state_.sensor_V = Real{0}, state_.comparator_armed = 0;
+    out_.edge_count = 0, out_.level = state_.comparator_level;
+  }
 
   /// Whether there were more edges than are listed.
-  [[nodiscard]] bool finish() noexcept {
-    out_.level = state_.comparator_level;
-    return out_.edge_count > S::trigger_edges;
-  }
+  [[nodiscard]] bool finish() noexcept { return out_.edge_count > S::trigger_edges; }
 
  private:
   /// Of the way from one voltage to the other, where `at_V` is passed: 0 to 1.
@@ -102,12 +106,20 @@ class Comparator {
   }
   void add(std::uint32_t level, Real time_s) noexcept {
     state_.comparator_level = level;
-    if (out_.edge_count < S::trigger_edges) out_.edge[out_.edge_count] = {time_s, level};
+    const Real comes_s = time_s + table_.delay_s;
+    if (comes_s < tick_s_ || !(table_.delay_s > 0) || state_.late_edges == S::reluctor_samples) return show(comes_s);
+    state_.late_edge_s[state_.late_edges++] = comes_s - tick_s_;
+  }
+  /// In this tick.
+  void show(Real time_s) noexcept {
+    out_.level ^= 1u;
+    if (out_.edge_count < S::trigger_edges) out_.edge[out_.edge_count] = {time_s, out_.level};
     ++out_.edge_count;
   }
 
   const ReluctorTable<Real>& table_;
-  group::ComparatorState<Real>& state_;
+  Real tick_s_;
+  group::ComparatorState<Real, S>& state_;
   TriggerSignal<Real, S>& out_;
 };
 
@@ -117,7 +129,7 @@ template <class Real, class S>
                                           Output<Real, S>& out, const CrankSample<Real>& crank) noexcept {
   constexpr std::uint32_t kStep = kSamplePlaces / S::reluctor_samples;
   const Real spacing_s = tick_s * CrankSample<Real>::ratio(kStep);
-  Comparator<Real, S> comparator(table, state, out.comparator);
+  Comparator<Real, S> comparator(table, tick_s, state, out.comparator);
   if (table.in_use == 0 || crank.path.jumped) {
     for (Real& voltage_V : out.reluctor_V) voltage_V = Real{0};
     comparator.disarm();

@@ -185,7 +185,7 @@ class ElasticValves {
   }
 
   /// Activates valves, from where their cams stood before the tick.
-  [[gnu::cold, gnu::noinline]] void activate_all(Bits which, const CamTicks<Real, S>& cams) noexcept {
+  [[gnu::noinline]] void activate_all(Bits which, const CamTicks<Real, S>& cams) noexcept {
     for (Bits left = which; left != 0; left &= left - 1) {
       const std::uint32_t v = trailing_zeros(left);
       valves_.set_cam(v, valves_.curve(v).read(valves_.cell(v, cams[valves_.train(v)].phase_before())));
@@ -193,14 +193,15 @@ class ElasticValves {
     }
   }
 
-  /// The cams' speed has jumped, and with it the dampers' forces.
-  [[gnu::cold, gnu::noinline]] void recheck_contacts(const CamTick<Real>& tick, std::uint32_t group) noexcept {
+  /// The cams' speed has jumped, and with it the forces of the trains' dampers. Seats know nothing of it.
+  [[gnu::noinline]] void recheck_contacts(const CamTick<Real>& tick, std::uint32_t group) noexcept {
     for (Bits left = valves_.work.active & valves_.of_group(group); left != 0; left &= left - 1) {
       const std::uint32_t v = trailing_zeros(left);
       const ValveState<Real> s = valves_.state_of(v);
       const std::uint32_t before = contacts_of(valves_.state.valve_regime[v]);
-      const std::uint32_t regime = required_contacts(valves_.motion(v), s, valves_.cam(v), tick.cam.deg_per_s);
-      if (regime == before) continue;
+      const bool train = requires_train(valves_.motion(v), s, valves_.cam(v), tick.cam.deg_per_s);
+      if (train == ((before & kTrainOn) != 0)) continue;
+      const std::uint32_t regime = before ^ kTrainOn;
       valves_.set_regime(v, regime);
       if constexpr (S::valve_results) {
         const Real deg = valves_.curve(v).degrees(tick.phase_before() - valves_.curve(v).opens[valves_.cylinder(v)]);
@@ -229,17 +230,18 @@ class ElasticValves {
   void locate_events(std::uint32_t v, const CamTick<Real>& tick, const Before& before, EventBudget& budget) noexcept {
     const typename Valves::Gas gas = valves_.gas_on(v);
     const std::uint32_t lane = valves_.lane_of(v);
-    const Lift<Real> from{before.cam_lift_m[lane], before.cam_per_deg_m[lane]};
     const Lift<Real> to = valves_.cam(v);
-    const ValveInRegime<Real> start{{before.lift_m[lane], before.velocity_m_s[lane]}, valves_.state.valve_regime[v]};
-    const Stepped<Real> step{valves_.state_of(v), before.increment_m[lane]};
-    const std::uint64_t at = tick.phase - valves_.curve(v).opens[valves_.cylinder(v)];
-    const Span<Real, typename Valves::Gas> span = valves_.span(v, tick, from, to, gas);
-    const auto locator = valves_.event_locator(v, budget);
+    const ValveInRegime<Real> start{before.state(lane), valves_.state.valve_regime[v]};
     const std::uint32_t parts = valves_.motion(v).parts;
-    const ValveInRegime<Real> end = (parts > 1 || valves_.wide) && locator.rests(start, span) ? start
-                                    : budget.spend(parts) ? locator.run(start, step, span, at, tick.turned)
-                                                          : locator.beyond_budget(start, step, span);
+    const bool may_rest = parts > 1 || valves_.wide;
+    ValveInRegime<Real> end = start;
+    if (!(may_rest && rests(start, valves_.curve(v), before.cam(lane).lift_m, to.lift_m, tick.cam.deg, gas))) {
+      // On lines of their own: tests/target/loop_bounds.conf names those that pay.
+      const bool within = budget.left >= (parts > 1 ? parts : 1 + kUnitsOfLook);
+      if (within) budget.take(parts);
+      end = within ? locate_within_budget(v, tick, before, gas, budget)
+                   : step_beyond_budget(v, tick, before, gas, budget);
+    }
     CRANKLOOP_ASSERT(is_finite(end.state.lift_m) && is_finite(end.state.velocity_m_s));
     valves_.set_state(v, end.state);
     if (end.regime != start.regime) valves_.set_regime(v, end.regime);
@@ -251,6 +253,39 @@ class ElasticValves {
                          {to.lift_m, compression_m, compression_speed_m_s,
                           acceleration(force, end.state, compression_m, compression_speed_m_s, gas)},
                          gas);
+  }
+
+  /// Its fine steps are paid for, and what is sure to follow them is there.
+  [[nodiscard, gnu::noinline]] ValveInRegime<Real> locate_within_budget(std::uint32_t v, const CamTick<Real>& tick,
+                                                                        const Before& before,
+                                                                        const typename Valves::Gas& gas,
+                                                                        EventBudget& budget) noexcept {
+    const std::uint32_t lane = valves_.lane_of(v);
+    const Lift<Real> from = before.cam(lane);
+    const ValveInRegime<Real> start{before.state(lane), valves_.state.valve_regime[v]};
+    const Stepped<Real> step{valves_.state_of(v), before.increment_m(lane)};
+    const std::uint64_t at = tick.phase - valves_.curve(v).opens[valves_.cylinder(v)];
+    return valves_.event_locator(v, budget).run(start, step, valves_.span(v, tick, from, valves_.cam(v), gas), at,
+                                                tick.turned);
+  }
+
+  /// The tick in one step, for want of budget.
+  [[nodiscard, gnu::always_inline]] ValveInRegime<Real> step_beyond_budget(
+      std::uint32_t v, const CamTick<Real>& tick, [[maybe_unused]] const Before& before,
+      [[maybe_unused]] const typename Valves::Gas& gas, EventBudget& budget) noexcept {
+    budget.exceeded = true;
+    const ValveMotion<Real>& motion = valves_.motion(v);
+    const ValveState<Real> s = valves_.state_of(v);
+    if (is_too_far(s)) return put_back(motion, valves_.cam(v).lift_m);
+    const ValveInRegime<Real> end =
+        beyond_budget(motion, valves_.state.valve_regime[v], s, valves_.cam(v), tick.cam.deg_per_s);
+    if constexpr (S::valve_results) {
+      const std::uint32_t lane = valves_.lane_of(v);
+      const Lift<Real> from = before.cam(lane);
+      const ValveInRegime<Real> start{before.state(lane), valves_.state.valve_regime[v]};
+      valves_.event_locator(v, budget).record_unlocated(start, end, valves_.span(v, tick, from, valves_.cam(v), gas));
+    }
+    return end;
   }
 
   // ---- after the steps --------------------------------------------------------------------------------------------

@@ -21,7 +21,8 @@
 namespace crankloop::detail {
 
 /// What event location may still spend in this tick, over all valves, in units: a fine step is one (a tick that is not
-/// divided counts as one), an event located in it kUnitsOfEvent more. An event beyond it counts at the end of its step.
+/// divided counts as one, and kUnitsOfLook more if it has no event), an event located in it kUnitsOfEvent more. An
+/// event beyond it counts at the end of its step.
 struct EventBudget {
   std::uint32_t left;
   bool exceeded;
@@ -31,7 +32,43 @@ struct EventBudget {
     left -= units;
     return true;
   }
+  /// Of what is sure to be left.
+  void take(std::uint32_t units) noexcept {
+    CRANKLOOP_ASSERT(left >= units);
+    left -= units;
+  }
 };
+
+/// No valve gets so far; nor is one that is no number anywhere.
+template <class Real>
+[[nodiscard]] inline bool is_too_far(const ValveState<Real>& s) noexcept {
+  return !(magnitude(s.lift_m) < static_cast<Real>(kMaxLift_m));
+}
+
+/// A tick in one step, for want of budget: contacts change at its end. One that begins is as deep as after a fine step:
+/// deeper in a stiff seat the valve would gain energy that it never had.
+template <class Real>
+[[nodiscard]] inline ValveInRegime<Real> beyond_budget(const ValveMotion<Real>& m, std::uint32_t before,
+                                                       ValveState<Real> s, const Lift<Real>& cam,
+                                                       Real deg_per_s) noexcept {
+  const std::uint32_t now = required_contacts(m, s, cam, deg_per_s);
+  const std::uint32_t begin = now & ~contacts_of(before);
+  if (begin != 0) {
+    const Real contact_m = (begin & kSeatOn) != 0 ? m.body.seat_compression_m : cam.lift_m;
+    s.lift_m = contact_m + (s.lift_m - contact_m) * m.per_parts;
+  }
+  return {s, now};
+}
+
+/// Whether a valve is at rest and stays so, its cam away all through the tick.
+template <class Real, class Gas>
+[[nodiscard]] inline bool rests(const ValveInRegime<Real>& valve, const LiftCurve<Real>& curve, Real from_m, Real to_m,
+                                Real deg, const Gas& gas) noexcept {
+  const bool open = from_m > 0 || to_m > 0;
+  const bool may_skip = magnitude(deg) >= curve.skip_deg;
+  return contacts_of(valve.regime) == kSeatOn && !open && !may_skip && valve.state.lift_m == 0 &&
+         valve.state.velocity_m_s == 0 && gas.from_N == 0 && gas.to_N == 0;
+}
 
 template <class Real, class Gas, class Record>
 class EventLocator {
@@ -50,37 +87,26 @@ class EventLocator {
     CRANKLOOP_ASSERT(is_finite(start.state.lift_m) && is_finite(start.state.velocity_m_s));
     CRANKLOOP_ASSERT(motion_.parts >= 1);
     if (motion_.parts > 1 || magnitude(tick.cam.deg) > motion_.cubic_deg) return by_fine_steps(start, tick, to, turned);
-    const std::uint32_t regime = contacts_at_start(start, tick);
-    if (regime != start.regime)
-      end = stepped(motion_.fine[regime], start.state, tick.from, tick.to, tick.cam.deg, tick.gas);
-    return finish_step({start.state, regime}, end, tick);
-  }
-
-  /// The tick in one step, for want of budget: contacts change at its end. One that begins is as deep as after a fine
-  /// step: deeper in a stiff seat the valve would gain energy that it never had.
-  [[nodiscard]] ValveInRegime<Real> beyond_budget(const ValveInRegime<Real>& start, const Stepped<Real>& end,
-                                                  const Span<Real, Gas>& tick) const noexcept {
-    budget_.exceeded = true;
-    ValveState<Real> s = end.state;
-    if (is_too_far(s)) return in_equilibrium(motion_, tick.to.lift_m, static_cast<Real>(tick.gas.to_N));
-    const std::uint32_t before = contacts_of(start.regime);
-    const std::uint32_t now = required_contacts(motion_, s, tick.to, tick.cam.deg_per_s);
-    const std::uint32_t begin = now & ~before;
-    if (begin != 0) {
-      const Real contact_m = (begin & kSeatOn) != 0 ? motion_.body.seat_compression_m : tick.to.lift_m;
-      s.lift_m = contact_m + (s.lift_m - contact_m) * motion_.per_parts;
+    std::uint32_t regime = required_contacts(motion_, start.state, tick.from, tick.cam.deg_per_s);
+    const std::uint32_t before = contacts_of(start.regime);  // whose step is that of a quiet valve too
+    if (regime != before) {
+      if (budget_.left > kUnitsOfSearch) {
+        budget_.take(kUnitsOfSearch);
+        end = stepped(motion_.fine[regime], start.state, tick.from, tick.to, tick.cam.deg, tick.gas);
+      } else {
+        budget_.exceeded = true;
+        regime = before;
+      }
     }
-    record_step(start, s, tick, motion_.tick_s);
-    record_event(before, now, s, tick, 1);
-    return {s, now};
+    record_event(before, regime, start.state, tick, 0);
+    return finish_step<kUnitsOfLook>({start.state, regime}, end, tick);
   }
 
-  /// Whether a valve is at rest and stays so, its cam away all through the tick.
-  [[nodiscard]] bool rests(const ValveInRegime<Real>& valve, const Span<Real, Gas>& tick) const noexcept {
-    const bool open = tick.from.lift_m > 0 || tick.to.lift_m > 0;
-    const bool may_skip = magnitude(tick.cam.deg) >= curve_.skip_deg;
-    return contacts_of(valve.regime) == kSeatOn && !open && !may_skip && valve.state.lift_m == 0 &&
-           valve.state.velocity_m_s == 0 && tick.gas.from_N == 0 && tick.gas.to_N == 0;
+  /// Records a tick in one step, for want of budget.
+  void record_unlocated(const ValveInRegime<Real>& start, const ValveInRegime<Real>& end,
+                        const Span<Real, Gas>& tick) const noexcept {
+    record_step(start, end.state, tick, motion_.tick_s);
+    record_event(contacts_of(start.regime), end.regime, end.state, tick, 1);
   }
 
   /// Records a step without an event.
@@ -100,11 +126,6 @@ class EventLocator {
     const std::uint32_t regime = required_contacts(motion_, start.state, tick.from, tick.cam.deg_per_s);
     record_event(contacts_of(start.regime), regime, start.state, tick, 0);
     return regime;
-  }
-
-  /// No valve gets so far; nor is one that is no number anywhere.
-  [[nodiscard]] static bool is_too_far(const ValveState<Real>& s) noexcept {
-    return !(magnitude(s.lift_m) < static_cast<Real>(kMaxLift_m));
   }
 
   /// Fine steps all through the tick.
@@ -133,7 +154,7 @@ class EventLocator {
         if (!narrow)
           end = with_middle_of(motion_.fine[valve.regime], curve_, step,
                                at - static_cast<std::uint64_t>(static_cast<std::int64_t>(part) / 2), end);
-        valve = finish_step(valve, end, step);
+        valve = finish_step<0>(valve, end, step);
       }
       passed = narrow && pass;
       step.from = step.to;
@@ -164,8 +185,8 @@ class EventLocator {
 
   /// Whether a contact may change and change back within a fine step: its event function (SmoothSegment) then has an
   /// extremum there. By its slopes at both ends, which where a contact is on matter only if it fails its guard.
-  [[nodiscard]] bool may_graze(std::uint32_t regime, const ValveState<Real>& from, const ValveState<Real>& to,
-                               const Span<Real, Gas>& step) const noexcept {
+  [[nodiscard, gnu::noinline]] bool may_graze(std::uint32_t regime, const ValveState<Real>& from,
+                                              const ValveState<Real>& to, const Span<Real, Gas>& step) const noexcept {
     const Real gap_m[] = {step.from.lift_m - from.lift_m, step.to.lift_m - to.lift_m};
     const Real gap_m_s[] = {step.cam.deg_per_s * step.from.per_deg_m - from.velocity_m_s,
                             step.cam.deg_per_s * step.to.per_deg_m - to.velocity_m_s};
@@ -192,18 +213,21 @@ class EventLocator {
            gap_m_s[1] + lag_s * (2 * slope_m[0] + 4 * slope_m[1] - 6 * rise_m) > motion_.train_lag_s * to_m_s2;
   }
 
-  /// A fine step, checked for events: most often there is none.
-  [[nodiscard]] ValveInRegime<Real> finish_step(const ValveInRegime<Real>& start, const Stepped<Real>& end,
-                                                const Span<Real, Gas>& step) const noexcept {
+  /// A fine step, checked for events: most often there is none, and then it takes so many units more.
+  template <std::uint32_t kWithout>
+  [[nodiscard, gnu::always_inline]] ValveInRegime<Real> finish_step(const ValveInRegime<Real>& start,
+                                                                    const Stepped<Real>& end,
+                                                                    const Span<Real, Gas>& step) const noexcept {
     CRANKLOOP_ASSERT(start.regime < kQuiet);
     if (is_too_far(end.state)) {
       budget_.exceeded = true;
-      return in_equilibrium(motion_, step.to.lift_m, static_cast<Real>(step.gas.to_N));
+      return put_back(motion_, step.to.lift_m);
     }
     const std::uint32_t now = required_contacts(motion_, end.state, step.to, step.cam.deg_per_s);
     const bool grazes = now == start.regime && may_graze(now, start.state, end.state, step);
     if ((now != start.regime || grazes) && budget_.spend(kUnitsOfEvent))
       return step_through_events(start, end, now, step);
+    if constexpr (kWithout != 0) budget_.take(kWithout);
     if (grazes || (now != start.regime && !is_negligible(motion_, start.regime ^ now, end.state, step.to)))
       budget_.exceeded = true;
     record_step(start, end.state, step, motion_.fine_step_s);
@@ -221,19 +245,30 @@ class EventLocator {
     Cubic<Real> lift(step.from.lift_m, step.cam.deg * step.from.per_deg_m, step.to.lift_m,
                      step.cam.deg * step.to.per_deg_m);
     SmoothSegment<Real> s = segment_of(motion_, valve, end, lift, Real{1}, step);
-    if (now == valve.regime) now ^= grazing_event(motion_, s, now);
     Real left = 1;
     std::uint32_t last = 0;
+    const auto function_of = [&](std::uint32_t contact) {
+      const bool is_on = (valve.regime & contact) != 0;
+      return contact == kTrainOn
+                 ? event_function(train_over(motion_, s, lift, left, step), is_on, motion_.train_lag_s, s.d_s)
+                 : event_function(seat_over(motion_, s), is_on, motion_.seat_lag_s, s.d_s);
+    };
+    if (now == valve.regime) {
+      if (grazes(function_of(kTrainOn), (now & kTrainOn) != 0))
+        now ^= kTrainOn;
+      else if (grazes(function_of(kSeatOn), (now & kSeatOn) != 0))
+        now ^= kSeatOn;
+    }
     if (now != valve.regime) do {
         CRANKLOOP_ASSERT(left > 0 && left <= 1);
         if (last != 0) s = segment_of(motion_, valve, end, lift, left, step);
         const std::uint32_t changes = now ^ valve.regime;
         CRANKLOOP_ASSERT(changes != 0 && changes < kQuiet);
         std::uint32_t event = (changes & kTrainOn) != 0 ? kTrainOn : kSeatOn;
-        Real x = fraction_of(event, s, valve.regime, last);
+        Real x = fraction_of(function_of(event), last == event);
         if (changes == (kTrainOn | kSeatOn)) {
           if (budget_.spend(kUnitsOfSearch)) {
-            const Real at = fraction_of(kSeatOn, s, valve.regime, last);
+            const Real at = fraction_of(function_of(kSeatOn), last == kSeatOn);
             if (at < x) x = at, event = kSeatOn;
           } else {
             budget_.exceeded = true;
@@ -262,14 +297,10 @@ class EventLocator {
     return {end.state, now};
   }
 
-  /// Where in a segment a contact's event lies; `last` is the one at its start.
-  [[nodiscard, gnu::noinline]] Real fraction_of(std::uint32_t contact, const SmoothSegment<Real>& s,
-                                                std::uint32_t regime, std::uint32_t last) const noexcept {
-    const bool of_train = contact == kTrainOn;
-    const Cubic<Real> f = s.event_function(of_train ? s.train : s.seat, (regime & contact) != 0,
-                                           of_train ? motion_.train_lag_s : motion_.seat_lag_s);
+  /// Where in a segment an event lies, by its event function; `again`: one of the same contact is at its start.
+  [[nodiscard, gnu::noinline]] Real fraction_of(Cubic<Real> f, bool again) const noexcept {
     const Real end = f.c[0] + f.c[1] + f.c[2] + f.c[3];
-    if (last == contact || (f.c[0] > 0) != (end > 0)) return f.root(last == contact, end);
+    if (again || (f.c[0] > 0) != (end > 0)) return f.root(again, end);
     if (budget_.spend(kUnitsOfSearch)) return grazing_fraction(f);
     budget_.exceeded = true;
     return 1;
@@ -287,9 +318,9 @@ class EventLocator {
     Real lift_m, speed_m_s;
   };
 
-  void record_part(std::uint32_t regime, const ValveState<Real>& from, const ValveState<Real>& to,
-                   const Theory& theory_from, const Theory& theory_to, const Span<Real, Gas>& span, Real from_fraction,
-                   Real to_fraction, Real step_s) const noexcept {
+  [[gnu::noinline]] void record_part(std::uint32_t regime, const ValveState<Real>& from, const ValveState<Real>& to,
+                                     const Theory& theory_from, const Theory& theory_to, const Span<Real, Gas>& span,
+                                     Real from_fraction, Real to_fraction, Real step_s) const noexcept {
     const ForceRow<Real>& force = motion_.fine[regime].acceleration;
     const Gas gas = span.gas.between(from_fraction, to_fraction);
     const auto accelerates = [&](const ValveState<Real>& s, const Theory& at, const Gas& by) {

@@ -184,11 +184,11 @@ class LaneBlocks : If<Needs<S>::valve_push && !kGasInBlocks<S>, GasOfLanes<S>>, 
     if constexpr (Valves::kKeepsGas) keep_gas(first, gas.to_N, unfinished);
     if (unfinished == 0) return;
     failed_ |= Bits{failed} << first;
-    store<Lanes>(&before_.lift_m[first], start.lift_m);
-    store<Lanes>(&before_.velocity_m_s[first], start.velocity_m_s);
-    store<Lanes>(&before_.increment_m[first], step.increment_m);
-    store<Lanes>(&before_.cam_lift_m[first], from.lift_m);
-    store<Lanes>(&before_.cam_per_deg_m[first], from.per_deg_m);
+    store<Lanes>(&before_.of[first], start.lift_m);
+    store<Lanes>(&before_.of[Before::kVelocity + first], start.velocity_m_s);
+    store<Lanes>(&before_.of[Before::kIncrement + first], step.increment_m);
+    store<Lanes>(&before_.of[Before::kCamLift + first], from.lift_m);
+    store<Lanes>(&before_.of[Before::kCamPerDeg + first], from.per_deg_m);
   }
 
   template <class Lanes>

@@ -26,7 +26,8 @@ class PlainSteps {
   /// Steps all active valves. Returns those whose guards fail; `before` has where their steps started.
   [[nodiscard, gnu::always_inline]] Bits run(const CamTicks<Real, S>& cams, Before& before) noexcept {
     if constexpr (Valves::kInLanes) return valves_.wide ? step_wide(cams, before) : step_in_lanes<false>(cams, before);
-    return step_scalar(valves_.work.active, cams, before);
+    return valves_.wide ? step_scalar_wide(valves_.work.active, cams, before)
+                        : step_scalar<false>(valves_.work.active, cams, before);
   }
 
   /// Deactivates valves at rest whose cams are away. At the end of the tick: it hands their lanes to others.
@@ -38,34 +39,42 @@ class PlainSteps {
 
  private:
   /// Steps some valves one by one. Returns those whose guards fail.
-  [[nodiscard]] Bits step_scalar(Bits which, const CamTicks<Real, S>& cams, Before& before) noexcept {
+  template <bool Wide>
+  [[nodiscard, gnu::always_inline]] Bits step_scalar(Bits which, const CamTicks<Real, S>& cams,
+                                                     Before& before) noexcept {
     Bits failed = 0;
     for (Bits left = which; left != 0; left &= left - 1) {
       const std::uint32_t v = trailing_zeros(left);
-      if (!step_and_check(v, cams[valves_.train(v)], before)) failed |= Bits{1} << v;
+      if (!step_and_check<Wide>(v, cams[valves_.train(v)], before)) failed |= Bits{1} << v;
     }
     return failed;
   }
 
+  [[nodiscard, gnu::noinline]] Bits step_scalar_wide(Bits which, const CamTicks<Real, S>& cams,
+                                                     Before& before) noexcept {
+    return step_scalar<true>(which, cams, before);
+  }
+
   /// False where a guard fails: event location then starts again from `before`.
+  template <bool Wide>
   [[nodiscard, gnu::always_inline]] bool step_and_check(std::uint32_t v, const CamTick<Real>& tick,
                                                         Before& before) noexcept {
     const Cell cell = valves_.cell(v, tick.phase);
     const Gas gas = valves_.gas_on(v);
     const RegimeStep<Real>& regime = valves_.regime_of(v);
     const ValveState<Real> start = valves_.state_of(v);
-    if (cell.degree >= valves_.curve(v).segments && is_decoupled(v, start, regime, tick, gas))
+    if (cell.degree >= valves_.curve(v).segments && is_decoupled<Wide>(v, start, regime, tick, gas))
       return step_seated(v, start, regime, cell, gas, before);
     const Lift<Real> from = valves_.cam(v);
     const Lift<Real> to = valves_.curve(v).read(cell);
     Stepped<Real> step = stepped(regime, start, from, to, tick.cam.deg, gas);
-    if (valves_.wide) step = valves_.with_middle_of_tick(v, tick, step, to);
+    if constexpr (Wide) step = valves_.with_middle_of_tick(v, tick, step, to);
     ValveState<Real> end = step.state;
     Real compression_m = to.lift_m - end.lift_m;
     Real compression_speed_m_s = tick.cam.deg_per_s * to.per_deg_m - end.velocity_m_s;
     const bool pass = passes(regime.train, compression_m, compression_speed_m_s) &&
                       passes(regime.seat, end.lift_m, end.velocity_m_s) &&
-                      !(valves_.beyond_guards && is_beyond_guards(v, tick));
+                      !(Wide && valves_.beyond_guards && is_beyond_guards(v, tick));
     const bool at_rest = snap_to_rest(v, regime, gas, end);
     if (S::valve_forces && at_rest) {  // as the output has it
       compression_m = to.lift_m - end.lift_m;
@@ -97,9 +106,10 @@ class PlainSteps {
 
   /// Whether a valve oscillates on its seat by so little that its cam, on the base circle, cannot matter. Gas moves the
   /// place about which it oscillates.
+  template <bool Wide>
   [[nodiscard]] bool is_decoupled(std::uint32_t v, const ValveState<Real>& s, const RegimeStep<Real>& regime,
                                   const CamTick<Real>& tick, const Gas& gas) const noexcept {
-    if (valves_.beyond_guards && magnitude(tick.cam.deg) >= valves_.work.skip_deg) return false;
+    if (Wide && valves_.beyond_guards && magnitude(tick.cam.deg) >= valves_.work.skip_deg) return false;
     const ValveMotion<Real>& m = valves_.motion(v);
     if constexpr (Needs<S>::valve_push) {
       const Real was_m = gas.rested_m(m.per_seat_N_m);
@@ -178,17 +188,16 @@ class PlainSteps {
   void record(std::uint32_t v, const CamTick<Real>& tick, const Before& before) noexcept {
     const Gas gas = valves_.gas_on(v);
     const std::uint32_t lane = valves_.lane_of(v);
-    const ValveState<Real> start{before.lift_m[lane], before.velocity_m_s[lane]};
+    const ValveState<Real> start = before.state(lane);
     const ValveState<Real> end = valves_.state_of(v);
     const Lift<Real> to = valves_.cam(v);
     const Real acceleration_m_s2 = acceleration(valves_.regime_of(v).acceleration, end, to.lift_m - end.lift_m,
                                                 tick.cam.deg_per_s * to.per_deg_m - end.velocity_m_s, gas);
     if (valves_.cell(v, tick.phase).degree >= valves_.curve(v).segments &&
-        is_decoupled(v, start, valves_.regime_of(v), tick, gas)) {
+        is_decoupled<true>(v, start, valves_.regime_of(v), tick, gas)) {
       valves_.state.record[valves_.train(v)][valves_.cylinder(v)].rest(end, acceleration_m_s2);
     } else {
-      valves_.record(v, start, end, {before.cam_lift_m[lane], before.cam_per_deg_m[lane]}, to, tick, gas,
-                     acceleration_m_s2);
+      valves_.record(v, start, end, before.cam(lane), to, tick, gas, acceleration_m_s2);
     }
     if constexpr (Valves::kKeepsGas) valves_.state.valve_gas_N[v] = gas.to_N;
     valves_.load_record(v);
@@ -212,7 +221,7 @@ class PlainSteps {
           __attribute__((always_inline)) {
         const std::uint32_t done = blocks.step(first, lanes, room);
         const Bits rest = done < lanes ? ((Bits{1} << (lanes - done)) - 1) << (first + done) : 0;
-        if (rest != 0) failed |= step_scalar(valves_.valves_in(rest), cams, before);
+        if (rest != 0) failed |= step_scalar<Wide>(valves_.valves_in(rest), cams, before);
       };
       if constexpr (Valves::kActiveFirst) {
         step_row(0, valves_.work.active_lanes, valves_.trains() * cylinders);

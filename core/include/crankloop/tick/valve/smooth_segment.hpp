@@ -98,16 +98,6 @@ struct SmoothSegment {
   ValveState<Real> from, to;
   Real increment_m;
   Real acceleration[2];
-  Contact<Real> train, seat;
-
-  /// The event function of a contact over the segment, 0 to 1: it changes sign where the contact does. A contact that
-  /// is on ends where its force does. One that is off begins where its depth becomes positive or, if it is already,
-  /// where its force does.
-  [[nodiscard]] Cubic<Real> event_function(const Contact<Real>& c, bool is_on, Real lag_s) const noexcept {
-    const Real lag = !is_on && c.depth_m[0] <= 0 ? Real{0} : lag_s;
-    return Cubic<Real>(c.depth_m[0] + lag * c.speed_m_s[0], d_s * (c.speed_m_s[0] + lag * c.rate_m_s2[0]),
-                       c.depth_m[1] + lag * c.speed_m_s[1], d_s * (c.speed_m_s[1] + lag * c.rate_m_s2[1]));
-  }
 
   /// The state at a fraction of it: the quintic through states and accelerations at both ends.
   [[nodiscard]] ValveState<Real> at(Real x) const noexcept {
@@ -148,20 +138,43 @@ template <class Real, class Gas>
   SmoothSegment<Real> s;
   s.d_s = left * motion.fine_step_s;
   s.from = valve.state, s.to = end.state, s.increment_m = end.increment_m;
-  Contact<Real>& train = s.train;
-  train.depth_m[0] = lift.c[0] - s.from.lift_m, train.depth_m[1] = step.to.lift_m - s.to.lift_m;
-  train.speed_m_s[0] = lift.c[1] * per_s - s.from.velocity_m_s;
-  train.speed_m_s[1] = step.cam.deg_per_s * step.to.per_deg_m - s.to.velocity_m_s;
-  s.acceleration[0] = acceleration(force, s.from, train.depth_m[0], train.speed_m_s[0], gas.between(0, 0));
-  s.acceleration[1] = acceleration(force, s.to, train.depth_m[1], train.speed_m_s[1], gas);
-  train.rate_m_s2[0] = 2 * lift.c[2] * (per_s * per_s) - s.acceleration[0];
-  train.rate_m_s2[1] = (2 * lift.c[2] + 6 * left * lift.c[3]) * (per_s * per_s) - s.acceleration[1];
-  Contact<Real>& seat = s.seat;
-  seat.depth_m[0] = motion.body.seat_compression_m - s.from.lift_m,
-  seat.depth_m[1] = motion.body.seat_compression_m - s.to.lift_m;
-  seat.speed_m_s[0] = -s.from.velocity_m_s, seat.speed_m_s[1] = -s.to.velocity_m_s;
-  seat.rate_m_s2[0] = -s.acceleration[0], seat.rate_m_s2[1] = -s.acceleration[1];
+  const Real depth_m[] = {lift.c[0] - s.from.lift_m, step.to.lift_m - s.to.lift_m};
+  const Real speed_m_s[] = {lift.c[1] * per_s - s.from.velocity_m_s,
+                            step.cam.deg_per_s * step.to.per_deg_m - s.to.velocity_m_s};
+  s.acceleration[0] = acceleration(force, s.from, depth_m[0], speed_m_s[0], gas.between(0, 0));
+  s.acceleration[1] = acceleration(force, s.to, depth_m[1], speed_m_s[1], gas);
   return s;
+}
+
+/// The train's contact over it.
+template <class Real, class Gas>
+[[nodiscard]] inline Contact<Real> train_over(const ValveMotion<Real>& motion, const SmoothSegment<Real>& s,
+                                              const Cubic<Real>& lift, Real left,
+                                              const Span<Real, Gas>& step) noexcept {
+  const Real per_s = motion.per_fine_step_s;
+  return {{lift.c[0] - s.from.lift_m, step.to.lift_m - s.to.lift_m},
+          {lift.c[1] * per_s - s.from.velocity_m_s, step.cam.deg_per_s * step.to.per_deg_m - s.to.velocity_m_s},
+          {2 * lift.c[2] * (per_s * per_s) - s.acceleration[0],
+           (2 * lift.c[2] + 6 * left * lift.c[3]) * (per_s * per_s) - s.acceleration[1]}};
+}
+
+/// The seat's.
+template <class Real>
+[[nodiscard]] inline Contact<Real> seat_over(const ValveMotion<Real>& motion, const SmoothSegment<Real>& s) noexcept {
+  const Real contact_m = motion.body.seat_compression_m;
+  return {{contact_m - s.from.lift_m, contact_m - s.to.lift_m},
+          {-s.from.velocity_m_s, -s.to.velocity_m_s},
+          {-s.acceleration[0], -s.acceleration[1]}};
+}
+
+/// The event function of a contact over a segment of `d_s`, 0 to 1: it changes sign where the contact does. A contact
+/// that is on ends where its force does. One that is off begins where its depth becomes positive or, if it is already,
+/// where its force does.
+template <class Real>
+[[nodiscard]] inline Cubic<Real> event_function(const Contact<Real>& c, bool is_on, Real lag_s, Real d_s) noexcept {
+  const Real lag = !is_on && c.depth_m[0] <= 0 ? Real{0} : lag_s;
+  return Cubic<Real>(c.depth_m[0] + lag * c.speed_m_s[0], d_s * (c.speed_m_s[0] + lag * c.rate_m_s2[0]),
+                     c.depth_m[1] + lag * c.speed_m_s[1], d_s * (c.speed_m_s[1] + lag * c.rate_m_s2[1]));
 }
 
 /// A wide fine step with what the cam's lift in its middle adds.
@@ -182,17 +195,11 @@ template <class Real>
   return contact == kTrainOn && magnitude(cam.lift_m - end.lift_m) < motion.fine[kSeatOn].rest_m;
 }
 
-/// A contact that changes and changes back within a segment: its event function has an extremum beyond zero.
+/// Whether a contact changes and changes back within a segment: its event function has an extremum beyond zero.
 template <class Real>
-[[nodiscard]] inline std::uint32_t grazing_event(const ValveMotion<Real>& motion, const SmoothSegment<Real>& s,
-                                                 std::uint32_t regime) noexcept {
-  const auto grazes = [&](const Contact<Real>& c, bool is_on, Real lag_s) {
-    const Cubic<Real> f = s.event_function(c, is_on, lag_s);
-    const Real sign = is_on ? Real{1} : Real{-1};
-    return sign * f.c[1] < 0 && sign * (f.c[1] + 2 * f.c[2] + 3 * f.c[3]) > 0 && sign * f.at(f.extremum()).value < 0;
-  };
-  if (grazes(s.train, (regime & kTrainOn) != 0, motion.train_lag_s)) return kTrainOn;
-  return grazes(s.seat, (regime & kSeatOn) != 0, motion.seat_lag_s) ? kSeatOn : 0u;
+[[nodiscard]] inline bool grazes(const Cubic<Real>& f, bool is_on) noexcept {
+  const Real sign = is_on ? Real{1} : Real{-1};
+  return sign * f.c[1] < 0 && sign * (f.c[1] + 2 * f.c[2] + 3 * f.c[3]) > 0 && sign * f.at(f.extremum()).value < 0;
 }
 
 /// Where an event function that has the same sign at both ends first changes it: before its extremum.

@@ -147,29 +147,46 @@ template <class Held, class Number>
   return g.sign * place_m - g.lag_s * magnitude(speed_m_s) > g.least_m;
 }
 
-/// Where steps started, by lane: event location goes back there if a guard fails.
+/// Where steps started, by lane: event location goes back there if a guard fails. One array, so that a lane's numbers
+/// have one address.
 template <class Real, std::size_t Lanes>
 struct BeforeStep {
-  Real lift_m[Lanes], velocity_m_s[Lanes], increment_m[Lanes], cam_lift_m[Lanes], cam_per_deg_m[Lanes];
+  Real of[5 * Lanes];  ///< lifts, and from these rows on:
+  static constexpr std::size_t kVelocity = Lanes, kIncrement = 2 * Lanes, kCamLift = 3 * Lanes, kCamPerDeg = 4 * Lanes;
 
   constexpr void keep(std::size_t lane, const ValveState<Real>& s, Real rise, const Lift<Real>& cam) noexcept {
-    lift_m[lane] = s.lift_m, velocity_m_s[lane] = s.velocity_m_s, increment_m[lane] = rise;
-    cam_lift_m[lane] = cam.lift_m, cam_per_deg_m[lane] = cam.per_deg_m;
+    Real* const at = of + lane;
+    at[0] = s.lift_m, at[kVelocity] = s.velocity_m_s, at[kIncrement] = rise;
+    at[kCamLift] = cam.lift_m, at[kCamPerDeg] = cam.per_deg_m;
   }
+  [[nodiscard]] constexpr ValveState<Real> state(std::size_t lane) const noexcept {
+    return {of[lane], of[lane + kVelocity]};
+  }
+  [[nodiscard]] constexpr Lift<Real> cam(std::size_t lane) const noexcept {
+    return {of[lane + kCamLift], of[lane + kCamPerDeg]};
+  }
+  [[nodiscard]] constexpr Real increment_m(std::size_t lane) const noexcept { return of[lane + kIncrement]; }
 };
+
+/// Whether a state requires the train's contact: its depth and its force are both positive.
+template <class Real>
+[[nodiscard]] constexpr bool requires_train(const ValveMotion<Real>& m, const ValveState<Real>& s,
+                                            const Lift<Real>& lift, Real deg_per_s) noexcept {
+  const Real depth_m = lift.lift_m - s.lift_m;
+  return depth_m > 0 && depth_m + m.train_lag_s * (deg_per_s * lift.per_deg_m - s.velocity_m_s) > 0;
+}
 
 /// The contacts that a state requires: those whose depth and whose force are both positive.
 template <class Real>
 [[nodiscard]] constexpr std::uint32_t required_contacts(const ValveMotion<Real>& m, const ValveState<Real>& s,
                                                         const Lift<Real>& lift, Real deg_per_s) noexcept {
-  const Real train_m = lift.lift_m - s.lift_m;
   const Real seat_m = m.body.seat_compression_m - s.lift_m;
-  const bool train = train_m > 0 && train_m + m.train_lag_s * (deg_per_s * lift.per_deg_m - s.velocity_m_s) > 0;
+  const bool train = requires_train(m, s, lift, deg_per_s);
   const bool seat = seat_m > 0 && seat_m - m.seat_lag_s * s.velocity_m_s > 0;
   return (train ? kTrainOn : 0u) | (seat ? kSeatOn : 0u);
 }
 
-/// No valve lifts so far: one that does is reset to equilibrium.
+/// No valve lifts so far: one that does is put back (put_back()).
 inline constexpr double kMaxLift_m = 1;
 
 /// A valve at rest where its cam stands. Decided by forces, at the places where a contact begins: on a soft seat a
@@ -192,6 +209,14 @@ template <class Real>
     return {{(b.train_N_m * lift_m - down_N) / (b.train_N_m + b.spring_N_m), Real{0}}, kTrainOn};
   }
   return {{(b.train_N_m * lift_m - gas_N) / (b.train_N_m + b.seat_N_m + b.spring_N_m), Real{0}}, kTrainOn | kSeatOn};
+}
+
+/// A valve that is nowhere, put back at rest: on its seat, or onto its cam where that stands higher.
+template <class Real>
+[[nodiscard]] constexpr ValveInRegime<Real> put_back(const ValveMotion<Real>& m, Real cam_lift_m) noexcept {
+  CRANKLOOP_ASSERT(is_finite(cam_lift_m));
+  const Real lift_m = cam_lift_m > 0 ? cam_lift_m : Real{0};
+  return {{lift_m, Real{0}}, lift_m < m.body.seat_compression_m ? kSeatOn : 0u};
 }
 
 /// A valve in equilibrium whose cam turns, in the motion of one that its cam has carried for long: at the cam's speed
