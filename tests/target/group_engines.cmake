@@ -3,10 +3,14 @@
 #
 # for_each_group_engine(FUNCTION VALVES_FILE GAS_FILE): calls FUNCTION(NAME SCENE ENGINE_FILE), the file made from one of both.
 function(for_each_group_engine call valves_file gas_file)
-  # group(NAME SCENE FILE SECTION KEYS): all sections of this name have KEYS besides.
+  # group(NAME SCENE FILE SECTION KEYS): all sections of this name have KEYS besides; "": KEYS stand at the end.
   function(group name scene file section keys)
     file(READ ${file} text)
-    string(REGEX REPLACE "(\n\\[${section}[^]]*\\]\n)" "\\1${keys}\n" text "${text}")
+    if(section)
+      string(REGEX REPLACE "(\n\\[${section}[^]]*\\]\n)" "\\1${keys}\n" text "${text}")
+    else()
+      string(APPEND text "\n${keys}\n")
+    endif()
     set(made ${CMAKE_CURRENT_BINARY_DIR}/${name}.ini)
     file(CONFIGURE OUTPUT ${made} CONTENT "${text}" @ONLY)
     cmake_language(CALL ${call} ${name} ${scene} ${made})
@@ -22,5 +26,7 @@ function(for_each_group_engine call valves_file gas_file)
   group(FiredWalls FiredWalls ${gas_file} gas "wall_J_per_K = 1500\nwall_W_per_K = 20\ncoolant_C = 90")
   group(FiredKnock FiredKnock ${gas_file} gas "octane = 95")
   group(FiredChargeBurn FiredChargeBurn ${gas_file} gas "burn_by = charge")
+  group(FiredLambda FiredLambda ${gas_file} "" "[lambda_sensor]\npipe_cm3 = 500\nlag_s = 0.05")
+  group(FiredSensors FiredSensors ${gas_file} "" "[sensor_fault map]\nsensor = map\nend_s = 1000\noffset = 500\nnoise = 200\ndelay_s = 0.01\nlag_s = 0.005\nleast = 10000\nmost = 120000\nstep = 100")
   set(costs_engines ${costs_engines} PARENT_SCOPE)
 endfunction()

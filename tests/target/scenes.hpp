@@ -137,6 +137,13 @@ struct FiredKnock : Fired {
 struct FiredChargeBurn : Fired {
   static constexpr bool charge_burn = true;
 };
+struct FiredLambda : Fired {
+  static constexpr std::uint32_t lambda_parcels = 32;
+};
+struct FiredSensors : Fired {
+  static constexpr bool controller_names = true;
+  static constexpr bool sensor_faults = true;
+};
 
 /// The same scene with all that it can show of its valves' motion.
 template <class S>

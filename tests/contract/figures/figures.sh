@@ -83,7 +83,7 @@ scenes() {
 
 # What one group of results or part of the gas takes beside a scene without: scenes of tests/target.
 valve_groups='ElasticValves SurgingValves CamContactValves CamTorqueValves'
-gas_groups='Fired FiredCrevice FiredBlowBy FiredRunners FiredWalls FiredKnock FiredChargeBurn'
+gas_groups='Fired FiredCrevice FiredBlowBy FiredRunners FiredWalls FiredKnock FiredChargeBurn FiredLambda FiredSensors'
 group_ticks=6000  # two cycles at 2000 rpm and 20 us
 
 group_row() {

@@ -94,8 +94,8 @@ groups() {
     function more(a, b) { return sprintf("%+d", a - b) }
     function two(a, b,    x, y) { split(a, x, " / "); split(b, y, " / "); return more(x[1], y[1]) " / " more(x[2], y[2]) }
     BEGIN {
-      split("SurgingValves CamContactValves CamTorqueValves FiredCrevice FiredBlowBy FiredRunners FiredWalls FiredKnock FiredChargeBurn", order, " ")
-      split("spring surge, two modes|contact of the cams|torque of the cams, friction|crevices|crevices, blow-by|runners, intake and exhaust|warm walls|knock|burn by charge", name, "|")
+      split("SurgingValves CamContactValves CamTorqueValves FiredCrevice FiredBlowBy FiredRunners FiredWalls FiredKnock FiredChargeBurn FiredLambda FiredSensors", order, " ")
+      split("spring surge, two modes|contact of the cams|torque of the cams, friction|crevices|crevices, blow-by|runners, intake and exhaust|warm walls|knock|burn by charge|lambda behind a pipe|names and a faulty sensor of a controller", name, "|")
     }
     FNR == 1 { ++page; cycles = 0 }
     page == 1 && /^\| scene, one group each/ { groups = 1 }
