@@ -225,7 +225,7 @@ TEST_F(Live, RefusesWhatCannotBeRunInOneLineAndAUsage) {
       {{"--tick-us", "33.33333"}, "crankloop live: --tick-us 33.33333 is not a whole number of nanoseconds"},
       {{"--seconds", "0"}, "crankloop live: --seconds: 0 is out of range; allowed: above 0"},
       {{"--from-rpm", "61000"}, "crankloop live: 61000 rpm is beyond the engine's max_rpm of 3000"},
-      {{"--cpu", "1023", "--seconds", "0.01"}, "crankloop live: --cpu 1023: Invalid argument"},
+      {{"--cpu", "1023", "--seconds", "0.01"}, "crankloop live: --cpu 1023: this process may not use such a processor"},
       {{"--shared", block_path()}, block_path() + ": exists and is no block of crankloop live"},
       {{"--shared", folder_ / "none/block"}, folder_ / "none/block: cannot be created"},
   };

@@ -58,6 +58,7 @@ inline double input_at(const std::string& name, long k, double step_s) {
   if (name == "starter") return second < 0.3 ? 1 : 0;
   if (name == "cut_cylinders") return static_cast<double>(k / 100 % 4);
   if (name == "wheel_faults") return static_cast<double>(k / 70 % 4);
+  if (name == "sensor_faults") return static_cast<double>(k / 90 % 4);
   if (name == "by_spark_advance") return static_cast<double>(k / 400 % 2);
   if (name.compare(0, 13, "spark_advance") == 0) return k % 900 == 899 ? 91 : 20 + 25 * std::sin(second);
   if (name == "throttle_ratio") return bad ? -1 : 0.5 - 0.5 * std::cos(second * 2);
