@@ -96,7 +96,8 @@ function(crankloop_add_fmu name dir program optimization)
     list(APPEND all_headers ${found})
     file(GLOB found "${include_dir}/crankloop/*.hpp" "${include_dir}/crankloop/version.h")
     list(APPEND headers ${found})
-    file(GLOB found "${include_dir}/crankloop/fmi" "${include_dir}/crankloop/tables" "${include_dir}/crankloop/tick")
+    file(GLOB found "${include_dir}/crankloop/fmi" "${include_dir}/crankloop/tables" "${include_dir}/crankloop/tick"
+      "${include_dir}/crankloop/variables")
     list(APPEND folders ${found})
   endforeach()
 

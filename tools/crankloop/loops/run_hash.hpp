@@ -51,10 +51,12 @@ void add_tick(BitHash& hash, const Engine<Real, S>& engine, const detail::Engine
                              engine.output(), shape);
 }
 
-/// The ready-made scene of `run --free` without a controller's names, which say some of its numbers once more.
+/// The ready-made scene of `run --free` without a controller's names, which say some of its numbers once more, and
+/// without the faults of its sensors.
 template <class S>
 struct FreeShown : std::conditional_t<detail::Needs<S>::gas, scenes::BreathingFree, scenes::FreeRunning> {
   static constexpr bool controller_names = false;
+  static constexpr bool sensor_faults = false;
 };
 
 }  // namespace crankloop::program
