@@ -15,6 +15,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -28,7 +29,11 @@ class Fnv {
  public:
   template <class T>
   void add(const T& x) {
-    const std::uint64_t bits = detail::word_of(x);
+    std::uint64_t bits;
+    if constexpr (std::is_integral_v<T>)
+      bits = static_cast<std::uint64_t>(x);
+    else
+      bits = detail::word_of(x);
     for (std::size_t i = 0; i < sizeof x; ++i) {
       hash_ ^= (bits >> (8 * i)) & 0xFFu;
       hash_ *= 0x100000001B3u;
