@@ -261,6 +261,26 @@ struct Plain : Cylinder {
   static constexpr bool crevice = false;
 };
 
+TYPED_TEST(GasCrevice, ShowsWhatItHoldsWithALeakAndWithout) {
+  using Real = TypeParam;
+  const double per_Pa = 0.02 * kSwept_m3 / 9.5 / (kGasR * 423.15);  // V_cr / (R T_w)
+  for (const double leak_mm2 : {0.0, 0.1}) {
+    const auto run = breathing<Real>(engine_with(0.02, leak_mm2), 50e-6, 3000, GasSeen{102e3, 900, 1});
+    int closed = 0;
+    for (int tick = 0; tick < 1600; ++tick) {
+      const auto& out = run->step();
+      const auto& state = run->engine.state();
+      ASSERT_EQ(out.crevice[0].mass_kg, state.crevice_gas.mass_kg[0]) << leak_mm2 << ", " << tick;
+      if (state.cylinder_gas.area_m2[kIntake][0] + state.cylinder_gas.area_m2[kExhaust][0] > 0) continue;
+      const double expected_kg = per_Pa * static_cast<double>(out.cylinder_gas[0].pressure_Pa);
+      ASSERT_NEAR(static_cast<double>(out.crevice[0].mass_kg), expected_kg, 0.02 * expected_kg)
+          << leak_mm2 << ", " << tick;
+      ++closed;
+    }
+    EXPECT_GT(closed, 500);
+  }
+}
+
 TYPED_TEST(GasCrevice, ChangesNoBitWhereTheEngineHasNone) {
   using Real = TypeParam;
   const EngineDefinition definition = engine_with(0, 0, 30e-6);

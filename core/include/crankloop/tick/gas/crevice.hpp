@@ -1,16 +1,14 @@
-// Crevices of a cylinder (top land, ring pack, gasket, plug) and its leak past
-// the rings, over one step. docs/model.md "Crevices and blow-by".
+// Crevices of a cylinder (top land, ring pack, gasket, plug) and its leak past the rings, over one step. docs/model.md
+// "Crevices and blow-by".
 //
-// What belongs here: what a crevice takes from its cylinder and gives back,
-// what leaves it for the crankcase. What does not: the cylinder's own step
-// (cylinder_gas.hpp).
+// What belongs here: what a crevice takes from its cylinder and gives back, what leaves it for the crankcase. What does
+// not: the cylinder's own step (cylinder_gas.hpp).
 //
-//     m_cr = c p,  c = V_cr / (R T_w);   w = dm_cr/dt + w_bb leaves the
-//     cylinder, w_bb the crevice for the crankcase Namazian and Heywood, SAE
-//     820088, with one volume
+//     m_cr = c p,  c = V_cr / (R T_w);   w = dm_cr/dt + w_bb leaves the cylinder, w_bb the crevice for the crankcase
+//     Namazian and Heywood, SAE 820088, with one volume
 //
-// Implicit: by the pressure at the start of the step a crevice would lag by a
-// step, which is work (1.4 kPa of mean pressure at 50 us).
+// Implicit: by the pressure at the start of the step a crevice would lag by a step, which is work (1.4 kPa of mean
+// pressure at 50 us).
 #pragma once
 
 #include <crankloop/tick/gas/cylinder_gas.hpp>
@@ -25,8 +23,7 @@ struct CreviceStep {
   T wall_heat_J;  ///< what of it their walls took
 };
 
-/// A step whose cylinder had to be put back, by one lane: its crevices are
-/// filled anew.
+/// A step whose cylinder had to be put back, by one lane: its crevices are filled anew.
 template <class T>
 [[gnu::always_inline]] inline void drop_nonsense(CreviceStep<T>& step, int i) noexcept {
   for (T* x : {&step.blow_by_kg, &step.lost_J, &step.wall_heat_J}) put_lane(*x, i, NumberOf<T>{0});
@@ -37,8 +34,7 @@ template <class Real>
   return table.leak_kg_s_Pa > 0;
 }
 
-/// Through the leak in a step, by the conductance at the step's mean pressure:
-/// regular where pressures are equal.
+/// Through the leak in a step, by the conductance at the step's mean pressure: regular where pressures are equal.
 template <class T, class Table>
 [[nodiscard, gnu::always_inline]] inline T blow_by_kg(const Table& table, const T& mean_Pa, const T& per_kg_Pa,
                                                       NumberOf<T> step_s) noexcept {
@@ -59,8 +55,7 @@ template <class T, class Table>
   return conductance * apart_Pa / (Real{1} + conductance * per_kg_Pa);
 }
 
-/// Sets a sum; answers by how much that moved it, which is exact: a number as
-/// large as half of either.
+/// Sets a sum; answers by how much that moved it, which is exact: a number as large as half of either.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline T move_to(T& sum, const T& to) noexcept {
   const T moved = to - sum;
@@ -68,11 +63,9 @@ template <class T>
   return moved;
 }
 
-/// The step of a crevice between the closed step of its cylinder and the flow
-/// through the ports: moves gas from the sums that the cylinder gains, and its
-/// temperature and work. Answers how much of a kilogram that flows through a
-/// port goes to the crevice, for each that stays. `table`: GasCrevice, or
-/// WarmCrevice of T.
+/// The step of a crevice between the closed step of its cylinder and the flow through the ports: moves gas from the
+/// sums that the cylinder gains, and its temperature and work. Answers how much of a kilogram that flows through
+/// a port goes to the crevice, for each that stays. `table`: GasCrevice, or WarmCrevice of T.
 template <class T, bool kLeaks, class Table>
 [[nodiscard, gnu::always_inline]] inline T step_crevice(CreviceGas<T>& crevice, const Table& table,
                                                         const CylinderGas<T>& gas, NumberOf<T> step_s,
@@ -85,8 +78,7 @@ template <class T, bool kLeaks, class Table>
   const T hot_K = closed.temperature_K;
   const T end_K = either<T>(
       gain.mass_kg > Real{0},
-      [&] {  // of the heat of what burned, what makes its mass and its burned
-             // gas as warm as the rest
+      [&] {  // of the heat of what burned, what makes its mass and its burned gas as warm as the rest
         const T makes_J_K = gain.mass_kg * (Real{646} + b / 2 * hot_K) + gain.burned_kg * Real{93};
         return hot_K - makes_J_K * closed.gas_ratio * kPerGasConstant<Real> * hot_K / mass_kg;
       },
@@ -122,8 +114,7 @@ template <class T, bool kLeaks, class Table>
   if constexpr (kLeaks) {
     const T burned_ratio = short_cut<T>(
         both_hold(fills, leak_kg == Real{0}), [] { return T{}; }, mixes);
-    // What the sums of the crevice can show of it, to the last digit: then no
-    // rest of theirs is to be carried.
+    // What the sums of the crevice can show of it, to the last digit: then no rest of theirs is to be carried.
     taken_kg = leak_kg + move_to(crevice.mass_kg, there_kg - leak_kg);
     const T leaks_burned_kg = where(leak_kg > Real{0}, leak_kg) * burned_ratio;
     const T stays_kg = taken_kg * pick(fills, cylinder_ratio, burned_ratio) - leaks_burned_kg;

@@ -1,8 +1,6 @@
-// The crevices of an engine's cylinders over a step, those of several cylinders
-// abreast.
+// The crevices of an engine's cylinders over a step, those of several cylinders abreast.
 //
-// What belongs here: the cylinder's step with them, what is shown of them. What
-// does not: the step of one (crevice.hpp).
+// What belongs here: the cylinder's step with them, what is shown of them. What does not: the step of one (crevice.hpp).
 #pragma once
 
 #include <cstdint>
@@ -28,8 +26,7 @@ template <class T>
   return WarmCrevice<T>(table, walls.temperature_K);
 }
 
-/// Steps the gas of cylinder `k`, or of lanes, with its crevices where the
-/// engine has some.
+/// Steps the gas of cylinder `k`, or of lanes, with its crevices where the engine has some.
 template <class T, class Real, class S, class Walls, class Far>
 [[nodiscard, gnu::always_inline]] inline CylinderStep<T> step_with_crevices(
     const Tables<Real, S>& tables, [[maybe_unused]] State<Real, S>& state, CylinderGas<T>& gas,
@@ -55,17 +52,17 @@ template <class T, class Real, class S, class Walls, class Far>
   }
 }
 
-/// Shows and records what blew by.
+/// Shows what they hold; shows and records what blew by.
 template <class T, class Real, class S>
 [[gnu::always_inline]] inline void show_crevices(const Tables<Real, S>& tables, State<Real, S>& state,
                                                  Output<Real, S>& out, const CreviceStep<T>& step,
                                                  std::uint32_t k) noexcept {
   for (int i = 0; i < kLanesIn<T>; ++i) {
     const std::uint32_t one = k + static_cast<std::uint32_t>(i);
-    if (!leaks(*tables.gas_crevice)) continue;
-    const Real blow_by_kg = lane(step.blow_by_kg, i);
     CreviceOutput<Real>& shown = out.crevice[one];
     shown.mass_kg = state.crevice_gas.mass_kg[one];
+    if (!leaks(*tables.gas_crevice)) continue;
+    const Real blow_by_kg = lane(step.blow_by_kg, i);
     shown.blow_by_kg_s += blow_by_kg * tables.drive->per_tick_s;
     if constexpr (S::gas_results) state.cycle_blow_by_kg[one] += blow_by_kg;
   }
