@@ -1,6 +1,7 @@
 // The crevices of an engine's cylinders over a step, those of several cylinders abreast.
 //
-// What belongs here: the cylinder's step with them, what is shown of them. What does not: the step of one (crevice.hpp).
+// What belongs here: the cylinder's step with them, what is shown of them. What does not: the step of one
+// (crevice.hpp).
 #pragma once
 
 #include <cstdint>
