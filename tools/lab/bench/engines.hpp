@@ -1,6 +1,6 @@
 // The engines of the benchmark as structs, so that the program needs no files.
 //
-// What belongs here: definitions. What does not: measurements. tests/unit/bench_test.cpp compares them with
+// What belongs here: definitions. What does not: measurements. tests/tools/bench_test.cpp compares them with
 // tools/engines.
 #pragma once
 
