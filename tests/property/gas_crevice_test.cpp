@@ -354,6 +354,26 @@ TYPED_TEST(GasCrevice, GoesOnFromItsSavedState) {
   EXPECT_TRUE(support::refuses(load_state(bytes.data(), bytes.size(), run->engine), Reason::inconsistent, "state.gas"));
 }
 
+/// Gas that leaves takes its share of what burned with it: so the share that stays is what it was, however little that
+/// is.
+TYPED_TEST(GasCrevice, KeepsItsShareOfBurnedGasWhileItEmpties) {
+  using Real = TypeParam;
+  for (const double blow_by_mm2 : {0.0, 0.1}) {
+    for (const double share : {0.1, 0.7, 1.0}) {
+      const auto run = breathing<Real>(engine_with(1e-5, blow_by_mm2), 20e-6, 0, GasSeen{102e3, 900, 1});
+      (void)run->step();
+      auto state = run->engine.state();
+      state.crevice_gas.mass_kg[0] = 20 * state.cylinder_gas.mass_kg[0];
+      state.crevice_gas.burned_kg[0] = static_cast<Real>(share) * state.crevice_gas.mass_kg[0];
+      ASSERT_TRUE(accepted(run->engine.restore(state)));
+      (void)run->step();
+      const auto& left = run->engine.state().crevice_gas;
+      ASSERT_LT(left.mass_kg[0], static_cast<Real>(1e-4) * state.crevice_gas.mass_kg[0]);  // all but empty
+      EXPECT_NEAR(left.burned_kg[0] / left.mass_kg[0], share, 2e-6) << blow_by_mm2;
+    }
+  }
+}
+
 /// Any engine, any input: a number comes out, and a crevice never holds less than nothing.
 TYPED_TEST(GasCrevice, StaysANumberWhateverComesIn) {  // CRANKLOOP_LONG_TESTS=1: 20 000 engines
   using Real = TypeParam;

@@ -110,20 +110,22 @@ template <class T, bool kLeaks, class Table>
     const T most = ratio < Real{1} ? ratio : spread<T>(1);
     return most > Real{0} ? most : T{};
   };
+  // What mixes keeps the share of the mixture: a crevice that has all but emptied would else show the digits that its
+  // sum has lost as burned gas. Masses move by what their sums can show, so that no rest of theirs is to be carried.
   T burned_kg;
   if constexpr (kLeaks) {
+    const auto unmixed = both_hold(fills, leak_kg == Real{0});
     const T burned_ratio = short_cut<T>(
-        both_hold(fills, leak_kg == Real{0}), [] { return T{}; }, mixes);
-    // What the sums of the crevice can show of it, to the last digit: then no rest of theirs is to be carried.
+        unmixed, [] { return T{}; }, mixes);
     taken_kg = leak_kg + move_to(crevice.mass_kg, there_kg - leak_kg);
-    const T leaks_burned_kg = where(leak_kg > Real{0}, leak_kg) * burned_ratio;
-    const T stays_kg = taken_kg * pick(fills, cylinder_ratio, burned_ratio) - leaks_burned_kg;
-    burned_kg = leaks_burned_kg + move_to(crevice.burned_kg, crevice.burned_kg + stays_kg);
+    const T keeps_kg = pick(unmixed, crevice.burned_kg + taken_kg * cylinder_ratio, burned_ratio * crevice.mass_kg);
+    burned_kg = where(leak_kg > Real{0}, leak_kg) * burned_ratio + move_to(crevice.burned_kg, keeps_kg);
   } else {
-    const T moves_ratio = either<T>(
-        fills, [&] { return cylinder_ratio; }, mixes);
+    const T burned_ratio = either<T>(
+        fills, [] { return T{}; }, mixes);
     taken_kg = move_to(crevice.mass_kg, there_kg);
-    burned_kg = move_to(crevice.burned_kg, crevice.burned_kg + taken_kg * moves_ratio);
+    const T keeps_kg = pick(fills, crevice.burned_kg + taken_kg * cylinder_ratio, burned_ratio * there_kg);
+    burned_kg = move_to(crevice.burned_kg, keeps_kg);
   }
   const T kept_J = taken_kg * table.energy_J_kg + burned_kg * table.burned_more_J_kg;
   const T mean_K = kHalf * (gas.point.temperature_K + end_K);
