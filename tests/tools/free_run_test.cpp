@@ -116,6 +116,17 @@ TEST_F(FreeRunCommand, StartsThe495AndSaysWhatBecameOfIt) {
   }
 }
 
+TEST_F(FreeRunCommand, SaysWhereItsSpeedLimitTookEnergy) {
+  const std::vector<std::string> words = {
+      engine_up_to("2500"), "--free",           "--from-rpm", "2000", "--load-ratio", "1", "--seconds", "1",
+      "--report",           path("report.html")};
+  const std::string summary = run(words);
+  EXPECT_NE(summary.find("  # overspeed\n"), std::string::npos) << summary;
+  EXPECT_GT(line(summary, "energy_defect").first, 0.1);
+  EXPECT_NE(summary.find("what the speed limit took"), std::string::npos) << summary;
+  EXPECT_NE(contents(path("report.html")).find("taken by the speed limit"), std::string::npos);
+}
+
 TEST_F(FreeRunCommand, ABrakeOfConstantTorqueTakesThePlaceOfTheFiles) {
   // At rest the brake holds whatever the gas of a cold cylinder pushes: friction 90 kPa and 1000 Nm.
   const std::string held = run({kSample, "--free", "--machine-Nm", "1000", "--starter", "--seconds", "0.2"});

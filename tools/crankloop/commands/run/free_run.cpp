@@ -218,7 +218,10 @@ std::string summary_text(const EngineFile& file, const FreeRequest& request, con
   s.line("lost_to_friction", f.energy.friction_J, "J");
   s.line("taken_by_load", f.energy.load_J, "J");
   s.line("change_of_kinetic_energy", f.energy.kinetic_J, "J");
-  s.line("energy_defect", f.energy.missing_ratio(), "", "of the largest of these");
+  s.line("energy_defect", f.energy.missing_ratio(), "",
+         f.speed_was_limited()
+             ? "of the largest of these: what the speed limit took, since gas outweighs friction and load"
+             : "of the largest of these");
   for (const MisfireFigures& misfire : f.misfires) {
     const std::string whose = "cylinder_" + std::to_string(misfire.cylinder + 1);
     s.line(whose + "_cycles", std::uint64_t{misfire.counts.cycles});

@@ -57,6 +57,9 @@ struct FreeFigures {
   std::vector<MisfireFigures> misfires;
   GasFigures gas;          ///< of an engine with gas exchange; pressures at the end
   Overview intake_kPa{0};  ///< likewise
+
+  /// The crank reached the speed limit, which takes energy that the balance does not have.
+  [[nodiscard]] bool speed_was_limited() const { return (faults & kFaultOverspeed) != 0; }
 };
 
 /// Runs, writes --csv, --report and --vcd of the results, and prints the summary. `definition` is the file's, with the

@@ -144,7 +144,9 @@ Section energy_section(const FreeReportInput& input) {
                                   : "the exact engine's torque integrated over the angle") +
       "; the kinetic energy follows from the geometry, the energies of starter, friction and load from their power at "
       "the ticks" +
-      (breathes(input.definition) ? "." : ". All are computed independently of the simulation loop.")});
+      (breathes(input.definition) ? "." : ". All are computed independently of the simulation loop.") +
+      (input.figures.speed_was_limited() ? " The crank reached its speed limit, which took the energy that is missing."
+                                         : "")});
   return section;
 }
 
@@ -207,7 +209,7 @@ std::vector<report::Fact> facts(const FreeReportInput& input) {
     list.push_back({"Friction", number(f.friction_Nm), "Nm", "load " + number(f.load_Nm) + " Nm"});
   }
   list.push_back({"Energy balance error", report::format_number(std::fabs(f.energy.missing_ratio()), 2), "",
-                  "of the largest energy"});
+                  f.speed_was_limited() ? "taken by the speed limit" : "of the largest energy"});
   for (const SignalFigures& signal : f.signals) {
     list.push_back({"Edges of " + signal.name, report::format_fixed(static_cast<double>(signal.edges), 0), "",
                     std::to_string(signal.lost) + " lost"});
