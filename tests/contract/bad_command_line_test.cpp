@@ -35,6 +35,9 @@ TEST_F(BadCommandLine, IsToldWithTheUsageOfItsCommand) {
   expect_usage({}, {"a command is missing"});
   expect_usage({"shw"}, {"unknown command 'shw'", "did you mean show?"});
   expect_usage({"help", "kinematic"}, {"did you mean kinematics?"});
+  expect_usage({"help", "run", "extra"},
+               {"crankloop help: unexpected argument 'extra'", "usage: crankloop help [COMMAND]"});
+  expect_usage({"--version", "run"}, {"crankloop --version: unexpected argument 'run'", "usage: crankloop --version"});
   expect_usage({"show"}, {"a file name is missing", "usage: crankloop show FILE"});
   expect_usage({"show", kSample, "another"}, {"unexpected argument 'another'"});
   expect_usage({"show", kSample, "--rpm", "3"}, {"unknown option '--rpm'"});
