@@ -26,7 +26,7 @@ add_area() {
   case $1 in
     gas | crank | trigger | valve) areas="$areas $1=/tick/$1/" ;;
     tabulate) areas="$areas $1=/(tabulate|define)/" ;;
-    fmi) areas="$areas $1=/fmi/" ;;
+    c | fmi) areas="$areas $1=^port/$1/" ;;
     *) usage ;;
   esac
 }
