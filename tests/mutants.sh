@@ -77,7 +77,7 @@ judges=$(for judge in $judges; do echo "$judge"; done | sort -u)
 program_of() { case $1 in behaviour) echo judge ;; *) echo "judge_$1" ;; esac; }
 
 # Sees whether every change compiles, first in the library alone. One that does not is left out; the compiler names its
-# place.
+# line, or the next, in which the expression goes on.
 : >"$build/left_out"
 made=
 while [ -z "$made" ]; do
@@ -88,7 +88,8 @@ while [ -z "$made" ]; do
   for target in core $(for judge in $judges; do program_of "$judge"; done); do
     cmake --build "$build/judge" --target "$target" --parallel "$jobs" >"$build/build.log" 2>&1 && continue
     cut -f 3 "$build/mutants" | sort -u >"$build/changed"
-    sed -n 's#^[^ ]*/\(\(core\|port/c\|port/fmi\)/[a-z_0-9/.]*:[0-9]*\)[:,].*#\1#p' "$build/build.log" | sort -u | comm -12 "$build/changed" - >"$build/refused"
+    sed -n 's#^[^ ]*/\(\(core\|port/c\|port/fmi\)/[a-z_0-9/.]*:[0-9]*\)[:,].*#\1#p' "$build/build.log" |
+      awk -F : '{ print $1 ":" $2; print $1 ":" $2 - 1 }' | sort -u | comm -12 "$build/changed" - >"$build/refused"
     [ -s "$build/refused" ] || { tail -n 40 "$build/build.log" >&2 && exit 1; }
     cat "$build/refused" >>"$build/left_out"
     made=
