@@ -5,13 +5,13 @@
 # named, --only in files whose paths have REGEX, such as tick/valve/. Lanes are left out: they have tests of their own.
 #
 # All mutants of a sample are in one build, with assertions; CRANKLOOP_MUTANT=N makes a run the mutant N. Each is judged
-# by the tests that reach its place, the quickest first, up to the first that fails: by those of behaviour, which are
-# the library's own unit, property and interface tests; and when none of them notices it, by tests/golden, which holds
-# bits. The areas c and fmi, which are folders of port, have tests of behaviour of their own: those of the C interface,
-# and tests/fmi. As many mutants are judged at a time as there are processors. A run is also over after at least twice
-# the processor time that the tests take without a change, or when it asks for 4 GiB. Places that no test reaches, since
-# the compiler has computed there what is to be computed or since tests/coverage_exceptions.conf says why, are listed
-# and replaced by the next of the sample.
+# by the tests that reach its place, the quickest and closest first, up to the first that fails: by those of behaviour,
+# which are the library's own unit, property and interface tests; and when none of them notices it, by tests/golden,
+# which holds bits. The areas c and fmi, which are folders of port, have tests of behaviour of their own: those of the C
+# interface, and tests/fmi. As many mutants are judged at a time as there are processors. A run is also over after at
+# least twice the processor time that the tests take without a change, or when it asks for 4 GiB. Places that no test
+# reaches, since the compiler has computed there what is to be computed or since tests/coverage_exceptions.conf says
+# why, are listed and replaced by the next of the sample.
 #
 # Fails when tests of behaviour notice under 90 % of an area's mutants that are no equivalents, when no test at all
 # notices one that tests/mutants/survivors.conf does not know, or when that file names code that is gone. Last line: "N
@@ -118,22 +118,27 @@ for judge in $judges; do
   cat $parts >"$build/reach-$judge"
 done
 
-# tests_of JUDGE NUMBER: those that reach the mutant's place, the quickest first, together 30 s at most; all where it is
-# reached before any test. Three filters of GoogleTest, of what takes a tenth of a second together, a second, the rest,
-# each behind the seconds that a mutant may take for it.
+# tests_of JUDGE NUMBER: those that reach the mutant's place, first the quickest that reach the fewest places, together
+# 30 s at most; all where it is reached before any test. As filters of GoogleTest, which keeps to no order within one: of
+# what takes a tenth of a second together, then twice as long each time; each behind the seconds that a mutant may take.
 tests_of() {
   awk -v number="$2" '
     {
       here = 0
       for (i = 3; i <= NF; ++i) here = here || $i == number
       if ($1 == "-") before = here
-      else if (here || before) print $2, $1
+      else if (here || before) print ($2 + 1) * NF, $2, $1
     }' "$build/reach-$1" | sort -n | awk '
-    { took += $1 }
-    took <= 30000 { part = (took > 100) + (took > 1000); filter[part] = filter[part] ":" $2 }
+    BEGIN { part = 0 }
+    { took += $2 }
+    took <= 30000 {
+      while (took > 100 * 2 ^ part) ++part
+      ms[part] += $2
+      filter[part] = filter[part] ":" $3
+    }
     END {
-      split("5 10 60", seconds)
-      for (i = 0; i < 3; ++i) if (filter[i] != "") print seconds[i + 1], "--gtest_filter=" substr(filter[i], 2)
+      for (i = 0; i <= part; ++i)
+        if (filter[i] != "") print 5 + int(ms[i] / 500), "--gtest_filter=" substr(filter[i], 2)
     }'
 }
 
