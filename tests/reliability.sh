@@ -114,7 +114,7 @@ port/fmi. Lanes have no mutants, nor has what the compiler alone computes, such 
 3. A mutant that no test detects is either an equivalent, which no test can detect, or survives. tests/mutants/survivors.conf gives the reason for each.
 
 TEXT
-  sed -n 's/^\([a-z]* = .* mutants of .*\)/- \1/p' "$logs/mutants.log"
+  sed -n 's/^[a-z]* = .* mutants of .*\|^[a-z]*: tests of behaviour notice under .*/- &/p' "$logs/mutants.log"
   # shellcheck disable=SC2016  # code in Markdown
   sed -n 's/^by golden bits alone: \(core[^ ]*\|port[^ ]*\)  \([^|]*[^ |]\)  |  \(.*\)/- \1, `\3`, \2: by golden bits alone/p
     s/^\(core[^ ]*\|port[^ ]*\)  \([^|]*[^ |]\)  |  \(.*\): \(equivalent\|survives\): /- \1, `\3`, \2: \4: /p' "$logs/mutants.log"
