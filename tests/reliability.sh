@@ -111,13 +111,15 @@ port/fmi. Lanes have no mutants, nor has what the compiler alone computes, such 
    reach the changed line. The command fails when they detect less than 90 % of an area's mutants, not counting equivalents.
 2. The golden tests judge the rest of core. They hold the bits of every output and so detect nearly everything, but any intended change of bits renews them: what they
    alone detect is counted separately.
-3. A mutant that no test detects is either an equivalent, which no test can detect, or survives. tests/mutants/survivors.conf gives the reason for each.
+3. A mutant that no test detects is either an equivalent, which no test can detect, or survives. tests/mutants/survivors.conf gives the reason for each; below are
+   those that are no equivalents, and what each would spoil.
 
 TEXT
   sed -n 's/^[a-z]* = .* mutants of .*\|^[a-z]*: tests of behaviour notice under .*/- &/p' "$logs/mutants.log"
   # shellcheck disable=SC2016  # code in Markdown
-  sed -n 's/^by golden bits alone: \(core[^ ]*\|port[^ ]*\)  \([^|]*[^ |]\)  |  \(.*\)/- \1, `\3`, \2: by golden bits alone/p
-    s/^\(core[^ ]*\|port[^ ]*\)  \([^|]*[^ |]\)  |  \(.*\): \(equivalent\|survives\): /- \1, `\3`, \2: \4: /p' "$logs/mutants.log"
+  sed -n 's/  |  \(survives: \)/: \1/
+    s/^by golden bits alone: \(core[^ ]*\)  \([^|]*[^ |]\)  |  \(.*\): survives: /- \1, `\3`, \2: by golden bits alone: /p
+    s/^\(core[^ ]*\|port[^ ]*\)  \([^|]*[^ |]\)  |  \(.*\): survives: /- \1, `\3`, \2: survives: /p' "$logs/mutants.log"
   echo
 }
 # tests_of NAME: what GoogleTest says of the run.
