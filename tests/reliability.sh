@@ -119,6 +119,7 @@ TEXT
   # shellcheck disable=SC2016  # code in Markdown
   sed -n 's/  |  \(survives: \)/: \1/
     s/^by golden bits alone: \(core[^ ]*\)  \([^|]*[^ |]\)  |  \(.*\): survives: /- \1, `\3`, \2: by golden bits alone: /p
+    s/^by golden bits alone: \(core[^ ]*\)  \([^|]*[^ |]\)  |  \(.*\)/- \1, `\3`, \2: by golden bits alone/p
     s/^\(core[^ ]*\|port[^ ]*\)  \([^|]*[^ |]\)  |  \(.*\): survives: /- \1, `\3`, \2: survives: /p' "$logs/mutants.log"
   echo
 }
