@@ -129,9 +129,9 @@ class ElasticValves {
     CRANKLOOP_ASSERT(deg <= Real{kDegreesPerTurn / 2});
     if (deg >= valves_.work.wide_deg)
       valves_.wide = true, valves_.beyond_guards = valves_.beyond_guards || deg >= valves_.work.guard_range_deg;
-    const std::uint32_t before = valves_.work.degree[group];
-    valves_.work.degree[group] = tick.degree();
-    return tick.degree() != before;
+    const std::uint32_t before = valves_.work.degree[group], now = tick.degree();
+    valves_.work.degree[group] = now;
+    return now != before;
   }
 
   /// Looks up which cams are near and whose cycles may end, and activates valves whose cams have come near. In a tick
