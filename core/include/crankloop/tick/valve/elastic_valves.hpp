@@ -31,8 +31,10 @@ class ElasticValves {
   using Steps = PlainSteps<Real, S>;
   using Before = typename Steps::Before;
   using Bits = typename Valves::Bits;
+  using Apart = typename Valves::Apart;
 
  public:
+  explicit ElasticValves(const Valves& valves) noexcept : valves_{valves} {}
   /// Pressures are those of each cylinder, where the scene has valve_gas; none at the start.
   ElasticValves(const Tables<Real, S>& tables, State<Real, S>& state, ValvesWork<Real, S>& work, Output<Real, S>& out,
                 const Real* pressure_Pa = nullptr) noexcept
@@ -105,16 +107,14 @@ class ElasticValves {
     Before before;
     Steps steps(valves_);
     const Bits failed = steps.run(cams, before);
-    EventBudget budget{valves_.tables.valve_motions[0].event_budget, false};
-    if (failed != 0) locate_events_in_turn(failed, cams, before, budget);
+    const bool exceeded = failed != 0 && locate_events_in_turn(valves_.apart(), failed, cams.apart(), before);
     if constexpr (Needs<S>::cam_loads) CamsUnderLoad<Real, S>(valves_, cams).run();
     steps.deactivate_resting();
     if constexpr (Needs<S>::surge) SpringStep<Real, S>(valves_).step();
-    CRANKLOOP_ASSERT(budget.left <= valves_.tables.valve_motions[0].event_budget);
     if constexpr (Needs<S>::cycle_ends) {
       end_cycles(cams);
     }
-    return budget.exceeded ? std::uint32_t{kFaultEventBudget} : 0;
+    return exceeded ? std::uint32_t{kFaultEventBudget} : 0;
   }
 
  private:
@@ -139,14 +139,14 @@ class ElasticValves {
   [[gnu::always_inline]] void enter_degrees(const CamTicks<Real, S>& cams) noexcept {
     if constexpr (Needs<S>::valves_rest) {
       const bool may_skip = valves_.beyond_guards && turns_by(cams, valves_.work.skip_deg);
-      const Bits near = may_skip ? all_valves() : valves_at(near_degrees(), cams);
+      const Bits near = may_skip ? all_valves(valves_.apart()) : valves_at(near_degrees(), cams);
       valves_.work.near = near;
       const Bits newly_near = near & ~valves_.work.active;
-      if (newly_near != 0) activate_all(newly_near, cams);
+      if (newly_near != 0) activate_all(valves_.apart(), newly_near, cams.apart());
     }
     if constexpr (Needs<S>::cycle_ends)
       valves_.work.ending =
-          turns_by(cams, Real{kCycleEndMargin_deg}) ? all_valves() : valves_at(valves_.tables.cycle_ends, cams);
+          turns_by(cams, Real{kCycleEndMargin_deg}) ? all_valves(valves_.apart()) : valves_at(valves_.tables.cycle_ends, cams);
   }
   [[nodiscard]] bool turns_by(const CamTicks<Real, S>& cams, Real deg) const noexcept {
     for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g)
@@ -161,7 +161,7 @@ class ElasticValves {
     if (tick.cam.deg == before_deg) return;
     const bool jumps = magnitude(tick.cam.deg - before_deg) > static_cast<Real>(kSpeedJump) * magnitude(tick.cam.deg);
     before_deg = tick.cam.deg;
-    if (jumps) recheck_contacts(tick, group);
+    if (jumps) recheck_contacts(valves_.apart(), {tick.phase, tick.turned, {tick.cam.deg, tick.cam.deg_per_s}}, group);
   }
 
   /// Valves that have their bit at the degrees where their cams stand.
@@ -172,10 +172,10 @@ class ElasticValves {
                 << t * Valves::kPerTrain;
     return valves;
   }
-  [[nodiscard, gnu::cold, gnu::noinline]] Bits all_valves() const noexcept {
-    Bits valves = 0;
-    valves_.for_each([&](std::uint32_t v) { valves |= Bits{1} << v; });
-    return valves;
+  [[nodiscard, gnu::cold, gnu::noinline]] static Bits all_valves(Apart valves) noexcept {
+    Bits all = 0;
+    valves.for_each([&](std::uint32_t v) { all |= Bits{1} << v; });
+    return all;
   }
   [[nodiscard]] const CamDegrees* near_degrees() const noexcept {
     if constexpr (S::valve_forces)
@@ -185,28 +185,28 @@ class ElasticValves {
   }
 
   /// Activates valves, from where their cams stood before the tick.
-  [[gnu::noinline]] void activate_all(Bits which, const CamTicks<Real, S>& cams) noexcept {
+  [[gnu::noinline]] static void activate_all(Apart valves, Bits which, typename CamTicks<Real, S>::Apart cams) noexcept {
     for (Bits left = which; left != 0; left &= left - 1) {
       const std::uint32_t v = trailing_zeros(left);
-      valves_.set_cam(v, valves_.curve(v).read(valves_.cell(v, cams[valves_.train(v)].phase_before())));
-      activate(valves_, v);
+      valves.set_cam(v, valves.curve(v).read(valves.cell(v, cams[valves.train(v)].phase_before())));
+      activate(valves, v);
     }
   }
 
   /// The cams' speed has jumped, and with it the forces of the trains' dampers. Seats know nothing of it.
-  [[gnu::noinline]] void recheck_contacts(const CamTick<Real>& tick, std::uint32_t group) noexcept {
-    for (Bits left = valves_.work.active & valves_.of_group(group); left != 0; left &= left - 1) {
+  [[gnu::noinline]] static void recheck_contacts(Apart valves, const CamTick<Real> tick, std::uint32_t group) noexcept {
+    for (Bits left = valves.work.active & valves.of_group(group); left != 0; left &= left - 1) {
       const std::uint32_t v = trailing_zeros(left);
-      const ValveState<Real> s = valves_.state_of(v);
-      const std::uint32_t before = contacts_of(valves_.state.valve_regime[v]);
-      const bool train = requires_train(valves_.motion(v), s, valves_.cam(v), tick.cam.deg_per_s);
+      const ValveState<Real> s = valves.state_of(v);
+      const std::uint32_t before = contacts_of(valves.state.valve_regime[v]);
+      const bool train = requires_train(valves.motion(v), s, valves.cam(v), tick.cam.deg_per_s);
       if (train == ((before & kTrainOn) != 0)) continue;
       const std::uint32_t regime = before ^ kTrainOn;
-      valves_.set_regime(v, regime);
+      valves.set_regime(v, regime);
       if constexpr (S::valve_results) {
-        const Real deg = valves_.curve(v).degrees(tick.phase_before() - valves_.curve(v).opens[valves_.cylinder(v)]);
-        valves_.state.record[valves_.train(v)][valves_.cylinder(v)].event(before, regime, s.velocity_m_s, deg);
-        valves_.load_record(v);
+        const Real deg = valves.curve(v).degrees(tick.phase_before() - valves.curve(v).opens[valves.cylinder(v)]);
+        valves.state.record[valves.train(v)][valves.cylinder(v)].event(before, regime, s.velocity_m_s, deg);
+        valves.load_record(v);
       }
     }
   }
@@ -214,8 +214,14 @@ class ElasticValves {
   // ---- event location ---------------------------------------------------------------------------------------------
 
   /// Another valve comes first in every tick: the first may spend the budget.
-  [[gnu::noinline]] void locate_events_in_turn(Bits failed, const CamTicks<Real, S>& cams, const Before& before,
-                                               EventBudget& budget) noexcept {
+  [[nodiscard, gnu::noinline]] static bool locate_events_in_turn(Apart valves, Bits failed,
+                                                                 typename CamTicks<Real, S>::Apart cams,
+                                                                 const Before& before) noexcept {
+    return ElasticValves(valves).locate_events_in_turn(failed, cams, before);
+  }
+  [[nodiscard, gnu::always_inline]] bool locate_events_in_turn(Bits failed, const CamTicks<Real, S>& cams,
+                                                               const Before& before) noexcept {
+    EventBudget budget{valves_.tables.valve_motions[0].event_budget, false};
     const std::uint32_t first = static_cast<std::uint32_t>(valves_.state.ticks) % Valves::kMaxValves;
     constexpr Bits kAll = (Bits{1} << (Valves::kMaxValves - 1) << 1) - 1;
     const Bits from_first = failed >> first | (failed << (Valves::kMaxValves - 1 - first) << 1 & kAll);
@@ -225,6 +231,8 @@ class ElasticValves {
       CRANKLOOP_ASSERT((failed >> valve & 1) != 0);
       locate_events(valve, cams[valves_.train(valve)], before, budget);
     }
+    CRANKLOOP_ASSERT(budget.left <= valves_.tables.valve_motions[0].event_budget);
+    return budget.exceeded;
   }
 
   void locate_events(std::uint32_t v, const CamTick<Real>& tick, const Before& before, EventBudget& budget) noexcept {

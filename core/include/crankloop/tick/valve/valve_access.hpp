@@ -77,6 +77,16 @@ struct ValveAccess : If<Needs<S>::surge, SpringPush<Real, S>> {
   bool beyond_guards = false;  ///< or even beyond some guards' range
   NoRecord<Real> no_record{};
 
+  /// For a call of a function of its own: made anew there, so that those of the tick can stay in registers.
+  using Apart = std::conditional_t<Needs<S>::surge, ValveAccess&, ValveAccess>;
+  [[nodiscard, gnu::always_inline]] Apart apart() noexcept {
+    if constexpr (Needs<S>::surge) {
+      return *this;
+    } else {
+      return {{}, tables, state, work, out, pressure_Pa, wide, beyond_guards};
+    }
+  }
+
   [[nodiscard]] static constexpr std::uint32_t train(std::uint32_t v) noexcept { return v / kPerTrain; }
   [[nodiscard]] static constexpr std::uint32_t cylinder(std::uint32_t v) noexcept { return v % kPerTrain; }
   /// The lane of a valve, in all arrays by lane.
@@ -233,12 +243,14 @@ struct ValveAccess : If<Needs<S>::surge, SpringPush<Real, S>> {
     state.record[train(v)][cylinder(v)].step(
         {start, end, from.lift_m, to.lift_m, from_m_s, tick.cam.deg_per_s * to.per_deg_m, started_m_s2,
          acceleration_m_s2, motion(v).tick_s, contacts_of(state.valve_regime[v])},
-        motion(v).body.seat_compression_m, [&](Real part) { return deg_in(v, tick, part); });
+        motion(v).body.seat_compression_m,
+        [&](Real part) { return deg_in(curve(v), cylinder(v), tick.phase_before(), tick.cam.deg, part); });
   }
   /// Cam degrees since the start of its lobe, after a part of the tick.
-  [[nodiscard, gnu::cold, gnu::noinline]] Real deg_in(std::uint32_t v, const CamTick<Real>& tick,
-                                                      Real part) const noexcept {
-    return curve(v).degrees(tick.phase_before() - curve(v).opens[cylinder(v)]) + part * tick.cam.deg;
+  [[nodiscard, gnu::cold, gnu::noinline]] static Real deg_in(const LiftCurve<Real>& curve, std::uint32_t cylinder,
+                                                             std::uint64_t phase_before, Real tick_deg,
+                                                             Real part) noexcept {
+    return curve.degrees(phase_before - curve.opens[cylinder]) + part * tick_deg;
   }
 
   [[nodiscard]] Locator event_locator(std::uint32_t v, EventBudget& budget) noexcept {
