@@ -144,7 +144,7 @@ class PlainSteps {
   /// The plain step of a decoupled valve: all its cam's factors are 0. False where gas presses it so far into its seat
   /// that the train may touch it.
   [[nodiscard, gnu::always_inline]] bool step_seated(std::uint32_t v, const ValveState<Real>& start,
-                                                     const RegimeStep<Real>& regime, Cell cell, const Gas& gas,
+                                                     const RegimeStep<Real>& regime, const Cell& cell, const Gas& gas,
                                                      Before& before) noexcept {
     const Real outside_m = valves_.curve(v).outside_m;
     ValveState<Real> end{gas.resting_m(valves_.motion(v).per_seat_N_m), Real{0}};

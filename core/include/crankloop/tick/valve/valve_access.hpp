@@ -36,7 +36,7 @@ template <class Real, class S>
 template <class Real>
 [[gnu::always_inline]] inline void write_forces(ValveForcesOutput<Real>& shown, const ValveBody<Real>& b,
                                                 const LiftCurve<Real>& curve, const ValveInRegime<Real>& valve,
-                                                Cell cell, const Moment<Real>& at) noexcept {
+                                                const Cell& cell, const Moment<Real>& at) noexcept {
   const auto pushing = [](bool on, Real force_N) { return on && force_N > 0 ? force_N : Real{0}; };
   const std::uint32_t contacts = contacts_of(valve.regime);
   shown.train_N = train_force_N(b, contacts, at.compression_m, at.compression_speed_m_s);
@@ -224,7 +224,7 @@ struct ValveAccess : If<Needs<S>::surge, SpringPush<Real, S>> {
     return {};
   }
 
-  [[gnu::always_inline]] void write_output(std::uint32_t v, const ValveState<Real>& end, Cell cell,
+  [[gnu::always_inline]] void write_output(std::uint32_t v, const ValveState<Real>& end, const Cell& cell,
                                            const Moment<Real>& at, const Gas& gas) noexcept {
     if constexpr (kKeepsGas) state.valve_gas_N[v] = gas.to_N;
     write_motion((&out.valve[0][0])[v], end, at);
