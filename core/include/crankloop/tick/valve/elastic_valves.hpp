@@ -145,8 +145,8 @@ class ElasticValves {
       if (newly_near != 0) activate_all(valves_.apart(), newly_near, cams.apart());
     }
     if constexpr (Needs<S>::cycle_ends)
-      valves_.work.ending =
-          turns_by(cams, Real{kCycleEndMargin_deg}) ? all_valves(valves_.apart()) : valves_at(valves_.tables.cycle_ends, cams);
+      valves_.work.ending = turns_by(cams, Real{kCycleEndMargin_deg}) ? all_valves(valves_.apart())
+                                                                      : valves_at(valves_.tables.cycle_ends, cams);
   }
   [[nodiscard]] bool turns_by(const CamTicks<Real, S>& cams, Real deg) const noexcept {
     for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g)
@@ -185,7 +185,8 @@ class ElasticValves {
   }
 
   /// Activates valves, from where their cams stood before the tick.
-  [[gnu::noinline]] static void activate_all(Apart valves, Bits which, typename CamTicks<Real, S>::Apart cams) noexcept {
+  [[gnu::noinline]] static void activate_all(Apart valves, Bits which,
+                                             typename CamTicks<Real, S>::Apart cams) noexcept {
     for (Bits left = which; left != 0; left &= left - 1) {
       const std::uint32_t v = trailing_zeros(left);
       valves.set_cam(v, valves.curve(v).read(valves.cell(v, cams[valves.train(v)].phase_before())));

@@ -67,7 +67,9 @@ class PlainSteps {
     Bits failed = 0;
     for (Bits left = which; left != 0; left &= left - 1) {
       const std::uint32_t v = trailing_zeros(left);
-      if (!step_and_check<Wide>(v, cams[valves_.train(v)], before)) failed |= Bits{1} << v;
+      const CamTick<Real>* tick = &cams[valves_.train(v)];
+      if constexpr (S::cam_phasing) tick = address(tick);
+      if (!step_and_check<Wide>(v, *tick, before)) failed |= Bits{1} << v;
     }
     return failed;
   }

@@ -240,11 +240,12 @@ struct ValveAccess : If<Needs<S>::surge, SpringPush<Real, S>> {
     const Real from_m_s = tick.cam.deg_per_s * from.per_deg_m;
     const Real started_m_s2 = acceleration(regime_of(v).acceleration, start, from.lift_m - start.lift_m,
                                            from_m_s - start.velocity_m_s, gas.before());
-    address(&state.record[train(v)][cylinder(v)])->step(
-        {start, end, from.lift_m, to.lift_m, from_m_s, tick.cam.deg_per_s * to.per_deg_m, started_m_s2,
-         acceleration_m_s2, motion(v).tick_s, contacts_of(state.valve_regime[v])},
-        motion(v).body.seat_compression_m,
-        [&](Real part) { return deg_in(curve(v), cylinder(v), tick.phase_before(), tick.cam.deg, part); });
+    address(&state.record[train(v)][cylinder(v)])
+        ->step({start, end, from.lift_m, to.lift_m, from_m_s, tick.cam.deg_per_s * to.per_deg_m, started_m_s2,
+                acceleration_m_s2, motion(v).tick_s, contacts_of(state.valve_regime[v])},
+               motion(v).body.seat_compression_m, [this, v, &tick](Real part) {
+                 return deg_in(curve(v), cylinder(v), tick.phase_before(), tick.cam.deg, part);
+               });
   }
   /// Cam degrees since the start of its lobe, after a part of the tick.
   [[nodiscard, gnu::cold, gnu::noinline]] static Real deg_in(const LiftCurve<Real>& curve, std::uint32_t cylinder,
