@@ -172,7 +172,9 @@ class PlainSteps {
       valves_.state.record[valves_.train(v)][valves_.cylinder(v)].rest(end, acceleration_m_s2);
       valves_.load_record(v);
     }
-    valves_.write_output(v, end, cell, {outside_m, outside_m - end.lift_m, -end.velocity_m_s, acceleration_m_s2}, gas);
+    CRANKLOOP_ASSERT(contacts_of(valves_.state.valve_regime[v]) == kSeatOn);
+    valves_.template write_output<true>(v, end, cell,
+                                        {outside_m, outside_m - end.lift_m, -end.velocity_m_s, acceleration_m_s2}, gas);
     return true;
   }
 

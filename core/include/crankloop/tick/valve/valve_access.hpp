@@ -34,18 +34,36 @@ template <class Real, class S>
 }
 
 template <class Real>
+[[nodiscard, gnu::always_inline]] inline Real seat_force_N(const ValveBody<Real>& b,
+                                                           const ValveState<Real>& s) noexcept {
+  return b.preload_N - (b.seat_N_m * s.lift_m + b.seat_Ns_m * s.velocity_m_s);
+}
+
+template <class Real>
 [[gnu::always_inline]] inline void write_forces(ValveForcesOutput<Real>& shown, const ValveBody<Real>& b,
                                                 const LiftCurve<Real>& curve, const ValveInRegime<Real>& valve,
                                                 const Cell& cell, const Moment<Real>& at) noexcept {
-  const auto pushing = [](bool on, Real force_N) { return on && force_N > 0 ? force_N : Real{0}; };
   const std::uint32_t contacts = contacts_of(valve.regime);
   shown.train_N = train_force_N(b, contacts, at.compression_m, at.compression_speed_m_s);
-  shown.seat_N = pushing((contacts & kSeatOn) != 0,
-                         b.preload_N - (b.seat_N_m * valve.state.lift_m + b.seat_Ns_m * valve.state.velocity_m_s));
+  const Real seat_N = seat_force_N(b, valve.state);
+  shown.seat_N = (contacts & kSeatOn) != 0 && seat_N > 0 ? seat_N : Real{0};
   shown.tip_N = shown.train_N - b.rocker_mass_kg * at.acceleration_m_s2;
   shown.cam_N = shown.train_N > 0 ? shown.train_N * curve.rocker_ratio_at(cell) : Real{0};
   shown.train_compression_m = at.compression_m;
   shown.regime = contacts;
+}
+
+/// The same of a valve on its seat without its train.
+template <class Real>
+[[gnu::always_inline]] inline void write_seat_forces(ValveForcesOutput<Real>& shown, const ValveBody<Real>& b,
+                                                     const ValveState<Real>& s, const Moment<Real>& at) noexcept {
+  const Real seat_N = seat_force_N(b, s);
+  shown = {Real{0},
+           seat_N > 0 ? seat_N : Real{0},
+           Real{0} - b.rocker_mass_kg * at.acceleration_m_s2,
+           Real{0},
+           at.compression_m,
+           kSeatOn};
 }
 
 /// How springs that surge push each valve in the tick, beyond preload and rate, and how fast it starts.
@@ -224,11 +242,15 @@ struct ValveAccess : If<Needs<S>::surge, SpringPush<Real, S>> {
     return {};
   }
 
+  /// `Seated`: without its train.
+  template <bool Seated = false>
   [[gnu::always_inline]] void write_output(std::uint32_t v, const ValveState<Real>& end, const Cell& cell,
                                            const Moment<Real>& at, const Gas& gas) noexcept {
     if constexpr (kKeepsGas) state.valve_gas_N[v] = gas.to_N;
     write_motion((&out.valve[0][0])[v], end, at);
-    if constexpr (S::valve_forces)
+    if constexpr (S::valve_forces && Seated)
+      write_seat_forces((&out.valve_forces[0][0])[v], motion(v).body, end, at);
+    else if constexpr (S::valve_forces)
       write_forces((&out.valve_forces[0][0])[v], motion(v).body, curve(v), {end, state.valve_regime[v]}, cell, at);
     (void)cell, (void)gas;
   }
