@@ -34,7 +34,6 @@ class ElasticValves {
   using Apart = typename Valves::Apart;
 
  public:
-  explicit ElasticValves(const Valves& valves) noexcept : valves_{valves} {}
   /// Pressures are those of each cylinder, where the scene has valve_gas; none at the start.
   ElasticValves(const Tables<Real, S>& tables, State<Real, S>& state, ValvesWork<Real, S>& work, Output<Real, S>& out,
                 const Real* pressure_Pa = nullptr) noexcept
@@ -218,81 +217,79 @@ class ElasticValves {
   [[nodiscard, gnu::noinline]] static bool locate_events_in_turn(Apart valves, Bits failed,
                                                                  typename CamTicks<Real, S>::Apart cams,
                                                                  const Before& before) noexcept {
-    return ElasticValves(valves).locate_events_in_turn(failed, cams, before);
-  }
-  [[nodiscard, gnu::always_inline]] bool locate_events_in_turn(Bits failed, const CamTicks<Real, S>& cams,
-                                                               const Before& before) noexcept {
-    EventBudget budget{valves_.tables.valve_motions[0].event_budget, false};
-    const std::uint32_t first = static_cast<std::uint32_t>(valves_.state.ticks) % Valves::kMaxValves;
+    EventBudget budget{valves.tables.valve_motions[0].event_budget, false};
+    const std::uint32_t first = static_cast<std::uint32_t>(valves.state.ticks) % Valves::kMaxValves;
     constexpr Bits kAll = (Bits{1} << (Valves::kMaxValves - 1) << 1) - 1;
     const Bits from_first = failed >> first | (failed << (Valves::kMaxValves - 1 - first) << 1 & kAll);
     for (Bits left = from_first; left != 0; left &= left - 1) {
       const std::uint32_t v = first + trailing_zeros(left);
       const std::uint32_t valve = v < Valves::kMaxValves ? v : v - Valves::kMaxValves;
       CRANKLOOP_ASSERT((failed >> valve & 1) != 0);
-      locate_events(valve, cams[valves_.train(valve)], before, budget);
+      locate_events(valves, valve, cams[valves.train(valve)], before, budget);
     }
-    CRANKLOOP_ASSERT(budget.left <= valves_.tables.valve_motions[0].event_budget);
+    CRANKLOOP_ASSERT(budget.left <= valves.tables.valve_motions[0].event_budget);
     return budget.exceeded;
   }
 
-  void locate_events(std::uint32_t v, const CamTick<Real>& tick, const Before& before, EventBudget& budget) noexcept {
-    const typename Valves::Gas gas = valves_.gas_on(v);
-    const std::uint32_t lane = valves_.lane_of(v);
-    const Lift<Real> to = valves_.cam(v);
-    const ValveInRegime<Real> start{before.state(lane), valves_.state.valve_regime[v]};
-    const std::uint32_t parts = valves_.motion(v).parts;
-    const bool may_rest = parts > 1 || valves_.wide;
+  static void locate_events(Valves& valves, std::uint32_t v, const CamTick<Real>& tick, const Before& before,
+                            EventBudget& budget) noexcept {
+    const typename Valves::Gas gas = valves.gas_on(v);
+    const std::uint32_t lane = valves.lane_of(v);
+    const Lift<Real> to = valves.cam(v);
+    const ValveInRegime<Real> start{before.state(lane), valves.state.valve_regime[v]};
+    const std::uint32_t parts = valves.motion(v).parts;
+    const bool may_rest = parts > 1 || valves.wide;
     ValveInRegime<Real> end = start;
-    if (!(may_rest && rests(start, valves_.curve(v), before.cam(lane).lift_m, to.lift_m, tick.cam.deg, gas))) {
+    if (!(may_rest && rests(start, valves.curve(v), before.cam(lane).lift_m, to.lift_m, tick.cam.deg, gas))) {
       // On lines of their own: tests/target/loop_bounds.conf names those that pay.
       const bool within = budget.left >= (parts > 1 ? parts : 1 + kUnitsOfLook);
       if (within) budget.take(parts);
-      end = within ? locate_within_budget(v, tick, before, gas, budget)
-                   : step_beyond_budget(v, tick, before, gas, budget);
+      end = within ? locate_within_budget(valves, v, tick, before, gas, budget)
+                   : step_beyond_budget(valves, v, tick, before, gas, budget);
     }
     CRANKLOOP_ASSERT(is_finite(end.state.lift_m) && is_finite(end.state.velocity_m_s));
-    valves_.set_state(v, end.state);
-    if (end.regime != start.regime) valves_.set_regime(v, end.regime);
-    valves_.load_record(v);
+    valves.set_state(v, end.state);
+    if (end.regime != start.regime) valves.set_regime(v, end.regime);
+    valves.load_record(v);
     const Real compression_m = to.lift_m - end.state.lift_m;
     const Real compression_speed_m_s = tick.cam.deg_per_s * to.per_deg_m - end.state.velocity_m_s;
-    const ForceRow<Real>& force = valves_.motion(v).whole[end.regime].acceleration;
-    valves_.write_output(v, end.state, valves_.cell(v, tick.phase),
-                         {to.lift_m, compression_m, compression_speed_m_s,
-                          acceleration(force, end.state, compression_m, compression_speed_m_s, gas)},
-                         gas);
+    const ForceRow<Real>& force = valves.motion(v).whole[end.regime].acceleration;
+    valves.write_output(v, end.state, valves.cell(v, tick.phase),
+                        {to.lift_m, compression_m, compression_speed_m_s,
+                         acceleration(force, end.state, compression_m, compression_speed_m_s, gas)},
+                        gas);
   }
 
   /// Its fine steps are paid for, and what is sure to follow them is there.
-  [[nodiscard, gnu::noinline]] ValveInRegime<Real> locate_within_budget(std::uint32_t v, const CamTick<Real>& tick,
-                                                                        const Before& before,
-                                                                        const typename Valves::Gas& gas,
-                                                                        EventBudget& budget) noexcept {
-    const std::uint32_t lane = valves_.lane_of(v);
+  [[nodiscard, gnu::noinline]] static ValveInRegime<Real> locate_within_budget(Valves& valves, std::uint32_t v,
+                                                                               const CamTick<Real>& tick,
+                                                                               const Before& before,
+                                                                               const typename Valves::Gas& gas,
+                                                                               EventBudget& budget) noexcept {
+    const std::uint32_t lane = valves.lane_of(v);
     const Lift<Real> from = before.cam(lane);
-    const ValveInRegime<Real> start{before.state(lane), valves_.state.valve_regime[v]};
-    const Stepped<Real> step{valves_.state_of(v), before.increment_m(lane)};
-    const std::uint64_t at = tick.phase - valves_.curve(v).opens[valves_.cylinder(v)];
-    return valves_.event_locator(v, budget).run(start, step, valves_.span(v, tick, from, valves_.cam(v), gas), at,
-                                                tick.turned);
+    const ValveInRegime<Real> start{before.state(lane), valves.state.valve_regime[v]};
+    const Stepped<Real> step{valves.state_of(v), before.increment_m(lane)};
+    const std::uint64_t at = tick.phase - valves.curve(v).opens[valves.cylinder(v)];
+    return valves.event_locator(v, budget).run(start, step, valves.span(v, tick, from, valves.cam(v), gas), at,
+                                               tick.turned);
   }
 
   /// The tick in one step, for want of budget.
-  [[nodiscard, gnu::always_inline]] ValveInRegime<Real> step_beyond_budget(
-      std::uint32_t v, const CamTick<Real>& tick, [[maybe_unused]] const Before& before,
+  [[nodiscard, gnu::always_inline]] static ValveInRegime<Real> step_beyond_budget(
+      Valves& valves, std::uint32_t v, const CamTick<Real>& tick, [[maybe_unused]] const Before& before,
       [[maybe_unused]] const typename Valves::Gas& gas, EventBudget& budget) noexcept {
     budget.exceeded = true;
-    const ValveMotion<Real>& motion = valves_.motion(v);
-    const ValveState<Real> s = valves_.state_of(v);
-    if (is_too_far(s)) return put_back(motion, valves_.cam(v).lift_m);
+    const ValveMotion<Real>& motion = valves.motion(v);
+    const ValveState<Real> s = valves.state_of(v);
+    if (is_too_far(s)) return put_back(motion, valves.cam(v).lift_m);
     const ValveInRegime<Real> end =
-        beyond_budget(motion, valves_.state.valve_regime[v], s, valves_.cam(v), tick.cam.deg_per_s);
+        beyond_budget(motion, valves.state.valve_regime[v], s, valves.cam(v), tick.cam.deg_per_s);
     if constexpr (S::valve_results) {
-      const std::uint32_t lane = valves_.lane_of(v);
+      const std::uint32_t lane = valves.lane_of(v);
       const Lift<Real> from = before.cam(lane);
-      const ValveInRegime<Real> start{before.state(lane), valves_.state.valve_regime[v]};
-      valves_.event_locator(v, budget).record_unlocated(start, end, valves_.span(v, tick, from, valves_.cam(v), gas));
+      const ValveInRegime<Real> start{before.state(lane), valves.state.valve_regime[v]};
+      valves.event_locator(v, budget).record_unlocated(start, end, valves.span(v, tick, from, valves.cam(v), gas));
     }
     return end;
   }
