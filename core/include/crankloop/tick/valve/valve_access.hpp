@@ -95,10 +95,11 @@ struct ValveAccess : If<Needs<S>::surge, SpringPush<Real, S>> {
   bool beyond_guards = false;  ///< or even beyond some guards' range
   NoRecord<Real> no_record{};
 
-  /// For a call of a function of its own: made anew there, so that those of the tick can stay in registers.
-  using Apart = std::conditional_t<Needs<S>::surge, ValveAccess&, ValveAccess>;
+  /// For a call of a function of its own: made anew there, so that those of the tick can stay in registers. Not with
+  /// springs' pushes, which are many numbers; nor with a word of 64 bits for valves, of whose place in calls GCC warns.
+  using Apart = std::conditional_t<Needs<S>::surge || sizeof(Bits) == 8, ValveAccess&, ValveAccess>;
   [[nodiscard, gnu::always_inline]] Apart apart() noexcept {
-    if constexpr (Needs<S>::surge) {
+    if constexpr (std::is_reference_v<Apart>) {
       return *this;
     } else {
       return {{}, tables, state, work, out, pressure_Pa, wide, beyond_guards};
