@@ -1,31 +1,32 @@
 #!/bin/sh
 # mutants.sh [--seed N] [--count N] [--areas | --area NAME... | --only REGEX...] [BUILD_DIR]
 # How many single-point changes of core the tests notice: a sample of COUNT (60) of what tests/mutants/mutate.cpp can
-# change. --areas draws COUNT of each of the areas gas, crank, trigger, tabulate, valve and fmi, --area of those named,
-# --only in files whose paths have REGEX, such as tick/valve/. Lanes are left out: they have tests of their own.
+# change. --areas draws COUNT of each of the areas gas, crank, trigger, tabulate, valve, c and fmi, --area of those
+# named, --only in files whose paths have REGEX, such as tick/valve/. Lanes are left out: they have tests of their own.
 #
 # All mutants of a sample are in one build, with assertions; CRANKLOOP_MUTANT=N makes a run the mutant N. Each is judged
-# by the tests that reach its place, the quickest first, up to the first that fails: by those of behaviour, which are
-# the library's own unit, property and interface tests, or tests/fmi for the area fmi; and when none of them notices it,
-# by tests/golden, which holds bits. As many mutants are judged at a time as there are processors. A run is also over
-# after at least twice the processor time that the tests take without a change, or when it asks for 4 GiB. Places that no
-# test reaches, since the compiler has computed there what is to be computed or since tests/coverage_exceptions.conf says
+# by the tests that reach its place, the quickest and closest first, up to the first that fails: by those of behaviour,
+# which are the library's own unit, property and interface tests; and when none of them notices it, by tests/golden,
+# which holds bits. The areas c and fmi, which are folders of port, have tests of behaviour of their own: those of the C
+# interface, and tests/fmi. As many mutants are judged at a time as there are processors. A run is also over after at
+# least twice the processor time that the tests take without a change, or when it asks for 4 GiB. Places that no test
+# reaches, since the compiler has computed there what is to be computed or since tests/coverage_exceptions.conf says
 # why, are listed and replaced by the next of the sample.
 #
-# Fails when tests of behaviour notice under 90 % of an area's mutants that are no equivalents, or no test at all
-# notices one that tests/mutants/survivors.conf does not know. Last line: "N passed, M failed".
+# Fails when tests of behaviour notice under 90 % of an area's mutants that are no equivalents, when no test at all
+# notices one that tests/mutants/survivors.conf does not know, or when that file names code that is gone. Last line: "N
+# passed, M failed".
 set -eu
 CDPATH='' cd -- "$(dirname -- "$0")/.."
 seed=1 count=60 areas='' build=build/mutants
 usage() { sed -n '2,/^[^#]/s/^# \{0,1\}//p' tests/mutants.sh >&2 && exit 2; }
-all_areas='gas crank trigger tabulate valve'
-[ ! -e tests/mutants/fmi/CMakeLists.txt ] || all_areas="$all_areas fmi"
+all_areas='gas crank trigger tabulate valve c fmi'
 # add_area NAME: "NAME=REGEX", as mutate takes them.
 add_area() {
   case $1 in
     gas | crank | trigger | valve) areas="$areas $1=/tick/$1/" ;;
     tabulate) areas="$areas $1=/(tabulate|define)/" ;;
-    fmi) areas="$areas $1=/fmi/" ;;
+    c | fmi) areas="$areas $1=^port/$1/" ;;
     *) usage ;;
   esac
 }
@@ -53,22 +54,30 @@ mkdir -p "$build"
 build=$(CDPATH='' cd -- "$build" && pwd)
 tab=$(printf '\t')
 
+# ---- survivors.conf --------------------------------------------------------------------------------------------------
+
+grep '^[^#[:space:]]' tests/mutants/survivors.conf | while IFS=$tab read -r file change code; do
+  grep -qF -e "$code" "$file" 2>/dev/null || printf '%s: %s\n' "$file" "$code"
+done >"$build/gone"
+[ ! -s "$build/gone" ] || { echo 'tests/mutants/survivors.conf: gone:' >&2 && cat "$build/gone" >&2 && exit 1; }
+
 # ---- the build -------------------------------------------------------------------------------------------------------
 
 quietly() { "$@" >"$build/build.log" 2>&1 || { tail -n 40 "$build/build.log" >&2 && exit 1; }; }
 quietly cmake -S tests/mutants -B "$build/mutate" -DCMAKE_BUILD_TYPE=Release
 quietly cmake --build "$build/mutate"
 
+# behaviour_of AREA: the judge of its behaviour; that of core has golden bits beside it.
+behaviour_of() { case $1 in c | fmi) echo "$1" ;; *) echo behaviour ;; esac; }
 judges=
-for area in $areas; do
-  case $area in fmi=*) judges="$judges fmi" ;; *) judges="$judges behaviour golden" ;; esac
-done
+for area in $areas; do judges="$judges $(behaviour_of "${area%%=*}")"; done
+case $judges in *behaviour*) judges="$judges golden" ;; esac
 judges=$(for judge in $judges; do echo "$judge"; done | sort -u)
 # program_of JUDGE: the target that builds it, an executable of that name in build/judge.
 program_of() { case $1 in behaviour) echo judge ;; *) echo "judge_$1" ;; esac; }
 
 # Sees whether every change compiles, first in the library alone. One that does not is left out; the compiler names its
-# place.
+# line, or the next, in which the expression goes on.
 : >"$build/left_out"
 made=
 while [ -z "$made" ]; do
@@ -79,7 +88,8 @@ while [ -z "$made" ]; do
   for target in core $(for judge in $judges; do program_of "$judge"; done); do
     cmake --build "$build/judge" --target "$target" --parallel "$jobs" >"$build/build.log" 2>&1 && continue
     cut -f 3 "$build/mutants" | sort -u >"$build/changed"
-    sed -n 's#^[^ ]*/\(\(core\|port/fmi\)/[a-z_0-9/.]*:[0-9]*\)[:,].*#\1#p' "$build/build.log" | sort -u | comm -12 "$build/changed" - >"$build/refused"
+    sed -n 's#^[^ ]*/\(\(core\|port/c\|port/fmi\)/[a-z_0-9/.]*:[0-9]*\)[:,].*#\1#p' "$build/build.log" |
+      awk -F : '{ print $1 ":" $2; print $1 ":" $2 - 1 }' | sort -u | comm -12 "$build/changed" - >"$build/refused"
     [ -s "$build/refused" ] || { tail -n 40 "$build/build.log" >&2 && exit 1; }
     cat "$build/refused" >>"$build/left_out"
     made=
@@ -108,22 +118,27 @@ for judge in $judges; do
   cat $parts >"$build/reach-$judge"
 done
 
-# tests_of JUDGE NUMBER: those that reach the mutant's place, the quickest first, together 30 s at most; all where it is
-# reached before any test. Three filters of GoogleTest, of what takes a tenth of a second together, a second, the rest,
-# each behind the seconds that a mutant may take for it.
+# tests_of JUDGE NUMBER: those that reach the mutant's place, first the quickest that reach the fewest places, together
+# 30 s at most; all where it is reached before any test. As filters of GoogleTest, which keeps to no order within one: of
+# what takes a tenth of a second together, then twice as long each time; each behind the seconds that a mutant may take.
 tests_of() {
   awk -v number="$2" '
     {
       here = 0
       for (i = 3; i <= NF; ++i) here = here || $i == number
       if ($1 == "-") before = here
-      else if (here || before) print $2, $1
+      else if (here || before) print ($2 + 1) * NF, $2, $1
     }' "$build/reach-$1" | sort -n | awk '
-    { took += $1 }
-    took <= 30000 { part = (took > 100) + (took > 1000); filter[part] = filter[part] ":" $2 }
+    BEGIN { part = 0 }
+    { took += $2 }
+    took <= 30000 {
+      while (took > 100 * 2 ^ part) ++part
+      ms[part] += $2
+      filter[part] = filter[part] ":" $3
+    }
     END {
-      split("5 10 60", seconds)
-      for (i = 0; i < 3; ++i) if (filter[i] != "") print seconds[i + 1], "--gtest_filter=" substr(filter[i], 2)
+      for (i = 0; i <= part; ++i)
+        if (filter[i] != "") print 5 + int(ms[i] / 500), "--gtest_filter=" substr(filter[i], 2)
     }'
 }
 
@@ -160,12 +175,11 @@ judge_all() {
   mkdir -p "$mine"
   while IFS=$tab read -r number area place change code; do
     mutant="$place  $change  |  $code"
-    behaviour=behaviour
-    [ "$area" != fmi ] || behaviour=fmi
+    behaviour=$(behaviour_of "$area")
     reason=$(reason_of "$place" "$change" "$code") || reason=
     if ! passes "$behaviour" "$number" 2>"$mine/ended"; then
       verdict=noticed tell="noticed: $mutant  |  $(by_what)"
-    elif [ "$area" != fmi ] && ! passes golden "$number" 2>"$mine/ended"; then
+    elif [ "$behaviour" = behaviour ] && ! passes golden "$number" 2>"$mine/ended"; then
       verdict=golden tell="by golden bits alone: $mutant${reason:+  |  $reason}"
       # An equivalent changes no bit.
       case $reason in equivalent*) verdict=unknown tell="NO EQUIVALENT, golden bits notice it: $mutant" ;; esac
@@ -184,9 +198,7 @@ judge_all() {
 : >"$build/sample"
 while IFS=$tab read -r number area place change code; do
   [ "$(grep -cF "$tab$area$tab" "$build/sample")" -lt "$count" ] || continue
-  behaviour=behaviour
-  [ "$area" != fmi ] || behaviour=fmi
-  if [ -z "$(tests_of "$behaviour" "$number")" ]; then
+  if [ -z "$(tests_of "$(behaviour_of "$area")" "$number")" ]; then
     echo "not reached: $place  $change  |  $code"
   else
     printf '%s\t%s\t%s\t%s\t%s\n' "$number" "$area" "$place" "$change" "$code" >>"$build/sample"

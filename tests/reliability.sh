@@ -1,13 +1,16 @@
 #!/bin/sh
-# reliability.sh [--long | --page | --age]
+# reliability.sh [--long | --page | --age | --mutants]
 # Writes docs/reliability.md: what was tried to break crankloop, and the results.
 #
 # Runs each command that has no log in build/reliability yet; delete a log to renew its figures. Beside each log stands
-# the commit that it ran at, so core and port must have no changes that are not committed. --age runs nothing and leaves
-# the figures alone: it writes into the page's table of runs whether core has changed since each. --long takes hours: 100 000 random cases, 10^8 hostile inputs, 10^9 ticks of soak, 6
-# minutes of each fuzz target, the whole suite under the sanitizers. Builds the presets release, check, sanitize and
-# coverage (needs clang++ and llvm-cov), and runs the numerical sanitizer where there is clang++-19. --page runs
-# nothing: it writes the page from the existing logs.
+# the commit that it ran at, so core and port must have no changes that are not committed. --long takes hours: 100 000
+# random cases, 10^8 hostile inputs, 10^9 ticks of soak, 6 minutes of each fuzz target, the whole suite under the
+# sanitizers, mutants. Builds the presets release, check, sanitize and coverage (needs clang++ and llvm-cov), and runs the
+# numerical sanitizer where there is clang++-19.
+#
+# These run nothing. --page writes the page from the existing logs, --mutants the row and the section of mutants alone,
+# from mutants.log and mutants.commit; --age leaves the figures alone and writes into the page's table of runs whether core
+# has changed since each.
 set -eu
 CDPATH='' cd -- "$(dirname -- "$0")/.."
 logs=build/reliability
@@ -55,7 +58,7 @@ keep() {
   git log -1 --format='%h' >"${log%.log}.commit"
 }
 
-if [ "${1:-}" != --page ]; then
+if [ "${1:-}" != --page ] && [ "${1:-}" != --mutants ]; then
   git diff --quiet HEAD -- core port || { echo 'core or port has changes that are not committed: no hash names them' >&2 && exit 1; }
   for seed in $seeds; do
     keep "stress-$seed" release crankloop_program build/release/bin/crankloop stress --seed "$seed" --cases "$cases"
@@ -75,7 +78,10 @@ if [ "${1:-}" != --page ]; then
   if command -v clang++-19 >/dev/null; then keep numerical release crankloop tests/numerical_sanitizer.sh; fi
   if $long; then
     keep long check crankloop_program tools/check --long
-    [ -s "$logs/mutants.log" ] || { echo tests/mutants.sh --count 40 --areas && cat build/check-logs/mutants.log; } >"$logs/mutants.log"
+    if [ ! -s "$logs/mutants.log" ]; then
+      { echo tests/mutants.sh --areas && cat build/check-logs/mutants.log; } >"$logs/mutants.log"
+      cp "$logs/long.commit" "$logs/mutants.commit"
+    fi
   fi
 fi
 
@@ -88,6 +94,34 @@ run() {
   tree=$(git rev-parse --short=12 "$commit:core")
   # shellcheck disable=SC2016  # code in Markdown
   printf '| %s | `%s` | %s | %s | %s | %s |\n' "$2" "${4:-$(head -n 1 "$logs/$1.log")}" "$3" "$(date -r "$logs/$1.log" +%Y-%m-%d)" "$commit" "$(aged "$tree")"
+}
+mutants_row() {
+  drawn=$(awk '/ mutants of / { drawn += $3 } END { print drawn }' "$logs/mutants.log")
+  run mutants 'mutants' "$drawn of seed $(sed -n 's/^seed = //p' "$logs/mutants.log" | sort -u), below"
+}
+mutants_section() {
+  cat <<'TEXT'
+## Mutants
+
+A mutant is a single-point change, drawn from a seed: a comparison, an operator (+ - * /), a constant, a condition, a negation, or a statement left out.
+The areas gas, crank, trigger and valve are folders of core/include/crankloop/tick; tabulate is set-up with the checks of definitions; c is port/c and fmi is
+port/fmi. Lanes have no mutants, nor has what the compiler alone computes, such as the text of the C headers.
+
+1. Tests of behaviour judge first: unit, property and interface tests, for c those of the C interface, for fmi those of tests/fmi, with assertions, and only those that
+   reach the changed line. The command fails when they detect less than 90 % of an area's mutants, not counting equivalents.
+2. The golden tests judge the rest of core. They hold the bits of every output and so detect nearly everything, but any intended change of bits renews them: what they
+   alone detect is counted separately.
+3. A mutant that no test detects is either an equivalent, which no test can detect, or survives. tests/mutants/survivors.conf gives the reason for each; below are
+   those that are no equivalents, and what each would spoil.
+
+TEXT
+  sed -n 's/^[a-z]* = .* mutants of .*\|^[a-z]*: tests of behaviour notice under .*/- &/p' "$logs/mutants.log"
+  # shellcheck disable=SC2016  # code in Markdown
+  sed -n 's/  |  \(survives: \)/: \1/
+    s/^by golden bits alone: \(core[^ ]*\)  \([^|]*[^ |]\)  |  \(.*\): survives: /- \1, `\3`, \2: by golden bits alone: /p
+    s/^by golden bits alone: \(core[^ ]*\)  \([^|]*[^ |]\)  |  \(.*\)/- \1, `\3`, \2: by golden bits alone/p
+    s/^\(core[^ ]*\|port[^ ]*\)  \([^|]*[^ |]\)  |  \(.*\): survives: /- \1, `\3`, \2: survives: /p' "$logs/mutants.log"
+  echo
 }
 # tests_of NAME: what GoogleTest says of the run.
 tests_of() { sed -n 's/^\[  \([A-Z]*\)  \] \([0-9]* tests*\).*/\2 \1/p' "$logs/$1.log" | sort -u | tr '\n' ' ' | sed 's/ $//'; }
@@ -110,7 +144,7 @@ runs() {
   run numerical 'numerical sanitizer' "no verdict; lines below"
   run coverage 'branch coverage by the host tests' "$(sed -n 's/^branches_covered = //p' "$logs/coverage.log") of $(sed -n 's/^branches = //p' "$logs/coverage.log") branches"
   run page_soak 'the page in Chromium for ten minutes, a change each half minute' "$(tail -n 1 "$logs/page_soak.log")"
-  run mutants 'mutants' "$(awk '/ mutants of / { drawn += $3 } END { print drawn " mutants, below" }' "$logs/mutants.log")"
+  mutants_row
 }
 # faults: the "of N detected D, recovered within a cycle R, finite F" lines of the log as a table, float / double.
 faults() {
@@ -134,6 +168,18 @@ figures() {
     /^\[ figures  \]/ { sub(/^\[ figures  \] */, ""); print "- " (real != "" ? real ": " : "") $0 }
     /^\[  FAILED  \]/ && !seen[$0]++ { print "- **" $0 "**" }' "$logs/$1.log"
 }
+
+if [ "${1:-}" = --mutants ]; then
+  mutants_row >"$logs/row"
+  mutants_section >"$logs/section"
+  awk -v row="$logs/row" -v section="$logs/section" '
+    function put(file,   line) { while ((getline line <file) > 0) print line }
+    /^[|] mutants [|]/ { put(row); next }
+    /^## / { inside = $0 == "## Mutants"; if (inside) put(section) }
+    !inside { print }' $page >"$logs/page"
+  cp "$logs/page" $page
+  exit 0
+fi
 
 {
   cat <<'TEXT'
@@ -166,7 +212,7 @@ is another, and `git log COMMIT.. -- core` lists the changes. A test fails where
 | Cortex-M4F, M7, M33, R5F, RV32IMAFC, emulated | self-check, costs, bounds, 50 000 hostile ticks | 10^6 hostile ticks on a Cortex-M4F (`hostile`) |
 | figures of README and docs, benchmark's instructions and errors, demonstration | `figures`, `bench`, `demo` | |
 | rules of High Integrity C++ and CERT C++ | | clang-tidy, against the table of docs/safety.md (`tidy`) |
-| the tests themselves | | a sample of single-point changes of core (`mutants`) |
+| the tests themselves | | a sample of single-point changes of core, port/c and port/fmi (`mutants`) |
 
 ## Runs
 
@@ -265,25 +311,9 @@ TEXT
 The command lists each branch not taken. tests/coverage_exceptions.conf gives the reason for each; a branch
 without a reason, or a reason without a branch, is a failure.
 
-## Mutants
-
-A mutant is a single-point change of core, drawn from a seed: a comparison, an operator (+ - * /), a constant, a condition, a negation, or a statement left out.
-The areas gas, crank, trigger and valve are folders of core/include/crankloop/tick; tabulate is set-up with the checks of definitions; fmi is
-port/fmi/include/crankloop/fmi. Lanes and the C interface have no mutants.
-
-1. Tests of behaviour judge first: unit, property and interface tests, for fmi those of tests/fmi, with assertions, and only those that reach the changed line. The
-   command fails when they detect less than 90 % of an area's mutants, not counting equivalents.
-2. The golden tests judge the rest. They hold the bits of every output and so detect nearly everything, but any intended change of bits renews them: what they alone
-   detect is counted separately.
-3. A mutant that no test detects is either an equivalent, which no test can detect, or survives. tests/mutants/survivors.conf gives the reason for each.
-
 TEXT
-  sed -n 's/^\([a-z]* = .*\)/- \1/p' "$logs/mutants.log"
-  # shellcheck disable=SC2016  # code in Markdown
-  sed -n 's/^by golden bits alone: \(core[^ ]*\|port[^ ]*\)  \([^|]*[^ |]\)  |  \(.*\)/- \1, `\3`, \2: by golden bits alone/p
-    s/^\(core[^ ]*\|port[^ ]*\)  \([^|]*[^ |]\)  |  \(.*\): \(equivalent\|survives\): /- \1, `\3`, \2: \4: /p' "$logs/mutants.log"
+  mutants_section
   cat <<'TEXT'
-
 ## Faults found by fuzzing and stress tests, and corrected
 
 - A definition could hold a positive number whose reciprocal is infinite: a seat of 5e-312 N/m, a lever of 5e-313 m. Where a field must be greater than zero, the minimum is

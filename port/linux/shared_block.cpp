@@ -20,7 +20,7 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why) { throw SharedBlockError(path + ": " + why); }
 [[noreturn]] void refuse(const std::string& path, const char* what, int error) {
-  refuse(path, std::string(what) + ": " + std::strerror(error));
+  throw SharedBlockSystemError(path + ": " + what + ": " + std::strerror(error));
 }
 
 /// A file's descriptor until someone takes it over.

@@ -112,6 +112,12 @@ class SharedBlockError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The system's refusal: "PATH: cannot be created: No such file or directory".
+class SharedBlockSystemError : public SharedBlockError {
+ public:
+  using SharedBlockError::SharedBlockError;
+};
+
 /// What a block is made for. Names of more than 47 bytes are cut.
 struct LiveContents {
   double tick_s = 0;

@@ -35,6 +35,9 @@ TEST_F(BadCommandLine, IsToldWithTheUsageOfItsCommand) {
   expect_usage({}, {"a command is missing"});
   expect_usage({"shw"}, {"unknown command 'shw'", "did you mean show?"});
   expect_usage({"help", "kinematic"}, {"did you mean kinematics?"});
+  expect_usage({"help", "run", "extra"},
+               {"crankloop help: unexpected argument 'extra'", "usage: crankloop help [COMMAND]"});
+  expect_usage({"--version", "run"}, {"crankloop --version: unexpected argument 'run'", "usage: crankloop --version"});
   expect_usage({"show"}, {"a file name is missing", "usage: crankloop show FILE"});
   expect_usage({"show", kSample, "another"}, {"unexpected argument 'another'"});
   expect_usage({"show", kSample, "--rpm", "3"}, {"unknown option '--rpm'"});
@@ -85,10 +88,10 @@ TEST_F(BadCommandLine, NamesAProcessorThatIsNotThere) {
                {"--cpu 1023: this process may not use such a processor"});
 }
 
-TEST_F(BadCommandLine, TakesOutputByBothItsNames) {
+TEST_F(BadCommandLine, TakesOutputByAnyOfItsNames) {
   std::filesystem::create_directory(folder_ / "packed");
   write("packed/one.txt", "one");
-  for (const std::string name : {"-o", "--output"}) {
+  for (const std::string name : {"-o", "--output", "--out"}) {
     for (const auto& [command, input] : {std::pair{"tables", std::string(kSample)}, {"pack", folder_ / "packed"}}) {
       const std::filesystem::path file = folder_ / (command + name);
       const Answer answer = run({command, input, name, file});
@@ -98,6 +101,7 @@ TEST_F(BadCommandLine, TakesOutputByBothItsNames) {
     }
   }
   expect_usage({"pack", folder_ / "packed"}, {"--output is missing", "usage: crankloop pack"});
+  expect_usage({"page", kSample, "-o", "x", "--output", "y"}, {"--out is given twice"});
   expect_usage({"show", kSample, "-o", "x"}, {"unknown option '--output'"});
 }
 

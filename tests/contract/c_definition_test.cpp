@@ -57,6 +57,19 @@ TEST(CDefinition, PassesEveryFieldOnToCpp) {
   }
 }
 
+TEST(COptions, PassEachOnToCpp) {
+  const crankloop_options options{50e-6, 2e-6, CRANKLOOP_INTEGRATOR_EXPONENTIAL, 77, 900};
+  TickOptions cpp;
+  ASSERT_TRUE(c::from_c(options, cpp).ok());
+  EXPECT_EQ(cpp.tick_s, 50e-6);
+  EXPECT_EQ(cpp.valves.accuracy_m, 2e-6);
+  EXPECT_EQ(cpp.valves.integrator, Integrator::exponential);
+  EXPECT_EQ(cpp.valves.event_budget, 77);
+  EXPECT_EQ(cpp.max_speed_rad_s, 900);
+  const crankloop_options back = c::as_c(cpp);
+  EXPECT_EQ(std::memcmp(&back, &options, sizeof back), 0);
+}
+
 TEST(CDefinition, KeepsItsLayoutWhereAFiringOrderIsRefusedAndGrowsWithoutHarmToOlderPrograms) {
   crankloop_definition definition;
   ASSERT_TRUE(ok(crankloop_definition_defaults(&definition, sizeof definition)));

@@ -301,6 +301,11 @@ TYPED_TEST(CEngine, TakesStructsOfNewerProgramsThatDoNotUseWhatIsNew) {
   ASSERT_TRUE(ok(Api::read(engine.get(), &out->known, sizeof *out)));
   EXPECT_EQ(out->known.torque_Nm, this->torque(*engine));
   EXPECT_EQ(out->unknown, Real{0});
+  auto* unknown = reinterpret_cast<unsigned char*>(&out->unknown);
+  unknown[0] = unknown[1] = 5;
+  ASSERT_TRUE(ok(Api::read(engine.get(), &out->known, sizeof out->known + 1)));
+  EXPECT_EQ(unknown[0], 0);
+  EXPECT_EQ(unknown[1], 5) << "behind the struct";
 
   struct NewerDefinition {
     crankloop_definition known;

@@ -227,7 +227,6 @@ TEST_F(Live, RefusesWhatCannotBeRunInOneLineAndAUsage) {
       {{"--from-rpm", "61000"}, "crankloop live: 61000 rpm is beyond the engine's max_rpm of 3000"},
       {{"--cpu", "1023", "--seconds", "0.01"}, "crankloop live: --cpu 1023: this process may not use such a processor"},
       {{"--shared", block_path()}, block_path() + ": exists and is no block of crankloop live"},
-      {{"--shared", folder_ / "none/block"}, folder_ / "none/block: cannot be created"},
   };
   for (const auto& [options, message] : cases) {
     Process refused(live(options), in_folder("refused.txt"));
@@ -235,6 +234,13 @@ TEST_F(Live, RefusesWhatCannotBeRunInOneLineAndAUsage) {
     EXPECT_EQ(refused.output().substr(0, message.size()), message);
   }
   EXPECT_EQ(contents(block_path()), "somebody's notes\n");
+}
+
+TEST_F(Live, FailsAsAnyOutputWhereItsBlockCannotBeCreated) {
+  const std::string path = folder_ / "none/block";
+  Process failed(live({"--shared", path}), in_folder("failed.txt"));
+  EXPECT_EQ(failed.wait(), 1);
+  EXPECT_EQ(failed.output(), "crankloop: " + path + ": cannot be created: No such file or directory\n");
 }
 
 }  // namespace

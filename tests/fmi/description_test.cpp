@@ -234,6 +234,16 @@ TEST_P(DescriptionOf, ItsHeadIsThatOfItsVersion) {
   EXPECT_FALSE(root.has("numberOfEventIndicators")) << "of model exchange";
 }
 
+TEST(DefaultStep, IsTheFirstWholeNumberOfTicksFromAMillisecondOn) {
+  namespace fmi = crankloop::fmi;
+  for (const auto& [tick_s, step_s] : {std::pair{300e-6, 1.2e-3}, {250e-6, 1e-3}, {1.5e-3, 1.5e-3}}) {
+    const std::string model = fmi::Description(fmi::Shown{tick_s, "", {}}, {"engine", ""}).model(fmi::Version::three);
+    const auto at = model.find("stepSize=\"");
+    ASSERT_NE(at, std::string::npos);
+    EXPECT_NEAR(std::stod(model.substr(at + 10)), step_s, 1e-12) << tick_s;
+  }
+}
+
 TEST_P(DescriptionOf, TheArchiveHoldsWhatTheVersionAsksFor) {
   EXPECT_EQ(archive_.names.front(), "modelDescription.xml");
   EXPECT_TRUE(std::is_sorted(archive_.names.begin() + 1, archive_.names.end()));

@@ -42,6 +42,28 @@ TEST(StartSpeed, IsUpToTheLimitEitherWayRound) {
   }
 }
 
+/// An engine that begins otherwise than at 0.
+struct BegunSupply : BoreSupply {
+  void set_start_values(crankloop::Input<double, Scene>& in, double& speed_rad_s) const noexcept {
+    in.load_ratio = 0.25, speed_rad_s = 50;
+  }
+};
+
+TEST(StartValues, AreTheSuppliersBeforeAStartAndAfterAReset) {
+  fmu::Instance<BegunSupply> fmu;
+  EXPECT_EQ(fmu.get("load_ratio"), 0.25);
+  EXPECT_EQ(fmu.get("start.speed_rad_s"), 50);
+  fmu.set("load_ratio", 0.75);
+  fmu.start();
+  EXPECT_EQ(fmu.get("faults"), 0);
+  EXPECT_EQ(fmu.get("fault_ticks"), 0);
+  fmu.run(1);
+  EXPECT_EQ(fmu.get("load_ratio"), 0.75);
+  ASSERT_EQ(fmu.unit->reset(), kOk);
+  EXPECT_EQ(fmu.get("load_ratio"), 0.25);
+  EXPECT_EQ(fmu.get("start.speed_rad_s"), 50);
+}
+
 TEST(StartAngle, IsFromZeroToAWholeCycle) {
   for (const double deg : {-1e-9, 720.0000001, std::nan("")}) {
     BoreFmu fmu;

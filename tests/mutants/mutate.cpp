@@ -1,15 +1,17 @@
 // mutate CHECKOUT OUT SEED COUNT LEFT_OUT AREA=REGEX...
 //
-// Copies core and port/fmi of a checkout to the folder OUT, with single-point changes written into them that mutant.hpp
-// can switch on: COUNT of each area, drawn from SEED, in files whose paths have the area's regular expression. A file
-// belongs to the first area that finds it. Prints "NUMBER<TAB>AREA<TAB>FILE:LINE<TAB>CHANGE<TAB>CODE" for each change,
-// the areas by turns, and to stderr "AREA<TAB>PLACES". The lines FILE:LINE in the file LEFT_OUT stay as they are, and
-// the others keep their numbers: there a change did not compile.
+// Copies core, port/c and port/fmi of a checkout to the folder OUT, with single-point changes written into them that
+// mutant.hpp can switch on: COUNT of each area, drawn from SEED, in files whose paths have the area's regular
+// expression. A file belongs to the first area that finds it. Prints
+// "NUMBER<TAB>AREA<TAB>FILE:LINE<TAB>CHANGE<TAB>CODE" for each change, the areas by turns, and to stderr
+// "AREA<TAB>PLACES". The lines FILE:LINE in the file LEFT_OUT stay as they are, and the others keep their numbers:
+// there a change did not compile.
 //
 // What is changed: comparisons, + - * /, constants (one more, twice, a tenth), conditions, negations, statements that
-// are left out. What is not: lanes, the C interface, FMUs but in the area "fmi", what templates are made of,
-// assertions, enumerators, and constants that the compiler itself needs. A change is drawn by what it changes and where
-// it stands, not by how many there are: an edit of one line leaves the others of a sample as they were.
+// are left out. What is not: lanes, port/c but in the area "c", port/fmi but in the area "fmi", the text of C headers,
+// which the compiler makes, what templates are made of, assertions, enumerators, and constants that the compiler itself
+// needs. A change is drawn by what it changes and where it stands, not by how many there are: an edit of one line
+// leaves the others of a sample as they were.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -23,6 +25,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace {
@@ -30,10 +33,11 @@ namespace {
 namespace fs = std::filesystem;
 using Lines = std::vector<std::string>;
 
-// Lanes, which are left out of the build; and the list of variables, by which others are built.
-constexpr const char* kOutside = "(/lanes?[a-z_]*[.]hpp|abreast[.]hpp|crankloop/variables[.]hpp)$";
-// FMUs, whose tests load them as shared objects (tests/fmi): changed only where the area of this name asks for them.
-constexpr const char* kFmi = "fmi";
+// Lanes, which are left out of the build; the list of variables, by which others are built; what the compiler alone
+// runs.
+constexpr const char* kOutside = "(/lanes?[a-z_]*[.]hpp|abreast[.]hpp|crankloop/variables[.]hpp|header_text[.]hpp)$";
+// Folders of port that have tests of their own: changed only where the area of this name asks for them.
+constexpr const char* kPorts[] = {"c", "fmi"};
 
 /// Replaces `length` characters at a place of a line.
 struct Edit {
@@ -271,10 +275,10 @@ const std::regex Finder::kNotAtRunTime(
     "bool\\b.*;|CRANKLOOP_C\\(|CRANKLOOP_ASSERT\\(");
 
 /// The file with its edits, each but once (two mutants of one definition both make it a variable), and the last of a
-/// line first.
+/// line first; what is put before a place, after what replaces it.
 std::string edited(Lines lines, std::vector<Edit> edits) {
   const auto order = [](const Edit& a, const Edit& b) {
-    return a.line != b.line ? a.line < b.line : a.column < b.column;
+    return std::tie(a.line, a.column, a.length) < std::tie(b.line, b.column, b.length);
   };
   std::stable_sort(edits.begin(), edits.end(), order);
   for (std::size_t i = edits.size(); i-- > 0;) {
@@ -302,11 +306,13 @@ std::vector<Area> read_areas(char** first, char** last) {
 /// The first area that finds a file, or their number.
 std::size_t area_of(const std::string& file, const std::vector<Area>& areas) {
   if (file.substr(file.size() - 2) == ".h" || std::regex_search(file, std::regex(kOutside))) return areas.size();
-  const bool fmi = file.find("/fmi/") != std::string::npos;
-  std::size_t area = 0;
-  while (area < areas.size() && ((fmi && areas[area].name != kFmi) || !std::regex_search(file, areas[area].files)))
-    ++area;
-  return area;
+  const auto may_change = [&file](const Area& area) {
+    for (const std::string port : kPorts) {
+      if (file.rfind("port/" + port + "/", 0) == 0 && area.name != port) return false;
+    }
+    return std::regex_search(file, area.files);
+  };
+  return static_cast<std::size_t>(std::find_if(areas.begin(), areas.end(), may_change) - areas.begin());
 }
 
 /// COUNT of each area, the areas by turns.
@@ -333,7 +339,7 @@ int main(int argc, char** argv) {
 
   std::vector<std::string> files;  // what is copied, by their paths in the checkout
   std::string all_code;
-  for (const auto& folder : {std::string("core"), std::string("port/fmi"), std::string("tests")}) {
+  for (const std::string folder : {"core", "port/c", "port/fmi", "tests"}) {
     for (const auto& entry : fs::recursive_directory_iterator(checkout / folder)) {
       const std::string extension = entry.path().extension().string();
       if (extension != ".cpp" && extension != ".hpp" && extension != ".inc" && extension != ".h") continue;

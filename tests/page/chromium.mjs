@@ -85,6 +85,12 @@ export class Browser {
     return bytes / 1e6;
   }
 
+  /// Processor time of the processes that run pages and their workers, since they began: whatever else the machine does.
+  async processorTime_s() {
+    const {processInfo} = await this.send('SystemInfo.getProcessInfo');
+    return processInfo.filter(({type}) => type === 'renderer').reduce((sum, {cpuTime}) => sum + cpuTime, 0);
+  }
+
   async open(url, {width = 1366, height = 900, dark = false, scale = 1, mobile = false} = {}) {
     await this.tell('Emulation.setDeviceMetricsOverride', {width, height, deviceScaleFactor: scale, mobile});
     await this.tell('Emulation.setEmulatedMedia', {

@@ -102,6 +102,31 @@ TYPED_TEST(ExhaustLambda, IsThatOfAirAndFuelThatWentIn) {
   }
 }
 
+TYPED_TEST(ExhaustLambda, BlowByTakesUnburnedFuelByItsShare) {
+  using Real = TypeParam;
+  EngineDefinition engine = whole_four(500e-6, 0.3);
+  engine.gas.crevice.blow_by_m2 = 2e-6;
+  const auto run = turning<Real, WholeLambdaFour>(engine, 3000, 0.5);
+  ask_lambda(*run, 0.8);
+  for (int tick = 0; tick < ticks_of_cycles(10, 3000); ++tick) ASSERT_EQ(run->step().faults, 0u);
+  const auto mass_kg = [&run] {
+    const auto& state = run->engine.state();
+    return static_cast<double>(state.cylinder_gas.mass_kg[0]) + static_cast<double>(state.crevice_gas.mass_kg[0]);
+  };
+  double begin_ratio = 0, begin_kg = 0, end_kg = 0;
+  for (int tick = 0; tick < ticks_of_cycles(1, 3000); ++tick) {
+    run->step();
+    const double deg = static_cast<double>(tick_test::deg_of(run->engine.state().phase));
+    const double kg = mass_kg(), ratio = static_cast<double>(run->engine.state().unburned_kg[0]) / kg;
+    if (deg < 90 || deg > 118) continue;  // burned, and the exhaust valve is closed
+    if (begin_kg == 0) begin_ratio = ratio, begin_kg = kg;
+    end_kg = kg;
+    ASSERT_NEAR(ratio, begin_ratio, 1e-5 * begin_ratio) << deg;
+  }
+  EXPECT_GT(begin_ratio, 0.005);
+  EXPECT_LT(end_kg, 0.999 * begin_kg);
+}
+
 TYPED_TEST(ExhaustLambda, MixesUnlikeCylindersByTheirMass) {
   using Real = TypeParam;
   const double rpm = 2400;

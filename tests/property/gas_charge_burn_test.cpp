@@ -248,6 +248,14 @@ struct Motored : Plain {
   static constexpr Combustion combustion = Combustion::none;
 };
 
+TEST(GasChargeBurnDefinition, IsRefusedBeyondItsLimits) {
+  EngineDefinition engine = by_charge();
+  engine.gas.charge_burn.reference_Pa = 1e8;
+  EXPECT_TRUE(accepted(validate(engine)));
+  engine.gas.charge_burn.reference_Pa = 1e8 + 0.5;
+  EXPECT_TRUE(support::refuses(validate(engine), Reason::out_of_range, "charge_burn.reference_Pa"));
+}
+
 TEST(GasChargeBurnScene, IsDemandedByADefinitionThatBurnsByCharge) {
   TableStorage<float, Plain> storage;
   ASSERT_TRUE(accepted(storage.build(by_charge(), {100e-6, {}})));

@@ -88,6 +88,22 @@ TYPED_TEST(GasManifold, IsRefusedWhereTheTickIsFarTooLongForIt) {
   EXPECT_TRUE(refuses(storage->build(definition, {100e-6, {}}), Reason::inconsistent, "gas.exhaust_m3"));
 }
 
+TEST(GasManifolds, SeeEachCylinderAlikeWhateverItsNumber) {
+  const EngineDefinition definition = with_manifolds(200e-6);
+  EngineDefinition renumbered = definition;
+  for (std::size_t k = 0; k < 4; ++k) renumbered.layout.firing_deg[k] = definition.layout.firing_deg[(k + 1) % 4];
+  Breathing<double, BreathingFour> run(definition, 100e-6), other(renumbered, 100e-6);
+  run.in.speed_rad_s = other.in.speed_rad_s = support::rad_s(3000);
+  for (int tick = 0; tick < 2000; ++tick) {
+    const auto &a = run.step(), &b = other.step();
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto &x = a.cylinder_gas[(k + 1) % 4], &y = b.cylinder_gas[k];
+      ASSERT_NEAR(x.pressure_Pa, y.pressure_Pa, 1e-9 * y.pressure_Pa) << "tick " << tick << ", cylinder " << k + 1;
+      ASSERT_NEAR(x.mass_kg, y.mass_kg, 1e-9 * y.mass_kg) << "tick " << tick << ", cylinder " << k + 1;
+    }
+  }
+}
+
 // ---- two vessels ----------------------------------------------------------------------------------------------------
 
 /// A cylinder that stands still, of 50 or 400 cm3 and 3 bar, beside a manifold of the other and 1 bar, through 3 cm2

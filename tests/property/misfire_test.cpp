@@ -131,6 +131,9 @@ TEST(MisfireRules, ARandomShareIsWithinFourSigmaWhateverTheSeedAndTheCylinder) {
       }
     }
   }
+  Misfire seedless;
+  seedless.pattern = MisfirePattern::random, seedless.random_ratio = 0.5;
+  EXPECT_EQ(played(rule_of(seedless), 100), played(rule_of(at_random(0.5, 1)), 100)) << "a file without a seed";
   EXPECT_EQ(numbers_of(played(rule_of(at_random(0)), kCycles)).size(), 0u);
   EXPECT_EQ(numbers_of(played(rule_of(at_random(1)), kCycles)).size(), std::size_t{kCycles});
 }
@@ -243,20 +246,21 @@ TYPED_TEST(MisfireOf, ACountThatItsHistoryDoesNotHaveIsRefusedByVerify) {
 
 TYPED_TEST(MisfireOf, EachCycleOfEachCylinderIsCountedOnceFromItsFuelOn) {
   using Real = TypeParam;
-  EngineDefinition engine = diesel_495();
-  engine.misfires[1] = some_of(MisfirePattern::spread, 1, 4);
-  const auto run = rig<Real, TorqueAlone>(engine, 100e-6, 2000 * kPi / 30);  // 1.2 deg a tick
-  const long double per_tick_deg = 1.2L;
-  for (int tick = 1; tick <= 24'000; ++tick) {  // 40 cycles
-    run->step();
-    for (std::size_t k = 0; k < 4; ++k) {
-      // From 0 on a cylinder that fires at f takes fuel at f - 90 deg, and again after each cycle.
-      const long double turned = per_tick_deg * tick,
-                        first = std::fmod(static_cast<long double>(engine.layout.firing_deg[k]) + 630, 720.0L);
-      if (std::fabs(std::fmod(turned - first + 720, 720.0L)) < 0.01L) continue;  // either side by rounding
-      const auto expected = turned < first ? 0u : static_cast<std::uint32_t>((turned - first) / 720) + 1;
-      ASSERT_EQ(run->engine.state().misfire[k].cycles, expected) << "tick " << tick << ", cylinder " << k + 1;
-      ASSERT_EQ(run->engine.state().misfire[k].misfires, k == 1 ? expected / 4 : 0u);
+  for (EngineDefinition engine : {diesel_495(), support::with_cylinders(support::single_495(), {0, 520, 200, 350})}) {
+    engine.misfires[1] = some_of(MisfirePattern::spread, 1, 4);
+    const auto run = rig<Real, TorqueAlone>(engine, 100e-6, 2000 * kPi / 30);  // 1.2 deg a tick
+    const long double per_tick_deg = 1.2L;
+    for (int tick = 1; tick <= 24'000; ++tick) {  // 40 cycles
+      run->step();
+      for (std::size_t k = 0; k < 4; ++k) {
+        // From 0 on a cylinder that fires at f takes fuel at f - 90 deg, and again after each cycle.
+        const long double turned = per_tick_deg * tick,
+                          first = std::fmod(static_cast<long double>(engine.layout.firing_deg[k]) + 630, 720.0L);
+        if (std::fabs(std::fmod(turned - first + 720, 720.0L)) < 0.01L) continue;  // either side by rounding
+        const auto expected = turned < first ? 0u : static_cast<std::uint32_t>((turned - first) / 720) + 1;
+        ASSERT_EQ(run->engine.state().misfire[k].cycles, expected) << "tick " << tick << ", cylinder " << k + 1;
+        ASSERT_EQ(run->engine.state().misfire[k].misfires, k == 1 ? expected / 4 : 0u);
+      }
     }
   }
 }

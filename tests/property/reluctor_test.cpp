@@ -234,6 +234,34 @@ TYPED_TEST(ReluctorOf, FewerSamplesAreSomeOfMoreBitByBitThroughStartsAndReversal
   EXPECT_GT(largest, 0.2);
 }
 
+TYPED_TEST(ReluctorOf, SamplesOfACrankThatSpeedsUpAreThoseOfUniformAcceleration) {
+  using Real = TypeParam;
+  constexpr double kTick_s = 500e-6;
+  EngineDefinition engine = sensed();
+  engine.masses.crank_inertia_kg_m2 = 0.05;
+  Rig<Real, Free<8>> rig(engine, kTick_s);
+  rig.in.external_torque_Nm = -300;
+  double worst = 0, largest_gain_rad_s = 0;
+  for (int tick = 0; tick < 200; ++tick) {
+    const auto from_rad_s = static_cast<double>(rig.engine.state().speed_rad_s);
+    const std::uint64_t from = rig.engine.state().phase.units();
+    const auto& out = rig.engine.step(rig.in);
+    const double gain_rad_s = static_cast<double>(rig.engine.state().speed_rad_s) - from_rad_s;
+    const double turned_rad = static_cast<double>(rig.engine.state().phase.units() - from) * 0x1p-64 * 4 * kPi;
+    largest_gain_rad_s = std::fmax(largest_gain_rad_s, gain_rad_s);
+    for (std::uint32_t i = 0; i < 8; ++i) {
+      // From rest at the tick's start, and beside it what the tick has turned else.
+      const double s = (i + 1) / 8.0;
+      const double rad = turned_rad * s - gain_rad_s * kTick_s / 2 * (s - s * s);
+      const double turns = static_cast<double>(from) * 0x1p-64 * 2 + rad / (2 * kPi) - 246.0 / 360;
+      const double expected_V = rig.volts(turns, from_rad_s + gain_rad_s * s);
+      worst = std::fmax(worst, std::fabs(static_cast<double>(out.reluctor_V[i]) - expected_V));
+    }
+  }
+  EXPECT_GT(largest_gain_rad_s, 1);
+  EXPECT_LT(worst, 2e-4);  // of some volts
+}
+
 TYPED_TEST(ReluctorOf, ComparatorRisesOnceAtEachTooth) {
   using Real = TypeParam;
   Rig<Real, Turned> rig(sensed(), 100e-6);
@@ -337,15 +365,18 @@ TYPED_TEST(ReluctorOf, EdgesAreLostBelowTheComparatorsThreshold) {
 TEST(Reluctor, ARestoredRunGoesOnWithTheSameEdges) {
   Rig<float, Turned> first(sensed(), 100e-6), second(sensed(), 100e-6);
   first.in.speed_rad_s = second.in.speed_rad_s = 150;
-  for (int tick = 0; tick < 777; ++tick) first.engine.step(first.in);
+  for (int tick = 0; tick < 777 || first.engine.output().comparator.level == 0; ++tick) first.engine.step(first.in);
   std::vector<unsigned char> bytes(kSavedStateBytes<float, Turned>);
   ASSERT_TRUE(save_state(first.engine, bytes.data(), bytes.size()).ok());
   ASSERT_TRUE(accepted(load_state(bytes.data(), bytes.size(), second.engine)));
   for (int tick = 0; tick < 777; ++tick) {
     const auto &a = first.engine.step(first.in), &b = second.engine.step(second.in);
     ASSERT_EQ(a.comparator.edge_count, b.comparator.edge_count);
-    for (std::uint32_t e = 0; e < a.comparator.edge_count; ++e)
+    ASSERT_EQ(a.comparator.level, b.comparator.level);
+    for (std::uint32_t e = 0; e < a.comparator.edge_count; ++e) {
       ASSERT_EQ(a.comparator.edge[e].time_s, b.comparator.edge[e].time_s);
+      ASSERT_EQ(a.comparator.edge[e].level, b.comparator.edge[e].level);
+    }
   }
 }
 
@@ -363,6 +394,30 @@ TEST(Reluctor, AJumpOfTheMeasuredAngleHasNoVoltageAndNoEdge) {
     for (const float volts : out.reluctor_V) EXPECT_EQ(volts, 0);
   }
   EXPECT_GT(edges, 200u);
+}
+
+TEST(Reluctor, AfterAJumpTheVoltageRisesFromZero) {
+  Rig<double, Measured> rig(sensed(), 100e-6);
+  int falls = 0;
+  for (int jump = 0; jump < 400; ++jump) {
+    for (int tick = 0; tick < 20; ++tick) {
+      rig.in.crank += Phase::from_cycles(0.002);
+      rig.engine.step(rig.in);
+    }
+    rig.in.crank += Phase::from_cycles(0.3 + jump * 0.0005);
+    ASSERT_EQ(rig.engine.step(rig.in).faults, std::uint32_t{kFaultPhaseJump});
+    const auto& state = rig.engine.state();
+    const double arms_V = std::fmax(rig.table().arm_ratio * state.sensor_last_peak_V, rig.table().least_V);
+    const bool high = state.comparator_level != 0;
+    rig.in.crank += Phase::from_cycles(0.002);
+    const auto& out = rig.engine.step(rig.in);
+    if (!high || out.reluctor_V[0] <= arms_V) continue;
+    ++falls;
+    ASSERT_GE(out.comparator.edge_count, 1u);
+    EXPECT_EQ(out.comparator.edge[0].level, 0u);
+    EXPECT_NEAR(out.comparator.edge[0].time_s, 100e-6 / 16 * arms_V / out.reluctor_V[0], 1e-12);
+  }
+  EXPECT_GT(falls, 10);
 }
 
 TEST(Reluctor, AnEngineWithoutASensorShowsNoVoltage) {

@@ -242,5 +242,29 @@ TEST(ValveRecord, TakesAFlightThatOutlivesItsCycleForNoBounce) {
   EXPECT_LT(highest_m, 6e-3) << "a bounce, not the next lift of 7.8 mm and more";
 }
 
+TEST(ValveRecordOf, AStepHasThePeakOfItsParabola) {
+  detail::ValveRecord<double> record;
+  detail::ObservedStep<double> step{};
+  step.from = {1e-3, 1}, step.to = {1e-3, -1}, step.step_s = 1e-3;
+  record.step(step, 0, [](double) { return 0.0; });
+  EXPECT_NEAR(record.maxima().lift_m, 1.25e-3, 1e-15);  // h + v t / 4
+}
+
+TEST(ValveRecordOf, EveryCycleEndsHoweverFarATickTurns) {
+  for (const double tick_us : {50.0, 200.0, 500.0}) {
+    Rig<double, OneValve> rig(ohc_125_train(), {tick_us * 1e-6, {}}, 90);
+    double turned_deg = 0, told_m_s = 0;
+    int cycles = 0;
+    for (int i = 0; turned_deg < 20 * 360; ++i) {
+      const double speed = rad_s_of_rpm(7000) + i * tick_us * 1e-3;  // so that no cycle is like another
+      turned_deg += speed * tick_us * 1e-6 / kRadPerDeg / 2;
+      const double now_m_s = rig.step(speed).valve_cycle[0][0].largest_speed_m_s;
+      if (now_m_s != told_m_s) ++cycles;
+      told_m_s = now_m_s;
+    }
+    EXPECT_NEAR(cycles, 20, 1) << tick_us;
+  }
+}
+
 }  // namespace
 }  // namespace crankloop

@@ -144,7 +144,25 @@ TEST(BalanceCommand, GivesAmplitudeAndPhaseOfForcesAndTorque) {
     EXPECT_NEAR(b[key + "_Nm"] * std::cos(phase_rad), term.cosine, 1e-3) << order;
     EXPECT_NEAR(b[key + "_Nm"] * std::sin(phase_rad), term.sine, 1e-3) << order;
   }
-  EXPECT_EQ(b["torque_order_1_phase_deg"], 0) << "it balances: no phase of rounding";
+}
+
+/// By symmetry: four cylinders in line, 180 deg apart, have torque and forces of even orders alone and no moments.
+TEST(BalanceCommand, PrintsZeroForWhatCancels) {
+  std::map<std::string, double> b = balance();
+  for (const char* order : {"0.5", "1", "1.5", "2.5", "3", "5", "11.5"}) {
+    const std::string key = std::string("torque_order_") + order;
+    ASSERT_EQ(b.count(key + "_Nm"), 1u) << key;
+    EXPECT_EQ(b[key + "_Nm"], 0) << key;
+    EXPECT_EQ(b[key + "_phase_deg"], 0) << key;
+  }
+  for (const char* name : {"free_force_first_N", "free_moment_first_Nm", "free_moment_first_pitch_Nm",
+                           "free_moment_second_Nm", "free_moment_rotating_yaw_Nm"}) {
+    ASSERT_EQ(b.count(name), 1u) << name;
+    EXPECT_EQ(b[name], 0) << name;
+  }
+  for (const auto& [name, value] : b) {
+    EXPECT_TRUE(value == 0 || std::abs(value) > 1e-7) << name << " = " << value << " is rounding";
+  }
 }
 
 TEST(BalanceCommand, GivesTheMainBearingsLoadsOnTheBlock) {

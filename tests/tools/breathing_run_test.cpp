@@ -341,7 +341,7 @@ TEST_F(BreathingRun, OfTheSampleWithEverythingIsThatOfATwoLitreEngine) {
     EXPECT_TRUE(efficiency > 0.8 && efficiency < 1.05) << rpm << ": " << efficiency;
     EXPECT_GT(number("burn_by_charge_duration"), burn_deg) << "burns take longer at " << rpm;
     burn_deg = number("burn_by_charge_duration");
-    EXPECT_GT(number("burn_by_charge_start"), -22) << "the spark";
+    EXPECT_GT(number("burn_by_charge_start"), -16) << "the spark";
     EXPECT_GT(number("blow_by"), 1) << "mg";
     EXPECT_GT(number("knock_integral"), 0.5);
     EXPECT_EQ(number("faulty_ticks"), 0);

@@ -135,6 +135,15 @@ TEST(Words, AGuessIsMadeOnlyWhereItIsLikely) {
   EXPECT_EQ(suggestion(std::string(100'000, 'b'), keys), "");
 }
 
+TEST(Words, NearestShareMostPartsThenMostLetters) {
+  using Words = std::vector<std::string>;
+  const Words names = {"mean_torque", "power", "max_train_force", "max_cam_force", "force", "maximum"};
+  EXPECT_EQ(nearest("max_torce_force", names, 3), (Words{"max_train_force", "max_cam_force", "force"}));
+  EXPECT_EQ(nearest("POWDER", names, 1), (Words{"power"}));
+  EXPECT_EQ(nearest("x", names, 9).size(), names.size()) << "no more than there are";
+  EXPECT_TRUE(nearest(std::string(100'000, 'b'), names, 3).empty());
+}
+
 TEST(Words, UnitsOfKeysAreReadAsEngineersWriteThem) {
   EXPECT_EQ(unit_in_words("mm"), "mm");
   EXPECT_EQ(unit_in_words("mm2"), "mm^2");

@@ -21,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "crankloop/engine_file/plausibility.hpp"
 #include "crankloop/engine_file/pressure_words.hpp"
 #include "crankloop/files/error.hpp"
 #include "crankloop/files/number.hpp"
@@ -657,6 +658,8 @@ TEST_F(EngineFileTest, ASensorHasAllItsKeysAndIsRefusedAtAWheelThatItDoesNotFit)
   EXPECT_TRUE(sensor.runout_ratio == 0.1 && sensor.runout_at_deg == 30 && sensor.arm_ratio == 0.5);
   EXPECT_TRUE(sensor.least_V == 0.1 && sensor.hysteresis_V == 0.02 && sensor.watchdog_s == 0.2 &&
               sensor.delay_s == 12 / 1e6);
+  const std::string late = engine.explain(crankloop::refuse("reluctor.delay_s", Reason::out_of_range)).what();
+  EXPECT_NE(late.find("delay_us: 12 is more than a tick"), std::string::npos) << late;
   const auto says = [this](const std::string& keys, const std::string& words) {
     const std::string text = refusal(contents(kSample) + "[reluctor]\n" + keys);
     EXPECT_NE(text.find(words), std::string::npos) << keys << text;
@@ -688,9 +691,22 @@ TEST_F(EngineFileTest, SensorFaultsHaveAllTheirKeysAndAreRefusedWithWhatIsWrong)
   says("sensor = map\nend_s = 1\nwire = open\n", "[sensor_fault a] most: 0 is not above least");
   says("sensor = map\nend_s = 1\nmost = 1e5\nstep = 1\n", "[sensor_fault a] step: 1 makes more than 65536 steps");
   says("sensor = oil\nend_s = 1\n", "'oil' is not one of map, intake_air");
+  says("sensor = lambda\nend_s = 1\n", "[sensor_fault a] sensor: lambda needs a [lambda_sensor]");
   EXPECT_NE(
       refusal(contents(kSample) + "[sensor_fault a]\nsensor = map\nend_s = 1\n").find("needs [pressure] source = gas"),
       std::string::npos);
+}
+
+TEST_F(EngineFileTest, WhatACommandAtConstantSpeedLeavesOutIsTold) {
+  const EngineFile engine = read(contents(std::string(CRANKLOOP_SOURCE_DIR) + "/tools/engines/four_2000.ini") +
+                                 "[misfire 1]\nevery = 2\n[fault a]\ntrigger = crank\nend_s = 1\nlate_deg = 1\n"
+                                 "[sensor_fault b]\nsensor = map\nend_s = 1\noffset = 1\n");
+  const std::vector<std::string> told = warnings_about_misfires_left_out(engine);
+  ASSERT_EQ(told.size(), 3u);
+  EXPECT_NE(told[0].find("warning: [misfire 1]: every cycle fires in this command;"), std::string::npos) << told[0];
+  EXPECT_NE(told[1].find("warning: [fault a]: every signal is healthy in this command;"), std::string::npos) << told[1];
+  EXPECT_NE(told[2].find("warning: [sensor_fault b]: no sensor is read in this command;"), std::string::npos)
+      << told[2];
 }
 
 TEST_F(EngineFileTest, ALambdaSensorNeedsAnEngineThatBreathes) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "crankloop/engine_file/engine_file.hpp"
 #include "support/markup.hpp"
 #include "support/run_command.hpp"
 
@@ -144,6 +145,18 @@ TEST_F(MapCommand, FindsTheSparkOfBestTorque) {
   EXPECT_NE(refusal({kFour, "--rpm", "3000:3000:1", "--throttle", "1:1:1", "--mbt", "--burn-start-deg", "-10"})
                 .find("--burn-start-deg"),
             std::string::npos);
+}
+
+/// Without fuel no start is the best: the search would end at rounding's choice.
+TEST_F(MapCommand, KeepsTheFilesBurnStartWhereNothingBurns) {
+  const std::string csv = path("nothing.csv"), diesel = CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495_gas.ini";
+  map({diesel, "--rpm", "1500:1500:1", "--fuel-mg", "0:20:2", "--mbt", "--csv", csv});
+  const std::vector<std::string> lines = split_at(contents(csv), '\n');
+  ASSERT_EQ(lines.size(), 3u);
+  const std::vector<std::string> names = split_at(lines[0], ',');
+  const auto at = static_cast<std::size_t>(std::find(names.begin(), names.end(), "burn_start_deg") - names.begin());
+  EXPECT_EQ(std::stod(split_at(lines[1], ',').at(at)), read_engine_file(diesel, {}).definition().gas.burn_start_deg);
+  EXPECT_NE(std::stod(split_at(lines[2], ',').at(at)), read_engine_file(diesel, {}).definition().gas.burn_start_deg);
 }
 
 TEST_F(MapCommand, TakesItsFuelByTheAirAtEachPoint) {

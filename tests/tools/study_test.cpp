@@ -269,6 +269,15 @@ TEST_F(StudyCommand, TellsPartsOfAnotherEngineFromItsOwn) {
             std::string::npos);
 }
 
+/// The file has no octane number, the points have one.
+TEST_F(StudyCommand, HasAFigureThatOnlyTheVariedValueBrings) {
+  const Rows rows(printed_by(kStudy, {kFour, "--vary", "gas.octane=90,100", "--of", "run.knock_integral", "--set",
+                                      "rpm=2000", "tick-us=200"}));
+  ASSERT_EQ(rows.count(), 2u);
+  EXPECT_GT(rows.number(0, "run.knock_integral"), rows.number(1, "run.knock_integral"));
+  EXPECT_GT(rows.number(1, "run.knock_integral"), 0);
+}
+
 TEST_F(StudyCommand, RefusesByName) {
   const struct {
     Words words;
@@ -280,7 +289,9 @@ TEST_F(StudyCommand, RefusesByName) {
       {{"--vary", "rpm=1000:2000:2", "--of", "valve.periodic"}, "valve.periodic is no number but a word: yes"},
       {{"--vary", "rpm=1000:2000:2", "--of", "valves.max_lift"}, "did you mean valve?"},
       {{"--vary", "rpm=1000:2000:2", "--of", "valve"}, "write COMMAND.NAME"},
-      {{"--vary", "rpm=1000:2000:2", "--of", "run.wall_time_per_tick"}, "prints no wall_time_per_tick"},
+      {{"--vary", "rpm=1000:2000:2", "--of", "run.wall_time_per_tick"},
+       "prints no 'wall_time_per_tick' here; nearest are "},
+      {{"--vary", "rpm=1000:2000:2", "--of", "run.knocking"}, "`crankloop run FILE` lists all "},
       {{"--vary", "rpm=1000:2000:2", "--of", "valve.max_lift", "valve.max_lift"}, "given twice"},
       {{"--vary", "rmp=1000:2000:2", "--of", "valve.max_lift"}, "did you mean rpm?"},
       {{"--vary", "csv=a,b", "--of", "valve.max_lift"}, "'csv' is neither SECTION.KEY"},

@@ -232,6 +232,8 @@ TEST(CamContactDefinition, IsRefusedWithItsField) {
   EXPECT_TRUE(refuses(validate(contact), Reason::out_of_range, "material.cam_Pa"));
   contact.cam_Pa = 1e11, contact.follower_poisson_ratio = 0.6;
   EXPECT_TRUE(refuses(validate(contact), Reason::out_of_range, "material.follower_poisson_ratio"));
+  contact.follower_poisson_ratio = 0.3, contact.follower_Pa = 1.01e13;
+  EXPECT_TRUE(refuses(validate(contact), Reason::out_of_range, "material.follower_Pa"));
 }
 
 TEST(CamContactDefinition, OfATrainIsValidatedWithItsIndex) {

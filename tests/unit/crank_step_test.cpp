@@ -228,13 +228,15 @@ TEST(CrankStepTables, FingerprintKnowsFrictionLoadAndStarterButOnlyWhereThereAre
 TEST(CrankStepGroups, MotionsAreDerivativesOfOneAnotherAndForcesGoWithThem) {
   EngineDefinition engine = free_diesel();
   engine.masses.crank_inertia_kg_m2 = 0.02;  // so that the speed changes a lot
+  engine.starter = {50, 400};
   constexpr double kTick_s = 10e-6;
   Turned<double, Fired> run(engine, kTick_s, 100);
   typename Turned<double, Fired>::Input in;
   in.external_torque_Nm = 20;
+  in.starter = 1;
   const Body<double> body = body_of(engine);
   Output<double, Fired> before{}, now{};
-  double most = 0, most_rod = 0, most_crank = 0, largest = 0;
+  double most = 0, most_rod = 0, most_crank = 0, largest = 0, least_starter_Nm = 50;
   for (int i = 0; i < 4000; ++i) {
     const Output<double, Fired> after = run.step(in);
     if (i > 2) {
@@ -267,7 +269,8 @@ TEST(CrankStepGroups, MotionsAreDerivativesOfOneAnotherAndForcesGoWithThem) {
                   now.torque_Nm + now.starter_Nm - now.friction_Nm - in.external_torque_Nm, 1e-4);
       // What the rods give the crank accelerates the crankshaft itself.
       EXPECT_NEAR((0.07 + 4 * 1.382 * 0.0575 * 0.0575) * now.acceleration_rad_s2,
-                  rods_Nm - now.friction_Nm - in.external_torque_Nm, 0.02);
+                  rods_Nm + now.starter_Nm - now.friction_Nm - in.external_torque_Nm, 0.02);
+      least_starter_Nm = std::min(least_starter_Nm, now.starter_Nm);
     }
     before = now;
     now = after;
@@ -279,6 +282,7 @@ TEST(CrankStepGroups, MotionsAreDerivativesOfOneAnotherAndForcesGoWithThem) {
       2);  // of 12 000; the central difference's own error is the third derivative's, and that of pressures' kinks
   EXPECT_LT(most, 0.5);
   EXPECT_LT(most_rod, 5);
+  EXPECT_GT(least_starter_Nm, 10);
 }
 
 TEST(CrankStepGroups, GivenPressuresTurnItAsTheTableDoes) {
@@ -493,6 +497,10 @@ void survives_anything(const EngineDefinition& engine, double tick_s, int ticks,
         [&](const char*, std::size_t, auto x) { bad += std::isfinite(static_cast<double>(x)) ? 0 : 1; });
     ASSERT_EQ(bad, 0) << name << ", " << random.trace(i);
     ASSERT_LE(std::fabs(static_cast<double>(out.speed_rad_s)), limit * 1.0000001) << name << ", " << random.trace(i);
+    const auto& state = run.engine.state();
+    ASSERT_NEAR(static_cast<double>(state.reduced_speed * state.per_root_inertia), static_cast<double>(out.speed_rad_s),
+                1e-5 * limit)
+        << name << ", " << random.trace(i);
   }
   EXPECT_NE(seen & kFaultExternalTorque, 0u) << name;
   EXPECT_EQ((seen & kFaultOverspeed) != 0, overspeeds) << name;

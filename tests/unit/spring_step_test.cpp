@@ -207,6 +207,33 @@ TEST(SpringStep, ShowsPreloadAndRateWhereTheCamTurnsSlowly) {
   EXPECT_GT(highest_N, v.spring_preload_N + 0.9 * v.spring_N_m * lift_of(rig.train()).largest_lift_m());
 }
 
+/// The first mode pushes the coils from one end towards the other: what one end has more the other has less.
+TEST(SpringStep, OfOneModePushesItsFixedEndByAsMuchLess) {
+  Rig<double, Surging> rig(surging_train(1), {100e-6, {}}, 330);
+  const Valve& v = rig.train().valve;
+  double largest_N = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const auto& out = rig.step(rad_s_of_rpm(6000));
+    const auto& spring = out.valve_spring[0][0];
+    const double static_N = v.spring_preload_N + v.spring_N_m * out.valve[0][0].lift_m;
+    ASSERT_NEAR(spring.fixed_N - static_N, -spring.surge_N, 1e-9 * static_N);
+    largest_N = std::max(largest_N, std::fabs(spring.surge_N));
+  }
+  EXPECT_GT(largest_N, 1);
+}
+
+TEST(SpringStep, TellsOfTheSpringsThatATickIsTooLongFor) {
+  TableStorage<float, Surging> storage;
+  for (const double tick_s : {20e-6, 100e-6}) {
+    SurgeOfValve surge;
+    ASSERT_TRUE(accepted(surge_of(surging_train(2).valve, tick_s, surge)));
+    TableReport report;
+    ASSERT_TRUE(accepted(storage.build(engine_with(surging_train(2)), {tick_s, {}}, &report)));
+    EXPECT_EQ(report.surge_error_ratio, surge_error_ratio(surge, tick_s));
+    EXPECT_GT(report.surge_error_ratio, 0);
+  }
+}
+
 TEST(SpringStep, WithoutModesIsTheSpringThatFollows) {
   Rig<float, tick_test::OneValveWithGas> plain(ohc_125_train(), {20e-6, {}});
   Rig<float, SurgingWithGas> none(ohc_125_train(), {20e-6, {}});

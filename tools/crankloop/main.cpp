@@ -105,7 +105,15 @@ int tell(const std::string& text) {
   return kSuccess;
 }
 
+/// Throws InputError for words behind the first `count`, which would be ignored.
+void refuse_more_words(const std::vector<std::string>& words, std::size_t count, const std::string& usage) {
+  if (words.size() > count)
+    throw InputError("crankloop " + words[0] + ": unexpected argument " + in_quotes(words[count]) +
+                     "\nusage: crankloop " + usage);
+}
+
 int run_help(const std::vector<std::string>& words) {
+  refuse_more_words(words, 2, words[0] + " [COMMAND]");
   if (words.size() < 2) return tell(help());
   if (words[1] == "engine-file") return tell(engine_file_help());
   if (words[1] == "patterns") return tell(describe_patterns());
@@ -126,7 +134,10 @@ int run(const std::vector<std::string>& words) {
   refuse_control_codes(words);
   if (words.empty()) throw InputError("crankloop: a command is missing; `crankloop --help` lists them");
   if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") return run_help(words);
-  if (words[0] == "--version") return tell("crankloop " CRANKLOOP_VERSION "\n");
+  if (words[0] == "--version") {
+    refuse_more_words(words, 1, words[0]);
+    return tell("crankloop " CRANKLOOP_VERSION "\n");
+  }
   const Command& command = find_command(words[0]);
   const std::vector<std::string> rest(words.begin() + 1, words.end());
   for (const std::string& word : rest) {

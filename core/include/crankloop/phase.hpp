@@ -43,7 +43,9 @@ template <class Real>
 /// x as a number that the compiler does not know, so that multiplying by it is one multiplication: for a known 360
 /// GCC's 32-bit targets shift and add 64-bit numbers thirteen times.
 [[nodiscard]] inline std::uint32_t opaque(std::uint32_t x) noexcept {
+#if !defined(__x86_64__) && !defined(__aarch64__)
   asm("" : "+r"(x));
+#endif
   return x;
 }
 

@@ -21,7 +21,7 @@ execute_process(COMMAND ${NODE} ${CMAKE_CURRENT_LIST_DIR}/double_part.mjs ${call
 run(${WASM_SPLIT} ${features} ${WHOLE} --split-funcs=@${WHOLE}.double --import-namespace=primary
   --placeholder-namespace=placeholder -o1 ${WHOLE}.first -o2 ${WHOLE}.second)
 file(MAKE_DIRECTORY ${OUTPUT})
-# At -O3 a tick is 3 to 9 % faster than at -Oz; with functions of more than 4 instructions inlined, the first is up to 50 kB more.
+# At -O3 a tick is 3 to 9 % faster than at -Oz; with functions of more than 16 instructions inlined, the first is 25 kB more.
 set(for_speed -O3 --low-memory-unused --strip-debug --strip-producers)
-run(${WASM_OPT} ${features} ${for_speed} --flexible-inline-max-function-size=4 ${WHOLE}.first -o ${OUTPUT}/engine.wasm)
+run(${WASM_OPT} ${features} ${for_speed} --flexible-inline-max-function-size=16 ${WHOLE}.first -o ${OUTPUT}/engine.wasm)
 run(${WASM_OPT} ${features} ${for_speed} ${WHOLE}.second -o ${OUTPUT}/engine_double.wasm)

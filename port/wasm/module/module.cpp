@@ -1,11 +1,12 @@
 // The exports of module.h: one engine file, one engine that runs, one search.
+//
+// What belongs here: what an instance holds between calls, and the exports. What does not: how answers are written
+// (answers.hpp), the search (redline.hpp), the loops (running.hpp).
 #include "../page/module.h"
 
 #include <cmath>
 #include <cstdlib>
-#include <exception>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,7 +15,7 @@
 #include <crankloop/version.h>
 #include <crankloop/fmi/name.hpp>
 
-#include "crankloop/commands/redline/redline_search.hpp"
+#include "answers.hpp"
 #include "crankloop/engine_file/following_springs.hpp"
 #include "crankloop/engine_file/gas_order.hpp"
 #include "crankloop/engine_file/plausibility.hpp"
@@ -25,8 +26,8 @@
 #include "crankloop/loops/fixed_step_loop.hpp"
 #include "crankloop/loops/valve_tick_limit.hpp"
 #include "engine_facts.hpp"
-#include "json.hpp"
 #include "named_files.hpp"
+#include "redline.hpp"
 #include "running.hpp"
 
 namespace crankloop::page {
@@ -37,74 +38,15 @@ using program::InputError;
 
 /// All that an instance holds between calls.
 struct Module {
-  std::string answer;
   std::shared_ptr<const EngineFile> engine;
   std::unique_ptr<Running> running;
   std::vector<std::string> watched;
-  std::shared_ptr<const EngineFile> searched;  ///< the search points to it
-  std::unique_ptr<program::LoneValve> valve;
-  std::unique_ptr<program::SpeedSearch> search;
-  program::SpeedRange range{0, 0, 1};
-  int speeds_run = 0;
+  RedlineSearch redline;
 };
 
 Module& module() {
   static Module the_module;
   return the_module;
-}
-
-const char* answer(std::string text) {
-  module().answer = std::move(text);
-  return module().answer.c_str();
-}
-
-// ---- messages
-// --------------------------------------------------------------------------------------------------------
-
-/// The line of "PATH:LINE: ..."; 0 where the message names none of this file.
-int line_of(std::string_view message, std::string_view path) {
-  const std::string begin = std::string(path) + ":";
-  if (message.substr(0, begin.size()) != begin) return 0;
-  int line = 0;
-  for (const char c : message.substr(begin.size())) {
-    if (c == ':') return line;
-    if (c < '0' || c > '9') return 0;
-    line = line * 10 + (c - '0');
-  }
-  return 0;
-}
-
-void add_messages(Json& json, const char* key, const std::vector<std::string>& lines, const std::string& path) {
-  json.key(key).open('[');
-  for (const std::string& line : lines)
-    json.open('{').member("line", line_of(line, path)).member("text", line).close('}');
-  json.close(']');
-}
-
-std::vector<std::string> lines_of(const char* text) {
-  std::vector<std::string> lines;
-  for (const std::string_view line : program::split(text, '\n')) lines.emplace_back(line);
-  return lines;
-}
-
-/// Answers what `work` adds to an object that has "errors"; where it throws, that alone.
-template <class Work>
-const char* answer_or_errors(const std::string& path, const Work& work) {
-  std::vector<std::string> errors;
-  try {
-    Json json;
-    json.open('{');
-    add_messages(json, "errors", {}, path);
-    work(json);
-    return answer(json.close('}').text());
-  } catch (const std::exception& error) {
-    errors = lines_of(error.what());
-  }
-  Json json;
-  json.open('{');
-  add_messages(json, "errors", errors, path);
-  add_messages(json, "warnings", {}, path);
-  return answer(json.close('}').text());
 }
 
 const EngineFile& loaded() {
@@ -118,39 +60,11 @@ Running& running() {
   return *module().running;
 }
 
-// ---- names
-// -----------------------------------------------------------------------------------------------------------
-
-void add_variable(Json& json, const detail::Variable& variable) {
-  const std::string base = variable.name;
-  const std::size_t hash = base.find('#');
-  const bool two = hash != std::string::npos && base.find('#', hash + 1) != std::string::npos;
-  const detail::UnitOfName& unit = detail::unit_of(variable);
-  constexpr const char* kKinds[] = {"real", "whole", "truth"};
-  json.member("name", fmi::name_of(variable)).member("base", base);
-  json.member("first", hash == std::string::npos ? 0 : variable.first + 1)
-      .member("second", two ? variable.second + 1 : 0);
-  json.member("unit", unit.written).member("shown_unit", unit.displayed);
-  json.member("shown_per_unit", unit.displayed_per_written).member("kind", kKinds[static_cast<int>(variable.kind)]);
-  json.member("meaning", variable.meaning);
-}
-
-template <class List, class Add>
-const char* list_of(const List& list, const Add& add) {
-  Json json;
-  json.open('[');
-  for (const auto& entry : list) add(json, entry);
-  return answer(json.close(']').text());
-}
-
 void add_columns(Json& json, Running& engine) {
   json.open('[').value("time_s").value("crank_deg");
   for (const Probe* column : engine.columns()) json.value(fmi::name_of(column->variable));
   json.close(']');
 }
-
-// ---- work
-// ------------------------------------------------------------------------------------------------------------
 
 void load(Json& json, const std::string& path, const std::string& text) {
   auto engine = std::make_shared<EngineFile>(program::read_engine_text(text, path, {"engine", "crank", "masses"}));
@@ -204,79 +118,6 @@ void hash_free(Json& json, const StartRequest& request, double seconds) {
 
 void require_tick(double tick_us) {
   if (!(tick_us >= 1 && tick_us <= 2000)) throw InputError("the tick is out of range; allowed: 1 to 2000 us");
-}
-
-// ---- the redline
-// -----------------------------------------------------------------------------------------------------
-
-constexpr int kLeastRedline_rpm = 500, kMaxRedline_rpm = 15000;  // as `redline` has them
-
-/// Speeds of the sweep, and of an onset's search.
-int sweep_speeds_of(const program::SpeedRange& range) {
-  return (range.to_rpm - range.from_rpm + range.step_rpm - 1) / range.step_rpm + 1;
-}
-int speeds_per_onset(const program::SpeedRange& range) {
-  return static_cast<int>(std::ceil(std::log2(std::max(range.step_rpm, 1))));
-}
-
-void begin_redline(Json& json, const std::string& train, int from_rpm, int to_rpm) {
-  const program::SpeedRange range =
-      program::speed_range(from_rpm > 0 ? from_rpm : kLeastRedline_rpm, to_rpm > 0 ? to_rpm : kMaxRedline_rpm);
-  if (range.from_rpm >= range.to_rpm) throw InputError("the lowest speed must be less than the highest");
-  Module& m = module();
-  const std::shared_ptr<const EngineFile> file = (loaded(), m.engine);
-  auto valve = std::make_unique<program::LoneValve>(*file, train);
-  auto search = std::make_unique<program::SpeedSearch>(*valve, range, 1.0);
-  m.search = std::move(search);  // in this order: the old search points to the old valve
-  m.valve = std::move(valve);
-  m.searched = file;
-  m.range = range;
-  m.speeds_run = 0;
-  const double rigid_rad_s = m.search->sweep().rigid.crank_rad_s;
-  json.member("from_rpm", range.from_rpm).member("to_rpm", range.to_rpm).member("step_rpm", range.step_rpm);
-  json.member("speeds", sweep_speeds_of(range)).key("static_redline_rpm");
-  json.value(rigid_rad_s > 0 ? rigid_rad_s * program::kRpmPerRad_s : std::numeric_limits<double>::infinity());
-  json.member("tick_us", m.search->sweep().tick_s * 1e6);
-}
-
-const char* name_of(program::SpeedSearch::Part part) {
-  constexpr const char* kNames[] = {"sweep", "separation", "bounce", "seating", "ended"};
-  return kNames[static_cast<int>(part)];
-}
-
-void add_onset(Json& json, const std::string& name, const program::Onset& onset) {
-  json.key(name + "_rpm");
-  json.value(onset.found ? onset.speed_rpm : std::numeric_limits<double>::infinity());
-  json.member(name + "_at_start", onset.at_the_start);
-}
-
-void step_redline(Json& json) {
-  Module& m = module();
-  if (m.search == nullptr) throw InputError("no search has begun");
-  const auto part = m.search->part();
-  if (part == program::SpeedSearch::Part::ended) {
-    const program::Sweep& sweep = m.search->sweep();
-    json.member("ended", true);
-    add_onset(json, "separation", sweep.separation);
-    add_onset(json, "bounce", sweep.bounce);
-    add_onset(json, "seating", sweep.seating);
-    return;
-  }
-  const program::SpeedResult result = m.search->step();
-  const int of = sweep_speeds_of(m.range) + 3 * speeds_per_onset(m.range);
-  ++m.speeds_run;
-  json.member("ended", false)
-      .member("part", name_of(part))
-      .member("done", m.speeds_run)
-      .member("of", std::max(of, m.speeds_run));
-  json.member("speed_rpm", result.speed_rpm).key("results").open('{');
-  json.member("max_lift_m", result.cycle.largest_lift_m).member("separations", result.cycle.separations);
-  json.member("separation_gap_m", result.cycle.separation_clearance_m)
-      .member("seating_m_s", result.cycle.seating_speed_m_s);
-  json.member("bounces", result.cycle.bounces).member("bounce_m", result.cycle.bounce_height_m);
-  json.member("max_acceleration_m_s2", result.cycle.largest_acceleration_m_s2).member("train_N", result.train_N);
-  json.member("cam_N", result.cam_N).member("spring_margin", result.spring_margin);
-  json.member("is_possible", result.is_possible).close('}');
 }
 
 }  // namespace
@@ -425,11 +266,12 @@ const char* page_redline(const char* train, std::uint32_t bytes, std::uint32_t f
   return answer_or_errors(path_of_loaded(), [&](Json& json) {
     if (from_rpm > 100000 || to_rpm > 100000)
       throw InputError("the speed is out of range; allowed: at most 100000 rpm");
-    begin_redline(json, {train, bytes}, static_cast<int>(from_rpm), static_cast<int>(to_rpm));
+    (void)loaded();
+    module().redline.begin(json, module().engine, {train, bytes}, static_cast<int>(from_rpm), static_cast<int>(to_rpm));
   });
 }
 const char* page_redline_step(void) {
-  return answer_or_errors(path_of_loaded(), [&](Json& json) { step_redline(json); });
+  return answer_or_errors(path_of_loaded(), [&](Json& json) { module().redline.step(json); });
 }
 
 }  // extern "C"

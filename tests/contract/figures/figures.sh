@@ -118,7 +118,7 @@ performance() {
   {
     printf '# Scenes on a host\n\nWritten by `tests/contract/figures/figures.sh BUILD_DIR performance`; '
     echo "[performance.md](../performance.md#a-scene) has what the columns mean."
-    echo
+    printf '\nMeasured on: %s.\n\n' "$(measured_on)"
     echo "Float:"
     echo
     scene_header
@@ -132,8 +132,6 @@ performance() {
     echo "Groups, float:"
     echo
     groups
-    echo
-    echo "Measured on: $(measured_on)."
   } >host.md
   cp host.md "$here/../../../docs/measurements/host.md"
   "$here/performance.sh" "$here/../../.." renew

@@ -9,10 +9,13 @@
 namespace crankloop::program {
 namespace {
 
+/// What one command lists as --output and another as --out may be written either way.
+bool is_output(std::string_view name) { return name == "--output" || name == "--out"; }
+
 const Option& known_option(const Command& command, std::string_view name) {
   if (name == "-o") name = "--output";
   for (const Option& option : command.options) {
-    if (name == option.name) return option;
+    if (name == option.name || (is_output(name) && is_output(option.name))) return option;
   }
   if (command.files > 0 && name == kNoWarnings.name) return kNoWarnings;
   std::vector<std::string> names;

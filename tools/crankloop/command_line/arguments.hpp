@@ -97,7 +97,7 @@ struct Command {
 [[nodiscard]] std::vector<Option> options_of(const Command& command);
 
 /// What the user asked for, as `--name value`, `--name=value`, `--flag`, and files in between; `--` ends the options,
-/// `-o` is --output.
+/// `-o` is --output, which is --out too.
 class Arguments {
  public:
   /// Throws UsageError for an option that is unknown, doubled, without its value, with a value out of its range, for

@@ -24,11 +24,24 @@ namespace {
 
 std::vector<std::string> needed_sections() { return {"engine", "crank", "masses"}; }
 
-/// A component's amplitude and phase; a balanced component has no phase.
-void write_wave(Summary& s, const std::string& name, const char* unit, double cosine, double sine, double noise) {
+/// What cancels leaves rounding: up to this share of the torque's range, or of what a single cylinder's inertia gives,
+/// 0 is printed.
+constexpr double kRoundingRatio = 1e-9;
+
+double without_rounding(double amplitude, double rounding) { return amplitude > rounding ? amplitude : 0; }
+
+/// A component's amplitude and phase; a balanced component has neither.
+void write_wave(Summary& s, const std::string& name, const char* unit, double cosine, double sine, double rounding) {
   const Wave wave = wave_of(cosine, sine);
-  s.line(name + "_" + unit, wave.amplitude);
-  s.line(name + "_phase_deg", wave.amplitude > noise ? wave.phase_deg : 0);
+  s.line(name + "_" + unit, without_rounding(wave.amplitude, rounding));
+  s.line(name + "_phase_deg", wave.amplitude > rounding ? wave.phase_deg : 0);
+}
+
+/// Arm of the moments: between the outermost cylinders, at least the crank's.
+double arm_m(const EngineDefinition& definition) {
+  const auto first = definition.layout.position_m.begin();
+  const auto [front, rear] = std::minmax_element(first, first + definition.layout.cylinders);
+  return std::max(*rear - *front, definition.crank.crank_radius_m);
 }
 
 /// Amplitudes over a turn at speed w.
@@ -37,15 +50,16 @@ class TurningWriter {
   TurningWriter(Summary& s, const EngineDefinition& definition, double speed_rad_s)
       : s_{s},
         w2_{speed_rad_s * speed_rad_s},
-        noise_N_{1e-9 * definition.masses.reciprocating_kg() * definition.crank.crank_radius_m * w2_} {}
+        rounding_N_{kRoundingRatio * definition.masses.reciprocating_kg() * definition.crank.crank_radius_m * w2_},
+        rounding_Nm_{rounding_N_ * arm_m(definition)} {}
 
   void write(const std::string& name, const TurningForce& t) {
-    s_.line("free_force_" + name + "_N", peak_force_kg_m(t) * w2_);
-    component("free_force_" + name + "_up", "N", t.up_cos, t.up_sin);
-    component("free_force_" + name + "_lateral", "N", t.lateral_cos, t.lateral_sin);
-    s_.line("free_moment_" + name + "_Nm", peak_moment_kg_m2(t) * w2_);
-    component("free_moment_" + name + "_pitch", "Nm", t.pitch_cos, t.pitch_sin);
-    component("free_moment_" + name + "_yaw", "Nm", t.yaw_cos, t.yaw_sin);
+    force("free_force_" + name + "_N", t);
+    component("free_force_" + name + "_up", "N", t.up_cos, t.up_sin, rounding_N_);
+    component("free_force_" + name + "_lateral", "N", t.lateral_cos, t.lateral_sin, rounding_N_);
+    moment("free_moment_" + name + "_Nm", t);
+    component("free_moment_" + name + "_pitch", "Nm", t.pitch_cos, t.pitch_sin, rounding_Nm_);
+    component("free_moment_" + name + "_yaw", "Nm", t.yaw_cos, t.yaw_sin, rounding_Nm_);
   }
 
   /// An order of the engine alone, and what its balancers leave of it.
@@ -54,20 +68,27 @@ class TurningWriter {
     const TurningForce bare = free_force(definition, {}, order.order);
     const TurningForce left = free_force(definition, balancers, order.order);
     const std::string name = std::string("_") + order.name + "_";
-    s_.line("bare_force" + name + "N", peak_force_kg_m(bare) * w2_);
-    s_.line("residual_force" + name + "N", peak_force_kg_m(left) * w2_);
-    s_.line("bare_moment" + name + "Nm", peak_moment_kg_m2(bare) * w2_);
-    s_.line("residual_moment" + name + "Nm", peak_moment_kg_m2(left) * w2_);
+    force("bare_force" + name + "N", bare);
+    force("residual_force" + name + "N", left);
+    moment("bare_moment" + name + "Nm", bare);
+    moment("residual_moment" + name + "Nm", left);
   }
 
  private:
-  void component(const std::string& name, const char* unit, double cosine, double sine) {
-    write_wave(s_, name, unit, cosine * w2_, sine * w2_, noise_N_);
+  void force(const std::string& name, const TurningForce& t) {
+    s_.line(name, without_rounding(peak_force_kg_m(t) * w2_, rounding_N_));
+  }
+  void moment(const std::string& name, const TurningForce& t) {
+    s_.line(name, without_rounding(peak_moment_kg_m2(t) * w2_, rounding_Nm_));
+  }
+  void component(const std::string& name, const char* unit, double cosine, double sine, double rounding) {
+    write_wave(s_, name, unit, cosine * w2_, sine * w2_, rounding);
   }
 
   Summary& s_;
   double w2_;
-  double noise_N_;
+  double rounding_N_;
+  double rounding_Nm_;
 };
 
 struct Range {
@@ -233,10 +254,9 @@ Summary figures_of_balance(const Arguments& arguments, const EngineFile& engine)
   s.line("min_torque_Nm", cycle.smallest_torque_Nm);
   s.line("min_torque_deg", cycle.smallest_torque_deg);
   s.line("torque_fluctuation_ratio", cycle.fluctuation_ratio);
-  for (const Harmonic& h : cycle.harmonics) {
-    const double noise_Nm = 1e-9 * (cycle.largest_torque_Nm - cycle.smallest_torque_Nm);
-    write_wave(s, "torque_order_" + shortest(h.order), "Nm", h.cosine_Nm, h.sine_Nm, noise_Nm);
-  }
+  const double rounding_Nm = kRoundingRatio * (cycle.largest_torque_Nm - cycle.smallest_torque_Nm);
+  for (const Harmonic& h : cycle.harmonics)
+    write_wave(s, "torque_order_" + shortest(h.order), "Nm", h.cosine_Nm, h.sine_Nm, rounding_Nm);
   TurningWriter turning(s, definition, speed);
   for (const FreeOrder& order : free_orders(definition.crank))
     turning.write(order.name, reciprocating_order(definition, order.order));

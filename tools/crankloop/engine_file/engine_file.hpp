@@ -4,7 +4,7 @@
 //     const Status status = tabulate(engine.definition(), ...);
 //     if (!status.ok()) throw engine.explain(status);
 //
-// What belongs here: an engine file's interface for commands. What does not: its keys (engine_file_keys.cpp).
+// What belongs here: an engine file's interface for commands. What does not: its keys (engine_file_key_list.hpp).
 #pragma once
 
 #include <cstddef>

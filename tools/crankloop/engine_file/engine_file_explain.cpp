@@ -80,6 +80,10 @@ InputError EngineFile::explain(const Status& status) const {
   if (status.reason == Reason::inconsistent && field == "pressure.wiebe.motored_expansion_exponent") {
     return InputError(path_, home->line_of(key->name), motored_gives_work(*home));
   }
+  // Within its own range, or the file had been refused: it is the tick that is too short.
+  if (status.reason == Reason::out_of_range && field == "reluctor.delay_s") {
+    return InputError(path_, home->line_of(key->name), in_words(*home, *key, Reason::ok, "is more than a tick"));
+  }
   if (status.reason == Reason::too_much_heat) return InputError(path_, home->line_of(key->name), too_much_heat(*home));
   const std::string whose = status.index >= 0 ? "(cylinder " + std::to_string(status.index + 1) + ") " : "";
   return InputError(path_, home->line_of(key->name),

@@ -112,6 +112,8 @@ void EngineFile::build_sensor_faults() {
     const SensorFault& fault = definition_.sensor_faults[definition_.sensor_fault_count++] =
         build_sensor_fault(section);
     if (const Status status = validate(fault); !status.ok()) throw explain_fault(status, section);
+    if (fault.sensor == ControllerSensor::lambda && !definition_.lambda_sensor.in_use)
+      throw InputError(path_, section.line_of("sensor"), section.title() + " sensor: lambda needs a [lambda_sensor]");
   }
 }
 

@@ -325,15 +325,24 @@ std::vector<std::string> warnings_about_running_free(const EngineFile& engine, c
 }
 
 std::vector<std::string> warnings_about_misfires_left_out(const EngineFile& engine) {
+  constexpr struct {
+    const char* section;
+    const char* instead;
+    const char* taken;
+  } kLeftOut[] = {
+      {"misfire", "every cycle fires",
+       "`crankloop run --free`, `crankloop live` and FMUs whose crank forces turn take misfires"},
+      {"fault", "every signal is healthy",
+       "`crankloop run --free`, `crankloop live` and FMUs whose crank forces turn take faults"},
+      {"sensor_fault", "no sensor is read", "`crankloop live` and FMUs whose crank forces turn take faults of sensors"},
+  };
   std::vector<std::string> lines;
   for (const SectionValues& section : engine.sections()) {
-    const bool fault = section.kind == "fault";
-    if (!fault && section.kind != "misfire") continue;
-    lines.push_back(
-        engine.path() + ":" + std::to_string(section.line) + ": warning: " + section.title() + ": " +
-        (fault ? "every signal is healthy" : "every cycle fires") +
-        " in this command; `crankloop run --free`, `crankloop live` and FMUs whose crank forces turn take " +
-        (fault ? "faults" : "misfires"));
+    for (const auto& kind : kLeftOut) {
+      if (section.kind == kind.section)
+        lines.push_back(engine.path() + ":" + std::to_string(section.line) + ": warning: " + section.title() + ": " +
+                        kind.instead + " in this command; " + kind.taken);
+    }
   }
   return lines;
 }

@@ -1,6 +1,6 @@
 // Allowed but unlikely values in an engine file: warnings, after which the command continues.
 //
-// What belongs here: usual ranges. What does not: permitted ranges (validate(), engine_file_keys.cpp).
+// What belongs here: usual ranges. What does not: permitted ranges (validate(), engine_file_key_list.hpp).
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // The usual range of each key of the engine file, in the file's unit: a value in a wrong unit lies outside.
 //
 // What belongs here: the table and its reference quantities. What does not: checks of several keys (plausibility.cpp),
-// permitted ranges (engine_file_keys.cpp).
+// permitted ranges (engine_file_key_list.hpp).
 #pragma once
 
 #include <optional>

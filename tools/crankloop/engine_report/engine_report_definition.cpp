@@ -188,6 +188,13 @@ Table deviation_table(const ReportInput& input) {
   return table;
 }
 
+/// The net IMEP that the report shows, beside the same from pressure and volume.
+std::string imep_check(const ReportInput& input, int digits, const char* loop) {
+  return "Net IMEP is " + number_text(input.figures.net_mep_Pa * kKilo, digits) +
+         " kPa by the loop's torque, as shown above. As a check, the integral of p dV " + loop + " gives " +
+         number_text(input.summary.net_mep_Pa * kKilo, digits) + " kPa.";
+}
+
 }  // namespace
 
 report::Section accuracy_section(const ReportInput& input) {
@@ -210,12 +217,9 @@ report::Section accuracy_section(const ReportInput& input) {
   list.items.push_back(
       "Where a cycle is not a whole number of ticks, only the part of the last tick inside the cycle counts.");
   if (breathes(input)) {
-    list.items.push_back("Net IMEP: " + number_text(f.net_mep_Pa * kKilo, 5) + " kPa from the loop's torque, " +
-                         number_text(input.summary.net_mep_Pa * kKilo, 5) +
-                         " kPa from the loop integral of p dV over the curves.");
+    list.items.push_back(imep_check(input, 5, "over cylinder 1's curve"));
   } else if (has_gas(input)) {
-    list.items.push_back("Net IMEP: " + number_text(f.net_mep_Pa * kKilo, 7) + " kPa from the loop's torque, " +
-                         number_text(input.summary.net_mep_Pa * kKilo, 7) + " kPa from the loop integral of p dV.");
+    list.items.push_back(imep_check(input, 7, "of the diagram"));
     list.items.push_back("The pressure table has " + std::to_string(f.tables.gas_segments) +
                          " segments and is within " + number_text(f.tables.pressure_error_Pa * kKilo, 2) +
                          " kPa of the diagram.");

@@ -1,16 +1,9 @@
 // Section of the engine report: the valve trains of cylinder 1, theoretical and elastic motion.
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <memory>
 #include <utility>
 
-#include <crankloop/tabulate/spring_margin.hpp>
-#include <crankloop/tabulate/valve_lift.hpp>
-#include <crankloop/tabulate/valve_motion.hpp>
-
-#include "../loops/lift_jerk.hpp"
-#include "engine_report_parts.hpp"
+#include "engine_report_trains.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -27,89 +20,7 @@ constexpr double kKilo = 1e-3;
 constexpr int kTheoryColour = 6;
 constexpr double kHighBounce_m = 0.5e-3;  // higher and longer than in an engine in service
 
-/// Motion of rigid parts at the speed of the run, over the trace's angles; 0 while the lash is open.
-struct Theory {
-  std::vector<double> velocity_m_s{};
-  std::vector<double> acceleration_m_s2{};
-  std::vector<double> jerk_m_s3{};
-};
-
-/// The data of one train of cylinder 1.
-struct Train {
-  std::string name;
-  const ValveTrace& trace;
-  std::size_t full_lift;  ///< entry of the trace with the largest theoretical lift
-  double lobe_begin_deg;  ///< crank angle at which the lobe begins, in [0, 720)
-  double largest_theory_m;
-  double seat_contact_m;  ///< lift at which the valve touches its seat
-  double open_Hz;
-  double seated_Hz;
-  StaticRedline rigid;
-  double spring_margin;  ///< least, at the speed of the run
-  double margin_at_deg;  ///< its crank angle
-  Theory theory;
-  double cam_rad_s;
-  double least_radius_m;  ///< of the cam's curvature
-};
-
-/// Converts cam degrees from the start of the lobe, as the tick counts them, to the crank angle of cylinder 1.
-double crank_deg(const Train& train, double since_opening_deg) {
-  const double deg = std::fmod(train.lobe_begin_deg + 2 * since_opening_deg, 720);
-  return deg < 0 ? deg + 720 : deg;
-}
-
-Theory theory_of(const ReportInput& input, const ValveLift& lift, double full_lift_deg) {
-  const double cam_rad_s = input.operation.speed_rad_s() / 2;
-  Theory theory;
-  for (const double crank_deg : input.trace.crank_deg) {
-    const double cam_rad = (crank_deg - full_lift_deg) / 2 * kRadPerDeg;
-    const LiftPose pose = lift.at(cam_rad);
-    const bool open = pose.lift_m > 0;
-    theory.velocity_m_s.push_back(open ? pose.per_rad_m * cam_rad_s : 0);
-    theory.acceleration_m_s2.push_back(open ? pose.per_rad2_m * cam_rad_s * cam_rad_s : 0);
-    theory.jerk_m_s3.push_back(open ? lift_jerk_m(lift, cam_rad) * cam_rad_s * cam_rad_s * cam_rad_s : 0);
-  }
-  return theory;
-}
-
-std::vector<Train> trains_of(const ReportInput& input) {
-  const EngineDefinition& definition = input.exact.definition();
-  const std::vector<std::string> names = names_of_trains(input.file);
-  std::vector<Train> trains;
-  const auto lift = std::make_unique<ValveLift>();
-  for (std::size_t t = 0; t < input.trace.valves.size(); ++t) {
-    const ValveTrain& train = definition.trains[t];
-    if (!lift->init(train.cam, train.rocker).ok()) continue;  // the loop has accepted it
-    const detail::ValveBody<double> body = valve_body(train.valve, *lift);
-    const ValveTrace& trace = input.trace.valves[t];
-    const StaticRedline rigid = static_redline(*lift, body);
-    trains.push_back({names[t], trace, index_of_largest(trace[ValveQuantity::theoretical_lift]),
-                      train.cam.full_lift_deg + 2 * lift->opens_rad() * kDegPerRad, lift->largest_lift_m(),
-                      body.preload_N / body.seat_N_m, open_frequency_rad_s(body) * kTurnsPerRad,
-                      seated_frequency_rad_s(body) * kTurnsPerRad, rigid, rigid.margin(input.operation.speed_rad_s()),
-                      std::fmod(train.cam.full_lift_deg + 2 * rigid.cam_deg + 720, 720),
-                      theory_of(input, *lift, train.cam.full_lift_deg), std::abs(input.operation.speed_rad_s()) / 2,
-                      lift->smallest_radius_m()});
-  }
-  return trains;
-}
-
-/// Entries of a cycle in the order of a lobe: from the base circle before full lift to that behind it.
-std::vector<std::size_t> entries_of_lobe(const Train& train) {
-  const std::size_t count = train.trace.regime.size() - 1;  // the last entry is the first of the next cycle
-  std::vector<std::size_t> entries(count);
-  for (std::size_t i = 0; i < count; ++i) entries[i] = (train.full_lift + count / 2 + i) % count;
-  return entries;
-}
-
-/// Index in entries_of_lobe() at which the valve first touches its seat after full lift; their count if it does not.
-std::size_t seating_place(const Train& train, const std::vector<std::size_t>& entries) {
-  std::size_t i = entries.size() / 2;
-  while (i < entries.size() && (train.trace.regime[entries[i]] & kSeatOn) == 0) ++i;
-  return i;
-}
-
-Series curve(const ReportInput& input, const Train& train, ValveQuantity quantity, double factor,
+Series curve(const ReportInput& input, const ShownTrain& train, ValveQuantity quantity, double factor,
              const std::string& name, int colour) {
   Series series = over_angle(input.trace, name, train.trace[quantity], factor);
   series.style.colour = colour;
@@ -121,8 +32,8 @@ struct Timing {
   double opens_deg;
   double closes_deg;
 };
-double timed_lift_m(const Train& train) { return std::min(1e-3, train.largest_theory_m / 2); }
-Timing timing_of(const ReportInput& input, const Train& train) {
+double timed_lift_m(const ShownTrain& train) { return std::min(1e-3, train.largest_theory_m / 2); }
+Timing timing_of(const ReportInput& input, const ShownTrain& train) {
   const std::vector<double>& lift_m = train.trace[ValveQuantity::theoretical_lift];
   const std::size_t count = lift_m.size() - 1;  // the last is the first of the next cycle
   const double spacing_deg = input.trace.spacing_deg;
@@ -145,7 +56,7 @@ std::string from_dead_centre(double crank_deg) {
 }
 
 /// The circle of the crank, clockwise from top dead centre, an arc for each train while its valve is open.
-Plot timing_plot(const ReportInput& input, const std::vector<Train>& trains) {
+Plot timing_plot(const ReportInput& input, const std::vector<ShownTrain>& trains) {
   Plot plot = plot_of("Valve timing", {}, {});
   plot.x.bare = plot.y.bare = true;
   const auto arc = [&plot](const std::string& name, double radius, double from_deg, double to_deg, int colour) {
@@ -185,7 +96,7 @@ Plot with_short_labels(Plot plot) {
   return plot;
 }
 
-Plot lift_plot(const ReportInput& input, const std::vector<Train>& trains) {
+Plot lift_plot(const ReportInput& input, const std::vector<ShownTrain>& trains) {
   std::vector<Series> curves;
   for (std::size_t t = 0; t < trains.size(); ++t) {
     const int colour = static_cast<int>(t) + 1;
@@ -201,8 +112,8 @@ Plot lift_plot(const ReportInput& input, const std::vector<Train>& trains) {
   return with_short_labels(std::move(plot));
 }
 
-Plot one_each(const ReportInput& input, const std::vector<Train>& trains, const std::string& title, const Axis& axis,
-              ValveQuantity quantity, double factor) {
+Plot one_each(const ReportInput& input, const std::vector<ShownTrain>& trains, const std::string& title,
+              const Axis& axis, ValveQuantity quantity, double factor) {
   std::vector<Series> curves;
   for (std::size_t t = 0; t < trains.size(); ++t) {
     curves.push_back(curve(input, trains[t], quantity, factor, trains[t].name, static_cast<int>(t) + 1));
@@ -212,8 +123,8 @@ Plot one_each(const ReportInput& input, const std::vector<Train>& trains, const 
 }
 
 /// A motion of the valves, with that of rigid parts dashed.
-Plot with_theory(const ReportInput& input, const std::vector<Train>& trains, Plot plot,
-                 std::vector<double> Theory::*theory, double factor) {
+Plot with_theory(const ReportInput& input, const std::vector<ShownTrain>& trains, Plot plot,
+                 std::vector<double> RigidMotion::*theory, double factor) {
   if (trains.size() == 1) plot.series[0].name = trains[0].name;
   for (std::size_t t = 0; t < trains.size(); ++t) {
     Series rigid = over_angle(input.trace, t == 0 ? "theory" : "", trains[t].theory.*theory, factor);
@@ -225,7 +136,7 @@ Plot with_theory(const ReportInput& input, const std::vector<Train>& trains, Plo
   return plot;
 }
 
-Plot jerk_plot(const ReportInput& input, const std::vector<Train>& trains) {
+Plot jerk_plot(const ReportInput& input, const std::vector<ShownTrain>& trains) {
   constexpr double kMmPerMs3 = 1e-6;
   std::vector<Series> curves;
   for (std::size_t t = 0; t < trains.size(); ++t) {
@@ -239,7 +150,7 @@ Plot jerk_plot(const ReportInput& input, const std::vector<Train>& trains) {
   return plot;
 }
 
-Plot force_plot(const ReportInput& input, const Train& train) {
+Plot force_plot(const ReportInput& input, const ShownTrain& train) {
   Plot plot = plot_over_angle(input, "Forces of the " + train.name + " valve", axis_of("Force", "kN"),
                               {curve(input, train, ValveQuantity::cam_force, kKilo, "cam", 0),
                                curve(input, train, ValveQuantity::train_force, kKilo, "train", 0),
@@ -252,7 +163,7 @@ Plot force_plot(const ReportInput& input, const Train& train) {
 }
 
 /// Compression of the train, or the gap between train and valve.
-Plot gap_plot(const ReportInput& input, const Train& train) {
+Plot gap_plot(const ReportInput& input, const ShownTrain& train) {
   Plot plot =
       plot_over_angle(input, "Between train and valve, " + train.name, axis_of("Train lift less valve lift", "\u00B5m"),
                       {curve(input, train, ValveQuantity::compression, kMicro, "", 0)});
@@ -277,7 +188,7 @@ Plot gap_plot(const ReportInput& input, const Train& train) {
 }
 
 /// The seating: from shortly before contact until the valve is at rest.
-Plot seating_plot(const ReportInput& input, const Train& train) {
+Plot seating_plot(const ReportInput& input, const ShownTrain& train) {
   constexpr double kBefore_deg = 3;
   const double behind_deg = train.trace.cycle.bounce_height_m < kHighBounce_m ? 45 : 180;
   const std::vector<std::size_t> entries = entries_of_lobe(train);
@@ -314,90 +225,9 @@ Plot seating_plot(const ReportInput& input, const Train& train) {
   return plot;
 }
 
-report::Table results_table(const std::vector<Train>& trains) {
-  report::Table table{"Results of the cycle", {{"", "", false}, {"Unit", "", false}}, {}, false};
-  for (const Train& train : trains) table.columns.push_back({train.name, ""});
-  const auto row = [&](const char* name, const char* unit, const auto& value) {
-    std::vector<std::string> cells{name, unit};
-    for (const Train& train : trains) cells.push_back(value(train, train.trace.cycle));
-    table.rows.push_back(std::move(cells));
-  };
-  using Cycle = ValveCycle<double>;
-  const auto largest = [](const Train& train, ValveQuantity quantity) {
-    return number_text(span_of(train.trace[quantity]).high, 4);
-  };
-  row("Largest theoretical lift", "mm",
-      [](const Train& t, const Cycle&) { return number_text(t.largest_theory_m * kMilli, 5); });
-  row("Largest lift", "mm", [](const Train&, const Cycle& c) { return number_text(c.largest_lift_m * kMilli, 5); });
-  row("Largest speed", "m/s", [](const Train&, const Cycle& c) { return number_text(c.largest_speed_m_s, 4); });
-  row("Largest acceleration", "m/s\u00B2",
-      [](const Train&, const Cycle& c) { return number_text(c.largest_acceleration_m_s2, 4); });
-  const auto theory = [&](const char* name, const char* unit, const char* unit_per_rad, int order, const auto& value) {
-    row(name, unit, [&](const Train& t, const Cycle&) { return number_text(value(t.theory), 4); });
-    row("per cam angle", unit_per_rad, [&](const Train& t, const Cycle&) {
-      return number_text(value(t.theory) / std::pow(t.cam_rad_s, order) * kMilli, 4);
-    });
-  };
-  theory("Largest theoretical speed", "m/s", "mm/rad", 1,
-         [](const Theory& t) { return std::max(span_of(t.velocity_m_s).high, -span_of(t.velocity_m_s).low); });
-  theory("Largest theoretical acceleration", "m/s\u00B2", "mm/rad\u00B2", 2,
-         [](const Theory& t) { return span_of(t.acceleration_m_s2).high; });
-  theory("Least theoretical acceleration", "m/s\u00B2", "mm/rad\u00B2", 2,
-         [](const Theory& t) { return span_of(t.acceleration_m_s2).low; });
-  row("Least radius of the cam's curvature", "mm",
-      [](const Train& t, const Cycle&) { return number_text(t.least_radius_m * kMilli, 4); });
-  row("Opening delay at 0.1 mm, cam angle", "deg", [](const Train&, const Cycle& c) {
-    return has_opening_delay(c) ? number_text(c.opening_delay_deg, 3) : std::string("\u2013");
-  });
-  row("Separations", "", [](const Train&, const Cycle& c) { return std::to_string(c.separations); });
-  row("Largest gap", "\u00B5m",
-      [](const Train&, const Cycle& c) { return number_text(c.separation_clearance_m * kMicro, 3); });
-  row("its start, crank angle", "deg", [](const Train& t, const Cycle& c) {
-    return c.separations > 0 ? report::format_fixed(crank_deg(t, c.separation_start_deg), 1) : std::string("\u2013");
-  });
-  row("its duration, crank angle", "deg", [](const Train&, const Cycle& c) {
-    return c.separations > 0 ? report::format_fixed(2 * c.separation_duration_deg, 1) : std::string("\u2013");
-  });
-  row("Seating speed", "m/s", [](const Train&, const Cycle& c) { return number_text(c.seating_speed_m_s, 3); });
-  row("Bounces", "", [](const Train&, const Cycle& c) { return std::to_string(c.bounces); });
-  row("Largest bounce", "\u00B5m",
-      [](const Train&, const Cycle& c) { return number_text(c.bounce_height_m * kMicro, 3); });
-  row("Largest force between cam and follower", "N",
-      [&](const Train& t, const Cycle&) { return largest(t, ValveQuantity::cam_force); });
-  row("Largest force of the train", "N",
-      [&](const Train& t, const Cycle&) { return largest(t, ValveQuantity::train_force); });
-  row("Largest force of the seat", "N",
-      [&](const Train& t, const Cycle&) { return largest(t, ValveQuantity::seat_force); });
-  row("Least spring margin, rigid parts", "", [](const Train& t, const Cycle&) {
-    return std::isfinite(t.spring_margin) ? number_text(t.spring_margin, 3) : std::string("\u2013");
-  });
-  row("its place, crank angle", "deg", [](const Train& t, const Cycle&) {
-    return std::isfinite(t.spring_margin) ? report::format_fixed(t.margin_at_deg, 1) : std::string("\u2013");
-  });
-  row("Static redline", "rpm", [](const Train& t, const Cycle&) {
-    return t.rigid.crank_rad_s > 0 ? number_text(t.rigid.crank_rad_s * kRpmPerRad_s, 4) : std::string("\u2013");
-  });
-  row("Natural frequency, open", "Hz", [](const Train& t, const Cycle&) { return number_text(t.open_Hz, 4); });
-  row("Natural frequency, on the seat", "Hz", [](const Train& t, const Cycle&) { return number_text(t.seated_Hz, 4); });
-  return table;
-}
-
-report::Table table_of_train(const ReportInput& input, const Train& train) {
-  const auto column = [&](const char* title, const char* unit, ValveQuantity quantity, double factor) {
-    return AngleColumn{title, unit, &train.trace[quantity], factor};
-  };
-  return table_over_angle(
-      input.trace, "Table: " + train.name + " valve",
-      {column("Theoretical lift", "mm", ValveQuantity::theoretical_lift, kMilli),
-       column("Lift", "mm", ValveQuantity::lift, kMilli), column("Velocity", "m/s", ValveQuantity::velocity, 1),
-       column("Acceleration", "m/s\u00B2", ValveQuantity::acceleration, 1),
-       column("Train force", "N", ValveQuantity::train_force, 1),
-       column("Seat force", "N", ValveQuantity::seat_force, 1), column("Cam force", "N", ValveQuantity::cam_force, 1)});
-}
-
-std::string verdict(const std::vector<Train>& trains) {
+std::string verdict(const std::vector<ShownTrain>& trains) {
   std::string floating;
-  for (const Train& train : trains) {
+  for (const ShownTrain& train : trains) {
     if (train.trace.cycle.separations > 0) floating += (floating.empty() ? "" : ", ") + train.name;
   }
   return floating.empty() ? "At this speed every valve follows its cam."
@@ -407,7 +237,7 @@ std::string verdict(const std::vector<Train>& trains) {
 }  // namespace
 
 report::Section valve_section(const ReportInput& input) {
-  const std::vector<Train> trains = trains_of(input);
+  const std::vector<ShownTrain> trains = trains_of(input);
   Section section{"valves", "Valve train", {}};
   section.blocks.push_back(
       Paragraph{"The valves of cylinder 1. Each is one elastic mass between train and seat, stepped in time; it may "
@@ -421,16 +251,16 @@ report::Section valve_section(const ReportInput& input) {
       with_theory(input, trains,
                   with_short_labels(with_extremes(one_each(input, trains, "Valve velocity", axis_of("Velocity", "m/s"),
                                                            ValveQuantity::velocity, 1))),
-                  &Theory::velocity_m_s, 1));
+                  &RigidMotion::velocity_m_s, 1));
   section.blocks.push_back(
       with_theory(input, trains,
                   one_each(input, trains, "Valve acceleration", axis_of("Acceleration", "km/s\u00B2"),
                            ValveQuantity::acceleration, kKilo),
-                  &Theory::acceleration_m_s2, kKilo));
+                  &RigidMotion::acceleration_m_s2, kKilo));
   section.blocks.push_back(jerk_plot(input, trains));
-  for (const Train& train : trains) section.blocks.push_back(force_plot(input, train));
-  for (const Train& train : trains) section.blocks.push_back(gap_plot(input, train));
-  for (const Train& train : trains) {
+  for (const ShownTrain& train : trains) section.blocks.push_back(force_plot(input, train));
+  for (const ShownTrain& train : trains) section.blocks.push_back(gap_plot(input, train));
+  for (const ShownTrain& train : trains) {
     if (seating_place(train, entries_of_lobe(train)) < train.trace.regime.size() - 1)
       section.blocks.push_back(seating_plot(input, train));
   }
@@ -438,7 +268,7 @@ report::Section valve_section(const ReportInput& input) {
   add_cam_loads(input, section);
   add_surge(input, section);
   add_flow_area(input, section);
-  for (const Train& train : trains) section.blocks.push_back(table_of_train(input, train));
+  for (const ShownTrain& train : trains) section.blocks.push_back(table_of_train(input, train));
   return section;
 }
 

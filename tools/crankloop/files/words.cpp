@@ -1,6 +1,7 @@
 #include "words.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 namespace crankloop::program {
@@ -115,6 +116,32 @@ std::string suggestion(std::string_view given, const std::vector<std::string>& k
     }
   }
   return best == nullptr ? "" : "; did you mean " + *best + "?";
+}
+
+std::vector<std::string> nearest(std::string_view given, const std::vector<std::string>& known, std::size_t count) {
+  if (given.size() > kLongestGuess) return {};
+  const std::string word = lower(given);
+  const std::vector<std::string_view> parts = split(word, '_');
+  struct Near {
+    std::ptrdiff_t parts_shared;
+    std::size_t distance;
+    const std::string* word;
+  };
+  std::vector<Near> all;
+  for (const std::string& one : known) {
+    const std::string other = lower(one);
+    const std::vector<std::string_view> of_other = split(other, '_');
+    const auto shared = std::count_if(parts.begin(), parts.end(), [&](std::string_view part) {
+      return !part.empty() && std::find(of_other.begin(), of_other.end(), part) != of_other.end();
+    });
+    all.push_back({shared, edit_distance(word, other), &one});
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Near& a, const Near& b) {
+    return a.parts_shared != b.parts_shared ? a.parts_shared > b.parts_shared : a.distance < b.distance;
+  });
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < std::min(count, all.size()); ++i) words.push_back(*all[i].word);
+  return words;
 }
 
 }  // namespace crankloop::program

@@ -1,6 +1,7 @@
 // Text helpers of the readers: splitting, quoting, and suggestions for misspelt words.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,5 +31,10 @@ namespace crankloop::program {
 /// Close: equal but for case, or the end left out (bore for bore_mm), or at most a third of its letters, and 2
 /// at most, inserted, removed, changed or swapped.
 [[nodiscard]] std::string suggestion(std::string_view given, const std::vector<std::string>& known);
+
+/// At most `count` of the known words, the nearest to the given one first: those that share most of its parts between
+/// underscores, among them those with the fewest changed letters. None for a word of more than 64 bytes.
+[[nodiscard]] std::vector<std::string> nearest(std::string_view given, const std::vector<std::string>& known,
+                                               std::size_t count);
 
 }  // namespace crankloop::program

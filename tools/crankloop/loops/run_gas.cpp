@@ -107,8 +107,11 @@ void add_gas(Summary& s, const EngineDefinition& engine, const GasFigures& figur
   }
   if (engine.gas.octane_number > 0) {
     s.line("knock_integral", figures.knock_integral, "",
-           "of the cylinder nearest to knock: from 1 on, unburned gas ignites by itself before it burns");
-    if (figures.knock_integral >= 1) s.line("knock", figures.knock_deg, "deg", "where the first cylinder passes 1");
+           figures.knock_integral >= 1 ? "of the cylinder nearest to knock: beyond 1, so a real engine knocks here"
+                                       : "of the cylinder nearest to knock: a real engine knocks from 1 on");
+    if (figures.knock_integral >= 1)
+      s.line("knock", figures.knock_deg, "deg",
+             "where the first cylinder passes 1; a later burn_start or a fuel of higher octane avoids it");
   }
   s.line("exhaust_temperature", cycle.exhaust_K, "K", "of the gas that leaves through the exhaust valve");
   s.line("heat", cycle.heat_J, "J", "of combustion, of a cylinder's cycle");

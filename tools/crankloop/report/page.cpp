@@ -116,13 +116,14 @@ footer {
 @page { margin: 12mm 14mm; }
 @media print {
   :root { --paper: #ffffff; color-scheme: light; }
-  body { padding: 0; max-width: none; font-size: 10pt; }
+  body { padding: 0; max-width: none; font-size: 10pt; line-height: 1.4; }
+  p, ul { margin-bottom: 0.6rem; } li { margin-bottom: 0.1rem; }
   nav, .read-out, footer { display: none; }  /* the footer's file is in the command under Method */
   section { margin-top: 1.4rem; }
   h2 { margin-bottom: 0.8rem; padding-top: 0.7rem; } h3 { margin-bottom: 0.3rem; }
   .row:not(:has(> .table:only-child)) { grid-template-columns: 1fr 1fr; }
-  .row { gap: 0.8rem 1.8rem; margin-bottom: 0.8rem; }
-  figure .plot { width: 94%; }  /* three rows to a page */
+  .row { gap: 0.6rem 1.8rem; margin-bottom: 0.8rem; } p + .row, ul + .row { margin-top: 0.9rem; }
+  figure .plot { width: 84%; }  /* three rows and their headings to a page of letter paper */
   figcaption { margin-top: 0.2rem; font-size: 8.5pt; } .table { margin-bottom: 1.1rem; }
   .scroll { overflow: visible; }
   table { font-size: 8.5pt; } th, td { padding-top: 0.18rem; padding-bottom: 0.18rem; }

@@ -9,6 +9,16 @@ namespace crankloop::detail {
 [[nodiscard]] inline float square_root(float x) noexcept { return __builtin_sqrtf(x); }
 [[nodiscard]] inline double square_root(double x) noexcept { return __builtin_sqrt(x); }
 
+/// p as an address that the compiler does not know, on processors of 32 bits: it works it out once and reaches members
+/// by their offsets. Of what it knows how to work out GCC works each member's address out anew.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline T* address(T* p) noexcept {
+#if !defined(__x86_64__) && !defined(__aarch64__)
+  asm("" : "+r"(p));
+#endif
+  return p;
+}
+
 /// |x|
 [[nodiscard]] constexpr float magnitude(float x) noexcept { return __builtin_fabsf(x); }
 [[nodiscard]] constexpr double magnitude(double x) noexcept { return __builtin_fabs(x); }

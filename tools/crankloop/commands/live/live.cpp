@@ -100,6 +100,8 @@ int run_live_command(const Arguments& arguments) {
     if (trace_file) trace.emplace(*trace_file, file.name(), names_of_triggers(file));
     const LiveEnds ends{shares ? &*shared : nullptr, schedule ? &*schedule : nullptr, trace ? &*trace : nullptr};
     with_real(real, [&](auto zero) { run_live<decltype(zero)>(file, request, ends, *figures); });
+  } catch (const port::SharedBlockSystemError& failed) {
+    throw OutputError(failed.what());
   } catch (const port::SharedBlockError& refused) {
     throw InputError(refused.what());
   }

@@ -154,7 +154,9 @@ std::string run_point(const EngineDefinition& definition, const MapRequest& requ
   const int loads = request.load.count;
   Operation operation{request.speed_rpm.at(point / loads), request.tick_s, 1, request.gas};
   operation.gas.*request.axis->varied = request.load.at(point % loads) / request.axis->per_si;
-  const RunPoint run = request.best_spark ? best_of(definition, operation) : run_operation(definition, operation);
+  const bool burns = operation.gas.excess_air_ratio > 0 || operation.gas.fuel_kg > 0;  // else no start is the best
+  const RunPoint run =
+      request.best_spark && burns ? best_of(definition, operation) : run_operation(definition, operation);
   std::string text = std::to_string(run.figures.faults);
   for (const MapColumn& column : kMapColumnList) text += " " + exact_text(value_of(column.result, definition, run));
   return text;

@@ -147,7 +147,7 @@ int run_page(const Arguments& arguments) {
 }
 
 constexpr Option kOptions[] = {
-    required(text("--out", "F.html", "the page to write; opens in any browser, also from a disk")),
+    required(text("--out", "F.html", "the page to write, -o for short; opens in any browser, also from a disk")),
 };
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "../../command_line/summary.hpp"
+#include "../../files/output_file.hpp"
 #include "../../report/page.hpp"
 #include "redline_search.hpp"
 #include "redline_vary.hpp"
@@ -79,6 +81,15 @@ struct Redline {
 
 /// Where the static redline of the train as given stands, beside its onset of separation, and why.
 [[nodiscard]] std::string static_in_words(const Redline& redline);
+
+/// Onsets and natural frequencies of the train as given.
+[[nodiscard]] Summary summary_of(const Redline& redline);
+
+/// A row per speed, or per factor with a remark above them.
+[[nodiscard]] std::string table_of(const Redline& redline);
+
+/// A row per factor and speed.
+void write_csv(Output& out, const Redline& redline);
 
 [[nodiscard]] report::Page redline_page(const Redline& redline);
 

@@ -1,6 +1,7 @@
 // Over which speeds a valve keeps to its cam: a sweep, and the speeds at which float and bounce begin.
 //
-// What belongs here: the search and its results. What does not: how they are shown (redline.cpp, redline_report.cpp).
+// What belongs here: the search and its results. What does not: how they are shown (redline_text.cpp,
+// redline_report.cpp).
 #pragma once
 
 #include <cstdint>

@@ -120,9 +120,23 @@ const Figure& known_figure(const Study& study, const StudiedFigure& studied, con
   if (figure != nullptr) return *figure;
   std::vector<std::string> names;
   for (const Figure& one : summary.figures()) names.push_back(one.name);
-  const std::string guess = suggestion(studied.name, names);
-  throw UsageError("--of: `crankloop " + command + "` prints no " + studied.name + " here" +
-                   (guess.empty() ? "; it prints " + join(names) : guess));
+  std::string help = suggestion(studied.name, names);
+  if (help.empty()) {
+    const std::vector<std::string> few = nearest(studied.name, names, 5);
+    help = (few.empty() ? "" : "; nearest are " + join(few)) + "; `crankloop " + command + " FILE` lists all " +
+           std::to_string(names.size());
+  }
+  throw UsageError("--of: `crankloop " + command + "` prints no " + in_quotes(studied.name) + " here" + help);
+}
+
+/// `own`, or where it lacks the figure that of the first or last point, which may have what the file has not.
+Summary summary_with(const Study& study, const StudiedFigure& studied, const Summary& own) {
+  if (find(own, studied.name) != nullptr) return own;
+  for (const std::size_t point : {std::size_t{0}, study.points() - 1}) {
+    Outcome outcome = outcomes_at(study, point)[studied.command];
+    if (find(outcome.summary, studied.name) != nullptr) return outcome.summary;
+  }
+  return own;
 }
 
 /// The units of a command's figures, by the first point at which it prints them, the file's own before all.
@@ -136,7 +150,8 @@ void find_units(Study& study, std::size_t command, const std::vector<Outcome>& o
   }
   if (!refused.empty()) throw InputError("no point has a result; the file as it is: " + own[command].refused);
   for (StudiedFigure& studied : study.figures) {
-    if (studied.command == command) studied.unit = known_figure(study, studied, summary).unit;
+    if (studied.command == command)
+      studied.unit = known_figure(study, studied, summary_with(study, studied, summary)).unit;
   }
 }
 

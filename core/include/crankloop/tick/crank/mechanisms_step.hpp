@@ -54,7 +54,7 @@ struct MechanismsStep {
     CRANKLOOP_ASSERT(u >= 0 && u < 1);
     Pose<Real> p;  // the others are not read
     if constexpr (N::motion) {
-      const MotionSegment<Real>& motion = torque.tables.motion->at[degree];
+      const MotionSegment<Real>& motion = *address(&torque.tables.motion->at[degree]);
       p.displacement_m = value(motion.displacement, u);
       p.slope_m = value(motion.slope, u);
       p.acceleration_m = value(motion.acceleration, u);
@@ -193,10 +193,15 @@ inline void run_mechanisms(const Tables<Real, S>& tables, State<Real, S>& state,
   TorqueStep<Real, S> torque(tables, state, out);
   CutCylinders<S> cut_cylinders{};
   if constexpr (Needs<S>::lack) cut_cylinders = crank.cut_cylinders;
+  const auto run_each = [&] {
+    if constexpr (MechanismsStep<Real, S>::kNeeded) MechanismsStep<Real, S>{torque}.run(crank, cut_cylinders);
+    if constexpr (S::bearing_loads) load_bearings(tables, state, out);
+  };
+  constexpr bool kForcesFirst = S::forces && !Needs<S>::crank_dynamics;  // the torque is their sum
+  if constexpr (kForcesFirst) run_each();
   [[maybe_unused]] const auto at = torque.read_torque(cut_cylinders);
   torque.move_crank(crank);
-  if constexpr (MechanismsStep<Real, S>::kNeeded) MechanismsStep<Real, S>{torque}.run(crank, cut_cylinders);
-  if constexpr (S::bearing_loads) load_bearings(tables, state, out);
+  if constexpr (!kForcesFirst) run_each();
   torque.show_torque();
   torque.average_torque(crank);
   torque.remember_work();

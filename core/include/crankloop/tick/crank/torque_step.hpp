@@ -57,7 +57,7 @@ struct TorqueStep : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
       }
     }();
     if constexpr (N::inertia_torque) {
-      const IntegratedSegment<Real>& s = tables.inertia_torque->at[at.turn_degree()];
+      const IntegratedSegment<Real>& s = *address(&tables.inertia_torque->at[at.turn_degree()]);
       if constexpr (N::crank_dynamics) {
         this->inertia_slope_kg_m2 = value(s.slope, at.u);
       } else if constexpr (!S::forces) {
@@ -85,7 +85,7 @@ struct TorqueStep : If<Needs<S>::crank_dynamics, TurningTorques<Real>> {
 
   /// Gas torque by a curve, with its work in gas[which].
   [[nodiscard]] Real gas_torque(const GasTorque<Real>& curve, std::uint32_t segment, Real u, int which) noexcept {
-    const IntegratedSegment<Real>& s = curve.at[segment];
+    const IntegratedSegment<Real>& s = *address(&curve.at[segment]);
     if constexpr (N::work) gas[which] = integral_at(s, u, curve.mean_Nm);
     return value(s.slope, u);
   }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include <crankloop/assert.hpp>
 #include <crankloop/faults.hpp>
@@ -68,11 +69,27 @@ class CamTicks {
     set(t, cam_phase(state, t), turned_ - static_cast<std::uint64_t>(retard));
   }
 
+  /// For a call of a function of its own, as ValveAccess::apart().
+  using Apart = std::conditional_t<S::cam_phasing, const CamTicks&, CamTicks>;
+  [[nodiscard, gnu::always_inline]] Apart apart() const noexcept {
+    if constexpr (S::cam_phasing) {
+      return *this;
+    } else {
+      return CamTicks(*this, ticks_[0]);
+    }
+  }
+
   [[nodiscard]] const CamTick<Real>& operator[](std::uint32_t train) const noexcept {
     return ticks_[S::cam_phasing ? train : 0];
   }
 
  private:
+  CamTicks(const CamTicks& other, const CamTick<Real>& tick) noexcept
+      : drive_{other.drive_},
+        turned_{other.turned_},
+        jumped_{other.jumped_},
+        ticks_{{tick.phase, tick.turned, {tick.cam.deg, tick.cam.deg_per_s}}} {}
+
   void set(std::uint32_t i, std::uint64_t phase, std::uint64_t turned) noexcept {
     if (jumped_) turned = 0;
     const Real deg = Phase{turned}.template signed_cycles<Real>() * Real{kDegreesPerTurn};

@@ -31,6 +31,7 @@ class ElasticValves {
   using Steps = PlainSteps<Real, S>;
   using Before = typename Steps::Before;
   using Bits = typename Valves::Bits;
+  using Apart = typename Valves::Apart;
 
  public:
   /// Pressures are those of each cylinder, where the scene has valve_gas; none at the start.
@@ -105,16 +106,14 @@ class ElasticValves {
     Before before;
     Steps steps(valves_);
     const Bits failed = steps.run(cams, before);
-    EventBudget budget{valves_.tables.valve_motions[0].event_budget, false};
-    if (failed != 0) locate_events_in_turn(failed, cams, before, budget);
+    const bool exceeded = failed != 0 && locate_events_in_turn(valves_.apart(), failed, cams.apart(), before);
     if constexpr (Needs<S>::cam_loads) CamsUnderLoad<Real, S>(valves_, cams).run();
     steps.deactivate_resting();
     if constexpr (Needs<S>::surge) SpringStep<Real, S>(valves_).step();
-    CRANKLOOP_ASSERT(budget.left <= valves_.tables.valve_motions[0].event_budget);
     if constexpr (Needs<S>::cycle_ends) {
       end_cycles(cams);
     }
-    return budget.exceeded ? std::uint32_t{kFaultEventBudget} : 0;
+    return exceeded ? std::uint32_t{kFaultEventBudget} : 0;
   }
 
  private:
@@ -129,9 +128,9 @@ class ElasticValves {
     CRANKLOOP_ASSERT(deg <= Real{kDegreesPerTurn / 2});
     if (deg >= valves_.work.wide_deg)
       valves_.wide = true, valves_.beyond_guards = valves_.beyond_guards || deg >= valves_.work.guard_range_deg;
-    const std::uint32_t before = valves_.work.degree[group];
-    valves_.work.degree[group] = tick.degree();
-    return tick.degree() != before;
+    const std::uint32_t before = valves_.work.degree[group], now = tick.degree();
+    valves_.work.degree[group] = now;
+    return now != before;
   }
 
   /// Looks up which cams are near and whose cycles may end, and activates valves whose cams have come near. In a tick
@@ -139,14 +138,14 @@ class ElasticValves {
   [[gnu::always_inline]] void enter_degrees(const CamTicks<Real, S>& cams) noexcept {
     if constexpr (Needs<S>::valves_rest) {
       const bool may_skip = valves_.beyond_guards && turns_by(cams, valves_.work.skip_deg);
-      const Bits near = may_skip ? all_valves() : valves_at(near_degrees(), cams);
+      const Bits near = may_skip ? all_valves(valves_.apart()) : valves_at(near_degrees(), cams);
       valves_.work.near = near;
       const Bits newly_near = near & ~valves_.work.active;
-      if (newly_near != 0) activate_all(newly_near, cams);
+      if (newly_near != 0) activate_all(valves_.apart(), newly_near, cams.apart());
     }
     if constexpr (Needs<S>::cycle_ends)
-      valves_.work.ending =
-          turns_by(cams, Real{kCycleEndMargin_deg}) ? all_valves() : valves_at(valves_.tables.cycle_ends, cams);
+      valves_.work.ending = turns_by(cams, Real{kCycleEndMargin_deg}) ? all_valves(valves_.apart())
+                                                                      : valves_at(valves_.tables.cycle_ends, cams);
   }
   [[nodiscard]] bool turns_by(const CamTicks<Real, S>& cams, Real deg) const noexcept {
     for (std::uint32_t g = 0; g < valves_.cam_groups(); ++g)
@@ -161,7 +160,7 @@ class ElasticValves {
     if (tick.cam.deg == before_deg) return;
     const bool jumps = magnitude(tick.cam.deg - before_deg) > static_cast<Real>(kSpeedJump) * magnitude(tick.cam.deg);
     before_deg = tick.cam.deg;
-    if (jumps) recheck_contacts(tick, group);
+    if (jumps) recheck_contacts(valves_.apart(), {tick.phase, tick.turned, {tick.cam.deg, tick.cam.deg_per_s}}, group);
   }
 
   /// Valves that have their bit at the degrees where their cams stand.
@@ -172,10 +171,10 @@ class ElasticValves {
                 << t * Valves::kPerTrain;
     return valves;
   }
-  [[nodiscard, gnu::cold, gnu::noinline]] Bits all_valves() const noexcept {
-    Bits valves = 0;
-    valves_.for_each([&](std::uint32_t v) { valves |= Bits{1} << v; });
-    return valves;
+  [[nodiscard, gnu::cold, gnu::noinline]] static Bits all_valves(Apart valves) noexcept {
+    Bits all = 0;
+    valves.for_each([&](std::uint32_t v) { all |= Bits{1} << v; });
+    return all;
   }
   [[nodiscard]] const CamDegrees* near_degrees() const noexcept {
     if constexpr (S::valve_forces)
@@ -185,28 +184,29 @@ class ElasticValves {
   }
 
   /// Activates valves, from where their cams stood before the tick.
-  [[gnu::noinline]] void activate_all(Bits which, const CamTicks<Real, S>& cams) noexcept {
+  [[gnu::noinline]] static void activate_all(Apart valves, Bits which,
+                                             typename CamTicks<Real, S>::Apart cams) noexcept {
     for (Bits left = which; left != 0; left &= left - 1) {
       const std::uint32_t v = trailing_zeros(left);
-      valves_.set_cam(v, valves_.curve(v).read(valves_.cell(v, cams[valves_.train(v)].phase_before())));
-      activate(valves_, v);
+      valves.set_cam(v, valves.curve(v).read(valves.cell(v, cams[valves.train(v)].phase_before())));
+      activate(valves, v);
     }
   }
 
   /// The cams' speed has jumped, and with it the forces of the trains' dampers. Seats know nothing of it.
-  [[gnu::noinline]] void recheck_contacts(const CamTick<Real>& tick, std::uint32_t group) noexcept {
-    for (Bits left = valves_.work.active & valves_.of_group(group); left != 0; left &= left - 1) {
+  [[gnu::noinline]] static void recheck_contacts(Apart valves, const CamTick<Real> tick, std::uint32_t group) noexcept {
+    for (Bits left = valves.work.active & valves.of_group(group); left != 0; left &= left - 1) {
       const std::uint32_t v = trailing_zeros(left);
-      const ValveState<Real> s = valves_.state_of(v);
-      const std::uint32_t before = contacts_of(valves_.state.valve_regime[v]);
-      const bool train = requires_train(valves_.motion(v), s, valves_.cam(v), tick.cam.deg_per_s);
+      const ValveState<Real> s = valves.state_of(v);
+      const std::uint32_t before = contacts_of(valves.state.valve_regime[v]);
+      const bool train = requires_train(valves.motion(v), s, valves.cam(v), tick.cam.deg_per_s);
       if (train == ((before & kTrainOn) != 0)) continue;
       const std::uint32_t regime = before ^ kTrainOn;
-      valves_.set_regime(v, regime);
+      valves.set_regime(v, regime);
       if constexpr (S::valve_results) {
-        const Real deg = valves_.curve(v).degrees(tick.phase_before() - valves_.curve(v).opens[valves_.cylinder(v)]);
-        valves_.state.record[valves_.train(v)][valves_.cylinder(v)].event(before, regime, s.velocity_m_s, deg);
-        valves_.load_record(v);
+        const Real deg = valves.curve(v).degrees(tick.phase_before() - valves.curve(v).opens[valves.cylinder(v)]);
+        valves.state.record[valves.train(v)][valves.cylinder(v)].event(before, regime, s.velocity_m_s, deg);
+        valves.load_record(v);
       }
     }
   }
@@ -214,76 +214,82 @@ class ElasticValves {
   // ---- event location ---------------------------------------------------------------------------------------------
 
   /// Another valve comes first in every tick: the first may spend the budget.
-  [[gnu::noinline]] void locate_events_in_turn(Bits failed, const CamTicks<Real, S>& cams, const Before& before,
-                                               EventBudget& budget) noexcept {
-    const std::uint32_t first = static_cast<std::uint32_t>(valves_.state.ticks) % Valves::kMaxValves;
+  [[nodiscard, gnu::noinline]] static bool locate_events_in_turn(Apart valves, Bits failed,
+                                                                 typename CamTicks<Real, S>::Apart cams,
+                                                                 const Before& before) noexcept {
+    EventBudget budget{valves.tables.valve_motions[0].event_budget, false};
+    const std::uint32_t first = static_cast<std::uint32_t>(valves.state.ticks) % Valves::kMaxValves;
     constexpr Bits kAll = (Bits{1} << (Valves::kMaxValves - 1) << 1) - 1;
     const Bits from_first = failed >> first | (failed << (Valves::kMaxValves - 1 - first) << 1 & kAll);
     for (Bits left = from_first; left != 0; left &= left - 1) {
       const std::uint32_t v = first + trailing_zeros(left);
       const std::uint32_t valve = v < Valves::kMaxValves ? v : v - Valves::kMaxValves;
       CRANKLOOP_ASSERT((failed >> valve & 1) != 0);
-      locate_events(valve, cams[valves_.train(valve)], before, budget);
+      locate_events(valves, valve, cams[valves.train(valve)], before, budget);
     }
+    CRANKLOOP_ASSERT(budget.left <= valves.tables.valve_motions[0].event_budget);
+    return budget.exceeded;
   }
 
-  void locate_events(std::uint32_t v, const CamTick<Real>& tick, const Before& before, EventBudget& budget) noexcept {
-    const typename Valves::Gas gas = valves_.gas_on(v);
-    const std::uint32_t lane = valves_.lane_of(v);
-    const Lift<Real> to = valves_.cam(v);
-    const ValveInRegime<Real> start{before.state(lane), valves_.state.valve_regime[v]};
-    const std::uint32_t parts = valves_.motion(v).parts;
-    const bool may_rest = parts > 1 || valves_.wide;
+  static void locate_events(Valves& valves, std::uint32_t v, const CamTick<Real>& tick, const Before& before,
+                            EventBudget& budget) noexcept {
+    const typename Valves::Gas gas = valves.gas_on(v);
+    const std::uint32_t lane = valves.lane_of(v);
+    const Lift<Real> to = valves.cam(v);
+    const ValveInRegime<Real> start{before.state(lane), valves.state.valve_regime[v]};
+    const std::uint32_t parts = valves.motion(v).parts;
+    const bool may_rest = parts > 1 || valves.wide;
     ValveInRegime<Real> end = start;
-    if (!(may_rest && rests(start, valves_.curve(v), before.cam(lane).lift_m, to.lift_m, tick.cam.deg, gas))) {
+    if (!(may_rest && rests(start, valves.curve(v), before.cam(lane).lift_m, to.lift_m, tick.cam.deg, gas))) {
       // On lines of their own: tests/target/loop_bounds.conf names those that pay.
       const bool within = budget.left >= (parts > 1 ? parts : 1 + kUnitsOfLook);
       if (within) budget.take(parts);
-      end = within ? locate_within_budget(v, tick, before, gas, budget)
-                   : step_beyond_budget(v, tick, before, gas, budget);
+      end = within ? locate_within_budget(valves, v, tick, before, gas, budget)
+                   : step_beyond_budget(valves, v, tick, before, gas, budget);
     }
     CRANKLOOP_ASSERT(is_finite(end.state.lift_m) && is_finite(end.state.velocity_m_s));
-    valves_.set_state(v, end.state);
-    if (end.regime != start.regime) valves_.set_regime(v, end.regime);
-    valves_.load_record(v);
+    valves.set_state(v, end.state);
+    if (end.regime != start.regime) valves.set_regime(v, end.regime);
+    valves.load_record(v);
     const Real compression_m = to.lift_m - end.state.lift_m;
     const Real compression_speed_m_s = tick.cam.deg_per_s * to.per_deg_m - end.state.velocity_m_s;
-    const ForceRow<Real>& force = valves_.motion(v).whole[end.regime].acceleration;
-    valves_.write_output(v, end.state, valves_.cell(v, tick.phase),
-                         {to.lift_m, compression_m, compression_speed_m_s,
-                          acceleration(force, end.state, compression_m, compression_speed_m_s, gas)},
-                         gas);
+    const ForceRow<Real>& force = valves.motion(v).whole[end.regime].acceleration;
+    valves.write_output(v, end.state, valves.cell(v, tick.phase),
+                        {to.lift_m, compression_m, compression_speed_m_s,
+                         acceleration(force, end.state, compression_m, compression_speed_m_s, gas)},
+                        gas);
   }
 
   /// Its fine steps are paid for, and what is sure to follow them is there.
-  [[nodiscard, gnu::noinline]] ValveInRegime<Real> locate_within_budget(std::uint32_t v, const CamTick<Real>& tick,
-                                                                        const Before& before,
-                                                                        const typename Valves::Gas& gas,
-                                                                        EventBudget& budget) noexcept {
-    const std::uint32_t lane = valves_.lane_of(v);
+  [[nodiscard, gnu::noinline]] static ValveInRegime<Real> locate_within_budget(Valves& valves, std::uint32_t v,
+                                                                               const CamTick<Real>& tick,
+                                                                               const Before& before,
+                                                                               const typename Valves::Gas& gas,
+                                                                               EventBudget& budget) noexcept {
+    const std::uint32_t lane = valves.lane_of(v);
     const Lift<Real> from = before.cam(lane);
-    const ValveInRegime<Real> start{before.state(lane), valves_.state.valve_regime[v]};
-    const Stepped<Real> step{valves_.state_of(v), before.increment_m(lane)};
-    const std::uint64_t at = tick.phase - valves_.curve(v).opens[valves_.cylinder(v)];
-    return valves_.event_locator(v, budget).run(start, step, valves_.span(v, tick, from, valves_.cam(v), gas), at,
-                                                tick.turned);
+    const ValveInRegime<Real> start{before.state(lane), valves.state.valve_regime[v]};
+    const Stepped<Real> step{valves.state_of(v), before.increment_m(lane)};
+    const std::uint64_t at = tick.phase - valves.curve(v).opens[valves.cylinder(v)];
+    return valves.event_locator(v, budget).run(start, step, valves.span(v, tick, from, valves.cam(v), gas), at,
+                                               tick.turned);
   }
 
   /// The tick in one step, for want of budget.
-  [[nodiscard, gnu::always_inline]] ValveInRegime<Real> step_beyond_budget(
-      std::uint32_t v, const CamTick<Real>& tick, [[maybe_unused]] const Before& before,
+  [[nodiscard, gnu::always_inline]] static ValveInRegime<Real> step_beyond_budget(
+      Valves& valves, std::uint32_t v, const CamTick<Real>& tick, [[maybe_unused]] const Before& before,
       [[maybe_unused]] const typename Valves::Gas& gas, EventBudget& budget) noexcept {
     budget.exceeded = true;
-    const ValveMotion<Real>& motion = valves_.motion(v);
-    const ValveState<Real> s = valves_.state_of(v);
-    if (is_too_far(s)) return put_back(motion, valves_.cam(v).lift_m);
+    const ValveMotion<Real>& motion = valves.motion(v);
+    const ValveState<Real> s = valves.state_of(v);
+    if (is_too_far(s)) return put_back(motion, valves.cam(v).lift_m);
     const ValveInRegime<Real> end =
-        beyond_budget(motion, valves_.state.valve_regime[v], s, valves_.cam(v), tick.cam.deg_per_s);
+        beyond_budget(motion, valves.state.valve_regime[v], s, valves.cam(v), tick.cam.deg_per_s);
     if constexpr (S::valve_results) {
-      const std::uint32_t lane = valves_.lane_of(v);
+      const std::uint32_t lane = valves.lane_of(v);
       const Lift<Real> from = before.cam(lane);
-      const ValveInRegime<Real> start{before.state(lane), valves_.state.valve_regime[v]};
-      valves_.event_locator(v, budget).record_unlocated(start, end, valves_.span(v, tick, from, valves_.cam(v), gas));
+      const ValveInRegime<Real> start{before.state(lane), valves.state.valve_regime[v]};
+      valves.event_locator(v, budget).record_unlocated(start, end, valves.span(v, tick, from, valves.cam(v), gas));
     }
     return end;
   }

@@ -25,19 +25,41 @@ class PlainSteps {
 
   /// Steps all active valves. Returns those whose guards fail; `before` has where their steps started.
   [[nodiscard, gnu::always_inline]] Bits run(const CamTicks<Real, S>& cams, Before& before) noexcept {
-    if constexpr (Valves::kInLanes) return valves_.wide ? step_wide(cams, before) : step_in_lanes<false>(cams, before);
-    return valves_.wide ? step_scalar_wide(valves_.work.active, cams, before)
-                        : step_scalar<false>(valves_.work.active, cams, before);
+    if (valves_.wide) {
+      const AfterSteps wide = step_wide(valves_.apart(), cams.apart(), before);
+      resting_ = wide.resting;
+      return wide.failed;
+    }
+    return step_all<false>(cams, before);
   }
 
   /// Deactivates valves at rest whose cams are away. At the end of the tick: it hands their lanes to others.
   void deactivate_resting() noexcept {
     if constexpr (Needs<S>::valves_rest) {
-      if (resting_ != 0) deactivate(valves_, resting_ & ~valves_.work.near);
+      if (resting_ != 0) deactivate_apart(valves_.apart(), resting_ & ~valves_.work.near);
     }
   }
 
  private:
+  using Apart = typename Valves::Apart;
+  struct AfterSteps {
+    Bits failed, resting;
+  };
+
+  [[gnu::noinline]] static void deactivate_apart(Apart valves, Bits which) noexcept { deactivate(valves, which); }
+
+  template <bool Wide>
+  [[nodiscard, gnu::always_inline]] Bits step_all(const CamTicks<Real, S>& cams, Before& before) noexcept {
+    if constexpr (Valves::kInLanes) return step_in_lanes<Wide>(cams, before);
+    return step_scalar<Wide>(valves_.work.active, cams, before);
+  }
+  [[nodiscard, gnu::noinline]] static AfterSteps step_wide(Apart valves, typename CamTicks<Real, S>::Apart cams,
+                                                           Before& before) noexcept {
+    PlainSteps steps(valves);
+    const Bits failed = steps.template step_all<true>(cams, before);
+    return {failed, steps.resting_};
+  }
+
   /// Steps some valves one by one. Returns those whose guards fail.
   template <bool Wide>
   [[nodiscard, gnu::always_inline]] Bits step_scalar(Bits which, const CamTicks<Real, S>& cams,
@@ -45,14 +67,11 @@ class PlainSteps {
     Bits failed = 0;
     for (Bits left = which; left != 0; left &= left - 1) {
       const std::uint32_t v = trailing_zeros(left);
-      if (!step_and_check<Wide>(v, cams[valves_.train(v)], before)) failed |= Bits{1} << v;
+      const CamTick<Real>* tick = &cams[valves_.train(v)];
+      if constexpr (S::cam_phasing) tick = address(tick);
+      if (!step_and_check<Wide>(v, *tick, before)) failed |= Bits{1} << v;
     }
     return failed;
-  }
-
-  [[nodiscard, gnu::noinline]] Bits step_scalar_wide(Bits which, const CamTicks<Real, S>& cams,
-                                                     Before& before) noexcept {
-    return step_scalar<true>(which, cams, before);
   }
 
   /// False where a guard fails: event location then starts again from `before`.
@@ -127,7 +146,7 @@ class PlainSteps {
   /// The plain step of a decoupled valve: all its cam's factors are 0. False where gas presses it so far into its seat
   /// that the train may touch it.
   [[nodiscard, gnu::always_inline]] bool step_seated(std::uint32_t v, const ValveState<Real>& start,
-                                                     const RegimeStep<Real>& regime, Cell cell, const Gas& gas,
+                                                     const RegimeStep<Real>& regime, const Cell& cell, const Gas& gas,
                                                      Before& before) noexcept {
     const Real outside_m = valves_.curve(v).outside_m;
     ValveState<Real> end{gas.resting_m(valves_.motion(v).per_seat_N_m), Real{0}};
@@ -153,7 +172,9 @@ class PlainSteps {
       valves_.state.record[valves_.train(v)][valves_.cylinder(v)].rest(end, acceleration_m_s2);
       valves_.load_record(v);
     }
-    valves_.write_output(v, end, cell, {outside_m, outside_m - end.lift_m, -end.velocity_m_s, acceleration_m_s2}, gas);
+    CRANKLOOP_ASSERT(contacts_of(valves_.state.valve_regime[v]) == kSeatOn);
+    valves_.template write_output<true>(v, end, cell,
+                                        {outside_m, outside_m - end.lift_m, -end.velocity_m_s, acceleration_m_s2}, gas);
     return true;
   }
 
@@ -241,10 +262,6 @@ class PlainSteps {
     }
 #endif
     return failed;
-  }
-
-  [[nodiscard, gnu::noinline]] Bits step_wide(const CamTicks<Real, S>& cams, Before& before) noexcept {
-    return step_in_lanes<true>(cams, before);
   }
 
   Valves& valves_;

@@ -34,18 +34,36 @@ template <class Real, class S>
 }
 
 template <class Real>
+[[nodiscard, gnu::always_inline]] inline Real seat_force_N(const ValveBody<Real>& b,
+                                                           const ValveState<Real>& s) noexcept {
+  return b.preload_N - (b.seat_N_m * s.lift_m + b.seat_Ns_m * s.velocity_m_s);
+}
+
+template <class Real>
 [[gnu::always_inline]] inline void write_forces(ValveForcesOutput<Real>& shown, const ValveBody<Real>& b,
                                                 const LiftCurve<Real>& curve, const ValveInRegime<Real>& valve,
-                                                Cell cell, const Moment<Real>& at) noexcept {
-  const auto pushing = [](bool on, Real force_N) { return on && force_N > 0 ? force_N : Real{0}; };
+                                                const Cell& cell, const Moment<Real>& at) noexcept {
   const std::uint32_t contacts = contacts_of(valve.regime);
   shown.train_N = train_force_N(b, contacts, at.compression_m, at.compression_speed_m_s);
-  shown.seat_N = pushing((contacts & kSeatOn) != 0,
-                         b.preload_N - (b.seat_N_m * valve.state.lift_m + b.seat_Ns_m * valve.state.velocity_m_s));
+  const Real seat_N = seat_force_N(b, valve.state);
+  shown.seat_N = (contacts & kSeatOn) != 0 && seat_N > 0 ? seat_N : Real{0};
   shown.tip_N = shown.train_N - b.rocker_mass_kg * at.acceleration_m_s2;
   shown.cam_N = shown.train_N > 0 ? shown.train_N * curve.rocker_ratio_at(cell) : Real{0};
   shown.train_compression_m = at.compression_m;
   shown.regime = contacts;
+}
+
+/// The same of a valve on its seat without its train.
+template <class Real>
+[[gnu::always_inline]] inline void write_seat_forces(ValveForcesOutput<Real>& shown, const ValveBody<Real>& b,
+                                                     const ValveState<Real>& s, const Moment<Real>& at) noexcept {
+  const Real seat_N = seat_force_N(b, s);
+  shown = {Real{0},
+           seat_N > 0 ? seat_N : Real{0},
+           Real{0} - b.rocker_mass_kg * at.acceleration_m_s2,
+           Real{0},
+           at.compression_m,
+           kSeatOn};
 }
 
 /// How springs that surge push each valve in the tick, beyond preload and rate, and how fast it starts.
@@ -76,6 +94,17 @@ struct ValveAccess : If<Needs<S>::surge, SpringPush<Real, S>> {
   bool wide = false;           ///< the cams turn so far in this tick that the lift in its middle counts,
   bool beyond_guards = false;  ///< or even beyond some guards' range
   NoRecord<Real> no_record{};
+
+  /// For a call of a function of its own: made anew there, so that those of the tick can stay in registers. Not with
+  /// springs' pushes, which are many numbers; nor with a word of 64 bits for valves, of whose place in calls GCC warns.
+  using Apart = std::conditional_t<Needs<S>::surge || sizeof(Bits) == 8, ValveAccess&, ValveAccess>;
+  [[nodiscard, gnu::always_inline]] Apart apart() noexcept {
+    if constexpr (std::is_reference_v<Apart>) {
+      return *this;
+    } else {
+      return {{}, tables, state, work, out, pressure_Pa, wide, beyond_guards};
+    }
+  }
 
   [[nodiscard]] static constexpr std::uint32_t train(std::uint32_t v) noexcept { return v / kPerTrain; }
   [[nodiscard]] static constexpr std::uint32_t cylinder(std::uint32_t v) noexcept { return v % kPerTrain; }
@@ -214,11 +243,15 @@ struct ValveAccess : If<Needs<S>::surge, SpringPush<Real, S>> {
     return {};
   }
 
-  [[gnu::always_inline]] void write_output(std::uint32_t v, const ValveState<Real>& end, Cell cell,
+  /// `Seated`: without its train.
+  template <bool Seated = false>
+  [[gnu::always_inline]] void write_output(std::uint32_t v, const ValveState<Real>& end, const Cell& cell,
                                            const Moment<Real>& at, const Gas& gas) noexcept {
     if constexpr (kKeepsGas) state.valve_gas_N[v] = gas.to_N;
     write_motion((&out.valve[0][0])[v], end, at);
-    if constexpr (S::valve_forces)
+    if constexpr (S::valve_forces && Seated)
+      write_seat_forces((&out.valve_forces[0][0])[v], motion(v).body, end, at);
+    else if constexpr (S::valve_forces)
       write_forces((&out.valve_forces[0][0])[v], motion(v).body, curve(v), {end, state.valve_regime[v]}, cell, at);
     (void)cell, (void)gas;
   }
@@ -230,15 +263,18 @@ struct ValveAccess : If<Needs<S>::surge, SpringPush<Real, S>> {
     const Real from_m_s = tick.cam.deg_per_s * from.per_deg_m;
     const Real started_m_s2 = acceleration(regime_of(v).acceleration, start, from.lift_m - start.lift_m,
                                            from_m_s - start.velocity_m_s, gas.before());
-    state.record[train(v)][cylinder(v)].step(
-        {start, end, from.lift_m, to.lift_m, from_m_s, tick.cam.deg_per_s * to.per_deg_m, started_m_s2,
-         acceleration_m_s2, motion(v).tick_s, contacts_of(state.valve_regime[v])},
-        motion(v).body.seat_compression_m, [&](Real part) { return deg_in(v, tick, part); });
+    address(&state.record[train(v)][cylinder(v)])
+        ->step({start, end, from.lift_m, to.lift_m, from_m_s, tick.cam.deg_per_s * to.per_deg_m, started_m_s2,
+                acceleration_m_s2, motion(v).tick_s, contacts_of(state.valve_regime[v])},
+               motion(v).body.seat_compression_m, [this, v, &tick](Real part) {
+                 return deg_in(curve(v), cylinder(v), tick.phase_before(), tick.cam.deg, part);
+               });
   }
   /// Cam degrees since the start of its lobe, after a part of the tick.
-  [[nodiscard, gnu::cold, gnu::noinline]] Real deg_in(std::uint32_t v, const CamTick<Real>& tick,
-                                                      Real part) const noexcept {
-    return curve(v).degrees(tick.phase_before() - curve(v).opens[cylinder(v)]) + part * tick.cam.deg;
+  [[nodiscard, gnu::cold, gnu::noinline]] static Real deg_in(const LiftCurve<Real>& curve, std::uint32_t cylinder,
+                                                             std::uint64_t phase_before, Real tick_deg,
+                                                             Real part) noexcept {
+    return curve.degrees(phase_before - curve.opens[cylinder]) + part * tick_deg;
   }
 
   [[nodiscard]] Locator event_locator(std::uint32_t v, EventBudget& budget) noexcept {

@@ -258,9 +258,15 @@ template <class Lanes, class S>
   degree = smaller<Lanes>(degree, reinterpret_cast<Signed>(words(&w.degrees[first])));
   std::memcpy(place.segment, &degree, sizeof place.segment);
   CRANKLOOP_ASSERT(place.segment[0] <= std::uint32_t{kDegreesPerTurn});
+  static_assert(sizeof(LiftSegment<float>) == 3 << 3);
+  std::uint32_t bytes[kLanesOf<Lanes>];
+  const auto of_segments = (degree + degree + degree) << 3;
+  std::memcpy(bytes, &of_segments, sizeof bytes);
   const float* from[kLanesOf<Lanes>];
   for (int i = 0; i < kLanesOf<Lanes>; ++i)
-    from[i] = w.segments[first + static_cast<std::size_t>(i)][place.segment[i]].c;
+    from[i] = reinterpret_cast<const LiftSegment<float>*>(
+                  reinterpret_cast<const char*>(w.segments[first + static_cast<std::size_t>(i)]) + bytes[i])
+                  ->c;
   Lanes c[6];
   load_lanes(from, c);
   const Lanes u = place.u = __builtin_convertvector(reinterpret_cast<Signed>(into >> 8), Lanes) * 0x1p-24F;
