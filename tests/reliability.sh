@@ -16,6 +16,10 @@ CDPATH='' cd -- "$(dirname -- "$0")/.."
 logs=build/reliability
 mkdir -p "$logs"
 
+case ${1:-} in
+  '' | --long | --page | --age | --mutants) ;;
+  *) sed -n '2,/^[^#]/s/^# \{0,1\}//p' tests/reliability.sh >&2 && exit 2 ;;
+esac
 long=false
 seeds='1 2'
 cases=1000

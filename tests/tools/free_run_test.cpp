@@ -117,9 +117,9 @@ TEST_F(FreeRunCommand, StartsThe495AndSaysWhatBecameOfIt) {
 }
 
 TEST_F(FreeRunCommand, SaysWhereItsSpeedLimitTookEnergy) {
-  const std::vector<std::string> words = {
-      engine_up_to("2500"), "--free",           "--from-rpm", "2000", "--load-ratio", "1", "--seconds", "1",
-      "--report",           path("report.html")};
+  const std::vector<std::string> words = {engine_up_to("2500"), "--free", "--machine-Nm", "0",
+                                          "--from-rpm",         "2000",   "--load-ratio", "1",
+                                          "--seconds",          "1",      "--report",     path("report.html")};
   const std::string summary = run(words);
   EXPECT_NE(summary.find("  # overspeed\n"), std::string::npos) << summary;
   EXPECT_GT(line(summary, "energy_defect").first, 0.1);
