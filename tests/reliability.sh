@@ -68,6 +68,7 @@ if [ "${1:-}" != --page ] && [ "${1:-}" != --mutants ]; then
     keep "stress-$seed" release crankloop_program build/release/bin/crankloop stress --seed "$seed" --cases "$cases"
   done
   keep faults check crankloop_property_tests build/check/tests/crankloop_property_tests --gtest_filter='FaultInjection*'
+  keep gas check crankloop_property_tests build/check/tests/crankloop_property_tests --gtest_filter='Gas*.Stay*WhateverComesIn'
   keep soak check crankloop_property_tests build/check/tests/crankloop_property_tests --gtest_filter='Soak*'
   keep page_soak check crankloop_program node tests/page/soak.mjs build/check/bin/crankloop tools/engines 10
   keep edges check crankloop_unit_tests build/check/tests/crankloop_unit_tests --gtest_filter='TableEdges*'
@@ -140,6 +141,7 @@ runs() {
   failures=$(cat "$logs"/stress-[0-9]*.log | grep -c '^failure' || :)
   run stress-1 'random valve trains' "$(stress_sum cases) cases: $(stress_sum ran) ran, $failures failures" "for seed in$seeds; do $each; done"
   run faults 'faults in a running engine' "$(tests_of faults)"
+  run gas 'hostile engines with gas exchange' "$(tests_of gas), of 20 000 engines each with --long"
   run soak 'soak' "$(tests_of soak)"
   run edges 'edges of tables' "$(tests_of edges)"
   run fuzz 'fuzzing' "$(cat "$logs"/fuzz-*.log | awk '/^Done / { inputs += $2; s = $5; ++n } END { print inputs " inputs by " n " targets in " s " s each" }'); $(tail -n 1 "$logs/fuzz.log")"
