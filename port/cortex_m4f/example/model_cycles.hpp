@@ -8,5 +8,5 @@ struct ModelCycles {
   std::uint32_t mean, worst;
 };
 // arm-none-eabi-g++ 12.2.1 -O3
-constexpr ModelCycles kModelCycles{1950, 8054};
-constexpr ModelCycles kModelCyclesAt5{7782, 32314};
+constexpr ModelCycles kModelCycles{1900, 8067};
+constexpr ModelCycles kModelCyclesAt5{7626, 32327};
