@@ -160,7 +160,7 @@ class ElasticValves {
     if (tick.cam.deg == before_deg) return;
     const bool jumps = magnitude(tick.cam.deg - before_deg) > static_cast<Real>(kSpeedJump) * magnitude(tick.cam.deg);
     before_deg = tick.cam.deg;
-    if (jumps) recheck_contacts(valves_.apart(), {tick.phase, tick.turned, {tick.cam.deg, tick.cam.deg_per_s}}, group);
+    if (jumps) recheck_contacts(valves_.apart(), tick.apart(), group);
   }
 
   /// Valves that have their bit at the degrees where their cams stand.
