@@ -9,7 +9,7 @@ endif()
 
 add_custom_target(crankloop_host_program
   COMMAND ${CMAKE_COMMAND} -E env --unset=CXX --unset=CXXFLAGS --unset=LDFLAGS --unset=CMAKE_TOOLCHAIN_FILE
-    ${CMAKE_COMMAND} -S "${PROJECT_SOURCE_DIR}" -B "${CRANKLOOP_HOST_TOOLS}" -DCMAKE_BUILD_TYPE=Release
+    ${CMAKE_COMMAND} -S "${PROJECT_SOURCE_DIR}" -B "${CRANKLOOP_HOST_TOOLS}" -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-O1
   COMMAND ${CMAKE_COMMAND} --build "${CRANKLOOP_HOST_TOOLS}" --target crankloop_table_maker --parallel ${crankloop_host_jobs}
   BYPRODUCTS "${CRANKLOOP_HOST_TOOLS}/bin/crankloop_table_maker"
   COMMENT "The program that makes the tables, for the building machine"

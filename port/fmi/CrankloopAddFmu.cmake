@@ -130,6 +130,7 @@ function(crankloop_add_fmu name dir program optimization)
   add_executable(${name}_fmu_files "${dir}/${name}_fmu_files.cpp")
   target_link_libraries(${name}_fmu_files PRIVATE ${name})
   crankloop_numerics(${name}_fmu_files)
+  crankloop_optimization(${name}_fmu_files -O1)  # it runs once
 
   # Sources that compile where nothing of this machine is: the scene's header by its name alone.
   cmake_path(GET SCENE_HEADER FILENAME header_name)

@@ -214,8 +214,8 @@ TYPED_TEST(ExhaustLambda, IsAirUntilTheEngineFiresAndStaysWhereItStands) {
     for (int tick = 0; tick < ticks; ++tick) {
       const auto& out = run->step();
       ASSERT_EQ(out.faults, 0u);
-      ASSERT_TRUE(out.exhaust_excess_air_ratio >= Real{0.01f} && out.exhaust_excess_air_ratio <= Real{100});
-      ASSERT_TRUE(out.sensor_excess_air_ratio >= Real{0.01f} && out.sensor_excess_air_ratio <= Real{100});
+      ASSERT_TRUE(out.exhaust_excess_air_ratio >= static_cast<Real>(0.01) && out.exhaust_excess_air_ratio <= Real{100});
+      ASSERT_TRUE(out.sensor_excess_air_ratio >= static_cast<Real>(0.01) && out.sensor_excess_air_ratio <= Real{100});
       expect(out);
     }
   };
