@@ -145,6 +145,16 @@ struct unit* unit_create(struct importer* importer, const char* name, const char
   free(unit);
   return NULL;
 }
+bool importer_is_refused(struct importer* importer, const char* token, bool events, size_t intermediate) {
+  const fmi3ValueReference which[] = {0, 1};
+  struct unit unit = {0};
+  unit.from = importer;
+  unit.handle = CALL3(&unit, InstantiateCoSimulation)("a unit", token, "/", false, false, events, false, which,
+                                                      intermediate, NULL, heed3, NULL);
+  if (unit.handle == NULL) return true;
+  CALL3(&unit, FreeInstance)(unit.handle);
+  return false;
+}
 void unit_free(struct unit* unit) {
   if (TWO(unit)) {
     CALL2(unit, FreeInstance)(unit->handle);

@@ -25,6 +25,9 @@ void importer_unload(struct importer* importer);
 struct unit* unit_create(struct importer* importer, const char* name, const char* token, const char* resources);
 void unit_free(struct unit* unit);
 
+/* FMI 3: whether the FMU makes no instance for a simulator that wants events, or so many intermediate values. */
+bool importer_is_refused(struct importer* importer, const char* token, bool events, size_t intermediate);
+
 /* The last message that the instance, or an attempt to make one, sent; "" none. Cleared by reading. */
 const char* importer_message(void);
 

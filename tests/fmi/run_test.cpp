@@ -468,6 +468,17 @@ TEST(FreeRunningFmu, RefusesAStartThatNoEngineHas) {
   EXPECT_EQ(unit_start(unit.unit), UNIT_OK) << importer_message();
 }
 
+TEST(OfFmi3, EventsAndIntermediateValuesAreRefusedInWords) {
+  const Fmu fmu(path_of("four_pistons", 3));
+  const char* token = fmu.model.token.c_str();
+  EXPECT_FALSE(importer_is_refused(fmu.importer, token, false, 0)) << importer_message();
+  const std::pair<bool, std::size_t> wanted[] = {{true, 0}, {false, 1}, {false, 2}};
+  for (const auto& [events, intermediate] : wanted) {
+    EXPECT_TRUE(importer_is_refused(fmu.importer, token, events, intermediate)) << events << ' ' << intermediate;
+    EXPECT_NE(std::string(importer_message()).find("co-simulation"), std::string::npos) << intermediate;
+  }
+}
+
 TEST(FaultsOfAnFmu, AreLoggedByTheCategoryThatIsSwitchedOn) {
   for (const int version : {2, 3}) {
     SCOPED_TRACE(version);
