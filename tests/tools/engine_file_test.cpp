@@ -707,6 +707,7 @@ TEST_F(EngineFileTest, WhatACommandAtConstantSpeedLeavesOutIsTold) {
   EXPECT_NE(told[1].find("warning: [fault a]: every signal is healthy in this command;"), std::string::npos) << told[1];
   EXPECT_NE(told[2].find("warning: [sensor_fault b]: no sensor is read in this command;"), std::string::npos)
       << told[2];
+  EXPECT_EQ(warnings_about_sensor_faults_left_out(engine), std::vector<std::string>{told[2]}) << "of a free run";
 }
 
 TEST_F(EngineFileTest, ALambdaSensorNeedsAnEngineThatBreathes) {

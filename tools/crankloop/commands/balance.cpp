@@ -290,7 +290,7 @@ constexpr Option kOptions[] = {
     number("--mount-width-mm", "B", above(0).up_to(1e5),
            "between the left and right feet of four about the middle of the crankshaft: their forces, without weight"),
     number("--mount-length-mm", "L", above(0).up_to(1e5), "between the front and rear feet"),
-    text("--csv", "F", "file for the table; else standard output"),
+    text("--csv", "F", "file for the table; default standard output"),
 };
 
 }  // namespace

@@ -140,7 +140,7 @@ constexpr Option kOptions[] = {
     choice("--method", "table|exact", "as the tick computes it, or exactly", "table"),
     choice("--real", "float|double", "arithmetic of the tick, and digits of the result", "double"),
     flag("--per-area", "forces per piston area, in MPa"),
-    text("--csv", "F", "file for the table; else standard output"),
+    text("--csv", "F", "file for the table; default standard output"),
 };
 
 }  // namespace

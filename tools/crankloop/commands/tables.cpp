@@ -277,10 +277,10 @@ constexpr Option kOptions[] = {
     choice("--integrator", "rk4|exponential", "of elastic valves", "rk4"),
     number("--accuracy-um", "A", from(0.01).up_to(10), "class of valve lift error: sets the sub-steps", "0.1"),
     whole_number("--event-budget", "N", from(3).up_to(kMaxEventBudget),
-                 "work for valve events in a tick, else by the engine"),
-    number("--max-rpm", "N", above(0).up_to(100000), "the highest speed the engine can have, else the file's max_rpm"),
+                 "work for valve events in a tick; default by the engine"),
+    number("--max-rpm", "N", above(0).up_to(100000), "highest engine speed in rpm; default the file's max_rpm"),
     {"--namespace", Option::Kind::text, "NAME", "C++ namespace of the tables", "crankloop_tables"},
-    text("--output", "F", "file for the header, -o for short; else standard output"),
+    text("--output", "F", "file for the header, -o for short; default standard output"),
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <memory>
 #include <utility>
 
@@ -324,27 +325,38 @@ std::vector<std::string> warnings_about_running_free(const EngineFile& engine, c
   return warnings.lines();
 }
 
-std::vector<std::string> warnings_about_misfires_left_out(const EngineFile& engine) {
-  constexpr struct {
-    const char* section;
-    const char* instead;
-    const char* taken;
-  } kLeftOut[] = {
-      {"misfire", "every cycle fires",
-       "`crankloop run --free`, `crankloop live` and FMUs whose crank forces turn take misfires"},
-      {"fault", "every signal is healthy",
-       "`crankloop run --free`, `crankloop live` and FMUs whose crank forces turn take faults"},
-      {"sensor_fault", "no sensor is read", "`crankloop live` and FMUs whose crank forces turn take faults of sensors"},
-  };
-  std::vector<std::string> lines;
+namespace {
+
+struct LeftOut {
+  const char* section;
+  const char* instead;
+  const char* taken;
+};
+constexpr LeftOut kMisfire{"misfire", "every cycle fires",
+                           "`crankloop run --free`, `crankloop live` and FMUs whose crank forces turn take misfires"};
+constexpr LeftOut kFault{"fault", "every signal is healthy",
+                         "`crankloop run --free`, `crankloop live` and FMUs whose crank forces turn take faults"};
+constexpr LeftOut kSensorFault{"sensor_fault", "no sensor is read",
+                               "`crankloop live` and FMUs whose crank forces turn take faults of sensors"};
+
+std::vector<std::string> warnings_about(const EngineFile& engine, std::initializer_list<LeftOut> left_out) {
+  Warnings warnings(engine);
   for (const SectionValues& section : engine.sections()) {
-    for (const auto& kind : kLeftOut) {
+    for (const LeftOut& kind : left_out) {
       if (section.kind == kind.section)
-        lines.push_back(engine.path() + ":" + std::to_string(section.line) + ": warning: " + section.title() + ": " +
-                        kind.instead + " in this command; " + kind.taken);
+        warnings.add(section.line, section.title() + ": " + kind.instead + " in this command; " + kind.taken);
     }
   }
-  return lines;
+  return warnings.lines();
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_about_misfires_left_out(const EngineFile& engine) {
+  return warnings_about(engine, {kMisfire, kFault, kSensorFault});
+}
+std::vector<std::string> warnings_about_sensor_faults_left_out(const EngineFile& engine) {
+  return warnings_about(engine, {kSensorFault});
 }
 
 void demand_a_diagram(const EngineFile& engine) {

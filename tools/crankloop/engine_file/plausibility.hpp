@@ -17,8 +17,11 @@ namespace crankloop::program {
 [[nodiscard]] std::vector<std::string> warnings_about_running_free(const EngineFile& engine,
                                                                    const EngineDefinition& definition);
 
-/// Where a file has misfires or faults of wheels, for commands whose scenes have none.
+/// Where a file has misfires, faults of wheels or faults of sensors, for commands whose scenes have none.
 [[nodiscard]] std::vector<std::string> warnings_about_misfires_left_out(const EngineFile& engine);
+
+/// Where it has faults of sensors, for commands whose scenes have misfires and faults of wheels alone.
+[[nodiscard]] std::vector<std::string> warnings_about_sensor_faults_left_out(const EngineFile& engine);
 
 /// Refuses an engine with gas exchange, for commands that need a pressure diagram.
 void demand_a_diagram(const EngineFile& engine);

@@ -102,8 +102,10 @@ int run_free_by(const Arguments& arguments, const EngineFile& file, const GasOrd
   request.real = arguments.text("--real");
   request.is_hashed = arguments.has("--hash");
   request.command_line = command_line(arguments, file, gas);
-  for (std::string& line : tell_warnings(arguments, warnings_about_running_free(file, definition)))
-    warnings.push_back(std::move(line));
+  for (const auto& lines :
+       {warnings_about_running_free(file, definition), warnings_about_sensor_faults_left_out(file)}) {
+    for (std::string& line : tell_warnings(arguments, lines)) warnings.push_back(std::move(line));
+  }
   request.warnings = std::move(warnings);
   Results results(arguments, {"--csv", "--report", "--vcd", "--analogue", "--cranking"});
   for (const char* option : {"--analogue", "--cranking"}) {
