@@ -29,8 +29,10 @@ if [ "${1:-}" = --long ]; then
   seeds='1 2 3 4 5 6 7 8 9 10'
   cases=10000
   fuzz_seconds=360
-  export CRANKLOOP_LONG_TESTS=1
 fi
+# The property tests of the build, with --long as long as they can be.
+property=build/check/tests/crankloop_property_tests
+if $long; then property="env CRANKLOOP_LONG_TESTS=1 $property"; fi
 
 page=docs/reliability.md
 core=$(git rev-parse --short=12 HEAD:core)
@@ -51,6 +53,9 @@ fi
 
 build() { cmake --preset "$1" >"$logs/build.log" 2>&1 && cmake --build --preset "$@" >>"$logs/build.log" 2>&1; }
 
+# long_parts: the parts of `tools/check --long`, each "NAME: title".
+long_parts() { tools/check --list | sed '1,/^only by name/d'; }
+
 # keep NAME PRESET TARGET command...: runs the command unless its log exists; the page shows failures.
 keep() {
   log=$logs/$1.log
@@ -67,9 +72,12 @@ if [ "${1:-}" != --page ] && [ "${1:-}" != --mutants ]; then
   for seed in $seeds; do
     keep "stress-$seed" release crankloop_program build/release/bin/crankloop stress --seed "$seed" --cases "$cases"
   done
-  keep faults check crankloop_property_tests build/check/tests/crankloop_property_tests --gtest_filter='FaultInjection*'
-  keep gas check crankloop_property_tests build/check/tests/crankloop_property_tests --gtest_filter='Gas*.Stay*WhateverComesIn'
-  keep soak check crankloop_property_tests build/check/tests/crankloop_property_tests --gtest_filter='Soak*'
+  # shellcheck disable=SC2086  # words of a command line
+  {
+    keep faults check crankloop_property_tests $property --gtest_filter='FaultInjection*'
+    keep gas check crankloop_property_tests $property --gtest_filter='Gas*.Stay*WhateverComesIn'
+    keep soak check crankloop_property_tests $property --gtest_filter='Soak*'
+  }
   keep page_soak check crankloop_program node tests/page/soak.mjs build/check/bin/crankloop tools/engines 10
   keep edges check crankloop_unit_tests build/check/tests/crankloop_unit_tests --gtest_filter='TableEdges*'
   keep fuzz sanitize fuzz_targets env CRANKLOOP_FUZZ_SECONDS="$fuzz_seconds" tools/check fuzz
@@ -82,10 +90,12 @@ if [ "${1:-}" != --page ] && [ "${1:-}" != --mutants ]; then
   keep threads thread crankloop_property_tests build/thread/tests/crankloop_property_tests --gtest_filter='Threads*'
   if command -v clang++-19 >/dev/null; then keep numerical release crankloop tests/numerical_sanitizer.sh; fi
   if $long; then
-    keep long check crankloop_program tools/check --long
+    for part in $(long_parts | sed 's/:.*//'); do
+      keep "long-$part" check crankloop_program tools/check "$part"
+    done
     if [ ! -s "$logs/mutants.log" ]; then
       { echo tests/mutants.sh --areas && cat build/check-logs/mutants.log; } >"$logs/mutants.log"
-      cp "$logs/long.commit" "$logs/mutants.commit"
+      cp "$logs/long-mutants.commit" "$logs/mutants.commit"
     fi
   fi
 fi
@@ -145,7 +155,9 @@ runs() {
   run soak 'soak' "$(tests_of soak)"
   run edges 'edges of tables' "$(tests_of edges)"
   run fuzz 'fuzzing' "$(cat "$logs"/fuzz-*.log | awk '/^Done / { inputs += $2; s = $5; ++n } END { print inputs " inputs by " n " targets in " s " s each" }'); $(tail -n 1 "$logs/fuzz.log")"
-  run long 'what proves least for its time' "$(tail -n 1 "$logs/long.log" 2>/dev/null)" 'tools/check --long'
+  long_parts | while IFS=: read -r part title; do  # what mutants found has a row of its own
+    [ "$part" = mutants ] || run "long-$part" "${title# }" "$(tail -n 1 "$logs/long-$part.log" 2>/dev/null)"
+  done
   run threads 'threads under the thread sanitizer' "$(tests_of threads)"
   run numerical 'numerical sanitizer' "no verdict; lines below"
   run coverage 'branch coverage by the host tests' "$(sed -n 's/^branches_covered = //p' "$logs/coverage.log") of $(sed -n 's/^branches = //p' "$logs/coverage.log") branches"
@@ -215,7 +227,7 @@ is another, and `git log COMMIT.. -- core` lists the changes. A test fails where
 | same bits | two compilers with flags that a user should not set (`same_bits`) | eight builds (`same_bits_rest`) |
 | 64-bit Arm Linux, emulated | self-check with the golden hashes (`aarch64`) | the rest but for the longest (`aarch64_rest`) |
 | 64-bit Windows, by Wine | self-check (`windows`) | FMUs: the same bits as on Linux (`windows_rest`) |
-| Cortex-M4F, M7, M33, R5F, RV32IMAFC, emulated | self-check, costs, bounds, 50 000 hostile ticks | 10^6 hostile ticks on a Cortex-M4F (`hostile`) |
+| Cortex-M4F, M7, M33, R5F, RV32IMAFC, emulated | self-check, costs, bounds, 50 000 hostile ticks | 10^7 hostile ticks on a Cortex-M4F (`hostile`) |
 | figures of README and docs, benchmark's instructions and errors, demonstration | `figures`, `bench`, `demo` | |
 | rules of High Integrity C++ and CERT C++ | | clang-tidy, against the table of docs/safety.md (`tidy`) |
 | the tests themselves | | a sample of single-point changes of core, port/c and port/fmi (`mutants`) |
@@ -296,9 +308,6 @@ TEXT
 Address and undefined behaviour (with float-cast-overflow and float-divide-by-zero), and threads. Any finding fails a test.
 
 TEXT
-  if [ -s "$logs/long.log" ]; then
-    awk '/^-- / { title = substr($0, 4) } /^   [0-9]+ passed/ { sub(/^ */, ""); sub(/;.*/, ""); print "- " title ": " $0 }' "$logs/long.log"
-  fi
   if [ -s "$logs/numerical.log" ]; then
     cat <<'TEXT'
 
