@@ -177,7 +177,8 @@ TEST_F(Live, EndsWithItsFiguresAndALineWhenItsBlockIsTakenAway) {
     std::filesystem::resize_file(block_path(), 4096);
   };  // the fixed part stays, the ring's last pages are gone
   const auto overwrite = [&] {
-    std::ofstream(block_path()) << std::string(std::filesystem::file_size(block_path()), '\0');
+    const std::string zeros(std::filesystem::file_size(block_path()), '\0');  // before it is truncated
+    std::ofstream(block_path()) << zeros;
   };  // as `cp` would: truncated, then as large again
   for (const std::function<void()>& take_away : {std::function<void()>(truncate), std::function<void()>(shorten),
                                                  std::function<void()>(cut_off), std::function<void()>(overwrite)}) {
