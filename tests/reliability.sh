@@ -139,7 +139,7 @@ TEXT
   echo
 }
 # tests_of NAME: what GoogleTest says of the run.
-tests_of() { sed -n 's/^\[  \([A-Z]*\)  \] \([0-9]* tests*\).*/\2 \1/p' "$logs/$1.log" | sort -u | tr '\n' ' ' | sed 's/ $//'; }
+tests_of() { [ ! -s "$logs/$1.log" ] || sed -n 's/^\[  \([A-Z]*\)  \] \([0-9]* tests*\).*/\2 \1/p' "$logs/$1.log" | sort -u | tr '\n' ' ' | sed 's/ $//'; }
 # stress_sum FIGURE: the sum of its "FIGURE = N" over the runs.
 stress_sum() { cat "$logs"/stress-[0-9]*.log | awk -F ' = ' -v figure="$1" '$1 == figure { sum += $2 } END { printf "%.0f", sum }'; }
 runs() {
@@ -222,7 +222,7 @@ is another, and `git log COMMIT.. -- core` lists the changes. A test fails where
 | proof | `--all` | `--long` |
 | --- | --- | --- |
 | host tests, assertions and lanes on | all, g++ -O2, test sources -O1 (`host`, `slow`) | under the thread sanitizer (`thread`) |
-| address and undefined-behaviour sanitizers, assertions on, clang++ -O1 | unit and golden tests (`sanitize`); fuzz targets, 15 s each (`fuzz`) | the rest, and FMUs with their importer (`sanitize_rest`) |
+| address and undefined-behaviour sanitizers, assertions on, clang++ -O1, test sources -O0 | unit and golden tests (`sanitize`); fuzz targets, 15 s each (`fuzz`) | the rest, and FMUs with their importer (`sanitize_rest`) |
 | clang++ -O2, no assertions | | all (`clang`) |
 | same bits | two compilers with flags that a user should not set (`same_bits`) | eight builds (`same_bits_rest`) |
 | 64-bit Arm Linux, emulated | self-check with the golden hashes (`aarch64`) | the rest but for the longest (`aarch64_rest`) |

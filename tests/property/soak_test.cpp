@@ -145,10 +145,10 @@ TYPED_TEST(Soak, AtGivenSpeedsTurnsToTheLastUnitAsIntegersDo) {
   EXPECT_LT(largest_m, 15.6e-3) << "twice the cam's 7.8 mm: what a jump of the speed through some thousand rpm throws";
 }
 
-/// Whether gas or what it carries has faded.
+/// Whether the crank, a valve, gas or what it carries has faded.
 template <class Real, class S>
 bool any_gas_subnormal(const State<Real, S>& state, std::uint32_t cylinders) {
-  bool found = subnormal(state.speed_rad_s);
+  bool found = any_subnormal(state);
   const auto& gas = state.cylinder_gas;
   for (std::uint32_t k = 0; k < cylinders; ++k) {
     for (const Real x : {gas.mass_kg[k], gas.mass_rest_kg[k], gas.energy_J[k], gas.energy_rest_J[k], gas.burned_kg[k],
@@ -161,6 +161,8 @@ bool any_gas_subnormal(const State<Real, S>& state, std::uint32_t cylinders) {
   }
   for (const detail::ManifoldGas<Real>& manifold : state.manifold)
     found = found || subnormal(manifold.contents.burned_kg) || subnormal(manifold.contents.mass_kg);
+  for (const Real x : state.manifold_unburned_kg) found = found || subnormal(x);
+  for (const Real x : state.pipe_ratio) found = found || subnormal(x);
   return found;
 }
 

@@ -339,7 +339,7 @@ constexpr LeftOut kFault{"fault", "every signal is healthy",
 constexpr LeftOut kSensorFault{"sensor_fault", "no sensor is read",
                                "`crankloop live` and FMUs whose crank forces turn take faults of sensors"};
 
-std::vector<std::string> warnings_about(const EngineFile& engine, std::initializer_list<LeftOut> left_out) {
+std::vector<std::string> warnings_about_each(std::initializer_list<LeftOut> left_out, const EngineFile& engine) {
   Warnings warnings(engine);
   for (const SectionValues& section : engine.sections()) {
     for (const LeftOut& kind : left_out) {
@@ -353,10 +353,10 @@ std::vector<std::string> warnings_about(const EngineFile& engine, std::initializ
 }  // namespace
 
 std::vector<std::string> warnings_about_misfires_left_out(const EngineFile& engine) {
-  return warnings_about(engine, {kMisfire, kFault, kSensorFault});
+  return warnings_about_each({kMisfire, kFault, kSensorFault}, engine);
 }
 std::vector<std::string> warnings_about_sensor_faults_left_out(const EngineFile& engine) {
-  return warnings_about(engine, {kSensorFault});
+  return warnings_about_each({kSensorFault}, engine);
 }
 
 void demand_a_diagram(const EngineFile& engine) {
