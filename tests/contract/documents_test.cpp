@@ -212,7 +212,9 @@ TEST_F(SeparationAndBounce, TellsTheForcesOfTheTrain) {
 TEST_F(SeparationAndBounce, TellsHowFarTheSpringSurges) {
   const EngineFile file = read_engine_file(folder_ / "ohc_125.ini", {});
   const LoneValve valve(file, "intake");
-  const auto surge = [&](double rpm) { return surge_over_cycle(valve.lift(), valve.valve(), rpm * support::kPi / 60); };
+  const auto surge = [&](double rpm) {
+    return surge_over_cycle(LiftSlopes(valve.lift()), valve.valve(), rpm * support::kPi / 60);
+  };
   EXPECT_NEAR(surge(7000).frequency_Hz * 120 / 7000, 7, 0.01);
   expect_told("lift's seventh harmonic meets the spring's own " + rounded("%.0f", surge(7000).frequency_Hz) + " Hz");
   expect_told("swing by " + rounded("%.0f", surge(7000).largest_N) + " N, more than the 132 N");

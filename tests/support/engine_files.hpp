@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -41,9 +42,12 @@ inline std::string angle_table() {
 
 class EngineFileTest : public testing::Test {
  protected:
+  /// A file of that name is removed first: ext4 waits for its disk where one is written over.
   std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    return folder_ / name;
+    const std::string path = folder_ / name;
+    std::remove(path.c_str());
+    std::ofstream(path, std::ios::binary) << text;
+    return path;
   }
   EngineFile read(const std::string& text) const { return read_engine_file(write("engine.ini", text), {}); }
   std::string refusal(const std::string& text) const {

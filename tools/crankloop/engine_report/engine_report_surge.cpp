@@ -94,10 +94,11 @@ Plot force_plot(const std::string& name, const Valve& valve, const ValveLift& li
   Plot plot =
       plot_of("Surge of the " + name + " spring over the speed", axis_of("Engine speed", "rpm"), axis_of("Force", "N"));
   Series surge{"largest surge force", {}, {}, {}}, preload{"preload", {}, {}, {}};
+  const LiftSlopes slopes(lift);
   double first_Hz = 0;
   for (int i = 0; i < kSpeeds; ++i) {
     const double rpm = high_rpm * (kFrom + (kTo - kFrom) * i / (kSpeeds - 1));
-    const SpringSurgeCycle cycle = surge_over_cycle(lift, valve, 2 * kPi * cam_Hz(rpm));
+    const SpringSurgeCycle cycle = surge_over_cycle(slopes, valve, 2 * kPi * cam_Hz(rpm));
     first_Hz = cycle.frequency_Hz;
     surge.x.push_back(rpm), surge.y.push_back(cycle.largest_N);
   }

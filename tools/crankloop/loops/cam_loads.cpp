@@ -36,6 +36,7 @@ CamLoads cam_loads_at(const ValveLift& lift, const CamContact& contact, double c
 
 StaticStress static_stress(const ValveLift& lift, const ValveTrain& train, const CamContact& contact) {
   StaticStress found;
+  if (!(contact.width_m > 0)) return found;
   const int from = static_cast<int>(std::floor(lift.opens_rad() * kDegPerRad * 100));
   const int to = static_cast<int>(std::ceil(lift.closes_rad() * kDegPerRad * 100));
   for (int i = from; i <= to; ++i) {
@@ -43,7 +44,8 @@ StaticStress static_stress(const ValveLift& lift, const ValveTrain& train, const
     const LiftPose pose = lift.at(rad);
     if (!(pose.lift_m > 0)) continue;
     const double train_N = train.valve.spring_preload_N + train.valve.spring_N_m * pose.lift_m;
-    const double stress_Pa = cam_loads_at(lift, contact, rad, 0, train_N).stress_Pa;
+    const double cam_N = train_N * pose.rocker_ratio;
+    const double stress_Pa = hertz_contact(contact, lift.contact_at(rad).curvature_per_m, cam_N).largest_Pa;
     if (stress_Pa > found.largest_Pa) found = {stress_Pa, i * 0.01};
   }
   return found;

@@ -28,7 +28,8 @@ struct CamLoads {
 [[nodiscard]] CamLoads cam_loads_at(const ValveLift& lift, const CamContact& contact, double cam_rad, double cam_rad_s,
                                     double train_N);
 
-/// Stress of rigid parts at standstill, under the spring alone: its largest, and where.
+/// Stress of rigid parts at standstill, under the spring alone: its largest, and where. All 0 where the width is not
+/// known.
 struct StaticStress {
   double largest_Pa = 0;
   double cam_deg = 0;  ///< from full lift

@@ -19,10 +19,9 @@ constexpr double kSlow = 1000;  // oscillations in a turn of the cam
 constexpr double kLeastDampingRatio = 1e-4;
 
 /// Mean acceleration of the spring's end in each of a cycle's equal steps.
-std::vector<double> accelerations_of(const ValveLift& lift, double cam_rad_s, std::size_t steps, double step_s) {
+std::vector<double> accelerations_of(const LiftSlopes& slopes, double cam_rad_s, std::size_t steps, double step_s) {
   const auto speed_m_s = [&](std::size_t i) {
-    const LiftPose pose = lift.at(kTurn_rad * (static_cast<double>(i) / static_cast<double>(steps) - 0.5));
-    return pose.lift_m > 0 ? pose.per_rad_m * cam_rad_s : 0;
+    return slopes.at(static_cast<double>(i) / static_cast<double>(steps)) * cam_rad_s;
   };
   std::vector<double> mean_m_s2(steps);
   double before_m_s = speed_m_s(0);
@@ -66,7 +65,20 @@ void add_steady_force(const SpringMode& mode, const std::vector<double>& mean_m_
 
 }  // namespace
 
-SpringSurgeCycle surge_over_cycle(const ValveLift& lift, const Valve& valve, double cam_rad_s) {
+LiftSlopes::LiftSlopes(const ValveLift& lift) : per_rad_m_(kPerTurn + 1) {
+  for (std::size_t i = 0; i <= kPerTurn; ++i) {
+    const LiftPose pose = lift.at(kTurn_rad * (static_cast<double>(i) / kPerTurn - 0.5));
+    if (pose.lift_m > 0) per_rad_m_[i] = pose.per_rad_m;
+  }
+}
+
+double LiftSlopes::at(double turn) const noexcept {
+  const double place = turn * kPerTurn;
+  const auto below = static_cast<std::size_t>(std::min(place, kPerTurn - 1.0));
+  return per_rad_m_[below] + (place - static_cast<double>(below)) * (per_rad_m_[below + 1] - per_rad_m_[below]);
+}
+
+SpringSurgeCycle surge_over_cycle(const LiftSlopes& slopes, const Valve& valve, double cam_rad_s) {
   if (!(valve.spring_kg > 0 && valve.spring_N_m > 0)) return {};
   SurgingSpring springs[2];
   const int count = springs_of(valve, springs);
@@ -83,7 +95,7 @@ SpringSurgeCycle surge_over_cycle(const ValveLift& lift, const Valve& valve, dou
   const auto steps =
       static_cast<std::size_t>(std::ceil(period_s * kMaxSpringModes * fastest_rad_s / kRadPerStep)) + 720;
   const double step_s = period_s / static_cast<double>(steps);
-  const std::vector<double> mean_m_s2 = accelerations_of(lift, cam_rad_s, steps, step_s);
+  const std::vector<double> mean_m_s2 = accelerations_of(slopes, cam_rad_s, steps, step_s);
   std::vector<double> force_N(steps);
   for (int i = 0; i < count; ++i) {
     SpringSurge surge;

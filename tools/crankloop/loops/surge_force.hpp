@@ -5,6 +5,8 @@
 // (tabulate/spring_surge.hpp); what surge does to the valve's own motion (valve_loop.hpp).
 #pragma once
 
+#include <vector>
+
 #include <crankloop/define/valve_train.hpp>
 #include <crankloop/tabulate/valve_lift.hpp>
 
@@ -17,8 +19,21 @@ struct SpringSurgeCycle {
                          ///< where it oscillates over a thousand times while the cam turns once: too slow for surge
 };
 
+/// Slope of the theoretical lift over a turn of the cam, 0 where the valve is seated. One table serves any number of
+/// speeds: each point of the exact lift takes an iteration.
+class LiftSlopes {
+ public:
+  explicit LiftSlopes(const ValveLift& lift);
+  /// In m/rad, between the table's points linear; `turn` from 0 to 1, 0.5 at full lift.
+  [[nodiscard]] double at(double turn) const noexcept;
+
+ private:
+  static constexpr int kPerTurn = 18'000;
+  std::vector<double> per_rad_m_;
+};
+
 /// kMaxSpringModes modes of each spring, whatever surge_modes says; a damping ratio below 1e-4 counts as that, for
 /// there is no steady state without. The valve must have passed validate().
-[[nodiscard]] SpringSurgeCycle surge_over_cycle(const ValveLift& lift, const Valve& valve, double cam_rad_s);
+[[nodiscard]] SpringSurgeCycle surge_over_cycle(const LiftSlopes& slopes, const Valve& valve, double cam_rad_s);
 
 }  // namespace crankloop::program

@@ -77,7 +77,7 @@ void add_stepped_surge(Summary& s, const LoneValve& valve, const SpringRange& sp
 /// Of the spring's own motion.
 void add_surge(Summary& s, const LoneValve& valve, double speed_rpm, const SpringRange& springs, double error_ratio) {
   const double cam_rad_s = speed_rpm * kRad_sPerRpm / 2;
-  const SpringSurgeCycle surge = surge_over_cycle(valve.lift(), valve.valve(), cam_rad_s);
+  const SpringSurgeCycle surge = surge_over_cycle(LiftSlopes(valve.lift()), valve.valve(), cam_rad_s);
   if (!(surge.frequency_Hz > 0)) {
     s.none("spring_frequency", "Hz", "spring_g is 0");
     return;
