@@ -71,8 +71,8 @@ TEST(SurgeForce, PeaksWhereAHarmonicOfTheLiftMeetsTheSpring) {
   }
 }
 
-/// Anywhere between the table's points, by differences of the lift itself; but in the half millirad where the valve
-/// opens or closes, for there the slope steps.
+/// Anywhere between the table's points, by differences of the lift itself; but within a fifth of a point of where
+/// the valve opens or closes, for there the slope steps.
 TEST(LiftSlopes, AreThoseOfTheLift) {
   const EngineFile file = read_engine_file(kOhc125, {});
   const LoneValve valve(file, "intake");
@@ -81,9 +81,9 @@ TEST(LiftSlopes, AreThoseOfTheLift) {
   double largest = 0;
   int at_steps = 0;
   for (int i = 1; i < 10'007; ++i) {
-    constexpr double kApart = 1e-6, kPoint = 1 / 18'000.0;
+    constexpr double kApart = 1e-6, kNear = 0.2 / 18'000;
     const double turn = i / 10'007.0;
-    if ((lift_m(turn - kPoint) > 0) != (lift_m(turn + kPoint) > 0)) {
+    if ((lift_m(turn - kNear) > 0) != (lift_m(turn + kNear) > 0)) {
       ++at_steps;
       continue;
     }

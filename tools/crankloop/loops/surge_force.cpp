@@ -65,17 +65,21 @@ void add_steady_force(const SpringMode& mode, const std::vector<double>& mean_m_
 
 }  // namespace
 
-LiftSlopes::LiftSlopes(const ValveLift& lift) : per_rad_m_(kPerTurn + 1) {
-  for (std::size_t i = 0; i <= kPerTurn; ++i) {
+LiftSlopes::LiftSlopes(const ValveLift& lift) {
+  points_.reserve(kPerTurn + 1);
+  for (int i = 0; i <= kPerTurn; ++i) {
     const LiftPose pose = lift.at(kTurn_rad * (static_cast<double>(i) / kPerTurn - 0.5));
-    if (pose.lift_m > 0) per_rad_m_[i] = pose.per_rad_m;
+    points_.push_back({pose.lift_m, pose.per_rad_m});
   }
 }
 
 double LiftSlopes::at(double turn) const noexcept {
   const double place = turn * kPerTurn;
   const auto below = static_cast<std::size_t>(std::min(place, kPerTurn - 1.0));
-  return per_rad_m_[below] + (place - static_cast<double>(below)) * (per_rad_m_[below + 1] - per_rad_m_[below]);
+  const double part = place - static_cast<double>(below);
+  const Point &from = points_[below], &to = points_[below + 1];
+  if (!(from.lift_m + part * (to.lift_m - from.lift_m) > 0)) return 0;
+  return from.per_rad_m + part * (to.per_rad_m - from.per_rad_m);
 }
 
 SpringSurgeCycle surge_over_cycle(const LiftSlopes& slopes, const Valve& valve, double cam_rad_s) {

@@ -29,7 +29,11 @@ class LiftSlopes {
 
  private:
   static constexpr int kPerTurn = 18'000;
-  std::vector<double> per_rad_m_;
+  struct Point {
+    double lift_m;  ///< below 0 where the valve is seated: it opens and closes between two points
+    double per_rad_m;
+  };
+  std::vector<Point> points_;
 };
 
 /// kMaxSpringModes modes of each spring, whatever surge_modes says; a damping ratio below 1e-4 counts as that, for
