@@ -13,7 +13,7 @@
 namespace crankloop::program {
 namespace {
 
-constexpr double kRadPerStep = 0.05;  // of the fastest mode: errors of 1e-4
+constexpr double kRadPerStep = 0.05;  // of the fastest mode: errors of 5e-4
 constexpr double kTurn_rad = 2 * kPi;
 constexpr double kSlow = 1000;  // oscillations in a turn of the cam
 constexpr double kLeastDampingRatio = 1e-4;

@@ -76,12 +76,12 @@ void add_stepped_surge(Summary& s, const LoneValve& valve, const SpringRange& sp
 
 /// Of the spring's own motion.
 void add_surge(Summary& s, const LoneValve& valve, double speed_rpm, const SpringRange& springs, double error_ratio) {
-  const double cam_rad_s = speed_rpm * kRad_sPerRpm / 2;
-  const SpringSurgeCycle surge = surge_over_cycle(LiftSlopes(valve.lift()), valve.valve(), cam_rad_s);
-  if (!(surge.frequency_Hz > 0)) {
+  if (!(valve.valve().spring_kg > 0)) {
     s.none("spring_frequency", "Hz", "spring_g is 0");
     return;
   }
+  const double cam_rad_s = speed_rpm * kRad_sPerRpm / 2;
+  const SpringSurgeCycle surge = surge_over_cycle(LiftSlopes(valve.lift()), valve.valve(), cam_rad_s);
   s.line("spring_frequency", surge.frequency_Hz, "Hz",
          "first of the spring itself, " + brief(surge.frequency_Hz / std::abs(cam_rad_s * kTurnsPerRad)) +
              " times the cam's turns");
