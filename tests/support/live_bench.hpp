@@ -62,6 +62,10 @@ class Process {
 
   void signal(int number) const { ::kill(id_, number); }
 
+  [[nodiscard]] bool has_mapped(const std::string& path) const {
+    return contents("/proc/" + std::to_string(id_) + "/maps").find(path) != std::string::npos;
+  }
+
   /// Its exit status, or minus the signal that ended it.
   int wait() {
     int status = 0;
