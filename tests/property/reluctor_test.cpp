@@ -46,6 +46,9 @@ struct Free : Scene {
 struct Measured : Turned {
   static constexpr CrankGiven crank = CrankGiven::phase;
 };
+struct OneEdge : Turned {
+  static constexpr std::uint32_t trigger_edges = 1;
+};
 struct Plain : Free<8> {
   static constexpr std::uint32_t reluctor_samples = 0;
 };
@@ -418,6 +421,34 @@ TEST(Reluctor, AfterAJumpTheVoltageRisesFromZero) {
     EXPECT_NEAR(out.comparator.edge[0].time_s, 100e-6 / 16 * arms_V / out.reluctor_V[0], 1e-12);
   }
   EXPECT_GT(falls, 10);
+}
+
+TEST(Reluctor, MoreEdgesOfTheComparatorThanThereIsRoomForAreCountedAndTold) {
+  Rig<float, OneEdge> rig(sensed(), 100e-6);
+  rig.in.speed_rad_s = 800;  // one edge or two in a tick, of the wheel and of the comparator at different times
+  std::uint32_t last = 0;
+  int of_comparator_alone = 0;
+  for (int tick = 0; tick < 3000; ++tick) {
+    const auto& out = rig.engine.step(rig.in);
+    const bool wheel = out.trigger[0].edge_count > 1, comparator = out.comparator.edge_count > 1;
+    ASSERT_EQ(out.faults, wheel || comparator ? std::uint32_t{kFaultTriggerEdges} : 0u) << tick;
+    ASSERT_EQ(out.comparator.level, last ^ (out.comparator.edge_count & 1u)) << tick;
+    last = out.comparator.level;
+    of_comparator_alone += comparator && !wheel ? 1 : 0;
+  }
+  EXPECT_GT(of_comparator_alone, 100);
+}
+
+/// docs/contract.md "What init refuses": by restore, more late edges than there are places.
+TEST(Reluctor, MoreLateEdgesThanPlacesAreRefusedByRestoreAndTheRunGoesOn) {
+  Rig<float, Turned> rig(sensed(), 100e-6);
+  rig.in.speed_rad_s = 300;
+  for (int tick = 0; tick < 100; ++tick) rig.engine.step(rig.in);
+  const auto sound = rig.engine.state();
+  auto forged = sound;
+  forged.late_edges = Turned::reluctor_samples + 1;
+  EXPECT_TRUE(support::refuses(rig.engine.restore(forged), Reason::out_of_range, "state.comparator"));
+  EXPECT_EQ(std::memcmp(&rig.engine.state(), &sound, sizeof sound), 0);
 }
 
 TEST(Reluctor, AnEngineWithoutASensorShowsNoVoltage) {

@@ -10,6 +10,7 @@
 
 #include "support/both_reals.hpp"
 #include "support/gas_engine.hpp"
+#include "support/status.hpp"
 
 namespace crankloop {
 namespace {
@@ -192,6 +193,21 @@ TYPED_TEST(SensorFaults, ARestoredRunGoesOnTheSame) {
     const auto &one = run->step(), &two = other->step();
     ASSERT_EQ(std::memcmp(one.faulty_sensor, two.faulty_sensor, sizeof one.faulty_sensor), 0) << tick;
   }
+}
+
+/// docs/contract.md "What init refuses": by restore, places in rings that are none.
+TYPED_TEST(SensorFaults, APlaceOutsideItsRingIsRefusedByRestoreAndTheRunGoesOn) {
+  using Real = TypeParam;
+  const auto run = turning<Real>(with({of_map(0, 1)}));
+  for (int tick = 0; tick < 100; ++tick) run->step();
+  const auto sound = run->engine.state();
+  auto forged = sound;
+  forged.oldest_parcel = Sensing::lambda_parcels;
+  EXPECT_TRUE(support::refuses(run->engine.restore(forged), Reason::out_of_range, "state.lambda"));
+  forged = sound;
+  forged.sensor[kMap].oldest = detail::kDelayedSamples;
+  EXPECT_TRUE(support::refuses(run->engine.restore(forged), Reason::out_of_range, "state.sensor"));
+  EXPECT_EQ(std::memcmp(&run->engine.state(), &sound, sizeof sound), 0);
 }
 
 TEST(SensorFault, IsRefusedWhereItIsNeverOnOrHasNoRangeToReadFrom) {

@@ -43,6 +43,9 @@ struct Free : Turned {
 struct FreeHealthy : Free {
   static constexpr std::uint32_t wheel_faults = 0;
 };
+struct OneFault : Turned {
+  static constexpr std::uint32_t wheel_faults = 1;
+};
 struct OneEdge : Turned {
   static constexpr std::uint32_t trigger_edges = 1;
 };
@@ -423,6 +426,23 @@ TEST(WheelFaults, MoreEdgesThanThereIsRoomForAreCountedAndTold) {
     }
     last = signal.level;
   }
+}
+
+TEST(WheelFaults, MoreThanTheSceneHasRoomForAreRefusedByBuildAndByInit) {
+  EngineDefinition engine = with_two_wheels();
+  engine.wheel_fault_count = 2;
+  engine.wheel_faults[0] = engine.wheel_faults[1] = fault_of(0);
+  engine.wheel_faults[0].inverted = engine.wheel_faults[1].inverted = true;
+  const auto storage = std::make_unique<TableStorage<float, OneFault>>();
+  EXPECT_TRUE(refuses(storage->build(engine, {kTick_s, {}}), Reason::out_of_range, "scene.wheel_faults"));
+  engine.wheel_fault_count = 1;
+  ASSERT_TRUE(accepted(storage->build(engine, {kTick_s, {}})));
+  auto tables = storage->tables();
+  auto rules = *tables.wheel_faults;
+  rules.count = 2;
+  tables.wheel_faults = &rules;
+  const auto run = std::make_unique<Engine<float, OneFault>>();
+  EXPECT_TRUE(refuses(run->init(tables), Reason::out_of_range, "tables.wheel_faults"));
 }
 
 TEST(WheelFaults, WhatNoWheelCanHaveIsRefusedByName) {
