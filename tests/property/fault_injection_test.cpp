@@ -236,7 +236,8 @@ TYPED_TEST(FaultInjection, OfASingleBitOfTheStateIsDetectedByAScrubOrStaysFinite
     ++(differs_later ? still_off : recovered);
   }
   std::printf(
-      "[ figures  ] single bits of the state: of %d detected by a scrub %d, recovered within a cycle %d, finite %d\n",
+      "[ figures  ] single bits of the state: of %d detected by a scrub %d, recovered within a cycle %d, wrong but "
+      "finite %d\n",
       kFlips, detected, recovered, still_off);
   EXPECT_GT(detected, kFlips / 50);
   EXPECT_GT(recovered, kFlips / 2);
