@@ -319,12 +319,12 @@ TEST_F(BadInput, AFileThatIsNoRegularOneIsNotRead) {
                                   std::string("/dev/null"), std::string("/dev/tty")}) {
     const Answer answer = run({"show", path});
     EXPECT_EQ(answer.status, kBadInput) << path;
-    if (path != "/dev/tty") expect_refusal(answer, path, {"is no regular file"});  // which may not even open
+    if (path != "/dev/tty") expect_refusal(answer, path, {"is not a regular file"});  // which may not even open
   }
   for (const std::string source : {"angle_table", "volume_table"}) {
     for (const std::string table : {"fifo", "link", "/dev/zero"}) {
       expect_refused(sample_.changed("source", "source = " + source + "\nfile = " + table),
-                     "file = ", {table + " is no regular file"});
+                     "file = ", {table + " is not a regular file"});
     }
   }
   const Engine ohc(contents(CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini"));
@@ -335,7 +335,7 @@ TEST_F(BadInput, AFileThatIsNoRegularOneIsNotRead) {
                           .text());
   const Answer answer = run({"lift", path_, "--train", "intake"});
   EXPECT_EQ(answer.status, kBadInput);
-  EXPECT_NE(answer.error.find("fifo is no regular file"), std::string::npos) << answer.error;
+  EXPECT_NE(answer.error.find("fifo is not a regular file"), std::string::npos) << answer.error;
 }
 
 TEST_F(BadInput, ASectionThatACommandNeedsIsMissedAtTheEndOfTheFile) {

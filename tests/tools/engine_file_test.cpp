@@ -578,6 +578,22 @@ TEST_F(EngineFileTest, MisfiresOfACommandLineReplaceThoseOfTheFile) {
   EXPECT_EQ(rules[3].of, 2);
 }
 
+TEST_F(EngineFileTest, ACylinderHasOneMisfireRule) {
+  const auto says = [this](const std::vector<std::string>& orders, const std::string& words) {
+    EngineFile engine = read(contents(kSample));
+    try {
+      engine.set_misfires(orders);
+      ADD_FAILURE() << words;
+    } catch (const UsageError& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+  };
+  says({"cylinder=2 every=16", "cylinder=2 every=3"}, "--misfire: cylinder 2 has two rules; give it one");
+  says({"cylinder=2 every=16 cylinder=3"}, "cylinder is given twice; each cylinder has its own rule");
+  const std::string text = refusal(contents(kSample) + "[misfire 2]\nevery = 2\n[misfire 02]\nevery = 3\n");
+  EXPECT_NE(text.find("[misfire 02]: this cylinder has a rule already"), std::string::npos) << text;
+}
+
 TEST_F(EngineFileTest, MisfiresAreRefusedWithWhatIsAllowed) {
   const auto says = [this](const std::string& section, const std::string& words) {
     const std::string text = refusal(contents(kSample) + section);

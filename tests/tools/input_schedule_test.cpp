@@ -14,6 +14,7 @@
 
 #include "crankloop/files/error.hpp"
 #include "crankloop/files/number.hpp"
+#include "crankloop/loops/input_option.hpp"
 #include "crankloop/loops/input_schedule.hpp"
 #include "support/run_command.hpp"
 
@@ -115,7 +116,8 @@ TEST_F(Inputs, AreRefusedAtLineAndColumn) {
       {"time_s,throttle_ratio\n0,nan\n", "2: column 2, throttle_ratio: 'nan' is not a finite number"},
       {"time_s,throttle_ratio\n0,0.5\n1,1.5\n", "3: column 2, throttle_ratio: 1.5 is out of range"},
       {"time_s,throttle_ratio\n-1,0.5\n", "2: column 1, time_s: -1 is out of range"},
-      {"time_s,throttle_ratio\n1,0.5\n1,0.5\n", "3: column 1, time_s: 1 is not after 1 of the row before; times grow"},
+      {"time_s,throttle_ratio\n1,0.5\n1,0.5\n",
+       "3: column 1, time_s: 1 is not after 1 of the row before; times must increase"},
       {"time_s,starter\n0,0.5\n", "2: column 2, starter: '0.5' is not a whole number"},
       {"time_s,starter\n0,2\n", "2: column 2, starter: 2 is out of range"},
       {"time_s,cut_cylinders\n0,16\n", "2: column 2, cut_cylinders: 16 is out of range"},
@@ -144,6 +146,33 @@ TEST_F(Inputs, KeepTheBooksOfEnergy) {
   EXPECT_LT(std::fabs(line(summary, "energy_defect").first), 1e-6) << summary;
   EXPECT_EQ(line(summary, "faulty_ticks").first, 0);
   EXPECT_NE(summary.find("inputs_from_file = load_ratio, cut_cylinders, external_torque_Nm\n"), std::string::npos);
+}
+
+TEST_F(Inputs, AWarningNamesAColumnThatAnotherInputOverrides) {
+  const auto told = [this](const std::string& text, double excess_air_ratio) {
+    return warnings_about_inputs(InputSchedule(file(text), breathing()), excess_air_ratio);
+  };
+  const std::vector<std::string> fuel = told("time_s,fuel_kg[2]\n0,1e-5\n", 0.9);
+  ASSERT_EQ(fuel.size(), 1u);
+  EXPECT_EQ(fuel[0], path("inputs.csv") +
+                         ": warning: column fuel_kg has no effect: excess_air_ratio = 0.9 sets the fuel; add a column "
+                         "excess_air_ratio with 0, or give --fuel-mg");
+  EXPECT_TRUE(told("time_s,fuel_kg\n0,1e-5\n", 0).empty());
+  EXPECT_TRUE(told("time_s,fuel_kg,excess_air_ratio\n0,1e-5,0\n", 0.9).empty());
+  const std::vector<std::string> spark = told("time_s,spark_advance_deg\n0,20\n", 0.9);
+  ASSERT_EQ(spark.size(), 1u);
+  EXPECT_NE(spark[0].find("spark_advance_deg has no effect"), std::string::npos) << spark[0];
+  EXPECT_EQ(told("time_s,spark_advance_deg,by_spark_advance\n0,20,0\n", 0).size(), 1u);
+  EXPECT_TRUE(told("time_s,spark_advance_deg,by_spark_advance\n0,20,0\n1,20,1\n", 0).empty());
+}
+
+TEST_F(Inputs, AWarningStandsOnStderr) {
+  const std::string engine = CRANKLOOP_SOURCE_DIR "/tools/engines/four_2000.ini";
+  const std::string words = engine + " --free --from-rpm 1000 --seconds 0.01 --inputs " + file("time_s,fuel_kg\n0,0\n");
+  EXPECT_EQ(status_of(words), 0);
+  EXPECT_NE(contents(path("err")).find("warning: column fuel_kg has no effect"), std::string::npos);
+  EXPECT_EQ(status_of(words + " --fuel-mg 10"), 0);
+  EXPECT_EQ(contents(path("err")).find("fuel_kg"), std::string::npos) << contents(path("err"));
 }
 
 TEST_F(Inputs, AreOfAFreeRunOfAnEngineThatHasThem) {

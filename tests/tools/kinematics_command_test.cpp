@@ -109,6 +109,24 @@ TEST_F(KinematicsCommand, TellsWhereTheMotionHasItsExtremes) {
   }
 }
 
+TEST_F(KinematicsCommand, RefusesASpeedBeyondTheEnginesOrTheTablesWithTheLimit) {
+  const auto refusal = [this](const std::string& max_rpm, const char* rpm) -> std::string {
+    std::string text = engine_text(0.3, 0);
+    text.insert(text.find("[crank]"), max_rpm);
+    std::ofstream(folder_ / "engine.ini") << text;
+    try {
+      (void)kKinematics.run(Arguments(kKinematics, {folder_ / "engine.ini", "--rpm", rpm, "--csv", folder_ / "k.csv"}));
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal("max_rpm = 3000\n", "5000"), "5000 rpm is beyond the engine's max_rpm of 3000");
+  EXPECT_EQ(refusal("max_rpm = 3000\n", "-5000"), "-5000 rpm is beyond the engine's max_rpm of 3000");
+  EXPECT_EQ(refusal("max_rpm = 3000\n", "3000"), "");
+  EXPECT_EQ(refusal("", "100000"), "");
+}
+
 /// Of a short rod the acceleration at the bottom lies between two smallest values; of the second order its place is
 /// cos a = -1/(4 lambda), and the values r w^2 (1 + lambda), -r w^2 (1 - lambda) and -r w^2 (lambda + 1/(8 lambda)).
 TEST_F(KinematicsCommand, TellsAllExtremesOfTheAccelerationOfAShortRod) {

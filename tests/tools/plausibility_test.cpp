@@ -38,8 +38,8 @@ class Unusual : public bad_input::BadInput {
     EXPECT_NE(told[0].find(fragment), std::string::npos) << told[0] << "  should say: " << fragment;
   }
 
-  /// The sample's own diagram, or what of it is motored, as rows that come `later_deg` too late.
-  Engine measured(double later_deg, bool motored) const {
+  /// The sample's own diagram, or what of it is motored, as rows that come `later_deg` too late, in another unit.
+  Engine measured(double later_deg, bool motored, double kPa_per_unit = 1) const {
     write("engine.ini", sample_.text());
     const EngineFile file = read_engine_file(path_, {});
     IndicatorDiagram diagram;
@@ -49,7 +49,8 @@ class Unusual : public bad_input::BadInput {
     rows << "crank_deg,pressure_kPa\n";
     for (double deg = 0; deg < 720; deg += 0.5) {
       const double true_deg = deg - later_deg < 0 ? deg - later_deg + 720 : deg - later_deg;
-      rows << deg << ',' << (motored ? diagram.motored_Pa(true_deg) : diagram.full_Pa(true_deg)) / 1e3 << '\n';
+      rows << deg << ',' << (motored ? diagram.motored_Pa(true_deg) : diagram.full_Pa(true_deg)) / 1e3 / kPa_per_unit
+           << '\n';
     }
     write("trace.csv", rows.str());
     return sample_.changed("source = wiebe", "source = angle_table\nfile = trace.csv");
@@ -253,6 +254,14 @@ TEST_F(Unusual, ATraceThatIsFiveDegreesOffIsTold) {
   EXPECT_TRUE(warnings(measured(0, false)).empty());
   expect_only(measured(5, false), "file = trace.csv", "are its angles right");   // 1102 kPa of net IMEP instead of 810
   expect_only(measured(-5, false), "file = trace.csv", "are its angles right");  // 509 kPa
+}
+
+TEST_F(Unusual, ATraceInAnotherUnitIsTold) {
+  expect_only(measured(0, false, 100), "file = trace.csv",
+              "pressure where the compression begins = 0.98 is unusual; usual: 15 to 700 kPa: is it in kPa");  // bar
+  expect_only(measured(0, false, 1000), "file = trace.csv", "= 0.098 is unusual");                             // MPa
+  expect_only(measured(0, false, 6.894757), "file = trace.csv", "= 14.2137 is unusual");                       // psi
+  expect_only(measured(0, false, 0.1), "file = trace.csv", "= 980 is unusual");                                // hPa
 }
 
 TEST_F(Unusual, AMotoredTraceThatPeaksLongBeforeDeadCentreIsTold) {

@@ -114,7 +114,7 @@ void refuse_more_words(const std::vector<std::string>& words, std::size_t count,
 
 int run_help(const std::vector<std::string>& words) {
   refuse_more_words(words, 2, words[0] + " [COMMAND]");
-  if (words.size() < 2) return tell(help());
+  if (words.size() < 2 || words[1] == "help") return tell(help());
   if (words[1] == "engine-file") return tell(engine_file_help());
   if (words[1] == "patterns") return tell(describe_patterns());
   return tell(help_of(find_command(words[1])));

@@ -76,6 +76,7 @@ IniSection section_of(const std::string& words) {
       throw UsageError(path + ": " + in_quotes(word) + " is not KEY=VALUE; write it like 'cylinder=2 every=16'");
     const std::string key(word.substr(0, equals)), value(word.substr(equals + 1));
     if (key == "cylinder") {
+      if (!section.name.empty()) throw UsageError(path + ": cylinder is given twice; each cylinder has its own rule");
       section.name = value;
     } else {
       section.entries.push_back({key, value, 1});
@@ -90,15 +91,23 @@ IniSection section_of(const std::string& words) {
 void EngineFile::build_misfires() {
   for (const SectionValues& section : sections_) {
     if (section.kind != "misfire") continue;
-    definition_.misfires[cylinder_of(section, definition_.layout.cylinders, path_)] = build_misfire(section, path_);
+    Misfire& misfire = definition_.misfires[cylinder_of(section, definition_.layout.cylinders, path_)];
+    if (misfire.pattern != MisfirePattern::none)  // [misfire 02] behind [misfire 2]
+      throw InputError(path_, section.line, section.title() + ": this cylinder has a rule already");
+    misfire = build_misfire(section, path_);
   }
 }
 
 void EngineFile::set_misfires(const std::vector<std::string>& orders) {
+  bool ruled[kMaxCylinders] = {};  // by this command line, which replaces the file's
   for (const std::string& order : orders) {
     const std::string path = "--misfire " + in_quotes(order);
     const SectionValues values = resolve_section(section_of(order), path);
-    definition_.misfires[cylinder_of(values, definition_.layout.cylinders, path)] = build_misfire(values, path);
+    const auto cylinder = static_cast<std::size_t>(cylinder_of(values, definition_.layout.cylinders, path));
+    if (ruled[cylinder])
+      throw UsageError("--misfire: cylinder " + std::to_string(cylinder + 1) + " has two rules; give it one");
+    ruled[cylinder] = true;
+    definition_.misfires[cylinder] = build_misfire(values, path);
   }
 }
 

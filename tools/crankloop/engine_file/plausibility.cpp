@@ -29,6 +29,11 @@ constexpr Interval kCompressionExponent{1.25, 1.45};
 constexpr double kCompressionFromDeg = -90;
 constexpr double kCompressionToDeg = -30;
 
+/// Absolute, around the bottom dead centre at which the compression begins: from a closed throttle to a ship engine's
+/// boost. A trace in bar, MPa or psi is below, most in hPa are above.
+constexpr Interval kBottomKPa{15, 700};
+constexpr double kBottomDeg = -180;
+
 /// Losses of heat and gas shift the motored peak to half a degree or one before dead centre; more is an error of the
 /// angles, of which 1 deg is 42 kPa of mean effective pressure in the engine of docs/gas_exchange.md.
 constexpr double kMaxPeakLeadDeg = 2;
@@ -273,6 +278,9 @@ void look_at_diagram(const EngineFile& engine, Warnings& warnings) {
   const SectionValues& pressure = engine.section("pressure");
   const bool is_table = pressure.has("file");
   const int line = pressure.line_of(is_table ? "file" : "compression_exponent");
+  if (is_table)
+    warnings.add_unless(kBottomKPa, diagram->full_Pa(kBottomDeg) / 1e3, line, "pressure where the compression begins",
+                        " kPa", ": is it in kPa, and absolute?");
 
   const auto motored_Pa = [&](double deg) { return diagram->motored_Pa(deg); };
   const auto volume_m3 = [&](double deg) {

@@ -83,10 +83,8 @@ std::string pressure_in_short(const EngineFile& file) {
     case PressureSource::none:
       return "no cylinder pressure: masses alone";
     case PressureSource::gas:
-      return std::string("cylinder pressure: by gas exchange; ") +
-             (has_runners(file.definition().gas) ? "of pressure waves the first mode of runners"
-                                                 : "no pressure waves") +
-             ", one zone";
+      return std::string("cylinder pressure: by gas exchange, one zone; ") +
+             (has_runners(file.definition().gas) ? "pressure waves: the first mode of runners" : "no pressure waves");
     case PressureSource::wiebe:
       return "cylinder pressure: synthesised, not measured";
     default:

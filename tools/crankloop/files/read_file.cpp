@@ -24,7 +24,7 @@ std::string is_too_large(std::size_t most_bytes) {
   return "is too large; at most " + std::to_string(most_bytes >> 20) + " MiB are allowed";
 }
 constexpr const char* kIsDirectory = "is a directory; a file is needed";
-constexpr const char* kIsNotRegular = "is no regular file; pipes and devices are not read";
+constexpr const char* kIsNotRegular = "is not a regular file; pipes and devices are not read";
 
 #if defined(_WIN32)
 

@@ -12,7 +12,9 @@ constexpr std::size_t kMaxTableBytes = std::size_t{8} << 20;
 void check_header(std::string_view line, const TableFormat& format, const std::string& path, int number) {
   const std::vector<std::string_view> names = split(line, ',');
   if (names.size() == 2 && names[0] == format.first && names[1] == format.second) return;
-  throw InputError(path, number, std::string("the header row must be '") + format.first + "," + format.second + "'");
+  throw InputError(path, number,
+                   std::string("the header row must be '") + format.first + "," + format.second +
+                       "'; columns are separated by commas");
 }
 
 double column(std::string_view text, const char* name, const Range& range, const std::string& path, int line) {

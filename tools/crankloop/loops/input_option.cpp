@@ -1,6 +1,7 @@
 #include "input_option.hpp"
 
 #include "../files/error.hpp"
+#include "../files/number.hpp"
 
 namespace crankloop::program {
 
@@ -16,6 +17,21 @@ std::optional<InputSchedule> read_inputs(const Arguments& arguments, const Engin
   if (schedule.drives("load_ratio") && definition.pressure.source == PressureSource::none)
     throw InputError(schedule.path() + ": column load_ratio: " + engine.path() + " has no pressure source to scale");
   return schedule;
+}
+
+std::vector<std::string> warnings_about_inputs(const InputSchedule& schedule, double excess_air_ratio) {
+  std::vector<std::string> warnings;
+  if (schedule.drives_any("fuel_kg") && !schedule.drives_any("excess_air_ratio") && excess_air_ratio > 0) {
+    warnings.push_back(schedule.path() +
+                       ": warning: column fuel_kg has no effect: excess_air_ratio = " + brief(excess_air_ratio) +
+                       " sets the fuel; add a column excess_air_ratio with 0, or give --fuel-mg");
+  }
+  if (schedule.drives_any("spark_advance_deg") && schedule.largest("by_spark_advance") == 0) {
+    warnings.push_back(schedule.path() +
+                       ": warning: column spark_advance_deg has no effect: burn_start_deg sets the burn; add a column "
+                       "by_spark_advance with 1");
+  }
+  return warnings;
 }
 
 }  // namespace crankloop::program

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "../command_line/arguments.hpp"
@@ -21,5 +22,8 @@ inline constexpr Option kInputs =
 /// that an input acts on: a starter, a diagram to scale.
 [[nodiscard]] std::optional<InputSchedule> read_inputs(const Arguments& arguments, const EngineFile& engine,
                                                        const std::vector<SceneInput>& inputs);
+
+/// Warns about columns that another input keeps from having an effect. `excess_air_ratio`: where no column sets it.
+[[nodiscard]] std::vector<std::string> warnings_about_inputs(const InputSchedule& schedule, double excess_air_ratio);
 
 }  // namespace crankloop::program

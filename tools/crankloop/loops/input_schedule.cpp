@@ -97,7 +97,7 @@ void InputSchedule::read_row(const std::string& text, int line) {
   const double time_s = number(0, "time_s", from(0));
   if (!times_s_.empty() && time_s <= times_s_.back()) {
     refuse(line, 1, "time_s",
-           shortest(time_s) + " is not after " + shortest(times_s_.back()) + " of the row before; times grow");
+           shortest(time_s) + " is not after " + shortest(times_s_.back()) + " of the row before; times must increase");
   }
   times_s_.push_back(time_s);
   for (std::size_t c = 0; c < columns_.size(); ++c) {
@@ -122,6 +122,13 @@ void InputSchedule::at(double time_s, double* numbers) noexcept {
 
 bool InputSchedule::drives(const std::string& name) const noexcept {
   return std::any_of(columns_.begin(), columns_.end(), [&](const Column& column) { return column.name == name; });
+}
+
+bool InputSchedule::drives_any(const std::string& name) const noexcept {
+  return std::any_of(columns_.begin(), columns_.end(), [&](const Column& column) {
+    return column.name.compare(0, name.size(), name) == 0 &&
+           (column.name.size() == name.size() || column.name[name.size()] == '[');
+  });
 }
 
 double InputSchedule::largest(const std::string& name) const noexcept {

@@ -32,6 +32,8 @@ class InputSchedule {
 
   /// Whether an input has a column; by its name in the file.
   [[nodiscard]] bool drives(const std::string& name) const noexcept;
+  /// The same of an input of each cylinder: of all, or of one like fuel_kg[2].
+  [[nodiscard]] bool drives_any(const std::string& name) const noexcept;
   /// The largest value of a column, or 0.
   [[nodiscard]] double largest(const std::string& name) const noexcept;
 

@@ -92,7 +92,9 @@ void add_gas(Summary& s, const EngineDefinition& engine, const GasFigures& figur
              (cycle.residual_ratio > kMaxResidualThatBurns && cycle.heat_J > 0
                   ? "; so much makes a real engine misfire, here all fuel burns"
                   : ""));
-  s.line("fuel_burned", cycle.fuel_kg * 1e6, "mg", "of a cylinder's cycle");
+  const bool rich = cycle.excess_air_ratio > 0 && cycle.excess_air_ratio < 1;
+  s.line("fuel_burned", cycle.fuel_kg * 1e6, "mg",
+         rich ? "of a cylinder's cycle; of a rich mixture the excess gives no heat" : "of a cylinder's cycle");
   const bool too_rich = cycle.excess_air_ratio > 0 && cycle.excess_air_ratio < kRichestThatIgnites;
   s.line("excess_air_ratio", cycle.excess_air_ratio, "",
          too_rich ? "lambda: so rich a mixture does not ignite; with --lambda fuel follows the air"

@@ -7,6 +7,8 @@
 #include <crankloop/scenes.hpp>
 
 #include "../files/error.hpp"
+#include "../files/units.hpp"
+#include "run_limits.hpp"
 
 namespace crankloop::program {
 
@@ -15,7 +17,7 @@ template <class Real>
 class TickProbe {
  public:
   explicit TickProbe(const EngineDefinition& definition)
-      : tables_{std::make_unique<TableStorage<Real, scenes::Whole>>()} {
+      : tables_{std::make_unique<TableStorage<Real, scenes::Whole>>()}, crank_{definition.crank} {
     EngineDefinition without_valves = definition;  // their motion depends on time, not only on the angle
     without_valves.train_count = 0;
     without_valves.trigger_count = 0;  // a wheel may turn with a valve train's cam
@@ -34,14 +36,22 @@ class TickProbe {
     input.speed_rad_s = speed;
     input.load_ratio = static_cast<Real>(load_ratio);
     const auto& output = engine_.step(input);
-    if (output.faults != 0) throw InputError("the speed is beyond the tick's limit of one revolution in 10 us");
+    if (output.faults != 0) refuse_speed(speed_rad_s);
     return output;
   }
 
  private:
   static constexpr double kTick_s = 10e-6;
 
+  /// The other inputs are in range, so the speed is not: beyond max_rpm, or one revolution in a tick.
+  [[noreturn]] void refuse_speed(double speed_rad_s) const {
+    require_speed(speed_rad_s / kRad_sPerRpm, static_cast<double>(tables_->tables().drive->speed_limit_rad_s), kTick_s,
+                  crank_);
+    throw UsageError("the speed is beyond the engine's max_rpm, or one revolution in 10 us");
+  }
+
   std::unique_ptr<TableStorage<Real, scenes::Whole>> tables_;
+  Crank crank_;
   Engine<Real, scenes::Whole> engine_;
 };
 

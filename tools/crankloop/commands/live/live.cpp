@@ -84,6 +84,7 @@ int run_live_command(const Arguments& arguments) {
   const bool shares = arguments.has("--shared");
   warn_of_running_alone(arguments, file, request);
   std::optional<InputSchedule> schedule = read_inputs(arguments, file, live_inputs(file));
+  if (schedule) tell_warnings(arguments, warnings_about_inputs(*schedule, request.at_start.excess_air_ratio));
   std::optional<Output> histogram, trace_file;
   if (arguments.has("--histogram")) histogram.emplace(arguments.text("--histogram"));
   if (arguments.has("--trace")) trace_file.emplace(arguments.text("--trace"));

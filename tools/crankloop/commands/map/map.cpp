@@ -49,8 +49,10 @@ bool is_grid(const Arguments& arguments, const Option& option) {
 void set_loads(MapRequest& request, const Arguments& arguments, const EngineFile& file) {
   const bool over_throttle = is_grid(arguments, kThrottle), over_fuel = is_grid(arguments, kFuel);
   if (over_throttle == over_fuel)
-    throw UsageError(over_fuel ? "--throttle and --fuel-mg are both FROM:TO:N: a map is over one of them"
-                               : "give FROM:TO:N as --throttle or as --fuel-mg: a map is over one of them");
+    throw UsageError(over_fuel
+                         ? "--throttle and --fuel-mg are both FROM:TO:N: a map is over one of them"
+                         : "give FROM:TO:N as --throttle or as --fuel-mg: a map is over one of them; 1:1:1 is one "
+                           "value");
   const Option& varied = over_fuel ? kFuel : kThrottle;
   request.axis = over_fuel ? &kFuelAxis : &kThrottleAxis;
   request.load = grid(arguments, varied.name, varied.range);

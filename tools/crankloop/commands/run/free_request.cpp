@@ -102,8 +102,11 @@ int run_free_by(const Arguments& arguments, const EngineFile& file, const GasOrd
   request.real = arguments.text("--real");
   request.is_hashed = arguments.has("--hash");
   request.command_line = command_line(arguments, file, gas);
+  const std::vector<std::string> of_inputs =
+      request.operation.schedule ? warnings_about_inputs(*request.operation.schedule, gas.excess_air_ratio)
+                                 : std::vector<std::string>{};
   for (const auto& lines :
-       {warnings_about_running_free(file, definition), warnings_about_sensor_faults_left_out(file)}) {
+       {warnings_about_running_free(file, definition), warnings_about_sensor_faults_left_out(file), of_inputs}) {
     for (std::string& line : tell_warnings(arguments, lines)) warnings.push_back(std::move(line));
   }
   request.warnings = std::move(warnings);
