@@ -147,6 +147,22 @@ TEST_F(MapCommand, FindsTheSparkOfBestTorque) {
             std::string::npos);
 }
 
+/// Fuel over no work is no number: 0 would be the best of all consumptions.
+TEST_F(MapCommand, LeavesTheConsumptionOutWhereTheEngineIsDriven) {
+  const std::string csv = path("driven.csv");
+  static_cast<void>(
+      map({kFour, "--rpm", "5000:5000:1", "--throttle", "0:1:2", "--tick-us", "200", "--cycles", "1", "--csv", csv}));
+  const std::vector<std::string> lines = split_at(contents(csv), '\n'), names = split_at(lines.at(0), ',');
+  const auto cell = [&](std::size_t row, const char* name) {
+    const auto at = std::find(names.begin(), names.end(), name) - names.begin();
+    return split_at(lines.at(row), ',').at(static_cast<std::size_t>(at));
+  };
+  EXPECT_LT(std::stod(cell(1, "brake_torque_Nm")), 0);
+  EXPECT_EQ(cell(1, "brake_specific_consumption_g_per_kWh"), "");
+  EXPECT_EQ(cell(1, "brake_efficiency"), "0");
+  EXPECT_GT(std::stod(cell(2, "brake_specific_consumption_g_per_kWh")), 200);
+}
+
 /// Without fuel no start is the best: the search would end at rounding's choice.
 TEST_F(MapCommand, KeepsTheFilesBurnStartWhereNothingBurns) {
   const std::string csv = path("nothing.csv"), diesel = CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495_gas.ini";

@@ -1,6 +1,7 @@
 #include "engine_map.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <crankloop/tabulate/summary.hpp>
 
@@ -54,7 +55,7 @@ double value_of(MapResult result, const EngineDefinition& definition, const RunP
     case MapResult::peak_pressure:
       return cycle.peak_Pa / 1e3;
     case MapResult::specific_consumption:
-      return works ? burned_kg_s / brake.power_W * 3.6e9 : 0;
+      return works ? burned_kg_s / brake.power_W * 3.6e9 : std::numeric_limits<double>::quiet_NaN();
     case MapResult::brake_efficiency:
       return works ? brake.power_W / (burned_kg_s * definition.gas.heating_value_J_kg) : 0;
     case MapResult::burn_start:

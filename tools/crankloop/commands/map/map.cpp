@@ -69,7 +69,14 @@ void write_csv(Output& out, const EngineMap& map) {
   for (const MapPoint& point : map.points) {
     csv.cell(point.speed_rpm);
     csv.cell(point.load);
-    for (const MapColumn& column : kMapColumnList) csv.cell(static_cast<float>(column.value(point)));
+    for (const MapColumn& column : kMapColumnList) {
+      const double value = column.value(point);
+      if (std::isnan(value)) {
+        csv.cell("");
+      } else {
+        csv.cell(static_cast<float>(value));
+      }
+    }
     csv.end_row();
   }
 }
