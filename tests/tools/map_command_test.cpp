@@ -150,8 +150,7 @@ TEST_F(MapCommand, FindsTheSparkOfBestTorque) {
 /// Fuel over no work is no number: 0 would be the best of all consumptions.
 TEST_F(MapCommand, LeavesTheConsumptionOutWhereTheEngineIsDriven) {
   const std::string csv = path("driven.csv");
-  static_cast<void>(
-      map({kFour, "--rpm", "5000:5000:1", "--throttle", "0:1:2", "--tick-us", "200", "--cycles", "1", "--csv", csv}));
+  static_cast<void>(map({kFour, "--rpm", "5000:5000:1", "--throttle", "0:1:2", "--tick-us", "200", "--csv", csv}));
   const std::vector<std::string> lines = split_at(contents(csv), '\n'), names = split_at(lines.at(0), ',');
   const auto cell = [&](std::size_t row, const char* name) {
     const auto at = std::find(names.begin(), names.end(), name) - names.begin();
