@@ -77,7 +77,10 @@ if [ "${1:-}" != --page ] && [ "${1:-}" != --mutants ]; then
     keep faults check crankloop_property_tests $property --gtest_filter='FaultInjection*'
     keep gas check crankloop_property_tests $property --gtest_filter='Gas*.Stay*WhateverComesIn'
     keep soak check crankloop_property_tests $property --gtest_filter='Soak*'
+    keep forged check crankloop_property_tests $property --gtest_filter='ForgedState*'
   }
+  fmu_tests=build/check/tests/contract/fmus/fmu_tests
+  keep forged_fmus check all sh -c "ctest --preset check -R '^contract[.]fmus\$' >build/fmus.log && $(if $long; then echo env CRANKLOOP_LONG_TESTS=1; fi) $fmu_tests --gtest_filter='*Forged*'"
   keep page_soak check crankloop_program node tests/page/soak.mjs build/check/bin/crankloop tools/engines 10
   keep edges check crankloop_unit_tests build/check/tests/crankloop_unit_tests --gtest_filter='TableEdges*'
   keep fuzz sanitize fuzz_targets env CRANKLOOP_FUZZ_SECONDS="$fuzz_seconds" tools/check fuzz
@@ -140,6 +143,8 @@ TEXT
 }
 # tests_of NAME: what GoogleTest says of the run.
 tests_of() { [ ! -s "$logs/$1.log" ] || sed -n 's/^\[  \([A-Z]*\)  \] \([0-9]* tests*\).*/\2 \1/p' "$logs/$1.log" | sort -u | tr '\n' ' ' | sed 's/ $//'; }
+# forged NAME: "N, M accepted, ..." of its "of N forged states M are accepted, and finite" lines.
+forged() { [ ! -s "$logs/$1.log" ] || awk '/ forged states / { n += $5; accepted += $8 } END { print n ", of which " accepted " were accepted" }' "$logs/$1.log"; }
 # stress_sum FIGURE: the sum of its "FIGURE = N" over the runs.
 stress_sum() { cat "$logs"/stress-[0-9]*.log | awk -F ' = ' -v figure="$1" '$1 == figure { sum += $2 } END { printf "%.0f", sum }'; }
 runs() {
@@ -153,6 +158,8 @@ runs() {
   run faults 'faults in a running engine' "$(tests_of faults)"
   run gas 'hostile engines with gas exchange' "$(tests_of gas), of 20 000 engines each with --long"
   run soak 'soak' "$(tests_of soak)"
+  run forged 'forged states of engines' "$(forged forged); $(tests_of forged)"
+  run forged_fmus 'forged states of FMUs' "$(forged forged_fmus); $(tests_of forged_fmus)"
   run edges 'edges of tables' "$(tests_of edges)"
   run fuzz 'fuzzing' "$(cat "$logs"/fuzz-*.log | awk '/^Done / { inputs += $2; s = $5; ++n } END { print inputs " inputs by " n " targets in " s " s each" }'); $(tail -n 1 "$logs/fuzz.log")"
   long_parts | while IFS=: read -r part title; do  # what mutants found has a row of its own
@@ -293,6 +300,13 @@ TEXT
   faults
   printf '\n'
   figures faults
+  cat <<'TEXT'
+
+## Forged states
+
+A saved state is changed, of an engine one to three fields within their limits, of an FMU any number in it, its checksum made right, and loaded: it is refused, or every
+later output is finite (tests/property/forged_state_test.cpp, tests/fmi/run_test.cpp). The table above has the counts.
+TEXT
   printf '\n## Soak\n\n'
   cat <<'TEXT'
 Eight elastic valves: speed sweeps up and down, repeated. Each sweep must give the same bits. Gas exchange on a free crank: fired and motored in turn. Once the walls
