@@ -280,7 +280,7 @@ int run_balance(const Arguments& arguments) {
   return kSuccess;
 }
 
-constexpr Option kOptions[] = {
+constexpr Option kBalanceOptions[] = {
     kSpeed,
     kLoadRatio,
     kThrottle,
@@ -301,7 +301,7 @@ const Command kBalance{"balance",
                        " [--mount-width-mm B --mount-length-mm L] [--csv F]",
                        "crankloop balance diesel_495.ini --rpm 2000",
                        1,
-                       kOptions,
+                       kBalanceOptions,
                        run_balance,
                        false,
                        figures_of_balance};

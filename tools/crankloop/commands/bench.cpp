@@ -60,7 +60,7 @@ int run_bench(const Arguments& arguments) {
   return kSuccess;
 }
 
-constexpr Option kOptions[] = {
+constexpr Option kBenchOptions[] = {
     text("--json", "F",
          "file for an array of objects, one per contestant and setting; - is standard output, the rest then goes to "
          "stderr"),
@@ -81,7 +81,7 @@ const Command kBench{
     "[--json F] [--csv F] [--report F.html] [--plot F.svg] [--quick | --errors] | --kernel NAME [--ticks N]",
     "crankloop bench --quick --report bench.html",
     0,
-    kOptions,
+    kBenchOptions,
     run_bench,
     true};
 

@@ -132,7 +132,7 @@ int run_forces(const Arguments& arguments) {
   return kSuccess;
 }
 
-constexpr Option kOptions[] = {
+constexpr Option kForcesOptions[] = {
     kSpeed,
     whole_number("--cylinder", "K", from(1).up_to(16), "cylinder; crank_deg is its own crank angle", "1"),
     kLoadRatio,
@@ -151,7 +151,7 @@ const Command kForces{
     "FILE [--rpm N] [--cylinder K] [--load-ratio Q] [--step-deg D] [--method M] [--real R] [--per-area] [--csv F]",
     "crankloop forces diesel_495.ini --rpm 2000 --cylinder 1 --csv forces.csv",
     1,
-    kOptions,
+    kForcesOptions,
     run_forces};
 
 }  // namespace crankloop::program

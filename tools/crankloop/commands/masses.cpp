@@ -29,7 +29,7 @@ int run_masses(const Arguments& arguments) {
   return kSuccess;
 }
 
-constexpr Option kOptions[] = {
+constexpr Option kMassesOptions[] = {
     required(choice("--type", "si|diesel|tractor", "spark ignition, car and truck diesel, or tractor diesel")),
     required(number("--bore-mm", "D", above(0).up_to(2000), "bore in mm")),
     required(number("--speed-rpm", "N", above(0).up_to(100000), "rated speed in rpm")),
@@ -42,7 +42,7 @@ const Command kMasses{"masses",
                       "--type si|diesel|tractor --bore-mm D --speed-rpm N",
                       "crankloop masses --type diesel --bore-mm 95 --speed-rpm 2000",
                       0,
-                      kOptions,
+                      kMassesOptions,
                       run_masses};
 
 }  // namespace crankloop::program

@@ -18,7 +18,7 @@ int run_pack(const Arguments& arguments) {
   return kSuccess;
 }
 
-constexpr Option kOptions[] = {required(text("--output", "FILE.fmu", "the archive to write; -o for short"))};
+constexpr Option kPackOptions[] = {required(text("--output", "FILE.fmu", "the archive to write; -o for short"))};
 
 }  // namespace
 
@@ -27,7 +27,7 @@ const Command kPack{"pack",
                     "FOLDER -o FILE.fmu",
                     "crankloop pack my_engine_fmu -o my_engine.fmu",
                     1,
-                    kOptions,
+                    kPackOptions,
                     run_pack,
                     true};
 

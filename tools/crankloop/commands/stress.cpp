@@ -84,7 +84,7 @@ int run_stress(const Arguments& arguments) {
   return tally.failures.empty() && worst_error(map) <= kLargestStabilityError ? kSuccess : kFailure;
 }
 
-constexpr Option kOptions[] = {
+constexpr Option kStressOptions[] = {
     whole_number("--seed", "N", from(0).up_to(2147483647), "seed of the random cases", "1"),
     whole_number("--cases", "N", from(1).up_to(100000000), "number of cases", "1000"),
     whole_number("--case", "N", from(0).up_to(100000000), "runs this case only and prints all details"),
@@ -106,7 +106,7 @@ const Command kStress{"stress",
                       "       [--report F.html] [--shard K/N --part F | --join F...]",
                       "crankloop stress --seed 7 --cases 2000 --report stress.html",
                       0,
-                      kOptions,
+                      kStressOptions,
                       run_stress,
                       true};
 

@@ -271,7 +271,7 @@ int run_tables(const Arguments& arguments) {
   return kSuccess;
 }
 
-constexpr Option kOptions[] = {
+constexpr Option kTablesOptions[] = {
     kTick,
     choice("--real", "float|double", "arithmetic of the tick", "float"),
     choice("--integrator", "rk4|exponential", "of elastic valves", "rk4"),
@@ -291,7 +291,7 @@ const Command kTables{"tables",
                       "N] [--namespace NAME] [--output F]",
                       "crankloop tables diesel_495.ini --tick-us 100 --real float > diesel_495_tables.hpp",
                       1,
-                      kOptions,
+                      kTablesOptions,
                       run_tables};
 
 }  // namespace crankloop::program

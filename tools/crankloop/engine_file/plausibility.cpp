@@ -340,8 +340,9 @@ struct LeftOut {
   const char* instead;
   const char* taken;
 };
-constexpr LeftOut kMisfire{"misfire", "every cycle fires",
-                           "`crankloop run --free`, `crankloop live` and FMUs whose crank forces turn take misfires"};
+constexpr LeftOut kMisfiresLeftOut{
+    "misfire", "every cycle fires",
+    "`crankloop run --free`, `crankloop live` and FMUs whose crank forces turn take misfires"};
 constexpr LeftOut kFault{"fault", "every signal is healthy",
                          "`crankloop run --free`, `crankloop live` and FMUs whose crank forces turn take faults"};
 constexpr LeftOut kSensorFault{"sensor_fault", "no sensor is read",
@@ -361,7 +362,7 @@ std::vector<std::string> warnings_about_each(std::initializer_list<LeftOut> left
 }  // namespace
 
 std::vector<std::string> warnings_about_misfires_left_out(const EngineFile& engine) {
-  return warnings_about_each({kMisfire, kFault, kSensorFault}, engine);
+  return warnings_about_each({kMisfiresLeftOut, kFault, kSensorFault}, engine);
 }
 std::vector<std::string> warnings_about_sensor_faults_left_out(const EngineFile& engine) {
   return warnings_about_each({kSensorFault}, engine);

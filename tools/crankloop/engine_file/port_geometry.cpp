@@ -1,11 +1,10 @@
 #include "port_geometry.hpp"
 
+#include "../files/units.hpp"
 #include "engine_file_parts.hpp"
 
 namespace crankloop::program {
 namespace {
-
-constexpr double kMilli = 1e3;
 
 /// What is neither given nor derived is assumed, and told.
 void assume(PortGeometry& port, const char* key, double value) {

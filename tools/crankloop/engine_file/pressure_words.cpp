@@ -1,11 +1,11 @@
 #include "pressure_words.hpp"
 
+#include "../files/units.hpp"
 #include "../report/text.hpp"
 
 namespace crankloop::program {
 namespace {
 
-constexpr double kKilo = 1e-3;
 using report::number_text;
 
 bool is_motored(const GasOrder& gas) { return gas.excess_air_ratio <= 0 && gas.fuel_kg <= 0; }

@@ -6,6 +6,7 @@
 #include <crankloop/tabulate/mechanism.hpp>
 
 #include "../files/number.hpp"
+#include "../files/units.hpp"
 #include "../files/words.hpp"
 #include "engine_report_parts.hpp"
 
@@ -16,8 +17,6 @@ using report::List;
 using report::Paragraph;
 using report::Section;
 using report::Table;
-
-constexpr double kKilo = 1e-3;
 
 // ---- Remarks in the engine file ----
 

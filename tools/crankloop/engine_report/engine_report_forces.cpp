@@ -3,6 +3,7 @@
 
 #include <crankloop/tabulate/mechanism.hpp>
 
+#include "../files/units.hpp"
 #include "engine_report_parts.hpp"
 
 namespace crankloop::program {
@@ -14,7 +15,6 @@ using report::Plot;
 using report::Section;
 using report::Series;
 
-constexpr double kKilo = 1e-3;
 constexpr double kMega = 1e-6;
 
 /// One row per quantity: where it is largest and smallest.

@@ -1,6 +1,7 @@
 // Section of the engine report: gas exchange.
 #include <algorithm>
 
+#include "../files/units.hpp"
 #include "engine_report_parts.hpp"
 
 namespace crankloop::program {
@@ -8,8 +9,6 @@ namespace {
 
 using report::Plot;
 using report::Section;
-
-constexpr double kKilo = 1e-3;
 
 /// Cylinder, manifolds, and ports at the ends of runners. The frame holds manifolds and ports, not the cylinder.
 Plot pressures(const ReportInput& input) {

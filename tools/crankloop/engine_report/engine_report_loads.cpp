@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "../files/units.hpp"
 #include "../loops/free_forces.hpp"
 #include "engine_report_parts.hpp"
 #include "free_orders.hpp"
@@ -15,7 +16,6 @@ using report::Paragraph;
 using report::Plot;
 using report::Section;
 
-constexpr double kKilo = 1e-3;
 constexpr std::size_t kMaxCurves = 6;  // colours there are
 
 Axis force_axis(const std::string& title) { return axis_of(title, "kN"); }

@@ -4,6 +4,7 @@
 
 #include <crankloop/tabulate/mechanism.hpp>
 
+#include "../files/units.hpp"
 #include "engine_report_parts.hpp"
 
 namespace crankloop::program {
@@ -13,7 +14,6 @@ using report::Paragraph;
 using report::Plot;
 using report::Section;
 
-constexpr double kKilo = 1e-3;
 constexpr double kUsualGamma = 1.33;  ///< ratio of specific heats of burning gas
 
 std::vector<double> volume_cm3(const ReportInput& input) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../files/units.hpp"
 #include "engine_report_parts.hpp"
 
 namespace crankloop::program {
@@ -10,7 +11,6 @@ namespace {
 using report::Plot;
 using report::Series;
 
-constexpr double kKilo = 1e-3;
 constexpr int kSpeeds = 26;
 constexpr double kFrom = 0.2;  ///< of the larger of rated speed and the run's
 constexpr double kTo = 1.2;

@@ -3,15 +3,10 @@
 #include <cmath>
 #include <utility>
 
+#include "../files/units.hpp"
 #include "engine_report_trains.hpp"
 
 namespace crankloop::program {
-namespace {
-
-constexpr double kMilli = 1e3;
-constexpr double kMicro = 1e6;
-
-}  // namespace
 
 report::Table results_table(const std::vector<ShownTrain>& trains) {
   report::Table table{"Results of the cycle", {{"", "", false}, {"Unit", "", false}}, {}, false};

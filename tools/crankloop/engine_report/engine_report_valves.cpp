@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "../files/units.hpp"
 #include "engine_report_trains.hpp"
 
 namespace crankloop::program {
@@ -14,9 +15,6 @@ using report::Plot;
 using report::Section;
 using report::Series;
 
-constexpr double kMilli = 1e3;
-constexpr double kMicro = 1e6;
-constexpr double kKilo = 1e-3;
 constexpr int kTheoryColour = 6;
 constexpr double kHighBounce_m = 0.5e-3;  // higher and longer than in an engine in service
 

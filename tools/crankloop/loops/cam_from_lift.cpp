@@ -77,7 +77,7 @@ FollowerPlace CamFromLift::follower(double cam_rad, double lift_m) const noexcep
   return {O, O + along(rocker_.pivot_to_pad_m, elementary::sin_cos(arm))};
 }
 
-CamContact CamFromLift::at(double cam_rad, const CamLift& valve) const noexcept {
+FlatContact CamFromLift::at(double cam_rad, const CamLift& valve) const noexcept {
   if (rocker_.kind == RockerKind::circular_pad) return pad_contact(cam_rad, valve);
   const double lift_m = (valve.lift_m + rocker_.clearance_m) / rocker_.ratio;
   return {cam_rad,
@@ -89,7 +89,7 @@ CamContact CamFromLift::at(double cam_rad, const CamLift& valve) const noexcept 
 }
 
 /// The pad's centre A runs on a curve outside the cam's contour by the pad's radius, with the same normal.
-CamContact CamFromLift::pad_contact(double cam_rad, const CamLift& valve) const noexcept {
+FlatContact CamFromLift::pad_contact(double cam_rad, const CamLift& valve) const noexcept {
   if (!reaches(valve.lift_m)) return {};
   const elementary::SinCos screw = elementary::sin_cos(screw_rad(valve.lift_m));
   const double l_b = rocker_.pivot_to_screw_m;
@@ -111,7 +111,7 @@ CamContact CamFromLift::pad_contact(double cam_rad, const CamLift& valve) const 
   if (!(speed > 0)) return {};
   const ContourPoint tangent{first.x_m / speed, first.y_m / speed};
   const ContourPoint normal{tangent.y_m, -tangent.x_m};  // away from the cam
-  CamContact c;
+  FlatContact c;
   c.exists = true;
   c.flat_rad = next_to(cam_rad, elementary::atan2(normal.y_m, normal.x_m));
   c.lift_m = dot(A, normal) - rocker_.pad_radius_m - rocker_.base_circle_m;

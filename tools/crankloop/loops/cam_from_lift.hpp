@@ -11,7 +11,7 @@
 namespace crankloop::program {
 
 /// Where cam and follower touch, as the flat follower that would touch there.
-struct CamContact {
+struct FlatContact {
   double flat_rad = 0;            ///< phi, within half a turn of the cam angle
   double lift_m = 0;              ///< y
   double per_rad_m = 0;           ///< y', by phi
@@ -40,7 +40,7 @@ class CamFromLift {
   CamFromLift(const Rocker& rocker, double largest_lift_m) noexcept;
 
   /// The train's unclipped lift at a cam angle, with its derivatives by the cam angle. Exact to rounding.
-  [[nodiscard]] CamContact at(double cam_rad, const CamLift& valve) const noexcept;
+  [[nodiscard]] FlatContact at(double cam_rad, const CamLift& valve) const noexcept;
 
   /// W, by the lift; 0 for a constant ratio.
   [[nodiscard]] double rocker_rad(double lift_m) const noexcept;
@@ -51,7 +51,7 @@ class CamFromLift {
  private:
   [[nodiscard]] bool reaches(double lift_m) const noexcept;
   [[nodiscard]] double pivot_rad(double cam_rad) const noexcept;
-  [[nodiscard]] CamContact pad_contact(double cam_rad, const CamLift& valve) const noexcept;
+  [[nodiscard]] FlatContact pad_contact(double cam_rad, const CamLift& valve) const noexcept;
 
   Rocker rocker_;
   double toward_ = 1;              ///< -1: the cam turns away from the pivot

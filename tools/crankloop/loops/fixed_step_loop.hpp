@@ -23,9 +23,6 @@
 
 namespace crankloop::program {
 
-/// Fraction of a tick: a cycle's end that is closer than this is not worth another tick, because the phase increment is
-/// rounded.
-inline constexpr double kHairOfATick = 1e-3;
 inline constexpr const char* kFewerTicks = "fewer --cycles or a higher --rpm";
 
 /// Definition and tick are valid and the tables have room, so that a refusal here is a defect of the program.

@@ -6,13 +6,13 @@
 #include <crankloop/tabulate/mechanism.hpp>
 #include <crankloop/tick/crank/cylinder_forces.hpp>
 
+#include "run_limits.hpp"
 #include "valve_tick_limit.hpp"
 
 namespace crankloop::program {
 namespace {
 
 constexpr int kAngles = 7919;  // a prime: no two angles of a cycle have the same fraction of a degree
-constexpr double kShortestTick_s = 1e-6;
 
 double own_angle(const Layout& layout, std::size_t cylinder, double engine_deg) {
   const double deg = engine_deg - layout.firing_deg[cylinder];

@@ -10,6 +10,13 @@ namespace crankloop::program {
 /// Maximum number of ticks of a run: some minutes for four cylinders.
 inline constexpr double kMaxTicks = 1e9;
 
+/// Of any engine.
+inline constexpr double kShortestTick_s = 1e-6;
+
+/// Fraction of a tick: a cycle's end that is closer than this is not worth another tick, because the phase increment is
+/// rounded.
+inline constexpr double kHairOfATick = 1e-3;
+
 /// Throws UsageError for more ticks than that; `remedy` names another remedy: "fewer --cycles".
 void require_ticks(double ticks, double tick_s, const std::string& remedy);
 

@@ -5,13 +5,13 @@
 #include <crankloop/tabulate/mechanism.hpp>
 #include <crankloop/tabulate/summary.hpp>
 
+#include "run_limits.hpp"
 #include "valve_tick_limit.hpp"
 
 namespace crankloop::program {
 namespace {
 
 constexpr double kSpacingDeg = 0.25;
-constexpr double kShortestTick_s = 1e-6;
 
 /// A tick of which a whole number gives a spacing that divides 10 deg.
 struct Pace {

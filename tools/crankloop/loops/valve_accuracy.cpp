@@ -6,14 +6,14 @@
 #include <utility>
 
 #include "../files/number.hpp"
+#include "run_limits.hpp"
 #include "valve_tick_limit.hpp"
 
 namespace crankloop::program {
 namespace {
 
 constexpr int kShorter = 16;
-constexpr int kStarts = 16;               ///< in different parts of a tick
-constexpr double kShortestTick_s = 1e-6;  // of any engine
+constexpr int kStarts = 16;  ///< in different parts of a tick
 
 [[nodiscard]] std::string two_digits(double value) {
   char text[32];

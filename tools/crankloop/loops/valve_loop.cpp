@@ -19,11 +19,6 @@ template class crankloop::Engine<double, crankloop::program::OneValve>;
 namespace crankloop::program {
 namespace {
 
-/// Fraction of a tick: a cycle's end that is closer than this is not worth another tick, because the phase increment is
-/// rounded.
-constexpr double kHairOfATick = 1e-3;
-constexpr double kShortestTick_s = 1e-6;
-
 Crank any_crank() {
   Crank crank;
   crank.bore_m = 0.1;

@@ -15,7 +15,7 @@ constexpr double kTitle = 34;  // line heights
 constexpr double kRemark = 24;
 constexpr double kName = 30;  // of a plot, above it
 
-constexpr const char* kStyle = R"css(
+constexpr const char* kSheetStyle = R"css(
 :root { max-width: 100%; height: auto; color-scheme: light dark; font-family: system-ui, -apple-system, "Segoe UI",
   Roboto, "Helvetica Neue", "Noto Sans", "Liberation Sans", Arial, sans-serif; }
 .paper { fill: var(--paper); }
@@ -73,7 +73,7 @@ std::string to_svg_file(const Sheet& sheet) {
                     "\" viewBox=\"0 0 " + width + ' ' + height + "\" role=\"group\" aria-labelledby=\"sheet-title\">\n";
   svg += "<title id=\"sheet-title\">" + escape(sheet.title) + "</title>\n<style>\n";
   svg += plot_style();
-  svg += kStyle;
+  svg += kSheetStyle;
   svg += sheet.picture.style;
   svg += "</style>\n<rect class=\"paper\" width=\"" + width + "\" height=\"" + height + "\"/>\n";
   return svg + body + "</svg>\n";

@@ -25,9 +25,6 @@
 namespace crankloop::program {
 namespace {
 
-constexpr double kMilli = 1e3;
-constexpr double kMicro = 1e6;
-
 /// The train's cam, or the designed one in its place.
 struct CamOfTrain {
   const TrainOfFile& train;
@@ -177,7 +174,7 @@ int run_cam(const Arguments& arguments) {
   return kSuccess;
 }
 
-constexpr Option kOptions[] = {
+constexpr Option kCamOptions[] = {
     text("--train", "NAME",
          "valve train: the NAME of its [cam NAME] and [rocker NAME]; default the only one of the file"),
     number("--step-deg", "D", from(0.001).up_to(30), "degrees of the flat follower's angle between rows", "1"),
@@ -199,7 +196,7 @@ const Command kCam{"cam",
                    "[--zero-lash] [--table F] [--smoothing F.svg]",
                    "crankloop cam ohc_125.ini --train intake --csv cam.csv --svg cam.svg --at -30",
                    1,
-                   kOptions,
+                   kCamOptions,
                    run_cam};
 
 }  // namespace crankloop::program

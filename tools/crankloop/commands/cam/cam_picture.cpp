@@ -16,8 +16,7 @@ namespace {
 
 using report::number_text;
 
-constexpr double kMilli = 1e3;
-constexpr double kStepDeg = 0.25;
+constexpr double kContourStepDeg = 0.25;
 
 // ---- places --------------------------------------------------------------------------------------------------------
 
@@ -40,7 +39,7 @@ struct Scene {
   CamFromLift inverse;
   double cam_rad;
   LiftPose pose;
-  CamContact contact;
+  FlatContact contact;
   CamFrame frame{};
 
   [[nodiscard]] const Rocker& rocker() const { return shown.rocker; }
@@ -79,7 +78,7 @@ Scene scene_of(const ShownCam& shown, double cam_deg) {
 
 void draw_cam(Canvas& canvas, const Scene& s) {
   Outline contour;
-  for (double deg = -180; deg < 180; deg += kStepDeg) contour.push_back(s.contour(deg * kRadPerDeg));
+  for (double deg = -180; deg < 180; deg += kContourStepDeg) contour.push_back(s.contour(deg * kRadPerDeg));
   const double base = s.rocker().base_circle_m * kMilli;
   canvas.path("cam", contour, true);
   canvas.circle("thin dashes", s.frame.centre, base);
@@ -222,7 +221,7 @@ void draw_with_rocker(Canvas& canvas, const Scene& s) {
 /// A flat follower: its face spans what the contact sweeps.
 void draw_with_flat(Canvas& canvas, const Scene& s) {
   double half = 0;
-  for (double deg = -180; deg < 180; deg += kStepDeg)
+  for (double deg = -180; deg < 180; deg += kContourStepDeg)
     half = std::max(half, std::abs(s.follower_at(deg * kRadPerDeg).per_rad_m) * kMilli);
   half += 2.5;
   const double face = (s.rocker().base_circle_m + s.contact.lift_m) * kMilli;
@@ -264,7 +263,7 @@ report::Picture picture_of(const Scene& s) {
 
 }  // namespace
 
-CamContact contact_of(const CamFromLift& inverse, double cam_rad, const LiftPose& pose) {
+FlatContact contact_of(const CamFromLift& inverse, double cam_rad, const LiftPose& pose) {
   return inverse.at(cam_rad, {pose.lift_m, pose.per_rad_m, pose.per_rad2_m});
 }
 

@@ -23,7 +23,7 @@ struct ShownCam {
 };
 
 /// Where the cam touches its follower at a cam angle whose lift is `pose`.
-[[nodiscard]] CamContact contact_of(const CamFromLift& inverse, double cam_rad, const LiftPose& pose);
+[[nodiscard]] FlatContact contact_of(const CamFromLift& inverse, double cam_rad, const LiftPose& pose);
 
 [[nodiscard]] report::Plot radius_plot(const ShownCam& shown);
 /// Marks the valve's lift at `cam_deg`.

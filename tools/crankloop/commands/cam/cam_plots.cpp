@@ -16,8 +16,7 @@ using report::Series;
 
 namespace {
 
-constexpr double kMilli = 1e3;
-constexpr double kStepDeg = 0.25;
+constexpr double kPlotStepDeg = 0.25;
 
 }  // namespace
 
@@ -29,7 +28,7 @@ Plot radius_plot(const ShownCam& shown) {
                       axis_of("Radius", "mm"));
   plot.y.logarithmic = true;
   Series radius;
-  for (double at = from - 10; at <= to + 10; at += kStepDeg) {
+  for (double at = from - 10; at <= to + 10; at += kPlotStepDeg) {
     const CamLift y = lift.cam().at(at * kRadPerDeg);
     radius.x.push_back(at);
     radius.y.push_back((shown.rocker.base_circle_m + y.lift_m + y.per_rad2_m) * kMilli);
@@ -52,7 +51,7 @@ Plot lift_plot(const ShownCam& shown, double cam_deg) {
   Plot plot = plot_of("Lift", axis_of("Cam angle from full lift", "deg"), axis_of("Lift", "mm"));
   Series valve{"valve", {}, {}, {}};
   Series follower{"flat follower at the contact", {}, {}, {}};
-  for (double at = from; at <= to; at += kStepDeg) {
+  for (double at = from; at <= to; at += kPlotStepDeg) {
     const LiftPose pose = lift.at(at * kRadPerDeg);
     valve.x.push_back(at);
     valve.y.push_back(std::max(pose.lift_m, 0.0) * kMilli);

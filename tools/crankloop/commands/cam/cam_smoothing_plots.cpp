@@ -13,11 +13,9 @@ using report::Plot;
 using report::plot_of;
 using report::Series;
 
-constexpr double kMilli = 1e3;
-constexpr double kMicro = 1e6;
 constexpr double kJerkStep_rad = 1e-4;  // of differences of y'', which is a cubic between knots
-constexpr double kStepDeg = 0.25;
-constexpr double kAround_deg = 10;
+constexpr double kSmoothingStepDeg = 0.25;
+constexpr double kAroundLobe_deg = 10;
 
 /// A derivative of the rows by divided differences of their neighbours, each between the places of the two.
 struct RowDerivative {
@@ -39,7 +37,8 @@ RowDerivative rows_near(const std::vector<CamPoint>& rows, const CamProfile& smo
   RowDerivative near;
   for (const CamPoint& row : rows) {
     const double deg = row.cam_deg - smooth.peak_deg();
-    if (deg < smooth.opens_rad() * kDegPerRad - kAround_deg || deg > smooth.closes_rad() * kDegPerRad + kAround_deg)
+    if (deg < smooth.opens_rad() * kDegPerRad - kAroundLobe_deg ||
+        deg > smooth.closes_rad() * kDegPerRad + kAroundLobe_deg)
       continue;
     near.deg.push_back(deg);
     near.m.push_back(row.lift_m);
@@ -58,9 +57,9 @@ template <class Value>
 Series after(const CamProfile& smooth, double factor, const Value& value) {
   Series series{"smoothed", {}, {}, {}};
   series.style.colour = 2;
-  const double from_deg = smooth.opens_rad() * kDegPerRad - kAround_deg;
-  const double to_deg = smooth.closes_rad() * kDegPerRad + kAround_deg;
-  for (double deg = from_deg; deg <= to_deg; deg += kStepDeg) {
+  const double from_deg = smooth.opens_rad() * kDegPerRad - kAroundLobe_deg;
+  const double to_deg = smooth.closes_rad() * kDegPerRad + kAroundLobe_deg;
+  for (double deg = from_deg; deg <= to_deg; deg += kSmoothingStepDeg) {
     series.x.push_back(deg);
     series.y.push_back(value(deg * kRadPerDeg) * factor);
   }
@@ -70,8 +69,8 @@ Series after(const CamProfile& smooth, double factor, const Value& value) {
 Plot over_cam(const CamProfile& smooth, const char* title, const char* y, const char* unit,
               std::vector<Series> curves) {
   Plot plot = plot_of(title, axis_of("Flat follower's cam angle from full lift", "deg"), axis_of(y, unit));
-  plot.x.range =
-      report::Range{smooth.opens_rad() * kDegPerRad - kAround_deg, smooth.closes_rad() * kDegPerRad + kAround_deg};
+  plot.x.range = report::Range{smooth.opens_rad() * kDegPerRad - kAroundLobe_deg,
+                               smooth.closes_rad() * kDegPerRad + kAroundLobe_deg};
   plot.x.tick_step = 30;
   plot.series = std::move(curves);
   return plot;

@@ -146,7 +146,7 @@ class Inverse {
   }
 
  private:
-  [[nodiscard]] CamContact at(double cam_rad) const {
+  [[nodiscard]] FlatContact at(double cam_rad) const {
     CamLift lift = profile_->at(cam_rad);
     lift.lift_m -= clearance_m_;
     return cam_.at(cam_rad, lift);
@@ -177,7 +177,7 @@ class Inverse {
     const double step_rad = (profile_->closes_rad() - profile_->opens_rad()) / kScan;
     for (int i = 0; i <= kScan; ++i) {
       const double rad = profile_->opens_rad() + i * step_rad;
-      const CamContact contact = at(rad);
+      const FlatContact contact = at(rad);
       if (!contact.exists) throw refused_at(rad, "screw or pad cannot stand where the lift needs them");
       if (contact.flat_per_cam < least_turning) least_turning = contact.flat_per_cam, turning_rad = rad;
       if (contact.curvature_radius_m < least_radius_m) least_radius_m = contact.curvature_radius_m, radius_rad = rad;

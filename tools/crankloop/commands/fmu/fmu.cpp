@@ -163,7 +163,7 @@ int run_fmu(const Arguments& arguments) {
   return kSuccess;
 }
 
-constexpr Option kOptions[] = {
+constexpr Option kFmuOptions[] = {
     choice("--fmi", "2|3", "version of FMI", "3"),
     choice("--crank", "speed|torque", "input of the FMU: crank speed, or load torque", "speed"),
     number("--tick-us", "T", from(1).up_to(2000), "tick length in microseconds", "100"),
@@ -178,7 +178,7 @@ const Command kFmu{"fmu",
                    "FILE [--fmi 2|3] [--crank speed|torque] [--tick-us T] [--real R] -o FILE.fmu",
                    "crankloop fmu diesel_495.ini --crank torque -o diesel_495.fmu",
                    1,
-                   kOptions,
+                   kFmuOptions,
                    run_fmu};
 
 }  // namespace crankloop::program

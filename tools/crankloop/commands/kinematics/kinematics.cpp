@@ -165,7 +165,7 @@ Summary figures_of_kinematics(const Arguments& arguments, const EngineFile& engi
   return summary_of(request_of(arguments, engine));
 }
 
-constexpr Option kOptions[] = {
+constexpr Option kKinematicsOptions[] = {
     kSpeed,
     number("--speed-rad-s", "W", from(-10471).up_to(10471), "engine speed in rad/s, instead of --rpm"),
     number("--step-deg", "D", from(0.001).up_to(360), "crank degrees between rows", "1"),
@@ -186,7 +186,7 @@ const Command kKinematics{
     "FILE [--rpm N | --speed-rad-s W] [--step-deg D] [--method M] [--real R] [--csv F] [--plot F.svg]",
     "crankloop kinematics diesel_495.ini --rpm 2000 --step-deg 10",
     1,
-    kOptions,
+    kKinematicsOptions,
     run_kinematics,
     false,
     figures_of_kinematics};

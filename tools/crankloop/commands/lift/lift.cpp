@@ -137,7 +137,7 @@ int run_lift(const Arguments& arguments) {
   return kSuccess;
 }
 
-constexpr Option kOptions[] = {
+constexpr Option kLiftOptions[] = {
     text("--train", "NAME",
          "valve train: the NAME of its [cam NAME] and [rocker NAME]; default the only one of the file"),
     number("--rpm", "N", above(0).up_to(100000),
@@ -154,7 +154,7 @@ const Command kLift{"lift",
                     "FILE [--train NAME] [--rpm N] [--step-deg D] [--csv F] [--plot F.svg]",
                     "crankloop lift ohc_125.ini --train intake --csv lift.csv",
                     1,
-                    kOptions,
+                    kLiftOptions,
                     run_lift};
 
 }  // namespace crankloop::program

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "../../files/units.hpp"
 #include "../../loops/lift_jerk.hpp"
 #include "../../report/text.hpp"
 
@@ -18,18 +19,17 @@ using report::Plot;
 using report::plot_of;
 using report::Series;
 
-constexpr double kMilli = 1e3;
 constexpr double kMm2PerM2 = 1e6;
-constexpr double kStepDeg = 0.25;
-constexpr double kAround_deg = 10;
+constexpr double kLiftStepDeg = 0.25;
+constexpr double kAroundLift_deg = 10;
 
 using Value = std::function<double(const LiftPose&, double cam_rad)>;
 
 Series curve(const ValveLift& lift, const char* name, double factor, const Value& value) {
   Series series{name, {}, {}, {}};
-  const double from_deg = lift.opens_rad() * kDegPerRad - kAround_deg;
-  const double to_deg = lift.closes_rad() * kDegPerRad + kAround_deg;
-  for (double deg = from_deg; deg <= to_deg; deg += kStepDeg) {
+  const double from_deg = lift.opens_rad() * kDegPerRad - kAroundLift_deg;
+  const double to_deg = lift.closes_rad() * kDegPerRad + kAroundLift_deg;
+  for (double deg = from_deg; deg <= to_deg; deg += kLiftStepDeg) {
     series.x.push_back(deg);
     series.y.push_back(factor * value(lift.at(deg * kRadPerDeg), deg * kRadPerDeg));
   }
@@ -40,7 +40,7 @@ Plot over_cam(const ValveLift& lift, const char* title, const char* y, const std
               std::vector<Series> curves) {
   Plot plot = plot_of(title, axis_of("Cam angle from full lift", "deg"), axis_of(y, unit));
   plot.x.range =
-      report::Range{lift.opens_rad() * kDegPerRad - kAround_deg, lift.closes_rad() * kDegPerRad + kAround_deg};
+      report::Range{lift.opens_rad() * kDegPerRad - kAroundLift_deg, lift.closes_rad() * kDegPerRad + kAroundLift_deg};
   plot.x.tick_step = 30;
   plot.series = std::move(curves);
   return plot;

@@ -122,7 +122,7 @@ int run_live_command(const Arguments& arguments) {
                            std::to_string(figures->tally.ticks) + " ticks");
 }
 
-constexpr Option kOptions[] = {
+constexpr Option kLiveOptions[] = {
     number("--tick-us", "T", from(1).up_to(2000),
            "length of a tick in us; longer than in other commands: most systems meet it", "1000"),
     number("--seconds", "S", above(0).up_to(1000000), "duration; Ctrl-C stops the run early and prints its summary",
@@ -164,7 +164,7 @@ const Command kLive{
     "[--throttle R] [--external-torque-Nm L] [--starter] [...]",
     "crankloop live diesel_495.ini --from-rpm 800 --load-ratio 0.2 --tick-us 100 --seconds 5",
     1,
-    kOptions,
+    kLiveOptions,
     run_live_command};
 
 }  // namespace crankloop::program

@@ -157,7 +157,7 @@ int run_map_command(const Arguments& arguments) {
   return kSuccess;
 }
 
-constexpr Option kOptions[] = {
+constexpr Option kMapOptions[] = {
     required(text("--rpm", "FROM:TO:N", "engine speeds in rpm, N of them evenly spaced")),
     text(kThrottle.name, "R|FROM:TO:N",
          "throttle ratios, N of them evenly spaced: 0 closed, 1 wide open; or one, 1 by default"),
@@ -185,7 +185,7 @@ const Command kMap{
     "       crankloop map FILE --rpm FROM:TO:N --fuel-mg FROM:TO:N [--throttle R] [...]",
     "crankloop map four_2000.ini --rpm 1000:6000:6 --throttle 0:1:6 --csv map.csv --report map.html",
     1,
-    kOptions,
+    kMapOptions,
     run_map_command};
 
 }  // namespace crankloop::program

@@ -91,7 +91,7 @@ int run_new(const Arguments& arguments) {
   return kSuccess;
 }
 
-constexpr Option kOptions[] = {
+constexpr Option kNewOptions[] = {
     required(whole_number("--cylinders", "N", from(1).up_to(kMaxCylinders), "number of cylinders")),
     required(number("--bore-mm", "D", above(0).up_to(2000), "bore in mm")),
     required(number("--stroke-mm", "S", above(0).up_to(4000), "stroke in mm")),
@@ -119,7 +119,7 @@ const Command kNew{"new",
                    "--cylinders N --bore-mm D --stroke-mm S [...]",
                    "crankloop new --cylinders 3 --bore-mm 74 --stroke-mm 77 --rated-rpm 5500 > three.ini",
                    0,
-                   kOptions,
+                   kNewOptions,
                    run_new};
 
 }  // namespace crankloop::program

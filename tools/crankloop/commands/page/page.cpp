@@ -146,7 +146,7 @@ int run_page(const Arguments& arguments) {
   return kSuccess;
 }
 
-constexpr Option kOptions[] = {
+constexpr Option kPageOptions[] = {
     required(text("--out", "F.html", "the page to write, -o for short; opens in any browser, also from a disk")),
 };
 
@@ -165,7 +165,7 @@ const Command kPage{
     "FILE --out F.html",
     "crankloop page four_2000.ini --out engine.html",
     1,
-    kOptions,
+    kPageOptions,
     run_page};
 
 }  // namespace crankloop::program

@@ -116,7 +116,7 @@ int run_redline(const Arguments& arguments) {
   return kSuccess;
 }
 
-constexpr Option kOptions[] = {
+constexpr Option kRedlineOptions[] = {
     text("--train", "NAME",
          "valve train: the NAME of its [cam NAME], [rocker NAME] and [valve NAME]; default the only one of the file"),
     whole_number("--from", "N", from(1).up_to(100000), "lowest engine speed in rpm", "500"),
@@ -141,7 +141,7 @@ const Command kRedline{"redline",
                        "[--vary P] [--csv F] [--report F.html]",
                        "crankloop redline ohc_125.ini --train intake --vary spring --report redline.html",
                        1,
-                       kOptions,
+                       kRedlineOptions,
                        run_redline,
                        false,
                        figures_of_redline};

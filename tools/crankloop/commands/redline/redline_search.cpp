@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "../../files/units.hpp"
+#include "../../loops/run_limits.hpp"
 #include "../../loops/valve_tick_limit.hpp"
 
 namespace crankloop::program {
 namespace {
 
 constexpr int kMaxSteps = 60;
-constexpr double kShortestTick_s = 1e-6;
 
 /// The tick of the search, or the longest that a stiff train allows.
 double tick_for(const LoneValve& valve) {

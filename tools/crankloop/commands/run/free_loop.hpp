@@ -22,8 +22,8 @@ namespace crankloop::program {
 
 /// As many as it takes to cover the time.
 [[nodiscard]] inline std::uint64_t ticks_of(double seconds, double tick_s) noexcept {
-  constexpr double kHairOfATick = 1e-6;  // 2 s are 20000 ticks of 100 us, however the quotient is rounded
-  return static_cast<std::uint64_t>(std::ceil(seconds / tick_s - kHairOfATick));
+  constexpr double kRounding = 1e-6;  // 2 s are 20000 ticks of 100 us, however the quotient is rounded
+  return static_cast<std::uint64_t>(std::ceil(seconds / tick_s - kRounding));
 }
 
 /// How the engine is let run. All of it holds for the whole run, but for the inputs of a schedule.

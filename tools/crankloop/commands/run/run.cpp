@@ -217,7 +217,7 @@ int run_run(const Arguments& arguments) {
   return kSuccess;
 }
 
-constexpr Option kOptions[] = {
+constexpr Option kRunOptions[] = {
     number("--rpm", "N", above(0).up_to(100000), "engine speed in rpm; default the file's rated_rpm"),
     kTick,
     whole_number("--cycles", "N", from(1).up_to(1000000),
@@ -259,7 +259,7 @@ const Command kRun{
     "       [--misfire RULE ...] [--fault-bits B,..] [--inputs IN.csv] [...]",
     "crankloop run diesel_495.ini --rpm 2000 --csv run.csv --report report.html",
     1,
-    kOptions,
+    kRunOptions,
     run_run,
     false,
     figures_of_run};

@@ -254,7 +254,7 @@ int run_study(const Arguments& arguments) {
   return kSuccess;
 }
 
-constexpr Option kOptions[] = {
+constexpr Option kStudyOptions[] = {
     required(
         words("--vary", "NAME=VALUES...",
               "one or two of: SECTION.KEY of the engine file, SECTION.NAME.KEY, KEY.3 for an entry of a list, or an "
@@ -282,7 +282,7 @@ const Command kStudy{"study",
                      "crankloop study ohc_125.ini --vary rocker.intake.clearance_mm=0.02:0.2:10 rpm=6000:9000:7 --set "
                      "train=intake --of valve.seating_speed valve.bounces --report study.html",
                      1,
-                     kOptions,
+                     kStudyOptions,
                      run_study};
 
 }  // namespace crankloop::program

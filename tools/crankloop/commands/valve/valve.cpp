@@ -158,7 +158,7 @@ Summary figures_of_valve(const Arguments& arguments, const EngineFile& file) {
   return with_real(request.real, [&](auto zero) { return run<decltype(zero)>(valve, request, no_files, {}); });
 }
 
-constexpr Option kOptions[] = {
+constexpr Option kValveOptions[] = {
     text("--train", "NAME",
          "valve train: the NAME of its [cam NAME], [rocker NAME] and [valve NAME]; default the only one of the file"),
     kSpeed,
@@ -186,7 +186,7 @@ const Command kValve{
     "[--plot F.svg]",
     "crankloop valve ohc_125.ini --train intake --rpm 7000 --csv valve.csv --plot valve.svg",
     1,
-    kOptions,
+    kValveOptions,
     run_valve,
     false,
     figures_of_valve};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../../files/units.hpp"
 #include "../../report/plot.hpp"
 
 namespace crankloop::program {
@@ -17,10 +18,7 @@ using report::Series;
 using Tick = ValveTickOutput<double>;
 using Value = double (*)(const Tick&);
 
-constexpr double kMilli = 1e3;
-constexpr double kMicro = 1e6;
-constexpr double kKilo = 1e-3;
-constexpr double kAround_deg = 8;  // of rest, shown before and behind what moves
+constexpr double kAroundMotion_deg = 8;  // of rest, shown before and behind what moves
 constexpr double kBeforeSeating_deg = 1.5;
 constexpr double kBehindRest_deg = 3;
 
@@ -84,7 +82,7 @@ Part moving_part(const Shown& s) {
   std::size_t last = s.ticks.size();
   while (last > first && s.contacts[last - 1] == Contact::closed) --last;
   const auto near = [&](std::size_t i, std::size_t to) {
-    return i < s.ticks.size() && std::abs(s.ticks[i].cam_deg - s.ticks[to].cam_deg) <= kAround_deg;
+    return i < s.ticks.size() && std::abs(s.ticks[i].cam_deg - s.ticks[to].cam_deg) <= kAroundMotion_deg;
   };
   if (first == last) return {0, s.ticks.size()};  // it never moves
   Part part{first, last};
