@@ -38,7 +38,7 @@ void expect_round_trip(const Cam& cam, const ValveLift& lift, const Rocker& rock
   const double step_rad = (lift.closes_rad() - lift.opens_rad()) / kPlaces;
   for (int i = 0; i <= kPlaces; ++i) {
     const double cam_rad = lift.opens_rad() + i * step_rad;
-    const CamContact contact = inverse.at(cam_rad, valve_of(lift.at(cam_rad)));
+    const FlatContact contact = inverse.at(cam_rad, valve_of(lift.at(cam_rad)));
     ASSERT_TRUE(contact.exists) << trace;
     const CamLift y = profile.at(contact.flat_rad);
     ASSERT_NEAR(contact.lift_m, y.lift_m, kRoundTrip_m) << trace << ", " << cam_rad << " rad";
@@ -85,17 +85,17 @@ CamLift wanted(double cam_rad, double half_rad, double largest_m, double clearan
 /// The flat follower's lift at any flat angle: contacts at equal cam angles, cubics between them.
 class FollowerTable {
  public:
-  FollowerTable(const std::function<CamContact(double)>& contact, double to_rad) {
+  FollowerTable(const std::function<FlatContact(double)>& contact, double to_rad) {
     constexpr int kContacts = 4000;
     for (int i = -kContacts; i <= kContacts; ++i) contacts_.push_back(contact(i * to_rad / kContacts));
   }
 
   [[nodiscard]] double lift_m(double flat_rad) const {
     const auto above = std::upper_bound(contacts_.begin(), contacts_.end(), flat_rad,
-                                        [](double rad, const CamContact& c) { return rad < c.flat_rad; });
+                                        [](double rad, const FlatContact& c) { return rad < c.flat_rad; });
     if (above == contacts_.begin() || above == contacts_.end()) return 0;
-    const CamContact& a = above[-1];
-    const CamContact& b = *above;
+    const FlatContact& a = above[-1];
+    const FlatContact& b = *above;
     const double width = b.flat_rad - a.flat_rad;
     const double t = (flat_rad - a.flat_rad) / width;
     return (1 + 2 * t) * (1 - t) * (1 - t) * a.lift_m + t * (1 - t) * (1 - t) * width * a.per_rad_m +
@@ -103,7 +103,7 @@ class FollowerTable {
   }
 
  private:
-  std::vector<CamContact> contacts_{};
+  std::vector<FlatContact> contacts_{};
 };
 
 TEST(CamFromLift, OfAWantedLiftPutsTheRockerWhereItsPadTouchesTheTurnedCam) {
@@ -129,7 +129,7 @@ TEST(CamFromLift, FindsWhereAWantedLiftAsksForAHollowOrAnUndercutContour) {
   double least_turning = 1;
   for (int tenth = -300; tenth <= 300; ++tenth) {
     const double rad = tenth * 0.1 * support::kRadPerDeg;
-    const CamContact contact = inverse.at(rad, wanted(rad, 30 * support::kRadPerDeg, 10e-3, rocker.clearance_m));
+    const FlatContact contact = inverse.at(rad, wanted(rad, 30 * support::kRadPerDeg, 10e-3, rocker.clearance_m));
     if (!contact.exists) continue;
     least_turning = std::min(least_turning, contact.flat_per_cam);
     if (contact.flat_per_cam > 0) least_radius_m = std::min(least_radius_m, contact.curvature_radius_m);
