@@ -103,6 +103,20 @@ inline bool comes_true(const std::function<bool()>& condition) {
   return true;
 }
 
+/// The block once the loop runs.
+inline std::optional<SharedBlock> running_block(const std::string& path) {
+  std::optional<SharedBlock> block;
+  comes_true([&] {
+    try {
+      if (!block) block.emplace(SharedBlock::open(path));
+    } catch (const SharedBlockError&) {
+      return false;
+    }
+    return (*block)->state == LiveState::running;
+  });
+  return block;
+}
+
 class LiveBench : public testing::Test {
  protected:
   [[nodiscard]] std::string in_folder(const std::string& name) const { return folder_ / name; }
@@ -114,19 +128,7 @@ class LiveBench : public testing::Test {
     return words;
   }
 
-  /// The block once the loop runs.
-  [[nodiscard]] std::optional<SharedBlock> open_running() const {
-    std::optional<SharedBlock> block;
-    comes_true([&] {
-      try {
-        if (!block) block.emplace(SharedBlock::open(block_path()));
-      } catch (const SharedBlockError&) {
-        return false;
-      }
-      return (*block)->state == LiveState::running;
-    });
-    return block;
-  }
+  [[nodiscard]] std::optional<SharedBlock> open_running() const { return running_block(block_path()); }
 
   support::TemporaryFolder folder_;
 };
