@@ -15,7 +15,7 @@
 
 #include "support/bad_input.hpp"
 
-namespace crankloop::bad_input {
+namespace crankloop::bad_input::bad_command_line_test {
 namespace {
 
 /// Everything wrong with a command line is told with the command's usage.
@@ -352,4 +352,4 @@ TEST_F(Output, ThatCannotBeWrittenIsAFailure) {
 }
 
 }  // namespace
-}  // namespace crankloop::bad_input
+}  // namespace crankloop::bad_input::bad_command_line_test

@@ -13,7 +13,7 @@
 #include "support/random.hpp"
 #include "support/status.hpp"
 
-namespace crankloop {
+namespace crankloop::bad_input_count_test {
 namespace {
 
 using namespace tick_test;
@@ -121,4 +121,4 @@ TYPED_TEST(BadInputCount, GoesOnFromASnapshotAndFromBytesAndBeginsAnewWithInit) 
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::bad_input_count_test

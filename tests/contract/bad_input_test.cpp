@@ -16,7 +16,7 @@
 
 #include "support/bad_input.hpp"
 
-namespace crankloop::bad_input {
+namespace crankloop::bad_input::bad_input_test {
 namespace {
 
 struct NumberKey {
@@ -287,6 +287,8 @@ TEST_F(BadInput, LinesThatAreNoLinesAreTold) {
   expect_refused(sample_.changed("[crank]", "[crank"), "[crank", {"no closing bracket"});
   expect_refused(sample_.changed("[crank]", "[]"), "[]", {"is not a section"});
   expect_refused(sample_.with("name", ""), "name", {"name has no value"});
+  expect_refused(sample_.with("name", "# a comment"), "name", {"name has no value"});
+  expect_refused(sample_.changed("name", "name =#5"), "name", {"name has no value"});
 }
 
 TEST_F(BadInput, AFileThatIsNoEngineFileIsRefusedAsAWhole) {
@@ -455,4 +457,4 @@ TEST_F(BadInput, OfAValveTrainIsToldWhereItStands) {
 }
 
 }  // namespace
-}  // namespace crankloop::bad_input
+}  // namespace crankloop::bad_input::bad_input_test

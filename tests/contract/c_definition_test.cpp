@@ -8,7 +8,7 @@
 #include "support/limit_definitions.hpp"
 #include "support/status.hpp"
 
-namespace crankloop::c_api {
+namespace crankloop::c_api::c_definition_test {
 namespace {
 
 TYPED_TEST_SUITE(CEngine, AllApis, ApiName);
@@ -346,4 +346,4 @@ TEST(CFaults, AreThoseOfCpp) {
 }
 
 }  // namespace
-}  // namespace crankloop::c_api
+}  // namespace crankloop::c_api::c_definition_test

@@ -11,9 +11,9 @@
 
 #include "c_api.hpp"
 #include "crankloop/engine_file/engine_file.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/files.hpp"
 
-namespace crankloop::c_api {
+namespace crankloop::c_api::c_engine_file_test {
 namespace {
 
 const char* const kDiesel = CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495.ini";
@@ -162,4 +162,4 @@ TEST(CEngineFileText, IsRefusedWithoutAPathAndFreedOnceOrNever) {
 }
 
 }  // namespace
-}  // namespace crankloop::c_api
+}  // namespace crankloop::c_api::c_engine_file_test

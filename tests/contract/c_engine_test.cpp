@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-namespace crankloop::c_api {
+namespace crankloop::c_api::c_engine_test {
 namespace {
 
 TYPED_TEST_SUITE(CEngine, AllApis, ApiName);
@@ -373,4 +373,4 @@ TYPED_TEST(CWhole, CountsTicksWithBadInputsSinceItsReset) {
 }
 
 }  // namespace
-}  // namespace crankloop::c_api
+}  // namespace crankloop::c_api::c_engine_test

@@ -6,7 +6,7 @@
 
 #include <cstddef>
 
-namespace crankloop {
+namespace crankloop::c_layout_test {
 namespace {
 
 struct Place {
@@ -356,4 +356,4 @@ TEST(CLayout, StaysAsItIsWithinAMinorVersion) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::c_layout_test

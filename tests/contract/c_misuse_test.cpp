@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-namespace crankloop::c_api {
+namespace crankloop::c_api::c_misuse_test {
 namespace {
 
 TYPED_TEST_SUITE(CEngine, AllApis, ApiName);
@@ -132,4 +132,4 @@ TYPED_TEST(CEngine, WritesNothingThroughANullPointer) {
 }
 
 }  // namespace
-}  // namespace crankloop::c_api
+}  // namespace crankloop::c_api::c_misuse_test

@@ -8,7 +8,7 @@
 
 #include <crankloop/variables.hpp>
 
-namespace crankloop::c_api {
+namespace crankloop::c_api::c_step_many_test {
 namespace {
 
 TYPED_TEST_SUITE(CEngine, AllApis, ApiName);
@@ -167,4 +167,4 @@ TYPED_TEST(CEngine, RefusesAColumnThatItCannotFillBeforeItSteps) {
 }
 
 }  // namespace
-}  // namespace crankloop::c_api
+}  // namespace crankloop::c_api::c_step_many_test

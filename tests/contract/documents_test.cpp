@@ -23,11 +23,11 @@
 #include "crankloop/loops/surge_force.hpp"
 #include "crankloop/loops/valve_loop.hpp"
 #include "support/columns.hpp"
+#include "support/files.hpp"
 #include "support/markup.hpp"
-#include "support/temporary_folder.hpp"
 #include "support/units.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::documents_test {
 namespace {
 
 const std::filesystem::path kSource = CRANKLOOP_SOURCE_DIR;
@@ -381,4 +381,4 @@ TEST_F(SafetyPage, HasAWholeRowForEachFaultBit) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::documents_test

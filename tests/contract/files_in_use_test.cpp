@@ -10,7 +10,7 @@
 #include "crankloop/command_line/commands.hpp"
 #include "support/bad_input.hpp"
 
-namespace crankloop::bad_input {
+namespace crankloop::bad_input::files_in_use_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -229,4 +229,4 @@ TEST_F(FilesInUse, ThatALinkNamesAreMadeBehindIt) {
 }
 
 }  // namespace
-}  // namespace crankloop::bad_input
+}  // namespace crankloop::bad_input::files_in_use_test

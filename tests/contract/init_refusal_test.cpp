@@ -8,7 +8,7 @@
 #include "support/kept_engines.hpp"
 #include "support/status.hpp"
 
-namespace crankloop {
+namespace crankloop::init_refusal_test {
 
 using namespace detail;
 namespace {
@@ -81,4 +81,4 @@ TYPED_TEST(InitRefusal, OfMoreTrainsThanTheSceneHasRoomForComesWithBuild) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::init_refusal_test

@@ -15,7 +15,7 @@
 #include "support/status.hpp"
 #include "support/units.hpp"
 
-namespace crankloop {
+namespace crankloop::input_policy_test {
 namespace {
 
 using namespace tick_test;
@@ -231,4 +231,4 @@ TYPED_TEST(InputPolicy, StandsAtZeroOfEitherSign) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::input_policy_test

@@ -14,7 +14,7 @@
 #include "contract/scenes/scenes.hpp"
 #include "support/running.hpp"
 
-namespace crankloop {
+namespace crankloop::interface_test {
 
 using namespace detail;
 namespace {
@@ -62,7 +62,7 @@ constexpr bool keeps_its_promises() {
          is_plain_data<double, S>();
 }
 static_assert(keeps_its_promises<PistonMotion>() && keeps_its_promises<TorqueOnly>() &&
-              keeps_its_promises<ForcesAndTorque>() && keeps_its_promises<ValveLift>() &&
+              keeps_its_promises<ForcesAndTorque>() && keeps_its_promises<::ValveLift>() &&
               keeps_its_promises<ValveDynamics>() && keeps_its_promises<WholeEngine>() &&
               keeps_its_promises<TriggerSignals>() && keeps_its_promises<scenes::Whole>() &&
               keeps_its_promises<scenes::MeasuredMotion>() && keeps_its_promises<scenes::TorqueByTable>() &&
@@ -209,7 +209,7 @@ TEST(Padding, IsNotInAnyState) {
   expect_state_without_padding<PistonMotion>("piston motion");
   expect_state_without_padding<TorqueOnly>("torque only");
   expect_state_without_padding<ForcesAndTorque>("forces and torque");
-  expect_state_without_padding<ValveLift>("valve lift");
+  expect_state_without_padding<::ValveLift>("valve lift");
   expect_state_without_padding<ValveDynamics>("valve dynamics");
   expect_state_without_padding<TriggerSignals>("trigger signals");
   expect_state_without_padding<WholeEngine>("the whole engine");
@@ -219,4 +219,4 @@ TEST(Padding, IsNotInAnyState) {
 #endif
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::interface_test

@@ -20,7 +20,7 @@
 
 #include "support/live_bench.hpp"
 
-namespace crankloop::port {
+namespace crankloop::port::live_test {
 namespace {
 
 using Live = LiveBench;
@@ -245,4 +245,4 @@ TEST_F(Live, FailsAsAnyOutputWhereItsBlockCannotBeCreated) {
 }
 
 }  // namespace
-}  // namespace crankloop::port
+}  // namespace crankloop::port::live_test

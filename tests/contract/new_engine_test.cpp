@@ -7,7 +7,7 @@
 
 #include "support/bad_input.hpp"
 
-namespace crankloop {
+namespace crankloop::new_engine_test {
 namespace {
 
 using bad_input::Answer;
@@ -226,4 +226,4 @@ TEST_F(NewEngine, RefusesWhatMakesNoEngine) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::new_engine_test

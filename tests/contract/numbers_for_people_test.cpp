@@ -11,7 +11,7 @@
 
 #include "support/bad_input.hpp"
 
-namespace crankloop::bad_input {
+namespace crankloop::bad_input::numbers_for_people_test {
 namespace {
 
 constexpr const char* kEngines = CRANKLOOP_SOURCE_DIR "/tools/engines/";
@@ -80,4 +80,4 @@ TEST_F(NumbersForPeople, AreCountedHereAsTheyAreRead) {
 }
 
 }  // namespace
-}  // namespace crankloop::bad_input
+}  // namespace crankloop::bad_input::numbers_for_people_test

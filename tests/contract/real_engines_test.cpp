@@ -9,7 +9,7 @@
 
 #include "support/bad_input.hpp"
 
-namespace crankloop {
+namespace crankloop::real_engines_test {
 namespace {
 
 using bad_input::lines_of;
@@ -179,4 +179,4 @@ TEST_F(EnginesThatWereBuilt, HaveTheInertiaThatNewGivesTheirDisplacement) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::real_engines_test

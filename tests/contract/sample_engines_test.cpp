@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "crankloop/command_line/commands.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/files.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::sample_engines_test {
 
 void PrintTo(const Command* command, std::ostream* out) { *out << command->name; }
 
@@ -74,4 +74,4 @@ INSTANTIATE_TEST_SUITE_P(Command, SampleEngines,
                          [](const auto& command) { return std::string(command.param->name); });
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::sample_engines_test

@@ -13,7 +13,7 @@
 #include "crankloop/engine_file/engine_file.hpp"
 #include "crankloop/engine_file/engine_file_keys.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::upgrading_test {
 namespace {
 
 const std::filesystem::path kOld = CRANKLOOP_SOURCE_DIR "/tests/contract/upgrading";
@@ -61,4 +61,4 @@ TEST(EngineFilesOf02, HaveNoKeyThatIsUnknownToday) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::upgrading_test

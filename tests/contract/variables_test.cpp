@@ -11,7 +11,7 @@
 #include <crankloop/scenes.hpp>
 #include <crankloop/variables.hpp>
 
-namespace crankloop {
+namespace crankloop::variables_test {
 namespace {
 
 /// Which bytes of an object have been visited.
@@ -100,4 +100,4 @@ TYPED_TEST(VariablesOf, AStepsInputAreAllOfItsNumbers) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::variables_test

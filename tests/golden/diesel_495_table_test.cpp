@@ -13,7 +13,7 @@
 
 #include "support/units.hpp"
 
-namespace crankloop {
+namespace crankloop::diesel_495_table_test {
 
 using namespace detail;
 namespace {
@@ -96,4 +96,4 @@ TEST(Diesel495Table, TellsTheApproximationFromTheExactMotionAndTheRoundedRodRati
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::diesel_495_table_test

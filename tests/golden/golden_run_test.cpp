@@ -26,7 +26,7 @@
 #include "support/output_fields.hpp"
 #include "support/scenes.hpp"
 
-namespace crankloop {
+namespace crankloop::golden_run_test {
 
 using namespace detail;
 namespace {
@@ -240,4 +240,4 @@ class NoteRenewal : public ::testing::Environment {
 [[maybe_unused]] ::testing::Environment* const kNoteRenewal = ::testing::AddGlobalTestEnvironment(new NoteRenewal);
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::golden_run_test

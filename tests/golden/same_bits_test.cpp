@@ -17,7 +17,7 @@
 #include "support/running.hpp"
 #include "support/status.hpp"
 
-namespace crankloop {
+namespace crankloop::same_bits_test {
 
 using namespace detail;
 namespace {
@@ -254,4 +254,4 @@ TYPED_TEST(SameBits, OfTheTablesOfAMeasuredDiagram) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::same_bits_test

@@ -15,7 +15,7 @@
 #include "support/status.hpp"
 #include "support/test_valves.hpp"
 
-namespace crankloop {
+namespace crankloop::valve_bits_test {
 
 using namespace detail;
 namespace {
@@ -214,4 +214,4 @@ TYPED_TEST(ValveBits, OfASnapshotGoOnWithTheSameBits) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::valve_bits_test

@@ -11,7 +11,7 @@
 
 #include "support/balance_of_parts.hpp"
 
-namespace crankloop::balance_of_parts {
+namespace crankloop::balance_of_parts::balance_test {
 namespace {
 
 // ---- engines --------------------------------------------------------------------------------------------------------
@@ -382,4 +382,4 @@ TEST(Peak, IsTheLongestTheTurningVectorGetsAtAnyAngle) {
 }
 
 }  // namespace
-}  // namespace crankloop::balance_of_parts
+}  // namespace crankloop::balance_of_parts::balance_test

@@ -13,7 +13,7 @@
 
 #include "support/balance_of_parts.hpp"
 
-namespace crankloop::balance_of_parts {
+namespace crankloop::balance_of_parts::bearings_test {
 namespace {
 
 /// Pressure, the same for sum and library: none but the crankcase's, or the synthesised diagram's at full load.
@@ -201,4 +201,4 @@ TEST(Tick, ReportsTheLoadsOfPinsAndJournalsAndTheFreeForcesOfItsParts) {
 }
 
 }  // namespace
-}  // namespace crankloop::balance_of_parts
+}  // namespace crankloop::balance_of_parts::bearings_test

@@ -16,7 +16,7 @@
 #include "support/both_reals.hpp"
 #include "support/test_valves.hpp"
 
-namespace crankloop {
+namespace crankloop::cam_loads_test {
 namespace {
 
 using namespace valve_test;
@@ -396,4 +396,4 @@ TEST(CamDrag, OfAClosingFlankTurnsACrankThatNothingHolds) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::cam_loads_test

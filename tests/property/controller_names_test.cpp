@@ -12,7 +12,7 @@
 #include "support/both_reals.hpp"
 #include "support/gas_engine.hpp"
 
-namespace crankloop {
+namespace crankloop::controller_names_test {
 namespace {
 
 using support::rad_s;
@@ -107,4 +107,4 @@ TYPED_TEST(ControllerNames, SensorsAreWhatTheOtherNamesShow) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::controller_names_test

@@ -8,7 +8,7 @@
 #include "support/scene_record.hpp"
 #include "support/status.hpp"
 
-namespace crankloop {
+namespace crankloop::counts_agree_test {
 namespace {
 
 using namespace tick_test;
@@ -63,4 +63,4 @@ TYPED_TEST(CountsAgree4, WithTorqueByLoadAndFromMeasuredPressures) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::counts_agree_test

@@ -17,7 +17,7 @@
 #include "support/tick_oracle.hpp"
 #include "support/work_oracle.hpp"
 
-namespace crankloop {
+namespace crankloop::crank_dynamics_test {
 namespace {
 
 using namespace tick_test;
@@ -535,4 +535,4 @@ TEST(FreeDiesel, ACutCylinderShowsInHalfOrder) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::crank_dynamics_test

@@ -15,7 +15,7 @@
 #include "support/both_reals.hpp"
 #include "support/gas_engine.hpp"
 
-namespace crankloop {
+namespace crankloop::exhaust_lambda_test {
 namespace {
 
 using support::Breathing;
@@ -327,4 +327,4 @@ TYPED_TEST(ExhaustLambda, IsZeroWithoutASensor) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::exhaust_lambda_test

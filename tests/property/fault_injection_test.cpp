@@ -23,7 +23,7 @@
 #include "target/hostile.hpp"
 #include "target/output_numbers.hpp"
 
-namespace crankloop {
+namespace crankloop::fault_injection_test {
 namespace {
 
 using namespace tick_test;
@@ -244,4 +244,4 @@ TYPED_TEST(FaultInjection, OfASingleBitOfTheStateIsDetectedByAScrubOrStaysFinite
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::fault_injection_test

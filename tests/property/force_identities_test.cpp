@@ -25,7 +25,7 @@
 #include "support/units.hpp"
 #include "support/vector_geometry.hpp"
 
-namespace crankloop {
+namespace crankloop::force_identities_test {
 
 using namespace detail;
 namespace {
@@ -484,4 +484,4 @@ TEST(TorqueHarmonics, OfAnEvenFiringEngineHaveOnlyTheFiringOrders) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::force_identities_test

@@ -29,7 +29,7 @@
 #include "target/hostile.hpp"
 #include "target/output_numbers.hpp"
 
-namespace crankloop {
+namespace crankloop::forged_state_test {
 
 /// Cylinders between manifolds whose pressures are inputs.
 struct BreathingFromGiven : Scene {
@@ -53,10 +53,19 @@ struct WithSprings : Scene {
   static constexpr bool valve_gas = true;
   static constexpr std::uint32_t spring_modes = 3;
 };
-template class Engine<float, WithSprings>;
-template class Engine<double, WithSprings>;
-template class Engine<float, BreathingFromGiven>;
-template class Engine<double, BreathingFromGiven>;
+
+}  // namespace crankloop::forged_state_test
+
+namespace crankloop {
+
+template class Engine<float, forged_state_test::WithSprings>;
+template class Engine<double, forged_state_test::WithSprings>;
+template class Engine<float, forged_state_test::BreathingFromGiven>;
+template class Engine<double, forged_state_test::BreathingFromGiven>;
+
+}  // namespace crankloop
+
+namespace crankloop::forged_state_test {
 
 namespace {
 
@@ -445,4 +454,4 @@ TYPED_TEST(ForgedGas, BehindTheOutletIsRefusedOrFlowsBackInFiniteNumbers) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::forged_state_test

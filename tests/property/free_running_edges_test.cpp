@@ -16,7 +16,7 @@
 #include "support/trigger_wheels.hpp"
 #include "support/work_oracle.hpp"
 
-namespace crankloop {
+namespace crankloop::free_running_edges_test {
 namespace {
 
 using namespace tick_test;
@@ -183,4 +183,4 @@ TEST(FreeRunningEdges, OfAStallAreThoseOfTheExactMotionThoughFrictionTurnsRoundA
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::free_running_edges_test

@@ -7,7 +7,7 @@
 #include "support/both_reals.hpp"
 #include "support/gas_engine.hpp"
 
-namespace crankloop {
+namespace crankloop::gas_air_test {
 namespace {
 
 using support::Breathing;
@@ -85,4 +85,4 @@ TYPED_TEST(GasAir, IsWaitedForByFuelThatIsDue) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::gas_air_test

@@ -18,7 +18,7 @@
 #include "support/random.hpp"
 #include "support/status.hpp"
 
-namespace crankloop {
+namespace crankloop::gas_charge_burn_test {
 namespace {
 
 using support::Breathing;
@@ -377,4 +377,4 @@ TYPED_TEST(GasChargeBurn, StaysANumberWhateverComesIn) {  // CRANKLOOP_LONG_TEST
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::gas_charge_burn_test

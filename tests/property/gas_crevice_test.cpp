@@ -17,7 +17,7 @@
 #include "support/random.hpp"
 #include "support/status.hpp"
 
-namespace crankloop {
+namespace crankloop::gas_crevice_test {
 namespace {
 
 using support::Breathing;
@@ -429,4 +429,4 @@ TYPED_TEST(GasCrevice, IsFilledAnewWhereTheCrankJumps) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::gas_crevice_test

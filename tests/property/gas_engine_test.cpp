@@ -18,7 +18,7 @@
 #include "support/output_fields.hpp"
 #include "support/random.hpp"
 
-namespace crankloop {
+namespace crankloop::gas_engine_test {
 namespace {
 
 using support::Breathing;
@@ -665,4 +665,4 @@ TEST(GasScene, IsRefusedWithoutGasInItsDefinition) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::gas_engine_test

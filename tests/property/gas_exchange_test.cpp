@@ -9,7 +9,7 @@
 #include "support/gas_engine.hpp"
 #include "support/gas_reference.hpp"
 
-namespace crankloop {
+namespace crankloop::gas_exchange_test {
 namespace {
 
 using detail::GasCylinders;
@@ -244,4 +244,4 @@ TYPED_TEST(GasExchange, CutsLongTicksOfElasticValves) {  // what valves are off 
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::gas_exchange_test

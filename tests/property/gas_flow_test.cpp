@@ -11,7 +11,7 @@
 #include "support/gas_equations.hpp"
 #include "support/gas_vessels.hpp"
 
-namespace crankloop {
+namespace crankloop::gas_flow_test {
 namespace {
 
 using support::ExactVessels;
@@ -180,4 +180,4 @@ TYPED_TEST(GasFlow, MeetsASmallManifoldHalfWay) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::gas_flow_test

@@ -18,7 +18,7 @@
 #include "support/random.hpp"
 #include "support/status.hpp"
 
-namespace crankloop {
+namespace crankloop::gas_knock_test {
 namespace {
 
 using support::Breathing;
@@ -298,4 +298,4 @@ TYPED_TEST(GasKnock, StaysANumberWhateverComesIn) {  // CRANKLOOP_LONG_TESTS=1: 
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::gas_knock_test

@@ -16,7 +16,7 @@
 #include "support/output_fields.hpp"
 #include "support/random.hpp"
 
-namespace crankloop {
+namespace crankloop::gas_limits_test {
 namespace {
 
 using support::Breathing;
@@ -220,4 +220,4 @@ TYPED_TEST(GasAtItsLimits, ShowsNothingButNumbersWithElasticValvesToo) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::gas_limits_test

@@ -12,7 +12,7 @@
 #include "support/gas_reference.hpp"
 #include "support/gas_vessels.hpp"
 
-namespace crankloop {
+namespace crankloop::gas_manifold_test {
 namespace {
 
 using support::Breathing;
@@ -136,4 +136,4 @@ TYPED_TEST(GasManifold, MeetsACylinderOfItsOwnSizeInBothPressures) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::gas_manifold_test

@@ -8,7 +8,7 @@
 #include "support/gas_engine.hpp"
 #include "support/gas_reference.hpp"
 
-namespace crankloop {
+namespace crankloop::gas_outlet_test {
 namespace {
 
 using support::Breathing;
@@ -102,4 +102,4 @@ TYPED_TEST(GasOutlet, HasAPressureOfItsOwnBehindIt) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::gas_outlet_test

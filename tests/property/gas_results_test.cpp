@@ -10,7 +10,7 @@
 #include "support/gas_equations.hpp"
 #include "support/gas_reference.hpp"
 
-namespace crankloop {
+namespace crankloop::gas_results_test {
 namespace {
 
 using support::GasVolume;
@@ -266,4 +266,4 @@ TYPED_TEST(GasResults, HaveTheVolumetricEfficiencyOfASlowStroke) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::gas_results_test

@@ -17,7 +17,7 @@
 #include "support/random.hpp"
 #include "support/status.hpp"
 
-namespace crankloop {
+namespace crankloop::gas_runner_test {
 namespace {
 
 using support::Breathing;
@@ -480,4 +480,4 @@ TYPED_TEST(GasRunners, StayNumbersWhateverComesIn) {  // CRANKLOOP_LONG_TESTS=1:
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::gas_runner_test

@@ -6,7 +6,7 @@
 #include "support/both_reals.hpp"
 #include "support/gas_engine.hpp"
 
-namespace crankloop {
+namespace crankloop::gas_trapped_test {
 namespace {
 
 using support::Breathing;
@@ -81,4 +81,4 @@ TYPED_TEST(GasCycleSays, WhatWasTrappedBeforeItsFuelBurnedOrNothing) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::gas_trapped_test

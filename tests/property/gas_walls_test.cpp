@@ -17,7 +17,7 @@
 #include "support/random.hpp"
 #include "support/status.hpp"
 
-namespace crankloop {
+namespace crankloop::gas_walls_test {
 namespace {
 
 using support::Breathing;
@@ -432,4 +432,4 @@ TYPED_TEST(GasWarmWalls, StayNumbersWhateverComesIn) {  // CRANKLOOP_LONG_TESTS=
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::gas_walls_test

@@ -16,7 +16,7 @@
 #include "support/scenes.hpp"
 #include "support/status.hpp"
 
-namespace crankloop {
+namespace crankloop::limit_definitions_test {
 namespace {
 
 using support::LimitDefinition;
@@ -84,4 +84,4 @@ TEST(DefinitionAtItsLimits, IsRefusedByAFieldOrMeansTheSameWhateverItsUnreadMemo
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::limit_definitions_test

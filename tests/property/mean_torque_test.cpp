@@ -17,7 +17,7 @@
 #include "support/status.hpp"
 #include "support/work_oracle.hpp"
 
-namespace crankloop {
+namespace crankloop::mean_torque_test {
 
 using namespace detail;
 namespace {
@@ -461,4 +461,4 @@ TYPED_TEST(MeanTorque, AtStandstillIsTheTorqueThere) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::mean_torque_test

@@ -24,7 +24,7 @@
 #include "support/output_fields.hpp"
 #include "support/status.hpp"
 
-namespace crankloop {
+namespace crankloop::misfire_test {
 namespace {
 
 using detail::MisfireRule;
@@ -611,4 +611,4 @@ TEST(Misfire, AForgedStateIsRefusedOrStepped) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::misfire_test

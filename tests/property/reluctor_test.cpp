@@ -18,7 +18,7 @@
 #include "support/engines.hpp"
 #include "support/status.hpp"
 
-namespace crankloop {
+namespace crankloop::reluctor_test {
 namespace {
 
 using tick_test::RealName;
@@ -483,4 +483,4 @@ TEST(Reluctor, WhatNoWheelCanHaveIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::reluctor_test

@@ -20,7 +20,7 @@
 #include "support/units.hpp"
 #include "support/vector_geometry.hpp"
 
-namespace crankloop {
+namespace crankloop::rigid_bodies_test {
 
 using namespace detail;
 namespace {
@@ -282,4 +282,4 @@ TEST(LumpedRod, HasMassCentreOfMassMomentumSpinAndEnergyOfTheRigidRodInAnyMotion
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::rigid_bodies_test

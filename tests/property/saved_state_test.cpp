@@ -21,17 +21,22 @@
 
 namespace crankloop {
 
+template class Engine<float, tick_test::MeasuredWithValves>;
+template class Engine<double, tick_test::MeasuredWithValves>;
+template class Engine<float, tick_test::MeasuredWithSprings>;
+template class Engine<double, tick_test::MeasuredWithSprings>;
+template class Engine<float, tick_test::Elastic<1, 1>>;
+template class Engine<double, tick_test::Elastic<1, 1>>;
+
+}  // namespace crankloop
+
+namespace crankloop::saved_state_test {
+
 using namespace detail;
 
 using tick_test::MeasuredWithSprings;
 using tick_test::MeasuredWithValves;
 using OneValve = tick_test::Elastic<1, 1>;  ///< and nothing besides: where it rests, its output is left as it is
-template class Engine<float, MeasuredWithValves>;
-template class Engine<double, MeasuredWithValves>;
-template class Engine<float, MeasuredWithSprings>;
-template class Engine<double, MeasuredWithSprings>;
-template class Engine<float, OneValve>;
-template class Engine<double, OneValve>;
 
 namespace {
 
@@ -567,4 +572,4 @@ TEST(Crc32, HasTheCheckValueOfItsStandard) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::saved_state_test

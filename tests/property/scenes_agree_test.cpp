@@ -13,7 +13,7 @@
 #include "support/scene_record.hpp"
 #include "support/status.hpp"
 
-namespace crankloop {
+namespace crankloop::scenes_agree_test {
 namespace {
 
 using namespace tick_test;
@@ -88,4 +88,4 @@ TEST(ScenesAgree, TorqueAndForcesByMeasuredPressureInDouble) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::scenes_agree_test

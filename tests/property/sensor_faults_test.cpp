@@ -12,7 +12,7 @@
 #include "support/gas_engine.hpp"
 #include "support/status.hpp"
 
-namespace crankloop {
+namespace crankloop::sensor_faults_test {
 namespace {
 
 using support::Breathing;
@@ -233,4 +233,4 @@ TEST(SensorFault, IsRefusedWhereItIsNeverOnOrHasNoRangeToReadFrom) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::sensor_faults_test

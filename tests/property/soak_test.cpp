@@ -20,7 +20,7 @@
 #include "support/gas_engine.hpp"
 #include "support/kept_engines.hpp"
 
-namespace crankloop {
+namespace crankloop::soak_test {
 namespace {
 
 using namespace tick_test;
@@ -217,4 +217,4 @@ TYPED_TEST(Soak, OfAFreeCrankWithGasExchangeHasTheSameTorqueInEveryDrive) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::soak_test

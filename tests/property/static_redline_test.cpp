@@ -5,7 +5,7 @@
 
 #include "support/test_valves.hpp"
 
-namespace crankloop {
+namespace crankloop::static_redline_test {
 namespace {
 
 using support::Random;
@@ -57,4 +57,4 @@ TEST(StaticRedline, IsWhereAStiffTrainOfAnyDesignLetsItsValveGo) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::static_redline_test

@@ -15,7 +15,7 @@
 #include "support/kept_engines.hpp"
 #include "support/status.hpp"
 
-namespace crankloop {
+namespace crankloop::threads_test {
 namespace {
 
 using namespace tick_test;
@@ -104,4 +104,4 @@ TYPED_TEST(Threads, BuildTablesAtOnce) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::threads_test

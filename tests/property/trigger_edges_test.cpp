@@ -22,7 +22,7 @@
 #include "support/test_valves.hpp"
 #include "support/trigger_wheels.hpp"
 
-namespace crankloop {
+namespace crankloop::trigger_edges_test {
 
 using namespace detail;
 namespace {
@@ -247,4 +247,4 @@ TYPED_TEST(TriggerEdges, AreNeitherLostNorDoubledThroughSpeedsReversalsAndPhaser
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::trigger_edges_test

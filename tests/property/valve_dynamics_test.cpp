@@ -11,7 +11,7 @@
 
 #include "support/test_valves.hpp"
 
-namespace crankloop {
+namespace crankloop::valve_dynamics_test {
 
 using namespace detail;
 namespace {
@@ -598,4 +598,4 @@ TEST(ValveOfAnyDesign, IsRefusedOrBoundedAndNearTheReference) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::valve_dynamics_test

@@ -14,7 +14,7 @@
 #include "support/status.hpp"
 #include "support/units.hpp"
 
-namespace crankloop {
+namespace crankloop::valve_groups_test {
 namespace {
 
 using namespace tick_test;
@@ -143,4 +143,4 @@ TYPED_TEST(ValveGroups, ForcesAreThoseOfWhereValveAndCamStand) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::valve_groups_test

@@ -1,7 +1,7 @@
 // Valves abreast and one by one: the same bits, whatever number of them, at ticks of one fine step and of many.
 #include "property/valve_lanes_run.hpp"
 
-namespace crankloop::valve_lanes {
+namespace crankloop::valve_lanes::valve_lanes_test {
 namespace {
 
 struct AsTheTargetHasThem {};
@@ -22,4 +22,4 @@ TEST(ValveLanes, HaveTheBitsOfValvesOneByOne) {
 }
 
 }  // namespace
-}  // namespace crankloop::valve_lanes
+}  // namespace crankloop::valve_lanes::valve_lanes_test

@@ -9,7 +9,7 @@
 
 #include "support/test_valves.hpp"
 
-namespace crankloop {
+namespace crankloop::valve_record_test {
 namespace {
 
 using namespace valve_test;
@@ -267,4 +267,4 @@ TEST(ValveRecordOf, EveryCycleEndsHoweverFarATickTurns) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::valve_record_test

@@ -9,7 +9,7 @@
 
 #include "support/test_valves.hpp"
 
-namespace crankloop {
+namespace crankloop::valve_rest_test {
 
 using namespace detail;
 namespace {
@@ -378,4 +378,4 @@ TEST(ValveUnderGas, IsSuckedOpenWhereThePortsPressureOvercomesItsSpring) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::valve_rest_test

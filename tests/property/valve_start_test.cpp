@@ -13,7 +13,7 @@
 #include "support/running.hpp"
 #include "support/test_valves.hpp"
 
-namespace crankloop {
+namespace crankloop::valve_start_test {
 namespace {
 
 using namespace valve_test;
@@ -124,4 +124,4 @@ TEST(ValveStartOfTheFour2000, ExceedsNoEventBudget) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::valve_start_test

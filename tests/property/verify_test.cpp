@@ -17,7 +17,7 @@
 #include "support/status.hpp"
 #include "support/test_valves.hpp"
 
-namespace crankloop {
+namespace crankloop::verify_test {
 namespace {
 
 using support::Random;
@@ -128,4 +128,4 @@ TYPED_TEST(Verify, RefusesAnEngineWithoutTables) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::verify_test

@@ -20,7 +20,7 @@
 #include "support/status.hpp"
 #include "support/trigger_wheels.hpp"
 
-namespace crankloop {
+namespace crankloop::wheel_faults_test {
 namespace {
 
 using support::refuses;
@@ -493,4 +493,4 @@ TEST(WheelFaults, WhatNoWheelCanHaveIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::wheel_faults_test

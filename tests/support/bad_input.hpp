@@ -16,20 +16,15 @@
 #include <thread>
 #include <vector>
 
-#include "support/temporary_folder.hpp"
+#include "support/files.hpp"
 
 namespace crankloop::bad_input {
 
 inline constexpr int kFailure = 1;
 inline constexpr int kBadInput = 2;
-inline constexpr const char* kSample = CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495.ini";
+using support::kSample;
 
-inline std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+using support::contents;
 
 inline std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;

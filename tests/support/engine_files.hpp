@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdio>
 #include <fstream>
-#include <sstream>
 #include <string>
 #include <type_traits>
 
@@ -14,18 +13,13 @@
 
 #include "crankloop/engine_file/engine_file.hpp"
 #include "crankloop/files/error.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/files.hpp"
 
 namespace crankloop::program {
 
-inline constexpr const char* kSample = CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495.ini";
+using support::kSample;
 
-inline std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+using support::contents;
 
 inline std::string replaced(std::string text, const std::string& what, const std::string& by) {
   const auto place = text.find(what);

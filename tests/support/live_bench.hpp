@@ -13,7 +13,6 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <optional>
@@ -24,19 +23,14 @@
 #include <vector>
 
 #include "port/linux/shared_block.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/files.hpp"
 
 namespace crankloop::port {
 
 inline const std::string kEngine = CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495.ini";
 inline constexpr std::chrono::seconds kPatience{60};  // for what happens at once on a machine that has time
 
-inline std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+using support::contents;
 
 /// A program that runs beside the test. Ended, if it still runs, with the object.
 class Process {

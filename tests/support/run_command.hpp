@@ -17,18 +17,13 @@
 
 #include "crankloop/command_line/commands.hpp"
 #include "crankloop/files/error.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/files.hpp"
 
 namespace crankloop::program {
 
-inline constexpr const char* kSample = CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495.ini";
+using support::kSample;
 
-inline std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+using support::contents;
 
 inline std::vector<std::string> split_at(const std::string& text, char separator) {
   std::vector<std::string> parts;

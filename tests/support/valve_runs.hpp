@@ -4,25 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "crankloop/loops/valve_loop.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/files.hpp"
 
 namespace crankloop::program {
 
-inline constexpr const char* kOhc125 = CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini";
+using support::kOhc125;
 inline constexpr double kTick_s = 20e-6;
 inline constexpr ValveMethod kRk4{};
 
-inline std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+using support::contents;
 
 /// An engine file with one line of another changed.
 class ChangedFile {

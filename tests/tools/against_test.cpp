@@ -8,7 +8,7 @@
 #include "support/markup.hpp"
 #include "support/run_command.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::against_test {
 namespace {
 
 const std::string k125 = CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini";
@@ -79,4 +79,4 @@ TEST_F(RunAgainst, RefusesWhatIsOfOneEngine) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::against_test

@@ -17,7 +17,7 @@
 #include "support/status.hpp"
 #include "support/units.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::balance_command_test {
 namespace {
 
 constexpr double kRated_rad_s = 2000 * support::kPi / 30;
@@ -215,4 +215,4 @@ TEST(ForcesCommand, RefusesALoadRatioWithoutAPressure) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::balance_command_test

@@ -28,11 +28,11 @@
 #include "lab/bench/row.hpp"
 #include "lab/bench/tick_engines.hpp"
 #include "lab/bench/true_lift.hpp"
+#include "support/files.hpp"
 #include "support/random.hpp"
 #include "support/status.hpp"
-#include "support/temporary_folder.hpp"
 
-namespace crankloop::program::bench {
+namespace crankloop::program::bench::bench_test {
 namespace {
 
 // ---- statistics -----------------------------------------------------------------------------------------------------
@@ -434,4 +434,4 @@ TEST(BenchPlainEngine, GivesTheOutputsOfTheLibrarysScene) {
 }
 
 }  // namespace
-}  // namespace crankloop::program::bench
+}  // namespace crankloop::program::bench::bench_test

@@ -12,7 +12,7 @@
 #include "support/run_command.hpp"
 #include "support/units.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::breathing_run_test {
 namespace {
 
 const std::string kEngines = CRANKLOOP_SOURCE_DIR "/tools/engines/";
@@ -467,4 +467,4 @@ TEST_F(BreathingRun, RefusesWhatItsEngineDoesNotHave) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::breathing_run_test

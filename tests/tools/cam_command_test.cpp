@@ -14,13 +14,13 @@
 #include "support/run_command.hpp"
 #include "support/units.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::cam_command_test {
 namespace {
 
 using support::kPi;
 using support::kRadPerDeg;
 
-constexpr const char* kOhc125 = CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini";
+using support::kOhc125;
 constexpr const char* kWanted125 = CRANKLOOP_SOURCE_DIR "/tools/engines/wanted_125.csv";
 
 class CamCommand : public testing::Test {
@@ -294,4 +294,4 @@ TEST_F(CamCommand, ShowsAMeasuredTableBeforeAndAfterSmoothing) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::cam_command_test

@@ -16,7 +16,7 @@
 #include "support/units.hpp"
 #include "support/valve_trains.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::cam_from_lift_test {
 namespace {
 
 using support::BruteForceCam;
@@ -162,4 +162,4 @@ TEST(Contour, IsWhereFlatFollowersOfAllAnglesTouch) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::cam_from_lift_test

@@ -8,7 +8,7 @@
 
 #include "support/bad_input.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::crankshaft_words_test {
 namespace {
 
 using bad_input::contents;
@@ -88,4 +88,4 @@ TEST_F(Crankshaft, StandsInTheReportInWordsAndDrawn) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::crankshaft_words_test

@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -17,21 +16,17 @@
 #include "crankloop/files/error.hpp"
 #include "crankloop/files/number.hpp"
 #include "crankloop/files/words.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/files.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::csv_test {
 namespace {
+
+using support::contents;
 
 class CsvFile : public testing::Test {
  protected:
   CsvFile() { path_ = folder_ / "table.csv"; }
 
-  static std::string contents(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
   long files() const {
     return std::distance(std::filesystem::directory_iterator(folder_.path()), std::filesystem::directory_iterator());
   }
@@ -168,4 +163,4 @@ TEST(Words, AShellReadsThemBack) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::csv_test

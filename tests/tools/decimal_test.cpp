@@ -16,7 +16,7 @@
 
 #if defined(__cpp_lib_to_chars)
 
-namespace crankloop::program::decimal {
+namespace crankloop::program::decimal::decimal_test {
 namespace {
 
 /// 16 000 values are a quarter of a second; CRANKLOOP_LONG_TESTS=1 takes four million.
@@ -159,6 +159,6 @@ TEST(DecimalByIntegers, KnowsTheBordersOfANumber) {
 }
 
 }  // namespace
-}  // namespace crankloop::program::decimal
+}  // namespace crankloop::program::decimal::decimal_test
 
 #endif

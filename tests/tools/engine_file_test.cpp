@@ -33,7 +33,7 @@
 #include "support/status.hpp"
 #include "support/units.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::engine_file_test {
 namespace {
 
 /// The fields that no key is by itself, nor leads to.
@@ -827,4 +827,4 @@ TEST(RangeInWords, HasBoundsAsPeopleWriteThem) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::engine_file_test

@@ -21,7 +21,7 @@
 #include "support/units.hpp"
 #include "support/valve_trains.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::flow_area_test {
 namespace {
 
 using support::kPi;
@@ -335,4 +335,4 @@ TEST_F(PortKeys, ChangeNothingOfTheDefinition) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::flow_area_test

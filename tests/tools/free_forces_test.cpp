@@ -10,11 +10,11 @@
 
 #include "crankloop/engine_file/engine_file.hpp"
 #include "crankloop/loops/free_forces.hpp"
+#include "support/files.hpp"
 #include "support/run_command.hpp"
-#include "support/temporary_folder.hpp"
 #include "support/units.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::free_forces_test {
 namespace {
 
 using support::kPi;
@@ -243,4 +243,4 @@ TEST(Balancers, ThatAreWrongAreRefusedAtTheirLines) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::free_forces_test

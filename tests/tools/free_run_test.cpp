@@ -18,7 +18,7 @@
 #include "support/units.hpp"
 #include "support/vcd_dump.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::free_run_test {
 namespace {
 
 using support::Columns;
@@ -264,4 +264,4 @@ TEST_F(FreeRunCommand, BadOptionsEndWithStatus2AndLeaveNoFile) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::free_run_test

@@ -9,7 +9,7 @@
 
 #include "support/engine_files.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::hostile_engine_file_test {
 namespace {
 
 /// Hostile files: whatever the bytes, the answer is a definition or an InputError; and a file that is accepted is also
@@ -105,4 +105,4 @@ TEST_F(HostileEngineFile, ItsDiagramMutatedAtRandomIsReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::hostile_engine_file_test

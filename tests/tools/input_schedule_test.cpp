@@ -18,7 +18,7 @@
 #include "crankloop/loops/input_schedule.hpp"
 #include "support/run_command.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::input_schedule_test {
 namespace {
 
 class Inputs : public RunCommand {
@@ -187,4 +187,4 @@ TEST_F(Inputs, AreOfAFreeRunOfAnEngineThatHasThem) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::input_schedule_test

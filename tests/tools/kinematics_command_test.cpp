@@ -11,11 +11,11 @@
 #include <crankloop/tabulate/mechanism.hpp>
 
 #include "crankloop/engine_file/engine_file.hpp"
+#include "support/files.hpp"
 #include "support/run_command.hpp"
-#include "support/temporary_folder.hpp"
 #include "support/units.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::kinematics_command_test {
 namespace {
 
 using support::kPi;
@@ -201,4 +201,4 @@ TEST_F(KinematicsCommand, ShowsTheApproximationBesideTheExactWithItsError) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::kinematics_command_test

@@ -17,24 +17,19 @@
 #include "crankloop/command_line/commands.hpp"
 #include "crankloop/engine_file/engine_file.hpp"
 #include "crankloop/files/error.hpp"
+#include "support/files.hpp"
 #include "support/markup.hpp"
 #include "support/status.hpp"
-#include "support/temporary_folder.hpp"
 #include "support/units.hpp"
 #include "support/valve_trains.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::lift_command_test {
 namespace {
 
-constexpr const char* kOhc125 = CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini";
+using support::kOhc125;
 using support::kRadPerDeg;
 
-std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+using support::contents;
 
 /// `text` with the line that starts with `start` replaced.
 std::string with_line(const std::string& text, const std::string& start, const std::string& line) {
@@ -441,4 +436,4 @@ TEST_F(LiftCommand, AllowsFourTrains) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::lift_command_test

@@ -18,7 +18,7 @@
 #include "crankloop/engine_file/gas_order.hpp"
 #include "crankloop/loops/scene_inputs.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::live_scenes_test {
 namespace {
 
 EngineFile sample(const std::string& name) {
@@ -221,4 +221,4 @@ TEST(LiveEdges, HaveRoomInTheRingForASecondAtFullSpeed) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::live_scenes_test

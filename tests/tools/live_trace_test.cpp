@@ -7,10 +7,10 @@
 
 #include "crankloop/commands/live/live_trace.hpp"
 #include "crankloop/files/error.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/files.hpp"
 #include "support/vcd_dump.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::live_trace_test {
 namespace {
 
 struct Written {
@@ -68,4 +68,4 @@ TEST(LiveTrace, TellsAFullDiskAtItsEndAlone) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::live_trace_test

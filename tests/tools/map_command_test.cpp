@@ -9,7 +9,7 @@
 #include "support/markup.hpp"
 #include "support/run_command.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::map_command_test {
 namespace {
 
 const std::string kFour = CRANKLOOP_SOURCE_DIR "/tools/engines/four_2000.ini";
@@ -315,4 +315,4 @@ TEST_F(MapCommand, RefusesWhatIsNoMap) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::map_command_test

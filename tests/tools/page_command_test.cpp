@@ -9,7 +9,7 @@
 #include "crankloop/commands/page/joined_script.hpp"
 #include "crankloop/commands/page/page_parts.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::page_command_test {
 namespace {
 
 using Modules = std::map<std::string, std::string>;
@@ -79,4 +79,4 @@ TEST(PageParts, HaveTheScriptsStyleAndFrameOfThePage) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::page_command_test

@@ -18,7 +18,7 @@
 #include "support/measured_cam.hpp"
 #include "support/valve_trains.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::plausibility_test {
 namespace {
 
 using bad_input::Engine;
@@ -358,4 +358,4 @@ TEST_F(Unusual, AnEngineThatNothingHoldsBackIsToldWhereItRunsFree) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::plausibility_test

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace crankloop::program {
+namespace crankloop::program::progress_test {
 namespace {
 
 std::string told_in_four_steps(std::int64_t log_period_ns) {
@@ -27,4 +27,4 @@ TEST(ProgressInALog, IsNothingOfAShortCommand) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::progress_test

@@ -11,7 +11,7 @@
 #include "support/run_command.hpp"
 #include "support/units.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::report_figures_test {
 namespace {
 
 class ReportOfThe495 : public RunCommand {
@@ -209,4 +209,4 @@ TEST_F(ReportOfThe495, SaysOnStandardOutputTooThatItsPressureIsNotMeasured) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::report_figures_test

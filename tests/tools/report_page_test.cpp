@@ -15,11 +15,11 @@
 
 #include "crankloop/report/page.hpp"
 #include "crankloop/report/read_out.hpp"
+#include "support/files.hpp"
 #include "support/markup.hpp"
 #include "support/report_plots.hpp"
-#include "support/temporary_folder.hpp"
 
-namespace crankloop::report {
+namespace crankloop::report::report_page_test {
 namespace {
 
 using support::Element;
@@ -367,4 +367,4 @@ TEST(ReportScript, FindsScalesAndCurvesInTheDrawing) {
 }
 
 }  // namespace
-}  // namespace crankloop::report
+}  // namespace crankloop::report::report_page_test

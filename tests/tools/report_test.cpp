@@ -20,7 +20,7 @@
 #include "support/report_plots.hpp"
 #include "support/units.hpp"
 
-namespace crankloop::report {
+namespace crankloop::report::report_test {
 namespace {
 
 using support::Element;
@@ -570,4 +570,4 @@ TEST(ReportPlot, SameDataGiveTheSameBytesInAnyLocale) {
 }
 
 }  // namespace
-}  // namespace crankloop::report
+}  // namespace crankloop::report::report_test

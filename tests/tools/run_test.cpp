@@ -27,7 +27,7 @@
 #include "support/run_command.hpp"
 #include "support/status.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::run_test {
 namespace {
 
 // ---- The loop against the exact engine ----
@@ -483,4 +483,4 @@ TEST_F(RunCommand, BadOptionsEndWithStatus2AndLeaveNoFile) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::run_test

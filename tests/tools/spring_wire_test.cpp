@@ -11,10 +11,10 @@
 #include "crankloop/loops/spring_stress.hpp"
 #include "support/engine_files.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::spring_wire_test {
 namespace {
 
-constexpr const char* kOhc125 = CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini";
+using support::kOhc125;
 
 SpringWire wire_4_24() {
   SpringWire wire;
@@ -106,4 +106,4 @@ TEST_F(SpringWireKeys, AreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::spring_wire_test

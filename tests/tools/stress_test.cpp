@@ -16,10 +16,10 @@
 #include "lab/stress/stress_tally.hpp"
 #include "lab/stress/stress_trial.hpp"
 
+#include "support/files.hpp"
 #include "support/status.hpp"
-#include "support/temporary_folder.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::stress_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 20;
@@ -229,4 +229,4 @@ TEST(StabilityMap, MeasuresTheTheoreticalLimit) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::stress_test

@@ -16,7 +16,7 @@
 #include "support/run_command.hpp"
 #include "support/units.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::study_test {
 namespace {
 
 const std::string k125 = CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini";
@@ -418,4 +418,4 @@ TEST(ExactText, GivesEveryNumberBack) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::study_test

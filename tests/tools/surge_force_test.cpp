@@ -13,7 +13,7 @@
 #include "support/units.hpp"
 #include "support/valve_runs.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::surge_force_test {
 namespace {
 
 using support::kPi;
@@ -119,4 +119,4 @@ TEST(SurgeForce, OfASpringFarSlowerThanItsCamIsFiniteAndSmall) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::surge_force_test

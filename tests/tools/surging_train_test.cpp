@@ -17,10 +17,10 @@
 #include "crankloop/loops/valve_loop.hpp"
 #include "support/engine_files.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::surging_train_test {
 namespace {
 
-constexpr const char* kOhc125 = CRANKLOOP_SOURCE_DIR "/tools/engines/ohc_125.ini";
+using support::kOhc125;
 
 class SurgingTrain : public EngineFileTest {
  protected:
@@ -194,4 +194,4 @@ TEST_F(SurgingTrain, IsWarnedOfWhereAStudyOrAComparisonLetsItsSpringFollow) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::surging_train_test

@@ -14,7 +14,7 @@
 
 #include "crankloop/engine_file/engine_file.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::trigger_patterns_test {
 namespace {
 
 constexpr const char* kOneCylinder =
@@ -239,4 +239,4 @@ TEST(NamedWheels, AreToldWithTheirSourcesByTheProgramAndTheDocument) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::trigger_patterns_test

@@ -13,7 +13,7 @@
 #include "support/test_valves.hpp"
 #include "support/valve_runs.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::valve_accuracy_test {
 namespace {
 
 constexpr double kUm = 1e-6;
@@ -85,4 +85,4 @@ TEST(ValveAccuracy, IsWarnedOfWithItsFigures) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::valve_accuracy_test

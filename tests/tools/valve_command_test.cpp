@@ -23,7 +23,7 @@
 #include "support/markup.hpp"
 #include "support/valve_runs.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::valve_command_test {
 namespace {
 
 // ---- redline ----
@@ -678,4 +678,4 @@ TEST_F(ValveCommands, ARedlineRefusesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::valve_command_test

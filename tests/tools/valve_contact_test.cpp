@@ -17,11 +17,11 @@
 #include "crankloop/files/error.hpp"
 #include "crankloop/loops/cam_loads.hpp"
 #include "crankloop/loops/harmonics.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/files.hpp"
 #include "support/test_valves.hpp"
 #include "support/valve_runs.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::valve_contact_test {
 namespace {
 
 std::vector<std::string> split_at(const std::string& text, char separator) {
@@ -244,4 +244,4 @@ TEST(ContactOfRun, IsInTheReportWhereTheFileHasAWidth) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::valve_contact_test

@@ -15,7 +15,7 @@
 #include "support/units.hpp"
 #include "support/valve_runs.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::valve_loop_test {
 namespace {
 
 constexpr const char* kDiesel = CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495.ini";
@@ -236,4 +236,4 @@ TEST(Cycles, AreComparedResultByResult) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::valve_loop_test

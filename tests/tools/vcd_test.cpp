@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "support/temporary_folder.hpp"
+#include "support/files.hpp"
 #include "support/vcd_dump.hpp"
 
-namespace crankloop::program {
+namespace crankloop::program::vcd_test {
 namespace {
 
 class VcdTest : public testing::Test {
@@ -141,4 +141,4 @@ TEST_F(VcdTest, OfARunHasTheTeethOfItsWheelsAtTheirTimes) {
 }
 
 }  // namespace
-}  // namespace crankloop::program
+}  // namespace crankloop::program::vcd_test

@@ -28,7 +28,7 @@
 #include <tabulate/monotone_cubic.hpp>
 #include <tabulate/quadrature.hpp>
 
-namespace crankloop::detail {
+namespace crankloop::detail::assert_test {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -239,4 +239,4 @@ INSTANTIATE_TEST_SUITE_P(Of, Assertion, testing::ValuesIn(kAsked),
                          [](const testing::TestParamInfo<Asked>& asked) { return asked.param.name; });
 
 }  // namespace
-}  // namespace crankloop::detail
+}  // namespace crankloop::detail::assert_test

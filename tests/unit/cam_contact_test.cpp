@@ -12,7 +12,7 @@
 #include "support/status.hpp"
 #include "support/test_valves.hpp"
 
-namespace crankloop {
+namespace crankloop::cam_contact_test {
 namespace {
 
 using support::BruteForceCam;
@@ -256,4 +256,4 @@ TEST(CamContactDefinition, IsNoPartOfTheFingerprint) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::cam_contact_test

@@ -16,7 +16,7 @@
 #include "support/units.hpp"
 #include "support/valve_trains.hpp"
 
-namespace crankloop {
+namespace crankloop::cam_profile_test {
 namespace {
 
 using support::Measured;
@@ -319,4 +319,4 @@ TEST_F(SmoothedCam, IsRefusedWhereTheTableDoesNotBeginOrEndOnTheBaseCircle) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::cam_profile_test

@@ -13,7 +13,7 @@
 #include "support/measured_cam.hpp"
 #include "support/valve_trains.hpp"
 
-namespace crankloop {
+namespace crankloop::cam_rows_test {
 namespace {
 
 using support::kRadPerDeg;
@@ -187,4 +187,4 @@ TEST(CamRows, OfAFlatTableHaveNoLobe) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::cam_rows_test

@@ -11,7 +11,7 @@
 #include "support/running.hpp"
 #include "support/status.hpp"
 
-namespace crankloop {
+namespace crankloop::checked_test {
 namespace {
 
 using namespace tick_test;
@@ -102,4 +102,4 @@ TYPED_TEST(InputCheck, ABadPressureOfFourLeavesItsCylinderTheLastGoodOneAndTheOt
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::checked_test

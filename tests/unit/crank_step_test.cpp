@@ -24,7 +24,7 @@
 #include "support/tick_oracle.hpp"
 #include "support/work_oracle.hpp"
 
-namespace crankloop {
+namespace crankloop::crank_step_test {
 
 using namespace detail;
 namespace {
@@ -581,4 +581,4 @@ TEST(CrankTables, AreRefusedWhereOneThatTheSceneReadsIsMissing) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::crank_step_test

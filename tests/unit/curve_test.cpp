@@ -13,7 +13,7 @@
 #include "support/random.hpp"
 #include "support/units.hpp"
 
-namespace crankloop {
+namespace crankloop::curve_test {
 
 using namespace detail;
 namespace {
@@ -162,4 +162,4 @@ TEST(GasGrid, TheFinestGridOfAllStillCounts) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::curve_test

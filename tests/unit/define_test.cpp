@@ -14,7 +14,7 @@
 #include "support/engines.hpp"
 #include "support/status.hpp"
 
-namespace crankloop {
+namespace crankloop::define_test {
 namespace {
 
 using support::Bad;
@@ -794,4 +794,4 @@ TEST(CrankshaftDefinition, RefusesFrictionLoadAndStarterOutsideTheirRangesByName
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::define_test

@@ -10,7 +10,7 @@
 
 #include "port/linux/edge_ring.hpp"
 
-namespace crankloop::port {
+namespace crankloop::port::edge_ring_test {
 namespace {
 
 /// A block with nothing but a ring.
@@ -141,4 +141,4 @@ TEST(EdgeRing, IsNeverReadTorn) {
 }
 
 }  // namespace
-}  // namespace crankloop::port
+}  // namespace crankloop::port::edge_ring_test

@@ -13,7 +13,7 @@
 #include <cstring>
 #include <limits>
 
-namespace crankloop {
+namespace crankloop::elementary_test {
 namespace {
 
 namespace el = elementary;
@@ -468,4 +468,4 @@ TEST(Elementary, ResultsHaveTheSameBitsOnEveryMachine) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::elementary_test

@@ -14,7 +14,7 @@
 #include "support/status.hpp"
 #include "support/tick_oracle.hpp"
 
-namespace crankloop {
+namespace crankloop::engine_among_others_test {
 
 using namespace detail;
 namespace {
@@ -225,4 +225,4 @@ TYPED_TEST(EngineAmongOthers, TablesBuiltForASceneAloneAnswerTheSameBitsAsAllSec
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::engine_among_others_test

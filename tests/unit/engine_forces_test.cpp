@@ -11,7 +11,7 @@
 #include "support/status.hpp"
 #include "support/tick_oracle.hpp"
 
-namespace crankloop {
+namespace crankloop::engine_forces_test {
 namespace {
 
 using namespace tick_test;
@@ -154,4 +154,4 @@ TYPED_TEST(EngineForces, TorqueOfMeasuredPressuresIsTheirWorkOnTheVolumes) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::engine_forces_test

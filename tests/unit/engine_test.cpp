@@ -18,7 +18,7 @@
 #include "support/status.hpp"
 #include "support/tick_oracle.hpp"
 
-namespace crankloop {
+namespace crankloop::engine_test {
 
 using namespace detail;
 namespace {
@@ -601,4 +601,4 @@ TYPED_TEST(EngineOf, TheFirstMeasuredPhaseIsNoFaultAndNoSpeedWhereverItIs) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::engine_test

@@ -16,7 +16,7 @@
 #include "support/status.hpp"
 #include "support/units.hpp"
 
-namespace crankloop {
+namespace crankloop::event_budget_test {
 namespace {
 
 using support::refuses;
@@ -207,4 +207,4 @@ TEST(EventBudgetOfTheOhc1600, BindsInFewTicksAfterAStart) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::event_budget_test

@@ -15,7 +15,7 @@
 #include "support/test_valves.hpp"
 #include "support/valve_reference.hpp"
 
-namespace crankloop {
+namespace crankloop::event_location_test {
 namespace {
 
 using namespace valve_test;
@@ -258,4 +258,4 @@ TEST(SmoothSegment, HasDepthSpeedAndRateOfBothContactsAtBothEnds) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::event_location_test

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace crankloop {
+namespace crankloop::faults_test {
 namespace {
 
 TEST(FaultsInWords, NameEachBitThatIsSet) {
@@ -34,4 +34,4 @@ TEST(FaultsInWords, HaveRoomForAllOfThem) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::faults_test

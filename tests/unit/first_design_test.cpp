@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace crankloop {
+namespace crankloop::first_design_test {
 namespace {
 
 TEST(FirstDesign, HasTheRowOfItsKindAndRatedSpeed) {
@@ -36,4 +36,4 @@ TEST(FirstDesign, HasTheRowOfItsKindAndRatedSpeed) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::first_design_test

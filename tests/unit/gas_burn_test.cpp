@@ -8,7 +8,7 @@
 #include "support/gas_engine.hpp"
 #include "support/gas_equations.hpp"
 
-namespace crankloop {
+namespace crankloop::gas_burn_test {
 namespace {
 
 using support::MeasuredRun;
@@ -318,4 +318,4 @@ TYPED_TEST(GasBurn, KeepsTheRangesOfFuelByAir) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::gas_burn_test

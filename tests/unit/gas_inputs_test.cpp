@@ -9,7 +9,7 @@
 #include "support/gas_engine.hpp"
 #include "support/gas_equations.hpp"
 
-namespace crankloop {
+namespace crankloop::gas_inputs_test {
 namespace {
 
 using support::Breathing;
@@ -263,4 +263,4 @@ TYPED_TEST(GasInputs, FillsAndEmptiesItsManifoldsFromOutside) {  // a crank that
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::gas_inputs_test

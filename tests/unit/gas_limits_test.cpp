@@ -9,7 +9,7 @@
 #include "support/gas_bench.hpp"
 #include "support/gas_engine.hpp"
 
-namespace crankloop {
+namespace crankloop::gas_limits_test {
 namespace {
 
 using support::BreathingFour;
@@ -135,4 +135,4 @@ TYPED_TEST(GasLimits, LetsFlowWorkWithAQuarterOfTheEnergy) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::gas_limits_test

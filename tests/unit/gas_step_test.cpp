@@ -12,7 +12,7 @@
 #include "support/gas_bench.hpp"
 #include "support/random.hpp"
 
-namespace crankloop {
+namespace crankloop::gas_step_test {
 namespace {
 
 using support::gas_energy;
@@ -371,4 +371,4 @@ TYPED_TEST(GasStep, KnowsThePowerOfTwoFifths) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::gas_step_test

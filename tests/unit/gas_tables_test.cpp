@@ -17,7 +17,7 @@
 #include "support/status.hpp"
 #include "support/units.hpp"
 
-namespace crankloop {
+namespace crankloop::gas_tables_test {
 
 using namespace detail;
 namespace {
@@ -337,4 +337,4 @@ TYPED_TEST(GasTablesOf, AnEngineWithADiagramIsEmpty) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::gas_tables_test

@@ -16,7 +16,7 @@
 #include "support/motored_cycle.hpp"
 #include "support/random.hpp"
 
-namespace crankloop {
+namespace crankloop::indicator_diagram_test {
 namespace {
 
 using namespace support;
@@ -554,4 +554,4 @@ TEST(SynthesisedDiagram, RefusesWhatItsDefinitionRefuses) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::indicator_diagram_test

@@ -15,7 +15,7 @@
 #include "support/random.hpp"
 #include "tabulate/monotone_cubic.hpp"
 
-namespace crankloop {
+namespace crankloop::indicator_table_test {
 
 using namespace detail;
 namespace {
@@ -461,4 +461,4 @@ TEST(VolumeTable, IsMotoredPlusHeat) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::indicator_table_test

@@ -12,7 +12,7 @@
 #include "support/engines.hpp"
 #include "support/status.hpp"
 
-namespace crankloop {
+namespace crankloop::layout_test {
 namespace {
 
 using support::Bad;
@@ -257,4 +257,4 @@ TEST(SharedPins, OfALayoutThatValidateRefusesAreNoneOrStaySplit) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::layout_test

@@ -16,7 +16,7 @@
 #include "support/status.hpp"
 #include "support/test_valves.hpp"
 
-namespace crankloop {
+namespace crankloop::lift_curve_test {
 
 using namespace detail;
 namespace {
@@ -152,4 +152,4 @@ TYPED_TEST(LiftCurveIn, IsTheClearanceExactlyWhereTheLobeIsNot) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::lift_curve_test

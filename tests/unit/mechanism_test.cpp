@@ -15,7 +15,7 @@
 #include "support/units.hpp"
 #include "support/vector_geometry.hpp"
 
-namespace crankloop {
+namespace crankloop::mechanism_test {
 
 using namespace detail;
 namespace {
@@ -605,4 +605,4 @@ TEST(Extremes, OfTheDisplacementAreTheDeadCentres) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::mechanism_test

@@ -13,7 +13,7 @@
 #include "support/both_reals.hpp"
 #include "support/random.hpp"
 
-namespace crankloop {
+namespace crankloop::phase_test {
 
 using namespace detail;
 namespace {
@@ -257,4 +257,4 @@ TYPED_TEST(PhaseOf, FractionRisesFromZeroAndStaysBelowOne) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::phase_test

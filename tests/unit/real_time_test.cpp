@@ -21,7 +21,7 @@
 #include "port/linux/stopwatch.hpp"
 #include "support/random.hpp"
 
-namespace crankloop::port {
+namespace crankloop::port::real_time_test {
 namespace {
 
 // ---- the histogram --------------------------------------------------------------------------------------------------
@@ -198,4 +198,4 @@ TEST(StopSignal, DoesNotCutATickShort) {
 }
 
 }  // namespace
-}  // namespace crankloop::port
+}  // namespace crankloop::port::real_time_test

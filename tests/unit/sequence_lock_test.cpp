@@ -11,7 +11,7 @@
 
 #include "port/linux/sequence_lock.hpp"
 
-namespace crankloop::port {
+namespace crankloop::port::sequence_lock_test {
 namespace {
 
 /// Every word says which write it is of; as long as LiveOutputs.
@@ -116,4 +116,4 @@ TEST(SequenceLock, NoTornReadIsEverAcceptedBetweenTwoThreads) {
 }
 
 }  // namespace
-}  // namespace crankloop::port
+}  // namespace crankloop::port::sequence_lock_test

@@ -21,9 +21,9 @@
 
 #include "port/linux/shared_block.hpp"
 #include "port/linux/watched_inputs.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/files.hpp"
 
-namespace crankloop::port {
+namespace crankloop::port::shared_block_test {
 namespace {
 
 constexpr double kTick_s = 1e-3;
@@ -549,4 +549,4 @@ TEST(WatchedInputs, AreTheLastWholeOnesWhileAWriteIsUnderWayAndThenTheSafeOnes) 
 }
 
 }  // namespace
-}  // namespace crankloop::port
+}  // namespace crankloop::port::shared_block_test

@@ -9,7 +9,7 @@
 
 #include <crankloop/tick/valve/smooth_segment.hpp>
 
-namespace crankloop::detail {
+namespace crankloop::detail::smooth_segment_test {
 namespace {
 
 /// Where a function that rises or falls through 0 between two places does so.
@@ -134,4 +134,4 @@ TEST(SmoothSegment, OfManyDegreesTakesWhatTheLiftInItsMiddleIsOffItsCubic) {
 }
 
 }  // namespace
-}  // namespace crankloop::detail
+}  // namespace crankloop::detail::smooth_segment_test

@@ -15,7 +15,7 @@
 #include "support/measured_cam.hpp"
 #include "support/test_valves.hpp"
 
-namespace crankloop {
+namespace crankloop::spring_margin_test {
 namespace {
 
 using detail::ValveBody;
@@ -316,4 +316,4 @@ TEST(TableReportOfValves, HasNoStaticRedlineWithoutElasticValves) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::spring_margin_test

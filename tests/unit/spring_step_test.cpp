@@ -15,7 +15,7 @@
 #include "support/surging_valve.hpp"
 #include "support/test_valves.hpp"
 
-namespace crankloop {
+namespace crankloop::spring_step_test {
 namespace {
 
 using namespace valve_test;
@@ -296,4 +296,4 @@ TEST(SpringStep, RefusesSpringsThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::spring_step_test

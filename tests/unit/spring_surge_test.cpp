@@ -13,7 +13,7 @@
 #include "support/status.hpp"
 #include "support/units.hpp"
 
-namespace crankloop {
+namespace crankloop::spring_surge_test {
 namespace {
 
 using support::kPi;
@@ -221,4 +221,4 @@ TEST(SpringSurge, RefusesWhatItCannotStep) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::spring_surge_test

@@ -12,7 +12,7 @@
 #include "support/status.hpp"
 #include "support/units.hpp"
 
-namespace crankloop {
+namespace crankloop::summary_test {
 namespace {
 
 using support::diesel_495;
@@ -156,4 +156,4 @@ TEST(BrakeFigures, AreTheIndicatedOnesLessWhatFrictionTakesOverTheCycle) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::summary_test

@@ -16,7 +16,7 @@
 #include "support/kept_engines.hpp"
 #include "support/status.hpp"
 
-namespace crankloop {
+namespace crankloop::table_edges_test {
 
 using namespace detail;
 namespace {
@@ -156,4 +156,4 @@ TYPED_TEST(TableEdges, OfADiagramAreNotMadeOfNaNRows) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::table_edges_test

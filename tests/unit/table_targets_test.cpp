@@ -25,7 +25,7 @@
 #include "support/units.hpp"
 #include "tabulate/gas_quantities.hpp"
 
-namespace crankloop {
+namespace crankloop::table_targets_test {
 
 using namespace detail;
 namespace {
@@ -606,4 +606,4 @@ TYPED_TEST(TableTargetsOf, ValvesTellTheFineStepsOfTheWorstTickAndRefuseTooMany)
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::table_targets_test

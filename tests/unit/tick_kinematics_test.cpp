@@ -16,7 +16,7 @@
 #include "support/status.hpp"
 #include "support/tick_oracle.hpp"
 
-namespace crankloop {
+namespace crankloop::tick_kinematics_test {
 
 using namespace detail;
 namespace {
@@ -318,4 +318,4 @@ TYPED_TEST(TickKinematics, DisplacementNeverLeavesTheStroke) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::tick_kinematics_test

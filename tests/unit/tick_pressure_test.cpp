@@ -21,7 +21,7 @@
 #include "support/running.hpp"
 #include "support/status.hpp"
 
-namespace crankloop {
+namespace crankloop::tick_pressure_test {
 namespace {
 
 using namespace tick_test;
@@ -418,4 +418,4 @@ TYPED_TEST(TickPressure, OfASynthesisedDiagramFollowsItWithinTheStatedError) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::tick_pressure_test

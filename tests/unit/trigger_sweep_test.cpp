@@ -18,7 +18,7 @@
 #include "support/trigger_wheels.hpp"
 #include "support/units.hpp"
 
-namespace crankloop {
+namespace crankloop::trigger_sweep_test {
 namespace {
 
 using namespace tick_test;
@@ -210,4 +210,4 @@ TYPED_TEST(TriggerSweep, LeapsToTheLevelOfWhereCrankAndPhaserStandWhenTheTickEnd
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::trigger_sweep_test

@@ -18,7 +18,7 @@
 #include "support/trigger_wheels.hpp"
 #include "support/units.hpp"
 
-namespace crankloop {
+namespace crankloop::trigger_wheel_test {
 
 using namespace detail;
 namespace {
@@ -553,4 +553,4 @@ TYPED_TEST(TriggerTickOf, KeepsCountWhereCrankAndPhaserGoTogetherFurtherThanASig
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::trigger_wheel_test

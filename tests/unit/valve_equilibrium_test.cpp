@@ -6,7 +6,7 @@
 #include "support/status.hpp"
 #include "support/test_valves.hpp"
 
-namespace crankloop {
+namespace crankloop::valve_equilibrium_test {
 
 using namespace detail;
 namespace {
@@ -62,4 +62,4 @@ TEST(ValveEquilibrium, HasNoNetForceWhateverPresses) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::valve_equilibrium_test

@@ -15,7 +15,7 @@
 #include "support/units.hpp"
 #include "support/valve_trains.hpp"
 
-namespace crankloop {
+namespace crankloop::valve_lift_test {
 namespace {
 
 using support::BruteForceCam;
@@ -369,4 +369,4 @@ TEST(RockerLift, OfAnyTrainThatIsAcceptedRisesAndFallsOnceWithoutAStep) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::valve_lift_test

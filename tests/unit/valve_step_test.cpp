@@ -15,7 +15,7 @@
 #include "support/status.hpp"
 #include "support/test_valves.hpp"
 
-namespace crankloop {
+namespace crankloop::valve_step_test {
 
 using namespace detail;
 namespace {
@@ -580,4 +580,4 @@ TYPED_TEST(ValveEnergy, StateOfAnyNumberOfValvesHasNoPadding) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::valve_step_test

@@ -10,7 +10,7 @@
 #include "support/status.hpp"
 #include "support/valve_trains.hpp"
 
-namespace crankloop {
+namespace crankloop::valve_train_test {
 namespace {
 
 using support::ohc_125_cam;
@@ -220,4 +220,4 @@ TEST(ValveTrainDefinition, HasNoRockerInertiaWithoutALever) {
 }
 
 }  // namespace
-}  // namespace crankloop
+}  // namespace crankloop::valve_train_test

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-namespace worst_tick {
+namespace worst_tick::worst_tick_test {
 namespace {
 
 /// Lines of the one source file that the listings stem from.
@@ -422,4 +422,4 @@ TEST(CortexM4Cycles, OfAFunctionWithoutBoundsAreThoseOfItsDearestInstruction) {
 }
 
 }  // namespace
-}  // namespace worst_tick
+}  // namespace worst_tick::worst_tick_test

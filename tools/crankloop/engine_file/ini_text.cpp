@@ -56,7 +56,10 @@ IniEntry parse_entry(std::string_view text, const std::string& path, int line) {
   if (key.empty()) throw InputError(path, line, "no key stands before '='; write 'key = value'");
   if (!is_word(key))
     throw InputError(path, line, in_quotes(key) + " is not a key; keys consist of letters, digits and _");
-  return {std::string(key), std::string(trim(text.substr(equals + 1))), line};
+  std::string_view value = trim(text.substr(equals + 1));
+  if (!value.empty() && value[0] == '#')
+    value = {};  // "name =# text": written again with a blank it would be a comment
+  return {std::string(key), std::string(value), line};
 }
 
 }  // namespace

@@ -7,8 +7,6 @@
 namespace crankloop::program {
 namespace {
 
-constexpr std::size_t kMaxTableBytes = std::size_t{8} << 20;
-
 void check_header(std::string_view line, const TableFormat& format, const std::string& path, int number) {
   const std::vector<std::string_view> names = split(line, ',');
   if (names.size() == 2 && names[0] == format.first && names[1] == format.second) return;

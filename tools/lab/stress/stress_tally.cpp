@@ -264,7 +264,7 @@ report::Page stress_page(const StressTally& tally, const std::vector<StabilityPo
   fact("Refused", tally.refusals(), "at set-up, for a valid reason");
   fact("Ran", tally.ran,
        std::to_string(tally.all_cycles) + " through " + std::to_string(kStressCycles) + " cycles, the others for " +
-           std::to_string(kMaxTicks) + " ticks");
+           std::to_string(kStressTicks) + " ticks");
   fact("Compared", tally.compared, "with the converged reference; " + std::to_string(tally.landed) + " of them landed");
   fact("Diverged", tally.diverged, "");
   fact("Inaccurate", tally.inaccurate, "");

@@ -92,8 +92,8 @@ void run_ticks(Rig<Real>& rig, const StressCase& drawn, int copies, TrialResult&
   const double cam_rad_s = static_cast<double>(in.speed_rad_s) / 2;
   const double ticks_per_cycle = 360 * kRadPerDeg / std::max(1e-30, std::fabs(cam_rad_s)) / drawn.options.tick_s;
   const double wanted = kStressCycles * ticks_per_cycle;
-  result.all_cycles = wanted < kMaxTicks;
-  result.ticks = result.all_cycles ? static_cast<int>(wanted) + 1 : kMaxTicks;
+  result.all_cycles = wanted < kStressTicks;
+  result.ticks = result.all_cycles ? static_cast<int>(wanted) + 1 : kStressTicks;
 
   auto& engine = rig.engine;
   const auto& curve = rig.tables.tables().lift_curves[0];

@@ -7,7 +7,8 @@
 //
 //   refused    at set-up for a valid reason: the tick needs more fine steps than the contract allows, or the cam cannot
 //              be ground. Both are computed here, independently of the library.
-//   bounded    for 20 cycles, or kMaxTicks: every output is finite, there is no fault but an exceeded event budget, and
+//   bounded    for 20 cycles, or kStressTicks: every output is finite, there is no fault but an exceeded event budget,
+//   and
 //              at the end of each cycle sqrt(2 E / M) is at most twice what the train can have supplied: its share at
 //              rest, every change of the cam's speed so far, and twice its largest speed for every contact change.
 //   accurate   for kReferenceCycles, or up to kReferenceSteps: in every tick the error of the lift is at most
@@ -30,7 +31,7 @@
 namespace crankloop::program {
 
 inline constexpr int kStressCycles = 20;
-inline constexpr int kMaxTicks = 40'000;
+inline constexpr int kStressTicks = 40'000;
 inline constexpr double kReferenceCycles = 1.5;
 inline constexpr double kReferenceSteps = 2500;
 

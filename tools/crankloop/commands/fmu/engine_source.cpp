@@ -5,6 +5,7 @@
 
 #include <crankloop/tick/state/saved_bytes.hpp>
 
+#include "../../files/table_file.hpp"
 #include "../../files/text_file.hpp"
 #include "../../files/words.hpp"
 
@@ -13,7 +14,6 @@ namespace {
 
 constexpr const char* kEngineName = "engine.ini";
 constexpr const char* kTickName = "tick_us.txt";
-constexpr std::size_t kMaxTableBytes = std::size_t{64} << 20;
 constexpr Range kTicks_us = from(1).up_to(2000);
 /// A function, not a constant: a loaded object must not run constructors of this code.
 std::vector<std::string> needed() { return {"engine", "crank", "masses"}; }

@@ -9,6 +9,7 @@
 #include "../../command_line/engine_argument.hpp"
 #include "../../files/error.hpp"
 #include "../../files/output_file.hpp"
+#include "../../files/table_file.hpp"
 #include "../../files/text_file.hpp"
 #include "../../files/words.hpp"
 #include "digest.hpp"
@@ -17,8 +18,6 @@
 
 namespace crankloop::program {
 namespace {
-
-constexpr std::size_t kMaxTableBytes = std::size_t{8} << 20;  // as the reader takes
 
 constexpr const char* kNoModule =
     "this program was built without the page's module. Install Debian's packages emscripten and node-acorn, run\n"
