@@ -41,6 +41,8 @@ TEST_F(BadCommandLine, IsToldWithTheUsageOfItsCommand) {
   expect_usage({"show"}, {"a file name is missing", "usage: crankloop show FILE"});
   expect_usage({"show", kSample, "another"}, {"unexpected argument 'another'"});
   expect_usage({"show", kSample, "--rpm", "3"}, {"unknown option '--rpm'"});
+  for (const char* name : {"int", "requires", "2nd", "a b"})
+    expect_usage({"tables", kSample, "--namespace", name}, {"--namespace must be a C++ identifier, and no keyword"});
   const std::string usage = "usage: crankloop kinematics FILE";
   const auto kinematics = [&](std::vector<std::string> words, const std::string& complaint) {
     words.insert(words.begin(), {"kinematics", kSample});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
@@ -53,6 +54,19 @@ std::vector<double> column(const std::string& csv, const std::string& name) {
 }
 
 EngineDefinition diesel() { return read_engine_file(kSample, {}).definition(); }
+
+TEST(BalanceCommand, HasNoWorkAndNoEfficiencyWithoutPressure) {
+  const support::TemporaryFolder folder;
+  std::string text = contents(kSample);
+  const std::size_t at = text.find("\n[pressure]");
+  text.erase(at, text.find("\n[", at + 1) - at);
+  std::ofstream(folder / "masses.ini") << text;
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(kBalance.run(Arguments(kBalance, {folder / "masses.ini", "--rpm", "2000"})), kSuccess);
+  const std::string printed = testing::internal::GetCapturedStdout();
+  for (const char* name : {"net_mep_kPa", "gross_mep_kPa", "power_kW", "mean_torque_Nm", "mechanical_efficiency_ratio"})
+    EXPECT_NE(printed.find(std::string("\n") + name + ",0\n"), std::string::npos) << name << "\n" << printed;
+}
 
 TEST(BalanceCommand, GivesTheSheetsPowerAtTheCouplingAndTheEfficiencyAssumed) {
   std::map<std::string, double> b = balance();

@@ -1,5 +1,6 @@
 // `crankloop balance FILE --rpm N`: free forces, mounts, bearing loads and torque harmonics of the whole engine.
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -29,6 +30,14 @@ std::vector<std::string> needed_sections() { return {"engine", "crank", "masses"
 constexpr double kRoundingRatio = 1e-9;
 
 double without_rounding(double amplitude, double rounding) { return amplitude > rounding ? amplitude : 0; }
+
+/// Masses alone do no work in a cycle, so nothing is left of it but rounding, of which no efficiency can be made.
+void drop_rounding(CycleSummary& cycle, double rounding_Nm, double displacement_m3) {
+  if (std::abs(cycle.gross_mep_Pa) * displacement_m3 <= rounding_Nm * 4 * kPi) cycle.gross_mep_Pa = 0;
+  if (std::abs(cycle.mean_torque_Nm) > rounding_Nm) return;
+  cycle.mean_torque_Nm = cycle.net_mep_Pa = cycle.power_W = 0;
+  cycle.brake.efficiency_ratio = 0;
+}
 
 /// A component's amplitude and phase; a balanced component has neither.
 void write_wave(Summary& s, const std::string& name, const char* unit, double cosine, double sine, double rounding) {
@@ -235,6 +244,9 @@ Summary figures_of_balance(const Arguments& arguments, const EngineFile& engine)
     if (feet) feet = mounts_by_angle(*feet, definition, speed, load_ratio);
   }
 
+  const double rounding_Nm = kRoundingRatio * (cycle.largest_torque_Nm - cycle.smallest_torque_Nm);
+  drop_rounding(cycle, rounding_Nm, swept_volume_m3(definition.crank) * definition.layout.cylinders);
+
   Summary s;
   s.line("speed_rpm", rpm);
   s.line("reciprocating_mass_kg", definition.masses.reciprocating_kg());
@@ -254,7 +266,6 @@ Summary figures_of_balance(const Arguments& arguments, const EngineFile& engine)
   s.line("min_torque_Nm", cycle.smallest_torque_Nm);
   s.line("min_torque_deg", cycle.smallest_torque_deg);
   s.line("torque_fluctuation_ratio", cycle.fluctuation_ratio);
-  const double rounding_Nm = kRoundingRatio * (cycle.largest_torque_Nm - cycle.smallest_torque_Nm);
   for (const Harmonic& h : cycle.harmonics)
     write_wave(s, "torque_order_" + shortest(h.order), "Nm", h.cosine_Nm, h.sine_Nm, rounding_Nm);
   TurningWriter turning(s, definition, speed);

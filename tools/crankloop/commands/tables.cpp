@@ -1,7 +1,9 @@
 // `crankloop tables FILE`: the tables as a C++ header of constexpr data, one object per section.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <string>
@@ -250,16 +252,34 @@ void print_header(Output& out, const EngineFile& engine, const Arguments& argume
   p.text("\n}  // namespace " + name_space + "\n");
 }
 
+/// Of C++20, and with it of any C++ that the library is compiled as.
+constexpr std::string_view kKeywords[] = {
+    "alignas",     "alignof",  "and",        "and_eq",    "asm",       "auto",         "bitand",
+    "bitor",       "bool",     "break",      "case",      "catch",     "char",         "char16_t",
+    "char32_t",    "char8_t",  "class",      "co_await",  "co_return", "co_yield",     "compl",
+    "concept",     "const",    "const_cast", "consteval", "constexpr", "constinit",    "continue",
+    "decltype",    "default",  "delete",     "do",        "double",    "dynamic_cast", "else",
+    "enum",        "explicit", "export",     "extern",    "false",     "float",        "for",
+    "friend",      "goto",     "if",         "inline",    "int",       "long",         "mutable",
+    "namespace",   "new",      "noexcept",   "not",       "not_eq",    "nullptr",      "operator",
+    "or",          "or_eq",    "private",    "protected", "public",    "register",     "reinterpret_cast",
+    "requires",    "return",   "short",      "signed",    "sizeof",    "static",       "static_assert",
+    "static_cast", "struct",   "switch",     "template",  "this",      "thread_local", "throw",
+    "true",        "try",      "typedef",    "typeid",    "typename",  "union",        "unsigned",
+    "using",       "virtual",  "void",       "volatile",  "wchar_t",   "while",        "xor",
+    "xor_eq"};
+
 bool is_identifier(const std::string& s) {
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
   for (const char c : s) {
     if (!letter(c) && !(c >= '0' && c <= '9')) return false;
   }
-  return !s.empty() && letter(s[0]);
+  return !s.empty() && letter(s[0]) && std::find(std::begin(kKeywords), std::end(kKeywords), s) == std::end(kKeywords);
 }
 
 int run_tables(const Arguments& arguments) {
-  if (!is_identifier(arguments.text("--namespace"))) throw UsageError("--namespace must be a C++ identifier");
+  if (!is_identifier(arguments.text("--namespace")))
+    throw UsageError("--namespace must be a C++ identifier, and no keyword");
   const EngineFile engine = read_engine(arguments, {"engine", "crank", "masses"});
   Output out(arguments.text_or_empty("--output"));
   if (arguments.text("--real") == "float") {
