@@ -234,7 +234,7 @@ is another, and `git log COMMIT.. -- core` lists the changes. A test fails where
 | same bits | two compilers with flags that a user should not set (`same_bits`) | eight builds (`same_bits_rest`) |
 | 64-bit Arm Linux, emulated | self-check with the golden hashes (`aarch64`) | the rest but for the longest (`aarch64_rest`) |
 | 64-bit Windows, by Wine | self-check (`windows`) | FMUs: the same bits as on Linux (`windows_rest`) |
-| WebAssembly without SIMD and with it, by Node | self-check, purity (`wasm`) | |
+| WebAssembly, by Node | with SIMD: self-check with the golden hashes, purity (`wasm`) | without SIMD, as the page has it (`wasm_rest`) |
 | the page's module, by Node and in Chromium | hashes of all sample engines held and free, redline, lines of errors beside the program's (`page`) | |
 | Cortex-M4F, emulated | self-check with the golden hashes, costs, bounds, 50 000 hostile ticks (`cortex-m4f`) | 10^7 hostile ticks (`hostile`) |
 | Cortex-M7, M33, R5F, RV32IMAFC, emulated | self-check with the golden hashes (`cortex-m7`, `template`, `cortex-r5f`, `rv32imafc`) | costs, bounds, 50 000 hostile ticks (`firmware_rest`) |
