@@ -10,17 +10,6 @@ compiler=$1 core=$2 c_interface=$3
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cp -R "$core/include/crankloop" "$folder"
-# Each record of the tables with one more member does not compile where all members are gone through
-# (tabulate/table_members.hpp), so none can be left out of what is printed for flash. Nor does a definition with one
-# more field than its each_field() lists compile where the tables' fingerprint is made, nor one with a field that is
-# listed and crankloop.h lacks where C's definition is copied; there four structs stand for all that its template
-# copies. As they are all of them do compile.
-set -eu
-compiler=$1 core=$2 c_interface=$3
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cp -R "$core/include/crankloop" "$folder"
-records=$(sed -n 's/^CRANKLOOP_MEMBERS[A-Z_]*(\([A-Z][A-Za-z]*\),.*/\1/p' "$folder/crankloop/tabulate/table_members.hpp")
 # Each record's list of members by itself: one that is wrong hides no other.
 {
   echo '#include <crankloop/tabulate/table_members.hpp>'
