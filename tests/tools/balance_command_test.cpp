@@ -12,6 +12,7 @@
 #include <crankloop/tabulate/summary.hpp>
 
 #include "crankloop/engine_file/engine_file.hpp"
+#include "support/files.hpp"
 #include "support/fourier.hpp"
 #include "support/motored_cycle.hpp"
 #include "support/run_command.hpp"

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "support/files.hpp"
 #include "support/markup.hpp"
 #include "support/run_command.hpp"
 #include "support/units.hpp"

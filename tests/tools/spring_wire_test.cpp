@@ -10,6 +10,7 @@
 #include "crankloop/files/units.hpp"
 #include "crankloop/loops/spring_stress.hpp"
 #include "support/engine_files.hpp"
+#include "support/files.hpp"
 
 namespace crankloop::program::spring_wire_test {
 namespace {

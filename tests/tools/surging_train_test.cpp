@@ -16,6 +16,7 @@
 #include "crankloop/loops/valve_accuracy.hpp"
 #include "crankloop/loops/valve_loop.hpp"
 #include "support/engine_files.hpp"
+#include "support/files.hpp"
 
 namespace crankloop::program::surging_train_test {
 namespace {

@@ -8,9 +8,8 @@
 //   refused    at set-up for a valid reason: the tick needs more fine steps than the contract allows, or the cam cannot
 //              be ground. Both are computed here, independently of the library.
 //   bounded    for 20 cycles, or kStressTicks: every output is finite, there is no fault but an exceeded event budget,
-//   and
-//              at the end of each cycle sqrt(2 E / M) is at most twice what the train can have supplied: its share at
-//              rest, every change of the cam's speed so far, and twice its largest speed for every contact change.
+//              and at the end of each cycle sqrt(2 E / M) is at most twice what the train can have supplied: its share
+//              at rest, every change of the cam's speed so far, and twice its largest speed for every contact change.
 //   accurate   for kReferenceCycles, or up to kReferenceSteps: in every tick the error of the lift is at most
 //              kMagnified times the sum of the requested accuracy and the largest deviation of kCopies copies from the
 //              reference since the valve last rested. Each copy is disturbed, up or down, when the cam starts under it
