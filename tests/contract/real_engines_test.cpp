@@ -178,5 +178,37 @@ TEST_F(EnginesThatWereBuilt, HaveTheInertiaThatNewGivesTheirDisplacement) {
   }
 }
 
+/// By their service manuals, the middle of what is allowed.
+TEST_F(EnginesThatWereBuilt, HaveTheValveSpringsThatNewAssumes) {
+  struct Spring {
+    const char* engine;
+    const char* valves;
+    const char* bore_mm;
+    const char* rated_rpm;
+    double preload_N;
+    double full_lift_N;  ///< 0: not told
+  };
+  const Spring springs[] = {
+      {"Suzuki Jimny 1.3", "4", "78", "6000", 116, 0},       {"Isuzu 4JB1", "2", "93", "3600", 296, 0},
+      {"Rover V8 4.0", "2", "94", "4750", 339, 736},         {"Saab V6 3.0", "4", "86", "5500", 270, 655},
+      {"Mercury Sable 3.0 V6", "2", "89", "5250", 304, 912}, {"Chevrolet LT1 5.7", "2", "101.6", "5000", 340, 980},
+  };
+  for (const Spring& spring : springs) {
+    const RealEngine engine{spring.engine,
+                            {"--cylinders", "4", "--bore-mm", spring.bore_mm, "--stroke-mm", "80", "--valves",
+                             spring.valves, "--rated-rpm", spring.rated_rpm},
+                            0,
+                            {},
+                            {}};
+    const std::string text = made(engine);
+    const double preload_N = value(text, "spring_preload_N = ");
+    const double full_lift_N = preload_N + value(text, "spring_N_per_mm = ") * value(text, "max_lift_mm = ");
+    EXPECT_NEAR(preload_N, spring.preload_N, 0.4 * spring.preload_N) << spring.engine;
+    if (spring.full_lift_N > 0) {
+      EXPECT_NEAR(full_lift_N, spring.full_lift_N, 0.4 * spring.full_lift_N) << spring.engine;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace crankloop::real_engines_test

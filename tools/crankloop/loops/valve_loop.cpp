@@ -61,8 +61,8 @@ LoneValve::LoneValve(const EngineFile& file, const std::string& name) : file_{fi
   }
   if (file.has("crank")) {
     definition_.crank = file.definition().crank;
-    definition_.crank.max_speed_rad_s = 0;  // no limit: the sweep goes beyond the engine's maximum Without gas force
-                                            // for an engine with gas exchange: a single valve has no cylinder pressure.
+    definition_.crank.max_speed_rad_s = 0;  // no limit: the sweep goes beyond the engine's maximum
+    // Of an engine with gas exchange a single valve has no cylinder pressure, so no gas force.
     if (train_.definition.valve.head_area_m2 > 0 && !breathes(file.definition()))
       definition_.pressure = file.definition().pressure;
   } else {

@@ -93,8 +93,8 @@ void add_gas_exchange(Draft& draft, const Numbers& n);
 
 // ---- the valves: draft_trains.cpp
 
-/// A direct train: a bucket between cam and valve. The spring keeps it in contact up to about 1.3 times the rated
-/// speed, from the inertia force at the nose.
+/// A direct train: a bucket between cam and valve. The spring has a usual preload, or more where it needs that to keep
+/// them in contact up to about 1.3 times the rated speed, from the inertia force at the nose.
 void add_train(Draft& draft, const char* name, double full_lift_deg, const Numbers& n);
 void add_triggers(Draft& draft);
 

@@ -12,7 +12,7 @@ namespace {
 constexpr double kCamEndsWith_m_s = 0.2;  ///< at rated speed; the valve's seating speed is this plus the train's
                                           ///< vibration
 constexpr double kMostClearancePerLift = 0.008;
-constexpr double kSpringMargin = 1.9;  ///< spring force at full lift / inertia force at the nose at rated speed
+constexpr double kSpringMargin = 1.9;  ///< least spring force at full lift / inertia force at the nose at rated speed
 constexpr double kPreloadShare = 0.4;  ///< preload / spring force at full lift
 constexpr double kTrainOrders = 40;    ///< natural frequency of the train / rotation frequency of the cam; the sample
                                        ///< engines have 35 and 38
@@ -27,6 +27,9 @@ void add_train(Draft& draft, const char* name, double full_lift_deg, const Numbe
   const double cam_rad_s = n.rated_rpm * kRad_sPerRpm / 2;
   const double half_angle_rad = kCamHalfAngleDeg * kRadPerDeg;
   const double nose_N = moving_kg * cam_nose_factor() * lift_mm / 1e3 * std::pow(cam_rad_s / half_angle_rad, 2);
+  const Seats seats = usual_seats(n.design, n.bore_mm);
+  const double preload_N = std::max(kPreloadShare * kSpringMargin * nose_N, kPreload_N_mm2 * seat_mm2(seats.intake_mm));
+  const double full_lift_N = preload_N / kPreloadShare;
   const double train_N_per_mm = to_three_digits(moving_kg * std::pow(kTrainOrders * cam_rad_s, 2) / 1e3);
   std::string exponents;
   for (const double exponent : kCamExponents) exponents += (exponents.empty() ? "" : ",") + shortest(exponent);
@@ -44,9 +47,8 @@ void add_train(Draft& draft, const char* name, double full_lift_deg, const Numbe
       to_three_digits(clearance_for_speed_mm(lift_mm, cam_rad_s, kCamEndsWith_m_s, kMostClearancePerLift * lift_mm)),
       "small: the cam ends with " + shortest(kCamEndsWith_m_s) + " m/s at rated speed, or slower");
   draft.section((std::string("valve ") + name).c_str());
+  const double seat_mm = to_three_digits(std::string_view(name) == "intake" ? seats.intake_mm : seats.exhaust_mm);
   if (n.gas) {
-    const bool intake = std::string_view(name) == "intake";
-    const double seat_mm = to_three_digits(intake ? n.gas->intake_seat_mm : n.gas->exhaust_seat_mm);
     draft.line("port", name, "given");
     draft.assume("seat_diameter_mm", seat_mm, shortest(to_three_digits(seat_mm / n.bore_mm)) + " bores");
   }
@@ -55,9 +57,12 @@ void add_train(Draft& draft, const char* name, double full_lift_deg, const Numbe
   draft.assume("valve_g", valve_g, "with bucket; proportional to bore cubed");
   draft.assume("spring_g", spring_g, "0.6 of that");
   draft.assume("rocker_inertia_kg_mm2", 0, "no rocker");
-  draft.assume("spring_N_per_mm", to_three_digits((1 - kPreloadShare) * kSpringMargin * nose_N / lift_mm),
-               shortest(kSpringMargin) + " times the force needed at rated speed and full lift");
-  draft.assume("spring_preload_N", to_three_digits(kPreloadShare * kSpringMargin * nose_N), "of the same spring");
+  draft.assume(
+      "spring_N_per_mm", to_three_digits((full_lift_N - preload_N) / lift_mm),
+      shortest(to_three_digits(full_lift_N / nose_N)) + " times the force needed at rated speed and full lift");
+  draft.assume("spring_preload_N", to_three_digits(preload_N),
+               shortest(kPreload_N_mm2) + " N for a mm2 of the intake seat, or more where the speed needs it");
+  draft.assume("head_area_mm2", to_three_digits(seat_mm2(seat_mm)), "inside the seat; gas presses on it");
   draft.assume("train_N_per_mm", train_N_per_mm,
                "natural frequency " + shortest(kTrainOrders) + " times the cam's at rated speed");
   draft.assume("train_damping_ratio", 0.08, "usual");

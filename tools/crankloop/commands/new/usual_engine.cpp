@@ -101,16 +101,21 @@ double usual_valve_g(const EngineDesign& design, double bore_mm) noexcept {
   return kValveKgAt95Mm * 1e3 * (design.four_valves ? kFourValveMassShare : 1) * std::pow(bore_mm / 95, 3);
 }
 
+Seats usual_seats(const EngineDesign& design, double bore_mm) noexcept {
+  constexpr double kSeatPerHead = 0.93;
+  return {kSeatPerHead * (design.four_valves ? 0.36 : 0.44) * bore_mm,
+          kSeatPerHead * (design.four_valves ? 0.30 : 0.36) * bore_mm};
+}
+
+double seat_mm2(double seat_mm) noexcept { return kPi / 4 * seat_mm * seat_mm; }
+
 GasExchange usual_gas_exchange(const EngineDesign& design, const CylinderSize& size, int cylinders,
                                double rated_rpm) noexcept {
-  constexpr double kSeatPerHead = 0.93;
   constexpr double kRunnerVolumes = 5.1;  // of the manifold
   const bool spark = is_spark(design);
   const double bore_mm = size.bore_mm;
   const double engine_cm3 = size.displacement_cm3 * cylinders;
   GasExchange g{};
-  g.intake_seat_mm = kSeatPerHead * (design.four_valves ? 0.36 : 0.44) * bore_mm;
-  g.exhaust_seat_mm = kSeatPerHead * (design.four_valves ? 0.30 : 0.36) * bore_mm;
   g.throttle_mm2 = engine_cm3 * rated_rpm / 120 / (spark ? kThrottleSpeed_m_s : kDuctSpeed_m_s);
   g.throttle_closed_mm2 = spark ? 3e-3 * engine_cm3 : g.throttle_mm2;  // less than what idling takes
   g.outlet_mm2 = kOutletPerInlet * g.throttle_mm2;

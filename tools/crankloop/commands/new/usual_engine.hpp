@@ -76,17 +76,28 @@ inline constexpr double kCamHalfAngleDeg = 90;
 /// An intake valve with its bucket.
 [[nodiscard]] double usual_valve_g(const EngineDesign& design, double bore_mm) noexcept;
 
+/// Valve seats, 0.93 of the valve heads of Heywood (1988), section 6.3: in bores 0.36 and 0.30 of four valves, 0.44 and
+/// 0.36 of two.
+struct Seats {
+  double intake_mm;
+  double exhaust_mm;
+};
+[[nodiscard]] Seats usual_seats(const EngineDesign& design, double bore_mm) noexcept;
+[[nodiscard]] double seat_mm2(double seat_mm) noexcept;
+
+/// Preload of production springs, N for a mm^2 of the intake valve's seat: 0.22 to 0.41, 0.29 in the mean of six
+/// engines' service manuals (tests/contract/real_engines_test.cpp); four of them have 0.33 to 0.46 of the force at
+/// full lift.
+inline constexpr double kPreload_N_mm2 = 0.3;
+
 /// y'' of the cam at full lift, in lift / half angle squared.
 [[nodiscard]] double cam_nose_factor() noexcept;
 
-/// Gas exchange. Seats are 0.93 of the valve heads of Heywood (1988), section 6.3: in bores 0.36 and 0.30 of four
-/// valves, 0.44 and 0.36 of two. Throttle and outlet by the mean speed of the charge through their effective areas at
-/// rated speed; a diesel has its air filter and duct in place of a throttle. Intake runners of spark-ignition engines
-/// swing at 2.1 times the rotation frequency (H. W. Engelman, ASME 73-WA/DGP-2) at 0.8 of the rated speed, with half
-/// the displacement and the clearance volume behind them; those of the exhaust are 1.4 times as long.
+/// Gas exchange. Throttle and outlet by the mean speed of the charge through their effective areas at rated speed; a
+/// diesel has its air filter and duct in place of a throttle. Intake runners of spark-ignition engines swing at 2.1
+/// times the rotation frequency (H. W. Engelman, ASME 73-WA/DGP-2) at 0.8 of the rated speed, with half the
+/// displacement and the clearance volume behind them; those of the exhaust are 1.4 times as long.
 struct GasExchange {
-  double intake_seat_mm;
-  double exhaust_seat_mm;
   double intake_volume_cm3;  ///< by the displacement, and five volumes of a runner or more
   double exhaust_volume_cm3;
   double throttle_mm2;
