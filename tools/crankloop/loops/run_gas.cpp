@@ -12,6 +12,7 @@ namespace crankloop::program {
 
 namespace {
 
+constexpr double kLeanestThatIgnites = 2;    // lambda; with one spark in a homogeneous mixture some 1.6 to 1.8
 constexpr double kRichestThatIgnites = 0.5;  // lambda; gasoline's limit in air is about 0.4, an engine misfires before
 
 }  // namespace
@@ -81,6 +82,15 @@ std::string exhaust_heat_left_out(const EngineDefinition& engine) {
   return engine.gas.walls.exhaust_W_K > 0 ? "" : "no heat to its walls: exhaust_W_per_K is 0";
 }
 
+/// A diesel, whose fuel burns by two laws, has no leanest mixture.
+std::string remark_on_lambda(const Gas& gas, double lambda) {
+  if (lambda > 0 && lambda < kRichestThatIgnites)
+    return "lambda: so rich a mixture does not ignite; with --lambda fuel follows the air";
+  if (lambda > kLeanestThatIgnites && !(gas.second_ratio > 0))
+    return "lambda: so lean a mixture of gasoline does not ignite; here all of it burns";
+  return "lambda; 0: no fuel";
+}
+
 void add_gas(Summary& s, const EngineDefinition& engine, const GasFigures& figures) {
   const GasCycle<double>& cycle = figures.cycle;
   s.line("pumping_mep", cycle.pumping_mep_Pa / 1e3, "kPa", "from 180 to 540 deg; negative: a loss");
@@ -95,10 +105,7 @@ void add_gas(Summary& s, const EngineDefinition& engine, const GasFigures& figur
   const bool rich = cycle.excess_air_ratio > 0 && cycle.excess_air_ratio < 1;
   s.line("fuel_burned", cycle.fuel_kg * 1e6, "mg",
          rich ? "of a cylinder's cycle; of a rich mixture the excess gives no heat" : "of a cylinder's cycle");
-  const bool too_rich = cycle.excess_air_ratio > 0 && cycle.excess_air_ratio < kRichestThatIgnites;
-  s.line("excess_air_ratio", cycle.excess_air_ratio, "",
-         too_rich ? "lambda: so rich a mixture does not ignite; with --lambda fuel follows the air"
-                  : "lambda; 0: no fuel");
+  s.line("excess_air_ratio", cycle.excess_air_ratio, "", remark_on_lambda(engine.gas, cycle.excess_air_ratio));
   if (engine.lambda_sensor.in_use) {
     s.line("exhaust_lambda", figures.exhaust_lambda, "", "of the gas in the exhaust manifold, at the end; 100: air");
     s.line("sensor_lambda", figures.sensor_lambda, "", "shown by the sensor");
