@@ -132,6 +132,13 @@ TEST_F(ReportOfThe495, GivesSharesAsPerCent) {
   EXPECT_NE(page.find("mechanical efficiency 80.0 %"), std::string::npos);
 }
 
+TEST_F(ReportOfThe495, GivesADrivenEngineNoEfficiency) {
+  run({kSample, "--cycles", "1", "--load-ratio", "0", "--report", path("driven.html")});
+  const std::string page = contents(path("driven.html"));
+  EXPECT_NE(page.find(" Nm, the engine is driven"), std::string::npos);
+  EXPECT_EQ(page.find(" Nm, mechanical efficiency"), std::string::npos);
+}
+
 TEST_F(ReportOfThe495, PutsRemarksUnderTheSectionThatFollowsThem) {
   const std::string page = contents(path("report.html"));
   EXPECT_NE(page.find("[friction]: What turns and brakes the crankshaft besides the gas"), std::string::npos);

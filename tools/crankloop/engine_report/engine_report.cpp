@@ -37,9 +37,12 @@ std::vector<report::Fact> facts(const ReportInput& input) {
     if (input.exact.definition().friction.any()) {
       const BrakeFigures brake =
           brake_figures(input.exact.definition(), input.figures.mean_torque_Nm, input.operation.speed_rad_s());
+      const std::string efficiency =
+          brake.efficiency_ratio > 0
+              ? "mechanical efficiency " + report::format_fixed(100 * brake.efficiency_ratio, 1) + " %"
+              : "the engine is driven";
       list.push_back({"Brake power", report::format_number(brake.power_W / 1e3, 4), "kW",
-                      report::format_number(brake.torque_Nm, 4) + " Nm, mechanical efficiency " +
-                          report::format_fixed(100 * brake.efficiency_ratio, 1) + " %"});
+                      report::format_number(brake.torque_Nm, 4) + " Nm, " + efficiency});
     }
     list.push_back({"Net IMEP", report::format_number(input.figures.net_mep_Pa / 1e3, 4), "kPa",
                     "gross " + report::format_number(input.summary.gross_mep_Pa / 1e3, 4) + " kPa"});
