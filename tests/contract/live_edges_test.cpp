@@ -283,7 +283,10 @@ TEST_F(LiveRing, IsRefusedByPlayersAndReadersThatCannotUseIt) {
             "live_reader: " + block_path() + ": is a block of version 3 of crankloop live; this reader's is 4\n");
   Process player({CRANKLOOP_EDGE_PLAYER, block_path(), "--chip", "/dev/null", "--lines", "1,2"}, in_folder("p.txt"));
   EXPECT_EQ(player.wait(), 1);
-  EXPECT_EQ(player.output(), "edge_player: /dev/null: lines cannot be had: Inappropriate ioctl for device\n");
+  // The system's own reason follows: an emulated processor's is another.
+  const std::string refusal = "edge_player: /dev/null: lines cannot be had: ";
+  EXPECT_EQ(player.output().substr(0, refusal.size()), refusal);
+  EXPECT_EQ(player.output().find('\n'), player.output().size() - 1);
 }
 
 // ---- the trace ------------------------------------------------------------------------------------------------------
