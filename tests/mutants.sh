@@ -72,7 +72,8 @@ behaviour_of() { case $1 in c | fmi) echo "$1" ;; *) echo behaviour ;; esac; }
 judges=
 for area in $areas; do judges="$judges $(behaviour_of "${area%%=*}")"; done
 case $judges in *behaviour*) judges="$judges golden" ;; esac
-judges=$(for judge in $judges; do echo "$judge"; done | sort -u)
+# Behaviour last: it takes the longest to compile, and all is compiled anew when a change is left out.
+judges=$(for judge in $judges; do echo "$judge"; done | sort -ur)
 # program_of JUDGE: the target that builds it, an executable of that name in build/judge.
 program_of() { case $1 in behaviour) echo judge ;; *) echo "judge_$1" ;; esac; }
 
