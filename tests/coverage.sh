@@ -30,7 +30,7 @@ if [ "${1:-}" != --report ]; then
   mkdir -p "$profile"
   for program in $programs; do
     # %m tells programs apart: tests also start the program itself, whose counts are its own.
-    LLVM_PROFILE_FILE="$PWD/$profile/of-%m" "$program" --help >/dev/null
+    LLVM_PROFILE_FILE="$PWD/$profile/of-%m" "$program" --help >/dev/null 2>&1 || :  # one refuses it
     of=$(cd "$profile" && echo of-*)
     rm "$profile/$of"
     echo "${of#of-}" >"$profile/${program##*/}.signature"

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -11,6 +12,7 @@
 
 #include "support/both_reals.hpp"
 #include "support/gas_engine.hpp"
+#include "support/output_fields.hpp"
 
 namespace crankloop::controller_names_test {
 namespace {
@@ -41,6 +43,16 @@ template <class Real>
   return run;
 }
 
+/// Without what pads a struct, which may be anything.
+template <class Real>
+[[nodiscard]] std::vector<double> numbers_of(const Output<Real, Named>& out) {
+  std::vector<double> numbers;
+  support::each_output(out, support::Used{4, 4, 2}, [&numbers](const char*, std::size_t, auto value) {
+    numbers.push_back(static_cast<double>(value));
+  });
+  return numbers;
+}
+
 template <class Real>
 class ControllerNames : public ::testing::Test {};
 TYPED_TEST_SUITE(ControllerNames, tick_test::BothReals, RealName);
@@ -59,7 +71,8 @@ TYPED_TEST(ControllerNames, ASparkAdvanceIsTheBurnStartBeforeDeadCentreBitByBit)
       }
       const auto &one = by_start->step(), &other = by_spark->step();
       ASSERT_EQ(one.faults, 0u);
-      ASSERT_EQ(std::memcmp(&one, &other, sizeof one), 0) << tick;
+      const std::vector<double> left = numbers_of(one), right = numbers_of(other);
+      ASSERT_EQ(std::memcmp(left.data(), right.data(), left.size() * sizeof(double)), 0) << tick;
     }
     EXPECT_GT(by_start->engine.output().gas_cycle[0].heat_J, 100);
     if (by_charge) {  // the delay of the burn by charge: the burn begins later than its spark
