@@ -17,7 +17,7 @@ profile=$folder/profile
 
 programs=$folder/bin/crankloop
 targets=
-for kind in unit property golden contract; do
+for kind in unit property golden contract tools; do
   targets="$targets crankloop_${kind}_tests"
   programs="$programs $folder/tests/crankloop_${kind}_tests"
 done
@@ -41,7 +41,8 @@ if [ "${1:-}" != --report ]; then
   done
   for program in $programs; do
     name=${program##*/}
-    llvm-profdata merge --sparse -o "$profile/$name.profdata" "$profile/$(cat "$profile/$name.signature")"-*.profraw
+    # Of a program that a test kills there is half a profile.
+    llvm-profdata merge --sparse --failure-mode=all -o "$profile/$name.profdata" "$profile/$(cat "$profile/$name.signature")"-*.profraw
   done
 fi
 
