@@ -242,6 +242,34 @@ TEST(ValveRecord, TakesAFlightThatOutlivesItsCycleForNoBounce) {
   EXPECT_LT(highest_m, 6e-3) << "a bounce, not the next lift of 7.8 mm and more";
 }
 
+TEST(ValveRecord, CountsContactsThatChangeWithTheCamsSpeedToo) {
+  // Each change is undone until the valve rests on its seat again, so their number is even: also where the cam's speed
+  // jumps between two ticks and the damper lets go of the valve or takes hold of it.
+  for (const double tick_us : {20.0, 100.0}) {
+    Rig<double> rig(ohc_125_train(), {tick_us * 1e-6, {}}, 90);
+    Random random;
+    double told_m_s = 0, turned_deg = 0;
+    int even = 0, odd = 0, jumps = 0;
+    bool was_seated = true;
+    while (turned_deg < 200 * 360) {
+      const double speed = rad_s_of_rpm(9000 * random.between(0.95, 1.05));
+      const std::uint32_t before = detail::contacts_of(rig.regime());
+      turned_deg += speed * tick_us * 1e-6 / kRadPerDeg / 2;
+      const ValveCycle<double>& c = rig.step(speed).valve_cycle[0][0];
+      jumps += before != detail::contacts_of(rig.regime()) ? 1 : 0;
+      if (c.largest_speed_m_s == told_m_s) continue;
+      told_m_s = c.largest_speed_m_s;
+      const bool seated = c.off_seat_at_end == 0;
+      if (seated && was_seated) ++(c.contact_changes % 2 == 0 ? even : odd);
+      was_seated = seated;
+    }
+    std::printf("[ figures  ] %.0f us: %d cycles from seat to seat, %d with an odd number of changes; %d in all\n",
+                tick_us, even + odd, odd, jumps);
+    EXPECT_GT(even, 150) << tick_us;
+    EXPECT_EQ(odd, 0) << tick_us;
+  }
+}
+
 TEST(ValveRecordOf, AStepHasThePeakOfItsParabola) {
   detail::ValveRecord<double> record;
   detail::ObservedStep<double> step{};

@@ -206,6 +206,161 @@ TEST(EventLocator, FindsAllEventsInTheFineStepsOfALongTick) {
   EXPECT_LT(off_m, 0.1e-6);
 }
 
+/// Keeps where in the lobe each span and each change of contacts was.
+struct Path {
+  struct Part {
+    double from_deg, to_deg, step_s;
+    std::uint32_t regime;
+  };
+  struct Event {
+    std::uint32_t before, after;
+    double at_deg;
+    std::size_t parts_before;
+  };
+  template <class DegAt>
+  void step(const detail::ObservedStep<double>& s, double, const DegAt& deg_at) {
+    parts.push_back({deg_at(0), deg_at(1), s.step_s, s.regime});
+  }
+  void event(std::uint32_t before, std::uint32_t after, double, double at_deg) {
+    events.push_back({before, after, at_deg, parts.size()});
+  }
+  std::vector<Part> parts;
+  std::vector<Event> events;
+};
+
+/// The parts of a tick follow one another without a gap, from its start to its end, as long as the cam takes to turn
+/// through them; contacts change where one ends, and are the next one's. So too with a budget for one event.
+TEST(EventLocator, RecordsTheTickPartByPart) {
+  const ValveTrain train = ohc_125_train();
+  const SingleMass mass(train.valve, train.rocker, lift_of(train).largest_lift_m());
+  constexpr double kTick_s = 10e-6;
+  const detail::ValveMotion<double> motion = motion_for(body_of(train), kTick_s);
+  const detail::LiftCurve<double> curve{};
+  Random random;
+  int behind_an_event = 0, for_want_of_budget = 0;
+  for (int i = 0; i < 3000; ++i) {
+    SCOPED_TRACE(random.trace(i));
+    const Draw draw = drawn(random, mass, kTick_s);
+    const Span& tick = draw.step;
+    const std::uint32_t start = detail::required_contacts(motion, draw.start, tick.from, tick.cam.deg_per_s);
+    const auto plain = stepped(motion.fine[start], draw.start, tick.from, tick.to, tick.cam.deg, tick.gas);
+    detail::EventBudget budget{random.coin() ? 100 : detail::kUnitsOfEvent, false};
+    Path path;
+    const auto end = detail::EventLocator<double, Gas, Path>(motion, curve, budget, path)
+                         .run({draw.start, start}, plain, tick, 0, std::int64_t{1} << 50);
+    double at_deg = 0;
+    std::uint32_t regime = start;
+    std::size_t told = 0;
+    for (std::size_t part = 0; part < path.parts.size(); ++part) {
+      const Path::Part& p = path.parts[part];
+      EXPECT_NEAR(p.from_deg, at_deg, 1e-12);
+      EXPECT_NEAR(p.to_deg - p.from_deg, tick.cam.deg_per_s * p.step_s, 1e-12);
+      EXPECT_EQ(p.regime, regime);
+      at_deg = p.to_deg;
+      for (; told < path.events.size() && path.events[told].parts_before == part + 1; ++told) {
+        EXPECT_EQ(path.events[told].before, regime);
+        EXPECT_NEAR(path.events[told].at_deg, at_deg, 1e-12);
+        regime = path.events[told].after;
+      }
+    }
+    EXPECT_EQ(told, path.events.size()) << "one before the first part";
+    EXPECT_NEAR(at_deg, tick.cam.deg, 1e-12);
+    EXPECT_EQ(end.regime, regime);
+    behind_an_event += path.parts.size() > 2 ? 1 : 0;
+    for_want_of_budget += budget.exceeded && path.parts.size() > 1 ? 1 : 0;
+  }
+  EXPECT_GT(behind_an_event, 50);
+  EXPECT_GT(for_want_of_budget, 50);
+}
+
+/// Valve and cam are braked alike, and the force between them goes through zero and back within the step: so shortly
+/// that at both ends of it nothing has changed.
+TEST(EventLocator, FindsATrainThatPartsAndTouchesWithinAFineStepHoweverTheCamIsBraked) {
+  const ValveTrain train = ohc_125_train();
+  const SingleMass mass(train.valve, train.rocker, lift_of(train).largest_lift_m());
+  constexpr double kTick_s = 10e-6;
+  const detail::ValveMotion<double> motion = motion_for(body_of(train), kTick_s);
+  const detail::LiftCurve<double> curve{};
+  const double lag_s = mass.b / mass.k;
+  Random random;
+  int parted = 0, told_otherwise = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double valve_m_s2 = random.between(-3e4, 3e4), closing_m_s2 = random.between(500, 5000);
+    const double part = random.between(0.3, 0.7), parts_at_s = part * kTick_s;
+    const double most_m = closing_m_s2 / 2 * std::pow(std::min(part, 1 - part) * kTick_s, 2);
+    // The force is in proportion to depth + lag * speed: a parabola whose lowest point is at parts_at_s.
+    const double lowest_m = -random.between(0.2, 0.8) * most_m;
+    const double speed_m_s = -closing_m_s2 * (parts_at_s + lag_s);
+    const double depth_m = lowest_m + closing_m_s2 / 2 * parts_at_s * parts_at_s - lag_s * speed_m_s;
+    const ValveState<double> start{random.between(2e-3, 5e-3), random.between(-3, 3)};
+    const double end_m = start.lift_m + start.velocity_m_s * kTick_s + valve_m_s2 / 2 * kTick_s * kTick_s;
+    const double end_m_s = start.velocity_m_s + valve_m_s2 * kTick_s;
+    Span step{};
+    step.cam = {0.25, 0.25 / kTick_s};
+    const double per_deg = 1 / step.cam.deg_per_s;
+    step.from = {start.lift_m + depth_m, (start.velocity_m_s + speed_m_s) * per_deg};
+    step.to = {end_m + depth_m + speed_m_s * kTick_s + closing_m_s2 / 2 * kTick_s * kTick_s,
+               (end_m_s + speed_m_s + closing_m_s2 * kTick_s) * per_deg};
+    const auto gas_N = [&](double y, double v) { return -mass.k_s * y - mass.P - mass.c * v - mass.M * valve_m_s2; };
+    step.gas = {gas_N(start.lift_m, start.velocity_m_s), gas_N(end_m, end_m_s)};
+    const Brute truth =
+        brute_force(mass, start, step.gas, kTick_s, 400, [&step](double x) { return cam_within(step, x, kTick_s); });
+    const std::uint32_t regime = detail::required_contacts(motion, start, step.from, step.cam.deg_per_s);
+    if (regime != kTrainOn || truth.changes != 2) continue;
+    ++parted;
+    detail::EventBudget budget{100, false};
+    Changes located;
+    const auto plain = stepped(motion.fine[regime], start, step.from, step.to, step.cam.deg, step.gas);
+    const auto end =
+        Locator(motion, curve, budget, located).run({start, regime}, plain, step, 0, std::int64_t{1} << 50);
+    told_otherwise += located.count != 2 ? 1 : 0;
+    EXPECT_NEAR(end.state.lift_m, truth.end.lift_m, 1e-10) << random.trace(i);
+  }
+  std::printf("[ figures  ] parted and touched %d times, told otherwise %d times\n", parted, told_otherwise);
+  EXPECT_GT(parted, 500);
+  EXPECT_LE(told_otherwise, parted / 50);
+}
+
+/// A valve that gas lifts off its seat by nearly as much as its spring presses it in is not taken for one that no train
+/// can reach; one that stays deep in its seat is.
+TEST(EventLocator, TakesAValveForQuietByWhereGasHoldsIt) {
+  const ValveTrain train = ohc_125_train();
+  const Rig<double> rig(train, {100e-6, {}});
+  const detail::ValveMotion<double>& motion = rig.motion();
+  ASSERT_GT(motion.parts, 1u);
+  const double deg_per_s = 9000;
+  for (const bool high : {false, true}) {
+    const double lift_m = high ? (motion.quiet_m + motion.body.seat_compression_m) / 2 : motion.quiet_m / 2;
+    Span step{};
+    step.cam = {deg_per_s * 100e-6, deg_per_s};
+    step.from = step.to = rig.curve().read(detail::LiftCurve<double>::cell(std::uint64_t{1} << 63));
+    ASSERT_LT(step.from.lift_m, 0) << "the base circle";
+    step.gas = {-lift_m / motion.per_seat_N_m, -lift_m / motion.per_seat_N_m};
+    detail::EventBudget budget{100, false};
+    Changes none;
+    const auto turned = static_cast<std::int64_t>(step.cam.deg / 360 * 0x1p64);
+    const auto end = Locator(motion, rig.curve(), budget, none)
+                         .run({{lift_m, 0}, kSeatOn}, {}, step,
+                              (std::uint64_t{1} << 63) + static_cast<std::uint64_t>(turned), turned);
+    EXPECT_EQ(end.regime, high ? kSeatOn : detail::kQuiet);
+    EXPECT_NEAR(end.state.lift_m, lift_m, 1e-12);
+  }
+}
+
+TEST(SmoothSegment, TakesATrainsContactForNegligibleByItsGapAlone) {
+  const detail::ValveMotion<double> motion = motion_for(body_of(ohc_125_train()), 10e-6);
+  const double rest_m = motion.fine[kSeatOn].rest_m;
+  ASSERT_GT(rest_m, 0);
+  for (const double lift_m : {-5e-6, 0.0, 3e-3}) {
+    for (const double sign : {-1.0, 1.0}) {
+      const auto with_gap = [&](double gap_m) { return detail::Lift<double>{lift_m + sign * gap_m, 0}; };
+      EXPECT_TRUE(detail::is_negligible(motion, kTrainOn, {lift_m, 0.1}, with_gap(0.9 * rest_m))) << lift_m;
+      EXPECT_FALSE(detail::is_negligible(motion, kTrainOn, {lift_m, 0.1}, with_gap(1.1 * rest_m))) << lift_m;
+      EXPECT_FALSE(detail::is_negligible(motion, kSeatOn, {lift_m, 0.1}, with_gap(0))) << "seats are never";
+    }
+  }
+}
+
 /// A contact at both ends of a segment, by what it is made of: the cam's lift less the valve's, or the seat's place
 /// less the valve's, with the first two derivatives by time.
 TEST(SmoothSegment, HasDepthSpeedAndRateOfBothContactsAtBothEnds) {
