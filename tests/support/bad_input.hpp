@@ -111,8 +111,16 @@ class BadInput : public testing::Test {
       posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     }
     posix_spawn_file_actions_addopen(&files, STDERR_FILENO, error.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    // A shell's background process ignores some, and so would its children.
+    sigset_t by_default;
+    sigfillset(&by_default);
+    posix_spawnattr_t signals;
+    posix_spawnattr_init(&signals);
+    posix_spawnattr_setsigdefault(&signals, &by_default);
+    posix_spawnattr_setflags(&signals, POSIX_SPAWN_SETSIGDEF);
     pid_t child = 0;
-    EXPECT_EQ(posix_spawn(&child, CRANKLOOP_PROGRAM, &files, nullptr, arguments.data(), environ), 0);
+    EXPECT_EQ(posix_spawn(&child, CRANKLOOP_PROGRAM, &files, &signals, arguments.data(), environ), 0);
+    posix_spawnattr_destroy(&signals);
     posix_spawn_file_actions_destroy(&files);
     return child;
   }
