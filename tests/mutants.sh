@@ -200,7 +200,7 @@ judge_all() {
 while IFS=$tab read -r number area place change code; do
   [ "$(grep -cF "$tab$area$tab" "$build/sample")" -lt "$count" ] || continue
   if [ -z "$(tests_of "$(behaviour_of "$area")" "$number")" ]; then
-    echo "not reached: $place  $change  |  $code"
+    printf '%s\n' "not reached: $place  $change  |  $code"  # a character '\0' as it stands
   else
     printf '%s\t%s\t%s\t%s\t%s\n' "$number" "$area" "$place" "$change" "$code" >>"$build/sample"
   fi
